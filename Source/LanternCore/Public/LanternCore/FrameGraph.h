@@ -1,0 +1,143 @@
+// The frame graph. A frame is a list of passes; each declares what it reads and writes, and records its
+// commands later. From the declarations follow barriers, lifetimes of transient resources (memory is reused
+// between those that do not overlap), and which passes run at all: one whose results nobody reads is culled.
+//
+//   FGraphTexture Mask = Graph.CreateTexture({.Width = W, .Height = H, .Format = …}, "SunShadowMask");
+//   Graph.AddPass("SunShadow", [&](FPassBuilder& B) {
+//       B.Read(Depth, ERTAccess::ShaderRead);
+//       B.Write(Mask, ERTAccess::StorageWrite);
+//       return [=](FPassContext& C) { C.Commands().SetPipeline(…); … C.GetTexture(Mask)->GetStorageIndex() … };
+//   });
+//
+// A graph object is built, executed once, and thrown away; FFrameGraphResources keeps pools, timestamps and
+// statistics across frames. Single-threaded.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "LanternRHI/RTInterfaces.h"
+
+namespace Lantern
+{
+
+struct FGraphTexture
+{
+	uint32_t Index = ~0u;
+	bool IsValid() const { return Index != ~0u; }
+};
+struct FGraphBuffer
+{
+	uint32_t Index = ~0u;
+	bool IsValid() const { return Index != ~0u; }
+};
+
+struct FGraphTextureDesc
+{
+	uint32_t Width = 0, Height = 0;
+	ERTFormat Format = ERTFormat::Unknown;
+	/// Usage follows from the declared accesses; add what they do not show.
+	ERTTextureUsage ExtraUsage = ERTTextureUsage::None;
+	uint32_t MipCount = 1;
+};
+
+struct FGraphBufferDesc
+{
+	uint64_t Size = 0;
+	ERTBufferUsage ExtraUsage = ERTBufferUsage::None;
+};
+
+class FPassContext
+{
+public:
+	virtual IRTCommandList& Commands() = 0;
+	virtual IRTDevice& Device() = 0;
+	virtual IRTTexture* GetTexture(FGraphTexture Texture) = 0; ///< asserts unless the pass declared it
+	virtual IRTBuffer* GetBuffer(FGraphBuffer Buffer) = 0;
+	/// Counts rays for the table of passes.
+	virtual void CountRays(uint64_t Rays) = 0;
+
+protected:
+	~FPassContext() = default;
+};
+
+using FPassExecute = std::function<void(FPassContext&)>;
+
+class FPassBuilder
+{
+public:
+	virtual void Read(FGraphTexture Texture, ERTAccess Access) = 0;
+	virtual void Read(FGraphBuffer Buffer, ERTAccess Access) = 0;
+	virtual void Write(FGraphTexture Texture, ERTAccess Access) = 0;
+	virtual void Write(FGraphBuffer Buffer, ERTAccess Access) = 0;
+	/// Runs even if nobody reads its outputs (readback, writes to imported resources do so by themselves).
+	virtual void NeverCull() = 0;
+
+protected:
+	~FPassBuilder() = default;
+};
+
+struct FPassTiming
+{
+	std::string Name;
+	double GpuMs = 0.0; ///< < 0: no timestamps on this device
+	double CpuMs = 0.0; ///< recording, on the render thread
+	uint64_t Rays = 0;
+};
+
+/// What outlives a frame: transient resource pool, timestamp queries, last finished timings.
+class FFrameGraphResources
+{
+public:
+	explicit FFrameGraphResources(IRTDevice& Device);
+	~FFrameGraphResources();
+	/// Timings of the newest frame that the GPU has finished, in order of execution.
+	const std::vector<FPassTiming>& GetTimings();
+	/// Frees pooled resources not used for a while (Frames) or, with 0, all that are idle.
+	void Trim(uint32_t Frames);
+	uint64_t GetPooledBytes() const;
+
+private:
+	friend class FFrameGraph;
+	struct FImpl;
+	std::unique_ptr<FImpl> Impl;
+};
+
+class FFrameGraph
+{
+public:
+	explicit FFrameGraph(FFrameGraphResources& Resources);
+	~FFrameGraph();
+	FFrameGraph(const FFrameGraph&) = delete;
+	FFrameGraph& operator=(const FFrameGraph&) = delete;
+
+	FGraphTexture CreateTexture(const FGraphTextureDesc& Desc, const char* Name);
+	FGraphBuffer CreateBuffer(const FGraphBufferDesc& Desc, const char* Name);
+	/// Current: how it was last used; After (if not None): the access in which to leave it.
+	FGraphTexture ImportTexture(IRTTexture* Texture, ERTAccess Current, ERTAccess After, const char* Name);
+	FGraphBuffer ImportBuffer(IRTBuffer* Buffer, ERTAccess Current, ERTAccess After, const char* Name);
+	const FGraphTextureDesc& GetDesc(FGraphTexture Texture) const;
+	const FGraphBufferDesc& GetDesc(FGraphBuffer Buffer) const;
+
+	/// Setup runs at once and returns what to record; it runs only if the pass is not culled.
+	void AddPass(const char* Name, const std::function<FPassExecute(FPassBuilder&)>& Setup);
+
+	/// Culls, allocates, records into Commands. On error (out of memory, device lost) nothing is recorded after
+	/// the failing point and the message says which resource.
+	FRTStatus Execute(IRTCommandList& Commands);
+
+	/// Passes (culled ones marked), resources with size and lifetime, barriers: after Execute or Compile.
+	std::string Dump() const;
+	FRTStatus Compile(); ///< all of Execute but the recording
+	uint32_t GetPassCount() const;
+	uint32_t GetCulledPassCount() const;
+
+private:
+	struct FImpl;
+	std::unique_ptr<FImpl> Impl;
+};
+
+} // namespace Lantern

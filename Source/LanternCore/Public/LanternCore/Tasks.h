@@ -1,0 +1,32 @@
+// Task scheduling over oneTBB, narrowed to what the plugin needs.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+namespace Lantern
+{
+
+/// Runs Body(Begin, End) over [0, Count) in chunks of at least Grain, on all workers; returns when done.
+void ParallelFor(size_t Count, size_t Grain, const std::function<void(size_t, size_t)>& Body);
+
+/// A set of tasks that can be waited for. Destruction waits.
+class FTaskGroup
+{
+public:
+	FTaskGroup();
+	~FTaskGroup();
+	FTaskGroup(const FTaskGroup&) = delete;
+	FTaskGroup& operator=(const FTaskGroup&) = delete;
+	void Run(std::function<void()> Task);
+	void Wait();
+
+private:
+	struct FImpl;
+	std::unique_ptr<FImpl> Impl;
+};
+
+size_t GetWorkerCount();
+
+} // namespace Lantern

@@ -1,0 +1,514 @@
+// Plain types of the RHI: status, enums, descriptions. C++17, no Vulkan, no standard containers, so that
+// an engine with its own allocator and ABI can include it. A description is read during the call that
+// takes it and never kept: pointers in it need not outlive the call.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace Lantern
+{
+
+/// Bumped when any interface or description below changes. A plugin refuses another version with a message.
+inline constexpr uint32_t RHIVersion = 1;
+
+// ---------------------------------------------------------------------------------------------------- status
+
+enum class ERTResult : int32_t
+{
+	Ok = 0,
+	InvalidArgument, ///< found by the validation wrapper; backends assert instead
+	OutOfHostMemory,
+	OutOfDeviceMemory,
+	OutOfDescriptors, ///< the bindless heap is full
+	Unsupported,      ///< the driver or device cannot do this
+	CompileFailed,    ///< the driver refused a shader or a pipeline
+	Timeout,
+	DeviceLost, ///< every later call returns this too; the device must be created anew
+	IoError,
+};
+
+/// Result of a call that depends on the environment. Ok carries no message. Fixed size, so that it crosses
+/// an ABI; a longer message is cut, never lost silently (it then ends in "...").
+struct [[nodiscard]] FRTStatus
+{
+	static constexpr size_t MaxMessage = 508;
+
+	ERTResult Code = ERTResult::Ok;
+	char Message[MaxMessage] = {};
+
+	bool IsOk() const { return Code == ERTResult::Ok; }
+	explicit operator bool() const { return IsOk(); }
+
+	static FRTStatus Success() { return {}; }
+	/// printf-style.
+	static FRTStatus Error(ERTResult InCode, const char* Format, ...)
+#if defined(__GNUC__)
+	    __attribute__((format(printf, 2, 3)))
+#endif
+	    ;
+};
+
+// ---------------------------------------------------------------------------------------------------- reference counting
+
+/// Base of every RHI object. Thread-safe. An object starts with one reference, owned by whoever created it.
+/// A command list keeps a reference to all it recorded until the GPU has finished with it, and the device
+/// destroys native objects only after the last submission that may use them: Release() is always safe.
+class IRTRefCounted
+{
+public:
+	virtual uint32_t AddRef() = 0;
+	virtual uint32_t Release() = 0;
+
+protected:
+	virtual ~IRTRefCounted() = default;
+};
+
+/// Intrusive pointer to an RHI object.
+template <class T>
+class TRTRef
+{
+public:
+	TRTRef() = default;
+	TRTRef(std::nullptr_t) {}
+	/// Shares InObject: takes a reference of its own.
+	explicit TRTRef(T* InObject) : Object(InObject)
+	{
+		if (Object) { Object->AddRef(); }
+	}
+	TRTRef(const TRTRef& Other) : TRTRef(Other.Object) {}
+	TRTRef(TRTRef&& Other) noexcept : Object(Other.Object) { Other.Object = nullptr; }
+	~TRTRef() { Reset(); }
+	TRTRef& operator=(TRTRef Other) noexcept
+	{
+		T* Mine = Object;
+		Object = Other.Object;
+		Other.Object = Mine;
+		return *this;
+	}
+	void Reset()
+	{
+		if (Object) { Object->Release(); }
+		Object = nullptr;
+	}
+	/// For creation calls: releases what is held and returns the address that receives the new object.
+	T** ReleaseAndGetAddress()
+	{
+		Reset();
+		return &Object;
+	}
+	T* Get() const { return Object; }
+	T* operator->() const { return Object; }
+	T& operator*() const { return *Object; }
+	explicit operator bool() const { return Object != nullptr; }
+	friend bool operator==(const TRTRef& A, const TRTRef& B) { return A.Object == B.Object; }
+
+private:
+	T* Object = nullptr;
+};
+
+// ---------------------------------------------------------------------------------------------------- enums
+
+enum class ERTFormat : uint8_t
+{
+	Unknown,
+	R8_UNORM,
+	RG8_UNORM,
+	RGBA8_UNORM,
+	RGBA8_SRGB,
+	RGB10A2_UNORM,
+	R11G11B10_FLOAT,
+	R16_FLOAT,
+	RG16_FLOAT,
+	RGBA16_FLOAT,
+	RG16_UNORM,
+	RGBA16_UNORM,
+	RG16_SNORM,
+	RGBA16_SNORM,
+	R16_UINT,
+	R32_UINT,
+	RG32_UINT,
+	RGBA32_UINT,
+	R32_FLOAT,
+	RG32_FLOAT,
+	RGBA32_FLOAT,
+	D32_FLOAT,
+};
+
+/// Bytes of one texel.
+constexpr uint32_t BytesPerTexel(ERTFormat Format)
+{
+	switch (Format)
+	{
+	case ERTFormat::Unknown: return 0;
+	case ERTFormat::R8_UNORM: return 1;
+	case ERTFormat::RG8_UNORM:
+	case ERTFormat::R16_FLOAT:
+	case ERTFormat::R16_UINT: return 2;
+	case ERTFormat::RGBA8_UNORM:
+	case ERTFormat::RGBA8_SRGB:
+	case ERTFormat::RGB10A2_UNORM:
+	case ERTFormat::R11G11B10_FLOAT:
+	case ERTFormat::RG16_FLOAT:
+	case ERTFormat::RG16_UNORM:
+	case ERTFormat::RG16_SNORM:
+	case ERTFormat::R32_UINT:
+	case ERTFormat::R32_FLOAT:
+	case ERTFormat::D32_FLOAT: return 4;
+	case ERTFormat::RGBA16_FLOAT:
+	case ERTFormat::RGBA16_UNORM:
+	case ERTFormat::RGBA16_SNORM:
+	case ERTFormat::RG32_UINT:
+	case ERTFormat::RG32_FLOAT: return 8;
+	case ERTFormat::RGBA32_UINT:
+	case ERTFormat::RGBA32_FLOAT: return 16;
+	}
+	return 0;
+}
+
+enum class ERTMemory : uint8_t
+{
+	Device,   ///< not mappable
+	Upload,   ///< mapped, written by the CPU, coherent
+	Readback, ///< mapped, read by the CPU, coherent, cached
+};
+
+/// What a buffer is used for (flags). Every buffer has a device address.
+enum class ERTBufferUsage : uint32_t
+{
+	None = 0,
+	Storage = 1 << 0,
+	Index = 1 << 1,
+	Indirect = 1 << 2,
+	CopySource = 1 << 3,
+	CopyDest = 1 << 4,
+	GeometryInput = 1 << 5, ///< vertices, indices, AABBs or instances of an acceleration structure build
+	Scratch = 1 << 6,       ///< build scratch; aligned to FRTCapabilities::ScratchAlignment
+	ShaderTable = 1 << 7,
+};
+
+enum class ERTTextureUsage : uint32_t
+{
+	None = 0,
+	Sampled = 1 << 0, ///< gets a sampled index in the bindless heap
+	Storage = 1 << 1, ///< gets a storage index in the bindless heap
+	RenderTarget = 1 << 2,
+	Depth = 1 << 3,
+	CopySource = 1 << 4,
+	CopyDest = 1 << 5,
+};
+
+/// How a resource is used between two barriers. A texture's layout follows from it.
+/// Combine reads with |; a write stands alone, but StorageWrite may be combined with ShaderRead on a
+/// storage texture or buffer (read-modify-write).
+enum class ERTAccess : uint32_t
+{
+	None = 0,               ///< contents undefined (textures: layout undefined)
+	ShaderRead = 1 << 0,    ///< sampled texture, or buffer read by any shader stage
+	StorageRead = 1 << 1,   ///< imageLoad
+	StorageWrite = 1 << 2,  ///< imageStore, buffer writes, atomics
+	RenderTarget = 1 << 3,  ///< colour attachment, read and write
+	DepthWrite = 1 << 4,    ///< depth attachment, read and write
+	IndexRead = 1 << 5,
+	IndirectRead = 1 << 6,
+	CopyRead = 1 << 7,
+	CopyWrite = 1 << 8,
+	GeometryInput = 1 << 9, ///< read by an acceleration structure build
+	BuildRead = 1 << 10,    ///< a BLAS read by a TLAS build, an update's source
+	BuildWrite = 1 << 11,   ///< an acceleration structure or scratch written by a build
+	TraceRead = 1 << 12,    ///< an acceleration structure or shader table read by rays
+	HostRead = 1 << 13,
+};
+
+enum class ERTIndexType : uint8_t
+{
+	None, ///< vertices in order
+	UInt16,
+	UInt32,
+};
+
+enum class ERTShaderStage : uint8_t
+{
+	Vertex,
+	Fragment,
+	Compute,
+	RayGen,
+	Miss,
+	ClosestHit,
+	AnyHit,
+	Intersection,
+	Callable,
+};
+
+#define LANTERN_RT_FLAGS(E)                                                                                       \
+	constexpr E operator|(E A, E B) { return static_cast<E>(static_cast<uint32_t>(A) | static_cast<uint32_t>(B)); } \
+	constexpr E operator&(E A, E B) { return static_cast<E>(static_cast<uint32_t>(A) & static_cast<uint32_t>(B)); } \
+	constexpr E& operator|=(E& A, E B) { return A = A | B; }                                                        \
+	constexpr bool HasAny(E A, E B) { return (static_cast<uint32_t>(A) & static_cast<uint32_t>(B)) != 0; }
+
+LANTERN_RT_FLAGS(ERTBufferUsage)
+LANTERN_RT_FLAGS(ERTTextureUsage)
+LANTERN_RT_FLAGS(ERTAccess)
+
+// ---------------------------------------------------------------------------------------------------- capabilities
+
+/// Rungs of the ladder; each includes those before it. Chosen once, when the device is created.
+///  None: no ray-traced feature runs (raster and compute only).
+///  RayQuery: inline rays in compute; no hit groups, so no reference path tracer and no RTPSO.
+///  Pipeline: ray-tracing pipelines (a device may have these without ray query: see bRayQuery).
+///  Reorder: + shader execution reordering. Below it: divergent hit shading is slower.
+///  Micromap: + opacity micromaps. Below it: alpha tests run in any-hit shaders.
+enum class ERTRung : uint8_t
+{
+	None,
+	RayQuery,
+	Pipeline,
+	Reorder,
+	Micromap,
+};
+
+struct FRTCapabilities
+{
+	char DeviceName[256] = {};
+	char DriverName[256] = {}; ///< name and version, as the driver gives them
+	bool bIsCpu = false;       ///< absolute times are not to be reported
+	ERTRung Rung = ERTRung::None;
+	bool bRayQuery = false;
+	bool bRayTracingPipeline = false;
+	bool bPipelineLibraries = false;
+	bool bDeferredOperations = false; ///< the extension is there (it may still never defer)
+	bool bIndirectTrace = false;
+	bool bPositionFetch = false;
+	bool bReorder = false;
+	bool bMicromap = false;
+	bool bTimestamps = false;
+	uint32_t ShaderGroupHandleSize = 0;
+	uint32_t ShaderGroupHandleAlignment = 0;
+	uint32_t ShaderGroupBaseAlignment = 0;
+	uint32_t MaxShaderGroupStride = 0;
+	uint32_t MaxRayRecursionDepth = 0;
+	uint32_t ScratchAlignment = 0;
+	uint64_t MaxInstanceCount = 0;
+	uint64_t MaxPrimitiveCount = 0;
+	uint32_t MaxTextureDimension = 0;
+	uint32_t MaxPushConstantBytes = 128;
+	uint32_t MaxBindlessTextures = 0; ///< sampled and storage each
+	uint64_t DeviceMemoryBytes = 0;
+	double TimestampPeriodNs = 0.0;
+};
+
+// ---------------------------------------------------------------------------------------------------- descriptions
+
+struct FRTBufferDesc
+{
+	uint64_t Size = 0; ///< bytes, > 0
+	ERTBufferUsage Usage = ERTBufferUsage::None;
+	ERTMemory Memory = ERTMemory::Device;
+	const char* Name = ""; ///< reaches debugger and profiler
+};
+
+struct FRTTextureDesc
+{
+	uint32_t Width = 0, Height = 0;
+	uint32_t MipCount = 1;
+	uint32_t ArraySize = 1; ///< > 1: the sampled view is a 2D array
+	ERTFormat Format = ERTFormat::Unknown;
+	ERTTextureUsage Usage = ERTTextureUsage::None;
+	const char* Name = "";
+};
+
+enum class ERTFilter : uint8_t { Nearest, Linear };
+enum class ERTAddress : uint8_t { Repeat, Clamp, Mirror };
+
+struct FRTSamplerDesc
+{
+	ERTFilter Min = ERTFilter::Linear, Mag = ERTFilter::Linear, Mip = ERTFilter::Linear;
+	ERTAddress U = ERTAddress::Repeat, V = ERTAddress::Repeat;
+	float MaxAnisotropy = 1.0f;
+	const char* Name = "";
+};
+
+/// SPIR-V of one stage; entry point "main".
+struct FRTShaderCode
+{
+	const uint32_t* Words = nullptr;
+	size_t WordCount = 0;
+	ERTShaderStage Stage = ERTShaderStage::Compute;
+	const char* Name = "";
+};
+
+struct FRTComputePipelineDesc
+{
+	FRTShaderCode Shader;
+	const char* Name = "";
+};
+
+enum class ERTCull : uint8_t { None, Back, Front };
+
+/// Raster pipelines pull their vertices from buffer addresses: there is no vertex input. Counter-clockwise is
+/// front; depth is reversed (1 near, 0 far), test is greater-or-equal.
+struct FRTRasterPipelineDesc
+{
+	FRTShaderCode Vertex;
+	FRTShaderCode Fragment; ///< Words may be null: depth only
+	const ERTFormat* ColorFormats = nullptr;
+	uint32_t ColorCount = 0;
+	ERTFormat DepthFormat = ERTFormat::Unknown; ///< Unknown: no depth test
+	ERTCull Cull = ERTCull::Back;
+	bool bDepthWrite = true;
+	const char* Name = "";
+};
+
+inline constexpr uint32_t NoShader = ~0u;
+
+enum class ERTGroupKind : uint8_t
+{
+	General, ///< ray generation, miss or callable
+	Triangles,
+	Procedural, ///< AABBs with an intersection shader
+};
+
+/// Indices into FRTRayTracingPipelineDesc::Shaders.
+struct FRTShaderGroup
+{
+	ERTGroupKind Kind = ERTGroupKind::General;
+	uint32_t General = NoShader;
+	uint32_t ClosestHit = NoShader;
+	uint32_t AnyHit = NoShader;
+	uint32_t Intersection = NoShader;
+};
+
+struct FRTRayTracingPipelineDesc
+{
+	const FRTShaderCode* Shaders = nullptr;
+	uint32_t ShaderCount = 0;
+	const FRTShaderGroup* Groups = nullptr;
+	uint32_t GroupCount = 0;
+	uint32_t MaxRecursion = 1;
+	uint32_t MaxPayloadBytes = 32;
+	uint32_t MaxAttributeBytes = 8;
+	const char* Name = "";
+};
+
+class IRTBuffer;
+class IRTTexture;
+class IRTPipeline;
+class IRTGeometry;
+class IRTScene;
+
+/// One section of a geometry: triangles of float3 positions, or AABBs of six floats (min, max) where
+/// bProcedural. Only counts, strides, index type and flags matter for sizes; addresses are read at build.
+struct FRTGeometrySection
+{
+	IRTBuffer* Vertices = nullptr; ///< or AABBs
+	uint64_t VertexOffset = 0;     ///< bytes
+	uint32_t VertexStride = 12;    ///< bytes; AABBs: 24
+	uint32_t VertexCount = 0;      ///< AABBs: their number
+	IRTBuffer* Indices = nullptr;
+	uint64_t IndexOffset = 0; ///< bytes
+	uint32_t TriangleCount = 0;
+	ERTIndexType IndexType = ERTIndexType::UInt32;
+	bool bOpaque = true; ///< false: any-hit runs
+	bool bProcedural = false;
+};
+
+struct FRTGeometryDesc
+{
+	const FRTGeometrySection* Sections = nullptr;
+	uint32_t SectionCount = 0; ///< > 0, each with at least one primitive
+	bool bAllowUpdate = false; ///< may be refitted
+	bool bFastBuild = false;   ///< prefer build speed to trace speed
+	bool bAllowCompaction = false;
+	const char* Name = "";
+};
+
+struct FRTSceneDesc
+{
+	uint32_t MaxInstances = 0;
+	bool bFastBuild = false;
+	const char* Name = "";
+};
+
+/// Bits of FRTInstance::Flags.
+inline constexpr uint8_t InstanceCullDisable = 1;
+inline constexpr uint8_t InstanceFrontIsClockwise = 2;
+inline constexpr uint8_t InstanceForceOpaque = 4;
+inline constexpr uint8_t InstanceForceNoOpaque = 8;
+
+/// As the GPU reads it; written by the CPU or a shader into a GeometryInput buffer.
+struct FRTInstance
+{
+	float Transform[12];                ///< object to world, 3 rows of 4
+	uint32_t CustomIndexAndMask;        ///< index: low 24 bits; mask: high 8
+	uint32_t TableOffsetAndFlags;       ///< first hit record: low 24 bits; Instance… flags: high 8
+	uint64_t GeometryAddress;           ///< IRTGeometry::GetDeviceAddress()
+};
+static_assert(sizeof(FRTInstance) == 64, "layout of VkAccelerationStructureInstanceKHR");
+
+inline constexpr uint32_t MaxInstanceIndex = (1u << 24) - 1;
+
+struct FRTBuildSizes
+{
+	uint64_t StructureBytes = 0;
+	uint64_t BuildScratchBytes = 0;
+	uint64_t UpdateScratchBytes = 0;
+};
+
+struct FRTGeometryBuild
+{
+	IRTGeometry* Geometry = nullptr;
+	/// Same counts, strides and flags as at creation.
+	const FRTGeometrySection* Sections = nullptr;
+	uint32_t SectionCount = 0;
+	bool bUpdate = false; ///< refit in place; needs bAllowUpdate and an earlier build
+	IRTBuffer* Scratch = nullptr;
+	uint64_t ScratchOffset = 0; ///< multiple of ScratchAlignment; builds of one call must not overlap
+};
+
+/// Bytes of record data beside the handle, at most.
+inline constexpr uint32_t MaxRecordDataBytes = 32;
+
+struct FRTShaderTableDesc
+{
+	IRTPipeline* Pipeline = nullptr; ///< must have been created for ray tracing
+	uint32_t RayGenCount = 1;
+	uint32_t MissCount = 0;
+	uint32_t HitCount = 0;
+	uint32_t CallableCount = 0;
+	uint32_t RecordDataBytes = 0; ///< of hit records, ≤ MaxRecordDataBytes; the others carry none
+	const char* Name = "";
+};
+
+enum class ERTRecordKind : uint8_t { RayGen, Miss, Hit, Callable };
+
+struct FRTBarrier
+{
+	IRTBuffer* Buffer = nullptr;   ///< at most one of Buffer and Texture; neither: a memory barrier
+	IRTTexture* Texture = nullptr; ///< all mips and layers
+	ERTAccess Before = ERTAccess::None;
+	ERTAccess After = ERTAccess::None;
+};
+
+struct FRTColorTarget
+{
+	IRTTexture* Texture = nullptr;
+	bool bClear = true;
+	float Clear[4] = {0, 0, 0, 0};
+};
+
+struct FRTRasterPassDesc
+{
+	const FRTColorTarget* Colors = nullptr;
+	uint32_t ColorCount = 0;
+	IRTTexture* Depth = nullptr;
+	bool bClearDepth = true; ///< to 0, the far plane
+	uint32_t Width = 0, Height = 0;
+};
+
+struct FRTMemoryStats
+{
+	uint64_t Geometry = 0, Scene = 0, ShaderTable = 0, Texture = 0, Buffer = 0, Scratch = 0; ///< live bytes
+	uint64_t Total = 0, Peak = 0;
+};
+
+} // namespace Lantern
