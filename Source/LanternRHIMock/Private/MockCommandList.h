@@ -1,0 +1,78 @@
+// Records calls for inspection, and closures that run when the submission does.
+#pragma once
+
+#include "MockObjects.h"
+
+#include <functional>
+
+namespace Lantern
+{
+
+class FMockCommandList final : public TMockObject<IRTCommandList>
+{
+public:
+	FMockCommandList(std::shared_ptr<FMockState> InState, const char* InName, uint64_t InNative);
+
+	FRTStatus Begin() override;
+	FRTStatus End() override;
+	void Barriers(const FRTBarrier* Items, uint32_t Count) override;
+	void CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTBuffer* Source, uint64_t SourceOffset,
+	                uint64_t Size) override;
+	void CopyBufferToTexture(IRTTexture* Dest, uint32_t Mip, uint32_t Layer, IRTBuffer* Source,
+	                         uint64_t SourceOffset) override;
+	void CopyTextureToBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTTexture* Source, uint32_t Mip,
+	                         uint32_t Layer) override;
+	void FillBuffer(IRTBuffer* Dest, uint64_t Offset, uint64_t Size, uint32_t Value) override;
+	void ClearTexture(IRTTexture* Dest, const float Value[4]) override;
+	void GenerateMips(IRTTexture* Texture) override;
+	void SetPipeline(IRTPipeline* Pipeline) override;
+	void PushConstants(const void* Data, uint32_t Size) override;
+	void Dispatch(uint32_t GroupsX, uint32_t GroupsY, uint32_t GroupsZ) override;
+	void TraceRays(IRTShaderTable* Table, uint32_t RayGen, uint32_t Width, uint32_t Height, uint32_t Depth) override;
+	void UpdateShaderTable(IRTShaderTable* Table) override;
+	void BeginRasterPass(const FRTRasterPassDesc& Desc) override;
+	void EndRasterPass() override;
+	void SetIndexBuffer(IRTBuffer* Buffer, uint64_t Offset, ERTIndexType IndexType) override;
+	void Draw(uint32_t VertexCount, uint32_t InstanceCount) override;
+	void DrawIndexed(uint32_t IndexCount, uint32_t InstanceCount, uint32_t FirstIndex, int32_t VertexOffset) override;
+	void BuildGeometries(const FRTGeometryBuild* Builds, uint32_t Count) override;
+	void BuildScene(IRTScene* Scene, IRTBuffer* Instances, uint64_t InstanceOffset, uint32_t Count, IRTBuffer* Scratch,
+	                uint64_t ScratchOffset) override;
+	void KeepAlive(IRTRefCounted* Object) override;
+	void WriteTimestamp(IRTQueryPool* Pool, uint32_t Index) override;
+	void ResetQueries(IRTQueryPool* Pool, uint32_t First, uint32_t Count) override;
+	void BeginMarker(const char* Name) override;
+	void EndMarker() override;
+	uint64_t GetNative(ERTNative Kind) const override { return Kind == ERTNative::CommandBuffer ? Native : 0; }
+
+	/// Runs what was recorded and lets go of it. Under FMockState::ExecuteMutex.
+	void Execute();
+	bool IsEnded() const { return Stage == EStage::Ended; }
+	bool IsImported() const { return Native != 0; }
+	void MarkSubmitted() { Stage = EStage::Submitted; }
+
+private:
+	enum class EStage : uint8_t
+	{
+		Idle,
+		Recording,
+		Ended,
+		Submitted
+	};
+
+	void Log(ERTMockCall Kind, const std::string& Object, std::array<uint64_t, 4> Numbers = {}, bool bWithPush = false);
+	void Keep(IRTRefCounted* Object);
+	void Then(std::function<void()> Work) { Commands.push_back(std::move(Work)); }
+	const std::string& GetPipelineName() const;
+	void BuildGeometry(const FRTGeometryBuild& Build);
+
+	std::vector<std::function<void()>> Commands;
+	std::vector<TRTRef<IRTRefCounted>> Kept;
+	std::vector<uint8_t> Push;
+	FMockPipeline* Pipeline = nullptr;
+	uint64_t Native = 0;
+	EStage Stage = EStage::Idle;
+	bool bInPass = false;
+};
+
+} // namespace Lantern

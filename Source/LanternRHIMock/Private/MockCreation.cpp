@@ -1,0 +1,347 @@
+// Creation calls of the mock device.
+
+#include "MockCommandList.h"
+#include "MockDeviceImpl.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <thread>
+
+namespace Lantern
+{
+namespace
+{
+
+std::string GetShaderName(const FRTRayTracingPipelineDesc& Desc, uint32_t Index)
+{
+	if (Index == NoShader)
+	{
+		return {};
+	}
+	assert(Index < Desc.ShaderCount);
+	return Desc.Shaders[Index].Name ? Desc.Shaders[Index].Name : "";
+}
+
+/// Hands the object out with its accounted memory.
+template <class T, class I>
+FRTStatus Finish(FMockState& State, std::unique_ptr<T> Object, EMockMemory Memory, uint64_t Bytes, I** Out)
+{
+	Object->Memory = Memory;
+	Object->MemoryBytes = Bytes;
+	State.Add(Object.get());
+	*Out = Object.release();
+	return FRTStatus::Success();
+}
+
+} // namespace
+
+FRTStatus FMockDevice::CreateBuffer(const FRTBufferDesc& Desc, IRTBuffer** Out)
+{
+	assert(Desc.Size > 0);
+	FRTStatus Status = Start(ERTMockCall::CreateBuffer, Desc.Name,
+	                         {Desc.Size, static_cast<uint64_t>(Desc.Usage), static_cast<uint64_t>(Desc.Memory)});
+	if (!Status)
+	{
+		return Status;
+	}
+	const EMockMemory Memory = HasAny(Desc.Usage, ERTBufferUsage::Scratch) ? EMockMemory::Scratch : EMockMemory::Buffer;
+	Status = State->Allocate(Memory, Desc.Size, Desc.Name);
+	if (!Status)
+	{
+		return Status;
+	}
+	auto Buffer = std::make_unique<FMockBuffer>(State, Desc);
+	if (!Buffer->HasBytes())
+	{
+		State->FreeMemory(Memory, Desc.Size);
+		return FRTStatus::Error(ERTResult::OutOfHostMemory, "%s: no host memory for %llu bytes", Desc.Name,
+		                        static_cast<unsigned long long>(Desc.Size));
+	}
+	return Finish(*State, std::move(Buffer), Memory, Desc.Size, Out);
+}
+
+FRTStatus FMockDevice::TakeIndices(const FRTTextureDesc& Desc, FMockTexture& Texture)
+{
+	std::lock_guard Lock(State->Mutex);
+	const bool bSampled = HasAny(Desc.Usage, ERTTextureUsage::Sampled);
+	const bool bStorage = HasAny(Desc.Usage, ERTTextureUsage::Storage);
+	if ((bSampled && !State->Sampled.Allocate(Texture.Sampled)) ||
+	    (bStorage && !State->Storage.Allocate(Texture.Storage)))
+	{
+		return FRTStatus::Error(ERTResult::OutOfDescriptors, "%s: the bindless heap of %u textures is full", Desc.Name,
+		                        State->Desc.MaxBindlessTextures);
+	}
+	return FRTStatus::Success();
+}
+
+FRTStatus FMockDevice::CreateTexture(const FRTTextureDesc& Desc, IRTTexture** Out)
+{
+	assert(Desc.Width && Desc.Height && Desc.MipCount && Desc.ArraySize && Desc.Format != ERTFormat::Unknown);
+	FRTStatus Status = Start(ERTMockCall::CreateTexture, Desc.Name,
+	                         {Desc.Width, Desc.Height, Desc.MipCount, static_cast<uint64_t>(Desc.Format)});
+	if (!Status)
+	{
+		return Status;
+	}
+	if (std::max(Desc.Width, Desc.Height) > State->Desc.MaxTextureDimension)
+	{
+		return FRTStatus::Error(ERTResult::Unsupported, "%s: %u x %u texels, the device allows %u", Desc.Name,
+		                        Desc.Width, Desc.Height, State->Desc.MaxTextureDimension);
+	}
+	const uint64_t Bytes = FMockTexture::GetSizeBytes(Desc);
+	Status = State->Allocate(EMockMemory::Texture, Bytes, Desc.Name);
+	if (!Status)
+	{
+		return Status;
+	}
+	auto Texture = std::make_unique<FMockTexture>(State, Desc);
+	Status = TakeIndices(Desc, *Texture);
+	if (!Status)
+	{
+		State->FreeMemory(EMockMemory::Texture, Bytes);
+		return Status;
+	}
+	return Finish(*State, std::move(Texture), EMockMemory::Texture, Bytes, Out);
+}
+
+FRTStatus FMockDevice::ImportTexture(const FRTTextureDesc& Desc, uint64_t NativeImage, IRTTexture** Out)
+{
+	FRTStatus Status =
+	    Start(ERTMockCall::ImportTexture, Desc.Name, {Desc.Width, Desc.Height, Desc.MipCount, NativeImage});
+	if (!Status)
+	{
+		return Status;
+	}
+	auto Texture = std::make_unique<FMockTexture>(State, Desc);
+	Texture->NativeImage = NativeImage;
+	Status = TakeIndices(Desc, *Texture);
+	return Status ? Finish(*State, std::move(Texture), EMockMemory::None, 0, Out) : Status;
+}
+
+FRTStatus FMockDevice::CreateSampler(const FRTSamplerDesc& Desc, IRTSampler** Out)
+{
+	FRTStatus Status = Start(ERTMockCall::CreateSampler, Desc.Name);
+	if (!Status)
+	{
+		return Status;
+	}
+	uint32_t Index = 0;
+	{
+		std::lock_guard Lock(State->Mutex);
+		if (!State->Samplers.Allocate(Index))
+		{
+			return FRTStatus::Error(ERTResult::OutOfDescriptors, "%s: the heap of %u samplers is full", Desc.Name,
+			                        State->Desc.MaxSamplers);
+		}
+	}
+	auto Sampler = std::make_unique<FMockSampler>(State, "Sampler", Desc.Name);
+	Sampler->Index = Index;
+	return Finish(*State, std::move(Sampler), EMockMemory::None, 0, Out);
+}
+
+FRTStatus FMockDevice::Compile(const char* Name)
+{
+	const std::string Whole = Name ? Name : "";
+	uint32_t Milliseconds = 0;
+	bool bFail = false;
+	{
+		std::lock_guard Lock(State->Mutex);
+		for (const auto& [Part, Delay] : State->Slow)
+		{
+			if (Whole.find(Part) != std::string::npos)
+			{
+				Milliseconds += Delay;
+			}
+		}
+		bFail = std::any_of(State->Failing.begin(), State->Failing.end(),
+		                    [&](const std::string& Part) { return Whole.find(Part) != std::string::npos; });
+	}
+	if (Milliseconds)
+	{
+		std::this_thread::sleep_for(std::chrono::milliseconds(Milliseconds));
+	}
+	if (bFail)
+	{
+		return FRTStatus::Error(ERTResult::CompileFailed, "%s: compile failed (mock, injected)", Whole.c_str());
+	}
+	return FRTStatus::Success();
+}
+
+FRTStatus FMockDevice::CreateComputePipeline(const FRTComputePipelineDesc& Desc, IRTPipeline** Out)
+{
+	FRTStatus Status = Start(ERTMockCall::CreateComputePipeline, Desc.Name, {Desc.Shader.WordCount});
+	if (Status)
+	{
+		Status = Compile(Desc.Name);
+	}
+	if (!Status)
+	{
+		return Status;
+	}
+	auto Pipeline = std::make_unique<FMockPipeline>(State, "Pipeline", Desc.Name);
+	return Finish(*State, std::move(Pipeline), EMockMemory::None, 0, Out);
+}
+
+FRTStatus FMockDevice::CreateRasterPipeline(const FRTRasterPipelineDesc& Desc, IRTPipeline** Out)
+{
+	FRTStatus Status = Start(ERTMockCall::CreateRasterPipeline, Desc.Name, {Desc.ColorCount});
+	if (Status)
+	{
+		Status = Compile(Desc.Name);
+	}
+	if (!Status)
+	{
+		return Status;
+	}
+	auto Pipeline = std::make_unique<FMockPipeline>(State, "Pipeline", Desc.Name);
+	Pipeline->Kind = EMockPipeline::Raster;
+	return Finish(*State, std::move(Pipeline), EMockMemory::None, 0, Out);
+}
+
+FRTStatus FMockDevice::CreateRayTracingPipeline(const FRTRayTracingPipelineDesc& Desc, IRTPipeline** Out)
+{
+	FRTStatus Status = Start(ERTMockCall::CreateRayTracingPipeline, Desc.Name,
+	                         {Desc.ShaderCount, Desc.GroupCount, Desc.MaxRecursion, Desc.MaxPayloadBytes});
+	if (!Status)
+	{
+		return Status;
+	}
+	if (!State->Capabilities.bRayTracingPipeline)
+	{
+		return FRTStatus::Error(ERTResult::Unsupported, "%s: the device has no ray-tracing pipelines", Desc.Name);
+	}
+	Status = Compile(Desc.Name);
+	if (!Status)
+	{
+		return Status;
+	}
+	auto Pipeline = std::make_unique<FMockPipeline>(State, "Pipeline", Desc.Name);
+	Pipeline->Kind = EMockPipeline::RayTracing;
+	for (uint32_t i = 0; i < Desc.GroupCount; ++i)
+	{
+		const FRTShaderGroup& Group = Desc.Groups[i];
+		Pipeline->Groups.push_back({Group.Kind, GetShaderName(Desc, Group.General),
+		                            GetShaderName(Desc, Group.ClosestHit), GetShaderName(Desc, Group.AnyHit),
+		                            GetShaderName(Desc, Group.Intersection)});
+	}
+	{
+		std::lock_guard Lock(State->Mutex);
+		Pipeline->Id = State->NextPipeline++;
+		State->Pipelines[Pipeline->Id] = Pipeline->Name;
+	}
+	return Finish(*State, std::move(Pipeline), EMockMemory::None, 0, Out);
+}
+
+FRTStatus FMockDevice::CreateGeometry(const FRTGeometryDesc& Desc, IRTGeometry** Out)
+{
+	const uint64_t Primitives = FMockGeometry::CountPrimitives(Desc.Sections, Desc.SectionCount);
+	FRTStatus Status =
+	    Start(ERTMockCall::CreateGeometry, Desc.Name, {Desc.SectionCount, Primitives, Desc.bAllowUpdate ? 1u : 0u});
+	if (!Status)
+	{
+		return Status;
+	}
+	if (State->Desc.Rung == ERTRung::None)
+	{
+		return FRTStatus::Error(ERTResult::Unsupported, "%s: the device has no acceleration structures", Desc.Name);
+	}
+	const uint64_t Bytes = FMockGeometry::ComputeSizes(Primitives, Desc.bAllowUpdate).StructureBytes;
+	Status = State->Allocate(EMockMemory::Geometry, Bytes, Desc.Name);
+	if (!Status)
+	{
+		return Status;
+	}
+	return Finish(*State, std::make_unique<FMockGeometry>(State, Desc), EMockMemory::Geometry, Bytes, Out);
+}
+
+FRTStatus FMockDevice::CreateScene(const FRTSceneDesc& Desc, IRTScene** Out)
+{
+	FRTStatus Status = Start(ERTMockCall::CreateScene, Desc.Name, {Desc.MaxInstances});
+	if (!Status)
+	{
+		return Status;
+	}
+	if (State->Desc.Rung == ERTRung::None)
+	{
+		return FRTStatus::Error(ERTResult::Unsupported, "%s: the device has no acceleration structures", Desc.Name);
+	}
+	const uint64_t Bytes = AlignUp(256 + Desc.MaxInstances * 128ull, 256);
+	Status = State->Allocate(EMockMemory::Scene, Bytes, Desc.Name);
+	if (!Status)
+	{
+		return Status;
+	}
+	uint32_t Index = 0;
+	bool bIndex = false;
+	{
+		std::lock_guard Lock(State->Mutex);
+		bIndex = State->Scenes.Allocate(Index);
+	}
+	if (!bIndex)
+	{
+		State->FreeMemory(EMockMemory::Scene, Bytes);
+		return FRTStatus::Error(ERTResult::OutOfDescriptors, "%s: the heap of %u scenes is full", Desc.Name,
+		                        State->Desc.MaxScenes);
+	}
+	auto Scene = std::make_unique<FMockScene>(State, "Scene", Desc.Name);
+	Scene->Index = Index;
+	Scene->MaxInstances = Desc.MaxInstances;
+	Scene->Sizes = {Bytes, AlignUp(256 + Desc.MaxInstances * 64ull, 256), 0};
+	return Finish(*State, std::move(Scene), EMockMemory::Scene, Bytes, Out);
+}
+
+FRTStatus FMockDevice::CreateShaderTable(const FRTShaderTableDesc& Desc, IRTShaderTable** Out)
+{
+	assert(Desc.Pipeline && Desc.RecordDataBytes <= MaxRecordDataBytes);
+	FRTStatus Status = Start(ERTMockCall::CreateShaderTable, Desc.Name,
+	                         {Desc.RayGenCount, Desc.MissCount, Desc.HitCount, Desc.CallableCount});
+	if (!Status)
+	{
+		return Status;
+	}
+	auto Table = std::make_unique<FMockShaderTable>(State, Desc);
+	const uint64_t Bytes = Table->GetSizeBytes();
+	Status = State->Allocate(EMockMemory::ShaderTable, Bytes, Desc.Name);
+	if (!Status)
+	{
+		return Status;
+	}
+	return Finish(*State, std::move(Table), EMockMemory::ShaderTable, Bytes, Out);
+}
+
+FRTStatus FMockDevice::CreateQueryPool(uint32_t Count, IRTQueryPool** Out)
+{
+	FRTStatus Status = Start(ERTMockCall::CreateQueryPool, "", {Count});
+	if (!Status)
+	{
+		return Status;
+	}
+	auto Pool = std::make_unique<FMockQueryPool>(State, "QueryPool", "");
+	Pool->Times.resize(Count);
+	return Finish(*State, std::move(Pool), EMockMemory::None, 0, Out);
+}
+
+FRTStatus FMockDevice::CreateCommandList(const char* Name, IRTCommandList** Out)
+{
+	FRTStatus Status = Start(ERTMockCall::CreateCommandList, Name);
+	if (!Status)
+	{
+		return Status;
+	}
+	return Finish(*State, std::make_unique<FMockCommandList>(State, Name, 0), EMockMemory::None, 0, Out);
+}
+
+FRTStatus FMockDevice::ImportCommandList(uint64_t NativeCommandBuffer, IRTCommandList** Out)
+{
+	assert(NativeCommandBuffer);
+	FRTStatus Status = Start(ERTMockCall::ImportCommandList, "", {NativeCommandBuffer});
+	if (!Status)
+	{
+		return Status;
+	}
+	auto List = std::make_unique<FMockCommandList>(State, "imported", NativeCommandBuffer);
+	return Finish(*State, std::move(List), EMockMemory::None, 0, Out);
+}
+
+} // namespace Lantern

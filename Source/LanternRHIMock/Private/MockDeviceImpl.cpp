@@ -1,0 +1,199 @@
+#include "MockDeviceImpl.h"
+
+#include "MockCommandList.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cstdio>
+
+namespace Lantern
+{
+namespace
+{
+
+FRTCapabilities MakeCapabilities(const FRTMockDesc& Desc)
+{
+	FRTCapabilities Caps;
+	std::snprintf(Caps.DeviceName, sizeof(Caps.DeviceName), "Mock");
+	std::snprintf(Caps.DriverName, sizeof(Caps.DriverName), "LanternRHIMock");
+	Caps.bIsCpu = true;
+	Caps.Rung = Desc.Rung;
+	Caps.bRayQuery = Desc.bRayQuery && Desc.Rung >= ERTRung::RayQuery;
+	Caps.bRayTracingPipeline = Desc.Rung >= ERTRung::Pipeline;
+	Caps.bPipelineLibraries = Desc.bPipelineLibraries && Caps.bRayTracingPipeline;
+	Caps.bReorder = Desc.Rung >= ERTRung::Reorder;
+	Caps.bMicromap = Desc.Rung >= ERTRung::Micromap;
+	Caps.bPositionFetch = Desc.Rung != ERTRung::None;
+	Caps.bTimestamps = true;
+	Caps.ShaderGroupHandleSize = Desc.HandleSize;
+	Caps.ShaderGroupHandleAlignment = Desc.HandleAlignment;
+	Caps.ShaderGroupBaseAlignment = Desc.BaseAlignment;
+	Caps.MaxShaderGroupStride = 4096;
+	Caps.MaxRayRecursionDepth = Caps.bRayTracingPipeline ? 31 : 0;
+	Caps.ScratchAlignment = Desc.ScratchAlignment;
+	Caps.MaxInstanceCount = MaxInstanceIndex;
+	Caps.MaxPrimitiveCount = (1u << 29) - 1;
+	Caps.MaxTextureDimension = Desc.MaxTextureDimension;
+	Caps.MaxPushConstantBytes = Desc.MaxPushConstantBytes;
+	Caps.MaxBindlessTextures = Desc.MaxBindlessTextures;
+	Caps.DeviceMemoryBytes = Desc.DeviceMemoryBytes;
+	Caps.TimestampPeriodNs = 1.0;
+	return Caps;
+}
+
+} // namespace
+
+FMockDevice::FMockDevice(std::shared_ptr<FMockState> InState) : Mock(*InState), State(std::move(InState)) {}
+
+uint32_t FMockDevice::Release()
+{
+	const uint32_t Left = --References;
+	if (Left == 0)
+	{
+		State->Complete(~0ull);
+		delete this;
+	}
+	return Left;
+}
+
+FRTStatus FMockDevice::Start(ERTMockCall Kind, const char* Name, std::array<uint64_t, 4> Numbers)
+{
+	FRTMockCall Call;
+	Call.Kind = Kind;
+	Call.Name = Name ? Name : "";
+	Call.Numbers = Numbers;
+	return State->Log(std::move(Call));
+}
+
+FRTStatus FMockDevice::Enqueue(ERTMockCall Kind, IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence)
+{
+	FMockSubmission Submission;
+	for (uint32_t i = 0; i < Count; ++i)
+	{
+		auto* List = static_cast<FMockCommandList*>(Lists[i]);
+		assert(Kind == ERTMockCall::NotifyExternalSubmit ? List->IsImported() : List->IsEnded());
+		Submission.Lists.emplace_back(List);
+	}
+	const FRTStatus Status = Start(Kind, "", {Count, Mock.GetLastFence() + 1});
+	if (!Status)
+	{
+		return Status;
+	}
+	for (TRTRef<FMockCommandList>& List : Submission.Lists)
+	{
+		List->MarkSubmitted();
+	}
+	FRTFence Fence = 0;
+	bool bManual = false;
+	{
+		std::lock_guard Lock(State->Mutex);
+		Fence = Submission.Fence = ++State->LastSubmitted;
+		bManual = State->bManual;
+		State->Pending.push_back(std::move(Submission));
+	}
+	if (OutFence)
+	{
+		*OutFence = Fence;
+	}
+	if (bManual)
+	{
+		State->Collect();
+	}
+	else
+	{
+		State->Complete(Fence);
+	}
+	return FRTStatus::Success();
+}
+
+FRTStatus FMockDevice::Submit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence)
+{
+	return Enqueue(ERTMockCall::Submit, Lists, Count, OutFence);
+}
+
+FRTStatus FMockDevice::NotifyExternalSubmit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence)
+{
+	return Enqueue(ERTMockCall::NotifyExternalSubmit, Lists, Count, OutFence);
+}
+
+FRTFence FMockDevice::GetCompletedFence()
+{
+	std::lock_guard Lock(State->Mutex);
+	return State->Completed;
+}
+
+FRTStatus FMockDevice::WaitFor(FRTFence Fence, uint64_t TimeoutNs)
+{
+	FRTStatus Status = Start(ERTMockCall::WaitFor, "", {Fence, TimeoutNs});
+	if (!Status)
+	{
+		return Status;
+	}
+	{
+		std::lock_guard Lock(State->Mutex);
+		assert(Fence <= State->LastSubmitted && "a fence that no submission returned");
+		if (Fence > State->Completed)
+		{
+			++State->BlockingWaits;
+			if (State->bManual && TimeoutNs != ~0ull)
+			{
+				return FRTStatus::Error(ERTResult::Timeout, "fence %llu has not been reached (mock)",
+				                        static_cast<unsigned long long>(Fence));
+			}
+		}
+	}
+	State->Complete(Fence);
+	return FRTStatus::Success();
+}
+
+FRTStatus FMockDevice::WaitIdle()
+{
+	FRTStatus Status = Start(ERTMockCall::WaitIdle, "");
+	if (!Status)
+	{
+		return Status;
+	}
+	{
+		std::lock_guard Lock(State->Mutex);
+		State->BlockingWaits += State->Pending.empty() ? 0 : 1;
+	}
+	State->Complete(~0ull);
+	return FRTStatus::Success();
+}
+
+FRTMemoryStats FMockDevice::GetMemoryStats() const
+{
+	std::lock_guard Lock(State->Mutex);
+	return State->Memory;
+}
+
+FRTStatus CreateMockDevice(const FRTMockDesc& Desc, IRTDevice** Out)
+{
+	const uint32_t Alignments[] = {Desc.HandleAlignment, Desc.BaseAlignment, Desc.ScratchAlignment};
+	const bool bPowers =
+	    std::all_of(std::begin(Alignments), std::end(Alignments), [](uint32_t A) { return std::has_single_bit(A); });
+	if (!bPowers || Desc.HandleSize < 32)
+	{
+		return FRTStatus::Error(ERTResult::InvalidArgument,
+		                        "mock: alignments must be powers of two and handles have at least 32 bytes");
+	}
+	auto State = std::make_shared<FMockState>();
+	State->Desc = Desc;
+	State->Capabilities = MakeCapabilities(Desc);
+	State->Sampled.SetSize(Desc.MaxBindlessTextures);
+	State->Storage.SetSize(Desc.MaxBindlessTextures);
+	State->Samplers.SetSize(Desc.MaxSamplers);
+	State->Scenes.SetSize(Desc.MaxScenes);
+	*Out = new FMockDevice(std::move(State));
+	return FRTStatus::Success();
+}
+
+FRTMock& GetMock(IRTDevice* Device)
+{
+	auto* Mine = dynamic_cast<FMockDevice*>(Device);
+	assert(Mine && "not a mock device, or wrapped");
+	return Mine->Mock;
+}
+
+} // namespace Lantern

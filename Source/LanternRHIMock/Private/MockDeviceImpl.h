@@ -1,0 +1,54 @@
+#pragma once
+
+#include "MockObjects.h"
+
+namespace Lantern
+{
+
+class FMockDevice final : public IRTDevice
+{
+public:
+	explicit FMockDevice(std::shared_ptr<FMockState> InState);
+
+	uint32_t AddRef() override { return ++References; }
+	uint32_t Release() override;
+
+	uint32_t GetVersion() const override { return RHIVersion; }
+	const FRTCapabilities& GetCapabilities() const override { return State->Capabilities; }
+	FRTStatus CreateBuffer(const FRTBufferDesc& Desc, IRTBuffer** Out) override;
+	FRTStatus CreateTexture(const FRTTextureDesc& Desc, IRTTexture** Out) override;
+	FRTStatus ImportTexture(const FRTTextureDesc& Desc, uint64_t NativeImage, IRTTexture** Out) override;
+	FRTStatus CreateSampler(const FRTSamplerDesc& Desc, IRTSampler** Out) override;
+	FRTStatus CreateComputePipeline(const FRTComputePipelineDesc& Desc, IRTPipeline** Out) override;
+	FRTStatus CreateRasterPipeline(const FRTRasterPipelineDesc& Desc, IRTPipeline** Out) override;
+	FRTStatus CreateRayTracingPipeline(const FRTRayTracingPipelineDesc& Desc, IRTPipeline** Out) override;
+	FRTStatus CreateGeometry(const FRTGeometryDesc& Desc, IRTGeometry** Out) override;
+	FRTStatus CreateScene(const FRTSceneDesc& Desc, IRTScene** Out) override;
+	FRTStatus CreateShaderTable(const FRTShaderTableDesc& Desc, IRTShaderTable** Out) override;
+	FRTStatus CreateQueryPool(uint32_t Count, IRTQueryPool** Out) override;
+	FRTStatus CreateCommandList(const char* Name, IRTCommandList** Out) override;
+	FRTStatus ImportCommandList(uint64_t NativeCommandBuffer, IRTCommandList** Out) override;
+	FRTStatus Submit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence) override;
+	FRTStatus NotifyExternalSubmit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence) override;
+	FRTFence GetCompletedFence() override;
+	FRTStatus WaitFor(FRTFence Fence, uint64_t TimeoutNs) override;
+	FRTStatus WaitIdle() override;
+	void CollectGarbage() override { State->Collect(); }
+	FRTMemoryStats GetMemoryStats() const override;
+	uint32_t GetValidationMessageCount() const override { return 0; }
+	uint64_t GetNative(ERTNative) const override { return 0; }
+
+	FRTMock Mock;
+
+private:
+	/// Logs, then checks the loss of the device.
+	FRTStatus Start(ERTMockCall Kind, const char* Name, std::array<uint64_t, 4> Numbers = {});
+	FRTStatus TakeIndices(const FRTTextureDesc& Desc, FMockTexture& Texture);
+	FRTStatus Compile(const char* Name);
+	FRTStatus Enqueue(ERTMockCall Kind, IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence);
+
+	std::shared_ptr<FMockState> State;
+	std::atomic<uint32_t> References = 1;
+};
+
+} // namespace Lantern

@@ -1,0 +1,169 @@
+#include "MockState.h"
+
+#include "MockCommandList.h"
+
+#include <algorithm>
+
+namespace Lantern
+{
+
+bool FMockHeap::Allocate(uint32_t& OutIndex)
+{
+	if (!Freed.empty())
+	{
+		OutIndex = Freed.back();
+		Freed.pop_back();
+		return true;
+	}
+	if (Next == Size)
+	{
+		return false;
+	}
+	OutIndex = Next++;
+	return true;
+}
+
+FRTStatus FMockState::Log(FRTMockCall Call)
+{
+	std::lock_guard Lock(Mutex);
+	if (LoseAt == Call.Kind)
+	{
+		bLost = true;
+		LoseAt.reset();
+	}
+	Calls.push_back(std::move(Call));
+	return bLost ? FRTStatus::Error(ERTResult::DeviceLost, "the device was lost (mock)") : FRTStatus::Success();
+}
+
+void FMockState::AddError(std::string Message)
+{
+	std::lock_guard Lock(Mutex);
+	Errors.push_back(std::move(Message));
+}
+
+uint64_t& FMockState::Count(EMockMemory Kind)
+{
+	switch (Kind)
+	{
+	case EMockMemory::Geometry: return Memory.Geometry;
+	case EMockMemory::Scene: return Memory.Scene;
+	case EMockMemory::ShaderTable: return Memory.ShaderTable;
+	case EMockMemory::Texture: return Memory.Texture;
+	case EMockMemory::Scratch: return Memory.Scratch;
+	case EMockMemory::None:
+	case EMockMemory::Buffer: break;
+	}
+	return Memory.Buffer;
+}
+
+FRTStatus FMockState::Allocate(EMockMemory Kind, uint64_t Bytes, const char* Name)
+{
+	std::lock_guard Lock(Mutex);
+	bool bFail = FailIn > 0 && --FailIn == 0;
+	if (FailEvery > 0 && ++SinceFail == FailEvery)
+	{
+		SinceFail = 0;
+		bFail = true;
+	}
+	if (bFail || Bytes > Desc.DeviceMemoryBytes - Memory.Total)
+	{
+		return FRTStatus::Error(ERTResult::OutOfDeviceMemory, "%s: no device memory for %llu bytes (mock%s)", Name,
+		                        static_cast<unsigned long long>(Bytes), bFail ? ", injected" : "");
+	}
+	Count(Kind) += Bytes;
+	Memory.Total += Bytes;
+	Memory.Peak = std::max(Memory.Peak, Memory.Total);
+	return FRTStatus::Success();
+}
+
+void FMockState::FreeMemory(EMockMemory Kind, uint64_t Bytes)
+{
+	std::lock_guard Lock(Mutex);
+	Count(Kind) -= Bytes;
+	Memory.Total -= Bytes;
+}
+
+uint64_t FMockState::TakeAddress(uint64_t Bytes)
+{
+	std::lock_guard Lock(Mutex);
+	const uint64_t Address = NextAddress;
+	// The gap makes one past the end of a buffer belong to nobody.
+	NextAddress += AlignUp(Bytes, 256) + 256;
+	return Address;
+}
+
+void FMockState::Add(FMockObject* Object)
+{
+	std::lock_guard Lock(Mutex);
+	Live.insert(Object);
+}
+
+void FMockState::Retire(FMockObject* Object)
+{
+	{
+		std::lock_guard Lock(Mutex);
+		Retired.emplace_back(Object, LastSubmitted);
+	}
+	Collect();
+}
+
+void FMockState::Collect()
+{
+	// Destroying one object may release others, which land in Retired again: until nothing is ready.
+	for (;;)
+	{
+		FMockObject* Object = nullptr;
+		{
+			std::lock_guard Lock(Mutex);
+			auto It = std::find_if(Retired.begin(), Retired.end(),
+			                       [&](const auto& Item) { return Item.second <= Completed; });
+			if (It == Retired.end())
+			{
+				return;
+			}
+			Object = It->first;
+			Retired.erase(It);
+			Live.erase(Object);
+			FRTMockCall Call;
+			Call.Kind = ERTMockCall::Destroy;
+			Call.Name = Object->Name;
+			Calls.push_back(std::move(Call));
+		}
+		// The destructor may drop the last owner of this state.
+		const std::shared_ptr<FMockState> Keep = Object->State;
+		if (Object->Memory != EMockMemory::None)
+		{
+			FreeMemory(Object->Memory, Object->MemoryBytes);
+		}
+		delete Object;
+	}
+}
+
+void FMockState::Complete(FRTFence UpTo)
+{
+	std::vector<FMockSubmission> Done;
+	{
+		std::lock_guard Execute(ExecuteMutex);
+		{
+			std::lock_guard Lock(Mutex);
+			while (!Pending.empty() && Pending.front().Fence <= UpTo)
+			{
+				Done.push_back(std::move(Pending.front()));
+				Pending.erase(Pending.begin());
+			}
+		}
+		for (FMockSubmission& Submission : Done)
+		{
+			for (TRTRef<FMockCommandList>& List : Submission.Lists)
+			{
+				List->Execute();
+			}
+			std::lock_guard Lock(Mutex);
+			Completed = std::max(Completed, Submission.Fence);
+		}
+	}
+	Done.clear();
+	Collect();
+}
+
+} // namespace Lantern

@@ -1,0 +1,127 @@
+// What device and objects of the mock share. Objects hold it by shared_ptr, so that one released after its
+// device (a leak, which a test reports) is no use after free.
+#pragma once
+
+#include "LanternRHIMock/MockDevice.h"
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+
+namespace Lantern
+{
+
+class FMockBuffer;
+class FMockGeometry;
+class FMockCommandList;
+
+enum class EMockMemory : uint8_t
+{
+	None,
+	Geometry,
+	Scene,
+	ShaderTable,
+	Texture,
+	Buffer,
+	Scratch
+};
+
+/// Common part of all objects; the interface part is TMockObject's.
+class FMockObject
+{
+public:
+	FMockObject(std::shared_ptr<FMockState> InState, const char* InType, const char* InName)
+	    : State(std::move(InState)),
+	      Type(InType),
+	      Name(InName ? InName : "")
+	{
+	}
+	virtual ~FMockObject() = default;
+	FMockObject(const FMockObject&) = delete;
+	FMockObject& operator=(const FMockObject&) = delete;
+
+	std::shared_ptr<FMockState> State;
+	const char* Type;
+	std::string Name;
+	EMockMemory Memory = EMockMemory::None;
+	uint64_t MemoryBytes = 0;
+};
+
+/// Indices of a bindless heap.
+class FMockHeap
+{
+public:
+	void SetSize(uint32_t InSize) { Size = InSize; }
+	bool Allocate(uint32_t& OutIndex);
+	void Free(uint32_t Index) { Freed.push_back(Index); }
+
+private:
+	uint32_t Size = 0;
+	uint32_t Next = 0;
+	std::vector<uint32_t> Freed;
+};
+
+struct FMockSubmission
+{
+	FRTFence Fence = 0;
+	std::vector<TRTRef<FMockCommandList>> Lists;
+};
+
+struct FMockState
+{
+	mutable std::mutex Mutex; ///< of everything below, except where noted
+	std::mutex ExecuteMutex;  ///< submissions execute one at a time, in order
+	FRTMockDesc Desc;
+	FRTCapabilities Capabilities;
+
+	std::vector<FRTMockCall> Calls;
+	std::vector<std::string> Errors;
+	std::set<FMockObject*> Live;
+	std::map<uint64_t, FMockBuffer*> Buffers; ///< by device address
+	std::map<uint64_t, FMockGeometry*> Geometries;
+	std::map<uint64_t, std::string> DeadGeometries; ///< addresses are never used twice
+	std::map<uint64_t, std::string> Pipelines;      ///< live, by the id in their handles
+	FMockHeap Sampled, Storage, Samplers, Scenes;
+	uint64_t NextAddress = 0x100000;
+	uint64_t NextPipeline = 1;
+	FRTMemoryStats Memory;
+
+	std::vector<FMockSubmission> Pending;
+	std::vector<std::pair<FMockObject*, FRTFence>> Retired;
+	FRTFence LastSubmitted = 0, Completed = 0;
+	uint64_t ClockNs = 1000; ///< guarded by ExecuteMutex
+	uint32_t BlockingWaits = 0;
+	bool bManual = false;
+
+	uint32_t FailIn = 0, FailEvery = 0, SinceFail = 0;
+	std::vector<std::pair<std::string, uint32_t>> Slow;
+	std::vector<std::string> Failing;
+	std::optional<ERTMockCall> LoseAt;
+	bool bLost = false;
+
+	/// Records the call, then says whether the device is (now) lost.
+	FRTStatus Log(FRTMockCall Call);
+	void AddError(std::string Message);
+	/// Counts an allocation: injected failures, then the budget.
+	FRTStatus Allocate(EMockMemory Kind, uint64_t Bytes, const char* Name);
+	uint64_t TakeAddress(uint64_t Bytes);
+	void Add(FMockObject* Object);
+	/// Last reference dropped: destroyed once all that has been submitted so far has finished.
+	void Retire(FMockObject* Object);
+	void Collect();
+	void Complete(FRTFence UpTo);
+	/// Gives the memory of a destroyed (or never finished) object back.
+	void FreeMemory(EMockMemory Kind, uint64_t Bytes);
+
+private:
+	uint64_t& Count(EMockMemory Kind);
+};
+
+constexpr uint64_t AlignUp(uint64_t Value, uint64_t Alignment)
+{
+	return (Value + Alignment - 1) / Alignment * Alignment;
+}
+
+} // namespace Lantern
