@@ -8,6 +8,7 @@
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
+#include <spirv-tools/optimizer.hpp>
 
 namespace Lantern
 {
@@ -100,13 +101,39 @@ std::string CleanLog(std::string_view Log)
 	return Out;
 }
 
+/// Drops what no driver should have to parse. glslang's own list (SpvOptions) begins by inlining everything, which
+/// every driver does again: a hit shader of 9,600 words took 75 ms with it and shrank by 17 %, with these passes
+/// 11 ms (7 ms of it glslang) and 7 %.
+void Optimize(std::vector<uint32_t>& Words)
+{
+	spvtools::Optimizer Optimizer(SPV_ENV_VULKAN_1_3);
+	Optimizer.SetMessageConsumer([](spv_message_level_t, const char*, const spv_position_t&, const char*) {});
+	Optimizer.RegisterPass(spvtools::CreateDeadBranchElimPass())
+	    .RegisterPass(spvtools::CreateLocalSingleBlockLoadStoreElimPass())
+	    .RegisterPass(spvtools::CreateLocalSingleStoreElimPass())
+	    .RegisterPass(spvtools::CreateSimplificationPass())
+	    .RegisterPass(spvtools::CreateDeadBranchElimPass())
+	    .RegisterPass(spvtools::CreateAggressiveDCEPass())
+	    .RegisterPass(spvtools::CreateBlockMergePass())
+	    .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass());
+	spvtools::OptimizerOptions Options;
+	Options.set_run_validator(false);
+	std::vector<uint32_t> Smaller;
+	if (Optimizer.Run(Words.data(), Words.size(), &Smaller, Options) && !Smaller.empty())
+	{
+		Words = std::move(Smaller);
+	}
+}
+
 } // namespace
 
 std::string GetGlslangVersion()
 {
+	constexpr int PassesVersion = 1; // to be raised when Optimize changes
 	const glslang::Version Version = glslang::GetVersion();
-	return fmt::format("glslang {}.{}.{}{} generator {} Vulkan 1.3 SPIR-V 1.5", Version.major, Version.minor,
-	                   Version.patch, Version.flavor ? Version.flavor : "", glslang::GetSpirvGeneratorVersion());
+	return fmt::format("glslang {}.{}.{}{} generator {} Vulkan 1.3 SPIR-V 1.5 {} passes {}", Version.major,
+	                   Version.minor, Version.patch, Version.flavor ? Version.flavor : "",
+	                   glslang::GetSpirvGeneratorVersion(), spvSoftwareVersionString(), PassesVersion);
 }
 
 bool CompileWithGlslang(const FGlslangJob& Job, std::vector<uint32_t>& OutWords, std::string& OutLog)
@@ -149,13 +176,15 @@ bool CompileWithGlslang(const FGlslangJob& Job, std::vector<uint32_t>& OutWords,
 	}
 	glslang::SpvOptions Options;
 	Options.generateDebugInfo = Job.bDebugInfo;
-	Options.disableOptimizer = !Job.bOptimize;
-	// For GLSL, glslang runs its list of SPIRV-Tools passes only when asked for size.
-	Options.optimizeSize = Job.bOptimize;
+	Options.disableOptimizer = true;
 	spv::SpvBuildLogger Logger;
 	std::vector<unsigned int> Words;
 	glslang::GlslangToSpv(*Program.getIntermediate(Stage), Words, &Logger, &Options);
 	OutWords.assign(Words.begin(), Words.end());
+	if (Job.bOptimize)
+	{
+		Optimize(OutWords);
+	}
 	OutLog = CleanLog(std::string(Shader.getInfoLog()) + Logger.getAllMessages());
 	if (OutWords.empty())
 	{
