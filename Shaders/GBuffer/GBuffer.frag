@@ -1,0 +1,43 @@
+#version 460
+#define MATERIAL_IMPLICIT_LOD
+#include "../Shared/GBufferTypes.h"
+#include "../Materials/Standard.glsl"
+
+layout(push_constant, scalar) uniform FPush { FGBufferConstants Push; };
+
+layout(location = 0) in vec3 InRelative;
+layout(location = 1) in vec3 InNormal;
+layout(location = 2) in vec4 InTangent;
+layout(location = 3) in vec4 InUV;
+layout(location = 4) in vec4 InColor;
+
+layout(location = 0) out vec4 OutNormals;   // shading and geometric normal, octahedral
+layout(location = 1) out vec4 OutBaseColor; // a: metallic
+layout(location = 2) out vec4 OutMaterial;  // roughness, occlusion, sqrt(F0), specular
+layout(location = 3) out vec4 OutEmissive;
+
+void main()
+{
+	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
+	FSectionData Section = FSectionRef(Scene.Sections).Data[Push.Section];
+	FMaterialInputs Inputs;
+	Inputs.Normal = InNormal;
+	Inputs.Tangent = InTangent;
+	Inputs.UV0 = InUV.xy;
+	Inputs.UV1 = InUV.zw;
+	Inputs.Color = InColor;
+	FMaterialData Material = FMaterialRef(Scene.Materials).Data[Section.Material];
+	FMaterialSurface Surface = EvaluateMaterial(Material, Inputs, Scene.MaterialOverride);
+	vec3 Ng = normalize(cross(dFdx(InRelative), dFdy(InRelative)));
+#ifdef MASKED
+	if (Scene.MaterialOverride != 2u && Surface.Opacity < Material.AlphaCutoff) { discard; }
+#endif
+	// Both normals towards the camera, as the hit shaders do.
+	if (dot(Ng, InRelative) > 0.0) { Ng = -Ng; }
+	if (!gl_FrontFacing) { Surface.Normal = -Surface.Normal; }
+
+	OutNormals = vec4(OctEncode(Surface.Normal), OctEncode(Ng));
+	OutBaseColor = vec4(Surface.BaseColor, Surface.Metallic);
+	OutMaterial = vec4(Surface.Roughness, Surface.Occlusion, sqrt(Surface.F0), Surface.Specular);
+	OutEmissive = vec4(Surface.Emissive, 0.0);
+}

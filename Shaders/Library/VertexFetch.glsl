@@ -1,0 +1,87 @@
+// From a section and a triangle to interpolated attributes: once, for hit shaders, ray queries and raster.
+#ifndef LANTERN_VERTEX_FETCH_GLSL
+#define LANTERN_VERTEX_FETCH_GLSL
+
+#include "Bindings.glsl"
+#include "Math.glsl"
+
+// What EvaluateMaterial gets. World space, relative to the scene's origin.
+struct FMaterialInputs
+{
+	vec3 Normal;  // interpolated, towards the front face
+	vec4 Tangent; // w: sign of the bitangent; 0: the vertices have none
+	vec2 UV0, UV1;
+	vec4 Color;
+};
+
+uvec3 FetchTriangle(FSectionData Section, uint Primitive)
+{
+	if ((Section.Flags & SECTION_INDEX_16) == 0u)
+	{
+		FIndex32Ref Indices = FIndex32Ref(Section.Indices);
+		return uvec3(Indices.Data[3 * Primitive], Indices.Data[3 * Primitive + 1], Indices.Data[3 * Primitive + 2]);
+	}
+	uint First = 3 * Primitive;
+	FIndex16Ref Indices = FIndex16Ref(Section.Indices);
+	uint A = Indices.Data[First >> 1], B = Indices.Data[(First + 2) >> 1];
+	return (First & 1u) == 0u ? uvec3(A & 0xffffu, A >> 16, B & 0xffffu) : uvec3(A >> 16, B & 0xffffu, B >> 16);
+}
+
+FMaterialInputs InputsFromVertex(FVertexAttributes V, uint SectionFlags)
+{
+	FMaterialInputs I;
+	I.Normal = UnpackOct(V.Normal);
+	I.Tangent = vec4(0.0);
+	if ((SectionFlags & SECTION_TANGENTS) != 0u)
+	{
+		I.Tangent = vec4(UnpackOct(V.Tangent), (V.Tangent & 0x10000u) != 0u ? -1.0 : 1.0);
+	}
+	I.UV0 = V.UV0;
+	I.UV1 = V.UV1;
+	I.Color = unpackUnorm4x8(V.Color);
+	return I;
+}
+
+// Only what the alpha test needs.
+FMaterialInputs FetchCoverageInputs(FSectionData Section, uint Primitive, vec2 Barycentrics)
+{
+	uvec3 T = FetchTriangle(Section, Primitive);
+	FAttributeRef A = FAttributeRef(Section.Attributes);
+	vec3 W = vec3(1.0 - Barycentrics.x - Barycentrics.y, Barycentrics);
+	FMaterialInputs I;
+	I.Normal = vec3(0.0);
+	I.Tangent = vec4(0.0);
+	I.UV0 = W.x * A.Data[T.x].UV0 + W.y * A.Data[T.y].UV0 + W.z * A.Data[T.z].UV0;
+	I.UV1 = W.x * A.Data[T.x].UV1 + W.y * A.Data[T.y].UV1 + W.z * A.Data[T.z].UV1;
+	I.Color = W.x * unpackUnorm4x8(A.Data[T.x].Color) + W.y * unpackUnorm4x8(A.Data[T.y].Color) + W.z * unpackUnorm4x8(A.Data[T.z].Color);
+	return I;
+}
+
+// All of it, still in object space.
+FMaterialInputs FetchInputs(FSectionData Section, uint Primitive, vec2 Barycentrics)
+{
+	uvec3 T = FetchTriangle(Section, Primitive);
+	FAttributeRef A = FAttributeRef(Section.Attributes);
+	FMaterialInputs I0 = InputsFromVertex(A.Data[T.x], Section.Flags);
+	FMaterialInputs I1 = InputsFromVertex(A.Data[T.y], Section.Flags);
+	FMaterialInputs I2 = InputsFromVertex(A.Data[T.z], Section.Flags);
+	vec3 W = vec3(1.0 - Barycentrics.x - Barycentrics.y, Barycentrics);
+	FMaterialInputs I;
+	I.Normal = W.x * I0.Normal + W.y * I1.Normal + W.z * I2.Normal;
+	I.Tangent = vec4(W.x * I0.Tangent.xyz + W.y * I1.Tangent.xyz + W.z * I2.Tangent.xyz, I0.Tangent.w);
+	I.UV0 = W.x * I0.UV0 + W.y * I1.UV0 + W.z * I2.UV0;
+	I.UV1 = W.x * I0.UV1 + W.y * I1.UV1 + W.z * I2.UV1;
+	I.Color = W.x * I0.Color + W.y * I1.Color + W.z * I2.Color;
+	return I;
+}
+
+void FetchPositions(FSectionData Section, uint Primitive, out vec3 P0, out vec3 P1, out vec3 P2)
+{
+	uvec3 T = FetchTriangle(Section, Primitive);
+	FPositionRef P = FPositionRef(Section.Positions);
+	P0 = P.Data[T.x];
+	P1 = P.Data[T.y];
+	P2 = P.Data[T.z];
+}
+
+#endif

@@ -1,0 +1,7 @@
+#version 460
+#extension GL_EXT_ray_tracing : require
+#include "MaterialPayload.glsl"
+
+layout(location = 0) rayPayloadInEXT FMaterialPayload Payload;
+
+void main() { Payload.Distance = -1.0; }

@@ -1,0 +1,33 @@
+// A shadow ray without a pipeline. HAS_MASKED: the scene has alpha-tested sections, whose test runs here.
+#ifndef LANTERN_QUERY_SHADOW_GLSL
+#define LANTERN_QUERY_SHADOW_GLSL
+
+#include "../Library/Bindings.glsl"
+#ifdef HAS_MASKED
+#include "../Materials/Standard.glsl"
+#endif
+
+layout(set = 0, binding = 3) uniform accelerationStructureEXT Scenes[];
+
+bool QueryVisible(FSceneConstants Scene, uint Flags, uint Mask, vec3 Origin, vec3 Direction, float MaxDistance)
+{
+	rayQueryEXT Query;
+	rayQueryInitializeEXT(Query, Scenes[Scene.Tlas], Flags | gl_RayFlagsTerminateOnFirstHitEXT, Mask, Origin, 0.0, Direction, MaxDistance);
+	while (rayQueryProceedEXT(Query))
+	{
+#ifdef HAS_MASKED
+		if (rayQueryGetIntersectionTypeEXT(Query, false) != gl_RayQueryCandidateIntersectionTriangleEXT) { continue; }
+		uint Object = rayQueryGetIntersectionInstanceCustomIndexEXT(Query, false);
+		uint SectionIndex = FObjectRef(Scene.Objects).Data[Object].FirstSection + rayQueryGetIntersectionGeometryIndexEXT(Query, false);
+		FSectionData Section = FSectionRef(Scene.Sections).Data[SectionIndex];
+		FMaterialInputs Inputs = FetchCoverageInputs(Section, rayQueryGetIntersectionPrimitiveIndexEXT(Query, false),
+		                                             rayQueryGetIntersectionBarycentricsEXT(Query, false));
+		if (!IsCutAway(FMaterialRef(Scene.Materials).Data[Section.Material], Inputs)) { rayQueryConfirmIntersectionEXT(Query); }
+#else
+		rayQueryConfirmIntersectionEXT(Query);
+#endif
+	}
+	return rayQueryGetIntersectionTypeEXT(Query, true) == gl_RayQueryCommittedIntersectionNoneEXT;
+}
+
+#endif

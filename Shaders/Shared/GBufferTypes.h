@@ -1,0 +1,40 @@
+#ifndef LANTERN_GBUFFER_TYPES_H
+#define LANTERN_GBUFFER_TYPES_H
+
+#include "SceneTypes.h"
+
+LANTERN_SHARED_BEGIN
+
+struct FGBufferConstants
+{
+	FPassConstants Pass;
+	uint Object;
+	uint Section;
+};
+LANTERN_ASSERT_SIZE(FGBufferConstants, 24);
+
+struct FSkinConstants
+{
+	FAddress SourcePositions;
+	FAddress SourceAttributes;
+	FAddress Weights; // FSkinVertex[]
+	FAddress Joints;  // mat4[]
+	FAddress Positions;
+	FAddress Attributes;
+	uint VertexCount;
+	uint Pad;
+};
+LANTERN_ASSERT_SIZE(FSkinConstants, 56);
+
+struct FSkinVertex
+{
+	uint Joints01, Joints23; // 16 bits each
+	vec4 Weights;            // sum 1
+};
+LANTERN_ASSERT_SIZE(FSkinVertex, 24);
+
+#define SKIN_GROUP_SIZE 64
+
+LANTERN_SHARED_END
+
+#endif

@@ -1,0 +1,29 @@
+#ifndef LANTERN_LIGHTING_TYPES_H
+#define LANTERN_LIGHTING_TYPES_H
+
+#include "SceneTypes.h"
+
+LANTERN_SHARED_BEGIN
+
+#define LIGHTING_GROUP_SIZE 8
+
+struct FLightingConstants
+{
+	FPassConstants Pass;
+	uint Depth, Normals, BaseColor, Material, Emissive; // sampled indices
+	uint SunShadow;                                     // sampled index, or NO_TEXTURE: unshadowed
+	uint Output;                                        // storage index
+};
+LANTERN_ASSERT_SIZE(FLightingConstants, 48);
+
+struct FToneMapConstants
+{
+	FPassConstants Pass;
+	uint Input;  // sampled index
+	uint Output; // storage index
+};
+LANTERN_ASSERT_SIZE(FToneMapConstants, 24);
+
+LANTERN_SHARED_END
+
+#endif

@@ -1,0 +1,170 @@
+// What shaders know of the scene. One name on both sides.
+#ifndef LANTERN_SCENE_TYPES_H
+#define LANTERN_SCENE_TYPES_H
+
+#include "SharedTypes.h"
+
+LANTERN_SHARED_BEGIN
+
+// Vertex data beside the position (which has a buffer of its own: float3, 12 bytes).
+struct FVertexAttributes
+{
+	uint Normal;  // octahedral, 2 × snorm16 (Cigolle et al. 2014)
+	uint Tangent; // octahedral, 2 × snorm16; the lowest bit of y holds the sign of the bitangent (1: −)
+	vec2 UV0;
+	vec2 UV1;
+	uint Color; // unorm8 × 4, linear
+};
+LANTERN_ASSERT_SIZE(FVertexAttributes, 28);
+
+// FSectionData::Flags
+#define SECTION_INDEX_16 1u      // indices are 16 bits wide (else 32)
+#define SECTION_MASKED 2u        // alpha-tested
+#define SECTION_DOUBLE_SIDED 4u
+#define SECTION_TANGENTS 8u      // the vertices carry tangents
+#define SECTION_LIGHT 16u        // its triangles are in the list of emissive triangles
+
+// One section of an object: which triangles, and what they are made of. The local data of a hit record, and
+// an entry of the section table that inline ray queries read.
+struct FSectionData
+{
+	FAddress Positions;  // float3[]
+	FAddress Attributes; // FVertexAttributes[]
+	FAddress Indices;
+	uint Material; // index into FMaterialData[]
+	uint Flags;
+};
+LANTERN_ASSERT_SIZE(FSectionData, 32);
+
+// FMaterialData::Flags
+#define MATERIAL_MASKED 1u
+#define MATERIAL_DOUBLE_SIDED 2u
+
+#define NO_TEXTURE 0xffffffffu
+
+// A texture with its sampler: sampled index in the low 24 bits, sampler index in the high 8; or NO_TEXTURE.
+// Bit i of UVSets: which texture coordinate set slot i uses.
+#define TEXTURE_BASE_COLOR 0
+#define TEXTURE_METALLIC_ROUGHNESS 1
+#define TEXTURE_NORMAL 2
+#define TEXTURE_OCCLUSION 3
+#define TEXTURE_EMISSIVE 4
+#define TEXTURE_SLOTS 5
+
+// glTF 2.0 metallic-roughness, with the extensions emissive_strength, ior, specular, transmission, texture_transform.
+struct FMaterialData
+{
+	vec4 BaseColor; // linear; a: opacity
+	vec3 Emissive;  // nits, strength included
+	float Metallic;
+	float Roughness; // perceptual
+	float NormalScale;
+	float OcclusionStrength;
+	float AlphaCutoff;
+	float Ior;
+	float Specular; // KHR_materials_specular: specularFactor
+	float Transmission;
+	uint Flags;
+	uint UVSets;
+	uint Textures[TEXTURE_SLOTS];
+	vec4 UVTransform[TEXTURE_SLOTS]; // 2×2 matrix, rows xy and zw …
+	vec2 UVOffset[TEXTURE_SLOTS];    // … and translation
+	float EmissiveWeight; // luminance of the mean emission, rounded to fp16: sets the density of light sampling
+};
+LANTERN_ASSERT_SIZE(FMaterialData, 212);
+
+// One object, as instances refer to it by custom index.
+struct FObjectData
+{
+	vec4 ObjectToWorld[3]; // rows; relative to the scene's origin
+	uint FirstSection;     // into FSectionData[]
+	uint Flags;            // OBJECT_…
+};
+LANTERN_ASSERT_SIZE(FObjectData, 56);
+
+#define OBJECT_MIRRORED 1u // negative determinant: front faces appear clockwise
+
+#define LIGHT_POINT 0u
+#define LIGHT_SPOT 1u
+#define LIGHT_DIRECTIONAL 2u
+
+// A punctual light, KHR_lights_punctual.
+struct FLightData
+{
+	vec3 Position; // relative to the scene's origin
+	uint Type;
+	vec3 Direction; // in which the light travels
+	float Range;    // metres; 0: unlimited
+	vec3 Color;     // intensity included: cd, or lux where directional
+	float SpotScale; // angular attenuation: saturate(cos · scale + offset)²
+	float SpotOffset;
+	float AngularRadius; // radians, directional only
+	uint Pad0, Pad1;
+};
+LANTERN_ASSERT_SIZE(FLightData, 64);
+
+// A triangle that emits, for next-event estimation.
+struct FEmissiveTriangle
+{
+	vec3 P0;
+	float CumulativePower; // normalised: the last one is 1
+	vec3 P1;
+	uint Object;
+	vec3 P2;
+	uint Section; // into FSectionData[]
+	uint Primitive;
+	uint Pad0, Pad1, Pad2;
+};
+LANTERN_ASSERT_SIZE(FEmissiveTriangle, 64);
+
+// The scene as passes see it: one block a frame.
+struct FSceneConstants
+{
+	FAddress Objects;   // FObjectData[]
+	FAddress Sections;  // FSectionData[]
+	FAddress Materials; // FMaterialData[]
+	FAddress Lights;    // FLightData[]
+	FAddress EmissiveTriangles;
+	uint LightCount;
+	uint EmissiveTriangleCount;
+	float EmissivePower; // sum of weight · area
+	uint Tlas;           // index in the bindless heap
+	vec3 SunDirection;   // in which its light travels
+	float SunIrradiance; // on a plane that faces it, lux
+	vec3 SunColor;
+	float SunOneMinusCos; // 1 − cosine of its angular radius; 0: a point
+	vec3 SkyRadiance;
+	uint MaterialOverride; // r.RT.Material.Override
+};
+LANTERN_ASSERT_SIZE(FSceneConstants, 104);
+
+// A camera. Positions are relative to the scene's origin.
+struct FViewConstants
+{
+	mat4 RelativeToClip; // of positions relative to the camera; reversed, infinite depth
+	vec3 CameraPosition;
+	float TanHalfFovY;
+	vec3 CameraRight;
+	float Aspect;
+	vec3 CameraUp;
+	float Near;
+	vec3 CameraForward;
+	uint FrameIndex;
+	uint Width;
+	uint Height;
+	uint Seed;
+	float Exposure; // factor, not stops
+};
+LANTERN_ASSERT_SIZE(FViewConstants, 144);
+
+// First push constants of every pass; a pass's own follow.
+struct FPassConstants
+{
+	FAddress Scene; // FSceneConstants
+	FAddress View;  // FViewConstants
+};
+LANTERN_ASSERT_SIZE(FPassConstants, 16);
+
+LANTERN_SHARED_END
+
+#endif

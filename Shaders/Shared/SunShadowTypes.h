@@ -1,0 +1,26 @@
+#ifndef LANTERN_SUN_SHADOW_TYPES_H
+#define LANTERN_SUN_SHADOW_TYPES_H
+
+#include "SceneTypes.h"
+
+LANTERN_SHARED_BEGIN
+
+#define SUN_SHADOW_GROUP_SIZE 8 // threads in x and y of the ray-query path
+
+struct FSunShadowConstants
+{
+	FPassConstants Pass;
+	uint Depth;   // sampled index
+	uint Normals; // sampled index: shading and geometric normal, both octahedral
+	uint Output;  // storage index
+	uint SamplesPerPixel;
+	float MaxDistance; // metres
+	uint RayFlags;     // gl_RayFlags… beside those that the pass needs
+	uint InstanceMask;
+	uint FrameIndex;
+};
+LANTERN_ASSERT_SIZE(FSunShadowConstants, 48);
+
+LANTERN_SHARED_END
+
+#endif

@@ -1,0 +1,31 @@
+// Linear blend skinning into buffers of the object's own (glTF 2.0, 3.7.3.3).
+#version 460
+#include "../Shared/GBufferTypes.h"
+#include "../Library/Bindings.glsl"
+#include "../Library/Math.glsl"
+
+layout(local_size_x = SKIN_GROUP_SIZE) in;
+layout(push_constant, scalar) uniform FPush { FSkinConstants Push; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FSkinVertexRef { FSkinVertex Data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FJointRef { mat4 Data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer FPositionOut { vec3 Data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer FAttributeOut { FVertexAttributes Data[]; };
+
+void main()
+{
+	uint Vertex = gl_GlobalInvocationID.x;
+	if (Vertex >= Push.VertexCount) { return; }
+	FSkinVertex Skin = FSkinVertexRef(Push.Weights).Data[Vertex];
+	FJointRef Joints = FJointRef(Push.Joints);
+	mat4 M = Joints.Data[Skin.Joints01 & 0xffffu] * Skin.Weights.x + Joints.Data[Skin.Joints01 >> 16] * Skin.Weights.y +
+	         Joints.Data[Skin.Joints23 & 0xffffu] * Skin.Weights.z + Joints.Data[Skin.Joints23 >> 16] * Skin.Weights.w;
+	FPositionOut(Push.Positions).Data[Vertex] = (M * vec4(FPositionRef(Push.SourcePositions).Data[Vertex], 1.0)).xyz;
+
+	FVertexAttributes A = FAttributeRef(Push.SourceAttributes).Data[Vertex];
+	mat3 L = mat3(M);
+	mat3 Cofactors = mat3(cross(L[1], L[2]), cross(L[2], L[0]), cross(L[0], L[1]));
+	A.Normal = PackOct(normalize(Cofactors * UnpackOct(A.Normal)));
+	uint Sign = A.Tangent & 0x10000u;
+	A.Tangent = (PackOct(normalize(L * UnpackOct(A.Tangent))) & ~0x10000u) | Sign;
+	FAttributeOut(Push.Attributes).Data[Vertex] = A;
+}
