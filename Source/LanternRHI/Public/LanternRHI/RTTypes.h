@@ -431,7 +431,7 @@ struct FRTSceneDesc
 
 /// Bits of FRTInstance::Flags.
 inline constexpr uint8_t InstanceCullDisable = 1;
-inline constexpr uint8_t InstanceFrontIsClockwise = 2;
+inline constexpr uint8_t InstanceFrontIsCounterClockwise = 2; ///< Vulkan's default is clockwise, glTF's winding the other; decided in object space
 inline constexpr uint8_t InstanceForceOpaque = 4;
 inline constexpr uint8_t InstanceForceNoOpaque = 8;
 
