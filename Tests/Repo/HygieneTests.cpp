@@ -1,0 +1,131 @@
+// Sizes, and words that must not be published.
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "Repository.h"
+
+namespace Lantern::Repo
+{
+namespace
+{
+
+constexpr size_t MaxFileLines = 500;
+constexpr size_t LongFunctionLines = 60; ///< reported
+constexpr size_t MaxFunctionLines = 100; ///< refused
+
+bool IsCode(const FTextFile& File)
+{
+	return IsCpp(File) || (IsUnder(File, "Shaders") && File.Path.find(".md") == std::string::npos);
+}
+
+bool StartsWith(std::string_view Line, std::string_view Word)
+{
+	return Line.substr(0, Word.size()) == Word;
+}
+
+bool OpensFunction(std::string_view LineBefore)
+{
+	for (const char* Word : {"namespace", "struct", "class", "enum", "union", "extern", "template"})
+	{
+		if (StartsWith(LineBefore, Word) && LineBefore.find('(') == std::string_view::npos)
+		{
+			return false;
+		}
+	}
+	return !LineBefore.empty() && LineBefore.find('=') == std::string_view::npos;
+}
+
+struct FFunction
+{
+	std::string Place;
+	size_t LineCount = 0;
+};
+
+/// Bodies whose braces stand in the first column, as .clang-format puts those of functions outside classes.
+std::vector<FFunction> FindFunctions(const FTextFile& File)
+{
+	std::vector<FFunction> Functions;
+	size_t Begin = 0;
+	bool bInside = false;
+	for (size_t Line = 1; Line < File.Lines.size(); ++Line)
+	{
+		if (File.Lines[Line] == "{" && OpensFunction(File.Lines[Line - 1]))
+		{
+			Begin = Line;
+			bInside = true;
+		}
+		else if (bInside && StartsWith(File.Lines[Line], "}"))
+		{
+			Functions.push_back({At(File, Begin), Line - Begin - 1});
+			bInside = false;
+		}
+	}
+	return Functions;
+}
+
+TEST(Hygiene, FilesStayShort)
+{
+	for (const FTextFile& File : GetFiles())
+	{
+		if (IsCode(File))
+		{
+			EXPECT_LE(File.Lines.size(), MaxFileLines) << File.Path << ": one idea per file; split it";
+		}
+	}
+}
+
+TEST(Hygiene, FunctionsStayShort)
+{
+	size_t Seen = 0;
+	for (const FTextFile& File : GetFiles())
+	{
+		for (const FFunction& Function : IsCode(File) ? FindFunctions(File) : std::vector<FFunction>())
+		{
+			++Seen;
+			EXPECT_LE(Function.LineCount, MaxFunctionLines) << Function.Place;
+			if (Function.LineCount > LongFunctionLines)
+			{
+				std::printf("long: %s, %zu lines\n", Function.Place.c_str(), Function.LineCount);
+			}
+		}
+	}
+	EXPECT_GT(Seen, 50u) << "the search for functions no longer finds them";
+}
+
+TEST(Hygiene, NoPathsOrHostsOfOneMachine)
+{
+	// Written in two parts so that this file does not find itself.
+	const std::vector<std::string> Forbidden = {std::string("/wo") + "rk/",      std::string("/ro") + "ot/",
+	                                            std::string("/ho") + "me/",      std::string("/var/") + "tmp",
+	                                            std::string("debian") + ".org",  std::string("ubuntu") + ".com",
+	                                            std::string("snapshot.") + "deb"};
+	for (const FTextFile& File : GetFiles())
+	{
+		for (const std::string& Word : Forbidden)
+		{
+			for (size_t Line = 0; File.Text.find(Word) != std::string::npos && Line < File.Lines.size(); ++Line)
+			{
+				EXPECT_EQ(File.Lines[Line].find(Word), std::string_view::npos) << At(File, Line) << ": " << Word;
+			}
+		}
+	}
+}
+
+TEST(Hygiene, TextFilesEndWithOneNewlineAndNoCarriageReturns)
+{
+	for (const FTextFile& File : GetFiles())
+	{
+		if (!IsCode(File) || File.Text.empty())
+		{
+			continue;
+		}
+		EXPECT_EQ(File.Text.back(), '\n') << File.Path;
+		EXPECT_EQ(File.Text.find('\r'), std::string::npos) << File.Path;
+	}
+}
+
+} // namespace
+} // namespace Lantern::Repo
