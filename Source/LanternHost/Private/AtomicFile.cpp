@@ -1,0 +1,152 @@
+#include "LanternHost/AtomicFile.h"
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <system_error>
+
+#include <unistd.h>
+
+namespace Lantern
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+constexpr size_t LongestShownPath = 256;
+
+std::string DescribeErrno(int Error)
+{
+	return std::generic_category().message(Error);
+}
+
+/// What is to be renamed over: through a symbolic link, so that the link survives.
+fs::path ResolveTarget(const std::string& Path)
+{
+	std::error_code Error;
+	if (fs::is_symlink(Path, Error))
+	{
+		const fs::path Target = fs::weakly_canonical(Path, Error);
+		return Error ? fs::path(Path) : Target;
+	}
+	return Path;
+}
+
+fs::path GetFolder(const fs::path& File)
+{
+	const fs::path Folder = File.parent_path();
+	return Folder.empty() ? fs::path(".") : Folder;
+}
+
+/// In the same folder, since a rename works within one file system only; short, since Path may have the longest
+/// name that there is.
+fs::path MakeTemporaryPath(const fs::path& Target)
+{
+	static std::atomic<unsigned> Counter{0};
+	return GetFolder(Target) /
+	       (".lantern-" + std::to_string(getpid()) + "-" + std::to_string(Counter.fetch_add(1)) + ".tmp");
+}
+
+FRTStatus CallGuarded(const std::string& Path, const std::function<FRTStatus(const std::string&)>& Write,
+                      const std::string& Temporary)
+{
+	try
+	{
+		return Write(Temporary);
+	}
+	catch (const std::exception& Exception)
+	{
+		return MakeFileError(ERTResult::IoError, Path, Exception.what());
+	}
+}
+
+FRTStatus WriteBytes(const std::string& Path, const std::string& Temporary, std::string_view Bytes)
+{
+	std::FILE* File = std::fopen(Temporary.c_str(), "wb");
+	if (!File)
+	{
+		return MakeFileError(ERTResult::IoError, Path, "cannot be written: " + DescribeErrno(errno));
+	}
+	bool bWritten = std::fwrite(Bytes.data(), 1, Bytes.size(), File) == Bytes.size();
+	int Error = errno;
+	if (std::fclose(File) != 0 && bWritten)
+	{
+		bWritten = false;
+		Error = errno;
+	}
+	return bWritten ? FRTStatus::Success()
+	                : MakeFileError(ERTResult::IoError, Path, "cannot be written: " + DescribeErrno(Error));
+}
+
+} // namespace
+
+FRTStatus MakeFileError(ERTResult Code, const std::string& Path, const std::string& Reason)
+{
+	std::string Shown = Path;
+	if (Shown.size() > LongestShownPath)
+	{
+		Shown = Shown.substr(0, LongestShownPath / 2) + "..." + Shown.substr(Shown.size() - LongestShownPath / 2);
+	}
+	return FRTStatus::Error(Code, "%s: %s", Shown.c_str(), Reason.c_str());
+}
+
+FRTStatus CheckOutputPath(const std::string& Path)
+{
+	std::error_code Error;
+	const fs::path Target = ResolveTarget(Path);
+	const fs::path Folder = GetFolder(Target);
+	if (!fs::is_directory(Folder, Error))
+	{
+		return MakeFileError(ERTResult::IoError, Path, "cannot be written: its folder does not exist");
+	}
+	const fs::file_status Status = fs::status(Target, Error);
+	if (fs::is_directory(Status))
+	{
+		return MakeFileError(ERTResult::IoError, Path, "cannot be written: it is a folder");
+	}
+	if (fs::exists(Status) && !fs::is_regular_file(Status))
+	{
+		return MakeFileError(ERTResult::IoError, Path, "cannot be written: it is not a regular file");
+	}
+	if (access(Folder.c_str(), W_OK | X_OK) != 0)
+	{
+		return MakeFileError(ERTResult::IoError, Path, "cannot be written: " + DescribeErrno(errno));
+	}
+	return FRTStatus::Success();
+}
+
+FRTStatus WriteFileAtomically(const std::string& Path,
+                              const std::function<FRTStatus(const std::string& TemporaryPath)>& Write)
+{
+	if (FRTStatus Status = CheckOutputPath(Path); !Status)
+	{
+		return Status;
+	}
+	const fs::path Target = ResolveTarget(Path);
+	const fs::path Temporary = MakeTemporaryPath(Target);
+	std::error_code Ignored;
+	FRTStatus Status = CallGuarded(Path, Write, Temporary.string());
+	if (Status)
+	{
+		std::error_code Error;
+		fs::rename(Temporary, Target, Error);
+		if (!Error)
+		{
+			return FRTStatus::Success();
+		}
+		Status = MakeFileError(ERTResult::IoError, Path, "cannot be written: " + Error.message());
+	}
+	fs::remove(Temporary, Ignored);
+	return Status;
+}
+
+FRTStatus WriteFileAtomically(const std::string& Path, std::string_view Bytes)
+{
+	return WriteFileAtomically(Path, [&](const std::string& Temporary) { return WriteBytes(Path, Temporary, Bytes); });
+}
+
+} // namespace Lantern
