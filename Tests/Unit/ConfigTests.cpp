@@ -246,7 +246,8 @@ TEST(ShippedConfig, Parses)
 TEST(ShippedConfig, EveryGroupSetsTheSameVariablesAtEveryLevel)
 {
 	std::map<std::string, std::map<std::string, std::set<std::string>>> Groups;
-	for (const FIniSection& Section : FIniFile::Load(Shipped.GetScalability()).GetSections())
+	const FIniFile File = FIniFile::Load(Shipped.GetScalability());
+	for (const FIniSection& Section : File.GetSections())
 	{
 		const size_t At = Section.Name.find('@');
 		ASSERT_NE(At, std::string::npos);

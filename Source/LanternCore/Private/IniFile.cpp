@@ -266,7 +266,7 @@ FIniFile FIniFile::Load(const std::string& Path)
 	return File;
 }
 
-const FIniSection* FIniFile::FindSection(std::string_view SectionName) const
+const FIniSection* FIniFile::FindSection(std::string_view SectionName) const&
 {
 	const auto Place = SectionByName.find(FoldCase(SectionName));
 	return Place == SectionByName.end() ? nullptr : &Sections[Place->second];

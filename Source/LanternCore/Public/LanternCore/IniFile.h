@@ -64,8 +64,10 @@ public:
 
 	const std::string& GetName() const { return Name; }
 	/// In the order of their first headers.
-	const std::vector<FIniSection>& GetSections() const { return Sections; }
-	const FIniSection* FindSection(std::string_view SectionName) const;
+	const std::vector<FIniSection>& GetSections() const& { return Sections; }
+	const std::vector<FIniSection>& GetSections() && = delete; // for (… : FIniFile::Load(…).GetSections()) dangles
+	const FIniSection* FindSection(std::string_view SectionName) const&;
+	const FIniSection* FindSection(std::string_view SectionName) && = delete;
 	/// "Name:line: text", in order of lines.
 	const std::vector<std::string>& GetProblems() const { return Problems; }
 	/// "Name:line"
