@@ -128,9 +128,9 @@ TEST(Flip, TinyAndThinImagesStayInRange)
 TEST(Flip, AnErrorStaysWhereItIs)
 {
 	const FImage Reference(64, 64, 3, EImageSpace::Display);
-	FImage Test = Reference;
-	Test.At(20, 40, 1) = 1.0f;
-	const FFlipResult Result = ComputeFlip(Test, Reference);
+	FImage Changed = Reference;
+	Changed.At(20, 40, 1) = 1.0f;
+	const FFlipResult Result = ComputeFlip(Changed, Reference);
 	EXPECT_GT(Result.Map.At(20, 40, 0), 0.1f);
 	// The widest filter reaches ten pixels.
 	EXPECT_EQ(Result.Map.At(31, 40, 0), 0.0f);
@@ -140,7 +140,7 @@ TEST(Flip, AnErrorStaysWhereItIs)
 TEST(Flip, SmallerOnScreenIsLessVisible)
 {
 	FImage Reference(64, 64, 3, EImageSpace::Display);
-	FImage Test = Reference;
+	FImage Changed = Reference;
 	for (uint32_t Y = 0; Y < 64; ++Y)
 	{
 		for (uint32_t X = 0; X < 64; ++X)
@@ -148,12 +148,12 @@ TEST(Flip, SmallerOnScreenIsLessVisible)
 			for (uint32_t Channel = 0; Channel < 3; ++Channel)
 			{
 				Reference.At(X, Y, Channel) = (X + Y) % 2 == 0 ? 0.2f : 0.8f;
-				Test.At(X, Y, Channel) = (X + Y) % 2 == 0 ? 0.8f : 0.2f;
+				Changed.At(X, Y, Channel) = (X + Y) % 2 == 0 ? 0.8f : 0.2f;
 			}
 		}
 	}
-	const double Near = PoolFlip(ComputeFlip(Test, Reference, 15.0f).Map).Mean;
-	const double Far = PoolFlip(ComputeFlip(Test, Reference, 120.0f).Map).Mean;
+	const double Near = PoolFlip(ComputeFlip(Changed, Reference, 15.0f).Map).Mean;
+	const double Far = PoolFlip(ComputeFlip(Changed, Reference, 120.0f).Map).Mean;
 	EXPECT_GT(Near, 5.0 * Far);
 }
 

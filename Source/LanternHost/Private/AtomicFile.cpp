@@ -24,16 +24,19 @@ std::string DescribeErrno(int Error)
 	return std::generic_category().message(Error);
 }
 
-/// What is to be renamed over: through a symbolic link, so that the link survives.
+/// What is to be renamed over: through symbolic links, so that they survive, even to a file that is not there yet.
 fs::path ResolveTarget(const std::string& Path)
 {
+	constexpr int MostLinks = 32;
+	fs::path Target = Path;
 	std::error_code Error;
-	if (fs::is_symlink(Path, Error))
+	for (int Link = 0; Link < MostLinks && fs::is_symlink(Target, Error); ++Link)
 	{
-		const fs::path Target = fs::weakly_canonical(Path, Error);
-		return Error ? fs::path(Path) : Target;
+		// An absolute link replaces the folder.
+		const fs::path Next = fs::read_symlink(Target, Error);
+		Target = Target.parent_path() / Next;
 	}
-	return Path;
+	return Target;
 }
 
 fs::path GetFolder(const fs::path& File)

@@ -119,18 +119,21 @@ struct FExposureRange
 
 FExposureRange FindExposures(const FImage& Reference)
 {
-	std::vector<double> Luminances(Reference.GetPixelCount());
+	std::vector<float> Luminances(Reference.GetPixelCount());
 	for (size_t Pixel = 0; Pixel < Luminances.size(); ++Pixel)
 	{
 		const float* Rgb = &Reference.Pixels[Pixel * 3];
-		Luminances[Pixel] = static_cast<double>(GetLuminance(Rgb[0], Rgb[1], Rgb[2]));
+		Luminances[Pixel] = GetLuminance(Rgb[0], Rgb[1], Rgb[2]);
 	}
-	const double Largest = *std::max_element(Luminances.begin(), Luminances.end());
+	const double Largest = static_cast<double>(*std::max_element(Luminances.begin(), Luminances.end()));
 	if (Largest <= 0.0)
 	{
 		return {};
 	}
-	const double Median = std::max(ComputePercentile(std::move(Luminances), 0.5), Largest * std::exp2(-MostStops));
+	// Of an even number, the metric's own tool takes the upper middle.
+	const auto Middle = Luminances.begin() + static_cast<ptrdiff_t>(Luminances.size() / 2);
+	std::nth_element(Luminances.begin(), Middle, Luminances.end());
+	const double Median = std::max(static_cast<double>(*Middle), Largest * std::exp2(-MostStops));
 	const double Target = InvertCurve();
 	FExposureRange Range;
 	Range.Start = std::log2(Target / Largest);

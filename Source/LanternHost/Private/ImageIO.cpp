@@ -50,10 +50,13 @@ FRTStatus CheckReadable(const std::string& Path)
 {
 	std::error_code Error;
 	const fs::file_status Status = fs::status(Path, Error);
-	if (!fs::exists(Status))
+	if (Status.type() == fs::file_type::not_found)
 	{
-		return MakeFileError(ERTResult::IoError, Path,
-		                     Error ? "cannot be read: " + Error.message() : std::string("no such file"));
+		return MakeFileError(ERTResult::IoError, Path, "no such file");
+	}
+	if (!fs::status_known(Status))
+	{
+		return MakeFileError(ERTResult::IoError, Path, "cannot be read: " + Error.message());
 	}
 	// A pipe or a device could block for ever.
 	if (!fs::is_regular_file(Status))
