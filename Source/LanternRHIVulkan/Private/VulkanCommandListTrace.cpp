@@ -1,0 +1,152 @@
+#include "VulkanCommandList.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
+namespace Lantern
+{
+
+bool FVulkanCommandList::Upload(uint64_t Size, FUpload* Out)
+{
+	constexpr uint64_t ChunkBytes = 256 * 1024;
+	constexpr uint64_t Alignment = 16;
+	while (Chunk < Chunks.size() && ChunkUsed + Size > ChunkSizes[Chunk])
+	{
+		++Chunk;
+		ChunkUsed = 0;
+	}
+	if (Chunk == Chunks.size())
+	{
+		auto Block = std::make_unique<FVulkanBlock>();
+		const uint64_t Bytes = std::max(Size, ChunkBytes);
+		FRTStatus Status = Block->Create(Device, Bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, ERTMemory::Upload, Alignment,
+		                                 EVulkanMemoryKind::Buffer, "Command list uploads");
+		if (!Status)
+		{
+			Error = Status;
+			return false;
+		}
+		Chunks.push_back(std::move(Block));
+		ChunkSizes.push_back(Bytes);
+		ChunkUsed = 0;
+	}
+	FVulkanBlock& Block = *Chunks[Chunk];
+	*Out = {Block.Handle, ChunkUsed, static_cast<uint8_t*>(Block.Allocation.Mapped) + ChunkUsed};
+	ChunkUsed = (ChunkUsed + Size + Alignment - 1) / Alignment * Alignment;
+	return true;
+}
+
+void FVulkanCommandList::UpdateShaderTable(IRTShaderTable* Table)
+{
+	Keep(Table);
+	FVulkanShaderTable* Native = static_cast<FVulkanShaderTable*>(Table);
+	std::vector<FVulkanShaderTable::FRange> Ranges;
+	Native->TakeDirty(Ranges);
+	uint64_t Bytes = 0;
+	for (const FVulkanShaderTable::FRange& Range : Ranges)
+	{
+		Bytes += Range.Size;
+	}
+	FUpload Source;
+	if (Bytes == 0 || !Upload(Bytes, &Source))
+	{
+		return;
+	}
+	std::vector<VkBufferCopy> Copies;
+	uint64_t Offset = 0;
+	for (const FVulkanShaderTable::FRange& Range : Ranges)
+	{
+		memcpy(Source.Mapped + Offset, Native->GetRecords() + Range.Offset, Range.Size);
+		Copies.push_back({Source.Offset + Offset, Range.Offset, Range.Size});
+		Offset += Range.Size;
+	}
+	// Rays of earlier frames may still read the table, and an earlier update may still write it.
+	const FVulkanAccess Trace = AccessOf(ERTAccess::TraceRead, Device.Bits);
+	const FVulkanAccess Copy = AccessOf(ERTAccess::CopyWrite, Device.Bits);
+	Barrier({Trace.Stages | Copy.Stages, Copy.Access}, Copy);
+	Device.Api.CmdCopyBuffer(Handle, Source.Buffer, Native->GetBuffer(), static_cast<uint32_t>(Copies.size()),
+	                         Copies.data());
+	Barrier(Copy, Trace);
+}
+
+void FVulkanCommandList::TraceRays(IRTShaderTable* Table, uint32_t RayGen, uint32_t Width, uint32_t Height,
+                                   uint32_t Depth)
+{
+	Keep(Table);
+	const FVulkanShaderTable* Native = static_cast<const FVulkanShaderTable*>(Table);
+	assert(Bound && Bound->GetGroupCount() > 0 && "SetPipeline with a ray-tracing pipeline first");
+	const VkStridedDeviceAddressRegionKHR Generate = Native->GetRegion(ERTRecordKind::RayGen, RayGen);
+	const VkStridedDeviceAddressRegionKHR Miss = Native->GetRegion(ERTRecordKind::Miss, 0);
+	const VkStridedDeviceAddressRegionKHR Hit = Native->GetRegion(ERTRecordKind::Hit, 0);
+	const VkStridedDeviceAddressRegionKHR Callable = Native->GetRegion(ERTRecordKind::Callable, 0);
+	Device.Api.CmdTraceRaysKHR(Handle, &Generate, &Miss, &Hit, &Callable, Width, Height, Depth);
+}
+
+void FVulkanCommandList::BuildGeometries(const FRTGeometryBuild* Builds, uint32_t Count)
+{
+	if (Count == 0)
+	{
+		return;
+	}
+	std::vector<FVulkanSections> Sections(Count);
+	std::vector<VkAccelerationStructureBuildGeometryInfoKHR> Infos(Count);
+	std::vector<const VkAccelerationStructureBuildRangeInfoKHR*> Ranges(Count);
+	for (uint32_t Index = 0; Index < Count; ++Index)
+	{
+		const FRTGeometryBuild& Build = Builds[Index];
+		const FVulkanGeometry* Geometry = static_cast<const FVulkanGeometry*>(Build.Geometry);
+		assert(Build.SectionCount == Geometry->GetSectionCount());
+		assert(Build.ScratchOffset % Device.GetCapabilities().ScratchAlignment == 0);
+		Keep(Build.Geometry);
+		Keep(Build.Scratch);
+		for (uint32_t Section = 0; Section < Build.SectionCount; ++Section)
+		{
+			Keep(Build.Sections[Section].Vertices);
+			Keep(Build.Sections[Section].Indices);
+		}
+		Sections[Index].Assign(Build.Sections, Build.SectionCount);
+		Ranges[Index] = Sections[Index].Ranges.data();
+		VkAccelerationStructureBuildGeometryInfoKHR& Info = Infos[Index];
+		Info = {VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR};
+		Info.type = VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR;
+		Info.flags = Geometry->Flags;
+		Info.mode = Build.bUpdate ? VK_BUILD_ACCELERATION_STRUCTURE_MODE_UPDATE_KHR
+		                          : VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR;
+		Info.srcAccelerationStructure = Build.bUpdate ? Geometry->Handle : VK_NULL_HANDLE;
+		Info.dstAccelerationStructure = Geometry->Handle;
+		Info.geometryCount = Build.SectionCount;
+		Info.pGeometries = Sections[Index].Geometries.data();
+		Info.scratchData.deviceAddress = Build.Scratch ? Build.Scratch->GetDeviceAddress() + Build.ScratchOffset : 0;
+	}
+	Device.Api.CmdBuildAccelerationStructuresKHR(Handle, Count, Infos.data(), Ranges.data());
+}
+
+void FVulkanCommandList::BuildScene(IRTScene* Scene, IRTBuffer* Instances, uint64_t InstanceOffset, uint32_t Count,
+                                    IRTBuffer* Scratch, uint64_t ScratchOffset)
+{
+	static_assert(sizeof(FRTInstance) == sizeof(VkAccelerationStructureInstanceKHR));
+	assert(InstanceOffset % 16 == 0 && (Instances || Count == 0));
+	assert(ScratchOffset % Device.GetCapabilities().ScratchAlignment == 0);
+	Keep(Scene);
+	Keep(Instances);
+	Keep(Scratch);
+	const FVulkanScene* Native = static_cast<const FVulkanScene*>(Scene);
+	assert(Count <= Native->GetMaxInstances());
+	const VkAccelerationStructureGeometryKHR Geometry =
+	    FVulkanScene::MakeInstances(Instances ? Instances->GetDeviceAddress() + InstanceOffset : 0);
+	VkAccelerationStructureBuildGeometryInfoKHR Info{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR};
+	Info.type = VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR;
+	Info.flags = Native->Flags;
+	Info.mode = VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR;
+	Info.dstAccelerationStructure = Native->Handle;
+	Info.geometryCount = 1;
+	Info.pGeometries = &Geometry;
+	Info.scratchData.deviceAddress = Scratch ? Scratch->GetDeviceAddress() + ScratchOffset : 0;
+	VkAccelerationStructureBuildRangeInfoKHR Range{};
+	Range.primitiveCount = Count;
+	const VkAccelerationStructureBuildRangeInfoKHR* Ranges = &Range;
+	Device.Api.CmdBuildAccelerationStructuresKHR(Handle, 1, &Info, &Ranges);
+}
+
+} // namespace Lantern

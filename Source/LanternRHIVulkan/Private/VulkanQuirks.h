@@ -1,0 +1,19 @@
+// Known faults of drivers, in one table, each with its reason and what Lantern does instead.
+#pragma once
+
+#include "VulkanApi.h"
+
+namespace Lantern
+{
+
+enum class EVulkanQuirk : uint32_t
+{
+	None = 0,
+	/// Ray generation and miss shaders must be in the final link of a ray-tracing pipeline, not in libraries.
+	LinkedPushConstantsLost = 1 << 0,
+};
+
+/// Flags of EVulkanQuirk that hold for the driver. OutText: one line per quirk; may be null.
+uint32_t FindQuirks(VkDriverId Driver, uint32_t DriverVersion, char* OutText, size_t TextSize);
+
+} // namespace Lantern
