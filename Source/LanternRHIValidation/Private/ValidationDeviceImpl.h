@@ -1,0 +1,52 @@
+#pragma once
+
+#include "ValidationCommandList.h"
+
+namespace Lantern
+{
+
+class FValidatedDevice final : public IRTDevice, public FValidated
+{
+public:
+	explicit FValidatedDevice(std::shared_ptr<FValidationState> InState) : FValidated(std::move(InState), "device") {}
+
+	uint32_t AddRef() override { return ++References; }
+	uint32_t Release() override;
+	IRTRefCounted* GetInner() const override { return State->Inner.Get(); }
+
+	uint32_t GetVersion() const override { return State->Inner->GetVersion(); }
+	const FRTCapabilities& GetCapabilities() const override { return State->Inner->GetCapabilities(); }
+	FRTStatus CreateBuffer(const FRTBufferDesc& Desc, IRTBuffer** Out) override;
+	FRTStatus CreateTexture(const FRTTextureDesc& Desc, IRTTexture** Out) override;
+	FRTStatus ImportTexture(const FRTTextureDesc& Desc, uint64_t NativeImage, IRTTexture** Out) override;
+	FRTStatus CreateSampler(const FRTSamplerDesc& Desc, IRTSampler** Out) override;
+	FRTStatus CreateComputePipeline(const FRTComputePipelineDesc& Desc, IRTPipeline** Out) override;
+	FRTStatus CreateRasterPipeline(const FRTRasterPipelineDesc& Desc, IRTPipeline** Out) override;
+	FRTStatus CreateRayTracingPipeline(const FRTRayTracingPipelineDesc& Desc, IRTPipeline** Out) override;
+	FRTStatus CreateGeometry(const FRTGeometryDesc& Desc, IRTGeometry** Out) override;
+	FRTStatus CreateScene(const FRTSceneDesc& Desc, IRTScene** Out) override;
+	FRTStatus CreateShaderTable(const FRTShaderTableDesc& Desc, IRTShaderTable** Out) override;
+	FRTStatus CreateQueryPool(uint32_t Count, IRTQueryPool** Out) override;
+	FRTStatus CreateCommandList(const char* Name, IRTCommandList** Out) override;
+	FRTStatus ImportCommandList(uint64_t NativeCommandBuffer, IRTCommandList** Out) override;
+	FRTStatus Submit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence) override;
+	FRTStatus NotifyExternalSubmit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence) override;
+	FRTFence GetCompletedFence() override { return State->Inner->GetCompletedFence(); }
+	FRTStatus WaitFor(FRTFence Fence, uint64_t TimeoutNs) override;
+	FRTStatus WaitIdle() override { return State->Inner->WaitIdle(); }
+	void CollectGarbage() override { State->Inner->CollectGarbage(); }
+	FRTMemoryStats GetMemoryStats() const override { return State->Inner->GetMemoryStats(); }
+	uint32_t GetValidationMessageCount() const override { return State->Inner->GetValidationMessageCount(); }
+	uint64_t GetNative(ERTNative Kind) const override { return State->Inner->GetNative(Kind); }
+
+private:
+	/// Empty where the description is good.
+	std::string CheckTexture(const FRTTextureDesc& Desc) const;
+	std::string CheckSections(const FRTGeometryDesc& Desc) const;
+	FRTStatus Collect(IRTCommandList* const* Lists, uint32_t Count, bool bImported,
+	                  std::vector<FValidatedCommandList*>& OutLists);
+
+	std::atomic<uint32_t> References = 1;
+};
+
+} // namespace Lantern

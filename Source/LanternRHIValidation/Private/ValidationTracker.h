@@ -1,0 +1,73 @@
+// Judges what a submission does to resources, in order, before it is let through.
+#pragma once
+
+#include "ValidationState.h"
+
+#include <map>
+#include <set>
+
+namespace Lantern
+{
+
+/// One step of a command list that depends on what was submitted before it.
+struct FValidationStep
+{
+	enum class EKind : uint8_t
+	{
+		Barrier,      ///< Resource (null: memory barrier), Before, After
+		Use,          ///< Resource, After: the access it needs
+		SetState,     ///< Resource, After: the state it is left in
+		CheckIndices, ///< Memory: Count indices of IndexType, each below Limit
+		BuildGeometry,
+		UpdateGeometry,
+		BuildScene, ///< Scene, Memory at Offset: Count instances
+		UpdateTable,
+		TraceRays, ///< Table
+	};
+
+	EKind Kind = EKind::Use;
+	std::string What; ///< the call, for the message
+	std::shared_ptr<FResourceTrack> Resource;
+	ERTAccess Before = ERTAccess::None, After = ERTAccess::None;
+	std::shared_ptr<FGeometryTrack> Geometry;
+	std::shared_ptr<FSceneTrack> Scene;
+	std::shared_ptr<FTableTrack> Table;
+	TRTRef<IRTBuffer> Memory; ///< of the wrapped device, mapped; null: contents unknown
+	uint64_t Offset = 0;
+	uint32_t Count = 0, Limit = 0;
+	ERTIndexType IndexType = ERTIndexType::None;
+};
+
+/// Works on an overlay, so that a refused submission changes nothing. FValidationState::Mutex must be held throughout.
+class FValidationTracker
+{
+public:
+	explicit FValidationTracker(FValidationState& InState) : State(InState) {}
+
+	/// Geometries that the lists keep alive though their owners released them.
+	void Keep(const std::shared_ptr<FGeometryTrack>& Geometry) { Kept.insert(Geometry.get()); }
+	void Run(const FValidationStep& Step);
+	const std::vector<std::string>& GetMessages() const { return Messages; }
+	void Commit();
+
+private:
+	void Barrier(const FValidationStep& Step);
+	void MemoryBarrier(const FValidationStep& Step);
+	void Use(const FValidationStep& Step);
+	void CheckIndices(const FValidationStep& Step);
+	void BuildScene(const FValidationStep& Step);
+	void CheckInstance(const FValidationStep& Step, uint32_t Index, const FRTInstance& Instance);
+	void TraceRays(const FValidationStep& Step);
+	FAccessState& Get(const std::shared_ptr<FResourceTrack>& Resource);
+	bool IsBuilt(FGeometryTrack* Geometry) const { return Geometry->bBuilt || Built.contains(Geometry); }
+	void Add(std::string Message);
+
+	FValidationState& State;
+	std::map<std::shared_ptr<FResourceTrack>, FAccessState> Accesses;
+	std::map<FSceneTrack*, FSceneContent> Scenes;
+	std::set<FGeometryTrack*> Built, Kept;
+	std::set<FTableTrack*> Updated;
+	std::vector<std::string> Messages;
+};
+
+} // namespace Lantern
