@@ -30,11 +30,12 @@ void main()
 	FMaterialSurface Surface = EvaluateMaterial(Material, Inputs, Scene.MaterialOverride);
 	vec3 Ng = normalize(cross(dFdx(InRelative), dFdy(InRelative)));
 #ifdef MASKED
-	if (Scene.MaterialOverride != 2u && Surface.Opacity < Material.AlphaCutoff) { discard; }
+	if (Surface.Opacity < Material.AlphaCutoff) { discard; }
 #endif
 	// Both normals towards the camera, as the hit shaders do.
 	if (dot(Ng, InRelative) > 0.0) { Ng = -Ng; }
-	if (!gl_FrontFacing) { Surface.Normal = -Surface.Normal; }
+	bool bMirrored = (FObjectRef(Scene.Objects).Data[Push.Object].Flags & OBJECT_MIRRORED) != 0u;
+	if (gl_FrontFacing == bMirrored) { Surface.Normal = -Surface.Normal; }
 
 	OutNormals = vec4(OctEncode(Surface.Normal), OctEncode(Ng));
 	OutBaseColor = vec4(Surface.BaseColor, Surface.Metallic);

@@ -86,6 +86,7 @@ uint FindEmissiveTriangle(FSceneConstants Scene, float U)
 
 vec3 SampleEmissive(FSceneConstants Scene, FBrdf B, mat3 Basis, vec3 V, vec3 P, vec3 Ng, vec3 U)
 {
+	if (Scene.EmissiveTriangleCount == 0u) { return vec3(0.0); } // all emitters are deformed ones
 	FEmissiveTriangle T = FEmissiveRef(Scene.EmissiveTriangles).Data[FindEmissiveTriangle(Scene, U.z)];
 	vec2 Barycentrics = SampleTriangle(U.xy);
 	vec3 Point = T.P0 + (T.P1 - T.P0) * Barycentrics.x + (T.P2 - T.P0) * Barycentrics.y;
@@ -99,6 +100,7 @@ vec3 SampleEmissive(FSceneConstants Scene, FBrdf B, mat3 Basis, vec3 V, vec3 P, 
 	FSectionData Section = FSectionRef(Scene.Sections).Data[T.Section];
 	FMaterialData Material = FMaterialRef(Scene.Materials).Data[Section.Material];
 	float Cos = -dot(normalize(cross(T.P1 - T.P0, T.P2 - T.P0)), Towards);
+	if ((T.Flags & OBJECT_MIRRORED) != 0u) { Cos = -Cos; }
 	if ((Section.Flags & SECTION_DOUBLE_SIDED) != 0u) { Cos = abs(Cos); }
 	vec3 F = EvaluateBrdfCos(B, V, Towards * Basis);
 	if (Cos <= 1.0e-6 || MaxComponent(F) <= 0.0) { return vec3(0.0); }

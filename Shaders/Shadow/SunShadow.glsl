@@ -1,5 +1,5 @@
 // What the pipeline and the ray-query path share: which rays a pixel casts. The includer defines
-//   bool TraceSun(vec3 Origin, vec3 Direction, uint Flags, float MaxDistance)
+//   bool TraceSun(vec3 Origin, vec3 Direction)   true: nothing is in the way
 #ifndef LANTERN_SUN_SHADOW_GLSL
 #define LANTERN_SUN_SHADOW_GLSL
 
@@ -31,8 +31,8 @@ void ShadePixel(uvec2 Pixel)
 	uint Seed = HashPcg(Pixel.x + HashPcg(Pixel.y + HashPcg(View.Seed)));
 	for (uint Sample = 0; Sample < Push.SamplesPerPixel; ++Sample)
 	{
-		vec2 U = SobolOwen2(Push.FrameIndex * Push.SamplesPerPixel + Sample, Seed);
-		vec3 Direction = Scene.SunOneMinusCos > 0.0 ? SampleSunDirection(Scene, U) : -Scene.SunDirection;
+		vec2 U = SobolOwen2(View.FrameIndex * Push.SamplesPerPixel + Sample, Seed);
+		vec3 Direction = Push.bSoft != 0u ? SampleSunDirection(Scene, U) : -Scene.SunDirection;
 		if (dot(Ng, Direction) > 0.0 && TraceSun(Origin, Direction)) { Visible += 1.0; }
 	}
 	imageStore(Images[Push.Output], ivec2(Pixel), vec4(Visible / float(Push.SamplesPerPixel)));

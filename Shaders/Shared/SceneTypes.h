@@ -113,7 +113,8 @@ struct FEmissiveTriangle
 	vec3 P2;
 	uint Section; // into FSectionData[]
 	uint Primitive;
-	uint Pad0, Pad1, Pad2;
+	uint Flags; // OBJECT_MIRRORED: the winding is turned around
+	uint Pad0, Pad1;
 };
 LANTERN_ASSERT_SIZE(FEmissiveTriangle, 64);
 

@@ -17,7 +17,7 @@ struct FSunShadowConstants
 	float MaxDistance; // metres
 	uint RayFlags;     // gl_RayFlags… beside those that the pass needs
 	uint InstanceMask;
-	uint FrameIndex;
+	uint bSoft; // 0: hard shadows from the centre of the disk
 };
 LANTERN_ASSERT_SIZE(FSunShadowConstants, 48);
 

@@ -1,0 +1,49 @@
+// Our own composite for hosts that have none: direct light, emission, ambient sky.
+#include "LanternCore/ConsoleVariables.h"
+#include "LanternRenderer/Frame.h"
+#include "LightingTypes.h"
+#include "PassTools.h"
+
+namespace Lantern
+{
+
+namespace
+{
+TRTConsoleVariable<bool> CVarLocalLights("r.RT.LocalLights", true, "Direct light of the scene's point, spot and directional lights.");
+TRTConsoleVariable<bool> CVarSkyAmbient("r.RT.SkyAmbient", true, "Unoccluded ambient light of the sky.");
+}
+
+FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightingInputs& Inputs)
+{
+	FSceneFacts Facts = Context.Facts;
+	Facts.Lights = CVarLocalLights.GetOnRenderThread() ? Facts.Lights : 0;
+	Facts.bSky &= CVarSkyAmbient.GetOnRenderThread();
+	Facts.bMasked = false; // nothing of it reaches lighting
+	IRTPipeline* const Pipeline = RequireCompute(Context, "Lighting/DirectLighting.comp", MakeFactDefines(Facts));
+	if (!Pipeline) { return {}; }
+	const FGraphTexture Output = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA32_FLOAT}, "Lighting");
+	const FPassConstants PassConstants = Context.Pass;
+	const uint32_t Width = Context.Width, Height = Context.Height;
+	Context.Graph.AddPass("DirectLighting", [&](FPassBuilder& Builder) -> FPassExecute {
+		const FGBuffer& G = Inputs.GBuffer;
+		for (const FGraphTexture Texture : {G.Depth, G.Normals, G.BaseColor, G.Material, G.Emissive}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+		if (Inputs.SunShadow.IsValid()) { Builder.Read(Inputs.SunShadow, ERTAccess::ShaderRead); }
+		Builder.Write(Output, ERTAccess::StorageWrite);
+		return [=](FPassContext& Pass) {
+			const auto Sampled = [&](FGraphTexture Texture) { return Pass.GetTexture(Texture)->GetSampledIndex(); };
+			FLightingConstants C{};
+			C.Pass = PassConstants;
+			C.Depth = Sampled(Inputs.GBuffer.Depth);
+			C.Normals = Sampled(Inputs.GBuffer.Normals);
+			C.BaseColor = Sampled(Inputs.GBuffer.BaseColor);
+			C.Material = Sampled(Inputs.GBuffer.Material);
+			C.Emissive = Sampled(Inputs.GBuffer.Emissive);
+			C.SunShadow = Inputs.SunShadow.IsValid() ? Sampled(Inputs.SunShadow) : NO_TEXTURE;
+			C.Output = Pass.GetTexture(Output)->GetStorageIndex();
+			Dispatch2D(Pass, Pipeline, C, Width, Height, LIGHTING_GROUP_SIZE);
+		};
+	});
+	return Output;
+}
+
+} // namespace Lantern

@@ -1,0 +1,48 @@
+#include "GBufferTypes.h"
+#include "PassTools.h"
+
+namespace Lantern
+{
+
+FRTStatus AddSkinningPass(FFrameContext& Context, FFrameUploads& Uploads, const std::vector<FSkinningInputs>& Items)
+{
+	if (Items.empty()) { return FRTStatus::Success(); }
+	IRTPipeline* const Pipeline = RequireCompute(Context, "Skinning/Skin.comp");
+	if (!Pipeline) { return *Context.Status; }
+	std::vector<FSkinConstants> Dispatches;
+	for (const FSkinningInputs& Item : Items)
+	{
+		const FRTGeometryInfo& Info = Item.Geometry->GetInfo();
+		FUploadSlice Joints;
+		if (FRTStatus S = Uploads.Push(Item.Joints.data(), Item.Joints.size() * sizeof(glm::mat4), Joints); !S) { return S; }
+		FSkinConstants C{};
+		C.SourcePositions = Item.SourcePositions;
+		C.SourceAttributes = Item.SourceAttributes;
+		C.Weights = Item.Weights;
+		C.Joints = Joints.Address;
+		C.Positions = Info.Positions->GetDeviceAddress() + Info.PositionsOffset;
+		C.Attributes = Info.Attributes->GetDeviceAddress() + Info.AttributesOffset;
+		C.VertexCount = Info.VertexCount;
+		Dispatches.push_back(C);
+		Context.Scene.MarkDeformed(Item.Geometry);
+	}
+	Context.Graph.AddPass("Skinning", [&](FPassBuilder& Builder) -> FPassExecute {
+		Builder.NeverCull();
+		return [=](FPassContext& Pass) {
+			// The buffers are the objects' own, unknown to the graph: last frame's readers, then this frame's.
+			const FRTBarrier Before{nullptr, nullptr, ERTAccess::ShaderRead | ERTAccess::GeometryInput, ERTAccess::StorageWrite};
+			const FRTBarrier After{nullptr, nullptr, ERTAccess::StorageWrite, ERTAccess::ShaderRead | ERTAccess::GeometryInput};
+			Pass.Commands().Barriers(&Before, 1);
+			Pass.Commands().SetPipeline(Pipeline);
+			for (const FSkinConstants& C : Dispatches)
+			{
+				Pass.Commands().PushConstants(&C, sizeof(C));
+				Pass.Commands().Dispatch(DivideUp(C.VertexCount, SKIN_GROUP_SIZE), 1, 1);
+			}
+			Pass.Commands().Barriers(&After, 1);
+		};
+	});
+	return FRTStatus::Success();
+}
+
+} // namespace Lantern

@@ -1,0 +1,29 @@
+#include "LanternRenderer/Frame.h"
+#include "LightingTypes.h"
+#include "PassTools.h"
+
+namespace Lantern
+{
+
+FGraphTexture AddToneMapPass(FFrameContext& Context, FGraphTexture Radiance)
+{
+	IRTPipeline* const Pipeline = RequireCompute(Context, "ToneMap/ToneMap.comp");
+	if (!Pipeline || !Radiance.IsValid()) { return {}; }
+	const FGraphTexture Output = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA8_UNORM}, "Display");
+	const FPassConstants PassConstants = Context.Pass;
+	const uint32_t Width = Context.Width, Height = Context.Height;
+	Context.Graph.AddPass("ToneMap", [&](FPassBuilder& Builder) -> FPassExecute {
+		Builder.Read(Radiance, ERTAccess::ShaderRead);
+		Builder.Write(Output, ERTAccess::StorageWrite);
+		return [=](FPassContext& Pass) {
+			FToneMapConstants C{};
+			C.Pass = PassConstants;
+			C.Input = Pass.GetTexture(Radiance)->GetSampledIndex();
+			C.Output = Pass.GetTexture(Output)->GetStorageIndex();
+			Dispatch2D(Pass, Pipeline, C, Width, Height, LIGHTING_GROUP_SIZE);
+		};
+	});
+	return Output;
+}
+
+} // namespace Lantern

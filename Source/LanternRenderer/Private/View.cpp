@@ -1,0 +1,50 @@
+#include "LanternRenderer/View.h"
+
+#include <cassert>
+#include <cmath>
+
+namespace Lantern
+{
+
+FViewConstants MakeViewConstants(const FView& View, glm::dvec3 Origin)
+{
+	assert(View.Width > 0 && View.Height > 0 && View.Near > 0.0f);
+	const glm::vec3 Forward = glm::normalize(View.Forward);
+	const glm::vec3 Right = glm::normalize(glm::cross(Forward, View.Up));
+	const glm::vec3 Up = glm::cross(Right, Forward);
+	FViewConstants C{};
+	C.TanHalfFovY = std::tan(0.5f * View.FovY);
+	C.Aspect = static_cast<float>(View.Width) / static_cast<float>(View.Height);
+	const float ScaleX = 1.0f / (C.TanHalfFovY * C.Aspect), ScaleY = 1.0f / C.TanHalfFovY;
+	// Vulkan's clip space has y down; w is the distance along the view, z the constant near: depth = near / w.
+	const glm::vec4 Rows[4] = {glm::vec4(Right * ScaleX, 0), glm::vec4(Up * -ScaleY, 0), glm::vec4(0, 0, 0, View.Near), glm::vec4(Forward, 0)};
+	for (int Column = 0; Column < 4; ++Column)
+	{
+		for (int Row = 0; Row < 4; ++Row) { C.RelativeToClip[Column][Row] = Rows[Row][Column]; }
+	}
+	C.CameraPosition = glm::vec3(View.Position - Origin);
+	C.CameraRight = Right;
+	C.CameraUp = Up;
+	C.CameraForward = Forward;
+	C.Near = View.Near;
+	C.FrameIndex = View.FrameIndex;
+	C.Width = View.Width;
+	C.Height = View.Height;
+	C.Seed = View.Seed;
+	C.Exposure = std::exp2(View.Exposure);
+	return C;
+}
+
+FView LookAt(glm::dvec3 Position, glm::dvec3 Target, float FovY, uint32_t Width, uint32_t Height)
+{
+	FView View;
+	View.Position = Position;
+	View.Forward = glm::vec3(glm::normalize(Target - Position));
+	View.Up = std::abs(View.Forward.y) > 0.9999f ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);
+	View.FovY = FovY;
+	View.Width = Width;
+	View.Height = Height;
+	return View;
+}
+
+} // namespace Lantern

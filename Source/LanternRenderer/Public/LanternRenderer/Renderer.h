@@ -1,0 +1,120 @@
+// What a frame is made with: shader compiler, pipelines, the RTPSO and its table, memory for constants. A frame
+// is built between BeginFrame and EndFrame; two may be in flight. Render thread only.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "LanternCore/FrameGraph.h"
+#include "LanternRenderer/View.h"
+#include "LanternScene/PipelineCache.h"
+#include "LanternScene/RayTracingPipeline.h"
+#include "LanternScene/Scene.h"
+
+namespace Lantern
+{
+
+struct FRendererDesc
+{
+	std::vector<std::string> ShaderFolders; ///< the plugin's Shaders first
+	std::string CacheFolder;                ///< compiled shaders; empty: none
+};
+
+/// One deformed geometry: linear blend skinning from its source into the buffers of the geometry.
+struct FSkinningInputs
+{
+	FRTGeometryRef Geometry; ///< dynamic; its Positions and Attributes are written
+	FAddress SourcePositions = 0, SourceAttributes = 0;
+	FAddress Weights = 0; ///< FSkinVertex[]
+	std::vector<glm::mat4> Joints;
+};
+
+/// What a frame is to do beside its cameras and console variables.
+struct FFrameFeatures
+{
+	bool bReference = false; ///< the path tracer instead of real-time passes
+	std::vector<FSkinningInputs> Skinning;
+};
+
+inline constexpr uint32_t NoRayGen = ~0u;
+
+/// Given to every pass.
+struct FFrameContext
+{
+	IRTDevice& Device;
+	FFrameGraph& Graph;
+	FRTScene& Scene;
+	FPipelineCache& Pipelines;
+	FSceneFacts Facts;
+	FPassConstants Pass; ///< addresses of this frame's constants
+	uint32_t Width = 0, Height = 0;
+	/// Null where no pass of this frame traces through a pipeline.
+	const FRTPSO* RayPipeline = nullptr;
+	FShaderBindings* RayBindings = nullptr;
+	uint32_t SunShadowRayGen = NoRayGen;
+	uint32_t ReferenceRayGen = NoRayGen;
+	/// First error that a pass met; the frame is then not submitted.
+	FRTStatus* Status = nullptr;
+	void Fail(const FRTStatus& Error) const
+	{
+		if (Status->IsOk()) { *Status = Error; }
+	}
+};
+
+class FRenderer
+{
+public:
+	FRenderer(IRTDevice& Device, FRendererDesc Desc);
+	~FRenderer();
+
+	/// Waits until at most one earlier frame is in flight, publishes console variables, and starts a frame: the
+	/// scene's update is its first pass. The scene must not change until EndFrame.
+	FRTStatus BeginFrame(FRTScene& Scene, const FView& View, const FFrameFeatures& Features);
+	FFrameContext& GetContext(); ///< between BeginFrame and EndFrame
+	/// Executes the graph and submits. OutFence may be null.
+	FRTStatus EndFrame(FRTFence* OutFence);
+	/// The same, recorded into the engine's command list, which the engine submits and then reports by
+	/// FrameSubmitted with its fence.
+	FRTStatus EndFrame(IRTCommandList& List);
+	void FrameSubmitted(FRTFence Fence);
+
+	FRTStatus WaitForAll();
+	IRTDevice& GetDevice() { return Device; }
+	FShaderCompiler& GetCompiler() { return Compiler; }
+	FPipelineCache& GetPipelines() { return Pipelines; }
+	FFrameUploads& GetUploads() { return Uploads; }
+	FFrameGraphResources& GetGraphResources() { return GraphResources; }
+	/// RTPSO of the last frame; null if it had none.
+	const FRTPSO* GetRayPipeline() const { return RayPipeline.get(); }
+	const FShaderBindings& GetBindings() const { return Bindings; }
+	double GetLastPipelineMs() const { return LastPipelineMs; } ///< time the newest RTPSO took to make
+	std::string DumpGraph() const; ///< of the last executed frame
+
+private:
+	FRTStatus PrepareRayPipeline(const FFrameFeatures& Features);
+	FRTStatus AddSceneUpdate(const FView& View, const FFrameFeatures& Features);
+	FRTStatus WaitForSlot();
+	FRTStatus Execute(IRTCommandList& List);
+
+	IRTDevice& Device;
+	FShaderCompiler Compiler;
+	FPipelineCache Pipelines;
+	FFrameUploads Uploads;
+	FFrameGraphResources GraphResources;
+	FShaderBindings Bindings;
+	std::map<std::string, std::shared_ptr<FRTPSO>> RayPipelines;
+	std::shared_ptr<FRTPSO> RayPipeline;
+	double LastPipelineMs = 0.0;
+	std::unique_ptr<FFrameGraph> Graph;
+	std::unique_ptr<FFrameContext> Context;
+	FRTStatus FrameStatus;
+	static constexpr int MaxInFlight = 2;
+	TRTRef<IRTCommandList> Lists[MaxInFlight];
+	FRTFence Fences[MaxInFlight] = {};
+	int Slot = 0;
+	std::string LastDump;
+};
+
+} // namespace Lantern

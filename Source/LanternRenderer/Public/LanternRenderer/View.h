@@ -1,0 +1,32 @@
+// A camera in the world.
+#pragma once
+
+#include <cstdint>
+
+#include <glm/glm.hpp>
+
+#include "SceneTypes.h"
+
+namespace Lantern
+{
+
+struct FView
+{
+	glm::dvec3 Position{0};
+	glm::vec3 Forward{0, 0, -1}; ///< need not be unit length
+	glm::vec3 Up{0, 1, 0};       ///< not parallel to Forward
+	float FovY = 1.0f;           ///< radians, vertical, in (0, π)
+	float Near = 0.05f;          ///< metres, > 0; there is no far plane
+	uint32_t Width = 0, Height = 0;
+	uint32_t FrameIndex = 0;
+	uint32_t Seed = 0;
+	float Exposure = 0.0f; ///< stops
+};
+
+/// Origin: of the scene, see FRTScene.
+FViewConstants MakeViewConstants(const FView& View, glm::dvec3 Origin);
+
+/// Looks from Position to Target, y up (or z, where that is where it looks).
+FView LookAt(glm::dvec3 Position, glm::dvec3 Target, float FovY, uint32_t Width, uint32_t Height);
+
+} // namespace Lantern

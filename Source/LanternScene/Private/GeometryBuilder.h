@@ -1,0 +1,25 @@
+// Records builds and refits in batches whose scratch memory fits one buffer.
+#pragma once
+
+#include <vector>
+
+#include "LanternScene/Scene.h"
+
+namespace Lantern
+{
+
+class FGeometryBuilder
+{
+public:
+	FGeometryBuilder(IRTDevice& InDevice, TRTRef<IRTBuffer>& InScratch) : Device(InDevice), Scratch(InScratch) {}
+	static FRTStatus Create(IRTDevice& Device, FRTGeometry& Geometry);
+	/// Refits those that allow it (see RebuildInterval), builds the others. Ends with a barrier.
+	FRTStatus Build(IRTCommandList& List, const std::vector<FRTGeometryRef>& Geometries, uint32_t RebuildInterval, FSceneUpdateStats& Stats);
+	FRTStatus ReserveScratch(uint64_t Bytes);
+
+private:
+	IRTDevice& Device;
+	TRTRef<IRTBuffer>& Scratch;
+};
+
+} // namespace Lantern

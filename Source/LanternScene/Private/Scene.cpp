@@ -1,0 +1,441 @@
+#include "LanternScene/Scene.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include <glm/gtc/packing.hpp>
+
+#include "GeometryBuilder.h"
+#include "LanternCore/ConsoleVariables.h"
+#include "LanternScene/SectionTable.h"
+
+namespace Lantern
+{
+
+namespace
+{
+TRTConsoleVariable<int32_t> CVarRebuildInterval("r.RT.Skinning.RebuildInterval", 16,
+                                                "Deformed geometry is refitted, and rebuilt every so many frames. 1: always rebuilt.", {1, 1000});
+
+uint64_t SectionIndices(const FRTGeometryInfo& Info, uint32_t Section)
+{
+	const uint32_t Bytes = Info.IndexType == ERTIndexType::UInt16 ? 2 : 4;
+	return Info.Indices->GetDeviceAddress() + Info.IndicesOffset + uint64_t(Info.Sections[Section].FirstIndex) * Bytes;
+}
+
+FSectionData MakeSection(const FRTGeometry& Geometry, uint32_t Section, uint32_t MaterialIndex, const FMaterialData& Material, bool bMasked)
+{
+	const FRTGeometryInfo& Info = Geometry.GetInfo();
+	FSectionData Data{};
+	Data.Positions = Info.Positions->GetDeviceAddress() + Info.PositionsOffset;
+	Data.Attributes = Info.Attributes->GetDeviceAddress() + Info.AttributesOffset;
+	Data.Indices = SectionIndices(Info, Section);
+	Data.Material = MaterialIndex;
+	Data.Flags = Info.IndexType == ERTIndexType::UInt16 ? SECTION_INDEX_16 : 0u;
+	if (bMasked) { Data.Flags |= SECTION_MASKED; }
+	if (Material.Flags & MATERIAL_DOUBLE_SIDED) { Data.Flags |= SECTION_DOUBLE_SIDED; }
+	if (Info.bHasTangents) { Data.Flags |= SECTION_TANGENTS; }
+	if (Material.EmissiveWeight > 0.0f && !Info.bDynamic && Info.CpuPositions) { Data.Flags |= SECTION_LIGHT; }
+	return Data;
+}
+} // namespace
+
+FRTScene::FRTScene(IRTDevice& InDevice) : Device(InDevice), Sections(std::make_unique<FSectionTable>()) {}
+FRTScene::~FRTScene() = default;
+
+FRTStatus FRTScene::CreateGeometry(FRTGeometryInfo Info, FRTGeometryRef& Out)
+{
+	assert(Info.Positions && Info.Attributes && Info.Indices && !Info.Sections.empty());
+	auto Geometry = std::make_shared<FRTGeometry>();
+	Geometry->Info = std::move(Info);
+	if (FRTStatus S = FGeometryBuilder::Create(Device, *Geometry); !S) { return S; }
+	PendingBuilds.push_back(Geometry);
+	if (Geometry->Info.bDynamic) { bFactsChanged = true; }
+	Geometries.push_back(Geometry);
+	Out = std::move(Geometry);
+	return FRTStatus::Success();
+}
+
+void FRTScene::MarkDeformed(const FRTGeometryRef& Geometry)
+{
+	assert(Geometry->Info.bDynamic);
+	if (!Geometry->bBuilt || Geometry->bDeformed) { return; }
+	Geometry->bDeformed = true;
+	Deformed.push_back(Geometry);
+}
+
+uint32_t FRTScene::AddMaterial(const FMaterialData& Material) { return Materials.Add(Material); }
+
+void FRTScene::SetMaterial(uint32_t Index, const FMaterialData& Material)
+{
+	assert(Index < Materials.Num());
+	Materials.Set(Index, Material);
+	bObjectsChanged = bFactsChanged = bEmissiveChanged = true;
+}
+
+FRTObjectId FRTScene::AddObject(FRTObjectInfo Info)
+{
+	assert(Info.Geometry && Info.Materials.size() == Info.Geometry->GetSectionCount());
+	uint32_t Index = static_cast<uint32_t>(Objects.size());
+	if (FreeObjects.empty()) { Objects.emplace_back(); }
+	else
+	{
+		Index = FreeObjects.back();
+		FreeObjects.pop_back();
+	}
+	assert(Index <= MaxInstanceIndex);
+	FObject& Object = Objects[Index];
+	Object.Info = std::move(Info);
+	Object.bAlive = true;
+	Object.FirstSection = Sections->Acquire(Object.Info.Geometry.get(), Object.Info.Materials, [&](uint32_t Section) {
+		const uint32_t Material = Object.Info.Materials[Section];
+		assert(Material < Materials.Num());
+		return MakeSection(*Object.Info.Geometry, Section, Material, Materials[Material], Materials[Material].Flags & MATERIAL_MASKED);
+	});
+	WriteObject(Index);
+	bObjectsChanged = bFactsChanged = bEmissiveChanged = true;
+	return {Index, Object.Generation};
+}
+
+void FRTScene::RemoveObject(FRTObjectId Id)
+{
+	FObject& Object = Resolve(Id);
+	Sections->Release(Object.Info.Geometry.get(), Object.Info.Materials);
+	Retired.push_back(std::move(Object.Info.Geometry));
+	Object.Info = {};
+	Object.bAlive = false;
+	++Object.Generation;
+	FreeObjects.push_back(Id.Index);
+	bObjectsChanged = bFactsChanged = bEmissiveChanged = true;
+}
+
+FRTScene::FObject& FRTScene::Resolve(FRTObjectId Id)
+{
+	assert(Id.Index < Objects.size() && Objects[Id.Index].bAlive && Objects[Id.Index].Generation == Id.Generation);
+	return Objects[Id.Index];
+}
+
+const FRTScene::FObject& FRTScene::Resolve(FRTObjectId Id) const { return const_cast<FRTScene*>(this)->Resolve(Id); }
+
+void FRTScene::SetTransform(FRTObjectId Id, const glm::dmat4& Transform)
+{
+	Resolve(Id).Info.Transform = Transform;
+	WriteObject(Id.Index);
+	bObjectsChanged = true;
+	bEmissiveChanged |= Facts.bEmissive;
+}
+
+void FRTScene::SetMaterials(FRTObjectId Id, std::vector<uint32_t> SectionMaterials)
+{
+	FRTObjectInfo Info = Resolve(Id).Info;
+	assert(SectionMaterials.size() == Info.Geometry->GetSectionCount());
+	FObject& Object = Resolve(Id);
+	const uint32_t First = Sections->Acquire(Info.Geometry.get(), SectionMaterials, [&](uint32_t Section) {
+		const uint32_t Material = SectionMaterials[Section];
+		return MakeSection(*Info.Geometry, Section, Material, Materials[Material], Materials[Material].Flags & MATERIAL_MASKED);
+	});
+	Sections->Release(Info.Geometry.get(), Info.Materials);
+	Object.Info.Materials = std::move(SectionMaterials);
+	Object.FirstSection = First;
+	WriteObject(Id.Index);
+	bObjectsChanged = bFactsChanged = bEmissiveChanged = true;
+}
+
+const FRTObjectInfo& FRTScene::GetObject(FRTObjectId Id) const { return Resolve(Id).Info; }
+uint32_t FRTScene::GetFirstSection(FRTObjectId Id) const { return Resolve(Id).FirstSection; }
+
+void FRTScene::WriteObject(uint32_t Index)
+{
+	const FObject& Object = Objects[Index];
+	glm::dmat4 Relative = Object.Info.Transform;
+	Relative[3] -= glm::dvec4(Origin, 0.0);
+	FObjectData Data{};
+	for (int Row = 0; Row < 3; ++Row)
+	{
+		Data.ObjectToWorld[Row] = glm::vec4(Relative[0][Row], Relative[1][Row], Relative[2][Row], Relative[3][Row]);
+	}
+	Data.FirstSection = Object.FirstSection;
+	Data.Flags = glm::determinant(glm::dmat3(Relative)) < 0.0 ? OBJECT_MIRRORED : 0u;
+	ObjectData.Set(Index, Data);
+}
+
+void FRTScene::SetLights(std::vector<FSceneLight> InLights)
+{
+	Lights = std::move(InLights);
+	bLightsChanged = bFactsChanged = true;
+}
+
+void FRTScene::SetSun(const FSunLight& InSun)
+{
+	Sun = InSun;
+	bFactsChanged = true;
+}
+
+void FRTScene::SetSky(glm::vec3 Radiance)
+{
+	Sky = Radiance;
+	bFactsChanged = true;
+}
+
+void FRTScene::SetMaterialOverride(uint32_t Override)
+{
+	if (MaterialOverride != Override) { bFactsChanged = bObjectsChanged = true; }
+	MaterialOverride = Override;
+}
+
+void FRTScene::SetAlphaTest(bool bEnabled)
+{
+	if (bAlphaTest != bEnabled) { bFactsChanged = bObjectsChanged = true; }
+	bAlphaTest = bEnabled;
+}
+
+void FRTScene::SetRayTypes(uint32_t Count)
+{
+	bObjectsChanged |= RayTypes != Count;
+	RayTypes = Count;
+}
+
+bool FRTScene::IsMasked(const FObject& Object) const
+{
+	if (!bAlphaTest || MaterialOverride == 2) { return false; }
+	return std::any_of(Object.Info.Materials.begin(), Object.Info.Materials.end(),
+	                   [&](uint32_t Material) { return (Materials[Material].Flags & MATERIAL_MASKED) != 0; });
+}
+
+void FRTScene::UpdateFacts()
+{
+	Facts = {};
+	for (const FObject& Object : Objects)
+	{
+		if (!Object.bAlive) { continue; }
+		++Facts.Objects;
+		Facts.bMasked |= IsMasked(Object);
+		for (const uint32_t Material : Object.Info.Materials) { Facts.bEmissive |= Materials[Material].EmissiveWeight > 0.0f; }
+	}
+	std::erase_if(Geometries, [](const std::weak_ptr<FRTGeometry>& Geometry) { return Geometry.expired(); });
+	for (const auto& Weak : Geometries)
+	{
+		const FRTGeometryRef Geometry = Weak.lock();
+		Facts.DynamicGeometries += Geometry && Geometry->Info.bDynamic ? 1 : 0;
+	}
+	Facts.Lights = static_cast<uint32_t>(Lights.size());
+	Facts.EmissiveTriangles = EmissiveTriangles.Num();
+	Facts.bSun = Sun.Irradiance > 0.0f;
+	Facts.bSky = glm::any(glm::greaterThan(Sky, glm::vec3(0)));
+	Sections->ForEach([&](const FRTGeometry& Geometry, uint32_t Section, uint32_t Material, const FSectionData&) {
+		const bool bMasked = bAlphaTest && MaterialOverride != 2 && (Materials[Material].Flags & MATERIAL_MASKED);
+		return MakeSection(Geometry, Section, Material, Materials[Material], bMasked);
+	});
+	bFactsChanged = false;
+}
+
+const FSceneFacts& FRTScene::RefreshFacts()
+{
+	if (bFactsChanged) { UpdateFacts(); }
+	return Facts;
+}
+
+bool FRTScene::AreTablesDirty() const
+{
+	return Materials.IsDirty() || ObjectData.IsDirty() || LightData.IsDirty() || EmissiveTriangles.IsDirty() || Sections->GetTable().IsDirty();
+}
+
+bool FRTScene::NeedsUpdate(glm::dvec3 Camera, bool bLightSampling) const
+{
+	return bFactsChanged || bLightsChanged || bObjectsChanged || !Structure || (bLightSampling && bEmissiveChanged) || !PendingBuilds.empty() ||
+	       !Deformed.empty() || AreTablesDirty() || SnapOrigin(Camera) != Origin;
+}
+
+glm::dvec3 FRTScene::SnapOrigin(glm::dvec3 Camera) { return glm::floor(Camera / OriginStep + 0.5) * OriginStep; }
+
+void FRTScene::MoveOrigin(glm::dvec3 Camera)
+{
+	const glm::dvec3 Snapped = SnapOrigin(Camera);
+	if (Snapped == Origin) { return; }
+	Origin = Snapped;
+	for (uint32_t Index = 0; Index < Objects.size(); ++Index)
+	{
+		if (Objects[Index].bAlive) { WriteObject(Index); }
+	}
+	bObjectsChanged = bLightsChanged = bEmissiveChanged = true;
+}
+
+void FRTScene::UpdateLights()
+{
+	std::vector<FLightData> Data;
+	for (const FSceneLight& Light : Lights)
+	{
+		Data.push_back(Light.Data);
+		Data.back().Position = ToRelative(Light.WorldPosition);
+	}
+	LightData.Assign(std::move(Data));
+	bLightsChanged = false;
+}
+
+void FRTScene::UpdateEmissiveTriangles()
+{
+	std::vector<FEmissiveTriangle> Triangles;
+	double Power = 0.0;
+	for (uint32_t Index = 0; Index < Objects.size(); ++Index)
+	{
+		const FObject& Object = Objects[Index];
+		if (!Object.bAlive) { continue; }
+		const FRTGeometryInfo& Info = Object.Info.Geometry->GetInfo();
+		for (uint32_t Section = 0; Section < Info.Sections.size(); ++Section)
+		{
+			const FMaterialData& Material = Materials[Object.Info.Materials[Section]];
+			if ((Sections->Get(Object.FirstSection + Section).Flags & SECTION_LIGHT) == 0) { continue; }
+			for (uint32_t Primitive = 0; Primitive < Info.Sections[Section].IndexCount / 3; ++Primitive)
+			{
+				glm::vec3 P[3];
+				for (int Corner = 0; Corner < 3; ++Corner)
+				{
+					const uint32_t Vertex = Info.CpuIndices[Info.Sections[Section].FirstIndex + 3 * Primitive + Corner];
+					P[Corner] = ToRelative(glm::dvec3(Object.Info.Transform * glm::dvec4(Info.CpuPositions[Vertex], 1.0)));
+				}
+				const double Area = 0.5 * glm::length(glm::cross(glm::dvec3(P[1] - P[0]), glm::dvec3(P[2] - P[0])));
+				if (!(Area > 0.0)) { continue; }
+				Power += Area * Material.EmissiveWeight;
+				FEmissiveTriangle Triangle{};
+				Triangle.P0 = P[0];
+				Triangle.P1 = P[1];
+				Triangle.P2 = P[2];
+				Triangle.CumulativePower = static_cast<float>(Power);
+				Triangle.Object = Index;
+				Triangle.Section = Object.FirstSection + Section;
+				Triangle.Primitive = Primitive;
+				Triangle.Flags = ObjectData[Index].Flags & OBJECT_MIRRORED;
+				Triangles.push_back(Triangle);
+			}
+		}
+	}
+	EmissivePower = static_cast<float>(Power);
+	for (FEmissiveTriangle& Triangle : Triangles) { Triangle.CumulativePower = static_cast<float>(Triangle.CumulativePower / Power); }
+	Facts.EmissiveTriangles = static_cast<uint32_t>(Triangles.size());
+	EmissiveTriangles.Assign(std::move(Triangles));
+	bEmissiveChanged = false;
+}
+
+FRTStatus FRTScene::BuildPending(IRTCommandList& List)
+{
+	std::vector<FRTGeometryRef> Work = std::move(PendingBuilds);
+	PendingBuilds.clear();
+	for (const FRTGeometryRef& Geometry : Deformed)
+	{
+		Geometry->bDeformed = false;
+		Work.push_back(Geometry);
+	}
+	Deformed.clear();
+	if (Work.empty()) { return FRTStatus::Success(); }
+	bObjectsChanged = true;
+	const FRTBarrier Inputs{nullptr, nullptr, ERTAccess::StorageWrite | ERTAccess::CopyWrite, ERTAccess::GeometryInput};
+	const FRTBarrier Structures{nullptr, nullptr, ERTAccess::TraceRead | ERTAccess::BuildWrite, ERTAccess::BuildWrite};
+	List.Barriers(&Inputs, 1);
+	List.Barriers(&Structures, 1);
+	return FGeometryBuilder(Device, Scratch).Build(List, Work, static_cast<uint32_t>(CVarRebuildInterval.GetOnRenderThread()), Stats);
+}
+
+FRTStatus FRTScene::ReserveStructure(uint32_t InstanceCount)
+{
+	if (Structure && Structure->GetMaxInstances() >= InstanceCount) { return FRTStatus::Success(); }
+	const uint32_t Capacity = std::max({64u, InstanceCount, Structure ? 2 * Structure->GetMaxInstances() : 0u});
+	FRTSceneDesc Desc;
+	Desc.MaxInstances = Capacity;
+	Desc.Name = "Scene";
+	return Device.CreateScene(Desc, Structure.ReleaseAndGetAddress());
+}
+
+FRTStatus FRTScene::BuildStructure(IRTCommandList& List, FFrameUploads& Uploads)
+{
+	if (FRTStatus S = ReserveStructure(Facts.Objects); !S) { return S; }
+	FUploadSlice Slice;
+	if (FRTStatus S = Uploads.Allocate(std::max<uint64_t>(1, Facts.Objects) * sizeof(FRTInstance), Slice); !S) { return S; }
+	auto* Instance = static_cast<FRTInstance*>(Slice.Data);
+	uint32_t Count = 0;
+	for (uint32_t Index = 0; Index < Objects.size(); ++Index)
+	{
+		const FObject& Object = Objects[Index];
+		if (!Object.bAlive) { continue; }
+		static_assert(sizeof(Instance->Transform) == sizeof(FObjectData::ObjectToWorld));
+		FRTInstance Value;
+		std::memcpy(Value.Transform, ObjectData[Index].ObjectToWorld, sizeof(Value.Transform));
+		uint8_t Flags = InstanceFrontIsCounterClockwise;
+		if (!IsMasked(Object)) { Flags |= InstanceForceOpaque; }
+		Value.CustomIndexAndMask = Index | (uint32_t(Object.Info.Mask) << 24);
+		Value.TableOffsetAndFlags = (Object.FirstSection * RayTypes) | (uint32_t(Flags) << 24);
+		Value.GeometryAddress = Object.Info.Geometry->Structure->GetDeviceAddress();
+		Instance[Count++] = Value;
+	}
+	Stats.InstancesWritten = Count;
+	FGeometryBuilder Builder(Device, Scratch);
+	if (FRTStatus S = Builder.ReserveScratch(std::max<uint64_t>(1, Structure->GetBuildSizes().BuildScratchBytes)); !S) { return S; }
+	const FRTBarrier Before{nullptr, nullptr, ERTAccess::TraceRead | ERTAccess::BuildWrite, ERTAccess::BuildWrite | ERTAccess::BuildRead};
+	List.Barriers(&Before, 1);
+	List.BuildScene(Structure.Get(), Slice.Buffer, Slice.Offset, Count, Scratch.Get(), 0);
+	const FRTBarrier After{nullptr, nullptr, ERTAccess::BuildWrite, ERTAccess::TraceRead};
+	List.Barriers(&After, 1);
+	bObjectsChanged = false;
+	return FRTStatus::Success();
+}
+
+FRTStatus FRTScene::FlushTables(IRTCommandList& List, FFrameUploads& Uploads)
+{
+	if (!AreTablesDirty()) { return FRTStatus::Success(); }
+	const FRTBarrier Before{nullptr, nullptr, ERTAccess::ShaderRead, ERTAccess::CopyWrite};
+	List.Barriers(&Before, 1);
+	for (FRTStatus S : {Materials.Flush(Device, List, Uploads), ObjectData.Flush(Device, List, Uploads), LightData.Flush(Device, List, Uploads),
+	                    EmissiveTriangles.Flush(Device, List, Uploads), Sections->GetTable().Flush(Device, List, Uploads)})
+	{
+		if (!S) { return S; }
+	}
+	Stats.BytesCopied = Materials.GetCopiedBytes() + ObjectData.GetCopiedBytes() + LightData.GetCopiedBytes() +
+	                    EmissiveTriangles.GetCopiedBytes() + Sections->GetTable().GetCopiedBytes();
+	const FRTBarrier After{nullptr, nullptr, ERTAccess::CopyWrite, ERTAccess::ShaderRead};
+	List.Barriers(&After, 1);
+	return FRTStatus::Success();
+}
+
+FRTStatus FRTScene::Update(IRTCommandList& List, FFrameUploads& Uploads, glm::dvec3 Camera, bool bLightSampling)
+{
+	Stats = {};
+	MoveOrigin(Camera);
+	RefreshFacts();
+	if (bLightsChanged) { UpdateLights(); }
+	if (bLightSampling && bEmissiveChanged) { UpdateEmissiveTriangles(); }
+	if (FRTStatus S = FlushTables(List, Uploads); !S) { return S; }
+	if (FRTStatus S = BuildPending(List); !S) { return S; }
+	if (bObjectsChanged || !Structure) { return BuildStructure(List, Uploads); }
+	return FRTStatus::Success();
+}
+
+FSceneConstants FRTScene::GetConstants() const
+{
+	FSceneConstants C{};
+	C.Objects = ObjectData.GetAddress();
+	C.Sections = Sections->GetTable().GetAddress();
+	C.Materials = Materials.GetAddress();
+	C.Lights = LightData.GetAddress();
+	C.EmissiveTriangles = EmissiveTriangles.GetAddress();
+	C.LightCount = LightData.Num();
+	C.EmissiveTriangleCount = EmissiveTriangles.Num();
+	C.EmissivePower = EmissivePower;
+	C.Tlas = Structure ? Structure->GetIndex() : ~0u;
+	C.SunDirection = glm::vec3(glm::normalize(Sun.Direction));
+	C.SunIrradiance = Sun.Irradiance;
+	C.SunColor = Sun.Color;
+	// 1 − cos r = 2 sin²(r/2): the difference itself would lose all digits for a disk as small as the sun's.
+	const double HalfSin = std::sin(0.25 * double(Sun.AngularDiameter));
+	C.SunOneMinusCos = static_cast<float>(2.0 * HalfSin * HalfSin);
+	C.SkyRadiance = Sky;
+	C.MaterialOverride = MaterialOverride;
+	return C;
+}
+
+void FRTScene::EndFrame()
+{
+	RetiredBefore = std::move(Retired);
+	Retired.clear();
+}
+
+} // namespace Lantern

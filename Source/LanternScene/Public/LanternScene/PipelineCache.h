@@ -1,0 +1,33 @@
+// Compute pipelines by shader and defines, compiled on first use and kept.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "LanternCore/ShaderCompiler.h"
+#include "LanternRHI/RTInterfaces.h"
+
+namespace Lantern
+{
+
+/// One thread at a time.
+class FPipelineCache
+{
+public:
+	FPipelineCache(IRTDevice& InDevice, FShaderCompiler& InCompiler) : Device(InDevice), Compiler(InCompiler) {}
+	/// Out lives as long as the cache. A shader that failed once fails again without being compiled again.
+	FRTStatus GetCompute(const FShaderSource& Source, IRTPipeline*& Out);
+	size_t GetCount() const { return Entries.size(); }
+
+private:
+	struct FEntry
+	{
+		TRTRef<IRTPipeline> Pipeline;
+		FRTStatus Status;
+	};
+	IRTDevice& Device;
+	FShaderCompiler& Compiler;
+	std::map<std::string, FEntry> Entries;
+};
+
+} // namespace Lantern

@@ -1,0 +1,167 @@
+// rtScene: the objects valid this frame, their materials and lights, and the acceleration structure over them.
+//
+// World positions are double precision; what the GPU sees is relative to an origin that follows the camera in
+// steps of OriginStep, so that fp32 keeps ≤ 0.1 mm within a kilometre of the camera anywhere in the world, and
+// a camera that moves within a step rewrites nothing.
+//
+// Threads: one at a time. Order of a frame: changes → Update → passes → submit → EndFrame.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "LanternScene/GpuTable.h"
+#include "LanternScene/Object.h"
+#include "SceneTypes.h"
+
+namespace Lantern
+{
+
+/// What the scene has. A pass that serves none of it records nothing.
+struct FSceneFacts
+{
+	uint32_t Objects = 0;
+	uint32_t DynamicGeometries = 0;
+	uint32_t Lights = 0;
+	uint32_t EmissiveTriangles = 0;
+	bool bMasked = false; ///< some object has an alpha-tested material (and r.RT.AlphaTest is on)
+	bool bEmissive = false;
+	bool bSun = false;
+	bool bSky = false;
+	friend bool operator==(const FSceneFacts&, const FSceneFacts&) = default;
+};
+
+/// The sun, as FSceneConstants has it but in plain units.
+struct FSunLight
+{
+	glm::dvec3 Direction{0, -1, 0}; ///< in which its light travels; need not be unit length
+	glm::vec3 Color{1};
+	float Irradiance = 0.0f;      ///< on a plane that faces it, lux; 0: no sun
+	float AngularDiameter = 0.0f; ///< radians; 0: hard shadows
+};
+
+/// A punctual light in the world.
+struct FSceneLight
+{
+	FLightData Data; ///< Position is filled in from WorldPosition
+	glm::dvec3 WorldPosition{0};
+};
+
+struct FSceneUpdateStats
+{
+	uint32_t GeometriesBuilt = 0, GeometriesRefitted = 0, InstancesWritten = 0;
+	uint64_t BytesCopied = 0;
+};
+
+class FSectionTable;
+
+class FRTScene
+{
+public:
+	static constexpr double OriginStep = 1024.0; // metres
+
+	explicit FRTScene(IRTDevice& Device);
+	~FRTScene();
+	FRTScene(const FRTScene&) = delete;
+	FRTScene& operator=(const FRTScene&) = delete;
+
+	/// Queues the build; it runs in the next Update. Errors name the geometry.
+	FRTStatus CreateGeometry(FRTGeometryInfo Info, FRTGeometryRef& Out);
+	/// A dynamic geometry's vertices are new in this frame: it is refitted, or rebuilt every
+	/// r.RT.Skinning.RebuildInterval frames.
+	void MarkDeformed(const FRTGeometryRef& Geometry);
+
+	uint32_t AddMaterial(const FMaterialData& Material);
+	void SetMaterial(uint32_t Index, const FMaterialData& Material);
+	const TGpuTable<FMaterialData>& GetMaterials() const { return Materials; }
+
+	FRTObjectId AddObject(FRTObjectInfo Info);
+	/// At any time, also while frames that see it are in flight.
+	void RemoveObject(FRTObjectId Id);
+	void SetTransform(FRTObjectId Id, const glm::dmat4& Transform);
+	void SetMaterials(FRTObjectId Id, std::vector<uint32_t> SectionMaterials);
+	const FRTObjectInfo& GetObject(FRTObjectId Id) const;
+	/// Index into FObjectData[], and of its first section into FSectionData[]; after AddObject.
+	uint32_t GetFirstSection(FRTObjectId Id) const;
+
+	void SetLights(std::vector<FSceneLight> Lights);
+	void SetSun(const FSunLight& Sun);
+	const FSunLight& GetSun() const { return Sun; }
+	void SetSky(glm::vec3 Radiance);
+	/// 0: the scene's materials; 1: each a Lambert of its base colour; 2: each a Lambert of 0.5, alpha tests off.
+	void SetMaterialOverride(uint32_t Override);
+	void SetAlphaTest(bool bEnabled);
+
+	/// Brings the facts up to date with all changes so far; Update does it too.
+	const FSceneFacts& RefreshFacts();
+	const FSceneFacts& GetFacts() const { return Facts; } ///< as of the last RefreshFacts
+	/// Whether Update would record anything. False in a frame in which nothing changed.
+	bool NeedsUpdate(glm::dvec3 Camera, bool bLightSampling) const;
+	glm::dvec3 GetOrigin() const { return Origin; }
+	/// World to what shaders use.
+	glm::vec3 ToRelative(glm::dvec3 World) const { return glm::vec3(World - Origin); }
+
+	/// Records uploads, builds and refits into List. Camera moves the origin. bLightSampling: keep the list of
+	/// emissive triangles (only some passes want it).
+	FRTStatus Update(IRTCommandList& List, FFrameUploads& Uploads, glm::dvec3 Camera, bool bLightSampling);
+	/// After Update: the block that passes read.
+	FSceneConstants GetConstants() const;
+	IRTScene* GetStructure() const { return Structure.Get(); }
+	FSectionTable& GetSections() { return *Sections; }
+	const FSceneUpdateStats& GetStats() const { return Stats; }
+	/// The frame was submitted: what was removed before its Update can go.
+	void EndFrame();
+	/// How many hit records each section has: one for each ray type in use. Set by whoever owns the RTPSO.
+	void SetRayTypes(uint32_t Count);
+
+private:
+	struct FObject
+	{
+		FRTObjectInfo Info;
+		uint32_t Generation = 0;
+		uint32_t FirstSection = 0;
+		bool bAlive = false;
+	};
+	FObject& Resolve(FRTObjectId Id);
+	const FObject& Resolve(FRTObjectId Id) const;
+	void WriteObject(uint32_t Index);
+	static glm::dvec3 SnapOrigin(glm::dvec3 Camera);
+	bool AreTablesDirty() const;
+	void MoveOrigin(glm::dvec3 Camera);
+	void UpdateFacts();
+	void UpdateLights();
+	void UpdateEmissiveTriangles();
+	FRTStatus BuildPending(IRTCommandList& List);
+	FRTStatus BuildStructure(IRTCommandList& List, FFrameUploads& Uploads);
+	FRTStatus ReserveStructure(uint32_t InstanceCount);
+	FRTStatus FlushTables(IRTCommandList& List, FFrameUploads& Uploads);
+	bool IsMasked(const FObject& Object) const;
+
+	IRTDevice& Device;
+	glm::dvec3 Origin{0};
+	std::vector<FObject> Objects;
+	std::vector<uint32_t> FreeObjects;
+	std::vector<std::weak_ptr<FRTGeometry>> Geometries;
+	std::vector<FRTGeometryRef> PendingBuilds, Deformed;
+	std::vector<FRTGeometryRef> Retired, RetiredBefore; // see EndFrame
+	std::unique_ptr<FSectionTable> Sections;
+	TGpuTable<FMaterialData> Materials{"Materials"};
+	TGpuTable<FObjectData> ObjectData{"Objects"};
+	TGpuTable<FLightData> LightData{"Lights"};
+	TGpuTable<FEmissiveTriangle> EmissiveTriangles{"EmissiveTriangles"};
+	std::vector<FSceneLight> Lights;
+	FSunLight Sun;
+	glm::vec3 Sky{0};
+	uint32_t MaterialOverride = 0;
+	bool bAlphaTest = true;
+	float EmissivePower = 0.0f;
+	uint32_t RayTypes = 1;
+	FSceneFacts Facts;
+	FSceneUpdateStats Stats;
+	TRTRef<IRTScene> Structure;
+	TRTRef<IRTBuffer> Scratch;
+	bool bObjectsChanged = true, bFactsChanged = true, bLightsChanged = true, bEmissiveChanged = true;
+};
+
+} // namespace Lantern
