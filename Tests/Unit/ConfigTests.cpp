@@ -105,9 +105,10 @@ TEST_F(Config, AFileMayChooseAQualityPerGroup)
 	Files.Write("Scalability.ini", "[ShadowQuality@3]\nt.Config.A=4\n[OtherQuality@3]\nt.Config.B=9\n");
 	const std::string Path = Files.Write("Game.ini", "[ScalabilityGroups]\nsg.ShadowQuality=3\n"
 	                                                 "sg.ShadwQuality=3\nsg.OtherQuality=best\n");
-	EXPECT_THAT(Checked(LoadFile(Folder, Path)),
-	            ElementsAre(HasSubstr(":3: unknown scalability group 'sg.ShadwQuality'; the nearest is 'ShadowQuality'"),
-	                        HasSubstr(":4: sg.OtherQuality: 'best' is not a quality")));
+	EXPECT_THAT(
+	    Checked(LoadFile(Folder, Path)),
+	    ElementsAre(HasSubstr(":3: unknown scalability group 'sg.ShadwQuality'; the nearest is 'ShadowQuality'"),
+	                HasSubstr(":4: sg.OtherQuality: 'best' is not a quality")));
 	EXPECT_EQ(CVarA.Get(), 4);
 	EXPECT_EQ(CVarA.GetSetBy(), ERTSetBy::Scalability);
 	EXPECT_EQ(CVarB.Get(), 0);
@@ -121,8 +122,8 @@ TEST(Quality, NamesAndNumbers)
 	EXPECT_FALSE(ParseQuality("5"));
 	EXPECT_FALSE(ParseQuality(""));
 	EXPECT_FALSE(ParseQuality("ultra"));
-	for (const ERTQuality Quality : {ERTQuality::Low, ERTQuality::Medium, ERTQuality::High, ERTQuality::Epic,
-	                                 ERTQuality::Cinematic})
+	for (const ERTQuality Quality :
+	     {ERTQuality::Low, ERTQuality::Medium, ERTQuality::High, ERTQuality::Epic, ERTQuality::Cinematic})
 		EXPECT_EQ(ParseQuality(ToString(Quality)), Quality);
 }
 
@@ -181,11 +182,10 @@ TEST_F(Config, ProfileMistakesAreNamed)
 	                                  "[C DeviceProfile]\nMatchDevice=c\nBaseProfileName=None\n+CVars=t.Config.B=4\n"
 	                                  "[Nothing]\n");
 	FConfigProblems Problems = Checked(LoadDeviceProfile(Folder, "a").Problems);
-	EXPECT_THAT(Problems,
-	            ElementsAre(HasSubstr(":6: unknown key 'CVar' in a device profile; the nearest is 'CVars'"),
-	                        HasSubstr(":13: [Nothing] is not [NAME DeviceProfile]"),
-	                        HasSubstr(":8: base profile 'A' is derived from this one"),
-	                        HasSubstr(":5: 't.Config.B' is not name=value")));
+	EXPECT_THAT(Problems, ElementsAre(HasSubstr(":6: unknown key 'CVar' in a device profile; the nearest is 'CVars'"),
+	                                  HasSubstr(":13: [Nothing] is not [NAME DeviceProfile]"),
+	                                  HasSubstr(":8: base profile 'A' is derived from this one"),
+	                                  HasSubstr(":5: 't.Config.B' is not name=value")));
 	EXPECT_EQ(CVarA.Get(), 5);
 	EXPECT_THAT(LoadDeviceProfile(Folder, "c").Problems,
 	            testing::Contains(HasSubstr(":11: base profile 'None' does not exist")));
@@ -204,11 +204,11 @@ TEST_F(Config, ALongChainOfProfilesEnds)
 
 TEST_F(Config, AliasMistakesAreNamed)
 {
-	Files.Write("ConsoleVariableAliases.ini",
-	            "[ConsoleVariableAliases]\nx.Config.Empty=\nx.Config.Self=x.Config.Self\nx.Config.Good=t.Config.A\n[X]\n");
-	EXPECT_THAT(Checked(LoadAliases(Folder)),
-	            ElementsAre(HasSubstr(":2: 'x.Config.Empty' names no other variable"), HasSubstr(":3: "),
-	                        HasSubstr(":5: unknown section [X]")));
+	Files.Write(
+	    "ConsoleVariableAliases.ini",
+	    "[ConsoleVariableAliases]\nx.Config.Empty=\nx.Config.Self=x.Config.Self\nx.Config.Good=t.Config.A\n[X]\n");
+	EXPECT_THAT(Checked(LoadAliases(Folder)), ElementsAre(HasSubstr(":2: 'x.Config.Empty' names no other variable"),
+	                                                      HasSubstr(":3: "), HasSubstr(":5: unknown section [X]")));
 	EXPECT_EQ(FConsoleVariables::Get().Find("x.config.good"), &CVarA);
 }
 

@@ -87,8 +87,9 @@ TEST(IniFile, CommentsAndQuotes)
 {
 	EXPECT_THAT(ResolveText("[S] ; the section\nA=4 ; four\nB=x;y\nC=;empty\n ;C=3\n"),
 	            ElementsAre("A=4", "B=x;y", "C="));
-	EXPECT_THAT(ResolveText("[S]\nA=\" a ; b \" ; note\nB=\"\"\nC=\"say \\\"x\\\" \\\\ \\n\"\nD=\"C:\\dir\"\nE=a\"b\"\n"),
-	            ElementsAre("A= a ; b ", "B=", "C=say \"x\" \\ \n", "D=C:\\dir", "E=a\"b\""));
+	EXPECT_THAT(
+	    ResolveText("[S]\nA=\" a ; b \" ; note\nB=\"\"\nC=\"say \\\"x\\\" \\\\ \\n\"\nD=\"C:\\dir\"\nE=a\"b\"\n"),
+	    ElementsAre("A= a ; b ", "B=", "C=say \"x\" \\ \n", "D=C:\\dir", "E=a\"b\""));
 	EXPECT_THAT(ResolveText("[S]\n+CVars=r.X=1\n"), ElementsAre("CVars=r.X=1")) << "the first '=' divides";
 }
 
@@ -162,8 +163,8 @@ TEST(IniFile, EntriesBeforeAnySectionAreProblems)
 TEST(IniFile, NulBytesSpoilTheirLineOnly)
 {
 	const FIniFile File = FIniFile::Parse(std::string_view("[S]\nA=1\0x\nB\0=2\nC=3\n", 19), "T.ini");
-	EXPECT_THAT(File.GetProblems(), ElementsAre("T.ini:2: control character in 'A=1\\x00x'",
-	                                            "T.ini:3: control character in 'B\\x00=2'"));
+	EXPECT_THAT(File.GetProblems(),
+	            ElementsAre("T.ini:2: control character in 'A=1\\x00x'", "T.ini:3: control character in 'B\\x00=2'"));
 	EXPECT_THAT(Resolve(File, "S"), ElementsAre("C=3"));
 }
 

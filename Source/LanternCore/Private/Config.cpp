@@ -30,8 +30,7 @@ void SetVariables(const std::vector<FIniValue>& Values, ERTSetBy By, FConfigProb
 {
 	// The registry has logged what it returns.
 	for (const FIniValue& Value : Values)
-		if (std::optional<std::string> Problem =
-		        FConsoleVariables::Get().Set(Value.Key, Value.Value, By, Value.Where))
+		if (std::optional<std::string> Problem = FConsoleVariables::Get().Set(Value.Key, Value.Value, By, Value.Where))
 			Problems.push_back(std::move(*Problem));
 }
 
@@ -61,8 +60,8 @@ bool IsEngineSection(std::string_view Name)
 	return EqualsIgnoringCase(Name.substr(0, 8), "/Script/");
 }
 
-void ReportUnknownSection(const FIniFile& File, const FIniSection& Section,
-                          const std::vector<std::string_view>& Known, FConfigProblems& Problems)
+void ReportUnknownSection(const FIniFile& File, const FIniSection& Section, const std::vector<std::string_view>& Known,
+                          FConfigProblems& Problems)
 {
 	Report(Problems, fmt::format("{}: unknown section [{}]; the nearest is [{}]", File.GetWhere(Section.Line),
 	                             Section.Name, FindNearest(Section.Name, Known)));
@@ -99,8 +98,8 @@ void ReportBadScalabilitySections(const FIniFile& File, FConfigProblems& Problem
 {
 	for (const FIniSection& Section : File.GetSections())
 		if (!ParseScalabilityName(Section.Name))
-			Report(Problems, fmt::format("{}: [{}] is not [Group@0] … [Group@4]", File.GetWhere(Section.Line),
-			                             Section.Name));
+			Report(Problems,
+			       fmt::format("{}: [{}] is not [Group@0] … [Group@4]", File.GetWhere(Section.Line), Section.Name));
 }
 
 std::vector<std::string_view> GetGroups(const FIniFile& File)

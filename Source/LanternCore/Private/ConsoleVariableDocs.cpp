@@ -134,8 +134,7 @@ std::string FConsoleVariables::ToJson() const
 	for (const FRTConsoleVariable* Variable : GetAll())
 		List.push_back(ToJsonObject(*Variable));
 	// Values may hold any bytes: what is not UTF-8 is replaced rather than thrown about.
-	return nlohmann::json{{"variables", std::move(List)}}.dump(2, ' ', false,
-	                                                          nlohmann::json::error_handler_t::replace);
+	return nlohmann::json{{"variables", std::move(List)}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 } // namespace Lantern

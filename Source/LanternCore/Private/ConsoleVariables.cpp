@@ -31,8 +31,8 @@ const char* ToString(ERTSetBy By)
 // The variable.
 
 FRTConsoleVariable::FRTConsoleVariable(const char* Name, FRTCVarValue Default, const char* Help, FRTCVarRange Range)
-    : State(new FState{.Name = Name, .Help = Help, .Default = Default, .Range = Range, .Latest = Default,
-                       .Published = Default})
+    : State(new FState{
+          .Name = Name, .Help = Help, .Default = Default, .Range = Range, .Latest = Default, .Published = Default})
 {
 	assert(Range.Min <= Range.Max);
 	assert(IsInRange(Default, Range));
@@ -148,9 +148,7 @@ void FConsoleVariables::FImpl::MarkDirty(FRTConsoleVariable& Variable)
 
 // The registry.
 
-FConsoleVariables::FConsoleVariables() : Impl(std::make_unique<FImpl>())
-{
-}
+FConsoleVariables::FConsoleVariables() : Impl(std::make_unique<FImpl>()) {}
 
 FConsoleVariables::~FConsoleVariables() = default;
 

@@ -64,16 +64,16 @@ void CheckProfiles(const FIniFile& File, FConfigProblems& Problems)
 	{
 		if (GetProfileName(Section).empty())
 		{
-			Report(Problems, fmt::format("{}: [{}] is not [NAME DeviceProfile]", File.GetWhere(Section.Line),
-			                             Section.Name));
+			Report(Problems,
+			       fmt::format("{}: [{}] is not [NAME DeviceProfile]", File.GetWhere(Section.Line), Section.Name));
 			continue;
 		}
 		for (const FIniEntry& Entry : Section.Entries)
 			if (std::none_of(Known.begin(), Known.end(),
 			                 [&](std::string_view Key) { return EqualsIgnoringCase(Entry.Key, Key); }))
-				Report(Problems, fmt::format("{}: unknown key {} in a device profile; the nearest is '{}'",
-				                             File.GetWhere(Entry.Line), Quote(Entry.Key),
-				                             FindNearest(Entry.Key, Known)));
+				Report(Problems,
+				       fmt::format("{}: unknown key {} in a device profile; the nearest is '{}'",
+				                   File.GetWhere(Entry.Line), Quote(Entry.Key), FindNearest(Entry.Key, Known)));
 	}
 }
 
@@ -138,7 +138,8 @@ bool IsProfileVariableKey(std::string_view Key)
 std::pair<std::string, std::string> SplitAssignment(std::string_view Text)
 {
 	const size_t Equals = std::min(Text.find('='), Text.size());
-	return {std::string(Trim(Text.substr(0, Equals))), std::string(Trim(Text.substr(std::min(Equals + 1, Text.size()))))};
+	return {std::string(Trim(Text.substr(0, Equals))),
+	        std::string(Trim(Text.substr(std::min(Equals + 1, Text.size()))))};
 }
 
 FDeviceProfileResult LoadDeviceProfile(const FConfigFolder& Folder, std::string_view DeviceName)

@@ -219,7 +219,12 @@ private:
 		return EntryCount <= MaxEntries;
 	}
 
-	enum class EState : uint8_t { BeforeSections, InSection, Skip };
+	enum class EState : uint8_t
+	{
+		BeforeSections,
+		InSection,
+		Skip
+	};
 	FIniFile& File;
 	EState State = EState::BeforeSections;
 	size_t Section = 0;
@@ -246,7 +251,7 @@ FIniFile FIniFile::Load(const std::string& Path)
 	// A device or a pipe could keep the reader waiting for ever.
 	if (!std::filesystem::is_regular_file(Status))
 	{
-		Parser.AddFileProblem(!std::filesystem::exists(Status)             ? "no such file"
+		Parser.AddFileProblem(!std::filesystem::exists(Status)        ? "no such file"
 		                      : std::filesystem::is_directory(Status) ? "is a folder, not a file"
 		                                                              : "is not a regular file");
 		return File;

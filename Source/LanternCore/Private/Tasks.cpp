@@ -53,9 +53,7 @@ struct FTaskGroup::FImpl
 	tbb::task_group Group;
 };
 
-FTaskGroup::FTaskGroup() : Impl(std::make_unique<FImpl>())
-{
-}
+FTaskGroup::FTaskGroup() : Impl(std::make_unique<FImpl>()) {}
 
 FTaskGroup::~FTaskGroup()
 {

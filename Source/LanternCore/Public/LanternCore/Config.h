@@ -33,7 +33,14 @@ struct FConfigFolder
 using FConfigProblems = std::vector<std::string>;
 
 /// The levels of Scalability.ini, as --quality names them.
-enum class ERTQuality : uint8_t { Low, Medium, High, Epic, Cinematic };
+enum class ERTQuality : uint8_t
+{
+	Low,
+	Medium,
+	High,
+	Epic,
+	Cinematic
+};
 const char* ToString(ERTQuality Quality);
 /// A name ("epic", case-insensitive) or a number ("3").
 std::optional<ERTQuality> ParseQuality(std::string_view Text);
