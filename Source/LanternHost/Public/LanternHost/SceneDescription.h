@@ -166,7 +166,7 @@ FScenePose EvaluatePose(const FSceneDescription& Scene, double Time);
 /// Joint matrices (model space of the skinned node, glTF 2.0 §3.7.3.3) of node's skin.
 std::vector<glm::mat4> EvaluateJoints(const FSceneDescription& Scene, const FScenePose& Pose, int32_t Node);
 
-/// World-space bounds of all meshes in the pose (skinned meshes: of their bind pose). False if nothing is there.
+/// World-space bounds of all meshes in the pose (skinned meshes: as the pose bends them). False if nothing is there.
 bool GetSceneBounds(const FSceneDescription& Scene, const FScenePose& Pose, glm::dvec3& OutMin, glm::dvec3& OutMax);
 
 } // namespace Lantern

@@ -1,0 +1,70 @@
+// Builds FHostMesh from shapes. Fronts are counter-clockwise; normals and texture coordinates come with the shapes,
+// tangents are computed at the end.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "LanternHost/SceneDescription.h"
+
+namespace Lantern::Builtin
+{
+
+class FMeshBuilder
+{
+public:
+	explicit FMeshBuilder(std::string Name) { Mesh.Name = std::move(Name); }
+
+	/// What follows belongs to a section of this material. Calling it again with the same one starts another section.
+	FMeshBuilder& BeginSection(int32_t Material);
+	/// Applied to what follows; positions and normals, not texture coordinates.
+	FMeshBuilder& SetTransform(const glm::mat4& InTransform);
+	/// Multiplies the texture coordinates that the shapes below make, which are in metres.
+	FMeshBuilder& SetTexelScale(float InScale);
+	FMeshBuilder& SetColor(const glm::vec3& InColor);
+
+	uint32_t AddVertex(const glm::vec3& Position, const glm::vec3& Normal, const glm::vec2& UV);
+	void AddTriangle(uint32_t A, uint32_t B, uint32_t C);
+
+	/// A flat quad, corners counter-clockwise from where u and v are 0; u along the first edge, in metres.
+	void AddQuad(const glm::vec3& P0, const glm::vec3& P1, const glm::vec3& P2, const glm::vec3& P3);
+	/// The same with u and v from 0 to 1.
+	void AddUnitQuad(const glm::vec3& P0, const glm::vec3& P1, const glm::vec3& P2, const glm::vec3& P3);
+	/// Faces outwards, or inwards.
+	void AddBox(const glm::vec3& Min, const glm::vec3& Max, bool bInward = false);
+	/// A box whose edges are cut off at 45° by Bevel metres: edges catch light as real ones do.
+	void AddBeveledBox(const glm::vec3& Min, const glm::vec3& Max, float Bevel);
+	/// Turns a profile (radius, height), from bottom to top, about the y axis. Smooth except where two successive
+	/// points of the profile are equal.
+	void AddLathe(std::span<const glm::vec2> Profile, int Segments);
+	/// Subdivided icosahedron with vertices at Radius.
+	void AddSphere(const glm::vec3& Center, float Radius, int Subdivisions, bool bInward = false);
+	/// A disk about Center, facing Normal.
+	void AddDisk(const glm::vec3& Center, const glm::vec3& Normal, float Radius, int Segments);
+	/// A tube of given radii along a path.
+	void AddTube(std::span<const glm::vec3> Path, std::span<const float> Radii, int Segments);
+
+	/// Sum of the triangles' areas so far.
+	double ComputeArea() const;
+	void Scale(float Factor);
+
+	FHostMesh Build();
+
+private:
+	void AddLatheBand(const glm::vec2& A, const glm::vec2& B, const glm::vec2& NormalA, const glm::vec2& NormalB,
+	                  float VA, float VB, int Segments);
+
+	FHostMesh Mesh;
+	std::vector<glm::vec3> Normals;
+	std::vector<glm::vec2> UVs;
+	std::vector<glm::vec3> Colors;
+	glm::mat4 Transform{1};
+	glm::mat3 NormalTransform{1};
+	glm::vec3 Color{1};
+	float TexelScale = 1.0f;
+};
+
+} // namespace Lantern::Builtin

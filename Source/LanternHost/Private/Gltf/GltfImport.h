@@ -1,0 +1,16 @@
+// A glTF document in memory becomes a scene.
+#pragma once
+
+#include <filesystem>
+
+#include "Gltf/GltfFile.h"
+#include "LanternHost/SceneLoader.h"
+
+namespace Lantern::Gltf
+{
+
+/// Data: a .gltf or .glb. Folder: where external files lie; empty: none are read. Throws FError and what the
+/// standard library throws.
+FSceneDescription ImportScene(FBytes Data, const std::filesystem::path& Folder, const FLoadOptions& Options);
+
+} // namespace Lantern::Gltf

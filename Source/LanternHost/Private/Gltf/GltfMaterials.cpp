@@ -1,0 +1,235 @@
+// Materials, and which textures and images they use as what.
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "Gltf/GltfDocument.h"
+
+namespace Lantern::Gltf
+{
+
+namespace
+{
+
+/// Hands out FHostTexture and FHostImage indices. An image that serves as colour and as data exists twice, since
+/// its sRGB flag is part of its format; images that share a file exist once.
+class FTextureTable
+{
+public:
+	explicit FTextureTable(FDocument& InDocument)
+	    : Document(InDocument),
+	      Textures(InDocument.Root.Member("textures")),
+	      Images(InDocument.Root.Member("images")),
+	      Samplers(InDocument.Root.Member("samplers"))
+	{
+	}
+
+	int32_t Get(const FJson& TextureInfo, bool bSrgb)
+	{
+		const int32_t Index = TextureInfo.RequireIndex("index", Textures.Count(), "texture");
+		const auto [Found, bNew] = TextureByUse.try_emplace({Index, bSrgb}, int32_t(Document.Scene.Textures.size()));
+		if (bNew)
+		{
+			const FJson Json = Textures.Element(size_t(Index));
+			FHostTexture Texture = ReadSampler(Json);
+			Texture.Image = GetImage(Json, TextureInfo, bSrgb);
+			Document.Scene.Textures.push_back(Texture);
+		}
+		return Found->second;
+	}
+
+private:
+	FHostTexture ReadSampler(const FJson& Texture) const
+	{
+		constexpr uint64_t ClampToEdge = 33071, MirroredRepeat = 33648, Repeat = 10497, Nearest = 9728;
+		FHostTexture Result;
+		const int32_t Index = Texture.GetIndex("sampler", Samplers.Count(), "sampler");
+		if (Index >= 0)
+		{
+			const FJson Sampler = Samplers.Element(size_t(Index));
+			const uint64_t WrapS = Sampler.GetUInt("wrapS", Repeat);
+			const uint64_t WrapT = Sampler.GetUInt("wrapT", Repeat);
+			Result.bRepeatU = WrapS != ClampToEdge;
+			Result.bRepeatV = WrapT != ClampToEdge;
+			Result.bMirrorU = WrapS == MirroredRepeat;
+			Result.bMirrorV = WrapT == MirroredRepeat;
+			Result.bNearest = Sampler.GetUInt("magFilter", 0) == Nearest;
+		}
+		return Result;
+	}
+
+	int32_t GetImage(const FJson& Texture, const FJson& UsedBy, bool bSrgb)
+	{
+		const int32_t Source = Texture.GetIndex("source", Images.Count(), "image");
+		if (Source < 0)
+		{
+			Texture.Fail("has no 'source' in a format that is read (PNG or JPEG)");
+		}
+		const FJson Image = Images.Element(size_t(Source));
+		const std::string Uri = Image.GetString("uri", "");
+		// A data URI is its own key, too long to keep; equal ones are rare.
+		const std::string Key = Uri.empty() || IsDataUri(Uri) ? fmt::format("[{}]", Source) : Uri;
+		const auto [Found, bNew] = ImageByUse.try_emplace({Key, bSrgb}, int32_t(Document.Scene.Images.size()));
+		if (bNew)
+		{
+			FHostImage Result;
+			Result.Name = Key != Uri ? Image.GetString("name", "") : Uri;
+			if (Result.Name.empty())
+			{
+				Result.Name = fmt::format("image {}", Source);
+			}
+			Result.bSrgb = bSrgb;
+			Document.Scene.Images.push_back(std::move(Result));
+			Document.ImageSources.push_back({size_t(Source), UsedBy.GetPath()});
+		}
+		return Found->second;
+	}
+
+	FDocument& Document;
+	const FJson Textures, Images, Samplers;
+	std::map<std::pair<int32_t, bool>, int32_t> TextureByUse;
+	std::map<std::pair<std::string, bool>, int32_t> ImageByUse;
+};
+
+/// Rows of rotation · scale; glTF rotates counter-clockwise as seen with v pointing down.
+void ReadTransform(FDocument& Document, const FJson& Info, FHostTextureSlot& OutSlot)
+{
+	const FJson Json = Info.Extension("KHR_texture_transform");
+	if (Json.Exists())
+	{
+		const glm::vec2 Scale = Json.GetVec2("scale", glm::vec2(1));
+		const float Rotation = Json.GetFloat("rotation", 0.0f);
+		const float Cos = std::cos(Rotation), Sin = std::sin(Rotation);
+		OutSlot.Transform = {Cos * Scale.x, Sin * Scale.y, -Sin * Scale.x, Cos * Scale.y};
+		OutSlot.Offset = Json.GetVec2("offset", glm::vec2(0));
+		OutSlot.UVSet = uint32_t(Json.GetUInt("texCoord", OutSlot.UVSet, UINT32_MAX));
+	}
+	if (OutSlot.UVSet > 1)
+	{
+		Document.Warn("texture coordinate sets beyond TEXCOORD_1 are not read: TEXCOORD_0 is used instead");
+		OutSlot.UVSet = 0;
+	}
+}
+
+void ReadSlot(FDocument& Document, FTextureTable& Table, const FJson& Parent, const char* Key, bool bSrgb,
+              FHostTextureSlot& OutSlot)
+{
+	const FJson Info = Parent.Member(Key);
+	if (Info.Exists())
+	{
+		OutSlot.Texture = Table.Get(Info, bSrgb);
+		OutSlot.UVSet = uint32_t(Info.GetUInt("texCoord", 0, UINT32_MAX));
+		ReadTransform(Document, Info, OutSlot);
+	}
+}
+
+float Clamp01(const FJson& Json, const char* Key, float Default)
+{
+	return glm::clamp(Json.GetFloat(Key, Default), 0.0f, 1.0f);
+}
+
+void ReadExtensions(FDocument& Document, const FJson& Json, FHostMaterial& Material)
+{
+	const FJson Strength = Json.Extension("KHR_materials_emissive_strength");
+	Material.Emissive *= std::max(Strength.GetFloat("emissiveStrength", 1.0f), 0.0f);
+	if (!glm::all(glm::lessThan(Material.Emissive, glm::vec3(1e30f))))
+	{
+		Json.Fail("emission is beyond what a float holds");
+	}
+	const FJson Ior = Json.Extension("KHR_materials_ior");
+	Material.Ior = Ior.GetFloat("ior", 1.5f);
+	if (Material.Ior != 0.0f && Material.Ior < 1.0f)
+	{
+		Ior.Fail(fmt::format("ior {} is neither 0 nor at least 1", Material.Ior));
+	}
+	const FJson Specular = Json.Extension("KHR_materials_specular");
+	Material.Specular = Clamp01(Specular, "specularFactor", 1.0f);
+	if (Specular.Member("specularTexture").Exists() || Specular.Member("specularColorTexture").Exists() ||
+	    Specular.Member("specularColorFactor").Exists())
+	{
+		Document.Warn("KHR_materials_specular: only specularFactor is read");
+	}
+	const FJson Transmission = Json.Extension("KHR_materials_transmission");
+	Material.Transmission = Clamp01(Transmission, "transmissionFactor", 0.0f);
+	if (Material.Transmission > 0)
+	{
+		Document.Warn("KHR_materials_transmission: transmissive materials are rendered as opaque");
+	}
+}
+
+/// Unlit materials become emitters of their base colour: what they look like, although they then also light others.
+void ReadUnlit(FDocument& Document, const FJson& Json, FHostMaterial& Material)
+{
+	if (Json.Extension("KHR_materials_unlit").Exists())
+	{
+		Document.Warn("KHR_materials_unlit: unlit materials are rendered as emitters of their base colour");
+		Material.Emissive = glm::vec3(Material.BaseColor);
+		Material.Slots[TEXTURE_EMISSIVE] = Material.Slots[TEXTURE_BASE_COLOR];
+		Material.BaseColor = glm::vec4(0, 0, 0, Material.BaseColor.a);
+		Material.Metallic = 0.0f;
+		Material.Roughness = 1.0f;
+		Material.Specular = 0.0f;
+		Material.Slots[TEXTURE_METALLIC_ROUGHNESS] = {};
+		Material.Slots[TEXTURE_NORMAL] = {};
+	}
+}
+
+void ReadAlpha(FDocument& Document, const FJson& Json, FHostMaterial& Material)
+{
+	const std::string Mode = Json.GetString("alphaMode", "OPAQUE");
+	if (Mode == "MASK")
+	{
+		Material.AlphaMode = EAlphaMode::Mask;
+	}
+	else if (Mode == "BLEND")
+	{
+		Material.AlphaMode = EAlphaMode::Blend;
+		Document.Warn("alphaMode BLEND: blended materials are not composited");
+	}
+	else if (Mode != "OPAQUE")
+	{
+		Json.Fail(fmt::format("'{}' is no alphaMode", Mode.substr(0, 40)));
+	}
+	Material.AlphaCutoff = std::max(Json.GetFloat("alphaCutoff", 0.5f), 0.0f);
+	Material.bDoubleSided = Json.GetBool("doubleSided", false);
+}
+
+FHostMaterial ReadMaterial(FDocument& Document, FTextureTable& Table, const FJson& Json)
+{
+	FHostMaterial Material;
+	Material.Name = Json.GetString("name", "");
+	const FJson Pbr = Json.Member("pbrMetallicRoughness");
+	Material.BaseColor = glm::clamp(Pbr.GetVec4("baseColorFactor", glm::vec4(1)), 0.0f, 1.0f);
+	Material.Metallic = Clamp01(Pbr, "metallicFactor", 1.0f);
+	Material.Roughness = Clamp01(Pbr, "roughnessFactor", 1.0f);
+	Material.Emissive = glm::max(Json.GetVec3("emissiveFactor", glm::vec3(0)), glm::vec3(0));
+	ReadSlot(Document, Table, Pbr, "baseColorTexture", true, Material.Slots[TEXTURE_BASE_COLOR]);
+	ReadSlot(Document, Table, Pbr, "metallicRoughnessTexture", false, Material.Slots[TEXTURE_METALLIC_ROUGHNESS]);
+	ReadSlot(Document, Table, Json, "normalTexture", false, Material.Slots[TEXTURE_NORMAL]);
+	ReadSlot(Document, Table, Json, "occlusionTexture", false, Material.Slots[TEXTURE_OCCLUSION]);
+	ReadSlot(Document, Table, Json, "emissiveTexture", true, Material.Slots[TEXTURE_EMISSIVE]);
+	const FJson Normal = Json.Member("normalTexture");
+	Material.NormalScale = Normal.GetFloat("scale", 1.0f);
+	const FJson Occlusion = Json.Member("occlusionTexture");
+	Material.OcclusionStrength = Clamp01(Occlusion, "strength", 1.0f);
+	ReadAlpha(Document, Json, Material);
+	ReadExtensions(Document, Json, Material);
+	ReadUnlit(Document, Json, Material);
+	return Material;
+}
+
+} // namespace
+
+void ReadMaterials(FDocument& Document)
+{
+	FTextureTable Table(Document);
+	const FJson Materials = Document.Root.Member("materials");
+	for (size_t I = 0; I < Materials.Count(); ++I)
+	{
+		const FJson Json = Materials.Element(I);
+		Document.Scene.Materials.push_back(ReadMaterial(Document, Table, Json));
+	}
+}
+
+} // namespace Lantern::Gltf

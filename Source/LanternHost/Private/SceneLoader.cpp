@@ -1,0 +1,103 @@
+#include "LanternHost/SceneLoader.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <new>
+
+#include <fmt/format.h>
+
+#include "Gltf/GltfImport.h"
+#include "LanternHost/BuiltinScenes.h"
+
+namespace Lantern
+{
+
+namespace
+{
+
+/// Runs Import, which may throw, and turns everything into a result. The boundary that no exception crosses.
+template <class T>
+FLoadResult Guard(const std::string& Name, const T& Import)
+{
+	FLoadResult Result;
+	try
+	{
+		Result.Scene = Import();
+		const std::string Error = ValidateScene(*Result.Scene);
+		if (!Error.empty())
+		{
+			throw Gltf::FError(Error);
+		}
+	}
+	catch (const std::bad_alloc&)
+	{
+		Result.Scene.reset();
+		Result.Error = Name + ": out of memory";
+	}
+	catch (const std::exception& Exception)
+	{
+		Result.Scene.reset();
+		Result.Error = fmt::format("{}: {}", Name, Exception.what());
+	}
+	return Result;
+}
+
+std::string GetLowerExtension(const std::filesystem::path& Path)
+{
+	std::string Extension = Path.extension().string();
+	std::transform(Extension.begin(), Extension.end(), Extension.begin(),
+	               [](unsigned char C) { return std::tolower(C); });
+	return Extension;
+}
+
+constexpr uint64_t MaxFileBytes = uint64_t(4) << 30;
+
+} // namespace
+
+FLoadResult LoadScene(const std::string& PathOrBuiltinName, const FLoadOptions& Options)
+{
+	if (IsBuiltinScene(PathOrBuiltinName))
+	{
+		FLoadResult Result = BuildBuiltinScene(PathOrBuiltinName);
+		if (Result.Scene)
+		{
+			const std::string Error = ValidateScene(*Result.Scene);
+			if (!Error.empty())
+			{
+				return {std::nullopt, fmt::format("{}: {}", PathOrBuiltinName, Error)};
+			}
+		}
+		return Result;
+	}
+	return Guard(PathOrBuiltinName,
+	             [&]
+	             {
+		             const std::filesystem::path Path(PathOrBuiltinName);
+		             const std::string Extension = GetLowerExtension(Path);
+		             if (Extension != ".gltf" && Extension != ".glb")
+		             {
+			             throw Gltf::FError("neither a .gltf or .glb file nor a built-in scene (" +
+			                                GetBuiltinSceneNames() + ")");
+		             }
+		             const std::vector<uint8_t> Data = Gltf::ReadFile(Path, MaxFileBytes);
+		             std::filesystem::path Folder = Path.parent_path();
+		             Folder = Folder.empty() ? std::filesystem::path(".") : Folder;
+		             FSceneDescription Scene = Gltf::ImportScene(Data, Folder, Options);
+		             Scene.Name = Path.filename().string();
+		             return Scene;
+	             });
+}
+
+FLoadResult LoadSceneFromMemory(const void* Data, size_t Size, const std::string& Name, const FLoadOptions& Options)
+{
+	return Guard(Name,
+	             [&]
+	             {
+		             const Gltf::FBytes Bytes(static_cast<const uint8_t*>(Data), Size);
+		             FSceneDescription Scene = Gltf::ImportScene(Bytes, {}, Options);
+		             Scene.Name = Name;
+		             return Scene;
+	             });
+}
+
+} // namespace Lantern
