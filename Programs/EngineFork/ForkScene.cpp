@@ -1,0 +1,162 @@
+#include "ForkScene.h"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace Fork
+{
+
+namespace
+{
+
+struct FHit
+{
+	double Distance = 0.0;
+	glm::dvec3 Normal{0};
+	size_t Box = 0;
+};
+
+/// Slab test; the first boundary in front of the origin.
+std::optional<FHit> Intersect(const FBox& Box, glm::dvec3 Origin, glm::dvec3 Direction)
+{
+	double Enter = -std::numeric_limits<double>::infinity(), Leave = std::numeric_limits<double>::infinity();
+	glm::dvec3 Normal{0};
+	for (int Axis = 0; Axis < 3; ++Axis)
+	{
+		const double Middle = (Box.Centre[Axis] - Origin[Axis]) / Direction[Axis];
+		const double Half = Box.HalfSize[Axis] / std::abs(Direction[Axis]);
+		if (Middle - Half > Enter)
+		{
+			Enter = Middle - Half;
+			Normal = glm::dvec3(0);
+			Normal[Axis] = Direction[Axis] > 0.0 ? -1.0 : 1.0;
+		}
+		Leave = std::min(Leave, Middle + Half);
+	}
+	if (Enter > Leave || Enter <= 0.0)
+	{
+		return std::nullopt;
+	}
+	return FHit{Enter, Normal, 0};
+}
+
+std::optional<FHit> FindNearest(const FForkScene& Scene, glm::dvec3 Origin, glm::dvec3 Direction)
+{
+	std::optional<FHit> Nearest;
+	for (size_t Index = 0; Index < Scene.Boxes.size(); ++Index)
+	{
+		const std::optional<FHit> Hit = Intersect(Scene.Boxes[Index], Origin, Direction);
+		if (Hit && (!Nearest || Hit->Distance < Nearest->Distance))
+		{
+			Nearest = Hit;
+			Nearest->Box = Index;
+		}
+	}
+	return Nearest;
+}
+
+struct FSample
+{
+	EExpectation Expectation = EExpectation::Sky;
+	size_t Box = 0;
+	glm::dvec3 Normal{0};
+	bool operator==(const FSample&) const = default;
+};
+
+FSample Sample(const FForkScene& Scene, glm::dvec3 CameraRay, glm::dvec3 Shift)
+{
+	const std::optional<FHit> Hit = FindNearest(Scene, Scene.Camera.Position, CameraRay);
+	if (!Hit)
+	{
+		return {};
+	}
+	FSample Result{EExpectation::Shadowed, Hit->Box, Hit->Normal};
+	if (dot(Hit->Normal, -Scene.SunDirection) > 0.0)
+	{
+		// Away from the surface, so that it does not shadow itself; Shift stays within it.
+		const glm::dvec3 Sideways = Shift - Hit->Normal * dot(Hit->Normal, Shift);
+		const glm::dvec3 Origin = Scene.Camera.Position + CameraRay * Hit->Distance + Hit->Normal * 1e-6 + Sideways;
+		Result.Expectation =
+		    FindNearest(Scene, Origin, -Scene.SunDirection) ? EExpectation::Shadowed : EExpectation::Lit;
+	}
+	return Result;
+}
+
+} // namespace
+
+FForkScene MakeScene(glm::dvec3 Offset)
+{
+	FForkScene Scene;
+	Scene.Boxes = {
+	    {Offset + glm::dvec3(0, -0.5, 0), {10, 0.5, 10}},
+	    {Offset + glm::dvec3(-1, 2.5, 0), {1, 1, 1}},
+	    {Offset + glm::dvec3(3, 2, -2), {0.4, 2, 0.4}},
+	};
+	Scene.SunDirection = normalize(glm::dvec3(0.6, -1.0, 0.35));
+	Scene.Camera.Position = Offset + glm::dvec3(2, 6, 11);
+	Scene.Camera.Forward = normalize(Offset + glm::dvec3(0.5, 0.5, 0) - Scene.Camera.Position);
+	Scene.Camera.Right = normalize(cross(Scene.Camera.Forward, glm::dvec3(0, 1, 0)));
+	Scene.Camera.Up = cross(Scene.Camera.Right, Scene.Camera.Forward);
+	return Scene;
+}
+
+FBoxMesh MakeBoxMesh()
+{
+	FBoxMesh Mesh;
+	for (uint32_t Face = 0; Face < 6; ++Face)
+	{
+		const uint32_t Axis = Face / 2;
+		glm::vec3 Normal(0), U(0);
+		Normal[static_cast<int>(Axis)] = Face % 2 == 0 ? 1.0f : -1.0f;
+		U[static_cast<int>((Axis + 1) % 3)] = 1.0f;
+		const glm::vec3 V = cross(Normal, U);
+		const std::array<glm::vec3, 4> Corners = {Normal - U - V, Normal + U - V, Normal + U + V, Normal - U + V};
+		for (uint32_t Corner = 0; Corner < 4; ++Corner)
+		{
+			Mesh.Vertices[Face * 4 + Corner] = {Corners[Corner], Normal};
+		}
+		constexpr std::array<uint32_t, 6> Quad = {0, 1, 2, 0, 2, 3};
+		for (uint32_t Index = 0; Index < 6; ++Index)
+		{
+			Mesh.Indices[Face * 6 + Index] = Face * 4 + Quad[Index];
+		}
+	}
+	return Mesh;
+}
+
+glm::mat4 GetRelativeToClip(const FCamera& Camera, double Aspect)
+{
+	const double Scale = 1.0 / std::tan(Camera.FovY * 0.5);
+	const glm::dvec3 X = Camera.Right * (Scale / Aspect), Y = Camera.Up * -Scale;
+	glm::dmat4 Rows(0.0); // each column here is a row of the result
+	Rows[0] = glm::dvec4(X, 0.0);
+	Rows[1] = glm::dvec4(Y, 0.0);
+	Rows[2] = glm::dvec4(0.0, 0.0, 0.0, Camera.Near);
+	Rows[3] = glm::dvec4(Camera.Forward, 0.0);
+	return glm::mat4(transpose(Rows));
+}
+
+EExpectation ExpectPixel(const FForkScene& Scene, uint32_t X, uint32_t Y, uint32_t Width, uint32_t Height)
+{
+	constexpr double Margin = 0.02; // metres: far more than fp32 depth loses here
+	const FCamera& Camera = Scene.Camera;
+	const double TanHalf = std::tan(Camera.FovY * 0.5), Aspect = double(Width) / Height;
+	std::optional<FSample> First;
+	for (int Try = 0; Try < 5; ++Try)
+	{
+		const glm::dvec2 Jitter = Try == 0 ? glm::dvec2(0) : glm::dvec2(Try % 2 ? 0.6 : -0.6, Try > 2 ? 0.6 : -0.6);
+		const double NdcX = (X + 0.5 + Jitter.x) / Width * 2.0 - 1.0, NdcY = (Y + 0.5 + Jitter.y) / Height * 2.0 - 1.0;
+		const glm::dvec3 Ray =
+		    normalize(Camera.Forward + Camera.Right * (NdcX * TanHalf * Aspect) - Camera.Up * (NdcY * TanHalf));
+		const FSample Found = Sample(Scene, Ray, glm::dvec3(Jitter.x, Jitter.x + Jitter.y, Jitter.y) * (Margin / 0.6));
+		if (First && !(*First == Found))
+		{
+			return EExpectation::Unsure;
+		}
+		First = Found;
+	}
+	return First->Expectation;
+}
+
+} // namespace Fork

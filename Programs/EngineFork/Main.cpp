@@ -1,0 +1,345 @@
+// EngineFork: an engine that loads Lantern by its Plugin.json, on a VkDevice of its own, and checks every pixel of the
+// shadow mask that it gets against the closed form. A user's first example, and a test.
+//
+// Exit status: 0 done, 1 a check did not hold, 2 wrong usage, 3 no usable driver or device.
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include <glm/gtc/packing.hpp>
+
+#include "ForkRaster.h"
+#include "ForkScene.h"
+#include "ForkVulkan.h"
+#include "PluginLoader.h"
+#include "PluginScene.h"
+
+using namespace Fork;
+using namespace Lantern;
+
+namespace
+{
+
+constexpr VkExtent2D FrameSize{320, 180};
+constexpr int FrameCount = 3; ///< the later ones find everything built
+
+enum EExit
+{
+	Done = 0,
+	CheckFailed = 1,
+	WrongUsage = 2,
+	NoDevice = 3,
+};
+
+struct FOptions
+{
+	std::string Plugin = "Plugin.json", LibraryFolder = ".", Picture;
+	std::vector<std::pair<std::string, std::string>> Settings;
+	glm::dvec3 Offset{0};
+	int Rounds = 1;
+};
+
+int Complain(int Exit, const std::string& Text)
+{
+	std::fprintf(stderr, "EngineFork: %s\n", Text.c_str());
+	return Exit;
+}
+
+bool ParseOption(const std::string& Name, const std::string& Value, FOptions& Out)
+{
+	const size_t Equals = Value.find('=');
+	if (Name == "--plugin")
+	{
+		Out.Plugin = Value;
+	}
+	else if (Name == "--library-folder")
+	{
+		Out.LibraryFolder = Value;
+	}
+	else if (Name == "-o")
+	{
+		Out.Picture = Value;
+	}
+	else if (Name == "--rounds")
+	{
+		Out.Rounds = std::atoi(Value.c_str());
+	}
+	else if (Name == "--set" && Equals != std::string::npos)
+	{
+		Out.Settings.emplace_back(Value.substr(0, Equals), Value.substr(Equals + 1));
+	}
+	else if (Name == "--offset")
+	{
+		return std::sscanf(Value.c_str(), "%lf,%lf,%lf", &Out.Offset.x, &Out.Offset.y, &Out.Offset.z) == 3;
+	}
+	else
+	{
+		return false;
+	}
+	return true;
+}
+
+/// What of the mask is as it must be.
+struct FVerdict
+{
+	uint32_t Lit = 0, Shadowed = 0, Sky = 0, Unsure = 0, Wrong = 0;
+};
+
+FVerdict Judge(const FForkScene& Scene, const uint16_t* Mask)
+{
+	FVerdict Verdict;
+	for (uint32_t Y = 0; Y < FrameSize.height; ++Y)
+	{
+		for (uint32_t X = 0; X < FrameSize.width; ++X)
+		{
+			const EExpectation Expected = ExpectPixel(Scene, X, Y, FrameSize.width, FrameSize.height);
+			const float Found = glm::unpackHalf1x16(Mask[Y * FrameSize.width + X]);
+			const float Right = Expected == EExpectation::Shadowed ? 0.0f : 1.0f;
+			Verdict.Wrong += Expected != EExpectation::Unsure && Found != Right;
+			Verdict.Unsure += Expected == EExpectation::Unsure;
+			Verdict.Sky += Expected == EExpectation::Sky;
+			Verdict.Lit += Expected == EExpectation::Lit;
+			Verdict.Shadowed += Expected == EExpectation::Shadowed;
+		}
+	}
+	return Verdict;
+}
+
+bool WritePicture(const std::string& Path, const uint16_t* Mask)
+{
+	std::FILE* File = std::fopen(Path.c_str(), "wb");
+	if (File == nullptr)
+	{
+		return false;
+	}
+	std::fprintf(File, "P5\n%u %u\n255\n", FrameSize.width, FrameSize.height);
+	for (uint32_t Pixel = 0; Pixel < FrameSize.width * FrameSize.height; ++Pixel)
+	{
+		std::fputc(static_cast<int>(glm::unpackHalf1x16(Mask[Pixel]) * 255.0f + 0.5f), File);
+	}
+	return std::fclose(File) == 0;
+}
+
+/// The plugin leaves the mask readable by shaders; the engine copies it and puts it back as it was.
+void CopyMask(VkCommandBuffer Commands, IRTTexture& Mask, const FForkBuffer& Readback)
+{
+	const auto Image = reinterpret_cast<VkImage>(Mask.GetNative(ERTNative::Image));
+	Transition(Commands, Image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+	           VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+	VkBufferImageCopy Region{};
+	Region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+	Region.imageExtent = {FrameSize.width, FrameSize.height, 1};
+	vkCmdCopyImageToBuffer(Commands, Image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, Readback.Buffer, 1, &Region);
+	Transition(Commands, Image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+	           VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+}
+
+/// One frame of the engine: its own raster, the plugin's shadows, a copy to where the CPU can look.
+FError RunFrame(FForkDevice& Device, const FForkRaster& Raster, FPluginScene& Plugin, const FForkScene& Scene,
+                const FForkBuffer& Readback, bool& bOutHasMask)
+{
+	FError Error = Device.BeginCommands();
+	if (!Error.empty())
+	{
+		return Error;
+	}
+	Raster.Draw(Device.Commands, Scene);
+	IRTTexture* Mask = nullptr;
+	Error = Plugin.Render(Device.Commands, Scene.Camera, Mask);
+	bOutHasMask = Mask != nullptr;
+	if (Error.empty() && bOutHasMask && Mask->GetDesc().Format != ERTFormat::R16_FLOAT)
+	{
+		Error = "the mask has another format than this engine reads";
+	}
+	if (!Error.empty())
+	{
+		return Error;
+	}
+	if (bOutHasMask)
+	{
+		CopyMask(Device.Commands, *Mask, Readback);
+	}
+	Error = Device.Submit();
+	if (Error.empty())
+	{
+		Error = Plugin.FinishFrame();
+	}
+	return Error.empty() ? Device.WaitForSubmit() : Error;
+}
+
+int RenderAndCheck(FForkDevice& Device, FPluginScene& Plugin, const FOptions& Options)
+{
+	const FForkScene Scene = MakeScene(Options.Offset);
+	FForkRaster Raster;
+	FForkBuffer Readback;
+	FError Error = Raster.Create(Device, FrameSize);
+	if (Error.empty())
+	{
+		Error = Readback.Create(Device, FrameSize.width * FrameSize.height * 2, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+	}
+	if (Error.empty())
+	{
+		Error = Plugin.AddScene(Scene);
+	}
+	if (Error.empty())
+	{
+		Error = Plugin.ImportGBuffer(Raster, FrameSize);
+	}
+	bool bHasMask = false;
+	for (int Frame = 0; Error.empty() && Frame < FrameCount; ++Frame)
+	{
+		Error = RunFrame(Device, Raster, Plugin, Scene, Readback, bHasMask);
+	}
+	Plugin.ReleaseGBuffer();
+	if (!Error.empty() || !bHasMask)
+	{
+		return Complain(CheckFailed, Error.empty() ? "the plugin gave no shadow mask" : Error);
+	}
+	const auto* Mask = static_cast<const uint16_t*>(Readback.Mapped);
+	const FVerdict Verdict = Judge(Scene, Mask);
+	std::printf("pixels: %u lit, %u shadowed, %u sky, %u near an edge; wrong: %u\n", Verdict.Lit, Verdict.Shadowed,
+	            Verdict.Sky, Verdict.Unsure, Verdict.Wrong);
+	if (!Options.Picture.empty() && !WritePicture(Options.Picture, Mask))
+	{
+		return Complain(CheckFailed, Options.Picture + " cannot be written");
+	}
+	// Enough of each that agreeing means something.
+	const bool bMeaningful = Verdict.Lit > 5000 && Verdict.Shadowed > 2000 && Verdict.Sky > 2000;
+	return Verdict.Wrong == 0 && bMeaningful ? Done : CheckFailed;
+}
+
+/// The first device that the plugin can use, created with what it asks for.
+FError CreateDevice(IRTModule& Module, const FForkInstance& Instance, FForkDevice& Out,
+                    TRTRef<IRTVulkanRequirements>& OutRequirements)
+{
+	FError Reasons = "no Vulkan device";
+	for (VkPhysicalDevice Physical : Instance.ListDevices())
+	{
+		FRTVulkanRequirementsDesc Desc;
+		Desc.Instance = Instance.Instance;
+		Desc.PhysicalDevice = Physical;
+		const FRTStatus Status = Module.GetVulkan()->GetRequirements(Desc, OutRequirements.ReleaseAndGetAddress());
+		if (!Status.IsOk())
+		{
+			Reasons += std::string("; ") + Status.Message;
+			continue;
+		}
+		const IRTVulkanRequirements& Requirements = *OutRequirements;
+		FDeviceWishes Wishes;
+		Wishes.Extensions.assign(Requirements.GetExtensions(),
+		                         Requirements.GetExtensions() + Requirements.GetExtensionCount());
+		Wishes.MergeFeatures = [&](VkPhysicalDeviceFeatures2* Chain) { OutRequirements->MergeInto(Chain); };
+		std::printf("device: %s, %s\n", Requirements.GetCapabilities().DeviceName,
+		            Requirements.GetCapabilities().DriverName);
+		return Out.Create(Physical, Wishes);
+	}
+	return Reasons;
+}
+
+FRTModuleDesc DescribeModule(const FPluginManifest& Manifest)
+{
+	FRTModuleDesc Desc;
+	Desc.ConfigFolder = Manifest.ConfigFolder.c_str();
+	Desc.ShaderFolder = Manifest.ShaderFolder.c_str();
+	Desc.LogCallback = [](void*, ERTModuleLog Level, const char* Text)
+	{
+		if (Level >= ERTModuleLog::Warning)
+		{
+			std::fprintf(stderr, "plugin: %s\n", Text);
+		}
+	};
+	return Desc;
+}
+
+/// The device and all that lives on it are gone when this returns.
+int RunOnInstance(IRTModule& Module, const FForkInstance& Instance, const FOptions& Options)
+{
+	FForkDevice Device;
+	TRTRef<IRTVulkanRequirements> Requirements;
+	FError Error = CreateDevice(Module, Instance, Device, Requirements);
+	if (!Error.empty())
+	{
+		return Complain(NoDevice, Error);
+	}
+	FPluginScene Plugin;
+	Error = Plugin.Create(Module, Instance, Device, *Requirements);
+	return Error.empty() ? RenderAndCheck(Device, Plugin, Options) : Complain(CheckFailed, Error);
+}
+
+int RunWithModule(IRTModule& Module, const FPluginManifest& Manifest, const FOptions& Options)
+{
+	FError Error = ToError(Module.Initialize(DescribeModule(Manifest)), "Initialize");
+	for (size_t Index = 0; Error.empty() && Index < Options.Settings.size(); ++Index)
+	{
+		const auto& [Name, Value] = Options.Settings[Index];
+		Error = ToError(Module.SetConsoleVariable(Name.c_str(), Value.c_str()), "SetConsoleVariable");
+	}
+	if (!Error.empty())
+	{
+		return Complain(CheckFailed, Error);
+	}
+	FForkInstance Instance;
+	Error = Instance.Create();
+	if (!Error.empty())
+	{
+		return Complain(NoDevice, Error);
+	}
+	const int Exit = RunOnInstance(Module, Instance, Options);
+	if (Instance.ValidationMessages != 0) // also of the device's end: what was left undestroyed
+	{
+		return Complain(CheckFailed, std::to_string(Instance.ValidationMessages) + " validation messages");
+	}
+	return Exit;
+}
+
+/// Loads, renders, unloads.
+int RunRound(const FPluginManifest& Manifest, const FOptions& Options)
+{
+	FPluginLibrary Library;
+	std::string Error = Library.Load(Manifest, Options.LibraryFolder);
+	TRTRef<IRTModule> Module;
+	if (Error.empty())
+	{
+		Error = Library.CreateModule(Module);
+	}
+	if (!Error.empty())
+	{
+		return Complain(CheckFailed, Error);
+	}
+	std::printf("plugin: %s %s\n", Manifest.Name.c_str(), Module->GetVersionString());
+	const int Exit = RunWithModule(*Module, Manifest, Options);
+	Module.Reset();
+	if (!Library.Unload())
+	{
+		return Complain(CheckFailed, "the library is still in the process after unloading");
+	}
+	return Exit;
+}
+
+} // namespace
+
+int main(int Count, char** Arguments)
+{
+	FOptions Options;
+	for (int Index = 1; Index < Count; Index += 2)
+	{
+		if (Index + 1 == Count || !ParseOption(Arguments[Index], Arguments[Index + 1], Options))
+		{
+			return Complain(WrongUsage,
+			                "usage: EngineFork [--plugin Plugin.json] [--library-folder FOLDER] [--set NAME=VALUE]"
+			                " [--offset X,Y,Z] [--rounds N] [-o MASK.pgm]");
+		}
+	}
+	FPluginManifest Manifest;
+	if (const std::string Error = ReadManifest(Options.Plugin, Manifest); !Error.empty())
+	{
+		return Complain(CheckFailed, Error);
+	}
+	int Exit = Done;
+	for (int Round = 0; Exit == Done && Round < Options.Rounds; ++Round)
+	{
+		Exit = RunRound(Manifest, Options);
+	}
+	return Exit;
+}

@@ -1,0 +1,84 @@
+#include "PluginLoader.h"
+
+#include <fstream>
+
+#include <dlfcn.h>
+#include <nlohmann/json.hpp>
+
+namespace Fork
+{
+
+std::string ReadManifest(const std::filesystem::path& File, FPluginManifest& Out)
+{
+	std::ifstream Stream(File);
+	if (!Stream)
+	{
+		return File.string() + ": cannot be read";
+	}
+	const nlohmann::json Json = nlohmann::json::parse(Stream, nullptr, false);
+	if (!Json.is_object())
+	{
+		return File.string() + ": not a JSON object";
+	}
+	try
+	{
+		Json.at("name").get_to(Out.Name);
+		Json.at("version").get_to(Out.Version);
+		Json.at("library").get_to(Out.Library);
+		Json.at("entryPoint").get_to(Out.EntryPoint);
+		Json.at("moduleVersion").get_to(Out.ModuleVersion);
+		Json.at("rhiVersion").get_to(Out.RHIVersion);
+		const std::filesystem::path Folder = std::filesystem::absolute(File).parent_path();
+		Out.ConfigFolder = Folder / Json.at("configFolder").get<std::string>();
+		Out.ShaderFolder = Folder / Json.at("shaderFolder").get<std::string>();
+	}
+	catch (const nlohmann::json::exception& Error)
+	{
+		return File.string() + ": " + Error.what();
+	}
+	return {};
+}
+
+std::string FPluginLibrary::Load(const FPluginManifest& Manifest, const std::filesystem::path& Folder)
+{
+	if (Manifest.ModuleVersion != Lantern::ModuleVersion || Manifest.RHIVersion != Lantern::RHIVersion)
+	{
+		return "the plugin has another version of its interface than this engine was compiled with";
+	}
+	Path = (Folder / Manifest.Library).string();
+	Handle = dlopen(Path.c_str(), RTLD_NOW | RTLD_LOCAL);
+	if (Handle == nullptr)
+	{
+		return dlerror();
+	}
+	Create = reinterpret_cast<Lantern::FRTCreateModule>(dlsym(Handle, Manifest.EntryPoint.c_str()));
+	return Create != nullptr ? std::string() : Path + " has no " + Manifest.EntryPoint;
+}
+
+std::string FPluginLibrary::CreateModule(Lantern::TRTRef<Lantern::IRTModule>& Out) const
+{
+	const int32_t Result = Create(Lantern::ModuleVersion, Out.ReleaseAndGetAddress());
+	return Result == 0 ? std::string() : "the library refused module version " + std::to_string(Lantern::ModuleVersion);
+}
+
+bool FPluginLibrary::Unload()
+{
+	if (Handle != nullptr)
+	{
+		dlclose(Handle);
+		Handle = nullptr;
+	}
+	void* Still = dlopen(Path.c_str(), RTLD_NOW | RTLD_NOLOAD);
+	if (Still != nullptr)
+	{
+		dlclose(Still);
+	}
+	return Still == nullptr;
+}
+
+FPluginLibrary::~FPluginLibrary()
+{
+	Unload();
+}
+
+} // namespace Fork

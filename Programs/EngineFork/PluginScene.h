@@ -1,0 +1,41 @@
+// The plugin at work in the engine: its device, its renderer, the engine's boxes in it, one frame after another.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ForkRaster.h"
+#include "ForkScene.h"
+#include "ForkVulkan.h"
+#include "LanternModule/ModuleVulkan.h"
+
+namespace Fork
+{
+
+/// Empty if Status is fine, else its message after What.
+FError ToError(const Lantern::FRTStatus& Status, const char* What);
+
+class FPluginScene
+{
+public:
+	/// Device must have been created with what IRTModuleVulkan::GetRequirements asked for.
+	FError Create(Lantern::IRTModule& Module, const FForkInstance& Instance, const FForkDevice& Owner,
+	              const Lantern::IRTVulkanRequirements& Requirements);
+	FError AddScene(const FForkScene& Scene);
+	FError ImportGBuffer(const FForkRaster& Raster, VkExtent2D Size);
+	void ReleaseGBuffer(); ///< before the raster's images go
+	/// Records the plugin's work; Commands is recording and the G-buffer is in it. OutMask: null when the plugin has
+	/// nothing to show yet.
+	FError Render(VkCommandBuffer Commands, const FCamera& Camera, Lantern::IRTTexture*& OutMask);
+	/// After the commands were submitted.
+	FError FinishFrame();
+	Lantern::IRTDevice& GetDevice() { return *Device; }
+
+private:
+	Lantern::TRTRef<Lantern::IRTDevice> Device; // declared first: goes last
+	Lantern::TRTRef<Lantern::IRTModuleRenderer> Renderer;
+	Lantern::TRTRef<Lantern::IRTTexture> Depth, Normals;
+	Lantern::TRTRef<Lantern::IRTCommandList> List;
+};
+
+} // namespace Fork

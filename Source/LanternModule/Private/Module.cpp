@@ -1,0 +1,210 @@
+// The C entry point and what stands behind it.
+#include "LanternModule/Module.h"
+
+#include <atomic>
+#include <cstdio>
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <system_error>
+
+#include <tbb/global_control.h>
+
+#include "LanternCore/Config.h"
+#include "LanternCore/ConsoleVariables.h"
+#include "LanternCore/Log.h"
+#include "LanternModule/ModuleVulkan.h"
+#include "LanternRHIVulkan/VulkanDevice.h"
+#include "ModuleRenderer.h"
+#include "RefCounted.h"
+
+namespace Lantern
+{
+
+namespace
+{
+
+/// Console variables and log are the process's: two modules would set each other's.
+std::atomic<bool> bModuleAlive{false};
+
+class FModuleVulkan final : public IRTModuleVulkan
+{
+public:
+	FRTStatus GetRequirements(const FRTVulkanRequirementsDesc& Desc, IRTVulkanRequirements** Out) override
+	{
+		return GetVulkanRequirements(Desc, Out);
+	}
+	FRTStatus AdoptDevice(const FRTVulkanExternalDesc& Desc, IRTDevice** Out) override
+	{
+		return AdoptVulkanDevice(Desc, Out);
+	}
+};
+
+ERTModuleLog ToModule(ERTLogLevel Level)
+{
+	switch (Level)
+	{
+	case ERTLogLevel::Debug: return ERTModuleLog::Debug;
+	case ERTLogLevel::Info: return ERTModuleLog::Info;
+	case ERTLogLevel::Warning: return ERTModuleLog::Warning;
+	case ERTLogLevel::Error: break;
+	}
+	return ERTModuleLog::Error;
+}
+
+FRTStatus CheckFolder(const char* What, const std::string& Folder)
+{
+	std::error_code Ignored;
+	if (std::filesystem::is_directory(Folder, Ignored))
+	{
+		return FRTStatus::Success();
+	}
+	return FRTStatus::Error(ERTResult::IoError, "%s folder \"%s\" does not exist", What, Folder.c_str());
+}
+
+class FModule final : public TRefCounted<IRTModule>
+{
+public:
+	FModule() : Scheduler(tbb::attach{}) {}
+	~FModule() override;
+	uint32_t GetVersion() const override { return ModuleVersion; }
+	const char* GetVersionString() const override { return LANTERN_VERSION; }
+	FRTStatus Initialize(const FRTModuleDesc& Desc) override;
+	FRTStatus CreateDevice(bool bValidation, IRTDevice** Out) override;
+	IRTModuleVulkan* GetVulkan() override { return &Vulkan; }
+	FRTStatus CreateRenderer(IRTDevice* Device, IRTModuleRenderer** Out) override;
+	FRTStatus SetConsoleVariable(const char* Name, const char* Value) override;
+	FRTStatus GetConsoleVariable(const char* Name, char* Out, size_t Capacity) override;
+
+private:
+	FRTStatus SetQuality(const std::string& Group, const char* Value);
+
+	tbb::task_scheduler_handle Scheduler;
+	FModuleVulkan Vulkan;
+	std::string ConfigFolder, ShaderFolder, CacheFolder;
+};
+
+FModule::~FModule()
+{
+	FConsoleVariables::Get().ResetAll();
+	SetLogSink({});
+	// Worker threads must have left the library before the engine unloads it. It does not succeed where the engine
+	// uses the same TBB, and then need not: TBB stays loaded.
+	tbb::finalize(Scheduler, std::nothrow);
+	bModuleAlive = false;
+}
+
+FRTStatus FModule::Initialize(const FRTModuleDesc& Desc)
+{
+	if (Desc.ShaderFolder == nullptr)
+	{
+		return FRTStatus::Error(ERTResult::InvalidArgument, "FRTModuleDesc::ShaderFolder is needed");
+	}
+	if (Desc.LogCallback != nullptr)
+	{
+		SetLogSink([Callback = Desc.LogCallback, User = Desc.LogUser](ERTLogLevel Level, std::string_view Text)
+		           { Callback(User, ToModule(Level), std::string(Text).c_str()); });
+	}
+	ShaderFolder = Desc.ShaderFolder;
+	CacheFolder = Desc.CacheFolder != nullptr ? Desc.CacheFolder : "";
+	if (const FRTStatus Status = CheckFolder("shader", ShaderFolder); !Status)
+	{
+		return Status;
+	}
+	if (Desc.ConfigFolder == nullptr)
+	{
+		return FRTStatus::Success();
+	}
+	ConfigFolder = Desc.ConfigFolder;
+	if (const FRTStatus Status = CheckFolder("config", ConfigFolder); !Status)
+	{
+		return Status;
+	}
+	// A problem in a file is logged with its place and is no reason not to run.
+	LoadDefaults({ConfigFolder});
+	return FRTStatus::Success();
+}
+
+FRTStatus FModule::CreateDevice(bool bValidation, IRTDevice** Out)
+{
+	FRTVulkanDeviceDesc Desc;
+	Desc.bValidation = bValidation;
+	return CreateVulkanDevice(Desc, Out);
+}
+
+FRTStatus FModule::CreateRenderer(IRTDevice* Device, IRTModuleRenderer** Out)
+{
+	*Out = nullptr;
+	if (ShaderFolder.empty())
+	{
+		return FRTStatus::Error(ERTResult::InvalidArgument, "IRTModule::Initialize was not called");
+	}
+	if (Device->GetVersion() != RHIVersion)
+	{
+		return FRTStatus::Error(ERTResult::Unsupported, "the device speaks RHI version %u, Lantern %u",
+		                        Device->GetVersion(), RHIVersion);
+	}
+	if (!ConfigFolder.empty())
+	{
+		LoadDeviceProfile({ConfigFolder}, Device->GetCapabilities().DeviceName);
+	}
+	*Out = new FModuleRenderer(*this, *Device, {{ShaderFolder}, CacheFolder});
+	return FRTStatus::Success();
+}
+
+FRTStatus FModule::SetQuality(const std::string& Group, const char* Value)
+{
+	const std::optional<ERTQuality> Quality = ParseQuality(Value);
+	if (!Quality || ConfigFolder.empty())
+	{
+		return FRTStatus::Error(ERTResult::InvalidArgument, "sg.%s=%s: no such level, or no config folder",
+		                        Group.c_str(), Value);
+	}
+	const FConfigProblems Problems = LoadScalabilityGroup({ConfigFolder}, Group, *Quality);
+	return Problems.empty() ? FRTStatus::Success()
+	                        : FRTStatus::Error(ERTResult::InvalidArgument, "%s", Problems.front().c_str());
+}
+
+FRTStatus FModule::SetConsoleVariable(const char* Name, const char* Value)
+{
+	const std::string Text = Name;
+	if (Text.rfind("sg.", 0) == 0)
+	{
+		return SetQuality(Text.substr(3), Value);
+	}
+	const std::optional<std::string> Problem =
+	    FConsoleVariables::Get().Set(Text, Value, ERTSetBy::Console, "SetConsoleVariable");
+	return Problem ? FRTStatus::Error(ERTResult::InvalidArgument, "%s", Problem->c_str()) : FRTStatus::Success();
+}
+
+FRTStatus FModule::GetConsoleVariable(const char* Name, char* Out, size_t Capacity)
+{
+	const FRTConsoleVariable* Variable = FConsoleVariables::Get().Find(Name);
+	if (Variable == nullptr)
+	{
+		return FRTStatus::Error(ERTResult::InvalidArgument, "no console variable is called \"%s\"", Name);
+	}
+	std::snprintf(Out, Capacity, "%s", FConsoleVariables::ToString(Variable->GetValue()).c_str());
+	return FRTStatus::Success();
+}
+
+} // namespace
+
+} // namespace Lantern
+
+extern "C" __attribute__((visibility("default"))) int32_t LanternCreateModule(uint32_t RequestedVersion,
+                                                                              Lantern::IRTModule** Out)
+{
+	using namespace Lantern;
+	*Out = nullptr;
+	if (RequestedVersion != ModuleVersion)
+	{
+		return static_cast<int32_t>(ERTResult::Unsupported);
+	}
+	if (bModuleAlive.exchange(true))
+	{
+		return static_cast<int32_t>(ERTResult::InvalidArgument);
+	}
+	*Out = new FModule;
+	return static_cast<int32_t>(ERTResult::Ok);
+}

@@ -1,0 +1,204 @@
+// The plugin as an engine sees it: one C entry point, then interfaces. An engine reads Plugin.json, loads the
+// library that it names, looks LanternCreateModule up, and needs nothing else of Lantern's at link time.
+//
+//   load library → LanternCreateModule → Initialize → a device (its own: CreateDevice; the engine's: ModuleVulkan.h)
+//   → CreateRenderer → AddMaterial, AddMesh, AddObject, SetSun
+//   → each frame: RenderFrame into the engine's command buffer, submit it, EndFrame
+//   → Release everything, the device and the module last → unload the library
+//
+// Units: metres, radians, nits and lux; linear Rec.709; right-handed, y up. World positions are double precision.
+// Threads: IRTModule from any thread; a renderer from one at a time. Nothing throws. Handles of one renderer mean
+// nothing to another.
+#pragma once
+
+#include "LanternRHI/RTInterfaces.h"
+
+namespace Lantern
+{
+
+/// Bumped when anything in this header changes. The library refuses another version.
+inline constexpr uint32_t ModuleVersion = 1;
+
+class IRTModuleVulkan;
+
+enum class ERTModuleLog : uint8_t
+{
+	Debug,
+	Info,
+	Warning,
+	Error,
+};
+
+/// Called from any thread, must not call the module. Text: one line, no newline, valid during the call.
+using FRTModuleLogCallback = void (*)(void* User, ERTModuleLog Level, const char* Text);
+
+/// Folders: absolute, or relative to the process's working directory.
+struct FRTModuleDesc
+{
+	const char* ConfigFolder = nullptr; ///< Plugin.json's configFolder; null: console variables keep their defaults
+	const char* ShaderFolder = nullptr; ///< Plugin.json's shaderFolder; needed
+	const char* CacheFolder = nullptr;  ///< compiled shaders are kept here, and created if missing; null: not kept
+	FRTModuleLogCallback LogCallback = nullptr; ///< null: standard error
+	void* LogUser = nullptr;
+};
+
+enum class ERTMaterialHandle : uint64_t
+{
+	None = 0
+};
+enum class ERTMeshHandle : uint64_t
+{
+	None = 0
+};
+enum class ERTObjectHandle : uint64_t
+{
+	None = 0
+};
+
+/// glTF 2.0 metallic-roughness, as far as a module without the host's texture loader needs it.
+struct FRTModuleMaterial
+{
+	float BaseColor[4] = {1, 1, 1, 1}; ///< linear; a: opacity
+	float Emissive[3] = {0, 0, 0};     ///< nits
+	float Metallic = 0.0f;             ///< 0–1
+	float Roughness = 1.0f;            ///< perceptual, 0–1
+	/// Times BaseColor; its alpha is what an alpha test reads. Created on or imported into the renderer's device with
+	/// ERTTextureUsage::Sampled, in ShaderRead whenever a frame runs, alive until the renderer is released or the
+	/// material is set to another. Null: none.
+	IRTTexture* BaseColorTexture = nullptr;
+	IRTSampler* BaseColorSampler = nullptr; ///< needed with a texture
+	bool bMasked = false;                   ///< alpha-tested: texels below AlphaCutoff let rays pass
+	float AlphaCutoff = 0.5f;
+	bool bDoubleSided = false;
+};
+
+struct FRTModuleSection
+{
+	uint32_t FirstIndex = 0;
+	uint32_t IndexCount = 0; ///< > 0, a multiple of 3
+	/// Some object may give this section a masked material. False is faster.
+	bool bMayBeMasked = false;
+};
+
+/// Read during AddMesh and copied to the GPU.
+struct FRTModuleMesh
+{
+	const char* Name = "";
+	const float* Positions = nullptr; ///< x, y, z of each vertex; finite
+	const float* Normals = nullptr;   ///< x, y, z, unit length; null: of the triangles
+	const float* UVs = nullptr;       ///< u, v; null: zeros
+	uint32_t VertexCount = 0;
+	const uint32_t* Indices = nullptr; ///< counter-clockwise is front; < VertexCount
+	uint32_t IndexCount = 0;
+	const FRTModuleSection* Sections = nullptr; ///< null: one section of all indices
+	uint32_t SectionCount = 0;
+};
+
+struct FRTModuleObject
+{
+	ERTMeshHandle Mesh = ERTMeshHandle::None;
+	const ERTMaterialHandle* Materials = nullptr; ///< one for each of the mesh's sections
+	uint32_t MaterialCount = 0;
+	/// Object to world: 3 rows of 4, the last column being the translation.
+	double Transform[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+	bool bCastsShadow = true;
+};
+
+struct FRTModuleSun
+{
+	double Direction[3] = {0, -1, 0}; ///< in which its light travels; need not be unit length
+	float Color[3] = {1, 1, 1};
+	float Irradiance = 0.0f;      ///< on a plane that faces it, lux; 0: no sun, and no shadow pass
+	float AngularDiameter = 0.0f; ///< radians; 0: hard shadows
+};
+
+struct FRTModuleView
+{
+	double Position[3] = {0, 0, 0};
+	float Forward[3] = {0, 0, -1}; ///< unit length
+	float Up[3] = {0, 1, 0};       ///< need not be perpendicular to Forward
+	float FovY = 1.0f;             ///< vertical, 0 to π
+	float Near = 0.1f;             ///< > 0
+};
+
+/// The engine's G-buffer of one frame, all of one size, imported with IRTDevice::ImportTexture.
+struct FRTModuleFrame
+{
+	/// From IRTDevice::ImportCommandList, recording, outside a render pass.
+	IRTCommandList* Commands = nullptr;
+	FRTModuleView View;
+	/// D32_FLOAT or R32_FLOAT, Sampled. Reversed without a far plane: near / distance along Forward; 0 is sky.
+	IRTTexture* Depth = nullptr;
+	/// RGBA16_SNORM, Sampled: shading normal (xy) and geometric normal (zw), both octahedral (Cigolle et al. 2014)
+	/// and turned towards the camera.
+	IRTTexture* Normals = nullptr;
+	/// How the engine used them last; they are left in ShaderRead.
+	ERTAccess DepthAccess = ERTAccess::ShaderRead;
+	ERTAccess NormalsAccess = ERTAccess::ShaderRead;
+	uint32_t Seed = 0; ///< same seed, frame number and scene: same image
+};
+
+/// Owned by the renderer, valid until its next RenderFrame.
+struct FRTModuleOutputs
+{
+	/// Fraction of the sun that each pixel sees: 1 lit, 0 shadowed; in ShaderRead. Null: no sun, or shadows are
+	/// off, or their shaders are not compiled yet.
+	IRTTexture* SunShadow = nullptr;
+	/// Nothing was skipped because a shader was still compiling.
+	bool bComplete = false;
+};
+
+/// A scene and the passes over it.
+class IRTModuleRenderer : public IRTRefCounted
+{
+public:
+	virtual FRTStatus AddMaterial(const FRTModuleMaterial& Material, ERTMaterialHandle* Out) = 0;
+	virtual FRTStatus SetMaterial(ERTMaterialHandle Handle, const FRTModuleMaterial& Material) = 0;
+	/// Copies the data and waits for the copy; the acceleration structure is built by the next RenderFrame.
+	virtual FRTStatus AddMesh(const FRTModuleMesh& Mesh, ERTMeshHandle* Out) = 0;
+	/// Objects that use it keep it alive; the handle is void.
+	virtual void RemoveMesh(ERTMeshHandle Handle) = 0;
+	virtual FRTStatus AddObject(const FRTModuleObject& Object, ERTObjectHandle* Out) = 0;
+	virtual void SetObjectTransform(ERTObjectHandle Handle, const double Transform[12]) = 0;
+	/// At any time, also while frames that see it are in flight.
+	virtual void RemoveObject(ERTObjectHandle Handle) = 0;
+	virtual void SetSun(const FRTModuleSun& Sun) = 0;
+
+	/// Records all of the frame into Frame.Commands. On an error the list must not be submitted.
+	virtual FRTStatus RenderFrame(const FRTModuleFrame& Frame, FRTModuleOutputs* Out) = 0;
+	/// After the engine submitted what RenderFrame recorded, before the next RenderFrame. OutFence may be null.
+	virtual FRTStatus EndFrame(FRTFence* OutFence) = 0;
+};
+
+class IRTModule : public IRTRefCounted
+{
+public:
+	virtual uint32_t GetVersion() const = 0;          ///< ModuleVersion of the library
+	virtual const char* GetVersionString() const = 0; ///< as in Plugin.json
+	/// Once, before anything below. IoError names the folder that is not there.
+	virtual FRTStatus Initialize(const FRTModuleDesc& Desc) = 0;
+	/// A device of Lantern's own, on the best Vulkan device there is (tools; an engine hands over its own).
+	virtual FRTStatus CreateDevice(bool bValidation, IRTDevice** Out) = 0;
+	/// To hand over an engine's VkDevice; see ModuleVulkan.h. Lives as long as the module; not to be released.
+	virtual IRTModuleVulkan* GetVulkan() = 0;
+	/// Device: from CreateDevice, IRTModuleVulkan::AdoptDevice, or the engine's own implementation of IRTDevice.
+	virtual FRTStatus CreateRenderer(IRTDevice* Device, IRTModuleRenderer** Out) = 0;
+	/// Name or alias, value as text. InvalidArgument names the nearest known name. Takes effect with the next frame.
+	virtual FRTStatus SetConsoleVariable(const char* Name, const char* Value) = 0;
+	/// The newest value as text, cut to Capacity; InvalidArgument if there is no such variable.
+	virtual FRTStatus GetConsoleVariable(const char* Name, char* Out, size_t Capacity) = 0;
+};
+
+} // namespace Lantern
+
+/// The library's only exported function. RequestedVersion: ModuleVersion as the engine was compiled with. Ok, or
+/// Unsupported (as a number) and *Out null when the library has another version. One module at a time.
+extern "C" int32_t LanternCreateModule(uint32_t RequestedVersion, Lantern::IRTModule** Out);
+
+namespace Lantern
+{
+
+/// What a dlsym of Plugin.json's entryPoint gives.
+using FRTCreateModule = int32_t (*)(uint32_t RequestedVersion, IRTModule** Out);
+
+} // namespace Lantern
