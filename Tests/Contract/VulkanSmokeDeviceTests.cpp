@@ -1,0 +1,421 @@
+// The Vulkan backend alone: how devices are found, made, taken over and let go.
+#include "VulkanSmokeFixture.h"
+
+#include "LanternRHIVulkan/VulkanInterop.h"
+
+#include "VulkanSmokeShaders/Fill_comp.h"
+
+#include <dlfcn.h>
+
+#include <cstdio>
+#include <string>
+#include <thread>
+
+namespace Lantern
+{
+
+using FVulkanSmokeDevice = FVulkanSmokeTest;
+
+TEST_F(FVulkanSmokeDevice, ListNamesTheDeviceThatIsCreated)
+{
+	FRTVulkanDeviceInfo Infos[8];
+	uint32_t Count = 0;
+	ASSERT_OK(ListVulkanDevices(Infos, 8, &Count));
+	ASSERT_GT(Count, 0u);
+	bool bFound = false;
+	for (uint32_t Index = 0; Index < std::min(Count, 8u); ++Index)
+	{
+		bFound |= strcmp(Infos[Index].Name, Device->GetCapabilities().DeviceName) == 0;
+		EXPECT_NE(Infos[Index].Type[0], 0);
+		// Either nothing is missing, or it is said what.
+		EXPECT_TRUE(Infos[Index].Rung == ERTRung::Micromap || Infos[Index].Missing[0]);
+	}
+	EXPECT_TRUE(bFound);
+}
+
+TEST_F(FVulkanSmokeDevice, TheLadderCanBeCut)
+{
+	const FRTCapabilities& Full = Device->GetCapabilities();
+	FRTVulkanDeviceDesc Desc;
+	Desc.bValidation = true;
+	TRTRef<IRTDevice> Lower;
+	if (Full.bRayQuery)
+	{
+		Desc.MaxRung = ERTRung::RayQuery;
+		ASSERT_OK(CreateVulkanDevice(Desc, Lower.ReleaseAndGetAddress()));
+		EXPECT_EQ(Lower->GetCapabilities().Rung, ERTRung::RayQuery);
+		EXPECT_FALSE(Lower->GetCapabilities().bRayTracingPipeline);
+		TRTRef<IRTPipeline> Pipeline;
+		EXPECT_EQ(Lower->CreateRayTracingPipeline({}, Pipeline.ReleaseAndGetAddress()).Code, ERTResult::Unsupported);
+		EXPECT_EQ(Lower->GetValidationMessageCount(), 0u);
+	}
+	Desc.MaxRung = ERTRung::None;
+	const FRTStatus Status = CreateVulkanDevice(Desc, Lower.ReleaseAndGetAddress());
+	EXPECT_EQ(Status.Code, ERTResult::Unsupported);
+	EXPECT_NE(strstr(Status.Message, Full.DeviceName), nullptr) << Status.Message;
+	Desc.bAllowNoRayTracing = true;
+	ASSERT_OK(CreateVulkanDevice(Desc, Lower.ReleaseAndGetAddress()));
+	EXPECT_EQ(Lower->GetCapabilities().Rung, ERTRung::None);
+	TRTRef<IRTScene> Scene;
+	EXPECT_EQ(Lower->CreateScene({1, false, "Refused"}, Scene.ReleaseAndGetAddress()).Code, ERTResult::Unsupported);
+	EXPECT_EQ(Lower->GetValidationMessageCount(), 0u);
+}
+
+TEST_F(FVulkanSmokeDevice, AWrongIndexIsNamed)
+{
+	FRTVulkanDeviceDesc Desc;
+	Desc.DeviceIndex = 1000;
+	TRTRef<IRTDevice> None;
+	const FRTStatus Status = CreateVulkanDevice(Desc, None.ReleaseAndGetAddress());
+	EXPECT_EQ(Status.Code, ERTResult::InvalidArgument);
+	EXPECT_NE(strstr(Status.Message, "1000"), nullptr) << Status.Message;
+}
+
+TEST_F(FVulkanSmokeDevice, ErrorsCarryTheObjectsName)
+{
+	TRTRef<IRTTexture> Texture;
+	const FRTStatus Status =
+	    Device->CreateTexture({1u << 30, 1, 1, 1, ERTFormat::R8_UNORM, ERTTextureUsage::Sampled, "Too wide"},
+	                          Texture.ReleaseAndGetAddress());
+	EXPECT_EQ(Status.Code, ERTResult::Unsupported);
+	EXPECT_NE(strstr(Status.Message, "Too wide"), nullptr) << Status.Message;
+	EXPECT_FALSE(Texture);
+}
+
+TEST_F(FVulkanSmokeDevice, IndicesComeBackOnceTheGpuIsDone)
+{
+	TRTRef<IRTTexture> Texture;
+	const FRTTextureDesc Desc = {4, 4, 1, 1, ERTFormat::R8_UNORM, ERTTextureUsage::Sampled, "Indexed"};
+	ASSERT_OK(Device->CreateTexture(Desc, Texture.ReleaseAndGetAddress()));
+	const uint32_t First = Texture->GetSampledIndex();
+	Texture.Reset();
+	ASSERT_OK(Device->WaitIdle());
+	ASSERT_OK(Device->CreateTexture(Desc, Texture.ReleaseAndGetAddress()));
+	EXPECT_EQ(Texture->GetSampledIndex(), First);
+}
+
+TEST_F(FVulkanSmokeDevice, ManyThreadsMayCreateSubmitAndRelease)
+{
+	TRTRef<IRTPipeline> Pipeline = MakeCompute(Smoke_Fill_comp, "Fill");
+	std::atomic<uint32_t> Failures{0};
+	const auto Work = [&](uint32_t Seed)
+	{
+		for (uint32_t Round = 0; Round < 20; ++Round)
+		{
+			TRTRef<IRTBuffer> Words;
+			TRTRef<IRTCommandList> Mine;
+			TRTRef<IRTTexture> Texture;
+			bool bOk = Device
+			               ->CreateBuffer({1024, ERTBufferUsage::Storage, ERTMemory::Readback, "Words"},
+			                              Words.ReleaseAndGetAddress())
+			               .IsOk();
+			bOk = bOk && Device->CreateCommandList("Mine", Mine.ReleaseAndGetAddress()).IsOk();
+			bOk = bOk && Device
+			                 ->CreateTexture({8, 8, 1, 1, ERTFormat::R8_UNORM, ERTTextureUsage::Sampled, "Texture"},
+			                                 Texture.ReleaseAndGetAddress())
+			                 .IsOk();
+			bOk = bOk && Mine->Begin().IsOk();
+			if (bOk)
+			{
+				Mine->SetPipeline(Pipeline.Get());
+				struct
+				{
+					uint64_t Address;
+					uint32_t Count, Factor;
+				} Push = {Words->GetDeviceAddress(), 256, Seed + Round};
+				Mine->PushConstants(&Push, sizeof(Push));
+				Mine->Dispatch(4, 1, 1);
+				FRTBarrier Item;
+				Item.Before = ERTAccess::StorageWrite;
+				Item.After = ERTAccess::HostRead;
+				Mine->Barriers(&Item, 1);
+				Mine->KeepAlive(Words.Get());
+				bOk = Mine->End().IsOk();
+				IRTCommandList* Lists[] = {Mine.Get()};
+				FRTFence Fence = 0;
+				bOk = bOk && Device->Submit(Lists, 1, &Fence).IsOk();
+				if (bOk && Round % 2)
+				{
+					bOk = Device->WaitFor(Fence, ~0ull).IsOk() &&
+					      static_cast<uint32_t*>(Words->GetMapped())[255] == 255 * (Seed + Round);
+				}
+			}
+			Failures += !bOk;
+		}
+	};
+	std::vector<std::thread> Threads;
+	for (uint32_t Seed = 0; Seed < 4; ++Seed)
+	{
+		Threads.emplace_back(Work, Seed * 100);
+	}
+	for (std::thread& Thread : Threads)
+	{
+		Thread.join();
+	}
+	EXPECT_EQ(Failures.load(), 0u);
+}
+
+TEST_F(FVulkanSmokeDevice, ObjectsMayOutliveTheDevicesReference)
+{
+	FRTVulkanDeviceDesc Desc;
+	Desc.bValidation = true;
+	TRTRef<IRTDevice> Other;
+	ASSERT_OK(CreateVulkanDevice(Desc, Other.ReleaseAndGetAddress()));
+	TRTRef<IRTBuffer> Buffer;
+	ASSERT_OK(Other->CreateBuffer({64, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Late"},
+	                              Buffer.ReleaseAndGetAddress()));
+	TRTRef<IRTCommandList> Filling;
+	ASSERT_OK(Other->CreateCommandList("Filling", Filling.ReleaseAndGetAddress()));
+	ASSERT_OK(Filling->Begin());
+	Filling->FillBuffer(Buffer.Get(), 0, 64, 9);
+	ASSERT_OK(Filling->End());
+	IRTCommandList* Lists[] = {Filling.Get()};
+	ASSERT_OK(Other->Submit(Lists, 1, nullptr));
+	Other.Reset();
+	EXPECT_EQ(*static_cast<uint32_t*>(Buffer->GetMapped()), 9u);
+}
+
+// ------------------------------------------------------------------------------------------------ pipeline cache
+
+TEST_F(FVulkanSmokeDevice, PipelineCacheIsKeptAndADamagedOneDiscarded)
+{
+	const std::string File = ::testing::TempDir() + "LanternSmoke.pipelinecache";
+	remove(File.c_str());
+	std::string Messages;
+	FRTVulkanDeviceDesc Desc;
+	Desc.PipelineCacheFile = File.c_str();
+	Desc.MessageUser = &Messages;
+	Desc.MessageCallback = [](void* User, ERTVulkanMessage, const char* Text)
+	{ *static_cast<std::string*>(User) += std::string(Text) + "\n"; };
+	const auto MakeOnce = [&]
+	{
+		TRTRef<IRTDevice> Other;
+		ASSERT_OK(CreateVulkanDevice(Desc, Other.ReleaseAndGetAddress()));
+		TRTRef<IRTPipeline> Pipeline;
+		ASSERT_OK(Other->CreateComputePipeline({MakeCode(Smoke_Fill_comp, ERTShaderStage::Compute, "Fill"), "Fill"},
+		                                       Pipeline.ReleaseAndGetAddress()));
+	};
+	ASSERT_NO_FATAL_FAILURE(MakeOnce());
+	EXPECT_EQ(Messages, "");
+	FILE* Stream = fopen(File.c_str(), "r+b");
+	ASSERT_NE(Stream, nullptr);
+	fclose(Stream);
+	ASSERT_NO_FATAL_FAILURE(MakeOnce());
+	EXPECT_EQ(Messages, "");
+
+	Stream = fopen(File.c_str(), "r+b");
+	fseek(Stream, -1, SEEK_END);
+	const int Last = fgetc(Stream);
+	fseek(Stream, -1, SEEK_END);
+	fputc(Last ^ 1, Stream);
+	fclose(Stream);
+	ASSERT_NO_FATAL_FAILURE(MakeOnce());
+	EXPECT_NE(Messages.find("damaged"), std::string::npos) << Messages;
+	Messages.clear();
+	ASSERT_NO_FATAL_FAILURE(MakeOnce()); // written anew
+	EXPECT_EQ(Messages, "");
+	remove(File.c_str());
+}
+
+// ------------------------------------------------------------------------------------------------ take-over
+
+/// The engine's side: its own instance and device, made through the loader by hand.
+class FEngine
+{
+public:
+	~FEngine()
+	{
+		if (Device)
+		{
+			Get<PFN_vkDestroyDevice>("vkDestroyDevice")(Device, nullptr);
+		}
+		if (Instance)
+		{
+			Get<PFN_vkDestroyInstance>("vkDestroyInstance")(Instance, nullptr);
+		}
+	}
+
+	template <class T>
+	T Get(const char* Name)
+	{
+		return reinterpret_cast<T>(GetProc(Instance, Name));
+	}
+
+	bool CreateInstance()
+	{
+		void* Library = dlopen("libvulkan.so.1", RTLD_NOW);
+		GetProc = Library ? reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(Library, "vkGetInstanceProcAddr")) : nullptr;
+		if (!GetProc)
+		{
+			return false;
+		}
+		VkApplicationInfo App{VK_STRUCTURE_TYPE_APPLICATION_INFO};
+		App.apiVersion = VK_API_VERSION_1_3;
+		const char* Layer = "VK_LAYER_KHRONOS_validation";
+		const char* Extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+		VkInstanceCreateInfo Info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
+		Info.pApplicationInfo = &App;
+		Info.enabledLayerCount = 1;
+		Info.ppEnabledLayerNames = &Layer;
+		Info.enabledExtensionCount = 1;
+		Info.ppEnabledExtensionNames = &Extension;
+		return Get<PFN_vkCreateInstance>("vkCreateInstance")(&Info, nullptr, &Instance) == VK_SUCCESS;
+	}
+
+	/// The physical device of this name.
+	bool FindPhysical(const char* Name)
+	{
+		VkPhysicalDevice List[16];
+		uint32_t Count = 16;
+		Get<PFN_vkEnumeratePhysicalDevices>("vkEnumeratePhysicalDevices")(Instance, &Count, List);
+		for (uint32_t Index = 0; Index < Count; ++Index)
+		{
+			VkPhysicalDeviceProperties Properties;
+			Get<PFN_vkGetPhysicalDeviceProperties>("vkGetPhysicalDeviceProperties")(List[Index], &Properties);
+			Physical = strcmp(Properties.deviceName, Name) == 0 ? List[Index] : Physical;
+		}
+		return Physical != VK_NULL_HANDLE;
+	}
+
+	bool CreateDevice(const void* Features, uint32_t ExtensionCount, const char* const* Extensions)
+	{
+		const float Priority = 1;
+		VkDeviceQueueCreateInfo QueueInfo{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+		QueueInfo.queueCount = 1;
+		QueueInfo.pQueuePriorities = &Priority;
+		VkDeviceCreateInfo Info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, Features};
+		Info.queueCreateInfoCount = 1;
+		Info.pQueueCreateInfos = &QueueInfo;
+		Info.enabledExtensionCount = ExtensionCount;
+		Info.ppEnabledExtensionNames = Extensions;
+		if (Get<PFN_vkCreateDevice>("vkCreateDevice")(Physical, &Info, nullptr, &Device) != VK_SUCCESS)
+		{
+			return false;
+		}
+		Get<PFN_vkGetDeviceQueue>("vkGetDeviceQueue")(Device, 0, 0, &Queue);
+		return true;
+	}
+
+	FRTVulkanExternalDesc Describe(const IRTVulkanRequirements* Requirements)
+	{
+		FRTVulkanExternalDesc Desc;
+		Desc.Instance = Instance;
+		Desc.PhysicalDevice = Physical;
+		Desc.Device = Device;
+		Desc.Queue = Queue;
+		Desc.GetInstanceProcAddr = GetProc;
+		Desc.Requirements = Requirements;
+		Desc.bCountValidation = true;
+		return Desc;
+	}
+
+	PFN_vkGetInstanceProcAddr GetProc = nullptr;
+	VkInstance Instance = VK_NULL_HANDLE;
+	VkPhysicalDevice Physical = VK_NULL_HANDLE;
+	VkDevice Device = VK_NULL_HANDLE;
+	VkQueue Queue = VK_NULL_HANDLE;
+};
+
+TEST_F(FVulkanSmokeDevice, AnEnginesDeviceIsTakenOverAndLeftAlive)
+{
+	FEngine Engine;
+	ASSERT_TRUE(Engine.CreateInstance());
+	ASSERT_TRUE(Engine.FindPhysical(Device->GetCapabilities().DeviceName));
+	FRTVulkanRequirementsDesc RequirementsDesc;
+	RequirementsDesc.Instance = Engine.Instance;
+	RequirementsDesc.PhysicalDevice = Engine.Physical;
+	TRTRef<IRTVulkanRequirements> Requirements;
+	ASSERT_OK(GetVulkanRequirements(RequirementsDesc, Requirements.ReleaseAndGetAddress()));
+	// The engine has features of its own, and one structure that Lantern needs too.
+	VkPhysicalDeviceVulkan12Features Vulkan12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+	Vulkan12.hostQueryReset = VK_TRUE;
+	VkPhysicalDeviceFeatures2 Chain{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &Vulkan12};
+	Requirements->MergeInto(&Chain);
+	EXPECT_TRUE(Vulkan12.timelineSemaphore);
+	EXPECT_TRUE(Vulkan12.hostQueryReset);
+	ASSERT_TRUE(Engine.CreateDevice(&Chain, Requirements->GetExtensionCount(), Requirements->GetExtensions()));
+
+	FRTVulkanExternalDesc Desc = Engine.Describe(Requirements.Get());
+	int LockDepth = 0;
+	Desc.QueueUser = &LockDepth;
+	Desc.LockQueue = [](void* User) { ++*static_cast<int*>(User); };
+	Desc.UnlockQueue = [](void* User) { *static_cast<int*>(User) += 100 - 1; };
+	TRTRef<IRTDevice> Adopted;
+	ASSERT_OK(AdoptVulkanDevice(Desc, Adopted.ReleaseAndGetAddress()));
+	EXPECT_EQ(Adopted->GetNative(ERTNative::Device), (uint64_t)Engine.Device);
+	EXPECT_EQ(Adopted->GetCapabilities().Rung, Device->GetCapabilities().Rung);
+
+	// The engine records, Lantern writes into its command buffer, the engine submits.
+	VkCommandPool Pool;
+	VkCommandPoolCreateInfo PoolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+	Engine.Get<PFN_vkCreateCommandPool>("vkCreateCommandPool")(Engine.Device, &PoolInfo, nullptr, &Pool);
+	VkCommandBufferAllocateInfo BufferInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+	BufferInfo.commandPool = Pool;
+	BufferInfo.commandBufferCount = 1;
+	VkCommandBuffer Commands;
+	Engine.Get<PFN_vkAllocateCommandBuffers>("vkAllocateCommandBuffers")(Engine.Device, &BufferInfo, &Commands);
+	VkCommandBufferBeginInfo BeginInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+	Engine.Get<PFN_vkBeginCommandBuffer>("vkBeginCommandBuffer")(Commands, &BeginInfo);
+
+	TRTRef<IRTBuffer> Words;
+	ASSERT_OK(Adopted->CreateBuffer({256, ERTBufferUsage::Storage, ERTMemory::Readback, "Words"},
+	                                Words.ReleaseAndGetAddress()));
+	TRTRef<IRTPipeline> Pipeline;
+	ASSERT_OK(Adopted->CreateComputePipeline({MakeCode(Smoke_Fill_comp, ERTShaderStage::Compute, "Fill"), "Fill"},
+	                                         Pipeline.ReleaseAndGetAddress()));
+	TRTRef<IRTCommandList> Imported;
+	ASSERT_OK(Adopted->ImportCommandList((uint64_t)Commands, Imported.ReleaseAndGetAddress()));
+	Imported->SetPipeline(Pipeline.Get());
+	const struct
+	{
+		uint64_t Address;
+		uint32_t Count, Factor;
+	} Push = {Words->GetDeviceAddress(), 64, 5};
+	Imported->PushConstants(&Push, sizeof(Push));
+	Imported->Dispatch(1, 1, 1);
+	FRTBarrier Item;
+	Item.Before = ERTAccess::StorageWrite;
+	Item.After = ERTAccess::HostRead;
+	Imported->Barriers(&Item, 1);
+
+	Engine.Get<PFN_vkEndCommandBuffer>("vkEndCommandBuffer")(Commands);
+	VkSubmitInfo Submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+	Submit.commandBufferCount = 1;
+	Submit.pCommandBuffers = &Commands;
+	Engine.Get<PFN_vkQueueSubmit>("vkQueueSubmit")(Engine.Queue, 1, &Submit, VK_NULL_HANDLE);
+	IRTCommandList* Lists[] = {Imported.Get()};
+	FRTFence Fence = 0;
+	ASSERT_OK(Adopted->NotifyExternalSubmit(Lists, 1, &Fence));
+	Pipeline.Reset(); // kept by the submission
+	Imported.Reset();
+	ASSERT_OK(Adopted->WaitFor(Fence, 60'000'000'000ull));
+	EXPECT_EQ(static_cast<uint32_t*>(Words->GetMapped())[63], 63u * 5);
+	EXPECT_EQ(LockDepth, 100) << "the queue's lock was taken and given back once";
+	Words.Reset();
+	EXPECT_EQ(Adopted->GetValidationMessageCount(), 0u);
+	Adopted.Reset();
+
+	// Still the engine's, and alive.
+	Engine.Get<PFN_vkDestroyCommandPool>("vkDestroyCommandPool")(Engine.Device, Pool, nullptr);
+	EXPECT_EQ(Engine.Get<PFN_vkDeviceWaitIdle>("vkDeviceWaitIdle")(Engine.Device), VK_SUCCESS);
+}
+
+TEST_F(FVulkanSmokeDevice, AnEnginesDeviceWithoutTheExtensionsIsRefused)
+{
+	FEngine Engine;
+	ASSERT_TRUE(Engine.CreateInstance());
+	ASSERT_TRUE(Engine.FindPhysical(Device->GetCapabilities().DeviceName));
+	FRTVulkanRequirementsDesc RequirementsDesc;
+	RequirementsDesc.Instance = Engine.Instance;
+	RequirementsDesc.PhysicalDevice = Engine.Physical;
+	TRTRef<IRTVulkanRequirements> Requirements;
+	ASSERT_OK(GetVulkanRequirements(RequirementsDesc, Requirements.ReleaseAndGetAddress()));
+	ASSERT_TRUE(Engine.CreateDevice(nullptr, 0, nullptr));
+	TRTRef<IRTDevice> Adopted;
+	const FRTStatus Status = AdoptVulkanDevice(Engine.Describe(Requirements.Get()), Adopted.ReleaseAndGetAddress());
+	EXPECT_EQ(Status.Code, ERTResult::Unsupported);
+	EXPECT_NE(strstr(Status.Message, "not enabled"), nullptr) << Status.Message;
+	EXPECT_FALSE(Adopted);
+}
+
+} // namespace Lantern

@@ -1,0 +1,234 @@
+// The Vulkan backend alone: buffers, textures, compute and raster.
+#include "VulkanSmokeFixture.h"
+
+#include "VulkanSmokeShaders/Fill_comp.h"
+#include "VulkanSmokeShaders/Sample_comp.h"
+#include "VulkanSmokeShaders/StoreImage_comp.h"
+#include "VulkanSmokeShaders/Triangle_frag.h"
+#include "VulkanSmokeShaders/Triangle_vert.h"
+
+namespace Lantern
+{
+
+using FVulkanSmokeBasics = FVulkanSmokeTest;
+
+struct FFillPush
+{
+	uint64_t Output;
+	uint32_t Count, Factor;
+};
+
+TEST_F(FVulkanSmokeBasics, ComputeWritesABufferAndTheListIsReused)
+{
+	constexpr uint32_t Count = 1000;
+	TRTRef<IRTPipeline> Pipeline = MakeCompute(Smoke_Fill_comp, "Fill");
+	TRTRef<IRTBuffer> Words = MakeBuffer(Count * 4, ERTBufferUsage::Storage | ERTBufferUsage::CopySource,
+	                                     ERTMemory::Device, "Words");
+	TRTRef<IRTBuffer> Back = MakeBuffer(Count * 4, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Back");
+	EXPECT_EQ(Words->GetMapped(), nullptr);
+	for (const uint32_t Factor : {3u, 7u})
+	{
+		ASSERT_OK(List->Begin());
+		List->BeginMarker("Fill");
+		List->SetPipeline(Pipeline.Get());
+		const FFillPush Push = {Words->GetDeviceAddress(), Count, Factor};
+		List->PushConstants(&Push, sizeof(Push));
+		List->Dispatch((Count + 63) / 64, 1, 1);
+		List->EndMarker();
+		Barrier(ERTAccess::StorageWrite, ERTAccess::CopyRead);
+		List->CopyBuffer(Back.Get(), 0, Words.Get(), 0, Count * 4);
+		Barrier(ERTAccess::CopyWrite, ERTAccess::HostRead);
+		ASSERT_NO_FATAL_FAILURE(Run());
+		const uint32_t* Result = static_cast<const uint32_t*>(Back->GetMapped());
+		for (uint32_t Index = 0; Index < Count; ++Index)
+		{
+			ASSERT_EQ(Result[Index], Index * Factor);
+		}
+	}
+}
+
+TEST_F(FVulkanSmokeBasics, StorageImageIsReadBack)
+{
+	constexpr uint32_t Width = 13, Height = 9;
+	TRTRef<IRTTexture> Texture;
+	ASSERT_OK(Device->CreateTexture({Width, Height, 1, 1, ERTFormat::RGBA32_FLOAT,
+	                                 ERTTextureUsage::Storage | ERTTextureUsage::CopySource, "Image"},
+	                                Texture.ReleaseAndGetAddress()));
+	EXPECT_EQ(Texture->GetSampledIndex(), ~0u);
+	ASSERT_NE(Texture->GetStorageIndex(), ~0u);
+	TRTRef<IRTPipeline> Pipeline = MakeCompute(Smoke_StoreImage_comp, "StoreImage");
+	TRTRef<IRTBuffer> Back = MakeBuffer(Width * Height * 16, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Back");
+	ASSERT_OK(List->Begin());
+	Barrier(ERTAccess::None, ERTAccess::StorageWrite, Texture.Get());
+	List->SetPipeline(Pipeline.Get());
+	const uint32_t Push[] = {Texture->GetStorageIndex(), Width, Height};
+	List->PushConstants(Push, sizeof(Push));
+	List->Dispatch(2, 2, 1);
+	Barrier(ERTAccess::StorageWrite, ERTAccess::CopyRead, Texture.Get());
+	List->CopyTextureToBuffer(Back.Get(), 0, Texture.Get(), 0, 0);
+	Barrier(ERTAccess::CopyWrite, ERTAccess::HostRead);
+	ASSERT_NO_FATAL_FAILURE(Run());
+	const float* Texels = static_cast<const float*>(Back->GetMapped());
+	for (uint32_t Y = 0; Y < Height; ++Y)
+	{
+		for (uint32_t X = 0; X < Width; ++X)
+		{
+			const float* Texel = Texels + 4 * (Y * Width + X);
+			ASSERT_EQ(Texel[0], X);
+			ASSERT_EQ(Texel[1], Y);
+			ASSERT_EQ(Texel[2], X * Y);
+		}
+	}
+}
+
+TEST_F(FVulkanSmokeBasics, MipsAreAveragesOfTheFirst)
+{
+	constexpr uint32_t Size = 8, Mips = 4;
+	TRTRef<IRTTexture> Texture;
+	ASSERT_OK(Device->CreateTexture({Size, Size, Mips, 1, ERTFormat::RGBA16_FLOAT,
+	                                 ERTTextureUsage::Sampled | ERTTextureUsage::CopyDest, "Mips"},
+	                                Texture.ReleaseAndGetAddress()));
+	TRTRef<IRTSampler> Sampler;
+	ASSERT_OK(Device->CreateSampler({}, Sampler.ReleaseAndGetAddress()));
+	constexpr uint16_t HalfOne = 0x3c00, HalfTwo = 0x4000;
+	std::vector<uint16_t> Texels(Size * Size * 4);
+	for (uint32_t Index = 0; Index < Size * Size; ++Index)
+	{
+		Texels[Index * 4] = Index % 2 ? HalfTwo : 0;                  // every 2x2 box has the mean 1
+		Texels[Index * 4 + 1] = Index / Size < Size / 2 ? HalfOne : 0; // 0.5 in the last mip alone
+	}
+	TRTRef<IRTBuffer> Upload = MakeUpload(Texels, ERTBufferUsage::CopySource, "Texels");
+	TRTRef<IRTBuffer> Output = MakeBuffer(Mips * 16, ERTBufferUsage::Storage, ERTMemory::Readback, "Output");
+	TRTRef<IRTPipeline> Pipeline = MakeCompute(Smoke_Sample_comp, "Sample");
+	ASSERT_OK(List->Begin());
+	Barrier(ERTAccess::None, ERTAccess::CopyWrite, Texture.Get());
+	List->CopyBufferToTexture(Texture.Get(), 0, 0, Upload.Get(), 0);
+	List->GenerateMips(Texture.Get());
+	List->SetPipeline(Pipeline.Get());
+	const struct
+	{
+		uint64_t Address;
+		uint32_t Texture, Sampler;
+	} Push = {Output->GetDeviceAddress(), Texture->GetSampledIndex(), Sampler->GetIndex()};
+	List->PushConstants(&Push, sizeof(Push));
+	List->Dispatch(Mips, 1, 1);
+	Barrier(ERTAccess::StorageWrite, ERTAccess::HostRead);
+	ASSERT_NO_FATAL_FAILURE(Run());
+	const float* Colors = static_cast<const float*>(Output->GetMapped());
+	for (uint32_t Mip = 1; Mip < Mips; ++Mip)
+	{
+		EXPECT_NEAR(Colors[Mip * 4], 1.0f, 0.01f) << Mip;
+	}
+	EXPECT_NEAR(Colors[(Mips - 1) * 4 + 1], 0.5f, 0.01f);
+}
+
+
+TEST_F(FVulkanSmokeBasics, RasterTrianglesAreSortedByReversedDepth)
+{
+	constexpr uint32_t Size = 32;
+	TRTRef<IRTTexture> Color, Depth;
+	ASSERT_OK(Device->CreateTexture({Size, Size, 1, 1, ERTFormat::RGBA8_UNORM,
+	                                 ERTTextureUsage::RenderTarget | ERTTextureUsage::CopySource, "Color"},
+	                                Color.ReleaseAndGetAddress()));
+	ASSERT_OK(Device->CreateTexture({Size, Size, 1, 1, ERTFormat::D32_FLOAT,
+	                                 ERTTextureUsage::Depth | ERTTextureUsage::CopySource, "Depth"},
+	                                Depth.ReleaseAndGetAddress()));
+	const ERTFormat Format = ERTFormat::RGBA8_UNORM;
+	FRTRasterPipelineDesc Desc;
+	Desc.Vertex = MakeCode(Smoke_Triangle_vert, ERTShaderStage::Vertex, "Triangle.vert");
+	Desc.Fragment = MakeCode(Smoke_Triangle_frag, ERTShaderStage::Fragment, "Triangle.frag");
+	Desc.ColorFormats = &Format;
+	Desc.ColorCount = 1;
+	Desc.DepthFormat = ERTFormat::D32_FLOAT;
+	Desc.Cull = ERTCull::None;
+	TRTRef<IRTPipeline> Pipeline;
+	ASSERT_OK(Device->CreateRasterPipeline(Desc, Pipeline.ReleaseAndGetAddress()));
+	// The left half near (0.75), then the whole target behind it (0.25).
+	const std::vector<float> Points = {-1, -3, 0.75f, 0, 0,  0.75f, -1, 3,  0.75f, // covers x < 0 near the centre
+	                                   -1, -1, 0.25f, 3, -1, 0.25f, -1, 3,  0.25f};
+	TRTRef<IRTBuffer> Positions = MakeUpload(Points, ERTBufferUsage::Storage, "Positions");
+	TRTRef<IRTBuffer> Indices = MakeUpload(std::vector<uint32_t>{3, 4, 5}, ERTBufferUsage::Index, "Indices");
+	TRTRef<IRTBuffer> Back = MakeBuffer(Size * Size * 4, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Back");
+	TRTRef<IRTBuffer> BackDepth = MakeBuffer(Size * Size * 4, ERTBufferUsage::CopyDest, ERTMemory::Readback, "BackDepth");
+	ASSERT_OK(List->Begin());
+	Barrier(ERTAccess::None, ERTAccess::RenderTarget, Color.Get());
+	Barrier(ERTAccess::None, ERTAccess::DepthWrite, Depth.Get());
+	const FRTColorTarget Target = {Color.Get(), true, {0, 0, 1, 1}};
+	List->BeginRasterPass({&Target, 1, Depth.Get(), true, Size, Size});
+	List->SetPipeline(Pipeline.Get());
+	const auto Push = [&](float Red, float Green)
+	{
+		struct
+		{
+			uint64_t Positions;
+			float Color[4];
+		} Data = {Positions->GetDeviceAddress(), {Red, Green, 0, 1}};
+		List->PushConstants(&Data, sizeof(Data));
+	};
+	Push(1, 0);
+	List->Draw(3, 1);
+	Push(0, 1);
+	List->SetIndexBuffer(Indices.Get(), 0, ERTIndexType::UInt32);
+	List->DrawIndexed(3, 1, 0, 0);
+	List->EndRasterPass();
+	Barrier(ERTAccess::RenderTarget, ERTAccess::CopyRead, Color.Get());
+	Barrier(ERTAccess::DepthWrite, ERTAccess::CopyRead, Depth.Get());
+	List->CopyTextureToBuffer(Back.Get(), 0, Color.Get(), 0, 0);
+	List->CopyTextureToBuffer(BackDepth.Get(), 0, Depth.Get(), 0, 0);
+	Barrier(ERTAccess::CopyWrite, ERTAccess::HostRead);
+	ASSERT_NO_FATAL_FAILURE(Run());
+	const uint32_t* Texels = static_cast<const uint32_t*>(Back->GetMapped());
+	const float* Depths = static_cast<const float*>(BackDepth->GetMapped());
+	const uint32_t Left = Size / 2 * Size + 4, Right = Size / 2 * Size + Size - 4;
+	EXPECT_EQ(Texels[Left], 0xff0000ffu);
+	EXPECT_EQ(Depths[Left], 0.75f);
+	EXPECT_EQ(Texels[Right], 0xff00ff00u);
+	EXPECT_EQ(Depths[Right], 0.25f);
+}
+
+TEST_F(FVulkanSmokeBasics, ClearsAndFillsReachTheirTargets)
+{
+	TRTRef<IRTTexture> Texture;
+	ASSERT_OK(Device->CreateTexture({4, 4, 1, 1, ERTFormat::R32_UINT,
+	                                 ERTTextureUsage::Storage | ERTTextureUsage::CopySource | ERTTextureUsage::CopyDest,
+	                                 "Cleared"},
+	                                Texture.ReleaseAndGetAddress()));
+	TRTRef<IRTBuffer> Back = MakeBuffer(128, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Back");
+	ASSERT_OK(List->Begin());
+	Barrier(ERTAccess::None, ERTAccess::CopyWrite, Texture.Get());
+	const float Value[4] = {7, 0, 0, 0};
+	List->ClearTexture(Texture.Get(), Value);
+	Barrier(ERTAccess::CopyWrite, ERTAccess::CopyRead, Texture.Get());
+	List->CopyTextureToBuffer(Back.Get(), 0, Texture.Get(), 0, 0);
+	List->FillBuffer(Back.Get(), 64, 64, 0xabcd1234u);
+	Barrier(ERTAccess::CopyWrite, ERTAccess::HostRead);
+	ASSERT_NO_FATAL_FAILURE(Run());
+	const uint32_t* Words = static_cast<const uint32_t*>(Back->GetMapped());
+	EXPECT_EQ(Words[15], 7u);
+	EXPECT_EQ(Words[16], 0xabcd1234u);
+	EXPECT_EQ(Words[31], 0xabcd1234u);
+}
+
+TEST_F(FVulkanSmokeBasics, TimestampsAreOrderedAndUnwrittenOnesSaidToBe)
+{
+	if (!Device->GetCapabilities().bTimestamps)
+	{
+		GTEST_SKIP() << "the device has no timestamps";
+	}
+	TRTRef<IRTQueryPool> Pool;
+	ASSERT_OK(Device->CreateQueryPool(4, Pool.ReleaseAndGetAddress()));
+	uint64_t Times[4] = {};
+	EXPECT_FALSE(Pool->GetTimestamps(0, 4, Times));
+	TRTRef<IRTBuffer> Filled = MakeBuffer(1 << 20, ERTBufferUsage::CopyDest, ERTMemory::Device, "Filled");
+	ASSERT_OK(List->Begin());
+	List->ResetQueries(Pool.Get(), 0, 4);
+	List->WriteTimestamp(Pool.Get(), 0);
+	List->FillBuffer(Filled.Get(), 0, 1 << 20, 1);
+	List->WriteTimestamp(Pool.Get(), 1);
+	ASSERT_NO_FATAL_FAILURE(Run());
+	ASSERT_TRUE(Pool->GetTimestamps(0, 2, Times));
+	EXPECT_LE(Times[0], Times[1]);
+	EXPECT_FALSE(Pool->GetTimestamps(0, 4, Times));
+}
+
+} // namespace Lantern
