@@ -41,11 +41,21 @@ std::optional<FHit> Intersect(const FBox& Box, glm::dvec3 Origin, glm::dvec3 Dir
 	return FHit{Enter, Normal, 0};
 }
 
-std::optional<FHit> FindNearest(const FForkScene& Scene, glm::dvec3 Origin, glm::dvec3 Direction)
+enum class ESeenBy
+{
+	Camera,
+	Sun,
+};
+
+std::optional<FHit> FindNearest(const FForkScene& Scene, glm::dvec3 Origin, glm::dvec3 Direction, ESeenBy SeenBy)
 {
 	std::optional<FHit> Nearest;
 	for (size_t Index = 0; Index < Scene.Boxes.size(); ++Index)
 	{
+		if (SeenBy == ESeenBy::Sun && !Scene.Boxes[Index].bCastsShadow)
+		{
+			continue;
+		}
 		const std::optional<FHit> Hit = Intersect(Scene.Boxes[Index], Origin, Direction);
 		if (Hit && (!Nearest || Hit->Distance < Nearest->Distance))
 		{
@@ -66,7 +76,7 @@ struct FSample
 
 FSample Sample(const FForkScene& Scene, glm::dvec3 CameraRay, glm::dvec3 Shift)
 {
-	const std::optional<FHit> Hit = FindNearest(Scene, Scene.Camera.Position, CameraRay);
+	const std::optional<FHit> Hit = FindNearest(Scene, Scene.Camera.Position, CameraRay, ESeenBy::Camera);
 	if (!Hit)
 	{
 		return {};
@@ -77,8 +87,8 @@ FSample Sample(const FForkScene& Scene, glm::dvec3 CameraRay, glm::dvec3 Shift)
 		// Away from the surface, so that it does not shadow itself; Shift stays within it.
 		const glm::dvec3 Sideways = Shift - Hit->Normal * dot(Hit->Normal, Shift);
 		const glm::dvec3 Origin = Scene.Camera.Position + CameraRay * Hit->Distance + Hit->Normal * 1e-6 + Sideways;
-		Result.Expectation =
-		    FindNearest(Scene, Origin, -Scene.SunDirection) ? EExpectation::Shadowed : EExpectation::Lit;
+		const bool bHidden = FindNearest(Scene, Origin, -Scene.SunDirection, ESeenBy::Sun).has_value();
+		Result.Expectation = bHidden ? EExpectation::Shadowed : EExpectation::Lit;
 	}
 	return Result;
 }
@@ -92,6 +102,7 @@ FForkScene MakeScene(glm::dvec3 Offset)
 	    {Offset + glm::dvec3(0, -0.5, 0), {10, 0.5, 10}},
 	    {Offset + glm::dvec3(-1, 2.5, 0), {1, 1, 1}},
 	    {Offset + glm::dvec3(3, 2, -2), {0.4, 2, 0.4}},
+	    {Offset + glm::dvec3(-5, 2, 3), {1, 0.2, 1}, false},
 	};
 	Scene.SunDirection = normalize(glm::dvec3(0.6, -1.0, 0.35));
 	Scene.Camera.Position = Offset + glm::dvec3(2, 6, 11);

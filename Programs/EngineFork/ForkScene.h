@@ -14,6 +14,7 @@ struct FBox
 {
 	glm::dvec3 Centre{0};
 	glm::dvec3 HalfSize{1};
+	bool bCastsShadow = true;
 };
 
 struct FCamera
@@ -31,7 +32,7 @@ struct FForkScene
 	FCamera Camera;
 };
 
-/// A floor, a floating cube and a pillar, all moved by Offset.
+/// A floor, a floating cube, a pillar, and a slab that casts no shadow, all moved by Offset.
 FForkScene MakeScene(glm::dvec3 Offset);
 
 struct FVertex

@@ -168,6 +168,57 @@ FError RunFrame(FForkDevice& Device, const FForkRaster& Raster, FPluginScene& Pl
 	return Error.empty() ? Device.WaitForSubmit() : Error;
 }
 
+/// What the checks look at.
+struct FStage
+{
+	FForkDevice& Device;
+	FPluginScene& Plugin;
+	const FForkRaster& Raster;
+	const FForkBuffer& Readback;
+};
+
+/// Some frames of the scene as it is now, then every pixel of the last mask against the truth.
+FError CheckScene(FStage& Stage, const FForkScene& Scene, const char* What)
+{
+	FError Error;
+	bool bHasMask = false;
+	for (int Frame = 0; Error.empty() && Frame < FrameCount; ++Frame)
+	{
+		Error = RunFrame(Stage.Device, Stage.Raster, Stage.Plugin, Scene, Stage.Readback, bHasMask);
+	}
+	if (!Error.empty() || !bHasMask)
+	{
+		return Error.empty() ? "the plugin gave no shadow mask" : Error;
+	}
+	const FVerdict Verdict = Judge(Scene, static_cast<const uint16_t*>(Stage.Readback.Mapped));
+	std::printf("%s: %u lit, %u shadowed, %u sky, %u near an edge; wrong: %u\n", What, Verdict.Lit, Verdict.Shadowed,
+	            Verdict.Sky, Verdict.Unsure, Verdict.Wrong);
+	// Enough of each that agreeing means something.
+	const bool bMeaningful = Verdict.Lit > 5000 && Verdict.Shadowed > 1000 && Verdict.Sky > 2000;
+	return Verdict.Wrong == 0 && bMeaningful ? FError()
+	                                         : std::string(What) + ": the shadows are not where they must be";
+}
+
+/// As it was made, then with one box moved and one gone, as in a game.
+FError CheckScenes(FStage& Stage, FForkScene Scene, const FOptions& Options)
+{
+	FError Error = CheckScene(Stage, Scene, "as made");
+	if (Error.empty() && !Options.Picture.empty() &&
+	    !WritePicture(Options.Picture, static_cast<const uint16_t*>(Stage.Readback.Mapped)))
+	{
+		Error = Options.Picture + " cannot be written";
+	}
+	if (!Error.empty())
+	{
+		return Error;
+	}
+	Scene.Boxes[2].Centre += glm::dvec3(-3.0, 0.0, 4.0);
+	Stage.Plugin.MoveBox(2, Scene.Boxes[2]);
+	Scene.Boxes.erase(Scene.Boxes.begin() + 1);
+	Stage.Plugin.RemoveBox(1);
+	return CheckScene(Stage, Scene, "pillar moved, cube gone");
+}
+
 int RenderAndCheck(FForkDevice& Device, FPluginScene& Plugin, const FOptions& Options)
 {
 	const FForkScene Scene = MakeScene(Options.Offset);
@@ -186,27 +237,13 @@ int RenderAndCheck(FForkDevice& Device, FPluginScene& Plugin, const FOptions& Op
 	{
 		Error = Plugin.ImportGBuffer(Raster, FrameSize);
 	}
-	bool bHasMask = false;
-	for (int Frame = 0; Error.empty() && Frame < FrameCount; ++Frame)
+	if (Error.empty())
 	{
-		Error = RunFrame(Device, Raster, Plugin, Scene, Readback, bHasMask);
+		FStage Stage{Device, Plugin, Raster, Readback};
+		Error = CheckScenes(Stage, Scene, Options);
 	}
 	Plugin.ReleaseGBuffer();
-	if (!Error.empty() || !bHasMask)
-	{
-		return Complain(CheckFailed, Error.empty() ? "the plugin gave no shadow mask" : Error);
-	}
-	const auto* Mask = static_cast<const uint16_t*>(Readback.Mapped);
-	const FVerdict Verdict = Judge(Scene, Mask);
-	std::printf("pixels: %u lit, %u shadowed, %u sky, %u near an edge; wrong: %u\n", Verdict.Lit, Verdict.Shadowed,
-	            Verdict.Sky, Verdict.Unsure, Verdict.Wrong);
-	if (!Options.Picture.empty() && !WritePicture(Options.Picture, Mask))
-	{
-		return Complain(CheckFailed, Options.Picture + " cannot be written");
-	}
-	// Enough of each that agreeing means something.
-	const bool bMeaningful = Verdict.Lit > 5000 && Verdict.Shadowed > 2000 && Verdict.Sky > 2000;
-	return Verdict.Wrong == 0 && bMeaningful ? Done : CheckFailed;
+	return Error.empty() ? Done : Complain(CheckFailed, Error);
 }
 
 /// The first device that the plugin can use, created with what it asks for.
@@ -284,6 +321,10 @@ int RunWithModule(IRTModule& Module, const FPluginManifest& Manifest, const FOpt
 	if (!Error.empty())
 	{
 		return Complain(NoDevice, Error);
+	}
+	if (!Instance.bValidation)
+	{
+		std::fprintf(stderr, "EngineFork: the Vulkan validation layer is not installed: wrong use goes unseen\n");
 	}
 	const int Exit = RunOnInstance(Module, Instance, Options);
 	if (Instance.ValidationMessages != 0) // also of the device's end: what was left undestroyed

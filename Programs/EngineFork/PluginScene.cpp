@@ -1,5 +1,6 @@
 #include "PluginScene.h"
 
+#include <algorithm>
 #include <array>
 
 namespace Fork
@@ -30,6 +31,22 @@ FError FPluginScene::Create(IRTModule& Module, const FForkInstance& Instance, co
 	return Error;
 }
 
+namespace
+{
+
+std::array<double, 12> GetTransform(const FBox& Box)
+{
+	std::array<double, 12> Rows{};
+	for (int Row = 0; Row < 3; ++Row)
+	{
+		Rows[static_cast<size_t>(Row * 5)] = Box.HalfSize[Row];
+		Rows[static_cast<size_t>(Row * 4 + 3)] = Box.Centre[Row];
+	}
+	return Rows;
+}
+
+} // namespace
+
 FError FPluginScene::AddScene(const FForkScene& Scene)
 {
 	// The plugin's arrays are of single numbers: positions apart from normals.
@@ -56,18 +73,15 @@ FError FPluginScene::AddScene(const FForkScene& Scene)
 	}
 	for (size_t Index = 0; Error.empty() && Index < Scene.Boxes.size(); ++Index)
 	{
-		const FBox& From = Scene.Boxes[Index];
 		FRTModuleObject Object;
 		Object.Mesh = MeshHandle;
 		Object.Materials = &Material;
 		Object.MaterialCount = 1;
-		for (int Row = 0; Row < 3; ++Row)
-		{
-			Object.Transform[Row * 5] = From.HalfSize[Row];
-			Object.Transform[Row * 4 + 3] = From.Centre[Row];
-		}
-		ERTObjectHandle Handle = ERTObjectHandle::None;
-		Error = ToError(Renderer->AddObject(Object, &Handle), "AddObject");
+		Object.bCastsShadow = Scene.Boxes[Index].bCastsShadow;
+		const std::array<double, 12> Transform = GetTransform(Scene.Boxes[Index]);
+		std::copy(Transform.begin(), Transform.end(), Object.Transform);
+		Boxes.emplace_back();
+		Error = ToError(Renderer->AddObject(Object, &Boxes.back()), "AddObject");
 	}
 	FRTModuleSun Sun;
 	Sun.Irradiance = 1.0f;
@@ -77,6 +91,17 @@ FError FPluginScene::AddScene(const FForkScene& Scene)
 	}
 	Renderer->SetSun(Sun);
 	return Error;
+}
+
+void FPluginScene::MoveBox(size_t Box, const FBox& To)
+{
+	Renderer->SetObjectTransform(Boxes[Box], GetTransform(To).data());
+}
+
+void FPluginScene::RemoveBox(size_t Box)
+{
+	Renderer->RemoveObject(Boxes[Box]);
+	Boxes.erase(Boxes.begin() + static_cast<std::ptrdiff_t>(Box));
 }
 
 FError FPluginScene::ImportGBuffer(const FForkRaster& Raster, VkExtent2D Size)

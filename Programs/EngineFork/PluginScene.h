@@ -22,6 +22,9 @@ public:
 	FError Create(Lantern::IRTModule& Module, const FForkInstance& Instance, const FForkDevice& Owner,
 	              const Lantern::IRTVulkanRequirements& Requirements);
 	FError AddScene(const FForkScene& Scene);
+	/// Box: as AddScene counted them.
+	void MoveBox(size_t Box, const FBox& To);
+	void RemoveBox(size_t Box);
 	FError ImportGBuffer(const FForkRaster& Raster, VkExtent2D Size);
 	void ReleaseGBuffer(); ///< before the raster's images go
 	/// Records the plugin's work; Commands is recording and the G-buffer is in it. OutMask: null when the plugin has
@@ -34,6 +37,7 @@ public:
 private:
 	Lantern::TRTRef<Lantern::IRTDevice> Device; // declared first: goes last
 	Lantern::TRTRef<Lantern::IRTModuleRenderer> Renderer;
+	std::vector<Lantern::ERTObjectHandle> Boxes;
 	Lantern::TRTRef<Lantern::IRTTexture> Depth, Normals;
 	Lantern::TRTRef<Lantern::IRTCommandList> List;
 };

@@ -192,7 +192,7 @@ FRTStatus FModuleRenderer::AddObject(const FRTModuleObject& Object, ERTObjectHan
 		Info.Materials.push_back(static_cast<uint32_t>(ToIndex(Object.Materials[Section])));
 	}
 	Info.Transform = ToMatrix(Object.Transform);
-	Info.Mask = Object.bCastsShadow ? MaskAll : uint8_t(MaskAll & ~MaskCastsShadow);
+	Info.Mask = Object.bCastsShadow ? MaskAll : MaskVisible;
 	*Out = ToHandle(Scene.AddObject(std::move(Info)));
 	return FRTStatus::Success();
 }
@@ -255,12 +255,15 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 	}
 	AddPasses(Frame);
 	const FRTStatus Status = Renderer.EndFrame(*Frame.Commands);
-	if (Status)
+	if (!Status)
 	{
-		Recorded = TRTRef<IRTCommandList>(Frame.Commands);
-		Out->SunShadow = SunShadow.Get();
-		Out->bComplete = true;
+		SunShadow = nullptr;
+		Renderer.FrameSubmitted(0); // it never will be
+		return Status;
 	}
+	Recorded = TRTRef<IRTCommandList>(Frame.Commands);
+	Out->SunShadow = SunShadow.Get();
+	Out->bComplete = true;
 	return Status;
 }
 

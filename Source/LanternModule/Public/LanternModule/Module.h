@@ -141,8 +141,9 @@ struct FRTModuleFrame
 /// Owned by the renderer, valid until its next RenderFrame.
 struct FRTModuleOutputs
 {
-	/// Fraction of the sun that each pixel sees: 1 lit, 0 shadowed; in ShaderRead. Null: no sun, or shadows are
-	/// off, or their shaders are not compiled yet.
+	/// Fraction of the sun that each pixel sees: 1 lit, 0 shadowed. R16_FLOAT, in ShaderRead; may be copied from,
+	/// if the engine puts it back in ShaderRead. Null: no sun, or shadows are off, or their shaders are not
+	/// compiled yet.
 	IRTTexture* SunShadow = nullptr;
 	/// Nothing was skipped because a shader was still compiling.
 	bool bComplete = false;

@@ -18,7 +18,7 @@ TRTConsoleVariable<float> CVarMaxDistance("r.RT.Shadow.MaxDistance", 100000.0f, 
 TRTConsoleVariable<bool> CVarSoft("r.RT.Shadow.Soft", true, "Penumbrae of the sun's disk. Off: hard shadows from its centre.");
 TRTConsoleVariable<bool> CVarCullFront("r.RT.Shadow.CullFrontFaces", false,
                                        "Sun shadow rays ignore faces turned towards the sun, as shadow maps drawn with front-face culling do.");
-TRTConsoleVariable<int32_t> CVarMask("r.RT.Shadow.InstanceMask", 0xff, "Only objects that share a bit with this mask cast sun shadows.", {0, 255});
+TRTConsoleVariable<int32_t> CVarMask("r.RT.Shadow.InstanceMask", MaskCastsShadow, "Only objects that share a bit with this mask cast sun shadows.", {0, 255});
 
 constexpr uint32_t RayFlagCullFrontFacing = 0x20; // gl_RayFlagsCullFrontFacingTrianglesEXT
 
@@ -63,7 +63,8 @@ FSunShadowOutputs AddSunShadowPass(FFrameContext& Context, const FSunShadowInput
 		if (!Compute) { return {}; }
 	}
 	FSunShadowOutputs Out;
-	Out.Visibility = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::R16_FLOAT}, "SunShadowVisibility");
+	Out.Visibility = Context.Graph.CreateTexture(
+	    {Context.Width, Context.Height, ERTFormat::R16_FLOAT, ERTTextureUsage::CopySource}, "SunShadowVisibility"); // engines copy it
 	const bool bSoft = CVarSoft.GetOnRenderThread() && Context.Scene.GetSun().AngularDiameter > 0.0f;
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass("SunShadow", [&](FPassBuilder& Builder) -> FPassExecute {
