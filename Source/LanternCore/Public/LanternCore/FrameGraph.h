@@ -1,6 +1,8 @@
 // The frame graph. A frame is a list of passes; each declares what it reads and writes, and records its
-// commands later. From the declarations follow barriers, lifetimes of transient resources (memory is reused
-// between those that do not overlap), and which passes run at all: one whose results nobody reads is culled.
+// commands later. From the declarations follow barriers, lifetimes of transient resources (one that is over
+// hands its place to a later one of equal description, in this frame or the next; there is no aliasing of
+// memory between different descriptions), and which passes run at all: one whose results nobody reads is
+// culled. Passes run in the order of AddPass. Barriers between the commands of one pass are its own affair.
 //
 //   FGraphTexture Mask = Graph.CreateTexture({.Width = W, .Height = H, .Format = …}, "SunShadowMask");
 //   Graph.AddPass("SunShadow", [&](FPassBuilder& B) {
@@ -66,6 +68,9 @@ protected:
 
 using FPassExecute = std::function<void(FPassContext&)>;
 
+/// Read and Write of the same resource in one pass: it modifies what earlier passes left (StorageRead or ShaderRead
+/// with StorageWrite only). Reading what no earlier pass wrote, and accesses that exclude each other, are errors
+/// of Compile() that name pass and resource.
 class FPassBuilder
 {
 public:
@@ -96,7 +101,8 @@ public:
 	~FFrameGraphResources();
 	/// Timings of the newest frame that the GPU has finished, in order of execution.
 	const std::vector<FPassTiming>& GetTimings();
-	/// Frees pooled resources not used for a while (Frames) or, with 0, all that are idle.
+	/// Frees pooled resources not used in the last Frames executed graphs or, with 0, all that are idle. Nothing else
+	/// shrinks the pool but a shortage of memory: call it every frame or so.
 	void Trim(uint32_t Frames);
 	uint64_t GetPooledBytes() const;
 
@@ -116,7 +122,8 @@ public:
 
 	FGraphTexture CreateTexture(const FGraphTextureDesc& Desc, const char* Name);
 	FGraphBuffer CreateBuffer(const FGraphBufferDesc& Desc, const char* Name);
-	/// Current: how it was last used; After (if not None): the access in which to leave it.
+	/// Current: how it was last used, exactly; After (if not None): the access in which to leave it. Writing to an
+	/// imported resource keeps a pass from being culled. The same object twice gives the same handle.
 	FGraphTexture ImportTexture(IRTTexture* Texture, ERTAccess Current, ERTAccess After, const char* Name);
 	FGraphBuffer ImportBuffer(IRTBuffer* Buffer, ERTAccess Current, ERTAccess After, const char* Name);
 	const FGraphTextureDesc& GetDesc(FGraphTexture Texture) const;
@@ -126,7 +133,8 @@ public:
 	void AddPass(const char* Name, const std::function<FPassExecute(FPassBuilder&)>& Setup);
 
 	/// Culls, allocates, records into Commands. On error (out of memory, device lost) nothing is recorded after
-	/// the failing point and the message says which resource.
+	/// the failing point and the message says which resource. Commands must be submitted, and graphs of the same
+	/// FFrameGraphResources in the order of their Execute, on one queue: pooled resources carry their state over.
 	FRTStatus Execute(IRTCommandList& Commands);
 
 	/// Passes (culled ones marked), resources with size and lifetime, barriers: after Execute or Compile.
