@@ -16,6 +16,8 @@ namespace Lantern
 
 using FVulkanSmokeDevice = FVulkanSmokeTest;
 
+const bool bValidation = !getenv("LANTERN_TEST_NO_VALIDATION");
+
 TEST_F(FVulkanSmokeDevice, ListNamesTheDeviceThatIsCreated)
 {
 	FRTVulkanDeviceInfo Infos[8];
@@ -37,7 +39,7 @@ TEST_F(FVulkanSmokeDevice, TheLadderCanBeCut)
 {
 	const FRTCapabilities& Full = Device->GetCapabilities();
 	FRTVulkanDeviceDesc Desc;
-	Desc.bValidation = true;
+	Desc.bValidation = bValidation;
 	TRTRef<IRTDevice> Lower;
 	if (Full.bRayQuery)
 	{
@@ -74,12 +76,38 @@ TEST_F(FVulkanSmokeDevice, AWrongIndexIsNamed)
 TEST_F(FVulkanSmokeDevice, ErrorsCarryTheObjectsName)
 {
 	TRTRef<IRTTexture> Texture;
-	const FRTStatus Status =
-	    Device->CreateTexture({1u << 30, 1, 1, 1, ERTFormat::R8_UNORM, ERTTextureUsage::Sampled, "Too wide"},
-	                          Texture.ReleaseAndGetAddress());
+	const FRTStatus Status = Device->CreateTexture(
+	    {1u << 30, 1, 1, 1, ERTFormat::R8_UNORM, ERTTextureUsage::Sampled, "Too wide"}, Texture.ReleaseAndGetAddress());
 	EXPECT_EQ(Status.Code, ERTResult::Unsupported);
 	EXPECT_NE(strstr(Status.Message, "Too wide"), nullptr) << Status.Message;
 	EXPECT_FALSE(Texture);
+}
+
+/// Without this the zero that every other test asserts would prove nothing.
+TEST_F(FVulkanSmokeDevice, ValidationMessagesAreCounted)
+{
+	if (!bValidation)
+	{
+		GTEST_SKIP() << "LANTERN_TEST_NO_VALIDATION is set";
+	}
+	std::string Messages;
+	FRTVulkanDeviceDesc Desc;
+	Desc.bValidation = true;
+	Desc.MessageUser = &Messages;
+	Desc.MessageCallback = [](void* User, ERTVulkanMessage, const char* Text)
+	{ *static_cast<std::string*>(User) += Text; };
+	TRTRef<IRTDevice> Other;
+	ASSERT_OK(CreateVulkanDevice(Desc, Other.ReleaseAndGetAddress()));
+	TRTRef<IRTBuffer> NoCopies;
+	ASSERT_OK(Other->CreateBuffer({64, ERTBufferUsage::Storage, ERTMemory::Device, "NoCopies"},
+	                              NoCopies.ReleaseAndGetAddress()));
+	TRTRef<IRTCommandList> Wrong;
+	ASSERT_OK(Other->CreateCommandList("Wrong", Wrong.ReleaseAndGetAddress()));
+	ASSERT_OK(Wrong->Begin());
+	Wrong->FillBuffer(NoCopies.Get(), 0, 64, 0);
+	(void)Wrong->End();
+	EXPECT_GT(Other->GetValidationMessageCount(), 0u);
+	EXPECT_NE(Messages.find("NoCopies"), std::string::npos) << "objects carry their names: " << Messages;
 }
 
 TEST_F(FVulkanSmokeDevice, IndicesComeBackOnceTheGpuIsDone)
@@ -158,7 +186,7 @@ TEST_F(FVulkanSmokeDevice, ManyThreadsMayCreateSubmitAndRelease)
 TEST_F(FVulkanSmokeDevice, ObjectsMayOutliveTheDevicesReference)
 {
 	FRTVulkanDeviceDesc Desc;
-	Desc.bValidation = true;
+	Desc.bValidation = bValidation;
 	TRTRef<IRTDevice> Other;
 	ASSERT_OK(CreateVulkanDevice(Desc, Other.ReleaseAndGetAddress()));
 	TRTRef<IRTBuffer> Buffer;
@@ -244,7 +272,8 @@ public:
 	bool CreateInstance()
 	{
 		void* Library = dlopen("libvulkan.so.1", RTLD_NOW);
-		GetProc = Library ? reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(Library, "vkGetInstanceProcAddr")) : nullptr;
+		GetProc =
+		    Library ? reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(Library, "vkGetInstanceProcAddr")) : nullptr;
 		if (!GetProc)
 		{
 			return false;
@@ -255,9 +284,9 @@ public:
 		const char* Extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
 		VkInstanceCreateInfo Info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
 		Info.pApplicationInfo = &App;
-		Info.enabledLayerCount = 1;
+		Info.enabledLayerCount = bValidation ? 1 : 0;
 		Info.ppEnabledLayerNames = &Layer;
-		Info.enabledExtensionCount = 1;
+		Info.enabledExtensionCount = bValidation ? 1 : 0;
 		Info.ppEnabledExtensionNames = &Extension;
 		return Get<PFN_vkCreateInstance>("vkCreateInstance")(&Info, nullptr, &Instance) == VK_SUCCESS;
 	}
@@ -305,7 +334,7 @@ public:
 		Desc.Queue = Queue;
 		Desc.GetInstanceProcAddr = GetProc;
 		Desc.Requirements = Requirements;
-		Desc.bCountValidation = true;
+		Desc.bCountValidation = bValidation;
 		return Desc;
 	}
 

@@ -22,8 +22,8 @@ TEST_F(FVulkanSmokeBasics, ComputeWritesABufferAndTheListIsReused)
 {
 	constexpr uint32_t Count = 1000;
 	TRTRef<IRTPipeline> Pipeline = MakeCompute(Smoke_Fill_comp, "Fill");
-	TRTRef<IRTBuffer> Words = MakeBuffer(Count * 4, ERTBufferUsage::Storage | ERTBufferUsage::CopySource,
-	                                     ERTMemory::Device, "Words");
+	TRTRef<IRTBuffer> Words =
+	    MakeBuffer(Count * 4, ERTBufferUsage::Storage | ERTBufferUsage::CopySource, ERTMemory::Device, "Words");
 	TRTRef<IRTBuffer> Back = MakeBuffer(Count * 4, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Back");
 	EXPECT_EQ(Words->GetMapped(), nullptr);
 	for (const uint32_t Factor : {3u, 7u})
@@ -51,9 +51,9 @@ TEST_F(FVulkanSmokeBasics, StorageImageIsReadBack)
 {
 	constexpr uint32_t Width = 13, Height = 9;
 	TRTRef<IRTTexture> Texture;
-	ASSERT_OK(Device->CreateTexture({Width, Height, 1, 1, ERTFormat::RGBA32_FLOAT,
-	                                 ERTTextureUsage::Storage | ERTTextureUsage::CopySource, "Image"},
-	                                Texture.ReleaseAndGetAddress()));
+	ASSERT_OK(Device->CreateTexture(
+	    {Width, Height, 1, 1, ERTFormat::RGBA32_FLOAT, ERTTextureUsage::Storage | ERTTextureUsage::CopySource, "Image"},
+	    Texture.ReleaseAndGetAddress()));
 	EXPECT_EQ(Texture->GetSampledIndex(), ~0u);
 	ASSERT_NE(Texture->GetStorageIndex(), ~0u);
 	TRTRef<IRTPipeline> Pipeline = MakeCompute(Smoke_StoreImage_comp, "StoreImage");
@@ -85,16 +85,16 @@ TEST_F(FVulkanSmokeBasics, MipsAreAveragesOfTheFirst)
 {
 	constexpr uint32_t Size = 8, Mips = 4;
 	TRTRef<IRTTexture> Texture;
-	ASSERT_OK(Device->CreateTexture({Size, Size, Mips, 1, ERTFormat::RGBA16_FLOAT,
-	                                 ERTTextureUsage::Sampled | ERTTextureUsage::CopyDest, "Mips"},
-	                                Texture.ReleaseAndGetAddress()));
+	ASSERT_OK(Device->CreateTexture(
+	    {Size, Size, Mips, 1, ERTFormat::RGBA16_FLOAT, ERTTextureUsage::Sampled | ERTTextureUsage::CopyDest, "Mips"},
+	    Texture.ReleaseAndGetAddress()));
 	TRTRef<IRTSampler> Sampler;
 	ASSERT_OK(Device->CreateSampler({}, Sampler.ReleaseAndGetAddress()));
 	constexpr uint16_t HalfOne = 0x3c00, HalfTwo = 0x4000;
 	std::vector<uint16_t> Texels(Size * Size * 4);
 	for (uint32_t Index = 0; Index < Size * Size; ++Index)
 	{
-		Texels[Index * 4] = Index % 2 ? HalfTwo : 0;                  // every 2x2 box has the mean 1
+		Texels[Index * 4] = Index % 2 ? HalfTwo : 0;                   // every 2x2 box has the mean 1
 		Texels[Index * 4 + 1] = Index / Size < Size / 2 ? HalfOne : 0; // 0.5 in the last mip alone
 	}
 	TRTRef<IRTBuffer> Upload = MakeUpload(Texels, ERTBufferUsage::CopySource, "Texels");
@@ -122,7 +122,6 @@ TEST_F(FVulkanSmokeBasics, MipsAreAveragesOfTheFirst)
 	EXPECT_NEAR(Colors[(Mips - 1) * 4 + 1], 0.5f, 0.01f);
 }
 
-
 TEST_F(FVulkanSmokeBasics, RasterTrianglesAreSortedByReversedDepth)
 {
 	constexpr uint32_t Size = 32;
@@ -130,9 +129,9 @@ TEST_F(FVulkanSmokeBasics, RasterTrianglesAreSortedByReversedDepth)
 	ASSERT_OK(Device->CreateTexture({Size, Size, 1, 1, ERTFormat::RGBA8_UNORM,
 	                                 ERTTextureUsage::RenderTarget | ERTTextureUsage::CopySource, "Color"},
 	                                Color.ReleaseAndGetAddress()));
-	ASSERT_OK(Device->CreateTexture({Size, Size, 1, 1, ERTFormat::D32_FLOAT,
-	                                 ERTTextureUsage::Depth | ERTTextureUsage::CopySource, "Depth"},
-	                                Depth.ReleaseAndGetAddress()));
+	ASSERT_OK(Device->CreateTexture(
+	    {Size, Size, 1, 1, ERTFormat::D32_FLOAT, ERTTextureUsage::Depth | ERTTextureUsage::CopySource, "Depth"},
+	    Depth.ReleaseAndGetAddress()));
 	const ERTFormat Format = ERTFormat::RGBA8_UNORM;
 	FRTRasterPipelineDesc Desc;
 	Desc.Vertex = MakeCode(Smoke_Triangle_vert, ERTShaderStage::Vertex, "Triangle.vert");
@@ -144,12 +143,13 @@ TEST_F(FVulkanSmokeBasics, RasterTrianglesAreSortedByReversedDepth)
 	TRTRef<IRTPipeline> Pipeline;
 	ASSERT_OK(Device->CreateRasterPipeline(Desc, Pipeline.ReleaseAndGetAddress()));
 	// The left half near (0.75), then the whole target behind it (0.25).
-	const std::vector<float> Points = {-1, -3, 0.75f, 0, 0,  0.75f, -1, 3,  0.75f, // covers x < 0 near the centre
-	                                   -1, -1, 0.25f, 3, -1, 0.25f, -1, 3,  0.25f};
+	const std::vector<float> Points = {-1, -3, 0.75f, 0, 0,  0.75f, -1, 3, 0.75f, // covers x < 0 near the centre
+	                                   -1, -1, 0.25f, 3, -1, 0.25f, -1, 3, 0.25f};
 	TRTRef<IRTBuffer> Positions = MakeUpload(Points, ERTBufferUsage::Storage, "Positions");
 	TRTRef<IRTBuffer> Indices = MakeUpload(std::vector<uint32_t>{3, 4, 5}, ERTBufferUsage::Index, "Indices");
 	TRTRef<IRTBuffer> Back = MakeBuffer(Size * Size * 4, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Back");
-	TRTRef<IRTBuffer> BackDepth = MakeBuffer(Size * Size * 4, ERTBufferUsage::CopyDest, ERTMemory::Readback, "BackDepth");
+	TRTRef<IRTBuffer> BackDepth =
+	    MakeBuffer(Size * Size * 4, ERTBufferUsage::CopyDest, ERTMemory::Readback, "BackDepth");
 	ASSERT_OK(List->Begin());
 	Barrier(ERTAccess::None, ERTAccess::RenderTarget, Color.Get());
 	Barrier(ERTAccess::None, ERTAccess::DepthWrite, Depth.Get());
@@ -184,6 +184,49 @@ TEST_F(FVulkanSmokeBasics, RasterTrianglesAreSortedByReversedDepth)
 	EXPECT_EQ(Depths[Left], 0.75f);
 	EXPECT_EQ(Texels[Right], 0xff00ff00u);
 	EXPECT_EQ(Depths[Right], 0.25f);
+}
+
+TEST_F(FVulkanSmokeBasics, TrianglesClockwiseOnTheTargetAreBackFaces)
+{
+	constexpr uint32_t Size = 8;
+	TRTRef<IRTTexture> Color;
+	ASSERT_OK(Device->CreateTexture({Size, Size, 1, 1, ERTFormat::RGBA8_UNORM,
+	                                 ERTTextureUsage::RenderTarget | ERTTextureUsage::CopySource, "Color"},
+	                                Color.ReleaseAndGetAddress()));
+	const ERTFormat Format = ERTFormat::RGBA8_UNORM;
+	FRTRasterPipelineDesc Desc;
+	Desc.Vertex = MakeCode(Smoke_Triangle_vert, ERTShaderStage::Vertex, "Triangle.vert");
+	Desc.Fragment = MakeCode(Smoke_Triangle_frag, ERTShaderStage::Fragment, "Triangle.frag");
+	Desc.ColorFormats = &Format;
+	Desc.ColorCount = 1;
+	TRTRef<IRTPipeline> Pipeline;
+	ASSERT_OK(Device->CreateRasterPipeline(Desc, Pipeline.ReleaseAndGetAddress()));
+	// Both cover the target. y is down: first clockwise, then counter-clockwise as seen.
+	const std::vector<float> Points = {-1, -1, 0, 3, -1, 0, -1, 3, 0, -1, -1, 0, -1, 3, 0, 3, -1, 0};
+	TRTRef<IRTBuffer> Positions = MakeUpload(Points, ERTBufferUsage::Storage, "Positions");
+	TRTRef<IRTBuffer> Back = MakeBuffer(Size * Size * 4, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Back");
+	for (const bool bCounterClockwise : {false, true})
+	{
+		ASSERT_OK(List->Begin());
+		Barrier(ERTAccess::None, ERTAccess::RenderTarget, Color.Get());
+		const FRTColorTarget Target = {Color.Get(), true, {0, 0, 1, 1}};
+		List->BeginRasterPass({&Target, 1, nullptr, false, Size, Size});
+		List->SetPipeline(Pipeline.Get());
+		struct
+		{
+			uint64_t Positions;
+			float Color[4];
+		} Data = {Positions->GetDeviceAddress() + (bCounterClockwise ? 36 : 0), {1, 0, 0, 1}};
+		List->PushConstants(&Data, sizeof(Data));
+		List->Draw(3, 1);
+		List->EndRasterPass();
+		Barrier(ERTAccess::RenderTarget, ERTAccess::CopyRead, Color.Get());
+		List->CopyTextureToBuffer(Back.Get(), 0, Color.Get(), 0, 0);
+		Barrier(ERTAccess::CopyWrite, ERTAccess::HostRead);
+		ASSERT_NO_FATAL_FAILURE(Run());
+		EXPECT_EQ(static_cast<uint32_t*>(Back->GetMapped())[Size * 4 + 4],
+		          bCounterClockwise ? 0xff0000ffu : 0xffff0000u);
+	}
 }
 
 TEST_F(FVulkanSmokeBasics, ClearsAndFillsReachTheirTargets)
@@ -229,6 +272,35 @@ TEST_F(FVulkanSmokeBasics, TimestampsAreOrderedAndUnwrittenOnesSaidToBe)
 	ASSERT_TRUE(Pool->GetTimestamps(0, 2, Times));
 	EXPECT_LE(Times[0], Times[1]);
 	EXPECT_FALSE(Pool->GetTimestamps(0, 4, Times));
+}
+
+TEST_F(FVulkanSmokeBasics, AnImportedTextureIsTheSameImageAndSurvivesItsWrapper)
+{
+	const FRTTextureDesc Desc = {2,
+	                             2,
+	                             1,
+	                             1,
+	                             ERTFormat::R32_FLOAT,
+	                             ERTTextureUsage::CopySource | ERTTextureUsage::CopyDest | ERTTextureUsage::Sampled,
+	                             "Original"};
+	TRTRef<IRTTexture> Original, Wrapper;
+	ASSERT_OK(Device->CreateTexture(Desc, Original.ReleaseAndGetAddress()));
+	ASSERT_OK(Device->ImportTexture(Desc, Original->GetNative(ERTNative::Image), Wrapper.ReleaseAndGetAddress()));
+	EXPECT_NE(Wrapper->GetSampledIndex(), Original->GetSampledIndex());
+	TRTRef<IRTBuffer> Back = MakeBuffer(16, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Back");
+	ASSERT_OK(List->Begin());
+	Barrier(ERTAccess::None, ERTAccess::CopyWrite, Wrapper.Get());
+	const float Value[4] = {0.5f, 0, 0, 0};
+	List->ClearTexture(Wrapper.Get(), Value);
+	Barrier(ERTAccess::CopyWrite, ERTAccess::CopyRead, Wrapper.Get());
+	ASSERT_NO_FATAL_FAILURE(Run());
+	Wrapper.Reset();
+	ASSERT_OK(Device->WaitIdle());
+	ASSERT_OK(List->Begin());
+	List->CopyTextureToBuffer(Back.Get(), 0, Original.Get(), 0, 0);
+	Barrier(ERTAccess::CopyWrite, ERTAccess::HostRead);
+	ASSERT_NO_FATAL_FAILURE(Run());
+	EXPECT_EQ(static_cast<float*>(Back->GetMapped())[3], 0.5f);
 }
 
 } // namespace Lantern

@@ -19,7 +19,10 @@ VkIndexType IndexTypeOf(ERTIndexType Type)
 	return VK_INDEX_TYPE_NONE_KHR;
 }
 
-VkDeviceAddress AddressIn(IRTBuffer* Buffer, uint64_t Offset) { return Buffer ? Buffer->GetDeviceAddress() + Offset : 0; }
+VkDeviceAddress AddressIn(IRTBuffer* Buffer, uint64_t Offset)
+{
+	return Buffer ? Buffer->GetDeviceAddress() + Offset : 0;
+}
 
 VkAccelerationStructureGeometryKHR MakeGeometry(const FRTGeometrySection& Section)
 {
@@ -62,8 +65,7 @@ FRTStatus CreateStructure(FVulkanDevice& Device, VkAccelerationStructureTypeKHR 
 	Info.buffer = Block.Handle;
 	Info.size = Size;
 	Info.type = Type;
-	const VkResult Result =
-	    Device.Check(Device.Api.CreateAccelerationStructureKHR(Device.Handle, &Info, nullptr, Out));
+	const VkResult Result = Device.Check(Device.Api.CreateAccelerationStructureKHR(Device.Handle, &Info, nullptr, Out));
 	if (Result != VK_SUCCESS)
 	{
 		*Out = VK_NULL_HANDLE;
@@ -77,8 +79,8 @@ FRTBuildSizes QuerySizes(FVulkanDevice& Device, const VkAccelerationStructureBui
                          const uint32_t* PrimitiveCounts)
 {
 	VkAccelerationStructureBuildSizesInfoKHR Native{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR};
-	Device.Api.GetAccelerationStructureBuildSizesKHR(
-	    Device.Handle, VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &Info, PrimitiveCounts, &Native);
+	Device.Api.GetAccelerationStructureBuildSizesKHR(Device.Handle, VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR,
+	                                                 &Info, PrimitiveCounts, &Native);
 	FRTBuildSizes Sizes;
 	Sizes.StructureBytes = Native.accelerationStructureSize;
 	Sizes.BuildScratchBytes = Native.buildScratchSize;
@@ -204,8 +206,8 @@ FRTStatus FVulkanScene::Initialise(const FRTSceneDesc& Desc)
 	Info.geometryCount = 1;
 	Info.pGeometries = &Geometry;
 	Sizes = QuerySizes(Device, Info, &MaxInstances);
-	FRTStatus Status = CreateStructure(Device, Info.type, Sizes.StructureBytes, EVulkanMemoryKind::Scene, Desc.Name,
-	                                   Block, &Handle);
+	FRTStatus Status =
+	    CreateStructure(Device, Info.type, Sizes.StructureBytes, EVulkanMemoryKind::Scene, Desc.Name, Block, &Handle);
 	if (!Status)
 	{
 		return Status;

@@ -71,8 +71,10 @@ FRTStatus OpenVulkanLoader(FVulkanLoader* Out)
 	               });
 	if (!Loader.GetInstanceProcAddr || !Loader.CreateInstance)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "No Vulkan loader on this machine (%s). Install one, e.g. "
-		                        "Debian's libvulkan1, and a driver.", Error[0] ? Error : "it exports nothing");
+		return FRTStatus::Error(ERTResult::Unsupported,
+		                        "No Vulkan loader on this machine (%s). Install one, e.g. "
+		                        "Debian's libvulkan1, and a driver.",
+		                        Error[0] ? Error : "it exports nothing");
 	}
 	*Out = Loader;
 	return {};
@@ -122,8 +124,10 @@ FRTStatus LoadDeviceApi(const FVulkanInstanceApi& Instance, VkDevice Device, boo
 #undef LANTERN_VK_LOAD
 	if (Absent)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "The Vulkan device has no %s: its extension or version was not "
-		                        "enabled when the device was created (see GetVulkanRequirements).", Absent);
+		return FRTStatus::Error(ERTResult::Unsupported,
+		                        "The Vulkan device has no %s: its extension or version was not "
+		                        "enabled when the device was created (see GetVulkanRequirements).",
+		                        Absent);
 	}
 	return {};
 }

@@ -35,8 +35,8 @@ struct FSupported
 
 	bool Has(const char* Name) const
 	{
-		return std::any_of(Extensions.begin(), Extensions.end(), [&](const VkExtensionProperties& Item)
-		                   { return strcmp(Item.extensionName, Name) == 0; });
+		return std::any_of(Extensions.begin(), Extensions.end(),
+		                   [&](const VkExtensionProperties& Item) { return strcmp(Item.extensionName, Name) == 0; });
 	}
 };
 
@@ -138,14 +138,13 @@ FLadder FindLadder(const FSupported& Supported, std::string& Missing)
 	                Supported.Has(VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME) &&
 	                Features.Accel.accelerationStructure &&
 	                Features.Accel.descriptorBindingAccelerationStructureUpdateAfterBind;
-	Ladder.bQuery =
-	    Ladder.bAccel && Supported.Has(VK_KHR_RAY_QUERY_EXTENSION_NAME) && Features.Query.rayQuery;
+	Ladder.bQuery = Ladder.bAccel && Supported.Has(VK_KHR_RAY_QUERY_EXTENSION_NAME) && Features.Query.rayQuery;
 	Ladder.bPipeline = Ladder.bAccel && Supported.Has(VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME) &&
 	                   Features.Pipeline.rayTracingPipeline;
 	Ladder.bReorder = Ladder.bPipeline && Supported.Has(VK_NV_RAY_TRACING_INVOCATION_REORDER_EXTENSION_NAME) &&
 	                  Features.Reorder.rayTracingInvocationReorder;
-	Ladder.bMicromap = Ladder.bPipeline && Supported.Has(VK_EXT_OPACITY_MICROMAP_EXTENSION_NAME) &&
-	                   Features.Micromap.micromap;
+	Ladder.bMicromap =
+	    Ladder.bPipeline && Supported.Has(VK_EXT_OPACITY_MICROMAP_EXTENSION_NAME) && Features.Micromap.micromap;
 	if (!Ladder.bAccel)
 	{
 		Missing += "VK_KHR_acceleration_structure (with bindless descriptors): no ray-traced feature runs\n";
@@ -267,9 +266,9 @@ void FillRayTracingLimits(const FSupported& Supported, FVulkanProbe& Out)
 		Caps.ScratchAlignment = std::max(Supported.Accel.minAccelerationStructureScratchOffsetAlignment, 1u);
 		Caps.MaxInstanceCount = Supported.Accel.maxInstanceCount;
 		Caps.MaxPrimitiveCount = Supported.Accel.maxPrimitiveCount;
-		Out.MaxBindlessScenes = std::min({WantedScenes,
-		                                  Supported.Accel.maxPerStageDescriptorUpdateAfterBindAccelerationStructures,
-		                                  Supported.Accel.maxDescriptorSetUpdateAfterBindAccelerationStructures});
+		Out.MaxBindlessScenes =
+		    std::min({WantedScenes, Supported.Accel.maxPerStageDescriptorUpdateAfterBindAccelerationStructures,
+		              Supported.Accel.maxDescriptorSetUpdateAfterBindAccelerationStructures});
 	}
 	if (Caps.bRayTracingPipeline)
 	{
@@ -291,17 +290,15 @@ void FillLimits(const FSupported& Supported, FVulkanProbe& Out)
 	Out.MaxAnisotropy = Out.bAnisotropy ? Supported.Core.properties.limits.maxSamplerAnisotropy : 1.0f;
 	FillRayTracingLimits(Supported, Out);
 
-	Out.MaxBindlessSamplers =
-	    std::min({WantedSamplers, Limits.maxPerStageDescriptorUpdateAfterBindSamplers,
-	              Limits.maxDescriptorSetUpdateAfterBindSamplers});
+	Out.MaxBindlessSamplers = std::min({WantedSamplers, Limits.maxPerStageDescriptorUpdateAfterBindSamplers,
+	                                    Limits.maxDescriptorSetUpdateAfterBindSamplers});
 	uint32_t PerStage = Limits.maxPerStageUpdateAfterBindResources;
 	const uint32_t Others = Out.MaxBindlessSamplers + Out.MaxBindlessScenes + OtherResources;
 	PerStage = PerStage > Others ? (PerStage - Others) / 2 : 0;
-	Caps.MaxBindlessTextures = std::min({WantedTextures, PerStage,
-	                                     Limits.maxPerStageDescriptorUpdateAfterBindSampledImages,
-	                                     Limits.maxPerStageDescriptorUpdateAfterBindStorageImages,
-	                                     Limits.maxDescriptorSetUpdateAfterBindSampledImages,
-	                                     Limits.maxDescriptorSetUpdateAfterBindStorageImages});
+	Caps.MaxBindlessTextures = std::min(
+	    {WantedTextures, PerStage, Limits.maxPerStageDescriptorUpdateAfterBindSampledImages,
+	     Limits.maxPerStageDescriptorUpdateAfterBindStorageImages, Limits.maxDescriptorSetUpdateAfterBindSampledImages,
+	     Limits.maxDescriptorSetUpdateAfterBindStorageImages});
 }
 
 void FillQueueAndMemory(const FVulkanInstanceApi& Api, VkPhysicalDevice Physical, FVulkanProbe& Out)

@@ -62,8 +62,8 @@ struct FVulkanProbe
 	uint32_t ApiVersion = 0;
 	uint8_t PipelineCacheUuid[VK_UUID_SIZE] = {};
 	uint32_t VendorId = 0, DeviceId = 0, DriverVersion = 0;
-	std::string Missing;   ///< one line per thing and what it costs
-	std::string QuirkText; ///< one line per quirk
+	std::string Missing;                 ///< one line per thing and what it costs
+	std::string QuirkText;               ///< one line per quirk
 	std::vector<const char*> Extensions; ///< to enable; string literals
 	FVulkanFeatures Features;            ///< to enable; call Link after a copy
 };

@@ -54,7 +54,10 @@ void FVulkanCommandList::Keep(IRTRefCounted* Object)
 	}
 }
 
-void FVulkanCommandList::KeepAlive(IRTRefCounted* Object) { Keep(Object); }
+void FVulkanCommandList::KeepAlive(IRTRefCounted* Object)
+{
+	Keep(Object);
+}
 
 void FVulkanCommandList::ReleaseKept()
 {
@@ -97,6 +100,10 @@ FRTStatus FVulkanCommandList::Begin()
 FRTStatus FVulkanCommandList::End()
 {
 	assert(!bImported);
+	if (Device.IsLost())
+	{
+		return Device.LostStatus();
+	}
 	const VkResult Result = Device.Check(Device.Api.EndCommandBuffer(Handle));
 	return Error ? MakeStatus(Result, "Ending command list", Name.c_str()) : Error;
 }
@@ -138,8 +145,7 @@ void FVulkanCommandList::Barriers(const FRTBarrier* Items, uint32_t Count)
 		const FVulkanTexture* Texture = static_cast<const FVulkanTexture*>(Item.Texture);
 		VkImageMemoryBarrier2 Image{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
 		// Contents are dropped, but whoever used the memory last must be done with it.
-		Image.srcStageMask =
-		    Item.Before == ERTAccess::None ? VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT : Before.Stages;
+		Image.srcStageMask = Item.Before == ERTAccess::None ? VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT : Before.Stages;
 		Image.srcAccessMask = Before.Access;
 		Image.dstStageMask = After.Stages;
 		Image.dstAccessMask = After.Access;
@@ -170,9 +176,8 @@ void FVulkanCommandList::SetPipeline(IRTPipeline* Pipeline)
 	Keep(Pipeline);
 	Bound = static_cast<FVulkanPipeline*>(Pipeline);
 	Device.Api.CmdBindPipeline(Handle, Bound->BindPoint, Bound->Handle);
-	const uint32_t Bit = Bound->BindPoint == VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR
-	                         ? 4u
-	                         : 1u << static_cast<uint32_t>(Bound->BindPoint);
+	const uint32_t Bit =
+	    Bound->BindPoint == VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR ? 4u : 1u << static_cast<uint32_t>(Bound->BindPoint);
 	// In an engine's command buffer other sets may have been bound since.
 	if (bImported || !(SetBoundPoints & Bit))
 	{
@@ -238,12 +243,16 @@ void FVulkanCommandList::BeginRasterPass(const FRTRasterPassDesc& Desc)
 	Info.pColorAttachments = Colors.data();
 	Info.pDepthAttachment = Desc.Depth ? &Depth : nullptr;
 	Device.Api.CmdBeginRendering(Handle, &Info);
-	const VkViewport Viewport = {0.0f, 0.0f, static_cast<float>(Desc.Width), static_cast<float>(Desc.Height), 0.0f, 1.0f};
+	const VkViewport Viewport = {0.0f, 0.0f, static_cast<float>(Desc.Width), static_cast<float>(Desc.Height),
+	                             0.0f, 1.0f};
 	Device.Api.CmdSetViewport(Handle, 0, 1, &Viewport);
 	Device.Api.CmdSetScissor(Handle, 0, 1, &Info.renderArea);
 }
 
-void FVulkanCommandList::EndRasterPass() { Device.Api.CmdEndRendering(Handle); }
+void FVulkanCommandList::EndRasterPass()
+{
+	Device.Api.CmdEndRendering(Handle);
+}
 
 void FVulkanCommandList::SetIndexBuffer(IRTBuffer* Buffer, uint64_t Offset, ERTIndexType Type)
 {

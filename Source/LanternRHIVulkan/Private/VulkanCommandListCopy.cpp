@@ -9,7 +9,10 @@ namespace Lantern
 namespace
 {
 
-VkBuffer NativeOf(IRTBuffer* Buffer) { return static_cast<FVulkanBuffer*>(Buffer)->Block.Handle; }
+VkBuffer NativeOf(IRTBuffer* Buffer)
+{
+	return static_cast<FVulkanBuffer*>(Buffer)->Block.Handle;
+}
 
 /// One mip of one layer, rows tightly packed.
 VkBufferImageCopy RegionOf(const FRTTextureDesc& Desc, uint32_t Mip, uint32_t Layer, uint64_t Offset)
@@ -118,8 +121,7 @@ void FVulkanCommandList::GenerateMips(IRTTexture* Texture)
 	const FRTTextureDesc& Desc = Image.GetDesc();
 	VkFormatProperties Properties{};
 	Device.Instance->Api.GetPhysicalDeviceFormatProperties(Device.Physical, GetVulkanFormat(Desc.Format), &Properties);
-	const bool bLinear =
-	    Properties.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
+	const bool bLinear = Properties.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
 	const auto Extent = [&](uint32_t Mip)
 	{
 		return VkOffset3D{static_cast<int32_t>(std::max(Desc.Width >> Mip, 1u)),

@@ -7,7 +7,10 @@
 namespace Lantern
 {
 
-void AddChild(FVulkanDevice& Device) { Device.AddOne(); }
+void AddChild(FVulkanDevice& Device)
+{
+	Device.AddOne();
+}
 
 void RetireChild(FVulkanDevice& Device, void* Object, void (*Delete)(void*))
 {
@@ -15,7 +18,10 @@ void RetireChild(FVulkanDevice& Device, void* Object, void (*Delete)(void*))
 	Device.DropOne();
 }
 
-FRTStatus SaveVulkanPipelineCache(IRTDevice* Device) { return static_cast<FVulkanDevice*>(Device)->SaveCache(); }
+FRTStatus SaveVulkanPipelineCache(IRTDevice* Device)
+{
+	return static_cast<FVulkanDevice*>(Device)->SaveCache();
+}
 
 // ------------------------------------------------------------------------------------------------ lifetime
 
@@ -87,7 +93,10 @@ void FVulkanDevice::CollectUpTo(FRTFence Done)
 	}
 }
 
-void FVulkanDevice::CollectGarbage() { CollectUpTo(IsLost() ? 0 : GetCompletedFence()); }
+void FVulkanDevice::CollectGarbage()
+{
+	CollectUpTo(IsLost() ? 0 : GetCompletedFence());
+}
 
 // ------------------------------------------------------------------------------------------------ timeline
 
@@ -146,7 +155,8 @@ FRTStatus FVulkanDevice::SubmitLists(IRTCommandList* const* Lists, uint32_t Coun
 	for (uint32_t Index = 0; Index < Count; ++Index)
 	{
 		FVulkanCommandList* List = static_cast<FVulkanCommandList*>(Lists[Index]);
-		assert(List->IsImported() == bExternal && "Submit takes lists of the device, NotifyExternalSubmit imported ones");
+		assert(List->IsImported() == bExternal &&
+		       "Submit takes lists of the device, NotifyExternalSubmit imported ones");
 		if (!List->GetError())
 		{
 			return List->GetError();
@@ -221,7 +231,10 @@ FRTStatus FVulkanDevice::WaitFor(FRTFence Fence, uint64_t TimeoutNs)
 	return MakeStatus(Result, "vkWaitSemaphores", "timeline");
 }
 
-FRTStatus FVulkanDevice::WaitIdle() { return WaitFor(LastSubmitted.load(), ~uint64_t(0)); }
+FRTStatus FVulkanDevice::WaitIdle()
+{
+	return WaitFor(LastSubmitted.load(), ~uint64_t(0));
+}
 
 // ------------------------------------------------------------------------------------------------ the rest
 

@@ -10,7 +10,10 @@ namespace Lantern
 
 FVulkanDevice::FVulkanDevice(std::unique_ptr<FVulkanInstance> InInstance, VkPhysicalDevice InPhysical,
                              const FVulkanProbe& InProbe, const char* CacheFile)
-    : Instance(std::move(InInstance)), Physical(InPhysical), Probe(InProbe), Cache(CacheFile)
+    : Instance(std::move(InInstance)),
+      Physical(InPhysical),
+      Probe(InProbe),
+      Cache(CacheFile)
 {
 	Probe.Features.Link(Probe.Extensions);
 	Bits = {Probe.bAccel, Probe.Capabilities.bRayQuery, Probe.Capabilities.bRayTracingPipeline, Probe.bMaintenance1};
@@ -39,8 +42,8 @@ FVulkanDevice::~FVulkanDevice()
 	if (bOwned)
 	{
 		// The table may be incomplete when creation failed half-way.
-		const auto DestroyDevice = reinterpret_cast<PFN_vkDestroyDevice>(
-		    Instance->Api.GetDeviceProcAddr(Handle, "vkDestroyDevice"));
+		const auto DestroyDevice =
+		    reinterpret_cast<PFN_vkDestroyDevice>(Instance->Api.GetDeviceProcAddr(Handle, "vkDestroyDevice"));
 		DestroyDevice(Handle, nullptr);
 	}
 }
@@ -101,9 +104,9 @@ FRTStatus FVulkanDevice::CreateShared()
 		return Status;
 	}
 	const uint32_t Textures = Probe.Capabilities.MaxBindlessTextures;
-	Status = MakeStatus(Bindless.Create(Handle, Api,
-	                                    {Textures, Textures, Probe.MaxBindlessSamplers, Probe.MaxBindlessScenes}, Bits),
-	                    "Creating the descriptor heap of", Name);
+	Status = MakeStatus(
+	    Bindless.Create(Handle, Api, {Textures, Textures, Probe.MaxBindlessSamplers, Probe.MaxBindlessScenes}, Bits),
+	    "Creating the descriptor heap of", Name);
 	if (!Status)
 	{
 		return Status;
@@ -164,7 +167,8 @@ FRTStatus ChooseDevice(const FVulkanInstance& Instance, const FRTVulkanDeviceDes
 	const std::vector<VkPhysicalDevice> Devices = Instance.GetPhysicalDevices();
 	if (Devices.empty())
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "No Vulkan device: the loader is there, but no driver answers.");
+		return FRTStatus::Error(ERTResult::Unsupported,
+		                        "No Vulkan device: the loader is there, but no driver answers.");
 	}
 	const int Count = static_cast<int>(Devices.size());
 	if (Desc.DeviceIndex < -1 || Desc.DeviceIndex >= Count)
@@ -181,8 +185,8 @@ FRTStatus ChooseDevice(const FVulkanInstance& Instance, const FRTVulkanDeviceDes
 			continue;
 		}
 		FVulkanProbe Probe;
-		ProbeVulkanDevice(Instance.Api, Devices[Index],
-		                  {Desc.MaxRung, Desc.bDisableRayQuery, Desc.bDisablePipeline}, &Probe);
+		ProbeVulkanDevice(Instance.Api, Devices[Index], {Desc.MaxRung, Desc.bDisableRayQuery, Desc.bDisablePipeline},
+		                  &Probe);
 		if (!IsGoodEnough(Probe, Desc))
 		{
 			Reasons += "\n  " + std::to_string(Index) + ": " + DescribeProbe(Probe);
@@ -204,8 +208,8 @@ FRTStatus CreateVulkanDevice(const FRTVulkanDeviceDesc& Desc, IRTDevice** Out)
 {
 	*Out = nullptr;
 	auto Instance = std::make_unique<FVulkanInstance>();
-	FRTStatus Status = Instance->Create(
-	    {Desc.bValidation, Desc.bSynchronizationValidation, Desc.MessageCallback, Desc.MessageUser});
+	FRTStatus Status =
+	    Instance->Create({Desc.bValidation, Desc.bSynchronizationValidation, Desc.MessageCallback, Desc.MessageUser});
 	if (!Status)
 	{
 		return Status;
@@ -240,8 +244,7 @@ FRTStatus AdoptVulkanDevice(const FRTVulkanExternalDesc& Desc, IRTDevice** Out)
 		return Status;
 	}
 	const FVulkanProbe& Probe = static_cast<const FVulkanRequirements*>(Desc.Requirements)->Probe;
-	FVulkanDevice* Device =
-	    new FVulkanDevice(std::move(Instance), Desc.PhysicalDevice, Probe, Desc.PipelineCacheFile);
+	FVulkanDevice* Device = new FVulkanDevice(std::move(Instance), Desc.PhysicalDevice, Probe, Desc.PipelineCacheFile);
 	Status = Device->AdoptNative(Desc.Device, Desc.Queue, Desc.QueueFamily,
 	                             {Desc.LockQueue, Desc.UnlockQueue, Desc.QueueUser});
 	if (!Status)

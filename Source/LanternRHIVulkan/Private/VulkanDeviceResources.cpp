@@ -64,7 +64,8 @@ FRTStatus FVulkanDevice::CreateRasterPipeline(const FRTRasterPipelineDesc& Desc,
 
 FRTStatus FVulkanDevice::CreateRayTracingPipeline(const FRTRayTracingPipelineDesc& Desc, IRTPipeline** Out)
 {
-	return CreateObject<FVulkanPipeline>(*this, Out, [&](FVulkanPipeline& It) { return It.InitialiseRayTracing(Desc); });
+	return CreateObject<FVulkanPipeline>(*this, Out,
+	                                     [&](FVulkanPipeline& It) { return It.InitialiseRayTracing(Desc); });
 }
 
 FRTStatus FVulkanDevice::CreateGeometry(const FRTGeometryDesc& Desc, IRTGeometry** Out)

@@ -51,7 +51,7 @@ VkBool32 FVulkanInstance::OnMessage(VkDebugUtilsMessageSeverityFlagBitsEXT Sever
 	FVulkanInstance* Self = static_cast<FVulkanInstance*>(User);
 	Self->MessageCount.fetch_add(1);
 	Self->Report(Severity >= VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT ? ERTVulkanMessage::Error
-	                                                                      : ERTVulkanMessage::Warning,
+	                                                                       : ERTVulkanMessage::Warning,
 	             Data->pMessage ? Data->pMessage : "");
 	return VK_FALSE;
 }
@@ -90,8 +90,10 @@ FRTStatus FVulkanInstance::CheckLayers(const FVulkanLoader& Loader, const FOptio
 		}
 		if (Layers.empty())
 		{
-			return FRTStatus::Error(ERTResult::Unsupported, "%s is not installed (e.g. Debian's "
-			                        "vulkan-validationlayers).", ValidationLayer);
+			return FRTStatus::Error(ERTResult::Unsupported,
+			                        "%s is not installed (e.g. Debian's "
+			                        "vulkan-validationlayers).",
+			                        ValidationLayer);
 		}
 		bDebugUtils = bDebugUtils || HasExtension(ValidationLayer, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
 		if (Options.bSynchronizationValidation)
@@ -196,7 +198,7 @@ FRTStatus FVulkanInstance::CreateMessenger()
 	if (!Api.CreateDebugUtilsMessengerEXT || !Api.DestroyDebugUtilsMessengerEXT)
 	{
 		return FRTStatus::Error(ERTResult::Unsupported, "VK_EXT_debug_utils is not enabled on the instance: its "
-		                        "validation messages cannot be counted.");
+		                                                "validation messages cannot be counted.");
 	}
 	VkDebugUtilsMessengerCreateInfoEXT Info{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
 	Info.messageSeverity =

@@ -47,12 +47,21 @@ using namespace Vma;
 namespace
 {
 
-VmaAllocator AsAllocator(void* Allocator) { return static_cast<VmaAllocator>(Allocator); }
-VmaAllocation AsBlock(const FVulkanAllocation& Allocation) { return static_cast<VmaAllocation>(Allocation.Block); }
+VmaAllocator AsAllocator(void* Allocator)
+{
+	return static_cast<VmaAllocator>(Allocator);
+}
+VmaAllocation AsBlock(const FVulkanAllocation& Allocation)
+{
+	return static_cast<VmaAllocation>(Allocation.Block);
+}
 
 } // namespace
 
-FVulkanMemory::~FVulkanMemory() { Destroy(); }
+FVulkanMemory::~FVulkanMemory()
+{
+	Destroy();
+}
 
 VkResult FVulkanMemory::Create(VkInstance Instance, VkPhysicalDevice Physical, VkDevice Device,
                                const FVulkanInstanceApi& Api)

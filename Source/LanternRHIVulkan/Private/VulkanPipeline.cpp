@@ -61,6 +61,57 @@ VkCullModeFlags CullOf(ERTCull Cull)
 	return VK_CULL_MODE_NONE;
 }
 
+/// The fixed state of a raster pipeline; it points into itself.
+struct FRasterState
+{
+	static constexpr uint32_t MaxColors = 8;
+
+	explicit FRasterState(const FRTRasterPipelineDesc& Desc)
+	{
+		assert(Desc.ColorCount <= MaxColors);
+		Assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+		Viewport.viewportCount = 1;
+		Viewport.scissorCount = 1;
+		Raster.polygonMode = VK_POLYGON_MODE_FILL;
+		Raster.cullMode = CullOf(Desc.Cull);
+		Raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
+		Raster.lineWidth = 1.0f;
+		Samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+		const bool bDepth = Desc.DepthFormat != ERTFormat::Unknown;
+		Depth.depthTestEnable = bDepth;
+		Depth.depthWriteEnable = bDepth && Desc.bDepthWrite;
+		Depth.depthCompareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
+		for (uint32_t Index = 0; Index < Desc.ColorCount; ++Index)
+		{
+			Attachments[Index].colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
+			                                    VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+			Formats[Index] = GetVulkanFormat(Desc.ColorFormats[Index]);
+		}
+		Blend.attachmentCount = Desc.ColorCount;
+		Blend.pAttachments = Attachments;
+		Dynamic.dynamicStateCount = 2;
+		Dynamic.pDynamicStates = DynamicStates;
+		Rendering.colorAttachmentCount = Desc.ColorCount;
+		Rendering.pColorAttachmentFormats = Formats;
+		Rendering.depthAttachmentFormat = GetVulkanFormat(Desc.DepthFormat);
+	}
+	FRasterState(const FRasterState&) = delete;
+	FRasterState& operator=(const FRasterState&) = delete;
+
+	VkPipelineVertexInputStateCreateInfo VertexInput{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+	VkPipelineInputAssemblyStateCreateInfo Assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+	VkPipelineViewportStateCreateInfo Viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
+	VkPipelineRasterizationStateCreateInfo Raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
+	VkPipelineMultisampleStateCreateInfo Samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
+	VkPipelineDepthStencilStateCreateInfo Depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
+	VkPipelineColorBlendAttachmentState Attachments[MaxColors] = {};
+	VkFormat Formats[MaxColors] = {};
+	VkPipelineColorBlendStateCreateInfo Blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
+	VkDynamicState DynamicStates[2] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+	VkPipelineDynamicStateCreateInfo Dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
+	VkPipelineRenderingCreateInfo Rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
+};
+
 VkRayTracingShaderGroupTypeKHR GroupTypeOf(ERTGroupKind Kind)
 {
 	switch (Kind)
@@ -108,8 +159,6 @@ FRTStatus FVulkanPipeline::InitialiseCompute(const FRTComputePipelineDesc& Desc)
 
 FRTStatus FVulkanPipeline::InitialiseRaster(const FRTRasterPipelineDesc& Desc)
 {
-	constexpr uint32_t MaxColors = 8;
-	assert(Desc.ColorCount <= MaxColors);
 	FModules Modules(Device);
 	FRTStatus Status = Modules.Add(Desc.Vertex);
 	if (Status && Desc.Fragment.Words)
@@ -121,54 +170,18 @@ FRTStatus FVulkanPipeline::InitialiseRaster(const FRTRasterPipelineDesc& Desc)
 		return Status;
 	}
 	BindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
-	const VkPipelineVertexInputStateCreateInfo VertexInput{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
-	VkPipelineInputAssemblyStateCreateInfo Assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
-	Assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-	VkPipelineViewportStateCreateInfo Viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
-	Viewport.viewportCount = 1;
-	Viewport.scissorCount = 1;
-	VkPipelineRasterizationStateCreateInfo Raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
-	Raster.polygonMode = VK_POLYGON_MODE_FILL;
-	Raster.cullMode = CullOf(Desc.Cull);
-	Raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
-	Raster.lineWidth = 1.0f;
-	VkPipelineMultisampleStateCreateInfo Samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
-	Samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
-	const bool bDepth = Desc.DepthFormat != ERTFormat::Unknown;
-	VkPipelineDepthStencilStateCreateInfo Depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
-	Depth.depthTestEnable = bDepth;
-	Depth.depthWriteEnable = bDepth && Desc.bDepthWrite;
-	Depth.depthCompareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
-	VkPipelineColorBlendAttachmentState Attachments[MaxColors] = {};
-	VkFormat Formats[MaxColors] = {};
-	for (uint32_t Index = 0; Index < Desc.ColorCount; ++Index)
-	{
-		Attachments[Index].colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
-		                                    VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
-		Formats[Index] = GetVulkanFormat(Desc.ColorFormats[Index]);
-	}
-	VkPipelineColorBlendStateCreateInfo Blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
-	Blend.attachmentCount = Desc.ColorCount;
-	Blend.pAttachments = Attachments;
-	const VkDynamicState States[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-	VkPipelineDynamicStateCreateInfo Dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
-	Dynamic.dynamicStateCount = 2;
-	Dynamic.pDynamicStates = States;
-	VkPipelineRenderingCreateInfo Rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
-	Rendering.colorAttachmentCount = Desc.ColorCount;
-	Rendering.pColorAttachmentFormats = Formats;
-	Rendering.depthAttachmentFormat = GetVulkanFormat(Desc.DepthFormat);
-	VkGraphicsPipelineCreateInfo Info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &Rendering};
+	const FRasterState State(Desc);
+	VkGraphicsPipelineCreateInfo Info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &State.Rendering};
 	Info.stageCount = static_cast<uint32_t>(Modules.Stages.size());
 	Info.pStages = Modules.Stages.data();
-	Info.pVertexInputState = &VertexInput;
-	Info.pInputAssemblyState = &Assembly;
-	Info.pViewportState = &Viewport;
-	Info.pRasterizationState = &Raster;
-	Info.pMultisampleState = &Samples;
-	Info.pDepthStencilState = &Depth;
-	Info.pColorBlendState = &Blend;
-	Info.pDynamicState = &Dynamic;
+	Info.pVertexInputState = &State.VertexInput;
+	Info.pInputAssemblyState = &State.Assembly;
+	Info.pViewportState = &State.Viewport;
+	Info.pRasterizationState = &State.Raster;
+	Info.pMultisampleState = &State.Samples;
+	Info.pDepthStencilState = &State.Depth;
+	Info.pColorBlendState = &State.Blend;
+	Info.pDynamicState = &State.Dynamic;
 	Info.layout = Device.Bindless.PipelineLayout;
 	return Finish(Device.Api.CreateGraphicsPipelines(Device.Handle, Device.Cache.Handle, 1, &Info, nullptr, &Handle),
 	              "Creating raster pipeline", Desc.Name);

@@ -13,7 +13,10 @@ namespace
 
 constexpr uint32_t WordBits = 64;
 
-constexpr uint64_t AlignUp(uint64_t Value, uint64_t Alignment) { return (Value + Alignment - 1) / Alignment * Alignment; }
+constexpr uint64_t AlignUp(uint64_t Value, uint64_t Alignment)
+{
+	return (Value + Alignment - 1) / Alignment * Alignment;
+}
 
 } // namespace
 

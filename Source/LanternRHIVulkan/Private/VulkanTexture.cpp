@@ -57,19 +57,17 @@ FRTStatus FVulkanTexture::CreateImage()
 	    Device.Physical, Info.format, Info.imageType, Info.tiling, Info.usage, 0, &Limits);
 	if (Result != VK_SUCCESS)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported,
-		                        "Texture '%.200s': the device has no format %d with the usages %#x asked for (%s)",
-		                        Desc.Name, static_cast<int>(Info.format), static_cast<unsigned>(Info.usage),
-		                        ToString(Result));
+		return FRTStatus::Error(
+		    ERTResult::Unsupported, "Texture '%.200s': the device has no format %d with the usages %#x asked for (%s)",
+		    Desc.Name, static_cast<int>(Info.format), static_cast<unsigned>(Info.usage), ToString(Result));
 	}
 	if (Desc.Width > Limits.maxExtent.width || Desc.Height > Limits.maxExtent.height ||
 	    Desc.MipCount > Limits.maxMipLevels || Desc.ArraySize > Limits.maxArrayLayers)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported,
-		                        "Texture '%.200s': %ux%u, %u mips, %u layers; the device's limit is %ux%u, %u, %u",
-		                        Desc.Name, Desc.Width, Desc.Height, Desc.MipCount, Desc.ArraySize,
-		                        Limits.maxExtent.width, Limits.maxExtent.height, Limits.maxMipLevels,
-		                        Limits.maxArrayLayers);
+		return FRTStatus::Error(
+		    ERTResult::Unsupported, "Texture '%.200s': %ux%u, %u mips, %u layers; the device's limit is %ux%u, %u, %u",
+		    Desc.Name, Desc.Width, Desc.Height, Desc.MipCount, Desc.ArraySize, Limits.maxExtent.width,
+		    Limits.maxExtent.height, Limits.maxMipLevels, Limits.maxArrayLayers);
 	}
 	Result = Device.Memory.CreateImage(Info, &Image, &Allocation);
 	if (Result == VK_ERROR_OUT_OF_DEVICE_MEMORY)
@@ -111,8 +109,8 @@ FRTStatus FVulkanTexture::CreateViews()
 	FRTStatus Status;
 	const auto NoIndex = [&](const char* Binding)
 	{
-		return FRTStatus::Error(ERTResult::OutOfDescriptors, "Texture '%.200s': all %u %s indices are in use", Desc.Name,
-		                        Device.GetCapabilities().MaxBindlessTextures, Binding);
+		return FRTStatus::Error(ERTResult::OutOfDescriptors, "Texture '%.200s': all %u %s indices are in use",
+		                        Desc.Name, Device.GetCapabilities().MaxBindlessTextures, Binding);
 	};
 	if (HasAny(Desc.Usage, ERTTextureUsage::Sampled))
 	{

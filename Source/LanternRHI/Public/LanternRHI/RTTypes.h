@@ -347,6 +347,7 @@ enum class ERTCull : uint8_t { None, Back, Front };
 
 /// Raster pipelines pull their vertices from buffer addresses: there is no vertex input. Counter-clockwise is
 /// front; depth is reversed (1 near, 0 far), test is greater-or-equal.
+/// Clip space is Vulkan's: y down, z from 0 to 1; winding is as seen on the target.
 struct FRTRasterPipelineDesc
 {
 	FRTShaderCode Vertex;

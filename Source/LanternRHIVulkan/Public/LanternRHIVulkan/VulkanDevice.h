@@ -49,10 +49,10 @@ FRTStatus CreateVulkanDevice(const FRTVulkanDeviceDesc& Desc, IRTDevice** Out);
 struct FRTVulkanDeviceInfo
 {
 	char Name[256] = {};
-	char Driver[256] = {}; ///< name and version
-	char Type[16] = {};    ///< discrete, integrated, virtual, cpu, other
+	char Driver[256] = {};   ///< name and version
+	char Type[16] = {};      ///< discrete, integrated, virtual, cpu, other
 	uint32_t ApiVersion = 0; ///< packed as VK_MAKE_API_VERSION
-	bool bUsable = false; ///< has what every device needs; the rung may still be None
+	bool bUsable = false;    ///< has what every device needs; the rung may still be None
 	ERTRung Rung = ERTRung::None;
 	bool bRayQuery = false;
 	bool bRayTracingPipeline = false;
