@@ -67,7 +67,8 @@ std::vector<glm::vec4> ComputeTangents(std::span<const glm::vec3> Positions, std
 		const double Length = glm::length(T);
 		const bool bUsable = Length > 1e-300 && std::isfinite(Length);
 		const glm::vec3 Unit = bUsable ? glm::vec3(T / Length) : GetPerpendicular(Normals[I]);
-		const float Sign = glm::dot(glm::cross(N, T), Across[I]) < 0 ? -1.0f : 1.0f;
+		// glTF's bitangent points up in the image, towards smaller v.
+		const float Sign = glm::dot(glm::cross(N, T), Across[I]) > 0 ? -1.0f : 1.0f;
 		Tangents[I] = glm::vec4(Unit, Sign);
 	}
 	return Tangents;

@@ -15,11 +15,6 @@ void FValidatedCommandList::SetPipeline(IRTPipeline* InPipeline)
 	{
 		return;
 	}
-	if (bInPass != (Mine->PipelineKind == EPipelineKind::Raster))
-	{
-		return Report("SetPipeline", Mine->Label + (bInPass ? " is no raster pipeline, within a raster pass"
-		                                                    : " is a raster pipeline, outside a raster pass"));
-	}
 	Pipeline = TRTRef<FValidatedPipeline>(Mine);
 	Inner->SetPipeline(Mine->Inner.Get());
 }
@@ -211,7 +206,6 @@ void FValidatedCommandList::BeginRasterPass(const FRTRasterPassDesc& Desc)
 		Mine.Depth = Depth->Inner.Get();
 	}
 	bInPass = true;
-	Pipeline.Reset();
 	Inner->BeginRasterPass(Mine);
 }
 
@@ -226,7 +220,6 @@ void FValidatedCommandList::EndRasterPass()
 		return Report("EndRasterPass", "no raster pass is open");
 	}
 	bInPass = false;
-	Pipeline.Reset();
 	Inner->EndRasterPass();
 }
 

@@ -24,7 +24,7 @@ std::string MakeLabel(const char* Type, const char* Name)
 	return std::string(Type) + " '" + (Name && *Name ? Name : "unnamed") + "'";
 }
 
-std::string ToString(ERTAccess Access)
+std::string DescribeAccess(ERTAccess Access)
 {
 	static constexpr const char* Names[] = {
 	    "ShaderRead", "StorageRead", "StorageWrite",  "RenderTarget", "DepthWrite", "IndexRead", "IndirectRead",

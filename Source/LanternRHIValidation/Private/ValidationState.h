@@ -126,7 +126,7 @@ private:
 };
 
 /// "ShaderRead|CopyRead"
-std::string ToString(ERTAccess Access);
+std::string DescribeAccess(ERTAccess Access);
 /// "buffer 'Name'"
 std::string MakeLabel(const char* Type, const char* Name);
 /// printf-style.

@@ -61,8 +61,8 @@ void FValidationTracker::Barrier(const FValidationStep& Step)
 	const bool bOverlaps = (Now.bMerged || Now.bImplicit) && HasAny(Now.Access, Step.Before);
 	if (Now.bKnown && Now.Access != Step.Before && !bDiscard && !bUnused && !bHostVisible && !bOverlaps)
 	{
-		Add(Step.What + ": " + Resource.Label + " is in " + ToString(Now.Access) + ", the barrier's Before says " +
-		    ToString(Step.Before));
+		Add(Step.What + ": " + Resource.Label + " is in " + DescribeAccess(Now.Access) + ", the barrier's Before says " +
+		    DescribeAccess(Step.Before));
 	}
 	Now = {Step.After};
 }
@@ -108,8 +108,8 @@ void FValidationTracker::Use(const FValidationStep& Step)
 			return;
 		}
 	}
-	Add(Step.What + ": " + Resource.Label + " is in " + ToString(Now.Access) + ", the call needs " +
-	    ToString(Step.After));
+	Add(Step.What + ": " + Resource.Label + " is in " + DescribeAccess(Now.Access) + ", the call needs " +
+	    DescribeAccess(Step.After));
 }
 
 void FValidationTracker::CheckIndices(const FValidationStep& Step)

@@ -382,7 +382,7 @@ FRTStatus FRTScene::BuildStructure(IRTCommandList& List, FFrameUploads& Uploads)
 FRTStatus FRTScene::FlushTables(IRTCommandList& List, FFrameUploads& Uploads)
 {
 	if (!AreTablesDirty()) { return FRTStatus::Success(); }
-	const FRTBarrier Before{nullptr, nullptr, ERTAccess::ShaderRead, ERTAccess::CopyWrite};
+	const FRTBarrier Before{nullptr, nullptr, UploadedAccess, ERTAccess::CopyWrite};
 	List.Barriers(&Before, 1);
 	for (FRTStatus S : {Materials.Flush(Device, List, Uploads), ObjectData.Flush(Device, List, Uploads), LightData.Flush(Device, List, Uploads),
 	                    EmissiveTriangles.Flush(Device, List, Uploads), Sections->GetTable().Flush(Device, List, Uploads)})
@@ -391,7 +391,7 @@ FRTStatus FRTScene::FlushTables(IRTCommandList& List, FFrameUploads& Uploads)
 	}
 	Stats.BytesCopied = Materials.GetCopiedBytes() + ObjectData.GetCopiedBytes() + LightData.GetCopiedBytes() +
 	                    EmissiveTriangles.GetCopiedBytes() + Sections->GetTable().GetCopiedBytes();
-	const FRTBarrier After{nullptr, nullptr, ERTAccess::CopyWrite, ERTAccess::ShaderRead};
+	const FRTBarrier After{nullptr, nullptr, ERTAccess::CopyWrite, UploadedAccess};
 	List.Barriers(&After, 1);
 	return FRTStatus::Success();
 }

@@ -89,7 +89,7 @@ FRTStatus FUploader::Flush()
 	Used = 0;
 	if (!bRecording) { return FRTStatus::Success(); }
 	bRecording = false;
-	const FRTBarrier AllDone{nullptr, nullptr, ERTAccess::CopyWrite, ERTAccess::ShaderRead | ERTAccess::IndexRead | ERTAccess::GeometryInput};
+	const FRTBarrier AllDone{nullptr, nullptr, ERTAccess::CopyWrite, UploadedAccess};
 	List->Barriers(&AllDone, 1);
 	if (FRTStatus S = List->End(); !S) { return S; }
 	FRTFence Fence = 0;

@@ -1,5 +1,7 @@
 #include "Builtin/Courtyard.h"
 
+#include "Builtin/CourtyardMaterials.h"
+#include "Builtin/CourtyardParts.h"
 #include "Builtin/SceneBuilder.h"
 
 namespace Lantern::Builtin
@@ -8,13 +10,18 @@ namespace Lantern::Builtin
 FSceneDescription BuildCourtyard()
 {
 	FSceneBuilder Builder("courtyard");
-	FMeshBuilder Mesh("box");
-	Mesh.BeginSection(Builder.AddLambert("stone", glm::vec3(0.6f)));
-	Mesh.AddBeveledBox({-1, 0, -1}, {1, 2, 1}, 0.05f);
-	Mesh.AddQuad({-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9});
-	Builder.AddNode("box", Builder.AddMesh(Mesh));
-	Builder.AddCamera({4, 3, 8}, {0, 1, 0}, 50);
-	Builder.SetLight({0.25f, -1, 0.35f}, 4.0f, {0.5f, 0.7f, 1.0f});
+	const FCourtyardMaterials Materials = MakeCourtyardMaterials(Builder);
+	const FCourtyard Yard{Builder, Materials};
+	BuildGround(Yard);
+	BuildArcades(Yard);
+	BuildWings(Yard);
+	BuildFountain(Yard);
+	BuildPlants(Yard);
+	BuildFurnishings(Yard);
+	Builder.AddCamera({6.4, 1.85, 7.6}, {-2.4, 2.15, -3.0}, 52);
+	// Low in the west, so that the open loggia throws its arches across the floor.
+	Builder.SetLight({0.66f, -0.50f, -0.36f}, 6.0f, {0.38f, 0.55f, 0.85f});
+	Builder.Scene.DefaultExposure = 0.3f;
 	return std::move(Builder.Scene);
 }
 

@@ -59,17 +59,30 @@ void FMeshBuilder::AddTriangle(uint32_t A, uint32_t B, uint32_t C)
 	Mesh.Sections.back().IndexCount += 3;
 }
 
+namespace
+{
+
+/// Metres along the surface, from the position alone, so that neighbouring faces fit together. v runs down.
+glm::vec2 MapBox(const glm::vec3& P, const glm::vec3& Normal)
+{
+	const glm::vec3 Size = glm::abs(Normal);
+	if (Size.y >= Size.x && Size.y >= Size.z)
+	{
+		return {P.x, Normal.y >= 0 ? P.z : -P.z};
+	}
+	return Size.x > Size.z ? glm::vec2(Normal.x >= 0 ? -P.z : P.z, -P.y) : glm::vec2(Normal.z >= 0 ? P.x : -P.x, -P.y);
+}
+
+} // namespace
+
 void FMeshBuilder::AddQuad(const glm::vec3& P0, const glm::vec3& P1, const glm::vec3& P2, const glm::vec3& P3)
 {
 	const glm::vec3 Normal = glm::normalize(glm::cross(P2 - P0, P3 - P1));
-	const glm::vec3 U = glm::normalize(P1 - P0);
-	const glm::vec3 V = glm::cross(Normal, U);
 	uint32_t Vertices[4];
 	int I = 0;
 	for (const glm::vec3& P : {P0, P1, P2, P3})
 	{
-		const glm::vec3 D = P - P0;
-		Vertices[I++] = AddVertex(P, Normal, glm::vec2(glm::dot(D, U), -glm::dot(D, V)) * TexelScale);
+		Vertices[I++] = AddVertex(P, Normal, MapBox(P, Normal) * TexelScale);
 	}
 	AddTriangle(Vertices[0], Vertices[1], Vertices[2]);
 	AddTriangle(Vertices[0], Vertices[2], Vertices[3]);

@@ -29,7 +29,8 @@ public:
 	uint32_t AddVertex(const glm::vec3& Position, const glm::vec3& Normal, const glm::vec2& UV);
 	void AddTriangle(uint32_t A, uint32_t B, uint32_t C);
 
-	/// A flat quad, corners counter-clockwise from where u and v are 0; u along the first edge, in metres.
+	/// A flat quad, corners counter-clockwise. Texture coordinates are the position's, in metres, along the two axes
+	/// that the quad faces least.
 	void AddQuad(const glm::vec3& P0, const glm::vec3& P1, const glm::vec3& P2, const glm::vec3& P3);
 	/// The same with u and v from 0 to 1.
 	void AddUnitQuad(const glm::vec3& P0, const glm::vec3& P1, const glm::vec3& P2, const glm::vec3& P3);

@@ -30,8 +30,8 @@ FRTStatus AddSkinningPass(FFrameContext& Context, FFrameUploads& Uploads, const 
 		Builder.NeverCull();
 		return [=](FPassContext& Pass) {
 			// The buffers are the objects' own, unknown to the graph: last frame's readers, then this frame's.
-			const FRTBarrier Before{nullptr, nullptr, ERTAccess::ShaderRead | ERTAccess::GeometryInput, ERTAccess::StorageWrite};
-			const FRTBarrier After{nullptr, nullptr, ERTAccess::StorageWrite, ERTAccess::ShaderRead | ERTAccess::GeometryInput};
+			const FRTBarrier Before{nullptr, nullptr, UploadedAccess, ERTAccess::StorageWrite};
+			const FRTBarrier After{nullptr, nullptr, ERTAccess::StorageWrite, UploadedAccess};
 			Pass.Commands().Barriers(&Before, 1);
 			Pass.Commands().SetPipeline(Pipeline);
 			for (const FSkinConstants& C : Dispatches)

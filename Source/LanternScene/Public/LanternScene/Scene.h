@@ -89,6 +89,7 @@ public:
 	void SetSun(const FSunLight& Sun);
 	const FSunLight& GetSun() const { return Sun; }
 	void SetSky(glm::vec3 Radiance);
+	glm::vec3 GetSky() const { return Sky; }
 	/// 0: the scene's materials; 1: each a Lambert of its base colour; 2: each a Lambert of 0.5, alpha tests off.
 	void SetMaterialOverride(uint32_t Override);
 	void SetAlphaTest(bool bEnabled);

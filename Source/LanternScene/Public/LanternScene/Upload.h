@@ -11,6 +11,9 @@
 namespace Lantern
 {
 
+/// How buffers are read once they are filled.
+inline constexpr ERTAccess UploadedAccess = ERTAccess::ShaderRead | ERTAccess::IndexRead | ERTAccess::GeometryInput;
+
 class FUploader
 {
 public:

@@ -1,0 +1,85 @@
+// The command line of Lantern.
+#include <CLI/CLI.hpp>
+
+#include "CompareCommand.h"
+#include "InfoCommand.h"
+#include "LanternCore/Log.h"
+#include "RenderCommand.h"
+
+namespace
+{
+using namespace Lantern;
+
+int Run(int ArgumentCount, char** Arguments)
+{
+	CLI::App App{"Lantern: ray tracing for engines with a UE4.26-style RHI", "lantern"};
+	App.require_subcommand(1);
+	App.set_version_flag("--version", "lantern 0.1.0");
+	int Status = ExitDone;
+
+	FRenderOptions Render;
+	bool bList = false;
+	CLI::App* const RenderApp = App.add_subcommand("render", "Render a scene through the plugin");
+	Render.Device.AddTo(*RenderApp);
+	Render.Picture.AddTo(*RenderApp);
+	RenderApp->add_option("--frames", Render.Frames, "Frames to render; the picture is the last one's")->check(CLI::Range(1, 1'000'000));
+	RenderApp->add_flag("--list", bList, "List the built-in scenes");
+	RenderApp->final_callback([&] { Status = bList ? RunListScenes() : RunRender(Render); });
+
+	FReferenceOptions Reference;
+	CLI::App* const ReferenceApp = App.add_subcommand("reference", "Render a scene with the unbiased path tracer");
+	Reference.Device.AddTo(*ReferenceApp);
+	Reference.Picture.AddTo(*ReferenceApp);
+	ReferenceApp->add_option("--spp", Reference.Samples, "Samples per pixel")->check(CLI::Range(1, 1 << 24));
+	ReferenceApp->add_option("--bounces", Reference.Bounces, "Scattering events, at most")->check(CLI::Range(0, 1 << 16));
+	ReferenceApp->add_flag("--resume", Reference.bResume, "Keep the sums in OUT.state, and go on from there");
+	ReferenceApp->final_callback([&] { Status = RunReference(Reference); });
+
+	FCompareOptions Compare;
+	CLI::App* const CompareApp = App.add_subcommand("compare", "Compare two images; B is the reference");
+	CompareApp->add_option("A", Compare.A, "Image")->required();
+	CompareApp->add_option("B", Compare.B, "Reference")->required();
+	CompareApp->add_option("--heatmap", Compare.Heatmap, "FLIP's error map, .png");
+	CompareApp->add_option("--json", Compare.Json, "Write the figures to this file");
+	CompareApp->final_callback([&] { Status = RunCompare(Compare); });
+
+	std::string InfoJson;
+	CLI::App* const InfoApp = App.add_subcommand("info", "Devices, drivers, what runs on them and what does not, and why");
+	InfoApp->add_option("--json", InfoJson, "Write it to this file");
+	InfoApp->final_callback([&] { Status = RunInfo(InfoJson); });
+
+	std::string CvarsJson;
+	bool bMarkdown = false;
+	CLI::App* const CvarsApp = App.add_subcommand("cvars", "Console variables");
+	CvarsApp->add_flag("--markdown", bMarkdown, "As Docs/ConsoleVariables.md");
+	CvarsApp->add_option("--json", CvarsJson, "Write them to this file");
+	CvarsApp->final_callback([&] { Status = RunCvars(bMarkdown, CvarsJson); });
+
+	try
+	{
+		App.parse(ArgumentCount, Arguments);
+	}
+	catch (const CLI::ParseError& Error)
+	{
+		return App.exit(Error, std::cout, std::cerr) == 0 ? ExitDone : ExitUsage;
+	}
+	return Status;
+}
+} // namespace
+
+int main(int ArgumentCount, char** Arguments)
+{
+	try
+	{
+		return Run(ArgumentCount, Arguments);
+	}
+	catch (const std::bad_alloc&)
+	{
+		LogError("out of memory");
+	}
+	catch (const std::exception& Error)
+	{
+		LogError("{}", Error.what());
+	}
+	return ExitCheckFailed;
+}

@@ -1,0 +1,119 @@
+#include "Options.h"
+
+#include <charconv>
+#include <cmath>
+
+#include <CLI/CLI.hpp>
+
+#include "LanternCore/Config.h"
+#include "LanternHost/Image.h"
+
+namespace Lantern
+{
+
+namespace
+{
+std::optional<double> ParseNumber(std::string_view Text)
+{
+	double Value = 0.0;
+	const auto [End, Error] = std::from_chars(Text.data(), Text.data() + Text.size(), Value);
+	if (Error != std::errc() || End != Text.data() + Text.size() || !std::isfinite(Value)) { return std::nullopt; }
+	return Value;
+}
+
+std::vector<double> RequireNumbers(const char* Option, const std::string& Text, size_t Count, const char* Form)
+{
+	const auto Numbers = ParseNumbers(Text, Count);
+	if (!Numbers) { throw CLI::ValidationError(Option, "'" + Text + "' is not of the form " + Form); }
+	return *Numbers;
+}
+
+void ParseSize(const std::string& Text, FPictureOptions& Options)
+{
+	const size_t X = Text.find('x');
+	const auto Width = ParseNumber(std::string_view(Text).substr(0, X));
+	const auto Height = X == std::string::npos ? std::nullopt : ParseNumber(std::string_view(Text).substr(X + 1));
+	const auto IsWhole = [](double Value) { return Value >= 0 && Value == std::floor(Value) && Value < 1e9; };
+	if (!Width || !Height || !IsWhole(*Width) || !IsWhole(*Height)) { throw CLI::ValidationError("--size", "'" + Text + "' is not of the form WIDTHxHEIGHT"); }
+	if (!IsImageSizeValid(static_cast<uint64_t>(*Width), static_cast<uint64_t>(*Height)))
+	{
+		throw CLI::ValidationError("--size", "'" + Text + "' is out of range: 1 to " + std::to_string(MaxImageDimension) + " pixels each way, " +
+		                                         std::to_string(MaxImagePixels) + " in all");
+	}
+	Options.Width = static_cast<uint32_t>(*Width);
+	Options.Height = static_cast<uint32_t>(*Height);
+}
+
+void ParseCamera(const std::string& Text, FPictureOptions& Options)
+{
+	const auto N = RequireNumbers("--camera", Text, 7, "px,py,pz,tx,ty,tz,fovY");
+	const FCameraOption Camera{{N[0], N[1], N[2]}, {N[3], N[4], N[5]}, N[6]};
+	if (Camera.Position == Camera.Target) { throw CLI::ValidationError("--camera", "position and target are the same point"); }
+	if (!(Camera.FovY > 0.0 && Camera.FovY < 180.0)) { throw CLI::ValidationError("--camera", "the field of view must lie between 0 and 180 degrees"); }
+	Options.Camera = Camera;
+}
+
+void ParseSun(const std::string& Text, FPictureOptions& Options)
+{
+	const auto N = RequireNumbers("--sun", Text, 5, "E,dx,dy,dz,diameter");
+	const FSunOption Sun{N[0], {N[1], N[2], N[3]}, N[4]};
+	if (Sun.Irradiance < 0.0) { throw CLI::ValidationError("--sun", "the irradiance must not be negative"); }
+	if (glm::length(Sun.Direction) < 1e-12) { throw CLI::ValidationError("--sun", "the direction has no length"); }
+	if (!(Sun.Diameter >= 0.0 && Sun.Diameter <= 180.0)) { throw CLI::ValidationError("--sun", "the diameter must lie between 0 and 180 degrees"); }
+	Options.Sun = Sun;
+}
+
+void ParseSky(const std::string& Text, FPictureOptions& Options)
+{
+	const auto N = RequireNumbers("--sky", Text, 3, "r,g,b");
+	if (N[0] < 0 || N[1] < 0 || N[2] < 0) { throw CLI::ValidationError("--sky", "radiance must not be negative"); }
+	Options.Sky = glm::vec3(N[0], N[1], N[2]);
+}
+} // namespace
+
+std::optional<std::vector<double>> ParseNumbers(const std::string& Text, size_t Count)
+{
+	std::vector<double> Numbers;
+	size_t Begin = 0;
+	while (Begin <= Text.size())
+	{
+		const size_t End = std::min(Text.find(',', Begin), Text.size());
+		const auto Number = ParseNumber(std::string_view(Text).substr(Begin, End - Begin));
+		if (!Number) { return std::nullopt; }
+		Numbers.push_back(*Number);
+		Begin = End + 1;
+	}
+	if (Numbers.size() != Count) { return std::nullopt; }
+	return Numbers;
+}
+
+void FDeviceOptions::AddTo(CLI::App& App)
+{
+	App.add_option("--device", Device, "Device, as lantern info counts them")->check(CLI::NonNegativeNumber);
+	App.add_flag("--validate", bValidate, "Vulkan validation layers on; any message is an error");
+	App.add_option("--quality", Quality, "low, medium, high, epic or cinematic")->check([](const std::string& Text) {
+		return ParseQuality(Text) ? std::string() : "'" + Text + "' is none of low, medium, high, epic, cinematic";
+	});
+	App.add_option("--set", Sets, "NAME=VALUE: a console variable; repeatable")->take_all()->check([](const std::string& Text) {
+		return Text.find('=') != std::string::npos ? std::string() : "'" + Text + "' is not of the form NAME=VALUE";
+	});
+	App.add_option("--config", Configs, "An ini file; repeatable")->take_all();
+}
+
+void FPictureOptions::AddTo(CLI::App& App)
+{
+	App.add_option("SCENE", Scene, "A .gltf or .glb, or the name of a built-in scene");
+	App.add_option("-o,--output", Output, "OUT.exr, .pfm (linear radiance) or .png (tone-mapped)");
+	App.add_option("--json", Json, "Write the figures to this file");
+	App.add_option_function<std::string>("--size", [this](const std::string& Text) { ParseSize(Text, *this); }, "WIDTHxHEIGHT, pixels");
+	App.add_option_function<std::string>("--camera", [this](const std::string& Text) { ParseCamera(Text, *this); },
+	                                     "px,py,pz,tx,ty,tz,fovY: metres, vertical degrees");
+	App.add_option_function<std::string>("--sun", [this](const std::string& Text) { ParseSun(Text, *this); },
+	                                     "E,dx,dy,dz,diameter: irradiance on a facing plane, direction in which the light travels, degrees");
+	App.add_option_function<std::string>("--sky", [this](const std::string& Text) { ParseSky(Text, *this); }, "r,g,b: constant radiance");
+	App.add_flag("--no-scene-lights", bNoSceneLights, "Leave the scene's punctual lights out");
+	App.add_option("--time", Time, "Seconds of animation");
+	App.add_option("--seed", Seed, "Of the random numbers");
+}
+
+} // namespace Lantern

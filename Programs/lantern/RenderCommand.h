@@ -1,0 +1,27 @@
+// lantern render, lantern reference
+#pragma once
+
+#include "Options.h"
+
+namespace Lantern
+{
+
+struct FRenderOptions
+{
+	FDeviceOptions Device;
+	FPictureOptions Picture;
+	uint32_t Frames = 1;
+};
+int RunRender(const FRenderOptions& Options);
+
+struct FReferenceOptions
+{
+	FDeviceOptions Device;
+	FPictureOptions Picture;
+	uint32_t Samples = 256;
+	uint32_t Bounces = 64;
+	bool bResume = false;
+};
+int RunReference(const FReferenceOptions& Options);
+
+} // namespace Lantern

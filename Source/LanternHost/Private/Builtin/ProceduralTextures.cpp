@@ -1,0 +1,196 @@
+#include "Builtin/ProceduralTextures.h"
+
+#include <cmath>
+
+#include "Builtin/Random.h"
+#include "LanternCore/Tasks.h"
+
+namespace Lantern::Builtin
+{
+
+namespace
+{
+
+uint32_t Wrap(int Index, uint32_t Cells)
+{
+	const int Size = int(Cells);
+	return uint32_t((Index % Size + Size) % Size);
+}
+
+float Smooth(float T)
+{
+	return T * T * T * (T * (T * 6.0f - 15.0f) + 10.0f);
+}
+
+uint8_t ToUnorm(float V)
+{
+	return uint8_t(std::lround(glm::clamp(V, 0.0f, 1.0f) * 255.0f));
+}
+
+uint8_t ToSrgb(float V)
+{
+	const float C = glm::clamp(V, 0.0f, 1.0f);
+	return ToUnorm(C <= 0.0031308f ? C * 12.92f : 1.055f * std::pow(C, 1.0f / 2.4f) - 0.055f);
+}
+
+} // namespace
+
+float SampleNoise(const glm::vec2& P, uint32_t Cells, uint32_t Seed)
+{
+	const glm::vec2 Scaled = P * float(Cells);
+	const glm::vec2 Floor = glm::floor(Scaled);
+	const float U = Smooth(Scaled.x - Floor.x), V = Smooth(Scaled.y - Floor.y);
+	const uint32_t X0 = Wrap(int(Floor.x), Cells), X1 = Wrap(int(Floor.x) + 1, Cells);
+	const uint32_t Y0 = Wrap(int(Floor.y), Cells), Y1 = Wrap(int(Floor.y) + 1, Cells);
+	const auto At = [&](uint32_t X, uint32_t Y) { return HashToFloat(HashLattice(X, Y, Seed)); };
+	return glm::mix(glm::mix(At(X0, Y0), At(X1, Y0), U), glm::mix(At(X0, Y1), At(X1, Y1), U), V);
+}
+
+float SampleFractal(const glm::vec2& P, uint32_t Cells, int Octaves, float Gain, uint32_t Seed)
+{
+	float Sum = 0.0f, Weight = 1.0f, Total = 0.0f;
+	for (int I = 0; I < Octaves; ++I)
+	{
+		Sum += Weight * SampleNoise(P, Cells << I, Seed + uint32_t(I) * 101u);
+		Total += Weight;
+		Weight *= Gain;
+	}
+	return Sum / Total;
+}
+
+FCellNoise SampleCells(const glm::vec2& P, uint32_t Cells, uint32_t Seed)
+{
+	const glm::vec2 Scaled = P * float(Cells);
+	const glm::ivec2 Floor(glm::floor(Scaled));
+	FCellNoise Result{1e9f, 1e9f, 0};
+	for (int Y = -1; Y <= 1; ++Y)
+	{
+		for (int X = -1; X <= 1; ++X)
+		{
+			const uint32_t Hash = HashLattice(Wrap(Floor.x + X, Cells), Wrap(Floor.y + Y, Cells), Seed);
+			const glm::vec2 Jitter(HashToFloat(Hash), HashToFloat(HashLattice(Hash, 1, 2)));
+			const float Distance = glm::length(glm::vec2(Floor + glm::ivec2(X, Y)) + Jitter - Scaled);
+			if (Distance < Result.Nearest)
+			{
+				Result = {Distance, Result.Nearest, Hash};
+			}
+			else
+			{
+				Result.Second = std::min(Result.Second, Distance);
+			}
+		}
+	}
+	return Result;
+}
+
+namespace
+{
+
+FHostImage MakeImage(const FSurfaceDescription& Description, const char* Suffix, bool bSrgb)
+{
+	FHostImage Image;
+	Image.Name = Description.Name + " " + Suffix;
+	Image.Width = Image.Height = Description.Size;
+	Image.bSrgb = bSrgb;
+	Image.Rgba.resize(size_t(Description.Size) * Description.Size * 4, 255);
+	return Image;
+}
+
+std::vector<FSurfacePoint> EvaluateAll(const FSurfaceDescription& Description)
+{
+	const size_t Size = Description.Size;
+	std::vector<FSurfacePoint> Points(Size * Size);
+	ParallelFor(Size, 16,
+				[&](size_t Begin, size_t End)
+				{
+					for (size_t Y = Begin; Y < End; ++Y)
+					{
+						for (size_t X = 0; X < Size; ++X)
+						{
+							const glm::vec2 P = (glm::vec2(float(X), float(Y)) + 0.5f) / float(Size);
+							Points[Y * Size + X] = Description.Evaluate(P);
+						}
+					}
+				});
+	return Points;
+}
+
+FHostImage MakeColorMap(const FSurfaceDescription& Description, const std::vector<FSurfacePoint>& Points)
+{
+	FHostImage Image = MakeImage(Description, "colour", true);
+	for (size_t I = 0; I < Points.size(); ++I)
+	{
+		for (int C = 0; C < 3; ++C)
+		{
+			Image.Rgba[I * 4 + size_t(C)] = ToSrgb(Points[I].Albedo[C]);
+		}
+		Image.Rgba[I * 4 + 3] = ToUnorm(Points[I].Alpha);
+		Image.bHasAlpha = Image.bHasAlpha || Image.Rgba[I * 4 + 3] != 255;
+	}
+	return Image;
+}
+
+FHostImage MakeNormalMap(const FSurfaceDescription& Description, const std::vector<FSurfacePoint>& Points)
+{
+	FHostImage Image = MakeImage(Description, "normal", false);
+	const size_t Size = Description.Size;
+	const float Texel = Description.Metres / float(Size);
+	for (size_t Y = 0; Y < Size; ++Y)
+	{
+		for (size_t X = 0; X < Size; ++X)
+		{
+			const auto At = [&](size_t PX, size_t PY) { return Points[(PY % Size) * Size + PX % Size].Height; };
+			const float DX = (At(X + 1, Y) - At(X + Size - 1, Y)) / (2 * Texel);
+			const float DY = (At(X, Y + 1) - At(X, Y + Size - 1)) / (2 * Texel);
+			// v runs down and the bitangent against it, up: glTF's convention.
+			const glm::vec3 N = glm::normalize(glm::vec3(-DX, DY, 1));
+			for (int C = 0; C < 3; ++C)
+			{
+				Image.Rgba[(Y * Size + X) * 4 + size_t(C)] = ToUnorm(N[C] * 0.5f + 0.5f);
+			}
+		}
+	}
+	return Image;
+}
+
+FHostImage MakeRoughnessMap(const FSurfaceDescription& Description, const std::vector<FSurfacePoint>& Points)
+{
+	FHostImage Image = MakeImage(Description, "roughness", false);
+	for (size_t I = 0; I < Points.size(); ++I)
+	{
+		Image.Rgba[I * 4 + 1] = ToUnorm(Points[I].Roughness);
+		Image.Rgba[I * 4 + 2] = ToUnorm(Points[I].Metallic);
+	}
+	return Image;
+}
+
+} // namespace
+
+FHostMaterial MakeSurfaceMaterial(FSceneBuilder& Builder, const FSurfaceDescription& Description)
+{
+	const std::vector<FSurfacePoint> Points = EvaluateAll(Description);
+	FHostMaterial Material;
+	Material.Name = Description.Name;
+	Material.Slots[TEXTURE_BASE_COLOR].Texture = Builder.AddImage(MakeColorMap(Description, Points));
+	if (Description.bNormalMap)
+	{
+		Material.Slots[TEXTURE_NORMAL].Texture = Builder.AddImage(MakeNormalMap(Description, Points));
+	}
+	if (Description.bRoughnessMap)
+	{
+		Material.Slots[TEXTURE_METALLIC_ROUGHNESS].Texture = Builder.AddImage(MakeRoughnessMap(Description, Points));
+	}
+	else
+	{
+		Material.Metallic = Points[0].Metallic;
+		Material.Roughness = Points[0].Roughness;
+	}
+	const float Scale = Description.bUnitUV ? 1.0f : 1.0f / Description.Metres;
+	for (FHostTextureSlot& Slot : Material.Slots)
+	{
+		Slot.Transform = {Scale, 0, 0, Scale};
+	}
+	return Material;
+}
+
+} // namespace Lantern::Builtin

@@ -1,0 +1,49 @@
+// Textures by code: tileable noise, and surfaces that become colour, normal and roughness maps.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <glm/glm.hpp>
+
+#include "Builtin/SceneBuilder.h"
+
+namespace Lantern::Builtin
+{
+
+/// Gradient-free value noise over [0, 1)², repeating after 1; Cells per edge. 0 … 1.
+float SampleNoise(const glm::vec2& P, uint32_t Cells, uint32_t Seed);
+/// Octaves of it, each twice as fine and Gain as strong. 0 … 1, mean ½.
+float SampleFractal(const glm::vec2& P, uint32_t Cells, int Octaves, float Gain, uint32_t Seed);
+/// Distances to the nearest and second nearest of jittered points (Worley 1996), in cells, and the nearest one's hash.
+struct FCellNoise
+{
+	float Nearest, Second;
+	uint32_t Hash;
+};
+FCellNoise SampleCells(const glm::vec2& P, uint32_t Cells, uint32_t Seed);
+
+/// What a surface is at one point. Height in metres gives the normal map.
+struct FSurfacePoint
+{
+	glm::vec3 Albedo{0.5f}; ///< linear
+	float Height = 0.0f;
+	float Roughness = 0.8f;
+	float Metallic = 0.0f;
+	float Alpha = 1.0f;
+};
+
+struct FSurfaceDescription
+{
+	std::string Name;
+	uint32_t Size = 512;  ///< texels
+	float Metres = 1.0f;  ///< that the texture covers, in the UV units of FMeshBuilder
+	bool bUnitUV = false; ///< the mesh's coordinates run from 0 to 1 instead
+	bool bNormalMap = true, bRoughnessMap = true;
+	std::function<FSurfacePoint(const glm::vec2&)> Evaluate; ///< over [0, 1)², repeating; called from many threads
+};
+
+/// A material with the maps of that surface.
+FHostMaterial MakeSurfaceMaterial(FSceneBuilder& Builder, const FSurfaceDescription& Description);
+
+} // namespace Lantern::Builtin

@@ -1,0 +1,238 @@
+#include "LanternHost/HostScene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "GBufferTypes.h"
+#include "LanternCore/Log.h"
+
+namespace Lantern
+{
+
+FRTStatus FHostScene::Create(FRenderer& Renderer, FSceneDescription InDescription, const std::function<void(float)>& Progress,
+                             std::unique_ptr<FHostScene>& Out)
+{
+	std::unique_ptr<FHostScene> Host(new FHostScene(Renderer.GetDevice()));
+	Host->Description = std::move(InDescription);
+	FUploader Uploader(Renderer.GetDevice());
+	if (FRTStatus S = Host->UploadTextures(Uploader, Progress); !S) { return S; }
+	if (FRTStatus S = Host->AddMaterials(); !S) { return S; }
+	if (FRTStatus S = Host->UploadMeshes(Uploader); !S) { return S; }
+	if (FRTStatus S = Uploader.Flush(); !S) { return S; }
+	Host->Pose = EvaluatePose(Host->Description, 0.0);
+	if (FRTStatus S = Host->CreateObjects(); !S) { return S; }
+	Host->UpdateLights();
+	if (Progress) { Progress(1.0f); }
+	Out = std::move(Host);
+	return FRTStatus::Success();
+}
+
+FRTStatus FHostScene::UploadMeshes(FUploader& Uploader)
+{
+	Meshes.resize(Description.Meshes.size());
+	for (uint32_t Mesh = 0; Mesh < Meshes.size(); ++Mesh)
+	{
+		if (Description.Meshes[Mesh].Sections.empty()) { continue; }
+		if (FRTStatus S = UploadMesh(Uploader, Mesh); !S) { return S; }
+	}
+	return FRTStatus::Success();
+}
+
+FRTStatus FHostScene::UploadMesh(FUploader& Uploader, uint32_t Mesh)
+{
+	const FHostMesh& Source = Description.Meshes[Mesh];
+	FMeshBuffers& Buffers = Meshes[Mesh];
+	const auto Upload = [&](const auto& Values, ERTBufferUsage Usage, TRTRef<IRTBuffer>& Buffer) {
+		return Uploader.CreateBuffer(Source.Name.c_str(), Usage | ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput, Values.data(),
+		                             Values.size() * sizeof(Values[0]), Buffer);
+	};
+	if (FRTStatus S = Upload(Source.Positions, ERTBufferUsage::None, Buffers.Positions); !S) { return S; }
+	if (FRTStatus S = Upload(Source.Attributes, ERTBufferUsage::None, Buffers.Attributes); !S) { return S; }
+	if (FRTStatus S = Upload(Source.Indices, ERTBufferUsage::Index, Buffers.Indices); !S) { return S; }
+	if (Source.Skin.empty()) { return Scene.CreateGeometry(MakeGeometryInfo(Mesh), Buffers.Geometry); }
+	std::vector<FSkinVertex> Weights;
+	for (const FSkinWeights& Skin : Source.Skin)
+	{
+		FSkinVertex Vertex{};
+		Vertex.Joints01 = Skin.Joints[0] | (uint32_t(Skin.Joints[1]) << 16);
+		Vertex.Joints23 = Skin.Joints[2] | (uint32_t(Skin.Joints[3]) << 16);
+		Vertex.Weights = glm::vec4(Skin.Weights[0], Skin.Weights[1], Skin.Weights[2], Skin.Weights[3]);
+		Weights.push_back(Vertex);
+	}
+	return Upload(Weights, ERTBufferUsage::None, Buffers.Weights);
+}
+
+FRTGeometryInfo FHostScene::MakeGeometryInfo(uint32_t Mesh) const
+{
+	const FHostMesh& Source = Description.Meshes[Mesh];
+	FRTGeometryInfo Info;
+	Info.Name = Source.Name;
+	Info.Positions = Meshes[Mesh].Positions;
+	Info.Attributes = Meshes[Mesh].Attributes;
+	Info.Indices = Meshes[Mesh].Indices;
+	Info.VertexCount = static_cast<uint32_t>(Source.Positions.size());
+	Info.bHasTangents = Source.bHasTangents;
+	for (const FHostSection& Section : Source.Sections)
+	{
+		const bool bMasked = Description.Materials[Section.Material].AlphaMode != EAlphaMode::Opaque;
+		Info.Sections.push_back({Section.FirstIndex, Section.IndexCount, !bMasked});
+	}
+	Info.CpuPositions = Source.Positions.data();
+	Info.CpuIndices = Source.Indices.data();
+	return Info;
+}
+
+FRTStatus FHostScene::CreateSkinnedGeometry(uint32_t Mesh, FRTGeometryRef& Out)
+{
+	FRTGeometryInfo Info = MakeGeometryInfo(Mesh);
+	Info.bDynamic = true;
+	const auto CreateOutput = [&](IRTBuffer& Source, TRTRef<IRTBuffer>& Buffer) {
+		const FRTBufferDesc Desc{Source.GetDesc().Size, ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput, ERTMemory::Device, Info.Name.c_str()};
+		return Device.CreateBuffer(Desc, Buffer.ReleaseAndGetAddress());
+	};
+	TRTRef<IRTBuffer> Positions, Attributes;
+	if (FRTStatus S = CreateOutput(*Info.Positions, Positions); !S) { return S; }
+	if (FRTStatus S = CreateOutput(*Info.Attributes, Attributes); !S) { return S; }
+	Info.Positions = Positions;
+	Info.Attributes = Attributes;
+	return Scene.CreateGeometry(std::move(Info), Out);
+}
+
+FRTStatus FHostScene::CreateObjects()
+{
+	for (uint32_t Node = 0; Node < Description.Nodes.size(); ++Node)
+	{
+		const int32_t Mesh = Description.Nodes[Node].Mesh;
+		if (Mesh < 0 || Description.Meshes[Mesh].Sections.empty()) { continue; }
+		FInstance Instance;
+		Instance.Node = static_cast<int32_t>(Node);
+		FRTObjectInfo Info;
+		Info.Geometry = Meshes[Mesh].Geometry;
+		if (!Description.Meshes[Mesh].Skin.empty())
+		{
+			if (FRTStatus S = CreateSkinnedGeometry(static_cast<uint32_t>(Mesh), Instance.Skinned); !S) { return S; }
+			Info.Geometry = Instance.Skinned;
+		}
+		for (const FHostSection& Section : Description.Meshes[Mesh].Sections) { Info.Materials.push_back(static_cast<uint32_t>(Section.Material)); }
+		Info.Transform = Pose.World[Node];
+		const FRTGeometryRef Geometry = Info.Geometry;
+		Instance.Object = Scene.AddObject(std::move(Info));
+		AddDraws(Instance.Object, *Geometry);
+		Instances.push_back(std::move(Instance));
+	}
+	return FRTStatus::Success();
+}
+
+void FHostScene::AddDraws(FRTObjectId Object, const FRTGeometry& Geometry)
+{
+	const std::vector<uint32_t>& Materials = Scene.GetObject(Object).Materials;
+	for (uint32_t Section = 0; Section < Geometry.GetSectionCount(); ++Section)
+	{
+		const FRTSectionInfo& Info = Geometry.GetInfo().Sections[Section];
+		const FHostMaterial& Material = Description.Materials[Materials[Section]];
+		Draws.push_back({Object, Section, Geometry.GetInfo().Indices.Get(), Info.FirstIndex, Info.IndexCount, Material.AlphaMode != EAlphaMode::Opaque,
+		                 Material.bDoubleSided});
+	}
+}
+
+std::vector<FSkinningInputs> FHostScene::SetTime(double Time)
+{
+	const bool bFirst = Pose.World.empty();
+	Pose = EvaluatePose(Description, Time);
+	std::vector<FSkinningInputs> Skinning;
+	for (const FInstance& Instance : Instances)
+	{
+		const glm::dmat4& World = Pose.World[Instance.Node];
+		if (bFirst || World != Scene.GetObject(Instance.Object).Transform) { Scene.SetTransform(Instance.Object, World); }
+		if (!Instance.Skinned) { continue; }
+		const FMeshBuffers& Buffers = Meshes[Description.Nodes[Instance.Node].Mesh];
+		FSkinningInputs Item;
+		Item.Geometry = Instance.Skinned;
+		Item.SourcePositions = Buffers.Positions->GetDeviceAddress();
+		Item.SourceAttributes = Buffers.Attributes->GetDeviceAddress();
+		Item.Weights = Buffers.Weights->GetDeviceAddress();
+		Item.Joints = EvaluateJoints(Description, Pose, Instance.Node);
+		Skinning.push_back(std::move(Item));
+	}
+	if (IsAnimated()) { UpdateLights(); }
+	return Skinning;
+}
+
+void FHostScene::SetSceneLights(bool bEnabled)
+{
+	bSceneLights = bEnabled;
+	UpdateLights();
+}
+
+int32_t FHostScene::FindOwnSun() const
+{
+	for (size_t Node = 0; Node < Description.Nodes.size(); ++Node)
+	{
+		const int32_t Light = Description.Nodes[Node].Light;
+		if (Light >= 0 && Description.Lights[Light].Type == LIGHT_DIRECTIONAL) { return static_cast<int32_t>(Node); }
+	}
+	return -1;
+}
+
+std::optional<FSunLight> FHostScene::GetOwnSun() const
+{
+	const int32_t Node = FindOwnSun();
+	if (Node < 0) { return std::nullopt; }
+	const FHostLight& Light = Description.Lights[Description.Nodes[Node].Light];
+	FSunLight Sun;
+	Sun.Direction = -glm::dvec3(Pose.World[Node][2]);
+	Sun.Irradiance = std::max({Light.Color.x, Light.Color.y, Light.Color.z});
+	Sun.Color = Sun.Irradiance > 0.0f ? Light.Color / Sun.Irradiance : glm::vec3(1);
+	Sun.AngularDiameter = glm::radians(Description.DefaultSunDiameter);
+	return Sun;
+}
+
+FView FHostScene::MakeDefaultView(uint32_t Width, uint32_t Height) const
+{
+	for (size_t Node = 0; Node < Description.Nodes.size(); ++Node)
+	{
+		const int32_t Camera = Description.Nodes[Node].Camera;
+		if (Camera < 0) { continue; }
+		const glm::dmat4& World = Pose.World[Node];
+		FView View = LookAt(glm::dvec3(World[3]), glm::dvec3(World[3] - World[2]), Description.Cameras[Camera].FovY, Width, Height);
+		View.Up = glm::vec3(glm::normalize(glm::dvec3(World[1])));
+		return View;
+	}
+	glm::dvec3 Min(-1), Max(1);
+	GetSceneBounds(Description, Pose, Min, Max);
+	const double FovY = glm::radians(45.0), Aspect = double(Width) / Height;
+	const double Radius = std::max(1e-3, 0.5 * glm::length(Max - Min));
+	const double HalfAngle = std::atan(std::tan(0.5 * FovY) * std::min(1.0, Aspect));
+	const glm::dvec3 Center = 0.5 * (Min + Max), Direction = glm::normalize(glm::dvec3(0.35, 0.35, 1.0));
+	FView View = LookAt(Center + Direction * (0.85 * Radius / std::sin(HalfAngle)), Center, static_cast<float>(FovY), Width, Height);
+	View.Near = static_cast<float>(std::clamp(0.001 * Radius, 1e-4, 0.05));
+	return View;
+}
+
+void FHostScene::UpdateLights()
+{
+	std::vector<FSceneLight> Lights;
+	const int32_t OwnSun = FindOwnSun();
+	for (uint32_t Node = 0; bSceneLights && Node < Description.Nodes.size(); ++Node)
+	{
+		if (Description.Nodes[Node].Light < 0 || static_cast<int32_t>(Node) == OwnSun) { continue; }
+		const FHostLight& Source = Description.Lights[Description.Nodes[Node].Light];
+		const glm::dmat4& World = Pose.World[Node];
+		FSceneLight Light{};
+		Light.WorldPosition = glm::dvec3(World[3]);
+		Light.Data.Type = Source.Type;
+		// glTF lights shine along −z of their node.
+		const glm::dvec3 Axis = -glm::dvec3(World[2]);
+		Light.Data.Direction = glm::length(Axis) > 0.0 ? glm::vec3(glm::normalize(Axis)) : glm::vec3(0, -1, 0);
+		Light.Data.Color = Source.Color;
+		Light.Data.Range = Source.Range;
+		// KHR_lights_punctual, "Inner and Outer Cone Angles".
+		const float CosOuter = std::cos(Source.OuterCone);
+		Light.Data.SpotScale = 1.0f / std::max(0.001f, std::cos(Source.InnerCone) - CosOuter);
+		Light.Data.SpotOffset = -CosOuter * Light.Data.SpotScale;
+		Lights.push_back(Light);
+	}
+	Scene.SetLights(std::move(Lights));
+}
+
+} // namespace Lantern
