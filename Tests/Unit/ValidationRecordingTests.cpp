@@ -172,11 +172,10 @@ TEST_F(FValidationRecording, RasterPasses)
 	ExpectMessage({"without the usage RenderTarget"});
 	List->BeginRasterPass(Pass(Small.Get()));
 	ExpectMessage({"'Small'", "2 x 2 texels, the pass 4 x 4"});
-	List->SetPipeline(Fits.Get());
-	ExpectMessage({"SetPipeline", "outside a raster pass"});
 	List->BeginRasterPass(Pass(Target.Get()));
 	List->SetPipeline(Compute.Get());
-	ExpectMessage({"SetPipeline", "within a raster pass"});
+	List->Draw(3, 1);
+	ExpectMessage({"Draw", "no raster pipeline has been set, but pipeline 'Compute'"});
 	List->Dispatch(1, 1, 1);
 	ExpectMessage({"Dispatch", "within a raster pass"});
 	List->FillBuffer(Indices.Get(), 0, 4, 0);

@@ -1,0 +1,84 @@
+// One corpus, every RHI. A test written with CONTRACT_TEST runs on the mock and on Vulkan, each alone and behind the
+// validation wrapper; one with CONTRACT_SHADER_TEST needs shaders to run and so stays with Vulkan. Whatever it does,
+// no validation may have said anything at the end, and nothing may be left over.
+#pragma once
+
+#include "RHIMaker.h"
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace Lantern
+{
+
+enum class EContractRHI : uint8_t
+{
+	Mock,
+	MockValidated,
+	Vulkan,
+	VulkanValidated,
+};
+
+std::string GetName(EContractRHI Which);
+
+class FContractFixture : public testing::TestWithParam<EContractRHI>
+{
+protected:
+	void SetUp() override;
+	void TearDown() override;
+
+	IRTDevice& Device() { return *Make.Device; }
+	const FRTCapabilities& Caps() { return Make.Device->GetCapabilities(); }
+	bool IsVulkan() const { return GetParam() >= EContractRHI::Vulkan; }
+	void Wait(FRTFence Fence) { EXPECT_OK(Device().WaitFor(Fence, 60'000'000'000ull)); }
+	/// Ends, submits and waits.
+	void Run(IRTCommandList* List) { Wait(Make.Submit(List)); }
+	static void Barrier(IRTCommandList* List, IRTBuffer* Buffer, ERTAccess Before, ERTAccess After)
+	{
+		const FRTBarrier Item = {Buffer, nullptr, Before, After};
+		List->Barriers(&Item, 1);
+	}
+	static void Barrier(IRTCommandList* List, IRTTexture* Texture, ERTAccess Before, ERTAccess After)
+	{
+		const FRTBarrier Item = {nullptr, Texture, Before, After};
+		List->Barriers(&Item, 1);
+	}
+	/// Upload buffer with these bytes.
+	TRTRef<IRTBuffer> Upload(const void* Bytes, uint64_t Size, const char* Name = "Upload")
+	{
+		auto Buffer = Make.Buffer(Size, ERTMemory::Upload, Name);
+		std::memcpy(Buffer->GetMapped(), Bytes, Size);
+		return Buffer;
+	}
+	template <class T>
+	TRTRef<IRTBuffer> Upload(const std::vector<T>& Items, const char* Name = "Upload")
+	{
+		return Upload(Items.data(), Items.size() * sizeof(T), Name);
+	}
+	/// The bytes of one mip and layer; the texture is in Access and stays there.
+	std::vector<uint8_t> Read(IRTTexture* Texture, ERTAccess Access, uint32_t Mip = 0, uint32_t Layer = 0);
+
+	FRHIMaker Make;
+
+private:
+	void AddMessage(const char* Message);
+
+	std::mutex Mutex;
+	std::vector<std::string> Messages;
+	TRTRef<IRTDevice> Inner;
+};
+
+class FContract : public FContractFixture
+{
+};
+
+/// Shaders run.
+class FContractShaders : public FContractFixture
+{
+};
+
+#define CONTRACT_TEST(Name) TEST_P(FContract, Name)
+#define CONTRACT_SHADER_TEST(Name) TEST_P(FContractShaders, Name)
+
+} // namespace Lantern

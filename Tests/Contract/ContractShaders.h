@@ -1,0 +1,46 @@
+// The shaders of the corpus and the pipelines made of them.
+#pragma once
+
+#include "ContractFixture.h"
+
+namespace Lantern
+{
+
+/// Mirrors Push in Shaders/Common.glsl.
+struct FContractPush
+{
+	uint64_t Output = 0;
+	uint64_t Input = 0;
+	uint32_t A = 0, B = 0, C = 0, D = 0, E = 0, F = 0;
+};
+static_assert(sizeof(FContractPush) == 40, "scalar layout of Push in Shaders/Common.glsl");
+
+/// Name: the file, e.g. "Trace.rgen".
+FRTShaderCode GetContractShader(const char* Name);
+
+TRTRef<IRTPipeline> MakeComputePipeline(IRTDevice& Device, const char* Shader);
+/// Triangle.vert and Colour.frag. Color Unknown: depth only.
+TRTRef<IRTPipeline> MakeRasterPipeline(IRTDevice& Device, ERTFormat Color, ERTFormat Depth = ERTFormat::Unknown,
+                                       ERTCull Cull = ERTCull::None, bool bDepthWrite = true);
+
+/// Groups of MakeRayPipeline.
+enum ERayGroup : uint32_t
+{
+	GroupTrace,   ///< ray generation
+	GroupCall,    ///< ray generation
+	GroupMissOne, ///< payload MissOne
+	GroupMissTwo, ///< payload MissTwo
+	GroupHit,     ///< see Hit.rchit
+	GroupMasked,  ///< the same with an any-hit shader that ignores everything
+	GroupDisc,    ///< procedural
+	GroupDouble,  ///< callable
+	GroupSquare,  ///< callable
+};
+inline constexpr uint32_t MissOne = 0xf0000001u, MissTwo = 0xf0000002u;
+
+TRTRef<IRTPipeline> MakeRayPipeline(IRTDevice& Device);
+
+/// gl_RayFlags….
+inline constexpr uint32_t RayOpaque = 1, RayNoOpaque = 2, RayCullBack = 16, RayCullFront = 32;
+
+} // namespace Lantern

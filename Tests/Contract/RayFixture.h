@@ -1,0 +1,101 @@
+// Rays that run: pixel (x, y) looks down -z at the unit square over it and says what it hit.
+#pragma once
+
+#include "ContractScene.h"
+
+namespace Lantern
+{
+
+class FRayContract : public TSceneFixture<FContractShaders>
+{
+protected:
+	void SetUp() override
+	{
+		TSceneFixture::SetUp();
+		if (IsSkipped())
+		{
+			return;
+		}
+		if (!Caps().bRayTracingPipeline)
+		{
+			GTEST_SKIP() << "the device has no ray-tracing pipelines";
+		}
+		Pipeline = MakeRayPipeline(Device());
+		Scene = Make.Scene(64);
+	}
+	void TearDown() override
+	{
+		Pipeline.Reset();
+		Scene.Reset();
+		Table.Reset();
+		TSceneFixture::TearDown();
+	}
+	/// Ray generation: trace, call. Miss: one, two. Callable: double, square. Record data: 4 bytes.
+	void MakeTable(uint32_t HitCount)
+	{
+		FRTShaderTableDesc Desc;
+		Desc.Pipeline = Pipeline.Get();
+		Desc.RayGenCount = Desc.MissCount = Desc.CallableCount = 2;
+		Desc.HitCount = HitCount;
+		Desc.RecordDataBytes = 4;
+		Desc.Name = "Table";
+		ASSERT_OK(Device().CreateShaderTable(Desc, Table.ReleaseAndGetAddress()));
+		Table->SetRecord(ERTRecordKind::RayGen, 0, GroupTrace, nullptr, 0);
+		Table->SetRecord(ERTRecordKind::RayGen, 1, GroupCall, nullptr, 0);
+		Table->SetRecord(ERTRecordKind::Miss, 0, GroupMissOne, nullptr, 0);
+		Table->SetRecord(ERTRecordKind::Miss, 1, GroupMissTwo, nullptr, 0);
+		Table->SetRecord(ERTRecordKind::Callable, 0, GroupDouble, nullptr, 0);
+		Table->SetRecord(ERTRecordKind::Callable, 1, GroupSquare, nullptr, 0);
+	}
+	void SetHit(uint32_t Index, uint32_t Value, uint32_t Group = GroupHit)
+	{
+		Table->SetRecord(ERTRecordKind::Hit, Index, Group, &Value, 4);
+	}
+	FContractPush MakePush(uint32_t RayFlags = 0, uint32_t Mask = 0xff) const
+	{
+		FContractPush Push;
+		Push.A = Scene->GetIndex();
+		Push.B = RayFlags;
+		Push.C = Mask;
+		Push.E = 1;
+		return Push;
+	}
+	/// Updates the table, traces Width rays in a row and says what each found. Ends, submits and waits for the list.
+	std::vector<uint32_t> Trace(IRTCommandList* List, uint32_t Width, FContractPush Push, uint32_t RayGen = 0)
+	{
+		const auto Output = Make.Buffer(Width * 4, ERTMemory::Readback, "Output");
+		Push.Output = Output->GetDeviceAddress();
+		List->UpdateShaderTable(Table.Get());
+		List->SetPipeline(Pipeline.Get());
+		List->PushConstants(&Push, sizeof(Push));
+		List->TraceRays(Table.Get(), RayGen, Width, 1, 1);
+		Barrier(List, Output.Get(), ERTAccess::StorageWrite, ERTAccess::HostRead);
+		Run(List);
+		const auto* Begin = static_cast<const uint32_t*>(Output->GetMapped());
+		return {Begin, Begin + Width};
+	}
+	/// A list of its own for rays into what is built.
+	std::vector<uint32_t> Trace(uint32_t Width, const FContractPush& Push, uint32_t RayGen = 0)
+	{
+		const auto List = Make.List("Trace");
+		return Trace(List.Get(), Width, Push, RayGen);
+	}
+	/// Builds geometries, then the scene.
+	void Load(const std::vector<const FContractGeometry*>& Geometries, const std::vector<FRTInstance>& Instances)
+	{
+		const auto List = Make.List("Load");
+		for (const FContractGeometry* Geometry : Geometries)
+		{
+			Build(List.Get(), *Geometry);
+		}
+		BuildScene(List.Get(), Scene.Get(), Instances);
+		Run(List.Get());
+	}
+	using FWords = std::vector<uint32_t>;
+
+	TRTRef<IRTPipeline> Pipeline;
+	TRTRef<IRTScene> Scene;
+	TRTRef<IRTShaderTable> Table;
+};
+
+} // namespace Lantern
