@@ -18,10 +18,9 @@ FSceneDescription BuildCourtyard()
 	BuildFountain(Yard);
 	BuildPlants(Yard);
 	BuildFurnishings(Yard);
-	Builder.AddCamera({6.4, 1.85, 7.6}, {-2.4, 2.15, -3.0}, 52);
-	// Low in the west, so that the open loggia throws its arches across the floor.
-	Builder.SetLight({0.66f, -0.50f, -0.36f}, 6.0f, {0.38f, 0.55f, 0.85f});
-	Builder.Scene.DefaultExposure = 0.3f;
+	Builder.AddCamera({5.9, 1.75, 7.8}, {-1.9, 2.05, -3.0}, 50);
+	// Low in the west, so that the open arcade throws its arches across the floor.
+	Builder.SetLight({0.70f, -0.50f, -0.30f}, 4.2f, {0.17f, 0.29f, 0.50f});
 	return std::move(Builder.Scene);
 }
 

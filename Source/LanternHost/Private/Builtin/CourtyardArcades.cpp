@@ -1,4 +1,4 @@
-// Columns, arches and the balustrade of the western loggia.
+// Columns, arches and the balustrade of the western arcade.
 #include <cmath>
 
 #include <glm/gtc/constants.hpp>
@@ -75,13 +75,15 @@ int32_t MakeArchBay(const FCourtyard& Yard)
 	AddArchFace(Mesh, 1.0f);
 	AddArchFace(Mesh, -1.0f);
 	Mesh.AddQuad({-HalfBay, Springing, -HalfThickness}, {-ArchRadius, Springing, -HalfThickness},
-				 {-ArchRadius, Springing, HalfThickness}, {-HalfBay, Springing, HalfThickness});
+	             {-ArchRadius, Springing, HalfThickness}, {-HalfBay, Springing, HalfThickness});
 	Mesh.AddQuad({ArchRadius, Springing, -HalfThickness}, {HalfBay, Springing, -HalfThickness},
-				 {HalfBay, Springing, HalfThickness}, {ArchRadius, Springing, HalfThickness});
+	             {HalfBay, Springing, HalfThickness}, {ArchRadius, Springing, HalfThickness});
 	Mesh.BeginSection(Yard.M.Trim);
 	AddVoussoirs(Mesh);
-	Mesh.AddBeveledBox({-HalfBay, WallTop - 0.24f, -HalfThickness - 0.10f}, {HalfBay, WallTop - 0.10f, HalfThickness + 0.10f}, 0.03f);
-	Mesh.AddBeveledBox({-HalfBay, WallTop - 0.10f, -HalfThickness - 0.18f}, {HalfBay, WallTop, HalfThickness + 0.18f}, 0.02f);
+	Mesh.AddBeveledBox({-HalfBay, WallTop - 0.24f, -HalfThickness - 0.10f},
+	                   {HalfBay, WallTop - 0.10f, HalfThickness + 0.10f}, 0.03f);
+	Mesh.AddBeveledBox({-HalfBay, WallTop - 0.10f, -HalfThickness - 0.18f}, {HalfBay, WallTop, HalfThickness + 0.18f},
+	                   0.02f);
 	return Yard.Builder.AddMesh(Mesh);
 }
 
@@ -90,11 +92,11 @@ int32_t MakeColumn(const FCourtyard& Yard)
 	FMeshBuilder Mesh("column");
 	Mesh.BeginSection(Yard.M.Trim);
 	Mesh.AddBeveledBox({-0.27f, 0, -0.27f}, {0.27f, 0.12f, 0.27f}, 0.012f);
-	const glm::vec2 Profile[] = {
-		{0.26f, 0.12f}, {0.275f, 0.15f}, {0.26f, 0.19f}, {0.22f, 0.20f},  {0.22f, 0.20f},  {0.205f, 0.23f},
-		{0.22f, 0.26f}, {0.19f, 0.28f},	 {0.19f, 0.28f}, {0.185f, 0.90f}, {0.175f, 1.60f}, {0.16f, 2.08f},
-		{0.16f, 2.08f}, {0.185f, 2.10f}, {0.185f, 2.13f}, {0.165f, 2.14f}, {0.165f, 2.14f}, {0.17f, 2.22f},
-		{0.20f, 2.29f}, {0.25f, 2.34f},	 {0.27f, 2.37f}};
+	const glm::vec2 Profile[] = {{0.26f, 0.12f},  {0.275f, 0.15f}, {0.26f, 0.19f}, {0.22f, 0.20f},  {0.22f, 0.20f},
+	                             {0.205f, 0.23f}, {0.22f, 0.26f},  {0.19f, 0.28f}, {0.19f, 0.28f},  {0.185f, 0.90f},
+	                             {0.175f, 1.60f}, {0.16f, 2.08f},  {0.16f, 2.08f}, {0.185f, 2.10f}, {0.185f, 2.13f},
+	                             {0.165f, 2.14f}, {0.165f, 2.14f}, {0.17f, 2.22f}, {0.20f, 2.29f},  {0.25f, 2.34f},
+	                             {0.27f, 2.37f}};
 	Mesh.AddLathe(Profile, 32);
 	Mesh.AddBeveledBox({-0.29f, 2.37f, -0.29f}, {0.29f, Springing, 0.29f}, 0.02f);
 	return Yard.Builder.AddMesh(Mesh);
@@ -131,9 +133,9 @@ int32_t MakeBaluster(const FCourtyard& Yard)
 {
 	FMeshBuilder Mesh("baluster");
 	Mesh.BeginSection(Yard.M.Trim);
-	const glm::vec2 Profile[] = {{0.07f, 0},	  {0.07f, 0.05f},  {0.07f, 0.05f},	{0.035f, 0.07f}, {0.055f, 0.14f},
-								 {0.075f, 0.22f}, {0.06f, 0.32f},  {0.035f, 0.42f}, {0.03f, 0.48f},	 {0.055f, 0.50f},
-								 {0.055f, 0.52f}, {0.055f, 0.52f}, {0.07f, 0.54f},	{0.07f, 0.58f}};
+	const glm::vec2 Profile[] = {{0.07f, 0},      {0.07f, 0.05f},  {0.07f, 0.05f},  {0.035f, 0.07f}, {0.055f, 0.14f},
+	                             {0.075f, 0.22f}, {0.06f, 0.32f},  {0.035f, 0.42f}, {0.03f, 0.48f},  {0.055f, 0.50f},
+	                             {0.055f, 0.52f}, {0.055f, 0.52f}, {0.07f, 0.54f},  {0.07f, 0.58f}};
 	Mesh.AddLathe(Profile, 16);
 	return Yard.Builder.AddMesh(Mesh);
 }
@@ -151,14 +153,11 @@ void AddBalustrade(const FCourtyard& Yard)
 		Rail.AddBeveledBox({-0.17f, 0, Z - 0.17f}, {0.17f, 0.86f, Z + 0.17f}, 0.02f);
 	}
 	const int32_t RailMesh = Yard.Builder.AddMesh(Rail);
-	for (const float X : {-YardHalf, -YardHalf - GalleryDepth})
+	Yard.Builder.AddNode("rail", RailMesh, {-YardHalf, ArcadeTop, 0});
+	for (int I = 0; I < BayCount * 6; ++I)
 	{
-		Yard.Builder.AddNode("rail", RailMesh, {X, ArcadeTop, 0});
-		for (int I = 0; I < BayCount * 6; ++I)
-		{
-			const float Z = (float(I) + 0.5f) * BayWidth / 6 - YardHalf;
-			Yard.Builder.AddNode("baluster", Baluster, {X, ArcadeTop + 0.08f, Z});
-		}
+		const float Z = (float(I) + 0.5f) * BayWidth / 6 - YardHalf;
+		Yard.Builder.AddNode("baluster", Baluster, {-YardHalf, ArcadeTop + 0.08f, Z});
 	}
 }
 
@@ -170,19 +169,15 @@ void BuildArcades(const FCourtyard& Yard)
 	constexpr float Q = glm::half_pi<float>();
 	PlaceRow(Yard, Bay, Column, {0, GalleryHeight, -YardHalf}, 0.0f);
 	PlaceRow(Yard, Bay, Column, {YardHalf, GalleryHeight, 0}, -Q);
-	// The western loggia is open on both sides.
+	// The western arcade stands free, so that the low sun shines through it.
 	PlaceRow(Yard, Bay, Column, {-YardHalf, GalleryHeight, 0}, Q);
-	PlaceRow(Yard, Bay, Column, {-YardHalf - GalleryDepth, GalleryHeight, 0}, Q);
-	for (const glm::vec2& P : {glm::vec2(-YardHalf, -YardHalf), glm::vec2(YardHalf, -YardHalf),
-							   glm::vec2(-YardHalf, YardHalf), glm::vec2(YardHalf, YardHalf),
-							   glm::vec2(-YardHalf - GalleryDepth, YardHalf), glm::vec2(-YardHalf - GalleryDepth, -YardHalf)})
+	for (const float X : {-YardHalf, YardHalf})
 	{
-		Yard.Builder.AddNode("corner pier", Pier, {P.x, GalleryHeight, P.y});
+		for (const float Z : {-YardHalf, YardHalf})
+		{
+			Yard.Builder.AddNode("corner pier", Pier, {X, GalleryHeight, Z});
+		}
 	}
-	FMeshBuilder Roof("loggia roof");
-	Roof.BeginSection(Yard.M.Wood);
-	Roof.AddBox({-YardHalf - GalleryDepth + 0.2f, ArcadeTop - 0.3f, -YardHalf}, {-YardHalf - 0.2f, ArcadeTop - 0.02f, YardHalf});
-	Yard.Builder.AddNode("loggia roof", Yard.Builder.AddMesh(Roof));
 	AddBalustrade(Yard);
 }
 

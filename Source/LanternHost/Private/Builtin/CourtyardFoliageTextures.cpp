@@ -63,9 +63,9 @@ std::vector<FLeaf> Arrange(ELeafKind Kind)
 {
 	switch (Kind)
 	{
-	case ELeafKind::Broad: return ArrangeSpray({0.15f, 0.26f, 0.05f}, 15, 0.34f, 0.085f, 5);
-	case ELeafKind::Ivy: return ArrangeSpray({0.07f, 0.17f, 0.04f}, 9, 0.34f, 0.17f, 6);
-	case ELeafKind::Needle: return ArrangeSpray({0.05f, 0.12f, 0.045f}, 46, 0.24f, 0.022f, 7);
+	case ELeafKind::Broad: return ArrangeSpray({0.24f, 0.38f, 0.08f}, 15, 0.34f, 0.085f, 5);
+	case ELeafKind::Ivy: return ArrangeSpray({0.13f, 0.27f, 0.06f}, 9, 0.34f, 0.17f, 6);
+	case ELeafKind::Needle: return ArrangeSpray({0.10f, 0.20f, 0.07f}, 46, 0.24f, 0.022f, 7);
 	case ELeafKind::Flower: break;
 	}
 	std::vector<FLeaf> Petals;
@@ -91,7 +91,8 @@ FSurfacePoint EvaluateLeaves(const std::vector<FLeaf>& Leaves, ELeafKind Kind, c
 	S.Albedo = Leaves[Leaves.size() / 2].Color;
 	S.Alpha = 0.0f;
 	S.Roughness = 0.6f;
-	if (Kind != ELeafKind::Flower && P.y > 0.25f && std::abs(P.x - 0.5f - 0.03f * std::sin((0.97f - P.y) / 0.72f * 7.0f)) < 0.008f)
+	if (Kind != ELeafKind::Flower && P.y > 0.25f &&
+	    std::abs(P.x - 0.5f - 0.03f * std::sin((0.97f - P.y) / 0.72f * 7.0f)) < 0.008f)
 	{
 		S.Albedo = {0.16f, 0.12f, 0.05f};
 		S.Alpha = 1.0f;

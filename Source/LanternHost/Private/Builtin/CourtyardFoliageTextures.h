@@ -6,7 +6,13 @@
 namespace Lantern::Builtin
 {
 
-enum class ELeafKind { Broad, Ivy, Needle, Flower };
+enum class ELeafKind
+{
+	Broad,
+	Ivy,
+	Needle,
+	Flower
+};
 
 /// Double-sided, alpha-masked; for unit texture coordinates with the stem at the bottom middle.
 int32_t AddLeafMaterial(FSceneBuilder& Builder, ELeafKind Kind);

@@ -49,7 +49,8 @@ void AddLanterns(const FCourtyard& Yard)
 	for (int I = 0; I < BayCount; I += 2)
 	{
 		const float T = (float(I) - float(BayCount - 1) / 2) * BayWidth;
-		for (const glm::vec3& Place : {glm::vec3(T, ArcadeTop - 0.36f, -YardHalf - 1.2f), glm::vec3(YardHalf + 1.2f, ArcadeTop - 0.36f, T)})
+		for (const glm::vec3& Place :
+		     {glm::vec3(T, ArcadeTop - 0.36f, -YardHalf - 1.2f), glm::vec3(YardHalf + 1.2f, ArcadeTop - 0.36f, T)})
 		{
 			Yard.Builder.AddNode("lantern", Lantern, Place);
 			Yard.Builder.AddPointLight("lantern", Place + Below, Candela, 7.0f);
@@ -66,7 +67,7 @@ int32_t MakeBanner(const FCourtyard& Yard, int32_t Material)
 	{
 		const float Fold = 0.075f * V * std::sin(U * 9.0f + V * 2.5f) + 0.05f * V * V * std::sin(V * 5.0f);
 		const float Hem = U < 0.5f ? U : 1 - U; // swallow-tailed
-		return glm::vec3((U - 0.5f) * Width * (1 - 0.05f * V), -V * (Height - (0.5f - Hem) * 0.0f - Hem * 0.5f), Fold);
+		return glm::vec3((U - 0.5f) * Width * (1 - 0.05f * V), -V * (Height - Hem * 0.5f), Fold);
 	};
 	FMeshBuilder Mesh("banner");
 	Mesh.BeginSection(Material);
@@ -108,7 +109,8 @@ void AddBanners(const FCourtyard& Yard)
 	for (int I = 0; I < BayCount - 1; ++I)
 	{
 		const float T = (float(I) - float(BayCount - 2) / 2) * BayWidth;
-		Yard.Builder.AddNode("banner", I % 2 == 0 ? Red : Blue, {T, UpperTop - 0.55f, -YardHalf + 0.32f}, 0.06f * float(I % 3 - 1));
+		Yard.Builder.AddNode("banner", I % 2 == 0 ? Red : Blue, {T, UpperTop - 0.55f, -YardHalf + 0.32f},
+		                     0.06f * float(I % 3 - 1));
 	}
 }
 
@@ -126,13 +128,14 @@ void AddBenches(const FCourtyard& Yard)
 	Yard.Builder.AddNode("bench", Bench, {-1.2f, 0, 3.6f}, 0.15f);
 }
 
-/// On the loggia's balustrade, where its shadow falls into the yard.
+/// On the western balustrade, where its shadow falls into the yard.
 void AddWeatherVane(const FCourtyard& Yard)
 {
 	const glm::vec3 Place(-YardHalf, ArcadeTop + 0.86f, -1.2f);
 	FMeshBuilder Pole("vane pole");
 	Pole.BeginSection(Yard.M.Iron);
-	const glm::vec2 Profile[] = {{0.10f, 0}, {0.10f, 0.06f}, {0.10f, 0.06f}, {0.03f, 0.12f}, {0.02f, 1.1f}, {0.0f, 1.14f}};
+	const glm::vec2 Profile[] = {{0.10f, 0},     {0.10f, 0.06f}, {0.10f, 0.06f},
+	                             {0.03f, 0.12f}, {0.02f, 1.1f},  {0.0f, 1.14f}};
 	Pole.AddLathe(Profile, 16);
 	Yard.Builder.AddNode("vane pole", Yard.Builder.AddMesh(Pole), Place);
 

@@ -24,9 +24,9 @@ void AddHills(const FCourtyard& Yard)
 		const float Radius = 14.0f + 700.0f * T * T * T;
 		const float Angle = glm::two_pi<float>() * float(Segment % Segments) / float(Segments);
 		const glm::vec2 P(Radius * std::cos(Angle), Radius * std::sin(Angle));
-		const float Rolling = SampleFractal(P / 900.0f + 0.5f, 6, 4, 0.5f, 17) - 0.42f;
+		const float Rolling = SampleFractal(P / 1500.0f + 0.5f, 8, 3, 0.45f, 17) - 0.42f;
 		const float Far = glm::clamp((Radius - 30.0f) / 300.0f, 0.0f, 1.0f);
-		return glm::vec3(P.x, -0.06f + Far * (18.0f * Far + 190.0f * std::max(Rolling, -0.05f)), P.y);
+		return glm::vec3(P.x, -0.06f + Far * (10.0f * Far + 150.0f * std::max(Rolling, -0.04f)), P.y);
 	};
 	const uint32_t Base = 0;
 	for (int Ring = 0; Ring <= Rings; ++Ring)
@@ -34,7 +34,8 @@ void AddHills(const FCourtyard& Yard)
 		for (int Segment = 0; Segment <= Segments; ++Segment)
 		{
 			const glm::vec3 P = GetPoint(Ring, Segment);
-			const glm::vec3 Out = GetPoint(std::min(Ring + 1, Rings), Segment) - GetPoint(std::max(Ring - 1, 0), Segment);
+			const glm::vec3 Out =
+			    GetPoint(std::min(Ring + 1, Rings), Segment) - GetPoint(std::max(Ring - 1, 0), Segment);
 			const glm::vec3 Along = GetPoint(Ring, Segment + 1) - GetPoint(Ring, Segment + Segments - 1);
 			Mesh.AddVertex(P, glm::normalize(glm::cross(Along, Out)), glm::vec2(P.x, P.z));
 		}
@@ -60,7 +61,7 @@ void AddPaving(const FCourtyard& Yard)
 	Mesh.AddQuad({-S, 0, S}, {S, 0, S}, {S, 0, -S}, {-S, 0, -S});
 	// Gallery floors, west, north, east, with a step before each.
 	constexpr float Out = S + GalleryDepth + 0.3f, In = S - 0.45f;
-	Mesh.AddBeveledBox({-Out, -0.2f, -Out}, {-In, GalleryHeight, S}, 0.015f);
+	Mesh.AddBeveledBox({-S - 0.6f, -0.2f, -Out}, {-In, GalleryHeight, S}, 0.015f);
 	Mesh.AddBeveledBox({In, -0.2f, -Out}, {Out, GalleryHeight, S}, 0.015f);
 	Mesh.AddBeveledBox({-In, -0.2f, -Out}, {In, GalleryHeight, -In}, 0.015f);
 	Mesh.BeginSection(Yard.M.Trim);

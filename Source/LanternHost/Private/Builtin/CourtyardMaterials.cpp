@@ -171,7 +171,7 @@ int32_t AddWood(FSceneBuilder& Builder, const char* Name, const glm::vec3& Color
 }
 
 int32_t AddMetal(FSceneBuilder& Builder, const char* Name, const glm::vec3& Clean, const glm::vec3& Aged, float Age,
-				 uint32_t Seed)
+                 uint32_t Seed)
 {
 	FSurfaceDescription D;
 	D.Name = Name;

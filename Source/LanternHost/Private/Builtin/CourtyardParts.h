@@ -13,9 +13,9 @@ constexpr int BayCount = 7;
 constexpr float BayWidth = 2.4f;
 constexpr float YardHalf = BayCount * BayWidth / 2;
 constexpr float GalleryDepth = 2.6f;
-constexpr float GalleryHeight = 0.3f;	///< floor of the galleries
-constexpr float ArcadeTop = 4.5f;		///< top of the arcade walls, above ground
-constexpr float UpperTop = 8.1f;		///< eaves of the northern wing
+constexpr float GalleryHeight = 0.3f; ///< floor of the galleries
+constexpr float ArcadeTop = 4.5f;     ///< top of the arcade walls, above ground
+constexpr float UpperTop = 8.1f;      ///< eaves of the northern wing
 
 struct FCourtyard
 {
@@ -23,11 +23,11 @@ struct FCourtyard
 	const FCourtyardMaterials& M;
 };
 
-void BuildGround(const FCourtyard& Yard);	  ///< paving, steps, galleries, meadow and hills
-void BuildArcades(const FCourtyard& Yard);	  ///< columns, arches, balustrade
-void BuildWings(const FCourtyard& Yard);	  ///< walls, windows, doors, roofs
-void BuildFountain(const FCourtyard& Yard);	  ///< with its turning armillary sphere
-void BuildPlants(const FCourtyard& Yard);	  ///< potted trees, cypresses, ivy, flowers, fallen leaves
+void BuildGround(const FCourtyard& Yard);      ///< paving, steps, galleries, meadow and hills
+void BuildArcades(const FCourtyard& Yard);     ///< columns, arches, balustrade
+void BuildWings(const FCourtyard& Yard);       ///< walls, windows, doors, roofs
+void BuildFountain(const FCourtyard& Yard);    ///< with its turning armillary sphere
+void BuildPlants(const FCourtyard& Yard);      ///< potted trees, cypresses, ivy, flowers, fallen leaves
 void BuildFurnishings(const FCourtyard& Yard); ///< lanterns, banners, benches, weather vane
 
 /// Turns a node about its own y axis, once per Seconds.

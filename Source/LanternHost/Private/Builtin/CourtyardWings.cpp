@@ -21,8 +21,9 @@ struct FOpening
 
 void AddWallWithOpening(FMeshBuilder& Mesh, float Half, float Top, const FOpening& O)
 {
-	const auto AddFace = [&](float X0, float Y0, float X1, float Y1)
-	{ Mesh.AddQuad({X0, Y0, 0}, {X1, Y0, 0}, {X1, Y1, 0}, {X0, Y1, 0}); };
+	const auto AddFace = [&](float X0, float Y0, float X1, float Y1) {
+		Mesh.AddQuad({X0, Y0, 0}, {X1, Y0, 0}, {X1, Y1, 0}, {X0, Y1, 0});
+	};
 	AddFace(-Half, 0, O.X0, Top);
 	AddFace(O.X1, 0, Half, Top);
 	AddFace(O.X0, O.Y1, O.X1, Top);
@@ -50,7 +51,7 @@ void AddShutter(FMeshBuilder& Mesh, float X, float Y0, float Y1)
 	{
 		const float Y = Y0 + (Y1 - Y0) * float(I) / float(Slats);
 		Mesh.AddQuad({X - Half + 0.05f, Y - 0.035f, 0.065f}, {X + Half - 0.05f, Y - 0.035f, 0.065f},
-					 {X + Half - 0.05f, Y + 0.03f, 0.03f}, {X - Half + 0.05f, Y + 0.03f, 0.03f});
+		             {X + Half - 0.05f, Y + 0.03f, 0.03f}, {X - Half + 0.05f, Y + 0.03f, 0.03f});
 	}
 }
 
@@ -101,7 +102,8 @@ int32_t MakeDoorBay(const FCourtyard& Yard)
 	{
 		for (const float Y : {0.35f, 1.25f, 2.15f})
 		{
-			Mesh.AddBeveledBox({Side > 0 ? 0.16f : -0.74f, Y, -0.17f}, {Side > 0 ? 0.74f : -0.16f, Y + 0.07f, -0.145f}, 0.005f);
+			Mesh.AddBeveledBox({Side > 0 ? 0.16f : -0.74f, Y, -0.17f}, {Side > 0 ? 0.74f : -0.16f, Y + 0.07f, -0.145f},
+			                   0.005f);
 		}
 		Mesh.SetTransform(glm::mat4(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, Side * 0.10f, 1.12f, -0.155f, 1));
 		const glm::vec2 Ring[] = {{0.045f, -0.01f}, {0.06f, -0.01f}, {0.06f, 0.01f}, {0.045f, 0.01f}, {0.045f, -0.01f}};
@@ -180,7 +182,6 @@ void AddCeilings(const FCourtyard& Yard)
 		const float T = float(I) * BayWidth / 2 - S;
 		Mesh.AddBeveledBox({T - 0.07f, ArcadeTop - 0.36f, -S - D}, {T + 0.07f, ArcadeTop - 0.14f, -S - 0.2f}, 0.01f);
 		Mesh.AddBeveledBox({S + 0.2f, ArcadeTop - 0.36f, T - 0.07f}, {S + D, ArcadeTop - 0.14f, T + 0.07f}, 0.01f);
-		Mesh.AddBeveledBox({-S - D + 0.2f, ArcadeTop - 0.46f, T - 0.07f}, {-S - 0.2f, ArcadeTop - 0.3f, T + 0.07f}, 0.01f);
 	}
 	Mesh.BeginSection(Yard.M.Plaster);
 	// Gable ends and backs.
@@ -188,7 +189,7 @@ void AddCeilings(const FCourtyard& Yard)
 	Mesh.AddBox({-S - D, 0, -S - D - 3.0f}, {S + D, ArcadeTop - 0.05f, -S - D - 0.03f});
 	Mesh.AddBox({S + D + 0.03f, 0, -S - D}, {S + D + 0.4f, ArcadeTop + 1.4f, S + 0.3f});
 	Mesh.BeginSection(Yard.M.Ashlar);
-	Mesh.AddBox({-S - D - 0.3f, 0, S - 0.3f}, {-1.6f, 2.6f, S + 0.3f});
+	Mesh.AddBox({-S - 0.3f, 0, S - 0.3f}, {-1.6f, 2.6f, S + 0.3f});
 	Mesh.AddBox({1.6f, 0, S - 0.3f}, {S + D + 0.3f, 2.6f, S + 0.3f});
 	Yard.Builder.AddNode("ceilings", Yard.Builder.AddMesh(Mesh));
 }

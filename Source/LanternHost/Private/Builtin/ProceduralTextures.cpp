@@ -101,17 +101,17 @@ std::vector<FSurfacePoint> EvaluateAll(const FSurfaceDescription& Description)
 	const size_t Size = Description.Size;
 	std::vector<FSurfacePoint> Points(Size * Size);
 	ParallelFor(Size, 16,
-				[&](size_t Begin, size_t End)
-				{
-					for (size_t Y = Begin; Y < End; ++Y)
-					{
-						for (size_t X = 0; X < Size; ++X)
-						{
-							const glm::vec2 P = (glm::vec2(float(X), float(Y)) + 0.5f) / float(Size);
-							Points[Y * Size + X] = Description.Evaluate(P);
-						}
-					}
-				});
+	            [&](size_t Begin, size_t End)
+	            {
+		            for (size_t Y = Begin; Y < End; ++Y)
+		            {
+			            for (size_t X = 0; X < Size; ++X)
+			            {
+				            const glm::vec2 P = (glm::vec2(float(X), float(Y)) + 0.5f) / float(Size);
+				            Points[Y * Size + X] = Description.Evaluate(P);
+			            }
+		            }
+	            });
 	return Points;
 }
 
