@@ -119,6 +119,18 @@ float BrdfDensity(FBrdf B, vec3 V, vec3 L)
 	return Density;
 }
 
+// What the surface reflects of a uniform sky. The specular part by the fit of Karis 2014 ("Physically Based Shading
+// on Mobile") to the split-sum integral; F90 is the specular weight for dielectrics and 1 for metals.
+vec3 DirectionalAlbedo(FBrdf B, float NdotV, float Roughness)
+{
+	vec4 R = Roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+	float A004 = min(R.x * R.x, exp2(-9.28 * NdotV)) * R.x + R.y;
+	vec2 ScaleBias = vec2(-1.04, 1.04) * A004 + R.zw;
+	float Dielectric = B.Specular * (B.F0 * ScaleBias.x + ScaleBias.y);
+	vec3 Metal = B.BaseColor * ScaleBias.x + ScaleBias.y;
+	return DiffuseAlbedo(B) * (1.0 - Dielectric) + mix(vec3(Dielectric), Metal, B.Metallic);
+}
+
 struct FBrdfSample
 {
 	vec3 Direction; // z ≤ 0: absorbed

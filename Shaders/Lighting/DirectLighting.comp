@@ -62,10 +62,8 @@ vec3 ShadeSurface(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, float
 	}
 #endif
 #ifdef HAS_SKY
-	// Unoccluded sky until ambient occlusion and global illumination take over: the diffuse albedo, and the specular
-	// lobe's by its Fresnel term at this angle.
-	vec3 Albedo = DiffuseAlbedo(B) * (1.0 - DielectricFresnel(B, LocalV.z)) + SpecularFresnel(B, LocalV.z) * (1.0 - 0.5 * Material.x);
-	Radiance += Albedo * Scene.SkyRadiance * Material.y;
+	// Unoccluded sky until ambient occlusion and global illumination take over.
+	Radiance += DirectionalAlbedo(B, LocalV.z, Material.x) * Scene.SkyRadiance * Material.y;
 #endif
 	return Radiance;
 }

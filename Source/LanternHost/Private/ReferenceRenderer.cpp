@@ -120,12 +120,13 @@ FRTStatus FReferenceJob::Copy(IRTBuffer& Dest, IRTBuffer& Source)
 	TRTRef<IRTCommandList> List;
 	if (FRTStatus S = Device.CreateCommandList("ReferenceCopy", List.ReleaseAndGetAddress()); !S) { return S; }
 	if (FRTStatus S = List->Begin(); !S) { return S; }
-	const ERTAccess Written = ERTAccess::StorageWrite | ERTAccess::CopyWrite;
-	const FRTBarrier Before{nullptr, nullptr, Written, ERTAccess::CopyRead | ERTAccess::CopyWrite};
-	const FRTBarrier After{nullptr, nullptr, ERTAccess::CopyWrite, ERTAccess::HostRead | ERTAccess::ShaderRead | ERTAccess::StorageWrite};
-	List->Barriers(&Before, 1);
+	// Between copies the sum belongs to the path tracer, the staging buffer to the CPU.
+	const auto Resting = [&](IRTBuffer& Buffer) { return &Buffer == Sum.Get() ? ERTAccess::StorageWrite : ERTAccess::HostRead; };
+	const FRTBarrier Before[] = {{&Source, nullptr, Resting(Source), ERTAccess::CopyRead}, {&Dest, nullptr, Resting(Dest), ERTAccess::CopyWrite}};
+	const FRTBarrier After[] = {{&Source, nullptr, ERTAccess::CopyRead, Resting(Source)}, {&Dest, nullptr, ERTAccess::CopyWrite, Resting(Dest)}};
+	List->Barriers(Before, 2);
 	List->CopyBuffer(&Dest, 0, &Source, 0, Dest.GetDesc().Size);
-	List->Barriers(&After, 1);
+	List->Barriers(After, 2);
 	if (FRTStatus S = List->End(); !S) { return S; }
 	FRTFence Fence = 0;
 	IRTCommandList* const Lists[] = {List.Get()};

@@ -329,9 +329,7 @@ FRTStatus FRTScene::BuildPending(IRTCommandList& List)
 	Deformed.clear();
 	if (Work.empty()) { return FRTStatus::Success(); }
 	bObjectsChanged = true;
-	const FRTBarrier Inputs{nullptr, nullptr, ERTAccess::StorageWrite | ERTAccess::CopyWrite, ERTAccess::GeometryInput};
 	const FRTBarrier Structures{nullptr, nullptr, ERTAccess::TraceRead | ERTAccess::BuildWrite, ERTAccess::BuildWrite};
-	List.Barriers(&Inputs, 1);
 	List.Barriers(&Structures, 1);
 	return FGeometryBuilder(Device, Scratch).Build(List, Work, static_cast<uint32_t>(CVarRebuildInterval.GetOnRenderThread()), Stats);
 }
@@ -360,8 +358,7 @@ FRTStatus FRTScene::BuildStructure(IRTCommandList& List, FFrameUploads& Uploads)
 		static_assert(sizeof(Instance->Transform) == sizeof(FObjectData::ObjectToWorld));
 		FRTInstance Value;
 		std::memcpy(Value.Transform, ObjectData[Index].ObjectToWorld, sizeof(Value.Transform));
-		uint8_t Flags = InstanceFrontIsCounterClockwise;
-		if (!IsMasked(Object)) { Flags |= InstanceForceOpaque; }
+		const uint8_t Flags = IsMasked(Object) ? 0 : InstanceForceOpaque;
 		Value.CustomIndexAndMask = Index | (uint32_t(Object.Info.Mask) << 24);
 		Value.TableOffsetAndFlags = (Object.FirstSection * RayTypes) | (uint32_t(Flags) << 24);
 		Value.GeometryAddress = Object.Info.Geometry->Structure->GetDeviceAddress();

@@ -432,7 +432,9 @@ struct FRTSceneDesc
 
 /// Bits of FRTInstance::Flags.
 inline constexpr uint8_t InstanceCullDisable = 1;
-inline constexpr uint8_t InstanceFrontIsCounterClockwise = 2; ///< Vulkan's default is clockwise, glTF's winding the other; decided in object space
+/// A triangle's front is the side from which its vertices run counter-clockwise (right-handed, as glTF), decided in
+/// object space; this turns it around.
+inline constexpr uint8_t InstanceFlipFacing = 2;
 inline constexpr uint8_t InstanceForceOpaque = 4;
 inline constexpr uint8_t InstanceForceNoOpaque = 8;
 
