@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
+
+#include "VulkanQuirks.h"
 
 namespace Lantern
 {
@@ -123,6 +126,51 @@ VkRayTracingShaderGroupTypeKHR GroupTypeOf(ERTGroupKind Kind)
 	return VK_RAY_TRACING_SHADER_GROUP_TYPE_GENERAL_KHR;
 }
 
+/// `void main() {}` as a closest-hit shader, by glslang.
+constexpr uint32_t EmptyClosestHit[] = {
+    0x07230203, 0x00010500, 0x0008000b, 0x00000006, 0x00000000, 0x00020011, 0x0000117f, 0x0006000a, 0x5f565053,
+    0x5f52484b, 0x5f796172, 0x63617274, 0x00676e69, 0x0006000b, 0x00000001, 0x4c534c47, 0x6474732e, 0x3035342e,
+    0x00000000, 0x0003000e, 0x00000000, 0x00000001, 0x0005000f, 0x000014c4, 0x00000004, 0x6e69616d, 0x00000000,
+    0x00020013, 0x00000002, 0x00030021, 0x00000003, 0x00000002, 0x00050036, 0x00000002, 0x00000004, 0x00000000,
+    0x00000003, 0x000200f8, 0x00000005, 0x000100fd, 0x00010038};
+
+using FGroups = std::vector<VkRayTracingShaderGroupCreateInfoKHR>;
+
+FGroups MakeGroups(const FRTRayTracingPipelineDesc& Desc)
+{
+	static_assert(NoShader == VK_SHADER_UNUSED_KHR, "indices are passed on as they are");
+	FGroups Groups(Desc.GroupCount);
+	for (uint32_t Index = 0; Index < Desc.GroupCount; ++Index)
+	{
+		const FRTShaderGroup& Group = Desc.Groups[Index];
+		Groups[Index] = {VK_STRUCTURE_TYPE_RAY_TRACING_SHADER_GROUP_CREATE_INFO_KHR};
+		Groups[Index].type = GroupTypeOf(Group.Kind);
+		Groups[Index].generalShader = Group.General;
+		Groups[Index].closestHitShader = Group.ClosestHit;
+		Groups[Index].anyHitShader = Group.AnyHit;
+		Groups[Index].intersectionShader = Group.Intersection;
+	}
+	return Groups;
+}
+
+bool HasHitShader(const FGroups& Groups)
+{
+	return std::any_of(Groups.begin(), Groups.end(),
+	                   [](const VkRayTracingShaderGroupCreateInfoKHR& Group)
+	                   { return Group.closestHitShader != NoShader || Group.anyHitShader != NoShader; });
+}
+
+/// EVulkanQuirk::CrashWithoutHitShaders: a group behind those asked for, which no shader table knows of.
+FRTStatus AddUnusedHitShader(FModules& Modules, FGroups& Groups)
+{
+	VkRayTracingShaderGroupCreateInfoKHR Group{VK_STRUCTURE_TYPE_RAY_TRACING_SHADER_GROUP_CREATE_INFO_KHR};
+	Group.type = VK_RAY_TRACING_SHADER_GROUP_TYPE_TRIANGLES_HIT_GROUP_KHR;
+	Group.generalShader = Group.anyHitShader = Group.intersectionShader = VK_SHADER_UNUSED_KHR;
+	Group.closestHitShader = static_cast<uint32_t>(Modules.Stages.size());
+	Groups.push_back(Group);
+	return Modules.Add({EmptyClosestHit, std::size(EmptyClosestHit), ERTShaderStage::ClosestHit, "EmptyClosestHit"});
+}
+
 } // namespace
 
 FRTStatus FVulkanPipeline::Finish(VkResult Result, const char* What, const char* Name)
@@ -208,23 +256,22 @@ FRTStatus FVulkanPipeline::InitialiseRayTracing(const FRTRayTracingPipelineDesc&
 			return Status;
 		}
 	}
-	std::vector<VkRayTracingShaderGroupCreateInfoKHR> Groups(Desc.GroupCount);
-	static_assert(NoShader == VK_SHADER_UNUSED_KHR, "indices are passed on as they are");
-	for (uint32_t Index = 0; Index < Desc.GroupCount; ++Index)
+	FGroups Groups = MakeGroups(Desc);
+	const bool bNeedsHitShader =
+	    (Device.Probe.Quirks & static_cast<uint32_t>(EVulkanQuirk::CrashWithoutHitShaders)) != 0;
+	if (bNeedsHitShader && !HasHitShader(Groups))
 	{
-		const FRTShaderGroup& Group = Desc.Groups[Index];
-		Groups[Index] = {VK_STRUCTURE_TYPE_RAY_TRACING_SHADER_GROUP_CREATE_INFO_KHR};
-		Groups[Index].type = GroupTypeOf(Group.Kind);
-		Groups[Index].generalShader = Group.General;
-		Groups[Index].closestHitShader = Group.ClosestHit;
-		Groups[Index].anyHitShader = Group.AnyHit;
-		Groups[Index].intersectionShader = Group.Intersection;
+		FRTStatus Status = AddUnusedHitShader(Modules, Groups);
+		if (!Status)
+		{
+			return Status;
+		}
 	}
 	BindPoint = VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR;
 	VkRayTracingPipelineCreateInfoKHR Info{VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CREATE_INFO_KHR};
-	Info.stageCount = Desc.ShaderCount;
+	Info.stageCount = static_cast<uint32_t>(Modules.Stages.size());
 	Info.pStages = Modules.Stages.data();
-	Info.groupCount = Desc.GroupCount;
+	Info.groupCount = static_cast<uint32_t>(Groups.size());
 	Info.pGroups = Groups.data();
 	Info.maxPipelineRayRecursionDepth = Desc.MaxRecursion;
 	Info.layout = Device.Bindless.PipelineLayout;

@@ -21,6 +21,9 @@ constexpr FQuirk Quirks[] = {
     {VK_DRIVER_ID_MESA_LLVMPIPE, 0, VK_MAKE_API_VERSION(0, 26, 2, 0), EVulkanQuirk::LinkedPushConstantsLost,
      "push constants read as zero when every group of a ray-tracing pipeline comes from libraries (seen in 25.0.7, "
      "right in 26.2): ray generation and miss shaders are compiled in the final link"},
+    {VK_DRIVER_ID_MESA_LLVMPIPE, 0, ~0u, EVulkanQuirk::CrashWithoutHitShaders,
+     "a ray that hits crashes the process when no hit group of its pipeline has a shader (seen in 25.0.7 with LLVM 19, "
+     "not with LLVM 15): such pipelines get an empty closest-hit shader that nothing runs"},
 };
 
 } // namespace

@@ -11,6 +11,8 @@ enum class EVulkanQuirk : uint32_t
 	None = 0,
 	/// Ray generation and miss shaders must be in the final link of a ray-tracing pipeline, not in libraries.
 	LinkedPushConstantsLost = 1 << 0,
+	/// A ray-tracing pipeline must have a hit shader, even one that no record reaches.
+	CrashWithoutHitShaders = 1 << 1,
 };
 
 /// Flags of EVulkanQuirk that hold for the driver. OutText: one line per quirk; may be null.
