@@ -28,7 +28,7 @@ void main()
 	Inputs.Color = InColor;
 	FMaterialData Material = FMaterialRef(Scene.Materials).Data[Section.Material];
 	FMaterialSurface Surface = EvaluateMaterial(Material, Inputs, Scene.MaterialOverride);
-	vec3 Ng = normalize(cross(dFdx(InRelative), dFdy(InRelative)));
+	vec3 Ng = NormalizeOr(cross(dFdx(InRelative), dFdy(InRelative)), Surface.Normal);
 #ifdef MASKED
 	if (Surface.Opacity < Material.AlphaCutoff) { discard; }
 #endif

@@ -27,6 +27,13 @@ vec3 UnpackOct(uint P) { return OctDecode(unpackSnorm2x16(P)); }
 float Luminance(vec3 C) { return dot(C, vec3(0.2126, 0.7152, 0.0722)); }
 float MaxComponent(vec3 C) { return max(C.x, max(C.y, C.z)); }
 
+// Normals that cancel out give Fallback, never a NaN.
+vec3 NormalizeOr(vec3 V, vec3 Fallback)
+{
+	float Length2 = dot(V, V);
+	return Length2 > 1.0e-30 ? V * inversesqrt(Length2) : Fallback;
+}
+
 // Orthonormal basis around N, without branches on its direction (Duff et al. 2017).
 mat3 MakeBasis(vec3 N)
 {

@@ -68,7 +68,7 @@ vec3 EvaluateEmission(FMaterialData M, FMaterialInputs I)
 
 vec3 EvaluateNormal(FMaterialData M, FMaterialInputs I)
 {
-	vec3 N = normalize(I.Normal);
+	vec3 N = NormalizeOr(I.Normal, vec3(0.0, 0.0, 1.0));
 	if (!HasTexture(M, TEXTURE_NORMAL) || I.Tangent.w == 0.0) { return N; }
 	vec3 T = I.Tangent.xyz - N * dot(I.Tangent.xyz, N);
 	float Length2 = dot(T, T);
@@ -76,7 +76,7 @@ vec3 EvaluateNormal(FMaterialData M, FMaterialInputs I)
 	T *= inversesqrt(Length2);
 	vec3 Map = MaterialTexture(M, I, TEXTURE_NORMAL).xyz * 2.0 - 1.0;
 	Map.xy *= M.NormalScale;
-	return normalize(T * Map.x + cross(N, T) * (I.Tangent.w * Map.y) + N * Map.z);
+	return NormalizeOr(T * Map.x + cross(N, T) * (I.Tangent.w * Map.y) + N * Map.z, N);
 }
 
 // Override: r.RT.Material.Override.
@@ -95,7 +95,7 @@ FMaterialSurface EvaluateMaterial(FMaterialData M, FMaterialInputs I, uint Overr
 		S.Roughness = 1.0;
 		S.F0 = 0.0;
 		S.Specular = 0.0;
-		S.Normal = normalize(I.Normal);
+		S.Normal = NormalizeOr(I.Normal, vec3(0.0, 0.0, 1.0));
 		return S;
 	}
 	S.Metallic = M.Metallic;

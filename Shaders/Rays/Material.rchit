@@ -14,7 +14,7 @@ void main()
 	FSceneConstants Scene = FSceneRef(Pass.Scene).Data;
 	FMaterialData Material = FMaterialRef(Scene.Materials).Data[Section.Material];
 	FMaterialInputs Inputs = FetchInputs(Section, gl_PrimitiveID, Barycentrics);
-	Inputs.Normal = normalize((Inputs.Normal * gl_WorldToObjectEXT).xyz);
+	Inputs.Normal = (Inputs.Normal * gl_WorldToObjectEXT).xyz;
 	Inputs.Tangent.xyz = mat3(gl_ObjectToWorldEXT) * Inputs.Tangent.xyz;
 	FMaterialSurface Surface = EvaluateMaterial(Material, Inputs, Scene.MaterialOverride);
 
