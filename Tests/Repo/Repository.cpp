@@ -16,7 +16,7 @@ namespace
 bool IsForeign(const fs::path& Name)
 {
 	const std::string Text = Name.string();
-	return Text == ".git" || Text == ".cache" || Text.rfind("Build", 0) == 0;
+	return (Text[0] == '.' && Text != ".ci" && fs::is_directory(GetRoot() / Name)) || Text.rfind("Build", 0) == 0;
 }
 
 bool IsText(const fs::path& Path)
