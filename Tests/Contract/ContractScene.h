@@ -28,7 +28,7 @@ protected:
 	void SetUp() override
 	{
 		TBase::SetUp();
-		if (!this->Make.Device)
+		if (this->HasFatalFailure())
 		{
 			return;
 		}

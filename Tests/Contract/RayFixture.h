@@ -12,7 +12,7 @@ protected:
 	void SetUp() override
 	{
 		TSceneFixture::SetUp();
-		if (IsSkipped())
+		if (HasFatalFailure() || IsSkipped())
 		{
 			return;
 		}

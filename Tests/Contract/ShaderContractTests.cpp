@@ -116,6 +116,10 @@ protected:
 	void SetUp() override
 	{
 		FContractShaders::SetUp();
+		if (HasFatalFailure())
+		{
+			return;
+		}
 		Colour =
 		    Make.Texture(8, 8, ERTFormat::RGBA8_UNORM, 1, ERTTextureUsage::RenderTarget | ERTTextureUsage::CopySource);
 		Depth = Make.Texture(8, 8, ERTFormat::D32_FLOAT, 1, ERTTextureUsage::Depth);

@@ -11,6 +11,10 @@ protected:
 	void SetUp() override
 	{
 		FContract::SetUp();
+		if (HasFatalFailure())
+		{
+			return;
+		}
 		if (!Caps().bRayTracingPipeline)
 		{
 			GTEST_SKIP() << "the device has no ray-tracing pipelines";
