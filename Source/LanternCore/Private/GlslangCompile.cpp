@@ -16,6 +16,19 @@ namespace Lantern
 namespace
 {
 
+std::mutex ProcessMutex;
+bool bInitialized = false;
+
+void EnsureInitialized()
+{
+	const std::lock_guard Lock(ProcessMutex);
+	if (!bInitialized)
+	{
+		glslang::InitializeProcess();
+		bInitialized = true;
+	}
+}
+
 EShLanguage ToGlslang(ERTShaderStage Stage)
 {
 	switch (Stage)
@@ -136,12 +149,20 @@ std::string GetGlslangVersion()
 	                   glslang::GetSpirvGeneratorVersion(), spvSoftwareVersionString(), PassesVersion);
 }
 
+// Not at the exit of the process: other threads may still compile then.
+void FinalizeGlslang()
+{
+	const std::lock_guard Lock(ProcessMutex);
+	if (bInitialized)
+	{
+		glslang::FinalizeProcess();
+		bInitialized = false;
+	}
+}
+
 bool CompileWithGlslang(const FGlslangJob& Job, std::vector<uint32_t>& OutWords, std::string& OutLog)
 {
-	// Never finalized: the engine may use glslang as well, and other threads may still compile at exit.
-	static std::once_flag Once;
-	std::call_once(Once, [] { glslang::InitializeProcess(); });
-
+	EnsureInitialized();
 	const EShLanguage Stage = ToGlslang(Job.Stage);
 	const FIncludeTree::FNode& Root = Job.Tree->Nodes[0];
 	const char* Text = Root.File->Text.c_str();

@@ -25,6 +25,9 @@ struct FGlslangJob
 /// Any number may run at once.
 bool CompileWithGlslang(const FGlslangJob& Job, std::vector<uint32_t>& OutWords, std::string& OutLog);
 
+/// Frees what glslang keeps between compilations. None may be running; the next one starts it anew.
+void FinalizeGlslang();
+
 /// Version of compiler and target: part of every cache key.
 std::string GetGlslangVersion();
 

@@ -113,6 +113,8 @@ FRTStatus FShaderCompiler::FImpl::Fail(const FShaderSource& Source, const std::s
 FShaderCompiler::FShaderCompiler(FShaderCompilerDesc Desc) : Impl(std::make_unique<FImpl>(std::move(Desc))) {}
 FShaderCompiler::~FShaderCompiler() = default;
 
+void FShaderCompiler::FreeSharedMemory() { FinalizeGlslang(); }
+
 FRTStatus FShaderCompiler::Compile(const FShaderSource& Source, FShaderBinary& Out)
 {
 	Out = {};

@@ -13,6 +13,7 @@
 #include "LanternCore/Config.h"
 #include "LanternCore/ConsoleVariables.h"
 #include "LanternCore/Log.h"
+#include "LanternCore/ShaderCompiler.h"
 #include "LanternModule/ModuleVulkan.h"
 #include "LanternRHIVulkan/VulkanDevice.h"
 #include "ModuleRenderer.h"
@@ -88,6 +89,7 @@ FModule::~FModule()
 {
 	FConsoleVariables::Get().ResetAll();
 	SetLogSink({});
+	FShaderCompiler::FreeSharedMemory(); // renderers keep the module alive: there is none
 	// Worker threads must have left the library before the engine unloads it. It does not succeed where the engine
 	// uses the same TBB, and then need not: TBB stays loaded.
 	tbb::finalize(Scheduler, std::nothrow);

@@ -56,6 +56,9 @@ public:
 	/// The cache key (hex), e.g. to notice an edited file. Empty if a file is missing.
 	std::string GetKey(const FShaderSource& Source);
 	FShaderCompilerStats GetStats() const;
+	/// Frees what all compilers share (glslang's tables of built-in symbols, 13 MB), for a library that is about to
+	/// be unloaded. No compiler may exist.
+	static void FreeSharedMemory();
 
 private:
 	struct FImpl;
