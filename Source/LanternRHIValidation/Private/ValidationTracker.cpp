@@ -61,8 +61,8 @@ void FValidationTracker::Barrier(const FValidationStep& Step)
 	const bool bOverlaps = (Now.bMerged || Now.bImplicit) && HasAny(Now.Access, Step.Before);
 	if (Now.bKnown && Now.Access != Step.Before && !bDiscard && !bUnused && !bHostVisible && !bOverlaps)
 	{
-		Add(Step.What + ": " + Resource.Label + " is in " + DescribeAccess(Now.Access) + ", the barrier's Before says " +
-		    DescribeAccess(Step.Before));
+		Add(Step.What + ": " + Resource.Label + " is in " + DescribeAccess(Now.Access) +
+		    ", the barrier's Before says " + DescribeAccess(Step.Before));
 	}
 	Now = {Step.After};
 }
