@@ -16,7 +16,7 @@ namespace Lantern
 
 using FVulkanSmokeDevice = FVulkanSmokeTest;
 
-const bool bValidation = !getenv("LANTERN_TEST_NO_VALIDATION");
+const bool bValidation = !getenv("LANTERN_TEST_WITHOUT_LAYERS");
 
 TEST_F(FVulkanSmokeDevice, ListNamesTheDeviceThatIsCreated)
 {
@@ -88,7 +88,7 @@ TEST_F(FVulkanSmokeDevice, ValidationMessagesAreCounted)
 {
 	if (!bValidation)
 	{
-		GTEST_SKIP() << "LANTERN_TEST_NO_VALIDATION is set";
+		GTEST_SKIP() << "LANTERN_TEST_WITHOUT_LAYERS is set";
 	}
 	std::string Messages;
 	FRTVulkanDeviceDesc Desc;
@@ -338,12 +338,70 @@ public:
 		return Desc;
 	}
 
+	/// A command buffer that the engine is recording.
+	VkCommandBuffer BeginCommands()
+	{
+		VkCommandPoolCreateInfo PoolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+		Get<PFN_vkCreateCommandPool>("vkCreateCommandPool")(Device, &PoolInfo, nullptr, &Pool);
+		VkCommandBufferAllocateInfo BufferInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+		BufferInfo.commandPool = Pool;
+		BufferInfo.commandBufferCount = 1;
+		VkCommandBuffer Commands = VK_NULL_HANDLE;
+		Get<PFN_vkAllocateCommandBuffers>("vkAllocateCommandBuffers")(Device, &BufferInfo, &Commands);
+		VkCommandBufferBeginInfo BeginInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+		Get<PFN_vkBeginCommandBuffer>("vkBeginCommandBuffer")(Commands, &BeginInfo);
+		return Commands;
+	}
+
+	void Submit(VkCommandBuffer Commands)
+	{
+		Get<PFN_vkEndCommandBuffer>("vkEndCommandBuffer")(Commands);
+		VkSubmitInfo Info{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+		Info.commandBufferCount = 1;
+		Info.pCommandBuffers = &Commands;
+		Get<PFN_vkQueueSubmit>("vkQueueSubmit")(Queue, 1, &Info, VK_NULL_HANDLE);
+	}
+
 	PFN_vkGetInstanceProcAddr GetProc = nullptr;
+	VkCommandPool Pool = VK_NULL_HANDLE;
 	VkInstance Instance = VK_NULL_HANDLE;
 	VkPhysicalDevice Physical = VK_NULL_HANDLE;
 	VkDevice Device = VK_NULL_HANDLE;
 	VkQueue Queue = VK_NULL_HANDLE;
 };
+
+/// The engine records, Lantern writes into its command buffer, the engine submits.
+void WriteThroughEngine(FEngine& Engine, IRTDevice& Adopted)
+{
+	const VkCommandBuffer Commands = Engine.BeginCommands();
+	TRTRef<IRTBuffer> Words;
+	ASSERT_OK(Adopted.CreateBuffer({256, ERTBufferUsage::Storage, ERTMemory::Readback, "Words"}, Words.ReleaseAndGetAddress()));
+	TRTRef<IRTPipeline> Pipeline;
+	ASSERT_OK(Adopted.CreateComputePipeline({MakeCode(Smoke_Fill_comp, ERTShaderStage::Compute, "Fill"), "Fill"}, Pipeline.ReleaseAndGetAddress()));
+	TRTRef<IRTCommandList> Imported;
+	ASSERT_OK(Adopted.ImportCommandList((uint64_t)Commands, Imported.ReleaseAndGetAddress()));
+	Imported->SetPipeline(Pipeline.Get());
+	const struct
+	{
+		uint64_t Address;
+		uint32_t Count, Factor;
+	} Push = {Words->GetDeviceAddress(), 64, 5};
+	Imported->PushConstants(&Push, sizeof(Push));
+	Imported->Dispatch(1, 1, 1);
+	FRTBarrier Item;
+	Item.Before = ERTAccess::StorageWrite;
+	Item.After = ERTAccess::HostRead;
+	Imported->Barriers(&Item, 1);
+	Engine.Submit(Commands);
+
+	IRTCommandList* Lists[] = {Imported.Get()};
+	FRTFence Fence = 0;
+	ASSERT_OK(Adopted.NotifyExternalSubmit(Lists, 1, &Fence));
+	Pipeline.Reset(); // kept by the submission
+	Imported.Reset();
+	ASSERT_OK(Adopted.WaitFor(Fence, 60'000'000'000ull));
+	EXPECT_EQ(static_cast<uint32_t*>(Words->GetMapped())[63], 63u * 5);
+}
 
 TEST_F(FVulkanSmokeDevice, AnEnginesDeviceIsTakenOverAndLeftAlive)
 {
@@ -374,58 +432,13 @@ TEST_F(FVulkanSmokeDevice, AnEnginesDeviceIsTakenOverAndLeftAlive)
 	EXPECT_EQ(Adopted->GetNative(ERTNative::Device), (uint64_t)Engine.Device);
 	EXPECT_EQ(Adopted->GetCapabilities().Rung, Device->GetCapabilities().Rung);
 
-	// The engine records, Lantern writes into its command buffer, the engine submits.
-	VkCommandPool Pool;
-	VkCommandPoolCreateInfo PoolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
-	Engine.Get<PFN_vkCreateCommandPool>("vkCreateCommandPool")(Engine.Device, &PoolInfo, nullptr, &Pool);
-	VkCommandBufferAllocateInfo BufferInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-	BufferInfo.commandPool = Pool;
-	BufferInfo.commandBufferCount = 1;
-	VkCommandBuffer Commands;
-	Engine.Get<PFN_vkAllocateCommandBuffers>("vkAllocateCommandBuffers")(Engine.Device, &BufferInfo, &Commands);
-	VkCommandBufferBeginInfo BeginInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-	Engine.Get<PFN_vkBeginCommandBuffer>("vkBeginCommandBuffer")(Commands, &BeginInfo);
-
-	TRTRef<IRTBuffer> Words;
-	ASSERT_OK(Adopted->CreateBuffer({256, ERTBufferUsage::Storage, ERTMemory::Readback, "Words"},
-	                                Words.ReleaseAndGetAddress()));
-	TRTRef<IRTPipeline> Pipeline;
-	ASSERT_OK(Adopted->CreateComputePipeline({MakeCode(Smoke_Fill_comp, ERTShaderStage::Compute, "Fill"), "Fill"},
-	                                         Pipeline.ReleaseAndGetAddress()));
-	TRTRef<IRTCommandList> Imported;
-	ASSERT_OK(Adopted->ImportCommandList((uint64_t)Commands, Imported.ReleaseAndGetAddress()));
-	Imported->SetPipeline(Pipeline.Get());
-	const struct
-	{
-		uint64_t Address;
-		uint32_t Count, Factor;
-	} Push = {Words->GetDeviceAddress(), 64, 5};
-	Imported->PushConstants(&Push, sizeof(Push));
-	Imported->Dispatch(1, 1, 1);
-	FRTBarrier Item;
-	Item.Before = ERTAccess::StorageWrite;
-	Item.After = ERTAccess::HostRead;
-	Imported->Barriers(&Item, 1);
-
-	Engine.Get<PFN_vkEndCommandBuffer>("vkEndCommandBuffer")(Commands);
-	VkSubmitInfo Submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
-	Submit.commandBufferCount = 1;
-	Submit.pCommandBuffers = &Commands;
-	Engine.Get<PFN_vkQueueSubmit>("vkQueueSubmit")(Engine.Queue, 1, &Submit, VK_NULL_HANDLE);
-	IRTCommandList* Lists[] = {Imported.Get()};
-	FRTFence Fence = 0;
-	ASSERT_OK(Adopted->NotifyExternalSubmit(Lists, 1, &Fence));
-	Pipeline.Reset(); // kept by the submission
-	Imported.Reset();
-	ASSERT_OK(Adopted->WaitFor(Fence, 60'000'000'000ull));
-	EXPECT_EQ(static_cast<uint32_t*>(Words->GetMapped())[63], 63u * 5);
+	WriteThroughEngine(Engine, *Adopted);
 	EXPECT_EQ(LockDepth, 100) << "the queue's lock was taken and given back once";
-	Words.Reset();
 	EXPECT_EQ(Adopted->GetValidationMessageCount(), 0u);
 	Adopted.Reset();
 
 	// Still the engine's, and alive.
-	Engine.Get<PFN_vkDestroyCommandPool>("vkDestroyCommandPool")(Engine.Device, Pool, nullptr);
+	Engine.Get<PFN_vkDestroyCommandPool>("vkDestroyCommandPool")(Engine.Device, Engine.Pool, nullptr);
 	EXPECT_EQ(Engine.Get<PFN_vkDeviceWaitIdle>("vkDeviceWaitIdle")(Engine.Device), VK_SUCCESS);
 }
 

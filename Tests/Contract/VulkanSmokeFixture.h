@@ -28,7 +28,7 @@ protected:
 	{
 		FRTVulkanDeviceDesc Desc;
 		// A machine with a driver alone, without the layers, can still run the tests.
-		Desc.bValidation = !getenv("LANTERN_TEST_NO_VALIDATION");
+		Desc.bValidation = !getenv("LANTERN_TEST_WITHOUT_LAYERS");
 		Desc.bSynchronizationValidation = Desc.bValidation;
 		const FRTStatus Status = CreateVulkanDevice(Desc, Device.ReleaseAndGetAddress());
 		if (!Status && getenv("LANTERN_ALLOW_NO_DRIVER"))

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "GBufferTypes.h"
 #include "LanternCore/Log.h"
@@ -28,6 +30,32 @@ FRTStatus CreatePipeline(FRenderer& Renderer, bool bMasked, ERTCull Cull, TRTRef
 	Desc.Cull = Cull;
 	Desc.Name = bMasked ? "GBufferMasked" : "GBuffer";
 	return Renderer.GetDevice().CreateRasterPipeline(Desc, Out.ReleaseAndGetAddress());
+}
+
+struct FSeenDraw
+{
+	const FHostScene::FDraw* Draw = nullptr;
+	double Distance = 0.0; ///< to the nearest it may be
+};
+
+/// What the camera may see; solid before masked, near before far, so that depth tests spare the shading of what is hidden.
+std::vector<FSeenDraw> CollectDraws(const FFrameContext& Context, const FHostScene& Scene)
+{
+	const FViewFrustum Frustum(Context.View);
+	std::vector<FSeenDraw> Seen;
+	for (const FHostScene::FDraw& Draw : Scene.GetDraws())
+	{
+		const glm::dmat4& Transform = Context.Scene.GetObject(Draw.Object).Transform;
+		// No direction is stretched by more than this (the Frobenius norm).
+		const double Scale2 = glm::dot(Transform[0], Transform[0]) + glm::dot(Transform[1], Transform[1]) + glm::dot(Transform[2], Transform[2]);
+		const double Radius = std::sqrt(Scale2) * double(Draw.Radius);
+		const glm::dvec3 Center(Transform * glm::dvec4(Draw.Center, 1.0));
+		if (Frustum.MaySee(Center, Radius)) { Seen.push_back({&Draw, std::max(0.0, glm::distance(Center, Context.View.Position) - Radius)}); }
+	}
+	std::stable_sort(Seen.begin(), Seen.end(), [](const FSeenDraw& A, const FSeenDraw& B) {
+		return A.Draw->bMasked != B.Draw->bMasked ? B.Draw->bMasked : A.Distance < B.Distance;
+	});
+	return Seen;
 }
 } // namespace
 
@@ -73,10 +101,10 @@ FGBuffer FGBufferPass::Add(FFrameContext& Context, const FHostScene& Scene)
 			Pass.Commands().BeginRasterPass(Desc);
 			IRTPipeline* Bound = nullptr;
 			IRTBuffer* BoundIndices = nullptr;
-			for (const FHostScene::FDraw& Draw : Scene.GetDraws())
+			for (const FSeenDraw& Seen : CollectDraws(*Frame, Scene))
 			{
-				const FRTObjectInfo& Object = Frame->Scene.GetObject(Draw.Object);
-				const bool bMirrored = glm::determinant(glm::dmat3(Object.Transform)) < 0.0;
+				const FHostScene::FDraw& Draw = *Seen.Draw;
+				const bool bMirrored = glm::determinant(glm::dmat3(Frame->Scene.GetObject(Draw.Object).Transform)) < 0.0;
 				const ERTCull Cull = Draw.bDoubleSided ? ERTCull::None : bMirrored ? ERTCull::Front : ERTCull::Back;
 				IRTPipeline* const Pipeline = GetPipeline(*Frame, Draw.bMasked && Frame->Facts.bMasked, Cull);
 				if (!Pipeline) { break; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "GBufferTypes.h"
 #include "LanternCore/Log.h"
@@ -117,21 +118,23 @@ FRTStatus FHostScene::CreateObjects()
 		Info.Transform = Pose.World[Node];
 		const FRTGeometryRef Geometry = Info.Geometry;
 		Instance.Object = Scene.AddObject(std::move(Info));
-		AddDraws(Instance.Object, *Geometry);
+		AddDraws(Instance.Object, *Geometry, Description.Meshes[Mesh]);
 		Instances.push_back(std::move(Instance));
 	}
 	return FRTStatus::Success();
 }
 
-void FHostScene::AddDraws(FRTObjectId Object, const FRTGeometry& Geometry)
+void FHostScene::AddDraws(FRTObjectId Object, const FRTGeometry& Geometry, const FHostMesh& Mesh)
 {
+	const glm::vec3 Center = 0.5f * (Mesh.BoundsMin + Mesh.BoundsMax);
+	const float Radius = Geometry.GetInfo().bDynamic ? std::numeric_limits<float>::infinity() : 0.5f * glm::length(Mesh.BoundsMax - Mesh.BoundsMin);
 	const std::vector<uint32_t>& Materials = Scene.GetObject(Object).Materials;
 	for (uint32_t Section = 0; Section < Geometry.GetSectionCount(); ++Section)
 	{
 		const FRTSectionInfo& Info = Geometry.GetInfo().Sections[Section];
 		const FHostMaterial& Material = Description.Materials[Materials[Section]];
 		Draws.push_back({Object, Section, Geometry.GetInfo().Indices.Get(), Info.FirstIndex, Info.IndexCount, Material.AlphaMode != EAlphaMode::Opaque,
-		                 Material.bDoubleSided});
+		                 Material.bDoubleSided, Center, Radius});
 	}
 }
 

@@ -35,6 +35,27 @@ FViewConstants MakeViewConstants(const FView& View, glm::dvec3 Origin)
 	return C;
 }
 
+FViewFrustum::FViewFrustum(const FView& View) : Position(View.Position), Forward(glm::normalize(glm::dvec3(View.Forward))), Near(View.Near)
+{
+	Right = glm::normalize(glm::cross(Forward, glm::dvec3(View.Up)));
+	Up = glm::cross(Right, Forward);
+	const double HalfY = 0.5 * double(View.FovY);
+	const double HalfX = std::atan(std::tan(HalfY) * double(View.Width) / double(View.Height));
+	CosX = std::cos(HalfX);
+	SinX = std::sin(HalfX);
+	CosY = std::cos(HalfY);
+	SinY = std::sin(HalfY);
+}
+
+bool FViewFrustum::MaySee(glm::dvec3 Center, double Radius) const
+{
+	const glm::dvec3 D = Center - Position;
+	const double Z = glm::dot(D, Forward);
+	if (Z + Radius < Near) { return false; }
+	// Distances from the side planes, all of which pass through the camera.
+	return std::abs(glm::dot(D, Right)) * CosX - Z * SinX <= Radius && std::abs(glm::dot(D, Up)) * CosY - Z * SinY <= Radius;
+}
+
 FView LookAt(glm::dvec3 Position, glm::dvec3 Target, float FovY, uint32_t Width, uint32_t Height)
 {
 	FView View;

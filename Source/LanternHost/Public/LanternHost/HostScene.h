@@ -42,8 +42,12 @@ public:
 		IRTBuffer* Indices = nullptr;
 		uint32_t FirstIndex = 0, IndexCount = 0;
 		bool bMasked = false, bDoubleSided = false;
+		glm::vec3 Center{0}; ///< of the mesh's bounding sphere, object space
+		float Radius = 0.0f; ///< infinite where it deforms
 	};
 	const std::vector<FDraw>& GetDraws() const { return Draws; }
+	/// Of FSceneDescription::Images, on the GPU in ShaderRead.
+	IRTTexture* GetImage(int32_t Image) const { return Images[static_cast<size_t>(Image)].Get(); }
 
 private:
 	struct FMeshBuffers
@@ -66,7 +70,7 @@ private:
 	FRTGeometryInfo MakeGeometryInfo(uint32_t Mesh) const;
 	FRTStatus GetSampler(const FHostTexture& Texture, uint32_t& OutIndex);
 	FRTStatus AddMaterials();
-	void AddDraws(FRTObjectId Object, const FRTGeometry& Geometry);
+	void AddDraws(FRTObjectId Object, const FRTGeometry& Geometry, const FHostMesh& Mesh);
 	void UpdateLights();
 	int32_t FindOwnSun() const; // node, or -1
 

@@ -26,6 +26,19 @@ struct FView
 /// Origin: of the scene, see FRTScene.
 FViewConstants MakeViewConstants(const FView& View, glm::dvec3 Origin);
 
+/// The volume that a view sees, for culling on the CPU.
+class FViewFrustum
+{
+public:
+	explicit FViewFrustum(const FView& View);
+	/// False: nothing of the sphere is seen. True may be wrong near the edges.
+	bool MaySee(glm::dvec3 Center, double Radius) const;
+
+private:
+	glm::dvec3 Position, Right, Up, Forward;
+	double Near, CosX, SinX, CosY, SinY; // of half the angles of view
+};
+
 /// Looks from Position to Target, y up (or z, where that is where it looks).
 FView LookAt(glm::dvec3 Position, glm::dvec3 Target, float FovY, uint32_t Width, uint32_t Height);
 
