@@ -52,7 +52,6 @@ private:
 	const FReferenceSettings& Settings;
 	TRTRef<IRTBuffer> Sum, Staging;
 	uint32_t Rows = 16, Batch = 1;
-	bool bPosed = false;
 	double DispatchSeconds = TargetSeconds; // of the last full-sized one
 };
 
@@ -139,11 +138,7 @@ FRTStatus FReferenceJob::Trace(uint32_t FirstSample, uint32_t SampleCount, uint3
 	FRenderer& Renderer = Engine.GetRenderer();
 	FFrameFeatures Features;
 	Features.bReference = true;
-	if (!bPosed)
-	{
-		Features.Skinning = Engine.GetScene().SetTime(Settings.Time);
-		bPosed = true;
-	}
+	Features.Skinning = Engine.MoveTo(Settings.Time);
 	if (FRTStatus S = Renderer.BeginFrame(Engine.GetScene().GetScene(), Settings.View, Features); !S) { return S; }
 	FFrameContext& Context = Renderer.GetContext();
 	FReferencePassInputs Inputs;

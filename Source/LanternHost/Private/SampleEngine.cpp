@@ -41,7 +41,7 @@ FRTStatus FSampleEngine::Load(FSceneDescription Description, const std::function
 {
 	if (FRTStatus S = Renderer.WaitForAll(); !S) { return S; }
 	Scene.reset();
-	LastTime = -1.0;
+	LastTime.reset();
 	return FHostScene::Create(Renderer, std::move(Description), Progress, Scene);
 }
 
@@ -78,12 +78,19 @@ FRTStatus FSampleEngine::CaptureFrame(const FFrameOutputs& Frame, const FFrameCa
 	return FRTStatus::Success();
 }
 
+std::vector<FSkinningInputs> FSampleEngine::MoveTo(double Time)
+{
+	// What was skinned for a lost frame never ran.
+	if (LastTime == Time && !Renderer.IsFrameLost()) { return {}; }
+	LastTime = Time;
+	return Scene->SetTime(Time);
+}
+
 FRTStatus FSampleEngine::RenderFrame(const FView& InView, double Time, const FFrameCapture& Capture, FCapturedFrame* Out)
 {
 	assert(Scene);
 	FFrameFeatures Features;
-	if (Time != LastTime) { Features.Skinning = Scene->SetTime(Time); }
-	LastTime = Time;
+	Features.Skinning = MoveTo(Time);
 	FView View = InView;
 	View.FrameIndex = FrameIndex++;
 	if (FRTStatus S = Renderer.BeginFrame(Scene->GetScene(), View, Features); !S) { return S; }

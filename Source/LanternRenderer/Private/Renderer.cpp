@@ -82,6 +82,7 @@ FRTStatus FRenderer::PrepareRayPipeline(const FFrameFeatures& Features)
 FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrameFeatures& Features)
 {
 	assert(!Graph && "EndFrame was not called");
+	bFrameLost = true;
 	FConsoleVariables::Get().BeginFrame();
 	if (FRTStatus S = WaitForSlot(); !S) { return S; }
 	Scene.SetAlphaTest(CVarAlphaTest.GetOnRenderThread());
@@ -89,6 +90,7 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	FrameStatus = FRTStatus::Success();
 	Graph = std::make_unique<FFrameGraph>(GraphResources);
 	Context.reset(new FFrameContext{Device, *Graph, Scene, Pipelines, Scene.RefreshFacts()});
+	Context->View = View;
 	Context->Width = View.Width;
 	Context->Height = View.Height;
 	Context->Status = &FrameStatus;
@@ -98,6 +100,7 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	{
 		Graph.reset();
 		Context.reset();
+		Uploads.EndFrame(0); // nothing reads them
 	}
 	return Status;
 }
@@ -116,12 +119,14 @@ FRTStatus FRenderer::AddSceneUpdate(const FView& View, const FFrameFeatures& Fea
 		std::memcpy(ViewSlice.Data, &ViewConstants, sizeof(ViewConstants));
 	};
 	if (FRTStatus S = AddSkinningPass(*Frame, Uploads, Features.Skinning); !S) { return S; }
-	if (Frame->Scene.NeedsUpdate(View.Position, Features.bReference))
+	const bool bQueries = ChooseSunShadowPath(Device.GetCapabilities(), Frame->Facts) == ESunShadowPath::Query;
+	const FSceneUse Use{Features.bRays || bQueries || Frame->RayPipeline, Features.bReference};
+	if (Frame->Scene.NeedsUpdate(View.Position, Use))
 	{
 		Graph->AddPass("SceneUpdate", [&](FPassBuilder& Builder) -> FPassExecute {
 			Builder.NeverCull();
-			return [=, this, bLightSampling = Features.bReference](FPassContext& Pass) {
-				if (FRTStatus S = Frame->Scene.Update(Pass.Commands(), Uploads, View.Position, bLightSampling); !S) { Frame->Fail(S); }
+			return [=, this](FPassContext& Pass) {
+				if (FRTStatus S = Frame->Scene.Update(Pass.Commands(), Uploads, View.Position, Use); !S) { Frame->Fail(S); }
 				WriteConstants();
 			};
 		});
@@ -148,9 +153,10 @@ FFrameContext& FRenderer::GetContext()
 FRTStatus FRenderer::Execute(IRTCommandList& List)
 {
 	assert(Graph);
-	FRTStatus Status = Graph->Execute(List);
+	FRTStatus Status = FrameStatus;
+	if (Status) { Status = Graph->Execute(List); }
 	if (Status) { Status = FrameStatus; }
-	LastDump = Graph->Dump();
+	if (Status) { LastDump = Graph->Dump(); }
 	Graph.reset();
 	return Status;
 }
@@ -159,10 +165,13 @@ FRTStatus FRenderer::EndFrame(FRTFence* OutFence)
 {
 	IRTCommandList& List = *Lists[Slot];
 	FRTStatus Status = List.Begin();
-	if (Status) { Status = Execute(List); }
-	else { Graph.reset(); }
-	const FRTStatus Ended = List.End();
-	if (Status) { Status = Ended; }
+	if (Status)
+	{
+		Status = Execute(List);
+		const FRTStatus Ended = List.End();
+		if (Status) { Status = Ended; }
+	}
+	Graph.reset();
 	FRTFence Fence = 0;
 	if (Status)
 	{
@@ -180,8 +189,13 @@ void FRenderer::FrameSubmitted(FRTFence Fence)
 {
 	Fences[Slot] = Fence;
 	Uploads.EndFrame(Fence);
-	Context->Scene.EndFrame();
+	Context->Scene.EndFrame(Fence != 0);
 	Context.reset();
+	bFrameLost = Fence == 0;
+	if (!bFrameLost) { return; }
+	Bindings.Invalidate();
+	// The pool believes that its textures are in the layouts which the lost list would have left them in.
+	GraphResources.Trim(0);
 }
 
 std::string FRenderer::DumpGraph() const { return LastDump; }

@@ -31,8 +31,9 @@ std::vector<FRTGeometrySection> MakeSections(const FRTGeometryInfo& Info)
 }
 } // namespace
 
-FRTStatus FGeometryBuilder::Create(IRTDevice& Device, FRTGeometry& Geometry)
+FRTStatus FGeometryBuilder::Create(FRTGeometry& Geometry)
 {
+	if (Geometry.Structure) { return FRTStatus::Success(); }
 	const std::vector<FRTGeometrySection> Sections = MakeSections(Geometry.Info);
 	FRTGeometryDesc Desc;
 	Desc.Sections = Sections.data();
@@ -61,6 +62,7 @@ FRTStatus FGeometryBuilder::Build(IRTCommandList& List, const std::vector<FRTGeo
 		for (; Next < Geometries.size(); ++Next)
 		{
 			FRTGeometry& Geometry = *Geometries[Next];
+			if (FRTStatus S = Create(Geometry); !S) { return S; }
 			const bool bUpdate = Geometry.bBuilt && Geometry.Info.bDynamic && Geometry.RefitsSinceBuild + 1 < RebuildInterval;
 			const FRTBuildSizes Sizes = Geometry.Structure->GetBuildSizes();
 			const uint64_t Bytes = bUpdate ? Sizes.UpdateScratchBytes : Sizes.BuildScratchBytes;

@@ -6,10 +6,10 @@ namespace Lantern
 FRTStatus FPipelineCache::GetCompute(const FShaderSource& Source, IRTPipeline*& Out)
 {
 	std::string Key = Source.Path;
-	for (const auto& [Name, Value] : Source.Defines) { Key += '|' + Name + '=' + Value; }
-	auto [It, bNew] = Entries.try_emplace(Key);
-	FEntry& Entry = It->second;
-	if (bNew)
+	for (const auto& [Name, Value] : Source.Defines) { Key += ' ' + Name + (Value == "1" ? "" : '=' + Value); }
+	FEntry& Entry = Entries[Key];
+	// What the code is wrong in stays wrong; a shortage of memory passes.
+	if (!Entry.Pipeline && Entry.Status.Code != ERTResult::CompileFailed)
 	{
 		FShaderBinary Binary;
 		Entry.Status = Compiler.Compile(Source, Binary);
@@ -17,7 +17,7 @@ FRTStatus FPipelineCache::GetCompute(const FShaderSource& Source, IRTPipeline*& 
 		{
 			FRTComputePipelineDesc Desc;
 			Desc.Shader = Binary.GetCode();
-			Desc.Name = Source.Path.c_str();
+			Desc.Name = Key.c_str();
 			Entry.Status = Device.CreateComputePipeline(Desc, Entry.Pipeline.ReleaseAndGetAddress());
 		}
 	}

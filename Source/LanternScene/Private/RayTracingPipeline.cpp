@@ -128,7 +128,7 @@ FRTStatus FShaderBindings::Sync(IRTCommandList& List, const FRTPSO& Pipeline, FS
 	RecordsWritten = 0;
 	std::vector<uint32_t> Changed = Sections.TakeChanged();
 	const uint32_t Needed = std::max(1u, Sections.GetCapacity() * Pipeline.GetRayTypeCount());
-	if (!Table || Bound != Pipeline.GetPipeline() || Table->GetDesc().HitCount < Needed)
+	if (!Table || Bound != Pipeline.GetPipeline() || BoundSections != &Sections || Table->GetDesc().HitCount < Needed)
 	{
 		FRTShaderTableDesc Desc;
 		Desc.Pipeline = Pipeline.GetPipeline();
@@ -139,6 +139,7 @@ FRTStatus FShaderBindings::Sync(IRTCommandList& List, const FRTPSO& Pipeline, FS
 		Desc.Name = "ShaderTable";
 		if (FRTStatus S = Device.CreateShaderTable(Desc, Table.ReleaseAndGetAddress()); !S) { return S; }
 		Bound = Pipeline.GetPipeline();
+		BoundSections = &Sections;
 		for (uint32_t I = 0; I < Pipeline.GetRayGenCount(); ++I) { Table->SetRecord(ERTRecordKind::RayGen, I, Pipeline.RayGenGroup(I), nullptr, 0); }
 		for (uint32_t I = 0; I < Pipeline.GetRayTypeCount(); ++I) { Table->SetRecord(ERTRecordKind::Miss, I, Pipeline.MissGroup(I), nullptr, 0); }
 		for (uint32_t Section = 0; Section < Sections.GetCapacity(); ++Section) { WriteSection(Pipeline, Sections, Section); }

@@ -49,7 +49,13 @@ FRTStatus FRTScene::CreateGeometry(FRTGeometryInfo Info, FRTGeometryRef& Out)
 	assert(Info.Positions && Info.Attributes && Info.Indices && !Info.Sections.empty());
 	auto Geometry = std::make_shared<FRTGeometry>();
 	Geometry->Info = std::move(Info);
-	if (FRTStatus S = FGeometryBuilder::Create(Device, *Geometry); !S) { return S; }
+	uint64_t Triangles = 0;
+	for (const FRTSectionInfo& Section : Geometry->Info.Sections) { Triangles += Section.IndexCount / 3; }
+	if (const uint64_t Most = Device.GetCapabilities().MaxPrimitiveCount; Triangles > Most)
+	{
+		return FRTStatus::Error(ERTResult::Unsupported, "%s has %llu triangles; the device allows %llu", Geometry->Info.Name.c_str(),
+		                        static_cast<unsigned long long>(Triangles), static_cast<unsigned long long>(Most));
+	}
 	PendingBuilds.push_back(Geometry);
 	if (Geometry->Info.bDynamic) { bFactsChanged = true; }
 	Geometries.push_back(Geometry);
@@ -70,8 +76,13 @@ uint32_t FRTScene::AddMaterial(const FMaterialData& Material) { return Materials
 void FRTScene::SetMaterial(uint32_t Index, const FMaterialData& Material)
 {
 	assert(Index < Materials.Num());
+	const FMaterialData& Old = Materials[Index];
+	// An animated colour or roughness rebuilds nothing.
+	const bool bFlags = Old.Flags != Material.Flags, bEmission = Old.EmissiveWeight != Material.EmissiveWeight;
+	bObjectsChanged |= bFlags;
+	bFactsChanged |= bFlags || bEmission;
+	bEmissiveChanged |= bEmission;
 	Materials.Set(Index, Material);
-	bObjectsChanged = bFactsChanged = bEmissiveChanged = true;
 }
 
 FRTObjectId FRTScene::AddObject(FRTObjectInfo Info)
@@ -241,10 +252,11 @@ bool FRTScene::AreTablesDirty() const
 	return Materials.IsDirty() || ObjectData.IsDirty() || LightData.IsDirty() || EmissiveTriangles.IsDirty() || Sections->GetTable().IsDirty();
 }
 
-bool FRTScene::NeedsUpdate(glm::dvec3 Camera, bool bLightSampling) const
+bool FRTScene::NeedsUpdate(glm::dvec3 Camera, const FSceneUse& Use) const
 {
-	return bFactsChanged || bLightsChanged || bObjectsChanged || !Structure || (bLightSampling && bEmissiveChanged) || !PendingBuilds.empty() ||
-	       !Deformed.empty() || AreTablesDirty() || SnapOrigin(Camera) != Origin;
+	const bool bStructures = bObjectsChanged || !Structure || !PendingBuilds.empty() || !Deformed.empty();
+	return bFactsChanged || bLightsChanged || (Use.bRays && bStructures) || (Use.bLightSampling && bEmissiveChanged) || AreTablesDirty() ||
+	       SnapOrigin(Camera) != Origin;
 }
 
 glm::dvec3 FRTScene::SnapOrigin(glm::dvec3 Camera) { return glm::floor(Camera / OriginStep + 0.5) * OriginStep; }
@@ -312,6 +324,7 @@ void FRTScene::UpdateEmissiveTriangles()
 	}
 	EmissivePower = static_cast<float>(Power);
 	for (FEmissiveTriangle& Triangle : Triangles) { Triangle.CumulativePower = static_cast<float>(Triangle.CumulativePower / Power); }
+	if (!Triangles.empty()) { Triangles.back().CumulativePower = 1.0f; } // rounding must leave no gap above it
 	Facts.EmissiveTriangles = static_cast<uint32_t>(Triangles.size());
 	EmissiveTriangles.Assign(std::move(Triangles));
 	bEmissiveChanged = false;
@@ -328,6 +341,7 @@ FRTStatus FRTScene::BuildPending(IRTCommandList& List)
 	}
 	Deformed.clear();
 	if (Work.empty()) { return FRTStatus::Success(); }
+	RecordedBuilds.insert(RecordedBuilds.end(), Work.begin(), Work.end());
 	bObjectsChanged = true;
 	const FRTBarrier Structures{nullptr, nullptr, ERTAccess::TraceRead | ERTAccess::BuildWrite, ERTAccess::BuildWrite};
 	List.Barriers(&Structures, 1);
@@ -393,14 +407,15 @@ FRTStatus FRTScene::FlushTables(IRTCommandList& List, FFrameUploads& Uploads)
 	return FRTStatus::Success();
 }
 
-FRTStatus FRTScene::Update(IRTCommandList& List, FFrameUploads& Uploads, glm::dvec3 Camera, bool bLightSampling)
+FRTStatus FRTScene::Update(IRTCommandList& List, FFrameUploads& Uploads, glm::dvec3 Camera, const FSceneUse& Use)
 {
 	Stats = {};
 	MoveOrigin(Camera);
 	RefreshFacts();
 	if (bLightsChanged) { UpdateLights(); }
-	if (bLightSampling && bEmissiveChanged) { UpdateEmissiveTriangles(); }
+	if (Use.bLightSampling && bEmissiveChanged) { UpdateEmissiveTriangles(); }
 	if (FRTStatus S = FlushTables(List, Uploads); !S) { return S; }
+	if (!Use.bRays) { return FRTStatus::Success(); }
 	if (FRTStatus S = BuildPending(List); !S) { return S; }
 	if (bObjectsChanged || !Structure) { return BuildStructure(List, Uploads); }
 	return FRTStatus::Success();
@@ -429,8 +444,26 @@ FSceneConstants FRTScene::GetConstants() const
 	return C;
 }
 
-void FRTScene::EndFrame()
+void FRTScene::Rerecord()
 {
+	Materials.Invalidate();
+	ObjectData.Invalidate();
+	LightData.Invalidate();
+	EmissiveTriangles.Invalidate();
+	Sections->GetTable().Invalidate();
+	for (FRTGeometryRef& Geometry : RecordedBuilds)
+	{
+		Geometry->bBuilt = false; // a refit may have been lost: only a build is right whatever happened before
+		PendingBuilds.push_back(std::move(Geometry));
+	}
+	RecordedBuilds.clear();
+	bObjectsChanged = true;
+}
+
+void FRTScene::EndFrame(bool bSubmitted)
+{
+	if (!bSubmitted) { return Rerecord(); }
+	RecordedBuilds.clear();
 	RetiredBefore = std::move(Retired);
 	Retired.clear();
 }

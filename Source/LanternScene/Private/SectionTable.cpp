@@ -53,9 +53,15 @@ void FSectionTable::Free(uint32_t First, uint32_t Count)
 void FSectionTable::Write(uint32_t Section, const FSectionData& Data)
 {
 	Table.Set(Section, Data);
-	Changed.push_back(Section);
+	IsChanged.resize(Table.Num(), false);
+	if (!IsChanged[Section]) { Changed.push_back(Section); }
+	IsChanged[Section] = true;
 }
 
-std::vector<uint32_t> FSectionTable::TakeChanged() { return std::exchange(Changed, {}); }
+std::vector<uint32_t> FSectionTable::TakeChanged()
+{
+	IsChanged.assign(IsChanged.size(), false);
+	return std::exchange(Changed, {});
+}
 
 } // namespace Lantern

@@ -32,8 +32,9 @@ FRTStatus FUploader::BeginIfNeeded()
 	{
 		if (FRTStatus S = Device.CreateCommandList("Uploads", List.ReleaseAndGetAddress()); !S) { return S; }
 	}
-	bRecording = true;
-	return List->Begin();
+	const FRTStatus Begun = List->Begin();
+	bRecording = Begun.IsOk();
+	return Begun;
 }
 
 FRTStatus FUploader::Reserve(uint64_t Size, uint64_t& OutOffset)

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "LanternHost/HostScene.h"
 #include "LanternHost/Image.h"
@@ -32,12 +33,16 @@ public:
 	FHostScene& GetScene() { return *Scene; }
 	FRenderer& GetRenderer() { return Renderer; }
 
+	/// Moves the scene to Time (seconds); returns what the next frame must skin: nothing where the scene is there already.
+	std::vector<FSkinningInputs> MoveTo(double Time);
 	/// Renders one frame at Time (seconds) and, where something is captured, waits for it.
 	FRTStatus RenderFrame(const FView& View, double Time, const FFrameCapture& Capture, FCapturedFrame* Out);
 	/// Extra passes of a test or benchmark: called after the plugin's own.
 	std::function<void(FFrameContext&, const FGBuffer&, const FFrameOutputs&)> ExtraPasses;
 	/// How often ExtraPasses etc. find the frame: index of the next one.
 	uint32_t GetFrameIndex() const { return FrameIndex; }
+	/// Random numbers follow the index: two frames of the same index and seed draw the same.
+	void SetFrameIndex(uint32_t Index) { FrameIndex = Index; }
 
 private:
 	struct FReadback
@@ -53,7 +58,7 @@ private:
 	FRenderer Renderer;
 	FGBufferPass GBufferPass;
 	std::unique_ptr<FHostScene> Scene;
-	double LastTime = -1.0;
+	std::optional<double> LastTime;
 	uint32_t FrameIndex = 0;
 };
 

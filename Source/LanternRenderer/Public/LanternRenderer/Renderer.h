@@ -35,6 +35,7 @@ struct FSkinningInputs
 struct FFrameFeatures
 {
 	bool bReference = false; ///< the path tracer instead of real-time passes
+	bool bRays = false;      ///< passes of the host's own trace rays: acceleration structures are kept whatever else does
 	std::vector<FSkinningInputs> Skinning;
 };
 
@@ -49,6 +50,7 @@ struct FFrameContext
 	FPipelineCache& Pipelines;
 	FSceneFacts Facts;
 	FPassConstants Pass; ///< addresses of this frame's constants
+	FView View{};
 	uint32_t Width = 0, Height = 0;
 	/// Null where no pass of this frame traces through a pipeline.
 	const FRTPSO* RayPipeline = nullptr;
@@ -78,7 +80,11 @@ public:
 	/// The same, recorded into the engine's command list, which the engine submits and then reports by
 	/// FrameSubmitted with its fence.
 	FRTStatus EndFrame(IRTCommandList& List);
+	/// 0: it never will be (EndFrame failed, or the engine dropped its list).
 	void FrameSubmitted(FRTFence Fence);
+
+	/// The newest frame failed, and nothing of it reached the GPU.
+	bool IsFrameLost() const { return bFrameLost; }
 
 	FRTStatus WaitForAll();
 	IRTDevice& GetDevice() { return Device; }
@@ -110,6 +116,7 @@ private:
 	std::unique_ptr<FFrameGraph> Graph;
 	std::unique_ptr<FFrameContext> Context;
 	FRTStatus FrameStatus;
+	bool bFrameLost = false;
 	static constexpr int MaxInFlight = 2;
 	TRTRef<IRTCommandList> Lists[MaxInFlight];
 	FRTFence Fences[MaxInFlight] = {};

@@ -47,6 +47,7 @@ class FRTGeometry
 {
 public:
 	const FRTGeometryInfo& GetInfo() const { return Info; }
+	/// Null before the first build.
 	IRTGeometry* GetStructure() const { return Structure.Get(); }
 	bool IsBuilt() const { return bBuilt; }
 	uint32_t GetSectionCount() const { return static_cast<uint32_t>(Info.Sections.size()); }

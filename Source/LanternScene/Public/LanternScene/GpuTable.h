@@ -54,6 +54,8 @@ public:
 		Entries[Index] = Value;
 		Mark(Index);
 	}
+	/// All of it travels again: the last flush was recorded, but never submitted.
+	void Invalidate() { MarkAll(Entries.size()); }
 	void Assign(std::vector<T> Values)
 	{
 		Entries = std::move(Values);

@@ -15,7 +15,8 @@ class FPipelineCache
 {
 public:
 	FPipelineCache(IRTDevice& InDevice, FShaderCompiler& InCompiler) : Device(InDevice), Compiler(InCompiler) {}
-	/// Out lives as long as the cache. A shader that failed once fails again without being compiled again.
+	/// Out lives as long as the cache; its name is the shader's path and the names of its defines. A shader that failed
+	/// to compile fails again without being compiled again.
 	FRTStatus GetCompute(const FShaderSource& Source, IRTPipeline*& Out);
 	size_t GetCount() const { return Entries.size(); }
 

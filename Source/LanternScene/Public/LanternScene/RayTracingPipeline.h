@@ -63,8 +63,11 @@ class FShaderBindings
 {
 public:
 	explicit FShaderBindings(IRTDevice& InDevice) : Device(InDevice) {}
-	/// Writes records of changed sections, or all of them after the pipeline or the size changed, and copies them.
+	/// Writes records of changed sections, or all of them after the pipeline, the scene or the size changed, and copies
+	/// them.
 	FRTStatus Sync(IRTCommandList& List, const FRTPSO& Pipeline, FSectionTable& Sections);
+	/// What the last Sync recorded was never submitted: the next one writes all records again.
+	void Invalidate() { Table.Reset(); }
 	IRTShaderTable* GetTable() const { return Table.Get(); }
 	uint32_t GetRecordsWritten() const { return RecordsWritten; } ///< by the last Sync
 
@@ -73,7 +76,8 @@ private:
 
 	IRTDevice& Device;
 	TRTRef<IRTShaderTable> Table;
-	IRTPipeline* Bound = nullptr; // identity only
+	IRTPipeline* Bound = nullptr;                 // identity only
+	const FSectionTable* BoundSections = nullptr; // the same
 	uint32_t RecordsWritten = 0;
 };
 

@@ -48,6 +48,13 @@ struct FSceneLight
 	glm::dvec3 WorldPosition{0};
 };
 
+/// What the passes of a frame want of the scene beside its tables.
+struct FSceneUse
+{
+	bool bRays = true;           ///< acceleration structures: without rays none is made, built or refitted
+	bool bLightSampling = false; ///< the list of emissive triangles
+};
+
 struct FSceneUpdateStats
 {
 	uint32_t GeometriesBuilt = 0, GeometriesRefitted = 0, InstancesWritten = 0;
@@ -66,7 +73,8 @@ public:
 	FRTScene(const FRTScene&) = delete;
 	FRTScene& operator=(const FRTScene&) = delete;
 
-	/// Queues the build; it runs in the next Update. Errors name the geometry.
+	/// Queues the build: it runs in the next Update of a frame with rays. Until then the geometry costs no memory.
+	/// Unsupported, with its name, if it has more triangles than the device allows.
 	FRTStatus CreateGeometry(FRTGeometryInfo Info, FRTGeometryRef& Out);
 	/// A dynamic geometry's vertices are new in this frame: it is refitted, or rebuilt every
 	/// r.RT.Skinning.RebuildInterval frames.
@@ -98,21 +106,21 @@ public:
 	const FSceneFacts& RefreshFacts();
 	const FSceneFacts& GetFacts() const { return Facts; } ///< as of the last RefreshFacts
 	/// Whether Update would record anything. False in a frame in which nothing changed.
-	bool NeedsUpdate(glm::dvec3 Camera, bool bLightSampling) const;
+	bool NeedsUpdate(glm::dvec3 Camera, const FSceneUse& Use) const;
 	glm::dvec3 GetOrigin() const { return Origin; }
 	/// World to what shaders use.
 	glm::vec3 ToRelative(glm::dvec3 World) const { return glm::vec3(World - Origin); }
 
-	/// Records uploads, builds and refits into List. Camera moves the origin. bLightSampling: keep the list of
-	/// emissive triangles (only some passes want it).
-	FRTStatus Update(IRTCommandList& List, FFrameUploads& Uploads, glm::dvec3 Camera, bool bLightSampling);
+	/// Records uploads, builds and refits into List. Camera moves the origin. On error the list must not be submitted.
+	FRTStatus Update(IRTCommandList& List, FFrameUploads& Uploads, glm::dvec3 Camera, const FSceneUse& Use);
 	/// After Update: the block that passes read.
 	FSceneConstants GetConstants() const;
 	IRTScene* GetStructure() const { return Structure.Get(); }
 	FSectionTable& GetSections() { return *Sections; }
 	const FSceneUpdateStats& GetStats() const { return Stats; }
-	/// The frame was submitted: what was removed before its Update can go.
-	void EndFrame();
+	/// After Update. bSubmitted: what was removed before it can go. Otherwise what it recorded never runs, also if it
+	/// failed half-way: the next Update records all of it again.
+	void EndFrame(bool bSubmitted = true);
 	/// How many hit records each section has: one for each ray type in use. Set by whoever owns the RTPSO.
 	void SetRayTypes(uint32_t Count);
 
@@ -131,6 +139,7 @@ private:
 	bool AreTablesDirty() const;
 	void MoveOrigin(glm::dvec3 Camera);
 	void UpdateFacts();
+	void Rerecord();
 	void UpdateLights();
 	void UpdateEmissiveTriangles();
 	FRTStatus BuildPending(IRTCommandList& List);
@@ -145,6 +154,7 @@ private:
 	std::vector<uint32_t> FreeObjects;
 	std::vector<std::weak_ptr<FRTGeometry>> Geometries;
 	std::vector<FRTGeometryRef> PendingBuilds, Deformed;
+	std::vector<FRTGeometryRef> RecordedBuilds; // since EndFrame
 	std::vector<FRTGeometryRef> Retired, RetiredBefore; // see EndFrame
 	std::unique_ptr<FSectionTable> Sections;
 	TGpuTable<FMaterialData> Materials{"Materials"};

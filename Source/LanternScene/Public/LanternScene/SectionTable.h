@@ -49,11 +49,11 @@ public:
 	}
 
 	const FSectionData& Get(uint32_t Section) const { return Table[Section]; }
-	uint32_t GetCapacity() const { return Table.Num(); } ///< one past the last section in use
+	uint32_t GetCapacity() const { return Table.Num(); } ///< one past the last section that was ever in use
 	uint32_t GetRangeCount() const { return static_cast<uint32_t>(Ranges.size()); }
 	TGpuTable<FSectionData>& GetTable() { return Table; }
 	const TGpuTable<FSectionData>& GetTable() const { return Table; }
-	/// Sections written since the last call, for whoever keeps hit records.
+	/// Sections written since the last call, each once, for whoever keeps hit records.
 	std::vector<uint32_t> TakeChanged();
 
 private:
@@ -70,6 +70,7 @@ private:
 	std::map<uint32_t, uint32_t> FreeRanges; // first → count, never adjacent
 	TGpuTable<FSectionData> Table{"Sections"};
 	std::vector<uint32_t> Changed;
+	std::vector<bool> IsChanged; // per section: nobody may take changes for a long time, and the list must not grow
 };
 
 } // namespace Lantern
