@@ -21,6 +21,12 @@ namespace Lantern
 		ASSERT_TRUE(Status_.IsOk()) << Status_.Message;                                                                \
 	} while (false)
 
+template <size_t Count>
+FRTShaderCode MakeCode(const uint32_t (&Words)[Count], ERTShaderStage Stage, const char* Name)
+{
+	return {Words, Count, Stage, Name};
+}
+
 class FVulkanSmokeTest : public ::testing::Test
 {
 protected:
@@ -62,12 +68,6 @@ protected:
 		TRTRef<IRTBuffer> Buffer = MakeBuffer(Items.size() * sizeof(T), Usage, ERTMemory::Upload, Name);
 		memcpy(Buffer->GetMapped(), Items.data(), Items.size() * sizeof(T));
 		return Buffer;
-	}
-
-	template <size_t Count>
-	static FRTShaderCode MakeCode(const uint32_t (&Words)[Count], ERTShaderStage Stage, const char* Name)
-	{
-		return {Words, Count, Stage, Name};
 	}
 
 	template <size_t Count>
