@@ -8,14 +8,13 @@
 #include "LanternCore/Log.h"
 #include "LanternCore/Tasks.h"
 #include "LanternHost/HostScene.h"
+#include "LanternHost/ToneMap.h"
 
 namespace Lantern
 {
 
 namespace
 {
-float SrgbToLinear(float C) { return C <= 0.04045f ? C / 12.92f : std::pow((C + 0.055f) / 1.055f, 2.4f); }
-
 glm::vec3 MeanColor(const FHostImage& Image)
 {
 	float Decode[256];

@@ -1,4 +1,4 @@
-#include "LanternRHI/RTTypes.h"
+#include "LanternRHI/RTStatus.h"
 
 #include <cstdarg>
 #include <cstdio>

@@ -1,111 +1,12 @@
-// Plain types of the RHI: status, enums, descriptions. C++17, no Vulkan, no standard containers, so that
+// Plain types of the RHI: enums, capabilities, descriptions. C++17, no Vulkan, no standard containers, so that
 // an engine with its own allocator and ABI can include it. A description is read during the call that
 // takes it and never kept: pointers in it need not outlive the call.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
+#include "LanternRHI/RTStatus.h"
 
 namespace Lantern
 {
-
-/// Bumped when any interface or description below changes. A plugin refuses another version with a message.
-inline constexpr uint32_t RHIVersion = 1;
-
-// ---------------------------------------------------------------------------------------------------- status
-
-enum class ERTResult : int32_t
-{
-	Ok = 0,
-	InvalidArgument, ///< found by the validation wrapper; backends assert instead
-	OutOfHostMemory,
-	OutOfDeviceMemory,
-	OutOfDescriptors, ///< the bindless heap is full
-	Unsupported,      ///< the driver or device cannot do this
-	CompileFailed,    ///< the driver refused a shader or a pipeline
-	Timeout,
-	DeviceLost, ///< every later call returns this too; the device must be created anew
-	IoError,
-};
-
-/// Result of a call that depends on the environment. Ok carries no message. Fixed size, so that it crosses
-/// an ABI; a longer message is cut, never lost silently (it then ends in "...").
-struct [[nodiscard]] FRTStatus
-{
-	static constexpr size_t MaxMessage = 508;
-
-	ERTResult Code = ERTResult::Ok;
-	char Message[MaxMessage] = {};
-
-	bool IsOk() const { return Code == ERTResult::Ok; }
-	explicit operator bool() const { return IsOk(); }
-
-	static FRTStatus Success() { return {}; }
-	/// printf-style.
-	static FRTStatus Error(ERTResult InCode, const char* Format, ...)
-#if defined(__GNUC__)
-	    __attribute__((format(printf, 2, 3)))
-#endif
-	    ;
-};
-
-// ---------------------------------------------------------------------------------------------------- reference counting
-
-/// Base of every RHI object. Thread-safe. An object starts with one reference, owned by whoever created it.
-/// A command list keeps a reference to all it recorded until the GPU has finished with it, and the device
-/// destroys native objects only after the last submission that may use them: Release() is always safe.
-class IRTRefCounted
-{
-public:
-	virtual uint32_t AddRef() = 0;
-	virtual uint32_t Release() = 0;
-
-protected:
-	virtual ~IRTRefCounted() = default;
-};
-
-/// Intrusive pointer to an RHI object.
-template <class T>
-class TRTRef
-{
-public:
-	TRTRef() = default;
-	TRTRef(std::nullptr_t) {}
-	/// Shares InObject: takes a reference of its own.
-	explicit TRTRef(T* InObject) : Object(InObject)
-	{
-		if (Object) { Object->AddRef(); }
-	}
-	TRTRef(const TRTRef& Other) : TRTRef(Other.Object) {}
-	TRTRef(TRTRef&& Other) noexcept : Object(Other.Object) { Other.Object = nullptr; }
-	~TRTRef() { Reset(); }
-	TRTRef& operator=(TRTRef Other) noexcept
-	{
-		T* Mine = Object;
-		Object = Other.Object;
-		Other.Object = Mine;
-		return *this;
-	}
-	void Reset()
-	{
-		if (Object) { Object->Release(); }
-		Object = nullptr;
-	}
-	/// For creation calls: releases what is held and returns the address that receives the new object.
-	T** ReleaseAndGetAddress()
-	{
-		Reset();
-		return &Object;
-	}
-	T* Get() const { return Object; }
-	T* operator->() const { return Object; }
-	T& operator*() const { return *Object; }
-	explicit operator bool() const { return Object != nullptr; }
-	friend bool operator==(const TRTRef& A, const TRTRef& B) { return A.Object == B.Object; }
-
-private:
-	T* Object = nullptr;
-};
 
 // ---------------------------------------------------------------------------------------------------- enums
 
