@@ -1,6 +1,7 @@
 // The command line of Lantern.
 #include <CLI/CLI.hpp>
 
+#include "BenchCommand.h"
 #include "CompareCommand.h"
 #include "InfoCommand.h"
 #include "LanternCore/Log.h"
@@ -54,6 +55,13 @@ int Run(int ArgumentCount, char** Arguments)
 	CvarsApp->add_flag("--markdown", bMarkdown, "As Docs/ConsoleVariables.md");
 	CvarsApp->add_option("--json", CvarsJson, "Write them to this file");
 	CvarsApp->final_callback([&] { Status = RunCvars(bMarkdown, CvarsJson); });
+
+	FBenchRaysOptions BenchRays;
+	CLI::App* const BenchApp = App.add_subcommand("bench", "Benchmarks");
+	BenchApp->require_subcommand(1);
+	CLI::App* const BenchRaysApp = BenchApp->add_subcommand("rays", "The sun shadow pass against a minimal hand-written Vulkan dispatch");
+	BenchRays.AddTo(*BenchRaysApp);
+	BenchRaysApp->final_callback([&] { Status = RunBenchRays(BenchRays); });
 
 	try
 	{

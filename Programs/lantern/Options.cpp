@@ -28,22 +28,6 @@ std::vector<double> RequireNumbers(const char* Option, const std::string& Text, 
 	return *Numbers;
 }
 
-void ParseSize(const std::string& Text, FPictureOptions& Options)
-{
-	const size_t X = Text.find('x');
-	const auto Width = ParseNumber(std::string_view(Text).substr(0, X));
-	const auto Height = X == std::string::npos ? std::nullopt : ParseNumber(std::string_view(Text).substr(X + 1));
-	const auto IsWhole = [](double Value) { return Value >= 0 && Value == std::floor(Value) && Value < 1e9; };
-	if (!Width || !Height || !IsWhole(*Width) || !IsWhole(*Height)) { throw CLI::ValidationError("--size", "'" + Text + "' is not of the form WIDTHxHEIGHT"); }
-	if (!IsImageSizeValid(static_cast<uint64_t>(*Width), static_cast<uint64_t>(*Height)))
-	{
-		throw CLI::ValidationError("--size", "'" + Text + "' is out of range: 1 to " + std::to_string(MaxImageDimension) + " pixels each way, " +
-		                                         std::to_string(MaxImagePixels) + " in all");
-	}
-	Options.Width = static_cast<uint32_t>(*Width);
-	Options.Height = static_cast<uint32_t>(*Height);
-}
-
 void ParseCamera(const std::string& Text, FPictureOptions& Options)
 {
 	const auto N = RequireNumbers("--camera", Text, 7, "px,py,pz,tx,ty,tz,fovY");
@@ -70,6 +54,22 @@ void ParseSky(const std::string& Text, FPictureOptions& Options)
 	Options.Sky = glm::vec3(N[0], N[1], N[2]);
 }
 } // namespace
+
+void ParseSize(const std::string& Text, FPictureOptions& Options)
+{
+	const size_t X = Text.find('x');
+	const auto Width = ParseNumber(std::string_view(Text).substr(0, X));
+	const auto Height = X == std::string::npos ? std::nullopt : ParseNumber(std::string_view(Text).substr(X + 1));
+	const auto IsWhole = [](double Value) { return Value >= 0 && Value == std::floor(Value) && Value < 1e9; };
+	if (!Width || !Height || !IsWhole(*Width) || !IsWhole(*Height)) { throw CLI::ValidationError("--size", "'" + Text + "' is not of the form WIDTHxHEIGHT"); }
+	if (!IsImageSizeValid(static_cast<uint64_t>(*Width), static_cast<uint64_t>(*Height)))
+	{
+		throw CLI::ValidationError("--size", "'" + Text + "' is out of range: 1 to " + std::to_string(MaxImageDimension) + " pixels each way, " +
+		                                         std::to_string(MaxImagePixels) + " in all");
+	}
+	Options.Width = static_cast<uint32_t>(*Width);
+	Options.Height = static_cast<uint32_t>(*Height);
+}
 
 std::optional<std::vector<double>> ParseNumbers(const std::string& Text, size_t Count)
 {

@@ -59,6 +59,8 @@ struct FPictureOptions
 	void AddTo(CLI::App& App);
 };
 
+/// --size: WIDTHxHEIGHT. Throws CLI::ValidationError.
+void ParseSize(const std::string& Text, FPictureOptions& Options);
 /// Parses COUNT comma-separated finite numbers.
 std::optional<std::vector<double>> ParseNumbers(const std::string& Text, size_t Count);
 

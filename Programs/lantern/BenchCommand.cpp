@@ -1,0 +1,226 @@
+#include "BenchCommand.h"
+
+#include <cstdlib>
+#include <filesystem>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "BenchRays.h"
+#include "LanternCore/Log.h"
+#include "LanternHost/AtomicFile.h"
+#include "Progress.h"
+#include "Session.h"
+
+namespace Lantern
+{
+
+namespace
+{
+namespace fs = std::filesystem;
+
+/// Pixels on which plugin and raw dispatch may differ: they round positions differently, so that a ray that only just
+/// touches an edge may fall either way.
+constexpr double LeastAgreement = 0.999;
+
+struct FRayScene
+{
+	std::string Name, File;
+	std::optional<FCameraOption> Camera;
+	bool bNoSceneLights = false;
+};
+
+/// What is known of scenes by the name of their folder. The views are those of the project's other figures.
+FRayScene MakeScene(const std::string& File)
+{
+	FRayScene Scene;
+	Scene.File = File;
+	const fs::path Path(File);
+	Scene.Name = Path.has_parent_path() ? Path.parent_path().filename().string() : Path.stem().string();
+	if (Scene.Name == "sponza")
+	{
+		Scene.Camera = FCameraOption{{-9, 1.6, -0.4}, {10, 3.2, -1.2}, 60};
+	}
+	else if (Scene.Name == "black_forest")
+	{
+		Scene.Camera = FCameraOption{{541, 20, -200}, {300, 0, -300}, 60};
+		Scene.bNoSceneLights = true;
+	}
+	return Scene;
+}
+
+std::vector<FRayScene> ChooseScenes(const FBenchRaysOptions& Options)
+{
+	std::vector<FRayScene> Scenes = {MakeScene("courtyard")};
+	for (const std::string& File : Options.Scenes)
+	{
+		Scenes.push_back(MakeScene(File));
+	}
+	if (!Options.Scenes.empty())
+	{
+		return Scenes;
+	}
+	const char* const Folder = std::getenv("LANTERN_SCENES");
+	const fs::path Root = Folder ? fs::path(Folder) : fs::path(FindPluginFolders().Root) / ".." / "shared" / "scenes";
+	for (const char* File : {"sponza/Sponza.gltf", "black_forest/black_forest.gltf"})
+	{
+		std::error_code Error;
+		if (fs::exists(Root / File, Error))
+		{
+			Scenes.push_back(MakeScene((Root / File).lexically_normal().string()));
+		}
+		else
+		{
+			LogWarning("bench rays: {} is not there (LANTERN_SCENES names its folder); left out",
+			           (Root / File).string());
+		}
+	}
+	return Scenes;
+}
+
+FPictureOptions MakePicture(const FRayScene& Scene, const FBenchRaysOptions& Options, bool bIsCpu)
+{
+	FPictureOptions Picture;
+	Picture.Scene = Scene.File;
+	Picture.Camera = Scene.Camera;
+	Picture.bNoSceneLights = Scene.bNoSceneLights;
+	Picture.Sun = FSunOption{4, {0.25, -1, 0.35}, 0.53};
+	Picture.Width = bIsCpu ? 640 : 1280;
+	Picture.Height = bIsCpu ? 360 : 720;
+	if (!Options.Size.empty())
+	{
+		ParseSize(Options.Size, Picture);
+	}
+	return Picture;
+}
+
+nlohmann::json MakeTimes(const FRayTimes& Times)
+{
+	return {{"median", Times.GetMedian()}, {"min", Times.GetMin()}, {"max", Times.GetMax()}};
+}
+
+nlohmann::json MakeJson(const FRayCase& Case)
+{
+	return {{"name", Case.Name},
+	        {"width", Case.Width},
+	        {"height", Case.Height},
+	        {"raw_mrays", Case.GetRawMrays()},
+	        {"ratio", Case.GetRatio()},
+	        {"plugin_mrays", Case.GetPluginMrays()},
+	        {"rays", Case.Rays},
+	        {"agreement", Case.Agreement},
+	        {"raw_ms", MakeTimes(Case.Raw)},
+	        {"plugin_ms", MakeTimes(Case.Plugin)},
+	        {"repetitions", Case.Raw.Ms.size()}};
+}
+
+void PrintCase(const FRayCase& Case)
+{
+	fmt::print("{:<24} {:>9} {:>10} {:>9.3f} {:>12.3f} {:>7.3f}   {:.2f} [{:.2f}, {:.2f}]   {:.2f} [{:.2f}, {:.2f}]   "
+	           "{:.4f} %\n",
+	           Case.Name, fmt::format("{}x{}", Case.Width, Case.Height), Case.Rays, Case.GetRawMrays(),
+	           Case.GetPluginMrays(), Case.GetRatio(), Case.Raw.GetMedian(), Case.Raw.GetMin(), Case.Raw.GetMax(),
+	           Case.Plugin.GetMedian(), Case.Plugin.GetMin(), Case.Plugin.GetMax(), 100.0 * Case.Agreement);
+	std::fflush(stdout);
+}
+
+int MeasureScene(FSession& Session, const FRayScene& Scene, const FBenchRaysOptions& Options, nlohmann::json& Cases)
+{
+	const FRTCapabilities& Capabilities = Session.GetDevice().GetCapabilities();
+	const FPictureOptions Picture = MakePicture(Scene, Options, Capabilities.bIsCpu);
+	if (const int Status = Session.LoadScene(Picture); Status != ExitDone)
+	{
+		return Status;
+	}
+	const FPluginFolders Folders = FindPluginFolders();
+	FRayBenchSettings Settings;
+	Settings.Repetitions = Options.Repetitions;
+	Settings.ShaderFolders = {Folders.Root + "/Programs/lantern/Shaders", Folders.Shaders};
+	Settings.CacheFolder = Folders.Cache.empty() ? "" : Folders.Cache + "/shaders";
+	FRayBench Bench(Session.GetDevice(), Session.GetEngine(), std::move(Settings));
+	if (FRTStatus S = Bench.CaptureGBuffer(Session.MakeView(Picture)); !S)
+	{
+		return ReportStatus(S, Scene.Name.c_str());
+	}
+	int Exit = ExitDone;
+	for (const bool bPipeline : {true, false})
+	{
+		if (!(bPipeline ? Capabilities.bRayTracingPipeline : Capabilities.bRayQuery))
+		{
+			LogInfo("{}: the device has no {}", Scene.Name, bPipeline ? "ray-tracing pipelines" : "ray queries");
+			continue;
+		}
+		FRayCase Case;
+		Case.Name = Scene.Name + (bPipeline ? "/pipeline" : "/query");
+		if (FRTStatus S = Bench.Measure(bPipeline, Case); !S)
+		{
+			return ReportStatus(S, Case.Name.c_str());
+		}
+		PrintCase(Case);
+		Cases.push_back(MakeJson(Case));
+		if (Case.Agreement < LeastAgreement)
+		{
+			LogError(
+			    "{}: plugin and raw dispatch agree on {:.3f} % of the pixels only: they do not trace the same rays",
+			    Case.Name, 100.0 * Case.Agreement);
+			Exit = ExitCheckFailed;
+		}
+	}
+	return Exit;
+}
+} // namespace
+
+void FBenchRaysOptions::AddTo(CLI::App& App)
+{
+	Device.AddTo(App);
+	App.add_option("SCENE", Scenes,
+	               "Scenes beside the courtyard; without any, Sponza and black_forest of LANTERN_SCENES");
+	App.add_option("--size", Size, "WIDTHxHEIGHT, pixels (1280x720; on a CPU device 640x360)")
+	    ->check(
+	        [](const std::string& Text)
+	        {
+		        FPictureOptions Unused;
+		        ParseSize(Text, Unused);
+		        return std::string();
+	        });
+	App.add_option("--repetitions", Repetitions, "Measured dispatches of each")->check(CLI::Range(1, 100'000));
+	App.add_option("--json", Json, "Write the figures to this file");
+}
+
+int RunBenchRays(const FBenchRaysOptions& Options)
+{
+	if (!Options.Json.empty())
+	{
+		if (FRTStatus S = CheckOutputPath(Options.Json); !S)
+		{
+			return ReportStatus(S, "--json"), ExitBadInput;
+		}
+	}
+	FSession Session;
+	if (const int Status = Session.OpenDevice(Options.Device); Status != ExitDone)
+	{
+		return Session.Close(Status);
+	}
+	const FRTCapabilities& Capabilities = Session.GetDevice().GetCapabilities();
+	nlohmann::json Json = {
+	    {"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"cases", nlohmann::json::array()}};
+	fmt::print("{:<24} {:>9} {:>10} {:>9} {:>12} {:>7}   {}\n", "case", "size", "rays", "raw Mr/s", "plugin Mr/s",
+	           "ratio", "raw ms [min, max]   plugin ms [min, max]   same pixels");
+	int Exit = ExitDone;
+	for (const FRayScene& Scene : ChooseScenes(Options))
+	{
+		const int Status = MeasureScene(Session, Scene, Options, Json["cases"]);
+		Exit = Exit == ExitDone ? Status : Exit;
+	}
+	if (!Options.Json.empty() && (Exit == ExitDone || Exit == ExitCheckFailed))
+	{
+		if (FRTStatus S = WriteFileAtomically(Options.Json, Json.dump(2) + "\n"); !S)
+		{
+			return Session.Close((ReportStatus(S, "--json"), ExitBadInput));
+		}
+	}
+	return Session.Close(Exit);
+}
+
+} // namespace Lantern

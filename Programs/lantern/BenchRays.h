@@ -1,0 +1,64 @@
+// One scene of `lantern bench rays`: the plugin's sun shadow pass and the raw dispatch, in turn, over one G-buffer.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "LanternHost/SampleEngine.h"
+
+namespace Lantern
+{
+
+/// Times of one contestant, milliseconds.
+struct FRayTimes
+{
+	std::vector<double> Ms;
+	double GetMedian() const;
+	double GetMin() const;
+	double GetMax() const;
+};
+
+struct FRayCase
+{
+	std::string Name;
+	uint32_t Width = 0, Height = 0;
+	uint64_t Rays = 0;    ///< pixels that trace one: no sky, no surface turned away from the sun
+	double Agreement = 0; ///< fraction of pixels on which both say the same
+	FRayTimes Raw, Plugin;
+	double GetRawMrays() const; ///< by the median time
+	double GetPluginMrays() const;
+	double GetRatio() const { return GetPluginMrays() / GetRawMrays(); }
+};
+
+struct FRayBenchSettings
+{
+	uint32_t WarmUp = 3, Repetitions = 21;
+	std::vector<std::string> ShaderFolders; ///< of the raw dispatch
+	std::string CacheFolder;                ///< of its compiled shaders; empty: none
+};
+
+class FRayBench
+{
+public:
+	FRayBench(IRTDevice& InDevice, FSampleEngine& InEngine, FRayBenchSettings InSettings);
+
+	/// Draws the G-buffer of View once and keeps it. The engine's scene must stay as it is until the last Measure.
+	FRTStatus CaptureGBuffer(const FView& InView);
+	/// One ray per pixel, through ray-tracing pipelines or ray queries. Needs a device that has them.
+	FRTStatus Measure(bool bPipeline, FRayCase& Out);
+
+private:
+	FRTStatus CreateTargets();
+	void AddCopies(FFrameContext& Context, const FGBuffer& GBuffer);
+	FRTStatus RunPlugin(double& OutMs);
+
+	IRTDevice& Device;
+	FSampleEngine& Engine;
+	FRayBenchSettings Settings;
+	FShaderCompiler Compiler;
+	FView View;
+	TRTRef<IRTTexture> Depth, Normals;
+	TRTRef<IRTBuffer> DepthBytes, NormalBytes, Visibility;
+};
+
+} // namespace Lantern
