@@ -90,8 +90,8 @@ int32_t AddPlaster(FSceneBuilder& Builder)
 	D.Metres = 3.0f;
 	D.Evaluate = [](const glm::vec2& P)
 	{
-		const float Trowel = SampleFractal(P, 6, 6, 0.55f, 41), Stain = SampleFractal(P, 2, 5, 0.6f, 42);
-		const float Worn = SmoothStep(0.60f, 0.68f, SampleFractal(P, 3, 6, 0.55f, 43));
+		const float Trowel = SampleFractal(P, 6, 5, 0.55f, 41), Stain = SampleFractal(P, 2, 4, 0.6f, 42);
+		const float Worn = SmoothStep(0.60f, 0.68f, SampleFractal(P, 3, 5, 0.55f, 43));
 		FSurfacePoint S;
 		S.Albedo = glm::mix(glm::vec3(0.74f, 0.43f, 0.20f), glm::vec3(0.80f, 0.55f, 0.30f), Stain);
 		S.Albedo *= 0.82f + 0.3f * Trowel;
@@ -108,7 +108,6 @@ int32_t AddPaving(FSceneBuilder& Builder)
 	FSurfaceDescription D;
 	D.Name = "paving";
 	D.Metres = 3.2f;
-	D.Size = 1024;
 	D.Evaluate = [](const glm::vec2& P)
 	{
 		const FMasonry Piece = FindPiece(P, 4, 4, 3.2f, false, 51);

@@ -24,26 +24,49 @@ float Smooth(float T)
 
 uint8_t ToUnorm(float V)
 {
-	return uint8_t(std::lround(glm::clamp(V, 0.0f, 1.0f) * 255.0f));
+	return uint8_t(glm::clamp(V, 0.0f, 1.0f) * 255.0f + 0.5f);
 }
 
+/// By table: a power per texel and channel would take longer than all the noise.
 uint8_t ToSrgb(float V)
 {
-	const float C = glm::clamp(V, 0.0f, 1.0f);
-	return ToUnorm(C <= 0.0031308f ? C * 12.92f : 1.055f * std::pow(C, 1.0f / 2.4f) - 0.055f);
+	constexpr int Size = 4096;
+	static const std::vector<uint8_t> Table = []
+	{
+		std::vector<uint8_t> Values(Size + 1);
+		for (int I = 0; I <= Size; ++I)
+		{
+			const float C = float(I) / Size;
+			Values[size_t(I)] = ToUnorm(C <= 0.0031308f ? C * 12.92f : 1.055f * std::pow(C, 1.0f / 2.4f) - 0.055f);
+		}
+		return Values;
+	}();
+	return Table[size_t(glm::clamp(V, 0.0f, 1.0f) * float(Size) + 0.5f)];
+}
+
+/// One coordinate of a lattice: the cell, the next one, and how far between them.
+struct FLatticeStep
+{
+	uint32_t Cell, Next;
+	float Fraction;
+};
+
+FLatticeStep FindCell(float X, uint32_t Cells)
+{
+	const int Truncated = int(X);
+	const int Floor = Truncated - (X < float(Truncated) ? 1 : 0);
+	const uint32_t Cell = uint32_t(Floor) < Cells ? uint32_t(Floor) : Wrap(Floor, Cells);
+	return {Cell, Cell + 1 == Cells ? 0 : Cell + 1, Smooth(X - float(Floor))};
 }
 
 } // namespace
 
 float SampleNoise(const glm::vec2& P, uint32_t Cells, uint32_t Seed)
 {
-	const glm::vec2 Scaled = P * float(Cells);
-	const glm::vec2 Floor = glm::floor(Scaled);
-	const float U = Smooth(Scaled.x - Floor.x), V = Smooth(Scaled.y - Floor.y);
-	const uint32_t X0 = Wrap(int(Floor.x), Cells), X1 = Wrap(int(Floor.x) + 1, Cells);
-	const uint32_t Y0 = Wrap(int(Floor.y), Cells), Y1 = Wrap(int(Floor.y) + 1, Cells);
-	const auto At = [&](uint32_t X, uint32_t Y) { return HashToFloat(HashLattice(X, Y, Seed)); };
-	return glm::mix(glm::mix(At(X0, Y0), At(X1, Y0), U), glm::mix(At(X0, Y1), At(X1, Y1), U), V);
+	const FLatticeStep X = FindCell(P.x * float(Cells), Cells), Y = FindCell(P.y * float(Cells), Cells);
+	const auto At = [&](uint32_t CellX, uint32_t CellY) { return HashToFloat(HashLattice(CellX, CellY, Seed)); };
+	return glm::mix(glm::mix(At(X.Cell, Y.Cell), At(X.Next, Y.Cell), X.Fraction),
+	                glm::mix(At(X.Cell, Y.Next), At(X.Next, Y.Next), X.Fraction), Y.Fraction);
 }
 
 float SampleFractal(const glm::vec2& P, uint32_t Cells, int Octaves, float Gain, uint32_t Seed)
@@ -56,31 +79,6 @@ float SampleFractal(const glm::vec2& P, uint32_t Cells, int Octaves, float Gain,
 		Weight *= Gain;
 	}
 	return Sum / Total;
-}
-
-FCellNoise SampleCells(const glm::vec2& P, uint32_t Cells, uint32_t Seed)
-{
-	const glm::vec2 Scaled = P * float(Cells);
-	const glm::ivec2 Floor(glm::floor(Scaled));
-	FCellNoise Result{1e9f, 1e9f, 0};
-	for (int Y = -1; Y <= 1; ++Y)
-	{
-		for (int X = -1; X <= 1; ++X)
-		{
-			const uint32_t Hash = HashLattice(Wrap(Floor.x + X, Cells), Wrap(Floor.y + Y, Cells), Seed);
-			const glm::vec2 Jitter(HashToFloat(Hash), HashToFloat(HashLattice(Hash, 1, 2)));
-			const float Distance = glm::length(glm::vec2(Floor + glm::ivec2(X, Y)) + Jitter - Scaled);
-			if (Distance < Result.Nearest)
-			{
-				Result = {Distance, Result.Nearest, Hash};
-			}
-			else
-			{
-				Result.Second = std::min(Result.Second, Distance);
-			}
-		}
-	}
-	return Result;
 }
 
 namespace
@@ -118,14 +116,21 @@ std::vector<FSurfacePoint> EvaluateAll(const FSurfaceDescription& Description)
 FHostImage MakeColorMap(const FSurfaceDescription& Description, const std::vector<FSurfacePoint>& Points)
 {
 	FHostImage Image = MakeImage(Description, "colour", true);
-	for (size_t I = 0; I < Points.size(); ++I)
+	ParallelFor(Points.size(), 16384,
+	            [&](size_t Begin, size_t End)
+	            {
+		            for (size_t I = Begin; I < End; ++I)
+		            {
+			            for (int C = 0; C < 3; ++C)
+			            {
+				            Image.Rgba[I * 4 + size_t(C)] = ToSrgb(Points[I].Albedo[C]);
+			            }
+			            Image.Rgba[I * 4 + 3] = ToUnorm(Points[I].Alpha);
+		            }
+	            });
+	for (size_t I = 3; I < Image.Rgba.size() && !Image.bHasAlpha; I += 4)
 	{
-		for (int C = 0; C < 3; ++C)
-		{
-			Image.Rgba[I * 4 + size_t(C)] = ToSrgb(Points[I].Albedo[C]);
-		}
-		Image.Rgba[I * 4 + 3] = ToUnorm(Points[I].Alpha);
-		Image.bHasAlpha = Image.bHasAlpha || Image.Rgba[I * 4 + 3] != 255;
+		Image.bHasAlpha = Image.Rgba[I] != 255;
 	}
 	return Image;
 }
@@ -135,11 +140,11 @@ FHostImage MakeNormalMap(const FSurfaceDescription& Description, const std::vect
 	FHostImage Image = MakeImage(Description, "normal", false);
 	const size_t Size = Description.Size;
 	const float Texel = Description.Metres / float(Size);
-	for (size_t Y = 0; Y < Size; ++Y)
+	const auto At = [&](size_t X, size_t Y) { return Points[(Y % Size) * Size + X % Size].Height; };
+	const auto FillRow = [&](size_t Y)
 	{
 		for (size_t X = 0; X < Size; ++X)
 		{
-			const auto At = [&](size_t PX, size_t PY) { return Points[(PY % Size) * Size + PX % Size].Height; };
 			const float DX = (At(X + 1, Y) - At(X + Size - 1, Y)) / (2 * Texel);
 			const float DY = (At(X, Y + 1) - At(X, Y + Size - 1)) / (2 * Texel);
 			// v runs down and the bitangent against it, up: glTF's convention.
@@ -149,7 +154,15 @@ FHostImage MakeNormalMap(const FSurfaceDescription& Description, const std::vect
 				Image.Rgba[(Y * Size + X) * 4 + size_t(C)] = ToUnorm(N[C] * 0.5f + 0.5f);
 			}
 		}
-	}
+	};
+	ParallelFor(Size, 16,
+	            [&](size_t Begin, size_t End)
+	            {
+		            for (size_t Y = Begin; Y < End; ++Y)
+		            {
+			            FillRow(Y);
+		            }
+	            });
 	return Image;
 }
 

@@ -15,14 +15,6 @@ namespace Lantern::Builtin
 float SampleNoise(const glm::vec2& P, uint32_t Cells, uint32_t Seed);
 /// Octaves of it, each twice as fine and Gain as strong. 0 … 1, mean ½.
 float SampleFractal(const glm::vec2& P, uint32_t Cells, int Octaves, float Gain, uint32_t Seed);
-/// Distances to the nearest and second nearest of jittered points (Worley 1996), in cells, and the nearest one's hash.
-struct FCellNoise
-{
-	float Nearest, Second;
-	uint32_t Hash;
-};
-FCellNoise SampleCells(const glm::vec2& P, uint32_t Cells, uint32_t Seed);
-
 /// What a surface is at one point. Height in metres gives the normal map.
 struct FSurfacePoint
 {
