@@ -258,24 +258,6 @@ TEST(HostileGltf, CyclesAndSecondParents)
 	ExpectError(Maker.Load(), {"scenes[0].nodes[1]", "no root"});
 }
 
-std::string MakeChain(int Count)
-{
-	std::string Text = "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[";
-	for (int I = 0; I + 1 < Count; ++I)
-	{
-		Text += "{\"children\":[" + std::to_string(I + 1) + "]},";
-	}
-	return Text + "{}]}";
-}
-
-TEST(HostileGltf, AMillionNodesDeep)
-{
-	const FLoadResult Result = FGltfMaker::LoadText(MakeChain(1000000));
-	ASSERT_TRUE(Result.Scene) << Result.Error;
-	ASSERT_EQ(Result.Scene->Nodes.size(), 1000000u);
-	EXPECT_EQ(Result.Scene->Nodes.back().Parent, 999998);
-}
-
 TEST(HostileGltf, ScalesThatMultiplyBeyondAllNumbers)
 {
 	FGltfMaker Maker = MakeTriangle();
@@ -349,6 +331,34 @@ TEST(HostileGltf, PathsOutsideTheFolderAreRefused)
 	            {"images[0]", "missing.png", "no such file", "materials[0].normalTexture"});
 	SetImage(Maker, {{"uri", "."}});
 	ExpectError(LoadScene(Folder.Write("inner/scene.gltf", Maker.GetText())), {"images[0]", "directory"});
+}
+
+TEST(HostileGltf, MessagesAreOneBearableLine)
+{
+	FGltfMaker Maker = MakeTriangle();
+	SetImage(Maker, {{"uri", MakeUri({'x'})}, {"name", std::string(100000, 'n') + "\n\x1b[31m"}});
+	ExpectError(Maker.Load(), {"images[0]"});
+	Maker = MakeTriangle();
+	for (int I = 0; I < 1000; ++I)
+	{
+		Maker.Json["meshes"][0]["primitives"].push_back({{"attributes", nlohmann::json::object()}});
+	}
+	const FLoadResult Result = Maker.Load();
+	ASSERT_TRUE(Result.Scene) << Result.Error;
+	EXPECT_EQ(Result.Scene->Warnings.size(), 51u);
+}
+
+TEST(HostileGltf, ManySkinnedNodesOfOneLargeMesh)
+{
+	FGltfMaker Maker = MakeTriangle();
+	auto& Attributes = GetPrimitive(Maker)["attributes"];
+	Attributes["JOINTS_0"] = Maker.AddAccessor(std::vector<uint8_t>(12, 0), "VEC4", 5121, 3);
+	Attributes["WEIGHTS_0"] = Maker.AddAccessor(std::vector<float>(12, 1.0f), "VEC4", 5126, 3);
+	Maker.Json["skins"] = {{{"joints", std::vector<int>(1000, 0)}}};
+	Maker.Json["nodes"] = std::vector<nlohmann::json>(1000, {{"mesh", 0}, {"skin", 0}});
+	FLoadOptions Options;
+	Options.MaxGeometryBytes = 1 << 20;
+	ExpectError(Maker.Load(Options), {"nodes", "limit"});
 }
 
 TEST(HostileGltf, ABufferFileThatEndsEarly)

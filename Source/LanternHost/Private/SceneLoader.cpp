@@ -15,6 +15,20 @@ namespace Lantern
 namespace
 {
 
+/// One line of bearable length, whatever names the file brings along.
+std::string MakeLine(std::string Text)
+{
+	constexpr size_t MaxLength = 600;
+	if (Text.size() > MaxLength)
+	{
+		Text.resize(MaxLength);
+		Text += "...";
+	}
+	std::replace_if(
+	    Text.begin(), Text.end(), [](unsigned char C) { return C < 0x20 || C == 0x7f; }, '?');
+	return Text;
+}
+
 /// Runs Import, which may throw, and turns everything into a result. The boundary that no exception crosses.
 template <class T>
 FLoadResult Guard(const std::string& Name, const T& Import)
@@ -28,6 +42,10 @@ FLoadResult Guard(const std::string& Name, const T& Import)
 		{
 			throw Gltf::FError(Error);
 		}
+		for (std::string& Warning : Result.Scene->Warnings)
+		{
+			Warning = MakeLine(std::move(Warning));
+		}
 	}
 	catch (const std::bad_alloc&)
 	{
@@ -37,7 +55,7 @@ FLoadResult Guard(const std::string& Name, const T& Import)
 	catch (const std::exception& Exception)
 	{
 		Result.Scene.reset();
-		Result.Error = fmt::format("{}: {}", Name, Exception.what());
+		Result.Error = MakeLine(fmt::format("{}: {}", Name, Exception.what()));
 	}
 	return Result;
 }

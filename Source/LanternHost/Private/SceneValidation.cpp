@@ -1,4 +1,5 @@
 // The promises of SceneDescription.h, checked.
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -93,7 +94,22 @@ std::string ValidateMesh(const FSceneDescription& Scene, const FHostMesh& Mesh)
 	return Mesh.Sections.empty() ? "there are no sections" : std::string();
 }
 
-std::string ValidateNode(const FSceneDescription& Scene, const FHostNode& Node, size_t Index)
+/// The highest joint that each mesh refers to.
+std::vector<uint16_t> FindMaxJoints(const FSceneDescription& Scene)
+{
+	std::vector<uint16_t> Result(Scene.Meshes.size(), 0);
+	for (size_t I = 0; I < Scene.Meshes.size(); ++I)
+	{
+		for (const FSkinWeights& Weights : Scene.Meshes[I].Skin)
+		{
+			Result[I] = std::max(Result[I], *std::max_element(Weights.Joints.begin(), Weights.Joints.end()));
+		}
+	}
+	return Result;
+}
+
+std::string ValidateNode(const FSceneDescription& Scene, const std::vector<uint16_t>& MaxJoints, const FHostNode& Node,
+                         size_t Index)
 {
 	if (Node.Parent < -1 || Node.Parent >= int64_t(Index))
 	{
@@ -107,6 +123,10 @@ std::string ValidateNode(const FSceneDescription& Scene, const FHostNode& Node, 
 	if (Node.Skin >= 0 && (Node.Mesh < 0 || Scene.Meshes[size_t(Node.Mesh)].Skin.empty()))
 	{
 		return "has a skin but no skinned mesh";
+	}
+	if (Node.Skin >= 0 && size_t(MaxJoints[size_t(Node.Mesh)]) >= Scene.Skins[size_t(Node.Skin)].Joints.size())
+	{
+		return fmt::format("its mesh refers to joint {}, which its skin does not have", MaxJoints[size_t(Node.Mesh)]);
 	}
 	return {};
 }
@@ -185,9 +205,10 @@ std::string ValidateScene(const FSceneDescription& Scene)
 			return fmt::format("mesh {} '{}': {}", I, Scene.Meshes[I].Name, Error);
 		}
 	}
+	const std::vector<uint16_t> MaxJoints = FindMaxJoints(Scene);
 	for (size_t I = 0; I < Scene.Nodes.size(); ++I)
 	{
-		if (const std::string Error = ValidateNode(Scene, Scene.Nodes[I], I); !Error.empty())
+		if (const std::string Error = ValidateNode(Scene, MaxJoints, Scene.Nodes[I], I); !Error.empty())
 		{
 			return fmt::format("node {} '{}': {}", I, Scene.Nodes[I].Name, Error);
 		}

@@ -370,6 +370,7 @@ void ReadAccessors(FDocument& Document)
 		const uint32_t ElementBytes = GetComponentBytes(Type) * Accessor.Components;
 		Accessor.Elements = MakeElements(Document, Json, Type, ElementBytes, Accessor.Count, true);
 		ReadSparse(Document, Json, ElementBytes, Accessor);
+		Document.ChargeGeometry(Json, Accessor.SparseCount, 4);
 		CheckSparse(Json, Accessor);
 		Document.Accessors.push_back(Accessor);
 	}

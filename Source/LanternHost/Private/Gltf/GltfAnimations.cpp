@@ -63,6 +63,7 @@ FHostSkin ReadSkin(FDocument& Document, const FJson& Json)
 void CheckJoints(FDocument& Document)
 {
 	FSceneDescription& Scene = Document.Scene;
+	const FJson Nodes = Document.Root.Member("nodes");
 	std::vector<int32_t> MaxJoint(Scene.Meshes.size(), -1);
 	for (size_t M = 0; M < Scene.Meshes.size(); ++M)
 	{
@@ -84,11 +85,17 @@ void CheckJoints(FDocument& Document)
 			Document.Warn("skinned nodes whose mesh has no JOINTS_0 and WEIGHTS_0 are rendered rigid");
 			Node.Skin = -1;
 		}
-		else if (size_t(MaxJoint[size_t(Node.Mesh)]) >= Scene.Skins[size_t(Node.Skin)].Joints.size())
+		else
 		{
-			throw FError(fmt::format("node '{}': its mesh refers to joint {}, but skins[{}] has {}", Node.Name,
-			                         MaxJoint[size_t(Node.Mesh)], Node.Skin,
-			                         Scene.Skins[size_t(Node.Skin)].Joints.size()));
+			const FHostSkin& Skin = Scene.Skins[size_t(Node.Skin)];
+			if (size_t(MaxJoint[size_t(Node.Mesh)]) >= Skin.Joints.size())
+			{
+				throw FError(fmt::format("node '{}': its mesh refers to joint {}, but skins[{}] has {}", Node.Name,
+				                         MaxJoint[size_t(Node.Mesh)], Node.Skin, Skin.Joints.size()));
+			}
+			// Every skinned node needs vertices and joints of its own, whoever bends them.
+			Document.ChargeGeometry(Nodes, Scene.Meshes[size_t(Node.Mesh)].Positions.size(), 24);
+			Document.ChargeGeometry(Nodes, Skin.Joints.size(), sizeof(glm::mat4));
 		}
 	}
 }

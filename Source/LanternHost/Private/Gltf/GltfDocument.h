@@ -72,12 +72,13 @@ struct FDocument
 	/// New index by index in the file; −1: a mesh of which nothing is left.
 	std::vector<int32_t> MeshRemap, NodeRemap;
 
-	/// One warning per text.
+	/// One warning per text, and not more of them than anyone reads.
 	void Warn(const std::string& Text)
 	{
-		if (Warned.insert(Text).second)
+		constexpr size_t MaxWarnings = 50;
+		if (Warned.size() <= MaxWarnings && Warned.insert(Text).second)
 		{
-			Scene.Warnings.push_back(Text);
+			Scene.Warnings.push_back(Warned.size() <= MaxWarnings ? Text : "further warnings are left out");
 		}
 	}
 	void ReportProgress(std::string_view Stage, float Fraction) const

@@ -1,5 +1,4 @@
 // Images: found and measured one after the other, decoded in parallel.
-#include <atomic>
 #include <map>
 #include <mutex>
 
@@ -88,9 +87,10 @@ void Collect(FDocument& Document, std::vector<FEncodedImage>& OutEncoded, std::m
 	{
 		const FDocument::FImageSource& Source = Document.ImageSources[I];
 		const FJson Json = Images.Element(Source.GltfImage);
-		const std::string Uri = Json.GetString("uri", "");
-		const bool bFile = !Uri.empty() && !IsDataUri(Uri);
-		const auto [First, bNew] = FirstByName.try_emplace(bFile ? Uri : fmt::format("[{}]", Source.GltfImage), I);
+		const FJson Uri = Json.Member("uri");
+		const bool bFile = Uri.Exists() && !IsDataUri(Uri.ToString());
+		const std::string Key = bFile ? Uri.ToString() : fmt::format("[{}]", Source.GltfImage);
+		const auto [First, bNew] = FirstByName.try_emplace(Key, I);
 		FEncodedImage Encoded;
 		Encoded.HostImage = bNew ? I : First->second;
 		Encoded.Place =

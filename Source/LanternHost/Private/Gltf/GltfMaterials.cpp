@@ -67,14 +67,15 @@ private:
 			Texture.Fail("has no 'source' in a format that is read (PNG or JPEG)");
 		}
 		const FJson Image = Images.Element(size_t(Source));
-		const std::string Uri = Image.GetString("uri", "");
-		// A data URI is its own key, too long to keep; equal ones are rare.
-		const std::string Key = Uri.empty() || IsDataUri(Uri) ? fmt::format("[{}]", Source) : Uri;
+		const FJson UriJson = Image.Member("uri");
+		const bool bFile = UriJson.Exists() && !IsDataUri(UriJson.ToString());
+		// A data URI would be its own key, too long to keep; equal ones are rare.
+		const std::string Key = bFile ? UriJson.ToString() : fmt::format("[{}]", Source);
 		const auto [Found, bNew] = ImageByUse.try_emplace({Key, bSrgb}, int32_t(Document.Scene.Images.size()));
 		if (bNew)
 		{
 			FHostImage Result;
-			Result.Name = Key != Uri ? Image.GetString("name", "") : Uri;
+			Result.Name = bFile ? Key : Image.GetString("name", "");
 			if (Result.Name.empty())
 			{
 				Result.Name = fmt::format("image {}", Source);
