@@ -153,7 +153,7 @@ public:
 };
 
 /// The load fails, and its message holds every one of the words.
-inline void ExpectError(const FLoadResult& Result, std::initializer_list<const char*> Words)
+inline void ExpectError(const FLoadResult& Result, const std::vector<const char*>& Words)
 {
 	EXPECT_FALSE(Result.Scene.has_value());
 	EXPECT_EQ(Result.Error.find('\n'), std::string::npos) << Result.Error;

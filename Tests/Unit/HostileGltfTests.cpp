@@ -64,75 +64,17 @@ TEST(HostileGltf, DeepNesting)
 	}
 }
 
-TEST(HostileGltf, WrongTypesAreNamedWithTheirPlace)
+/// A valid triangle with one value put in its place, and what the message must say.
+struct FCase
 {
-	struct FCase
-	{
-		const char* Pointer;
-		nlohmann::json Value;
-		std::initializer_list<const char*> Words;
-	};
-	for (const FCase& Case : {
-	         FCase{"/meshes", 7, {"meshes", "array"}},
-	         FCase{"/meshes/0", nullptr, {"meshes[0]", "object"}},
-	         FCase{"/meshes/0/primitives", "x", {"meshes[0].primitives", "array"}},
-	         FCase{"/meshes/0/primitives/0/attributes", 3, {"meshes[0].primitives[0].attributes", "object"}},
-	         FCase{"/meshes/0/primitives/0/attributes/POSITION", "0", {"attributes.POSITION", "integer"}},
-	         FCase{"/meshes/0/primitives/0/attributes/POSITION", 99, {"attributes.POSITION", "no accessor 99"}},
-	         FCase{"/meshes/0/primitives/0/attributes/POSITION", -1, {"attributes.POSITION", "-1"}},
-	         FCase{"/meshes/0/primitives/0/attributes/POSITION", 4294967296u * 1ull, {"no accessor 4294967296"}},
-	         FCase{"/meshes/0/primitives/0/attributes/POSITION", 1, {"1 components", "expected 3"}},
-	         FCase{"/meshes/0/primitives/0/indices", 0, {"indices", "unsigned scalars"}},
-	         FCase{"/meshes/0/primitives/0/indices", 0.5, {"indices", "0.5"}},
-	         FCase{"/meshes/0/primitives/0/material", 0, {"material", "there are 0"}},
-	         FCase{"/meshes/0/primitives/0/mode", 7, {"mode", "7"}},
-	         FCase{"/nodes/0/mesh", true, {"nodes[0].mesh", "boolean"}},
-	         FCase{"/nodes/0/mesh", 1, {"nodes[0].mesh", "no mesh 1"}},
-	         FCase{"/nodes/0/matrix", {1, 2, 3}, {"nodes[0].matrix", "16", "3"}},
-	         FCase{"/nodes/0/translation", {1e300, 0, 0}, {"nodes[0].translation[0]", "float"}},
-	         FCase{"/nodes/0/rotation", {0, 0, 0, 0}, {"nodes[0]", "rotation"}},
-	         FCase{"/nodes/0/scale", {1e30, 1, 1}, {"node 0", "place or size"}},
-	         FCase{"/nodes/0/children", {5}, {"nodes[0].children[0]", "no node 5"}},
-	         FCase{"/nodes/0/children", {0}, {"cycle"}},
-	         FCase{"/nodes/0/skin", 0, {"skin"}},
-	         FCase{"/nodes/0/camera", 0, {"camera"}},
-	         FCase{"/scene", 3, {"scene"}},
-	         FCase{"/scenes", {{{"nodes", {8}}}}, {"scenes[0].nodes[0]", "no node 8"}},
-	         FCase{"/accessors/0/count", -5, {"accessors[0].count", "-5"}},
-	         FCase{"/accessors/0/count", 4, {"accessors[0]", "4 elements of 12 bytes", "do not fit"}},
-	         FCase{"/accessors/0/count", 1ull << 62, {"accessors[0].count"}},
-	         FCase{"/accessors/0/count", UINT64_MAX, {"accessors[0].count"}},
-	         FCase{"/accessors/0/count", 1e300, {"accessors[0].count"}},
-	         FCase{"/accessors/0/byteOffset", UINT64_MAX - 3, {"accessors[0]", "do not fit"}},
-	         FCase{"/accessors/0/byteOffset", 4, {"accessors[0]", "do not fit"}},
-	         FCase{"/accessors/0/componentType", 5124, {"accessors[0].componentType", "5124"}},
-	         FCase{"/accessors/0/type", "VEC5", {"accessors[0].type", "VEC5"}},
-	         FCase{"/accessors/0/bufferView", 40, {"accessors[0].bufferView", "40"}},
-	         FCase{"/accessors/0/sparse", {{"count", 1}}, {"accessors[0].sparse", "missing"}},
-	         FCase{"/bufferViews/0/buffer", 2, {"bufferViews[0].buffer"}},
-	         FCase{"/bufferViews/0/byteLength", 1000, {"bufferViews[0]", "do not fit buffer 0"}},
-	         FCase{"/bufferViews/0/byteOffset", UINT64_MAX, {"bufferViews[0]", "do not fit buffer 0"}},
-	         FCase{"/bufferViews/0/byteStride", 8, {"accessors[0]", "stride 8"}},
-	         FCase{"/bufferViews/0/byteStride", 4096, {"bufferViews[0].byteStride"}},
-	         FCase{"/buffers",
-	               {{{"byteLength", 1000}, {"uri", "data:x;base64,AAAA"}}},
-	               {"buffers[0]", "ends early", "1000"}},
-	         FCase{"/buffers",
-	               {{{"byteLength", UINT64_MAX}, {"uri", "data:x;base64,AAAA"}}},
-	               {"buffers[0]", "ends early"}},
-	         FCase{"/buffers", {{{"byteLength", 3}, {"uri", "data:x;base64,AA*A"}}}, {"buffers[0].uri", "character 2"}},
-	         FCase{"/buffers", {{{"byteLength", 3}, {"uri", "data:x,AAAA"}}}, {"buffers[0].uri", "base64"}},
-	         FCase{"/buffers", {{{"byteLength", 3}}}, {"buffers[0]", "uri"}},
-	         FCase{"/buffers", {{{"byteLength", 3}, {"uri", "file.bin"}}}, {"file.bin", "in memory"}},
-	         FCase{"/extensionsRequired", {"KHR_draco_mesh_compression"}, {"KHR_draco_mesh_compression", "required"}},
-	         FCase{"/materials", {{{"alphaMode", "FOG"}}}, {"materials[0]", "FOG"}},
-	         FCase{"/materials",
-	               {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}},
-	               {"baseColorTexture.index", "no texture 0"}},
-	         FCase{"/materials", {{{"extensions", {{"KHR_materials_ior", {{"ior", 0.5}}}}}}}, {"ior"}},
-	         FCase{"/cameras", {{{"perspective", {{"yfov", 0}, {"znear", 1}}}}}, {"cameras[0].perspective", "yfov"}},
-	         FCase{"/extensions/KHR_lights_punctual/lights", {{{"type", "sun"}}}, {"lights[0]", "sun"}},
-	     })
+	const char* Pointer;
+	nlohmann::json Value;
+	std::vector<const char*> Words;
+};
+
+void ExpectCases(const std::vector<FCase>& Cases)
+{
+	for (const FCase& Case : Cases)
 	{
 		FGltfMaker Maker = MakeTriangle();
 		if (std::string_view(Case.Pointer).starts_with("/buffers"))
@@ -146,6 +88,79 @@ TEST(HostileGltf, WrongTypesAreNamedWithTheirPlace)
 		SCOPED_TRACE(std::string(Case.Pointer) + " = " + Case.Value.dump());
 		ExpectError(Maker.Load(), Case.Words);
 	}
+}
+
+TEST(HostileGltf, WrongMeshesAndNodesAreNamedWithTheirPlace)
+{
+	ExpectCases({
+	    {"/meshes", 7, {"meshes", "array"}},
+	    {"/meshes/0", nullptr, {"meshes[0]", "object"}},
+	    {"/meshes/0/primitives", "x", {"meshes[0].primitives", "array"}},
+	    {"/meshes/0/primitives/0/attributes", 3, {"meshes[0].primitives[0].attributes", "object"}},
+	    {"/meshes/0/primitives/0/attributes/POSITION", "0", {"attributes.POSITION", "integer"}},
+	    {"/meshes/0/primitives/0/attributes/POSITION", 99, {"attributes.POSITION", "no accessor 99"}},
+	    {"/meshes/0/primitives/0/attributes/POSITION", -1, {"attributes.POSITION", "-1"}},
+	    {"/meshes/0/primitives/0/attributes/POSITION", 4294967296ull, {"no accessor 4294967296"}},
+	    {"/meshes/0/primitives/0/attributes/POSITION", 1, {"1 components", "expected 3"}},
+	    {"/meshes/0/primitives/0/indices", 0, {"indices", "unsigned scalars"}},
+	    {"/meshes/0/primitives/0/indices", 0.5, {"indices", "0.5"}},
+	    {"/meshes/0/primitives/0/material", 0, {"material", "there are 0"}},
+	    {"/meshes/0/primitives/0/mode", 7, {"mode", "7"}},
+	    {"/nodes/0/mesh", true, {"nodes[0].mesh", "boolean"}},
+	    {"/nodes/0/mesh", 1, {"nodes[0].mesh", "no mesh 1"}},
+	    {"/nodes/0/matrix", {1, 2, 3}, {"nodes[0].matrix", "16", "3"}},
+	    {"/nodes/0/translation", {1e300, 0, 0}, {"nodes[0].translation[0]", "float"}},
+	    {"/nodes/0/rotation", {0, 0, 0, 0}, {"nodes[0]", "rotation"}},
+	    {"/nodes/0/scale", {1e30, 1, 1}, {"node 0", "place or size"}},
+	    {"/nodes/0/children", {5}, {"nodes[0].children[0]", "no node 5"}},
+	    {"/nodes/0/children", {0}, {"cycle"}},
+	    {"/nodes/0/skin", 0, {"skin"}},
+	    {"/nodes/0/camera", 0, {"camera"}},
+	    {"/scene", 3, {"scene"}},
+	    {"/scenes", {{{"nodes", {8}}}}, {"scenes[0].nodes[0]", "no node 8"}},
+	});
+}
+
+TEST(HostileGltf, WrongBuffersAreNamedWithTheirPlace)
+{
+	ExpectCases({
+	    {"/accessors/0/count", -5, {"accessors[0].count", "-5"}},
+	    {"/accessors/0/count", 4, {"accessors[0]", "4 elements of 12 bytes", "do not fit"}},
+	    {"/accessors/0/count", 1ull << 62, {"accessors[0].count"}},
+	    {"/accessors/0/count", UINT64_MAX, {"accessors[0].count"}},
+	    {"/accessors/0/count", 1e300, {"accessors[0].count"}},
+	    {"/accessors/0/byteOffset", UINT64_MAX - 3, {"accessors[0]", "do not fit"}},
+	    {"/accessors/0/byteOffset", 4, {"accessors[0]", "do not fit"}},
+	    {"/accessors/0/componentType", 5124, {"accessors[0].componentType", "5124"}},
+	    {"/accessors/0/type", "VEC5", {"accessors[0].type", "VEC5"}},
+	    {"/accessors/0/bufferView", 40, {"accessors[0].bufferView", "40"}},
+	    {"/accessors/0/sparse", {{"count", 1}}, {"accessors[0].sparse", "missing"}},
+	    {"/bufferViews/0/buffer", 2, {"bufferViews[0].buffer"}},
+	    {"/bufferViews/0/byteLength", 1000, {"bufferViews[0]", "do not fit buffer 0"}},
+	    {"/bufferViews/0/byteOffset", UINT64_MAX, {"bufferViews[0]", "do not fit buffer 0"}},
+	    {"/bufferViews/0/byteStride", 8, {"accessors[0]", "stride 8"}},
+	    {"/bufferViews/0/byteStride", 4096, {"bufferViews[0].byteStride"}},
+	    {"/buffers", {{{"byteLength", 1000}, {"uri", "data:x;base64,AAAA"}}}, {"buffers[0]", "ends early", "1000"}},
+	    {"/buffers", {{{"byteLength", UINT64_MAX}, {"uri", "data:x;base64,AAAA"}}}, {"buffers[0]", "ends early"}},
+	    {"/buffers", {{{"byteLength", 3}, {"uri", "data:x;base64,AA*A"}}}, {"buffers[0].uri", "character 2"}},
+	    {"/buffers", {{{"byteLength", 3}, {"uri", "data:x,AAAA"}}}, {"buffers[0].uri", "base64"}},
+	    {"/buffers", {{{"byteLength", 3}}}, {"buffers[0]", "uri"}},
+	    {"/buffers", {{{"byteLength", 3}, {"uri", "file.bin"}}}, {"file.bin", "in memory"}},
+	});
+}
+
+TEST(HostileGltf, WrongMaterialsAndExtensionsAreNamedWithTheirPlace)
+{
+	ExpectCases({
+	    {"/extensionsRequired", {"KHR_draco_mesh_compression"}, {"KHR_draco_mesh_compression", "required"}},
+	    {"/materials", {{{"alphaMode", "FOG"}}}, {"materials[0]", "FOG"}},
+	    {"/materials",
+	     {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}},
+	     {"baseColorTexture.index", "no texture 0"}},
+	    {"/materials", {{{"extensions", {{"KHR_materials_ior", {{"ior", 0.5}}}}}}}, {"ior"}},
+	    {"/cameras", {{{"perspective", {{"yfov", 0}, {"znear", 1}}}}}, {"cameras[0].perspective", "yfov"}},
+	    {"/extensions/KHR_lights_punctual/lights", {{{"type", "sun"}}}, {"lights[0]", "sun"}},
+	});
 }
 
 TEST(HostileGltf, ExistingExtrasOfAnyShapeAreIgnored)

@@ -20,7 +20,7 @@ FSceneDescription BuildCourtyard()
 	BuildFurnishings(Yard);
 	Builder.AddCamera({5.9, 1.75, 7.8}, {-1.9, 2.05, -3.0}, 50);
 	// Low in the west, so that the open arcade throws its arches across the floor.
-	Builder.SetLight({0.70f, -0.50f, -0.30f}, 4.2f, {0.17f, 0.29f, 0.50f});
+	Builder.SetLight({0.70f, -0.50f, -0.30f}, 4.2f, {0.21f, 0.30f, 0.44f});
 	return std::move(Builder.Scene);
 }
 

@@ -40,6 +40,7 @@ void AddWater(const FCourtyard& Yard)
 	Mesh.BeginSection(Yard.M.Water);
 	Mesh.AddDisk({0, 0.60f, 0}, {0, 1, 0}, 1.67f, 64);
 	Mesh.AddDisk({0, 1.69f, 0}, {0, 1, 0}, 0.86f, 48);
+	Mesh.BeginSection(Yard.M.Spray);
 	for (int Jet = 0; Jet < 8; ++Jet)
 	{
 		// Over the lip of the bowl, in the parabola of a free fall.

@@ -269,6 +269,18 @@ int32_t AddGround(FSceneBuilder& Builder, const char* Name, const glm::vec3& A, 
 	return Builder.AddMaterial(MakeSurfaceMaterial(Builder, D));
 }
 
+/// Falling water, white with the air in it.
+int32_t AddSpray(FSceneBuilder& Builder)
+{
+	FHostMaterial Material;
+	Material.Name = "spray";
+	Material.BaseColor = {0.70f, 0.80f, 0.84f, 1};
+	Material.Metallic = 0.0f;
+	Material.Roughness = 0.12f;
+	Material.Ior = 1.333f;
+	return Builder.AddMaterial(Material);
+}
+
 int32_t AddGlow(FSceneBuilder& Builder)
 {
 	FHostMaterial Material;
@@ -298,6 +310,7 @@ FCourtyardMaterials MakeCourtyardMaterials(FSceneBuilder& Builder)
 	M.Bronze = AddMetal(Builder, "bronze", {0.72f, 0.46f, 0.22f}, {0.18f, 0.38f, 0.30f}, 0.12f, 131);
 	M.Terracotta = AddTerracotta(Builder);
 	M.Water = AddWater(Builder);
+	M.Spray = AddSpray(Builder);
 	M.Glow = AddGlow(Builder);
 	M.Cloth = AddCloth(Builder, "red cloth", {0.55f, 0.04f, 0.04f}, {0.80f, 0.58f, 0.15f});
 	M.ClothBlue = AddCloth(Builder, "blue cloth", {0.05f, 0.12f, 0.42f}, {0.80f, 0.62f, 0.22f});

@@ -10,7 +10,7 @@ struct FCourtyardMaterials
 {
 	int32_t Ashlar, Trim, Plaster, Paving, RoofTile, Earth, Grass;
 	int32_t Wood, DarkWood, Iron, Bronze, Terracotta;
-	int32_t Water, Glow, Cloth, ClothBlue;
+	int32_t Water, Spray, Glow, Cloth, ClothBlue;
 	int32_t Bark, Leaves, Ivy, Cypress, Flower;
 };
 

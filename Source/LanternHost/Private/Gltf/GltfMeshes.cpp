@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "Gltf/GltfDocument.h"
+#include "Gltf/GltfTriangles.h"
 #include "LanternHost/VertexPacking.h"
 #include "TangentSpace.h"
 
@@ -40,7 +41,6 @@ private:
 	const FAccessor* FindAttribute(const FJson& Attributes, const char* Name, size_t VertexCount) const;
 	void ReadVertices(const FJson& Json, const FJson& Attributes, FPrimitive& Out);
 	void ReadSkin(const FJson& Attributes, FPrimitive& Out);
-	bool ReadTriangles(const FJson& Json, uint64_t VertexCount, FPrimitive& Out);
 	void MakeFlat(const FJson& Json, FPrimitive& Primitive) const;
 	void FixNormals(FPrimitive& Primitive);
 	void AddTangents(FPrimitive& Primitive) const;
@@ -209,78 +209,6 @@ void FMeshReader::ReadSkin(const FJson& Attributes, FPrimitive& Out)
 	}
 }
 
-constexpr uint64_t ModeTriangles = 4, ModeStrip = 5, ModeFan = 6;
-
-/// Triangle strips and fans as lists, in the winding of the specification (glTF 2.0 §3.7.2.1).
-std::vector<uint32_t> ToList(uint64_t Mode, std::vector<uint32_t>&& Source)
-{
-	if (Mode == ModeTriangles)
-	{
-		Source.resize(Source.size() / 3 * 3);
-		return std::move(Source);
-	}
-	std::vector<uint32_t> List;
-	for (size_t I = 0; I + 2 < Source.size(); ++I)
-	{
-		if (Mode == ModeStrip)
-		{
-			List.insert(List.end(), {Source[I], Source[I + 1 + I % 2], Source[I + 2 - I % 2]});
-		}
-		else
-		{
-			List.insert(List.end(), {Source[I + 1], Source[I + 2], Source[0]});
-		}
-	}
-	return List;
-}
-
-bool FMeshReader::ReadTriangles(const FJson& Json, uint64_t VertexCount, FPrimitive& Out)
-{
-	const uint64_t Mode = Json.GetUInt("mode", ModeTriangles, ModeFan);
-	if (Mode < ModeTriangles)
-	{
-		Document.Warn("points and lines are not rendered");
-		return false;
-	}
-	std::vector<uint32_t> Source;
-	const int32_t IndexAccessor = Json.GetIndex("indices", Document.Accessors.size(), "accessor");
-	if (IndexAccessor >= 0)
-	{
-		const FAccessor& Accessor = Document.Accessors[size_t(IndexAccessor)];
-		const FJson Place = Json.Member("indices");
-		const EComponent Type = Accessor.Elements.Type;
-		if (Accessor.Components != 1 || (Type != EComponent::U8 && Type != EComponent::U16 && Type != EComponent::U32))
-		{
-			Place.Fail("indices must be unsigned scalars");
-		}
-		Document.ChargeGeometry(Place, Accessor.Count, Mode == ModeTriangles ? 4 : 16);
-		Source = ReadIndices(Accessor);
-		for (size_t I = 0; I < Source.size(); ++I)
-		{
-			if (Source[I] >= VertexCount)
-			{
-				Json.Fail(fmt::format("index {} is {}, but there are {} vertices", I, Source[I], VertexCount));
-			}
-		}
-	}
-	else
-	{
-		Document.ChargeGeometry(Json, VertexCount, Mode == ModeTriangles ? 4 : 16);
-		Source.resize(VertexCount);
-		for (size_t I = 0; I < Source.size(); ++I)
-		{
-			Source[I] = uint32_t(I);
-		}
-	}
-	if (Mode == ModeTriangles && Source.size() % 3 != 0)
-	{
-		Document.Warn(
-		    fmt::format("{}: {} indices are no whole triangles; the rest is left out", Json.GetPath(), Source.size()));
-	}
-	Out.Indices = ToList(Mode, std::move(Source));
-	return true;
-}
-
 template <class T>
 void Gather(std::vector<T>& Values, const std::vector<uint32_t>& Indices)
 {
@@ -428,7 +356,7 @@ void FMeshReader::ReadPrimitive(const FJson& Json)
 		Document.Warn(fmt::format("{}: left out, it has no POSITION", Json.GetPath()));
 		return;
 	}
-	if (!ReadTriangles(Json, Document.Accessors[size_t(Position)].Count, Primitive))
+	if (!ReadTriangles(Document, Json, Document.Accessors[size_t(Position)].Count, Primitive.Indices))
 	{
 		return;
 	}
