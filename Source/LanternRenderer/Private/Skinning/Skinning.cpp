@@ -10,6 +10,9 @@ FRTStatus AddSkinningPass(FFrameContext& Context, FFrameUploads& Uploads, const 
 	IRTPipeline* const Pipeline = RequireCompute(Context, "Skinning/Skin.comp");
 	if (!Pipeline) { return *Context.Status; }
 	std::vector<FSkinConstants> Dispatches;
+	// The buffers are the objects' own, unknown to the graph: last frame's readers, then this frame's. Named one by one,
+	// since a barrier of memory as such would move what others hold in the same state.
+	std::vector<FRTBarrier> Before, After;
 	for (const FSkinningInputs& Item : Items)
 	{
 		const FRTGeometryInfo& Info = Item.Geometry->GetInfo();
@@ -24,22 +27,24 @@ FRTStatus AddSkinningPass(FFrameContext& Context, FFrameUploads& Uploads, const 
 		C.Attributes = Info.Attributes->GetDeviceAddress() + Info.AttributesOffset;
 		C.VertexCount = Info.VertexCount;
 		Dispatches.push_back(C);
+		for (IRTBuffer* const Buffer : {Info.Positions.Get(), Info.Attributes.Get()})
+		{
+			Before.push_back({Buffer, nullptr, UploadedAccess, ERTAccess::StorageWrite});
+			After.push_back({Buffer, nullptr, ERTAccess::StorageWrite, UploadedAccess});
+		}
 		Context.Scene.MarkDeformed(Item.Geometry);
 	}
 	Context.Graph.AddPass("Skinning", [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.NeverCull();
 		return [=](FPassContext& Pass) {
-			// The buffers are the objects' own, unknown to the graph: last frame's readers, then this frame's.
-			const FRTBarrier Before{nullptr, nullptr, UploadedAccess, ERTAccess::StorageWrite};
-			const FRTBarrier After{nullptr, nullptr, ERTAccess::StorageWrite, UploadedAccess};
-			Pass.Commands().Barriers(&Before, 1);
+			Pass.Commands().Barriers(Before.data(), static_cast<uint32_t>(Before.size()));
 			Pass.Commands().SetPipeline(Pipeline);
 			for (const FSkinConstants& C : Dispatches)
 			{
 				Pass.Commands().PushConstants(&C, sizeof(C));
 				Pass.Commands().Dispatch(DivideUp(C.VertexCount, SKIN_GROUP_SIZE), 1, 1);
 			}
-			Pass.Commands().Barriers(&After, 1);
+			Pass.Commands().Barriers(After.data(), static_cast<uint32_t>(After.size()));
 		};
 	});
 	return FRTStatus::Success();
