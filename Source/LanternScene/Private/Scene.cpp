@@ -214,6 +214,12 @@ bool FRTScene::IsMasked(const FObject& Object) const
 	                   [&](uint32_t Material) { return (Materials[Material].Flags & MATERIAL_MASKED) != 0; });
 }
 
+bool FRTScene::IsDoubleSided(const FObject& Object) const
+{
+	return std::all_of(Object.Info.Materials.begin(), Object.Info.Materials.end(),
+	                   [&](uint32_t Material) { return (Materials[Material].Flags & MATERIAL_DOUBLE_SIDED) != 0; });
+}
+
 void FRTScene::UpdateFacts()
 {
 	Facts = {};
@@ -372,7 +378,8 @@ FRTStatus FRTScene::BuildStructure(IRTCommandList& List, FFrameUploads& Uploads)
 		static_assert(sizeof(Instance->Transform) == sizeof(FObjectData::ObjectToWorld));
 		FRTInstance Value;
 		std::memcpy(Value.Transform, ObjectData[Index].ObjectToWorld, sizeof(Value.Transform));
-		const uint8_t Flags = IsMasked(Object) ? 0 : InstanceForceOpaque;
+		// Facing can be switched off for instances, not for sections: mixed objects are culled.
+		const uint8_t Flags = (IsMasked(Object) ? 0 : InstanceForceOpaque) | (IsDoubleSided(Object) ? InstanceCullDisable : 0);
 		Value.CustomIndexAndMask = Index | (uint32_t(Object.Info.Mask) << 24);
 		Value.TableOffsetAndFlags = (Object.FirstSection * RayTypes) | (uint32_t(Flags) << 24);
 		Value.GeometryAddress = Object.Info.Geometry->Structure->GetDeviceAddress();

@@ -17,10 +17,12 @@ TRTConsoleVariable<int32_t> CVarPath("r.RT.Shadow.Path", 0, "0: what the device 
 TRTConsoleVariable<float> CVarMaxDistance("r.RT.Shadow.MaxDistance", 100000.0f, "Length of sun shadow rays, metres.", {0.01, 1e9});
 TRTConsoleVariable<bool> CVarSoft("r.RT.Shadow.Soft", true, "Penumbrae of the sun's disk. Off: hard shadows from its centre.");
 TRTConsoleVariable<bool> CVarCullFront("r.RT.Shadow.CullFrontFaces", false,
-                                       "Sun shadow rays ignore faces turned towards the sun, as shadow maps drawn with front-face culling do.");
+                                       "Sun shadow rays ignore faces turned towards the sun, as shadow maps drawn with front-face culling do. Objects "
+                                       "all of whose materials are double-sided still cast.");
 TRTConsoleVariable<int32_t> CVarMask("r.RT.Shadow.InstanceMask", MaskCastsShadow, "Only objects that share a bit with this mask cast sun shadows.", {0, 255});
 
-constexpr uint32_t RayFlagCullFrontFacing = 0x20; // gl_RayFlagsCullFrontFacingTrianglesEXT
+// A ray towards the sun sees the backs of faces that are turned towards it. gl_RayFlagsCullBackFacingTrianglesEXT
+constexpr uint32_t RayFlagCullTowardsSun = 0x10;
 
 FSunShadowConstants MakeConstants(const FFrameContext& Context, bool bSoft)
 {
@@ -28,7 +30,7 @@ FSunShadowConstants MakeConstants(const FFrameContext& Context, bool bSoft)
 	C.Pass = Context.Pass;
 	C.SamplesPerPixel = bSoft ? static_cast<uint32_t>(CVarSamples.GetOnRenderThread()) : 1u;
 	C.MaxDistance = CVarMaxDistance.GetOnRenderThread();
-	C.RayFlags = CVarCullFront.GetOnRenderThread() ? RayFlagCullFrontFacing : 0u;
+	C.RayFlags = CVarCullFront.GetOnRenderThread() ? RayFlagCullTowardsSun : 0u;
 	C.InstanceMask = static_cast<uint32_t>(CVarMask.GetOnRenderThread());
 	C.bSoft = bSoft ? 1u : 0u;
 	return C;

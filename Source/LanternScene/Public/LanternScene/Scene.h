@@ -147,6 +147,7 @@ private:
 	FRTStatus ReserveStructure(uint32_t InstanceCount);
 	FRTStatus FlushTables(IRTCommandList& List, FFrameUploads& Uploads);
 	bool IsMasked(const FObject& Object) const;
+	bool IsDoubleSided(const FObject& Object) const;
 
 	IRTDevice& Device;
 	glm::dvec3 Origin{0};
