@@ -287,7 +287,7 @@ TEST(HostileGltf, ScalesThatMultiplyBeyondAllNumbers)
 
 void SetImage(FGltfMaker& Maker, const nlohmann::json& Image)
 {
-	Maker.Json["images"] = {Image};
+	Maker.Json["images"] = nlohmann::json::array({Image});
 	Maker.Json["textures"] = {{{"source", 0}}};
 	Maker.Json["materials"] = {{{"normalTexture", {{"index", 0}}}}};
 }
@@ -321,7 +321,7 @@ TEST(HostileGltf, ImagesThatAreNone)
 	Options.MaxImageBytes = 7;
 	SetImage(Maker, {{"uri", MakeUri(GetTinyPng())}});
 	ExpectError(Maker.Load(Options), {"images[0]", "limit of 7 bytes"});
-	Maker.Json["textures"] = {nlohmann::json::object()};
+	Maker.Json["textures"] = nlohmann::json::array({nlohmann::json::object()});
 	ExpectError(Maker.Load(), {"textures[0]", "source"});
 }
 
