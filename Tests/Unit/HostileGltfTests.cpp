@@ -441,8 +441,8 @@ TEST(HostileGltf, AnimationsThatCannotBePlayed)
 	ExpectError(Maker.Load(), {"node 0", "matrix"});
 }
 
-/// Files that once broke the loader, found by the fuzzer; none may do worse than fail.
-TEST(HostileGltf, TheCorpusOfOldFaults)
+/// What the fuzzer starts from, and files made to break the loader; none may do worse than fail.
+TEST(HostileGltf, TheFuzzersCorpus)
 {
 	size_t Count = 0;
 	for (const auto& Entry :
