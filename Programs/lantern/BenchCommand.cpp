@@ -100,28 +100,39 @@ nlohmann::json MakeTimes(const FRayTimes& Times)
 	return {{"median", Times.GetMedian()}, {"min", Times.GetMin()}, {"max", Times.GetMax()}};
 }
 
-nlohmann::json MakeJson(const FRayCase& Case)
+double GetProcessorRatio(const FRayCase& Case)
 {
-	return {{"name", Case.Name},
-	        {"width", Case.Width},
-	        {"height", Case.Height},
-	        {"raw_mrays", Case.GetRawMrays()},
-	        {"ratio", Case.GetRatio()},
-	        {"plugin_mrays", Case.GetPluginMrays()},
-	        {"rays", Case.Rays},
-	        {"agreement", Case.Agreement},
-	        {"raw_ms", MakeTimes(Case.Raw)},
-	        {"plugin_ms", MakeTimes(Case.Plugin)},
-	        {"repetitions", Case.Raw.Ms.size()}};
+	return Case.RawProcessor.GetMedian() / Case.PluginProcessor.GetMedian();
 }
 
-void PrintCase(const FRayCase& Case)
+nlohmann::json MakeJson(const FRayCase& Case, bool bIsCpu)
 {
-	fmt::print("{:<24} {:>9} {:>10} {:>9.3f} {:>12.3f} {:>7.3f}   {:.2f} [{:.2f}, {:.2f}]   {:.2f} [{:.2f}, {:.2f}]   "
-	           "{:.4f} %\n",
-	           Case.Name, fmt::format("{}x{}", Case.Width, Case.Height), Case.Rays, Case.GetRawMrays(),
-	           Case.GetPluginMrays(), Case.GetRatio(), Case.Raw.GetMedian(), Case.Raw.GetMin(), Case.Raw.GetMax(),
-	           Case.Plugin.GetMedian(), Case.Plugin.GetMin(), Case.Plugin.GetMax(), 100.0 * Case.Agreement);
+	nlohmann::json Json = {{"name", Case.Name},
+	                       {"width", Case.Width},
+	                       {"height", Case.Height},
+	                       {"raw_mrays", Case.GetRawMrays()},
+	                       {"plugin_mrays", Case.GetPluginMrays()},
+	                       {"ratio", Case.GetRatio()},
+	                       {"rays", Case.Rays},
+	                       {"agreement", Case.Agreement},
+	                       {"raw_ms", MakeTimes(Case.Raw)},
+	                       {"plugin_ms", MakeTimes(Case.Plugin)},
+	                       {"repetitions", Case.Raw.Ms.size()}};
+	if (bIsCpu)
+	{
+		Json["ratio_processor_time"] = GetProcessorRatio(Case);
+	}
+	return Json;
+}
+
+void PrintCase(const FRayCase& Case, bool bIsCpu)
+{
+	const auto Times = [](const FRayTimes& T)
+	{ return fmt::format("{:.2f} [{:.2f}, {:.2f}]", T.GetMedian(), T.GetMin(), T.GetMax()); };
+	fmt::print("{:<22} {:>9} {:>8} {:>9.3f} {:>12.3f} {:>6.3f}  {:>26} {:>26}  {:.4f} %{}\n", Case.Name,
+	           fmt::format("{}x{}", Case.Width, Case.Height), Case.Rays, Case.GetRawMrays(), Case.GetPluginMrays(),
+	           Case.GetRatio(), Times(Case.Raw), Times(Case.Plugin), 100.0 * Case.Agreement,
+	           bIsCpu ? fmt::format("  {:.3f} by processor time", GetProcessorRatio(Case)) : "");
 	std::fflush(stdout);
 }
 
@@ -157,8 +168,8 @@ int MeasureScene(FSession& Session, const FRayScene& Scene, const FBenchRaysOpti
 		{
 			return ReportStatus(S, Case.Name.c_str());
 		}
-		PrintCase(Case);
-		Cases.push_back(MakeJson(Case));
+		PrintCase(Case, Capabilities.bIsCpu);
+		Cases.push_back(MakeJson(Case, Capabilities.bIsCpu));
 		if (Case.Agreement < LeastAgreement)
 		{
 			LogError(
@@ -205,8 +216,8 @@ int RunBenchRays(const FBenchRaysOptions& Options)
 	const FRTCapabilities& Capabilities = Session.GetDevice().GetCapabilities();
 	nlohmann::json Json = {
 	    {"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"cases", nlohmann::json::array()}};
-	fmt::print("{:<24} {:>9} {:>10} {:>9} {:>12} {:>7}   {}\n", "case", "size", "rays", "raw Mr/s", "plugin Mr/s",
-	           "ratio", "raw ms [min, max]   plugin ms [min, max]   same pixels");
+	fmt::print("{:<22} {:>9} {:>8} {:>9} {:>12} {:>6}  {:>26} {:>26}  {}\n", "case", "size", "rays", "raw Mr/s",
+	           "plugin Mr/s", "ratio", "raw ms [min, max]", "plugin ms [min, max]", "same pixels");
 	int Exit = ExitDone;
 	for (const FRayScene& Scene : ChooseScenes(Options))
 	{

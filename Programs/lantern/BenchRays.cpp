@@ -1,7 +1,7 @@
 #include "BenchRays.h"
 
 #include <algorithm>
-#include <cstring>
+#include <ctime>
 
 #include "BenchRawShadow.h"
 #include "LanternCore/ConsoleVariables.h"
@@ -22,6 +22,12 @@ template <class T>
 T GetVariable(const char* Name)
 {
 	return std::get<T>(FConsoleVariables::Get().Find(Name)->GetValue());
+}
+
+/// Of all threads of the process: a CPU driver's workers are among them.
+double GetProcessorMs()
+{
+	return double(std::clock()) * (1000.0 / CLOCKS_PER_SEC);
 }
 
 double Percent(uint64_t Part, uint64_t Whole)
@@ -228,20 +234,18 @@ FRTStatus FRayBench::Measure(bool bPipeline, FRayCase& Out)
 	for (uint32_t I = 0; I < Settings.WarmUp + Settings.Repetitions; ++I)
 	{
 		// Who goes first alternates too: whatever the machine does meanwhile hits both.
-		double RawMs = 0.0, PluginMs = 0.0;
-		FRTStatus Status = I % 2 ? Raw->Run(RawMs) : RunPlugin(PluginMs);
-		if (Status)
+		for (const bool bRaw : {I % 2 == 0, I % 2 != 0})
 		{
-			Status = I % 2 ? RunPlugin(PluginMs) : Raw->Run(RawMs);
-		}
-		if (!Status)
-		{
-			return Status;
-		}
-		if (I >= Settings.WarmUp)
-		{
-			Out.Raw.Ms.push_back(RawMs);
-			Out.Plugin.Ms.push_back(PluginMs);
+			const double Start = GetProcessorMs();
+			if (FRTStatus S = bRaw ? Raw->Run(Ms) : RunPlugin(Ms); !S)
+			{
+				return S;
+			}
+			if (I >= Settings.WarmUp)
+			{
+				(bRaw ? Out.Raw : Out.Plugin).Ms.push_back(Ms);
+				(bRaw ? Out.RawProcessor : Out.PluginProcessor).Ms.push_back(GetProcessorMs() - Start);
+			}
 		}
 	}
 	if (FRTStatus S = Counter->Run(Ms); !S)

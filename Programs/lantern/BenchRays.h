@@ -25,6 +25,8 @@ struct FRayCase
 	uint64_t Rays = 0;    ///< pixels that trace one: no sky, no surface turned away from the sun
 	double Agreement = 0; ///< fraction of pixels on which both say the same
 	FRayTimes Raw, Plugin;
+	/// Processor time of the same runs. On a CPU driver its ratio stands where other programs disturb the times above.
+	FRayTimes RawProcessor, PluginProcessor;
 	double GetRawMrays() const; ///< by the median time
 	double GetPluginMrays() const;
 	double GetRatio() const { return GetPluginMrays() / GetRawMrays(); }

@@ -46,34 +46,34 @@ vec4 NextRandom4(inout FRandom R)
 }
 
 // Owen-scrambled Sobol points, two dimensions (Burley 2020, "Practical Hash-based Owen Scrambling", with the
-// Laine–Karras style permutation of Vegdahl's constants).
-uint OwenScramble(uint X, uint Seed)
+// Laine–Karras style permutation of Vegdahl's constants). A scramble permutes reversed bits; what is reversed twice
+// on the way is not reversed at all here.
+uint PermuteReversed(uint X, uint Seed)
 {
-	X = bitfieldReverse(X);
 	X ^= X * 0x3d20adeau;
 	X += Seed;
 	X *= (Seed >> 16u) | 1u;
 	X ^= X * 0x05526c56u;
 	X ^= X * 0x53a22864u;
-	return bitfieldReverse(X);
+	return X;
 }
 
-uint SobolDimension1(uint Index)
+// Bits of the second Sobol dimension, reversed. Its direction numbers are Pascal's triangle modulo 2, which is the
+// fifth Kronecker power of a 2×2 triangle: five steps instead of one for each bit of the index.
+uint SobolDimension1Reversed(uint Index)
 {
-	// Direction numbers of the second Sobol dimension are Pascal's triangle modulo 2.
-	uint V = 0x80000000u, X = 0u;
-	for (; Index != 0u; Index >>= 1u, V ^= V >> 1u)
-	{
-		if ((Index & 1u) != 0u) { X ^= V; }
-	}
-	return X;
+	Index ^= (Index >> 1u) & 0x55555555u;
+	Index ^= (Index >> 2u) & 0x33333333u;
+	Index ^= (Index >> 4u) & 0x0f0f0f0fu;
+	Index ^= (Index >> 8u) & 0x00ff00ffu;
+	return Index ^ (Index >> 16u);
 }
 
 vec2 SobolOwen2(uint Index, uint Seed)
 {
-	Index = OwenScramble(Index, Seed);
-	uint X = OwenScramble(bitfieldReverse(Index), HashPcg(Seed));
-	uint Y = OwenScramble(SobolDimension1(Index), HashPcg(Seed + 1u));
+	Index = bitfieldReverse(PermuteReversed(bitfieldReverse(Index), Seed));
+	uint X = bitfieldReverse(PermuteReversed(Index, HashPcg(Seed)));
+	uint Y = bitfieldReverse(PermuteReversed(SobolDimension1Reversed(Index), HashPcg(Seed + 1u)));
 	return vec2(uvec2(X, Y) >> 8u) * (1.0 / 16777216.0);
 }
 

@@ -57,6 +57,31 @@ FMaterialInputs FetchCoverageInputs(FSectionData Section, uint Primitive, vec2 B
 	return I;
 }
 
+// Only what opacity needs, of the one texture coordinate set that it uses: any-hit shaders and ray queries run on
+// every leaf that a ray meets, and each word of a vertex is a load of its own there.
+struct FVertexUV
+{
+	vec2 UV;
+	uint Pad[5];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FVertexUVRef { FVertexUV Data[]; };
+
+FMaterialInputs FetchOpacityInputs(FSectionData Section, uint Primitive, vec2 Barycentrics, uint UVSet)
+{
+	uvec3 T = FetchTriangle(Section, Primitive);
+	FAttributeRef A = FAttributeRef(Section.Attributes);
+	FVertexUVRef V = FVertexUVRef(Section.Attributes + 8u + 8u * UVSet); // behind normal and tangent
+	vec3 W = vec3(1.0 - Barycentrics.x - Barycentrics.y, Barycentrics);
+	FMaterialInputs I;
+	I.Normal = vec3(0.0);
+	I.Tangent = vec4(0.0);
+	I.UV0 = W.x * V.Data[T.x].UV + W.y * V.Data[T.y].UV + W.z * V.Data[T.z].UV;
+	I.UV1 = I.UV0;
+	vec3 Alpha = vec3(A.Data[T.x].Color >> 24u, A.Data[T.y].Color >> 24u, A.Data[T.z].Color >> 24u);
+	I.Color = vec4(dot(W, Alpha) * (1.0 / 255.0));
+	return I;
+}
+
 // All of it, still in object space.
 FMaterialInputs FetchInputs(FSectionData Section, uint Primitive, vec2 Barycentrics)
 {

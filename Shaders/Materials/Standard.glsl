@@ -59,6 +59,13 @@ bool IsCutAway(FMaterialData M, FMaterialInputs I)
 	return (M.Flags & MATERIAL_MASKED) != 0u && EvaluateOpacity(M, I) < M.AlphaCutoff;
 }
 
+// The same at a hit.
+bool IsHitCutAway(FMaterialRef Materials, FSectionData Section, uint Primitive, vec2 Barycentrics)
+{
+	uint UVSet = (Materials.Data[Section.Material].UVSets >> TEXTURE_BASE_COLOR) & 1u;
+	return IsCutAway(Materials.Data[Section.Material], FetchOpacityInputs(Section, Primitive, Barycentrics, UVSet));
+}
+
 vec3 EvaluateEmission(FMaterialData M, FMaterialInputs I)
 {
 	vec3 E = M.Emissive;

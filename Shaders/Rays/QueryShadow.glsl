@@ -20,9 +20,11 @@ bool QueryVisible(FSceneConstants Scene, uint Flags, uint Mask, vec3 Origin, vec
 		uint Object = rayQueryGetIntersectionInstanceCustomIndexEXT(Query, false);
 		uint SectionIndex = FObjectRef(Scene.Objects).Data[Object].FirstSection + rayQueryGetIntersectionGeometryIndexEXT(Query, false);
 		FSectionData Section = FSectionRef(Scene.Sections).Data[SectionIndex];
-		FMaterialInputs Inputs = FetchCoverageInputs(Section, rayQueryGetIntersectionPrimitiveIndexEXT(Query, false),
-		                                             rayQueryGetIntersectionBarycentricsEXT(Query, false));
-		if (!IsCutAway(FMaterialRef(Scene.Materials).Data[Section.Material], Inputs)) { rayQueryConfirmIntersectionEXT(Query); }
+		if (!IsHitCutAway(FMaterialRef(Scene.Materials), Section, rayQueryGetIntersectionPrimitiveIndexEXT(Query, false),
+		                  rayQueryGetIntersectionBarycentricsEXT(Query, false)))
+		{
+			rayQueryConfirmIntersectionEXT(Query);
+		}
 #else
 		rayQueryConfirmIntersectionEXT(Query);
 #endif

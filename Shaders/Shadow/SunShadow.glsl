@@ -1,5 +1,6 @@
 // What the pipeline and the ray-query path share: which rays a pixel casts. The includer defines
 //   bool TraceSun(vec3 Origin, vec3 Direction)   true: nothing is in the way
+// ONE_SAMPLE: SamplesPerPixel is known to be 1. Without the loop nothing but the pixel lives across the trace.
 #ifndef LANTERN_SUN_SHADOW_GLSL
 #define LANTERN_SUN_SHADOW_GLSL
 
@@ -12,6 +13,12 @@
 layout(push_constant, scalar) uniform FPush { FSunShadowConstants Push; };
 
 bool TraceSun(vec3 Origin, vec3 Direction);
+
+#ifdef ONE_SAMPLE
+const uint SamplesPerPixel = 1u;
+#else
+#define SamplesPerPixel Push.SamplesPerPixel
+#endif
 
 void ShadePixel(uvec2 Pixel)
 {
@@ -29,13 +36,13 @@ void ShadePixel(uvec2 Pixel)
 	vec3 Origin = OffsetRayOrigin(View.CameraPosition + Relative, Ng, length(Relative) * 4.0);
 	float Visible = 0.0;
 	uint Seed = HashPcg(Pixel.x + HashPcg(Pixel.y + HashPcg(View.Seed)));
-	for (uint Sample = 0; Sample < Push.SamplesPerPixel; ++Sample)
+	for (uint Sample = 0; Sample < SamplesPerPixel; ++Sample)
 	{
-		vec2 U = SobolOwen2(View.FrameIndex * Push.SamplesPerPixel + Sample, Seed);
-		vec3 Direction = Push.bSoft != 0u ? SampleSunDirection(Scene, U) : -Scene.SunDirection;
+		vec3 Direction = -Scene.SunDirection;
+		if (Push.bSoft != 0u) { Direction = SampleSunDirection(Scene, SobolOwen2(View.FrameIndex * SamplesPerPixel + Sample, Seed)); }
 		if (dot(Ng, Direction) > 0.0 && TraceSun(Origin, Direction)) { Visible += 1.0; }
 	}
-	imageStore(Images[Push.Output], ivec2(Pixel), vec4(Visible / float(Push.SamplesPerPixel)));
+	imageStore(Images[Push.Output], ivec2(Pixel), vec4(Visible / float(SamplesPerPixel)));
 }
 
 #endif

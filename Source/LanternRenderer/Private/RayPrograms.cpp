@@ -2,6 +2,7 @@
 
 #include "LanternRenderer/Frame.h"
 #include "PassTools.h"
+#include "Shadow/SunShadow.h"
 
 namespace Lantern
 {
@@ -55,6 +56,7 @@ FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, const FScene
 	{
 		Programs.SunShadowRayGen = static_cast<uint32_t>(Desc.RayGens.size());
 		Desc.RayGens.push_back(Shader("Shadow/SunShadow.rgen"));
+		Desc.RayGens.back().Defines = MakeSunShadowDefines();
 		Desc.RayTypes = {MakeShadowRay()};
 	}
 	return Programs;

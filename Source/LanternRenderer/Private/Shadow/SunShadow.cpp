@@ -3,6 +3,7 @@
 #include "LanternCore/Log.h"
 #include "LanternRenderer/Frame.h"
 #include "PassTools.h"
+#include "Shadow/SunShadow.h"
 #include "SunShadowTypes.h"
 
 namespace Lantern
@@ -52,6 +53,12 @@ ESunShadowPath ChooseSunShadowPath(const FRTCapabilities& Capabilities, const FS
 	return ESunShadowPath::None;
 }
 
+std::vector<std::pair<std::string, std::string>> MakeSunShadowDefines()
+{
+	const bool bOneSample = CVarSamples.GetOnRenderThread() == 1 || !CVarSoft.GetOnRenderThread();
+	return bOneSample ? std::vector<std::pair<std::string, std::string>>{{"ONE_SAMPLE", "1"}} : std::vector<std::pair<std::string, std::string>>{};
+}
+
 FSunShadowOutputs AddSunShadowPass(FFrameContext& Context, const FSunShadowInputs& Inputs)
 {
 	const ESunShadowPath Path = ChooseSunShadowPath(Context.Device.GetCapabilities(), Context.Facts);
@@ -59,7 +66,7 @@ FSunShadowOutputs AddSunShadowPass(FFrameContext& Context, const FSunShadowInput
 	IRTPipeline* Compute = nullptr;
 	if (Path == ESunShadowPath::Query)
 	{
-		std::vector<std::pair<std::string, std::string>> Defines;
+		std::vector<std::pair<std::string, std::string>> Defines = MakeSunShadowDefines();
 		if (Context.Facts.bMasked) { Defines.emplace_back("HAS_MASKED", "1"); }
 		Compute = RequireCompute(Context, "Shadow/SunShadow.comp", std::move(Defines));
 		if (!Compute) { return {}; }
