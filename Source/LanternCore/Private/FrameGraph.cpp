@@ -239,16 +239,16 @@ FRTStatus FFrameGraph::Compile()
 	return Impl->CompileStatus;
 }
 
-FRTStatus FFrameGraph::Execute(IRTCommandList& Commands)
+FRTStatus FFrameGraph::Execute(IRTCommandList& Commands, const FRTStatus* Failure)
 {
 	assert(!Impl->bExecuted && "a graph is executed once");
 	const FRTStatus Status = Compile();
 	if (Status)
 	{
 		Impl->bExecuted = true;
-		Impl->Record(Commands);
+		Impl->Record(Commands, Failure);
 	}
-	return Status;
+	return Status && Failure ? *Failure : Status;
 }
 
 void FFrameGraph::FImpl::RecordBarriers(IRTCommandList& Commands, const std::vector<FGraphBarrier>& Barriers) const
@@ -269,7 +269,7 @@ void FFrameGraph::FImpl::RecordBarriers(IRTCommandList& Commands, const std::vec
 	}
 }
 
-void FFrameGraph::FImpl::Record(IRTCommandList& Commands)
+void FFrameGraph::FImpl::Record(IRTCommandList& Commands, const FRTStatus* Failure)
 {
 	const auto IsAlive = [](const FGraphPass& Pass) { return !Pass.bCulled; };
 	const uint32_t AliveCount = static_cast<uint32_t>(std::count_if(Passes.begin(), Passes.end(), IsAlive));
@@ -306,6 +306,10 @@ void FFrameGraph::FImpl::Record(IRTCommandList& Commands)
 		Commands.EndMarker();
 		const std::chrono::duration<double, std::milli> Time = std::chrono::steady_clock::now() - Start;
 		Frame.Passes.push_back({Pass.Name, -1.0, Time.count(), Context.Rays});
+		if (Failure && !*Failure)
+		{
+			return;
+		}
 	}
 	RecordBarriers(Commands, FinalBarriers);
 	Frame.bPending = true;

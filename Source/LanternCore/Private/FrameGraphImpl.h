@@ -141,7 +141,7 @@ struct FFrameGraph::FImpl
 	void PlaceBarriers();
 	void PlaceBarriersOf(uint32_t Resource, const std::vector<std::pair<uint32_t, ERTAccess>>& Uses);
 
-	void Record(IRTCommandList& Commands);
+	void Record(IRTCommandList& Commands, const FRTStatus* Failure);
 	void RecordBarriers(IRTCommandList& Commands, const std::vector<FGraphBarrier>& Barriers) const;
 
 	FFrameGraphResources::FImpl& Shared;

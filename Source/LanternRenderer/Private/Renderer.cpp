@@ -154,8 +154,7 @@ FRTStatus FRenderer::Execute(IRTCommandList& List)
 {
 	assert(Graph);
 	FRTStatus Status = FrameStatus;
-	if (Status) { Status = Graph->Execute(List); }
-	if (Status) { Status = FrameStatus; }
+	if (Status) { Status = Graph->Execute(List, &FrameStatus); }
 	if (Status) { LastDump = Graph->Dump(); }
 	Graph.reset();
 	return Status;

@@ -135,7 +135,8 @@ public:
 	/// Culls, allocates, records into Commands. On error (out of memory, device lost) nothing is recorded after
 	/// the failing point and the message says which resource. Commands must be submitted, and graphs of the same
 	/// FFrameGraphResources in the order of their Execute, on one queue: pooled resources carry their state over.
-	FRTStatus Execute(IRTCommandList& Commands);
+	/// Failure (may be null): where a pass sets it to an error, those behind it are not recorded, and it is returned.
+	FRTStatus Execute(IRTCommandList& Commands, const FRTStatus* Failure = nullptr);
 
 	/// Passes (culled ones marked), resources with size and lifetime, barriers: after Execute or Compile.
 	std::string Dump() const;
