@@ -34,6 +34,8 @@ int Run(int ArgumentCount, char** Arguments)
 	ReferenceApp->add_option("--spp", Reference.Samples, "Samples per pixel")->check(CLI::Range(1, 1 << 24));
 	ReferenceApp->add_option("--bounces", Reference.Bounces, "Scattering events, at most")->check(CLI::Range(0, 1 << 16));
 	ReferenceApp->add_flag("--resume", Reference.bResume, "Keep the sums in OUT.state, and go on from there");
+	ReferenceApp->add_option("--save-every", Reference.SaveSeconds, "With --resume: seconds after which the sums are kept")
+	    ->check(CLI::Range(0.0, 1e6));
 	ReferenceApp->final_callback([&] { Status = RunReference(Reference); });
 
 	FCompareOptions Compare;
@@ -69,6 +71,11 @@ int Run(int ArgumentCount, char** Arguments)
 	}
 	catch (const CLI::ParseError& Error)
 	{
+		if (ArgumentCount > 1 && Arguments[1][0] != '-' && App.get_subcommands().empty())
+		{
+			std::cerr << "'" << Arguments[1] << "' is not a command\nRun with --help for more information.\n";
+			return ExitUsage;
+		}
 		return App.exit(Error, std::cout, std::cerr) == 0 ? ExitDone : ExitUsage;
 	}
 	return Status;

@@ -13,6 +13,9 @@ namespace Lantern
 
 namespace
 {
+// Beyond it, squares overflow in fp32.
+constexpr double MaxNumber = 1e15;
+
 std::optional<double> ParseNumber(std::string_view Text)
 {
 	double Value = 0.0;
@@ -25,6 +28,10 @@ std::vector<double> RequireNumbers(const char* Option, const std::string& Text, 
 {
 	const auto Numbers = ParseNumbers(Text, Count);
 	if (!Numbers) { throw CLI::ValidationError(Option, "'" + Text + "' is not of the form " + Form); }
+	for (const double Number : *Numbers)
+	{
+		if (std::abs(Number) > MaxNumber) { throw CLI::ValidationError(Option, "'" + Text + "' holds a number beyond 1e15"); }
+	}
 	return *Numbers;
 }
 
@@ -89,7 +96,11 @@ std::optional<std::vector<double>> ParseNumbers(const std::string& Text, size_t 
 
 void FDeviceOptions::AddTo(CLI::App& App)
 {
-	App.add_option("--device", Device, "Device, as lantern info counts them")->check(CLI::NonNegativeNumber);
+	App.add_option("--device", Device, "Device, as lantern info counts them")->check([](const std::string& Text) {
+		const auto Number = ParseNumber(Text);
+		const bool bIndex = Number && *Number >= 0 && *Number == std::floor(*Number) && *Number < 1e6;
+		return bIndex ? std::string() : "'" + Text + "' is not the number of a device";
+	});
 	App.add_flag("--validate", bValidate, "Vulkan validation layers on; any message is an error");
 	App.add_option("--quality", Quality, "low, medium, high, epic or cinematic")->check([](const std::string& Text) {
 		return ParseQuality(Text) ? std::string() : "'" + Text + "' is none of low, medium, high, epic, cinematic";
@@ -112,7 +123,9 @@ void FPictureOptions::AddTo(CLI::App& App)
 	                                     "E,dx,dy,dz,diameter: irradiance on a facing plane, direction in which the light travels, degrees");
 	App.add_option_function<std::string>("--sky", [this](const std::string& Text) { ParseSky(Text, *this); }, "r,g,b: constant radiance");
 	App.add_flag("--no-scene-lights", bNoSceneLights, "Leave the scene's punctual lights out");
-	App.add_option("--time", Time, "Seconds of animation");
+	App.add_option("--time", Time, "Seconds of animation")->check([](const std::string& Text) {
+		return ParseNumber(Text) ? std::string() : "'" + Text + "' is not a number of seconds";
+	});
 	App.add_option("--seed", Seed, "Of the random numbers");
 }
 

@@ -198,6 +198,7 @@ int RunReference(const FReferenceOptions& Options)
 	Settings.Bounces = Options.Bounces;
 	Settings.StateFile = Options.bResume ? Options.Picture.Output + ".state" : "";
 	Settings.bResume = Options.bResume;
+	Settings.StateSeconds = Options.SaveSeconds;
 	Settings.SceneKey = Session.MakeSceneKey(Options.Picture);
 	Settings.Progress = [&](double Done, uint32_t Total, double Left) {
 		Progress.Show("reference", Done / Total, fmt::format("{:.1f} of {} samples, {} left", Done, Total, FormatSeconds(Left)));

@@ -21,6 +21,7 @@ struct FReferenceOptions
 	uint32_t Samples = 256;
 	uint32_t Bounces = 64;
 	bool bResume = false;
+	double SaveSeconds = 20.0;
 };
 int RunReference(const FReferenceOptions& Options);
 

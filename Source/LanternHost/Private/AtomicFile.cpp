@@ -115,6 +115,11 @@ FRTStatus CheckOutputPath(const std::string& Path)
 	{
 		return MakeFileError(ERTResult::IoError, Path, "cannot be written: it is not a regular file");
 	}
+	// Renaming over a file asks its folder alone; a file that is protected stays as it is all the same.
+	if (fs::exists(Status) && access(Target.c_str(), W_OK) != 0)
+	{
+		return MakeFileError(ERTResult::IoError, Path, "cannot be written: " + DescribeErrno(errno));
+	}
 	if (access(Folder.c_str(), W_OK | X_OK) != 0)
 	{
 		return MakeFileError(ERTResult::IoError, Path, "cannot be written: " + DescribeErrno(errno));
