@@ -1,0 +1,219 @@
+// What the program writes: results on standard output and in files, by the names that scripts rely on.
+#include <set>
+
+#include "LanternHost/ImageIO.h"
+#include "ProgramTools.h"
+
+namespace Lantern
+{
+namespace
+{
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
+using ::testing::Not;
+
+std::vector<std::string> GetKeys(const nlohmann::json& Object)
+{
+	std::vector<std::string> Keys;
+	for (const auto& [Key, Value] : Object.items())
+	{
+		Keys.push_back(Key);
+	}
+	return Keys;
+}
+
+class FOutputTest : public ::testing::Test
+{
+protected:
+	std::string At(const std::string& Name) const { return Folder.GetPath() + "/" + Name; }
+	/// A run that must succeed without a warning.
+	FProgramRun RunCleanly(std::vector<std::string> Arguments)
+	{
+		const FProgramRun Run = RunProgram(Arguments);
+		EXPECT_EQ(Run.Status, 0) << Run.Err;
+		EXPECT_THAT(Run.Err, Not(HasSubstr("error")));
+		EXPECT_THAT(Run.Err, Not(HasSubstr("warning")));
+		return Run;
+	}
+	std::vector<std::string> RenderPasses(std::vector<std::string> Arguments)
+	{
+		Arguments.insert(Arguments.begin(), "render");
+		Arguments.insert(Arguments.end(), {"--size", "32x24", "--validate", "--json", At("passes.json")});
+		RunCleanly(Arguments);
+		Json = ReadJson(At("passes.json"));
+		std::vector<std::string> Names;
+		for (const nlohmann::json& Pass : Json["passes"])
+		{
+			Names.push_back(Pass["name"]);
+		}
+		return Names;
+	}
+
+	FTemporaryFolder Folder;
+	nlohmann::json Json;
+};
+
+TEST_F(FOutputTest, RenderWritesWhatTheContractNames)
+{
+	// A build without OpenImageIO writes PFM only.
+	const std::string Picture = CheckImageOutput(At("a.png")) ? "a.png" : "a.pfm";
+	const FProgramRun Run = RunCleanly({"render", "planes", "--size", "40x30", "--frames", "3", "--validate", "-o",
+	                                    At(Picture), "--json", At("a.json")});
+	EXPECT_THAT(Run.Out, HasSubstr("GPU ms"));
+	EXPECT_THAT(Run.Out, HasSubstr("SunShadow"));
+	EXPECT_THAT(Run.Err, HasSubstr("loaded in")) << "the log";
+	const nlohmann::json A = ReadJson(At("a.json"));
+	EXPECT_THAT(GetKeys(A), IsSupersetOf({"device", "driver", "width", "height", "frames", "passes", "frame_gpu_ms",
+	                                      "frame_cpu_ms", "rays", "memory", "rtpso"}));
+	EXPECT_THAT(GetKeys(A["memory"]), IsSupersetOf({"blas", "tlas", "sbt", "textures", "peak"}));
+	EXPECT_THAT(GetKeys(A["rtpso"]), IsSupersetOf({"hit_groups", "compiled", "missing", "link_ms"}));
+	EXPECT_EQ(A["width"], 40);
+	EXPECT_EQ(A["height"], 30);
+	EXPECT_EQ(A["frames"], 3);
+	uint64_t Rays = 0;
+	for (const nlohmann::json& Pass : A["passes"])
+	{
+		EXPECT_THAT(GetKeys(Pass), IsSupersetOf({"name", "gpu_ms", "cpu_ms", "rays"}));
+		EXPECT_GE(Pass["cpu_ms"].get<double>(), 0.0);
+		Rays += Pass["rays"].get<uint64_t>();
+	}
+	EXPECT_EQ(A["rays"], Rays);
+	EXPECT_EQ(Rays, 40u * 30u);
+	EXPECT_GT(A["memory"]["blas"].get<uint64_t>(), 0u);
+	EXPECT_GE(A["memory"]["peak"].get<uint64_t>(), A["memory"]["blas"].get<uint64_t>());
+	EXPECT_EQ(ListFolder(Folder.GetPath()), (std::vector<std::string>{"a.json", Picture})) << "no temporary file stays";
+}
+
+TEST_F(FOutputTest, PassesThatTheSceneDoesNotNeedAreAbsent)
+{
+	EXPECT_THAT(RenderPasses({"planes"}), Contains("SunShadow"));
+	EXPECT_THAT(Json["rtpso"]["hit_groups"], 0) << "ray queries need no pipeline";
+	const std::vector<std::string> Sunless = RenderPasses({"furnace"});
+	EXPECT_THAT(Sunless, Not(Contains("SunShadow")));
+	EXPECT_THAT(Sunless, Not(Contains("Skinning")));
+	EXPECT_THAT(Sunless, Not(Contains("ShaderTable")));
+	EXPECT_EQ(Json["rays"], 0);
+	EXPECT_EQ(Json["memory"]["blas"], 0) << "nobody traces rays";
+	EXPECT_EQ(Json["memory"]["tlas"], 0);
+	EXPECT_THAT(RenderPasses({"planes", "--set", "r.RT.Shadow=0"}), Not(Contains("SunShadow")));
+	EXPECT_THAT(RenderPasses({"planes", "--set", "r.RT.Shadow.Path=1"}), Contains("SunShadow"));
+	EXPECT_EQ(Json["rtpso"]["hit_groups"], 1);
+	EXPECT_GT(Json["memory"]["sbt"].get<uint64_t>(), 0u);
+}
+
+TEST_F(FOutputTest, EverySceneNameOfTheListRenders)
+{
+	const FProgramRun List = RunProgram({"render", "--list"});
+	EXPECT_EQ(List.Status, 0);
+	EXPECT_EQ(List.Err, "");
+	std::istringstream Lines(List.Out);
+	uint32_t Scenes = 0;
+	for (std::string Line; std::getline(Lines, Line); ++Scenes)
+	{
+		const std::string Name = Line.substr(0, Line.find(' '));
+		RunCleanly({"render", Name, "--size", "16x16", "--validate"});
+	}
+	EXPECT_GE(Scenes, 10u);
+}
+
+TEST_F(FOutputTest, PictureIsTheSameWhateverItsFileAndLastFrameCounts)
+{
+	if (!CheckImageOutput(At("a.exr")))
+	{
+		GTEST_SKIP() << "a build without OpenImageIO";
+	}
+	for (const char* Name : {"a.pfm", "a.exr"})
+	{
+		RunCleanly({"render", "furnace:0.5", "--size", "16x12", "--validate", "-o", At(Name)});
+	}
+	FImage A, B;
+	ASSERT_TRUE(LoadImageFile(At("a.pfm"), A));
+	ASSERT_TRUE(LoadImageFile(At("a.exr"), B));
+	EXPECT_EQ(A.Width, 16u);
+	EXPECT_EQ(A.Height, 12u);
+	EXPECT_EQ(A.Pixels, B.Pixels);
+	RunCleanly({"render", "furnace:0.5", "--size", "16x12", "--frames", "3", "-o", At("b.pfm")});
+	ASSERT_TRUE(LoadImageFile(At("b.pfm"), B));
+	EXPECT_EQ(A.Pixels, B.Pixels) << "nothing moves and nothing is random here";
+}
+
+TEST_F(FOutputTest, FileOfBeforeIsReplacedWhole)
+{
+	Folder.Write("a.pfm", std::string(100'000, 'x'));
+	RunCleanly({"render", "furnace", "--size", "4x4", "-o", At("a.pfm")});
+	EXPECT_LT(ReadFile(At("a.pfm")).size(), 400u);
+	EXPECT_EQ(ListFolder(Folder.GetPath()), std::vector<std::string>{"a.pfm"});
+}
+
+TEST_F(FOutputTest, InfoTellsWhatRunsAndWhyNot)
+{
+	const FProgramRun Run = RunCleanly({"info", "--json", At("info.json")});
+	EXPECT_THAT(Run.Out, HasSubstr("rung"));
+	const nlohmann::json Devices = ReadJson(At("info.json"))["devices"];
+	ASSERT_GE(Devices.size(), 1u);
+	for (const nlohmann::json& Device : Devices)
+	{
+		EXPECT_THAT(GetKeys(Device),
+		            IsSupersetOf({"index", "device", "driver", "rung", "features", "missing", "usable"}));
+		ASSERT_GE(Device["features"].size(), 3u);
+		for (const nlohmann::json& Feature : Device["features"])
+		{
+			EXPECT_TRUE(Feature["runs"].get<bool>() || Feature["why"] != "") << Feature.dump();
+		}
+	}
+	const FProgramRun Chosen = RunProgram({"render", "furnace", "--size", "8x8", "--device", "0"});
+	EXPECT_THAT(Chosen.Err, HasSubstr(Devices[0]["device"].get<std::string>()));
+}
+
+TEST_F(FOutputTest, CompareWritesTheFigures)
+{
+	RunCleanly({"render", "furnace:0.5", "--size", "32x32", "-o", At("a.pfm")});
+	RunCleanly({"render", "furnace:0.7", "--size", "32x32", "-o", At("b.pfm")});
+	const std::string HeatMap = At(CheckImageOutput(At("h.png")) ? "h.png" : "h.pfm");
+	const FProgramRun Run =
+	    RunCleanly({"compare", At("a.pfm"), At("b.pfm"), "--json", At("c.json"), "--heatmap", HeatMap});
+	EXPECT_THAT(Run.Out, HasSubstr("flip"));
+	EXPECT_EQ(Run.Err, "");
+	const nlohmann::json C = ReadJson(At("c.json"));
+	EXPECT_THAT(GetKeys(C), IsSupersetOf({"mse", "rmse", "relmse", "psnr", "flip", "mean_ratio", "block16_median",
+	                                      "block16_p95", "nonfinite"}));
+	EXPECT_EQ(C["mean_ratio"].size(), 3u);
+	EXPECT_EQ(C["nonfinite"].size(), 2u);
+	EXPECT_GT(std::filesystem::file_size(HeatMap), 0u);
+	RunCleanly({"compare", At("a.pfm"), At("a.pfm"), "--json", At("same.json")});
+	EXPECT_EQ(ReadJson(At("same.json"))["mse"], 0.0);
+	EXPECT_TRUE(ReadJson(At("same.json"))["psnr"].is_null()) << "infinite";
+	const FProgramRun Sizes = RunProgram({"render", "furnace", "--size", "8x8", "-o", At("small.pfm")});
+	EXPECT_EQ(RunProgram({"compare", At("a.pfm"), At("small.pfm")}).Status, 4);
+}
+
+TEST_F(FOutputTest, ExtremeButValidViewsRender)
+{
+	for (const std::vector<std::string>& View : {std::vector<std::string>{"--size", "1x1"},
+	                                             {"--size", "257x3"},
+	                                             {"--camera", "1e15,0,0,0,0,0,60"},
+	                                             {"--camera", "0,0,5,0,0,4.999999,179.9"},
+	                                             {"--camera", "0,5,0,0,0,0,1e-3"},
+	                                             {"--sun", "0,0,-1,0,0"},
+	                                             {"--sun", "1e15,0,-1,0,180"},
+	                                             {"--sky", "0,0,0"},
+	                                             {"--time=-1"},
+	                                             {"--time", "1e15"},
+	                                             {"--seed", "4294967295"},
+	                                             {"--no-scene-lights"}})
+	{
+		std::vector<std::string> Arguments = {"render", "planes", "--validate"};
+		Arguments.insert(Arguments.end(), View.begin(), View.end());
+		if (View[0] != "--size")
+		{
+			Arguments.insert(Arguments.end(), {"--size", "16x16"});
+		}
+		const FProgramRun Run = RunProgram(Arguments);
+		EXPECT_EQ(Run.Status, 0) << View[0] << ": " << Run.Err;
+	}
+}
+
+} // namespace
+} // namespace Lantern
