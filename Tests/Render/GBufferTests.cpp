@@ -147,6 +147,57 @@ TEST_F(FGBufferTest, PunctualLights)
 	EXPECT_EQ(ComputeMeans(RenderLighting(View)).MaxLuminance, 0.0);
 }
 
+// The two could be wrong together: light of each kind against its formula, at points of the floor seen from above.
+TEST_F(FGBufferTest, LightsByFormula)
+{
+	FTestScene Lights("lights");
+	const double Albedo = MakeSrgb(190);
+	Lights.AddNode(Lights.AddMesh({FTestScene::MakeFloor(Lights.AddLambert(glm::vec3(MakeSrgb(190))), 8.0f)}));
+	ASSERT_TRUE(Load(std::move(Lights.Scene)));
+	const auto ExpectRadiance = [&](const char* What, double X, double Irradiance)
+	{
+		const FView View = LookAt({X, 6, 0}, {X, 0, 0}, 0.0005f, 8, 8);
+		const double Expected = Irradiance * Albedo / 3.14159265358979;
+		EXPECT_NEAR(MeanGreen(RenderLighting(View)), Expected, 0.002 * Expected + 1e-6)
+		    << What << ", raster, x = " << X;
+		EXPECT_NEAR(MeanGreen(TraceReference(View, 1, 1)), Expected, 0.002 * Expected + 1e-6)
+		    << What << ", reference, x = " << X;
+	};
+	SetSun(0.0, 4.0f, {1, -2, 0});
+	ExpectRadiance("sun", 0.0, 4.0 * 2.0 / std::sqrt(5.0));
+	SetSun(0.0, 0.0f);
+	// KHR_lights_punctual; the light is 2 m above the floor.
+	FSceneLight Light{};
+	Light.WorldPosition = {0, 2, 0};
+	Light.Data.Color = glm::vec3(30);
+	for (const double Range : {0.0, 3.0})
+	{
+		Light.Data.Range = static_cast<float>(Range);
+		GetScene().GetScene().SetLights({Light});
+		for (const double X : {0.0, 1.5, 2.5})
+		{
+			const double Distance2 = X * X + 4.0;
+			const double Window =
+			    Range > 0.0 ? std::clamp(1.0 - std::pow(Distance2 / (Range * Range), 2.0), 0.0, 1.0) : 1.0;
+			ExpectRadiance("point", X, 30.0 * Window / Distance2 * 2.0 / std::sqrt(Distance2));
+		}
+	}
+	Light.Data.Type = LIGHT_SPOT;
+	Light.Data.Range = 0.0f;
+	Light.Data.Direction = {0, -1, 0};
+	const double Inner = 0.3, Outer = 0.7;
+	Light.Data.SpotScale = static_cast<float>(1.0 / (std::cos(Inner) - std::cos(Outer)));
+	Light.Data.SpotOffset = static_cast<float>(-std::cos(Outer)) * Light.Data.SpotScale;
+	GetScene().GetScene().SetLights({Light});
+	for (const double Angle : {0.0, 0.25, 0.4, 0.6, 0.75})
+	{
+		const double X = 2.0 * std::tan(Angle), Distance2 = X * X + 4.0;
+		const double Cone =
+		    std::clamp((std::cos(Angle) - std::cos(Outer)) / (std::cos(Inner) - std::cos(Outer)), 0.0, 1.0);
+		ExpectRadiance("spot", X, 30.0 * Cone * Cone / Distance2 * 2.0 / std::sqrt(Distance2));
+	}
+}
+
 // Metal and dielectric at all roughnesses under a hard sun; every square shows another BRDF.
 TEST_F(FGBufferTest, MaterialsUnderSun)
 {

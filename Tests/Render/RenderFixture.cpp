@@ -222,13 +222,22 @@ void FRenderTest::SetVariable(const char* Name, const std::string& Value)
 	EXPECT_FALSE(Fault.has_value()) << *Fault;
 }
 
+namespace
+{
+/// After a failure tests go on with a black picture, rather than reading past the end of none.
+bool HasSize(const FImage& Image, const FView& View)
+{
+	return Image.Width == View.Width && Image.Height == View.Height;
+}
+} // namespace
+
 FImage FRenderTest::RenderLighting(const FView& View, double Time)
 {
 	FCapturedFrame Frame;
 	FFrameCapture Capture;
 	Capture.bLighting = true;
 	EXPECT_OK(GetEngine().RenderFrame(View, Time, Capture, &Frame));
-	return std::move(Frame.Lighting);
+	return HasSize(Frame.Lighting, View) ? std::move(Frame.Lighting) : FImage(View.Width, View.Height, 3);
 }
 
 FImage FRenderTest::RenderLightingFine(FView View, uint32_t Factor, double Time)
@@ -270,7 +279,7 @@ FImage FRenderTest::TraceReference(const FView& View, uint32_t Samples, uint32_t
 	Settings.Bounces = Bounces;
 	FReferenceResult Result;
 	EXPECT_OK(RenderReference(GetEngine(), Settings, Result));
-	return std::move(Result.Radiance);
+	return HasSize(Result.Radiance, View) ? std::move(Result.Radiance) : FImage(View.Width, View.Height, 3);
 }
 
 FEstimate FRenderTest::EstimateMean(FView View, uint32_t Samples, uint32_t Bounces, uint32_t Batches)
