@@ -89,23 +89,27 @@ int RunInfo(const std::string& Json)
 	return ExitNoDevice;
 }
 
-int RunCvars(bool bMarkdown, const std::string& Json)
+int RunCvars(const FDeviceOptions& Settings, bool bMarkdown, const std::string& Json)
 {
-	LoadAliases({FindPluginFolders().Config});
+	const std::string Folder = FindPluginFolders().Config;
+	LoadAliases({Folder});
 	const FConsoleVariables& Variables = FConsoleVariables::Get();
+	if (bMarkdown) // the defaults of the code, whatever the settings say
+	{
+		fmt::print("{}", Variables.ToMarkdown());
+		return ExitDone;
+	}
+	if (const int Status = LoadSettings(Folder, Settings); Status != ExitDone) { return Status; }
 	if (!Json.empty())
 	{
 		if (FRTStatus S = WriteFileAtomically(Json, Variables.ToJson()); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
 		return ExitDone;
 	}
-	if (bMarkdown)
-	{
-		fmt::print("{}", Variables.ToMarkdown());
-		return ExitDone;
-	}
+	fmt::print("{:<34} {:<10} {:<14} {}\n", "name", "value", "set by", "help");
 	for (const FRTConsoleVariable* Variable : Variables.GetAll())
 	{
-		fmt::print("{:<34} {:<10} {}\n", Variable->GetName(), FConsoleVariables::ToString(Variable->GetDefault()), Variable->GetHelp());
+		fmt::print("{:<34} {:<10} {:<14} {}\n", Variable->GetName(), FConsoleVariables::ToString(Variable->GetValue()), ToString(Variable->GetSetBy()),
+		           Variable->GetHelp());
 	}
 	return ExitDone;
 }

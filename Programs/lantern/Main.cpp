@@ -1,4 +1,6 @@
 // The command line of Lantern.
+#include <cstdio>
+
 #include <CLI/CLI.hpp>
 
 #include "BenchCommand.h"
@@ -25,6 +27,7 @@ int Run(int ArgumentCount, char** Arguments)
 	Render.Picture.AddTo(*RenderApp);
 	RenderApp->add_option("--frames", Render.Frames, "Frames to render; the picture is the last one's")->check(CLI::Range(1, 1'000'000));
 	RenderApp->add_flag("--list", bList, "List the built-in scenes");
+	RenderApp->add_flag("--dump-graph", Render.bDumpGraph, "Print the last frame's passes, resources and barriers");
 	RenderApp->final_callback([&] { Status = bList ? RunListScenes() : RunRender(Render); });
 
 	FReferenceOptions Reference;
@@ -56,7 +59,9 @@ int Run(int ArgumentCount, char** Arguments)
 	CLI::App* const CvarsApp = App.add_subcommand("cvars", "Console variables");
 	CvarsApp->add_flag("--markdown", bMarkdown, "As Docs/ConsoleVariables.md");
 	CvarsApp->add_option("--json", CvarsJson, "Write them to this file");
-	CvarsApp->final_callback([&] { Status = RunCvars(bMarkdown, CvarsJson); });
+	FDeviceOptions CvarsSettings;
+	CvarsSettings.AddSettingsTo(*CvarsApp);
+	CvarsApp->final_callback([&] { Status = RunCvars(CvarsSettings, bMarkdown, CvarsJson); });
 
 	FBenchRaysOptions BenchRays;
 	CLI::App* const BenchApp = App.add_subcommand("bench", "Benchmarks");
@@ -86,11 +91,15 @@ int main(int ArgumentCount, char** Arguments)
 {
 	try
 	{
-		return Run(ArgumentCount, Arguments);
+		const int Status = Run(ArgumentCount, Arguments);
+		if (std::fflush(stdout) == 0 && !std::ferror(stdout)) { return Status; }
+		LogError("standard output cannot be written");
+		return Status == ExitDone ? ExitBadInput : Status;
 	}
 	catch (const std::bad_alloc&)
 	{
 		LogError("out of memory");
+		return ExitNoDevice;
 	}
 	catch (const std::exception& Error)
 	{

@@ -102,13 +102,19 @@ void FDeviceOptions::AddTo(CLI::App& App)
 		return bIndex ? std::string() : "'" + Text + "' is not the number of a device";
 	});
 	App.add_flag("--validate", bValidate, "Vulkan validation layers on; any message is an error");
+	AddSettingsTo(App);
+}
+
+void FDeviceOptions::AddSettingsTo(CLI::App& App)
+{
 	App.add_option("--quality", Quality, "low, medium, high, epic or cinematic")->check([](const std::string& Text) {
 		return ParseQuality(Text) ? std::string() : "'" + Text + "' is none of low, medium, high, epic, cinematic";
 	});
-	App.add_option("--set", Sets, "NAME=VALUE: a console variable; repeatable")->take_all()->check([](const std::string& Text) {
+	// One value each time, so that a scene may follow.
+	App.add_option("--set", Sets, "NAME=VALUE: a console variable; repeatable")->expected(1)->take_all()->allow_extra_args(false)->check([](const std::string& Text) {
 		return Text.find('=') != std::string::npos ? std::string() : "'" + Text + "' is not of the form NAME=VALUE";
 	});
-	App.add_option("--config", Configs, "An ini file; repeatable")->take_all();
+	App.add_option("--config", Configs, "An ini file; repeatable")->expected(1)->take_all()->allow_extra_args(false);
 }
 
 void FPictureOptions::AddTo(CLI::App& App)
@@ -120,7 +126,8 @@ void FPictureOptions::AddTo(CLI::App& App)
 	App.add_option_function<std::string>("--camera", [this](const std::string& Text) { ParseCamera(Text, *this); },
 	                                     "px,py,pz,tx,ty,tz,fovY: metres, vertical degrees");
 	App.add_option_function<std::string>("--sun", [this](const std::string& Text) { ParseSun(Text, *this); },
-	                                     "E,dx,dy,dz,diameter: irradiance on a facing plane, direction in which the light travels, degrees");
+	                                     "E,dx,dy,dz,diameter: irradiance on a facing plane, direction in which the light travels, degrees. "
+	                                     "A file without light of its own gets a sun and a sky unless --sun or --sky is given");
 	App.add_option_function<std::string>("--sky", [this](const std::string& Text) { ParseSky(Text, *this); }, "r,g,b: constant radiance");
 	App.add_flag("--no-scene-lights", bNoSceneLights, "Leave the scene's punctual lights out");
 	App.add_option("--time", Time, "Seconds of animation")->check([](const std::string& Text) {

@@ -41,6 +41,7 @@ struct FDeviceOptions
 	std::vector<std::string> Sets;
 	std::vector<std::string> Configs;
 	void AddTo(CLI::App& App);
+	void AddSettingsTo(CLI::App& App); ///< console variables only
 };
 
 /// Which picture.

@@ -171,6 +171,7 @@ int RunRender(const FRenderOptions& Options)
 	{
 		const nlohmann::json Json = MakeJson(Session, Options, Figures);
 		PrintTable(Json);
+		if (Options.bDumpGraph) { fmt::print("{}", Session.GetEngine().GetRenderer().DumpGraph()); }
 		Status = WriteOutputs(Options.Picture, Frame.Display.IsEmpty() ? Frame.Lighting : Frame.Display, Json);
 		const double Seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - Start).count();
 		LogInfo("loaded in {:.2f} s, {:.2f} s in all", Session.GetLoadSeconds(), Seconds);
@@ -207,10 +208,10 @@ int RunReference(const FReferenceOptions& Options)
 	if (FRTStatus S = RenderReference(Session.GetEngine(), Settings, Result); !S) { return Session.Close(ReportStatus(S, "reference")); }
 	Progress.Clear();
 	const double MPaths = Result.Seconds > 0.0 ? Result.Paths / Result.Seconds * 1e-6 : 0.0;
-	fmt::print("{} samples ({} resumed) in {:.1f} s, {:.2f} Mpaths/s\n", Options.Samples, Result.ResumedSamples, Result.Seconds, MPaths);
+	fmt::print("{} samples ({} resumed) in {:.1f} s, {:.2f} Mpaths/s\n", Result.Samples, Result.ResumedSamples, Result.Seconds, MPaths);
 	const FRTCapabilities& Capabilities = Session.GetDevice().GetCapabilities();
 	const nlohmann::json Json = {{"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"width", Options.Picture.Width},
-	                             {"height", Options.Picture.Height}, {"spp", Options.Samples}, {"resumed_spp", Result.ResumedSamples},
+	                             {"height", Options.Picture.Height}, {"spp", Result.Samples}, {"resumed_spp", Result.ResumedSamples},
 	                             {"bounces", Options.Bounces}, {"seconds", Result.Seconds}, {"paths", Result.Paths}};
 	const bool bDisplay = IsDisplayOutput(Options.Picture.Output);
 	return Session.Close(WriteOutputs(Options.Picture, bDisplay ? ToneMapImage(Result.Radiance, Settings.View.Exposure) : Result.Radiance, Json));

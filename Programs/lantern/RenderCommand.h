@@ -11,6 +11,7 @@ struct FRenderOptions
 	FDeviceOptions Device;
 	FPictureOptions Picture;
 	uint32_t Frames = 1;
+	bool bDumpGraph = false;
 };
 int RunRender(const FRenderOptions& Options);
 

@@ -61,6 +61,8 @@ int ReportStatus(const FRTStatus& Status, const char* What)
 	{
 	case ERTResult::Unsupported:
 	case ERTResult::OutOfDeviceMemory:
+	case ERTResult::OutOfHostMemory:
+	case ERTResult::OutOfDescriptors:
 	case ERTResult::DeviceLost:
 	case ERTResult::Timeout: return ExitNoDevice;
 	case ERTResult::IoError:
@@ -71,9 +73,9 @@ int ReportStatus(const FRTStatus& Status, const char* What)
 
 FSession::~FSession() = default;
 
-int FSession::LoadConfig(const FDeviceOptions& Options)
+int LoadSettings(const std::string& ConfigFolder, const FDeviceOptions& Options)
 {
-	const FConfigFolder Config{Folders.Config};
+	const FConfigFolder Config{ConfigFolder};
 	LoadDefaults(Config);
 	for (const std::string& Path : Options.Configs)
 	{
@@ -102,7 +104,7 @@ int FSession::OpenDevice(const FDeviceOptions& Options)
 		LogError("the plugin's folder was not found above the program (no Plugin.json); LANTERN_ROOT may name it");
 		return ExitBadInput;
 	}
-	if (const int Status = LoadConfig(Options); Status != ExitDone) { return Status; }
+	if (const int Status = LoadSettings(Folders.Config, Options); Status != ExitDone) { return Status; }
 	FRTVulkanDeviceDesc Desc;
 	Desc.DeviceIndex = Options.Device;
 	if (const char* Index = std::getenv("LANTERN_DEVICE"); Index && Options.Device < 0) { Desc.DeviceIndex = std::atoi(Index); }
@@ -141,6 +143,11 @@ int FSession::OpenDevice(const FDeviceOptions& Options)
 
 int FSession::LoadScene(const FPictureOptions& Options)
 {
+	if (const uint32_t Most = Device->GetCapabilities().MaxTextureDimension; std::max(Options.Width, Options.Height) > Most)
+	{
+		LogError("--size {}x{}: the device allows {} pixels each way", Options.Width, Options.Height, Most);
+		return ExitUsage;
+	}
 	const auto Start = std::chrono::steady_clock::now();
 	FProgressLine Progress;
 	FLoadOptions LoadOptions;
@@ -173,7 +180,9 @@ void FSession::ApplyLight(const FPictureOptions& Options, const FSceneDescriptio
 	bool bEmissive = false;
 	for (const FHostMaterial& Material : Description.Materials) { bEmissive |= glm::any(glm::greaterThan(Material.Emissive, glm::vec3(0))); }
 	const std::optional<FSunLight> OwnSun = Scene.GetOwnSun();
-	const bool bOpenAir = !IsBuiltinScene(Options.Scene) && (OwnSun || (Description.Lights.empty() && !bEmissive));
+	// Whoever names some of the light means that and no more.
+	const bool bNamed = Options.Sun || Options.Sky || Options.bNoSceneLights;
+	const bool bOpenAir = !bNamed && !IsBuiltinScene(Options.Scene) && (OwnSun || (Description.Lights.empty() && !bEmissive));
 	FSunLight Sun;
 	Sun.AngularDiameter = glm::radians(Description.DefaultSunDiameter);
 	if (Options.Sun)
@@ -205,6 +214,7 @@ FView FSession::MakeView(const FPictureOptions& Options) const
 	{
 		View = LookAt(Options.Camera->Position, Options.Camera->Target, static_cast<float>(glm::radians(Options.Camera->FovY)), Options.Width, Options.Height);
 	}
+	View.Near = Engine->GetScene().NearPlane();
 	View.Seed = Options.Seed;
 	View.Exposure = DefaultExposure + CVarExposure.Get();
 	return View;
@@ -212,7 +222,13 @@ FView FSession::MakeView(const FPictureOptions& Options) const
 
 std::string FSession::MakeSceneKey(const FPictureOptions& Options) const
 {
-	std::string Key = fs::weakly_canonical(Options.Scene).string() + '\n';
+	std::error_code Error;
+	std::string Key = fs::weakly_canonical(Options.Scene, Error).string() + '\n';
+	if (fs::is_regular_file(Options.Scene, Error))
+	{
+		// An edited file is another scene.
+		Key += fmt::format("{} {}\n", fs::file_size(Options.Scene, Error), fs::last_write_time(Options.Scene, Error).time_since_epoch().count());
+	}
 	const FSunLight& Sun = Engine->GetScene().GetScene().GetSun();
 	const glm::vec3 Sky = Engine->GetScene().GetScene().GetSky();
 	Key += fmt::format("{} {} {} {} {} {} {} {}\n", Sun.Irradiance, Sun.Direction.x, Sun.Direction.y, Sun.Direction.z, Sun.AngularDiameter, Sky.x, Sky.y, Sky.z);

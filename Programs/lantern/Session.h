@@ -35,7 +35,6 @@ public:
 	double GetLoadSeconds() const { return LoadSeconds; }
 
 private:
-	int LoadConfig(const FDeviceOptions& Options);
 	void ApplyLight(const FPictureOptions& Options, const FSceneDescription& Description);
 
 	FPluginFolders Folders;
@@ -45,6 +44,9 @@ private:
 	float DefaultExposure = 0.0f;
 	double LoadSeconds = 0.0;
 };
+
+/// Sets console variables: the folder's defaults, --config, --quality, --set. An exit status.
+int LoadSettings(const std::string& ConfigFolder, const FDeviceOptions& Options);
 
 /// The exit status that fits an error, after logging it.
 int ReportStatus(const FRTStatus& Status, const char* What);

@@ -23,8 +23,10 @@ void main()
 	OutRelative = World - FViewRef(Push.Pass.View).Data.CameraPosition;
 	// Cofactors: the inverse transpose up to a positive factor, times the determinant's sign.
 	mat3 Cofactors = mat3(cross(Linear[1], Linear[2]), cross(Linear[2], Linear[0]), cross(Linear[0], Linear[1]));
-	OutNormal = Cofactors * Inputs.Normal * ((Object.Flags & OBJECT_MIRRORED) != 0u ? -1.0 : 1.0);
-	OutTangent = vec4(Linear * Inputs.Tangent.xyz, Inputs.Tangent.w);
+	// A mirror turns cross products around: the normal keeps the object's outside, the bitangent its direction.
+	float Handedness = (Object.Flags & OBJECT_MIRRORED) != 0u ? -1.0 : 1.0;
+	OutNormal = Cofactors * Inputs.Normal * Handedness;
+	OutTangent = vec4(Linear * Inputs.Tangent.xyz, Inputs.Tangent.w * Handedness);
 	OutUV = vec4(Inputs.UV0, Inputs.UV1);
 	OutColor = Inputs.Color;
 	gl_Position = FViewRef(Push.Pass.View).Data.RelativeToClip * vec4(OutRelative, 1.0);

@@ -32,12 +32,13 @@ vec2 SampleTriangle(vec2 U)
 	return vec2(S * (1.0 - U.y), S * U.y);
 }
 
-// Balance is replaced by the power heuristic, exponent 2 (Veach 1997).
+// Power heuristic, exponent 2 (Veach 1997). By the ratio: squares of the densities of a small sun overflow.
 float PowerHeuristic(float A, float B)
 {
 	if (isinf(A)) { return 1.0; }
-	float A2 = A * A, B2 = B * B;
-	return A2 + B2 > 0.0 ? A2 / (A2 + B2) : 0.0;
+	if (A <= 0.0) { return 0.0; }
+	float Ratio = B / A;
+	return 1.0 / (1.0 + Ratio * Ratio);
 }
 
 #endif

@@ -4,7 +4,7 @@
 // Fit of the ACES curve (Narkowicz 2015, "ACES Filmic Tone Mapping Curve").
 vec3 ToneMapFilmic(vec3 X)
 {
-	X = max(X, vec3(0.0));
+	X = clamp(X, vec3(0.0), vec3(65504.0)); // squares must stay finite
 	return clamp((X * (2.51 * X + 0.03)) / (X * (2.43 * X + 0.59) + 0.14), 0.0, 1.0);
 }
 

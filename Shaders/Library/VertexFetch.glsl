@@ -21,7 +21,7 @@ uvec3 FetchTriangle(FSectionData Section, uint Primitive)
 		FIndex32Ref Indices = FIndex32Ref(Section.Indices);
 		return uvec3(Indices.Data[3 * Primitive], Indices.Data[3 * Primitive + 1], Indices.Data[3 * Primitive + 2]);
 	}
-	uint First = 3 * Primitive;
+	uint First = 3 * Primitive + ((Section.Flags & SECTION_INDEX_ODD) != 0u ? 1u : 0u);
 	FIndex16Ref Indices = FIndex16Ref(Section.Indices);
 	uint A = Indices.Data[First >> 1], B = Indices.Data[(First + 2) >> 1];
 	return (First & 1u) == 0u ? uvec3(A & 0xffffu, A >> 16, B & 0xffffu) : uvec3(A >> 16, B & 0xffffu, B >> 16);
@@ -57,8 +57,6 @@ FMaterialInputs FetchCoverageInputs(FSectionData Section, uint Primitive, vec2 B
 	return I;
 }
 
-// Only what opacity needs, of the one texture coordinate set that it uses: any-hit shaders and ray queries run on
-// every leaf that a ray meets, and each word of a vertex is a load of its own there.
 struct FVertexUV
 {
 	vec2 UV;
@@ -66,20 +64,22 @@ struct FVertexUV
 };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FVertexUVRef { FVertexUV Data[]; };
 
-FMaterialInputs FetchOpacityInputs(FSectionData Section, uint Primitive, vec2 Barycentrics, uint UVSet)
+// What opacity needs, of the one set of coordinates that it uses. Any-hit shaders and ray queries run on all that a
+// ray meets, where each word of a vertex is a load of its own; the section's flags come with its record, so that
+// nothing here waits for the material.
+vec2 FetchOpacityUV(FSectionData Section, uvec3 Triangle, vec2 Barycentrics)
 {
-	uvec3 T = FetchTriangle(Section, Primitive);
+	uint Offset = (Section.Flags & SECTION_OPACITY_UV1) != 0u ? 16u : 8u; // of FVertexAttributes::UV1, UV0
+	FVertexUVRef V = FVertexUVRef(Section.Attributes + Offset);
+	return (1.0 - Barycentrics.x - Barycentrics.y) * V.Data[Triangle.x].UV + Barycentrics.x * V.Data[Triangle.y].UV +
+	       Barycentrics.y * V.Data[Triangle.z].UV;
+}
+
+float FetchVertexAlpha(FSectionData Section, uvec3 Triangle, vec2 Barycentrics)
+{
 	FAttributeRef A = FAttributeRef(Section.Attributes);
-	FVertexUVRef V = FVertexUVRef(Section.Attributes + 8u + 8u * UVSet); // behind normal and tangent
-	vec3 W = vec3(1.0 - Barycentrics.x - Barycentrics.y, Barycentrics);
-	FMaterialInputs I;
-	I.Normal = vec3(0.0);
-	I.Tangent = vec4(0.0);
-	I.UV0 = W.x * V.Data[T.x].UV + W.y * V.Data[T.y].UV + W.z * V.Data[T.z].UV;
-	I.UV1 = I.UV0;
-	vec3 Alpha = vec3(A.Data[T.x].Color >> 24u, A.Data[T.y].Color >> 24u, A.Data[T.z].Color >> 24u);
-	I.Color = vec4(dot(W, Alpha) * (1.0 / 255.0));
-	return I;
+	vec3 Alpha = vec3(A.Data[Triangle.x].Color >> 24u, A.Data[Triangle.y].Color >> 24u, A.Data[Triangle.z].Color >> 24u);
+	return dot(vec3(1.0 - Barycentrics.x - Barycentrics.y, Barycentrics), Alpha) * (1.0 / 255.0);
 }
 
 // All of it, still in object space.

@@ -30,11 +30,15 @@ struct FMaterialSurface
 	textureLod(sampler2D(Textures[nonuniformEXT((Slot)&0xffffffu)], Samplers[nonuniformEXT((Slot) >> 24)]), UV, 0.0)
 #endif
 
-vec2 MaterialUV(FMaterialData M, FMaterialInputs I, uint Slot)
+vec2 TransformUV(FMaterialData M, vec2 UV, uint Slot)
 {
-	vec2 UV = (M.UVSets & (1u << Slot)) != 0u ? I.UV1 : I.UV0;
 	vec4 T = M.UVTransform[Slot];
 	return vec2(dot(T.xy, UV), dot(T.zw, UV)) + M.UVOffset[Slot];
+}
+
+vec2 MaterialUV(FMaterialData M, FMaterialInputs I, uint Slot)
+{
+	return TransformUV(M, (M.UVSets & (1u << Slot)) != 0u ? I.UV1 : I.UV0, Slot);
 }
 
 vec4 MaterialTexture(FMaterialData M, FMaterialInputs I, uint Slot)
@@ -59,11 +63,21 @@ bool IsCutAway(FMaterialData M, FMaterialInputs I)
 	return (M.Flags & MATERIAL_MASKED) != 0u && EvaluateOpacity(M, I) < M.AlphaCutoff;
 }
 
-// The same at a hit.
+// The same at a hit, reading only what it needs.
 bool IsHitCutAway(FMaterialRef Materials, FSectionData Section, uint Primitive, vec2 Barycentrics)
 {
-	uint UVSet = (Materials.Data[Section.Material].UVSets >> TEXTURE_BASE_COLOR) & 1u;
-	return IsCutAway(Materials.Data[Section.Material], FetchOpacityInputs(Section, Primitive, Barycentrics, UVSet));
+	if ((Section.Flags & SECTION_MASKED) == 0u) { return false; }
+	FMaterialData M = Materials.Data[Section.Material];
+	uvec3 Triangle = FetchTriangle(Section, Primitive);
+	vec2 UV = FetchOpacityUV(Section, Triangle, Barycentrics);
+	float Opacity = M.BaseColor.a;
+	if ((Section.Flags & SECTION_PLAIN_OPACITY) == 0u)
+	{
+		UV = TransformUV(M, UV, TEXTURE_BASE_COLOR);
+		Opacity *= FetchVertexAlpha(Section, Triangle, Barycentrics);
+	}
+	if (HasTexture(M, TEXTURE_BASE_COLOR)) { Opacity *= SampleMaterialTexture(M.Textures[TEXTURE_BASE_COLOR], UV).a; }
+	return Opacity < M.AlphaCutoff;
 }
 
 vec3 EvaluateEmission(FMaterialData M, FMaterialInputs I)

@@ -15,7 +15,9 @@ void main()
 	FMaterialData Material = FMaterialRef(Scene.Materials).Data[Section.Material];
 	FMaterialInputs Inputs = FetchInputs(Section, gl_PrimitiveID, Barycentrics);
 	Inputs.Normal = (Inputs.Normal * gl_WorldToObjectEXT).xyz;
-	Inputs.Tangent.xyz = mat3(gl_ObjectToWorldEXT) * Inputs.Tangent.xyz;
+	mat3 Linear = mat3(gl_ObjectToWorldEXT);
+	Inputs.Tangent.xyz = Linear * Inputs.Tangent.xyz;
+	if (determinant(Linear) < 0.0) { Inputs.Tangent.w = -Inputs.Tangent.w; } // the normal keeps the object's outside
 	FMaterialSurface Surface = EvaluateMaterial(Material, Inputs, Scene.MaterialOverride);
 
 	// The inverse transpose keeps the object's own outside, also where the transform mirrors.

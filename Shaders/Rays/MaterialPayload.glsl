@@ -16,8 +16,10 @@ struct FMaterialPayload
 	uint W1, W2, W3, W4, W5, W6, W7;
 };
 
-// Emission is scaled by this before fp16, so that lamps of millions of nits survive.
+// Emission is scaled by this before fp16, so that lamps of millions of nits survive; what is dimmer than 0.004 nits
+// loses digits instead.
 const float EmissionScale = 1.0 / 64.0;
+const float MaxEmission = 65504.0 / EmissionScale; // nits
 
 #define HIT_CULLED_SIDE 1u // the back of a single-sided surface: camera rays do not see it
 
@@ -43,7 +45,7 @@ FMaterialPayload PackHit(FMaterialHit H)
 	P.W4 = packUnorm2x16(vec2(H.BaseColor.b, H.Roughness));
 	P.W5 = (H.Flags & 3u) | (uint(sqrt(clamp(H.F0, 0.0, 1.0)) * 4095.0 + 0.5) << 2) |
 	       (uint(clamp(H.Specular, 0.0, 1.0) * 255.0 + 0.5) << 14) | (uint(clamp(H.Metallic, 0.0, 1.0) * 1023.0 + 0.5) << 22);
-	vec3 E = min(H.Emissive * EmissionScale, vec3(65504.0));
+	vec3 E = min(H.Emissive, vec3(MaxEmission)) * EmissionScale;
 	P.W6 = packHalf2x16(E.rg);
 	P.W7 = packHalf2x16(vec2(E.b, H.EmissiveWeight));
 	return P;

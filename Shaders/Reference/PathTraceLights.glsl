@@ -3,7 +3,7 @@
 bool IsVisible(FSceneConstants Scene, vec3 Origin, vec3 Direction, float Distance)
 {
 	ShadowPayload.bVisible = 0u;
-	traceRayEXT(Scenes[Scene.Tlas], gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT, 0xffu, SHADOW_RAY,
+	traceRayEXT(Scenes[Scene.Tlas], gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT, MASK_CASTS_SHADOW, SHADOW_RAY,
 	            RAY_TYPES, SHADOW_MISS, Origin, 0.0, Direction, Distance, 1);
 	return ShadowPayload.bVisible != 0u;
 }
@@ -105,12 +105,13 @@ vec3 SampleEmissive(FSceneConstants Scene, FBrdf B, mat3 Basis, vec3 V, vec3 P, 
 	vec3 F = EvaluateBrdfCos(B, V, Towards * Basis);
 	if (Cos <= 1.0e-6 || MaxComponent(F) <= 0.0) { return vec3(0.0); }
 	FMaterialInputs Inputs = FetchCoverageInputs(Section, T.Primitive, Barycentrics);
-	vec3 Emission = EvaluateEmission(Material, Inputs);
+	vec3 Emission = min(EvaluateEmission(Material, Inputs), vec3(MaxEmission)); // as the payload carries it
 #ifdef HAS_MASKED
 	if (IsCutAway(Material, Inputs)) { return vec3(0.0); }
 #endif
-	// Stops short of the emitter by more than the error of its position.
-	if (MaxComponent(Emission) <= 0.0 || !IsVisible(Scene, P, Towards, Distance * 0.9999 - 2.0e-5)) { return vec3(0.0); }
+	// Stops short of the emitter by more than the error of the two positions.
+	float Gap = max(max(max(abs(Point.x), max(abs(Point.y), abs(Point.z))), Distance) * 1.0e-5, 2.0e-5);
+	if (MaxComponent(Emission) <= 0.0 || !IsVisible(Scene, P, Towards, max(Distance - Gap, 0.0))) { return vec3(0.0); }
 	float Density = Material.EmissiveWeight / Scene.EmissivePower * Distance2 / Cos;
 	return F * Emission * (PowerHeuristic(Density, BrdfDensity(B, V, Towards * Basis)) / Density);
 }

@@ -22,7 +22,11 @@ LANTERN_ASSERT_SIZE(FVertexAttributes, 28);
 #define SECTION_MASKED 2u        // alpha-tested
 #define SECTION_DOUBLE_SIDED 4u
 #define SECTION_TANGENTS 8u      // the vertices carry tangents
+#define SECTION_INDEX_ODD 32u    // 16-bit indices that start in the upper half of the word at Indices
 #define SECTION_LIGHT 16u        // its triangles are in the list of emissive triangles
+#define SECTION_OPACITY_UV1 64u  // the base colour uses the second set of texture coordinates
+// The base colour's coordinates are not transformed and every vertex's alpha is 1: the alpha test reads neither.
+#define SECTION_PLAIN_OPACITY 128u
 
 // One section of an object: which triangles, and what they are made of. The local data of a hit record, and
 // an entry of the section table that inline ray queries read.
@@ -81,6 +85,10 @@ struct FObjectData
 	uint Flags;            // OBJECT_…
 };
 LANTERN_ASSERT_SIZE(FObjectData, 56);
+
+// Bits of an object's mask by convention; rays name those that they want to see.
+#define MASK_VISIBLE 1u      // camera, reflection and GI rays
+#define MASK_CASTS_SHADOW 2u // shadow rays
 
 #define OBJECT_MIRRORED 1u // negative determinant: front faces appear clockwise
 

@@ -13,7 +13,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer FA
 
 void main()
 {
-	uint Vertex = gl_GlobalInvocationID.x;
+	uint Vertex = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * SKIN_GROUP_SIZE + gl_LocalInvocationID.x;
 	if (Vertex >= Push.VertexCount) { return; }
 	FSkinVertex Skin = FSkinVertexRef(Push.Weights).Data[Vertex];
 	FJointRef Joints = FJointRef(Push.Joints);
@@ -24,8 +24,10 @@ void main()
 	FVertexAttributes A = FAttributeRef(Push.SourceAttributes).Data[Vertex];
 	mat3 L = mat3(M);
 	mat3 Cofactors = mat3(cross(L[1], L[2]), cross(L[2], L[0]), cross(L[0], L[1]));
-	A.Normal = PackOct(normalize(Cofactors * UnpackOct(A.Normal)));
+	// A joint scaled to nothing hides its part: the directions there no longer matter, but must stay numbers.
+	vec3 Normal = UnpackOct(A.Normal), Tangent = UnpackOct(A.Tangent);
+	A.Normal = PackOct(NormalizeOr(Cofactors * Normal, Normal));
 	uint Sign = A.Tangent & 0x10000u;
-	A.Tangent = (PackOct(normalize(L * UnpackOct(A.Tangent))) & ~0x10000u) | Sign;
+	A.Tangent = (PackOct(NormalizeOr(L * Tangent, Tangent)) & ~0x10000u) | Sign;
 	FAttributeOut(Push.Attributes).Data[Vertex] = A;
 }

@@ -11,7 +11,7 @@ namespace Lantern
 
 namespace
 {
-constexpr std::array<ERTFormat, 4> ColorFormats = {ERTFormat::RGBA16_SNORM, ERTFormat::RGBA8_SRGB, ERTFormat::RGBA8_UNORM, ERTFormat::RGBA16_FLOAT};
+constexpr std::array<ERTFormat, 4> ColorFormats = {ERTFormat::RGBA16_SNORM, ERTFormat::RGBA8_SRGB, ERTFormat::RGBA8_UNORM, ERTFormat::RGBA32_FLOAT};
 
 FRTStatus CreatePipeline(FRenderer& Renderer, bool bMasked, ERTCull Cull, TRTRef<IRTPipeline>& Out)
 {

@@ -73,6 +73,7 @@ FRTGeometryInfo FHostScene::MakeGeometryInfo(uint32_t Mesh) const
 	Info.Indices = Meshes[Mesh].Indices;
 	Info.VertexCount = static_cast<uint32_t>(Source.Positions.size());
 	Info.bHasTangents = Source.bHasTangents;
+	Info.bOpaqueVertices = std::all_of(Source.Attributes.begin(), Source.Attributes.end(), [](const FVertexAttributes& V) { return V.Color >= 0xff000000u; });
 	for (const FHostSection& Section : Source.Sections)
 	{
 		const bool bMasked = Description.Materials[Section.Material].AlphaMode != EAlphaMode::Opaque;
@@ -183,11 +184,21 @@ std::optional<FSunLight> FHostScene::GetOwnSun() const
 	if (Node < 0) { return std::nullopt; }
 	const FHostLight& Light = Description.Lights[Description.Nodes[Node].Light];
 	FSunLight Sun;
-	Sun.Direction = -glm::dvec3(Pose.World[Node][2]);
+	const glm::dvec3 Axis = -glm::dvec3(Pose.World[Node][2]);
+	if (!(glm::length(Axis) > 0.0)) { return std::nullopt; } // scaled to nothing: it shines nowhere
+	Sun.Direction = glm::normalize(Axis);
 	Sun.Irradiance = std::max({Light.Color.x, Light.Color.y, Light.Color.z});
 	Sun.Color = Sun.Irradiance > 0.0f ? Light.Color / Sun.Irradiance : glm::vec3(1);
 	Sun.AngularDiameter = glm::radians(Description.DefaultSunDiameter);
 	return Sun;
+}
+
+float FHostScene::NearPlane() const
+{
+	glm::dvec3 Min(-1), Max(1);
+	GetSceneBounds(Description, Pose, Min, Max);
+	// Reversed depth without a far plane loses nothing to a near plane as close as the scene is small.
+	return static_cast<float>(std::clamp(0.0005 * glm::length(Max - Min), 1e-4, 0.05));
 }
 
 FView FHostScene::MakeDefaultView(uint32_t Width, uint32_t Height) const
@@ -197,8 +208,10 @@ FView FHostScene::MakeDefaultView(uint32_t Width, uint32_t Height) const
 		const int32_t Camera = Description.Nodes[Node].Camera;
 		if (Camera < 0) { continue; }
 		const glm::dmat4& World = Pose.World[Node];
+		if (!(std::abs(glm::determinant(glm::dmat3(World))) > 0.0)) { continue; } // scaled to nothing: it looks nowhere
 		FView View = LookAt(glm::dvec3(World[3]), glm::dvec3(World[3] - World[2]), Description.Cameras[Camera].FovY, Width, Height);
 		View.Up = glm::vec3(glm::normalize(glm::dvec3(World[1])));
+		View.Near = NearPlane();
 		return View;
 	}
 	glm::dvec3 Min(-1), Max(1);
@@ -208,7 +221,7 @@ FView FHostScene::MakeDefaultView(uint32_t Width, uint32_t Height) const
 	const double HalfAngle = std::atan(std::tan(0.5 * FovY) * std::min(1.0, Aspect));
 	const glm::dvec3 Center = 0.5 * (Min + Max), Direction = glm::normalize(glm::dvec3(0.35, 0.35, 1.0));
 	FView View = LookAt(Center + Direction * (0.85 * Radius / std::sin(HalfAngle)), Center, static_cast<float>(FovY), Width, Height);
-	View.Near = static_cast<float>(std::clamp(0.001 * Radius, 1e-4, 0.05));
+	View.Near = NearPlane();
 	return View;
 }
 

@@ -75,7 +75,7 @@ FStateHeader FReferenceJob::MakeHeader(uint32_t Samples) const
 	Header.Bounces = Settings.Bounces;
 	Header.Seed = Settings.View.Seed;
 	const FView& View = Settings.View;
-	const double Camera[] = {View.Position.x, View.Position.y, View.Position.z, View.Forward.x, View.Forward.y, View.Forward.z, View.FovY, Settings.Time};
+	const double Camera[] = {View.Position.x, View.Position.y, View.Position.z, View.Forward.x, View.Forward.y, View.Forward.z, View.Up.x, View.Up.y, View.Up.z, View.FovY, Settings.Time};
 	Header.Key = HashBytes(Camera, sizeof(Camera), HashBytes(Settings.SceneKey.data(), Settings.SceneKey.size(), 14695981039346656037ull));
 	return Header;
 }
@@ -201,6 +201,7 @@ FRTStatus FReferenceJob::Run(FReferenceResult& Out)
 		}
 	}
 	if (FRTStatus S = SaveState(Done); !S) { return S; }
+	Out.Samples = Done;
 	Out.Seconds = SecondsSince(Start);
 	Out.Paths = uint64_t(Done - First) * Height * Settings.View.Width;
 	Out.Radiance = FImage(Settings.View.Width, Height, 3);

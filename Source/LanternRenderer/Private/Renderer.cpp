@@ -61,16 +61,19 @@ FRTStatus FRenderer::PrepareRayPipeline(const FFrameFeatures& Features)
 		RayPipeline.reset();
 		return FRTStatus::Success();
 	}
-	std::shared_ptr<FRTPSO>& Entry = RayPipelines[FRTPSO::MakeKey(Programs.Desc)];
-	if (!Entry)
+	FRayPipelineEntry& Entry = RayPipelines[FRTPSO::MakeKey(Programs.Desc)];
+	// What the compiler refused once it refuses again; what failed for want of memory may be tried again.
+	if (Entry.Status.Code == ERTResult::CompileFailed) { return Entry.Status; }
+	if (!Entry.Pipeline)
 	{
 		const auto Start = std::chrono::steady_clock::now();
 		auto Pipeline = std::make_shared<FRTPSO>();
-		if (FRTStatus S = FRTPSO::Create(Device, Compiler, Programs.Desc, *Pipeline); !S) { return S; }
-		Entry = std::move(Pipeline);
+		Entry.Status = FRTPSO::Create(Device, Compiler, Programs.Desc, *Pipeline);
+		if (!Entry.Status) { return Entry.Status; }
+		Entry.Pipeline = std::move(Pipeline);
 		LastPipelineMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - Start).count();
 	}
-	RayPipeline = Entry;
+	RayPipeline = Entry.Pipeline;
 	Context->RayPipeline = RayPipeline.get();
 	Context->RayBindings = &Bindings;
 	Context->SunShadowRayGen = Programs.SunShadowRayGen;

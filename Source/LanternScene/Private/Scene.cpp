@@ -24,16 +24,27 @@ uint64_t SectionIndices(const FRTGeometryInfo& Info, uint32_t Section)
 	return Info.Indices->GetDeviceAddress() + Info.IndicesOffset + uint64_t(Info.Sections[Section].FirstIndex) * Bytes;
 }
 
+/// Whether the alpha test may take texture coordinates and vertices as they are.
+bool HasPlainOpacity(const FRTGeometryInfo& Info, const FMaterialData& Material)
+{
+	return Info.bOpaqueVertices && Material.UVTransform[TEXTURE_BASE_COLOR] == glm::vec4(1, 0, 0, 1) &&
+	       Material.UVOffset[TEXTURE_BASE_COLOR] == glm::vec2(0);
+}
+
 FSectionData MakeSection(const FRTGeometry& Geometry, uint32_t Section, uint32_t MaterialIndex, const FMaterialData& Material, bool bMasked)
 {
 	const FRTGeometryInfo& Info = Geometry.GetInfo();
 	FSectionData Data{};
 	Data.Positions = Info.Positions->GetDeviceAddress() + Info.PositionsOffset;
 	Data.Attributes = Info.Attributes->GetDeviceAddress() + Info.AttributesOffset;
-	Data.Indices = SectionIndices(Info, Section);
+	const uint64_t Indices = SectionIndices(Info, Section);
+	Data.Indices = Indices & ~uint64_t(3); // shaders read whole words
 	Data.Material = MaterialIndex;
 	Data.Flags = Info.IndexType == ERTIndexType::UInt16 ? SECTION_INDEX_16 : 0u;
+	if (Indices & 2) { Data.Flags |= SECTION_INDEX_ODD; }
 	if (bMasked) { Data.Flags |= SECTION_MASKED; }
+	if (Material.UVSets & (1u << TEXTURE_BASE_COLOR)) { Data.Flags |= SECTION_OPACITY_UV1; }
+	if (HasPlainOpacity(Info, Material)) { Data.Flags |= SECTION_PLAIN_OPACITY; }
 	if (Material.Flags & MATERIAL_DOUBLE_SIDED) { Data.Flags |= SECTION_DOUBLE_SIDED; }
 	if (Info.bHasTangents) { Data.Flags |= SECTION_TANGENTS; }
 	if (Material.EmissiveWeight > 0.0f && !Info.bDynamic && Info.CpuPositions) { Data.Flags |= SECTION_LIGHT; }
@@ -171,24 +182,6 @@ void FRTScene::WriteObject(uint32_t Index)
 	ObjectData.Set(Index, Data);
 }
 
-void FRTScene::SetLights(std::vector<FSceneLight> InLights)
-{
-	Lights = std::move(InLights);
-	bLightsChanged = bFactsChanged = true;
-}
-
-void FRTScene::SetSun(const FSunLight& InSun)
-{
-	Sun = InSun;
-	bFactsChanged = true;
-}
-
-void FRTScene::SetSky(glm::vec3 Radiance)
-{
-	Sky = Radiance;
-	bFactsChanged = true;
-}
-
 void FRTScene::SetMaterialOverride(uint32_t Override)
 {
 	if (MaterialOverride != Override) { bFactsChanged = bObjectsChanged = true; }
@@ -265,7 +258,13 @@ bool FRTScene::NeedsUpdate(glm::dvec3 Camera, const FSceneUse& Use) const
 	       SnapOrigin(Camera) != Origin;
 }
 
-glm::dvec3 FRTScene::SnapOrigin(glm::dvec3 Camera) { return glm::floor(Camera / OriginStep + 0.5) * OriginStep; }
+glm::dvec3 FRTScene::SnapOrigin(glm::dvec3 Camera) const
+{
+	// A camera that goes to and fro across a border of the grid must not rewrite the scene each time.
+	const glm::dvec3 Away = glm::abs(Camera - Origin);
+	if (std::max({Away.x, Away.y, Away.z}) <= 0.75 * OriginStep) { return Origin; }
+	return glm::floor(Camera / OriginStep + 0.5) * OriginStep;
+}
 
 void FRTScene::MoveOrigin(glm::dvec3 Camera)
 {
@@ -277,63 +276,6 @@ void FRTScene::MoveOrigin(glm::dvec3 Camera)
 		if (Objects[Index].bAlive) { WriteObject(Index); }
 	}
 	bObjectsChanged = bLightsChanged = bEmissiveChanged = true;
-}
-
-void FRTScene::UpdateLights()
-{
-	std::vector<FLightData> Data;
-	for (const FSceneLight& Light : Lights)
-	{
-		Data.push_back(Light.Data);
-		Data.back().Position = ToRelative(Light.WorldPosition);
-	}
-	LightData.Assign(std::move(Data));
-	bLightsChanged = false;
-}
-
-void FRTScene::UpdateEmissiveTriangles()
-{
-	std::vector<FEmissiveTriangle> Triangles;
-	double Power = 0.0;
-	for (uint32_t Index = 0; Index < Objects.size(); ++Index)
-	{
-		const FObject& Object = Objects[Index];
-		if (!Object.bAlive) { continue; }
-		const FRTGeometryInfo& Info = Object.Info.Geometry->GetInfo();
-		for (uint32_t Section = 0; Section < Info.Sections.size(); ++Section)
-		{
-			const FMaterialData& Material = Materials[Object.Info.Materials[Section]];
-			if ((Sections->Get(Object.FirstSection + Section).Flags & SECTION_LIGHT) == 0) { continue; }
-			for (uint32_t Primitive = 0; Primitive < Info.Sections[Section].IndexCount / 3; ++Primitive)
-			{
-				glm::vec3 P[3];
-				for (int Corner = 0; Corner < 3; ++Corner)
-				{
-					const uint32_t Vertex = Info.CpuIndices[Info.Sections[Section].FirstIndex + 3 * Primitive + Corner];
-					P[Corner] = ToRelative(glm::dvec3(Object.Info.Transform * glm::dvec4(Info.CpuPositions[Vertex], 1.0)));
-				}
-				const double Area = 0.5 * glm::length(glm::cross(glm::dvec3(P[1] - P[0]), glm::dvec3(P[2] - P[0])));
-				if (!(Area > 0.0)) { continue; }
-				Power += Area * Material.EmissiveWeight;
-				FEmissiveTriangle Triangle{};
-				Triangle.P0 = P[0];
-				Triangle.P1 = P[1];
-				Triangle.P2 = P[2];
-				Triangle.CumulativePower = static_cast<float>(Power);
-				Triangle.Object = Index;
-				Triangle.Section = Object.FirstSection + Section;
-				Triangle.Primitive = Primitive;
-				Triangle.Flags = ObjectData[Index].Flags & OBJECT_MIRRORED;
-				Triangles.push_back(Triangle);
-			}
-		}
-	}
-	EmissivePower = static_cast<float>(Power);
-	for (FEmissiveTriangle& Triangle : Triangles) { Triangle.CumulativePower = static_cast<float>(Triangle.CumulativePower / Power); }
-	if (!Triangles.empty()) { Triangles.back().CumulativePower = 1.0f; } // rounding must leave no gap above it
-	Facts.EmissiveTriangles = static_cast<uint32_t>(Triangles.size());
-	EmissiveTriangles.Assign(std::move(Triangles));
-	bEmissiveChanged = false;
 }
 
 FRTStatus FRTScene::BuildPending(IRTCommandList& List)
@@ -357,7 +299,12 @@ FRTStatus FRTScene::BuildPending(IRTCommandList& List)
 FRTStatus FRTScene::ReserveStructure(uint32_t InstanceCount)
 {
 	if (Structure && Structure->GetMaxInstances() >= InstanceCount) { return FRTStatus::Success(); }
-	const uint32_t Capacity = std::max({64u, InstanceCount, Structure ? 2 * Structure->GetMaxInstances() : 0u});
+	const uint64_t Most = std::min<uint64_t>(Device.GetCapabilities().MaxInstanceCount, MaxInstanceIndex);
+	if (InstanceCount > Most)
+	{
+		return FRTStatus::Error(ERTResult::Unsupported, "the scene has %u objects; the device allows %llu", InstanceCount, static_cast<unsigned long long>(Most));
+	}
+	const uint32_t Capacity = static_cast<uint32_t>(std::min<uint64_t>(Most, std::max({64u, InstanceCount, Structure ? 2 * Structure->GetMaxInstances() : 0u})));
 	FRTSceneDesc Desc;
 	Desc.MaxInstances = Capacity;
 	Desc.Name = "Scene";
@@ -367,6 +314,11 @@ FRTStatus FRTScene::ReserveStructure(uint32_t InstanceCount)
 FRTStatus FRTScene::BuildStructure(IRTCommandList& List, FFrameUploads& Uploads)
 {
 	if (FRTStatus S = ReserveStructure(Facts.Objects); !S) { return S; }
+	// An instance names its first hit record with 24 bits.
+	if (uint64_t(Sections->GetCapacity()) * RayTypes > MaxInstanceIndex)
+	{
+		return FRTStatus::Error(ERTResult::Unsupported, "the scene has %u sections; %u ray types allow %u", Sections->GetCapacity(), RayTypes, MaxInstanceIndex / RayTypes);
+	}
 	FUploadSlice Slice;
 	if (FRTStatus S = Uploads.Allocate(std::max<uint64_t>(1, Facts.Objects) * sizeof(FRTInstance), Slice); !S) { return S; }
 	auto* Instance = static_cast<FRTInstance*>(Slice.Data);
@@ -426,29 +378,6 @@ FRTStatus FRTScene::Update(IRTCommandList& List, FFrameUploads& Uploads, glm::dv
 	if (FRTStatus S = BuildPending(List); !S) { return S; }
 	if (bObjectsChanged || !Structure) { return BuildStructure(List, Uploads); }
 	return FRTStatus::Success();
-}
-
-FSceneConstants FRTScene::GetConstants() const
-{
-	FSceneConstants C{};
-	C.Objects = ObjectData.GetAddress();
-	C.Sections = Sections->GetTable().GetAddress();
-	C.Materials = Materials.GetAddress();
-	C.Lights = LightData.GetAddress();
-	C.EmissiveTriangles = EmissiveTriangles.GetAddress();
-	C.LightCount = LightData.Num();
-	C.EmissiveTriangleCount = EmissiveTriangles.Num();
-	C.EmissivePower = EmissivePower;
-	C.Tlas = Structure ? Structure->GetIndex() : ~0u;
-	C.SunDirection = glm::vec3(glm::normalize(Sun.Direction));
-	C.SunIrradiance = Sun.Irradiance;
-	C.SunColor = Sun.Color;
-	// 1 − cos r = 2 sin²(r/2): the difference itself would lose all digits for a disk as small as the sun's.
-	const double HalfSin = std::sin(0.25 * double(Sun.AngularDiameter));
-	C.SunOneMinusCos = static_cast<float>(2.0 * HalfSin * HalfSin);
-	C.SkyRadiance = Sky;
-	C.MaterialOverride = MaterialOverride;
-	return C;
 }
 
 void FRTScene::Rerecord()

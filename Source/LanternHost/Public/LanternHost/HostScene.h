@@ -32,6 +32,8 @@ public:
 	/// The scene's first directional light, if there is one: it shines as the sun, with shadows, or not at all.
 	std::optional<FSunLight> GetOwnSun() const;
 	void SetSun(const FSunLight& Sun) { Scene.SetSun(Sun); }
+	/// Metres; fits the scene's size, at most 5 cm.
+	float NearPlane() const;
 	/// The file's first camera, else one that sees all of the scene.
 	FView MakeDefaultView(uint32_t Width, uint32_t Height) const;
 

@@ -32,7 +32,8 @@ struct FReferenceResult
 	FImage Radiance; ///< mean of the samples
 	uint64_t Paths = 0; ///< traced in this run
 	double Seconds = 0.0;
-	uint32_t ResumedSamples = 0;
+	uint32_t Samples = 0;        ///< in the picture; more than asked for where the state had more
+	uint32_t ResumedSamples = 0; ///< of them, from the state
 };
 
 /// The same settings and seed give the same image, bit for bit on the same device, however it was interrupted.

@@ -1,8 +1,15 @@
+#include <algorithm>
+
 #include "GBufferTypes.h"
 #include "PassTools.h"
 
 namespace Lantern
 {
+
+namespace
+{
+constexpr uint32_t MaxGroups = 65535; // in one dimension, on any device
+}
 
 FRTStatus AddSkinningPass(FFrameContext& Context, FFrameUploads& Uploads, const std::vector<FSkinningInputs>& Items)
 {
@@ -41,8 +48,9 @@ FRTStatus AddSkinningPass(FFrameContext& Context, FFrameUploads& Uploads, const 
 			Pass.Commands().SetPipeline(Pipeline);
 			for (const FSkinConstants& C : Dispatches)
 			{
+				const uint32_t Groups = DivideUp(C.VertexCount, SKIN_GROUP_SIZE);
 				Pass.Commands().PushConstants(&C, sizeof(C));
-				Pass.Commands().Dispatch(DivideUp(C.VertexCount, SKIN_GROUP_SIZE), 1, 1);
+				Pass.Commands().Dispatch(std::min(Groups, MaxGroups), DivideUp(Groups, MaxGroups), 1);
 			}
 			Pass.Commands().Barriers(After.data(), static_cast<uint32_t>(After.size()));
 		};

@@ -110,7 +110,12 @@ private:
 	FFrameUploads Uploads;
 	FFrameGraphResources GraphResources;
 	FShaderBindings Bindings;
-	std::map<std::string, std::shared_ptr<FRTPSO>> RayPipelines;
+	struct FRayPipelineEntry
+	{
+		std::shared_ptr<FRTPSO> Pipeline;
+		FRTStatus Status;
+	};
+	std::map<std::string, FRayPipelineEntry> RayPipelines;
 	std::shared_ptr<FRTPSO> RayPipeline;
 	double LastPipelineMs = 0.0;
 	std::unique_ptr<FFrameGraph> Graph;

@@ -35,6 +35,8 @@ struct FRTGeometryInfo
 	uint32_t VertexCount = 0;
 	std::vector<FRTSectionInfo> Sections; ///< > 0
 	bool bHasTangents = false;
+	/// The alpha of every vertex colour is 1: alpha tests then do not read it. False is always right.
+	bool bOpaqueVertices = false;
 	/// Vertices change after creation (skinning): call FRTScene::MarkDeformed when they did.
 	bool bDynamic = false;
 	/// The same data on the CPU, alive as long as the geometry; null: its emissive triangles are found by chance

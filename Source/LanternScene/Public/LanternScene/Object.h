@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "LanternScene/Geometry.h"
+#include "SceneTypes.h"
 
 namespace Lantern
 {
@@ -21,8 +22,8 @@ struct FRTObjectId
 };
 
 /// Bits of FRTObjectInfo::Mask by convention; rays of a pass name those that they want to see.
-inline constexpr uint8_t MaskVisible = 0x01;     ///< seen by camera, reflection and GI rays
-inline constexpr uint8_t MaskCastsShadow = 0x02; ///< seen by shadow rays
+inline constexpr uint8_t MaskVisible = MASK_VISIBLE;     ///< seen by camera, reflection and GI rays
+inline constexpr uint8_t MaskCastsShadow = MASK_CASTS_SHADOW; ///< seen by shadow rays
 inline constexpr uint8_t MaskAll = 0xff;
 
 struct FRTObjectInfo

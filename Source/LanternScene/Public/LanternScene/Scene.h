@@ -135,7 +135,7 @@ private:
 	FObject& Resolve(FRTObjectId Id);
 	const FObject& Resolve(FRTObjectId Id) const;
 	void WriteObject(uint32_t Index);
-	static glm::dvec3 SnapOrigin(glm::dvec3 Camera);
+	glm::dvec3 SnapOrigin(glm::dvec3 Camera) const;
 	bool AreTablesDirty() const;
 	void MoveOrigin(glm::dvec3 Camera);
 	void UpdateFacts();
