@@ -52,7 +52,7 @@ std::optional<FHit> FindNearest(const FForkScene& Scene, glm::dvec3 Origin, glm:
 	std::optional<FHit> Nearest;
 	for (size_t Index = 0; Index < Scene.Boxes.size(); ++Index)
 	{
-		if (SeenBy == ESeenBy::Sun && !Scene.Boxes[Index].bCastsShadow)
+		if (SeenBy == ESeenBy::Sun && (!Scene.Boxes[Index].bCastsShadow || Scene.Boxes[Index].bCutOut))
 		{
 			continue;
 		}
@@ -101,8 +101,9 @@ FForkScene MakeScene(glm::dvec3 Offset)
 	Scene.Boxes = {
 	    {Offset + glm::dvec3(0, -0.5, 0), {10, 0.5, 10}},
 	    {Offset + glm::dvec3(-1, 2.5, 0), {1, 1, 1}},
-	    {Offset + glm::dvec3(3, 2, -2), {0.4, 2, 0.4}},
+	    {Offset + glm::dvec3(3, 2, -2), {0.4, 2, 0.4}, true, false, true},
 	    {Offset + glm::dvec3(-5, 2, 3), {1, 0.2, 1}, false},
+	    {Offset + glm::dvec3(4.5, 1.2, 3), {0.6, 0.6, 0.6}, true, true},
 	};
 	Scene.SunDirection = normalize(glm::dvec3(0.6, -1.0, 0.35));
 	Scene.Camera.Position = Offset + glm::dvec3(2, 6, 11);
@@ -112,7 +113,7 @@ FForkScene MakeScene(glm::dvec3 Offset)
 	return Scene;
 }
 
-FBoxMesh MakeBoxMesh()
+FBoxMesh MakeBoxMesh(glm::vec3 HalfSize)
 {
 	FBoxMesh Mesh;
 	for (uint32_t Face = 0; Face < 6; ++Face)
@@ -125,7 +126,7 @@ FBoxMesh MakeBoxMesh()
 		const std::array<glm::vec3, 4> Corners = {Normal - U - V, Normal + U - V, Normal + U + V, Normal - U + V};
 		for (uint32_t Corner = 0; Corner < 4; ++Corner)
 		{
-			Mesh.Vertices[Face * 4 + Corner] = {Corners[Corner], Normal};
+			Mesh.Vertices[Face * 4 + Corner] = {Corners[Corner] * HalfSize, Normal};
 		}
 		constexpr std::array<uint32_t, 6> Quad = {0, 1, 2, 0, 2, 3};
 		for (uint32_t Index = 0; Index < 6; ++Index)

@@ -15,6 +15,8 @@ struct FBox
 	glm::dvec3 Centre{0};
 	glm::dvec3 HalfSize{1};
 	bool bCastsShadow = true;
+	bool bCutOut = false;     ///< its material's alpha test lets all light through
+	bool bDeformable = false; ///< has a mesh of its own, whose vertices may change
 };
 
 struct FCamera
@@ -32,7 +34,8 @@ struct FForkScene
 	FCamera Camera;
 };
 
-/// A floor, a floating cube, a pillar, and a slab that casts no shadow, all moved by Offset.
+/// A floor, a floating cube, a pillar that may be deformed, a slab that casts no shadow, and a cut-out cube, all moved
+/// by Offset.
 FForkScene MakeScene(glm::dvec3 Offset);
 
 struct FVertex
@@ -46,8 +49,8 @@ struct FBoxMesh
 	std::array<uint32_t, 36> Indices; ///< counter-clockwise from outside
 };
 
-/// From −1 to 1.
-FBoxMesh MakeBoxMesh();
+/// From −HalfSize to HalfSize.
+FBoxMesh MakeBoxMesh(glm::vec3 HalfSize = glm::vec3(1));
 
 /// Of positions relative to the camera; Vulkan's clip space, reversed depth without a far plane.
 glm::mat4 GetRelativeToClip(const FCamera& Camera, double Aspect);

@@ -199,7 +199,34 @@ FError CheckScene(FStage& Stage, const FForkScene& Scene, const char* What)
 	                                         : std::string(What) + ": the shadows are not where they must be";
 }
 
-/// As it was made, then with one box moved and one gone, as in a game.
+FError CheckMoved(FStage& Stage, FForkScene& Scene)
+{
+	Scene.Boxes[2].Centre += glm::dvec3(-3.0, 0.0, 4.0);
+	FError Error = Stage.Plugin.MoveBox(2, Scene.Boxes[2]);
+	Scene.Boxes.erase(Scene.Boxes.begin() + 1);
+	if (Error.empty())
+	{
+		Error = Stage.Plugin.RemoveBox(1);
+	}
+	return Error.empty() ? CheckScene(Stage, Scene, "pillar moved, cube gone") : Error;
+}
+
+/// Boxes as CheckMoved left them: floor, pillar, slab, cut-out.
+FError CheckChanged(FStage& Stage, FForkScene& Scene)
+{
+	constexpr float Scale = 0.75f;
+	Scene.Boxes[1].HalfSize *= Scale;
+	FError Error = Stage.Plugin.ScaleVertices(Scale);
+	Scene.Boxes[2].bCastsShadow = true;
+	Scene.Boxes[3].bCutOut = false;
+	for (size_t Box = 2; Error.empty() && Box <= 3; ++Box)
+	{
+		Error = Stage.Plugin.SetBox(Box, Scene.Boxes[Box]);
+	}
+	return Error.empty() ? CheckScene(Stage, Scene, "pillar deformed, slab and cut-out cast shadows") : Error;
+}
+
+/// As it was made, then changed as in a game.
 FError CheckScenes(FStage& Stage, FForkScene Scene, const FOptions& Options)
 {
 	FError Error = CheckScene(Stage, Scene, "as made");
@@ -212,11 +239,8 @@ FError CheckScenes(FStage& Stage, FForkScene Scene, const FOptions& Options)
 	{
 		return Error;
 	}
-	Scene.Boxes[2].Centre += glm::dvec3(-3.0, 0.0, 4.0);
-	Stage.Plugin.MoveBox(2, Scene.Boxes[2]);
-	Scene.Boxes.erase(Scene.Boxes.begin() + 1);
-	Stage.Plugin.RemoveBox(1);
-	return CheckScene(Stage, Scene, "pillar moved, cube gone");
+	Error = CheckMoved(Stage, Scene);
+	return Error.empty() ? CheckChanged(Stage, Scene) : Error;
 }
 
 int RenderAndCheck(FForkDevice& Device, FPluginScene& Plugin, const FOptions& Options)

@@ -45,43 +45,77 @@ std::array<double, 12> GetTransform(const FBox& Box)
 	return Rows;
 }
 
+/// The plugin's arrays are of single numbers: positions apart from normals.
+struct FBoxArrays
+{
+	explicit FBoxArrays(const FBoxMesh& Box)
+	{
+		for (const FVertex& Vertex : Box.Vertices)
+		{
+			Positions.push_back(Vertex.Position);
+			Normals.push_back(Vertex.Normal);
+		}
+	}
+	std::vector<glm::vec3> Positions, Normals;
+};
+
 } // namespace
+
+FError FPluginScene::AddBoxMesh(bool bDeformable, ERTMeshHandle& Out)
+{
+	const FBoxMesh Box = MakeBoxMesh();
+	const FBoxArrays Arrays(Box);
+	FRTModuleMesh Mesh;
+	Mesh.Name = bDeformable ? "DeformableBox" : "Box";
+	Mesh.Positions = &Arrays.Positions[0].x;
+	Mesh.Normals = &Arrays.Normals[0].x;
+	Mesh.VertexCount = static_cast<uint32_t>(Arrays.Positions.size());
+	Mesh.Indices = Box.Indices.data();
+	Mesh.IndexCount = static_cast<uint32_t>(Box.Indices.size());
+	Mesh.bDeformable = bDeformable;
+	return ToError(Renderer->AddMesh(Mesh, &Out), "AddMesh");
+}
+
+FError FPluginScene::AddMaterials()
+{
+	FError Error = ToError(Renderer->AddMaterial({}, &Solid), "AddMaterial(solid)");
+	if (Error.empty())
+	{
+		FRTModuleMaterial Material;
+		Material.BaseColor[3] = 0.0f; // below the cutoff everywhere
+		Material.bMasked = true;
+		Error = ToError(Renderer->AddMaterial(Material, &CutOut), "AddMaterial(cut out)");
+	}
+	return Error;
+}
+
+FError FPluginScene::AddBox(const FBox& Box)
+{
+	FRTModuleObject Object;
+	Object.Mesh = Box.bDeformable ? DeformableMesh : RigidMesh;
+	Object.Materials = Box.bCutOut ? &CutOut : &Solid;
+	Object.MaterialCount = 1;
+	Object.bCastsShadow = Box.bCastsShadow;
+	const std::array<double, 12> Transform = GetTransform(Box);
+	std::copy(Transform.begin(), Transform.end(), Object.Transform);
+	Boxes.emplace_back();
+	return ToError(Renderer->AddObject(Object, &Boxes.back()), "AddObject");
+}
 
 FError FPluginScene::AddScene(const FForkScene& Scene)
 {
-	// The plugin's arrays are of single numbers: positions apart from normals.
-	const FBoxMesh Box = MakeBoxMesh();
-	std::vector<glm::vec3> Positions, VertexNormals;
-	for (const FVertex& Vertex : Box.Vertices)
-	{
-		Positions.push_back(Vertex.Position);
-		VertexNormals.push_back(Vertex.Normal);
-	}
-	FRTModuleMesh Mesh;
-	Mesh.Name = "Box";
-	Mesh.Positions = &Positions[0].x;
-	Mesh.Normals = &VertexNormals[0].x;
-	Mesh.VertexCount = static_cast<uint32_t>(Positions.size());
-	Mesh.Indices = Box.Indices.data();
-	Mesh.IndexCount = static_cast<uint32_t>(Box.Indices.size());
-	ERTMeshHandle MeshHandle = ERTMeshHandle::None;
-	FError Error = ToError(Renderer->AddMesh(Mesh, &MeshHandle), "AddMesh");
-	ERTMaterialHandle Material = ERTMaterialHandle::None;
+	FError Error = AddBoxMesh(false, RigidMesh);
 	if (Error.empty())
 	{
-		Error = ToError(Renderer->AddMaterial({}, &Material), "AddMaterial");
+		Error = AddBoxMesh(true, DeformableMesh);
+	}
+	if (Error.empty())
+	{
+		Error = AddMaterials();
 	}
 	for (size_t Index = 0; Error.empty() && Index < Scene.Boxes.size(); ++Index)
 	{
-		FRTModuleObject Object;
-		Object.Mesh = MeshHandle;
-		Object.Materials = &Material;
-		Object.MaterialCount = 1;
-		Object.bCastsShadow = Scene.Boxes[Index].bCastsShadow;
-		const std::array<double, 12> Transform = GetTransform(Scene.Boxes[Index]);
-		std::copy(Transform.begin(), Transform.end(), Object.Transform);
-		Boxes.emplace_back();
-		Error = ToError(Renderer->AddObject(Object, &Boxes.back()), "AddObject");
+		Error = AddBox(Scene.Boxes[Index]);
 	}
 	FRTModuleSun Sun;
 	Sun.Irradiance = 1.0f;
@@ -89,19 +123,34 @@ FError FPluginScene::AddScene(const FForkScene& Scene)
 	{
 		Sun.Direction[Axis] = Scene.SunDirection[Axis];
 	}
-	Renderer->SetSun(Sun);
+	return Error.empty() ? ToError(Renderer->SetSun(Sun), "SetSun") : Error;
+}
+
+FError FPluginScene::MoveBox(size_t Box, const FBox& To)
+{
+	return ToError(Renderer->SetObjectTransform(Boxes[Box], GetTransform(To).data()), "SetObjectTransform");
+}
+
+FError FPluginScene::RemoveBox(size_t Box)
+{
+	const FError Error = ToError(Renderer->RemoveObject(Boxes[Box]), "RemoveObject");
+	Boxes.erase(Boxes.begin() + static_cast<std::ptrdiff_t>(Box));
 	return Error;
 }
 
-void FPluginScene::MoveBox(size_t Box, const FBox& To)
+FError FPluginScene::ScaleVertices(float Scale)
 {
-	Renderer->SetObjectTransform(Boxes[Box], GetTransform(To).data());
+	const FBoxArrays Arrays(MakeBoxMesh(glm::vec3(Scale)));
+	return ToError(Renderer->UpdateMeshVertices(DeformableMesh, &Arrays.Positions[0].x, &Arrays.Normals[0].x),
+	               "UpdateMeshVertices");
 }
 
-void FPluginScene::RemoveBox(size_t Box)
+FError FPluginScene::SetBox(size_t Box, const FBox& To)
 {
-	Renderer->RemoveObject(Boxes[Box]);
-	Boxes.erase(Boxes.begin() + static_cast<std::ptrdiff_t>(Box));
+	const FError Error =
+	    ToError(Renderer->SetObjectMaterials(Boxes[Box], To.bCutOut ? &CutOut : &Solid, 1), "SetObjectMaterials");
+	return Error.empty() ? ToError(Renderer->SetObjectCastsShadow(Boxes[Box], To.bCastsShadow), "SetObjectCastsShadow")
+	                     : Error;
 }
 
 FError FPluginScene::ImportGBuffer(const FForkRaster& Raster, VkExtent2D Size)
@@ -155,7 +204,7 @@ FError FPluginScene::Render(VkCommandBuffer Commands, const FCamera& Camera, IRT
 	Frame.View.Near = static_cast<float>(Camera.Near);
 	FRTModuleOutputs Outputs;
 	Error = ToError(Renderer->RenderFrame(Frame, &Outputs), "RenderFrame");
-	OutMask = Outputs.bComplete ? Outputs.SunShadow : nullptr;
+	OutMask = Outputs.SunShadow;
 	return Error;
 }
 

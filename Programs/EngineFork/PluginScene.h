@@ -23,8 +23,12 @@ public:
 	              const Lantern::IRTVulkanRequirements& Requirements);
 	FError AddScene(const FForkScene& Scene);
 	/// Box: as AddScene counted them.
-	void MoveBox(size_t Box, const FBox& To);
-	void RemoveBox(size_t Box);
+	FError MoveBox(size_t Box, const FBox& To);
+	FError RemoveBox(size_t Box);
+	/// Of the deformable boxes; their transforms stay.
+	FError ScaleVertices(float Scale);
+	/// What of it is asked for by bCastsShadow and bCutOut.
+	FError SetBox(size_t Box, const FBox& To);
 	FError ImportGBuffer(const FForkRaster& Raster, VkExtent2D Size);
 	void ReleaseGBuffer(); ///< before the raster's images go
 	/// Records the plugin's work; Commands is recording and the G-buffer is in it. OutMask: null when the plugin has
@@ -35,8 +39,14 @@ public:
 	Lantern::IRTDevice& GetDevice() { return *Device; }
 
 private:
+	FError AddBoxMesh(bool bDeformable, Lantern::ERTMeshHandle& Out);
+	FError AddMaterials();
+	FError AddBox(const FBox& Box);
+
 	Lantern::TRTRef<Lantern::IRTDevice> Device; // declared first: goes last
 	Lantern::TRTRef<Lantern::IRTModuleRenderer> Renderer;
+	Lantern::ERTMeshHandle RigidMesh{}, DeformableMesh{};
+	Lantern::ERTMaterialHandle Solid{}, CutOut{};
 	std::vector<Lantern::ERTObjectHandle> Boxes;
 	Lantern::TRTRef<Lantern::IRTTexture> Depth, Normals;
 	Lantern::TRTRef<Lantern::IRTCommandList> List;

@@ -71,10 +71,9 @@ FRTStatus CheckMesh(const FRTModuleMesh& Mesh)
 	{
 		return Refuse(Mesh, "the number of indices is not a multiple of 3");
 	}
-	if (!std::all_of(Mesh.Positions, Mesh.Positions + size_t(Mesh.VertexCount) * 3,
-	                 [](float Value) { return std::isfinite(Value); }))
+	if (const FRTStatus Status = CheckPositions(Mesh); !Status)
 	{
-		return Refuse(Mesh, "a position is not finite");
+		return Status;
 	}
 	if (*std::max_element(Mesh.Indices, Mesh.Indices + Mesh.IndexCount) >= Mesh.VertexCount)
 	{
@@ -94,21 +93,38 @@ FRTStatus CheckMesh(const FRTModuleMesh& Mesh)
 	return FRTStatus::Success();
 }
 
-std::vector<FVertexAttributes> PackAttributes(const FRTModuleMesh& Mesh)
+FRTStatus CheckPositions(const FRTModuleMesh& Mesh)
+{
+	const bool bFinite =
+	    Mesh.Positions != nullptr && std::all_of(Mesh.Positions, Mesh.Positions + size_t(Mesh.VertexCount) * 3,
+	                                             [](float Value) { return std::isfinite(Value); });
+	return bFinite ? FRTStatus::Success() : Refuse(Mesh, "a position is not finite, or there are none");
+}
+
+void PackNormals(const FRTModuleMesh& Mesh, std::vector<FVertexAttributes>& Attributes)
 {
 	const std::vector<glm::vec3> Made = Mesh.Normals == nullptr ? MakeNormals(Mesh) : std::vector<glm::vec3>();
+	for (uint32_t Vertex = 0; Vertex < Mesh.VertexCount; ++Vertex)
+	{
+		Attributes[Vertex].Normal =
+		    PackOctahedral(Mesh.Normals != nullptr ? ReadVector(Mesh.Normals, Vertex) : Made[Vertex]);
+	}
+}
+
+std::vector<FVertexAttributes> PackAttributes(const FRTModuleMesh& Mesh)
+{
 	std::vector<FVertexAttributes> Attributes(Mesh.VertexCount);
 	for (uint32_t Vertex = 0; Vertex < Mesh.VertexCount; ++Vertex)
 	{
 		FVertexAttributes& Out = Attributes[Vertex];
 		Out = {};
-		Out.Normal = PackOctahedral(Mesh.Normals != nullptr ? ReadVector(Mesh.Normals, Vertex) : Made[Vertex]);
 		Out.Color = ~0u;
 		if (Mesh.UVs != nullptr)
 		{
 			Out.UV0 = {Mesh.UVs[Vertex * 2], Mesh.UVs[Vertex * 2 + 1]};
 		}
 	}
+	PackNormals(Mesh, Attributes);
 	return Attributes;
 }
 
@@ -116,7 +132,8 @@ std::vector<FRTSectionInfo> MakeSections(const FRTModuleMesh& Mesh)
 {
 	if (Mesh.Sections == nullptr)
 	{
-		return {FRTSectionInfo{0, Mesh.IndexCount, true}};
+		// Alpha-testable: instances without a masked material are forced opaque, so it is free.
+		return {FRTSectionInfo{0, Mesh.IndexCount, false}};
 	}
 	std::vector<FRTSectionInfo> Sections;
 	for (uint32_t Section = 0; Section < Mesh.SectionCount; ++Section)

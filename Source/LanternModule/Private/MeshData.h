@@ -12,9 +12,12 @@ namespace Lantern
 
 /// Ok, or InvalidArgument saying what of the mesh cannot be.
 FRTStatus CheckMesh(const FRTModuleMesh& Mesh);
+FRTStatus CheckPositions(const FRTModuleMesh& Mesh);
 
 /// Of a checked mesh: normals and texture coordinates as vertices carry them.
 std::vector<FVertexAttributes> PackAttributes(const FRTModuleMesh& Mesh);
+/// The normals alone, into attributes as PackAttributes made them.
+void PackNormals(const FRTModuleMesh& Mesh, std::vector<FVertexAttributes>& Attributes);
 
 std::vector<FRTSectionInfo> MakeSections(const FRTModuleMesh& Mesh);
 

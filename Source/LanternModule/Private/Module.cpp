@@ -141,6 +141,10 @@ FRTStatus FModule::CreateRenderer(IRTDevice* Device, IRTModuleRenderer** Out)
 	{
 		return FRTStatus::Error(ERTResult::InvalidArgument, "IRTModule::Initialize was not called");
 	}
+	if (Device == nullptr)
+	{
+		return FRTStatus::Error(ERTResult::InvalidArgument, "CreateRenderer needs a device");
+	}
 	if (Device->GetVersion() != RHIVersion)
 	{
 		return FRTStatus::Error(ERTResult::Unsupported, "the device speaks RHI version %u, Lantern %u",

@@ -1,7 +1,6 @@
 #include "ModuleRenderer.h"
 
-#include <cassert>
-
+#include "ArgumentChecks.h"
 #include "MeshData.h"
 
 namespace Lantern
@@ -10,27 +9,27 @@ namespace Lantern
 namespace
 {
 
-/// Handles count from 1: 0 is none.
-template <class THandle>
-THandle ToHandle(uint64_t Index)
+/// Handles of materials count from 1: 0 is none.
+ERTMaterialHandle ToHandle(uint32_t Material)
 {
-	return static_cast<THandle>(Index + 1);
+	return static_cast<ERTMaterialHandle>(uint64_t(Material) + 1);
 }
-template <class THandle>
-uint64_t ToIndex(THandle Handle)
+/// Of None: past any end.
+uint64_t ToIndex(ERTMaterialHandle Handle)
 {
-	assert(Handle != THandle::None);
 	return static_cast<uint64_t>(Handle) - 1;
 }
 
-ERTObjectHandle ToHandle(FRTObjectId Id)
+FRTStatus RefuseHandle(const char* Function, const char* Kind)
 {
-	return ToHandle<ERTObjectHandle>(uint64_t(Id.Generation) << 32 | Id.Index);
+	return FRTStatus::Error(ERTResult::InvalidArgument, "%s: no such %s: never added, or removed", Function, Kind);
 }
-FRTObjectId ToId(ERTObjectHandle Handle)
+
+FRTStatus RefuseMasked(const FRTGeometryInfo& Geometry, size_t Section)
 {
-	const uint64_t Index = ToIndex(Handle);
-	return {static_cast<uint32_t>(Index), static_cast<uint32_t>(Index >> 32)};
+	return FRTStatus::Error(ERTResult::InvalidArgument,
+	                        "mesh \"%s\": section %zu cannot have a masked material: it was added without bMayBeMasked",
+	                        Geometry.Name.c_str(), Section);
 }
 
 glm::dmat4 ToMatrix(const double Rows[12])
@@ -62,23 +61,6 @@ FView ToView(const FRTModuleFrame& Frame, uint32_t FrameIndex)
 	return View;
 }
 
-FRTStatus CheckFrame(const FRTModuleFrame& Frame)
-{
-	if (Frame.Commands == nullptr || Frame.Depth == nullptr || Frame.Normals == nullptr)
-	{
-		return FRTStatus::Error(ERTResult::InvalidArgument,
-		                        "a frame needs a command list, a depth and a normal texture");
-	}
-	const FRTTextureDesc& Depth = Frame.Depth->GetDesc();
-	const FRTTextureDesc& Normals = Frame.Normals->GetDesc();
-	if (Depth.Width != Normals.Width || Depth.Height != Normals.Height)
-	{
-		return FRTStatus::Error(ERTResult::InvalidArgument, "depth is %u x %u, normals are %u x %u", Depth.Width,
-		                        Depth.Height, Normals.Width, Normals.Height);
-	}
-	return FRTStatus::Success();
-}
-
 } // namespace
 
 FModuleRenderer::FModuleRenderer(IRTModule& InOwner, IRTDevice& InDevice, FRendererDesc Desc)
@@ -86,7 +68,8 @@ FModuleRenderer::FModuleRenderer(IRTModule& InOwner, IRTDevice& InDevice, FRende
       Device(&InDevice),
       Scene(InDevice),
       Renderer(InDevice, std::move(Desc)),
-      Uploader(InDevice)
+      Uploader(InDevice),
+      VertexUploads(InDevice)
 {
 }
 
@@ -96,35 +79,89 @@ FModuleRenderer::~FModuleRenderer()
 	(void)Renderer.WaitForAll();
 }
 
+void FModuleRenderer::StoreMaterial(uint32_t Index, const FRTModuleMaterial& Material)
+{
+	FMaterialData Data = PackMaterial(Material);
+	if (Material.BaseColorTexture != nullptr)
+	{
+		Data.Textures[TEXTURE_BASE_COLOR] =
+		    Material.BaseColorTexture->GetSampledIndex() | Material.BaseColorSampler->GetIndex() << 24;
+	}
+	ReplacedTextures.push_back(std::move(MaterialTextures[Index]));
+	MaterialTextures[Index] = {TRTRef(Material.BaseColorTexture), TRTRef(Material.BaseColorSampler)};
+	Scene.SetMaterial(Index, Data);
+}
+
 FRTStatus FModuleRenderer::AddMaterial(const FRTModuleMaterial& Material, ERTMaterialHandle* Out)
 {
 	*Out = ERTMaterialHandle::None;
+	if (const FRTStatus Status = CheckMaterial(Material); !Status)
+	{
+		return Status;
+	}
 	const uint32_t Index = Scene.AddMaterial(PackMaterial(Material));
 	MaterialTextures.resize(Index + 1);
-	const ERTMaterialHandle Handle = ToHandle<ERTMaterialHandle>(Index);
-	const FRTStatus Status = SetMaterial(Handle, Material);
-	*Out = Status.IsOk() ? Handle : ERTMaterialHandle::None;
+	StoreMaterial(Index, Material);
+	*Out = ToHandle(Index);
+	return FRTStatus::Success();
+}
+
+FRTStatus FModuleRenderer::CheckUsers(uint32_t Material)
+{
+	FRTStatus Status = FRTStatus::Success();
+	Objects.ForEach(
+	    [&](FRTObjectId Id)
+	    {
+		    const FRTObjectInfo& Object = Scene.GetObject(Id);
+		    const FRTGeometryInfo& Geometry = Object.Geometry->GetInfo();
+		    for (size_t Section = 0; Section < Object.Materials.size(); ++Section)
+		    {
+			    if (Object.Materials[Section] == Material && Geometry.Sections[Section].bOpaque)
+			    {
+				    Status = RefuseMasked(Geometry, Section);
+			    }
+		    }
+	    });
 	return Status;
 }
 
 FRTStatus FModuleRenderer::SetMaterial(ERTMaterialHandle Handle, const FRTModuleMaterial& Material)
 {
-	const uint64_t Index = ToIndex(Handle);
-	assert(Index < MaterialTextures.size());
-	FMaterialData Data = PackMaterial(Material);
-	if (Material.BaseColorTexture != nullptr)
+	if (ToIndex(Handle) >= MaterialTextures.size())
 	{
-		if (Material.BaseColorSampler == nullptr || Material.BaseColorTexture->GetSampledIndex() == ~0u)
-		{
-			return FRTStatus::Error(ERTResult::InvalidArgument,
-			                        "a material's texture needs a sampler, and to be Sampled");
-		}
-		Data.Textures[TEXTURE_BASE_COLOR] =
-		    Material.BaseColorTexture->GetSampledIndex() | Material.BaseColorSampler->GetIndex() << 24;
+		return RefuseHandle("SetMaterial", "material");
 	}
-	MaterialTextures[Index] = {TRTRef(Material.BaseColorTexture), TRTRef(Material.BaseColorSampler)};
-	Scene.SetMaterial(static_cast<uint32_t>(Index), Data);
-	return FRTStatus::Success();
+	const auto Index = static_cast<uint32_t>(ToIndex(Handle));
+	FRTStatus Status = CheckMaterial(Material);
+	const bool bWasMasked = (Scene.GetMaterials()[Index].Flags & MATERIAL_MASKED) != 0;
+	if (Status && Material.bMasked && !bWasMasked)
+	{
+		Status = CheckUsers(Index);
+	}
+	if (Status)
+	{
+		StoreMaterial(Index, Material);
+	}
+	return Status;
+}
+
+FRTStatus FModuleRenderer::UploadMesh(const FRTModuleMesh& Mesh, const std::vector<FVertexAttributes>& Attributes,
+                                      FRTGeometryInfo& Out)
+{
+	constexpr ERTBufferUsage Usage = ERTBufferUsage::GeometryInput | ERTBufferUsage::Storage;
+	const uint64_t PositionBytes = uint64_t(Mesh.VertexCount) * 12;
+	FRTStatus Status = Uploader.CreateBuffer(Mesh.Name, Usage, Mesh.Positions, PositionBytes, Out.Positions);
+	if (Status)
+	{
+		Status = Uploader.CreateBuffer(Mesh.Name, Usage, Attributes.data(),
+		                               Attributes.size() * sizeof(FVertexAttributes), Out.Attributes);
+	}
+	if (Status)
+	{
+		Status = Uploader.CreateBuffer(Mesh.Name, Usage | ERTBufferUsage::Index, Mesh.Indices,
+		                               uint64_t(Mesh.IndexCount) * 4, Out.Indices);
+	}
+	return Status.IsOk() ? Uploader.Flush() : Status;
 }
 
 FRTStatus FModuleRenderer::AddMesh(const FRTModuleMesh& Mesh, ERTMeshHandle* Out)
@@ -134,87 +171,174 @@ FRTStatus FModuleRenderer::AddMesh(const FRTModuleMesh& Mesh, ERTMeshHandle* Out
 	{
 		return Status;
 	}
-	constexpr ERTBufferUsage Usage = ERTBufferUsage::GeometryInput | ERTBufferUsage::Storage;
-	const std::vector<FVertexAttributes> Attributes = PackAttributes(Mesh);
 	FRTGeometryInfo Info;
 	Info.Name = Mesh.Name;
 	Info.VertexCount = Mesh.VertexCount;
 	Info.Sections = MakeSections(Mesh);
-	const uint64_t PositionBytes = uint64_t(Mesh.VertexCount) * 12;
-	FRTStatus Status = Uploader.CreateBuffer(Mesh.Name, Usage, Mesh.Positions, PositionBytes, Info.Positions);
+	Info.bDynamic = Mesh.bDeformable;
+	std::vector<FVertexAttributes> Attributes = PackAttributes(Mesh);
+	FRTStatus Status = UploadMesh(Mesh, Attributes, Info);
+	FMesh Added;
 	if (Status)
 	{
-		Status = Uploader.CreateBuffer(Mesh.Name, Usage, Attributes.data(),
-		                               Attributes.size() * sizeof(FVertexAttributes), Info.Attributes);
+		Status = Scene.CreateGeometry(std::move(Info), Added.Geometry);
 	}
 	if (Status)
 	{
-		Status = Uploader.CreateBuffer(Mesh.Name, Usage | ERTBufferUsage::Index, Mesh.Indices,
-		                               uint64_t(Mesh.IndexCount) * 4, Info.Indices);
-	}
-	if (Status)
-	{
-		Status = Uploader.Flush();
-	}
-	FRTGeometryRef Geometry;
-	if (Status)
-	{
-		Status = Scene.CreateGeometry(std::move(Info), Geometry);
-	}
-	if (Status)
-	{
-		Meshes.push_back(std::move(Geometry));
-		*Out = ToHandle<ERTMeshHandle>(Meshes.size() - 1);
+		if (Mesh.bDeformable)
+		{
+			Added.Deformable = std::make_unique<FDeformableMesh>(Mesh, std::move(Attributes), Added.Geometry);
+		}
+		*Out = Meshes.Add(std::move(Added));
 	}
 	return Status;
 }
 
-void FModuleRenderer::RemoveMesh(ERTMeshHandle Handle)
+FRTStatus FModuleRenderer::UpdateMeshVertices(ERTMeshHandle Handle, const float* Positions, const float* Normals)
 {
-	assert(ToIndex(Handle) < Meshes.size() && Meshes[ToIndex(Handle)]);
-	Meshes[ToIndex(Handle)] = nullptr;
+	FMesh* const Mesh = Meshes.Find(Handle);
+	if (Mesh == nullptr)
+	{
+		return RefuseHandle("UpdateMeshVertices", "mesh");
+	}
+	if (!Mesh->Deformable)
+	{
+		return FRTStatus::Error(ERTResult::InvalidArgument, "mesh \"%s\" was added without bDeformable",
+		                        Mesh->Geometry->GetInfo().Name.c_str());
+	}
+	return Mesh->Deformable->SetVertices(Positions, Normals);
+}
+
+FRTStatus FModuleRenderer::RemoveMesh(ERTMeshHandle Handle)
+{
+	if (Meshes.Find(Handle) == nullptr)
+	{
+		return RefuseHandle("RemoveMesh", "mesh");
+	}
+	Meshes.Remove(Handle);
+	return FRTStatus::Success();
+}
+
+FRTStatus FModuleRenderer::ResolveMaterials(const FRTGeometryInfo& Geometry, const ERTMaterialHandle* Handles,
+                                            uint32_t MaterialCount, std::vector<uint32_t>& Out) const
+{
+	if (MaterialCount != Geometry.Sections.size() || Handles == nullptr)
+	{
+		return FRTStatus::Error(ERTResult::InvalidArgument, "an object of \"%s\" needs %zu materials, not %u",
+		                        Geometry.Name.c_str(), Geometry.Sections.size(),
+		                        Handles != nullptr ? MaterialCount : 0);
+	}
+	for (uint32_t Section = 0; Section < MaterialCount; ++Section)
+	{
+		const uint64_t Index = ToIndex(Handles[Section]);
+		if (Index >= MaterialTextures.size())
+		{
+			return FRTStatus::Error(ERTResult::InvalidArgument, "mesh \"%s\": section %u: no such material",
+			                        Geometry.Name.c_str(), Section);
+		}
+		Out.push_back(static_cast<uint32_t>(Index));
+		if (Geometry.Sections[Section].bOpaque && (Scene.GetMaterials()[Out.back()].Flags & MATERIAL_MASKED) != 0)
+		{
+			return RefuseMasked(Geometry, Section);
+		}
+	}
+	return FRTStatus::Success();
 }
 
 FRTStatus FModuleRenderer::AddObject(const FRTModuleObject& Object, ERTObjectHandle* Out)
 {
 	*Out = ERTObjectHandle::None;
+	FMesh* const Mesh = Meshes.Find(Object.Mesh);
+	if (Mesh == nullptr)
+	{
+		return RefuseHandle("AddObject", "mesh");
+	}
 	FRTObjectInfo Info;
-	Info.Geometry = Meshes.at(ToIndex(Object.Mesh));
-	assert(Info.Geometry);
-	if (Object.MaterialCount != Info.Geometry->GetSectionCount())
+	Info.Geometry = Mesh->Geometry;
+	FRTStatus Status = CheckTransform(Object.Transform);
+	if (Status)
 	{
-		return FRTStatus::Error(ERTResult::InvalidArgument, "an object of \"%s\" needs %u materials, not %u",
-		                        Info.Geometry->GetInfo().Name.c_str(), Info.Geometry->GetSectionCount(),
-		                        Object.MaterialCount);
+		Status = ResolveMaterials(Info.Geometry->GetInfo(), Object.Materials, Object.MaterialCount, Info.Materials);
 	}
-	for (uint32_t Section = 0; Section < Object.MaterialCount; ++Section)
+	if (Status)
 	{
-		Info.Materials.push_back(static_cast<uint32_t>(ToIndex(Object.Materials[Section])));
+		Info.Transform = ToMatrix(Object.Transform);
+		Info.Mask = Object.bCastsShadow ? MaskAll : MaskVisible;
+		*Out = Objects.Add(Scene.AddObject(std::move(Info)));
 	}
-	Info.Transform = ToMatrix(Object.Transform);
-	Info.Mask = Object.bCastsShadow ? MaskAll : MaskVisible;
-	*Out = ToHandle(Scene.AddObject(std::move(Info)));
+	return Status;
+}
+
+FRTStatus FModuleRenderer::SetObjectTransform(ERTObjectHandle Handle, const double Transform[12])
+{
+	const FRTObjectId* const Id = Objects.Find(Handle);
+	const FRTStatus Status = Id != nullptr ? CheckTransform(Transform) : RefuseHandle("SetObjectTransform", "object");
+	if (Status)
+	{
+		Scene.SetTransform(*Id, ToMatrix(Transform));
+	}
+	return Status;
+}
+
+FRTStatus FModuleRenderer::SetObjectMaterials(ERTObjectHandle Handle, const ERTMaterialHandle* Materials,
+                                              uint32_t MaterialCount)
+{
+	const FRTObjectId* const Id = Objects.Find(Handle);
+	if (Id == nullptr)
+	{
+		return RefuseHandle("SetObjectMaterials", "object");
+	}
+	std::vector<uint32_t> Indices;
+	const FRTStatus Status =
+	    ResolveMaterials(Scene.GetObject(*Id).Geometry->GetInfo(), Materials, MaterialCount, Indices);
+	if (Status)
+	{
+		Scene.SetMaterials(*Id, std::move(Indices));
+	}
+	return Status;
+}
+
+FRTStatus FModuleRenderer::SetObjectCastsShadow(ERTObjectHandle Handle, bool bCastsShadow)
+{
+	FRTObjectId* const Id = Objects.Find(Handle);
+	if (Id == nullptr)
+	{
+		return RefuseHandle("SetObjectCastsShadow", "object");
+	}
+	// The scene's objects keep their mask for life. All instances are written again after any change, so that a new
+	// object costs what a new mask would.
+	FRTObjectInfo Info = Scene.GetObject(*Id);
+	Info.Mask = bCastsShadow ? MaskAll : MaskVisible;
+	Scene.RemoveObject(*Id);
+	*Id = Scene.AddObject(std::move(Info));
 	return FRTStatus::Success();
 }
 
-void FModuleRenderer::SetObjectTransform(ERTObjectHandle Handle, const double Transform[12])
+FRTStatus FModuleRenderer::RemoveObject(ERTObjectHandle Handle)
 {
-	Scene.SetTransform(ToId(Handle), ToMatrix(Transform));
+	const FRTObjectId* const Id = Objects.Find(Handle);
+	if (Id == nullptr)
+	{
+		return RefuseHandle("RemoveObject", "object");
+	}
+	Scene.RemoveObject(*Id);
+	Objects.Remove(Handle);
+	return FRTStatus::Success();
 }
 
-void FModuleRenderer::RemoveObject(ERTObjectHandle Handle)
+FRTStatus FModuleRenderer::SetSun(const FRTModuleSun& Sun)
 {
-	Scene.RemoveObject(ToId(Handle));
-}
-
-void FModuleRenderer::SetSun(const FRTModuleSun& Sun)
-{
+	if (const FRTStatus Status = CheckSun(Sun); !Status)
+	{
+		return Status;
+	}
 	FSunLight Light;
 	Light.Direction = {Sun.Direction[0], Sun.Direction[1], Sun.Direction[2]};
 	Light.Color = {Sun.Color[0], Sun.Color[1], Sun.Color[2]};
 	Light.Irradiance = Sun.Irradiance;
 	Light.AngularDiameter = Sun.AngularDiameter;
 	Scene.SetSun(Light);
+	return FRTStatus::Success();
 }
 
 void FModuleRenderer::AddPasses(const FRTModuleFrame& Frame)
@@ -240,12 +364,38 @@ void FModuleRenderer::AddPasses(const FRTModuleFrame& Frame)
 	              });
 }
 
-FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOutputs* Out)
+FRTStatus FModuleRenderer::RecordVertices(IRTCommandList& List)
 {
-	*Out = {};
-	SunShadow = nullptr;
-	assert(!Recorded && "EndFrame was not called");
-	if (const FRTStatus Status = CheckFrame(Frame); !Status)
+	FRTStatus Status = FRTStatus::Success();
+	Meshes.ForEach(
+	    [&](FMesh& Mesh)
+	    {
+		    if (Status && Mesh.Deformable && Mesh.Deformable->IsPending())
+		    {
+			    Status = Mesh.Deformable->Record(List, VertexUploads);
+			    Scene.MarkDeformed(Mesh.Geometry);
+		    }
+	    });
+	return Status;
+}
+
+void FModuleRenderer::FinishVertices(FRTFence Fence)
+{
+	VertexUploads.EndFrame(Fence);
+	Meshes.ForEach(
+	    [&](FMesh& Mesh)
+	    {
+		    if (Mesh.Deformable)
+		    {
+			    Mesh.Deformable->EndFrame(Fence != 0);
+		    }
+	    });
+}
+
+FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame)
+{
+	// Before BeginFrame, which asks the scene whether anything in it has changed.
+	if (const FRTStatus Status = RecordVertices(*Frame.Commands); !Status)
 	{
 		return Status;
 	}
@@ -257,8 +407,28 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 	const FRTStatus Status = Renderer.EndFrame(*Frame.Commands);
 	if (!Status)
 	{
-		SunShadow = nullptr;
 		Renderer.FrameSubmitted(0); // it never will be
+	}
+	return Status;
+}
+
+FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOutputs* Out)
+{
+	*Out = {};
+	if (Recorded)
+	{
+		return FRTStatus::Error(ERTResult::InvalidArgument, "RenderFrame: EndFrame was not called after the last one");
+	}
+	if (const FRTStatus Status = CheckFrame(Frame); !Status)
+	{
+		return Status;
+	}
+	SunShadow = nullptr;
+	const FRTStatus Status = RecordFrame(Frame);
+	if (!Status)
+	{
+		SunShadow = nullptr;
+		FinishVertices(0);
 		return Status;
 	}
 	Recorded = TRTRef<IRTCommandList>(Frame.Commands);
@@ -269,11 +439,16 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 
 FRTStatus FModuleRenderer::EndFrame(FRTFence* OutFence)
 {
-	assert(Recorded && "RenderFrame was not called");
+	if (!Recorded)
+	{
+		return FRTStatus::Error(ERTResult::InvalidArgument, "EndFrame: RenderFrame recorded nothing");
+	}
 	IRTCommandList* List = Recorded.Get();
 	FRTFence Fence = 0;
 	const FRTStatus Status = Device->NotifyExternalSubmit(&List, 1, &Fence);
 	Renderer.FrameSubmitted(Fence);
+	FinishVertices(Fence);
+	ReplacedTextures.clear();
 	Recorded = nullptr;
 	if (OutFence != nullptr)
 	{

@@ -4,11 +4,13 @@
 #include <memory>
 #include <vector>
 
+#include "DeformableMesh.h"
 #include "LanternModule/Module.h"
 #include "LanternRenderer/Frame.h"
 #include "LanternScene/Scene.h"
 #include "LanternScene/Upload.h"
 #include "RefCounted.h"
+#include "SlotTable.h"
 
 namespace Lantern
 {
@@ -23,11 +25,15 @@ public:
 	FRTStatus AddMaterial(const FRTModuleMaterial& Material, ERTMaterialHandle* Out) override;
 	FRTStatus SetMaterial(ERTMaterialHandle Handle, const FRTModuleMaterial& Material) override;
 	FRTStatus AddMesh(const FRTModuleMesh& Mesh, ERTMeshHandle* Out) override;
-	void RemoveMesh(ERTMeshHandle Handle) override;
+	FRTStatus UpdateMeshVertices(ERTMeshHandle Handle, const float* Positions, const float* Normals) override;
+	FRTStatus RemoveMesh(ERTMeshHandle Handle) override;
 	FRTStatus AddObject(const FRTModuleObject& Object, ERTObjectHandle* Out) override;
-	void SetObjectTransform(ERTObjectHandle Handle, const double Transform[12]) override;
-	void RemoveObject(ERTObjectHandle Handle) override;
-	void SetSun(const FRTModuleSun& Sun) override;
+	FRTStatus SetObjectTransform(ERTObjectHandle Handle, const double Transform[12]) override;
+	FRTStatus SetObjectMaterials(ERTObjectHandle Handle, const ERTMaterialHandle* Materials,
+	                             uint32_t MaterialCount) override;
+	FRTStatus SetObjectCastsShadow(ERTObjectHandle Handle, bool bCastsShadow) override;
+	FRTStatus RemoveObject(ERTObjectHandle Handle) override;
+	FRTStatus SetSun(const FRTModuleSun& Sun) override;
 	FRTStatus RenderFrame(const FRTModuleFrame& Frame, FRTModuleOutputs* Out) override;
 	FRTStatus EndFrame(FRTFence* OutFence) override;
 
@@ -39,6 +45,23 @@ private:
 		TRTRef<IRTSampler> Sampler;
 	};
 
+	struct FMesh
+	{
+		FRTGeometryRef Geometry;
+		std::unique_ptr<FDeformableMesh> Deformable; ///< null: the mesh is rigid
+	};
+
+	FRTStatus UploadMesh(const FRTModuleMesh& Mesh, const std::vector<FVertexAttributes>& Attributes,
+	                     FRTGeometryInfo& Out);
+	/// For a geometry's sections: Ok and their indices, or InvalidArgument.
+	FRTStatus ResolveMaterials(const FRTGeometryInfo& Geometry, const ERTMaterialHandle* Handles, uint32_t Count,
+	                           std::vector<uint32_t>& Out) const;
+	FRTStatus CheckUsers(uint32_t Material);
+	void StoreMaterial(uint32_t Index, const FRTModuleMaterial& Material);
+	FRTStatus RecordVertices(IRTCommandList& List);
+	FRTStatus RecordFrame(const FRTModuleFrame& Frame);
+	/// Fence: 0 when the list will never run.
+	void FinishVertices(FRTFence Fence);
 	void AddPasses(const FRTModuleFrame& Frame);
 
 	TRTRef<IRTModule> Owner;
@@ -46,8 +69,13 @@ private:
 	FRTScene Scene;
 	FRenderer Renderer;
 	FUploader Uploader;
+	FFrameUploads VertexUploads;
 	std::vector<FMaterialTextures> MaterialTextures;
-	std::vector<FRTGeometryRef> Meshes;
+	/// Replaced since the last EndFrame: the list in the making may sample them, and a device that lets go of a bindless
+	/// index counts from the last submission.
+	std::vector<FMaterialTextures> ReplacedTextures;
+	TSlotTable<FMesh, ERTMeshHandle> Meshes;
+	TSlotTable<FRTObjectId, ERTObjectHandle> Objects;
 	TRTRef<IRTCommandList> Recorded; ///< between RenderFrame and EndFrame
 	TRTRef<IRTTexture> SunShadow;    ///< of the last frame
 	uint32_t FrameIndex = 0;

@@ -9,6 +9,8 @@
 // Units: metres, radians, nits and lux; linear Rec.709; right-handed, y up. World positions are double precision.
 // Threads: IRTModule from any thread; a renderer from one at a time. Nothing throws. Handles of one renderer mean
 // nothing to another.
+// Errors: what an engine hands over is checked in every build. InvalidArgument says what is wrong with it, a stale
+// handle included, and that nothing has changed.
 #pragma once
 
 #include "LanternRHI/RTInterfaces.h"
@@ -17,7 +19,7 @@ namespace Lantern
 {
 
 /// Bumped when anything in this header changes. The library refuses another version.
-inline constexpr uint32_t ModuleVersion = 1;
+inline constexpr uint32_t ModuleVersion = 2;
 
 class IRTModuleVulkan;
 
@@ -63,8 +65,9 @@ struct FRTModuleMaterial
 	float Metallic = 0.0f;             ///< 0–1
 	float Roughness = 1.0f;            ///< perceptual, 0–1
 	/// Times BaseColor; its alpha is what an alpha test reads. Created on or imported into the renderer's device with
-	/// ERTTextureUsage::Sampled, in ShaderRead whenever a frame runs, alive until the renderer is released or the
-	/// material is set to another. Null: none.
+	/// ERTTextureUsage::Sampled, and in ShaderRead whenever a frame runs. The renderer holds a reference. An image
+	/// behind an imported one must outlive what reads it: after SetMaterial to another texture, until the fence of the
+	/// next EndFrame has passed; after the renderer's last frame, until the renderer is released. Null: none.
 	IRTTexture* BaseColorTexture = nullptr;
 	IRTSampler* BaseColorSampler = nullptr; ///< needed with a texture
 	bool bMasked = false;                   ///< alpha-tested: texels below AlphaCutoff let rays pass
@@ -76,11 +79,13 @@ struct FRTModuleSection
 {
 	uint32_t FirstIndex = 0;
 	uint32_t IndexCount = 0; ///< > 0, a multiple of 3
-	/// Some object may give this section a masked material. False is faster.
+	/// Some object may give this section a masked material; where it is false, that is InvalidArgument. True costs
+	/// nothing until an object has a masked material; then alpha tests are set up for all such sections of it.
 	bool bMayBeMasked = false;
 };
 
-/// Read during AddMesh and copied to the GPU.
+/// Read during AddMesh and copied to the GPU. Skinned meshes: bDeformable, with vertices skinned by the engine's CPU;
+/// vertices that the GPU has skinned cannot be handed over yet.
 struct FRTModuleMesh
 {
 	const char* Name = "";
@@ -90,8 +95,10 @@ struct FRTModuleMesh
 	uint32_t VertexCount = 0;
 	const uint32_t* Indices = nullptr; ///< counter-clockwise is front; < VertexCount
 	uint32_t IndexCount = 0;
-	const FRTModuleSection* Sections = nullptr; ///< null: one section of all indices
+	const FRTModuleSection* Sections = nullptr; ///< null: one section of all indices, with bMayBeMasked
 	uint32_t SectionCount = 0;
+	/// UpdateMeshVertices may be called. Traced a little more slowly, and a copy stays on the CPU.
+	bool bDeformable = false;
 };
 
 struct FRTModuleObject
@@ -106,18 +113,18 @@ struct FRTModuleObject
 
 struct FRTModuleSun
 {
-	double Direction[3] = {0, -1, 0}; ///< in which its light travels; need not be unit length
+	double Direction[3] = {0, -1, 0}; ///< in which its light travels; any length but 0
 	float Color[3] = {1, 1, 1};
 	float Irradiance = 0.0f;      ///< on a plane that faces it, lux; 0: no sun, and no shadow pass
-	float AngularDiameter = 0.0f; ///< radians; 0: hard shadows
+	float AngularDiameter = 0.0f; ///< radians, 0 to π; 0: hard shadows
 };
 
 struct FRTModuleView
 {
 	double Position[3] = {0, 0, 0};
 	float Forward[3] = {0, 0, -1}; ///< unit length
-	float Up[3] = {0, 1, 0};       ///< need not be perpendicular to Forward
-	float FovY = 1.0f;             ///< vertical, 0 to π
+	float Up[3] = {0, 1, 0};       ///< need not be perpendicular to Forward, must not be parallel to it
+	float FovY = 1.0f;             ///< vertical, radians, between 0 and π
 	float Near = 0.1f;             ///< > 0
 };
 
@@ -132,7 +139,7 @@ struct FRTModuleFrame
 	/// RGBA16_SNORM, Sampled: shading normal (xy) and geometric normal (zw), both octahedral (Cigolle et al. 2014)
 	/// and turned towards the camera.
 	IRTTexture* Normals = nullptr;
-	/// How the engine used them last; they are left in ShaderRead.
+	/// How the engine used them last, not None; they are left in ShaderRead.
 	ERTAccess DepthAccess = ERTAccess::ShaderRead;
 	ERTAccess NormalsAccess = ERTAccess::ShaderRead;
 	uint32_t Seed = 0; ///< same seed, frame number and scene: same image
@@ -142,10 +149,9 @@ struct FRTModuleFrame
 struct FRTModuleOutputs
 {
 	/// Fraction of the sun that each pixel sees: 1 lit, 0 shadowed. R16_FLOAT, in ShaderRead; may be copied from,
-	/// if the engine puts it back in ShaderRead. Null: no sun, or shadows are off, or their shaders are not
-	/// compiled yet.
+	/// if the engine puts it back in ShaderRead. Null: no sun, or shadows are off.
 	IRTTexture* SunShadow = nullptr;
-	/// Nothing was skipped because a shader was still compiling.
+	/// Reserved for shaders that compile in the background. Today RenderFrame waits for them: always true on success.
 	bool bComplete = false;
 };
 
@@ -153,17 +159,29 @@ struct FRTModuleOutputs
 class IRTModuleRenderer : public IRTRefCounted
 {
 public:
+	/// Materials live as long as the renderer.
 	virtual FRTStatus AddMaterial(const FRTModuleMaterial& Material, ERTMaterialHandle* Out) = 0;
+	/// InvalidArgument, naming mesh and section, if Material is masked and an object uses it on a section that may not
+	/// be (FRTModuleSection::bMayBeMasked).
 	virtual FRTStatus SetMaterial(ERTMaterialHandle Handle, const FRTModuleMaterial& Material) = 0;
 	/// Copies the data and waits for the copy; the acceleration structure is built by the next RenderFrame.
 	virtual FRTStatus AddMesh(const FRTModuleMesh& Mesh, ERTMeshHandle* Out) = 0;
-	/// Objects that use it keep it alive; the handle is void.
-	virtual void RemoveMesh(ERTMeshHandle Handle) = 0;
+	/// New vertices for a mesh added with bDeformable, for all its objects, from the next RenderFrame on. Arrays as in
+	/// FRTModuleMesh and as long as they were in AddMesh; read during the call. Costs a copy and a refit (a rebuild
+	/// every r.RT.Skinning.RebuildInterval such frames); calls before the same RenderFrame cost one.
+	virtual FRTStatus UpdateMeshVertices(ERTMeshHandle Handle, const float* Positions, const float* Normals) = 0;
+	/// Objects that use it keep it alive, with the vertices of the last frame; the handle is void.
+	virtual FRTStatus RemoveMesh(ERTMeshHandle Handle) = 0;
+	/// InvalidArgument, naming mesh and section, for a masked material on a section that may not be.
 	virtual FRTStatus AddObject(const FRTModuleObject& Object, ERTObjectHandle* Out) = 0;
-	virtual void SetObjectTransform(ERTObjectHandle Handle, const double Transform[12]) = 0;
+	virtual FRTStatus SetObjectTransform(ERTObjectHandle Handle, const double Transform[12]) = 0;
+	/// As in AddObject.
+	virtual FRTStatus SetObjectMaterials(ERTObjectHandle Handle, const ERTMaterialHandle* Materials,
+	                                     uint32_t Count) = 0;
+	virtual FRTStatus SetObjectCastsShadow(ERTObjectHandle Handle, bool bCastsShadow) = 0;
 	/// At any time, also while frames that see it are in flight.
-	virtual void RemoveObject(ERTObjectHandle Handle) = 0;
-	virtual void SetSun(const FRTModuleSun& Sun) = 0;
+	virtual FRTStatus RemoveObject(ERTObjectHandle Handle) = 0;
+	virtual FRTStatus SetSun(const FRTModuleSun& Sun) = 0;
 
 	/// Records all of the frame into Frame.Commands. On an error the list must not be submitted.
 	virtual FRTStatus RenderFrame(const FRTModuleFrame& Frame, FRTModuleOutputs* Out) = 0;

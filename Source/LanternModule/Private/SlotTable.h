@@ -1,0 +1,67 @@
+// Things named by handles: a slot is used again, a handle is not.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace Lantern
+{
+
+/// THandle: an enum over uint64_t whose None is 0. The low half counts slots from 1, the high half the slot's uses.
+template <class T, class THandle>
+class TSlotTable
+{
+public:
+	THandle Add(T Value)
+	{
+		if (Free.empty())
+		{
+			Free.push_back(static_cast<uint32_t>(Slots.size()));
+			Slots.emplace_back();
+		}
+		const uint32_t Index = Free.back();
+		Free.pop_back();
+		Slots[Index].Value = std::move(Value);
+		return static_cast<THandle>(uint64_t(Slots[Index].Generation) << 32 | (Index + 1));
+	}
+	/// Null: the handle is None, was removed, or never was. Valid until the next Add.
+	T* Find(THandle Handle)
+	{
+		const uint64_t Bits = static_cast<uint64_t>(Handle);
+		const uint32_t Index = static_cast<uint32_t>(Bits) - 1; // of None: past any end
+		const bool bKnown = Index < Slots.size() && Slots[Index].Generation == Bits >> 32 && Slots[Index].Value;
+		return bKnown ? &*Slots[Index].Value : nullptr;
+	}
+	/// Handle: one that Find finds.
+	void Remove(THandle Handle)
+	{
+		const uint32_t Index = static_cast<uint32_t>(static_cast<uint64_t>(Handle)) - 1;
+		Slots[Index].Value.reset();
+		++Slots[Index].Generation;
+		Free.push_back(Index);
+	}
+	template <class TFunction>
+	void ForEach(TFunction&& Function)
+	{
+		for (FSlot& Slot : Slots)
+		{
+			if (Slot.Value)
+			{
+				Function(*Slot.Value);
+			}
+		}
+	}
+
+private:
+	struct FSlot
+	{
+		std::optional<T> Value;
+		uint32_t Generation = 0;
+	};
+	std::vector<FSlot> Slots;
+	std::vector<uint32_t> Free;
+};
+
+} // namespace Lantern

@@ -1,0 +1,334 @@
+// The plugin's library through its one entry point, on a mock device: what it refuses and how, and what it keeps.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "LanternModule/Module.h"
+#include "LanternRHIMock/MockDevice.h"
+#include "LanternRHIValidation/ValidationDevice.h"
+
+namespace Lantern
+{
+namespace
+{
+
+using ::testing::HasSubstr;
+
+#define EXPECT_REFUSED(Expression, Part)                                                                               \
+	do                                                                                                                 \
+	{                                                                                                                  \
+		const FRTStatus Refused = (Expression);                                                                        \
+		EXPECT_EQ(Refused.Code, ERTResult::InvalidArgument);                                                           \
+		EXPECT_THAT(Refused.Message, HasSubstr(Part));                                                                 \
+	} while (false)
+#define ASSERT_FINE(Expression)                                                                                        \
+	do                                                                                                                 \
+	{                                                                                                                  \
+		const FRTStatus Fine = (Expression);                                                                           \
+		ASSERT_TRUE(Fine.IsOk()) << Fine.Message;                                                                      \
+	} while (false)
+
+constexpr float TrianglePositions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+constexpr uint32_t TriangleIndices[] = {0, 1, 2};
+
+class FModuleTest : public ::testing::Test
+{
+protected:
+	void SetUp() override
+	{
+		ASSERT_FINE(CreateMockDevice({}, Inner.ReleaseAndGetAddress()));
+		const auto OnMessage = [](void* User, const char* Text)
+		{ static_cast<FModuleTest*>(User)->Messages.emplace_back(Text); };
+		ASSERT_FINE(WrapWithValidation(Inner.Get(), OnMessage, this, Device.ReleaseAndGetAddress()));
+		ASSERT_EQ(LanternCreateModule(ModuleVersion, Module.ReleaseAndGetAddress()), 0);
+		FRTModuleDesc Desc;
+		Desc.ShaderFolder = LANTERN_SOURCE_DIR "/Shaders";
+		Desc.CacheFolder = LANTERN_TEST_CACHE;
+		ASSERT_FINE(Module->Initialize(Desc));
+		ASSERT_FINE(Module->CreateRenderer(Device.Get(), Renderer.ReleaseAndGetAddress()));
+		ASSERT_FINE(Renderer->AddMaterial({}, &Solid));
+		FRTModuleMaterial Material;
+		Material.bMasked = true;
+		ASSERT_FINE(Renderer->AddMaterial(Material, &Masked));
+		Depth = MakeTexture(ERTFormat::D32_FLOAT, 64);
+		Normals = MakeTexture(ERTFormat::RGBA16_SNORM, 64);
+	}
+	void TearDown() override
+	{
+		Renderer.Reset();
+		Module.Reset();
+		List.Reset();
+		Depth.Reset();
+		Normals.Reset();
+		Device.Reset();
+		EXPECT_EQ(Messages, std::vector<std::string>());
+		EXPECT_EQ(GetMock(Inner.Get()).GetErrors(), std::vector<std::string>());
+	}
+	FRTMock& Mock() { return GetMock(Inner.Get()); }
+	TRTRef<IRTTexture> MakeTexture(ERTFormat Format, uint32_t Size, ERTTextureUsage Usage = ERTTextureUsage::Sampled,
+	                               const char* Name = "Test")
+	{
+		FRTTextureDesc Desc;
+		Desc.Width = Desc.Height = Size;
+		Desc.Format = Format;
+		Desc.Usage = Usage;
+		Desc.Name = Name;
+		TRTRef<IRTTexture> Out;
+		const FRTStatus Status = Device->ImportTexture(Desc, ++LastNative, Out.ReleaseAndGetAddress());
+		EXPECT_TRUE(Status.IsOk()) << Status.Message;
+		return Out;
+	}
+	static FRTModuleMesh DescribeTriangle()
+	{
+		FRTModuleMesh Mesh;
+		Mesh.Name = "Triangle";
+		Mesh.Positions = TrianglePositions;
+		Mesh.VertexCount = 3;
+		Mesh.Indices = TriangleIndices;
+		Mesh.IndexCount = 3;
+		return Mesh;
+	}
+	ERTMeshHandle AddMesh(const FRTModuleMesh& Mesh)
+	{
+		ERTMeshHandle Handle = ERTMeshHandle::None;
+		const FRTStatus Status = Renderer->AddMesh(Mesh, &Handle);
+		EXPECT_TRUE(Status.IsOk()) << Status.Message;
+		return Handle;
+	}
+	/// One section that cannot be alpha-tested.
+	ERTMeshHandle AddOpaqueMesh()
+	{
+		const FRTModuleSection Section{0, 3, false};
+		FRTModuleMesh Mesh = DescribeTriangle();
+		Mesh.Name = "Wall";
+		Mesh.Sections = &Section;
+		Mesh.SectionCount = 1;
+		return AddMesh(Mesh);
+	}
+	FRTStatus AddObject(ERTMeshHandle Mesh, ERTMaterialHandle Material)
+	{
+		FRTModuleObject Desc;
+		Desc.Mesh = Mesh;
+		Desc.Materials = &Material;
+		Desc.MaterialCount = 1;
+		return Renderer->AddObject(Desc, &Object);
+	}
+	FRTStatus SetSun(double Y, float Irradiance = 1.0f)
+	{
+		FRTModuleSun Sun;
+		Sun.Direction[1] = Y;
+		Sun.Irradiance = Irradiance;
+		return Renderer->SetSun(Sun);
+	}
+	FRTModuleFrame DescribeFrame()
+	{
+		const FRTStatus Status = Device->ImportCommandList(++LastNative, List.ReleaseAndGetAddress());
+		EXPECT_TRUE(Status.IsOk()) << Status.Message;
+		FRTModuleFrame Frame;
+		Frame.Commands = List.Get();
+		Frame.Depth = Depth.Get();
+		Frame.Normals = Normals.Get();
+		return Frame;
+	}
+	FRTStatus Render() { return Renderer->RenderFrame(DescribeFrame(), &Outputs); }
+	/// Buffers of the name that were copied to in the calls so far.
+	uint32_t CountCopies(const char* Name) { return Mock().CountCalls(ERTMockCall::CopyBuffer, Name); }
+
+	TRTRef<IRTDevice> Inner, Device;
+	TRTRef<IRTModule> Module;
+	TRTRef<IRTModuleRenderer> Renderer;
+	TRTRef<IRTTexture> Depth, Normals;
+	TRTRef<IRTCommandList> List;
+	ERTMaterialHandle Solid = ERTMaterialHandle::None, Masked = ERTMaterialHandle::None;
+	ERTObjectHandle Object = ERTObjectHandle::None;
+	FRTModuleOutputs Outputs;
+	std::vector<std::string> Messages;
+	uint64_t LastNative = 0;
+};
+
+TEST_F(FModuleTest, MaskedMaterialOnAnOpaqueSectionIsRefusedByName)
+{
+	const ERTMeshHandle Wall = AddOpaqueMesh();
+	EXPECT_REFUSED(AddObject(Wall, Masked), "mesh \"Wall\": section 0");
+	ASSERT_FINE(AddObject(Wall, Solid));
+	EXPECT_REFUSED(Renderer->SetObjectMaterials(Object, &Masked, 1), "mesh \"Wall\": section 0");
+	FRTModuleMaterial Material;
+	Material.bMasked = true;
+	EXPECT_REFUSED(Renderer->SetMaterial(Solid, Material), "mesh \"Wall\": section 0");
+	ASSERT_FINE(Renderer->RemoveObject(Object));
+	EXPECT_TRUE(Renderer->SetMaterial(Solid, Material).IsOk()) << "nothing uses it any more";
+}
+
+TEST_F(FModuleTest, MeshWithoutSectionsMayBeMasked)
+{
+	EXPECT_TRUE(AddObject(AddMesh(DescribeTriangle()), Masked).IsOk());
+	EXPECT_TRUE(Renderer->SetObjectMaterials(Object, &Solid, 1).IsOk());
+}
+
+TEST_F(FModuleTest, StaleAndForeignHandlesAreRefused)
+{
+	const ERTMeshHandle Mesh = AddMesh(DescribeTriangle());
+	const auto Unknown = static_cast<ERTMaterialHandle>(77);
+	EXPECT_REFUSED(AddObject(ERTMeshHandle::None, Solid), "no such mesh");
+	EXPECT_REFUSED(AddObject(static_cast<ERTMeshHandle>(99), Solid), "no such mesh");
+	EXPECT_REFUSED(AddObject(Mesh, Unknown), "no such material");
+	EXPECT_REFUSED(AddObject(Mesh, ERTMaterialHandle::None), "no such material");
+	EXPECT_REFUSED(Renderer->SetMaterial(ERTMaterialHandle::None, {}), "no such material");
+	EXPECT_REFUSED(Renderer->SetObjectCastsShadow(ERTObjectHandle::None, true), "no such object");
+	ASSERT_FINE(AddObject(Mesh, Solid));
+	ASSERT_FINE(Renderer->RemoveObject(Object));
+	EXPECT_REFUSED(Renderer->RemoveObject(Object), "no such object");
+	ASSERT_FINE(Renderer->RemoveMesh(Mesh));
+	EXPECT_REFUSED(Renderer->RemoveMesh(Mesh), "no such mesh");
+}
+
+TEST_F(FModuleTest, RemovedMeshesSlotIsUsedAgainAndItsHandleIsNot)
+{
+	const ERTMeshHandle First = AddMesh(DescribeTriangle());
+	ASSERT_FINE(Renderer->RemoveMesh(First));
+	const ERTMeshHandle Second = AddMesh(DescribeTriangle());
+	EXPECT_NE(First, Second);
+	EXPECT_EQ(static_cast<uint32_t>(First), static_cast<uint32_t>(Second));
+	EXPECT_REFUSED(AddObject(First, Solid), "no such mesh");
+	EXPECT_TRUE(AddObject(Second, Solid).IsOk());
+}
+
+TEST_F(FModuleTest, SunWithoutDirectionIsRefused)
+{
+	EXPECT_REFUSED(SetSun(0.0), "Direction is zero");
+	EXPECT_REFUSED(SetSun(std::numeric_limits<double>::quiet_NaN()), "not finite");
+	EXPECT_REFUSED(SetSun(-1.0, -2.0f), "Irradiance");
+	EXPECT_TRUE(SetSun(-3.0).IsOk());
+}
+
+TEST_F(FModuleTest, WrongGBufferIsRefused)
+{
+	FRTModuleFrame Frame = DescribeFrame();
+	Frame.Depth = nullptr;
+	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "a depth");
+	const TRTRef<IRTTexture> Small = MakeTexture(ERTFormat::D32_FLOAT, 32);
+	Frame.Depth = Small.Get();
+	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "depth is 32 x 32, normals are 64 x 64");
+	Frame.Depth = Normals.Get();
+	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "D32_FLOAT");
+	Frame.Depth = Frame.Normals = Depth.Get();
+	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "RGBA16_SNORM");
+	const TRTRef<IRTTexture> Unsampled = MakeTexture(ERTFormat::RGBA16_SNORM, 64, ERTTextureUsage::RenderTarget);
+	Frame.Normals = Unsampled.Get();
+	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "Sampled");
+	Frame.Normals = Normals.Get();
+	Frame.DepthAccess = ERTAccess::None;
+	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "DepthAccess");
+}
+
+TEST_F(FModuleTest, ImpossibleViewIsRefused)
+{
+	FRTModuleFrame Frame = DescribeFrame();
+	Frame.View.Near = 0.0f;
+	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "Near");
+	Frame.View = {};
+	Frame.View.FovY = 3.2f;
+	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "FovY");
+	Frame.View = {};
+	Frame.View.Forward[2] = -2.0f;
+	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "Forward");
+	Frame.View = {};
+	Frame.View.Up[1] = 0.0f;
+	Frame.View.Up[2] = 5.0f;
+	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "parallel");
+	Frame.View = {};
+	Frame.View.Position[0] = std::numeric_limits<double>::infinity();
+	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "Position");
+}
+
+TEST_F(FModuleTest, FramesOutOfOrderAreRefused)
+{
+	EXPECT_REFUSED(Renderer->EndFrame(nullptr), "RenderFrame recorded nothing");
+	ASSERT_FINE(Render());
+	const TRTRef<IRTCommandList> First = List;
+	EXPECT_REFUSED(Render(), "EndFrame was not called");
+	EXPECT_TRUE(Renderer->EndFrame(nullptr).IsOk());
+}
+
+TEST_F(FModuleTest, ReplacedTextureStaysUntilTheFrameInTheMakingHasRun)
+{
+	FRTSamplerDesc SamplerDesc;
+	TRTRef<IRTSampler> Sampler;
+	ASSERT_FINE(Device->CreateSampler(SamplerDesc, Sampler.ReleaseAndGetAddress()));
+	TRTRef<IRTTexture> Texture = MakeTexture(ERTFormat::RGBA8_SRGB, 4, ERTTextureUsage::Sampled, "Leaf");
+	FRTModuleMaterial Material;
+	Material.BaseColorTexture = Texture.Get();
+	Material.BaseColorSampler = Sampler.Get();
+	ASSERT_FINE(Renderer->SetMaterial(Solid, Material));
+	Texture.Reset();
+	Mock().SetManualFences(true);
+	ASSERT_FINE(Render());
+	ASSERT_FINE(Renderer->SetMaterial(Solid, {}));
+	const auto IsAlive = [&]
+	{
+		Device->CollectGarbage();
+		return Mock().CountCalls(ERTMockCall::Destroy, "Leaf") == 0;
+	};
+	EXPECT_TRUE(IsAlive()) << "the recorded list may sample it";
+	FRTFence Fence = 0;
+	ASSERT_FINE(Renderer->EndFrame(&Fence));
+	EXPECT_TRUE(IsAlive()) << "the frame is in flight";
+	Mock().SetManualFences(false);
+	EXPECT_FALSE(IsAlive());
+}
+
+TEST_F(FModuleTest, DeformedVerticesAreCopiedOnceAndRefitted)
+{
+	const ERTMeshHandle Rigid = AddMesh(DescribeTriangle());
+	EXPECT_REFUSED(Renderer->UpdateMeshVertices(Rigid, TrianglePositions, nullptr), "without bDeformable");
+	FRTModuleMesh Desc = DescribeTriangle();
+	Desc.Name = "Cloth";
+	Desc.bDeformable = true;
+	const ERTMeshHandle Cloth = AddMesh(Desc);
+	ASSERT_FINE(AddObject(Cloth, Solid));
+	ASSERT_FINE(SetSun(-1.0));
+	ASSERT_FINE(Render());
+	ASSERT_FINE(Renderer->EndFrame(nullptr));
+
+	Mock().ClearCalls();
+	const float Moved[] = {0, 0, 1, 2, 0, 0, 0, 3, 0};
+	const float Broken[] = {0, 0, std::numeric_limits<float>::infinity(), 2, 0, 0, 0, 3, 0};
+	EXPECT_REFUSED(Renderer->UpdateMeshVertices(Cloth, Broken, nullptr), "not finite");
+	ASSERT_FINE(Renderer->UpdateMeshVertices(Cloth, TrianglePositions, nullptr));
+	ASSERT_FINE(Renderer->UpdateMeshVertices(Cloth, Moved, nullptr));
+	ASSERT_FINE(Render());
+	ASSERT_FINE(Renderer->EndFrame(nullptr));
+	EXPECT_EQ(CountCopies("Cloth"), 2u) << "positions and attributes, of the last call only";
+	const std::vector<FRTMockCall> Builds = Mock().FindCalls(ERTMockCall::BuildGeometry, "Cloth");
+	ASSERT_EQ(Builds.size(), 1u);
+	EXPECT_EQ(Builds[0].Numbers[1], 1u) << "a refit";
+
+	Mock().ClearCalls();
+	ASSERT_FINE(Render());
+	ASSERT_FINE(Renderer->EndFrame(nullptr));
+	EXPECT_EQ(CountCopies("Cloth"), 0u) << "nothing is new";
+	EXPECT_EQ(Mock().CountCalls(ERTMockCall::BuildGeometry), 0u);
+}
+
+TEST_F(FModuleTest, VerticesOfALostFrameAreCopiedAgain)
+{
+	FRTModuleMesh Desc = DescribeTriangle();
+	Desc.Name = "Cloth";
+	Desc.bDeformable = true;
+	const ERTMeshHandle Cloth = AddMesh(Desc);
+	ASSERT_FINE(AddObject(Cloth, Solid));
+	ASSERT_FINE(SetSun(-1.0));
+	ASSERT_FINE(Renderer->UpdateMeshVertices(Cloth, TrianglePositions, nullptr));
+	Mock().FailEveryAllocation(1);
+	EXPECT_FALSE(Render().IsOk());
+	Mock().FailEveryAllocation(0);
+	Mock().ClearCalls();
+	ASSERT_FINE(Render());
+	EXPECT_NE(Outputs.SunShadow, nullptr);
+	ASSERT_FINE(Renderer->EndFrame(nullptr));
+	EXPECT_EQ(CountCopies("Cloth"), 2u);
+}
+
+} // namespace
+} // namespace Lantern
