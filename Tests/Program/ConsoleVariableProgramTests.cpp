@@ -56,8 +56,7 @@ TEST(ConsoleVariableProgramTest, JsonDescribesEveryVariable)
 		{
 			EXPECT_TRUE(Variable.contains(Key)) << Name << " has no " << Key;
 		}
-		EXPECT_EQ(Variable["set_by"], "code");
-		EXPECT_EQ(Variable["value"], Variable["default"]) << Name;
+		EXPECT_THAT(Variable["set_by"], ::testing::AnyOf("code", "ini")) << Name << ": no device, no options";
 		EXPECT_NE(Variable["help"], "") << Name;
 		EXPECT_THAT(Page, HasSubstr(Name));
 	}

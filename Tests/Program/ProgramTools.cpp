@@ -94,7 +94,8 @@ FProgramProcess::FProgramProcess(const std::vector<std::string>& Arguments, cons
 	Strings.insert(Strings.end(), Arguments.begin(), Arguments.end());
 	std::vector<std::string> Environment = MakeEnvironment(Options);
 	std::vector<char*> ArgumentPointers = MakePointers(Strings), EnvironmentPointers = MakePointers(Environment);
-	const std::string Out = Files.GetPath() + "/out", Err = Files.GetPath() + "/err";
+	const std::string Kept = Files.GetPath() + "/out", Err = Files.GetPath() + "/err";
+	const std::string Out = Options.StandardOutput.empty() ? Kept : Options.StandardOutput;
 	Pid = fork();
 	if (Pid == 0)
 	{

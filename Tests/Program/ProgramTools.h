@@ -28,6 +28,7 @@ struct FProgramOptions
 	std::string Folder;                                           ///< to run in; empty: the test's
 	/// As a user whom file permissions stop (root is stopped by none).
 	bool bUnprivileged = false;
+	std::string StandardOutput;   ///< file; empty: kept in FProgramRun::Out
 	double TimeoutSeconds = 90.0; ///< killed then, which fails the test
 };
 

@@ -164,6 +164,16 @@ TEST(UsageTest, ProtectedFilesAndFoldersStayAsTheyAre)
 	EXPECT_THAT(ListFolder(Folder.GetPath() + "/locked"), IsEmpty());
 }
 
+TEST(UsageTest, ResultsThatCannotBeWrittenAreAnError)
+{
+	FProgramOptions Options;
+	Options.StandardOutput = "/dev/full";
+	const FProgramRun Run = RunProgram({"render", "--list"}, Options);
+	EXPECT_EQ(Run.Status, 4);
+	ASSERT_EQ(Run.GetMessages().size(), 1u) << Run.Err;
+	EXPECT_THAT(Run.GetMessages()[0], HasSubstr("standard output"));
+}
+
 TEST(UsageTest, HelpAndVersionGoToStandardOutput)
 {
 	for (const std::vector<std::string>& Arguments : {std::vector<std::string>{"--help"},

@@ -258,8 +258,14 @@ TEST_F(FRendererFaultTest, FeatureWhosePipelineFailsCanBeSwitchedOff)
 		EXPECT_FALSE(HasPass("SunShadow"));
 		Set("r.RT.Shadow", "1");
 	}
+	Mock().ClearCalls();
+	EXPECT_EQ(RenderFrame().Code, ERTResult::CompileFailed);
+	EXPECT_EQ(Mock().CountCalls(ERTMockCall::CreateComputePipeline), 0u)
+	    << "what failed to compile is not tried each frame";
+	// Another pipeline of the same feature is not the one that failed.
 	Mock().ClearCompileFaults();
 	Set("r.RT.Shadow.Path", "1");
+	Set("r.RT.AlphaTest", "0");
 	Render();
 	EXPECT_TRUE(HasPass("SunShadow"));
 	ExpectSceneOnDevice();

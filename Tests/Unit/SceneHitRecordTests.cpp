@@ -95,15 +95,20 @@ protected:
 		const FRTGeometryInfo& Info = Object.Geometry->GetInfo();
 		const FMaterialData& Material = Scene->GetMaterials()[Object.Materials[Section]];
 		const bool bShort = Info.IndexType == ERTIndexType::UInt16;
+		const bool bPlain = Material.UVTransform[TEXTURE_BASE_COLOR] == glm::vec4(1, 0, 0, 1);
 		FSectionData Data{};
 		Data.Positions = Info.Positions->GetDeviceAddress() + Info.PositionsOffset;
 		Data.Attributes = Info.Attributes->GetDeviceAddress() + Info.AttributesOffset;
-		Data.Indices = Info.Indices->GetDeviceAddress() + Info.IndicesOffset +
-		               uint64_t(Info.Sections[Section].FirstIndex) * (bShort ? 2 : 4);
+		const uint64_t Indices = Info.Indices->GetDeviceAddress() + Info.IndicesOffset +
+		                         uint64_t(Info.Sections[Section].FirstIndex) * (bShort ? 2 : 4);
+		Data.Indices = Indices / 4 * 4;
 		Data.Material = Object.Materials[Section];
-		Data.Flags = (bShort ? SECTION_INDEX_16 : 0u) | (Info.bHasTangents ? SECTION_TANGENTS : 0u) |
+		Data.Flags = (bShort ? SECTION_INDEX_16 : 0u) | (Indices % 4 ? SECTION_INDEX_ODD : 0u) |
+		             (Info.bHasTangents ? SECTION_TANGENTS : 0u) |
 		             (IsMasked(Object.Materials[Section]) ? SECTION_MASKED : 0u) |
-		             (Material.Flags & MATERIAL_DOUBLE_SIDED ? SECTION_DOUBLE_SIDED : 0u);
+		             (Material.Flags & MATERIAL_DOUBLE_SIDED ? SECTION_DOUBLE_SIDED : 0u) |
+		             (Material.UVSets & (1u << TEXTURE_BASE_COLOR) ? SECTION_OPACITY_UV1 : 0u) |
+		             (Info.bOpaqueVertices && bPlain ? SECTION_PLAIN_OPACITY : 0u);
 		return Data;
 	}
 	bool IsMasked(uint32_t Material) const
@@ -137,17 +142,28 @@ protected:
 	bool bAlphaTest = true;
 };
 
-TEST_P(FHitRecordTest, FollowsEveryChangeOfTheScene)
+/// Random changes of a scene, and what they must have led to.
+class FHitRecordWalkTest : public FHitRecordTest
 {
-	std::mt19937 Random(GetParam().BaseAlignment + GetParam().HandleAlignment);
-	const auto Below = [&](size_t Count) { return static_cast<uint32_t>(Random() % Count); };
-	for (int I = 0; I < 6; ++I)
+protected:
+	void SetUp() override
 	{
-		Scene->AddMaterial(MakeMaterial(Below(4)));
+		FHitRecordTest::SetUp();
+		Random.seed(GetParam().BaseAlignment + GetParam().HandleAlignment);
+		for (int I = 0; I < 6; ++I)
+		{
+			Scene->AddMaterial(RandomMaterial());
+		}
 	}
-	std::vector<FRTGeometryRef> Geometries;
-	std::map<uint32_t, std::pair<FRTObjectId, FObjectModel>> Model; // by index
-	const auto RandomMaterials = [&](const FRTGeometryRef& Geometry)
+	uint32_t Below(size_t Count) { return static_cast<uint32_t>(Random() % Count); }
+	FMaterialData RandomMaterial()
+	{
+		FMaterialData Data = MakeMaterial(Below(4));
+		Data.UVSets = Below(2) << TEXTURE_BASE_COLOR;
+		Data.UVTransform[TEXTURE_BASE_COLOR] = glm::vec4(1, 0, 0, 1 + Below(2));
+		return Data;
+	}
+	std::vector<uint32_t> RandomMaterials(const FRTGeometryRef& Geometry)
 	{
 		std::vector<uint32_t> Materials(Geometry->GetSectionCount());
 		for (uint32_t& Material : Materials)
@@ -155,14 +171,15 @@ TEST_P(FHitRecordTest, FollowsEveryChangeOfTheScene)
 			Material = Below(Scene->GetMaterials().Num());
 		}
 		return Materials;
-	};
-	const auto AddOne = [&]
+	}
+	void AddOne()
 	{
 		if (Geometries.size() < 3 || Below(10) == 0)
 		{
 			FGeometryOptions Options;
 			Options.bOpaque = false;
 			Options.bTangents = Below(2);
+			Options.bOpaqueVertices = Below(2);
 			Options.IndexType = Below(2) ? ERTIndexType::UInt16 : ERTIndexType::UInt32;
 			Geometries.push_back(MakeGeometry("G" + std::to_string(Geometries.size()), 1 + Below(5), Options));
 		}
@@ -171,15 +188,15 @@ TEST_P(FHitRecordTest, FollowsEveryChangeOfTheScene)
 		const FRTObjectId Id = Add(Object.Geometry, Object.Materials, Object.Position);
 		ASSERT_EQ(Model.count(Id.Index), 0u);
 		Model[Id.Index] = {Id, std::move(Object)};
-	};
-	const auto Change = [&]
+	}
+	void Change()
 	{
 		const uint32_t Choice = Below(100);
 		if (Model.empty() || Choice < 35)
 		{
 			return AddOne();
 		}
-		auto It = std::next(Model.begin(), Below(Model.size()));
+		const auto It = std::next(Model.begin(), Below(Model.size()));
 		auto& [Id, Object] = It->second;
 		if (Choice < 60)
 		{
@@ -200,15 +217,50 @@ TEST_P(FHitRecordTest, FollowsEveryChangeOfTheScene)
 		}
 		else if (Choice < 97)
 		{
-			Scene->SetMaterial(Below(6), MakeMaterial(Below(4)));
+			Scene->SetMaterial(Below(6), RandomMaterial());
 		}
 		else
 		{
 			bAlphaTest = !bAlphaTest;
 			Scene->SetAlphaTest(bAlphaTest);
 		}
-	};
-	uint32_t RayTypes = 1, Resolved = 0;
+	}
+	void ExpectInstance(const FRTMockInstance& Item)
+	{
+		ASSERT_TRUE(Model.count(GetIndex(Item)));
+		const auto& [Id, Object] = Model[GetIndex(Item)];
+		ASSERT_EQ(Item.Geometry, Object.Geometry->GetStructure());
+		ASSERT_EQ(Item.Instance.Transform[3], static_cast<float>(Object.Position.x));
+		ASSERT_EQ(Item.Instance.Transform[7], static_cast<float>(Object.Position.y));
+		bool bSomeMasked = false, bAllDoubleSided = true;
+		for (const uint32_t Material : Object.Materials)
+		{
+			bSomeMasked |= IsMasked(Material);
+			bAllDoubleSided &= (Scene->GetMaterials()[Material].Flags & MATERIAL_DOUBLE_SIDED) != 0;
+		}
+		const uint32_t Flags = (bSomeMasked ? 0 : InstanceForceOpaque) | (bAllDoubleSided ? InstanceCullDisable : 0);
+		ASSERT_EQ(Item.Instance.TableOffsetAndFlags >> 24, Flags);
+		const FObjectData Data = Read<FObjectData>(Scene->GetConstants().Objects, GetIndex(Item));
+		ASSERT_EQ(Data.FirstSection, Scene->GetFirstSection(Id));
+		for (uint32_t Section = 0; Section < Object.Materials.size(); ++Section)
+		{
+			for (uint32_t Type = 0; Type < Current->GetRayTypeCount(); ++Type, ++Resolved)
+			{
+				ASSERT_NO_FATAL_FAILURE(ExpectRecord(Object, Item, Section, Type))
+				    << "object " << GetIndex(Item) << ", section " << Section << ", type " << Type;
+			}
+		}
+	}
+
+	std::mt19937 Random;
+	std::vector<FRTGeometryRef> Geometries;
+	std::map<uint32_t, std::pair<FRTObjectId, FObjectModel>> Model; ///< by index
+	uint32_t Resolved = 0;
+};
+
+TEST_P(FHitRecordWalkTest, RecordsFollowEveryChangeOfTheScene)
+{
+	uint32_t RayTypes = 1;
 	for (int Step = 0; Step < 250; ++Step)
 	{
 		for (uint32_t Changes = Below(12); Changes > 0; --Changes)
@@ -217,38 +269,14 @@ TEST_P(FHitRecordTest, FollowsEveryChangeOfTheScene)
 		}
 		if (Below(10) == 0)
 		{
-			RayTypes = 1 + Below(3);
-		} // another set of passes: another pipeline
+			RayTypes = 1 + Below(3); // another set of passes: another pipeline
+		}
 		Render(RayTypes);
 		const std::vector<FRTMockInstance> Instances = GetInstances();
 		ASSERT_EQ(Instances.size(), Model.size());
 		for (const FRTMockInstance& Item : Instances)
 		{
-			ASSERT_TRUE(Model.count(GetIndex(Item))) << "step " << Step;
-			const FObjectModel& Object = Model[GetIndex(Item)].second;
-			ASSERT_EQ(Item.Geometry, Object.Geometry->GetStructure());
-			ASSERT_EQ(Item.Instance.Transform[3], static_cast<float>(Object.Position.x));
-			ASSERT_EQ(Item.Instance.Transform[7], static_cast<float>(Object.Position.y));
-			bool bSomeMasked = false, bAllDoubleSided = true;
-			for (const uint32_t Material : Object.Materials)
-			{
-				bSomeMasked |= IsMasked(Material);
-				bAllDoubleSided &= (Scene->GetMaterials()[Material].Flags & MATERIAL_DOUBLE_SIDED) != 0;
-			}
-			const uint32_t Flags =
-			    (bSomeMasked ? 0 : InstanceForceOpaque) | (bAllDoubleSided ? InstanceCullDisable : 0);
-			ASSERT_EQ(Item.Instance.TableOffsetAndFlags >> 24, Flags);
-			for (uint32_t Section = 0; Section < Object.Materials.size(); ++Section)
-			{
-				for (uint32_t Type = 0; Type < RayTypes; ++Type, ++Resolved)
-				{
-					const uint32_t First = Scene->GetFirstSection(Model[GetIndex(Item)].first);
-					ASSERT_EQ(Read<FObjectData>(Scene->GetConstants().Objects, GetIndex(Item)).FirstSection, First);
-					ASSERT_NO_FATAL_FAILURE(ExpectRecord(Object, Item, Section, Type))
-					    << "step " << Step << ", object " << GetIndex(Item) << ", section " << Section << ", type "
-					    << Type;
-				}
-			}
+			ASSERT_NO_FATAL_FAILURE(ExpectInstance(Item)) << "step " << Step;
 		}
 	}
 	EXPECT_GT(Resolved, 10'000u) << "the walk has become too short to say much";
@@ -346,9 +374,10 @@ TEST_P(FHitRecordTest, TableThatCannotBeMadeIsMadeLater)
 	ExpectRecord(Object, GetInstances()[0], 0, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Alignments, FHitRecordTest,
-                         ::testing::Values(FAlignments{32, 32, 64}, FAlignments{32, 64, 64}, FAlignments{64, 64, 256},
-                                           FAlignments{32, 16, 32}));
+const auto Alignments = ::testing::Values(FAlignments{32, 32, 64}, FAlignments{32, 64, 64}, FAlignments{64, 64, 256},
+                                          FAlignments{32, 16, 32});
+INSTANTIATE_TEST_SUITE_P(Alignments, FHitRecordTest, Alignments);
+INSTANTIATE_TEST_SUITE_P(Alignments, FHitRecordWalkTest, Alignments);
 
 } // namespace
 } // namespace Lantern

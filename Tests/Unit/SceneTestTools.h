@@ -38,6 +38,7 @@ struct FGeometryOptions
 	bool bOpaque = true;
 	bool bTangents = false;
 	bool bCpuData = false; ///< emissive triangles need it
+	bool bOpaqueVertices = false;
 	ERTIndexType IndexType = ERTIndexType::UInt32;
 	uint32_t TrianglesPerSection = 1;
 };
@@ -94,6 +95,7 @@ protected:
 		Info.VertexCount = 3 * Triangles;
 		Info.bHasTangents = Options.bTangents;
 		Info.bDynamic = Options.bDynamic;
+		Info.bOpaqueVertices = Options.bOpaqueVertices;
 		for (uint32_t Section = 0; Section < SectionCount; ++Section)
 		{
 			Info.Sections.push_back(

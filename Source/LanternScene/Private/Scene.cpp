@@ -89,10 +89,9 @@ void FRTScene::SetMaterial(uint32_t Index, const FMaterialData& Material)
 	assert(Index < Materials.Num());
 	const FMaterialData& Old = Materials[Index];
 	// An animated colour or roughness rebuilds nothing.
-	const bool bFlags = Old.Flags != Material.Flags, bEmission = Old.EmissiveWeight != Material.EmissiveWeight;
-	bObjectsChanged |= bFlags;
-	bFactsChanged |= bFlags || bEmission;
-	bEmissiveChanged |= bEmission;
+	bObjectsChanged |= Old.Flags != Material.Flags;
+	bEmissiveChanged |= Old.EmissiveWeight != Material.EmissiveWeight;
+	bFactsChanged = true; // and flags of sections
 	Materials.Set(Index, Material);
 }
 

@@ -1,4 +1,5 @@
 // What lights a scene, and the block of constants that passes read.
+#include <cassert>
 #include <cmath>
 
 #include "LanternScene/Scene.h"
