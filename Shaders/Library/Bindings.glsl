@@ -25,7 +25,6 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FLi
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FEmissiveRef { FEmissiveTriangle Data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FPositionRef { vec3 Data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FAttributeRef { FVertexAttributes Data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FIndex32Ref { uint Data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FIndex16Ref { uint Data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FIndexRef { uint Data[]; };
 
 #endif

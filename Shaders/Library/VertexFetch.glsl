@@ -14,17 +14,14 @@ struct FMaterialInputs
 	vec4 Color;
 };
 
+// Without a branch on the width: any-hit shaders wait for as little as possible before these loads.
 uvec3 FetchTriangle(FSectionData Section, uint Primitive)
 {
-	if ((Section.Flags & SECTION_INDEX_16) == 0u)
-	{
-		FIndex32Ref Indices = FIndex32Ref(Section.Indices);
-		return uvec3(Indices.Data[3 * Primitive], Indices.Data[3 * Primitive + 1], Indices.Data[3 * Primitive + 2]);
-	}
-	uint First = 3 * Primitive + ((Section.Flags & SECTION_INDEX_ODD) != 0u ? 1u : 0u);
-	FIndex16Ref Indices = FIndex16Ref(Section.Indices);
-	uint A = Indices.Data[First >> 1], B = Indices.Data[(First + 2) >> 1];
-	return (First & 1u) == 0u ? uvec3(A & 0xffffu, A >> 16, B & 0xffffu) : uvec3(A >> 16, B & 0xffffu, B >> 16);
+	uint Half = Section.Flags & SECTION_INDEX_16; // 1: two indices in a word
+	uvec3 Index = 3 * Primitive + ((Section.Flags & SECTION_INDEX_ODD) != 0u ? 1u : 0u) + uvec3(0, 1, 2);
+	FIndexRef Words = FIndexRef(Section.Indices);
+	uvec3 Word = uvec3(Words.Data[Index.x >> Half], Words.Data[Index.y >> Half], Words.Data[Index.z >> Half]);
+	return Half == 0u ? Word : (Word >> ((Index & 1u) * 16u)) & 0xffffu;
 }
 
 FMaterialInputs InputsFromVertex(FVertexAttributes V, uint SectionFlags)

@@ -63,10 +63,9 @@ bool IsCutAway(FMaterialData M, FMaterialInputs I)
 	return (M.Flags & MATERIAL_MASKED) != 0u && EvaluateOpacity(M, I) < M.AlphaCutoff;
 }
 
-// The same at a hit, reading only what it needs.
+// The same at a hit on a masked section, reading only what it needs.
 bool IsHitCutAway(FMaterialRef Materials, FSectionData Section, uint Primitive, vec2 Barycentrics)
 {
-	if ((Section.Flags & SECTION_MASKED) == 0u) { return false; }
 	FMaterialData M = Materials.Data[Section.Material];
 	uvec3 Triangle = FetchTriangle(Section, Primitive);
 	vec2 UV = FetchOpacityUV(Section, Triangle, Barycentrics);

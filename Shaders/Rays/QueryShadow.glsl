@@ -20,8 +20,10 @@ bool QueryVisible(FSceneConstants Scene, uint Flags, uint Mask, vec3 Origin, vec
 		uint Object = rayQueryGetIntersectionInstanceCustomIndexEXT(Query, false);
 		uint SectionIndex = FObjectRef(Scene.Objects).Data[Object].FirstSection + rayQueryGetIntersectionGeometryIndexEXT(Query, false);
 		FSectionData Section = FSectionRef(Scene.Sections).Data[SectionIndex];
-		if (!IsHitCutAway(FMaterialRef(Scene.Materials), Section, rayQueryGetIntersectionPrimitiveIndexEXT(Query, false),
-		                  rayQueryGetIntersectionBarycentricsEXT(Query, false)))
+		// A geometry whose alpha test is some other object's.
+		bool bMasked = (Section.Flags & SECTION_MASKED) != 0u;
+		if (!bMasked || !IsHitCutAway(FMaterialRef(Scene.Materials), Section, rayQueryGetIntersectionPrimitiveIndexEXT(Query, false),
+		                              rayQueryGetIntersectionBarycentricsEXT(Query, false)))
 		{
 			rayQueryConfirmIntersectionEXT(Query);
 		}
