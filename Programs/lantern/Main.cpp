@@ -1,4 +1,9 @@
 // The command line of Lantern.
+#include <cstdlib>
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
 #include <cstdio>
 
 #include <CLI/CLI.hpp>
@@ -89,6 +94,11 @@ int Run(int ArgumentCount, char** Arguments)
 
 int main(int ArgumentCount, char** Arguments)
 {
+#if defined(__GLIBC__)
+	// Left alone, glibc raises this limit with each large block that is freed and keeps such blocks from then on: 70 MiB
+	// of decoded images, after loading a scene of 200 textures.
+	mallopt(M_MMAP_THRESHOLD, 256 << 10);
+#endif
 	try
 	{
 		const int Status = Run(ArgumentCount, Arguments);
