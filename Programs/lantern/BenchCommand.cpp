@@ -55,7 +55,10 @@ std::vector<FRayScene> ChooseScenes(const FBenchRaysOptions& Options)
 	std::vector<FRayScene> Scenes = {MakeScene("courtyard")};
 	for (const std::string& File : Options.Scenes)
 	{
-		Scenes.push_back(MakeScene(File));
+		if (File != Scenes.front().File)
+		{
+			Scenes.push_back(MakeScene(File));
+		}
 	}
 	if (!Options.Scenes.empty())
 	{

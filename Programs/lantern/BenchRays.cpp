@@ -205,6 +205,12 @@ FRTStatus FRayBench::RunPlugin(double& OutMs)
 
 FRTStatus FRayBench::Measure(bool bPipeline, FRayCase& Out)
 {
+	// What the raw dispatch is written for, whatever the settings say.
+	for (const char* Name : {"r.RT.Enable", "r.RT.Shadow", "r.RT.Shadow.Soft", "r.RT.Shadow.Samples"})
+	{
+		Set(Name, "1");
+	}
+	Set("r.RT.Shadow.CullFrontFaces", "0");
 	Set("r.RT.Shadow.Path", bPipeline ? "1" : "2");
 	double Ms = 0.0;
 	if (FRTStatus S = RunPlugin(Ms); !S)
