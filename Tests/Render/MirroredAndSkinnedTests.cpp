@@ -23,7 +23,7 @@ protected:
 	bool LoadCorner(bool bByTransform)
 	{
 		FTestScene Corner("corner");
-		const int32_t Grey = Corner.AddLambert(glm::vec3(0.5f)), Red = Corner.AddLambert({0.7f, 0.2f, 0.1f});
+		const int32_t Grey = Corner.AddBumpyLambert(glm::vec3(0.5f)), Red = Corner.AddBumpyLambert({0.7f, 0.2f, 0.1f});
 		const int32_t Light = Corner.AddLambert(glm::vec3(0), {4, 3, 2});
 		const int32_t Mesh = Corner.AddMesh({
 		    FTestScene::MakeFloor(Grey, 1.5f),

@@ -50,10 +50,26 @@ int32_t FTestScene::AddHalfCutLambert()
 	return Index;
 }
 
+int32_t FTestScene::AddBumpyLambert(const glm::vec3& Albedo)
+{
+	FHostImage Image;
+	Image.Name = "bump";
+	Image.Width = Image.Height = 1;
+	Image.Rgba = {166, 204, 217, 255}; // (0.3, 0.6, 0.7): away from both axes
+	FHostTexture Texture;
+	Texture.Image = static_cast<int32_t>(Scene.Images.size());
+	Scene.Images.push_back(std::move(Image));
+	Scene.Textures.push_back(Texture);
+	const int32_t Index = AddLambert(Albedo);
+	Scene.Materials.back().Slots[TEXTURE_NORMAL].Texture = static_cast<int32_t>(Scene.Textures.size()) - 1;
+	return Index;
+}
+
 int32_t FTestScene::AddMesh(const std::vector<FQuad>& Quads)
 {
 	FHostMesh Mesh;
 	Mesh.Name = "quads";
+	Mesh.bHasTangents = true;
 	Mesh.BoundsMin = glm::vec3(1e30f);
 	Mesh.BoundsMax = glm::vec3(-1e30f);
 	for (const FQuad& Quad : Quads)
@@ -64,6 +80,7 @@ int32_t FTestScene::AddMesh(const std::vector<FQuad>& Quads)
 		{
 			FVertexAttributes Vertex{};
 			Vertex.Normal = PackUnitVector(Normal);
+			Vertex.Tangent = PackTangent(glm::vec4(glm::normalize(Quad.P[1] - Quad.P[0]), 1));
 			Vertex.UV0 = Vertex.UV1 = glm::vec2(Corner == 1 || Corner == 2 ? 1 : 0, Corner >= 2 ? 1 : 0);
 			Vertex.Color = PackColor(glm::vec4(1));
 			Mesh.Positions.push_back(Quad.P[Corner]);
@@ -112,6 +129,9 @@ FHostMesh MakeMirrored(FHostMesh Mesh)
 		glm::vec3 Normal = UnpackUnitVector(Mesh.Attributes[I].Normal);
 		Normal.x = -Normal.x;
 		Mesh.Attributes[I].Normal = PackUnitVector(Normal);
+		// The bitangent must keep its direction, and the cross product of mirrored vectors does not.
+		const glm::vec4 Tangent = UnpackTangent(Mesh.Attributes[I].Tangent);
+		Mesh.Attributes[I].Tangent = PackTangent(Tangent * glm::vec4(-1, 1, 1, -1));
 	}
 	for (size_t I = 0; I < Mesh.Indices.size(); I += 3)
 	{

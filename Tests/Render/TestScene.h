@@ -16,6 +16,8 @@ public:
 	int32_t AddLambert(const glm::vec3& Albedo, const glm::vec3& Emission = glm::vec3(0), bool bDoubleSided = false);
 	/// A texture of which the left half of u is cut away by the alpha test, on a Lambert of 0.5.
 	int32_t AddHalfCutLambert();
+	/// Its normal map bends every normal the same way, along both tangent and bitangent.
+	int32_t AddBumpyLambert(const glm::vec3& Albedo);
 	/// A mesh of flat quads, one section each; corners counter-clockwise.
 	struct FQuad
 	{
