@@ -29,11 +29,6 @@ double GetProcessorMs()
 {
 	return double(std::clock()) * (1000.0 / CLOCKS_PER_SEC);
 }
-
-double Percent(uint64_t Part, uint64_t Whole)
-{
-	return Whole > 0 ? double(Part) / double(Whole) : 0.0;
-}
 } // namespace
 
 double FRayTimes::GetMedian() const
@@ -203,20 +198,8 @@ FRTStatus FRayBench::RunPlugin(double& OutMs)
 	return Status;
 }
 
-FRTStatus FRayBench::Measure(bool bPipeline, FRayCase& Out)
+FRTStatus FRayBench::CreateRaw(bool bPipeline, bool bCountRays, std::unique_ptr<FRawShadow>& Out)
 {
-	// What the raw dispatch is written for, whatever the settings say.
-	for (const char* Name : {"r.RT.Enable", "r.RT.Shadow", "r.RT.Shadow.Soft", "r.RT.Shadow.Samples"})
-	{
-		Set(Name, "1");
-	}
-	Set("r.RT.Shadow.CullFrontFaces", "0");
-	Set("r.RT.Shadow.Path", bPipeline ? "1" : "2");
-	double Ms = 0.0;
-	if (FRTStatus S = RunPlugin(Ms); !S)
-	{
-		return S;
-	}
 	FRawShadowDesc Desc;
 	Desc.Device = &Device;
 	Desc.Compiler = &Compiler;
@@ -227,23 +210,20 @@ FRTStatus FRayBench::Measure(bool bPipeline, FRayCase& Out)
 	Desc.MaxDistance = GetVariable<float>("r.RT.Shadow.MaxDistance");
 	Desc.InstanceMask = static_cast<uint32_t>(GetVariable<int32_t>("r.RT.Shadow.InstanceMask"));
 	Desc.bPipeline = bPipeline;
-	std::unique_ptr<FRawShadow> Raw, Counter;
-	if (FRTStatus S = FRawShadow::Create(Desc, Raw); !S)
-	{
-		return S;
-	}
-	Desc.bCountRays = true;
-	if (FRTStatus S = FRawShadow::Create(Desc, Counter); !S)
-	{
-		return S;
-	}
+	Desc.bCountRays = bCountRays;
+	return FRawShadow::Create(Desc, Out);
+}
+
+FRTStatus FRayBench::RunInTurn(FRawShadow& Raw, FRayCase& Out)
+{
 	for (uint32_t I = 0; I < Settings.WarmUp + Settings.Repetitions; ++I)
 	{
 		// Who goes first alternates too: whatever the machine does meanwhile hits both.
 		for (const bool bRaw : {I % 2 == 0, I % 2 != 0})
 		{
+			double Ms = 0.0;
 			const double Start = GetProcessorMs();
-			if (FRTStatus S = bRaw ? Raw->Run(Ms) : RunPlugin(Ms); !S)
+			if (FRTStatus S = bRaw ? Raw.Run(Ms) : RunPlugin(Ms); !S)
 			{
 				return S;
 			}
@@ -254,9 +234,29 @@ FRTStatus FRayBench::Measure(bool bPipeline, FRayCase& Out)
 			}
 		}
 	}
-	if (FRTStatus S = Counter->Run(Ms); !S)
+	return FRTStatus::Success();
+}
+
+FRTStatus FRayBench::Measure(bool bPipeline, FRayCase& Out)
+{
+	// What the raw dispatch is written for, whatever the settings say.
+	for (const char* Name : {"r.RT.Enable", "r.RT.Shadow", "r.RT.Shadow.Soft", "r.RT.Shadow.Samples"})
 	{
-		return S;
+		Set(Name, "1");
+	}
+	Set("r.RT.Shadow.CullFrontFaces", "0");
+	Set("r.RT.Shadow.Path", bPipeline ? "1" : "2");
+	double Ms = 0.0;
+	// The scene's hit records are those of this path only once a frame has taken it.
+	FRTStatus Status = RunPlugin(Ms);
+	std::unique_ptr<FRawShadow> Raw, Counter;
+	Status = Status ? CreateRaw(bPipeline, false, Raw) : Status;
+	Status = Status ? CreateRaw(bPipeline, true, Counter) : Status;
+	Status = Status ? RunInTurn(*Raw, Out) : Status;
+	Status = Status ? Counter->Run(Ms) : Status;
+	if (!Status)
+	{
+		return Status;
 	}
 	Out.Width = View.Width;
 	Out.Height = View.Height;
@@ -268,7 +268,7 @@ FRTStatus FRayBench::Measure(bool bPipeline, FRayCase& Out)
 	{
 		Same += Plugin[I] == Raw->GetPicture()[I];
 	}
-	Out.Agreement = Percent(Same, Pixels);
+	Out.Agreement = double(Same) / double(Pixels);
 	return FRTStatus::Success();
 }
 

@@ -39,6 +39,8 @@ struct FRayBenchSettings
 	std::string CacheFolder;                ///< of its compiled shaders; empty: none
 };
 
+class FRawShadow;
+
 class FRayBench
 {
 public:
@@ -53,6 +55,8 @@ private:
 	FRTStatus CreateTargets();
 	void AddCopies(FFrameContext& Context, const FGBuffer& GBuffer);
 	FRTStatus RunPlugin(double& OutMs);
+	FRTStatus CreateRaw(bool bPipeline, bool bCountRays, std::unique_ptr<FRawShadow>& Out);
+	FRTStatus RunInTurn(FRawShadow& Raw, FRayCase& Out);
 
 	IRTDevice& Device;
 	FSampleEngine& Engine;
