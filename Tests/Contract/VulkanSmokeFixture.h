@@ -11,6 +11,8 @@
 #include <cstring>
 #include <vector>
 
+#include <dlfcn.h>
+
 namespace Lantern
 {
 
@@ -30,6 +32,13 @@ FRTShaderCode MakeCode(const uint32_t (&Words)[Count], ERTShaderStage Stage, con
 class FVulkanSmokeTest : public ::testing::Test
 {
 protected:
+	static void SetUpTestSuite()
+	{
+		// Its synchronization validation keeps memory until the process ends. Unloaded with the instance, nobody could tell
+		// whose memory that is, and the leak checker would blame us.
+		dlopen("libVkLayer_khronos_validation.so", RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+	}
+
 	void SetUp() override
 	{
 		FRTVulkanDeviceDesc Desc;
