@@ -1,10 +1,9 @@
 // The command line of Lantern.
+#include <cstdio>
 #include <cstdlib>
 #if defined(__GLIBC__)
 #include <malloc.h>
 #endif
-
-#include <cstdio>
 
 #include <CLI/CLI.hpp>
 
@@ -18,63 +17,105 @@ namespace
 {
 using namespace Lantern;
 
-int Run(int ArgumentCount, char** Arguments)
+/// One function a command: its options, and what to run when it was named. Options live as long as the parsing.
+class FCommandLine
 {
-	CLI::App App{"Lantern: ray tracing for engines with a UE4.26-style RHI", "lantern"};
-	App.require_subcommand(1);
-	App.set_version_flag("--version", "lantern 0.1.0");
-	int Status = ExitDone;
+public:
+	FCommandLine()
+	{
+		App.require_subcommand(1);
+		App.set_version_flag("--version", "lantern 0.1.0");
+		AddRender();
+		AddReference();
+		AddCompare();
+		AddInfo();
+		AddCvars();
+		AddBench();
+	}
+	int Run(int ArgumentCount, char** Arguments);
 
+private:
+	void AddRender();
+	void AddReference();
+	void AddCompare();
+	void AddInfo();
+	void AddCvars();
+	void AddBench();
+
+	CLI::App App{"Lantern: ray tracing for engines with a UE4.26-style RHI", "lantern"};
+	int Status = ExitDone;
 	FRenderOptions Render;
 	bool bList = false;
-	CLI::App* const RenderApp = App.add_subcommand("render", "Render a scene through the plugin");
-	Render.Device.AddTo(*RenderApp);
-	Render.Picture.AddTo(*RenderApp);
-	RenderApp->add_option("--frames", Render.Frames, "Frames to render; the picture is the last one's")->check(CLI::Range(1, 1'000'000));
-	RenderApp->add_flag("--list", bList, "List the built-in scenes");
-	RenderApp->add_flag("--dump-graph", Render.bDumpGraph, "Print the last frame's passes, resources and barriers");
-	RenderApp->final_callback([&] { Status = bList ? RunListScenes() : RunRender(Render); });
-
 	FReferenceOptions Reference;
-	CLI::App* const ReferenceApp = App.add_subcommand("reference", "Render a scene with the unbiased path tracer");
-	Reference.Device.AddTo(*ReferenceApp);
-	Reference.Picture.AddTo(*ReferenceApp);
-	ReferenceApp->add_option("--spp", Reference.Samples, "Samples per pixel")->check(CLI::Range(1, 1 << 24));
-	ReferenceApp->add_option("--bounces", Reference.Bounces, "Scattering events, at most")->check(CLI::Range(0, 1 << 16));
-	ReferenceApp->add_flag("--resume", Reference.bResume, "Keep the sums in OUT.state, and go on from there");
-	ReferenceApp->add_option("--save-every", Reference.SaveSeconds, "With --resume: seconds after which the sums are kept")
-	    ->check(CLI::Range(0.0, 1e6));
-	ReferenceApp->final_callback([&] { Status = RunReference(Reference); });
-
 	FCompareOptions Compare;
-	CLI::App* const CompareApp = App.add_subcommand("compare", "Compare two images; B is the reference");
-	CompareApp->add_option("A", Compare.A, "Image")->required();
-	CompareApp->add_option("B", Compare.B, "Reference")->required();
-	CompareApp->add_option("--heatmap", Compare.Heatmap, "FLIP's error map, .png");
-	CompareApp->add_option("--json", Compare.Json, "Write the figures to this file");
-	CompareApp->final_callback([&] { Status = RunCompare(Compare); });
-
-	std::string InfoJson;
-	CLI::App* const InfoApp = App.add_subcommand("info", "Devices, drivers, what runs on them and what does not, and why");
-	InfoApp->add_option("--json", InfoJson, "Write it to this file");
-	InfoApp->final_callback([&] { Status = RunInfo(InfoJson); });
-
-	std::string CvarsJson;
-	bool bMarkdown = false;
-	CLI::App* const CvarsApp = App.add_subcommand("cvars", "Console variables");
-	CvarsApp->add_flag("--markdown", bMarkdown, "As Docs/ConsoleVariables.md");
-	CvarsApp->add_option("--json", CvarsJson, "Write them to this file");
+	std::string InfoJson, CvarsJson;
 	FDeviceOptions CvarsSettings;
-	CvarsSettings.AddSettingsTo(*CvarsApp);
-	CvarsApp->final_callback([&] { Status = RunCvars(CvarsSettings, bMarkdown, CvarsJson); });
-
+	bool bMarkdown = false;
 	FBenchRaysOptions BenchRays;
-	CLI::App* const BenchApp = App.add_subcommand("bench", "Benchmarks");
-	BenchApp->require_subcommand(1);
-	CLI::App* const BenchRaysApp = BenchApp->add_subcommand("rays", "The sun shadow pass against a minimal hand-written Vulkan dispatch");
-	BenchRays.AddTo(*BenchRaysApp);
-	BenchRaysApp->final_callback([&] { Status = RunBenchRays(BenchRays); });
+};
 
+void FCommandLine::AddRender()
+{
+	CLI::App* const Command = App.add_subcommand("render", "Render a scene through the plugin");
+	Render.Device.AddTo(*Command);
+	Render.Picture.AddTo(*Command);
+	Command->add_option("--frames", Render.Frames, "Frames to render; the picture is the last one's")->check(CLI::Range(1, 1'000'000));
+	Command->add_flag("--list", bList, "List the built-in scenes");
+	Command->add_flag("--dump-graph", Render.bDumpGraph, "Print the last frame's passes, resources and barriers");
+	Command->final_callback([this] { Status = bList ? RunListScenes() : RunRender(Render); });
+}
+
+void FCommandLine::AddReference()
+{
+	CLI::App* const Command = App.add_subcommand("reference", "Render a scene with the unbiased path tracer");
+	Reference.Device.AddTo(*Command);
+	Reference.Picture.AddTo(*Command);
+	Command->add_option("--spp", Reference.Samples, "Samples per pixel")->check(CLI::Range(1, 1 << 24));
+	Command->add_option("--bounces", Reference.Bounces, "Scattering events, at most")->check(CLI::Range(0, 1 << 16));
+	Command->add_flag("--resume", Reference.bResume, "Keep the sums in OUT.state, and go on from there");
+	Command->add_option("--save-every", Reference.SaveSeconds, "With --resume: seconds after which the sums are kept")->check(CLI::Range(0.0, 1e6));
+	Command->final_callback([this] { Status = RunReference(Reference); });
+}
+
+void FCommandLine::AddCompare()
+{
+	CLI::App* const Command = App.add_subcommand("compare", "Compare two images; B is the reference");
+	Command->add_option("A", Compare.A, "Image")->required();
+	Command->add_option("B", Compare.B, "Reference")->required();
+	Command->add_option("--heatmap", Compare.Heatmap, "FLIP's error map, .png")->check([](const std::string& Text) {
+		return Text.ends_with(".png") ? std::string() : "'" + Text + "' does not end in .png";
+	});
+	Command->add_option("--json", Compare.Json, "Write the figures to this file");
+	Command->final_callback([this] { Status = RunCompare(Compare); });
+}
+
+void FCommandLine::AddInfo()
+{
+	CLI::App* const Command = App.add_subcommand("info", "Devices, drivers, what runs on them and what does not, and why");
+	Command->add_option("--json", InfoJson, "Write it to this file");
+	Command->final_callback([this] { Status = RunInfo(InfoJson); });
+}
+
+void FCommandLine::AddCvars()
+{
+	CLI::App* const Command = App.add_subcommand("cvars", "Console variables");
+	Command->add_flag("--markdown", bMarkdown, "As Docs/ConsoleVariables.md");
+	Command->add_option("--json", CvarsJson, "Write them to this file");
+	CvarsSettings.AddSettingsTo(*Command);
+	Command->final_callback([this] { Status = RunCvars(CvarsSettings, bMarkdown, CvarsJson); });
+}
+
+void FCommandLine::AddBench()
+{
+	CLI::App* const Command = App.add_subcommand("bench", "Benchmarks");
+	Command->require_subcommand(1);
+	CLI::App* const Rays = Command->add_subcommand("rays", "The sun shadow pass against a minimal hand-written Vulkan dispatch");
+	BenchRays.AddTo(*Rays);
+	Rays->final_callback([this] { Status = RunBenchRays(BenchRays); });
+}
+
+int FCommandLine::Run(int ArgumentCount, char** Arguments)
+{
 	try
 	{
 		App.parse(ArgumentCount, Arguments);
@@ -101,7 +142,7 @@ int main(int ArgumentCount, char** Arguments)
 #endif
 	try
 	{
-		const int Status = Run(ArgumentCount, Arguments);
+		const int Status = FCommandLine().Run(ArgumentCount, Arguments);
 		if (std::fflush(stdout) == 0 && !std::ferror(stdout)) { return Status; }
 		LogError("standard output cannot be written");
 		return Status == ExitDone ? ExitBadInput : Status;
