@@ -1,4 +1,4 @@
-// What the command line says; see the contract of each command in README.md.
+// What the command line says, as values that have been checked.
 #pragma once
 
 #include <cstdint>

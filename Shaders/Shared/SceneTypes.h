@@ -106,10 +106,8 @@ struct FLightData
 	vec3 Color;     // intensity included: cd, or lux where directional
 	float SpotScale; // angular attenuation: saturate(cos · scale + offset)²
 	float SpotOffset;
-	float AngularRadius; // radians, directional only
-	uint Pad0, Pad1;
 };
-LANTERN_ASSERT_SIZE(FLightData, 64);
+LANTERN_ASSERT_SIZE(FLightData, 52);
 
 // A triangle that emits, for next-event estimation.
 struct FEmissiveTriangle

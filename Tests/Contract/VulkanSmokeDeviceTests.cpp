@@ -245,6 +245,40 @@ TEST_F(FVulkanSmokeDevice, PipelineCacheIsKeptAndADamagedOneDiscarded)
 	remove(File.c_str());
 }
 
+TEST_F(FVulkanSmokeDevice, ManyMayShareAPipelineCacheFile)
+{
+	const std::string File = ::testing::TempDir() + "LanternSmokeShared.pipelinecache";
+	remove(File.c_str());
+	std::atomic<int> MessageCount = 0;
+	FRTVulkanDeviceDesc Desc;
+	Desc.PipelineCacheFile = File.c_str();
+	Desc.MessageUser = &MessageCount;
+	Desc.MessageCallback = [](void* User, ERTVulkanMessage, const char*) { ++*static_cast<std::atomic<int>*>(User); };
+	std::vector<TRTRef<IRTDevice>> Devices(3);
+	for (TRTRef<IRTDevice>& Other : Devices)
+	{
+		ASSERT_OK(CreateVulkanDevice(Desc, Other.ReleaseAndGetAddress()));
+		TRTRef<IRTPipeline> Pipeline;
+		ASSERT_OK(Other->CreateComputePipeline({MakeCode(Smoke_Fill_comp, ERTShaderStage::Compute, "Fill"), "Fill"}, Pipeline.ReleaseAndGetAddress()));
+	}
+	std::vector<std::thread> Threads;
+	std::atomic<int> Failed = 0;
+	for (TRTRef<IRTDevice>& Other : Devices)
+	{
+		Threads.emplace_back([&] {
+			for (int Round = 0; Round < 200; ++Round) { Failed += SaveVulkanPipelineCache(Other.Get()) ? 0 : 1; }
+		});
+	}
+	for (std::thread& Thread : Threads) { Thread.join(); }
+	EXPECT_EQ(Failed, 0);
+	Devices.clear();
+	Devices.resize(1);
+	ASSERT_OK(CreateVulkanDevice(Desc, Devices[0].ReleaseAndGetAddress()));
+	EXPECT_EQ(MessageCount, 0) << "the file must be whole, whoever wrote it last";
+	Devices.clear();
+	remove(File.c_str());
+}
+
 // ------------------------------------------------------------------------------------------------ take-over
 
 /// The engine's side: its own instance and device, made through the loader by hand.

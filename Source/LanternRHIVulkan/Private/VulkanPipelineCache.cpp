@@ -4,7 +4,10 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+
+#include <unistd.h>
 
 namespace Lantern
 {
@@ -144,12 +147,19 @@ FRTStatus FVulkanPipelineCache::Save()
 	Header.DataBytes = Size;
 	Header.Checksum = HashBytes(Data);
 
-	const std::string Temporary = File + ".part";
-	FILE* Stream = fopen(Temporary.c_str(), "wb");
+	// A name of one's own: other processes, and other devices of this one, may be writing the same file.
+	std::string Temporary = File + ".XXXXXX";
+	const int Descriptor = mkstemp(Temporary.data());
+	int Reason = errno;
+	if (Descriptor < 0)
+	{
+		return FRTStatus::Error(ERTResult::IoError, "pipeline cache %s was not written: %s", File.c_str(), strerror(Reason));
+	}
+	FILE* Stream = fdopen(Descriptor, "wb");
 	bool bWritten = Stream && fwrite(&Header, sizeof(Header), 1, Stream) == 1 &&
 	                (Size == 0 || fwrite(Data.data(), Size, 1, Stream) == 1);
-	int Reason = errno;
-	if (Stream && fclose(Stream) != 0)
+	Reason = errno;
+	if ((Stream ? fclose(Stream) : close(Descriptor)) != 0)
 	{
 		bWritten = false;
 		Reason = errno;

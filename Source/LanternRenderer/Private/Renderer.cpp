@@ -15,7 +15,7 @@ namespace Lantern
 
 namespace
 {
-TRTConsoleVariable<bool> CVarAlphaTest("r.RT.AlphaTest", true, "Alpha tests of masked materials under rays. Off: masked surfaces are solid.");
+TRTConsoleVariable<bool> CVarAlphaTest("r.RT.AlphaTest", true, "Alpha tests of masked materials, in raster and under rays. Off: masked surfaces are solid.");
 TRTConsoleVariable<int32_t> CVarMaterialOverride("r.RT.Material.Override", 0,
                                                  "0: the scene's materials. 1: each a Lambert of its base colour, alpha test kept. 2: each a "
                                                  "Lambert of 0.5.",

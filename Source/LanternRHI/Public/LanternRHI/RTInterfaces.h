@@ -145,7 +145,8 @@ public:
 	virtual void BuildGeometries(const FRTGeometryBuild* Builds, uint32_t Count) = 0;
 	/// Instances: FRTInstance[Count] at InstanceOffset (a multiple of 16). Count may be 0.
 	virtual void BuildScene(IRTScene* Scene, IRTBuffer* Instances, uint64_t InstanceOffset, uint32_t Count, IRTBuffer* Scratch, uint64_t ScratchOffset) = 0;
-	/// The BLASes that the instances of the next submissions refer to: kept alive with the list.
+	/// Keeps what the list uses without naming it (through an address, an index, or a scene's instances) until the GPU is
+	/// done. FRTScene holds its geometries itself.
 	virtual void KeepAlive(IRTRefCounted* Object) = 0;
 
 	virtual void WriteTimestamp(IRTQueryPool* Pool, uint32_t Index) = 0;

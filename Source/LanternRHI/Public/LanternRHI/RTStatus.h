@@ -52,7 +52,8 @@ struct [[nodiscard]] FRTStatus
 
 /// Base of every RHI object. Thread-safe. An object starts with one reference, owned by whoever created it.
 /// A command list keeps a reference to all it recorded until the GPU has finished with it, and the device
-/// destroys native objects only after the last submission that may use them: Release() is always safe.
+/// destroys native objects only after the last submission that may use them: Release() is always safe for what is recorded
+/// by name. What an unsubmitted list reaches only by address or bindless index must live until it was submitted.
 class IRTRefCounted
 {
 public:

@@ -90,7 +90,7 @@ public:
 	void SetTransform(FRTObjectId Id, const glm::dmat4& Transform);
 	void SetMaterials(FRTObjectId Id, std::vector<uint32_t> SectionMaterials);
 	const FRTObjectInfo& GetObject(FRTObjectId Id) const;
-	/// Index into FObjectData[], and of its first section into FSectionData[]; after AddObject.
+	/// Of its first section in FSectionData[]; the object's own data is at Id.Index in FObjectData[].
 	uint32_t GetFirstSection(FRTObjectId Id) const;
 
 	void SetLights(std::vector<FSceneLight> Lights);
