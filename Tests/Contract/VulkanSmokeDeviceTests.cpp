@@ -404,6 +404,17 @@ public:
 	VkQueue Queue = VK_NULL_HANDLE;
 };
 
+/// The engine has an instance and found the device, and knows what Lantern needs of it; its own device is still to come.
+void StartEngine(FEngine& Engine, const char* DeviceName, TRTRef<IRTVulkanRequirements>& OutRequirements)
+{
+	ASSERT_TRUE(Engine.CreateInstance());
+	ASSERT_TRUE(Engine.FindPhysical(DeviceName));
+	FRTVulkanRequirementsDesc Desc;
+	Desc.Instance = Engine.Instance;
+	Desc.PhysicalDevice = Engine.Physical;
+	ASSERT_OK(GetVulkanRequirements(Desc, OutRequirements.ReleaseAndGetAddress()));
+}
+
 /// The engine records, Lantern writes into its command buffer, the engine submits.
 void WriteThroughEngine(FEngine& Engine, IRTDevice& Adopted)
 {
@@ -440,13 +451,8 @@ void WriteThroughEngine(FEngine& Engine, IRTDevice& Adopted)
 TEST_F(FVulkanSmokeDevice, AnEnginesDeviceIsTakenOverAndLeftAlive)
 {
 	FEngine Engine;
-	ASSERT_TRUE(Engine.CreateInstance());
-	ASSERT_TRUE(Engine.FindPhysical(Device->GetCapabilities().DeviceName));
-	FRTVulkanRequirementsDesc RequirementsDesc;
-	RequirementsDesc.Instance = Engine.Instance;
-	RequirementsDesc.PhysicalDevice = Engine.Physical;
 	TRTRef<IRTVulkanRequirements> Requirements;
-	ASSERT_OK(GetVulkanRequirements(RequirementsDesc, Requirements.ReleaseAndGetAddress()));
+	ASSERT_NO_FATAL_FAILURE(StartEngine(Engine, Device->GetCapabilities().DeviceName, Requirements));
 	// The engine has features of its own, and one structure that Lantern needs too.
 	VkPhysicalDeviceVulkan12Features Vulkan12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
 	Vulkan12.hostQueryReset = VK_TRUE;
@@ -479,13 +485,8 @@ TEST_F(FVulkanSmokeDevice, AnEnginesDeviceIsTakenOverAndLeftAlive)
 TEST_F(FVulkanSmokeDevice, AnEnginesDeviceWithoutTheExtensionsIsRefused)
 {
 	FEngine Engine;
-	ASSERT_TRUE(Engine.CreateInstance());
-	ASSERT_TRUE(Engine.FindPhysical(Device->GetCapabilities().DeviceName));
-	FRTVulkanRequirementsDesc RequirementsDesc;
-	RequirementsDesc.Instance = Engine.Instance;
-	RequirementsDesc.PhysicalDevice = Engine.Physical;
 	TRTRef<IRTVulkanRequirements> Requirements;
-	ASSERT_OK(GetVulkanRequirements(RequirementsDesc, Requirements.ReleaseAndGetAddress()));
+	ASSERT_NO_FATAL_FAILURE(StartEngine(Engine, Device->GetCapabilities().DeviceName, Requirements));
 	ASSERT_TRUE(Engine.CreateDevice(nullptr, 0, nullptr));
 	TRTRef<IRTDevice> Adopted;
 	const FRTStatus Status = AdoptVulkanDevice(Engine.Describe(Requirements.Get()), Adopted.ReleaseAndGetAddress());
