@@ -102,7 +102,7 @@ CONTRACT_TEST(TimestampsRise)
 		GTEST_SKIP() << "the device has no timestamps";
 	}
 	TRTRef<IRTQueryPool> Pool;
-	ASSERT_OK(Device().CreateQueryPool(3, Pool.ReleaseAndGetAddress()));
+	ASSERT_OK(Device().CreateQueryPool(ERTQuery::Timestamp, 3, Pool.ReleaseAndGetAddress()));
 	EXPECT_EQ(Pool->GetCount(), 3u);
 	const auto Buffer = Make.Buffer(1 << 20);
 	uint64_t Times[3] = {};
@@ -114,11 +114,11 @@ CONTRACT_TEST(TimestampsRise)
 		List->FillBuffer(Buffer.Get(), 0, 1 << 20, 7);
 		List->WriteTimestamp(Pool.Get(), 1);
 		Run(List.Get());
-		ASSERT_TRUE(Pool->GetTimestamps(0, 2, Times));
+		ASSERT_TRUE(Pool->GetResults(0, 2, Times));
 		EXPECT_GT(Times[0], 0u);
 		EXPECT_GE(Times[1], Times[0]);
 		EXPECT_LT(Times[1] - Times[0], 10'000'000'000u) << "nanoseconds";
-		EXPECT_FALSE(Pool->GetTimestamps(0, 3, Times)) << "the third was never written";
+		EXPECT_FALSE(Pool->GetResults(0, 3, Times)) << "the third was never written";
 	}
 }
 

@@ -259,9 +259,9 @@ TEST_F(FVulkanSmokeBasics, TimestampsAreOrderedAndUnwrittenOnesSaidToBe)
 		GTEST_SKIP() << "the device has no timestamps";
 	}
 	TRTRef<IRTQueryPool> Pool;
-	ASSERT_OK(Device->CreateQueryPool(4, Pool.ReleaseAndGetAddress()));
+	ASSERT_OK(Device->CreateQueryPool(ERTQuery::Timestamp, 4, Pool.ReleaseAndGetAddress()));
 	uint64_t Times[4] = {};
-	EXPECT_FALSE(Pool->GetTimestamps(0, 4, Times));
+	EXPECT_FALSE(Pool->GetResults(0, 4, Times));
 	TRTRef<IRTBuffer> Filled = MakeBuffer(1 << 20, ERTBufferUsage::CopyDest, ERTMemory::Device, "Filled");
 	ASSERT_OK(List->Begin());
 	List->ResetQueries(Pool.Get(), 0, 4);
@@ -269,9 +269,9 @@ TEST_F(FVulkanSmokeBasics, TimestampsAreOrderedAndUnwrittenOnesSaidToBe)
 	List->FillBuffer(Filled.Get(), 0, 1 << 20, 1);
 	List->WriteTimestamp(Pool.Get(), 1);
 	ASSERT_NO_FATAL_FAILURE(Run());
-	ASSERT_TRUE(Pool->GetTimestamps(0, 2, Times));
+	ASSERT_TRUE(Pool->GetResults(0, 2, Times));
 	EXPECT_LE(Times[0], Times[1]);
-	EXPECT_FALSE(Pool->GetTimestamps(0, 4, Times));
+	EXPECT_FALSE(Pool->GetResults(0, 4, Times));
 }
 
 TEST_F(FVulkanSmokeBasics, AnImportedTextureIsTheSameImageAndSurvivesItsWrapper)

@@ -128,7 +128,7 @@ FTimedFrame& FFrameGraphResources::FImpl::BeginTiming(uint32_t PassCount)
 			Count *= 2;
 		}
 		Frame.LastFirstNs = 0;
-		const FRTStatus Status = Device.CreateQueryPool(Count, Frame.Pool.ReleaseAndGetAddress());
+		const FRTStatus Status = Device.CreateQueryPool(ERTQuery::Timestamp, Count, Frame.Pool.ReleaseAndGetAddress());
 		if (!Status)
 		{
 			Frame.Pool.Reset();
@@ -157,7 +157,7 @@ void FFrameGraphResources::FImpl::PollTimings()
 		if (Frame->Pool && Count > 0)
 		{
 			// The pool still holds its earlier times until the GPU reaches the reset.
-			if (!Frame->Pool->GetTimestamps(0, Count, Times.data()) || Times[0] == Frame->LastFirstNs)
+			if (!Frame->Pool->GetResults(0, Count, Times.data()) || Times[0] == Frame->LastFirstNs)
 			{
 				continue;
 			}

@@ -144,6 +144,10 @@ FRTStatus FVulkanGeometry::Initialise(const FRTGeometryDesc& Desc)
 	Info.geometryCount = SectionCount;
 	Info.pGeometries = Sections.Geometries.data();
 	Sizes = QuerySizes(Device, Info, Counts.data());
+	if (Desc.CompactedBytes > 0)
+	{
+		Sizes.StructureBytes = Desc.CompactedBytes;
+	}
 	FRTStatus Status = CreateStructure(Device, Info.type, Sizes.StructureBytes, EVulkanMemoryKind::Geometry, Desc.Name,
 	                                   Block, &Handle);
 	if (!Status)

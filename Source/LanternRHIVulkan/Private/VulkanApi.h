@@ -101,7 +101,9 @@ namespace Lantern
 	X(DestroyAccelerationStructureKHR)                                                                                 \
 	X(GetAccelerationStructureBuildSizesKHR)                                                                           \
 	X(GetAccelerationStructureDeviceAddressKHR)                                                                        \
-	X(CmdBuildAccelerationStructuresKHR)
+	X(CmdBuildAccelerationStructuresKHR)                                                                               \
+	X(CmdCopyAccelerationStructureKHR)                                                                                 \
+	X(CmdWriteAccelerationStructuresPropertiesKHR)
 
 #define LANTERN_VK_PIPELINE_FUNCTIONS(X)                                                                               \
 	X(CreateRayTracingPipelinesKHR)                                                                                    \

@@ -56,6 +56,8 @@ public:
 	/// The bytes are taken at once: lists that update one table are to be submitted in the order of these calls.
 	void UpdateShaderTable(IRTShaderTable* Table) override;
 	void BuildGeometries(const FRTGeometryBuild* Builds, uint32_t Count) override;
+	void WriteCompactedSize(IRTQueryPool* Queries, uint32_t Index, IRTGeometry* Geometry) override;
+	void CompactGeometry(IRTGeometry* Dest, IRTGeometry* Source) override;
 	void BuildScene(IRTScene* Scene, IRTBuffer* Instances, uint64_t InstanceOffset, uint32_t Count, IRTBuffer* Scratch,
 	                uint64_t ScratchOffset) override;
 

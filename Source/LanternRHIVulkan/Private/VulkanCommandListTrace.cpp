@@ -122,6 +122,28 @@ void FVulkanCommandList::BuildGeometries(const FRTGeometryBuild* Builds, uint32_
 	Device.Api.CmdBuildAccelerationStructuresKHR(Handle, Count, Infos.data(), Ranges.data());
 }
 
+void FVulkanCommandList::WriteCompactedSize(IRTQueryPool* Queries, uint32_t Index, IRTGeometry* Geometry)
+{
+	const FVulkanQueryPool* Native = static_cast<const FVulkanQueryPool*>(Queries);
+	assert(Native->GetKind() == ERTQuery::CompactedSize && Index < Native->GetCount());
+	Keep(Queries);
+	Keep(Geometry);
+	Device.Api.CmdWriteAccelerationStructuresPropertiesKHR(
+	    Handle, 1, &static_cast<const FVulkanGeometry*>(Geometry)->Handle,
+	    VK_QUERY_TYPE_ACCELERATION_STRUCTURE_COMPACTED_SIZE_KHR, Native->Handle, Index);
+}
+
+void FVulkanCommandList::CompactGeometry(IRTGeometry* Dest, IRTGeometry* Source)
+{
+	Keep(Dest);
+	Keep(Source);
+	VkCopyAccelerationStructureInfoKHR Info{VK_STRUCTURE_TYPE_COPY_ACCELERATION_STRUCTURE_INFO_KHR};
+	Info.src = static_cast<const FVulkanGeometry*>(Source)->Handle;
+	Info.dst = static_cast<const FVulkanGeometry*>(Dest)->Handle;
+	Info.mode = VK_COPY_ACCELERATION_STRUCTURE_MODE_COMPACT_KHR;
+	Device.Api.CmdCopyAccelerationStructureKHR(Handle, &Info);
+}
+
 void FVulkanCommandList::BuildScene(IRTScene* Scene, IRTBuffer* Instances, uint64_t InstanceOffset, uint32_t Count,
                                     IRTBuffer* Scratch, uint64_t ScratchOffset)
 {

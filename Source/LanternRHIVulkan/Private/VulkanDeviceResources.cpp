@@ -83,9 +83,9 @@ FRTStatus FVulkanDevice::CreateShaderTable(const FRTShaderTableDesc& Desc, IRTSh
 	return CreateObject<FVulkanShaderTable>(*this, Out, [&](FVulkanShaderTable& It) { return It.Initialise(Desc); });
 }
 
-FRTStatus FVulkanDevice::CreateQueryPool(uint32_t Count, IRTQueryPool** Out)
+FRTStatus FVulkanDevice::CreateQueryPool(ERTQuery Kind, uint32_t Count, IRTQueryPool** Out)
 {
-	return CreateObject<FVulkanQueryPool>(*this, Out, [&](FVulkanQueryPool& It) { return It.Initialise(Count); });
+	return CreateObject<FVulkanQueryPool>(*this, Out, [&](FVulkanQueryPool& It) { return It.Initialise(Kind, Count); });
 }
 
 FRTStatus FVulkanDevice::CreateCommandList(const char* Name, IRTCommandList** Out)

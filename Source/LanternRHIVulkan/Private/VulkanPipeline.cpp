@@ -247,6 +247,10 @@ FRTStatus FVulkanPipeline::InitialiseRayTracing(const FRTRayTracingPipelineDesc&
 		return FRTStatus::Error(ERTResult::Unsupported, "'%.200s' needs recursion %u; the device's limit is %u",
 		                        Desc.Name, Desc.MaxRecursion, Caps.MaxRayRecursionDepth);
 	}
+	if (Desc.bLibrary || Desc.LibraryCount > 0)
+	{
+		return FRTStatus::Error(ERTResult::Unsupported, "'%.200s': no pipeline libraries yet", Desc.Name);
+	}
 	FModules Modules(Device);
 	for (uint32_t Index = 0; Index < Desc.ShaderCount; ++Index)
 	{

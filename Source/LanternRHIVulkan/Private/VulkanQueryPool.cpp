@@ -5,34 +5,50 @@
 namespace Lantern
 {
 
-FRTStatus FVulkanQueryPool::Initialise(uint32_t InCount)
+FRTStatus FVulkanQueryPool::Initialise(ERTQuery InKind, uint32_t InCount)
 {
 	assert(InCount > 0);
+	const bool bSizes = InKind == ERTQuery::CompactedSize;
+	if (bSizes && !Device.Bits.bAccel)
+	{
+		return FRTStatus::Error(ERTResult::Unsupported, "Queries of sizes: the device has no acceleration structures");
+	}
+	Kind = InKind;
 	Count = InCount;
 	VkQueryPoolCreateInfo Info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
-	Info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+	Info.queryType = bSizes ? VK_QUERY_TYPE_ACCELERATION_STRUCTURE_COMPACTED_SIZE_KHR : VK_QUERY_TYPE_TIMESTAMP;
 	Info.queryCount = Count;
 	const VkResult Result = Device.Check(Device.Api.CreateQueryPool(Device.Handle, &Info, nullptr, &Handle));
 	if (Result != VK_SUCCESS)
 	{
 		Handle = VK_NULL_HANDLE;
-		return MakeStatus(Result, "Creating query pool", "timestamps");
+		return MakeStatus(Result, "Creating query pool", bSizes ? "compacted sizes" : "timestamps");
 	}
 	// A query that was never reset may not even be asked for its availability.
 	Device.Api.ResetQueryPool(Device.Handle, Handle, 0, Count);
 	return {};
 }
 
-bool FVulkanQueryPool::GetTimestamps(uint32_t First, uint32_t InCount, uint64_t* OutNanoseconds)
+uint64_t FVulkanQueryPool::Convert(uint64_t Value) const
+{
+	if (Kind == ERTQuery::CompactedSize)
+	{
+		return Value;
+	}
+	const uint64_t Mask = Device.TimestampBits >= 64 ? ~uint64_t(0) : (uint64_t(1) << Device.TimestampBits) - 1;
+	return static_cast<uint64_t>(static_cast<double>(Value & Mask) * Device.GetCapabilities().TimestampPeriodNs);
+}
+
+bool FVulkanQueryPool::GetResults(uint32_t First, uint32_t InCount, uint64_t* OutValues)
 {
 	assert(First + InCount <= Count);
-	if (Device.IsLost() || !Device.GetCapabilities().bTimestamps)
+	if (Device.IsLost() || (Kind == ERTQuery::Timestamp && !Device.GetCapabilities().bTimestamps))
 	{
 		return false;
 	}
 	struct FResult
 	{
-		uint64_t Ticks;
+		uint64_t Value;
 		uint64_t bAvailable;
 	};
 	std::vector<FResult> Results(InCount);
@@ -43,14 +59,11 @@ bool FVulkanQueryPool::GetTimestamps(uint32_t First, uint32_t InCount, uint64_t*
 	{
 		return false;
 	}
-	const uint64_t Mask = Device.TimestampBits >= 64 ? ~uint64_t(0) : (uint64_t(1) << Device.TimestampBits) - 1;
 	bool bAll = true;
 	for (uint32_t Index = 0; Index < InCount; ++Index)
 	{
 		bAll = bAll && Results[Index].bAvailable != 0;
-		const double Nanoseconds =
-		    static_cast<double>(Results[Index].Ticks & Mask) * Device.GetCapabilities().TimestampPeriodNs;
-		OutNanoseconds[Index] = static_cast<uint64_t>(Nanoseconds);
+		OutValues[Index] = Convert(Results[Index].Value);
 	}
 	return bAll;
 }

@@ -18,6 +18,24 @@ public:
 	const FRTShaderTableDesc& GetDesc() const override { return Desc; }
 	/// Different records may be set from several threads; not while UpdateShaderTable records this table.
 	void SetRecord(ERTRecordKind Kind, uint32_t Index, uint32_t Group, const void* Data, uint32_t DataBytes) override;
+	void SetHitRecords(uint32_t First, uint32_t Count, const uint32_t* Groups, const void* Data) override
+	{
+		for (uint32_t Index = 0; Index < Count; ++Index)
+		{
+			SetRecord(ERTRecordKind::Hit, First + Index, Groups[Index],
+			          Data ? static_cast<const uint8_t*>(Data) + uint64_t(Index) * Desc.RecordDataBytes : nullptr,
+			          Desc.RecordDataBytes);
+		}
+	}
+	void SetGroups(ERTRecordKind, uint32_t, uint32_t, const uint32_t*) override {}
+	void SetPipeline(IRTPipeline*) override {}
+	FRTStatus Reserve(const uint32_t*) override
+	{
+		return FRTStatus::Error(ERTResult::Unsupported, "Shader tables do not grow yet");
+	}
+	FRTStatus Stage() override { return {}; }
+	void Invalidate() override {}
+	uint64_t GetUpdatedBytes() const override { return 0; }
 	uint64_t GetRecordStride(ERTRecordKind Kind) const override { return Of(Kind).Stride; }
 	uint64_t GetSizeBytes() const override { return Records.size(); }
 

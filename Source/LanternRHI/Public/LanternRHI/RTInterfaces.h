@@ -88,25 +88,47 @@ public:
 	virtual uint64_t GetNative(ERTNative Kind) const = 0;
 };
 
-/// The shader binding table. Records are written on the CPU and reach the GPU with
-/// IRTCommandList::UpdateShaderTable, which copies dirty ranges only. Hit record reached by a ray:
+/// The shader binding table: device-local, with host copies that hold what is new. Records are written on the CPU,
+/// gathered into the next free host copy by Stage, and reach the GPU with IRTCommandList::UpdateShaderTable; only what
+/// changed is copied. Hit record reached by a ray:
 ///   instance.TableOffset + geometryIndex · rayMultiplier + rayType   (Vulkan specification, "Shader Binding Table")
+/// Records never written are null: a ray that reaches one runs no shader.
+/// Threads: the Set… calls may run at once where they name different records; everything else excludes them.
 class IRTShaderTable : public IRTRefCounted
 {
 public:
+	/// Counts as they are now (see Reserve), and the pipeline as SetPipeline left it.
 	virtual const FRTShaderTableDesc& GetDesc() const = 0;
 	/// Points record Index at Group of the pipeline; Data (hit records only) may be null for zeros.
 	virtual void SetRecord(ERTRecordKind Kind, uint32_t Index, uint32_t Group, const void* Data, uint32_t DataBytes) = 0;
+	/// Hit records First … First + Count − 1: Groups[Count], and Data of RecordDataBytes each, tightly packed.
+	virtual void SetHitRecords(uint32_t First, uint32_t Count, const uint32_t* Groups, const void* Data) = 0;
+	/// The handles of records alone; their data stays.
+	virtual void SetGroups(ERTRecordKind Kind, uint32_t First, uint32_t Count, const uint32_t* Groups) = 0;
+	/// Groups that are set from now on are Pipeline's. Records keep the handles of the one before until they are set
+	/// again; that must have happened to all that rays can reach before the next trace with Pipeline. What was recorded
+	/// before keeps tracing with the old pipeline and the old records.
+	virtual void SetPipeline(IRTPipeline* Pipeline) = 0;
+	/// Grows to at least these numbers of records, in the order of ERTRecordKind; contents stay, nothing waits: the
+	/// device's copy moves on the GPU in the next update. Never shrinks. On error nothing has changed.
+	virtual FRTStatus Reserve(const uint32_t Counts[4]) = 0;
+	/// Copies what changed into a free host copy, so that UpdateShaderTable has nothing left to do but record. Optional:
+	/// UpdateShaderTable stages what is not. From any thread.
+	virtual FRTStatus Stage() = 0;
+	/// Everything travels again with the next update: what was recorded last was never submitted.
+	virtual void Invalidate() = 0;
 	virtual uint64_t GetRecordStride(ERTRecordKind Kind) const = 0; ///< bytes, a multiple of the handle alignment
 	virtual uint64_t GetSizeBytes() const = 0;
+	virtual uint64_t GetUpdatedBytes() const = 0; ///< copied to the device by the last UpdateShaderTable
 };
 
 class IRTQueryPool : public IRTRefCounted
 {
 public:
 	virtual uint32_t GetCount() const = 0;
-	/// Nanoseconds of each timestamp; false where one has not been written and finished.
-	virtual bool GetTimestamps(uint32_t First, uint32_t Count, uint64_t* OutNanoseconds) = 0;
+	virtual ERTQuery GetKind() const = 0;
+	/// Nanoseconds of each timestamp, bytes of each compacted size; false where one has not been written and finished.
+	virtual bool GetResults(uint32_t First, uint32_t Count, uint64_t* OutValues) = 0;
 };
 
 class IRTCommandList : public IRTRefCounted
@@ -143,6 +165,11 @@ public:
 
 	/// Scratch must be in BuildWrite; results are in BuildWrite afterwards: put a memory barrier behind it.
 	virtual void BuildGeometries(const FRTGeometryBuild* Builds, uint32_t Count) = 0;
+	/// Queries (of CompactedSize) [Index]: bytes that Geometry, built by an earlier command and with a barrier between,
+	/// would need. It was created with bAllowCompaction. Reset the query before.
+	virtual void WriteCompactedSize(IRTQueryPool* Queries, uint32_t Index, IRTGeometry* Geometry) = 0;
+	/// Dest was created with CompactedBytes of what WriteCompactedSize said of Source. Dest is in BuildWrite afterwards.
+	virtual void CompactGeometry(IRTGeometry* Dest, IRTGeometry* Source) = 0;
 	/// Instances: FRTInstance[Count] at InstanceOffset (a multiple of 16). Count may be 0.
 	virtual void BuildScene(IRTScene* Scene, IRTBuffer* Instances, uint64_t InstanceOffset, uint32_t Count, IRTBuffer* Scratch, uint64_t ScratchOffset) = 0;
 	/// Keeps what the list uses without naming it (through an address, an index, or a scene's instances) until the GPU is
@@ -177,7 +204,7 @@ public:
 	virtual FRTStatus CreateGeometry(const FRTGeometryDesc& Desc, IRTGeometry** Out) = 0;
 	virtual FRTStatus CreateScene(const FRTSceneDesc& Desc, IRTScene** Out) = 0;
 	virtual FRTStatus CreateShaderTable(const FRTShaderTableDesc& Desc, IRTShaderTable** Out) = 0;
-	virtual FRTStatus CreateQueryPool(uint32_t Count, IRTQueryPool** Out) = 0;
+	virtual FRTStatus CreateQueryPool(ERTQuery Kind, uint32_t Count, IRTQueryPool** Out) = 0;
 	virtual FRTStatus CreateCommandList(const char* Name, IRTCommandList** Out) = 0;
 	/// Records into the engine's command buffer (Vulkan: a VkCommandBuffer in the recording state). Begin and
 	/// End must not be called; the engine submits it and calls NotifyExternalSubmit.

@@ -9,7 +9,7 @@ namespace Lantern
 {
 
 /// Bumped when any interface or description below changes. A plugin refuses another version with a message.
-inline constexpr uint32_t RHIVersion = 1;
+inline constexpr uint32_t RHIVersion = 2;
 
 // ---------------------------------------------------------------------------------------------------- status
 

@@ -177,6 +177,9 @@ struct FRTCapabilities
 	bool bRayQuery = false;
 	bool bRayTracingPipeline = false;
 	bool bPipelineLibraries = false;
+	/// A linked pipeline may take all of its groups from libraries. False where the driver needs ray generation and miss
+	/// groups among the link's own (FRTRayTracingPipelineDesc::Groups); hit groups may always come from libraries.
+	bool bLibraryOnlyPipelines = false;
 	bool bDeferredOperations = false; ///< the extension is there (it may still never defer)
 	bool bIndirectTrace = false;
 	bool bPositionFetch = false;
@@ -199,6 +202,12 @@ struct FRTCapabilities
 };
 
 // ---------------------------------------------------------------------------------------------------- descriptions
+
+class IRTBuffer;
+class IRTTexture;
+class IRTPipeline;
+class IRTGeometry;
+class IRTScene;
 
 struct FRTBufferDesc
 {
@@ -280,23 +289,25 @@ struct FRTShaderGroup
 	uint32_t Intersection = NoShader;
 };
 
+/// Monolithic (no libraries), a library, or linked from libraries. Groups are numbered: its own first, then those of each
+/// library in order. With bPipelineLibraries only: bLibrary and Libraries.
 struct FRTRayTracingPipelineDesc
 {
-	const FRTShaderCode* Shaders = nullptr;
+	const FRTShaderCode* Shaders = nullptr; ///< may be none where there are libraries
 	uint32_t ShaderCount = 0;
 	const FRTShaderGroup* Groups = nullptr;
 	uint32_t GroupCount = 0;
+	/// Libraries (made with bLibrary, and with the same recursion, payload and attribute sizes) to link. They may be
+	/// released afterwards: the linked pipeline keeps what it needs.
+	IRTPipeline* const* Libraries = nullptr;
+	uint32_t LibraryCount = 0;
+	/// Makes a library: good for linking only, never for SetPipeline or a shader table. Has at least one shader.
+	bool bLibrary = false;
 	uint32_t MaxRecursion = 1;
 	uint32_t MaxPayloadBytes = 32;
 	uint32_t MaxAttributeBytes = 8;
 	const char* Name = "";
 };
-
-class IRTBuffer;
-class IRTTexture;
-class IRTPipeline;
-class IRTGeometry;
-class IRTScene;
 
 /// One section of a geometry: triangles of float3 positions, or AABBs of six floats (min, max) where
 /// bProcedural. Only counts, strides, index type and flags matter for sizes; addresses are read at build.
@@ -321,6 +332,9 @@ struct FRTGeometryDesc
 	bool bAllowUpdate = false; ///< may be refitted
 	bool bFastBuild = false;   ///< prefer build speed to trace speed
 	bool bAllowCompaction = false;
+	/// > 0: storage for a compacted copy (IRTCommandList::CompactGeometry), of this many bytes. Everything else as it was
+	/// for the geometry to be copied.
+	uint64_t CompactedBytes = 0;
 	const char* Name = "";
 };
 
@@ -369,6 +383,12 @@ struct FRTGeometryBuild
 	uint64_t ScratchOffset = 0; ///< multiple of ScratchAlignment; builds of one call must not overlap
 };
 
+enum class ERTQuery : uint8_t
+{
+	Timestamp,
+	CompactedSize, ///< bytes that a built geometry needs once compacted
+};
+
 /// Bytes of record data beside the handle, at most.
 inline constexpr uint32_t MaxRecordDataBytes = 32;
 
@@ -380,6 +400,9 @@ struct FRTShaderTableDesc
 	uint32_t HitCount = 0;
 	uint32_t CallableCount = 0;
 	uint32_t RecordDataBytes = 0; ///< of hit records, ≤ MaxRecordDataBytes; the others carry none
+	/// Host copies made at creation (≥ 1): one for each frame in flight, and one to fill. More are made, never waited
+	/// for, where all are in use.
+	uint32_t Copies = 3;
 	const char* Name = "";
 };
 
