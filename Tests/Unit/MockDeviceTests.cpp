@@ -311,15 +311,15 @@ TEST_F(FMockTests, ImportedListRunsWhenTheEngineHasSubmitted)
 TEST_F(FMockTests, TimestampsRise)
 {
 	TRTRef<IRTQueryPool> Pool;
-	ASSERT_OK(Device().CreateQueryPool(2, Pool.ReleaseAndGetAddress()));
+	ASSERT_OK(Device().CreateQueryPool(ERTQuery::Timestamp, 2, Pool.ReleaseAndGetAddress()));
 	uint64_t Times[2] = {};
-	EXPECT_FALSE(Pool->GetTimestamps(0, 2, Times));
+	EXPECT_FALSE(Pool->GetResults(0, 2, Times));
 	const auto List = Make.List();
 	List->ResetQueries(Pool.Get(), 0, 2);
 	List->WriteTimestamp(Pool.Get(), 0);
 	List->WriteTimestamp(Pool.Get(), 1);
 	Make.Submit(List.Get());
-	ASSERT_TRUE(Pool->GetTimestamps(0, 2, Times));
+	ASSERT_TRUE(Pool->GetResults(0, 2, Times));
 	EXPECT_LT(Times[0], Times[1]);
 }
 

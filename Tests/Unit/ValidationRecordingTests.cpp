@@ -201,17 +201,17 @@ TEST_F(FValidationRecording, RasterPasses)
 TEST_F(FValidationRecording, Queries)
 {
 	TRTRef<IRTQueryPool> Pool;
-	EXPECT_FALSE(Make.Device->CreateQueryPool(0, Pool.ReleaseAndGetAddress()));
+	EXPECT_FALSE(Make.Device->CreateQueryPool(ERTQuery::Timestamp, 0, Pool.ReleaseAndGetAddress()));
 	ExpectMessage({"CreateQueryPool"});
-	ASSERT_OK(Make.Device->CreateQueryPool(2, Pool.ReleaseAndGetAddress()));
+	ASSERT_OK(Make.Device->CreateQueryPool(ERTQuery::Timestamp, 2, Pool.ReleaseAndGetAddress()));
 	const auto List = Make.List();
 	List->WriteTimestamp(Pool.Get(), 2);
 	ExpectMessage({"WriteTimestamp", "query 2 of 2"});
 	List->ResetQueries(Pool.Get(), 1, 2);
 	ExpectMessage({"ResetQueries", "1 + 2 of 2"});
 	uint64_t Time = 0;
-	EXPECT_FALSE(Pool->GetTimestamps(2, 1, &Time));
-	ExpectMessage({"GetTimestamps"});
+	EXPECT_FALSE(Pool->GetResults(2, 1, &Time));
+	ExpectMessage({"GetResults"});
 }
 
 TEST_F(FValidationRecording, BarriersAreWellFormed)

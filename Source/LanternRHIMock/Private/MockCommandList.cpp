@@ -370,6 +370,35 @@ void FMockCommandList::BuildGeometry(const FRTGeometryBuild& Build)
 	    });
 }
 
+void FMockCommandList::WriteCompactedSize(IRTQueryPool* Queries, uint32_t Index, IRTGeometry* Geometry)
+{
+	auto* Source = static_cast<FMockGeometry*>(Geometry);
+	FMockQueryPool* Mine = AsMock(Queries);
+	assert(Mine->Kind == ERTQuery::CompactedSize && Index < Mine->GetCount());
+	Keep(Queries);
+	Keep(Geometry);
+	Then(
+	    [=, this]
+	    {
+		    std::lock_guard Lock(State->Mutex);
+		    Mine->Values[Index] = AlignUp(Source->Sizes.StructureBytes * 6 / 10, 128);
+	    });
+}
+
+void FMockCommandList::CompactGeometry(IRTGeometry* Dest, IRTGeometry* Source)
+{
+	auto* To = static_cast<FMockGeometry*>(Dest);
+	auto* From = static_cast<FMockGeometry*>(Source);
+	Keep(Dest);
+	Keep(Source);
+	Then(
+	    [=, this]
+	    {
+		    std::lock_guard Lock(State->Mutex);
+		    To->Built = From->Built;
+	    });
+}
+
 void FMockCommandList::BuildScene(IRTScene* Scene, IRTBuffer* Instances, uint64_t InstanceOffset, uint32_t Count,
                                   IRTBuffer* Scratch, uint64_t ScratchOffset)
 {
@@ -429,7 +458,7 @@ void FMockCommandList::WriteTimestamp(IRTQueryPool* Pool, uint32_t Index)
 	    [=, this]
 	    {
 		    std::lock_guard Lock(State->Mutex);
-		    Mine->Times[Index] = State->ClockNs;
+		    Mine->Values[Index] = State->ClockNs;
 	    });
 }
 
@@ -443,7 +472,7 @@ void FMockCommandList::ResetQueries(IRTQueryPool* Pool, uint32_t First, uint32_t
 	    [=, this]
 	    {
 		    std::lock_guard Lock(State->Mutex);
-		    std::fill_n(Mine->Times.begin() + First, Count, 0);
+		    std::fill_n(Mine->Values.begin() + First, Count, 0);
 	    });
 }
 

@@ -310,7 +310,7 @@ FRTStatus FMockDevice::CreateShaderTable(const FRTShaderTableDesc& Desc, IRTShad
 	return Finish(*State, std::move(Table), EMockMemory::ShaderTable, Bytes, Out);
 }
 
-FRTStatus FMockDevice::CreateQueryPool(uint32_t Count, IRTQueryPool** Out)
+FRTStatus FMockDevice::CreateQueryPool(ERTQuery Kind, uint32_t Count, IRTQueryPool** Out)
 {
 	FRTStatus Status = Start(ERTMockCall::CreateQueryPool, "", {Count});
 	if (!Status)
@@ -318,7 +318,8 @@ FRTStatus FMockDevice::CreateQueryPool(uint32_t Count, IRTQueryPool** Out)
 		return Status;
 	}
 	auto Pool = std::make_unique<FMockQueryPool>(State, "QueryPool", "");
-	Pool->Times.resize(Count);
+	Pool->Kind = Kind;
+	Pool->Values.resize(Count);
 	return Finish(*State, std::move(Pool), EMockMemory::None, 0, Out);
 }
 

@@ -154,17 +154,17 @@ FMockScene::~FMockScene()
 	State->Scenes.Free(Index);
 }
 
-bool FMockQueryPool::GetTimestamps(uint32_t First, uint32_t Count, uint64_t* OutNanoseconds)
+bool FMockQueryPool::GetResults(uint32_t First, uint32_t Count, uint64_t* OutValues)
 {
-	assert(static_cast<uint64_t>(First) + Count <= Times.size());
+	assert(static_cast<uint64_t>(First) + Count <= Values.size());
 	std::lock_guard Lock(State->Mutex);
 	for (uint32_t i = 0; i < Count; ++i)
 	{
-		if (Times[First + i] == 0)
+		if (Values[First + i] == 0)
 		{
 			return false;
 		}
-		OutNanoseconds[i] = Times[First + i];
+		OutValues[i] = Values[First + i];
 	}
 	return true;
 }

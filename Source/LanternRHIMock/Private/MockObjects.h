@@ -154,10 +154,12 @@ class FMockQueryPool final : public TMockObject<IRTQueryPool>
 {
 public:
 	using TMockObject::TMockObject;
-	uint32_t GetCount() const override { return static_cast<uint32_t>(Times.size()); }
-	bool GetTimestamps(uint32_t First, uint32_t Count, uint64_t* OutNanoseconds) override;
+	uint32_t GetCount() const override { return static_cast<uint32_t>(Values.size()); }
+	ERTQuery GetKind() const override { return Kind; }
+	bool GetResults(uint32_t First, uint32_t Count, uint64_t* OutValues) override;
 
-	std::vector<uint64_t> Times; ///< 0: not written; guarded by FMockState::Mutex
+	ERTQuery Kind = ERTQuery::Timestamp;
+	std::vector<uint64_t> Values; ///< 0: not written; guarded by FMockState::Mutex
 };
 
 inline constexpr uint32_t RecordKinds = 4;
@@ -170,8 +172,15 @@ public:
 
 	const FRTShaderTableDesc& GetDesc() const override { return Desc; }
 	void SetRecord(ERTRecordKind Kind, uint32_t Index, uint32_t Group, const void* Data, uint32_t DataBytes) override;
+	void SetHitRecords(uint32_t First, uint32_t Count, const uint32_t* Groups, const void* Data) override;
+	void SetGroups(ERTRecordKind Kind, uint32_t First, uint32_t Count, const uint32_t* Groups) override;
+	void SetPipeline(IRTPipeline* InPipeline) override;
+	FRTStatus Reserve(const uint32_t Counts[4]) override;
+	FRTStatus Stage() override { return FRTStatus::Success(); }
+	void Invalidate() override { Dirty.assign(1, {0, Size}); }
 	uint64_t GetRecordStride(ERTRecordKind Kind) const override { return Strides[static_cast<uint32_t>(Kind)]; }
 	uint64_t GetSizeBytes() const override { return Size; }
+	uint64_t GetUpdatedBytes() const override { return UpdatedBytes; }
 
 	struct FUpdate
 	{
@@ -196,6 +205,8 @@ private:
 	std::vector<uint8_t> Host, Device;
 	std::vector<std::pair<uint64_t, uint64_t>> Dirty; ///< offset, size; unsorted
 	bool bUpdated = false;
+	uint64_t UpdatedBytes = 0;
+	void Layout();
 };
 
 } // namespace Lantern

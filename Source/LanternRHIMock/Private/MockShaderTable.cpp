@@ -33,6 +33,14 @@ FMockShaderTable::FMockShaderTable(std::shared_ptr<FMockState> InState, const FR
       Pipeline(static_cast<FMockPipeline*>(InDesc.Pipeline))
 {
 	Desc.Name = Name.c_str();
+	Layout();
+	Host.resize(Size);
+	Device.resize(Size);
+}
+
+void FMockShaderTable::Layout()
+{
+	Size = 0;
 	const FRTMockDesc& Limits = State->Desc;
 	for (uint32_t Kind = 0; Kind < RecordKinds; ++Kind)
 	{
@@ -46,8 +54,57 @@ FMockShaderTable::FMockShaderTable(std::shared_ptr<FMockState> InState, const FR
 		Starts[Kind] = AlignUp(Size, Limits.BaseAlignment);
 		Size = Starts[Kind] + Strides[Kind] * GetCount(static_cast<ERTRecordKind>(Kind));
 	}
-	Host.resize(Size);
-	Device.resize(Size);
+}
+
+void FMockShaderTable::SetHitRecords(uint32_t First, uint32_t Count, const uint32_t* Groups, const void* Data)
+{
+	for (uint32_t i = 0; i < Count; ++i)
+	{
+		const auto* Bytes = static_cast<const uint8_t*>(Data);
+		SetRecord(ERTRecordKind::Hit, First + i, Groups[i], Bytes ? Bytes + i * Desc.RecordDataBytes : nullptr,
+		          Bytes ? Desc.RecordDataBytes : 0);
+	}
+}
+
+void FMockShaderTable::SetGroups(ERTRecordKind Kind, uint32_t First, uint32_t Count, const uint32_t* Groups)
+{
+	for (uint32_t i = 0; i < Count; ++i)
+	{
+		const uint64_t Offset =
+		    Starts[static_cast<uint32_t>(Kind)] + (First + i) * Strides[static_cast<uint32_t>(Kind)];
+		std::vector<uint8_t> Data(Host.begin() + Offset + State->Desc.HandleSize,
+		                          Host.begin() + Offset + Strides[static_cast<uint32_t>(Kind)]);
+		Data.resize(Kind == ERTRecordKind::Hit ? Desc.RecordDataBytes : 0);
+		SetRecord(Kind, First + i, Groups[i], Data.data(), static_cast<uint32_t>(Data.size()));
+	}
+}
+
+void FMockShaderTable::SetPipeline(IRTPipeline* InPipeline)
+{
+	Pipeline = TRTRef<FMockPipeline>(static_cast<FMockPipeline*>(InPipeline));
+	Desc.Pipeline = InPipeline;
+}
+
+FRTStatus FMockShaderTable::Reserve(const uint32_t Counts[4])
+{
+	const auto OldStarts = Starts;
+	const uint32_t Old[] = {Desc.RayGenCount, Desc.MissCount, Desc.HitCount, Desc.CallableCount};
+	Desc.RayGenCount = std::max(Old[0], Counts[0]);
+	Desc.MissCount = std::max(Old[1], Counts[1]);
+	Desc.HitCount = std::max(Old[2], Counts[2]);
+	Desc.CallableCount = std::max(Old[3], Counts[3]);
+	Layout();
+	for (std::vector<uint8_t>* Copy : {&Host, &Device})
+	{
+		std::vector<uint8_t> Grown(Size);
+		for (uint32_t Kind = 0; Kind < RecordKinds; ++Kind)
+		{
+			std::copy_n(Copy->begin() + OldStarts[Kind], Old[Kind] * Strides[Kind], Grown.begin() + Starts[Kind]);
+		}
+		*Copy = std::move(Grown);
+	}
+	Invalidate();
+	return FRTStatus::Success();
 }
 
 uint32_t FMockShaderTable::GetCount(ERTRecordKind Kind) const
@@ -105,6 +162,11 @@ std::vector<FMockShaderTable::FUpdate> FMockShaderTable::TakeUpdates()
 		End = Offset + Bytes;
 	}
 	Dirty.clear();
+	UpdatedBytes = 0;
+	for (const FUpdate& Update : Updates)
+	{
+		UpdatedBytes += Update.Bytes.size();
+	}
 	return Updates;
 }
 

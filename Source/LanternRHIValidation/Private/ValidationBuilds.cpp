@@ -234,6 +234,27 @@ bool FValidatedCommandList::CheckInstances(FValidatedScene& Scene, IRTBuffer* In
 	return true;
 }
 
+void FValidatedCommandList::WriteCompactedSize(IRTQueryPool* Queries, uint32_t Index, IRTGeometry* Geometry)
+{
+	auto* Pool = State->Require<FValidatedQueryPool>(Queries, Where("WriteCompactedSize") + ": Queries");
+	auto* Mine = State->Require<FValidatedGeometry>(Geometry, Where("WriteCompactedSize") + ": Geometry");
+	if (Pool && Mine)
+	{
+		Inner->WriteCompactedSize(Pool->Inner.Get(), Index, Mine->Inner.Get());
+	}
+}
+
+void FValidatedCommandList::CompactGeometry(IRTGeometry* Dest, IRTGeometry* Source)
+{
+	auto* To = State->Require<FValidatedGeometry>(Dest, Where("CompactGeometry") + ": Dest");
+	auto* From = State->Require<FValidatedGeometry>(Source, Where("CompactGeometry") + ": Source");
+	if (To && From)
+	{
+		AddStep(EKind::BuildGeometry, "CompactGeometry").Geometry = To->Track;
+		Inner->CompactGeometry(To->Inner.Get(), From->Inner.Get());
+	}
+}
+
 void FValidatedCommandList::BuildScene(IRTScene* Scene, IRTBuffer* Instances, uint64_t InstanceOffset, uint32_t Count,
                                        IRTBuffer* Scratch, uint64_t ScratchOffset)
 {

@@ -36,6 +36,8 @@ public:
 	void Draw(uint32_t VertexCount, uint32_t InstanceCount) override;
 	void DrawIndexed(uint32_t IndexCount, uint32_t InstanceCount, uint32_t FirstIndex, int32_t VertexOffset) override;
 	void BuildGeometries(const FRTGeometryBuild* Builds, uint32_t Count) override;
+	void WriteCompactedSize(IRTQueryPool* Queries, uint32_t Index, IRTGeometry* Geometry) override;
+	void CompactGeometry(IRTGeometry* Dest, IRTGeometry* Source) override;
 	void BuildScene(IRTScene* Scene, IRTBuffer* Instances, uint64_t InstanceOffset, uint32_t Count, IRTBuffer* Scratch,
 	                uint64_t ScratchOffset) override;
 	void KeepAlive(IRTRefCounted* Object) override;

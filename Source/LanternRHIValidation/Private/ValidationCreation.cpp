@@ -283,14 +283,14 @@ FRTStatus FValidatedDevice::CreateShaderTable(const FRTShaderTableDesc& Desc, IR
 	return Status;
 }
 
-FRTStatus FValidatedDevice::CreateQueryPool(uint32_t Count, IRTQueryPool** Out)
+FRTStatus FValidatedDevice::CreateQueryPool(ERTQuery Kind, uint32_t Count, IRTQueryPool** Out)
 {
 	if (!Out || !Count)
 	{
 		return State->Fail("CreateQueryPool: no queries, or Out is null");
 	}
 	TRTRef<IRTQueryPool> Inner;
-	FRTStatus Status = State->Inner->CreateQueryPool(Count, Inner.ReleaseAndGetAddress());
+	FRTStatus Status = State->Inner->CreateQueryPool(Kind, Count, Inner.ReleaseAndGetAddress());
 	if (Status)
 	{
 		*Out = new FValidatedQueryPool(State, Print("query pool of %u", Count), std::move(Inner));

@@ -80,14 +80,14 @@ FValidatedScene::FValidatedScene(std::shared_ptr<FValidationState> InState, TRTR
 	State->Scenes.push_back(Track);
 }
 
-bool FValidatedQueryPool::GetTimestamps(uint32_t First, uint32_t Count, uint64_t* OutNanoseconds)
+bool FValidatedQueryPool::GetResults(uint32_t First, uint32_t Count, uint64_t* OutValues)
 {
-	if (!IsInside(First, Count, GetCount()) || !OutNanoseconds)
+	if (!IsInside(First, Count, GetCount()) || !OutValues)
 	{
-		State->Report(Print("GetTimestamps: queries %u + %u of %u", First, Count, GetCount()));
+		State->Report(Print("GetResults: queries %u + %u of %u", First, Count, GetCount()));
 		return false;
 	}
-	return Inner->GetTimestamps(First, Count, OutNanoseconds);
+	return Inner->GetResults(First, Count, OutValues);
 }
 
 FValidatedShaderTable::FValidatedShaderTable(std::shared_ptr<FValidationState> InState, TRTRef<IRTShaderTable> InInner,
@@ -133,6 +133,50 @@ void FValidatedShaderTable::SetRecord(ERTRecordKind Kind, uint32_t Index, uint32
 	Inner->SetRecord(Kind, Index, Group, Data, DataBytes);
 	std::lock_guard Lock(State->Mutex);
 	Records[Index] = ERecordState::Set;
+}
+
+void FValidatedShaderTable::SetHitRecords(uint32_t First, uint32_t Count, const uint32_t* Groups, const void* Data)
+{
+	Inner->SetHitRecords(First, Count, Groups, Data);
+	std::lock_guard Lock(State->Mutex);
+	auto& Records = Track->Records[static_cast<size_t>(ERTRecordKind::Hit)];
+	std::fill_n(Records.begin() + First, Count, ERecordState::Set);
+}
+
+void FValidatedShaderTable::SetGroups(ERTRecordKind Kind, uint32_t First, uint32_t Count, const uint32_t* Groups)
+{
+	Inner->SetGroups(Kind, First, Count, Groups);
+	std::lock_guard Lock(State->Mutex);
+	std::fill_n(Track->Records[static_cast<size_t>(Kind)].begin() + First, Count, ERecordState::Set);
+}
+
+void FValidatedShaderTable::SetPipeline(IRTPipeline* InPipeline)
+{
+	auto* Mine = State->Require<FValidatedPipeline>(InPipeline, "SetPipeline: " + Label + ": Pipeline");
+	if (!Mine)
+	{
+		return;
+	}
+	Inner->SetPipeline(Mine->Inner.Get());
+	Pipeline = TRTRef<FValidatedPipeline>(Mine);
+	Desc.Pipeline = Mine;
+}
+
+FRTStatus FValidatedShaderTable::Reserve(const uint32_t Counts[4])
+{
+	FRTStatus Status = Inner->Reserve(Counts);
+	if (Status)
+	{
+		Desc = Inner->GetDesc();
+		Desc.Pipeline = Pipeline.Get();
+		const uint32_t Now[] = {Desc.RayGenCount, Desc.MissCount, Desc.HitCount, Desc.CallableCount};
+		std::lock_guard Lock(State->Mutex);
+		for (size_t Kind = 0; Kind < 4; ++Kind)
+		{
+			Track->Records[Kind].resize(Now[Kind]);
+		}
+	}
+	return Status;
 }
 
 IRTRefCounted* GetUnwrapped(IRTRefCounted* Object)

@@ -145,7 +145,8 @@ class FValidatedQueryPool final : public TValidated<IRTQueryPool>
 public:
 	using TValidated::TValidated;
 	uint32_t GetCount() const override { return Inner->GetCount(); }
-	bool GetTimestamps(uint32_t First, uint32_t Count, uint64_t* OutNanoseconds) override;
+	ERTQuery GetKind() const override { return Inner->GetKind(); }
+	bool GetResults(uint32_t First, uint32_t Count, uint64_t* OutValues) override;
 };
 
 class FValidatedShaderTable final : public TValidated<IRTShaderTable>
@@ -155,6 +156,13 @@ public:
 	                      const FRTShaderTableDesc& InDesc, FValidatedPipeline* InPipeline);
 	const FRTShaderTableDesc& GetDesc() const override { return Desc; }
 	void SetRecord(ERTRecordKind Kind, uint32_t Index, uint32_t Group, const void* Data, uint32_t DataBytes) override;
+	void SetHitRecords(uint32_t First, uint32_t Count, const uint32_t* Groups, const void* Data) override;
+	void SetGroups(ERTRecordKind Kind, uint32_t First, uint32_t Count, const uint32_t* Groups) override;
+	void SetPipeline(IRTPipeline* InPipeline) override;
+	FRTStatus Reserve(const uint32_t Counts[4]) override;
+	FRTStatus Stage() override { return Inner->Stage(); }
+	void Invalidate() override { Inner->Invalidate(); }
+	uint64_t GetUpdatedBytes() const override { return Inner->GetUpdatedBytes(); }
 	uint64_t GetRecordStride(ERTRecordKind Kind) const override { return Inner->GetRecordStride(Kind); }
 	uint64_t GetSizeBytes() const override { return Inner->GetSizeBytes(); }
 
