@@ -9,32 +9,12 @@ namespace
 {
 // A batch takes what fits into this much scratch, and at least one geometry.
 constexpr uint64_t BatchScratchBytes = 32ull << 20;
-
-std::vector<FRTGeometrySection> MakeSections(const FRTGeometryInfo& Info)
-{
-	std::vector<FRTGeometrySection> Sections;
-	const uint32_t IndexBytes = Info.IndexType == ERTIndexType::UInt16 ? 2 : 4;
-	for (const FRTSectionInfo& Section : Info.Sections)
-	{
-		FRTGeometrySection Out;
-		Out.Vertices = Info.Positions.Get();
-		Out.VertexOffset = Info.PositionsOffset;
-		Out.VertexCount = Info.VertexCount;
-		Out.Indices = Info.Indices.Get();
-		Out.IndexOffset = Info.IndicesOffset + uint64_t(Section.FirstIndex) * IndexBytes;
-		Out.TriangleCount = Section.IndexCount / 3;
-		Out.IndexType = Info.IndexType;
-		Out.bOpaque = Section.bOpaque;
-		Sections.push_back(Out);
-	}
-	return Sections;
-}
 } // namespace
 
 FRTStatus FGeometryBuilder::Create(FRTGeometry& Geometry)
 {
 	if (Geometry.Structure) { return FRTStatus::Success(); }
-	const std::vector<FRTGeometrySection> Sections = MakeSections(Geometry.Info);
+	const std::vector<FRTGeometrySection> Sections = MakeStructureSections(Geometry);
 	FRTGeometryDesc Desc;
 	Desc.Sections = Sections.data();
 	Desc.SectionCount = static_cast<uint32_t>(Sections.size());
@@ -67,7 +47,7 @@ FRTStatus FGeometryBuilder::Build(IRTCommandList& List, const std::vector<FRTGeo
 			const FRTBuildSizes Sizes = Geometry.Structure->GetBuildSizes();
 			const uint64_t Bytes = bUpdate ? Sizes.UpdateScratchBytes : Sizes.BuildScratchBytes;
 			if (!Builds.empty() && Used + Bytes > BatchScratchBytes) { break; }
-			Sections.push_back(MakeSections(Geometry.Info));
+			Sections.push_back(MakeStructureSections(Geometry));
 			FRTGeometryBuild Build;
 			Build.Geometry = Geometry.Structure.Get();
 			Build.SectionCount = static_cast<uint32_t>(Sections.back().size());

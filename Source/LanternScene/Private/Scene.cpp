@@ -57,11 +57,9 @@ FRTScene::~FRTScene() = default;
 
 FRTStatus FRTScene::CreateGeometry(FRTGeometryInfo Info, FRTGeometryRef& Out)
 {
-	assert(Info.Positions && Info.Attributes && Info.Indices && !Info.Sections.empty());
-	auto Geometry = std::make_shared<FRTGeometry>();
-	Geometry->Info = std::move(Info);
-	uint64_t Triangles = 0;
-	for (const FRTSectionInfo& Section : Geometry->Info.Sections) { Triangles += Section.IndexCount / 3; }
+	assert(!Info.Sections.empty());
+	auto Geometry = std::make_shared<FRTGeometry>(std::move(Info));
+	const uint64_t Triangles = Geometry->GetPrimitiveCount();
 	if (const uint64_t Most = Device.GetCapabilities().MaxPrimitiveCount; Triangles > Most)
 	{
 		return FRTStatus::Error(ERTResult::Unsupported, "%s has %llu triangles; the device allows %llu", Geometry->Info.Name.c_str(),

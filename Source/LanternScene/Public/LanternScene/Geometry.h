@@ -1,5 +1,5 @@
-// rtGeometry: triangles in sections, and the acceleration structure over them. It knows nothing of shaders or
-// materials; any number of objects may share it.
+// rtGeometry: triangles (or boxes) in sections, and the acceleration structure over them. It knows nothing of shaders
+// or materials; any number of objects may share it.
 #pragma once
 
 #include <memory>
@@ -15,10 +15,16 @@ namespace Lantern
 
 struct FRTSectionInfo
 {
-	uint32_t FirstIndex = 0;
-	uint32_t IndexCount = 0; ///< > 0, a multiple of 3
+	uint32_t FirstIndex = 0; ///< procedural: first AABB
+	uint32_t IndexCount = 0; ///< > 0, a multiple of 3; procedural: number of AABBs
 	/// False where some object may give this section an alpha-tested material: any-hit shaders then run on it.
 	bool bOpaque = true;
+	/// AABBs with the intersection shader of the material's program, instead of triangles.
+	bool bProcedural = false;
+	/// Classified alpha test: the index range is ordered mixed | opaque | transparent, and these are the lengths of the last
+	/// two, multiples of 3. 0, 0: not classified.
+	uint32_t OpaqueIndexCount = 0, TransparentIndexCount = 0;
+	uint64_t OpacityKey = 0; ///< names the alpha test that it was classified with
 };
 
 /// Where a geometry's data lies. Buffers need ERTBufferUsage::GeometryInput and Storage.
@@ -32,6 +38,8 @@ struct FRTGeometryInfo
 	TRTRef<IRTBuffer> Indices;
 	uint64_t IndicesOffset = 0; ///< bytes, a multiple of 4
 	ERTIndexType IndexType = ERTIndexType::UInt32;
+	TRTRef<IRTBuffer> Aabbs;  ///< six floats each: min, max; null without procedural sections
+	uint64_t AabbsOffset = 0; ///< bytes, a multiple of 8
 	uint32_t VertexCount = 0;
 	std::vector<FRTSectionInfo> Sections; ///< > 0
 	bool bHasTangents = false;
@@ -40,28 +48,80 @@ struct FRTGeometryInfo
 	/// Vertices change after creation (skinning): call FRTScene::MarkDeformed when they did.
 	bool bDynamic = false;
 	/// The same data on the CPU, alive as long as the geometry; null: its emissive triangles are found by chance
-	/// alone, not by light sampling. Ignored for dynamic geometry.
+	/// alone, not by light sampling, and it has no coarser levels of detail. Ignored for dynamic geometry.
 	const glm::vec3* CpuPositions = nullptr;
 	const uint32_t* CpuIndices = nullptr;
+	glm::vec3 BoundsCenter{0}; ///< object space
+	/// Of a sphere around everything the geometry can become. < 0: from CpuPositions if there are any and the geometry is
+	/// not dynamic, else unknown: its objects are never culled.
+	float BoundsRadius = -1.0f;
 };
+
+/// What the acceleration structure really holds: its geometryIndex counts parts. Part i < section count is section i: all
+/// of it, or its mixed triangles, or, where it has none of those, its opaque ones. Parts behind are the opaque triangles of
+/// classified sections. Transparent triangles are in none, but for one of a section that has nothing else.
+struct FRTGeometryPart
+{
+	uint32_t FirstIndex = 0, IndexCount = 0; ///< as in FRTSectionInfo
+	uint32_t Section = 0;
+	bool bOpaque = true;
+	friend bool operator==(const FRTGeometryPart&, const FRTGeometryPart&) = default;
+};
+
+/// bClassified: false takes sections as if they had not been.
+std::vector<FRTGeometryPart> MakeGeometryParts(const FRTGeometryInfo& Info, bool bClassified = true);
+/// The bounds that Info states, or those of its positions (see FRTGeometryInfo::BoundsRadius).
+void FillBounds(FRTGeometryInfo& Info);
+/// Parts as the RHI takes them. Pointers are good as long as the geometry.
+class FRTGeometry;
+std::vector<FRTGeometrySection> MakeStructureSections(const FRTGeometry& Geometry);
+
+struct FGeometryReleases;
+struct FCoarserLevel;
 
 class FRTGeometry
 {
 public:
+	explicit FRTGeometry(FRTGeometryInfo InInfo);
+	~FRTGeometry();
+	FRTGeometry(const FRTGeometry&) = delete;
+	FRTGeometry& operator=(const FRTGeometry&) = delete;
+
 	const FRTGeometryInfo& GetInfo() const { return Info; }
 	/// Null before the first build.
 	IRTGeometry* GetStructure() const { return Structure.Get(); }
 	bool IsBuilt() const { return bBuilt; }
 	uint32_t GetSectionCount() const { return static_cast<uint32_t>(Info.Sections.size()); }
+	const std::vector<FRTGeometryPart>& GetParts() const { return Parts; }
+	/// Room that a range of sections needs, ≥ the number of parts; constant over the geometry's life.
+	uint32_t GetPartCapacity() const { return PartCapacity; }
+	uint32_t GetSlot() const { return Slot; } ///< in FGeometryStore; constant
+	uint64_t GetPrimitiveCount() const;       ///< in all parts
+	/// Index buffer that parts refer to: the info's, or that of a coarser level of detail.
+	IRTBuffer* GetIndices() const { return Indices.Get(); }
+	uint64_t GetIndicesOffset() const { return IndicesOffset; }
+	ERTIndexType GetIndexType() const { return IndexType; }
+	/// Parts and indices are those of a coarser level: they no longer follow CpuIndices.
+	bool IsCoarse() const { return bCoarse; }
 
 private:
 	friend class FRTScene;
 	friend class FGeometryBuilder;
+	friend class FGeometryStore;
 	FRTGeometryInfo Info;
+	std::vector<FRTGeometryPart> Parts;
+	uint32_t PartCapacity = 0;
+	uint32_t Slot = 0;
+	TRTRef<IRTBuffer> Indices;
+	uint64_t IndicesOffset = 0;
+	ERTIndexType IndexType = ERTIndexType::UInt32;
+	bool bCoarse = false;
 	TRTRef<IRTGeometry> Structure;
 	bool bBuilt = false;
 	bool bDeformed = false;
 	uint32_t RefitsSinceBuild = 0;
+	std::shared_ptr<FGeometryReleases> Releases; // told of the end; null without a store
+	std::unique_ptr<FCoarserLevel> Coarser;      // in the making
 };
 
 using FRTGeometryRef = std::shared_ptr<FRTGeometry>;

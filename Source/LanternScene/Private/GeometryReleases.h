@@ -1,0 +1,38 @@
+// What geometries leave behind when their last owner lets go: on any thread, perhaps after the store is gone.
+#pragma once
+
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "LanternRHI/RTInterfaces.h"
+
+namespace Lantern
+{
+
+struct FGeometryReleases
+{
+	struct FItem
+	{
+		uint32_t Slot = 0;
+		TRTRef<IRTGeometry> Structure;
+		TRTRef<IRTBuffer> Indices;
+	};
+
+	void Add(uint32_t Slot, TRTRef<IRTGeometry> Structure, TRTRef<IRTBuffer> Indices)
+	{
+		std::lock_guard Lock(Mutex);
+		Items.push_back({Slot, std::move(Structure), std::move(Indices)});
+	}
+	std::vector<FItem> Take()
+	{
+		std::lock_guard Lock(Mutex);
+		return std::exchange(Items, {});
+	}
+
+private:
+	std::mutex Mutex;
+	std::vector<FItem> Items;
+};
+
+} // namespace Lantern
