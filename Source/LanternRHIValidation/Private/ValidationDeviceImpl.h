@@ -24,6 +24,10 @@ public:
 	FRTStatus CreateRasterPipeline(const FRTRasterPipelineDesc& Desc, IRTPipeline** Out) override;
 	FRTStatus CreateRayTracingPipeline(const FRTRayTracingPipelineDesc& Desc, IRTPipeline** Out) override;
 	FRTStatus CreateGeometry(const FRTGeometryDesc& Desc, IRTGeometry** Out) override;
+	FRTBuildSizes GetGeometrySizes(const FRTGeometryDesc& Desc) override
+	{
+		return State->Inner->GetGeometrySizes(Desc);
+	}
 	FRTStatus CreateScene(const FRTSceneDesc& Desc, IRTScene** Out) override;
 	FRTStatus CreateShaderTable(const FRTShaderTableDesc& Desc, IRTShaderTable** Out) override;
 	FRTStatus CreateQueryPool(ERTQuery Kind, uint32_t Count, IRTQueryPool** Out) override;

@@ -94,6 +94,16 @@ FRTStatus NoRayTracing(const char* Name)
 	return FRTStatus::Error(ERTResult::Unsupported, "'%.200s': the device has no acceleration structures", Name);
 }
 
+VkBuildAccelerationStructureFlagsKHR FlagsOf(const FRTGeometryDesc& Desc)
+{
+	VkBuildAccelerationStructureFlagsKHR Flags = Desc.bFastBuild
+	                                                 ? VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_BUILD_BIT_KHR
+	                                                 : VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
+	Flags |= Desc.bAllowUpdate ? VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_UPDATE_BIT_KHR : 0;
+	Flags |= Desc.bAllowCompaction ? VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_COMPACTION_BIT_KHR : 0;
+	return Flags;
+}
+
 } // namespace
 
 void FVulkanSections::Assign(const FRTGeometrySection* Sections, uint32_t Count)
@@ -110,6 +120,23 @@ void FVulkanSections::Assign(const FRTGeometrySection* Sections, uint32_t Count)
 	}
 }
 
+FRTBuildSizes QueryGeometrySizes(FVulkanDevice& Device, const FRTGeometryDesc& Desc)
+{
+	FVulkanSections Sections;
+	Sections.Assign(Desc.Sections, Desc.SectionCount);
+	std::vector<uint32_t> Counts;
+	for (const VkAccelerationStructureBuildRangeInfoKHR& Range : Sections.Ranges)
+	{
+		Counts.push_back(Range.primitiveCount);
+	}
+	VkAccelerationStructureBuildGeometryInfoKHR Info{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR};
+	Info.type = VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR;
+	Info.flags = FlagsOf(Desc);
+	Info.geometryCount = Desc.SectionCount;
+	Info.pGeometries = Sections.Geometries.data();
+	return QuerySizes(Device, Info, Counts.data());
+}
+
 FRTStatus FVulkanGeometry::Initialise(const FRTGeometryDesc& Desc)
 {
 	if (!Device.Bits.bAccel)
@@ -118,19 +145,12 @@ FRTStatus FVulkanGeometry::Initialise(const FRTGeometryDesc& Desc)
 	}
 	assert(Desc.SectionCount > 0);
 	SectionCount = Desc.SectionCount;
-	Flags = Desc.bFastBuild ? VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_BUILD_BIT_KHR
-	                        : VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
-	Flags |= Desc.bAllowUpdate ? VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_UPDATE_BIT_KHR : 0;
-	Flags |= Desc.bAllowCompaction ? VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_COMPACTION_BIT_KHR : 0;
-
-	FVulkanSections Sections;
-	Sections.Assign(Desc.Sections, SectionCount);
-	std::vector<uint32_t> Counts;
+	Flags = FlagsOf(Desc);
 	uint64_t Total = 0;
-	for (const VkAccelerationStructureBuildRangeInfoKHR& Range : Sections.Ranges)
+	for (uint32_t Index = 0; Index < SectionCount; ++Index)
 	{
-		Counts.push_back(Range.primitiveCount);
-		Total += Range.primitiveCount;
+		Total +=
+		    Desc.Sections[Index].bProcedural ? Desc.Sections[Index].VertexCount : Desc.Sections[Index].TriangleCount;
 	}
 	if (Total > Device.GetCapabilities().MaxPrimitiveCount)
 	{
@@ -138,18 +158,13 @@ FRTStatus FVulkanGeometry::Initialise(const FRTGeometryDesc& Desc)
 		                        Desc.Name, static_cast<unsigned long long>(Total),
 		                        static_cast<unsigned long long>(Device.GetCapabilities().MaxPrimitiveCount));
 	}
-	VkAccelerationStructureBuildGeometryInfoKHR Info{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR};
-	Info.type = VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR;
-	Info.flags = Flags;
-	Info.geometryCount = SectionCount;
-	Info.pGeometries = Sections.Geometries.data();
-	Sizes = QuerySizes(Device, Info, Counts.data());
+	Sizes = QueryGeometrySizes(Device, Desc);
 	if (Desc.CompactedBytes > 0)
 	{
 		Sizes.StructureBytes = Desc.CompactedBytes;
 	}
-	FRTStatus Status = CreateStructure(Device, Info.type, Sizes.StructureBytes, EVulkanMemoryKind::Geometry, Desc.Name,
-	                                   Block, &Handle);
+	FRTStatus Status = CreateStructure(Device, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, Sizes.StructureBytes,
+	                                   EVulkanMemoryKind::Geometry, Desc.Name, Block, &Handle);
 	if (!Status)
 	{
 		return Status;

@@ -14,6 +14,9 @@ struct FVulkanSections
 	void Assign(const FRTGeometrySection* Sections, uint32_t Count);
 };
 
+/// FRTBuildSizes of a geometry as Desc has it; Desc.CompactedBytes aside.
+FRTBuildSizes QueryGeometrySizes(FVulkanDevice& Device, const FRTGeometryDesc& Desc);
+
 class FVulkanGeometry final : public TVulkanObject<IRTGeometry>
 {
 public:

@@ -63,6 +63,7 @@ public:
 	FRTStatus CreateRasterPipeline(const FRTRasterPipelineDesc& Desc, IRTPipeline** Out) override;
 	FRTStatus CreateRayTracingPipeline(const FRTRayTracingPipelineDesc& Desc, IRTPipeline** Out) override;
 	FRTStatus CreateGeometry(const FRTGeometryDesc& Desc, IRTGeometry** Out) override;
+	FRTBuildSizes GetGeometrySizes(const FRTGeometryDesc& Desc) override;
 	FRTStatus CreateScene(const FRTSceneDesc& Desc, IRTScene** Out) override;
 	FRTStatus CreateShaderTable(const FRTShaderTableDesc& Desc, IRTShaderTable** Out) override;
 	FRTStatus CreateQueryPool(ERTQuery Kind, uint32_t Count, IRTQueryPool** Out) override;
@@ -101,6 +102,7 @@ public:
 	FVulkanPipelineCache Cache;
 	uint32_t QueueFamily = 0;
 	uint32_t TimestampBits = 0;
+	bool bCacheLibraries = true;
 
 private:
 	~FVulkanDevice() override;

@@ -73,6 +73,11 @@ FRTStatus FVulkanDevice::CreateGeometry(const FRTGeometryDesc& Desc, IRTGeometry
 	return CreateObject<FVulkanGeometry>(*this, Out, [&](FVulkanGeometry& It) { return It.Initialise(Desc); });
 }
 
+FRTBuildSizes FVulkanDevice::GetGeometrySizes(const FRTGeometryDesc& Desc)
+{
+	return Bits.bAccel ? QueryGeometrySizes(*this, Desc) : FRTBuildSizes{};
+}
+
 FRTStatus FVulkanDevice::CreateScene(const FRTSceneDesc& Desc, IRTScene** Out)
 {
 	return CreateObject<FVulkanScene>(*this, Out, [&](FVulkanScene& It) { return It.Initialise(Desc); });

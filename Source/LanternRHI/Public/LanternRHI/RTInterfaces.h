@@ -202,6 +202,9 @@ public:
 	virtual FRTStatus CreateRasterPipeline(const FRTRasterPipelineDesc& Desc, IRTPipeline** Out) = 0;
 	virtual FRTStatus CreateRayTracingPipeline(const FRTRayTracingPipelineDesc& Desc, IRTPipeline** Out) = 0;
 	virtual FRTStatus CreateGeometry(const FRTGeometryDesc& Desc, IRTGeometry** Out) = 0;
+	/// What CreateGeometry would make, without making it; Desc.CompactedBytes is ignored. All 0 where the device has no
+	/// acceleration structures.
+	virtual FRTBuildSizes GetGeometrySizes(const FRTGeometryDesc& Desc) = 0;
 	virtual FRTStatus CreateScene(const FRTSceneDesc& Desc, IRTScene** Out) = 0;
 	virtual FRTStatus CreateShaderTable(const FRTShaderTableDesc& Desc, IRTShaderTable** Out) = 0;
 	virtual FRTStatus CreateQueryPool(ERTQuery Kind, uint32_t Count, IRTQueryPool** Out) = 0;
