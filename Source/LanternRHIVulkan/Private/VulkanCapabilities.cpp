@@ -403,6 +403,8 @@ void ProbeVulkanDevice(const FVulkanInstanceApi& Api, VkPhysicalDevice Physical,
 	{
 		Out->Missing += "a queue for graphics and compute: nothing runs without it\n";
 	}
+	Out->Capabilities.bLibraryOnlyPipelines =
+	    Out->Capabilities.bPipelineLibraries && !HasQuirk(Out->Quirks, EVulkanQuirk::LinkedPushConstantsLost);
 	Out->bUsable = bBaseline && Out->QueueFamily != FVulkanProbe::NoQueueFamily;
 	Out->Features.Link(Out->Extensions);
 }

@@ -88,8 +88,6 @@ FRTStatus FVulkanCommandList::Begin()
 	Error = {};
 	Bound = nullptr;
 	SetBoundPoints = 0;
-	Chunk = 0;
-	ChunkUsed = 0;
 	VkResult Result = Device.Check(Device.Api.ResetCommandPool(Device.Handle, Pool, 0));
 	VkCommandBufferBeginInfo Info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
 	Info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;

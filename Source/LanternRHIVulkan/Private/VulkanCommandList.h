@@ -7,8 +7,6 @@
 #include "VulkanShaderTable.h"
 #include "VulkanTexture.h"
 
-#include <memory>
-
 namespace Lantern
 {
 
@@ -70,22 +68,12 @@ public:
 	FVulkanKept TakeKept(FRTFence InFence);
 
 private:
-	/// Host-visible bytes that stay as they are until the list has been executed.
-	struct FUpload
-	{
-		VkBuffer Buffer = VK_NULL_HANDLE;
-		uint64_t Offset = 0;
-		uint8_t* Mapped = nullptr;
-	};
-
 	~FVulkanCommandList() override;
 	void Keep(IRTRefCounted* Object);
 	void ReleaseKept();
 	void Barrier(const FVulkanAccess& Before, const FVulkanAccess& After);
 	void MipBarrier(const FVulkanTexture& Texture, uint32_t First, uint32_t Count, VkImageLayout Before,
 	                VkImageLayout After);
-	/// False when memory is out; Error says so.
-	bool Upload(uint64_t Size, FUpload* Out);
 
 	std::string Name;
 	bool bImported = false;
@@ -96,10 +84,6 @@ private:
 	FVulkanKept Kept;
 	FVulkanPipeline* Bound = nullptr;
 	uint32_t SetBoundPoints = 0; ///< bit per bind point that has the descriptor set
-	std::vector<std::unique_ptr<FVulkanBlock>> Chunks;
-	std::vector<uint64_t> ChunkSizes;
-	size_t Chunk = 0;
-	uint64_t ChunkUsed = 0;
 };
 
 } // namespace Lantern

@@ -1,72 +1,54 @@
 #include "VulkanCommandList.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cstring>
 
 namespace Lantern
 {
 
-bool FVulkanCommandList::Upload(uint64_t Size, FUpload* Out)
-{
-	constexpr uint64_t ChunkBytes = 256 * 1024;
-	constexpr uint64_t Alignment = 16;
-	while (Chunk < Chunks.size() && ChunkUsed + Size > ChunkSizes[Chunk])
-	{
-		++Chunk;
-		ChunkUsed = 0;
-	}
-	if (Chunk == Chunks.size())
-	{
-		auto Block = std::make_unique<FVulkanBlock>();
-		const uint64_t Bytes = std::max(Size, ChunkBytes);
-		FRTStatus Status = Block->Create(Device, Bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, ERTMemory::Upload, Alignment,
-		                                 EVulkanMemoryKind::Buffer, "Command list uploads");
-		if (!Status)
-		{
-			Error = Status;
-			return false;
-		}
-		Chunks.push_back(std::move(Block));
-		ChunkSizes.push_back(Bytes);
-		ChunkUsed = 0;
-	}
-	FVulkanBlock& Block = *Chunks[Chunk];
-	*Out = {Block.Handle, ChunkUsed, static_cast<uint8_t*>(Block.Allocation.Mapped) + ChunkUsed};
-	ChunkUsed = (ChunkUsed + Size + Alignment - 1) / Alignment * Alignment;
-	return true;
-}
-
 void FVulkanCommandList::UpdateShaderTable(IRTShaderTable* Table)
 {
 	Keep(Table);
-	FVulkanShaderTable* Native = static_cast<FVulkanShaderTable*>(Table);
-	std::vector<FVulkanShaderTable::FRange> Ranges;
-	Native->TakeDirty(Ranges);
-	uint64_t Bytes = 0;
-	for (const FVulkanShaderTable::FRange& Range : Ranges)
+	FVulkanShaderTable::FUpdate Update;
+	FRTStatus Status = static_cast<FVulkanShaderTable*>(Table)->TakeUpdate(Update);
+	if (!Status)
 	{
-		Bytes += Range.Size;
+		Error = Status;
+		return;
 	}
-	FUpload Source;
-	if (Bytes == 0 || !Upload(Bytes, &Source))
+	if (Update.IsEmpty())
 	{
 		return;
 	}
-	std::vector<VkBufferCopy> Copies;
-	uint64_t Offset = 0;
-	for (const FVulkanShaderTable::FRange& Range : Ranges)
-	{
-		memcpy(Source.Mapped + Offset, Native->GetRecords() + Range.Offset, Range.Size);
-		Copies.push_back({Source.Offset + Offset, Range.Offset, Range.Size});
-		Offset += Range.Size;
-	}
 	// Rays of earlier frames may still read the table, and an earlier update may still write it.
 	const FVulkanAccess Trace = AccessOf(ERTAccess::TraceRead, Device.Bits);
-	const FVulkanAccess Copy = AccessOf(ERTAccess::CopyWrite, Device.Bits);
+	const FVulkanAccess Copy = AccessOf(ERTAccess::CopyWrite | ERTAccess::CopyRead, Device.Bits);
 	Barrier({Trace.Stages | Copy.Stages, Copy.Access}, Copy);
-	Device.Api.CmdCopyBuffer(Handle, Source.Buffer, Native->GetBuffer(), static_cast<uint32_t>(Copies.size()),
-	                         Copies.data());
+	Keep(Update.Dest);
+	const VkBuffer Dest = Update.Dest->Block.Handle;
+	const auto CopyAll = [&](const FVulkanShaderTable::FCopies& Item)
+	{
+		Keep(Item.Source.Get());
+		Device.Api.CmdCopyBuffer(Handle, Item.Source->Block.Handle, Dest, static_cast<uint32_t>(Item.Regions.size()),
+		                         Item.Regions.data());
+	};
+	for (const FVulkanShaderTable::FFill& Zeros : Update.Zeros)
+	{
+		Device.Api.CmdFillBuffer(Handle, Dest, Zeros.Offset, Zeros.Size, 0);
+	}
+	if (Update.Moved.Source)
+	{
+		CopyAll(Update.Moved);
+	}
+	bool bWritten = !Update.Zeros.empty() || Update.Moved.Source;
+	for (const FVulkanShaderTable::FCopies& Item : Update.Copies)
+	{
+		if (bWritten)
+		{
+			Barrier(Copy, Copy); // the same records may come twice
+		}
+		CopyAll(Item);
+		bWritten = true;
+	}
 	Barrier(Copy, Trace);
 }
 
@@ -75,6 +57,7 @@ void FVulkanCommandList::TraceRays(IRTShaderTable* Table, uint32_t RayGen, uint3
 {
 	Keep(Table);
 	const FVulkanShaderTable* Native = static_cast<const FVulkanShaderTable*>(Table);
+	Keep(Native->GetBuffer());
 	assert(Bound && Bound->GetGroupCount() > 0 && "SetPipeline with a ray-tracing pipeline first");
 	const VkStridedDeviceAddressRegionKHR Generate = Native->GetRegion(ERTRecordKind::RayGen, RayGen);
 	const VkStridedDeviceAddressRegionKHR Miss = Native->GetRegion(ERTRecordKind::Miss, 0);

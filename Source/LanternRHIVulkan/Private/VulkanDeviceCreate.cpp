@@ -222,6 +222,7 @@ FRTStatus CreateVulkanDevice(const FRTVulkanDeviceDesc& Desc, IRTDevice** Out)
 		return Status;
 	}
 	FVulkanDevice* Device = new FVulkanDevice(std::move(Instance), Physical, Probe, Desc.PipelineCacheFile);
+	Device->bCacheLibraries = Desc.bCacheLibraries;
 	Status = Device->CreateNative();
 	if (!Status)
 	{

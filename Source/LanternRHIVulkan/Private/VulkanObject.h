@@ -36,6 +36,9 @@ public:
 		return Left;
 	}
 
+	/// 1 means that only the caller has it: no one else can take another.
+	uint32_t GetReferences() const { return References.load(std::memory_order_acquire); }
+
 	FVulkanDevice& Device;
 
 protected:

@@ -1,57 +1,12 @@
 #include "VulkanPipeline.h"
 
-#include <algorithm>
-#include <cassert>
-#include <iterator>
-
-#include "VulkanQuirks.h"
+#include "VulkanShaderModules.h"
 
 namespace Lantern
 {
 
 namespace
 {
-
-/// Shader modules of one pipeline creation; they are needed no longer than that.
-class FModules
-{
-public:
-	explicit FModules(FVulkanDevice& InDevice) : Device(InDevice) {}
-	FModules(const FModules&) = delete;
-	FModules& operator=(const FModules&) = delete;
-	~FModules()
-	{
-		for (const VkPipelineShaderStageCreateInfo& Stage : Stages)
-		{
-			Device.Api.DestroyShaderModule(Device.Handle, Stage.module, nullptr);
-		}
-	}
-
-	FRTStatus Add(const FRTShaderCode& Code)
-	{
-		assert(Code.Words && Code.WordCount > 0);
-		VkShaderModuleCreateInfo Info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-		Info.codeSize = Code.WordCount * sizeof(uint32_t);
-		Info.pCode = Code.Words;
-		VkPipelineShaderStageCreateInfo Stage{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
-		Stage.stage = StageOf(Code.Stage);
-		Stage.pName = "main";
-		const VkResult Result =
-		    Device.Check(Device.Api.CreateShaderModule(Device.Handle, &Info, nullptr, &Stage.module));
-		if (Result != VK_SUCCESS)
-		{
-			return MakeStatus(Result, "Creating shader", Code.Name);
-		}
-		Device.SetName(VK_OBJECT_TYPE_SHADER_MODULE, ToNative(Stage.module), Code.Name);
-		Stages.push_back(Stage);
-		return {};
-	}
-
-	std::vector<VkPipelineShaderStageCreateInfo> Stages;
-
-private:
-	FVulkanDevice& Device;
-};
 
 VkCullModeFlags CullOf(ERTCull Cull)
 {
@@ -115,62 +70,6 @@ struct FRasterState
 	VkPipelineRenderingCreateInfo Rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
 };
 
-VkRayTracingShaderGroupTypeKHR GroupTypeOf(ERTGroupKind Kind)
-{
-	switch (Kind)
-	{
-	case ERTGroupKind::General: return VK_RAY_TRACING_SHADER_GROUP_TYPE_GENERAL_KHR;
-	case ERTGroupKind::Triangles: return VK_RAY_TRACING_SHADER_GROUP_TYPE_TRIANGLES_HIT_GROUP_KHR;
-	case ERTGroupKind::Procedural: return VK_RAY_TRACING_SHADER_GROUP_TYPE_PROCEDURAL_HIT_GROUP_KHR;
-	}
-	return VK_RAY_TRACING_SHADER_GROUP_TYPE_GENERAL_KHR;
-}
-
-/// `void main() {}` as a closest-hit shader, by glslang.
-constexpr uint32_t EmptyClosestHit[] = {
-    0x07230203, 0x00010500, 0x0008000b, 0x00000006, 0x00000000, 0x00020011, 0x0000117f, 0x0006000a, 0x5f565053,
-    0x5f52484b, 0x5f796172, 0x63617274, 0x00676e69, 0x0006000b, 0x00000001, 0x4c534c47, 0x6474732e, 0x3035342e,
-    0x00000000, 0x0003000e, 0x00000000, 0x00000001, 0x0005000f, 0x000014c4, 0x00000004, 0x6e69616d, 0x00000000,
-    0x00020013, 0x00000002, 0x00030021, 0x00000003, 0x00000002, 0x00050036, 0x00000002, 0x00000004, 0x00000000,
-    0x00000003, 0x000200f8, 0x00000005, 0x000100fd, 0x00010038};
-
-using FGroups = std::vector<VkRayTracingShaderGroupCreateInfoKHR>;
-
-FGroups MakeGroups(const FRTRayTracingPipelineDesc& Desc)
-{
-	static_assert(NoShader == VK_SHADER_UNUSED_KHR, "indices are passed on as they are");
-	FGroups Groups(Desc.GroupCount);
-	for (uint32_t Index = 0; Index < Desc.GroupCount; ++Index)
-	{
-		const FRTShaderGroup& Group = Desc.Groups[Index];
-		Groups[Index] = {VK_STRUCTURE_TYPE_RAY_TRACING_SHADER_GROUP_CREATE_INFO_KHR};
-		Groups[Index].type = GroupTypeOf(Group.Kind);
-		Groups[Index].generalShader = Group.General;
-		Groups[Index].closestHitShader = Group.ClosestHit;
-		Groups[Index].anyHitShader = Group.AnyHit;
-		Groups[Index].intersectionShader = Group.Intersection;
-	}
-	return Groups;
-}
-
-bool HasHitShader(const FGroups& Groups)
-{
-	return std::any_of(Groups.begin(), Groups.end(),
-	                   [](const VkRayTracingShaderGroupCreateInfoKHR& Group)
-	                   { return Group.closestHitShader != NoShader || Group.anyHitShader != NoShader; });
-}
-
-/// EVulkanQuirk::CrashWithoutHitShaders: a group behind those asked for, which no shader table knows of.
-FRTStatus AddUnusedHitShader(FModules& Modules, FGroups& Groups)
-{
-	VkRayTracingShaderGroupCreateInfoKHR Group{VK_STRUCTURE_TYPE_RAY_TRACING_SHADER_GROUP_CREATE_INFO_KHR};
-	Group.type = VK_RAY_TRACING_SHADER_GROUP_TYPE_TRIANGLES_HIT_GROUP_KHR;
-	Group.generalShader = Group.anyHitShader = Group.intersectionShader = VK_SHADER_UNUSED_KHR;
-	Group.closestHitShader = static_cast<uint32_t>(Modules.Stages.size());
-	Groups.push_back(Group);
-	return Modules.Add({EmptyClosestHit, std::size(EmptyClosestHit), ERTShaderStage::ClosestHit, "EmptyClosestHit"});
-}
-
 } // namespace
 
 FRTStatus FVulkanPipeline::Finish(VkResult Result, const char* What, const char* Name)
@@ -191,7 +90,7 @@ FRTStatus FVulkanPipeline::Finish(VkResult Result, const char* What, const char*
 
 FRTStatus FVulkanPipeline::InitialiseCompute(const FRTComputePipelineDesc& Desc)
 {
-	FModules Modules(Device);
+	FVulkanModules Modules(Device);
 	FRTStatus Status = Modules.Add(Desc.Shader);
 	if (!Status)
 	{
@@ -207,7 +106,7 @@ FRTStatus FVulkanPipeline::InitialiseCompute(const FRTComputePipelineDesc& Desc)
 
 FRTStatus FVulkanPipeline::InitialiseRaster(const FRTRasterPipelineDesc& Desc)
 {
-	FModules Modules(Device);
+	FVulkanModules Modules(Device);
 	FRTStatus Status = Modules.Add(Desc.Vertex);
 	if (Status && Desc.Fragment.Words)
 	{
@@ -233,70 +132,6 @@ FRTStatus FVulkanPipeline::InitialiseRaster(const FRTRasterPipelineDesc& Desc)
 	Info.layout = Device.Bindless.PipelineLayout;
 	return Finish(Device.Api.CreateGraphicsPipelines(Device.Handle, Device.Cache.Handle, 1, &Info, nullptr, &Handle),
 	              "Creating raster pipeline", Desc.Name);
-}
-
-FRTStatus FVulkanPipeline::InitialiseRayTracing(const FRTRayTracingPipelineDesc& Desc)
-{
-	const FRTCapabilities& Caps = Device.GetCapabilities();
-	if (!Caps.bRayTracingPipeline)
-	{
-		return FRTStatus::Error(ERTResult::Unsupported, "'%.200s': the device has no ray-tracing pipelines", Desc.Name);
-	}
-	if (Desc.MaxRecursion > Caps.MaxRayRecursionDepth)
-	{
-		return FRTStatus::Error(ERTResult::Unsupported, "'%.200s' needs recursion %u; the device's limit is %u",
-		                        Desc.Name, Desc.MaxRecursion, Caps.MaxRayRecursionDepth);
-	}
-	if (Desc.bLibrary || Desc.LibraryCount > 0)
-	{
-		return FRTStatus::Error(ERTResult::Unsupported, "'%.200s': no pipeline libraries yet", Desc.Name);
-	}
-	FModules Modules(Device);
-	for (uint32_t Index = 0; Index < Desc.ShaderCount; ++Index)
-	{
-		FRTStatus Status = Modules.Add(Desc.Shaders[Index]);
-		if (!Status)
-		{
-			return Status;
-		}
-	}
-	FGroups Groups = MakeGroups(Desc);
-	const bool bNeedsHitShader =
-	    (Device.Probe.Quirks & static_cast<uint32_t>(EVulkanQuirk::CrashWithoutHitShaders)) != 0;
-	if (bNeedsHitShader && !HasHitShader(Groups))
-	{
-		FRTStatus Status = AddUnusedHitShader(Modules, Groups);
-		if (!Status)
-		{
-			return Status;
-		}
-	}
-	BindPoint = VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR;
-	VkRayTracingPipelineCreateInfoKHR Info{VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CREATE_INFO_KHR};
-	Info.stageCount = static_cast<uint32_t>(Modules.Stages.size());
-	Info.pStages = Modules.Stages.data();
-	Info.groupCount = static_cast<uint32_t>(Groups.size());
-	Info.pGroups = Groups.data();
-	Info.maxPipelineRayRecursionDepth = Desc.MaxRecursion;
-	Info.layout = Device.Bindless.PipelineLayout;
-	FRTStatus Status = Finish(Device.Api.CreateRayTracingPipelinesKHR(Device.Handle, VK_NULL_HANDLE,
-	                                                                  Device.Cache.Handle, 1, &Info, nullptr, &Handle),
-	                          "Creating ray-tracing pipeline", Desc.Name);
-	if (!Status)
-	{
-		return Status;
-	}
-	GroupCount = Desc.GroupCount;
-	GroupHandles.resize(size_t(GroupCount) * Caps.ShaderGroupHandleSize);
-	return MakeStatus(Device.Check(Device.Api.GetRayTracingShaderGroupHandlesKHR(
-	                      Device.Handle, Handle, 0, GroupCount, GroupHandles.size(), GroupHandles.data())),
-	                  "Reading the group handles of", Desc.Name);
-}
-
-const uint8_t* FVulkanPipeline::GetGroupHandle(uint32_t Group) const
-{
-	assert(Group < GroupCount);
-	return GroupHandles.data() + size_t(Group) * Device.GetCapabilities().ShaderGroupHandleSize;
 }
 
 uint64_t FVulkanPipeline::GetNative(ERTNative Kind) const

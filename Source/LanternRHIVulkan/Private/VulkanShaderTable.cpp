@@ -1,9 +1,7 @@
 #include "VulkanShaderTable.h"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
-#include <cstring>
 
 namespace Lantern
 {
@@ -11,22 +9,51 @@ namespace Lantern
 namespace
 {
 
-constexpr uint32_t WordBits = 64;
+constexpr uint64_t MinHostCopyBytes = 64 * 1024;
+/// More staged batches than this are gathered into one.
+constexpr size_t MaxBatches = 4;
+/// More copies than this are made fewer by copying also what lies between: a region costs more than a few records.
+constexpr size_t MaxRuns = 8192;
+/// A host copy that as many stagings passed by gives its memory back.
+constexpr uint64_t IdleStagings = 64;
 
 constexpr uint64_t AlignUp(uint64_t Value, uint64_t Alignment)
 {
 	return (Value + Alignment - 1) / Alignment * Alignment;
 }
 
+void LimitRuns(std::vector<FVulkanTableRecords::FRun>& Runs)
+{
+	for (uint32_t Gap = 1; Runs.size() > MaxRuns; Gap *= 2)
+	{
+		size_t Last = 0;
+		for (size_t Index = 1; Index < Runs.size(); ++Index)
+		{
+			const uint32_t End = Runs[Last].First + Runs[Last].Count;
+			if (Runs[Index].First - End <= Gap)
+			{
+				Runs[Last].Count = Runs[Index].First + Runs[Index].Count - Runs[Last].First;
+			}
+			else
+			{
+				Runs[++Last] = Runs[Index];
+			}
+		}
+		Runs.resize(Last + 1);
+	}
+}
+
 } // namespace
+
+// ------------------------------------------------------------------------------------------------ creation, growth
 
 FRTStatus FVulkanShaderTable::Initialise(const FRTShaderTableDesc& InDesc)
 {
 	Desc = InDesc;
 	Name = InDesc.Name ? InDesc.Name : "";
 	Desc.Name = Name.c_str();
-	assert(Desc.Pipeline && Desc.Pipeline->GetGroupCount() > 0 && Desc.RecordDataBytes <= MaxRecordDataBytes);
-	Pipeline = TRTRef<FVulkanPipeline>(static_cast<FVulkanPipeline*>(Desc.Pipeline));
+	assert(Desc.Pipeline && Desc.RecordDataBytes <= MaxRecordDataBytes && Desc.Copies >= 1);
+	SetPipeline(Desc.Pipeline);
 
 	const FRTCapabilities& Caps = Device.GetCapabilities();
 	const uint64_t Handle = AlignUp(Caps.ShaderGroupHandleSize, Caps.ShaderGroupHandleAlignment);
@@ -35,94 +62,341 @@ FRTStatus FVulkanShaderTable::Initialise(const FRTShaderTableDesc& InDesc)
 	    AlignUp(Caps.ShaderGroupHandleSize, Caps.ShaderGroupBaseAlignment), Handle,
 	    AlignUp(Caps.ShaderGroupHandleSize + Desc.RecordDataBytes, Caps.ShaderGroupHandleAlignment), Handle};
 	const uint32_t Counts[KindCount] = {Desc.RayGenCount, Desc.MissCount, Desc.HitCount, Desc.CallableCount};
+	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
+	{
+		assert(Strides[Kind] <= Caps.MaxShaderGroupStride);
+		const bool bHit = Kind == static_cast<uint32_t>(ERTRecordKind::Hit);
+		Records[Kind].Initialise(Strides[Kind], Caps.ShaderGroupHandleSize, bHit ? Desc.RecordDataBytes : 0);
+		Records[Kind].Grow(Counts[Kind]);
+	}
+	FRTStatus Status = MakeLayout(Counts, Current);
+	for (uint32_t Copy = 0; Status && Copy < Desc.Copies; ++Copy)
+	{
+		FHostCopy Made;
+		Status = MakeBuffer(std::min(MinHostCopyBytes, Current.Buffer->Size), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+		                    ERTMemory::Upload, " (host)", Made.Buffer);
+		HostCopies.push_back(std::move(Made));
+	}
+	return Status;
+}
+
+FRTStatus FVulkanShaderTable::MakeBuffer(uint64_t Size, VkBufferUsageFlags Usage, ERTMemory Memory, const char* Suffix,
+                                         TRTRef<FVulkanTableBuffer>& Out)
+{
+	TRTRef<FVulkanTableBuffer> Made = MakeVulkanObject<FVulkanTableBuffer>(Device);
+	Made->Size = Size;
+	const uint64_t Alignment = Memory == ERTMemory::Device ? Device.GetCapabilities().ShaderGroupBaseAlignment : 16;
+	FRTStatus Status = Made->Block.Create(Device, Size, Usage, Memory, Alignment, EVulkanMemoryKind::ShaderTable,
+	                                      (Name + Suffix).c_str());
+	if (Status)
+	{
+		Out = std::move(Made);
+	}
+	return Status;
+}
+
+FRTStatus FVulkanShaderTable::MakeLayout(const uint32_t Counts[KindCount], FLayout& Out)
+{
+	const uint64_t Base = Device.GetCapabilities().ShaderGroupBaseAlignment;
+	FLayout Made;
 	uint64_t Size = 0;
 	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
 	{
-		FRegion& Region = Regions[Kind];
-		Region.Offset = AlignUp(Size, Caps.ShaderGroupBaseAlignment);
-		Region.Stride = Strides[Kind];
-		Region.Count = Counts[Kind];
-		assert(Region.Stride <= Caps.MaxShaderGroupStride);
-		Size = Region.Offset + Region.Stride * Region.Count;
-		const uint32_t Words = (Region.Count + WordBits - 1) / WordBits;
-		Region.Dirty = std::make_unique<std::atomic<uint64_t>[]>(Words);
-		for (uint32_t Word = 0; Word < Words; ++Word)
+		Made.Counts[Kind] = Counts[Kind];
+		Made.Offsets[Kind] = AlignUp(Size, Base);
+		Size = Made.Offsets[Kind] + Records[Kind].GetStride() * Counts[Kind];
+	}
+	const VkBufferUsageFlags Usage = VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+	                                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+	FRTStatus Status = MakeBuffer(std::max(Size, Base), Usage, ERTMemory::Device, "", Made.Buffer);
+	if (Status)
+	{
+		Out = std::move(Made);
+	}
+	return Status;
+}
+
+FRTStatus FVulkanShaderTable::Reserve(const uint32_t Counts[4])
+{
+	uint32_t Wanted[KindCount];
+	bool bGrows = false;
+	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
+	{
+		Wanted[Kind] = std::max(Counts[Kind], Records[Kind].GetCount());
+		bGrows = bGrows || Wanted[Kind] > Records[Kind].GetCount();
+	}
+	if (!bGrows)
+	{
+		return {};
+	}
+	// Where no update has gone into Next yet, Current is still what the contents come from.
+	FRTStatus Status = MakeLayout(Wanted, bCurrentUsed ? Next : Current);
+	if (!Status)
+	{
+		return Status;
+	}
+	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
+	{
+		const uint32_t Before = Records[Kind].GetCount();
+		Records[Kind].Grow(Wanted[Kind]);
+		if (bContentLost)
 		{
-			// Never-written records are zeros on the GPU too, which is a record without shaders.
-			const uint32_t Left = Region.Count - Word * WordBits;
-			Region.Dirty[Word] = Left >= WordBits ? ~uint64_t(0) : (uint64_t(1) << Left) - 1;
+			Records[Kind].MarkDirty({Before, Wanted[Kind] - Before});
 		}
 	}
-	Records.assign(std::max<uint64_t>(Size, 1), 0);
-	const VkBufferUsageFlags Usage = VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-	return Block.Create(Device, Records.size(), Usage, ERTMemory::Device, Caps.ShaderGroupBaseAlignment,
-	                    EVulkanMemoryKind::ShaderTable, Desc.Name);
+	Desc.RayGenCount = Wanted[0];
+	Desc.MissCount = Wanted[1];
+	Desc.HitCount = Wanted[2];
+	Desc.CallableCount = Wanted[3];
+	return Status;
+}
+
+// ------------------------------------------------------------------------------------------------ records
+
+void FVulkanShaderTable::SetPipeline(IRTPipeline* InPipeline)
+{
+	assert(InPipeline);
+	Desc.Pipeline = InPipeline;
+	Pipeline = TRTRef<FVulkanPipeline>(static_cast<FVulkanPipeline*>(InPipeline));
+	Handles = Pipeline->GetGroupHandles();
+	assert(Handles && "a ray-tracing pipeline that is no library");
 }
 
 void FVulkanShaderTable::SetRecord(ERTRecordKind Kind, uint32_t Index, uint32_t Group, const void* Data,
                                    uint32_t DataBytes)
 {
-	FRegion& Region = Of(Kind);
-	assert(Index < Region.Count);
-	assert(DataBytes <= (Kind == ERTRecordKind::Hit ? Desc.RecordDataBytes : 0));
-	const uint32_t HandleSize = Device.GetCapabilities().ShaderGroupHandleSize;
-	uint8_t* Record = Records.data() + Region.Offset + Region.Stride * Index;
-	memcpy(Record, Pipeline->GetGroupHandle(Group), HandleSize);
-	const uint32_t DataRoom = Kind == ERTRecordKind::Hit ? Desc.RecordDataBytes : 0;
-	const uint32_t Given = Data ? DataBytes : 0;
-	if (Given)
+	assert(Group < Pipeline->GetGroupCount());
+	Of(Kind).SetOne(Index, Handles + size_t(Group) * Device.GetCapabilities().ShaderGroupHandleSize, Data, DataBytes);
+}
+
+void FVulkanShaderTable::SetHitRecords(uint32_t First, uint32_t Count, const uint32_t* Groups, const void* Data)
+{
+	assert(std::all_of(Groups, Groups + Count, [&](uint32_t Group) { return Group < Pipeline->GetGroupCount(); }));
+	Of(ERTRecordKind::Hit).Set(First, Count, Handles, Groups, Data);
+}
+
+void FVulkanShaderTable::SetGroups(ERTRecordKind Kind, uint32_t First, uint32_t Count, const uint32_t* Groups)
+{
+	assert(std::all_of(Groups, Groups + Count, [&](uint32_t Group) { return Group < Pipeline->GetGroupCount(); }));
+	Of(Kind).SetHandles(First, Count, Handles, Groups);
+}
+
+bool FVulkanShaderTable::IsDirty() const
+{
+	return std::any_of(Records, Records + KindCount, [](const FVulkanTableRecords& Kind) { return Kind.IsDirty(); });
+}
+
+void FVulkanShaderTable::MarkAllDirty()
+{
+	for (FVulkanTableRecords& Kind : Records)
 	{
-		memcpy(Record + HandleSize, Data, Given);
-	}
-	memset(Record + HandleSize + Given, 0, DataRoom - Given);
-	std::atomic<uint64_t>& Word = Region.Dirty[Index / WordBits];
-	const uint64_t Bit = uint64_t(1) << (Index % WordBits);
-	if (!(Word.load(std::memory_order_relaxed) & Bit))
-	{
-		Word.fetch_or(Bit, std::memory_order_relaxed);
+		Kind.MarkDirty({0, Kind.GetCount()});
 	}
 }
 
-void FVulkanShaderTable::TakeDirty(std::vector<FRange>& Out)
+void FVulkanShaderTable::Invalidate()
 {
-	Out.clear();
-	for (FRegion& Region : Regions)
+	Batches.clear();
+	MarkAllDirty();
+	bContentLost = true;
+}
+
+// ------------------------------------------------------------------------------------------------ staging
+
+void FVulkanShaderTable::ReturnBatches()
+{
+	for (const FBatch& Batch : Batches)
 	{
-		for (uint32_t First = 0; First < Region.Count; First += WordBits)
+		for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
 		{
-			uint64_t Word = Region.Dirty[First / WordBits].exchange(0, std::memory_order_relaxed);
-			while (Word)
+			for (const FRun& Run : Batch.Runs[Kind])
 			{
-				const uint32_t Begin = static_cast<uint32_t>(std::countr_zero(Word));
-				const uint32_t Run = static_cast<uint32_t>(std::countr_one(Word >> Begin));
-				const FRange Range = {Region.Offset + Region.Stride * (First + Begin), Region.Stride * Run};
-				if (!Out.empty() && Out.back().Offset + Out.back().Size == Range.Offset)
-				{
-					Out.back().Size += Range.Size;
-				}
-				else
-				{
-					Out.push_back(Range);
-				}
-				Word = Begin + Run >= WordBits ? 0 : Word >> (Begin + Run) << (Begin + Run);
+				Records[Kind].MarkDirty(Run);
 			}
+		}
+	}
+	Batches.clear();
+}
+
+FRTStatus FVulkanShaderTable::Stage()
+{
+	if (!IsDirty())
+	{
+		return {};
+	}
+	if (Batches.size() >= MaxBatches)
+	{
+		ReturnBatches();
+	}
+	FBatch Batch;
+	uint64_t Bytes = 0;
+	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
+	{
+		Records[Kind].TakeDirty(Batch.Runs[Kind]);
+		LimitRuns(Batch.Runs[Kind]);
+		for (const FRun& Run : Batch.Runs[Kind])
+		{
+			Bytes += Records[Kind].GetStride() * Run.Count;
+		}
+	}
+	FRTStatus Status = FindHostCopy(Bytes, Batch.Source);
+	Batches.push_back(std::move(Batch));
+	if (!Status)
+	{
+		ReturnBatches(); // nothing may count as staged that is not
+		return Status;
+	}
+	const FBatch& Staged = Batches.back();
+	uint8_t* Dest = static_cast<uint8_t*>(Staged.Source->Block.Allocation.Mapped);
+	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
+	{
+		for (const FRun& Run : Staged.Runs[Kind])
+		{
+			Records[Kind].CopyTo(Dest, Run);
+			Dest += Records[Kind].GetStride() * Run.Count;
+		}
+	}
+	return Status;
+}
+
+FRTStatus FVulkanShaderTable::FindHostCopy(uint64_t Size, TRTRef<FVulkanTableBuffer>& Out)
+{
+	++StageCount;
+	DropIdleHostCopies();
+	// Of the free ones that are large enough the smallest; else the largest grows.
+	const auto Find = [&]() -> FHostCopy*
+	{
+		FHostCopy* Best = nullptr;
+		for (FHostCopy& Copy : HostCopies)
+		{
+			if (Copy.Buffer->GetReferences() > 1)
+			{
+				continue;
+			}
+			const uint64_t Has = Copy.Buffer->Size;
+			const uint64_t BestHas = Best ? Best->Buffer->Size : 0;
+			const bool bBetter = Has >= Size ? BestHas < Size || Has < BestHas : BestHas < Size && Has > BestHas;
+			Best = !Best || bBetter ? &Copy : Best;
+		}
+		return Best;
+	};
+	FHostCopy* Copy = Find();
+	if (!Copy)
+	{
+		Device.CollectGarbage(); // the GPU may be done with one
+		Copy = Find();
+	}
+	if (!Copy || Copy->Buffer->Size < Size)
+	{
+		TRTRef<FVulkanTableBuffer> Made;
+		const uint64_t Bytes = std::max(Size + Size / 4, std::min(MinHostCopyBytes, Newest().Buffer->Size));
+		FRTStatus Status = MakeBuffer(Bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, ERTMemory::Upload, " (host)", Made);
+		if (!Status)
+		{
+			return Status;
+		}
+		Copy = Copy ? Copy : &HostCopies.emplace_back();
+		Copy->Buffer = std::move(Made);
+	}
+	Copy->LastUse = StageCount;
+	Out = Copy->Buffer;
+	return {};
+}
+
+void FVulkanShaderTable::DropIdleHostCopies()
+{
+	const auto IsIdle = [&](const FHostCopy& Copy)
+	{
+		const bool bSpare = Copy.Buffer->Size > MinHostCopyBytes || HostCopies.size() > Desc.Copies;
+		return bSpare && StageCount - Copy.LastUse > IdleStagings && Copy.Buffer->GetReferences() == 1;
+	};
+	const auto Idle = std::find_if(HostCopies.begin(), HostCopies.end(), IsIdle);
+	if (Idle != HostCopies.end())
+	{
+		HostCopies.erase(Idle);
+	}
+}
+
+// ------------------------------------------------------------------------------------------------ the GPU's side
+
+void FVulkanShaderTable::AddMove(FUpdate& Out)
+{
+	const FLayout& To = Newest();
+	const bool bMoves = bCurrentUsed && Next.Buffer;
+	if (bContentLost || (bCurrentUsed && !bMoves))
+	{
+		return;
+	}
+	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
+	{
+		const uint64_t Stride = Records[Kind].GetStride();
+		const uint64_t Old = bMoves ? Stride * Current.Counts[Kind] : 0;
+		const uint64_t All = Stride * To.Counts[Kind];
+		if (Old > 0)
+		{
+			Out.Moved.Source = Current.Buffer;
+			Out.Moved.Regions.push_back({Current.Offsets[Kind], To.Offsets[Kind], Old});
+		}
+		if (All > Old)
+		{
+			Out.Zeros.push_back({To.Offsets[Kind] + Old, All - Old});
 		}
 	}
 }
 
+FRTStatus FVulkanShaderTable::TakeUpdate(FUpdate& Out)
+{
+	FRTStatus Status = Stage();
+	if (!Status)
+	{
+		return Status;
+	}
+	AddMove(Out);
+	if (Next.Buffer)
+	{
+		Current = std::move(Next);
+		Next = {};
+	}
+	Out.Dest = Current.Buffer.Get();
+	UpdatedBytes = 0;
+	for (FBatch& Batch : Batches)
+	{
+		FCopies& Copies = Out.Copies.emplace_back();
+		uint64_t Offset = 0;
+		for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
+		{
+			const uint64_t Stride = Records[Kind].GetStride();
+			for (const FRun& Run : Batch.Runs[Kind])
+			{
+				Copies.Regions.push_back({Offset, Current.Offsets[Kind] + Stride * Run.First, Stride * Run.Count});
+				Offset += Stride * Run.Count;
+			}
+		}
+		Copies.Source = std::move(Batch.Source);
+		UpdatedBytes += Offset;
+	}
+	Batches.clear();
+	bCurrentUsed = true;
+	bContentLost = false;
+	return Status;
+}
+
 VkStridedDeviceAddressRegionKHR FVulkanShaderTable::GetRegion(ERTRecordKind Kind, uint32_t RayGen) const
 {
-	const FRegion& Region = Of(Kind);
-	if (Region.Count == 0)
+	const uint32_t Index = static_cast<uint32_t>(Kind);
+	const uint64_t Stride = Records[Index].GetStride();
+	const uint32_t Count = Current.Counts[Index];
+	const VkDeviceAddress Address = Current.Buffer->Block.Address + Current.Offsets[Index];
+	if (Count == 0)
 	{
 		return {};
 	}
 	if (Kind == ERTRecordKind::RayGen)
 	{
-		assert(RayGen < Region.Count);
-		return {Block.Address + Region.Offset + Region.Stride * RayGen, Region.Stride, Region.Stride};
+		assert(RayGen < Count);
+		return {Address + Stride * RayGen, Stride, Stride};
 	}
-	return {Block.Address + Region.Offset, Region.Stride, Region.Stride * Region.Count};
+	return {Address, Stride, Stride * Count};
 }
 
 } // namespace Lantern

@@ -1,13 +1,21 @@
-// The shader binding table: a copy on the CPU, one on the GPU, and a bit per record that differs between them.
+// The shader binding table: records on the CPU, host copies of what is new, and the table on the GPU.
 #pragma once
 
 #include "VulkanBuffer.h"
 #include "VulkanPipeline.h"
-
-#include <memory>
+#include "VulkanTableRecords.h"
 
 namespace Lantern
 {
+
+/// A block that lists keep, and that may go before the table does.
+class FVulkanTableBuffer final : public TVulkanObject<IRTRefCounted>
+{
+public:
+	using TVulkanObject::TVulkanObject;
+	FVulkanBlock Block;
+	uint64_t Size = 0;
+};
 
 class FVulkanShaderTable final : public TVulkanObject<IRTShaderTable>
 {
@@ -16,59 +24,94 @@ public:
 	FRTStatus Initialise(const FRTShaderTableDesc& InDesc);
 
 	const FRTShaderTableDesc& GetDesc() const override { return Desc; }
-	/// Different records may be set from several threads; not while UpdateShaderTable records this table.
 	void SetRecord(ERTRecordKind Kind, uint32_t Index, uint32_t Group, const void* Data, uint32_t DataBytes) override;
-	void SetHitRecords(uint32_t First, uint32_t Count, const uint32_t* Groups, const void* Data) override
-	{
-		for (uint32_t Index = 0; Index < Count; ++Index)
-		{
-			SetRecord(ERTRecordKind::Hit, First + Index, Groups[Index],
-			          Data ? static_cast<const uint8_t*>(Data) + uint64_t(Index) * Desc.RecordDataBytes : nullptr,
-			          Desc.RecordDataBytes);
-		}
-	}
-	void SetGroups(ERTRecordKind, uint32_t, uint32_t, const uint32_t*) override {}
-	void SetPipeline(IRTPipeline*) override {}
-	FRTStatus Reserve(const uint32_t*) override
-	{
-		return FRTStatus::Error(ERTResult::Unsupported, "Shader tables do not grow yet");
-	}
-	FRTStatus Stage() override { return {}; }
-	void Invalidate() override {}
-	uint64_t GetUpdatedBytes() const override { return 0; }
-	uint64_t GetRecordStride(ERTRecordKind Kind) const override { return Of(Kind).Stride; }
-	uint64_t GetSizeBytes() const override { return Records.size(); }
+	void SetHitRecords(uint32_t First, uint32_t Count, const uint32_t* Groups, const void* Data) override;
+	void SetGroups(ERTRecordKind Kind, uint32_t First, uint32_t Count, const uint32_t* Groups) override;
+	void SetPipeline(IRTPipeline* InPipeline) override;
+	FRTStatus Reserve(const uint32_t Counts[4]) override;
+	FRTStatus Stage() override;
+	void Invalidate() override;
+	uint64_t GetRecordStride(ERTRecordKind Kind) const override { return Of(Kind).GetStride(); }
+	uint64_t GetSizeBytes() const override { return Newest().Buffer->Size; }
+	uint64_t GetUpdatedBytes() const override { return UpdatedBytes; }
 
-	struct FRange
+	struct FCopies
+	{
+		TRTRef<FVulkanTableBuffer> Source;
+		std::vector<VkBufferCopy> Regions;
+	};
+	struct FFill
 	{
 		uint64_t Offset = 0;
 		uint64_t Size = 0;
 	};
-	/// The bytes that the GPU has not got yet, in order; they count as copied from here on.
-	void TakeDirty(std::vector<FRange>& Out);
-	const uint8_t* GetRecords() const { return Records.data(); }
-	VkBuffer GetBuffer() const { return Block.Handle; }
+	/// What the GPU has to do, in this order: zeros and what moves from the table before, then each of Copies.
+	struct FUpdate
+	{
+		FVulkanTableBuffer* Dest = nullptr;
+		std::vector<FFill> Zeros;
+		FCopies Moved;
+		std::vector<FCopies> Copies;
+
+		bool IsEmpty() const { return Zeros.empty() && !Moved.Source && Copies.empty(); }
+	};
+	/// Stages what is not; it counts as copied from here on. On error nothing has been taken.
+	FRTStatus TakeUpdate(FUpdate& Out);
+	/// As the last update left it.
+	FVulkanTableBuffer* GetBuffer() const { return Current.Buffer.Get(); }
 	/// RayGen: the region of one record.
 	VkStridedDeviceAddressRegionKHR GetRegion(ERTRecordKind Kind, uint32_t RayGen) const;
 
 private:
 	static constexpr uint32_t KindCount = 4;
-	struct FRegion
+	using FRun = FVulkanTableRecords::FRun;
+
+	/// A table on the GPU.
+	struct FLayout
 	{
-		uint64_t Offset = 0;
-		uint64_t Stride = 0;
-		uint32_t Count = 0;
-		std::unique_ptr<std::atomic<uint64_t>[]> Dirty;
+		TRTRef<FVulkanTableBuffer> Buffer;
+		uint64_t Offsets[KindCount] = {};
+		uint32_t Counts[KindCount] = {};
 	};
-	FRegion& Of(ERTRecordKind Kind) { return Regions[static_cast<uint32_t>(Kind)]; }
-	const FRegion& Of(ERTRecordKind Kind) const { return Regions[static_cast<uint32_t>(Kind)]; }
+	/// A host copy, filled.
+	struct FBatch
+	{
+		TRTRef<FVulkanTableBuffer> Source;
+		std::vector<FRun> Runs[KindCount]; ///< one after another in Source
+	};
+	struct FHostCopy
+	{
+		TRTRef<FVulkanTableBuffer> Buffer;
+		uint64_t LastUse = 0; ///< StageCount then
+	};
+
+	FVulkanTableRecords& Of(ERTRecordKind Kind) { return Records[static_cast<uint32_t>(Kind)]; }
+	const FVulkanTableRecords& Of(ERTRecordKind Kind) const { return Records[static_cast<uint32_t>(Kind)]; }
+	const FLayout& Newest() const { return Next.Buffer ? Next : Current; }
+	FRTStatus MakeLayout(const uint32_t Counts[KindCount], FLayout& Out);
+	FRTStatus MakeBuffer(uint64_t Size, VkBufferUsageFlags Usage, ERTMemory Memory, const char* Suffix,
+	                     TRTRef<FVulkanTableBuffer>& Out);
+	bool IsDirty() const;
+	void MarkAllDirty();
+	void ReturnBatches();
+	/// A free host copy of at least Size bytes; makes one where all are in use.
+	FRTStatus FindHostCopy(uint64_t Size, TRTRef<FVulkanTableBuffer>& Out);
+	void DropIdleHostCopies();
+	void AddMove(FUpdate& Out);
 
 	FRTShaderTableDesc Desc;
 	std::string Name;
 	TRTRef<FVulkanPipeline> Pipeline;
-	FRegion Regions[KindCount];
-	std::vector<uint8_t> Records;
-	FVulkanBlock Block;
+	const uint8_t* Handles = nullptr; ///< Pipeline's
+	FVulkanTableRecords Records[KindCount];
+	FLayout Current;           ///< of the last update
+	FLayout Next;              ///< of the next one, where it is another
+	bool bCurrentUsed = false; ///< an update has gone into Current
+	bool bContentLost = false; ///< everything is dirty: nothing need move or be filled with zeros
+	std::vector<FBatch> Batches;
+	std::vector<FHostCopy> HostCopies;
+	uint64_t StageCount = 0;
+	uint64_t UpdatedBytes = 0;
 };
 
 } // namespace Lantern

@@ -38,6 +38,9 @@ struct FRTVulkanDeviceDesc
 	/// Read at creation and written, atomically, when the device is destroyed. Null: not kept. A file that is
 	/// damaged or another driver's is discarded with one message.
 	const char* PipelineCacheFile = nullptr;
+	/// Pipeline libraries, too, go through the pipeline cache. Without, they are compiled anew in each process (unless
+	/// the driver has a cache of its own), but threads that compile them share nothing.
+	bool bCacheLibraries = true;
 	/// Null: standard error, warnings and errors only.
 	FRTVulkanMessageCallback MessageCallback = nullptr;
 	void* MessageUser = nullptr;

@@ -1,0 +1,69 @@
+// The records of one kind as the CPU wrote them, in pages that never move, and a bit for each that the GPU lacks.
+#pragma once
+
+#include "LanternRHI/RTTypes.h"
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+namespace Lantern
+{
+
+class FVulkanTableRecords
+{
+public:
+	struct FRun
+	{
+		uint32_t First = 0;
+		uint32_t Count = 0;
+	};
+
+	/// Bytes. A record is a handle, DataBytes of data, and zeros up to the stride.
+	void Initialise(uint64_t InStride, uint32_t InHandleSize, uint32_t InDataBytes);
+	/// New records are zeros, and clean: the GPU is to fill its own with zeros.
+	void Grow(uint32_t InCount);
+	uint32_t GetCount() const { return Count; }
+	uint64_t GetStride() const { return Stride; }
+
+	/// Handles of a pipeline by group; Data: RecordDataBytes for each record, or null for zeros. From several threads at
+	/// once for different records.
+	void Set(uint32_t First, uint32_t InCount, const uint8_t* Handles, const uint32_t* Groups, const void* Data);
+	/// One record with less data than it has room for.
+	void SetOne(uint32_t Index, const uint8_t* Handle, const void* Data, uint32_t InDataBytes);
+	/// The data stays; a record whose handle is what it was stays clean.
+	void SetHandles(uint32_t First, uint32_t InCount, const uint8_t* Handles, const uint32_t* Groups);
+
+	void MarkDirty(FRun Run);
+	bool IsDirty() const { return bDirty.load(std::memory_order_relaxed); }
+	/// Appends the dirty runs, in order, and makes them clean.
+	void TakeDirty(std::vector<FRun>& Out);
+	/// Count · stride bytes.
+	void CopyTo(uint8_t* Dest, FRun Run) const;
+
+private:
+	static constexpr uint32_t WordBits = 64;
+	static constexpr uint32_t PageRecords = 1024;
+	struct FPage
+	{
+		std::unique_ptr<uint8_t[]> Bytes;
+		std::atomic<uint64_t> Dirty[PageRecords / WordBits] = {};
+	};
+
+	/// Calls Write(bytes of the first record, offset of it from First, count) for pieces that share a word of bits; it
+	/// answers which changed, from bit 0.
+	template <class TWrite>
+	void ForEachPiece(uint32_t First, uint32_t InCount, TWrite&& Write);
+	template <uint32_t HandleBytes, uint32_t RecordBytes>
+	void SetFixed(uint32_t First, uint32_t InCount, const uint8_t* Handles, const uint32_t* Groups, const void* Data);
+	void SetAny(uint32_t First, uint32_t InCount, const uint8_t* Handles, const uint32_t* Groups, const void* Data);
+
+	uint64_t Stride = 0;
+	uint32_t HandleSize = 0;
+	uint32_t DataBytes = 0;
+	uint32_t Count = 0;
+	std::vector<std::unique_ptr<FPage>> Pages;
+	std::atomic<bool> bDirty{false};
+};
+
+} // namespace Lantern
