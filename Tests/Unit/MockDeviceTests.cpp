@@ -121,7 +121,7 @@ TEST_F(FMockTests, RecordsCalls)
 	const std::vector<FRTMockCall> Found = Mock->FindDispatches("Skin");
 	ASSERT_EQ(Found.size(), 1u);
 	EXPECT_EQ(Found[0].List, "Frame");
-	EXPECT_EQ(Found[0].Numbers, (std::array<uint64_t, 4>{3, 2, 1, 0}));
+	EXPECT_EQ(Found[0].Numbers, (FRTMockNumbers{3, 2, 1}));
 	ASSERT_EQ(Found[0].Bytes.size(), sizeof(Push));
 	EXPECT_EQ(0, std::memcmp(Found[0].Bytes.data(), Push, sizeof(Push)));
 	EXPECT_TRUE(Mock->FindDispatches("Other").empty());

@@ -17,10 +17,6 @@ FMockTexture* AsMock(IRTTexture* Object)
 {
 	return static_cast<FMockTexture*>(Object);
 }
-FMockShaderTable* AsMock(IRTShaderTable* Object)
-{
-	return static_cast<FMockShaderTable*>(Object);
-}
 FMockQueryPool* AsMock(IRTQueryPool* Object)
 {
 	return static_cast<FMockQueryPool*>(Object);
@@ -42,8 +38,13 @@ FMockCommandList::FMockCommandList(std::shared_ptr<FMockState> InState, const ch
 	}
 }
 
-void FMockCommandList::Log(ERTMockCall Kind, const std::string& Object, std::array<uint64_t, 4> Numbers, bool bWithPush)
+void FMockCommandList::Log(ERTMockCall Kind, const std::string& Object, const FRTMockNumbers& Numbers, bool bWithPush)
 {
+	if (!State->bRecordCalls)
+	{
+		(void)State->Log(Kind, Object); // for the faults
+		return;
+	}
 	FRTMockCall Call;
 	Call.Kind = Kind;
 	Call.Name = Object;
@@ -67,6 +68,12 @@ const std::string& FMockCommandList::GetPipelineName() const
 	return Pipeline->Name;
 }
 
+void FMockCommandList::CountBytes(uint64_t FRTMockTraffic::*Of, uint64_t Bytes)
+{
+	std::lock_guard Lock(State->Mutex);
+	State->Traffic.*Of += Bytes;
+}
+
 void FMockCommandList::Execute()
 {
 	for (const std::function<void()>& Command : Commands)
@@ -86,6 +93,7 @@ FRTStatus FMockCommandList::Begin()
 	Kept.clear();
 	Push.clear();
 	Pipeline = nullptr;
+	Failed = {};
 	FRTMockCall Call;
 	Call.Kind = ERTMockCall::Begin;
 	Call.Name = Call.List = Name;
@@ -104,7 +112,8 @@ FRTStatus FMockCommandList::End()
 	FRTMockCall Call;
 	Call.Kind = ERTMockCall::End;
 	Call.Name = Call.List = Name;
-	return State->Log(std::move(Call));
+	FRTStatus Status = State->Log(std::move(Call));
+	return Status ? Failed : Status;
 }
 
 void FMockCommandList::Barriers(const FRTBarrier* Items, uint32_t Count)
@@ -143,7 +152,12 @@ void FMockCommandList::CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTBuffe
 	Log(ERTMockCall::CopyBuffer, To->Name, {DestOffset, SourceOffset, Size});
 	Keep(Dest);
 	Keep(Source);
-	Then([=] { std::memmove(To->Bytes + DestOffset, From->Bytes + SourceOffset, Size); });
+	Then(
+	    [=, this]
+	    {
+		    std::memmove(To->Bytes + DestOffset, From->Bytes + SourceOffset, Size);
+		    CountBytes(&FRTMockTraffic::Buffer, Size);
+	    });
 }
 
 void FMockCommandList::CopyBufferToTexture(IRTTexture* Dest, uint32_t Mip, uint32_t Layer, IRTBuffer* Source,
@@ -155,11 +169,12 @@ void FMockCommandList::CopyBufferToTexture(IRTTexture* Dest, uint32_t Mip, uint3
 	Keep(Dest);
 	Keep(Source);
 	Then(
-	    [=]
+	    [=, this]
 	    {
 		    std::vector<uint8_t>& Texels = To->GetTexels(Mip, Layer);
 		    assert(SourceOffset + Texels.size() <= From->Desc.Size);
 		    std::memcpy(Texels.data(), From->Bytes + SourceOffset, Texels.size());
+		    CountBytes(&FRTMockTraffic::Buffer, Texels.size());
 	    });
 }
 
@@ -172,11 +187,12 @@ void FMockCommandList::CopyTextureToBuffer(IRTBuffer* Dest, uint64_t DestOffset,
 	Keep(Dest);
 	Keep(Source);
 	Then(
-	    [=]
+	    [=, this]
 	    {
 		    const std::vector<uint8_t>& Texels = From->GetTexels(Mip, Layer);
 		    assert(DestOffset + Texels.size() <= To->Desc.Size);
 		    std::memcpy(To->Bytes + DestOffset, Texels.data(), Texels.size());
+		    CountBytes(&FRTMockTraffic::Buffer, Texels.size());
 	    });
 }
 
@@ -217,6 +233,10 @@ void FMockCommandList::SetPipeline(IRTPipeline* InPipeline)
 {
 	Pipeline = static_cast<FMockPipeline*>(InPipeline);
 	Push.clear();
+	if (Pipeline->bLibrary)
+	{
+		State->AddError(Name + ": SetPipeline of the library " + Pipeline->Name);
+	}
 	Log(ERTMockCall::SetPipeline, GetPipelineName());
 	Keep(InPipeline);
 }
@@ -234,38 +254,6 @@ void FMockCommandList::Dispatch(uint32_t GroupsX, uint32_t GroupsY, uint32_t Gro
 	assert(!bInPass && Pipeline && Pipeline->Kind == EMockPipeline::Compute);
 	Log(ERTMockCall::Dispatch, GetPipelineName(), {GroupsX, GroupsY, GroupsZ}, true);
 	Then([] {});
-}
-
-void FMockCommandList::TraceRays(IRTShaderTable* Table, uint32_t RayGen, uint32_t Width, uint32_t Height,
-                                 uint32_t Depth)
-{
-	FMockShaderTable* Mine = AsMock(Table);
-	assert(!bInPass && Pipeline && Pipeline->Kind == EMockPipeline::RayTracing && RayGen < Mine->Desc.RayGenCount);
-	assert(Pipeline->GetGroupCount() == Mine->Pipeline->GetGroupCount());
-	Log(ERTMockCall::TraceRays, GetPipelineName(), {RayGen, Width, Height, Depth}, true);
-	Keep(Table);
-	Then(
-	    [=, this]
-	    {
-		    if (!Mine->IsUpdated())
-		    {
-			    State->AddError(Mine->Name + ": rays traced before any UpdateShaderTable");
-		    }
-	    });
-}
-
-void FMockCommandList::UpdateShaderTable(IRTShaderTable* Table)
-{
-	FMockShaderTable* Mine = AsMock(Table);
-	std::vector<FMockShaderTable::FUpdate> Updates = Mine->TakeUpdates();
-	uint64_t Bytes = 0;
-	for (const FMockShaderTable::FUpdate& Update : Updates)
-	{
-		Bytes += Update.Bytes.size();
-	}
-	Log(ERTMockCall::UpdateShaderTable, Mine->Name, {Bytes, Updates.size()});
-	Keep(Table);
-	Then([Mine, Updates = std::move(Updates)] { Mine->Apply(Updates); });
 }
 
 void FMockCommandList::BeginRasterPass(const FRTRasterPassDesc& Desc)
@@ -327,118 +315,6 @@ void FMockCommandList::DrawIndexed(uint32_t IndexCount, uint32_t InstanceCount, 
 	Log(ERTMockCall::DrawIndexed, GetPipelineName(),
 	    {IndexCount, InstanceCount, FirstIndex, static_cast<uint64_t>(static_cast<int64_t>(VertexOffset))}, true);
 	Then([] {});
-}
-
-void FMockCommandList::BuildGeometries(const FRTGeometryBuild* Builds, uint32_t Count)
-{
-	for (uint32_t i = 0; i < Count; ++i)
-	{
-		BuildGeometry(Builds[i]);
-	}
-}
-
-void FMockCommandList::BuildGeometry(const FRTGeometryBuild& Build)
-{
-	auto* Geometry = static_cast<FMockGeometry*>(Build.Geometry);
-	assert(Build.SectionCount == Geometry->SectionCount && (!Build.bUpdate || Geometry->bAllowUpdate));
-	assert(Build.ScratchOffset % State->Desc.ScratchAlignment == 0);
-	Log(ERTMockCall::BuildGeometry, Geometry->Name, {Build.SectionCount, Build.bUpdate ? 1u : 0u, Build.ScratchOffset});
-	Keep(Geometry);
-	Keep(Build.Scratch);
-	std::vector<FRTGeometrySection> Sections(Build.Sections, Build.Sections + Build.SectionCount);
-	for (const FRTGeometrySection& Section : Sections)
-	{
-		if (Section.Vertices)
-		{
-			Keep(Section.Vertices);
-		}
-		if (Section.Indices)
-		{
-			Keep(Section.Indices);
-		}
-	}
-	Then(
-	    [this, Geometry, Sections = std::move(Sections), bUpdate = Build.bUpdate]
-	    {
-		    std::lock_guard Lock(State->Mutex);
-		    if (bUpdate && Geometry->Built.BuildCount == 0)
-		    {
-			    State->Errors.push_back(Geometry->Name + ": updated before any build");
-		    }
-		    ++(bUpdate ? Geometry->Built.UpdateCount : Geometry->Built.BuildCount);
-		    Geometry->Built.Sections = Sections;
-	    });
-}
-
-void FMockCommandList::WriteCompactedSize(IRTQueryPool* Queries, uint32_t Index, IRTGeometry* Geometry)
-{
-	auto* Source = static_cast<FMockGeometry*>(Geometry);
-	FMockQueryPool* Mine = AsMock(Queries);
-	assert(Mine->Kind == ERTQuery::CompactedSize && Index < Mine->GetCount());
-	Keep(Queries);
-	Keep(Geometry);
-	Then(
-	    [=, this]
-	    {
-		    std::lock_guard Lock(State->Mutex);
-		    Mine->Values[Index] = AlignUp(Source->Sizes.StructureBytes * 6 / 10, 128);
-	    });
-}
-
-void FMockCommandList::CompactGeometry(IRTGeometry* Dest, IRTGeometry* Source)
-{
-	auto* To = static_cast<FMockGeometry*>(Dest);
-	auto* From = static_cast<FMockGeometry*>(Source);
-	Keep(Dest);
-	Keep(Source);
-	Then(
-	    [=, this]
-	    {
-		    std::lock_guard Lock(State->Mutex);
-		    To->Built = From->Built;
-	    });
-}
-
-void FMockCommandList::BuildScene(IRTScene* Scene, IRTBuffer* Instances, uint64_t InstanceOffset, uint32_t Count,
-                                  IRTBuffer* Scratch, uint64_t ScratchOffset)
-{
-	auto* Mine = static_cast<FMockScene*>(Scene);
-	FMockBuffer* From = Instances ? AsMock(Instances) : nullptr;
-	assert(Count <= Mine->MaxInstances && InstanceOffset % 16 == 0);
-	assert(Count == 0 || (From && InstanceOffset + Count * sizeof(FRTInstance) <= From->Desc.Size));
-	Log(ERTMockCall::BuildScene, Mine->Name, {Count, InstanceOffset, ScratchOffset});
-	Keep(Scene);
-	if (Instances)
-	{
-		Keep(Instances);
-	}
-	if (Scratch)
-	{
-		Keep(Scratch);
-	}
-	Then(
-	    [=, this]
-	    {
-		    std::lock_guard Lock(State->Mutex);
-		    Mine->Instances.resize(Count);
-		    for (uint32_t i = 0; i < Count; ++i)
-		    {
-			    auto& [Instance, bBuilt] = Mine->Instances[i];
-			    std::memcpy(&Instance, From->Bytes + InstanceOffset + i * sizeof(FRTInstance), sizeof(FRTInstance));
-			    const auto Found = State->Geometries.find(Instance.GeometryAddress);
-			    bBuilt = Found != State->Geometries.end() && Found->second->Built.BuildCount > 0;
-			    // Address 0 is an inactive instance (Vulkan specification, "Acceleration Structure Instances").
-			    if (bBuilt || Instance.GeometryAddress == 0)
-			    {
-				    continue;
-			    }
-			    const auto Dead = State->DeadGeometries.find(Instance.GeometryAddress);
-			    State->Errors.push_back(Mine->Name + ": instance " + std::to_string(i) +
-			                            (Found != State->Geometries.end()      ? " of unbuilt " + Found->second->Name
-			                             : Dead != State->DeadGeometries.end() ? " of destroyed " + Dead->second
-			                                                                   : std::string(" of no geometry")));
-		    }
-	    });
 }
 
 void FMockCommandList::KeepAlive(IRTRefCounted* Object)

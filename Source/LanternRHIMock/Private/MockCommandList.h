@@ -62,7 +62,8 @@ private:
 		Submitted
 	};
 
-	void Log(ERTMockCall Kind, const std::string& Object, std::array<uint64_t, 4> Numbers = {}, bool bWithPush = false);
+	void Log(ERTMockCall Kind, const std::string& Object, const FRTMockNumbers& Numbers = {}, bool bWithPush = false);
+	void CountBytes(uint64_t FRTMockTraffic::*Of, uint64_t Bytes);
 	void Keep(IRTRefCounted* Object);
 	void Then(std::function<void()> Work) { Commands.push_back(std::move(Work)); }
 	const std::string& GetPipelineName() const;
@@ -73,6 +74,7 @@ private:
 	std::vector<uint8_t> Push;
 	FMockPipeline* Pipeline = nullptr;
 	uint64_t Native = 0;
+	FRTStatus Failed; ///< told by End
 	EStage Stage = EStage::Idle;
 	bool bInPass = false;
 };

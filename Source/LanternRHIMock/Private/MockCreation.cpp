@@ -2,40 +2,13 @@
 
 #include "MockCommandList.h"
 #include "MockDeviceImpl.h"
+#include "MockShaderTable.h"
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
-#include <thread>
 
 namespace Lantern
 {
-namespace
-{
-
-std::string GetShaderName(const FRTRayTracingPipelineDesc& Desc, uint32_t Index)
-{
-	if (Index == NoShader)
-	{
-		return {};
-	}
-	assert(Index < Desc.ShaderCount);
-	return Desc.Shaders[Index].Name ? Desc.Shaders[Index].Name : "";
-}
-
-/// Hands the object out with its accounted memory.
-template <class T, class I>
-FRTStatus Finish(FMockState& State, std::unique_ptr<T> Object, EMockMemory Memory, uint64_t Bytes, I** Out)
-{
-	Object->Memory = Memory;
-	Object->MemoryBytes = Bytes;
-	State.Add(Object.get());
-	*Out = Object.release();
-	return FRTStatus::Success();
-}
-
-} // namespace
-
 FRTStatus FMockDevice::CreateBuffer(const FRTBufferDesc& Desc, IRTBuffer** Out)
 {
 	assert(Desc.Size > 0);
@@ -140,104 +113,11 @@ FRTStatus FMockDevice::CreateSampler(const FRTSamplerDesc& Desc, IRTSampler** Ou
 	return Finish(*State, std::move(Sampler), EMockMemory::None, 0, Out);
 }
 
-FRTStatus FMockDevice::Compile(const char* Name)
-{
-	const std::string Whole = Name ? Name : "";
-	uint32_t Milliseconds = 0;
-	bool bFail = false;
-	{
-		std::lock_guard Lock(State->Mutex);
-		for (const auto& [Part, Delay] : State->Slow)
-		{
-			if (Whole.find(Part) != std::string::npos)
-			{
-				Milliseconds += Delay;
-			}
-		}
-		bFail = std::any_of(State->Failing.begin(), State->Failing.end(),
-		                    [&](const std::string& Part) { return Whole.find(Part) != std::string::npos; });
-	}
-	if (Milliseconds)
-	{
-		std::this_thread::sleep_for(std::chrono::milliseconds(Milliseconds));
-	}
-	if (bFail)
-	{
-		return FRTStatus::Error(ERTResult::CompileFailed, "%s: compile failed (mock, injected)", Whole.c_str());
-	}
-	return FRTStatus::Success();
-}
-
-FRTStatus FMockDevice::CreateComputePipeline(const FRTComputePipelineDesc& Desc, IRTPipeline** Out)
-{
-	FRTStatus Status = Start(ERTMockCall::CreateComputePipeline, Desc.Name, {Desc.Shader.WordCount});
-	if (Status)
-	{
-		Status = Compile(Desc.Name);
-	}
-	if (!Status)
-	{
-		return Status;
-	}
-	auto Pipeline = std::make_unique<FMockPipeline>(State, "Pipeline", Desc.Name);
-	return Finish(*State, std::move(Pipeline), EMockMemory::None, 0, Out);
-}
-
-FRTStatus FMockDevice::CreateRasterPipeline(const FRTRasterPipelineDesc& Desc, IRTPipeline** Out)
-{
-	FRTStatus Status = Start(ERTMockCall::CreateRasterPipeline, Desc.Name, {Desc.ColorCount});
-	if (Status)
-	{
-		Status = Compile(Desc.Name);
-	}
-	if (!Status)
-	{
-		return Status;
-	}
-	auto Pipeline = std::make_unique<FMockPipeline>(State, "Pipeline", Desc.Name);
-	Pipeline->Kind = EMockPipeline::Raster;
-	return Finish(*State, std::move(Pipeline), EMockMemory::None, 0, Out);
-}
-
-FRTStatus FMockDevice::CreateRayTracingPipeline(const FRTRayTracingPipelineDesc& Desc, IRTPipeline** Out)
-{
-	FRTStatus Status = Start(ERTMockCall::CreateRayTracingPipeline, Desc.Name,
-	                         {Desc.ShaderCount, Desc.GroupCount, Desc.MaxRecursion, Desc.MaxPayloadBytes});
-	if (!Status)
-	{
-		return Status;
-	}
-	if (!State->Capabilities.bRayTracingPipeline)
-	{
-		return FRTStatus::Error(ERTResult::Unsupported, "%s: the device has no ray-tracing pipelines", Desc.Name);
-	}
-	Status = Compile(Desc.Name);
-	if (!Status)
-	{
-		return Status;
-	}
-	auto Pipeline = std::make_unique<FMockPipeline>(State, "Pipeline", Desc.Name);
-	Pipeline->Kind = EMockPipeline::RayTracing;
-	for (uint32_t i = 0; i < Desc.GroupCount; ++i)
-	{
-		const FRTShaderGroup& Group = Desc.Groups[i];
-		Pipeline->Groups.push_back({Group.Kind, GetShaderName(Desc, Group.General),
-		                            GetShaderName(Desc, Group.ClosestHit), GetShaderName(Desc, Group.AnyHit),
-		                            GetShaderName(Desc, Group.Intersection)});
-	}
-	{
-		std::lock_guard Lock(State->Mutex);
-		Pipeline->Id = State->NextPipeline++;
-		State->Pipelines[Pipeline->Id] = Pipeline->Name;
-	}
-	return Finish(*State, std::move(Pipeline), EMockMemory::None, 0, Out);
-}
-
 FRTStatus FMockDevice::CreateGeometry(const FRTGeometryDesc& Desc, IRTGeometry** Out)
 {
 	const uint64_t Primitives = FMockGeometry::CountPrimitives(Desc.Sections, Desc.SectionCount);
-	FRTStatus Status =
-	    Start(ERTMockCall::CreateGeometry, Desc.Name, {Desc.SectionCount, Primitives, Desc.bAllowUpdate ? 1u : 0u});
+	FRTStatus Status = Start(ERTMockCall::CreateGeometry, Desc.Name,
+	                         {Desc.SectionCount, Primitives, Desc.bAllowUpdate ? 1u : 0u, Desc.CompactedBytes});
 	if (!Status)
 	{
 		return Status;
@@ -246,7 +126,7 @@ FRTStatus FMockDevice::CreateGeometry(const FRTGeometryDesc& Desc, IRTGeometry**
 	{
 		return FRTStatus::Error(ERTResult::Unsupported, "%s: the device has no acceleration structures", Desc.Name);
 	}
-	const uint64_t Bytes = FMockGeometry::ComputeSizes(Primitives, Desc.bAllowUpdate).StructureBytes;
+	const uint64_t Bytes = FMockGeometry::ComputeSizes(Desc).StructureBytes;
 	Status = State->Allocate(EMockMemory::Geometry, Bytes, Desc.Name);
 	if (!Status)
 	{
@@ -301,18 +181,17 @@ FRTStatus FMockDevice::CreateShaderTable(const FRTShaderTableDesc& Desc, IRTShad
 		return Status;
 	}
 	auto Table = std::make_unique<FMockShaderTable>(State, Desc);
-	const uint64_t Bytes = Table->GetSizeBytes();
-	Status = State->Allocate(EMockMemory::ShaderTable, Bytes, Desc.Name);
-	if (!Status)
+	if (Table->Pipeline->bLibrary)
 	{
-		return Status;
+		State->AddError(Table->Name + ": made for the library " + Table->Pipeline->Name);
 	}
-	return Finish(*State, std::move(Table), EMockMemory::ShaderTable, Bytes, Out);
+	Status = Table->Allocate();
+	return Status ? Finish(*State, std::move(Table), EMockMemory::None, 0, Out) : Status;
 }
 
 FRTStatus FMockDevice::CreateQueryPool(ERTQuery Kind, uint32_t Count, IRTQueryPool** Out)
 {
-	FRTStatus Status = Start(ERTMockCall::CreateQueryPool, "", {Count});
+	FRTStatus Status = Start(ERTMockCall::CreateQueryPool, "", {Count, static_cast<uint64_t>(Kind)});
 	if (!Status)
 	{
 		return Status;

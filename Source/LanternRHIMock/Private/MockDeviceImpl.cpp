@@ -22,6 +22,7 @@ FRTCapabilities MakeCapabilities(const FRTMockDesc& Desc)
 	Caps.bRayQuery = Desc.bRayQuery && Desc.Rung >= ERTRung::RayQuery;
 	Caps.bRayTracingPipeline = Desc.Rung >= ERTRung::Pipeline;
 	Caps.bPipelineLibraries = Desc.bPipelineLibraries && Caps.bRayTracingPipeline;
+	Caps.bLibraryOnlyPipelines = Desc.bLibraryOnlyPipelines && Caps.bPipelineLibraries;
 	Caps.bReorder = Desc.Rung >= ERTRung::Reorder;
 	Caps.bMicromap = Desc.Rung >= ERTRung::Micromap;
 	Caps.bPositionFetch = Desc.Rung != ERTRung::None;
@@ -57,13 +58,9 @@ uint32_t FMockDevice::Release()
 	return Left;
 }
 
-FRTStatus FMockDevice::Start(ERTMockCall Kind, const char* Name, std::array<uint64_t, 4> Numbers)
+FRTStatus FMockDevice::Start(ERTMockCall Kind, const char* Name, const FRTMockNumbers& Numbers)
 {
-	FRTMockCall Call;
-	Call.Kind = Kind;
-	Call.Name = Name ? Name : "";
-	Call.Numbers = Numbers;
-	return State->Log(std::move(Call));
+	return State->Log(Kind, Name ? Name : "", Numbers);
 }
 
 FRTStatus FMockDevice::Enqueue(ERTMockCall Kind, IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence)
@@ -160,6 +157,11 @@ FRTStatus FMockDevice::WaitIdle()
 	}
 	State->Complete(~0ull);
 	return FRTStatus::Success();
+}
+
+FRTBuildSizes FMockDevice::GetGeometrySizes(const FRTGeometryDesc& Desc)
+{
+	return State->Desc.Rung == ERTRung::None ? FRTBuildSizes{} : FMockGeometry::ComputeSizes(Desc);
 }
 
 FRTMemoryStats FMockDevice::GetMemoryStats() const

@@ -23,6 +23,7 @@ public:
 	FRTStatus CreateRasterPipeline(const FRTRasterPipelineDesc& Desc, IRTPipeline** Out) override;
 	FRTStatus CreateRayTracingPipeline(const FRTRayTracingPipelineDesc& Desc, IRTPipeline** Out) override;
 	FRTStatus CreateGeometry(const FRTGeometryDesc& Desc, IRTGeometry** Out) override;
+	FRTBuildSizes GetGeometrySizes(const FRTGeometryDesc& Desc) override;
 	FRTStatus CreateScene(const FRTSceneDesc& Desc, IRTScene** Out) override;
 	FRTStatus CreateShaderTable(const FRTShaderTableDesc& Desc, IRTShaderTable** Out) override;
 	FRTStatus CreateQueryPool(ERTQuery Kind, uint32_t Count, IRTQueryPool** Out) override;
@@ -42,13 +43,26 @@ public:
 
 private:
 	/// Logs, then checks the loss of the device.
-	FRTStatus Start(ERTMockCall Kind, const char* Name, std::array<uint64_t, 4> Numbers = {});
+	FRTStatus Start(ERTMockCall Kind, const char* Name, const FRTMockNumbers& Numbers = {});
 	FRTStatus TakeIndices(const FRTTextureDesc& Desc, FMockTexture& Texture);
+	/// Sleeps and fails as told; under no lock.
 	FRTStatus Compile(const char* Name);
+	void CheckLibrary(const FMockPipeline& Link, const FMockPipeline& Library);
 	FRTStatus Enqueue(ERTMockCall Kind, IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence);
 
 	std::shared_ptr<FMockState> State;
 	std::atomic<uint32_t> References = 1;
 };
+
+/// Hands the object out with its accounted memory.
+template <class T, class I>
+FRTStatus Finish(FMockState& State, std::unique_ptr<T> Object, EMockMemory Memory, uint64_t Bytes, I** Out)
+{
+	Object->Memory = Memory;
+	Object->MemoryBytes = Bytes;
+	State.Add(Object.get());
+	*Out = Object.release();
+	return FRTStatus::Success();
+}
 
 } // namespace Lantern

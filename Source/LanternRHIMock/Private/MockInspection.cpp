@@ -1,6 +1,6 @@
 // FRTMock: looking at, and breaking, a mock device.
 
-#include "MockObjects.h"
+#include "MockShaderTable.h"
 
 #include <algorithm>
 
@@ -57,7 +57,9 @@ std::vector<FRTMockCall> FRTMock::FindDispatches(const std::string& Pipeline) co
 
 uint32_t FRTMock::CountCalls(ERTMockCall Kind) const
 {
-	return static_cast<uint32_t>(FindCalls(Kind).size());
+	std::lock_guard Lock(State.Mutex);
+	return static_cast<uint32_t>(std::count_if(State.Calls.begin(), State.Calls.end(),
+	                                           [=](const FRTMockCall& Call) { return Call.Kind == Kind; }));
 }
 
 uint32_t FRTMock::CountCalls(ERTMockCall Kind, const std::string& Name) const
@@ -69,6 +71,11 @@ void FRTMock::ClearCalls()
 {
 	std::lock_guard Lock(State.Mutex);
 	State.Calls.clear();
+}
+
+void FRTMock::SetCallRecording(bool bRecord)
+{
+	State.bRecordCalls = bRecord;
 }
 
 std::vector<std::string> FRTMock::GetCreatedBuffers() const
@@ -175,11 +182,12 @@ std::vector<FRTMockInstance> FRTMock::GetSceneInstances(IRTScene* Scene) const
 		return Instances;
 	}
 	std::lock_guard Lock(State.Mutex);
-	for (const auto& [Instance, bBuilt] : Mine->Instances)
+	for (size_t i = 0; i < Mine->Instances.size(); ++i)
 	{
+		const FRTInstance& Instance = Mine->Instances[i];
 		FRTMockInstance& Item = Instances.emplace_back();
 		Item.Instance = Instance;
-		Item.bBuilt = bBuilt;
+		Item.bBuilt = Mine->bBuilt[i] != 0;
 		const auto Found = State.Geometries.find(Instance.GeometryAddress);
 		const auto Dead = State.DeadGeometries.find(Instance.GeometryAddress);
 		Item.bDangling = Found == State.Geometries.end() && Instance.GeometryAddress != 0;
@@ -196,6 +204,24 @@ FRTMockGeometry FRTMock::GetGeometry(IRTGeometry* Geometry) const
 	const auto* Mine = dynamic_cast<FMockGeometry*>(Geometry);
 	std::lock_guard Lock(State.Mutex);
 	return Mine ? Mine->Built : FRTMockGeometry();
+}
+
+FRTMockTable FRTMock::GetTable(IRTShaderTable* Table) const
+{
+	const auto* Mine = dynamic_cast<FMockShaderTable*>(Table);
+	return Mine ? Mine->Inspect() : FRTMockTable();
+}
+
+FRTMockTraffic FRTMock::GetTraffic() const
+{
+	std::lock_guard Lock(State.Mutex);
+	return State.Traffic;
+}
+
+void FRTMock::ClearTraffic()
+{
+	std::lock_guard Lock(State.Mutex);
+	State.Traffic = {};
 }
 
 void FRTMock::SetManualFences(bool bManual)

@@ -123,19 +123,22 @@ uint64_t FMockGeometry::CountPrimitives(const FRTGeometrySection* Sections, uint
 	return Sum;
 }
 
-FRTBuildSizes FMockGeometry::ComputeSizes(uint64_t Primitives, bool bUpdates)
+FRTBuildSizes FMockGeometry::ComputeSizes(const FRTGeometryDesc& Desc)
 {
+	const uint64_t Primitives = CountPrimitives(Desc.Sections, Desc.SectionCount);
 	// About what drivers report (100 bytes per triangle); only the proportions matter.
-	return {AlignUp(256 + Primitives * 100, 256), AlignUp(256 + Primitives * 64, 256),
-	        bUpdates ? AlignUp(256 + Primitives * 16, 256) : 0};
+	return {Desc.CompactedBytes ? Desc.CompactedBytes : AlignUp(256 + Primitives * 100, 256),
+	        AlignUp(256 + Primitives * 64, 256), Desc.bAllowUpdate ? AlignUp(256 + Primitives * 16, 256) : 0};
 }
 
 FMockGeometry::FMockGeometry(std::shared_ptr<FMockState> InState, const FRTGeometryDesc& Desc)
     : TMockObject(std::move(InState), "Geometry", Desc.Name),
       SectionCount(Desc.SectionCount),
-      bAllowUpdate(Desc.bAllowUpdate)
+      bAllowUpdate(Desc.bAllowUpdate),
+      bAllowCompaction(Desc.bAllowCompaction),
+      CompactedBytes(Desc.CompactedBytes),
+      Sizes(ComputeSizes(Desc))
 {
-	Sizes = ComputeSizes(CountPrimitives(Desc.Sections, Desc.SectionCount), bAllowUpdate);
 	Address = State->TakeAddress(Sizes.StructureBytes);
 	std::lock_guard Lock(State->Mutex);
 	State->Geometries[Address] = this;
@@ -143,9 +146,7 @@ FMockGeometry::FMockGeometry(std::shared_ptr<FMockState> InState, const FRTGeome
 
 FMockGeometry::~FMockGeometry()
 {
-	std::lock_guard Lock(State->Mutex);
-	State->Geometries.erase(Address);
-	State->DeadGeometries[Address] = Name;
+	State->AddDeadGeometry(Address, Name);
 }
 
 FMockScene::~FMockScene()

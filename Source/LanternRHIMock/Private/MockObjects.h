@@ -92,7 +92,10 @@ struct FMockGroup
 {
 	ERTGroupKind Kind = ERTGroupKind::General;
 	std::string General, ClosestHit, AnyHit, Intersection;
+	ERTShaderStage GeneralStage = ERTShaderStage::RayGen;
 };
+/// A pipeline's groups outlive it where records on the device still point at them.
+using FMockGroups = std::shared_ptr<const std::vector<FMockGroup>>;
 
 enum class EMockPipeline : uint8_t
 {
@@ -106,12 +109,14 @@ class FMockPipeline final : public TMockObject<IRTPipeline>
 public:
 	using TMockObject::TMockObject;
 	~FMockPipeline() override;
-	uint32_t GetGroupCount() const override { return static_cast<uint32_t>(Groups.size()); }
+	uint32_t GetGroupCount() const override { return Groups ? static_cast<uint32_t>(Groups->size()) : 0; }
 	uint64_t GetNative(ERTNative) const override { return 0; }
 
 	EMockPipeline Kind = EMockPipeline::Compute;
-	uint64_t Id = 0; ///< in the handles of its groups
-	std::vector<FMockGroup> Groups;
+	uint64_t Id = 0;    ///< in the handles of its groups
+	FMockGroups Groups; ///< own ones first, then those of each library
+	bool bLibrary = false;
+	std::array<uint32_t, 3> Interface = {}; ///< recursion, payload and attribute bytes: a link's must be its libraries'
 };
 
 class FMockGeometry final : public TMockObject<IRTGeometry>
@@ -125,11 +130,17 @@ public:
 	uint64_t GetNative(ERTNative) const override { return 0; }
 
 	static uint64_t CountPrimitives(const FRTGeometrySection* Sections, uint32_t Count);
-	static FRTBuildSizes ComputeSizes(uint64_t Primitives, bool bAllowUpdate);
+	static FRTBuildSizes ComputeSizes(const FRTGeometryDesc& Desc);
+	/// What the device says when asked. 60 %, about what drivers reach.
+	uint64_t GetCompactedSize() const
+	{
+		return CompactedBytes ? CompactedBytes : AlignUp(Sizes.StructureBytes * 6 / 10, 128);
+	}
 
 	uint64_t Address = 0;
 	uint32_t SectionCount = 0;
-	bool bAllowUpdate = false;
+	bool bAllowUpdate = false, bAllowCompaction = false;
+	uint64_t CompactedBytes = 0; ///< > 0: made for a compacted copy
 	FRTBuildSizes Sizes;
 	FRTMockGeometry Built; ///< guarded by FMockState::Mutex
 };
@@ -147,7 +158,11 @@ public:
 	uint32_t Index = 0;
 	uint32_t MaxInstances = 0;
 	FRTBuildSizes Sizes;
-	std::vector<std::pair<FRTInstance, bool>> Instances; ///< and whether built then; guarded by FMockState::Mutex
+	void Build(const uint8_t* Source, uint32_t Count);
+
+	// As of the last executed build; guarded by FMockState::Mutex.
+	std::vector<FRTInstance> Instances;
+	std::vector<uint8_t> bBuilt; ///< of each instance: its geometry had been built by then
 };
 
 class FMockQueryPool final : public TMockObject<IRTQueryPool>
@@ -160,53 +175,6 @@ public:
 
 	ERTQuery Kind = ERTQuery::Timestamp;
 	std::vector<uint64_t> Values; ///< 0: not written; guarded by FMockState::Mutex
-};
-
-inline constexpr uint32_t RecordKinds = 4;
-
-/// Layout and contents of a shader binding table. A handle holds a magic number, its pipeline's id and the group.
-class FMockShaderTable final : public TMockObject<IRTShaderTable>
-{
-public:
-	FMockShaderTable(std::shared_ptr<FMockState> InState, const FRTShaderTableDesc& InDesc);
-
-	const FRTShaderTableDesc& GetDesc() const override { return Desc; }
-	void SetRecord(ERTRecordKind Kind, uint32_t Index, uint32_t Group, const void* Data, uint32_t DataBytes) override;
-	void SetHitRecords(uint32_t First, uint32_t Count, const uint32_t* Groups, const void* Data) override;
-	void SetGroups(ERTRecordKind Kind, uint32_t First, uint32_t Count, const uint32_t* Groups) override;
-	void SetPipeline(IRTPipeline* InPipeline) override;
-	FRTStatus Reserve(const uint32_t Counts[4]) override;
-	FRTStatus Stage() override { return FRTStatus::Success(); }
-	void Invalidate() override { Dirty.assign(1, {0, Size}); }
-	uint64_t GetRecordStride(ERTRecordKind Kind) const override { return Strides[static_cast<uint32_t>(Kind)]; }
-	uint64_t GetSizeBytes() const override { return Size; }
-	uint64_t GetUpdatedBytes() const override { return UpdatedBytes; }
-
-	struct FUpdate
-	{
-		uint64_t Offset = 0;
-		std::vector<uint8_t> Bytes;
-	};
-	/// What changed since the last call, as of now: what a copy recorded now carries.
-	std::vector<FUpdate> TakeUpdates();
-	void Apply(const std::vector<FUpdate>& Updates);
-	FRTMockRecord Resolve(ERTRecordKind Kind, uint32_t Index) const;
-	uint32_t GetCount(ERTRecordKind Kind) const;
-	bool IsUpdated() const;
-
-	FRTShaderTableDesc Desc;
-	TRTRef<FMockPipeline> Pipeline;
-
-private:
-	mutable std::mutex TableMutex;
-	std::array<uint64_t, RecordKinds> Strides = {};
-	std::array<uint64_t, RecordKinds> Starts = {};
-	uint64_t Size = 0;
-	std::vector<uint8_t> Host, Device;
-	std::vector<std::pair<uint64_t, uint64_t>> Dirty; ///< offset, size; unsorted
-	bool bUpdated = false;
-	uint64_t UpdatedBytes = 0;
-	void Layout();
 };
 
 } // namespace Lantern

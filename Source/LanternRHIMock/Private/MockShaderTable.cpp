@@ -1,31 +1,67 @@
-#include "MockObjects.h"
+// Records, their layout and the host's side of an update.
+
+#include "MockShaderTable.h"
+
+#include "MockTableHandle.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cstring>
+#include <tuple>
 
 namespace Lantern
 {
 namespace
 {
 
-constexpr uint64_t HandleMagic = 0x454c444e41485452ull;
+constexpr uint32_t HitKind = static_cast<uint32_t>(ERTRecordKind::Hit);
+constexpr uint32_t WordBits = 64;
 
-struct FMockHandle
+constexpr uint32_t CountWords(uint32_t Records)
 {
-	uint64_t Magic = HandleMagic;
-	uint64_t Pipeline = 0;
-	uint32_t Group = 0;
-	uint32_t Check = 0; ///< so that record data read as a handle is not taken for one
-};
-static_assert(sizeof(FMockHandle) == 24, "must fit into the smallest handle, 32 bytes");
-
-uint32_t GetCheck(const FMockHandle& Handle)
-{
-	return static_cast<uint32_t>(Handle.Pipeline * 2654435761u) ^ (Handle.Group * 40503u + 17u);
+	return (Records + WordBits - 1) / WordBits;
 }
 
 } // namespace
+
+void FMockTableLayout::Arrange(uint32_t BaseAlignment)
+{
+	Size = 0;
+	for (uint32_t Kind = 0; Kind < RecordKinds; ++Kind)
+	{
+		Starts[Kind] = AlignUp(Size, BaseAlignment);
+		Size = Starts[Kind] + Strides[Kind] * Counts[Kind];
+	}
+}
+
+FMockTableMemory::~FMockTableMemory()
+{
+	std::free(Bytes);
+	if (Bytes)
+	{
+		State->FreeMemory(EMockMemory::ShaderTable, Size);
+	}
+}
+
+FRTStatus FMockTableMemory::Allocate(uint64_t InSize, const std::string& Name)
+{
+	FRTStatus Status = State->Allocate(EMockMemory::ShaderTable, InSize, Name.c_str());
+	if (!Status)
+	{
+		return Status;
+	}
+	// calloc: pages that no record reaches cost nothing.
+	Bytes = static_cast<uint8_t*>(std::calloc(1, std::max<uint64_t>(InSize, 1)));
+	Size = InSize;
+	if (!Bytes)
+	{
+		State->FreeMemory(EMockMemory::ShaderTable, InSize);
+		return FRTStatus::Error(ERTResult::OutOfHostMemory, "%s: no host memory for %llu bytes", Name.c_str(),
+		                        static_cast<unsigned long long>(InSize));
+	}
+	return Status;
+}
 
 FMockShaderTable::FMockShaderTable(std::shared_ptr<FMockState> InState, const FRTShaderTableDesc& InDesc)
     : TMockObject(std::move(InState), "ShaderTable", InDesc.Name),
@@ -33,203 +69,293 @@ FMockShaderTable::FMockShaderTable(std::shared_ptr<FMockState> InState, const FR
       Pipeline(static_cast<FMockPipeline*>(InDesc.Pipeline))
 {
 	Desc.Name = Name.c_str();
-	Layout();
-	Host.resize(Size);
-	Device.resize(Size);
+	const FRTMockDesc& Limits = State->Desc;
+	const uint64_t Plain = AlignUp(Limits.HandleSize, Limits.HandleAlignment);
+	// Each ray generation record is a region of its own when rays are traced, so it starts at the base alignment.
+	Layout.Strides = {AlignUp(Limits.HandleSize, std::max(Limits.BaseAlignment, Limits.HandleAlignment)), Plain,
+	                  AlignUp(Limits.HandleSize + Desc.RecordDataBytes, Limits.HandleAlignment), Plain};
+	SetCounts({Desc.RayGenCount, Desc.MissCount, Desc.HitCount, Desc.CallableCount});
 }
 
-void FMockShaderTable::Layout()
+FRTStatus FMockShaderTable::Allocate()
 {
-	Size = 0;
-	const FRTMockDesc& Limits = State->Desc;
+	Current = Executed = std::make_shared<FMockDeviceCopy>(State);
+	Current->Layout = Layout;
+	FRTStatus Status = Current->Allocate(Layout.Size, Name);
+	std::shared_ptr<FMockHostCopy> Copy;
+	for (uint32_t i = 0; Status && i < std::max(1u, Desc.Copies); ++i)
+	{
+		Status = AddHostCopy(Copy);
+	}
+	return Status;
+}
+
+void FMockShaderTable::SetCounts(const std::array<uint32_t, RecordKinds>& Counts)
+{
 	for (uint32_t Kind = 0; Kind < RecordKinds; ++Kind)
 	{
-		const bool bHit = Kind == static_cast<uint32_t>(ERTRecordKind::Hit);
-		// Each ray generation record is a region of its own when rays are traced, so it starts at the base alignment.
-		const bool bRayGen = Kind == static_cast<uint32_t>(ERTRecordKind::RayGen);
-		const uint64_t Bytes = Limits.HandleSize + (bHit ? Desc.RecordDataBytes : 0);
-		const uint64_t Alignment =
-		    bRayGen ? std::max(Limits.BaseAlignment, Limits.HandleAlignment) : Limits.HandleAlignment;
-		Strides[Kind] = AlignUp(Bytes, Alignment);
-		Starts[Kind] = AlignUp(Size, Limits.BaseAlignment);
-		Size = Starts[Kind] + Strides[Kind] * GetCount(static_cast<ERTRecordKind>(Kind));
-	}
-}
-
-void FMockShaderTable::SetHitRecords(uint32_t First, uint32_t Count, const uint32_t* Groups, const void* Data)
-{
-	for (uint32_t i = 0; i < Count; ++i)
-	{
-		const auto* Bytes = static_cast<const uint8_t*>(Data);
-		SetRecord(ERTRecordKind::Hit, First + i, Groups[i], Bytes ? Bytes + i * Desc.RecordDataBytes : nullptr,
-		          Bytes ? Desc.RecordDataBytes : 0);
-	}
-}
-
-void FMockShaderTable::SetGroups(ERTRecordKind Kind, uint32_t First, uint32_t Count, const uint32_t* Groups)
-{
-	for (uint32_t i = 0; i < Count; ++i)
-	{
-		const uint64_t Offset =
-		    Starts[static_cast<uint32_t>(Kind)] + (First + i) * Strides[static_cast<uint32_t>(Kind)];
-		std::vector<uint8_t> Data(Host.begin() + Offset + State->Desc.HandleSize,
-		                          Host.begin() + Offset + Strides[static_cast<uint32_t>(Kind)]);
-		Data.resize(Kind == ERTRecordKind::Hit ? Desc.RecordDataBytes : 0);
-		SetRecord(Kind, First + i, Groups[i], Data.data(), static_cast<uint32_t>(Data.size()));
-	}
-}
-
-void FMockShaderTable::SetPipeline(IRTPipeline* InPipeline)
-{
-	Pipeline = TRTRef<FMockPipeline>(static_cast<FMockPipeline*>(InPipeline));
-	Desc.Pipeline = InPipeline;
-}
-
-FRTStatus FMockShaderTable::Reserve(const uint32_t Counts[4])
-{
-	const auto OldStarts = Starts;
-	const uint32_t Old[] = {Desc.RayGenCount, Desc.MissCount, Desc.HitCount, Desc.CallableCount};
-	Desc.RayGenCount = std::max(Old[0], Counts[0]);
-	Desc.MissCount = std::max(Old[1], Counts[1]);
-	Desc.HitCount = std::max(Old[2], Counts[2]);
-	Desc.CallableCount = std::max(Old[3], Counts[3]);
-	Layout();
-	for (std::vector<uint8_t>* Copy : {&Host, &Device})
-	{
-		std::vector<uint8_t> Grown(Size);
-		for (uint32_t Kind = 0; Kind < RecordKinds; ++Kind)
+		const uint32_t Old = CountWords(Layout.Counts[Kind]), New = CountWords(Counts[Kind]);
+		Records[Kind].resize(Layout.Strides[Kind] * Counts[Kind]);
+		if (New == Old)
 		{
-			std::copy_n(Copy->begin() + OldStarts[Kind], Old[Kind] * Strides[Kind], Grown.begin() + Starts[Kind]);
+			continue;
 		}
-		*Copy = std::move(Grown);
+		FDirtyWords Words = std::make_unique<std::atomic<uint64_t>[]>(New);
+		for (uint32_t Word = 0; Word < Old; ++Word)
+		{
+			Words[Word] = Dirty[Kind][Word].load();
+		}
+		Dirty[Kind] = std::move(Words);
 	}
-	Invalidate();
-	return FRTStatus::Success();
+	Layout.Counts = Counts;
+	Layout.Arrange(State->Desc.BaseAlignment);
+	std::tie(Desc.RayGenCount, Desc.MissCount, Desc.HitCount, Desc.CallableCount) =
+	    std::tie(Counts[0], Counts[1], Counts[2], Counts[3]);
 }
 
-uint32_t FMockShaderTable::GetCount(ERTRecordKind Kind) const
+void FMockShaderTable::WriteHandle(uint8_t* Record, uint32_t Group) const
 {
-	switch (Kind)
+	assert(Group < Pipeline->GetGroupCount());
+	const FMockHandle Handle(Pipeline->Id, Group);
+	std::memset(Record, 0, State->Desc.HandleSize);
+	std::memcpy(Record, &Handle, sizeof(Handle));
+}
+
+void FMockShaderTable::MarkDirty(uint32_t Kind, uint32_t First, uint32_t Count)
+{
+	for (uint32_t At = First; At < First + Count;)
 	{
-	case ERTRecordKind::RayGen: return Desc.RayGenCount;
-	case ERTRecordKind::Miss: return Desc.MissCount;
-	case ERTRecordKind::Hit: return Desc.HitCount;
-	case ERTRecordKind::Callable: return Desc.CallableCount;
+		const uint32_t Bit = At % WordBits;
+		const uint32_t Run = std::min(WordBits - Bit, First + Count - At);
+		const uint64_t Mask = (Run == WordBits ? ~uint64_t(0) : (uint64_t(1) << Run) - 1) << Bit;
+		std::atomic<uint64_t>& Word = Dirty[Kind][At / WordBits];
+		if ((Word.load(std::memory_order_relaxed) & Mask) != Mask)
+		{
+			Word.fetch_or(Mask, std::memory_order_relaxed);
+		}
+		At += Run;
 	}
-	return 0;
+	if (Count && !bDirty[Kind].load(std::memory_order_relaxed))
+	{
+		bDirty[Kind].store(true, std::memory_order_relaxed);
+	}
 }
 
 void FMockShaderTable::SetRecord(ERTRecordKind Kind, uint32_t Index, uint32_t Group, const void* Data,
                                  uint32_t DataBytes)
 {
-	assert(Index < GetCount(Kind) && Group < Pipeline->GetGroupCount());
+	const auto Which = static_cast<uint32_t>(Kind);
+	assert(Index < Layout.Counts[Which]);
 	assert(DataBytes <= (Kind == ERTRecordKind::Hit ? Desc.RecordDataBytes : 0));
-	std::lock_guard Lock(TableMutex);
-	const uint64_t Stride = Strides[static_cast<uint32_t>(Kind)];
-	const uint64_t Offset = Starts[static_cast<uint32_t>(Kind)] + Index * Stride;
-	FMockHandle Handle;
-	Handle.Pipeline = Pipeline->Id;
-	Handle.Group = Group;
-	Handle.Check = GetCheck(Handle);
-	std::memset(Host.data() + Offset, 0, Stride);
-	std::memcpy(Host.data() + Offset, &Handle, sizeof(Handle));
+	uint8_t* Record = GetRecord(Which, Index);
+	WriteHandle(Record, Group);
+	std::memset(Record + State->Desc.HandleSize, 0, Layout.Strides[Which] - State->Desc.HandleSize);
 	if (Data && DataBytes)
 	{
-		std::memcpy(Host.data() + Offset + State->Desc.HandleSize, Data, DataBytes);
+		std::memcpy(Record + State->Desc.HandleSize, Data, DataBytes);
 	}
-	Dirty.emplace_back(Offset, Stride);
+	MarkDirty(Which, Index, 1);
 }
 
-std::vector<FMockShaderTable::FUpdate> FMockShaderTable::TakeUpdates()
+void FMockShaderTable::SetHitRecords(uint32_t First, uint32_t Count, const uint32_t* Groups, const void* Data)
 {
-	std::lock_guard Lock(TableMutex);
-	std::sort(Dirty.begin(), Dirty.end());
-	std::vector<FUpdate> Updates;
-	uint64_t End = 0;
-	for (const auto& [Offset, Bytes] : Dirty)
+	assert(First <= Desc.HitCount && Count <= Desc.HitCount - First);
+	const uint32_t DataBytes = Desc.RecordDataBytes;
+	for (uint32_t i = 0; i < Count; ++i)
 	{
-		if (Updates.empty() || Offset > End)
+		uint8_t* Record = GetRecord(HitKind, First + i);
+		WriteHandle(Record, Groups[i]);
+		if (Data && DataBytes)
 		{
-			Updates.emplace_back();
-			Updates.back().Offset = Offset;
-			End = Offset;
+			std::memcpy(Record + State->Desc.HandleSize,
+			            static_cast<const uint8_t*>(Data) + static_cast<uint64_t>(i) * DataBytes, DataBytes);
 		}
-		if (Offset + Bytes <= End)
+		else
+		{
+			std::memset(Record + State->Desc.HandleSize, 0, DataBytes);
+		}
+	}
+	MarkDirty(HitKind, First, Count);
+}
+
+void FMockShaderTable::SetGroups(ERTRecordKind Kind, uint32_t First, uint32_t Count, const uint32_t* Groups)
+{
+	const auto Which = static_cast<uint32_t>(Kind);
+	assert(First <= Layout.Counts[Which] && Count <= Layout.Counts[Which] - First);
+	for (uint32_t i = 0; i < Count; ++i)
+	{
+		WriteHandle(GetRecord(Which, First + i), Groups[i]);
+	}
+	MarkDirty(Which, First, Count);
+}
+
+void FMockShaderTable::SetPipeline(IRTPipeline* InPipeline)
+{
+	auto* Mine = static_cast<FMockPipeline*>(InPipeline);
+	assert(Mine && Mine->Kind == EMockPipeline::RayTracing);
+	(void)State->Log(ERTMockCall::SetTablePipeline, Name); // a lost device is seen at the next call that can say so
+	if (Mine->bLibrary)
+	{
+		State->AddError(Name + ": SetPipeline of the library " + Mine->Name);
+	}
+	Pipeline = TRTRef<FMockPipeline>(Mine);
+	Desc.Pipeline = InPipeline;
+}
+
+FRTStatus FMockShaderTable::Reserve(const uint32_t Counts[4])
+{
+	std::array<uint32_t, RecordKinds> Grown = Layout.Counts;
+	for (uint32_t Kind = 0; Kind < RecordKinds; ++Kind)
+	{
+		Grown[Kind] = std::max(Grown[Kind], Counts[Kind]);
+	}
+	if (Grown == Layout.Counts)
+	{
+		return FRTStatus::Success();
+	}
+	FRTStatus Status = State->Log(ERTMockCall::ReserveShaderTable, Name, {Grown[0], Grown[1], Grown[2], Grown[3]});
+	if (!Status)
+	{
+		return Status;
+	}
+	auto Copy = std::make_shared<FMockDeviceCopy>(State);
+	Copy->Layout = Layout;
+	Copy->Layout.Counts = Grown;
+	Copy->Layout.Arrange(State->Desc.BaseAlignment);
+	Status = Copy->Allocate(Copy->Layout.Size, Name);
+	if (!Status)
+	{
+		return Status;
+	}
+	Unstage();
+	SetCounts(Grown);
+	Next = std::move(Copy);
+	return Status;
+}
+
+FRTStatus FMockShaderTable::AddHostCopy(std::shared_ptr<FMockHostCopy>& Out)
+{
+	auto Copy = std::make_shared<FMockHostCopy>(State);
+	FRTStatus Status = Copy->Allocate(Layout.Size, Name);
+	if (Status)
+	{
+		++CopiesMade;
+		Ring.push_back(Copy);
+		Out = std::move(Copy);
+	}
+	return Status;
+}
+
+FRTStatus FMockShaderTable::AcquireHostCopy(std::shared_ptr<FMockHostCopy>& OutUse)
+{
+	const auto IsFree = [](const auto& Copy) { return Copy->Users.load(std::memory_order_acquire) == 0; };
+	// Too small since the table grew; those in use go once they are not.
+	std::erase_if(Ring, [&](const auto& Copy) { return IsFree(Copy) && Copy->Size < Layout.Size; });
+	const auto Found = std::find_if(Ring.begin(), Ring.end(),
+	                                [&](const auto& Copy) { return IsFree(Copy) && Copy->Size >= Layout.Size; });
+	std::shared_ptr<FMockHostCopy> Copy;
+	FRTStatus Status;
+	if (Found != Ring.end())
+	{
+		Copy = *Found;
+	}
+	else
+	{
+		Status = AddHostCopy(Copy);
+	}
+	if (Status)
+	{
+		++Copy->Users;
+		OutUse = {Copy.get(), [Copy](FMockHostCopy* Used) { Used->Users.fetch_sub(1, std::memory_order_release); }};
+	}
+	return Status;
+}
+
+FRTStatus FMockShaderTable::Stage()
+{
+	if (std::none_of(bDirty.begin(), bDirty.end(), [](const std::atomic<bool>& Kind) { return Kind.load(); }))
+	{
+		return FRTStatus::Success();
+	}
+	FRTStatus Status;
+	if (!Staged)
+	{
+		Status = AcquireHostCopy(Staged);
+	}
+	if (!Status)
+	{
+		return Status;
+	}
+	Gather();
+	MergeStaged();
+	uint64_t Bytes = 0;
+	for (const FRange& Range : StagedRanges)
+	{
+		Bytes += Range.Count * Layout.Strides[Range.Kind];
+	}
+	return State->Log(ERTMockCall::StageShaderTable, Name, {Bytes});
+}
+
+void FMockShaderTable::Gather()
+{
+	for (uint32_t Kind = 0; Kind < RecordKinds; ++Kind)
+	{
+		if (!bDirty[Kind].exchange(false))
 		{
 			continue;
 		}
-		Updates.back().Bytes.insert(Updates.back().Bytes.end(), Host.begin() + End, Host.begin() + Offset + Bytes);
-		End = Offset + Bytes;
-	}
-	Dirty.clear();
-	UpdatedBytes = 0;
-	for (const FUpdate& Update : Updates)
-	{
-		UpdatedBytes += Update.Bytes.size();
-	}
-	return Updates;
-}
-
-void FMockShaderTable::Apply(const std::vector<FUpdate>& Updates)
-{
-	std::lock_guard Lock(TableMutex);
-	bUpdated = true;
-	for (const FUpdate& Update : Updates)
-	{
-		std::memcpy(Device.data() + Update.Offset, Update.Bytes.data(), Update.Bytes.size());
-	}
-}
-
-bool FMockShaderTable::IsUpdated() const
-{
-	std::lock_guard Lock(TableMutex);
-	return bUpdated;
-}
-
-FRTMockRecord FMockShaderTable::Resolve(ERTRecordKind Kind, uint32_t Index) const
-{
-	FRTMockRecord Record;
-	Record.Index = Index;
-	Record.bInRange = Index < GetCount(Kind);
-	if (!Record.bInRange)
-	{
-		Record.Error = Name + ": record " + std::to_string(Index) + " of " + std::to_string(GetCount(Kind));
-		return Record;
-	}
-	FMockHandle Handle;
-	{
-		std::lock_guard Lock(TableMutex);
-		const uint64_t Stride = Strides[static_cast<uint32_t>(Kind)];
-		const uint8_t* At = Device.data() + Starts[static_cast<uint32_t>(Kind)] + Index * Stride;
-		std::memcpy(&Handle, At, sizeof(Handle));
-		if (Kind == ERTRecordKind::Hit)
+		const uint64_t Stride = Layout.Strides[Kind];
+		for (uint32_t At = 0; At < CountWords(Layout.Counts[Kind]); ++At)
 		{
-			const uint8_t* Data = At + State->Desc.HandleSize;
-			Record.Data.assign(Data, Data + Desc.RecordDataBytes);
+			uint64_t Word = Dirty[Kind][At].exchange(0, std::memory_order_relaxed);
+			while (Word)
+			{
+				const auto Bit = static_cast<uint32_t>(std::countr_zero(Word));
+				const auto Run = static_cast<uint32_t>(std::countr_one(Word >> Bit));
+				const uint32_t First = At * WordBits + Bit;
+				std::memcpy(Staged->Bytes + Layout.GetOffset(Kind, First), GetRecord(Kind, First), Run * Stride);
+				StagedRanges.push_back({Kind, First, Run});
+				Word = Bit + Run >= WordBits ? 0 : Word >> (Bit + Run) << (Bit + Run);
+			}
 		}
 	}
-	if (Handle.Magic != HandleMagic || Handle.Check != GetCheck(Handle))
+}
+
+void FMockShaderTable::MergeStaged()
+{
+	std::sort(StagedRanges.begin(), StagedRanges.end(),
+	          [](const FRange& A, const FRange& B) { return std::tie(A.Kind, A.First) < std::tie(B.Kind, B.First); });
+	size_t Kept = 0;
+	for (const FRange Range : StagedRanges)
 	{
-		Record.bNull = true;
-		Record.Error = Name + ": record " + std::to_string(Index) + " has no handle on the device";
-		return Record;
+		FRange* Last = Kept ? &StagedRanges[Kept - 1] : nullptr;
+		if (Last && Last->Kind == Range.Kind && Range.First <= Last->First + Last->Count)
+		{
+			Last->Count = std::max(Last->First + Last->Count, Range.First + Range.Count) - Last->First;
+			continue;
+		}
+		StagedRanges[Kept++] = Range;
 	}
-	Record.Group = Handle.Group;
-	std::lock_guard Lock(State->Mutex);
-	const auto Found = State->Pipelines.find(Handle.Pipeline);
-	Record.Pipeline = Found == State->Pipelines.end() ? "?" : Found->second;
-	Record.bStale = Handle.Pipeline != Pipeline->Id;
-	if (Record.bStale)
+	StagedRanges.resize(Kept);
+}
+
+void FMockShaderTable::Unstage()
+{
+	for (const FRange& Range : StagedRanges)
 	{
-		Record.Error = Name + ": record " + std::to_string(Index) + " has a handle of pipeline " + Record.Pipeline;
-		return Record;
+		MarkDirty(Range.Kind, Range.First, Range.Count);
 	}
-	const FMockGroup& Group = Pipeline->Groups[Handle.Group];
-	Record.General = Group.General;
-	Record.ClosestHit = Group.ClosestHit;
-	Record.AnyHit = Group.AnyHit;
-	Record.Intersection = Group.Intersection;
-	return Record;
+	StagedRanges.clear();
+	Staged.reset();
+}
+
+void FMockShaderTable::Invalidate()
+{
+	Unstage();
+	for (uint32_t Kind = 0; Kind < RecordKinds; ++Kind)
+	{
+		MarkDirty(Kind, 0, Layout.Counts[Kind]);
+	}
 }
 
 } // namespace Lantern

@@ -31,14 +31,52 @@ FRTStatus FMockState::Log(FRTMockCall Call)
 		bLost = true;
 		LoseAt.reset();
 	}
-	Calls.push_back(std::move(Call));
+	if (bRecordCalls)
+	{
+		Calls.push_back(std::move(Call));
+	}
 	return bLost ? FRTStatus::Error(ERTResult::DeviceLost, "the device was lost (mock)") : FRTStatus::Success();
+}
+
+FRTStatus FMockState::Log(ERTMockCall Kind, const std::string& Name, const FRTMockNumbers& Numbers)
+{
+	FRTMockCall Call;
+	Call.Kind = Kind;
+	if (bRecordCalls)
+	{
+		Call.Name = Name;
+		Call.Numbers = Numbers;
+	}
+	return Log(std::move(Call));
 }
 
 void FMockState::AddError(std::string Message)
 {
 	std::lock_guard Lock(Mutex);
-	Errors.push_back(std::move(Message));
+	AddErrorLocked(std::move(Message));
+}
+
+void FMockState::AddErrorLocked(std::string Message)
+{
+	constexpr size_t MaxErrors = 1000;
+	if (Errors.size() < MaxErrors)
+	{
+		Errors.push_back(std::move(Message));
+	}
+}
+
+void FMockState::AddDeadGeometry(uint64_t Address, const std::string& Name)
+{
+	constexpr size_t MaxDead = 1 << 17;
+	std::lock_guard Lock(Mutex);
+	Geometries.erase(Address);
+	DeadGeometries[Address] = Name;
+	DeadOrder.push_back(Address);
+	if (DeadOrder.size() > MaxDead)
+	{
+		DeadGeometries.erase(DeadOrder.front());
+		DeadOrder.pop_front();
+	}
 }
 
 uint64_t& FMockState::Count(EMockMemory Kind)
@@ -115,19 +153,19 @@ void FMockState::Collect()
 		FMockObject* Object = nullptr;
 		{
 			std::lock_guard Lock(Mutex);
-			auto It = std::find_if(Retired.begin(), Retired.end(),
-			                       [&](const auto& Item) { return Item.second <= Completed; });
-			if (It == Retired.end())
+			if (Retired.empty() || Retired.front().second > Completed)
 			{
 				return;
 			}
-			Object = It->first;
-			Retired.erase(It);
+			Object = Retired.front().first;
+			Retired.pop_front();
 			Live.erase(Object);
-			FRTMockCall Call;
-			Call.Kind = ERTMockCall::Destroy;
-			Call.Name = Object->Name;
-			Calls.push_back(std::move(Call));
+			if (bRecordCalls)
+			{
+				FRTMockCall& Call = Calls.emplace_back();
+				Call.Kind = ERTMockCall::Destroy;
+				Call.Name = Object->Name;
+			}
 		}
 		// The destructor may drop the last owner of this state.
 		const std::shared_ptr<FMockState> Keep = Object->State;
@@ -164,6 +202,17 @@ void FMockState::Complete(FRTFence UpTo)
 	}
 	Done.clear();
 	Collect();
+}
+
+std::string FMockState::DescribeGeometry(uint64_t Address) const
+{
+	const auto Found = Geometries.find(Address);
+	if (Found != Geometries.end())
+	{
+		return "unbuilt " + Found->second->Name;
+	}
+	const auto Dead = DeadGeometries.find(Address);
+	return Dead == DeadGeometries.end() ? "no geometry" : "destroyed " + Dead->second;
 }
 
 } // namespace Lantern

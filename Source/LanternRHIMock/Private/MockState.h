@@ -4,11 +4,14 @@
 
 #include "LanternRHIMock/MockDevice.h"
 
+#include <atomic>
+#include <deque>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
+#include <unordered_map>
 
 namespace Lantern
 {
@@ -77,22 +80,26 @@ struct FMockState
 	FRTCapabilities Capabilities;
 
 	std::vector<FRTMockCall> Calls;
+	std::atomic<bool> bRecordCalls = true;
 	std::vector<std::string> Errors;
 	std::set<FMockObject*> Live;
-	std::map<uint64_t, FMockBuffer*> Buffers; ///< by device address
-	std::map<uint64_t, FMockGeometry*> Geometries;
-	std::map<uint64_t, std::string> DeadGeometries; ///< addresses are never used twice
-	std::map<uint64_t, std::string> Pipelines;      ///< live, by the id in their handles
+	std::map<uint64_t, FMockBuffer*> Buffers;                ///< by device address
+	std::unordered_map<uint64_t, FMockGeometry*> Geometries; ///< by device address
+	/// Addresses are never used twice. The oldest are forgotten, so that streaming for hours stays bounded.
+	std::unordered_map<uint64_t, std::string> DeadGeometries;
+	std::deque<uint64_t> DeadOrder;
+	std::map<uint64_t, std::string> Pipelines; ///< live, by the id in their handles
 	FMockHeap Sampled, Storage, Samplers, Scenes;
 	uint64_t NextAddress = 0x100000;
 	uint64_t NextPipeline = 1;
 	FRTMemoryStats Memory;
 
 	std::vector<FMockSubmission> Pending;
-	std::vector<std::pair<FMockObject*, FRTFence>> Retired;
+	std::deque<std::pair<FMockObject*, FRTFence>> Retired; ///< fences rise
 	FRTFence LastSubmitted = 0, Completed = 0;
 	uint64_t ClockNs = 1000; ///< guarded by ExecuteMutex
 	uint32_t BlockingWaits = 0;
+	FRTMockTraffic Traffic;
 	bool bManual = false;
 
 	uint32_t FailIn = 0, FailEvery = 0, SinceFail = 0;
@@ -103,7 +110,12 @@ struct FMockState
 
 	/// Records the call, then says whether the device is (now) lost.
 	FRTStatus Log(FRTMockCall Call);
+	FRTStatus Log(ERTMockCall Kind, const std::string& Name, const FRTMockNumbers& Numbers = {});
 	void AddError(std::string Message);
+	void AddErrorLocked(std::string Message);
+	void AddDeadGeometry(uint64_t Address, const std::string& Name);
+	/// "unbuilt Name", "destroyed Name" or "no geometry". Under Mutex.
+	std::string DescribeGeometry(uint64_t Address) const;
 	/// Counts an allocation: injected failures, then the budget.
 	FRTStatus Allocate(EMockMemory Kind, uint64_t Bytes, const char* Name);
 	uint64_t TakeAddress(uint64_t Bytes);

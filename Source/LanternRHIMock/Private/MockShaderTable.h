@@ -1,0 +1,137 @@
+// The shader binding table of the mock: records on the CPU, a ring of host copies, and what the device holds.
+#pragma once
+
+#include "MockObjects.h"
+
+#include <atomic>
+
+namespace Lantern
+{
+
+inline constexpr uint32_t RecordKinds = 4;
+
+/// Where the records of each kind stand in a host or device copy.
+struct FMockTableLayout
+{
+	std::array<uint32_t, RecordKinds> Counts = {};
+	std::array<uint64_t, RecordKinds> Strides = {}, Starts = {};
+	uint64_t Size = 0;
+
+	void Arrange(uint32_t BaseAlignment);
+	uint64_t GetOffset(uint32_t Kind, uint32_t Index) const { return Starts[Kind] + Strides[Kind] * Index; }
+};
+
+/// Memory of one copy; counts as the device's until its last owner lets go.
+class FMockTableMemory
+{
+public:
+	explicit FMockTableMemory(std::shared_ptr<FMockState> InState) : State(std::move(InState)) {}
+	~FMockTableMemory();
+	FMockTableMemory(const FMockTableMemory&) = delete;
+	FMockTableMemory& operator=(const FMockTableMemory&) = delete;
+	FRTStatus Allocate(uint64_t Bytes, const std::string& Name);
+
+	uint8_t* Bytes = nullptr;
+	uint64_t Size = 0;
+
+private:
+	std::shared_ptr<FMockState> State;
+};
+
+struct FMockHostCopy : FMockTableMemory
+{
+	using FMockTableMemory::FMockTableMemory;
+	std::atomic<uint32_t> Users = 0; ///< staged, recorded or in flight
+};
+
+/// As executed; guarded by FMockShaderTable::DeviceMutex.
+struct FMockDeviceCopy : FMockTableMemory
+{
+	using FMockTableMemory::FMockTableMemory;
+	FMockTableLayout Layout;
+	uint64_t Pipeline = 0; ///< id of the one it was last updated for
+	FMockGroups Groups;    ///< of that pipeline
+	bool bUpdated = false;
+};
+
+/// A handle holds a magic number, its pipeline's id and the group.
+class FMockShaderTable final : public TMockObject<IRTShaderTable>
+{
+public:
+	FMockShaderTable(std::shared_ptr<FMockState> InState, const FRTShaderTableDesc& InDesc);
+	/// The copies that a new table has.
+	FRTStatus Allocate();
+
+	const FRTShaderTableDesc& GetDesc() const override { return Desc; }
+	void SetRecord(ERTRecordKind Kind, uint32_t Index, uint32_t Group, const void* Data, uint32_t DataBytes) override;
+	void SetHitRecords(uint32_t First, uint32_t Count, const uint32_t* Groups, const void* Data) override;
+	void SetGroups(ERTRecordKind Kind, uint32_t First, uint32_t Count, const uint32_t* Groups) override;
+	void SetPipeline(IRTPipeline* InPipeline) override;
+	FRTStatus Reserve(const uint32_t Counts[4]) override;
+	FRTStatus Stage() override;
+	void Invalidate() override;
+	uint64_t GetRecordStride(ERTRecordKind Kind) const override { return Layout.Strides[static_cast<uint32_t>(Kind)]; }
+	uint64_t GetSizeBytes() const override { return Layout.Size; }
+	uint64_t GetUpdatedBytes() const override { return UpdatedBytes; }
+
+	struct FRange
+	{
+		uint32_t Kind = 0, First = 0, Count = 0;
+	};
+	/// What one recorded UpdateShaderTable does. It reads the host copy when it executes.
+	struct FUpdate
+	{
+		std::shared_ptr<FMockHostCopy> Source; ///< in use until the last update with it is gone
+		std::vector<FRange> Ranges;
+		std::shared_ptr<FMockDeviceCopy> From; ///< null: nothing moves
+		std::shared_ptr<FMockDeviceCopy> To;
+		TRTRef<FMockPipeline> Pipeline;
+		uint64_t Bytes = 0, MovedBytes = 0;
+	};
+	/// Stages what is not and takes it. On error nothing has changed.
+	FRTStatus TakeUpdate(FUpdate& Out);
+	void Execute(const FUpdate& Update);
+	/// Empty where rays with the table's pipeline of that id may be traced with this copy.
+	std::string CheckTrace(const FMockDeviceCopy& Copy, uint64_t PipelineId) const;
+	const std::shared_ptr<FMockDeviceCopy>& GetDeviceCopy() const { return Current; }
+	FRTMockRecord Resolve(ERTRecordKind Kind, uint32_t Index) const;
+	FRTMockTable Inspect() const;
+
+	FRTShaderTableDesc Desc;
+	TRTRef<FMockPipeline> Pipeline;
+
+private:
+	using FDirtyWords = std::unique_ptr<std::atomic<uint64_t>[]>;
+
+	uint8_t* GetRecord(uint32_t Kind, uint32_t Index) { return Records[Kind].data() + Layout.Strides[Kind] * Index; }
+	void WriteHandle(uint8_t* Record, uint32_t Group) const;
+	void MarkDirty(uint32_t Kind, uint32_t First, uint32_t Count);
+	/// Moves the dirty records into Staged.
+	void Gather();
+	void MergeStaged();
+	/// What is staged is dirty again: its copy will not be recorded.
+	void Unstage();
+	FRTStatus AcquireHostCopy(std::shared_ptr<FMockHostCopy>& OutUse);
+	FRTStatus AddHostCopy(std::shared_ptr<FMockHostCopy>& Out);
+	void SetCounts(const std::array<uint32_t, RecordKinds>& Counts);
+
+	FMockTableLayout Layout;
+	std::array<std::vector<uint8_t>, RecordKinds> Records;
+	std::array<FDirtyWords, RecordKinds> Dirty; ///< a bit per record
+	std::array<std::atomic<bool>, RecordKinds> bDirty = {};
+	uint64_t UpdatedBytes = 0;
+
+	std::vector<std::shared_ptr<FMockHostCopy>> Ring;
+	std::shared_ptr<FMockHostCopy> Staged;
+	std::vector<FRange> StagedRanges;
+	uint32_t CopiesMade = 0;
+
+	std::shared_ptr<FMockDeviceCopy> Current; ///< of what is recorded now
+	std::shared_ptr<FMockDeviceCopy> Next;    ///< after Reserve: of what is recorded from the next update on
+
+	mutable std::mutex DeviceMutex; ///< of everything below and of the contents of device copies
+	std::shared_ptr<FMockDeviceCopy> Executed;
+	uint32_t Moves = 0;
+};
+
+} // namespace Lantern
