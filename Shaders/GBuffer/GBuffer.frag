@@ -1,7 +1,7 @@
 #version 460
 #define MATERIAL_IMPLICIT_LOD
 #include "../Shared/GBufferTypes.h"
-#include "../Materials/Standard.glsl"
+#include "../Materials/Material.glsl"
 
 layout(push_constant, scalar) uniform FPush { FGBufferConstants Push; };
 

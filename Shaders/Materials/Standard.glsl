@@ -1,5 +1,5 @@
-// glTF 2.0 metallic-roughness. EvaluateMaterial is the one place that says what a surface is made of: the
-// raster G-buffer, the hit groups, the alpha test and light sampling all call it.
+// glTF 2.0 metallic-roughness, and what other material programs may build on. EvaluateMaterial (Material.glsl) is the one
+// place that says what a surface is made of: the raster G-buffer, the hit groups and the alpha test all call it.
 //
 // The includer may define
 //   MATERIAL_TEXTURE(Slot, UV)  how a texture is sampled (default: finest level, as rays do)
@@ -64,7 +64,7 @@ bool IsCutAway(FMaterialData M, FMaterialInputs I)
 }
 
 // The same at a hit on a masked section, reading only what it needs.
-bool IsHitCutAway(FMaterialRef Materials, FSectionData Section, uint Primitive, vec2 Barycentrics)
+bool IsStandardHitCutAway(FMaterialRef Materials, FSectionData Section, uint Primitive, vec2 Barycentrics)
 {
 	FMaterialData M = Materials.Data[Section.Material];
 	uvec3 Triangle = FetchTriangle(Section, Primitive);
@@ -100,7 +100,7 @@ vec3 EvaluateNormal(FMaterialData M, FMaterialInputs I)
 }
 
 // Override: r.RT.Material.Override.
-FMaterialSurface EvaluateMaterial(FMaterialData M, FMaterialInputs I, uint Override)
+FMaterialSurface EvaluateStandard(FMaterialData M, FMaterialInputs I, uint Override)
 {
 	FMaterialSurface S;
 	vec4 Color = EvaluateBaseColor(M, I);

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_EXT_ray_tracing : require
 #include "../Library/Bindings.glsl"
-#include "../Materials/Standard.glsl"
+#include "../Materials/Material.glsl"
 #include "MaterialPayload.glsl"
 
 layout(shaderRecordEXT, scalar) readonly buffer FRecord { FSectionData Section; };

@@ -4,7 +4,7 @@
 
 #include "../Library/Bindings.glsl"
 #ifdef HAS_MASKED
-#include "../Materials/Standard.glsl"
+#include "../Materials/AlphaTest.glsl"
 #endif
 
 layout(set = 0, binding = 3) uniform accelerationStructureEXT Scenes[];

@@ -22,7 +22,8 @@ FShaderSource MakeShader(const std::string& Name)
 FRTPSODesc MakePrograms(uint32_t RayTypes, bool bMasked)
 {
 	FRTPSODesc Desc;
-	Desc.bMasked = bMasked;
+	Desc.HitPrograms.push_back({StandardProgram, ERTHitClass::Opaque});
+	if (bMasked) { Desc.HitPrograms.push_back({StandardProgram, ERTHitClass::Masked}); }
 	Desc.RayGens = {MakeShader("Generate")};
 	for (uint32_t Type = 0; Type < RayTypes; ++Type)
 	{
@@ -79,7 +80,7 @@ protected:
 		const auto [It, bNew] = Pipelines.try_emplace({RayTypes, bMasked});
 		if (bNew)
 		{
-			const FRTStatus Status = FRTPSO::Create(*Device, Compiler, MakePrograms(RayTypes, bMasked), It->second);
+			const FRTStatus Status = FRTPSO::Create(*Device, Compiler, FMaterialPrograms(), MakePrograms(RayTypes, bMasked), It->second);
 			EXPECT_TRUE(Status) << Status.Message;
 		}
 		return It->second;

@@ -118,14 +118,14 @@ void FShaderCompiler::FreeSharedMemory() { FinalizeGlslang(); }
 FRTStatus FShaderCompiler::Compile(const FShaderSource& Source, FShaderBinary& Out)
 {
 	Out = {};
-	Out.Name = Source.Path;
+	Out.Name = Source.Name.empty() ? Source.Path : Source.Name;
 	Out.Stage = Source.Stage;
 	const std::string WrongDefine = CheckDefines(Source);
 	if (!WrongDefine.empty())
 	{
 		return Impl->Fail(Source, WrongDefine);
 	}
-	const FIncludeTree Tree = Impl->Resolver.Resolve(Source.Path, Source.Text);
+	const FIncludeTree Tree = Impl->Resolver.Resolve(Source);
 	if (!Tree.Error.empty())
 	{
 		return Impl->Fail(Source, Tree.Error);
@@ -162,7 +162,7 @@ FRTStatus FShaderCompiler::Compile(const FShaderSource& Source, FShaderBinary& O
 
 std::string FShaderCompiler::GetKey(const FShaderSource& Source)
 {
-	const FIncludeTree Tree = Impl->Resolver.Resolve(Source.Path, Source.Text);
+	const FIncludeTree Tree = Impl->Resolver.Resolve(Source);
 	if (!Tree.Error.empty() || Tree.bMissing)
 	{
 		return {};

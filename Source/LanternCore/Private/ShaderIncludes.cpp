@@ -166,8 +166,22 @@ std::shared_ptr<const FShaderFile> FShaderFileCache::Read(const fs::path& Path)
 struct FIncludeResolver::FWalk
 {
 	FIncludeTree& Tree;
+	const FShaderSource& Source;
 	std::unordered_map<std::string, int> ByLocation;
 	std::vector<int> Stack;
+
+	const FShaderHeader* FindHeader(const fs::path& Include) const
+	{
+		const std::string Name = Include.lexically_normal().generic_string();
+		for (const FShaderHeader& Header : Source.Headers)
+		{
+			if (Header.Include == Name)
+			{
+				return &Header;
+			}
+		}
+		return nullptr;
+	}
 };
 
 FIncludeResolver::FIncludeResolver(std::vector<std::string> InSearchFolders, FShaderFileCache& InFiles) : Files(InFiles)
@@ -221,8 +235,17 @@ bool FIncludeResolver::FindInFolders(const fs::path& Relative, FFound& Out)
 	return bFound;
 }
 
-bool FIncludeResolver::FindInclude(const FIncludeTree::FNode& From, const FIncludeLine& Line, FFound& Out)
+bool FIncludeResolver::FindInclude(const FWalk& Walk, const FIncludeTree::FNode& From, const FIncludeLine& Line,
+                                   FFound& Out)
 {
+	const FShaderHeader* Header = Line.bQuoted ? Walk.FindHeader(fs::path(From.Name).parent_path() / Line.Name) : nullptr;
+	Header = Header ? Header : Walk.FindHeader(Line.Name);
+	if (Header)
+	{
+		Out.Name = Header->Name;
+		Out.File = MakeShaderFile(Header->Text);
+		return true;
+	}
 	if (Line.bQuoted && !From.Location.empty())
 	{
 		const fs::path Beside = (From.Location.parent_path() / Line.Name).lexically_normal();
@@ -251,14 +274,14 @@ void FIncludeResolver::Visit(FWalk& Walk, int Index)
 	for (const FIncludeLine& Line : File->Includes)
 	{
 		FFound Found;
-		if (!FindInclude(Tree.Nodes[Index], Line, Found))
+		if (!FindInclude(Walk, Tree.Nodes[Index], Line, Found))
 		{
 			Tree.Nodes[Index].Targets.push_back(FIncludeTree::Missing);
 			Tree.bMissing |= Line.bQuoted;
 			continue;
 		}
-		const auto [It, bNew] =
-		    Walk.ByLocation.try_emplace(Found.Location.string(), static_cast<int>(Tree.Nodes.size()));
+		const std::string Key = Found.Location.empty() ? "memory:" + Found.Name : Found.Location.string();
+		const auto [It, bNew] = Walk.ByLocation.try_emplace(Key, static_cast<int>(Tree.Nodes.size()));
 		const int Target = It->second;
 		Tree.Nodes[Index].Targets.push_back(Target);
 		const auto Above = std::find(Walk.Stack.begin(), Walk.Stack.end(), Target);
@@ -289,13 +312,14 @@ void FIncludeResolver::Visit(FWalk& Walk, int Index)
 	Walk.Stack.pop_back();
 }
 
-FIncludeTree FIncludeResolver::Resolve(const std::string& Path, const std::string& Text)
+FIncludeTree FIncludeResolver::Resolve(const FShaderSource& Source)
 {
+	const std::string& Path = Source.Path;
 	FIncludeTree Tree;
-	FWalk Walk{Tree, {}, {}};
-	if (!Text.empty())
+	FWalk Walk{Tree, Source, {}, {}};
+	if (!Source.Text.empty())
 	{
-		Tree.Nodes.push_back({Path, {}, MakeShaderFile(Text), {}});
+		Tree.Nodes.push_back({Path, {}, MakeShaderFile(Source.Text), {}});
 	}
 	else
 	{

@@ -12,6 +12,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "LanternCore/ShaderCompiler.h"
+
 namespace Lantern
 {
 
@@ -82,8 +84,7 @@ class FIncludeResolver
 {
 public:
 	FIncludeResolver(std::vector<std::string> InSearchFolders, FShaderFileCache& InFiles);
-	/// Text: used for the shader itself where not empty; Path then only names it.
-	FIncludeTree Resolve(const std::string& Path, const std::string& Text);
+	FIncludeTree Resolve(const FShaderSource& Source);
 	const std::string& GetFoldersText() const { return FoldersText; }
 
 private:
@@ -96,7 +97,7 @@ private:
 	struct FWalk;
 
 	bool FindInFolders(const std::filesystem::path& Relative, FFound& Out);
-	bool FindInclude(const FIncludeTree::FNode& From, const FIncludeLine& Line, FFound& Out);
+	bool FindInclude(const FWalk& Walk, const FIncludeTree::FNode& From, const FIncludeLine& Line, FFound& Out);
 	std::string NameOf(const std::filesystem::path& Location) const;
 	void Visit(FWalk& Walk, int Index);
 

@@ -36,11 +36,26 @@ FRayType MakeMaterialRay()
 }
 } // namespace
 
+std::string MakeRayProgramsKey(const FRTPSODesc& Desc)
+{
+	std::string Key;
+	for (const FHitProgram Program : Desc.HitPrograms) { Key += std::to_string(Program.Program) + ':' + std::to_string(static_cast<int>(Program.Class)) + ' '; }
+	for (const FShaderSource& RayGen : Desc.RayGens)
+	{
+		Key += RayGen.Path;
+		for (const auto& [Name, Value] : RayGen.Defines) { Key += '|' + Name + '=' + Value; }
+		Key += '\n';
+	}
+	for (const FRayType& Type : Desc.RayTypes) { Key += Type.Name + '\n'; }
+	return Key;
+}
+
 FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FFrameFeatures& Features)
 {
 	FRayPrograms Programs;
 	FRTPSODesc& Desc = Programs.Desc;
-	Desc.bMasked = Facts.bMasked;
+	Desc.HitPrograms.push_back({StandardProgram, ERTHitClass::Opaque});
+	if (Facts.bMasked) { Desc.HitPrograms.push_back({StandardProgram, ERTHitClass::Masked}); }
 	if (!Capabilities.bRayTracingPipeline) { return Programs; }
 	if (Features.bReference)
 	{

@@ -13,6 +13,8 @@ struct FRayPrograms
 	uint32_t ReferenceRayGen = NoRayGen;
 };
 
+/// Equal strings: equal pipelines.
+std::string MakeRayProgramsKey(const FRTPSODesc& Desc);
 FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FFrameFeatures& Features);
 
 } // namespace Lantern

@@ -55,20 +55,20 @@ FRTStatus FRenderer::WaitForSlot()
 FRTStatus FRenderer::PrepareRayPipeline(const FFrameFeatures& Features)
 {
 	Context->RayPipeline = nullptr;
-	const FRayPrograms Programs = ChooseRayPrograms(Device.GetCapabilities(), Context->Facts, Features);
-	if (Programs.Desc.RayGens.empty())
+	const FRayPrograms Wanted = ChooseRayPrograms(Device.GetCapabilities(), Context->Facts, Features);
+	if (Wanted.Desc.RayGens.empty())
 	{
 		RayPipeline.reset();
 		return FRTStatus::Success();
 	}
-	FRayPipelineEntry& Entry = RayPipelines[FRTPSO::MakeKey(Programs.Desc)];
+	FRayPipelineEntry& Entry = RayPipelines[MakeRayProgramsKey(Wanted.Desc)];
 	// What the compiler refused once it refuses again; what failed for want of memory may be tried again.
 	if (Entry.Status.Code == ERTResult::CompileFailed) { return Entry.Status; }
 	if (!Entry.Pipeline)
 	{
 		const auto Start = std::chrono::steady_clock::now();
 		auto Pipeline = std::make_shared<FRTPSO>();
-		Entry.Status = FRTPSO::Create(Device, Compiler, Programs.Desc, *Pipeline);
+		Entry.Status = FRTPSO::Create(Device, Compiler, Programs, Wanted.Desc, *Pipeline);
 		if (!Entry.Status) { return Entry.Status; }
 		Entry.Pipeline = std::move(Pipeline);
 		LastPipelineMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - Start).count();
@@ -76,8 +76,8 @@ FRTStatus FRenderer::PrepareRayPipeline(const FFrameFeatures& Features)
 	RayPipeline = Entry.Pipeline;
 	Context->RayPipeline = RayPipeline.get();
 	Context->RayBindings = &Bindings;
-	Context->SunShadowRayGen = Programs.SunShadowRayGen;
-	Context->ReferenceRayGen = Programs.ReferenceRayGen;
+	Context->SunShadowRayGen = Wanted.SunShadowRayGen;
+	Context->ReferenceRayGen = Wanted.ReferenceRayGen;
 	Context->Scene.SetRayTypes(RayPipeline->GetRayTypeCount());
 	return FRTStatus::Success();
 }

@@ -1,93 +1,118 @@
 #include "LanternScene/RayTracingPipeline.h"
 
-#include <algorithm>
+#include <atomic>
 #include <cassert>
+#include <map>
 
 #include "LanternCore/Tasks.h"
 #include "LanternScene/SectionTable.h"
+#include "PipelineUnits.h"
 
 namespace Lantern
 {
 
 namespace
 {
-void AppendKey(std::string& Key, const FShaderSource& Source)
-{
-	Key += Source.Path;
-	for (const auto& [Name, Value] : Source.Defines) { Key += '|' + Name + '=' + Value; }
-	Key += '\n';
-}
-
-void AddRayTypeDefines(FShaderSource& Source, const FRTPSODesc& Desc)
-{
-	Source.Defines.emplace_back("RAY_TYPES", std::to_string(Desc.RayTypes.size()));
-	for (size_t Type = 0; Type < Desc.RayTypes.size(); ++Type)
-	{
-		Source.Defines.emplace_back(Desc.RayTypes[Type].Name + "_RAY", std::to_string(Type));
-		Source.Defines.emplace_back(Desc.RayTypes[Type].Name + "_MISS", std::to_string(Type));
-	}
-}
-
-/// Shaders of a pipeline in the making; each distinct one once.
-struct FShaderList
+/// Shaders and groups of a pipeline without libraries; each distinct shader once.
+struct FMonolith
 {
 	std::vector<FShaderSource> Sources;
-	uint32_t Add(FShaderSource Source, ERTShaderStage Stage)
+	std::vector<FRTShaderGroup> Groups;
+	std::map<std::string, uint32_t> Known;
+
+	uint32_t AddGroup(const FPipelineUnit& Unit)
 	{
-		Source.Stage = Stage;
-		std::string Key;
-		AppendKey(Key, Source);
-		for (size_t I = 0; I < Sources.size(); ++I)
+		std::vector<uint32_t> Indices;
+		for (const FShaderSource& Source : Unit.Shaders)
 		{
-			std::string Other;
-			AppendKey(Other, Sources[I]);
-			if (Other == Key) { return static_cast<uint32_t>(I); }
+			const auto [It, bNew] = Known.try_emplace(MakeSourceKey(Source) + Source.Name, static_cast<uint32_t>(Sources.size()));
+			if (bNew) { Sources.push_back(Source); }
+			Indices.push_back(It->second);
 		}
-		Sources.push_back(std::move(Source));
-		return static_cast<uint32_t>(Sources.size() - 1);
+		Groups.push_back(MakeGroup(Unit, Indices));
+		return static_cast<uint32_t>(Groups.size() - 1);
 	}
 };
 
-std::vector<FRTShaderGroup> MakeGroups(const FRTPSODesc& Desc, FShaderList& Shaders)
+FRTPSOLayout AddGroups(const FRTPSODesc& Desc, const FMaterialPrograms& Programs, FMonolith& Monolith)
 {
-	std::vector<FRTShaderGroup> Groups;
-	for (FShaderSource RayGen : Desc.RayGens)
+	FRTPSOLayout Layout;
+	Layout.RayGens = Desc.RayGens;
+	const uint32_t Types = static_cast<uint32_t>(Desc.RayTypes.size());
+	for (uint32_t I = 0; I < Desc.RayGens.size(); ++I) { Layout.RayGenGroups.push_back(Monolith.AddGroup(MakeRayGenUnit(Desc, I))); }
+	for (uint32_t I = 0; I < Types; ++I) { Layout.MissGroups.push_back(Monolith.AddGroup(MakeMissUnit(Desc, I))); }
+	for (uint32_t I = 0; I < Desc.Callables.size(); ++I) { Layout.CallableGroups.push_back(Monolith.AddGroup(MakeCallableUnit(Desc, I))); }
+	Layout.EmptyHitGroup = static_cast<uint32_t>(Monolith.Groups.size());
+	Monolith.Groups.push_back({ERTGroupKind::Triangles});
+	for (const FHitProgram Program : Desc.HitPrograms)
 	{
-		AddRayTypeDefines(RayGen, Desc);
-		Groups.push_back({ERTGroupKind::General, Shaders.Add(std::move(RayGen), ERTShaderStage::RayGen)});
-	}
-	for (const FRayType& Type : Desc.RayTypes) { Groups.push_back({ERTGroupKind::General, Shaders.Add(Type.Miss, ERTShaderStage::Miss)}); }
-	for (int Masked = 0; Masked < (Desc.bMasked ? 2 : 1); ++Masked)
-	{
-		for (const FRayType& Type : Desc.RayTypes)
+		FRTPSOLayout::FHit& Hit = Layout.Hits.emplace_back();
+		Hit.Program = Program;
+		Hit.State = ERTHitState::Ready;
+		for (uint32_t Type = 0; Type < Types; ++Type)
 		{
-			FRTShaderGroup Group{ERTGroupKind::Triangles};
-			if (Type.ClosestHit) { Group.ClosestHit = Shaders.Add(*Type.ClosestHit, ERTShaderStage::ClosestHit); }
-			if (Masked) { Group.AnyHit = Shaders.Add(Type.MaskedAnyHit, ERTShaderStage::AnyHit); }
-			Groups.push_back(Group);
+			const FPipelineUnit Unit = MakeHitUnit(Desc, Type, Program, Programs);
+			Hit.Groups.push_back(Unit.Shaders.empty() ? Layout.EmptyHitGroup : Monolith.AddGroup(Unit));
 		}
 	}
-	return Groups;
+	return Layout;
 }
 } // namespace
 
-std::string FRTPSO::MakeKey(const FRTPSODesc& Desc)
+FRTPSO::FRTPSO(TRTRef<IRTPipeline> InPipeline, FRTPSOLayout InLayout) : Pipeline(std::move(InPipeline)), Layout(std::move(InLayout))
 {
-	std::string Key = Desc.bMasked ? "masked\n" : "opaque\n";
-	for (const FShaderSource& RayGen : Desc.RayGens) { AppendKey(Key, RayGen); }
-	for (const FRayType& Type : Desc.RayTypes) { Key += Type.Name + '\n'; }
-	return Key;
+	static std::atomic<uint64_t> NextRevision{1};
+	Revision = NextRevision++;
+	const uint32_t Types = GetRayTypeCount();
+	for (const FRTPSOLayout::FHit& Hit : Layout.Hits) { KnownPrograms = std::max(KnownPrograms, Hit.Program.Program + 1); }
+	HitGroups.resize(size_t(KnownPrograms + 1) * HitClassCount * Types, Layout.EmptyHitGroup);
+	States.resize(size_t(KnownPrograms + 1) * HitClassCount, ERTHitState::Missing);
+	for (size_t Index = 0; Index < States.size(); ++Index)
+	{
+		const std::vector<uint32_t>& StandIns = Layout.StandIns[Index % HitClassCount];
+		if (StandIns.empty()) { continue; }
+		States[Index] = ERTHitState::StandIn;
+		std::copy(StandIns.begin(), StandIns.end(), HitGroups.begin() + static_cast<ptrdiff_t>(Index * Types));
+	}
+	for (const FRTPSOLayout::FHit& Hit : Layout.Hits)
+	{
+		const uint32_t Index = IndexOf(Hit.Program);
+		if (Hit.State == ERTHitState::Ready)
+		{
+			States[Index] = ERTHitState::Ready;
+			std::copy(Hit.Groups.begin(), Hit.Groups.end(), HitGroups.begin() + static_cast<ptrdiff_t>(Index * Types));
+		}
+		else { MissingCount += Types; }
+	}
 }
 
-FRTStatus FRTPSO::Create(IRTDevice& Device, FShaderCompiler& Compiler, const FRTPSODesc& Desc, FRTPSO& Out)
+uint32_t FRTPSO::FindRayGen(const FShaderSource& Source) const
 {
-	FShaderList Shaders;
-	const std::vector<FRTShaderGroup> Groups = MakeGroups(Desc, Shaders);
-	const size_t Count = Shaders.Sources.size();
+	for (size_t I = 0; I < Layout.RayGens.size(); ++I)
+	{
+		const FShaderSource& Own = Layout.RayGens[I];
+		if (Own.Path == Source.Path && Own.Defines == Source.Defines && Own.Text == Source.Text) { return static_cast<uint32_t>(I); }
+	}
+	return NoRayGen;
+}
+
+uint32_t FRTPSO::FindRayGenVariant(const FShaderSource& Source) const
+{
+	if (const uint32_t Index = FindRayGen(Source); Index != NoRayGen) { return Index; }
+	const auto IsVariant = [&](const FShaderSource& Own) { return Own.Path == Source.Path; };
+	const auto Found = std::find_if(Layout.RayGens.begin(), Layout.RayGens.end(), IsVariant);
+	return Found == Layout.RayGens.end() ? NoRayGen : static_cast<uint32_t>(Found - Layout.RayGens.begin());
+}
+
+FRTStatus FRTPSO::Create(IRTDevice& Device, FShaderCompiler& Compiler, const FMaterialPrograms& Programs, const FRTPSODesc& Desc, FRTPSO& Out)
+{
+	FMonolith Monolith;
+	FRTPSOLayout Layout = AddGroups(Desc, Programs, Monolith);
+	const size_t Count = Monolith.Sources.size();
 	std::vector<FShaderBinary> Binaries(Count);
 	std::vector<FRTStatus> Results(Count);
 	ParallelFor(Count, 1, [&](size_t Begin, size_t End) {
-		for (size_t I = Begin; I < End; ++I) { Results[I] = Compiler.Compile(Shaders.Sources[I], Binaries[I]); }
+		for (size_t I = Begin; I < End; ++I) { Results[I] = Compiler.Compile(Monolith.Sources[I], Binaries[I]); }
 	});
 	for (const FRTStatus& Result : Results)
 	{
@@ -99,15 +124,14 @@ FRTStatus FRTPSO::Create(IRTDevice& Device, FShaderCompiler& Compiler, const FRT
 	FRTRayTracingPipelineDesc Pipeline;
 	Pipeline.Shaders = Codes.data();
 	Pipeline.ShaderCount = static_cast<uint32_t>(Codes.size());
-	Pipeline.Groups = Groups.data();
-	Pipeline.GroupCount = static_cast<uint32_t>(Groups.size());
-	Pipeline.MaxPayloadBytes = 4;
-	for (const FRayType& Type : Desc.RayTypes) { Pipeline.MaxPayloadBytes = std::max(Pipeline.MaxPayloadBytes, Type.PayloadBytes); }
+	Pipeline.Groups = Monolith.Groups.data();
+	Pipeline.GroupCount = static_cast<uint32_t>(Monolith.Groups.size());
+	Pipeline.MaxPayloadBytes = GetPayloadBytes(Desc);
 	Pipeline.Name = "RTPSO";
-	Out.RayTypeCount = static_cast<uint32_t>(Desc.RayTypes.size());
-	Out.RayGenCount = static_cast<uint32_t>(Desc.RayGens.size());
-	Out.bMasked = Desc.bMasked;
-	return Device.CreateRayTracingPipeline(Pipeline, Out.Pipeline.ReleaseAndGetAddress());
+	TRTRef<IRTPipeline> Made;
+	if (FRTStatus S = Device.CreateRayTracingPipeline(Pipeline, Made.ReleaseAndGetAddress()); !S) { return S; }
+	Out = FRTPSO(std::move(Made), std::move(Layout));
+	return FRTStatus::Success();
 }
 
 void FShaderBindings::WriteSection(const FRTPSO& Pipeline, const FSectionTable& Sections, uint32_t Section)
@@ -116,7 +140,8 @@ void FShaderBindings::WriteSection(const FRTPSO& Pipeline, const FSectionTable& 
 	const uint32_t Types = Pipeline.GetRayTypeCount();
 	for (uint32_t Type = 0; Type < Types; ++Type)
 	{
-		const uint32_t Group = Pipeline.HitGroup(Type, (Data.Flags & SECTION_MASKED) != 0);
+		const bool bMasked = (Data.Flags & SECTION_MASKED) != 0;
+		const uint32_t Group = Pipeline.HitGroup(Type, {StandardProgram, bMasked ? ERTHitClass::Masked : ERTHitClass::Opaque});
 		Table->SetRecord(ERTRecordKind::Hit, Section * Types + Type, Group, &Data, sizeof(Data));
 	}
 	RecordsWritten += Types;

@@ -12,6 +12,15 @@
 namespace Lantern
 {
 
+/// A header in memory. Takes the place of the file of that name, if there is one.
+struct FShaderHeader
+{
+	std::string Include; ///< relative to the search folders; include lines that lead there find this
+	std::string Text;
+	std::string Name; ///< what errors call it; its own quoted includes are searched from this place first
+	friend bool operator==(const FShaderHeader&, const FShaderHeader&) = default;
+};
+
 struct FShaderSource
 {
 	std::string Path; ///< relative to one of the search folders, e.g. "Shadow/SunShadow.rgen"
@@ -20,6 +29,8 @@ struct FShaderSource
 	std::vector<std::pair<std::string, std::string>> Defines;
 	/// If not empty: compiled instead of the file's text; Path then only names it (generated shaders).
 	std::string Text;
+	std::vector<FShaderHeader> Headers = {}; ///< their texts are part of the key
+	std::string Name = {};                   ///< of the binary; empty: Path
 };
 
 struct FShaderBinary

@@ -39,8 +39,6 @@ struct FFrameFeatures
 	std::vector<FSkinningInputs> Skinning;
 };
 
-inline constexpr uint32_t NoRayGen = ~0u;
-
 /// Given to every pass.
 struct FFrameContext
 {
@@ -89,6 +87,7 @@ public:
 	FRTStatus WaitForAll();
 	IRTDevice& GetDevice() { return Device; }
 	FShaderCompiler& GetCompiler() { return Compiler; }
+	FMaterialPrograms& GetPrograms() { return Programs; }
 	FPipelineCache& GetPipelines() { return Pipelines; }
 	FFrameUploads& GetUploads() { return Uploads; }
 	FFrameGraphResources& GetGraphResources() { return GraphResources; }
@@ -110,6 +109,7 @@ private:
 	FFrameUploads Uploads;
 	FFrameGraphResources GraphResources;
 	FShaderBindings Bindings;
+	FMaterialPrograms Programs;
 	struct FRayPipelineEntry
 	{
 		std::shared_ptr<FRTPSO> Pipeline;

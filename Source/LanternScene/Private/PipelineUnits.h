@@ -1,0 +1,32 @@
+// A unit: one shader group of an RTPSO, and what it is made from.
+#pragma once
+
+#include "LanternScene/RayTracingPipeline.h"
+
+namespace Lantern
+{
+
+struct FPipelineUnit
+{
+	std::string Key; ///< names the group; the same for all versions of its text
+	std::string Name;
+	ERTGroupKind Kind = ERTGroupKind::General;
+	std::vector<FShaderSource> Shaders; ///< with their stages; none: the group runs nothing
+	uint64_t Version = 0;               ///< of the program's text
+};
+
+FPipelineUnit MakeRayGenUnit(const FRTPSODesc& Desc, uint32_t Index);
+FPipelineUnit MakeMissUnit(const FRTPSODesc& Desc, uint32_t RayType);
+FPipelineUnit MakeCallableUnit(const FRTPSODesc& Desc, uint32_t Index);
+FPipelineUnit MakeHitUnit(const FRTPSODesc& Desc, uint32_t RayType, FHitProgram Program, const FMaterialPrograms& Programs);
+/// Runs in place of hit programs of Class: the standard material, with the alpha test and a count of the rays that hit it.
+FPipelineUnit MakeStandInUnit(const FRTPSODesc& Desc, uint32_t RayType, ERTHitClass Class, const FMaterialPrograms& Programs);
+/// Largest payload of the ray types, bytes.
+uint32_t GetPayloadBytes(const FRTPSODesc& Desc);
+
+/// Text that is equal where two sources are; without programs' headers.
+std::string MakeSourceKey(const FShaderSource& Source);
+/// Indices of Shaders, which may lie anywhere in a list: Indices[i] is that of Unit.Shaders[i].
+FRTShaderGroup MakeGroup(const FPipelineUnit& Unit, const std::vector<uint32_t>& Indices);
+
+} // namespace Lantern
