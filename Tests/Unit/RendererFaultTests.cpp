@@ -35,7 +35,8 @@ protected:
 			const bool bAllocation =
 			    Call.Kind == ERTMockCall::CreateBuffer || Call.Kind == ERTMockCall::CreateTexture ||
 			    Call.Kind == ERTMockCall::CreateGeometry || Call.Kind == ERTMockCall::CreateScene ||
-			    Call.Kind == ERTMockCall::CreateShaderTable;
+			    Call.Kind == ERTMockCall::CreateShaderTable || Call.Kind == ERTMockCall::ReserveShaderTable ||
+			    Call.Kind == ERTMockCall::MakeHostCopy;
 			if (bAllocation)
 			{
 				Names.push_back(Call.Name);

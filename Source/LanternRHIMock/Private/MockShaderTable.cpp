@@ -44,9 +44,9 @@ FMockTableMemory::~FMockTableMemory()
 	}
 }
 
-FRTStatus FMockTableMemory::Allocate(uint64_t InSize, const std::string& Name)
+FRTStatus FMockTableMemory::Allocate(uint64_t InSize, const std::string& Name, bool bCount)
 {
-	FRTStatus Status = State->Allocate(EMockMemory::ShaderTable, InSize, Name.c_str());
+	FRTStatus Status = State->Allocate(EMockMemory::ShaderTable, InSize, Name.c_str(), bCount);
 	if (!Status)
 	{
 		return Status;
@@ -85,7 +85,7 @@ FRTStatus FMockShaderTable::Allocate()
 	std::shared_ptr<FMockHostCopy> Copy;
 	for (uint32_t i = 0; Status && i < std::max(1u, Desc.Copies); ++i)
 	{
-		Status = AddHostCopy(Copy);
+		Status = AddHostCopy(Copy, false);
 	}
 	return Status;
 }
@@ -233,10 +233,10 @@ FRTStatus FMockShaderTable::Reserve(const uint32_t Counts[4])
 	return Status;
 }
 
-FRTStatus FMockShaderTable::AddHostCopy(std::shared_ptr<FMockHostCopy>& Out)
+FRTStatus FMockShaderTable::AddHostCopy(std::shared_ptr<FMockHostCopy>& Out, bool bCount)
 {
 	auto Copy = std::make_shared<FMockHostCopy>(State);
-	FRTStatus Status = Copy->Allocate(Layout.Size, Name);
+	FRTStatus Status = Copy->Allocate(Layout.Size, Name, bCount);
 	if (Status)
 	{
 		++CopiesMade;
@@ -261,7 +261,8 @@ FRTStatus FMockShaderTable::AcquireHostCopy(std::shared_ptr<FMockHostCopy>& OutU
 	}
 	else
 	{
-		Status = AddHostCopy(Copy);
+		Status = State->Log(ERTMockCall::MakeHostCopy, Name, {Layout.Size});
+		Status = Status ? AddHostCopy(Copy, true) : Status;
 	}
 	if (Status)
 	{

@@ -29,7 +29,7 @@ public:
 	~FMockTableMemory();
 	FMockTableMemory(const FMockTableMemory&) = delete;
 	FMockTableMemory& operator=(const FMockTableMemory&) = delete;
-	FRTStatus Allocate(uint64_t Bytes, const std::string& Name);
+	FRTStatus Allocate(uint64_t Bytes, const std::string& Name, bool bCount = true);
 
 	uint8_t* Bytes = nullptr;
 	uint64_t Size = 0;
@@ -112,7 +112,7 @@ private:
 	/// What is staged is dirty again: its copy will not be recorded.
 	void Unstage();
 	FRTStatus AcquireHostCopy(std::shared_ptr<FMockHostCopy>& OutUse);
-	FRTStatus AddHostCopy(std::shared_ptr<FMockHostCopy>& Out);
+	FRTStatus AddHostCopy(std::shared_ptr<FMockHostCopy>& Out, bool bCount);
 	void SetCounts(const std::array<uint32_t, RecordKinds>& Counts);
 
 	FMockTableLayout Layout;

@@ -94,11 +94,11 @@ uint64_t& FMockState::Count(EMockMemory Kind)
 	return Memory.Buffer;
 }
 
-FRTStatus FMockState::Allocate(EMockMemory Kind, uint64_t Bytes, const char* Name)
+FRTStatus FMockState::Allocate(EMockMemory Kind, uint64_t Bytes, const char* Name, bool bCount)
 {
 	std::lock_guard Lock(Mutex);
-	bool bFail = FailIn > 0 && --FailIn == 0;
-	if (FailEvery > 0 && ++SinceFail == FailEvery)
+	bool bFail = bCount && FailIn > 0 && --FailIn == 0;
+	if (bCount && FailEvery > 0 && ++SinceFail == FailEvery)
 	{
 		SinceFail = 0;
 		bFail = true;

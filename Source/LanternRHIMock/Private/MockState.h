@@ -116,8 +116,8 @@ struct FMockState
 	void AddDeadGeometry(uint64_t Address, const std::string& Name);
 	/// "unbuilt Name", "destroyed Name" or "no geometry". Under Mutex.
 	std::string DescribeGeometry(uint64_t Address) const;
-	/// Counts an allocation: injected failures, then the budget.
-	FRTStatus Allocate(EMockMemory Kind, uint64_t Bytes, const char* Name);
+	/// Injected failures, then the budget. bCount false: part of an allocation that has been counted.
+	FRTStatus Allocate(EMockMemory Kind, uint64_t Bytes, const char* Name, bool bCount = true);
 	uint64_t TakeAddress(uint64_t Bytes);
 	void Add(FMockObject* Object);
 	/// Last reference dropped: destroyed once all that has been submitted so far has finished.

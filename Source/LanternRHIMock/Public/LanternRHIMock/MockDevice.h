@@ -56,6 +56,7 @@ enum class ERTMockCall : uint8_t
 	WaitFor,              ///< Numbers: fence, timeout
 	WaitIdle,
 	ReserveShaderTable, ///< one that grows; Numbers: ray generation, miss, hit, callable records
+	MakeHostCopy,       ///< of a shader table, beyond those it was created with; Numbers: bytes
 	StageShaderTable,   ///< one that had anything new; Numbers: bytes
 	SetTablePipeline,   ///< name: table
 	Destroy,            ///< the native object, not the last Release(): never while in flight
@@ -216,7 +217,8 @@ public:
 
 	// ------------------------------------------------------------------------------------------ faults
 	/// The N-th allocation from now (1: the next) returns OutOfDeviceMemory; 0: none. Allocations are buffers, textures,
-	/// geometries, scenes and shader tables (each of their copies, those made later and growth included).
+	/// geometries, scenes, shader tables (one, with its copies), their growth (ReserveShaderTable) and host copies made
+	/// later (MakeHostCopy).
 	void FailAllocation(uint32_t N);
 	void FailEveryAllocation(uint32_t N); ///< every N-th from now; 0: none
 	/// Pipelines and libraries whose name contains Part take Milliseconds longer to create. Creating threads sleep side by
