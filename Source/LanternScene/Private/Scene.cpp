@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include <glm/gtc/packing.hpp>
 
@@ -17,42 +18,9 @@ namespace
 {
 TRTConsoleVariable<int32_t> CVarRebuildInterval("r.RT.Skinning.RebuildInterval", 16,
                                                 "Deformed geometry is refitted, and rebuilt every so many frames. 1: always rebuilt.", {1, 1000});
-
-uint64_t SectionIndices(const FRTGeometryInfo& Info, uint32_t Section)
-{
-	const uint32_t Bytes = Info.IndexType == ERTIndexType::UInt16 ? 2 : 4;
-	return Info.Indices->GetDeviceAddress() + Info.IndicesOffset + uint64_t(Info.Sections[Section].FirstIndex) * Bytes;
-}
-
-/// Whether the alpha test may take texture coordinates and vertices as they are.
-bool HasPlainOpacity(const FRTGeometryInfo& Info, const FMaterialData& Material)
-{
-	return Info.bOpaqueVertices && Material.UVTransform[TEXTURE_BASE_COLOR] == glm::vec4(1, 0, 0, 1) &&
-	       Material.UVOffset[TEXTURE_BASE_COLOR] == glm::vec2(0);
-}
-
-FSectionData MakeSection(const FRTGeometry& Geometry, uint32_t Section, uint32_t MaterialIndex, const FMaterialData& Material, bool bMasked)
-{
-	const FRTGeometryInfo& Info = Geometry.GetInfo();
-	FSectionData Data{};
-	Data.Positions = Info.Positions->GetDeviceAddress() + Info.PositionsOffset;
-	Data.Attributes = Info.Attributes->GetDeviceAddress() + Info.AttributesOffset;
-	const uint64_t Indices = SectionIndices(Info, Section);
-	Data.Indices = Indices & ~uint64_t(3); // shaders read whole words
-	Data.Material = MaterialIndex;
-	Data.Flags = Info.IndexType == ERTIndexType::UInt16 ? SECTION_INDEX_16 : 0u;
-	if (Indices & 2) { Data.Flags |= SECTION_INDEX_ODD; }
-	if (bMasked) { Data.Flags |= SECTION_MASKED; }
-	if (Material.UVSets & (1u << TEXTURE_BASE_COLOR)) { Data.Flags |= SECTION_OPACITY_UV1; }
-	if (HasPlainOpacity(Info, Material)) { Data.Flags |= SECTION_PLAIN_OPACITY; }
-	if (Material.Flags & MATERIAL_DOUBLE_SIDED) { Data.Flags |= SECTION_DOUBLE_SIDED; }
-	if (Info.bHasTangents) { Data.Flags |= SECTION_TANGENTS; }
-	if (Material.EmissiveWeight > 0.0f && !Info.bDynamic && Info.CpuPositions) { Data.Flags |= SECTION_LIGHT; }
-	return Data;
-}
 } // namespace
 
-FRTScene::FRTScene(IRTDevice& InDevice) : Device(InDevice), Sections(std::make_unique<FSectionTable>()) {}
+FRTScene::FRTScene(IRTDevice& InDevice) : Device(InDevice) {}
 FRTScene::~FRTScene() = default;
 
 FRTStatus FRTScene::CreateGeometry(FRTGeometryInfo Info, FRTGeometryRef& Out)
@@ -85,12 +53,13 @@ uint32_t FRTScene::AddMaterial(const FMaterialData& Material) { return Materials
 void FRTScene::SetMaterial(uint32_t Index, const FMaterialData& Material)
 {
 	assert(Index < Materials.Num());
-	const FMaterialData& Old = Materials[Index];
+	const FMaterialData Old = Materials[Index];
 	// An animated colour or roughness rebuilds nothing.
 	bObjectsChanged |= Old.Flags != Material.Flags;
 	bEmissiveChanged |= Old.EmissiveWeight != Material.EmissiveWeight;
-	bFactsChanged = true; // and flags of sections
+	bFactsChanged = true;
 	Materials.Set(Index, Material);
+	if (FSectionTable::AffectsSections(Old, Material)) { Sections.MaterialChanged(Index); }
 }
 
 FRTObjectId FRTScene::AddObject(FRTObjectInfo Info)
@@ -107,11 +76,7 @@ FRTObjectId FRTScene::AddObject(FRTObjectInfo Info)
 	FObject& Object = Objects[Index];
 	Object.Info = std::move(Info);
 	Object.bAlive = true;
-	Object.FirstSection = Sections->Acquire(Object.Info.Geometry.get(), Object.Info.Materials, [&](uint32_t Section) {
-		const uint32_t Material = Object.Info.Materials[Section];
-		assert(Material < Materials.Num());
-		return MakeSection(*Object.Info.Geometry, Section, Material, Materials[Material], Materials[Material].Flags & MATERIAL_MASKED);
-	});
+	Object.Range = Sections.Acquire(*Object.Info.Geometry, Object.Info.Materials);
 	WriteObject(Index);
 	bObjectsChanged = bFactsChanged = bEmissiveChanged = true;
 	return {Index, Object.Generation};
@@ -120,7 +85,7 @@ FRTObjectId FRTScene::AddObject(FRTObjectInfo Info)
 void FRTScene::RemoveObject(FRTObjectId Id)
 {
 	FObject& Object = Resolve(Id);
-	Sections->Release(Object.Info.Geometry.get(), Object.Info.Materials);
+	Sections.Release(Object.Range);
 	Retired.push_back(std::move(Object.Info.Geometry));
 	Object.Info = {};
 	Object.bAlive = false;
@@ -147,22 +112,16 @@ void FRTScene::SetTransform(FRTObjectId Id, const glm::dmat4& Transform)
 
 void FRTScene::SetMaterials(FRTObjectId Id, std::vector<uint32_t> SectionMaterials)
 {
-	FRTObjectInfo Info = Resolve(Id).Info;
-	assert(SectionMaterials.size() == Info.Geometry->GetSectionCount());
 	FObject& Object = Resolve(Id);
-	const uint32_t First = Sections->Acquire(Info.Geometry.get(), SectionMaterials, [&](uint32_t Section) {
-		const uint32_t Material = SectionMaterials[Section];
-		return MakeSection(*Info.Geometry, Section, Material, Materials[Material], Materials[Material].Flags & MATERIAL_MASKED);
-	});
-	Sections->Release(Info.Geometry.get(), Info.Materials);
+	const FSectionRangeId Range = Sections.Acquire(*Object.Info.Geometry, SectionMaterials);
+	Sections.Release(std::exchange(Object.Range, Range));
 	Object.Info.Materials = std::move(SectionMaterials);
-	Object.FirstSection = First;
 	WriteObject(Id.Index);
 	bObjectsChanged = bFactsChanged = bEmissiveChanged = true;
 }
 
 const FRTObjectInfo& FRTScene::GetObject(FRTObjectId Id) const { return Resolve(Id).Info; }
-uint32_t FRTScene::GetFirstSection(FRTObjectId Id) const { return Resolve(Id).FirstSection; }
+uint32_t FRTScene::GetFirstSection(FRTObjectId Id) const { return FirstSectionOf(Resolve(Id)); }
 
 void FRTScene::WriteObject(uint32_t Index)
 {
@@ -174,40 +133,29 @@ void FRTScene::WriteObject(uint32_t Index)
 	{
 		Data.ObjectToWorld[Row] = glm::vec4(Relative[0][Row], Relative[1][Row], Relative[2][Row], Relative[3][Row]);
 	}
-	Data.FirstSection = Object.FirstSection;
+	Data.FirstSection = FirstSectionOf(Object);
 	Data.Flags = glm::determinant(glm::dmat3(Relative)) < 0.0 ? OBJECT_MIRRORED : 0u;
 	ObjectData.Set(Index, Data);
 }
 
 void FRTScene::SetMaterialOverride(uint32_t Override)
 {
-	if (MaterialOverride != Override) { bFactsChanged = bObjectsChanged = true; }
-	MaterialOverride = Override;
+	if (std::exchange(SectionContext.Override, Override) == Override) { return; }
+	bFactsChanged = bObjectsChanged = true;
+	Sections.RefillAll();
 }
 
 void FRTScene::SetAlphaTest(bool bEnabled)
 {
-	if (bAlphaTest != bEnabled) { bFactsChanged = bObjectsChanged = true; }
-	bAlphaTest = bEnabled;
+	if (std::exchange(SectionContext.bAlphaTest, bEnabled) == bEnabled) { return; }
+	bFactsChanged = bObjectsChanged = true;
+	Sections.RefillAll();
 }
 
 void FRTScene::SetRayTypes(uint32_t Count)
 {
 	bObjectsChanged |= RayTypes != Count;
 	RayTypes = Count;
-}
-
-bool FRTScene::IsMasked(const FObject& Object) const
-{
-	if (!bAlphaTest || MaterialOverride == 2) { return false; }
-	return std::any_of(Object.Info.Materials.begin(), Object.Info.Materials.end(),
-	                   [&](uint32_t Material) { return (Materials[Material].Flags & MATERIAL_MASKED) != 0; });
-}
-
-bool FRTScene::IsDoubleSided(const FObject& Object) const
-{
-	return std::all_of(Object.Info.Materials.begin(), Object.Info.Materials.end(),
-	                   [&](uint32_t Material) { return (Materials[Material].Flags & MATERIAL_DOUBLE_SIDED) != 0; });
 }
 
 void FRTScene::UpdateFacts()
@@ -217,9 +165,9 @@ void FRTScene::UpdateFacts()
 	{
 		if (!Object.bAlive) { continue; }
 		++Facts.Objects;
-		Facts.bMasked |= IsMasked(Object);
-		for (const uint32_t Material : Object.Info.Materials) { Facts.bEmissive |= Materials[Material].EmissiveWeight > 0.0f; }
 	}
+	Facts.bMasked = Sections.GetMaskedRangeCount() > 0;
+	Facts.bEmissive = Sections.GetEmissiveRangeCount() > 0;
 	std::erase_if(Geometries, [](const std::weak_ptr<FRTGeometry>& Geometry) { return Geometry.expired(); });
 	for (const auto& Weak : Geometries)
 	{
@@ -230,10 +178,6 @@ void FRTScene::UpdateFacts()
 	Facts.EmissiveTriangles = EmissiveTriangles.Num();
 	Facts.bSun = Sun.Irradiance > 0.0f;
 	Facts.bSky = glm::any(glm::greaterThan(Sky, glm::vec3(0)));
-	Sections->ForEach([&](const FRTGeometry& Geometry, uint32_t Section, uint32_t Material, const FSectionData&) {
-		const bool bMasked = bAlphaTest && MaterialOverride != 2 && (Materials[Material].Flags & MATERIAL_MASKED);
-		return MakeSection(Geometry, Section, Material, Materials[Material], bMasked);
-	});
 	bFactsChanged = false;
 }
 
@@ -245,7 +189,7 @@ const FSceneFacts& FRTScene::RefreshFacts()
 
 bool FRTScene::AreTablesDirty() const
 {
-	return Materials.IsDirty() || ObjectData.IsDirty() || LightData.IsDirty() || EmissiveTriangles.IsDirty() || Sections->GetTable().IsDirty();
+	return Materials.IsDirty() || ObjectData.IsDirty() || LightData.IsDirty() || EmissiveTriangles.IsDirty() || Sections.GetTable().IsDirty();
 }
 
 bool FRTScene::NeedsUpdate(glm::dvec3 Camera, const FSceneUse& Use) const
@@ -312,9 +256,9 @@ FRTStatus FRTScene::BuildStructure(IRTCommandList& List, FFrameUploads& Uploads)
 {
 	if (FRTStatus S = ReserveStructure(Facts.Objects); !S) { return S; }
 	// An instance names its first hit record with 24 bits.
-	if (uint64_t(Sections->GetCapacity()) * RayTypes > MaxInstanceIndex)
+	if (uint64_t(Sections.GetCapacity()) * RayTypes > MaxInstanceIndex)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "the scene has %u sections; %u ray types allow %u", Sections->GetCapacity(), RayTypes, MaxInstanceIndex / RayTypes);
+		return FRTStatus::Error(ERTResult::Unsupported, "the scene has %u sections; %u ray types allow %u", Sections.GetCapacity(), RayTypes, MaxInstanceIndex / RayTypes);
 	}
 	FUploadSlice Slice;
 	if (FRTStatus S = Uploads.Allocate(std::max<uint64_t>(1, Facts.Objects) * sizeof(FRTInstance), Slice); !S) { return S; }
@@ -328,9 +272,10 @@ FRTStatus FRTScene::BuildStructure(IRTCommandList& List, FFrameUploads& Uploads)
 		FRTInstance Value;
 		std::memcpy(Value.Transform, ObjectData[Index].ObjectToWorld, sizeof(Value.Transform));
 		// Facing can be switched off for instances, not for sections: mixed objects are culled.
-		const uint8_t Flags = (IsMasked(Object) ? 0 : InstanceForceOpaque) | (IsDoubleSided(Object) ? InstanceCullDisable : 0);
+		const FSectionRange& Range = Sections.GetRange(Object.Range);
+		const uint8_t Flags = (Range.bMasked ? 0 : InstanceForceOpaque) | (Range.bDoubleSided ? InstanceCullDisable : 0);
 		Value.CustomIndexAndMask = Index | (uint32_t(Object.Info.Mask) << 24);
-		Value.TableOffsetAndFlags = (Object.FirstSection * RayTypes) | (uint32_t(Flags) << 24);
+		Value.TableOffsetAndFlags = (Range.First * RayTypes) | (uint32_t(Flags) << 24);
 		Value.GeometryAddress = Object.Info.Geometry->Structure->GetDeviceAddress();
 		Instance[Count++] = Value;
 	}
@@ -352,12 +297,12 @@ FRTStatus FRTScene::FlushTables(IRTCommandList& List, FFrameUploads& Uploads)
 	const FRTBarrier Before{nullptr, nullptr, UploadedAccess, ERTAccess::CopyWrite};
 	List.Barriers(&Before, 1);
 	for (FRTStatus S : {Materials.Flush(Device, List, Uploads), ObjectData.Flush(Device, List, Uploads), LightData.Flush(Device, List, Uploads),
-	                    EmissiveTriangles.Flush(Device, List, Uploads), Sections->GetTable().Flush(Device, List, Uploads)})
+	                    EmissiveTriangles.Flush(Device, List, Uploads), Sections.GetTable().Flush(Device, List, Uploads)})
 	{
 		if (!S) { return S; }
 	}
 	Stats.BytesCopied = Materials.GetCopiedBytes() + ObjectData.GetCopiedBytes() + LightData.GetCopiedBytes() +
-	                    EmissiveTriangles.GetCopiedBytes() + Sections->GetTable().GetCopiedBytes();
+	                    EmissiveTriangles.GetCopiedBytes() + Sections.GetTable().GetCopiedBytes();
 	const FRTBarrier After{nullptr, nullptr, ERTAccess::CopyWrite, UploadedAccess};
 	List.Barriers(&After, 1);
 	return FRTStatus::Success();
@@ -383,7 +328,7 @@ void FRTScene::Rerecord()
 	ObjectData.Invalidate();
 	LightData.Invalidate();
 	EmissiveTriangles.Invalidate();
-	Sections->GetTable().Invalidate();
+	Sections.GetTable().Invalidate();
 	for (FRTGeometryRef& Geometry : RecordedBuilds)
 	{
 		Geometry->bBuilt = false; // a refit may have been lost: only a build is right whatever happened before

@@ -53,7 +53,7 @@ void FRTScene::UpdateEmissiveTriangles()
 		for (uint32_t Section = 0; Section < Info.Sections.size(); ++Section)
 		{
 			const FMaterialData& Material = Materials[Object.Info.Materials[Section]];
-			if ((Sections->Get(Object.FirstSection + Section).Flags & SECTION_LIGHT) == 0) { continue; }
+			if ((Sections.Get(FirstSectionOf(Object) + Section).Flags & SECTION_LIGHT) == 0) { continue; }
 			for (uint32_t Primitive = 0; Primitive < Info.Sections[Section].IndexCount / 3; ++Primitive)
 			{
 				glm::vec3 P[3];
@@ -70,7 +70,7 @@ void FRTScene::UpdateEmissiveTriangles()
 				Triangle.P1 = P[1];
 				Triangle.P2 = P[2];
 				Triangle.Object = Index;
-				Triangle.Section = Object.FirstSection + Section;
+				Triangle.Section = FirstSectionOf(Object) + Section;
 				Triangle.Primitive = Primitive;
 				Triangle.Flags = ObjectData[Index].Flags & OBJECT_MIRRORED;
 				Triangles.push_back(Triangle);
@@ -90,7 +90,7 @@ FSceneConstants FRTScene::GetConstants() const
 {
 	FSceneConstants C{};
 	C.Objects = ObjectData.GetAddress();
-	C.Sections = Sections->GetTable().GetAddress();
+	C.Sections = Sections.GetTable().GetAddress();
 	C.Materials = Materials.GetAddress();
 	C.Lights = LightData.GetAddress();
 	C.EmissiveTriangles = EmissiveTriangles.GetAddress();
@@ -105,7 +105,7 @@ FSceneConstants FRTScene::GetConstants() const
 	const double HalfSin = std::sin(0.25 * double(Sun.AngularDiameter));
 	C.SunOneMinusCos = static_cast<float>(2.0 * HalfSin * HalfSin);
 	C.SkyRadiance = Sky;
-	C.MaterialOverride = MaterialOverride;
+	C.MaterialOverride = SectionContext.Override;
 	return C;
 }
 

@@ -13,6 +13,7 @@
 
 #include "LanternScene/GpuTable.h"
 #include "LanternScene/Object.h"
+#include "LanternScene/SectionTable.h"
 #include "SceneTypes.h"
 
 namespace Lantern
@@ -60,8 +61,6 @@ struct FSceneUpdateStats
 	uint32_t GeometriesBuilt = 0, GeometriesRefitted = 0, InstancesWritten = 0;
 	uint64_t BytesCopied = 0;
 };
-
-class FSectionTable;
 
 class FRTScene
 {
@@ -116,7 +115,7 @@ public:
 	/// After Update: the block that passes read.
 	FSceneConstants GetConstants() const;
 	IRTScene* GetStructure() const { return Structure.Get(); }
-	FSectionTable& GetSections() { return *Sections; }
+	FSectionTable& GetSections() { return Sections; }
 	const FSceneUpdateStats& GetStats() const { return Stats; }
 	/// After Update. bSubmitted: what was removed before it can go. Otherwise what it recorded never runs, also if it
 	/// failed half-way: the next Update records all of it again.
@@ -129,7 +128,7 @@ private:
 	{
 		FRTObjectInfo Info;
 		uint32_t Generation = 0;
-		uint32_t FirstSection = 0;
+		FSectionRangeId Range = 0;
 		bool bAlive = false;
 	};
 	FObject& Resolve(FRTObjectId Id);
@@ -146,8 +145,7 @@ private:
 	FRTStatus BuildStructure(IRTCommandList& List, FFrameUploads& Uploads);
 	FRTStatus ReserveStructure(uint32_t InstanceCount);
 	FRTStatus FlushTables(IRTCommandList& List, FFrameUploads& Uploads);
-	bool IsMasked(const FObject& Object) const;
-	bool IsDoubleSided(const FObject& Object) const;
+	uint32_t FirstSectionOf(const FObject& Object) const { return Sections.GetRange(Object.Range).First; }
 
 	IRTDevice& Device;
 	glm::dvec3 Origin{0};
@@ -157,16 +155,16 @@ private:
 	std::vector<FRTGeometryRef> PendingBuilds, Deformed;
 	std::vector<FRTGeometryRef> RecordedBuilds; // since EndFrame
 	std::vector<FRTGeometryRef> Retired, RetiredBefore; // see EndFrame
-	std::unique_ptr<FSectionTable> Sections;
 	TGpuTable<FMaterialData> Materials{"Materials"};
+	std::vector<uint32_t> MaterialPrograms;
+	FSectionContext SectionContext{Materials, MaterialPrograms};
+	FSectionTable Sections{SectionContext};
 	TGpuTable<FObjectData> ObjectData{"Objects"};
 	TGpuTable<FLightData> LightData{"Lights"};
 	TGpuTable<FEmissiveTriangle> EmissiveTriangles{"EmissiveTriangles"};
 	std::vector<FSceneLight> Lights;
 	FSunLight Sun;
 	glm::vec3 Sky{0};
-	uint32_t MaterialOverride = 0;
-	bool bAlphaTest = true;
 	float EmissivePower = 0.0f;
 	uint32_t RayTypes = 1;
 	FSceneFacts Facts;
