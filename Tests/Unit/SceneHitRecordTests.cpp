@@ -297,14 +297,14 @@ TEST_P(FHitRecordTest, FrameCopiesOnlyRecordsOfChangedSections)
 		Add(Tree, {Material}, {I, 0, 0});
 	}
 	Render(2);
-	EXPECT_EQ(Bindings->GetRecordsWritten(), 2 * 501u) << "1,000 trees share their records";
+	EXPECT_EQ(Bindings->GetStats().RecordsWritten, 2 * 501u) << "1,000 trees share their records";
 	Mock().ClearCalls();
 	Render(2);
-	EXPECT_EQ(Bindings->GetRecordsWritten(), 0u);
+	EXPECT_EQ(Bindings->GetStats().RecordsWritten, 0u);
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::UpdateShaderTable), 0u);
 	Add(Tree, {Other});
 	Render(2);
-	EXPECT_EQ(Bindings->GetRecordsWritten(), 2u);
+	EXPECT_EQ(Bindings->GetStats().RecordsWritten, 2u);
 	const std::vector<FRTMockCall> Updates = Mock().FindCalls(ERTMockCall::UpdateShaderTable);
 	ASSERT_EQ(Updates.size(), 1u);
 	EXPECT_EQ(Updates[0].Numbers[0], 2 * Bindings->GetTable()->GetRecordStride(ERTRecordKind::Hit));

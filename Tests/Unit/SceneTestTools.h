@@ -12,6 +12,7 @@
 #include "LanternScene/RayTracingPipeline.h"
 #include "LanternScene/Scene.h"
 #include "LanternScene/SectionTable.h"
+#include "LanternScene/ShaderBindings.h"
 
 namespace Lantern
 {

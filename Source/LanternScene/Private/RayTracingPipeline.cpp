@@ -5,7 +5,6 @@
 #include <map>
 
 #include "LanternCore/Tasks.h"
-#include "LanternScene/SectionTable.h"
 #include "PipelineUnits.h"
 
 namespace Lantern
@@ -131,50 +130,6 @@ FRTStatus FRTPSO::Create(IRTDevice& Device, FShaderCompiler& Compiler, const FMa
 	TRTRef<IRTPipeline> Made;
 	if (FRTStatus S = Device.CreateRayTracingPipeline(Pipeline, Made.ReleaseAndGetAddress()); !S) { return S; }
 	Out = FRTPSO(std::move(Made), std::move(Layout));
-	return FRTStatus::Success();
-}
-
-void FShaderBindings::WriteSection(const FRTPSO& Pipeline, const FSectionTable& Sections, uint32_t Section)
-{
-	const FSectionData& Data = Sections.Get(Section);
-	const uint32_t Types = Pipeline.GetRayTypeCount();
-	for (uint32_t Type = 0; Type < Types; ++Type)
-	{
-		const bool bMasked = (Data.Flags & SECTION_MASKED) != 0;
-		const uint32_t Group = Pipeline.HitGroup(Type, {StandardProgram, bMasked ? ERTHitClass::Masked : ERTHitClass::Opaque});
-		Table->SetRecord(ERTRecordKind::Hit, Section * Types + Type, Group, &Data, sizeof(Data));
-	}
-	RecordsWritten += Types;
-}
-
-FRTStatus FShaderBindings::Sync(IRTCommandList& List, const FRTPSO& Pipeline, FSectionTable& Sections)
-{
-	static_assert(sizeof(FSectionData) <= MaxRecordDataBytes);
-	RecordsWritten = 0;
-	std::vector<uint32_t> Changed = Sections.TakeChanged();
-	const uint32_t Needed = std::max(1u, Sections.GetCapacity() * Pipeline.GetRayTypeCount());
-	if (!Table || Bound != Pipeline.GetPipeline() || BoundSections != &Sections || Table->GetDesc().HitCount < Needed)
-	{
-		FRTShaderTableDesc Desc;
-		Desc.Pipeline = Pipeline.GetPipeline();
-		Desc.RayGenCount = Pipeline.GetRayGenCount();
-		Desc.MissCount = Pipeline.GetRayTypeCount();
-		Desc.HitCount = Table && Table->GetDesc().HitCount >= Needed ? Table->GetDesc().HitCount : Needed + Needed / 2;
-		Desc.RecordDataBytes = sizeof(FSectionData);
-		Desc.Name = "ShaderTable";
-		if (FRTStatus S = Device.CreateShaderTable(Desc, Table.ReleaseAndGetAddress()); !S) { return S; }
-		Bound = Pipeline.GetPipeline();
-		BoundSections = &Sections;
-		for (uint32_t I = 0; I < Pipeline.GetRayGenCount(); ++I) { Table->SetRecord(ERTRecordKind::RayGen, I, Pipeline.RayGenGroup(I), nullptr, 0); }
-		for (uint32_t I = 0; I < Pipeline.GetRayTypeCount(); ++I) { Table->SetRecord(ERTRecordKind::Miss, I, Pipeline.MissGroup(I), nullptr, 0); }
-		for (uint32_t Section = 0; Section < Sections.GetCapacity(); ++Section) { WriteSection(Pipeline, Sections, Section); }
-	}
-	else
-	{
-		if (Changed.empty()) { return FRTStatus::Success(); }
-		for (const uint32_t Section : Changed) { WriteSection(Pipeline, Sections, Section); }
-	}
-	List.UpdateShaderTable(Table.Get());
 	return FRTStatus::Success();
 }
 

@@ -6,7 +6,10 @@
 namespace Lantern
 {
 
-FSectionAllocator::FSectionAllocator() { Heads.fill(None); }
+FSectionAllocator::FSectionAllocator()
+{
+	Heads.fill(None);
+}
 
 uint32_t FSectionAllocator::ClassOf(uint32_t Size)
 {

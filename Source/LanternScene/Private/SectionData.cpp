@@ -12,7 +12,8 @@ void AddTriangles(const FRTGeometry& Geometry, const FRTGeometryPart& Part, FSec
 {
 	const FRTGeometryInfo& Info = Geometry.GetInfo();
 	const bool bShort = Geometry.GetIndexType() == ERTIndexType::UInt16;
-	const uint64_t Indices = Geometry.GetIndices()->GetDeviceAddress() + Geometry.GetIndicesOffset() + uint64_t(Part.FirstIndex) * (bShort ? 2 : 4);
+	const uint64_t Indices = Geometry.GetIndices()->GetDeviceAddress() + Geometry.GetIndicesOffset() +
+	                         uint64_t(Part.FirstIndex) * (bShort ? 2 : 4);
 	Data.Positions = Info.Positions->GetDeviceAddress() + Info.PositionsOffset;
 	Data.Attributes = Info.Attributes->GetDeviceAddress() + Info.AttributesOffset;
 	Data.Indices = Indices & ~uint64_t(3); // shaders read whole words
@@ -28,17 +29,20 @@ bool HasPlainOpacity(const FRTGeometryInfo& Info, const FMaterialData& Material)
 }
 } // namespace
 
-ERTHitClass GetHitClass(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part, uint32_t Material)
+ERTHitClass GetHitClass(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part,
+                        uint32_t Material)
 {
 	if (Geometry.GetInfo().Sections[Part.Section].bProcedural)
 	{
 		return ERTHitClass::Procedural;
 	}
 	const bool bAlphaTest = Context.bAlphaTest && Context.Override != 2;
-	return bAlphaTest && !Part.bOpaque && (Context.Materials[Material].Flags & MATERIAL_MASKED) ? ERTHitClass::Masked : ERTHitClass::Opaque;
+	return bAlphaTest && !Part.bOpaque && (Context.Materials[Material].Flags & MATERIAL_MASKED) ? ERTHitClass::Masked
+	                                                                                            : ERTHitClass::Opaque;
 }
 
-FSectionData MakeSection(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part, uint32_t MaterialIndex)
+FSectionData MakeSection(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part,
+                         uint32_t MaterialIndex)
 {
 	const FRTGeometryInfo& Info = Geometry.GetInfo();
 	const FMaterialData& Material = Context.Materials[MaterialIndex];

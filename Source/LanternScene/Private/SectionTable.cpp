@@ -1,6 +1,7 @@
 #include "LanternScene/SectionTable.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cstring>
 #include <utility>
@@ -13,6 +14,7 @@ namespace Lantern
 namespace
 {
 constexpr size_t FewestBuckets = 64;
+std::atomic<uint64_t> NewestIdentity = 0;
 
 uint64_t Mix(uint64_t Value)
 {
@@ -32,6 +34,8 @@ uint64_t HashRange(const FRTGeometry& Geometry, const std::vector<uint32_t>& Mat
 	return Hash;
 }
 } // namespace
+
+FSectionTable::FSectionTable(const FSectionContext& InContext) : Context(InContext), Identity(++NewestIdentity) {}
 
 FSectionRangeId FSectionTable::Acquire(const FRTGeometry& Geometry, const std::vector<uint32_t>& Materials)
 {
@@ -105,7 +109,8 @@ FSectionRangeId FSectionTable::AddRange()
 
 // ------------------------------------------------------------------------------------------------ finding ranges
 
-FSectionRangeId FSectionTable::Find(uint64_t Hash, const FRTGeometry& Geometry, const std::vector<uint32_t>& Materials) const
+FSectionRangeId FSectionTable::Find(uint64_t Hash, const FRTGeometry& Geometry,
+                                    const std::vector<uint32_t>& Materials) const
 {
 	if (Buckets.empty())
 	{
@@ -366,6 +371,7 @@ uint32_t FSectionTable::FindProgramSlot(FHitProgram Program)
 	{
 		return Found->second;
 	}
+	++SlotsRevision;
 	if (FreeSlots.empty())
 	{
 		Programs.push_back({Program, 0});

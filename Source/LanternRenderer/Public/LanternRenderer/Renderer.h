@@ -12,6 +12,7 @@
 #include "LanternScene/PipelineCache.h"
 #include "LanternScene/RayTracingPipeline.h"
 #include "LanternScene/Scene.h"
+#include "LanternScene/ShaderBindings.h"
 
 namespace Lantern
 {

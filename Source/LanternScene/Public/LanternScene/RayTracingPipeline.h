@@ -15,8 +15,6 @@
 namespace Lantern
 {
 
-class FSectionTable;
-
 /// A kind of ray: what it runs where it hits and where it misses. In shaders NAME_RAY and NAME_MISS are its
 /// indices, RAY_TYPES their number. Hit shaders are compiled once for each program: see FMaterialPrograms::MakeSource.
 struct FRayType
@@ -112,29 +110,6 @@ private:
 	std::vector<uint32_t> HitGroups;
 	std::vector<ERTHitState> States;
 	uint64_t Revision = 0;
-};
-
-/// The shader table that goes with it: one hit record per section and ray type.
-class FShaderBindings
-{
-public:
-	explicit FShaderBindings(IRTDevice& InDevice) : Device(InDevice) {}
-	/// Writes records of changed sections, or all of them after the pipeline, the scene or the size changed, and copies
-	/// them.
-	FRTStatus Sync(IRTCommandList& List, const FRTPSO& Pipeline, FSectionTable& Sections);
-	/// What the last Sync recorded was never submitted: the next one writes all records again.
-	void Invalidate() { Table.Reset(); }
-	IRTShaderTable* GetTable() const { return Table.Get(); }
-	uint32_t GetRecordsWritten() const { return RecordsWritten; } ///< by the last Sync
-
-private:
-	void WriteSection(const FRTPSO& Pipeline, const FSectionTable& Sections, uint32_t Section);
-
-	IRTDevice& Device;
-	TRTRef<IRTShaderTable> Table;
-	IRTPipeline* Bound = nullptr;                 // identity only
-	const FSectionTable* BoundSections = nullptr; // the same
-	uint32_t RecordsWritten = 0;
 };
 
 } // namespace Lantern

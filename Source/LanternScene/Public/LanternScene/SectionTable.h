@@ -46,10 +46,12 @@ class FSectionTable
 {
 public:
 	/// Context outlives the table.
-	explicit FSectionTable(const FSectionContext& InContext) : Context(InContext) {}
+	explicit FSectionTable(const FSectionContext& InContext);
 	FSectionTable(const FSectionTable&) = delete;
 	FSectionTable& operator=(const FSectionTable&) = delete;
 
+	/// Differs for every table that was ever made, unlike its address.
+	uint64_t GetIdentity() const { return Identity; }
 	/// The range of this geometry and these materials, one for each section; takes a reference. Constant time, amortised.
 	/// The geometry outlives the range.
 	FSectionRangeId Acquire(const FRTGeometry& Geometry, const std::vector<uint32_t>& Materials);
@@ -88,6 +90,8 @@ public:
 	uint32_t GetProgramSlot(uint32_t Section) const { return ProgramSlots[Section]; }
 	uint32_t GetProgramSlotCount() const { return static_cast<uint32_t>(Programs.size()); }
 	FHitProgram GetProgramOfSlot(uint32_t Slot) const { return Programs[Slot].Program; }
+	/// Another number whenever GetProgramOfSlot would answer something else.
+	uint64_t GetProgramSlotsRevision() const { return SlotsRevision; }
 	/// All hit programs in use, sorted.
 	const std::vector<FHitProgram>& GetHitPrograms();
 	/// Another number whenever GetHitPrograms would return something else.
@@ -133,6 +137,7 @@ private:
 	uint32_t FindProgramSlot(FHitProgram Program);
 
 	const FSectionContext& Context;
+	const uint64_t Identity;
 	FSectionAllocator Allocator;
 	TGpuTable<FSectionData> Table{"Sections"};
 	std::vector<FSectionRange> Ranges;
@@ -153,7 +158,7 @@ private:
 	std::unordered_map<FHitProgram, uint32_t> SlotOfProgram; // in use only
 	std::vector<uint32_t> FreeSlots;
 	std::vector<FHitProgram> ProgramsInUse;
-	uint64_t ProgramsRevision = 0;
+	uint64_t ProgramsRevision = 0, SlotsRevision = 0;
 	bool bProgramsChanged = false;
 };
 
