@@ -77,14 +77,19 @@ struct FMaterialData
 };
 LANTERN_ASSERT_SIZE(FMaterialData, 212);
 
+// The world in cells: fp32 positions relative to the centre of a cell, and offsets between cells, which fp32 holds
+// exactly, stay right far away from the world's origin.
+#define CELL_SIZE 1024.0f // metres
+
 // One object, as instances refer to it by custom index.
 struct FObjectData
 {
-	vec4 ObjectToWorld[3]; // rows; relative to the scene's origin
+	vec4 ObjectToWorld[3]; // rows; relative to the centre of its cell
 	uint FirstSection;     // into FSectionData[]
 	uint Flags;            // OBJECT_…
+	ivec3 Cell;            // of the world; its centre is (Cell − FSceneConstants::OriginCell) · CELL_SIZE
 };
-LANTERN_ASSERT_SIZE(FObjectData, 56);
+LANTERN_ASSERT_SIZE(FObjectData, 68);
 
 // Bits of an object's mask by convention; rays name those that they want to see.
 #define MASK_VISIBLE 1u      // camera, reflection and GI rays
@@ -142,8 +147,10 @@ struct FSceneConstants
 	float SunOneMinusCos; // 1 − cosine of its angular radius; 0: a point
 	vec3 SkyRadiance;
 	uint MaterialOverride; // r.RT.Material.Override
+	ivec3 OriginCell;      // its centre is the scene's origin
+	uint Pad0;
 };
-LANTERN_ASSERT_SIZE(FSceneConstants, 104);
+LANTERN_ASSERT_SIZE(FSceneConstants, 120);
 
 // A camera. Positions are relative to the scene's origin.
 struct FViewConstants

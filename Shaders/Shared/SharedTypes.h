@@ -14,6 +14,7 @@ using vec2 = glm::vec2;
 using vec3 = glm::vec3;
 using vec4 = glm::vec4;
 using mat4 = glm::mat4;
+using ivec3 = glm::ivec3;
 using FAddress = uint64_t; ///< device address
 LANTERN_SHARED_END
 #define LANTERN_ASSERT_SIZE(Type, Bytes) static_assert(sizeof(Type) == Bytes, "shared with shaders")

@@ -192,11 +192,11 @@ bool FRTScene::AreTablesDirty() const
 	return Materials.IsDirty() || ObjectData.IsDirty() || LightData.IsDirty() || EmissiveTriangles.IsDirty() || Sections.GetTable().IsDirty();
 }
 
-bool FRTScene::NeedsUpdate(glm::dvec3 Camera, const FSceneUse& Use) const
+bool FRTScene::NeedsUpdate(const FGatherView& View, const FSceneUse& Use) const
 {
 	const bool bStructures = bObjectsChanged || !Structure || !PendingBuilds.empty() || !Deformed.empty();
 	return bFactsChanged || bLightsChanged || (Use.bRays && bStructures) || (Use.bLightSampling && bEmissiveChanged) || AreTablesDirty() ||
-	       SnapOrigin(Camera) != Origin;
+	       SnapOrigin(View.Position) != Origin;
 }
 
 glm::dvec3 FRTScene::SnapOrigin(glm::dvec3 Camera) const
@@ -308,18 +308,30 @@ FRTStatus FRTScene::FlushTables(IRTCommandList& List, FFrameUploads& Uploads)
 	return FRTStatus::Success();
 }
 
-FRTStatus FRTScene::Update(IRTCommandList& List, FFrameUploads& Uploads, glm::dvec3 Camera, const FSceneUse& Use)
+FRTStatus FRTScene::BeginUpdate(const FGatherView& View, const FSceneUse& Use)
 {
 	Stats = {};
-	MoveOrigin(Camera);
+	FrameUse = Use;
+	MoveOrigin(View.Position);
 	RefreshFacts();
 	if (bLightsChanged) { UpdateLights(); }
-	if (Use.bLightSampling && bEmissiveChanged) { UpdateEmissiveTriangles(); }
+	if (FrameUse.bLightSampling && bEmissiveChanged) { UpdateEmissiveTriangles(); }
+	return FRTStatus::Success();
+}
+
+FRTStatus FRTScene::RecordUpdate(IRTCommandList& List, FFrameUploads& Uploads)
+{
 	if (FRTStatus S = FlushTables(List, Uploads); !S) { return S; }
-	if (!Use.bRays) { return FRTStatus::Success(); }
+	if (!FrameUse.bRays) { return FRTStatus::Success(); }
 	if (FRTStatus S = BuildPending(List); !S) { return S; }
 	if (bObjectsChanged || !Structure) { return BuildStructure(List, Uploads); }
 	return FRTStatus::Success();
+}
+
+FRTStatus FRTScene::Update(IRTCommandList& List, FFrameUploads& Uploads, const FGatherView& View, const FSceneUse& Use)
+{
+	if (FRTStatus S = BeginUpdate(View, Use); !S) { return S; }
+	return RecordUpdate(List, Uploads);
 }
 
 void FRTScene::Rerecord()
@@ -338,7 +350,7 @@ void FRTScene::Rerecord()
 	bObjectsChanged = true;
 }
 
-void FRTScene::EndFrame(bool bSubmitted)
+void FRTScene::EndFrame(bool bSubmitted, FRTFence)
 {
 	if (!bSubmitted) { return Rerecord(); }
 	RecordedBuilds.clear();

@@ -4,13 +4,15 @@
 // steps of OriginStep, so that fp32 keeps ≤ 0.1 mm within a kilometre of the camera anywhere in the world, and
 // a camera that moves within a step rewrites nothing.
 //
-// Threads: one at a time. Order of a frame: changes → Update → passes → submit → EndFrame.
+// Threads: one at a time. Order of a frame: changes → BeginUpdate → (no changes) → RecordUpdate → passes → submit →
+// EndFrame.
 #pragma once
 
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "LanternScene/Culling.h"
 #include "LanternScene/GpuTable.h"
 #include "LanternScene/Object.h"
 #include "LanternScene/SectionTable.h"
@@ -54,6 +56,8 @@ struct FSceneUse
 {
 	bool bRays = true;           ///< acceleration structures: without rays none is made, built or refitted
 	bool bLightSampling = false; ///< the list of emissive triangles
+	bool bCull = true;           ///< false: rays see every object (the reference)
+	bool bBuildAll = true;       ///< no budget for builds: all that wait are built now (offline pictures)
 };
 
 struct FSceneUpdateStats
@@ -104,22 +108,28 @@ public:
 	/// Brings the facts up to date with all changes so far; Update does it too.
 	const FSceneFacts& RefreshFacts();
 	const FSceneFacts& GetFacts() const { return Facts; } ///< as of the last RefreshFacts
-	/// Whether Update would record anything. False in a frame in which nothing changed.
-	bool NeedsUpdate(glm::dvec3 Camera, const FSceneUse& Use) const;
+	/// Before BeginUpdate: whether the two would have anything to do. False where neither scene nor view changed.
+	bool NeedsUpdate(const FGatherView& View, const FSceneUse& Use) const;
 	glm::dvec3 GetOrigin() const { return Origin; }
 	/// World to what shaders use.
 	glm::vec3 ToRelative(glm::dvec3 World) const { return glm::vec3(World - Origin); }
 
-	/// Records uploads, builds and refits into List. Camera moves the origin. On error the list must not be submitted.
-	FRTStatus Update(IRTCommandList& List, FFrameUploads& Uploads, glm::dvec3 Camera, const FSceneUse& Use);
-	/// After Update: the block that passes read.
+	/// Frame start: takes over all changes so far and starts gathering instances. The view's position moves the origin,
+	/// which is the frame's from now on. Until RecordUpdate the scene must not change.
+	FRTStatus BeginUpdate(const FGatherView& View, const FSceneUse& Use);
+	/// After BeginUpdate: records uploads, builds and refits into List. On error the list must not be submitted.
+	FRTStatus RecordUpdate(IRTCommandList& List, FFrameUploads& Uploads);
+	/// Both in turn.
+	FRTStatus Update(IRTCommandList& List, FFrameUploads& Uploads, const FGatherView& View, const FSceneUse& Use);
+	/// After RecordUpdate: the block that passes read.
 	FSceneConstants GetConstants() const;
 	IRTScene* GetStructure() const { return Structure.Get(); }
 	FSectionTable& GetSections() { return Sections; }
 	const FSceneUpdateStats& GetStats() const { return Stats; }
-	/// After Update. bSubmitted: what was removed before it can go. Otherwise what it recorded never runs, also if it
-	/// failed half-way: the next Update records all of it again.
-	void EndFrame(bool bSubmitted = true);
+	/// After RecordUpdate. bSubmitted: what was removed before it can go. Otherwise what it recorded never runs, also if it
+	/// failed half-way: the next update records all of it again. Fence: of the submission, so that memory is used again
+	/// when it is done; 0: unknown.
+	void EndFrame(bool bSubmitted = true, FRTFence Fence = 0);
 	/// How many hit records each section has: one for each ray type in use. Set by whoever owns the RTPSO.
 	void SetRayTypes(uint32_t Count);
 
@@ -169,6 +179,7 @@ private:
 	uint32_t RayTypes = 1;
 	FSceneFacts Facts;
 	FSceneUpdateStats Stats;
+	FSceneUse FrameUse; // of this frame
 	TRTRef<IRTScene> Structure;
 	TRTRef<IRTBuffer> Scratch;
 	bool bObjectsChanged = true, bFactsChanged = true, bLightsChanged = true, bEmissiveChanged = true;
