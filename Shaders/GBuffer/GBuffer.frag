@@ -10,6 +10,8 @@ layout(location = 1) in vec3 InNormal;
 layout(location = 2) in vec4 InTangent;
 layout(location = 3) in vec4 InUV;
 layout(location = 4) in vec4 InColor;
+layout(location = 5) flat in uint InObject;
+layout(location = 6) flat in uint InSection;
 
 layout(location = 0) out vec4 OutNormals;   // shading and geometric normal, octahedral
 layout(location = 1) out vec4 OutBaseColor; // a: metallic
@@ -19,7 +21,7 @@ layout(location = 3) out vec4 OutEmissive;
 void main()
 {
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
-	FSectionData Section = FSectionRef(Scene.Sections).Data[Push.Section];
+	FSectionData Section = FSectionRef(Scene.Sections).Data[InSection];
 	FMaterialInputs Inputs;
 	Inputs.Normal = InNormal;
 	Inputs.Tangent = InTangent;
@@ -34,7 +36,7 @@ void main()
 #endif
 	// Both normals towards the camera, as the hit shaders do.
 	if (dot(Ng, InRelative) > 0.0) { Ng = -Ng; }
-	bool bMirrored = (FObjectRef(Scene.Objects).Data[Push.Object].Flags & OBJECT_MIRRORED) != 0u;
+	bool bMirrored = (FObjectRef(Scene.Objects).Data[InObject].Flags & OBJECT_MIRRORED) != 0u;
 	if (gl_FrontFacing == bMirrored) { Surface.Normal = -Surface.Normal; }
 
 	OutNormals = vec4(OctEncode(Surface.Normal), OctEncode(Ng));

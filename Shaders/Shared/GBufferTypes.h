@@ -8,10 +8,11 @@ LANTERN_SHARED_BEGIN
 struct FGBufferConstants
 {
 	FPassConstants Pass;
-	uint Object;
-	uint Section;
+	FAddress Objects; // uint[instances of the draw]
+	uint Section;     // of each of these objects
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FGBufferConstants, 24);
+LANTERN_ASSERT_SIZE(FGBufferConstants, 32);
 
 struct FSkinConstants
 {

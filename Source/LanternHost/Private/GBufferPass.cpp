@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <bit>
+#include <utility>
 
 #include "GBufferTypes.h"
-#include "LanternCore/Log.h"
+#include "LanternCore/TaskTrace.h"
+#include "LanternCore/Tasks.h"
 #include "LanternHost/HostScene.h"
 
 namespace Lantern
@@ -32,31 +34,12 @@ FRTStatus CreatePipeline(FRenderer& Renderer, bool bMasked, ERTCull Cull, TRTRef
 	return Renderer.GetDevice().CreateRasterPipeline(Desc, Out.ReleaseAndGetAddress());
 }
 
-struct FSeenDraw
-{
-	const FHostScene::FDraw* Draw = nullptr;
-	double Distance = 0.0; ///< to the nearest it may be
-};
+constexpr uint32_t NoDraw = ~0u;
+constexpr size_t CullGrain = 4096;
+constexpr uint32_t DistanceBins = 1024;
 
-/// What the camera may see; solid before masked, near before far, so that depth tests spare the shading of what is hidden.
-std::vector<FSeenDraw> CollectDraws(const FFrameContext& Context, const FHostScene& Scene)
-{
-	const FViewFrustum Frustum(Context.View);
-	std::vector<FSeenDraw> Seen;
-	for (const FHostScene::FDraw& Draw : Scene.GetDraws())
-	{
-		const glm::dmat4& Transform = Context.Scene.GetObject(Draw.Object).Transform;
-		// No direction is stretched by more than this (the Frobenius norm).
-		const double Scale2 = glm::dot(Transform[0], Transform[0]) + glm::dot(Transform[1], Transform[1]) + glm::dot(Transform[2], Transform[2]);
-		const double Radius = std::sqrt(Scale2) * double(Draw.Radius);
-		const glm::dvec3 Center(Transform * glm::dvec4(Draw.Center, 1.0));
-		if (Frustum.MaySee(Center, Radius)) { Seen.push_back({&Draw, std::max(0.0, glm::distance(Center, Context.View.Position) - Radius)}); }
-	}
-	std::stable_sort(Seen.begin(), Seen.end(), [](const FSeenDraw& A, const FSeenDraw& B) {
-		return A.Draw->bMasked != B.Draw->bMasked ? B.Draw->bMasked : A.Distance < B.Distance;
-	});
-	return Seen;
-}
+/// Quarters of powers of two, which is near enough: depth tests spare the shading of what is hidden.
+uint32_t GetDistanceBin(double Distance) { return std::bit_cast<uint32_t>(static_cast<float>(std::max(0.0, Distance))) >> 21; }
 } // namespace
 
 IRTPipeline* FGBufferPass::GetPipeline(const FFrameContext& Context, bool bMasked, ERTCull Cull)
@@ -71,6 +54,106 @@ IRTPipeline* FGBufferPass::GetPipeline(const FFrameContext& Context, bool bMaske
 		}
 	}
 	return Entry.Get();
+}
+
+void FGBufferPass::CollectSeen(const FView& View, const FHostScene& Scene)
+{
+	const FViewFrustum Frustum(View);
+	const std::vector<FHostScene::FDraw>& Draws = Scene.GetDraws();
+	Chunks.resize((Draws.size() + CullGrain - 1) / CullGrain);
+	ParallelFor(Chunks.size(), 1, [&](size_t Begin, size_t End) {
+		FTraceScope Trace("G-buffer culling");
+		for (size_t Chunk = Begin; Chunk < End; ++Chunk)
+		{
+			Chunks[Chunk].clear();
+			for (size_t I = Chunk * CullGrain; I < std::min(Draws.size(), (Chunk + 1) * CullGrain); ++I)
+			{
+				const FHostScene::FDraw& Draw = Draws[I];
+				if (!Frustum.MaySee(Draw.Center, Draw.Radius)) { continue; }
+				Chunks[Chunk].push_back({static_cast<uint32_t>(I), GetDistanceBin(glm::distance(Draw.Center, View.Position) - Draw.Radius)});
+			}
+		}
+	});
+	Seen.clear();
+	for (const std::vector<FSeen>& Chunk : Chunks) { Seen.insert(Seen.end(), Chunk.begin(), Chunk.end()); }
+}
+
+void FGBufferPass::SortByDistance()
+{
+	std::array<uint32_t, DistanceBins> Next{};
+	for (const FSeen& Item : Seen) { ++Next[Item.Bin]; }
+	uint32_t First = 0;
+	for (uint32_t& Count : Next) { First += std::exchange(Count, First); }
+	Sorted.resize(Seen.size());
+	for (const FSeen& Item : Seen) { Sorted[Next[Item.Bin]++] = Item; }
+}
+
+/// One draw a batch, in the order of their nearest objects, and the objects of each, near before far.
+FRTStatus FGBufferPass::MakeBatchDraws(const FHostScene& Scene, FUploadSlice& OutObjects)
+{
+	const std::vector<uint32_t>& Indices = Scene.GetBatchIndices();
+	BatchDraws.clear();
+	DrawOfBatch.assign(2 * Scene.GetBatches().size(), NoDraw);
+	uint32_t Total = 0;
+	for (const FSeen& Item : Sorted)
+	{
+		const FHostScene::FDraw& Draw = Scene.GetDraws()[Item.Draw];
+		for (uint32_t I = 0; I < Draw.BatchCount; ++I)
+		{
+			const uint32_t Batch = Indices[Draw.FirstBatch + I];
+			uint32_t& Index = DrawOfBatch[2 * Batch + Draw.bMirrored];
+			if (Index == NoDraw)
+			{
+				Index = static_cast<uint32_t>(BatchDraws.size());
+				BatchDraws.push_back({Batch, Draw.bMirrored});
+			}
+			++BatchDraws[Index].Count;
+		}
+		Total += Draw.BatchCount;
+	}
+	if (Total == 0) { return FRTStatus::Success(); }
+	if (FRTStatus S = Renderer.GetUploads().Allocate(uint64_t(Total) * sizeof(uint32_t), OutObjects); !S) { return S; }
+	uint32_t First = 0;
+	for (FBatchDraw& BatchDraw : BatchDraws)
+	{
+		BatchDraw.First = First;
+		First += std::exchange(BatchDraw.Count, 0u);
+	}
+	auto* const Objects = static_cast<uint32_t*>(OutObjects.Data);
+	for (const FSeen& Item : Sorted)
+	{
+		const FHostScene::FDraw& Draw = Scene.GetDraws()[Item.Draw];
+		for (uint32_t I = 0; I < Draw.BatchCount; ++I)
+		{
+			FBatchDraw& BatchDraw = BatchDraws[DrawOfBatch[2 * Indices[Draw.FirstBatch + I] + Draw.bMirrored]];
+			Objects[BatchDraw.First + BatchDraw.Count++] = Draw.Object.Index;
+		}
+	}
+	return FRTStatus::Success();
+}
+
+void FGBufferPass::RecordDraws(FFrameContext& Frame, IRTCommandList& List, const FHostScene& Scene)
+{
+	CollectSeen(Frame.View, Scene);
+	SortByDistance();
+	FUploadSlice Objects;
+	if (FRTStatus S = MakeBatchDraws(Scene, Objects); !S) { return Frame.Fail(S); }
+	const auto IsMasked = [&](const FBatchDraw& Draw) { return Scene.GetBatches()[Draw.Batch].bMasked; };
+	std::stable_partition(BatchDraws.begin(), BatchDraws.end(), [&](const FBatchDraw& Draw) { return !IsMasked(Draw); });
+	IRTPipeline* Bound = nullptr;
+	IRTBuffer* BoundIndices = nullptr;
+	for (const FBatchDraw& Draw : BatchDraws)
+	{
+		const FHostScene::FDrawBatch& Batch = Scene.GetBatches()[Draw.Batch];
+		const ERTCull Cull = Batch.bDoubleSided ? ERTCull::None : Draw.bMirrored ? ERTCull::Front : ERTCull::Back;
+		IRTPipeline* const Pipeline = GetPipeline(Frame, Batch.bMasked && Frame.Facts.bMasked, Cull);
+		if (!Pipeline) { return; }
+		if (Pipeline != Bound) { List.SetPipeline(Bound = Pipeline); }
+		if (Batch.Indices != BoundIndices) { List.SetIndexBuffer(BoundIndices = Batch.Indices, 0, ERTIndexType::UInt32); }
+		const FGBufferConstants Constants{Frame.Pass, Objects.Address + uint64_t(Draw.First) * sizeof(uint32_t), Batch.Section};
+		List.PushConstants(&Constants, sizeof(Constants));
+		List.DrawIndexed(Batch.IndexCount, Draw.Count, Batch.FirstIndex, 0);
+	}
 }
 
 FGBuffer FGBufferPass::Add(FFrameContext& Context, const FHostScene& Scene)
@@ -99,21 +182,7 @@ FGBuffer FGBufferPass::Add(FFrameContext& Context, const FHostScene& Scene)
 			Desc.Width = Frame->Width;
 			Desc.Height = Frame->Height;
 			Pass.Commands().BeginRasterPass(Desc);
-			IRTPipeline* Bound = nullptr;
-			IRTBuffer* BoundIndices = nullptr;
-			for (const FSeenDraw& Seen : CollectDraws(*Frame, Scene))
-			{
-				const FHostScene::FDraw& Draw = *Seen.Draw;
-				const bool bMirrored = glm::determinant(glm::dmat3(Frame->Scene.GetObject(Draw.Object).Transform)) < 0.0;
-				const ERTCull Cull = Draw.bDoubleSided ? ERTCull::None : bMirrored ? ERTCull::Front : ERTCull::Back;
-				IRTPipeline* const Pipeline = GetPipeline(*Frame, Draw.bMasked && Frame->Facts.bMasked, Cull);
-				if (!Pipeline) { break; }
-				if (Pipeline != Bound) { Pass.Commands().SetPipeline(Bound = Pipeline); }
-				if (Draw.Indices != BoundIndices) { Pass.Commands().SetIndexBuffer(BoundIndices = Draw.Indices, 0, ERTIndexType::UInt32); }
-				const FGBufferConstants Constants{Frame->Pass, Draw.Object.Index, Frame->Scene.GetFirstSection(Draw.Object) + Draw.Section};
-				Pass.Commands().PushConstants(&Constants, sizeof(Constants));
-				Pass.Commands().DrawIndexed(Draw.IndexCount, 1, Draw.FirstIndex, 0);
-			}
+			RecordDraws(*Frame, Pass.Commands(), Scene);
 			Pass.Commands().EndRasterPass();
 		};
 	});

@@ -115,28 +115,80 @@ FRTStatus FHostScene::CreateObjects()
 			if (FRTStatus S = CreateSkinnedGeometry(static_cast<uint32_t>(Mesh), Instance.Skinned); !S) { return S; }
 			Info.Geometry = Instance.Skinned;
 		}
-		for (const FHostSection& Section : Description.Meshes[Mesh].Sections) { Info.Materials.push_back(static_cast<uint32_t>(Section.Material)); }
+		const std::vector<int32_t>& Own = Description.Nodes[Node].Materials;
+		for (size_t Section = 0; Section < Description.Meshes[Mesh].Sections.size(); ++Section)
+		{
+			Info.Materials.push_back(static_cast<uint32_t>(Own.empty() ? Description.Meshes[Mesh].Sections[Section].Material : Own[Section]));
+		}
 		Info.Transform = Pose.World[Node];
-		const FRTGeometryRef Geometry = Info.Geometry;
-		Instance.Object = Scene.AddObject(std::move(Info));
-		AddDraws(Instance.Object, *Geometry, Description.Meshes[Mesh]);
+		Instance.Object = Scene.AddObject(Info);
+		AddDraw(Instance, Info);
 		Instances.push_back(std::move(Instance));
+		PlaceDraw(Instances.size() - 1);
 	}
 	return FRTStatus::Success();
 }
 
-void FHostScene::AddDraws(FRTObjectId Object, const FRTGeometry& Geometry, const FHostMesh& Mesh)
+void FHostScene::AddDraw(const FInstance& Instance, const FRTObjectInfo& Info)
 {
-	const glm::vec3 Center = 0.5f * (Mesh.BoundsMin + Mesh.BoundsMax);
-	const float Radius = Geometry.GetInfo().bDynamic ? std::numeric_limits<float>::infinity() : 0.5f * glm::length(Mesh.BoundsMax - Mesh.BoundsMin);
-	const std::vector<uint32_t>& Materials = Scene.GetObject(Object).Materials;
-	for (uint32_t Section = 0; Section < Geometry.GetSectionCount(); ++Section)
+	FDraw Draw;
+	Draw.Object = Instance.Object;
+	Draw.BatchCount = static_cast<uint32_t>(Info.Materials.size());
+	Draw.FirstBatch = FindBatches(static_cast<uint32_t>(Description.Nodes[Instance.Node].Mesh), Info.Materials, *Info.Geometry);
+	Draws.push_back(Draw);
+}
+
+uint32_t FHostScene::FindBatches(uint32_t Mesh, const std::vector<uint32_t>& Materials, const FRTGeometry& Geometry)
+{
+	const auto [Entry, bNew] = BatchesOf.try_emplace({Mesh, Materials}, static_cast<uint32_t>(BatchIndices.size()));
+	if (!bNew) { return Entry->second; }
+	for (uint32_t Section = 0; Section < Materials.size(); ++Section)
 	{
 		const FRTSectionInfo& Info = Geometry.GetInfo().Sections[Section];
 		const FHostMaterial& Material = Description.Materials[Materials[Section]];
-		Draws.push_back({Object, Section, Geometry.GetInfo().Indices.Get(), Info.FirstIndex, Info.IndexCount, Material.AlphaMode != EAlphaMode::Opaque,
-		                 Material.bDoubleSided, Center, Radius});
+		const FDrawBatch Batch{Geometry.GetInfo().Indices.Get(), Info.FirstIndex, Info.IndexCount, Section, Material.AlphaMode != EAlphaMode::Opaque,
+		                       Material.bDoubleSided};
+		std::vector<uint32_t>& OfMesh = BatchesOfMesh[Mesh];
+		const auto Found = std::find_if(OfMesh.begin(), OfMesh.end(), [&](uint32_t Index) { return Batches[Index] == Batch; });
+		if (Found != OfMesh.end()) { BatchIndices.push_back(*Found); }
+		else
+		{
+			OfMesh.push_back(static_cast<uint32_t>(Batches.size()));
+			BatchIndices.push_back(OfMesh.back());
+			Batches.push_back(Batch);
+		}
 	}
+	return Entry->second;
+}
+
+void FHostScene::PlaceDraw(size_t Instance)
+{
+	FDraw& Draw = Draws[Instance];
+	const glm::dmat4& Transform = Scene.GetObject(Draw.Object).Transform;
+	const FHostMesh& Mesh = Description.Meshes[Description.Nodes[Instances[Instance].Node].Mesh];
+	// No direction is stretched by more than this (the Frobenius norm).
+	const double Scale2 = glm::dot(Transform[0], Transform[0]) + glm::dot(Transform[1], Transform[1]) + glm::dot(Transform[2], Transform[2]);
+	Draw.Center = glm::dvec3(Transform * glm::dvec4(0.5f * (Mesh.BoundsMin + Mesh.BoundsMax), 1.0));
+	Draw.Radius = Instances[Instance].Skinned ? std::numeric_limits<double>::infinity() : std::sqrt(Scale2) * 0.5 * double(glm::length(Mesh.BoundsMax - Mesh.BoundsMin));
+	Draw.bMirrored = glm::determinant(glm::dmat3(Transform)) < 0.0;
+}
+
+void FHostScene::SetTransform(size_t Instance, const glm::dmat4& Transform)
+{
+	Scene.SetTransform(Instances[Instance].Object, Transform);
+	PlaceDraw(Instance);
+}
+
+FSkinningInputs FHostScene::MakeSkinning(size_t Instance, std::vector<glm::mat4> Joints) const
+{
+	const FMeshBuffers& Buffers = Meshes[Description.Nodes[Instances[Instance].Node].Mesh];
+	FSkinningInputs Item;
+	Item.Geometry = Instances[Instance].Skinned;
+	Item.SourcePositions = Buffers.Positions->GetDeviceAddress();
+	Item.SourceAttributes = Buffers.Attributes->GetDeviceAddress();
+	Item.Weights = Buffers.Weights->GetDeviceAddress();
+	Item.Joints = std::move(Joints);
+	return Item;
 }
 
 std::vector<FSkinningInputs> FHostScene::SetTime(double Time)
@@ -144,19 +196,12 @@ std::vector<FSkinningInputs> FHostScene::SetTime(double Time)
 	const bool bFirst = Pose.World.empty();
 	Pose = EvaluatePose(Description, Time);
 	std::vector<FSkinningInputs> Skinning;
-	for (const FInstance& Instance : Instances)
+	for (size_t Index = 0; Index < Instances.size(); ++Index)
 	{
+		const FInstance& Instance = Instances[Index];
 		const glm::dmat4& World = Pose.World[Instance.Node];
-		if (bFirst || World != Scene.GetObject(Instance.Object).Transform) { Scene.SetTransform(Instance.Object, World); }
-		if (!Instance.Skinned) { continue; }
-		const FMeshBuffers& Buffers = Meshes[Description.Nodes[Instance.Node].Mesh];
-		FSkinningInputs Item;
-		Item.Geometry = Instance.Skinned;
-		Item.SourcePositions = Buffers.Positions->GetDeviceAddress();
-		Item.SourceAttributes = Buffers.Attributes->GetDeviceAddress();
-		Item.Weights = Buffers.Weights->GetDeviceAddress();
-		Item.Joints = EvaluateJoints(Description, Pose, Instance.Node);
-		Skinning.push_back(std::move(Item));
+		if (bFirst || World != Scene.GetObject(Instance.Object).Transform) { SetTransform(Index, World); }
+		if (Instance.Skinned) { Skinning.push_back(MakeSkinning(Index, EvaluateJoints(Description, Pose, Instance.Node))); }
 	}
 	if (IsAnimated()) { UpdateLights(); }
 	return Skinning;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -37,17 +38,36 @@ public:
 	/// The file's first camera, else one that sees all of the scene.
 	FView MakeDefaultView(uint32_t Width, uint32_t Height) const;
 
+	/// What the raster draws at once: a section of a mesh, for all objects whose material has the same kind of pipeline.
+	struct FDrawBatch
+	{
+		IRTBuffer* Indices = nullptr;
+		uint32_t FirstIndex = 0, IndexCount = 0;
+		uint32_t Section = 0; ///< of the object
+		bool bMasked = false, bDoubleSided = false;
+		friend bool operator==(const FDrawBatch&, const FDrawBatch&) = default;
+	};
+	/// An object as the raster sees it, at the index of its instance.
 	struct FDraw
 	{
 		FRTObjectId Object;
-		uint32_t Section = 0; ///< of the object
-		IRTBuffer* Indices = nullptr;
-		uint32_t FirstIndex = 0, IndexCount = 0;
-		bool bMasked = false, bDoubleSided = false;
-		glm::vec3 Center{0}; ///< of the mesh's bounding sphere, object space
-		float Radius = 0.0f; ///< infinite where it deforms
+		uint32_t FirstBatch = 0, BatchCount = 0; ///< into GetBatchIndices()
+		glm::dvec3 Center{0};                    ///< bounding sphere, in the world
+		double Radius = 0.0;                     ///< infinite where it deforms
+		bool bMirrored = false;
 	};
 	const std::vector<FDraw>& GetDraws() const { return Draws; }
+	const std::vector<FDrawBatch>& GetBatches() const { return Batches; }
+	const std::vector<uint32_t>& GetBatchIndices() const { return BatchIndices; }
+
+	/// Instances are the nodes with meshes, in their order.
+	size_t GetInstanceCount() const { return Instances.size(); }
+	int32_t GetNode(size_t Instance) const { return Instances[Instance].Node; }
+	bool IsSkinned(size_t Instance) const { return Instances[Instance].Skinned != nullptr; }
+	/// Moves one object, past the animations. Whoever moves it in GetScene() itself leaves the raster behind.
+	void SetTransform(size_t Instance, const glm::dmat4& Transform);
+	/// Deforms a skinned one in the next frame; Joints as EvaluateJoints has them.
+	FSkinningInputs MakeSkinning(size_t Instance, std::vector<glm::mat4> Joints) const;
 	/// Of FSceneDescription::Images, on the GPU in ShaderRead.
 	IRTTexture* GetImage(int32_t Image) const { return Images[static_cast<size_t>(Image)].Get(); }
 
@@ -72,7 +92,9 @@ private:
 	FRTGeometryInfo MakeGeometryInfo(uint32_t Mesh) const;
 	FRTStatus GetSampler(const FHostTexture& Texture, uint32_t& OutIndex);
 	FRTStatus AddMaterials();
-	void AddDraws(FRTObjectId Object, const FRTGeometry& Geometry, const FHostMesh& Mesh);
+	void AddDraw(const FInstance& Instance, const FRTObjectInfo& Info);
+	uint32_t FindBatches(uint32_t Mesh, const std::vector<uint32_t>& Materials, const FRTGeometry& Geometry);
+	void PlaceDraw(size_t Instance);
 	void UpdateLights();
 	int32_t FindOwnSun() const; // node, or -1
 
@@ -86,6 +108,10 @@ private:
 	std::vector<FMeshBuffers> Meshes;
 	std::vector<FInstance> Instances;
 	std::vector<FDraw> Draws;
+	std::vector<FDrawBatch> Batches;
+	std::vector<uint32_t> BatchIndices;
+	std::map<std::pair<uint32_t, std::vector<uint32_t>>, uint32_t> BatchesOf; // mesh and materials to first index
+	std::map<uint32_t, std::vector<uint32_t>> BatchesOfMesh;
 	bool bSceneLights = true;
 };
 
@@ -97,9 +123,30 @@ public:
 	FGBuffer Add(FFrameContext& Context, const FHostScene& Scene);
 
 private:
+	struct FSeen
+	{
+		uint32_t Draw = 0;
+		uint32_t Bin = 0; ///< of distance
+	};
+	struct FBatchDraw
+	{
+		uint32_t Batch = 0;
+		bool bMirrored = false;
+		uint32_t Count = 0, First = 0; ///< of the object indices
+	};
 	IRTPipeline* GetPipeline(const FFrameContext& Context, bool bMasked, ERTCull Cull);
+	void CollectSeen(const FView& View, const FHostScene& Scene);
+	void SortByDistance();
+	FRTStatus MakeBatchDraws(const FHostScene& Scene, FUploadSlice& OutObjects);
+	void RecordDraws(FFrameContext& Frame, IRTCommandList& List, const FHostScene& Scene);
+
 	FRenderer& Renderer;
 	TRTRef<IRTPipeline> Pipelines[2][3];
+	// Kept for their memory.
+	std::vector<std::vector<FSeen>> Chunks;
+	std::vector<FSeen> Seen, Sorted;
+	std::vector<FBatchDraw> BatchDraws;
+	std::vector<uint32_t> DrawOfBatch; // by 2 · batch + mirrored
 };
 
 } // namespace Lantern

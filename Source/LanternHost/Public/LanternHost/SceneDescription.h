@@ -92,6 +92,7 @@ struct FHostNode
 	glm::vec3 Scale{1};
 	std::optional<glm::dmat4> Matrix; ///< instead of the three above
 	int32_t Mesh = -1, Skin = -1, Light = -1, Camera = -1;
+	std::vector<int32_t> Materials; ///< by section, instead of the mesh's; empty: the mesh's. Masked only where the mesh's is
 };
 
 struct FHostSkin
