@@ -30,6 +30,8 @@ protected:
 
 	IRTDevice& Device() { return *Make.Device; }
 	const FRTCapabilities& Caps() { return Make.Device->GetCapabilities(); }
+	/// The mock without the wrapper, whose memory and tables can be looked into.
+	bool IsMock() const { return GetParam() == EContractRHI::Mock; }
 	bool IsVulkan() const { return GetParam() >= EContractRHI::Vulkan; }
 	void Wait(FRTFence Fence) { EXPECT_OK(Device().WaitFor(Fence, 60'000'000'000ull)); }
 	/// Ends, submits and waits.

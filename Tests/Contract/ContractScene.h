@@ -72,7 +72,7 @@ protected:
 		return Out;
 	}
 	/// Boxes: six floats each.
-	FContractGeometry MakeBoxes(const std::vector<float>& Boxes)
+	FContractGeometry MakeBoxes(const std::vector<float>& Boxes, bool bOpaque = true)
 	{
 		FContractGeometry Out;
 		Out.Vertices = this->Upload(Boxes, "Boxes");
@@ -81,6 +81,7 @@ protected:
 		Section.VertexStride = 24;
 		Section.VertexCount = static_cast<uint32_t>(Boxes.size() / 6);
 		Section.bProcedural = true;
+		Section.bOpaque = bOpaque;
 		Create(Out, false, "Boxes");
 		return Out;
 	}

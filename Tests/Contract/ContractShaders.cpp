@@ -1,15 +1,22 @@
 #include "ContractShaders.h"
 
+#include "Shaders/BoxHit_rchit.h"
 #include "Shaders/Call_rgen.h"
 #include "Shaders/Colour_frag.h"
 #include "Shaders/Disc_rint.h"
 #include "Shaders/Double_rcall.h"
+#include "Shaders/HitCalls_rchit.h"
 #include "Shaders/Hit_rchit.h"
 #include "Shaders/Hole_rahit.h"
 #include "Shaders/MissOne_rmiss.h"
 #include "Shaders/MissTwo_rmiss.h"
+#include "Shaders/Parity_rahit.h"
 #include "Shaders/Query_comp.h"
+#include "Shaders/SaltHit_rchit.h"
+#include "Shaders/SaltMiss_rmiss.h"
+#include "Shaders/Salt_rcall.h"
 #include "Shaders/SampleLevels_comp.h"
+#include "Shaders/Slab_rint.h"
 #include "Shaders/Square_rcall.h"
 #include "Shaders/StoreImage_comp.h"
 #include "Shaders/Trace_rgen.h"
@@ -41,6 +48,13 @@ FRTShaderCode GetContractShader(const char* Name)
 	    LANTERN_CONTRACT_SHADER(Disc_rint, ERTShaderStage::Intersection, "Disc.rint"),
 	    LANTERN_CONTRACT_SHADER(Double_rcall, ERTShaderStage::Callable, "Double.rcall"),
 	    LANTERN_CONTRACT_SHADER(Square_rcall, ERTShaderStage::Callable, "Square.rcall"),
+	    LANTERN_CONTRACT_SHADER(BoxHit_rchit, ERTShaderStage::ClosestHit, "BoxHit.rchit"),
+	    LANTERN_CONTRACT_SHADER(HitCalls_rchit, ERTShaderStage::ClosestHit, "HitCalls.rchit"),
+	    LANTERN_CONTRACT_SHADER(Parity_rahit, ERTShaderStage::AnyHit, "Parity.rahit"),
+	    LANTERN_CONTRACT_SHADER(Salt_rcall, ERTShaderStage::Callable, "Salt.rcall"),
+	    LANTERN_CONTRACT_SHADER(SaltHit_rchit, ERTShaderStage::ClosestHit, "SaltHit.rchit"),
+	    LANTERN_CONTRACT_SHADER(SaltMiss_rmiss, ERTShaderStage::Miss, "SaltMiss.rmiss"),
+	    LANTERN_CONTRACT_SHADER(Slab_rint, ERTShaderStage::Intersection, "Slab.rint"),
 	};
 #undef LANTERN_CONTRACT_SHADER
 	for (const FRTShaderCode& Shader : All)
@@ -84,35 +98,64 @@ TRTRef<IRTPipeline> MakeRasterPipeline(IRTDevice& Device, ERTFormat Color, ERTFo
 	return Out;
 }
 
+FRTStatus CreateRays(IRTDevice& Device, const std::vector<FRayGroup>& Groups, bool bLibrary,
+                     const std::vector<IRTPipeline*>& Libraries, const char* Name, TRTRef<IRTPipeline>& Out)
+{
+	std::vector<FRTShaderCode> Shaders;
+	const auto Add = [&](const char* File)
+	{
+		if (!File)
+		{
+			return NoShader;
+		}
+		Shaders.push_back(GetContractShader(File));
+		return static_cast<uint32_t>(Shaders.size() - 1);
+	};
+	std::vector<FRTShaderGroup> Native;
+	for (const FRayGroup& Group : Groups)
+	{
+		const ERTGroupKind Hit = Group.Intersection ? ERTGroupKind::Procedural : ERTGroupKind::Triangles;
+		FRTShaderGroup& Item = Native.emplace_back();
+		Item.Kind = Group.General ? ERTGroupKind::General : Hit;
+		Item.General = Add(Group.General);
+		Item.ClosestHit = Add(Group.ClosestHit);
+		Item.AnyHit = Add(Group.AnyHit);
+		Item.Intersection = Add(Group.Intersection);
+	}
+	FRTRayTracingPipelineDesc Desc;
+	Desc.Shaders = Shaders.data();
+	Desc.ShaderCount = static_cast<uint32_t>(Shaders.size());
+	Desc.Groups = Native.data();
+	Desc.GroupCount = static_cast<uint32_t>(Native.size());
+	Desc.Libraries = Libraries.data();
+	Desc.LibraryCount = static_cast<uint32_t>(Libraries.size());
+	Desc.bLibrary = bLibrary;
+	Desc.MaxPayloadBytes = 4;
+	Desc.Name = Name;
+	return Device.CreateRayTracingPipeline(Desc, Out.ReleaseAndGetAddress());
+}
+
+TRTRef<IRTPipeline> MakeRays(IRTDevice& Device, const std::vector<FRayGroup>& Groups, bool bLibrary,
+                             const std::vector<IRTPipeline*>& Libraries, const char* Name)
+{
+	TRTRef<IRTPipeline> Out;
+	EXPECT_OK(CreateRays(Device, Groups, bLibrary, Libraries, Name, Out));
+	return Out;
+}
+
 TRTRef<IRTPipeline> MakeRayPipeline(IRTDevice& Device)
 {
-	const FRTShaderCode Shaders[] = {
-	    GetContractShader("Trace.rgen"),    GetContractShader("Call.rgen"),    GetContractShader("MissOne.rmiss"),
-	    GetContractShader("MissTwo.rmiss"), GetContractShader("Hit.rchit"),    GetContractShader("Hole.rahit"),
-	    GetContractShader("Disc.rint"),     GetContractShader("Double.rcall"), GetContractShader("Square.rcall"),
-	};
-	FRTShaderGroup Groups[9];
-	Groups[GroupTrace].General = 0;
-	Groups[GroupCall].General = 1;
-	Groups[GroupMissOne].General = 2;
-	Groups[GroupMissTwo].General = 3;
-	Groups[GroupHit].Kind = Groups[GroupMasked].Kind = ERTGroupKind::Triangles;
-	Groups[GroupDisc].Kind = ERTGroupKind::Procedural;
-	Groups[GroupHit].ClosestHit = Groups[GroupMasked].ClosestHit = Groups[GroupDisc].ClosestHit = 4;
-	Groups[GroupMasked].AnyHit = 5;
-	Groups[GroupDisc].Intersection = 6;
-	Groups[GroupDouble].General = 7;
-	Groups[GroupSquare].General = 8;
-	FRTRayTracingPipelineDesc Desc;
-	Desc.Shaders = Shaders;
-	Desc.ShaderCount = static_cast<uint32_t>(std::size(Shaders));
-	Desc.Groups = Groups;
-	Desc.GroupCount = static_cast<uint32_t>(std::size(Groups));
-	Desc.MaxPayloadBytes = 4;
-	Desc.Name = "ContractRTPSO";
-	TRTRef<IRTPipeline> Out;
-	EXPECT_OK(Device.CreateRayTracingPipeline(Desc, Out.ReleaseAndGetAddress()));
-	return Out;
+	std::vector<FRayGroup> Groups(9);
+	Groups[GroupTrace].General = "Trace.rgen";
+	Groups[GroupCall].General = "Call.rgen";
+	Groups[GroupMissOne].General = "MissOne.rmiss";
+	Groups[GroupMissTwo].General = "MissTwo.rmiss";
+	Groups[GroupHit].ClosestHit = "Hit.rchit";
+	Groups[GroupMasked] = {nullptr, "Hit.rchit", "Hole.rahit"};
+	Groups[GroupDisc] = {nullptr, "Hit.rchit", nullptr, "Disc.rint"};
+	Groups[GroupDouble].General = "Double.rcall";
+	Groups[GroupSquare].General = "Square.rcall";
+	return MakeRays(Device, Groups, false, {}, "ContractRTPSO");
 }
 
 } // namespace Lantern

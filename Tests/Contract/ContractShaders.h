@@ -11,9 +11,9 @@ struct FContractPush
 {
 	uint64_t Output = 0;
 	uint64_t Input = 0;
-	uint32_t A = 0, B = 0, C = 0, D = 0, E = 0, F = 0;
+	uint32_t A = 0, B = 0, C = 0, D = 0, E = 0, F = 0, G = 0, H = 0;
 };
-static_assert(sizeof(FContractPush) == 40, "scalar layout of Push in Shaders/Common.glsl");
+static_assert(sizeof(FContractPush) == 48, "scalar layout of Push in Shaders/Common.glsl");
 
 /// Name: the file, e.g. "Trace.rgen".
 FRTShaderCode GetContractShader(const char* Name);
@@ -40,7 +40,22 @@ inline constexpr uint32_t MissOne = 0xf0000001u, MissTwo = 0xf0000002u;
 
 TRTRef<IRTPipeline> MakeRayPipeline(IRTDevice& Device);
 
+/// A shader group by the files of its shaders; null: none.
+struct FRayGroup
+{
+	const char* General = nullptr;
+	const char* ClosestHit = nullptr;
+	const char* AnyHit = nullptr;
+	const char* Intersection = nullptr;
+};
+/// Payload of 4 bytes, recursion 1. Monolithic, a library, or linked from Libraries.
+FRTStatus CreateRays(IRTDevice& Device, const std::vector<FRayGroup>& Groups, bool bLibrary,
+                     const std::vector<IRTPipeline*>& Libraries, const char* Name, TRTRef<IRTPipeline>& Out);
+TRTRef<IRTPipeline> MakeRays(IRTDevice& Device, const std::vector<FRayGroup>& Groups, bool bLibrary = false,
+                             const std::vector<IRTPipeline*>& Libraries = {}, const char* Name = "Rays");
+
 /// gl_RayFlags….
-inline constexpr uint32_t RayOpaque = 1, RayNoOpaque = 2, RayCullBack = 16, RayCullFront = 32;
+inline constexpr uint32_t RayOpaque = 1, RayNoOpaque = 2, RayFirstHit = 4, RaySkipClosestHit = 8, RayCullBack = 16,
+                          RayCullFront = 32, RayCullOpaque = 64, RayCullNoOpaque = 128;
 
 } // namespace Lantern

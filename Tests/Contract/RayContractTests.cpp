@@ -74,6 +74,10 @@ TEST_P(FRecordContract, TableChangesBetweenFrames)
 
 TEST_P(FRecordContract, TableChangesWithinAList)
 {
+	if (IsMock())
+	{
+		GTEST_SKIP() << "the mock's rays are followed at the end of a list only";
+	}
 	MakeTable(1);
 	SetHit(0, 1);
 	const FContractGeometry Square = MakeSquares();
@@ -178,7 +182,7 @@ TEST_P(FRecordContract, AnyHitOfOneSectionOnly)
 	EXPECT_EQ(Trace(2, MakePush()), (FWords{HitValue(1, 0, 0, 0), MissOne}));
 }
 
-INSTANTIATE_TEST_SUITE_P(RHI, FRecordContract, testing::Values(EContractRHI::Vulkan, EContractRHI::VulkanValidated),
+INSTANTIATE_TEST_SUITE_P(RHI, FRecordContract, testing::ValuesIn(RayRHIs),
                          [](const auto& Info) { return GetName(Info.param); });
 
 } // namespace

@@ -1,10 +1,14 @@
-// Rays that run: pixel (x, y) looks down -z at the unit square over it and says what it hit.
+// Rays that run (on the mock: that are followed through its memory and table): pixel (x, y) looks down -z at the unit square over it and says what it hit.
 #pragma once
 
 #include "ContractScene.h"
+#include "MockRays.h"
 
 namespace Lantern
 {
+
+/// Where rays can be followed: the mock's memory is out of reach behind the wrapper.
+inline constexpr EContractRHI RayRHIs[] = {EContractRHI::Mock, EContractRHI::Vulkan, EContractRHI::VulkanValidated};
 
 class FRayContract : public TSceneFixture<FContractShaders>
 {
@@ -71,6 +75,10 @@ protected:
 		List->TraceRays(Table.Get(), RayGen, Width, 1, 1);
 		Barrier(List, Output.Get(), ERTAccess::StorageWrite, ERTAccess::HostRead);
 		Run(List);
+		if (IsMock())
+		{
+			return TraceOnMock(GetMock(&Device()), Table.Get(), Scene.Get(), Push, Width, RayGen);
+		}
 		const auto* Begin = static_cast<const uint32_t*>(Output->GetMapped());
 		return {Begin, Begin + Width};
 	}

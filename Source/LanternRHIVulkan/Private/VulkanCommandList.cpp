@@ -71,6 +71,11 @@ void FVulkanCommandList::ReleaseKept()
 FVulkanKept FVulkanCommandList::TakeKept(FRTFence InFence)
 {
 	Fence = InFence;
+	for (const auto& [Queries, Index] : SizesWritten)
+	{
+		Queries->NoteWrite(Index, InFence);
+	}
+	SizesWritten.clear();
 	FVulkanKept Result;
 	Result.swap(Kept);
 	return Result;
@@ -88,6 +93,7 @@ FRTStatus FVulkanCommandList::Begin()
 	Error = {};
 	Bound = nullptr;
 	SetBoundPoints = 0;
+	SizesWritten.clear();
 	VkResult Result = Device.Check(Device.Api.ResetCommandPool(Device.Handle, Pool, 0));
 	VkCommandBufferBeginInfo Info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
 	Info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
@@ -286,7 +292,9 @@ void FVulkanCommandList::WriteTimestamp(IRTQueryPool* Queries, uint32_t Index)
 void FVulkanCommandList::ResetQueries(IRTQueryPool* Queries, uint32_t First, uint32_t Count)
 {
 	Keep(Queries);
-	Device.Api.CmdResetQueryPool(Handle, static_cast<FVulkanQueryPool*>(Queries)->Handle, First, Count);
+	FVulkanQueryPool* Native = static_cast<FVulkanQueryPool*>(Queries);
+	Native->NoteReset(First, Count);
+	Device.Api.CmdResetQueryPool(Handle, Native->Handle, First, Count);
 }
 
 void FVulkanCommandList::BeginMarker(const char* MarkerName)

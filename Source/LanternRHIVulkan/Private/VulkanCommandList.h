@@ -83,6 +83,7 @@ private:
 	FRTStatus Error;
 	FVulkanKept Kept;
 	FVulkanPipeline* Bound = nullptr;
+	std::vector<std::pair<FVulkanQueryPool*, uint32_t>> SizesWritten;
 	uint32_t SetBoundPoints = 0; ///< bit per bind point that has the descriptor set
 };
 

@@ -107,10 +107,11 @@ void FVulkanCommandList::BuildGeometries(const FRTGeometryBuild* Builds, uint32_
 
 void FVulkanCommandList::WriteCompactedSize(IRTQueryPool* Queries, uint32_t Index, IRTGeometry* Geometry)
 {
-	const FVulkanQueryPool* Native = static_cast<const FVulkanQueryPool*>(Queries);
+	FVulkanQueryPool* Native = static_cast<FVulkanQueryPool*>(Queries);
 	assert(Native->GetKind() == ERTQuery::CompactedSize && Index < Native->GetCount());
 	Keep(Queries);
 	Keep(Geometry);
+	SizesWritten.push_back({Native, Index});
 	Device.Api.CmdWriteAccelerationStructuresPropertiesKHR(
 	    Handle, 1, &static_cast<const FVulkanGeometry*>(Geometry)->Handle,
 	    VK_QUERY_TYPE_ACCELERATION_STRUCTURE_COMPACTED_SIZE_KHR, Native->Handle, Index);

@@ -1,5 +1,7 @@
 #include "VulkanQueryPool.h"
 
+#include "VulkanQuirks.h"
+
 #include <cassert>
 
 namespace Lantern
@@ -24,9 +26,30 @@ FRTStatus FVulkanQueryPool::Initialise(ERTQuery InKind, uint32_t InCount)
 		Handle = VK_NULL_HANDLE;
 		return MakeStatus(Result, "Creating query pool", bSizes ? "compacted sizes" : "timestamps");
 	}
+	if (bSizes && HasQuirk(Device.Probe.Quirks, EVulkanQuirk::SizesAlwaysAvailable))
+	{
+		WrittenBy = std::vector<std::atomic<FRTFence>>(Count);
+		NoteReset(0, Count);
+	}
 	// A query that was never reset may not even be asked for its availability.
 	Device.Api.ResetQueryPool(Device.Handle, Handle, 0, Count);
 	return {};
+}
+
+void FVulkanQueryPool::NoteReset(uint32_t First, uint32_t InCount)
+{
+	for (uint32_t Index = First; Index < First + InCount && Index < WrittenBy.size(); ++Index)
+	{
+		WrittenBy[Index].store(NeverWritten);
+	}
+}
+
+void FVulkanQueryPool::NoteWrite(uint32_t Index, FRTFence Fence)
+{
+	if (Index < WrittenBy.size())
+	{
+		WrittenBy[Index].store(Fence);
+	}
 }
 
 uint64_t FVulkanQueryPool::Convert(uint64_t Value) const
@@ -59,10 +82,12 @@ bool FVulkanQueryPool::GetResults(uint32_t First, uint32_t InCount, uint64_t* Ou
 	{
 		return false;
 	}
+	const FRTFence Completed = WrittenBy.empty() ? 0 : Device.GetCompletedFence();
 	bool bAll = true;
 	for (uint32_t Index = 0; Index < InCount; ++Index)
 	{
-		bAll = bAll && Results[Index].bAvailable != 0;
+		bAll = bAll && Results[Index].bAvailable != 0 &&
+		       (WrittenBy.empty() || WrittenBy[First + Index].load() <= Completed);
 		OutValues[Index] = Convert(Results[Index].Value);
 	}
 	return bAll;

@@ -24,6 +24,9 @@ constexpr FQuirk Quirks[] = {
     {VK_DRIVER_ID_MESA_LLVMPIPE, 0, ~0u, EVulkanQuirk::CrashWithoutHitShaders,
      "a ray that hits crashes the process when no hit group of its pipeline has a shader (seen in 25.0.7 with LLVM 19, "
      "not with LLVM 15): such pipelines get an empty closest-hit shader that nothing runs"},
+    {VK_DRIVER_ID_MESA_LLVMPIPE, 0, ~0u, EVulkanQuirk::SizesAlwaysAvailable,
+     "queries of compacted sizes are available from the start, and resets leave them (seen in 25.0.7): they count as "
+     "written when the list that does so has finished"},
 };
 
 } // namespace

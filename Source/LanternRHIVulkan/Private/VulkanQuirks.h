@@ -13,6 +13,8 @@ enum class EVulkanQuirk : uint32_t
 	LinkedPushConstantsLost = 1 << 0,
 	/// A ray-tracing pipeline must have a hit shader, even one that no record reaches.
 	CrashWithoutHitShaders = 1 << 1,
+	/// Whether a compacted size has been written must be known from fences.
+	SizesAlwaysAvailable = 1 << 2,
 };
 
 constexpr bool HasQuirk(uint32_t Flags, EVulkanQuirk Flag)

@@ -11,7 +11,7 @@ layout(push_constant, scalar) uniform Push
 {
 	Words Output;
 	Floats Input;
-	uint A, B, C, D, E, F;
+	uint A, B, C, D, E, F, G, H;
 };
 
 layout(set = 0, binding = 0) uniform texture2D Textures[];
