@@ -108,7 +108,7 @@ FRTGeometry::FRTGeometry(FRTGeometryInfo InInfo)
 FRTGeometry::~FRTGeometry()
 {
 	Coarser.reset(); // it reads the CPU's data, which may go with this
-	if (Releases) { Releases->Add(Slot, std::move(Structure), std::move(Indices)); }
+	if (Releases) { Releases->Add(Slot, Info.bDynamic, std::move(Structure), std::move(Indices)); }
 }
 
 uint64_t FRTGeometry::GetPrimitiveCount() const

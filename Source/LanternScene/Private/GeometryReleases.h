@@ -15,14 +15,15 @@ struct FGeometryReleases
 	struct FItem
 	{
 		uint32_t Slot = 0;
+		bool bDynamic = false;
 		TRTRef<IRTGeometry> Structure;
 		TRTRef<IRTBuffer> Indices;
 	};
 
-	void Add(uint32_t Slot, TRTRef<IRTGeometry> Structure, TRTRef<IRTBuffer> Indices)
+	void Add(uint32_t Slot, bool bDynamic, TRTRef<IRTGeometry> Structure, TRTRef<IRTBuffer> Indices)
 	{
 		std::lock_guard Lock(Mutex);
-		Items.push_back({Slot, std::move(Structure), std::move(Indices)});
+		Items.push_back({Slot, bDynamic, std::move(Structure), std::move(Indices)});
 	}
 	std::vector<FItem> Take()
 	{

@@ -77,7 +77,7 @@ class FRTGeometry;
 std::vector<FRTGeometrySection> MakeStructureSections(const FRTGeometry& Geometry);
 
 struct FGeometryReleases;
-struct FCoarserLevel;
+class FCoarserLevel;
 
 class FRTGeometry
 {
@@ -108,6 +108,7 @@ private:
 	friend class FRTScene;
 	friend class FGeometryBuilder;
 	friend class FGeometryStore;
+	friend struct FGeometryTestAccess;
 	FRTGeometryInfo Info;
 	std::vector<FRTGeometryPart> Parts;
 	uint32_t PartCapacity = 0;
