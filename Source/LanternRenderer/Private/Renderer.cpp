@@ -1,11 +1,10 @@
 #include "LanternRenderer/Renderer.h"
 
 #include <cassert>
-#include <chrono>
 #include <cstring>
 
 #include "LanternCore/ConsoleVariables.h"
-#include "LanternCore/Log.h"
+#include "LanternCore/TaskTrace.h"
 #include "LanternRenderer/Frame.h"
 #include "PassTools.h"
 #include "RayPrograms.h"
@@ -20,23 +19,28 @@ TRTConsoleVariable<int32_t> CVarMaterialOverride("r.RT.Material.Override", 0,
                                                  "0: the scene's materials. 1: each a Lambert of its base colour, alpha test kept. 2: each a "
                                                  "Lambert of 0.5.",
                                                  {0, 2});
+TRTConsoleVariable<bool> CVarPrebind("r.RT.SBT.Prebind", true,
+                                     "Shader records are written by a task beside the frame. Off: on the render thread, where the table is recorded.");
 constexpr uint64_t WaitNs = 120'000'000'000ull;
 } // namespace
 
 FRenderer::FRenderer(IRTDevice& InDevice, FRendererDesc Desc)
     : Device(InDevice), Compiler(FShaderCompilerDesc{std::move(Desc.ShaderFolders), std::move(Desc.CacheFolder)}), Pipelines(InDevice, Compiler),
-      Uploads(InDevice), GraphResources(InDevice), Bindings(InDevice)
+      Uploads(InDevice), GraphResources(InDevice), Bindings(InDevice), RayCompiler(InDevice, Compiler, Programs)
 {
+	if (!FTaskTrace::HasFolder()) { FTaskTrace::SetFolder(Compiler.GetCacheFolder()); }
 }
 
 FRenderer::~FRenderer()
 {
 	// A lost device has nothing left to wait for.
 	(void)WaitForAll();
+	FTaskTrace::Flush();
 }
 
 FRTStatus FRenderer::WaitForAll()
 {
+	PrebindTask.Wait();
 	for (const FRTFence Fence : Fences)
 	{
 		if (FRTStatus S = Device.WaitFor(Fence, WaitNs); !S) { return S; }
@@ -55,29 +59,24 @@ FRTStatus FRenderer::WaitForSlot()
 FRTStatus FRenderer::PrepareRayPipeline(const FFrameFeatures& Features)
 {
 	Context->RayPipeline = nullptr;
-	const FRayPrograms Wanted = ChooseRayPrograms(Device.GetCapabilities(), Context->Facts, Features);
+	const FRayPrograms Wanted = ChooseRayPrograms(Device.GetCapabilities(), *Context, Features);
 	if (Wanted.Desc.RayGens.empty())
 	{
 		RayPipeline.reset();
 		return FRTStatus::Success();
 	}
-	FRayPipelineEntry& Entry = RayPipelines[MakeRayProgramsKey(Wanted.Desc)];
-	// What the compiler refused once it refuses again; what failed for want of memory may be tried again.
-	if (Entry.Status.Code == ERTResult::CompileFailed) { return Entry.Status; }
-	if (!Entry.Pipeline)
+	if (Features.bWaitForPipelines || Features.bReference || GetPipelineFallback() == ERTFallback::Wait)
 	{
-		const auto Start = std::chrono::steady_clock::now();
-		auto Pipeline = std::make_shared<FRTPSO>();
-		Entry.Status = FRTPSO::Create(Device, Compiler, Programs, Wanted.Desc, *Pipeline);
-		if (!Entry.Status) { return Entry.Status; }
-		Entry.Pipeline = std::move(Pipeline);
-		LastPipelineMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - Start).count();
+		if (FRTStatus S = RayCompiler.Finish(Wanted.Desc); !S) { return S; }
 	}
-	RayPipeline = Entry.Pipeline;
+	else { RayCompiler.Update(Wanted.Desc); }
+	RayPipeline = RayCompiler.GetCurrent();
+	if (!RayPipeline) { return FRTStatus::Success(); }
 	Context->RayPipeline = RayPipeline.get();
 	Context->RayBindings = &Bindings;
-	Context->SunShadowRayGen = Wanted.SunShadowRayGen;
-	Context->ReferenceRayGen = Wanted.ReferenceRayGen;
+	// Until a variant for this frame's settings is ready, the one before serves.
+	if (Wanted.SunShadow) { Context->SunShadowRayGen = RayPipeline->FindRayGenVariant(*Wanted.SunShadow); }
+	if (Wanted.Reference) { Context->ReferenceRayGen = RayPipeline->FindRayGen(*Wanted.Reference); }
 	Context->Scene.SetRayTypes(RayPipeline->GetRayTypeCount());
 	return FRTStatus::Success();
 }
@@ -87,6 +86,8 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	assert(!Graph && "EndFrame was not called");
 	bFrameLost = true;
 	FConsoleVariables::Get().BeginFrame();
+	FTaskTrace::BeginFrame(View.FrameIndex);
+	FTraceScope Trace("BeginFrame");
 	if (FRTStatus S = WaitForSlot(); !S) { return S; }
 	Scene.SetAlphaTest(CVarAlphaTest.GetOnRenderThread());
 	Scene.SetMaterialOverride(static_cast<uint32_t>(CVarMaterialOverride.GetOnRenderThread()));
@@ -97,54 +98,137 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	Context->Width = View.Width;
 	Context->Height = View.Height;
 	Context->Status = &FrameStatus;
+	Context->Owner = this;
+	bUpdating = bRayPassesAdded = false;
 	FRTStatus Status = PrepareRayPipeline(Features);
-	if (Status) { Status = AddSceneUpdate(View, Features); }
+	if (Status) { Status = StartUpdate(View, Features); }
+	if (Status) { Status = AllocateConstants(); }
+	if (Status) { Status = AddSkinningPass(*Context, Uploads, Features.Skinning); }
 	if (!Status)
 	{
-		Graph.reset();
-		Context.reset();
-		Uploads.EndFrame(0); // nothing reads them
+		DropFrame();
+		return Status;
 	}
-	return Status;
+	AddTables();
+	if (Features.bRays && !Features.bLateRays) { AddRayPasses(); }
+	return FRTStatus::Success();
 }
 
-FRTStatus FRenderer::AddSceneUpdate(const FView& View, const FFrameFeatures& Features)
+/// As early as can be: what it starts has the rest of the frame's making to be done in.
+FRTStatus FRenderer::StartUpdate(const FView& View, const FFrameFeatures& Features)
 {
-	FUploadSlice SceneSlice, ViewSlice;
-	if (FRTStatus S = Uploads.Allocate(sizeof(FSceneConstants), SceneSlice); !S) { return S; }
-	if (FRTStatus S = Uploads.Allocate(sizeof(FViewConstants), ViewSlice); !S) { return S; }
-	Context->Pass = {SceneSlice.Address, ViewSlice.Address};
-	FFrameContext* const Frame = Context.get();
-	const auto WriteConstants = [=] {
-		const FSceneConstants SceneConstants = Frame->Scene.GetConstants();
-		const FViewConstants ViewConstants = MakeViewConstants(View, Frame->Scene.GetOrigin());
-		std::memcpy(SceneSlice.Data, &SceneConstants, sizeof(SceneConstants));
-		std::memcpy(ViewSlice.Data, &ViewConstants, sizeof(ViewConstants));
-	};
-	if (FRTStatus S = AddSkinningPass(*Frame, Uploads, Features.Skinning); !S) { return S; }
-	const bool bQueries = ChooseSunShadowPath(Device.GetCapabilities(), Frame->Facts) == ESunShadowPath::Query;
-	const FSceneUse Use{Features.bRays || bQueries || Frame->RayPipeline, Features.bReference};
-	if (Frame->Scene.NeedsUpdate(View.Position, Use))
+	FRTScene& Scene = Context->Scene;
+	for (const FSkinningInputs& Item : Features.Skinning) { Scene.MarkDeformed(Item.Geometry); }
+	const bool bQueries = ChooseSunShadowPath(Device.GetCapabilities(), Context->Facts) == ESunShadowPath::Query;
+	FrameUse = {};
+	FrameUse.bRays = Features.bRays || bQueries || Context->RayPipeline;
+	FrameUse.bLightSampling = Features.bReference;
+	FrameUse.bCull = !Features.bReference;
+	FGatherView Gather;
+	Gather.Position = View.Position;
+	Gather.Forward = View.Forward;
+	Gather.FovY = View.FovY;
+	Gather.Height = View.Height;
+	bUpdating = Scene.NeedsUpdate(Gather, FrameUse);
+	if (bUpdating)
 	{
-		Graph->AddPass("SceneUpdate", [&](FPassBuilder& Builder) -> FPassExecute {
+		FTraceScope Trace("Scene begins its update");
+		if (FRTStatus S = Scene.BeginUpdate(Gather, FrameUse); !S) { return S; }
+	}
+	StartPrebind();
+	return FRTStatus::Success();
+}
+
+void FRenderer::StartPrebind()
+{
+	Prebind = !Context->RayPipeline ? EPrebind::None : CVarPrebind.GetOnRenderThread() ? EPrebind::Running : EPrebind::InLine;
+	if (Prebind != EPrebind::Running) { return; }
+	PrebindTask.Run([this, Pipeline = RayPipeline, Sections = &Context->Scene.GetSections()] {
+		FTraceScope Trace("Prebind");
+		PrebindStatus = Bindings.Prepare(*Pipeline, *Sections);
+	});
+}
+
+FRTStatus FRenderer::FinishPrebind()
+{
+	if (Prebind == EPrebind::InLine)
+	{
+		FTraceScope Trace("Shader records");
+		PrebindStatus = Bindings.Prepare(*RayPipeline, Context->Scene.GetSections());
+	}
+	else if (Prebind == EPrebind::Running)
+	{
+		FTraceScope Trace("Wait for prebind");
+		PrebindTask.Wait();
+	}
+	Prebind = EPrebind::None;
+	return PrebindStatus;
+}
+
+FRTStatus FRenderer::AllocateConstants()
+{
+	if (FRTStatus S = Uploads.Allocate(sizeof(FSceneConstants), SceneConstants); !S) { return S; }
+	if (FRTStatus S = Uploads.Allocate(sizeof(FViewConstants), ViewConstants); !S) { return S; }
+	Context->Pass = {SceneConstants.Address, ViewConstants.Address};
+	return FRTStatus::Success();
+}
+
+void FRenderer::WriteConstants()
+{
+	const FSceneConstants OfScene = Context->Scene.GetConstants();
+	const FViewConstants OfView = MakeViewConstants(Context->View, Context->Scene.GetOrigin());
+	std::memcpy(SceneConstants.Data, &OfScene, sizeof(OfScene));
+	std::memcpy(ViewConstants.Data, &OfView, sizeof(OfView));
+}
+
+void FRenderer::AddTables()
+{
+	if (!bUpdating || !Context->Scene.NeedsTables()) { return; }
+	FFrameContext* const Frame = Context.get();
+	Graph->AddPass("SceneUpdate", [&](FPassBuilder& Builder) -> FPassExecute {
+		Builder.NeverCull();
+		return [=, this](FPassContext& Pass) {
+			if (FRTStatus S = Frame->Scene.RecordTables(Pass.Commands(), Uploads); !S) { Frame->Fail(S); }
+		};
+	});
+}
+
+void FRenderer::AddRayPasses()
+{
+	if (std::exchange(bRayPassesAdded, true)) { return; }
+	FFrameContext* const Frame = Context.get();
+	if (bUpdating && FrameUse.bRays)
+	{
+		Graph->AddPass("Structures", [&](FPassBuilder& Builder) -> FPassExecute {
 			Builder.NeverCull();
 			return [=, this](FPassContext& Pass) {
-				if (FRTStatus S = Frame->Scene.Update(Pass.Commands(), Uploads, View.Position, Use); !S) { Frame->Fail(S); }
-				WriteConstants();
+				if (FRTStatus S = Frame->Scene.RecordStructures(Pass.Commands(), Uploads); !S) { Frame->Fail(S); }
 			};
 		});
 	}
-	else { WriteConstants(); }
 	if (Frame->RayPipeline)
 	{
 		Graph->AddPass("ShaderTable", [&](FPassBuilder& Builder) -> FPassExecute {
 			Builder.NeverCull();
 			return [=, this](FPassContext& Pass) {
-				if (FRTStatus S = Bindings.Sync(Pass.Commands(), *Frame->RayPipeline, Frame->Scene.GetSections()); !S) { Frame->Fail(S); }
+				FRTStatus Status = FinishPrebind();
+				if (Status) { Status = Bindings.Record(Pass.Commands()); }
+				if (!Status) { Frame->Fail(Status); }
 			};
 		});
 	}
-	return FRTStatus::Success();
+}
+
+void FFrameContext::RequireRays() const { Owner->AddRayPasses(); }
+
+/// A frame that was begun and cannot go on.
+void FRenderer::DropFrame()
+{
+	PrebindTask.Wait();
+	Graph.reset();
+	if (bUpdating) { Context->Scene.EndFrame(false); }
+	Context.reset();
+	Uploads.EndFrame(0); // nothing reads them
 }
 
 FFrameContext& FRenderer::GetContext()
@@ -156,9 +240,17 @@ FFrameContext& FRenderer::GetContext()
 FRTStatus FRenderer::Execute(IRTCommandList& List)
 {
 	assert(Graph);
+	AddRayPasses(); // also where nobody asked: what was begun is recorded, so that the next frame finds it done
 	FRTStatus Status = FrameStatus;
-	if (Status) { Status = Graph->Execute(List, &FrameStatus); }
-	if (Status) { LastDump = Graph->Dump(); }
+	if (Status)
+	{
+		FTraceScope Trace("Record passes");
+		Status = Graph->Execute(List, &FrameStatus);
+	}
+	// A graph that failed may not have come to the pass that waits.
+	PrebindTask.Wait();
+	if (Status) { WriteConstants(); }
+	LastGraph = Status ? std::move(Graph) : nullptr;
 	Graph.reset();
 	return Status;
 }
@@ -177,6 +269,7 @@ FRTStatus FRenderer::EndFrame(FRTFence* OutFence)
 	FRTFence Fence = 0;
 	if (Status)
 	{
+		FTraceScope Trace("Submit");
 		IRTCommandList* const Submitted[] = {&List};
 		Status = Device.Submit(Submitted, 1, &Fence);
 	}
@@ -191,7 +284,7 @@ void FRenderer::FrameSubmitted(FRTFence Fence)
 {
 	Fences[Slot] = Fence;
 	Uploads.EndFrame(Fence);
-	Context->Scene.EndFrame(Fence != 0);
+	Context->Scene.EndFrame(Fence != 0, Fence);
 	Context.reset();
 	bFrameLost = Fence == 0;
 	if (!bFrameLost) { return; }

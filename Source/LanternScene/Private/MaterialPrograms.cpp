@@ -25,6 +25,7 @@ void FMaterialPrograms::Edit(uint32_t Program, FMaterialProgramDesc Desc)
 	if (Entry.Desc == Desc) { return; }
 	Entry.Desc = std::move(Desc);
 	++Entry.Revision;
+	++Edits;
 }
 
 FShaderSource FMaterialPrograms::MakeSource(FShaderSource Shader, uint32_t Program) const

@@ -58,12 +58,21 @@ FPipelineUnit MakeCallableUnit(const FRTPSODesc& Desc, uint32_t Index)
 	return MakeGeneralUnit(Desc.Callables[Index], ERTShaderStage::Callable);
 }
 
+FPipelineUnit MakeEmptyCallableUnit()
+{
+	FShaderSource Source;
+	Source.Path = "EmptyCallable";
+	Source.Text = "#version 460\n#extension GL_EXT_ray_tracing : require\nvoid main() {}\n";
+	return MakeGeneralUnit(std::move(Source), ERTShaderStage::Callable);
+}
+
 FPipelineUnit MakeHitUnit(const FRTPSODesc& Desc, uint32_t RayType, FHitProgram Program, const FMaterialPrograms& Programs)
 {
 	const FRayType& Type = Desc.RayTypes[RayType];
 	FPipelineUnit Unit;
-	Unit.Key = "hit " + std::to_string(Program.Program) + ':';
-	Unit.Name = Programs.Get(Program.Program).Name + " " + Type.Name;
+	Unit.Key = "hit " + std::to_string(Program.Program) + (Program.Class == ERTHitClass::Procedural ? " procedural:" : ":");
+	constexpr const char* Classes[HitClassCount] = {" opaque", " masked", " procedural"};
+	Unit.Name = Programs.Get(Program.Program).Name + ' ' + Type.Name + Classes[static_cast<uint32_t>(Program.Class)];
 	Unit.Version = Programs.GetRevision(Program.Program);
 	Unit.Kind = Program.Class == ERTHitClass::Procedural ? ERTGroupKind::Procedural : ERTGroupKind::Triangles;
 	if (Type.ClosestHit) { AddShader(Unit, Programs.MakeSource(*Type.ClosestHit, Program.Program), ERTShaderStage::ClosestHit); }
@@ -86,7 +95,7 @@ FPipelineUnit MakeStandInUnit(const FRTPSODesc& Desc, uint32_t RayType, ERTHitCl
 {
 	FPipelineUnit Unit = MakeHitUnit(Desc, RayType, {StandardProgram, Class}, Programs);
 	Unit.Key = "stand-in " + Unit.Key;
-	Unit.Name = "StandIn " + Desc.RayTypes[RayType].Name;
+	Unit.Name = "StandIn" + Unit.Name.substr(Programs.Get(StandardProgram).Name.size());
 	for (FShaderSource& Source : Unit.Shaders)
 	{
 		Source.Name = Source.Path + " (StandIn)";
@@ -103,13 +112,13 @@ uint32_t GetPayloadBytes(const FRTPSODesc& Desc)
 	return Bytes;
 }
 
-FRTShaderGroup MakeGroup(const FPipelineUnit& Unit, const std::vector<uint32_t>& Indices)
+FRTShaderGroup MakeGroup(ERTGroupKind Kind, const std::vector<ERTShaderStage>& Stages, const std::vector<uint32_t>& Indices)
 {
-	assert(Indices.size() == Unit.Shaders.size());
-	FRTShaderGroup Group{Unit.Kind};
+	assert(Indices.size() == Stages.size());
+	FRTShaderGroup Group{Kind};
 	for (size_t I = 0; I < Indices.size(); ++I)
 	{
-		switch (Unit.Shaders[I].Stage)
+		switch (Stages[I])
 		{
 		case ERTShaderStage::ClosestHit: Group.ClosestHit = Indices[I]; break;
 		case ERTShaderStage::AnyHit: Group.AnyHit = Indices[I]; break;

@@ -18,6 +18,8 @@ struct FPipelineUnit
 FPipelineUnit MakeRayGenUnit(const FRTPSODesc& Desc, uint32_t Index);
 FPipelineUnit MakeMissUnit(const FRTPSODesc& Desc, uint32_t RayType);
 FPipelineUnit MakeCallableUnit(const FRTPSODesc& Desc, uint32_t Index);
+/// In place of a callable that does not compile: does nothing.
+FPipelineUnit MakeEmptyCallableUnit();
 FPipelineUnit MakeHitUnit(const FRTPSODesc& Desc, uint32_t RayType, FHitProgram Program, const FMaterialPrograms& Programs);
 /// Runs in place of hit programs of Class: the standard material, with the alpha test and a count of the rays that hit it.
 FPipelineUnit MakeStandInUnit(const FRTPSODesc& Desc, uint32_t RayType, ERTHitClass Class, const FMaterialPrograms& Programs);
@@ -26,7 +28,7 @@ uint32_t GetPayloadBytes(const FRTPSODesc& Desc);
 
 /// Text that is equal where two sources are; without programs' headers.
 std::string MakeSourceKey(const FShaderSource& Source);
-/// Indices of Shaders, which may lie anywhere in a list: Indices[i] is that of Unit.Shaders[i].
-FRTShaderGroup MakeGroup(const FPipelineUnit& Unit, const std::vector<uint32_t>& Indices);
+/// Indices[i]: where the shader of Stages[i] lies in a pipeline's list.
+FRTShaderGroup MakeGroup(ERTGroupKind Kind, const std::vector<ERTShaderStage>& Stages, const std::vector<uint32_t>& Indices);
 
 } // namespace Lantern

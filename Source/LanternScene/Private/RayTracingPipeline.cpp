@@ -22,13 +22,15 @@ struct FMonolith
 	uint32_t AddGroup(const FPipelineUnit& Unit)
 	{
 		std::vector<uint32_t> Indices;
+		std::vector<ERTShaderStage> Stages;
 		for (const FShaderSource& Source : Unit.Shaders)
 		{
+			Stages.push_back(Source.Stage);
 			const auto [It, bNew] = Known.try_emplace(MakeSourceKey(Source) + Source.Name, static_cast<uint32_t>(Sources.size()));
 			if (bNew) { Sources.push_back(Source); }
 			Indices.push_back(It->second);
 		}
-		Groups.push_back(MakeGroup(Unit, Indices));
+		Groups.push_back(MakeGroup(Unit.Kind, Stages, Indices));
 		return static_cast<uint32_t>(Groups.size() - 1);
 	}
 };

@@ -31,6 +31,7 @@ struct FShaderSource
 	std::string Text;
 	std::vector<FShaderHeader> Headers = {}; ///< their texts are part of the key
 	std::string Name = {};                   ///< of the binary; empty: Path
+	friend bool operator==(const FShaderSource&, const FShaderSource&) = default;
 };
 
 struct FShaderBinary

@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "LanternCore/FrameGraph.h"
+#include "LanternCore/Tasks.h"
 #include "LanternRenderer/View.h"
 #include "LanternScene/PipelineCache.h"
-#include "LanternScene/RayTracingPipeline.h"
+#include "LanternScene/PipelineCompiler.h"
 #include "LanternScene/Scene.h"
 #include "LanternScene/ShaderBindings.h"
 
@@ -36,9 +37,14 @@ struct FSkinningInputs
 struct FFrameFeatures
 {
 	bool bReference = false; ///< the path tracer instead of real-time passes
-	bool bRays = false;      ///< passes of the host's own trace rays: acceleration structures are kept whatever else does
+	/// Passes of the host's own trace rays: acceleration structures are kept whatever else does, and are recorded at the
+	/// start of the frame unless the host calls FFrameContext::RequireRays before its first such pass by bLateRays.
+	bool bRays = false;
+	bool bLateRays = false;
 	std::vector<FSkinningInputs> Skinning;
 };
+
+class FRenderer;
 
 /// Given to every pass.
 struct FFrameContext
@@ -62,6 +68,11 @@ struct FFrameContext
 	{
 		if (Status->IsOk()) { *Status = Error; }
 	}
+	FRenderer* Owner = nullptr;
+	/// Whoever traces rays calls this before adding its pass. The first call adds what rays need of the frame:
+	/// acceleration structures and shader records. They are gathered and written by tasks meanwhile, so the later it comes,
+	/// and the more the host adds before (its G-buffer), the less there is to wait for.
+	void RequireRays() const;
 };
 
 class FRenderer
@@ -70,8 +81,9 @@ public:
 	FRenderer(IRTDevice& Device, FRendererDesc Desc);
 	~FRenderer();
 
-	/// Waits until at most one earlier frame is in flight, publishes console variables, and starts a frame: the
-	/// scene's update is its first pass. The scene must not change until EndFrame.
+	/// Waits until at most one earlier frame is in flight, publishes console variables, and starts a frame: gathering
+	/// instances and writing shader records begin as tasks, the scene's tables are the first pass. The scene must not change
+	/// until EndFrame, and must live until then.
 	FRTStatus BeginFrame(FRTScene& Scene, const FView& View, const FFrameFeatures& Features);
 	FFrameContext& GetContext(); ///< between BeginFrame and EndFrame
 	/// Executes the graph and submits. OutFence may be null.
@@ -99,8 +111,16 @@ public:
 	std::string DumpGraph() const; ///< of the last executed frame
 
 private:
+	friend struct FFrameContext;
 	FRTStatus PrepareRayPipeline(const FFrameFeatures& Features);
-	FRTStatus AddSceneUpdate(const FView& View, const FFrameFeatures& Features);
+	FRTStatus StartUpdate(const FView& View, const FFrameFeatures& Features);
+	void StartPrebind();
+	FRTStatus FinishPrebind();
+	void AddTables();
+	void AddRayPasses();
+	FRTStatus AllocateConstants();
+	void WriteConstants();
+	void DropFrame();
 	FRTStatus WaitForSlot();
 	FRTStatus Execute(IRTCommandList& List);
 
@@ -122,12 +142,20 @@ private:
 	std::unique_ptr<FFrameGraph> Graph;
 	std::unique_ptr<FFrameContext> Context;
 	FRTStatus FrameStatus;
+	FSceneUse FrameUse;
+	FUploadSlice SceneConstants, ViewConstants;
+	bool bUpdating = false;       // the scene has something to record in this frame
+	bool bRayPassesAdded = false;
 	bool bFrameLost = false;
 	static constexpr int MaxInFlight = 2;
 	TRTRef<IRTCommandList> Lists[MaxInFlight];
 	FRTFence Fences[MaxInFlight] = {};
 	int Slot = 0;
 	std::string LastDump;
+	enum class EPrebind : uint8_t { None, InLine, Running };
+	EPrebind Prebind = EPrebind::None;
+	FRTStatus PrebindStatus;
+	FTaskGroup PrebindTask; // last: it ends before what it uses
 };
 
 } // namespace Lantern

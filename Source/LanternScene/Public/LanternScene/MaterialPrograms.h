@@ -61,6 +61,7 @@ public:
 	uint32_t GetCount() const { return static_cast<uint32_t>(Entries.size()); }
 	const FMaterialProgramDesc& Get(uint32_t Program) const { return Entries[Program].Desc; }
 	uint32_t GetRevision(uint32_t Program) const { return Entries[Program].Revision; } ///< changes with each Edit
+	uint64_t GetEdits() const { return Edits; } ///< of all programs so far
 
 	/// Shader with Program for its material: "Materials/Material.glsl" is the program's text.
 	FShaderSource MakeSource(FShaderSource Shader, uint32_t Program) const;
@@ -72,6 +73,7 @@ private:
 		uint32_t Revision = 0;
 	};
 	std::vector<FEntry> Entries;
+	uint64_t Edits = 0;
 };
 
 } // namespace Lantern

@@ -24,6 +24,7 @@ struct FRayType
 	std::optional<FShaderSource> ClosestHit;
 	FShaderSource MaskedAnyHit;
 	uint32_t PayloadBytes = 0;
+	friend bool operator==(const FRayType&, const FRayType&) = default;
 };
 
 struct FRTPSODesc
@@ -32,6 +33,7 @@ struct FRTPSODesc
 	std::vector<FShaderSource> RayGens;
 	std::vector<FShaderSource> Callables; ///< record i of the table is callable i
 	std::vector<FHitProgram> HitPrograms;
+	friend bool operator==(const FRTPSODesc&, const FRTPSODesc&) = default;
 };
 
 inline constexpr uint32_t NoRayGen = ~0u;

@@ -1,0 +1,217 @@
+// What is wanted, in which order, and when rounds begin and end.
+#include <algorithm>
+#include <cassert>
+
+#include "LanternCore/ConsoleVariables.h"
+#include "PipelineCompilerImpl.h"
+
+namespace Lantern
+{
+
+void FRTPSOCompiler::FImpl::SetWanted(const FRTPSODesc& Desc, std::optional<bool> StandIns)
+{
+	const bool bLibraries = Device.GetCapabilities().bPipelineLibraries && AreLibrariesOn();
+	const bool bSame = Desc == WantedDesc && Programs.GetEdits() == WantedEdits && bLibraries == bWantedLibraries && !Wanted.All.empty();
+	const bool bStandIns = StandIns.value_or(bSame && bWantedStandIns);
+	if (bSame && bStandIns == bWantedStandIns) { return; }
+	const bool bSameGroups = Desc.RayTypes == WantedDesc.RayTypes && Programs.GetEdits() == WantedEdits && bLibraries == bWantedLibraries;
+	if (!bSameGroups) { HitSlots.clear(); }
+	WantedDesc = Desc;
+	WantedEdits = Programs.GetEdits();
+	bWantedLibraries = bLibraries;
+	bWantedStandIns = bStandIns;
+	CollectWanted();
+	bDirty = true;
+	bFinished = false;
+}
+
+FPipelineSlotRef FRTPSOCompiler::FImpl::FindSlot(FPipelineUnit Unit, bool bHit, bool bEmptyGroup)
+{
+	const bool bLibrary = bWantedLibraries && (bHit || Device.GetCapabilities().bLibraryOnlyPipelines);
+	const uint32_t PayloadBytes = GetPayloadBytes(WantedDesc);
+	const std::string Key = (bLibrary ? "library " + std::to_string(PayloadBytes) : std::string("code")) + (bEmptyGroup ? " + " : " ") + Unit.Key;
+	FPipelineSlotRef& Slot = Slots[Key];
+	if (!Slot)
+	{
+		Slot = std::make_shared<FPipelineSlot>();
+		Slot->bLibrary = bLibrary;
+		Slot->bEmptyGroup = bLibrary && bEmptyGroup;
+		Slot->PayloadBytes = PayloadBytes;
+	}
+	Slot->Unit = std::move(Unit);
+	return Slot;
+}
+
+FHitSlots FRTPSOCompiler::FImpl::FindHitSlots(FHitProgram Program)
+{
+	const auto [It, bNew] = HitSlots.try_emplace(Program);
+	if (!bNew) { return It->second; }
+	It->second.Program = Program;
+	for (uint32_t Type = 0; Type < WantedDesc.RayTypes.size(); ++Type)
+	{
+		FPipelineUnit Unit = MakeHitUnit(WantedDesc, Type, Program, Programs);
+		FPipelineSlotRef& Slot = It->second.Types.emplace_back();
+		if (Unit.Shaders.empty()) { continue; }
+		Slot = FindSlot(std::move(Unit), true, false);
+		Slot->Program = Program.Program;
+		Slot->bEssential = Program.Program == StandardProgram;
+	}
+	return It->second;
+}
+
+FHitSlots FRTPSOCompiler::FImpl::FindStandInSlots(ERTHitClass Class)
+{
+	FHitSlots Slots;
+	Slots.Program = {StandardProgram, Class};
+	for (uint32_t Type = 0; Type < WantedDesc.RayTypes.size(); ++Type)
+	{
+		FPipelineUnit Unit = MakeStandInUnit(WantedDesc, Type, Class, Programs);
+		FPipelineSlotRef& Slot = Slots.Types.emplace_back();
+		if (Unit.Shaders.empty()) { continue; }
+		Slot = FindSlot(std::move(Unit), true, false);
+		Slot->bEssential = true;
+	}
+	return Slots;
+}
+
+void FRTPSOCompiler::FImpl::CollectWanted()
+{
+	for (const FPipelineSlotRef& Slot : Wanted.All) { Slot->bWanted = false; }
+	Wanted = {};
+	const auto Want = [&](const FPipelineSlotRef& Slot) {
+		if (!Slot || Slot->bWanted) { return; }
+		Slot->bWanted = true;
+		Wanted.All.push_back(Slot);
+	};
+	const auto WantGeneral = [&](std::vector<FPipelineSlotRef>& List, FPipelineUnit Unit, bool bEmptyGroup) {
+		List.push_back(FindSlot(std::move(Unit), false, bEmptyGroup));
+		List.back()->bEssential = true;
+		Want(List.back());
+	};
+	for (uint32_t I = 0; I < WantedDesc.RayGens.size(); ++I) { WantGeneral(Wanted.RayGens, MakeRayGenUnit(WantedDesc, I), false); }
+	for (uint32_t I = 0; I < WantedDesc.RayTypes.size(); ++I) { WantGeneral(Wanted.Misses, MakeMissUnit(WantedDesc, I), I == 0); }
+	for (uint32_t I = 0; I < WantedDesc.Callables.size(); ++I)
+	{
+		WantGeneral(Wanted.Callables, MakeCallableUnit(WantedDesc, I), false);
+		Wanted.Callables.back()->bEssential = false;
+	}
+	if (!WantedDesc.Callables.empty())
+	{
+		std::vector<FPipelineSlotRef> Empty;
+		WantGeneral(Empty, MakeEmptyCallableUnit(), false);
+		Wanted.EmptyCallable = Empty.front();
+	}
+	bool bClasses[HitClassCount] = {};
+	for (const FHitProgram Program : WantedDesc.HitPrograms)
+	{
+		Wanted.Hits.push_back(FindHitSlots(Program));
+		for (const FPipelineSlotRef& Slot : Wanted.Hits.back().Types) { Want(Slot); }
+		bClasses[static_cast<uint32_t>(Program.Class)] = true;
+	}
+	for (uint32_t Class = 0; bWantedStandIns && Class < HitClassCount; ++Class)
+	{
+		if (!bClasses[Class]) { continue; }
+		Wanted.StandIns.push_back(FindStandInSlots(static_cast<ERTHitClass>(Class)));
+		for (const FPipelineSlotRef& Slot : Wanted.StandIns.back().Types) { Want(Slot); }
+	}
+	for (const FPipelineSlotRef& Slot : Wanted.All) { Slot->LastWanted = Frame; }
+}
+
+bool FRTPSOCompiler::FImpl::NeedsCompile(const FPipelineSlot& Slot) const
+{
+	return Slot.State == ESlotState::Idle && !Slot.IsSettled() && Frame >= Slot.RetryAt;
+}
+
+bool FRTPSOCompiler::FImpl::ComesBefore(const FPipelineSlot& A, const FPipelineSlot& B) const
+{
+	if (A.bEssential != B.bEssential) { return A.bEssential; }
+	static const FProgramPriority None;
+	const FProgramPriority& PriorityA = A.Program < Priorities.size() ? Priorities[A.Program] : None;
+	const FProgramPriority& PriorityB = B.Program < Priorities.size() ? Priorities[B.Program] : None;
+	if (PriorityA.StandInHits != PriorityB.StandInHits) { return PriorityA.StandInHits > PriorityB.StandInHits; }
+	if (PriorityA.Distance != PriorityB.Distance) { return PriorityA.Distance < PriorityB.Distance; }
+	return A.Program < B.Program;
+}
+
+void FRTPSOCompiler::FImpl::StartRound(bool bAppend)
+{
+	if (bRound && !bAppend) { return; }
+	std::vector<FPipelineSlotRef> Missing;
+	std::copy_if(Wanted.All.begin(), Wanted.All.end(), std::back_inserter(Missing), [&](const FPipelineSlotRef& Slot) { return NeedsCompile(*Slot); });
+	if (Missing.empty()) { return; }
+	std::stable_sort(Missing.begin(), Missing.end(), [&](const FPipelineSlotRef& A, const FPipelineSlotRef& B) { return ComesBefore(*A, *B); });
+	for (const FPipelineSlotRef& Slot : Missing)
+	{
+		Slot->State = ESlotState::Queued;
+		Queue.push_back(Slot);
+	}
+	if (!bRound)
+	{
+		bRound = true;
+		++Stats.Rounds;
+		RoundEnd = FPipelineClock::now() + std::chrono::milliseconds(RoundMs);
+	}
+	WorkAdded.notify_all();
+}
+
+void FRTPSOCompiler::FImpl::EndRoundIfOver()
+{
+	if (!bRound) { return; }
+	const bool bDone = Queue.empty() && Running == 0;
+	const bool bLate = !bNoDeadline && FPipelineClock::now() >= RoundEnd;
+	if (!bDone && !bLate) { return; }
+	for (const FPipelineSlotRef& Slot : Queue) { Slot->State = ESlotState::Idle; }
+	Queue.clear();
+	Shared.clear();
+	bRound = false;
+	bDirty = true;
+	if (!bNoDeadline) { StartLink(false); }
+}
+
+bool FRTPSOCompiler::FImpl::AreHitsCompiled() const
+{
+	for (const FHitSlots& Hit : Wanted.Hits)
+	{
+		if (std::any_of(Hit.Types.begin(), Hit.Types.end(), [](const FPipelineSlotRef& Slot) { return Slot && !Slot->Ready; })) { return false; }
+	}
+	return true;
+}
+
+void FRTPSOCompiler::FImpl::StartLink(bool bExact)
+{
+	if (bLinkWanted || bLinking || bLinkDone || (bRound && !bExact)) { return; }
+	FLinkPlan Plan = MakePlan();
+	if (!Plan.bComplete) { return; }
+	if (Current.Pipeline && (bExact ? Current.Plan.Key == Plan.Key : Covers(Current.Plan, Plan))) { return; }
+	if (!bExact && Plan.Key == FailedLink) { return; }
+	const auto Found = std::find_if(Recent.begin(), Recent.end(), [&](const FLinkedPipeline& Entry) { return Entry.Plan.Key == Plan.Key; });
+	if (Found != Recent.end())
+	{
+		Linked = std::move(*Found);
+		Recent.erase(Found);
+		LinkStatus = FRTStatus::Success();
+		bLinkDone = true;
+		return;
+	}
+	LinkPlan = std::move(Plan);
+	bLinkExact = bExact;
+	bLinkWanted = true;
+	WorkAdded.notify_all();
+}
+
+void FRTPSOCompiler::FImpl::DropOld()
+{
+	constexpr uint64_t Interval = 16; // frames; to look at all slots in each would be a waste
+	if (Frame % Interval != 0) { return; }
+	for (const FPipelineSlotRef& Slot : Wanted.All) { Slot->LastWanted = Frame; }
+	const auto IsOld = [&](uint64_t LastUsed) { return Frame - LastUsed > static_cast<uint64_t>(KeepFrames); };
+	const size_t Dropped = std::erase_if(Slots, [&](const auto& Entry) {
+		const FPipelineSlot& Slot = *Entry.second;
+		return !Slot.bWanted && Slot.State == ESlotState::Idle && IsOld(Slot.LastWanted);
+	});
+	Stats.Dropped += Dropped;
+	if (Dropped > 0) { HitSlots.clear(); }
+	Recent.remove_if([&](const FLinkedPipeline& Entry) { return IsOld(Entry.LastUsed); });
+}
+
+} // namespace Lantern
