@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <map>
 
 #include <nlohmann/json.hpp>
 
 #include "LanternCore/ConsoleVariables.h"
 #include "LanternCore/Log.h"
+#include "LanternCore/TaskTrace.h"
 #include "LanternHost/AtomicFile.h"
 #include "LanternHost/ImageIO.h"
 #include "LanternHost/ReferenceRenderer.h"
@@ -90,7 +92,9 @@ nlohmann::json MakeJson(FSession& Session, const FRenderOptions& Options, const 
 	Json["memory"] = {{"blas", Memory.Geometry}, {"tlas", Memory.Scene}, {"sbt", Memory.ShaderTable}, {"textures", Memory.Texture}, {"peak", Memory.Peak}};
 	const FRTPSO* Pipeline = Renderer.GetRayPipeline();
 	const uint32_t Groups = Pipeline ? Pipeline->GetHitGroupCount() : 0;
-	Json["rtpso"] = {{"hit_groups", Groups}, {"compiled", Groups}, {"missing", 0}, {"link_ms", Pipeline ? Renderer.GetLastPipelineMs() : 0.0}};
+	const uint32_t Missing = Pipeline ? Pipeline->GetMissingCount() : 0;
+	const double LinkMs = Pipeline ? Renderer.GetRayCompiler().GetStats().LastLinkMs : 0.0;
+	Json["rtpso"] = {{"hit_groups", Groups}, {"compiled", Groups - Missing}, {"missing", Missing}, {"link_ms", LinkMs}};
 	Json["load_seconds"] = Session.GetLoadSeconds();
 	return Json;
 }
@@ -161,9 +165,11 @@ int RunRender(const FRenderOptions& Options)
 {
 	const auto Start = std::chrono::steady_clock::now();
 	if (const int Status = CheckOutputs(Options.Picture); Status != ExitDone) { return Status; }
+	FTaskTrace::SetFolder(std::filesystem::path(Options.Picture.Output).parent_path().string());
 	FSession Session;
 	if (const int Status = Session.OpenDevice(Options.Device); Status != ExitDone) { return Session.Close(Status); }
 	if (const int Status = Session.LoadScene(Options.Picture); Status != ExitDone) { return Session.Close(Status); }
+	Session.GetEngine().GetRenderer().SetGraphDump(Options.bDumpGraph);
 	FCapturedFrame Frame;
 	FFigures Figures;
 	int Status = RenderFrames(Session, Options, Frame, Figures);

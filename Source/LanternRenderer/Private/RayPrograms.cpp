@@ -1,6 +1,7 @@
 #include "RayPrograms.h"
 
 #include "LanternRenderer/Frame.h"
+#include "LanternScene/SectionTable.h"
 #include "PassTools.h"
 #include "Shadow/SunShadow.h"
 
@@ -36,44 +37,27 @@ FRayType MakeMaterialRay()
 }
 } // namespace
 
-std::string MakeRayProgramsKey(const FRTPSODesc& Desc)
-{
-	std::string Key;
-	for (const FHitProgram Program : Desc.HitPrograms) { Key += std::to_string(Program.Program) + ':' + std::to_string(static_cast<int>(Program.Class)) + ' '; }
-	for (const FShaderSource& RayGen : Desc.RayGens)
-	{
-		Key += RayGen.Path;
-		for (const auto& [Name, Value] : RayGen.Defines) { Key += '|' + Name + '=' + Value; }
-		Key += '\n';
-	}
-	for (const FRayType& Type : Desc.RayTypes) { Key += Type.Name + '\n'; }
-	return Key;
-}
-
-FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FFrameFeatures& Features)
+FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, const FFrameContext& Context, const FFrameFeatures& Features)
 {
 	FRayPrograms Programs;
 	FRTPSODesc& Desc = Programs.Desc;
-	Desc.HitPrograms.push_back({StandardProgram, ERTHitClass::Opaque});
-	if (Facts.bMasked) { Desc.HitPrograms.push_back({StandardProgram, ERTHitClass::Masked}); }
 	if (!Capabilities.bRayTracingPipeline) { return Programs; }
 	if (Features.bReference)
 	{
-		FShaderSource PathTrace = Shader("Reference/PathTrace.rgen");
-		PathTrace.Defines = MakeFactDefines(Facts);
-		if (Facts.bEmissive) { PathTrace.Defines.emplace_back("HAS_EMISSIVE", "1"); }
-		Programs.ReferenceRayGen = static_cast<uint32_t>(Desc.RayGens.size());
-		Desc.RayGens.push_back(std::move(PathTrace));
+		Programs.Reference = Shader("Reference/PathTrace.rgen");
+		Programs.Reference->Defines = MakeFactDefines(Context.Facts);
+		if (Context.Facts.bEmissive) { Programs.Reference->Defines.emplace_back("HAS_EMISSIVE", "1"); }
+		Desc.RayGens = {*Programs.Reference};
 		Desc.RayTypes = {MakeShadowRay(), MakeMaterialRay()};
-		return Programs;
 	}
-	if (ChooseSunShadowPath(Capabilities, Facts) == ESunShadowPath::Pipeline)
+	else if (ChooseSunShadowPath(Capabilities, Context.Facts) == ESunShadowPath::Pipeline)
 	{
-		Programs.SunShadowRayGen = static_cast<uint32_t>(Desc.RayGens.size());
-		Desc.RayGens.push_back(Shader("Shadow/SunShadow.rgen"));
-		Desc.RayGens.back().Defines = MakeSunShadowDefines();
+		Programs.SunShadow = Shader("Shadow/SunShadow.rgen");
+		Programs.SunShadow->Defines = MakeSunShadowDefines();
+		Desc.RayGens = {*Programs.SunShadow};
 		Desc.RayTypes = {MakeShadowRay()};
 	}
+	if (!Desc.RayGens.empty()) { Desc.HitPrograms = Context.Scene.GetSections().GetHitPrograms(); }
 	return Programs;
 }
 

@@ -9,12 +9,9 @@ namespace Lantern
 struct FRayPrograms
 {
 	FRTPSODesc Desc; ///< no ray generation shaders: no pipeline is needed
-	uint32_t SunShadowRayGen = NoRayGen;
-	uint32_t ReferenceRayGen = NoRayGen;
+	std::optional<FShaderSource> SunShadow, Reference; ///< of Desc.RayGens
 };
 
-/// Equal strings: equal pipelines.
-std::string MakeRayProgramsKey(const FRTPSODesc& Desc);
-FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FFrameFeatures& Features);
+FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, const FFrameContext& Context, const FFrameFeatures& Features);
 
 } // namespace Lantern

@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cstring>
+#include <utility>
 
 #include "LanternCore/ConsoleVariables.h"
 #include "LanternCore/TaskTrace.h"
@@ -25,10 +26,10 @@ constexpr uint64_t WaitNs = 120'000'000'000ull;
 } // namespace
 
 FRenderer::FRenderer(IRTDevice& InDevice, FRendererDesc Desc)
-    : Device(InDevice), Compiler(FShaderCompilerDesc{std::move(Desc.ShaderFolders), std::move(Desc.CacheFolder)}), Pipelines(InDevice, Compiler),
+    : Device(InDevice), Compiler(FShaderCompilerDesc{std::move(Desc.ShaderFolders), Desc.CacheFolder}), Pipelines(InDevice, Compiler),
       Uploads(InDevice), GraphResources(InDevice), Bindings(InDevice), RayCompiler(InDevice, Compiler, Programs)
 {
-	if (!FTaskTrace::HasFolder()) { FTaskTrace::SetFolder(Compiler.GetCacheFolder()); }
+	if (!FTaskTrace::HasFolder()) { FTaskTrace::SetFolder(Desc.CacheFolder); }
 }
 
 FRenderer::~FRenderer()
@@ -124,11 +125,7 @@ FRTStatus FRenderer::StartUpdate(const FView& View, const FFrameFeatures& Featur
 	FrameUse.bRays = Features.bRays || bQueries || Context->RayPipeline;
 	FrameUse.bLightSampling = Features.bReference;
 	FrameUse.bCull = !Features.bReference;
-	FGatherView Gather;
-	Gather.Position = View.Position;
-	Gather.Forward = View.Forward;
-	Gather.FovY = View.FovY;
-	Gather.Height = View.Height;
+	const FGatherView Gather(View.Position, View.Forward, View.FovY, View.Height);
 	bUpdating = Scene.NeedsUpdate(Gather, FrameUse);
 	if (bUpdating)
 	{
@@ -250,7 +247,7 @@ FRTStatus FRenderer::Execute(IRTCommandList& List)
 	// A graph that failed may not have come to the pass that waits.
 	PrebindTask.Wait();
 	if (Status) { WriteConstants(); }
-	LastGraph = Status ? std::move(Graph) : nullptr;
+	if (Status && bDumpGraph) { LastDump = Graph->Dump(); }
 	Graph.reset();
 	return Status;
 }
@@ -292,7 +289,5 @@ void FRenderer::FrameSubmitted(FRTFence Fence)
 	// The pool believes that its textures are in the layouts which the lost list would have left them in.
 	GraphResources.Trim(0);
 }
-
-std::string FRenderer::DumpGraph() const { return LastDump; }
 
 } // namespace Lantern

@@ -93,6 +93,7 @@ void FRTPSOCompiler::FImpl::Begin(const FRTPSODesc& Desc, bool bWait)
 	if (RetryFrame > 0 && Frame >= RetryFrame)
 	{
 		RetryFrame = 0;
+		FailedLink.clear();
 		bDirty = true;
 	}
 	DropOld();

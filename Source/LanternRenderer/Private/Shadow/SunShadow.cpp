@@ -63,6 +63,7 @@ FSunShadowOutputs AddSunShadowPass(FFrameContext& Context, const FSunShadowInput
 {
 	const ESunShadowPath Path = ChooseSunShadowPath(Context.Device.GetCapabilities(), Context.Facts);
 	if (Path == ESunShadowPath::None) { return {}; }
+	if (Path == ESunShadowPath::Pipeline && Context.SunShadowRayGen == NoRayGen) { return {}; } // still being compiled
 	IRTPipeline* Compute = nullptr;
 	if (Path == ESunShadowPath::Query)
 	{
@@ -71,6 +72,7 @@ FSunShadowOutputs AddSunShadowPass(FFrameContext& Context, const FSunShadowInput
 		Compute = RequireCompute(Context, "Shadow/SunShadow.comp", std::move(Defines));
 		if (!Compute) { return {}; }
 	}
+	Context.RequireRays();
 	FSunShadowOutputs Out;
 	Out.Visibility = Context.Graph.CreateTexture(
 	    {Context.Width, Context.Height, ERTFormat::R16_FLOAT, ERTTextureUsage::CopySource}, "SunShadowVisibility"); // engines copy it

@@ -2,7 +2,6 @@
 // is built between BeginFrame and EndFrame; two may be in flight. Render thread only.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -38,9 +37,12 @@ struct FFrameFeatures
 {
 	bool bReference = false; ///< the path tracer instead of real-time passes
 	/// Passes of the host's own trace rays: acceleration structures are kept whatever else does, and are recorded at the
-	/// start of the frame unless the host calls FFrameContext::RequireRays before its first such pass by bLateRays.
+	/// start of the frame …
 	bool bRays = false;
-	bool bLateRays = false;
+	bool bLateRays = false; ///< … or, with this, where the host calls FFrameContext::RequireRays
+	/// The frame waits for what it needs compiled, so that each picture is complete. Else it uses what is ready, see
+	/// FRTPSOCompiler. The reference always waits.
+	bool bWaitForPipelines = true;
 	std::vector<FSkinningInputs> Skinning;
 };
 
@@ -106,9 +108,11 @@ public:
 	FFrameGraphResources& GetGraphResources() { return GraphResources; }
 	/// RTPSO of the last frame; null if it had none.
 	const FRTPSO* GetRayPipeline() const { return RayPipeline.get(); }
+	FRTPSOCompiler& GetRayCompiler() { return RayCompiler; }
 	const FShaderBindings& GetBindings() const { return Bindings; }
-	double GetLastPipelineMs() const { return LastPipelineMs; } ///< time the newest RTPSO took to make
-	std::string DumpGraph() const; ///< of the last executed frame
+	/// Whether executed frames leave DumpGraph a text; off by default, for it takes longer than the graph.
+	void SetGraphDump(bool bEnabled) { bDumpGraph = bEnabled; }
+	const std::string& DumpGraph() const { return LastDump; } ///< of the last executed frame
 
 private:
 	friend struct FFrameContext;
@@ -131,14 +135,8 @@ private:
 	FFrameGraphResources GraphResources;
 	FShaderBindings Bindings;
 	FMaterialPrograms Programs;
-	struct FRayPipelineEntry
-	{
-		std::shared_ptr<FRTPSO> Pipeline;
-		FRTStatus Status;
-	};
-	std::map<std::string, FRayPipelineEntry> RayPipelines;
-	std::shared_ptr<FRTPSO> RayPipeline;
-	double LastPipelineMs = 0.0;
+	FRTPSOCompiler RayCompiler;
+	std::shared_ptr<const FRTPSO> RayPipeline;
 	std::unique_ptr<FFrameGraph> Graph;
 	std::unique_ptr<FFrameContext> Context;
 	FRTStatus FrameStatus;
@@ -152,6 +150,7 @@ private:
 	FRTFence Fences[MaxInFlight] = {};
 	int Slot = 0;
 	std::string LastDump;
+	bool bDumpGraph = false;
 	enum class EPrebind : uint8_t { None, InLine, Running };
 	EPrebind Prebind = EPrebind::None;
 	FRTStatus PrebindStatus;
