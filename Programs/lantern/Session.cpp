@@ -6,6 +6,7 @@
 
 #include "LanternCore/Config.h"
 #include "LanternCore/Log.h"
+#include "LanternCore/TaskTrace.h"
 #include "LanternHost/BuiltinScenes.h"
 #include "LanternHost/SceneLoader.h"
 #include "LanternRHIValidation/ValidationDevice.h"
@@ -105,6 +106,7 @@ int FSession::OpenDevice(const FDeviceOptions& Options)
 		return ExitBadInput;
 	}
 	if (const int Status = LoadSettings(Folders.Config, Options); Status != ExitDone) { return Status; }
+	if (!FTaskTrace::HasFolder()) { FTaskTrace::SetFolder(Folders.Cache); }
 	FRTVulkanDeviceDesc Desc;
 	Desc.DeviceIndex = Options.Device;
 	if (const char* Index = std::getenv("LANTERN_DEVICE"); Index && Options.Device < 0) { Desc.DeviceIndex = std::atoi(Index); }

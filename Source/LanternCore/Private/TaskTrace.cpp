@@ -132,6 +132,8 @@ std::string MakeFilePath()
 {
 	FRecorder& Recorder = GetRecorder();
 	std::lock_guard Lock(Recorder.Mutex);
+	std::error_code Ignored; // the write will tell
+	if (!Recorder.Folder.empty()) { fs::create_directories(Recorder.Folder, Ignored); }
 	return (fs::path(Recorder.Folder) / CVarTraceFile.Get()).string();
 }
 } // namespace

@@ -321,7 +321,14 @@ FRTStatus FRTScene::BeginUpdate(const FGatherView& View, const FSceneUse& Use)
 
 FRTStatus FRTScene::RecordUpdate(IRTCommandList& List, FFrameUploads& Uploads)
 {
-	if (FRTStatus S = FlushTables(List, Uploads); !S) { return S; }
+	const FRTStatus Status = RecordTables(List, Uploads);
+	return Status ? RecordStructures(List, Uploads) : Status;
+}
+
+FRTStatus FRTScene::RecordTables(IRTCommandList& List, FFrameUploads& Uploads) { return FlushTables(List, Uploads); }
+
+FRTStatus FRTScene::RecordStructures(IRTCommandList& List, FFrameUploads& Uploads)
+{
 	if (!FrameUse.bRays) { return FRTStatus::Success(); }
 	if (FRTStatus S = BuildPending(List); !S) { return S; }
 	if (bObjectsChanged || !Structure) { return BuildStructure(List, Uploads); }

@@ -14,6 +14,7 @@ void AddReferencePass(FFrameContext& Context, const FReferencePassInputs& Inputs
 		                              Context.Device.GetCapabilities().DeviceName));
 		return;
 	}
+	Context.RequireRays();
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass("PathTrace", [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Write(Inputs.Sum, ERTAccess::StorageWrite | ERTAccess::ShaderRead);

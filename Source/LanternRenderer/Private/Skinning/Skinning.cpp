@@ -39,7 +39,6 @@ FRTStatus AddSkinningPass(FFrameContext& Context, FFrameUploads& Uploads, const 
 			Before.push_back({Buffer, nullptr, UploadedAccess, ERTAccess::StorageWrite});
 			After.push_back({Buffer, nullptr, ERTAccess::StorageWrite, UploadedAccess});
 		}
-		Context.Scene.MarkDeformed(Item.Geometry);
 	}
 	Context.Graph.AddPass("Skinning", [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.NeverCull();

@@ -119,7 +119,13 @@ public:
 	FRTStatus BeginUpdate(const FGatherView& View, const FSceneUse& Use);
 	/// After BeginUpdate: records uploads, builds and refits into List. On error the list must not be submitted.
 	FRTStatus RecordUpdate(IRTCommandList& List, FFrameUploads& Uploads);
-	/// Both in turn.
+	/// RecordUpdate in two halves, in this order: the tables, which all passes read and which never wait for gathering, and
+	/// the acceleration structures, which only rays need. With FSceneUse::bRays both must be called.
+	FRTStatus RecordTables(IRTCommandList& List, FFrameUploads& Uploads);
+	FRTStatus RecordStructures(IRTCommandList& List, FFrameUploads& Uploads);
+	/// After BeginUpdate: whether RecordTables would record anything.
+	bool NeedsTables() const { return AreTablesDirty(); }
+	/// BeginUpdate and RecordUpdate in turn.
 	FRTStatus Update(IRTCommandList& List, FFrameUploads& Uploads, const FGatherView& View, const FSceneUse& Use);
 	/// After RecordUpdate: the block that passes read.
 	FSceneConstants GetConstants() const;
