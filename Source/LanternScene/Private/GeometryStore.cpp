@@ -95,6 +95,7 @@ FRTStatus FGeometryStore::Create(FRTGeometryInfo Info, FRTGeometryRef& Out)
 	Entry.QueuedFrame = Frame;
 	Priorities[Slot / ChunkSlots][Slot % ChunkSlots].store(0, std::memory_order_relaxed);
 	DynamicCount += Geometry->Info.bDynamic ? 1 : 0;
+	ApplyOpacity(Entry);
 	UpdateSizes(Entry);
 	Queue(Entry);
 	Entry.bSmall = !Geometry->Info.bDynamic && Entry.Triangles < SmallTriangles;

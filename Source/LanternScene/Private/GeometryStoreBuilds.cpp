@@ -146,7 +146,8 @@ FRTStatus FGeometryStore::ChooseBuilds(bool bBuildAll)
 	for (; Next < Order.size() && !bStop && Status; ++Next)
 	{
 		FEntry& Entry = Entries[Order[Next].Slot];
-		if (!bBuildAll && Limit > 0 && Stats.Built > 0 && Stats.TrianglesBuilt + Entry.Triangles > Limit) { break; }
+		const bool bSpent = Limit > 0 && Stats.Built > 0 && !Entry.bLost; // what was in the picture stays there
+		if (!bBuildAll && bSpent && Stats.TrianglesBuilt + Entry.Triangles > Limit) { break; }
 		// All at once, smallest first: each may take an equal share of the room, and what small ones leave goes to the large.
 		const uint64_t Share = bBuildAll ? GetRoom() / (Order.size() - Next) : ~0ull;
 		Status = ChooseBuild(Entry, bBuildAll, Share, bStop);

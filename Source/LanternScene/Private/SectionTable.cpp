@@ -6,6 +6,8 @@
 #include <cstring>
 #include <utility>
 
+#include "LanternScene/OpacityClassifier.h"
+#include "OpacityUse.h"
 #include "SectionData.h"
 
 namespace Lantern
@@ -205,7 +207,7 @@ bool FSectionTable::AffectsSections(const FMaterialData& Old, const FMaterialDat
 {
 	return Old.Flags != New.Flags || Old.EmissiveWeight != New.EmissiveWeight || Old.UVSets != New.UVSets ||
 	       Old.UVTransform[TEXTURE_BASE_COLOR] != New.UVTransform[TEXTURE_BASE_COLOR] ||
-	       Old.UVOffset[TEXTURE_BASE_COLOR] != New.UVOffset[TEXTURE_BASE_COLOR];
+	       Old.UVOffset[TEXTURE_BASE_COLOR] != New.UVOffset[TEXTURE_BASE_COLOR] || MakeOpacityKey(Old) != MakeOpacityKey(New);
 }
 
 void FSectionTable::MaterialChanged(uint32_t Material)
@@ -295,6 +297,10 @@ void FSectionTable::UpdateFlags(FSectionRangeId Id)
 		bMasked |= (Table[Range.First + Part].Flags & SECTION_MASKED) != 0;
 	}
 	SetFlags(Id, bMasked, bDoubleSided, bEmissive);
+	if (!HasClassifiedMaterials(Context, *Range.Geometry, Range.Materials))
+	{
+		RefutedGeometries.push_back(Range.Geometry->GetSlot());
+	}
 }
 
 void FSectionTable::SetFlags(FSectionRangeId Id, bool bMasked, bool bDoubleSided, bool bEmissive)

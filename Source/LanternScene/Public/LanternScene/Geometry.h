@@ -103,6 +103,10 @@ public:
 	ERTIndexType GetIndexType() const { return IndexType; }
 	/// Parts and indices are those of a coarser level: they no longer follow CpuIndices.
 	bool IsCoarse() const { return bCoarse; }
+	/// Some section's triangles are told apart by their opacity (see FRTSectionInfo::OpacityKey).
+	bool HasClassifiedSections() const { return PartCapacity > Info.Sections.size(); }
+	/// Parts follow the classification; false: as if there were none.
+	bool IsClassified() const { return bClassified; }
 
 private:
 	friend class FRTScene;
@@ -117,6 +121,7 @@ private:
 	uint64_t IndicesOffset = 0;
 	ERTIndexType IndexType = ERTIndexType::UInt32;
 	bool bCoarse = false;
+	bool bClassified = true;
 	TRTRef<IRTGeometry> Structure;
 	bool bBuilt = false;
 	bool bDeformed = false;

@@ -56,6 +56,12 @@ public:
 	FRTStatus Create(FRTGeometryInfo Info, FRTGeometryRef& Out);
 	/// A dynamic geometry's vertices are new in this frame.
 	void MarkDeformed(const FRTGeometryRef& Geometry);
+	/// Whether parts follow the classification of their sections, as they do from the start. Where that changes parts do at
+	/// once, and the geometry is built anew before all others; its objects are left out until then. Before BeginFrame.
+	void SetOpacityUse(bool bUsed);
+	bool IsOpacityUsed() const { return bUseOpacity; }
+	/// Slot's geometry is used with an alpha test that it was not classified for: as above, for good.
+	void RefuteOpacity(uint32_t Slot);
 	/// Measured on the GPU a few frames ago: how much looser the boxes around a dynamic geometry's triangles are than they
 	/// were when it was built. Above r.RT.Skinning.RebuildQuality it is rebuilt at its next deformation.
 	void SetRefitQuality(uint32_t Slot, float Ratio);
@@ -115,6 +121,7 @@ private:
 		ECompaction Compaction = ECompaction::None;
 		bool bDeformed = false;
 		bool bLost = false;    ///< was recorded in a frame that never ran
+		bool bRefuted = false; ///< its classification is no longer right
 		bool bRebuild = false; ///< the next refit must be a build
 		bool bUpdate = false;  ///< this frame: a refit
 		bool bSaid = false;    ///< that it does not fit
@@ -161,6 +168,9 @@ private:
 	void Submitted();
 	void Lost();
 	void ShrinkScratch();
+	// GeometryStoreOpacity.cpp
+	void ForgetStructure(FEntry& Entry);
+	void ApplyOpacity(FEntry& Entry);
 	// GeometryStoreBuilds.cpp
 	FRTGeometryDesc MakeDesc(const FEntry& Entry, const std::vector<FRTGeometrySection>& Sections) const;
 	void UpdateSizes(FEntry& Entry);
@@ -214,6 +224,7 @@ private:
 	uint32_t DynamicCount = 0;
 	float CompactedShare = 0.7f; ///< what compaction leaves, as seen so far
 	bool bAdvised = false;
+	bool bUseOpacity = true;
 	FGeometryStoreStats Stats;
 };
 

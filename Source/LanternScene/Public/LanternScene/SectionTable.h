@@ -6,6 +6,7 @@
 #pragma once
 
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "LanternScene/GpuTable.h"
@@ -77,6 +78,10 @@ public:
 	/// Sections written since the last call, each once, for whoever keeps hit records. Some may have been released
 	/// meanwhile.
 	std::vector<uint32_t> TakeChanged();
+	/// Slots of geometries that were given another alpha test than they were classified for, since the last call. Some may
+	/// come twice, or have been released meanwhile.
+	std::vector<uint32_t> TakeRefutedGeometries() { return std::exchange(RefutedGeometries, {}); }
+	bool HasRefutedGeometries() const { return !RefutedGeometries.empty(); }
 	bool HasChanged() const { return !Changed.empty(); } ///< whether TakeChanged would return any
 
 	const FSectionData& Get(uint32_t Section) const { return Table[Section]; }
@@ -149,6 +154,7 @@ private:
 	std::vector<std::vector<FMaterialUse>> UsesOfMaterial;
 
 	std::vector<FSectionRangeId> ChangedRanges;
+	std::vector<uint32_t> RefutedGeometries;
 	std::vector<uint32_t> Changed;
 	std::vector<bool> IsChanged; // per section: nobody may take changes for a long time, and the list must not grow
 
