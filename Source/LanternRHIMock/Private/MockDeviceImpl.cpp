@@ -161,7 +161,9 @@ FRTStatus FMockDevice::WaitIdle()
 
 FRTBuildSizes FMockDevice::GetGeometrySizes(const FRTGeometryDesc& Desc)
 {
-	return State->Desc.Rung == ERTRung::None ? FRTBuildSizes{} : FMockGeometry::ComputeSizes(Desc);
+	FRTGeometryDesc Whole = Desc;
+	Whole.CompactedBytes = 0;
+	return State->Desc.Rung == ERTRung::None ? FRTBuildSizes{} : FMockGeometry::ComputeSizes(Whole);
 }
 
 FRTMemoryStats FMockDevice::GetMemoryStats() const

@@ -1,6 +1,8 @@
 // Builds of acceleration structures.
 #include "ValidationCommandList.h"
 
+#include <cstring>
+
 namespace Lantern
 {
 namespace
@@ -143,6 +145,11 @@ bool FValidatedCommandList::CheckBuild(const FRTGeometryBuild& Build, FRTGeometr
 		Report(Call, Geometry->Label + ": update, but it was created without bAllowUpdate");
 		return false;
 	}
+	if (!Build.bUpdate && Geometry->Track->CompactedBytes)
+	{
+		Report(Call, Geometry->Label + " was created for a compacted copy: only CompactGeometry fills it");
+		return false;
+	}
 	OutSections.resize(Build.SectionCount);
 	for (uint32_t i = 0; i < Build.SectionCount; ++i)
 	{
@@ -164,7 +171,9 @@ bool FValidatedCommandList::CheckBuild(const FRTGeometryBuild& Build, FRTGeometr
 	FValidationStep& Step = AddStep(Build.bUpdate ? EKind::UpdateGeometry : EKind::BuildGeometry, Call);
 	Step.Geometry = Geometry->Track;
 	// What the list builds lives as long as the list's submission.
-	KeptGeometries.push_back(Geometry->Track);
+	KeptGeometries.emplace_back(Geometry->Track);
+	std::lock_guard Lock(State->Mutex);
+	Geometry->Track->bBuildRecorded = true;
 	return true;
 }
 
@@ -203,7 +212,7 @@ void FValidatedCommandList::BuildGeometries(const FRTGeometryBuild* Builds, uint
 	{
 		return;
 	}
-	bUnflushedGeometry = true;
+	bUnflushedGeometry = bUnflushedBuild = true;
 	Inner->BuildGeometries(Inners.data(), static_cast<uint32_t>(Inners.size()));
 }
 
@@ -234,25 +243,32 @@ bool FValidatedCommandList::CheckInstances(FValidatedScene& Scene, IRTBuffer* In
 	return true;
 }
 
-void FValidatedCommandList::WriteCompactedSize(IRTQueryPool* Queries, uint32_t Index, IRTGeometry* Geometry)
+bool FValidatedCommandList::CheckAddresses(const FValidatedScene& Scene, FValidatedBuffer& Buffer, uint64_t Offset,
+                                           uint32_t Count)
 {
-	auto* Pool = State->Require<FValidatedQueryPool>(Queries, Where("WriteCompactedSize") + ": Queries");
-	auto* Mine = State->Require<FValidatedGeometry>(Geometry, Where("WriteCompactedSize") + ": Geometry");
-	if (Pool && Mine)
+	const FValidationTracker Tracker(*State);
+	const auto* Bytes = static_cast<const uint8_t*>(Buffer.GetMapped()) + Offset;
+	std::string Wrong;
+	uint32_t Index = 0;
 	{
-		Inner->WriteCompactedSize(Pool->Inner.Get(), Index, Mine->Inner.Get());
+		std::lock_guard Lock(State->Mutex);
+		uint64_t LastGood = 0; // 0: inactive
+		for (; Index < Count && Wrong.empty(); ++Index)
+		{
+			FRTInstance Instance;
+			std::memcpy(&Instance, Bytes + Index * sizeof(Instance), sizeof(Instance));
+			if (Instance.GeometryAddress != LastGood && Instance.GeometryAddress != 0)
+			{
+				LastGood = Instance.GeometryAddress;
+				Wrong = Tracker.CheckAddress(LastGood, true);
+			}
+		}
 	}
-}
-
-void FValidatedCommandList::CompactGeometry(IRTGeometry* Dest, IRTGeometry* Source)
-{
-	auto* To = State->Require<FValidatedGeometry>(Dest, Where("CompactGeometry") + ": Dest");
-	auto* From = State->Require<FValidatedGeometry>(Source, Where("CompactGeometry") + ": Source");
-	if (To && From)
+	if (!Wrong.empty())
 	{
-		AddStep(EKind::BuildGeometry, "CompactGeometry").Geometry = To->Track;
-		Inner->CompactGeometry(To->Inner.Get(), From->Inner.Get());
+		Report("BuildScene", Scene.Label + Print(": instance %u ", Index - 1) + Wrong);
 	}
+	return Wrong.empty();
 }
 
 void FValidatedCommandList::BuildScene(IRTScene* Scene, IRTBuffer* Instances, uint64_t InstanceOffset, uint32_t Count,
@@ -272,17 +288,22 @@ void FValidatedCommandList::BuildScene(IRTScene* Scene, IRTBuffer* Instances, ui
 	{
 		return Report(Call, Mine->Label + ": geometries were built, with no memory barrier from BuildWrite since");
 	}
+	auto* Buffer = State->Find<FValidatedBuffer>(Instances);
+	const bool bReadable = Buffer && Buffer->GetMapped() && Buffer->GetDesc().Memory == ERTMemory::Upload;
+	if (bReadable && !CheckAddresses(*Mine, *Buffer, InstanceOffset, Count))
+	{
+		return;
+	}
 	if (!CheckScratch(Call, Mine->Label, Scratch, ScratchOffset, Mine->GetBuildSizes().BuildScratchBytes))
 	{
 		return;
 	}
-	auto* Buffer = State->Find<FValidatedBuffer>(Instances);
 	FValidationStep& Step = AddStep(EKind::BuildScene, Call);
 	Step.What += ": " + Mine->Label;
 	Step.Scene = Mine->Track;
 	Step.Offset = InstanceOffset;
 	Step.Count = Count;
-	if (Buffer && Buffer->GetMapped() && Buffer->GetDesc().Memory == ERTMemory::Upload)
+	if (bReadable)
 	{
 		Step.Memory = Buffer->Inner;
 	}

@@ -33,7 +33,7 @@ FRTStatus FValidatedCommandList::Begin()
 	Steps.clear();
 	KeptGeometries.clear();
 	ScratchRanges.clear();
-	bUnflushedGeometry = bUnflushedScene = bInPass = false;
+	bUnflushedGeometry = bUnflushedBuild = bUnflushedScene = bInPass = false;
 	Pipeline.Reset();
 	IndexSize = Markers = 0;
 	FRTStatus Status = Inner->Begin();
@@ -67,9 +67,9 @@ FRTStatus FValidatedCommandList::End()
 
 void FValidatedCommandList::Judge(FValidationTracker& Tracker) const
 {
-	for (const std::shared_ptr<FGeometryTrack>& Geometry : KeptGeometries)
+	for (const FGeometryHold& Hold : KeptGeometries)
 	{
-		Tracker.Keep(Geometry);
+		Tracker.Keep(Hold.Geometry);
 	}
 	for (const FValidationStep& Step : Steps)
 	{
@@ -242,7 +242,7 @@ void FValidatedCommandList::Barriers(const FRTBarrier* Items, uint32_t Count)
 		}
 		if (!Mine.Buffer && !Mine.Texture)
 		{
-			bUnflushedGeometry = bUnflushedScene = false;
+			bUnflushedGeometry = bUnflushedBuild = bUnflushedScene = false;
 			ScratchRanges.clear();
 		}
 		else
@@ -272,7 +272,7 @@ void FValidatedCommandList::KeepAlive(IRTRefCounted* Object)
 	FValidated* Known = State->FindAny(Object);
 	if (auto* Geometry = dynamic_cast<FValidatedGeometry*>(Known))
 	{
-		KeptGeometries.push_back(Geometry->Track);
+		KeptGeometries.emplace_back(Geometry->Track);
 	}
 	Inner->KeepAlive(Known ? Known->GetInner() : Object);
 }
@@ -292,6 +292,10 @@ void FValidatedCommandList::WriteTimestamp(IRTQueryPool* Pool, uint32_t Index)
 	{
 		return Report("WriteTimestamp", Print("query %u of %u", Index, Mine->GetCount()));
 	}
+	if (Mine->GetKind() != ERTQuery::Timestamp)
+	{
+		return Report("WriteTimestamp", Mine->Label + " is not for timestamps");
+	}
 	Inner->WriteTimestamp(Mine->Inner.Get(), Index);
 }
 
@@ -310,6 +314,7 @@ void FValidatedCommandList::ResetQueries(IRTQueryPool* Pool, uint32_t First, uin
 	{
 		return Report("ResetQueries", Print("queries %u + %u of %u", First, Count, Mine->GetCount()));
 	}
+	Mine->MarkReset(First, Count);
 	Inner->ResetQueries(Mine->Inner.Get(), First, Count);
 }
 

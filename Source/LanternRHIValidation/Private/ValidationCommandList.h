@@ -91,6 +91,9 @@ private:
 	bool CheckTriangles(const std::string& Which, const FRTGeometrySection& Section, FRTGeometrySection& OutInner);
 	bool CheckScratch(const char* Call, const std::string& Which, IRTBuffer* Scratch, uint64_t Offset, uint64_t Bytes);
 	bool CheckInstances(FValidatedScene& Scene, IRTBuffer* Instances, uint64_t Offset, uint32_t Count);
+	/// Refuses, while recording, what the instances already say wrong: the driver must not see it.
+	bool CheckAddresses(const FValidatedScene& Scene, FValidatedBuffer& Buffer, uint64_t Offset, uint32_t Count);
+	bool CheckCompaction(const FValidatedGeometry& Dest, const FValidatedGeometry& Source);
 	bool CheckTrace(FValidatedShaderTable& Table, uint32_t RayGen, uint32_t Width, uint32_t Height, uint32_t Depth);
 
 	struct FScratchRange
@@ -103,9 +106,10 @@ private:
 	const bool bImported;
 	FRTFence Fence = 0;
 	std::vector<FValidationStep> Steps;
-	std::vector<std::shared_ptr<FGeometryTrack>> KeptGeometries;
+	std::vector<FGeometryHold> KeptGeometries;
 	std::vector<FScratchRange> ScratchRanges; ///< written since the last barrier on builds
-	bool bUnflushedGeometry = false;          ///< built with no barrier since
+	bool bUnflushedGeometry = false;          ///< built or copied with no barrier since
+	bool bUnflushedBuild = false;             ///< the same, but built
 	bool bUnflushedScene = false;
 	bool bInPass = false;
 	std::vector<ERTFormat> PassColors;

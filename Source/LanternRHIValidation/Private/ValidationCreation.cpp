@@ -187,6 +187,34 @@ std::string FValidatedDevice::CheckSections(const FRTGeometryDesc& Desc) const
 	return {};
 }
 
+std::vector<FRTGeometrySection> FValidatedDevice::UnwrapSections(const FRTGeometryDesc& Desc) const
+{
+	// Only counts, strides and flags matter; the buffers would be wrappers.
+	std::vector<FRTGeometrySection> Sections(Desc.Sections, Desc.Sections + Desc.SectionCount);
+	for (FRTGeometrySection& Section : Sections)
+	{
+		auto* Vertices = State->Find<FValidatedBuffer>(Section.Vertices);
+		auto* Indices = State->Find<FValidatedBuffer>(Section.Indices);
+		Section.Vertices = Vertices ? Vertices->Inner.Get() : nullptr;
+		Section.Indices = Indices ? Indices->Inner.Get() : nullptr;
+	}
+	return Sections;
+}
+
+FRTBuildSizes FValidatedDevice::GetGeometrySizes(const FRTGeometryDesc& Desc)
+{
+	const std::string Wrong = CheckSections(Desc);
+	if (!Wrong.empty())
+	{
+		State->Report("GetGeometrySizes: " + MakeLabel("geometry", Desc.Name) + ": " + Wrong);
+		return {};
+	}
+	const std::vector<FRTGeometrySection> Sections = UnwrapSections(Desc);
+	FRTGeometryDesc Mine = Desc;
+	Mine.Sections = Sections.data();
+	return State->Inner->GetGeometrySizes(Mine);
+}
+
 FRTStatus FValidatedDevice::CreateGeometry(const FRTGeometryDesc& Desc, IRTGeometry** Out)
 {
 	const std::string What = "CreateGeometry: " + MakeLabel("geometry", Desc.Name);
@@ -199,27 +227,7 @@ FRTStatus FValidatedDevice::CreateGeometry(const FRTGeometryDesc& Desc, IRTGeome
 	{
 		return State->Fail(What + ": " + Wrong);
 	}
-	// Only counts, strides and flags matter at creation; the buffers would be wrappers.
-	std::vector<FRTGeometrySection> Sections(Desc.Sections, Desc.Sections + Desc.SectionCount);
-	for (FRTGeometrySection& Section : Sections)
-	{
-		if (auto* Vertices = State->Find<FValidatedBuffer>(Section.Vertices))
-		{
-			Section.Vertices = Vertices->Inner.Get();
-		}
-		else
-		{
-			Section.Vertices = nullptr;
-		}
-		if (auto* Indices = State->Find<FValidatedBuffer>(Section.Indices))
-		{
-			Section.Indices = Indices->Inner.Get();
-		}
-		else
-		{
-			Section.Indices = nullptr;
-		}
-	}
+	std::vector<FRTGeometrySection> Sections = UnwrapSections(Desc);
 	FRTGeometryDesc Mine = Desc;
 	Mine.Sections = Sections.data();
 	TRTRef<IRTGeometry> Inner;
@@ -263,9 +271,17 @@ FRTStatus FValidatedDevice::CreateShaderTable(const FRTShaderTableDesc& Desc, IR
 	{
 		return State->Fail(What + ": " + Pipeline->Label + " is not for ray tracing");
 	}
+	if (Pipeline->bLibrary)
+	{
+		return State->Fail(What + ": " + Pipeline->Label + " is a library: link it first");
+	}
 	if (!Desc.RayGenCount)
 	{
 		return State->Fail(What + ": it has no ray generation record");
+	}
+	if (!Desc.Copies)
+	{
+		return State->Fail(What + ": it has no host copy");
 	}
 	if (Desc.RecordDataBytes > MaxRecordDataBytes)
 	{
@@ -293,7 +309,7 @@ FRTStatus FValidatedDevice::CreateQueryPool(ERTQuery Kind, uint32_t Count, IRTQu
 	FRTStatus Status = State->Inner->CreateQueryPool(Kind, Count, Inner.ReleaseAndGetAddress());
 	if (Status)
 	{
-		*Out = new FValidatedQueryPool(State, Print("query pool of %u", Count), std::move(Inner));
+		*Out = new FValidatedQueryPool(State, std::move(Inner));
 	}
 	return Status;
 }

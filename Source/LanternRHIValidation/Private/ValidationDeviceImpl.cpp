@@ -106,7 +106,7 @@ FRTStatus FValidatedDevice::Submit(IRTCommandList* const* Lists, uint32_t Count,
 	}
 	{
 		std::lock_guard Lock(State->Mutex);
-		Tracker.Commit();
+		Tracker.Commit(Fence);
 		State->LastFence = std::max(State->LastFence, Fence);
 	}
 	for (FValidatedCommandList* List : Mine)
@@ -139,7 +139,6 @@ FRTStatus FValidatedDevice::NotifyExternalSubmit(IRTCommandList* const* Lists, u
 			List->Judge(Tracker);
 			Inners.push_back(List->Inner.Get());
 		}
-		Tracker.Commit();
 	}
 	for (const std::string& Message : Tracker.GetMessages())
 	{
@@ -147,6 +146,10 @@ FRTStatus FValidatedDevice::NotifyExternalSubmit(IRTCommandList* const* Lists, u
 	}
 	FRTFence Fence = 0;
 	Status = State->Inner->NotifyExternalSubmit(Inners.data(), Count, &Fence);
+	{
+		std::lock_guard Lock(State->Mutex);
+		Tracker.Commit(Fence);
+	}
 	if (!Status)
 	{
 		return Status;

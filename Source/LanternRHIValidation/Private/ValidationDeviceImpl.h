@@ -24,10 +24,7 @@ public:
 	FRTStatus CreateRasterPipeline(const FRTRasterPipelineDesc& Desc, IRTPipeline** Out) override;
 	FRTStatus CreateRayTracingPipeline(const FRTRayTracingPipelineDesc& Desc, IRTPipeline** Out) override;
 	FRTStatus CreateGeometry(const FRTGeometryDesc& Desc, IRTGeometry** Out) override;
-	FRTBuildSizes GetGeometrySizes(const FRTGeometryDesc& Desc) override
-	{
-		return State->Inner->GetGeometrySizes(Desc);
-	}
+	FRTBuildSizes GetGeometrySizes(const FRTGeometryDesc& Desc) override;
 	FRTStatus CreateScene(const FRTSceneDesc& Desc, IRTScene** Out) override;
 	FRTStatus CreateShaderTable(const FRTShaderTableDesc& Desc, IRTShaderTable** Out) override;
 	FRTStatus CreateQueryPool(ERTQuery Kind, uint32_t Count, IRTQueryPool** Out) override;
@@ -47,6 +44,10 @@ private:
 	/// Empty where the description is good.
 	std::string CheckTexture(const FRTTextureDesc& Desc) const;
 	std::string CheckSections(const FRTGeometryDesc& Desc) const;
+	std::vector<FRTGeometrySection> UnwrapSections(const FRTGeometryDesc& Desc) const;
+	/// OutInners: the wrapped libraries.
+	std::string CheckLibraries(const FRTRayTracingPipelineDesc& Desc,
+	                           std::vector<FValidatedPipeline*>& OutLibraries) const;
 	FRTStatus Collect(IRTCommandList* const* Lists, uint32_t Count, bool bImported,
 	                  std::vector<FValidatedCommandList*>& OutLists);
 

@@ -109,6 +109,8 @@ public:
 	uint64_t GetNative(ERTNative Kind) const override { return Inner->GetNative(Kind); }
 
 	EPipelineKind PipelineKind = EPipelineKind::Compute;
+	bool bLibrary = false;
+	uint32_t MaxRecursion = 0, MaxPayloadBytes = 0, MaxAttributeBytes = 0;
 	std::vector<FValidatedGroup> Groups;
 	std::vector<ERTFormat> ColorFormats;
 	ERTFormat DepthFormat = ERTFormat::Unknown;
@@ -143,10 +145,13 @@ public:
 class FValidatedQueryPool final : public TValidated<IRTQueryPool>
 {
 public:
-	using TValidated::TValidated;
+	FValidatedQueryPool(std::shared_ptr<FValidationState> InState, TRTRef<IRTQueryPool> InInner);
 	uint32_t GetCount() const override { return Inner->GetCount(); }
 	ERTQuery GetKind() const override { return Inner->GetKind(); }
 	bool GetResults(uint32_t First, uint32_t Count, uint64_t* OutValues) override;
+	void MarkReset(uint32_t First, uint32_t Count);
+
+	std::shared_ptr<FQueryTrack> Track;
 };
 
 class FValidatedShaderTable final : public TValidated<IRTShaderTable>
@@ -160,8 +165,8 @@ public:
 	void SetGroups(ERTRecordKind Kind, uint32_t First, uint32_t Count, const uint32_t* Groups) override;
 	void SetPipeline(IRTPipeline* InPipeline) override;
 	FRTStatus Reserve(const uint32_t Counts[4]) override;
-	FRTStatus Stage() override { return Inner->Stage(); }
-	void Invalidate() override { Inner->Invalidate(); }
+	FRTStatus Stage() override;
+	void Invalidate() override;
 	uint64_t GetUpdatedBytes() const override { return Inner->GetUpdatedBytes(); }
 	uint64_t GetRecordStride(ERTRecordKind Kind) const override { return Inner->GetRecordStride(Kind); }
 	uint64_t GetSizeBytes() const override { return Inner->GetSizeBytes(); }
@@ -169,6 +174,30 @@ public:
 	FRTShaderTableDesc Desc; ///< as Inner's, but with the wrapped pipeline
 	TRTRef<FValidatedPipeline> Pipeline;
 	std::shared_ptr<FTableTrack> Track;
+
+	/// Reports where calls meet that exclude each other. Sets: one of the Set… calls, which may meet each other.
+	class FUse
+	{
+	public:
+		FUse(FValidatedShaderTable& InTable, const char* Call, bool bSets);
+		~FUse() { Table.Users -= Count; }
+		FUse(const FUse&) = delete;
+		FUse& operator=(const FUse&) = delete;
+
+	private:
+		FValidatedShaderTable& Table;
+		const uint32_t Count;
+	};
+
+private:
+	std::string Describe(const char* Call, ERTRecordKind Kind, uint32_t Index) const;
+	/// Reports and says false where the records do not exist or a group may not stand behind them.
+	bool CheckRecords(const char* Call, ERTRecordKind Kind, uint32_t First, uint32_t Count,
+	                  const uint32_t* Groups) const;
+	void MarkSet(ERTRecordKind Kind, uint32_t First, uint32_t Count);
+	void ResizeTracks();
+
+	std::atomic<uint32_t> Users = 0; ///< Set… calls, and 65536 for each that excludes all others
 };
 
 } // namespace Lantern

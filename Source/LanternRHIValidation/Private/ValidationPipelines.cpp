@@ -1,6 +1,9 @@
 // Creation of pipelines.
 #include "ValidationDeviceImpl.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace Lantern
 {
 namespace
@@ -83,12 +86,8 @@ std::string CheckGroup(const FRTRayTracingPipelineDesc& Desc, const FRTShaderGro
 	return bFits ? "" : std::string("is general, but has a ") + StageNames[static_cast<size_t>(Stage)] + " shader";
 }
 
-std::string CheckRayTracing(const FRTRayTracingPipelineDesc& Desc)
+std::string CheckShaders(const FRTRayTracingPipelineDesc& Desc)
 {
-	if (!Desc.Shaders || !Desc.ShaderCount || !Desc.Groups || !Desc.GroupCount)
-	{
-		return "no shaders or no groups";
-	}
 	for (uint32_t i = 0; i < Desc.ShaderCount; ++i)
 	{
 		const FRTShaderCode& Shader = Desc.Shaders[i];
@@ -102,18 +101,49 @@ std::string CheckRayTracing(const FRTRayTracingPipelineDesc& Desc)
 			return MakeLabel("shader", Shader.Name) + " is of no ray-tracing stage";
 		}
 	}
-	bool bRayGen = false;
+	return {};
+}
+
+/// All but the libraries.
+std::string CheckRayTracing(const FRTRayTracingPipelineDesc& Desc)
+{
+	if ((Desc.ShaderCount && !Desc.Shaders) || (Desc.GroupCount && !Desc.Groups) ||
+	    (Desc.LibraryCount && !Desc.Libraries))
+	{
+		return "Shaders, Groups or Libraries is null";
+	}
+	if (Desc.bLibrary && Desc.LibraryCount)
+	{
+		return "a library is not linked from libraries";
+	}
+	if (!Desc.LibraryCount && (!Desc.ShaderCount || !Desc.GroupCount))
+	{
+		return "no shaders or no groups";
+	}
+	const std::string Wrong = CheckShaders(Desc);
+	if (!Wrong.empty())
+	{
+		return Wrong;
+	}
 	for (uint32_t i = 0; i < Desc.GroupCount; ++i)
 	{
-		const std::string Wrong = CheckGroup(Desc, Desc.Groups[i]);
-		if (!Wrong.empty())
+		const std::string WrongGroup = CheckGroup(Desc, Desc.Groups[i]);
+		if (!WrongGroup.empty())
 		{
-			return Print("group %u ", i) + Wrong;
+			return Print("group %u ", i) + WrongGroup;
 		}
-		bRayGen |= Desc.Groups[i].Kind == ERTGroupKind::General &&
-		           Desc.Shaders[Desc.Groups[i].General].Stage == ERTShaderStage::RayGen;
 	}
-	return bRayGen ? "" : "no group has a ray generation shader";
+	return {};
+}
+
+bool IsRayGen(const FValidatedGroup& Group)
+{
+	return Group.Kind == ERTGroupKind::General && Group.GeneralStage == ERTShaderStage::RayGen;
+}
+
+bool IsRayGenOrMiss(const FValidatedGroup& Group)
+{
+	return Group.Kind == ERTGroupKind::General && Group.GeneralStage != ERTShaderStage::Callable;
 }
 
 std::string CheckRaster(const FRTRasterPipelineDesc& Desc)
@@ -187,10 +217,71 @@ FRTStatus FValidatedDevice::CreateRasterPipeline(const FRTRasterPipelineDesc& De
 	return Status;
 }
 
+std::string FValidatedDevice::CheckLibraries(const FRTRayTracingPipelineDesc& Desc,
+                                             std::vector<FValidatedPipeline*>& OutLibraries) const
+{
+	for (uint32_t i = 0; i < Desc.LibraryCount; ++i)
+	{
+		auto* Library = State->Find<FValidatedPipeline>(Desc.Libraries[i]);
+		if (!Library)
+		{
+			return Print("library %u is null, released, or not of this device", i);
+		}
+		if (!Library->bLibrary)
+		{
+			return Library->Label + " is no library (bLibrary)";
+		}
+		const std::pair<const char*, std::pair<uint32_t, uint32_t>> Sizes[] = {
+		    {"MaxRecursion", {Desc.MaxRecursion, Library->MaxRecursion}},
+		    {"MaxPayloadBytes", {Desc.MaxPayloadBytes, Library->MaxPayloadBytes}},
+		    {"MaxAttributeBytes", {Desc.MaxAttributeBytes, Library->MaxAttributeBytes}},
+		};
+		for (const auto& [Name, Values] : Sizes)
+		{
+			if (Values.first != Values.second)
+			{
+				return Library->Label +
+				       Print(" was made with %s %u, the link has %u", Name, Values.second, Values.first);
+			}
+		}
+		// Where there are no libraries at all, the device says so itself.
+		if (State->Inner->GetCapabilities().bPipelineLibraries &&
+		    !State->Inner->GetCapabilities().bLibraryOnlyPipelines &&
+		    std::any_of(Library->Groups.begin(), Library->Groups.end(), IsRayGenOrMiss))
+		{
+			return Library->Label + " has ray generation or miss groups, which must be the link's own on this device";
+		}
+		OutLibraries.push_back(Library);
+	}
+	return {};
+}
+
 FRTStatus FValidatedDevice::CreateRayTracingPipeline(const FRTRayTracingPipelineDesc& Desc, IRTPipeline** Out)
 {
 	const std::string Named = MakeLabel("pipeline", Desc.Name);
 	std::string Wrong = Out ? CheckRayTracing(Desc) : "Out is null";
+	std::vector<FValidatedPipeline*> Libraries;
+	if (Wrong.empty())
+	{
+		Wrong = CheckLibraries(Desc, Libraries);
+	}
+	std::vector<FValidatedGroup> Groups;
+	for (uint32_t i = 0; Wrong.empty() && i < Desc.GroupCount; ++i)
+	{
+		const FRTShaderGroup& Group = Desc.Groups[i];
+		const bool bGeneral = Group.Kind == ERTGroupKind::General;
+		Groups.push_back({Group.Kind, bGeneral ? Desc.Shaders[Group.General].Stage : ERTShaderStage::RayGen});
+	}
+	std::vector<IRTPipeline*> Inners;
+	for (const FValidatedPipeline* Library : Libraries)
+	{
+		Groups.insert(Groups.end(), Library->Groups.begin(), Library->Groups.end());
+		Inners.push_back(Library->Inner.Get());
+	}
+	if (Wrong.empty() && !Desc.bLibrary && std::none_of(Groups.begin(), Groups.end(), IsRayGen))
+	{
+		Wrong = "no group has a ray generation shader";
+	}
 	const uint32_t Depth = GetCapabilities().MaxRayRecursionDepth;
 	// A device without ray-tracing pipelines says so itself: that is no wrong use.
 	if (Wrong.empty() && GetCapabilities().bRayTracingPipeline && Desc.MaxRecursion > Depth)
@@ -201,20 +292,21 @@ FRTStatus FValidatedDevice::CreateRayTracingPipeline(const FRTRayTracingPipeline
 	{
 		return State->Fail("CreateRayTracingPipeline: " + Named + ": " + Wrong);
 	}
+	FRTRayTracingPipelineDesc Mine = Desc;
+	Mine.Libraries = Inners.data();
 	TRTRef<IRTPipeline> Inner;
-	FRTStatus Status = State->Inner->CreateRayTracingPipeline(Desc, Inner.ReleaseAndGetAddress());
+	FRTStatus Status = State->Inner->CreateRayTracingPipeline(Mine, Inner.ReleaseAndGetAddress());
 	if (!Status)
 	{
 		return Status;
 	}
 	auto* Pipeline = new FValidatedPipeline(State, Named, std::move(Inner));
 	Pipeline->PipelineKind = EPipelineKind::RayTracing;
-	for (uint32_t i = 0; i < Desc.GroupCount; ++i)
-	{
-		const FRTShaderGroup& Group = Desc.Groups[i];
-		const bool bGeneral = Group.Kind == ERTGroupKind::General;
-		Pipeline->Groups.push_back({Group.Kind, bGeneral ? Desc.Shaders[Group.General].Stage : ERTShaderStage::RayGen});
-	}
+	Pipeline->bLibrary = Desc.bLibrary;
+	Pipeline->MaxRecursion = Desc.MaxRecursion;
+	Pipeline->MaxPayloadBytes = Desc.MaxPayloadBytes;
+	Pipeline->MaxAttributeBytes = Desc.MaxAttributeBytes;
+	Pipeline->Groups = std::move(Groups);
 	*Out = Pipeline;
 	return Status;
 }

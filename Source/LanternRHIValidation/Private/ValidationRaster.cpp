@@ -15,6 +15,10 @@ void FValidatedCommandList::SetPipeline(IRTPipeline* InPipeline)
 	{
 		return;
 	}
+	if (Mine->bLibrary)
+	{
+		return Report("SetPipeline", Mine->Label + " is a library: link it first");
+	}
 	Pipeline = TRTRef<FValidatedPipeline>(Mine);
 	Inner->SetPipeline(Mine->Inner.Get());
 }
@@ -84,10 +88,16 @@ bool FValidatedCommandList::CheckTrace(FValidatedShaderTable& Table, uint32_t Ra
 		return false;
 	}
 	std::lock_guard Lock(State->Mutex);
-	const std::vector<ERecordState>& Records = Table.Track->Records[static_cast<size_t>(ERTRecordKind::RayGen)];
+	const std::vector<ERecordState>& Records = Table.Track->RayGen;
 	if (RayGen >= Records.size())
 	{
 		Report(Call, Table.Label + Print(": ray generation record %u of %zu", RayGen, Records.size()));
+		return false;
+	}
+	const FRecordTracks& Generations = Table.Track->Records[static_cast<size_t>(ERTRecordKind::RayGen)];
+	if (Generations.IsStale(RayGen, Table.Track->Generation))
+	{
+		Report(Call, Table.Label + Print(": ray generation record %u was not set again after SetPipeline", RayGen));
 		return false;
 	}
 	if (Records[RayGen] == ERecordState::Updated)
@@ -113,7 +123,9 @@ void FValidatedCommandList::TraceRays(IRTShaderTable* Table, uint32_t RayGen, ui
 	{
 		return;
 	}
-	AddStep(EKind::TraceRays, "TraceRays").Table = Mine->Track;
+	FValidationStep& Step = AddStep(EKind::TraceRays, "TraceRays");
+	Step.Table = Mine->Track;
+	Step.Count = Mine->Track->Generation;
 	Inner->TraceRays(Mine->Inner.Get(), RayGen, Width, Height, Depth);
 }
 
@@ -128,15 +140,15 @@ void FValidatedCommandList::UpdateShaderTable(IRTShaderTable* Table)
 	{
 		return;
 	}
-	AddStep(EKind::UpdateTable, "UpdateShaderTable").Table = Mine->Track;
+	const FValidatedShaderTable::FUse Use(*Mine, "UpdateShaderTable", false);
+	FValidationStep& Step = AddStep(EKind::UpdateTable, "UpdateShaderTable");
+	Step.Table = Mine->Track;
+	Step.Count = Mine->Track->Generation;
 	Inner->UpdateShaderTable(Mine->Inner.Get());
 	std::lock_guard Lock(State->Mutex);
-	for (std::vector<ERecordState>& Records : Mine->Track->Records)
+	for (ERecordState& Record : Mine->Track->RayGen)
 	{
-		for (ERecordState& Record : Records)
-		{
-			Record = Record == ERecordState::Set ? ERecordState::Updated : Record;
-		}
+		Record = Record == ERecordState::Set ? ERecordState::Updated : Record;
 	}
 }
 

@@ -76,6 +76,37 @@ FValidated* FValidationState::FindAny(const IRTRefCounted* Key)
 	return Found == Live.end() ? nullptr : Found->second;
 }
 
+void FRecordTracks::Resize(uint32_t InCount)
+{
+	auto Grown = std::make_unique<std::atomic<uint32_t>[]>(InCount);
+	for (uint32_t i = 0; i < std::min(Count, InCount); ++i)
+	{
+		Grown[i].store(Get(i), std::memory_order_relaxed);
+	}
+	Generations = std::move(Grown);
+	Count = InCount;
+}
+
+void FValidationState::Bury(const std::shared_ptr<FGeometryTrack>& Geometry)
+{
+	constexpr size_t MaxDead = 1 << 17;
+	std::lock_guard Lock(Mutex);
+	Geometry->bDead = true;
+	Geometry->Sections.clear();
+	DeadGeometries.push_back(Geometry);
+	if (DeadGeometries.size() <= MaxDead)
+	{
+		return;
+	}
+	const auto Found = Geometries.find(DeadGeometries.front()->Address);
+	// The address may have been used again.
+	if (Found != Geometries.end() && Found->second == DeadGeometries.front())
+	{
+		Geometries.erase(Found);
+	}
+	DeadGeometries.pop_front();
+}
+
 bool FValidationState::IsDead(const void* Key)
 {
 	std::lock_guard Lock(Mutex);

@@ -4,6 +4,8 @@
 #include "LanternRHIValidation/ValidationDevice.h"
 
 #include <array>
+#include <atomic>
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -36,9 +38,47 @@ struct FGeometryTrack
 	std::string Label;
 	uint64_t Address = 0;
 	std::vector<FRTGeometrySection> Sections; ///< as created; pointers in it are never used
-	bool bAllowUpdate = false;
+	bool bAllowUpdate = false, bFastBuild = false, bAllowCompaction = false;
+	uint64_t CompactedBytes = 0; ///< > 0: made for a compacted copy
+	uint64_t CompactedSize = 0;  ///< what a query said that it would need; 0: none was read
 	bool bBuilt = false;
+	bool bBuildRecorded = false; ///< by any list, submitted or not
 	bool bDead = false;
+	std::atomic<uint32_t> Holders = 0; ///< lists that keep it alive
+};
+
+/// Keeps a geometry alive as long as the list that has it is not submitted or begun anew.
+class FGeometryHold
+{
+public:
+	explicit FGeometryHold(std::shared_ptr<FGeometryTrack> InGeometry) : Geometry(std::move(InGeometry))
+	{
+		++Geometry->Holders;
+	}
+	FGeometryHold(FGeometryHold&&) = default;
+	FGeometryHold& operator=(FGeometryHold&&) = delete;
+	~FGeometryHold()
+	{
+		if (Geometry)
+		{
+			--Geometry->Holders;
+		}
+	}
+
+	std::shared_ptr<FGeometryTrack> Geometry;
+};
+
+/// Whose compacted sizes the queries of a pool hold; a null one where none was written.
+struct FQueryTrack
+{
+	struct FQuery
+	{
+		std::shared_ptr<FGeometryTrack> Geometry;
+		FRTFence Fence = 0; ///< of the submission that writes it
+		bool bReset = false;
+	};
+	std::string Label;
+	std::vector<FQuery> Queries;
 };
 
 /// What is known of a scene's instances; nothing where they were written by a shader.
@@ -49,6 +89,7 @@ struct FSceneContent
 	uint32_t HighestOffset = 0; ///< of the shader table, over instances with a mask
 	uint32_t HighestInstance = 0;
 	bool bAny = false;
+	std::shared_ptr<const std::vector<uint64_t>> Offsets; ///< a bit for each offset of such an instance
 };
 
 struct FSceneTrack
@@ -64,12 +105,30 @@ enum class ERecordState : uint8_t
 	Updated
 };
 
+/// Of which pipeline each record's handle is: 0 none, 1 the first one, 2 the one after the first SetPipeline, ….
+/// Records are set without a lock, from several threads.
+class FRecordTracks
+{
+public:
+	/// Under FValidationState::Mutex, as all that reads other records than it sets.
+	void Resize(uint32_t InCount);
+	uint32_t GetCount() const { return Count; }
+	uint32_t Get(uint32_t Index) const { return Generations[Index].load(std::memory_order_relaxed); }
+	void Set(uint32_t Index, uint32_t Generation) { Generations[Index].store(Generation, std::memory_order_relaxed); }
+	bool IsStale(uint32_t Index, uint32_t Generation) const { return Get(Index) && Get(Index) < Generation; }
+
+private:
+	std::unique_ptr<std::atomic<uint32_t>[]> Generations;
+	uint32_t Count = 0;
+};
+
 struct FTableTrack
 {
 	std::string Label;
-	std::array<std::vector<ERecordState>, 4> Records; ///< by ERTRecordKind
-	bool bUpdateRecorded = false;
-	bool bUpdated = false; ///< an update has been submitted
+	std::array<FRecordTracks, 4> Records; ///< by ERTRecordKind
+	std::vector<ERecordState> RayGen;
+	std::atomic<uint32_t> Generation = 1; ///< of the pipeline that SetPipeline left
+	uint32_t UpdatedGeneration = 0;       ///< of the last update submitted; 0: there was none
 };
 
 class FValidated;
@@ -93,6 +152,7 @@ struct FValidationState
 	std::unordered_map<const IRTRefCounted*, FValidated*> Live;
 	std::unordered_set<const void*> Dead; ///< released wrappers, until their address is used again
 	std::unordered_map<uint64_t, std::shared_ptr<FGeometryTrack>> Geometries;
+	std::deque<std::shared_ptr<FGeometryTrack>> DeadGeometries; ///< the oldest are forgotten
 	std::vector<std::weak_ptr<FSceneTrack>> Scenes;
 	std::vector<std::weak_ptr<FResourceTrack>> Buffers;
 	FRTFence LastFence = 0;
@@ -102,6 +162,8 @@ struct FValidationState
 	void Add(const IRTRefCounted* Key, FValidated* Object);
 	void Remove(const IRTRefCounted* Key);
 	FValidated* FindAny(const IRTRefCounted* Key);
+	/// Its name stays known, for what still points at it.
+	void Bury(const std::shared_ptr<FGeometryTrack>& Geometry);
 	bool IsDead(const void* Key);
 	/// The wrapper behind Object; null where Object is null, released, or not of this device.
 	template <class W, class I>

@@ -1,5 +1,6 @@
 #include "ValidationTracker.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace Lantern
@@ -44,8 +45,15 @@ void FValidationTracker::Run(const FValidationStep& Step)
 			Add(Step.What + ": update of " + Step.Geometry->Label + " before any build");
 		}
 		return;
+	case EKind::RequireBuilt:
+		if (!IsBuilt(Step.Geometry.get()))
+		{
+			Add(Step.What + ": " + Step.Geometry->Label + " was never built");
+		}
+		return;
+	case EKind::WriteSize: Sizes.push_back(&Step); return;
 	case EKind::BuildScene: return BuildScene(Step);
-	case EKind::UpdateTable: Updated.insert(Step.Table.get()); return;
+	case EKind::UpdateTable: Updated[Step.Table.get()] = Step.Count; return;
 	case EKind::TraceRays: return TraceRays(Step);
 	}
 }
@@ -135,27 +143,26 @@ void FValidationTracker::CheckIndices(const FValidationStep& Step)
 	}
 }
 
-void FValidationTracker::CheckInstance(const FValidationStep& Step, uint32_t Index, const FRTInstance& Instance)
+std::string FValidationTracker::CheckAddress(uint64_t Address, bool bRecording) const
 {
-	if (Instance.GeometryAddress == 0)
-	{
-		return;
-	} // inactive, as Vulkan has it
-	const auto Found = State.Geometries.find(Instance.GeometryAddress);
+	const auto Found = State.Geometries.find(Address);
 	if (Found == State.Geometries.end())
 	{
-		return Add(Step.What + Print(": instance %u points at 0x%llx, where no geometry is", Index,
-		                             static_cast<unsigned long long>(Instance.GeometryAddress)));
+		// A list may be recorded before its instances are written.
+		return bRecording ? std::string()
+		                  : Print("points at 0x%llx, where no geometry is", static_cast<unsigned long long>(Address));
 	}
 	FGeometryTrack* Geometry = Found->second.get();
-	if (Geometry->bDead && !Kept.contains(Geometry))
+	const bool bKept = bRecording ? Geometry->Holders > 0 : Kept.contains(Geometry);
+	if (Geometry->bDead && !bKept)
 	{
-		return Add(Step.What + Print(": instance %u points at the released %s", Index, Geometry->Label.c_str()));
+		return "points at the released " + Geometry->Label;
 	}
-	if (!IsBuilt(Geometry))
+	if (!IsBuilt(Geometry) && !(bRecording && Geometry->bBuildRecorded))
 	{
-		Add(Step.What + Print(": instance %u points at %s, which was never built", Index, Geometry->Label.c_str()));
+		return "points at " + Geometry->Label + ", which was never built";
 	}
+	return {};
 }
 
 void FValidationTracker::BuildScene(const FValidationStep& Step)
@@ -164,14 +171,33 @@ void FValidationTracker::BuildScene(const FValidationStep& Step)
 	Content.bBuilt = true;
 	Content.bKnown = Step.Memory || Step.Count == 0;
 	const auto* Bytes = Step.Memory ? static_cast<const uint8_t*>(Step.Memory->GetMapped()) + Step.Offset : nullptr;
+	std::vector<uint64_t> Offsets;
+	uint64_t LastGood = 0; // 0: inactive, as Vulkan has it
 	for (uint32_t i = 0; Bytes && i < Step.Count; ++i)
 	{
 		FRTInstance Instance;
 		std::memcpy(&Instance, Bytes + i * sizeof(Instance), sizeof(Instance));
-		CheckInstance(Step, i, Instance);
+		if (Instance.GeometryAddress != LastGood && Instance.GeometryAddress != 0)
+		{
+			const std::string Wrong = CheckAddress(Instance.GeometryAddress, false);
+			if (!Wrong.empty())
+			{
+				Add(Step.What + Print(": instance %u ", i) + Wrong);
+			}
+			LastGood = Wrong.empty() ? Instance.GeometryAddress : LastGood;
+		}
 		const uint32_t Offset = Instance.TableOffsetAndFlags & MaxInstanceIndex;
 		const bool bHittable = (Instance.CustomIndexAndMask >> 24) != 0 && Instance.GeometryAddress != 0;
-		if (!bHittable || (Content.bAny && Offset <= Content.HighestOffset))
+		if (!bHittable)
+		{
+			continue;
+		}
+		if (Offset / 64 >= Offsets.size())
+		{
+			Offsets.resize(Offset / 64 + 1);
+		}
+		Offsets[Offset / 64] |= 1ull << (Offset % 64);
+		if (Content.bAny && Offset <= Content.HighestOffset)
 		{
 			continue;
 		}
@@ -179,19 +205,13 @@ void FValidationTracker::BuildScene(const FValidationStep& Step)
 		Content.HighestOffset = Offset;
 		Content.HighestInstance = i;
 	}
-	Scenes[Step.Scene.get()] = Content;
+	Content.Offsets = std::make_shared<const std::vector<uint64_t>>(std::move(Offsets));
+	Scenes[Step.Scene.get()] = std::move(Content);
 }
 
-void FValidationTracker::TraceRays(const FValidationStep& Step)
+const FSceneTrack* FValidationTracker::FindOnlyScene(FSceneContent& OutContent) const
 {
-	FTableTrack& Table = *Step.Table;
-	if (!Table.bUpdated && !Updated.contains(&Table))
-	{
-		Add(Step.What + ": " + Table.Label + " has never been updated on the device");
-	}
-	// Which scene the shaders trace is not seen; with a single one it is certain.
 	const FSceneTrack* Only = nullptr;
-	FSceneContent Content;
 	for (const std::weak_ptr<FSceneTrack>& Item : State.Scenes)
 	{
 		const std::shared_ptr<FSceneTrack> Scene = Item.lock();
@@ -201,32 +221,99 @@ void FValidationTracker::TraceRays(const FValidationStep& Step)
 		}
 		if (Only)
 		{
-			return;
+			return nullptr;
 		}
 		Only = Scene.get();
 		const auto Found = Scenes.find(Scene.get());
-		Content = Found == Scenes.end() ? Scene->Content : Found->second;
+		OutContent = Found == Scenes.end() ? Scene->Content : Found->second;
 	}
-	if (!Only || !Content.bKnown || !Content.bAny)
+	return Only && OutContent.bKnown ? Only : nullptr;
+}
+
+void FValidationTracker::TraceRays(const FValidationStep& Step)
+{
+	FTableTrack& Table = *Step.Table;
+	const auto Found = Updated.find(&Table);
+	const uint32_t Generation = Found == Updated.end() ? Table.UpdatedGeneration : Found->second;
+	if (Generation == 0)
 	{
-		return;
+		Add(Step.What + ": " + Table.Label + " has never been updated on the device");
 	}
-	const std::vector<ERecordState>& Hits = Table.Records[static_cast<size_t>(ERTRecordKind::Hit)];
-	if (Content.HighestOffset >= Hits.size())
+	else if (Generation < Step.Count)
 	{
-		return Add(Step.What + Print(": instance %u of %s reaches hit record %u, but %s has %zu",
-		                             Content.HighestInstance, Only->Label.c_str(), Content.HighestOffset,
-		                             Table.Label.c_str(), Hits.size()));
+		Add(Step.What + ": " + Table.Label + " has got another pipeline, with no UpdateShaderTable since");
 	}
-	if (Hits[Content.HighestOffset] == ERecordState::Never)
+	// Which scene the shaders trace is not seen; with a single one it is certain.
+	FSceneContent Content;
+	const FSceneTrack* Only = FindOnlyScene(Content);
+	CheckPipelineOf(Step, Only ? &Content : nullptr);
+	const uint32_t Hits = Table.Records[static_cast<size_t>(ERTRecordKind::Hit)].GetCount();
+	if (Only && Content.bAny && Content.HighestOffset >= Hits)
 	{
-		Add(Step.What + Print(": instance %u of %s reaches hit record %u of %s, which was never set",
-		                      Content.HighestInstance, Only->Label.c_str(), Content.HighestOffset,
-		                      Table.Label.c_str()));
+		Add(Step.What + Print(": instance %u of %s reaches hit record %u, but %s has %u", Content.HighestInstance,
+		                      Only->Label.c_str(), Content.HighestOffset, Table.Label.c_str(), Hits));
 	}
 }
 
-void FValidationTracker::Commit()
+void FValidationTracker::CheckPipelineOf(const FValidationStep& Step, const FSceneContent* Content)
+{
+	const FTableTrack& Table = *Step.Table;
+	if (Step.Count == 1)
+	{
+		return; // no SetPipeline yet: nothing can be stale
+	}
+	for (const ERTRecordKind Kind : {ERTRecordKind::Miss, ERTRecordKind::Callable})
+	{
+		const FRecordTracks& Records = Table.Records[static_cast<size_t>(Kind)];
+		for (uint32_t i = 0; i < Records.GetCount(); ++i)
+		{
+			if (Records.IsStale(i, Step.Count))
+			{
+				return Add(Step.What + Print(": %s record %u of %s was not set again after SetPipeline",
+				                             Kind == ERTRecordKind::Miss ? "miss" : "callable", i,
+				                             Table.Label.c_str()));
+			}
+		}
+	}
+	CheckHits(Step, Content);
+}
+
+void FValidationTracker::CheckHits(const FValidationStep& Step, const FSceneContent* Content)
+{
+	const FTableTrack& Table = *Step.Table;
+	const FRecordTracks& Hits = Table.Records[static_cast<size_t>(ERTRecordKind::Hit)];
+	const auto Report = [&](uint32_t Index) {
+		Add(Step.What + Print(": hit record %u of %s was not set again after SetPipeline", Index, Table.Label.c_str()));
+	};
+	if (Content && Content->Offsets)
+	{
+		const uint64_t Most = std::min<uint64_t>(Hits.GetCount(), Content->Offsets->size() * 64);
+		for (uint32_t i = 0; i < Most; ++i)
+		{
+			if (((*Content->Offsets)[i / 64] >> (i % 64) & 1) && Hits.IsStale(i, Step.Count))
+			{
+				return Report(i);
+			}
+		}
+		return;
+	}
+	// What rays reach is not known; but where not one record was set again, they reach stale ones.
+	uint32_t Stale = ~0u;
+	for (uint32_t i = 0; i < Hits.GetCount(); ++i)
+	{
+		if (Hits.Get(i) >= Step.Count)
+		{
+			return;
+		}
+		Stale = Hits.IsStale(i, Step.Count) && Stale == ~0u ? i : Stale;
+	}
+	if (Stale != ~0u)
+	{
+		Report(Stale);
+	}
+}
+
+void FValidationTracker::Commit(FRTFence Fence)
 {
 	for (auto& [Resource, Access] : Accesses)
 	{
@@ -240,9 +327,15 @@ void FValidationTracker::Commit()
 	{
 		Geometry->bBuilt = true;
 	}
-	for (FTableTrack* Table : Updated)
+	for (auto& [Table, Generation] : Updated)
 	{
-		Table->bUpdated = true;
+		Table->UpdatedGeneration = Generation;
+	}
+	for (const FValidationStep* Step : Sizes)
+	{
+		FQueryTrack::FQuery& Query = Step->Queries->Queries[Step->Count];
+		Query.Geometry = Step->Geometry;
+		Query.Fence = Fence;
 	}
 }
 

@@ -20,9 +20,11 @@ struct FValidationStep
 		CheckIndices, ///< Memory: Count indices of IndexType, each below Limit
 		BuildGeometry,
 		UpdateGeometry,
-		BuildScene, ///< Scene, Memory at Offset: Count instances
-		UpdateTable,
-		TraceRays, ///< Table
+		RequireBuilt, ///< Geometry
+		WriteSize,    ///< Queries, Count: query; of Geometry
+		BuildScene,   ///< Scene, Memory at Offset: Count instances
+		UpdateTable,  ///< Table, Count: generation of its pipeline
+		TraceRays,    ///< Table, Count: generation of its pipeline
 	};
 
 	EKind Kind = EKind::Use;
@@ -32,6 +34,7 @@ struct FValidationStep
 	std::shared_ptr<FGeometryTrack> Geometry;
 	std::shared_ptr<FSceneTrack> Scene;
 	std::shared_ptr<FTableTrack> Table;
+	std::shared_ptr<FQueryTrack> Queries;
 	TRTRef<IRTBuffer> Memory; ///< of the wrapped device, mapped; null: contents unknown
 	uint64_t Offset = 0;
 	uint32_t Count = 0, Limit = 0;
@@ -48,7 +51,10 @@ public:
 	void Keep(const std::shared_ptr<FGeometryTrack>& Geometry) { Kept.insert(Geometry.get()); }
 	void Run(const FValidationStep& Step);
 	const std::vector<std::string>& GetMessages() const { return Messages; }
-	void Commit();
+	/// Fence: of what was submitted.
+	void Commit(FRTFence Fence);
+	/// Empty where an instance may point there. Kept: geometries kept alive though released.
+	std::string CheckAddress(uint64_t Address, bool bRecording) const;
 
 private:
 	void Barrier(const FValidationStep& Step);
@@ -56,8 +62,11 @@ private:
 	void Use(const FValidationStep& Step);
 	void CheckIndices(const FValidationStep& Step);
 	void BuildScene(const FValidationStep& Step);
-	void CheckInstance(const FValidationStep& Step, uint32_t Index, const FRTInstance& Instance);
 	void TraceRays(const FValidationStep& Step);
+	void CheckPipelineOf(const FValidationStep& Step, const FSceneContent* Content);
+	void CheckHits(const FValidationStep& Step, const FSceneContent* Content);
+	/// The only scene there is and what it holds; null where there are others or its instances are unknown.
+	const FSceneTrack* FindOnlyScene(FSceneContent& OutContent) const;
 	FAccessState& Get(const std::shared_ptr<FResourceTrack>& Resource);
 	bool IsBuilt(FGeometryTrack* Geometry) const { return Geometry->bBuilt || Built.contains(Geometry); }
 	void Add(std::string Message);
@@ -66,7 +75,8 @@ private:
 	std::map<std::shared_ptr<FResourceTrack>, FAccessState> Accesses;
 	std::map<FSceneTrack*, FSceneContent> Scenes;
 	std::set<FGeometryTrack*> Built, Kept;
-	std::set<FTableTrack*> Updated;
+	std::map<FTableTrack*, uint32_t> Updated; ///< generation
+	std::vector<const FValidationStep*> Sizes;
 	std::vector<std::string> Messages;
 };
 
