@@ -5,6 +5,7 @@
 #include "../Library/Bindings.glsl"
 #ifdef HAS_MASKED
 #include "../Materials/AlphaTest.glsl"
+#include "AnyHitCount.glsl"
 #endif
 
 layout(set = 0, binding = 3) uniform accelerationStructureEXT Scenes[];
@@ -22,6 +23,7 @@ bool QueryVisible(FSceneConstants Scene, uint Flags, uint Mask, vec3 Origin, vec
 		FSectionData Section = FSectionRef(Scene.Sections).Data[SectionIndex];
 		// A geometry whose alpha test is some other object's.
 		bool bMasked = (Section.Flags & SECTION_MASKED) != 0u;
+		if (bMasked) { CountAnyHit(Scene.AnyHitCounter); }
 		if (!bMasked || !IsHitCutAway(FMaterialRef(Scene.Materials), Section, rayQueryGetIntersectionPrimitiveIndexEXT(Query, false),
 		                              rayQueryGetIntersectionBarycentricsEXT(Query, false)))
 		{

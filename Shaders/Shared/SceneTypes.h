@@ -149,8 +149,9 @@ struct FSceneConstants
 	uint MaterialOverride; // r.RT.Material.Override
 	ivec3 OriginCell;      // its centre is the scene's origin
 	uint Pad0;
+	FAddress AnyHitCounter; // of alpha tests under rays, where they count (r.RT.Opacity.Count)
 };
-LANTERN_ASSERT_SIZE(FSceneConstants, 120);
+LANTERN_ASSERT_SIZE(FSceneConstants, 128);
 
 // A camera. Positions are relative to the scene's origin.
 struct FViewConstants

@@ -1,5 +1,6 @@
 #include "RayPrograms.h"
 
+#include "LanternRenderer/AnyHitCounter.h"
 #include "LanternRenderer/Frame.h"
 #include "LanternScene/SectionTable.h"
 #include "PassTools.h"
@@ -21,6 +22,7 @@ FRayType MakeShadowRay()
 	Type.Name = "SHADOW";
 	Type.Miss = Shader("Rays/Shadow.rmiss");
 	Type.MaskedAnyHit = Shader("Rays/AlphaTest.rahit");
+	Type.MaskedAnyHit.Defines = FAnyHitCounter::GetDefines();
 	Type.PayloadBytes = ShadowPayloadBytes;
 	return Type;
 }
@@ -32,6 +34,7 @@ FRayType MakeMaterialRay()
 	Type.Miss = Shader("Rays/Material.rmiss");
 	Type.ClosestHit = Shader("Rays/Material.rchit");
 	Type.MaskedAnyHit = Shader("Rays/AlphaTest.rahit");
+	Type.MaskedAnyHit.Defines = FAnyHitCounter::GetDefines();
 	Type.PayloadBytes = MaterialPayloadBytes;
 	return Type;
 }

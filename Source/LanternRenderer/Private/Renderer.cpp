@@ -27,7 +27,7 @@ constexpr uint64_t WaitNs = 120'000'000'000ull;
 
 FRenderer::FRenderer(IRTDevice& InDevice, FRendererDesc Desc)
     : Device(InDevice), Compiler(FShaderCompilerDesc{std::move(Desc.ShaderFolders), Desc.CacheFolder}), Pipelines(InDevice, Compiler),
-      Uploads(InDevice), GraphResources(InDevice), Bindings(InDevice), RayCompiler(InDevice, Compiler, Programs)
+      Uploads(InDevice), GraphResources(InDevice), Bindings(InDevice), AnyHits(InDevice), RayCompiler(InDevice, Compiler, Programs)
 {
 	if (!FTaskTrace::HasFolder()) { FTaskTrace::SetFolder(Desc.CacheFolder); }
 }
@@ -104,12 +104,14 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	FRTStatus Status = PrepareRayPipeline(Features);
 	if (Status) { Status = StartUpdate(View, Features); }
 	if (Status) { Status = AllocateConstants(); }
+	if (Status) { Status = AnyHits.Begin(); }
 	if (Status) { Status = AddSkinningPass(*Context, Uploads, Features.Skinning); }
 	if (!Status)
 	{
 		DropFrame();
 		return Status;
 	}
+	AnyHits.AddClear(*Graph);
 	AddTables();
 	if (Features.bRays && !Features.bLateRays) { AddRayPasses(); }
 	return FRTStatus::Success();
@@ -172,7 +174,8 @@ FRTStatus FRenderer::AllocateConstants()
 
 void FRenderer::WriteConstants()
 {
-	const FSceneConstants OfScene = Context->Scene.GetConstants();
+	FSceneConstants OfScene = Context->Scene.GetConstants();
+	OfScene.AnyHitCounter = AnyHits.GetAddress();
 	const FViewConstants OfView = MakeViewConstants(Context->View, Context->Scene.GetOrigin());
 	std::memcpy(SceneConstants.Data, &OfScene, sizeof(OfScene));
 	std::memcpy(ViewConstants.Data, &OfView, sizeof(OfView));
@@ -238,6 +241,7 @@ FRTStatus FRenderer::Execute(IRTCommandList& List)
 {
 	assert(Graph);
 	AddRayPasses(); // also where nobody asked: what was begun is recorded, so that the next frame finds it done
+	AnyHits.AddRead(*Graph);
 	FRTStatus Status = FrameStatus;
 	if (Status)
 	{
@@ -281,6 +285,7 @@ void FRenderer::FrameSubmitted(FRTFence Fence)
 {
 	Fences[Slot] = Fence;
 	Uploads.EndFrame(Fence);
+	AnyHits.Submitted(Fence);
 	Context->Scene.EndFrame(Fence != 0, Fence);
 	Context.reset();
 	bFrameLost = Fence == 0;

@@ -1,6 +1,7 @@
 // Ray-traced sun shadows: for every pixel, the fraction of the sun's disk that it sees.
 #include "LanternCore/ConsoleVariables.h"
 #include "LanternCore/Log.h"
+#include "LanternRenderer/AnyHitCounter.h"
 #include "LanternRenderer/Frame.h"
 #include "PassTools.h"
 #include "Shadow/SunShadow.h"
@@ -68,7 +69,11 @@ FSunShadowOutputs AddSunShadowPass(FFrameContext& Context, const FSunShadowInput
 	if (Path == ESunShadowPath::Query)
 	{
 		std::vector<std::pair<std::string, std::string>> Defines = MakeSunShadowDefines();
-		if (Context.Facts.bMasked) { Defines.emplace_back("HAS_MASKED", "1"); }
+		if (Context.Facts.bMasked)
+		{
+			Defines.emplace_back("HAS_MASKED", "1");
+			for (auto& Define : FAnyHitCounter::GetDefines()) { Defines.push_back(std::move(Define)); }
+		}
 		Compute = RequireCompute(Context, "Shadow/SunShadow.comp", std::move(Defines));
 		if (!Compute) { return {}; }
 	}

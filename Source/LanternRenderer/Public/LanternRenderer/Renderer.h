@@ -8,6 +8,7 @@
 
 #include "LanternCore/FrameGraph.h"
 #include "LanternCore/Tasks.h"
+#include "LanternRenderer/AnyHitCounter.h"
 #include "LanternRenderer/View.h"
 #include "LanternScene/PipelineCache.h"
 #include "LanternScene/PipelineCompiler.h"
@@ -110,6 +111,7 @@ public:
 	const FRTPSO* GetRayPipeline() const { return RayPipeline.get(); }
 	FRTPSOCompiler& GetRayCompiler() { return RayCompiler; }
 	const FShaderBindings& GetBindings() const { return Bindings; }
+	const FAnyHitCounts& GetAnyHits() { return AnyHits.Get(); } ///< with r.RT.Opacity.Count
 	/// Whether executed frames leave DumpGraph a text; off by default, for it takes longer than the graph.
 	void SetGraphDump(bool bEnabled) { bDumpGraph = bEnabled; }
 	const std::string& DumpGraph() const { return LastDump; } ///< of the last executed frame
@@ -134,6 +136,7 @@ private:
 	FFrameUploads Uploads;
 	FFrameGraphResources GraphResources;
 	FShaderBindings Bindings;
+	FAnyHitCounter AnyHits;
 	FMaterialPrograms Programs;
 	FRTPSOCompiler RayCompiler;
 	std::shared_ptr<const FRTPSO> RayPipeline;
