@@ -72,6 +72,69 @@ TEST_P(FRecordContract, TableChangesBetweenFrames)
 	EXPECT_EQ(Trace(2, MakePush()), (FWords{HitValue(1, 0, 0, 0), HitValue(9, 0, 0, 0)}));
 }
 
+TEST_P(FRecordContract, ScatteredChangesReachTheirRecordsOnly)
+{
+	MakeTable(400);
+	const FContractGeometry Square = MakeSquares();
+	std::vector<FRTInstance> Instances;
+	FWords Expected;
+	for (uint32_t i = 0; i < 64; ++i)
+	{
+		Instances.push_back(Place(Square, static_cast<float>(i), 0, 5 * i + 1));
+		Expected.push_back(HitValue(1000 + i, 0, 0, 0));
+	}
+	for (uint32_t i = 0; i < 400; ++i)
+	{
+		SetHit(i, i % 5 == 1 ? 1000 + i / 5 : 9);
+	}
+	Load({&Square}, Instances);
+	EXPECT_EQ(Trace(64, MakePush()), Expected);
+	for (uint32_t Round = 0; Round < 3; ++Round)
+	{
+		// Most of those looked at, and their neighbours; the last round while the table grows.
+		for (uint32_t i = Round; i < 64; i += 2)
+		{
+			SetHit(5 * i + 1, 2000 + 100 * Round + i);
+			SetHit(5 * i + 3, 7);
+			Expected[i] = HitValue(2000 + 100 * Round + i, 0, 0, 0);
+		}
+		const uint32_t Counts[4] = {2, 2, 1000, 2};
+		ASSERT_OK(Round == 2 ? Table->Reserve(Counts) : FRTStatus());
+		EXPECT_EQ(Trace(64, MakePush()), Expected) << Round;
+	}
+}
+
+TEST_P(FRecordContract, UpdatesLeavePipelineAndConstantsAlone)
+{
+	if (!IsVulkan())
+	{
+		GTEST_SKIP() << "the mock runs no shaders";
+	}
+	MakeTable(400);
+	for (uint32_t i = 0; i < 400; i += 3)
+	{
+		SetHit(i, i);
+	}
+	const auto Compute = MakeComputePipeline(Device(), "WriteWords.comp");
+	const auto Output = Make.Buffer(32, ERTMemory::Readback);
+	FContractPush Push;
+	Push.Output = Output->GetDeviceAddress();
+	Push.A = 5;
+	Push.B = 2;
+	Push.C = 8;
+	const auto List = Make.List();
+	List->SetPipeline(Compute.Get());
+	List->PushConstants(&Push, sizeof(Push));
+	List->UpdateShaderTable(Table.Get());
+	List->Dispatch(1, 1, 1);
+	Barrier(List.Get(), Output.Get(), ERTAccess::StorageWrite, ERTAccess::HostRead);
+	Run(List.Get());
+	for (uint32_t i = 0; i < 8; ++i)
+	{
+		EXPECT_EQ(static_cast<const uint32_t*>(Output->GetMapped())[i], 5 + i * 2);
+	}
+}
+
 TEST_P(FRecordContract, TableChangesWithinAList)
 {
 	if (IsMock())

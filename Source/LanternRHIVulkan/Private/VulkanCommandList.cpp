@@ -1,6 +1,8 @@
 #include "VulkanCommandList.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cstring>
 
 namespace Lantern
 {
@@ -93,6 +95,7 @@ FRTStatus FVulkanCommandList::Begin()
 	Error = {};
 	Bound = nullptr;
 	SetBoundPoints = 0;
+	PushedBytes = 0;
 	SizesWritten.clear();
 	VkResult Result = Device.Check(Device.Api.ResetCommandPool(Device.Handle, Pool, 0));
 	VkCommandBufferBeginInfo Info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
@@ -195,6 +198,9 @@ void FVulkanCommandList::PushConstants(const void* Data, uint32_t Size)
 {
 	assert(Bound && Size % 4 == 0 && Size <= Device.GetCapabilities().MaxPushConstantBytes);
 	Device.Api.CmdPushConstants(Handle, Device.Bindless.PipelineLayout, AllStages(Device.Bits), 0, Size, Data);
+	const uint32_t Remembered = std::min<uint32_t>(Size, sizeof(Pushed));
+	memcpy(Pushed, Data, Remembered);
+	PushedBytes = std::max(PushedBytes, Remembered);
 }
 
 void FVulkanCommandList::Dispatch(uint32_t GroupsX, uint32_t GroupsY, uint32_t GroupsZ)

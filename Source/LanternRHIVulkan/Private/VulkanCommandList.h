@@ -72,6 +72,7 @@ private:
 	void Keep(IRTRefCounted* Object);
 	void ReleaseKept();
 	void Barrier(const FVulkanAccess& Before, const FVulkanAccess& After);
+	void CopyRecords(const FVulkanShaderTable::FCopies& Item, VkBuffer Dest);
 	void MipBarrier(const FVulkanTexture& Texture, uint32_t First, uint32_t Count, VkImageLayout Before,
 	                VkImageLayout After);
 
@@ -83,6 +84,8 @@ private:
 	FRTStatus Error;
 	FVulkanKept Kept;
 	FVulkanPipeline* Bound = nullptr;
+	uint8_t Pushed[sizeof(FVulkanTableScatter::FPush)] = {}; ///< what a scatter writes over
+	uint32_t PushedBytes = 0;
 	std::vector<std::pair<FVulkanQueryPool*, uint32_t>> SizesWritten;
 	uint32_t SetBoundPoints = 0; ///< bit per bind point that has the descriptor set
 };

@@ -21,35 +21,54 @@ void FVulkanCommandList::UpdateShaderTable(IRTShaderTable* Table)
 	}
 	// Rays of earlier frames may still read the table, and an earlier update may still write it.
 	const FVulkanAccess Trace = AccessOf(ERTAccess::TraceRead, Device.Bits);
-	const FVulkanAccess Copy = AccessOf(ERTAccess::CopyWrite | ERTAccess::CopyRead, Device.Bits);
-	Barrier({Trace.Stages | Copy.Stages, Copy.Access}, Copy);
+	FVulkanAccess Write = AccessOf(ERTAccess::CopyWrite | ERTAccess::CopyRead, Device.Bits);
+	Write.Stages |= VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+	Write.Access |= VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+	Barrier({Trace.Stages | Write.Stages, Write.Access}, Write);
 	Keep(Update.Dest);
-	const VkBuffer Dest = Update.Dest->Block.Handle;
-	const auto CopyAll = [&](const FVulkanShaderTable::FCopies& Item)
-	{
-		Keep(Item.Source.Get());
-		Device.Api.CmdCopyBuffer(Handle, Item.Source->Block.Handle, Dest, static_cast<uint32_t>(Item.Regions.size()),
-		                         Item.Regions.data());
-	};
 	for (const FVulkanShaderTable::FFill& Zeros : Update.Zeros)
 	{
-		Device.Api.CmdFillBuffer(Handle, Dest, Zeros.Offset, Zeros.Size, 0);
+		Device.Api.CmdFillBuffer(Handle, Update.Dest->Block.Handle, Zeros.Offset, Zeros.Size, 0);
 	}
 	if (Update.Moved.Source)
 	{
-		CopyAll(Update.Moved);
+		CopyRecords(Update.Moved, Update.Dest->Block.Handle);
 	}
 	bool bWritten = !Update.Zeros.empty() || Update.Moved.Source;
 	for (const FVulkanShaderTable::FCopies& Item : Update.Copies)
 	{
 		if (bWritten)
 		{
-			Barrier(Copy, Copy); // the same records may come twice
+			Barrier(Write, Write); // the same records may come twice
 		}
-		CopyAll(Item);
+		CopyRecords(Item, Update.Dest->Block.Handle);
 		bWritten = true;
 	}
-	Barrier(Copy, Trace);
+	Barrier(Write, Trace);
+}
+
+void FVulkanCommandList::CopyRecords(const FVulkanShaderTable::FCopies& Item, VkBuffer Dest)
+{
+	Keep(Item.Source.Get());
+	if (!Item.Regions.empty())
+	{
+		Device.Api.CmdCopyBuffer(Handle, Item.Source->Block.Handle, Dest, static_cast<uint32_t>(Item.Regions.size()),
+		                         Item.Regions.data());
+	}
+	for (const FVulkanTableScatter::FPush& Scatter : Item.Scatters)
+	{
+		Device.Scatter.Record(Device, Handle, Scatter);
+	}
+	// What the caller has set stays set.
+	if (!Item.Scatters.empty() && Bound && Bound->BindPoint == VK_PIPELINE_BIND_POINT_COMPUTE)
+	{
+		Device.Api.CmdBindPipeline(Handle, Bound->BindPoint, Bound->Handle);
+	}
+	if (!Item.Scatters.empty() && PushedBytes > 0)
+	{
+		Device.Api.CmdPushConstants(Handle, Device.Bindless.PipelineLayout, AllStages(Device.Bits), 0, PushedBytes,
+		                            Pushed);
+	}
 }
 
 void FVulkanCommandList::TraceRays(IRTShaderTable* Table, uint32_t RayGen, uint32_t Width, uint32_t Height,

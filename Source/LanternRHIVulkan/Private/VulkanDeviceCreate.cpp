@@ -36,6 +36,7 @@ FVulkanDevice::~FVulkanDevice()
 		}
 		Api.DestroySemaphore(Handle, Timeline, nullptr);
 	}
+	Scatter.Destroy(*this);
 	Cache.Destroy();
 	Bindless.Destroy();
 	Memory.Destroy();

@@ -9,6 +9,7 @@
 #include "VulkanObject.h"
 #include "VulkanPipelineCache.h"
 #include "VulkanStatus.h"
+#include "VulkanTableScatter.h"
 #include "VulkanTranslate.h"
 
 #include <deque>
@@ -100,6 +101,7 @@ public:
 	FVulkanMemory Memory;
 	FVulkanBindless Bindless;
 	FVulkanPipelineCache Cache;
+	FVulkanTableScatter Scatter;
 	uint32_t QueueFamily = 0;
 	uint32_t TimestampBits = 0;
 	bool bCacheLibraries = true;

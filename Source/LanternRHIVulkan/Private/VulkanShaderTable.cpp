@@ -9,38 +9,18 @@ namespace Lantern
 namespace
 {
 
+constexpr VkBufferUsageFlags HostUsage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
 constexpr uint64_t MinHostCopyBytes = 64 * 1024;
 /// More staged batches than this are gathered into one.
 constexpr size_t MaxBatches = 4;
-/// More copies than this are made fewer by copying also what lies between: a region costs more than a few records.
-constexpr size_t MaxRuns = 8192;
+/// More runs than this of one kind are written by a compute pass rather than copied.
+constexpr size_t MaxRegions = 16;
 /// A host copy that as many stagings passed by gives its memory back.
 constexpr uint64_t IdleStagings = 64;
 
 constexpr uint64_t AlignUp(uint64_t Value, uint64_t Alignment)
 {
 	return (Value + Alignment - 1) / Alignment * Alignment;
-}
-
-void LimitRuns(std::vector<FVulkanTableRecords::FRun>& Runs)
-{
-	for (uint32_t Gap = 1; Runs.size() > MaxRuns; Gap *= 2)
-	{
-		size_t Last = 0;
-		for (size_t Index = 1; Index < Runs.size(); ++Index)
-		{
-			const uint32_t End = Runs[Last].First + Runs[Last].Count;
-			if (Runs[Index].First - End <= Gap)
-			{
-				Runs[Last].Count = Runs[Index].First + Runs[Index].Count - Runs[Last].First;
-			}
-			else
-			{
-				Runs[++Last] = Runs[Index];
-			}
-		}
-		Runs.resize(Last + 1);
-	}
 }
 
 } // namespace
@@ -69,12 +49,13 @@ FRTStatus FVulkanShaderTable::Initialise(const FRTShaderTableDesc& InDesc)
 		Records[Kind].Initialise(Strides[Kind], Caps.ShaderGroupHandleSize, bHit ? Desc.RecordDataBytes : 0);
 		Records[Kind].Grow(Counts[Kind]);
 	}
-	FRTStatus Status = MakeLayout(Counts, Current);
+	FRTStatus Status = Device.Scatter.Prepare(Device);
+	Status = Status ? MakeLayout(Counts, Current) : Status;
 	for (uint32_t Copy = 0; Status && Copy < Desc.Copies; ++Copy)
 	{
 		FHostCopy Made;
-		Status = MakeBuffer(std::min(MinHostCopyBytes, Current.Buffer->Size), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-		                    ERTMemory::Upload, " (host)", Made.Buffer);
+		Status = MakeBuffer(std::min(MinHostCopyBytes, Current.Buffer->Size), HostUsage, ERTMemory::Upload, " (host)",
+		                    Made.Buffer);
 		HostCopies.push_back(std::move(Made));
 	}
 	return Status;
@@ -107,7 +88,7 @@ FRTStatus FVulkanShaderTable::MakeLayout(const uint32_t Counts[KindCount], FLayo
 		Size = Made.Offsets[Kind] + Records[Kind].GetStride() * Counts[Kind];
 	}
 	const VkBufferUsageFlags Usage = VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-	                                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+	                                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
 	FRTStatus Status = MakeBuffer(std::max(Size, Base), Usage, ERTMemory::Device, "", Made.Buffer);
 	if (Status)
 	{
@@ -209,7 +190,7 @@ void FVulkanShaderTable::ReturnBatches()
 	{
 		for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
 		{
-			for (const FRun& Run : Batch.Runs[Kind])
+			for (const FRun& Run : Batch.Parts[Kind].Runs)
 			{
 				Records[Kind].MarkDirty(Run);
 			}
@@ -232,12 +213,14 @@ FRTStatus FVulkanShaderTable::Stage()
 	uint64_t Bytes = 0;
 	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
 	{
-		Records[Kind].TakeDirty(Batch.Runs[Kind]);
-		LimitRuns(Batch.Runs[Kind]);
-		for (const FRun& Run : Batch.Runs[Kind])
-		{
-			Bytes += Records[Kind].GetStride() * Run.Count;
-		}
+		FPart& Part = Batch.Parts[Kind];
+		Records[Kind].TakeDirty(Part.Runs);
+		Part.Count = static_cast<uint32_t>(FVulkanTableRecords::CountRecords(Part.Runs));
+		Part.Offset = Bytes;
+		Bytes += Records[Kind].GetStride() * Part.Count;
+		Part.bScatter = Part.Runs.size() > MaxRegions;
+		Part.IndexOffset = Bytes;
+		Bytes += Part.bScatter ? sizeof(uint32_t) * Part.Count : 0;
 	}
 	FRTStatus Status = FindHostCopy(Bytes, Batch.Source);
 	Batches.push_back(std::move(Batch));
@@ -246,17 +229,28 @@ FRTStatus FVulkanShaderTable::Stage()
 		ReturnBatches(); // nothing may count as staged that is not
 		return Status;
 	}
-	const FBatch& Staged = Batches.back();
-	uint8_t* Dest = static_cast<uint8_t*>(Staged.Source->Block.Allocation.Mapped);
+	Fill(Batches.back());
+	return Status;
+}
+
+void FVulkanShaderTable::Fill(const FBatch& Batch) const
+{
+	uint8_t* Begin = static_cast<uint8_t*>(Batch.Source->Block.Allocation.Mapped);
 	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
 	{
-		for (const FRun& Run : Staged.Runs[Kind])
+		const FPart& Part = Batch.Parts[Kind];
+		uint8_t* Dest = Begin + Part.Offset;
+		uint32_t* Index = reinterpret_cast<uint32_t*>(Begin + Part.IndexOffset);
+		for (const FRun& Run : Part.Runs)
 		{
 			Records[Kind].CopyTo(Dest, Run);
 			Dest += Records[Kind].GetStride() * Run.Count;
+			for (uint32_t Record = 0; Part.bScatter && Record < Run.Count; ++Record)
+			{
+				*Index++ = Run.First + Record;
+			}
 		}
 	}
-	return Status;
 }
 
 FRTStatus FVulkanShaderTable::FindHostCopy(uint64_t Size, TRTRef<FVulkanTableBuffer>& Out)
@@ -290,7 +284,7 @@ FRTStatus FVulkanShaderTable::FindHostCopy(uint64_t Size, TRTRef<FVulkanTableBuf
 	{
 		TRTRef<FVulkanTableBuffer> Made;
 		const uint64_t Bytes = std::max(Size + Size / 4, std::min(MinHostCopyBytes, Newest().Buffer->Size));
-		FRTStatus Status = MakeBuffer(Bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, ERTMemory::Upload, " (host)", Made);
+		FRTStatus Status = MakeBuffer(Bytes, HostUsage, ERTMemory::Upload, " (host)", Made);
 		if (!Status)
 		{
 			return Status;
@@ -344,6 +338,27 @@ void FVulkanShaderTable::AddMove(FUpdate& Out)
 	}
 }
 
+void FVulkanShaderTable::AddPart(const FBatch& Batch, uint32_t Kind, FCopies& Out)
+{
+	const FPart& Part = Batch.Parts[Kind];
+	const uint64_t Stride = Records[Kind].GetStride();
+	UpdatedBytes += Stride * Part.Count;
+	if (Part.bScatter)
+	{
+		const VkDeviceAddress From = Batch.Source->Block.Address;
+		assert(Stride % sizeof(uint32_t) == 0);
+		Out.Scatters.push_back({Current.Buffer->Block.Address + Current.Offsets[Kind], From + Part.Offset,
+		                        From + Part.IndexOffset, static_cast<uint32_t>(Stride / sizeof(uint32_t)), Part.Count});
+		return;
+	}
+	uint64_t Offset = Part.Offset;
+	for (const FRun& Run : Part.Runs)
+	{
+		Out.Regions.push_back({Offset, Current.Offsets[Kind] + Stride * Run.First, Stride * Run.Count});
+		Offset += Stride * Run.Count;
+	}
+}
+
 FRTStatus FVulkanShaderTable::TakeUpdate(FUpdate& Out)
 {
 	FRTStatus Status = Stage();
@@ -362,18 +377,11 @@ FRTStatus FVulkanShaderTable::TakeUpdate(FUpdate& Out)
 	for (FBatch& Batch : Batches)
 	{
 		FCopies& Copies = Out.Copies.emplace_back();
-		uint64_t Offset = 0;
 		for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
 		{
-			const uint64_t Stride = Records[Kind].GetStride();
-			for (const FRun& Run : Batch.Runs[Kind])
-			{
-				Copies.Regions.push_back({Offset, Current.Offsets[Kind] + Stride * Run.First, Stride * Run.Count});
-				Offset += Stride * Run.Count;
-			}
+			AddPart(Batch, Kind, Copies);
 		}
 		Copies.Source = std::move(Batch.Source);
-		UpdatedBytes += Offset;
 	}
 	Batches.clear();
 	bCurrentUsed = true;

@@ -39,6 +39,7 @@ public:
 	{
 		TRTRef<FVulkanTableBuffer> Source;
 		std::vector<VkBufferCopy> Regions;
+		std::vector<FVulkanTableScatter::FPush> Scatters;
 	};
 	struct FFill
 	{
@@ -73,11 +74,20 @@ private:
 		uint64_t Offsets[KindCount] = {};
 		uint32_t Counts[KindCount] = {};
 	};
+	/// Records of one kind in a host copy, one after another; behind them their indices, where they are scattered.
+	struct FPart
+	{
+		std::vector<FRun> Runs;
+		uint32_t Count = 0; ///< records
+		bool bScatter = false;
+		uint64_t Offset = 0;
+		uint64_t IndexOffset = 0;
+	};
 	/// A host copy, filled.
 	struct FBatch
 	{
 		TRTRef<FVulkanTableBuffer> Source;
-		std::vector<FRun> Runs[KindCount]; ///< one after another in Source
+		FPart Parts[KindCount];
 	};
 	struct FHostCopy
 	{
@@ -93,11 +103,13 @@ private:
 	                     TRTRef<FVulkanTableBuffer>& Out);
 	bool IsDirty() const;
 	void MarkAllDirty();
+	void Fill(const FBatch& Batch) const;
 	void ReturnBatches();
 	/// A free host copy of at least Size bytes; makes one where all are in use.
 	FRTStatus FindHostCopy(uint64_t Size, TRTRef<FVulkanTableBuffer>& Out);
 	void DropIdleHostCopies();
 	void AddMove(FUpdate& Out);
+	void AddPart(const FBatch& Batch, uint32_t Kind, FCopies& Out);
 
 	FRTShaderTableDesc Desc;
 	std::string Name;

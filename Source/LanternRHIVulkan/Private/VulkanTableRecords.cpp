@@ -204,6 +204,16 @@ void FVulkanTableRecords::TakeDirty(std::vector<FRun>& Out)
 	}
 }
 
+uint64_t FVulkanTableRecords::CountRecords(const std::vector<FRun>& Runs)
+{
+	uint64_t Sum = 0;
+	for (const FRun& Run : Runs)
+	{
+		Sum += Run.Count;
+	}
+	return Sum;
+}
+
 void FVulkanTableRecords::CopyTo(uint8_t* Dest, FRun Run) const
 {
 	while (Run.Count > 0)

@@ -40,6 +40,7 @@ public:
 	void TakeDirty(std::vector<FRun>& Out);
 	/// Count · stride bytes.
 	void CopyTo(uint8_t* Dest, FRun Run) const;
+	static uint64_t CountRecords(const std::vector<FRun>& Runs);
 
 private:
 	static constexpr uint32_t WordBits = 64;
