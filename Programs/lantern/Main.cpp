@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "BenchCommand.h"
+#include "BenchTables.h"
 #include "CompareCommand.h"
 #include "InfoCommand.h"
 #include "LanternCore/Log.h"
@@ -52,6 +53,7 @@ private:
 	FDeviceOptions CvarsSettings;
 	bool bMarkdown = false;
 	FBenchRaysOptions BenchRays;
+	FBenchTablesOptions BenchTables;
 };
 
 void FCommandLine::AddRender()
@@ -112,6 +114,9 @@ void FCommandLine::AddBench()
 	CLI::App* const Rays = Command->add_subcommand("rays", "The sun shadow pass against a minimal hand-written Vulkan dispatch");
 	BenchRays.AddTo(*Rays);
 	Rays->final_callback([this] { Status = RunBenchRays(BenchRays); });
+	CLI::App* const Tables = Command->add_subcommand("sbt", "Keeping the shader table: everything each frame, nothing changed, 1 % changed, another pipeline");
+	BenchTables.AddTo(*Tables);
+	Tables->final_callback([this] { Status = RunBenchTables(BenchTables); });
 }
 
 int FCommandLine::Run(int ArgumentCount, char** Arguments)

@@ -65,7 +65,8 @@ TEST_F(FSectionTableTest, SameGeometryAndMaterialsShareARange)
 	EXPECT_EQ(Table.GetRange(Id).References, 100'001u);
 	EXPECT_NE(Acquire(Tree, {1, 2, 4}), Id);
 	EXPECT_NE(Acquire(Tree, {2, 1, 3}), Id) << "the order of materials matters";
-	EXPECT_NE(Acquire(MakeTree("Bush", 3), {1, 2, 3}), Id);
+	const FRTGeometryRef Bush = MakeTree("Bush", 3);
+	EXPECT_NE(Acquire(Bush, {1, 2, 3}), Id);
 	EXPECT_EQ(Table.GetRangeCount(), 4u);
 }
 
@@ -159,7 +160,7 @@ TEST_F(FSectionTableTest, MaterialReachesOnlyTheSectionsThatUseIt)
 TEST_F(FSectionTableTest, AnimatedColourAffectsNoSection)
 {
 	FMaterialData Old = MakeMaterial(), New = Old;
-	New.BaseColor = glm::vec4(0.5f);
+	New.BaseColor = glm::vec4(0.5f, 0.5f, 0.5f, Old.BaseColor.a);
 	New.Roughness = 0.1f;
 	EXPECT_FALSE(FSectionTable::AffectsSections(Old, New));
 	New.UVOffset[TEXTURE_BASE_COLOR].x = 1.0f;
@@ -192,7 +193,8 @@ TEST_F(FSectionTableTest, HitProgramsInUseAreCounted)
 TEST_F(FSectionTableTest, AlphaTestsOffMakeEverythingOpaque)
 {
 	Materials.Set(0, MakeMaterial(MATERIAL_MASKED));
-	const FSectionRangeId Id = Acquire(MakeTree("Tree", 1), {0});
+	const FRTGeometryRef Tree = MakeTree("Tree", 1);
+	const FSectionRangeId Id = Acquire(Tree, {0});
 	EXPECT_EQ(Table.GetHitProgram(FirstOf(Id)).Class, ERTHitClass::Masked);
 	for (const bool bByOverride : {false, true})
 	{
