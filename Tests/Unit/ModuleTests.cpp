@@ -194,6 +194,43 @@ TEST_F(FModuleTest, RemovedMeshesSlotIsUsedAgainAndItsHandleIsNot)
 	EXPECT_TRUE(AddObject(Second, Solid).IsOk());
 }
 
+TEST_F(FModuleTest, MeshInUseCannotBeRemoved)
+{
+	const ERTMeshHandle Wall = AddOpaqueMesh();
+	ASSERT_FINE(AddObject(Wall, Solid));
+	const ERTObjectHandle First = Object;
+	ASSERT_FINE(AddObject(Wall, Solid));
+	EXPECT_REFUSED(Renderer->RemoveMesh(Wall), "2 objects still use mesh \"Wall\"");
+	ASSERT_FINE(Renderer->SetObjectCastsShadow(First, false));
+	ASSERT_FINE(Renderer->RemoveObject(First));
+	EXPECT_REFUSED(Renderer->RemoveMesh(Wall), "1 objects still use mesh \"Wall\"");
+	ASSERT_FINE(SetSun(-1.0));
+	ASSERT_FINE(Render());
+	ASSERT_FINE(Renderer->EndFrame(nullptr));
+	ASSERT_FINE(Renderer->RemoveObject(Object));
+	ASSERT_FINE(Renderer->RemoveMesh(Wall));
+	for (int Frame = 0; Frame < 3; ++Frame)
+	{
+		ASSERT_FINE(Render());
+		ASSERT_FINE(Renderer->EndFrame(nullptr));
+	}
+	EXPECT_EQ(Mock().CountCalls(ERTMockCall::Destroy, "Wall") > 0, true) << "its memory was kept";
+}
+
+TEST_F(FModuleTest, HandleOfARemovedMeshIsRefusedWithItsName)
+{
+	const ERTMeshHandle Wall = AddOpaqueMesh();
+	ASSERT_FINE(Renderer->RemoveMesh(Wall));
+	EXPECT_REFUSED(Renderer->RemoveMesh(Wall), "no such mesh: \"Wall\" was removed");
+	EXPECT_REFUSED(AddObject(Wall, Solid), "AddObject: no such mesh: \"Wall\" was removed");
+	EXPECT_REFUSED(Renderer->UpdateMeshVertices(Wall, TrianglePositions, nullptr), "\"Wall\" was removed");
+	const ERTMeshHandle Triangle = AddMesh(DescribeTriangle()); // in the same slot
+	EXPECT_REFUSED(AddObject(Wall, Solid), "\"Wall\" was removed");
+	ASSERT_FINE(Renderer->RemoveMesh(Triangle));
+	EXPECT_REFUSED(AddObject(Triangle, Solid), "\"Triangle\" was removed");
+	EXPECT_REFUSED(AddObject(Wall, Solid), "no such mesh: never added, or removed");
+}
+
 TEST_F(FModuleTest, SunWithoutDirectionIsRefused)
 {
 	EXPECT_REFUSED(SetSun(0.0), "Direction is zero");

@@ -1,5 +1,7 @@
 #include "ModuleRenderer.h"
 
+#include <algorithm>
+
 #include "ArgumentChecks.h"
 #include "MeshData.h"
 
@@ -110,9 +112,9 @@ FRTStatus FModuleRenderer::CheckUsers(uint32_t Material)
 {
 	FRTStatus Status = FRTStatus::Success();
 	Objects.ForEach(
-	    [&](FRTObjectId Id)
+	    [&](const FObject& User)
 	    {
-		    const FRTObjectInfo& Object = Scene.GetObject(Id);
+		    const FRTObjectInfo& Object = Scene.GetObject(User.Id);
 		    const FRTGeometryInfo& Geometry = Object.Geometry->GetInfo();
 		    for (size_t Section = 0; Section < Object.Materials.size(); ++Section)
 		    {
@@ -199,7 +201,7 @@ FRTStatus FModuleRenderer::UpdateMeshVertices(ERTMeshHandle Handle, const float*
 	FMesh* const Mesh = Meshes.Find(Handle);
 	if (Mesh == nullptr)
 	{
-		return RefuseHandle("UpdateMeshVertices", "mesh");
+		return RefuseMesh("UpdateMeshVertices", Handle);
 	}
 	if (!Mesh->Deformable)
 	{
@@ -211,12 +213,33 @@ FRTStatus FModuleRenderer::UpdateMeshVertices(ERTMeshHandle Handle, const float*
 
 FRTStatus FModuleRenderer::RemoveMesh(ERTMeshHandle Handle)
 {
-	if (Meshes.Find(Handle) == nullptr)
+	const FMesh* const Mesh = Meshes.Find(Handle);
+	if (Mesh == nullptr)
 	{
-		return RefuseHandle("RemoveMesh", "mesh");
+		return RefuseMesh("RemoveMesh", Handle);
 	}
+	std::string Name = Mesh->Geometry->GetInfo().Name;
+	if (Mesh->Users > 0)
+	{
+		return FRTStatus::Error(ERTResult::InvalidArgument, "RemoveMesh: %u objects still use mesh \"%s\"", Mesh->Users,
+		                        Name.c_str());
+	}
+	const uint32_t Slot = Meshes.GetSlot(Handle);
+	RemovedMeshes.resize(std::max<size_t>(RemovedMeshes.size(), Slot + 1));
+	RemovedMeshes[Slot] = {Handle, std::move(Name)};
 	Meshes.Remove(Handle);
 	return FRTStatus::Success();
+}
+
+FRTStatus FModuleRenderer::RefuseMesh(const char* Function, ERTMeshHandle Handle) const
+{
+	const uint32_t Slot = Meshes.GetSlot(Handle);
+	if (Slot >= RemovedMeshes.size() || RemovedMeshes[Slot].Handle != Handle || Handle == ERTMeshHandle::None)
+	{
+		return RefuseHandle(Function, "mesh");
+	}
+	return FRTStatus::Error(ERTResult::InvalidArgument, "%s: no such mesh: \"%s\" was removed", Function,
+	                        RemovedMeshes[Slot].Name.c_str());
 }
 
 FRTStatus FModuleRenderer::ResolveMaterials(const FRTGeometryInfo& Geometry, const ERTMaterialHandle* Handles,
@@ -251,7 +274,7 @@ FRTStatus FModuleRenderer::AddObject(const FRTModuleObject& Object, ERTObjectHan
 	FMesh* const Mesh = Meshes.Find(Object.Mesh);
 	if (Mesh == nullptr)
 	{
-		return RefuseHandle("AddObject", "mesh");
+		return RefuseMesh("AddObject", Object.Mesh);
 	}
 	FRTObjectInfo Info;
 	Info.Geometry = Mesh->Geometry;
@@ -264,18 +287,20 @@ FRTStatus FModuleRenderer::AddObject(const FRTModuleObject& Object, ERTObjectHan
 	{
 		Info.Transform = ToMatrix(Object.Transform);
 		Info.Mask = Object.bCastsShadow ? MaskAll : MaskVisible;
-		*Out = Objects.Add(Scene.AddObject(std::move(Info)));
+		*Out = Objects.Add({Scene.AddObject(std::move(Info)), Object.Mesh});
+		++Mesh->Users;
 	}
 	return Status;
 }
 
 FRTStatus FModuleRenderer::SetObjectTransform(ERTObjectHandle Handle, const double Transform[12])
 {
-	const FRTObjectId* const Id = Objects.Find(Handle);
-	const FRTStatus Status = Id != nullptr ? CheckTransform(Transform) : RefuseHandle("SetObjectTransform", "object");
+	const FObject* const Object = Objects.Find(Handle);
+	const FRTStatus Status =
+	    Object != nullptr ? CheckTransform(Transform) : RefuseHandle("SetObjectTransform", "object");
 	if (Status)
 	{
-		Scene.SetTransform(*Id, ToMatrix(Transform));
+		Scene.SetTransform(Object->Id, ToMatrix(Transform));
 	}
 	return Status;
 }
@@ -283,45 +308,46 @@ FRTStatus FModuleRenderer::SetObjectTransform(ERTObjectHandle Handle, const doub
 FRTStatus FModuleRenderer::SetObjectMaterials(ERTObjectHandle Handle, const ERTMaterialHandle* Materials,
                                               uint32_t MaterialCount)
 {
-	const FRTObjectId* const Id = Objects.Find(Handle);
-	if (Id == nullptr)
+	const FObject* const Object = Objects.Find(Handle);
+	if (Object == nullptr)
 	{
 		return RefuseHandle("SetObjectMaterials", "object");
 	}
 	std::vector<uint32_t> Indices;
 	const FRTStatus Status =
-	    ResolveMaterials(Scene.GetObject(*Id).Geometry->GetInfo(), Materials, MaterialCount, Indices);
+	    ResolveMaterials(Scene.GetObject(Object->Id).Geometry->GetInfo(), Materials, MaterialCount, Indices);
 	if (Status)
 	{
-		Scene.SetMaterials(*Id, std::move(Indices));
+		Scene.SetMaterials(Object->Id, std::move(Indices));
 	}
 	return Status;
 }
 
 FRTStatus FModuleRenderer::SetObjectCastsShadow(ERTObjectHandle Handle, bool bCastsShadow)
 {
-	FRTObjectId* const Id = Objects.Find(Handle);
-	if (Id == nullptr)
+	FObject* const Object = Objects.Find(Handle);
+	if (Object == nullptr)
 	{
 		return RefuseHandle("SetObjectCastsShadow", "object");
 	}
 	// The scene's objects keep their mask for life. All instances are written again after any change, so that a new
 	// object costs what a new mask would.
-	FRTObjectInfo Info = Scene.GetObject(*Id);
+	FRTObjectInfo Info = Scene.GetObject(Object->Id);
 	Info.Mask = bCastsShadow ? MaskAll : MaskVisible;
-	Scene.RemoveObject(*Id);
-	*Id = Scene.AddObject(std::move(Info));
+	Scene.RemoveObject(Object->Id);
+	Object->Id = Scene.AddObject(std::move(Info));
 	return FRTStatus::Success();
 }
 
 FRTStatus FModuleRenderer::RemoveObject(ERTObjectHandle Handle)
 {
-	const FRTObjectId* const Id = Objects.Find(Handle);
-	if (Id == nullptr)
+	const FObject* const Object = Objects.Find(Handle);
+	if (Object == nullptr)
 	{
 		return RefuseHandle("RemoveObject", "object");
 	}
-	Scene.RemoveObject(*Id);
+	Scene.RemoveObject(Object->Id);
+	--Meshes.Find(Object->Mesh)->Users; // it cannot have been removed
 	Objects.Remove(Handle);
 	return FRTStatus::Success();
 }
@@ -399,7 +425,9 @@ FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame)
 	{
 		return Status;
 	}
-	if (const FRTStatus Status = Renderer.BeginFrame(Scene, ToView(Frame, FrameIndex++), {}); !Status)
+	FFrameFeatures Features;
+	Features.bBuildAll = false;
+	if (const FRTStatus Status = Renderer.BeginFrame(Scene, ToView(Frame, FrameIndex++), Features); !Status)
 	{
 		return Status;
 	}

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "DeformableMesh.h"
@@ -49,6 +50,18 @@ private:
 	{
 		FRTGeometryRef Geometry;
 		std::unique_ptr<FDeformableMesh> Deformable; ///< null: the mesh is rigid
+		uint32_t Users = 0;                          ///< objects
+	};
+	struct FObject
+	{
+		FRTObjectId Id;
+		ERTMeshHandle Mesh = ERTMeshHandle::None;
+	};
+	/// The last mesh that was removed from a slot: who still has its handle is told the name.
+	struct FRemovedMesh
+	{
+		ERTMeshHandle Handle = ERTMeshHandle::None;
+		std::string Name;
 	};
 
 	FRTStatus UploadMesh(const FRTModuleMesh& Mesh, const std::vector<FVertexAttributes>& Attributes,
@@ -57,6 +70,8 @@ private:
 	FRTStatus ResolveMaterials(const FRTGeometryInfo& Geometry, const ERTMaterialHandle* Handles, uint32_t Count,
 	                           std::vector<uint32_t>& Out) const;
 	FRTStatus CheckUsers(uint32_t Material);
+	/// Why Meshes does not find Handle.
+	FRTStatus RefuseMesh(const char* Function, ERTMeshHandle Handle) const;
 	void StoreMaterial(uint32_t Index, const FRTModuleMaterial& Material);
 	FRTStatus RecordVertices(IRTCommandList& List);
 	FRTStatus RecordFrame(const FRTModuleFrame& Frame);
@@ -75,7 +90,8 @@ private:
 	/// index counts from the last submission.
 	std::vector<FMaterialTextures> ReplacedTextures;
 	TSlotTable<FMesh, ERTMeshHandle> Meshes;
-	TSlotTable<FRTObjectId, ERTObjectHandle> Objects;
+	std::vector<FRemovedMesh> RemovedMeshes; ///< by slot
+	TSlotTable<FObject, ERTObjectHandle> Objects;
 	TRTRef<IRTCommandList> Recorded; ///< between RenderFrame and EndFrame
 	TRTRef<IRTTexture> SunShadow;    ///< of the last frame
 	uint32_t FrameIndex = 0;

@@ -34,10 +34,12 @@ public:
 		const bool bKnown = Index < Slots.size() && Slots[Index].Generation == Bits >> 32 && Slots[Index].Value;
 		return bKnown ? &*Slots[Index].Value : nullptr;
 	}
+	/// The slot that Handle, which Find finds or found, has or had.
+	static uint32_t GetSlot(THandle Handle) { return static_cast<uint32_t>(static_cast<uint64_t>(Handle)) - 1; }
 	/// Handle: one that Find finds.
 	void Remove(THandle Handle)
 	{
-		const uint32_t Index = static_cast<uint32_t>(static_cast<uint64_t>(Handle)) - 1;
+		const uint32_t Index = GetSlot(Handle);
 		Slots[Index].Value.reset();
 		++Slots[Index].Generation;
 		Free.push_back(Index);

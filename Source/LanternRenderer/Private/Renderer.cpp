@@ -9,6 +9,7 @@
 #include "LanternRenderer/Frame.h"
 #include "PassTools.h"
 #include "RayPrograms.h"
+#include "Skinning/RefitQuality.h"
 
 namespace Lantern
 {
@@ -27,7 +28,7 @@ constexpr uint64_t WaitNs = 120'000'000'000ull;
 
 FRenderer::FRenderer(IRTDevice& InDevice, FRendererDesc Desc)
     : Device(InDevice), Compiler(FShaderCompilerDesc{std::move(Desc.ShaderFolders), Desc.CacheFolder}), Pipelines(InDevice, Compiler),
-      Uploads(InDevice), GraphResources(InDevice), Bindings(InDevice), AnyHits(InDevice), RayCompiler(InDevice, Compiler, Programs)
+      Uploads(InDevice), GraphResources(InDevice), RefitQuality(std::make_unique<FRefitQuality>(InDevice)), Bindings(InDevice), AnyHits(InDevice), RayCompiler(InDevice, Compiler, Programs)
 {
 	if (!FTaskTrace::HasFolder()) { FTaskTrace::SetFolder(Desc.CacheFolder); }
 }
@@ -127,6 +128,7 @@ FRTStatus FRenderer::StartUpdate(const FView& View, const FFrameFeatures& Featur
 	FrameUse.bRays = Features.bRays || bQueries || Context->RayPipeline;
 	FrameUse.bLightSampling = Features.bReference;
 	FrameUse.bCull = !Features.bReference;
+	FrameUse.bBuildAll = Features.bBuildAll || Features.bReference;
 	const FGatherView Gather(View.Position, View.Forward, View.FovY, View.Height);
 	bUpdating = Scene.NeedsUpdate(Gather, FrameUse);
 	if (bUpdating)
@@ -227,6 +229,7 @@ void FRenderer::DropFrame()
 	PrebindTask.Wait();
 	Graph.reset();
 	if (bUpdating) { Context->Scene.EndFrame(false); }
+	RefitQuality->EndFrame(Context->Scene.GetGeometries(), 0);
 	Context.reset();
 	Uploads.EndFrame(0); // nothing reads them
 }
@@ -287,6 +290,7 @@ void FRenderer::FrameSubmitted(FRTFence Fence)
 	Uploads.EndFrame(Fence);
 	AnyHits.Submitted(Fence);
 	Context->Scene.EndFrame(Fence != 0, Fence);
+	RefitQuality->EndFrame(Context->Scene.GetGeometries(), Fence);
 	Context.reset();
 	bFrameLost = Fence == 0;
 	if (!bFrameLost) { return; }

@@ -30,9 +30,14 @@ struct FGeometryReleases
 		std::lock_guard Lock(Mutex);
 		return std::exchange(Items, {});
 	}
+	bool IsEmpty() const
+	{
+		std::lock_guard Lock(Mutex);
+		return Items.empty();
+	}
 
 private:
-	std::mutex Mutex;
+	mutable std::mutex Mutex;
 	std::vector<FItem> Items;
 };
 

@@ -7,7 +7,6 @@
 
 #include "CoarserLevel.h"
 #include "GeometryReleases.h"
-#include "LanternCore/Log.h"
 
 namespace Lantern
 {
@@ -98,20 +97,8 @@ FRTStatus FGeometryStore::Create(FRTGeometryInfo Info, FRTGeometryRef& Out)
 	ApplyOpacity(Entry);
 	UpdateSizes(Entry);
 	Queue(Entry);
-	Entry.bSmall = !Geometry->Info.bDynamic && Entry.Triangles < SmallTriangles;
-	Stats.Small += Entry.bSmall ? 1 : 0;
-	if (!bAdvised) { AdviseMerging(); }
 	Out = std::move(Geometry);
 	return FRTStatus::Success();
-}
-
-void FGeometryStore::AdviseMerging()
-{
-	if (Stats.Small < SmallAdvice) { return; }
-	bAdvised = true;
-	LogWarning("Scene: {} geometries have fewer than {} triangles each. Every one costs an acceleration structure and its objects an instance: "
-	           "merge those that have one material and do not move.",
-	           Stats.Small, SmallTriangles);
 }
 
 FGeometryStore::FEntry* FGeometryStore::Resolve(FSlotRef Ref)
@@ -128,7 +115,6 @@ void FGeometryStore::DrainReleases()
 	{
 		FEntry& Entry = Entries[Item.Slot];
 		DynamicCount -= Item.bDynamic ? 1 : 0;
-		Stats.Small -= Entry.bSmall ? 1 : 0;
 		Stats.Coarse -= Entry.bCoarse ? 1 : 0;
 		SetAddress(Entry, 0);
 		++Entry.Generation;
@@ -198,7 +184,7 @@ uint32_t FGeometryStore::GetBuildCount(uint32_t Slot) const { return Slot < Entr
 
 bool FGeometryStore::NeedsUpdate() const
 {
-	if (!Pending.empty() || !Deformed.empty() || !WantSize.empty() || !Copied.empty()) { return true; }
+	if (!Pending.empty() || !Deformed.empty() || !WantSize.empty() || !Copied.empty() || !Releases->IsEmpty()) { return true; }
 	const auto Fits = [&](FSlotRef Ref) { return Entries[Ref.Slot].Generation == Ref.Generation && Entries[Ref.Slot].CompactedBytes <= GetRoom(); };
 	if (std::any_of(Sized.begin(), Sized.end(), Fits)) { return true; }
 	for (const FSlotRef Ref : Refused)

@@ -58,6 +58,8 @@ void FGeometryStore::UpdateSizes(FEntry& Entry)
 	Entry.Triangles = Entry.Geometry->GetPrimitiveCount();
 }
 
+bool FGeometryStore::WantsRefitQuality() const { return CVarRebuildQuality.GetOnRenderThread() > 0.0f; }
+
 void FGeometryStore::Queue(FEntry& Entry)
 {
 	Entry.State = EState::Pending;

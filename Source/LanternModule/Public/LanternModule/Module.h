@@ -164,13 +164,15 @@ public:
 	/// InvalidArgument, naming mesh and section, if Material is masked and an object uses it on a section that may not
 	/// be (FRTModuleSection::bMayBeMasked).
 	virtual FRTStatus SetMaterial(ERTMaterialHandle Handle, const FRTModuleMaterial& Material) = 0;
-	/// Copies the data and waits for the copy; the acceleration structure is built by the next RenderFrame.
+	/// Copies the data and waits for the copy. The acceleration structure is built by one of the next calls of RenderFrame,
+	/// within r.RT.Build.TrianglesPerFrame, near and large meshes first; until then its objects are not seen by rays.
 	virtual FRTStatus AddMesh(const FRTModuleMesh& Mesh, ERTMeshHandle* Out) = 0;
 	/// New vertices for a mesh added with bDeformable, for all its objects, from the next RenderFrame on. Arrays as in
 	/// FRTModuleMesh and as long as they were in AddMesh; read during the call. Costs a copy and a refit (a rebuild
 	/// every r.RT.Skinning.RebuildInterval such frames); calls before the same RenderFrame cost one.
 	virtual FRTStatus UpdateMeshVertices(ERTMeshHandle Handle, const float* Positions, const float* Normals) = 0;
-	/// Objects that use it keep it alive, with the vertices of the last frame; the handle is void.
+	/// InvalidArgument, with its name, while objects use it. The handle is void: whoever uses it later is told the name of
+	/// the mesh that it was.
 	virtual FRTStatus RemoveMesh(ERTMeshHandle Handle) = 0;
 	/// InvalidArgument, naming mesh and section, for a masked material on a section that may not be.
 	virtual FRTStatus AddObject(const FRTModuleObject& Object, ERTObjectHandle* Out) = 0;

@@ -44,9 +44,13 @@ struct FFrameFeatures
 	/// The frame waits for what it needs compiled, so that each picture is complete. Else it uses what is ready, see
 	/// FRTPSOCompiler. The reference always waits.
 	bool bWaitForPipelines = true;
+	/// All acceleration structures that wait are built now, so that each picture is complete. Else within
+	/// r.RT.Build.TrianglesPerFrame, and objects whose geometry waits are not seen by rays. The reference builds all.
+	bool bBuildAll = true;
 	std::vector<FSkinningInputs> Skinning;
 };
 
+class FRefitQuality;
 class FRenderer;
 
 /// Given to every pass.
@@ -105,6 +109,7 @@ public:
 	FShaderCompiler& GetCompiler() { return Compiler; }
 	FMaterialPrograms& GetPrograms() { return Programs; }
 	FPipelineCache& GetPipelines() { return Pipelines; }
+	FRefitQuality& GetRefitQuality() { return *RefitQuality; }
 	FFrameUploads& GetUploads() { return Uploads; }
 	FFrameGraphResources& GetGraphResources() { return GraphResources; }
 	/// RTPSO of the last frame; null if it had none.
@@ -135,6 +140,7 @@ private:
 	FPipelineCache Pipelines;
 	FFrameUploads Uploads;
 	FFrameGraphResources GraphResources;
+	std::unique_ptr<FRefitQuality> RefitQuality;
 	FShaderBindings Bindings;
 	FAnyHitCounter AnyHits;
 	FMaterialPrograms Programs;

@@ -30,7 +30,6 @@ struct FGeometryStoreStats
 	uint32_t Pending = 0;              ///< to be built, those in a coarser level's making included
 	uint32_t Coarse = 0;               ///< are a coarser level of detail
 	uint32_t Refused = 0;              ///< left out for want of memory
-	uint32_t Small = 0; ///< static ones below SmallTriangles, see SmallAdvice
 	// In the last frame.
 	uint64_t TrianglesBuilt = 0; ///< static builds and rebuilds
 	uint32_t Built = 0, Refitted = 0, Rebuilt = 0, Compacted = 0;
@@ -40,11 +39,6 @@ struct FGeometryStoreStats
 class FGeometryStore
 {
 public:
-	static constexpr uint32_t NoSlot = ~0u;
-	static constexpr uint32_t SmallTriangles = 32;
-	/// From so many small geometries on, merging those of one material is advised, once.
-	static constexpr uint32_t SmallAdvice = 4096;
-
 	explicit FGeometryStore(IRTDevice& Device);
 	~FGeometryStore();
 	FGeometryStore(const FGeometryStore&) = delete;
@@ -65,6 +59,7 @@ public:
 	/// Measured on the GPU a few frames ago: how much looser the boxes around a dynamic geometry's triangles are than they
 	/// were when it was built. Above r.RT.Skinning.RebuildQuality it is rebuilt at its next deformation.
 	void SetRefitQuality(uint32_t Slot, float Ratio);
+	bool WantsRefitQuality() const; ///< r.RT.Skinning.RebuildQuality is on; render thread
 	/// Builds of Slot's structure so far, after EndFrame that frame's too: tells which build a measurement belongs to.
 	uint32_t GetBuildCount(uint32_t Slot) const;
 	/// Whether BeginFrame and Record would do anything.
@@ -128,7 +123,7 @@ private:
 		bool bChanged = false; ///< is in Changed
 		bool bCompactable = false; ///< its structure allows compaction
 		uint32_t Generation = 0;
-		bool bSmall = false, bCoarse = false;
+		bool bCoarse = false;
 		uint32_t Misfits = 0; ///< frames in which nothing but its size was in the way
 		uint32_t Waits = 0;   ///< frames in which others waited for it
 		uint32_t Coarsenings = 0;
@@ -163,7 +158,6 @@ private:
 	void DrainReleases();
 	void MarkChanged(FEntry& Entry);
 	void SetAddress(FEntry& Entry, uint64_t Address);
-	void AdviseMerging();
 	void UpdateStats();
 	void Submitted();
 	void Lost();
@@ -223,7 +217,6 @@ private:
 	uint64_t Frame = 0, NextAge = 0, LastReleaseFrame = 0;
 	uint32_t DynamicCount = 0;
 	float CompactedShare = 0.7f; ///< what compaction leaves, as seen so far
-	bool bAdvised = false;
 	bool bUseOpacity = true;
 	FGeometryStoreStats Stats;
 };

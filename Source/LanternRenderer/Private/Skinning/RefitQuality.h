@@ -1,0 +1,80 @@
+// How good a refitted acceleration structure still is, told from the deformed triangles alone.
+//
+// A refit keeps the tree and moves its boxes, so that "the quality of such a refitted tree can degrade rapidly" (Kopta et
+// al., "Fast, Effective BVH Updates for Animated Scenes", I3D 2012), and rebuilding when it has degraded beats rebuilding
+// at fixed times (Lauterbach et al., "RT-DEFORM: Interactive Ray Tracing of Dynamic Scenes using BVHs", 2006, who compare
+// surface areas of parents and children). By the surface area heuristic, rays visit a box in proportion to its surface.
+// The driver's boxes cannot be read, but leaves hold neighbouring triangles, and neighbours follow each other in index
+// buffers. So: the surface of the boxes around each 32 consecutive triangles, summed, is measured after skinning. It is
+// divided by the area of the triangles, so that a figure that grows, of which a rebuild makes nothing better, does not
+// count as one that comes apart; and by the same value at the last build, so that meshes in any order can be compared.
+// What it does not see: parts that touched when the tree was built, are no neighbours in the index buffer, and have come
+// apart since. For those there is r.RT.Skinning.RebuildInterval.
+//
+// The sums come back a few frames later; nothing waits for them.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "LanternRenderer/Renderer.h"
+#include "LanternScene/GeometryStore.h"
+#include "RefitQualityTypes.h"
+
+namespace Lantern
+{
+
+class FRefitQuality
+{
+public:
+	/// Geometries measured in a frame, in turn: hundreds of characters must not cost hundreds of dispatches more.
+	static constexpr size_t PerFrame = 16;
+
+	explicit FRefitQuality(IRTDevice& InDevice) : Device(InDevice) {}
+	/// Tells the store what came back.
+	void Take(FGeometryStore& Store);
+	/// What is to be dispatched behind the skinning of Items in this frame, and into which buffer. None where the store
+	/// wants none. Failures (memory) mean that nothing is measured.
+	struct FWork
+	{
+		std::vector<FRefitQualityConstants> Dispatches;
+		TRTRef<IRTBuffer> Results;
+	};
+	FWork Prepare(FGeometryStore& Store, const std::vector<FSkinningInputs>& Items);
+	/// Fence: 0 where the frame never runs.
+	void EndFrame(const FGeometryStore& Store, FRTFence Fence);
+
+	static uint32_t CountGroups(uint32_t Triangles);
+	/// Of all sums of one geometry: surface of boxes over area of triangles; 0: it has no area.
+	static float ComputeLooseness(const FRefitQualitySum* Sums, uint32_t Count);
+
+private:
+	struct FItem
+	{
+		std::weak_ptr<FRTGeometry> Geometry;
+		uint32_t Slot = 0, Builds = 0;
+		uint32_t First = 0, Count = 0; // sums
+	};
+	struct FBatch
+	{
+		TRTRef<IRTBuffer> Results;
+		std::vector<FItem> Items;
+		FRTFence Fence = 0;
+	};
+	struct FBaseline
+	{
+		std::weak_ptr<FRTGeometry> Geometry;
+		uint32_t Builds = 0; // 0: none
+		float Looseness = 0.0f;
+	};
+	void Take(FGeometryStore& Store, const FItem& Item, const FRefitQualitySum* Sums);
+	bool ReserveResults(FBatch& Batch, uint64_t Bytes);
+
+	IRTDevice& Device;
+	std::vector<FBatch> Free, InFlight;
+	std::unique_ptr<FBatch> Current; // of this frame
+	std::vector<FBaseline> Baselines; // by slot
+	size_t Next = 0;
+};
+
+} // namespace Lantern
