@@ -175,10 +175,11 @@ void FRTPSOCompiler::FImpl::StoreResult(const FJob& Job, const FRTStatus& Status
 
 void FRTPSOCompiler::FImpl::ReportFailure(const FJob& Job, const FRTStatus& Status)
 {
-	// Several groups are made from one text.
+	// Several groups are made from one text; they differ in what else they say behind the first line.
 	constexpr size_t MostReported = 1000;
 	if (Reported.size() > MostReported) { Reported.clear(); }
-	if (!Reported.insert(std::to_string(Job.Version) + Status.Message).second) { return; }
+	const std::string_view Text = Status.Message;
+	if (!Reported.insert(std::to_string(Job.Version) + std::string(Text.substr(0, Text.find('\n')))).second) { return; }
 	LogError("{} does not compile{}:\n{}", Job.Unit.Name, Job.Slot->Ready ? "; the version before stays" : "", Status.Message);
 }
 
