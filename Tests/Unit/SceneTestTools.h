@@ -156,8 +156,18 @@ protected:
 		IRTCommandList* const Lists[] = {List.Get()};
 		EXPECT_TRUE(Device->Submit(Lists, 1, &Fence));
 		Uploads->EndFrame(Fence);
-		Scene->EndFrame();
+		Scene->EndFrame(true, Fence);
 		return Fence;
+	}
+	/// Frames until nothing is left to do: builds, their compaction, what follows from it.
+	void Settle(glm::dvec3 Camera = {}, const FSceneUse& Use = {})
+	{
+		for (int I = 0; I < 10; ++I)
+		{
+			Frame(Camera, Use);
+			if (!bUpdated) { return; }
+		}
+		ADD_FAILURE() << "the scene does not come to rest";
 	}
 	std::vector<FRTMockInstance> GetInstances() { return Mock().GetSceneInstances(Scene->GetStructure()); }
 	template <class T>

@@ -40,44 +40,57 @@ void FRTScene::UpdateLights()
 	bLightsChanged = false;
 }
 
+void FRTScene::ListEmissiveObjects()
+{
+	EmissiveObjects.clear();
+	for (uint32_t Index = 0; Index < Objects.size(); ++Index)
+	{
+		if (Objects[Index].bAlive && Sections.GetRange(Objects[Index].Range).bEmissive) { EmissiveObjects.push_back(Index); }
+	}
+	bEmissiveObjectsChanged = false;
+}
+
+double FRTScene::AddEmissiveTriangles(uint32_t Index, double Power, std::vector<FEmissiveTriangle>& Triangles, std::vector<double>& Cumulative) const
+{
+	const FObject& Object = Objects[Index];
+	const FRTGeometryInfo& Info = Object.Info.Geometry->GetInfo();
+	for (uint32_t Section = 0; Section < Info.Sections.size(); ++Section)
+	{
+		const FMaterialData& Material = Materials[Object.Info.Materials[Section]];
+		if ((Sections.Get(FirstSectionOf(Object) + Section).Flags & SECTION_LIGHT) == 0) { continue; }
+		for (uint32_t Primitive = 0; Primitive < Info.Sections[Section].IndexCount / 3; ++Primitive)
+		{
+			glm::vec3 P[3];
+			for (int Corner = 0; Corner < 3; ++Corner)
+			{
+				const uint32_t Vertex = Info.CpuIndices[Info.Sections[Section].FirstIndex + 3 * Primitive + Corner];
+				P[Corner] = ToRelative(glm::dvec3(Object.Info.Transform * glm::dvec4(Info.CpuPositions[Vertex], 1.0)));
+			}
+			const double Area = 0.5 * glm::length(glm::cross(glm::dvec3(P[1] - P[0]), glm::dvec3(P[2] - P[0])));
+			if (!(Area > 0.0)) { continue; }
+			Power += Area * Material.EmissiveWeight;
+			FEmissiveTriangle Triangle{};
+			Triangle.P0 = P[0];
+			Triangle.P1 = P[1];
+			Triangle.P2 = P[2];
+			Triangle.Object = Index;
+			Triangle.Section = FirstSectionOf(Object) + Section;
+			Triangle.Primitive = Primitive;
+			Triangle.Flags = ObjectData[Index].Flags & OBJECT_MIRRORED;
+			Triangles.push_back(Triangle);
+			Cumulative.push_back(Power);
+		}
+	}
+	return Power;
+}
+
 void FRTScene::UpdateEmissiveTriangles()
 {
+	if (bEmissiveObjectsChanged) { ListEmissiveObjects(); }
 	std::vector<FEmissiveTriangle> Triangles;
 	std::vector<double> Cumulative;
 	double Power = 0.0;
-	for (uint32_t Index = 0; Index < Objects.size(); ++Index)
-	{
-		const FObject& Object = Objects[Index];
-		if (!Object.bAlive) { continue; }
-		const FRTGeometryInfo& Info = Object.Info.Geometry->GetInfo();
-		for (uint32_t Section = 0; Section < Info.Sections.size(); ++Section)
-		{
-			const FMaterialData& Material = Materials[Object.Info.Materials[Section]];
-			if ((Sections.Get(FirstSectionOf(Object) + Section).Flags & SECTION_LIGHT) == 0) { continue; }
-			for (uint32_t Primitive = 0; Primitive < Info.Sections[Section].IndexCount / 3; ++Primitive)
-			{
-				glm::vec3 P[3];
-				for (int Corner = 0; Corner < 3; ++Corner)
-				{
-					const uint32_t Vertex = Info.CpuIndices[Info.Sections[Section].FirstIndex + 3 * Primitive + Corner];
-					P[Corner] = ToRelative(glm::dvec3(Object.Info.Transform * glm::dvec4(Info.CpuPositions[Vertex], 1.0)));
-				}
-				const double Area = 0.5 * glm::length(glm::cross(glm::dvec3(P[1] - P[0]), glm::dvec3(P[2] - P[0])));
-				if (!(Area > 0.0)) { continue; }
-				Power += Area * Material.EmissiveWeight;
-				FEmissiveTriangle Triangle{};
-				Triangle.P0 = P[0];
-				Triangle.P1 = P[1];
-				Triangle.P2 = P[2];
-				Triangle.Object = Index;
-				Triangle.Section = FirstSectionOf(Object) + Section;
-				Triangle.Primitive = Primitive;
-				Triangle.Flags = ObjectData[Index].Flags & OBJECT_MIRRORED;
-				Triangles.push_back(Triangle);
-				Cumulative.push_back(Power);
-			}
-		}
-	}
+	for (const uint32_t Index : EmissiveObjects) { Power = AddEmissiveTriangles(Index, Power, Triangles, Cumulative); }
 	EmissivePower = static_cast<float>(Power);
 	for (size_t I = 0; I < Triangles.size(); ++I) { Triangles[I].CumulativePower = static_cast<float>(Cumulative[I] / Power); }
 	if (!Triangles.empty()) { Triangles.back().CumulativePower = 1.0f; } // rounding must leave no gap above it
@@ -106,6 +119,7 @@ FSceneConstants FRTScene::GetConstants() const
 	C.SunOneMinusCos = static_cast<float>(2.0 * HalfSin * HalfSin);
 	C.SkyRadiance = Sky;
 	C.MaterialOverride = SectionContext.Override;
+	C.OriginCell = OriginCell;
 	return C;
 }
 

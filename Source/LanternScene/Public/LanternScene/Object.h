@@ -32,6 +32,8 @@ struct FRTObjectInfo
 	std::vector<uint32_t> Materials; ///< per section, indices of the scene's materials
 	glm::dmat4 Transform{1.0};       ///< object to world, affine, metres
 	uint8_t Mask = MaskAll;
+	/// > 0: culled together with all objects of the same group, by the size and place of the whole group.
+	uint32_t Group = 0;
 };
 
 } // namespace Lantern

@@ -1,8 +1,11 @@
 // rtScene: the objects valid this frame, their materials and lights, and the acceleration structure over them.
 //
 // World positions are double precision; what the GPU sees is relative to an origin that follows the camera in
-// steps of OriginStep, so that fp32 keeps ≤ 0.1 mm within a kilometre of the camera anywhere in the world, and
-// a camera that moves within a step rewrites nothing.
+// steps of OriginStep, so that fp32 keeps ≤ 0.1 mm within a kilometre of the camera anywhere in the world. Objects are
+// stored relative to their own cell of the world, so that a moving origin rewrites none of them.
+//
+// Costs follow changes: an update in which neither scene nor view changed does nothing, and one object that changes
+// costs the same in a scene of a million.
 //
 // Threads: one at a time. Order of a frame: changes → BeginUpdate → (no changes) → RecordUpdate → passes → submit →
 // EndFrame.
@@ -12,8 +15,11 @@
 #include <string>
 #include <vector>
 
-#include "LanternScene/Culling.h"
+#include "LanternCore/Tasks.h"
+#include "LanternScene/Gather.h"
+#include "LanternScene/GeometryStore.h"
 #include "LanternScene/GpuTable.h"
+#include "LanternScene/InstanceUploads.h"
 #include "LanternScene/Object.h"
 #include "LanternScene/SectionTable.h"
 #include "SceneTypes.h"
@@ -62,31 +68,36 @@ struct FSceneUse
 
 struct FSceneUpdateStats
 {
-	uint32_t GeometriesBuilt = 0, GeometriesRefitted = 0, InstancesWritten = 0;
-	uint64_t BytesCopied = 0;
+	uint32_t GeometriesBuilt = 0, GeometriesRefitted = 0; ///< builds include rebuilds
+	uint32_t InstancesWritten = 0;                        ///< 0: the acceleration structure over them stayed as it was
+	uint64_t BytesCopied = 0;                             ///< to tables on the GPU
 };
 
 class FRTScene
 {
 public:
-	static constexpr double OriginStep = 1024.0; // metres
+	static constexpr double OriginStep = CellSize; // metres
 
 	explicit FRTScene(IRTDevice& Device);
 	~FRTScene();
 	FRTScene(const FRTScene&) = delete;
 	FRTScene& operator=(const FRTScene&) = delete;
 
-	/// Queues the build: it runs in the next Update of a frame with rays. Until then the geometry costs no memory.
-	/// Unsupported, with its name, if it has more triangles than the device allows.
+	/// Queues the build: it runs in an update of a frame with rays, see FGeometryStore; until then its objects are not in
+	/// the rays' scene. Errors as FGeometryStore::Create.
 	FRTStatus CreateGeometry(FRTGeometryInfo Info, FRTGeometryRef& Out);
+	FGeometryStore& GetGeometries() { return Geometries; }
 	/// A dynamic geometry's vertices are new in this frame: it is refitted, or rebuilt every
 	/// r.RT.Skinning.RebuildInterval frames.
 	void MarkDeformed(const FRTGeometryRef& Geometry);
 
-	uint32_t AddMaterial(const FMaterialData& Material);
+	/// Program: of FMaterialPrograms.
+	uint32_t AddMaterial(const FMaterialData& Material, uint32_t Program = StandardProgram);
 	void SetMaterial(uint32_t Index, const FMaterialData& Material);
+	void SetMaterialProgram(uint32_t Index, uint32_t Program);
 	const TGpuTable<FMaterialData>& GetMaterials() const { return Materials; }
 
+	/// An invalid id, said once, where the scene has MaxInstanceIndex objects already.
 	FRTObjectId AddObject(FRTObjectInfo Info);
 	/// At any time, also while frames that see it are in flight.
 	void RemoveObject(FRTObjectId Id);
@@ -104,8 +115,11 @@ public:
 	/// 0: the scene's materials; 1: each a Lambert of its base colour; 2: each a Lambert of 0.5, alpha tests off.
 	void SetMaterialOverride(uint32_t Override);
 	void SetAlphaTest(bool bEnabled);
+	/// Objects with a section of one of these programs are left out of the rays' scene: its shaders are missing, and no
+	/// stand-in is wanted. Replaces the set before; costs something only where it differs.
+	void SetMissingPrograms(std::vector<FHitProgram> Programs);
 
-	/// Brings the facts up to date with all changes so far; Update does it too.
+	/// Brings the facts up to date with all changes so far; BeginUpdate does it too.
 	const FSceneFacts& RefreshFacts();
 	const FSceneFacts& GetFacts() const { return Facts; } ///< as of the last RefreshFacts
 	/// Before BeginUpdate: whether the two would have anything to do. False where neither scene nor view changed.
@@ -125,12 +139,19 @@ public:
 	FRTStatus RecordStructures(IRTCommandList& List, FFrameUploads& Uploads);
 	/// After BeginUpdate: whether RecordTables would record anything.
 	bool NeedsTables() const { return AreTablesDirty(); }
+	/// After BeginUpdate: whether RecordStructures may find anything to record. Waits for nothing.
+	bool NeedsStructures() const { return FrameUse.bRays && (bGathering || bGeometryWork || bStructureStale); }
 	/// BeginUpdate and RecordUpdate in turn.
 	FRTStatus Update(IRTCommandList& List, FFrameUploads& Uploads, const FGatherView& View, const FSceneUse& Use);
+	/// After BeginUpdate: whether RecordUpdate may find anything to record. Waits for nothing.
+	bool HasUpdateToRecord() const;
 	/// After RecordUpdate: the block that passes read.
 	FSceneConstants GetConstants() const;
 	IRTScene* GetStructure() const { return Structure.Get(); }
 	FSectionTable& GetSections() { return Sections; }
+	const FInstanceStore& GetInstances() const { return Instances; }
+	/// Instances of the acceleration structure as it is.
+	uint32_t GetInstanceCount() const { return StructureCount; }
 	const FSceneUpdateStats& GetStats() const { return Stats; }
 	/// After RecordUpdate. bSubmitted: what was removed before it can go. Otherwise what it recorded never runs, also if it
 	/// failed half-way: the next update records all of it again. Fence: of the submission, so that memory is used again
@@ -147,37 +168,59 @@ private:
 		FSectionRangeId Range = 0;
 		bool bAlive = false;
 	};
+	/// All that the instances written depend on beside the content of the store.
+	struct FGatherKey
+	{
+		FGatherView View;
+		FCullingSettings Culling;
+		glm::ivec3 Origin{0};
+		uint64_t Revision = 0;
+		int32_t Mode = -1;
+		friend bool operator==(const FGatherKey&, const FGatherKey&) = default;
+	};
 	FObject& Resolve(FRTObjectId Id);
 	const FObject& Resolve(FRTObjectId Id) const;
 	void WriteObject(uint32_t Index);
-	glm::dvec3 SnapOrigin(glm::dvec3 Camera) const;
-	bool AreTablesDirty() const;
-	void MoveOrigin(glm::dvec3 Camera);
-	void UpdateFacts();
-	void Rerecord();
-	void UpdateLights();
-	void UpdateEmissiveTriangles();
-	FRTStatus BuildPending(IRTCommandList& List);
-	FRTStatus BuildStructure(IRTCommandList& List, FFrameUploads& Uploads);
-	FRTStatus ReserveStructure(uint32_t InstanceCount);
-	FRTStatus FlushTables(IRTCommandList& List, FFrameUploads& Uploads);
+	void MarkEmissive(FSectionRangeId Range);
 	uint32_t FirstSectionOf(const FObject& Object) const { return Sections.GetRange(Object.Range).First; }
+	void UpdateLights();
+	void ListEmissiveObjects();
+	void UpdateEmissiveTriangles();
+	double AddEmissiveTriangles(uint32_t Object, double Power, std::vector<FEmissiveTriangle>& Triangles, std::vector<double>& Cumulative) const;
+	void AdviseMerging();
+	// SceneUpdate.cpp
+	glm::dvec3 SnapOrigin(glm::dvec3 Camera) const;
+	void MoveOrigin(glm::dvec3 Camera);
+	bool AreTablesDirty() const;
+	void UpdateBindings();
+	void UpdateOpacity();
+	void TakeGeometryChanges();
+	void BindRange(FSectionRangeId Id);
+	FGatherKey MakeGatherKey(const FGatherView& View, bool bCull) const;
+	void StartGather(const FGatherView& View);
+	FRTStatus GatherInstances(const FGatherKey& Key, const FGatherKey& Before);
+	FRTStatus FinishGather();
+	FRTStatus CheckLimits() const;
+	FRTStatus ReserveStructure(uint32_t InstanceCount);
+	FRTStatus BuildStructure(IRTCommandList& List);
+	void Rerecord();
 
 	IRTDevice& Device;
+	glm::ivec3 OriginCell{0};
 	glm::dvec3 Origin{0};
+	FGeometryStore Geometries{Device};
 	std::vector<FObject> Objects;
 	std::vector<uint32_t> FreeObjects;
-	std::vector<std::weak_ptr<FRTGeometry>> Geometries;
-	std::vector<FRTGeometryRef> PendingBuilds, Deformed;
-	std::vector<FRTGeometryRef> RecordedBuilds; // since EndFrame
 	std::vector<FRTGeometryRef> Retired, RetiredBefore; // see EndFrame
 	TGpuTable<FMaterialData> Materials{"Materials"};
 	std::vector<uint32_t> MaterialPrograms;
 	FSectionContext SectionContext{Materials, MaterialPrograms};
 	FSectionTable Sections{SectionContext};
+	std::vector<FHitProgram> MissingPrograms; // sorted
 	TGpuTable<FObjectData> ObjectData{"Objects"};
 	TGpuTable<FLightData> LightData{"Lights"};
 	TGpuTable<FEmissiveTriangle> EmissiveTriangles{"EmissiveTriangles"};
+	std::vector<uint32_t> EmissiveObjects;
 	std::vector<FSceneLight> Lights;
 	FSunLight Sun;
 	glm::vec3 Sky{0};
@@ -185,10 +228,29 @@ private:
 	uint32_t RayTypes = 1;
 	FSceneFacts Facts;
 	FSceneUpdateStats Stats;
-	FSceneUse FrameUse; // of this frame
+	FSceneUse FrameUse;
+
+	FInstanceStore Instances;
+	FInstanceGather Gather;
+	FInstanceUploads InstanceUploads{Device};
+	FGatherKey GatheredKey;
+	// The tasks of a gather write these; they are read when it is finished.
+	FRTStatus GatherStatus;
+	uint32_t GatheredCount = 0;
+	bool bInstancesStale = true; // the newest instances written are not what GatheredKey says
+	bool bStructureStale = true; // the acceleration structure is not over the newest instances, or was never built
+	bool bGathering = false;
+
 	TRTRef<IRTScene> Structure;
-	TRTRef<IRTBuffer> Scratch;
-	bool bObjectsChanged = true, bFactsChanged = true, bLightsChanged = true, bEmissiveChanged = true;
+	uint32_t StructureCount = 0;
+	uint32_t FramesTooLarge = 0;
+	bool bGeometryWork = false;       // this frame builds or refits
+	bool bGeometriesBegun = false;    // this frame, and not ended
+	bool bStructuresRecorded = false; // this frame
+	bool bBindAll = false;
+	bool bAdvised = false;
+	bool bLightsChanged = true, bEmissiveChanged = true, bEmissiveObjectsChanged = true;
+	FTaskGroup GatherTasks; // last: it waits for what uses the others
 };
 
 } // namespace Lantern
