@@ -161,17 +161,20 @@ FRTStatus FShaderBindings::Reserve(const FRTPSO& Pipeline, const FSectionTable& 
 
 void FShaderBindings::SetGeneralRecords(const FRTPSO& Pipeline)
 {
-	const auto SetAll = [&](ERTRecordKind Kind, uint32_t Count, auto GroupOf)
+	// Records behind the pipeline's last, which an earlier pipeline used, must not keep its handles.
+	const auto SetAll = [&](ERTRecordKind Kind, uint32_t Count, uint32_t TableCount, auto GroupOf)
 	{
-		for (uint32_t Index = 0; Index < Count; ++Index)
+		for (uint32_t Index = 0; Count > 0 && Index < TableCount; ++Index)
 		{
-			Table->SetRecord(Kind, Index, GroupOf(Index), nullptr, 0);
+			Table->SetRecord(Kind, Index, GroupOf(std::min(Index, Count - 1)), nullptr, 0);
 		}
 	};
-	SetAll(ERTRecordKind::RayGen, Pipeline.GetRayGenCount(),
+	const FRTShaderTableDesc& Has = Table->GetDesc();
+	SetAll(ERTRecordKind::RayGen, Pipeline.GetRayGenCount(), Has.RayGenCount,
 	       [&](uint32_t Index) { return Pipeline.RayGenGroup(Index); });
-	SetAll(ERTRecordKind::Miss, Pipeline.GetRayTypeCount(), [&](uint32_t Index) { return Pipeline.MissGroup(Index); });
-	SetAll(ERTRecordKind::Callable, Pipeline.GetCallableCount(),
+	SetAll(ERTRecordKind::Miss, Pipeline.GetRayTypeCount(), Has.MissCount,
+	       [&](uint32_t Index) { return Pipeline.MissGroup(Index); });
+	SetAll(ERTRecordKind::Callable, Pipeline.GetCallableCount(), Has.CallableCount,
 	       [&](uint32_t Index) { return Pipeline.CallableGroup(Index); });
 }
 
