@@ -109,6 +109,85 @@ TEST_P(FTableContract, KeepsItsPipelineAndItsList)
 	Run(List.Get());
 }
 
+TEST_P(FTableContract, UpdatedBytesFollowWhatChanged)
+{
+	const auto Table = MakeTable(10'000, 16);
+	const std::vector<uint32_t> Groups(10'000, GroupHit);
+	const auto Update = [&]
+	{
+		const auto List = Make.List();
+		List->UpdateShaderTable(Table.Get());
+		Run(List.Get());
+		return Table->GetUpdatedBytes();
+	};
+	Table->SetHitRecords(0, 10'000, Groups.data(), nullptr);
+	const uint64_t Full = Update();
+	EXPECT_GE(Full, 10'000ull * Caps().ShaderGroupHandleSize);
+	EXPECT_EQ(Update(), 0u) << "nothing changed";
+	Table->SetRecord(ERTRecordKind::Hit, 5000, GroupMasked, nullptr, 0);
+	const uint64_t One = Update();
+	EXPECT_GT(One, 0u);
+	EXPECT_LE(One, 2 * Table->GetRecordStride(ERTRecordKind::Hit));
+	Table->Invalidate();
+	EXPECT_GE(Update(), Full);
+}
+
+TEST_P(FTableContract, ReserveGrowsAndNeverShrinks)
+{
+	const auto Table = MakeTable(4, 8);
+	const uint64_t Size = Table->GetSizeBytes();
+	const uint64_t Stride = Table->GetRecordStride(ERTRecordKind::Hit);
+	const uint32_t Same[4] = {1, 2, 3, 0}, More[4] = {2, 5, 1000, 1};
+	ASSERT_OK(Table->Reserve(Same));
+	EXPECT_EQ(Table->GetDesc().HitCount, 4u);
+	EXPECT_EQ(Table->GetSizeBytes(), Size);
+	ASSERT_OK(Table->Reserve(More));
+	EXPECT_EQ(Table->GetDesc().RayGenCount, 2u);
+	EXPECT_GE(Table->GetDesc().MissCount, 5u);
+	EXPECT_GE(Table->GetDesc().HitCount, 1000u);
+	EXPECT_GE(Table->GetSizeBytes(), 1000 * Stride);
+	EXPECT_EQ(Table->GetRecordStride(ERTRecordKind::Hit), Stride);
+	EXPECT_EQ(Table->GetDesc().Pipeline, Pipeline.Get());
+	Table->SetRecord(ERTRecordKind::Hit, 999, GroupHit, nullptr, 0);
+	const auto List = Make.List();
+	List->UpdateShaderTable(Table.Get());
+	Run(List.Get());
+}
+
+TEST_P(FTableContract, ManyGrowthsInFlightWaitForNothing)
+{
+	const auto Table = MakeTable(1, 4);
+	FRTFence Last = 0;
+	uint32_t Counts[4] = {2, 2, 1, 1};
+	for (uint32_t Frame = 0; Frame < 10; ++Frame)
+	{
+		Counts[2] *= 2;
+		ASSERT_OK(Table->Reserve(Counts));
+		Table->SetRecord(ERTRecordKind::Hit, Counts[2] - 1, GroupHit, &Frame, 4);
+		ASSERT_OK(Table->Stage());
+		const auto List = Make.List();
+		List->UpdateShaderTable(Table.Get());
+		Last = Make.Submit(List.Get());
+	}
+	Wait(Last);
+}
+
+TEST_P(FTableContract, SetsItsPipelineFree)
+{
+	const auto Table = MakeTable(4, 0);
+	const auto Next = MakeRayPipeline(Device());
+	const auto List = Make.List();
+	List->UpdateShaderTable(Table.Get());
+	Table->SetPipeline(Next.Get());
+	EXPECT_EQ(Table->GetDesc().Pipeline, Next.Get());
+	// The list that was recorded with it, and the table, may be all that keeps it.
+	Pipeline.Reset();
+	Run(List.Get());
+	const auto Another = Make.List();
+	Another->UpdateShaderTable(Table.Get());
+	Run(Another.Get());
+}
+
 INSTANTIATE_TEST_SUITE_P(RHI, FTableContract,
                          testing::Values(EContractRHI::Mock, EContractRHI::MockValidated, EContractRHI::Vulkan,
                                          EContractRHI::VulkanValidated),
