@@ -7,7 +7,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "BenchAnyHit.h"
 #include "BenchCommand.h"
+#include "BenchFrame.h"
 #include "BenchTables.h"
 #include "CompareCommand.h"
 #include "InfoCommand.h"
@@ -53,6 +55,8 @@ private:
 	FDeviceOptions CvarsSettings;
 	bool bMarkdown = false;
 	FBenchRaysOptions BenchRays;
+	FBenchFrameOptions BenchFrame;
+	FBenchAnyHitOptions BenchAnyHit;
 	FBenchTablesOptions BenchTables;
 };
 
@@ -114,6 +118,12 @@ void FCommandLine::AddBench()
 	CLI::App* const Rays = Command->add_subcommand("rays", "The sun shadow pass against a minimal hand-written Vulkan dispatch");
 	BenchRays.AddTo(*Rays);
 	Rays->final_callback([this] { Status = RunBenchRays(BenchRays); });
+	CLI::App* const Frame = Command->add_subcommand("frame", "The render thread's time for a frame of an open world, stage by stage");
+	BenchFrame.AddTo(*Frame);
+	Frame->final_callback([this] { Status = RunBenchFrame(BenchFrame); });
+	CLI::App* const AnyHit = Command->add_subcommand("anyhit", "Alpha tests under rays, with classified triangles and without");
+	BenchAnyHit.AddTo(*AnyHit);
+	AnyHit->final_callback([this] { Status = RunBenchAnyHit(BenchAnyHit); });
 	CLI::App* const Tables = Command->add_subcommand("sbt", "Keeping the shader table: everything each frame, nothing changed, 1 % changed, another pipeline");
 	BenchTables.AddTo(*Tables);
 	Tables->final_callback([this] { Status = RunBenchTables(BenchTables); });

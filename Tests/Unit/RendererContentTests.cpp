@@ -50,7 +50,7 @@ TEST_F(FRendererContentTest, EverythingAtOnce)
 	EXPECT_THAT(GetPasses(),
 	            ElementsAre("Skinning", "SceneUpdate", "GBuffer", "Structures", "SunShadow", "DirectLighting", "ToneMap"));
 	EXPECT_THAT(GetDispatched(),
-	            ElementsAre("Skinning/Skin.comp", AllOf(StartsWith("Shadow/SunShadow.comp"), HasSubstr("HAS_MASKED")),
+	            ElementsAre("Skinning/Skin.comp", "Skinning/RefitQuality.comp", AllOf(StartsWith("Shadow/SunShadow.comp"), HasSubstr("HAS_MASKED")),
 	                        "Lighting/DirectLighting.comp HAS_SUN HAS_SKY HAS_LIGHTS", "ToneMap/ToneMap.comp"));
 	EXPECT_EQ(Count(ERTMockCall::DrawIndexed), 4u);
 	EXPECT_EQ(Count(ERTMockCall::BuildGeometry), 4u);
@@ -60,7 +60,7 @@ TEST_F(FRendererContentTest, EverythingAtOnce)
 TEST_F(FRendererContentTest, SecondFrameOfAStaticSceneCopiesAndBuildsNothing)
 {
 	LoadAndRender({.bMasked = true, .bSkinned = true, .bLights = true, .bSky = true});
-	Render();
+	for (int Frame = 0; Frame < 8; ++Frame) { Render(); } // what was built is compacted
 	EXPECT_THAT(GetPasses(), ElementsAre("GBuffer", "SunShadow", "DirectLighting", "ToneMap"));
 	for (const ERTMockCall Kind : {ERTMockCall::CopyBuffer, ERTMockCall::BuildGeometry, ERTMockCall::BuildScene,
 	                               ERTMockCall::CreateTexture, ERTMockCall::CreateComputePipeline})
@@ -200,6 +200,7 @@ TEST_F(FRendererContentTest, NothingInViewDrawsNothing)
 TEST_F(FRendererContentTest, PassesThatNobodyReadsAreCulled)
 {
 	LoadAndRender({});
+	for (int Frame = 0; Frame < 8; ++Frame) { Render(); } // what was built is compacted
 	Mock().ClearCalls();
 	ASSERT_TRUE(Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, {}, nullptr));
 	EXPECT_THAT(GetPasses(), ElementsAre()) << "no output was wanted";

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "FrameGraphImpl.h"
+#include "LanternCore/TaskTrace.h"
 
 namespace Lantern
 {
@@ -286,6 +287,7 @@ void FFrameGraph::FImpl::Record(IRTCommandList& Commands, const FRTStatus* Failu
 		{
 			continue;
 		}
+		FTraceScope Trace("Pass", Pass.Name);
 		const auto Start = std::chrono::steady_clock::now();
 		const uint32_t Query = static_cast<uint32_t>(2 * Frame.Passes.size());
 		Commands.BeginMarker(Pass.Name.c_str());

@@ -199,7 +199,7 @@ void FRenderer::AddRayPasses()
 {
 	if (std::exchange(bRayPassesAdded, true)) { return; }
 	FFrameContext* const Frame = Context.get();
-	if (bUpdating && FrameUse.bRays)
+	if (bUpdating && Frame->Scene.NeedsStructures())
 	{
 		Graph->AddPass("Structures", [&](FPassBuilder& Builder) -> FPassExecute {
 			Builder.NeverCull();
