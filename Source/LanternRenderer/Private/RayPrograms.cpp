@@ -60,6 +60,11 @@ FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, const FFrame
 		Desc.RayGens = {*Programs.SunShadow};
 		Desc.RayTypes = {MakeShadowRay()};
 	}
+	if (!Features.RayGens.empty())
+	{
+		Desc.RayGens.insert(Desc.RayGens.end(), Features.RayGens.begin(), Features.RayGens.end());
+		Desc.RayTypes = {MakeShadowRay(), MakeMaterialRay()};
+	}
 	if (!Desc.RayGens.empty()) { Desc.HitPrograms = Context.Scene.GetSections().GetHitPrograms(); }
 	return Programs;
 }

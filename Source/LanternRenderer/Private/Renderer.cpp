@@ -74,6 +74,9 @@ FRTStatus FRenderer::PrepareRayPipeline(const FFrameFeatures& Features)
 	else { RayCompiler.Update(Wanted.Desc); }
 	RayPipeline = RayCompiler.GetCurrent();
 	if (!RayPipeline) { return FRTStatus::Success(); }
+	std::vector<FHitProgram> Missing = Wanted.Desc.HitPrograms;
+	std::erase_if(Missing, [&](FHitProgram Program) { return !RayPipeline->IsMissing(Program); });
+	Context->Scene.SetMissingPrograms(std::move(Missing));
 	Context->RayPipeline = RayPipeline.get();
 	Context->RayBindings = &Bindings;
 	// Until a variant for this frame's settings is ready, the one before serves.

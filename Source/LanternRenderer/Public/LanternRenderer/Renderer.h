@@ -44,6 +44,9 @@ struct FFrameFeatures
 	/// The frame waits for what it needs compiled, so that each picture is complete. Else it uses what is ready, see
 	/// FRTPSOCompiler. The reference always waits.
 	bool bWaitForPipelines = true;
+	/// Ray generation shaders of the host's own passes, which then trace all ray types through the frame's RTPSO
+	/// (FFrameContext::RayPipeline, FRTPSO::FindRayGen). Their push constants begin with FPassConstants.
+	std::vector<FShaderSource> RayGens;
 	/// All acceleration structures that wait are built now, so that each picture is complete. Else within
 	/// r.RT.Build.TrianglesPerFrame, and objects whose geometry waits are not seen by rays. The reference builds all.
 	bool bBuildAll = true;
