@@ -286,7 +286,7 @@ TEST_F(FMockCompactionTests, AMillionInstances)
 	List->BuildScene(Scene.Get(), Instances.Get(), 0, Count, Scratch.Get(), 0);
 	Make.Submit(List.Get());
 	const auto Took = steady_clock::now() - Start;
-	EXPECT_LT(Took, milliseconds(1000));
+	EXPECT_LT(Took, milliseconds(5000)) << "about 100 when nothing else runs";
 	RecordProperty("milliseconds", static_cast<int>(std::chrono::duration_cast<milliseconds>(Took).count()));
 	EXPECT_EQ(Mock->GetTraffic().Instances, Count * sizeof(FRTInstance));
 	EXPECT_THAT(Mock->GetErrors(), testing::IsEmpty());

@@ -346,6 +346,22 @@ TEST_P(FMockTableTests, SwapOfThePipelineByHandles)
 	EXPECT_EQ(Mock->CountCalls(ERTMockCall::Destroy, "RTPSO"), 1u) << "gone with its fence";
 }
 
+TEST_P(FMockTableTests, RecordsOfAnotherLivingPipelineAreStale)
+{
+	const auto New = Make.RayTracing("NewRTPSO");
+	const auto Table = Make.Table(Pipeline.Get(), 2);
+	const uint32_t Groups[2] = {2, 3};
+	Table->SetHitRecords(0, 2, Groups, nullptr);
+	Update(Table.Get());
+	Table->SetPipeline(New.Get());
+	Table->SetGroups(ERTRecordKind::Hit, 1, 1, Groups);
+	Update(Table.Get());
+	const FRTMockRecord Stale = Mock->ResolveHit(Table.Get(), Make.Instance(0, 0), 0, 0, 1);
+	EXPECT_TRUE(Stale.bStale);
+	EXPECT_EQ(Stale.Error, "Table: record 0 has a handle of pipeline RTPSO");
+	EXPECT_TRUE(Mock->ResolveHit(Table.Get(), Make.Instance(0, 1), 0, 0, 1).IsGood());
+}
+
 TEST_P(FMockTableTests, TracingANewPipelineBeforeItsUpdateIsAnError)
 {
 	const auto New = Make.RayTracing("NewRTPSO");

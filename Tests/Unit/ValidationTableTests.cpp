@@ -2,6 +2,7 @@
 #include "ValidationTestTools.h"
 
 #include <atomic>
+#include <chrono>
 #include <thread>
 
 namespace Lantern
@@ -262,6 +263,44 @@ TEST_F(FValidationTables, StagingMeetsSetting)
 	Other.join();
 	EXPECT_OK(Table->Stage());
 	EXPECT_THAT(Messages, testing::IsEmpty());
+}
+
+TEST_F(FValidationTables, SettingWhileAnotherThreadStages)
+{
+#if defined(__SANITIZE_THREAD__)
+	GTEST_SKIP() << "wrong use on purpose";
+#endif
+	struct FSeen
+	{
+		std::atomic<bool> bSet = false, bStage = false;
+	} Seen;
+	const auto Callback = [](void* User, const char* Message)
+	{
+		const bool bNamed = std::strstr(Message, "shader table 'Table' is in use by another thread") != nullptr;
+		EXPECT_TRUE(bNamed) << Message;
+		(std::strstr(Message, "Stage") ? static_cast<FSeen*>(User)->bStage : static_cast<FSeen*>(User)->bSet) = true;
+	};
+	ASSERT_OK(WrapWithValidation(Inner.Get(), Callback, &Seen, Make.Device.ReleaseAndGetAddress()));
+	const auto Pipeline = Make.RayTracing();
+	const auto Table = Make.Table(Pipeline.Get(), 4096);
+	const std::vector<uint32_t> Groups(4096, 2);
+	std::atomic<bool> bStop = false;
+	std::thread Other(
+	    [&]
+	    {
+		    while (!bStop)
+		    {
+			    EXPECT_OK(Table->Stage());
+		    }
+	    });
+	const auto End = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+	while (!(Seen.bSet && Seen.bStage) && std::chrono::steady_clock::now() < End)
+	{
+		Table->SetGroups(ERTRecordKind::Hit, 0, 4096, Groups.data());
+	}
+	bStop = true;
+	Other.join();
+	EXPECT_TRUE(Seen.bSet && Seen.bStage);
 }
 
 class FValidationCompaction : public FValidationFixture
