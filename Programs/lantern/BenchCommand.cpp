@@ -1,13 +1,11 @@
 #include "BenchCommand.h"
 
-#include <cstdlib>
-#include <filesystem>
-
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "BenchRays.h"
+#include "BenchScenes.h"
 #include "LanternCore/Log.h"
 #include "LanternHost/AtomicFile.h"
 #include "Progress.h"
@@ -18,84 +16,32 @@ namespace Lantern
 
 namespace
 {
-namespace fs = std::filesystem;
-
 /// Pixels on which plugin and raw dispatch may differ: they round positions differently, so that a ray that only just
 /// touches an edge may fall either way.
 constexpr double LeastAgreement = 0.999;
 
-struct FRayScene
+std::vector<FBenchScene> ChooseScenes(const FBenchRaysOptions& Options)
 {
-	std::string Name, File;
-	std::optional<FCameraOption> Camera;
-	bool bNoSceneLights = false;
-};
-
-/// What is known of scenes by the name of their folder. The views are those of the project's other figures.
-FRayScene MakeScene(const std::string& File)
-{
-	FRayScene Scene;
-	Scene.File = File;
-	const fs::path Path(File);
-	Scene.Name = Path.has_parent_path() ? Path.parent_path().filename().string() : Path.stem().string();
-	if (Scene.Name == "sponza")
-	{
-		Scene.Camera = FCameraOption{{-9, 1.6, -0.4}, {10, 3.2, -1.2}, 60};
-	}
-	else if (Scene.Name == "black_forest")
-	{
-		Scene.Camera = FCameraOption{{541, 20, -200}, {300, 0, -300}, 60};
-		Scene.bNoSceneLights = true;
-	}
-	return Scene;
-}
-
-std::vector<FRayScene> ChooseScenes(const FBenchRaysOptions& Options)
-{
-	std::vector<FRayScene> Scenes = {MakeScene("courtyard")};
+	std::vector<FBenchScene> Scenes = {MakeBenchScene("courtyard")};
 	for (const std::string& File : Options.Scenes)
 	{
 		if (File != Scenes.front().File)
 		{
-			Scenes.push_back(MakeScene(File));
+			Scenes.push_back(MakeBenchScene(File));
 		}
 	}
 	if (!Options.Scenes.empty())
 	{
 		return Scenes;
 	}
-	const char* const Folder = std::getenv("LANTERN_SCENES");
-	const fs::path Root = Folder ? fs::path(Folder) : fs::path(FindPluginFolders().Root) / ".." / "shared" / "scenes";
-	for (const char* File : {"sponza/Sponza.gltf", "black_forest/black_forest.gltf"})
+	for (const char* Path : {"sponza/Sponza.gltf", "black_forest/black_forest.gltf"})
 	{
-		std::error_code Error;
-		if (fs::exists(Root / File, Error))
+		if (const std::optional<FBenchScene> Scene = FindBenchScene(Path, "bench rays"))
 		{
-			Scenes.push_back(MakeScene((Root / File).lexically_normal().string()));
-		}
-		else
-		{
-			LogWarning("bench rays: {} is not there (LANTERN_SCENES names its folder); left out",
-			           (Root / File).string());
+			Scenes.push_back(*Scene);
 		}
 	}
 	return Scenes;
-}
-
-FPictureOptions MakePicture(const FRayScene& Scene, const FBenchRaysOptions& Options, bool bIsCpu)
-{
-	FPictureOptions Picture;
-	Picture.Scene = Scene.File;
-	Picture.Camera = Scene.Camera;
-	Picture.bNoSceneLights = Scene.bNoSceneLights;
-	Picture.Sun = FSunOption{4, {0.25, -1, 0.35}, 0.53};
-	Picture.Width = bIsCpu ? 640 : 1280;
-	Picture.Height = bIsCpu ? 360 : 720;
-	if (!Options.Size.empty())
-	{
-		ParseSize(Options.Size, Picture);
-	}
-	return Picture;
 }
 
 nlohmann::json MakeTimes(const FRayTimes& Times)
@@ -139,10 +85,10 @@ void PrintCase(const FRayCase& Case, bool bIsCpu)
 	std::fflush(stdout);
 }
 
-int MeasureScene(FSession& Session, const FRayScene& Scene, const FBenchRaysOptions& Options, nlohmann::json& Cases)
+int MeasureScene(FSession& Session, const FBenchScene& Scene, const FBenchRaysOptions& Options, nlohmann::json& Cases)
 {
 	const FRTCapabilities& Capabilities = Session.GetDevice().GetCapabilities();
-	const FPictureOptions Picture = MakePicture(Scene, Options, Capabilities.bIsCpu);
+	const FPictureOptions Picture = MakeBenchPicture(Scene, Options.Size, Capabilities.bIsCpu);
 	if (const int Status = Session.LoadScene(Picture); Status != ExitDone)
 	{
 		return Status;
@@ -222,7 +168,7 @@ int RunBenchRays(const FBenchRaysOptions& Options)
 	fmt::print("{:<22} {:>9} {:>8} {:>9} {:>12} {:>6}  {:>26} {:>26}  {}\n", "case", "size", "rays", "raw Mr/s",
 	           "plugin Mr/s", "ratio", "raw ms [min, max]", "plugin ms [min, max]", "same pixels");
 	int Exit = ExitDone;
-	for (const FRayScene& Scene : ChooseScenes(Options))
+	for (const FBenchScene& Scene : ChooseScenes(Options))
 	{
 		const int Status = MeasureScene(Session, Scene, Options, Json["cases"]);
 		Exit = Exit == ExitDone ? Status : Exit;

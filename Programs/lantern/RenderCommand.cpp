@@ -95,6 +95,7 @@ nlohmann::json MakeJson(FSession& Session, const FRenderOptions& Options, const 
 	const uint32_t Missing = Pipeline ? Pipeline->GetMissingCount() : 0;
 	const double LinkMs = Pipeline ? Renderer.GetRayCompiler().GetStats().LastLinkMs : 0.0;
 	Json["rtpso"] = {{"hit_groups", Groups}, {"compiled", Groups - Missing}, {"missing", Missing}, {"link_ms", LinkMs}};
+	if (const FAnyHitCounts& AnyHits = Renderer.GetAnyHits(); AnyHits.Frames > 0) { Json["any_hit"] = AnyHits.LastFrame; }
 	Json["load_seconds"] = Session.GetLoadSeconds();
 	return Json;
 }

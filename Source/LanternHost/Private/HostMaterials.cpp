@@ -5,6 +5,7 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "HostMaterials.h"
 #include "LanternCore/Log.h"
 #include "LanternCore/Tasks.h"
 #include "LanternHost/HostScene.h"
@@ -77,11 +78,7 @@ FRTStatus FHostScene::GetSampler(const FHostTexture& Texture, uint32_t& OutIndex
 		OutIndex = Found->second->GetIndex();
 		return FRTStatus::Success();
 	}
-	const auto Address = [](bool bRepeat, bool bMirror) { return bMirror ? ERTAddress::Mirror : bRepeat ? ERTAddress::Repeat : ERTAddress::Clamp; };
-	FRTSamplerDesc Desc;
-	Desc.U = Address(Texture.bRepeatU, Texture.bMirrorU);
-	Desc.V = Address(Texture.bRepeatV, Texture.bMirrorV);
-	if (Texture.bNearest) { Desc.Min = Desc.Mag = ERTFilter::Nearest; }
+	FRTSamplerDesc Desc = MakeSamplerDesc(Texture);
 	Desc.Name = "MaterialSampler";
 	TRTRef<IRTSampler> Sampler;
 	if (FRTStatus S = Device.CreateSampler(Desc, Sampler.ReleaseAndGetAddress()); !S) { return S; }
@@ -102,8 +99,7 @@ FRTStatus FHostScene::AddMaterials()
 		Data.Roughness = Source.Roughness;
 		Data.NormalScale = Source.NormalScale;
 		Data.OcclusionStrength = Source.OcclusionStrength;
-		// Blending needs an order; until there is one, a blended surface is cut at half its opacity.
-		Data.AlphaCutoff = Source.AlphaMode == EAlphaMode::Blend ? 0.5f : Source.AlphaCutoff;
+		Data.AlphaCutoff = GetAlphaCutoff(Source);
 		Data.Ior = Source.Ior;
 		Data.Specular = Source.Specular;
 		Data.Transmission = Source.Transmission;

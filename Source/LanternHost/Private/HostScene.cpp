@@ -15,6 +15,7 @@ FRTStatus FHostScene::Create(FRenderer& Renderer, FSceneDescription InDescriptio
 {
 	std::unique_ptr<FHostScene> Host(new FHostScene(Renderer.GetDevice()));
 	Host->Description = std::move(InDescription);
+	Host->ClassifyOpacity();
 	FUploader Uploader(Renderer.GetDevice());
 	if (FRTStatus S = Host->UploadTextures(Uploader, Progress); !S) { return S; }
 	if (FRTStatus S = Host->AddMaterials(); !S) { return S; }
@@ -74,10 +75,16 @@ FRTGeometryInfo FHostScene::MakeGeometryInfo(uint32_t Mesh) const
 	Info.VertexCount = static_cast<uint32_t>(Source.Positions.size());
 	Info.bHasTangents = Source.bHasTangents;
 	Info.bOpaqueVertices = std::all_of(Source.Attributes.begin(), Source.Attributes.end(), [](const FVertexAttributes& V) { return V.Color >= 0xff000000u; });
-	for (const FHostSection& Section : Source.Sections)
+	for (size_t Index = 0; Index < Source.Sections.size(); ++Index)
 	{
-		const bool bMasked = Description.Materials[Section.Material].AlphaMode != EAlphaMode::Opaque;
-		Info.Sections.push_back({Section.FirstIndex, Section.IndexCount, !bMasked});
+		const FHostSection& From = Source.Sections[Index];
+		FRTSectionInfo& Section = Info.Sections.emplace_back();
+		Section.FirstIndex = From.FirstIndex;
+		Section.IndexCount = From.IndexCount;
+		Section.bOpaque = Description.Materials[From.Material].AlphaMode == EAlphaMode::Opaque;
+		Section.OpaqueIndexCount = 3 * Opacity[Mesh][Index].Opaque;
+		Section.TransparentIndexCount = 3 * Opacity[Mesh][Index].Transparent;
+		Section.OpacityKey = MakeOpacityKey(Scene.GetMaterials()[static_cast<uint32_t>(From.Material)]);
 	}
 	Info.CpuPositions = Source.Positions.data();
 	Info.CpuIndices = Source.Indices.data();

@@ -10,6 +10,7 @@
 
 #include "LanternHost/SceneDescription.h"
 #include "LanternRenderer/Frame.h"
+#include "LanternScene/OpacityClassifier.h"
 
 namespace Lantern
 {
@@ -68,6 +69,8 @@ public:
 	void SetTransform(size_t Instance, const glm::dmat4& Transform);
 	/// Deforms a skinned one in the next frame; Joints as EvaluateJoints has them.
 	FSkinningInputs MakeSkinning(size_t Instance, std::vector<glm::mat4> Joints) const;
+	/// How many alpha-tested triangles are of each class, over all meshes.
+	const FOpacityCounts& GetOpacityCounts() const { return OpacityCounts; }
 	/// Of FSceneDescription::Images, on the GPU in ShaderRead.
 	IRTTexture* GetImage(int32_t Image) const { return Images[static_cast<size_t>(Image)].Get(); }
 
@@ -84,6 +87,7 @@ private:
 		FRTGeometryRef Skinned; // null unless skinned
 	};
 	explicit FHostScene(IRTDevice& InDevice) : Device(InDevice), Scene(InDevice) {}
+	void ClassifyOpacity();
 	FRTStatus UploadTextures(FUploader& Uploader, const std::function<void(float)>& Progress);
 	FRTStatus UploadMeshes(FUploader& Uploader);
 	FRTStatus UploadMesh(FUploader& Uploader, uint32_t Mesh);
@@ -106,6 +110,8 @@ private:
 	std::vector<glm::vec3> ImageMeans; // linear
 	std::vector<std::pair<uint32_t, TRTRef<IRTSampler>>> Samplers;
 	std::vector<FMeshBuffers> Meshes;
+	std::vector<std::vector<FOpacityCounts>> Opacity; // by mesh and section
+	FOpacityCounts OpacityCounts;
 	std::vector<FInstance> Instances;
 	std::vector<FDraw> Draws;
 	std::vector<FDrawBatch> Batches;

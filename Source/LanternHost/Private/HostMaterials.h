@@ -1,0 +1,32 @@
+// What of a description's materials and textures more than one part of the host reads.
+#pragma once
+
+#include "LanternHost/SceneDescription.h"
+#include "LanternRHI/RTTypes.h"
+
+namespace Lantern
+{
+
+/// Blending needs an order; until there is one, a blended surface is cut at half its opacity.
+inline float GetAlphaCutoff(const FHostMaterial& Material)
+{
+	return Material.AlphaMode == EAlphaMode::Blend ? 0.5f : Material.AlphaCutoff;
+}
+
+/// But for its name.
+inline FRTSamplerDesc MakeSamplerDesc(const FHostTexture& Texture)
+{
+	const auto Address = [](bool bRepeat, bool bMirror) {
+		return bMirror ? ERTAddress::Mirror : bRepeat ? ERTAddress::Repeat : ERTAddress::Clamp;
+	};
+	FRTSamplerDesc Desc;
+	Desc.U = Address(Texture.bRepeatU, Texture.bMirrorU);
+	Desc.V = Address(Texture.bRepeatV, Texture.bMirrorV);
+	if (Texture.bNearest)
+	{
+		Desc.Min = Desc.Mag = ERTFilter::Nearest;
+	}
+	return Desc;
+}
+
+} // namespace Lantern
