@@ -9,6 +9,11 @@
 //   in a row need no barrier, and HostRead ends where the CPU waited: any use may follow it. A memory barrier
 //   moves every buffer that is in its Before to its After.
 // - Upload buffers: the CPU's writes are visible to every submission; reads need no barrier.
+// - Scenes: an instance in an Upload buffer that points at a released geometry, or at one that no list builds, is named and
+//   BuildScene is dropped; what only the submission can tell (instances written later) refuses the submission.
+// - Shader tables: calls that exclude each other are told where they meet; after SetPipeline, what rays can reach must have
+//   been set again: every ray generation, miss and callable record that was ever set, and the first hit record of each
+//   instance. Where the instances are not known, only that not one hit record was set again is certain to be wrong.
 // - Uses by shaders through addresses and bindless indices are not seen, the barriers around them are.
 #pragma once
 
