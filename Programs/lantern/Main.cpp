@@ -10,6 +10,7 @@
 #include "BenchAnyHit.h"
 #include "BenchCommand.h"
 #include "BenchFrame.h"
+#include "BenchPipelines.h"
 #include "BenchTables.h"
 #include "CompareCommand.h"
 #include "InfoCommand.h"
@@ -58,6 +59,7 @@ private:
 	FBenchFrameOptions BenchFrame;
 	FBenchAnyHitOptions BenchAnyHit;
 	FBenchTablesOptions BenchTables;
+	FBenchPipelinesOptions BenchPipelines;
 };
 
 void FCommandLine::AddRender()
@@ -127,6 +129,9 @@ void FCommandLine::AddBench()
 	CLI::App* const Tables = Command->add_subcommand("sbt", "Keeping the shader table: everything each frame, nothing changed, 1 % changed, another pipeline");
 	BenchTables.AddTo(*Tables);
 	Tables->final_callback([this] { Status = RunBenchTables(BenchTables); });
+	CLI::App* const Pipelines = Command->add_subcommand("rtpso", "Pipelines made whole and from libraries, and what frames notice of it");
+	BenchPipelines.AddTo(*Pipelines);
+	Pipelines->final_callback([this] { Status = RunBenchPipelines(BenchPipelines); });
 }
 
 int FCommandLine::Run(int ArgumentCount, char** Arguments)

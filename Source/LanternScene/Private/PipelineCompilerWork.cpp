@@ -2,6 +2,12 @@
 #include <algorithm>
 #include <cassert>
 
+#ifdef __linux__
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+#endif
+
 #include "LanternCore/Log.h"
 #include "PipelineCompilerImpl.h"
 
@@ -18,10 +24,20 @@ bool IsShortage(const FRTStatus& Status)
 }
 
 constexpr uint64_t RetryFrames = 60;
+
+/// Where there are fewer cores than threads, frames come first. Linux gives each thread a nice value of its own.
+void GiveWayToFrames()
+{
+#ifdef __linux__
+	constexpr int Nice = 10;
+	(void)setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), Nice);
+#endif
+}
 } // namespace
 
 void FRTPSOCompiler::FImpl::RunCompiler(uint32_t Index)
 {
+	GiveWayToFrames();
 	std::unique_lock Lock(Mutex);
 	for (;;)
 	{

@@ -1,0 +1,158 @@
+#include "BenchPipelines.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "BenchPipelineFrames.h"
+#include "BenchPipelineRuns.h"
+#include "LanternCore/Log.h"
+#include "LanternHost/AtomicFile.h"
+#include "LanternRHIMock/MockDevice.h"
+#include "LanternRHIVulkan/VulkanDevice.h"
+#include "Progress.h"
+#include "Session.h"
+
+namespace Lantern
+{
+
+namespace
+{
+/// Caches of the drivers themselves, on disk; neither has a call for it.
+void SwitchDriverCachesOff()
+{
+	::setenv("__GL_SHADER_DISK_CACHE", "0", 1);
+	::setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+}
+
+FRTStatus OpenDevice(const FBenchPipelinesOptions& Options, TRTRef<IRTDevice>& Out)
+{
+	if (Options.bMock)
+	{
+		FRTMockDesc Desc;
+		if (FRTStatus S = CreateMockDevice(Desc, Out.ReleaseAndGetAddress()); !S) { return S; }
+		GetMock(Out.Get()).SetCallRecording(false);
+		GetMock(Out.Get()).SlowCompile("Bench", Options.MockCompileMs);
+		return FRTStatus::Success();
+	}
+	SwitchDriverCachesOff();
+	FRTVulkanDeviceDesc Desc;
+	Desc.DeviceIndex = Options.Device.Device;
+	if (const char* Index = std::getenv("LANTERN_DEVICE"); Index && Options.Device.Device < 0) { Desc.DeviceIndex = std::atoi(Index); }
+	Desc.bValidation = Options.Device.bValidate;
+	Desc.bCacheLibraries = false;
+	return CreateVulkanDevice(Desc, Out.ReleaseAndGetAddress());
+}
+
+nlohmann::json MakeTimes(const std::vector<double>& Ms)
+{
+	if (Ms.empty()) { return nullptr; }
+	return {{"median", MedianOf(Ms)}, {"min", *std::min_element(Ms.begin(), Ms.end())}, {"max", *std::max_element(Ms.begin(), Ms.end())}};
+}
+
+FRTStatus MeasureRuns(IRTDevice& Device, FShaderCompiler& Compiler, const FBenchPipelinesOptions& Options, nlohmann::json& Json)
+{
+	fmt::print("{:>8} {:>14} {:>13} {:>9} {:>7} {:>11} {:>11}\n", "threads", "monolithic ms", "libraries ms", "link ms", "ratio", "glslang ms", "text-RTPSO");
+	for (const uint32_t Threads : Options.Threads)
+	{
+		FPipelineRun Run;
+		Run.Threads = Threads;
+		if (FRTStatus S = MeasurePipelineRun(Device, Compiler, Options.Groups, Options.Repetitions, Run); !S) { return S; }
+		fmt::print("{:>8} {:>14.1f} {:>13.1f} {:>9.2f} {:>7.2f} {:>11.1f} {:>11.1f}\n", Threads, MedianOf(Run.MonolithicMs), MedianOf(Run.LibrariesMs),
+		           MedianOf(Run.LinkMs), Run.GetRatio(), Run.GlslangMs, Run.FinishMs);
+		std::fflush(stdout);
+		Json["runs"].push_back({{"threads", Threads},
+		                        {"monolithic_ms", MedianOf(Run.MonolithicMs)},
+		                        {"libraries_ms", MedianOf(Run.LibrariesMs)},
+		                        {"link_ms", MedianOf(Run.LinkMs)},
+		                        {"ratio", Run.GetRatio()},
+		                        {"glslang_ms", Run.GlslangMs},
+		                        {"text_to_rtpso_ms", Run.FinishMs},
+		                        {"times", {{"monolithic", MakeTimes(Run.MonolithicMs)}, {"libraries", MakeTimes(Run.LibrariesMs)}, {"link", MakeTimes(Run.LinkMs)}}}});
+	}
+	FIncrementalRun Incremental;
+	if (FRTStatus S = MeasureIncremental(Device, Compiler, Options.Groups, Options.Added, Incremental); !S) { return S; }
+	fmt::print("one more material: ready after {:.2f} ms, link {:.2f} ms (medians of {})\n", MedianOf(Incremental.ReadyMs), MedianOf(Incremental.LinkMs), Options.Added);
+	Json["incremental"] = {{"added", Options.Added},
+	                       {"ready_ms", MedianOf(Incremental.ReadyMs)},
+	                       {"link_ms", MedianOf(Incremental.LinkMs)},
+	                       {"times", {{"ready", MakeTimes(Incremental.ReadyMs)}, {"link", MakeTimes(Incremental.LinkMs)}}}};
+	return FRTStatus::Success();
+}
+
+FRTStatus MeasureFrames(IRTDevice& Device, const std::string& Shaders, const FBenchPipelinesOptions& Options, nlohmann::json& Json)
+{
+	FHitchRun Run;
+	const FRendererDesc Desc{{Shaders}, {}};
+	// The mock draws nothing: its frames are given the length of real ones. Its compiles sleep, so that any number of them
+	// can run at once on any machine.
+	constexpr uint32_t MockThreads = 16;
+	constexpr double MockFrameMs = 4.0;
+	if (FRTStatus S = MeasureHitches(Device, Desc, Options.Groups, Options.bMock ? MockThreads : 0, Options.bMock ? MockFrameMs : 0.0, Run); !S) { return S; }
+	const double Median = MedianOf(Run.CompilingMs), Worst = *std::max_element(Run.CompilingMs.begin(), Run.CompilingMs.end());
+	const double IdleMedian = MedianOf(Run.IdleMs), IdleWorst = *std::max_element(Run.IdleMs.begin(), Run.IdleMs.end());
+	fmt::print("frames while {} materials compile: median {:.3f} ms, worst {:.3f} ms, of {} (before: median {:.3f} ms, worst {:.3f} ms)\n", Options.Groups, Median,
+	           Worst, Run.CompilingMs.size(), IdleMedian, IdleWorst);
+	std::vector<double> Sorted = Run.CompilingMs;
+	std::sort(Sorted.begin(), Sorted.end(), std::greater<>());
+	Sorted.resize(std::min<size_t>(Sorted.size(), 10));
+	Json["hitch"] = {{"median_frame_ms", Median},     {"worst_frame_ms", Worst},           {"frames", Run.CompilingMs.size()},
+	                 {"idle_median_frame_ms", IdleMedian}, {"idle_worst_frame_ms", IdleWorst}, {"idle_frames", Run.IdleMs.size()},
+	                 {"longest_frames_ms", Sorted}};
+	return FRTStatus::Success();
+}
+
+int Measure(const FBenchPipelinesOptions& Options, nlohmann::json& Json)
+{
+	const FPluginFolders Folders = FindPluginFolders();
+	if (const int Status = LoadSettings(Folders.Config, Options.Device); Status != ExitDone) { return Status; }
+	TRTRef<IRTDevice> Device;
+	if (FRTStatus S = OpenDevice(Options, Device); !S) { return ReportStatus(S, "bench rtpso"); }
+	const FRTCapabilities& Capabilities = Device->GetCapabilities();
+	LogInfo("{} ({})", Capabilities.DeviceName, Capabilities.DriverName);
+	if (!Capabilities.bRayTracingPipeline || !Capabilities.bPipelineLibraries)
+	{
+		LogError("bench rtpso: {} has no ray-tracing pipelines with libraries", Capabilities.DeviceName);
+		return ExitNoDevice;
+	}
+	Json = {{"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"cores", std::thread::hardware_concurrency()}, {"hit_groups", Options.Groups}};
+	if (Capabilities.bIsCpu) { Json["note"] = "a CPU driver: it may compile machine code only at the first dispatch, which is in none of these times"; }
+	FShaderCompiler Compiler{FShaderCompilerDesc{.SearchFolders = {Folders.Shaders}}};
+	FRTStatus Status = Options.bMock || Options.bHitchOnly ? FRTStatus::Success() : MeasureRuns(*Device, Compiler, Options, Json);
+	if (Status) { Status = MeasureFrames(*Device, Folders.Shaders, Options, Json); }
+	return Status ? ExitDone : ReportStatus(Status, "bench rtpso");
+}
+} // namespace
+
+void FBenchPipelinesOptions::AddTo(CLI::App& App)
+{
+	Device.AddTo(App);
+	App.add_flag("--mock", bMock, "On the mock device, whose compiles take half a second each: only the frames are measured");
+	App.add_flag("--hitch-only", bHitchOnly, "Only the frames");
+	App.add_option("--groups", Groups, "Hit groups, each with a material program of its own")->check(CLI::Range(1, 65536));
+	App.add_option("--threads", Threads, "Numbers of threads")->check(CLI::Range(1, 256));
+	App.add_option("--repetitions", Repetitions, "Pipelines made each way")->check(CLI::Range(1, 1000));
+	App.add_option("--added", Added, "Materials added one after another")->check(CLI::Range(1, 10'000));
+	App.add_option("--mock-compile-ms", MockCompileMs, "How long the mock takes for each material")->check(CLI::Range(0, 60'000));
+	App.add_option("--json", Json, "Write the figures to this file");
+}
+
+int RunBenchPipelines(const FBenchPipelinesOptions& Options)
+{
+	if (!Options.Json.empty())
+	{
+		if (FRTStatus S = CheckOutputPath(Options.Json); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
+	}
+	nlohmann::json Json;
+	const int Exit = Measure(Options, Json);
+	if (Exit == ExitDone && !Options.Json.empty())
+	{
+		if (FRTStatus S = WriteFileAtomically(Options.Json, Json.dump(2) + "\n"); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
+	}
+	return Exit;
+}
+
+} // namespace Lantern
