@@ -95,13 +95,42 @@ TEST_P(FRecordContract, ScatteredChangesReachTheirRecordsOnly)
 		for (uint32_t i = Round; i < 64; i += 2)
 		{
 			SetHit(5 * i + 1, 2000 + 100 * Round + i);
-			SetHit(5 * i + 3, 7);
+			SetHit(5 * i, 7);
 			Expected[i] = HitValue(2000 + 100 * Round + i, 0, 0, 0);
 		}
 		const uint32_t Counts[4] = {2, 2, 1000, 2};
 		ASSERT_OK(Round == 2 ? Table->Reserve(Counts) : FRTStatus());
 		EXPECT_EQ(Trace(64, MakePush()), Expected) << Round;
 	}
+}
+
+TEST_P(FRecordContract, InvalidateMakesGoodForAListNeverSubmitted)
+{
+	const FContractGeometry Square = MakeSquares();
+	for (const bool bGrows : {false, true})
+	{
+		Load({&Square}, {Place(Square, 0, 0, 0), Place(Square, 1, 0, 1)});
+		MakeTable(2);
+		SetHit(0, 1);
+		SetHit(1, 2);
+		EXPECT_EQ(Trace(2, MakePush()), (FWords{HitValue(1, 0, 0, 0), HitValue(2, 0, 0, 0)}));
+		SetHit(1, 3);
+		const uint32_t Counts[4] = {2, 2, 6, 2};
+		ASSERT_OK(bGrows ? Table->Reserve(Counts) : FRTStatus());
+		{
+			const auto Dropped = Make.List("Dropped");
+			Dropped->UpdateShaderTable(Table.Get());
+			EXPECT_OK(Dropped->End());
+		}
+		Table->Invalidate();
+		if (bGrows)
+		{
+			SetHit(5, 4);
+		}
+		EXPECT_EQ(Trace(2, MakePush()), (FWords{HitValue(1, 0, 0, 0), HitValue(3, 0, 0, 0)})) << bGrows;
+	}
+	Load({}, {Place(Square, 0, 0, 5)});
+	EXPECT_EQ(Trace(1, MakePush()), FWords{HitValue(4, 0, 0, 0)});
 }
 
 TEST_P(FRecordContract, UpdatesLeavePipelineAndConstantsAlone)

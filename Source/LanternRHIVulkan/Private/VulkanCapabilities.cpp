@@ -192,6 +192,23 @@ ERTRung RungOf(const FLadder& Ladder)
 	return Ladder.bMicromap ? ERTRung::Micromap : ERTRung::Reorder;
 }
 
+void EnablePipelines(const FSupported& Supported, FVulkanProbe& Out)
+{
+	FVulkanFeatures& Features = Out.Features;
+	FRTCapabilities& Caps = Out.Capabilities;
+	Out.Extensions.push_back(VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME);
+	Features.Pipeline.rayTracingPipeline = VK_TRUE;
+	Features.Pipeline.rayTracingPipelineTraceRaysIndirect =
+	    Supported.Features.Pipeline.rayTracingPipelineTraceRaysIndirect;
+	Features.Pipeline.rayTraversalPrimitiveCulling = Supported.Features.Pipeline.rayTraversalPrimitiveCulling;
+	Caps.bIndirectTrace = Features.Pipeline.rayTracingPipelineTraceRaysIndirect;
+	Caps.bPipelineLibraries = Supported.Has(VK_KHR_PIPELINE_LIBRARY_EXTENSION_NAME);
+	if (Caps.bPipelineLibraries)
+	{
+		Out.Extensions.push_back(VK_KHR_PIPELINE_LIBRARY_EXTENSION_NAME);
+	}
+}
+
 void EnableLadder(const FSupported& Supported, const FLadder& Ladder, FVulkanProbe& Out)
 {
 	FVulkanFeatures& Features = Out.Features;
@@ -234,17 +251,7 @@ void EnableLadder(const FSupported& Supported, const FLadder& Ladder, FVulkanPro
 	}
 	if (Ladder.bPipeline)
 	{
-		Out.Extensions.push_back(VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME);
-		Features.Pipeline.rayTracingPipeline = VK_TRUE;
-		Features.Pipeline.rayTracingPipelineTraceRaysIndirect =
-		    Supported.Features.Pipeline.rayTracingPipelineTraceRaysIndirect;
-		Features.Pipeline.rayTraversalPrimitiveCulling = Supported.Features.Pipeline.rayTraversalPrimitiveCulling;
-		Caps.bIndirectTrace = Features.Pipeline.rayTracingPipelineTraceRaysIndirect;
-		Caps.bPipelineLibraries = Supported.Has(VK_KHR_PIPELINE_LIBRARY_EXTENSION_NAME);
-		if (Caps.bPipelineLibraries)
-		{
-			Out.Extensions.push_back(VK_KHR_PIPELINE_LIBRARY_EXTENSION_NAME);
-		}
+		EnablePipelines(Supported, Out);
 	}
 	if (Ladder.bReorder)
 	{
