@@ -21,10 +21,12 @@ protected:
 	void SetUp() override
 	{
 		FGeometryStoreTest::SetUp();
-		SetLogSink([this](ERTLogLevel, std::string_view Line) {
-			std::lock_guard Lock(Mutex);
-			Lines.emplace_back(Line);
-		});
+		SetLogSink(
+		    [this](ERTLogLevel, std::string_view Line)
+		    {
+			    std::lock_guard Lock(Mutex);
+			    Lines.emplace_back(Line);
+		    });
 	}
 	void TearDown() override
 	{
@@ -34,7 +36,8 @@ protected:
 	uint32_t CountLines(const std::string& Part)
 	{
 		std::lock_guard Lock(Mutex);
-		return static_cast<uint32_t>(std::count_if(Lines.begin(), Lines.end(), [&](const std::string& Line) { return Line.find(Part) != std::string::npos; }));
+		return static_cast<uint32_t>(std::count_if(
+		    Lines.begin(), Lines.end(), [&](const std::string& Line) { return Line.find(Part) != std::string::npos; }));
 	}
 	/// Frames until nothing is left to do; coarser levels are made by tasks meanwhile.
 	void Settle(uint32_t Most = 400)
@@ -43,7 +46,10 @@ protected:
 		{
 			const FRTStatus Status = Frame();
 			ASSERT_TRUE(Status) << Status.Message;
-			if (Stats().Pending > 0) { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }
+			if (Stats().Pending > 0)
+			{
+				std::this_thread::sleep_for(std::chrono::milliseconds(1));
+			}
 		}
 	}
 	FRTGeometryRef MakeCpu(const std::string& Name, uint32_t Cells)
@@ -148,14 +154,26 @@ TEST_F(FGeometryMemoryTest, PeakStaysBelowTheBudgetInAStream)
 			for (int I = 0; I < 2; ++I)
 			{
 				const int Key = static_cast<int>(Random() % 60);
-				if (Random() % 2) { Live.erase(Key); }
-				else if (!Live.count(Key)) { Live[Key] = Make("G", 1 + Random() % (Random() % 50 == 0 ? 60000 : 3000), Random() % 10 == 0); }
+				if (Random() % 2)
+				{
+					Live.erase(Key);
+				}
+				else if (!Live.count(Key))
+				{
+					Live[Key] = Make("G", 1 + Random() % (Random() % 50 == 0 ? 60000 : 3000), Random() % 10 == 0);
+				}
 			}
 			for (const auto& [Unused, Geometry] : Live)
 			{
-				if (Geometry->GetInfo().bDynamic) { Store->MarkDeformed(Geometry); }
+				if (Geometry->GetInfo().bDynamic)
+				{
+					Store->MarkDeformed(Geometry);
+				}
 			}
-			if (Mock().GetLastFence() > 2) { Mock().CompleteUpTo(Mock().GetLastFence() - 2); }
+			if (Mock().GetLastFence() > 2)
+			{
+				Mock().CompleteUpTo(Mock().GetLastFence() - 2);
+			}
 			Device->CollectGarbage();
 			ASSERT_TRUE(Frame(false, Random() % 10 != 0));
 			Built += Stats().Built;
@@ -177,7 +195,10 @@ TEST_F(FGeometryMemoryTest, WhatWaitsForMemoryGetsIt)
 	Set("r.RT.Build.MemoryMB", "4");
 	Set("r.RT.Build.CoarserLevels", "0");
 	std::vector<FRTGeometryRef> First;
-	for (int I = 0; I < 5; ++I) { First.push_back(Make("First", 8000)); } // 0.8 MB each
+	for (int I = 0; I < 5; ++I)
+	{
+		First.push_back(Make("First", 8000));
+	} // 0.8 MB each
 	Settle();
 	const FRTGeometryRef Late = Make("Late", 15000);
 	Frames(40);
@@ -222,8 +243,12 @@ void ExpectSound(const FRTGeometry& Geometry, const std::vector<uint32_t>& Indic
 		EXPECT_EQ(P.bOpaque, Section.bOpaque);
 		EXPECT_GE(P.IndexCount, 3u);
 		EXPECT_LT(P.IndexCount, Section.IndexCount);
-		const std::set<uint32_t> Own(Info.CpuIndices + Section.FirstIndex, Info.CpuIndices + Section.FirstIndex + Section.IndexCount);
-		for (uint32_t I = P.FirstIndex; I < P.FirstIndex + P.IndexCount; ++I) { EXPECT_TRUE(Own.count(Indices[I])) << "a vertex of another section"; }
+		const std::set<uint32_t> Own(Info.CpuIndices + Section.FirstIndex,
+		                             Info.CpuIndices + Section.FirstIndex + Section.IndexCount);
+		for (uint32_t I = P.FirstIndex; I < P.FirstIndex + P.IndexCount; ++I)
+		{
+			EXPECT_TRUE(Own.count(Indices[I])) << "a vertex of another section";
+		}
 	}
 }
 
@@ -259,7 +284,10 @@ TEST_F(FGeometryMemoryTest, CoarserLevelSurvivesLostFrames)
 		ASSERT_TRUE(Frame(false, false));
 		std::this_thread::sleep_for(std::chrono::milliseconds(1));
 	}
-	for (int I = 0; I < 3; ++I) { ASSERT_TRUE(Frame(false, false)); }
+	for (int I = 0; I < 3; ++I)
+	{
+		ASSERT_TRUE(Frame(false, false));
+	}
 	EXPECT_EQ(GetAddress(Terrain), 0u);
 	ASSERT_TRUE(Frame());
 	ASSERT_NE(GetAddress(Terrain), 0u);
@@ -323,18 +351,25 @@ TEST_F(FGeometryMemoryTest, EveryFailingAllocationIsSurvived)
 			Open({});
 			Shared = MakeBuffer("Shared", 4096);
 			Set("r.RT.Build.MemoryMB", "3");
-			std::vector<FRTGeometryRef> Geometries{MakeCpu("T" + std::to_string(N), 150), Make("A", 3000), Make("B", 500, true), Make("C", 20)};
+			std::vector<FRTGeometryRef> Geometries{MakeCpu("T" + std::to_string(N), 150), Make("A", 3000),
+			                                       Make("B", 500, true), Make("C", 20)};
 			Mock().FailAllocation(N);
 			for (int I = 0; I < 60; ++I)
 			{
 				Store->MarkDeformed(Geometries[2]);
 				const FRTStatus Status = Frame(bBuildAll && I == 0);
 				EXPECT_TRUE(Status || Status.Code == ERTResult::OutOfDeviceMemory) << Status.Message;
-				if (Stats().Pending > 0) { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }
+				if (Stats().Pending > 0)
+				{
+					std::this_thread::sleep_for(std::chrono::milliseconds(1));
+				}
 			}
 			Mock().FailAllocation(0);
 			Settle();
-			for (const FRTGeometryRef& Geometry : Geometries) { EXPECT_NE(GetAddress(Geometry), 0u) << N << " " << Geometry->GetInfo().Name; }
+			for (const FRTGeometryRef& Geometry : Geometries)
+			{
+				EXPECT_NE(GetAddress(Geometry), 0u) << N << " " << Geometry->GetInfo().Name;
+			}
 			EXPECT_EQ(Mock().GetErrors(), std::vector<std::string>());
 		}
 	}
@@ -347,19 +382,28 @@ TEST_F(FGeometryMemoryTest, OftenFailingAllocationsAreSurvived)
 		Open({});
 		Shared = MakeBuffer("Shared", 4096);
 		std::vector<FRTGeometryRef> Geometries;
-		for (int I = 0; I < 20; ++I) { Geometries.push_back(Make("G" + std::to_string(I), 1000, I % 4 == 0)); }
+		for (int I = 0; I < 20; ++I)
+		{
+			Geometries.push_back(Make("G" + std::to_string(I), 1000, I % 4 == 0));
+		}
 		Mock().FailEveryAllocation(N);
-		for (int I = 0; I < 30; ++I) { (void)Frame(); }
+		for (int I = 0; I < 30; ++I)
+		{
+			(void)Frame();
+		}
 		Mock().FailEveryAllocation(0);
 		Settle();
-		for (const FRTGeometryRef& Geometry : Geometries) { EXPECT_NE(GetAddress(Geometry), 0u) << N; }
+		for (const FRTGeometryRef& Geometry : Geometries)
+		{
+			EXPECT_NE(GetAddress(Geometry), 0u) << N;
+		}
 	}
 }
 
 TEST_F(FGeometryMemoryTest, LostDeviceLeavesTheStoreUsable)
 {
-	for (const ERTMockCall Kind : {ERTMockCall::CreateGeometry, ERTMockCall::CreateBuffer, ERTMockCall::CreateQueryPool, ERTMockCall::BuildGeometry,
-	                               ERTMockCall::CompactGeometry, ERTMockCall::Submit})
+	for (const ERTMockCall Kind : {ERTMockCall::CreateGeometry, ERTMockCall::CreateBuffer, ERTMockCall::CreateQueryPool,
+	                               ERTMockCall::BuildGeometry, ERTMockCall::CompactGeometry, ERTMockCall::Submit})
 	{
 		Open({});
 		Shared = MakeBuffer("Shared", 4096);

@@ -315,6 +315,25 @@ TEST_F(FModuleTest, ReplacedTextureStaysUntilTheFrameInTheMakingHasRun)
 	EXPECT_FALSE(IsAlive());
 }
 
+TEST_F(FModuleTest, StructuresAreBuiltWithinTheBudget)
+{
+	ASSERT_FINE(Module->SetConsoleVariable("r.RT.Build.TrianglesPerFrame", "1"));
+	for (int Mesh = 0; Mesh < 3; ++Mesh)
+	{
+		ASSERT_FINE(AddObject(AddOpaqueMesh(), Solid));
+	}
+	ASSERT_FINE(SetSun(-1.0));
+	for (uint32_t Frame = 1; Frame <= 3; ++Frame)
+	{
+		ASSERT_FINE(Render());
+		EXPECT_EQ(Outputs.bComplete, Frame == 3);
+		EXPECT_NE(Outputs.SunShadow, nullptr);
+		ASSERT_FINE(Renderer->EndFrame(nullptr));
+		EXPECT_EQ(Mock().CountCalls(ERTMockCall::BuildGeometry), Frame);
+	}
+	ASSERT_FINE(Module->SetConsoleVariable("r.RT.Build.TrianglesPerFrame", "500000"));
+}
+
 TEST_F(FModuleTest, DeformedVerticesAreCopiedOnceAndRefitted)
 {
 	const ERTMeshHandle Rigid = AddMesh(DescribeTriangle());

@@ -461,7 +461,7 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 	}
 	Recorded = TRTRef<IRTCommandList>(Frame.Commands);
 	Out->SunShadow = SunShadow.Get();
-	Out->bComplete = true;
+	Out->bComplete = Scene.GetGeometries().GetStats().Pending == 0;
 	return Status;
 }
 

@@ -151,7 +151,8 @@ struct FRTModuleOutputs
 	/// Fraction of the sun that each pixel sees: 1 lit, 0 shadowed. R16_FLOAT, in ShaderRead; may be copied from,
 	/// if the engine puts it back in ShaderRead. Null: no sun, or shadows are off.
 	IRTTexture* SunShadow = nullptr;
-	/// Reserved for shaders that compile in the background. Today RenderFrame waits for them: always true on success.
+	/// False: some acceleration structures still wait for their turn (r.RT.Build.TrianglesPerFrame, r.RT.Build.MemoryMB), and
+	/// rays do not see their objects yet. RenderFrame waits for shaders.
 	bool bComplete = false;
 };
 

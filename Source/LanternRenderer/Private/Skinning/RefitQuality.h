@@ -72,7 +72,7 @@ private:
 
 	IRTDevice& Device;
 	std::vector<FBatch> Free, InFlight;
-	std::unique_ptr<FBatch> Current; // of this frame
+	std::unique_ptr<FBatch> Current;  // of this frame
 	std::vector<FBaseline> Baselines; // by slot
 	size_t Next = 0;
 };

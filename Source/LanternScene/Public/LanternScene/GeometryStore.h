@@ -25,7 +25,7 @@ struct FGeometryStoreStats
 	// Now; bytes as the device counts them.
 	uint64_t LiveBytes = 0; ///< structures, those that the GPU has yet to let go included
 	uint64_t ScratchBytes = 0;
-	uint64_t PeakBytes = 0; ///< of both together, since the store was made
+	uint64_t PeakBytes = 0;            ///< of both together, since the store was made
 	uint64_t CompactionSavedBytes = 0; ///< since the store was made
 	uint32_t Pending = 0;              ///< to be built, those in a coarser level's making included
 	uint32_t Coarse = 0;               ///< are a coarser level of detail
@@ -115,12 +115,12 @@ private:
 		EState State = EState::Free;
 		ECompaction Compaction = ECompaction::None;
 		bool bDeformed = false;
-		bool bLost = false;    ///< was recorded in a frame that never ran
-		bool bRefuted = false; ///< its classification is no longer right
-		bool bRebuild = false; ///< the next refit must be a build
-		bool bUpdate = false;  ///< this frame: a refit
-		bool bSaid = false;    ///< that it does not fit
-		bool bChanged = false; ///< is in Changed
+		bool bLost = false;        ///< was recorded in a frame that never ran
+		bool bRefuted = false;     ///< its classification is no longer right
+		bool bRebuild = false;     ///< the next refit must be a build
+		bool bUpdate = false;      ///< this frame: a refit
+		bool bSaid = false;        ///< that it does not fit
+		bool bChanged = false;     ///< is in Changed
 		bool bCompactable = false; ///< its structure allows compaction
 		uint32_t Generation = 0;
 		bool bCoarse = false;
@@ -206,9 +206,9 @@ private:
 	std::array<std::unique_ptr<std::atomic<uint32_t>[]>, MaxChunks> Priorities;
 	std::vector<FSlotRef> Pending; ///< a heap or in order while builds are chosen
 	std::vector<FSlotRef> Deformed, Coarsening, Refused, WantSize, Sized;
-	std::vector<FSlotRef> Recorded; ///< builds and refits of this frame
-	std::vector<FSlotRef> Copying;  ///< compactions of this frame
-	std::vector<FSlotRef> Copied;   ///< and of the frame before, to be taken over
+	std::vector<FSlotRef> Recorded;   ///< builds and refits of this frame
+	std::vector<FSlotRef> Copying;    ///< compactions of this frame
+	std::vector<FSlotRef> Copied;     ///< and of the frame before, to be taken over
 	std::vector<FRTGeometryRef> Held; ///< of this frame
 	std::vector<FSizeBatch> Batches;
 	TRTRef<IRTBuffer> Scratch;
