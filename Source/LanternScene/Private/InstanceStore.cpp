@@ -100,11 +100,11 @@ void FInstanceStore::Set(uint32_t Object, const FInstancePlacement& Placement)
 		if (Record.Range != Placement.Range) { SetRange(Object, Placement.Range); }
 		return;
 	}
-	if (Record.bAlive) { Remove(Object); }
+	if (Record.bAlive) { Detach(Object); }
 	New.Group = FindGroup(Placement.Group);
 	New.Range = Placement.Range;
 	New.bAlive = true;
-	Record = New;
+	Records[Object] = New;
 	++Count;
 	if (Placement.Range >= Bindings.size()) { SetBinding(Placement.Range, {}); }
 	if (RangeUsers[Placement.Range]++ == 0 && Bindings[Placement.Range].GeometryAddress == 0) { ++MissingBindings; }
@@ -131,9 +131,8 @@ bool FInstanceStore::IsWithinBounds(uint32_t Bucket, const FInstanceRecord& New,
 	       Radius <= Bounds.RMax[Bucket];
 }
 
-void FInstanceStore::Remove(uint32_t Object)
+void FInstanceStore::Detach(uint32_t Object)
 {
-	++Revision;
 	FInstanceRecord& Record = Records[Object];
 	assert(Record.bAlive);
 	Extract(Object);
@@ -141,6 +140,14 @@ void FInstanceStore::Remove(uint32_t Object)
 	if (--RangeUsers[Record.Range] == 0 && Bindings[Record.Range].GeometryAddress == 0) { --MissingBindings; }
 	Record.bAlive = false;
 	--Count;
+}
+
+void FInstanceStore::Remove(uint32_t Object)
+{
+	++Revision;
+	Detach(Object);
+	while (!Records.empty() && !Records.back().bAlive) { Records.pop_back(); }
+	if (Records.capacity() / 4 > Records.size() + 64) { Records.shrink_to_fit(); }
 }
 
 void FInstanceStore::SetRange(uint32_t Object, uint32_t Range)

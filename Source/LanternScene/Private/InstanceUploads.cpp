@@ -28,8 +28,9 @@ FRTStatus FInstanceUploads::Reserve(uint32_t Count, IRTBuffer*& OutBuffer)
 	auto Best = Pages.end();
 	for (auto Page = Pages.begin(); Page != Pages.end(); ++Page)
 	{
-		const bool bFits = !Page->bUsed && !Page->bLost && Page->Fence <= Completed && Page->Buffer->GetDesc().Size >= Bytes;
-		if (bFits && (Best == Pages.end() || Page->Buffer->GetDesc().Size < Best->Buffer->GetDesc().Size)) { Best = Page; }
+		const bool bFree = !Page->bUsed && !Page->bLost && Page->Fence <= Completed;
+		const bool bFits = Page->Buffer->GetDesc().Size >= Bytes && !IsTooLarge(*Page);
+		if (bFree && bFits && (Best == Pages.end() || Page->Buffer->GetDesc().Size < Best->Buffer->GetDesc().Size)) { Best = Page; }
 	}
 	if (Best != Pages.end())
 	{

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <utility>
 
 #include "LanternCore/Log.h"
@@ -42,10 +43,22 @@ void FRTScene::MarkDeformed(const FRTGeometryRef& Geometry) { Geometries.MarkDef
 
 uint32_t FRTScene::AddMaterial(const FMaterialData& Material, uint32_t Program)
 {
-	const uint32_t Index = Materials.Add(Material);
-	MaterialPrograms.resize(Index + 1, StandardProgram);
-	MaterialPrograms[Index] = Program;
-	return Index;
+	if (!FreeMaterials.empty())
+	{
+		const uint32_t Index = FreeMaterials.back();
+		FreeMaterials.pop_back();
+		Materials.Set(Index, Material);
+		MaterialPrograms[Index] = Program;
+		return Index;
+	}
+	MaterialPrograms.push_back(Program);
+	return Materials.Add(Material);
+}
+
+void FRTScene::RemoveMaterial(uint32_t Index)
+{
+	assert(Index < Materials.Num() && !Sections.IsMaterialUsed(Index));
+	FreeMaterials.push_back(Index);
 }
 
 void FRTScene::SetMaterial(uint32_t Index, const FMaterialData& Material)
@@ -88,23 +101,47 @@ void FRTScene::SetMissingPrograms(std::vector<FHitProgram> Programs)
 
 // ---------------------------------------------------------------------------------------------------- objects
 
+/// ~0: none is left.
+uint32_t FRTScene::TakeObjectSlot()
+{
+	if (!FreeObjects.empty() && FreeObjects.front() < Objects.size())
+	{
+		std::pop_heap(FreeObjects.begin(), FreeObjects.end(), std::greater());
+		const uint32_t Index = FreeObjects.back();
+		FreeObjects.pop_back();
+		return Index;
+	}
+	FreeObjects.clear(); // all of them are behind the end
+	const auto Index = static_cast<uint32_t>(Objects.size());
+	if (Index > MaxInstanceIndex) { return ~0u; }
+	Objects.emplace_back().Generation = GenerationFloor;
+	return Index;
+}
+
+void FRTScene::FreeObjectSlot(uint32_t Index)
+{
+	Objects[Index].Info = {};
+	Objects[Index].bAlive = false;
+	++Objects[Index].Generation;
+	FreeObjects.push_back(Index);
+	std::push_heap(FreeObjects.begin(), FreeObjects.end(), std::greater());
+	while (!Objects.empty() && !Objects.back().bAlive)
+	{
+		GenerationFloor = std::max(GenerationFloor, Objects.back().Generation);
+		Objects.pop_back();
+	}
+	ObjectData.Truncate(static_cast<uint32_t>(Objects.size()));
+	if (Objects.capacity() / 4 > Objects.size() + 64) { Objects.shrink_to_fit(); }
+}
+
 FRTObjectId FRTScene::AddObject(FRTObjectInfo Info)
 {
 	assert(Info.Geometry && Info.Materials.size() == Info.Geometry->GetSectionCount());
-	uint32_t Index = static_cast<uint32_t>(Objects.size());
-	if (FreeObjects.empty())
+	const uint32_t Index = TakeObjectSlot();
+	if (Index == ~0u)
 	{
-		if (Index > MaxInstanceIndex)
-		{
-			LogOnce(ERTLogLevel::Error, "the scene has 2^24 objects; an instance cannot name more, and further ones are left out");
-			return {};
-		}
-		Objects.emplace_back();
-	}
-	else
-	{
-		Index = FreeObjects.back();
-		FreeObjects.pop_back();
+		LogOnce(ERTLogLevel::Error, "the scene has 2^24 objects; an instance cannot name more, and further ones are left out");
+		return {};
 	}
 	FObject& Object = Objects[Index];
 	Object.Info = std::move(Info);
@@ -122,10 +159,7 @@ void FRTScene::RemoveObject(FRTObjectId Id)
 	Instances.Remove(Id.Index);
 	Sections.Release(Object.Range);
 	Retired.push_back(std::move(Object.Info.Geometry));
-	Object.Info = {};
-	Object.bAlive = false;
-	++Object.Generation;
-	FreeObjects.push_back(Id.Index);
+	FreeObjectSlot(Id.Index);
 }
 
 FRTScene::FObject& FRTScene::Resolve(FRTObjectId Id)

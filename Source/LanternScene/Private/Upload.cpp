@@ -12,6 +12,7 @@ namespace
 constexpr uint64_t StagingBytes = 32ull << 20;
 constexpr uint64_t PageBytes = 1ull << 20;
 constexpr uint64_t Alignment = 256;
+constexpr uint32_t MostIdleFrames = 120;
 constexpr uint64_t WaitNs = 60'000'000'000ull;
 
 uint64_t Align(uint64_t Value) { return (Value + Alignment - 1) & ~(Alignment - 1); }
@@ -101,19 +102,29 @@ FRTStatus FUploader::Flush()
 
 FFrameUploads::FFrameUploads(IRTDevice& InDevice) : Device(InDevice) {}
 
+void FFrameUploads::Collect()
+{
+	const FRTFence Completed = Device.GetCompletedFence();
+	for (size_t I = 0; I < InFlight.size();)
+	{
+		if (InFlight[I].Fence > Completed) { ++I; continue; }
+		Free.push_back(std::move(InFlight[I]));
+		if (I + 1 < InFlight.size()) { InFlight[I] = std::move(InFlight.back()); }
+		InFlight.pop_back();
+	}
+}
+
 FRTStatus FFrameUploads::Allocate(uint64_t Size, FUploadSlice& Out)
 {
 	if (Current.empty() || Used + Size > Current.back().Size)
 	{
-		const FRTFence Completed = Device.GetCompletedFence();
-		for (size_t I = 0; I < InFlight.size();)
+		Collect();
+		// The smallest that is large enough, so that large ones are idle where they are not needed.
+		auto Fitting = Free.end();
+		for (auto Page = Free.begin(); Page != Free.end(); ++Page)
 		{
-			if (InFlight[I].Fence > Completed) { ++I; continue; }
-			Free.push_back(std::move(InFlight[I]));
-			InFlight[I] = std::move(InFlight.back());
-			InFlight.pop_back();
+			if (Page->Size >= Size && (Fitting == Free.end() || Page->Size < Fitting->Size)) { Fitting = Page; }
 		}
-		const auto Fitting = std::find_if(Free.begin(), Free.end(), [&](const FPage& Page) { return Page.Size >= Size; });
 		FPage Page;
 		if (Fitting != Free.end())
 		{
@@ -151,8 +162,10 @@ void FFrameUploads::EndFrame(FRTFence Fence)
 	for (FPage& Page : Current)
 	{
 		Page.Fence = Fence;
+		Page.IdleFrames = 0;
 		InFlight.push_back(std::move(Page));
 	}
+	std::erase_if(Free, [](FPage& Page) { return ++Page.IdleFrames > MostIdleFrames; });
 	Current.clear();
 	Used = 0;
 }

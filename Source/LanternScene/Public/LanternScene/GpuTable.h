@@ -11,14 +11,16 @@
 namespace Lantern
 {
 
-/// The untyped part. Entries are marked in chunks of ChunkEntries; a flush copies runs of marked chunks.
+/// The untyped part. Entries are marked in chunks of ChunkEntries; a flush copies runs of marked chunks, in time of what
+/// is marked.
 class FGpuTableBase
 {
 public:
-	static constexpr uint32_t ChunkEntries = 64;
+	static constexpr uint32_t ChunkEntries = 8;
 
 	uint64_t GetAddress() const { return Buffer ? Buffer->GetDeviceAddress() : 0; }
-	/// Copies what changed. The buffer grows by doubling; its address then changes.
+	/// Copies what changed. The buffer grows by doubling, and shrinks when it has been four times too large in many
+	/// flushes; its address then changes.
 	FRTStatus Flush(IRTDevice& Device, IRTCommandList& List, FFrameUploads& Uploads, const void* Data, uint64_t EntryBytes, uint64_t EntryCount, const char* Name);
 	bool IsDirty() const { return bDirty; }
 	uint64_t GetCopiedBytes() const { return CopiedBytes; } ///< by the last flush
@@ -28,9 +30,14 @@ protected:
 	void MarkAll(uint64_t Count);
 
 private:
+	FRTStatus Resize(IRTDevice& Device, uint64_t Needed, const char* Name, bool& OutNew);
+	FRTStatus CopyRuns(IRTCommandList& List, FFrameUploads& Uploads, const uint8_t* Data, uint64_t ChunkBytes, uint64_t Bytes);
 	TRTRef<IRTBuffer> Buffer;
-	std::vector<bool> DirtyChunks;
+	std::vector<bool> IsChunkDirty;
+	std::vector<uint32_t> DirtyChunks; // each once; not used while bAllDirty
+	bool bAllDirty = false;
 	bool bDirty = false;
+	uint32_t FlushesTooLarge = 0;
 	uint64_t CopiedBytes = 0;
 };
 
@@ -60,6 +67,13 @@ public:
 	{
 		Entries = std::move(Values);
 		MarkAll(Entries.size());
+	}
+	/// Forgets the entries from Count on.
+	void Truncate(uint32_t Count)
+	{
+		if (Count >= Entries.size()) { return; }
+		Entries.resize(Count);
+		if (Entries.capacity() / 4 > Entries.size() + ChunkEntries) { Entries.shrink_to_fit(); }
 	}
 	FRTStatus Flush(IRTDevice& Device, IRTCommandList& List, FFrameUploads& Uploads)
 	{

@@ -162,6 +162,7 @@ private:
 	static FKey MakeKey(const FInstanceRecord& Record);
 	void Insert(uint32_t Object, const float* Rows, const glm::vec3& Place);
 	void Extract(uint32_t Object);
+	void Detach(uint32_t Object);
 	void Place(uint32_t Object, uint32_t Bucket, const float* Rows, const glm::vec3& Place);
 	void WriteSlot(FInstanceBucket& Bucket, uint32_t Slot, uint32_t Object, const float* Rows, const glm::vec3& Place);
 	void MoveSlot(FInstanceBucket& From, uint32_t FromSlot, uint32_t ToBucket);

@@ -95,6 +95,8 @@ public:
 	uint32_t AddMaterial(const FMaterialData& Material, uint32_t Program = StandardProgram);
 	void SetMaterial(uint32_t Index, const FMaterialData& Material);
 	void SetMaterialProgram(uint32_t Index, uint32_t Program);
+	/// No object may have it. Its index is given to a material that comes later.
+	void RemoveMaterial(uint32_t Index);
 	const TGpuTable<FMaterialData>& GetMaterials() const { return Materials; }
 
 	/// An invalid id, said once, where the scene has MaxInstanceIndex objects already.
@@ -180,6 +182,8 @@ private:
 	};
 	FObject& Resolve(FRTObjectId Id);
 	const FObject& Resolve(FRTObjectId Id) const;
+	uint32_t TakeObjectSlot();
+	void FreeObjectSlot(uint32_t Index);
 	void WriteObject(uint32_t Index);
 	void MarkEmissive(FSectionRangeId Range);
 	uint32_t FirstSectionOf(const FObject& Object) const { return Sections.GetRange(Object.Range).First; }
@@ -210,10 +214,12 @@ private:
 	glm::dvec3 Origin{0};
 	FGeometryStore Geometries{Device};
 	std::vector<FObject> Objects;
-	std::vector<uint32_t> FreeObjects;
+	std::vector<uint32_t> FreeObjects;    // a heap, the lowest first, so that the table's end falls free
+	uint32_t GenerationFloor = 0;         // of slots that the table never had, or has lost
 	std::vector<FRTGeometryRef> Retired, RetiredBefore; // see EndFrame
 	TGpuTable<FMaterialData> Materials{"Materials"};
 	std::vector<uint32_t> MaterialPrograms;
+	std::vector<uint32_t> FreeMaterials;
 	FSectionContext SectionContext{Materials, MaterialPrograms};
 	FSectionTable Sections{SectionContext};
 	std::vector<FHitProgram> MissingPrograms; // sorted

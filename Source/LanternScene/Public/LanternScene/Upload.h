@@ -53,7 +53,8 @@ public:
 	FRTStatus Allocate(uint64_t Size, FUploadSlice& Out);
 	/// Allocates and copies.
 	FRTStatus Push(const void* Data, uint64_t Size, FUploadSlice& Out);
-	/// What was allocated since the last call is in use until Fence.
+	/// What was allocated since the last call is in use until Fence. Memory that nobody has needed for many frames is
+	/// given back.
 	void EndFrame(FRTFence Fence);
 
 private:
@@ -62,7 +63,9 @@ private:
 		TRTRef<IRTBuffer> Buffer;
 		uint64_t Size = 0;
 		FRTFence Fence = 0;
+		uint32_t IdleFrames = 0;
 	};
+	void Collect();
 	IRTDevice& Device;
 	std::vector<FPage> Free, Current, InFlight;
 	uint64_t Used = 0; // of Current.back()
