@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "GeometryStoreVariables.h"
@@ -76,6 +77,36 @@ void FGeometryStore::Queue(FEntry& Entry)
 	Pending.push_back(MakeRef(Entry));
 }
 
+void FGeometryStore::ChooseRebuilds(std::vector<FEntry*>& Due, uint32_t Interval, uint64_t& Need)
+{
+	const float Threshold = CVarRebuildQuality.GetOnRenderThread();
+	// Characters that came together must not all be rebuilt in one frame: the worst come first, the others follow.
+	const auto MakeKey = [=](const FEntry& Entry)
+	{
+		const bool bDegraded = Threshold > 0.0f && Entry.RefitRatio > Threshold;
+		return std::tuple(!Entry.bRebuild, bDegraded ? -Entry.RefitRatio : 0.0f, -int64_t(Entry.RefitsSinceBuild),
+		                  Entry.Age);
+	};
+	std::sort(Due.begin(), Due.end(), [&](const FEntry* A, const FEntry* B) { return MakeKey(*A) < MakeKey(*B); });
+	const uint32_t Most = std::max(1u, (DynamicCount + Interval - 1) / Interval);
+	for (FEntry* const Entry : Due)
+	{
+		if (Stats.Rebuilt >= Most && !Entry->bRebuild)
+		{
+			break;
+		}
+		const uint64_t Bytes = Entry->Sizes.BuildScratchBytes;
+		if (!Entry->bRebuild && GetScratchGrowth(std::max(Need, Bytes)) > GetRoom())
+		{
+			continue;
+		}
+		Entry->bUpdate = false;
+		++Stats.Rebuilt;
+		Stats.TrianglesBuilt += Entry->Triangles;
+		Need = std::max(Need, Bytes);
+	}
+}
+
 FRTStatus FGeometryStore::ChooseRefits()
 {
 	const uint32_t Interval = static_cast<uint32_t>(CVarRebuildInterval.GetOnRenderThread());
@@ -105,40 +136,7 @@ FRTStatus FGeometryStore::ChooseRefits()
 		Held.push_back(Entry->Owner.lock());
 		Recorded.push_back(MakeRef(*Entry));
 	}
-	// Characters that came together must not all be rebuilt in one frame: the worst come first, the others follow.
-	std::sort(Due.begin(), Due.end(),
-	          [&](const FEntry* A, const FEntry* B)
-	          {
-		          const float RatioA = IsDegraded(*A) ? A->RefitRatio : 0.0f,
-		                      RatioB = IsDegraded(*B) ? B->RefitRatio : 0.0f;
-		          if (A->bRebuild != B->bRebuild)
-		          {
-			          return A->bRebuild;
-		          }
-		          if (RatioA != RatioB)
-		          {
-			          return RatioA > RatioB;
-		          }
-		          return A->RefitsSinceBuild != B->RefitsSinceBuild ? A->RefitsSinceBuild > B->RefitsSinceBuild
-		                                                            : A->Age < B->Age;
-	          });
-	const uint32_t Most = std::max(1u, (DynamicCount + Interval - 1) / Interval);
-	for (FEntry* const Entry : Due)
-	{
-		if (Stats.Rebuilt >= Most && !Entry->bRebuild)
-		{
-			break;
-		}
-		const uint64_t Bytes = Entry->Sizes.BuildScratchBytes;
-		if (!Entry->bRebuild && GetScratchGrowth(std::max(Need, Bytes)) > GetRoom())
-		{
-			continue;
-		}
-		Entry->bUpdate = false;
-		++Stats.Rebuilt;
-		Stats.TrianglesBuilt += Entry->Triangles;
-		Need = std::max(Need, Bytes);
-	}
+	ChooseRebuilds(Due, Interval, Need);
 	Stats.Refitted = static_cast<uint32_t>(Work.size()) - Stats.Rebuilt;
 	IRTBuffer* Unused = nullptr;
 	return Need > 0 ? ReserveScratch(Need, Unused) : FRTStatus::Success();

@@ -170,6 +170,8 @@ private:
 	void UpdateSizes(FEntry& Entry);
 	void Queue(FEntry& Entry);
 	FRTStatus ChooseRefits();
+	/// Which of Due are built instead; Need: the largest scratch so far.
+	void ChooseRebuilds(std::vector<FEntry*>& Due, uint32_t Interval, uint64_t& Need);
 	FRTStatus ChooseBuilds(bool bBuildAll);
 	void OrderPending(bool bBuildAll);
 	FRTStatus ChooseBuild(FEntry& Entry, bool bBuildAll, uint64_t Share, bool& bOutStop);
