@@ -176,6 +176,7 @@ TEST_F(FTableBindingTest, GrowthWaitsForNothingAndKeepsWhatWasWritten)
 TEST_F(FTableBindingTest, ModeOfThePaperWritesAndCopiesEverythingEachFrame)
 {
 	AddRanges(1000);
+	Frame();
 	SetMode(0);
 	for (int I = 0; I < 3; ++I)
 	{

@@ -112,25 +112,27 @@ FRTStatus FShaderBindings::Prepare(const FRTPSO& Pipeline, FSectionTable& Sectio
 		GroupsRevision = ~0ull;
 	}
 	std::vector<uint32_t> Changed = Sections.TakeChanged();
+	LookUpGroups(Pipeline, Sections);
+	if (bRewrite)
+	{
+		WriteAll(Sections);
+	}
+	else if (!bSamePipeline)
+	{
+		WriteHandles(Sections);
+	}
+	if (bRewrite || !bSamePipeline)
+	{
+		WriteHandlesBehind(Sections);
+	}
+	RecordsUsed = std::max(RecordsUsed, Sections.GetCapacity() * RayTypes);
 	if (bEachFrame)
 	{
 		WriteEveryRange(Pipeline, Sections);
 	}
-	else
+	else if (!bRewrite)
 	{
-		LookUpGroups(Pipeline, Sections);
-		if (bRewrite)
-		{
-			WriteAll(Sections);
-		}
-		else
-		{
-			if (!bSamePipeline)
-			{
-				WriteHandles(Sections);
-			}
-			WriteChanged(Sections, std::move(Changed));
-		}
+		WriteChanged(Sections, std::move(Changed));
 	}
 	bRewrite = false;
 	return Table->Stage();
@@ -250,10 +252,21 @@ void FShaderBindings::WriteHandles(const FSectionTable& Sections)
 	Stats.HandlesWritten += Sections.GetCapacity() * RayTypes;
 }
 
+void FShaderBindings::WriteHandlesBehind(const FSectionTable& Sections)
+{
+	// Fewer ray types need fewer records. No ray reaches the others, but they must not keep handles that are gone.
+	const uint32_t End = Sections.GetCapacity() * RayTypes;
+	std::array<uint32_t, 1024> OfRecords;
+	OfRecords.fill(Groups[0]);
+	for (uint32_t First = End; First < RecordsUsed; First += static_cast<uint32_t>(OfRecords.size()))
+	{
+		const uint32_t Count = std::min(static_cast<uint32_t>(OfRecords.size()), RecordsUsed - First);
+		Table->SetGroups(ERTRecordKind::Hit, First, Count, OfRecords.data());
+	}
+}
+
 void FShaderBindings::WriteEveryRange(const FRTPSO& Pipeline, const FSectionTable& Sections)
 {
-	std::vector<uint32_t> OfRange;
-	std::vector<FSectionData> Data;
 	for (FSectionRangeId Id = 0; Id < Sections.GetRangeCapacity(); ++Id)
 	{
 		const FSectionRange& Range = Sections.GetRange(Id);
@@ -261,20 +274,18 @@ void FShaderBindings::WriteEveryRange(const FRTPSO& Pipeline, const FSectionTabl
 		{
 			continue;
 		}
-		OfRange.clear();
-		Data.clear();
 		for (uint32_t Section = Range.First; Section < Range.First + Range.Count; ++Section)
 		{
+			const FSectionData& Data = Sections.Get(Section);
+			const FHitProgram Program = Sections.GetHitProgram(Section);
 			for (uint32_t Type = 0; Type < RayTypes; ++Type)
 			{
-				OfRange.push_back(Pipeline.HitGroup(Type, Sections.GetHitProgram(Section)));
-				Data.push_back(Sections.Get(Section));
+				Table->SetRecord(ERTRecordKind::Hit, Section * RayTypes + Type, Pipeline.HitGroup(Type, Program), &Data,
+				                 sizeof(Data));
 			}
 		}
-		Table->SetHitRecords(Range.First * RayTypes, Range.Count * RayTypes, OfRange.data(), Data.data());
 		Stats.RecordsWritten += Range.Count * RayTypes;
 	}
-	GroupsRevision = ~0ull;
 }
 
 FRTStatus FShaderBindings::Record(IRTCommandList& List)

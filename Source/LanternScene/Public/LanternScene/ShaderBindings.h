@@ -53,6 +53,7 @@ private:
 	void WriteChanged(const FSectionTable& Sections, std::vector<uint32_t> Changed);
 	void WriteAll(const FSectionTable& Sections);
 	void WriteHandles(const FSectionTable& Sections);
+	void WriteHandlesBehind(const FSectionTable& Sections);
 	void WriteEveryRange(const FRTPSO& Pipeline, const FSectionTable& Sections);
 
 	IRTDevice& Device;
@@ -60,6 +61,7 @@ private:
 	const IRTPipeline* BoundPipeline = nullptr; // identity only; the table keeps it
 	uint64_t BoundSections = 0;                 // FSectionTable::GetIdentity
 	uint32_t RayTypes = 0;
+	uint32_t RecordsUsed = 0; // hit records that ever were
 	std::vector<uint32_t> Groups; // of each program slot and ray type
 	uint64_t GroupsRevision = ~0ull;
 	bool bRewrite = true;  // no record can be relied on
