@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <thread>
 
 #include "BenchPipelineShaders.h"
@@ -14,6 +15,13 @@ namespace
 {
 using FClock = std::chrono::steady_clock;
 double MsSince(FClock::time_point Start) { return std::chrono::duration<double, std::milli>(FClock::now() - Start).count(); }
+
+double GetProcessorMs()
+{
+	timespec Time{};
+	clock_gettime(CLOCK_THREAD_CPUTIME_ID, &Time);
+	return double(Time.tv_sec) * 1e3 + double(Time.tv_nsec) * 1e-6;
+}
 
 struct FTracePush
 {
@@ -52,7 +60,7 @@ class FHitchBench
 public:
 	FHitchBench(IRTDevice& InDevice, const FRendererDesc& Desc) : Device(InDevice), Engine(InDevice, Desc) {}
 	FRTStatus Load(uint32_t Materials);
-	FRTStatus Frame(double& OutMs);
+	FRTStatus Frame(FFrameTime& Out);
 	FRTPSOCompiler& GetCompiler() { return Engine.GetRenderer().GetRayCompiler(); }
 	FRTScene& GetScene() { return Engine.GetScene().GetScene(); }
 	FMaterialPrograms& GetPrograms() { return Engine.GetRenderer().GetPrograms(); }
@@ -82,10 +90,11 @@ FRTStatus FHitchBench::Load(uint32_t Materials)
 }
 
 /// The plugin's whole frame, with one dispatch of camera rays that run the materials' closest-hit shaders.
-FRTStatus FHitchBench::Frame(double& OutMs)
+FRTStatus FHitchBench::Frame(FFrameTime& Out)
 {
 	FRenderer& Renderer = Engine.GetRenderer();
 	const auto Start = FClock::now();
+	const double StartProcessor = GetProcessorMs();
 	FFrameFeatures Features;
 	Features.bWaitForPipelines = false;
 	Features.bRays = true;
@@ -111,8 +120,8 @@ FRTStatus FHitchBench::Frame(double& OutMs)
 		});
 	}
 	const FRTStatus Status = Renderer.EndFrame(nullptr);
-	OutMs = MsSince(Start);
-	if (OutMs < PaceMs) { std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(PaceMs - OutMs)); }
+	Out = {MsSince(Start), GetProcessorMs() - StartProcessor};
+	if (Out.Ms < PaceMs) { std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(PaceMs - Out.Ms)); }
 	return Status;
 }
 } // namespace
@@ -124,15 +133,15 @@ FRTStatus MeasureHitches(IRTDevice& Device, const FRendererDesc& Desc, uint32_t 
 	Bench.PaceMs = PaceMs;
 	if (FRTStatus S = Bench.Load(Materials); !S) { return S; }
 	constexpr uint32_t WarmUp = 60, Idle = 300;
-	double Ms = 0.0;
+	FFrameTime Time;
 	for (uint32_t Index = 0; Index < WarmUp || Bench.GetCompiler().GetStats().bBusy; ++Index)
 	{
-		if (FRTStatus S = Bench.Frame(Ms); !S) { return S; }
+		if (FRTStatus S = Bench.Frame(Time); !S) { return S; }
 	}
 	for (uint32_t Index = 0; Index < Idle; ++Index)
 	{
-		if (FRTStatus S = Bench.Frame(Ms); !S) { return S; }
-		Out.IdleMs.push_back(Ms);
+		if (FRTStatus S = Bench.Frame(Time); !S) { return S; }
+		Out.Idle.push_back(Time);
 	}
 	const uint64_t Salt = MakeSalt();
 	std::vector<FHitProgram> Programs;
@@ -143,8 +152,8 @@ FRTStatus MeasureHitches(IRTDevice& Device, const FRendererDesc& Desc, uint32_t 
 	}
 	while (Out.Ready < Materials)
 	{
-		if (FRTStatus S = Bench.Frame(Ms); !S) { return S; }
-		Out.CompilingMs.push_back(Ms);
+		if (FRTStatus S = Bench.Frame(Time); !S) { return S; }
+		Out.Compiling.push_back(Time);
 		const auto Current = Bench.GetCompiler().GetCurrent();
 		const FRTPSOCompilerStats Stats = Bench.GetCompiler().GetStats();
 		if (Stats.Failures > 0 || (!Stats.bBusy && Stats.Ready < Stats.Wanted)) { return FRTStatus::Error(ERTResult::CompileFailed, "a material of the benchmark does not compile"); }

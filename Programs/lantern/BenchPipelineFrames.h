@@ -8,10 +8,17 @@
 namespace Lantern
 {
 
+/// A frame by the clock, and what of it the render thread had a processor for. The rest is waiting: for the GPU, for a
+/// lock, or for other programs on a busy machine.
+struct FFrameTime
+{
+	double Ms = 0.0, ProcessorMs = 0.0;
+};
+
 struct FHitchRun
 {
-	std::vector<double> IdleMs;      ///< frames before anything is to be compiled
-	std::vector<double> CompilingMs; ///< frames from the moment all materials change until all are ready
+	std::vector<FFrameTime> Idle;      ///< frames before anything is to be compiled
+	std::vector<FFrameTime> Compiling; ///< frames from the moment all materials change until all are ready
 	uint32_t Ready = 0;              ///< materials that are, at the end
 };
 

@@ -3,6 +3,7 @@
 #include "../Library/Bindings.glsl"
 #include "../Materials/Material.glsl"
 #include "MaterialPayload.glsl"
+#include "StandIn.glsl"
 
 layout(shaderRecordEXT, scalar) readonly buffer FRecord { FSectionData Section; };
 layout(push_constant, scalar) uniform FPush { FPassConstants Pass; };
@@ -12,6 +13,7 @@ hitAttributeEXT vec2 Barycentrics;
 void main()
 {
 	FSceneConstants Scene = FSceneRef(Pass.Scene).Data;
+	CountStandIn(Scene.StandInHits, Section.Material);
 	FMaterialData Material = FMaterialRef(Scene.Materials).Data[Section.Material];
 	FMaterialInputs Inputs = FetchInputs(Section, gl_PrimitiveID, Barycentrics);
 	Inputs.Normal = (Inputs.Normal * gl_WorldToObjectEXT).xyz;

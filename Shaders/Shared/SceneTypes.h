@@ -150,8 +150,9 @@ struct FSceneConstants
 	ivec3 OriginCell;      // its centre is the scene's origin
 	uint Pad0;
 	FAddress AnyHitCounter; // of alpha tests under rays, where they count (r.RT.Opacity.Count)
+	FAddress StandInHits;   // uint[], by material: rays that hit its stand-in; 0: nobody counts
 };
-LANTERN_ASSERT_SIZE(FSceneConstants, 128);
+LANTERN_ASSERT_SIZE(FSceneConstants, 136);
 
 // A camera. Positions are relative to the scene's origin.
 struct FViewConstants

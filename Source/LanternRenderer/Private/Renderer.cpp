@@ -1,5 +1,6 @@
 #include "LanternRenderer/Renderer.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "LanternRenderer/Frame.h"
 #include "PassTools.h"
 #include "RayPrograms.h"
+#include "StandInFeedback.h"
 #include "Skinning/RefitQuality.h"
 
 namespace Lantern
@@ -28,7 +30,8 @@ constexpr uint64_t WaitNs = 120'000'000'000ull;
 
 FRenderer::FRenderer(IRTDevice& InDevice, FRendererDesc Desc)
     : Device(InDevice), Compiler(FShaderCompilerDesc{std::move(Desc.ShaderFolders), Desc.CacheFolder}), Pipelines(InDevice, Compiler),
-      Uploads(InDevice), GraphResources(InDevice), RefitQuality(std::make_unique<FRefitQuality>(InDevice)), Bindings(InDevice), AnyHits(InDevice), RayCompiler(InDevice, Compiler, Programs)
+      Uploads(InDevice), GraphResources(InDevice), RefitQuality(std::make_unique<FRefitQuality>(InDevice)), Bindings(InDevice), AnyHits(InDevice), RayCompiler(InDevice, Compiler, Programs),
+      StandIns(std::make_unique<FStandInFeedback>(InDevice))
 {
 	if (!FTaskTrace::HasFolder()) { FTaskTrace::SetFolder(Desc.CacheFolder); }
 }
@@ -61,6 +64,7 @@ FRTStatus FRenderer::WaitForSlot()
 FRTStatus FRenderer::PrepareRayPipeline(const FFrameFeatures& Features)
 {
 	Context->RayPipeline = nullptr;
+	bStandIns = false;
 	const FRayPrograms Wanted = ChooseRayPrograms(Device.GetCapabilities(), *Context, Features);
 	if (Wanted.Desc.RayGens.empty())
 	{
@@ -71,9 +75,15 @@ FRTStatus FRenderer::PrepareRayPipeline(const FFrameFeatures& Features)
 	{
 		if (FRTStatus S = RayCompiler.Finish(Wanted.Desc); !S) { return S; }
 	}
-	else { RayCompiler.Update(Wanted.Desc); }
+	else
+	{
+		RayCompiler.SetPriorities(StandIns->GetPriorities());
+		RayCompiler.Update(Wanted.Desc);
+	}
 	RayPipeline = RayCompiler.GetCurrent();
 	if (!RayPipeline) { return FRTStatus::Success(); }
+	const auto IsReady = [&](FHitProgram Program) { return RayPipeline->GetState(Program) == ERTHitState::Ready; };
+	bStandIns = !std::all_of(Wanted.Desc.HitPrograms.begin(), Wanted.Desc.HitPrograms.end(), IsReady);
 	std::vector<FHitProgram> Missing = Wanted.Desc.HitPrograms;
 	std::erase_if(Missing, [&](FHitProgram Program) { return !RayPipeline->IsMissing(Program); });
 	Context->Scene.SetMissingPrograms(std::move(Missing));
@@ -109,6 +119,7 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	if (Status) { Status = StartUpdate(View, Features); }
 	if (Status) { Status = AllocateConstants(); }
 	if (Status) { Status = AnyHits.Begin(); }
+	if (Status) { Status = StandIns->Begin(Scene, View.Position, bStandIns); }
 	if (Status) { Status = AddSkinningPass(*Context, Uploads, Features.Skinning); }
 	if (!Status)
 	{
@@ -116,6 +127,7 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 		return Status;
 	}
 	AnyHits.AddClear(*Graph);
+	StandIns->AddClear(*Graph);
 	AddTables();
 	if (Features.bRays && !Features.bLateRays) { AddRayPasses(); }
 	return FRTStatus::Success();
@@ -181,6 +193,7 @@ void FRenderer::WriteConstants()
 {
 	FSceneConstants OfScene = Context->Scene.GetConstants();
 	OfScene.AnyHitCounter = AnyHits.GetAddress();
+	OfScene.StandInHits = StandIns->GetAddress();
 	const FViewConstants OfView = MakeViewConstants(Context->View, Context->Scene.GetOrigin());
 	std::memcpy(SceneConstants.Data, &OfScene, sizeof(OfScene));
 	std::memcpy(ViewConstants.Data, &OfView, sizeof(OfView));
@@ -248,6 +261,7 @@ FRTStatus FRenderer::Execute(IRTCommandList& List)
 	assert(Graph);
 	AddRayPasses(); // also where nobody asked: what was begun is recorded, so that the next frame finds it done
 	AnyHits.AddRead(*Graph);
+	StandIns->AddRead(*Graph);
 	FRTStatus Status = FrameStatus;
 	if (Status)
 	{
@@ -292,6 +306,7 @@ void FRenderer::FrameSubmitted(FRTFence Fence)
 	Fences[Slot] = Fence;
 	Uploads.EndFrame(Fence);
 	AnyHits.Submitted(Fence);
+	StandIns->Submitted(Fence);
 	Context->Scene.EndFrame(Fence != 0, Fence);
 	RefitQuality->EndFrame(Context->Scene.GetGeometries(), Fence);
 	Context.reset();

@@ -10,11 +10,11 @@ namespace
 constexpr const char* MaterialHeader = "Materials/Material.glsl";
 }
 
-FMaterialPrograms::FMaterialPrograms() { Add({.Name = "Standard"}); }
+FMaterialPrograms::FMaterialPrograms() { Add({.Name = StandardProgramName}); }
 
 uint32_t FMaterialPrograms::Add(FMaterialProgramDesc Desc)
 {
-	Entries.push_back({std::move(Desc), 0});
+	Entries.push_back({std::make_shared<const FMaterialProgramDesc>(std::move(Desc)), 0});
 	return GetCount() - 1;
 }
 
@@ -22,25 +22,23 @@ void FMaterialPrograms::Edit(uint32_t Program, FMaterialProgramDesc Desc)
 {
 	assert(Program < GetCount());
 	FEntry& Entry = Entries[Program];
-	if (Entry.Desc == Desc) { return; }
-	Entry.Desc = std::move(Desc);
+	if (*Entry.Desc == Desc) { return; }
+	Entry.Desc = std::make_shared<const FMaterialProgramDesc>(std::move(Desc));
 	++Entry.Revision;
 	++Edits;
 }
 
-FShaderSource FMaterialPrograms::MakeSource(FShaderSource Shader, uint32_t Program) const
+FShaderSource FMaterialPrograms::MakeSource(FShaderSource Shader, const FMaterialProgramDesc& Program)
 {
-	assert(Program < GetCount());
-	const FMaterialProgramDesc& Desc = Entries[Program].Desc;
-	if (Program != StandardProgram) { Shader.Name = (Shader.Name.empty() ? Shader.Path : Shader.Name) + " (" + Desc.Name + ")"; }
-	if (!Desc.Text.empty())
+	if (Program.Name != StandardProgramName) { Shader.Name = (Shader.Name.empty() ? Shader.Path : Shader.Name) + " (" + Program.Name + ")"; }
+	if (!Program.Text.empty())
 	{
-		const std::string Name = Desc.Path.empty() ? "Materials/" + Desc.Name + ".glsl" : Desc.Path;
-		Shader.Headers.push_back({MaterialHeader, Desc.Text, Name});
+		const std::string Name = Program.Path.empty() ? "Materials/" + Program.Name + ".glsl" : Program.Path;
+		Shader.Headers.push_back({MaterialHeader, Program.Text, Name});
 	}
-	else if (!Desc.Path.empty())
+	else if (!Program.Path.empty())
 	{
-		Shader.Headers.push_back({MaterialHeader, "#include \"" + Desc.Path + "\"\n", MaterialHeader});
+		Shader.Headers.push_back({MaterialHeader, "#include \"" + Program.Path + "\"\n", MaterialHeader});
 	}
 	return Shader;
 }

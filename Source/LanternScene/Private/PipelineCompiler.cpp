@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "LanternCore/ConsoleVariables.h"
 #include "PipelineCompilerImpl.h"
@@ -78,6 +79,7 @@ void FRTPSOCompiler::FImpl::TakeLink()
 	if (Current.bExact) { Recent.push_front(std::move(Current)); }
 	if (Recent.size() > MostRecent) { Recent.pop_back(); }
 	Current = std::move(Linked);
+	Taken = Current.Pipeline;
 	Current.LastUsed = Frame;
 	Linked = {};
 }
@@ -87,6 +89,7 @@ void FRTPSOCompiler::FImpl::Begin(const FRTPSODesc& Desc, bool bWait)
 	++Frame;
 	RoundMs = CVarRoundMs.GetOnRenderThread();
 	KeepFrames = CVarKeepFrames.GetOnRenderThread();
+	if (NewPriorities) { Priorities = std::exchange(NewPriorities, std::nullopt).value(); }
 	StartThreads();
 	TakeLink();
 	SetWanted(Desc, bWait ? std::nullopt : std::optional(GetPipelineFallback() == ERTFallback::StandIn));
@@ -101,8 +104,9 @@ void FRTPSOCompiler::FImpl::Begin(const FRTPSODesc& Desc, bool bWait)
 
 void FRTPSOCompiler::Update(const FRTPSODesc& Wanted)
 {
-	const std::lock_guard Lock(Impl->Mutex);
-	if (Impl->bLost) { return; }
+	// A thread of lower priority may be kept from running while it holds the lock: then this frame goes on without.
+	const std::unique_lock Lock(Impl->Mutex, std::try_to_lock);
+	if (!Lock.owns_lock() || Impl->bLost) { return; }
 	Impl->Begin(Wanted, false);
 	Impl->EndRoundIfOver();
 	if (Impl->bDirty)
@@ -206,17 +210,9 @@ FRTStatus FRTPSOCompiler::Finish(const FRTPSODesc& Wanted, const std::function<v
 	return Status;
 }
 
-std::shared_ptr<const FRTPSO> FRTPSOCompiler::GetCurrent() const
-{
-	const std::lock_guard Lock(Impl->Mutex);
-	return Impl->Current.Pipeline;
-}
+std::shared_ptr<const FRTPSO> FRTPSOCompiler::GetCurrent() const { return Impl->Taken; }
 
-void FRTPSOCompiler::SetPriorities(std::vector<FProgramPriority> ByProgram)
-{
-	const std::lock_guard Lock(Impl->Mutex);
-	Impl->Priorities = std::move(ByProgram);
-}
+void FRTPSOCompiler::SetPriorities(std::vector<FProgramPriority> ByProgram) { Impl->NewPriorities = std::move(ByProgram); }
 
 void FRTPSOCompiler::Reload()
 {

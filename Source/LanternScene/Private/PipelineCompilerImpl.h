@@ -158,6 +158,9 @@ struct FRTPSOCompiler::FImpl
 	FShaderCompiler& Compiler;
 	const FMaterialPrograms& Programs;
 
+	std::shared_ptr<const FRTPSO> Taken; ///< Current's pipeline; the render thread's, without Mutex
+	std::optional<std::vector<FProgramPriority>> NewPriorities; ///< the same
+
 	mutable std::mutex Mutex;
 	std::condition_variable WorkAdded, SomethingDone;
 	bool bStop = false;

@@ -88,7 +88,7 @@ void FRTPSOCompiler::FImpl::CompileNext(std::unique_lock<std::mutex>& Lock)
 std::string FRTPSOCompiler::FImpl::GetContentKey(const FPipelineUnit& Unit)
 {
 	std::string Key;
-	for (const FShaderSource& Source : Unit.Shaders) { Key += Compiler.GetKey(Source) + ' '; }
+	for (size_t I = 0; I < Unit.Shaders.size(); ++I) { Key += Compiler.GetKey(Unit.GetSource(I)) + ' '; }
 	return Key;
 }
 
@@ -97,10 +97,10 @@ FRTStatus FRTPSOCompiler::FImpl::CompileShaders(FJob& Job, FPipelineBuild& Build
 	const auto Start = FPipelineClock::now();
 	Build.Kind = Job.Unit.Kind;
 	FRTStatus Status;
-	for (const FShaderSource& Source : Job.Unit.Shaders)
+	for (size_t I = 0; I < Job.Unit.Shaders.size(); ++I)
 	{
-		Build.Stages.push_back(Source.Stage);
-		Status = Status ? GetBinary(Source, Job.Version, Build.Codes.emplace_back()) : Status;
+		Build.Stages.push_back(Job.Unit.Shaders[I].Stage);
+		Status = Status ? GetBinary(Job.Unit.GetSource(I), Job.Version, Build.Codes.emplace_back()) : Status;
 	}
 	Job.GlslangMs = MsSince(Start);
 	return Status;

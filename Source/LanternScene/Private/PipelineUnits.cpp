@@ -74,15 +74,16 @@ FPipelineUnit MakeHitUnit(const FRTPSODesc& Desc, uint32_t RayType, FHitProgram 
 	constexpr const char* Classes[HitClassCount] = {" opaque", " masked", " procedural"};
 	Unit.Name = Programs.Get(Program.Program).Name + ' ' + Type.Name + Classes[static_cast<uint32_t>(Program.Class)];
 	Unit.Version = Programs.GetRevision(Program.Program);
+	Unit.Program = Programs.Share(Program.Program);
 	Unit.Kind = Program.Class == ERTHitClass::Procedural ? ERTGroupKind::Procedural : ERTGroupKind::Triangles;
-	if (Type.ClosestHit) { AddShader(Unit, Programs.MakeSource(*Type.ClosestHit, Program.Program), ERTShaderStage::ClosestHit); }
-	if (Program.Class == ERTHitClass::Masked) { AddShader(Unit, Programs.MakeSource(Type.MaskedAnyHit, Program.Program), ERTShaderStage::AnyHit); }
+	if (Type.ClosestHit) { AddShader(Unit, *Type.ClosestHit, ERTShaderStage::ClosestHit); }
+	if (Program.Class == ERTHitClass::Masked) { AddShader(Unit, Type.MaskedAnyHit, ERTShaderStage::AnyHit); }
 	if (Program.Class == ERTHitClass::Procedural)
 	{
 		FShaderSource Source;
 		Source.Path = Programs.Get(Program.Program).IntersectionPath;
 		if (Source.Path.empty()) { Source.Path = "Rays/NoIntersection.rint"; }
-		AddShader(Unit, Programs.MakeSource(std::move(Source), Program.Program), ERTShaderStage::Intersection);
+		AddShader(Unit, std::move(Source), ERTShaderStage::Intersection);
 	}
 	for (FShaderSource& Source : Unit.Shaders)
 	{
@@ -99,7 +100,7 @@ FPipelineUnit MakeStandInUnit(const FRTPSODesc& Desc, uint32_t RayType, ERTHitCl
 	for (FShaderSource& Source : Unit.Shaders)
 	{
 		Source.Name = Source.Path + " (StandIn)";
-		if (Source.Stage == ERTShaderStage::ClosestHit) { Source.Defines.emplace_back("STAND_IN", "1"); }
+		if (Source.Stage != ERTShaderStage::Intersection) { Source.Defines.emplace_back("STAND_IN", "1"); }
 		if (Source.Stage == ERTShaderStage::Intersection) { Source.Path = "Rays/NoIntersection.rint"; }
 	}
 	return Unit;

@@ -11,7 +11,10 @@ struct FPipelineUnit
 	std::string Key; ///< names the group; the same for all versions of its text
 	std::string Name;
 	ERTGroupKind Kind = ERTGroupKind::General;
-	std::vector<FShaderSource> Shaders; ///< with their stages; none: the group runs nothing
+	std::vector<FShaderSource> Shaders; ///< with their stages, without the program; none: the group runs nothing
+	std::shared_ptr<const FMaterialProgramDesc> Program; ///< null: they do not depend on one
+	/// Shaders[Index] as the compiler is to see it.
+	FShaderSource GetSource(size_t Index) const { return Program ? FMaterialPrograms::MakeSource(Shaders[Index], *Program) : Shaders[Index]; }
 	uint64_t Version = 0;               ///< of the program's text
 };
 

@@ -23,11 +23,12 @@ struct FMonolith
 	{
 		std::vector<uint32_t> Indices;
 		std::vector<ERTShaderStage> Stages;
-		for (const FShaderSource& Source : Unit.Shaders)
+		for (size_t I = 0; I < Unit.Shaders.size(); ++I)
 		{
+			FShaderSource Source = Unit.GetSource(I);
 			Stages.push_back(Source.Stage);
 			const auto [It, bNew] = Known.try_emplace(MakeSourceKey(Source) + Source.Name, static_cast<uint32_t>(Sources.size()));
-			if (bNew) { Sources.push_back(Source); }
+			if (bNew) { Sources.push_back(std::move(Source)); }
 			Indices.push_back(It->second);
 		}
 		Groups.push_back(MakeGroup(Unit.Kind, Stages, Indices));

@@ -55,6 +55,7 @@ struct FFrameFeatures
 
 class FRefitQuality;
 class FRenderer;
+class FStandInFeedback;
 
 /// Given to every pass.
 struct FFrameContext
@@ -148,6 +149,8 @@ private:
 	FAnyHitCounter AnyHits;
 	FMaterialPrograms Programs;
 	FRTPSOCompiler RayCompiler;
+	std::unique_ptr<FStandInFeedback> StandIns;
+	bool bStandIns = false; // some hit program of the frame is not ready
 	std::shared_ptr<const FRTPSO> RayPipeline;
 	std::unique_ptr<FFrameGraph> Graph;
 	std::unique_ptr<FFrameContext> Context;

@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ namespace Lantern
 
 /// glTF metallic-roughness, Materials/Standard.glsl. Always there.
 inline constexpr uint32_t StandardProgram = 0;
+inline constexpr const char* StandardProgramName = "Standard";
 
 struct FMaterialProgramDesc
 {
@@ -59,17 +61,20 @@ public:
 	/// The new text is compiled and takes the old one's place when it is ready; if it does not compile, the old one stays.
 	void Edit(uint32_t Program, FMaterialProgramDesc Desc);
 	uint32_t GetCount() const { return static_cast<uint32_t>(Entries.size()); }
-	const FMaterialProgramDesc& Get(uint32_t Program) const { return Entries[Program].Desc; }
+	const FMaterialProgramDesc& Get(uint32_t Program) const { return *Entries[Program].Desc; }
+	/// Stays as it is when the program is edited. For other threads.
+	const std::shared_ptr<const FMaterialProgramDesc>& Share(uint32_t Program) const { return Entries[Program].Desc; }
 	uint32_t GetRevision(uint32_t Program) const { return Entries[Program].Revision; } ///< changes with each Edit
 	uint64_t GetEdits() const { return Edits; } ///< of all programs so far
 
 	/// Shader with Program for its material: "Materials/Material.glsl" is the program's text.
-	FShaderSource MakeSource(FShaderSource Shader, uint32_t Program) const;
+	FShaderSource MakeSource(FShaderSource Shader, uint32_t Program) const { return MakeSource(std::move(Shader), Get(Program)); }
+	static FShaderSource MakeSource(FShaderSource Shader, const FMaterialProgramDesc& Program);
 
 private:
 	struct FEntry
 	{
-		FMaterialProgramDesc Desc;
+		std::shared_ptr<const FMaterialProgramDesc> Desc;
 		uint32_t Revision = 0;
 	};
 	std::vector<FEntry> Entries;

@@ -95,6 +95,7 @@ public:
 	uint32_t AddMaterial(const FMaterialData& Material, uint32_t Program = StandardProgram);
 	void SetMaterial(uint32_t Index, const FMaterialData& Material);
 	void SetMaterialProgram(uint32_t Index, uint32_t Program);
+	uint32_t GetMaterialProgram(uint32_t Index) const { return MaterialPrograms[Index]; }
 	/// No object may have it. Its index is given to a material that comes later.
 	void RemoveMaterial(uint32_t Index);
 	const TGpuTable<FMaterialData>& GetMaterials() const { return Materials; }
@@ -106,6 +107,9 @@ public:
 	void SetTransform(FRTObjectId Id, const glm::dmat4& Transform);
 	void SetMaterials(FRTObjectId Id, std::vector<uint32_t> SectionMaterials);
 	const FRTObjectInfo& GetObject(FRTObjectId Id) const;
+	/// For a walk over all objects: slots below the count, of which some may be empty (null).
+	uint32_t GetObjectSlotCount() const { return static_cast<uint32_t>(Objects.size()); }
+	const FRTObjectInfo* FindObject(uint32_t Slot) const { return Objects[Slot].bAlive ? &Objects[Slot].Info : nullptr; }
 	/// Of its first section in FSectionData[]; the object's own data is at Id.Index in FObjectData[].
 	uint32_t GetFirstSection(FRTObjectId Id) const;
 
