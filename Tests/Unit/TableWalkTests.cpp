@@ -90,7 +90,7 @@ TEST(TableWalk, FindsOneWrongRecordAndShrinksToIt)
 	ASSERT_FALSE(Result.Failure.empty());
 	EXPECT_GT(Result.Step, Before);
 	const std::vector<FWalkStep> Fewest = ShrinkWalk(Settings, {Steps.begin(), Steps.begin() + Result.Step + 1});
-	EXPECT_LE(Fewest.size(), 5u) << ToString(Fewest);
+	EXPECT_LE(Fewest.size(), 8u) << ToString(Fewest);
 	EXPECT_EQ(std::count_if(Fewest.begin(), Fewest.end(),
 	                        [](const FWalkStep& Step) { return Step.Kind == EWalkStep::Corrupt; }),
 	          1);
