@@ -109,6 +109,7 @@ private:
 	{
 		std::vector<glm::dmat4> Movers;
 		std::vector<std::vector<glm::mat4>> Joints;
+		std::vector<std::pair<FRTObjectId, std::vector<uint32_t>>> Materials;
 	};
 	FView MakeView() const;
 	FChanges MakeChanges() const;
@@ -147,6 +148,7 @@ FRTStatus FFrameBench::Load()
 	Sun.Irradiance = 4.0f;
 	Sun.AngularDiameter = 0.0093f;
 	Host->SetSun(Sun);
+	GBufferPass.SetMinPixels(1.0f);
 	Host->GetScene().SetSky(glm::vec3(0.4f, 0.6f, 1.0f));
 	if (Options.bMock)
 	{
@@ -177,6 +179,13 @@ FFrameBench::FChanges FFrameBench::MakeChanges() const
 	for (uint32_t I = 0; I < World.Characters.size(); ++I)
 	{
 		Changes.Joints.push_back(BendCharacter(I, Frame));
+	}
+	const size_t Rigid = Host->GetInstanceCount() - World.Characters.size() - 1;
+	for (uint32_t I = 0; I < Options.World.Repainted; ++I)
+	{
+		const size_t Instance = 1 + (size_t(Frame) * 7919 + I * 131) % Rigid;
+		const FHostNode& Node = Host->GetDescription().Nodes[Instance];
+		Changes.Materials.emplace_back(Host->GetDraws()[Instance].Object, Repaint(Node.Materials, Frame));
 	}
 	return Changes;
 }
@@ -209,6 +218,10 @@ FRTStatus FFrameBench::RenderFrame(FTimes* OutTimes)
 	for (size_t I = 0; I < World.Movers.size(); ++I)
 	{
 		Host->SetTransform(World.Movers[I], Changes.Movers[I]);
+	}
+	for (auto& [Object, Materials] : Changes.Materials)
+	{
+		Host->GetScene().SetMaterials(Object, std::move(Materials));
 	}
 	Features.Skinning.reserve(World.Characters.size());
 	for (size_t I = 0; I < World.Characters.size(); ++I)
@@ -290,6 +303,9 @@ nlohmann::json FFrameBench::ToJson() const
 	                       {"objects", Options.World.Objects},
 	                       {"skinned", Options.World.Characters},
 	                       {"moved", Options.World.Movers},
+	                       {"repainted", Options.World.Repainted},
+	                       {"section_ranges", Host->GetScene().GetSections().GetRangeCount()},
+	                       {"sections", Host->GetScene().GetSections().GetCapacity()},
 	                       {"threads", GetWorkerCount()},
 	                       {"width", Width},
 	                       {"height", Height},
@@ -400,6 +416,8 @@ void FBenchFrameOptions::AddTo(CLI::App& App)
 	App.add_option("--skinned", World.Characters, "Characters among them that deform each frame")
 	    ->check(CLI::Range(0, 900));
 	App.add_option("--moved", World.Movers, "Objects among them that move each frame")->check(CLI::Range(0, 4'000'000));
+	App.add_option("--repainted", World.Repainted, "Objects among them that get other materials each frame")
+	    ->check(CLI::Range(0, 4'000'000));
 	App.add_option("--rounds", Rounds, "Rounds of all stages in turn; two measured frames of each stage in each")
 	    ->check(CLI::Range(1, 10'000));
 	App.add_option("--size", Size, "WIDTHxHEIGHT, pixels")

@@ -28,8 +28,6 @@ enum EKind : uint32_t
 /// Of all objects, and meshes of the kind.
 constexpr double Share[KindCount] = {0.35, 0.25, 0.20, 0.15, 0.05};
 constexpr uint32_t MeshesOf[KindCount] = {96, 64, 96, 96, 48};
-/// Sets of materials that the objects of one mesh choose from.
-constexpr uint32_t MaterialSets = 32;
 
 enum EPalette : uint32_t
 {
@@ -282,19 +280,6 @@ FHostNode& FWorldMaker::AddNode(int32_t Mesh, double Spread)
 void FWorldMaker::Scatter()
 {
 	const uint32_t Rigid = Options.Objects - Options.Characters - 1;
-	// A mesh's sets of materials, drawn once: objects share them, as the same house stands in a few colours.
-	std::vector<std::vector<std::vector<int32_t>>> Sets(World.Scene.Meshes.size());
-	for (size_t Mesh = 0; Mesh < Sets.size(); ++Mesh)
-	{
-		for (uint32_t I = 0; I < MaterialSets; ++I)
-		{
-			std::vector<int32_t>& Set = Sets[Mesh].emplace_back();
-			for (const EPalette Palette : Palettes[Mesh])
-			{
-				Set.push_back(PickMaterial(Palette));
-			}
-		}
-	}
 	for (uint32_t I = 0; I < Rigid; ++I)
 	{
 		double Kind = double(I) / Rigid;
@@ -304,7 +289,11 @@ void FWorldMaker::Scatter()
 			Kind -= Share[K++];
 		}
 		const int32_t Mesh = Meshes[K][Below(uint32_t(Meshes[K].size()))];
-		AddNode(Mesh, Options.Extent).Materials = Sets[Mesh][Below(MaterialSets)];
+		FHostNode& Node = AddNode(Mesh, Options.Extent);
+		for (const EPalette Palette : Palettes[Mesh])
+		{
+			Node.Materials.push_back(PickMaterial(Palette));
+		}
 	}
 	for (uint32_t I = 0; I < Options.Movers; ++I)
 	{
@@ -357,6 +346,17 @@ glm::dmat4 MoveObject(const FHostNode& Node, uint32_t Index, uint32_t Frame)
 	Transform = glm::scale(Transform, glm::dvec3(Node.Scale));
 	Transform[3] = glm::dvec4(Node.Translation + glm::dvec3(4 * std::cos(Angle), 0, 4 * std::sin(Angle)), 1);
 	return Transform;
+}
+
+std::vector<uint32_t> Repaint(const std::vector<int32_t>& Materials, uint32_t Frame)
+{
+	std::vector<uint32_t> Painted;
+	for (const int32_t Material : Materials)
+	{
+		const uint32_t Palette = uint32_t(Material - 1) / PaletteSize, Old = uint32_t(Material - 1) % PaletteSize;
+		Painted.push_back(1 + Palette * PaletteSize + (Old + 7 * Frame + 1) % PaletteSize);
+	}
+	return Painted;
 }
 
 std::vector<glm::mat4> BendCharacter(uint32_t Index, uint32_t Frame)

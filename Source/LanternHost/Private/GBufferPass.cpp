@@ -4,8 +4,6 @@
 #include <utility>
 
 #include "GBufferTypes.h"
-#include "LanternCore/TaskTrace.h"
-#include "LanternCore/Tasks.h"
 #include "LanternHost/HostScene.h"
 
 namespace Lantern
@@ -35,11 +33,6 @@ FRTStatus CreatePipeline(FRenderer& Renderer, bool bMasked, ERTCull Cull, TRTRef
 }
 
 constexpr uint32_t NoDraw = ~0u;
-constexpr size_t CullGrain = 4096;
-constexpr uint32_t DistanceBins = 1024;
-
-/// Quarters of powers of two, which is near enough: depth tests spare the shading of what is hidden.
-uint32_t GetDistanceBin(double Distance) { return std::bit_cast<uint32_t>(static_cast<float>(std::max(0.0, Distance))) >> 21; }
 } // namespace
 
 IRTPipeline* FGBufferPass::GetPipeline(const FFrameContext& Context, bool bMasked, ERTCull Cull)
@@ -56,86 +49,55 @@ IRTPipeline* FGBufferPass::GetPipeline(const FFrameContext& Context, bool bMaske
 	return Entry.Get();
 }
 
-void FGBufferPass::CollectSeen(const FView& View, const FHostScene& Scene)
-{
-	const FViewFrustum Frustum(View);
-	const std::vector<FHostScene::FDraw>& Draws = Scene.GetDraws();
-	Chunks.resize((Draws.size() + CullGrain - 1) / CullGrain);
-	ParallelFor(Chunks.size(), 1, [&](size_t Begin, size_t End) {
-		FTraceScope Trace("G-buffer culling");
-		for (size_t Chunk = Begin; Chunk < End; ++Chunk)
-		{
-			Chunks[Chunk].clear();
-			for (size_t I = Chunk * CullGrain; I < std::min(Draws.size(), (Chunk + 1) * CullGrain); ++I)
-			{
-				const FHostScene::FDraw& Draw = Draws[I];
-				if (!Frustum.MaySee(Draw.Center, Draw.Radius)) { continue; }
-				Chunks[Chunk].push_back({static_cast<uint32_t>(I), GetDistanceBin(glm::distance(Draw.Center, View.Position) - Draw.Radius)});
-			}
-		}
-	});
-	Seen.clear();
-	for (const std::vector<FSeen>& Chunk : Chunks) { Seen.insert(Seen.end(), Chunk.begin(), Chunk.end()); }
-}
-
-void FGBufferPass::SortByDistance()
-{
-	std::array<uint32_t, DistanceBins> Next{};
-	for (const FSeen& Item : Seen) { ++Next[Item.Bin]; }
-	uint32_t First = 0;
-	for (uint32_t& Count : Next) { First += std::exchange(Count, First); }
-	Sorted.resize(Seen.size());
-	for (const FSeen& Item : Seen) { Sorted[Next[Item.Bin]++] = Item; }
-}
-
 /// One draw a batch, in the order of their nearest objects, and the objects of each, near before far.
-FRTStatus FGBufferPass::MakeBatchDraws(const FHostScene& Scene, FUploadSlice& OutObjects)
+FRTStatus FGBufferPass::MakeBatchDraws(FHostScene& Scene, FUploadSlice& OutObjects)
 {
 	const std::vector<uint32_t>& Indices = Scene.GetBatchIndices();
+	const auto ForEach = [&](auto Do) {
+		for (const FDrawBlocks::FSeen& InBlock : Seen)
+		{
+			const FDrawBlocks::FBlock& Block = Scene.GetDrawBlocks().GetBlock(InBlock.Block);
+			for (uint64_t Left = InBlock.Items; Left != 0; Left &= Left - 1)
+			{
+				const int Index = std::countr_zero(Left);
+				const FDrawBlocks::FItem& Item = Block.Items[Index];
+				const uint32_t Mirrored = (Block.Mirrored >> Index) & 1u;
+				for (uint32_t I = 0; I < Item.BatchCount; ++I) { Do(2 * Indices[Item.FirstBatch + I] + Mirrored, Item.Object); }
+			}
+		}
+	};
 	BatchDraws.clear();
 	DrawOfBatch.assign(2 * Scene.GetBatches().size(), NoDraw);
 	uint32_t Total = 0;
-	for (const FSeen& Item : Sorted)
-	{
-		const FHostScene::FDraw& Draw = Scene.GetDraws()[Item.Draw];
-		for (uint32_t I = 0; I < Draw.BatchCount; ++I)
+	ForEach([&](uint32_t Batch, uint32_t) {
+		uint32_t& Index = DrawOfBatch[Batch];
+		if (Index == NoDraw)
 		{
-			const uint32_t Batch = Indices[Draw.FirstBatch + I];
-			uint32_t& Index = DrawOfBatch[2 * Batch + Draw.bMirrored];
-			if (Index == NoDraw)
-			{
-				Index = static_cast<uint32_t>(BatchDraws.size());
-				BatchDraws.push_back({Batch, Draw.bMirrored});
-			}
-			++BatchDraws[Index].Count;
+			Index = static_cast<uint32_t>(BatchDraws.size());
+			BatchDraws.push_back({Batch / 2, Batch % 2 != 0});
 		}
-		Total += Draw.BatchCount;
-	}
+		++BatchDraws[Index].Count;
+		++Total;
+	});
 	if (Total == 0) { return FRTStatus::Success(); }
 	if (FRTStatus S = Renderer.GetUploads().Allocate(uint64_t(Total) * sizeof(uint32_t), OutObjects); !S) { return S; }
 	uint32_t First = 0;
-	for (FBatchDraw& BatchDraw : BatchDraws)
+	for (FBatchDraw& Draw : BatchDraws)
 	{
-		BatchDraw.First = First;
-		First += std::exchange(BatchDraw.Count, 0u);
+		Draw.First = First;
+		First += std::exchange(Draw.Count, 0u);
 	}
 	auto* const Objects = static_cast<uint32_t*>(OutObjects.Data);
-	for (const FSeen& Item : Sorted)
-	{
-		const FHostScene::FDraw& Draw = Scene.GetDraws()[Item.Draw];
-		for (uint32_t I = 0; I < Draw.BatchCount; ++I)
-		{
-			FBatchDraw& BatchDraw = BatchDraws[DrawOfBatch[2 * Indices[Draw.FirstBatch + I] + Draw.bMirrored]];
-			Objects[BatchDraw.First + BatchDraw.Count++] = Draw.Object.Index;
-		}
-	}
+	ForEach([&](uint32_t Batch, uint32_t Object) {
+		FBatchDraw& Draw = BatchDraws[DrawOfBatch[Batch]];
+		Objects[Draw.First + Draw.Count++] = Object;
+	});
 	return FRTStatus::Success();
 }
 
-void FGBufferPass::RecordDraws(FFrameContext& Frame, IRTCommandList& List, const FHostScene& Scene)
+void FGBufferPass::RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHostScene& Scene)
 {
-	CollectSeen(Frame.View, Scene);
-	SortByDistance();
+	Scene.GetDrawBlocks().Collect(Frame.View, MinPixels, Seen);
 	FUploadSlice Objects;
 	if (FRTStatus S = MakeBatchDraws(Scene, Objects); !S) { return Frame.Fail(S); }
 	const auto IsMasked = [&](const FBatchDraw& Draw) { return Scene.GetBatches()[Draw.Batch].bMasked; };
@@ -156,7 +118,7 @@ void FGBufferPass::RecordDraws(FFrameContext& Frame, IRTCommandList& List, const
 	}
 }
 
-FGBuffer FGBufferPass::Add(FFrameContext& Context, const FHostScene& Scene)
+FGBuffer FGBufferPass::Add(FFrameContext& Context, FHostScene& Scene)
 {
 	FFrameGraph& Graph = Context.Graph;
 	const auto Create = [&](ERTFormat Format, const char* Name) { return Graph.CreateTexture({Context.Width, Context.Height, Format}, Name); };

@@ -131,8 +131,8 @@ FRTStatus FHostScene::CreateObjects()
 		Instance.Object = Scene.AddObject(Info);
 		AddDraw(Instance, Info);
 		Instances.push_back(std::move(Instance));
-		PlaceDraw(Instances.size() - 1);
 	}
+	BuildDrawBlocks();
 	return FRTStatus::Success();
 }
 
@@ -168,22 +168,36 @@ uint32_t FHostScene::FindBatches(uint32_t Mesh, const std::vector<uint32_t>& Mat
 	return Entry->second;
 }
 
-void FHostScene::PlaceDraw(size_t Instance)
+FDrawSphere FHostScene::MakeDrawSphere(size_t Instance) const
 {
-	FDraw& Draw = Draws[Instance];
-	const glm::dmat4& Transform = Scene.GetObject(Draw.Object).Transform;
+	const glm::dmat4& Transform = Scene.GetObject(Draws[Instance].Object).Transform;
 	const FHostMesh& Mesh = Description.Meshes[Description.Nodes[Instances[Instance].Node].Mesh];
 	// No direction is stretched by more than this (the Frobenius norm).
 	const double Scale2 = glm::dot(Transform[0], Transform[0]) + glm::dot(Transform[1], Transform[1]) + glm::dot(Transform[2], Transform[2]);
-	Draw.Center = glm::dvec3(Transform * glm::dvec4(0.5f * (Mesh.BoundsMin + Mesh.BoundsMax), 1.0));
-	Draw.Radius = Instances[Instance].Skinned ? std::numeric_limits<double>::infinity() : std::sqrt(Scale2) * 0.5 * double(glm::length(Mesh.BoundsMax - Mesh.BoundsMin));
-	Draw.bMirrored = glm::determinant(glm::dmat3(Transform)) < 0.0;
+	FDrawSphere Sphere;
+	Sphere.Center = glm::dvec3(Transform * glm::dvec4(0.5f * (Mesh.BoundsMin + Mesh.BoundsMax), 1.0));
+	Sphere.Radius = Instances[Instance].Skinned ? std::numeric_limits<double>::infinity() : std::sqrt(Scale2) * 0.5 * double(glm::length(Mesh.BoundsMax - Mesh.BoundsMin));
+	Sphere.bMirrored = glm::determinant(glm::dmat3(Transform)) < 0.0;
+	return Sphere;
+}
+
+void FHostScene::BuildDrawBlocks()
+{
+	std::vector<FDrawBlocks::FItem> Items;
+	std::vector<FDrawSphere> Spheres;
+	for (size_t Instance = 0; Instance < Draws.size(); ++Instance)
+	{
+		const FDraw& Draw = Draws[Instance];
+		Items.push_back({Draw.Object.Index, Draw.FirstBatch, Draw.BatchCount});
+		Spheres.push_back(MakeDrawSphere(Instance));
+	}
+	DrawBlocks.Build(Items, Spheres);
 }
 
 void FHostScene::SetTransform(size_t Instance, const glm::dmat4& Transform)
 {
 	Scene.SetTransform(Instances[Instance].Object, Transform);
-	PlaceDraw(Instance);
+	DrawBlocks.Move(static_cast<uint32_t>(Instance), MakeDrawSphere(Instance));
 }
 
 FSkinningInputs FHostScene::MakeSkinning(size_t Instance, std::vector<glm::mat4> Joints) const

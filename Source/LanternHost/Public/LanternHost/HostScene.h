@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "LanternHost/DrawBlocks.h"
 #include "LanternHost/SceneDescription.h"
 #include "LanternRenderer/Frame.h"
 #include "LanternScene/OpacityClassifier.h"
@@ -53,11 +54,9 @@ public:
 	{
 		FRTObjectId Object;
 		uint32_t FirstBatch = 0, BatchCount = 0; ///< into GetBatchIndices()
-		glm::dvec3 Center{0};                    ///< bounding sphere, in the world
-		double Radius = 0.0;                     ///< infinite where it deforms
-		bool bMirrored = false;
 	};
 	const std::vector<FDraw>& GetDraws() const { return Draws; }
+	FDrawBlocks& GetDrawBlocks() { return DrawBlocks; }
 	const std::vector<FDrawBatch>& GetBatches() const { return Batches; }
 	const std::vector<uint32_t>& GetBatchIndices() const { return BatchIndices; }
 
@@ -98,7 +97,8 @@ private:
 	FRTStatus AddMaterials();
 	void AddDraw(const FInstance& Instance, const FRTObjectInfo& Info);
 	uint32_t FindBatches(uint32_t Mesh, const std::vector<uint32_t>& Materials, const FRTGeometry& Geometry);
-	void PlaceDraw(size_t Instance);
+	FDrawSphere MakeDrawSphere(size_t Instance) const;
+	void BuildDrawBlocks();
 	void UpdateLights();
 	int32_t FindOwnSun() const; // node, or -1
 
@@ -114,6 +114,7 @@ private:
 	FOpacityCounts OpacityCounts;
 	std::vector<FInstance> Instances;
 	std::vector<FDraw> Draws;
+	FDrawBlocks DrawBlocks;
 	std::vector<FDrawBatch> Batches;
 	std::vector<uint32_t> BatchIndices;
 	std::map<std::pair<uint32_t, std::vector<uint32_t>>, uint32_t> BatchesOf; // mesh and materials to first index
@@ -126,14 +127,12 @@ class FGBufferPass
 {
 public:
 	explicit FGBufferPass(FRenderer& InRenderer) : Renderer(InRenderer) {}
-	FGBuffer Add(FFrameContext& Context, const FHostScene& Scene);
+	/// Both must live until the frame's EndFrame.
+	FGBuffer Add(FFrameContext& Context, FHostScene& Scene);
+	/// What is smaller on the screen than so many pixels across is not drawn. 0, the default: all is.
+	void SetMinPixels(float Pixels) { MinPixels = Pixels; }
 
 private:
-	struct FSeen
-	{
-		uint32_t Draw = 0;
-		uint32_t Bin = 0; ///< of distance
-	};
 	struct FBatchDraw
 	{
 		uint32_t Batch = 0;
@@ -141,16 +140,14 @@ private:
 		uint32_t Count = 0, First = 0; ///< of the object indices
 	};
 	IRTPipeline* GetPipeline(const FFrameContext& Context, bool bMasked, ERTCull Cull);
-	void CollectSeen(const FView& View, const FHostScene& Scene);
-	void SortByDistance();
-	FRTStatus MakeBatchDraws(const FHostScene& Scene, FUploadSlice& OutObjects);
-	void RecordDraws(FFrameContext& Frame, IRTCommandList& List, const FHostScene& Scene);
+	FRTStatus MakeBatchDraws(FHostScene& Scene, FUploadSlice& OutObjects);
+	void RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHostScene& Scene);
 
 	FRenderer& Renderer;
 	TRTRef<IRTPipeline> Pipelines[2][3];
+	float MinPixels = 0.0f;
 	// Kept for their memory.
-	std::vector<std::vector<FSeen>> Chunks;
-	std::vector<FSeen> Seen, Sorted;
+	std::vector<FDrawBlocks::FSeen> Seen;
 	std::vector<FBatchDraw> BatchDraws;
 	std::vector<uint32_t> DrawOfBatch; // by 2 · batch + mirrored
 };

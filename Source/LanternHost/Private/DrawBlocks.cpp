@@ -1,0 +1,195 @@
+#include "LanternHost/DrawBlocks.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "LanternCore/TaskTrace.h"
+#include "LanternCore/Tasks.h"
+
+namespace Lantern
+{
+
+namespace
+{
+constexpr size_t BlockGrain = 256;
+
+/// Order along a Z curve over the ground, the infinite ones behind all others.
+uint64_t GetPlaceKey(const FDrawSphere& Sphere, const glm::dvec3& Min, double Scale)
+{
+	if (!std::isfinite(Sphere.Radius))
+	{
+		return ~0ull;
+	}
+	const glm::dvec3 At = glm::clamp((Sphere.Center - Min) * Scale, 0.0, 1048575.0);
+	uint64_t Key = 0;
+	for (int Bit = 0; Bit < 20; ++Bit)
+	{
+		for (int Axis = 0; Axis < 3; ++Axis)
+		{
+			Key |= ((uint64_t(At[Axis]) >> Bit) & 1u) << (3 * Bit + Axis);
+		}
+	}
+	return Key;
+}
+} // namespace
+
+/// FViewFrustum in fp32, for points relative to the camera.
+struct FDrawBlocks::FFrustum
+{
+	glm::dvec3 Eye;
+	glm::vec3 Right, Up, Forward;
+	float Near, CosX, SinX, CosY, SinY;
+	float SizePerDistance2 = 0.0f; // of a radius squared, by distance squared: smaller is too small
+
+	FFrustum(const FView& View, float MinPixels) : Eye(View.Position), Near(View.Near)
+	{
+		Forward = glm::normalize(View.Forward);
+		Right = glm::normalize(glm::cross(Forward, View.Up));
+		Up = glm::cross(Right, Forward);
+		const double HalfY = 0.5 * double(View.FovY);
+		const double HalfX = std::atan(std::tan(HalfY) * double(View.Width) / double(View.Height));
+		CosX = float(std::cos(HalfX));
+		SinX = float(std::sin(HalfX));
+		CosY = float(std::cos(HalfY));
+		SinY = float(std::sin(HalfY));
+		const double RadiusPerDistance = double(MinPixels) * std::tan(HalfY) / double(View.Height);
+		SizePerDistance2 = float(RadiusPerDistance * RadiusPerDistance);
+	}
+};
+
+void FDrawBlocks::Build(const std::vector<FItem>& Items, const std::vector<FDrawSphere>& Spheres)
+{
+	glm::dvec3 Min(std::numeric_limits<double>::max()), Max(-Min);
+	for (const FDrawSphere& Sphere : Spheres)
+	{
+		Min = glm::min(Min, Sphere.Center);
+		Max = glm::max(Max, Sphere.Center);
+	}
+	const glm::dvec3 Size = Max - Min;
+	const double Scale = 1048575.0 / std::max({Size.x, Size.y, Size.z, 1e-3});
+	std::vector<std::pair<uint64_t, uint32_t>> Order(Items.size());
+	for (uint32_t Draw = 0; Draw < Order.size(); ++Draw)
+	{
+		Order[Draw] = {GetPlaceKey(Spheres[Draw], Min, Scale), Draw};
+	}
+	std::sort(Order.begin(), Order.end());
+	Places.resize(Items.size());
+	Blocks.clear();
+	Stale.clear();
+	for (size_t First = 0; First < Order.size();)
+	{
+		FBlock& Block = Blocks.emplace_back();
+		Block.Center = Spheres[Order[First].second].Center;
+		// Infinite spheres have blocks of their own, so that they make no other infinite.
+		const bool bInfinite = Order[First].first == ~0ull;
+		for (; First < Order.size() && Block.Count < FBlock::Capacity && (Order[First].first == ~0ull) == bInfinite;
+		     ++First)
+		{
+			const uint32_t Draw = Order[First].second;
+			Places[Draw] = uint32_t(Blocks.size() - 1) * FBlock::Capacity + Block.Count;
+			Block.Items[Block.Count++] = Items[Draw];
+		}
+	}
+	for (uint32_t Draw = 0; Draw < Spheres.size(); ++Draw)
+	{
+		Move(Draw, Spheres[Draw]);
+	}
+}
+
+void FDrawBlocks::Move(uint32_t Draw, const FDrawSphere& Sphere)
+{
+	const uint32_t Index = Places[Draw] / FBlock::Capacity, Item = Places[Draw] % FBlock::Capacity;
+	FBlock& Block = Blocks[Index];
+	const glm::vec3 Relative(Sphere.Center - Block.Center);
+	Block.X[Item] = Relative.x;
+	Block.Y[Item] = Relative.y;
+	Block.Z[Item] = Relative.z;
+	Block.R[Item] = float(Sphere.Radius);
+	Block.Mirrored = (Block.Mirrored & ~(1ull << Item)) | (uint64_t(Sphere.bMirrored) << Item);
+	if (!std::exchange(Block.bStale, true))
+	{
+		Stale.push_back(Index);
+	}
+}
+
+void FDrawBlocks::Refresh(FBlock& Block) const
+{
+	float Radius = 0.0f;
+	for (uint32_t I = 0; I < Block.Count; ++I)
+	{
+		const float Reach =
+		    std::sqrt(Block.X[I] * Block.X[I] + Block.Y[I] * Block.Y[I] + Block.Z[I] * Block.Z[I]) + Block.R[I];
+		Radius = std::max(Radius, Reach);
+	}
+	Block.Radius = Radius;
+	Block.bStale = false;
+}
+
+bool FDrawBlocks::MaySeeBlock(const FFrustum& F, const FBlock& Block)
+{
+	const glm::vec3 D(Block.Center - F.Eye);
+	const float Reach = Block.Radius * 1.00001f + 1e-5f * (std::abs(D.x) + std::abs(D.y) + std::abs(D.z));
+	const float Z = glm::dot(D, F.Forward);
+	return Z + Reach >= F.Near && std::abs(glm::dot(D, F.Right)) * F.CosX - Z * F.SinX <= Reach &&
+	       std::abs(glm::dot(D, F.Up)) * F.CosY - Z * F.SinY <= Reach;
+}
+
+uint64_t FDrawBlocks::CullItems(const FFrustum& F, const FBlock& Block)
+{
+	const glm::vec3 D(Block.Center - F.Eye);
+	// Rounding must leave out nothing that the view sees.
+	const float Slack = 1e-5f * (std::abs(D.x) + std::abs(D.y) + std::abs(D.z)) + 1e-4f;
+	uint8_t bSeen[FBlock::Capacity];
+	for (uint32_t I = 0; I < FBlock::Capacity; ++I)
+	{
+		const float X = D.x + Block.X[I], Y = D.y + Block.Y[I], Z = D.z + Block.Z[I], R = Block.R[I] + Slack;
+		const float Ahead = X * F.Forward.x + Y * F.Forward.y + Z * F.Forward.z;
+		const float Aside = std::abs(X * F.Right.x + Y * F.Right.y + Z * F.Right.z);
+		const float Above = std::abs(X * F.Up.x + Y * F.Up.y + Z * F.Up.z);
+		const float Distance2 = X * X + Y * Y + Z * Z;
+		bSeen[I] = uint8_t(int(Ahead + R >= F.Near) & int(Aside * F.CosX - Ahead * F.SinX <= R) &
+		                   int(Above * F.CosY - Ahead * F.SinY <= R) & int(R * R >= F.SizePerDistance2 * Distance2));
+	}
+	uint64_t Mask = 0;
+	for (uint32_t I = 0; I < Block.Count; ++I)
+	{
+		Mask |= uint64_t(bSeen[I]) << I;
+	}
+	return Mask;
+}
+
+void FDrawBlocks::Collect(const FView& View, float MinPixels, std::vector<FSeen>& Out)
+{
+	FTraceScope Trace("G-buffer culling");
+	const FFrustum Frustum(View, MinPixels);
+	for (const uint32_t Index : Stale)
+	{
+		Refresh(Blocks[Index]);
+	}
+	Stale.clear();
+	Out.clear();
+	for (uint32_t Index = 0; Index < Blocks.size(); ++Index)
+	{
+		if (MaySeeBlock(Frustum, Blocks[Index]))
+		{
+			Out.push_back({Index, float(glm::distance(Blocks[Index].Center, View.Position)), 0});
+		}
+	}
+	std::sort(Out.begin(), Out.end(),
+	          [](const FSeen& A, const FSeen& B)
+	          { return A.Distance != B.Distance ? A.Distance < B.Distance : A.Block < B.Block; });
+	ParallelFor(Out.size(), BlockGrain,
+	            [&](size_t Begin, size_t End)
+	            {
+		            for (size_t I = Begin; I < End; ++I)
+		            {
+			            Out[I].Items = CullItems(Frustum, Blocks[Out[I].Block]);
+		            }
+	            });
+	std::erase_if(Out, [](const FSeen& Seen) { return Seen.Items == 0; });
+}
+
+} // namespace Lantern
