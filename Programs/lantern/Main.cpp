@@ -10,6 +10,7 @@
 #include "BenchAnyHit.h"
 #include "BenchCommand.h"
 #include "BenchFrame.h"
+#include "BenchGather.h"
 #include "BenchPipelines.h"
 #include "BenchTables.h"
 #include "CompareCommand.h"
@@ -59,6 +60,7 @@ private:
 	FBenchFrameOptions BenchFrame;
 	FBenchAnyHitOptions BenchAnyHit;
 	FBenchTablesOptions BenchTables;
+	FBenchGatherOptions BenchGather;
 	FBenchPipelinesOptions BenchPipelines;
 };
 
@@ -129,6 +131,9 @@ void FCommandLine::AddBench()
 	CLI::App* const Tables = Command->add_subcommand("sbt", "Keeping the shader table: everything each frame, nothing changed, 1 % changed, another pipeline");
 	BenchTables.AddTo(*Tables);
 	Tables->final_callback([this] { Status = RunBenchTables(BenchTables); });
+	CLI::App* const Gather = Command->add_subcommand("gather", "Which instances of a world 32 km across rays see: by buckets against a plain loop; needs no device");
+	BenchGather.AddTo(*Gather);
+	Gather->final_callback([this] { Status = RunBenchGather(BenchGather); });
 	CLI::App* const Pipelines = Command->add_subcommand("rtpso", "Pipelines made whole and from libraries, and what frames notice of it");
 	BenchPipelines.AddTo(*Pipelines);
 	Pipelines->final_callback([this] { Status = RunBenchPipelines(BenchPipelines); });

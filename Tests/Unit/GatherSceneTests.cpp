@@ -359,12 +359,15 @@ TEST_F(FGatherSceneTest, TogglingEveryVariableEveryFrameChangesNothingButWhatItS
 		Add(Tree, {Material}, {20.0 * (I % 100), 0, -60.0 * (I / 100)});
 	}
 	std::mt19937 Random(3);
-	const std::map<std::string, std::vector<std::string>> Values = {
-	    {"r.RT.Culling", {"0", "1", "1"}},          {"r.RT.Culling.Radius", {"100", "1000"}},
-	    {"r.RT.Culling.RadiusBehind", {"0", "500"}}, {"r.RT.Culling.Angle", {"0.1", "5"}},
-	    {"r.RT.Culling.AngleBehind", {"0", "1"}},    {"r.RT.Culling.Shadow.MinPixels", {"0", "24"}},
-	    {"r.RT.Culling.Visible.MinPixels", {"0", "3"}}, {"r.RT.Scene.Gather", {"0", "1"}},
-	    {"r.RT.Scene.Hoist", {"0", "1"}}};
+	const std::map<std::string, std::vector<std::string>> Values = {{"r.RT.Culling", {"0", "1", "1"}},
+	                                                                {"r.RT.Culling.Radius", {"100", "1000"}},
+	                                                                {"r.RT.Culling.RadiusBehind", {"0", "500"}},
+	                                                                {"r.RT.Culling.Angle", {"0.1", "5"}},
+	                                                                {"r.RT.Culling.AngleBehind", {"0", "1"}},
+	                                                                {"r.RT.Culling.Shadow.MinPixels", {"0", "24"}},
+	                                                                {"r.RT.Culling.Visible.MinPixels", {"0", "3"}},
+	                                                                {"r.RT.Scene.Gather", {"0", "1"}},
+	                                                                {"r.RT.Scene.Hoist", {"0", "1"}}};
 	for (int Step = 0; Step < 200; ++Step)
 	{
 		for (const auto& [Name, Choices] : Values)
@@ -413,7 +416,8 @@ TEST_F(FGatherSceneTest, MemoryFollowsTheSceneDown)
 	}
 	const FRTMemoryStats Small = Device->GetMemoryStats();
 	EXPECT_LT(Small.Scene, Large.Scene / 100);
-	EXPECT_LT(Small.Buffer, Large.Buffer / 4) << "of " << Large.Buffer << ": " << testing::PrintToString(Mock().GetLiveObjects());
+	EXPECT_LT(Small.Buffer, Large.Buffer / 4)
+	    << "of " << Large.Buffer << ": " << testing::PrintToString(Mock().GetLiveObjects());
 }
 
 TEST_F(FGatherSceneTest, MoreInstancesThanTheDeviceAllowsAreAnErrorThatSaysSo)

@@ -128,8 +128,9 @@ void RunRandomSteps(uint32_t Seed, int Steps, double Extent, const glm::dvec3& M
 			{
 				const FInstanceRecord& Record = World.Store.GetRecord(Object);
 				const double Far = std::exp(Uniform(Random, -6, 4));
-				Placement = PlaceAt(Record.Center + glm::dvec3(Uniform(Random, -Far, Far), 0, Uniform(Random, -Far, Far)),
-				                    Record.Radius, Record.Range);
+				Placement =
+				    PlaceAt(Record.Center + glm::dvec3(Uniform(Random, -Far, Far), 0, Uniform(Random, -Far, Far)),
+				            Record.Radius, Record.Range);
 			}
 			World.Set(Object, Placement);
 		}
@@ -178,6 +179,44 @@ TEST(GatherStore, EqualsTheStraightforwardLoopFarFromTheOrigin)
 {
 	ASSERT_NO_FATAL_FAILURE(RunRandomSteps(11, 4000, 500.0, {16'000, 200, -16'000}));
 	ASSERT_NO_FATAL_FAILURE(RunRandomSteps(12, 2000, 500.0, {5e6, 0, -3e6}));
+}
+
+/// So close to a limit that fp32 cannot tell on which side.
+TEST(GatherStore, ObjectsOnTheVeryLimitAreDecidedAlike)
+{
+	FRandom Random(17);
+	for (int Try = 0; Try < 60; ++Try)
+	{
+		FGatherWorld World;
+		World.Store.SetBinding(0, {64, 0});
+		FCullingSettings Settings;
+		Settings.Radius = Try % 2 == 0 ? 700.0f : 0.0f;
+		Settings.RadiusBehind = Try % 3 == 0 ? 300.0f : Settings.Radius;
+		Settings.Angle = Settings.AngleBehind = Try % 2 == 0 ? 80.0f : 1.0f;
+		Settings.ShadowMinPixels = Try % 5 == 0 ? 30.0f : 0.0f;
+		const glm::dvec3 Eye = RandomPlace(Random, Try % 4 == 0 ? 15'000 : 500, {});
+		const FCullingRule Rule(FGatherView(Eye, {0.6f, 0, -0.8f}, 1.0f, 720), Settings);
+		for (uint32_t I = 0; I < 1500; ++I)
+		{
+			const double Angle = Uniform(Random, 0, 6.2831853), Radius = Uniform(Random, 2, 3.9);
+			const glm::dvec3 Away(std::cos(Angle), Uniform(Random, -0.1, 0.1), std::sin(Angle));
+			const int Side = glm::dot(Away, Rule.Forward) < 0 ? 1 : 0;
+			double Limit = std::max(Rule.Radius[Side] + Radius, Radius * Rule.InverseSine[Side]);
+			if (Rule.bShadowLimit && I % 2 == 0)
+			{
+				Limit = Radius * Rule.ShadowScale;
+			}
+			const double Nearly = 1.0 + Uniform(Random, -1, 1) * std::pow(10.0, Uniform(Random, -12, -6));
+			glm::dvec3 At = Eye + glm::normalize(Away) * (Limit * Nearly);
+			if (I % 10 == 0) // as close to the border between before and behind
+			{
+				const glm::dvec3 Across(-Rule.Forward.z, 0, Rule.Forward.x);
+				At = Eye - Rule.Forward * (Radius * Nearly) + Across * Uniform(Random, 250, 800);
+			}
+			World.Set(I, PlaceAt(At, Radius));
+		}
+		ASSERT_NO_FATAL_FAILURE(World.ExpectSame(Rule, FindCell(Eye))) << "try " << Try;
+	}
 }
 
 TEST(GatherStore, ObjectsInOnePlaceAndWithoutNumbersAreKeptToo)

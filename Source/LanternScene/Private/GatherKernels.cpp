@@ -22,13 +22,23 @@ constexpr uint32_t Capacity = FInstanceBucket::Capacity;
 constexpr float PlaceError = 1e-6f;
 constexpr float SquareError = 4e-6f;
 
-LANTERN_KERNEL_INLINE float Larger(float A, float B) { return A > B ? A : B; }
-LANTERN_KERNEL_INLINE float Smaller(float A, float B) { return A < B ? A : B; }
-LANTERN_KERNEL_INLINE float Square(float A) { return A * A; }
+LANTERN_KERNEL_INLINE float Larger(float A, float B)
+{
+	return A > B ? A : B;
+}
+LANTERN_KERNEL_INLINE float Smaller(float A, float B)
+{
+	return A < B ? A : B;
+}
+LANTERN_KERNEL_INLINE float Square(float A)
+{
+	return A * A;
+}
 
 LANTERN_KERNEL_INLINE void ClassifyLoop(const float* __restrict X, const float* __restrict Y, const float* __restrict Z,
-                                        const float* __restrict Extent, const float* __restrict RMin, const float* __restrict RMax, size_t Count,
-                                        const FKernelRule& InRule, uint32_t* __restrict Out)
+                                        const float* __restrict Extent, const float* __restrict RMin,
+                                        const float* __restrict RMax, size_t Count, const FKernelRule& InRule,
+                                        uint32_t* __restrict Out)
 {
 	const FKernelRule Rule = InRule;
 	const float EyeSize = std::fabs(Rule.Eye[0]) + std::fabs(Rule.Eye[1]) + std::fabs(Rule.Eye[2]);
@@ -38,19 +48,25 @@ LANTERN_KERNEL_INLINE void ClassifyLoop(const float* __restrict X, const float* 
 		const float D2 = DX * DX + DY * DY + DZ * DZ;
 		const float Ahead = DX * Rule.Forward[0] + DY * Rule.Forward[1] + DZ * Rule.Forward[2];
 		const float Reach = Extent[I] + PlaceError * (EyeSize + std::fabs(X[I]) + std::fabs(Y[I]) + std::fabs(Z[I]));
-		const float Most[2] = {Larger(Rule.Radius[0] + RMax[I], RMax[I] * Rule.InverseSine[0]), Larger(Rule.Radius[1] + RMax[I], RMax[I] * Rule.InverseSine[1])};
-		const float Least[2] = {Larger(Rule.Radius[0] + RMin[I], RMin[I] * Rule.InverseSine[0]), Larger(Rule.Radius[1] + RMin[I], RMin[I] * Rule.InverseSine[1])};
-		const bool bAllBehind = Ahead + Reach < -RMax[I], bAllAhead = Ahead - Reach > -RMin[I];
-		const float Far = bAllBehind ? Most[1] : bAllAhead ? Most[0] : Larger(Most[0], Most[1]);
-		const float Near = bAllBehind ? Least[1] : bAllAhead ? Least[0] : Smaller(Least[0], Least[1]);
+		const float MostBefore = Larger(Rule.Radius[0] + RMax[I], RMax[I] * Rule.InverseSine[0]);
+		const float MostBehind = Larger(Rule.Radius[1] + RMax[I], RMax[I] * Rule.InverseSine[1]);
+		const float LeastBefore = Larger(Rule.Radius[0] + RMin[I], RMin[I] * Rule.InverseSine[0]);
+		const float LeastBehind = Larger(Rule.Radius[1] + RMin[I], RMin[I] * Rule.InverseSine[1]);
+		const bool bAllBehind = Ahead + Reach<-RMax[I], bAllAhead = Ahead - Reach> - RMin[I];
+		const float FarBoth = Larger(MostBefore, MostBehind), NearBoth = Smaller(LeastBefore, LeastBehind);
+		const float FarAhead = bAllAhead ? MostBefore : FarBoth, NearAhead = bAllAhead ? LeastBefore : NearBoth;
+		const float Far = bAllBehind ? MostBehind : FarAhead, Near = bAllBehind ? LeastBehind : NearAhead;
 		// Not farther than L even at its far end: D ≤ L − Reach; farther than L even at its near end: D > L + Reach.
-		const float OthersNear = Smaller(Near, RMin[I] * Rule.VisibleScale + Rule.VisibleBase) * (1 - PlaceError) - Reach;
+		const float OthersNear =
+		    Smaller(Near, RMin[I] * Rule.VisibleScale + Rule.VisibleBase) * (1 - PlaceError) - Reach;
 		const float ShadowNear = Smaller(Near, RMin[I] * Rule.ShadowScale + Rule.ShadowBase) * (1 - PlaceError) - Reach;
 		const float OthersFar = Smaller(Far, RMax[I] * Rule.VisibleScale + Rule.VisibleBase) * (1 + PlaceError) + Reach;
 		const float ShadowFar = Smaller(Far, RMax[I] * Rule.ShadowScale + Rule.ShadowBase) * (1 + PlaceError) + Reach;
 		const float Above = D2 * (1 + SquareError), Below = D2 * (1 - SquareError);
-		const uint32_t AllOthers = (OthersNear >= 0.0f) & (Above <= Square(OthersNear)) ? BucketAllOthers : 0u;
-		const uint32_t AllShadow = (ShadowNear >= 0.0f) & (Above <= Square(ShadowNear)) ? BucketAllShadow : 0u;
+		// Below 0 there is no such distance, though its square would be one.
+		const float OthersNear2 = OthersNear * std::fabs(OthersNear), ShadowNear2 = ShadowNear * std::fabs(ShadowNear);
+		const uint32_t AllOthers = Above <= OthersNear2 ? BucketAllOthers : 0u;
+		const uint32_t AllShadow = Above <= ShadowNear2 ? BucketAllShadow : 0u;
 		const uint32_t NoOthers = Below > Square(OthersFar) ? BucketNoOthers : 0u;
 		const uint32_t NoShadow = Below > Square(ShadowFar) ? BucketNoShadow : 0u;
 		Out[I] = AllOthers | AllShadow | NoOthers | NoShadow;
@@ -60,7 +76,8 @@ LANTERN_KERNEL_INLINE void ClassifyLoop(const float* __restrict X, const float* 
 constexpr uint32_t FlagOthers = 1, FlagShadow = 2, FlagUnsure = 4;
 
 /// Margin: how wrong a square of a distance may be. Reach: how wrong a distance along an axis may be.
-LANTERN_KERNEL_INLINE void TestLoop(const FInstanceBucket& Bucket, const FKernelRule& InRule, float Margin, float Reach, uint32_t* __restrict Out)
+LANTERN_KERNEL_INLINE void TestLoop(const FInstanceBucket& Bucket, const FKernelRule& InRule, float Margin, float Reach,
+                                    uint32_t* __restrict Out)
 {
 	const FKernelRule Rule = InRule;
 	for (uint32_t I = 0; I < Capacity; ++I)
@@ -71,10 +88,12 @@ LANTERN_KERNEL_INLINE void TestLoop(const FInstanceBucket& Bucket, const FKernel
 		const float Ahead = DX * Rule.Forward[0] + DY * Rule.Forward[1] + DZ * Rule.Forward[2];
 		const float Before = Square(Larger(Rule.Radius[0] + R, R * Rule.InverseSine[0]));
 		const float Behind = Square(Larger(Rule.Radius[1] + R, R * Rule.InverseSine[1]));
-		const bool bSurelyBehind = Ahead + Reach < -R, bSurelyBefore = Ahead - Reach > -R;
-		const float Least = bSurelyBehind ? Behind : bSurelyBefore ? Before : Smaller(Before, Behind);
-		const float Most = bSurelyBehind ? Behind : bSurelyBefore ? Before : Larger(Before, Behind);
-		const float Others = Square(R * Rule.VisibleScale + Rule.VisibleBase), Shadow = Square(R * Rule.ShadowScale + Rule.ShadowBase);
+		const bool bSurelyBehind = Ahead + Reach<-R, bSurelyBefore = Ahead - Reach> - R;
+		const float LeastBoth = Smaller(Before, Behind), MostBoth = Larger(Before, Behind);
+		const float LeastBefore = bSurelyBefore ? Before : LeastBoth, MostBefore = bSurelyBefore ? Before : MostBoth;
+		const float Least = bSurelyBehind ? Behind : LeastBefore, Most = bSurelyBehind ? Behind : MostBefore;
+		const float Others = Square(R * Rule.VisibleScale + Rule.VisibleBase),
+		            Shadow = Square(R * Rule.ShadowScale + Rule.ShadowBase);
 		const float Above = D2 + Margin, Below = D2 - Margin;
 		const uint32_t Kept = Above <= Least ? 1u : 0u, Dropped = Below > Most ? 1u : 0u;
 		const uint32_t OthersKept = Above <= Others ? 1u : 0u, OthersDropped = Below > Others ? 1u : 0u;
@@ -87,15 +106,21 @@ LANTERN_KERNEL_INLINE void TestLoop(const FInstanceBucket& Bucket, const FKernel
 
 LANTERN_KERNEL_INLINE void PackLoop(const uint32_t* __restrict Flags, uint8_t* __restrict Bytes)
 {
-	for (uint32_t I = 0; I < Capacity; ++I) { Bytes[I] = static_cast<uint8_t>(Flags[I]); }
+	for (uint32_t I = 0; I < Capacity; ++I)
+	{
+		Bytes[I] = static_cast<uint8_t>(Flags[I]);
+	}
 }
 
 #ifdef LANTERN_KERNEL_AVX2
-LANTERN_KERNEL_AVX2 void ClassifyAvx2(const FBucketBounds& B, size_t First, size_t Count, const FKernelRule& Rule, uint32_t* Out)
+LANTERN_KERNEL_AVX2 void ClassifyAvx2(const FBucketBounds& B, size_t First, size_t Count, const FKernelRule& Rule,
+                                      uint32_t* Out)
 {
-	ClassifyLoop(&B.X[First], &B.Y[First], &B.Z[First], &B.Extent[First], &B.RMin[First], &B.RMax[First], Count, Rule, Out);
+	ClassifyLoop(&B.X[First], &B.Y[First], &B.Z[First], &B.Extent[First], &B.RMin[First], &B.RMax[First], Count, Rule,
+	             Out);
 }
-LANTERN_KERNEL_AVX2 void TestAvx2(const FInstanceBucket& Bucket, const FKernelRule& Rule, float Margin, float Reach, uint8_t* Out)
+LANTERN_KERNEL_AVX2 void TestAvx2(const FInstanceBucket& Bucket, const FKernelRule& Rule, float Margin, float Reach,
+                                  uint8_t* Out)
 {
 	alignas(64) uint32_t Flags[Capacity];
 	TestLoop(Bucket, Rule, Margin, Reach, Flags);
@@ -106,7 +131,8 @@ const bool bHasAvx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("
 
 void ClassifyPlain(const FBucketBounds& B, size_t First, size_t Count, const FKernelRule& Rule, uint32_t* Out)
 {
-	ClassifyLoop(&B.X[First], &B.Y[First], &B.Z[First], &B.Extent[First], &B.RMin[First], &B.RMax[First], Count, Rule, Out);
+	ClassifyLoop(&B.X[First], &B.Y[First], &B.Z[First], &B.Extent[First], &B.RMin[First], &B.RMax[First], Count, Rule,
+	             Out);
 }
 void TestPlain(const FInstanceBucket& Bucket, const FKernelRule& Rule, float Margin, float Reach, uint8_t* Out)
 {
@@ -131,10 +157,14 @@ uint64_t CollectBits(const uint8_t* Bytes, uint32_t Shift)
 }
 } // namespace
 
-void ClassifyBuckets(const FBucketBounds& Bounds, size_t First, size_t Count, const FKernelRule& Rule, uint32_t* OutClass)
+void ClassifyBuckets(const FBucketBounds& Bounds, size_t First, size_t Count, const FKernelRule& Rule,
+                     uint32_t* OutClass)
 {
 #ifdef LANTERN_KERNEL_AVX2
-	if (bHasAvx2) { return ClassifyAvx2(Bounds, First, Count, Rule, OutClass); }
+	if (bHasAvx2)
+	{
+		return ClassifyAvx2(Bounds, First, Count, Rule, OutClass);
+	}
 #endif
 	ClassifyPlain(Bounds, First, Count, Rule, OutClass);
 }
@@ -144,7 +174,10 @@ FBucketMasks TestBucket(const FInstanceBucket& Bucket, const FKernelRule& Rule, 
 	const float Size = BucketExtent + std::fabs(Rule.Eye[0]) + std::fabs(Rule.Eye[1]) + std::fabs(Rule.Eye[2]);
 	alignas(64) uint8_t Flags[Capacity];
 #ifdef LANTERN_KERNEL_AVX2
-	if (bHasAvx2) { TestAvx2(Bucket, Rule, SquareError * Size * Size, PlaceError * Size, Flags); }
+	if (bHasAvx2)
+	{
+		TestAvx2(Bucket, Rule, SquareError * Size * Size, PlaceError * Size, Flags);
+	}
 	else
 #endif
 	{

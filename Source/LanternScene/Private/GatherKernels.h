@@ -18,13 +18,14 @@ struct FKernelRule
 /// What is certain of all objects of a bucket, whatever fp32 rounded. Nothing set: they are to be tested one by one.
 enum EBucketClass : uint32_t
 {
-	BucketAllOthers = 1,  ///< all seen by rays other than shadows'
+	BucketAllOthers = 1, ///< all seen by rays other than shadows'
 	BucketNoOthers = 2,
 	BucketAllShadow = 4,
 	BucketNoShadow = 8,
 };
 /// Buckets First … First + Count − 1; Rule in the world.
-void ClassifyBuckets(const FBucketBounds& Bounds, size_t First, size_t Count, const FKernelRule& Rule, uint32_t* OutClass);
+void ClassifyBuckets(const FBucketBounds& Bounds, size_t First, size_t Count, const FKernelRule& Rule,
+                     uint32_t* OutClass);
 
 /// One bit per object. Where Unsure, the others mean nothing.
 struct FBucketMasks

@@ -43,8 +43,8 @@ private:
 	FKept CullBucket(const FPass& Pass, size_t Bucket, uint32_t Class) const;
 	uint64_t DropMissing(const FPass& Pass, const FInstanceBucket& Bucket, uint64_t Kept) const;
 
-	std::vector<FKept> Kept;             // per bucket
-	std::vector<uint32_t> BlockOffsets;  // first instance of each block of buckets
+	std::vector<FKept> Kept;            // per bucket
+	std::vector<uint32_t> BlockOffsets; // first instance of each block of buckets
 	std::vector<uint8_t> GroupBits;
 	uint64_t SeenRevision = 0;
 	uint32_t Total = 0;
@@ -53,7 +53,7 @@ private:
 
 /// Writes to Out, in the order of objects, what FInstanceGather writes in its own; returns how many. Reads the records
 /// of the store and the objects' entries of the GPU table, not the buckets. Out: room for all objects.
-uint32_t GatherStraightforward(const FInstanceStore& Store, const FObjectData* Objects, const FCullingRule& Rule, const glm::ivec3& Origin,
-                               FRTInstance* Out, const FMissingGeometrySink& Missing = {});
+uint32_t GatherStraightforward(const FInstanceStore& Store, const FObjectData* Objects, const FCullingRule& Rule,
+                               const glm::ivec3& Origin, FRTInstance* Out, const FMissingGeometrySink& Missing = {});
 
 } // namespace Lantern

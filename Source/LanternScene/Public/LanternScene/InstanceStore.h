@@ -27,7 +27,10 @@ namespace Lantern
 inline constexpr double CellSize = CELL_SIZE;
 /// Cell whose centre is nearest.
 glm::ivec3 FindCell(const glm::dvec3& World);
-inline glm::dvec3 CellCenter(const glm::ivec3& Cell) { return glm::dvec3(Cell) * CellSize; }
+inline glm::dvec3 CellCenter(const glm::ivec3& Cell)
+{
+	return glm::dvec3(Cell) * CellSize;
+}
 /// From the origin's cell to Cell, metres.
 inline glm::vec3 CellOffset(const glm::ivec3& Cell, const glm::ivec3& Origin)
 {
@@ -61,7 +64,7 @@ struct FInstanceRecord
 	double Radius = 0; ///< UnboundedRadius: unknown
 	glm::ivec3 Cell{0};
 	uint32_t Range = 0;
-	uint32_t Group = 0; ///< index into the store's groups; 0: none
+	uint32_t Group = 0;  ///< index into the store's groups; 0: none
 	uint32_t Member = 0; ///< place in the group's list
 	uint32_t Bucket = ~0u;
 	uint8_t Slot = 0;
@@ -155,7 +158,7 @@ private:
 	struct FNode
 	{
 		float Split = 0.0f;
-		int32_t Axis = -1;         ///< -1: a leaf
+		int32_t Axis = -1;          ///< -1: a leaf
 		uint32_t Child[2] = {0, 0}; ///< leaf: [0] is the bucket
 		uint32_t Parent = ~0u;
 	};

@@ -1,0 +1,27 @@
+// lantern bench gather: which instances of a large world a frame's acceleration structure is built from, against a
+// straightforward loop over all objects. Needs no device.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI
+{
+class App;
+}
+
+namespace Lantern
+{
+
+struct FBenchGatherOptions
+{
+	std::vector<uint32_t> Sizes = {10'000, 150'000, 1'000'000};
+	uint32_t Frames = 400; ///< of each measurement
+	std::string Json;
+	void AddTo(CLI::App& App);
+};
+
+/// Prints a table, and writes it as JSON where asked. ExitCheckFailed where the two do not find the same instances.
+int RunBenchGather(const FBenchGatherOptions& Options);
+
+} // namespace Lantern
