@@ -91,6 +91,7 @@ FRTStatus FSampleEngine::RenderFrame(const FView& InView, double Time, const FFr
 	assert(Scene);
 	FFrameFeatures Features;
 	Features.Skinning = MoveTo(Time);
+	Features.bWaitForPipelines = Features.bBuildAll = !bRealTime;
 	FView View = InView;
 	View.FrameIndex = FrameIndex++;
 	if (FRTStatus S = Renderer.BeginFrame(Scene->GetScene(), View, Features); !S) { return S; }

@@ -39,6 +39,8 @@ public:
 	FRTStatus RenderFrame(const FView& View, double Time, const FFrameCapture& Capture, FCapturedFrame* Out);
 	/// Extra passes of a test or benchmark: called after the plugin's own.
 	std::function<void(FFrameContext&, const FGBuffer&, const FFrameOutputs&)> ExtraPasses;
+	/// Frames wait for no pipeline and builds keep to their budget, as in a game; off: every frame is complete.
+	bool bRealTime = false;
 	/// How often ExtraPasses etc. find the frame: index of the next one.
 	uint32_t GetFrameIndex() const { return FrameIndex; }
 	/// Random numbers follow the index: two frames of the same index and seed draw the same.
