@@ -111,9 +111,9 @@ FRTStatus MeasureFrames(IRTDevice& Device, const std::string& Shaders, const FBe
 {
 	FHitchRun Run;
 	const FRendererDesc Desc{{Shaders}, {}};
-	// The mock draws nothing: its frames are given the length of real ones. Its compiles sleep, so that any number of them
-	// can run at once on any machine.
-	constexpr uint32_t MockThreads = 16;
+	// The mock draws nothing: its frames are given the length of real ones. Its compiles sleep, so that more of them than
+	// there are cores can run at once.
+	constexpr uint32_t MockThreads = 8;
 	constexpr double MockFrameMs = 4.0;
 	if (FRTStatus S = MeasureHitches(Device, Desc, Options.Groups, Options.bMock ? MockThreads : 0, Options.bMock ? MockFrameMs : 0.0, Run); !S) { return S; }
 	const FFrameFigures Idle(Run.Idle), Compiling(Run.Compiling);

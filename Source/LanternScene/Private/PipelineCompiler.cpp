@@ -74,10 +74,7 @@ void FRTPSOCompiler::FImpl::TakeLink()
 	bDirty = true; // more may have become ready since
 	if (!LinkStatus) { return; }
 	++Stats.Links;
-	// Those that were made by and by are not wanted again; those of settings that are switched to and fro are.
-	constexpr size_t MostRecent = 8;
-	if (Current.bExact) { Recent.push_front(std::move(Current)); }
-	if (Recent.size() > MostRecent) { Recent.pop_back(); }
+	RetireCurrent();
 	Current = std::move(Linked);
 	Taken = Current.Pipeline;
 	Current.LastUsed = Frame;

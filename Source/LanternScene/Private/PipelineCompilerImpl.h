@@ -127,6 +127,13 @@ struct FRTPSOCompiler::FImpl
 	bool AreHitsCompiled() const;
 	void StartLink(bool bExact);
 	void DropOld();
+	template <class T>
+	void Discard(T&& Object)
+	{
+		Trash.push_back(std::make_shared<std::decay_t<T>>(std::move(Object)));
+	}
+	void RetireCurrent();
+	bool IsQueueEmpty() const { return NextQueued == Queue.size(); }
 
 	// ---- PipelineLink.cpp
 	FLinkPlan MakePlan() const;
@@ -147,6 +154,7 @@ struct FRTPSOCompiler::FImpl
 	void CompileNext(std::unique_lock<std::mutex>& Lock);
 	void LinkNext(std::unique_lock<std::mutex>& Lock);
 	void LookForEdits(std::unique_lock<std::mutex>& Lock);
+	void EmptyTrash(std::unique_lock<std::mutex>& Lock);
 	FRTStatus CompileShaders(FJob& Job, FPipelineBuild& Build);
 	FRTStatus CompileLibrary(FJob& Job, FPipelineBuild& Build);
 	FRTStatus GetBinary(const FShaderSource& Source, uint64_t Version, FShaderBinaryRef& Out);
@@ -182,7 +190,8 @@ struct FRTPSOCompiler::FImpl
 	FPipelineClock::time_point RoundEnd;
 	int32_t RoundMs = 100, KeepFrames = 1000;
 	uint32_t ThreadLimit = 1;
-	std::deque<FPipelineSlotRef> Queue;
+	std::vector<FPipelineSlotRef> Queue; ///< those before NextQueued have been taken
+	size_t NextQueued = 0;
 	uint32_t Running = 0;
 
 	bool bLinkWanted = false, bLinking = false, bLinkDone = false;
@@ -194,6 +203,10 @@ struct FRTPSOCompiler::FImpl
 	FLinkedPipeline Linked;  ///< where bLinkDone
 	FLinkedPipeline Current;
 	std::list<FLinkedPipeline> Recent; ///< newest first
+	std::deque<FLinkedPipeline> Old;   ///< the frames in which they were Current may still hold them
+	/// To be destroyed by the linking thread. Memory that the compiler's threads allocated is given back under a lock of
+	/// the allocator, which one of them may hold while it does not run: measured, 5 to 150 ms of a frame on two busy cores.
+	std::vector<std::shared_ptr<void>> Trash;
 	bool bReload = false;
 	FPipelineClock::time_point NextReload;
 	bool bFinished = false;  ///< Current is all that the last Finish could make of WantedDesc

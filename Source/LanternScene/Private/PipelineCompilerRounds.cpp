@@ -1,6 +1,7 @@
 // What is wanted, in which order, and when rounds begin and end.
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "LanternCore/ConsoleVariables.h"
 #include "PipelineCompilerImpl.h"
@@ -157,12 +158,13 @@ void FRTPSOCompiler::FImpl::StartRound(bool bAppend)
 void FRTPSOCompiler::FImpl::EndRoundIfOver()
 {
 	if (!bRound) { return; }
-	const bool bDone = Queue.empty() && Running == 0;
+	const bool bDone = IsQueueEmpty() && Running == 0;
 	const bool bLate = !bNoDeadline && FPipelineClock::now() >= RoundEnd;
 	if (!bDone && !bLate) { return; }
-	for (const FPipelineSlotRef& Slot : Queue) { Slot->State = ESlotState::Idle; }
+	for (; NextQueued < Queue.size(); ++NextQueued) { Queue[NextQueued]->State = ESlotState::Idle; }
 	Queue.clear();
-	Shared.clear();
+	NextQueued = 0;
+	Discard(std::exchange(Shared, {}));
 	bRound = false;
 	bDirty = true;
 	if (!bNoDeadline) { StartLink(false); }
@@ -199,19 +201,41 @@ void FRTPSOCompiler::FImpl::StartLink(bool bExact)
 	WorkAdded.notify_all();
 }
 
+void FRTPSOCompiler::FImpl::RetireCurrent()
+{
+	if (!Current.Pipeline) { return; }
+	Current.LastUsed = Frame;
+	// Those that were made by and by are not wanted again; those of settings that are switched to and fro are.
+	constexpr size_t MostRecent = 8;
+	if (!Current.bExact)
+	{
+		Old.push_back(std::move(Current));
+		return;
+	}
+	Recent.push_front(std::move(Current));
+	if (Recent.size() <= MostRecent) { return; }
+	Old.push_back(std::move(Recent.back()));
+	Recent.pop_back();
+}
+
 void FRTPSOCompiler::FImpl::DropOld()
 {
+	constexpr uint64_t HeldFrames = 4;
+	for (; !Old.empty() && Frame - Old.front().LastUsed > HeldFrames; Old.pop_front()) { Discard(std::move(Old.front())); }
+	if (!Trash.empty()) { WorkAdded.notify_all(); }
 	constexpr uint64_t Interval = 16; // frames; to look at all slots in each would be a waste
 	if (Frame % Interval != 0) { return; }
 	for (const FPipelineSlotRef& Slot : Wanted.All) { Slot->LastWanted = Frame; }
 	const auto IsOld = [&](uint64_t LastUsed) { return Frame - LastUsed > static_cast<uint64_t>(KeepFrames); };
-	const size_t Dropped = std::erase_if(Slots, [&](const auto& Entry) {
-		const FPipelineSlot& Slot = *Entry.second;
-		return !Slot.bWanted && Slot.State == ESlotState::Idle && IsOld(Slot.LastWanted);
+	const size_t Dropped = std::erase_if(Slots, [&](auto& Entry) {
+		FPipelineSlot& Slot = *Entry.second;
+		if (Slot.bWanted || Slot.State != ESlotState::Idle || !IsOld(Slot.LastWanted)) { return false; }
+		Discard(std::move(Entry.second));
+		return true;
 	});
 	Stats.Dropped += Dropped;
-	if (Dropped > 0) { HitSlots.clear(); }
-	Recent.remove_if([&](const FLinkedPipeline& Entry) { return IsOld(Entry.LastUsed); });
+	if (Dropped > 0) { Discard(std::exchange(HitSlots, {})); }
+	for (; !Recent.empty() && IsOld(Recent.back().LastUsed); Recent.pop_back()) { Discard(std::move(Recent.back())); }
 }
 
 } // namespace Lantern

@@ -41,7 +41,7 @@ void FRTPSOCompiler::FImpl::RunCompiler(uint32_t Index)
 	std::unique_lock Lock(Mutex);
 	for (;;)
 	{
-		WorkAdded.wait(Lock, [&] { return bStop || (Index < ThreadLimit && !Queue.empty()); });
+		WorkAdded.wait(Lock, [&] { return bStop || (Index < ThreadLimit && !IsQueueEmpty()); });
 		if (bStop) { return; }
 		CompileNext(Lock);
 	}
@@ -52,18 +52,18 @@ void FRTPSOCompiler::FImpl::RunLinker()
 	std::unique_lock Lock(Mutex);
 	for (;;)
 	{
-		WorkAdded.wait(Lock, [&] { return bStop || bLinkWanted || bReload; });
+		WorkAdded.wait(Lock, [&] { return bStop || bLinkWanted || bReload || !Trash.empty(); });
 		if (bStop) { return; }
 		if (bLinkWanted) { LinkNext(Lock); }
-		else { LookForEdits(Lock); }
+		else if (bReload) { LookForEdits(Lock); }
+		else { EmptyTrash(Lock); }
 	}
 }
 
 void FRTPSOCompiler::FImpl::CompileNext(std::unique_lock<std::mutex>& Lock)
 {
 	FJob Job;
-	Job.Slot = std::move(Queue.front());
-	Queue.pop_front();
+	Job.Slot = std::move(Queue[NextQueued++]);
 	Job.Slot->State = ESlotState::Compiling;
 	Job.Unit = Job.Slot->Unit;
 	Job.Version = Job.Slot->GetVersion();
@@ -174,7 +174,7 @@ void FRTPSOCompiler::FImpl::StoreResult(const FJob& Job, const FRTStatus& Status
 	{
 		bLost = true;
 		LostError = Status;
-		Queue.clear();
+		NextQueued = Queue.size();
 	}
 	else if (IsShortage(Status))
 	{
@@ -228,6 +228,15 @@ void FRTPSOCompiler::FImpl::LinkNext(std::unique_lock<std::mutex>& Lock)
 		else if (Reported.insert(Status.Message).second) { LogError("RTPSO: the link fails; the one before stays: {}", Status.Message); }
 	}
 	SomethingDone.notify_all();
+}
+
+void FRTPSOCompiler::FImpl::EmptyTrash(std::unique_lock<std::mutex>& Lock)
+{
+	std::vector<std::shared_ptr<void>> Doomed;
+	Doomed.swap(Trash);
+	Lock.unlock();
+	Doomed.clear();
+	Lock.lock();
 }
 
 void FRTPSOCompiler::FImpl::LookForEdits(std::unique_lock<std::mutex>& Lock)
