@@ -33,9 +33,10 @@ FRTStatus FVulkanShaderTable::Initialise(const FRTShaderTableDesc& InDesc)
 	Name = InDesc.Name ? InDesc.Name : "";
 	Desc.Name = Name.c_str();
 	assert(Desc.Pipeline && Desc.RecordDataBytes <= MaxRecordDataBytes && Desc.Copies >= 1);
+	const FRTCapabilities& Caps = Device.GetCapabilities();
+	Handles.Initialise(Caps.ShaderGroupHandleSize);
 	SetPipeline(Desc.Pipeline);
 
-	const FRTCapabilities& Caps = Device.GetCapabilities();
 	const uint64_t Handle = AlignUp(Caps.ShaderGroupHandleSize, Caps.ShaderGroupHandleAlignment);
 	// A dispatch names one ray generation record as a region of its own: each starts at the base alignment.
 	const uint64_t Strides[KindCount] = {
@@ -139,27 +140,45 @@ void FVulkanShaderTable::SetPipeline(IRTPipeline* InPipeline)
 	assert(InPipeline);
 	Desc.Pipeline = InPipeline;
 	Pipeline = TRTRef<FVulkanPipeline>(static_cast<FVulkanPipeline*>(InPipeline));
-	Handles = Pipeline->GetGroupHandles();
-	assert(Handles && "a ray-tracing pipeline that is no library");
+	assert(Pipeline->GetGroupHandles() && "a ray-tracing pipeline that is no library");
+	Handles.SetPipeline(Pipeline->GetGroupHandles(), Pipeline->GetGroupCount());
+	if (Handles.IsCrowded())
+	{
+		PruneHandles();
+	}
+}
+
+void FVulkanShaderTable::PruneHandles()
+{
+	std::vector<bool> Used(Handles.GetCount(), false);
+	for (const FVulkanTableRecords& Kind : Records)
+	{
+		Kind.MarkUsed(Used);
+	}
+	const std::vector<uint32_t> NewOf = Handles.Prune(Used);
+	for (FVulkanTableRecords& Kind : Records)
+	{
+		Kind.Renumber(NewOf);
+	}
 }
 
 void FVulkanShaderTable::SetRecord(ERTRecordKind Kind, uint32_t Index, uint32_t Group, const void* Data,
                                    uint32_t DataBytes)
 {
 	assert(Group < Pipeline->GetGroupCount());
-	Of(Kind).SetOne(Index, Handles + size_t(Group) * Device.GetCapabilities().ShaderGroupHandleSize, Data, DataBytes);
+	Of(Kind).SetOne(Index, Handles.GetSlotsOfGroups()[Group], Data, DataBytes);
 }
 
 void FVulkanShaderTable::SetHitRecords(uint32_t First, uint32_t Count, const uint32_t* Groups, const void* Data)
 {
 	assert(std::all_of(Groups, Groups + Count, [&](uint32_t Group) { return Group < Pipeline->GetGroupCount(); }));
-	Of(ERTRecordKind::Hit).Set(First, Count, Handles, Groups, Data);
+	Of(ERTRecordKind::Hit).Set(First, Count, Handles.GetSlotsOfGroups(), Groups, Data);
 }
 
 void FVulkanShaderTable::SetGroups(ERTRecordKind Kind, uint32_t First, uint32_t Count, const uint32_t* Groups)
 {
 	assert(std::all_of(Groups, Groups + Count, [&](uint32_t Group) { return Group < Pipeline->GetGroupCount(); }));
-	Of(Kind).SetHandles(First, Count, Handles, Groups);
+	Of(Kind).SetHandles(First, Count, Handles.GetSlotsOfGroups(), Groups);
 }
 
 bool FVulkanShaderTable::IsDirty() const
@@ -243,7 +262,7 @@ void FVulkanShaderTable::Fill(const FBatch& Batch) const
 		uint32_t* Index = reinterpret_cast<uint32_t*>(Begin + Part.IndexOffset);
 		for (const FRun& Run : Part.Runs)
 		{
-			Records[Kind].CopyTo(Dest, Run);
+			Records[Kind].CopyTo(Dest, Run, Handles.GetHandles());
 			Dest += Records[Kind].GetStride() * Run.Count;
 			for (uint32_t Record = 0; Part.bScatter && Record < Run.Count; ++Record)
 			{

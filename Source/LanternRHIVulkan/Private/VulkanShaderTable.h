@@ -2,6 +2,7 @@
 #pragma once
 
 #include "VulkanBuffer.h"
+#include "VulkanHandleStore.h"
 #include "VulkanPipeline.h"
 #include "VulkanTableRecords.h"
 
@@ -101,6 +102,7 @@ private:
 	FRTStatus MakeLayout(const uint32_t Counts[KindCount], FLayout& Out);
 	FRTStatus MakeBuffer(uint64_t Size, VkBufferUsageFlags Usage, ERTMemory Memory, const char* Suffix,
 	                     TRTRef<FVulkanTableBuffer>& Out);
+	void PruneHandles();
 	bool IsDirty() const;
 	void MarkAllDirty();
 	void Fill(const FBatch& Batch) const;
@@ -114,7 +116,7 @@ private:
 	FRTShaderTableDesc Desc;
 	std::string Name;
 	TRTRef<FVulkanPipeline> Pipeline;
-	const uint8_t* Handles = nullptr; ///< Pipeline's
+	FVulkanHandleStore Handles; ///< of Pipeline, and of those before that records still name
 	FVulkanTableRecords Records[KindCount];
 	FLayout Current;           ///< of the last update
 	FLayout Next;              ///< of the next one, where it is another

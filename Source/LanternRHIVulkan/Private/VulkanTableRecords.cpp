@@ -32,7 +32,7 @@ void FVulkanTableRecords::Grow(uint32_t InCount)
 	while (Pages.size() < PageCount)
 	{
 		auto Page = std::make_unique<FPage>();
-		Page->Bytes = std::make_unique<uint8_t[]>(Stride * PageRecords);
+		Page->Data = std::make_unique<uint8_t[]>(size_t(DataBytes) * PageRecords);
 		Pages.push_back(std::move(Page));
 	}
 	Count = std::max(Count, InCount);
@@ -49,7 +49,7 @@ void FVulkanTableRecords::ForEachPiece(uint32_t First, uint32_t InCount, TWrite&
 		const uint32_t Bit = Within % WordBits;
 		const uint32_t Piece = std::min(WordBits - Bit, InCount - Done);
 		FPage& Page = *Pages[(First + Done) / PageRecords];
-		const uint64_t Mask = Write(Page.Bytes.get() + Stride * Within, Done, Piece) << Bit;
+		const uint64_t Mask = Write(Page, Within, Done, Piece) << Bit;
 		std::atomic<uint64_t>& Word = Page.Dirty[Within / WordBits];
 		if (Mask == ~uint64_t(0))
 		{
@@ -68,107 +68,93 @@ void FVulkanTableRecords::ForEachPiece(uint32_t First, uint32_t InCount, TWrite&
 	}
 }
 
-template <uint32_t HandleBytes, uint32_t RecordBytes>
-void FVulkanTableRecords::SetFixed(uint32_t First, uint32_t InCount, const uint8_t* Handles, const uint32_t* Groups,
-                                   const void* Data)
-{
-	const uint8_t* Source = static_cast<const uint8_t*>(Data);
-	ForEachPiece(First, InCount,
-	             [&](uint8_t* Record, uint32_t Done, uint32_t Piece)
-	             {
-		             for (uint32_t Index = Done; Index < Done + Piece; ++Index, Record += Stride)
-		             {
-			             memcpy(Record, Handles + size_t(Groups[Index]) * HandleBytes, HandleBytes);
-			             memcpy(Record + HandleBytes, Source + size_t(Index) * RecordBytes, RecordBytes);
-		             }
-		             return FullMask(Piece);
-	             });
-}
-
-void FVulkanTableRecords::SetAny(uint32_t First, uint32_t InCount, const uint8_t* Handles, const uint32_t* Groups,
-                                 const void* Data)
-{
-	const uint8_t* Source = static_cast<const uint8_t*>(Data);
-	ForEachPiece(First, InCount,
-	             [&](uint8_t* Record, uint32_t Done, uint32_t Piece)
-	             {
-		             for (uint32_t Index = Done; Index < Done + Piece; ++Index, Record += Stride)
-		             {
-			             memcpy(Record, Handles + size_t(Groups[Index]) * HandleSize, HandleSize);
-			             if (Source)
-			             {
-				             memcpy(Record + HandleSize, Source + size_t(Index) * DataBytes, DataBytes);
-			             }
-			             else
-			             {
-				             memset(Record + HandleSize, 0, DataBytes);
-			             }
-		             }
-		             return FullMask(Piece);
-	             });
-}
-
-void FVulkanTableRecords::Set(uint32_t First, uint32_t InCount, const uint8_t* Handles, const uint32_t* Groups,
+void FVulkanTableRecords::Set(uint32_t First, uint32_t InCount, const uint32_t* SlotsOfGroups, const uint32_t* Groups,
                               const void* Data)
 {
-	// Sizes known at compile time make a record two or three vector moves: twice as fast for 400,000 records.
-	if (HandleSize == 32 && Data)
-	{
-		switch (DataBytes)
-		{
-		case 4: return SetFixed<32, 4>(First, InCount, Handles, Groups, Data);
-		case 8: return SetFixed<32, 8>(First, InCount, Handles, Groups, Data);
-		case 16: return SetFixed<32, 16>(First, InCount, Handles, Groups, Data);
-		case 32: return SetFixed<32, 32>(First, InCount, Handles, Groups, Data);
-		default: break;
-		}
-	}
-	SetAny(First, InCount, Handles, Groups, Data);
+	const uint8_t* Source = static_cast<const uint8_t*>(Data);
+	ForEachPiece(First, InCount,
+	             [&](FPage& Page, uint32_t Within, uint32_t Done, uint32_t Piece)
+	             {
+		             for (uint32_t Index = 0; Index < Piece; ++Index)
+		             {
+			             Page.Slots[Within + Index] = SlotsOfGroups[Groups[Done + Index]];
+		             }
+		             uint8_t* Dest = Page.Data.get() + size_t(DataBytes) * Within;
+		             if (Source)
+		             {
+			             memcpy(Dest, Source + size_t(DataBytes) * Done, size_t(DataBytes) * Piece);
+		             }
+		             else
+		             {
+			             memset(Dest, 0, size_t(DataBytes) * Piece);
+		             }
+		             return FullMask(Piece);
+	             });
 }
 
-void FVulkanTableRecords::SetOne(uint32_t Index, const uint8_t* Handle, const void* Data, uint32_t InDataBytes)
+void FVulkanTableRecords::SetOne(uint32_t Index, uint32_t Slot, const void* Data, uint32_t InDataBytes)
 {
 	assert(InDataBytes <= DataBytes);
 	ForEachPiece(Index, 1,
-	             [&](uint8_t* Record, uint32_t, uint32_t)
+	             [&](FPage& Page, uint32_t Within, uint32_t, uint32_t)
 	             {
-		             memcpy(Record, Handle, HandleSize);
+		             Page.Slots[Within] = Slot;
+		             uint8_t* Dest = Page.Data.get() + size_t(DataBytes) * Within;
 		             const uint32_t Given = Data ? InDataBytes : 0;
 		             if (Given)
 		             {
-			             memcpy(Record + HandleSize, Data, Given);
+			             memcpy(Dest, Data, Given);
 		             }
-		             memset(Record + HandleSize + Given, 0, DataBytes - Given);
+		             if (Given < DataBytes)
+		             {
+			             memset(Dest + Given, 0, DataBytes - Given);
+		             }
 		             return uint64_t(1);
 	             });
 }
 
-void FVulkanTableRecords::SetHandles(uint32_t First, uint32_t InCount, const uint8_t* Handles, const uint32_t* Groups)
+void FVulkanTableRecords::SetHandles(uint32_t First, uint32_t InCount, const uint32_t* SlotsOfGroups,
+                                     const uint32_t* Groups)
 {
-	const auto Write = [&](auto Size)
-	{
-		ForEachPiece(First, InCount,
-		             [&](uint8_t* Record, uint32_t Done, uint32_t Piece)
+	ForEachPiece(First, InCount,
+	             [&](FPage& Page, uint32_t Within, uint32_t Done, uint32_t Piece)
+	             {
+		             uint64_t Changed = 0;
+		             for (uint32_t Index = 0; Index < Piece; ++Index)
 		             {
-			             uint64_t Changed = 0;
-			             for (uint32_t Index = 0; Index < Piece; ++Index, Record += Stride)
-			             {
-				             const uint8_t* Handle = Handles + size_t(Groups[Done + Index]) * Size;
-				             if (memcmp(Record, Handle, Size) != 0)
-				             {
-					             memcpy(Record, Handle, Size);
-					             Changed |= uint64_t(1) << Index;
-				             }
-			             }
-			             return Changed;
-		             });
-	};
-	HandleSize == 32 ? Write(std::integral_constant<size_t, 32>()) : Write(size_t(HandleSize));
+			             const uint32_t Slot = SlotsOfGroups[Groups[Done + Index]];
+			             Changed |= uint64_t(Page.Slots[Within + Index] != Slot) << Index;
+			             Page.Slots[Within + Index] = Slot;
+		             }
+		             return Changed;
+	             });
+}
+
+void FVulkanTableRecords::MarkUsed(std::vector<bool>& Used) const
+{
+	for (const std::unique_ptr<FPage>& Page : Pages)
+	{
+		for (const uint32_t Slot : Page->Slots)
+		{
+			Used[Slot] = true;
+		}
+	}
+}
+
+void FVulkanTableRecords::Renumber(const std::vector<uint32_t>& NewOf)
+{
+	for (const std::unique_ptr<FPage>& Page : Pages)
+	{
+		for (uint32_t& Slot : Page->Slots)
+		{
+			Slot = NewOf[Slot];
+		}
+	}
 }
 
 void FVulkanTableRecords::MarkDirty(FRun Run)
 {
-	ForEachPiece(Run.First, Run.Count, [](uint8_t*, uint32_t, uint32_t Piece) { return FullMask(Piece); });
+	ForEachPiece(Run.First, Run.Count, [](FPage&, uint32_t, uint32_t, uint32_t Piece) { return FullMask(Piece); });
 }
 
 void FVulkanTableRecords::TakeDirty(std::vector<FRun>& Out)
@@ -214,13 +200,42 @@ uint64_t FVulkanTableRecords::CountRecords(const std::vector<FRun>& Runs)
 	return Sum;
 }
 
-void FVulkanTableRecords::CopyTo(uint8_t* Dest, FRun Run) const
+template <uint32_t HandleBytes, uint32_t RecordBytes>
+void FVulkanTableRecords::ComposeFixed(uint8_t* Dest, const FPage& Page, uint32_t Within, uint32_t InCount,
+                                       const uint8_t* Handles)
+{
+	const uint8_t* Data = Page.Data.get() + size_t(RecordBytes) * Within;
+	for (uint32_t Index = 0; Index < InCount; ++Index, Dest += HandleBytes + RecordBytes, Data += RecordBytes)
+	{
+		memcpy(Dest, Handles + size_t(Page.Slots[Within + Index]) * HandleBytes, HandleBytes);
+		memcpy(Dest + HandleBytes, Data, RecordBytes);
+	}
+}
+
+void FVulkanTableRecords::Compose(uint8_t* Dest, const FPage& Page, uint32_t Within, uint32_t InCount,
+                                  const uint8_t* Handles) const
+{
+	// Sizes known at compile time make a record a few vector moves.
+	if (HandleSize == 32 && DataBytes == 32 && Stride == 64)
+	{
+		return ComposeFixed<32, 32>(Dest, Page, Within, InCount, Handles);
+	}
+	const uint8_t* Data = Page.Data.get() + size_t(DataBytes) * Within;
+	for (uint32_t Index = 0; Index < InCount; ++Index, Dest += Stride, Data += DataBytes)
+	{
+		memcpy(Dest, Handles + size_t(Page.Slots[Within + Index]) * HandleSize, HandleSize);
+		memcpy(Dest + HandleSize, Data, DataBytes);
+		memset(Dest + HandleSize + DataBytes, 0, Stride - HandleSize - DataBytes);
+	}
+}
+
+void FVulkanTableRecords::CopyTo(uint8_t* Dest, FRun Run, const uint8_t* Handles) const
 {
 	while (Run.Count > 0)
 	{
 		const uint32_t Within = Run.First % PageRecords;
 		const uint32_t Piece = std::min(PageRecords - Within, Run.Count);
-		memcpy(Dest, Pages[Run.First / PageRecords]->Bytes.get() + Stride * Within, Stride * Piece);
+		Compose(Dest, *Pages[Run.First / PageRecords], Within, Piece, Handles);
 		Dest += Stride * Piece;
 		Run.First += Piece;
 		Run.Count -= Piece;

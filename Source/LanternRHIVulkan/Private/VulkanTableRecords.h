@@ -19,27 +19,31 @@ public:
 		uint32_t Count = 0;
 	};
 
-	/// Bytes. A record is a handle, DataBytes of data, and zeros up to the stride.
+	/// Bytes. A record is a handle, DataBytes of data, and zeros up to the stride; here it is its handle's number in an
+	/// FVulkanHandleStore, and its data.
 	void Initialise(uint64_t InStride, uint32_t InHandleSize, uint32_t InDataBytes);
 	/// New records are zeros, and clean: the GPU is to fill its own with zeros.
 	void Grow(uint32_t InCount);
 	uint32_t GetCount() const { return Count; }
 	uint64_t GetStride() const { return Stride; }
 
-	/// Handles of a pipeline by group; Data: RecordDataBytes for each record, or null for zeros. From several threads at
-	/// once for different records.
-	void Set(uint32_t First, uint32_t InCount, const uint8_t* Handles, const uint32_t* Groups, const void* Data);
+	/// SlotsOfGroups: numbers of the pipeline's handles. Data: RecordDataBytes for each record, or null for zeros. From
+	/// several threads at once for different records.
+	void Set(uint32_t First, uint32_t InCount, const uint32_t* SlotsOfGroups, const uint32_t* Groups, const void* Data);
 	/// One record with less data than it has room for.
-	void SetOne(uint32_t Index, const uint8_t* Handle, const void* Data, uint32_t InDataBytes);
+	void SetOne(uint32_t Index, uint32_t Slot, const void* Data, uint32_t InDataBytes);
 	/// The data stays; a record whose handle is what it was stays clean.
-	void SetHandles(uint32_t First, uint32_t InCount, const uint8_t* Handles, const uint32_t* Groups);
+	void SetHandles(uint32_t First, uint32_t InCount, const uint32_t* SlotsOfGroups, const uint32_t* Groups);
+	/// Which numbers there are, and other ones for them: see FVulkanHandleStore::Prune.
+	void MarkUsed(std::vector<bool>& Used) const;
+	void Renumber(const std::vector<uint32_t>& NewOf);
 
 	void MarkDirty(FRun Run);
 	bool IsDirty() const { return bDirty.load(std::memory_order_relaxed); }
 	/// Appends the dirty runs, in order, and makes them clean.
 	void TakeDirty(std::vector<FRun>& Out);
-	/// Count · stride bytes.
-	void CopyTo(uint8_t* Dest, FRun Run) const;
+	/// Count · stride bytes. Handles: the store's.
+	void CopyTo(uint8_t* Dest, FRun Run, const uint8_t* Handles) const;
 	static uint64_t CountRecords(const std::vector<FRun>& Runs);
 
 private:
@@ -47,17 +51,19 @@ private:
 	static constexpr uint32_t PageRecords = 1024;
 	struct FPage
 	{
-		std::unique_ptr<uint8_t[]> Bytes;
+		std::unique_ptr<uint8_t[]> Data;
+		uint32_t Slots[PageRecords] = {};
 		std::atomic<uint64_t> Dirty[PageRecords / WordBits] = {};
 	};
 
-	/// Calls Write(bytes of the first record, offset of it from First, count) for pieces that share a word of bits; it
-	/// answers which changed, from bit 0.
+	/// Calls Write(page, place in it, offset from First, count) for pieces that share a word of bits; it answers which
+	/// changed, from bit 0.
 	template <class TWrite>
 	void ForEachPiece(uint32_t First, uint32_t InCount, TWrite&& Write);
 	template <uint32_t HandleBytes, uint32_t RecordBytes>
-	void SetFixed(uint32_t First, uint32_t InCount, const uint8_t* Handles, const uint32_t* Groups, const void* Data);
-	void SetAny(uint32_t First, uint32_t InCount, const uint8_t* Handles, const uint32_t* Groups, const void* Data);
+	static void ComposeFixed(uint8_t* Dest, const FPage& Page, uint32_t Within, uint32_t InCount,
+	                         const uint8_t* Handles);
+	void Compose(uint8_t* Dest, const FPage& Page, uint32_t Within, uint32_t InCount, const uint8_t* Handles) const;
 
 	uint64_t Stride = 0;
 	uint32_t HandleSize = 0;
