@@ -67,7 +67,7 @@ void FTaskGroup::Run(std::function<void()> Task)
 	auto Shared = std::make_shared<std::function<void()>>(std::move(Task));
 	LANTERN_MARK_RELEASE(Order);
 	Impl->Group.run(
-	    [Order, Shared]() noexcept
+	    [Order, Shared = std::move(Shared)]() noexcept // nothing of it is left behind for this thread to destroy
 	    {
 		    LANTERN_MARK_ACQUIRE(Order);
 		    (*Shared)();

@@ -226,38 +226,44 @@ uint32_t FInstanceGather::Count(const FInstanceStore& Store, const FCullingRule&
 	return Total;
 }
 
+void FInstanceGather::WriteBlock(const FInstanceStore& Store, const glm::ivec3& Origin, size_t Block,
+                                 FRTInstance* Out) const
+{
+	const FInstanceBinding* const Bindings = Store.GetBindings();
+	const size_t End = std::min((Block + 1) * BlockBuckets, Kept.size());
+	FRTInstance* Next = Out + BlockOffsets[Block];
+	for (size_t I = Block * BlockBuckets; I < End; ++I)
+	{
+		const FKept& Here = Kept[I];
+		if (Here.Written == 0)
+		{
+			continue;
+		}
+		const FInstanceBucket& Bucket = *Store.GetBucket(I);
+		const glm::vec3 Offset = CellOffset(Bucket.Cell, Origin);
+		for (uint64_t Left = Here.Written; Left != 0; Left &= Left - 1)
+		{
+			const auto Slot = static_cast<uint32_t>(std::countr_zero(Left));
+			const uint32_t Bits = MaskBits((Here.Others >> Slot) & 1, (Here.Shadow >> Slot) & 1);
+			WriteInstance(Next++, Bucket.Transform[Slot], Offset, Bucket.IndexAndMask[Slot] & Bits,
+			              Bindings[Bucket.Range[Slot]]);
+		}
+	}
+#if defined(__SSE2__)
+	_mm_sfence(); // streamed stores are ordered by nothing else
+#endif
+}
+
 void FInstanceGather::Write(const FInstanceStore& Store, const glm::ivec3& Origin, FRTInstance* Out) const
 {
 	assert(SeenRevision == Store.GetRevision() && reinterpret_cast<uintptr_t>(Out) % 16 == 0);
-	const FInstanceBinding* const Bindings = Store.GetBindings();
 	ParallelFor(BlockOffsets.size(), 4,
 	            [&](size_t Begin, size_t End)
 	            {
 		            for (size_t Block = Begin; Block < End; ++Block)
 		            {
-			            FRTInstance* Next = Out + BlockOffsets[Block];
-			            for (size_t I = Block * BlockBuckets; I < std::min((Block + 1) * BlockBuckets, Kept.size());
-			                 ++I)
-			            {
-				            const FKept& Here = Kept[I];
-				            if (Here.Written == 0)
-				            {
-					            continue;
-				            }
-				            const FInstanceBucket& Bucket = *Store.GetBucket(I);
-				            const glm::vec3 Offset = CellOffset(Bucket.Cell, Origin);
-				            for (uint64_t Left = Here.Written; Left != 0; Left &= Left - 1)
-				            {
-					            const auto Slot = static_cast<uint32_t>(std::countr_zero(Left));
-					            const uint32_t Bits = MaskBits((Here.Others >> Slot) & 1, (Here.Shadow >> Slot) & 1);
-					            WriteInstance(Next++, Bucket.Transform[Slot], Offset, Bucket.IndexAndMask[Slot] & Bits,
-					                          Bindings[Bucket.Range[Slot]]);
-				            }
-			            }
+			            WriteBlock(Store, Origin, Block, Out);
 		            }
-#if defined(__SSE2__)
-		            _mm_sfence(); // streamed stores are ordered by nothing else
-#endif
 	            });
 }
 

@@ -30,6 +30,11 @@ LANTERN_KERNEL_INLINE float Smaller(float A, float B)
 {
 	return A < B ? A : B;
 }
+/// Whole vectors: the loops need no remainder.
+LANTERN_KERNEL_INLINE uint32_t RoundUp(uint32_t Count)
+{
+	return (Count + 15) & ~15u;
+}
 LANTERN_KERNEL_INLINE float Square(float A)
 {
 	return A * A;
@@ -80,7 +85,8 @@ LANTERN_KERNEL_INLINE void TestLoop(const FInstanceBucket& Bucket, const FKernel
                                     uint32_t* __restrict Out)
 {
 	const FKernelRule Rule = InRule;
-	for (uint32_t I = 0; I < Capacity; ++I)
+	const uint32_t Count = RoundUp(Bucket.Count);
+	for (uint32_t I = 0; I < Count; ++I)
 	{
 		const float R = Bucket.R[I];
 		const float DX = Bucket.X[I] - Rule.Eye[0], DY = Bucket.Y[I] - Rule.Eye[1], DZ = Bucket.Z[I] - Rule.Eye[2];
@@ -104,9 +110,9 @@ LANTERN_KERNEL_INLINE void TestLoop(const FInstanceBucket& Bucket, const FKernel
 	}
 }
 
-LANTERN_KERNEL_INLINE void PackLoop(const uint32_t* __restrict Flags, uint8_t* __restrict Bytes)
+LANTERN_KERNEL_INLINE void PackLoop(const uint32_t* __restrict Flags, uint32_t Count, uint8_t* __restrict Bytes)
 {
-	for (uint32_t I = 0; I < Capacity; ++I)
+	for (uint32_t I = 0; I < Count; ++I)
 	{
 		Bytes[I] = static_cast<uint8_t>(Flags[I]);
 	}
@@ -124,7 +130,7 @@ LANTERN_KERNEL_AVX2 void TestAvx2(const FInstanceBucket& Bucket, const FKernelRu
 {
 	alignas(64) uint32_t Flags[Capacity];
 	TestLoop(Bucket, Rule, Margin, Reach, Flags);
-	PackLoop(Flags, Out);
+	PackLoop(Flags, RoundUp(Bucket.Count), Out);
 }
 const bool bHasAvx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 #endif
@@ -138,14 +144,14 @@ void TestPlain(const FInstanceBucket& Bucket, const FKernelRule& Rule, float Mar
 {
 	alignas(64) uint32_t Flags[Capacity];
 	TestLoop(Bucket, Rule, Margin, Reach, Flags);
-	PackLoop(Flags, Out);
+	PackLoop(Flags, RoundUp(Bucket.Count), Out);
 }
 
-/// Bit Shift of 64 bytes.
-uint64_t CollectBits(const uint8_t* Bytes, uint32_t Shift)
+/// Bit Shift of each of Count bytes.
+uint64_t CollectBits(const uint8_t* Bytes, uint32_t Count, uint32_t Shift)
 {
 	uint64_t Mask = 0;
-	for (uint32_t Group = 0; Group < Capacity / 8; ++Group)
+	for (uint32_t Group = 0; Group < RoundUp(Count) / 8; ++Group)
 	{
 		uint64_t Eight;
 		std::memcpy(&Eight, Bytes + 8 * Group, sizeof(Eight));
@@ -183,7 +189,8 @@ FBucketMasks TestBucket(const FInstanceBucket& Bucket, const FKernelRule& Rule, 
 	{
 		TestPlain(Bucket, Rule, SquareError * Size * Size, PlaceError * Size, Flags);
 	}
-	return {CollectBits(Flags, 0), CollectBits(Flags, 1), CollectBits(Flags, 2)};
+	return {CollectBits(Flags, Bucket.Count, 0), CollectBits(Flags, Bucket.Count, 1),
+	        CollectBits(Flags, Bucket.Count, 2)};
 }
 
 } // namespace Lantern

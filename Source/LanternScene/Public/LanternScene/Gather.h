@@ -42,6 +42,7 @@ private:
 	uint32_t CountBlock(const FPass& Pass, size_t Block, bool& OutChanged);
 	FKept CullBucket(const FPass& Pass, size_t Bucket, uint32_t Class) const;
 	uint64_t DropMissing(const FPass& Pass, const FInstanceBucket& Bucket, uint64_t Kept) const;
+	void WriteBlock(const FInstanceStore& Store, const glm::ivec3& Origin, size_t Block, FRTInstance* Out) const;
 
 	std::vector<FKept> Kept;            // per bucket
 	std::vector<uint32_t> BlockOffsets; // first instance of each block of buckets
