@@ -15,7 +15,7 @@ struct FBenchFrameOptions
 	FBenchWorldOptions World;
 	bool bMock = false;   ///< a pretended device: the plugin's own work alone
 	uint32_t Rounds = 12; ///< of all stages in turn
-	std::string Size = "320x180";
+	std::string Size;     ///< WIDTHxHEIGHT; empty: 1280×720, on a CPU device 64×36
 	std::string Json;
 	void AddTo(CLI::App& App);
 };

@@ -259,8 +259,17 @@ std::string FTaskTrace::ToJson()
 	std::string Json = "{\"displayTimeUnit\":\"ms\",\"traceEvents\":[\n"
 	                   "{\"ph\":\"M\",\"pid\":1,\"name\":\"process_name\",\"args\":{\"name\":\"Lantern\"}}";
 	const std::vector<std::string> Names = GetThreadNames();
+	std::vector<bool> bUsed(Names.size());
+	for (const FTraceEvent& Event : Events)
+	{
+		bUsed[Event.Thread] = true;
+	}
 	for (size_t Thread = 0; Thread < Names.size(); ++Thread)
 	{
+		if (!bUsed[Thread])
+		{
+			continue;
+		}
 		Json +=
 		    fmt::format(",\n{{\"ph\":\"M\",\"pid\":1,\"tid\":{},\"name\":\"thread_name\",\"args\":{{\"name\":{}}}}}",
 		                Thread, Quote(Names[Thread]));

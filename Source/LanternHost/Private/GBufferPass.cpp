@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <utility>
 
 #include "GBufferTypes.h"
+#include "LanternCore/Log.h"
 #include "LanternHost/HostScene.h"
 
 namespace Lantern
@@ -13,108 +13,108 @@ namespace
 {
 constexpr std::array<ERTFormat, 4> ColorFormats = {ERTFormat::RGBA16_SNORM, ERTFormat::RGBA8_SRGB, ERTFormat::RGBA8_UNORM, ERTFormat::RGBA32_FLOAT};
 
-FRTStatus CreatePipeline(FRenderer& Renderer, bool bMasked, ERTCull Cull, TRTRef<IRTPipeline>& Out)
+} // namespace
+
+FRTStatus FGBufferPass::CreatePipeline(const FPipelineKey& Key, TRTRef<IRTPipeline>& Out)
 {
-	FShaderSource Vertex{"GBuffer/GBuffer.vert", ERTShaderStage::Vertex, {}, {}};
+	const FShaderSource Vertex{"GBuffer/GBuffer.vert", ERTShaderStage::Vertex, {}, {}};
 	FShaderSource Fragment{"GBuffer/GBuffer.frag", ERTShaderStage::Fragment, {}, {}};
-	if (bMasked) { Fragment.Defines.emplace_back("MASKED", "1"); }
+	if (Key.bMasked) { Fragment.Defines.emplace_back("MASKED", "1"); }
+	Fragment = Renderer.GetPrograms().MakeSource(std::move(Fragment), Key.Program);
 	FShaderBinary VertexBinary, FragmentBinary;
 	if (FRTStatus S = Renderer.GetCompiler().Compile(Vertex, VertexBinary); !S) { return S; }
 	if (FRTStatus S = Renderer.GetCompiler().Compile(Fragment, FragmentBinary); !S) { return S; }
+	std::string Name = Key.bMasked ? "GBufferMasked" : "GBuffer";
+	if (Key.Program != StandardProgram) { Name += ' ' + Renderer.GetPrograms().Get(Key.Program).Name; }
 	FRTRasterPipelineDesc Desc;
 	Desc.Vertex = VertexBinary.GetCode();
 	Desc.Fragment = FragmentBinary.GetCode();
 	Desc.ColorFormats = ColorFormats.data();
 	Desc.ColorCount = static_cast<uint32_t>(ColorFormats.size());
 	Desc.DepthFormat = ERTFormat::D32_FLOAT;
-	Desc.Cull = Cull;
-	Desc.Name = bMasked ? "GBufferMasked" : "GBuffer";
-	return Renderer.GetDevice().CreateRasterPipeline(Desc, Out.ReleaseAndGetAddress());
+	Desc.Cull = Key.Cull;
+	Desc.Name = Name.c_str();
+	TRTRef<IRTPipeline> Made;
+	if (FRTStatus S = Renderer.GetDevice().CreateRasterPipeline(Desc, Made.ReleaseAndGetAddress()); !S) { return S; }
+	Out = std::move(Made);
+	return FRTStatus::Success();
 }
 
-constexpr uint32_t NoDraw = ~0u;
-} // namespace
-
-IRTPipeline* FGBufferPass::GetPipeline(const FFrameContext& Context, bool bMasked, ERTCull Cull)
+IRTPipeline* FGBufferPass::GetPipeline(const FFrameContext& Context, const FPipelineKey& Key)
 {
-	TRTRef<IRTPipeline>& Entry = Pipelines[bMasked][static_cast<size_t>(Cull)];
-	if (!Entry)
+	FPipelineEntry& Entry = Pipelines[Key];
+	const uint32_t Revision = Renderer.GetPrograms().GetRevision(Key.Program);
+	if (!Entry.Pipeline || Entry.Revision != Revision)
 	{
-		if (FRTStatus S = CreatePipeline(Renderer, bMasked, Cull, Entry); !S)
+		const bool bTried = Entry.Revision == Revision && Key.Program != StandardProgram;
+		const FRTStatus Status = bTried ? FRTStatus::Success() : CreatePipeline(Key, Entry.Pipeline);
+		// What the code is wrong in stays wrong; a shortage of memory passes.
+		if (Status || Status.Code == ERTResult::CompileFailed) { Entry.Revision = Revision; }
+		if (!Status && (Key.Program == StandardProgram || Status.Code != ERTResult::CompileFailed))
 		{
-			Context.Fail(S);
-			return nullptr;
+			Context.Fail(Status);
+			return Entry.Pipeline.Get();
 		}
+		if (!Status) { LogError("raster, material program {}: {}", Renderer.GetPrograms().Get(Key.Program).Name, Status.Message); }
 	}
-	return Entry.Get();
+	if (Entry.Pipeline || Key.Program == StandardProgram) { return Entry.Pipeline.Get(); }
+	return GetPipeline(Context, {StandardProgram, Key.bMasked, Key.Cull});
 }
 
-/// One draw a batch, in the order of their nearest objects, and the objects of each, near before far.
-FRTStatus FGBufferPass::MakeBatchDraws(FHostScene& Scene, FUploadSlice& OutObjects)
+/// The objects of each batch in its places, near before far, and the batches in the order of their nearest objects.
+void FGBufferPass::ListObjects(FHostScene& Scene, uint32_t* Objects)
 {
-	const std::vector<uint32_t>& Indices = Scene.GetBatchIndices();
-	const auto ForEach = [&](auto Do) {
-		for (const FDrawBlocks::FSeen& InBlock : Seen)
+	const uint32_t* const Indices = Scene.GetBatchIndices().data();
+	const FHostScene::FDrawBatch* const Batches = Scene.GetBatches().data();
+	Uses.assign(Scene.GetBatches().size(), {});
+	Order.clear();
+	for (const FDrawBlocks::FSeen& InBlock : Seen)
+	{
+		const FDrawBlocks::FBlock& Block = Scene.GetDrawBlocks().GetBlock(InBlock.Block);
+		for (uint64_t Left = InBlock.Items; Left != 0; Left &= Left - 1)
 		{
-			const FDrawBlocks::FBlock& Block = Scene.GetDrawBlocks().GetBlock(InBlock.Block);
-			for (uint64_t Left = InBlock.Items; Left != 0; Left &= Left - 1)
+			const int Index = std::countr_zero(Left);
+			const FDrawBlocks::FItem& Item = Block.Items[Index];
+			const bool bMirrored = ((Block.Mirrored >> Index) & 1u) != 0;
+			for (uint32_t I = 0; I < Item.BatchCount; ++I)
 			{
-				const int Index = std::countr_zero(Left);
-				const FDrawBlocks::FItem& Item = Block.Items[Index];
-				const uint32_t Mirrored = (Block.Mirrored >> Index) & 1u;
-				for (uint32_t I = 0; I < Item.BatchCount; ++I) { Do(2 * Indices[Item.FirstBatch + I] + Mirrored, Item.Object); }
+				const uint32_t Batch = Indices[Item.FirstBatch + I];
+				FBatchUse& Use = Uses[Batch];
+				if (Use.Plain + Use.Mirrored == 0) { Order.push_back(Batch); }
+				const uint32_t Place = bMirrored ? Batches[Batch].Places - ++Use.Mirrored : Use.Plain++;
+				Objects[Batches[Batch].FirstPlace + Place] = Item.Object;
 			}
 		}
-	};
-	BatchDraws.clear();
-	DrawOfBatch.assign(2 * Scene.GetBatches().size(), NoDraw);
-	uint32_t Total = 0;
-	ForEach([&](uint32_t Batch, uint32_t) {
-		uint32_t& Index = DrawOfBatch[Batch];
-		if (Index == NoDraw)
-		{
-			Index = static_cast<uint32_t>(BatchDraws.size());
-			BatchDraws.push_back({Batch / 2, Batch % 2 != 0});
-		}
-		++BatchDraws[Index].Count;
-		++Total;
-	});
-	if (Total == 0) { return FRTStatus::Success(); }
-	if (FRTStatus S = Renderer.GetUploads().Allocate(uint64_t(Total) * sizeof(uint32_t), OutObjects); !S) { return S; }
-	uint32_t First = 0;
-	for (FBatchDraw& Draw : BatchDraws)
-	{
-		Draw.First = First;
-		First += std::exchange(Draw.Count, 0u);
 	}
-	auto* const Objects = static_cast<uint32_t*>(OutObjects.Data);
-	ForEach([&](uint32_t Batch, uint32_t Object) {
-		FBatchDraw& Draw = BatchDraws[DrawOfBatch[Batch]];
-		Objects[Draw.First + Draw.Count++] = Object;
-	});
-	return FRTStatus::Success();
+	std::stable_partition(Order.begin(), Order.end(), [&](uint32_t Batch) { return !Batches[Batch].bMasked; });
 }
 
 void FGBufferPass::RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHostScene& Scene)
 {
 	Scene.GetDrawBlocks().Collect(Frame.View, MinPixels, Seen);
+	if (Seen.empty()) { return; }
 	FUploadSlice Objects;
-	if (FRTStatus S = MakeBatchDraws(Scene, Objects); !S) { return Frame.Fail(S); }
-	const auto IsMasked = [&](const FBatchDraw& Draw) { return Scene.GetBatches()[Draw.Batch].bMasked; };
-	std::stable_partition(BatchDraws.begin(), BatchDraws.end(), [&](const FBatchDraw& Draw) { return !IsMasked(Draw); });
+	if (FRTStatus S = Renderer.GetUploads().Allocate(uint64_t(Scene.GetPlaceCount()) * sizeof(uint32_t), Objects); !S) { return Frame.Fail(S); }
+	ListObjects(Scene, static_cast<uint32_t*>(Objects.Data));
 	IRTPipeline* Bound = nullptr;
 	IRTBuffer* BoundIndices = nullptr;
-	for (const FBatchDraw& Draw : BatchDraws)
+	for (const uint32_t Index : Order)
 	{
-		const FHostScene::FDrawBatch& Batch = Scene.GetBatches()[Draw.Batch];
-		const ERTCull Cull = Batch.bDoubleSided ? ERTCull::None : Draw.bMirrored ? ERTCull::Front : ERTCull::Back;
-		IRTPipeline* const Pipeline = GetPipeline(Frame, Batch.bMasked && Frame.Facts.bMasked, Cull);
-		if (!Pipeline) { return; }
-		if (Pipeline != Bound) { List.SetPipeline(Bound = Pipeline); }
-		if (Batch.Indices != BoundIndices) { List.SetIndexBuffer(BoundIndices = Batch.Indices, 0, ERTIndexType::UInt32); }
-		const FGBufferConstants Constants{Frame.Pass, Objects.Address + uint64_t(Draw.First) * sizeof(uint32_t), Batch.Section};
-		List.PushConstants(&Constants, sizeof(Constants));
-		List.DrawIndexed(Batch.IndexCount, Draw.Count, Batch.FirstIndex, 0);
+		const FHostScene::FDrawBatch& Batch = Scene.GetBatches()[Index];
+		for (const bool bMirrored : {false, true})
+		{
+			const uint32_t Count = bMirrored ? Uses[Index].Mirrored : Uses[Index].Plain;
+			if (Count == 0) { continue; }
+			const ERTCull Cull = Batch.bDoubleSided ? ERTCull::None : bMirrored ? ERTCull::Front : ERTCull::Back;
+			IRTPipeline* const Pipeline = GetPipeline(Frame, {Batch.Program, Batch.bMasked && Frame.Facts.bMasked, Cull});
+			if (!Pipeline) { return; }
+			if (Pipeline != Bound) { List.SetPipeline(Bound = Pipeline); }
+			if (Batch.Indices != BoundIndices) { List.SetIndexBuffer(BoundIndices = Batch.Indices, 0, ERTIndexType::UInt32); }
+			const uint32_t First = Batch.FirstPlace + (bMirrored ? Batch.Places - Count : 0);
+			const FGBufferConstants Constants{Frame.Pass, Objects.Address + uint64_t(First) * sizeof(uint32_t), Batch.Section};
+			List.PushConstants(&Constants, sizeof(Constants));
+			List.DrawIndexed(Batch.IndexCount, Count, Batch.FirstIndex, 0);
+		}
 	}
 }
 

@@ -15,13 +15,13 @@ FRTStatus FHostScene::Create(FRenderer& Renderer, FSceneDescription InDescriptio
 {
 	std::unique_ptr<FHostScene> Host(new FHostScene(Renderer.GetDevice()));
 	Host->Description = std::move(InDescription);
-	Host->ClassifyOpacity();
+	Host->Pose = EvaluatePose(Host->Description, 0.0);
+	Host->Opacity = ClassifySceneOpacity(Host->Description, Host->Pose);
 	FUploader Uploader(Renderer.GetDevice());
 	if (FRTStatus S = Host->UploadTextures(Uploader, Progress); !S) { return S; }
-	if (FRTStatus S = Host->AddMaterials(); !S) { return S; }
+	if (FRTStatus S = Host->AddMaterials(Renderer.GetPrograms()); !S) { return S; }
 	if (FRTStatus S = Host->UploadMeshes(Uploader); !S) { return S; }
 	if (FRTStatus S = Uploader.Flush(); !S) { return S; }
-	Host->Pose = EvaluatePose(Host->Description, 0.0);
 	if (FRTStatus S = Host->CreateObjects(); !S) { return S; }
 	Host->UpdateLights();
 	if (Progress) { Progress(1.0f); }
@@ -51,6 +51,13 @@ FRTStatus FHostScene::UploadMesh(FUploader& Uploader, uint32_t Mesh)
 	if (FRTStatus S = Upload(Source.Positions, ERTBufferUsage::None, Buffers.Positions); !S) { return S; }
 	if (FRTStatus S = Upload(Source.Attributes, ERTBufferUsage::None, Buffers.Attributes); !S) { return S; }
 	if (FRTStatus S = Upload(Source.Indices, ERTBufferUsage::Index, Buffers.Indices); !S) { return S; }
+	FOpacityPieceList& Pieces = Opacity.Meshes[Mesh].Pieces;
+	if (Pieces.GetCount() > 0)
+	{
+		if (FRTStatus S = Upload(Pieces.Positions, ERTBufferUsage::None, Buffers.PiecePositions); !S) { return S; }
+		if (FRTStatus S = Upload(Pieces.Indices, ERTBufferUsage::None, Buffers.PieceIndices); !S) { return S; }
+		Pieces = {};
+	}
 	if (Source.Skin.empty()) { return Scene.CreateGeometry(MakeGeometryInfo(Mesh), Buffers.Geometry); }
 	std::vector<FSkinVertex> Weights;
 	for (const FSkinWeights& Skin : Source.Skin)
@@ -75,17 +82,14 @@ FRTGeometryInfo FHostScene::MakeGeometryInfo(uint32_t Mesh) const
 	Info.VertexCount = static_cast<uint32_t>(Source.Positions.size());
 	Info.bHasTangents = Source.bHasTangents;
 	Info.bOpaqueVertices = std::all_of(Source.Attributes.begin(), Source.Attributes.end(), [](const FVertexAttributes& V) { return V.Color >= 0xff000000u; });
-	for (size_t Index = 0; Index < Source.Sections.size(); ++Index)
+	Info.Sections = Opacity.Meshes[Mesh].Sections;
+	for (size_t Section = 0; Section < Info.Sections.size(); ++Section)
 	{
-		const FHostSection& From = Source.Sections[Index];
-		FRTSectionInfo& Section = Info.Sections.emplace_back();
-		Section.FirstIndex = From.FirstIndex;
-		Section.IndexCount = From.IndexCount;
-		Section.bOpaque = Description.Materials[From.Material].AlphaMode == EAlphaMode::Opaque;
-		Section.OpaqueIndexCount = 3 * Opacity[Mesh][Index].Opaque;
-		Section.TransparentIndexCount = 3 * Opacity[Mesh][Index].Transparent;
-		Section.OpacityKey = MakeOpacityKey(Scene.GetMaterials()[static_cast<uint32_t>(From.Material)]);
+		const auto Material = static_cast<uint32_t>(Source.Sections[Section].Material);
+		Info.Sections[Section].OpacityKey = MakeOpacityKey(Scene.GetMaterials()[Material]);
 	}
+	Info.PiecePositions = Meshes[Mesh].PiecePositions;
+	Info.PieceIndices = Meshes[Mesh].PieceIndices;
 	Info.CpuPositions = Source.Positions.data();
 	Info.CpuIndices = Source.Indices.data();
 	return Info;
@@ -149,22 +153,28 @@ uint32_t FHostScene::FindBatches(uint32_t Mesh, const std::vector<uint32_t>& Mat
 {
 	const auto [Entry, bNew] = BatchesOf.try_emplace({Mesh, Materials}, static_cast<uint32_t>(BatchIndices.size()));
 	if (!bNew) { return Entry->second; }
+	std::vector<uint32_t> List;
 	for (uint32_t Section = 0; Section < Materials.size(); ++Section)
 	{
 		const FRTSectionInfo& Info = Geometry.GetInfo().Sections[Section];
 		const FHostMaterial& Material = Description.Materials[Materials[Section]];
 		const FDrawBatch Batch{Geometry.GetInfo().Indices.Get(), Info.FirstIndex, Info.IndexCount, Section, Material.AlphaMode != EAlphaMode::Opaque,
-		                       Material.bDoubleSided};
+		                       Material.bDoubleSided, Scene.GetMaterialProgram(Materials[Section])};
 		std::vector<uint32_t>& OfMesh = BatchesOfMesh[Mesh];
 		const auto Found = std::find_if(OfMesh.begin(), OfMesh.end(), [&](uint32_t Index) { return Batches[Index] == Batch; });
-		if (Found != OfMesh.end()) { BatchIndices.push_back(*Found); }
-		else
+		if (Found != OfMesh.end())
 		{
-			OfMesh.push_back(static_cast<uint32_t>(Batches.size()));
-			BatchIndices.push_back(OfMesh.back());
-			Batches.push_back(Batch);
+			List.push_back(*Found);
+			continue;
 		}
+		List.push_back(static_cast<uint32_t>(Batches.size()));
+		OfMesh.push_back(List.back());
+		Batches.push_back(Batch);
 	}
+	// Most sets of materials draw alike: one list for them, which then stays in the cache.
+	const auto [First, bNewList] = BatchLists.try_emplace(List, static_cast<uint32_t>(BatchIndices.size()));
+	if (bNewList) { BatchIndices.insert(BatchIndices.end(), List.begin(), List.end()); }
+	Entry->second = First->second;
 	return Entry->second;
 }
 
@@ -192,6 +202,15 @@ void FHostScene::BuildDrawBlocks()
 		Spheres.push_back(MakeDrawSphere(Instance));
 	}
 	DrawBlocks.Build(Items, Spheres);
+	for (const FDraw& Draw : Draws)
+	{
+		for (uint32_t I = 0; I < Draw.BatchCount; ++I) { ++Batches[BatchIndices[Draw.FirstBatch + I]].Places; }
+	}
+	for (FDrawBatch& Batch : Batches)
+	{
+		Batch.FirstPlace = PlaceCount;
+		PlaceCount += Batch.Places;
+	}
 }
 
 void FHostScene::SetTransform(size_t Instance, const glm::dmat4& Transform)

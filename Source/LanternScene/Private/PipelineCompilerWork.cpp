@@ -9,6 +9,7 @@
 #endif
 
 #include "LanternCore/Log.h"
+#include "LanternCore/TaskTrace.h"
 #include "PipelineCompilerImpl.h"
 
 namespace Lantern
@@ -38,6 +39,7 @@ void GiveWayToFrames()
 void FRTPSOCompiler::FImpl::RunCompiler(uint32_t Index)
 {
 	GiveWayToFrames();
+	FTaskTrace::NameThread("Pipeline compiler " + std::to_string(Index));
 	std::unique_lock Lock(Mutex);
 	for (;;)
 	{
@@ -49,6 +51,7 @@ void FRTPSOCompiler::FImpl::RunCompiler(uint32_t Index)
 
 void FRTPSOCompiler::FImpl::RunLinker()
 {
+	FTaskTrace::NameThread("Pipeline linker");
 	std::unique_lock Lock(Mutex);
 	for (;;)
 	{
@@ -72,9 +75,13 @@ void FRTPSOCompiler::FImpl::CompileNext(std::unique_lock<std::mutex>& Lock)
 	++Running;
 	Lock.unlock();
 
-	Job.ContentKey = GetContentKey(Job.Unit);
-	FRTStatus Status = CompileShaders(Job, *Build);
-	if (Status && Job.Slot->bLibrary) { Status = CompileLibrary(Job, *Build); }
+	FRTStatus Status;
+	{
+		FTraceScope Trace("Compile", Job.Unit.Name);
+		Job.ContentKey = GetContentKey(Job.Unit);
+		Status = CompileShaders(Job, *Build);
+		if (Status && Job.Slot->bLibrary) { Status = CompileLibrary(Job, *Build); }
+	}
 
 	Lock.lock();
 	--Running;
@@ -207,7 +214,11 @@ void FRTPSOCompiler::FImpl::LinkNext(std::unique_lock<std::mutex>& Lock)
 	Lock.unlock();
 	const auto Start = FPipelineClock::now();
 	std::shared_ptr<const FRTPSO> Pipeline;
-	const FRTStatus Status = Link(Plan, Pipeline);
+	FRTStatus Status;
+	{
+		FTraceScope Trace("Link RTPSO");
+		Status = Link(Plan, Pipeline);
+	}
 	const double Ms = MsSince(Start);
 	Lock.lock();
 	bLinking = false;

@@ -10,8 +10,8 @@
 
 #include "LanternHost/DrawBlocks.h"
 #include "LanternHost/SceneDescription.h"
+#include "LanternHost/SceneOpacity.h"
 #include "LanternRenderer/Frame.h"
-#include "LanternScene/OpacityClassifier.h"
 
 namespace Lantern
 {
@@ -47,6 +47,8 @@ public:
 		uint32_t FirstIndex = 0, IndexCount = 0;
 		uint32_t Section = 0; ///< of the object
 		bool bMasked = false, bDoubleSided = false;
+		uint32_t Program = StandardProgram; ///< as it was when the scene was loaded
+		uint32_t FirstPlace = 0, Places = 0; ///< in a list of all objects by batch
 		friend bool operator==(const FDrawBatch&, const FDrawBatch&) = default;
 	};
 	/// An object as the raster sees it, at the index of its instance.
@@ -59,6 +61,7 @@ public:
 	FDrawBlocks& GetDrawBlocks() { return DrawBlocks; }
 	const std::vector<FDrawBatch>& GetBatches() const { return Batches; }
 	const std::vector<uint32_t>& GetBatchIndices() const { return BatchIndices; }
+	uint32_t GetPlaceCount() const { return PlaceCount; } ///< of all batches
 
 	/// Instances are the nodes with meshes, in their order.
 	size_t GetInstanceCount() const { return Instances.size(); }
@@ -68,15 +71,15 @@ public:
 	void SetTransform(size_t Instance, const glm::dmat4& Transform);
 	/// Deforms a skinned one in the next frame; Joints as EvaluateJoints has them.
 	FSkinningInputs MakeSkinning(size_t Instance, std::vector<glm::mat4> Joints) const;
-	/// How many alpha-tested triangles are of each class, over all meshes.
-	const FOpacityCounts& GetOpacityCounts() const { return OpacityCounts; }
+	/// But for the pieces themselves, which are on the GPU.
+	const FSceneOpacity& GetOpacity() const { return Opacity; }
 	/// Of FSceneDescription::Images, on the GPU in ShaderRead.
 	IRTTexture* GetImage(int32_t Image) const { return Images[static_cast<size_t>(Image)].Get(); }
 
 private:
 	struct FMeshBuffers
 	{
-		TRTRef<IRTBuffer> Positions, Attributes, Indices, Weights;
+		TRTRef<IRTBuffer> Positions, Attributes, Indices, Weights, PiecePositions, PieceIndices;
 		FRTGeometryRef Geometry; // null for skinned meshes: each of their objects has its own
 	};
 	struct FInstance
@@ -86,7 +89,6 @@ private:
 		FRTGeometryRef Skinned; // null unless skinned
 	};
 	explicit FHostScene(IRTDevice& InDevice) : Device(InDevice), Scene(InDevice) {}
-	void ClassifyOpacity();
 	FRTStatus UploadTextures(FUploader& Uploader, const std::function<void(float)>& Progress);
 	FRTStatus UploadMeshes(FUploader& Uploader);
 	FRTStatus UploadMesh(FUploader& Uploader, uint32_t Mesh);
@@ -94,7 +96,7 @@ private:
 	FRTStatus CreateSkinnedGeometry(uint32_t Mesh, FRTGeometryRef& Out);
 	FRTGeometryInfo MakeGeometryInfo(uint32_t Mesh) const;
 	FRTStatus GetSampler(const FHostTexture& Texture, uint32_t& OutIndex);
-	FRTStatus AddMaterials();
+	FRTStatus AddMaterials(FMaterialPrograms& Programs);
 	void AddDraw(const FInstance& Instance, const FRTObjectInfo& Info);
 	uint32_t FindBatches(uint32_t Mesh, const std::vector<uint32_t>& Materials, const FRTGeometry& Geometry);
 	FDrawSphere MakeDrawSphere(size_t Instance) const;
@@ -110,15 +112,16 @@ private:
 	std::vector<glm::vec3> ImageMeans; // linear
 	std::vector<std::pair<uint32_t, TRTRef<IRTSampler>>> Samplers;
 	std::vector<FMeshBuffers> Meshes;
-	std::vector<std::vector<FOpacityCounts>> Opacity; // by mesh and section
-	FOpacityCounts OpacityCounts;
+	FSceneOpacity Opacity;
 	std::vector<FInstance> Instances;
 	std::vector<FDraw> Draws;
 	FDrawBlocks DrawBlocks;
 	std::vector<FDrawBatch> Batches;
 	std::vector<uint32_t> BatchIndices;
+	uint32_t PlaceCount = 0;
 	std::map<std::pair<uint32_t, std::vector<uint32_t>>, uint32_t> BatchesOf; // mesh and materials to first index
 	std::map<uint32_t, std::vector<uint32_t>> BatchesOfMesh;
+	std::map<std::vector<uint32_t>, uint32_t> BatchLists; // to first index
 	bool bSceneLights = true;
 };
 
@@ -133,23 +136,37 @@ public:
 	void SetMinPixels(float Pixels) { MinPixels = Pixels; }
 
 private:
-	struct FBatchDraw
+	struct FBatchUse
 	{
-		uint32_t Batch = 0;
-		bool bMirrored = false;
-		uint32_t Count = 0, First = 0; ///< of the object indices
+		uint32_t Plain = 0;    ///< objects at the front of the batch's places
+		uint32_t Mirrored = 0; ///< and at their back
 	};
-	IRTPipeline* GetPipeline(const FFrameContext& Context, bool bMasked, ERTCull Cull);
-	FRTStatus MakeBatchDraws(FHostScene& Scene, FUploadSlice& OutObjects);
+	/// A program's pipeline is made, and waited for, when it is first drawn or was edited. One that does not compile keeps
+	/// its older version, or is drawn with the standard program.
+	struct FPipelineKey
+	{
+		uint32_t Program = StandardProgram;
+		bool bMasked = false;
+		ERTCull Cull = ERTCull::Back;
+		friend auto operator<=>(const FPipelineKey&, const FPipelineKey&) = default;
+	};
+	struct FPipelineEntry
+	{
+		TRTRef<IRTPipeline> Pipeline;
+		uint32_t Revision = ~0u; ///< of the program when it was last tried
+	};
+	IRTPipeline* GetPipeline(const FFrameContext& Context, const FPipelineKey& Key);
+	FRTStatus CreatePipeline(const FPipelineKey& Key, TRTRef<IRTPipeline>& Out);
+	void ListObjects(FHostScene& Scene, uint32_t* Objects);
 	void RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHostScene& Scene);
 
 	FRenderer& Renderer;
-	TRTRef<IRTPipeline> Pipelines[2][3];
+	std::map<FPipelineKey, FPipelineEntry> Pipelines;
 	float MinPixels = 0.0f;
 	// Kept for their memory.
 	std::vector<FDrawBlocks::FSeen> Seen;
-	std::vector<FBatchDraw> BatchDraws;
-	std::vector<uint32_t> DrawOfBatch; // by 2 · batch + mirrored
+	std::vector<FBatchUse> Uses;
+	std::vector<uint32_t> Order; // batches in use
 };
 
 } // namespace Lantern

@@ -60,7 +60,7 @@ FRTStatus AddSkinningPass(FFrameContext& Context, FFrameUploads& Uploads, const 
 	}
 	Context.Graph.AddPass("Skinning", [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.NeverCull();
-		return [=](FPassContext& Pass) {
+		return [=, Dispatches = std::move(Dispatches), Before = std::move(Before), After = std::move(After)](FPassContext& Pass) {
 			Pass.Commands().Barriers(Before.data(), static_cast<uint32_t>(Before.size()));
 			Pass.Commands().SetPipeline(Pipeline);
 			for (const FSkinConstants& C : Dispatches)
