@@ -189,8 +189,8 @@ FRTStatus MeasureIncremental(IRTDevice& Device, FShaderCompiler& Compiler, uint3
 			std::this_thread::sleep_for(std::chrono::microseconds(200));
 		}
 		Out.ReadyMs.push_back(MsSince(Start));
-		Out.LinkMs.push_back(Maker.GetStats().LastLinkMs);
 		Settle();
+		Out.LinkMs.push_back(Maker.GetStats().LastLinkMs);
 	}
 	return FRTStatus::Success();
 }

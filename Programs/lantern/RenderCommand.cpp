@@ -173,6 +173,13 @@ int RunRender(const FRenderOptions& Options)
 	Session.GetEngine().GetRenderer().SetGraphDump(Options.bDumpGraph);
 	FCapturedFrame Frame;
 	FFigures Figures;
+	FProgressLine Compiling;
+	const auto ShowProgress = [&](float Fraction) { Compiling.Show("shaders", Fraction); };
+	if (FRTStatus S = Session.GetEngine().GetRenderer().Precache(Session.GetEngine().GetScene().GetScene(), {}, ShowProgress); !S)
+	{
+		return Session.Close(ReportStatus(S, "shaders"));
+	}
+	Compiling.Clear();
 	int Status = RenderFrames(Session, Options, Frame, Figures);
 	if (Status == ExitDone)
 	{

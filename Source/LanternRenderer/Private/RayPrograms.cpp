@@ -40,7 +40,7 @@ FRayType MakeMaterialRay()
 }
 } // namespace
 
-FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, const FFrameContext& Context, const FFrameFeatures& Features)
+FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, FRTScene& Scene, const FFrameFeatures& Features)
 {
 	FRayPrograms Programs;
 	FRTPSODesc& Desc = Programs.Desc;
@@ -48,12 +48,12 @@ FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, const FFrame
 	if (Features.bReference)
 	{
 		Programs.Reference = Shader("Reference/PathTrace.rgen");
-		Programs.Reference->Defines = MakeFactDefines(Context.Facts);
-		if (Context.Facts.bEmissive) { Programs.Reference->Defines.emplace_back("HAS_EMISSIVE", "1"); }
+		Programs.Reference->Defines = MakeFactDefines(Scene.GetFacts());
+		if (Scene.GetFacts().bEmissive) { Programs.Reference->Defines.emplace_back("HAS_EMISSIVE", "1"); }
 		Desc.RayGens = {*Programs.Reference};
 		Desc.RayTypes = {MakeShadowRay(), MakeMaterialRay()};
 	}
-	else if (ChooseSunShadowPath(Capabilities, Context.Facts) == ESunShadowPath::Pipeline)
+	else if (ChooseSunShadowPath(Capabilities, Scene.GetFacts()) == ESunShadowPath::Pipeline)
 	{
 		Programs.SunShadow = Shader("Shadow/SunShadow.rgen");
 		Programs.SunShadow->Defines = MakeSunShadowDefines();
@@ -64,8 +64,9 @@ FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, const FFrame
 	{
 		Desc.RayGens.insert(Desc.RayGens.end(), Features.RayGens.begin(), Features.RayGens.end());
 		Desc.RayTypes = {MakeShadowRay(), MakeMaterialRay()};
+		Desc.Callables = Features.Callables;
 	}
-	if (!Desc.RayGens.empty()) { Desc.HitPrograms = Context.Scene.GetSections().GetHitPrograms(); }
+	if (!Desc.RayGens.empty()) { Desc.HitPrograms = Scene.GetSections().GetHitPrograms(); }
 	return Programs;
 }
 

@@ -12,6 +12,7 @@ struct FRayPrograms
 	std::optional<FShaderSource> SunShadow, Reference; ///< of Desc.RayGens
 };
 
-FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, const FFrameContext& Context, const FFrameFeatures& Features);
+/// Scene: its facts are up to date.
+FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, FRTScene& Scene, const FFrameFeatures& Features);
 
 } // namespace Lantern

@@ -65,7 +65,7 @@ FRTStatus FRenderer::PrepareRayPipeline(const FFrameFeatures& Features)
 {
 	Context->RayPipeline = nullptr;
 	bStandIns = false;
-	const FRayPrograms Wanted = ChooseRayPrograms(Device.GetCapabilities(), *Context, Features);
+	const FRayPrograms Wanted = ChooseRayPrograms(Device.GetCapabilities(), Context->Scene, Features);
 	if (Wanted.Desc.RayGens.empty())
 	{
 		RayPipeline.reset();
@@ -94,6 +94,19 @@ FRTStatus FRenderer::PrepareRayPipeline(const FFrameFeatures& Features)
 	if (Wanted.Reference) { Context->ReferenceRayGen = RayPipeline->FindRayGen(*Wanted.Reference); }
 	Context->Scene.SetRayTypes(RayPipeline->GetRayTypeCount());
 	return FRTStatus::Success();
+}
+
+const std::vector<FProgramPriority>& FRenderer::GetProgramPriorities() const { return StandIns->GetPriorities(); }
+
+FRTStatus FRenderer::Precache(FRTScene& Scene, const FFrameFeatures& Features, const std::function<void(float)>& Progress)
+{
+	assert(!Graph && "between frames");
+	FConsoleVariables::Get().BeginFrame();
+	Scene.SetAlphaTest(CVarAlphaTest.GetOnRenderThread());
+	Scene.SetMaterialOverride(static_cast<uint32_t>(CVarMaterialOverride.GetOnRenderThread()));
+	Scene.RefreshFacts();
+	const FRayPrograms Wanted = ChooseRayPrograms(Device.GetCapabilities(), Scene, Features);
+	return Wanted.Desc.RayGens.empty() ? FRTStatus::Success() : RayCompiler.Finish(Wanted.Desc, Progress);
 }
 
 FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrameFeatures& Features)

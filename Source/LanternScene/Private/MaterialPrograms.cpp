@@ -18,6 +18,15 @@ uint32_t FMaterialPrograms::Add(FMaterialProgramDesc Desc)
 	return GetCount() - 1;
 }
 
+uint32_t FMaterialPrograms::FindOrAdd(FMaterialProgramDesc Desc)
+{
+	for (uint32_t Program = 0; Program < GetCount(); ++Program)
+	{
+		if (Get(Program) == Desc) { return Program; }
+	}
+	return Add(std::move(Desc));
+}
+
 void FMaterialPrograms::Edit(uint32_t Program, FMaterialProgramDesc Desc)
 {
 	assert(Program < GetCount());

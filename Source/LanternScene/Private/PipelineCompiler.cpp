@@ -219,19 +219,25 @@ void FRTPSOCompiler::Reload()
 	Impl->WorkAdded.notify_all();
 }
 
-FRTPSOCompilerStats FRTPSOCompiler::GetStats() const
+const FRTPSOCompilerStats& FRTPSOCompiler::GetStats() const
 {
-	const std::lock_guard Lock(Impl->Mutex);
-	FRTPSOCompilerStats Stats = Impl->Stats;
+	FRTPSOCompilerStats& Out = Impl->Known;
+	const std::unique_lock Lock(Impl->Mutex, std::try_to_lock);
+	if (!Lock.owns_lock())
+	{
+		Out.bBusy = true; // with whoever has the lock
+		return Out;
+	}
+	Out = Impl->Stats;
 	for (const FPipelineSlotRef& Slot : Impl->Wanted.All)
 	{
-		++Stats.Wanted;
-		Stats.Ready += Slot->Ready ? 1 : 0;
-		Stats.Failed += !Slot->Ready && Slot->FailedVersion == Slot->GetVersion() ? 1 : 0;
+		++Out.Wanted;
+		Out.Ready += Slot->Ready ? 1 : 0;
+		Out.Failed += !Slot->Ready && Slot->FailedVersion == Slot->GetVersion() ? 1 : 0;
 	}
-	for (const auto& [Key, Slot] : Impl->Slots) { Stats.Kept += Slot->Ready ? 1 : 0; }
-	Stats.bBusy = Impl->bRound || Impl->Running > 0 || Impl->bLinking || Impl->bLinkWanted || Impl->bLinkDone || Impl->bDirty || Impl->bReload;
-	return Stats;
+	for (const auto& [Key, Slot] : Impl->Slots) { Out.Kept += Slot->Ready ? 1 : 0; }
+	Out.bBusy = Impl->bRound || Impl->Running > 0 || Impl->bLinking || Impl->bLinkWanted || Impl->bLinkDone || Impl->bDirty || Impl->bReload;
+	return Out;
 }
 
 } // namespace Lantern

@@ -168,6 +168,7 @@ struct FRTPSOCompiler::FImpl
 
 	std::shared_ptr<const FRTPSO> Taken; ///< Current's pipeline; the render thread's, without Mutex
 	std::optional<std::vector<FProgramPriority>> NewPriorities; ///< the same
+	FRTPSOCompilerStats Known;                                  ///< the same
 
 	mutable std::mutex Mutex;
 	std::condition_variable WorkAdded, SomethingDone;

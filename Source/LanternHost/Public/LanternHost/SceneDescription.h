@@ -56,6 +56,8 @@ struct FHostMaterial
 	EAlphaMode AlphaMode = EAlphaMode::Opaque;
 	bool bDoubleSided = false;
 	std::array<FHostTextureSlot, TEXTURE_SLOTS> Slots; ///< by TEXTURE_…
+	/// Material program (see LanternScene/MaterialPrograms.h): GLSL, relative to the shader folders. Empty: the standard one.
+	std::string Program;
 };
 
 struct FHostSection

@@ -47,6 +47,7 @@ struct FFrameFeatures
 	/// Ray generation shaders of the host's own passes, which then trace all ray types through the frame's RTPSO
 	/// (FFrameContext::RayPipeline, FRTPSO::FindRayGen). Their push constants begin with FPassConstants.
 	std::vector<FShaderSource> RayGens;
+	std::vector<FShaderSource> Callables; ///< that these call, by index
 	/// All acceleration structures that wait are built now, so that each picture is complete. Else within
 	/// r.RT.Build.TrianglesPerFrame, and objects whose geometry waits are not seen by rays. The reference builds all.
 	bool bBuildAll = true;
@@ -92,6 +93,9 @@ public:
 	FRenderer(IRTDevice& Device, FRendererDesc Desc);
 	~FRenderer();
 
+	/// At load, between frames: compiles what frames of the scene with these features will trace with, and waits for it.
+	/// Progress (0 … 1) may be empty. What does not compile is said, and is an error only where frames cannot do without.
+	FRTStatus Precache(FRTScene& Scene, const FFrameFeatures& Features, const std::function<void(float)>& Progress);
 	/// Waits until at most one earlier frame is in flight, publishes console variables, and starts a frame: gathering
 	/// instances and writing shader records begin as tasks, the scene's tables are the first pass. The scene must not change
 	/// until EndFrame, and must live until then.
@@ -119,6 +123,8 @@ public:
 	/// RTPSO of the last frame; null if it had none.
 	const FRTPSO* GetRayPipeline() const { return RayPipeline.get(); }
 	FRTPSOCompiler& GetRayCompiler() { return RayCompiler; }
+	/// What the compiler was told last of each program that is not ready.
+	const std::vector<FProgramPriority>& GetProgramPriorities() const;
 	const FShaderBindings& GetBindings() const { return Bindings; }
 	const FAnyHitCounts& GetAnyHits() { return AnyHits.Get(); } ///< with r.RT.Opacity.Count
 	/// Whether executed frames leave DumpGraph a text; off by default, for it takes longer than the graph.

@@ -58,6 +58,8 @@ class FMaterialPrograms
 public:
 	FMaterialPrograms();
 	uint32_t Add(FMaterialProgramDesc Desc);
+	/// The program that is like this, if there is one.
+	uint32_t FindOrAdd(FMaterialProgramDesc Desc);
 	/// The new text is compiled and takes the old one's place when it is ready; if it does not compile, the old one stays.
 	void Edit(uint32_t Program, FMaterialProgramDesc Desc);
 	uint32_t GetCount() const { return static_cast<uint32_t>(Entries.size()); }

@@ -74,7 +74,8 @@ public:
 	void SetPriorities(std::vector<FProgramPriority> ByProgram);
 	/// Looks for shader files that were edited, in the background, and compiles what is made from them anew.
 	void Reload();
-	FRTPSOCompilerStats GetStats() const;
+	/// Never waits: where the compiler's threads are just busy, as they were.
+	const FRTPSOCompilerStats& GetStats() const;
 
 private:
 	struct FImpl;
