@@ -203,6 +203,51 @@ TEST_P(FTableRays, ThePipelineIsSwappedByHandlesAlone)
 	EXPECT_EQ(Collect(Last)[1], HitValue(77, 1, 0, 0));
 }
 
+TEST_P(FTableRays, ManyHandlesAtOnceLeaveTheDataAlone)
+{
+	constexpr uint32_t Count = 3000;
+	MakeTable(Count);
+	LoadSquares({1, 300, 1500, Count - 1});
+	std::vector<uint32_t> Wrong(Count, GroupMasked), Right(Count, GroupHit), Data;
+	for (uint32_t i = 0; i < Count; ++i)
+	{
+		Data.push_back(10 + i);
+	}
+	Table->SetHitRecords(0, Count, Wrong.data(), Data.data());
+	const FFrame Before = Begin(5);
+	const auto SetAll = [&](const std::vector<uint32_t>& Groups)
+	{ Table->SetGroups(ERTRecordKind::Hit, 0, static_cast<uint32_t>(Groups.size()), Groups.data()); };
+	const auto Expect = [&](const FFrame& Frame, uint32_t Third, const char* When)
+	{
+		EXPECT_EQ(Collect(Frame), (FWords{HitValue(11, 0, 0, 0), HitValue(310, 1, 0, 0), HitValue(Third, 2, 0, 0),
+		                                  HitValue(9 + Count, 3, 0, 0), MissOne}))
+		    << When;
+	};
+	SetAll(Right);
+	const FFrame Alone = Begin(5);
+	SetAll(Wrong);
+	ASSERT_OK(Table->Stage());
+	SetAll(Right);
+	SetHit(1500, 77);
+	const FFrame WithOne = Begin(5);
+	SetAll(Wrong);
+	ASSERT_OK(Table->Stage());
+	Table->Invalidate();
+	SetAll(Right);
+	const FFrame AfterLoss = Begin(5);
+	const uint32_t Counts[4] = {2, 4, 2 * Count, 3};
+	SetAll(Wrong);
+	ASSERT_OK(Table->Stage());
+	ASSERT_OK(Table->Reserve(Counts));
+	SetAll(Right);
+	const FFrame Grown = Begin(5);
+	Collect(Before);
+	Expect(Alone, 1510, "alone");
+	Expect(WithOne, 77, "beside a whole record");
+	Expect(AfterLoss, 77, "after an update was lost");
+	Expect(Grown, 77, "while the table grew");
+}
+
 TEST_P(FTableRays, AReleasedPipelineLivesAsLongAsItsFrames)
 {
 	MakeTable(1);

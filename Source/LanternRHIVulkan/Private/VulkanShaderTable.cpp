@@ -148,20 +148,6 @@ void FVulkanShaderTable::SetPipeline(IRTPipeline* InPipeline)
 	}
 }
 
-void FVulkanShaderTable::PruneHandles()
-{
-	std::vector<bool> Used(Handles.GetCount(), false);
-	for (const FVulkanTableRecords& Kind : Records)
-	{
-		Kind.MarkUsed(Used);
-	}
-	const std::vector<uint32_t> NewOf = Handles.Prune(Used);
-	for (FVulkanTableRecords& Kind : Records)
-	{
-		Kind.Renumber(NewOf);
-	}
-}
-
 void FVulkanShaderTable::SetRecord(ERTRecordKind Kind, uint32_t Index, uint32_t Group, const void* Data,
                                    uint32_t DataBytes)
 {
@@ -214,6 +200,10 @@ void FVulkanShaderTable::ReturnBatches()
 				Records[Kind].MarkDirty(Run);
 			}
 		}
+		for (const FRun& Run : Batch.HitHandles.Runs)
+		{
+			Of(ERTRecordKind::Hit).MarkDirty(Run);
+		}
 	}
 	Batches.clear();
 }
@@ -230,6 +220,7 @@ FRTStatus FVulkanShaderTable::Stage()
 	}
 	FBatch Batch;
 	uint64_t Bytes = 0;
+	TakeDirtyHandles(Batch, Bytes);
 	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
 	{
 		FPart& Part = Batch.Parts[Kind];
@@ -249,6 +240,7 @@ FRTStatus FVulkanShaderTable::Stage()
 		return Status;
 	}
 	Fill(Batches.back());
+	FillHandles(Batches.back());
 	return Status;
 }
 
@@ -367,7 +359,8 @@ void FVulkanShaderTable::AddPart(const FBatch& Batch, uint32_t Kind, FCopies& Ou
 		const VkDeviceAddress From = Batch.Source->Block.Address;
 		assert(Stride % sizeof(uint32_t) == 0);
 		Out.Scatters.push_back({Current.Buffer->Block.Address + Current.Offsets[Kind], From + Part.Offset,
-		                        From + Part.IndexOffset, static_cast<uint32_t>(Stride / sizeof(uint32_t)), Part.Count});
+		                        From + Part.IndexOffset, static_cast<uint32_t>(Stride / sizeof(uint32_t)), Part.Count,
+		                        static_cast<uint32_t>(Stride / sizeof(uint32_t)), false});
 		return;
 	}
 	uint64_t Offset = Part.Offset;
@@ -395,6 +388,13 @@ FRTStatus FVulkanShaderTable::TakeUpdate(FUpdate& Out)
 	UpdatedBytes = 0;
 	for (FBatch& Batch : Batches)
 	{
+		// Handles first: a record that is also new as a whole gets its own again.
+		if (Batch.HitHandles.Count > 0)
+		{
+			FCopies& OfHandles = Out.Copies.emplace_back();
+			AddHandles(Batch, OfHandles);
+			OfHandles.Source = Batch.Source;
+		}
 		FCopies& Copies = Out.Copies.emplace_back();
 		for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
 		{

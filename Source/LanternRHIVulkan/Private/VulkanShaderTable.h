@@ -84,11 +84,20 @@ private:
 		uint64_t Offset = 0;
 		uint64_t IndexOffset = 0;
 	};
+	/// Hit records whose handles alone are new: numbers of handles in a host copy, and behind them the handles.
+	struct FHandlePart
+	{
+		std::vector<FRun> Runs;
+		uint32_t Count = 0; ///< records
+		uint64_t SlotOffset = 0;
+		uint64_t HandleOffset = 0;
+	};
 	/// A host copy, filled.
 	struct FBatch
 	{
 		TRTRef<FVulkanTableBuffer> Source;
 		FPart Parts[KindCount];
+		FHandlePart HitHandles;
 	};
 	struct FHostCopy
 	{
@@ -112,6 +121,9 @@ private:
 	void DropIdleHostCopies();
 	void AddMove(FUpdate& Out);
 	void AddPart(const FBatch& Batch, uint32_t Kind, FCopies& Out);
+	void AddHandles(const FBatch& Batch, FCopies& Out);
+	void TakeDirtyHandles(FBatch& Batch, uint64_t& InOutBytes);
+	void FillHandles(const FBatch& Batch) const;
 
 	FRTShaderTableDesc Desc;
 	std::string Name;

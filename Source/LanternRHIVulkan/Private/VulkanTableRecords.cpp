@@ -62,7 +62,7 @@ void FVulkanTableRecords::ForEachPiece(uint32_t First, uint32_t InCount, TWrite&
 		bAny = bAny || Mask;
 		Done += Piece;
 	}
-	if (bAny && !IsDirty())
+	if (bAny && !bDirty.load(std::memory_order_relaxed))
 	{
 		bDirty.store(true, std::memory_order_relaxed);
 	}
@@ -116,6 +116,8 @@ void FVulkanTableRecords::SetOne(uint32_t Index, uint32_t Slot, const void* Data
 void FVulkanTableRecords::SetHandles(uint32_t First, uint32_t InCount, const uint32_t* SlotsOfGroups,
                                      const uint32_t* Groups)
 {
+	const bool bMany = InCount >= ManyHandles;
+	bool bAny = false;
 	ForEachPiece(First, InCount,
 	             [&](FPage& Page, uint32_t Within, uint32_t Done, uint32_t Piece)
 	             {
@@ -126,8 +128,54 @@ void FVulkanTableRecords::SetHandles(uint32_t First, uint32_t InCount, const uin
 			             Changed |= uint64_t(Page.Slots[Within + Index] != Slot) << Index;
 			             Page.Slots[Within + Index] = Slot;
 		             }
-		             return Changed;
+		             if (bMany && Changed && !Page.bHandlesDirty.load(std::memory_order_relaxed))
+		             {
+			             Page.bHandlesDirty.store(true, std::memory_order_relaxed);
+		             }
+		             bAny = bAny || Changed;
+		             return bMany ? uint64_t(0) : Changed;
 	             });
+	if (bMany && bAny)
+	{
+		bAnyHandlesDirty.store(true, std::memory_order_relaxed);
+	}
+}
+
+void FVulkanTableRecords::TakeDirtyHandles(std::vector<FRun>& Out)
+{
+	if (!bAnyHandlesDirty.exchange(false, std::memory_order_relaxed))
+	{
+		return;
+	}
+	for (uint32_t First = 0; First < Count; First += PageRecords)
+	{
+		if (!Pages[First / PageRecords]->bHandlesDirty.exchange(false, std::memory_order_relaxed))
+		{
+			continue;
+		}
+		const uint32_t Length = std::min(PageRecords, Count - First);
+		if (!Out.empty() && Out.back().First + Out.back().Count == First)
+		{
+			Out.back().Count += Length;
+		}
+		else
+		{
+			Out.push_back({First, Length});
+		}
+	}
+}
+
+void FVulkanTableRecords::CopySlotsTo(uint32_t* Dest, FRun Run) const
+{
+	while (Run.Count > 0)
+	{
+		const uint32_t Within = Run.First % PageRecords;
+		const uint32_t Piece = std::min(PageRecords - Within, Run.Count);
+		memcpy(Dest, Pages[Run.First / PageRecords]->Slots + Within, sizeof(uint32_t) * Piece);
+		Dest += Piece;
+		Run.First += Piece;
+		Run.Count -= Piece;
+	}
 }
 
 void FVulkanTableRecords::MarkUsed(std::vector<bool>& Used) const

@@ -19,10 +19,12 @@ public:
 		VkDeviceAddress Dest = 0;
 		VkDeviceAddress Source = 0;
 		VkDeviceAddress Indices = 0;
-		uint32_t WordsPerRecord = 0;
+		uint32_t WordsPerRecord = 0; ///< that are moved
 		uint32_t Count = 0;
+		uint32_t DestWords = 0; ///< from one record of Dest to the next
+		uint32_t bGather = 0;   ///< Indices are of Source: handles, each for many records
 	};
-	static_assert(sizeof(FPush) == 32, "scalar layout of Push in Shaders/ScatterRecords.comp");
+	static_assert(sizeof(FPush) == 40, "scalar layout of Push in Shaders/ScatterRecords.comp");
 
 	/// Makes the pipeline where it is not there yet. From any thread.
 	FRTStatus Prepare(FVulkanDevice& Device);
