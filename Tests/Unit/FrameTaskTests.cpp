@@ -77,7 +77,10 @@ protected:
 	FRTScene& GetScene() { return Engine->GetScene().GetScene(); }
 	static void SetToggles(int Combination)
 	{
-		if (FConsoleVariables::Get().Find("r.RT.Scene.Hoist")) { Set("r.RT.Scene.Hoist", Combination & 1 ? "1" : "0"); }
+		if (FConsoleVariables::Get().Find("r.RT.Scene.Hoist"))
+		{
+			Set("r.RT.Scene.Hoist", Combination & 1 ? "1" : "0");
+		}
 		Set("r.RT.SBT.Prebind", Combination & 2 ? "1" : "0");
 	}
 	static constexpr int Combinations = 4;
@@ -92,7 +95,10 @@ protected:
 			const FRTMockRecord Record = Resolve(I, 0);
 			EXPECT_TRUE(Record.IsGood()) << Record.Error;
 			Text += Instances[I].GeometryName + ' ' + Record.AnyHit + " :";
-			for (const float Value : Instances[I].Instance.Transform) { Text += ' ' + std::to_string(Value); }
+			for (const float Value : Instances[I].Instance.Transform)
+			{
+				Text += ' ' + std::to_string(Value);
+			}
 			Text += '\n';
 		}
 		return Text;
@@ -282,7 +288,7 @@ TEST_F(FFrameTaskTest, AnySequenceOfTogglesGivesTheSameRays)
 	}
 }
 
-TEST_F(FFrameTaskTest, PrebindRunsWhileTheRenderThreadRecords)
+TEST_F(FFrameTaskTest, TasksRunWhileTheRenderThreadRecords)
 {
 	if (GetWorkerCount() < 2)
 	{
@@ -291,10 +297,11 @@ TEST_F(FFrameTaskTest, PrebindRunsWhileTheRenderThreadRecords)
 	StartTrace();
 	ASSERT_TRUE(Load(Everything));
 	bool bSeen = false;
-	ASSERT_TRUE(RenderWith([&](FFrameContext& Context)
-	                       { AddPass(Context, "Busy", [&] { bSeen = WaitForEvent("Prebind"); }); }));
+	const auto Busy = [&] { bSeen = WaitForEvent("Prebind") && WaitForEvent("Gather instances"); };
+	ASSERT_TRUE(RenderWith([&](FFrameContext& Context) { AddPass(Context, "Busy", Busy); }));
 	EXPECT_TRUE(bSeen) << "the render thread was in a pass of the host's all the time";
 	EXPECT_NE(FindEvent("Prebind").Thread, FindEvent("Record passes").Thread);
+	EXPECT_NE(FindEvent("Gather instances").Thread, FindEvent("Record passes").Thread);
 	EXPECT_EQ(CountEvents("Shader records"), 0u);
 	DescribeRays();
 }
@@ -305,24 +312,27 @@ TEST_F(FFrameTaskTest, RenderThreadNeverWaitsForWorkersThatAreBusy)
 	ASSERT_TRUE(Load(Everything));
 	FBlockedWorkers Blocked;
 	ASSERT_TRUE(Blocked.AreAllBlocked());
-	bool bBegan = true;
-	ASSERT_TRUE(RenderWith([&](FFrameContext& Context)
-	                       { AddPass(Context, "Host", [&] { bBegan = CountEvents("Prebind") > 0; }); }))
+	size_t Began = ~0ull;
+	const auto Host = [&] { Began = CountEvents("Prebind") + CountEvents("Gather instances"); };
+	ASSERT_TRUE(RenderWith([&](FFrameContext& Context) { AddPass(Context, "Host", Host); }))
 	    << "with no worker free the render thread does it itself";
-	EXPECT_FALSE(bBegan) << "not before it is needed";
+	EXPECT_EQ(Began, 0u) << "not before it is needed";
 	EXPECT_EQ(FindEvent("Prebind").Thread, FindEvent("Record passes").Thread);
+	EXPECT_EQ(FindEvent("Gather instances").Thread, FindEvent("Record passes").Thread);
 	DescribeRays();
 	Blocked.Open();
 }
 
-TEST_F(FFrameTaskTest, InLinePrebindIsOnTheRenderThread)
+TEST_F(FFrameTaskTest, WithoutHoistingAllIsOnTheRenderThread)
 {
 	StartTrace();
-	Set("r.RT.SBT.Prebind", "0");
+	SetToggles(0);
 	ASSERT_TRUE(Load(Everything));
 	ASSERT_TRUE(RenderWith([](FFrameContext&) {}));
 	EXPECT_EQ(CountEvents("Prebind"), 0u);
 	EXPECT_EQ(FindEvent("Shader records").Thread, FindEvent("Record passes").Thread);
+	EXPECT_EQ(FindEvent("Gather instances").Thread, FindEvent("BeginFrame").Thread);
+	EXPECT_LE(FindEvent("Gather instances").EndNs, FindEvent("BeginFrame").EndNs);
 }
 
 TEST_F(FFrameTaskTest, StructuresAreRecordedBehindTheHostsPasses)

@@ -161,7 +161,6 @@ FRTStatus FRenderer::StartUpdate(const FView& View, const FFrameFeatures& Featur
 	bUpdating = Scene.NeedsUpdate(Gather, FrameUse);
 	if (bUpdating)
 	{
-		FTraceScope Trace("Scene begins its update");
 		if (FRTStatus S = Scene.BeginUpdate(Gather, FrameUse); !S) { return S; }
 	}
 	StartPrebind();
