@@ -205,6 +205,7 @@ FError FPluginScene::Render(VkCommandBuffer Commands, const FCamera& Camera, IRT
 	FRTModuleOutputs Outputs;
 	Error = ToError(Renderer->RenderFrame(Frame, &Outputs), "RenderFrame");
 	OutMask = Outputs.SunShadow;
+	bComplete = Outputs.bComplete;
 	return Error;
 }
 

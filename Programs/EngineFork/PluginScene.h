@@ -36,6 +36,8 @@ public:
 	FError Render(VkCommandBuffer Commands, const FCamera& Camera, Lantern::IRTTexture*& OutMask);
 	/// After the commands were submitted.
 	FError FinishFrame();
+	/// The last frame had all its shaders and acceleration structures.
+	bool IsComplete() const { return bComplete; }
 	Lantern::IRTDevice& GetDevice() { return *Device; }
 
 private:
@@ -50,6 +52,7 @@ private:
 	std::vector<Lantern::ERTObjectHandle> Boxes;
 	Lantern::TRTRef<Lantern::IRTTexture> Depth, Normals;
 	Lantern::TRTRef<Lantern::IRTCommandList> List;
+	bool bComplete = false;
 };
 
 } // namespace Fork

@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <limits>
+#include <thread>
 
 #include "LanternModule/Module.h"
 #include "LanternRHIMock/MockDevice.h"
@@ -332,6 +334,111 @@ TEST_F(FModuleTest, StructuresAreBuiltWithinTheBudget)
 		EXPECT_EQ(Mock().CountCalls(ERTMockCall::BuildGeometry), Frame);
 	}
 	ASSERT_FINE(Module->SetConsoleVariable("r.RT.Build.TrianglesPerFrame", "500000"));
+}
+
+TEST_F(FModuleTest, RemovedMaterialsHandleIsVoidAndItsPlaceIsUsedAgain)
+{
+	const ERTMeshHandle Mesh = AddMesh(DescribeTriangle());
+	ERTMaterialHandle Moss = ERTMaterialHandle::None, Stone = ERTMaterialHandle::None;
+	ASSERT_FINE(Renderer->AddMaterial({}, &Moss));
+	ASSERT_FINE(AddObject(Mesh, Moss));
+	const ERTObjectHandle First = Object;
+	ASSERT_FINE(AddObject(Mesh, Solid));
+	ASSERT_FINE(Renderer->SetObjectMaterials(Object, &Moss, 1));
+	EXPECT_REFUSED(Renderer->RemoveMaterial(Moss), "2 sections of objects still use it");
+	ASSERT_FINE(Renderer->SetObjectCastsShadow(First, false));
+	ASSERT_FINE(Renderer->RemoveObject(First));
+	EXPECT_REFUSED(Renderer->RemoveMaterial(Moss), "1 sections of objects still use it");
+	ASSERT_FINE(SetSun(-1.0));
+	ASSERT_FINE(Render());
+	ASSERT_FINE(Renderer->SetObjectMaterials(Object, &Solid, 1)); // while the frame that has it is in the making
+	ASSERT_FINE(Renderer->RemoveMaterial(Moss));
+	ASSERT_FINE(Renderer->EndFrame(nullptr));
+	EXPECT_REFUSED(Renderer->RemoveMaterial(Moss), "no such material");
+	EXPECT_REFUSED(Renderer->SetMaterial(Moss, {}), "no such material");
+	EXPECT_REFUSED(Renderer->SetObjectMaterials(Object, &Moss, 1), "no such material");
+	EXPECT_REFUSED(Renderer->RemoveMaterial(ERTMaterialHandle::None), "no such material");
+	ASSERT_FINE(Renderer->AddMaterial({}, &Stone));
+	EXPECT_EQ(static_cast<uint32_t>(Stone), static_cast<uint32_t>(Moss)) << "its place is lost";
+	EXPECT_NE(Stone, Moss);
+	EXPECT_REFUSED(AddObject(Mesh, Moss), "no such material");
+	ASSERT_FINE(AddObject(Mesh, Stone));
+	ASSERT_FINE(Render());
+	ASSERT_FINE(Renderer->EndFrame(nullptr));
+}
+
+TEST_F(FModuleTest, RemovedMaterialsTextureStaysUntilTheFrameInTheMakingHasRun)
+{
+	TRTRef<IRTSampler> Sampler;
+	ASSERT_FINE(Device->CreateSampler({}, Sampler.ReleaseAndGetAddress()));
+	TRTRef<IRTTexture> Texture = MakeTexture(ERTFormat::RGBA8_SRGB, 4, ERTTextureUsage::Sampled, "Bark");
+	FRTModuleMaterial Material;
+	Material.BaseColorTexture = Texture.Get();
+	Material.BaseColorSampler = Sampler.Get();
+	ERTMaterialHandle Tree = ERTMaterialHandle::None;
+	ASSERT_FINE(Renderer->AddMaterial(Material, &Tree));
+	Texture.Reset();
+	Mock().SetManualFences(true);
+	ASSERT_FINE(Render());
+	ASSERT_FINE(Renderer->RemoveMaterial(Tree));
+	Device->CollectGarbage();
+	EXPECT_EQ(Mock().CountCalls(ERTMockCall::Destroy, "Bark"), 0u) << "the recorded list may sample it";
+	ASSERT_FINE(Renderer->EndFrame(nullptr));
+	Device->CollectGarbage();
+	EXPECT_EQ(Mock().CountCalls(ERTMockCall::Destroy, "Bark"), 0u) << "the frame is in flight";
+	Mock().SetManualFences(false);
+	Device->CollectGarbage();
+	EXPECT_EQ(Mock().CountCalls(ERTMockCall::Destroy, "Bark"), 1u);
+}
+
+TEST_F(FModuleTest, FramesWaitForNoPipeline)
+{
+	constexpr int CompileMs = 400;
+	ASSERT_FINE(Module->SetConsoleVariable("r.RT.Shadow.Path", "1"));
+	ASSERT_FINE(AddObject(AddOpaqueMesh(), Solid));
+	ASSERT_FINE(SetSun(-1.0));
+	Mock().SlowCompile("", CompileMs);
+	using FClock = std::chrono::steady_clock;
+	const auto Start = FClock::now();
+	ASSERT_FINE(Render());
+	EXPECT_LT(FClock::now() - Start, std::chrono::milliseconds(CompileMs)) << "the frame waited";
+	EXPECT_EQ(Outputs.SunShadow, nullptr);
+	EXPECT_FALSE(Outputs.bShadersReady);
+	EXPECT_FALSE(Outputs.bComplete);
+	ASSERT_FINE(Renderer->EndFrame(nullptr));
+	EXPECT_EQ(Mock().CountCalls(ERTMockCall::BuildGeometry), 1u) << "structures are built meanwhile";
+	bool bSeen = false;
+	while (!Outputs.bComplete && FClock::now() - Start < std::chrono::seconds(60))
+	{
+		std::this_thread::sleep_for(std::chrono::milliseconds(5));
+		ASSERT_FINE(Render());
+		bSeen |= Outputs.SunShadow != nullptr;
+		EXPECT_TRUE(Outputs.SunShadow != nullptr || !Outputs.bComplete);
+		ASSERT_FINE(Renderer->EndFrame(nullptr));
+	}
+	EXPECT_TRUE(Outputs.bComplete && Outputs.bShadersReady && bSeen);
+
+	// A material that must be told apart from solid ones: shadows stay, and it is said that its own are not there.
+	ASSERT_FINE(AddObject(AddMesh(DescribeTriangle()), Masked));
+	ASSERT_FINE(Render());
+	EXPECT_NE(Outputs.SunShadow, nullptr);
+	EXPECT_FALSE(Outputs.bShadersReady);
+	ASSERT_FINE(Renderer->EndFrame(nullptr));
+	Mock().ClearCompileFaults();
+	const auto Later = FClock::now();
+	while (!Outputs.bComplete && FClock::now() - Later < std::chrono::seconds(60))
+	{
+		std::this_thread::sleep_for(std::chrono::milliseconds(5));
+		ASSERT_FINE(Render());
+		ASSERT_FINE(Renderer->EndFrame(nullptr));
+	}
+	EXPECT_TRUE(Outputs.bComplete);
+	ASSERT_FINE(SetSun(-1.0, 0.0f));
+	ASSERT_FINE(Render());
+	EXPECT_TRUE(Outputs.bComplete) << "without a sun nothing is missing";
+	EXPECT_EQ(Outputs.SunShadow, nullptr);
+	ASSERT_FINE(Renderer->EndFrame(nullptr));
+	ASSERT_FINE(Module->SetConsoleVariable("r.RT.Shadow.Path", "0"));
 }
 
 TEST_F(FModuleTest, DeformedVerticesAreCopiedOnceAndRefitted)

@@ -131,4 +131,9 @@ FRTStatus CheckMaterial(const FRTModuleMaterial& Material)
 	return FRTStatus::Success();
 }
 
+FRTStatus RefuseHandle(const char* Function, const char* Kind)
+{
+	return FRTStatus::Error(ERTResult::InvalidArgument, "%s: no such %s: never added, or removed", Function, Kind);
+}
+
 } // namespace Lantern

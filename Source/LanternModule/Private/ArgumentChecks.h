@@ -11,4 +11,7 @@ FRTStatus CheckSun(const FRTModuleSun& Sun);
 FRTStatus CheckTransform(const double Transform[12]);
 FRTStatus CheckMaterial(const FRTModuleMaterial& Material);
 
+/// InvalidArgument: Function was given a handle of no Kind ("mesh").
+FRTStatus RefuseHandle(const char* Function, const char* Kind);
+
 } // namespace Lantern

@@ -11,29 +11,6 @@ namespace Lantern
 namespace
 {
 
-/// Handles of materials count from 1: 0 is none.
-ERTMaterialHandle ToHandle(uint32_t Material)
-{
-	return static_cast<ERTMaterialHandle>(uint64_t(Material) + 1);
-}
-/// Of None: past any end.
-uint64_t ToIndex(ERTMaterialHandle Handle)
-{
-	return static_cast<uint64_t>(Handle) - 1;
-}
-
-FRTStatus RefuseHandle(const char* Function, const char* Kind)
-{
-	return FRTStatus::Error(ERTResult::InvalidArgument, "%s: no such %s: never added, or removed", Function, Kind);
-}
-
-FRTStatus RefuseMasked(const FRTGeometryInfo& Geometry, size_t Section)
-{
-	return FRTStatus::Error(ERTResult::InvalidArgument,
-	                        "mesh \"%s\": section %zu cannot have a masked material: it was added without bMayBeMasked",
-	                        Geometry.Name.c_str(), Section);
-}
-
 glm::dmat4 ToMatrix(const double Rows[12])
 {
 	glm::dmat4 Matrix(1.0);
@@ -79,72 +56,6 @@ FModuleRenderer::~FModuleRenderer()
 {
 	// Environment: a lost device can no longer be waited for, and has nothing in flight.
 	(void)Renderer.WaitForAll();
-}
-
-void FModuleRenderer::StoreMaterial(uint32_t Index, const FRTModuleMaterial& Material)
-{
-	FMaterialData Data = PackMaterial(Material);
-	if (Material.BaseColorTexture != nullptr)
-	{
-		Data.Textures[TEXTURE_BASE_COLOR] =
-		    Material.BaseColorTexture->GetSampledIndex() | Material.BaseColorSampler->GetIndex() << 24;
-	}
-	ReplacedTextures.push_back(std::move(MaterialTextures[Index]));
-	MaterialTextures[Index] = {TRTRef(Material.BaseColorTexture), TRTRef(Material.BaseColorSampler)};
-	Scene.SetMaterial(Index, Data);
-}
-
-FRTStatus FModuleRenderer::AddMaterial(const FRTModuleMaterial& Material, ERTMaterialHandle* Out)
-{
-	*Out = ERTMaterialHandle::None;
-	if (const FRTStatus Status = CheckMaterial(Material); !Status)
-	{
-		return Status;
-	}
-	const uint32_t Index = Scene.AddMaterial(PackMaterial(Material));
-	MaterialTextures.resize(Index + 1);
-	StoreMaterial(Index, Material);
-	*Out = ToHandle(Index);
-	return FRTStatus::Success();
-}
-
-FRTStatus FModuleRenderer::CheckUsers(uint32_t Material)
-{
-	FRTStatus Status = FRTStatus::Success();
-	Objects.ForEach(
-	    [&](const FObject& User)
-	    {
-		    const FRTObjectInfo& Object = Scene.GetObject(User.Id);
-		    const FRTGeometryInfo& Geometry = Object.Geometry->GetInfo();
-		    for (size_t Section = 0; Section < Object.Materials.size(); ++Section)
-		    {
-			    if (Object.Materials[Section] == Material && Geometry.Sections[Section].bOpaque)
-			    {
-				    Status = RefuseMasked(Geometry, Section);
-			    }
-		    }
-	    });
-	return Status;
-}
-
-FRTStatus FModuleRenderer::SetMaterial(ERTMaterialHandle Handle, const FRTModuleMaterial& Material)
-{
-	if (ToIndex(Handle) >= MaterialTextures.size())
-	{
-		return RefuseHandle("SetMaterial", "material");
-	}
-	const auto Index = static_cast<uint32_t>(ToIndex(Handle));
-	FRTStatus Status = CheckMaterial(Material);
-	const bool bWasMasked = (Scene.GetMaterials()[Index].Flags & MATERIAL_MASKED) != 0;
-	if (Status && Material.bMasked && !bWasMasked)
-	{
-		Status = CheckUsers(Index);
-	}
-	if (Status)
-	{
-		StoreMaterial(Index, Material);
-	}
-	return Status;
 }
 
 FRTStatus FModuleRenderer::UploadMesh(const FRTModuleMesh& Mesh, const std::vector<FVertexAttributes>& Attributes,
@@ -242,32 +153,6 @@ FRTStatus FModuleRenderer::RefuseMesh(const char* Function, ERTMeshHandle Handle
 	                        RemovedMeshes[Slot].Name.c_str());
 }
 
-FRTStatus FModuleRenderer::ResolveMaterials(const FRTGeometryInfo& Geometry, const ERTMaterialHandle* Handles,
-                                            uint32_t MaterialCount, std::vector<uint32_t>& Out) const
-{
-	if (MaterialCount != Geometry.Sections.size() || Handles == nullptr)
-	{
-		return FRTStatus::Error(ERTResult::InvalidArgument, "an object of \"%s\" needs %zu materials, not %u",
-		                        Geometry.Name.c_str(), Geometry.Sections.size(),
-		                        Handles != nullptr ? MaterialCount : 0);
-	}
-	for (uint32_t Section = 0; Section < MaterialCount; ++Section)
-	{
-		const uint64_t Index = ToIndex(Handles[Section]);
-		if (Index >= MaterialTextures.size())
-		{
-			return FRTStatus::Error(ERTResult::InvalidArgument, "mesh \"%s\": section %u: no such material",
-			                        Geometry.Name.c_str(), Section);
-		}
-		Out.push_back(static_cast<uint32_t>(Index));
-		if (Geometry.Sections[Section].bOpaque && (Scene.GetMaterials()[Out.back()].Flags & MATERIAL_MASKED) != 0)
-		{
-			return RefuseMasked(Geometry, Section);
-		}
-	}
-	return FRTStatus::Success();
-}
-
 FRTStatus FModuleRenderer::AddObject(const FRTModuleObject& Object, ERTObjectHandle* Out)
 {
 	*Out = ERTObjectHandle::None;
@@ -287,8 +172,16 @@ FRTStatus FModuleRenderer::AddObject(const FRTModuleObject& Object, ERTObjectHan
 	{
 		Info.Transform = ToMatrix(Object.Transform);
 		Info.Mask = Object.bCastsShadow ? MaskAll : MaskVisible;
-		*Out = Objects.Add({Scene.AddObject(std::move(Info)), Object.Mesh});
+		const std::vector<uint32_t> Used = Info.Materials;
+		const FRTObjectId Id = Scene.AddObject(std::move(Info));
+		if (!Id.IsValid())
+		{
+			return FRTStatus::Error(ERTResult::Unsupported,
+			                        "AddObject: the scene has as many objects as instances can name");
+		}
+		*Out = Objects.Add({Id, Object.Mesh});
 		++Mesh->Users;
+		AddUsers(Used);
 	}
 	return Status;
 }
@@ -301,24 +194,6 @@ FRTStatus FModuleRenderer::SetObjectTransform(ERTObjectHandle Handle, const doub
 	if (Status)
 	{
 		Scene.SetTransform(Object->Id, ToMatrix(Transform));
-	}
-	return Status;
-}
-
-FRTStatus FModuleRenderer::SetObjectMaterials(ERTObjectHandle Handle, const ERTMaterialHandle* Materials,
-                                              uint32_t MaterialCount)
-{
-	const FObject* const Object = Objects.Find(Handle);
-	if (Object == nullptr)
-	{
-		return RefuseHandle("SetObjectMaterials", "object");
-	}
-	std::vector<uint32_t> Indices;
-	const FRTStatus Status =
-	    ResolveMaterials(Scene.GetObject(Object->Id).Geometry->GetInfo(), Materials, MaterialCount, Indices);
-	if (Status)
-	{
-		Scene.SetMaterials(Object->Id, std::move(Indices));
 	}
 	return Status;
 }
@@ -346,6 +221,7 @@ FRTStatus FModuleRenderer::RemoveObject(ERTObjectHandle Handle)
 	{
 		return RefuseHandle("RemoveObject", "object");
 	}
+	RemoveUsers(Scene.GetObject(Object->Id).Materials);
 	Scene.RemoveObject(Object->Id);
 	--Meshes.Find(Object->Mesh)->Users; // it cannot have been removed
 	Objects.Remove(Handle);
@@ -426,7 +302,10 @@ FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame)
 		return Status;
 	}
 	FFrameFeatures Features;
-	Features.bBuildAll = false;
+	Features.bBuildAll = Features.bWaitForPipelines = false;
+	// Structures are built while the shaders that trace them are compiled, so that shadows come with all that casts them.
+	const ESunShadowPath Path = ChooseSunShadowPath(Device->GetCapabilities(), Scene.RefreshFacts());
+	Features.bRays = Features.bLateRays = Path != ESunShadowPath::None;
 	if (const FRTStatus Status = Renderer.BeginFrame(Scene, ToView(Frame, FrameIndex++), Features); !Status)
 	{
 		return Status;
@@ -438,6 +317,20 @@ FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame)
 		Renderer.FrameSubmitted(0); // it never will be
 	}
 	return Status;
+}
+
+bool FModuleRenderer::AreShadersReady()
+{
+	if (ChooseSunShadowPath(Device->GetCapabilities(), Scene.GetFacts()) != ESunShadowPath::Pipeline)
+	{
+		return true;
+	}
+	const FRTPSO* const Pipeline = Renderer.GetRayPipeline();
+	const std::vector<FHitProgram> Programs = Scene.GetSections().GetHitPrograms();
+	const auto IsReady = [&](FHitProgram Program) { return Pipeline->GetState(Program) == ERTHitState::Ready; };
+	const bool bAll = Pipeline != nullptr && std::all_of(Programs.begin(), Programs.end(), IsReady);
+	// What does not compile never will be ready.
+	return bAll || (SunShadow && !Renderer.GetRayCompiler().GetStats().bBusy);
 }
 
 FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOutputs* Out)
@@ -461,7 +354,8 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 	}
 	Recorded = TRTRef<IRTCommandList>(Frame.Commands);
 	Out->SunShadow = SunShadow.Get();
-	Out->bComplete = Scene.GetGeometries().GetStats().Pending == 0;
+	Out->bShadersReady = AreShadersReady();
+	Out->bComplete = Out->bShadersReady && Scene.GetGeometries().GetStats().Pending == 0;
 	return Status;
 }
 

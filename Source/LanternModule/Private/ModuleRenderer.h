@@ -25,12 +25,13 @@ public:
 
 	FRTStatus AddMaterial(const FRTModuleMaterial& Material, ERTMaterialHandle* Out) override;
 	FRTStatus SetMaterial(ERTMaterialHandle Handle, const FRTModuleMaterial& Material) override;
+	FRTStatus RemoveMaterial(ERTMaterialHandle Handle) override;
 	FRTStatus AddMesh(const FRTModuleMesh& Mesh, ERTMeshHandle* Out) override;
 	FRTStatus UpdateMeshVertices(ERTMeshHandle Handle, const float* Positions, const float* Normals) override;
 	FRTStatus RemoveMesh(ERTMeshHandle Handle) override;
 	FRTStatus AddObject(const FRTModuleObject& Object, ERTObjectHandle* Out) override;
 	FRTStatus SetObjectTransform(ERTObjectHandle Handle, const double Transform[12]) override;
-	FRTStatus SetObjectMaterials(ERTObjectHandle Handle, const ERTMaterialHandle* Materials,
+	FRTStatus SetObjectMaterials(ERTObjectHandle Handle, const ERTMaterialHandle* Handles,
 	                             uint32_t MaterialCount) override;
 	FRTStatus SetObjectCastsShadow(ERTObjectHandle Handle, bool bCastsShadow) override;
 	FRTStatus RemoveObject(ERTObjectHandle Handle) override;
@@ -45,7 +46,11 @@ private:
 		TRTRef<IRTTexture> Texture;
 		TRTRef<IRTSampler> Sampler;
 	};
-
+	struct FMaterial
+	{
+		uint32_t Index = 0; ///< in the scene
+		FMaterialTextures Textures;
+	};
 	struct FMesh
 	{
 		FRTGeometryRef Geometry;
@@ -68,11 +73,14 @@ private:
 	                     FRTGeometryInfo& Out);
 	/// For a geometry's sections: Ok and their indices, or InvalidArgument.
 	FRTStatus ResolveMaterials(const FRTGeometryInfo& Geometry, const ERTMaterialHandle* Handles, uint32_t Count,
-	                           std::vector<uint32_t>& Out) const;
+	                           std::vector<uint32_t>& Out);
+	void AddUsers(const std::vector<uint32_t>& Used);
+	void RemoveUsers(const std::vector<uint32_t>& Used);
 	FRTStatus CheckUsers(uint32_t Material);
 	/// Why Meshes does not find Handle.
 	FRTStatus RefuseMesh(const char* Function, ERTMeshHandle Handle) const;
-	void StoreMaterial(uint32_t Index, const FRTModuleMaterial& Material);
+	void StoreMaterial(FMaterial& Material, const FRTModuleMaterial& From);
+	bool AreShadersReady();
 	FRTStatus RecordVertices(IRTCommandList& List);
 	FRTStatus RecordFrame(const FRTModuleFrame& Frame);
 	/// Fence: 0 when the list will never run.
@@ -85,7 +93,8 @@ private:
 	FRenderer Renderer;
 	FUploader Uploader;
 	FFrameUploads VertexUploads;
-	std::vector<FMaterialTextures> MaterialTextures;
+	TSlotTable<FMaterial, ERTMaterialHandle> Materials;
+	std::vector<uint32_t> MaterialUsers; ///< sections of objects, by the material's index in the scene
 	/// Replaced since the last EndFrame: the list in the making may sample them, and a device that lets go of a bindless
 	/// index counts from the last submission.
 	std::vector<FMaterialTextures> ReplacedTextures;

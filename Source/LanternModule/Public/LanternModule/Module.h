@@ -19,7 +19,7 @@ namespace Lantern
 {
 
 /// Bumped when anything in this header changes. The library refuses another version.
-inline constexpr uint32_t ModuleVersion = 2;
+inline constexpr uint32_t ModuleVersion = 3;
 
 class IRTModuleVulkan;
 
@@ -66,7 +66,7 @@ struct FRTModuleMaterial
 	float Roughness = 1.0f;            ///< perceptual, 0–1
 	/// Times BaseColor; its alpha is what an alpha test reads. Created on or imported into the renderer's device with
 	/// ERTTextureUsage::Sampled, and in ShaderRead whenever a frame runs. The renderer holds a reference. An image
-	/// behind an imported one must outlive what reads it: after SetMaterial to another texture, until the fence of the
+	/// behind an imported one must outlive what reads it: after SetMaterial to another texture or RemoveMaterial, until the fence of the
 	/// next EndFrame has passed; after the renderer's last frame, until the renderer is released. Null: none.
 	IRTTexture* BaseColorTexture = nullptr;
 	IRTSampler* BaseColorSampler = nullptr; ///< needed with a texture
@@ -149,10 +149,16 @@ struct FRTModuleFrame
 struct FRTModuleOutputs
 {
 	/// Fraction of the sun that each pixel sees: 1 lit, 0 shadowed. R16_FLOAT, in ShaderRead; may be copied from,
-	/// if the engine puts it back in ShaderRead. Null: no sun, or shadows are off.
+	/// if the engine puts it back in ShaderRead. Null: no sun, shadows are off, or their shaders are not there yet.
 	IRTTexture* SunShadow = nullptr;
-	/// False: some acceleration structures still wait for their turn (r.RT.Build.TrianglesPerFrame, r.RT.Build.MemoryMB), and
-	/// rays do not see their objects yet. RenderFrame waits for shaders.
+	/// Ray-tracing shaders are compiled in the background; RenderFrame never waits for them. False: some that the scene
+	/// wants are not there yet. SunShadow is null until the first are; from then on objects whose own are missing have the
+	/// shadow of a stand-in, or none (r.RT.Pipeline.Fallback, by which an engine may also have frames that wait). What does
+	/// not compile is logged, keeps its stand-in and counts as there. Where shadows are traced by ray queries, the first frame
+	/// still compiles their one compute shader itself.
+	bool bShadersReady = false;
+	/// All that the frame shows is there. False: shaders are missing, or some acceleration structures still wait for their
+	/// turn (r.RT.Build.TrianglesPerFrame, r.RT.Build.MemoryMB), and rays do not see their objects yet.
 	bool bComplete = false;
 };
 
@@ -160,11 +166,13 @@ struct FRTModuleOutputs
 class IRTModuleRenderer : public IRTRefCounted
 {
 public:
-	/// Materials live as long as the renderer.
 	virtual FRTStatus AddMaterial(const FRTModuleMaterial& Material, ERTMaterialHandle* Out) = 0;
 	/// InvalidArgument, naming mesh and section, if Material is masked and an object uses it on a section that may not
 	/// be (FRTModuleSection::bMayBeMasked).
 	virtual FRTStatus SetMaterial(ERTMaterialHandle Handle, const FRTModuleMaterial& Material) = 0;
+	/// InvalidArgument while objects use it. At any time, also while frames that see it are in flight; what it referred to
+	/// goes as FRTModuleMaterial::BaseColorTexture says of a replaced one. The handle is void.
+	virtual FRTStatus RemoveMaterial(ERTMaterialHandle Handle) = 0;
 	/// Copies the data and waits for the copy. The acceleration structure is built by one of the next calls of RenderFrame,
 	/// within r.RT.Build.TrianglesPerFrame, near and large meshes first; until then its objects are not seen by rays.
 	virtual FRTStatus AddMesh(const FRTModuleMesh& Mesh, ERTMeshHandle* Out) = 0;
@@ -175,7 +183,8 @@ public:
 	/// InvalidArgument, with its name, while objects use it. The handle is void: whoever uses it later is told the name of
 	/// the mesh that it was.
 	virtual FRTStatus RemoveMesh(ERTMeshHandle Handle) = 0;
-	/// InvalidArgument, naming mesh and section, for a masked material on a section that may not be.
+	/// InvalidArgument, naming mesh and section, for a masked material on a section that may not be. Unsupported: an
+	/// instance cannot name more objects than there are (2^24).
 	virtual FRTStatus AddObject(const FRTModuleObject& Object, ERTObjectHandle* Out) = 0;
 	virtual FRTStatus SetObjectTransform(ERTObjectHandle Handle, const double Transform[12]) = 0;
 	/// As in AddObject.
