@@ -82,6 +82,7 @@ TEST_F(FGeometryMemoryTest, CompactionSwapsTheAddressAndFreesMemory)
 	EXPECT_TRUE(Mock().GetGeometry(Geometry->GetStructure()).IsUsable());
 	EXPECT_EQ(Device->GetMemoryStats().Geometry, Before - Stats().CompactionSavedBytes);
 	EXPECT_LT(Device->GetMemoryStats().Geometry, Before * 8 / 10);
+	Frames(64); // in which the scratch buffer goes
 	EXPECT_FALSE(Store->NeedsUpdate());
 }
 
@@ -227,6 +228,47 @@ TEST_F(FGeometryMemoryTest, WhatNeverFitsHoldsNobodyUp)
 	EXPECT_EQ(Stats().Refused, 1u);
 	EXPECT_EQ(CountLines("geometry \"Mountain\" (100000 triangles) is left out"), 1u);
 	EXPECT_FALSE(Store->NeedsUpdate() && Stats().Pending > 0);
+}
+
+TEST_F(FGeometryMemoryTest, WhatMustBeBuiltHasItsScratchSetAside)
+{
+	Set("r.RT.Build.MemoryMB", "3");
+	Set("r.RT.Build.CoarserLevels", "0");
+	constexpr uint64_t SceneScratch = 1 << 20;
+	IRTBuffer* Scratch = nullptr;
+	ASSERT_TRUE(Frame());
+	ASSERT_TRUE(Store->ReserveScratch(SceneScratch, Scratch));
+	Frames(100); // nothing is built: it goes
+	EXPECT_EQ(Device->GetMemoryStats().Scratch, 0u);
+	std::vector<FRTGeometryRef> Geometries;
+	for (int I = 0; I < 60; ++I)
+	{
+		Geometries.push_back(Make("Rock" + std::to_string(I), 1000));
+		ASSERT_TRUE(Frame());
+	}
+	Frames(100);
+	ASSERT_TRUE(Store->ReserveScratch(SceneScratch, Scratch));
+	ASSERT_NE(Scratch, nullptr);
+	EXPECT_GE(Scratch->GetDesc().Size, SceneScratch);
+	EXPECT_LE(GetUsed(), 3u << 20);
+	Frames(1);
+	EXPECT_GT(Stats().Refused + Stats().Pending, 0u) << "the budget was never reached: the test proves nothing";
+	EXPECT_LE(Stats().PeakBytes, 3u << 20);
+}
+
+TEST_F(FGeometryMemoryTest, ScratchGoesAlsoWhereNothingChanges)
+{
+	Set("r.RT.Build.Compaction", "0");
+	const FRTGeometryRef Mountain = Make("Mountain", 100000);
+	ASSERT_TRUE(Frame());
+	EXPECT_GT(Device->GetMemoryStats().Scratch, 1u << 20);
+	uint32_t Count = 0;
+	for (; Store->NeedsUpdate() && Count < 1000; ++Count)
+	{
+		ASSERT_TRUE(Frame());
+	}
+	EXPECT_LT(Device->GetMemoryStats().Scratch, 1u << 20);
+	EXPECT_LT(Count, 1000u) << "and then there is nothing to do any more";
 }
 
 // ---------------------------------------------------------------------------------------------------- coarser levels

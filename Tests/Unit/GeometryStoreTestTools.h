@@ -166,7 +166,7 @@ protected:
 	uint64_t GetUsed()
 	{
 		const FRTMemoryStats Memory = Device->GetMemoryStats();
-		return Memory.Geometry + Memory.Scratch;
+		return Memory.Geometry + Memory.Scene + Memory.Scratch;
 	}
 
 	TRTRef<IRTDevice> Device;

@@ -1,4 +1,5 @@
 // FGeometryStore: what is created, built when, refitted and rebuilt.
+#include <limits>
 #include <map>
 #include <random>
 
@@ -174,6 +175,19 @@ TEST_F(FGeometryStoreTest, BuildAllHeedsNoBudgetOfTriangles)
 	ASSERT_TRUE(Frame(true));
 	EXPECT_EQ(Stats().Built, 50u);
 	EXPECT_EQ(Stats().Pending, 0u);
+}
+
+TEST_F(FGeometryStoreTest, SizeThatIsNoNumberIsNone)
+{
+	Set("r.RT.Build.TrianglesPerFrame", "100");
+	const FRTGeometryRef Odd = Make("Odd", 100), Small = Make("Small", 100);
+	Store->RaisePriority(Odd->GetSlot(), std::numeric_limits<float>::quiet_NaN());
+	Store->RaisePriority(Small->GetSlot(), 0.1f);
+	ASSERT_TRUE(Frame());
+	EXPECT_EQ(GetAddress(Odd), 0u);
+	EXPECT_NE(GetAddress(Small), 0u);
+	ASSERT_TRUE(Frame());
+	EXPECT_NE(GetAddress(Odd), 0u);
 }
 
 TEST_F(FGeometryStoreTest, LargeOnScreenComesFirstThenTheOldest)

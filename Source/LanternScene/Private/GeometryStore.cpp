@@ -197,7 +197,7 @@ std::vector<uint32_t> FGeometryStore::TakeChanged()
 void FGeometryStore::RaisePriority(uint32_t Slot, float ScreenSize)
 {
 	// Floats that are not negative order as their bits do.
-	const uint32_t Bits = std::bit_cast<uint32_t>(std::max(ScreenSize, 0.0f));
+	const uint32_t Bits = std::bit_cast<uint32_t>(ScreenSize > 0.0f ? ScreenSize : 0.0f); // 0 for what is no number
 	std::atomic<uint32_t>& Priority = Priorities[Slot / ChunkSlots][Slot % ChunkSlots];
 	uint32_t Before = Priority.load(std::memory_order_relaxed);
 	while (Before < Bits && !Priority.compare_exchange_weak(Before, Bits, std::memory_order_relaxed)) {}
@@ -238,15 +238,20 @@ bool FGeometryStore::NeedsUpdate() const
 		return true;
 	}
 	const auto Fits = [&](FSlotRef Ref)
-	{ return Entries[Ref.Slot].Generation == Ref.Generation && Entries[Ref.Slot].CompactedBytes <= GetRoom(); };
+	{ return Entries[Ref.Slot].Generation == Ref.Generation && FitsCompacted(Entries[Ref.Slot]); };
 	if (std::any_of(Sized.begin(), Sized.end(), Fits))
 	{
 		return true;
 	}
+	if (IsScratchTooLarge())
+	{
+		return true;
+	}
+	const uint64_t Room = Refused.empty() ? 0 : GetRoom();
 	for (const FSlotRef Ref : Refused)
 	{
 		const FEntry& Entry = Entries[Ref.Slot];
-		if (Entry.Generation == Ref.Generation && !Entry.Owner.expired() && IsWorthAnother(Entry))
+		if (Entry.Generation == Ref.Generation && !Entry.Owner.expired() && IsWorthAnother(Entry, Room))
 		{
 			return true;
 		}
@@ -421,11 +426,16 @@ void FGeometryStore::Lost()
 	Held.clear();
 }
 
+bool FGeometryStore::IsScratchTooLarge() const
+{
+	const uint64_t Size = Scratch ? Scratch->GetDesc().Size : 0;
+	return Size > SmallScratchBytes && RecentScratchNeed * 2 < Size;
+}
+
 void FGeometryStore::ShrinkScratch()
 {
 	RecentScratchNeed = std::max(RecentScratchNeed, std::exchange(ScratchNeed, 0));
-	const uint64_t Size = Scratch ? Scratch->GetDesc().Size : 0;
-	if (Size <= SmallScratchBytes || RecentScratchNeed * 2 >= Size)
+	if (!IsScratchTooLarge())
 	{
 		FramesScratchTooLarge = 0;
 		RecentScratchNeed = 0;
@@ -446,7 +456,7 @@ void FGeometryStore::UpdateStats()
 	const FRTMemoryStats Memory = Device.GetMemoryStats();
 	Stats.LiveBytes = Memory.Geometry;
 	Stats.ScratchBytes = Memory.Scratch;
-	Stats.PeakBytes = std::max(Stats.PeakBytes, Memory.Geometry + Memory.Scratch);
+	Stats.PeakBytes = std::max(Stats.PeakBytes, Memory.Geometry + Memory.Scene + Memory.Scratch);
 	Stats.Pending = static_cast<uint32_t>(Pending.size() + Coarsening.size());
 	Stats.Refused = static_cast<uint32_t>(Refused.size());
 }

@@ -136,10 +136,11 @@ FRTStatus FGeometryStore::ChooseRefits()
 		Held.push_back(Entry->Owner.lock());
 		Recorded.push_back(MakeRef(*Entry));
 	}
+	RefitScratch = Work.empty() ? RefitScratch : Need;
 	ChooseRebuilds(Due, Interval, Need);
 	Stats.Refitted = static_cast<uint32_t>(Work.size()) - Stats.Rebuilt;
-	IRTBuffer* Unused = nullptr;
-	return Need > 0 ? ReserveScratch(Need, Unused) : FRTStatus::Success();
+	// Also where refits need none of it: a build names a buffer.
+	return Work.empty() ? FRTStatus::Success() : GrowScratch(Need);
 }
 
 void FGeometryStore::OrderPending(bool bBuildAll)
@@ -245,8 +246,7 @@ FRTStatus FGeometryStore::ChooseBuild(FEntry& Entry, bool bBuildAll, uint64_t Sh
 
 FRTStatus FGeometryStore::Admit(FEntry& Entry)
 {
-	IRTBuffer* Unused = nullptr;
-	if (FRTStatus S = ReserveScratch(Entry.Sizes.BuildScratchBytes, Unused); !S)
+	if (FRTStatus S = GrowScratch(Entry.Sizes.BuildScratchBytes); !S)
 	{
 		return S;
 	}
@@ -284,6 +284,14 @@ FRTStatus FGeometryStore::Admit(FEntry& Entry)
 
 FRTStatus FGeometryStore::ReserveScratch(uint64_t Bytes, IRTBuffer*& Out)
 {
+	SceneScratch = Bytes;
+	const FRTStatus Status = GrowScratch(Bytes);
+	Out = Scratch.Get();
+	return Status;
+}
+
+FRTStatus FGeometryStore::GrowScratch(uint64_t Bytes)
+{
 	ScratchNeed = std::max(ScratchNeed, Bytes);
 	if (GetScratchGrowth(Bytes) > 0)
 	{
@@ -301,7 +309,6 @@ FRTStatus FGeometryStore::ReserveScratch(uint64_t Bytes, IRTBuffer*& Out)
 		}
 		Scratch = std::move(Larger);
 	}
-	Out = Scratch.Get();
 	return FRTStatus::Success();
 }
 
@@ -316,12 +323,11 @@ FRTStatus FGeometryStore::ReserveBatchScratch()
 	}
 	// More is quicker, for builds of one batch overlap, but what there is will do: it holds each alone.
 	Sum = std::min(Sum, BatchScratchBytes);
-	IRTBuffer* Unused = nullptr;
 	if (Sum == 0 || GetScratchGrowth(Sum) > GetRoom() / 4)
 	{
 		return FRTStatus::Success();
 	}
-	const FRTStatus Status = ReserveScratch(Sum, Unused);
+	const FRTStatus Status = GrowScratch(Sum);
 	return Status.Code == ERTResult::OutOfDeviceMemory ? FRTStatus::Success() : Status;
 }
 
@@ -403,7 +409,8 @@ FRTStatus FGeometryStore::RecordQueries(IRTCommandList& List)
 	const auto Count = static_cast<uint32_t>(WantSize.size());
 	if (FRTStatus S = Device.CreateQueryPool(ERTQuery::CompactedSize, Count, Batch.Queries.ReleaseAndGetAddress()); !S)
 	{
-		return S;
+		// What does without compaction does without it a little longer.
+		return S.Code == ERTResult::OutOfDeviceMemory ? FRTStatus::Success() : S;
 	}
 	List.ResetQueries(Batch.Queries.Get(), 0, Count);
 	for (uint32_t Index = 0; Index < Count; ++Index)

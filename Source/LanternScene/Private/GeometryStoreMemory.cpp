@@ -54,7 +54,7 @@ uint64_t FGeometryStore::GetBudget() const
 uint64_t FGeometryStore::GetUsed() const
 {
 	const FRTMemoryStats Memory = Device.GetMemoryStats();
-	return Memory.Geometry + Memory.Scratch;
+	return Memory.Geometry + Memory.Scene + Memory.Scratch;
 }
 
 uint64_t FGeometryStore::GetRoom() const
@@ -66,6 +66,8 @@ uint64_t FGeometryStore::GetRoom() const
 
 uint64_t FGeometryStore::GetScratchGrowth(uint64_t Bytes) const
 {
+	// With what must be in the same frame, whatever is chosen to be built.
+	Bytes = std::max({Bytes, SceneScratch, DynamicCount > 0 ? RefitScratch : 0});
 	const bool bEnough = Scratch && Scratch->GetDesc().Size >= Bytes;
 	// Of the whole size, since the GPU may still use the smaller one.
 	return bEnough ? 0 : (std::max<uint64_t>(Bytes, 1) + ScratchStep - 1) / ScratchStep * ScratchStep;
@@ -110,6 +112,12 @@ void FGeometryStore::TakeSizes()
 	std::erase_if(Batches, [](const FSizeBatch& Batch) { return !Batch.Queries; });
 }
 
+bool FGeometryStore::FitsCompacted(const FEntry& Entry) const
+{
+	const uint64_t Room = GetRoom();
+	return Room == ~0ull || Entry.CompactedBytes + GetScratchGrowth(0) <= Room;
+}
+
 FRTStatus FGeometryStore::ChooseCompactions()
 {
 	if (Sized.empty())
@@ -131,7 +139,7 @@ FRTStatus FGeometryStore::ChooseCompactions()
 	for (; Next < Sized.size(); ++Next)
 	{
 		FEntry& Entry = Entries[Sized[Next].Slot];
-		const bool bFits = Entry.Compacted || Entry.CompactedBytes <= GetRoom();
+		const bool bFits = Entry.Compacted || FitsCompacted(Entry);
 		if (!bFits || (Bytes > 0 && Bytes + Entry.CompactedBytes > CompactedBytesPerFrame))
 		{
 			break;
@@ -340,15 +348,19 @@ FRTStatus FGeometryStore::OnMisfit(FEntry& Entry, bool bBuildAll, uint64_t Room)
 	return FRTStatus::Success();
 }
 
-bool FGeometryStore::IsWorthAnother(const FEntry& Entry) const
+bool FGeometryStore::IsWorthAnother(const FEntry& Entry, uint64_t Room) const
 {
-	const uint64_t Room = GetRoom();
 	const bool bFits = Entry.Sizes.StructureBytes + GetScratchGrowth(Entry.Sizes.BuildScratchBytes) <= Room;
 	return bFits || (CanCoarsen(Entry) && Room / 2 > std::max(Entry.RefusedRoom, ScratchStep));
 }
 
 void FGeometryStore::ReconsiderRefused()
 {
+	if (Refused.empty())
+	{
+		return;
+	}
+	const uint64_t Room = GetRoom();
 	std::erase_if(Refused,
 	              [&](FSlotRef Ref)
 	              {
@@ -357,7 +369,7 @@ void FGeometryStore::ReconsiderRefused()
 		              {
 			              return true;
 		              }
-		              if (!IsWorthAnother(*Entry))
+		              if (!IsWorthAnother(*Entry, Room))
 		              {
 			              return false;
 		              }

@@ -1,8 +1,8 @@
 // All geometries of a scene and the memory of their acceleration structures: builds spread over frames by budget and
 // priority, compaction, refits and rebuilds of deformed geometry, coarser levels of detail where memory is short.
 //
-// One budget (r.RT.Build.MemoryMB) counts the peak: what lives, what is being built, both copies while one is compacted,
-// scratch, and what was released but is still in use by the GPU. A build that would exceed it waits while something is
+// One budget (r.RT.Build.MemoryMB) counts the peak: what lives, instances' structures (TLAS) included, what is being built,
+// both copies while one is compacted, scratch, and what was released but is still in use by the GPU. A build that would exceed it waits while something is
 // about to give memory back; after that its geometry is made coarser, or is left out of the scene until there is room.
 //
 // Order of a frame: Create, MarkDeformed, … → BeginFrame → Record → submission → EndFrame. Nothing waits for the GPU.
@@ -25,7 +25,7 @@ struct FGeometryStoreStats
 	// Now; bytes as the device counts them.
 	uint64_t LiveBytes = 0; ///< structures, those that the GPU has yet to let go included
 	uint64_t ScratchBytes = 0;
-	uint64_t PeakBytes = 0;            ///< of both together, since the store was made
+	uint64_t PeakBytes = 0;            ///< of both and structures over instances, since the store was made
 	uint64_t CompactionSavedBytes = 0; ///< since the store was made
 	uint32_t Pending = 0;              ///< to be built, those in a coarser level's making included
 	uint32_t Coarse = 0;               ///< are a coarser level of detail
@@ -86,7 +86,8 @@ public:
 	uint32_t GetSlotCount() const { return static_cast<uint32_t>(Entries.size()); }
 	uint32_t GetDynamicCount() const { return DynamicCount; }
 	const FGeometryStoreStats& GetStats() const { return Stats; }
-	/// The scratch buffer, made to hold Bytes: for whoever builds after Record in the same frame.
+	/// The scratch buffer, made to hold Bytes: for whoever builds after Record in the same frame. What must be, budget or
+	/// not; as much is set aside when later frames choose their builds.
 	FRTStatus ReserveScratch(uint64_t Bytes, IRTBuffer*& Out);
 
 private:
@@ -161,6 +162,7 @@ private:
 	void UpdateStats();
 	void Submitted();
 	void Lost();
+	bool IsScratchTooLarge() const;
 	void ShrinkScratch();
 	// GeometryStoreOpacity.cpp
 	void ForgetStructure(FEntry& Entry);
@@ -176,6 +178,7 @@ private:
 	void OrderPending(bool bBuildAll);
 	FRTStatus ChooseBuild(FEntry& Entry, bool bBuildAll, uint64_t Share, bool& bOutStop);
 	FRTStatus Admit(FEntry& Entry);
+	FRTStatus GrowScratch(uint64_t Bytes);
 	FRTStatus ReserveBatchScratch();
 	void RecordStaging(IRTCommandList& List);
 	void RecordBuilds(IRTCommandList& List);
@@ -189,12 +192,13 @@ private:
 	bool IsMemoryComing() const;
 	void TakeSizes();
 	void TakeCompacted();
+	bool FitsCompacted(const FEntry& Entry) const;
 	FRTStatus ChooseCompactions();
 	void ReconsiderRefused();
 	FRTStatus TakeCoarser();
 	FRTStatus TakeCoarser(FEntry& Entry);
 	bool CanCoarsen(const FEntry& Entry) const;
-	bool IsWorthAnother(const FEntry& Entry) const;
+	bool IsWorthAnother(const FEntry& Entry, uint64_t Room) const;
 	bool StartCoarser(FEntry& Entry, uint64_t Room);
 	void Refuse(FEntry& Entry, uint64_t Room);
 	FRTStatus OnMisfit(FEntry& Entry, bool bBuildAll, uint64_t Room);
@@ -215,6 +219,7 @@ private:
 	std::vector<FSizeBatch> Batches;
 	TRTRef<IRTBuffer> Scratch;
 	uint64_t ScratchNeed = 0, RecentScratchNeed = 0;
+	uint64_t SceneScratch = 0, RefitScratch = 0; ///< that the last frame with either could not do without
 	uint32_t FramesScratchTooLarge = 0;
 	uint64_t Frame = 0, NextAge = 0, LastReleaseFrame = 0;
 	uint32_t DynamicCount = 0;
