@@ -151,15 +151,18 @@ FRTStatus FVulkanDevice::SubmitLists(IRTCommandList* const* Lists, uint32_t Coun
 	{
 		return LostStatus();
 	}
+	FRTStatus Recording;
 	std::vector<VkCommandBufferSubmitInfo> Buffers;
 	for (uint32_t Index = 0; Index < Count; ++Index)
 	{
 		FVulkanCommandList* List = static_cast<FVulkanCommandList*>(Lists[Index]);
 		assert(List->IsImported() == bExternal &&
 		       "Submit takes lists of the device, NotifyExternalSubmit imported ones");
-		if (!List->GetError())
+		Recording = Recording ? List->GetError() : Recording;
+		// What an engine says that it has submitted runs, whatever is wrong with it: it must still be waited for.
+		if (!Recording && !bExternal)
 		{
-			return List->GetError();
+			return Recording;
 		}
 		if (!bExternal)
 		{
@@ -188,7 +191,7 @@ FRTStatus FVulkanDevice::SubmitLists(IRTCommandList* const* Lists, uint32_t Coun
 		}
 	}
 	CollectGarbage();
-	return {};
+	return Recording;
 }
 
 FRTStatus FVulkanDevice::Submit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence)
