@@ -61,12 +61,34 @@ double MedianOf(std::vector<double> Values)
 	return Values[Values.size() / 2];
 }
 
-FShaderSource MakeShader(const std::string& Name)
+/// Body may use P, the payload. No two shaders are the same, nor have the same code: drivers give those one handle.
+FShaderSource MakeShader(const std::string& Name, const std::string& Body)
 {
 	FShaderSource Source;
 	Source.Path = Name;
-	Source.Text = "#version 460\n#extension GL_EXT_ray_tracing : require\nvoid main() {}\n";
+	Source.Text = "#version 460\n#extension GL_EXT_ray_tracing : require\n";
+	Source.Text += Body.empty() ? "" : "layout(location = 0) rayPayloadInEXT uint P;\n";
+	Source.Text += "void main() { " + Body + " }\n";
 	return Source;
+}
+
+FRTPSODesc MakePrograms(uint32_t Pipeline)
+{
+	uint32_t Number = 100 * Pipeline;
+	const auto Next = [&Number] { return std::to_string(++Number) + "u"; };
+	FRTPSODesc Desc;
+	Desc.RayGens = {MakeShader("BenchGenerate", "")};
+	for (const std::string Name : {"SHADOW", "MATERIAL"})
+	{
+		FRayType& Type = Desc.RayTypes.emplace_back();
+		Type.Name = Name;
+		Type.Miss = MakeShader("BenchMiss" + Name, "P = " + Next() + ";");
+		Type.ClosestHit = MakeShader("BenchHit" + Name, "P = gl_PrimitiveID + " + Next() + ";");
+		Type.MaskedAnyHit = MakeShader("BenchAnyHit" + Name, "if (P == " + Next() + ") { ignoreIntersectionEXT; }");
+		Type.PayloadBytes = 4;
+	}
+	Desc.HitPrograms = {{StandardProgram, ERTHitClass::Opaque}, {StandardProgram, ERTHitClass::Masked}};
+	return Desc;
 }
 
 FRTStatus CreateBuffer(IRTDevice& Device, const char* Name, uint64_t Size, TRTRef<IRTBuffer>& Out)
@@ -95,25 +117,16 @@ double FTableTimes::GetProcessorMedian() const
 
 FRTStatus FTablePrograms::Create(IRTDevice& Device, FShaderCompiler& Compiler)
 {
-	FRTPSODesc Desc;
-	Desc.RayGens = {MakeShader("BenchGenerate")};
-	for (const char* Name : {"SHADOW", "MATERIAL"})
+	for (uint32_t Pipeline = 0; Pipeline < 2; ++Pipeline)
 	{
-		FRayType& Type = Desc.RayTypes.emplace_back();
-		Type.Name = Name;
-		Type.Miss = MakeShader(std::string("BenchMiss") + Name);
-		Type.ClosestHit = MakeShader(std::string("BenchHit") + Name);
-		Type.MaskedAnyHit = MakeShader(std::string("BenchAnyHit") + Name);
-		Type.PayloadBytes = 4;
+		const FRTStatus Status =
+		    FRTPSO::Create(Device, Compiler, FMaterialPrograms(), MakePrograms(Pipeline), Pipelines[Pipeline]);
+		if (!Status)
+		{
+			return Status;
+		}
 	}
-	Desc.HitPrograms = {{StandardProgram, ERTHitClass::Opaque}, {StandardProgram, ERTHitClass::Masked}};
-	if (FRTStatus S = FRTPSO::Create(Device, Compiler, FMaterialPrograms(), Desc, Pipelines[0]); !S)
-	{
-		return S;
-	}
-	// Other group numbers, so that handles differ also where they are made from numbers alone.
-	std::swap(Desc.HitPrograms[0], Desc.HitPrograms[1]);
-	return FRTPSO::Create(Device, Compiler, FMaterialPrograms(), Desc, Pipelines[1]);
+	return FRTStatus::Success();
 }
 
 FTableCase::FTableCase(IRTDevice& InDevice, const FTablePrograms& InPrograms, uint32_t InObjectCount, bool bInShared)

@@ -33,7 +33,7 @@ struct FTableCaseResult
 	uint64_t BytesFull = 0, BytesStatic = 0, BytesDynamic = 0, BytesSwap = 0;
 };
 
-/// Two pipelines of the same programs, to swap between.
+/// Two pipelines of the same programs with other shaders, to swap between.
 struct FTablePrograms
 {
 	FRTPSO Pipelines[2];
