@@ -150,24 +150,28 @@ private:
 	const FView View;
 };
 
-nlohmann::json MakeJson(const FAnyHitCase& Case, const FOpacityCounts& Counts)
+nlohmann::json MakeJson(const FAnyHitCase& Case, const FSceneOpacity& Opacity)
 {
 	return {{"name", Case.Name},
 	        {"any_hit_plain", Case.Plain},
 	        {"any_hit_classified", Case.Classified},
 	        {"ratio", Case.GetRatio()},
-	        {"classes", {{"opaque", Counts.Opaque}, {"transparent", Counts.Transparent}, {"mixed", Counts.Mixed}}},
+	        {"classes",
+	         {{"opaque", Opacity.Counts.Opaque},
+	          {"transparent", Opacity.Counts.Transparent},
+	          {"mixed", Opacity.Counts.Mixed}}},
+	        {"pieces", Opacity.Pieces},
 	        {"image_difference", Case.Difference},
 	        {"pixels_different", Case.Pixels}};
 }
 
-int ReportCase(const FAnyHitCase& Case, const FOpacityCounts& Counts, nlohmann::json& Cases)
+int ReportCase(const FAnyHitCase& Case, const FSceneOpacity& Opacity, nlohmann::json& Cases)
 {
-	fmt::print("{:<34} {:>14} {:>14} {:>7.3f} {:>10} {:>12} {:>8} {:>12g} {:>8}\n", Case.Name, Case.Plain,
-	           Case.Classified, Case.GetRatio(), Counts.Opaque, Counts.Transparent, Counts.Mixed, Case.Difference,
-	           Case.Pixels);
+	fmt::print("{:<34} {:>14} {:>14} {:>7.3f} {:>8} {:>12} {:>8} {:>8} {:>12g} {:>8}\n", Case.Name, Case.Plain,
+	           Case.Classified, Case.GetRatio(), Opacity.Counts.Opaque, Opacity.Counts.Transparent,
+	           Opacity.Counts.Mixed, Opacity.Pieces, Case.Difference, Case.Pixels);
 	std::fflush(stdout);
-	Cases.push_back(MakeJson(Case, Counts));
+	Cases.push_back(MakeJson(Case, Opacity));
 	if (Case.Pixels == 0)
 	{
 		return ExitDone;
@@ -186,11 +190,11 @@ int MeasureScene(FSession& Session, const FBenchScene& Scene, const FBenchAnyHit
 		return Status;
 	}
 	FAnyHitBench Bench(Session, Scene, Picture);
-	const FOpacityCounts Counts = Session.GetEngine().GetScene().GetOpacityCounts();
+	const FSceneOpacity& Opacity = Session.GetEngine().GetScene().GetOpacity();
 	int Exit = ExitDone;
 	const auto Add = [&](const FRTStatus& Status, const FAnyHitCase& Case)
 	{
-		const int Result = Status ? ReportCase(Case, Counts, Cases) : ReportStatus(Status, Case.Name.c_str());
+		const int Result = Status ? ReportCase(Case, Opacity, Cases) : ReportStatus(Status, Case.Name.c_str());
 		Exit = Exit == ExitDone ? Result : Exit;
 	};
 	for (const bool bPipeline : {true, false})
@@ -268,8 +272,8 @@ int RunBenchAnyHit(const FBenchAnyHitOptions& Options)
 	const FRTCapabilities& Capabilities = Session.GetDevice().GetCapabilities();
 	nlohmann::json Json = {
 	    {"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"cases", nlohmann::json::array()}};
-	fmt::print("{:<34} {:>14} {:>14} {:>7} {:>10} {:>12} {:>8} {:>12} {:>8}\n", "case", "plain", "classified", "ratio",
-	           "opaque", "transparent", "mixed", "difference", "pixels");
+	fmt::print("{:<34} {:>14} {:>14} {:>7} {:>8} {:>12} {:>8} {:>8} {:>12} {:>8}\n", "case", "plain", "classified",
+	           "ratio", "opaque", "transparent", "mixed", "pieces", "difference", "differ");
 	int Exit = ExitDone;
 	for (const FBenchScene& Scene : ChooseScenes(Options))
 	{

@@ -6,6 +6,7 @@
 
 #include "BenchRays.h"
 #include "BenchScenes.h"
+#include "LanternCore/ConsoleVariables.h"
 #include "LanternCore/Log.h"
 #include "LanternHost/AtomicFile.h"
 #include "Progress.h"
@@ -89,6 +90,8 @@ int MeasureScene(FSession& Session, const FBenchScene& Scene, const FBenchRaysOp
 {
 	const FRTCapabilities& Capabilities = Session.GetDevice().GetCapabilities();
 	const FPictureOptions Picture = MakeBenchPicture(Scene, Options.Size, Capabilities.bIsCpu);
+	// The hand-written dispatch takes hits as the driver gives them.
+	FConsoleVariables::Get().Set("r.RT.Opacity.Pieces", "0", ERTSetBy::CommandLine, "bench rays");
 	if (const int Status = Session.LoadScene(Picture); Status != ExitDone)
 	{
 		return Status;

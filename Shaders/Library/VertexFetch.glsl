@@ -106,4 +106,21 @@ void FetchPositions(FSectionData Section, uint Primitive, out vec3 P0, out vec3 
 	P2 = P.Data[T.z];
 }
 
+// Where a ray, in the object's space, meets a triangle: distance and barycentrics (Möller and Trumbore 1997).
+vec3 IntersectTriangle(FSectionData Section, uint Primitive, vec3 Origin, vec3 Direction)
+{
+	vec3 P0, P1, P2;
+	FetchPositions(Section, Primitive, P0, P1, P2);
+	vec3 E1 = P1 - P0, E2 = P2 - P0, S = Origin - P0;
+	vec3 H = cross(Direction, E2), Q = cross(S, E1);
+	return vec3(dot(E2, Q), dot(S, H), dot(Direction, Q)) / dot(E1, H);
+}
+
+// Of what IntersectTriangle returned at a hit: whether only the piece reaches there.
+bool IsBesideTriangle(FSectionData Section, vec3 Where)
+{
+	bool bBeside = Where.y < 0.0 || Where.z < 0.0 || Where.y + Where.z > 1.0;
+	return bBeside && (Section.Flags & SECTION_IS_PIECES) != 0u;
+}
+
 #endif

@@ -8,14 +8,32 @@
 layout(shaderRecordEXT, scalar) readonly buffer FRecord { FSectionData Section; };
 layout(push_constant, scalar) uniform FPush { FPassConstants Pass; };
 layout(location = 0) rayPayloadInEXT FMaterialPayload Payload;
+#ifdef PROCEDURAL
+hitAttributeEXT vec2 NormalAttribute; // see Intersection.glsl
+#else
 hitAttributeEXT vec2 Barycentrics;
+#endif
 
 void main()
 {
 	FSceneConstants Scene = FSceneRef(Pass.Scene).Data;
 	CountStandIn(Scene.StandInHits, Section.Material);
 	FMaterialData Material = FMaterialRef(Scene.Materials).Data[Section.Material];
-	FMaterialInputs Inputs = FetchInputs(Section, gl_PrimitiveID, Barycentrics);
+#ifdef PROCEDURAL
+	vec3 Where = vec3(gl_HitTEXT, 0.0, 0.0);
+	vec3 ObjectNormal = OctDecode(NormalAttribute);
+	FMaterialInputs Inputs = FMaterialInputs(ObjectNormal, vec4(0.0), vec2(0.0), vec2(0.0), vec4(1.0));
+#else
+	vec3 Where = vec3(gl_HitTEXT, Barycentrics);
+	if ((Section.Flags & SECTION_PIECES) != 0u)
+	{
+		Where = IntersectTriangle(Section, gl_PrimitiveID, gl_ObjectRayOriginEXT, gl_ObjectRayDirectionEXT);
+	}
+	FMaterialInputs Inputs = FetchInputs(Section, gl_PrimitiveID, Where.yz);
+	vec3 P0, P1, P2;
+	FetchPositions(Section, gl_PrimitiveID, P0, P1, P2);
+	vec3 ObjectNormal = cross(P1 - P0, P2 - P0);
+#endif
 	Inputs.Normal = (Inputs.Normal * gl_WorldToObjectEXT).xyz;
 	mat3 Linear = mat3(gl_ObjectToWorldEXT);
 	Inputs.Tangent.xyz = Linear * Inputs.Tangent.xyz;
@@ -23,9 +41,7 @@ void main()
 	FMaterialSurface Surface = EvaluateMaterial(Material, Inputs, Scene.MaterialOverride);
 
 	// The inverse transpose keeps the object's own outside, also where the transform mirrors.
-	vec3 P0, P1, P2;
-	FetchPositions(Section, gl_PrimitiveID, P0, P1, P2);
-	vec3 Ng = normalize((cross(P1 - P0, P2 - P0) * gl_WorldToObjectEXT).xyz);
+	vec3 Ng = normalize((ObjectNormal * gl_WorldToObjectEXT).xyz);
 	bool bFront = dot(Ng, gl_WorldRayDirectionEXT) < 0.0;
 	bool bCulledSide = !bFront && (Section.Flags & SECTION_DOUBLE_SIDED) == 0u;
 	if (!bFront)
@@ -35,7 +51,7 @@ void main()
 	}
 
 	FMaterialHit Hit;
-	Hit.Distance = gl_HitTEXT;
+	Hit.Distance = Where.x;
 	Hit.Normal = Surface.Normal;
 	Hit.GeometricNormal = Ng;
 	Hit.BaseColor = Surface.BaseColor;

@@ -24,8 +24,15 @@ bool QueryVisible(FSceneConstants Scene, uint Flags, uint Mask, vec3 Origin, vec
 		// A geometry whose alpha test is some other object's.
 		bool bMasked = (Section.Flags & SECTION_MASKED) != 0u;
 		if (bMasked) { CountAnyHit(Scene.AnyHitCounter); }
-		if (!bMasked || !IsHitCutAway(FMaterialRef(Scene.Materials), Section, rayQueryGetIntersectionPrimitiveIndexEXT(Query, false),
-		                              rayQueryGetIntersectionBarycentricsEXT(Query, false)))
+		uint Primitive = rayQueryGetIntersectionPrimitiveIndexEXT(Query, false);
+		vec3 Where = vec3(0.0, rayQueryGetIntersectionBarycentricsEXT(Query, false));
+		if ((Section.Flags & SECTION_PIECES) != 0u)
+		{
+			Where = IntersectTriangle(Section, Primitive, rayQueryGetIntersectionObjectRayOriginEXT(Query, false),
+			                          rayQueryGetIntersectionObjectRayDirectionEXT(Query, false));
+		}
+		bool bBeside = IsBesideTriangle(Section, Where);
+		if (!bMasked || !(bBeside || IsHitCutAway(FMaterialRef(Scene.Materials), Section, Primitive, Where.yz)))
 		{
 			rayQueryConfirmIntersectionEXT(Query);
 		}

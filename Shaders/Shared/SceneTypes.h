@@ -27,6 +27,11 @@ LANTERN_ASSERT_SIZE(FVertexAttributes, 28);
 #define SECTION_OPACITY_UV1 64u  // the base colour uses the second set of texture coordinates
 // The base colour's coordinates are not transformed and every vertex's alpha is 1: the alpha test reads neither.
 #define SECTION_PLAIN_OPACITY 128u
+// Rays may meet pieces of the section's triangles: what lies at a hit is found anew, from the ray and the whole triangle,
+// so that it is the same whether it was a piece or not.
+#define SECTION_PIECES 256u
+// These are the pieces. They reach beyond their triangles by a little, where there is nothing.
+#define SECTION_IS_PIECES 512u
 
 // One section of an object: which triangles, and what they are made of. The local data of a hit record, and
 // an entry of the section table that inline ray queries read.

@@ -1,42 +1,29 @@
-// Alpha-tested triangles of a loaded scene, told apart while their texels are still on the CPU.
-#include <algorithm>
+#include "LanternHost/SceneOpacity.h"
+
+#include <cmath>
 #include <map>
 #include <memory>
 
 #include "HostMaterials.h"
+#include "LanternCore/ConsoleVariables.h"
 #include "LanternCore/Tasks.h"
-#include "LanternHost/HostScene.h"
 
 namespace Lantern
 {
 
 namespace
 {
+TRTConsoleVariable<float> CVarPieces("r.RT.Opacity.Pieces", 3.0f,
+                                     "Alpha-tested triangles that are neither opaque nor transparent all over are cut "
+                                     "into pieces that leave out what is transparent: at most so many more pieces than "
+                                     "such triangles, where they save most. 0: none. Read when a scene is loaded.",
+                                     {0.0, 64.0});
+
 struct FMaskedSection
 {
-	uint32_t Mesh, Section;
+	uint32_t Mesh = 0, Section = 0;
+	FAlphaTest Test;
 };
-using FSectionsByImage = std::map<int32_t, std::vector<FMaskedSection>>; // -1: no texture
-
-FSectionsByImage FindMaskedSections(const FSceneDescription& Description)
-{
-	FSectionsByImage Out;
-	for (uint32_t Mesh = 0; Mesh < Description.Meshes.size(); ++Mesh)
-	{
-		const std::vector<FHostSection>& Sections = Description.Meshes[Mesh].Sections;
-		for (uint32_t Section = 0; Section < Sections.size(); ++Section)
-		{
-			const FHostMaterial& Material = Description.Materials[Sections[Section].Material];
-			if (Material.AlphaMode == EAlphaMode::Opaque)
-			{
-				continue;
-			}
-			const int32_t Texture = Material.Slots[TEXTURE_BASE_COLOR].Texture;
-			Out[Texture < 0 ? -1 : Description.Textures[Texture].Image].push_back({Mesh, Section});
-		}
-	}
-	return Out;
-}
 
 FAlphaTexels GetAlpha(const FHostImage& Image)
 {
@@ -64,49 +51,148 @@ FAlphaTest MakeAlphaTest(const FSceneDescription& Description, const FHostMateri
 	}
 	return Test;
 }
+
+/// By image, so that neighbours read the same texels.
+std::vector<std::pair<int32_t, std::vector<FMaskedSection>>> FindMaskedSections(const FSceneDescription& Description)
+{
+	std::map<int32_t, std::vector<FMaskedSection>> Out; // -1: no texture
+	for (uint32_t Mesh = 0; Mesh < Description.Meshes.size(); ++Mesh)
+	{
+		const std::vector<FHostSection>& Sections = Description.Meshes[Mesh].Sections;
+		for (uint32_t Section = 0; Section < Sections.size(); ++Section)
+		{
+			const FHostMaterial& Material = Description.Materials[Sections[Section].Material];
+			if (Material.AlphaMode != EAlphaMode::Opaque)
+			{
+				const int32_t Texture = Material.Slots[TEXTURE_BASE_COLOR].Texture;
+				Out[Texture < 0 ? -1 : Description.Textures[Texture].Image].push_back({Mesh, Section, {}});
+			}
+		}
+	}
+	return {Out.begin(), Out.end()};
+}
+
+/// How much area in the world a square metre of each mesh stands for.
+std::vector<float> FindMeshWeights(const FSceneDescription& Description, const FScenePose& Pose)
+{
+	std::vector<float> Weights(Description.Meshes.size(), 0.0f);
+	for (size_t Node = 0; Node < Description.Nodes.size(); ++Node)
+	{
+		if (const int32_t Mesh = Description.Nodes[Node].Mesh; Mesh >= 0)
+		{
+			const double Volume = std::abs(glm::determinant(glm::dmat3(Pose.World[Node])));
+			Weights[Mesh] += static_cast<float>(std::pow(Volume, 2.0 / 3.0));
+		}
+	}
+	return Weights;
+}
+
+void AddCounts(const FOpacityCounts& From, FOpacityCounts& To)
+{
+	To.Mixed += From.Mixed;
+	To.Opaque += From.Opaque;
+	To.Transparent += From.Transparent;
+}
+
+/// Pieces do not follow a skin, and the list of emissive triangles counts whole ones.
+bool CanBeCut(const FSceneDescription& Description, const FMaskedSection& Masked)
+{
+	const FHostMesh& Mesh = Description.Meshes[Masked.Mesh];
+	const FHostMaterial& Material = Description.Materials[Mesh.Sections[Masked.Section].Material];
+	const bool bEmits = glm::any(glm::greaterThan(Material.Emissive, glm::vec3(0)));
+	return Mesh.Skin.empty() && !bEmits && Masked.Test.Texture;
+}
+
+void CutPieces(const FSceneDescription& Description, const FScenePose& Pose,
+               const std::vector<FMaskedSection>& Sections, FSceneOpacity& Out)
+{
+	const std::vector<float> Weights = FindMeshWeights(Description, Pose);
+	std::map<int32_t, const FAlphaTest*> Tests; // of materials
+	std::vector<FPieceSource> Sources;
+	std::vector<const FMaskedSection*> Of;
+	for (const FMaskedSection& Masked : Sections)
+	{
+		if (!CanBeCut(Description, Masked))
+		{
+			continue;
+		}
+		const FHostMesh& Mesh = Description.Meshes[Masked.Mesh];
+		const FRTSectionInfo& Info = Out.Meshes[Masked.Mesh].Sections[Masked.Section];
+		const uint32_t Mixed = Info.IndexCount - Info.OpaqueIndexCount - Info.TransparentIndexCount;
+		const FAlphaTest* const Test =
+		    Tests.try_emplace(Mesh.Sections[Masked.Section].Material, &Masked.Test).first->second;
+		Sources.push_back({Test,
+		                   Mesh.Attributes.data(),
+		                   Mesh.Positions.data(),
+		                   {Mesh.Indices.data() + Info.FirstIndex, Mixed},
+		                   Weights[Masked.Mesh]});
+		Of.push_back(&Masked);
+	}
+	const auto MostExtra = static_cast<uint64_t>(double(CVarPieces.Get()) * Out.Counts.Mixed);
+	const std::vector<FOpacityPieceList> Lists = CutOpacityPieces(Sources, MostExtra);
+	for (size_t I = 0; I < Lists.size(); ++I)
+	{
+		FMeshOpacity& Mesh = Out.Meshes[Of[I]->Mesh];
+		FRTSectionInfo& Section = Mesh.Sections[Of[I]->Section];
+		Section.FirstPiece = Mesh.Pieces.GetCount();
+		Section.PieceCount = Lists[I].GetCount();
+		Out.Pieces += Section.PieceCount;
+		Mesh.Pieces.Positions.insert(Mesh.Pieces.Positions.end(), Lists[I].Positions.begin(), Lists[I].Positions.end());
+		Mesh.Pieces.Indices.insert(Mesh.Pieces.Indices.end(), Lists[I].Indices.begin(), Lists[I].Indices.end());
+	}
+}
+
+void ClassifyGroup(FSceneDescription& Description, const FAlphaPyramid* Pyramid, std::vector<FMaskedSection>& Group,
+                   std::vector<FMeshOpacity>& Meshes, FOpacityCounts& Counts)
+{
+	for (FMaskedSection& Masked : Group)
+	{
+		FHostMesh& Mesh = Description.Meshes[Masked.Mesh];
+		const int32_t Material = Mesh.Sections[Masked.Section].Material;
+		Masked.Test = MakeAlphaTest(Description, Description.Materials[Material], Pyramid);
+		constexpr uint64_t KeyToCome = 1; // materials have no indices on the GPU yet
+		AddCounts(ClassifySection(Masked.Test, KeyToCome, Mesh.Attributes.data(), Mesh.Indices.data(),
+		                          Meshes[Masked.Mesh].Sections[Masked.Section]),
+		          Counts);
+	}
+}
 } // namespace
 
-void FHostScene::ClassifyOpacity()
+FSceneOpacity ClassifySceneOpacity(FSceneDescription& Description, const FScenePose& Pose)
 {
+	FSceneOpacity Out;
 	for (const FHostMesh& Mesh : Description.Meshes)
 	{
-		Opacity.emplace_back(Mesh.Sections.size());
+		FMeshOpacity& Of = Out.Meshes.emplace_back();
+		for (const FHostSection& Section : Mesh.Sections)
+		{
+			const bool bOpaque = Description.Materials[Section.Material].AlphaMode == EAlphaMode::Opaque;
+			Of.Sections.push_back({Section.FirstIndex, Section.IndexCount, bOpaque});
+		}
 	}
-	const FSectionsByImage ByImage = FindMaskedSections(Description);
-	const std::vector<std::pair<int32_t, std::vector<FMaskedSection>>> Groups(ByImage.begin(), ByImage.end());
-	// By image: no more pyramids than workers are there at once.
+	auto Groups = FindMaskedSections(Description);
+	std::vector<std::unique_ptr<FAlphaPyramid>> Pyramids(Groups.size());
+	std::vector<FOpacityCounts> Counts(Groups.size());
 	ParallelFor(Groups.size(), 1,
 	            [&](size_t Begin, size_t End)
 	            {
-		            for (size_t Group = Begin; Group < End; ++Group)
+		            for (size_t I = Begin; I < End; ++I)
 		            {
-			            const auto& [Image, Sections] = Groups[Group];
-			            std::unique_ptr<FAlphaPyramid> Pyramid;
-			            if (Image >= 0)
+			            if (const int32_t Image = Groups[I].first; Image >= 0)
 			            {
-				            Pyramid = std::make_unique<FAlphaPyramid>(GetAlpha(Description.Images[Image]));
+				            Pyramids[I] = std::make_unique<FAlphaPyramid>(GetAlpha(Description.Images[Image]));
 			            }
-			            for (const FMaskedSection Where : Sections)
-			            {
-				            FHostMesh& Mesh = Description.Meshes[Where.Mesh];
-				            const FHostSection& Source = Mesh.Sections[Where.Section];
-				            const FHostMaterial& Material = Description.Materials[Source.Material];
-				            FRTSectionInfo Section{Source.FirstIndex, Source.IndexCount, false};
-				            Opacity[Where.Mesh][Where.Section] =
-				                ClassifySection(MakeAlphaTest(Description, Material, Pyramid.get()), 1,
-				                                Mesh.Attributes.data(), Mesh.Indices.data(), Section);
-			            }
+			            ClassifyGroup(Description, Pyramids[I].get(), Groups[I].second, Out.Meshes, Counts[I]);
 		            }
 	            });
-	for (const std::vector<FOpacityCounts>& Mesh : Opacity)
+	std::vector<FMaskedSection> All;
+	for (size_t I = 0; I < Groups.size(); ++I)
 	{
-		for (const FOpacityCounts& Section : Mesh)
-		{
-			OpacityCounts.Mixed += Section.Mixed;
-			OpacityCounts.Opaque += Section.Opaque;
-			OpacityCounts.Transparent += Section.Transparent;
-		}
+		AddCounts(Counts[I], Out.Counts);
+		All.insert(All.end(), Groups[I].second.begin(), Groups[I].second.end());
 	}
+	CutPieces(Description, Pose, All, Out);
+	return Out;
 }
 
 } // namespace Lantern

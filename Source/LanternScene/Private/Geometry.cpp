@@ -18,13 +18,14 @@ std::vector<FRTGeometryPart> MakeGeometryParts(const FRTGeometryInfo& Info, bool
 		const uint32_t Opaque = bClassified ? From.OpaqueIndexCount : 0;
 		const uint32_t Mixed = From.IndexCount - Opaque - Transparent;
 		const FRTGeometryPart OpaquePart{From.FirstIndex + Mixed, Opaque, Section, true};
-		if (Opaque + Transparent == 0)
+		if (!bClassified || !From.IsClassified())
 		{
 			Parts.push_back({From.FirstIndex, From.IndexCount, Section, From.bOpaque});
 		}
 		else if (Mixed > 0)
 		{
-			Parts.push_back({From.FirstIndex, Mixed, Section, From.bOpaque});
+			const FRTGeometryPart Pieces{3 * From.FirstPiece, 3 * From.PieceCount, Section, From.bOpaque, true};
+			Parts.push_back(From.PieceCount > 0 ? Pieces : FRTGeometryPart{From.FirstIndex, Mixed, Section, From.bOpaque});
 			if (Opaque > 0)
 			{
 				Behind.push_back(OpaquePart);
@@ -93,6 +94,14 @@ std::vector<FRTGeometrySection> MakeStructureSections(const FRTGeometry& Geometr
 			Out.VertexCount = Part.IndexCount;
 			Out.IndexType = ERTIndexType::None;
 		}
+		else if (Part.bPieces)
+		{
+			Out.Vertices = Info.PiecePositions.Get();
+			Out.VertexOffset = uint64_t(Part.FirstIndex) * Out.VertexStride;
+			Out.VertexCount = Part.IndexCount;
+			Out.TriangleCount = Part.IndexCount / 3;
+			Out.IndexType = ERTIndexType::None;
+		}
 		else
 		{
 			Out.Vertices = Info.Positions.Get();
@@ -119,7 +128,7 @@ FRTGeometry::FRTGeometry(FRTGeometryInfo InInfo)
 	PartCapacity = GetSectionCount();
 	for (const FRTSectionInfo& Section : Info.Sections)
 	{
-		PartCapacity += Section.OpaqueIndexCount + Section.TransparentIndexCount > 0 ? 1 : 0;
+		PartCapacity += Section.IsClassified() ? 1 : 0;
 	}
 }
 

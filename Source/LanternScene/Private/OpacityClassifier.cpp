@@ -50,15 +50,20 @@ bool SurelyFails(double Scale, double Alpha, float Cutoff)
 
 FAlphaLimits MakeLimits(const FScale& Scale, float Cutoff)
 {
+	// Both hold from some alpha on.
+	const auto FindFirst = [](auto Holds)
+	{
+		int Low = 0, High = 256;
+		while (Low < High)
+		{
+			const int Middle = (Low + High) / 2;
+			Holds(Middle) ? High = Middle : Low = Middle + 1;
+		}
+		return Low;
+	};
 	FAlphaLimits Limits;
-	while (Limits.PassFrom > 0 && SurelyPasses(Scale.Low, (Limits.PassFrom - 1) / 255.0 - TexelMargin, Cutoff))
-	{
-		--Limits.PassFrom;
-	}
-	while (Limits.FailUpTo < 255 && SurelyFails(Scale.High, (Limits.FailUpTo + 1) / 255.0 + TexelMargin, Cutoff))
-	{
-		++Limits.FailUpTo;
-	}
+	Limits.PassFrom = FindFirst([&](int A) { return SurelyPasses(Scale.Low, A / 255.0 - TexelMargin, Cutoff); });
+	Limits.FailUpTo = FindFirst([&](int A) { return !SurelyFails(Scale.High, A / 255.0 + TexelMargin, Cutoff); }) - 1;
 	return Limits;
 }
 
@@ -79,8 +84,9 @@ FCorner TransformCorner(const FAlphaTest& Test, const FVertexAttributes& Vertex)
 	         std::abs(T.z) * Size.x + std::abs(T.w) * Size.y + std::abs(Offset.y)}};
 }
 
-EOpacity ClassifyTextured(const FAlphaTest& Test, const FAlphaLimits& Limits, const FVertexAttributes* (&Corners)[3])
+EOpacity ClassifyTextured(const FAlphaTest& Test, const FVertexAttributes* const (&Corners)[3])
 {
+	const FAlphaLimits Limits = MakeAlphaLimits(Test, Corners);
 	const FAlphaRange All = Test.Texture->GetRange(Test.Texture->GetLevelCount() - 1, 0, 0);
 	if (All.Min >= Limits.PassFrom)
 	{
@@ -90,19 +96,8 @@ EOpacity ClassifyTextured(const FAlphaTest& Test, const FAlphaLimits& Limits, co
 	{
 		return EOpacity::Transparent;
 	}
-	glm::dvec2 UV[3], Magnitude(0.0);
-	for (int I = 0; I < 3; ++I)
-	{
-		const FCorner Corner = TransformCorner(Test, *Corners[I]);
-		UV[I] = Corner.UV;
-		Magnitude = glm::max(Magnitude, Corner.Magnitude);
-		// fp32 overflows where this does not.
-		if (!(Corner.Magnitude.x < 1.0e30) || !(Corner.Magnitude.y < 1.0e30))
-		{
-			return EOpacity::Mixed;
-		}
-	}
-	return ClassifyFootprint(Test, Limits, UV, Magnitude);
+	FTexelTriangle Triangle;
+	return MakeTexelTriangle(Test, Corners, Triangle) ? ClassifyFootprint(Test, Limits, Triangle) : EOpacity::Mixed;
 }
 
 template <class TIndex>
@@ -127,6 +122,28 @@ FOpacityCounts Reorder(std::span<TIndex> Indices, std::span<const EOpacity> Clas
 	return Counts;
 }
 } // namespace
+
+FAlphaLimits MakeAlphaLimits(const FAlphaTest& Test, const FVertexAttributes* const (&Corners)[3])
+{
+	return MakeLimits(MakeScale(Test.BaseAlpha, Corners[0]->Color, Corners[1]->Color, Corners[2]->Color), Test.Cutoff);
+}
+
+bool MakeTexelTriangle(const FAlphaTest& Test, const FVertexAttributes* const (&Corners)[3], FTexelTriangle& Out)
+{
+	const FAlphaTexels& Texels = Test.Texture->GetTexels();
+	for (int I = 0; I < 3; ++I)
+	{
+		const FCorner Corner = TransformCorner(Test, *Corners[I]);
+		Out.P[I] = Corner.UV * glm::dvec2(Texels.Width, Texels.Height);
+		Out.Magnitude = glm::max(Out.Magnitude, Corner.Magnitude);
+		// fp32 overflows where this does not.
+		if (!(Corner.Magnitude.x < 1.0e30) || !(Corner.Magnitude.y < 1.0e30))
+		{
+			return false;
+		}
+	}
+	return true;
+}
 
 FAlphaTest MakeAlphaTest(const FMaterialData& Material, const FAlphaPyramid* Texture, const FRTSamplerDesc& Sampler)
 {
@@ -174,8 +191,7 @@ EOpacity ClassifyTriangle(const FAlphaTest& Test, const FVertexAttributes& A, co
 		       : SurelyFails(Scale.High, 1.0, Test.Cutoff) ? EOpacity::Transparent
 		                                                   : EOpacity::Mixed;
 	}
-	const FVertexAttributes* Corners[3] = {&A, &B, &C};
-	return ClassifyTextured(Test, MakeLimits(Scale, Test.Cutoff), Corners);
+	return ClassifyTextured(Test, {&A, &B, &C});
 }
 
 void ClassifyTriangles(const FAlphaTest& Test, const FVertexAttributes* Vertices, std::span<const uint32_t> Indices,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace Lantern
 {
@@ -115,22 +116,56 @@ public:
 		return true;
 	}
 
+	bool Contains(glm::dvec2 Min, glm::dvec2 Max) const
+	{
+		if (Min.x < Low.x || Max.x > High.x || Min.y < Low.y || Max.y > High.y)
+		{
+			return false;
+		}
+		const glm::dvec2 Center = 0.5 * (Min + Max), Half = 0.5 * (Max - Min);
+		for (int I = 0; I < 3; ++I)
+		{
+			const double At = glm::dot(Normals[I], Center);
+			const double Radius = Half.x * std::abs(Normals[I].x) + Half.y * std::abs(Normals[I].y);
+			if (At - Radius < From[I] || At + Radius > To[I])
+			{
+				return false;
+			}
+		}
+		return true;
+	}
+
 private:
 	glm::dvec2 Low, High, Normals[3];
 	double From[3], To[3], Slack[3];
 };
 
-/// Walks the pyramid's blocks that the triangle may read in one repetition of the texture.
-class FFootprintWalk
+struct FBoxTest
+{
+	glm::dvec2 Low, High;
+	bool MayOverlap(glm::dvec2 Min, glm::dvec2 Max) const
+	{
+		return Min.x <= High.x && Max.x >= Low.x && Min.y <= High.y && Max.y >= Low.y;
+	}
+	bool Contains(glm::dvec2 Min, glm::dvec2 Max) const
+	{
+		return Min.x >= Low.x && Max.x <= High.x && Min.y >= Low.y && Max.y <= High.y;
+	}
+};
+
+/// Walks the pyramid's blocks that the shape may read in one repetition of the texture.
+template <class TShape>
+class TFootprintWalk
 {
 public:
-	FFootprintWalk(const FAlphaPyramid& InPyramid, const FAlphaLimits& InLimits, const FAxis& InU, const FAxis& InV,
-	               const FTriangleTest& InTriangle)
+	TFootprintWalk(const FAlphaPyramid& InPyramid, const FAlphaLimits& InLimits, const FAxis& InU, const FAxis& InV,
+	               const TShape& InShape, bool bPassOnly)
 	    : Pyramid(InPyramid),
 	      Limits(InLimits),
 	      U(InU),
 	      V(InV),
-	      Triangle(InTriangle)
+	      Shape(InShape),
+	      bSeesFail(bPassOnly)
 	{
 	}
 	bool IsMixed() const { return bSeesPass && bSeesFail; }
@@ -179,7 +214,7 @@ private:
 		const double Size = static_cast<double>(uint64_t(1) << Block.Level);
 		const FInterval X = Place(U, TileU, Block.X * Size, std::min((Block.X + 1) * Size, U.Size));
 		const FInterval Y = Place(V, TileV, Block.Y * Size, std::min((Block.Y + 1) * Size, V.Size));
-		if (!Triangle.MayOverlap({X.Low - U.Reach, Y.Low - V.Reach}, {X.High + U.Reach, Y.High + V.Reach}))
+		if (!Shape.MayOverlap({X.Low - U.Reach, Y.Low - V.Reach}, {X.High + U.Reach, Y.High + V.Reach}))
 		{
 			return;
 		}
@@ -188,7 +223,8 @@ private:
 			bSeesPass |= bPass;
 			bSeesFail |= bFail;
 		}
-		else if (Block.Level == 0 || ++Visits > MaxVisits)
+		// All of its texels are read: one that does not pass, and one that does not fail.
+		else if (Block.Level == 0 || ++Visits > MaxVisits || Shape.Contains({X.Low, Y.Low}, {X.High, Y.High}))
 		{
 			bSeesPass = bSeesFail = true;
 		}
@@ -202,32 +238,91 @@ private:
 	const FAlphaLimits Limits;
 	const FAxis& U;
 	const FAxis& V;
-	const FTriangleTest& Triangle;
+	const TShape& Shape;
 	std::vector<FBlock> Stack;
 	uint32_t Visits = 0;
-	bool bSeesPass = false, bSeesFail = false;
+	bool bSeesPass = false;
+	bool bSeesFail; // from the start, where it does not matter
+};
+
+template <class TShape>
+EOpacity Walk(const FAlphaTest& Test, const FAlphaLimits& Limits, const FAxis& U, const FAxis& V, const TShape& Shape,
+              bool bPassOnly)
+{
+	TFootprintWalk<TShape> Footprint(*Test.Texture, Limits, U, V, Shape, bPassOnly);
+	for (int64_t TileV = V.FirstTile; TileV <= V.LastTile && !Footprint.IsMixed(); ++TileV)
+	{
+		for (int64_t TileU = U.FirstTile; TileU <= U.LastTile && !Footprint.IsMixed(); ++TileU)
+		{
+			Footprint.VisitTile(TileU, TileV);
+		}
+	}
+	return Footprint.GetResult();
+}
+
+class FCellMarker
+{
+public:
+	FCellMarker(const FAlphaTest& InTest, const FAlphaLimits& InLimits, const FTexelTriangle& T, glm::dvec2 InOrigin,
+	            glm::dvec2 InStep, std::array<uint64_t, MaxOpacityCells>& OutRows)
+	    : Test(InTest),
+	      Limits(InLimits),
+	      Magnitude(T.Magnitude),
+	      Triangle({T.P[0], T.P[1], T.P[2]}),
+	      Origin(InOrigin),
+	      Step(InStep),
+	      Rows(OutRows)
+	{
+	}
+	void Mark(uint32_t X, uint32_t Y, uint32_t Size)
+	{
+		const glm::dvec2 Low = Origin + glm::dvec2(X, Y) * Step, High = Low + double(Size) * Step;
+		if (!Triangle.MayOverlap(Low, High) || IsTransparent(Low, High))
+		{
+			return;
+		}
+		if (Size == 1)
+		{
+			Rows[Y] |= 1ull << X;
+			return;
+		}
+		const uint32_t Half = Size / 2;
+		Mark(X, Y, Half);
+		Mark(X + Half, Y, Half);
+		Mark(X, Y + Half, Half);
+		Mark(X + Half, Y + Half, Half);
+	}
+
+private:
+	bool IsTransparent(glm::dvec2 Low, glm::dvec2 High) const
+	{
+		const FAlphaTexels& Texels = Test.Texture->GetTexels();
+		const FAxis U = MakeAxis(Low.x, High.x, High.x, Texels.Width, Magnitude.x, Test.AddressU, Test.bLinear);
+		const FAxis V = MakeAxis(Low.y, High.y, High.y, Texels.Height, Magnitude.y, Test.AddressV, Test.bLinear);
+		return Walk(Test, Limits, U, V, FBoxTest{Low, High}, true) == EOpacity::Transparent;
+	}
+
+	const FAlphaTest& Test;
+	const FAlphaLimits Limits;
+	const glm::dvec2 Magnitude;
+	const FTriangleTest Triangle;
+	const glm::dvec2 Origin, Step;
+	std::array<uint64_t, MaxOpacityCells>& Rows;
 };
 } // namespace
 
-EOpacity ClassifyFootprint(const FAlphaTest& Test, const FAlphaLimits& Limits, const glm::dvec2 (&UV)[3],
-                           glm::dvec2 Magnitude)
+EOpacity ClassifyFootprint(const FAlphaTest& Test, const FAlphaLimits& Limits, const FTexelTriangle& T)
 {
-	const FAlphaPyramid& Pyramid = *Test.Texture;
-	const uint32_t Width = Pyramid.GetTexels().Width, Height = Pyramid.GetTexels().Height;
-	const glm::dvec2 Size(Width, Height);
-	const std::array<glm::dvec2, 3> P = {UV[0] * Size, UV[1] * Size, UV[2] * Size};
-	const FAxis U = MakeAxis(P[0].x, P[1].x, P[2].x, Width, Magnitude.x, Test.AddressU, Test.bLinear);
-	const FAxis V = MakeAxis(P[0].y, P[1].y, P[2].y, Height, Magnitude.y, Test.AddressV, Test.bLinear);
-	const FTriangleTest Triangle(P);
-	FFootprintWalk Walk(Pyramid, Limits, U, V, Triangle);
-	for (int64_t TileV = V.FirstTile; TileV <= V.LastTile && !Walk.IsMixed(); ++TileV)
-	{
-		for (int64_t TileU = U.FirstTile; TileU <= U.LastTile && !Walk.IsMixed(); ++TileU)
-		{
-			Walk.VisitTile(TileU, TileV);
-		}
-	}
-	return Walk.GetResult();
+	const FAlphaTexels& Texels = Test.Texture->GetTexels();
+	const FAxis U = MakeAxis(T.P[0].x, T.P[1].x, T.P[2].x, Texels.Width, T.Magnitude.x, Test.AddressU, Test.bLinear);
+	const FAxis V = MakeAxis(T.P[0].y, T.P[1].y, T.P[2].y, Texels.Height, T.Magnitude.y, Test.AddressV, Test.bLinear);
+	return Walk(Test, Limits, U, V, FTriangleTest({T.P[0], T.P[1], T.P[2]}), false);
+}
+
+void MarkCells(const FAlphaTest& Test, const FAlphaLimits& Limits, const FTexelTriangle& Triangle, glm::dvec2 Origin,
+               glm::dvec2 Step, uint32_t Cells, std::array<uint64_t, MaxOpacityCells>& Rows)
+{
+	FCellMarker(Test, Limits, Triangle, Origin, Step, Rows).Mark(0, 0, Cells);
 }
 
 } // namespace Lantern

@@ -30,13 +30,15 @@ bool HasClassifiedMaterials(const FSectionContext& Context, const FRTGeometry& G
 	for (uint32_t Section = 0; Section < Materials.size(); ++Section)
 	{
 		const FRTSectionInfo& Info = Geometry.GetInfo().Sections[Section];
-		if (Info.OpaqueIndexCount + Info.TransparentIndexCount == 0)
+		if (!Info.IsClassified())
 		{
 			continue;
 		}
 		const uint32_t Material = Materials[Section];
 		const uint32_t Program = Material < Context.Programs.size() ? Context.Programs[Material] : StandardProgram;
-		if (MakeOpacityKey(Context.Materials[Material], Program) != Info.OpacityKey)
+		// The list of emissive triangles counts whole triangles.
+		const bool bEmissivePieces = Info.PieceCount > 0 && Context.Materials[Material].EmissiveWeight > 0.0f;
+		if (bEmissivePieces || MakeOpacityKey(Context.Materials[Material], Program) != Info.OpacityKey)
 		{
 			return false;
 		}

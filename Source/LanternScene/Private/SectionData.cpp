@@ -11,9 +11,10 @@ constexpr uint64_t AabbBytes = 6 * sizeof(float);
 void AddTriangles(const FRTGeometry& Geometry, const FRTGeometryPart& Part, FSectionData& Data)
 {
 	const FRTGeometryInfo& Info = Geometry.GetInfo();
-	const bool bShort = Geometry.GetIndexType() == ERTIndexType::UInt16;
-	const uint64_t Indices = Geometry.GetIndices()->GetDeviceAddress() + Geometry.GetIndicesOffset() +
-	                         uint64_t(Part.FirstIndex) * (bShort ? 2 : 4);
+	const bool bShort = !Part.bPieces && Geometry.GetIndexType() == ERTIndexType::UInt16;
+	const uint64_t Whole = Geometry.GetIndices()->GetDeviceAddress() + Geometry.GetIndicesOffset();
+	const uint64_t First = Part.bPieces ? Info.PieceIndices->GetDeviceAddress() : Whole;
+	const uint64_t Indices = First + uint64_t(Part.FirstIndex) * (bShort ? 2 : 4);
 	Data.Positions = Info.Positions->GetDeviceAddress() + Info.PositionsOffset;
 	Data.Attributes = Info.Attributes->GetDeviceAddress() + Info.AttributesOffset;
 	Data.Indices = Indices & ~uint64_t(3); // shaders read whole words
@@ -58,6 +59,8 @@ FSectionData MakeSection(const FSectionContext& Context, const FRTGeometry& Geom
 	}
 	Data.Material = MaterialIndex;
 	Data.Flags |= Class == ERTHitClass::Masked ? SECTION_MASKED : 0u;
+	Data.Flags |= Info.Sections[Part.Section].PieceCount > 0 ? SECTION_PIECES : 0u;
+	Data.Flags |= Part.bPieces ? SECTION_IS_PIECES : 0u;
 	Data.Flags |= Material.UVSets & (1u << TEXTURE_BASE_COLOR) ? SECTION_OPACITY_UV1 : 0u;
 	Data.Flags |= HasPlainOpacity(Info, Material) ? SECTION_PLAIN_OPACITY : 0u;
 	Data.Flags |= Material.Flags & MATERIAL_DOUBLE_SIDED ? SECTION_DOUBLE_SIDED : 0u;

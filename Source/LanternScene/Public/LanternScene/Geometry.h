@@ -25,6 +25,9 @@ struct FRTSectionInfo
 	/// two, multiples of 3. 0, 0: not classified.
 	uint32_t OpaqueIndexCount = 0, TransparentIndexCount = 0;
 	uint64_t OpacityKey = 0; ///< names the alpha test that it was classified with
+	/// Pieces that cover of the mixed triangles what is not transparent (OpacityPieces.h), in place of them; 0: none.
+	uint32_t FirstPiece = 0, PieceCount = 0;
+	bool IsClassified() const { return OpaqueIndexCount + TransparentIndexCount + PieceCount > 0; }
 };
 
 /// Where a geometry's data lies. Buffers need ERTBufferUsage::GeometryInput and Storage.
@@ -40,6 +43,8 @@ struct FRTGeometryInfo
 	ERTIndexType IndexType = ERTIndexType::UInt32;
 	TRTRef<IRTBuffer> Aabbs;  ///< six floats each: min, max; null without procedural sections
 	uint64_t AabbsOffset = 0; ///< bytes, a multiple of 8
+	TRTRef<IRTBuffer> PiecePositions; ///< float3, three for each piece; null without pieces
+	TRTRef<IRTBuffer> PieceIndices;   ///< uint32, three for each piece: the corners of the triangle that it is a piece of
 	uint32_t VertexCount = 0;
 	std::vector<FRTSectionInfo> Sections; ///< > 0
 	bool bHasTangents = false;
@@ -58,13 +63,15 @@ struct FRTGeometryInfo
 };
 
 /// What the acceleration structure really holds: its geometryIndex counts parts. Part i < section count is section i: all
-/// of it, or its mixed triangles, or, where it has none of those, its opaque ones. Parts behind are the opaque triangles of
-/// classified sections. Transparent triangles are in none, but for one of a section that has nothing else.
+/// of it, or its mixed triangles or the pieces of them, or, where it has none of those, its opaque ones. Parts behind are
+/// the opaque triangles of classified sections. Transparent triangles are in none, but for one of a section that has
+/// nothing else.
 struct FRTGeometryPart
 {
 	uint32_t FirstIndex = 0, IndexCount = 0; ///< as in FRTSectionInfo
 	uint32_t Section = 0;
 	bool bOpaque = true;
+	bool bPieces = false; ///< the range is of PieceIndices
 	friend bool operator==(const FRTGeometryPart&, const FRTGeometryPart&) = default;
 };
 
