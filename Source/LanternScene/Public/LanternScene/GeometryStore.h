@@ -210,7 +210,7 @@ private:
 	std::vector<uint32_t> FreeSlots, Changed;
 	/// Screen sizes as bits of floats, which order as they do. In chunks that never move, since any thread writes.
 	std::array<std::unique_ptr<std::atomic<uint32_t>[]>, MaxChunks> Priorities;
-	std::vector<FSlotRef> Pending; ///< a heap or in order while builds are chosen
+	std::vector<FSlotRef> Pending; ///< in order while builds are chosen
 	std::vector<FSlotRef> Deformed, Coarsening, Refused, WantSize, Sized;
 	std::vector<FSlotRef> Recorded;   ///< builds and refits of this frame
 	std::vector<FSlotRef> Copying;    ///< compactions of this frame
