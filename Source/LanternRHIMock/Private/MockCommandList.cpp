@@ -160,6 +160,15 @@ void FMockCommandList::CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTBuffe
 	    });
 }
 
+void FMockCommandList::CopyBufferRegions(IRTBuffer* Dest, IRTBuffer* Source, const FRTBufferRegion* Regions,
+                                         uint32_t Count)
+{
+	for (uint32_t Index = 0; Index < Count; ++Index)
+	{
+		CopyBuffer(Dest, Regions[Index].DestOffset, Source, Regions[Index].SourceOffset, Regions[Index].Size);
+	}
+}
+
 void FMockCommandList::CopyBufferToTexture(IRTTexture* Dest, uint32_t Mip, uint32_t Layer, IRTBuffer* Source,
                                            uint64_t SourceOffset)
 {

@@ -18,6 +18,7 @@ public:
 	void Barriers(const FRTBarrier* Items, uint32_t Count) override;
 	void CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTBuffer* Source, uint64_t SourceOffset,
 	                uint64_t Size) override;
+	void CopyBufferRegions(IRTBuffer* Dest, IRTBuffer* Source, const FRTBufferRegion* Regions, uint32_t Count) override;
 	void CopyBufferToTexture(IRTTexture* Dest, uint32_t Mip, uint32_t Layer, IRTBuffer* Source,
 	                         uint64_t SourceOffset) override;
 	void CopyTextureToBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTTexture* Source, uint32_t Mip,
@@ -79,6 +80,8 @@ private:
 	FValidatedTexture* RequireTexture(const char* Call, const char* Argument, IRTTexture* Texture,
 	                                  ERTTextureUsage Usage);
 	bool CheckRange(const char* Call, const FValidatedBuffer& Buffer, uint64_t Offset, uint64_t Size);
+	void CopyRegions(const char* Call, IRTBuffer* Dest, IRTBuffer* Source, const FRTBufferRegion* Regions,
+	                 uint32_t Count);
 	bool CheckTextureCopy(const char* Call, const FValidatedTexture& Texture, uint32_t Mip, uint32_t Layer,
 	                      const FValidatedBuffer& Buffer, uint64_t Offset);
 	bool CheckBarrier(const FRTBarrier& Item, FRTBarrier& OutInner);

@@ -9,16 +9,41 @@ namespace Lantern
 void FValidatedCommandList::CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTBuffer* Source, uint64_t SourceOffset,
                                        uint64_t Size)
 {
-	const char* Call = "CopyBuffer";
+	const FRTBufferRegion Region{DestOffset, SourceOffset, Size};
+	CopyRegions("CopyBuffer", Dest, Source, &Region, 1);
+}
+
+void FValidatedCommandList::CopyBufferRegions(IRTBuffer* Dest, IRTBuffer* Source, const FRTBufferRegion* Regions,
+                                              uint32_t Count)
+{
+	if (!Regions || Count == 0)
+	{
+		return Report("CopyBufferRegions", "no regions");
+	}
+	CopyRegions("CopyBufferRegions", Dest, Source, Regions, Count);
+}
+
+void FValidatedCommandList::CopyRegions(const char* Call, IRTBuffer* Dest, IRTBuffer* Source,
+                                        const FRTBufferRegion* Regions, uint32_t Count)
+{
 	if (!CanRecordOutside(Call))
 	{
 		return;
 	}
 	FValidatedBuffer* To = RequireBuffer(Call, "Dest", Dest, ERTBufferUsage::CopyDest);
 	FValidatedBuffer* From = RequireBuffer(Call, "Source", Source, ERTBufferUsage::CopySource);
-	if (!To || !From || !CheckRange(Call, *To, DestOffset, Size) || !CheckRange(Call, *From, SourceOffset, Size))
+	if (!To || !From)
 	{
 		return;
+	}
+	for (uint32_t Index = 0; Index < Count; ++Index)
+	{
+		const FRTBufferRegion& Region = Regions[Index];
+		if (!CheckRange(Call, *To, Region.DestOffset, Region.Size) ||
+		    !CheckRange(Call, *From, Region.SourceOffset, Region.Size))
+		{
+			return;
+		}
 	}
 	if (To == From)
 	{
@@ -27,7 +52,7 @@ void FValidatedCommandList::CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRT
 	}
 	AddUse(Call, From->Track, ERTAccess::CopyRead);
 	AddUse(Call, To->Track, ERTAccess::CopyWrite);
-	Inner->CopyBuffer(To->Inner.Get(), DestOffset, From->Inner.Get(), SourceOffset, Size);
+	Inner->CopyBufferRegions(To->Inner.Get(), From->Inner.Get(), Regions, Count);
 }
 
 bool FValidatedCommandList::CheckTextureCopy(const char* Call, const FValidatedTexture& Texture, uint32_t Mip,

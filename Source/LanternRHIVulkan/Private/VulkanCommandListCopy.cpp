@@ -30,12 +30,29 @@ VkBufferImageCopy RegionOf(const FRTTextureDesc& Desc, uint32_t Mip, uint32_t La
 void FVulkanCommandList::CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTBuffer* Source, uint64_t SourceOffset,
                                     uint64_t Size)
 {
+	const FRTBufferRegion Region{DestOffset, SourceOffset, Size};
+	CopyBufferRegions(Dest, Source, &Region, 1);
+}
+
+void FVulkanCommandList::CopyBufferRegions(IRTBuffer* Dest, IRTBuffer* Source, const FRTBufferRegion* Regions,
+                                           uint32_t Count)
+{
 	Keep(Dest);
 	Keep(Source);
-	if (Size > 0)
+	std::vector<VkBufferCopy> Copies;
+	Copies.reserve(Count);
+	for (uint32_t Index = 0; Index < Count; ++Index)
 	{
-		const VkBufferCopy Region = {SourceOffset, DestOffset, Size};
-		Device.Api.CmdCopyBuffer(Handle, NativeOf(Source), NativeOf(Dest), 1, &Region);
+		const FRTBufferRegion& Region = Regions[Index];
+		if (Region.Size > 0)
+		{
+			Copies.push_back({Region.SourceOffset, Region.DestOffset, Region.Size});
+		}
+	}
+	if (!Copies.empty())
+	{
+		Device.Api.CmdCopyBuffer(Handle, NativeOf(Source), NativeOf(Dest), static_cast<uint32_t>(Copies.size()),
+		                         Copies.data());
 	}
 }
 

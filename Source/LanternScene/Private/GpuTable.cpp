@@ -78,6 +78,7 @@ FRTStatus FGpuTableBase::CopyRuns(IRTCommandList& List, FFrameUploads& Uploads, 
 	{
 		return S;
 	}
+	std::vector<FRTBufferRegion> Regions;
 	for (auto Run = DirtyChunks.begin(); Run != End;)
 	{
 		auto Next = Run + 1;
@@ -87,10 +88,11 @@ FRTStatus FGpuTableBase::CopyRuns(IRTCommandList& List, FFrameUploads& Uploads, 
 		}
 		const uint64_t First = *Run * ChunkBytes, Size = std::min((*(Next - 1) + 1) * ChunkBytes, Bytes) - First;
 		std::memcpy(static_cast<uint8_t*>(Slice.Data) + CopiedBytes, Data + First, Size);
-		List.CopyBuffer(Buffer.Get(), First, Slice.Buffer, Slice.Offset + CopiedBytes, Size);
+		Regions.push_back({First, Slice.Offset + CopiedBytes, Size});
 		CopiedBytes += Size;
 		Run = Next;
 	}
+	List.CopyBufferRegions(Buffer.Get(), Slice.Buffer, Regions.data(), static_cast<uint32_t>(Regions.size()));
 	return FRTStatus::Success();
 }
 

@@ -140,6 +140,8 @@ public:
 
 	virtual void Barriers(const FRTBarrier* Items, uint32_t Count) = 0;
 	virtual void CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTBuffer* Source, uint64_t SourceOffset, uint64_t Size) = 0;
+	/// The same for many regions, none of which overlaps another in Dest: one command for a driver.
+	virtual void CopyBufferRegions(IRTBuffer* Dest, IRTBuffer* Source, const FRTBufferRegion* Regions, uint32_t Count) = 0;
 	/// Rows tightly packed.
 	virtual void CopyBufferToTexture(IRTTexture* Dest, uint32_t Mip, uint32_t Layer, IRTBuffer* Source, uint64_t SourceOffset) = 0;
 	virtual void CopyTextureToBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTTexture* Source, uint32_t Mip, uint32_t Layer) = 0;

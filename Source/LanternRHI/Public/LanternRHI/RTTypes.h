@@ -432,6 +432,12 @@ struct FRTRasterPassDesc
 	uint32_t Width = 0, Height = 0;
 };
 
+/// One of several copies between the same two buffers; bytes.
+struct FRTBufferRegion
+{
+	uint64_t DestOffset = 0, SourceOffset = 0, Size = 0;
+};
+
 struct FRTMemoryStats
 {
 	uint64_t Geometry = 0, Scene = 0, ShaderTable = 0, Texture = 0, Buffer = 0, Scratch = 0; ///< live bytes
