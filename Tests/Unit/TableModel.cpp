@@ -75,6 +75,38 @@ struct FMaker
 	}
 };
 
+/// Of each program and class the hit groups, but for some; of each class a stand-in, or none.
+void AddHits(FMaker& Maker, FModelPipeline& Model, FRTPSOLayout& Layout, std::mt19937& Random)
+{
+	const auto Add = [&](const std::string& Stem, ERTHitClass Class)
+	{
+		std::vector<uint32_t> Groups;
+		for (uint32_t Type = 0; Type < Model.RayTypes; ++Type)
+		{
+			Groups.push_back(Maker.AddHit(MakeNames(Stem, Class, Type)));
+		}
+		return Groups;
+	};
+	for (uint32_t Class = 0; Class < HitClassCount; ++Class)
+	{
+		Model.HasStandIn[Class] = Random() % 4 != 0;
+		if (Model.HasStandIn[Class])
+		{
+			Layout.StandIns[Class] = Add(StandInStem(Class), static_cast<ERTHitClass>(Class));
+		}
+		for (uint32_t Program = 0; Program < 5; ++Program)
+		{
+			if (Random() % 3 == 0)
+			{
+				continue;
+			}
+			const FHitProgram Hit{Program, static_cast<ERTHitClass>(Class)};
+			Model.Ready.insert(Hit);
+			Layout.Hits.push_back({Hit, ERTHitState::Ready, Add(StemOf(Hit), Hit.Class)});
+		}
+	}
+}
+
 void Renumber(FRTPSOLayout& Layout, const std::vector<uint32_t>& NewOf)
 {
 	const auto All = [&](std::vector<uint32_t>& Groups)
@@ -132,33 +164,7 @@ std::shared_ptr<FModelPipeline> FModelPipeline::Make(IRTDevice& Device, uint32_t
 	{
 		Layout.CallableGroups.push_back(Maker.AddGeneral("call" + std::to_string(I), ERTShaderStage::Callable));
 	}
-	const auto AddHits = [&](const std::string& Stem, ERTHitClass Class)
-	{
-		std::vector<uint32_t> Groups;
-		for (uint32_t Type = 0; Type < RayTypes; ++Type)
-		{
-			Groups.push_back(Maker.AddHit(MakeNames(Stem, Class, Type)));
-		}
-		return Groups;
-	};
-	for (uint32_t Class = 0; Class < HitClassCount; ++Class)
-	{
-		Model->HasStandIn[Class] = Random() % 4 != 0;
-		if (Model->HasStandIn[Class])
-		{
-			Layout.StandIns[Class] = AddHits(StandInStem(Class), static_cast<ERTHitClass>(Class));
-		}
-		for (uint32_t Program = 0; Program < 5; ++Program)
-		{
-			if (Random() % 3 == 0)
-			{
-				continue;
-			}
-			const FHitProgram Hit{Program, static_cast<ERTHitClass>(Class)};
-			Model->Ready.insert(Hit);
-			Layout.Hits.push_back({Hit, ERTHitState::Ready, AddHits(StemOf(Hit), Hit.Class)});
-		}
-	}
+	AddHits(Maker, *Model, Layout, Random);
 	Renumber(Layout, Maker.Shuffle(Random));
 	FRTRayTracingPipelineDesc Desc;
 	Desc.Shaders = Maker.Codes.data();

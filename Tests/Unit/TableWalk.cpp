@@ -25,6 +25,7 @@ struct FSubmittedFrame
 {
 	FRTFence Fence = 0;
 	std::shared_ptr<FModelPipeline> Pipeline;
+	TRTRef<IRTShaderTable> Table;
 	std::vector<FExpectation> Sections;
 };
 
@@ -229,6 +230,7 @@ void FWalker::Submit()
 		Fail(S.Message);
 	}
 	Frame.Pipeline = Pipeline;
+	Frame.Table = TRTRef<IRTShaderTable>(Bindings->GetTable());
 	Frame.Sections = Scene->MakeExpectations();
 	++Result.Frames;
 }
@@ -261,7 +263,7 @@ void FWalker::CheckSection(const FSubmittedFrame& Frame, const FExpectation& Sec
 	{
 		FRTInstance Instance{};
 		Instance.TableOffsetAndFlags = Section.Section * Types;
-		const FRTMockRecord Record = Mock().ResolveHit(Bindings->GetTable(), Instance, 0, Type, Types);
+		const FRTMockRecord Record = Mock().ResolveHit(Frame.Table.Get(), Instance, 0, Type, Types);
 		const std::string Where = "section " + std::to_string(Section.Section) + ", ray type " + std::to_string(Type) +
 		                          " of " + std::to_string(Types);
 		if (!Record.IsGood())
@@ -293,7 +295,7 @@ void FWalker::CheckGeneral(const FSubmittedFrame& Frame)
 	{
 		for (uint32_t Index = 0; Index < Count; ++Index, ++Result.RecordsChecked)
 		{
-			const FRTMockRecord Record = Mock().ResolveRecord(Bindings->GetTable(), Kind, Index);
+			const FRTMockRecord Record = Mock().ResolveRecord(Frame.Table.Get(), Kind, Index);
 			if (!Record.IsGood() || Record.General != Stem + std::to_string(Index) ||
 			    Record.Pipeline != Frame.Pipeline->Name)
 			{
@@ -303,10 +305,10 @@ void FWalker::CheckGeneral(const FSubmittedFrame& Frame)
 		}
 	};
 	// Also where no ray gets to: a record is null, or of this pipeline.
-	const FRTShaderTableDesc& Table = Bindings->GetTable()->GetDesc();
+	const FRTShaderTableDesc& Table = Frame.Table->GetDesc();
 	for (uint32_t Index = 0; Index < Table.HitCount; ++Index)
 	{
-		const FRTMockRecord Record = Mock().ResolveRecord(Bindings->GetTable(), ERTRecordKind::Hit, Index);
+		const FRTMockRecord Record = Mock().ResolveRecord(Frame.Table.Get(), ERTRecordKind::Hit, Index);
 		if (Record.bInRange && Record.bStale)
 		{
 			return Fail(Record.Error);

@@ -141,6 +141,11 @@ FRTStatus FShaderBindings::Prepare(const FRTPSO& Pipeline, FSectionTable& Sectio
 FRTStatus FShaderBindings::Reserve(const FRTPSO& Pipeline, const FSectionTable& Sections)
 {
 	const uint32_t HitCount = std::max(1u, Sections.GetCapacity() * Pipeline.GetRayTypeCount());
+	// Callable records cannot be taken back, and nothing of this pipeline could be written to them.
+	if (Table && Table->GetDesc().CallableCount > 0 && Pipeline.GetCallableCount() == 0)
+	{
+		Table.Reset();
+	}
 	if (!Table)
 	{
 		FRTShaderTableDesc Desc;
@@ -152,6 +157,7 @@ FRTStatus FShaderBindings::Reserve(const FRTPSO& Pipeline, const FSectionTable& 
 		Desc.RecordDataBytes = sizeof(FSectionData);
 		Desc.Name = "ShaderTable";
 		bRewrite = true;
+		RecordsUsed = 0;
 		return Device.CreateShaderTable(Desc, Table.ReleaseAndGetAddress());
 	}
 	const FRTShaderTableDesc& Has = Table->GetDesc();
