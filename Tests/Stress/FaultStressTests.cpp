@@ -1,5 +1,8 @@
 // Shortage of memory at every n-th allocation, and loss of the device in every phase, while the world streams and
 // pipelines compile. Every fault is one error; the engine goes on, on a new device where the old one is lost.
+#include <chrono>
+#include <thread>
+
 #include "RendererTestTools.h"
 #include "StreamingWorld.h"
 
@@ -20,6 +23,18 @@ protected:
 			const glm::dvec3 Camera = FStreamingWorld::FlightAt(Frame / 10.0);
 			if (FRTStatus S = World.MoveTo(Camera); !S) { return S; }
 			if (FRTStatus S = RenderFrame(Frame / 30.0, Camera); !S) { return S; }
+		}
+		return FRTStatus::Success();
+	}
+	/// Pipelines are compiled beside the frames: once they are done, a loss in them has been met, and the frame after sees it.
+	FRTStatus FlyUntilCompiled(FStreamingWorld& World, int First)
+	{
+		for (int Frame = First; Frame < First + 5000; ++Frame)
+		{
+			const bool bBusy = Engine->GetRenderer().GetRayCompiler().GetStats().bBusy;
+			const FRTStatus Status = Fly(World, Frame, 1);
+			if (!Status || !bBusy) { return Status; }
+			std::this_thread::sleep_for(std::chrono::milliseconds(1));
 		}
 		return FRTStatus::Success();
 	}
@@ -86,6 +101,7 @@ TEST_F(FFaultStressTest, DeviceLostInEveryPhaseIsRecoveredByANewOne)
 					Mock().LoseDeviceAt(Phase);
 				}
 				Status = Fly(World, 3, 30);
+				if (Status) { Status = FlyUntilCompiled(World, 33); }
 				Set("r.RT.Shadow.Soft", "1");
 			}
 			if (!Status)
