@@ -1,6 +1,7 @@
 // Images, samplers and materials of a loaded scene.
 #include <algorithm>
 #include <bit>
+#include <filesystem>
 #include <cmath>
 
 #include <glm/gtc/packing.hpp>
@@ -88,7 +89,7 @@ FRTStatus FHostScene::GetSampler(const FHostTexture& Texture, uint32_t& OutIndex
 	return FRTStatus::Success();
 }
 
-FRTStatus FHostScene::AddMaterials()
+FRTStatus FHostScene::AddMaterials(FMaterialPrograms& Programs)
 {
 	for (const FHostMaterial& Source : Description.Materials)
 	{
@@ -120,7 +121,8 @@ FRTStatus FHostScene::AddMaterials()
 			if (Slot == TEXTURE_EMISSIVE) { MeanEmission *= ImageMeans[HostTexture.Image]; }
 		}
 		Data.EmissiveWeight = MakeEmissiveWeight(MeanEmission);
-		Scene.AddMaterial(Data);
+		const std::string& Path = Source.Program;
+		Scene.AddMaterial(Data, Path.empty() ? StandardProgram : Programs.FindOrAdd({.Name = std::filesystem::path(Path).stem().string(), .Path = Path}));
 	}
 	return FRTStatus::Success();
 }

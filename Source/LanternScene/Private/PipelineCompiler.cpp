@@ -89,6 +89,12 @@ void FRTPSOCompiler::FImpl::Begin(const FRTPSODesc& Desc, bool bWait)
 	if (NewPriorities) { Priorities = std::exchange(NewPriorities, std::nullopt).value(); }
 	StartThreads();
 	TakeLink();
+	if (const bool bServes = GetPipelineFallback() != ERTFallback::Skip; bServes != bStandardServes)
+	{
+		bStandardServes = bServes;
+		bDirty = true;
+		bFinished = false;
+	}
 	SetWanted(Desc, bWait ? std::nullopt : std::optional(GetPipelineFallback() == ERTFallback::StandIn));
 	if (RetryFrame > 0 && Frame >= RetryFrame)
 	{

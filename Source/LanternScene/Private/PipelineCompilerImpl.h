@@ -87,6 +87,7 @@ struct FLinkPlan
 	std::vector<FPipelineBuildRef> RayGens, Misses, Callables;
 	std::vector<FHit> Hits, StandIns;
 	uint32_t PayloadBytes = 0;
+	bool bStandardServes = false; ///< see FRTPSOLayout
 	std::vector<uint64_t> Key; ///< equal: the same pipeline
 	bool bComplete = false;    ///< a pipeline can be made of it
 };
@@ -181,6 +182,7 @@ struct FRTPSOCompiler::FImpl
 	FRTPSODesc WantedDesc;
 	uint64_t WantedEdits = 0; ///< of Programs
 	bool bWantedLibraries = true, bWantedStandIns = false;
+	bool bStandardServes = false;
 	FWantedSlots Wanted;
 	std::unordered_map<std::string, FPipelineSlotRef> Slots;
 	std::map<FHitProgram, FHitSlots> HitSlots; ///< of WantedDesc's ray types

@@ -46,6 +46,7 @@ public:
 		Layout.MissGroups = NumbersOf(Plan.Misses);
 		Layout.CallableGroups = NumbersOf(Plan.Callables);
 		Layout.EmptyHitGroup = EmptyGroup;
+		Layout.bStandardServes = Plan.bStandardServes;
 		for (const FLinkPlan::FHit& Hit : Plan.StandIns) { Layout.StandIns[static_cast<size_t>(Hit.Program.Class)] = NumbersOf(Hit.Builds); }
 		for (const FLinkPlan::FHit& Hit : Plan.Hits) { Layout.Hits.push_back({Hit.Program, Hit.State, NumbersOf(Hit.Builds)}); }
 		return Layout;
@@ -168,6 +169,8 @@ FLinkPlan FRTPSOCompiler::FImpl::MakePlan() const
 		Plan.Hits.push_back(std::move(Entry));
 	}
 	Plan.bComplete &= !Plan.RayGens.empty();
+	Plan.bStandardServes = bStandardServes;
+	Plan.Key.push_back(bStandardServes);
 	for (const auto* List : {&Plan.RayGens, &Plan.Misses, &Plan.Callables}) { AppendKey(Plan, *List); }
 	for (const auto* List : {&Plan.StandIns, &Plan.Hits}) { AppendKey(Plan, *List); }
 	return Plan;
@@ -175,7 +178,7 @@ FLinkPlan FRTPSOCompiler::FImpl::MakePlan() const
 
 bool FRTPSOCompiler::FImpl::Covers(const FLinkPlan& Made, const FLinkPlan& Plan) const
 {
-	if (Made.Misses != Plan.Misses || Made.Callables != Plan.Callables || Made.StandIns.size() != Plan.StandIns.size()) { return false; }
+	if (Made.bStandardServes != Plan.bStandardServes || Made.Misses != Plan.Misses || Made.Callables != Plan.Callables || Made.StandIns.size() != Plan.StandIns.size()) { return false; }
 	for (const FPipelineBuildRef& Build : Plan.RayGens)
 	{
 		if (std::find(Made.RayGens.begin(), Made.RayGens.end(), Build) == Made.RayGens.end()) { return false; }

@@ -66,6 +66,12 @@ FRTPSO::FRTPSO(TRTRef<IRTPipeline> InPipeline, FRTPSOLayout InLayout) : Pipeline
 	static std::atomic<uint64_t> NextRevision{1};
 	Revision = NextRevision++;
 	const uint32_t Types = GetRayTypeCount();
+	for (const FRTPSOLayout::FHit& Hit : Layout.Hits)
+	{
+		std::vector<uint32_t>& StandIn = Layout.StandIns[static_cast<size_t>(Hit.Program.Class)];
+		const bool bServes = Layout.bStandardServes && Hit.Program.Program == StandardProgram && Hit.State == ERTHitState::Ready;
+		if (bServes && StandIn.empty()) { StandIn = Hit.Groups; }
+	}
 	for (const FRTPSOLayout::FHit& Hit : Layout.Hits) { KnownPrograms = std::max(KnownPrograms, Hit.Program.Program + 1); }
 	HitGroups.resize(size_t(KnownPrograms + 1) * HitClassCount * Types, Layout.EmptyHitGroup);
 	States.resize(size_t(KnownPrograms + 1) * HitClassCount, ERTHitState::Missing);

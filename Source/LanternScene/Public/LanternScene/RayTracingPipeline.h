@@ -59,6 +59,8 @@ struct FRTPSOLayout
 	std::vector<FHit> Hits;
 	/// By ray type: what stands in for hit programs that are not in Hits. Empty: nothing does.
 	std::array<std::vector<uint32_t>, HitClassCount> StandIns;
+	/// Where a class has no stand-in: the standard program of that class serves, if it is ready.
+	bool bStandardServes = false;
 	uint32_t EmptyHitGroup = 0; ///< runs nothing
 };
 

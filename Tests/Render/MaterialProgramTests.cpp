@@ -1,0 +1,348 @@
+// Material programs, stand-ins, procedural geometry and callables, as rays of the frame's RTPSO see them: each pixel of a
+// wall of quads has the base colour that its program says.
+#include "RenderFixture.h"
+
+#include "LanternCore/ConsoleVariables.h"
+
+namespace Lantern
+{
+namespace
+{
+
+constexpr uint32_t Columns = 8, Rows = 4, PixelsPerQuad = 8;
+constexpr uint32_t Width = Columns * PixelsPerQuad, Height = Rows * PixelsPerQuad;
+
+struct FTracePush
+{
+	FPassConstants Pass;
+	uint32_t Output;
+};
+
+/// Parallel rays along −z, one a pixel over a wall of unit quads; base colour and distance of what they hit.
+FShaderSource MakeTrace(bool bCallable)
+{
+	FShaderSource Source;
+	Source.Path = bCallable ? "Test/TraceCallable.rgen" : "Test/Trace.rgen";
+	Source.Text = R"(#version 460
+#extension GL_EXT_ray_tracing : require
+#include "Library/Bindings.glsl"
+#include "Rays/MaterialPayload.glsl"
+
+layout(set = 0, binding = 3) uniform accelerationStructureEXT Scenes[];
+layout(push_constant, scalar) uniform FPush { FPassConstants Pass; uint Output; };
+layout(location = 0) rayPayloadEXT FMaterialPayload Payload;
+#ifdef CALLABLE
+layout(location = 1) callableDataEXT vec3 Data;
+#endif
+
+void main()
+{
+	FSceneConstants Scene = FSceneRef(Pass.Scene).Data;
+	vec3 Origin = vec3((vec2(gl_LaunchIDEXT.xy) + 0.5) / PIXELS_PER_QUAD, 5.0);
+	traceRayEXT(Scenes[Scene.Tlas], 0u, MASK_VISIBLE, MATERIAL_RAY, RAY_TYPES, MATERIAL_MISS, Origin, 0.0, vec3(0.0, 0.0, -1.0), 1.0e30, 0);
+	vec4 Color = Payload.Distance < 0.0 ? vec4(0.0, 0.0, 0.0, -1.0) : vec4(UnpackHit(Payload).BaseColor, Payload.Distance);
+#ifdef CALLABLE
+	Data = Color.rgb;
+	executeCallableEXT(gl_LaunchIDEXT.x < gl_LaunchSizeEXT.x / 2 ? 0u : 1u, 1);
+	Color.rgb = Data;
+#endif
+	imageStore(Images[Output], ivec2(gl_LaunchIDEXT.xy), Color);
+}
+)";
+	Source.Defines.emplace_back("PIXELS_PER_QUAD", fmt::format("{:.1f}", float(PixelsPerQuad)));
+	if (bCallable) { Source.Defines.emplace_back("CALLABLE", "1"); }
+	return Source;
+}
+
+FShaderSource MakeCallable(const char* Name, const char* Statement)
+{
+	FShaderSource Source;
+	Source.Path = Name;
+	Source.Text = std::string("#version 460\n#extension GL_EXT_ray_tracing : require\n"
+	                          "layout(location = 1) callableDataInEXT vec3 Data;\nvoid main() { ") +
+	              Statement + " }\n";
+	return Source;
+}
+
+/// A quad for each material, in rows from the origin; each with the base colour (column / 8, row / 4, 0).
+FSceneDescription MakeWall(bool bMasked)
+{
+	FSceneDescription Scene;
+	Scene.Name = "Wall";
+	FHostMesh Quad;
+	Quad.Name = "Quad";
+	Quad.Positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+	Quad.Attributes.resize(4);
+	for (FVertexAttributes& Vertex : Quad.Attributes) { Vertex.Color = ~0u; }
+	for (uint32_t Corner = 0; Corner < 4; ++Corner) { Quad.Attributes[Corner].UV0 = glm::vec2(Quad.Positions[Corner]); }
+	Quad.Indices = {0, 1, 2, 0, 2, 3};
+	Quad.Sections = {{0, 6, 0}};
+	Quad.BoundsMax = {1, 1, 0};
+	Scene.Meshes.push_back(std::move(Quad));
+	for (uint32_t Index = 0; Index < Columns * Rows; ++Index)
+	{
+		FHostMaterial& Material = Scene.Materials.emplace_back();
+		Material.BaseColor = {float(Index % Columns) / Columns, float(Index / Columns) / Rows, 0.0f, 1.0f};
+		Material.bDoubleSided = true;
+		Material.AlphaMode = bMasked ? EAlphaMode::Mask : EAlphaMode::Opaque;
+		FHostNode& Node = Scene.Nodes.emplace_back();
+		Node.Mesh = 0;
+		Node.Materials = {int32_t(Index)};
+		Node.Translation = {double(Index % Columns), double(Index / Columns), 0.0};
+	}
+	return Scene;
+}
+
+/// Blue says which program ran.
+std::string MakeText(double Blue, const char* More = "")
+{
+	return fmt::format("#include \"Standard.glsl\"\n"
+	                   "FMaterialSurface EvaluateMaterial(FMaterialData M, FMaterialInputs I, uint Override)\n"
+	                   "{{\n\tFMaterialSurface S = EvaluateStandard(M, I, Override);\n\tS.BaseColor.b = {:.4f};\n\t{}\n\treturn S;\n}}\n",
+	                   Blue, More);
+}
+
+class FMaterialProgramTest : public FRenderTest
+{
+protected:
+	void LoadWall(bool bMasked = false)
+	{
+		ASSERT_TRUE(Load(MakeWall(bMasked)));
+		SetSky(glm::vec3(0));
+		View = LookAt({4, 2, 5}, {4, 2, 0}, 1.0f, Width, Height);
+	}
+	static FRTScene& World() { return GetScene().GetScene(); }
+	static FRenderer& Renderer() { return GetEngine().GetRenderer(); }
+	static uint32_t AddProgram(const std::string& Name, std::string Text) { return Renderer().GetPrograms().Add({.Name = Name, .Text = std::move(Text)}); }
+
+	/// Traces one frame and reads it back: rgb base colour, a distance.
+	void Trace(bool bWait, const std::vector<FShaderSource>& Callables = {})
+	{
+		FFrameFeatures Features;
+		Features.bWaitForPipelines = bWait;
+		Features.bRays = true;
+		Features.RayGens = {MakeTrace(!Callables.empty())};
+		Features.Callables = Callables;
+		ASSERT_OK(Renderer().BeginFrame(World(), View, Features));
+		FFrameContext& Context = Renderer().GetContext();
+		const uint32_t RayGen = Context.RayPipeline ? Context.RayPipeline->FindRayGen(Features.RayGens[0]) : NoRayGen;
+		bTraced = RayGen != NoRayGen;
+		TRTRef<IRTBuffer> Buffer;
+		const FRTBufferDesc Desc{uint64_t(Width) * Height * 16, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Trace"};
+		ASSERT_OK(GetDevice().CreateBuffer(Desc, Buffer.ReleaseAndGetAddress()));
+		if (bTraced) { AddTrace(Context, RayGen, Buffer.Get()); }
+		ASSERT_OK(Renderer().EndFrame(nullptr));
+		ASSERT_OK(Renderer().WaitForAll());
+		const auto* const Texels = static_cast<const glm::vec4*>(Buffer->GetMapped());
+		Picture.assign(Texels, Texels + size_t(Width) * Height);
+	}
+	static void AddTrace(FFrameContext& Context, uint32_t RayGen, IRTBuffer* Buffer)
+	{
+		FFrameGraph& Graph = Context.Graph;
+		const FGraphTexture Target = Graph.CreateTexture({Width, Height, ERTFormat::RGBA32_FLOAT}, "Trace");
+		const FGraphBuffer Readback = Graph.ImportBuffer(Buffer, ERTAccess::None, ERTAccess::HostRead, "Trace");
+		const FFrameContext* const Frame = &Context;
+		Graph.AddPass("Trace", [&](FPassBuilder& Builder) -> FPassExecute {
+			Builder.Write(Target, ERTAccess::StorageWrite);
+			return [=](FPassContext& Pass) {
+				const FTracePush Push{Frame->Pass, Pass.GetTexture(Target)->GetStorageIndex()};
+				Pass.Commands().SetPipeline(Frame->RayPipeline->GetPipeline());
+				Pass.Commands().PushConstants(&Push, sizeof(Push));
+				Pass.Commands().TraceRays(Frame->RayBindings->GetTable(), RayGen, Width, Height, 1);
+			};
+		});
+		Graph.AddPass("ReadTrace", [&](FPassBuilder& Builder) -> FPassExecute {
+			Builder.Read(Target, ERTAccess::CopyRead);
+			Builder.Write(Readback, ERTAccess::CopyWrite);
+			return [=](FPassContext& Pass) { Pass.Commands().CopyTextureToBuffer(Pass.GetBuffer(Readback), 0, Pass.GetTexture(Target), 0, 0); };
+		});
+	}
+	/// Frames that wait for nothing, until Condition holds.
+	template <class F>
+	void TraceUntil(F Condition)
+	{
+		for (int Frame = 0; Frame < 3000; ++Frame)
+		{
+			ASSERT_NO_FATAL_FAILURE(Trace(false));
+			if (Condition()) { return; }
+		}
+		FAIL() << "never came";
+	}
+	glm::vec4 At(uint32_t Index, uint32_t X = PixelsPerQuad / 2, uint32_t Y = PixelsPerQuad / 2) const
+	{
+		return Picture[size_t(Index / Columns * PixelsPerQuad + Y) * Width + Index % Columns * PixelsPerQuad + X];
+	}
+	/// Every pixel of quad Index has its own red and green, and this blue; < 0: nothing is seen there.
+	void ExpectQuad(uint32_t Index, double Blue)
+	{
+		for (uint32_t Pixel = 0; Pixel < PixelsPerQuad * PixelsPerQuad; ++Pixel)
+		{
+			const glm::vec4 Color = At(Index, Pixel % PixelsPerQuad, Pixel / PixelsPerQuad);
+			if (Blue < 0.0)
+			{
+				ASSERT_LT(Color.a, 0.0f) << "quad " << Index;
+				continue;
+			}
+			ASSERT_NEAR(Color.r, float(Index % Columns) / Columns, 1e-4) << "quad " << Index;
+			ASSERT_NEAR(Color.g, float(Index / Columns) / Rows, 1e-4) << "quad " << Index;
+			ASSERT_NEAR(Color.b, Blue, 1e-4) << "quad " << Index;
+			ASSERT_NEAR(Color.a, 5.0f, 1e-4) << "quad " << Index;
+		}
+	}
+
+	FView View;
+	std::vector<glm::vec4> Picture;
+	bool bTraced = false;
+};
+
+TEST_F(FMaterialProgramTest, EachQuadRunsItsOwnProgram)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadWall());
+	for (uint32_t Index = 1; Index < Columns * Rows; ++Index)
+	{
+		World().SetMaterialProgram(Index, AddProgram("Own" + std::to_string(Index), MakeText(Index / 64.0)));
+	}
+	for (const char* Libraries : {"1", "0"})
+	{
+		SetVariable("r.RT.Pipeline.Libraries", Libraries);
+		ASSERT_NO_FATAL_FAILURE(Trace(true));
+		for (uint32_t Index = 0; Index < Columns * Rows; ++Index) { ASSERT_NO_FATAL_FAILURE(ExpectQuad(Index, Index / 64.0)) << "libraries " << Libraries; }
+	}
+}
+
+TEST_F(FMaterialProgramTest, StandInsServeUntilProgramsAreThere)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadWall());
+	ASSERT_NO_FATAL_FAILURE(TraceUntil([&] { return bTraced; }));
+	std::vector<FHitProgram> Programs;
+	for (uint32_t Index = 0; Index < Columns * Rows; ++Index)
+	{
+		Programs.push_back({AddProgram("Late" + std::to_string(Index), MakeText(0.5 + Index / 128.0)), ERTHitClass::Opaque});
+		World().SetMaterialProgram(Index, Programs.back().Program);
+	}
+	const auto IsReady = [&](FHitProgram Program) { return Renderer().GetRayPipeline()->GetState(Program) == ERTHitState::Ready; };
+	// In every frame each quad shows its own colour or the stand-in's, just as the frame's RTPSO says; there are no holes.
+	ASSERT_NO_FATAL_FAILURE(TraceUntil([&] {
+		for (uint32_t Index = 0; Index < Programs.size() && !HasFatalFailure(); ++Index) { ExpectQuad(Index, IsReady(Programs[Index]) ? 0.5 + Index / 128.0 : 0.0); }
+		return HasFatalFailure() || std::all_of(Programs.begin(), Programs.end(), IsReady);
+	}));
+}
+
+TEST_F(FMaterialProgramTest, SkippedOnesAreLeftOutUntilTheyAreThere)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadWall());
+	SetVariable("r.RT.Pipeline.Fallback", "0");
+	ASSERT_NO_FATAL_FAILURE(TraceUntil([&] { return bTraced && At(5).a > 0.0f && !Renderer().GetRayCompiler().GetStats().bBusy; }));
+	const FHitProgram Program{AddProgram("Skipped", MakeText(0.75)), ERTHitClass::Opaque};
+	World().SetMaterialProgram(5, Program.Program);
+	ASSERT_NO_FATAL_FAILURE(TraceUntil([&] {
+		const bool bReady = Renderer().GetRayPipeline()->GetState(Program) == ERTHitState::Ready;
+		ExpectQuad(5, bReady ? 0.75 : -1.0);
+		ExpectQuad(6, 0.0);
+		return bReady || HasFatalFailure();
+	}));
+}
+
+TEST_F(FMaterialProgramTest, RaysThatHitAStandInAreCounted)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadWall());
+	const uint32_t Broken = AddProgram("BrokenForEver", "nonsense\n");
+	for (const uint32_t Index : {3u, 9u, 10u}) { World().SetMaterialProgram(Index, Broken); }
+	const auto GetHits = [&] {
+		const std::vector<FProgramPriority>& Priorities = Renderer().GetProgramPriorities();
+		return Broken < Priorities.size() ? Priorities[Broken].StandInHits : 0u;
+	};
+	ASSERT_NO_FATAL_FAILURE(TraceUntil([&] { return bTraced && GetHits() > 0; }));
+	EXPECT_EQ(GetHits(), 3u * PixelsPerQuad * PixelsPerQuad);
+	EXPECT_NEAR(Renderer().GetProgramPriorities()[Broken].Distance, glm::distance(glm::dvec3(3, 0, 0), View.Position), 3.0);
+	ExpectQuad(3, 0.0);
+	// Nothing to count where everything is there.
+	World().SetMaterialProgram(3, StandardProgram);
+	World().SetMaterialProgram(9, StandardProgram);
+	World().SetMaterialProgram(10, StandardProgram);
+	ASSERT_NO_FATAL_FAILURE(Trace(true));
+	ExpectQuad(3, 0.0);
+}
+
+TEST_F(FMaterialProgramTest, AlphaTestsAreTheProgramsOwn)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadWall(true));
+	// By opacity: the left half of the quad is cut away.
+	World().SetMaterialProgram(1, AddProgram("HalfOpacity", MakeText(0.25, "S.Opacity = I.UV0.x < 0.5 ? 0.0 : 1.0;")));
+	// By a test of its own: the upper half.
+	World().SetMaterialProgram(2, AddProgram("HalfTest", MakeText(0.25) + "#define MATERIAL_HAS_ALPHA_TEST\n"
+	                                                                      "bool IsHitCutAway(FMaterialRef Materials, FSectionData Section, uint Primitive, vec2 B)\n"
+	                                                                      "{ return FetchInputs(Section, Primitive, B).UV0.y > 0.5; }\n"));
+	// The standard's, as it is.
+	World().SetMaterialProgram(3, AddProgram("Plain", "#define MATERIAL_STANDARD_OPACITY\n" + MakeText(0.25)));
+	ASSERT_NO_FATAL_FAILURE(Trace(true));
+	ExpectQuad(0, 0.0);
+	ExpectQuad(3, 0.25);
+	constexpr uint32_t Early = 1, Late = PixelsPerQuad - 2;
+	EXPECT_LT(At(1, Early, Early).a, 0.0f);
+	EXPECT_NEAR(At(1, Late, Early).b, 0.25f, 1e-4);
+	EXPECT_NEAR(At(2, Early, Early).b, 0.25f, 1e-4);
+	EXPECT_LT(At(2, Early, Late).a, 0.0f);
+}
+
+TEST_F(FMaterialProgramTest, EditIsSeenAndABadEditIsNot)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadWall());
+	const uint32_t Program = AddProgram("Edited", MakeText(0.125));
+	World().SetMaterialProgram(7, Program);
+	ASSERT_NO_FATAL_FAILURE(Trace(true));
+	ExpectQuad(7, 0.125);
+	Renderer().GetPrograms().Edit(Program, {.Name = "Edited", .Text = MakeText(0.875)});
+	ASSERT_NO_FATAL_FAILURE(Trace(true));
+	ExpectQuad(7, 0.875);
+	Renderer().GetPrograms().Edit(Program, {.Name = "Edited", .Text = "nonsense\n"});
+	ASSERT_NO_FATAL_FAILURE(Trace(true));
+	ExpectQuad(7, 0.875);
+}
+
+TEST_F(FMaterialProgramTest, CallablesAreCalledByTheirIndex)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadWall());
+	ASSERT_NO_FATAL_FAILURE(Trace(true, {MakeCallable("First", "Data.b = 0.25;"), MakeCallable("Second", "Data.b = 0.5;")}));
+	for (uint32_t Index = 0; Index < Columns * Rows; ++Index) { ExpectQuad(Index, Index % Columns < Columns / 2 ? 0.25 : 0.5); }
+}
+
+TEST_F(FMaterialProgramTest, ProceduralGeometryHasTheShapeOfItsProgram)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadWall());
+	// A ball of radius 2 before the wall, in a box.
+	const float Box[6] = {2, 0, 0, 6, 4, 4};
+	FRTGeometryInfo Info;
+	Info.Name = "Ball";
+	const FRTBufferDesc Desc{sizeof(Box), ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput, ERTMemory::Upload, "Ball"};
+	ASSERT_OK(GetDevice().CreateBuffer(Desc, Info.Aabbs.ReleaseAndGetAddress()));
+	std::memcpy(Info.Aabbs->GetMapped(), Box, sizeof(Box));
+	FRTSectionInfo Section;
+	Section.IndexCount = 1;
+	Section.bProcedural = true;
+	Info.Sections.push_back(Section);
+	FRTGeometryRef Geometry;
+	ASSERT_OK(World().CreateGeometry(std::move(Info), Geometry));
+	FMaterialData Material = World().GetMaterials()[0];
+	Material.BaseColor = glm::vec4(0.5f, 0.5f, 0.0f, 1.0f);
+	const uint32_t Program = Renderer().GetPrograms().Add({.Name = "Ball", .Text = MakeText(0.625), .IntersectionPath = "Rays/Ellipsoid.rint"});
+	FRTObjectInfo Object;
+	Object.Geometry = Geometry;
+	Object.Materials = {World().AddMaterial(Material, Program)};
+	World().AddObject(std::move(Object));
+	ASSERT_NO_FATAL_FAILURE(Trace(true));
+	for (uint32_t Y = 0; Y < Height; ++Y)
+	{
+		for (uint32_t X = 0; X < Width; ++X)
+		{
+			const glm::vec2 Place = (glm::vec2(X, Y) + 0.5f) / float(PixelsPerQuad) - glm::vec2(4, 2);
+			const float Below = 4.0f - glm::dot(Place, Place);
+			const glm::vec4 Color = Picture[size_t(Y) * Width + X];
+			ASSERT_NEAR(Color.b, Below > 0.0f ? 0.625f : 0.0f, 1e-4) << X << ", " << Y;
+			ASSERT_NEAR(Color.a, Below > 0.0f ? 5.0f - 2.0f - std::sqrt(Below) : 5.0f, 1e-3) << X << ", " << Y;
+		}
+	}
+}
+
+} // namespace
+} // namespace Lantern
