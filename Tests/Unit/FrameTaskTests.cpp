@@ -471,6 +471,33 @@ TEST_F(FFrameTaskTest, RendererGoesWhileItsTasksRun)
 	}
 }
 
+TEST_F(FFrameTaskTest, FrameThatIsGivenUpLeavesNoTaskBehind)
+{
+	StartTrace();
+	ASSERT_TRUE(Load(Everything));
+	FBlockedWorkers Blocked;
+	ASSERT_TRUE(Blocked.AreAllBlocked());
+	FRenderer& Renderer = Engine->GetRenderer();
+	ASSERT_TRUE(Renderer.BeginFrame(GetScene(), LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), {}));
+	EXPECT_EQ(CountEvents("Prebind"), 0u);
+	Renderer.FrameSubmitted(0);
+	EXPECT_EQ(CountEvents("Prebind"), 1u) << "the scene may change from now on";
+	EXPECT_EQ(CountEvents("Gather instances"), 1u);
+	Blocked.Open();
+	ASSERT_TRUE(RenderWith([](FFrameContext&) {}));
+	DescribeRays();
+}
+
+TEST_F(FFrameTaskTest, RayQueriesSeeObjectsWhoseProgramsAreMissing)
+{
+	ASSERT_TRUE(Load(Everything));
+	GetScene().SetMissingPrograms({{StandardProgram, ERTHitClass::Opaque}});
+	Set("r.RT.Shadow.Path", "2");
+	ASSERT_TRUE(RenderFrame());
+	ASSERT_FALSE(GetRTPSO());
+	EXPECT_EQ(Mock().GetSceneInstances(Unwrap(GetScene().GetStructure())).size(), GetScene().GetFacts().Objects);
+}
+
 TEST_F(FFrameTaskTest, DeviceLossInTheTasksIsTheFramesError)
 {
 	for (int Combination = 0; Combination < Combinations; ++Combination)

@@ -263,6 +263,30 @@ TEST_F(FGatherSceneTest, ObjectsOfMissingProgramsAreLeftOutUntilTheyAreThere)
 	EXPECT_EQ(ByObject().size(), 2u) << "another class of the same program";
 }
 
+TEST_F(FGatherSceneTest, ObjectsWhoseMaterialsTakeOrLeaveAMissingProgramFollow)
+{
+	const uint32_t Leaves = Scene->AddMaterial(MakeMaterial(MATERIAL_MASKED));
+	const uint32_t Special = Scene->AddMaterial(MakeMaterial(MATERIAL_MASKED), 5);
+	const uint32_t Other = Scene->AddMaterial(MakeMaterial(MATERIAL_MASKED), 5);
+	FGeometryOptions Options;
+	Options.bOpaque = false;
+	const FRTGeometryRef Tree = MakeGeometry("Tree", 2, Options);
+	const FRTObjectId A = Add(Tree, {Leaves, Special}), B = Add(Tree, {Leaves, Other});
+	Scene->SetMissingPrograms({{5, ERTHitClass::Masked}});
+	Settle();
+	EXPECT_EQ(ByObject().size(), 0u);
+	// Its range is masked before and after, for the sake of its leaves; only the hit program changes.
+	Scene->SetMaterial(Special, MakeMaterial());
+	Frame();
+	EXPECT_NE(MaskOf(A), 0u);
+	EXPECT_EQ(MaskOf(B), 0u);
+	Scene->SetMaterial(Special, MakeMaterial(MATERIAL_MASKED));
+	Scene->SetMaterialProgram(Other, StandardProgram);
+	Frame();
+	EXPECT_EQ(MaskOf(A), 0u);
+	EXPECT_NE(MaskOf(B), 0u);
+}
+
 TEST_F(FGatherSceneTest, GeometryThatWaitsForItsBuildIsLeftOutAndComesLargestFirst)
 {
 	SetVariable("r.RT.Build.TrianglesPerFrame", "1000");
@@ -418,6 +442,33 @@ TEST_F(FGatherSceneTest, MemoryFollowsTheSceneDown)
 	EXPECT_LT(Small.Scene, Large.Scene / 100);
 	EXPECT_LT(Small.Buffer, Large.Buffer / 4)
 	    << "of " << Large.Buffer << ": " << testing::PrintToString(Mock().GetLiveObjects());
+}
+
+TEST_F(FGatherSceneTest, WhatCannotShrinkForWantOfMemoryServesOn)
+{
+	SetVariable("r.RT.Culling", "0");
+	const uint32_t Material = Scene->AddMaterial(MakeMaterial());
+	const FRTGeometryRef Tree = MakeSphere("Tree", 2);
+	std::vector<FRTObjectId> Ids;
+	for (int I = 0; I < 2000; ++I)
+	{
+		Ids.push_back(Add(Tree, {Material}, {20.0 * I, 0, 0}));
+	}
+	Settle();
+	for (size_t I = 10; I < Ids.size(); ++I)
+	{
+		Scene->RemoveObject(Ids[I]);
+	}
+	for (int I = 0; I < 600; ++I)
+	{
+		glm::dmat4 Transform(1.0);
+		Transform[3].y = I;
+		Scene->SetTransform(Ids[0], Transform);
+		Mock().FailEveryAllocation(I > 10 && I < 550 ? 1 : 0);
+		Frame();
+		ASSERT_FALSE(HasFailure()) << "frame " << I;
+	}
+	EXPECT_EQ(ByObject().size(), 10u);
 }
 
 TEST_F(FGatherSceneTest, MoreInstancesThanTheDeviceAllowsAreAnErrorThatSaysSo)

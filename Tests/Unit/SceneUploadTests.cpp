@@ -133,6 +133,18 @@ TEST_F(FUploadTest, TableThatShrankForgetsItsEnd)
 	ExpectOnDevice(Table);
 }
 
+TEST_F(FUploadTest, TableThatWasEmptiedComesToRest)
+{
+	TGpuTable<uint32_t> Table("Table");
+	Table.Add(1);
+	Table.Truncate(0);
+	EXPECT_EQ(Flush(Table), 0u);
+	EXPECT_FALSE(Table.IsDirty()) << "else each frame would have an update to record";
+	Table.Add(2);
+	EXPECT_EQ(Flush(Table), 4u);
+	ExpectOnDevice(Table);
+}
+
 TEST_F(FUploadTest, TableThatFailedToGrowTriesAgain)
 {
 	TGpuTable<uint32_t> Table("Growing");

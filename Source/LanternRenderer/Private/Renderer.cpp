@@ -69,6 +69,7 @@ FRTStatus FRenderer::PrepareRayPipeline(const FFrameFeatures& Features)
 	if (Wanted.Desc.RayGens.empty())
 	{
 		RayPipeline.reset();
+		Context->Scene.SetMissingPrograms({}); // ray queries run none
 		return FRTStatus::Success();
 	}
 	if (Features.bWaitForPipelines || Features.bReference || GetPipelineFallback() == ERTFallback::Wait)
@@ -81,7 +82,11 @@ FRTStatus FRenderer::PrepareRayPipeline(const FFrameFeatures& Features)
 		RayCompiler.Update(Wanted.Desc);
 	}
 	RayPipeline = RayCompiler.GetCurrent();
-	if (!RayPipeline) { return FRTStatus::Success(); }
+	if (!RayPipeline)
+	{
+		Context->Scene.SetMissingPrograms({});
+		return FRTStatus::Success();
+	}
 	const auto IsReady = [&](FHitProgram Program) { return RayPipeline->GetState(Program) == ERTHitState::Ready; };
 	bStandIns = !std::all_of(Wanted.Desc.HitPrograms.begin(), Wanted.Desc.HitPrograms.end(), IsReady);
 	std::vector<FHitProgram> Missing = Wanted.Desc.HitPrograms;
@@ -111,7 +116,7 @@ FRTStatus FRenderer::Precache(FRTScene& Scene, const FFrameFeatures& Features, c
 
 FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrameFeatures& Features)
 {
-	assert(!Graph && "EndFrame was not called");
+	assert(!Context && "EndFrame, or FrameSubmitted behind it, was not called");
 	bFrameLost = true;
 	FConsoleVariables::Get().BeginFrame();
 	FTaskTrace::BeginFrame(View.FrameIndex);
@@ -298,7 +303,6 @@ FRTStatus FRenderer::EndFrame(FRTFence* OutFence)
 		const FRTStatus Ended = List.End();
 		if (Status) { Status = Ended; }
 	}
-	Graph.reset();
 	FRTFence Fence = 0;
 	if (Status)
 	{
@@ -315,6 +319,9 @@ FRTStatus FRenderer::EndFrame(IRTCommandList& List) { return Execute(List); }
 
 void FRenderer::FrameSubmitted(FRTFence Fence)
 {
+	// A frame that ended before anything of it was recorded still has them.
+	PrebindTask.Wait();
+	Graph.reset();
 	Fences[Slot] = Fence;
 	Uploads.EndFrame(Fence);
 	AnyHits.Submitted(Fence);

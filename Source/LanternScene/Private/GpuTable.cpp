@@ -53,13 +53,16 @@ FRTStatus FGpuTableBase::Resize(IRTDevice& Device, uint64_t Needed, const char* 
 	    Size < Needed ? std::max(Needed, Size > 0 ? 2 * Size : LeastBytes) : 2 * std::max(Needed, LeastBytes);
 	TRTRef<IRTBuffer> New;
 	const FRTBufferDesc Desc{NewSize, ERTBufferUsage::Storage | ERTBufferUsage::CopyDest, ERTMemory::Device, Name};
-	if (FRTStatus S = Device.CreateBuffer(Desc, New.ReleaseAndGetAddress()); !S)
-	{
-		return S;
-	}
-	Buffer = std::move(New);
+	const FRTStatus Status = Device.CreateBuffer(Desc, New.ReleaseAndGetAddress());
 	FlushesTooLarge = 0;
-	return FRTStatus::Success();
+	if (Status)
+	{
+		Buffer = std::move(New);
+		return Status;
+	}
+	OutNew = false;
+	// For want of memory the one that is too large serves on.
+	return Status.Code == ERTResult::OutOfDeviceMemory && Size >= Needed ? FRTStatus::Success() : Status;
 }
 
 FRTStatus FGpuTableBase::CopyRuns(IRTCommandList& List, FFrameUploads& Uploads, const uint8_t* Data,
@@ -101,6 +104,10 @@ FRTStatus FGpuTableBase::Flush(IRTDevice& Device, IRTCommandList& List, FFrameUp
 {
 	CopiedBytes = 0;
 	const uint64_t Needed = EntryBytes * EntryCount;
+	if (EntryCount == 0)
+	{
+		MarkAll(0); // whatever was marked is gone
+	}
 	if ((!bDirty && FlushesTooLarge == 0) || EntryCount == 0)
 	{
 		return FRTStatus::Success();

@@ -88,14 +88,4 @@ void FInstanceUploads::EndFrame(bool bSubmitted, FRTFence Fence)
 	              });
 }
 
-uint64_t FInstanceUploads::GetBytes() const
-{
-	uint64_t Bytes = Current.Buffer ? Current.Buffer->GetDesc().Size : 0;
-	for (const FPage& Page : Pages)
-	{
-		Bytes += Page.Buffer->GetDesc().Size;
-	}
-	return Bytes;
-}
-
 } // namespace Lantern

@@ -76,7 +76,6 @@ void FRTScene::SetMaterialProgram(uint32_t Index, uint32_t Program)
 	assert(Index < Materials.Num());
 	if (std::exchange(MaterialPrograms[Index], Program) == Program) { return; }
 	Sections.MaterialChanged(Index);
-	bBindAll |= !MissingPrograms.empty();
 }
 
 void FRTScene::SetMaterialOverride(uint32_t Override)

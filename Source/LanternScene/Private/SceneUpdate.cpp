@@ -39,15 +39,11 @@ bool FRTScene::AreTablesDirty() const
 bool FRTScene::NeedsUpdate(const FGatherView& View, const FSceneUse& Use) const
 {
 	const bool bGeometry = Geometries.NeedsUpdate() || NeedsOpacityUpdate(SectionContext, Sections, Geometries);
+	const bool bBind = bBindAll || Sections.HasChangedRanges();
 	const bool bGather =
-	    bStructureStale || bInstancesStale || bBindAll || bGeometry || !(MakeGatherKey(View, Use.bCull) == GatheredKey);
+	    bStructureStale || bInstancesStale || bBind || bGeometry || !(MakeGatherKey(View, Use.bCull) == GatheredKey);
 	return bLightsChanged || (Use.bRays && bGather) || (Use.bLightSampling && bEmissiveChanged) || AreTablesDirty() ||
 	       SnapOrigin(View.Position) != Origin;
-}
-
-bool FRTScene::HasUpdateToRecord() const
-{
-	return AreTablesDirty() || (FrameUse.bRays && (bGathering || bGeometryWork || bStructureStale));
 }
 
 glm::dvec3 FRTScene::SnapOrigin(glm::dvec3 Camera) const
@@ -299,13 +295,15 @@ FRTStatus FRTScene::ReserveStructure(uint32_t InstanceCount)
 	    std::min<uint64_t>(Most, std::max<uint64_t>(FewestInstances, uint64_t(InstanceCount) * 3 / 2)));
 	Desc.Name = "Scene";
 	TRTRef<IRTScene> New;
-	if (FRTStatus S = Device.CreateScene(Desc, New.ReleaseAndGetAddress()); !S)
-	{
-		return S;
-	}
-	Structure = std::move(New);
+	const FRTStatus Status = Device.CreateScene(Desc, New.ReleaseAndGetAddress());
 	FramesTooLarge = 0;
-	return FRTStatus::Success();
+	if (Status)
+	{
+		Structure = std::move(New);
+	}
+	// For want of memory the one that is too large serves on.
+	return Status.Code == ERTResult::OutOfDeviceMemory && Capacity >= InstanceCount && Structure ? FRTStatus::Success()
+	                                                                                             : Status;
 }
 
 FRTStatus FRTScene::BuildStructure(IRTCommandList& List)

@@ -224,7 +224,7 @@ void FSectionTable::MaterialChanged(uint32_t Material)
 		{
 			if (Parts[Part].Section == Use.Section)
 			{
-				FillPart(Range, Part);
+				FillPart(Use.Range, Part);
 			}
 		}
 		UpdateFlags(Use.Range);
@@ -263,7 +263,7 @@ void FSectionTable::FillRange(FSectionRangeId Id)
 	assert(Parts <= Range.Count);
 	for (uint32_t Part = 0; Part < Parts; ++Part)
 	{
-		FillPart(Range, Part);
+		FillPart(Id, Part);
 	}
 	for (uint32_t Part = Parts; Part < Range.Count; ++Part)
 	{
@@ -272,14 +272,18 @@ void FSectionTable::FillRange(FSectionRangeId Id)
 	UpdateFlags(Id);
 }
 
-void FSectionTable::FillPart(const FSectionRange& Range, uint32_t Part)
+void FSectionTable::FillPart(FSectionRangeId Id, uint32_t Part)
 {
+	const FSectionRange& Range = Ranges[Id];
 	const FRTGeometryPart& Where = Range.Geometry->GetParts()[Part];
 	const uint32_t Material = Range.Materials[Where.Section];
 	FHitProgram Program;
 	Program.Program = Material < Context.Programs.size() ? Context.Programs[Material] : StandardProgram;
 	Program.Class = GetHitClass(Context, *Range.Geometry, Where, Material);
-	Write(Range.First + Part, MakeSection(Context, *Range.Geometry, Where, Material), Program);
+	if (Write(Range.First + Part, MakeSection(Context, *Range.Geometry, Where, Material), Program))
+	{
+		MarkRange(Id); // whether its objects can be drawn may be another matter now
+	}
 }
 
 void FSectionTable::UpdateFlags(FSectionRangeId Id)
@@ -326,14 +330,14 @@ void FSectionTable::MarkRange(FSectionRangeId Id)
 	}
 }
 
-void FSectionTable::Write(uint32_t Section, const FSectionData& Data, FHitProgram Program)
+bool FSectionTable::Write(uint32_t Section, const FSectionData& Data, FHitProgram Program)
 {
 	const uint32_t Old = ProgramSlots[Section];
 	const bool bSameProgram = Old != Unused && Programs[Old].Program == Program;
 	const bool bSameData = std::memcmp(&Data, &Table[Section], sizeof(Data)) == 0;
 	if (bSameProgram && bSameData)
 	{
-		return;
+		return false;
 	}
 	if (!bSameData)
 	{
@@ -348,6 +352,7 @@ void FSectionTable::Write(uint32_t Section, const FSectionData& Data, FHitProgra
 		Changed.push_back(Section);
 		IsChanged[Section] = true;
 	}
+	return !bSameProgram;
 }
 
 std::vector<FSectionRangeId> FSectionTable::TakeChangedRanges()

@@ -106,7 +106,7 @@ public:
 	/// The same, recorded into the engine's command list, which the engine submits and then reports by
 	/// FrameSubmitted with its fence.
 	FRTStatus EndFrame(IRTCommandList& List);
-	/// 0: it never will be (EndFrame failed, or the engine dropped its list).
+	/// 0: it never will be (EndFrame failed, the engine dropped its list, or gives the frame up before EndFrame).
 	void FrameSubmitted(FRTFence Fence);
 
 	/// The newest frame failed, and nothing of it reached the GPU.

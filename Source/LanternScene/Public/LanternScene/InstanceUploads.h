@@ -23,7 +23,6 @@ public:
 	IRTBuffer* Use();
 	/// bSubmitted, Fence: as FRTScene::EndFrame.
 	void EndFrame(bool bSubmitted, FRTFence Fence);
-	uint64_t GetBytes() const; ///< of all buffers
 
 private:
 	struct FPage

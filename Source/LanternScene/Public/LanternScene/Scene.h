@@ -149,8 +149,6 @@ public:
 	bool NeedsStructures() const { return FrameUse.bRays && (bGathering || bGeometryWork || bStructureStale); }
 	/// BeginUpdate and RecordUpdate in turn.
 	FRTStatus Update(IRTCommandList& List, FFrameUploads& Uploads, const FGatherView& View, const FSceneUse& Use);
-	/// After BeginUpdate: whether RecordUpdate may find anything to record. Waits for nothing.
-	bool HasUpdateToRecord() const;
 	/// After RecordUpdate: the block that passes read.
 	FSceneConstants GetConstants() const;
 	IRTScene* GetStructure() const { return Structure.Get(); }

@@ -67,14 +67,16 @@ public:
 	static bool AffectsSections(const FMaterialData& Old, const FMaterialData& New);
 	/// The material or its program is another now: O(sections that use it).
 	void MaterialChanged(uint32_t Material);
+	bool IsMaterialUsed(uint32_t Material) const { return Material < UsesOfMaterial.size() && !UsesOfMaterial[Material].empty(); }
 	/// Its address, parts or index buffer are others now: O(ranges of it).
 	void GeometryChanged(const FRTGeometry& Geometry);
 	/// The context's other members changed.
 	void RefillAll();
 
-	/// Ranges that are new, or of which a flag or the geometry changed, since the last call, each once. Some may have been
+	/// Ranges that are new, or of which a flag, a hit program or the geometry changed, since the last call, each once. Some may have been
 	/// released meanwhile.
 	std::vector<FSectionRangeId> TakeChangedRanges();
+	bool HasChangedRanges() const { return !ChangedRanges.empty(); }
 	/// Sections written since the last call, each once, for whoever keeps hit records. Some may have been released
 	/// meanwhile.
 	std::vector<uint32_t> TakeChanged();
@@ -132,12 +134,13 @@ private:
 	void Rehash();
 	void LinkUses(FSectionRangeId Id);
 	void UnlinkUses(FSectionRangeId Id);
-	void FillPart(const FSectionRange& Range, uint32_t Part);
+	void FillPart(FSectionRangeId Id, uint32_t Part);
 	void FillRange(FSectionRangeId Id);
 	void UpdateFlags(FSectionRangeId Id);
 	void SetFlags(FSectionRangeId Id, bool bMasked, bool bDoubleSided, bool bEmissive);
 	void MarkRange(FSectionRangeId Id);
-	void Write(uint32_t Section, const FSectionData& Data, FHitProgram Program);
+	/// Whether the hit program was another.
+	bool Write(uint32_t Section, const FSectionData& Data, FHitProgram Program);
 	void SetProgramSlot(uint32_t Section, uint32_t Slot);
 	uint32_t FindProgramSlot(FHitProgram Program);
 

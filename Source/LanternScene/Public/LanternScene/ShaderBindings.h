@@ -42,7 +42,7 @@ public:
 	FRTStatus Sync(IRTCommandList& List, const FRTPSO& Pipeline, FSectionTable& Sections);
 	/// What was recorded last was never submitted: the next Record copies everything again.
 	void Invalidate();
-	/// Null before the first Prepare.
+	/// Null before the first Prepare, which makes it, and later ones may make another: not while one runs.
 	IRTShaderTable* GetTable() const { return Table.Get(); }
 	const FShaderBindingStats& GetStats() const { return Stats; }
 
