@@ -159,10 +159,11 @@ protected:
 		Scene->EndFrame(true, Fence);
 		return Fence;
 	}
-	/// Frames until nothing is left to do: builds, their compaction, what follows from it.
+	/// Frames until nothing is left to do: builds, their compaction, what follows from it; scratch that was large goes
+	/// after 64 still frames.
 	void Settle(glm::dvec3 Camera = {}, const FSceneUse& Use = {})
 	{
-		for (int I = 0; I < 10; ++I)
+		for (int I = 0; I < 80; ++I)
 		{
 			Frame(Camera, Use);
 			if (!bUpdated) { return; }
