@@ -14,7 +14,8 @@ struct FGBufferConstants
 };
 LANTERN_ASSERT_SIZE(FGBufferConstants, 32);
 
-struct FSkinConstants
+// One deformed geometry; a dispatch takes several, one in each layer of its groups.
+struct FSkinItem
 {
 	FAddress SourcePositions;
 	FAddress SourceAttributes;
@@ -25,7 +26,13 @@ struct FSkinConstants
 	uint VertexCount;
 	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FSkinConstants, 56);
+LANTERN_ASSERT_SIZE(FSkinItem, 56);
+
+struct FSkinConstants
+{
+	FAddress Items; // FSkinItem[]
+};
+LANTERN_ASSERT_SIZE(FSkinConstants, 8);
 
 struct FSkinVertex
 {

@@ -102,7 +102,7 @@ TEST_F(FFrameTest, Brainstem)
 	ASSERT_TRUE(Load(Scene));
 	SetSun(0.53);
 	SetSky({0.5f, 0.7f, 1.0f});
-	ExpectSoundFrames(MakeView(160, 90), {"SunShadow", "Skinning", "SceneUpdate"}, {});
+	ExpectSoundFrames(MakeView(160, 90), {"SunShadow", "Skinning", "Structures"}, {});
 }
 
 TEST_F(FFrameTest, Roughness)

@@ -15,6 +15,8 @@ namespace Lantern
 namespace
 {
 constexpr size_t BlockGrain = 256;
+/// Blocks whose bounds are measured anew in a frame: all in turn, so that wandering objects do not keep bounds large.
+constexpr size_t RefreshedBlocks = 32;
 
 /// Order along a Z curve over the ground, the infinite ones behind all others.
 uint64_t GetPlaceKey(const FDrawSphere& Sphere, const glm::dvec3& Min, double Scale)
@@ -78,11 +80,14 @@ void FDrawBlocks::Build(const std::vector<FItem>& Items, const std::vector<FDraw
 	std::sort(Order.begin(), Order.end());
 	Places.resize(Items.size());
 	Blocks.clear();
+	Bounds.clear();
+	NextStale = 0;
 	Stale.clear();
 	for (size_t First = 0; First < Order.size();)
 	{
 		FBlock& Block = Blocks.emplace_back();
 		Block.Center = Spheres[Order[First].second].Center;
+		Bounds.push_back({Block.Center});
 		// Infinite spheres have blocks of their own, so that they make no other infinite.
 		const bool bInfinite = Order[First].first == ~0ull;
 		for (; First < Order.size() && Block.Count < FBlock::Capacity && (Order[First].first == ~0ull) == bInfinite;
@@ -109,14 +114,17 @@ void FDrawBlocks::Move(uint32_t Draw, const FDrawSphere& Sphere)
 	Block.Z[Item] = Relative.z;
 	Block.R[Item] = float(Sphere.Radius);
 	Block.Mirrored = (Block.Mirrored & ~(1ull << Item)) | (uint64_t(Sphere.bMirrored) << Item);
-	if (!std::exchange(Block.bStale, true))
+	FBounds& Of = Bounds[Index];
+	Of.Radius = std::max(Of.Radius, glm::length(Relative) + Block.R[Item]);
+	if (!std::exchange(Of.bStale, true))
 	{
 		Stale.push_back(Index);
 	}
 }
 
-void FDrawBlocks::Refresh(FBlock& Block) const
+void FDrawBlocks::Refresh(uint32_t Index)
 {
+	const FBlock& Block = Blocks[Index];
 	float Radius = 0.0f;
 	for (uint32_t I = 0; I < Block.Count; ++I)
 	{
@@ -124,11 +132,11 @@ void FDrawBlocks::Refresh(FBlock& Block) const
 		    std::sqrt(Block.X[I] * Block.X[I] + Block.Y[I] * Block.Y[I] + Block.Z[I] * Block.Z[I]) + Block.R[I];
 		Radius = std::max(Radius, Reach);
 	}
-	Block.Radius = Radius;
-	Block.bStale = false;
+	Bounds[Index].Radius = Radius;
+	Bounds[Index].bStale = false;
 }
 
-bool FDrawBlocks::MaySeeBlock(const FFrustum& F, const FBlock& Block)
+bool FDrawBlocks::MaySeeBlock(const FFrustum& F, const FBounds& Block)
 {
 	const glm::vec3 D(Block.Center - F.Eye);
 	const float Reach = Block.Radius * 1.00001f + 1e-5f * (std::abs(D.x) + std::abs(D.y) + std::abs(D.z));
@@ -165,17 +173,21 @@ void FDrawBlocks::Collect(const FView& View, float MinPixels, std::vector<FSeen>
 {
 	FTraceScope Trace("G-buffer culling");
 	const FFrustum Frustum(View, MinPixels);
-	for (const uint32_t Index : Stale)
+	for (size_t I = 0; I < RefreshedBlocks && NextStale < Stale.size(); ++I)
 	{
-		Refresh(Blocks[Index]);
+		Refresh(Stale[NextStale++]);
 	}
-	Stale.clear();
-	Out.clear();
-	for (uint32_t Index = 0; Index < Blocks.size(); ++Index)
+	if (NextStale == Stale.size() || NextStale >= Bounds.size())
 	{
-		if (MaySeeBlock(Frustum, Blocks[Index]))
+		Stale.erase(Stale.begin(), Stale.begin() + static_cast<ptrdiff_t>(NextStale));
+		NextStale = 0;
+	}
+	Out.clear();
+	for (uint32_t Index = 0; Index < Bounds.size(); ++Index)
+	{
+		if (MaySeeBlock(Frustum, Bounds[Index]))
 		{
-			Out.push_back({Index, float(glm::distance(Blocks[Index].Center, View.Position)), 0});
+			Out.push_back({Index, float(glm::distance(Bounds[Index].Center, View.Position)), 0});
 		}
 	}
 	std::sort(Out.begin(), Out.end(),

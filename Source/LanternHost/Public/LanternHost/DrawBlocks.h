@@ -39,8 +39,6 @@ public:
 		uint64_t Mirrored = 0; ///< bit per item
 		uint32_t Count = 0;
 		glm::dvec3 Center{0};
-		float Radius = 0.0f; ///< of all items
-		bool bStale = false; ///< the radius is
 	};
 	/// Items of a block that a view may see.
 	struct FSeen
@@ -60,13 +58,22 @@ public:
 
 private:
 	struct FFrustum;
-	void Refresh(FBlock& Block) const;
-	static bool MaySeeBlock(const FFrustum& Frustum, const FBlock& Block);
+	/// Around all items of a block; apart from the blocks, since a view looks at all of them.
+	struct FBounds
+	{
+		glm::dvec3 Center{0};
+		float Radius = 0.0f; ///< grows with each item that moves …
+		bool bStale = false; ///< … and waits to be measured anew
+	};
+	void Refresh(uint32_t Index);
+	static bool MaySeeBlock(const FFrustum& Frustum, const FBounds& Bounds);
 	static uint64_t CullItems(const FFrustum& Frustum, const FBlock& Block);
 
 	std::vector<FBlock> Blocks;
 	std::vector<uint32_t> Places; // of draws: block · Capacity + item
-	std::vector<uint32_t> Stale;
+	std::vector<FBounds> Bounds;  // of Blocks
+	std::vector<uint32_t> Stale;  // a queue, from NextStale on
+	size_t NextStale = 0;
 };
 
 } // namespace Lantern

@@ -11,7 +11,10 @@ namespace
 {
 constexpr uint32_t MaxGroups = 65535; // in one dimension, on any device
 
-void Dispatch(IRTCommandList& List, uint32_t Groups) { List.Dispatch(std::min(Groups, MaxGroups), DivideUp(Groups, MaxGroups), 1); }
+void Dispatch(IRTCommandList& List, uint32_t Groups, uint32_t Layers = 1)
+{
+	List.Dispatch(std::min(Groups, MaxGroups), DivideUp(Groups, MaxGroups), Layers);
+}
 
 void RecordRefitQuality(IRTCommandList& List, IRTPipeline* Pipeline, const FRefitQuality::FWork& Work)
 {
@@ -24,34 +27,77 @@ void RecordRefitQuality(IRTCommandList& List, IRTPipeline* Pipeline, const FRefi
 	const FRTBarrier Back{Work.Results.Get(), nullptr, ERTAccess::StorageWrite, ERTAccess::HostRead};
 	List.Barriers(&Back, 1);
 }
+
+/// Items of similar size, for one dispatch.
+struct FSkinDispatch
+{
+	uint32_t First = 0, Count = 0, Groups = 0;
+};
+
+/// Joints of all items, and the items themselves in the order of their sizes, in memory of the frame.
+FRTStatus UploadItems(FFrameUploads& Uploads, const std::vector<FSkinningInputs>& Inputs, std::vector<FSkinItem>& Items, FAddress& OutItems)
+{
+	uint64_t JointCount = 0;
+	for (const FSkinningInputs& Input : Inputs) { JointCount += Input.Joints.size(); }
+	FUploadSlice Joints, Slice;
+	if (FRTStatus S = Uploads.Allocate(std::max<uint64_t>(1, JointCount) * sizeof(glm::mat4), Joints); !S) { return S; }
+	auto* Next = static_cast<glm::mat4*>(Joints.Data);
+	for (const FSkinningInputs& Input : Inputs)
+	{
+		const FRTGeometryInfo& Info = Input.Geometry->GetInfo();
+		FSkinItem& Item = Items.emplace_back();
+		Item.SourcePositions = Input.SourcePositions;
+		Item.SourceAttributes = Input.SourceAttributes;
+		Item.Weights = Input.Weights;
+		Item.Joints = Joints.Address + static_cast<uint64_t>(Next - static_cast<glm::mat4*>(Joints.Data)) * sizeof(glm::mat4);
+		Item.Positions = Info.Positions->GetDeviceAddress() + Info.PositionsOffset;
+		Item.Attributes = Info.Attributes->GetDeviceAddress() + Info.AttributesOffset;
+		Item.VertexCount = Info.VertexCount;
+		Next = std::copy(Input.Joints.begin(), Input.Joints.end(), Next);
+	}
+	std::stable_sort(Items.begin(), Items.end(), [](const FSkinItem& A, const FSkinItem& B) { return A.VertexCount < B.VertexCount; });
+	const FRTStatus Status = Uploads.Push(Items.data(), Items.size() * sizeof(FSkinItem), Slice);
+	OutItems = Slice.Address;
+	return Status;
+}
+
+/// Items: by size. Within a dispatch none has twice the groups that it needs.
+std::vector<FSkinDispatch> MakeDispatches(const std::vector<FSkinItem>& Items)
+{
+	std::vector<FSkinDispatch> Dispatches;
+	uint32_t Least = 0;
+	for (uint32_t I = 0; I < Items.size(); ++I)
+	{
+		const uint32_t Groups = DivideUp(Items[I].VertexCount, SKIN_GROUP_SIZE);
+		if (Dispatches.empty() || Groups > 2 * Least || Dispatches.back().Count == MaxGroups)
+		{
+			Dispatches.push_back({I, 0, 0});
+			Least = Groups;
+		}
+		++Dispatches.back().Count;
+		Dispatches.back().Groups = Groups;
+	}
+	return Dispatches;
+}
 } // namespace
 
-FRTStatus AddSkinningPass(FFrameContext& Context, FFrameUploads& Uploads, const std::vector<FSkinningInputs>& Items)
+FRTStatus AddSkinningPass(FFrameContext& Context, FFrameUploads& Uploads, const std::vector<FSkinningInputs>& Inputs)
 {
-	if (Items.empty()) { return FRTStatus::Success(); }
+	if (Inputs.empty()) { return FRTStatus::Success(); }
 	IRTPipeline* const Pipeline = RequireCompute(Context, "Skinning/Skin.comp");
 	if (!Pipeline) { return *Context.Status; }
-	FRefitQuality::FWork Quality = Context.Owner->GetRefitQuality().Prepare(Context.Scene.GetGeometries(), Items);
+	FRefitQuality::FWork Quality = Context.Owner->GetRefitQuality().Prepare(Context.Scene.GetGeometries(), Inputs);
 	IRTPipeline* const Measure = Quality.Dispatches.empty() ? nullptr : RequireCompute(Context, "Skinning/RefitQuality.comp");
 	if (!Quality.Dispatches.empty() && !Measure) { return *Context.Status; }
-	std::vector<FSkinConstants> Dispatches;
+	std::vector<FSkinItem> Items;
+	FAddress ItemsAddress = 0;
+	if (FRTStatus S = UploadItems(Uploads, Inputs, Items, ItemsAddress); !S) { return S; }
 	// The buffers are the objects' own, unknown to the graph: last frame's readers, then this frame's. Named one by one,
 	// since a barrier of memory as such would move what others hold in the same state.
 	std::vector<FRTBarrier> Before, After;
-	for (const FSkinningInputs& Item : Items)
+	for (const FSkinningInputs& Input : Inputs)
 	{
-		const FRTGeometryInfo& Info = Item.Geometry->GetInfo();
-		FUploadSlice Joints;
-		if (FRTStatus S = Uploads.Push(Item.Joints.data(), Item.Joints.size() * sizeof(glm::mat4), Joints); !S) { return S; }
-		FSkinConstants C{};
-		C.SourcePositions = Item.SourcePositions;
-		C.SourceAttributes = Item.SourceAttributes;
-		C.Weights = Item.Weights;
-		C.Joints = Joints.Address;
-		C.Positions = Info.Positions->GetDeviceAddress() + Info.PositionsOffset;
-		C.Attributes = Info.Attributes->GetDeviceAddress() + Info.AttributesOffset;
-		C.VertexCount = Info.VertexCount;
-		Dispatches.push_back(C);
+		const FRTGeometryInfo& Info = Input.Geometry->GetInfo();
 		for (IRTBuffer* const Buffer : {Info.Positions.Get(), Info.Attributes.Get()})
 		{
 			Before.push_back({Buffer, nullptr, UploadedAccess, ERTAccess::StorageWrite});
@@ -60,13 +106,14 @@ FRTStatus AddSkinningPass(FFrameContext& Context, FFrameUploads& Uploads, const 
 	}
 	Context.Graph.AddPass("Skinning", [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.NeverCull();
-		return [=, Dispatches = std::move(Dispatches), Before = std::move(Before), After = std::move(After)](FPassContext& Pass) {
+		return [=, Dispatches = MakeDispatches(Items), Before = std::move(Before), After = std::move(After)](FPassContext& Pass) {
 			Pass.Commands().Barriers(Before.data(), static_cast<uint32_t>(Before.size()));
 			Pass.Commands().SetPipeline(Pipeline);
-			for (const FSkinConstants& C : Dispatches)
+			for (const FSkinDispatch& D : Dispatches)
 			{
-				Pass.Commands().PushConstants(&C, sizeof(C));
-				Dispatch(Pass.Commands(), DivideUp(C.VertexCount, SKIN_GROUP_SIZE));
+				const FSkinConstants Constants{ItemsAddress + uint64_t(D.First) * sizeof(FSkinItem)};
+				Pass.Commands().PushConstants(&Constants, sizeof(Constants));
+				Dispatch(Pass.Commands(), D.Groups, D.Count);
 			}
 			Pass.Commands().Barriers(After.data(), static_cast<uint32_t>(After.size()));
 			if (Measure) { RecordRefitQuality(Pass.Commands(), Measure, Quality); }
