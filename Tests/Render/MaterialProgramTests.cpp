@@ -300,6 +300,48 @@ TEST_F(FMaterialProgramTest, EditIsSeenAndABadEditIsNot)
 	ExpectQuad(7, 0.875);
 }
 
+TEST_F(FMaterialProgramTest, RasterAndRaysRunTheSameProgram)
+{
+	FSceneDescription Wall = MakeWall(false);
+	for (FHostMaterial& Material : Wall.Materials) { Material.BaseColor = glm::vec4(1.0f, 0.5f, 0.0f, 1.0f); }
+	for (const uint32_t Index : {10u, 12u, 21u}) { Wall.Materials[Index].Program = "Materials/Checker.glsl"; }
+	ASSERT_TRUE(Load(std::move(Wall)));
+	SetSky(glm::vec3(0));
+	constexpr uint32_t Size = 64;
+	View = LookAt({4, 2, 5}, {4, 2, 0}, 1.0f, Size, Size);
+	ASSERT_NO_FATAL_FAILURE(Trace(true));
+	TRTRef<IRTBuffer> Buffer;
+	const FRTBufferDesc Desc{Size * Size * 4, ERTBufferUsage::CopyDest, ERTMemory::Readback, "BaseColor"};
+	ASSERT_OK(GetDevice().CreateBuffer(Desc, Buffer.ReleaseAndGetAddress()));
+	GetEngine().ExtraPasses = [&](FFrameContext& Context, const FGBuffer& GBuffer, const FFrameOutputs&) {
+		const FGraphBuffer Readback = Context.Graph.ImportBuffer(Buffer.Get(), ERTAccess::None, ERTAccess::HostRead, "BaseColor");
+		Context.Graph.AddPass("ReadBaseColor", [&](FPassBuilder& Builder) -> FPassExecute {
+			Builder.Read(GBuffer.BaseColor, ERTAccess::CopyRead);
+			Builder.Write(Readback, ERTAccess::CopyWrite);
+			return [=](FPassContext& Pass) { Pass.Commands().CopyTextureToBuffer(Pass.GetBuffer(Readback), 0, Pass.GetTexture(GBuffer.BaseColor), 0, 0); };
+		});
+	};
+	ASSERT_OK(GetEngine().RenderFrame(View, 0.0, {}, nullptr));
+	ASSERT_OK(Renderer().WaitForAll());
+	const auto* const Bytes = static_cast<const uint8_t*>(Buffer->GetMapped());
+	uint32_t Dark = 0;
+	for (uint32_t Index = 0; Index < Columns * Rows; ++Index)
+	{
+		for (const glm::vec2 Place : {glm::vec2(0.25f, 0.25f), glm::vec2(0.75f, 0.25f), glm::vec2(0.25f, 0.75f), glm::vec2(0.75f, 0.75f)})
+		{
+			const glm::vec2 World = glm::vec2(Index % Columns, Index / Columns) + Place;
+			const glm::vec2 Ndc = (World - glm::vec2(4, 2)) / (5.0f * std::tan(0.5f));
+			const glm::ivec2 Pixel((Ndc.x + 1.0f) * 0.5f * Size, (1.0f - Ndc.y) * 0.5f * Size);
+			if (Pixel.x < 0 || Pixel.x >= int(Size)) { continue; }
+			const bool bDark = Bytes[(size_t(Pixel.y) * Size + size_t(Pixel.x)) * 4] < 200;
+			const glm::vec4 Traced = At(Index, uint32_t(Place.x * PixelsPerQuad), uint32_t(Place.y * PixelsPerQuad));
+			ASSERT_EQ(bDark, Traced.r < 0.5f) << "quad " << Index << " at " << Place.x << ", " << Place.y;
+			Dark += bDark;
+		}
+	}
+	EXPECT_EQ(Dark, 6u) << "half of the squares of three quads";
+}
+
 TEST_F(FMaterialProgramTest, CallablesAreCalledByTheirIndex)
 {
 	ASSERT_NO_FATAL_FAILURE(LoadWall());

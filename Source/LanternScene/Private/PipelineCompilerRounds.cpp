@@ -62,17 +62,17 @@ FHitSlots FRTPSOCompiler::FImpl::FindHitSlots(FHitProgram Program)
 
 FHitSlots FRTPSOCompiler::FImpl::FindStandInSlots(ERTHitClass Class)
 {
-	FHitSlots Slots;
-	Slots.Program = {StandardProgram, Class};
+	FHitSlots StandIn;
+	StandIn.Program = {StandardProgram, Class};
 	for (uint32_t Type = 0; Type < WantedDesc.RayTypes.size(); ++Type)
 	{
 		FPipelineUnit Unit = MakeStandInUnit(WantedDesc, Type, Class, Programs);
-		FPipelineSlotRef& Slot = Slots.Types.emplace_back();
+		FPipelineSlotRef& Slot = StandIn.Types.emplace_back();
 		if (Unit.Shaders.empty()) { continue; }
 		Slot = FindSlot(std::move(Unit), true, false);
 		Slot->bEssential = true;
 	}
-	return Slots;
+	return StandIn;
 }
 
 void FRTPSOCompiler::FImpl::CollectWanted()
