@@ -327,6 +327,18 @@ bool FTaskTrace::HasFolder()
 	return !Recorder.Folder.empty();
 }
 
+void FTaskTrace::StartIfWanted()
+{
+	if (IsOn() || !CVarTrace.Get())
+	{
+		return;
+	}
+	Start();
+	GetRecorder().FramesSinceFile = 0;
+	GetRecorder().bUnwritten = true;
+	NameThread("Render thread");
+}
+
 void FTaskTrace::BeginFrame(uint64_t Frame)
 {
 	CurrentFrame.store(static_cast<int64_t>(Frame), std::memory_order_relaxed);
@@ -343,12 +355,7 @@ void FTaskTrace::BeginFrame(uint64_t Frame)
 		Clear();
 		return;
 	}
-	if (!IsOn())
-	{
-		Start();
-		Recorder.FramesSinceFile = 0;
-		NameThread("Render thread");
-	}
+	StartIfWanted();
 	Recorder.bUnwritten = true;
 	const int32_t Frames = CVarTraceFrames.GetOnRenderThread();
 	if (Frames > 0 && Recorder.FramesSinceFile >= static_cast<uint64_t>(Frames))

@@ -34,6 +34,7 @@ FRenderer::FRenderer(IRTDevice& InDevice, FRendererDesc Desc)
       StandIns(std::make_unique<FStandInFeedback>(InDevice))
 {
 	if (!FTaskTrace::HasFolder()) { FTaskTrace::SetFolder(Desc.CacheFolder); }
+	FTaskTrace::StartIfWanted();
 }
 
 FRenderer::~FRenderer()

@@ -65,6 +65,8 @@ public:
 	/// Where a relative r.RT.Trace.File lies; empty: the current folder.
 	static void SetFolder(std::string Folder);
 	static bool HasFolder();
+	/// r.RT.Trace is followed from the first frame on. Whoever works before that (loads, compiles) calls this.
+	static void StartIfWanted();
 	/// At the start of a frame, on the render thread, after FConsoleVariables::BeginFrame: follows the console variables,
 	/// and writes the file where one is due. A file that cannot be written is said once.
 	static void BeginFrame(uint64_t Frame);
