@@ -207,7 +207,7 @@ bool IsTrue(const std::string& Text)
 	}
 	if (std::regex_match(Text, FileName))
 	{
-		return FileNameExists(Text);
+		return FileNameExists(Text) || OccursInCode('"' + Text + '"'); // or one that the program writes
 	}
 	if (std::regex_match(Text, Variable))
 	{
