@@ -14,7 +14,10 @@ namespace Lantern
 namespace
 {
 using FClock = std::chrono::steady_clock;
-double MsSince(FClock::time_point Start) { return std::chrono::duration<double, std::milli>(FClock::now() - Start).count(); }
+double MsSince(FClock::time_point Start)
+{
+	return std::chrono::duration<double, std::milli>(FClock::now() - Start).count();
+}
 
 double GetProcessorMs()
 {
@@ -76,7 +79,10 @@ private:
 
 FRTStatus FHitchBench::Load(uint32_t Materials)
 {
-	if (FRTStatus S = Engine.Load(MakeWall(Materials)); !S) { return S; }
+	if (FRTStatus S = Engine.Load(MakeWall(Materials)); !S)
+	{
+		return S;
+	}
 	const bool bIsCpu = Device.GetCapabilities().bIsCpu;
 	const double Size = 1.2 * std::ceil(std::sqrt(double(Materials)));
 	View = LookAt({0.0, 0.0, 2.0 * Size}, {0.0, 0.0, 0.0}, 1.0f, bIsCpu ? 64 : 1280, bIsCpu ? 36 : 720);
@@ -101,46 +107,67 @@ FRTStatus FHitchBench::Frame(FFrameTime& Out)
 	Features.RayGens = {MakeBenchRayGen()};
 	View.FrameIndex = Engine.GetFrameIndex();
 	Engine.SetFrameIndex(View.FrameIndex + 1);
-	if (FRTStatus S = Renderer.BeginFrame(GetScene(), View, Features); !S) { return S; }
+	if (FRTStatus S = Renderer.BeginFrame(GetScene(), View, Features); !S)
+	{
+		return S;
+	}
 	FFrameContext& Context = Renderer.GetContext();
-	const FGraphTexture Target = Context.Graph.ImportTexture(Output.Get(), ERTAccess::None, ERTAccess::StorageWrite, "BenchOutput");
+	const FGraphTexture Target =
+	    Context.Graph.ImportTexture(Output.Get(), ERTAccess::None, ERTAccess::StorageWrite, "BenchOutput");
 	const uint32_t RayGen = Context.RayPipeline ? Context.RayPipeline->FindRayGen(Features.RayGens[0]) : NoRayGen;
 	if (RayGen != NoRayGen)
 	{
 		FFrameContext* const OfFrame = &Context;
-		Context.Graph.AddPass("Trace", [&](FPassBuilder& Builder) -> FPassExecute {
-			Builder.NeverCull();
-			Builder.Write(Target, ERTAccess::StorageWrite);
-			return [=](FPassContext& Pass) {
-				const FTracePush Push{OfFrame->Pass, Pass.GetTexture(Target)->GetStorageIndex()};
-				Pass.Commands().SetPipeline(OfFrame->RayPipeline->GetPipeline());
-				Pass.Commands().PushConstants(&Push, sizeof(Push));
-				Pass.Commands().TraceRays(OfFrame->RayBindings->GetTable(), RayGen, OfFrame->Width, OfFrame->Height, 1);
-			};
-		});
+		Context.Graph.AddPass("Trace",
+		                      [&](FPassBuilder& Builder) -> FPassExecute
+		                      {
+			                      Builder.NeverCull();
+			                      Builder.Write(Target, ERTAccess::StorageWrite);
+			                      return [=](FPassContext& Pass)
+			                      {
+				                      const FTracePush Push{OfFrame->Pass, Pass.GetTexture(Target)->GetStorageIndex()};
+				                      Pass.Commands().SetPipeline(OfFrame->RayPipeline->GetPipeline());
+				                      Pass.Commands().PushConstants(&Push, sizeof(Push));
+				                      Pass.Commands().TraceRays(OfFrame->RayBindings->GetTable(), RayGen,
+				                                                OfFrame->Width, OfFrame->Height, 1);
+			                      };
+		                      });
 	}
 	const FRTStatus Status = Renderer.EndFrame(nullptr);
 	Out = {MsSince(Start), GetProcessorMs() - StartProcessor};
-	if (Out.Ms < PaceMs) { std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(PaceMs - Out.Ms)); }
+	if (Out.Ms < PaceMs)
+	{
+		std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(PaceMs - Out.Ms));
+	}
 	return Status;
 }
 } // namespace
 
-FRTStatus MeasureHitches(IRTDevice& Device, const FRendererDesc& Desc, uint32_t Materials, uint32_t Threads, double PaceMs, FHitchRun& Out)
+FRTStatus MeasureHitches(IRTDevice& Device, const FRendererDesc& Desc, uint32_t Materials, uint32_t Threads,
+                         double PaceMs, FHitchRun& Out)
 {
 	FConsoleVariables::Get().Set("r.RT.Pipeline.Threads", std::to_string(Threads), ERTSetBy::Console, "bench rtpso");
 	FHitchBench Bench(Device, Desc);
 	Bench.PaceMs = PaceMs;
-	if (FRTStatus S = Bench.Load(Materials); !S) { return S; }
+	if (FRTStatus S = Bench.Load(Materials); !S)
+	{
+		return S;
+	}
 	constexpr uint32_t WarmUp = 60, Idle = 300;
 	FFrameTime Time;
 	for (uint32_t Index = 0; Index < WarmUp || Bench.GetCompiler().GetStats().bBusy; ++Index)
 	{
-		if (FRTStatus S = Bench.Frame(Time); !S) { return S; }
+		if (FRTStatus S = Bench.Frame(Time); !S)
+		{
+			return S;
+		}
 	}
 	for (uint32_t Index = 0; Index < Idle; ++Index)
 	{
-		if (FRTStatus S = Bench.Frame(Time); !S) { return S; }
+		if (FRTStatus S = Bench.Frame(Time); !S)
+		{
+			return S;
+		}
 		Out.Idle.push_back(Time);
 	}
 	const uint64_t Salt = MakeSalt();
@@ -152,13 +179,22 @@ FRTStatus MeasureHitches(IRTDevice& Device, const FRendererDesc& Desc, uint32_t 
 	}
 	while (Out.Ready < Materials)
 	{
-		if (FRTStatus S = Bench.Frame(Time); !S) { return S; }
+		if (FRTStatus S = Bench.Frame(Time); !S)
+		{
+			return S;
+		}
 		Out.Compiling.push_back(Time);
 		const auto Current = Bench.GetCompiler().GetCurrent();
 		const FRTPSOCompilerStats Stats = Bench.GetCompiler().GetStats();
-		if (Stats.Failures > 0 || (!Stats.bBusy && Stats.Ready < Stats.Wanted)) { return FRTStatus::Error(ERTResult::CompileFailed, "a material of the benchmark does not compile"); }
+		if (Stats.Failures > 0 || (!Stats.bBusy && Stats.Ready < Stats.Wanted))
+		{
+			return FRTStatus::Error(ERTResult::CompileFailed, "a material of the benchmark does not compile");
+		}
 		Out.Ready = 0;
-		for (const FHitProgram Program : Programs) { Out.Ready += Current && Current->GetState(Program) == ERTHitState::Ready ? 1 : 0; }
+		for (const FHitProgram Program : Programs)
+		{
+			Out.Ready += Current && Current->GetState(Program) == ERTHitState::Ready ? 1 : 0;
+		}
 	}
 	return Bench.Finish();
 }

@@ -19,10 +19,11 @@ struct FHitchRun
 {
 	std::vector<FFrameTime> Idle;      ///< frames before anything is to be compiled
 	std::vector<FFrameTime> Compiling; ///< frames from the moment all materials change until all are ready
-	uint32_t Ready = 0;              ///< materials that are, at the end
+	uint32_t Ready = 0;                ///< materials that are, at the end
 };
 
 /// Threads: of the compiler; 0: its own choice. Frames begin PaceMs apart, or as soon as the one before is done.
-FRTStatus MeasureHitches(IRTDevice& Device, const FRendererDesc& Desc, uint32_t Materials, uint32_t Threads, double PaceMs, FHitchRun& Out);
+FRTStatus MeasureHitches(IRTDevice& Device, const FRendererDesc& Desc, uint32_t Materials, uint32_t Threads,
+                         double PaceMs, FHitchRun& Out);
 
 } // namespace Lantern

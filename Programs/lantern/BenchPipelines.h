@@ -21,7 +21,7 @@ struct FBenchPipelinesOptions
 	uint32_t Groups = 256;
 	std::vector<uint32_t> Threads = {1, 2, 4, 8, 16};
 	uint32_t Repetitions = 3;
-	uint32_t Added = 9;         ///< materials added one after another
+	uint32_t Added = 9; ///< materials added one after another
 	uint32_t MockCompileMs = 500;
 	bool bHitchOnly = false;
 	std::string Json;

@@ -16,8 +16,9 @@ bool QueryVisible(FSceneConstants Scene, uint Flags, uint Mask, vec3 Origin, vec
 	rayQueryInitializeEXT(Query, Scenes[Scene.Tlas], Flags | gl_RayFlagsTerminateOnFirstHitEXT, Mask, Origin, 0.0, Direction, MaxDistance);
 	while (rayQueryProceedEXT(Query))
 	{
-#ifdef HAS_MASKED
+		// What is in a box only a material program knows, and these run in pipelines alone.
 		if (rayQueryGetIntersectionTypeEXT(Query, false) != gl_RayQueryCandidateIntersectionTriangleEXT) { continue; }
+#ifdef HAS_MASKED
 		uint Object = rayQueryGetIntersectionInstanceCustomIndexEXT(Query, false);
 		uint SectionIndex = FObjectRef(Scene.Objects).Data[Object].FirstSection + rayQueryGetIntersectionGeometryIndexEXT(Query, false);
 		FSectionData Section = FSectionRef(Scene.Sections).Data[SectionIndex];

@@ -38,7 +38,8 @@ protected:
 		Info.Name = "Quad";
 		for (TRTRef<IRTBuffer>* Buffer : {&Info.Positions, &Info.Attributes, &Info.Indices})
 		{
-			const FRTBufferDesc Desc{1024, ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput, ERTMemory::Device, "Quad"};
+			const FRTBufferDesc Desc{1024, ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput, ERTMemory::Device,
+			                         "Quad"};
 			ASSERT_TRUE(Device->CreateBuffer(Desc, Buffer->ReleaseAndGetAddress()));
 		}
 		Info.VertexCount = 3;
@@ -62,7 +63,10 @@ protected:
 		Wanted.HitPrograms = Sections->GetHitPrograms();
 		Maker->Update(Wanted);
 		Current = Maker->GetCurrent();
-		if (!Current) { return; }
+		if (!Current)
+		{
+			return;
+		}
 		TRTRef<IRTCommandList> List;
 		ASSERT_TRUE(Device->CreateCommandList("Frame", List.ReleaseAndGetAddress()));
 		ASSERT_TRUE(List->Begin());
@@ -73,34 +77,63 @@ protected:
 		ASSERT_TRUE(Device->Submit(Lists, 1, &Fence));
 		Device->Mock().ClearCalls();
 	}
+	/// Each record is good, and has an alpha test where its class has one.
+	void ExpectClasses()
+	{
+		for (size_t Index = 0; Current && Index < Expected.size(); ++Index)
+		{
+			const auto& [Section, Hit] = Expected[Index];
+			for (uint32_t Type = 0; Type < Current->GetRayTypeCount(); ++Type)
+			{
+				FRTInstance Instance{};
+				Instance.TableOffsetAndFlags = Section * Current->GetRayTypeCount();
+				const FRTMockRecord Record =
+				    Device->Mock().ResolveHit(Bindings->GetTable(), Instance, 0, Type, Current->GetRayTypeCount());
+				ASSERT_TRUE(Record.IsGood()) << Record.Error;
+				const bool bAnyHit = Hit.Class == ERTHitClass::Masked && !Current->IsMissing(Hit);
+				ASSERT_EQ(!Record.AnyHit.empty(), bAnyHit);
+			}
+		}
+	}
 	std::string NameOf(FHitProgram Hit, const std::string& Seen) const
 	{
 		// Before there is a stand-in, the standard program serves.
-		if (Current->IsStandIn(Hit)) { return Seen.ends_with(" (StandIn)") ? " (StandIn)" : ""; }
+		if (Current->IsStandIn(Hit))
+		{
+			return Seen.ends_with(" (StandIn)") ? " (StandIn)" : "";
+		}
 		return Hit.Program == StandardProgram ? "" : " (" + Programs->Get(Hit.Program).Name + ")";
 	}
 	/// Each record runs its own program, or the stand-in of its class, or, where it is to be left out, nothing.
 	void ExpectRecords()
 	{
-		if (!Current) { return; }
+		if (!Current)
+		{
+			return;
+		}
 		for (const auto& [Section, Hit] : Expected)
 		{
 			for (uint32_t Type = 0; Type < Current->GetRayTypeCount(); ++Type)
 			{
 				FRTInstance Instance{};
 				Instance.TableOffsetAndFlags = Section * Current->GetRayTypeCount();
-				const FRTMockRecord Record = Device->Mock().ResolveHit(Bindings->GetTable(), Instance, 0, Type, Current->GetRayTypeCount());
+				const FRTMockRecord Record =
+				    Device->Mock().ResolveHit(Bindings->GetTable(), Instance, 0, Type, Current->GetRayTypeCount());
 				ASSERT_TRUE(Record.IsGood()) << Record.Error;
 				const bool bRuns = !Current->IsMissing(Hit);
 				const bool bMasked = Hit.Class == ERTHitClass::Masked;
 				ASSERT_EQ(Record.ClosestHit, bRuns && Type == 1 ? "MATERIAL.hit" + NameOf(Hit, Record.ClosestHit) : "");
-				ASSERT_EQ(Record.AnyHit, bRuns && bMasked ? (Type == 1 ? "MATERIAL.any" : "SHADOW.any") + NameOf(Hit, Record.AnyHit) : "");
+				ASSERT_EQ(Record.AnyHit, bRuns && bMasked
+				                             ? (Type == 1 ? "MATERIAL.any" : "SHADOW.any") + NameOf(Hit, Record.AnyHit)
+				                             : "");
 			}
 		}
 	}
 	uint32_t Count(ERTHitState State) const
 	{
-		return static_cast<uint32_t>(std::count_if(Expected.begin(), Expected.end(), [&](const auto& Entry) { return Current->GetState(Entry.second) == State; }));
+		return static_cast<uint32_t>(std::count_if(Expected.begin(), Expected.end(),
+		                                           [&](const auto& Entry)
+		                                           { return Current->GetState(Entry.second) == State; }));
 	}
 
 	std::unique_ptr<FRTScene> Scene;
@@ -130,17 +163,20 @@ TEST_F(FPipelineStressTest, TwoHundredMaterialsArriveAndSomeAreNeverReady)
 			Never += bNever;
 			Broken += bBroken;
 			const std::string Name = (bNever ? "Never" : bBroken ? "Broken" : "P") + std::to_string(Added);
-			const uint32_t Program = Programs->Add({.Name = Name, .Text = bBroken ? "float Value() { return wrong; }\n" : MakeText(int(Added))});
+			const uint32_t Program = Programs->Add(
+			    {.Name = Name, .Text = bBroken ? "float Value() { return wrong; }\n" : MakeText(int(Added))});
 			AddSection(Program, Random() % 3 == 0);
 		}
 		ASSERT_NO_FATAL_FAILURE(Frame());
 		ASSERT_NO_FATAL_FAILURE(ExpectRecords()) << "frame " << Index;
 		std::this_thread::sleep_for(std::chrono::milliseconds(2));
 	}
-	Until([&] {
-		Frame();
-		return Current && Count(ERTHitState::Ready) == Added - Broken - Never;
-	});
+	Until(
+	    [&]
+	    {
+		    Frame();
+		    return Current && Count(ERTHitState::Ready) == Added - Broken - Never;
+	    });
 	ASSERT_NO_FATAL_FAILURE(ExpectRecords());
 	EXPECT_EQ(Count(ERTHitState::StandIn), Broken + Never);
 	EXPECT_EQ(Log.Count(ERTLogLevel::Error), Broken) << "each is told once";
@@ -150,12 +186,17 @@ TEST_F(FPipelineStressTest, TwoHundredMaterialsArriveAndSomeAreNeverReady)
 TEST_F(FPipelineStressTest, SlowCompilesAreSeenByNoFrame)
 {
 	AddSection(StandardProgram, false);
-	Until([&] {
-		Frame();
-		return Current != nullptr;
-	});
+	Until(
+	    [&]
+	    {
+		    Frame();
+		    return Current != nullptr;
+	    });
 	Device->Mock().SlowCompile("Slow", 500);
-	for (int I = 0; I < 4; ++I) { AddSection(Programs->Add({.Name = "Slow" + std::to_string(I), .Text = MakeText(I)}), I % 2 == 0); }
+	for (int I = 0; I < 4; ++I)
+	{
+		AddSection(Programs->Add({.Name = "Slow" + std::to_string(I), .Text = MakeText(I)}), I % 2 == 0);
+	}
 	int Frames = 0;
 	while (Count(ERTHitState::Ready) < Expected.size() && Frames < 100'000)
 	{
@@ -172,7 +213,8 @@ TEST_F(FPipelineStressTest, EverythingIsToggledInEveryFrame)
 {
 	std::mt19937 Random(7);
 	const auto Below = [&](size_t Limit) { return static_cast<uint32_t>(Random() % Limit); };
-	const auto Toggle = [&](const char* Name, std::vector<const char*> Values) { Set(Name, Values[Below(Values.size())]); };
+	const auto Toggle = [&](const char* Name, std::vector<const char*> Values)
+	{ Set(Name, Values[Below(Values.size())]); };
 	const FRTPSODesc Both = Wanted;
 	for (int Index = 0; Index < 300; ++Index)
 	{
@@ -182,12 +224,27 @@ TEST_F(FPipelineStressTest, EverythingIsToggledInEveryFrame)
 		Toggle("r.RT.Pipeline.Fallback", {"0", "1"});
 		Toggle("r.RT.Pipeline.KeepFrames", {"1", "20"});
 		Toggle("r.RT.SBT.Mode", {"0", "1"});
-		if (Below(4) == 0) { AddSection(Programs->Add({.Name = "P" + std::to_string(Index), .Text = MakeText(Index)}), Below(2)); }
-		if (Below(6) == 0) { Programs->Edit(Below(Programs->GetCount()), {.Name = "E" + std::to_string(Index), .Text = MakeText(Index)}); }
+		if (Below(4) == 0)
+		{
+			AddSection(Programs->Add({.Name = "P" + std::to_string(Index), .Text = MakeText(Index)}), Below(2));
+		}
+		if (Below(6) == 0)
+		{
+			Programs->Edit(Below(Programs->GetCount()), {.Name = "E" + std::to_string(Index), .Text = MakeText(Index)});
+		}
 		Wanted = Both;
-		if (Below(8) == 0) { Wanted.RayTypes.pop_back(); }
-		if (Below(8) == 0) { Wanted.RayGens[0].Defines.emplace_back("V", "1"); }
-		if (Below(10) == 0) { Maker->Reload(); }
+		if (Below(8) == 0)
+		{
+			Wanted.RayTypes.pop_back();
+		}
+		if (Below(8) == 0)
+		{
+			Wanted.RayGens[0].Defines.emplace_back("V", "1");
+		}
+		if (Below(10) == 0)
+		{
+			Maker->Reload();
+		}
 		if (Below(30) == 0)
 		{
 			Wanted.HitPrograms = Sections->GetHitPrograms();
@@ -195,25 +252,15 @@ TEST_F(FPipelineStressTest, EverythingIsToggledInEveryFrame)
 			ASSERT_TRUE(Status) << Status.Message;
 		}
 		ASSERT_NO_FATAL_FAILURE(Frame());
-		if (!Current) { continue; }
-		for (const auto& [Section, Hit] : Expected)
-		{
-			for (uint32_t Type = 0; Type < Current->GetRayTypeCount(); ++Type)
-			{
-				FRTInstance Instance{};
-				Instance.TableOffsetAndFlags = Section * Current->GetRayTypeCount();
-				const FRTMockRecord Record = Device->Mock().ResolveHit(Bindings->GetTable(), Instance, 0, Type, Current->GetRayTypeCount());
-				ASSERT_TRUE(Record.IsGood()) << Record.Error << ", frame " << Index;
-				const bool bAnyHit = Hit.Class == ERTHitClass::Masked && !Current->IsMissing(Hit);
-				ASSERT_EQ(!Record.AnyHit.empty(), bAnyHit) << "frame " << Index;
-			}
-		}
+		ASSERT_NO_FATAL_FAILURE(ExpectClasses()) << "frame " << Index;
 	}
 	Wanted = Both;
-	Until([&] {
-		Frame();
-		return Current && Count(ERTHitState::Ready) == Expected.size() && Current->GetRayTypeCount() == 2;
-	});
+	Until(
+	    [&]
+	    {
+		    Frame();
+		    return Current && Count(ERTHitState::Ready) == Expected.size() && Current->GetRayTypeCount() == 2;
+	    });
 }
 
 TEST_F(FPipelineStressTest, EndInTheMiddleOfACompileIsClean)
@@ -221,7 +268,10 @@ TEST_F(FPipelineStressTest, EndInTheMiddleOfACompileIsClean)
 	for (const char* Part : {"Slow", "RTPSO"})
 	{
 		Device->Mock().SlowCompile(Part, 30);
-		for (int I = 0; I < 20; ++I) { AddProgram("Slow" + std::to_string(I)); }
+		for (int I = 0; I < 20; ++I)
+		{
+			AddProgram("Slow" + std::to_string(I));
+		}
 		Maker->Update(Wanted);
 		WaitFor([&] { return !Device->GetAsked().empty(); });
 		Maker = std::make_unique<FRTPSOCompiler>(*Device, *Compiler, *Programs);
@@ -233,16 +283,22 @@ TEST_F(FPipelineStressTest, EndInTheMiddleOfACompileIsClean)
 TEST_F(FPipelineStressTest, LostDeviceEndsCompilingAndNothingElse)
 {
 	UntilIdle();
-	for (int I = 0; I < 20; ++I) { AddProgram("P" + std::to_string(I)); }
+	for (int I = 0; I < 20; ++I)
+	{
+		AddProgram("P" + std::to_string(I));
+	}
 	Device->Close("P1");
 	Maker->Update(Wanted);
-	WaitFor([&] { return Device->CountAsked("P1 MATERIAL opaque") > 0 || Device->CountAsked("P10 MATERIAL opaque") > 0; });
+	WaitFor([&]
+	        { return Device->CountAsked("P1 MATERIAL opaque") > 0 || Device->CountAsked("P10 MATERIAL opaque") > 0; });
 	Device->Mock().LoseDevice();
 	Device->Open();
-	WaitFor([&] {
-		Maker->Update(Wanted);
-		return Maker->Finish(Wanted).Code == ERTResult::DeviceLost;
-	});
+	WaitFor(
+	    [&]
+	    {
+		    Maker->Update(Wanted);
+		    return Maker->Finish(Wanted).Code == ERTResult::DeviceLost;
+	    });
 	EXPECT_TRUE(Maker->GetCurrent());
 }
 

@@ -84,19 +84,37 @@ public:
 	const FRTCapabilities& GetCapabilities() const override { return Inner->GetCapabilities(); }
 	FRTStatus CreateBuffer(const FRTBufferDesc& D, IRTBuffer** O) override { return Inner->CreateBuffer(D, O); }
 	FRTStatus CreateTexture(const FRTTextureDesc& D, IRTTexture** O) override { return Inner->CreateTexture(D, O); }
-	FRTStatus ImportTexture(const FRTTextureDesc& D, uint64_t N, IRTTexture** O) override { return Inner->ImportTexture(D, N, O); }
+	FRTStatus ImportTexture(const FRTTextureDesc& D, uint64_t N, IRTTexture** O) override
+	{
+		return Inner->ImportTexture(D, N, O);
+	}
 	FRTStatus CreateSampler(const FRTSamplerDesc& D, IRTSampler** O) override { return Inner->CreateSampler(D, O); }
-	FRTStatus CreateComputePipeline(const FRTComputePipelineDesc& D, IRTPipeline** O) override { return Inner->CreateComputePipeline(D, O); }
-	FRTStatus CreateRasterPipeline(const FRTRasterPipelineDesc& D, IRTPipeline** O) override { return Inner->CreateRasterPipeline(D, O); }
+	FRTStatus CreateComputePipeline(const FRTComputePipelineDesc& D, IRTPipeline** O) override
+	{
+		return Inner->CreateComputePipeline(D, O);
+	}
+	FRTStatus CreateRasterPipeline(const FRTRasterPipelineDesc& D, IRTPipeline** O) override
+	{
+		return Inner->CreateRasterPipeline(D, O);
+	}
 	FRTStatus CreateGeometry(const FRTGeometryDesc& D, IRTGeometry** O) override { return Inner->CreateGeometry(D, O); }
 	FRTBuildSizes GetGeometrySizes(const FRTGeometryDesc& D) override { return Inner->GetGeometrySizes(D); }
 	FRTStatus CreateScene(const FRTSceneDesc& D, IRTScene** O) override { return Inner->CreateScene(D, O); }
-	FRTStatus CreateShaderTable(const FRTShaderTableDesc& D, IRTShaderTable** O) override { return Inner->CreateShaderTable(D, O); }
-	FRTStatus CreateQueryPool(ERTQuery K, uint32_t C, IRTQueryPool** O) override { return Inner->CreateQueryPool(K, C, O); }
+	FRTStatus CreateShaderTable(const FRTShaderTableDesc& D, IRTShaderTable** O) override
+	{
+		return Inner->CreateShaderTable(D, O);
+	}
+	FRTStatus CreateQueryPool(ERTQuery K, uint32_t C, IRTQueryPool** O) override
+	{
+		return Inner->CreateQueryPool(K, C, O);
+	}
 	FRTStatus CreateCommandList(const char* N, IRTCommandList** O) override { return Inner->CreateCommandList(N, O); }
 	FRTStatus ImportCommandList(uint64_t N, IRTCommandList** O) override { return Inner->ImportCommandList(N, O); }
 	FRTStatus Submit(IRTCommandList* const* L, uint32_t C, FRTFence* O) override { return Inner->Submit(L, C, O); }
-	FRTStatus NotifyExternalSubmit(IRTCommandList* const* L, uint32_t C, FRTFence* O) override { return Inner->NotifyExternalSubmit(L, C, O); }
+	FRTStatus NotifyExternalSubmit(IRTCommandList* const* L, uint32_t C, FRTFence* O) override
+	{
+		return Inner->NotifyExternalSubmit(L, C, O);
+	}
 	FRTFence GetCompletedFence() override { return Inner->GetCompletedFence(); }
 	FRTStatus WaitFor(FRTFence F, uint64_t T) override { return Inner->WaitFor(F, T); }
 	FRTStatus WaitIdle() override { return Inner->WaitIdle(); }
@@ -121,7 +139,10 @@ protected:
 	void SetUp() override
 	{
 		FConsoleVariables::Get().ResetAll();
-		for (const char* Name : {"/Materials", "/Rays"}) { std::filesystem::create_directory(Folder.GetPath() + Name); }
+		for (const char* Name : {"/Materials", "/Rays"})
+		{
+			std::filesystem::create_directory(Folder.GetPath() + Name);
+		}
 		Folder.Write("Materials/Material.glsl", "float Value() { return 0.0; }\n");
 		Set("r.RT.Pipeline.Threads", "2");
 		Set("r.RT.Pipeline.RoundMs", "600000"); // rounds end when they are done
@@ -180,7 +201,8 @@ protected:
 	/// A program of its own text, wanted from now on.
 	uint32_t AddProgram(const std::string& Name, ERTHitClass Class = ERTHitClass::Opaque)
 	{
-		const uint32_t Program = Programs->Add({.Name = Name, .Text = MakeText(static_cast<int>(Programs->GetCount()))});
+		const uint32_t Program =
+		    Programs->Add({.Name = Name, .Text = MakeText(static_cast<int>(Programs->GetCount()))});
 		Wanted.HitPrograms.push_back({Program, Class});
 		return Program;
 	}
@@ -281,7 +303,13 @@ protected:
 	std::vector<TRTRef<IRTShaderTable>> Tables;
 };
 
-constexpr FHitProgram Opaque(uint32_t Program) { return {Program, ERTHitClass::Opaque}; }
-constexpr FHitProgram Masked(uint32_t Program) { return {Program, ERTHitClass::Masked}; }
+constexpr FHitProgram Opaque(uint32_t Program)
+{
+	return {Program, ERTHitClass::Opaque};
+}
+constexpr FHitProgram Masked(uint32_t Program)
+{
+	return {Program, ERTHitClass::Masked};
+}
 
 } // namespace Lantern

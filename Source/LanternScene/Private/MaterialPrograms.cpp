@@ -10,7 +10,10 @@ namespace
 constexpr const char* MaterialHeader = "Materials/Material.glsl";
 }
 
-FMaterialPrograms::FMaterialPrograms() { Add({.Name = StandardProgramName}); }
+FMaterialPrograms::FMaterialPrograms()
+{
+	Add({.Name = StandardProgramName});
+}
 
 uint32_t FMaterialPrograms::Add(FMaterialProgramDesc Desc)
 {
@@ -22,7 +25,10 @@ uint32_t FMaterialPrograms::FindOrAdd(FMaterialProgramDesc Desc)
 {
 	for (uint32_t Program = 0; Program < GetCount(); ++Program)
 	{
-		if (Get(Program) == Desc) { return Program; }
+		if (Get(Program) == Desc)
+		{
+			return Program;
+		}
 	}
 	return Add(std::move(Desc));
 }
@@ -31,7 +37,10 @@ void FMaterialPrograms::Edit(uint32_t Program, FMaterialProgramDesc Desc)
 {
 	assert(Program < GetCount());
 	FEntry& Entry = Entries[Program];
-	if (*Entry.Desc == Desc) { return; }
+	if (*Entry.Desc == Desc)
+	{
+		return;
+	}
 	Entry.Desc = std::make_shared<const FMaterialProgramDesc>(std::move(Desc));
 	++Entry.Revision;
 	++Edits;
@@ -39,7 +48,10 @@ void FMaterialPrograms::Edit(uint32_t Program, FMaterialProgramDesc Desc)
 
 FShaderSource FMaterialPrograms::MakeSource(FShaderSource Shader, const FMaterialProgramDesc& Program)
 {
-	if (Program.Name != StandardProgramName) { Shader.Name = (Shader.Name.empty() ? Shader.Path : Shader.Name) + " (" + Program.Name + ")"; }
+	if (Program.Name != StandardProgramName)
+	{
+		Shader.Name = (Shader.Name.empty() ? Shader.Path : Shader.Name) + " (" + Program.Name + ")";
+	}
 	if (!Program.Text.empty())
 	{
 		const std::string Name = Program.Path.empty() ? "Materials/" + Program.Name + ".glsl" : Program.Path;

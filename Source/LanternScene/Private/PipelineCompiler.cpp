@@ -13,17 +13,30 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<bool> CVarLibraries("r.RT.Pipeline.Libraries", true,
-                                       "Each shader group is a pipeline library of its own, where the device has them. Off: a link compiles everything anew.");
-TRTConsoleVariable<int32_t> CVarThreads("r.RT.Pipeline.Threads", 0, "Threads that compile pipelines. 0: one less than the machine has, at least one.", {0, 256});
-TRTConsoleVariable<int32_t> CVarRoundMs("r.RT.Pipeline.RoundMs", 100, "Milliseconds after which what is compiled is linked, though more is waiting.", {1, 1e6});
-TRTConsoleVariable<int32_t> CVarFallback("r.RT.Pipeline.Fallback", 1,
-                                         "Objects whose shaders are not compiled yet. 0: left out. 1: drawn with the standard material. 2: the frame waits.", {0, 2});
-TRTConsoleVariable<int32_t> CVarKeepFrames("r.RT.Pipeline.KeepFrames", 1000, "Frames after which compiled shaders that nothing wants are dropped.", {1, 1e6});
-TRTConsoleVariable<float> CVarReloadSeconds("r.RT.Pipeline.ReloadSeconds", 0.0f,
-                                            "Seconds between looks for edited shader files, whose pipelines are then compiled anew. 0: never.", {0, 3600});
+                                       "Each shader group is a pipeline library of its own, where the device has them. "
+                                       "Off: a link compiles everything anew.");
+TRTConsoleVariable<int32_t>
+    CVarThreads("r.RT.Pipeline.Threads", 0,
+                "Threads that compile pipelines. 0: one less than the machine has, at least one.", {0, 256});
+TRTConsoleVariable<int32_t> CVarRoundMs("r.RT.Pipeline.RoundMs", 100,
+                                        "Milliseconds after which what is compiled is linked, though more is waiting.",
+                                        {1, 1e6});
+TRTConsoleVariable<int32_t> CVarFallback(
+    "r.RT.Pipeline.Fallback", 1,
+    "Objects whose shaders are not compiled yet. 0: left out. 1: drawn with the standard material. 2: the frame waits.",
+    {0, 2});
+TRTConsoleVariable<int32_t> CVarKeepFrames("r.RT.Pipeline.KeepFrames", 1000,
+                                           "Frames after which compiled shaders that nothing wants are dropped.",
+                                           {1, 1e6});
+TRTConsoleVariable<float> CVarReloadSeconds(
+    "r.RT.Pipeline.ReloadSeconds", 0.0f,
+    "Seconds between looks for edited shader files, whose pipelines are then compiled anew. 0: never.", {0, 3600});
 } // namespace
 
-ERTFallback GetPipelineFallback() { return static_cast<ERTFallback>(CVarFallback.GetOnRenderThread()); }
+ERTFallback GetPipelineFallback()
+{
+	return static_cast<ERTFallback>(CVarFallback.GetOnRenderThread());
+}
 
 FRTPSOCompiler::FRTPSOCompiler(IRTDevice& Device, FShaderCompiler& Compiler, const FMaterialPrograms& Programs)
     : Impl(std::make_unique<FImpl>(Device, Compiler, Programs))
@@ -33,7 +46,9 @@ FRTPSOCompiler::FRTPSOCompiler(IRTDevice& Device, FShaderCompiler& Compiler, con
 FRTPSOCompiler::~FRTPSOCompiler() = default;
 
 FRTPSOCompiler::FImpl::FImpl(IRTDevice& InDevice, FShaderCompiler& InCompiler, const FMaterialPrograms& InPrograms)
-    : Device(InDevice), Compiler(InCompiler), Programs(InPrograms)
+    : Device(InDevice),
+      Compiler(InCompiler),
+      Programs(InPrograms)
 {
 }
 
@@ -44,10 +59,16 @@ FRTPSOCompiler::FImpl::~FImpl()
 		bStop = true;
 	}
 	WorkAdded.notify_all();
-	for (std::thread& Thread : Threads) { Thread.join(); }
+	for (std::thread& Thread : Threads)
+	{
+		Thread.join();
+	}
 }
 
-bool FRTPSOCompiler::FImpl::AreLibrariesOn() { return CVarLibraries.GetOnRenderThread(); }
+bool FRTPSOCompiler::FImpl::AreLibrariesOn()
+{
+	return CVarLibraries.GetOnRenderThread();
+}
 
 void FRTPSOCompiler::FImpl::StartThreads()
 {
@@ -59,7 +80,10 @@ void FRTPSOCompiler::FImpl::StartThreads()
 		ThreadLimit = Limit;
 		WorkAdded.notify_all();
 	}
-	if (Threads.empty()) { Threads.emplace_back([this] { RunLinker(); }); }
+	if (Threads.empty())
+	{
+		Threads.emplace_back([this] { RunLinker(); });
+	}
 	while (Threads.size() < size_t(Limit) + 1)
 	{
 		const uint32_t Index = static_cast<uint32_t>(Threads.size() - 1);
@@ -69,10 +93,16 @@ void FRTPSOCompiler::FImpl::StartThreads()
 
 void FRTPSOCompiler::FImpl::TakeLink()
 {
-	if (!bLinkDone) { return; }
+	if (!bLinkDone)
+	{
+		return;
+	}
 	bLinkDone = false;
 	bDirty = true; // more may have become ready since
-	if (!LinkStatus) { return; }
+	if (!LinkStatus)
+	{
+		return;
+	}
 	++Stats.Links;
 	RetireCurrent();
 	Current = std::move(Linked);
@@ -86,7 +116,10 @@ void FRTPSOCompiler::FImpl::Begin(const FRTPSODesc& Desc, bool bWait)
 	++Frame;
 	RoundMs = CVarRoundMs.GetOnRenderThread();
 	KeepFrames = CVarKeepFrames.GetOnRenderThread();
-	if (NewPriorities) { Priorities = std::exchange(NewPriorities, std::nullopt).value(); }
+	if (NewPriorities)
+	{
+		Priorities = std::exchange(NewPriorities, std::nullopt).value();
+	}
 	StartThreads();
 	TakeLink();
 	if (const bool bServes = GetPipelineFallback() != ERTFallback::Skip; bServes != bStandardServes)
@@ -109,7 +142,10 @@ void FRTPSOCompiler::Update(const FRTPSODesc& Wanted)
 {
 	// A thread of lower priority may be kept from running while it holds the lock: then this frame goes on without.
 	const std::unique_lock Lock(Impl->Mutex, std::try_to_lock);
-	if (!Lock.owns_lock() || Impl->bLost) { return; }
+	if (!Lock.owns_lock() || Impl->bLost)
+	{
+		return;
+	}
 	Impl->Begin(Wanted, false);
 	Impl->EndRoundIfOver();
 	if (Impl->bDirty)
@@ -129,23 +165,33 @@ void FRTPSOCompiler::Update(const FRTPSODesc& Wanted)
 
 FRTStatus FRTPSOCompiler::FImpl::FindFatalError() const
 {
-	if (bLost) { return LostError; }
+	if (bLost)
+	{
+		return LostError;
+	}
 	for (const FPipelineSlotRef& Slot : Wanted.All)
 	{
 		const bool bFailed = !Slot->Ready && !Slot->Error.IsOk();
 		const bool bShortage = bFailed && Slot->FailedVersion != Slot->GetVersion();
-		if (bFailed && (Slot->bEssential || bShortage)) { return Slot->Error; }
+		if (bFailed && (Slot->bEssential || bShortage))
+		{
+			return Slot->Error;
+		}
 	}
 	return FRTStatus::Success();
 }
 
-FRTStatus FRTPSOCompiler::FImpl::FinishSlots(std::unique_lock<std::mutex>& Lock, const std::function<void(float)>& Progress)
+FRTStatus FRTPSOCompiler::FImpl::FinishSlots(std::unique_lock<std::mutex>& Lock,
+                                             const std::function<void(float)>& Progress)
 {
 	bNoDeadline = true;
 	for (FPipelineSlotRef& Slot : Wanted.All)
 	{
 		Slot->RetryAt = 0;
-		if (Slot->FailedVersion != Slot->GetVersion()) { Slot->Error = FRTStatus::Success(); }
+		if (Slot->FailedVersion != Slot->GetVersion())
+		{
+			Slot->Error = FRTStatus::Success();
+		}
 	}
 	for (;;)
 	{
@@ -174,15 +220,27 @@ FRTStatus FRTPSOCompiler::FImpl::FinishLink(std::unique_lock<std::mutex>& Lock)
 	for (;;)
 	{
 		SomethingDone.wait(Lock, [&] { return (!bLinking && !bLinkWanted) || bLost; });
-		if (bLost) { return LostError; }
+		if (bLost)
+		{
+			return LostError;
+		}
 		TakeLink();
 		const FLinkPlan Plan = MakePlan();
-		if (!Plan.bComplete) { return FRTStatus::Error(ERTResult::CompileFailed, "nothing that could be linked"); }
-		if (Current.Pipeline && Current.Plan.Key == Plan.Key) { return FRTStatus::Success(); }
+		if (!Plan.bComplete)
+		{
+			return FRTStatus::Error(ERTResult::CompileFailed, "nothing that could be linked");
+		}
+		if (Current.Pipeline && Current.Plan.Key == Plan.Key)
+		{
+			return FRTStatus::Success();
+		}
 		if (FailedLink == Plan.Key && !LinkStatus.IsOk())
 		{
 			// A shortage of memory passes: the next call tries again.
-			if (LinkStatus.Code != ERTResult::CompileFailed) { FailedLink.clear(); }
+			if (LinkStatus.Code != ERTResult::CompileFailed)
+			{
+				FailedLink.clear();
+			}
 			return LinkStatus;
 		}
 		StartLink(true);
@@ -192,17 +250,26 @@ FRTStatus FRTPSOCompiler::FImpl::FinishLink(std::unique_lock<std::mutex>& Lock)
 FRTStatus FRTPSOCompiler::Finish(const FRTPSODesc& Wanted, const std::function<void(float)>& Progress)
 {
 	std::unique_lock Lock(Impl->Mutex);
-	if (Impl->bLost) { return Impl->LostError; }
+	if (Impl->bLost)
+	{
+		return Impl->LostError;
+	}
 	Impl->Begin(Wanted, true);
 	// The usual frame: nothing is new.
-	if (!Impl->bDirty && Impl->bFinished) { return FRTStatus::Success(); }
+	if (!Impl->bDirty && Impl->bFinished)
+	{
+		return FRTStatus::Success();
+	}
 	FRTStatus Status = Impl->FinishSlots(Lock, Progress);
 	if (Status && !Impl->AreHitsCompiled() && GetPipelineFallback() != ERTFallback::Skip)
 	{
 		Impl->SetWanted(Wanted, true);
 		Status = Impl->FinishSlots(Lock, Progress);
 	}
-	if (Status) { Status = Impl->FinishLink(Lock); }
+	if (Status)
+	{
+		Status = Impl->FinishLink(Lock);
+	}
 	Impl->bFinished = Status.IsOk();
 	Impl->bDirty = !Status;
 	if (Status && Progress)
@@ -213,9 +280,15 @@ FRTStatus FRTPSOCompiler::Finish(const FRTPSODesc& Wanted, const std::function<v
 	return Status;
 }
 
-std::shared_ptr<const FRTPSO> FRTPSOCompiler::GetCurrent() const { return Impl->Taken; }
+std::shared_ptr<const FRTPSO> FRTPSOCompiler::GetCurrent() const
+{
+	return Impl->Taken;
+}
 
-void FRTPSOCompiler::SetPriorities(std::vector<FProgramPriority> ByProgram) { Impl->NewPriorities = std::move(ByProgram); }
+void FRTPSOCompiler::SetPriorities(std::vector<FProgramPriority> ByProgram)
+{
+	Impl->NewPriorities = std::move(ByProgram);
+}
 
 void FRTPSOCompiler::Reload()
 {
@@ -241,8 +314,12 @@ const FRTPSOCompilerStats& FRTPSOCompiler::GetStats() const
 		Out.Ready += Slot->Ready ? 1 : 0;
 		Out.Failed += !Slot->Ready && Slot->FailedVersion == Slot->GetVersion() ? 1 : 0;
 	}
-	for (const auto& [Key, Slot] : Impl->Slots) { Out.Kept += Slot->Ready ? 1 : 0; }
-	Out.bBusy = Impl->bRound || Impl->Running > 0 || Impl->bLinking || Impl->bLinkWanted || Impl->bLinkDone || Impl->bDirty || Impl->bReload;
+	for (const auto& [Key, Slot] : Impl->Slots)
+	{
+		Out.Kept += Slot->Ready ? 1 : 0;
+	}
+	Out.bBusy = Impl->bRound || Impl->Running > 0 || Impl->bLinking || Impl->bLinkWanted || Impl->bLinkDone ||
+	            Impl->bDirty || Impl->bReload;
 	return Out;
 }
 

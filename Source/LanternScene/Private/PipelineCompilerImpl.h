@@ -33,7 +33,12 @@ struct FPipelineBuild
 };
 using FPipelineBuildRef = std::shared_ptr<const FPipelineBuild>;
 
-enum class ESlotState : uint8_t { Idle, Queued, Compiling };
+enum class ESlotState : uint8_t
+{
+	Idle,
+	Queued,
+	Compiling
+};
 
 /// A unit, whatever its version.
 struct FPipelineSlot
@@ -48,9 +53,9 @@ struct FPipelineSlot
 	FPipelineBuildRef Ready;
 	uint64_t ReadyVersion = 0, FailedVersion = 0; ///< as GetVersion has it; 0: none
 	FRTStatus Error;
-	uint64_t RetryAt = 0;           ///< frame, after a shortage of memory
-	std::string ContentKey;         ///< of the version compiled last
-	uint64_t LastWanted = 0;        ///< frame
+	uint64_t RetryAt = 0;    ///< frame, after a shortage of memory
+	std::string ContentKey;  ///< of the version compiled last
+	uint64_t LastWanted = 0; ///< frame
 	bool bWanted = false;
 
 	uint64_t GetVersion() const { return (Unit.Version << 24) + Reloads + 1; }
@@ -69,8 +74,8 @@ struct FWantedSlots
 {
 	std::vector<FPipelineSlotRef> RayGens, Misses, Callables;
 	std::vector<FHitSlots> Hits;
-	std::vector<FHitSlots> StandIns; ///< Program.Class says which
-	FPipelineSlotRef EmptyCallable;  ///< for callables that do not compile; null without callables
+	std::vector<FHitSlots> StandIns;   ///< Program.Class says which
+	FPipelineSlotRef EmptyCallable;    ///< for callables that do not compile; null without callables
 	std::vector<FPipelineSlotRef> All; ///< each once
 };
 
@@ -88,8 +93,8 @@ struct FLinkPlan
 	std::vector<FHit> Hits, StandIns;
 	uint32_t PayloadBytes = 0;
 	bool bStandardServes = false; ///< see FRTPSOLayout
-	std::vector<uint64_t> Key; ///< equal: the same pipeline
-	bool bComplete = false;    ///< a pipeline can be made of it
+	std::vector<uint64_t> Key;    ///< equal: the same pipeline
+	bool bComplete = false;       ///< a pipeline can be made of it
 };
 
 struct FLinkedPipeline
@@ -120,6 +125,8 @@ struct FRTPSOCompiler::FImpl
 	FHitSlots FindHitSlots(FHitProgram Program);
 	FHitSlots FindStandInSlots(ERTHitClass Class);
 	void CollectWanted();
+	void CollectGeneral();
+	void WantSlot(const FPipelineSlotRef& Slot);
 	static bool AreLibrariesOn();
 	bool NeedsCompile(const FPipelineSlot& Slot) const;
 	bool ComesBefore(const FPipelineSlot& A, const FPipelineSlot& B) const;
@@ -202,8 +209,8 @@ struct FRTPSOCompiler::FImpl
 	bool bLinkExact = false;
 	FRTStatus LinkStatus;
 	std::vector<uint64_t> FailedLink; ///< key of the last link that the driver refused
-	uint64_t RetryFrame = 0; ///< when to look again at what failed for want of memory; 0: nothing did
-	FLinkedPipeline Linked;  ///< where bLinkDone
+	uint64_t RetryFrame = 0;          ///< when to look again at what failed for want of memory; 0: nothing did
+	FLinkedPipeline Linked;           ///< where bLinkDone
 	FLinkedPipeline Current;
 	std::list<FLinkedPipeline> Recent; ///< newest first
 	std::deque<FLinkedPipeline> Old;   ///< the frames in which they were Current may still hold them
@@ -212,8 +219,8 @@ struct FRTPSOCompiler::FImpl
 	std::vector<std::shared_ptr<void>> Trash;
 	bool bReload = false;
 	FPipelineClock::time_point NextReload;
-	bool bFinished = false;  ///< Current is all that the last Finish could make of WantedDesc
-	uint64_t DoneCount = 0;  ///< compiles and links that ended
+	bool bFinished = false; ///< Current is all that the last Finish could make of WantedDesc
+	uint64_t DoneCount = 0; ///< compiles and links that ended
 
 	/// Shaders that several units of a round share are compiled once.
 	struct FSharedShader

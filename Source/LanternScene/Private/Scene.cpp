@@ -231,6 +231,9 @@ const FSceneFacts& FRTScene::RefreshFacts()
 	Facts.Lights = static_cast<uint32_t>(Lights.size());
 	Facts.EmissiveTriangles = EmissiveTriangles.Num();
 	Facts.bMasked = Sections.GetMaskedRangeCount() > 0;
+	Facts.bOwnShapes = std::any_of(Sections.GetHitPrograms().begin(), Sections.GetHitPrograms().end(), [](FHitProgram Program) {
+		return Program.Class == ERTHitClass::Procedural || (Program.Class == ERTHitClass::Masked && Program.Program != StandardProgram);
+	});
 	Facts.bEmissive = Sections.GetEmissiveRangeCount() > 0;
 	Facts.bSun = Sun.Irradiance > 0.0f;
 	Facts.bSky = glm::any(glm::greaterThan(Sky, glm::vec3(0)));

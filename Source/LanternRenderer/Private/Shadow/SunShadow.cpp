@@ -47,6 +47,8 @@ ESunShadowPath ChooseSunShadowPath(const FRTCapabilities& Capabilities, const FS
 	if (Wanted == 2 && Capabilities.bRayQuery) { return ESunShadowPath::Query; }
 	if (Wanted == 1) { LogOnce(ERTLogLevel::Warning, "r.RT.Shadow.Path=1: this device has no ray-tracing pipelines; ray queries are used"); }
 	if (Wanted == 2) { LogOnce(ERTLogLevel::Warning, "r.RT.Shadow.Path=2: this device has no ray queries; the ray-tracing pipeline is used"); }
+	// Inline rays know the standard program alone.
+	if (Facts.bOwnShapes && Capabilities.bRayTracingPipeline) { return ESunShadowPath::Pipeline; }
 	// Measured on lavapipe: inline rays are 10–20 % faster for a payload this small; NVIDIA's driver here has pipelines only.
 	if (Capabilities.bRayQuery) { return ESunShadowPath::Query; }
 	if (Capabilities.bRayTracingPipeline) { return ESunShadowPath::Pipeline; }

@@ -6,7 +6,7 @@
 // and may include "Materials/Standard.glsl" and build on its EvaluateStandard. Further, with these macros defined:
 //   MATERIAL_STANDARD_OPACITY  Opacity is the standard's: the alpha test under rays reads no more than that needs
 //   MATERIAL_HAS_ALPHA_TEST    its own test: bool IsHitCutAway(FMaterialRef, FSectionData, uint Primitive, vec2 Barycentrics)
-// Without either, the alpha test evaluates the whole program. Lights are sampled by the standard's emission: a program
+// Without either, the alpha test evaluates the whole program. Inline ray queries know the standard program alone. Lights are sampled by the standard's emission: a program
 // leaves it as it is on materials that emit.
 #pragma once
 
@@ -67,10 +67,13 @@ public:
 	/// Stays as it is when the program is edited. For other threads.
 	const std::shared_ptr<const FMaterialProgramDesc>& Share(uint32_t Program) const { return Entries[Program].Desc; }
 	uint32_t GetRevision(uint32_t Program) const { return Entries[Program].Revision; } ///< changes with each Edit
-	uint64_t GetEdits() const { return Edits; } ///< of all programs so far
+	uint64_t GetEdits() const { return Edits; }                                        ///< of all programs so far
 
 	/// Shader with Program for its material: "Materials/Material.glsl" is the program's text.
-	FShaderSource MakeSource(FShaderSource Shader, uint32_t Program) const { return MakeSource(std::move(Shader), Get(Program)); }
+	FShaderSource MakeSource(FShaderSource Shader, uint32_t Program) const
+	{
+		return MakeSource(std::move(Shader), Get(Program));
+	}
 	static FShaderSource MakeSource(FShaderSource Shader, const FMaterialProgramDesc& Program);
 
 private:

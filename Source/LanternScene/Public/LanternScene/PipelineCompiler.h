@@ -40,12 +40,12 @@ struct FProgramPriority
 
 struct FRTPSOCompilerStats
 {
-	uint32_t Wanted = 0;  ///< shader groups that the last Update or Finish asked for
-	uint32_t Ready = 0;   ///< of them, compiled
-	uint32_t Failed = 0;  ///< of them, with errors and nothing older to use
-	uint32_t Kept = 0;    ///< compiled groups in memory, wanted or not
+	uint32_t Wanted = 0; ///< shader groups that the last Update or Finish asked for
+	uint32_t Ready = 0;  ///< of them, compiled
+	uint32_t Failed = 0; ///< of them, with errors and nothing older to use
+	uint32_t Kept = 0;   ///< compiled groups in memory, wanted or not
 	uint64_t Rounds = 0, Links = 0, Compiled = 0, Failures = 0, Dropped = 0; ///< since creation
-	double GlslangMs = 0.0, DriverMs = 0.0; ///< summed over threads, links left out
+	double GlslangMs = 0.0, DriverMs = 0.0;                                  ///< summed over threads, links left out
 	double LastLinkMs = 0.0;
 	bool bBusy = false; ///< something is being compiled, linked, or is waiting for it
 };

@@ -35,6 +35,8 @@ struct FSceneFacts
 	uint32_t Lights = 0;
 	uint32_t EmissiveTriangles = 0;
 	bool bMasked = false; ///< some object has an alpha-tested material (and r.RT.AlphaTest is on)
+	/// Some surface's shape only its material program knows: boxes, or an alpha test that is not the standard one.
+	bool bOwnShapes = false;
 	bool bEmissive = false;
 	bool bSun = false;
 	bool bSky = false;
