@@ -4,9 +4,11 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <unordered_map>
 
 #include "LanternCore/Tasks.h"
 #include "OpacityFootprint.h"
+#include "OpacityFootprintKey.h"
 
 namespace Lantern
 {
@@ -198,15 +200,32 @@ void ClassifyTriangles(const FAlphaTest& Test, const FVertexAttributes* Vertices
                        std::span<EOpacity> Out)
 {
 	assert(Indices.size() == 3 * Out.size());
-	ParallelFor(Out.size(), TrianglesPerTask,
+	std::unordered_map<FFootprintKey, uint32_t, FFootprintHash> Known;
+	std::vector<uint32_t> Footprints(Out.size()), First;
+	for (uint32_t T = 0; T < Out.size(); ++T)
+	{
+		const FFootprintKey Key = MakeFootprintKey(Test, Vertices, &Indices[3 * size_t(T)]);
+		const auto [It, bNew] = Known.try_emplace(Key, static_cast<uint32_t>(First.size()));
+		if (bNew)
+		{
+			First.push_back(T);
+		}
+		Footprints[T] = It->second;
+	}
+	std::vector<EOpacity> Classes(First.size());
+	ParallelFor(First.size(), TrianglesPerTask,
 	            [&](size_t Begin, size_t End)
 	            {
-		            for (size_t T = Begin; T < End; ++T)
+		            for (size_t I = Begin; I < End; ++I)
 		            {
-			            const uint32_t* const I = &Indices[3 * T];
-			            Out[T] = ClassifyTriangle(Test, Vertices[I[0]], Vertices[I[1]], Vertices[I[2]]);
+			            const uint32_t* const C = &Indices[3 * size_t(First[I])];
+			            Classes[I] = ClassifyTriangle(Test, Vertices[C[0]], Vertices[C[1]], Vertices[C[2]]);
 		            }
 	            });
+	for (size_t T = 0; T < Out.size(); ++T)
+	{
+		Out[T] = Classes[Footprints[T]];
+	}
 }
 
 FOpacityCounts ReorderByOpacity(std::span<uint32_t> Indices, std::span<const EOpacity> Classes)

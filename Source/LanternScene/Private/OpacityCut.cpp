@@ -1,14 +1,13 @@
 // Which triangles are cut into how many pieces. Cards of foliage share their texture coordinates by the thousand, so that
 // ways to cut are found for each distinct footprint once; what a piece more is worth is one price for all triangles.
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <unordered_map>
 #include <utility>
 
 #include "LanternCore/Tasks.h"
 #include "LanternScene/OpacityPieces.h"
+#include "OpacityFootprintKey.h"
 
 namespace Lantern
 {
@@ -16,46 +15,11 @@ namespace Lantern
 namespace
 {
 // A third of a millisecond each. What is worth least stays whole …
-constexpr size_t MaxFootprints = 1024;
+constexpr size_t MaxFootprints = 512;
 // … and what is worth most deserves a finer grid, which takes four times as long.
-constexpr size_t FineFootprints = 128;
+constexpr size_t FineFootprints = 64;
 constexpr double WorthwhileShare = 0.98; // of the area of all triangles
 constexpr int PriceSteps = 40;
-
-struct FFootprintKey
-{
-	const FAlphaTest* Test;
-	std::array<uint32_t, 9> Words; // coordinates and colours of the corners
-	friend bool operator==(const FFootprintKey&, const FFootprintKey&) = default;
-};
-
-struct FFootprintHash
-{
-	size_t operator()(const FFootprintKey& Key) const
-	{
-		uint64_t Hash = std::bit_cast<uintptr_t>(Key.Test);
-		for (const uint32_t Word : Key.Words)
-		{
-			Hash = (Hash ^ Word) * 0x9e3779b97f4a7c15ull;
-			Hash ^= Hash >> 29;
-		}
-		return Hash;
-	}
-};
-
-FFootprintKey MakeKey(const FPieceSource& Source, const uint32_t* Corners)
-{
-	FFootprintKey Key{Source.Test, {}};
-	for (int I = 0; I < 3; ++I)
-	{
-		const FVertexAttributes& Vertex = Source.Vertices[Corners[I]];
-		const glm::vec2 UV = Source.Test->bUV1 ? Vertex.UV1 : Vertex.UV0;
-		Key.Words[3 * I] = std::bit_cast<uint32_t>(UV.x);
-		Key.Words[3 * I + 1] = std::bit_cast<uint32_t>(UV.y);
-		Key.Words[3 * I + 2] = Vertex.Color >> 24;
-	}
-	return Key;
-}
 
 struct FFootprint
 {
@@ -102,8 +66,8 @@ public:
 			for (size_t T = 0; T < S.Indices.size() / 3; ++T)
 			{
 				const uint32_t* const Corners = &S.Indices[3 * T];
-				const auto [It, bNew] =
-				    Known.try_emplace(MakeKey(S, Corners), static_cast<uint32_t>(Footprints.size()));
+				const auto [It, bNew] = Known.try_emplace(MakeFootprintKey(*S.Test, S.Vertices, Corners),
+				                                          static_cast<uint32_t>(Footprints.size()));
 				if (bNew)
 				{
 					Footprints.push_back({Source, T, 0.0, {}});
