@@ -1,5 +1,5 @@
 // EngineFork: an engine that loads Lantern by its Plugin.json, on a VkDevice of its own, and checks every pixel of the
-// shadow mask that it gets against the closed form. A user's first example, and a test.
+// shadow mask that it gets against the closed form, and that ambient occlusion is about where it must be. A user's first example, and a test.
 //
 // Exit status: 0 done, 1 a check did not hold, 2 wrong usage, 3 no usable driver or device.
 #include <chrono>
@@ -24,6 +24,8 @@ namespace
 {
 
 constexpr VkExtent2D FrameSize{320, 180};
+constexpr uint32_t PixelCount = FrameSize.width * FrameSize.height;
+constexpr VkDeviceSize MaskBytes = PixelCount * 2; ///< of each that is read back: halves
 constexpr int FrameCount = 3; ///< the later ones find everything built
 constexpr int MostFramesUntilComplete = 20'000;
 
@@ -109,6 +111,25 @@ FVerdict Judge(const FForkScene& Scene, const uint16_t* Mask)
 	return Verdict;
 }
 
+/// The boxes occlude the floor about them, and little else. What the filter makes of it has no closed form here: Lantern's
+/// own tests know better.
+FError JudgeOcclusion(const uint16_t* Visibility)
+{
+	uint32_t Open = 0;
+	for (uint32_t Pixel = 0; Pixel < PixelCount; ++Pixel)
+	{
+		const float Found = glm::unpackHalf1x16(Visibility[Pixel]);
+		if (!(Found >= 0.0f && Found <= 1.01f))
+		{
+			return "ambient occlusion is " + std::to_string(Found) + " somewhere";
+		}
+		Open += Found > 0.95f;
+	}
+	const uint32_t Occluded = PixelCount - Open;
+	std::printf("ambient occlusion: %u open, %u occluded\n", Open, Occluded);
+	return Open > PixelCount / 2 && Occluded > PixelCount / 500 ? FError() : "ambient occlusion is not where it must be";
+}
+
 bool WritePicture(const std::string& Path, const uint16_t* Mask)
 {
 	std::FILE* File = std::fopen(Path.c_str(), "wb");
@@ -117,58 +138,26 @@ bool WritePicture(const std::string& Path, const uint16_t* Mask)
 		return false;
 	}
 	std::fprintf(File, "P5\n%u %u\n255\n", FrameSize.width, FrameSize.height);
-	for (uint32_t Pixel = 0; Pixel < FrameSize.width * FrameSize.height; ++Pixel)
+	for (uint32_t Pixel = 0; Pixel < PixelCount; ++Pixel)
 	{
 		std::fputc(static_cast<int>(glm::unpackHalf1x16(Mask[Pixel]) * 255.0f + 0.5f), File);
 	}
 	return std::fclose(File) == 0;
 }
 
-/// The plugin leaves the mask readable by shaders; the engine copies it and puts it back as it was.
-void CopyMask(VkCommandBuffer Commands, IRTTexture& Mask, const FForkBuffer& Readback)
+/// The plugin leaves its outputs readable by shaders; the engine copies them and puts them back as they were.
+void CopyMask(VkCommandBuffer Commands, IRTTexture& Mask, const FForkBuffer& Readback, VkDeviceSize Offset)
 {
 	const auto Image = reinterpret_cast<VkImage>(Mask.GetNative(ERTNative::Image));
 	Transition(Commands, Image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
 	           VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
 	VkBufferImageCopy Region{};
+	Region.bufferOffset = Offset;
 	Region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
 	Region.imageExtent = {FrameSize.width, FrameSize.height, 1};
 	vkCmdCopyImageToBuffer(Commands, Image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, Readback.Buffer, 1, &Region);
 	Transition(Commands, Image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
 	           VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-}
-
-/// One frame of the engine: its own raster, the plugin's shadows, a copy to where the CPU can look.
-FError RunFrame(FForkDevice& Device, const FForkRaster& Raster, FPluginScene& Plugin, const FForkScene& Scene,
-                const FForkBuffer& Readback, bool& bOutHasMask)
-{
-	FError Error = Device.BeginCommands();
-	if (!Error.empty())
-	{
-		return Error;
-	}
-	Raster.Draw(Device.Commands, Scene);
-	IRTTexture* Mask = nullptr;
-	Error = Plugin.Render(Device.Commands, Scene.Camera, Mask);
-	bOutHasMask = Mask != nullptr;
-	if (Error.empty() && bOutHasMask && Mask->GetDesc().Format != ERTFormat::R16_FLOAT)
-	{
-		Error = "the mask has another format than this engine reads";
-	}
-	if (!Error.empty())
-	{
-		return Error;
-	}
-	if (bOutHasMask)
-	{
-		CopyMask(Device.Commands, *Mask, Readback);
-	}
-	Error = Device.Submit();
-	if (Error.empty())
-	{
-		Error = Plugin.FinishFrame();
-	}
-	return Error.empty() ? Device.WaitForSubmit() : Error;
 }
 
 /// What the checks look at.
@@ -180,6 +169,44 @@ struct FStage
 	const FForkBuffer& Readback;
 };
 
+/// One frame of the engine: its own raster, the plugin's signals, a copy to where the CPU can look.
+FError RunFrame(FStage& Stage, const FForkScene& Scene, bool bCut, bool& bOutHasMask)
+{
+	auto& [Device, Plugin, Raster, Readback] = Stage;
+	FError Error = Device.BeginCommands();
+	if (!Error.empty())
+	{
+		return Error;
+	}
+	Raster.Draw(Device.Commands, Scene);
+	FRTModuleOutputs Outputs;
+	Error = Plugin.Render(Device.Commands, Scene.Camera, bCut, Outputs);
+	if (!Error.empty())
+	{
+		return Error;
+	}
+	VkDeviceSize Offset = 0;
+	bOutHasMask = Outputs.SunShadow != nullptr && Outputs.AmbientOcclusion != nullptr;
+	for (IRTTexture* Mask : {Outputs.SunShadow, Outputs.AmbientOcclusion})
+	{
+		if (Mask != nullptr && Mask->GetDesc().Format != ERTFormat::R16_FLOAT)
+		{
+			return "an output has another format than this engine reads";
+		}
+		if (Mask != nullptr)
+		{
+			CopyMask(Device.Commands, *Mask, Readback, Offset);
+		}
+		Offset += MaskBytes;
+	}
+	Error = Device.Submit();
+	if (Error.empty())
+	{
+		Error = Plugin.FinishFrame();
+	}
+	return Error.empty() ? Device.WaitForSubmit() : Error;
+}
+
 /// Some frames of the scene as it is now, then every pixel of the last mask against the truth.
 FError CheckScene(FStage& Stage, const FForkScene& Scene, const char* What)
 {
@@ -188,7 +215,7 @@ FError CheckScene(FStage& Stage, const FForkScene& Scene, const char* What)
 	// The plugin waits for nothing: its first frames may be without shadows.
 	for (int Frame = 0; Error.empty() && Frame < MostFramesUntilComplete; ++Frame)
 	{
-		Error = RunFrame(Stage.Device, Stage.Raster, Stage.Plugin, Scene, Stage.Readback, bHasMask);
+		Error = RunFrame(Stage, Scene, Frame == 0, bHasMask); // boxes have jumped since the scene before
 		if (Stage.Plugin.IsComplete())
 		{
 			break;
@@ -197,11 +224,16 @@ FError CheckScene(FStage& Stage, const FForkScene& Scene, const char* What)
 	}
 	for (int Frame = 0; Error.empty() && Frame < FrameCount; ++Frame)
 	{
-		Error = RunFrame(Stage.Device, Stage.Raster, Stage.Plugin, Scene, Stage.Readback, bHasMask);
+		Error = RunFrame(Stage, Scene, false, bHasMask);
 	}
 	if (!Error.empty() || !bHasMask)
 	{
-		return Error.empty() ? "the plugin gave no shadow mask" : Error;
+		return Error.empty() ? "the plugin gave no shadow mask, or no ambient occlusion" : Error;
+	}
+	Error = JudgeOcclusion(static_cast<const uint16_t*>(Stage.Readback.Mapped) + PixelCount);
+	if (!Error.empty())
+	{
+		return Error;
 	}
 	const FVerdict Verdict = Judge(Scene, static_cast<const uint16_t*>(Stage.Readback.Mapped));
 	std::printf("%s: %u lit, %u shadowed, %u sky, %u near an edge; wrong: %u\n", What, Verdict.Lit, Verdict.Shadowed,
@@ -264,7 +296,7 @@ int RenderAndCheck(FForkDevice& Device, FPluginScene& Plugin, const FOptions& Op
 	FError Error = Raster.Create(Device, FrameSize);
 	if (Error.empty())
 	{
-		Error = Readback.Create(Device, FrameSize.width * FrameSize.height * 2, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+		Error = Readback.Create(Device, 2 * MaskBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
 	}
 	if (Error.empty())
 	{

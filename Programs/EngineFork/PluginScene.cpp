@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace Fork
 {
@@ -181,9 +182,9 @@ void FPluginScene::ReleaseGBuffer()
 	Device->CollectGarbage(); // the views of the images go now, not some time later
 }
 
-FError FPluginScene::Render(VkCommandBuffer Commands, const FCamera& Camera, IRTTexture*& OutMask)
+FError FPluginScene::Render(VkCommandBuffer Commands, const FCamera& Camera, bool bCut, FRTModuleOutputs& Out)
 {
-	OutMask = nullptr;
+	Out = {};
 	const uint64_t Native = reinterpret_cast<uint64_t>(Commands);
 	FError Error = ToError(Device->ImportCommandList(Native, List.ReleaseAndGetAddress()), "ImportCommandList");
 	if (!Error.empty())
@@ -202,10 +203,13 @@ FError FPluginScene::Render(VkCommandBuffer Commands, const FCamera& Camera, IRT
 	}
 	Frame.View.FovY = static_cast<float>(Camera.FovY);
 	Frame.View.Near = static_cast<float>(Camera.Near);
-	FRTModuleOutputs Outputs;
-	Error = ToError(Renderer->RenderFrame(Frame, &Outputs), "RenderFrame");
-	OutMask = Outputs.SunShadow;
-	bComplete = Outputs.bComplete;
+	const auto Now = std::chrono::steady_clock::now();
+	const std::chrono::duration<float> Since = Now - std::exchange(LastFrame, Now);
+	Frame.DeltaSeconds = std::clamp(Since.count(), 1e-4f, 1.0f); // the first frame has none before it
+	Frame.bCut = bCut;
+	Frame.Wanted.bAmbientOcclusion = true;
+	Error = ToError(Renderer->RenderFrame(Frame, &Out), "RenderFrame");
+	bComplete = Out.bComplete;
 	return Error;
 }
 

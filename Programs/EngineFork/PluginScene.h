@@ -1,6 +1,7 @@
 // The plugin at work in the engine: its device, its renderer, the engine's boxes in it, one frame after another.
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -31,9 +32,9 @@ public:
 	FError SetBox(size_t Box, const FBox& To);
 	FError ImportGBuffer(const FForkRaster& Raster, VkExtent2D Size);
 	void ReleaseGBuffer(); ///< before the raster's images go
-	/// Records the plugin's work; Commands is recording and the G-buffer is in it. OutMask: null when the plugin has
-	/// nothing to show yet.
-	FError Render(VkCommandBuffer Commands, const FCamera& Camera, Lantern::IRTTexture*& OutMask);
+	/// Records the plugin's work; Commands is recording and the G-buffer is in it. bCut: nothing is as it was in the frame
+	/// before. Out: null textures where the plugin has nothing to show yet.
+	FError Render(VkCommandBuffer Commands, const FCamera& Camera, bool bCut, Lantern::FRTModuleOutputs& Out);
 	/// After the commands were submitted.
 	FError FinishFrame();
 	/// The last frame had all its shaders and acceleration structures.
@@ -52,6 +53,7 @@ private:
 	std::vector<Lantern::ERTObjectHandle> Boxes;
 	Lantern::TRTRef<Lantern::IRTTexture> Depth, Normals;
 	Lantern::TRTRef<Lantern::IRTCommandList> List;
+	std::chrono::steady_clock::time_point LastFrame{};
 	bool bComplete = false;
 };
 

@@ -78,6 +78,8 @@ public:
 		Case.Name = Scene.Name + (bPipeline ? "/pipeline" : "/query") + (bSoft ? "/soft16" : "/hard");
 		Set("r.RT.Shadow.Path", bPipeline ? "1" : "2");
 		Set("r.RT.Shadow.Soft", bSoft ? "1" : "0");
+		Set("r.RT.Shadow.Denoise", "0"); // what is compared is what the rays saw
+		Set("r.RT.AO", "0");
 		Set("r.RT.Shadow.Samples", bSoft ? std::to_string(SoftSamples) : "1");
 		return RunBoth(Case, [&](FImage& Out) { return RenderShadow(Out); });
 	}
@@ -105,11 +107,11 @@ private:
 	{
 		FSampleEngine& Engine = Session.GetEngine();
 		FFrameCapture Capture;
-		Capture.bSunShadow = true;
+		Capture.Wants(ESignal::SunShadow) = true;
 		FCapturedFrame Frame;
 		Engine.SetFrameIndex(CountedFrame);
 		const FRTStatus Status = Engine.RenderFrame(View, 0.0, Capture, &Frame);
-		Out = std::move(Frame.SunShadow);
+		Out = std::move(Frame.Get(ESignal::SunShadow));
 		return Status;
 	}
 

@@ -245,6 +245,7 @@ FRTStatus FRayBench::Measure(bool bPipeline, FRayCase& Out)
 		Set(Name, "1");
 	}
 	Set("r.RT.Shadow.CullFrontFaces", "0");
+	Set("r.RT.Shadow.Denoise", "0");
 	Set("r.RT.Shadow.Path", bPipeline ? "1" : "2");
 	double Ms = 0.0;
 	// The scene's hit records are those of this path only once a frame has taken it.

@@ -13,10 +13,13 @@
 #include "BenchGather.h"
 #include "BenchPipelines.h"
 #include "BenchTables.h"
+#include "ChartCommand.h"
 #include "CompareCommand.h"
 #include "InfoCommand.h"
 #include "LanternCore/Log.h"
+#include "LanternHost/Signals.h"
 #include "RenderCommand.h"
+#include "StabilityCommand.h"
 
 namespace
 {
@@ -36,6 +39,8 @@ public:
 		AddInfo();
 		AddCvars();
 		AddBench();
+		AddChart();
+		AddStability();
 	}
 	int Run(int ArgumentCount, char** Arguments);
 
@@ -46,6 +51,8 @@ private:
 	void AddInfo();
 	void AddCvars();
 	void AddBench();
+	void AddChart();
+	void AddStability();
 
 	CLI::App App{"Lantern: ray tracing for engines with a UE4.26-style RHI", "lantern"};
 	int Status = ExitDone;
@@ -62,6 +69,8 @@ private:
 	FBenchTablesOptions BenchTables;
 	FBenchGatherOptions BenchGather;
 	FBenchPipelinesOptions BenchPipelines;
+	FChartOptions Chart;
+	FStabilityOptions Stability;
 };
 
 void FCommandLine::AddRender()
@@ -82,6 +91,10 @@ void FCommandLine::AddReference()
 	Reference.Picture.AddTo(*Command);
 	Command->add_option("--spp", Reference.Samples, "Samples per pixel")->check(CLI::Range(1, 1 << 24));
 	Command->add_option("--bounces", Reference.Bounces, "Scattering events, at most")->check(CLI::Range(0, 1 << 16));
+	Command->add_option("--signal", Reference.Signal, "One signal instead of the whole frame: sun_shadow, ambient_occlusion, diffuse_gi, reflections")->check([](const std::string& Text) {
+		return FindSignal(Text) ? std::string() : "'" + Text + "' is none of sun_shadow, ambient_occlusion, diffuse_gi, reflections, frame";
+	});
+	Command->add_flag("--pixel-centers", Reference.bPixelCenters, "Camera rays through pixel centres, as real-time passes shade them; no antialiasing");
 	Command->add_flag("--resume", Reference.bResume, "Keep the sums in OUT.state, and go on from there");
 	Command->add_option("--save-every", Reference.SaveSeconds, "With --resume: seconds after which the sums are kept")->check(CLI::Range(0.0, 1e6));
 	Command->final_callback([this] { Status = RunReference(Reference); });
@@ -137,6 +150,20 @@ void FCommandLine::AddBench()
 	CLI::App* const Pipelines = Command->add_subcommand("rtpso", "Pipelines made whole and from libraries, and what frames notice of it");
 	BenchPipelines.AddTo(*Pipelines);
 	Pipelines->final_callback([this] { Status = RunBenchPipelines(BenchPipelines); });
+}
+
+void FCommandLine::AddStability()
+{
+	CLI::App* const Command = App.add_subcommand("stability", "Where methods fail: cases with limits, each with a planted fault under which it must fail");
+	Stability.AddTo(*Command);
+	Command->final_callback([this] { Status = RunStability(Stability); });
+}
+
+void FCommandLine::AddChart()
+{
+	CLI::App* const Command = App.add_subcommand("chart", "Error against time of all methods, as one page");
+	Chart.AddTo(*Command);
+	Command->final_callback([this] { Status = RunChart(Chart); });
 }
 
 int FCommandLine::Run(int ArgumentCount, char** Arguments)

@@ -171,6 +171,7 @@ int RunRender(const FRenderOptions& Options)
 	if (const int Status = Session.OpenDevice(Options.Device); Status != ExitDone) { return Session.Close(Status); }
 	if (const int Status = Session.LoadScene(Options.Picture); Status != ExitDone) { return Session.Close(Status); }
 	Session.GetEngine().GetRenderer().SetGraphDump(Options.bDumpGraph);
+	Session.GetEngine().bPresent = true; // what accumulates over frames needs them all, and their times are what is reported
 	FCapturedFrame Frame;
 	FFigures Figures;
 	FProgressLine Compiling;
@@ -211,6 +212,8 @@ int RunReference(const FReferenceOptions& Options)
 	Settings.Time = Options.Picture.Time;
 	Settings.Samples = Options.Samples;
 	Settings.Bounces = Options.Bounces;
+	Settings.Signal = FindSignal(Options.Signal).value_or(ESignal::Frame);
+	Settings.bPixelCenters = Options.bPixelCenters;
 	Settings.StateFile = Options.bResume ? Options.Picture.Output + ".state" : "";
 	Settings.bResume = Options.bResume;
 	Settings.StateSeconds = Options.SaveSeconds;

@@ -21,6 +21,8 @@ struct FReferenceOptions
 	FPictureOptions Picture;
 	uint32_t Samples = 256;
 	uint32_t Bounces = 64;
+	std::string Signal = "frame"; ///< as FindSignal knows it
+	bool bPixelCenters = false;
 	bool bResume = false;
 	double SaveSeconds = 20.0;
 };

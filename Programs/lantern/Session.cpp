@@ -211,6 +211,7 @@ void FSession::ApplyLight(const FPictureOptions& Options, const FSceneDescriptio
 
 FView FSession::MakeView(const FPictureOptions& Options) const
 {
+	Engine->SeekTo(Options.Time); // a camera may be animated
 	FView View = Engine->GetScene().MakeDefaultView(Options.Width, Options.Height);
 	if (Options.Camera)
 	{

@@ -2,6 +2,9 @@
 #define MATERIAL_IMPLICIT_LOD
 #include "../Shared/GBufferTypes.h"
 #include "../Materials/Material.glsl"
+#ifdef MOTION
+#include "../Library/Motion.glsl"
+#endif
 
 layout(push_constant, scalar) uniform FPush { FGBufferConstants Push; };
 
@@ -12,11 +15,17 @@ layout(location = 3) in vec4 InUV;
 layout(location = 4) in vec4 InColor;
 layout(location = 5) flat in uint InObject;
 layout(location = 6) flat in uint InSection;
+#ifdef MOTION
+layout(location = 7) in vec3 InPreviousRelative;
+#endif
 
 layout(location = 0) out vec4 OutNormals;   // shading and geometric normal, octahedral
 layout(location = 1) out vec4 OutBaseColor; // a: metallic
 layout(location = 2) out vec4 OutMaterial;  // roughness, occlusion, sqrt(F0), specular
 layout(location = 3) out vec4 OutEmissive;
+#ifdef MOTION
+layout(location = 4) out vec4 OutMotion; // see FGBuffer::Motion
+#endif
 
 void main()
 {
@@ -43,4 +52,7 @@ void main()
 	OutBaseColor = vec4(Surface.BaseColor, Surface.Metallic);
 	OutMaterial = vec4(Surface.Roughness, Surface.Occlusion, sqrt(Surface.F0), Surface.Specular);
 	OutEmissive = vec4(Surface.Emissive, 0.0);
+#ifdef MOTION
+	OutMotion = vec4(MotionOf(FViewRef(Push.Pass.View).Data, InRelative, InPreviousRelative), float(InObject + 1u));
+#endif
 }

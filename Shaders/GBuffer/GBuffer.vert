@@ -11,6 +11,28 @@ layout(location = 3) out vec4 OutUV;
 layout(location = 4) out vec4 OutColor;
 layout(location = 5) flat out uint OutObject;
 layout(location = 6) flat out uint OutSection;
+#ifdef MOTION
+layout(location = 7) out vec3 OutPreviousRelative; // to the previous camera
+#endif
+
+// The sum of the large, which nearly cancel out near the camera, comes first.
+vec3 MakeRelative(vec4 ObjectToWorld[3], ivec3 Cell, vec3 Position, ivec3 OriginCell, vec3 Camera)
+{
+	vec3 Translation = vec3(ObjectToWorld[0].w, ObjectToWorld[1].w, ObjectToWorld[2].w);
+	vec3 Place = vec3(Cell - OriginCell) * CELL_SIZE - Camera + Translation;
+	return Place + vec3(dot(ObjectToWorld[0].xyz, Position), dot(ObjectToWorld[1].xyz, Position), dot(ObjectToWorld[2].xyz, Position));
+}
+
+#ifdef MOTION
+vec3 MakePreviousRelative(FSceneConstants Scene, FViewConstants View, FObjectData Object, vec3 Position, vec3 Relative)
+{
+	if (View.bHistory == 0u) { return Relative; }
+	if (Object.Motion == NO_MOTION) { return Relative + View.CameraMotion; }
+	FObjectMotion Motion = FObjectMotionRef(Scene.ObjectMotions).Data[Object.Motion];
+	if (Motion.PreviousPositions != 0ul) { Position = FPositionRef(Motion.PreviousPositions).Data[gl_VertexIndex]; }
+	return MakeRelative(Motion.PreviousObjectToWorld, Motion.PreviousCell, Position, Scene.OriginCell, View.CameraPosition) + View.CameraMotion;
+}
+#endif
 
 void main()
 {
@@ -19,13 +41,12 @@ void main()
 	FObjectData Object = FObjectRef(Scene.Objects).Data[OutObject];
 	OutSection = Object.FirstSection + Push.Section;
 	FSectionData Section = FSectionRef(Scene.Sections).Data[OutSection];
-	vec4 Position = vec4(FPositionRef(Section.Positions).Data[gl_VertexIndex], 1.0);
+	vec3 Position = FPositionRef(Section.Positions).Data[gl_VertexIndex];
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	FMaterialInputs Inputs = InputsFromVertex(FAttributeRef(Section.Attributes).Data[gl_VertexIndex], Section.Flags);
 
 	mat3 Linear = transpose(mat3(Object.ObjectToWorld[0].xyz, Object.ObjectToWorld[1].xyz, Object.ObjectToWorld[2].xyz));
-	vec3 InCell = vec3(dot(Object.ObjectToWorld[0], Position), dot(Object.ObjectToWorld[1], Position), dot(Object.ObjectToWorld[2], Position));
-	vec3 CellCenter = vec3(Object.Cell - Scene.OriginCell) * CELL_SIZE;
-	OutRelative = InCell + (CellCenter - FViewRef(Push.Pass.View).Data.CameraPosition);
+	OutRelative = MakeRelative(Object.ObjectToWorld, Object.Cell, Position, Scene.OriginCell, View.CameraPosition);
 	// Cofactors: the inverse transpose up to a positive factor, times the determinant's sign.
 	mat3 Cofactors = mat3(cross(Linear[1], Linear[2]), cross(Linear[2], Linear[0]), cross(Linear[0], Linear[1]));
 	// A mirror turns cross products around: the normal keeps the object's outside, the bitangent its direction.
@@ -34,5 +55,8 @@ void main()
 	OutTangent = vec4(Linear * Inputs.Tangent.xyz, Inputs.Tangent.w * Handedness);
 	OutUV = vec4(Inputs.UV0, Inputs.UV1);
 	OutColor = Inputs.Color;
-	gl_Position = FViewRef(Push.Pass.View).Data.RelativeToClip * vec4(OutRelative, 1.0);
+	gl_Position = View.RelativeToClip * vec4(OutRelative, 1.0);
+#ifdef MOTION
+	OutPreviousRelative = MakePreviousRelative(Scene, View, Object, Position, OutRelative);
+#endif
 }

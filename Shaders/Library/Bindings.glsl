@@ -19,6 +19,7 @@ layout(set = 0, binding = 2) uniform sampler Samplers[];
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FSceneRef { FSceneConstants Data; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FViewRef { FViewConstants Data; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FObjectRef { FObjectData Data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FObjectMotionRef { FObjectMotion Data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FSectionRef { FSectionData Data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FMaterialRef { FMaterialData Data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FLightRef { FLightData Data[]; };

@@ -12,6 +12,7 @@ struct FBrdf
 	float Alpha;    // roughness²
 	float F0;       // of the dielectric
 	float Specular; // weight of the dielectric's layer
+	float Diffuse;  // weight of the base below it: 1; 0: the specular lobe alone
 };
 
 // Below this a lobe is a delta: fp32 cannot resolve it, and a mirror is not a very smooth rough surface.
@@ -34,7 +35,22 @@ vec3 SpecularFresnel(FBrdf B, float VdotH)
 	return mix(vec3(DielectricFresnel(B, VdotH)), Metal, B.Metallic);
 }
 
-vec3 DiffuseAlbedo(FBrdf B) { return B.BaseColor * (1.0 - B.Metallic); }
+vec3 DiffuseAlbedo(FBrdf B) { return B.BaseColor * ((1.0 - B.Metallic) * B.Diffuse); }
+
+// A white Lambert: what it reflects is irradiance / π.
+FBrdf MakeWhiteLambert() { return FBrdf(vec3(1.0), 0.0, 1.0, 0.0, 0.0, 1.0); }
+FBrdf MakeSpecularLobe(FBrdf B)
+{
+	B.Diffuse = 0.0;
+	return B;
+}
+
+// A shading normal that faces away from the viewer is bent back to grazing.
+vec3 BendNormal(vec3 N, vec3 V)
+{
+	float NdotV = dot(N, V);
+	return NdotV < 1.0e-3 ? normalize(N + V * (1.0e-3 - NdotV)) : N;
+}
 
 float GgxDistribution(float NdotH, float Alpha)
 {
@@ -119,16 +135,26 @@ float BrdfDensity(FBrdf B, vec3 V, vec3 L)
 	return Density;
 }
 
-// What the surface reflects of a uniform sky. The specular part by the fit of Karis 2014 ("Physically Based Shading
-// on Mobile") to the split-sum integral; F90 is the specular weight for dielectrics and 1 for metals.
-vec3 DirectionalAlbedo(FBrdf B, float NdotV, float Roughness)
+// Means over what arrives at a surface from everywhere alike; for what is known of light as one number.
+//
+// Of the base layer: what it reflects of irradiance / π. Its part is the mean of 1 − F(V·H) over a cosine-weighted
+// hemisphere of L; the mean of (1 − V·H)⁵ is a function of n·v alone, fitted by a cubic (largest error 7e-5).
+vec3 DiffuseReflectance(FBrdf B, float NdotV)
+{
+	float Weight = ((-0.025707 * NdotV + 0.075238) * NdotV - 0.077609) * NdotV + 0.02809;
+	return DiffuseAlbedo(B) * (1.0 - B.Specular * mix(B.F0, 1.0, Weight));
+}
+
+// Of the specular lobe, by the fit of Karis 2014 ("Physically Based Shading on Mobile") to the split-sum integral; F90 is
+// the specular weight for dielectrics and 1 for metals.
+vec3 SpecularReflectance(FBrdf B, float NdotV, float Roughness)
 {
 	vec4 R = Roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
 	float A004 = min(R.x * R.x, exp2(-9.28 * NdotV)) * R.x + R.y;
 	vec2 ScaleBias = vec2(-1.04, 1.04) * A004 + R.zw;
 	float Dielectric = B.Specular * (B.F0 * ScaleBias.x + ScaleBias.y);
 	vec3 Metal = B.BaseColor * ScaleBias.x + ScaleBias.y;
-	return DiffuseAlbedo(B) * (1.0 - Dielectric) + mix(vec3(Dielectric), Metal, B.Metallic);
+	return mix(vec3(Dielectric), Metal, B.Metallic);
 }
 
 struct FBrdfSample

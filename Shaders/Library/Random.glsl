@@ -77,4 +77,23 @@ vec2 SobolOwen2(uint Index, uint Seed)
 	return vec2(uvec2(X, Y) >> 8u) * (1.0 / 16777216.0);
 }
 
+// One sequence for 8×8 pixels, which they share in Z order, so that what a filter gathers from neighbours completes itself as
+// the points of one pixel do (Ahmed & Wonka 2020, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via
+// Hierarchical Ordering of Pixels"). Exclusive or keeps aligned blocks together: those of pixels in one frame, and those of
+// frames in one pixel.
+struct FTileSequence
+{
+	uint Index; // of this pixel's points in this frame, in units of the points that it takes
+	uint Seed;
+};
+
+FTileSequence MakeTileSequence(uvec2 Pixel, uint FrameIndex, uint SeedHash)
+{
+	uvec2 P = Pixel & 7u;
+	P = (P | (P << 2u)) & 0x13u; // bits 0 and 1, and 2 at 4
+	P = (P | (P << 1u)) & 0x15u;
+	uvec2 Tile = Pixel >> 3u;
+	return FTileSequence(FrameIndex ^ (P.x | (P.y << 1u)), HashPcg(Tile.x + HashPcg(Tile.y + SeedHash)));
+}
+
 #endif

@@ -33,13 +33,13 @@ void ShadePixel(uvec2 Pixel)
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	vec3 Ng = OctDecode(texelFetch(Textures[Push.Normals], ivec2(Pixel), 0).zw);
 	vec3 Relative = RelativePositionFromDepth(View, Pixel, Depth);
-	vec3 Origin = OffsetRayOrigin(View.CameraPosition + Relative, Ng, length(Relative) * 4.0);
+	vec3 Origin = OffsetRasterPoint(View.CameraPosition + Relative, Ng, length(Relative));
 	float Visible = 0.0;
-	uint Seed = HashPcg(Pixel.x + HashPcg(Pixel.y + HashPcg(View.Seed)));
+	FTileSequence Sequence = MakeTileSequence(Pixel, View.FrameIndex, HashPcg(View.Seed));
 	for (uint Sample = 0; Sample < SamplesPerPixel; ++Sample)
 	{
 		vec3 Direction = -Scene.SunDirection;
-		if (Push.bSoft != 0u) { Direction = SampleSunDirection(Scene, SobolOwen2(View.FrameIndex * SamplesPerPixel + Sample, Seed)); }
+		if (Push.bSoft != 0u) { Direction = SampleSunDirection(Scene, SobolOwen2(Sequence.Index * SamplesPerPixel + Sample, Sequence.Seed)); }
 		if (dot(Ng, Direction) > 0.0 && TraceSun(Origin, Direction)) { Visible += 1.0; }
 	}
 	imageStore(Images[Push.Output], ivec2(Pixel), vec4(Visible / float(SamplesPerPixel)));

@@ -23,10 +23,11 @@ struct FSkinItem
 	FAddress Joints;  // mat4[]
 	FAddress Positions;
 	FAddress Attributes;
+	FAddress PreviousPositions; // gets what Positions held; 0: nobody wants it
 	uint VertexCount;
 	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FSkinItem, 56);
+LANTERN_ASSERT_SIZE(FSkinItem, 64);
 
 struct FSkinConstants
 {

@@ -12,9 +12,11 @@ struct FLightingConstants
 	FPassConstants Pass;
 	uint Depth, Normals, BaseColor, Material, Emissive; // sampled indices
 	uint SunShadow;                                     // sampled index, or NO_TEXTURE: unshadowed
+	uint AmbientOcclusion;                              // sampled index, or NO_TEXTURE: unoccluded
+	uint DiffuseGI, Reflections;                        // sampled indices, or NO_TEXTURE: the sky's ambient light stands in
 	uint Output;                                        // storage index
 };
-LANTERN_ASSERT_SIZE(FLightingConstants, 48);
+LANTERN_ASSERT_SIZE(FLightingConstants, 56);
 
 struct FToneMapConstants
 {

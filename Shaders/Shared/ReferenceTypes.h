@@ -13,8 +13,13 @@ struct FReferenceConstants
 	uint SampleCount; // of this dispatch
 	uint MaxBounces;
 	uint FirstRow; // a dispatch renders a band of rows, so that none runs for seconds
+	uint bPixelCenters; // all camera rays through the pixel's centre
+	float OcclusionRadius; // metres
+	uint OcclusionMask;    // of objects that occlude
+	uint Depth, Normals, BaseColor, Material; // sampled indices, where the raster's surfaces are taken
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FReferenceConstants, 40);
+LANTERN_ASSERT_SIZE(FReferenceConstants, 72);
 
 LANTERN_SHARED_END
 

@@ -93,8 +93,21 @@ struct FObjectData
 	uint FirstSection;     // into FSectionData[]
 	uint Flags;            // OBJECT_…
 	ivec3 Cell;            // of the world; its centre is (Cell − FSceneConstants::OriginCell) · CELL_SIZE
+	uint Motion;           // into FObjectMotion[], or NO_MOTION
 };
-LANTERN_ASSERT_SIZE(FObjectData, 68);
+LANTERN_ASSERT_SIZE(FObjectData, 72);
+
+#define NO_MOTION 0xffffffffu // the object was where it is, and as it is, in the frame before
+
+// Where an object was in the frame before.
+struct FObjectMotion
+{
+	vec4 PreviousObjectToWorld[3]; // as FObjectData::ObjectToWorld …
+	ivec3 PreviousCell;            // … and Cell
+	uint Pad0;
+	FAddress PreviousPositions; // float3[], what the vertices of a deformed geometry were; 0: as they are now
+};
+LANTERN_ASSERT_SIZE(FObjectMotion, 72);
 
 // Bits of an object's mask by convention; rays name those that they want to see.
 #define MASK_VISIBLE 1u      // camera, reflection and GI rays
@@ -156,8 +169,9 @@ struct FSceneConstants
 	uint Pad0;
 	FAddress AnyHitCounter; // of alpha tests under rays, where they count (r.RT.Opacity.Count)
 	FAddress StandInHits;   // uint[], by material: rays that hit its stand-in; 0: nobody counts
+	FAddress ObjectMotions; // FObjectMotion[]; 0: nothing moved
 };
-LANTERN_ASSERT_SIZE(FSceneConstants, 136);
+LANTERN_ASSERT_SIZE(FSceneConstants, 144);
 
 // A camera. Positions are relative to the scene's origin.
 struct FViewConstants
@@ -175,8 +189,16 @@ struct FViewConstants
 	uint Height;
 	uint Seed;
 	float Exposure; // factor, not stops
+	// The frame before, for what is carried over from it. A point's position relative to its camera is the position
+	// relative to this one, plus CameraMotion.
+	mat4 PreviousRelativeToClip;
+	vec3 CameraMotion; // from the previous camera's position to this one's, metres
+	float PreviousNear;
+	vec3 PreviousForward; // unit length
+	float DeltaSeconds; // since that frame
+	uint bHistory; // 0: nothing may be carried over (first frame, cut, another size); the members above are this frame's
 };
-LANTERN_ASSERT_SIZE(FViewConstants, 144);
+LANTERN_ASSERT_SIZE(FViewConstants, 244);
 
 // First push constants of every pass; a pass's own follow.
 struct FPassConstants

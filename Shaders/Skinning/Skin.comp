@@ -1,4 +1,4 @@
-// Linear blend skinning into buffers of the object's own (glTF 2.0, 3.7.3.3).
+// Linear blend skinning into buffers of the object's own (glTF 2.0, 3.7.3.3). What they held goes to PreviousPositions.
 #version 460
 #include "../Shared/GBufferTypes.h"
 #include "../Library/Bindings.glsl"
@@ -9,7 +9,7 @@ layout(push_constant, scalar) uniform FPush { FSkinConstants Push; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FSkinItemRef { FSkinItem Data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FSkinVertexRef { FSkinVertex Data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FJointRef { mat4 Data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer FPositionOut { vec3 Data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FPositionInOut { vec3 Data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer FAttributeOut { FVertexAttributes Data[]; };
 
 void main()
@@ -21,7 +21,9 @@ void main()
 	FJointRef Joints = FJointRef(Item.Joints);
 	mat4 M = Joints.Data[Skin.Joints01 & 0xffffu] * Skin.Weights.x + Joints.Data[Skin.Joints01 >> 16] * Skin.Weights.y +
 	         Joints.Data[Skin.Joints23 & 0xffffu] * Skin.Weights.z + Joints.Data[Skin.Joints23 >> 16] * Skin.Weights.w;
-	FPositionOut(Item.Positions).Data[Vertex] = (M * vec4(FPositionRef(Item.SourcePositions).Data[Vertex], 1.0)).xyz;
+	FPositionInOut Positions = FPositionInOut(Item.Positions);
+	if (Item.PreviousPositions != 0ul) { FPositionInOut(Item.PreviousPositions).Data[Vertex] = Positions.Data[Vertex]; }
+	Positions.Data[Vertex] = (M * vec4(FPositionRef(Item.SourcePositions).Data[Vertex], 1.0)).xyz;
 
 	FVertexAttributes A = FAttributeRef(Item.SourceAttributes).Data[Vertex];
 	mat3 L = mat3(M);

@@ -146,6 +146,8 @@ void FRenderTest::SetUp()
 {
 	ASSERT_OK(GetWorld().Open());
 	FConsoleVariables::Get().ResetAll();
+	// Pictures are of one frame, or means of several that know nothing of each other.
+	SetVariable("r.RT.Shadow.Denoise", "0");
 }
 
 void FRenderTest::TearDown()
@@ -255,16 +257,16 @@ FImage FRenderTest::RenderSunShadow(const FView& View, uint32_t Count, uint32_t 
 	{
 		FCapturedFrame Frame;
 		FFrameCapture Capture;
-		Capture.bSunShadow = true;
+		Capture.Wants(ESignal::SunShadow) = true;
 		EXPECT_OK(GetEngine().RenderFrame(View, Time, Capture, &Frame));
-		EXPECT_EQ(Frame.SunShadow.Pixels.size(), Sum.Pixels.size()) << "the frame has no sun shadows";
-		if (Frame.SunShadow.Pixels.size() != Sum.Pixels.size())
+		EXPECT_EQ(Frame.Get(ESignal::SunShadow).Pixels.size(), Sum.Pixels.size()) << "the frame has no sun shadows";
+		if (Frame.Get(ESignal::SunShadow).Pixels.size() != Sum.Pixels.size())
 		{
 			return Sum;
 		}
 		for (size_t P = 0; P < Sum.Pixels.size(); ++P)
 		{
-			Sum.Pixels[P] += Frame.SunShadow.Pixels[P] / static_cast<float>(Count);
+			Sum.Pixels[P] += Frame.Get(ESignal::SunShadow).Pixels[P] / static_cast<float>(Count);
 		}
 	}
 	return Sum;

@@ -161,12 +161,13 @@ TEST_F(FSunShadowTest, SamplesFollowFrameAndSeed)
 	EXPECT_GT(FractionDiffering(First, RenderSunShadow(View, 1, 6), 0.0), 0.02);
 	View.Seed = 1;
 	EXPECT_GT(FractionDiffering(First, RenderSunShadow(View, 1, 5), 0.0), 0.02);
-	// Successive frames complete each other: 64 frames of one ray are about as good as one frame of 64.
+	// Successive frames complete each other: 64 frames of one ray are about as good as one frame of 64. Pixels of a tile
+	// have taken the same 64 points by then, so that a column's mean is of four sets, not of 32.
 	View.Seed = 0;
 	const std::vector<double> Curve = MakeColumnMeans(RenderSunShadow(View, 64));
 	for (uint32_t X = 0; X < 64; ++X)
 	{
-		EXPECT_NEAR(Curve[X], DiskFraction((X + 0.5 - 32.0) / 4.0), 0.02) << X;
+		EXPECT_NEAR(Curve[X], DiskFraction((X + 0.5 - 32.0) / 4.0), 0.035) << X;
 	}
 }
 

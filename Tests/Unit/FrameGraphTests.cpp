@@ -323,5 +323,57 @@ TEST_F(FrameGraphTest, TwoGraphsCompiledAtOnceDoNotShare)
 	EXPECT_NE(First, Second);
 }
 
+/// Two outputs, one of them only for who reads it.
+TEST_F(FrameGraphTest, OutputsThatNobodyReadsAreNotMade)
+{
+	for (const bool bRead : {false, true})
+	{
+		MakeDevice();
+		FFrameGraph Graph(*Resources);
+		const FGraphTexture Color = MakeTexture(Graph, "Color"), Motion = MakeTexture(Graph, "Motion");
+		const FGraphTexture Unread = MakeTexture(Graph, "Unread");
+		const FGraphTexture Result = ImportTexture(Graph, "Result", ERTAccess::None, ERTAccess::ShaderRead);
+		bool bMade = false;
+		Graph.AddPass("Raster",
+		              [&](FPassBuilder& Builder)
+		              {
+			              Builder.Write(Color, ERTAccess::RenderTarget);
+			              Builder.WriteIfRead(Motion, ERTAccess::RenderTarget);
+			              return [&bMade, Motion](FPassContext& C) { bMade = C.GetTexture(Motion) != nullptr; };
+		              });
+		AddPass(Graph, "Nobody", {{Motion, ERTAccess::ShaderRead}}, {{Unread, Storage}}); // culled, and does not count
+		std::vector<FTestUse> Reads = {{Color, ERTAccess::ShaderRead}};
+		if (bRead) { Reads.push_back({Motion, ERTAccess::ShaderRead}); }
+		AddPass(Graph, "Compose", Reads, {{Result, Storage}});
+		EXPECT_EQ(Run(Graph), std::vector<std::string>({"Compose"}));
+		EXPECT_EQ(bMade, bRead);
+		const std::vector<std::string> Created = Mock().GetCreatedTextures();
+		EXPECT_EQ(std::count(Created.begin(), Created.end(), "Motion"), bRead ? 1 : 0);
+		EXPECT_EQ(Mock().CountCalls(ERTMockCall::Barrier, "Motion"), bRead ? 2u : 0u);
+	}
+}
+
+// What a pass also reads is no output alone: it must be there.
+TEST_F(FrameGraphTest, WhatAPassReadsItselfIsMadeThoughNobodyElseReadsIt)
+{
+	MakeDevice();
+	FFrameGraph Graph(*Resources);
+	const FGraphTexture Sum = MakeTexture(Graph, "Sum");
+	const FGraphTexture Result = ImportTexture(Graph, "Result", ERTAccess::None, ERTAccess::ShaderRead);
+	AddPass(Graph, "Clear", {}, {{Sum, Storage}});
+	bool bMade = false;
+	Graph.AddPass("Add",
+	              [&](FPassBuilder& Builder)
+	              {
+		              Builder.Read(Sum, ERTAccess::StorageRead);
+		              Builder.WriteIfRead(Sum, Storage);
+		              Builder.Write(Result, Storage);
+		              return [&bMade, Sum](FPassContext& C) { bMade = C.GetTexture(Sum) != nullptr; };
+	              });
+	EXPECT_EQ(Run(Graph), std::vector<std::string>({"Clear"}));
+	EXPECT_TRUE(bMade);
+	EXPECT_EQ(Mock().CountCalls(ERTMockCall::Barrier, "Sum"), 2u) << "and it waits for what was written before";
+}
+
 } // namespace
 } // namespace Lantern

@@ -48,9 +48,15 @@ TEST_F(FRendererContentTest, EverythingAtOnce)
 	LoadAndRender(
 	    {.bMasked = true, .bSkinned = true, .bLights = true, .bTexture = true, .bEmissive = true, .bSky = true});
 	EXPECT_THAT(GetPasses(),
-	            ElementsAre("Skinning", "SceneUpdate", "GBuffer", "Structures", "SunShadow", "DirectLighting", "ToneMap"));
-	EXPECT_THAT(GetDispatched(),
+	            ElementsAre("Skinning", "SceneUpdate", "GBuffer", "Structures", "SunShadow", "Surface", "SunShadowTemporal", "SunShadowFilter0",
+	                        "SunShadowFilter1", "SunShadowFilter2", "SunShadowFilter3", "AmbientOcclusion", "AmbientOcclusionTemporal",
+	                        "AmbientOcclusionFilter0", "AmbientOcclusionFilter1", "AmbientOcclusionFilter2", "AmbientOcclusionFilter3",
+	                        "DirectLighting", "ToneMap"));
+	std::vector<std::string> Dispatched = GetDispatched();
+	std::erase_if(Dispatched, [](const std::string& Name) { return Name.rfind("Denoise/", 0) == 0; });
+	EXPECT_THAT(Dispatched,
 	            ElementsAre("Skinning/Skin.comp", "Skinning/RefitQuality.comp", AllOf(StartsWith("Shadow/SunShadow.comp"), HasSubstr("HAS_MASKED")),
+	                        AllOf(StartsWith("AmbientOcclusion/AmbientOcclusion.comp"), HasSubstr("HAS_MASKED")),
 	                        "Lighting/DirectLighting.comp HAS_SUN HAS_SKY HAS_LIGHTS", "ToneMap/ToneMap.comp"));
 	EXPECT_EQ(Count(ERTMockCall::DrawIndexed), 4u);
 	EXPECT_EQ(Count(ERTMockCall::BuildGeometry), 4u);
@@ -61,7 +67,7 @@ TEST_F(FRendererContentTest, SecondFrameOfAStaticSceneCopiesAndBuildsNothing)
 {
 	LoadAndRender({.bMasked = true, .bSkinned = true, .bLights = true, .bSky = true});
 	for (int Frame = 0; Frame < 8; ++Frame) { Render(); } // what was built is compacted
-	EXPECT_THAT(GetPasses(), ElementsAre("GBuffer", "SunShadow", "DirectLighting", "ToneMap"));
+	EXPECT_THAT(GetPassesWithoutFilters(), ElementsAre("GBuffer", "SunShadow", "AmbientOcclusion", "DirectLighting", "ToneMap"));
 	for (const ERTMockCall Kind : {ERTMockCall::CopyBuffer, ERTMockCall::BuildGeometry, ERTMockCall::BuildScene,
 	                               ERTMockCall::CreateTexture, ERTMockCall::CreateComputePipeline})
 	{
@@ -140,11 +146,12 @@ TEST_F(FRendererContentTest, WithoutLightsThereIsNoLightBuffer)
 TEST_F(FRendererContentTest, WithoutASunNoRayIsTraced)
 {
 	Set("r.RT.Shadow.Path", "1");
+	Set("r.RT.AO", "0"); // has rays of its own where there is a sky
 	LoadAndRender({.bMasked = true, .bSun = false, .bSky = true});
 	EXPECT_THAT(GetPasses(), ElementsAre("SceneUpdate", "GBuffer", "DirectLighting", "ToneMap"));
 	EXPECT_THAT(GetDispatched(), Contains("Lighting/DirectLighting.comp HAS_SKY"));
 	EXPECT_EQ(GetRTPSO(), nullptr);
-	EXPECT_TRUE(Captured.SunShadow.IsEmpty());
+	EXPECT_TRUE(Captured.Get(ESignal::SunShadow).IsEmpty());
 	for (const ERTMockCall Kind : {ERTMockCall::CreateRayTracingPipeline, ERTMockCall::CreateShaderTable,
 	                               ERTMockCall::CreateGeometry, ERTMockCall::CreateScene, ERTMockCall::BuildScene})
 	{
@@ -157,8 +164,7 @@ TEST_F(FRendererContentTest, WithoutASunNoRayIsTraced)
 	EXPECT_THAT(Mock().GetCreatedTextures(), Not(Contains("SunShadowVisibility")));
 	ApplySky({.bSun = true, .bSky = true});
 	Render();
-	EXPECT_THAT(GetPasses(),
-	            ElementsAre("GBuffer", "Structures", "ShaderTable", "SunShadow", "DirectLighting", "ToneMap"));
+	EXPECT_THAT(GetPassesWithoutFilters(), ElementsAre("GBuffer", "Structures", "ShaderTable", "SunShadow", "DirectLighting", "ToneMap"));
 	EXPECT_EQ(Count(ERTMockCall::BuildGeometry), 2u);
 	EXPECT_EQ(Count(ERTMockCall::TraceRays), 1u);
 }
@@ -178,7 +184,7 @@ TEST_F(FRendererContentTest, EmptySceneIsACorrectEmptyFrame)
 		EXPECT_TRUE(HasPass("GBuffer")) << "the targets are cleared";
 		EXPECT_EQ(Count(ERTMockCall::BeginRasterPass), 1u);
 		EXPECT_EQ(Count(ERTMockCall::BuildScene), bSun ? 1u : 0u);
-		EXPECT_EQ(Captured.SunShadow.IsEmpty(), !bSun);
+		EXPECT_EQ(Captured.Get(ESignal::SunShadow).IsEmpty(), !bSun);
 		Render();
 		ASSERT_TRUE(RenderReferenceOnce());
 	}
@@ -205,10 +211,42 @@ TEST_F(FRendererContentTest, PassesThatNobodyReadsAreCulled)
 	ASSERT_TRUE(Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, {}, nullptr));
 	EXPECT_THAT(GetPasses(), ElementsAre()) << "no output was wanted";
 	FFrameCapture Capture;
-	Capture.bSunShadow = true;
+	Capture.Wants(ESignal::SunShadow) = true;
 	Mock().ClearCalls();
 	ASSERT_TRUE(Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, Capture, &Captured));
-	EXPECT_THAT(GetPasses(), ElementsAre("GBuffer", "SunShadow")) << "a host that lights by itself";
+	EXPECT_THAT(GetPasses(), ElementsAre("GBuffer", "SunShadow", "Surface", "SunShadowTemporal", "SunShadowFilter0", "SunShadowFilter1",
+	                                     "SunShadowFilter2", "SunShadowFilter3"))
+	    << "a host that lights by itself";
+}
+
+// The scene knows how objects moved since whoever showed it last: to another renderer that is not the frame before.
+TEST_F(FRendererContentTest, AnothersFrameOfTheSceneEndsWhatIsCarriedOver)
+{
+	LoadAndRender({});
+	bool bHasPrevious = false;
+	Engine->ExtraPasses = [&](FFrameContext& Context, const FGBuffer&, const FFrameOutputs&) { bHasPrevious = Context.PreviousView != nullptr; };
+	Render();
+	EXPECT_TRUE(bHasPrevious);
+	FRendererDesc Desc;
+	Desc.ShaderFolders = {GetShaderFolder()};
+	Desc.CacheFolder = LANTERN_TEST_CACHE;
+	FRenderer Other(*Device, Desc);
+	const auto ShowByOther = [&](bool bSubmit)
+	{
+		const FRTStatus Status = Other.BeginFrame(Engine->GetScene().GetScene(), LookAt({0, 0, 9}, {0, 0, 0}, 1.0f, 40, 24), {});
+		ASSERT_TRUE(Status) << Status.Message;
+		if (!bSubmit) { return Other.FrameSubmitted(0); }
+		ASSERT_TRUE(Other.EndFrame(nullptr));
+		ASSERT_TRUE(Other.WaitForAll());
+	};
+	ShowByOther(true);
+	Render();
+	EXPECT_FALSE(bHasPrevious);
+	Render();
+	EXPECT_TRUE(bHasPrevious) << "its own again";
+	ShowByOther(false);
+	Render();
+	EXPECT_TRUE(bHasPrevious) << "a lost frame has shown nothing";
 }
 
 TEST_F(FRendererContentTest, ReferenceKeepsEmittersAndFactsOfItsScene)

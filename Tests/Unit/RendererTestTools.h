@@ -170,7 +170,7 @@ protected:
 	FRTStatus RenderFrame(double Time = 0.0, glm::dvec3 Camera = {0, 0, 5})
 	{
 		FFrameCapture Capture;
-		Capture.bDisplay = Capture.bLighting = Capture.bSunShadow = true;
+		Capture.bDisplay = Capture.bLighting = Capture.Wants(ESignal::SunShadow) = true;
 		Captured = {};
 		return Engine->RenderFrame(LookAt(Camera, {0, 0, 0}, 1.0f, 40, 24), Time, Capture, &Captured);
 	}
@@ -202,6 +202,15 @@ protected:
 				Names.push_back(Call.Name);
 			}
 		}
+		return Names;
+	}
+	/// Those that are left when what follows a noisy signal is left out: its filter, and the surfaces that it follows.
+	std::vector<std::string> GetPassesWithoutFilters()
+	{
+		std::vector<std::string> Names = GetPasses();
+		std::erase_if(Names, [](const std::string& Name) {
+			return Name == "Surface" || Name == "CameraMotion" || Name.find("Temporal") != std::string::npos || Name.find("Filter") != std::string::npos;
+		});
 		return Names;
 	}
 	bool HasPass(const std::string& Name)

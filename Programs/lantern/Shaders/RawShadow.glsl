@@ -57,14 +57,14 @@ float PixelVisibility(uvec2 Pixel)
 #endif
 	}
 	vec3 Ng = OctDecode(texelFetch(Normals, ivec2(Pixel), 0).zw);
-	uint Hash = HashPcg(Pixel.x + HashPcg(Pixel.y + Push.Seed));
-	vec3 Direction = SunDirection(SobolOwen2(Push.FrameIndex, Hash));
+	FTileSequence Sequence = MakeTileSequence(Pixel, Push.FrameIndex, Push.Seed);
+	vec3 Direction = SunDirection(SobolOwen2(Sequence.Index, Sequence.Seed));
 	if (dot(Ng, Direction) <= 0.0) { return 0.0; }
 #ifdef COUNT_RAYS
 	return 1.0;
 #else
 	vec3 Relative = (Push.FirstRay + Push.StepX * float(Pixel.x) + Push.StepY * float(Pixel.y)) / Z;
-	return TraceSun(OffsetRayOrigin(Push.Camera + Relative, Ng, length(Relative) * 4.0), Direction) ? 1.0 : 0.0;
+	return TraceSun(OffsetRasterPoint(Push.Camera + Relative, Ng, length(Relative)), Direction) ? 1.0 : 0.0;
 #endif
 }
 

@@ -254,6 +254,16 @@ void FConsoleVariables::BeginFrame()
 		Callback(*Variable);
 }
 
+void FConsoleVariables::Restore(const FRTConsoleVariable& Variable, FRTCVarValue Value, ERTSetBy By)
+{
+	std::unique_lock Lock(Impl->Mutex);
+	FRTConsoleVariable* const Mine = Impl->Find(Variable.GetName());
+	assert(Mine == &Variable && Value.index() == Mine->State->Default.index());
+	Mine->State->Latest = std::move(Value);
+	Mine->State->SetBy = By;
+	Impl->MarkDirty(*Mine);
+}
+
 void FConsoleVariables::ResetAll()
 {
 	std::unique_lock Lock(Impl->Mutex);

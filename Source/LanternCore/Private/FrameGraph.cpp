@@ -24,20 +24,43 @@ public:
 	void Read(FGraphBuffer Buffer, ERTAccess Access) override { Add(Buffer.Index, false).Read |= Access; }
 	void Write(FGraphTexture Texture, ERTAccess Access) override { Add(Texture.Index, true).Write |= Access; }
 	void Write(FGraphBuffer Buffer, ERTAccess Access) override { Add(Buffer.Index, false).Write |= Access; }
+	void WriteIfRead(FGraphTexture Texture, ERTAccess Access) override
+	{
+		FPassUse& Use = Add(Texture.Index, true);
+		Use.Write |= Access;
+		Use.bIfRead = true;
+	}
 	void NeverCull() override { Pass.bNeverCull = true; }
+	void Keep(FGraphTexture Texture) override { AddKeep(Texture.Index, true); }
+	void Keep(FGraphBuffer Buffer) override { AddKeep(Buffer.Index, false); }
 
 private:
-	FPassUse& Add(uint32_t Index, bool bTexture)
+	bool IsOfGraph(uint32_t Index, bool bTexture)
 	{
-		if (Index >= Resources.size() || Resources[Index].bTexture != bTexture)
+		const bool bIs = Index < Resources.size() && Resources[Index].bTexture == bTexture;
+		if (!bIs)
 		{
 			Pass.BadUse = bTexture ? "declares a texture that is not of this graph"
 			                       : "declares a buffer that is not of this graph";
+		}
+		return bIs;
+	}
+	void AddKeep(uint32_t Index, bool bTexture)
+	{
+		if (IsOfGraph(Index, bTexture))
+		{
+			Pass.Keeps.push_back(Index);
+		}
+	}
+	FPassUse& Add(uint32_t Index, bool bTexture)
+	{
+		if (!IsOfGraph(Index, bTexture))
+		{
 			return Ignored;
 		}
 		const auto Is = [&](const FPassUse& Use) { return Use.Resource == Index; };
 		const auto It = std::find_if(Pass.Uses.begin(), Pass.Uses.end(), Is);
-		return It != Pass.Uses.end() ? *It : Pass.Uses.emplace_back(FPassUse{Index, ERTAccess::None, ERTAccess::None});
+		return It != Pass.Uses.end() ? *It : Pass.Uses.emplace_back(FPassUse{Index});
 	}
 
 	FGraphPass& Pass;
@@ -73,7 +96,8 @@ public:
 private:
 	bool IsDeclared(uint32_t Index) const
 	{
-		const bool bDeclared = Index < Resources.size() && Pass.Find(Index);
+		const bool bDropped = std::find(Pass.Dropped.begin(), Pass.Dropped.end(), Index) != Pass.Dropped.end();
+		const bool bDeclared = Index < Resources.size() && (Pass.Find(Index) || bDropped);
 		assert(bDeclared && "a pass may use only what it declared in its setup");
 		return bDeclared;
 	}
@@ -197,6 +221,40 @@ FGraphBuffer FFrameGraph::ImportBuffer(IRTBuffer* Buffer, ERTAccess Current, ERT
 	return {It->second};
 }
 
+void FFrameGraph::MarkHistory(FGraphTexture Texture)
+{
+	assert(Impl->Resources[Texture.Index].bImported);
+	Impl->Resources[Texture.Index].bHistory = true;
+}
+
+void FFrameGraph::MarkHistory(FGraphBuffer Buffer)
+{
+	assert(Impl->Resources[Buffer.Index].bImported);
+	Impl->Resources[Buffer.Index].bHistory = true;
+}
+
+void FFrameGraph::MarkForLater(FGraphTexture Texture, bool* OutWritten)
+{
+	FGraphResource& Resource = Impl->Resources[Texture.Index];
+	assert(Resource.bTexture && Resource.bImported);
+	Resource.bForLater = true;
+	Resource.OutWritten = OutWritten;
+}
+
+void FFrameGraph::MarkForLater(FGraphBuffer Buffer, bool* OutWritten)
+{
+	FGraphResource& Resource = Impl->Resources[Buffer.Index];
+	assert(!Resource.bTexture && Resource.bImported);
+	Resource.bForLater = true;
+	Resource.OutWritten = OutWritten;
+}
+
+void FFrameGraph::AddUsage(FGraphTexture Texture, ERTTextureUsage Usage)
+{
+	assert(!Impl->bCompiled && !Impl->Resources[Texture.Index].bImported);
+	Impl->Resources[Texture.Index].TextureDesc.ExtraUsage |= Usage;
+}
+
 const FGraphTextureDesc& FFrameGraph::GetDesc(FGraphTexture Texture) const
 {
 	assert(Texture.Index < Impl->Resources.size() && Impl->Resources[Texture.Index].bTexture);
@@ -227,6 +285,10 @@ FRTStatus FFrameGraph::Compile()
 	}
 	Impl->bCompiled = true;
 	Impl->CompileStatus = Impl->Validate();
+	if (Impl->CompileStatus)
+	{
+		Impl->CompileStatus = Impl->AddPoison();
+	}
 	if (Impl->CompileStatus)
 	{
 		Impl->Cull();
@@ -275,6 +337,7 @@ void FFrameGraph::FImpl::Record(IRTCommandList& Commands, const FRTStatus* Failu
 	const auto IsAlive = [](const FGraphPass& Pass) { return !Pass.bCulled; };
 	const uint32_t AliveCount = static_cast<uint32_t>(std::count_if(Passes.begin(), Passes.end(), IsAlive));
 	++Shared.FrameCounter;
+	Shared.Poison.clear();
 	FTimedFrame& Frame = Shared.BeginTiming(AliveCount);
 	IRTQueryPool* Queries = AliveCount > 0 ? Frame.Pool.Get() : nullptr;
 	if (Queries)

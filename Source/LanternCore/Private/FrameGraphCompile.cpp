@@ -57,6 +57,14 @@ FRTStatus FFrameGraph::FImpl::Validate() const
 			return FRTStatus::Error(ERTResult::InvalidArgument, "Frame graph: pass '%s' %s", Pass.Name.c_str(),
 			                        Pass.BadUse.c_str());
 		}
+		for (const uint32_t Kept : Pass.Keeps)
+		{
+			if (!Resources[Kept].bForLater)
+			{
+				return FRTStatus::Error(ERTResult::InvalidArgument, "Frame graph: pass '%s' keeps %s, which MarkForLater was not called for",
+				                        Pass.Name.c_str(), Resources[Kept].Describe().c_str());
+			}
+		}
 		for (const FPassUse& Use : Pass.Uses)
 		{
 			const FRTStatus Status = ValidateUse(Pass, Use, Written);
@@ -75,21 +83,88 @@ FRTStatus FFrameGraph::FImpl::Validate() const
 
 void FFrameGraph::FImpl::Cull()
 {
+	// What a pass keeps for the next frame is needed at the end of this one, and what writes it may keep more: so often
+	// until nothing is added.
+	std::vector<bool> Kept(Resources.size(), false);
+	for (bool bChanged = true; bChanged;)
+	{
+		CullWhatNobodyReads(Kept);
+		bChanged = false;
+		for (const FGraphPass& Pass : Passes)
+		{
+			for (const uint32_t Resource : Pass.Keeps)
+			{
+				bChanged |= !Pass.bCulled && !Kept[Resource];
+				Kept[Resource] = Kept[Resource] || !Pass.bCulled;
+			}
+		}
+	}
+	DropUnreadOutputs();
+	ReportWritten();
+}
+
+void FFrameGraph::FImpl::CullWhatNobodyReads(std::vector<bool> Needed)
+{
 	// Backwards: a pass runs if something behind it that runs reads what it writes. A write does not end the need
 	// for earlier ones, for it may cover only a part.
-	std::vector<bool> Needed(Resources.size(), false);
+	const auto IsWanted = [&](const FPassUse& Use)
+	{
+		const FGraphResource& Resource = Resources[Use.Resource];
+		const bool bSeenOutside = Resource.bImported && !Resource.bForLater;
+		return Use.Write != ERTAccess::None && (bSeenOutside || Needed[Use.Resource]);
+	};
 	for (auto Pass = Passes.rbegin(); Pass != Passes.rend(); ++Pass)
 	{
-		const bool bWanted = std::any_of(Pass->Uses.begin(), Pass->Uses.end(),
-		                                 [&](const FPassUse& Use) {
-			                                 return Use.Write != ERTAccess::None &&
-			                                        (Resources[Use.Resource].bImported || Needed[Use.Resource]);
-		                                 });
-		Pass->bCulled = !Pass->bNeverCull && !bWanted;
+		Pass->bCulled = !Pass->bNeverCull && std::none_of(Pass->Uses.begin(), Pass->Uses.end(), IsWanted);
 		for (const FPassUse& Use : Pass->Uses)
 		{
 			Needed[Use.Resource] = Needed[Use.Resource] || (!Pass->bCulled && Use.Read != ERTAccess::None);
 		}
+	}
+}
+
+void FFrameGraph::FImpl::DropUnreadOutputs()
+{
+	std::vector<bool> Needed(Resources.size(), false);
+	for (auto Pass = Passes.rbegin(); Pass != Passes.rend(); ++Pass)
+	{
+		if (Pass->bCulled)
+		{
+			continue;
+		}
+		const auto IsUnread = [&](const FPassUse& Use)
+		{
+			// What the pass reads itself must be there, and as it was left.
+			const bool bOutput = Use.bIfRead && Use.Read == ERTAccess::None && !Resources[Use.Resource].bImported;
+			const bool bDrop = bOutput && !Needed[Use.Resource];
+			if (bDrop)
+			{
+				Pass->Dropped.push_back(Use.Resource);
+			}
+			return bDrop;
+		};
+		std::erase_if(Pass->Uses, IsUnread);
+		for (const FPassUse& Use : Pass->Uses)
+		{
+			Needed[Use.Resource] = true; // also what is written once more: by then it must be there
+		}
+	}
+}
+
+void FFrameGraph::FImpl::ReportWritten() const
+{
+	for (uint32_t Index = 0; Index < Resources.size(); ++Index)
+	{
+		if (!Resources[Index].OutWritten)
+		{
+			continue;
+		}
+		const auto Writes = [&](const FGraphPass& Pass)
+		{
+			const FPassUse* const Use = Pass.Find(Index);
+			return !Pass.bCulled && Use && Use->Write != ERTAccess::None;
+		};
+		*Resources[Index].OutWritten = std::any_of(Passes.begin(), Passes.end(), Writes);
 	}
 }
 

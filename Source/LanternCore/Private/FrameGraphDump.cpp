@@ -24,6 +24,10 @@ std::string DumpUses(const FGraphPass& Pass, const std::vector<FGraphResource>& 
 			Text += fmt::format("      write   {}  {}\n", Name, ToString(Use.Write));
 		}
 	}
+	for (const uint32_t Kept : Pass.Keeps)
+	{
+		Text += fmt::format("      keep    {}\n", Resources[Kept].Name);
+	}
 	return Text;
 }
 

@@ -74,6 +74,7 @@ struct FFrameGraphResources::FImpl
 	std::vector<std::unique_ptr<FTimedFrame>> Frames;
 	std::vector<FPassTiming> Newest;
 	uint64_t FrameCounter = 0;
+	std::vector<std::string> Poison; ///< parts of names, see FFrameGraphResources::PoisonHistory
 };
 
 struct FGraphResource
@@ -86,6 +87,9 @@ struct FGraphResource
 	TRTRef<IRTTexture> ImportedTexture;
 	TRTRef<IRTBuffer> ImportedBuffer;
 	ERTAccess Current = ERTAccess::None, After = ERTAccess::None; ///< imported only
+	bool bHistory = false;                                        ///< see FFrameGraph::MarkHistory
+	bool bForLater = false;                                       ///< see FFrameGraph::MarkForLater
+	bool* OutWritten = nullptr;
 
 	// Compiled:
 	uint32_t FirstPass = NoPass, LastPass = NoPass; ///< of those that run
@@ -105,6 +109,7 @@ struct FPassUse
 {
 	uint32_t Resource = 0;
 	ERTAccess Read = ERTAccess::None, Write = ERTAccess::None; ///< as declared by Read() and Write()
+	bool bIfRead = false;                                      ///< see FPassBuilder::WriteIfRead
 	ERTAccess GetAccess() const { return Read | Write; }
 };
 
@@ -118,6 +123,8 @@ struct FGraphPass
 {
 	std::string Name;
 	std::vector<FPassUse> Uses;
+	std::vector<uint32_t> Keeps;         ///< resources, see FPassBuilder::Keep
+	std::vector<uint32_t> Dropped;       ///< resources that WriteIfRead declared and nobody reads
 	std::vector<FGraphBarrier> Barriers; ///< before the pass
 	FPassExecute Execute;
 	bool bNeverCull = false;
@@ -135,7 +142,12 @@ struct FFrameGraph::FImpl
 	// FrameGraphCompile.cpp, in this order:
 	FRTStatus Validate() const;
 	FRTStatus ValidateUse(const FGraphPass& Pass, const FPassUse& Use, const std::vector<bool>& Written) const;
+	FRTStatus AddPoison(); // in FrameGraphPoison.cpp
+	FRTStatus FindPoisoned(std::vector<FGraphTexture>& OutTextures, std::vector<FGraphBuffer>& OutBuffers) const;
 	void Cull();
+	void CullWhatNobodyReads(std::vector<bool> Needed);
+	void DropUnreadOutputs();
+	void ReportWritten() const;
 	void FindLifetimes();
 	FRTStatus Allocate();
 	void PlaceBarriers();

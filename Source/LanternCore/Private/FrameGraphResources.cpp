@@ -197,4 +197,9 @@ uint64_t FFrameGraphResources::GetPooledBytes() const
 	return Bytes;
 }
 
+void FFrameGraphResources::PoisonHistory(std::string NamePart)
+{
+	Impl->Poison.push_back(std::move(NamePart));
+}
+
 } // namespace Lantern

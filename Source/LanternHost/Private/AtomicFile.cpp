@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <random>
 #include <system_error>
 
 #include <unistd.h>
@@ -46,12 +47,13 @@ fs::path GetFolder(const fs::path& File)
 }
 
 /// In the same folder, since a rename works within one file system only; short, since Path may have the longest
-/// name that there is.
+/// name that there is; with a random part, since processes of several machines share folders, and process ids.
 fs::path MakeTemporaryPath(const fs::path& Target)
 {
 	static std::atomic<unsigned> Counter{0};
-	return GetFolder(Target) /
-	       (".lantern-" + std::to_string(getpid()) + "-" + std::to_string(Counter.fetch_add(1)) + ".tmp");
+	static const unsigned Process = std::random_device()();
+	return GetFolder(Target) / (".lantern-" + std::to_string(getpid()) + "-" + std::to_string(Process) + "-" +
+	                            std::to_string(Counter.fetch_add(1)) + ".tmp");
 }
 
 FRTStatus CallGuarded(const std::string& Path, const std::function<FRTStatus(const std::string&)>& Write,

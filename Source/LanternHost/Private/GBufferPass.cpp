@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "GBufferTypes.h"
+#include "LanternCore/ConsoleVariables.h"
 #include "LanternCore/Log.h"
 #include "LanternHost/HostScene.h"
 
@@ -11,15 +12,26 @@ namespace Lantern
 
 namespace
 {
-constexpr std::array<ERTFormat, 4> ColorFormats = {ERTFormat::RGBA16_SNORM, ERTFormat::RGBA8_SRGB, ERTFormat::RGBA8_UNORM, ERTFormat::RGBA32_FLOAT};
+TRTConsoleVariable<bool> CVarMotion("r.RT.GBuffer.Motion", true,
+                                    "The sample engine's raster writes motion vectors. Off: histories take what moves for still, and each "
+                                    "pixel costs 16 bytes less.");
+constexpr std::array<ERTFormat, 5> ColorFormats = {ERTFormat::RGBA16_SNORM, ERTFormat::RGBA8_SRGB, ERTFormat::RGBA8_UNORM, ERTFormat::RGBA32_FLOAT,
+                                                   ERTFormat::RGBA32_FLOAT};
+constexpr std::array<const char*, 5> ColorNames = {"GBufferNormals", "GBufferBaseColor", "GBufferMaterial", "GBufferEmissive", "GBufferMotion"};
+constexpr uint32_t CountColors(bool bMotion) { return bMotion ? 5 : 4; }
 
 } // namespace
 
 FRTStatus FGBufferPass::CreatePipeline(const FPipelineKey& Key, TRTRef<IRTPipeline>& Out)
 {
-	const FShaderSource Vertex{"GBuffer/GBuffer.vert", ERTShaderStage::Vertex, {}, {}};
+	FShaderSource Vertex{"GBuffer/GBuffer.vert", ERTShaderStage::Vertex, {}, {}};
 	FShaderSource Fragment{"GBuffer/GBuffer.frag", ERTShaderStage::Fragment, {}, {}};
 	if (Key.bMasked) { Fragment.Defines.emplace_back("MASKED", "1"); }
+	if (Key.bMotion)
+	{
+		Vertex.Defines.emplace_back("MOTION", "1");
+		Fragment.Defines.emplace_back("MOTION", "1");
+	}
 	Fragment = Renderer.GetPrograms().MakeSource(std::move(Fragment), Key.Program);
 	FShaderBinary VertexBinary, FragmentBinary;
 	if (FRTStatus S = Renderer.GetCompiler().Compile(Vertex, VertexBinary); !S) { return S; }
@@ -30,7 +42,7 @@ FRTStatus FGBufferPass::CreatePipeline(const FPipelineKey& Key, TRTRef<IRTPipeli
 	Desc.Vertex = VertexBinary.GetCode();
 	Desc.Fragment = FragmentBinary.GetCode();
 	Desc.ColorFormats = ColorFormats.data();
-	Desc.ColorCount = static_cast<uint32_t>(ColorFormats.size());
+	Desc.ColorCount = CountColors(Key.bMotion);
 	Desc.DepthFormat = ERTFormat::D32_FLOAT;
 	Desc.Cull = Key.Cull;
 	Desc.Name = Name.c_str();
@@ -58,7 +70,7 @@ IRTPipeline* FGBufferPass::GetPipeline(const FFrameContext& Context, const FPipe
 		if (!Status) { LogError("raster, material program {}: {}", Renderer.GetPrograms().Get(Key.Program).Name, Status.Message); }
 	}
 	if (Entry.Pipeline || Key.Program == StandardProgram) { return Entry.Pipeline.Get(); }
-	return GetPipeline(Context, {StandardProgram, Key.bMasked, Key.Cull});
+	return GetPipeline(Context, {StandardProgram, Key.bMasked, Key.Cull, Key.bMotion});
 }
 
 /// The objects of each batch in its places, near before far, and the batches in the order of their nearest objects.
@@ -106,7 +118,7 @@ void FGBufferPass::RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHost
 			const uint32_t Count = bMirrored ? Uses[Index].Mirrored : Uses[Index].Plain;
 			if (Count == 0) { continue; }
 			const ERTCull Cull = Batch.bDoubleSided ? ERTCull::None : bMirrored ? ERTCull::Front : ERTCull::Back;
-			IRTPipeline* const Pipeline = GetPipeline(Frame, {Batch.Program, Batch.bMasked && Frame.Facts.bMasked, Cull});
+			IRTPipeline* const Pipeline = GetPipeline(Frame, {Batch.Program, Batch.bMasked && Frame.Facts.bMasked, Cull, bMotionNow});
 			if (!Pipeline) { return; }
 			if (Pipeline != Bound) { List.SetPipeline(Bound = Pipeline); }
 			if (Batch.Indices != BoundIndices) { List.SetIndexBuffer(BoundIndices = Batch.Indices, 0, ERTIndexType::UInt32); }
@@ -124,22 +136,27 @@ FGBuffer FGBufferPass::Add(FFrameContext& Context, FHostScene& Scene)
 	const auto Create = [&](ERTFormat Format, const char* Name) { return Graph.CreateTexture({Context.Width, Context.Height, Format}, Name); };
 	FGBuffer Out;
 	Out.Depth = Create(ERTFormat::D32_FLOAT, "GBufferDepth");
-	const std::array<FGraphTexture, 4> Targets = {Create(ColorFormats[0], "GBufferNormals"), Create(ColorFormats[1], "GBufferBaseColor"),
-	                                              Create(ColorFormats[2], "GBufferMaterial"), Create(ColorFormats[3], "GBufferEmissive")};
+	const bool bMayMove = bMotion && CVarMotion.GetOnRenderThread();
+	std::array<FGraphTexture, ColorFormats.size()> Targets;
+	for (uint32_t I = 0; I < CountColors(bMayMove); ++I) { Targets[I] = Create(ColorFormats[I], ColorNames[I]); }
 	Out.Normals = Targets[0];
 	Out.BaseColor = Targets[1];
 	Out.Material = Targets[2];
 	Out.Emissive = Targets[3];
+	Out.Motion = Targets[4];
 	FFrameContext* const Frame = &Context;
 	Graph.AddPass("GBuffer", [&](FPassBuilder& Builder) -> FPassExecute {
-		for (const FGraphTexture Target : Targets) { Builder.Write(Target, ERTAccess::RenderTarget); }
+		for (uint32_t I = 0; I < CountColors(false); ++I) { Builder.Write(Targets[I], ERTAccess::RenderTarget); }
+		if (bMayMove) { Builder.WriteIfRead(Out.Motion, ERTAccess::RenderTarget); }
 		Builder.Write(Out.Depth, ERTAccess::DepthWrite);
 		return [=, this, &Scene](FPassContext& Pass) {
-			std::array<FRTColorTarget, 4> Colors;
-			for (size_t I = 0; I < Colors.size(); ++I) { Colors[I].Texture = Pass.GetTexture(Targets[I]); }
+			bMotionNow = bMayMove && Pass.GetTexture(Out.Motion);
+			const uint32_t ColorCount = CountColors(bMotionNow);
+			std::array<FRTColorTarget, ColorFormats.size()> Colors;
+			for (uint32_t I = 0; I < ColorCount; ++I) { Colors[I].Texture = Pass.GetTexture(Targets[I]); }
 			FRTRasterPassDesc Desc;
 			Desc.Colors = Colors.data();
-			Desc.ColorCount = static_cast<uint32_t>(Colors.size());
+			Desc.ColorCount = ColorCount;
 			Desc.Depth = Pass.GetTexture(Out.Depth);
 			Desc.Width = Frame->Width;
 			Desc.Height = Frame->Height;

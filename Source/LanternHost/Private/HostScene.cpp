@@ -15,6 +15,7 @@ FRTStatus FHostScene::Create(FRenderer& Renderer, FSceneDescription InDescriptio
 {
 	std::unique_ptr<FHostScene> Host(new FHostScene(Renderer.GetDevice()));
 	Host->Description = std::move(InDescription);
+	Host->ContentHash = HashScene(Host->Description);
 	Host->Pose = EvaluatePose(Host->Description, 0.0);
 	Host->Opacity = ClassifySceneOpacity(Host->Description, Host->Pose);
 	FUploader Uploader(Renderer.GetDevice());
@@ -105,6 +106,7 @@ FRTStatus FHostScene::CreateSkinnedGeometry(uint32_t Mesh, FRTGeometryRef& Out)
 	};
 	TRTRef<IRTBuffer> Positions, Attributes;
 	if (FRTStatus S = CreateOutput(*Info.Positions, Positions); !S) { return S; }
+	if (FRTStatus S = CreateOutput(*Info.Positions, Info.PreviousPositions); !S) { return S; }
 	if (FRTStatus S = CreateOutput(*Info.Attributes, Attributes); !S) { return S; }
 	Info.Positions = Positions;
 	Info.Attributes = Attributes;
@@ -243,8 +245,15 @@ std::vector<FSkinningInputs> FHostScene::SetTime(double Time)
 		if (bFirst || World != Scene.GetObject(Instance.Object).Transform) { SetTransform(Index, World); }
 		if (Instance.Skinned) { Skinning.push_back(MakeSkinning(Index, EvaluateJoints(Description, Pose, Instance.Node))); }
 	}
+	LightTime = Time;
 	if (IsAnimated()) { UpdateLights(); }
 	return Skinning;
+}
+
+bool FHostScene::IsAnimated() const
+{
+	return !Description.Animations.empty() ||
+	       std::any_of(Description.Lights.begin(), Description.Lights.end(), [](const FHostLight& Light) { return Light.FlickerHz > 0.0f; });
 }
 
 void FHostScene::SetSceneLights(bool bEnabled)
@@ -325,7 +334,8 @@ void FHostScene::UpdateLights()
 		// glTF lights shine along −z of their node.
 		const glm::dvec3 Axis = -glm::dvec3(World[2]);
 		Light.Data.Direction = glm::length(Axis) > 0.0 ? glm::vec3(glm::normalize(Axis)) : glm::vec3(0, -1, 0);
-		Light.Data.Color = Source.Color;
+		// One that is off keeps its place, so that methods which remember lights by index remember the right ones.
+		Light.Data.Color = IsLightOn(Source, LightTime) ? Source.Color : glm::vec3(0);
 		Light.Data.Range = Source.Range;
 		// KHR_lights_punctual, "Inner and Outer Cone Angles".
 		const float CosOuter = std::cos(Source.OuterCone);

@@ -22,9 +22,24 @@ constexpr double TargetSeconds = 0.3;
 struct FStateHeader
 {
 	char Magic[8] = {'L', 'N', 'T', 'R', 'E', 'F', '0', '1'};
-	uint32_t Width = 0, Height = 0, Samples = 0, Bounces = 0, Seed = 0, Pad = 0;
+	uint32_t Width = 0, Height = 0, Samples = 0, Bounces = 0, Seed = 0;
+	uint32_t What = 0; // signal counted from the whole frame, and …Bit
 	uint64_t Key = 0;
 };
+
+constexpr uint32_t PixelCentersBit = 1u << 16, RasterSurfacesBit = 1u << 17;
+
+EReferenceSignal ToReferenceSignal(ESignal Signal)
+{
+	switch (Signal)
+	{
+	case ESignal::SunShadow: return EReferenceSignal::SunShadow;
+	case ESignal::AmbientOcclusion: return EReferenceSignal::AmbientOcclusion;
+	case ESignal::DiffuseGI: return EReferenceSignal::DiffuseGI;
+	case ESignal::Reflections: return EReferenceSignal::Reflections;
+	default: return EReferenceSignal::Frame;
+	}
+}
 
 // FNV-1a: names a set of settings, protects nothing.
 uint64_t HashBytes(const void* Data, size_t Size, uint64_t Hash)
@@ -74,6 +89,8 @@ FStateHeader FReferenceJob::MakeHeader(uint32_t Samples) const
 	Header.Samples = Samples;
 	Header.Bounces = Settings.Bounces;
 	Header.Seed = Settings.View.Seed;
+	Header.What = static_cast<uint32_t>(ToReferenceSignal(Settings.Signal)) | (Settings.bPixelCenters ? PixelCentersBit : 0u) |
+	              (Settings.bRasterSurfaces ? RasterSurfacesBit : 0u);
 	const FView& View = Settings.View;
 	const double Camera[] = {View.Position.x, View.Position.y, View.Position.z, View.Forward.x, View.Forward.y, View.Forward.z, View.Up.x, View.Up.y, View.Up.z, View.FovY, Settings.Time};
 	Header.Key = HashBytes(Camera, sizeof(Camera), HashBytes(Settings.SceneKey.data(), Settings.SceneKey.size(), 14695981039346656037ull));
@@ -138,6 +155,8 @@ FRTStatus FReferenceJob::Trace(uint32_t FirstSample, uint32_t SampleCount, uint3
 	FRenderer& Renderer = Engine.GetRenderer();
 	FFrameFeatures Features;
 	Features.bReference = true;
+	Features.ReferenceSignal = ToReferenceSignal(Settings.Signal);
+	Features.bReferenceFromGBuffer = Settings.bRasterSurfaces && Settings.Signal != ESignal::Frame;
 	Features.Skinning = Engine.MoveTo(Settings.Time);
 	if (FRTStatus S = Renderer.BeginFrame(Engine.GetScene().GetScene(), Settings.View, Features); !S) { return S; }
 	FFrameContext& Context = Renderer.GetContext();
@@ -148,6 +167,8 @@ FRTStatus FReferenceJob::Trace(uint32_t FirstSample, uint32_t SampleCount, uint3
 	Inputs.MaxBounces = Settings.Bounces;
 	Inputs.FirstRow = FirstRow;
 	Inputs.RowCount = RowCount;
+	Inputs.bPixelCenters = Settings.bPixelCenters;
+	if (Features.bReferenceFromGBuffer) { Inputs.GBuffer = Engine.AddGBuffer(Context); }
 	AddReferencePass(Context, Inputs);
 	if (FRTStatus S = Renderer.EndFrame(nullptr); !S) { return S; }
 	return Renderer.WaitForAll();
@@ -204,11 +225,12 @@ FRTStatus FReferenceJob::Run(FReferenceResult& Out)
 	Out.Samples = Done;
 	Out.Seconds = SecondsSince(Start);
 	Out.Paths = uint64_t(Done - First) * Height * Settings.View.Width;
-	Out.Radiance = FImage(Settings.View.Width, Height, 3);
+	const uint32_t Channels = GetSignalInfo(Settings.Signal).Channels;
+	Out.Radiance = FImage(Settings.View.Width, Height, Channels);
 	const auto* Sums = static_cast<const glm::vec4*>(Staging->GetMapped());
 	for (size_t I = 0; I < Out.Radiance.GetPixelCount(); ++I)
 	{
-		for (int C = 0; C < 3; ++C) { Out.Radiance.Pixels[3 * I + C] = Sums[I][C] / std::max(Sums[I].w, 1.0f); }
+		for (uint32_t C = 0; C < Channels; ++C) { Out.Radiance.Pixels[Channels * I + C] = Sums[I][static_cast<int>(C)] / std::max(Sums[I].w, 1.0f); }
 	}
 	return FRTStatus::Success();
 }

@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cstring>
+#include <utility>
 
 #include <glm/gtc/packing.hpp>
 
@@ -27,11 +28,32 @@ FImage DecodeReadback(const void* Data, uint32_t Width, uint32_t Height, ERTForm
 		for (size_t I = 0; I < Count; ++I) { Image.Pixels[I] = glm::unpackHalf1x16(Halves[I]); }
 		return Image;
 	}
-	assert(Format == ERTFormat::RGBA32_FLOAT);
 	FImage Image(Width, Height, 3);
+	if (Format == ERTFormat::RGBA16_FLOAT)
+	{
+		const auto* Halves = static_cast<const uint16_t*>(Data);
+		for (size_t I = 0; I < 3 * Count; ++I) { Image.Pixels[I] = glm::unpackHalf1x16(Halves[I / 3 * 4 + I % 3]); }
+		return Image;
+	}
+	assert(Format == ERTFormat::RGBA32_FLOAT);
 	const auto* Floats = static_cast<const float*>(Data);
 	for (size_t I = 0; I < 3 * Count; ++I) { Image.Pixels[I] = Floats[I / 3 * 4 + I % 3]; }
 	return Image;
+}
+
+FGraphTexture GetSignalTexture(const FFrameOutputs& Frame, ESignal Signal)
+{
+	switch (Signal)
+	{
+	case ESignal::SunShadow: return Frame.SunShadow.Visibility;
+	case ESignal::AmbientOcclusion: return Frame.AmbientOcclusion.Visibility;
+	case ESignal::DiffuseGI: return Frame.DiffuseGI.Radiance;
+	case ESignal::Reflections: return Frame.Reflections.Radiance;
+	case ESignal::Frame: return Frame.Lighting;
+	case ESignal::Count: break;
+	}
+	assert(false);
+	return {};
 }
 } // namespace
 
@@ -42,12 +64,12 @@ FRTStatus FSampleEngine::Load(FSceneDescription Description, const std::function
 	if (FRTStatus S = Renderer.WaitForAll(); !S) { return S; }
 	Scene.reset();
 	LastTime.reset();
+	Skinning.clear();
 	return FHostScene::Create(Renderer, std::move(Description), Progress, Scene);
 }
 
 FRTStatus FSampleEngine::AddReadback(FFrameContext& Context, FGraphTexture Texture, FReadback& Out)
 {
-	if (!Texture.IsValid()) { return FRTStatus::Success(); }
 	Out.Texture = Texture;
 	Out.Width = Context.Width;
 	Out.Height = Context.Height;
@@ -66,32 +88,78 @@ FRTStatus FSampleEngine::AddReadback(FFrameContext& Context, FGraphTexture Textu
 	return FRTStatus::Success();
 }
 
-FRTStatus FSampleEngine::CaptureFrame(const FFrameOutputs& Frame, const FFrameCapture& Capture, FReadback (&Readbacks)[3])
+FRTStatus FSampleEngine::AddReadbacks(const FFrameOutputs& Frame, const FFrameCapture& Capture, FReadbacks& Out)
 {
 	FFrameContext& Context = Renderer.GetContext();
-	const FGraphTexture Textures[3] = {Capture.bLighting ? Frame.Lighting : FGraphTexture{}, Capture.bDisplay ? Frame.Display : FGraphTexture{},
-	                                   Capture.bSunShadow ? Frame.SunShadow.Visibility : FGraphTexture{}};
-	for (int I = 0; I < 3; ++I)
+	const auto Add = [&](bool bWanted, FGraphTexture Texture, FReadback& Readback) {
+		return bWanted && Texture.IsValid() ? AddReadback(Context, Texture, Readback) : FRTStatus::Success();
+	};
+	if (FRTStatus S = Add(Capture.bLighting || Capture.Wants(ESignal::Frame), Frame.Lighting, Out.Lighting); !S) { return S; }
+	if (FRTStatus S = Add(Capture.bDisplay, Frame.Display, Out.Display); !S) { return S; }
+	for (size_t I = 0; I < Out.Signals.size(); ++I)
 	{
-		if (FRTStatus S = AddReadback(Context, Textures[I], Readbacks[I]); !S) { return S; }
+		const auto Signal = static_cast<ESignal>(I);
+		if (Signal == ESignal::Frame) { continue; }
+		if (FRTStatus S = Add(Capture.Wants(Signal), GetSignalTexture(Frame, Signal), Out.Signals[I]); !S) { return S; }
 	}
 	return FRTStatus::Success();
 }
 
-std::vector<FSkinningInputs> FSampleEngine::MoveTo(double Time)
+/// What is shown or asked for in every frame runs also where nothing else reads it.
+void FSampleEngine::KeepSignals(const FFrameOutputs& Frame)
+{
+	const auto Keep = [&](bool bWanted, FGraphTexture Texture) {
+		if (!bWanted || !Texture.IsValid()) { return; }
+		Renderer.GetContext().Graph.AddPass("Keep", [&](FPassBuilder& Builder) -> FPassExecute {
+			Builder.Read(Texture, ERTAccess::ShaderRead);
+			Builder.NeverCull();
+			return [](FPassContext&) {};
+		});
+	};
+	Keep(bPresent, Frame.Display);
+	const std::pair<bool, ESignal> Wanted[] = {{Signals.bSunShadow, ESignal::SunShadow},
+	                                           {Signals.bAmbientOcclusion, ESignal::AmbientOcclusion},
+	                                           {Signals.bDiffuseGI, ESignal::DiffuseGI},
+	                                           {Signals.bReflections, ESignal::Reflections}};
+	for (const auto& [bWanted, Signal] : Wanted) { Keep(bWanted, GetSignalTexture(Frame, Signal)); }
+}
+
+void FSampleEngine::DecodeReadbacks(const FReadbacks& Readbacks, const FFrameCapture& Capture, FCapturedFrame& Out)
+{
+	const auto Decode = [](const FReadback& R, FImage& Image) {
+		if (R.Buffer) { Image = DecodeReadback(R.Buffer->GetMapped(), R.Width, R.Height, R.Format); }
+	};
+	Decode(Readbacks.Display, Out.Display);
+	for (size_t I = 0; I < Readbacks.Signals.size(); ++I) { Decode(Readbacks.Signals[I], Out.Signals[I]); }
+	if (Capture.Wants(ESignal::Frame)) { Decode(Readbacks.Lighting, Out.Get(ESignal::Frame)); }
+	if (Capture.bLighting) { Decode(Readbacks.Lighting, Out.Lighting); }
+}
+
+void FSampleEngine::SeekTo(double Time)
 {
 	// What was skinned for a lost frame never ran.
-	if (LastTime == Time && !Renderer.IsFrameLost()) { return {}; }
+	if (LastTime == Time && !Renderer.IsFrameLost()) { return; }
 	LastTime = Time;
-	return Scene->SetTime(Time);
+	Skinning = Scene->SetTime(Time);
+}
+
+std::vector<FSkinningInputs> FSampleEngine::MoveTo(double Time)
+{
+	SeekTo(Time);
+	return std::exchange(Skinning, {});
 }
 
 FRTStatus FSampleEngine::RenderFrame(const FView& InView, double Time, const FFrameCapture& Capture, FCapturedFrame* Out)
 {
 	assert(Scene);
+	if (Out) { *Out = {}; } // what this frame does not have is not that of the one before
 	FFrameFeatures Features;
 	Features.Skinning = MoveTo(Time);
 	Features.bWaitForPipelines = Features.bBuildAll = !bRealTime;
+	Features.Signals = Signals;
+	Features.Signals.bAmbientOcclusion |= Capture.Wants(ESignal::AmbientOcclusion);
+	Features.Signals.bDiffuseGI |= Capture.Wants(ESignal::DiffuseGI);
+	Features.Signals.bReflections |= Capture.Wants(ESignal::Reflections);
 	FView View = InView;
 	View.FrameIndex = FrameIndex++;
 	if (FRTStatus S = Renderer.BeginFrame(Scene->GetScene(), View, Features); !S) { return S; }
@@ -99,18 +167,14 @@ FRTStatus FSampleEngine::RenderFrame(const FView& InView, double Time, const FFr
 	const FGBuffer GBuffer = GBufferPass.Add(Context, *Scene);
 	const FFrameOutputs Frame = AddFramePasses(Context, GBuffer);
 	if (ExtraPasses) { ExtraPasses(Context, GBuffer, Frame); }
-	FReadback Readbacks[3];
-	const FRTStatus Captured = CaptureFrame(Frame, Capture, Readbacks);
+	KeepSignals(Frame);
+	FReadbacks Readbacks;
+	const FRTStatus Captured = AddReadbacks(Frame, Capture, Readbacks);
 	FRTFence Fence = 0;
 	if (FRTStatus S = Renderer.EndFrame(&Fence); !S) { return S; }
 	if (!Captured || !Out) { return Captured; }
 	if (FRTStatus S = Renderer.WaitForAll(); !S) { return S; }
-	FImage* const Images[3] = {&Out->Lighting, &Out->Display, &Out->SunShadow};
-	for (int I = 0; I < 3; ++I)
-	{
-		const FReadback& R = Readbacks[I];
-		if (R.Buffer) { *Images[I] = DecodeReadback(R.Buffer->GetMapped(), R.Width, R.Height, R.Format); }
-	}
+	DecodeReadbacks(Readbacks, Capture, *Out);
 	return FRTStatus::Success();
 }
 

@@ -152,6 +152,13 @@ FScenePose EvaluatePose(const FSceneDescription& Scene, double Time)
 	return Pose;
 }
 
+bool IsLightOn(const FHostLight& Light, double Time)
+{
+	// A millionth of a period forgives that frames' times are sums of rounded numbers.
+	const double Periods = Time * double(Light.FlickerHz) + double(Light.FlickerPhase) + 1e-6;
+	return Light.FlickerHz <= 0.0f || Periods - std::floor(Periods) < double(Light.FlickerDuty);
+}
+
 std::vector<glm::mat4> EvaluateJoints(const FSceneDescription& Scene, const FScenePose& Pose, int32_t Node)
 {
 	std::vector<glm::mat4> Joints;

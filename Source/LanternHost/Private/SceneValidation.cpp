@@ -161,6 +161,21 @@ std::string ValidateSkins(const FSceneDescription& Scene)
 	return {};
 }
 
+std::string ValidateLights(const FSceneDescription& Scene)
+{
+	for (size_t I = 0; I < Scene.Lights.size(); ++I)
+	{
+		const FHostLight& Light = Scene.Lights[I];
+		const bool bWave = Light.FlickerHz >= 0.0f && std::isfinite(Light.FlickerHz) &&
+		                   std::isfinite(Light.FlickerPhase) && Light.FlickerDuty >= 0.0f && Light.FlickerDuty <= 1.0f;
+		if (!bWave || (Light.FlickerHz > 0.0f && Light.Type == LIGHT_DIRECTIONAL))
+		{
+			return fmt::format("light {} '{}': flickers as no light can", I, Light.Name);
+		}
+	}
+	return {};
+}
+
 /// Where the nodes stand at the start: products of finite transforms need not be finite.
 std::string ValidatePlaces(const FSceneDescription& Scene)
 {
@@ -214,6 +229,10 @@ std::string ValidateScene(const FSceneDescription& Scene)
 		}
 	}
 	if (const std::string Error = ValidateSkins(Scene); !Error.empty())
+	{
+		return Error;
+	}
+	if (const std::string Error = ValidateLights(Scene); !Error.empty())
 	{
 		return Error;
 	}

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/glm.hpp>
 #include <glm/gtc/constants.hpp>
@@ -55,32 +56,63 @@ FRTStatus CheckView(const FRTModuleView& View)
 	return FRTStatus::Success();
 }
 
+/// A texture of the G-buffer, which goes with depth and has one format.
+struct FGBufferTexture
+{
+	const IRTTexture* Texture;
+	ERTAccess Access;
+	ERTFormat Format;
+	const char* Name;
+	const char* FormatName;
+	const char* AccessName;
+};
+
+FRTStatus CheckTexture(const FGBufferTexture& Item, const FRTTextureDesc& Depth)
+{
+	const auto Fail = [&](const char* Reason, const char* What)
+	{ return FRTStatus::Error(ERTResult::InvalidArgument, "the %s texture %s %s", Item.Name, Reason, What); };
+	if (Item.Texture == nullptr)
+	{
+		return FRTStatus::Success();
+	}
+	const FRTTextureDesc& Desc = Item.Texture->GetDesc();
+	if (Desc.Width != Depth.Width || Desc.Height != Depth.Height)
+	{
+		return FRTStatus::Error(ERTResult::InvalidArgument, "the %s texture is %u x %u, depth is %u x %u", Item.Name,
+		                        Desc.Width, Desc.Height, Depth.Width, Depth.Height);
+	}
+	if (Desc.Format != Item.Format)
+	{
+		return Fail("must be", Item.FormatName);
+	}
+	if (!HasAny(Desc.Usage, ERTTextureUsage::Sampled))
+	{
+		return Fail("needs", "ERTTextureUsage::Sampled");
+	}
+	return Item.Access != ERTAccess::None ? FRTStatus::Success()
+	                                      : Fail("would be discarded by None: how it was used must be said by", Item.AccessName);
+}
+
 FRTStatus CheckGBuffer(const FRTModuleFrame& Frame)
 {
 	const FRTTextureDesc& Depth = Frame.Depth->GetDesc();
-	const FRTTextureDesc& Normals = Frame.Normals->GetDesc();
-	if (Depth.Width != Normals.Width || Depth.Height != Normals.Height)
-	{
-		return FRTStatus::Error(ERTResult::InvalidArgument, "depth is %u x %u, normals are %u x %u", Depth.Width,
-		                        Depth.Height, Normals.Width, Normals.Height);
-	}
 	if (Depth.Format != ERTFormat::D32_FLOAT && Depth.Format != ERTFormat::R32_FLOAT)
 	{
 		return Refuse("the depth texture must be D32_FLOAT or R32_FLOAT");
 	}
-	if (Normals.Format != ERTFormat::RGBA16_SNORM)
+	using enum ERTFormat;
+	const FGBufferTexture Textures[] = {
+	    {Frame.Depth, Frame.DepthAccess, Depth.Format, "depth", "", "DepthAccess"},
+	    {Frame.Normals, Frame.NormalsAccess, RGBA16_SNORM, "normals", "RGBA16_SNORM", "NormalsAccess"},
+	    {Frame.Motion, Frame.MotionAccess, RGBA32_FLOAT, "motion", "RGBA32_FLOAT", "MotionAccess"},
+	    {Frame.BaseColor, Frame.BaseColorAccess, RGBA8_SRGB, "base colour", "RGBA8_SRGB", "BaseColorAccess"},
+	    {Frame.Material, Frame.MaterialAccess, RGBA8_UNORM, "material", "RGBA8_UNORM", "MaterialAccess"}};
+	FRTStatus Status;
+	for (const FGBufferTexture& Texture : Textures)
 	{
-		return Refuse("the normal texture must be RGBA16_SNORM");
+		Status = Status ? CheckTexture(Texture, Depth) : Status;
 	}
-	if (!HasAny(Depth.Usage, ERTTextureUsage::Sampled) || !HasAny(Normals.Usage, ERTTextureUsage::Sampled))
-	{
-		return Refuse("depth and normals need ERTTextureUsage::Sampled");
-	}
-	if (Frame.DepthAccess == ERTAccess::None || Frame.NormalsAccess == ERTAccess::None)
-	{
-		return Refuse("DepthAccess and NormalsAccess must say how the textures were used: None discards them");
-	}
-	return FRTStatus::Success();
+	return Status;
 }
 
 } // namespace
@@ -91,8 +123,19 @@ FRTStatus CheckFrame(const FRTModuleFrame& Frame)
 	{
 		return Refuse("a frame needs a command list, a depth and a normal texture");
 	}
+	if (!(Frame.DeltaSeconds > 0.0f) || !std::isfinite(Frame.DeltaSeconds))
+	{
+		return FRTStatus::Error(ERTResult::InvalidArgument, "FRTModuleFrame::DeltaSeconds must be positive, is %g",
+		                        double(Frame.DeltaSeconds));
+	}
 	const FRTStatus Status = CheckGBuffer(Frame);
 	return Status.IsOk() ? CheckView(Frame.View) : Status;
+}
+
+FRTStatus CheckSky(const float Radiance[3])
+{
+	const bool bGood = Radiance != nullptr && AreFinite(Radiance, 3) && std::all_of(Radiance, Radiance + 3, [](float C) { return C >= 0.0f; });
+	return bGood ? FRTStatus::Success() : Refuse("the sky's radiance must be finite and not negative");
 }
 
 FRTStatus CheckSun(const FRTModuleSun& Sun)
@@ -115,11 +158,27 @@ FRTStatus CheckSun(const FRTModuleSun& Sun)
 
 FRTStatus CheckTransform(const double Transform[12])
 {
-	return AreFinite(Transform, 12) ? FRTStatus::Success() : Refuse("an object's transform is not finite");
+	return Transform != nullptr && AreFinite(Transform, 12) ? FRTStatus::Success() : Refuse("an object's transform is null or not finite");
 }
 
 FRTStatus CheckMaterial(const FRTModuleMaterial& Material)
 {
+	const auto IsLight = [](float Value) { return std::isfinite(Value) && Value >= 0.0f; };
+	if (!std::all_of(Material.BaseColor, Material.BaseColor + 4, IsLight) || !std::all_of(Material.Emissive, Material.Emissive + 3, IsLight))
+	{
+		return Refuse("FRTModuleMaterial::BaseColor and Emissive must be finite and not negative");
+	}
+	for (const auto& [Value, Name] : {std::pair(Material.Metallic, "Metallic"), std::pair(Material.Roughness, "Roughness")})
+	{
+		if (!(Value >= 0.0f && Value <= 1.0f))
+		{
+			return FRTStatus::Error(ERTResult::InvalidArgument, "FRTModuleMaterial::%s must lie between 0 and 1, is %g", Name, double(Value));
+		}
+	}
+	if (!std::isfinite(Material.AlphaCutoff))
+	{
+		return Refuse("FRTModuleMaterial::AlphaCutoff is not finite");
+	}
 	if (Material.BaseColorTexture == nullptr)
 	{
 		return FRTStatus::Success();

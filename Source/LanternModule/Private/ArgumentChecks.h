@@ -8,6 +8,7 @@ namespace Lantern
 
 FRTStatus CheckFrame(const FRTModuleFrame& Frame);
 FRTStatus CheckSun(const FRTModuleSun& Sun);
+FRTStatus CheckSky(const float Radiance[3]);
 FRTStatus CheckTransform(const double Transform[12]);
 FRTStatus CheckMaterial(const FRTModuleMaterial& Material);
 

@@ -37,7 +37,22 @@ FView ToView(const FRTModuleFrame& Frame, uint32_t FrameIndex)
 	View.Height = Frame.Depth->GetDesc().Height;
 	View.FrameIndex = FrameIndex;
 	View.Seed = Frame.Seed;
+	View.DeltaSeconds = Frame.DeltaSeconds;
+	View.bCut = Frame.bCut;
 	return View;
+}
+
+FGBuffer ImportGBuffer(FFrameGraph& Graph, const FRTModuleFrame& Frame)
+{
+	const auto Import = [&](IRTTexture* Texture, ERTAccess Access, const char* Name)
+	{ return Texture != nullptr ? Graph.ImportTexture(Texture, Access, ERTAccess::ShaderRead, Name) : FGraphTexture(); };
+	FGBuffer Out;
+	Out.Depth = Import(Frame.Depth, Frame.DepthAccess, "EngineDepth");
+	Out.Normals = Import(Frame.Normals, Frame.NormalsAccess, "EngineNormals");
+	Out.Motion = Import(Frame.Motion, Frame.MotionAccess, "EngineMotion");
+	Out.BaseColor = Import(Frame.BaseColor, Frame.BaseColorAccess, "EngineBaseColor");
+	Out.Material = Import(Frame.Material, Frame.MaterialAccess, "EngineMaterial");
+	return Out;
 }
 
 } // namespace
@@ -243,27 +258,79 @@ FRTStatus FModuleRenderer::SetSun(const FRTModuleSun& Sun)
 	return FRTStatus::Success();
 }
 
+FRTStatus FModuleRenderer::SetSky(const float Radiance[3])
+{
+	const FRTStatus Status = CheckSky(Radiance);
+	if (Status)
+	{
+		Scene.SetSky({Radiance[0], Radiance[1], Radiance[2]});
+	}
+	return Status;
+}
+
 void FModuleRenderer::AddPasses(const FRTModuleFrame& Frame)
 {
 	FFrameContext& Context = Renderer.GetContext();
-	FFrameGraph& Graph = Context.Graph;
-	FSunShadowInputs Inputs;
-	Inputs.Depth = Graph.ImportTexture(Frame.Depth, Frame.DepthAccess, ERTAccess::ShaderRead, "EngineDepth");
-	Inputs.Normals = Graph.ImportTexture(Frame.Normals, Frame.NormalsAccess, ERTAccess::ShaderRead, "EngineNormals");
-	const FGraphTexture Visibility = AddSunShadowPass(Context, Inputs).Visibility;
-	if (!Visibility.IsValid())
+	const FGBuffer GBuffer = ImportGBuffer(Context.Graph, Frame);
+	FFrameOutputs Made;
+	if (Frame.Wanted.bSunShadow)
+	{
+		Made.SunShadow = AddSunShadowPass(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion});
+	}
+	if (Context.Signals.bAmbientOcclusion)
+	{
+		Made.AmbientOcclusion = AddAmbientOcclusionPass(Context, GBuffer);
+	}
+	if (Context.Signals.bReflections)
+	{
+		Made.Reflections = AddReflectionsPass(Context, GBuffer);
+	}
+	if (Context.Signals.bDiffuseGI)
+	{
+		Made.DiffuseGI = AddDiffuseGIPass(Context, GBuffer);
+	}
+	HandToEngine(Made);
+}
+
+/// The engine reads them after the graph has ended: the last pass leaves them readable and holds on to them.
+void FModuleRenderer::HandToEngine(const FFrameOutputs& Made)
+{
+	using FOutput = std::pair<FGraphTexture, TRTRef<IRTTexture>*>;
+	std::vector<FOutput> Outputs = {{Made.SunShadow.Visibility, &SunShadow},
+	                                {Made.AmbientOcclusion.Visibility, &AmbientOcclusion},
+	                                {Made.DiffuseGI.Radiance, &DiffuseGI},
+	                                {Made.Reflections.Radiance, &Reflections}};
+	std::erase_if(Outputs, [](const FOutput& Output) { return !Output.first.IsValid(); });
+	if (Outputs.empty())
 	{
 		return;
 	}
-	// The engine reads it after the graph has ended: the last pass leaves it readable and holds on to it.
+	FFrameGraph& Graph = Renderer.GetContext().Graph;
+	for (const auto& [Texture, Held] : Outputs)
+	{
+		Graph.AddUsage(Texture, ERTTextureUsage::CopySource);
+	}
 	Graph.AddPass("HandToEngine",
-	              [this, Visibility](FPassBuilder& Builder) -> FPassExecute
+	              [&](FPassBuilder& Builder) -> FPassExecute
 	              {
-		              Builder.Read(Visibility, ERTAccess::ShaderRead);
+		              for (const auto& [Texture, Held] : Outputs)
+		              {
+			              Builder.Read(Texture, ERTAccess::ShaderRead);
+		              }
 		              Builder.NeverCull();
-		              return [this, Visibility](FPassContext& Pass)
-		              { SunShadow = TRTRef<IRTTexture>(Pass.GetTexture(Visibility)); };
+		              return [Outputs](FPassContext& Pass)
+		              {
+			              for (const auto& [Texture, Held] : Outputs)
+			              {
+				              *Held = TRTRef<IRTTexture>(Pass.GetTexture(Texture));
+			              }
+		              };
 	              });
+}
+
+void FModuleRenderer::ReleaseOutputs()
+{
+	SunShadow = AmbientOcclusion = DiffuseGI = Reflections = nullptr;
 }
 
 FRTStatus FModuleRenderer::RecordVertices(IRTCommandList& List)
@@ -303,9 +370,12 @@ FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame)
 	}
 	FFrameFeatures Features;
 	Features.bBuildAll = Features.bWaitForPipelines = false;
-	// Structures are built while the shaders that trace them are compiled, so that shadows come with all that casts them.
-	const ESunShadowPath Path = ChooseSunShadowPath(Device->GetCapabilities(), Scene.RefreshFacts());
-	Features.bRays = Features.bLateRays = Path != ESunShadowPath::None;
+	Features.bMotion = false; // the engine draws: nothing of the plugin's reads how its objects moved
+	Features.Signals.bNothingElse = true;
+	Features.Signals.bSunShadow = Frame.Wanted.bSunShadow;
+	Features.Signals.bAmbientOcclusion = Frame.Wanted.bAmbientOcclusion;
+	Features.Signals.bDiffuseGI = Frame.Wanted.bDiffuseGI;
+	Features.Signals.bReflections = Frame.Wanted.bReflections && Frame.BaseColor != nullptr && Frame.Material != nullptr;
 	if (const FRTStatus Status = Renderer.BeginFrame(Scene, ToView(Frame, FrameIndex++), Features); !Status)
 	{
 		return Status;
@@ -319,20 +389,6 @@ FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame)
 	return Status;
 }
 
-bool FModuleRenderer::AreShadersReady()
-{
-	if (ChooseSunShadowPath(Device->GetCapabilities(), Scene.GetFacts()) != ESunShadowPath::Pipeline)
-	{
-		return true;
-	}
-	const FRTPSO* const Pipeline = Renderer.GetRayPipeline();
-	const std::vector<FHitProgram> Programs = Scene.GetSections().GetHitPrograms();
-	const auto IsReady = [&](FHitProgram Program) { return Pipeline->GetState(Program) == ERTHitState::Ready; };
-	const bool bAll = Pipeline != nullptr && std::all_of(Programs.begin(), Programs.end(), IsReady);
-	// What does not compile never will be ready.
-	return bAll || (SunShadow && !Renderer.GetRayCompiler().GetStats().bBusy);
-}
-
 FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOutputs* Out)
 {
 	*Out = {};
@@ -344,17 +400,20 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 	{
 		return Status;
 	}
-	SunShadow = nullptr;
+	ReleaseOutputs();
 	const FRTStatus Status = RecordFrame(Frame);
 	if (!Status)
 	{
-		SunShadow = nullptr;
+		ReleaseOutputs();
 		FinishVertices(0);
 		return Status;
 	}
 	Recorded = TRTRef<IRTCommandList>(Frame.Commands);
 	Out->SunShadow = SunShadow.Get();
-	Out->bShadersReady = AreShadersReady();
+	Out->AmbientOcclusion = AmbientOcclusion.Get();
+	Out->DiffuseGI = DiffuseGI.Get();
+	Out->Reflections = Reflections.Get();
+	Out->bShadersReady = Renderer.AreRayProgramsReady();
 	Out->bComplete = Out->bShadersReady && Scene.GetGeometries().GetStats().Pending == 0;
 	return Status;
 }

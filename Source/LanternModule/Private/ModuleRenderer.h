@@ -36,6 +36,7 @@ public:
 	FRTStatus SetObjectCastsShadow(ERTObjectHandle Handle, bool bCastsShadow) override;
 	FRTStatus RemoveObject(ERTObjectHandle Handle) override;
 	FRTStatus SetSun(const FRTModuleSun& Sun) override;
+	FRTStatus SetSky(const float Radiance[3]) override;
 	FRTStatus RenderFrame(const FRTModuleFrame& Frame, FRTModuleOutputs* Out) override;
 	FRTStatus EndFrame(FRTFence* OutFence) override;
 
@@ -80,12 +81,13 @@ private:
 	/// Why Meshes does not find Handle.
 	FRTStatus RefuseMesh(const char* Function, ERTMeshHandle Handle) const;
 	void StoreMaterial(FMaterial& Material, const FRTModuleMaterial& From);
-	bool AreShadersReady();
 	FRTStatus RecordVertices(IRTCommandList& List);
 	FRTStatus RecordFrame(const FRTModuleFrame& Frame);
 	/// Fence: 0 when the list will never run.
 	void FinishVertices(FRTFence Fence);
 	void AddPasses(const FRTModuleFrame& Frame);
+	void HandToEngine(const FFrameOutputs& Made);
+	void ReleaseOutputs();
 
 	TRTRef<IRTModule> Owner;
 	TRTRef<IRTDevice> Device;
@@ -102,7 +104,8 @@ private:
 	std::vector<FRemovedMesh> RemovedMeshes; ///< by slot
 	TSlotTable<FObject, ERTObjectHandle> Objects;
 	TRTRef<IRTCommandList> Recorded; ///< between RenderFrame and EndFrame
-	TRTRef<IRTTexture> SunShadow;    ///< of the last frame
+	/// Of the last frame.
+	TRTRef<IRTTexture> SunShadow, AmbientOcclusion, DiffuseGI, Reflections;
 	uint32_t FrameIndex = 0;
 };
 

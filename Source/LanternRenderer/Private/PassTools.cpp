@@ -1,7 +1,16 @@
 #include "PassTools.h"
 
+#include "LanternCore/ConsoleVariables.h"
+
 namespace Lantern
 {
+
+namespace
+{
+TRTConsoleVariable<bool> CVarEnable("r.RT.Enable", true, "All of the plugin's ray-traced features.");
+}
+
+bool IsRayTracingEnabled() { return CVarEnable.GetOnRenderThread(); }
 
 IRTPipeline* RequireCompute(const FFrameContext& Context, const char* Path, std::vector<std::pair<std::string, std::string>> Defines)
 {
@@ -29,6 +38,22 @@ std::vector<std::pair<std::string, std::string>> MakeFactDefines(const FSceneFac
 	Add(Facts.Lights > 0, "HAS_LIGHTS");
 	Add(Facts.bMasked, "HAS_MASKED");
 	return Defines;
+}
+
+std::vector<std::pair<std::string, std::string>> MakePathDefines(const FSceneFacts& Facts)
+{
+	std::vector<std::pair<std::string, std::string>> Defines = MakeFactDefines(Facts);
+	if (Facts.bEmissive) { Defines.emplace_back("HAS_EMISSIVE", "1"); }
+	return Defines;
+}
+
+bool HasAnyLight(const FSceneFacts& Facts) { return Facts.bSun || Facts.bSky || Facts.bEmissive || Facts.Lights > 0; }
+
+uint64_t GetMaxPathRays(const FSceneFacts& Facts, uint32_t Bounces)
+{
+	const uint64_t Emissive = Facts.bEmissive ? 1 : 0;
+	const uint64_t Lights = Emissive + (Facts.bSun ? 1 : 0) + (Facts.bSky ? 1 : 0) + (Facts.Lights > 0 ? 1 : 0);
+	return Emissive + 1 + Bounces * (Lights + 1);
 }
 
 } // namespace Lantern

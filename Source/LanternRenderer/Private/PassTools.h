@@ -19,10 +19,22 @@ void Dispatch2D(FPassContext& Pass, IRTPipeline* Pipeline, const T& Constants, u
 	Pass.Commands().Dispatch(DivideUp(Width, GroupSize), DivideUp(Height, GroupSize), 1);
 }
 
+/// r.RT.Enable.
+bool IsRayTracingEnabled();
+
 /// HAS_… for what the scene has, so that the rest is not compiled.
 std::vector<std::pair<std::string, std::string>> MakeFactDefines(const FSceneFacts& Facts);
 
+/// The same, with what light sampling in shaders asks of it (Shaders/Rays/PathLights.glsl).
+std::vector<std::pair<std::string, std::string>> MakePathDefines(const FSceneFacts& Facts);
+
+/// Whether there is anything that paths could bring.
+bool HasAnyLight(const FSceneFacts& Facts);
+/// The most rays that one path of a brute-force pass casts, shadow rays counted, Bounces being the surfaces that it may shade
+/// after the first: paths that leave the scene cast fewer.
+uint64_t GetMaxPathRays(const FSceneFacts& Facts, uint32_t Bounces);
+
 /// Nothing where Items is empty.
-FRTStatus AddSkinningPass(FFrameContext& Context, FFrameUploads& Uploads, const std::vector<FSkinningInputs>& Items);
+FRTStatus AddSkinningPass(FFrameContext& Context, FFrameUploads& Uploads, const std::vector<FSkinningInputs>& Items, bool bMotion);
 
 } // namespace Lantern

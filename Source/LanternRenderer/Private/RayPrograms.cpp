@@ -3,8 +3,6 @@
 #include "LanternRenderer/AnyHitCounter.h"
 #include "LanternRenderer/Frame.h"
 #include "LanternScene/SectionTable.h"
-#include "PassTools.h"
-#include "Shadow/SunShadow.h"
 
 namespace Lantern
 {
@@ -38,35 +36,67 @@ FRayType MakeMaterialRay()
 	Type.PayloadBytes = MaterialPayloadBytes;
 	return Type;
 }
+
+/// See FSignalRequests::bNothingElse.
+bool IsMade(EFrameRayGen Pass, const FSignalRequests& Requests)
+{
+	switch (Pass)
+	{
+	case EFrameRayGen::SunShadow: return !Requests.bNothingElse || Requests.bSunShadow;
+	case EFrameRayGen::AmbientOcclusion: return !Requests.bNothingElse || Requests.bAmbientOcclusion;
+	case EFrameRayGen::DiffuseGI: return !Requests.bNothingElse || Requests.bDiffuseGI;
+	case EFrameRayGen::Reflections: return !Requests.bNothingElse || Requests.bReflections;
+	case EFrameRayGen::Reference:
+	case EFrameRayGen::Count: break;
+	}
+	return true;
+}
 } // namespace
+
+FPassRays MakePassRays(const char* RayGenPath, std::vector<std::pair<std::string, std::string>> Defines, bool bShadesHits)
+{
+	FPassRays Rays{Shader(RayGenPath), bShadesHits};
+	Rays.RayGen.Defines = std::move(Defines);
+	return Rays;
+}
 
 FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, FRTScene& Scene, const FFrameFeatures& Features)
 {
+	const FSceneFacts& Facts = Scene.GetFacts();
 	FRayPrograms Programs;
 	FRTPSODesc& Desc = Programs.Desc;
-	if (!Capabilities.bRayTracingPipeline) { return Programs; }
-	if (Features.bReference)
+	const auto IsQuery = [&](EFrameRayGen Pass, ERayPath Path) { return Path == ERayPath::Query && IsMade(Pass, Features.Signals); };
+	Programs.bQueries =
+	    !Features.bReference && (IsQuery(EFrameRayGen::SunShadow, ChooseSunShadowPath(Capabilities, Facts)) ||
+	                             IsQuery(EFrameRayGen::AmbientOcclusion, ChooseAmbientOcclusionPath(Capabilities, Facts, Features.Signals)));
+	bool bShadesHits = !Features.RayGens.empty();
+	const auto Add = [&](EFrameRayGen Pass, std::optional<FPassRays> Rays) {
+		if (!Rays || !IsMade(Pass, Features.Signals)) { return; }
+		Desc.RayGens.push_back(Rays->RayGen);
+		Programs.RayGens[static_cast<size_t>(Pass)] = std::move(Rays->RayGen);
+		bShadesHits |= Rays->bShadesHits;
+		Programs.bLightSampling |= Rays->bShadesHits;
+	};
+	if (Features.bReference) { Add(EFrameRayGen::Reference, ChooseReferenceRays(Facts, Features.ReferenceSignal, Features.bReferenceFromGBuffer)); }
+	else
 	{
-		Programs.Reference = Shader("Reference/PathTrace.rgen");
-		Programs.Reference->Defines = MakeFactDefines(Scene.GetFacts());
-		if (Scene.GetFacts().bEmissive) { Programs.Reference->Defines.emplace_back("HAS_EMISSIVE", "1"); }
-		Desc.RayGens = {*Programs.Reference};
-		Desc.RayTypes = {MakeShadowRay(), MakeMaterialRay()};
+		// Also without pipelines: passes that need them say so.
+		Add(EFrameRayGen::SunShadow, ChooseSunShadowRays(Capabilities, Facts));
+		Add(EFrameRayGen::AmbientOcclusion, ChooseAmbientOcclusionRays(Capabilities, Facts, Features.Signals));
+		Add(EFrameRayGen::DiffuseGI, ChooseDiffuseGIRays(Capabilities, Facts));
+		Add(EFrameRayGen::Reflections, ChooseReflectionsRays(Capabilities, Facts));
 	}
-	else if (ChooseSunShadowPath(Capabilities, Scene.GetFacts()) == ESunShadowPath::Pipeline)
+	Desc.RayGens.insert(Desc.RayGens.end(), Features.RayGens.begin(), Features.RayGens.end());
+	if (Desc.RayGens.empty() || !Capabilities.bRayTracingPipeline)
 	{
-		Programs.SunShadow = Shader("Shadow/SunShadow.rgen");
-		Programs.SunShadow->Defines = MakeSunShadowDefines();
-		Desc.RayGens = {*Programs.SunShadow};
-		Desc.RayTypes = {MakeShadowRay()};
+		Desc.RayGens.clear();
+		Programs.RayGens.fill(std::nullopt);
+		return Programs;
 	}
-	if (!Features.RayGens.empty())
-	{
-		Desc.RayGens.insert(Desc.RayGens.end(), Features.RayGens.begin(), Features.RayGens.end());
-		Desc.RayTypes = {MakeShadowRay(), MakeMaterialRay()};
-		Desc.Callables = Features.Callables;
-	}
-	if (!Desc.RayGens.empty()) { Desc.HitPrograms = Scene.GetSections().GetHitPrograms(); }
+	Desc.RayTypes = {MakeShadowRay()};
+	if (bShadesHits) { Desc.RayTypes.push_back(MakeMaterialRay()); }
+	Desc.Callables = Features.Callables;
+	Desc.HitPrograms = Scene.GetSections().GetHitPrograms();
 	return Programs;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "LanternCore/ConsoleVariables.h"
+#include "LanternCore/History.h"
 #include "LanternCore/TaskTrace.h"
 #include "LanternRenderer/Frame.h"
 #include "PassTools.h"
@@ -25,13 +26,18 @@ TRTConsoleVariable<int32_t> CVarMaterialOverride("r.RT.Material.Override", 0,
                                                  {0, 2});
 TRTConsoleVariable<bool> CVarPrebind("r.RT.SBT.Prebind", true,
                                      "Shader records are written by a task beside the frame. Off: on the render thread, where the table is recorded.");
-constexpr uint64_t WaitNs = 120'000'000'000ull;
+TRTConsoleVariable<int32_t> CVarPoisonHistory("r.RT.Debug.PoisonHistory", 0,
+                                              "Every N-th frame overwrites all that frames keep for later ones with bits that are not-a-number: a test "
+                                              "of what guards against them. 0: never.",
+                                              {0, 1000000});
+// A hang, surely: drivers that have a watchdog report a lost device long before, and a CPU takes minutes for what is brute force.
+constexpr uint64_t WaitNs = 1'200'000'000'000ull;
 } // namespace
 
 FRenderer::FRenderer(IRTDevice& InDevice, FRendererDesc Desc)
     : Device(InDevice), Compiler(FShaderCompilerDesc{std::move(Desc.ShaderFolders), Desc.CacheFolder}), Pipelines(InDevice, Compiler),
       Uploads(InDevice), GraphResources(InDevice), RefitQuality(std::make_unique<FRefitQuality>(InDevice)), Bindings(InDevice), AnyHits(InDevice), RayCompiler(InDevice, Compiler, Programs),
-      StandIns(std::make_unique<FStandInFeedback>(InDevice))
+      StandIns(std::make_unique<FStandInFeedback>(InDevice)), History(std::make_unique<FHistoryResources>(InDevice))
 {
 	if (!FTaskTrace::HasFolder()) { FTaskTrace::SetFolder(Desc.CacheFolder); }
 	FTaskTrace::StartIfWanted();
@@ -62,12 +68,12 @@ FRTStatus FRenderer::WaitForSlot()
 	return Device.CreateCommandList("Frame", Lists[Slot].ReleaseAndGetAddress());
 }
 
-FRTStatus FRenderer::PrepareRayPipeline(const FFrameFeatures& Features)
+FRTStatus FRenderer::PrepareRayPipeline(const FRayPrograms& Wanted, const FFrameFeatures& Features)
 {
 	Context->RayPipeline = nullptr;
 	bStandIns = false;
-	const FRayPrograms Wanted = ChooseRayPrograms(Device.GetCapabilities(), Context->Scene, Features);
-	if (Wanted.Desc.RayGens.empty())
+	bRaysReady = Wanted.Desc.RayGens.empty();
+	if (bRaysReady)
 	{
 		RayPipeline.reset();
 		Context->Scene.SetMissingPrograms({}); // ray queries run none
@@ -96,8 +102,14 @@ FRTStatus FRenderer::PrepareRayPipeline(const FFrameFeatures& Features)
 	Context->RayPipeline = RayPipeline.get();
 	Context->RayBindings = &Bindings;
 	// Until a variant for this frame's settings is ready, the one before serves.
-	if (Wanted.SunShadow) { Context->SunShadowRayGen = RayPipeline->FindRayGenVariant(*Wanted.SunShadow); }
-	if (Wanted.Reference) { Context->ReferenceRayGen = RayPipeline->FindRayGen(*Wanted.Reference); }
+	for (size_t I = 0; I < Wanted.RayGens.size(); ++I)
+	{
+		if (!Wanted.RayGens[I]) { continue; }
+		const bool bExact = I == static_cast<size_t>(EFrameRayGen::Reference);
+		Context->RayGens[I] = bExact ? RayPipeline->FindRayGen(*Wanted.RayGens[I]) : RayPipeline->FindRayGenVariant(*Wanted.RayGens[I]);
+	}
+	const auto HasRayGen = [&](const FShaderSource& RayGen) { return RayPipeline->FindRayGen(RayGen) != NoRayGen; };
+	bRaysReady = !bStandIns && std::all_of(Wanted.Desc.RayGens.begin(), Wanted.Desc.RayGens.end(), HasRayGen);
 	Context->Scene.SetRayTypes(RayPipeline->GetRayTypeCount());
 	return FRTStatus::Success();
 }
@@ -113,6 +125,31 @@ FRTStatus FRenderer::Precache(FRTScene& Scene, const FFrameFeatures& Features, c
 	Scene.RefreshFacts();
 	const FRayPrograms Wanted = ChooseRayPrograms(Device.GetCapabilities(), Scene, Features);
 	return Wanted.Desc.RayGens.empty() ? FRTStatus::Success() : RayCompiler.Finish(Wanted.Desc, Progress);
+}
+
+std::string FRenderer::GetRayShaderKey(FRTScene& Scene, const FFrameFeatures& Features)
+{
+	assert(!Graph && "between frames");
+	FConsoleVariables::Get().BeginFrame();
+	Scene.SetAlphaTest(CVarAlphaTest.GetOnRenderThread());
+	Scene.SetMaterialOverride(static_cast<uint32_t>(CVarMaterialOverride.GetOnRenderThread()));
+	Scene.RefreshFacts();
+	const FRTPSODesc Desc = ChooseRayPrograms(Device.GetCapabilities(), Scene, Features).Desc;
+	std::vector<FShaderSource> Sources = Desc.RayGens;
+	Sources.insert(Sources.end(), Desc.Callables.begin(), Desc.Callables.end());
+	for (const FRayType& Type : Desc.RayTypes) { Sources.push_back(Type.Miss); }
+	for (const FHitProgram& Program : Desc.HitPrograms)
+	{
+		for (const FRayType& Type : Desc.RayTypes)
+		{
+			if (Type.ClosestHit) { Sources.push_back(Programs.MakeSource(*Type.ClosestHit, Program.Program)); }
+			if (Program.Class == ERTHitClass::Masked) { Sources.push_back(Programs.MakeSource(Type.MaskedAnyHit, Program.Program)); }
+		}
+		if (Program.Class == ERTHitClass::Procedural) { Sources.push_back({Programs.Get(Program.Program).IntersectionPath, ERTShaderStage::Intersection, {}, {}}); }
+	}
+	std::string Key;
+	for (const FShaderSource& Source : Sources) { Key += Compiler.GetKey(Source) + "/"; }
+	return Key;
 }
 
 FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrameFeatures& Features)
@@ -133,13 +170,22 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	Context->Height = View.Height;
 	Context->Status = &FrameStatus;
 	Context->Owner = this;
+	const bool bSameSize = LastView.Width == View.Width && LastView.Height == View.Height;
+	const bool bSameScene = LastScene == Scene.GetSections().GetIdentity() && LastSceneFrame == Scene.GetMotions().GetFrame();
+	Context->PreviousView = bSameScene && bSameSize && !View.bCut && !Features.bReference ? &LastView : nullptr;
+	Context->History = History.get();
+	Context->Signals = Features.Signals;
+	History->BeginFrame(*Graph, Context->PreviousView != nullptr);
+	const int32_t PoisonEvery = CVarPoisonHistory.GetOnRenderThread();
+	if (PoisonEvery > 0 && View.FrameIndex % static_cast<uint32_t>(PoisonEvery) == 0) { GraphResources.PoisonHistory(""); }
 	bUpdating = bRayPassesAdded = false;
-	FRTStatus Status = PrepareRayPipeline(Features);
-	if (Status) { Status = StartUpdate(View, Features); }
+	const FRayPrograms Wanted = ChooseRayPrograms(Device.GetCapabilities(), Scene, Features);
+	FRTStatus Status = PrepareRayPipeline(Wanted, Features);
+	if (Status) { Status = StartUpdate(View, Wanted, Features); }
 	if (Status) { Status = AllocateConstants(); }
 	if (Status) { Status = AnyHits.Begin(); }
 	if (Status) { Status = StandIns->Begin(Scene, View.Position, bStandIns); }
-	if (Status) { Status = AddSkinningPass(*Context, Uploads, Features.Skinning); }
+	if (Status) { Status = AddSkinningPass(*Context, Uploads, Features.Skinning, FrameUse.bMotion); }
 	if (!Status)
 	{
 		DropFrame();
@@ -153,15 +199,16 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 }
 
 /// As early as can be: what it starts has the rest of the frame's making to be done in.
-FRTStatus FRenderer::StartUpdate(const FView& View, const FFrameFeatures& Features)
+FRTStatus FRenderer::StartUpdate(const FView& View, const FRayPrograms& Wanted, const FFrameFeatures& Features)
 {
 	FRTScene& Scene = Context->Scene;
 	for (const FSkinningInputs& Item : Features.Skinning) { Scene.MarkDeformed(Item.Geometry); }
-	const bool bQueries = ChooseSunShadowPath(Device.GetCapabilities(), Context->Facts) == ESunShadowPath::Query;
 	FrameUse = {};
-	FrameUse.bRays = Features.bRays || bQueries || Context->RayPipeline;
-	FrameUse.bLightSampling = Features.bReference;
+	// Structures are built while the shaders that trace them are compiled.
+	FrameUse.bRays = Features.bRays || Wanted.bQueries || !Wanted.Desc.RayGens.empty();
+	FrameUse.bLightSampling = Wanted.bLightSampling;
 	FrameUse.bCull = !Features.bReference;
+	FrameUse.bMotion = Features.bMotion && !Features.bReference;
 	FrameUse.bBuildAll = Features.bBuildAll || Features.bReference;
 	const FGatherView Gather(View.Position, View.Forward, View.FovY, View.Height);
 	bUpdating = Scene.NeedsUpdate(Gather, FrameUse);
@@ -212,7 +259,7 @@ void FRenderer::WriteConstants()
 	FSceneConstants OfScene = Context->Scene.GetConstants();
 	OfScene.AnyHitCounter = AnyHits.GetAddress();
 	OfScene.StandInHits = StandIns->GetAddress();
-	const FViewConstants OfView = MakeViewConstants(Context->View, Context->Scene.GetOrigin());
+	const FViewConstants OfView = MakeViewConstants(Context->View, Context->Scene.GetOrigin(), Context->PreviousView);
 	std::memcpy(SceneConstants.Data, &OfScene, sizeof(OfScene));
 	std::memcpy(ViewConstants.Data, &OfView, sizeof(OfView));
 }
@@ -257,6 +304,14 @@ void FRenderer::AddRayPasses()
 
 void FFrameContext::RequireRays() const { Owner->AddRayPasses(); }
 
+void FRenderer::KeepHistory(bool bSubmitted)
+{
+	History->EndFrame(bSubmitted);
+	LastScene = bSubmitted ? Context->Scene.GetSections().GetIdentity() : 0;
+	LastSceneFrame = Context->Scene.GetMotions().GetFrame();
+	LastView = Context->View;
+}
+
 /// A frame that was begun and cannot go on.
 void FRenderer::DropFrame()
 {
@@ -264,6 +319,7 @@ void FRenderer::DropFrame()
 	Graph.reset();
 	if (bUpdating) { Context->Scene.EndFrame(false); }
 	RefitQuality->EndFrame(Context->Scene.GetGeometries(), 0);
+	KeepHistory(false);
 	Context.reset();
 	Uploads.EndFrame(0); // nothing reads them
 }
@@ -329,6 +385,7 @@ void FRenderer::FrameSubmitted(FRTFence Fence)
 	StandIns->Submitted(Fence);
 	Context->Scene.EndFrame(Fence != 0, Fence);
 	RefitQuality->EndFrame(Context->Scene.GetGeometries(), Fence);
+	KeepHistory(Fence != 0);
 	Context.reset();
 	bFrameLost = Fence == 0;
 	if (!bFrameLost) { return; }

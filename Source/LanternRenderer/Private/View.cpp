@@ -6,32 +6,52 @@
 namespace Lantern
 {
 
-FViewConstants MakeViewConstants(const FView& View, glm::dvec3 Origin)
+namespace
 {
-	assert(View.Width > 0 && View.Height > 0 && View.Near > 0.0f);
+/// Right, up and forward of unit length.
+glm::mat3 MakeAxes(const FView& View)
+{
 	const glm::vec3 Forward = glm::normalize(View.Forward);
 	const glm::vec3 Right = glm::normalize(glm::cross(Forward, View.Up));
-	const glm::vec3 Up = glm::cross(Right, Forward);
+	return {Right, glm::cross(Right, Forward), Forward};
+}
+
+glm::mat4 MakeRelativeToClip(const FView& View)
+{
+	const glm::mat3 Axes = MakeAxes(View);
+	const float ScaleY = 1.0f / std::tan(0.5f * View.FovY);
+	const float ScaleX = ScaleY * static_cast<float>(View.Height) / static_cast<float>(View.Width);
+	// Vulkan's clip space has y down; w is the distance along the view, z the constant near: depth = near / w.
+	const glm::vec4 Rows[4] = {glm::vec4(Axes[0] * ScaleX, 0), glm::vec4(Axes[1] * -ScaleY, 0), glm::vec4(0, 0, 0, View.Near), glm::vec4(Axes[2], 0)};
+	return glm::transpose(glm::mat4(Rows[0], Rows[1], Rows[2], Rows[3]));
+}
+} // namespace
+
+FViewConstants MakeViewConstants(const FView& View, glm::dvec3 Origin, const FView* Previous)
+{
+	assert(View.Width > 0 && View.Height > 0 && View.Near > 0.0f && View.DeltaSeconds > 0.0f);
+	const glm::mat3 Axes = MakeAxes(View);
 	FViewConstants C{};
 	C.TanHalfFovY = std::tan(0.5f * View.FovY);
 	C.Aspect = static_cast<float>(View.Width) / static_cast<float>(View.Height);
-	const float ScaleX = 1.0f / (C.TanHalfFovY * C.Aspect), ScaleY = 1.0f / C.TanHalfFovY;
-	// Vulkan's clip space has y down; w is the distance along the view, z the constant near: depth = near / w.
-	const glm::vec4 Rows[4] = {glm::vec4(Right * ScaleX, 0), glm::vec4(Up * -ScaleY, 0), glm::vec4(0, 0, 0, View.Near), glm::vec4(Forward, 0)};
-	for (int Column = 0; Column < 4; ++Column)
-	{
-		for (int Row = 0; Row < 4; ++Row) { C.RelativeToClip[Column][Row] = Rows[Row][Column]; }
-	}
+	C.RelativeToClip = MakeRelativeToClip(View);
 	C.CameraPosition = glm::vec3(View.Position - Origin);
-	C.CameraRight = Right;
-	C.CameraUp = Up;
-	C.CameraForward = Forward;
+	C.CameraRight = Axes[0];
+	C.CameraUp = Axes[1];
+	C.CameraForward = Axes[2];
 	C.Near = View.Near;
 	C.FrameIndex = View.FrameIndex;
 	C.Width = View.Width;
 	C.Height = View.Height;
 	C.Seed = View.Seed;
 	C.Exposure = std::exp2(View.Exposure);
+	const FView& Before = Previous ? *Previous : View;
+	C.PreviousRelativeToClip = MakeRelativeToClip(Before);
+	C.CameraMotion = glm::vec3(View.Position - Before.Position);
+	C.PreviousNear = Before.Near;
+	C.PreviousForward = MakeAxes(Before)[2];
+	C.DeltaSeconds = View.DeltaSeconds;
+	C.bHistory = Previous ? 1u : 0u;
 	return C;
 }
 

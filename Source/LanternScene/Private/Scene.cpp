@@ -37,7 +37,11 @@ FRTScene::~FRTScene() { GatherTasks.Wait(); }
 
 FRTStatus FRTScene::CreateGeometry(FRTGeometryInfo Info, FRTGeometryRef& Out) { return Geometries.Create(std::move(Info), Out); }
 
-void FRTScene::MarkDeformed(const FRTGeometryRef& Geometry) { Geometries.MarkDeformed(Geometry); }
+void FRTScene::MarkDeformed(const FRTGeometryRef& Geometry) 
+{
+	Geometries.MarkDeformed(Geometry);
+	Motions.MarkDeformed(Geometry);
+}
 
 // ---------------------------------------------------------------------------------------------------- materials
 
@@ -130,6 +134,7 @@ void FRTScene::FreeObjectSlot(uint32_t Index)
 		Objects.pop_back();
 	}
 	ObjectData.Truncate(static_cast<uint32_t>(Objects.size()));
+	Motions.Truncate(static_cast<uint32_t>(Objects.size()));
 	if (Objects.capacity() / 4 > Objects.size() + 64) { Objects.shrink_to_fit(); }
 }
 
@@ -146,6 +151,7 @@ FRTObjectId FRTScene::AddObject(FRTObjectInfo Info)
 	Object.Info = std::move(Info);
 	Object.bAlive = true;
 	Object.Range = Sections.Acquire(*Object.Info.Geometry, Object.Info.Materials);
+	Motions.Add(Index, *Object.Info.Geometry);
 	WriteObject(Index);
 	MarkEmissive(Object.Range);
 	return {Index, Object.Generation};
@@ -156,6 +162,7 @@ void FRTScene::RemoveObject(FRTObjectId Id)
 	FObject& Object = Resolve(Id);
 	MarkEmissive(Object.Range);
 	Instances.Remove(Id.Index);
+	Motions.Remove(Id.Index);
 	Sections.Release(Object.Range);
 	Retired.push_back(std::move(Object.Info.Geometry));
 	FreeObjectSlot(Id.Index);
@@ -172,6 +179,7 @@ const FRTScene::FObject& FRTScene::Resolve(FRTObjectId Id) const { return const_
 void FRTScene::SetTransform(FRTObjectId Id, const glm::dmat4& Transform)
 {
 	FObject& Object = Resolve(Id);
+	Motions.BeforeMove(Id.Index);
 	Object.Info.Transform = Transform;
 	WriteObject(Id.Index);
 	bEmissiveChanged |= Sections.GetRange(Object.Range).bEmissive;
@@ -218,6 +226,7 @@ void FRTScene::WriteObject(uint32_t Index)
 	Data.FirstSection = FirstSectionOf(Object);
 	Data.Flags = glm::determinant(glm::dmat3(Transform)) < 0.0 ? OBJECT_MIRRORED : 0u;
 	Data.Cell = Instances.GetRecord(Index).Cell;
+	Data.Motion = Motions.GetEntry(Index);
 	ObjectData.Set(Index, Data);
 }
 

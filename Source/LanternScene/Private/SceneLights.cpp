@@ -120,6 +120,7 @@ FSceneConstants FRTScene::GetConstants() const
 	C.SkyRadiance = Sky;
 	C.MaterialOverride = SectionContext.Override;
 	C.OriginCell = OriginCell;
+	C.ObjectMotions = Motions.GetTable().Num() > 0 ? Motions.GetTable().GetAddress() : 0;
 	return C;
 }
 

@@ -33,7 +33,7 @@ constexpr uint32_t ShrinkFrames = 240;
 bool FRTScene::AreTablesDirty() const
 {
 	return Materials.IsDirty() || ObjectData.IsDirty() || LightData.IsDirty() || EmissiveTriangles.IsDirty() ||
-	       Sections.GetTable().IsDirty();
+	       Sections.GetTable().IsDirty() || Motions.GetTable().IsDirty();
 }
 
 bool FRTScene::NeedsUpdate(const FGatherView& View, const FSceneUse& Use) const
@@ -42,7 +42,7 @@ bool FRTScene::NeedsUpdate(const FGatherView& View, const FSceneUse& Use) const
 	const bool bBind = bBindAll || Sections.HasChangedRanges();
 	const bool bGather =
 	    bStructureStale || bInstancesStale || bBind || bGeometry || !(MakeGatherKey(View, Use.bCull) == GatheredKey);
-	return bLightsChanged || (Use.bRays && bGather) || (Use.bLightSampling && bEmissiveChanged) || AreTablesDirty() ||
+	return bLightsChanged || Motions.NeedsUpdate(Use.bMotion) || (Use.bRays && bGather) || (Use.bLightSampling && bEmissiveChanged) || AreTablesDirty() ||
 	       SnapOrigin(View.Position) != Origin;
 }
 
@@ -149,6 +149,7 @@ FRTStatus FRTScene::BeginUpdate(const FGatherView& View, const FSceneUse& Use)
 	}
 	UpdateBindings();
 	Instances.Refresh();
+	Motions.Update(Use.bMotion);
 	if (bLightsChanged)
 	{
 		UpdateLights();
@@ -340,7 +341,7 @@ FRTStatus FRTScene::RecordTables(IRTCommandList& List, FFrameUploads& Uploads)
 	List.Barriers(&Before, 1);
 	for (FRTStatus S : {Materials.Flush(Device, List, Uploads), ObjectData.Flush(Device, List, Uploads),
 	                    LightData.Flush(Device, List, Uploads), EmissiveTriangles.Flush(Device, List, Uploads),
-	                    Sections.GetTable().Flush(Device, List, Uploads)})
+	                    Sections.GetTable().Flush(Device, List, Uploads), Motions.GetTable().Flush(Device, List, Uploads)})
 	{
 		if (!S)
 		{
@@ -348,7 +349,8 @@ FRTStatus FRTScene::RecordTables(IRTCommandList& List, FFrameUploads& Uploads)
 		}
 	}
 	Stats.BytesCopied = Materials.GetCopiedBytes() + ObjectData.GetCopiedBytes() + LightData.GetCopiedBytes() +
-	                    EmissiveTriangles.GetCopiedBytes() + Sections.GetTable().GetCopiedBytes();
+	                    EmissiveTriangles.GetCopiedBytes() + Sections.GetTable().GetCopiedBytes() +
+	                    Motions.GetTable().GetCopiedBytes();
 	const FRTBarrier After{nullptr, nullptr, ERTAccess::CopyWrite, UploadedAccess};
 	List.Barriers(&After, 1);
 	return FRTStatus::Success();
@@ -398,6 +400,7 @@ void FRTScene::Rerecord()
 	LightData.Invalidate();
 	EmissiveTriangles.Invalidate();
 	Sections.GetTable().Invalidate();
+	Motions.GetTable().Invalidate();
 	bStructureStale = true;
 }
 
@@ -409,6 +412,7 @@ void FRTScene::EndFrame(bool bSubmitted, FRTFence Fence)
 	{
 		Geometries.EndFrame(bSubmitted && bStructuresRecorded);
 	}
+	Motions.EndFrame(bSubmitted);
 	if (!bSubmitted)
 	{
 		return Rerecord();

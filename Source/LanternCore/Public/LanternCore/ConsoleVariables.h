@@ -96,6 +96,8 @@ public:
 
 	/// Publishes values to the render thread and runs callbacks of those that changed.
 	void BeginFrame();
+	/// Puts a variable back to what its GetValue() and GetSetBy() were, whoever set it since. Value: of its type.
+	void Restore(const FRTConsoleVariable& Variable, FRTCVarValue Value, ERTSetBy By);
 	/// Back to defaults, ERTSetBy::Code (tests).
 	void ResetAll();
 

@@ -57,7 +57,8 @@ class FPassContext
 public:
 	virtual IRTCommandList& Commands() = 0;
 	virtual IRTDevice& Device() = 0;
-	virtual IRTTexture* GetTexture(FGraphTexture Texture) = 0; ///< asserts unless the pass declared it
+	/// Asserts unless the pass declared it. Null only for what nobody reads of FPassBuilder::WriteIfRead.
+	virtual IRTTexture* GetTexture(FGraphTexture Texture) = 0;
 	virtual IRTBuffer* GetBuffer(FGraphBuffer Buffer) = 0;
 	/// Counts rays for the table of passes.
 	virtual void CountRays(uint64_t Rays) = 0;
@@ -78,8 +79,14 @@ public:
 	virtual void Read(FGraphBuffer Buffer, ERTAccess Access) = 0;
 	virtual void Write(FGraphTexture Texture, ERTAccess Access) = 0;
 	virtual void Write(FGraphBuffer Buffer, ERTAccess Access) = 0;
+	/// One of several outputs of the pass. Where no pass that runs reads it, it is not made: GetTexture is null.
+	virtual void WriteIfRead(FGraphTexture Texture, ERTAccess Access) = 0;
 	/// Runs even if nobody reads its outputs (readback, writes to imported resources do so by themselves).
 	virtual void NeverCull() = 0;
+	/// This pass reads in the next frame what these hold at the end of this one: whatever writes them, before it or behind
+	/// it, runs if it does. For what is marked by FFrameGraph::MarkForLater; no access of this pass, and no barrier.
+	virtual void Keep(FGraphTexture Texture) = 0;
+	virtual void Keep(FGraphBuffer Buffer) = 0;
 
 protected:
 	~FPassBuilder() = default;
@@ -105,6 +112,10 @@ public:
 	/// shrinks the pool but a shortage of memory: call it every frame or so.
 	void Trim(uint32_t Frames);
 	uint64_t GetPooledBytes() const;
+	/// A debug facility: before the first pass of the next executed graph, everything in it that is marked as history and
+	/// whose name contains NamePart ("": all) is overwritten with bits that are not-a-number in every float format, by a pass
+	/// "Poison" of the graph's own. Calls before the same graph add up. What has no CopyDest usage is an error of Compile().
+	void PoisonHistory(std::string NamePart);
 
 private:
 	friend class FFrameGraph;
@@ -126,6 +137,16 @@ public:
 	/// imported resource keeps a pass from being culled. The same object twice gives the same handle.
 	FGraphTexture ImportTexture(IRTTexture* Texture, ERTAccess Current, ERTAccess After, const char* Name);
 	FGraphBuffer ImportBuffer(IRTBuffer* Buffer, ERTAccess Current, ERTAccess After, const char* Name);
+	/// An imported resource whose content comes from earlier frames: see FFrameGraphResources::PoisonHistory.
+	void MarkHistory(FGraphTexture Texture);
+	void MarkHistory(FGraphBuffer Buffer);
+	/// An imported resource that is written for later frames only: by themselves, unlike others, writes to it keep no pass
+	/// from being culled. Their pass runs if one that runs reads what it writes, or says FPassBuilder::Keep. OutWritten (may
+	/// be null) must live until Compile, which sets it to whether a pass that runs writes the resource.
+	void MarkForLater(FGraphTexture Texture, bool* OutWritten = nullptr);
+	void MarkForLater(FGraphBuffer Buffer, bool* OutWritten = nullptr);
+	/// What somebody does with a transient texture behind the graph, beside what passes declare.
+	void AddUsage(FGraphTexture Texture, ERTTextureUsage Usage);
 	const FGraphTextureDesc& GetDesc(FGraphTexture Texture) const;
 	const FGraphBufferDesc& GetDesc(FGraphBuffer Buffer) const;
 

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include "Builtin/Courtyard.h"
+#include "Builtin/StabilityLaterScenes.h"
+#include "Builtin/StabilityScenes.h"
 #include "Builtin/TestScenes.h"
 
 namespace Lantern
@@ -67,6 +69,48 @@ const std::vector<FEntry>& GetEntries()
 	     {},
 	     [](const float*) { return BuildPlanes(); }},
 	    {{"emptysky", "", "nothing but sky"}, {}, [](const float*) { return BuildEmptySky(); }},
+	    {{"stability-wall", "CM=5:SLIT=0", "sealed dark room of 4 m under open sky, walls CM thick; 0: single faces"},
+	     {{"CM", 5.0f, 0.0f, 100.0f}, {"SLIT", 0.0f, 0.0f, 100.0f}},
+	     [](const float* P) { return BuildStabilityWall(P[0], P[1]); }},
+	    {{"stability-time", "", "blocks on a plain, whose shadows tell the time of day"}, {}, [](const float*) { return BuildStabilityTime(); }},
+	    {{"stability-candles", "", "dark hall with 24 candles of 1 cm^2"}, {}, [](const float*) { return BuildStabilityCandles(); }},
+	    {{"stability-poles", "", "ring of poles around the camera, before striped walls"}, {}, [](const float*) { return BuildStabilityPoles(); }},
+	    {{"stability-ghost", "", "glowing cube that crosses a striped wall at 5 m/s"}, {}, [](const float*) { return BuildStabilityGhost(); }},
+	    {{"stability-fan", "", "fan turning over a floor under a soft sun"}, {}, [](const float*) { return BuildStabilityFan(); }},
+	    {{"stability-nan", "", "roughness 0, edge-on faces, triangles without area, a sun of 10^6 lux"},
+	     {},
+	     [](const float*) { return BuildStabilityNan(); }},
+	    {{"stability-lid", "", "slab over a floor, to be taken away"}, {}, [](const float*) { return BuildStabilityLid(); }},
+	    {{"stability-furnace", "", "spheres of roughness 0 to 1, dielectric and metal, under a sky of 1"},
+	     {},
+	     [](const float*) { return BuildStabilityFurnace(); }},
+	    {{"stability-seams", "", "wide penumbra over a floor: smooth, so that seams show"}, {}, [](const float*) { return BuildStabilitySeams(); }},
+	    {{"stability-far", "FAR=1", "open room at FAR times (16 km, 0.5 km, 16 km)"},
+	     {{"FAR", 1.0f, 0.0f, 1.0f}},
+	     [](const float* P) { return BuildStabilityFar(P[0]); }},
+	    {{"stability-materials", "", "wall of 200 quads with a material each"}, {}, [](const float*) { return BuildStabilityMaterials(); }},
+	    {{"stability-flat", "METAL=0", "plane that fills the picture: all pixels alike; 1: a mirror"},
+	     {{"METAL", 0.0f, 0.0f, 1.0f}},
+	     [](const float* P) { return BuildStabilityFlat(P[0] >= 0.5f); }},
+	    {{"stability-edge", "DISTANCE=3", "table in the sun with a dark underside, seen from DISTANCE metres"},
+	     {{"DISTANCE", 3.0f, 0.5f, 60.0f}},
+	     [](const float* P) { return BuildStabilityEdge(P[0]); }},
+	    {{"stability-temple", "", "chamber that the sun reaches by five bounces"}, {}, [](const float*) { return BuildStabilityTemple(); }},
+	    {{"stability-switch", "PERIOD=4", "room with one lamp: on for half a PERIOD of seconds, then off"},
+	     {{"PERIOD", 4.0f, 0.1f, 1000.0f}},
+	     [](const float* P) { return BuildStabilitySwitch(P[0]); }},
+	    {{"stability-flicker", "", "32 lamps that flicker at 5 and 15 Hz"}, {}, [](const float*) { return BuildStabilityFlicker(); }},
+	    {{"stability-boiling", "", "hall with 640 lamps in which nothing moves"}, {}, [](const float*) { return BuildStabilityBoiling(); }},
+	    {{"stability-mirror", "", "cube that flies past a flat and a convex mirror"}, {}, [](const float*) { return BuildStabilityMirror(); }},
+	    {{"stability-railing", "ROWS=180", "railing of metal, its bars a pixel wide in a picture of ROWS"},
+	     {{"ROWS", 180.0f, 16.0f, 4320.0f}},
+	     [](const float* P) { return BuildStabilityRailing(P[0]); }},
+	    {{"stability-hugemesh", "", "one mesh of 2 km and 2,000 small ones"}, {}, [](const float*) { return BuildStabilityHugeMesh(); }},
+	    {{"stability-hash", "", "street of 2 km that the camera flies through at 200 m/s"}, {}, [](const float*) { return BuildStabilityHash(); }},
+	    {{"stability-lightgrid", "", "640 lamps in a grid over a flat floor"}, {}, [](const float*) { return BuildStabilityLightGrid(); }},
+	    {{"stability-caustics", "", "pool of liquid metal whose waves reflect the sun to a wall"}, {}, [](const float*) { return BuildStabilityCaustics(); }},
+	    {{"stability-toon", "", "smooth shapes in light from walls only, for a ramp of three bands"}, {}, [](const float*) { return BuildStabilityToon(); }},
+	    {{"stability-fog", "", "dark hall, shaft of sun, sliding board, and a sealed chamber"}, {}, [](const float*) { return BuildStabilityFog(); }},
 	};
 	return Entries;
 }
@@ -135,9 +179,14 @@ std::string GetBuiltinSceneNames()
 	std::string Names;
 	for (const FBuiltinSceneInfo& Info : GetBuiltinScenes())
 	{
+		// Those of the stability suite are too many for a message.
+		if (std::string_view(Info.Name).starts_with("stability-"))
+		{
+			continue;
+		}
 		Names += (Names.empty() ? "" : ", ") + std::string(Info.Name);
 	}
-	return Names;
+	return Names + " and those of lantern render --list";
 }
 
 bool IsBuiltinScene(std::string_view NameWithParameters)

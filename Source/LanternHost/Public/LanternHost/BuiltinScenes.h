@@ -19,7 +19,7 @@ struct FBuiltinSceneInfo
 };
 
 std::span<const FBuiltinSceneInfo> GetBuiltinScenes();
-/// "courtyard, furnace, …", for messages.
+/// "courtyard, furnace, … and those of lantern render --list", for messages.
 std::string GetBuiltinSceneNames();
 
 /// Whether the text before the first colon is the name of a built-in scene.

@@ -10,6 +10,7 @@
 
 #include "LanternHost/DrawBlocks.h"
 #include "LanternHost/SceneDescription.h"
+#include "LanternHost/SceneHash.h"
 #include "LanternHost/SceneOpacity.h"
 #include "LanternRenderer/Frame.h"
 
@@ -26,12 +27,15 @@ public:
 
 	FRTScene& GetScene() { return Scene; }
 	const FSceneDescription& GetDescription() const { return Description; }
+	/// Of the description as it was given, texels included.
+	const FContentHash& GetContentHash() const { return ContentHash; }
 	/// Moves objects, lights and joints to Time (seconds); returns what must be skinned in the next frame.
 	std::vector<FSkinningInputs> SetTime(double Time);
-	bool IsAnimated() const { return !Description.Animations.empty(); }
+	bool IsAnimated() const;
 	const FScenePose& GetPose() const { return Pose; }
 	/// Off: only what the command line gives lights the scene. On by default.
 	void SetSceneLights(bool bEnabled);
+	bool HasSceneLights() const { return bSceneLights; }
 	/// The scene's first directional light, if there is one: it shines as the sun, with shadows, or not at all.
 	std::optional<FSunLight> GetOwnSun() const;
 	void SetSun(const FSunLight& Sun) { Scene.SetSun(Sun); }
@@ -107,7 +111,9 @@ private:
 	IRTDevice& Device;
 	FRTScene Scene;
 	FSceneDescription Description;
+	FContentHash ContentHash;
 	FScenePose Pose;
+	double LightTime = 0.0; ///< seconds
 	std::vector<TRTRef<IRTTexture>> Images;
 	std::vector<glm::vec3> ImageMeans; // linear
 	std::vector<std::pair<uint32_t, TRTRef<IRTSampler>>> Samplers;
@@ -134,6 +140,9 @@ public:
 	FGBuffer Add(FFrameContext& Context, FHostScene& Scene);
 	/// What is smaller on the screen than so many pixels across is not drawn. 0, the default: all is.
 	void SetMinPixels(float Pixels) { MinPixels = Pixels; }
+	/// Whether FGBuffer::Motion is made; on by default. It costs 16 bytes a pixel, a transform more for each vertex and two for
+	/// each pixel; frames without denoisers or temporal passes need not have it.
+	void SetMotion(bool bEnabled) { bMotion = bEnabled; }
 
 private:
 	struct FBatchUse
@@ -148,6 +157,7 @@ private:
 		uint32_t Program = StandardProgram;
 		bool bMasked = false;
 		ERTCull Cull = ERTCull::Back;
+		bool bMotion = false;
 		friend auto operator<=>(const FPipelineKey&, const FPipelineKey&) = default;
 	};
 	struct FPipelineEntry
@@ -163,6 +173,7 @@ private:
 	FRenderer& Renderer;
 	std::map<FPipelineKey, FPipelineEntry> Pipelines;
 	float MinPixels = 0.0f;
+	bool bMotion = true, bMotionNow = true; // …Now: in the frame that is being made
 	// Kept for their memory.
 	std::vector<FDrawBlocks::FSeen> Seen;
 	std::vector<FBatchUse> Uses;

@@ -6,6 +6,7 @@
 
 #include "LanternHost/Image.h"
 #include "LanternHost/SampleEngine.h"
+#include "LanternHost/Signals.h"
 
 namespace Lantern
 {
@@ -15,8 +16,16 @@ struct FReferenceSettings
 	FView View;
 	double Time = 0.0;
 	uint32_t Samples = 256;
-	/// Scattering events, at most; Russian roulette ends most paths earlier. 0: directly seen light only.
+	/// Scattering events, at most, that at the first surface included; Russian roulette ends most paths earlier. 0: directly
+	/// seen light only.
 	uint32_t Bounces = 64;
+	ESignal Signal = ESignal::Frame;
+	/// Camera rays through pixel centres, without antialiasing: what real-time passes shade, and so what they are compared
+	/// with.
+	bool bPixelCenters = false;
+	/// The signal at the surfaces that the raster saw, which are those that real-time passes have: what then differs is what
+	/// they make of them, not which leaf a pixel shows. Implies pixel centres. Ignored for ESignal::Frame.
+	bool bRasterSurfaces = false;
 	/// File that holds the sums between runs; empty: none. Written every StateSeconds and at the end.
 	std::string StateFile;
 	double StateSeconds = 20.0;
@@ -29,14 +38,14 @@ struct FReferenceSettings
 
 struct FReferenceResult
 {
-	FImage Radiance; ///< mean of the samples
+	FImage Radiance; ///< mean of the samples; channels as GetSignalInfo says
 	uint64_t Paths = 0; ///< traced in this run
 	double Seconds = 0.0;
 	uint32_t Samples = 0;        ///< in the picture; more than asked for where the state had more
 	uint32_t ResumedSamples = 0; ///< of them, from the state
 };
 
-/// The same settings and seed give the same image, bit for bit on the same device, however it was interrupted.
+/// Different seeds give independent samples. The same settings and seed give the same image, bit for bit on the same device, however it was interrupted.
 /// A state file of other settings is an error (InvalidArgument) that says so; it is not overwritten.
 FRTStatus RenderReference(FSampleEngine& Engine, const FReferenceSettings& Settings, FReferenceResult& Out);
 

@@ -1,12 +1,14 @@
 // The little engine that the plugin runs in when there is no other: loads a scene, renders frames, reads pictures.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
 
 #include "LanternHost/HostScene.h"
 #include "LanternHost/Image.h"
+#include "LanternHost/Signals.h"
 
 namespace Lantern
 {
@@ -16,12 +18,19 @@ struct FFrameCapture
 {
 	bool bLighting = false;   ///< linear radiance
 	bool bDisplay = false;    ///< tone-mapped
-	bool bSunShadow = false;  ///< visibility; nothing where the frame has no sun shadows
+	/// Each as FFrameOutputs has it, 1 or 3 channels; nothing where the frame does not have it. What is asked for here is
+	/// made also where the composite has no use for it. ESignal::Frame is bLighting by another name.
+	std::array<bool, static_cast<size_t>(ESignal::Count)> bSignals{};
+	bool& Wants(ESignal Signal) { return bSignals[static_cast<size_t>(Signal)]; }
+	bool Wants(ESignal Signal) const { return bSignals[static_cast<size_t>(Signal)]; }
 };
 
 struct FCapturedFrame
 {
-	FImage Lighting, Display, SunShadow;
+	FImage Lighting, Display;
+	std::array<FImage, static_cast<size_t>(ESignal::Count)> Signals;
+	FImage& Get(ESignal Signal) { return Signals[static_cast<size_t>(Signal)]; }
+	const FImage& Get(ESignal Signal) const { return Signals[static_cast<size_t>(Signal)]; }
 };
 
 class FSampleEngine
@@ -33,14 +42,25 @@ public:
 	FHostScene& GetScene() { return *Scene; }
 	FRenderer& GetRenderer() { return Renderer; }
 
-	/// Moves the scene to Time (seconds); returns what the next frame must skin: nothing where the scene is there already.
+	/// Moves the scene to Time (seconds), for whoever asks it something between frames.
+	void SeekTo(double Time);
+	/// The same; returns what the next frame must skin: nothing where the scene was there in the frame before.
 	std::vector<FSkinningInputs> MoveTo(double Time);
-	/// Renders one frame at Time (seconds) and, where something is captured, waits for it.
+	/// Where it is; nothing before the first frame.
+	std::optional<double> GetTime() const { return LastTime; }
+	/// Renders one frame at Time (seconds) and, where something is captured, waits for it. The view's FrameIndex is set here;
+	/// its DeltaSeconds and bCut are the caller's: what is accumulated over frames follows them.
 	FRTStatus RenderFrame(const FView& View, double Time, const FFrameCapture& Capture, FCapturedFrame* Out);
+	/// The raster of a frame that somebody else began with this engine's renderer and scene.
+	FGBuffer AddGBuffer(FFrameContext& Context) { return GBufferPass.Add(Context, *Scene); }
 	/// Extra passes of a test or benchmark: called after the plugin's own.
 	std::function<void(FFrameContext&, const FGBuffer&, const FFrameOutputs&)> ExtraPasses;
 	/// Frames wait for no pipeline and builds keep to their budget, as in a game; off: every frame is complete.
 	bool bRealTime = false;
+	/// Every frame is shown, as in a game. Off: passes whose results nobody captures do not run.
+	bool bPresent = false;
+	/// Asked for in every frame, captured or not: what a signal accumulates over frames is then there when it is captured.
+	FSignalRequests Signals;
 	/// How often ExtraPasses etc. find the frame: index of the next one.
 	uint32_t GetFrameIndex() const { return FrameIndex; }
 	/// Random numbers follow the index: two frames of the same index and seed draw the same.
@@ -54,13 +74,21 @@ private:
 		uint32_t Width = 0, Height = 0;
 		ERTFormat Format = ERTFormat::Unknown;
 	};
+	struct FReadbacks
+	{
+		FReadback Lighting, Display;
+		std::array<FReadback, static_cast<size_t>(ESignal::Count)> Signals;
+	};
 	FRTStatus AddReadback(FFrameContext& Context, FGraphTexture Texture, FReadback& Out);
-	FRTStatus CaptureFrame(const FFrameOutputs& Frame, const FFrameCapture& Capture, FReadback (&Readbacks)[3]);
+	void KeepSignals(const FFrameOutputs& Frame);
+	FRTStatus AddReadbacks(const FFrameOutputs& Frame, const FFrameCapture& Capture, FReadbacks& Out);
+	static void DecodeReadbacks(const FReadbacks& Readbacks, const FFrameCapture& Capture, FCapturedFrame& Out);
 
 	FRenderer Renderer;
 	FGBufferPass GBufferPass;
 	std::unique_ptr<FHostScene> Scene;
 	std::optional<double> LastTime;
+	std::vector<FSkinningInputs> Skinning; // that no frame has done yet
 	uint32_t FrameIndex = 0;
 };
 

@@ -129,6 +129,10 @@ struct FHostLight
 	glm::vec3 Color{1}; ///< intensity included: cd, or lux where directional
 	float Range = 0.0f; ///< 0: unlimited
 	float InnerCone = 0.0f, OuterCone = 0.7853981634f; ///< radians
+	/// A square wave for lights that flicker or are switched: on for FlickerDuty of each period, off for the rest. A period
+	/// begins at time 0, or FlickerPhase periods before it. Not with directional lights, which shine as the sun.
+	float FlickerHz = 0.0f; ///< 0: always on
+	float FlickerDuty = 0.5f, FlickerPhase = 0.0f;
 };
 
 struct FHostCamera
@@ -165,6 +169,9 @@ struct FScenePose
 
 /// Samples all animations at Time (seconds, looped) and composes world transforms.
 FScenePose EvaluatePose(const FSceneDescription& Scene, double Time);
+
+/// Whether the light is on at Time (seconds). A switch belongs to what comes after it.
+bool IsLightOn(const FHostLight& Light, double Time);
 
 /// Joint matrices (model space of the skinned node, glTF 2.0 §3.7.3.3) of node's skin.
 std::vector<glm::mat4> EvaluateJoints(const FSceneDescription& Scene, const FScenePose& Pose, int32_t Node);

@@ -2,7 +2,7 @@
 // library that it names, looks LanternCreateModule up, and needs nothing else of Lantern's at link time.
 //
 //   load library → LanternCreateModule → Initialize → a device (its own: CreateDevice; the engine's: ModuleVulkan.h)
-//   → CreateRenderer → AddMaterial, AddMesh, AddObject, SetSun
+//   → CreateRenderer → AddMaterial, AddMesh, AddObject, SetSun, SetSky
 //   → each frame: RenderFrame into the engine's command buffer, submit it, EndFrame
 //   → Release everything, the device and the module last → unload the library
 //
@@ -19,7 +19,7 @@ namespace Lantern
 {
 
 /// Bumped when anything in this header changes. The library refuses another version.
-inline constexpr uint32_t ModuleVersion = 3;
+inline constexpr uint32_t ModuleVersion = 4;
 
 class IRTModuleVulkan;
 
@@ -57,7 +57,7 @@ enum class ERTObjectHandle : uint64_t
 	None = 0
 };
 
-/// glTF 2.0 metallic-roughness, as far as a module without the host's texture loader needs it.
+/// glTF 2.0 metallic-roughness, as far as a module without the host's texture loader needs it. All finite, no colour negative.
 struct FRTModuleMaterial
 {
 	float BaseColor[4] = {1, 1, 1, 1}; ///< linear; a: opacity
@@ -128,31 +128,64 @@ struct FRTModuleView
 	float Near = 0.1f;             ///< > 0
 };
 
-/// The engine's G-buffer of one frame, all of one size, imported with IRTDevice::ImportTexture.
+/// What the engine reads of a frame's outputs. The rest is not traced, allocates nothing and compiles nothing. What is
+/// asked for still needs its console variable on (r.RT.Shadow, r.RT.AO, r.RT.GI, r.RT.Reflections).
+struct FRTModuleSignals
+{
+	bool bSunShadow = true;
+	bool bAmbientOcclusion = false;
+	bool bDiffuseGI = false;
+	bool bReflections = false; ///< needs BaseColor and Material
+};
+
+/// The engine's G-buffer of one frame, all of one size, imported with IRTDevice::ImportTexture. All textures Sampled. The
+/// access of each: how the engine used it last, not None; it is left in ShaderRead.
 struct FRTModuleFrame
 {
 	/// From IRTDevice::ImportCommandList, recording, outside a render pass.
 	IRTCommandList* Commands = nullptr;
 	FRTModuleView View;
-	/// D32_FLOAT or R32_FLOAT, Sampled. Reversed without a far plane: near / distance along Forward; 0 is sky.
+	/// D32_FLOAT or R32_FLOAT. Reversed without a far plane: near / distance along Forward; 0 is sky.
 	IRTTexture* Depth = nullptr;
-	/// RGBA16_SNORM, Sampled: shading normal (xy) and geometric normal (zw), both octahedral (Cigolle et al. 2014)
-	/// and turned towards the camera.
+	/// RGBA16_SNORM: shading normal (xy) and geometric normal (zw), both octahedral (Cigolle et al. 2014) and turned
+	/// towards the camera.
 	IRTTexture* Normals = nullptr;
-	/// How the engine used them last, not None; they are left in ShaderRead.
+	/// RGBA32_FLOAT. xy: from the pixel's centre to where its surface was in the frame before, in pixels, y down; z: how far
+	/// it was along Forward then, metres; w: a number > 0 of its object that stays the same over frames, 0: unknown. Not read
+	/// where depth is 0. Null: what moves is taken for still, and shadows drag behind it where they are accumulated.
+	IRTTexture* Motion = nullptr;
+	IRTTexture* BaseColor = nullptr; ///< RGBA8_SRGB: base colour, a: metalness. May be null
+	IRTTexture* Material = nullptr;  ///< RGBA8_UNORM: roughness, occlusion, sqrt(F0) of the dielectric, specular weight. May be null
 	ERTAccess DepthAccess = ERTAccess::ShaderRead;
 	ERTAccess NormalsAccess = ERTAccess::ShaderRead;
+	ERTAccess MotionAccess = ERTAccess::ShaderRead;
+	ERTAccess BaseColorAccess = ERTAccess::ShaderRead;
+	ERTAccess MaterialAccess = ERTAccess::ShaderRead;
+	FRTModuleSignals Wanted;
+	/// Since the frame before, finite, > 0. What is accumulated is kept for seconds, whatever the frame rate.
+	float DeltaSeconds = 1.0f / 60.0f;
+	/// Nothing is carried over from the frame before: another place, another world. A change of size is seen without it.
+	bool bCut = false;
 	uint32_t Seed = 0; ///< same seed, frame number and scene: same image
 };
 
-/// Owned by the renderer, valid until its next RenderFrame.
+/// Owned by the renderer, valid until its next RenderFrame. In ShaderRead; may be copied from, if the engine puts them
+/// back in ShaderRead. Null: not asked for, off, the scene has nothing for it (no sun, …), the device cannot, an input is
+/// missing, or shaders are not there yet.
 struct FRTModuleOutputs
 {
-	/// Fraction of the sun that each pixel sees: 1 lit, 0 shadowed. R16_FLOAT, in ShaderRead; may be copied from,
-	/// if the engine puts it back in ShaderRead. Null: no sun, shadows are off, or their shaders are not there yet.
+	/// Fraction of the sun that each pixel sees: 1 lit, 0 shadowed. R16_FLOAT.
 	IRTTexture* SunShadow = nullptr;
+	/// R16_FLOAT: cosine-weighted fraction of the hemisphere about the shading normal in which nothing is within
+	/// r.RT.AO.Radius; what is there counts less the farther away it is. 1: open.
+	IRTTexture* AmbientOcclusion = nullptr;
+	/// RGBA16_FLOAT: indirect irradiance / π about the shading normal: all light but that which comes straight from the sun's
+	/// disk. Times diffuse albedo it is radiance.
+	IRTTexture* DiffuseGI = nullptr;
+	/// RGBA16_FLOAT: what the surface's specular lobe reflects towards the camera, Fresnel included, of the same light.
+	IRTTexture* Reflections = nullptr;
 	/// Ray-tracing shaders are compiled in the background; RenderFrame never waits for them. False: some that the scene
-	/// wants are not there yet. SunShadow is null until the first are; from then on objects whose own are missing have the
+	/// wants are not there yet. An output is null until its first are; from then on objects whose own are missing have the
 	/// shadow of a stand-in, or none (r.RT.Pipeline.Fallback, by which an engine may also have frames that wait). What does
 	/// not compile is logged, keeps its stand-in and counts as there. Where shadows are traced by ray queries, the first frame
 	/// still compiles their one compute shader itself.
@@ -194,6 +227,8 @@ public:
 	/// At any time, also while frames that see it are in flight.
 	virtual FRTStatus RemoveObject(ERTObjectHandle Handle) = 0;
 	virtual FRTStatus SetSun(const FRTModuleSun& Sun) = 0;
+	/// Radiance of the sky, the same in all directions; nits, linear Rec.709, finite, ≥ 0. 0 (default): no sky.
+	virtual FRTStatus SetSky(const float Radiance[3]) = 0;
 
 	/// Records all of the frame into Frame.Commands. On an error the list must not be submitted.
 	virtual FRTStatus RenderFrame(const FRTModuleFrame& Frame, FRTModuleOutputs* Out) = 0;

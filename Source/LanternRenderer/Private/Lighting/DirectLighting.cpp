@@ -1,6 +1,7 @@
-// Our own composite for hosts that have none: direct light, emission, ambient sky.
+// Our own composite for hosts that have none: direct light, emission, indirect light or the sky's ambient instead.
 #include "LanternCore/ConsoleVariables.h"
 #include "LanternRenderer/Frame.h"
+#include "Lighting/DirectLighting.h"
 #include "LightingTypes.h"
 #include "PassTools.h"
 
@@ -10,8 +11,10 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<bool> CVarLocalLights("r.RT.LocalLights", true, "Direct light of the scene's point, spot and directional lights.");
-TRTConsoleVariable<bool> CVarSkyAmbient("r.RT.SkyAmbient", true, "Unoccluded ambient light of the sky.");
+TRTConsoleVariable<bool> CVarSkyAmbient("r.RT.SkyAmbient", true, "Ambient light of the sky, where indirect light is not traced.");
 }
+
+bool HasSkyAmbient(const FSceneFacts& Facts) { return Facts.bSky && CVarSkyAmbient.GetOnRenderThread(); }
 
 FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightingInputs& Inputs)
 {
@@ -27,7 +30,10 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 	Context.Graph.AddPass("DirectLighting", [&](FPassBuilder& Builder) -> FPassExecute {
 		const FGBuffer& G = Inputs.GBuffer;
 		for (const FGraphTexture Texture : {G.Depth, G.Normals, G.BaseColor, G.Material, G.Emissive}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
-		if (Inputs.SunShadow.IsValid()) { Builder.Read(Inputs.SunShadow, ERTAccess::ShaderRead); }
+		for (const FGraphTexture Texture : {Inputs.SunShadow, Inputs.AmbientOcclusion, Inputs.DiffuseGI, Inputs.Reflections})
+		{
+			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+		}
 		Builder.Write(Output, ERTAccess::StorageWrite);
 		return [=](FPassContext& Pass) {
 			const auto Sampled = [&](FGraphTexture Texture) { return Pass.GetTexture(Texture)->GetSampledIndex(); };
@@ -38,7 +44,11 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 			C.BaseColor = Sampled(Inputs.GBuffer.BaseColor);
 			C.Material = Sampled(Inputs.GBuffer.Material);
 			C.Emissive = Sampled(Inputs.GBuffer.Emissive);
-			C.SunShadow = Inputs.SunShadow.IsValid() ? Sampled(Inputs.SunShadow) : NO_TEXTURE;
+			const auto SampledOrNone = [&](FGraphTexture Texture) { return Texture.IsValid() ? Sampled(Texture) : NO_TEXTURE; };
+			C.SunShadow = SampledOrNone(Inputs.SunShadow);
+			C.AmbientOcclusion = SampledOrNone(Inputs.AmbientOcclusion);
+			C.DiffuseGI = SampledOrNone(Inputs.DiffuseGI);
+			C.Reflections = SampledOrNone(Inputs.Reflections);
 			C.Output = Pass.GetTexture(Output)->GetStorageIndex();
 			Dispatch2D(Pass, Pipeline, C, Width, Height, LIGHTING_GROUP_SIZE);
 		};

@@ -1,9 +1,11 @@
 // Ray-traced sun shadows: for every pixel, the fraction of the sun's disk that it sees.
+#include "Denoise/Denoise.h"
 #include "LanternCore/ConsoleVariables.h"
 #include "LanternCore/Log.h"
 #include "LanternRenderer/AnyHitCounter.h"
 #include "LanternRenderer/Frame.h"
 #include "PassTools.h"
+#include "RayPrograms.h"
 #include "Shadow/SunShadow.h"
 #include "SunShadowTypes.h"
 
@@ -12,7 +14,6 @@ namespace Lantern
 
 namespace
 {
-TRTConsoleVariable<bool> CVarEnable("r.RT.Enable", true, "All of the plugin's ray-traced features.");
 TRTConsoleVariable<bool> CVarShadow("r.RT.Shadow", true, "Ray-traced sun shadows. Off: the sun is unshadowed unless the host shadows it.");
 TRTConsoleVariable<int32_t> CVarSamples("r.RT.Shadow.Samples", 1, "Sun shadow rays per pixel. Hard shadows need one only.", {1, 64});
 TRTConsoleVariable<int32_t> CVarPath("r.RT.Shadow.Path", 0, "0: what the device does best. 1: ray-tracing pipeline. 2: ray query.", {0, 2});
@@ -22,6 +23,17 @@ TRTConsoleVariable<bool> CVarCullFront("r.RT.Shadow.CullFrontFaces", false,
                                        "Sun shadow rays ignore faces turned towards the sun, as shadow maps drawn with front-face culling do. Objects "
                                        "all of whose materials are double-sided still cast.");
 TRTConsoleVariable<int32_t> CVarMask("r.RT.Shadow.InstanceMask", MaskCastsShadow, "Only objects that share a bit with this mask cast sun shadows.", {0, 255});
+TRTConsoleVariable<bool> CVarDenoise("r.RT.Shadow.Denoise", true,
+                                    "Soft sun shadows are accumulated over frames and smoothed along surfaces. Off: as the frame's rays see them.");
+TRTConsoleVariable<float> CVarHistory("r.RT.Shadow.HistorySeconds", 0.5f, "Time constant of what r.RT.Shadow.Denoise accumulates. 0: nothing is.", {0.0, 60.0});
+TRTConsoleVariable<int32_t> CVarPasses("r.RT.Shadow.FilterPasses", 4, "Passes of the filter of r.RT.Shadow.Denoise; n of them reach 2^n - 1 pixels.", {0, 5});
+TRTConsoleVariable<float> CVarSigma("r.RT.Shadow.FilterSigma", 2.0f, "Which differences the filter takes for noise, in standard deviations.", {0.0, 100.0});
+TRTConsoleVariable<float> CVarClamp("r.RT.Shadow.ClampSigma", 7.0f,
+                                    "Accumulated shadows stay within what the neighbourhood says now, give or take this many standard deviations. 0: any.", {0.0, 100.0});
+TRTConsoleVariable<float> CVarChange("r.RT.Shadow.ChangeSigma", 2.5f,
+                                     "Accumulation starts anew where shadows have changed by more than this many standard errors. 0: never.", {0.0, 100.0});
+TRTConsoleVariable<float> CVarResampling("r.RT.Shadow.Resampling", 0.5f,
+                                         "How much of the difference between neighbours counts as error where accumulated shadows are resampled between them.", {0.0, 100.0});
 
 // A ray towards the sun sees the backs of faces that are turned towards it. gl_RayFlagsCullBackFacingTrianglesEXT
 constexpr uint32_t RayFlagCullTowardsSun = 0x10;
@@ -37,11 +49,28 @@ FSunShadowConstants MakeConstants(const FFrameContext& Context, bool bSoft)
 	C.bSoft = bSoft ? 1u : 0u;
 	return C;
 }
+
+FGraphTexture Denoise(FFrameContext& Context, const FSunShadowInputs& Inputs, FGraphTexture Visibility)
+{
+	FDenoiseInputs Denoise;
+	Denoise.Name = "SunShadow";
+	Denoise.Signal = Visibility;
+	Denoise.Depth = Inputs.Depth;
+	Denoise.Normals = Inputs.Normals;
+	Denoise.Motion = Inputs.Motion;
+	Denoise.Settings.HistorySeconds = CVarHistory.GetOnRenderThread();
+	Denoise.Settings.ClampSigma = CVarClamp.GetOnRenderThread();
+	Denoise.Settings.ChangeSigma = CVarChange.GetOnRenderThread();
+	Denoise.Settings.Resampling = CVarResampling.GetOnRenderThread();
+	Denoise.Settings.Passes = static_cast<uint32_t>(CVarPasses.GetOnRenderThread());
+	Denoise.Settings.SigmaValue = CVarSigma.GetOnRenderThread();
+	return AddDenoisePasses(Context, Denoise);
+}
 } // namespace
 
 ESunShadowPath ChooseSunShadowPath(const FRTCapabilities& Capabilities, const FSceneFacts& Facts)
 {
-	if (!Facts.bSun || !CVarEnable.GetOnRenderThread() || !CVarShadow.GetOnRenderThread()) { return ESunShadowPath::None; }
+	if (!Facts.bSun || !IsRayTracingEnabled() || !CVarShadow.GetOnRenderThread()) { return ESunShadowPath::None; }
 	const int32_t Wanted = CVarPath.GetOnRenderThread();
 	if (Wanted == 1 && Capabilities.bRayTracingPipeline) { return ESunShadowPath::Pipeline; }
 	if (Wanted == 2 && Capabilities.bRayQuery) { return ESunShadowPath::Query; }
@@ -62,11 +91,17 @@ std::vector<std::pair<std::string, std::string>> MakeSunShadowDefines()
 	return bOneSample ? std::vector<std::pair<std::string, std::string>>{{"ONE_SAMPLE", "1"}} : std::vector<std::pair<std::string, std::string>>{};
 }
 
+std::optional<FPassRays> ChooseSunShadowRays(const FRTCapabilities& Capabilities, const FSceneFacts& Facts)
+{
+	if (ChooseSunShadowPath(Capabilities, Facts) != ESunShadowPath::Pipeline) { return std::nullopt; }
+	return MakePassRays("Shadow/SunShadow.rgen", MakeSunShadowDefines(), false);
+}
+
 FSunShadowOutputs AddSunShadowPass(FFrameContext& Context, const FSunShadowInputs& Inputs)
 {
 	const ESunShadowPath Path = ChooseSunShadowPath(Context.Device.GetCapabilities(), Context.Facts);
 	if (Path == ESunShadowPath::None) { return {}; }
-	if (Path == ESunShadowPath::Pipeline && Context.SunShadowRayGen == NoRayGen) { return {}; } // still being compiled
+	if (Path == ESunShadowPath::Pipeline && Context.GetRayGen(EFrameRayGen::SunShadow) == NoRayGen) { return {}; } // still being compiled
 	IRTPipeline* Compute = nullptr;
 	if (Path == ESunShadowPath::Query)
 	{
@@ -102,9 +137,10 @@ FSunShadowOutputs AddSunShadowPass(FFrameContext& Context, const FSunShadowInput
 			}
 			Pass.Commands().SetPipeline(Frame->RayPipeline->GetPipeline());
 			Pass.Commands().PushConstants(&Constants, sizeof(Constants));
-			Pass.Commands().TraceRays(Frame->RayBindings->GetTable(), Frame->SunShadowRayGen, Frame->Width, Frame->Height, 1);
+			Pass.Commands().TraceRays(Frame->RayBindings->GetTable(), Frame->GetRayGen(EFrameRayGen::SunShadow), Frame->Width, Frame->Height, 1);
 		};
 	});
+	if (bSoft && CVarDenoise.GetOnRenderThread()) { Out.Visibility = Denoise(Context, Inputs, Out.Visibility); }
 	return Out;
 }
 

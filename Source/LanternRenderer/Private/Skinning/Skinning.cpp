@@ -34,8 +34,10 @@ struct FSkinDispatch
 	uint32_t First = 0, Count = 0, Groups = 0;
 };
 
+bool KeepsPrevious(const FRTGeometryInfo& Info, bool bMotion) { return bMotion && Info.PreviousPositions; }
+
 /// Joints of all items, and the items themselves in the order of their sizes, in memory of the frame.
-FRTStatus UploadItems(FFrameUploads& Uploads, const std::vector<FSkinningInputs>& Inputs, std::vector<FSkinItem>& Items, FAddress& OutItems)
+FRTStatus UploadItems(FFrameUploads& Uploads, const std::vector<FSkinningInputs>& Inputs, bool bMotion, std::vector<FSkinItem>& Items, FAddress& OutItems)
 {
 	uint64_t JointCount = 0;
 	for (const FSkinningInputs& Input : Inputs) { JointCount += Input.Joints.size(); }
@@ -52,6 +54,7 @@ FRTStatus UploadItems(FFrameUploads& Uploads, const std::vector<FSkinningInputs>
 		Item.Joints = Joints.Address + static_cast<uint64_t>(Next - static_cast<glm::mat4*>(Joints.Data)) * sizeof(glm::mat4);
 		Item.Positions = Info.Positions->GetDeviceAddress() + Info.PositionsOffset;
 		Item.Attributes = Info.Attributes->GetDeviceAddress() + Info.AttributesOffset;
+		Item.PreviousPositions = KeepsPrevious(Info, bMotion) && Input.Geometry->WasDeformed() ? Info.PreviousPositions->GetDeviceAddress() : 0;
 		Item.VertexCount = Info.VertexCount;
 		Next = std::copy(Input.Joints.begin(), Input.Joints.end(), Next);
 	}
@@ -81,7 +84,7 @@ std::vector<FSkinDispatch> MakeDispatches(const std::vector<FSkinItem>& Items)
 }
 } // namespace
 
-FRTStatus AddSkinningPass(FFrameContext& Context, FFrameUploads& Uploads, const std::vector<FSkinningInputs>& Inputs)
+FRTStatus AddSkinningPass(FFrameContext& Context, FFrameUploads& Uploads, const std::vector<FSkinningInputs>& Inputs, bool bMotion)
 {
 	if (Inputs.empty()) { return FRTStatus::Success(); }
 	IRTPipeline* const Pipeline = RequireCompute(Context, "Skinning/Skin.comp");
@@ -91,7 +94,7 @@ FRTStatus AddSkinningPass(FFrameContext& Context, FFrameUploads& Uploads, const 
 	if (!Quality.Dispatches.empty() && !Measure) { return *Context.Status; }
 	std::vector<FSkinItem> Items;
 	FAddress ItemsAddress = 0;
-	if (FRTStatus S = UploadItems(Uploads, Inputs, Items, ItemsAddress); !S) { return S; }
+	if (FRTStatus S = UploadItems(Uploads, Inputs, bMotion, Items, ItemsAddress); !S) { return S; }
 	// The buffers are the objects' own, unknown to the graph: last frame's readers, then this frame's. Named one by one,
 	// since a barrier of memory as such would move what others hold in the same state.
 	std::vector<FRTBarrier> Before, After;
@@ -103,6 +106,9 @@ FRTStatus AddSkinningPass(FFrameContext& Context, FFrameUploads& Uploads, const 
 			Before.push_back({Buffer, nullptr, UploadedAccess, ERTAccess::StorageWrite});
 			After.push_back({Buffer, nullptr, ERTAccess::StorageWrite, UploadedAccess});
 		}
+		if (!KeepsPrevious(Info, bMotion)) { continue; }
+		Before.push_back({Info.PreviousPositions.Get(), nullptr, ERTAccess::ShaderRead, ERTAccess::StorageWrite});
+		After.push_back({Info.PreviousPositions.Get(), nullptr, ERTAccess::StorageWrite, ERTAccess::ShaderRead});
 	}
 	Context.Graph.AddPass("Skinning", [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.NeverCull();

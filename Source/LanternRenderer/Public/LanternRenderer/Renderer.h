@@ -2,6 +2,7 @@
 // is built between BeginFrame and EndFrame; two may be in flight. Render thread only.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,10 +34,32 @@ struct FSkinningInputs
 	std::vector<glm::mat4> Joints;
 };
 
+/// Signals that somebody reads beside the composite: they are made also where the composite has no use for them (ambient
+/// occlusion without a sky). Their own console variables still rule.
+struct FSignalRequests
+{
+	bool bAmbientOcclusion = false, bDiffuseGI = false, bReflections = false;
+	/// The host lights by itself: there is no composite, and what is not asked for is not made. Then bSunShadow asks, too.
+	bool bNothingElse = false, bSunShadow = false;
+};
+
+/// What the reference path tracer makes: the whole frame, or one signal as the outputs in Frame.h define it.
+enum class EReferenceSignal : uint8_t
+{
+	Frame,
+	SunShadow,
+	AmbientOcclusion,
+	DiffuseGI,
+	Reflections,
+};
+
 /// What a frame is to do beside its cameras and console variables.
 struct FFrameFeatures
 {
 	bool bReference = false; ///< the path tracer instead of real-time passes
+	EReferenceSignal ReferenceSignal = EReferenceSignal::Frame;
+	/// The reference takes the surfaces of FReferencePassInputs::GBuffer. Not for EReferenceSignal::Frame.
+	bool bReferenceFromGBuffer = false;
 	/// Passes of the host's own trace rays: acceleration structures are kept whatever else does, and are recorded at the
 	/// start of the frame …
 	bool bRays = false;
@@ -52,11 +75,36 @@ struct FFrameFeatures
 	/// r.RT.Build.TrianglesPerFrame, and objects whose geometry waits are not seen by rays. The reference builds all.
 	bool bBuildAll = true;
 	std::vector<FSkinningInputs> Skinning;
+	/// Somebody reads how objects moved since the frame before (FSceneConstants::ObjectMotions). An engine that has motion
+	/// vectors of its own saves 72 bytes a frame for each object that moves.
+	bool bMotion = true;
+	FSignalRequests Signals;
 };
 
+/// Passes of the frame that trace through its RTPSO.
+enum class EFrameRayGen : uint8_t
+{
+	SunShadow,
+	AmbientOcclusion,
+	DiffuseGI,
+	Reflections,
+	Reference,
+	Count,
+};
+
+class FHistoryResources;
 class FRefitQuality;
 class FRenderer;
 class FStandInFeedback;
+struct FRayPrograms;
+
+/// What pixels show and showed, for passes that reproject; made by the first that asks (Denoise/SurfaceHistory.h).
+struct FSurfaceTextures
+{
+	FGraphTexture Current;  ///< RG32_FLOAT, see Shaders/Library/History.glsl
+	FGraphTexture Previous; ///< of the frame before; invalid: there is none
+	FGraphTexture Motion;   ///< as in FGBuffer; invalid where Previous is
+};
 
 /// Given to every pass.
 struct FFrameContext
@@ -72,8 +120,20 @@ struct FFrameContext
 	/// Null where no pass of this frame traces through a pipeline.
 	const FRTPSO* RayPipeline = nullptr;
 	FShaderBindings* RayBindings = nullptr;
-	uint32_t SunShadowRayGen = NoRayGen;
-	uint32_t ReferenceRayGen = NoRayGen;
+	/// By EFrameRayGen; NoRayGen where the frame does not have it, or not yet.
+	std::array<uint32_t, static_cast<size_t>(EFrameRayGen::Count)> RayGens = [] {
+		std::array<uint32_t, static_cast<size_t>(EFrameRayGen::Count)> None;
+		None.fill(NoRayGen);
+		return None;
+	}();
+	uint32_t GetRayGen(EFrameRayGen Which) const { return RayGens[static_cast<size_t>(Which)]; }
+	/// The frame before this one; null where nothing may be carried over from it: the first, a cut, another size, a lost one,
+	/// one that another renderer's frame of the scene has followed.
+	const FView* PreviousView = nullptr;
+	/// What passes keep from frame to frame.
+	FHistoryResources* History = nullptr;
+	FSurfaceTextures Surface;
+	FSignalRequests Signals;
 	/// First error that a pass met; the frame is then not submitted.
 	FRTStatus* Status = nullptr;
 	void Fail(const FRTStatus& Error) const
@@ -96,6 +156,8 @@ public:
 	/// At load, between frames: compiles what frames of the scene with these features will trace with, and waits for it.
 	/// Progress (0 … 1) may be empty. What does not compile is said, and is an error only where frames cannot do without.
 	FRTStatus Precache(FRTScene& Scene, const FFrameFeatures& Features, const std::function<void(float)>& Progress);
+	/// Names the texts of all shaders that such frames trace with, their includes and the compiler: another text, another name.
+	std::string GetRayShaderKey(FRTScene& Scene, const FFrameFeatures& Features);
 	/// Waits until at most one earlier frame is in flight, publishes console variables, and starts a frame: gathering
 	/// instances and writing shader records begin as tasks, the scene's tables are the first pass. The scene must not change
 	/// until EndFrame, and must live until then.
@@ -104,7 +166,7 @@ public:
 	/// Executes the graph and submits. OutFence may be null.
 	FRTStatus EndFrame(FRTFence* OutFence);
 	/// The same, recorded into the engine's command list, which the engine submits and then reports by
-	/// FrameSubmitted with its fence.
+	/// FrameSubmitted with its fence. Objects that move in between count as moved before the frame: no motion vectors say so.
 	FRTStatus EndFrame(IRTCommandList& List);
 	/// 0: it never will be (EndFrame failed, the engine dropped its list, or gives the frame up before EndFrame).
 	void FrameSubmitted(FRTFence Fence);
@@ -119,10 +181,13 @@ public:
 	FPipelineCache& GetPipelines() { return Pipelines; }
 	FRefitQuality& GetRefitQuality() { return *RefitQuality; }
 	FFrameUploads& GetUploads() { return Uploads; }
+	FHistoryResources& GetHistory() { return *History; }
 	FFrameGraphResources& GetGraphResources() { return GraphResources; }
 	/// RTPSO of the last frame; null if it had none.
 	const FRTPSO* GetRayPipeline() const { return RayPipeline.get(); }
 	FRTPSOCompiler& GetRayCompiler() { return RayCompiler; }
+	/// All that the last frame wanted to trace with was compiled, or cannot be.
+	bool AreRayProgramsReady() { return bRaysReady || (RayPipeline && !RayCompiler.GetStats().bBusy); }
 	/// What the compiler was told last of each program that is not ready.
 	const std::vector<FProgramPriority>& GetProgramPriorities() const;
 	const FShaderBindings& GetBindings() const { return Bindings; }
@@ -133,8 +198,8 @@ public:
 
 private:
 	friend struct FFrameContext;
-	FRTStatus PrepareRayPipeline(const FFrameFeatures& Features);
-	FRTStatus StartUpdate(const FView& View, const FFrameFeatures& Features);
+	FRTStatus PrepareRayPipeline(const FRayPrograms& Wanted, const FFrameFeatures& Features);
+	FRTStatus StartUpdate(const FView& View, const FRayPrograms& Wanted, const FFrameFeatures& Features);
 	void StartPrebind();
 	FRTStatus FinishPrebind();
 	void AddTables();
@@ -142,6 +207,7 @@ private:
 	FRTStatus AllocateConstants();
 	void WriteConstants();
 	void DropFrame();
+	void KeepHistory(bool bSubmitted);
 	FRTStatus WaitForSlot();
 	FRTStatus Execute(IRTCommandList& List);
 
@@ -157,6 +223,7 @@ private:
 	FRTPSOCompiler RayCompiler;
 	std::unique_ptr<FStandInFeedback> StandIns;
 	bool bStandIns = false; // some hit program of the frame is not ready
+	bool bRaysReady = true;
 	std::shared_ptr<const FRTPSO> RayPipeline;
 	std::unique_ptr<FFrameGraph> Graph;
 	std::unique_ptr<FFrameContext> Context;
@@ -170,6 +237,10 @@ private:
 	TRTRef<IRTCommandList> Lists[MaxInFlight];
 	FRTFence Fences[MaxInFlight] = {};
 	int Slot = 0;
+	std::unique_ptr<FHistoryResources> History;
+	FView LastView;             // of the newest frame that reached the GPU
+	uint64_t LastScene = 0;     // identity of its scene's sections, which outlives an address; 0: none
+	uint32_t LastSceneFrame = 0; // what the scene counted it as: another renderer's frame may have followed
 	std::string LastDump;
 	bool bDumpGraph = false;
 	enum class EPrebind : uint8_t { None, InLine, Running };

@@ -21,10 +21,14 @@ struct FView
 	uint32_t FrameIndex = 0;
 	uint32_t Seed = 0;
 	float Exposure = 0.0f; ///< stops
+	/// Since the frame before, > 0. Histories are kept in seconds, so that 30 and 144 frames a second behave alike.
+	float DeltaSeconds = 1.0f / 60.0f;
+	/// Nothing is carried over from the frame before: another place, another world.
+	bool bCut = false;
 };
 
-/// Origin: of the scene, see FRTScene.
-FViewConstants MakeViewConstants(const FView& View, glm::dvec3 Origin);
+/// Origin: of the scene, see FRTScene. Previous: the frame before; null: there is none, or it has nothing to give.
+FViewConstants MakeViewConstants(const FView& View, glm::dvec3 Origin, const FView* Previous = nullptr);
 
 /// The volume that a view sees, for culling on the CPU.
 class FViewFrustum

@@ -36,6 +36,9 @@ struct FRTGeometryInfo
 	std::string Name;
 	TRTRef<IRTBuffer> Positions;  ///< float3
 	uint64_t PositionsOffset = 0; ///< bytes, a multiple of 4
+	/// float3, from its start: what Positions held before they were deformed, written by whoever deforms them (the skinning
+	/// pass does). Null: deformation has no motion vectors. Dynamic geometry only.
+	TRTRef<IRTBuffer> PreviousPositions;
 	TRTRef<IRTBuffer> Attributes; ///< FVertexAttributes
 	uint64_t AttributesOffset = 0;
 	TRTRef<IRTBuffer> Indices;
@@ -114,9 +117,12 @@ public:
 	bool HasClassifiedSections() const { return PartCapacity > Info.Sections.size(); }
 	/// Parts follow the classification; false: as if there were none.
 	bool IsClassified() const { return bClassified; }
+	/// A submitted frame has deformed it: what its positions are is what they were in the frame before.
+	bool WasDeformed() const { return bWasDeformed; }
 
 private:
 	friend class FRTScene;
+	friend class FObjectMotions;
 	friend class FGeometryBuilder;
 	friend class FGeometryStore;
 	friend struct FGeometryTestAccess;
@@ -132,6 +138,8 @@ private:
 	TRTRef<IRTGeometry> Structure;
 	bool bBuilt = false;
 	bool bDeformed = false;
+	bool bMotionMarked = false; // in FObjectMotions' list of this frame
+	bool bWasDeformed = false;
 	uint32_t RefitsSinceBuild = 0;
 	std::shared_ptr<FGeometryReleases> Releases; // told of the end; null without a store
 	std::unique_ptr<FCoarserLevel> Coarser;      // in the making

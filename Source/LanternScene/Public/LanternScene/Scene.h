@@ -21,6 +21,7 @@
 #include "LanternScene/GpuTable.h"
 #include "LanternScene/InstanceUploads.h"
 #include "LanternScene/Object.h"
+#include "LanternScene/ObjectMotion.h"
 #include "LanternScene/SectionTable.h"
 #include "SceneTypes.h"
 
@@ -66,6 +67,7 @@ struct FSceneUse
 	bool bLightSampling = false; ///< the list of emissive triangles
 	bool bCull = true;           ///< false: rays see every object (the reference)
 	bool bBuildAll = true;       ///< no budget for builds: all that wait are built now (offline pictures)
+	bool bMotion = false;        ///< where objects were in the frame before (FSceneConstants::ObjectMotions)
 };
 
 struct FSceneUpdateStats
@@ -116,6 +118,7 @@ public:
 	uint32_t GetFirstSection(FRTObjectId Id) const;
 
 	void SetLights(std::vector<FSceneLight> Lights);
+	const std::vector<FSceneLight>& GetLights() const { return Lights; }
 	void SetSun(const FSunLight& Sun);
 	const FSunLight& GetSun() const { return Sun; }
 	void SetSky(glm::vec3 Radiance);
@@ -154,6 +157,7 @@ public:
 	/// After RecordUpdate: the block that passes read.
 	FSceneConstants GetConstants() const;
 	IRTScene* GetStructure() const { return Structure.Get(); }
+	const FObjectMotions& GetMotions() const { return Motions; }
 	FSectionTable& GetSections() { return Sections; }
 	const FInstanceStore& GetInstances() const { return Instances; }
 	/// Instances of the acceleration structure as it is.
@@ -228,6 +232,7 @@ private:
 	FSectionTable Sections{SectionContext};
 	std::vector<FHitProgram> MissingPrograms; // sorted
 	TGpuTable<FObjectData> ObjectData{"Objects"};
+	FObjectMotions Motions{ObjectData};
 	TGpuTable<FLightData> LightData{"Lights"};
 	TGpuTable<FEmissiveTriangle> EmissiveTriangles{"EmissiveTriangles"};
 	std::vector<uint32_t> EmissiveObjects;

@@ -1,4 +1,6 @@
-// Next-event estimation of the reference path tracer, one function per kind of light.
+// Next-event estimation, one function per kind of light. Include PathTracing.glsl, which declares what this needs.
+#ifndef LANTERN_PATH_LIGHTS_GLSL
+#define LANTERN_PATH_LIGHTS_GLSL
 
 bool IsVisible(FSceneConstants Scene, vec3 Origin, vec3 Direction, float Distance)
 {
@@ -137,3 +139,5 @@ vec3 SampleLights(FSceneConstants Scene, FBrdf B, mat3 Basis, vec3 V, vec3 P, ve
 #endif
 	return L;
 }
+
+#endif

@@ -1,0 +1,13 @@
+#version 460
+#extension GL_EXT_ray_query : require
+#include "AmbientOcclusion.glsl"
+#include "../Rays/QueryShadow.glsl"
+
+layout(local_size_x = AMBIENT_OCCLUSION_GROUP_SIZE, local_size_y = AMBIENT_OCCLUSION_GROUP_SIZE) in;
+
+bool TraceOcclusion(vec3 Origin, vec3 Direction, float Length)
+{
+	return QueryVisible(FSceneRef(Push.Pass.Scene).Data, 0u, Push.InstanceMask, Origin, Direction, Length);
+}
+
+void main() { ShadePixel(gl_GlobalInvocationID.xy); }

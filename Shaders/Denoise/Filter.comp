@@ -1,0 +1,66 @@
+// One pass of the edge-avoiding à-trous wavelet: taps count by how likely they show the same surface, and the same value,
+// by the variance that is left of it.
+#version 460
+#include "../Shared/DenoiseTypes.h"
+#include "../Library/View.glsl"
+#include "Signal.glsl"
+
+layout(local_size_x = DENOISE_GROUP_SIZE, local_size_y = DENOISE_GROUP_SIZE) in;
+layout(push_constant, scalar) uniform FPush { FFilterConstants Push; };
+
+const int Taps = 9, Center = 4;
+const float Kernel[3] = float[3](0.25, 0.5, 0.25);
+
+float GetKernel(int Tap) { return Kernel[Tap % 3] * Kernel[Tap / 3]; }
+
+vec3 GetPosition(FViewConstants View, ivec2 Pixel, float Distance) { return CameraRay(View, vec2(Pixel) + 0.5) * Distance; }
+
+vec4 Filter(FViewConstants View, ivec2 Pixel, FSurface Surface)
+{
+	ivec2 Size = ivec2(View.Width, View.Height);
+	vec4 Values[Taps];
+	Values[Center] = texelFetch(Textures[Push.Input], Pixel, 0);
+	float Variance = GetVariance(Values[Center]);
+	if (Variance <= 0.0) { return Values[Center]; } // no noise: nothing to filter, and nothing read
+	for (int Tap = 0; Tap < Taps; ++Tap)
+	{
+		ivec2 P = Pixel + ivec2(Tap % 3 - 1, Tap / 3 - 1) * int(Push.Step);
+		if (Tap != Center) { Values[Tap] = texelFetch(Textures[Push.Input], clamp(P, ivec2(0), Size - 1), 0); }
+	}
+	vec3 Position = GetPosition(View, Pixel, Surface.Distance);
+	float Cosine = max(abs(dot(Surface.Normal, normalize(Position))), 0.05);
+	float Reach = Push.SigmaDepth * PixelAngle(View) * Surface.Distance * float(Push.Step) / sqrt(Cosine);
+	float CenterValue = GetBrightness(GetSignal(Values[Center]));
+	FSignal Sum = FSignal(0.0);
+	float SumVariance = 0.0, SumWeights = 0.0;
+	for (int Tap = 0; Tap < Taps; ++Tap)
+	{
+		ivec2 P = Pixel + ivec2(Tap % 3 - 1, Tap / 3 - 1) * int(Push.Step);
+		if (any(lessThan(P, ivec2(0))) || any(greaterThanEqual(P, Size))) { continue; }
+		FSignal Value = GetSignal(Values[Tap]);
+		float Weight = GetKernel(Tap);
+		if (Tap != Center)
+		{
+			FSurface Other = LoadSurface(Push.Surface, P);
+			if (Other.Distance <= 0.0) { continue; }
+			float Height = abs(dot(Surface.Normal, GetPosition(View, P, Other.Distance) - Position)) / Reach;
+			float Difference = GetBrightness(Value) - CenterValue;
+			Difference *= Difference / (2.0 * Push.SigmaValue * Push.SigmaValue * Variance + 1.0e-12);
+			Weight *= exp(-Height - Difference) * pow(max(dot(Surface.Normal, Other.Normal), 0.0), Push.SigmaNormal);
+		}
+		Sum += Value * Weight;
+		SumVariance += Weight * Weight * GetVariance(Values[Tap]);
+		SumWeights += Weight;
+	}
+	return WithVariance(Sum / SumWeights, SumVariance / (SumWeights * SumWeights));
+}
+
+void main()
+{
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	ivec2 Pixel = ivec2(gl_GlobalInvocationID.xy);
+	if (any(greaterThanEqual(Pixel, ivec2(View.Width, View.Height)))) { return; }
+	FSurface Surface = LoadSurface(Push.Surface, Pixel);
+	vec4 Result = Surface.Distance > 0.0 ? Filter(View, Pixel, Surface) : texelFetch(Textures[Push.Input], Pixel, 0);
+	imageStore(Images[Push.Output], Pixel, Result);
+}

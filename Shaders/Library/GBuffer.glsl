@@ -1,0 +1,38 @@
+// What the host's raster says of a pixel's surface. Depth > 0: not the sky.
+#ifndef LANTERN_GBUFFER_GLSL
+#define LANTERN_GBUFFER_GLSL
+
+#include "Bindings.glsl"
+#include "Brdf.glsl"
+#include "View.glsl"
+
+struct FGBufferPoint
+{
+	vec3 Relative; // to the camera
+	vec3 V;        // towards the camera
+	vec3 N, Ng;    // shading normal, bent towards the viewer; geometric normal
+};
+
+FGBufferPoint LoadGBufferPoint(FViewConstants View, uint Normals, ivec2 Pixel, float Depth)
+{
+	vec4 Encoded = texelFetch(Textures[Normals], Pixel, 0);
+	FGBufferPoint Point;
+	Point.Relative = RelativePositionFromDepth(View, uvec2(Pixel), Depth);
+	Point.V = -normalize(Point.Relative);
+	Point.N = BendNormal(OctDecode(Encoded.xy), Point.V);
+	Point.Ng = OctDecode(Encoded.zw);
+	return Point;
+}
+
+// Where rays leave the surface.
+vec3 RayOriginAt(FViewConstants View, FGBufferPoint Point)
+{
+	return OffsetRasterPoint(View.CameraPosition + Point.Relative, Point.Ng, length(Point.Relative));
+}
+
+FBrdf MakeGBufferBrdf(vec4 BaseColor, vec4 Material)
+{
+	return FBrdf(BaseColor.rgb, BaseColor.a, Material.x * Material.x, Material.z * Material.z, Material.w, 1.0);
+}
+
+#endif

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+
+namespace Lantern
+{
+
+/// What the reference of the signal has to know of r.RT.AO.…
+struct FAmbientOcclusionSettings
+{
+	float Radius = 2.0f;       ///< metres
+	uint32_t InstanceMask = 0; ///< of what occludes
+};
+FAmbientOcclusionSettings GetAmbientOcclusionSettings();
+
+} // namespace Lantern

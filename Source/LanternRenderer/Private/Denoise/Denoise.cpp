@@ -1,0 +1,155 @@
+#include "Denoise/Denoise.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <string>
+
+#include "Denoise/SurfaceHistory.h"
+#include "DenoiseTypes.h"
+#include "LanternCore/ConsoleVariables.h"
+#include "LanternCore/History.h"
+#include "PassTools.h"
+
+namespace Lantern
+{
+
+namespace
+{
+// What `lantern stability` switches off to see that its cases notice.
+TRTConsoleVariable<bool> CVarValidate("r.RT.Debug.Denoise.Validate", true, "Planted fault. Off: the filter takes what was in a pixel's place before for its surface, whatever it was.");
+TRTConsoleVariable<bool> CVarAdapt("r.RT.Debug.Denoise.Adapt", true, "Planted fault. Off: the filter neither clamps what it accumulated nor looks for changes or noise, whatever its client asks for.");
+TRTConsoleVariable<bool> CVarGuard("r.RT.Debug.Denoise.Guard", true, "Planted fault. Off: the filter takes what is not a number for one.");
+constexpr uint32_t MaxPasses = 5;
+constexpr float NoiseSeconds = 0.08f; // over which the estimate of the noise is accumulated
+
+/// Of one signal in one frame.
+struct FDenoiser
+{
+	FFrameContext& Context;
+	const FDenoiseInputs& Inputs;
+	std::string Name;
+	bool bColor;          ///< three channels
+	ERTFormat ImageFormat; ///< of a mean beside its variance
+	IRTPipeline* Temporal = nullptr;
+	IRTPipeline* Filter = nullptr;
+	FHistoryTexture History, Moments; ///< Moments: of colours only
+
+	FGraphTexture CreateImage(bool bLast, uint32_t Index) const;
+	FGraphTexture AddTemporalPass(FGraphTexture Output);
+	FGraphTexture AddFilterPass(FGraphTexture Input, FGraphTexture Output, uint32_t Index);
+};
+
+uint32_t GetSampled(FPassContext& Pass, FGraphTexture Texture) { return Texture.IsValid() ? Pass.GetTexture(Texture)->GetSampledIndex() : NO_TEXTURE; }
+uint32_t GetStorage(FPassContext& Pass, FGraphTexture Texture) { return Texture.IsValid() ? Pass.GetTexture(Texture)->GetStorageIndex() : NO_TEXTURE; }
+
+float GetMinAlpha(float HistorySeconds, float DeltaSeconds)
+{
+	// 1 − e^−x of frames so short that their share would be lost in half precision.
+	return HistorySeconds > 0.0f ? std::max(-std::expm1(-DeltaSeconds / HistorySeconds), 1.0f / 1024.0f) : 1.0f;
+}
+
+std::vector<std::pair<std::string, std::string>> MakeDefines(bool bColor)
+{
+	std::vector<std::pair<std::string, std::string>> Defines = {{"CHANNELS", bColor ? "3" : "1"}};
+	if (!CVarValidate.GetOnRenderThread()) { Defines.emplace_back("NO_VALIDATION", "1"); }
+	if (!CVarAdapt.GetOnRenderThread()) { Defines.emplace_back("NO_ADAPTION", "1"); }
+	if (!CVarGuard.GetOnRenderThread()) { Defines.emplace_back("NO_GUARD", "1"); }
+	return Defines;
+}
+
+FGraphTexture FDenoiser::CreateImage(bool bLast, uint32_t Index) const
+{
+	if (bLast) { return Context.Graph.CreateTexture(Context.Graph.GetDesc(Inputs.Signal), (Name + " denoised").c_str()); }
+	return Context.Graph.CreateTexture({Context.Width, Context.Height, ImageFormat}, (Name + " " + std::to_string(Index)).c_str());
+}
+
+FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
+{
+	const FSurfaceTextures Surface = Context.Surface;
+	const bool bReproject = History.Previous.IsValid() && Surface.Previous.IsValid() && (!bColor || Moments.Previous.IsValid());
+	Context.Graph.AddPass((Name + "Temporal").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
+		for (const FGraphTexture Texture : {Inputs.Signal, Surface.Current}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+		if (bReproject)
+		{
+			for (const FGraphTexture Texture : {Surface.Motion, Surface.Previous, History.Previous}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+			if (bColor) { Builder.Read(Moments.Previous, ERTAccess::ShaderRead); }
+		}
+		Builder.Write(History.Current, ERTAccess::StorageWrite);
+		if (bColor) { Builder.Write(Moments.Current, ERTAccess::StorageWrite); }
+		Builder.Write(Output, ERTAccess::StorageWrite);
+		FTemporalConstants C{};
+		C.Pass = Context.Pass;
+		C.MinAlpha = GetMinAlpha(Inputs.Settings.HistorySeconds, Context.View.DeltaSeconds);
+		C.ClampSigma = CVarAdapt.GetOnRenderThread() ? Inputs.Settings.ClampSigma : 0.0f;
+		C.ChangeSigma = CVarAdapt.GetOnRenderThread() ? Inputs.Settings.ChangeSigma : 0.0f;
+		C.NoiseAlpha = GetMinAlpha(NoiseSeconds, Context.View.DeltaSeconds);
+		C.Resampling = Inputs.Settings.Resampling;
+		return [=, Signal = Inputs.Signal, Pipeline = Temporal, Kept = History, KeptMoments = Moments, Width = Context.Width,
+		        Height = Context.Height](FPassContext& Pass) mutable {
+			C.Signal = GetSampled(Pass, Signal);
+			C.Surface = GetSampled(Pass, Surface.Current);
+			C.Motion = GetSampled(Pass, bReproject ? Surface.Motion : FGraphTexture{});
+			C.PreviousSurface = GetSampled(Pass, bReproject ? Surface.Previous : FGraphTexture{});
+			C.History = GetSampled(Pass, bReproject ? Kept.Previous : FGraphTexture{});
+			C.Moments = GetSampled(Pass, bReproject ? KeptMoments.Previous : FGraphTexture{});
+			C.OutHistory = GetStorage(Pass, Kept.Current);
+			C.OutMoments = GetStorage(Pass, KeptMoments.Current);
+			C.Output = GetStorage(Pass, Output);
+			Dispatch2D(Pass, Pipeline, C, Width, Height, DENOISE_GROUP_SIZE);
+		};
+	});
+	return Output;
+}
+
+FGraphTexture FDenoiser::AddFilterPass(FGraphTexture Input, FGraphTexture Output, uint32_t Index)
+{
+	const FGraphTexture Surface = Context.Surface.Current;
+	Context.Graph.AddPass((Name + "Filter" + std::to_string(Index)).c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
+		Builder.Read(Input, ERTAccess::ShaderRead);
+		Builder.Read(Surface, ERTAccess::ShaderRead);
+		Builder.Write(Output, ERTAccess::StorageWrite);
+		FFilterConstants C{};
+		C.Pass = Context.Pass;
+		C.Step = 1u << Index;
+		C.SigmaValue = Inputs.Settings.SigmaValue;
+		C.SigmaNormal = Inputs.Settings.SigmaNormal;
+		C.SigmaDepth = Inputs.Settings.SigmaDepth;
+		return [=, Pipeline = Filter, Width = Context.Width, Height = Context.Height](FPassContext& Pass) mutable {
+			C.Input = GetSampled(Pass, Input);
+			C.Surface = GetSampled(Pass, Surface);
+			C.Output = GetStorage(Pass, Output);
+			Dispatch2D(Pass, Pipeline, C, Width, Height, DENOISE_GROUP_SIZE);
+		};
+	});
+	return Output;
+}
+} // namespace
+
+FGraphTexture AddDenoisePasses(FFrameContext& Context, const FDenoiseInputs& Inputs)
+{
+	const ERTFormat Format = Context.Graph.GetDesc(Inputs.Signal).Format;
+	assert(Format == ERTFormat::R16_FLOAT || Format == ERTFormat::RGBA16_FLOAT);
+	const bool bColor = Format == ERTFormat::RGBA16_FLOAT;
+	FDenoiser Denoiser{Context, Inputs, Inputs.Name, bColor, bColor ? ERTFormat::RGBA16_FLOAT : ERTFormat::RG16_FLOAT};
+	const uint32_t Passes = std::min(Inputs.Settings.Passes, MaxPasses);
+	Denoiser.Temporal = RequireCompute(Context, "Denoise/Temporal.comp", MakeDefines(bColor));
+	Denoiser.Filter = Passes > 0 ? RequireCompute(Context, "Denoise/Filter.comp", MakeDefines(bColor)) : nullptr;
+	if (!Denoiser.Temporal || (Passes > 0 && !Denoiser.Filter)) { return Inputs.Signal; }
+	if (!RequireSurface(Context, {Inputs.Depth, Inputs.Normals, Inputs.Motion})) { return Inputs.Signal; }
+	const auto Require = [&](const char* Suffix, ERTFormat Kept, FHistoryTexture& Out) {
+		return Context.History->GetTexture((Denoiser.Name + Suffix).c_str(), {Context.Width, Context.Height, Kept}, Out);
+	};
+	FRTStatus Status = Require("History", ERTFormat::RGBA16_FLOAT, Denoiser.History);
+	if (Status && bColor) { Status = Require("Moments", ERTFormat::RG16_FLOAT, Denoiser.Moments); }
+	if (!Status)
+	{
+		Context.Fail(Status);
+		return Inputs.Signal;
+	}
+	FGraphTexture Result = Denoiser.AddTemporalPass(Denoiser.CreateImage(Passes == 0, 0));
+	for (uint32_t I = 0; I < Passes; ++I) { Result = Denoiser.AddFilterPass(Result, Denoiser.CreateImage(I + 1 == Passes, I + 1), I); }
+	return Result;
+}
+
+} // namespace Lantern

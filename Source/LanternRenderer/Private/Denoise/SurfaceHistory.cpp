@@ -1,0 +1,54 @@
+#include "Denoise/SurfaceHistory.h"
+
+#include "DenoiseTypes.h"
+#include "LanternCore/History.h"
+#include "PassTools.h"
+
+namespace Lantern
+{
+
+namespace
+{
+void AddSurfacePass(FFrameContext& Context, const FSurfaceInputs& Inputs, IRTPipeline* Pipeline, FGraphTexture Output)
+{
+	const FPassConstants PassConstants = Context.Pass;
+	const uint32_t Width = Context.Width, Height = Context.Height;
+	Context.Graph.AddPass("Surface", [&](FPassBuilder& Builder) -> FPassExecute {
+		Builder.Read(Inputs.Depth, ERTAccess::ShaderRead);
+		Builder.Read(Inputs.Normals, ERTAccess::ShaderRead);
+		if (Inputs.Motion.IsValid()) { Builder.Read(Inputs.Motion, ERTAccess::ShaderRead); }
+		Builder.Write(Output, ERTAccess::StorageWrite);
+		return [=](FPassContext& Pass) {
+			FSurfaceConstants C{};
+			C.Pass = PassConstants;
+			C.Depth = Pass.GetTexture(Inputs.Depth)->GetSampledIndex();
+			C.Normals = Pass.GetTexture(Inputs.Normals)->GetSampledIndex();
+			C.Motion = Inputs.Motion.IsValid() ? Pass.GetTexture(Inputs.Motion)->GetSampledIndex() : NO_TEXTURE;
+			C.Output = Pass.GetTexture(Output)->GetStorageIndex();
+			Dispatch2D(Pass, Pipeline, C, Width, Height, DENOISE_GROUP_SIZE);
+		};
+	});
+}
+} // namespace
+
+bool RequireSurface(FFrameContext& Context, const FSurfaceInputs& Inputs)
+{
+	if (Context.Surface.Current.IsValid()) { return true; }
+	IRTPipeline* const Pipeline = RequireCompute(Context, "Denoise/Surface.comp");
+	if (!Pipeline) { return false; }
+	FHistoryTexture Surface;
+	if (FRTStatus S = Context.History->GetTexture("Surface", {Context.Width, Context.Height, ERTFormat::RG32_FLOAT}, Surface); !S)
+	{
+		Context.Fail(S);
+		return false;
+	}
+	AddSurfacePass(Context, Inputs, Pipeline, Surface.Current);
+	Context.Surface.Current = Surface.Current;
+	if (!Surface.Previous.IsValid()) { return true; }
+	Context.Surface.Motion = Inputs.Motion.IsValid() ? Inputs.Motion : AddCameraMotionPass(Context, Inputs.Depth);
+	if (!Context.Surface.Motion.IsValid()) { return false; }
+	Context.Surface.Previous = Surface.Previous;
+	return true;
+}
+
+} // namespace Lantern

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "LanternScene/Scene.h"
+
+namespace Lantern
+{
+
+/// Whether the composite has ambient light of the sky (r.RT.SkyAmbient), which ambient occlusion darkens.
+bool HasSkyAmbient(const FSceneFacts& Facts);
+
+} // namespace Lantern

@@ -1,0 +1,119 @@
+// Filtered shadows of one ray a pixel against unfiltered ones of sixteen, by FLIP, with the camera still, slow and fast.
+#include <cstdlib>
+#include <filesystem>
+
+#include "DenoiseFixture.h"
+#include "LanternHost/Flip.h"
+#include "LanternHost/ImageIO.h"
+
+namespace Lantern
+{
+
+namespace
+{
+struct FPath
+{
+	const char* Name;
+	double Speed; ///< metres a second, to the right
+	double Turn;  ///< degrees a second
+};
+constexpr FPath Paths[] = {{"still", 0.0, 0.0}, {"slow", 0.5, 5.0}, {"fast", 3.0, 45.0}};
+constexpr double Fps = 60.0;
+
+/// Pictures and truths of a run, where LANTERN_DENOISE_PICTURES names a folder: to look at, and not to trace truths again.
+std::string GetPictureFolder()
+{
+	const char* const Folder = std::getenv("LANTERN_DENOISE_PICTURES");
+	return Folder ? std::string(Folder) + "/" : std::string();
+}
+
+class FDenoiseQualityTest : public FDenoiseTest
+{
+protected:
+	struct FFigures
+	{
+		double Flip = 0.0, RelMse = 0.0;
+	};
+	static FFigures Measure(const FImage& Image, const FImage& Truth)
+	{
+		return {PoolFlip(ComputeFlip(Image, Truth).Map).Mean, ComputeRelMse(Image, Truth)};
+	}
+
+	static void Keep(const std::string& Name, const FImage& Image)
+	{
+		if (!GetPictureFolder().empty()) { EXPECT_OK(SaveImageFile(GetPictureFolder() + Name, Image)); }
+	}
+
+	static FImage GetTruth(const std::string& Name, const FView& View)
+	{
+		const std::string File = GetPictureFolder() + Name + ".pfm";
+		FImage Truth;
+		if (!GetPictureFolder().empty() && std::filesystem::exists(File) && LoadImageFile(File, Truth)) { return Truth; }
+		Truth = RenderTruth(View, 4);
+		Keep(Name + ".pfm", Truth);
+		return Truth;
+	}
+
+	/// Mean figures of a few frames of the sequence, with what the console variables say.
+	static FFigures MeasureSequence(const std::string& Name, const char* Method, const FSequence& Sequence, const std::vector<uint32_t>& Looked,
+	                                const std::vector<FImage>& Truths)
+	{
+		const std::vector<FImage> Images = RenderSequence(Sequence);
+		FFigures Mean;
+		for (size_t I = 0; I < Looked.size(); ++I)
+		{
+			const FFigures Figures = Measure(Images[Looked[I]], Truths[I]);
+			Mean.Flip += Figures.Flip / double(Looked.size());
+			Mean.RelMse += Figures.RelMse / double(Looked.size());
+		}
+		Keep(Name + "_" + Method + ".png", Images[Looked.back()]);
+		return Mean;
+	}
+
+	void Compare(const std::string& Scene, const FView& Start)
+	{
+		const std::vector<uint32_t> Looked = {20, 25, 30};
+		for (const FPath& Path : Paths)
+		{
+			const std::string Name = Scene + "_" + Path.Name;
+			FSequence Sequence;
+			Sequence.Frames = Looked.back() + 1;
+			Sequence.FirstIndex = 1000;
+			Sequence.Camera = [&](uint32_t Frame) {
+				const double Seconds = double(Frame) / Fps;
+				FView View = Move(Start, Path.Speed * Seconds, 0.0, Path.Turn * Seconds);
+				View.DeltaSeconds = float(1.0 / Fps);
+				return View;
+			};
+			std::vector<FImage> Truths;
+			for (const uint32_t Frame : Looked) { Truths.push_back(GetTruth(fmt::format("{}_{}_truth", Name, Frame), Sequence.Camera(Frame))); }
+			Keep(Name + "_truth.png", Truths.back());
+			UseFilter();
+			const FFigures Filtered = MeasureSequence(Name, "filtered", Sequence, Looked, Truths);
+			UseRays(16);
+			const FFigures Raw = MeasureSequence(Name, "raw16", Sequence, Looked, Truths);
+			UseRays(1);
+			const FFigures One = MeasureSequence(Name, "raw1", Sequence, Looked, Truths);
+			PrintFigure(fmt::format("{:24} FLIP: filtered {:.4f}, 16 rays {:.4f}, 1 ray {:.4f}; relMSE: {:.4f}, {:.4f}, {:.4f}", Name, Filtered.Flip, Raw.Flip,
+			                        One.Flip, Filtered.RelMse, Raw.RelMse, One.RelMse));
+			EXPECT_LT(Filtered.Flip, Raw.Flip) << Name;
+		}
+	}
+};
+
+TEST_F(FDenoiseQualityTest, Courtyard)
+{
+	ASSERT_TRUE(Load("courtyard"));
+	Compare("courtyard", MakeView(320, 180));
+}
+
+TEST_F(FDenoiseQualityTest, BlackForest)
+{
+	REQUIRE_SCENE(File, "black_forest/black_forest.gltf");
+	ASSERT_TRUE(Load(File));
+	SetSun(0.53);
+	Compare("black_forest", MakeView(320, 180));
+}
+
+} // namespace
+} // namespace Lantern

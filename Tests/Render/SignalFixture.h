@@ -1,0 +1,31 @@
+// Signals of frames and of the reference, and how the two are held against each other.
+#pragma once
+
+#include "LanternHost/ImageStatistics.h"
+#include "RenderFixture.h"
+#include "TestScene.h"
+
+namespace Lantern
+{
+
+class FSignalTest : public FRenderTest
+{
+protected:
+	/// Mean of a signal over Count frames from First; black where a frame does not have it, which is a failure.
+	FImage RenderSignal(ESignal Signal, const FView& View, uint32_t Count = 1, uint32_t First = 0);
+	/// Whether a frame has it.
+	bool HasSignal(ESignal Signal, const FView& View);
+	/// Through pixel centres.
+	FImage TraceSignal(ESignal Signal, FView View, uint32_t Samples, uint32_t Bounces = UnlimitedBounces, uint32_t Seed = 1);
+	/// Mean of the green channel, from Batches pictures of Samples with seeds of their own.
+	FEstimate EstimateSignal(ESignal Signal, const FView& View, uint32_t Samples, uint32_t Bounces = UnlimitedBounces, uint32_t Batches = 8);
+	/// The same of frames: batches of Count frames.
+	FEstimate EstimateFrames(ESignal Signal, const FView& View, uint32_t Count, uint32_t Batches = 8);
+	/// Holds frames against the reference of the same signal: their means agree within Tolerance and three times what
+	/// repetitions scatter, and so do means of blocks, at the median. All of it relative to the reference.
+	void ExpectUnbiased(const char* What, ESignal Signal, const FView& View, uint32_t Frames, uint32_t Samples, uint32_t Bounces, double Tolerance);
+	/// Everything that paths can make, at this many samples and bounces.
+	static void SetIndirect(int32_t Samples, int32_t Bounces);
+};
+
+} // namespace Lantern

@@ -1,0 +1,290 @@
+// Signals of the module: what an engine asks for is made, and nothing else is.
+#include <chrono>
+#include <limits>
+#include <thread>
+
+#include "ModuleTestTools.h"
+
+namespace Lantern
+{
+namespace
+{
+
+using ::testing::AnyOf;
+using ::testing::Contains;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+class FModuleSignalTest : public FModuleTest
+{
+protected:
+	void SetUp() override
+	{
+		FModuleTest::SetUp();
+		ASSERT_FINE(AddObject(AddOpaqueMesh(), Solid));
+		ASSERT_FINE(SetSun(-1.0));
+		Motion = MakeTexture(ERTFormat::RGBA32_FLOAT, 64);
+		BaseColor = MakeTexture(ERTFormat::RGBA8_SRGB, 64);
+		Material = MakeTexture(ERTFormat::RGBA8_UNORM, 64);
+	}
+	void TearDown() override
+	{
+		for (TRTRef<IRTTexture>* Texture : {&Motion, &BaseColor, &Material}) { Texture->Reset(); }
+		for (const auto& [Name, Value] : Changed)
+		{
+			ASSERT_FINE(Module->SetConsoleVariable(Name.c_str(), Value.c_str()));
+		}
+		FModuleTest::TearDown();
+	}
+	/// Until the end of the test.
+	void Set(const char* Name, const char* Value)
+	{
+		char Before[64];
+		ASSERT_FINE(Module->GetConsoleVariable(Name, Before, sizeof(Before)));
+		Changed.insert(Changed.begin(), {Name, Before});
+		ASSERT_FINE(Module->SetConsoleVariable(Name, Value));
+	}
+	FRTModuleFrame DescribeAll()
+	{
+		FRTModuleFrame Frame = DescribeFrame();
+		Frame.Motion = Motion.Get();
+		Frame.BaseColor = BaseColor.Get();
+		Frame.Material = Material.Get();
+		Frame.Wanted = {true, true, true, true};
+		return Frame;
+	}
+	/// Calls are those of this frame.
+	void RenderAndEnd(const FRTModuleFrame& Frame)
+	{
+		Mock().ClearCalls();
+		ASSERT_FINE(Renderer->RenderFrame(Frame, &Outputs));
+		ASSERT_FINE(Renderer->EndFrame(nullptr));
+	}
+	/// Frames until all that Frame asks for is there.
+	void RenderUntilComplete(FRTModuleFrame Frame)
+	{
+		Outputs = {};
+		const auto Start = std::chrono::steady_clock::now();
+		while (!Outputs.bComplete && std::chrono::steady_clock::now() - Start < std::chrono::seconds(60))
+		{
+			Frame.Commands = DescribeFrame().Commands;
+			RenderAndEnd(Frame);
+			if (!Outputs.bComplete) { std::this_thread::sleep_for(std::chrono::milliseconds(2)); }
+		}
+		ASSERT_TRUE(Outputs.bComplete);
+	}
+	std::vector<std::string> GetPasses()
+	{
+		std::vector<std::string> Names;
+		for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::BeginMarker)) { Names.push_back(Call.Name); }
+		return Names;
+	}
+
+	TRTRef<IRTTexture> Motion, BaseColor, Material;
+	std::vector<std::pair<std::string, std::string>> Changed;
+};
+
+TEST_F(FModuleSignalTest, ByDefaultThereAreSunShadowsOnly)
+{
+	const float Sky[3] = {1, 1, 1};
+	ASSERT_FINE(Renderer->SetSky(Sky));
+	RenderAndEnd(DescribeFrame());
+	EXPECT_NE(Outputs.SunShadow, nullptr);
+	EXPECT_EQ(Outputs.AmbientOcclusion, nullptr);
+	EXPECT_EQ(Outputs.DiffuseGI, nullptr);
+	EXPECT_EQ(Outputs.Reflections, nullptr);
+	EXPECT_THAT(GetPasses(), Not(Contains(AnyOf(StartsWith("Ambient"), StartsWith("DiffuseGI"), StartsWith("Reflections")))));
+	EXPECT_THAT(Mock().GetCreatedPipelines(), Not(Contains(HasSubstr("Ambient"))));
+}
+
+TEST_F(FModuleSignalTest, NothingAskedForIsNothingMade)
+{
+	FRTModuleFrame Frame = DescribeAll();
+	Frame.Wanted = {false, false, false, false};
+	RenderAndEnd(Frame);
+	EXPECT_EQ(Outputs.SunShadow, nullptr);
+	EXPECT_TRUE(Outputs.bComplete);
+	EXPECT_THAT(GetPasses(), Each("SceneUpdate")) << "the scene's tables";
+	for (const ERTMockCall Kind : {ERTMockCall::CreateComputePipeline, ERTMockCall::CreateRayTracingPipeline,
+	                               ERTMockCall::CreateTexture, ERTMockCall::BuildGeometry, ERTMockCall::BuildScene})
+	{
+		EXPECT_EQ(Mock().CountCalls(Kind), 0u) << static_cast<int>(Kind);
+	}
+}
+
+TEST_F(FModuleSignalTest, AmbientOcclusionAloneNeedsNoSunAndNoSky)
+{
+	for (const char* Path : {"1", "2"})
+	{
+		Set("r.RT.AO.Path", Path);
+		ASSERT_FINE(SetSun(-1.0, 0.0f));
+		FRTModuleFrame Frame = DescribeFrame();
+		Frame.Wanted = {.bSunShadow = true, .bAmbientOcclusion = true};
+		RenderUntilComplete(Frame);
+		EXPECT_EQ(Outputs.SunShadow, nullptr) << "no sun";
+		ASSERT_NE(Outputs.AmbientOcclusion, nullptr);
+		EXPECT_EQ(Outputs.AmbientOcclusion->GetDesc().Format, ERTFormat::R16_FLOAT);
+		EXPECT_EQ(Outputs.AmbientOcclusion->GetDesc().Width, 64u);
+		EXPECT_TRUE(HasAny(Outputs.AmbientOcclusion->GetDesc().Usage, ERTTextureUsage::CopySource));
+		EXPECT_THAT(GetPasses(), Contains("AmbientOcclusion"));
+		EXPECT_THAT(GetPasses(), Not(Contains("SunShadow")));
+	}
+	Set("r.RT.AO", "0");
+	FRTModuleFrame Frame = DescribeFrame();
+	Frame.Wanted.bAmbientOcclusion = true;
+	RenderAndEnd(Frame);
+	EXPECT_EQ(Outputs.AmbientOcclusion, nullptr);
+	EXPECT_TRUE(Outputs.bComplete) << "off is not missing";
+}
+
+TEST_F(FModuleSignalTest, IndirectLightIsGivenWhereItIsAskedForAndOn)
+{
+	const float Sky[3] = {1, 1, 1};
+	ASSERT_FINE(Renderer->SetSky(Sky));
+	RenderUntilComplete(DescribeAll());
+	EXPECT_EQ(Outputs.DiffuseGI, nullptr) << "off by default";
+	EXPECT_EQ(Outputs.Reflections, nullptr);
+	EXPECT_NE(Outputs.AmbientOcclusion, nullptr);
+	Set("r.RT.GI", "1");
+	Set("r.RT.Reflections", "1");
+	RenderUntilComplete(DescribeAll());
+	ASSERT_TRUE(Outputs.DiffuseGI && Outputs.Reflections);
+	for (IRTTexture* const Texture : {Outputs.DiffuseGI, Outputs.Reflections})
+	{
+		EXPECT_EQ(Texture->GetDesc().Format, ERTFormat::RGBA16_FLOAT);
+		EXPECT_TRUE(HasAny(Texture->GetDesc().Usage, ERTTextureUsage::CopySource));
+	}
+	EXPECT_NE(Outputs.AmbientOcclusion, nullptr) << "asked for beside it";
+	EXPECT_THAT(GetPasses(), IsSupersetOf({"SunShadow", "AmbientOcclusion", "Reflections", "DiffuseGI"}));
+	FRTModuleFrame Frame = DescribeAll();
+	Frame.BaseColor = nullptr;
+	RenderUntilComplete(Frame);
+	EXPECT_EQ(Outputs.Reflections, nullptr) << "an input is missing";
+	EXPECT_NE(Outputs.DiffuseGI, nullptr);
+	EXPECT_THAT(GetPasses(), Not(Contains("Reflections")));
+}
+
+TEST_F(FModuleSignalTest, WithoutMotionThatOfTheCameraStandsIn)
+{
+	FRTModuleFrame Frame = DescribeFrame();
+	Frame.Wanted = {.bSunShadow = false, .bAmbientOcclusion = true};
+	RenderUntilComplete(Frame);
+	Frame.Commands = DescribeFrame().Commands;
+	RenderAndEnd(Frame);
+	EXPECT_THAT(GetPasses(), Contains("CameraMotion")) << "a history is followed";
+	Frame = DescribeAll();
+	Frame.Wanted = {.bSunShadow = false, .bAmbientOcclusion = true};
+	RenderAndEnd(Frame);
+	EXPECT_THAT(GetPasses(), Not(Contains("CameraMotion")));
+	EXPECT_THAT(GetPasses(), Contains("AmbientOcclusionTemporal"));
+}
+
+TEST_F(FModuleSignalTest, MotionOfObjectsIsLeftToTheEngine)
+{
+	RenderAndEnd(DescribeFrame());
+	double Moved[12] = {1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0};
+	ASSERT_FINE(Renderer->SetObjectTransform(Object, Moved));
+	RenderAndEnd(DescribeAll());
+	EXPECT_THAT(Mock().GetCreatedBuffers(), Not(Contains(HasSubstr("Motion"))));
+}
+
+TEST_F(FModuleSignalTest, WrongInputsAreNamed)
+{
+	FRTModuleFrame Frame = DescribeAll();
+	for (const float Seconds : {0.0f, -1.0f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()})
+	{
+		Frame.DeltaSeconds = Seconds;
+		EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "DeltaSeconds");
+	}
+	Frame = DescribeAll();
+	Frame.Motion = Normals.Get();
+	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "the motion texture must be RGBA32_FLOAT");
+	Frame = DescribeAll();
+	Frame.MotionAccess = ERTAccess::None;
+	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "MotionAccess");
+	Frame = DescribeAll();
+	Frame.BaseColor = Material.Get();
+	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "the base colour texture must be RGBA8_SRGB");
+	Frame = DescribeAll();
+	const TRTRef<IRTTexture> Small = MakeTexture(ERTFormat::RGBA8_UNORM, 32);
+	Frame.Material = Small.Get();
+	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "the material texture is 32 x 32, depth is 64 x 64");
+	for (const float Bad : {-1.0f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()})
+	{
+		const float Sky[3] = {1, Bad, 1};
+		EXPECT_REFUSED(Renderer->SetSky(Sky), "the sky's radiance");
+	}
+	RenderAndEnd(DescribeAll());
+}
+
+// Paths shade what they hit: what is not a number in a material would be none in the outputs.
+TEST_F(FModuleSignalTest, ImpossibleMaterialsAreNamed)
+{
+	const auto Refuse = [&](const FRTModuleMaterial& Bad, const char* Part)
+	{
+		ERTMaterialHandle Added = ERTMaterialHandle::None;
+		EXPECT_REFUSED(Renderer->AddMaterial(Bad, &Added), Part);
+		EXPECT_EQ(Added, ERTMaterialHandle::None);
+	};
+	const float NaN = std::numeric_limits<float>::quiet_NaN();
+	for (const float Value : {NaN, std::numeric_limits<float>::infinity(), -1.0f})
+	{
+		FRTModuleMaterial Bad;
+		Bad.BaseColor[1] = Value;
+		Refuse(Bad, "BaseColor");
+		Bad = {};
+		Bad.Emissive[2] = Value;
+		Refuse(Bad, "Emissive");
+		Bad = {};
+		Bad.Metallic = Value;
+		Refuse(Bad, "Metallic");
+		Bad = {};
+		Bad.Roughness = Value;
+		Refuse(Bad, "Roughness");
+	}
+	FRTModuleMaterial Bad;
+	Bad.AlphaCutoff = NaN;
+	Refuse(Bad, "AlphaCutoff");
+	Bad = {};
+	Bad.Roughness = 1.5f;
+	Refuse(Bad, "Roughness must lie between 0 and 1, is 1.5");
+	EXPECT_REFUSED(Renderer->SetSky(nullptr), "the sky's radiance");
+	EXPECT_REFUSED(Renderer->SetObjectTransform(Object, nullptr), "transform");
+}
+
+TEST_F(FModuleSignalTest, ACutAndALostFrameEndTheHistory)
+{
+	FRTModuleFrame Frame = DescribeFrame();
+	Frame.Wanted = {.bSunShadow = false, .bAmbientOcclusion = true};
+	RenderUntilComplete(Frame);
+	const auto HasHistory = [&] { return Mock().CountCalls(ERTMockCall::BeginMarker, "CameraMotion") > 0; };
+	Frame.Commands = DescribeFrame().Commands;
+	RenderAndEnd(Frame);
+	EXPECT_TRUE(HasHistory());
+	Frame.Commands = DescribeFrame().Commands;
+	Frame.bCut = true;
+	RenderAndEnd(Frame);
+	EXPECT_FALSE(HasHistory());
+	Frame.Commands = DescribeFrame().Commands;
+	Frame.bCut = false;
+	RenderAndEnd(Frame);
+	EXPECT_TRUE(HasHistory());
+	Mock().FailEveryAllocation(1); // another size needs memory
+	Depth = MakeTexture(ERTFormat::D32_FLOAT, 32);
+	Normals = MakeTexture(ERTFormat::RGBA16_SNORM, 32);
+	Frame = DescribeFrame();
+	Frame.Wanted.bAmbientOcclusion = true;
+	EXPECT_FALSE(Renderer->RenderFrame(Frame, &Outputs).IsOk());
+	Mock().FailEveryAllocation(0);
+	Frame.Commands = DescribeFrame().Commands;
+	RenderAndEnd(Frame);
+	EXPECT_FALSE(HasHistory());
+	EXPECT_EQ(Outputs.AmbientOcclusion->GetDesc().Width, 32u);
+}
+
+} // namespace
+} // namespace Lantern
