@@ -1,5 +1,6 @@
 #include "MotionOracle.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace Lantern
@@ -26,6 +27,7 @@ std::vector<glm::dvec3> FindPositions(const FHostMesh& Mesh, const std::vector<g
 struct FHit
 {
 	double Distance = 1e300; // in units of the ray
+	double Nearest = 0.0;    // what is not farther away is not seen
 	const FMotionSnapshot::FObject* Object = nullptr;
 	size_t FirstIndex = 0;
 	glm::dvec3 Weights{0}; // of the corners
@@ -53,11 +55,11 @@ void Intersect(const glm::dvec3& Origin, const glm::dvec3& Ray, const FMotionSna
 			const double T = -glm::dot(Normal, Origin - A) / Volume;
 			const glm::dvec3 P = Origin + T * Ray - A;
 			const double V = glm::dot(glm::cross(P, C), Normal) / Area2, W = glm::dot(glm::cross(B, P), Normal) / Area2;
-			if (T <= 0.0 || T >= Hit.Distance || V < 0.0 || W < 0.0 || V + W > 1.0)
+			if (T <= Hit.Nearest || T >= Hit.Distance || V < 0.0 || W < 0.0 || V + W > 1.0)
 			{
 				continue;
 			}
-			Hit = {T, &Object, I, {1.0 - V - W, V, W}};
+			Hit = {T, Hit.Nearest, &Object, I, {1.0 - V - W, V, W}};
 		}
 	}
 }
@@ -120,20 +122,10 @@ glm::dvec3 FExactCamera::Project(const glm::dvec3& World) const
 	return {(Ndc * 0.5 + 0.5) * glm::dvec2(View.Width, View.Height), Z};
 }
 
-std::optional<FExactMotion> FindMotion(const FMotionSnapshot& Before, const FMotionSnapshot& Now,
-                                       const FSceneDescription& Scene, uint32_t X, uint32_t Y)
+namespace
 {
-	const FExactCamera Camera(Now.View), PreviousCamera(Before.View);
-	const glm::dvec2 Pixel(X + 0.5, Y + 0.5);
-	FHit Hit;
-	for (const FMotionSnapshot::FObject& Object : Now.Objects)
-	{
-		Intersect(Camera.GetPosition(), Camera.MakeRay(Pixel), Object, Scene, Hit);
-	}
-	if (!Hit.Object)
-	{
-		return std::nullopt;
-	}
+FExactMotion MakeMotion(const FMotionSnapshot& Before, const FMotionSnapshot& Now, const FHit& Hit, glm::dvec2 Pixel)
+{
 	FExactMotion Out;
 	Out.Object = Hit.Object->Index;
 	Out.PreviousPoint = Out.Point = Interpolate(*Hit.Object, Hit);
@@ -144,10 +136,112 @@ std::optional<FExactMotion> FindMotion(const FMotionSnapshot& Before, const FMot
 			Out.PreviousPoint = Interpolate(Object, Hit);
 		}
 	}
-	const glm::dvec3 Previous = PreviousCamera.Project(Out.PreviousPoint);
-	Out.Motion = glm::dvec2(Previous) - Pixel;
+	const glm::dvec3 Here = FExactCamera(Now.View).Project(Out.Point),
+	                 Previous = FExactCamera(Before.View).Project(Out.PreviousPoint);
+	Out.Offset = glm::dvec2(Here) - Pixel;
+	Out.Distance = Here.z;
+	Out.Motion = glm::dvec2(Previous) - glm::dvec2(Here);
 	Out.PreviousDistance = Previous.z;
 	return Out;
+}
+
+struct FTrianglePoint
+{
+	glm::dvec3 Weights; // of the corners
+	double Distance;    // along the view
+};
+
+/// What of a convex polygon has Sign · (distance − Limit) ≥ 0 (Sutherland and Hodgman 1974).
+std::vector<FTrianglePoint> ClipByDistance(const std::vector<FTrianglePoint>& Polygon, double Limit, double Sign)
+{
+	std::vector<FTrianglePoint> Out;
+	for (size_t I = 0; I < Polygon.size(); ++I)
+	{
+		const FTrianglePoint &A = Polygon[I], &B = Polygon[(I + 1) % Polygon.size()];
+		const double Da = Sign * (A.Distance - Limit), Db = Sign * (B.Distance - Limit);
+		if (Da >= 0.0)
+		{
+			Out.push_back(A);
+		}
+		if ((Da >= 0.0) != (Db >= 0.0))
+		{
+			Out.push_back({glm::mix(A.Weights, B.Weights, Da / (Da - Db)), Limit});
+		}
+	}
+	return Out;
+}
+} // namespace
+
+std::optional<FExactMotion> FindMotion(const FMotionSnapshot& Before, const FMotionSnapshot& Now,
+                                       const FSceneDescription& Scene, uint32_t X, uint32_t Y)
+{
+	const FExactCamera Camera(Now.View);
+	const glm::dvec2 Pixel(X + 0.5, Y + 0.5);
+	FHit Hit;
+	for (const FMotionSnapshot::FObject& Object : Now.Objects)
+	{
+		Intersect(Camera.GetPosition(), Camera.MakeRay(Pixel), Object, Scene, Hit);
+	}
+	return Hit.Object ? std::optional(MakeMotion(Before, Now, Hit, Pixel)) : std::nullopt;
+}
+
+namespace
+{
+/// Of the points of a triangle within a range of distances, the one nearest to Pixel, if it is nearer than Best.
+void FindNearest(const FExactCamera& Camera, const FMotionSnapshot::FObject& Object, size_t FirstIndex,
+                 glm::dvec2 Distances, glm::dvec2 Pixel, FHit& Hit, double& Best)
+{
+	std::vector<FTrianglePoint> Polygon;
+	for (int Corner = 0; Corner < 3; ++Corner)
+	{
+		glm::dvec3 Weights(0);
+		Weights[Corner] = 1.0;
+		const glm::dvec3& P = Object.Positions[Object.Mesh->Indices[FirstIndex + static_cast<size_t>(Corner)]];
+		Polygon.push_back({Weights, Camera.Project(P).z});
+	}
+	Polygon = ClipByDistance(ClipByDistance(Polygon, Distances[0], 1.0), Distances[1], -1.0);
+	const auto Project = [&](const FTrianglePoint& Point) {
+		return glm::dvec2(Camera.Project(Interpolate(Object, {0.0, 0.0, &Object, FirstIndex, Point.Weights})));
+	};
+	for (size_t I = 0; I < Polygon.size(); ++I)
+	{
+		// At what is nearly one distance, lines are divided on the screen as they are in space.
+		const FTrianglePoint &A = Polygon[I], &B = Polygon[(I + 1) % Polygon.size()];
+		const glm::dvec2 From = Project(A), Along = Project(B) - From;
+		const double Length2 = glm::dot(Along, Along);
+		const double T = Length2 > 0.0 ? std::clamp(glm::dot(Pixel - From, Along) / Length2, 0.0, 1.0) : 0.0;
+		const double Offset = glm::length(From + T * Along - Pixel);
+		if (Offset < Best)
+		{
+			Best = Offset;
+			Hit = {0.0, 0.0, &Object, FirstIndex, glm::mix(A.Weights, B.Weights, T)};
+		}
+	}
+}
+} // namespace
+
+std::optional<FExactMotion> FindMotionAt(const FMotionSnapshot& Before, const FMotionSnapshot& Now,
+                                         const FSceneDescription& Scene, uint32_t Index, double Distance,
+                                         double DistanceError, uint32_t X, uint32_t Y)
+{
+	const FExactCamera Camera(Now.View);
+	const glm::dvec2 Pixel(X + 0.5, Y + 0.5), Distances = Distance + DistanceError * glm::dvec2(-1.0, 1.0);
+	FHit Hit{Distances[1], Distances[0]};
+	for (const FMotionSnapshot::FObject& Object : Now.Objects)
+	{
+		if (Object.Index != Index)
+		{
+			continue;
+		}
+		Intersect(Camera.GetPosition(), Camera.MakeRay(Pixel), Object, Scene, Hit);
+		const bool bCentre = Hit.Object != nullptr;
+		double Best = 1e300;
+		for (size_t First = 0; !bCentre && First < Object.Mesh->Indices.size(); First += 3)
+		{
+			FindNearest(Camera, Object, First, Distances, Pixel, Hit, Best);
+		}
+	}
+	return Hit.Object ? std::optional(MakeMotion(Before, Now, Hit, Pixel)) : std::nullopt;
 }
 
 } // namespace Lantern

@@ -88,7 +88,7 @@ TEST_F(FMotionPictureTest, PicturesAreCarriedOver)
 		GetEngine().ExtraPasses = [&](FFrameContext& Context, const FGBuffer& GBuffer, const FFrameOutputs&)
 		{ Read(Context, GBuffer.Motion, Buffer); };
 		FImage Picture = RenderLighting(View);
-		Motion = Take(Buffer.Get(), View);
+		Motion = Take<glm::vec4>(Buffer.Get(), View);
 		return Picture;
 	};
 	std::vector<glm::vec4> Motion;

@@ -13,6 +13,10 @@ namespace Lantern
 
 namespace
 {
+const glm::dvec3 BorderOfCell(0.5 * CellSize - 0.2, 0, 0);
+/// The room that a camera leaves an origin of 0 from.
+const glm::dvec3 WhereOriginMoves(0.75 * FRTScene::OriginStep - 0.4, 0, 0);
+
 class FMotionTest : public FMotionTestBase
 {
 protected:
@@ -46,10 +50,10 @@ protected:
 		                                      glm::normalize(glm::dvec3(0.2, 1, 0.1 * Box)));
 		return glm::scale(Turned, glm::dvec3(Box == 2 ? -1.0 : 1.0, 1.0 + 0.04 * Time, 1.0));
 	}
-	static FView MakeRoomView(const glm::dvec3& Center, double Time)
+	static FView MakeRoomView(const glm::dvec3& Center, double Time, glm::uvec2 Size = {Width, Height})
 	{
 		return MakeCamera(Center + glm::dvec3(0.13 * Time, 2.0 + 0.02 * Time, 5.0 - 0.09 * Time),
-		                  Center + glm::dvec3(0.05 * Time, 0.8, 0));
+		                  Center + glm::dvec3(0.05 * Time, 0.8, 0), Size);
 	}
 	static void MoveBoxes(const glm::dvec3& Center, double Time)
 	{
@@ -58,21 +62,33 @@ protected:
 			GetScene().SetTransform(static_cast<size_t>(2 + I), MakeBoxTransform(Center, I, Time));
 		}
 	}
-	/// Frames in which camera and boxes move.
-	void ExpectRoomExact(const char* What, const glm::dvec3& Center, int Frames = 3)
+	struct FRun
 	{
-		ASSERT_TRUE(LoadRoom(Center));
-		(void)Render(MakeRoomView(Center, 0));
-		FMotionSnapshot Before = TakeSnapshot(GetScene(), MakeRoomView(Center, 0));
-		for (int Frame = 1; Frame <= Frames; ++Frame)
+		glm::dvec3 Center{0};
+		int First = 1, Last = 3; ///< frames that are looked at; one before them is rendered
+		glm::uvec2 Size{Width, Height};
+	};
+	/// Frames in which camera and boxes move. Returns in how many of those that are looked at the scene's origin moved.
+	int ExpectRoomExact(const char* What, const FRun& Run)
+	{
+		EXPECT_TRUE(LoadRoom(Run.Center));
+		FMotionSnapshot Before;
+		int OriginMoves = 0;
+		for (int Frame = Run.First - 1; Frame <= Run.Last; ++Frame)
 		{
-			MoveBoxes(Center, Frame);
-			const FView View = MakeRoomView(Center, Frame);
+			MoveBoxes(Run.Center, Frame);
+			const FView View = MakeRoomView(Run.Center, Frame, Run.Size);
+			const glm::dvec3 Origin = GetScene().GetScene().GetOrigin();
 			const FMotionPicture Picture = Render(View);
 			const FMotionSnapshot Now = TakeSnapshot(GetScene(), View);
-			ExpectExact(What, Before, Now, Picture.OfHost);
+			if (Frame >= Run.First)
+			{
+				ExpectExact(fmt::format("{}, {}x{}", What, Run.Size.x, Run.Size.y).c_str(), Before, Now, Picture);
+				OriginMoves += GetScene().GetScene().GetOrigin() != Origin ? 1 : 0;
+			}
 			Before = Now;
 		}
+		return OriginMoves;
 	}
 };
 
@@ -84,7 +100,7 @@ TEST_F(FMotionTest, WhatStandsStillDoesNotMoveAtAll)
 	{
 		const FMotionPicture Picture = Render(View);
 		const FMotionSnapshot Now = TakeSnapshot(GetScene(), View);
-		ExpectExact("still", Now, Now, Picture.OfHost);
+		ExpectExact("still", Now, Now, Picture);
 		for (const glm::vec4& Motion : Picture.OfHost)
 		{
 			ASSERT_EQ(glm::vec2(Motion), glm::vec2(0));
@@ -103,28 +119,37 @@ TEST_F(FMotionTest, CameraThatMovesAndTurns)
 		const FMotionPicture Picture = Render(View, 0.0, Frame % 2 == 1);
 		const FMotionSnapshot Now = TakeSnapshot(GetScene(), View);
 		const FMotionSnapshot& From = Frame == 0 ? Now : Before; // the first has nothing before it
-		ExpectExact("camera, raster", From, Now, Picture.OfHost);
-		ExpectExact("camera, from depth", From, Now, Picture.OfCamera, Picture.OfHost);
+		ExpectExact("camera, raster", From, Now, Picture);
+		ExpectExact("camera, from depth", From, Now, Picture, Picture.OfCamera);
 		Before = Now;
 	}
 }
 
 TEST_F(FMotionTest, ObjectsThatMove)
 {
-	ExpectRoomExact("objects", {0, 0, 0});
+	ExpectRoomExact("objects", {});
 }
 TEST_F(FMotionTest, FarFromTheOrigin)
 {
-	ExpectRoomExact("16 km away", {16'000.3, 500.1, 16'000.7});
+	ExpectRoomExact("16 km away", {.Center = {16'000.3, 500.1, 16'000.7}});
 }
 
-// Boxes and camera pass the border of a cell (at 512 m), and then the camera passes the place where the origin follows.
+// Boxes and camera pass the border of a cell, and then the camera passes the place where the origin follows.
 TEST_F(FMotionTest, AcrossCells)
 {
-	ExpectRoomExact("border of a cell", {511.8, 0, 0}, 8);
-	const glm::ivec3 First = FindCell(GetScene().GetScene().GetOrigin());
-	ExpectRoomExact("origin moves", {767.6, 0, 0}, 8);
-	EXPECT_NE(FindCell(GetScene().GetScene().GetOrigin()), First);
+	for (const glm::uvec2 Size : {glm::uvec2(Width, Height), glm::uvec2(333, 187), glm::uvec2(640, 360)})
+	{
+		ExpectRoomExact("border of a cell", {.Center = BorderOfCell, .Last = 8, .Size = Size});
+		EXPECT_EQ(ExpectRoomExact("origin moves", {.Center = WhereOriginMoves, .Last = 8, .Size = Size}), 1);
+	}
+}
+
+// So fine that a face seen nearly edge-on, which the sixth frame has, fills a pixel.
+TEST_F(FMotionTest, AcrossCellsAtFullSize)
+{
+	const glm::uvec2 Size(1920, 1080);
+	ExpectRoomExact("border of a cell", {.Center = BorderOfCell, .First = 5, .Last = 7, .Size = Size});
+	EXPECT_EQ(ExpectRoomExact("origin moves", {.Center = WhereOriginMoves, .First = 3, .Last = 6, .Size = Size}), 1);
 }
 
 TEST_F(FMotionTest, MotionEndsWithTheMove)
@@ -157,7 +182,7 @@ TEST_F(FMotionTest, AnObjectInAnothersPlaceComesFromNowhere)
 	ASSERT_EQ(Scene.AddObject(Info).Index, Old.Index);
 	const FMotionPicture Picture = Render(Second);
 	std::erase_if(Before.Objects, [&](const FMotionSnapshot::FObject& Object) { return Object.Index == Old.Index; });
-	ExpectExact("another in its slot", Before, TakeSnapshot(GetScene(), Second), Picture.OfHost);
+	ExpectExact("another in its slot", Before, TakeSnapshot(GetScene(), Second), Picture);
 }
 
 TEST_F(FMotionTest, ACutCarriesNothingOver)
@@ -169,8 +194,8 @@ TEST_F(FMotionTest, ACutCarriesNothingOver)
 	View.bCut = true;
 	const FMotionPicture Picture = Render(View);
 	const FMotionSnapshot Now = TakeSnapshot(GetScene(), View);
-	ExpectExact("cut", Now, Now, Picture.OfHost);
-	ExpectExact("cut, from depth", Now, Now, Picture.OfCamera, Picture.OfHost);
+	ExpectExact("cut", Now, Now, Picture);
+	ExpectExact("cut, from depth", Now, Now, Picture, Picture.OfCamera);
 	for (const glm::vec4& Motion : Picture.OfHost)
 	{
 		ASSERT_EQ(glm::vec2(Motion), glm::vec2(0));
@@ -272,7 +297,7 @@ TEST_F(FMotionTest, SkinnedMeshes)
 		    MakeCamera(Center + glm::dvec3(0.2, 1.2, 2.4 - 0.01 * Frame), Center + glm::dvec3(0, 0.9, 0));
 		const FMotionPicture Picture = Render(View, Time);
 		const FMotionSnapshot Now = TakeSnapshot(GetScene(), View);
-		ExpectExact(fmt::format("skinned, {} s", Time).c_str(), Frame == 0 ? Now : Before, Now, Picture.OfHost);
+		ExpectExact(fmt::format("skinned, {} s", Time).c_str(), Frame == 0 ? Now : Before, Now, Picture);
 		Before = Now;
 		++Frame;
 	}
