@@ -145,15 +145,31 @@ vec3 DiffuseReflectance(FBrdf B, float NdotV)
 	return DiffuseAlbedo(B) * (1.0 - B.Specular * mix(B.F0, 1.0, Weight));
 }
 
-// Of the specular lobe, by the fit of Karis 2014 ("Physically Based Shading on Mobile") to the split-sum integral; F90 is
-// the specular weight for dielectrics and 1 for metals.
+// Of the specular lobe. x: with F = 1 everywhere; y: with Schlick's (1 − V·H)⁵ instead, the part that F90 weighs.
+//
+// Quotients of polynomials in N·V and roughness, fitted to sums over visible normals (Heitz 2018) at 2,000 places: linear
+// least squares with the denominator of the round before (Sanathanan and Koerner 1963), then Levenberg-Marquardt with weights
+// that follow the error, so that the largest one is what falls. What F0 from 0.04 to 1 makes of them is off by at most 1.7 %
+// for N·V and roughness from 0.05 to 1, by 2.3 % for mirrors, and by 12 % nearer to grazing.
+vec2 SpecularAlbedo(float NdotV, float Roughness)
+{
+	float X = NdotV, S = sqrt(NdotV), Y = Roughness;
+	float LostTop = 0.324209 + Y * (0.314086 * Y - 0.341756) + X * (3.7826 + 19.138 * Y - 5.01642 * X);
+	float LostBottom = 1.0 + Y * (-10.4645 + Y * (37.0926 - 19.1813 * Y)) +
+	                   X * (-2.60585 + Y * (-24.5752 + Y * (105.267 - 53.7577 * Y)) + X * (108.714 + Y * (125.498 * Y - 240.747)));
+	float EdgeTop = 1.10756 + Y * (-0.288161 - 0.0524491 * Y) + S * (-1.8583 + 0.480398 * Y + 0.680239 * S);
+	float EdgeBottom = 1.0 + Y * (1.99652 + Y * (12.3659 - 0.898989 * Y)) +
+	                   S * (-1.12204 + Y * (-15.3701 + Y * (26.4931 * Y - 8.94885)) + S * (1.6254 + Y * (20.9912 - 31.6698 * Y)));
+	float All = 1.0 - Y * Y * LostTop / LostBottom;
+	return vec2(All, min((1.0 - X) * (1.0 - X) * EdgeTop / EdgeBottom, All));
+}
+
+// F90 is the specular weight for dielectrics and 1 for metals.
 vec3 SpecularReflectance(FBrdf B, float NdotV, float Roughness)
 {
-	vec4 R = Roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
-	float A004 = min(R.x * R.x, exp2(-9.28 * NdotV)) * R.x + R.y;
-	vec2 ScaleBias = vec2(-1.04, 1.04) * A004 + R.zw;
-	float Dielectric = B.Specular * (B.F0 * ScaleBias.x + ScaleBias.y);
-	vec3 Metal = B.BaseColor * ScaleBias.x + ScaleBias.y;
+	vec2 Albedo = SpecularAlbedo(clamp(NdotV, 0.0, 1.0), Roughness);
+	float Dielectric = B.Specular * mix(Albedo.y, Albedo.x, B.F0);
+	vec3 Metal = mix(vec3(Albedo.y), vec3(Albedo.x), B.BaseColor);
 	return mix(vec3(Dielectric), Metal, B.Metallic);
 }
 
