@@ -1,5 +1,7 @@
 // Console variables flipped between frames: the next frame is right, and only what it needs runs.
+#include <chrono>
 #include <random>
+#include <thread>
 
 #include "RendererTestTools.h"
 #include "SunShadowTypes.h"
@@ -211,6 +213,41 @@ TEST_F(FRendererToggleTest, AnySequenceOfTogglesGivesRightFrames)
 			ASSERT_TRUE(Record.IsGood()) << "step " << Step << ": " << Record.Error;
 			ASSERT_EQ(Record.AnyHit.empty(), Instance != 1 || !bMasked) << "step " << Step;
 		}
+	}
+}
+
+/// Until diffuse GI is compiled, the sky's ambient light is there in its stead, and is occluded.
+TEST_F(FRendererToggleTest, AmbientOcclusionStaysUntilDiffuseGIRuns)
+{
+	for (const char* const Path : {"1", "2"})
+	{
+		FConsoleVariables::Get().ResetAll();
+		Open();
+		Set("r.RT.AO.Path", Path);
+		LoadAndRender({.bSky = true});
+		ASSERT_TRUE(HasPass("AmbientOcclusion")) << Path;
+		Engine->bRealTime = true;
+		Set("r.RT.GI", "1");
+		Mock().SlowCompile("DiffuseGI", 200);
+		int Meanwhile = 0;
+		const auto End = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+		for (bool bRuns = false; !bRuns && std::chrono::steady_clock::now() < End;)
+		{
+			ASSERT_NO_FATAL_FAILURE(Render());
+			bRuns = HasPass("DiffuseGI");
+			ASSERT_NE(HasPass("AmbientOcclusion"), bRuns) << "path " << Path << ", frame " << Meanwhile;
+			Meanwhile += bRuns ? 0 : 1;
+			std::this_thread::sleep_for(std::chrono::milliseconds(5));
+		}
+		EXPECT_GT(Meanwhile, 3) << Path;
+		ASSERT_TRUE(HasPass("DiffuseGI")) << Path;
+		Mock().ClearCompileFaults();
+		Engine->bRealTime = false;
+		Render();
+		EXPECT_TRUE(HasPass("DiffuseGI")) << Path;
+		EXPECT_FALSE(HasPass("AmbientOcclusion")) << Path;
+		const FShaderSource RayGen{"AmbientOcclusion/AmbientOcclusion.rgen", ERTShaderStage::RayGen, {{"ONE_SAMPLE", "1"}}, {}};
+		EXPECT_EQ(GetRTPSO()->FindRayGen(RayGen), NoRayGen) << "nothing is compiled that does not run";
 	}
 }
 

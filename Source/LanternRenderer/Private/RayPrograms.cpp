@@ -60,15 +60,17 @@ FPassRays MakePassRays(const char* RayGenPath, std::vector<std::pair<std::string
 	return Rays;
 }
 
-FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, FRTScene& Scene, const FFrameFeatures& Features)
+FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, FRTScene& Scene, const FFrameFeatures& Features, bool bDiffuseGIReady)
 {
 	const FSceneFacts& Facts = Scene.GetFacts();
 	FRayPrograms Programs;
 	FRTPSODesc& Desc = Programs.Desc;
+	const std::optional<FPassRays> DiffuseGI = ChooseDiffuseGIRays(Capabilities, Facts);
+	const bool bDiffuseGI = bDiffuseGIReady && DiffuseGI;
 	const auto IsQuery = [&](EFrameRayGen Pass, ERayPath Path) { return Path == ERayPath::Query && IsMade(Pass, Features.Signals); };
 	Programs.bQueries =
 	    !Features.bReference && (IsQuery(EFrameRayGen::SunShadow, ChooseSunShadowPath(Capabilities, Facts)) ||
-	                             IsQuery(EFrameRayGen::AmbientOcclusion, ChooseAmbientOcclusionPath(Capabilities, Facts, Features.Signals)));
+	                             IsQuery(EFrameRayGen::AmbientOcclusion, ChooseAmbientOcclusionPath(Capabilities, Facts, Features.Signals, bDiffuseGI)));
 	bool bShadesHits = !Features.RayGens.empty();
 	const auto Add = [&](EFrameRayGen Pass, std::optional<FPassRays> Rays) {
 		if (!Rays || !IsMade(Pass, Features.Signals)) { return; }
@@ -82,8 +84,8 @@ FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, FRTScene& Sc
 	{
 		// Also without pipelines: passes that need them say so.
 		Add(EFrameRayGen::SunShadow, ChooseSunShadowRays(Capabilities, Facts));
-		Add(EFrameRayGen::AmbientOcclusion, ChooseAmbientOcclusionRays(Capabilities, Facts, Features.Signals));
-		Add(EFrameRayGen::DiffuseGI, ChooseDiffuseGIRays(Capabilities, Facts));
+		Add(EFrameRayGen::AmbientOcclusion, ChooseAmbientOcclusionRays(Capabilities, Facts, Features.Signals, bDiffuseGI));
+		Add(EFrameRayGen::DiffuseGI, DiffuseGI);
 		Add(EFrameRayGen::Reflections, ChooseReflectionsRays(Capabilities, Facts));
 	}
 	Desc.RayGens.insert(Desc.RayGens.end(), Features.RayGens.begin(), Features.RayGens.end());

@@ -27,14 +27,16 @@ struct FRayPrograms
 	bool bLightSampling = false; ///< some pass samples emissive triangles
 };
 
-/// Scene: its facts are up to date.
-FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, FRTScene& Scene, const FFrameFeatures& Features);
+/// Scene: its facts are up to date. bDiffuseGIReady: diffuse GI, where it is wanted, is compiled or waited for; until then what
+/// it takes the place of is wanted too.
+FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, FRTScene& Scene, const FFrameFeatures& Features, bool bDiffuseGIReady);
 
 /// Of the reference path tracer.
 FPassRays ChooseReferenceRays(const FSceneFacts& Facts, EReferenceSignal Signal, bool bFromGBuffer);
 /// Of real-time passes; nullopt where they are off, have nothing to do, or trace inline.
 std::optional<FPassRays> ChooseSunShadowRays(const FRTCapabilities& Capabilities, const FSceneFacts& Facts);
-std::optional<FPassRays> ChooseAmbientOcclusionRays(const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FSignalRequests& Requests);
+std::optional<FPassRays> ChooseAmbientOcclusionRays(const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FSignalRequests& Requests,
+                                                    bool bDiffuseGI);
 std::optional<FPassRays> ChooseDiffuseGIRays(const FRTCapabilities& Capabilities, const FSceneFacts& Facts);
 std::optional<FPassRays> ChooseReflectionsRays(const FRTCapabilities& Capabilities, const FSceneFacts& Facts);
 

@@ -68,6 +68,14 @@ FRTStatus FRenderer::WaitForSlot()
 	return Device.CreateCommandList("Frame", Lists[Slot].ReleaseAndGetAddress());
 }
 
+namespace
+{
+bool WaitsForPipelines(const FFrameFeatures& Features)
+{
+	return Features.bWaitForPipelines || Features.bReference || GetPipelineFallback() == ERTFallback::Wait;
+}
+} // namespace
+
 FRTStatus FRenderer::PrepareRayPipeline(const FRayPrograms& Wanted, const FFrameFeatures& Features)
 {
 	Context->RayPipeline = nullptr;
@@ -79,7 +87,7 @@ FRTStatus FRenderer::PrepareRayPipeline(const FRayPrograms& Wanted, const FFrame
 		Context->Scene.SetMissingPrograms({}); // ray queries run none
 		return FRTStatus::Success();
 	}
-	if (Features.bWaitForPipelines || Features.bReference || GetPipelineFallback() == ERTFallback::Wait)
+	if (WaitsForPipelines(Features))
 	{
 		if (FRTStatus S = RayCompiler.Finish(Wanted.Desc); !S) { return S; }
 	}
@@ -123,7 +131,7 @@ FRTStatus FRenderer::Precache(FRTScene& Scene, const FFrameFeatures& Features, c
 	Scene.SetAlphaTest(CVarAlphaTest.GetOnRenderThread());
 	Scene.SetMaterialOverride(static_cast<uint32_t>(CVarMaterialOverride.GetOnRenderThread()));
 	Scene.RefreshFacts();
-	const FRayPrograms Wanted = ChooseRayPrograms(Device.GetCapabilities(), Scene, Features);
+	const FRayPrograms Wanted = ChooseRayPrograms(Device.GetCapabilities(), Scene, Features, true);
 	return Wanted.Desc.RayGens.empty() ? FRTStatus::Success() : RayCompiler.Finish(Wanted.Desc, Progress);
 }
 
@@ -134,7 +142,7 @@ std::string FRenderer::GetRayShaderKey(FRTScene& Scene, const FFrameFeatures& Fe
 	Scene.SetAlphaTest(CVarAlphaTest.GetOnRenderThread());
 	Scene.SetMaterialOverride(static_cast<uint32_t>(CVarMaterialOverride.GetOnRenderThread()));
 	Scene.RefreshFacts();
-	const FRTPSODesc Desc = ChooseRayPrograms(Device.GetCapabilities(), Scene, Features).Desc;
+	const FRTPSODesc Desc = ChooseRayPrograms(Device.GetCapabilities(), Scene, Features, true).Desc;
 	std::vector<FShaderSource> Sources = Desc.RayGens;
 	Sources.insert(Sources.end(), Desc.Callables.begin(), Desc.Callables.end());
 	for (const FRayType& Type : Desc.RayTypes) { Sources.push_back(Type.Miss); }
@@ -179,8 +187,9 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	const int32_t PoisonEvery = CVarPoisonHistory.GetOnRenderThread();
 	if (PoisonEvery > 0 && View.FrameIndex % static_cast<uint32_t>(PoisonEvery) == 0) { GraphResources.PoisonHistory(""); }
 	bUpdating = bRayPassesAdded = false;
-	const FRayPrograms Wanted = ChooseRayPrograms(Device.GetCapabilities(), Scene, Features);
+	const FRayPrograms Wanted = ChooseRayPrograms(Device.GetCapabilities(), Scene, Features, WaitsForPipelines(Features) || bDiffuseGIReady);
 	FRTStatus Status = PrepareRayPipeline(Wanted, Features);
+	bDiffuseGIReady = Context->GetRayGen(EFrameRayGen::DiffuseGI) != NoRayGen;
 	if (Status) { Status = StartUpdate(View, Wanted, Features); }
 	if (Status) { Status = AllocateConstants(); }
 	if (Status) { Status = AnyHits.Begin(); }

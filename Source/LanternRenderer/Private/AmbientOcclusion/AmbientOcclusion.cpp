@@ -31,11 +31,11 @@ TRTConsoleVariable<bool> CVarDenoise("r.RT.AO.Denoise", true, "Ambient occlusion
 TRTConsoleVariable<float> CVarHistory("r.RT.AO.HistorySeconds", 0.5f, "Time constant of what r.RT.AO.Denoise accumulates. 0: nothing is.", {0.0, 60.0});
 
 /// Whether the frame does anything with it.
-bool IsWanted(const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FSignalRequests& Requests)
+bool IsWanted(const FSceneFacts& Facts, const FSignalRequests& Requests, bool bDiffuseGI)
 {
 	if (!IsRayTracingEnabled() || !CVarEnable.GetOnRenderThread()) { return false; }
 	if (Requests.bAmbientOcclusion) { return true; }
-	return Facts.Objects > 0 && HasSkyAmbient(Facts) && !ChooseDiffuseGIRays(Capabilities, Facts);
+	return Facts.Objects > 0 && HasSkyAmbient(Facts) && !bDiffuseGI;
 }
 
 std::vector<std::pair<std::string, std::string>> MakeDefines()
@@ -99,9 +99,9 @@ FAmbientOcclusionSettings GetAmbientOcclusionSettings()
 	return {CVarRadius.GetOnRenderThread(), static_cast<uint32_t>(CVarMask.GetOnRenderThread())};
 }
 
-ERayPath ChooseAmbientOcclusionPath(const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FSignalRequests& Requests)
+ERayPath ChooseAmbientOcclusionPath(const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FSignalRequests& Requests, bool bDiffuseGI)
 {
-	if (!IsWanted(Capabilities, Facts, Requests)) { return ERayPath::None; }
+	if (!IsWanted(Facts, Requests, bDiffuseGI)) { return ERayPath::None; }
 	const int32_t Wanted = CVarPath.GetOnRenderThread();
 	if (Wanted == 1 && Capabilities.bRayTracingPipeline) { return ERayPath::Pipeline; }
 	if (Wanted == 2 && Capabilities.bRayQuery) { return ERayPath::Query; }
@@ -115,15 +115,17 @@ ERayPath ChooseAmbientOcclusionPath(const FRTCapabilities& Capabilities, const F
 	return ERayPath::None;
 }
 
-std::optional<FPassRays> ChooseAmbientOcclusionRays(const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FSignalRequests& Requests)
+std::optional<FPassRays> ChooseAmbientOcclusionRays(const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FSignalRequests& Requests,
+                                                    bool bDiffuseGI)
 {
-	if (ChooseAmbientOcclusionPath(Capabilities, Facts, Requests) != ERayPath::Pipeline) { return std::nullopt; }
+	if (ChooseAmbientOcclusionPath(Capabilities, Facts, Requests, bDiffuseGI) != ERayPath::Pipeline) { return std::nullopt; }
 	return MakePassRays("AmbientOcclusion/AmbientOcclusion.rgen", MakeDefines(), false);
 }
 
 FAmbientOcclusionOutputs AddAmbientOcclusionPass(FFrameContext& Context, const FGBuffer& GBuffer)
 {
-	const ERayPath Path = ChooseAmbientOcclusionPath(Context.Device.GetCapabilities(), Context.Facts, Context.Signals);
+	const bool bDiffuseGI = Context.GetRayGen(EFrameRayGen::DiffuseGI) != NoRayGen;
+	const ERayPath Path = ChooseAmbientOcclusionPath(Context.Device.GetCapabilities(), Context.Facts, Context.Signals, bDiffuseGI);
 	if (Path == ERayPath::None) { return {}; }
 	if (Path == ERayPath::Pipeline && Context.GetRayGen(EFrameRayGen::AmbientOcclusion) == NoRayGen) { return {}; } // still being compiled
 	IRTPipeline* const Compute = Path == ERayPath::Query ? RequireQueryPipeline(Context) : nullptr;

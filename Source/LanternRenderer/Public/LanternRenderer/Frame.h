@@ -95,9 +95,9 @@ enum class ERayPath : uint8_t { None, Pipeline, Query };
 using ESunShadowPath = ERayPath;
 /// Which path sun shadows take this frame.
 ERayPath ChooseSunShadowPath(const FRTCapabilities& Capabilities, const FSceneFacts& Facts);
-/// The same of ambient occlusion. None where nothing uses it: no ambient light of the sky, or global illumination instead of
-/// it, and nobody asks.
-ERayPath ChooseAmbientOcclusionPath(const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FSignalRequests& Requests);
+/// The same of ambient occlusion. None where nothing uses it: no ambient light of the sky, or diffuse global illumination
+/// instead of it (bDiffuseGI: its rays are ready, not merely wanted), and nobody asks.
+ERayPath ChooseAmbientOcclusionPath(const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FSignalRequests& Requests, bool bDiffuseGI);
 
 struct FReferencePassInputs
 {

@@ -224,6 +224,7 @@ private:
 	std::unique_ptr<FStandInFeedback> StandIns;
 	bool bStandIns = false; // some hit program of the frame is not ready
 	bool bRaysReady = true;
+	bool bDiffuseGIReady = false; // in the last frame
 	std::shared_ptr<const FRTPSO> RayPipeline;
 	std::unique_ptr<FFrameGraph> Graph;
 	std::unique_ptr<FFrameContext> Context;
