@@ -66,6 +66,11 @@ struct FSeen
 	bool bOutline = false; // the pixel's centre shows another surface
 };
 
+bool IsInPixelsCentre(const FExactMotion& Exact)
+{
+	return glm::length(Exact.Offset) <= Promise;
+}
+
 FSeen FindSeen(const FMotionSnapshot& Before, const FMotionSnapshot& Now, const FSceneDescription& Scene,
                const FMotionPicture& Picture, uint32_t X, uint32_t Y)
 {
@@ -77,14 +82,22 @@ FSeen FindSeen(const FMotionSnapshot& Before, const FMotionSnapshot& Now, const 
 		return {std::nullopt, Out.Exact.has_value()};
 	}
 	const double Distance = double(Now.View.Near) / Picture.Depth[Pixel];
-	Out.bOutline =
-	    !Out.Exact || Out.Exact->Object + 1 != Object || std::abs(Out.Exact->Distance - Distance) > DistanceError;
-	if (Out.bOutline)
+	const bool bSame = Out.Exact && Out.Exact->Object + 1 == Object;
+	const double Behind = bSame ? std::abs(Out.Exact->Distance - Distance) : 1e300;
+	Out.bOutline = Behind > DistanceError;
+	if (Behind <= 0.1 * DistanceError)
 	{
-		Out.Exact = FindMotionAt(Before, Now, Scene, Object - 1, Distance, DistanceError, X, Y);
-		EXPECT_TRUE(Out.Exact) << "object " << Object - 1 << " has nothing " << Distance << " m away; pixel " << X
-		                       << ", " << Y;
+		return Out;
 	}
+	// The distance is taken at its word as far as the pixel allows.
+	Out.Exact.reset();
+	for (double Error = DistanceError / 64; Error <= DistanceError && !(Out.Exact && IsInPixelsCentre(*Out.Exact));
+	     Error *= 4)
+	{
+		Out.Exact = FindMotionAt(Before, Now, Scene, Object - 1, Distance, Error, X, Y);
+	}
+	EXPECT_TRUE(Out.Exact) << "object " << Object - 1 << " has nothing " << Distance << " m away; pixel " << X << ", "
+	                       << Y;
 	return Out;
 }
 } // namespace
