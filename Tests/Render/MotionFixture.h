@@ -21,6 +21,17 @@ class FMotionTestBase : public FRenderTest
 protected:
 	static constexpr uint32_t Width = 160, Height = 90;
 
+	void SetUp() override
+	{
+		FRenderTest::SetUp();
+		GetEngine().Signals.bMotion = true; // no filter asks for it
+	}
+	void TearDown() override
+	{
+		GetEngine().Signals = {};
+		FRenderTest::TearDown();
+	}
+
 	static FView MakeCamera(const glm::dvec3& Position, const glm::dvec3& Target, glm::uvec2 Size = {Width, Height})
 	{
 		return LookAt(Position, Target, 1.0f, Size.x, Size.y);

@@ -165,7 +165,7 @@ TEST_F(FRendererLackTest, NoLightAtAllNoRays)
 	Stage.Content.bSun = Stage.Content.bSky = Stage.Content.bLights = Stage.Content.bEmissive = false;
 	ExpectAbsent("no light at all", Stage,
 	             {"SunShadow", "AmbientOcclusion", "Reflections", "Structures", "ShaderTable", "RTPSO", "scene structure", "Denoise", "Surface",
-	              "History", "GBufferMotion"});
+	              "History", "GBufferMotion", "ObjectMotions"});
 }
 
 TEST_F(FRendererLackTest, NothingMoves)
@@ -210,8 +210,11 @@ TEST_F(FRendererLackTest, NoFilterNoHistoryAndNoMotion)
 {
 	FStage Stage;
 	Stage.Settings = {{"r.RT.Shadow.Denoise", "0"}, {"r.RT.AO.Denoise", "0"}};
-	ExpectAbsent("no filter", Stage, {"Denoise", "Temporal", "Filter", "Surface", "History", "GBufferMotion"});
+	ExpectAbsent("no filter", Stage, {"Denoise", "Temporal", "Filter", "Surface", "History", "GBufferMotion", "ObjectMotions"});
 	EXPECT_EQ(Engine->GetRenderer().GetHistory().GetBytes(), 0u);
+	Engine->Signals.bMotion = true;
+	Render(0.5);
+	EXPECT_TRUE(HasPart(CollectNames(), "buffer ObjectMotions")) << "who asks has it without a filter";
 }
 
 TEST_F(FRendererLackTest, HardShadowsNeedNoFilter)
@@ -240,7 +243,7 @@ TEST_F(FRendererLackTest, RayTracingOffLeavesTheRaster)
 	Stage.Settings = {{"r.RT.Enable", "0"}, {"r.RT.GI", "1"}};
 	ExpectAbsent("no ray tracing", Stage,
 	             {"SunShadow", "AmbientOcclusion", "Reflections", "Structures", "ShaderTable", "RTPSO", "scene structure", "Denoise", "Surface",
-	              "History", "GBufferMotion", "EmissiveTriangles"});
+	              "History", "GBufferMotion", "ObjectMotions", "EmissiveTriangles"});
 	Mock().ClearCalls();
 	Render(0.3);
 	EXPECT_THAT(GetPassesWithoutFilters(), Not(Contains("Structures")));

@@ -5,12 +5,14 @@
 #include <cstring>
 #include <utility>
 
+#include "AmbientOcclusion/AmbientOcclusion.h"
 #include "LanternCore/ConsoleVariables.h"
 #include "LanternCore/History.h"
 #include "LanternCore/TaskTrace.h"
 #include "LanternRenderer/Frame.h"
 #include "PassTools.h"
 #include "RayPrograms.h"
+#include "Shadow/SunShadow.h"
 #include "StandInFeedback.h"
 #include "Skinning/RefitQuality.h"
 
@@ -207,6 +209,14 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	return FRTStatus::Success();
 }
 
+namespace
+{
+bool IsMotionWanted(const FFrameContext& Context)
+{
+	return Context.Signals.bMotion || AreSunShadowsFiltered(Context) || IsAmbientOcclusionFiltered(Context);
+}
+} // namespace
+
 /// As early as can be: what it starts has the rest of the frame's making to be done in.
 FRTStatus FRenderer::StartUpdate(const FView& View, const FRayPrograms& Wanted, const FFrameFeatures& Features)
 {
@@ -217,7 +227,7 @@ FRTStatus FRenderer::StartUpdate(const FView& View, const FRayPrograms& Wanted, 
 	FrameUse.bRays = Features.bRays || Wanted.bQueries || !Wanted.Desc.RayGens.empty();
 	FrameUse.bLightSampling = Wanted.bLightSampling;
 	FrameUse.bCull = !Features.bReference;
-	FrameUse.bMotion = Features.bMotion && !Features.bReference;
+	FrameUse.bMotion = Features.bMotion && !Features.bReference && IsMotionWanted(*Context);
 	FrameUse.bBuildAll = Features.bBuildAll || Features.bReference;
 	const FGatherView Gather(View.Position, View.Forward, View.FovY, View.Height);
 	bUpdating = Scene.NeedsUpdate(Gather, FrameUse);

@@ -122,10 +122,23 @@ std::optional<FPassRays> ChooseAmbientOcclusionRays(const FRTCapabilities& Capab
 	return MakePassRays("AmbientOcclusion/AmbientOcclusion.rgen", MakeDefines(), false);
 }
 
-FAmbientOcclusionOutputs AddAmbientOcclusionPass(FFrameContext& Context, const FGBuffer& GBuffer)
+namespace
+{
+ERayPath ChoosePath(const FFrameContext& Context)
 {
 	const bool bDiffuseGI = Context.GetRayGen(EFrameRayGen::DiffuseGI) != NoRayGen;
-	const ERayPath Path = ChooseAmbientOcclusionPath(Context.Device.GetCapabilities(), Context.Facts, Context.Signals, bDiffuseGI);
+	return ChooseAmbientOcclusionPath(Context.Device.GetCapabilities(), Context.Facts, Context.Signals, bDiffuseGI);
+}
+} // namespace
+
+bool IsAmbientOcclusionFiltered(const FFrameContext& Context)
+{
+	return CVarDenoise.GetOnRenderThread() && ChoosePath(Context) != ERayPath::None;
+}
+
+FAmbientOcclusionOutputs AddAmbientOcclusionPass(FFrameContext& Context, const FGBuffer& GBuffer)
+{
+	const ERayPath Path = ChoosePath(Context);
 	if (Path == ERayPath::None) { return {}; }
 	if (Path == ERayPath::Pipeline && Context.GetRayGen(EFrameRayGen::AmbientOcclusion) == NoRayGen) { return {}; } // still being compiled
 	IRTPipeline* const Compute = Path == ERayPath::Query ? RequireQueryPipeline(Context) : nullptr;
@@ -133,7 +146,7 @@ FAmbientOcclusionOutputs AddAmbientOcclusionPass(FFrameContext& Context, const F
 	Context.RequireRays();
 	FAmbientOcclusionOutputs Out;
 	Out.Visibility = AddTracePass(Context, GBuffer, Compute);
-	if (CVarDenoise.GetOnRenderThread())
+	if (IsAmbientOcclusionFiltered(Context))
 	{
 		FDenoiseInputs Denoise;
 		Denoise.Name = "AmbientOcclusion";

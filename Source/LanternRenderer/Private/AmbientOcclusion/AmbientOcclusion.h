@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include "LanternRenderer/Renderer.h"
 
 namespace Lantern
 {
@@ -12,5 +12,8 @@ struct FAmbientOcclusionSettings
 	uint32_t InstanceMask = 0; ///< of what occludes
 };
 FAmbientOcclusionSettings GetAmbientOcclusionSettings();
+
+/// Whether the frame's ambient occlusion, if there is any, is filtered over frames.
+bool IsAmbientOcclusionFiltered(const FFrameContext& Context);
 
 } // namespace Lantern

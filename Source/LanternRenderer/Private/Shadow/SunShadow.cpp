@@ -38,6 +38,8 @@ TRTConsoleVariable<float> CVarResampling("r.RT.Shadow.Resampling", 0.5f,
 // A ray towards the sun sees the backs of faces that are turned towards it. gl_RayFlagsCullBackFacingTrianglesEXT
 constexpr uint32_t RayFlagCullTowardsSun = 0x10;
 
+bool IsSoft(const FFrameContext& Context) { return CVarSoft.GetOnRenderThread() && Context.Scene.GetSun().AngularDiameter > 0.0f; }
+
 FSunShadowConstants MakeConstants(const FFrameContext& Context, bool bSoft)
 {
 	FSunShadowConstants C{};
@@ -97,6 +99,12 @@ std::optional<FPassRays> ChooseSunShadowRays(const FRTCapabilities& Capabilities
 	return MakePassRays("Shadow/SunShadow.rgen", MakeSunShadowDefines(), false);
 }
 
+bool AreSunShadowsFiltered(const FFrameContext& Context)
+{
+	return CVarDenoise.GetOnRenderThread() && IsSoft(Context) &&
+	       ChooseSunShadowPath(Context.Device.GetCapabilities(), Context.Facts) != ESunShadowPath::None;
+}
+
 FSunShadowOutputs AddSunShadowPass(FFrameContext& Context, const FSunShadowInputs& Inputs)
 {
 	const ESunShadowPath Path = ChooseSunShadowPath(Context.Device.GetCapabilities(), Context.Facts);
@@ -118,7 +126,7 @@ FSunShadowOutputs AddSunShadowPass(FFrameContext& Context, const FSunShadowInput
 	FSunShadowOutputs Out;
 	Out.Visibility = Context.Graph.CreateTexture(
 	    {Context.Width, Context.Height, ERTFormat::R16_FLOAT, ERTTextureUsage::CopySource}, "SunShadowVisibility"); // engines copy it
-	const bool bSoft = CVarSoft.GetOnRenderThread() && Context.Scene.GetSun().AngularDiameter > 0.0f;
+	const bool bSoft = IsSoft(Context);
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass("SunShadow", [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Read(Inputs.Depth, ERTAccess::ShaderRead);
@@ -140,7 +148,7 @@ FSunShadowOutputs AddSunShadowPass(FFrameContext& Context, const FSunShadowInput
 			Pass.Commands().TraceRays(Frame->RayBindings->GetTable(), Frame->GetRayGen(EFrameRayGen::SunShadow), Frame->Width, Frame->Height, 1);
 		};
 	});
-	if (bSoft && CVarDenoise.GetOnRenderThread()) { Out.Visibility = Denoise(Context, Inputs, Out.Visibility); }
+	if (AreSunShadowsFiltered(Context)) { Out.Visibility = Denoise(Context, Inputs, Out.Visibility); }
 	return Out;
 }
 

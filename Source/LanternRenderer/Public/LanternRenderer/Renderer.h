@@ -41,6 +41,8 @@ struct FSignalRequests
 	bool bAmbientOcclusion = false, bDiffuseGI = false, bReflections = false;
 	/// The host lights by itself: there is no composite, and what is not asked for is not made. Then bSunShadow asks, too.
 	bool bNothingElse = false, bSunShadow = false;
+	/// How objects moved (FSceneConstants::ObjectMotions), also where no filter follows it.
+	bool bMotion = false;
 };
 
 /// What the reference path tracer makes: the whole frame, or one signal as the outputs in Frame.h define it.
@@ -75,8 +77,9 @@ struct FFrameFeatures
 	/// r.RT.Build.TrianglesPerFrame, and objects whose geometry waits are not seen by rays. The reference builds all.
 	bool bBuildAll = true;
 	std::vector<FSkinningInputs> Skinning;
-	/// Somebody reads how objects moved since the frame before (FSceneConstants::ObjectMotions). An engine that has motion
-	/// vectors of its own saves 72 bytes a frame for each object that moves.
+	/// The host makes its motion vectors of FSceneConstants::ObjectMotions, which then say how objects moved since the frame
+	/// before, wherever a filter follows it or FSignalRequests::bMotion asks. An engine that has motion vectors of its own
+	/// saves 72 bytes a frame for each object that moves.
 	bool bMotion = true;
 	FSignalRequests Signals;
 };
