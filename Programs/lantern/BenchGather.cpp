@@ -183,7 +183,7 @@ void MeasureMoving(FWorld& World, uint32_t Frames, FResult& Out)
 {
 	FOutput First(World.Store.GetCount()), Second(World.Store.GetCount()), Plain(World.Store.GetCount());
 	FInstanceGather Gather;
-	const glm::ivec3 Origin(0);
+	const glm::dvec3 Origin(0);
 	for (uint32_t Frame = 0; Frame < Frames; ++Frame)
 	{
 		const FCullingRule Rule(MakeView(Frame), {});
@@ -215,7 +215,7 @@ void MeasureOthers(FWorld& World, uint32_t Frames, FResult& Out)
 {
 	FOutput Target(World.Store.GetCount());
 	FInstanceGather Gather;
-	const glm::ivec3 Origin(0);
+	const glm::dvec3 Origin(0);
 	FCullingSettings Off;
 	Off.bEnabled = false;
 	const FCullingRule All(MakeView(0), Off), Still(MakeView(0), {});

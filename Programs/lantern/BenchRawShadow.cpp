@@ -27,8 +27,9 @@ struct FRawPush
 	float MaxDistance;
 	glm::vec3 TowardsSun;
 	uint32_t InstanceMask;
+	float ObjectReach;
 };
-static_assert(sizeof(FRawPush) == 112, "shared with shaders");
+static_assert(sizeof(FRawPush) == 116, "shared with shaders");
 
 /// HashPcg of Shaders/Library/Random.glsl: the seed is the same for all pixels.
 uint32_t HashPcg(uint32_t V)
@@ -56,6 +57,7 @@ FRawPush MakePush(const FRawShadowDesc& Desc)
 	Push.OneMinusCos = Scene.SunOneMinusCos;
 	Push.MaxDistance = Desc.MaxDistance;
 	Push.InstanceMask = Desc.InstanceMask;
+	Push.ObjectReach = Scene.ObjectReach;
 	// The basis of MakeBasis in Shaders/Library/Math.glsl.
 	const glm::vec3 N = -Scene.SunDirection;
 	const float S = N.z >= 0.0f ? 1.0f : -1.0f, A = -1.0f / (S + N.z), B = N.x * N.y * A;

@@ -139,13 +139,14 @@ FRTStatus MeasureSeams(FStabilityStage& Stage, std::vector<FStabilityFigure>& Ou
 	return FRTStatus::Success();
 }
 
-/// The same pictures of the same room, at the origin and far from it: means of 32 frames compared in blocks of 4 × 4, and
+/// The same pictures of the same room, at the origin and far from it, half a step of the scene's origin away from where that
+/// may be: means of 32 frames compared in blocks of 4 × 4, and
 /// pixels that are off by more than a tenth of the mean, as acne is. The fault: far away, the camera is where a world of
 /// 1/16 m steps has it.
 FRTStatus MeasureFarAway(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out)
 {
 	std::vector<FImage> Means;
-	for (const int Far : {0, 1})
+	for (const double Far : {0.0, 1.0 - 0.5 * FRTScene::OriginStep / 16'000.0})
 	{
 		if (FRTStatus S = Stage.Load(fmt::format("stability-far:{}", Far)); !S) { return S; }
 		std::vector<FStabilityShot> Shots(32);
@@ -153,7 +154,7 @@ FRTStatus MeasureFarAway(FStabilityStage& Stage, std::vector<FStabilityFigure>& 
 		{
 			FView& View = Shots[I].View = Stage.MakeView();
 			View.Position.x += 0.01 * double(I / 4);
-			if (Far && Stage.IsFaulty()) { View.Position = glm::round(View.Position * 16.0) / 16.0; }
+			if (Far > 0.0 && Stage.IsFaulty()) { View.Position = glm::round(View.Position * 16.0) / 16.0; }
 			Shots[I].bKeep = true;
 		}
 		std::vector<FImage> Frames;

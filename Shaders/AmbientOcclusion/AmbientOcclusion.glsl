@@ -33,7 +33,7 @@ void ShadePixel(uvec2 Pixel)
 	vec4 Normals = texelFetch(Textures[Push.Normals], ivec2(Pixel), 0);
 	vec3 N = OctDecode(Normals.xy), Ng = OctDecode(Normals.zw);
 	vec3 Relative = RelativePositionFromDepth(View, Pixel, Depth);
-	vec3 Origin = OffsetRasterPoint(View.CameraPosition + Relative, Ng, length(Relative));
+	vec3 Origin = RasterRayOrigin(FSceneRef(Push.Pass.Scene).Data, View, Relative, Ng);
 	float Visible = 0.0;
 	// Another stream than the sun shadow's, and of its own for the length: two of Sobol's dimensions serve the direction.
 	uint Seed = HashPcg(HashPcg(Pixel.x + HashPcg(Pixel.y + HashPcg(View.Seed))) + 1u), LengthSeed = HashPcg(Seed);

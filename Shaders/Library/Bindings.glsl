@@ -28,4 +28,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FPo
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FAttributeRef { FVertexAttributes Data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FIndexRef { uint Data[]; };
 
+// From the scene's origin to the centre of a cell: exact, and so is the sum with a translation of like size and other sign.
+vec3 CellOffset(FSceneConstants Scene, ivec3 Cell) { return vec3(Cell - Scene.OriginCell) * CELL_SIZE - Scene.OriginInCell; }
+
 #endif

@@ -24,12 +24,6 @@ FGBufferPoint LoadGBufferPoint(FViewConstants View, uint Normals, ivec2 Pixel, f
 	return Point;
 }
 
-// Where rays leave the surface.
-vec3 RayOriginAt(FViewConstants View, FGBufferPoint Point)
-{
-	return OffsetRasterPoint(View.CameraPosition + Point.Relative, Point.Ng, length(Point.Relative));
-}
-
 FBrdf MakeGBufferBrdf(vec4 BaseColor, vec4 Material)
 {
 	return FBrdf(BaseColor.rgb, BaseColor.a, Material.x * Material.x, Material.z * Material.z, Material.w, 1.0);

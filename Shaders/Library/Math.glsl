@@ -43,15 +43,27 @@ mat3 MakeBasis(vec3 N)
 	return mat3(vec3(1.0 + S * N.x * N.x * A, S * B, -S * N.x), vec3(B, S + N.y * N.y * A, -N.y), N);
 }
 
-vec3 OffsetByUlps(vec3 P, vec3 Ng, float Scale, float Relative) { return P + Ng * max(max(MaxComponent(abs(P)), Scale) * Relative, 2.0e-5); }
+// Where rays leave a surface so that they do not hit it again. How far off a point and a surface are from each other, as a ray
+// sees it, is a matter of the largest number that fp32 rounded on the way, and of the driver:
+// - coordinates of the point, and of the ray that found it: relative to the scene's origin, which is near the camera;
+// - the translation into an object's space, no larger than these unless the object is larger itself. FSceneConstants::ObjectReach
+//   (FObjectPivots) is the largest that any object near the camera has, and no less than 8 m.
+// Rounding alone would make that 2 of 2^-24 of it for each step ("Solving Self-Intersection Artifacts in DirectX Raytracing",
+// NVIDIA 2023); Wächter and Binder 2019 ("A Fast and Robust Method for Avoiding Self-Intersection") leave 256. Traversal in
+// software on NVIDIA needs more than 64: these left a third of a room 500 m from the origin in its own shadow. Hence 200.
+const float CoordinateError = 1.2e-5;
 
-// Where a ray leaves a surface so that it does not hit that surface again: the error of a position computed
-// in fp32 grows with its magnitude and with the distance it was traced over.
-vec3 OffsetRayOrigin(vec3 P, vec3 Ng, float Distance) { return OffsetByUlps(P, Ng, Distance, 4.0e-6); }
+// Of a point, in metres. TraceDistance: length of the ray that found it.
+float PositionError(vec3 P, float ObjectReach, float TraceDistance) { return CoordinateError * (max(MaxComponent(abs(P)), ObjectReach) + TraceDistance); }
 
-// The same from a point that the raster saw, Distance away. 200 units in the last place; Wächter and Binder 2019 ("A Fast and
-// Robust Method for Avoiding Self-Intersection") have 256. A third of that is enough for lavapipe, and leaves a third of the
-// pixels of a room 500 m from the scene's origin in their own shadow on NVIDIA; more moves contacts.
-vec3 OffsetRasterPoint(vec3 P, vec3 Ng, float Distance) { return OffsetByUlps(P, Ng, 4.0 * Distance, 1.2e-5); }
+vec3 OffsetRayOrigin(vec3 P, vec3 Ng, float ObjectReach, float TraceDistance) { return P + Ng * PositionError(P, ObjectReach, TraceDistance); }
+
+// From a point that the raster saw. It puts vertices on a grid of 1/256 of a pixel (VkPhysicalDeviceLimits::
+// subPixelPrecisionBits), half a step off in either direction, and takes the surface's depth with them. PixelWidth: at the
+// point, metres.
+vec3 OffsetRasterPoint(vec3 P, vec3 Ng, float ObjectReach, float PixelWidth)
+{
+	return P + Ng * (PositionError(P, ObjectReach, 0.0) + PixelWidth * (1.0 / 256.0));
+}
 
 #endif

@@ -3,6 +3,7 @@
 #define LANTERN_VIEW_GLSL
 
 #include "Bindings.glsl"
+#include "Math.glsl"
 
 // Not normalised: one unit along the view direction. Pixel: in pixels, centre of the first at 0.5.
 vec3 CameraRay(FViewConstants View, vec2 Pixel)
@@ -15,6 +16,13 @@ vec3 CameraRay(FViewConstants View, vec2 Pixel)
 vec3 RelativePositionFromDepth(FViewConstants View, uvec2 Pixel, float Depth)
 {
 	return CameraRay(View, vec2(Pixel) + 0.5) * (View.Near / Depth);
+}
+
+// Where rays leave the surface that a pixel shows.
+vec3 RasterRayOrigin(FSceneConstants Scene, FViewConstants View, vec3 Relative, vec3 Ng)
+{
+	float PixelWidth = length(Relative) * 2.0 * View.TanHalfFovY / float(View.Height);
+	return OffsetRasterPoint(View.CameraPosition + Relative, Ng, Scene.ObjectReach, PixelWidth);
 }
 
 #endif

@@ -14,7 +14,7 @@ vec3 KeepFinite(vec3 L) { return mix(clamp(L, vec3(0.0), vec3(MaxHalf)), vec3(0.
 // frame to frame, all else is a stream of its own for each sample; Salt keeps passes apart.
 vec3 GatherSamples(FSceneConstants Scene, FViewConstants View, uvec2 Pixel, FGBufferPoint Point, FBrdf Lobe, uint Samples, uint MaxBounces, uint Salt)
 {
-	vec3 P = RayOriginAt(View, Point);
+	vec3 P = RasterRayOrigin(Scene, View, Point.Relative, Point.Ng);
 	mat3 Basis = MakeBasis(Point.N);
 	vec3 V = Point.V * Basis;
 	uint StreamSeed = HashPcg(View.Seed + Salt);

@@ -92,6 +92,7 @@ vec3 SampleEmissive(FSceneConstants Scene, FBrdf B, mat3 Basis, vec3 V, vec3 P, 
 	FEmissiveTriangle T = FEmissiveRef(Scene.EmissiveTriangles).Data[FindEmissiveTriangle(Scene, U.z)];
 	vec2 Barycentrics = SampleTriangle(U.xy);
 	vec3 Point = T.P0 + (T.P1 - T.P0) * Barycentrics.x + (T.P2 - T.P0) * Barycentrics.y;
+	Point += CellOffset(Scene, FObjectRef(Scene.Objects).Data[T.Object].Cell);
 	vec3 Towards = Point - P;
 	float Distance2 = dot(Towards, Towards);
 	if (Distance2 < 1.0e-12) { return vec3(0.0); }
@@ -111,8 +112,8 @@ vec3 SampleEmissive(FSceneConstants Scene, FBrdf B, mat3 Basis, vec3 V, vec3 P, 
 #ifdef HAS_MASKED
 	if (IsCutAway(Material, Inputs)) { return vec3(0.0); }
 #endif
-	// Stops short of the emitter by more than the error of the two positions.
-	float Gap = max(max(max(abs(Point.x), max(abs(Point.y), abs(Point.z))), Distance) * 1.0e-5, 2.0e-5);
+	// Stops short of the emitter, by more the flatter the ray meets it.
+	float Gap = PositionError(Point, Scene.ObjectReach, Distance) / max(Cos, 0.1);
 	if (MaxComponent(Emission) <= 0.0 || !IsVisible(Scene, P, Towards, max(Distance - Gap, 0.0))) { return vec3(0.0); }
 	float Density = Material.EmissiveWeight / Scene.EmissivePower * Distance2 / Cos;
 	return F * Emission * (PowerHeuristic(Density, BrdfDensity(B, V, Towards * Basis)) / Density);

@@ -84,7 +84,7 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 		Radiance += Throughput * ShadeEmission(Scene, Hit, Direction, Density);
 		if (Bounce >= MaxBounces) { return Radiance; }
 
-		vec3 P = OffsetRayOrigin(Origin + Direction * Hit.Distance, Hit.GeometricNormal, Hit.Distance);
+		vec3 P = OffsetRayOrigin(Origin + Direction * Hit.Distance, Hit.GeometricNormal, Scene.ObjectReach, Hit.Distance);
 		vec3 V = -Direction;
 		mat3 Basis = MakeBasis(BendNormal(Hit.Normal, V));
 		FBrdf Brdf = MakeBrdf(Hit);

@@ -33,7 +33,7 @@ void ShadePixel(uvec2 Pixel)
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	vec3 Ng = OctDecode(texelFetch(Textures[Push.Normals], ivec2(Pixel), 0).zw);
 	vec3 Relative = RelativePositionFromDepth(View, Pixel, Depth);
-	vec3 Origin = OffsetRasterPoint(View.CameraPosition + Relative, Ng, length(Relative));
+	vec3 Origin = RasterRayOrigin(Scene, View, Relative, Ng);
 	float Visible = 0.0;
 	FTileSequence Sequence = MakeTileSequence(Pixel, View.FrameIndex, HashPcg(View.Seed));
 	for (uint Sample = 0; Sample < SamplesPerPixel; ++Sample)

@@ -84,15 +84,15 @@ LANTERN_ASSERT_SIZE(FMaterialData, 212);
 
 // The world in cells: fp32 positions relative to the centre of a cell, and offsets between cells, which fp32 holds
 // exactly, stay right far away from the world's origin.
-#define CELL_SIZE 1024.0f // metres
+#define CELL_SIZE 1024.0f // metres; a multiple of the step of the scene's origin
 
 // One object, as instances refer to it by custom index.
 struct FObjectData
 {
 	vec4 ObjectToWorld[3]; // rows; relative to the centre of its cell
 	uint FirstSection;     // into FSectionData[]
-	uint Flags;            // OBJECT_…
-	ivec3 Cell;            // of the world; its centre is (Cell − FSceneConstants::OriginCell) · CELL_SIZE
+	uint Flags;            // OBJECT_…, and what rounding took from the translation: see TranslationRest in GBuffer.vert
+	ivec3 Cell;            // of the world; see CellOffset in Bindings.glsl
 	uint Motion;           // into FObjectMotion[], or NO_MOTION
 };
 LANTERN_ASSERT_SIZE(FObjectData, 72);
@@ -104,7 +104,7 @@ struct FObjectMotion
 {
 	vec4 PreviousObjectToWorld[3]; // as FObjectData::ObjectToWorld …
 	ivec3 PreviousCell;            // … and Cell
-	uint Pad0;
+	uint PreviousFlags;            // … and Flags
 	FAddress PreviousPositions; // float3[], what the vertices of a deformed geometry were; 0: as they are now
 };
 LANTERN_ASSERT_SIZE(FObjectMotion, 72);
@@ -132,7 +132,8 @@ struct FLightData
 };
 LANTERN_ASSERT_SIZE(FLightData, 52);
 
-// A triangle that emits, for next-event estimation.
+// A triangle that emits, for next-event estimation. Corners are relative to the centre of the object's cell, so that a moving
+// origin rewrites none.
 struct FEmissiveTriangle
 {
 	vec3 P0;
@@ -165,13 +166,15 @@ struct FSceneConstants
 	float SunOneMinusCos; // 1 − cosine of its angular radius; 0: a point
 	vec3 SkyRadiance;
 	uint MaterialOverride; // r.RT.Material.Override
-	ivec3 OriginCell;      // its centre is the scene's origin
+	ivec3 OriginCell;      // that the scene's origin lies in
+	float ObjectReach;     // see OffsetRayOrigin in Math.glsl, metres
+	vec3 OriginInCell;     // from its cell's centre, metres
 	uint Pad0;
 	FAddress AnyHitCounter; // of alpha tests under rays, where they count (r.RT.Opacity.Count)
 	FAddress StandInHits;   // uint[], by material: rays that hit its stand-in; 0: nobody counts
 	FAddress ObjectMotions; // FObjectMotion[]; 0: nothing moved
 };
-LANTERN_ASSERT_SIZE(FSceneConstants, 144);
+LANTERN_ASSERT_SIZE(FSceneConstants, 160);
 
 // A camera. Positions are relative to the scene's origin.
 struct FViewConstants

@@ -153,7 +153,7 @@ void RunRandomSteps(uint32_t Seed, int Steps, double Extent, const glm::dvec3& M
 		if (Step % 37 == 0)
 		{
 			const FCullingRule Rule = MakeRule(Random, Extent, Middle);
-			ASSERT_NO_FATAL_FAILURE(World.ExpectSame(Rule, FindCell(Rule.Eye))) << "step " << Step;
+			ASSERT_NO_FATAL_FAILURE(World.ExpectSame(Rule, FindOrigin(Rule.Eye))) << "step " << Step;
 			ASSERT_NO_FATAL_FAILURE(ExpectConsistent(World.Store)) << "step " << Step;
 		}
 	}
@@ -215,7 +215,7 @@ TEST(GatherStore, ObjectsOnTheVeryLimitAreDecidedAlike)
 			}
 			World.Set(I, PlaceAt(At, Radius));
 		}
-		ASSERT_NO_FATAL_FAILURE(World.ExpectSame(Rule, FindCell(Eye))) << "try " << Try;
+		ASSERT_NO_FATAL_FAILURE(World.ExpectSame(Rule, FindOrigin(Eye))) << "try " << Try;
 	}
 }
 

@@ -61,7 +61,7 @@ public:
 		}
 	}
 	/// Gathers both ways; the same instances with the same 64 bytes.
-	void ExpectSame(const FCullingRule& Rule, const glm::ivec3& Origin)
+	void ExpectSame(const FCullingRule& Rule, const glm::dvec3& Origin)
 	{
 		Store.Refresh();
 		const uint32_t Count = Gather.Count(Store, Rule);

@@ -143,7 +143,7 @@ TEST_F(FSceneObjectTest, TransformsAreRelativeToTheSnappedOrigin)
 			// A kilometre from the camera and nearer: a tenth of a millimetre.
 			EXPECT_LE(std::abs(Error), glm::length(World - Far) < 1000.0 ? 1e-4 : 1e-2);
 			// What raster adds up is what rays see.
-			const glm::vec3 Cell = glm::vec3(Data.Cell - Scene->GetConstants().OriginCell) * CELL_SIZE;
+			const glm::vec3 Cell = glm::vec3(Data.Cell - Scene->GetConstants().OriginCell) * CELL_SIZE - Scene->GetConstants().OriginInCell;
 			EXPECT_EQ(Data.ObjectToWorld[Axis].w + Cell[Axis], Item.Instance.Transform[4 * Axis + 3]);
 		}
 	}

@@ -226,7 +226,7 @@ uint32_t FInstanceGather::Count(const FInstanceStore& Store, const FCullingRule&
 	return Total;
 }
 
-void FInstanceGather::WriteBlock(const FInstanceStore& Store, const glm::ivec3& Origin, size_t Block,
+void FInstanceGather::WriteBlock(const FInstanceStore& Store, const glm::dvec3& Origin, size_t Block,
                                  FRTInstance* Out) const
 {
 	const FInstanceBinding* const Bindings = Store.GetBindings();
@@ -254,7 +254,7 @@ void FInstanceGather::WriteBlock(const FInstanceStore& Store, const glm::ivec3& 
 #endif
 }
 
-void FInstanceGather::Write(const FInstanceStore& Store, const glm::ivec3& Origin, FRTInstance* Out) const
+void FInstanceGather::Write(const FInstanceStore& Store, const glm::dvec3& Origin, FRTInstance* Out) const
 {
 	assert(SeenRevision == Store.GetRevision() && reinterpret_cast<uintptr_t>(Out) % 16 == 0);
 	ParallelFor(BlockOffsets.size(), 4,
@@ -268,7 +268,7 @@ void FInstanceGather::Write(const FInstanceStore& Store, const glm::ivec3& Origi
 }
 
 uint32_t GatherStraightforward(const FInstanceStore& Store, const FObjectData* Objects, const FCullingRule& Rule,
-                               const glm::ivec3& Origin, FRTInstance* Out, const FMissingGeometrySink& Missing)
+                               const glm::dvec3& Origin, FRTInstance* Out, const FMissingGeometrySink& Missing)
 {
 	const std::vector<FInstanceRecord>& Records = Store.GetRecords();
 	uint32_t Written = 0;

@@ -38,17 +38,31 @@ void MakeRows(const glm::dmat4& Transform, const glm::dvec3& Center, float Out[1
 }
 } // namespace
 
+namespace
+{
+/// The nearest of −Most to Most steps; for what is no number the first.
+double FindStep(double At, double Step, double Most)
+{
+	const double Nearest = std::floor(At / Step + 0.5);
+	return Nearest > -Most ? std::min(Nearest, Most) : -Most;
+}
+} // namespace
+
 glm::ivec3 FindCell(const glm::dvec3& World)
 {
 	// Beyond, and for what is no number, places within a cell are large; nothing overflows.
 	constexpr double Most = 1 << 30;
 	glm::ivec3 Cell;
-	for (int Axis = 0; Axis < 3; ++Axis)
-	{
-		const double At = std::floor(World[Axis] / CellSize + 0.5);
-		Cell[Axis] = static_cast<int32_t>(At > -Most ? std::min(At, Most) : -Most);
-	}
+	for (int Axis = 0; Axis < 3; ++Axis) { Cell[Axis] = static_cast<int32_t>(FindStep(World[Axis], CellSize, Most)); }
 	return Cell;
+}
+
+glm::dvec3 FindOrigin(const glm::dvec3& World)
+{
+	const glm::dvec3 Center = CellCenter(FindCell(World));
+	glm::dvec3 Origin;
+	for (int Axis = 0; Axis < 3; ++Axis) { Origin[Axis] = Center[Axis] + OriginStep * FindStep(World[Axis] - Center[Axis], OriginStep, 0.5 * CellSize / OriginStep); }
+	return Origin;
 }
 
 void FBucketBounds::Resize(size_t Count)

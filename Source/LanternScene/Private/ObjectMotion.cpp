@@ -83,6 +83,7 @@ FObjectMotion FObjectMotions::MakeMotion(const FObjectData& Data)
 	static_assert(sizeof(Motion.PreviousObjectToWorld) == sizeof(Data.ObjectToWorld));
 	std::memcpy(Motion.PreviousObjectToWorld, Data.ObjectToWorld, sizeof(Data.ObjectToWorld));
 	Motion.PreviousCell = Data.Cell;
+	Motion.PreviousFlags = Data.Flags;
 	return Motion;
 }
 

@@ -17,6 +17,19 @@ namespace
 {
 /// An upper bound of how much a transform stretches, exact where its axes stay at right angles: the largest row sum of
 /// MᵀM bounds the square of its largest singular value (Gershgorin).
+uint32_t PackTranslationRest(const glm::dmat4& Transform, const FObjectData& Data)
+{
+	uint32_t Packed = 0;
+	for (int Axis = 0; Axis < 3; ++Axis)
+	{
+		const double Rest = Transform[3][Axis] - CellCenter(Data.Cell)[Axis] - double(Data.ObjectToWorld[Axis].w);
+		// What is no number, or too far away for cells, is left as it is.
+		const double Steps = std::abs(Rest) < 1e-3 ? std::clamp(std::round(Rest * 33'554'432.0), -512.0, 511.0) : 0.0;
+		Packed |= (static_cast<uint32_t>(static_cast<int32_t>(Steps)) & 1023u) << (2 + 10 * Axis);
+	}
+	return Packed;
+}
+
 double GetStretch(const glm::dmat4& Transform)
 {
 	const glm::dmat3 Linear(Transform);
@@ -163,6 +176,7 @@ void FRTScene::RemoveObject(FRTObjectId Id)
 	MarkEmissive(Object.Range);
 	Instances.Remove(Id.Index);
 	Motions.Remove(Id.Index);
+	Pivots.Remove(Id.Index);
 	Sections.Release(Object.Range);
 	Retired.push_back(std::move(Object.Info.Geometry));
 	FreeObjectSlot(Id.Index);
@@ -216,6 +230,7 @@ void FRTScene::WriteObject(uint32_t Index)
 		Placement.Center = glm::dvec3(Transform * glm::dvec4(Geometry.BoundsCenter, 1.0));
 		Placement.Radius = GetStretch(Transform) * double(Geometry.BoundsRadius);
 	}
+	Pivots.Set(Index, glm::dvec3(Transform[3]), Placement.Center, Placement.Radius);
 	Placement.Range = Object.Range;
 	Placement.Group = Object.Info.Group;
 	Placement.Mask = Object.Info.Mask;
@@ -224,8 +239,8 @@ void FRTScene::WriteObject(uint32_t Index)
 	FObjectData Data{};
 	std::memcpy(Data.ObjectToWorld, Instances.GetTransform(Index), sizeof(Data.ObjectToWorld));
 	Data.FirstSection = FirstSectionOf(Object);
-	Data.Flags = glm::determinant(glm::dmat3(Transform)) < 0.0 ? OBJECT_MIRRORED : 0u;
 	Data.Cell = Instances.GetRecord(Index).Cell;
+	Data.Flags = (glm::determinant(glm::dmat3(Transform)) < 0.0 ? OBJECT_MIRRORED : 0u) | PackTranslationRest(Transform, Data);
 	Data.Motion = Motions.GetEntry(Index);
 	ObjectData.Set(Index, Data);
 }

@@ -54,6 +54,7 @@ double FRTScene::AddEmissiveTriangles(uint32_t Index, double Power, std::vector<
 {
 	const FObject& Object = Objects[Index];
 	const FRTGeometryInfo& Info = Object.Info.Geometry->GetInfo();
+	const glm::dvec3 Cell = CellCenter(ObjectData[Index].Cell);
 	for (uint32_t Section = 0; Section < Info.Sections.size(); ++Section)
 	{
 		const FMaterialData& Material = Materials[Object.Info.Materials[Section]];
@@ -64,7 +65,7 @@ double FRTScene::AddEmissiveTriangles(uint32_t Index, double Power, std::vector<
 			for (int Corner = 0; Corner < 3; ++Corner)
 			{
 				const uint32_t Vertex = Info.CpuIndices[Info.Sections[Section].FirstIndex + 3 * Primitive + Corner];
-				P[Corner] = ToRelative(glm::dvec3(Object.Info.Transform * glm::dvec4(Info.CpuPositions[Vertex], 1.0)));
+				P[Corner] = glm::vec3(glm::dvec3(Object.Info.Transform * glm::dvec4(Info.CpuPositions[Vertex], 1.0)) - Cell);
 			}
 			const double Area = 0.5 * glm::length(glm::cross(glm::dvec3(P[1] - P[0]), glm::dvec3(P[2] - P[0])));
 			if (!(Area > 0.0)) { continue; }
@@ -119,7 +120,9 @@ FSceneConstants FRTScene::GetConstants() const
 	C.SunOneMinusCos = static_cast<float>(2.0 * HalfSin * HalfSin);
 	C.SkyRadiance = Sky;
 	C.MaterialOverride = SectionContext.Override;
-	C.OriginCell = OriginCell;
+	C.OriginCell = FindCell(Origin);
+	C.OriginInCell = glm::vec3(Origin - CellCenter(C.OriginCell));
+	C.ObjectReach = Pivots.GetReach();
 	C.ObjectMotions = Motions.GetTable().Num() > 0 ? Motions.GetTable().GetAddress() : 0;
 	return C;
 }

@@ -50,7 +50,7 @@ glm::dvec3 FRTScene::SnapOrigin(glm::dvec3 Camera) const
 {
 	// A camera that goes to and fro across a border of the grid must not move the origin each time.
 	const glm::dvec3 Away = glm::abs(Camera - Origin);
-	return std::max({Away.x, Away.y, Away.z}) <= 0.75 * OriginStep ? Origin : CellCenter(FindCell(Camera));
+	return std::max({Away.x, Away.y, Away.z}) <= 0.75 * OriginStep ? Origin : FindOrigin(Camera);
 }
 
 void FRTScene::MoveOrigin(glm::dvec3 Camera)
@@ -61,8 +61,7 @@ void FRTScene::MoveOrigin(glm::dvec3 Camera)
 		return;
 	}
 	Origin = Snapped;
-	OriginCell = FindCell(Origin);
-	bLightsChanged = bEmissiveChanged = true;
+	bLightsChanged = true;
 }
 
 void FRTScene::BindRange(FSectionRangeId Id)
@@ -136,6 +135,7 @@ FRTStatus FRTScene::BeginUpdate(const FGatherView& View, const FSceneUse& Use)
 	Stats = {};
 	FrameUse = Use;
 	MoveOrigin(View.Position);
+	Pivots.Update(Origin);
 	UpdateOpacity();
 	bGeometryWork = Use.bRays && Geometries.NeedsUpdate();
 	bGeometriesBegun = Use.bRays;
@@ -187,7 +187,7 @@ FRTScene::FGatherKey FRTScene::MakeGatherKey(const FGatherView& View, bool bCull
 	{
 		Key.View = View;
 	}
-	Key.Origin = FindCell(SnapOrigin(View.Position));
+	Key.Origin = SnapOrigin(View.Position);
 	Key.Revision = Instances.GetRevision();
 	Key.Mode = CVarGather.GetOnRenderThread();
 	return Key;

@@ -27,8 +27,8 @@ public:
 	bool HasChanged() const { return bChanged; }
 	uint32_t GetCount() const { return Total; }
 	/// Out: room for GetCount() instances, aligned to 16 bytes; only written, in ascending order (write-combined memory).
-	/// Origin: the cell that transforms are relative to.
-	void Write(const FInstanceStore& Store, const glm::ivec3& Origin, FRTInstance* Out) const;
+	/// Origin: what transforms are relative to.
+	void Write(const FInstanceStore& Store, const glm::dvec3& Origin, FRTInstance* Out) const;
 
 private:
 	/// Of the objects of one bucket.
@@ -42,7 +42,7 @@ private:
 	uint32_t CountBlock(const FPass& Pass, size_t Block, bool& OutChanged);
 	FKept CullBucket(const FPass& Pass, size_t Bucket, uint32_t Class) const;
 	uint64_t DropMissing(const FPass& Pass, const FInstanceBucket& Bucket, uint64_t Kept) const;
-	void WriteBlock(const FInstanceStore& Store, const glm::ivec3& Origin, size_t Block, FRTInstance* Out) const;
+	void WriteBlock(const FInstanceStore& Store, const glm::dvec3& Origin, size_t Block, FRTInstance* Out) const;
 
 	std::vector<FKept> Kept;            // per bucket
 	std::vector<uint32_t> BlockOffsets; // first instance of each block of buckets
@@ -55,6 +55,6 @@ private:
 /// Writes to Out, in the order of objects, what FInstanceGather writes in its own; returns how many. Reads the records
 /// of the store and the objects' entries of the GPU table, not the buckets. Out: room for all objects.
 uint32_t GatherStraightforward(const FInstanceStore& Store, const FObjectData* Objects, const FCullingRule& Rule,
-                               const glm::ivec3& Origin, FRTInstance* Out, const FMissingGeometrySink& Missing = {});
+                               const glm::dvec3& Origin, FRTInstance* Out, const FMissingGeometrySink& Missing = {});
 
 } // namespace Lantern

@@ -22,8 +22,8 @@
 namespace Lantern
 {
 
-/// Cells and places within them. Within 1.8 km of an origin on cell borders, the place that the GPU adds up (offset of
-/// the cell, exact in fp32, plus place within it) is right to 0.1 mm.
+/// Cells and places within them. Within 1.8 km of the origin, the place that the GPU adds up (offset of the cell, exact in
+/// fp32, plus place within it) is right to 0.1 mm.
 inline constexpr double CellSize = CELL_SIZE;
 /// Cell whose centre is nearest.
 glm::ivec3 FindCell(const glm::dvec3& World);
@@ -31,10 +31,15 @@ inline glm::dvec3 CellCenter(const glm::ivec3& Cell)
 {
 	return glm::dvec3(Cell) * CellSize;
 }
-/// From the origin's cell to Cell, metres.
-inline glm::vec3 CellOffset(const glm::ivec3& Cell, const glm::ivec3& Origin)
+/// A scene's origin is on a grid of this step, metres. It divides a cell, so that offsets from origins to cells are exact in
+/// fp32; rays are as precise as their coordinates are small, see Docs/Architecture.md.
+inline constexpr double OriginStep = 64.0;
+/// The place for an origin that is nearest.
+glm::dvec3 FindOrigin(const glm::dvec3& World);
+/// From an origin to the centre of Cell, metres.
+inline glm::vec3 CellOffset(const glm::ivec3& Cell, const glm::dvec3& Origin)
 {
-	return glm::vec3((glm::dvec3(Cell) - glm::dvec3(Origin)) * CellSize);
+	return glm::vec3(CellCenter(Cell) - Origin);
 }
 
 /// What all instances of one section range have in common.

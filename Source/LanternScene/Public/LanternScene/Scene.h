@@ -2,7 +2,8 @@
 //
 // World positions are double precision; what the GPU sees is relative to an origin that follows the camera in
 // steps of OriginStep, so that fp32 keeps ≤ 0.1 mm within a kilometre of the camera anywhere in the world. Objects are
-// stored relative to their own cell of the world, so that a moving origin rewrites none of them.
+// stored relative to their own cell of the world, so that a moving origin rewrites none of them: of tables, it costs that of
+// punctual lights.
 //
 // Costs follow changes: an update in which neither scene nor view changed does nothing, and one object that changes
 // costs the same in a scene of a million.
@@ -22,6 +23,7 @@
 #include "LanternScene/InstanceUploads.h"
 #include "LanternScene/Object.h"
 #include "LanternScene/ObjectMotion.h"
+#include "LanternScene/ObjectPivots.h"
 #include "LanternScene/SectionTable.h"
 #include "SceneTypes.h"
 
@@ -80,7 +82,7 @@ struct FSceneUpdateStats
 class FRTScene
 {
 public:
-	static constexpr double OriginStep = CellSize; // metres
+	static constexpr double OriginStep = Lantern::OriginStep; // metres
 
 	explicit FRTScene(IRTDevice& Device);
 	~FRTScene();
@@ -183,7 +185,7 @@ private:
 	{
 		FGatherView View;
 		FCullingSettings Culling;
-		glm::ivec3 Origin{0};
+		glm::dvec3 Origin{0};
 		uint64_t Revision = 0;
 		int32_t Mode = -1;
 		friend bool operator==(const FGatherKey&, const FGatherKey&) = default;
@@ -218,7 +220,6 @@ private:
 	void Rerecord();
 
 	IRTDevice& Device;
-	glm::ivec3 OriginCell{0};
 	glm::dvec3 Origin{0};
 	FGeometryStore Geometries{Device};
 	std::vector<FObject> Objects;
@@ -233,6 +234,7 @@ private:
 	std::vector<FHitProgram> MissingPrograms; // sorted
 	TGpuTable<FObjectData> ObjectData{"Objects"};
 	FObjectMotions Motions{ObjectData};
+	FObjectPivots Pivots;
 	TGpuTable<FLightData> LightData{"Lights"};
 	TGpuTable<FEmissiveTriangle> EmissiveTriangles{"EmissiveTriangles"};
 	std::vector<uint32_t> EmissiveObjects;
