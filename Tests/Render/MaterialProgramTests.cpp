@@ -181,19 +181,22 @@ protected:
 			              };
 		              });
 	}
-	/// Frames that wait for nothing, until Condition holds.
+	/// Frames that wait for nothing, until Condition holds: as many as the compiler needs, which depends on the machine.
+	/// Once it has been idle for a while, what is not there will never come.
 	template <class F>
 	void TraceUntil(F Condition)
 	{
-		for (int Frame = 0; Frame < 3000; ++Frame)
+		constexpr int EnoughIdleFrames = 300;
+		for (int Idle = 0; Idle < EnoughIdleFrames; ++Idle)
 		{
 			ASSERT_NO_FATAL_FAILURE(Trace(false));
 			if (Condition())
 			{
 				return;
 			}
+			Idle = Renderer().GetRayCompiler().GetStats().bBusy ? -1 : Idle;
 		}
-		FAIL() << "never came";
+		FAIL() << "never came, and nothing is being compiled";
 	}
 	glm::vec4 At(uint32_t Index, uint32_t X = PixelsPerQuad / 2, uint32_t Y = PixelsPerQuad / 2) const
 	{

@@ -117,6 +117,25 @@ TEST_F(FPipelineCompilerTest, StandInsComeBeforeThoseTheyStandInFor)
 	EXPECT_LT(Find("StandIn MATERIAL opaque"), Find("Rust MATERIAL opaque"));
 }
 
+// What is missing is left out of the frame: without stand-ins the first frames would have holes.
+TEST_F(FPipelineCompilerTest, NothingIsTracedBeforeItsStandInIsThere)
+{
+	Set("r.RT.Pipeline.RoundMs", "1");
+	Start({});
+	AddProgram("Rust");
+	Device->Close("StandIn");
+	Until([&] { return Device->CountAsked("StandIn MATERIAL opaque") == 1 && Maker->GetStats().Compiled >= 3; });
+	for (int Frame = 0; Frame < 100; ++Frame)
+	{
+		Maker->Update(Wanted);
+		std::this_thread::sleep_for(std::chrono::milliseconds(1));
+		ASSERT_FALSE(Maker->GetCurrent());
+	}
+	Device->Open();
+	Until([&] { return Maker->GetCurrent() != nullptr; });
+	EXPECT_NE(Maker->GetCurrent()->GetState(Wanted.HitPrograms.back()), ERTHitState::Missing);
+}
+
 TEST_F(FPipelineCompilerTest, WhatIsNotWantedForLongIsDropped)
 {
 	Set("r.RT.Pipeline.KeepFrames", "10");

@@ -203,6 +203,12 @@ FLinkPlan FRTPSOCompiler::FImpl::MakePlan() const
 		{
 			Plan.StandIns.push_back(std::move(Entry));
 		}
+		else
+		{
+			// Without it there would be holes. One that does not compile holds up nothing.
+			const auto IsSettled = [](const FPipelineSlotRef& Slot) { return !Slot || Slot->IsSettled(); };
+			Plan.bComplete &= std::all_of(Hit.Types.begin(), Hit.Types.end(), IsSettled);
+		}
 	}
 	for (const FHitSlots& Hit : Wanted.Hits)
 	{
