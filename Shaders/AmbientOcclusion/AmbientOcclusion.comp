@@ -7,7 +7,7 @@ layout(local_size_x = AMBIENT_OCCLUSION_GROUP_SIZE, local_size_y = AMBIENT_OCCLU
 
 bool TraceOcclusion(vec3 Origin, vec3 Direction, float Length)
 {
-	return QueryVisible(FSceneRef(Push.Pass.Scene).Data, 0u, Push.InstanceMask, Origin, Direction, Length);
+	return QueryBlocker(FSceneRef(Push.Pass.Scene).Data, 0u, Push.InstanceMask, Origin, Direction, Length) < 0.0;
 }
 
 void main() { ShadePixel(gl_GlobalInvocationID.xy); }

@@ -31,6 +31,13 @@ vec4 Filter(FViewConstants View, ivec2 Pixel, FSurface Surface)
 	float Cosine = max(abs(dot(Surface.Normal, normalize(Position))), 0.05);
 	float Reach = Push.SigmaDepth * PixelAngle(View) * Surface.Distance * float(Push.Step) / sqrt(Cosine);
 	float CenterValue = GetBrightness(GetSignal(Values[Center]));
+	float Narrow = 0.0;
+#ifdef WITH_EXTENT
+	// Over a part of the transition only.
+	float Width = max(Push.ReachExtent * Values[Center].z / float(Push.Step), 1.0e-3);
+	Narrow = 0.5 / (Width * Width);
+	if (Narrow > 8.0) { return Values[Center]; } // no tap would count
+#endif
 	FSignal Sum = FSignal(0.0);
 	float SumVariance = 0.0, SumWeights = 0.0;
 	for (int Tap = 0; Tap < Taps; ++Tap)
@@ -38,7 +45,8 @@ vec4 Filter(FViewConstants View, ivec2 Pixel, FSurface Surface)
 		ivec2 P = Pixel + ivec2(Tap % 3 - 1, Tap / 3 - 1) * int(Push.Step);
 		if (any(lessThan(P, ivec2(0))) || any(greaterThanEqual(P, Size))) { continue; }
 		FSignal Value = GetSignal(Values[Tap]);
-		float Weight = GetKernel(Tap);
+		vec2 Off = vec2(Tap % 3 - 1, Tap / 3 - 1);
+		float Weight = GetKernel(Tap) * exp(-Narrow * dot(Off, Off));
 		if (Tap != Center)
 		{
 			FSurface Other = LoadSurface(Push.Surface, P);
@@ -52,7 +60,11 @@ vec4 Filter(FViewConstants View, ivec2 Pixel, FSurface Surface)
 		SumVariance += Weight * Weight * GetVariance(Values[Tap]);
 		SumWeights += Weight;
 	}
-	return WithVariance(Sum / SumWeights, SumVariance / (SumWeights * SumWeights));
+	vec4 Result = WithVariance(Sum / SumWeights, SumVariance / (SumWeights * SumWeights));
+#ifdef WITH_EXTENT
+	Result.z = Values[Center].z;
+#endif
+	return Result;
 }
 
 void main()

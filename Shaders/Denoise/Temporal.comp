@@ -1,11 +1,14 @@
 // Accumulation over time: where the pixel's surface was seen before, the frame's value joins the mean of those before it.
-//   Noise: what a pixel differs from all that is next to it by is noise, for edges and lines have company. A signal without
-//     noise needs no other frames and no filter, however much structure it has: hard shadows stay what they are.
+//   Noise: rays that see or do not see have the variance p (1 − p), which needs no estimate but p's. How much of it is
+//     edges and not noise is known where the signal comes with the extent of its transitions: one that is narrower than a
+//     pixel is an edge, and a frame alone is right about it. Of colours nothing is known: what a pixel differs from all
+//     that is next to it by is noise, for edges and lines have company. A signal without noise needs no other frames and no
+//     filter, however much structure it has: hard shadows stay what they are.
 //   Weights: by the variances of both sides (Kalman 1960). That of the history is what is left of the noise, and what
 //     resampling makes of it where it is not smooth. Once it has been accumulated for long, the weights are exponential,
 //     with a time constant in seconds.
 //   Clamp: the mean stays within what the neighbourhood says now (Salvi 2016, "An Excursion in Temporal Supersampling").
-//     Where all of it says the same, that is what the mean becomes: lit and shadowed regions have no lag.
+//     Where all of it says the same, that is about what the mean becomes: lit and shadowed regions have no lag.
 //   Change: where the neighbourhood's mean is off its own mean over time by more than chance explains, the light has
 //     changed, and accumulation starts anew (the question of Schied et al. 2018, "Gradient Estimation for Real-Time Adaptive
 //     Temporal Filtering", asked of the samples that there are).
@@ -21,12 +24,24 @@ const int Radius = DENOISE_WINDOW_RADIUS;
 const int Group = DENOISE_GROUP_SIZE;
 const int Rows = Group + 2 * Radius; // of a window's sums, for all of the group
 const int NoiseRadius = 2;
+// Transitions of so few pixels are edges, and of so many are not.
+const float EdgePixels = 0.2, SoftPixels = 1.0;
+// 49 rays that all see may belong to a pixel that 6 % of the rays do not see from (the rule of three), and in a penumbra
+// neighbours differ. Occlusion as slight as that is better off smooth than exact.
+#ifdef WITH_EXTENT
+const float ClampSlack = 0.2;
+#else
+const float ClampSlack = 0.0;
+#endif
 const int Side = Rows + 2;           // of the tile: noise asks for the pixels next to those of the window
 
 shared FSignal Values[Side * Side];
 shared float Depths[Side * Side]; // 1 / distance, linear over planes; 0: no value
 shared FSignal RowSums[Rows * Group], RowSquares[Rows * Group];
 shared float RowCounts[Rows * Group];
+#ifdef WITH_EXTENT
+shared float Extents[Side * Side]; // 0: unknown
+#endif
 shared float Noises[Rows * Rows]; // of each pixel; negative: it cannot be told
 
 // Over what lies about as far away as the pixel.
@@ -41,8 +56,9 @@ struct FWindow // 7×7, whatever it shows
 {
 	FSignal Mean, Sigma;
 	float Variance; // of the brightness
-	float Noise;    // what of it is noise
+	float Noise;    // what of it is noise; of visibility: what it would be without edges
 	FNear Near;
+	float Extent; // of the transition, pixels
 };
 
 struct FAccumulated
@@ -52,6 +68,7 @@ struct FAccumulated
 	float Frames;     // that the mean is worth; 0: nothing
 	float WindowMean; // of the brightness around it
 	float Resampling; // variance that resampling may have added to the mean
+	bool bMoved;      // the history is not that of the pixel itself
 };
 
 void LoadTile(ivec2 Size)
@@ -66,6 +83,10 @@ void LoadTile(ivec2 Size)
 		float Distance = texelFetch(Textures[Push.Surface], P, 0).x;
 		bool bValid = bInside && Distance > 0.0 && IsFinite(Distance) && IsSignalFinite(Value);
 		Depths[I] = bValid ? 1.0 / Distance : 0.0;
+#ifdef WITH_EXTENT
+		float Extent = bValid ? texelFetch(Textures[Push.Extent], P, 0).x : 0.0;
+		Extents[I] = IsFinite(Extent) ? Extent : 0.0;
+#endif
 		Values[I] = bValid ? clamp(Value, FSignal(0.0), FSignal(MaxHalf)) : FSignal(0.0);
 	}
 }
@@ -96,6 +117,30 @@ float FindNoise(int I)
 void FindNoises()
 {
 	for (int I = int(gl_LocalInvocationIndex); I < Rows * Rows; I += Group * Group) { Noises[I] = FindNoise((I / Rows + 1) * Side + I % Rows + 1); }
+}
+
+// Extent of the transition that the pixel lies in or beside: what those around it that know say, the nearest most.
+float FindExtent()
+{
+#ifdef WITH_EXTENT
+	ivec2 Own = ivec2(gl_LocalInvocationID.xy) + Radius + 1;
+	float Depth = Depths[Own.y * Side + Own.x];
+	float Sum = 0.0, Weights = 0.0;
+	for (int Y = -Radius; Y <= Radius; ++Y)
+	{
+		for (int X = -Radius; X <= Radius; ++X)
+		{
+			int I = (Own.y + Y) * Side + Own.x + X;
+			if (Extents[I] <= 0.0 || abs(Depths[I] - Depth) > 0.1 * Depth) { continue; }
+			float Weight = 1.0 / float(1 + X * X + Y * Y);
+			Sum += Weight * Extents[I];
+			Weights += Weight;
+		}
+	}
+	return Weights > 0.0 ? min(Sum / Weights, MaxHalf) : MaxHalf;
+#else
+	return MaxHalf;
+#endif
 }
 
 FNear LookAround()
@@ -140,6 +185,13 @@ void SumRows()
 	}
 }
 
+// Of the mean of a frame's rays, of which P see.
+float GetNoise(float P)
+{
+	P = clamp(P, 0.0, 1.0);
+	return P * (1.0 - P) / Push.RaysPerPixel;
+}
+
 FWindow SumColumns()
 {
 	FSignal Sum = FSignal(0.0), Squares = FSignal(0.0);
@@ -160,7 +212,12 @@ FWindow SumColumns()
 	float Sigma = GetBrightness(W.Sigma);
 	W.Variance = Sigma * Sigma;
 	W.Near = LookAround();
+#if CHANNELS == 1
+	W.Noise = GetNoise(W.Near.Mean);
+#else
 	W.Noise = W.Near.Noise >= 0.0 ? W.Near.Noise : W.Variance;
+#endif
+	W.Extent = FindExtent();
 	return W;
 }
 
@@ -204,7 +261,7 @@ void SampleSharply(FViewConstants View, FReprojection R, FSurface Surface, FSign
 
 FAccumulated LoadHistory(FViewConstants View, uvec2 Pixel, FSurface Surface)
 {
-	const FAccumulated None = FAccumulated(FSignal(0.0), 0.0, 0.0, 0.0, 0.0);
+	const FAccumulated None = FAccumulated(FSignal(0.0), 0.0, 0.0, 0.0, 0.0, false);
 	if (Push.History == NO_TEXTURE) { return None; }
 	vec3 ToCamera = -normalize(CameraRay(View, vec2(Pixel) + 0.5));
 	vec4 Motion = texelFetch(Textures[Push.Motion], ivec2(Pixel), 0);
@@ -236,9 +293,9 @@ FAccumulated LoadHistory(FViewConstants View, uvec2 Pixel, FSurface Surface)
 	if (Sum <= 0.0) { return None; }
 	// What a few neighbours alone remember is worth less: it is as noisy as they are, and in the same way.
 	float Known = R.Known * Sum;
-	A = FAccumulated(A.Mean / Sum, A.Sigma / Sum, Sum / A.Frames * Known * Known, A.WindowMean / Sum, 0.0);
+	A = FAccumulated(A.Mean / Sum, A.Sigma / Sum, Sum / A.Frames * Known * Known, A.WindowMean / Sum, 0.0, any(greaterThan(R.Fraction * (1.0 - R.Fraction), vec2(1.0e-4))));
 	// Between equals, and at the texel itself, nothing is to be gained.
-	if (Low != High && any(greaterThan(R.Fraction * (1.0 - R.Fraction), vec2(1.0e-4)))) { SampleSharply(View, R, Surface, Low, High, A); }
+	if (Low != High && A.bMoved) { SampleSharply(View, R, Surface, Low, High, A); }
 	return A;
 }
 
@@ -268,9 +325,17 @@ FAccumulated Accumulate(FAccumulated History, FSignal Value, bool bHasValue, FWi
 	float Keep = KeepAfterChange(Window, History);
 	float Noise = History.Frames > 0.0 ? mix(Window.Noise, History.Sigma * History.Sigma, (1.0 - Push.NoiseAlpha) * Keep) : Window.Noise;
 	History.Frames *= Keep;
+#if CHANNELS == 1
+	float Soft = smoothstep(EdgePixels, SoftPixels, Window.Extent);
+	float Off = Value - History.Mean;
+	// Beside an edge, a history of somewhere else that disagrees is wrong. One of the pixel's own is not: its rays do differ.
+	if (History.bMoved && bHasValue) { History.Resampling += (1.0 - Soft) * Off * Off; }
+	Noise = GetNoise(mix(Window.Near.Mean, History.Mean, History.Frames / (History.Frames + 4.0))) * max(Soft, 1.0e-3);
+#endif
 	if (Push.ClampSigma > 0.0)
 	{
-		FSignal Clamped = clamp(History.Mean, Window.Mean - Window.Sigma * Push.ClampSigma, Window.Mean + Window.Sigma * Push.ClampSigma);
+		FSignal Range = Window.Sigma * Push.ClampSigma + ClampSlack;
+		FSignal Clamped = clamp(History.Mean, Window.Mean - Range, Window.Mean + Range);
 		float Moved = GetBrightness(abs(Clamped - History.Mean));
 		History.Frames *= 1.0 - clamp(Moved / max(max(GetBrightness(History.Mean), GetBrightness(Clamped)), 1.0e-6), 0.0, 1.0);
 		History.Mean = Clamped;
@@ -278,19 +343,28 @@ FAccumulated Accumulate(FAccumulated History, FSignal Value, bool bHasValue, FWi
 	if (!bHasValue)
 	{
 		// No value of its own: what was, or else what is around it.
-		if (History.Frames <= 0.0) { History = FAccumulated(Window.Mean, sqrt(Noise), 0.0, Window.Near.Mean, 0.0); }
+		if (History.Frames <= 0.0) { History = FAccumulated(Window.Mean, sqrt(Noise), 0.0, Window.Near.Mean, 0.0, false); }
 		return History;
 	}
 	float Alpha = GetAlpha(History, Noise);
-	return FAccumulated(mix(History.Mean, Value, Alpha), sqrt(Noise), 1.0 / Alpha, mix(History.WindowMean, Window.Near.Mean, Alpha), 0.0);
+	return FAccumulated(mix(History.Mean, Value, Alpha), sqrt(Noise), 1.0 / Alpha, mix(History.WindowMean, Window.Near.Mean, Alpha), 0.0, History.bMoved);
 }
 
-void Store(ivec2 Pixel, FAccumulated A)
+// Around: variance of one frame, by what is around the pixel.
+void Store(ivec2 Pixel, FAccumulated A, float Extent, float Around)
 {
 	// That of few frames is known less well, and a blurred start is better than a wrong one.
 	float Frames = max(A.Frames, 1.0);
 	float Variance = A.Sigma * A.Sigma / Frames * (1.0 + 1.0 / Frames);
-	imageStore(Images[Push.Output], Pixel, WithVariance(A.Mean, min(Variance, MaxHalf)));
+#ifdef WITH_EXTENT
+	// What a pixel's own frames drew together, in two dimensions, is stratified (Mitchell 1996, "Consequences of Stratified
+	// Sampling in Graphics").
+	if (!A.bMoved) { Variance *= inversesqrt(Frames); }
+#elif CHANNELS == 1
+	// One ray in many is blocked: those that have met none know as little as those that have.
+	Variance = max(Variance, 0.5 * Around / Frames);
+#endif
+	imageStore(Images[Push.Output], Pixel, WithVariance(A.Mean, min(Variance, MaxHalf)) + vec4(0.0, 0.0, CHANNELS == 1 ? Extent : 0.0, 0.0));
 	float Sigma = min(A.Sigma, MaxHalf), WindowMean = min(A.WindowMean, MaxHalf);
 #if CHANNELS == 1
 	imageStore(Images[Push.OutHistory], Pixel, vec4(A.Mean, Sigma, A.Frames, WindowMean));
@@ -316,9 +390,10 @@ void main()
 	{
 		FSignal Value = GetSignal(texelFetch(Textures[Push.Signal], Pixel, 0));
 		Value = IsSignalFinite(Value) ? clamp(Value, FSignal(0.0), FSignal(MaxHalf)) : FSignal(0.0);
-		Store(Pixel, FAccumulated(Value, 0.0, 0.0, 0.0, 0.0));
+		Store(Pixel, FAccumulated(Value, 0.0, 0.0, 0.0, 0.0, false), 0.0, 0.0);
 		return;
 	}
 	int Own = (int(gl_LocalInvocationID.y) + Radius + 1) * Side + int(gl_LocalInvocationID.x) + Radius + 1;
-	Store(Pixel, Accumulate(LoadHistory(View, uvec2(Pixel), Surface), Values[Own], Depths[Own] > 0.0, SumColumns()));
+	FWindow Window = SumColumns();
+	Store(Pixel, Accumulate(LoadHistory(View, uvec2(Pixel), Surface), Values[Own], Depths[Own] > 0.0, Window), Window.Extent, Window.Noise);
 }

@@ -5,6 +5,7 @@
 
 #include "Bindings.glsl"
 #include "Math.glsl"
+#include "View.glsl"
 
 // By its bits: isnan and isinf may be optimised away.
 #ifndef NO_GUARD // r.RT.Debug.Denoise.Guard
@@ -45,9 +46,6 @@ FSurface LoadSurface(uint Texture, ivec2 Pixel) { return UnpackSurface(texelFetc
 
 // Index: 0: unknown.
 float MakeIdentity(float Index) { return Index >= 1.0 && IsFinite(Index) ? mod(Index, 63.0) + 1.0 : 0.0; }
-
-// Size of a pixel at distance 1 along the view.
-float PixelAngle(FViewConstants View) { return 2.0 * View.TanHalfFovY / float(View.Height); }
 
 // Whether the texel of the frame before showed what the pixel shows. Expected: how far its surface was then; Slope: how
 // much farther it is one pixel on. Normals may have turned with their object by some 45° since.

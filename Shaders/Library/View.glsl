@@ -18,11 +18,13 @@ vec3 RelativePositionFromDepth(FViewConstants View, uvec2 Pixel, float Depth)
 	return CameraRay(View, vec2(Pixel) + 0.5) * (View.Near / Depth);
 }
 
+// Size of a pixel at distance 1 along the view.
+float PixelAngle(FViewConstants View) { return 2.0 * View.TanHalfFovY / float(View.Height); }
+
 // Where rays leave the surface that a pixel shows.
 vec3 RasterRayOrigin(FSceneConstants Scene, FViewConstants View, vec3 Relative, vec3 Ng)
 {
-	float PixelWidth = length(Relative) * 2.0 * View.TanHalfFovY / float(View.Height);
-	return OffsetRasterPoint(View.CameraPosition + Relative, Ng, Scene.ObjectReach, PixelWidth);
+	return OffsetRasterPoint(View.CameraPosition + Relative, Ng, Scene.ObjectReach, length(Relative) * PixelAngle(View));
 }
 
 #endif

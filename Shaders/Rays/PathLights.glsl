@@ -4,10 +4,10 @@
 
 bool IsVisible(FSceneConstants Scene, vec3 Origin, vec3 Direction, float Distance)
 {
-	ShadowPayload.bVisible = 0u;
+	ShadowPayload.Blocker = BlockedAnywhere;
 	traceRayEXT(Scenes[Scene.Tlas], gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT, MASK_CASTS_SHADOW, SHADOW_RAY,
 	            RAY_TYPES, SHADOW_MISS, Origin, 0.0, Direction, Distance, 1);
-	return ShadowPayload.bVisible != 0u;
+	return IsVisible(ShadowPayload);
 }
 
 #ifdef HAS_SUN

@@ -10,7 +10,8 @@
 
 layout(set = 0, binding = 3) uniform accelerationStructureEXT Scenes[];
 
-bool QueryVisible(FSceneConstants Scene, uint Flags, uint Mask, vec3 Origin, vec3 Direction, float MaxDistance)
+// Distance to what is in the way, not the nearest; negative: nothing is.
+float QueryBlocker(FSceneConstants Scene, uint Flags, uint Mask, vec3 Origin, vec3 Direction, float MaxDistance)
 {
 	rayQueryEXT Query;
 	rayQueryInitializeEXT(Query, Scenes[Scene.Tlas], Flags | gl_RayFlagsTerminateOnFirstHitEXT, Mask, Origin, 0.0, Direction, MaxDistance);
@@ -41,7 +42,8 @@ bool QueryVisible(FSceneConstants Scene, uint Flags, uint Mask, vec3 Origin, vec
 		rayQueryConfirmIntersectionEXT(Query);
 #endif
 	}
-	return rayQueryGetIntersectionTypeEXT(Query, true) == gl_RayQueryCommittedIntersectionNoneEXT;
+	bool bVisible = rayQueryGetIntersectionTypeEXT(Query, true) == gl_RayQueryCommittedIntersectionNoneEXT;
+	return bVisible ? -1.0 : rayQueryGetIntersectionTEXT(Query, true);
 }
 
 #endif

@@ -4,4 +4,4 @@
 
 layout(location = 0) rayPayloadInEXT FShadowPayload Payload;
 
-void main() { Payload.bVisible = 1u; }
+void main() { Payload.Blocker = NotBlocked; }

@@ -5,9 +5,9 @@
 
 layout(local_size_x = SUN_SHADOW_GROUP_SIZE, local_size_y = SUN_SHADOW_GROUP_SIZE) in;
 
-bool TraceSun(vec3 Origin, vec3 Direction)
+float TraceSun(vec3 Origin, vec3 Direction)
 {
-	return QueryVisible(FSceneRef(Push.Pass.Scene).Data, Push.RayFlags, Push.InstanceMask, Origin, Direction, Push.MaxDistance);
+	return QueryBlocker(FSceneRef(Push.Pass.Scene).Data, Push.RayFlags, Push.InstanceMask, Origin, Direction, Push.MaxDistance);
 }
 
 void main() { ShadePixel(gl_GlobalInvocationID.xy); }

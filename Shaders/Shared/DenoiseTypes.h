@@ -27,6 +27,7 @@ struct FTemporalConstants
 	uint Surface;
 	uint Motion, PreviousSurface, History; // NO_TEXTURE: nothing to reproject
 	uint Moments;                          // of three channels only
+	uint Extent;                           // WITH_EXTENT only: pixels
 	uint OutHistory, OutMoments;           // storage indices
 	uint Output;                           // storage index: mean, and its variance
 	float MinAlpha;                        // weight of a new frame in a mean that has been accumulated for long
@@ -34,8 +35,9 @@ struct FTemporalConstants
 	float ChangeSigma;                     // 0: changes are not looked for
 	float NoiseAlpha;                      // weight of a new frame in the estimate of the noise
 	float Resampling;                      // how much is made of what resampling a history that is not smooth may do to it
+	float RaysPerPixel;                    // of visibility: that a frame's value is the mean of
 };
-LANTERN_ASSERT_SIZE(FTemporalConstants, 72);
+LANTERN_ASSERT_SIZE(FTemporalConstants, 80);
 
 struct FFilterConstants
 {
@@ -47,7 +49,7 @@ struct FFilterConstants
 	float SigmaValue;
 	float SigmaNormal;
 	float SigmaDepth;
-	uint Pad;
+	float ReachExtent; // WITH_EXTENT only: standard deviation of the reach, in extents
 };
 LANTERN_ASSERT_SIZE(FFilterConstants, 48);
 

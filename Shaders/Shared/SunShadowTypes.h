@@ -18,8 +18,10 @@ struct FSunShadowConstants
 	uint RayFlags;     // gl_RayFlags… beside those that the pass needs
 	uint InstanceMask;
 	uint bSoft; // 0: hard shadows from the centre of the disk
+	uint OutPenumbra; // storage index, or NO_TEXTURE; WITH_PENUMBRA only
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FSunShadowConstants, 48);
+LANTERN_ASSERT_SIZE(FSunShadowConstants, 56);
 
 LANTERN_SHARED_END
 

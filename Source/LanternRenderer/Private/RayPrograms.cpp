@@ -14,13 +14,18 @@ constexpr uint32_t MaterialPayloadBytes = 32;
 
 FShaderSource Shader(const char* Path) { return {Path, ERTShaderStage::RayGen, {}, {}}; }
 
-FRayType MakeShadowRay()
+FRayType MakeShadowRay(bool bBlockers)
 {
 	FRayType Type;
 	Type.Name = "SHADOW";
 	Type.Miss = Shader("Rays/Shadow.rmiss");
 	Type.MaskedAnyHit = Shader("Rays/AlphaTest.rahit");
 	Type.MaskedAnyHit.Defines = FAnyHitCounter::GetDefines();
+	if (bBlockers)
+	{
+		Type.ClosestHit = Shader("Rays/Shadow.rchit");
+		Type.bSharedClosestHit = true;
+	}
 	Type.PayloadBytes = ShadowPayloadBytes;
 	return Type;
 }
@@ -71,12 +76,13 @@ FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, FRTScene& Sc
 	Programs.bQueries =
 	    !Features.bReference && (IsQuery(EFrameRayGen::SunShadow, ChooseSunShadowPath(Capabilities, Facts)) ||
 	                             IsQuery(EFrameRayGen::AmbientOcclusion, ChooseAmbientOcclusionPath(Capabilities, Facts, Features.Signals, bDiffuseGI)));
-	bool bShadesHits = !Features.RayGens.empty();
+	bool bShadesHits = !Features.RayGens.empty(), bBlockers = false;
 	const auto Add = [&](EFrameRayGen Pass, std::optional<FPassRays> Rays) {
 		if (!Rays || !IsMade(Pass, Features.Signals)) { return; }
 		Desc.RayGens.push_back(Rays->RayGen);
 		Programs.RayGens[static_cast<size_t>(Pass)] = std::move(Rays->RayGen);
 		bShadesHits |= Rays->bShadesHits;
+		bBlockers |= Rays->bBlockers;
 		Programs.bLightSampling |= Rays->bShadesHits;
 	};
 	if (Features.bReference) { Add(EFrameRayGen::Reference, ChooseReferenceRays(Facts, Features.ReferenceSignal, Features.bReferenceFromGBuffer)); }
@@ -95,7 +101,7 @@ FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, FRTScene& Sc
 		Programs.RayGens.fill(std::nullopt);
 		return Programs;
 	}
-	Desc.RayTypes = {MakeShadowRay()};
+	Desc.RayTypes = {MakeShadowRay(bBlockers)};
 	if (bShadesHits) { Desc.RayTypes.push_back(MakeMaterialRay()); }
 	Desc.Callables = Features.Callables;
 	Desc.HitPrograms = Scene.GetSections().GetHitPrograms();

@@ -16,6 +16,7 @@ struct FPassRays
 	/// Its rays shade what they hit, and may sample the scene's emissive triangles (Shaders/Rays/PathTracing.glsl). Else
 	/// it casts shadow rays only, and the RTPSO has no closest-hit shader.
 	bool bShadesHits = false;
+	bool bBlockers = false; ///< its shadow rays tell how far off what is in the way is
 };
 FPassRays MakePassRays(const char* RayGenPath, std::vector<std::pair<std::string, std::string>> Defines, bool bShadesHits);
 

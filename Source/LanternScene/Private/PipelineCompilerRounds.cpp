@@ -70,7 +70,7 @@ FHitSlots FRTPSOCompiler::FImpl::FindHitSlots(FHitProgram Program)
 		}
 		Slot = FindSlot(std::move(Unit), true, false);
 		Slot->Program = Program.Program;
-		Slot->bEssential = Program.Program == StandardProgram;
+		Slot->bEssential |= Program.Program == StandardProgram; // what programs share is as essential as the most so
 	}
 	return It->second;
 }

@@ -34,6 +34,11 @@ void AddShader(FPipelineUnit& Unit, FShaderSource Source, ERTShaderStage Stage)
 	Unit.Key += '+' + MakeSourceKey(Source);
 	Unit.Shaders.push_back(std::move(Source));
 }
+
+bool IsShared(const FRayType& Type, ERTHitClass Class)
+{
+	return Type.ClosestHit && Type.bSharedClosestHit && Class == ERTHitClass::Opaque;
+}
 } // namespace
 
 std::string MakeSourceKey(const FShaderSource& Source)
@@ -80,6 +85,12 @@ FPipelineUnit MakeHitUnit(const FRTPSODesc& Desc, uint32_t RayType, FHitProgram 
 {
 	const FRayType& Type = Desc.RayTypes[RayType];
 	FPipelineUnit Unit;
+	if (IsShared(Type, Program.Class))
+	{
+		Unit = MakeGeneralUnit(*Type.ClosestHit, ERTShaderStage::ClosestHit);
+		Unit.Kind = ERTGroupKind::Triangles;
+		return Unit;
+	}
 	Unit.Key =
 	    "hit " + std::to_string(Program.Program) + (Program.Class == ERTHitClass::Procedural ? " procedural:" : ":");
 	constexpr const char* Classes[HitClassCount] = {" opaque", " masked", " procedural"};
@@ -119,6 +130,10 @@ FPipelineUnit MakeStandInUnit(const FRTPSODesc& Desc, uint32_t RayType, ERTHitCl
                               const FMaterialPrograms& Programs)
 {
 	FPipelineUnit Unit = MakeHitUnit(Desc, RayType, {StandardProgram, Class}, Programs);
+	if (IsShared(Desc.RayTypes[RayType], Class))
+	{
+		return Unit;
+	}
 	Unit.Key = "stand-in " + Unit.Key;
 	Unit.Name = "StandIn" + Unit.Name.substr(Programs.Get(StandardProgram).Name.size());
 	for (FShaderSource& Source : Unit.Shaders)

@@ -29,6 +29,14 @@ TRTConsoleVariable<int32_t> CVarPath("r.RT.AO.Path", 0, "0: what the device does
 TRTConsoleVariable<int32_t> CVarMask("r.RT.AO.InstanceMask", MaskCastsShadow, "Only objects that share a bit with this mask occlude.", {0, 255});
 TRTConsoleVariable<bool> CVarDenoise("r.RT.AO.Denoise", true, "Ambient occlusion is accumulated over frames and smoothed along surfaces.");
 TRTConsoleVariable<float> CVarHistory("r.RT.AO.HistorySeconds", 0.5f, "Time constant of what r.RT.AO.Denoise accumulates. 0: nothing is.", {0.0, 60.0});
+TRTConsoleVariable<int32_t> CVarPasses("r.RT.AO.FilterPasses", 4, "Passes of the filter of r.RT.AO.Denoise; n of them reach 2^n - 1 pixels.", {0, 5});
+TRTConsoleVariable<float> CVarSigma("r.RT.AO.FilterSigma", 1.2f, "Which differences the filter takes for noise, in standard deviations.", {0.0, 100.0});
+TRTConsoleVariable<float> CVarClamp("r.RT.AO.ClampSigma", 7.0f,
+                                    "Accumulated occlusion stays within what the neighbourhood says now, give or take this many standard deviations. 0: any.", {0.0, 100.0});
+TRTConsoleVariable<float> CVarChange("r.RT.AO.ChangeSigma", 2.5f,
+                                     "Accumulation starts anew where occlusion has changed by more than this many standard errors. 0: never.", {0.0, 100.0});
+TRTConsoleVariable<float> CVarResampling("r.RT.AO.Resampling", 0.5f,
+                                         "How much of the difference between neighbours counts as error where accumulated occlusion is resampled between them.", {0.0, 100.0});
 
 /// Whether the frame does anything with it.
 bool IsWanted(const FSceneFacts& Facts, const FSignalRequests& Requests, bool bDiffuseGI)
@@ -154,7 +162,13 @@ FAmbientOcclusionOutputs AddAmbientOcclusionPass(FFrameContext& Context, const F
 		Denoise.Depth = GBuffer.Depth;
 		Denoise.Normals = GBuffer.Normals;
 		Denoise.Motion = GBuffer.Motion;
+		Denoise.RaysPerPixel = static_cast<uint32_t>(CVarSamples.GetOnRenderThread());
 		Denoise.Settings.HistorySeconds = CVarHistory.GetOnRenderThread();
+		Denoise.Settings.ClampSigma = CVarClamp.GetOnRenderThread();
+		Denoise.Settings.ChangeSigma = CVarChange.GetOnRenderThread();
+		Denoise.Settings.Resampling = CVarResampling.GetOnRenderThread();
+		Denoise.Settings.Passes = static_cast<uint32_t>(CVarPasses.GetOnRenderThread());
+		Denoise.Settings.SigmaValue = CVarSigma.GetOnRenderThread();
 		Out.Visibility = AddDenoisePasses(Context, Denoise);
 	}
 	return Out;

@@ -49,9 +49,10 @@ float GetMinAlpha(float HistorySeconds, float DeltaSeconds)
 	return HistorySeconds > 0.0f ? std::max(-std::expm1(-DeltaSeconds / HistorySeconds), 1.0f / 1024.0f) : 1.0f;
 }
 
-std::vector<std::pair<std::string, std::string>> MakeDefines(bool bColor)
+std::vector<std::pair<std::string, std::string>> MakeDefines(bool bColor, bool bExtent)
 {
 	std::vector<std::pair<std::string, std::string>> Defines = {{"CHANNELS", bColor ? "3" : "1"}};
+	if (bExtent) { Defines.emplace_back("WITH_EXTENT", "1"); }
 	if (!CVarValidate.GetOnRenderThread()) { Defines.emplace_back("NO_VALIDATION", "1"); }
 	if (!CVarAdapt.GetOnRenderThread()) { Defines.emplace_back("NO_ADAPTION", "1"); }
 	if (!CVarGuard.GetOnRenderThread()) { Defines.emplace_back("NO_GUARD", "1"); }
@@ -70,6 +71,7 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 	const bool bReproject = History.Previous.IsValid() && Surface.Previous.IsValid() && (!bColor || Moments.Previous.IsValid());
 	Context.Graph.AddPass((Name + "Temporal").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		for (const FGraphTexture Texture : {Inputs.Signal, Surface.Current}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+		if (Inputs.Extent.IsValid()) { Builder.Read(Inputs.Extent, ERTAccess::ShaderRead); }
 		if (bReproject)
 		{
 			for (const FGraphTexture Texture : {Surface.Motion, Surface.Previous, History.Previous}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
@@ -85,9 +87,11 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 		C.ChangeSigma = CVarAdapt.GetOnRenderThread() ? Inputs.Settings.ChangeSigma : 0.0f;
 		C.NoiseAlpha = GetMinAlpha(NoiseSeconds, Context.View.DeltaSeconds);
 		C.Resampling = Inputs.Settings.Resampling;
-		return [=, Signal = Inputs.Signal, Pipeline = Temporal, Kept = History, KeptMoments = Moments, Width = Context.Width,
+		C.RaysPerPixel = static_cast<float>(std::max(Inputs.RaysPerPixel, 1u));
+		return [=, Signal = Inputs.Signal, Extent = Inputs.Extent, Pipeline = Temporal, Kept = History, KeptMoments = Moments, Width = Context.Width,
 		        Height = Context.Height](FPassContext& Pass) mutable {
 			C.Signal = GetSampled(Pass, Signal);
+			C.Extent = GetSampled(Pass, Extent);
 			C.Surface = GetSampled(Pass, Surface.Current);
 			C.Motion = GetSampled(Pass, bReproject ? Surface.Motion : FGraphTexture{});
 			C.PreviousSurface = GetSampled(Pass, bReproject ? Surface.Previous : FGraphTexture{});
@@ -115,6 +119,7 @@ FGraphTexture FDenoiser::AddFilterPass(FGraphTexture Input, FGraphTexture Output
 		C.SigmaValue = Inputs.Settings.SigmaValue;
 		C.SigmaNormal = Inputs.Settings.SigmaNormal;
 		C.SigmaDepth = Inputs.Settings.SigmaDepth;
+		C.ReachExtent = Inputs.Settings.ReachExtent;
 		return [=, Pipeline = Filter, Width = Context.Width, Height = Context.Height](FPassContext& Pass) mutable {
 			C.Input = GetSampled(Pass, Input);
 			C.Surface = GetSampled(Pass, Surface);
@@ -130,11 +135,12 @@ FGraphTexture AddDenoisePasses(FFrameContext& Context, const FDenoiseInputs& Inp
 {
 	const ERTFormat Format = Context.Graph.GetDesc(Inputs.Signal).Format;
 	assert(Format == ERTFormat::R16_FLOAT || Format == ERTFormat::RGBA16_FLOAT);
+	assert(!Inputs.Extent.IsValid() || Format == ERTFormat::R16_FLOAT);
 	const bool bColor = Format == ERTFormat::RGBA16_FLOAT;
-	FDenoiser Denoiser{Context, Inputs, Inputs.Name, bColor, bColor ? ERTFormat::RGBA16_FLOAT : ERTFormat::RG16_FLOAT};
+	FDenoiser Denoiser{Context, Inputs, Inputs.Name, bColor, bColor || Inputs.Extent.IsValid() ? ERTFormat::RGBA16_FLOAT : ERTFormat::RG16_FLOAT};
 	const uint32_t Passes = std::min(Inputs.Settings.Passes, MaxPasses);
-	Denoiser.Temporal = RequireCompute(Context, "Denoise/Temporal.comp", MakeDefines(bColor));
-	Denoiser.Filter = Passes > 0 ? RequireCompute(Context, "Denoise/Filter.comp", MakeDefines(bColor)) : nullptr;
+	Denoiser.Temporal = RequireCompute(Context, "Denoise/Temporal.comp", MakeDefines(bColor, Inputs.Extent.IsValid()));
+	Denoiser.Filter = Passes > 0 ? RequireCompute(Context, "Denoise/Filter.comp", MakeDefines(bColor, Inputs.Extent.IsValid())) : nullptr;
 	if (!Denoiser.Temporal || (Passes > 0 && !Denoiser.Filter)) { return Inputs.Signal; }
 	if (!RequireSurface(Context, {Inputs.Depth, Inputs.Normals, Inputs.Motion})) { return Inputs.Signal; }
 	const auto Require = [&](const char* Suffix, ERTFormat Kept, FHistoryTexture& Out) {

@@ -23,6 +23,7 @@ struct FDenoiseSettings
 	float Resampling = 0.5f;
 	uint32_t Passes = 4;         ///< of the wavelet, 0 to 5; together they reach 2^Passes − 1 pixels
 	float SigmaValue = 4.0f;     ///< edge stop on the signal, in standard deviations
+	float ReachExtent = 0.25f;   ///< standard deviation of the wavelet's reach where extents are known, in extents
 	float SigmaNormal = 64.0f;   ///< exponent of the cosine between normals
 	float SigmaDepth = 1.0f;     ///< edge stop on the distance to the neighbour's plane, in pixel footprints
 };
@@ -30,7 +31,13 @@ struct FDenoiseSettings
 struct FDenoiseInputs
 {
 	const char* Name = ""; ///< of the signal; names passes and histories, constant over frames
-	FGraphTexture Signal;  ///< R16_FLOAT or RGBA16_FLOAT, ≥ 0, with at least ShaderRead: a pixel's mean over the frame's rays
+	/// With at least ShaderRead: a pixel's mean over the frame's rays. R16_FLOAT: visibility, each ray's is 0 or 1.
+	/// RGBA16_FLOAT: a colour, ≥ 0.
+	FGraphTexture Signal;
+	uint32_t RaysPerPixel = 1; ///< of visibility
+	/// Of visibility, R16_FLOAT: how wide the transition from what is seen to what is not is where the pixel shows a part of
+	/// it, pixels; 0: the pixel knows of none. Invalid: as wide as can be.
+	FGraphTexture Extent;
 	FGraphTexture Depth, Normals, Motion; ///< as in FGBuffer; Motion may be invalid
 	FDenoiseSettings Settings;
 };

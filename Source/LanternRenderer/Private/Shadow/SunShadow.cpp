@@ -28,6 +28,7 @@ TRTConsoleVariable<bool> CVarDenoise("r.RT.Shadow.Denoise", true,
 TRTConsoleVariable<float> CVarHistory("r.RT.Shadow.HistorySeconds", 0.5f, "Time constant of what r.RT.Shadow.Denoise accumulates. 0: nothing is.", {0.0, 60.0});
 TRTConsoleVariable<int32_t> CVarPasses("r.RT.Shadow.FilterPasses", 4, "Passes of the filter of r.RT.Shadow.Denoise; n of them reach 2^n - 1 pixels.", {0, 5});
 TRTConsoleVariable<float> CVarSigma("r.RT.Shadow.FilterSigma", 2.0f, "Which differences the filter takes for noise, in standard deviations.", {0.0, 100.0});
+TRTConsoleVariable<float> CVarReach("r.RT.Shadow.FilterReach", 0.25f, "How much of a penumbra's width the filter reaches over.", {0.001, 100.0});
 TRTConsoleVariable<float> CVarClamp("r.RT.Shadow.ClampSigma", 7.0f,
                                     "Accumulated shadows stay within what the neighbourhood says now, give or take this many standard deviations. 0: any.", {0.0, 100.0});
 TRTConsoleVariable<float> CVarChange("r.RT.Shadow.ChangeSigma", 2.5f,
@@ -52,11 +53,13 @@ FSunShadowConstants MakeConstants(const FFrameContext& Context, bool bSoft)
 	return C;
 }
 
-FGraphTexture Denoise(FFrameContext& Context, const FSunShadowInputs& Inputs, FGraphTexture Visibility)
+FGraphTexture Denoise(FFrameContext& Context, const FSunShadowInputs& Inputs, FGraphTexture Visibility, FGraphTexture Penumbra)
 {
 	FDenoiseInputs Denoise;
 	Denoise.Name = "SunShadow";
 	Denoise.Signal = Visibility;
+	Denoise.RaysPerPixel = static_cast<uint32_t>(CVarSamples.GetOnRenderThread());
+	Denoise.Extent = Penumbra;
 	Denoise.Depth = Inputs.Depth;
 	Denoise.Normals = Inputs.Normals;
 	Denoise.Motion = Inputs.Motion;
@@ -66,8 +69,11 @@ FGraphTexture Denoise(FFrameContext& Context, const FSunShadowInputs& Inputs, FG
 	Denoise.Settings.Resampling = CVarResampling.GetOnRenderThread();
 	Denoise.Settings.Passes = static_cast<uint32_t>(CVarPasses.GetOnRenderThread());
 	Denoise.Settings.SigmaValue = CVarSigma.GetOnRenderThread();
+	Denoise.Settings.ReachExtent = CVarReach.GetOnRenderThread();
 	return AddDenoisePasses(Context, Denoise);
 }
+
+bool IsFiltered() { return CVarSoft.GetOnRenderThread() && CVarDenoise.GetOnRenderThread(); }
 } // namespace
 
 ESunShadowPath ChooseSunShadowPath(const FRTCapabilities& Capabilities, const FSceneFacts& Facts)
@@ -89,14 +95,18 @@ ESunShadowPath ChooseSunShadowPath(const FRTCapabilities& Capabilities, const FS
 
 std::vector<std::pair<std::string, std::string>> MakeSunShadowDefines()
 {
-	const bool bOneSample = CVarSamples.GetOnRenderThread() == 1 || !CVarSoft.GetOnRenderThread();
-	return bOneSample ? std::vector<std::pair<std::string, std::string>>{{"ONE_SAMPLE", "1"}} : std::vector<std::pair<std::string, std::string>>{};
+	std::vector<std::pair<std::string, std::string>> Defines;
+	if (CVarSamples.GetOnRenderThread() == 1 || !CVarSoft.GetOnRenderThread()) { Defines.emplace_back("ONE_SAMPLE", "1"); }
+	if (IsFiltered()) { Defines.emplace_back("WITH_PENUMBRA", "1"); }
+	return Defines;
 }
 
 std::optional<FPassRays> ChooseSunShadowRays(const FRTCapabilities& Capabilities, const FSceneFacts& Facts)
 {
 	if (ChooseSunShadowPath(Capabilities, Facts) != ESunShadowPath::Pipeline) { return std::nullopt; }
-	return MakePassRays("Shadow/SunShadow.rgen", MakeSunShadowDefines(), false);
+	FPassRays Rays = MakePassRays("Shadow/SunShadow.rgen", MakeSunShadowDefines(), false);
+	Rays.bBlockers = IsFiltered();
+	return Rays;
 }
 
 bool AreSunShadowsFiltered(const FFrameContext& Context)
@@ -126,17 +136,22 @@ FSunShadowOutputs AddSunShadowPass(FFrameContext& Context, const FSunShadowInput
 	FSunShadowOutputs Out;
 	Out.Visibility = Context.Graph.CreateTexture(
 	    {Context.Width, Context.Height, ERTFormat::R16_FLOAT, ERTTextureUsage::CopySource}, "SunShadowVisibility"); // engines copy it
+	FGraphTexture Penumbra;
+	if (IsFiltered()) { Penumbra = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::R16_FLOAT}, "SunShadowPenumbra"); }
 	const bool bSoft = IsSoft(Context);
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass("SunShadow", [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Read(Inputs.Depth, ERTAccess::ShaderRead);
 		Builder.Read(Inputs.Normals, ERTAccess::ShaderRead);
 		Builder.Write(Out.Visibility, ERTAccess::StorageWrite);
+		if (Penumbra.IsValid()) { Builder.WriteIfRead(Penumbra, ERTAccess::StorageWrite); }
 		return [=](FPassContext& Pass) {
 			FSunShadowConstants Constants = MakeConstants(*Frame, bSoft);
 			Constants.Depth = Pass.GetTexture(Inputs.Depth)->GetSampledIndex();
 			Constants.Normals = Pass.GetTexture(Inputs.Normals)->GetSampledIndex();
 			Constants.Output = Pass.GetTexture(Out.Visibility)->GetStorageIndex();
+			IRTTexture* const Wide = Penumbra.IsValid() ? Pass.GetTexture(Penumbra) : nullptr;
+			Constants.OutPenumbra = Wide ? Wide->GetStorageIndex() : NO_TEXTURE;
 			Pass.CountRays(uint64_t(Frame->Width) * Frame->Height * Constants.SamplesPerPixel);
 			if (Compute)
 			{
@@ -148,7 +163,7 @@ FSunShadowOutputs AddSunShadowPass(FFrameContext& Context, const FSunShadowInput
 			Pass.Commands().TraceRays(Frame->RayBindings->GetTable(), Frame->GetRayGen(EFrameRayGen::SunShadow), Frame->Width, Frame->Height, 1);
 		};
 	});
-	if (AreSunShadowsFiltered(Context)) { Out.Visibility = Denoise(Context, Inputs, Out.Visibility); }
+	if (AreSunShadowsFiltered(Context)) { Out.Visibility = Denoise(Context, Inputs, Out.Visibility, Penumbra); }
 	return Out;
 }
 

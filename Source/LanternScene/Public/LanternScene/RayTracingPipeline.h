@@ -22,6 +22,7 @@ struct FRayType
 	std::string Name; ///< upper case
 	FShaderSource Miss;
 	std::optional<FShaderSource> ClosestHit;
+	bool bSharedClosestHit = false; ///< it runs nothing of a material's program: one for all opaque ones
 	FShaderSource MaskedAnyHit;
 	uint32_t PayloadBytes = 0;
 	friend bool operator==(const FRayType&, const FRayType&) = default;
