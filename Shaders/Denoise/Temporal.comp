@@ -303,11 +303,16 @@ FAccumulated LoadHistory(FViewConstants View, uvec2 Pixel, FSurface Surface)
 float KeepAfterChange(FWindow Window, FAccumulated History)
 {
 	if (Push.ChangeSigma <= 0.0 || History.Frames <= 0.0) { return 1.0; }
+#if CHANNELS == 1
+	// The tiles' sequence makes means vary by less than chance, and what moves over the surface is no noise.
+	float Noise = max(Window.Near.Noise, 0.1 * Window.Noise);
+#else
 	float Noise = max(max(Window.Noise, History.Sigma * History.Sigma), 0.25 * Window.Variance);
+#endif
 	float Variance = Noise / Window.Near.Count * (1.0 + 1.0 / History.Frames);
 	float Difference = abs(Window.Near.Mean - History.WindowMean);
 	float Z = Difference * inversesqrt(Variance + 1.0e-6 * History.WindowMean * History.WindowMean + 1.0e-12);
-	return 1.0 - smoothstep(Push.ChangeSigma, 2.0 * Push.ChangeSigma, Z);
+	return 1.0 - smoothstep(Push.ChangeSigma, 1.75 * Push.ChangeSigma, Z);
 }
 
 float GetAlpha(FAccumulated History, float Noise)
@@ -330,7 +335,7 @@ FAccumulated Accumulate(FAccumulated History, FSignal Value, bool bHasValue, FWi
 	float Off = Value - History.Mean;
 	// Beside an edge, a history of somewhere else that disagrees is wrong. One of the pixel's own is not: its rays do differ.
 	if (History.bMoved && bHasValue) { History.Resampling += (1.0 - Soft) * Off * Off; }
-	Noise = GetNoise(mix(Window.Near.Mean, History.Mean, History.Frames / (History.Frames + 4.0))) * max(Soft, 1.0e-3);
+	Noise = GetNoise(mix(Window.Near.Mean, History.Mean, History.Frames / (History.Frames + 16.0))) * max(Soft, 1.0e-3);
 #endif
 	if (Push.ClampSigma > 0.0)
 	{
@@ -356,11 +361,7 @@ void Store(ivec2 Pixel, FAccumulated A, float Extent, float Around)
 	// That of few frames is known less well, and a blurred start is better than a wrong one.
 	float Frames = max(A.Frames, 1.0);
 	float Variance = A.Sigma * A.Sigma / Frames * (1.0 + 1.0 / Frames);
-#ifdef WITH_EXTENT
-	// What a pixel's own frames drew together, in two dimensions, is stratified (Mitchell 1996, "Consequences of Stratified
-	// Sampling in Graphics").
-	if (!A.bMoved) { Variance *= inversesqrt(Frames); }
-#elif CHANNELS == 1
+#if CHANNELS == 1 && !defined(WITH_EXTENT)
 	// One ray in many is blocked: those that have met none know as little as those that have.
 	Variance = max(Variance, 0.5 * Around / Frames);
 #endif

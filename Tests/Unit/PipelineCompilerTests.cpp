@@ -78,6 +78,25 @@ TEST_F(FPipelineCompilerTest, NothingIsCompiledTwice)
 	EXPECT_EQ(Maker->GetStats().Compiled, Count);
 }
 
+// A closest-hit shader that knows no material is one group, whatever number of programs there are.
+TEST_F(FPipelineCompilerTest, WhatNoProgramChangesIsCompiledOnceForAll)
+{
+	Wanted.RayTypes[0].ClosestHit = MakeShader("SHADOW.hit");
+	Wanted.RayTypes[0].bSharedClosestHit = true;
+	const uint32_t Rust = AddProgram("Rust"), Moss = AddProgram("Moss", ERTHitClass::Masked);
+	UntilIdle();
+	ASSERT_TRUE(IsReady(Opaque(Rust)));
+	EXPECT_EQ(Device->CountAsked("SHADOW.hit"), 1u);
+	const auto Current = Maker->GetCurrent();
+	for (const uint32_t Program : {uint32_t(StandardProgram), Rust})
+	{
+		EXPECT_EQ(ResolveHit(*Current, 0, Opaque(Program)).ClosestHit, "SHADOW.hit");
+		EXPECT_EQ(ResolveHit(*Current, 1, Opaque(Program)).ClosestHit, "MATERIAL.hit");
+	}
+	EXPECT_EQ(ResolveHit(*Current, 0, {Moss, ERTHitClass::Masked}).ClosestHit, "SHADOW.hit");
+	EXPECT_EQ(ResolveHit(*Current, 0, {Moss, ERTHitClass::Masked}).AnyHit, "SHADOW.any") << "which is the program's own";
+}
+
 TEST_F(FPipelineCompilerTest, MostHitComesFirstThenNearest)
 {
 	Set("r.RT.Pipeline.Threads", "1");

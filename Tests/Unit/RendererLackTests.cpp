@@ -210,7 +210,11 @@ TEST_F(FRendererLackTest, NoFilterNoHistoryAndNoMotion)
 {
 	FStage Stage;
 	Stage.Settings = {{"r.RT.Shadow.Denoise", "0"}, {"r.RT.AO.Denoise", "0"}};
-	ExpectAbsent("no filter", Stage, {"Denoise", "Temporal", "Filter", "Surface", "History", "GBufferMotion", "ObjectMotions"});
+	ExpectAbsent("no filter", Stage,
+	             {"Denoise", "Temporal", "Filter", "Surface", "History", "GBufferMotion", "ObjectMotions", "SunShadowPenumbra"});
+	const std::vector<std::pair<const char*, const char*>> Pipeline = {{"r.RT.Shadow.Path", "1"}};
+	EXPECT_TRUE(HasPart(Make({}, Pipeline), "Shadow.rchit"));
+	EXPECT_FALSE(HasPart(Make(Stage, Pipeline), "Shadow.rchit")) << "shadow rays run nothing where they hit";
 	EXPECT_EQ(Engine->GetRenderer().GetHistory().GetBytes(), 0u);
 	Engine->Signals.bMotion = true;
 	Render(0.5);
@@ -221,7 +225,7 @@ TEST_F(FRendererLackTest, HardShadowsNeedNoFilter)
 {
 	FStage Stage;
 	Stage.Settings = {{"r.RT.Shadow.Soft", "0"}};
-	ExpectAbsent("hard shadows", Stage, {"SunShadowTemporal", "SunShadowFilter", "SunShadowHistory"});
+	ExpectAbsent("hard shadows", Stage, {"SunShadowTemporal", "SunShadowFilter", "SunShadowHistory", "SunShadowPenumbra"});
 }
 
 TEST_F(FRendererLackTest, DiffuseGITakesThePlaceOfAmbientOcclusion)

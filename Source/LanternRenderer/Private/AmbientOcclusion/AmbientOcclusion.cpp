@@ -33,7 +33,7 @@ TRTConsoleVariable<int32_t> CVarPasses("r.RT.AO.FilterPasses", 4, "Passes of the
 TRTConsoleVariable<float> CVarSigma("r.RT.AO.FilterSigma", 1.2f, "Which differences the filter takes for noise, in standard deviations.", {0.0, 100.0});
 TRTConsoleVariable<float> CVarClamp("r.RT.AO.ClampSigma", 7.0f,
                                     "Accumulated occlusion stays within what the neighbourhood says now, give or take this many standard deviations. 0: any.", {0.0, 100.0});
-TRTConsoleVariable<float> CVarChange("r.RT.AO.ChangeSigma", 2.5f,
+TRTConsoleVariable<float> CVarChange("r.RT.AO.ChangeSigma", 2.0f,
                                      "Accumulation starts anew where occlusion has changed by more than this many standard errors. 0: never.", {0.0, 100.0});
 TRTConsoleVariable<float> CVarResampling("r.RT.AO.Resampling", 0.5f,
                                          "How much of the difference between neighbours counts as error where accumulated occlusion is resampled between them.", {0.0, 100.0});

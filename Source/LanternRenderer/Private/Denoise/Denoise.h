@@ -18,7 +18,7 @@ struct FDenoiseSettings
 	float ClampSigma = 7.0f;     ///< history is kept within the neighbourhood's mean ± this many σ; 0: not clamped
 	/// Accumulation starts anew where the neighbourhood's mean is off that over time by more than this many of its standard
 	/// errors; 0: never.
-	float ChangeSigma = 2.5f;
+	float ChangeSigma = 2.0f;
 	/// How much of the difference between a history's texels counts as error where it is resampled between them.
 	float Resampling = 0.5f;
 	uint32_t Passes = 4;         ///< of the wavelet, 0 to 5; together they reach 2^Passes − 1 pixels

@@ -31,7 +31,7 @@ TRTConsoleVariable<float> CVarSigma("r.RT.Shadow.FilterSigma", 2.0f, "Which diff
 TRTConsoleVariable<float> CVarReach("r.RT.Shadow.FilterReach", 0.25f, "How much of a penumbra's width the filter reaches over.", {0.001, 100.0});
 TRTConsoleVariable<float> CVarClamp("r.RT.Shadow.ClampSigma", 7.0f,
                                     "Accumulated shadows stay within what the neighbourhood says now, give or take this many standard deviations. 0: any.", {0.0, 100.0});
-TRTConsoleVariable<float> CVarChange("r.RT.Shadow.ChangeSigma", 2.5f,
+TRTConsoleVariable<float> CVarChange("r.RT.Shadow.ChangeSigma", 2.0f,
                                      "Accumulation starts anew where shadows have changed by more than this many standard errors. 0: never.", {0.0, 100.0});
 TRTConsoleVariable<float> CVarResampling("r.RT.Shadow.Resampling", 0.5f,
                                          "How much of the difference between neighbours counts as error where accumulated shadows are resampled between them.", {0.0, 100.0});
