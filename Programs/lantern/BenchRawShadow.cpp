@@ -29,7 +29,7 @@ struct FRawPush
 	uint32_t InstanceMask;
 	float ObjectReach;
 };
-static_assert(sizeof(FRawPush) == 116, "shared with shaders");
+static_assert(sizeof(FRawPush) == RawPushBytes, "shared with shaders");
 
 /// HashPcg of Shaders/Library/Random.glsl: the seed is the same for all pixels.
 uint32_t HashPcg(uint32_t V)

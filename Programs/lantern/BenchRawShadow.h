@@ -12,6 +12,8 @@
 namespace Lantern
 {
 
+inline constexpr uint32_t RawPushBytes = 116; ///< push constants of the hand-written shaders
+
 struct FRawShadowDesc
 {
 	IRTDevice* Device = nullptr;

@@ -117,7 +117,7 @@ FRTStatus FRawShadow::CreateLayout()
 	Info.pBindings = Bindings.data();
 	VkResult Result = Vulkan.CreateDescriptorSetLayout(Vulkan.Device, &Info, nullptr, &SetLayout);
 
-	const VkPushConstantRange Push{Trace, 0, 112};
+	const VkPushConstantRange Push{Trace, 0, RawPushBytes};
 	VkPipelineLayoutCreateInfo LayoutInfo{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
 	LayoutInfo.setLayoutCount = 1;
 	LayoutInfo.pSetLayouts = &SetLayout;

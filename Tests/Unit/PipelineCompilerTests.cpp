@@ -91,10 +91,11 @@ TEST_F(FPipelineCompilerTest, WhatNoProgramChangesIsCompiledOnceForAll)
 	for (const uint32_t Program : {uint32_t(StandardProgram), Rust})
 	{
 		EXPECT_EQ(ResolveHit(*Current, 0, Opaque(Program)).ClosestHit, "SHADOW.hit");
-		EXPECT_EQ(ResolveHit(*Current, 1, Opaque(Program)).ClosestHit, "MATERIAL.hit");
 	}
-	EXPECT_EQ(ResolveHit(*Current, 0, {Moss, ERTHitClass::Masked}).ClosestHit, "SHADOW.hit");
-	EXPECT_EQ(ResolveHit(*Current, 0, {Moss, ERTHitClass::Masked}).AnyHit, "SHADOW.any") << "which is the program's own";
+	EXPECT_EQ(ResolveHit(*Current, 1, Opaque(Rust)).ClosestHit, "MATERIAL.hit (Rust)");
+	const FRTMockRecord Masked = ResolveHit(*Current, 0, {Moss, ERTHitClass::Masked});
+	EXPECT_EQ(Masked.ClosestHit, "SHADOW.hit (Moss)") << "beside a test that is the program's own";
+	EXPECT_EQ(Masked.AnyHit, "SHADOW.any (Moss)");
 }
 
 TEST_F(FPipelineCompilerTest, MostHitComesFirstThenNearest)

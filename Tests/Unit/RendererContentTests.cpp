@@ -78,6 +78,7 @@ TEST_F(FRendererContentTest, SecondFrameOfAStaticSceneCopiesAndBuildsNothing)
 
 TEST_F(FRendererContentTest, WithoutAlphaTestsThereIsNoAnyHit)
 {
+	Set("r.RT.Shadow.Denoise", "0"); // which wants to know how far off what blocks is
 	Set("r.RT.Shadow.Path", "1");
 	LoadAndRender({});
 	ASSERT_TRUE(GetRTPSO());
@@ -102,6 +103,7 @@ TEST_F(FRendererContentTest, WithoutAlphaTestsThereIsNoAnyHit)
 
 TEST_F(FRendererContentTest, WithoutTheReferenceThereIsNoClosestHitAndNoMaterialRay)
 {
+	Set("r.RT.Shadow.Denoise", "0"); // which wants to know how far off what blocks is
 	Set("r.RT.Shadow.Path", "1");
 	LoadAndRender({.bMasked = true});
 	EXPECT_EQ(GetRTPSO()->GetRayTypeCount(), 1u);
