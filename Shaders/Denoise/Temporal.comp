@@ -352,7 +352,7 @@ FAccumulated Accumulate(FAccumulated History, FSignal Value, bool bHasValue, FWi
 		return History;
 	}
 	float Alpha = GetAlpha(History, Noise);
-	return FAccumulated(mix(History.Mean, Value, Alpha), sqrt(Noise), 1.0 / Alpha, mix(History.WindowMean, Window.Near.Mean, Alpha), 0.0, History.bMoved);
+	return FAccumulated(mix(History.Mean, Value, Alpha), sqrt(Noise), 1.0 / Alpha, mix(History.WindowMean, Window.Near.Mean, Alpha), 0.0, false);
 }
 
 // Around: variance of one frame, by what is around the pixel.

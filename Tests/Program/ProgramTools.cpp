@@ -80,7 +80,9 @@ std::vector<std::string> FProgramRun::GetMessages() const
 		const auto Has = [&](const char* Text) { return Line.find(Text) != std::string::npos; };
 		// "NAME (DRIVER)" of the device, and how long it took.
 		const bool bDevice = Line.rfind("error", 0) != 0 && Line.rfind("warning", 0) != 0 && Line.back() == ')';
-		if (!bDevice && !Has("loaded in ") && !Has("Run with --help"))
+		// "frames:  50 %  ", which slow machines see and fast ones do not.
+		const bool bProgress = Line.rfind("error", 0) != 0 && Line.rfind("warning", 0) != 0 && Has(" %  ");
+		if (!bDevice && !bProgress && !Has("loaded in ") && !Has("Run with --help"))
 		{
 			Messages.push_back(Line);
 		}
