@@ -67,6 +67,7 @@ struct FAccumulated
 	float Sigma;      // of one frame's noise
 	float Frames;     // that the mean is worth; 0: nothing
 	float WindowMean; // of the brightness around it
+	float WindowNoise; // of visibility: of one frame, mean around it
 	float Resampling; // variance that resampling may have added to the mean
 	bool bMoved;      // the history is not that of the pixel itself
 };
@@ -259,9 +260,29 @@ void SampleSharply(FViewConstants View, FReprojection R, FSurface Surface, FSign
 	A.Mean = clamp(Sum, Low, High);
 }
 
-FAccumulated LoadHistory(FViewConstants View, uvec2 Pixel, FSurface Surface)
+#if CHANNELS == 1
+// What the history says of the noise around the pixel: none in what has always been lit or shadowed, so that what moves there is
+// seen at once. Few frames that agree prove little (Laplace's rule, with half a ray of either kind).
+float FindWindowNoise(ivec2 Center, ivec2 Size, float Frames)
 {
-	const FAccumulated None = FAccumulated(FSignal(0.0), 0.0, 0.0, 0.0, 0.0, false);
+	float Sum = 0.0;
+	for (int Y = -NoiseRadius; Y <= NoiseRadius; ++Y)
+	{
+		for (int X = -NoiseRadius; X <= NoiseRadius; ++X)
+		{
+			float P = texelFetch(Textures[Push.History], clamp(Center + ivec2(X, Y), ivec2(0), Size - 1), 0).x;
+			P = IsFinite(P) ? clamp((P * Frames + 0.5) / (Frames + 1.0), 0.0, 1.0) : 0.5;
+			Sum += GetNoise(P);
+		}
+	}
+	float Side = float(2 * NoiseRadius + 1);
+	return Sum / (Side * Side);
+}
+#endif
+
+FAccumulated LoadHistory(FViewConstants View, uvec2 Pixel, FSurface Surface, FWindow Window)
+{
+	const FAccumulated None = FAccumulated(FSignal(0.0), 0.0, 0.0, 0.0, 0.0, 0.0, false);
 	if (Push.History == NO_TEXTURE) { return None; }
 	vec3 ToCamera = -normalize(CameraRay(View, vec2(Pixel) + 0.5));
 	vec4 Motion = texelFetch(Textures[Push.Motion], ivec2(Pixel), 0);
@@ -293,7 +314,10 @@ FAccumulated LoadHistory(FViewConstants View, uvec2 Pixel, FSurface Surface)
 	if (Sum <= 0.0) { return None; }
 	// What a few neighbours alone remember is worth less: it is as noisy as they are, and in the same way.
 	float Known = R.Known * Sum;
-	A = FAccumulated(A.Mean / Sum, A.Sigma / Sum, Sum / A.Frames * Known * Known, A.WindowMean / Sum, 0.0, any(greaterThan(R.Fraction * (1.0 - R.Fraction), vec2(1.0e-4))));
+	A = FAccumulated(A.Mean / Sum, A.Sigma / Sum, Sum / A.Frames * Known * Known, A.WindowMean / Sum, 0.0, 0.0, any(greaterThan(R.Fraction * (1.0 - R.Fraction), vec2(1.0e-4))));
+#if CHANNELS == 1
+	if (abs(Window.Near.Mean - A.WindowMean) > 0.01) { A.WindowNoise = FindWindowNoise(R.Base + ivec2(R.Fraction + 0.5), ivec2(View.Width, View.Height), A.Frames); }
+#endif
 	// Between equals, and at the texel itself, nothing is to be gained.
 	if (Low != High && A.bMoved) { SampleSharply(View, R, Surface, Low, High, A); }
 	return A;
@@ -304,8 +328,9 @@ float KeepAfterChange(FWindow Window, FAccumulated History)
 {
 	if (Push.ChangeSigma <= 0.0 || History.Frames <= 0.0) { return 1.0; }
 #if CHANNELS == 1
-	// The tiles' sequence makes means vary by less than chance, and what moves over the surface is no noise.
-	float Noise = max(Window.Near.Noise, 0.1 * Window.Noise);
+	if (History.WindowNoise <= 0.0) { return 1.0; } // the same mean
+	// Where a shadow has moved the history is blurred, and sees noise in all that has passed. What is sharp now is not noise.
+	float Noise = min(History.WindowNoise, max(Window.Near.Noise, 0.3 * Window.Noise));
 #else
 	float Noise = max(max(Window.Noise, History.Sigma * History.Sigma), 0.25 * Window.Variance);
 #endif
@@ -348,11 +373,11 @@ FAccumulated Accumulate(FAccumulated History, FSignal Value, bool bHasValue, FWi
 	if (!bHasValue)
 	{
 		// No value of its own: what was, or else what is around it.
-		if (History.Frames <= 0.0) { History = FAccumulated(Window.Mean, sqrt(Noise), 0.0, Window.Near.Mean, 0.0, false); }
+		if (History.Frames <= 0.0) { History = FAccumulated(Window.Mean, sqrt(Noise), 0.0, Window.Near.Mean, 0.0, 0.0, false); }
 		return History;
 	}
 	float Alpha = GetAlpha(History, Noise);
-	return FAccumulated(mix(History.Mean, Value, Alpha), sqrt(Noise), 1.0 / Alpha, mix(History.WindowMean, Window.Near.Mean, Alpha), 0.0, false);
+	return FAccumulated(mix(History.Mean, Value, Alpha), sqrt(Noise), 1.0 / Alpha, mix(History.WindowMean, Window.Near.Mean, Alpha), 0.0, 0.0, false);
 }
 
 // Around: variance of one frame, by what is around the pixel.
@@ -391,10 +416,10 @@ void main()
 	{
 		FSignal Value = GetSignal(texelFetch(Textures[Push.Signal], Pixel, 0));
 		Value = IsSignalFinite(Value) ? clamp(Value, FSignal(0.0), FSignal(MaxHalf)) : FSignal(0.0);
-		Store(Pixel, FAccumulated(Value, 0.0, 0.0, 0.0, 0.0, false), 0.0, 0.0);
+		Store(Pixel, FAccumulated(Value, 0.0, 0.0, 0.0, 0.0, 0.0, false), 0.0, 0.0);
 		return;
 	}
 	int Own = (int(gl_LocalInvocationID.y) + Radius + 1) * Side + int(gl_LocalInvocationID.x) + Radius + 1;
 	FWindow Window = SumColumns();
-	Store(Pixel, Accumulate(LoadHistory(View, uvec2(Pixel), Surface), Values[Own], Depths[Own] > 0.0, Window), Window.Extent, Window.Noise);
+	Store(Pixel, Accumulate(LoadHistory(View, uvec2(Pixel), Surface, Window), Values[Own], Depths[Own] > 0.0, Window), Window.Extent, Window.Noise);
 }
