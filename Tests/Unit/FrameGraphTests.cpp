@@ -20,6 +20,22 @@ constexpr ERTAccess Storage = ERTAccess::StorageWrite;
 
 // -------------------------------------------------------------------------------------------------- culling
 
+// What GetDesc returns lies in a list that grows (the address sanitizer sees what is read from where it was).
+TEST_F(FrameGraphTest, ResourcesAreMadeLikeOthers)
+{
+	FFrameGraph Graph(*Resources);
+	FGraphTexture Texture = Graph.CreateTexture({7, 5, ERTFormat::R16_FLOAT}, "First");
+	FGraphBuffer Buffer = Graph.CreateBuffer({12}, "First");
+	for (int I = 0; I < 200; ++I)
+	{
+		Texture = Graph.CreateTexture(Graph.GetDesc(Texture), "Next");
+		Buffer = Graph.CreateBuffer(Graph.GetDesc(Buffer), "Next");
+		ASSERT_EQ(Graph.GetDesc(Texture).Width, 7u);
+		ASSERT_EQ(Graph.GetDesc(Texture).Format, ERTFormat::R16_FLOAT);
+		ASSERT_EQ(Graph.GetDesc(Buffer).Size, 12u);
+	}
+}
+
 TEST_F(FrameGraphTest, AChainThatNobodyReadsIsCulledToItsRoot)
 {
 	FFrameGraph Graph(*Resources);

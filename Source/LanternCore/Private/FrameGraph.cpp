@@ -165,19 +165,21 @@ FFrameGraph::~FFrameGraph() = default;
 FGraphTexture FFrameGraph::CreateTexture(const FGraphTextureDesc& Desc, const char* Name)
 {
 	assert(Desc.Width > 0 && Desc.Height > 0 && Desc.Format != ERTFormat::Unknown && Desc.MipCount > 0);
-	FGraphResource& Resource = Impl->Resources.emplace_back();
+	FGraphResource Resource; // complete before the list grows: Desc may be what GetDesc returned, which lies in it
 	Resource.Name = Name;
 	Resource.bTexture = true;
 	Resource.TextureDesc = Desc;
+	Impl->Resources.push_back(std::move(Resource));
 	return {static_cast<uint32_t>(Impl->Resources.size() - 1)};
 }
 
 FGraphBuffer FFrameGraph::CreateBuffer(const FGraphBufferDesc& Desc, const char* Name)
 {
 	assert(Desc.Size > 0);
-	FGraphResource& Resource = Impl->Resources.emplace_back();
+	FGraphResource Resource;
 	Resource.Name = Name;
 	Resource.BufferDesc = Desc;
+	Impl->Resources.push_back(std::move(Resource));
 	return {static_cast<uint32_t>(Impl->Resources.size() - 1)};
 }
 
