@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "ForkText.h"
+
 namespace Fork
 {
 
@@ -37,7 +39,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL CountMessage(VkDebugUtilsMessageSeverityFlagBitsE
                                             const VkDebugUtilsMessengerCallbackDataEXT* Data, void* User)
 {
 	++static_cast<FForkInstance*>(User)->ValidationMessages;
-	std::fprintf(stderr, "validation: %s\n", Data->pMessage);
+	std::fprintf(stderr, "validation: %s\n", Show(Data->pMessage).c_str());
 	return VK_FALSE;
 }
 

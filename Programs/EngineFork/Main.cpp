@@ -13,6 +13,7 @@
 
 #include "ForkRaster.h"
 #include "ForkScene.h"
+#include "ForkText.h"
 #include "ForkVulkan.h"
 #include "PluginLoader.h"
 #include "PluginScene.h"
@@ -47,7 +48,7 @@ struct FOptions
 
 int Complain(int Exit, const std::string& Text)
 {
-	std::fprintf(stderr, "EngineFork: %s\n", Text.c_str());
+	std::fprintf(stderr, "EngineFork: %s\n", Show(Text).c_str());
 	return Exit;
 }
 
@@ -417,7 +418,7 @@ int RunRound(const FPluginManifest& Manifest, const FOptions& Options)
 	{
 		return Complain(CheckFailed, Error);
 	}
-	std::printf("plugin: %s %s\n", Manifest.Name.c_str(), Module->GetVersionString());
+	std::printf("plugin: %s %s\n", Show(Manifest.Name).c_str(), Module->GetVersionString());
 	const int Exit = RunWithModule(*Module, Manifest, Options);
 	Module.Reset();
 	if (!Library.Unload())

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "LanternCore/Log.h"
+#include "LanternCore/Quote.h"
 #include "Session.h"
 
 namespace Lantern
@@ -16,7 +17,7 @@ FBenchScene MakeBenchScene(const std::string& File)
 	FBenchScene Scene;
 	Scene.File = File;
 	const fs::path Path(File);
-	Scene.Name = Path.has_parent_path() ? Path.parent_path().filename().string() : Path.stem().string();
+	Scene.Name = EscapeText(Path.has_parent_path() ? Path.parent_path().filename().string() : Path.stem().string());
 	if (Scene.Name == "sponza")
 	{
 		Scene.Camera = FCameraOption{{-9, 1.6, -0.4}, {10, 3.2, -1.2}, 60};
@@ -38,7 +39,7 @@ std::optional<FBenchScene> FindBenchScene(const char* Path, const char* Bench)
 	{
 		return MakeBenchScene((Root / Path).lexically_normal().string());
 	}
-	LogWarning("{}: {} is not there (LANTERN_SCENES names its folder); left out", Bench, (Root / Path).string());
+	LogWarning("{}: {} is not there (LANTERN_SCENES names its folder); left out", Bench, EscapePath((Root / Path).string()));
 	return std::nullopt;
 }
 

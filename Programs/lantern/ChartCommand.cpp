@@ -13,6 +13,7 @@
 #include "ChartParts.h"
 #include "ChartSweep.h"
 #include "LanternCore/Log.h"
+#include "LanternCore/Quote.h"
 #include "LanternHost/AtomicFile.h"
 #include "LanternHost/SceneHash.h"
 #include "Session.h"
@@ -54,13 +55,13 @@ bool ParseSelection(const FChartOptions& Options, const FMethods& Methods, FChar
 	for (const std::string& Name : SplitList(Options.Signals))
 	{
 		const auto Signal = FindSignal(Name);
-		if (!Signal) { return LogError("--signals: '{}' is no signal", Name), false; }
+		if (!Signal) { return LogError("--signals: {} is no signal", Quote(Name)), false; }
 		Out.Signals.push_back(*Signal);
 	}
 	for (const std::string& Name : SplitList(Options.Paths))
 	{
 		const auto Path = FindPath(Name);
-		if (!Path) { return LogError("--paths: '{}' is none of still, slow, fast, cut", Name), false; }
+		if (!Path) { return LogError("--paths: {} is none of still, slow, fast, cut", Quote(Name)), false; }
 		Out.Paths.push_back(*Path);
 	}
 	for (const std::string& Name : SplitList(Options.Methods))
@@ -70,7 +71,7 @@ bool ParseSelection(const FChartOptions& Options, const FMethods& Methods, FChar
 		{
 			std::string Known;
 			for (const FMethod& M : Methods.Methods) { Known += (Known.empty() ? "" : ", ") + M.Name; }
-			return LogError("--methods: '{}' is no method; there are {}", Name, Known), false;
+			return LogError("--methods: {} is no method; there are {}", Quote(Name), Known), false;
 		}
 		Out.Methods.push_back(Method->Name);
 	}
@@ -105,10 +106,10 @@ int WriteChart(const FChartOptions& Options, std::vector<FChartPart> Parts)
 	if (FRTStatus S = WriteFileAtomically(GetJsonPath(Options), WithoutImages(Data).dump(2) + "\n"); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
 	for (const nlohmann::json& Scene : Data["scenes"])
 	{
-		fmt::print("{}: {} points, {} skipped\n", Scene["name"].get<std::string>(), Scene["points"].size(), Scene["skipped"].size());
+		fmt::print("{}: {} points, {} skipped\n", EscapeText(Scene["name"].get<std::string>()), Scene["points"].size(), Scene["skipped"].size());
 		for (const nlohmann::json& Fact : Scene["facts"])
 		{
-			fmt::print("  frame {:.3f} ms, without {} {:.3f} ms\n", Fact["frame_gpu_ms"].get<double>(), Fact["fact"].get<std::string>(),
+			fmt::print("  frame {:.3f} ms, without {} {:.3f} ms\n", Fact["frame_gpu_ms"].get<double>(), EscapeText(Fact["fact"].get<std::string>()),
 			           Fact["without_gpu_ms"].get<double>());
 		}
 	}
@@ -118,7 +119,7 @@ int WriteChart(const FChartOptions& Options, std::vector<FChartPart> Parts)
 int CheckOutputs(const FChartOptions& Options)
 {
 	if (Options.Output.empty()) { return LogError("-o OUT.html is missing"), ExitUsage; }
-	if (fs::path(Options.Output).extension() != ".html") { return LogError("-o {}: does not end in .html", Options.Output), ExitUsage; }
+	if (fs::path(Options.Output).extension() != ".html") { return LogError("-o {}: does not end in .html", EscapePath(Options.Output)), ExitUsage; }
 	if (FRTStatus S = CheckOutputPath(Options.Output); !S) { return ReportStatus(S, "-o"), ExitBadInput; }
 	if (FRTStatus S = CheckOutputPath(GetJsonPath(Options)); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
 	return ExitDone;
@@ -137,7 +138,7 @@ int LoadRegistry(const FChartOptions& Options, FMethods& Out)
 	Out = LoadMethods(File);
 	for (const std::string& Problem : Out.Problems) { LogError("{}", Problem); }
 	if (!Out.Problems.empty()) { return ExitBadInput; }
-	if (Out.Methods.empty()) { return LogError("{}: no method is in it", File), ExitBadInput; }
+	if (Out.Methods.empty()) { return LogError("{}: no method is in it", EscapePath(File)), ExitBadInput; }
 	return ExitDone;
 }
 
@@ -180,7 +181,7 @@ void FChartOptions::AddTo(CLI::App& App)
 	                                          "0: none. Without it: 10 on a device that is a CPU, none on others")
 	    ->check(CLI::Range(0.0, 1e6));
 	App.add_option("--shard", Shard, "k/n: only every n-th point, beginning with the k-th")->check([](const std::string& Text) {
-		return ParseShard(Text) ? std::string() : "'" + Text + "' is not of the form k/n with k from 1 to n";
+		return ParseShard(Text) ? std::string() : Quote(Text) + " is not of the form k/n with k from 1 to n";
 	});
 	App.add_option("--merge", Merge, "Measure nothing: put the parts of these folders together");
 	Device.AddTo(App);
@@ -203,7 +204,7 @@ int RunChart(const FChartOptions& Options)
 	fs::create_directories(Desc.PartsFolder, Error);
 	if (Error)
 	{
-		LogError("{}: {}", Desc.PartsFolder, Error.message());
+		LogError("{}: {}", EscapePath(Desc.PartsFolder), Error.message());
 		return Session.Close(ExitBadInput);
 	}
 	int Status = ExitDone;

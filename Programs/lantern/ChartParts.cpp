@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "LanternCore/Quote.h"
 #include "LanternHost/AtomicFile.h"
 #include "LanternHost/Signals.h"
 
@@ -86,6 +87,12 @@ std::vector<FChartPart> Unify(std::vector<FChartPart> Parts)
 	return Out;
 }
 
+std::string ShowSettings(const FChartPart& Part)
+{
+	constexpr size_t MaxShown = 220; // two of them fit a status
+	return EscapeText(Part["settings"].dump(), MaxShown);
+}
+
 FRTStatus CheckParts(const std::vector<FChartPart>& Parts)
 {
 	std::set<std::string> Seen;
@@ -93,11 +100,12 @@ FRTStatus CheckParts(const std::vector<FChartPart>& Parts)
 	{
 		if (Part["settings"] != Parts.front()["settings"])
 		{
-			return FRTStatus::Error(ERTResult::InvalidArgument, "%s", fmt::format("parts of different settings: {} and {}", Parts.front()["settings"].dump(), Part["settings"].dump()).c_str());
+			return FRTStatus::Error(ERTResult::InvalidArgument, "%s",
+			                        fmt::format("parts of different settings: {} and {}", ShowSettings(Parts.front()), ShowSettings(Part)).c_str());
 		}
 		if (!Seen.insert(GetIdentity(Part)).second)
 		{
-			return FRTStatus::Error(ERTResult::InvalidArgument, "%s", fmt::format("two different measurements of {}", GetIdentity(Part)).c_str());
+			return FRTStatus::Error(ERTResult::InvalidArgument, "%s", fmt::format("two different measurements of {}", EscapeText(GetIdentity(Part))).c_str());
 		}
 	}
 	return FRTStatus::Success();

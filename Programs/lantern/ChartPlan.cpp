@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "LanternCore/Quote.h"
 #include "LanternHost/SceneHash.h"
 
 namespace Lantern
@@ -43,7 +44,7 @@ std::string DescribeVariables()
 	for (const FRTConsoleVariable* Variable : FConsoleVariables::Get().GetAll())
 	{
 		if (Variable->GetSetBy() == ERTSetBy::Code || Variable->GetValue() == Variable->GetDefault()) { continue; }
-		Text += (Text.empty() ? "" : " ") + Variable->GetName() + '=' + FConsoleVariables::ToString(Variable->GetValue());
+		Text += (Text.empty() ? "" : " ") + Variable->GetName() + '=' + EscapeText(FConsoleVariables::ToString(Variable->GetValue()));
 	}
 	return Text;
 }

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "LanternCore/Log.h"
+#include "LanternCore/Quote.h"
 #include "LanternHost/AtomicFile.h"
 #include "LanternHost/BuiltinScenes.h"
 
@@ -51,7 +52,8 @@ std::vector<std::string> NameScenes(const std::vector<std::string>& Scenes)
 	for (const std::string& Scene : Scenes)
 	{
 		const auto IsSame = [&](const std::string& Other) { return GetShort(Other) == GetShort(Scene); };
-		Out.push_back(std::count_if(Scenes.begin(), Scenes.end(), IsSame) > 1 ? Scene : GetShort(Scene));
+		// Escaped: JSON and pages hold no broken UTF-8.
+		Out.push_back(EscapeText(std::count_if(Scenes.begin(), Scenes.end(), IsSame) > 1 ? Scene : GetShort(Scene)));
 	}
 	return Out;
 }

@@ -5,6 +5,7 @@
 
 #include "ChartSweep.h"
 #include "LanternCore/Log.h"
+#include "LanternCore/Quote.h"
 #include "LanternHost/ColorMap.h"
 #include "LanternHost/ImageEncode.h"
 #include "LanternHost/ImageStatistics.h"
@@ -85,7 +86,7 @@ int FChartSweep::Keep(const FScene&, const FChartItem&, FChartPart Part)
 	FChartPart Written = ReadPart(Desc.PartsFolder, Part["key"].get<std::string>());
 	if (Written.is_null())
 	{
-		LogError("{}: cannot be read back", GetPartFile(Desc.PartsFolder, Part["key"].get<std::string>()));
+		LogError("{}: cannot be read back", EscapePath(GetPartFile(Desc.PartsFolder, Part["key"].get<std::string>())));
 		return ExitBadInput;
 	}
 	Parts.push_back(std::move(Written));

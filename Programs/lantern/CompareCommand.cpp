@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "LanternCore/Log.h"
+#include "LanternCore/Quote.h"
 #include "LanternHost/AtomicFile.h"
 #include "LanternHost/ColorMap.h"
 #include "LanternHost/ImageIO.h"
@@ -47,8 +48,8 @@ std::string MakeJson(const FImage& B, const FImageMetrics& Metrics)
 void PrintTable(const FCompareOptions& Options, const FImage& B, const FImageMetrics& Metrics)
 {
 	const bool bRadiance = B.Space == EImageSpace::Linear;
-	fmt::print("A               {}\n", Options.A);
-	fmt::print("B (reference)   {}\n", Options.B);
+	fmt::print("A               {}\n", EscapeText(Options.A));
+	fmt::print("B (reference)   {}\n", EscapeText(Options.B));
 	fmt::print("size            {} x {}, {}\n", B.Width, B.Height, bRadiance ? "radiance" : "display values");
 	fmt::print("mse             {:.6g}\n", Metrics.Mse);
 	fmt::print("rmse            {:.6g}\n", Metrics.Rmse);

@@ -7,6 +7,7 @@
 
 #include "LanternCore/Config.h"
 #include "LanternCore/Log.h"
+#include "LanternCore/Quote.h"
 #include "LanternHost/AtomicFile.h"
 #include "LanternHost/BuiltinScenes.h"
 #include "LanternRHIVulkan/VulkanDevice.h"
@@ -108,7 +109,7 @@ int RunCvars(const FDeviceOptions& Settings, bool bMarkdown, const std::string& 
 	fmt::print("{:<34} {:<10} {:<14} {}\n", "name", "value", "set by", "help");
 	for (const FRTConsoleVariable* Variable : Variables.GetAll())
 	{
-		fmt::print("{:<34} {:<10} {:<14} {}\n", Variable->GetName(), FConsoleVariables::ToString(Variable->GetValue()), ToString(Variable->GetSetBy()),
+		fmt::print("{:<34} {:<10} {:<14} {}\n", Variable->GetName(), EscapeText(FConsoleVariables::ToString(Variable->GetValue())), ToString(Variable->GetSetBy()),
 		           Variable->GetHelp());
 	}
 	return ExitDone;

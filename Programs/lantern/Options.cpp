@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "LanternCore/Config.h"
+#include "LanternCore/Quote.h"
 #include "LanternHost/Image.h"
 
 namespace Lantern
@@ -27,10 +28,10 @@ std::optional<double> ParseNumber(std::string_view Text)
 std::vector<double> RequireNumbers(const char* Option, const std::string& Text, size_t Count, const char* Form)
 {
 	const auto Numbers = ParseNumbers(Text, Count);
-	if (!Numbers) { throw CLI::ValidationError(Option, "'" + Text + "' is not of the form " + Form); }
+	if (!Numbers) { throw CLI::ValidationError(Option, Quote(Text) + " is not of the form " + Form); }
 	for (const double Number : *Numbers)
 	{
-		if (std::abs(Number) > MaxNumber) { throw CLI::ValidationError(Option, "'" + Text + "' holds a number beyond 1e15"); }
+		if (std::abs(Number) > MaxNumber) { throw CLI::ValidationError(Option, Quote(Text) + " holds a number beyond 1e15"); }
 	}
 	return *Numbers;
 }
@@ -68,10 +69,10 @@ void ParseSize(const std::string& Text, FPictureOptions& Options)
 	const auto Width = ParseNumber(std::string_view(Text).substr(0, X));
 	const auto Height = X == std::string::npos ? std::nullopt : ParseNumber(std::string_view(Text).substr(X + 1));
 	const auto IsWhole = [](double Value) { return Value >= 0 && Value == std::floor(Value) && Value < 1e9; };
-	if (!Width || !Height || !IsWhole(*Width) || !IsWhole(*Height)) { throw CLI::ValidationError("--size", "'" + Text + "' is not of the form WIDTHxHEIGHT"); }
+	if (!Width || !Height || !IsWhole(*Width) || !IsWhole(*Height)) { throw CLI::ValidationError("--size", Quote(Text) + " is not of the form WIDTHxHEIGHT"); }
 	if (!IsImageSizeValid(static_cast<uint64_t>(*Width), static_cast<uint64_t>(*Height)))
 	{
-		throw CLI::ValidationError("--size", "'" + Text + "' is out of range: 1 to " + std::to_string(MaxImageDimension) + " pixels each way, " +
+		throw CLI::ValidationError("--size", Quote(Text) + " is out of range: 1 to " + std::to_string(MaxImageDimension) + " pixels each way, " +
 		                                         std::to_string(MaxImagePixels) + " in all");
 	}
 	Options.Width = static_cast<uint32_t>(*Width);
@@ -99,7 +100,7 @@ void FDeviceOptions::AddTo(CLI::App& App)
 	App.add_option("--device", Device, "Device, as lantern info counts them")->check([](const std::string& Text) {
 		const auto Number = ParseNumber(Text);
 		const bool bIndex = Number && *Number >= 0 && *Number == std::floor(*Number) && *Number < 1e6;
-		return bIndex ? std::string() : "'" + Text + "' is not the number of a device";
+		return bIndex ? std::string() : Quote(Text) + " is not the number of a device";
 	});
 	App.add_flag("--validate", bValidate, "Vulkan validation layers on; any message is an error");
 	AddSettingsTo(App);
@@ -108,11 +109,11 @@ void FDeviceOptions::AddTo(CLI::App& App)
 void FDeviceOptions::AddSettingsTo(CLI::App& App)
 {
 	App.add_option("--quality", Quality, "low, medium, high, epic or cinematic")->check([](const std::string& Text) {
-		return ParseQuality(Text) ? std::string() : "'" + Text + "' is none of low, medium, high, epic, cinematic";
+		return ParseQuality(Text) ? std::string() : Quote(Text) + " is none of low, medium, high, epic, cinematic";
 	});
 	// One value each time, so that a scene may follow.
 	App.add_option("--set", Sets, "NAME=VALUE: a console variable; repeatable")->expected(1)->take_all()->allow_extra_args(false)->check([](const std::string& Text) {
-		return Text.find('=') != std::string::npos ? std::string() : "'" + Text + "' is not of the form NAME=VALUE";
+		return Text.find('=') != std::string::npos ? std::string() : Quote(Text) + " is not of the form NAME=VALUE";
 	});
 	App.add_option("--config", Configs, "An ini file; repeatable")->expected(1)->take_all()->allow_extra_args(false);
 }
@@ -131,7 +132,7 @@ void FPictureOptions::AddTo(CLI::App& App)
 	App.add_option_function<std::string>("--sky", [this](const std::string& Text) { ParseSky(Text, *this); }, "r,g,b: constant radiance");
 	App.add_flag("--no-scene-lights", bNoSceneLights, "Leave the scene's punctual lights out");
 	App.add_option("--time", Time, "Seconds of animation")->check([](const std::string& Text) {
-		return ParseNumber(Text) ? std::string() : "'" + Text + "' is not a number of seconds";
+		return ParseNumber(Text) ? std::string() : Quote(Text) + " is not a number of seconds";
 	});
 	App.add_option("--seed", Seed, "Of the random numbers");
 }

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "LanternCore/Quote.h"
+
 namespace Lantern
 {
 
@@ -21,7 +23,8 @@ void FProgressLine::Show(std::string_view What, double Fraction, std::string_vie
 {
 	if (SecondsSince(Start) < 0.5 || SecondsSince(Last) < (bTerminal ? 0.1 : 5.0)) { return; }
 	Last = std::chrono::steady_clock::now();
-	const std::string Line = fmt::format("{}: {:3.0f} %  {}", What, 100.0 * Fraction, Detail);
+	// Names of scenes and methods are in it; a line break would leave the line that is overwritten.
+	const std::string Line = EscapeText(fmt::format("{}: {:3.0f} %  {}", What, 100.0 * Fraction, Detail));
 	if (bTerminal) { fmt::print(stderr, "\r{}\033[K", Line); }
 	else { fmt::print(stderr, "{}\n", Line); }
 	std::fflush(stderr);

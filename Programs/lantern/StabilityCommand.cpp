@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "LanternCore/Log.h"
+#include "LanternCore/Quote.h"
 #include "LanternHost/AtomicFile.h"
 #include "Progress.h"
 #include "Session.h"
@@ -23,7 +24,7 @@ void FStabilityOptions::AddTo(CLI::App& App)
 		const auto Number = ParseNumbers(Text, 1);
 		const auto All = GetStabilityCases();
 		const bool bKnown = Number && std::any_of(All.begin(), All.end(), [&](const FStabilityCase& Case) { return Case.Number == (*Number)[0]; });
-		return bKnown ? std::string() : "'" + Text + "' is not the number of a case; --list names them";
+		return bKnown ? std::string() : Quote(Text) + " is not the number of a case; --list names them";
 	});
 	App.add_option("--method", Methods, "Name or title of a method of Config/Methods.ini; repeatable")->expected(1)->take_all()->allow_extra_args(false);
 	App.add_option("--seeds", Seeds, "Runs of each case with other random numbers: 5, or 2 with --quick")->check(CLI::Range(1, 1000));
@@ -231,7 +232,7 @@ int CheckOutputs(const FStabilityOptions& Options)
 	std::error_code Error;
 	std::filesystem::create_directories(Options.Output, Error);
 	if (std::filesystem::is_directory(Options.Output, Error)) { return ExitDone; }
-	LogError("-o {}: cannot be made a folder", Options.Output);
+	LogError("-o {}: cannot be made a folder", EscapePath(Options.Output));
 	return ExitBadInput;
 }
 
@@ -256,7 +257,7 @@ int LoadWantedMethods(const FStabilityOptions& Options, FMethods& Out)
 		if (Out.Find(Name)) { continue; }
 		std::string Names;
 		for (const FMethod& Method : Out.Methods) { Names += (Names.empty() ? "" : ", ") + Method.Name; }
-		LogError("--method {}: there is none of that name; there are {}", Name, Names);
+		LogError("--method {}: there is none of that name; there are {}", EscapeText(Name, MaxQuotedBytes), Names);
 		return ExitUsage;
 	}
 	return ExitDone;

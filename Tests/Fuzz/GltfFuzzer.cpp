@@ -7,6 +7,7 @@
 #include <cstring>
 #include <string>
 
+#include "../Unit/TextCheck.h"
 #include "LanternHost/SceneLoader.h"
 
 namespace
@@ -60,9 +61,22 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* Data, size_t Size)
 		std::fprintf(stderr, "neither a scene nor an error, or both\n");
 		std::abort();
 	}
+	if (!IsCleanText(Result.Error))
+	{
+		std::fprintf(stderr, "the error cannot be shown\n");
+		std::abort();
+	}
 	if (!Result.Scene)
 	{
 		return 0;
+	}
+	for (const std::string& Warning : Result.Scene->Warnings)
+	{
+		if (!IsCleanText(Warning))
+		{
+			std::fprintf(stderr, "a warning cannot be shown\n");
+			std::abort();
+		}
 	}
 	const std::string Broken = ValidateScene(*Result.Scene);
 	if (!Broken.empty())

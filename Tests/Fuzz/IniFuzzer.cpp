@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "../Unit/TextCheck.h"
 #include "LanternCore/Config.h"
 #include "LanternCore/IniFile.h"
 #include "LanternCore/Log.h"
@@ -24,12 +25,19 @@ void Require(bool bCondition)
 		std::abort();
 }
 
-bool IsPrintable(std::string_view Text)
+/// But for tabs within it; the rest is the file's, UTF-8 or not.
+bool HasControl(std::string_view Text)
 {
 	for (const char C : Text)
-		if (static_cast<unsigned char>(C) < 0x20 || C == 0x7f)
-			return false;
-	return true;
+		if ((static_cast<unsigned char>(C) < 0x20 && C != '\t') || C == 0x7f)
+			return true;
+	return false;
+}
+
+void RequireClean(const FConfigProblems& Problems)
+{
+	for (const std::string& Problem : Problems)
+		Require(IsCleanText(Problem) && Problem.size() < 1000);
 }
 
 /// One folder per process: libFuzzer may run several.
@@ -48,14 +56,13 @@ void CheckSyntax(std::string_view Text)
 {
 	const FIniFile File = FIniFile::Parse(Text, "Fuzz.ini");
 	Require(File.GetProblems().size() <= 101);
-	for (const std::string& Problem : File.GetProblems())
-		Require(IsPrintable(Problem) && Problem.size() < 1000);
+	RequireClean(File.GetProblems());
 	FIniResolver Resolver;
 	for (const FIniSection& Section : File.GetSections())
 	{
 		Require(File.FindSection(Section.Name) == &Section);
 		for (const FIniEntry& Entry : Section.Entries)
-			Require(!Entry.Key.empty() && IsPrintable(Section.Name) && Entry.Line >= Section.Line);
+			Require(!Entry.Key.empty() && !HasControl(Section.Name) && Entry.Line >= Section.Line);
 		// Twice: as a profile that is its own base.
 		Resolver.Apply(File, Section);
 		Resolver.Apply(File, Section);
@@ -70,10 +77,10 @@ void CheckMeaning(std::string_view Text, const std::string& Path)
 	const FConfigFolder& Folder = GetFolder();
 	// Aliases stay for the life of the process; with too many of them each unknown name would take long.
 	if (FConsoleVariables::Get().GetAliases().size() < 20)
-		LoadAliases(Folder);
-	LoadFile(Folder, Folder.GetDefaults());
-	LoadScalability(Folder, ERTQuality::Epic);
-	LoadDeviceProfile(Folder, "llvmpipe (LLVM 15.0.6, 256 bits)");
+		RequireClean(LoadAliases(Folder));
+	RequireClean(LoadFile(Folder, Folder.GetDefaults()));
+	RequireClean(LoadScalability(Folder, ERTQuality::Epic));
+	RequireClean(LoadDeviceProfile(Folder, "llvmpipe (LLVM 15.0.6, 256 bits)").Problems);
 	ListConsoleVariables(Folder);
 	FConsoleVariables::Get().BeginFrame();
 	Require(CVarInt.GetOnRenderThread() >= 1 && CVarInt.GetOnRenderThread() <= 64);

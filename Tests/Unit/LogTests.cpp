@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "CoreTestTools.h"
+#include "TextCheck.h"
 
 namespace Lantern
 {
@@ -41,6 +42,27 @@ TEST_F(Log, TextIsNeverReadAsAFormat)
 	testing::internal::CaptureStderr();
 	LogLine(ERTLogLevel::Info, "100 % {} {0} %v %^");
 	EXPECT_EQ(testing::internal::GetCapturedStderr(), "100 % {} {0} %v %^\n");
+}
+
+TEST_F(Log, WhatNobodyEscapedIsEscapedByTheSink)
+{
+	const std::string Raw("a\x1b[31m\0\xff\u202E\u0085\r\nb\tc", 18);
+	const std::string Shown = "a\\x1b[31m\\x00\\xff\\u{202e}\\u{0085}\\r\nb\tc";
+	testing::internal::CaptureStderr();
+	LogLine(ERTLogLevel::Error, Raw);
+	EXPECT_EQ(testing::internal::GetCapturedStderr(), "error: " + Shown + "\n") << "lines stay lines: logs of compilers have several";
+	FLogCapture Capture;
+	LogWarning("{}", Raw);
+	LogOnce(ERTLogLevel::Info, Raw);
+	EXPECT_THAT(Capture.GetTexts(), ElementsAre(Shown, Shown));
+	for (int Byte = 0; Byte < 256; ++Byte)
+		LogLine(ERTLogLevel::Info, std::string(1, static_cast<char>(Byte)));
+	for (const std::string& Text : Capture.GetTexts())
+		EXPECT_TRUE(AreCleanLines(Text)) << Text;
+	testing::internal::CaptureStderr();
+	SetLogSink([&](ERTLogLevel, std::string_view) { LogInfo("{}", Raw); });
+	LogInfo("outside");
+	EXPECT_EQ(testing::internal::GetCapturedStderr(), Shown + "\n") << "from inside a sink";
 }
 
 TEST_F(Log, TheSinkReplacesStandardErrorAndAnEmptyOneRestoresIt)

@@ -4,6 +4,7 @@
 
 #include "LanternHost/MeasureSequence.h"
 #include "LanternHost/Methods.h"
+#include "TextCheck.h"
 
 namespace Lantern
 {
@@ -83,6 +84,26 @@ TEST_F(Methods, NameTheLineThatIsWrong)
 	EXPECT_THAT(Problem("[Method.A]\nSignals=frame\n"), HasSubstr("m.ini:2: 'Signals' is none of"));
 	EXPECT_THAT(Problem("[Methods]\n"), HasSubstr("m.ini:1: section 'Methods'"));
 	EXPECT_THAT(LoadMethods("/nowhere/m.ini").Problems, ElementsAre(HasSubstr("/nowhere/m.ini")));
+}
+
+TEST_F(Methods, TextThatIsBrokenIsShownAsEscapes)
+{
+	const std::string Broken = "\xff\u0085\u202E";
+	for (const std::string& Text : {"[" + Broken + "]\n", "[MethodDefaults]\n" + Broken + "=1\n", "[MethodDefaults]\nCVars=" + Broken + "\n",
+	                                "[MethodDefaults]\nCVars=" + Broken + "=1\n", "[Method.A]\nSignal=" + Broken + "\n", "[Method.A]\n" + Broken + "=1\n",
+	                                "[Method.A]\nNeeds=" + Broken + "\n", "[Method.A]\nPresets=" + Broken + "\n",
+	                                "[Method.A]\nSignal=frame\n+Presets=" + Broken + ":\n+Presets=" + Broken + ": t.Methods.Rays=2\n",
+	                                "[Method.A]\nSignal=frame\n+Presets=p:\nTypical=" + Broken + "\n"})
+	{
+		const FMethods Read = ParseMethods(Text, "m.ini");
+		ASSERT_EQ(Read.Problems.size(), 1u) << testing::PrintToString(Text);
+		EXPECT_TRUE(IsCleanText(Read.Problems[0])) << testing::PrintToString(Read.Problems[0]);
+		EXPECT_THAT(Read.Problems[0], HasSubstr("\\xff\\u{0085}\\u{202e}"));
+	}
+	// Names go into tables and JSON.
+	const FMethods Read = ParseMethods("[Method.A" + Broken + "]\nTitle=" + Broken + "\nSignal=frame\n+Presets=" + Broken + ":\n", "m.ini");
+	ASSERT_EQ(Read.Methods.size(), 1u);
+	for (const std::string& Name : {Read.Methods[0].Name, Read.Methods[0].Title, Read.Methods[0].Presets[0].Name}) { EXPECT_TRUE(IsCleanText(Name)) << testing::PrintToString(Name); }
 }
 
 TEST_F(Methods, OneThatIsWrongLeavesTheOthers)

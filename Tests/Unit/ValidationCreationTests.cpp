@@ -1,3 +1,4 @@
+#include "TextCheck.h"
 #include "ValidationTestTools.h"
 
 namespace Lantern
@@ -22,6 +23,19 @@ TEST_F(FValidationCreation, Buffers)
 	ExpectMessage({"'Useless'", "no usage"});
 	EXPECT_EQ(Reached(ERTMockCall::CreateBuffer), 0u);
 	EXPECT_FALSE(Out);
+}
+
+TEST_F(FValidationCreation, NamesAreShownAsEscapes)
+{
+	TRTRef<IRTBuffer> Out;
+	for (const std::string& Name : {std::string("\x1b[31m\xff\u202E\nerror: forged"), std::string(10'000, '\n')})
+	{
+		const FRTStatus Status = Device().CreateBuffer({0, AnyUsage, ERTMemory::Device, Name.c_str()}, Out.ReleaseAndGetAddress());
+		EXPECT_TRUE(IsCleanText(Status.Message)) << testing::PrintToString(Status.Message);
+		ASSERT_EQ(Messages.size(), 1u);
+		EXPECT_TRUE(IsCleanText(Messages[0])) << testing::PrintToString(Messages[0]);
+		ExpectMessage({"CreateBuffer", Name[0] == '\n' ? "\\n\\n…'" : "'\\x1b[31m\\xff\\u{202e}\\nerror: forged'", "size is 0"});
+	}
 }
 
 TEST_F(FValidationCreation, Textures)

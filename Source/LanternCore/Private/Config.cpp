@@ -7,6 +7,7 @@
 
 #include "ConfigFiles.h"
 #include "LanternCore/Log.h"
+#include "LanternCore/Quote.h"
 #include "TextTools.h"
 
 namespace Lantern
@@ -64,7 +65,7 @@ void ReportUnknownSection(const FIniFile& File, const FIniSection& Section, cons
                           FConfigProblems& Problems)
 {
 	Report(Problems, fmt::format("{}: unknown section [{}]; the nearest is [{}]", File.GetWhere(Section.Line),
-	                             Section.Name, FindNearest(Section.Name, Known)));
+	                             EscapeText(Section.Name, MaxQuotedBytes), FindNearest(Section.Name, Known)));
 }
 
 /// A section's name taken apart: "ShadowQuality@3".
@@ -99,7 +100,8 @@ void ReportBadScalabilitySections(const FIniFile& File, FConfigProblems& Problem
 	for (const FIniSection& Section : File.GetSections())
 		if (!ParseScalabilityName(Section.Name))
 			Report(Problems,
-			       fmt::format("{}: [{}] is not [Group@0] … [Group@4]", File.GetWhere(Section.Line), Section.Name));
+			       fmt::format("{}: [{}] is not [Group@0] … [Group@4]", File.GetWhere(Section.Line),
+			                   EscapeText(Section.Name, MaxQuotedBytes)));
 }
 
 std::vector<std::string_view> GetGroups(const FIniFile& File)
@@ -122,11 +124,11 @@ void ApplyGroupChoice(const FIniFile& Scalability, const FIniValue& Choice, FCon
 	                                [&](std::string_view Known) { return EqualsIgnoringCase(Known, Group); });
 	const std::optional<ERTQuality> Quality = ParseQuality(Choice.Value);
 	if (!bKnown)
-		Report(Problems, fmt::format("{}: unknown scalability group {}; the nearest is '{}'", Choice.Where,
-		                             Quote(Choice.Key), FindNearest(Group, Groups)));
+		Report(Problems, fmt::format("{}: unknown scalability group {}; the nearest is {}", Choice.Where,
+		                             Quote(Choice.Key), Quote(FindNearest(Group, Groups))));
 	else if (!Quality)
 		Report(Problems, fmt::format("{}: {}: {} is not a quality (0 to 4, or low, medium, high, epic, cinematic)",
-		                             Choice.Where, Choice.Key, Quote(Choice.Value)));
+		                             Choice.Where, EscapeText(Choice.Key, MaxQuotedBytes), Quote(Choice.Value)));
 	else
 		ApplyScalability(Scalability, Group, *Quality, Problems);
 }

@@ -7,6 +7,7 @@
 
 #include "ConsoleVariableValues.h"
 #include "LanternCore/ConsoleVariables.h"
+#include "LanternCore/Quote.h"
 
 namespace Lantern
 {
@@ -72,7 +73,7 @@ std::string FormatRow(const FRTConsoleVariable& Variable)
 	const std::string DefaultText = FConsoleVariables::ToString(Default);
 	std::string Aliases;
 	for (const std::string& Alias : GetAliasesOf(Variable))
-		Aliases += fmt::format("{}`{}`", Aliases.empty() ? "" : ", ", EscapeCell(Alias));
+		Aliases += fmt::format("{}`{}`", Aliases.empty() ? "" : ", ", EscapeCell(EscapeText(Alias)));
 	return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", EscapeCell(Variable.GetName()), GetTypeName(Default),
 	                   DefaultText.empty() ? "" : fmt::format("`{}`", EscapeCell(DefaultText)),
 	                   DescribeRange(Default, Variable.GetRange()), EscapeCell(Variable.GetHelp()), Aliases);

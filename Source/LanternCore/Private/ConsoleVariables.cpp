@@ -9,6 +9,7 @@
 #include "ConsoleVariableRegistry.h"
 #include "ConsoleVariableValues.h"
 #include "LanternCore/Log.h"
+#include "LanternCore/Quote.h"
 #include "TextTools.h"
 
 namespace Lantern
@@ -134,7 +135,7 @@ std::string FConsoleVariables::FImpl::DescribeUnknown(std::string_view Name) con
 		Known.push_back(Alias.Alias);
 	std::string Message = fmt::format("unknown console variable {}", Quote(Name));
 	if (!Known.empty())
-		Message += fmt::format("; the nearest name is '{}'", FindNearest(Name, Known));
+		Message += fmt::format("; the nearest name is {}", Quote(FindNearest(Name, Known)));
 	return Message;
 }
 

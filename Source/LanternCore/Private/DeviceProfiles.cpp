@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "ConfigFiles.h"
+#include "LanternCore/Quote.h"
 #include "TextTools.h"
 
 namespace Lantern
@@ -65,7 +66,8 @@ void CheckProfiles(const FIniFile& File, FConfigProblems& Problems)
 		if (GetProfileName(Section).empty())
 		{
 			Report(Problems,
-			       fmt::format("{}: [{}] is not [NAME DeviceProfile]", File.GetWhere(Section.Line), Section.Name));
+			       fmt::format("{}: [{}] is not [NAME DeviceProfile]", File.GetWhere(Section.Line),
+			                   EscapeText(Section.Name, MaxQuotedBytes)));
 			continue;
 		}
 		for (const FIniEntry& Entry : Section.Entries)

@@ -10,6 +10,8 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 #include <spirv-tools/optimizer.hpp>
 
+#include "LanternCore/Quote.h"
+
 namespace Lantern
 {
 
@@ -89,7 +91,8 @@ private:
 	const std::string NotFound;
 };
 
-/// glslang writes "ERROR: Path:line: text" and closes with a count: editors and people want "Path:line: text".
+/// glslang writes "ERROR: Path:line: text" and closes with a count: editors and people want "Path:line: text". It quotes
+/// the source as it is.
 std::string CleanLog(std::string_view Log)
 {
 	std::string Out;
@@ -111,7 +114,7 @@ std::string CleanLog(std::string_view Log)
 			Out += Line;
 		}
 	}
-	return Out;
+	return EscapeLines(Out);
 }
 
 /// Drops what no driver should have to parse. glslang's own list (SpvOptions) begins by inlining everything, which
@@ -192,7 +195,7 @@ bool CompileWithGlslang(const FGlslangJob& Job, std::vector<uint32_t>& OutWords,
 	Program.addShader(&Shader);
 	if (!Program.link(Messages))
 	{
-		OutLog = fmt::format("{}:0: link: {}", Root.Name, CleanLog(Program.getInfoLog()));
+		OutLog = fmt::format("{}:0: link: {}", EscapePath(Root.Name), CleanLog(Program.getInfoLog()));
 		return false;
 	}
 	glslang::SpvOptions Options;
@@ -209,7 +212,7 @@ bool CompileWithGlslang(const FGlslangJob& Job, std::vector<uint32_t>& OutWords,
 	OutLog = CleanLog(std::string(Shader.getInfoLog()) + Logger.getAllMessages());
 	if (OutWords.empty())
 	{
-		OutLog = fmt::format("{}:0: no SPIR-V generated: {}", Root.Name, OutLog);
+		OutLog = fmt::format("{}:0: no SPIR-V generated: {}", EscapePath(Root.Name), OutLog);
 	}
 	return !OutWords.empty();
 }

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "LanternCore/Quote.h"
 #include "TextTools.h"
 
 namespace Lantern
@@ -110,10 +111,13 @@ public:
 			Text.remove_prefix(std::min(End + (bTwo ? 2 : 1), Text.size()));
 		}
 		if (SuppressedProblems > 0)
-			File.Problems.push_back(fmt::format("{}: {} more problems are not listed", File.Name, SuppressedProblems));
+			File.Problems.push_back(fmt::format("{}: {} more problems are not listed", EscapePath(File.Name), SuppressedProblems));
 	}
 
-	void AddFileProblem(std::string_view Text) { File.Problems.push_back(fmt::format("{}: {}", File.Name, Text)); }
+	void AddFileProblem(std::string_view Text)
+	{
+		File.Problems.push_back(fmt::format("{}: {}", EscapePath(File.Name), Text));
+	}
 
 private:
 	void AddProblem(std::string_view Text)
@@ -279,7 +283,7 @@ const FIniSection* FIniFile::FindSection(std::string_view SectionName) const&
 
 std::string FIniFile::GetWhere(uint32_t Line) const
 {
-	return fmt::format("{}:{}", Name, Line);
+	return fmt::format("{}:{}", EscapePath(Name), Line);
 }
 
 // FIniResolver

@@ -8,6 +8,8 @@
 #include <spdlog/logger.h>
 #include <spdlog/sinks/ansicolor_sink.h>
 
+#include "LanternCore/Quote.h"
+
 namespace Lantern
 {
 namespace
@@ -91,11 +93,13 @@ void SetLogLevel(ERTLogLevel Minimum)
 	FLog::Get().Minimum = Minimum;
 }
 
-void LogLine(ERTLogLevel Level, std::string_view Text)
+void LogLine(ERTLogLevel Level, std::string_view RawText)
 {
 	FLog& Log = FLog::Get();
 	if (Level < Log.Minimum)
 		return;
+	// The guard behind all that quotes: what a caller forgot to escape must not reach a terminal or an engine's log.
+	const std::string Text = EscapeLines(RawText);
 	if (bInsideSink)
 	{
 		Log.WriteToStandardError(Level, Text);

@@ -12,6 +12,7 @@
 #include <xxhash.h>
 
 #include "LanternCore/Log.h"
+#include "LanternCore/Quote.h"
 
 namespace Lantern
 {
@@ -112,7 +113,7 @@ bool FShaderDiskCache::Load(const FHash128& Key, std::vector<uint32_t>& OutWords
 	}
 	File.close();
 	OutWords.clear();
-	LogWarning("Shader cache: {} is corrupt ({}) and is made anew", Path.string(), Wrong);
+	LogWarning("Shader cache: {} is corrupt ({}) and is made anew", EscapePath(Path.string()), Wrong);
 	fs::remove(Path, Code);
 	return false;
 }
@@ -121,8 +122,8 @@ void FShaderDiskCache::WarnOnce(const std::string& Reason)
 {
 	if (!bWarned.exchange(true))
 	{
-		LogWarning("Shader cache: cannot write to {} ({}); shaders are compiled on every start", Folder.string(),
-		           Reason);
+		LogWarning("Shader cache: cannot write to {} ({}); shaders are compiled on every start",
+		           EscapePath(Folder.string()), Reason);
 	}
 }
 

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include "LanternCore/Quote.h"
+
 namespace Lantern
 {
 
@@ -189,7 +191,7 @@ FIncludeResolver::FIncludeResolver(std::vector<std::string> InSearchFolders, FSh
 	for (const std::string& Folder : InSearchFolders)
 	{
 		Folders.push_back(fs::path(Folder).lexically_normal());
-		FoldersText += (FoldersText.empty() ? "" : ", ") + Folder;
+		FoldersText += (FoldersText.empty() ? "" : ", ") + EscapePath(Folder);
 	}
 }
 
@@ -288,15 +290,15 @@ void FIncludeResolver::Visit(FWalk& Walk, int Index)
 		if (Above != Walk.Stack.end())
 		{
 			std::string Chain;
-			std::for_each(Above, Walk.Stack.end(), [&](int Node) { Chain += Tree.Nodes[Node].Name + " -> "; });
-			Tree.Error =
-			    fmt::format("{}:{}: cyclic include: {}{}", Tree.Nodes[Index].Name, Line.Line, Chain, Found.Name);
+			std::for_each(Above, Walk.Stack.end(), [&](int Node) { Chain += EscapePath(Tree.Nodes[Node].Name) + " -> "; });
+			Tree.Error = fmt::format("{}:{}: cyclic include: {}{}", EscapePath(Tree.Nodes[Index].Name), Line.Line,
+			                         Chain, EscapePath(Found.Name));
 			return;
 		}
 		if (Walk.Stack.size() >= MaxDepth)
 		{
-			Tree.Error = fmt::format("{}:{}: includes are nested more than {} deep", Tree.Nodes[Index].Name, Line.Line,
-			                         MaxDepth);
+			Tree.Error = fmt::format("{}:{}: includes are nested more than {} deep", EscapePath(Tree.Nodes[Index].Name),
+			                         Line.Line, MaxDepth);
 			return;
 		}
 		if (bNew)
@@ -326,7 +328,7 @@ FIncludeTree FIncludeResolver::Resolve(const FShaderSource& Source)
 		FFound Found;
 		if (Path.empty() || !FindInFolders(Path, Found))
 		{
-			Tree.Error = fmt::format("{}:0: shader not found (searched {})", Path, FoldersText);
+			Tree.Error = fmt::format("{}:0: shader not found (searched {})", EscapePath(Path), FoldersText);
 			return Tree;
 		}
 		Tree.Nodes.push_back({Found.Name, Found.Location, Found.File, {}});

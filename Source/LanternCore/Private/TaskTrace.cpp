@@ -18,6 +18,7 @@
 
 #include "LanternCore/ConsoleVariables.h"
 #include "LanternCore/Log.h"
+#include "LanternCore/Quote.h"
 
 namespace Lantern
 {
@@ -102,14 +103,7 @@ FThread& GetThread()
 /// A name that is cut ends at the border of a UTF-8 character.
 size_t CopyName(char* Out, size_t Room, std::string_view Text)
 {
-	size_t Length = std::min(Room, Text.size());
-	if (Length < Text.size())
-	{
-		while (Length > 0 && (static_cast<uint8_t>(Text[Length]) & 0xc0) == 0x80)
-		{
-			--Length;
-		}
-	}
+	const size_t Length = FitCharacters(Text.data(), Text.size(), Room);
 	std::memcpy(Out, Text.data(), Length);
 	return Length;
 }
@@ -123,7 +117,7 @@ int GetProcessId()
 #endif
 }
 
-std::string Quote(std::string_view Text)
+std::string ToJsonText(std::string_view Text)
 {
 	return nlohmann::json(std::string(Text)).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -272,13 +266,13 @@ std::string FTaskTrace::ToJson()
 		}
 		Json +=
 		    fmt::format(",\n{{\"ph\":\"M\",\"pid\":1,\"tid\":{},\"name\":\"thread_name\",\"args\":{{\"name\":{}}}}}",
-		                Thread, Quote(Names[Thread]));
+		                Thread, ToJsonText(Names[Thread]));
 	}
 	for (const FTraceEvent& Event : Events)
 	{
 		Json +=
 		    fmt::format(",\n{{\"ph\":\"X\",\"pid\":1,\"tid\":{},\"name\":{},\"ts\":{:.3f},\"dur\":{:.3f}", Event.Thread,
-		                Quote(Event.Name), double(Event.BeginNs) * 1e-3, double(Event.EndNs - Event.BeginNs) * 1e-3);
+		                ToJsonText(Event.Name), double(Event.BeginNs) * 1e-3, double(Event.EndNs - Event.BeginNs) * 1e-3);
 		Json += Event.Frame >= 0 ? fmt::format(",\"args\":{{\"frame\":{}}}}}", Event.Frame) : "}";
 	}
 	Json += fmt::format("\n],\"otherData\":{{\"forgotten\":{}}}}}\n", GetForgottenCount());
@@ -310,7 +304,7 @@ FRTStatus FTaskTrace::Write(const std::string& Path)
 	}
 	std::error_code Ignored;
 	fs::remove(Temporary, Ignored);
-	return FRTStatus::Error(ERTResult::IoError, "%s: %s", Path.c_str(), Error.message().c_str());
+	return FRTStatus::Error(ERTResult::IoError, "%s: %s", EscapePath(Path).c_str(), Error.message().c_str());
 }
 
 void FTaskTrace::SetFolder(std::string Folder)
@@ -381,7 +375,7 @@ void FTaskTrace::Flush()
 		LogOnce(ERTLogLevel::Warning, fmt::format("r.RT.Trace: {}", S.Message));
 		return;
 	}
-	LogOnce(ERTLogLevel::Info, fmt::format("r.RT.Trace: written to {}", Path));
+	LogOnce(ERTLogLevel::Info, fmt::format("r.RT.Trace: written to {}", EscapePath(Path)));
 }
 
 void FTraceScope::Begin(std::string_view InName, std::string_view Detail)

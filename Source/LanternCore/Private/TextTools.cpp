@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include <fmt/format.h>
-
 namespace Lantern
 {
 namespace
@@ -46,22 +44,6 @@ std::string_view Trim(std::string_view Text)
 	if (First == std::string_view::npos)
 		return {};
 	return Text.substr(First, Text.find_last_not_of(Blanks) - First + 1);
-}
-
-std::string Quote(std::string_view Text)
-{
-	constexpr size_t MaxShown = 80;
-	std::string Result = "'";
-	for (const char C : Text.substr(0, MaxShown))
-	{
-		const auto Code = static_cast<unsigned char>(C);
-		if (Code < 0x20 || Code == 0x7f)
-			Result += fmt::format("\\x{:02x}", Code);
-		else
-			Result += C;
-	}
-	Result += Text.size() > MaxShown ? fmt::format("…' ({} characters)", Text.size()) : "'";
-	return Result;
 }
 
 size_t GetEditDistance(std::string_view A, std::string_view B)

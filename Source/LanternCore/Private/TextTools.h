@@ -14,8 +14,6 @@ bool EqualsIgnoringCase(std::string_view A, std::string_view B);
 bool ContainsIgnoringCase(std::string_view Text, std::string_view Part);
 /// Without blanks (space, tab, CR, vertical tab, form feed) at both ends.
 std::string_view Trim(std::string_view Text);
-/// In single quotes, control characters escaped, cut after 80 characters: safe to show whatever the input was.
-std::string Quote(std::string_view Text);
 
 /// Edits (insert, delete, replace, swap of neighbours) from A to B, ignoring case; the optimal-string-alignment
 /// distance. Only the first 128 characters of each are looked at.

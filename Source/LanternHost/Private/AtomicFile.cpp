@@ -10,6 +10,8 @@
 
 #include <unistd.h>
 
+#include "LanternCore/Quote.h"
+
 namespace Lantern
 {
 
@@ -17,8 +19,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-
-constexpr size_t LongestShownPath = 256;
 
 std::string DescribeErrno(int Error)
 {
@@ -91,12 +91,7 @@ FRTStatus WriteBytes(const std::string& Path, const std::string& Temporary, std:
 
 FRTStatus MakeFileError(ERTResult Code, const std::string& Path, const std::string& Reason)
 {
-	std::string Shown = Path;
-	if (Shown.size() > LongestShownPath)
-	{
-		Shown = Shown.substr(0, LongestShownPath / 2) + "..." + Shown.substr(Shown.size() - LongestShownPath / 2);
-	}
-	return FRTStatus::Error(Code, "%s: %s", Shown.c_str(), Reason.c_str());
+	return FRTStatus::Error(Code, "%s: %s", EscapePath(Path).c_str(), EscapeText(Reason).c_str());
 }
 
 FRTStatus CheckOutputPath(const std::string& Path)

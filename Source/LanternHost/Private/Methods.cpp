@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "LanternCore/IniFile.h"
+#include "LanternCore/Quote.h"
 
 namespace Lantern
 {
@@ -40,13 +41,13 @@ bool ParseSettings(std::string_view Text, const std::string& Where, std::vector<
 		const size_t Equals = Word.find('=');
 		if (Equals == 0 || Equals == std::string_view::npos || Equals + 1 == Word.size())
 		{
-			OutProblem = fmt::format("{}: '{}' is not of the form NAME=VALUE", Where, Word);
+			OutProblem = fmt::format("{}: {} is not of the form NAME=VALUE", Where, Quote(Word));
 			return false;
 		}
 		const std::string Name(Word.substr(0, Equals));
 		if (!FConsoleVariables::Get().Find(Name))
 		{
-			OutProblem = fmt::format("{}: '{}' is no console variable", Where, Name);
+			OutProblem = fmt::format("{}: {} is no console variable", Where, Quote(Name));
 			return false;
 		}
 		Out.push_back({Name, std::string(Word.substr(Equals + 1)), Where});
@@ -71,7 +72,7 @@ public:
 		if (Method.Presets.empty()) { return Method.Where + ": no Presets"; }
 		if (Typical.empty()) { return {}; }
 		const FMethodPreset* const Preset = Method.FindPreset(Typical);
-		if (!Preset) { return fmt::format("{}: Typical is '{}', which is none of the presets", TypicalWhere, Typical); }
+		if (!Preset) { return fmt::format("{}: Typical is {}, which is none of the presets", TypicalWhere, Quote(Typical)); }
 		Method.Typical = static_cast<size_t>(Preset - Method.Presets.data());
 		return {};
 	}
@@ -80,11 +81,11 @@ private:
 	std::string ParseKey(const FIniValue& Value)
 	{
 		std::string Problem;
-		if (EqualsIgnoringCase(Value.Key, "Title")) { Method.Title = Value.Value; }
+		if (EqualsIgnoringCase(Value.Key, "Title")) { Method.Title = EscapeText(Value.Value); }
 		else if (EqualsIgnoringCase(Value.Key, "Signal"))
 		{
 			const std::optional<ESignal> Signal = FindSignal(Value.Value);
-			if (!Signal) { return fmt::format("{}: '{}' is no signal", Value.Where, Value.Value); }
+			if (!Signal) { return fmt::format("{}: {} is no signal", Value.Where, Quote(Value.Value)); }
 			Method.Signal = *Signal;
 			bSignal = true;
 		}
@@ -96,7 +97,7 @@ private:
 			Typical = Value.Value;
 			TypicalWhere = Value.Where;
 		}
-		else { return fmt::format("{}: '{}' is none of Title, Signal, Needs, CVars, Presets, Typical", Value.Where, Value.Key); }
+		else { return fmt::format("{}: {} is none of Title, Signal, Needs, CVars, Presets, Typical", Value.Where, Quote(Value.Key)); }
 		return Problem;
 	}
 	std::string ParseNeeds(const FIniValue& Value)
@@ -104,16 +105,16 @@ private:
 		if (EqualsIgnoringCase(Value.Value, "any")) { Method.Needs = EMethodNeeds::Any; }
 		else if (EqualsIgnoringCase(Value.Value, "pipeline")) { Method.Needs = EMethodNeeds::Pipeline; }
 		else if (EqualsIgnoringCase(Value.Value, "query")) { Method.Needs = EMethodNeeds::Query; }
-		else { return fmt::format("{}: Needs is '{}', expected pipeline, query or any", Value.Where, Value.Value); }
+		else { return fmt::format("{}: Needs is {}, expected pipeline, query or any", Value.Where, Quote(Value.Value)); }
 		return {};
 	}
 	std::string ParsePreset(const FIniValue& Value)
 	{
 		const size_t Colon = Value.Value.find(':');
 		FMethodPreset Preset;
-		Preset.Name = Trim(std::string_view(Value.Value).substr(0, Colon));
-		if (Colon == std::string::npos || Preset.Name.empty()) { return fmt::format("{}: '{}' is not of the form PRESET: NAME=VALUE …", Value.Where, Value.Value); }
-		if (Method.FindPreset(Preset.Name)) { return fmt::format("{}: a second preset '{}'", Value.Where, Preset.Name); }
+		Preset.Name = EscapeText(Trim(std::string_view(Value.Value).substr(0, Colon)));
+		if (Colon == std::string::npos || Preset.Name.empty()) { return fmt::format("{}: {} is not of the form PRESET: NAME=VALUE …", Value.Where, Quote(Value.Value)); }
+		if (Method.FindPreset(Preset.Name)) { return fmt::format("{}: a second preset {}", Value.Where, Quote(Preset.Name)); }
 		std::string Problem;
 		if (ParseSettings(std::string_view(Value.Value).substr(Colon + 1), Value.Where, Preset.Settings, Problem)) { Method.Presets.push_back(std::move(Preset)); }
 		return Problem;
@@ -136,7 +137,7 @@ void ParseDefaults(const std::vector<FIniValue>& Values, FMethods& Out)
 	for (const FIniValue& Value : Values)
 	{
 		std::string Problem;
-		if (!EqualsIgnoringCase(Value.Key, "CVars")) { Problem = fmt::format("{}: '{}' is not CVars", Value.Where, Value.Key); }
+		if (!EqualsIgnoringCase(Value.Key, "CVars")) { Problem = fmt::format("{}: {} is not CVars", Value.Where, Quote(Value.Key)); }
 		else { ParseSettings(Value.Value, Value.Where, Out.Defaults, Problem); }
 		if (!Problem.empty()) { Out.Problems.push_back(std::move(Problem)); }
 	}
@@ -159,12 +160,13 @@ FMethods ReadMethods(const FIniFile& File)
 		Method.Where = File.GetWhere(Section.Line);
 		if (!StartsIgnoringCase(Section.Name, Prefix) || Section.Name.size() == Prefix.size())
 		{
-			Out.Problems.push_back(fmt::format("{}: section '{}' is neither MethodDefaults nor Method.NAME", Method.Where, Section.Name));
+			Out.Problems.push_back(fmt::format("{}: section {} is neither MethodDefaults nor Method.NAME", Method.Where, Quote(Section.Name)));
 			continue;
 		}
-		Method.Name = Section.Name.substr(Prefix.size());
+		// Names are shown everywhere and kept in JSON, which takes no broken UTF-8.
+		Method.Name = EscapeText(std::string_view(Section.Name).substr(Prefix.size()));
 		std::string Problem = FMethodParser(Method).Parse(Values);
-		if (Problem.empty() && Out.Find(Method.Title)) { Problem = fmt::format("{}: a second method '{}'", Method.Where, Method.Title); }
+		if (Problem.empty() && Out.Find(Method.Title)) { Problem = fmt::format("{}: a second method {}", Method.Where, Quote(Method.Title)); }
 		if (Problem.empty()) { Out.Methods.push_back(std::move(Method)); }
 		else { Out.Problems.push_back(std::move(Problem)); }
 	}

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "Gltf/GltfImport.h"
+#include "LanternCore/Quote.h"
 #include "LanternHost/BuiltinScenes.h"
 
 namespace Lantern
@@ -15,18 +16,11 @@ namespace Lantern
 namespace
 {
 
-/// One line of bearable length, whatever names the file brings along.
-std::string MakeLine(std::string Text)
+/// One line of bearable length: many names, each of them quoted, may still be much.
+std::string MakeLine(std::string_view Text)
 {
 	constexpr size_t MaxLength = 600;
-	if (Text.size() > MaxLength)
-	{
-		Text.resize(MaxLength);
-		Text += "...";
-	}
-	std::replace_if(
-	    Text.begin(), Text.end(), [](unsigned char C) { return C < 0x20 || C == 0x7f; }, '?');
-	return Text;
+	return EscapeText(Text, MaxLength);
 }
 
 /// Runs Import, which may throw, and turns everything into a result. The boundary that no exception crosses.
@@ -44,18 +38,18 @@ FLoadResult Guard(const std::string& Name, const T& Import)
 		}
 		for (std::string& Warning : Result.Scene->Warnings)
 		{
-			Warning = MakeLine(std::move(Warning));
+			Warning = MakeLine(Warning);
 		}
 	}
 	catch (const std::bad_alloc&)
 	{
 		Result.Scene.reset();
-		Result.Error = Name + ": out of memory";
+		Result.Error = EscapePath(Name) + ": out of memory";
 	}
 	catch (const std::exception& Exception)
 	{
 		Result.Scene.reset();
-		Result.Error = MakeLine(fmt::format("{}: {}", Name, Exception.what()));
+		Result.Error = MakeLine(fmt::format("{}: {}", EscapePath(Name), Exception.what()));
 	}
 	return Result;
 }
@@ -82,7 +76,7 @@ FLoadResult LoadScene(const std::string& PathOrBuiltinName, const FLoadOptions& 
 			const std::string Error = ValidateScene(*Result.Scene);
 			if (!Error.empty())
 			{
-				return {std::nullopt, fmt::format("{}: {}", PathOrBuiltinName, Error)};
+				return {std::nullopt, fmt::format("{}: {}", EscapePath(PathOrBuiltinName), Error)};
 			}
 		}
 		return Result;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "LanternCore/Quote.h"
 #include "LanternHost/SceneLoader.h"
 
 namespace Lantern
@@ -37,7 +38,7 @@ std::string ValidateMaterials(const FSceneDescription& Scene)
 		const FHostImage& Image = Scene.Images[I];
 		if (Image.Width == 0 || Image.Height == 0 || Image.Rgba.size() != size_t(Image.Width) * Image.Height * 4)
 		{
-			return fmt::format("image {} '{}': size and pixels disagree", I, Image.Name);
+			return fmt::format("image {} {}: size and pixels disagree", I, Quote(Image.Name));
 		}
 	}
 	for (size_t I = 0; I < Scene.Textures.size(); ++I)
@@ -53,7 +54,7 @@ std::string ValidateMaterials(const FSceneDescription& Scene)
 		{
 			if (!IsIndexOrNone(Slot.Texture, Scene.Textures.size()) || Slot.UVSet > 1)
 			{
-				return fmt::format("material {} '{}': texture slot out of range", I, Scene.Materials[I].Name);
+				return fmt::format("material {} {}: texture slot out of range", I, Quote(Scene.Materials[I].Name));
 			}
 		}
 	}
@@ -170,7 +171,7 @@ std::string ValidateLights(const FSceneDescription& Scene)
 		                   std::isfinite(Light.FlickerPhase) && Light.FlickerDuty >= 0.0f && Light.FlickerDuty <= 1.0f;
 		if (!bWave || (Light.FlickerHz > 0.0f && Light.Type == LIGHT_DIRECTIONAL))
 		{
-			return fmt::format("light {} '{}': flickers as no light can", I, Light.Name);
+			return fmt::format("light {} {}: flickers as no light can", I, Quote(Light.Name));
 		}
 	}
 	return {};
@@ -186,8 +187,8 @@ std::string ValidatePlaces(const FSceneDescription& Scene)
 		{
 			if (!(std::abs(Pose.World[I][C / 4][C % 4]) < MaxCoordinate))
 			{
-				return fmt::format("node {} '{}': its place or size in the world is beyond {:g} m", I,
-				                   Scene.Nodes[I].Name, MaxCoordinate);
+				return fmt::format("node {} {}: its place or size in the world is beyond {:g} m", I,
+				                   Quote(Scene.Nodes[I].Name), MaxCoordinate);
 			}
 		}
 	}
@@ -217,7 +218,7 @@ std::string ValidateScene(const FSceneDescription& Scene)
 	{
 		if (const std::string Error = ValidateMesh(Scene, Scene.Meshes[I]); !Error.empty())
 		{
-			return fmt::format("mesh {} '{}': {}", I, Scene.Meshes[I].Name, Error);
+			return fmt::format("mesh {} {}: {}", I, Quote(Scene.Meshes[I].Name), Error);
 		}
 	}
 	const std::vector<uint16_t> MaxJoints = FindMaxJoints(Scene);
@@ -225,7 +226,7 @@ std::string ValidateScene(const FSceneDescription& Scene)
 	{
 		if (const std::string Error = ValidateNode(Scene, MaxJoints, Scene.Nodes[I], I); !Error.empty())
 		{
-			return fmt::format("node {} '{}': {}", I, Scene.Nodes[I].Name, Error);
+			return fmt::format("node {} {}: {}", I, Quote(Scene.Nodes[I].Name), Error);
 		}
 	}
 	if (const std::string Error = ValidateSkins(Scene); !Error.empty())

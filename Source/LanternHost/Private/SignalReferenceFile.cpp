@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "LanternCore/Log.h"
+#include "LanternCore/Quote.h"
 #include "LanternHost/AtomicFile.h"
 
 namespace Lantern
@@ -106,7 +107,7 @@ bool ReadReferenceFile(const std::string& Path, const FContentHash& Key, const F
 	if (!File) { return false; }
 	const char* const Fault = Parse(File, Key, Shape, Out);
 	if (!Fault) { return true; }
-	LogWarning("{} {}: it is traced anew", Path, Fault);
+	LogWarning("{} {}: it is traced anew", EscapePath(Path), Fault);
 	Out = {};
 	return false;
 }

@@ -5,6 +5,8 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "LanternRHI/RTText.h"
+
 namespace Lantern
 {
 
@@ -13,7 +15,7 @@ namespace
 
 FRTStatus Refuse(const FRTModuleMesh& Mesh, const char* Reason)
 {
-	return FRTStatus::Error(ERTResult::InvalidArgument, "mesh \"%s\": %s", Mesh.Name, Reason);
+	return FRTStatus::Error(ERTResult::InvalidArgument, "mesh \"%s\": %s", FRTShown(Mesh.Name).Text, Reason);
 }
 
 bool IsSectionSound(const FRTModuleSection& Section, uint32_t IndexCount)

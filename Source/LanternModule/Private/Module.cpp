@@ -13,6 +13,7 @@
 #include "LanternCore/Config.h"
 #include "LanternCore/ConsoleVariables.h"
 #include "LanternCore/Log.h"
+#include "LanternCore/Quote.h"
 #include "LanternCore/ShaderCompiler.h"
 #include "LanternModule/ModuleVulkan.h"
 #include "LanternRHIVulkan/VulkanDevice.h"
@@ -60,7 +61,8 @@ FRTStatus CheckFolder(const char* What, const std::string& Folder)
 	{
 		return FRTStatus::Success();
 	}
-	return FRTStatus::Error(ERTResult::IoError, "%s folder \"%s\" does not exist", What, Folder.c_str());
+	return FRTStatus::Error(ERTResult::IoError, "%s folder \"%s\" does not exist", What,
+	                        EscapePath(Folder).c_str());
 }
 
 class FModule final : public TRefCounted<IRTModule>
@@ -164,7 +166,7 @@ FRTStatus FModule::SetQuality(const std::string& Group, const char* Value)
 	if (!Quality || ConfigFolder.empty())
 	{
 		return FRTStatus::Error(ERTResult::InvalidArgument, "sg.%s=%s: no such level, or no config folder",
-		                        Group.c_str(), Value);
+		                        FRTShown(Group.c_str()).Text, FRTShown(Value).Text);
 	}
 	const FConfigProblems Problems = LoadScalabilityGroup({ConfigFolder}, Group, *Quality);
 	return Problems.empty() ? FRTStatus::Success()
@@ -188,7 +190,8 @@ FRTStatus FModule::GetConsoleVariable(const char* Name, char* Out, size_t Capaci
 	const FRTConsoleVariable* Variable = FConsoleVariables::Get().Find(Name);
 	if (Variable == nullptr)
 	{
-		return FRTStatus::Error(ERTResult::InvalidArgument, "no console variable is called \"%s\"", Name);
+		return FRTStatus::Error(ERTResult::InvalidArgument, "no console variable is called \"%s\"",
+		                        FRTShown(Name).Text);
 	}
 	std::snprintf(Out, Capacity, "%s", FConsoleVariables::ToString(Variable->GetValue()).c_str());
 	return FRTStatus::Success();

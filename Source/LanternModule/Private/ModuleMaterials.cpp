@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "ArgumentChecks.h"
+#include "LanternRHI/RTText.h"
 #include "MeshData.h"
 #include "ModuleRenderer.h"
 
@@ -15,7 +16,7 @@ FRTStatus RefuseMasked(const FRTGeometryInfo& Geometry, size_t Section)
 {
 	return FRTStatus::Error(ERTResult::InvalidArgument,
 	                        "mesh \"%s\": section %zu cannot have a masked material: it was added without bMayBeMasked",
-	                        Geometry.Name.c_str(), Section);
+	                        FRTShown(Geometry.Name.c_str()).Text, Section);
 }
 
 } // namespace
@@ -127,7 +128,7 @@ FRTStatus FModuleRenderer::ResolveMaterials(const FRTGeometryInfo& Geometry, con
 	if (MaterialCount != Geometry.Sections.size() || Handles == nullptr)
 	{
 		return FRTStatus::Error(ERTResult::InvalidArgument, "an object of \"%s\" needs %zu materials, not %u",
-		                        Geometry.Name.c_str(), Geometry.Sections.size(),
+		                        FRTShown(Geometry.Name.c_str()).Text, Geometry.Sections.size(),
 		                        Handles != nullptr ? MaterialCount : 0);
 	}
 	for (uint32_t Section = 0; Section < MaterialCount; ++Section)
@@ -136,7 +137,7 @@ FRTStatus FModuleRenderer::ResolveMaterials(const FRTGeometryInfo& Geometry, con
 		if (Material == nullptr)
 		{
 			return FRTStatus::Error(ERTResult::InvalidArgument, "mesh \"%s\": section %u: no such material",
-			                        Geometry.Name.c_str(), Section);
+			                        FRTShown(Geometry.Name.c_str()).Text, Section);
 		}
 		Out.push_back(Material->Index);
 		if (Geometry.Sections[Section].bOpaque && (Scene.GetMaterials()[Out.back()].Flags & MATERIAL_MASKED) != 0)

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "ArgumentChecks.h"
+#include "LanternRHI/RTText.h"
 #include "MeshData.h"
 
 namespace Lantern
@@ -132,7 +133,7 @@ FRTStatus FModuleRenderer::UpdateMeshVertices(ERTMeshHandle Handle, const float*
 	if (!Mesh->Deformable)
 	{
 		return FRTStatus::Error(ERTResult::InvalidArgument, "mesh \"%s\" was added without bDeformable",
-		                        Mesh->Geometry->GetInfo().Name.c_str());
+		                        FRTShown(Mesh->Geometry->GetInfo().Name.c_str()).Text);
 	}
 	return Mesh->Deformable->SetVertices(Positions, Normals);
 }
@@ -148,7 +149,7 @@ FRTStatus FModuleRenderer::RemoveMesh(ERTMeshHandle Handle)
 	if (Mesh->Users > 0)
 	{
 		return FRTStatus::Error(ERTResult::InvalidArgument, "RemoveMesh: %u objects still use mesh \"%s\"", Mesh->Users,
-		                        Name.c_str());
+		                        FRTShown(Name.c_str()).Text);
 	}
 	const uint32_t Slot = Meshes.GetSlot(Handle);
 	RemovedMeshes.resize(std::max<size_t>(RemovedMeshes.size(), Slot + 1));
@@ -165,7 +166,7 @@ FRTStatus FModuleRenderer::RefuseMesh(const char* Function, ERTMeshHandle Handle
 		return RefuseHandle(Function, "mesh");
 	}
 	return FRTStatus::Error(ERTResult::InvalidArgument, "%s: no such mesh: \"%s\" was removed", Function,
-	                        RemovedMeshes[Slot].Name.c_str());
+	                        FRTShown(RemovedMeshes[Slot].Name.c_str()).Text);
 }
 
 FRTStatus FModuleRenderer::AddObject(const FRTModuleObject& Object, ERTObjectHandle* Out)

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "LanternRHI/RTText.h"
+
 namespace Lantern
 {
 
@@ -11,14 +13,13 @@ FRTStatus FRTStatus::Error(ERTResult InCode, const char* Format, ...)
 {
 	FRTStatus Status;
 	Status.Code = InCode;
+	// Room for a character that begins where the message is full: half of it would count as broken.
+	char Raw[sizeof(Status.Message) + 4] = {};
 	va_list Args;
 	va_start(Args, Format);
-	const int Length = std::vsnprintf(Status.Message, sizeof(Status.Message), Format, Args);
+	std::vsnprintf(Raw, sizeof(Raw), Format, Args);
 	va_end(Args);
-	if (Length >= static_cast<int>(sizeof(Status.Message)))
-	{
-		std::memcpy(Status.Message + sizeof(Status.Message) - 4, "...", 4);
-	}
+	ShowText(Status.Message, sizeof(Status.Message), Raw, std::strlen(Raw), ERTTextKind::Lines, "...");
 	return Status;
 }
 

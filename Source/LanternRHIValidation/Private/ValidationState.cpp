@@ -6,6 +6,8 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "LanternRHI/RTText.h"
+
 namespace Lantern
 {
 
@@ -21,7 +23,7 @@ std::string Print(const char* Format, ...)
 
 std::string MakeLabel(const char* Type, const char* Name)
 {
-	return std::string(Type) + " '" + (Name && *Name ? Name : "unnamed") + "'";
+	return std::string(Type) + " '" + (Name && *Name ? FRTShown(Name).Text : "unnamed") + "'";
 }
 
 std::string DescribeAccess(ERTAccess Access)

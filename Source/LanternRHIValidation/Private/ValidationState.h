@@ -189,7 +189,7 @@ private:
 
 /// "ShaderRead|CopyRead"
 std::string DescribeAccess(ERTAccess Access);
-/// "buffer 'Name'"
+/// "buffer 'Name'", whose name may be anything: what is shown of it is short and one line.
 std::string MakeLabel(const char* Type, const char* Name);
 /// printf-style.
 std::string Print(const char* Format, ...) __attribute__((format(printf, 1, 2)));

@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "LanternRHI/RTText.h"
+
 namespace Lantern
 {
 
@@ -91,7 +93,8 @@ FRTBuildSizes QuerySizes(FVulkanDevice& Device, const VkAccelerationStructureBui
 
 FRTStatus NoRayTracing(const char* Name)
 {
-	return FRTStatus::Error(ERTResult::Unsupported, "'%.200s': the device has no acceleration structures", Name);
+	return FRTStatus::Error(ERTResult::Unsupported, "'%s': the device has no acceleration structures",
+	                        FRTShown(Name).Text);
 }
 
 VkBuildAccelerationStructureFlagsKHR FlagsOf(const FRTGeometryDesc& Desc)
@@ -154,8 +157,8 @@ FRTStatus FVulkanGeometry::Initialise(const FRTGeometryDesc& Desc)
 	}
 	if (Total > Device.GetCapabilities().MaxPrimitiveCount)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "Geometry '%.200s' has %llu primitives; the limit is %llu",
-		                        Desc.Name, static_cast<unsigned long long>(Total),
+		return FRTStatus::Error(ERTResult::Unsupported, "Geometry '%s' has %llu primitives; the limit is %llu",
+		                        FRTShown(Desc.Name).Text, static_cast<unsigned long long>(Total),
 		                        static_cast<unsigned long long>(Device.GetCapabilities().MaxPrimitiveCount));
 	}
 	Sizes = QueryGeometrySizes(Device, Desc);
@@ -212,8 +215,8 @@ FRTStatus FVulkanScene::Initialise(const FRTSceneDesc& Desc)
 	MaxInstances = Desc.MaxInstances;
 	if (MaxInstances > Device.GetCapabilities().MaxInstanceCount)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "Scene '%.200s' of %u instances; the device's limit is %llu",
-		                        Desc.Name, MaxInstances,
+		return FRTStatus::Error(ERTResult::Unsupported, "Scene '%s' of %u instances; the device's limit is %llu",
+		                        FRTShown(Desc.Name).Text, MaxInstances,
 		                        static_cast<unsigned long long>(Device.GetCapabilities().MaxInstanceCount));
 	}
 	Flags = Desc.bFastBuild ? VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_BUILD_BIT_KHR
@@ -234,8 +237,8 @@ FRTStatus FVulkanScene::Initialise(const FRTSceneDesc& Desc)
 	Index = Device.Bindless.AddScene(Handle);
 	if (Index == NoBindlessIndex)
 	{
-		return FRTStatus::Error(ERTResult::OutOfDescriptors, "Scene '%.200s': all %u indices are in use", Desc.Name,
-		                        Device.Probe.MaxBindlessScenes);
+		return FRTStatus::Error(ERTResult::OutOfDescriptors, "Scene '%s': all %u indices are in use",
+		                        FRTShown(Desc.Name).Text, Device.Probe.MaxBindlessScenes);
 	}
 	return {};
 }

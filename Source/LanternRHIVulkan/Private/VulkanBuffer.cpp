@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "LanternRHI/RTText.h"
+
 namespace Lantern
 {
 
@@ -25,7 +27,7 @@ FRTStatus FVulkanBlock::Create(FVulkanDevice& InDevice, uint64_t Size, VkBufferU
 		Handle = VK_NULL_HANDLE;
 		FRTStatus Status = MakeStatus(Result, "Creating buffer", Name);
 		return Status.Code == ERTResult::OutOfDeviceMemory
-		           ? FRTStatus::Error(Status.Code, "Creating buffer '%.200s' of %llu bytes: %s", Name,
+		           ? FRTStatus::Error(Status.Code, "Creating buffer '%s' of %llu bytes: %s", FRTShown(Name).Text,
 		                              static_cast<unsigned long long>(Size), ToString(Result))
 		           : Status;
 	}

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "LanternRHI/RTText.h"
+
 namespace Lantern
 {
 
@@ -338,9 +340,10 @@ void FillNames(const FSupported& Supported, FVulkanProbe& Out)
 {
 	const VkPhysicalDeviceProperties& Core = Supported.Core.properties;
 	const VkPhysicalDeviceVulkan12Properties& Driver = Supported.Vulkan12;
-	snprintf(Out.Capabilities.DeviceName, sizeof(Out.Capabilities.DeviceName), "%s", Core.deviceName);
-	snprintf(Out.Capabilities.DriverName, sizeof(Out.Capabilities.DriverName), "%.120s %.120s", Driver.driverName,
-	         Driver.driverInfo);
+	// Escaped here: they go into messages, reports and tables everywhere.
+	snprintf(Out.Capabilities.DeviceName, sizeof(Out.Capabilities.DeviceName), "%s", FRTShown(Core.deviceName).Text);
+	snprintf(Out.Capabilities.DriverName, sizeof(Out.Capabilities.DriverName), "%s %s", FRTShown(Driver.driverName).Text,
+	         FRTShown(Driver.driverInfo).Text);
 	Out.Capabilities.bIsCpu = Core.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
 	Out.Type = Core.deviceType;
 	Out.VendorId = Core.vendorID;
@@ -391,7 +394,8 @@ void ProbeVulkanDevice(const FVulkanInstanceApi& Api, VkPhysicalDevice Physical,
 	if (Properties.apiVersion < VK_API_VERSION_1_3)
 	{
 		// Structures of 1.2 and 1.3 must not be asked of it.
-		snprintf(Out->Capabilities.DeviceName, sizeof(Out->Capabilities.DeviceName), "%s", Properties.deviceName);
+		snprintf(Out->Capabilities.DeviceName, sizeof(Out->Capabilities.DeviceName), "%s",
+		         FRTShown(Properties.deviceName).Text);
 		Out->Type = Properties.deviceType;
 		Out->Capabilities.bIsCpu = Properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
 		Out->Missing = "Vulkan 1.3: nothing runs without it\n";

@@ -29,13 +29,15 @@ FVulkanInstance::~FVulkanInstance()
 
 void FVulkanInstance::Report(ERTVulkanMessage Severity, const char* Text) const
 {
+	// Layers and drivers write them, with names of objects in them.
+	const std::string Shown = Show(Text, ERTTextKind::Lines);
 	if (Settings.Callback)
 	{
-		Settings.Callback(Settings.CallbackUser, Severity, Text);
+		Settings.Callback(Settings.CallbackUser, Severity, Shown.c_str());
 	}
 	else if (Severity != ERTVulkanMessage::Info)
 	{
-		fprintf(stderr, "Vulkan: %s: %s\n", Severity == ERTVulkanMessage::Error ? "error" : "warning", Text);
+		fprintf(stderr, "Vulkan: %s: %s\n", Severity == ERTVulkanMessage::Error ? "error" : "warning", Shown.c_str());
 	}
 }
 

@@ -99,7 +99,7 @@ VkResult FVulkanPipelineCache::Create(VkDevice InDevice, const FVulkanDeviceApi&
 		fclose(Stream);
 		if (Problem)
 		{
-			snprintf(OutMessage, MessageSize, "pipeline cache %s %s: discarded", File.c_str(), Problem);
+			snprintf(OutMessage, MessageSize, "pipeline cache %s %s: discarded", Show(File).c_str(), Problem);
 			Data.clear();
 		}
 	}
@@ -111,7 +111,7 @@ VkResult FVulkanPipelineCache::Create(VkDevice InDevice, const FVulkanDeviceApi&
 	{
 		return Result;
 	}
-	snprintf(OutMessage, MessageSize, "pipeline cache %s is refused by the driver (%s): discarded", File.c_str(),
+	snprintf(OutMessage, MessageSize, "pipeline cache %s is refused by the driver (%s): discarded", Show(File).c_str(),
 	         ToString(Result));
 	Info.initialDataSize = 0;
 	return Api->CreatePipelineCache(Device, &Info, nullptr, &Handle);
@@ -153,7 +153,8 @@ FRTStatus FVulkanPipelineCache::Save()
 	int Reason = errno;
 	if (Descriptor < 0)
 	{
-		return FRTStatus::Error(ERTResult::IoError, "pipeline cache %s was not written: %s", File.c_str(), strerror(Reason));
+		return FRTStatus::Error(ERTResult::IoError, "pipeline cache %s was not written: %s", Show(File).c_str(),
+		                        strerror(Reason));
 	}
 	FILE* Stream = fdopen(Descriptor, "wb");
 	bool bWritten = Stream && fwrite(&Header, sizeof(Header), 1, Stream) == 1 &&
@@ -172,7 +173,7 @@ FRTStatus FVulkanPipelineCache::Save()
 	if (!bWritten)
 	{
 		remove(Temporary.c_str());
-		return FRTStatus::Error(ERTResult::IoError, "pipeline cache %s was not written: %s", File.c_str(),
+		return FRTStatus::Error(ERTResult::IoError, "pipeline cache %s was not written: %s", Show(File).c_str(),
 		                        strerror(Reason));
 	}
 	return {};

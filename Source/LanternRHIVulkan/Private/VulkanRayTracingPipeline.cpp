@@ -4,6 +4,8 @@
 #include "VulkanQuirks.h"
 #include "VulkanShaderModules.h"
 
+#include "LanternRHI/RTText.h"
+
 #include <algorithm>
 #include <iterator>
 
@@ -74,12 +76,13 @@ FRTStatus CheckSupport(const FVulkanDevice& Device, const FRTRayTracingPipelineD
 	const FRTCapabilities& Caps = Device.GetCapabilities();
 	if (!Caps.bRayTracingPipeline)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "'%.200s': the device has no ray-tracing pipelines", Desc.Name);
+		return FRTStatus::Error(ERTResult::Unsupported, "'%s': the device has no ray-tracing pipelines",
+		                        FRTShown(Desc.Name).Text);
 	}
 	if (Desc.MaxRecursion > Caps.MaxRayRecursionDepth)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "'%.200s' needs recursion %u; the device's limit is %u",
-		                        Desc.Name, Desc.MaxRecursion, Caps.MaxRayRecursionDepth);
+		return FRTStatus::Error(ERTResult::Unsupported, "'%s' needs recursion %u; the device's limit is %u",
+		                        FRTShown(Desc.Name).Text, Desc.MaxRecursion, Caps.MaxRayRecursionDepth);
 	}
 	if (Desc.LibraryCount == 0 && !Desc.bLibrary)
 	{
@@ -87,13 +90,14 @@ FRTStatus CheckSupport(const FVulkanDevice& Device, const FRTRayTracingPipelineD
 	}
 	if (!Caps.bPipelineLibraries)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "'%.200s': the device has no pipeline libraries", Desc.Name);
+		return FRTStatus::Error(ERTResult::Unsupported, "'%s': the device has no pipeline libraries",
+		                        FRTShown(Desc.Name).Text);
 	}
 	if (!Desc.bLibrary && Desc.GroupCount == 0 && !Caps.bLibraryOnlyPipelines)
 	{
 		return FRTStatus::Error(ERTResult::Unsupported,
-		                        "'%.200s': this driver needs ray generation and miss groups among the link's own",
-		                        Desc.Name);
+		                        "'%s': this driver needs ray generation and miss groups among the link's own",
+		                        FRTShown(Desc.Name).Text);
 	}
 	return {};
 }

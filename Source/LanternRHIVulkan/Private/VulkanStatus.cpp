@@ -41,6 +41,13 @@ const char* ToString(VkResult Result)
 	return Number;
 }
 
+std::string Show(std::string_view Text, ERTTextKind Kind)
+{
+	std::string Shown;
+	ShowText(Text.data(), Text.size(), Kind, [&](const char* Bytes, size_t Count) { Shown.append(Bytes, Count); });
+	return Shown;
+}
+
 FRTStatus MakeStatus(VkResult Result, const char* What, const char* Name)
 {
 	ERTResult Code = ERTResult::Unsupported;
@@ -59,7 +66,7 @@ FRTStatus MakeStatus(VkResult Result, const char* What, const char* Name)
 	case VK_TIMEOUT: Code = ERTResult::Timeout; break;
 	default: break;
 	}
-	return FRTStatus::Error(Code, "%s '%s': %s", What, Name ? Name : "", ToString(Result));
+	return FRTStatus::Error(Code, "%s '%s': %s", What, FRTShown(Name).Text, ToString(Result));
 }
 
 } // namespace Lantern

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "LanternRHI/RTText.h"
+
 namespace Lantern
 {
 
@@ -58,15 +60,15 @@ FRTStatus FVulkanTexture::CreateImage()
 	if (Result != VK_SUCCESS)
 	{
 		return FRTStatus::Error(
-		    ERTResult::Unsupported, "Texture '%.200s': the device has no format %d with the usages %#x asked for (%s)",
-		    Desc.Name, static_cast<int>(Info.format), static_cast<unsigned>(Info.usage), ToString(Result));
+		    ERTResult::Unsupported, "Texture '%s': the device has no format %d with the usages %#x asked for (%s)",
+		    FRTShown(Desc.Name).Text, static_cast<int>(Info.format), static_cast<unsigned>(Info.usage), ToString(Result));
 	}
 	if (Desc.Width > Limits.maxExtent.width || Desc.Height > Limits.maxExtent.height ||
 	    Desc.MipCount > Limits.maxMipLevels || Desc.ArraySize > Limits.maxArrayLayers)
 	{
 		return FRTStatus::Error(
-		    ERTResult::Unsupported, "Texture '%.200s': %ux%u, %u mips, %u layers; the device's limit is %ux%u, %u, %u",
-		    Desc.Name, Desc.Width, Desc.Height, Desc.MipCount, Desc.ArraySize, Limits.maxExtent.width,
+		    ERTResult::Unsupported, "Texture '%s': %ux%u, %u mips, %u layers; the device's limit is %ux%u, %u, %u",
+		    FRTShown(Desc.Name).Text, Desc.Width, Desc.Height, Desc.MipCount, Desc.ArraySize, Limits.maxExtent.width,
 		    Limits.maxExtent.height, Limits.maxMipLevels, Limits.maxArrayLayers);
 	}
 	Result = Device.Memory.CreateImage(Info, &Image, &Allocation);
@@ -109,8 +111,8 @@ FRTStatus FVulkanTexture::CreateViews()
 	FRTStatus Status;
 	const auto NoIndex = [&](const char* Binding)
 	{
-		return FRTStatus::Error(ERTResult::OutOfDescriptors, "Texture '%.200s': all %u %s indices are in use",
-		                        Desc.Name, Device.GetCapabilities().MaxBindlessTextures, Binding);
+		return FRTStatus::Error(ERTResult::OutOfDescriptors, "Texture '%s': all %u %s indices are in use",
+		                        FRTShown(Desc.Name).Text, Device.GetCapabilities().MaxBindlessTextures, Binding);
 	};
 	if (HasAny(Desc.Usage, ERTTextureUsage::Sampled))
 	{
@@ -199,8 +201,8 @@ FRTStatus FVulkanSampler::Initialise(const FRTSamplerDesc& Desc)
 	Index = Device.Bindless.AddSampler(Handle);
 	if (Index == NoBindlessIndex)
 	{
-		return FRTStatus::Error(ERTResult::OutOfDescriptors, "Sampler '%.200s': all %u indices are in use", Name,
-		                        Device.Probe.MaxBindlessSamplers);
+		return FRTStatus::Error(ERTResult::OutOfDescriptors, "Sampler '%s': all %u indices are in use",
+		                        FRTShown(Name).Text, Device.Probe.MaxBindlessSamplers);
 	}
 	return {};
 }

@@ -7,6 +7,7 @@
 
 #include "CoarserLevel.h"
 #include "GeometryReleases.h"
+#include "LanternRHI/RTText.h"
 
 namespace Lantern
 {
@@ -18,8 +19,8 @@ constexpr uint64_t SmallScratchBytes = 256 << 10; // not worth a new allocation
 
 FRTStatus RefuseSection(const FRTGeometryInfo& Info, size_t Section, const char* Reason)
 {
-	return FRTStatus::Error(ERTResult::InvalidArgument, "geometry \"%s\", section %zu: %s", Info.Name.c_str(), Section,
-	                        Reason);
+	return FRTStatus::Error(ERTResult::InvalidArgument, "geometry \"%s\", section %zu: %s",
+	                        FRTShown(Info.Name.c_str()).Text, Section, Reason);
 }
 } // namespace
 
@@ -34,7 +35,7 @@ FRTStatus FGeometryStore::Check(const FRTGeometryInfo& Info) const
 {
 	if (Info.Sections.empty())
 	{
-		return FRTStatus::Error(ERTResult::InvalidArgument, "geometry \"%s\" has no section", Info.Name.c_str());
+		return FRTStatus::Error(ERTResult::InvalidArgument, "geometry \"%s\" has no section", FRTShown(Info.Name.c_str()).Text);
 	}
 	uint64_t Primitives = 0;
 	for (size_t Index = 0; Index < Info.Sections.size(); ++Index)
@@ -74,7 +75,7 @@ FRTStatus FGeometryStore::Check(const FRTGeometryInfo& Info) const
 	if (const uint64_t Most = Device.GetCapabilities().MaxPrimitiveCount; Primitives > Most)
 	{
 		return FRTStatus::Error(ERTResult::Unsupported, "%s has %llu triangles; the device allows %llu",
-		                        Info.Name.c_str(), static_cast<unsigned long long>(Primitives),
+		                        FRTShown(Info.Name.c_str()).Text, static_cast<unsigned long long>(Primitives),
 		                        static_cast<unsigned long long>(Most));
 	}
 	return FRTStatus::Success();

@@ -6,6 +6,7 @@
 #include "CoarserLevel.h"
 #include "GeometryStoreVariables.h"
 #include "LanternCore/Log.h"
+#include "LanternCore/Quote.h"
 #include "LanternScene/GeometryStore.h"
 
 namespace Lantern
@@ -291,7 +292,7 @@ FRTStatus FGeometryStore::TakeCoarser(FEntry& Entry)
 		LogOnce(ERTLogLevel::Warning, fmt::format("Scene: geometry \"{}\" does not fit: {:.1f} MiB of acceleration "
 		                                          "structure, r.RT.Build.MemoryMB {}; a coarser "
 		                                          "level of {} of its {} triangles takes its place",
-		                                          Geometry.Info.Name, ToMiB(BytesBefore),
+		                                          EscapeText(Geometry.Info.Name, MaxQuotedBytes), ToMiB(BytesBefore),
 		                                          CVarMemory.GetOnRenderThread(), Entry.Triangles, Before));
 	}
 	return FRTStatus::Success();
@@ -311,7 +312,7 @@ void FGeometryStore::Refuse(FEntry& Entry, uint64_t Room)
 	        fmt::format(
 	            "Scene: geometry \"{}\" ({} triangles) is left out: {:.1f} MiB of acceleration structure do not fit, "
 	            "r.RT.Build.MemoryMB {}, {:.1f} MiB in use",
-	            Entry.Geometry->Info.Name, Entry.Triangles, ToMiB(Entry.Sizes.StructureBytes),
+	            EscapeText(Entry.Geometry->Info.Name, MaxQuotedBytes), Entry.Triangles, ToMiB(Entry.Sizes.StructureBytes),
 	            CVarMemory.GetOnRenderThread(), ToMiB(GetUsed())));
 }
 

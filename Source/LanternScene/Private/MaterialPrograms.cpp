@@ -2,12 +2,21 @@
 
 #include <cassert>
 
+#include "LanternCore/Quote.h"
+
 namespace Lantern
 {
 
 namespace
 {
 constexpr const char* MaterialHeader = "Materials/Material.glsl";
+
+/// Messages, traces and shaders are called by the name, and an engine may give any.
+FMaterialProgramDesc WithShownName(FMaterialProgramDesc Desc)
+{
+	Desc.Name = EscapeText(Desc.Name, MaxQuotedBytes);
+	return Desc;
+}
 }
 
 FMaterialPrograms::FMaterialPrograms()
@@ -17,12 +26,13 @@ FMaterialPrograms::FMaterialPrograms()
 
 uint32_t FMaterialPrograms::Add(FMaterialProgramDesc Desc)
 {
-	Entries.push_back({std::make_shared<const FMaterialProgramDesc>(std::move(Desc)), 0});
+	Entries.push_back({std::make_shared<const FMaterialProgramDesc>(WithShownName(std::move(Desc))), 0});
 	return GetCount() - 1;
 }
 
 uint32_t FMaterialPrograms::FindOrAdd(FMaterialProgramDesc Desc)
 {
+	Desc = WithShownName(std::move(Desc));
 	for (uint32_t Program = 0; Program < GetCount(); ++Program)
 	{
 		if (Get(Program) == Desc)
@@ -36,6 +46,7 @@ uint32_t FMaterialPrograms::FindOrAdd(FMaterialProgramDesc Desc)
 void FMaterialPrograms::Edit(uint32_t Program, FMaterialProgramDesc Desc)
 {
 	assert(Program < GetCount());
+	Desc = WithShownName(std::move(Desc));
 	FEntry& Entry = Entries[Program];
 	if (*Entry.Desc == Desc)
 	{

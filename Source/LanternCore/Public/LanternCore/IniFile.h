@@ -46,7 +46,7 @@ struct FIniSection
 	std::vector<FIniEntry> Entries;
 };
 
-/// One value that stands after all operations, with the place that gave it ("Config/X.ini:12").
+/// One value that stands after all operations, as it is in the file, with the place that gave it ("Config/X.ini:12").
 struct FIniValue
 {
 	std::string Key, Value, Where;
@@ -68,9 +68,9 @@ public:
 	const std::vector<FIniSection>& GetSections() && = delete; // for (… : FIniFile::Load(…).GetSections()) dangles
 	const FIniSection* FindSection(std::string_view SectionName) const&;
 	const FIniSection* FindSection(std::string_view SectionName) && = delete;
-	/// "Name:line: text", in order of lines.
+	/// "Name:line: text", in order of lines; each one line that may be shown, whatever the file holds.
 	const std::vector<std::string>& GetProblems() const { return Problems; }
-	/// "Name:line"
+	/// "Name:line", escaped: for messages.
 	std::string GetWhere(uint32_t Line) const;
 
 private:

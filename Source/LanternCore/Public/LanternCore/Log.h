@@ -14,9 +14,11 @@ namespace Lantern
 
 enum class ERTLogLevel : uint8_t { Debug, Info, Warning, Error };
 
-/// Replaces where lines go (an engine's log); an empty function restores standard error.
+/// Replaces where lines go (an engine's log); an empty function restores standard error. A sink gets valid UTF-8
+/// without control characters; line breaks and tabs stay, for messages of several lines.
 void SetLogSink(std::function<void(ERTLogLevel, std::string_view)> Sink);
 void SetLogLevel(ERTLogLevel Minimum);
+/// What Text quotes from outside is to be escaped by the caller (Quote.h): only that keeps line breaks out of it.
 void LogLine(ERTLogLevel Level, std::string_view Text);
 /// Logs a given text once per process.
 void LogOnce(ERTLogLevel Level, std::string_view Text);

@@ -11,6 +11,7 @@
 #include "Builtin/StabilityLaterScenes.h"
 #include "Builtin/StabilityScenes.h"
 #include "Builtin/TestScenes.h"
+#include "LanternCore/Quote.h"
 
 namespace Lantern
 {
@@ -142,7 +143,7 @@ std::string ParseParameters(const FEntry& Entry, std::string_view Text, std::arr
 		Text.remove_prefix(Word.size());
 		if (I >= Entry.Parameters.size())
 		{
-			return fmt::format("'{}' is one parameter too many", Word);
+			return fmt::format("{} is one parameter too many", Quote(Word));
 		}
 		const FParameter& Parameter = Entry.Parameters[I];
 		float Value = 0.0f;
@@ -150,7 +151,7 @@ std::string ParseParameters(const FEntry& Entry, std::string_view Text, std::arr
 		if (Error != std::errc() || End != Word.data() + Word.size() || !(Value >= Parameter.Min) ||
 		    !(Value <= Parameter.Max))
 		{
-			return fmt::format("{} is '{}', expected a number from {} to {}", Parameter.Name, Word, Parameter.Min,
+			return fmt::format("{} is {}, expected a number from {} to {}", Parameter.Name, Quote(Word), Parameter.Min,
 			                   Parameter.Max);
 		}
 		OutValues[I] = Value;
@@ -200,7 +201,7 @@ FLoadResult BuildBuiltinScene(const std::string& NameWithParameters)
 	if (Entry == nullptr)
 	{
 		return {std::nullopt,
-		        fmt::format("{}: no such built-in scene; there are {}", NameWithParameters, GetBuiltinSceneNames())};
+		        fmt::format("{}: no such built-in scene; there are {}", EscapePath(NameWithParameters), GetBuiltinSceneNames())};
 	}
 	const size_t Colon = NameWithParameters.find(':');
 	const std::string_view Text =
@@ -209,7 +210,7 @@ FLoadResult BuildBuiltinScene(const std::string& NameWithParameters)
 	const std::string Error = ParseParameters(*Entry, Text, Values);
 	if (!Error.empty())
 	{
-		return {std::nullopt, fmt::format("{}: {}", NameWithParameters, Error)};
+		return {std::nullopt, fmt::format("{}: {}", EscapePath(NameWithParameters), Error)};
 	}
 	FLoadResult Result;
 	Result.Scene = Entry->Build(Values.data());

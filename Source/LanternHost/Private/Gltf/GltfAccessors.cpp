@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "Gltf/GltfDocument.h"
+#include "LanternCore/Quote.h"
 
 namespace Lantern::Gltf
 {
@@ -67,7 +68,7 @@ uint32_t ReadComponentCount(const FJson& Json)
 			return Count;
 		}
 	}
-	Type.Fail(fmt::format("'{}' is no accessor type", Name.substr(0, 40)));
+	Type.Fail(fmt::format("{} is no accessor type", Quote(Name)));
 }
 
 /// Checks that Count elements fit, without an overflow for any numbers.
@@ -312,7 +313,7 @@ FBlob ReadBuffer(const FDocument& Document, const FJson& Json, size_t Index)
 		}
 		catch (const FError& Error)
 		{
-			Json.Fail(fmt::format("'{}' {}", Path.string(), Error.what()));
+			Json.Fail(fmt::format("'{}' {}", EscapePath(Path.string()), Error.what()));
 		}
 	}
 	if (Blob.Bytes.size() < ByteLength)

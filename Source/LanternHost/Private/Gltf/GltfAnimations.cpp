@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "Gltf/GltfDocument.h"
+#include "LanternCore/Quote.h"
 
 namespace Lantern::Gltf
 {
@@ -90,7 +91,7 @@ void CheckJoints(FDocument& Document)
 			const FHostSkin& Skin = Scene.Skins[size_t(Node.Skin)];
 			if (size_t(MaxJoint[size_t(Node.Mesh)]) >= Skin.Joints.size())
 			{
-				throw FError(fmt::format("node '{}': its mesh refers to joint {}, but skins[{}] has {}", Node.Name,
+				throw FError(fmt::format("node {}: its mesh refers to joint {}, but skins[{}] has {}", Quote(Node.Name),
 				                         MaxJoint[size_t(Node.Mesh)], Node.Skin, Skin.Joints.size()));
 			}
 			// Every skinned node needs vertices and joints of its own, whoever bends them.
@@ -141,7 +142,7 @@ void ReadValues(FDocument& Document, const FJson& Sampler, FHostChannel& Channel
 	const std::string Interpolation = Sampler.GetString("interpolation", "LINEAR");
 	if (Interpolation != "LINEAR" && Interpolation != "STEP" && Interpolation != "CUBICSPLINE")
 	{
-		Sampler.Fail(fmt::format("'{}' is no interpolation", Interpolation.substr(0, 40)));
+		Sampler.Fail(fmt::format("{} is no interpolation", Quote(Interpolation)));
 	}
 	Channel.Interpolation = Interpolation == "LINEAR" ? EInterpolation::Linear
 	                        : Interpolation == "STEP" ? EInterpolation::Step
@@ -180,7 +181,7 @@ bool ReadTarget(FDocument& Document, const FJson& Channel, FHostChannel& Out)
 	}
 	if (Path != "translation" && Path != "rotation" && Path != "scale")
 	{
-		Channel.Fail(fmt::format("'{}' is nothing that can be animated", Path.substr(0, 40)));
+		Channel.Fail(fmt::format("{} is nothing that can be animated", Quote(Path)));
 	}
 	if (Node < 0)
 	{

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "LanternCore/Quote.h"
+
 namespace Lantern::Gltf
 {
 
@@ -202,11 +204,9 @@ std::string PercentDecode(const FJson& Place, std::string_view Uri)
 std::filesystem::path ResolveUri(const FJson& Place, std::string_view Uri, const std::filesystem::path& Folder)
 {
 	const std::string Text = PercentDecode(Place, Uri);
-	// Short for messages: a URI may be megabytes of nonsense.
-	const std::string Shown = Text.size() > 200 ? Text.substr(0, 200) + "…" : Text;
 	if (Folder.empty())
 	{
-		Place.Fail(fmt::format("external file '{}' refused: the asset is in memory", Shown));
+		Place.Fail(fmt::format("external file {} refused: the asset is in memory", Quote(Text)));
 	}
 	if (Text.empty())
 	{
@@ -215,12 +215,12 @@ std::filesystem::path ResolveUri(const FJson& Place, std::string_view Uri, const
 	const std::filesystem::path Path(Text);
 	if (Text.find(':') != std::string::npos || Text.find('\\') != std::string::npos || Path.is_absolute())
 	{
-		Place.Fail(fmt::format("URI '{}' refused: only files beside the asset are read", Shown));
+		Place.Fail(fmt::format("URI {} refused: only files beside the asset are read", Quote(Text)));
 	}
 	const std::filesystem::path Normal = Path.lexically_normal();
 	if (Normal.empty() || *Normal.begin() == "..")
 	{
-		Place.Fail(fmt::format("URI '{}' refused: it leaves the asset's folder", Shown));
+		Place.Fail(fmt::format("URI {} refused: it leaves the asset's folder", Quote(Text)));
 	}
 	return Folder / Normal;
 }

@@ -6,6 +6,7 @@
 
 #include "Gltf/GltfDocument.h"
 #include "Gltf/StbDecode.h"
+#include "LanternCore/Quote.h"
 #include "LanternCore/Tasks.h"
 
 namespace Lantern::Gltf
@@ -48,7 +49,7 @@ FBlob ReadImageBytes(const FDocument& Document, const FJson& Json)
 		}
 		catch (const FError& Error)
 		{
-			throw FError(fmt::format("'{}' {}", Path.string(), Error.what()));
+			throw FError(fmt::format("'{}' {}", EscapePath(Path.string()), Error.what()));
 		}
 	}
 	return Blob;
@@ -94,7 +95,7 @@ void Collect(FDocument& Document, std::vector<FEncodedImage>& OutEncoded, std::m
 		FEncodedImage Encoded;
 		Encoded.HostImage = bNew ? I : First->second;
 		Encoded.Place =
-		    fmt::format("images[{}] '{}' ({})", Source.GltfImage, Document.Scene.Images[I].Name, Source.UsedBy);
+		    fmt::format("images[{}] {} ({})", Source.GltfImage, Quote(Document.Scene.Images[I].Name), Source.UsedBy);
 		try
 		{
 			if (bNew)

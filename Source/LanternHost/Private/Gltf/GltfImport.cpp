@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "Gltf/GltfDocument.h"
+#include "LanternCore/Quote.h"
 
 namespace Lantern::Gltf
 {
@@ -29,7 +30,7 @@ void CheckAsset(const FJson& Root)
 	const std::string Version = Asset.GetString("version", "");
 	if (!Version.starts_with("2."))
 	{
-		Asset.Fail(fmt::format("glTF version '{}' is not supported (2.0 is)", Version.substr(0, 20)));
+		Asset.Fail(fmt::format("glTF version {} is not supported (2.0 is)", Quote(Version)));
 	}
 }
 
@@ -43,7 +44,7 @@ void CheckExtensions(FDocument& Document)
 		const FJson Name = Required.Element(I);
 		if (!IsSupported(Name.ToString()))
 		{
-			Name.Fail(fmt::format("extension '{}' is required but not supported", Name.ToString().substr(0, 80)));
+			Name.Fail(fmt::format("extension {} is required but not supported", Quote(Name.ToString())));
 		}
 	}
 	const FJson Used = Document.Root.Member("extensionsUsed");
@@ -53,7 +54,7 @@ void CheckExtensions(FDocument& Document)
 		const FJson Name = Used.Element(I);
 		if (!IsSupported(Name.ToString()))
 		{
-			Ignored += (Ignored.empty() ? "" : ", ") + Name.ToString().substr(0, 80);
+			Ignored += (Ignored.empty() ? "" : ", ") + EscapeText(Name.ToString(), MaxQuotedBytes);
 		}
 	}
 	if (!Ignored.empty())

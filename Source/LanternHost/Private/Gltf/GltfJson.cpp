@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "LanternCore/Quote.h"
+
 namespace Lantern::Gltf
 {
 
@@ -303,9 +305,12 @@ nlohmann::json ParseJson(std::string_view Text)
 	catch (const nlohmann::json::exception& Exception)
 	{
 		// "[json.exception.parse_error.101] parse error at line 1, column 2: …": the bracket says nothing to a user.
+		// The last word read follows, as it is in the file and of any length.
+		constexpr size_t MaxReason = 300;
 		const std::string_view What = Exception.what();
 		const size_t End = What.find("] ");
-		throw FError(fmt::format("not valid JSON: {}", End == std::string_view::npos ? What : What.substr(End + 2)));
+		const std::string_view Reason = End == std::string_view::npos ? What : What.substr(End + 2);
+		throw FError("not valid JSON: " + EscapeText(Reason, MaxReason));
 	}
 }
 

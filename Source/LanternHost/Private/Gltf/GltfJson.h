@@ -12,7 +12,8 @@
 namespace Lantern::Gltf
 {
 
-/// What is wrong and where, without the file's name. Thrown inside the loader only; LoadScene turns it into text.
+/// What is wrong and where, without the file's name; what it quotes of the file is escaped. Thrown inside the loader
+/// only; LoadScene turns it into text.
 class FError : public std::runtime_error
 {
 public:

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "Gltf/GltfDocument.h"
+#include "LanternCore/Quote.h"
 
 namespace Lantern::Gltf
 {
@@ -190,7 +191,7 @@ void ReadAlpha(FDocument& Document, const FJson& Json, FHostMaterial& Material)
 	}
 	else if (Mode != "OPAQUE")
 	{
-		Json.Fail(fmt::format("'{}' is no alphaMode", Mode.substr(0, 40)));
+		Json.Fail(fmt::format("{} is no alphaMode", Quote(Mode)));
 	}
 	Material.AlphaCutoff = std::max(Json.GetFloat("alphaCutoff", 0.5f), 0.0f);
 	Material.bDoubleSided = Json.GetBool("doubleSided", false);

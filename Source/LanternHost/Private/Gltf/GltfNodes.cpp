@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "Gltf/GltfDocument.h"
+#include "LanternCore/Quote.h"
 
 namespace Lantern::Gltf
 {
@@ -169,7 +170,7 @@ FHostLight ReadLight(const FJson& Json)
 	const std::string Type = Json.GetString("type", "");
 	if (Type != "point" && Type != "spot" && Type != "directional")
 	{
-		Json.Fail(fmt::format("'{}' is no type of light", Type.substr(0, 40)));
+		Json.Fail(fmt::format("{} is no type of light", Quote(Type)));
 	}
 	Light.Type = Type == "point" ? LIGHT_POINT : Type == "spot" ? LIGHT_SPOT : LIGHT_DIRECTIONAL;
 	Light.Color =

@@ -23,7 +23,7 @@ FRTStatus WriteFileAtomically(const std::string& Path, std::string_view Bytes);
 /// device. Lets long work fail before it starts; the write may still fail later.
 FRTStatus CheckOutputPath(const std::string& Path);
 
-/// "Path: Reason" with the middle of an overlong path left out, so that the reason is never cut.
+/// "Path: Reason" on one line, both escaped, with the middle of an overlong path left out in favour of the reason.
 FRTStatus MakeFileError(ERTResult Code, const std::string& Path, const std::string& Reason);
 
 } // namespace Lantern

@@ -28,7 +28,7 @@ enum class ERTResult : int32_t
 };
 
 /// Result of a call that depends on the environment. Ok carries no message. Fixed size, so that it crosses
-/// an ABI; a longer message is cut, never lost silently (it then ends in "...").
+/// an ABI; a longer message is cut between two characters, never lost silently (it then ends in "...").
 struct [[nodiscard]] FRTStatus
 {
 	static constexpr size_t MaxMessage = 508;
@@ -40,7 +40,8 @@ struct [[nodiscard]] FRTStatus
 	explicit operator bool() const { return IsOk(); }
 
 	static FRTStatus Success() { return {}; }
-	/// printf-style.
+	/// printf-style. Whatever goes in, the message is valid UTF-8 without control characters, line breaks and tabs aside.
+	/// A name from outside still needs FRTShown (RTText.h), which lets no line break through.
 	static FRTStatus Error(ERTResult InCode, const char* Format, ...)
 #if defined(__GNUC__)
 	    __attribute__((format(printf, 2, 3)))

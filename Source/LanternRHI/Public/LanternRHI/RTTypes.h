@@ -171,7 +171,7 @@ enum class ERTRung : uint8_t
 struct FRTCapabilities
 {
 	char DeviceName[256] = {};
-	char DriverName[256] = {}; ///< name and version, as the driver gives them
+	char DriverName[256] = {}; ///< name and version, as the driver gives them, in characters that may be shown
 	bool bIsCpu = false;       ///< absolute times are not to be reported
 	ERTRung Rung = ERTRung::None;
 	bool bRayQuery = false;

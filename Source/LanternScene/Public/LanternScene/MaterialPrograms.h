@@ -27,7 +27,7 @@ inline constexpr const char* StandardProgramName = "Standard";
 
 struct FMaterialProgramDesc
 {
-	std::string Name;
+	std::string Name;             ///< for messages; kept as EscapeText shows it, at most MaxQuotedBytes
 	std::string Path;             ///< GLSL, relative to the shader folders
 	std::string Text;             ///< if not empty: instead of the file; Path then only names it in messages
 	std::string IntersectionPath; ///< intersection shader, for procedural geometry; may be empty
