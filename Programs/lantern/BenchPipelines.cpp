@@ -1,7 +1,6 @@
 #include "BenchPipelines.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <numeric>
 
 #include <CLI/CLI.hpp>
@@ -13,7 +12,6 @@
 #include "LanternCore/Log.h"
 #include "LanternHost/AtomicFile.h"
 #include "LanternRHIMock/MockDevice.h"
-#include "LanternRHIVulkan/VulkanDevice.h"
 #include "Progress.h"
 #include "Session.h"
 
@@ -22,13 +20,6 @@ namespace Lantern
 
 namespace
 {
-/// Caches of the drivers themselves, on disk; neither has a call for it.
-void SwitchDriverCachesOff()
-{
-	::setenv("__GL_SHADER_DISK_CACHE", "0", 1);
-	::setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
-}
-
 FRTStatus OpenDevice(const FBenchPipelinesOptions& Options, TRTRef<IRTDevice>& Out)
 {
 	if (Options.bMock)
@@ -42,16 +33,7 @@ FRTStatus OpenDevice(const FBenchPipelinesOptions& Options, TRTRef<IRTDevice>& O
 		GetMock(Out.Get()).SlowCompile("Bench", Options.MockCompileMs);
 		return FRTStatus::Success();
 	}
-	SwitchDriverCachesOff();
-	FRTVulkanDeviceDesc Desc;
-	Desc.DeviceIndex = Options.Device.Device;
-	if (const char* Index = std::getenv("LANTERN_DEVICE"); Index && Options.Device.Device < 0)
-	{
-		Desc.DeviceIndex = std::atoi(Index);
-	}
-	Desc.bValidation = Options.Device.bValidate;
-	Desc.bCacheLibraries = false;
-	return CreateVulkanDevice(Desc, Out.ReleaseAndGetAddress());
+	return OpenUncachedDevice(Options.Device, Out);
 }
 
 nlohmann::json MakeTimes(const std::vector<double>& Ms)

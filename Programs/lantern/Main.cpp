@@ -12,11 +12,13 @@
 #include "BenchFrame.h"
 #include "BenchGather.h"
 #include "BenchPipelines.h"
+#include "BenchShaders.h"
 #include "BenchTables.h"
 #include "ChartCommand.h"
 #include "CompareCommand.h"
 #include "InfoCommand.h"
 #include "LanternCore/Log.h"
+#include "LanternCore/Quote.h"
 #include "LanternHost/Signals.h"
 #include "RenderCommand.h"
 #include "StabilityCommand.h"
@@ -24,6 +26,13 @@
 namespace
 {
 using namespace Lantern;
+
+/// The parser quotes arguments as they are.
+std::string DescribeFailure(const CLI::App* App, const CLI::Error& Error)
+{
+	constexpr size_t MaxLength = 500;
+	return CLI::FailureMessage::simple(App, CLI::Error(Error.get_name(), EscapeText(Error.what(), MaxLength), Error.get_exit_code()));
+}
 
 /// One function a command: its options, and what to run when it was named. Options live as long as the parsing.
 class FCommandLine
@@ -33,6 +42,7 @@ public:
 	{
 		App.require_subcommand(1);
 		App.set_version_flag("--version", "lantern 0.1.0");
+		App.failure_message(DescribeFailure);
 		AddRender();
 		AddReference();
 		AddCompare();
@@ -69,6 +79,7 @@ private:
 	FBenchTablesOptions BenchTables;
 	FBenchGatherOptions BenchGather;
 	FBenchPipelinesOptions BenchPipelines;
+	FBenchShadersOptions BenchShaders;
 	FChartOptions Chart;
 	FStabilityOptions Stability;
 };
@@ -92,7 +103,7 @@ void FCommandLine::AddReference()
 	Command->add_option("--spp", Reference.Samples, "Samples per pixel")->check(CLI::Range(1, 1 << 24));
 	Command->add_option("--bounces", Reference.Bounces, "Scattering events, at most")->check(CLI::Range(0, 1 << 16));
 	Command->add_option("--signal", Reference.Signal, "One signal instead of the whole frame: sun_shadow, ambient_occlusion, diffuse_gi, reflections")->check([](const std::string& Text) {
-		return FindSignal(Text) ? std::string() : "'" + Text + "' is none of sun_shadow, ambient_occlusion, diffuse_gi, reflections, frame";
+		return FindSignal(Text) ? std::string() : Quote(Text) + " is none of sun_shadow, ambient_occlusion, diffuse_gi, reflections, frame";
 	});
 	Command->add_flag("--pixel-centers", Reference.bPixelCenters, "Camera rays through pixel centres, as real-time passes shade them; no antialiasing");
 	Command->add_flag("--resume", Reference.bResume, "Keep the sums in OUT.state, and go on from there");
@@ -106,7 +117,7 @@ void FCommandLine::AddCompare()
 	Command->add_option("A", Compare.A, "Image")->required();
 	Command->add_option("B", Compare.B, "Reference")->required();
 	Command->add_option("--heatmap", Compare.Heatmap, "FLIP's error map, .png")->check([](const std::string& Text) {
-		return Text.ends_with(".png") ? std::string() : "'" + Text + "' does not end in .png";
+		return Text.ends_with(".png") ? std::string() : Quote(Text) + " does not end in .png";
 	});
 	Command->add_option("--json", Compare.Json, "Write the figures to this file");
 	Command->final_callback([this] { Status = RunCompare(Compare); });
@@ -150,6 +161,9 @@ void FCommandLine::AddBench()
 	CLI::App* const Pipelines = Command->add_subcommand("rtpso", "Pipelines made whole and from libraries, and what frames notice of it");
 	BenchPipelines.AddTo(*Pipelines);
 	Pipelines->final_callback([this] { Status = RunBenchPipelines(BenchPipelines); });
+	CLI::App* const Shaders = Command->add_subcommand("shaders", "What each shader costs to compile, dearest first; caches are off");
+	BenchShaders.AddTo(*Shaders);
+	Shaders->final_callback([this] { Status = RunBenchShaders(BenchShaders); });
 }
 
 void FCommandLine::AddStability()
@@ -176,7 +190,7 @@ int FCommandLine::Run(int ArgumentCount, char** Arguments)
 	{
 		if (ArgumentCount > 1 && Arguments[1][0] != '-' && App.get_subcommands().empty())
 		{
-			std::cerr << "'" << Arguments[1] << "' is not a command\nRun with --help for more information.\n";
+			std::cerr << Quote(Arguments[1]) << " is not a command\nRun with --help for more information.\n";
 			return ExitUsage;
 		}
 		return App.exit(Error, std::cout, std::cerr) == 0 ? ExitDone : ExitUsage;
@@ -206,7 +220,7 @@ int main(int ArgumentCount, char** Arguments)
 	}
 	catch (const std::exception& Error)
 	{
-		LogError("{}", Error.what());
+		LogError("{}", EscapeText(Error.what()));
 	}
 	return ExitCheckFailed;
 }

@@ -6,6 +6,7 @@
 
 #include "LanternCore/Config.h"
 #include "LanternCore/Log.h"
+#include "LanternCore/Quote.h"
 #include "LanternCore/TaskTrace.h"
 #include "LanternHost/BuiltinScenes.h"
 #include "LanternHost/SceneLoader.h"
@@ -40,6 +41,15 @@ void OnVulkanMessage(void*, ERTVulkanMessage Severity, const char* Text)
 {
 	LogLine(Severity == ERTVulkanMessage::Error ? ERTLogLevel::Error : Severity == ERTVulkanMessage::Warning ? ERTLogLevel::Warning : ERTLogLevel::Info, Text);
 }
+
+FRTVulkanDeviceDesc MakeDeviceDesc(const FDeviceOptions& Options)
+{
+	FRTVulkanDeviceDesc Desc;
+	Desc.DeviceIndex = Options.Device;
+	if (const char* Index = std::getenv("LANTERN_DEVICE"); Index && Options.Device < 0) { Desc.DeviceIndex = std::atoi(Index); }
+	Desc.bValidation = Options.bValidate;
+	return Desc;
+}
 } // namespace
 
 FPluginFolders FindPluginFolders()
@@ -57,7 +67,7 @@ FPluginFolders FindPluginFolders()
 
 int ReportStatus(const FRTStatus& Status, const char* What)
 {
-	LogError("{}: {}", What, Status.Message);
+	LogError("{}: {}", EscapePath(What), Status.Message);
 	switch (Status.Code)
 	{
 	case ERTResult::Unsupported:
@@ -83,7 +93,7 @@ int LoadSettings(const std::string& ConfigFolder, const FDeviceOptions& Options)
 		std::error_code Error;
 		if (!fs::is_regular_file(Path, Error))
 		{
-			LogError("--config {}: no such file", Path);
+			LogError("--config {}: no such file", EscapePath(Path));
 			return ExitBadInput;
 		}
 		LoadFile(Config, Path);
@@ -97,6 +107,16 @@ int LoadSettings(const std::string& ConfigFolder, const FDeviceOptions& Options)
 	return ExitDone;
 }
 
+FRTStatus OpenUncachedDevice(const FDeviceOptions& Options, TRTRef<IRTDevice>& Out)
+{
+	// Caches of the drivers themselves, on disk; neither has a call for it.
+	::setenv("__GL_SHADER_DISK_CACHE", "0", 1);
+	::setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+	FRTVulkanDeviceDesc Desc = MakeDeviceDesc(Options);
+	Desc.bCacheLibraries = false;
+	return CreateVulkanDevice(Desc, Out.ReleaseAndGetAddress());
+}
+
 int FSession::OpenDevice(const FDeviceOptions& Options)
 {
 	Folders = FindPluginFolders();
@@ -107,10 +127,7 @@ int FSession::OpenDevice(const FDeviceOptions& Options)
 	}
 	if (const int Status = LoadSettings(Folders.Config, Options); Status != ExitDone) { return Status; }
 	if (!FTaskTrace::HasFolder()) { FTaskTrace::SetFolder(Folders.Cache); }
-	FRTVulkanDeviceDesc Desc;
-	Desc.DeviceIndex = Options.Device;
-	if (const char* Index = std::getenv("LANTERN_DEVICE"); Index && Options.Device < 0) { Desc.DeviceIndex = std::atoi(Index); }
-	Desc.bValidation = Options.bValidate;
+	FRTVulkanDeviceDesc Desc = MakeDeviceDesc(Options);
 	Desc.MessageCallback = OnVulkanMessage;
 	const std::string PipelineCache = Folders.Cache.empty() ? "" : Folders.Cache + "/pipelines.bin";
 	if (!PipelineCache.empty())

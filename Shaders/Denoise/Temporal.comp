@@ -13,6 +13,7 @@
 //     changed, and accumulation starts anew (the question of Schied et al. 2018, "Gradient Estimation for Real-Time Adaptive
 //     Temporal Filtering", asked of the samples that there are).
 #version 460
+#extension GL_EXT_control_flow_attributes : require
 #include "../Shared/DenoiseTypes.h"
 #include "../Library/View.glsl"
 #include "Signal.glsl"
@@ -75,7 +76,7 @@ struct FAccumulated
 void LoadTile(ivec2 Size)
 {
 	ivec2 First = ivec2(gl_WorkGroupID.xy) * Group - (Radius + 1);
-	for (int I = int(gl_LocalInvocationIndex); I < Side * Side; I += Group * Group)
+	[[dont_unroll]] for (int I = int(gl_LocalInvocationIndex); I < Side * Side; I += Group * Group)
 	{
 		ivec2 P = First + ivec2(I % Side, I / Side);
 		bool bInside = all(greaterThanEqual(P, ivec2(0))) && all(lessThan(P, Size));
@@ -117,7 +118,7 @@ float FindNoise(int I)
 
 void FindNoises()
 {
-	for (int I = int(gl_LocalInvocationIndex); I < Rows * Rows; I += Group * Group) { Noises[I] = FindNoise((I / Rows + 1) * Side + I % Rows + 1); }
+	[[dont_unroll]] for (int I = int(gl_LocalInvocationIndex); I < Rows * Rows; I += Group * Group) { Noises[I] = FindNoise((I / Rows + 1) * Side + I % Rows + 1); }
 }
 
 // Extent of the transition that the pixel lies in or beside: what those around it that know say, the nearest most.
@@ -127,9 +128,9 @@ float FindExtent()
 	ivec2 Own = ivec2(gl_LocalInvocationID.xy) + Radius + 1;
 	float Depth = Depths[Own.y * Side + Own.x];
 	float Sum = 0.0, Weights = 0.0;
-	for (int Y = -Radius; Y <= Radius; ++Y)
+	[[dont_unroll]] for (int Y = -Radius; Y <= Radius; ++Y)
 	{
-		for (int X = -Radius; X <= Radius; ++X)
+		[[dont_unroll]] for (int X = -Radius; X <= Radius; ++X)
 		{
 			int I = (Own.y + Y) * Side + Own.x + X;
 			if (Extents[I] <= 0.0 || abs(Depths[I] - Depth) > 0.1 * Depth) { continue; }
@@ -149,9 +150,9 @@ FNear LookAround()
 	ivec2 Own = ivec2(gl_LocalInvocationID.xy) + Radius;
 	float Depth = Depths[(Own.y + 1) * Side + Own.x + 1];
 	float Sum = 0.0, Count = 0.0, NoiseSum = 0.0, NoiseCount = 0.0;
-	for (int Y = -NoiseRadius; Y <= NoiseRadius; ++Y)
+	[[dont_unroll]] for (int Y = -NoiseRadius; Y <= NoiseRadius; ++Y)
 	{
-		for (int X = -NoiseRadius; X <= NoiseRadius; ++X)
+		[[dont_unroll]] for (int X = -NoiseRadius; X <= NoiseRadius; ++X)
 		{
 			int I = (Own.y + Y + 1) * Side + Own.x + X + 1;
 			if (abs(Depths[I] - Depth) > 0.1 * Depth) { continue; }
@@ -168,12 +169,12 @@ FNear LookAround()
 
 void SumRows()
 {
-	for (int I = int(gl_LocalInvocationIndex); I < Rows * Group; I += Group * Group)
+	[[dont_unroll]] for (int I = int(gl_LocalInvocationIndex); I < Rows * Group; I += Group * Group)
 	{
 		int Start = (I / Group + 1) * Side + I % Group + 1;
 		FSignal Sum = FSignal(0.0), Squares = FSignal(0.0);
 		float Count = 0.0;
-		for (int X = 0; X <= 2 * Radius; ++X)
+		[[dont_unroll]] for (int X = 0; X <= 2 * Radius; ++X)
 		{
 			FSignal Value = Values[Start + X];
 			Sum += Value;
@@ -197,7 +198,7 @@ FWindow SumColumns()
 {
 	FSignal Sum = FSignal(0.0), Squares = FSignal(0.0);
 	float Count = 0.0;
-	for (int Y = 0; Y <= 2 * Radius; ++Y)
+	[[dont_unroll]] for (int Y = 0; Y <= 2 * Radius; ++Y)
 	{
 		int I = (int(gl_LocalInvocationID.y) + Y) * Group + int(gl_LocalInvocationID.x);
 		Sum += RowSums[I];
@@ -227,7 +228,7 @@ float GetRoughness(float Texels[16])
 {
 	const ivec4 Inner = ivec4(5, 6, 9, 10);
 	float Sum = 0.0;
-	for (int I = 0; I < 4; ++I)
+	[[dont_unroll]] for (int I = 0; I < 4; ++I)
 	{
 		int T = Inner[I];
 		vec2 Bend = vec2(Texels[T - 1] + Texels[T + 1], Texels[T - 4] + Texels[T + 4]) - 2.0 * Texels[T];
@@ -243,7 +244,7 @@ void SampleSharply(FViewConstants View, FReprojection R, FSurface Surface, FSign
 	vec4 X = CubicWeights(R.Fraction.x), Y = CubicWeights(R.Fraction.y);
 	FSignal Sum = FSignal(0.0);
 	float Texels[16];
-	for (int Tap = 0; Tap < 16; ++Tap)
+	[[dont_unroll]] for (int Tap = 0; Tap < 16; ++Tap)
 	{
 		ivec2 P = clamp(R.Base + ivec2(Tap & 3, Tap >> 2) - 1, ivec2(0), ivec2(View.Width, View.Height) - 1);
 		vec4 H = texelFetch(Textures[Push.History], P, 0);
@@ -266,9 +267,9 @@ void SampleSharply(FViewConstants View, FReprojection R, FSurface Surface, FSign
 float FindWindowNoise(ivec2 Center, ivec2 Size, float Frames)
 {
 	float Sum = 0.0;
-	for (int Y = -NoiseRadius; Y <= NoiseRadius; ++Y)
+	[[dont_unroll]] for (int Y = -NoiseRadius; Y <= NoiseRadius; ++Y)
 	{
-		for (int X = -NoiseRadius; X <= NoiseRadius; ++X)
+		[[dont_unroll]] for (int X = -NoiseRadius; X <= NoiseRadius; ++X)
 		{
 			float P = texelFetch(Textures[Push.History], clamp(Center + ivec2(X, Y), ivec2(0), Size - 1), 0).x;
 			P = IsFinite(P) ? clamp((P * Frames + 0.5) / (Frames + 1.0), 0.0, 1.0) : 0.5;
@@ -290,7 +291,7 @@ FAccumulated LoadHistory(FViewConstants View, uvec2 Pixel, FSurface Surface, FWi
 	FAccumulated A = None;
 	float Sum = 0.0;
 	FSignal Low = FSignal(MaxHalf), High = FSignal(0.0);
-	for (int Tap = 0; Tap < 4; ++Tap)
+	[[dont_unroll]] for (int Tap = 0; Tap < 4; ++Tap)
 	{
 		float Weight = R.Weights[Tap];
 		if (Weight <= 0.0) { continue; }

@@ -7,6 +7,7 @@
 
 #include "GlslangCompile.h"
 #include "LanternCore/Log.h"
+#include "LanternCore/Quote.h"
 #include "ShaderDiskCache.h"
 #include "ShaderIncludes.h"
 
@@ -23,15 +24,26 @@ bool IsIdentifier(const std::string& Name)
 	       std::all_of(Name.begin(), Name.end(), IsWord);
 }
 
-/// What is wrong with the defines, or empty.
-std::string CheckDefines(const FShaderSource& Source)
+/// Also what a name would have to be to forge a line of the compiler's log.
+bool IsOneLine(std::string_view Text)
 {
+	return Text.find_first_of("\n\r") == std::string_view::npos;
+}
+
+/// What is wrong with the names and defines, or empty.
+std::string CheckSource(const FShaderSource& Source)
+{
+	const auto HasOneLine = [](const FShaderHeader& Header) { return IsOneLine(Header.Name); };
+	if (!IsOneLine(Source.Path) || !std::all_of(Source.Headers.begin(), Source.Headers.end(), HasOneLine))
+	{
+		return fmt::format("{}:0: the names of a shader and its headers are one line each", EscapePath(Source.Path));
+	}
 	for (const auto& [Name, Value] : Source.Defines)
 	{
-		if (!IsIdentifier(Name) || Value.find_first_of("\n\r") != std::string::npos)
+		if (!IsIdentifier(Name) || !IsOneLine(Value))
 		{
-			return fmt::format("{}:0: define \"{}\" = \"{}\" is not a name and one line of text", Source.Path, Name,
-			                   Value);
+			return fmt::format("{}:0: define \"{}\" = \"{}\" is not a name and one line of text", EscapePath(Source.Path),
+			                   EscapeText(Name, MaxQuotedBytes), EscapeText(Value, MaxQuotedBytes));
 		}
 	}
 	return {};
@@ -106,7 +118,7 @@ FHash128 FShaderCompiler::FImpl::MakeKey(const FIncludeTree& Tree, const FShader
 FRTStatus FShaderCompiler::FImpl::Fail(const FShaderSource& Source, const std::string& Log)
 {
 	++Failed;
-	LogDebug("Shader {} does not compile:\n{}", Source.Path, Log);
+	LogDebug("Shader {} does not compile:\n{}", EscapePath(Source.Path), Log);
 	return FRTStatus::Error(ERTResult::CompileFailed, "%s", Log.c_str());
 }
 
@@ -120,10 +132,10 @@ FRTStatus FShaderCompiler::Compile(const FShaderSource& Source, FShaderBinary& O
 	Out = {};
 	Out.Name = Source.Name.empty() ? Source.Path : Source.Name;
 	Out.Stage = Source.Stage;
-	const std::string WrongDefine = CheckDefines(Source);
-	if (!WrongDefine.empty())
+	const std::string Wrong = CheckSource(Source);
+	if (!Wrong.empty())
 	{
-		return Impl->Fail(Source, WrongDefine);
+		return Impl->Fail(Source, Wrong);
 	}
 	const FIncludeTree Tree = Impl->Resolver.Resolve(Source);
 	if (!Tree.Error.empty())
@@ -153,7 +165,7 @@ FRTStatus FShaderCompiler::Compile(const FShaderSource& Source, FShaderBinary& O
 	}
 	if (!Log.empty())
 	{
-		LogWarning("Shader {}: {}", Source.Path, Log);
+		LogWarning("Shader {}: {}", EscapePath(Source.Path), Log);
 	}
 	++Impl->Compiled;
 	Impl->Disk.Store(Key, Out.Words);
@@ -168,6 +180,21 @@ std::string FShaderCompiler::GetKey(const FShaderSource& Source)
 		return {};
 	}
 	return FShaderDiskCache::ToHex(Impl->MakeKey(Tree, Source, MakePreamble(Source)));
+}
+
+size_t FShaderCompiler::GetTextBytes(const FShaderSource& Source)
+{
+	const FIncludeTree Tree = Impl->Resolver.Resolve(Source);
+	if (!Tree.Error.empty() || Tree.bMissing)
+	{
+		return 0;
+	}
+	size_t Bytes = 0;
+	for (const FIncludeTree::FNode& Node : Tree.Nodes)
+	{
+		Bytes += Node.File->Text.size();
+	}
+	return Bytes;
 }
 
 FShaderCompilerStats FShaderCompiler::GetStats() const

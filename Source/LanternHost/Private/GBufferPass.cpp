@@ -22,29 +22,47 @@ constexpr uint32_t CountColors(bool bMotion) { return bMotion ? 5 : 4; }
 
 } // namespace
 
-FRTStatus FGBufferPass::CreatePipeline(const FPipelineKey& Key, TRTRef<IRTPipeline>& Out)
+FGBufferPass::FProgram FGBufferPass::MakeProgram(const FPipelineKey& Key) const
 {
-	FShaderSource Vertex{"GBuffer/GBuffer.vert", ERTShaderStage::Vertex, {}, {}};
-	FShaderSource Fragment{"GBuffer/GBuffer.frag", ERTShaderStage::Fragment, {}, {}};
-	if (Key.bMasked) { Fragment.Defines.emplace_back("MASKED", "1"); }
+	FProgram Program{{"GBuffer/GBuffer.vert", ERTShaderStage::Vertex, {}, {}}, {"GBuffer/GBuffer.frag", ERTShaderStage::Fragment, {}, {}}, Key.Cull, Key.bMotion};
+	if (Key.bMasked) { Program.Fragment.Defines.emplace_back("MASKED", "1"); }
 	if (Key.bMotion)
 	{
-		Vertex.Defines.emplace_back("MOTION", "1");
-		Fragment.Defines.emplace_back("MOTION", "1");
+		Program.Vertex.Defines.emplace_back("MOTION", "1");
+		Program.Fragment.Defines.emplace_back("MOTION", "1");
 	}
-	Fragment = Renderer.GetPrograms().MakeSource(std::move(Fragment), Key.Program);
+	Program.Fragment = Renderer.GetPrograms().MakeSource(std::move(Program.Fragment), Key.Program);
+	return Program;
+}
+
+FRTRasterPipelineDesc FGBufferPass::FProgram::MakeDesc() const
+{
+	FRTRasterPipelineDesc Desc;
+	Desc.ColorFormats = ColorFormats.data();
+	Desc.ColorCount = CountColors(bMotion);
+	Desc.DepthFormat = ERTFormat::D32_FLOAT;
+	Desc.Cull = Cull;
+	return Desc;
+}
+
+std::vector<FGBufferPass::FProgram> FGBufferPass::GetPrograms() const
+{
+	std::vector<FProgram> Programs;
+	for (const auto& [Key, Entry] : Pipelines) { Programs.push_back(MakeProgram(Key)); }
+	return Programs;
+}
+
+FRTStatus FGBufferPass::CreatePipeline(const FPipelineKey& Key, TRTRef<IRTPipeline>& Out)
+{
+	const FProgram Program = MakeProgram(Key);
 	FShaderBinary VertexBinary, FragmentBinary;
-	if (FRTStatus S = Renderer.GetCompiler().Compile(Vertex, VertexBinary); !S) { return S; }
-	if (FRTStatus S = Renderer.GetCompiler().Compile(Fragment, FragmentBinary); !S) { return S; }
+	if (FRTStatus S = Renderer.GetCompiler().Compile(Program.Vertex, VertexBinary); !S) { return S; }
+	if (FRTStatus S = Renderer.GetCompiler().Compile(Program.Fragment, FragmentBinary); !S) { return S; }
 	std::string Name = Key.bMasked ? "GBufferMasked" : "GBuffer";
 	if (Key.Program != StandardProgram) { Name += ' ' + Renderer.GetPrograms().Get(Key.Program).Name; }
-	FRTRasterPipelineDesc Desc;
+	FRTRasterPipelineDesc Desc = Program.MakeDesc();
 	Desc.Vertex = VertexBinary.GetCode();
 	Desc.Fragment = FragmentBinary.GetCode();
-	Desc.ColorFormats = ColorFormats.data();
-	Desc.ColorCount = CountColors(Key.bMotion);
-	Desc.DepthFormat = ERTFormat::D32_FLOAT;
-	Desc.Cull = Key.Cull;
 	Desc.Name = Name.c_str();
 	TRTRef<IRTPipeline> Made;
 	if (FRTStatus S = Renderer.GetDevice().CreateRasterPipeline(Desc, Made.ReleaseAndGetAddress()); !S) { return S; }

@@ -11,6 +11,7 @@ FRTStatus FPipelineCache::GetCompute(const FShaderSource& Source, IRTPipeline*& 
 	// What the code is wrong in stays wrong; a shortage of memory passes.
 	if (!Entry.Pipeline && Entry.Status.Code != ERTResult::CompileFailed)
 	{
+		Entry.Source = Source;
 		FShaderBinary Binary;
 		Entry.Status = Compiler.Compile(Source, Binary);
 		if (Entry.Status)
@@ -23,6 +24,13 @@ FRTStatus FPipelineCache::GetCompute(const FShaderSource& Source, IRTPipeline*& 
 	}
 	Out = Entry.Pipeline.Get();
 	return Entry.Status;
+}
+
+std::vector<FShaderSource> FPipelineCache::GetSources() const
+{
+	std::vector<FShaderSource> Sources;
+	for (const auto& [Key, Entry] : Entries) { Sources.push_back(Entry.Source); }
+	return Sources;
 }
 
 } // namespace Lantern

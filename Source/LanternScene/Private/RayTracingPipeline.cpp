@@ -74,6 +74,13 @@ FRTPSOLayout AddGroups(const FRTPSODesc& Desc, const FMaterialPrograms& Programs
 }
 } // namespace
 
+std::vector<FShaderSource> ListShaders(const FRTPSODesc& Desc, const FMaterialPrograms& Programs)
+{
+	FMonolith Monolith;
+	AddGroups(Desc, Programs, Monolith);
+	return std::move(Monolith.Sources);
+}
+
 FRTPSO::FRTPSO(TRTRef<IRTPipeline> InPipeline, FRTPSOLayout InLayout)
     : Pipeline(std::move(InPipeline)),
       Layout(std::move(InLayout))

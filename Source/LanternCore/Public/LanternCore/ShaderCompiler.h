@@ -17,13 +17,13 @@ struct FShaderHeader
 {
 	std::string Include; ///< relative to the search folders; include lines that lead there find this
 	std::string Text;
-	std::string Name; ///< what errors call it; its own quoted includes are searched from this place first
+	std::string Name; ///< what errors call it, one line; its own quoted includes are searched from this place first
 	friend bool operator==(const FShaderHeader&, const FShaderHeader&) = default;
 };
 
 struct FShaderSource
 {
-	std::string Path; ///< relative to one of the search folders, e.g. "Shadow/SunShadow.rgen"
+	std::string Path; ///< one line, relative to one of the search folders, e.g. "Shadow/SunShadow.rgen"
 	ERTShaderStage Stage = ERTShaderStage::Compute;
 	/// Name and value; part of the key.
 	std::vector<std::pair<std::string, std::string>> Defines;
@@ -67,6 +67,8 @@ public:
 	FRTStatus Compile(const FShaderSource& Source, FShaderBinary& Out);
 	/// The cache key (hex), e.g. to notice an edited file. Empty if a file is missing.
 	std::string GetKey(const FShaderSource& Source);
+	/// Bytes of the shader's text and of all files that it includes, each once. 0 if one is missing.
+	size_t GetTextBytes(const FShaderSource& Source);
 	FShaderCompilerStats GetStats() const;
 	/// Frees what all compilers share (glslang's tables of built-in symbols, 13 MB), for a library that is about to
 	/// be unloaded. No compiler may exist.

@@ -144,6 +144,18 @@ public:
 	/// each pixel; frames without denoisers or temporal passes need not have it.
 	void SetMotion(bool bEnabled) { bMotion = bEnabled; }
 
+	/// One of the pass's pipelines: its shaders, and what Desc needs beside them.
+	struct FProgram
+	{
+		FShaderSource Vertex, Fragment;
+		ERTCull Cull = ERTCull::Back;
+		bool bMotion = false;
+		/// Without shaders and name; for any device.
+		FRTRasterPipelineDesc MakeDesc() const;
+	};
+	/// Of all that was drawn with so far.
+	std::vector<FProgram> GetPrograms() const;
+
 private:
 	struct FBatchUse
 	{
@@ -166,6 +178,7 @@ private:
 		uint32_t Revision = ~0u; ///< of the program when it was last tried
 	};
 	IRTPipeline* GetPipeline(const FFrameContext& Context, const FPipelineKey& Key);
+	FProgram MakeProgram(const FPipelineKey& Key) const;
 	FRTStatus CreatePipeline(const FPipelineKey& Key, TRTRef<IRTPipeline>& Out);
 	void ListObjects(FHostScene& Scene, uint32_t* Objects);
 	void RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHostScene& Scene);

@@ -53,6 +53,7 @@ public:
 	FRTStatus RenderFrame(const FView& View, double Time, const FFrameCapture& Capture, FCapturedFrame* Out);
 	/// The raster of a frame that somebody else began with this engine's renderer and scene.
 	FGBuffer AddGBuffer(FFrameContext& Context) { return GBufferPass.Add(Context, *Scene); }
+	const FGBufferPass& GetGBufferPass() const { return GBufferPass; }
 	/// Extra passes of a test or benchmark: called after the plugin's own.
 	std::function<void(FFrameContext&, const FGBuffer&, const FFrameOutputs&)> ExtraPasses;
 	/// Frames wait for no pipeline and builds keep to their budget, as in a game; off: every frame is complete.

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "LanternCore/ShaderCompiler.h"
 #include "LanternRHI/RTInterfaces.h"
@@ -19,10 +20,13 @@ public:
 	/// to compile fails again without being compiled again.
 	FRTStatus GetCompute(const FShaderSource& Source, IRTPipeline*& Out);
 	size_t GetCount() const { return Entries.size(); }
+	/// Of all that was asked for, in the order of their names.
+	std::vector<FShaderSource> GetSources() const;
 
 private:
 	struct FEntry
 	{
+		FShaderSource Source;
 		TRTRef<IRTPipeline> Pipeline;
 		FRTStatus Status;
 	};

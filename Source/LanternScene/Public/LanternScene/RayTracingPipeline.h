@@ -37,6 +37,9 @@ struct FRTPSODesc
 	friend bool operator==(const FRTPSODesc&, const FRTPSODesc&) = default;
 };
 
+/// All shaders that the description names, each once: programs' own among them.
+std::vector<FShaderSource> ListShaders(const FRTPSODesc& Desc, const FMaterialPrograms& Programs);
+
 inline constexpr uint32_t NoRayGen = ~0u;
 
 enum class ERTHitState : uint8_t

@@ -1,0 +1,161 @@
+#include "BenchShaderList.h"
+
+#include <set>
+
+#include "LanternHost/Methods.h"
+
+namespace Lantern
+{
+
+namespace
+{
+std::string NameOf(const FShaderSource& Source)
+{
+	std::string Name = Source.Path;
+	for (const auto& [Define, Value] : Source.Defines)
+	{
+		Name += ' ' + Define + (Value == "1" ? "" : '=' + Value);
+	}
+	return Name;
+}
+
+class FPipelineLister
+{
+public:
+	FPipelineLister(FSampleEngine& InEngine, std::vector<FPipelineShaders>& InOut) : Engine(InEngine), Out(InOut)
+	{
+		for (const FPipelineShaders& Known : Out)
+		{
+			Names.insert(Known.Name);
+		}
+	}
+
+	/// What frames with the console variables as they are trace with, and dispatch so far.
+	FRTStatus RenderAndAdd(const FFrameCapture& Capture)
+	{
+		constexpr uint32_t Size = 32;
+		const FView View = Engine.GetScene().MakeDefaultView(Size, Size);
+		// Accumulation over time needs a frame before.
+		for (int Frame = 0; Frame < 2; ++Frame)
+		{
+			FCapturedFrame Unused;
+			if (FRTStatus S = Engine.RenderFrame(View, Frame, Capture, &Unused); !S)
+			{
+				return S;
+			}
+		}
+		FFrameFeatures Features;
+		Features.Signals.bAmbientOcclusion = Capture.Wants(ESignal::AmbientOcclusion);
+		AddRays(Features);
+		return FRTStatus::Success();
+	}
+
+	void AddReferences()
+	{
+		for (const EReferenceSignal Signal :
+		     {EReferenceSignal::Frame, EReferenceSignal::SunShadow, EReferenceSignal::AmbientOcclusion,
+		      EReferenceSignal::DiffuseGI, EReferenceSignal::Reflections})
+		{
+			for (const bool bFromGBuffer : {false, true})
+			{
+				FFrameFeatures Features;
+				Features.bReference = true;
+				Features.ReferenceSignal = Signal;
+				Features.bReferenceFromGBuffer = bFromGBuffer && Signal != EReferenceSignal::Frame;
+				AddRays(Features);
+			}
+		}
+	}
+
+	void AddRaster()
+	{
+		for (FGBufferPass::FProgram& Program : Engine.GetGBufferPass().GetPrograms())
+		{
+			FPipelineShaders Pipeline;
+			Pipeline.Shaders = {std::move(Program.Vertex), std::move(Program.Fragment)};
+			Pipeline.Raster = Program.MakeDesc();
+			Pipeline.Name = NameOf(Pipeline.Shaders.back());
+			Add(std::move(Pipeline));
+		}
+	}
+
+	void AddCompute()
+	{
+		for (FShaderSource& Source : Engine.GetRenderer().GetPipelines().GetSources())
+		{
+			FPipelineShaders Pipeline;
+			Pipeline.Shaders = {std::move(Source)};
+			Pipeline.Name = NameOf(Pipeline.Shaders.front());
+			Add(std::move(Pipeline));
+		}
+	}
+
+private:
+	void AddRays(const FFrameFeatures& Features)
+	{
+		const FRTPSODesc All = Engine.GetRenderer().GetRayPrograms(Engine.GetScene().GetScene(), Features);
+		for (const FShaderSource& RayGen : All.RayGens)
+		{
+			FPipelineShaders Pipeline;
+			Pipeline.Rays = All;
+			Pipeline.Rays.RayGens = {RayGen};
+			Pipeline.Shaders = ListShaders(Pipeline.Rays, Engine.GetRenderer().GetPrograms());
+			Pipeline.Name = NameOf(RayGen) + " + " + std::to_string(Pipeline.Shaders.size() - 1);
+			Add(std::move(Pipeline));
+		}
+	}
+
+	void Add(FPipelineShaders Pipeline)
+	{
+		if (Names.insert(Pipeline.Name).second)
+		{
+			Out.push_back(std::move(Pipeline));
+		}
+	}
+
+	FSampleEngine& Engine;
+	std::vector<FPipelineShaders>& Out;
+	std::set<std::string> Names;
+};
+} // namespace
+
+FRTStatus ListPipelines(FSampleEngine& Engine, const std::string& MethodsFile, std::vector<FPipelineShaders>& Out)
+{
+	// Shaders leave out what a scene does not have; a sun and a sky nearly all have.
+	FSunLight Sun;
+	Sun.Irradiance = 1.0f;
+	Sun.AngularDiameter = 0.01f;
+	Engine.GetScene().SetSun(Sun);
+	Engine.GetScene().GetScene().SetSky(glm::vec3(1.0f));
+	FPipelineLister Lister(Engine, Out);
+	FFrameCapture Capture;
+	Capture.bDisplay = Capture.bLighting = true;
+	if (FRTStatus S = Lister.RenderAndAdd(Capture); !S)
+	{
+		return S;
+	}
+	Lister.AddReferences();
+	const FMethods Methods = LoadMethods(MethodsFile);
+	for (const FMethod& Method : Methods.Methods)
+	{
+		for (const FMethodPreset& Preset : Method.Presets)
+		{
+			FMethodScope Scope;
+			if (const std::vector<std::string> Refused = Scope.Apply(Methods, &Method, &Preset); !Refused.empty())
+			{
+				return FRTStatus::Error(ERTResult::InvalidArgument, "%s", Refused.front().c_str());
+			}
+			FFrameCapture Signal;
+			Signal.Wants(Method.Signal) = true;
+			if (FRTStatus S = Lister.RenderAndAdd(Signal); !S)
+			{
+				return S;
+			}
+		}
+	}
+	Lister.AddRaster();
+	Lister.AddCompute();
+	return FRTStatus::Success();
+}
+
+} // namespace Lantern

@@ -1,0 +1,27 @@
+// Which pipelines frames of a scene may need: found by rendering them on the mock device, with every method of
+// Config/Methods.ini, every signal of the reference, and the settings as they are.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "LanternHost/SampleEngine.h"
+
+namespace Lantern
+{
+
+struct FPipelineShaders
+{
+	std::string Name; ///< paths, with defines
+	/// One compute shader, vertex and fragment shader, or all of a ray-tracing pipeline.
+	std::vector<FShaderSource> Shaders;
+	FRTPSODesc Rays;              ///< of a ray-tracing pipeline: with one ray generation shader
+	FRTRasterPipelineDesc Raster; ///< of a raster pipeline
+	bool IsRays() const { return !Rays.RayGens.empty(); }
+};
+
+/// Engine: on a mock device, with the scene loaded. Console variables are as before afterwards. Adds to Out what is not there
+/// yet.
+FRTStatus ListPipelines(FSampleEngine& Engine, const std::string& MethodsFile, std::vector<FPipelineShaders>& Out);
+
+} // namespace Lantern
