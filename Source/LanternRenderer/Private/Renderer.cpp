@@ -57,15 +57,25 @@ FRTStatus FRenderer::WaitForAll()
 	PrebindTask.Wait();
 	for (const FRTFence Fence : Fences)
 	{
-		if (FRTStatus S = Device.WaitFor(Fence, WaitNs); !S) { return S; }
+		if (FRTStatus S = WaitFor(Fence); !S) { return S; }
 	}
 	return FRTStatus::Success();
+}
+
+/// The compiler of pipelines learns from it what frames take.
+FRTStatus FRenderer::WaitFor(FRTFence Fence)
+{
+	const FRTFence Done = Device.GetCompletedFence();
+	RayCompiler.FramesDone(Done, false);
+	const FRTStatus Status = Device.WaitFor(Fence, WaitNs);
+	if (Status && Done < Fence) { RayCompiler.FramesDone(Fence, true); }
+	return Status;
 }
 
 FRTStatus FRenderer::WaitForSlot()
 {
 	Slot = (Slot + 1) % MaxInFlight;
-	if (FRTStatus S = Device.WaitFor(Fences[Slot], WaitNs); !S) { return S; }
+	if (FRTStatus S = WaitFor(Fences[Slot]); !S) { return S; }
 	if (Lists[Slot]) { return FRTStatus::Success(); }
 	return Device.CreateCommandList("Frame", Lists[Slot].ReleaseAndGetAddress());
 }
@@ -126,37 +136,25 @@ FRTStatus FRenderer::PrepareRayPipeline(const FRayPrograms& Wanted, const FFrame
 
 const std::vector<FProgramPriority>& FRenderer::GetProgramPriorities() const { return StandIns->GetPriorities(); }
 
-FRTStatus FRenderer::Precache(FRTScene& Scene, const FFrameFeatures& Features, const std::function<void(float)>& Progress)
+FRTPSODesc FRenderer::GetRayPrograms(FRTScene& Scene, const FFrameFeatures& Features)
 {
 	assert(!Graph && "between frames");
 	FConsoleVariables::Get().BeginFrame();
 	Scene.SetAlphaTest(CVarAlphaTest.GetOnRenderThread());
 	Scene.SetMaterialOverride(static_cast<uint32_t>(CVarMaterialOverride.GetOnRenderThread()));
 	Scene.RefreshFacts();
-	const FRayPrograms Wanted = ChooseRayPrograms(Device.GetCapabilities(), Scene, Features, true);
-	return Wanted.Desc.RayGens.empty() ? FRTStatus::Success() : RayCompiler.Finish(Wanted.Desc, Progress);
+	return ChooseRayPrograms(Device.GetCapabilities(), Scene, Features, true).Desc;
+}
+
+FRTStatus FRenderer::Precache(FRTScene& Scene, const FFrameFeatures& Features, const std::function<void(float)>& Progress)
+{
+	const FRTPSODesc Wanted = GetRayPrograms(Scene, Features);
+	return Wanted.RayGens.empty() ? FRTStatus::Success() : RayCompiler.Finish(Wanted, Progress);
 }
 
 std::string FRenderer::GetRayShaderKey(FRTScene& Scene, const FFrameFeatures& Features)
 {
-	assert(!Graph && "between frames");
-	FConsoleVariables::Get().BeginFrame();
-	Scene.SetAlphaTest(CVarAlphaTest.GetOnRenderThread());
-	Scene.SetMaterialOverride(static_cast<uint32_t>(CVarMaterialOverride.GetOnRenderThread()));
-	Scene.RefreshFacts();
-	const FRTPSODesc Desc = ChooseRayPrograms(Device.GetCapabilities(), Scene, Features, true).Desc;
-	std::vector<FShaderSource> Sources = Desc.RayGens;
-	Sources.insert(Sources.end(), Desc.Callables.begin(), Desc.Callables.end());
-	for (const FRayType& Type : Desc.RayTypes) { Sources.push_back(Type.Miss); }
-	for (const FHitProgram& Program : Desc.HitPrograms)
-	{
-		for (const FRayType& Type : Desc.RayTypes)
-		{
-			if (Type.ClosestHit) { Sources.push_back(Programs.MakeSource(*Type.ClosestHit, Program.Program)); }
-			if (Program.Class == ERTHitClass::Masked) { Sources.push_back(Programs.MakeSource(Type.MaskedAnyHit, Program.Program)); }
-		}
-		if (Program.Class == ERTHitClass::Procedural) { Sources.push_back({Programs.Get(Program.Program).IntersectionPath, ERTShaderStage::Intersection, {}, {}}); }
-	}
+	const std::vector<FShaderSource> Sources = ListShaders(GetRayPrograms(Scene, Features), Programs);
 	std::string Key;
 	for (const FShaderSource& Source : Sources) { Key += Compiler.GetKey(Source) + "/"; }
 	return Key;
@@ -399,6 +397,7 @@ void FRenderer::FrameSubmitted(FRTFence Fence)
 	PrebindTask.Wait();
 	Graph.reset();
 	Fences[Slot] = Fence;
+	RayCompiler.FrameSubmitted(Fence);
 	Uploads.EndFrame(Fence);
 	AnyHits.Submitted(Fence);
 	StandIns->Submitted(Fence);

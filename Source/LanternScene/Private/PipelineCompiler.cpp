@@ -28,6 +28,11 @@ TRTConsoleVariable<int32_t> CVarFallback(
 TRTConsoleVariable<int32_t> CVarKeepFrames("r.RT.Pipeline.KeepFrames", 1000,
                                            "Frames after which compiled shaders that nothing wants are dropped.",
                                            {1, 1e6});
+TRTConsoleVariable<float> CVarSwapShare(
+    "r.RT.Pipeline.SwapShare", 0.2f,
+    "Most of the time that first uses of new pipelines may take. Materials that are ready wait for it, where the driver "
+    "compiles at first use. 1: they never wait.",
+    {0.01, 1});
 TRTConsoleVariable<float> CVarReloadSeconds(
     "r.RT.Pipeline.ReloadSeconds", 0.0f,
     "Seconds between looks for edited shader files, whose pipelines are then compiled anew. 0: never.", {0, 3600});
@@ -38,17 +43,20 @@ ERTFallback GetPipelineFallback()
 	return static_cast<ERTFallback>(CVarFallback.GetOnRenderThread());
 }
 
-FRTPSOCompiler::FRTPSOCompiler(IRTDevice& Device, FShaderCompiler& Compiler, const FMaterialPrograms& Programs)
-    : Impl(std::make_unique<FImpl>(Device, Compiler, Programs))
+FRTPSOCompiler::FRTPSOCompiler(IRTDevice& Device, FShaderCompiler& Compiler, const FMaterialPrograms& Programs,
+                               FPipelineTimeSource Time)
+    : Impl(std::make_unique<FImpl>(Device, Compiler, Programs, std::move(Time)))
 {
 }
 
 FRTPSOCompiler::~FRTPSOCompiler() = default;
 
-FRTPSOCompiler::FImpl::FImpl(IRTDevice& InDevice, FShaderCompiler& InCompiler, const FMaterialPrograms& InPrograms)
+FRTPSOCompiler::FImpl::FImpl(IRTDevice& InDevice, FShaderCompiler& InCompiler, const FMaterialPrograms& InPrograms,
+                             FPipelineTimeSource InTime)
     : Device(InDevice),
       Compiler(InCompiler),
-      Programs(InPrograms)
+      Programs(InPrograms),
+      Time(InTime ? std::move(InTime) : [] { return FPipelineClock::now(); })
 {
 }
 
@@ -104,6 +112,7 @@ void FRTPSOCompiler::FImpl::TakeLink()
 		return;
 	}
 	++Stats.Links;
+	Pacer.Swapped();
 	RetireCurrent();
 	Current = std::move(Linked);
 	Taken = Current.Pipeline;
@@ -116,6 +125,19 @@ void FRTPSOCompiler::FImpl::Begin(const FRTPSODesc& Desc, bool bWait)
 	++Frame;
 	RoundMs = CVarRoundMs.GetOnRenderThread();
 	KeepFrames = CVarKeepFrames.GetOnRenderThread();
+	Pacer.SetLimits(CVarSwapShare.GetOnRenderThread(), std::chrono::milliseconds(RoundMs));
+	for (const FFrameEvent& Event : FrameEvents)
+	{
+		if (Event.bSubmitted)
+		{
+			Pacer.FrameSubmitted(Event.Fence, Event.Time);
+		}
+		else
+		{
+			Pacer.FramesDone(Event.Fence, Event.Time, Event.bWaited);
+		}
+	}
+	FrameEvents.clear();
 	if (NewPriorities)
 	{
 		Priorities = std::exchange(NewPriorities, std::nullopt).value();
@@ -148,16 +170,19 @@ void FRTPSOCompiler::Update(const FRTPSODesc& Wanted)
 	}
 	Impl->Begin(Wanted, false);
 	Impl->EndRoundIfOver();
-	if (Impl->bDirty)
+	if (std::exchange(Impl->bDirty, false))
 	{
-		Impl->bDirty = false;
 		Impl->StartRound(false);
 		Impl->StartLink(false);
 	}
-	const float Seconds = CVarReloadSeconds.GetOnRenderThread();
-	if (Seconds > 0.0f && FPipelineClock::now() > Impl->NextReload)
+	else if (Impl->bHeld && Impl->Pacer.MayLink(Impl->Time(), Impl->bMore))
 	{
-		Impl->NextReload = FPipelineClock::now() + std::chrono::milliseconds(static_cast<int64_t>(Seconds * 1000.0f));
+		Impl->StartLink(false);
+	}
+	const float Seconds = CVarReloadSeconds.GetOnRenderThread();
+	if (Seconds > 0.0f && Impl->Time() > Impl->NextReload)
+	{
+		Impl->NextReload = Impl->Time() + std::chrono::milliseconds(static_cast<int64_t>(Seconds * 1000.0f));
 		Impl->bReload = true;
 		Impl->WorkAdded.notify_all();
 	}
@@ -285,6 +310,16 @@ std::shared_ptr<const FRTPSO> FRTPSOCompiler::GetCurrent() const
 	return Impl->Taken;
 }
 
+void FRTPSOCompiler::FrameSubmitted(FRTFence Fence)
+{
+	Impl->FrameEvents.push_back({Fence, Impl->Time(), true, false});
+}
+
+void FRTPSOCompiler::FramesDone(FRTFence Completed, bool bWaited)
+{
+	Impl->FrameEvents.push_back({Completed, Impl->Time(), false, bWaited});
+}
+
 void FRTPSOCompiler::SetPriorities(std::vector<FProgramPriority> ByProgram)
 {
 	Impl->NewPriorities = std::move(ByProgram);
@@ -319,7 +354,8 @@ const FRTPSOCompilerStats& FRTPSOCompiler::GetStats() const
 		Out.Kept += Slot->Ready ? 1 : 0;
 	}
 	Out.bBusy = Impl->bRound || Impl->Running > 0 || Impl->bLinking || Impl->bLinkWanted || Impl->bLinkDone ||
-	            Impl->bDirty || Impl->bReload;
+	            Impl->bDirty || Impl->bHeld || Impl->bReload;
+	Out.LastSwapMs = 1e3 * Impl->Pacer.GetCost().count();
 	return Out;
 }
 

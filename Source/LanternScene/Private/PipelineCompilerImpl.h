@@ -14,6 +14,7 @@
 
 #include "LanternScene/PipelineCompiler.h"
 #include "PipelineUnits.h"
+#include "SwapPacer.h"
 
 namespace Lantern
 {
@@ -107,7 +108,8 @@ struct FLinkedPipeline
 
 struct FRTPSOCompiler::FImpl
 {
-	FImpl(IRTDevice& InDevice, FShaderCompiler& InCompiler, const FMaterialPrograms& InPrograms);
+	FImpl(IRTDevice& InDevice, FShaderCompiler& InCompiler, const FMaterialPrograms& InPrograms,
+	      FPipelineTimeSource InTime);
 	~FImpl();
 
 	// ---- PipelineCompiler.cpp: the render thread
@@ -134,6 +136,8 @@ struct FRTPSOCompiler::FImpl
 	void EndRoundIfOver();
 	bool AreHitsCompiled() const;
 	void StartLink(bool bExact);
+	/// Whether Plan brings more programs, and nothing else that Current lacks.
+	bool BringsProgramsOnly(const FLinkPlan& Plan) const;
 	void DropOld();
 	template <class T>
 	void Discard(T&& Object)
@@ -145,7 +149,9 @@ struct FRTPSOCompiler::FImpl
 
 	// ---- PipelineLink.cpp
 	FLinkPlan MakePlan() const;
-	bool Covers(const FLinkPlan& Made, const FLinkPlan& Plan) const;
+	/// Whether all that Plan has but its programs is in Made.
+	static bool CoversFrame(const FLinkPlan& Made, const FLinkPlan& Plan);
+	static bool CoversPrograms(const FLinkPlan& Made, const FLinkPlan& Plan);
 	FRTStatus Link(const FLinkPlan& Plan, std::shared_ptr<const FRTPSO>& Out);
 
 	// ---- PipelineCompilerWork.cpp: the compiler's threads
@@ -177,6 +183,14 @@ struct FRTPSOCompiler::FImpl
 	std::shared_ptr<const FRTPSO> Taken; ///< Current's pipeline; the render thread's, without Mutex
 	std::optional<std::vector<FProgramPriority>> NewPriorities; ///< the same
 	FRTPSOCompilerStats Known;                                  ///< the same
+	struct FFrameEvent
+	{
+		FRTFence Fence = 0;
+		FPipelineClock::time_point Time;
+		bool bSubmitted = false, bWaited = false;
+	};
+	std::vector<FFrameEvent> FrameEvents; ///< the same; that the pacer has not been told of
+	const FPipelineTimeSource Time;
 
 	mutable std::mutex Mutex;
 	std::condition_variable WorkAdded, SomethingDone;
@@ -197,6 +211,9 @@ struct FRTPSOCompiler::FImpl
 
 	bool bRound = false, bNoDeadline = false;
 	bool bDirty = false; ///< there may be something to compile or to link
+	bool bMore = false;  ///< something is being compiled, or waits for it
+	bool bHeld = false;  ///< programs are ready to be linked, but swaps are dear
+	FSwapPacer Pacer;
 	FPipelineClock::time_point RoundEnd;
 	int32_t RoundMs = 100, KeepFrames = 1000;
 	uint32_t ThreadLimit = 1;

@@ -199,6 +199,7 @@ void FRTPSOCompiler::FImpl::StartRound(bool bAppend)
 	             [&](const FPipelineSlotRef& Slot) { return NeedsCompile(*Slot); });
 	if (Missing.empty())
 	{
+		bMore = bRound || Running > 0;
 		return;
 	}
 	std::stable_sort(Missing.begin(), Missing.end(),
@@ -208,11 +209,12 @@ void FRTPSOCompiler::FImpl::StartRound(bool bAppend)
 		Slot->State = ESlotState::Queued;
 		Queue.push_back(Slot);
 	}
+	bMore = true;
 	if (!bRound)
 	{
 		bRound = true;
 		++Stats.Rounds;
-		RoundEnd = FPipelineClock::now() + std::chrono::milliseconds(RoundMs);
+		RoundEnd = Time() + std::chrono::milliseconds(RoundMs);
 	}
 	WorkAdded.notify_all();
 }
@@ -224,11 +226,12 @@ void FRTPSOCompiler::FImpl::EndRoundIfOver()
 		return;
 	}
 	const bool bDone = IsQueueEmpty() && Running == 0;
-	const bool bLate = !bNoDeadline && FPipelineClock::now() >= RoundEnd;
+	const bool bLate = !bNoDeadline && Time() >= RoundEnd;
 	if (!bDone && !bLate)
 	{
 		return;
 	}
+	bMore = !bDone;
 	for (; NextQueued < Queue.size(); ++NextQueued)
 	{
 		Queue[NextQueued]->State = ESlotState::Idle;
@@ -268,13 +271,25 @@ void FRTPSOCompiler::FImpl::StartLink(bool bExact)
 	{
 		return;
 	}
-	if (Current.Pipeline && (bExact ? Current.Plan.Key == Plan.Key : Covers(Current.Plan, Plan)))
+	bHeld = false;
+	const auto IsCovered = [&]
+	{ return CoversFrame(Current.Plan, Plan) && CoversPrograms(Current.Plan, Plan); };
+	if (Current.Pipeline && (bExact ? Current.Plan.Key == Plan.Key : IsCovered()))
 	{
 		return;
 	}
 	if (!bExact && Plan.Key == FailedLink)
 	{
 		return;
+	}
+	if (!bExact && BringsProgramsOnly(Plan))
+	{
+		bHeld = !Pacer.MayLink(Time(), bMore);
+		if (bHeld)
+		{
+			return;
+		}
+		Pacer.LinkStarted(bMore);
 	}
 	const auto Found = std::find_if(Recent.begin(), Recent.end(),
 	                                [&](const FLinkedPipeline& Entry) { return Entry.Plan.Key == Plan.Key; });
@@ -290,6 +305,11 @@ void FRTPSOCompiler::FImpl::StartLink(bool bExact)
 	bLinkExact = bExact;
 	bLinkWanted = true;
 	WorkAdded.notify_all();
+}
+
+bool FRTPSOCompiler::FImpl::BringsProgramsOnly(const FLinkPlan& Plan) const
+{
+	return Current.Pipeline && CoversFrame(Current.Plan, Plan);
 }
 
 void FRTPSOCompiler::FImpl::RetireCurrent()

@@ -233,7 +233,7 @@ FLinkPlan FRTPSOCompiler::FImpl::MakePlan() const
 	return Plan;
 }
 
-bool FRTPSOCompiler::FImpl::Covers(const FLinkPlan& Made, const FLinkPlan& Plan) const
+bool FRTPSOCompiler::FImpl::CoversFrame(const FLinkPlan& Made, const FLinkPlan& Plan)
 {
 	if (Made.bStandardServes != Plan.bStandardServes || Made.Misses != Plan.Misses ||
 	    Made.Callables != Plan.Callables || Made.StandIns.size() != Plan.StandIns.size())
@@ -247,6 +247,18 @@ bool FRTPSOCompiler::FImpl::Covers(const FLinkPlan& Made, const FLinkPlan& Plan)
 			return false;
 		}
 	}
+	for (size_t I = 0; I < Plan.StandIns.size(); ++I)
+	{
+		if (Made.StandIns[I].Program != Plan.StandIns[I].Program || Made.StandIns[I].Builds != Plan.StandIns[I].Builds)
+		{
+			return false;
+		}
+	}
+	return true;
+}
+
+bool FRTPSOCompiler::FImpl::CoversPrograms(const FLinkPlan& Made, const FLinkPlan& Plan)
+{
 	std::map<FHitProgram, const FLinkPlan::FHit*> Hits;
 	for (const FLinkPlan::FHit& Hit : Made.Hits)
 	{
@@ -260,13 +272,6 @@ bool FRTPSOCompiler::FImpl::Covers(const FLinkPlan& Made, const FLinkPlan& Plan)
 		}
 		const auto Found = Hits.find(Hit.Program);
 		if (Found == Hits.end() || Found->second->Builds != Hit.Builds)
-		{
-			return false;
-		}
-	}
-	for (size_t I = 0; I < Plan.StandIns.size(); ++I)
-	{
-		if (Made.StandIns[I].Program != Plan.StandIns[I].Program || Made.StandIns[I].Builds != Plan.StandIns[I].Builds)
 		{
 			return false;
 		}

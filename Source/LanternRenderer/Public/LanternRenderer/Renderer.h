@@ -159,6 +159,8 @@ public:
 	/// At load, between frames: compiles what frames of the scene with these features will trace with, and waits for it.
 	/// Progress (0 … 1) may be empty. What does not compile is said, and is an error only where frames cannot do without.
 	FRTStatus Precache(FRTScene& Scene, const FFrameFeatures& Features, const std::function<void(float)>& Progress);
+	/// What such frames trace with; without ray generation shaders where they need no pipeline. Between frames.
+	FRTPSODesc GetRayPrograms(FRTScene& Scene, const FFrameFeatures& Features);
 	/// Names the texts of all shaders that such frames trace with, their includes and the compiler: another text, another name.
 	std::string GetRayShaderKey(FRTScene& Scene, const FFrameFeatures& Features);
 	/// Waits until at most one earlier frame is in flight, publishes console variables, and starts a frame: gathering
@@ -211,6 +213,7 @@ private:
 	void WriteConstants();
 	void DropFrame();
 	void KeepHistory(bool bSubmitted);
+	FRTStatus WaitFor(FRTFence Fence);
 	FRTStatus WaitForSlot();
 	FRTStatus Execute(IRTCommandList& List);
 

@@ -10,10 +10,16 @@
 // the same threads and just as unnoticed, only later. Where a link needs ray generation and miss shaders of its own
 // (FRTCapabilities::bLibraryOnlyPipelines), it gets these as SPIR-V.
 //
+// Swaps: on some drivers the first frame with a new pipeline compiles all of it. Whoever reports frames (FrameSubmitted,
+// FramesDone) has the compiler learn what a swap costs, and programs that are ready then wait until swaps take no more than
+// r.RT.Pipeline.SwapShare of the time. What is not a material's program, such as a ray generation shader that a setting asks
+// for, is never held back. SwapPacer.h has the rule.
+//
 // Threads: one at a time, the render thread. The compiler's own threads are no tasks of LanternCore, because they block for
 // as long as a driver likes, and a frame's tasks must not wait behind them.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 
@@ -47,14 +53,19 @@ struct FRTPSOCompilerStats
 	uint64_t Rounds = 0, Links = 0, Compiled = 0, Failures = 0, Dropped = 0; ///< since creation
 	double GlslangMs = 0.0, DriverMs = 0.0;                                  ///< summed over threads, links left out
 	double LastLinkMs = 0.0;
+	double LastSwapMs = 0.0; ///< what the last swap has cost the frame that first used it; 0: nothing, or not known
 	bool bBusy = false; ///< something is being compiled, linked, or is waiting for it
 };
+
+/// What time it is; empty: the steady clock.
+using FPipelineTimeSource = std::function<std::chrono::steady_clock::time_point()>;
 
 class FRTPSOCompiler
 {
 public:
-	/// All must outlive it. Programs is read by Update and Finish only.
-	FRTPSOCompiler(IRTDevice& Device, FShaderCompiler& Compiler, const FMaterialPrograms& Programs);
+	/// All must outlive it. Programs is read by Update and Finish only. Time: any thread may ask it; for tests.
+	FRTPSOCompiler(IRTDevice& Device, FShaderCompiler& Compiler, const FMaterialPrograms& Programs,
+	               FPipelineTimeSource Time = {});
 	/// Waits for compiles that a driver is in the middle of; what has not been started is forgotten.
 	~FRTPSOCompiler();
 	FRTPSOCompiler(const FRTPSOCompiler&) = delete;
@@ -70,6 +81,10 @@ public:
 	/// The RTPSO of this frame; null before the first was linked. Changes only in Update and Finish.
 	std::shared_ptr<const FRTPSO> GetCurrent() const;
 
+	/// The frame of the last Update went to the GPU; 0: it was lost. Never waits.
+	void FrameSubmitted(FRTFence Fence);
+	/// All frames up to Completed are done. bWaited: the caller has just waited for that one. Never waits.
+	void FramesDone(FRTFence Completed, bool bWaited);
 	/// By program; those beyond the end have none.
 	void SetPriorities(std::vector<FProgramPriority> ByProgram);
 	/// Looks for shader files that were edited, in the background, and compiles what is made from them anew.
