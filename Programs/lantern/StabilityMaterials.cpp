@@ -172,12 +172,19 @@ void CountQuads(const FMaterialFrames& Frames, const std::vector<FHitProgram>& P
 	}
 }
 
-/// Compilers have the lowest priority: on a busy machine they may have to wait for long.
-struct FPatience
+/// Says when what is not there will never come: nothing has been compiled or waited for in some frames running.
+class FPatience
 {
-	static constexpr double Seconds = 300.0;
-	std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
-	bool IsOver() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - Start).count() > Seconds; }
+public:
+	bool IsOver(bool bBusy)
+	{
+		constexpr uint32_t Enough = 300;
+		Idle = bBusy ? 0 : Idle + 1;
+		return Idle >= Enough;
+	}
+
+private:
+	uint32_t Idle = 0;
 };
 
 double GetMedian(std::vector<double> Values)
@@ -199,13 +206,13 @@ FRTStatus MeasureMissingShaders(FStabilityStage& Stage, std::vector<FStabilityFi
 	if (Stage.IsFaulty() && !Skip.Apply({{"r.RT.Pipeline.Fallback", "0", "planted fault"}}).empty()) { return FRTStatus::Error(ERTResult::InvalidArgument, "r.RT.Pipeline.Fallback"); }
 	FMaterialCounts Counts;
 	double Ms = 0.0;
-	const FPatience Patience;
+	FPatience Patience;
 	const auto IsBusy = [&] { return Frames.GetRenderer().GetRayCompiler().GetStats().bBusy; };
 	for (int I = 0; I < 60 || !Frames.HasPicture() || IsBusy(); ++I)
 	{
 		if (FRTStatus S = Frames.Frame(Ms); !S) { return S; }
 		if (I >= 20) { Counts.Ms.push_back(Ms); }
-		if (Patience.IsOver()) { return FRTStatus::Error(ERTResult::Timeout, "the standard material is not there after %.0f s", FPatience::Seconds); }
+		if (Patience.IsOver(IsBusy())) { return FRTStatus::Error(ERTResult::CompileFailed, "the standard material never came"); }
 	}
 	const double Idle = GetMedian(Counts.Ms);
 	Counts.Ms.clear();
@@ -225,7 +232,7 @@ FRTStatus MeasureMissingShaders(FStabilityStage& Stage, std::vector<FStabilityFi
 		Counts.Ms.push_back(Ms);
 		if (Frames.HasPicture()) { CountQuads(Frames, Programs, *Frames.GetRenderer().GetRayPipeline(), Stage.IsFaulty(), Counts); }
 		if (I == 30) { Stage.AddToStrip(Frames.MakeImage(), {}); }
-		if (Patience.IsOver()) { return FRTStatus::Error(ERTResult::Timeout, "%u of %u programs are there after %.0f s", Counts.Ready, Compilable, FPatience::Seconds); }
+		if (Patience.IsOver(IsBusy())) { return FRTStatus::Error(ERTResult::CompileFailed, "%u of %u programs came", Counts.Ready, Compilable); }
 		// As under the fault, where holes are what is looked for: it need not see the end.
 		if (Stage.IsFaulty() && I >= 60) { break; }
 	}

@@ -3,6 +3,7 @@
 // no validation may have said anything at the end, and nothing may be left over.
 #pragma once
 
+#include "../Unit/WaitTools.h"
 #include "RHIMaker.h"
 
 #include <mutex>
@@ -33,7 +34,7 @@ protected:
 	/// The mock without the wrapper, whose memory and tables can be looked into.
 	bool IsMock() const { return GetParam() == EContractRHI::Mock; }
 	bool IsVulkan() const { return GetParam() >= EContractRHI::Vulkan; }
-	void Wait(FRTFence Fence) { EXPECT_OK(Device().WaitFor(Fence, 60'000'000'000ull)); }
+	void Wait(FRTFence Fence) { EXPECT_OK(Device().WaitFor(Fence, WaitLimitNs)); }
 	/// Ends, submits and waits.
 	void Run(IRTCommandList* List) { Wait(Make.Submit(List)); }
 	static void Barrier(IRTCommandList* List, IRTBuffer* Buffer, ERTAccess Before, ERTAccess After)

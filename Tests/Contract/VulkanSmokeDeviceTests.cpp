@@ -444,7 +444,7 @@ void WriteThroughEngine(FEngine& Engine, IRTDevice& Adopted)
 	ASSERT_OK(Adopted.NotifyExternalSubmit(Lists, 1, &Fence));
 	Pipeline.Reset(); // kept by the submission
 	Imported.Reset();
-	ASSERT_OK(Adopted.WaitFor(Fence, 60'000'000'000ull));
+	ASSERT_OK(Adopted.WaitFor(Fence, WaitLimitNs));
 	EXPECT_EQ(static_cast<uint32_t*>(Words->GetMapped())[63], 63u * 5);
 }
 

@@ -1,6 +1,7 @@
 // What the Vulkan smoke tests share: a device with validation on, and short ways to fill and read its resources.
 #pragma once
 
+#include "../Unit/WaitTools.h"
 #include "LanternRHIVulkan/VulkanDevice.h"
 
 #include <gtest/gtest.h>
@@ -105,7 +106,7 @@ protected:
 		IRTCommandList* Lists[] = {List.Get()};
 		FRTFence Fence = 0;
 		ASSERT_OK(Device->Submit(Lists, 1, &Fence));
-		ASSERT_OK(Device->WaitFor(Fence, 60'000'000'000ull));
+		ASSERT_OK(Device->WaitFor(Fence, WaitLimitNs));
 	}
 
 	TRTRef<IRTDevice> Device;

@@ -320,7 +320,7 @@ TEST_F(FVulkanSmokeTrace, ReleaseInFlightWaitsForTheGpu)
 	Instances.Reset();
 	Scratch.Reset();
 	List.Reset();
-	ASSERT_OK(Device->WaitFor(Fence, 60'000'000'000ull));
+	ASSERT_OK(Device->WaitFor(Fence, WaitLimitNs));
 	EXPECT_EQ(GetHits()[0].Value, 100u);
 	EXPECT_EQ(GetHits()[1].Value, 101u);
 	const FRTMemoryStats Stats = Device->GetMemoryStats();

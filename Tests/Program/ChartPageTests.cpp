@@ -8,6 +8,7 @@
 
 #include "ChartPage.h"
 #include "CoreTestTools.h"
+#include "WaitTools.h"
 
 namespace Lantern
 {
@@ -172,12 +173,12 @@ window.requestAnimationFrame = (call) => setTimeout(() => call(performance.now()
 		}
 		const std::string File = Folder.Write("page.html", Page), Base = Folder.GetPath();
 		const std::string Command = fmt::format(
-		    "HOME={0} timeout 90 '{1}' --headless --no-sandbox --disable-gpu "
+		    "HOME={0} timeout {3} '{1}' --headless --no-sandbox --disable-gpu "
 		    "--disable-dev-shm-usage "
 		    "--enable-logging=stderr "
 		    "--user-data-dir={0}/profile --window-size=1400,1800 --virtual-time-budget=20000 --dump-dom 'file://{2}' "
 		    ">{0}/dom 2>{0}/log",
-		    Base, Browser, File);
+		    Base, Browser, File, WaitLimit.count());
 		const int Status = std::system(Command.c_str());
 		const std::string Dom = ReadAll(Base + "/dom"), Log = ReadLog(Base + "/log");
 		EXPECT_EQ(Status, 0) << Log;

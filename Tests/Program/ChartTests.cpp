@@ -1,7 +1,5 @@
 // lantern chart on a tiny scene: its data, shards, merging, going on after a kill, and what it says of bad input.
-#include <chrono>
 #include <filesystem>
-#include <thread>
 
 #include "ProgramTools.h"
 
@@ -28,7 +26,29 @@ protected:
 	}
 	FProgramRun RunChart(const std::string& Output, std::vector<std::string> More = {}) const
 	{
-		return RunProgram(MakeArguments(Output, std::move(More)), {.TimeoutSeconds = 110});
+		return RunProgram(MakeArguments(Output, std::move(More)));
+	}
+	/// Kills a run that has three parts. The parts that it leaves, by name.
+	std::map<std::string, std::string> KillWithThreeParts(const std::string& Output) const
+	{
+		const std::string Folder = At(Output + ".parts/");
+		std::vector<std::string> Names;
+		FProgramProcess Process(MakeArguments(At(Output + ".html")));
+		const auto HasParts = [&]
+		{
+			std::error_code Error;
+			if (std::filesystem::is_directory(Folder, Error)) { Names = ListFolder(Folder); }
+			return Names.size() >= 3 || !Process.IsRunning();
+		};
+		WaitUntil("three parts of a chart", HasParts, {}, [&] { return std::to_string(Names.size()) + " so far"; });
+		Process.Kill();
+		EXPECT_GE(Names.size(), 3u) << "it ended by itself";
+		std::map<std::string, std::string> Parts;
+		for (const std::string& Name : Names.empty() ? Names : ListFolder(Folder))
+		{
+			if (Name.ends_with(".json")) { Parts[Name] = ReadFile(Folder + Name); }
+		}
+		return Parts;
 	}
 	std::string At(const std::string& Name) const { return Files.GetPath() + '/' + Name; }
 
@@ -121,29 +141,22 @@ TEST_F(Chart, ShardsMakeTheSamePage)
 
 TEST_F(Chart, GoesOnWhereItWasKilled)
 {
-	std::vector<std::string> Kept;
-	{
-		FProgramProcess Process(MakeArguments(At("k.html")));
-		for (int Wait = 0; Wait < 9000 && Kept.size() < 3 && Process.IsRunning(); ++Wait)
-		{
-			std::this_thread::sleep_for(std::chrono::milliseconds(10));
-			std::error_code Error;
-			if (std::filesystem::is_directory(At("k.parts"), Error)) { Kept = ListFolder(At("k.parts")); }
-		}
-		Process.Kill();
-	}
-	ASSERT_GE(Kept.size(), 3u);
-	EXPECT_FALSE(std::filesystem::exists(At("k.html")));
-	EXPECT_FALSE(std::filesystem::exists(At("k.json")));
+	constexpr size_t AllParts = 17;
 	std::map<std::string, std::string> Before;
-	for (const std::string& Name : ListFolder(At("k.parts")))
+	std::string Cut;
+	// Another try where all parts are there before this program, which may have to wait for a core, sees three of them.
+	for (int Try = 0; Try < 10 && (Cut.empty() || Before.size() >= AllParts); ++Try)
 	{
-		if (Name.ends_with(".json")) { Before[Name] = ReadFile(At("k.parts/") + Name); }
+		Cut = "k" + std::to_string(Try);
+		Before = KillWithThreeParts(Cut);
+		ASSERT_FALSE(HasFailure());
 	}
-	ASSERT_LT(Before.size(), 17u) << "it was done before it was killed";
-	ASSERT_EQ(RunChart(At("k.html")).Status, 0);
-	EXPECT_EQ(ReadJson(At("k.json"))["scenes"][0]["points"].size(), 16u);
-	for (const auto& [Name, Text] : Before) { EXPECT_EQ(ReadFile(At("k.parts/") + Name), Text) << "measured again"; }
+	ASSERT_LT(Before.size(), AllParts) << "it was always done before it was killed";
+	EXPECT_FALSE(std::filesystem::exists(At(Cut + ".html")));
+	EXPECT_FALSE(std::filesystem::exists(At(Cut + ".json")));
+	ASSERT_EQ(RunChart(At(Cut + ".html")).Status, 0);
+	EXPECT_EQ(ReadJson(At(Cut + ".json"))["scenes"][0]["points"].size(), 16u);
+	for (const auto& [Name, Text] : Before) { EXPECT_EQ(ReadFile(At(Cut + ".parts/") + Name), Text) << "measured again"; }
 }
 
 TEST_F(Chart, ABudgetSaysWhatItLeavesOut)

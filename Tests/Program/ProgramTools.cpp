@@ -1,10 +1,8 @@
 #include "ProgramTools.h"
 
-#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <sstream>
-#include <thread>
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -44,7 +42,7 @@ std::vector<std::string> MakeEnvironment(const FProgramOptions& Options)
 		const std::string_view Text = *Variable;
 		const bool bKept = Text.substr(0, 3) == "VK_" || Text.substr(0, 3) == "LD_" || Text.substr(0, 5) == "PATH=" ||
 		                   Text.find("SAN_OPTIONS=") != std::string_view::npos || Text.substr(0, 3) == "LP_" ||
-		                   Text.substr(0, 4) == "MESA";
+		                   Text.substr(0, 4) == "MESA" || Text.substr(0, 15) == "XDG_CACHE_HOME=";
 		if (bKept)
 		{
 			Strings.emplace_back(Text);
@@ -91,6 +89,7 @@ std::vector<std::string> FProgramRun::GetMessages() const
 }
 
 FProgramProcess::FProgramProcess(const std::vector<std::string>& Arguments, const FProgramOptions& Options)
+    : Name(Arguments.empty() ? std::string() : Arguments.front())
 {
 	std::vector<std::string> Strings = {LANTERN_PROGRAM};
 	Strings.insert(Strings.end(), Arguments.begin(), Arguments.end());
@@ -129,17 +128,18 @@ void FProgramProcess::Kill()
 	}
 }
 
-FProgramRun FProgramProcess::Wait(double TimeoutSeconds)
+std::string FProgramProcess::GetLastLine() const
 {
-	const auto Start = std::chrono::steady_clock::now();
-	while (IsRunning())
+	std::string Text = ReadFile(Files.GetPath() + "/err");
+	Text.erase(Text.find_last_not_of("\r\n ") + 1);
+	return Text.substr(Text.find_last_of("\r\n") + 1);
+}
+
+FProgramRun FProgramProcess::Wait()
+{
+	if (!WaitUntil("`lantern " + Name + "`", [&] { return !IsRunning(); }, {}, [&] { return GetLastLine(); }))
 	{
-		if (std::chrono::duration<double>(std::chrono::steady_clock::now() - Start).count() > TimeoutSeconds)
-		{
-			ADD_FAILURE() << "the program still ran after " << TimeoutSeconds << " s";
-			Kill();
-		}
-		std::this_thread::sleep_for(std::chrono::milliseconds(2));
+		Kill();
 	}
 	FProgramRun Run;
 	Run.Status = WIFEXITED(WaitStatus) ? WEXITSTATUS(WaitStatus) : 128 + WTERMSIG(WaitStatus);
@@ -150,7 +150,7 @@ FProgramRun FProgramProcess::Wait(double TimeoutSeconds)
 
 FProgramRun RunProgram(const std::vector<std::string>& Arguments, const FProgramOptions& Options)
 {
-	return FProgramProcess(Arguments, Options).Wait(Options.TimeoutSeconds);
+	return FProgramProcess(Arguments, Options).Wait();
 }
 
 std::string ReadFile(const std::string& Path)

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "CoreTestTools.h"
+#include "WaitTools.h"
 
 namespace Lantern
 {
@@ -28,8 +29,7 @@ struct FProgramOptions
 	std::string Folder;                                           ///< to run in; empty: the test's
 	/// As a user whom file permissions stop (root is stopped by none).
 	bool bUnprivileged = false;
-	std::string StandardOutput;   ///< file; empty: kept in FProgramRun::Out
-	double TimeoutSeconds = 90.0; ///< killed then, which fails the test
+	std::string StandardOutput; ///< file; empty: kept in FProgramRun::Out
 };
 
 FProgramRun RunProgram(const std::vector<std::string>& Arguments, const FProgramOptions& Options = {});
@@ -44,9 +44,13 @@ public:
 	FProgramProcess& operator=(const FProgramProcess&) = delete;
 	bool IsRunning();
 	void Kill(); ///< SIGKILL, and waits
-	FProgramRun Wait(double TimeoutSeconds);
+	/// Killed where it still runs after WaitLimit, which fails the test.
+	FProgramRun Wait();
 
 private:
+	std::string GetLastLine() const; ///< of what it has said
+
+	std::string Name; ///< its first argument
 	int Pid = -1;
 	int WaitStatus = 0;
 	FTemporaryFolder Files;

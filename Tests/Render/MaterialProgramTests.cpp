@@ -3,6 +3,7 @@
 #include "RenderFixture.h"
 
 #include "LanternCore/ConsoleVariables.h"
+#include "WaitTools.h"
 
 namespace Lantern
 {
@@ -182,21 +183,26 @@ protected:
 		              });
 	}
 	/// Frames that wait for nothing, until Condition holds: as many as the compiler needs, which depends on the machine.
-	/// Once it has been idle for a while, what is not there will never come.
-	template <class F>
-	void TraceUntil(F Condition)
+	/// Once it has been idle for some frames running, what is not there will never come.
+	void TraceUntil(const std::function<bool()>& Condition)
 	{
-		constexpr int EnoughIdleFrames = 300;
-		for (int Idle = 0; Idle < EnoughIdleFrames; ++Idle)
+		constexpr int EnoughIdleFrames = 30;
+		int Idle = 0;
+		const auto IsOver = [&] { return Condition() || Idle >= EnoughIdleFrames; };
+		const auto Frame = [&]
 		{
 			ASSERT_NO_FATAL_FAILURE(Trace(false));
-			if (Condition())
-			{
-				return;
-			}
-			Idle = Renderer().GetRayCompiler().GetStats().bBusy ? -1 : Idle;
-		}
-		FAIL() << "never came, and nothing is being compiled";
+			Idle = Renderer().GetRayCompiler().GetStats().bBusy ? 0 : Idle + 1;
+		};
+		const auto Describe = [&]
+		{
+			const FRTPSOCompilerStats& Stats = Renderer().GetRayCompiler().GetStats();
+			return fmt::format("{} of {} shader groups compiled, {} pipelines used, {:.1f} s for the last one's first use",
+			                   Stats.Ready, Stats.Wanted, Stats.Links, 1e-3 * Stats.LastSwapMs);
+		};
+		Frame();
+		ASSERT_TRUE(WaitUntil("material programs", IsOver, Frame, Describe));
+		ASSERT_LT(Idle, EnoughIdleFrames) << "never came, and nothing is being compiled";
 	}
 	glm::vec4 At(uint32_t Index, uint32_t X = PixelsPerQuad / 2, uint32_t Y = PixelsPerQuad / 2) const
 	{

@@ -1,10 +1,8 @@
 // Shortage of memory at every n-th allocation, and loss of the device in every phase, while the world streams and
 // pipelines compile. Every fault is one error; the engine goes on, on a new device where the old one is lost.
-#include <chrono>
-#include <thread>
-
 #include "RendererTestTools.h"
 #include "StreamingWorld.h"
+#include "WaitTools.h"
 
 namespace Lantern
 {
@@ -29,14 +27,16 @@ protected:
 	/// Pipelines are compiled beside the frames: once they are done, a loss in them has been met, and the frame after sees it.
 	FRTStatus FlyUntilCompiled(FStreamingWorld& World, int First)
 	{
-		for (int Frame = First; Frame < First + 5000; ++Frame)
+		FRTStatus Status;
+		bool bBusy = true;
+		const auto Step = [&]
 		{
-			const bool bBusy = Engine->GetRenderer().GetRayCompiler().GetStats().bBusy;
-			const FRTStatus Status = Fly(World, Frame, 1);
-			if (!Status || !bBusy) { return Status; }
-			std::this_thread::sleep_for(std::chrono::milliseconds(1));
-		}
-		return FRTStatus::Success();
+			bBusy = Engine->GetRenderer().GetRayCompiler().GetStats().bBusy;
+			Status = Fly(World, First++, 1);
+			GiveWay();
+		};
+		WaitUntil("the pipelines", [&] { return !Status || !bBusy; }, Step);
+		return Status;
 	}
 	/// A lost device stays lost.
 	ERTResult RenderFrameIfLoaded() { return bLoaded ? RenderFrame().Code : ERTResult::DeviceLost; }

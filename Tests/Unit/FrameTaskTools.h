@@ -3,10 +3,10 @@
 
 #include <condition_variable>
 #include <random>
-#include <thread>
 
 #include "LanternCore/TaskTrace.h"
 #include "RendererTestTools.h"
+#include "WaitTools.h"
 
 namespace Lantern
 {
@@ -28,12 +28,16 @@ public:
 			    {
 				    std::unique_lock Lock(Mutex);
 				    ++Blocked;
-				    Changed.notify_all();
 				    Changed.wait(Lock, [&] { return bOpen; });
 			    });
 		}
-		std::unique_lock Lock(Mutex);
-		bAllBlocked = Changed.wait_for(Lock, std::chrono::seconds(20), [&] { return Blocked == Workers; });
+		const auto CountBlocked = [this]
+		{
+			const std::lock_guard Lock(Mutex);
+			return Blocked;
+		};
+		const auto Describe = [&] { return std::to_string(CountBlocked()) + " of " + std::to_string(Workers); };
+		bAllBlocked = WaitUntil("workers to be kept busy", [&] { return CountBlocked() == Workers; }, {}, Describe);
 	}
 	~FBlockedWorkers() { Open(); }
 	bool AreAllBlocked() const { return bAllBlocked; }
@@ -199,12 +203,7 @@ protected:
 	}
 	static bool WaitForEvent(const std::string& Name)
 	{
-		const auto End = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-		while (CountEvents(Name) == 0 && std::chrono::steady_clock::now() < End)
-		{
-			std::this_thread::yield();
-		}
-		return CountEvents(Name) > 0;
+		return WaitUntil("the task " + Name, [&] { return CountEvents(Name) > 0; });
 	}
 	void StartTrace()
 	{

@@ -1,14 +1,13 @@
 // FGeometryStore: compaction, the memory budget, coarser levels, failing allocations.
-#include <chrono>
 #include <cstring>
 #include <map>
 #include <mutex>
 #include <random>
 #include <set>
-#include <thread>
 
 #include "GeometryStoreTestTools.h"
 #include "LanternCore/Log.h"
+#include "WaitTools.h"
 
 namespace Lantern
 {
@@ -39,18 +38,29 @@ protected:
 		return static_cast<uint32_t>(std::count_if(
 		    Lines.begin(), Lines.end(), [&](const std::string& Line) { return Line.find(Part) != std::string::npos; }));
 	}
-	/// Frames until nothing is left to do; coarser levels are made by tasks meanwhile.
-	void Settle(uint32_t Most = 400)
+	/// Frames until nothing is left to do.
+	void Settle()
 	{
-		for (uint32_t I = 0; I < Most && (Store->NeedsUpdate() || Stats().Pending > 0 || I < 3); ++I)
+		constexpr uint32_t Least = 3, Most = 400;
+		uint32_t All = 0, Quiet = 0; // those that may pass the time while a task makes a coarser level are not quiet
+		const auto IsSettled = [&]
+		{ return All >= Least && Stats().Pending == 0 && (Quiet >= Most || !Store->NeedsUpdate()); };
+		const auto Step = [&]
 		{
 			const FRTStatus Status = Frame();
 			ASSERT_TRUE(Status) << Status.Message;
+			++All;
 			if (Stats().Pending > 0)
 			{
-				std::this_thread::sleep_for(std::chrono::milliseconds(1));
+				GiveWay();
 			}
-		}
+			else
+			{
+				++Quiet;
+			}
+		};
+		const auto Describe = [&] { return std::to_string(Stats().Pending) + " geometries pending"; };
+		ASSERT_TRUE(WaitUntil("the geometry store to settle", IsSettled, Step, Describe));
 	}
 	FRTGeometryRef MakeCpu(const std::string& Name, uint32_t Cells)
 	{
@@ -321,11 +331,12 @@ TEST_F(FGeometryMemoryTest, CoarserLevelSurvivesLostFrames)
 {
 	Set("r.RT.Build.MemoryMB", "2");
 	const FRTGeometryRef Terrain = MakeCpu("Terrain2", 150);
-	for (int I = 0; I < 200 && Stats().Coarse == 0; ++I)
+	const auto LoseFrame = [&]
 	{
 		ASSERT_TRUE(Frame(false, false));
-		std::this_thread::sleep_for(std::chrono::milliseconds(1));
-	}
+		GiveWay();
+	};
+	ASSERT_TRUE(WaitUntil("the coarser level", [&] { return Stats().Coarse > 0; }, LoseFrame));
 	for (int I = 0; I < 3; ++I)
 	{
 		ASSERT_TRUE(Frame(false, false));
@@ -396,16 +407,20 @@ TEST_F(FGeometryMemoryTest, EveryFailingAllocationIsSurvived)
 			std::vector<FRTGeometryRef> Geometries{MakeCpu("T" + std::to_string(N), 150), Make("A", 3000),
 			                                       Make("B", 500, true), Make("C", 20)};
 			Mock().FailAllocation(N);
-			for (int I = 0; I < 60; ++I)
+			int Made = 0;
+			const auto Step = [&]
 			{
 				Store->MarkDeformed(Geometries[2]);
-				const FRTStatus Status = Frame(bBuildAll && I == 0);
+				const FRTStatus Status = Frame(bBuildAll && Made == 0);
 				EXPECT_TRUE(Status || Status.Code == ERTResult::OutOfDeviceMemory) << Status.Message;
+				++Made;
 				if (Stats().Pending > 0)
 				{
-					std::this_thread::sleep_for(std::chrono::milliseconds(1));
+					GiveWay();
 				}
-			}
+			};
+			// The coarser level too must meet the fault, however late its task is.
+			ASSERT_TRUE(WaitUntil("all builds", [&] { return Made >= 60 && Stats().Pending == 0; }, Step));
 			Mock().FailAllocation(0);
 			Settle();
 			for (const FRTGeometryRef& Geometry : Geometries)

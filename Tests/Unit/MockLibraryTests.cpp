@@ -1,6 +1,8 @@
 // Pipeline libraries, compaction and large scenes on the mock.
 #include "MockTestTools.h"
+#include "WaitTools.h"
 
+#include <atomic>
 #include <chrono>
 #include <gmock/gmock.h>
 #include <thread>
@@ -147,26 +149,58 @@ TEST_F(FMockLibraryTests, FaultsAreByTheNameOfTheLibrary)
 
 TEST_F(FMockLibraryTests, SlowCompilesSleepSideBySide)
 {
-	Mock->SlowCompile("Slow", 100);
-	const auto Start = steady_clock::now();
+	Mock->SlowCompile("Slow", 2);
+	std::atomic<bool> bStop = false;
 	std::vector<std::thread> Threads;
-	for (uint32_t i = 0; i < 16; ++i)
+	for (uint32_t i = 0; i < 3; ++i)
 	{
-		Threads.emplace_back([&] { Library("Slow"); });
+		Threads.emplace_back(
+		    [&]
+		    {
+			    while (!bStop)
+			    {
+				    Library("Slow");
+			    }
+		    });
 	}
-	// The device goes on meanwhile.
-	std::this_thread::sleep_for(milliseconds(20));
-	const auto Before = steady_clock::now();
-	Library("Quick");
-	Make.Buffer(64);
-	const auto Quick = steady_clock::now() - Before;
+	WaitUntil("three compiles that sleep at once", [&] { return Mock->GetCompilesInDriver() == 3; });
+	bStop = true;
 	for (std::thread& Thread : Threads)
 	{
 		Thread.join();
 	}
-	EXPECT_LT(Quick, milliseconds(60));
-	EXPECT_GE(steady_clock::now() - Start, milliseconds(100));
-	EXPECT_LT(steady_clock::now() - Start, milliseconds(1000)) << "one after the other it takes 1600";
+}
+
+TEST_F(FMockLibraryTests, HeldCompilesWaitSideBySideAndTheDeviceGoesOn)
+{
+	constexpr uint32_t Count = 16;
+	Mock->HoldCompiles("Held");
+	std::atomic<uint32_t> Made = 0;
+	std::vector<std::thread> Threads;
+	for (uint32_t i = 0; i < Count; ++i)
+	{
+		Threads.emplace_back(
+		    [&]
+		    {
+			    Library("Held");
+			    ++Made;
+		    });
+	}
+	WaitUntil("all of them in the driver", [&] { return Mock->GetCompilesInDriver() == Count; });
+	{
+		const FHangGuard Guard("the device beside held compiles", [&] { Mock->ClearCompileFaults(); });
+		Library("Quick");
+		Make.Buffer(64);
+	}
+	EXPECT_EQ(Mock->GetCompilesInDriver(), Count);
+	EXPECT_EQ(Made, 0u);
+	Mock->ClearCompileFaults();
+	for (std::thread& Thread : Threads)
+	{
+		Thread.join();
+	}
+	EXPECT_EQ(Made, Count);
+	EXPECT_EQ(Mock->GetCompilesInDriver(), 0u);
 }
 
 class FMockCompactionTests : public FMockLibraryTests
@@ -285,8 +319,7 @@ TEST_F(FMockCompactionTests, AMillionInstances)
 	List = Make.List();
 	List->BuildScene(Scene.Get(), Instances.Get(), 0, Count, Scratch.Get(), 0);
 	Make.Submit(List.Get());
-	const auto Took = steady_clock::now() - Start;
-	EXPECT_LT(Took, milliseconds(5000)) << "about 100 when nothing else runs";
+	const auto Took = steady_clock::now() - Start; // about 100 ms when nothing else runs; only reported
 	RecordProperty("milliseconds", static_cast<int>(std::chrono::duration_cast<milliseconds>(Took).count()));
 	EXPECT_EQ(Mock->GetTraffic().Instances, Count * sizeof(FRTInstance));
 	EXPECT_THAT(Mock->GetErrors(), testing::IsEmpty());

@@ -1,7 +1,5 @@
 // Signals of the module: what an engine asks for is made, and nothing else is.
-#include <chrono>
 #include <limits>
-#include <thread>
 
 #include "ModuleTestTools.h"
 
@@ -68,14 +66,13 @@ protected:
 	void RenderUntilComplete(FRTModuleFrame Frame)
 	{
 		Outputs = {};
-		const auto Start = std::chrono::steady_clock::now();
-		while (!Outputs.bComplete && std::chrono::steady_clock::now() - Start < std::chrono::seconds(60))
+		const auto Step = [&]
 		{
 			Frame.Commands = DescribeFrame().Commands;
 			RenderAndEnd(Frame);
-			if (!Outputs.bComplete) { std::this_thread::sleep_for(std::chrono::milliseconds(2)); }
-		}
-		ASSERT_TRUE(Outputs.bComplete);
+			GiveWay();
+		};
+		ASSERT_TRUE(WaitUntil("a complete frame", [&] { return Outputs.bComplete; }, Step));
 	}
 	std::vector<std::string> GetPasses()
 	{

@@ -10,6 +10,7 @@
 #include "LanternModule/Module.h"
 #include "LanternRHIMock/MockDevice.h"
 #include "LanternRHIValidation/ValidationDevice.h"
+#include "WaitTools.h"
 
 namespace Lantern
 {
@@ -55,6 +56,7 @@ protected:
 	}
 	void TearDown() override
 	{
+		Mock().ClearCompileFaults(); // the renderer waits for compiles that a failed test has left in the driver
 		Renderer.Reset();
 		Module.Reset();
 		List.Reset();

@@ -2,14 +2,12 @@
 // records of a pipeline run.
 #pragma once
 
-#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <set>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -19,6 +17,7 @@
 #include "LanternCore/ConsoleVariables.h"
 #include "LanternRHIMock/MockDevice.h"
 #include "LanternScene/PipelineCompiler.h"
+#include "WaitTools.h"
 
 namespace Lantern
 {
@@ -49,6 +48,15 @@ public:
 		}
 		Opened.notify_all();
 	}
+	/// What Close(Part) has closed.
+	void Open(const std::string& Part)
+	{
+		{
+			const std::lock_guard Lock(Mutex);
+			Closed.erase(Part);
+		}
+		Opened.notify_all();
+	}
 	/// Names of what the driver was asked for, in the order in which it was.
 	std::vector<std::string> GetAsked() const
 	{
@@ -59,6 +67,13 @@ public:
 	{
 		const std::lock_guard Lock(Mutex);
 		return static_cast<uint32_t>(std::count(Asked.begin(), Asked.end(), Name));
+	}
+	/// Whether the driver was asked for something whose name contains Part.
+	bool WasAsked(const std::string& Part) const
+	{
+		const std::lock_guard Lock(Mutex);
+		return std::any_of(Asked.begin(), Asked.end(),
+		                   [&](const std::string& Name) { return Name.find(Part) != std::string::npos; });
 	}
 	void ForgetAsked()
 	{
@@ -209,32 +224,49 @@ protected:
 	static std::string MakeText(int Value) { return "float Value() { return " + std::to_string(Value) + ".0; }\n"; }
 
 	/// Frames until Condition holds.
-	template <class F>
-	void Until(F Condition)
+	void Until(const std::function<bool()>& Condition, const char* What = "the pipeline compiler")
 	{
-		const auto End = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-		while (!Condition())
+		const auto Frame = [&]
 		{
-			ASSERT_LT(std::chrono::steady_clock::now(), End) << "never came";
 			Maker->Update(Wanted);
-			std::this_thread::sleep_for(std::chrono::milliseconds(1));
-		}
+			GiveWay();
+		};
+		ASSERT_TRUE(WaitUntil(What, Condition, Frame, [&] { return DescribeProgress(); }));
 	}
 	/// The same without frames.
-	template <class F>
-	static void WaitFor(F Condition)
+	void WaitFor(const std::function<bool()>& Condition, const char* What = "the pipeline compiler, without frames")
 	{
-		const auto End = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-		while (!Condition())
-		{
-			ASSERT_LT(std::chrono::steady_clock::now(), End) << "never came";
-			std::this_thread::sleep_for(std::chrono::milliseconds(1));
-		}
+		ASSERT_TRUE(WaitUntil(What, Condition, {}, [&] { return DescribeProgress(); }));
 	}
+	/// In several frames running: one that finds the compiler's lock taken starts nothing, and looks as idle as before.
 	void UntilIdle()
 	{
-		Maker->Update(Wanted);
-		Until([&] { return !Maker->GetStats().bBusy; });
+		constexpr int Running = 4;
+		int Idle = 0;
+		const auto IsIdle = [&]
+		{
+			Idle = Maker->GetStats().bBusy ? 0 : Idle + 1;
+			return Idle >= Running;
+		};
+		Until(IsIdle, "the pipeline compiler to be idle");
+	}
+	/// Of an idle compiler: while its lock is taken, GetStats has old figures, and says that it is busy.
+	FRTPSOCompilerStats GetIdleStats()
+	{
+		FRTPSOCompilerStats Stats;
+		const auto IsIdle = [&]
+		{
+			Stats = Maker->GetStats();
+			return !Stats.bBusy;
+		};
+		WaitFor(IsIdle, "the figures of an idle pipeline compiler");
+		return Stats;
+	}
+	std::string DescribeProgress()
+	{
+		const FRTPSOCompilerStats& Stats = Maker->GetStats();
+		return std::to_string(Stats.Ready) + " of " + std::to_string(Stats.Wanted) + " groups ready, " +
+		       std::to_string(Stats.Links) + " links taken";
 	}
 	bool IsReady(FHitProgram Program)
 	{

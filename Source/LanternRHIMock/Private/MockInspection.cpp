@@ -272,6 +272,18 @@ void FRTMock::SlowCompile(const std::string& Part, uint32_t Milliseconds)
 	State.Slow.emplace_back(Part, Milliseconds);
 }
 
+void FRTMock::HoldCompiles(const std::string& Part)
+{
+	std::lock_guard Lock(State.Mutex);
+	State.Held.push_back(Part);
+}
+
+uint32_t FRTMock::GetCompilesInDriver() const
+{
+	std::lock_guard Lock(State.Mutex);
+	return State.CompilesInDriver;
+}
+
 void FRTMock::FailCompile(const std::string& Part)
 {
 	std::lock_guard Lock(State.Mutex);
@@ -280,9 +292,13 @@ void FRTMock::FailCompile(const std::string& Part)
 
 void FRTMock::ClearCompileFaults()
 {
-	std::lock_guard Lock(State.Mutex);
-	State.Slow.clear();
-	State.Failing.clear();
+	{
+		std::lock_guard Lock(State.Mutex);
+		State.Slow.clear();
+		State.Held.clear();
+		State.Failing.clear();
+	}
+	State.HoldEnded.notify_all();
 }
 
 void FRTMock::LoseDeviceAt(ERTMockCall Kind)

@@ -53,24 +53,25 @@ bool IsBoundToLink(const FMockGroup& Group)
 FRTStatus FMockDevice::Compile(const char* Name)
 {
 	const std::string Whole = Name ? Name : "";
+	const auto IsPart = [&](const std::string& Part) { return Whole.find(Part) != std::string::npos; };
 	uint32_t Milliseconds = 0;
-	bool bFail = false;
+	std::unique_lock Lock(State->Mutex);
+	for (const auto& [Part, Delay] : State->Slow)
 	{
-		std::lock_guard Lock(State->Mutex);
-		for (const auto& [Part, Delay] : State->Slow)
-		{
-			if (Whole.find(Part) != std::string::npos)
-			{
-				Milliseconds += Delay;
-			}
-		}
-		bFail = std::any_of(State->Failing.begin(), State->Failing.end(),
-		                    [&](const std::string& Part) { return Whole.find(Part) != std::string::npos; });
+		Milliseconds += IsPart(Part) ? Delay : 0;
 	}
-	if (Milliseconds)
+	const bool bFail = std::any_of(State->Failing.begin(), State->Failing.end(), IsPart);
+	const auto IsHeld = [&] { return std::any_of(State->Held.begin(), State->Held.end(), IsPart); };
+	if (Milliseconds || IsHeld())
 	{
+		++State->CompilesInDriver;
+		State->HoldEnded.wait(Lock, [&] { return !IsHeld(); });
+		Lock.unlock();
 		std::this_thread::sleep_for(std::chrono::milliseconds(Milliseconds));
+		Lock.lock();
+		--State->CompilesInDriver;
 	}
+	Lock.unlock();
 	if (bFail)
 	{
 		return FRTStatus::Error(ERTResult::CompileFailed, "%s: compile failed (mock, injected)", Whole.c_str());

@@ -5,6 +5,7 @@
 #include "LanternRHIMock/MockDevice.h"
 
 #include <atomic>
+#include <condition_variable>
 #include <deque>
 #include <map>
 #include <memory>
@@ -104,7 +105,9 @@ struct FMockState
 
 	uint32_t FailIn = 0, FailEvery = 0, SinceFail = 0;
 	std::vector<std::pair<std::string, uint32_t>> Slow;
-	std::vector<std::string> Failing;
+	std::vector<std::string> Held, Failing;
+	std::condition_variable HoldEnded;
+	uint32_t CompilesInDriver = 0; ///< slow and held ones
 	std::optional<ERTMockCall> LoseAt;
 	bool bLost = false;
 

@@ -224,9 +224,14 @@ public:
 	/// Pipelines and libraries whose name contains Part take Milliseconds longer to create. Creating threads sleep side by
 	/// side, and the device goes on meanwhile.
 	void SlowCompile(const std::string& Part, uint32_t Milliseconds);
+	/// Pipelines and libraries whose name contains Part stay in the driver until ClearCompileFaults(), which must come before
+	/// anything waits for the creating threads. The device goes on meanwhile.
+	void HoldCompiles(const std::string& Part);
+	/// Threads that are in a slow compile or in a held one now.
+	uint32_t GetCompilesInDriver() const;
 	/// Pipelines and libraries whose name contains Part fail with CompileFailed. A link has its own name.
 	void FailCompile(const std::string& Part);
-	void ClearCompileFaults();
+	void ClearCompileFaults(); ///< slow ones, held ones, failing ones
 	/// The device is lost at the next call of this kind.
 	void LoseDeviceAt(ERTMockCall Kind);
 	void LoseDevice();
