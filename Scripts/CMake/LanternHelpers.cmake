@@ -39,23 +39,42 @@ function(lantern_module NAME)
   set_property(GLOBAL PROPERTY LANTERN_MODULE_DIR_${NAME} ${CMAKE_CURRENT_SOURCE_DIR})
 endfunction()
 
-# lantern_test(NAME LABELS fast|… SOURCES … LIBS … [ENVIRONMENT K=V …]): a GoogleTest program, one ctest entry per
-# test case, with Vulkan validation on. WHOLE: one entry for the program, for many small cases whose program takes
-# longer to start than they do (OpenImageIO's libraries: 0.3 s).
+# What tests leave for later ones: SPIR-V, the validation layers' verdicts, drivers' machine code. Scripts/Test empties it.
+set(LANTERN_TEST_CACHES ${CMAKE_BINARY_DIR}/Caches)
+# Ends what hangs, and decides nothing else: at least ten times what a test needs on an idle machine with empty caches, and
+# more than what its own waits allow (Tests/Unit/WaitTools.h).
+set(LANTERN_TEST_TIMEOUT 900)
+
+# lantern_run_test(NAME LABELS fast|… COMMAND … [TIMEOUT seconds] [ENVIRONMENT K=V …]): a program as one ctest entry.
+function(lantern_run_test NAME)
+  cmake_parse_arguments(T "" "TIMEOUT" "COMMAND;LABELS;ENVIRONMENT" ${ARGN})
+  if(NOT T_TIMEOUT)
+    set(T_TIMEOUT ${LANTERN_TEST_TIMEOUT})
+  endif()
+  add_test(NAME ${NAME} COMMAND ${T_COMMAND})
+  set_tests_properties(${NAME} PROPERTIES LABELS "${T_LABELS}" TIMEOUT ${T_TIMEOUT}
+    ENVIRONMENT "XDG_CACHE_HOME=${LANTERN_TEST_CACHES};${T_ENVIRONMENT}")
+endfunction()
+
+# lantern_test(NAME LABELS fast|… SOURCES … LIBS …): a GoogleTest program, one ctest entry per test case, with Vulkan
+# validation on. WHOLE: one entry for the program, for many small cases whose program takes longer to start than they do
+# (OpenImageIO's libraries: 0.3 s).
 function(lantern_test NAME)
-  cmake_parse_arguments(T "WHOLE" "TIMEOUT" "SOURCES;LIBS;LABELS;ENVIRONMENT" ${ARGN})
+  cmake_parse_arguments(T "WHOLE" "TIMEOUT" "SOURCES;LIBS;LABELS" ${ARGN})
   add_executable(${NAME} ${T_SOURCES})
   target_link_libraries(${NAME} PRIVATE ${T_LIBS} LanternOptions GTest::gtest_main GTest::gmock)
-  target_compile_definitions(${NAME} PRIVATE LANTERN_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_include_directories(${NAME} PRIVATE ${PROJECT_SOURCE_DIR}/Tests/Unit)
+  target_compile_definitions(${NAME} PRIVATE
+    LANTERN_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    LANTERN_TEST_CACHE="${LANTERN_TEST_CACHES}/lantern")
   if(NOT T_TIMEOUT)
-    set(T_TIMEOUT 120)
+    set(T_TIMEOUT ${LANTERN_TEST_TIMEOUT})
   endif()
   if(T_WHOLE)
-    add_test(NAME ${NAME} COMMAND ${NAME})
-    set_tests_properties(${NAME} PROPERTIES LABELS "${T_LABELS}" TIMEOUT ${T_TIMEOUT} ENVIRONMENT "${T_ENVIRONMENT}")
+    lantern_run_test(${NAME} COMMAND ${NAME} LABELS ${T_LABELS} TIMEOUT ${T_TIMEOUT})
     return()
   endif()
   include(GoogleTest)
-  gtest_discover_tests(${NAME} DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS "${T_LABELS}" TIMEOUT ${T_TIMEOUT} ENVIRONMENT "${T_ENVIRONMENT}")
+  gtest_discover_tests(${NAME} DISCOVERY_TIMEOUT ${LANTERN_TEST_TIMEOUT}
+    PROPERTIES LABELS "${T_LABELS}" TIMEOUT ${T_TIMEOUT} ENVIRONMENT "XDG_CACHE_HOME=${LANTERN_TEST_CACHES}")
 endfunction()
