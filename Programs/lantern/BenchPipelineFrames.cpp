@@ -63,7 +63,9 @@ class FHitchBench
 public:
 	FHitchBench(IRTDevice& InDevice, const FRendererDesc& Desc) : Device(InDevice), Engine(InDevice, Desc) {}
 	FRTStatus Load(uint32_t Materials);
-	FRTStatus Frame(FFrameTime& Out);
+	FRTStatus Frame(FFrameTime& Out, bool bWait = false);
+	/// Each material gets a program that no driver has seen.
+	std::vector<FHitProgram> RenewPrograms(uint32_t Materials);
 	FRTPSOCompiler& GetCompiler() { return Engine.GetRenderer().GetRayCompiler(); }
 	FRTScene& GetScene() { return Engine.GetScene().GetScene(); }
 	FMaterialPrograms& GetPrograms() { return Engine.GetRenderer().GetPrograms(); }
@@ -96,13 +98,13 @@ FRTStatus FHitchBench::Load(uint32_t Materials)
 }
 
 /// The plugin's whole frame, with one dispatch of camera rays that run the materials' closest-hit shaders.
-FRTStatus FHitchBench::Frame(FFrameTime& Out)
+FRTStatus FHitchBench::Frame(FFrameTime& Out, bool bWait)
 {
 	FRenderer& Renderer = Engine.GetRenderer();
 	const auto Start = FClock::now();
 	const double StartProcessor = GetProcessorMs();
 	FFrameFeatures Features;
-	Features.bWaitForPipelines = false;
+	Features.bWaitForPipelines = bWait;
 	Features.bRays = true;
 	Features.RayGens = {MakeBenchRayGen()};
 	View.FrameIndex = Engine.GetFrameIndex();
@@ -141,6 +143,40 @@ FRTStatus FHitchBench::Frame(FFrameTime& Out)
 	}
 	return Status;
 }
+
+std::vector<FHitProgram> FHitchBench::RenewPrograms(uint32_t Materials)
+{
+	const uint64_t Salt = MakeSalt();
+	std::vector<FHitProgram> Programs;
+	for (uint32_t Index = 0; Index < Materials; ++Index)
+	{
+		Programs.push_back({GetPrograms().Add(MakeBenchProgram(Index, Salt)), ERTHitClass::Opaque});
+		GetScene().SetMaterialProgram(Index, Programs.back().Program);
+	}
+	return Programs;
+}
+
+FRTStatus MeasureOnce(IRTDevice& Device, const FRendererDesc& Desc, uint32_t Materials, double& OutSeconds)
+{
+	FHitchBench Bench(Device, Desc);
+	FFrameTime Time;
+	if (FRTStatus S = Bench.Load(Materials); !S)
+	{
+		return S;
+	}
+	FRTStatus Status = Bench.Frame(Time, true);
+	Status = Status ? Bench.Finish() : Status;
+	if (!Status)
+	{
+		return Status;
+	}
+	Bench.RenewPrograms(Materials);
+	const auto Start = FClock::now();
+	Status = Bench.Frame(Time, true);
+	Status = Status ? Bench.Finish() : Status;
+	OutSeconds = 1e-3 * MsSince(Start);
+	return Status;
+}
 } // namespace
 
 FRTStatus MeasureHitches(IRTDevice& Device, const FRendererDesc& Desc, uint32_t Materials, uint32_t Threads,
@@ -170,13 +206,9 @@ FRTStatus MeasureHitches(IRTDevice& Device, const FRendererDesc& Desc, uint32_t 
 		}
 		Out.Idle.push_back(Time);
 	}
-	const uint64_t Salt = MakeSalt();
-	std::vector<FHitProgram> Programs;
-	for (uint32_t Index = 0; Index < Materials; ++Index)
-	{
-		Programs.push_back({Bench.GetPrograms().Add(MakeBenchProgram(Index, Salt)), ERTHitClass::Opaque});
-		Bench.GetScene().SetMaterialProgram(Index, Programs.back().Program);
-	}
+	const std::vector<FHitProgram> Programs = Bench.RenewPrograms(Materials);
+	const uint64_t Before = Bench.GetCompiler().GetStats().Links;
+	const auto Start = FClock::now();
 	while (Out.Ready < Materials)
 	{
 		if (FRTStatus S = Bench.Frame(Time); !S)
@@ -196,7 +228,13 @@ FRTStatus MeasureHitches(IRTDevice& Device, const FRendererDesc& Desc, uint32_t 
 			Out.Ready += Current && Current->GetState(Program) == ERTHitState::Ready ? 1 : 0;
 		}
 	}
-	return Bench.Finish();
+	if (FRTStatus S = Bench.Finish(); !S)
+	{
+		return S;
+	}
+	Out.ArrivedSeconds = 1e-3 * MsSince(Start);
+	Out.Swaps = Bench.GetCompiler().GetStats().Links - Before;
+	return MeasureOnce(Device, Desc, Materials, Out.OnceSeconds);
 }
 
 } // namespace Lantern

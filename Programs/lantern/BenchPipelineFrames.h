@@ -20,6 +20,10 @@ struct FHitchRun
 	std::vector<FFrameTime> Idle;      ///< frames before anything is to be compiled
 	std::vector<FFrameTime> Compiling; ///< frames from the moment all materials change until all are ready
 	uint32_t Ready = 0;                ///< materials that are, at the end
+	uint64_t Swaps = 0;                ///< of pipelines, until then
+	double ArrivedSeconds = 0.0;       ///< until then, and the GPU is done
+	/// The same materials, but for a constant: a frame that waits until all are compiled, to its end on the GPU.
+	double OnceSeconds = 0.0;
 };
 
 /// Threads: of the compiler; 0: its own choice. Frames begin PaceMs apart, or as soon as the one before is done.

@@ -139,6 +139,9 @@ FRTStatus MeasureFrames(IRTDevice& Device, const std::string& Shaders, const FBe
 	           Options.Groups, Compiling.Median, Compiling.Worst, Run.Compiling.size(), Idle.Median, Idle.Worst);
 	fmt::print("processor time of the render thread in these: worst {:.3f} ms (before: {:.3f} ms)\n",
 	           Compiling.WorstProcessor, Idle.WorstProcessor);
+	fmt::print("all in use after {:.2f} s and {} swaps; in a frame that waits for them: {:.2f} s (ratio {:.2f})\n",
+	           Run.ArrivedSeconds, Run.Swaps, Run.OnceSeconds, Run.ArrivedSeconds / Run.OnceSeconds);
+	Json["arrival"] = {{"seconds", Run.ArrivedSeconds}, {"swaps", Run.Swaps}, {"once_seconds", Run.OnceSeconds}};
 	Json["hitch"] = {{"median_frame_ms", Compiling.Median},
 	                 {"worst_frame_ms", Compiling.Worst},
 	                 {"frames", Run.Compiling.size()},

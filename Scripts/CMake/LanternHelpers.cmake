@@ -12,7 +12,8 @@ endif()
 
 find_program(LANTERN_CCACHE ccache)
 if(LANTERN_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${LANTERN_CCACHE})
+  # ccache keeps files with a precompiled header only if it need not look at that header's own time and defines.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${LANTERN_CCACHE})
 endif()
 
 add_library(LanternOptions INTERFACE)
@@ -21,6 +22,15 @@ if(LANTERN_SANITIZE)
   target_compile_options(LanternOptions INTERFACE -fsanitize=${LANTERN_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
   target_link_options(LanternOptions INTERFACE -fsanitize=${LANTERN_SANITIZE})
 endif()
+
+# lantern_precompile(TARGET HEADER …): headers of others that most files of a program read, and that take longer to read than
+# the files themselves. Not for the plugin's own modules: there each file includes what it uses, or does not compile.
+function(lantern_precompile TARGET)
+  target_precompile_headers(${TARGET} PRIVATE ${ARGN})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${TARGET} PRIVATE -fpch-preprocess) # for ccache
+  endif()
+endfunction()
 
 # lantern_module(NAME SOURCES a.cpp … PUBLIC deps … PRIVATE deps …): a static library in the current folder,
 # Public/ for others, Private/ for itself. Layering is enforced: a module sees only what it links.
@@ -56,6 +66,20 @@ function(lantern_run_test NAME)
     ENVIRONMENT "XDG_CACHE_HOME=${LANTERN_TEST_CACHES};${T_ENVIRONMENT}")
 endfunction()
 
+# GoogleTest's headers, precompiled once for all test programs.
+function(lantern_precompile_test NAME)
+  if(NOT TARGET LanternTestHeaders)
+    file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/LanternTestHeaders.cpp CONTENT "int main() { return 0; }\n")
+    add_executable(LanternTestHeaders ${CMAKE_BINARY_DIR}/LanternTestHeaders.cpp)
+    target_link_libraries(LanternTestHeaders PRIVATE LanternOptions GTest::gtest GTest::gmock)
+    lantern_precompile(LanternTestHeaders <gmock/gmock.h> <gtest/gtest.h>)
+  endif()
+  target_precompile_headers(${NAME} REUSE_FROM LanternTestHeaders)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${NAME} PRIVATE -fpch-preprocess)
+  endif()
+endfunction()
+
 # lantern_test(NAME LABELS fast|… SOURCES … LIBS …): a GoogleTest program, one ctest entry per test case, with Vulkan
 # validation on. WHOLE: one entry for the program, for many small cases whose program takes longer to start than they do
 # (OpenImageIO's libraries: 0.3 s).
@@ -64,6 +88,7 @@ function(lantern_test NAME)
   add_executable(${NAME} ${T_SOURCES})
   target_link_libraries(${NAME} PRIVATE ${T_LIBS} LanternOptions GTest::gtest_main GTest::gmock)
   target_include_directories(${NAME} PRIVATE ${PROJECT_SOURCE_DIR}/Tests/Unit)
+  lantern_precompile_test(${NAME})
   target_compile_definitions(${NAME} PRIVATE
     LANTERN_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     LANTERN_TEST_CACHE="${LANTERN_TEST_CACHES}/lantern")

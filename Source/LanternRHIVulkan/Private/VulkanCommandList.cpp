@@ -73,11 +73,11 @@ void FVulkanCommandList::ReleaseKept()
 FVulkanKept FVulkanCommandList::TakeKept(FRTFence InFence)
 {
 	Fence = InFence;
-	for (const auto& [Queries, Index] : SizesWritten)
+	for (const auto& [Queries, Index] : QueriesWritten)
 	{
 		Queries->NoteWrite(Index, InFence);
 	}
-	SizesWritten.clear();
+	QueriesWritten.clear();
 	FVulkanKept Result;
 	Result.swap(Kept);
 	return Result;
@@ -96,7 +96,7 @@ FRTStatus FVulkanCommandList::Begin()
 	Bound = nullptr;
 	SetBoundPoints = 0;
 	PushedBytes = 0;
-	SizesWritten.clear();
+	QueriesWritten.clear();
 	VkResult Result = Device.Check(Device.Api.ResetCommandPool(Device.Handle, Pool, 0));
 	VkCommandBufferBeginInfo Info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
 	Info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
@@ -290,8 +290,9 @@ void FVulkanCommandList::WriteTimestamp(IRTQueryPool* Queries, uint32_t Index)
 	Keep(Queries);
 	if (Device.GetCapabilities().bTimestamps)
 	{
-		Device.Api.CmdWriteTimestamp2(Handle, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-		                              static_cast<FVulkanQueryPool*>(Queries)->Handle, Index);
+		FVulkanQueryPool* Native = static_cast<FVulkanQueryPool*>(Queries);
+		QueriesWritten.push_back({Native, Index});
+		Device.Api.CmdWriteTimestamp2(Handle, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, Native->Handle, Index);
 	}
 }
 

@@ -87,7 +87,7 @@ private:
 	FVulkanPipeline* Bound = nullptr;
 	uint8_t Pushed[sizeof(FVulkanTableScatter::FPush)] = {}; ///< what a scatter writes over
 	uint32_t PushedBytes = 0;
-	std::vector<std::pair<FVulkanQueryPool*, uint32_t>> SizesWritten;
+	std::vector<std::pair<FVulkanQueryPool*, uint32_t>> QueriesWritten;
 	uint32_t SetBoundPoints = 0; ///< bit per bind point that has the descriptor set
 };
 

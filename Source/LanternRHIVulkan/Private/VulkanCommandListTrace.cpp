@@ -130,7 +130,7 @@ void FVulkanCommandList::WriteCompactedSize(IRTQueryPool* Queries, uint32_t Inde
 	assert(Native->GetKind() == ERTQuery::CompactedSize && Index < Native->GetCount());
 	Keep(Queries);
 	Keep(Geometry);
-	SizesWritten.push_back({Native, Index});
+	QueriesWritten.push_back({Native, Index});
 	Device.Api.CmdWriteAccelerationStructuresPropertiesKHR(
 	    Handle, 1, &static_cast<const FVulkanGeometry*>(Geometry)->Handle,
 	    VK_QUERY_TYPE_ACCELERATION_STRUCTURE_COMPACTED_SIZE_KHR, Native->Handle, Index);

@@ -2,6 +2,7 @@
 
 #include "VulkanQuirks.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace Lantern
@@ -26,7 +27,8 @@ FRTStatus FVulkanQueryPool::Initialise(ERTQuery InKind, uint32_t InCount)
 		Handle = VK_NULL_HANDLE;
 		return MakeStatus(Result, "Creating query pool", bSizes ? "compacted sizes" : "timestamps");
 	}
-	if (bSizes && HasQuirk(Device.Probe.Quirks, EVulkanQuirk::SizesAlwaysAvailable))
+	const EVulkanQuirk Quirk = bSizes ? EVulkanQuirk::SizesAlwaysAvailable : EVulkanQuirk::TimestampsWait;
+	if (HasQuirk(Device.Probe.Quirks, Quirk))
 	{
 		WrittenBy = std::vector<std::atomic<FRTFence>>(Count);
 		NoteReset(0, Count);
@@ -69,6 +71,12 @@ bool FVulkanQueryPool::GetResults(uint32_t First, uint32_t InCount, uint64_t* Ou
 	{
 		return false;
 	}
+	const FRTFence Completed = WrittenBy.empty() ? 0 : Device.GetCompletedFence();
+	const auto IsWritten = [&](const std::atomic<FRTFence>& Fence) { return Fence.load() <= Completed; };
+	if (!WrittenBy.empty() && !std::all_of(WrittenBy.begin() + First, WrittenBy.begin() + First + InCount, IsWritten))
+	{
+		return false;
+	}
 	struct FResult
 	{
 		uint64_t Value;
@@ -82,12 +90,10 @@ bool FVulkanQueryPool::GetResults(uint32_t First, uint32_t InCount, uint64_t* Ou
 	{
 		return false;
 	}
-	const FRTFence Completed = WrittenBy.empty() ? 0 : Device.GetCompletedFence();
 	bool bAll = true;
 	for (uint32_t Index = 0; Index < InCount; ++Index)
 	{
-		bAll = bAll && Results[Index].bAvailable != 0 &&
-		       (WrittenBy.empty() || WrittenBy[First + Index].load() <= Completed);
+		bAll = bAll && Results[Index].bAvailable != 0;
 		OutValues[Index] = Convert(Results[Index].Value);
 	}
 	return bAll;

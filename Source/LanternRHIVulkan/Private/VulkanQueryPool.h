@@ -15,7 +15,7 @@ public:
 	ERTQuery GetKind() const override { return Kind; }
 	bool GetResults(uint32_t First, uint32_t InCount, uint64_t* OutValues) override;
 
-	// EVulkanQuirk::SizesAlwaysAvailable; nothing on other drivers.
+	// EVulkanQuirk::SizesAlwaysAvailable and TimestampsWait; nothing on other drivers.
 	void NoteReset(uint32_t First, uint32_t InCount);
 	/// At submission of the list that writes the query.
 	void NoteWrite(uint32_t Index, FRTFence Fence);

@@ -27,6 +27,9 @@ constexpr FQuirk Quirks[] = {
     {VK_DRIVER_ID_MESA_LLVMPIPE, 0, ~0u, EVulkanQuirk::SizesAlwaysAvailable,
      "queries of compacted sizes are available from the start, and resets leave them (seen in 25.0.7): they count as "
      "written when the list that does so has finished"},
+    {VK_DRIVER_ID_MESA_LLVMPIPE, 0, ~0u, EVulkanQuirk::TimestampsWait,
+     "asking whether a timestamp is there waits for the frame that writes it (seen in 25.0.7): it is asked for when the "
+     "list that writes it has finished"},
 };
 
 } // namespace

@@ -15,6 +15,8 @@ enum class EVulkanQuirk : uint32_t
 	CrashWithoutHitShaders = 1 << 1,
 	/// Whether a compacted size has been written must be known from fences.
 	SizesAlwaysAvailable = 1 << 2,
+	/// Asking for a timestamp waits for the GPU: whether it has been written must be known from fences.
+	TimestampsWait = 1 << 3,
 };
 
 constexpr bool HasQuirk(uint32_t Flags, EVulkanQuirk Flag)
