@@ -28,7 +28,8 @@ constexpr VkExtent2D FrameSize{320, 180};
 constexpr uint32_t PixelCount = FrameSize.width * FrameSize.height;
 constexpr VkDeviceSize MaskBytes = PixelCount * 2; ///< of each that is read back: halves
 constexpr int FrameCount = 3; ///< the later ones find everything built
-constexpr int MostFramesUntilComplete = 20'000;
+constexpr int MostFramesUntilComplete = 600'000; ///< each takes a millisecond at least: ends what would never end
+constexpr int FramesPerLine = 5'000;
 
 enum EExit
 {
@@ -220,6 +221,10 @@ FError CheckScene(FStage& Stage, const FForkScene& Scene, const char* What)
 		if (Stage.Plugin.IsComplete())
 		{
 			break;
+		}
+		if (Frame % FramesPerLine == FramesPerLine - 1)
+		{
+			std::fprintf(stderr, "EngineFork: frame %d, and the plugin still compiles\n", Frame + 1);
 		}
 		std::this_thread::sleep_for(std::chrono::milliseconds(1));
 	}

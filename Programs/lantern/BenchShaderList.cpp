@@ -67,16 +67,17 @@ public:
 		}
 	}
 
-	void AddRaster()
+	void AddRaster(const std::string& Scene)
 	{
-		for (FGBufferPass::FProgram& Program : Engine.GetGBufferPass().GetPrograms())
+		FPipelineShaders All;
+		const std::vector<FGBufferPass::FProgram> Programs = Engine.GetGBufferPass().GetPrograms();
+		for (const FGBufferPass::FProgram& Program : Programs)
 		{
-			FPipelineShaders Pipeline;
-			Pipeline.Shaders = {std::move(Program.Vertex), std::move(Program.Fragment)};
-			Pipeline.Raster = Program.MakeDesc();
-			Pipeline.Name = NameOf(Pipeline.Shaders.back());
-			Add(std::move(Pipeline));
+			All.Shaders.insert(All.Shaders.end(), {Program.Vertex, Program.Fragment});
 		}
+		All.Name = "GBuffer of " + Scene + ", " + std::to_string(Programs.size()) + " pipelines";
+		All.RasterScene = Scene;
+		Add(std::move(All));
 	}
 
 	void AddCompute()
@@ -119,7 +120,8 @@ private:
 };
 } // namespace
 
-FRTStatus ListPipelines(FSampleEngine& Engine, const std::string& MethodsFile, std::vector<FPipelineShaders>& Out)
+FRTStatus ListPipelines(FSampleEngine& Engine, const std::string& Scene, const std::string& MethodsFile,
+                        std::vector<FPipelineShaders>& Out)
 {
 	// Shaders leave out what a scene does not have; a sun and a sky nearly all have.
 	FSunLight Sun;
@@ -153,7 +155,7 @@ FRTStatus ListPipelines(FSampleEngine& Engine, const std::string& MethodsFile, s
 			}
 		}
 	}
-	Lister.AddRaster();
+	Lister.AddRaster(Scene);
 	Lister.AddCompute();
 	return FRTStatus::Success();
 }

@@ -13,15 +13,17 @@ namespace Lantern
 struct FPipelineShaders
 {
 	std::string Name; ///< paths, with defines
-	/// One compute shader, vertex and fragment shader, or all of a ray-tracing pipeline.
+	/// One compute shader, all of a ray-tracing pipeline, or those of all raster pipelines that frames of RasterScene draw with.
 	std::vector<FShaderSource> Shaders;
-	FRTPSODesc Rays;              ///< of a ray-tracing pipeline: with one ray generation shader
-	FRTRasterPipelineDesc Raster; ///< of a raster pipeline
+	FRTPSODesc Rays; ///< of a ray-tracing pipeline: with one ray generation shader
+	std::string RasterScene;
 	bool IsRays() const { return !Rays.RayGens.empty(); }
+	bool IsRaster() const { return !RasterScene.empty(); }
 };
 
-/// Engine: on a mock device, with the scene loaded. Console variables are as before afterwards. Adds to Out what is not there
-/// yet.
-FRTStatus ListPipelines(FSampleEngine& Engine, const std::string& MethodsFile, std::vector<FPipelineShaders>& Out);
+/// Engine: on a mock device, with the scene of that name loaded. Console variables are as before afterwards. Adds to Out what
+/// is not there yet.
+FRTStatus ListPipelines(FSampleEngine& Engine, const std::string& Scene, const std::string& MethodsFile,
+                        std::vector<FPipelineShaders>& Out);
 
 } // namespace Lantern

@@ -11,6 +11,7 @@
 #include "BenchShaderList.h"
 #include "LanternCore/Log.h"
 #include "LanternHost/AtomicFile.h"
+#include "LanternHost/Methods.h"
 #include "LanternHost/SceneLoader.h"
 #include "LanternRHIMock/MockDevice.h"
 #include "Progress.h"
@@ -40,9 +41,10 @@ struct FShaderCosts
 class FShaderBench
 {
 public:
-	FShaderBench(IRTDevice& InDevice, const std::string& ShaderFolder)
+	FShaderBench(IRTDevice& InDevice, const std::string& InShaderFolder)
 	    : Device(InDevice),
-	      Compiler(FShaderCompilerDesc{{ShaderFolder}, {}})
+	      ShaderFolder(InShaderFolder),
+	      Compiler(FShaderCompilerDesc{{InShaderFolder}, {}})
 	{
 	}
 
@@ -64,7 +66,7 @@ public:
 		{
 			return MeasureRays(Pipeline, Out);
 		}
-		return Binaries.size() == 1 ? MeasureCompute(Binaries.front(), Out) : MeasureRaster(Pipeline, Binaries, Out);
+		return Pipeline.IsRaster() ? MeasureRaster(Pipeline.RasterScene, Out) : MeasureCompute(Binaries.front(), Out);
 	}
 
 private:
@@ -118,60 +120,35 @@ private:
 		    Out);
 	}
 
-	FRTStatus MeasureRaster(const FPipelineShaders& Shaders, const std::vector<FShaderBinary>& Binaries,
-	                        FShaderCosts& Out)
+	/// A driver may compile a raster pipeline at the first draw that has vertices and a target. These are a frame's, of
+	/// which the second is taken off.
+	FRTStatus MeasureRaster(const std::string& Scene, FShaderCosts& Out)
 	{
-		constexpr uint32_t Size = 8;
-		FRTRasterPipelineDesc Desc = Shaders.Raster;
-		Desc.Vertex = Binaries.front().GetCode();
-		Desc.Fragment = Binaries.back().GetCode();
-		TRTRef<IRTPipeline> Pipeline;
-		const auto Start = FClock::now();
-		if (FRTStatus S = Device.CreateRasterPipeline(Desc, Pipeline.ReleaseAndGetAddress()); !S)
+		FMethodScope RasterOnly;
+		RasterOnly.Apply({{"r.RT.Enable", "0", "bench shaders"}});
+		FSampleEngine Engine(Device, FRendererDesc{{ShaderFolder}, {}});
+		FLoadResult Loaded = LoadScene(Scene);
+		if (FRTStatus S = Engine.Load(std::move(*Loaded.Scene)); !S)
 		{
 			return S;
 		}
-		Out.CreateSeconds = SecondsSince(Start);
-		std::vector<TRTRef<IRTTexture>> Targets(Desc.ColorCount + 1);
-		std::vector<FRTColorTarget> Colors(Desc.ColorCount);
-		for (uint32_t Index = 0; Index < Targets.size(); ++Index)
+		double Ms[2] = {};
+		for (double& OfFrame : Ms)
 		{
-			const bool bDepth = Index == Desc.ColorCount;
-			FRTTextureDesc Target;
-			Target.Width = Target.Height = Size;
-			Target.Format = bDepth ? Desc.DepthFormat : Desc.ColorFormats[Index];
-			Target.Usage = bDepth ? ERTTextureUsage::Depth : ERTTextureUsage::RenderTarget;
-			if (FRTStatus S = Device.CreateTexture(Target, Targets[Index].ReleaseAndGetAddress()); !S)
+			FFrameCapture Capture;
+			Capture.bLighting = true;
+			FCapturedFrame Unused;
+			if (FRTStatus S = Engine.RenderFrame(Engine.GetScene().MakeDefaultView(32, 32), 0.0, Capture, &Unused); !S)
 			{
 				return S;
 			}
-			if (!bDepth)
+			for (const FPassTiming& Pass : Engine.GetRenderer().GetGraphResources().GetTimings())
 			{
-				Colors[Index].Texture = Targets[Index].Get();
+				OfFrame += Pass.Name == "GBuffer" ? Pass.GpuMs : 0.0;
 			}
 		}
-		FRTRasterPassDesc Pass;
-		Pass.Colors = Colors.data();
-		Pass.ColorCount = Desc.ColorCount;
-		Pass.Depth = Targets.back().Get();
-		Pass.Width = Pass.Height = Size;
-		return Use(
-		    [&](IRTCommandList& List)
-		    {
-			    std::vector<FRTBarrier> Barriers;
-			    for (uint32_t Index = 0; Index < Targets.size(); ++Index)
-			    {
-				    FRTBarrier& Barrier = Barriers.emplace_back();
-				    Barrier.Texture = Targets[Index].Get();
-				    Barrier.After = Index == Desc.ColorCount ? ERTAccess::DepthWrite : ERTAccess::RenderTarget;
-			    }
-			    List.Barriers(Barriers.data(), static_cast<uint32_t>(Barriers.size()));
-			    List.BeginRasterPass(Pass);
-			    List.SetPipeline(Pipeline.Get());
-			    List.Draw(3, 0);
-			    List.EndRasterPass();
-		    },
-		    Out);
+		Out.FirstUseSeconds = 1e-3 * (Ms[0] - Ms[1]);
+		return FRTStatus::Success();
 	}
 
 	FRTStatus Use(const std::function<void(IRTCommandList&)>& Record, FShaderCosts& Out)
@@ -200,6 +177,7 @@ private:
 	}
 
 	IRTDevice& Device;
+	const std::string ShaderFolder;
 	FShaderCompiler Compiler;
 };
 
@@ -227,7 +205,7 @@ FRTStatus ListAll(const FBenchShadersOptions& Options, const FPluginFolders& Fol
 		{
 			return S;
 		}
-		if (FRTStatus S = ListPipelines(Engine, Folders.Config + "/Methods.ini", Out); !S)
+		if (FRTStatus S = ListPipelines(Engine, Scene, Folders.Config + "/Methods.ini", Out); !S)
 		{
 			return S;
 		}

@@ -1,4 +1,3 @@
-#include <chrono>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -190,14 +189,12 @@ TEST(IniFile, AFloodOfProblemsIsCounted)
 
 TEST(IniFile, CostStaysBoundedForAHostileFile)
 {
-	// Both would be quadratic if done naively: unique adds to one key, and removals of all of them.
+	// Unique adds to one key are quadratic if done naively: what bounds them is the number of entries.
 	std::string Text = "[S]\n";
 	for (int I = 0; I < 200'000; ++I)
 		Text += "+A=" + std::to_string(I) + "\n";
-	const auto Start = std::chrono::steady_clock::now();
 	const FIniFile File = FIniFile::Parse(Text, "T.ini");
 	EXPECT_EQ(Resolve(File, "S").size(), 9'999u); // the header counts as one
-	EXPECT_LT(std::chrono::steady_clock::now() - Start, std::chrono::seconds(5));
 	EXPECT_THAT(File.GetProblems(), ElementsAre("T.ini:10001: more than 10000 entries; the rest is ignored"));
 	EXPECT_THAT(FIniFile::Parse(std::string(17 << 20, '\n'), "T.ini").GetProblems(),
 	            ElementsAre("T.ini: larger than 16 MiB"));

@@ -24,7 +24,7 @@ constexpr uint32_t CountColors(bool bMotion) { return bMotion ? 5 : 4; }
 
 FGBufferPass::FProgram FGBufferPass::MakeProgram(const FPipelineKey& Key) const
 {
-	FProgram Program{{"GBuffer/GBuffer.vert", ERTShaderStage::Vertex, {}, {}}, {"GBuffer/GBuffer.frag", ERTShaderStage::Fragment, {}, {}}, Key.Cull, Key.bMotion};
+	FProgram Program{{"GBuffer/GBuffer.vert", ERTShaderStage::Vertex, {}, {}}, {"GBuffer/GBuffer.frag", ERTShaderStage::Fragment, {}, {}}};
 	if (Key.bMasked) { Program.Fragment.Defines.emplace_back("MASKED", "1"); }
 	if (Key.bMotion)
 	{
@@ -33,16 +33,6 @@ FGBufferPass::FProgram FGBufferPass::MakeProgram(const FPipelineKey& Key) const
 	}
 	Program.Fragment = Renderer.GetPrograms().MakeSource(std::move(Program.Fragment), Key.Program);
 	return Program;
-}
-
-FRTRasterPipelineDesc FGBufferPass::FProgram::MakeDesc() const
-{
-	FRTRasterPipelineDesc Desc;
-	Desc.ColorFormats = ColorFormats.data();
-	Desc.ColorCount = CountColors(bMotion);
-	Desc.DepthFormat = ERTFormat::D32_FLOAT;
-	Desc.Cull = Cull;
-	return Desc;
 }
 
 std::vector<FGBufferPass::FProgram> FGBufferPass::GetPrograms() const
@@ -60,9 +50,13 @@ FRTStatus FGBufferPass::CreatePipeline(const FPipelineKey& Key, TRTRef<IRTPipeli
 	if (FRTStatus S = Renderer.GetCompiler().Compile(Program.Fragment, FragmentBinary); !S) { return S; }
 	std::string Name = Key.bMasked ? "GBufferMasked" : "GBuffer";
 	if (Key.Program != StandardProgram) { Name += ' ' + Renderer.GetPrograms().Get(Key.Program).Name; }
-	FRTRasterPipelineDesc Desc = Program.MakeDesc();
+	FRTRasterPipelineDesc Desc;
 	Desc.Vertex = VertexBinary.GetCode();
 	Desc.Fragment = FragmentBinary.GetCode();
+	Desc.ColorFormats = ColorFormats.data();
+	Desc.ColorCount = CountColors(Key.bMotion);
+	Desc.DepthFormat = ERTFormat::D32_FLOAT;
+	Desc.Cull = Key.Cull;
 	Desc.Name = Name.c_str();
 	TRTRef<IRTPipeline> Made;
 	if (FRTStatus S = Renderer.GetDevice().CreateRasterPipeline(Desc, Made.ReleaseAndGetAddress()); !S) { return S; }

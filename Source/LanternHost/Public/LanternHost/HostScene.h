@@ -144,14 +144,10 @@ public:
 	/// each pixel; frames without denoisers or temporal passes need not have it.
 	void SetMotion(bool bEnabled) { bMotion = bEnabled; }
 
-	/// One of the pass's pipelines: its shaders, and what Desc needs beside them.
+	/// Shaders of one of the pass's pipelines.
 	struct FProgram
 	{
 		FShaderSource Vertex, Fragment;
-		ERTCull Cull = ERTCull::Back;
-		bool bMotion = false;
-		/// Without shaders and name; for any device.
-		FRTRasterPipelineDesc MakeDesc() const;
 	};
 	/// Of all that was drawn with so far.
 	std::vector<FProgram> GetPrograms() const;
