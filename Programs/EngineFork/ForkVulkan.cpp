@@ -202,7 +202,7 @@ FError FForkDevice::Submit()
 
 FError FForkDevice::WaitForSubmit()
 {
-	constexpr uint64_t Patience = 60'000'000'000; // ns
+	constexpr uint64_t Patience = 600'000'000'000; // ns: ends what hangs, and decides nothing else
 	const VkResult Result = vkWaitForFences(Device, 1, &Fence, VK_TRUE, Patience);
 	vkResetFences(Device, 1, &Fence);
 	return Check(Result, "vkWaitForFences");

@@ -358,7 +358,7 @@ FRTModuleDesc DescribeModule(const FPluginManifest& Manifest)
 	{
 		if (Level >= ERTModuleLog::Warning)
 		{
-			std::fprintf(stderr, "plugin: %s\n", Text);
+			std::fprintf(stderr, "plugin: %s\n", Show(Text).c_str());
 		}
 	};
 	return Desc;

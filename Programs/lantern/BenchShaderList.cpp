@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "LanternCore/Quote.h"
 #include "LanternHost/Methods.h"
 
 namespace Lantern
@@ -75,7 +76,7 @@ public:
 		{
 			All.Shaders.insert(All.Shaders.end(), {Program.Vertex, Program.Fragment});
 		}
-		All.Name = "GBuffer of " + Scene + ", " + std::to_string(Programs.size()) + " pipelines";
+		All.Name = "GBuffer of " + EscapeText(Scene) + ", " + std::to_string(Programs.size()) + " pipelines";
 		All.RasterScene = Scene;
 		Add(std::move(All));
 	}
@@ -92,18 +93,32 @@ public:
 	}
 
 private:
+	/// As frames have it: one pipeline for all ray generation shaders. Each of them alone, to say which is dear.
 	void AddRays(const FFrameFeatures& Features)
 	{
 		const FRTPSODesc All = Engine.GetRenderer().GetRayPrograms(Engine.GetScene().GetScene(), Features);
+		std::string Name;
 		for (const FShaderSource& RayGen : All.RayGens)
 		{
-			FPipelineShaders Pipeline;
-			Pipeline.Rays = All;
-			Pipeline.Rays.RayGens = {RayGen};
-			Pipeline.Shaders = ListShaders(Pipeline.Rays, Engine.GetRenderer().GetPrograms());
-			Pipeline.Name = NameOf(RayGen) + " + " + std::to_string(Pipeline.Shaders.size() - 1);
-			Add(std::move(Pipeline));
+			Name += (Name.empty() ? "" : ", ") + NameOf(RayGen);
+			FRTPSODesc Alone = All;
+			Alone.RayGens = {RayGen};
+			AddPipeline(NameOf(RayGen), std::move(Alone));
 		}
+		if (All.RayGens.size() > 1)
+		{
+			AddPipeline(Name, All);
+		}
+	}
+
+	void AddPipeline(const std::string& Name, FRTPSODesc Rays)
+	{
+		FPipelineShaders Pipeline;
+		Pipeline.Rays = std::move(Rays);
+		Pipeline.Programs = Engine.GetRenderer().GetPrograms();
+		Pipeline.Shaders = ListShaders(Pipeline.Rays, Pipeline.Programs);
+		Pipeline.Name = Name + " + " + std::to_string(Pipeline.Shaders.size() - Pipeline.Rays.RayGens.size());
+		Add(std::move(Pipeline));
 	}
 
 	void Add(FPipelineShaders Pipeline)
@@ -138,6 +153,12 @@ FRTStatus ListPipelines(FSampleEngine& Engine, const std::string& Scene, const s
 	}
 	Lister.AddReferences();
 	const FMethods Methods = LoadMethods(MethodsFile);
+	if (!Methods.Problems.empty() || Methods.Methods.empty())
+	{
+		const std::string Problem =
+		    Methods.Problems.empty() ? MethodsFile + ": no method is in it" : Methods.Problems.front();
+		return FRTStatus::Error(ERTResult::IoError, "%s", Problem.c_str());
+	}
 	for (const FMethod& Method : Methods.Methods)
 	{
 		for (const FMethodPreset& Preset : Method.Presets)

@@ -15,7 +15,8 @@ struct FPipelineShaders
 	std::string Name; ///< paths, with defines
 	/// One compute shader, all of a ray-tracing pipeline, or those of all raster pipelines that frames of RasterScene draw with.
 	std::vector<FShaderSource> Shaders;
-	FRTPSODesc Rays; ///< of a ray-tracing pipeline: with one ray generation shader
+	FRTPSODesc Rays;            ///< of a ray-tracing pipeline
+	FMaterialPrograms Programs; ///< that Rays names
 	std::string RasterScene;
 	bool IsRays() const { return !Rays.RayGens.empty(); }
 	bool IsRaster() const { return !RasterScene.empty(); }

@@ -37,6 +37,13 @@ struct FShaderCosts
 	double GetDriverSeconds() const { return CreateSeconds + FirstUseSeconds; }
 };
 
+FRTStatus Load(FSampleEngine& Engine, const std::string& Scene)
+{
+	FLoadResult Loaded = LoadScene(Scene);
+	return Loaded.Scene ? Engine.Load(std::move(*Loaded.Scene))
+	                    : FRTStatus::Error(ERTResult::IoError, "%s", Loaded.Error.c_str());
+}
+
 /// Pipelines are made, and used once without any work: what that takes is compiling.
 class FShaderBench
 {
@@ -96,7 +103,7 @@ private:
 		// What glslang takes was measured before, and is taken off.
 		const double Before = Compiler.GetStats().CompileMs;
 		const auto Start = FClock::now();
-		if (FRTStatus S = FRTPSO::Create(Device, Compiler, FMaterialPrograms(), Pipeline.Rays, Rtpso); !S)
+		if (FRTStatus S = FRTPSO::Create(Device, Compiler, Pipeline.Programs, Pipeline.Rays, Rtpso); !S)
 		{
 			return S;
 		}
@@ -120,15 +127,14 @@ private:
 		    Out);
 	}
 
-	/// A driver may compile a raster pipeline at the first draw that has vertices and a target. These are a frame's, of
-	/// which the second is taken off.
+	/// Drivers may compile a raster pipeline at the first draw that has vertices and a target, so that a frame is rendered.
+	/// The difference between its first and its second time is what compiling took.
 	FRTStatus MeasureRaster(const std::string& Scene, FShaderCosts& Out)
 	{
 		FMethodScope RasterOnly;
 		RasterOnly.Apply({{"r.RT.Enable", "0", "bench shaders"}});
 		FSampleEngine Engine(Device, FRendererDesc{{ShaderFolder}, {}});
-		FLoadResult Loaded = LoadScene(Scene);
-		if (FRTStatus S = Engine.Load(std::move(*Loaded.Scene)); !S)
+		if (FRTStatus S = Load(Engine, Scene); !S)
 		{
 			return S;
 		}
@@ -147,7 +153,7 @@ private:
 				OfFrame += Pass.Name == "GBuffer" ? Pass.GpuMs : 0.0;
 			}
 		}
-		Out.FirstUseSeconds = 1e-3 * (Ms[0] - Ms[1]);
+		Out.FirstUseSeconds = std::max(1e-3 * (Ms[0] - Ms[1]), 0.0);
 		return FRTStatus::Success();
 	}
 
@@ -196,12 +202,7 @@ FRTStatus ListAll(const FBenchShadersOptions& Options, const FPluginFolders& Fol
 	FSampleEngine Engine(*Mock, std::move(Desc));
 	for (const std::string& Scene : Options.Scenes)
 	{
-		FLoadResult Loaded = LoadScene(Scene);
-		if (!Loaded.Scene)
-		{
-			return FRTStatus::Error(ERTResult::IoError, "%s", Loaded.Error.c_str());
-		}
-		if (FRTStatus S = Engine.Load(std::move(*Loaded.Scene)); !S)
+		if (FRTStatus S = Load(Engine, Scene); !S)
 		{
 			return S;
 		}
@@ -315,6 +316,11 @@ int RunBenchShaders(const FBenchShadersOptions& Options)
 		{
 			return ReportStatus(S, "--json"), ExitBadInput;
 		}
+	}
+	if (const uint32_t Messages = Device->GetValidationMessageCount(); Messages > 0)
+	{
+		LogError("validation: {} messages", Messages);
+		return ExitCheckFailed;
 	}
 	const bool bOver =
 	    Options.MaxSeconds > 0.0 && !All.empty() && All.front().second.GetDriverSeconds() > Options.MaxSeconds;

@@ -114,6 +114,7 @@ FRTStatus OpenUncachedDevice(const FDeviceOptions& Options, TRTRef<IRTDevice>& O
 	::setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
 	FRTVulkanDeviceDesc Desc = MakeDeviceDesc(Options);
 	Desc.bCacheLibraries = false;
+	Desc.MessageCallback = OnVulkanMessage;
 	return CreateVulkanDevice(Desc, Out.ReleaseAndGetAddress());
 }
 

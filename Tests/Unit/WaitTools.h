@@ -46,12 +46,17 @@ inline bool WaitUntil(const std::string& What, const std::function<bool()>& Cond
                       std::chrono::steady_clock::duration Limit = WaitLimit)
 {
 	using FClock = std::chrono::steady_clock;
-	const bool bFailedBefore = ::testing::Test::HasFatalFailure();
+	const auto CountFailures = []
+	{
+		const auto* const Info = ::testing::UnitTest::GetInstance()->current_test_info();
+		return Info ? Info->result()->total_part_count() : 0;
+	};
+	const int Before = CountFailures();
 	const auto Start = FClock::now();
 	auto NextLine = Start + WaitLineInterval;
 	while (!Condition())
 	{
-		if (!bFailedBefore && ::testing::Test::HasFatalFailure())
+		if (CountFailures() > Before && ::testing::Test::HasFatalFailure())
 		{
 			return false;
 		}
@@ -114,6 +119,7 @@ private:
 		if (!bOver)
 		{
 			ADD_FAILURE() << "never came: " << What;
+			Lock.unlock();
 			LetGo();
 		}
 	}

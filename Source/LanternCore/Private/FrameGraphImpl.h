@@ -73,6 +73,7 @@ struct FFrameGraphResources::FImpl
 	std::map<FPoolKey, std::vector<std::shared_ptr<FPooledResource>>> Pool;
 	std::vector<std::unique_ptr<FTimedFrame>> Frames;
 	std::vector<FPassTiming> Newest;
+	std::vector<FFrameTiming> Done; ///< that nobody has taken
 	uint64_t FrameCounter = 0;
 	std::vector<std::string> Poison; ///< parts of names, see FFrameGraphResources::PoisonHistory
 };

@@ -24,7 +24,7 @@ bool IsIdentifier(const std::string& Name)
 	       std::all_of(Name.begin(), Name.end(), IsWord);
 }
 
-/// Also what a name would have to be to forge a line of the compiler's log.
+/// A name of several lines could forge one of the compiler's log.
 bool IsOneLine(std::string_view Text)
 {
 	return Text.find_first_of("\n\r") == std::string_view::npos;

@@ -1,5 +1,6 @@
 // Creation calls of the mock device.
 
+#include "LanternRHI/RTText.h"
 #include "MockCommandList.h"
 #include "MockDeviceImpl.h"
 #include "MockShaderTable.h"
@@ -28,8 +29,8 @@ FRTStatus FMockDevice::CreateBuffer(const FRTBufferDesc& Desc, IRTBuffer** Out)
 	if (!Buffer->HasBytes())
 	{
 		State->FreeMemory(Memory, Desc.Size);
-		return FRTStatus::Error(ERTResult::OutOfHostMemory, "%s: no host memory for %llu bytes", Desc.Name,
-		                        static_cast<unsigned long long>(Desc.Size));
+		return FRTStatus::Error(ERTResult::OutOfHostMemory, "%s: no host memory for %llu bytes",
+		                        FRTShown(Desc.Name).Text, static_cast<unsigned long long>(Desc.Size));
 	}
 	return Finish(*State, std::move(Buffer), Memory, Desc.Size, Out);
 }
@@ -42,8 +43,8 @@ FRTStatus FMockDevice::TakeIndices(const FRTTextureDesc& Desc, FMockTexture& Tex
 	if ((bSampled && !State->Sampled.Allocate(Texture.Sampled)) ||
 	    (bStorage && !State->Storage.Allocate(Texture.Storage)))
 	{
-		return FRTStatus::Error(ERTResult::OutOfDescriptors, "%s: the bindless heap of %u textures is full", Desc.Name,
-		                        State->Desc.MaxBindlessTextures);
+		return FRTStatus::Error(ERTResult::OutOfDescriptors, "%s: the bindless heap of %u textures is full",
+		                        FRTShown(Desc.Name).Text, State->Desc.MaxBindlessTextures);
 	}
 	return FRTStatus::Success();
 }
@@ -59,8 +60,8 @@ FRTStatus FMockDevice::CreateTexture(const FRTTextureDesc& Desc, IRTTexture** Ou
 	}
 	if (std::max(Desc.Width, Desc.Height) > State->Desc.MaxTextureDimension)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "%s: %u x %u texels, the device allows %u", Desc.Name,
-		                        Desc.Width, Desc.Height, State->Desc.MaxTextureDimension);
+		return FRTStatus::Error(ERTResult::Unsupported, "%s: %u x %u texels, the device allows %u",
+		                        FRTShown(Desc.Name).Text, Desc.Width, Desc.Height, State->Desc.MaxTextureDimension);
 	}
 	const uint64_t Bytes = FMockTexture::GetSizeBytes(Desc);
 	Status = State->Allocate(EMockMemory::Texture, Bytes, Desc.Name);
@@ -104,8 +105,8 @@ FRTStatus FMockDevice::CreateSampler(const FRTSamplerDesc& Desc, IRTSampler** Ou
 		std::lock_guard Lock(State->Mutex);
 		if (!State->Samplers.Allocate(Index))
 		{
-			return FRTStatus::Error(ERTResult::OutOfDescriptors, "%s: the heap of %u samplers is full", Desc.Name,
-			                        State->Desc.MaxSamplers);
+			return FRTStatus::Error(ERTResult::OutOfDescriptors, "%s: the heap of %u samplers is full",
+			                        FRTShown(Desc.Name).Text, State->Desc.MaxSamplers);
 		}
 	}
 	auto Sampler = std::make_unique<FMockSampler>(State, "Sampler", Desc.Name);
@@ -124,7 +125,8 @@ FRTStatus FMockDevice::CreateGeometry(const FRTGeometryDesc& Desc, IRTGeometry**
 	}
 	if (State->Desc.Rung == ERTRung::None)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "%s: the device has no acceleration structures", Desc.Name);
+		return FRTStatus::Error(ERTResult::Unsupported, "%s: the device has no acceleration structures",
+		                        FRTShown(Desc.Name).Text);
 	}
 	const uint64_t Bytes = FMockGeometry::ComputeSizes(Desc).StructureBytes;
 	Status = State->Allocate(EMockMemory::Geometry, Bytes, Desc.Name);
@@ -144,7 +146,8 @@ FRTStatus FMockDevice::CreateScene(const FRTSceneDesc& Desc, IRTScene** Out)
 	}
 	if (State->Desc.Rung == ERTRung::None)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "%s: the device has no acceleration structures", Desc.Name);
+		return FRTStatus::Error(ERTResult::Unsupported, "%s: the device has no acceleration structures",
+		                        FRTShown(Desc.Name).Text);
 	}
 	const uint64_t Bytes = AlignUp(256 + Desc.MaxInstances * 128ull, 256);
 	Status = State->Allocate(EMockMemory::Scene, Bytes, Desc.Name);
@@ -161,8 +164,8 @@ FRTStatus FMockDevice::CreateScene(const FRTSceneDesc& Desc, IRTScene** Out)
 	if (!bIndex)
 	{
 		State->FreeMemory(EMockMemory::Scene, Bytes);
-		return FRTStatus::Error(ERTResult::OutOfDescriptors, "%s: the heap of %u scenes is full", Desc.Name,
-		                        State->Desc.MaxScenes);
+		return FRTStatus::Error(ERTResult::OutOfDescriptors, "%s: the heap of %u scenes is full",
+		                        FRTShown(Desc.Name).Text, State->Desc.MaxScenes);
 	}
 	auto Scene = std::make_unique<FMockScene>(State, "Scene", Desc.Name);
 	Scene->Index = Index;

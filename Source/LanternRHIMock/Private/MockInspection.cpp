@@ -272,6 +272,12 @@ void FRTMock::SlowCompile(const std::string& Part, uint32_t Milliseconds)
 	State.Slow.emplace_back(Part, Milliseconds);
 }
 
+void FRTMock::SlowFirstUse(uint32_t Milliseconds)
+{
+	const std::lock_guard Lock(State.ExecuteMutex);
+	State.FirstUseNs = uint64_t(Milliseconds) * 1'000'000;
+}
+
 void FRTMock::HoldCompiles(const std::string& Part)
 {
 	std::lock_guard Lock(State.Mutex);

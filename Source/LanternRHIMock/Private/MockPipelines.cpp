@@ -1,5 +1,6 @@
 // Creation of pipelines, libraries and links.
 
+#include "LanternRHI/RTText.h"
 #include "MockDeviceImpl.h"
 
 #include <algorithm>
@@ -139,11 +140,13 @@ FRTStatus FMockDevice::CreateRayTracingPipeline(const FRTRayTracingPipelineDesc&
 	}
 	if (!State->Capabilities.bRayTracingPipeline)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "%s: the device has no ray-tracing pipelines", Desc.Name);
+		return FRTStatus::Error(ERTResult::Unsupported, "%s: the device has no ray-tracing pipelines",
+		                        FRTShown(Desc.Name).Text);
 	}
 	if ((Desc.bLibrary || Desc.LibraryCount) && !State->Capabilities.bPipelineLibraries)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "%s: the device has no pipeline libraries", Desc.Name);
+		return FRTStatus::Error(ERTResult::Unsupported, "%s: the device has no pipeline libraries",
+		                        FRTShown(Desc.Name).Text);
 	}
 	assert(!Desc.bLibrary || (Desc.ShaderCount && !Desc.LibraryCount));
 	Status = Compile(Desc.Name);

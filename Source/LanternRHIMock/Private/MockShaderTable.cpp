@@ -1,6 +1,7 @@
 // Records, their layout and the host's side of an update.
 
 #include "MockShaderTable.h"
+#include "LanternRHI/RTText.h"
 
 #include "MockTableHandle.h"
 
@@ -57,8 +58,8 @@ FRTStatus FMockTableMemory::Allocate(uint64_t InSize, const std::string& Name, b
 	if (!Bytes)
 	{
 		State->FreeMemory(EMockMemory::ShaderTable, InSize);
-		return FRTStatus::Error(ERTResult::OutOfHostMemory, "%s: no host memory for %llu bytes", Name.c_str(),
-		                        static_cast<unsigned long long>(InSize));
+		return FRTStatus::Error(ERTResult::OutOfHostMemory, "%s: no host memory for %llu bytes",
+		                        FRTShown(Name.c_str()).Text, static_cast<unsigned long long>(InSize));
 	}
 	return Status;
 }

@@ -99,6 +99,8 @@ struct FMockState
 	std::deque<std::pair<FMockObject*, FRTFence>> Retired; ///< fences rise
 	FRTFence LastSubmitted = 0, Completed = 0;
 	uint64_t ClockNs = 1000; ///< guarded by ExecuteMutex
+	uint64_t FirstUseNs = 0; ///< guarded by ExecuteMutex, as is
+	std::set<uint64_t> UsedPipelines;
 	uint32_t BlockingWaits = 0;
 	FRTMockTraffic Traffic;
 	bool bManual = false;

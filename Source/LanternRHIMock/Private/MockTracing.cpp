@@ -20,6 +20,7 @@ void FMockCommandList::TraceRays(IRTShaderTable* Table, uint32_t RayGen, uint32_
 	Then(
 	    [Mine, State = State.get(), Copy = Mine->GetDeviceCopy(), Id = Mine->Pipeline->Id]
 	    {
+		    State->ClockNs += State->UsedPipelines.insert(Id).second ? State->FirstUseNs : 0;
 		    std::string Wrong = Mine->CheckTrace(*Copy, Id);
 		    if (!Wrong.empty())
 		    {

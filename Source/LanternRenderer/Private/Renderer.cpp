@@ -57,25 +57,15 @@ FRTStatus FRenderer::WaitForAll()
 	PrebindTask.Wait();
 	for (const FRTFence Fence : Fences)
 	{
-		if (FRTStatus S = WaitFor(Fence); !S) { return S; }
+		if (FRTStatus S = Device.WaitFor(Fence, WaitNs); !S) { return S; }
 	}
 	return FRTStatus::Success();
-}
-
-/// The compiler of pipelines learns from it what frames take.
-FRTStatus FRenderer::WaitFor(FRTFence Fence)
-{
-	const FRTFence Done = Device.GetCompletedFence();
-	RayCompiler.FramesDone(Done, false);
-	const FRTStatus Status = Device.WaitFor(Fence, WaitNs);
-	if (Status && Done < Fence) { RayCompiler.FramesDone(Fence, true); }
-	return Status;
 }
 
 FRTStatus FRenderer::WaitForSlot()
 {
 	Slot = (Slot + 1) % MaxInFlight;
-	if (FRTStatus S = WaitFor(Fences[Slot]); !S) { return S; }
+	if (FRTStatus S = Device.WaitFor(Fences[Slot], WaitNs); !S) { return S; }
 	if (Lists[Slot]) { return FRTStatus::Success(); }
 	return Device.CreateCommandList("Frame", Lists[Slot].ReleaseAndGetAddress());
 }
@@ -168,6 +158,7 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	FTaskTrace::BeginFrame(View.FrameIndex);
 	FTraceScope Trace("BeginFrame");
 	if (FRTStatus S = WaitForSlot(); !S) { return S; }
+	for (const FFrameTiming& Timing : GraphResources.TakeFrameTimings()) { RayCompiler.FrameDone(Timing.Frame, Timing.GpuMs); }
 	Scene.SetAlphaTest(CVarAlphaTest.GetOnRenderThread());
 	Scene.SetMaterialOverride(static_cast<uint32_t>(CVarMaterialOverride.GetOnRenderThread()));
 	FrameStatus = FRTStatus::Success();
@@ -397,7 +388,7 @@ void FRenderer::FrameSubmitted(FRTFence Fence)
 	PrebindTask.Wait();
 	Graph.reset();
 	Fences[Slot] = Fence;
-	RayCompiler.FrameSubmitted(Fence);
+	if (Fence != 0) { RayCompiler.FrameSubmitted(GraphResources.GetFrame()); }
 	Uploads.EndFrame(Fence);
 	AnyHits.Submitted(Fence);
 	StandIns->Submitted(Fence);

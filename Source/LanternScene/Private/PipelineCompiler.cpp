@@ -32,7 +32,7 @@ TRTConsoleVariable<float> CVarSwapShare(
     "r.RT.Pipeline.SwapShare", 0.2f,
     "Most of the time that first uses of new pipelines may take. Materials that are ready wait for it, where the driver "
     "compiles at first use. 1: they never wait.",
-    {0.01, 1});
+    {FSwapPacer::LeastShare, 1});
 TRTConsoleVariable<float> CVarReloadSeconds(
     "r.RT.Pipeline.ReloadSeconds", 0.0f,
     "Seconds between looks for edited shader files, whose pipelines are then compiled anew. 0: never.", {0, 3600});
@@ -120,24 +120,40 @@ void FRTPSOCompiler::FImpl::TakeLink()
 	Linked = {};
 }
 
+void FRTPSOCompiler::FImpl::TellPacer()
+{
+	for (const FFrameEvent& Event : FrameEvents)
+	{
+		if (Event.GpuMs)
+		{
+			Pacer.FrameDone(Event.Frame, std::chrono::duration<double, std::milli>(*Event.GpuMs), Event.Time);
+		}
+		else
+		{
+			Pacer.FrameSubmitted(Event.Frame);
+		}
+	}
+	FrameEvents.clear();
+}
+
+/// Also where frames have nothing for Update to do: what they report must not pile up.
+void FRTPSOCompiler::FImpl::AddFrameEvent(const FFrameEvent& Event)
+{
+	FrameEvents.push_back(Event);
+	const std::unique_lock Lock(Mutex, std::try_to_lock);
+	if (Lock.owns_lock())
+	{
+		TellPacer();
+	}
+}
+
 void FRTPSOCompiler::FImpl::Begin(const FRTPSODesc& Desc, bool bWait)
 {
 	++Frame;
 	RoundMs = CVarRoundMs.GetOnRenderThread();
 	KeepFrames = CVarKeepFrames.GetOnRenderThread();
 	Pacer.SetLimits(CVarSwapShare.GetOnRenderThread(), std::chrono::milliseconds(RoundMs));
-	for (const FFrameEvent& Event : FrameEvents)
-	{
-		if (Event.bSubmitted)
-		{
-			Pacer.FrameSubmitted(Event.Fence, Event.Time);
-		}
-		else
-		{
-			Pacer.FramesDone(Event.Fence, Event.Time, Event.bWaited);
-		}
-	}
-	FrameEvents.clear();
+	TellPacer();
 	if (NewPriorities)
 	{
 		Priorities = std::exchange(NewPriorities, std::nullopt).value();
@@ -175,7 +191,7 @@ void FRTPSOCompiler::Update(const FRTPSODesc& Wanted)
 		Impl->StartRound(false);
 		Impl->StartLink(false);
 	}
-	else if (Impl->bHeld && Impl->Pacer.MayLink(Impl->Time(), Impl->bMore))
+	else if (Impl->bHeld && Impl->Pacer.MayLink(Impl->Time(), Impl->HeldSwap))
 	{
 		Impl->StartLink(false);
 	}
@@ -280,6 +296,7 @@ FRTStatus FRTPSOCompiler::Finish(const FRTPSODesc& Wanted, const std::function<v
 		return Impl->LostError;
 	}
 	Impl->Begin(Wanted, true);
+	Impl->bHeld = false;
 	// The usual frame: nothing is new.
 	if (!Impl->bDirty && Impl->bFinished)
 	{
@@ -310,14 +327,14 @@ std::shared_ptr<const FRTPSO> FRTPSOCompiler::GetCurrent() const
 	return Impl->Taken;
 }
 
-void FRTPSOCompiler::FrameSubmitted(FRTFence Fence)
+void FRTPSOCompiler::FrameSubmitted(uint64_t Frame)
 {
-	Impl->FrameEvents.push_back({Fence, Impl->Time(), true, false});
+	Impl->AddFrameEvent({Frame, Impl->Time(), std::nullopt});
 }
 
-void FRTPSOCompiler::FramesDone(FRTFence Completed, bool bWaited)
+void FRTPSOCompiler::FrameDone(uint64_t Frame, double GpuMs)
 {
-	Impl->FrameEvents.push_back({Completed, Impl->Time(), false, bWaited});
+	Impl->AddFrameEvent({Frame, Impl->Time(), GpuMs});
 }
 
 void FRTPSOCompiler::SetPriorities(std::vector<FProgramPriority> ByProgram)

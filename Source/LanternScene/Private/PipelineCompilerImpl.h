@@ -112,7 +112,17 @@ struct FRTPSOCompiler::FImpl
 	      FPipelineTimeSource InTime);
 	~FImpl();
 
+	/// Something that the pacer is told under Mutex.
+	struct FFrameEvent
+	{
+		uint64_t Frame = 0;
+		FPipelineClock::time_point Time;
+		std::optional<double> GpuMs; ///< none: it was submitted
+	};
+
 	// ---- PipelineCompiler.cpp: the render thread
+	void AddFrameEvent(const FFrameEvent& Event);
+	void TellPacer();
 	void TakeLink();
 	void Begin(const FRTPSODesc& Desc, bool bWait);
 	FRTStatus FinishSlots(std::unique_lock<std::mutex>& Lock, const std::function<void(float)>& Progress);
@@ -136,8 +146,8 @@ struct FRTPSOCompiler::FImpl
 	void EndRoundIfOver();
 	bool AreHitsCompiled() const;
 	void StartLink(bool bExact);
-	/// Whether Plan brings more programs, and nothing else that Current lacks.
-	bool BringsProgramsOnly(const FLinkPlan& Plan) const;
+	/// Whether Plan, which Current does not cover, is to wait. Sets bHeld and HeldSwap.
+	bool HoldBack(const FLinkPlan& Plan);
 	void DropOld();
 	template <class T>
 	void Discard(T&& Object)
@@ -145,13 +155,15 @@ struct FRTPSOCompiler::FImpl
 		Trash.push_back(std::make_shared<std::decay_t<T>>(std::move(Object)));
 	}
 	void RetireCurrent();
+	void LoseDevice(const FRTStatus& Error);
 	bool IsQueueEmpty() const { return NextQueued == Queue.size(); }
 
 	// ---- PipelineLink.cpp
 	FLinkPlan MakePlan() const;
 	/// Whether all that Plan has but its programs is in Made.
 	static bool CoversFrame(const FLinkPlan& Made, const FLinkPlan& Plan);
-	static bool CoversPrograms(const FLinkPlan& Made, const FLinkPlan& Plan);
+	/// Programs that are ready in Plan and not the same in Made.
+	static size_t CountNewPrograms(const FLinkPlan& Made, const FLinkPlan& Plan);
 	FRTStatus Link(const FLinkPlan& Plan, std::shared_ptr<const FRTPSO>& Out);
 
 	// ---- PipelineCompilerWork.cpp: the compiler's threads
@@ -183,12 +195,6 @@ struct FRTPSOCompiler::FImpl
 	std::shared_ptr<const FRTPSO> Taken; ///< Current's pipeline; the render thread's, without Mutex
 	std::optional<std::vector<FProgramPriority>> NewPriorities; ///< the same
 	FRTPSOCompilerStats Known;                                  ///< the same
-	struct FFrameEvent
-	{
-		FRTFence Fence = 0;
-		FPipelineClock::time_point Time;
-		bool bSubmitted = false, bWaited = false;
-	};
 	std::vector<FFrameEvent> FrameEvents; ///< the same; that the pacer has not been told of
 	const FPipelineTimeSource Time;
 
@@ -211,8 +217,8 @@ struct FRTPSOCompiler::FImpl
 
 	bool bRound = false, bNoDeadline = false;
 	bool bDirty = false; ///< there may be something to compile or to link
-	bool bMore = false;  ///< something is being compiled, or waits for it
 	bool bHeld = false;  ///< programs are ready to be linked, but swaps are dear
+	FSwapPacer::FSwap HeldSwap;
 	FSwapPacer Pacer;
 	FPipelineClock::time_point RoundEnd;
 	int32_t RoundMs = 100, KeepFrames = 1000;

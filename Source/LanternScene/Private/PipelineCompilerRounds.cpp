@@ -199,9 +199,9 @@ void FRTPSOCompiler::FImpl::StartRound(bool bAppend)
 	             [&](const FPipelineSlotRef& Slot) { return NeedsCompile(*Slot); });
 	if (Missing.empty())
 	{
-		bMore = bRound || Running > 0;
 		return;
 	}
+	Pacer.ProgramsAsked(Time());
 	std::stable_sort(Missing.begin(), Missing.end(),
 	                 [&](const FPipelineSlotRef& A, const FPipelineSlotRef& B) { return ComesBefore(*A, *B); });
 	for (const FPipelineSlotRef& Slot : Missing)
@@ -209,7 +209,6 @@ void FRTPSOCompiler::FImpl::StartRound(bool bAppend)
 		Slot->State = ESlotState::Queued;
 		Queue.push_back(Slot);
 	}
-	bMore = true;
 	if (!bRound)
 	{
 		bRound = true;
@@ -231,7 +230,6 @@ void FRTPSOCompiler::FImpl::EndRoundIfOver()
 	{
 		return;
 	}
-	bMore = !bDone;
 	for (; NextQueued < Queue.size(); ++NextQueued)
 	{
 		Queue[NextQueued]->State = ESlotState::Idle;
@@ -266,30 +264,21 @@ void FRTPSOCompiler::FImpl::StartLink(bool bExact)
 	{
 		return;
 	}
+	bHeld = false;
 	FLinkPlan Plan = MakePlan();
 	if (!Plan.bComplete)
 	{
 		return;
 	}
-	bHeld = false;
 	const auto IsCovered = [&]
-	{ return CoversFrame(Current.Plan, Plan) && CoversPrograms(Current.Plan, Plan); };
+	{ return CoversFrame(Current.Plan, Plan) && CountNewPrograms(Current.Plan, Plan) == 0; };
 	if (Current.Pipeline && (bExact ? Current.Plan.Key == Plan.Key : IsCovered()))
 	{
 		return;
 	}
-	if (!bExact && Plan.Key == FailedLink)
+	if (!bExact && (Plan.Key == FailedLink || HoldBack(Plan)))
 	{
 		return;
-	}
-	if (!bExact && BringsProgramsOnly(Plan))
-	{
-		bHeld = !Pacer.MayLink(Time(), bMore);
-		if (bHeld)
-		{
-			return;
-		}
-		Pacer.LinkStarted(bMore);
 	}
 	const auto Found = std::find_if(Recent.begin(), Recent.end(),
 	                                [&](const FLinkedPipeline& Entry) { return Entry.Plan.Key == Plan.Key; });
@@ -307,9 +296,26 @@ void FRTPSOCompiler::FImpl::StartLink(bool bExact)
 	WorkAdded.notify_all();
 }
 
-bool FRTPSOCompiler::FImpl::BringsProgramsOnly(const FLinkPlan& Plan) const
+bool FRTPSOCompiler::FImpl::HoldBack(const FLinkPlan& Plan)
 {
-	return Current.Pipeline && CoversFrame(Current.Plan, Plan);
+	// Where nothing stands in for what is missing, there would be holes meanwhile.
+	if (!Current.Pipeline || !bStandardServes || !CoversFrame(Current.Plan, Plan))
+	{
+		return false;
+	}
+	const auto IsReady = [](const FLinkPlan::FHit& Hit) { return Hit.State == ERTHitState::Ready; };
+	const auto IsToCome = [&](const FPipelineSlotRef& Slot)
+	{ return Slot->State != ESlotState::Idle || NeedsCompile(*Slot); };
+	HeldSwap.InUse =
+	    static_cast<size_t>(std::count_if(Current.Plan.Hits.begin(), Current.Plan.Hits.end(), IsReady));
+	HeldSwap.New = CountNewPrograms(Current.Plan, Plan);
+	HeldSwap.bMore = std::any_of(Wanted.All.begin(), Wanted.All.end(), IsToCome);
+	bHeld = !Pacer.MayLink(Time(), HeldSwap);
+	if (!bHeld)
+	{
+		Pacer.LinkStarted();
+	}
+	return bHeld;
 }
 
 void FRTPSOCompiler::FImpl::RetireCurrent()

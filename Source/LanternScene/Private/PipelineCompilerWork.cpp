@@ -210,8 +210,7 @@ void FRTPSOCompiler::FImpl::StoreResult(const FJob& Job, const FRTStatus& Status
 	}
 	if (Status.Code == ERTResult::DeviceLost)
 	{
-		bLost = true;
-		LostError = Status;
+		LoseDevice(Status);
 		NextQueued = Queue.size();
 	}
 	else if (IsShortage(Status))
@@ -225,6 +224,13 @@ void FRTPSOCompiler::FImpl::StoreResult(const FJob& Job, const FRTStatus& Status
 		Slot.FailedVersion = Job.Version;
 		ReportFailure(Job, Status);
 	}
+}
+
+void FRTPSOCompiler::FImpl::LoseDevice(const FRTStatus& Error)
+{
+	bLost = true;
+	LostError = Error;
+	bHeld = false;
 }
 
 void FRTPSOCompiler::FImpl::ReportFailure(const FJob& Job, const FRTStatus& Status)
@@ -270,8 +276,7 @@ void FRTPSOCompiler::FImpl::LinkNext(std::unique_lock<std::mutex>& Lock)
 	}
 	else if (Status.Code == ERTResult::DeviceLost)
 	{
-		bLost = true;
-		LostError = Status;
+		LoseDevice(Status);
 	}
 	else
 	{

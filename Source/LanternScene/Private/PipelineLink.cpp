@@ -257,26 +257,19 @@ bool FRTPSOCompiler::FImpl::CoversFrame(const FLinkPlan& Made, const FLinkPlan& 
 	return true;
 }
 
-bool FRTPSOCompiler::FImpl::CoversPrograms(const FLinkPlan& Made, const FLinkPlan& Plan)
+size_t FRTPSOCompiler::FImpl::CountNewPrograms(const FLinkPlan& Made, const FLinkPlan& Plan)
 {
 	std::map<FHitProgram, const FLinkPlan::FHit*> Hits;
 	for (const FLinkPlan::FHit& Hit : Made.Hits)
 	{
 		Hits[Hit.Program] = &Hit;
 	}
-	for (const FLinkPlan::FHit& Hit : Plan.Hits)
+	const auto IsNew = [&](const FLinkPlan::FHit& Hit)
 	{
-		if (Hit.State != ERTHitState::Ready)
-		{
-			continue;
-		}
 		const auto Found = Hits.find(Hit.Program);
-		if (Found == Hits.end() || Found->second->Builds != Hit.Builds)
-		{
-			return false;
-		}
-	}
-	return true;
+		return Hit.State == ERTHitState::Ready && (Found == Hits.end() || Found->second->Builds != Hit.Builds);
+	};
+	return static_cast<size_t>(std::count_if(Plan.Hits.begin(), Plan.Hits.end(), IsNew));
 }
 
 FRTStatus FRTPSOCompiler::FImpl::Link(const FLinkPlan& Plan, std::shared_ptr<const FRTPSO>& Out)

@@ -1,15 +1,10 @@
 #include "SwapPacer.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace Lantern
 {
-
-namespace
-{
-constexpr double LeastShare = 0.01;
-constexpr size_t MostInFlight = 64; // of a caller that never says what is done
-} // namespace
 
 void FSwapPacer::SetLimits(double InShare, FSeconds InRound)
 {
@@ -17,62 +12,43 @@ void FSwapPacer::SetLimits(double InShare, FSeconds InRound)
 	Round = InRound;
 }
 
-void FSwapPacer::Swapped()
+void FSwapPacer::FrameSubmitted(uint64_t Frame)
 {
-	bSwapped = bLearning = bReported;
-}
-
-void FSwapPacer::FrameSubmitted(FRTFence Fence, FTime Now)
-{
-	if (Fence == 0)
+	if (!std::exchange(bSwapped, false))
 	{
 		return;
 	}
-	bReported = true;
-	InFlight.push_back({Fence, Now, bSwapped});
-	bSwapped = false;
-	if (InFlight.size() > MostInFlight)
+	constexpr size_t MostInFlight = 8; // of a device that never says what frames take
+	Firsts.push_back(Frame);
+	if (Firsts.size() > MostInFlight)
 	{
-		bLearning &= !InFlight.front().bFirst;
-		InFlight.pop_front();
+		Firsts.pop_front();
 	}
 }
 
-void FSwapPacer::FramesDone(FRTFence Completed, FTime Now, bool bWaited)
+void FSwapPacer::FrameDone(uint64_t Frame, FSeconds Duration, FTime Now)
 {
-	while (!InFlight.empty() && InFlight.front().Fence <= Completed)
+	bKnown = true;
+	// A later frame is done: the duration of this one was never found out.
+	while (!Firsts.empty() && Firsts.front() < Frame)
 	{
-		const FFrame Frame = InFlight.front();
-		InFlight.pop_front();
-		const bool bExact = bWaited && Frame.Fence == Completed;
-		FrameDone(Frame, bExact ? Now : std::max(LastLook, Frame.Submitted), Now);
+		Firsts.pop_front();
 	}
-	LastLook = Now;
-}
-
-void FSwapPacer::FrameDone(const FFrame& Frame, FTime Low, FTime High)
-{
-	// A frame begins when the one before is done. Where that is not known exactly, a swap is given the shorter time and the
-	// frames around it the longer: a hitch that was none would hold programs back.
-	const FSeconds Shortest = Low - std::max(Frame.Submitted, DoneHigh);
-	const FSeconds Longest = High - std::max(Frame.Submitted, DoneLow);
-	DoneLow = Low;
-	DoneHigh = High;
-	if (Frame.bFirst)
+	if (!Firsts.empty() && Firsts.front() == Frame)
 	{
-		FirstDuration = Shortest;
-		Cost = std::max(Shortest - GetUsual(), FSeconds(0.0));
-		SwapEnd = High;
-		bLearning = bSwapped; // another one may have followed
+		Firsts.pop_front();
+		FirstDuration = Duration;
+		Cost = std::max(Duration - GetUsual(), FSeconds(0.0));
+		SwapEnd = Now;
 		bRefine = true;
 		return;
 	}
-	if (bRefine)
+	if (std::exchange(bRefine, false))
 	{
-		Cost = std::clamp(FirstDuration - Longest, FSeconds(0.0), Cost);
-		bRefine = false;
+		// Frames that take longer from now on, because they show more, are no cost of the swap.
+		Cost = std::clamp(FirstDuration - Duration, FSeconds(0.0), Cost);
 	}
-	Usual[UsualCount++ % Usual.size()] = Longest;
+	Usual[UsualCount++ % Usual.size()] = Duration;
 }
 
 FSwapPacer::FSeconds FSwapPacer::GetUsual() const
@@ -83,33 +59,39 @@ FSwapPacer::FSeconds FSwapPacer::GetUsual() const
 	return Count > 0 ? Sorted[Count / 2] : FSeconds(0.0);
 }
 
-FSwapPacer::FSeconds FSwapPacer::GetHold() const
+void FSwapPacer::ProgramsAsked(FTime Now)
 {
-	return Cost * (1.0 / Share - 1.0);
+	FirstAsked = std::exchange(bAsked, true) ? FirstAsked : Now;
+	LastAsked = Now;
 }
 
-bool FSwapPacer::MayLink(FTime Now, bool bMore) const
+bool FSwapPacer::MayLink(FTime Now, const FSwap& Swap) const
 {
-	if (!bReported || Share >= 1.0)
+	if (!bKnown || Share >= 1.0)
 	{
 		return true;
 	}
-	if (bLearning)
+	if (bSwapped || !Firsts.empty())
+	{
+		return false; // what the swap before has cost is not known yet
+	}
+	const FSeconds Wait = Cost * (1.0 / Share - 1.0);
+	if (Now - SwapEnd < Wait)
 	{
 		return false;
 	}
-	FSeconds Hold = GetHold();
-	if (bMore && Hold > Round)
+	// By its size; a pipeline that was small is no good measure of one that is hundreds of times as large.
+	constexpr double MostGrowth = 16.0;
+	const double Growth = double(Swap.InUse + Swap.New) / double(std::max<size_t>(Swap.InUse, 1));
+	const FSeconds Expected = Cost * std::min(Growth, MostGrowth);
+	if (Swap.bMore && Expected > Round && Now - FirstAsked < Expected)
 	{
-		Hold = std::min(Hold * double(1u << Growth), std::max(Hold, Cost * (1.0 / LeastShare - 1.0)));
+		return false;
 	}
-	return Now - SwapEnd >= Hold;
-}
-
-void FSwapPacer::LinkStarted(bool bMore)
-{
-	constexpr uint32_t MostGrowth = 16; // far beyond where the share ends it
-	Growth = bMore && GetHold() > Round ? std::min(Growth + 1, MostGrowth) : 0;
+	const bool bCheap = Wait <= Round;
+	const bool bDoubles = Swap.New >= Swap.InUse;
+	const bool bQuiet = Now - LastAsked >= Wait;
+	return bCheap || bDoubles || bQuiet || Now - SwapEnd >= Cost * (1.0 / LeastShare - 1.0);
 }
 
 } // namespace Lantern

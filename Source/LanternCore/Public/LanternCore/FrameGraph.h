@@ -101,6 +101,13 @@ struct FPassTiming
 };
 
 /// What outlives a frame: transient resource pool, timestamp queries, last finished timings.
+/// From the begin of its first pass to the end of its last.
+struct FFrameTiming
+{
+	uint64_t Frame = 0; ///< FFrameGraphResources::GetFrame
+	double GpuMs = 0.0;
+};
+
 class FFrameGraphResources
 {
 public:
@@ -108,6 +115,11 @@ public:
 	~FFrameGraphResources();
 	/// Timings of the newest frame that the GPU has finished, in order of execution.
 	const std::vector<FPassTiming>& GetTimings();
+	/// Number of the graph that was executed last; rises.
+	uint64_t GetFrame() const;
+	/// Graphs that were found done since the last call, oldest first. One that was not submitted, or of a device without
+	/// timestamps, never comes.
+	std::vector<FFrameTiming> TakeFrameTimings();
 	/// Frees pooled resources not used in the last Frames executed graphs or, with 0, all that are idle. Nothing else
 	/// shrinks the pool but a shortage of memory: call it every frame or so.
 	void Trim(uint32_t Frames);

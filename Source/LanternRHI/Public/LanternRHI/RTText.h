@@ -55,7 +55,7 @@ inline uint32_t DecodeCharacter(const char* Text, size_t Size, uint32_t& OutCode
 }
 
 /// Whether a message may hold the character: no control, no other line break, nothing that turns the direction of
-/// writing, nothing invisible. The joiners U+200C and U+200D may stay, since scripts and emoji are written with them.
+/// writing, none of the usual invisible ones. The joiners U+200C and U+200D may stay, since scripts and emoji are written with them.
 inline bool IsShowable(uint32_t Code)
 {
 	struct FRange

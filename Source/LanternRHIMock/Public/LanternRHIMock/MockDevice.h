@@ -224,6 +224,8 @@ public:
 	/// Pipelines and libraries whose name contains Part take Milliseconds longer to create. Creating threads sleep side by
 	/// side, and the device goes on meanwhile.
 	void SlowCompile(const std::string& Part, uint32_t Milliseconds);
+	/// Rays of a pipeline that is used for the first time take Milliseconds longer, by the device's timestamps. Nothing sleeps.
+	void SlowFirstUse(uint32_t Milliseconds);
 	/// Pipelines and libraries whose name contains Part stay in the driver until ClearCompileFaults(), which must come before
 	/// anything waits for the creating threads. The device goes on meanwhile.
 	void HoldCompiles(const std::string& Part);

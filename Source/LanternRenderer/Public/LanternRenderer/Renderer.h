@@ -213,7 +213,6 @@ private:
 	void WriteConstants();
 	void DropFrame();
 	void KeepHistory(bool bSubmitted);
-	FRTStatus WaitFor(FRTFence Fence);
 	FRTStatus WaitForSlot();
 	FRTStatus Execute(IRTCommandList& List);
 

@@ -10,10 +10,10 @@
 // the same threads and just as unnoticed, only later. Where a link needs ray generation and miss shaders of its own
 // (FRTCapabilities::bLibraryOnlyPipelines), it gets these as SPIR-V.
 //
-// Swaps: on some drivers the first frame with a new pipeline compiles all of it. Whoever reports frames (FrameSubmitted,
-// FramesDone) has the compiler learn what a swap costs, and programs that are ready then wait until swaps take no more than
-// r.RT.Pipeline.SwapShare of the time. What is not a material's program, such as a ray generation shader that a setting asks
-// for, is never held back. SwapPacer.h has the rule.
+// Swaps: on some drivers the first frame with a new pipeline compiles all of it. From frames that are reported (FrameSubmitted,
+// FrameDone) the compiler learns what a swap costs. Programs that are ready then wait until swaps take no more than
+// r.RT.Pipeline.SwapShare of the time. Only materials' programs wait, and only where something stands in for them. What a
+// setting asks for, such as a ray generation shader, is never held back. SwapPacer.h has the rule.
 //
 // Threads: one at a time, the render thread. The compiler's own threads are no tasks of LanternCore, because they block for
 // as long as a driver likes, and a frame's tasks must not wait behind them.
@@ -81,10 +81,10 @@ public:
 	/// The RTPSO of this frame; null before the first was linked. Changes only in Update and Finish.
 	std::shared_ptr<const FRTPSO> GetCurrent() const;
 
-	/// The frame of the last Update went to the GPU; 0: it was lost. Never waits.
-	void FrameSubmitted(FRTFence Fence);
-	/// All frames up to Completed are done. bWaited: the caller has just waited for that one. Never waits.
-	void FramesDone(FRTFence Completed, bool bWaited);
+	/// The frame of the last Update went to the GPU. Frame: a number that rises. Never waits.
+	void FrameSubmitted(uint64_t Frame);
+	/// Such a frame is done, and took so long on the GPU. In their order; some may be left out. Never waits.
+	void FrameDone(uint64_t Frame, double GpuMs);
 	/// By program; those beyond the end have none.
 	void SetPriorities(std::vector<FProgramPriority> ByProgram);
 	/// Looks for shader files that were edited, in the background, and compiles what is made from them anew.
