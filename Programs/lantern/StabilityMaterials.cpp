@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "BenchPipelineShaders.h"
+#include "LanternCore/Log.h"
 #include "StabilityFigures.h"
 #include "StabilityStage.h"
 
@@ -232,6 +233,7 @@ FRTStatus MeasureMissingShaders(FStabilityStage& Stage, std::vector<FStabilityFi
 		Counts.Ms.push_back(Ms);
 		if (Frames.HasPicture()) { CountQuads(Frames, Programs, *Frames.GetRenderer().GetRayPipeline(), Stage.IsFaulty(), Counts); }
 		if (I == 30) { Stage.AddToStrip(Frames.MakeImage(), {}); }
+		if (I % 500 == 499) { LogInfo("{} of {} material programs are there", Counts.Ready, Compilable); }
 		if (Patience.IsOver(IsBusy())) { return FRTStatus::Error(ERTResult::CompileFailed, "%u of %u programs came", Counts.Ready, Compilable); }
 		// As under the fault, where holes are what is looked for: it need not see the end.
 		if (Stage.IsFaulty() && I >= 60) { break; }

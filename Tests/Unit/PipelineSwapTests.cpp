@@ -106,6 +106,14 @@ protected:
 		{ return std::all_of(Arrived.begin(), Arrived.end(), [&](FHitProgram P) { return IsReady(P); }); };
 		ASSERT_TRUE(WaitUntil("all programs", AreReady, [&] { Frame(), GiveWay(); }));
 	}
+	/// A swap has just taken a minute: four more would pass until the next one may begin.
+	void MakeDear()
+	{
+		SwapMs = 60'000.0;
+		FrameMs = 1000.0;
+		ASSERT_NO_FATAL_FAILURE(Settle());
+		ASSERT_NO_FATAL_FAILURE(Arrive(1));
+	}
 	/// A program that is compiled, and would not be used for minutes. Time stands still.
 	void Hold()
 	{
@@ -192,10 +200,7 @@ TEST_F(FPipelineSwapTest, CheapSwapsAreNotHeldBack)
 
 TEST_F(FPipelineSwapTest, WhatASettingAsksForIsNotHeldBack)
 {
-	SwapMs = 60'000.0;
-	FrameMs = 1000.0;
-	ASSERT_NO_FATAL_FAILURE(Settle());
-	ASSERT_NO_FATAL_FAILURE(Arrive(1));
+	ASSERT_NO_FATAL_FAILURE(MakeDear());
 	ASSERT_NO_FATAL_FAILURE(Hold());
 	Wanted.RayGens.push_back(MakeShader("Another"));
 	const auto HasRayGen = [&] { return Maker->GetCurrent()->FindRayGen(Wanted.RayGens[1]) != NoRayGen; };
@@ -206,10 +211,7 @@ TEST_F(FPipelineSwapTest, WhatASettingAsksForIsNotHeldBack)
 
 TEST_F(FPipelineSwapTest, FinishWaitsForNothingElse)
 {
-	SwapMs = 60'000.0;
-	FrameMs = 1000.0;
-	ASSERT_NO_FATAL_FAILURE(Settle());
-	ASSERT_NO_FATAL_FAILURE(Arrive(1));
+	ASSERT_NO_FATAL_FAILURE(MakeDear());
 	ASSERT_NO_FATAL_FAILURE(Hold());
 	ASSERT_NO_FATAL_FAILURE(FinishWanted());
 	EXPECT_TRUE(IsReady(Opaque(Held)));
@@ -218,11 +220,8 @@ TEST_F(FPipelineSwapTest, FinishWaitsForNothingElse)
 
 TEST_F(FPipelineSwapTest, NothingIsHeldWhereItWouldBeAHole)
 {
-	SwapMs = 60'000.0;
-	FrameMs = 1000.0;
 	Set("r.RT.Pipeline.Fallback", "0");
-	ASSERT_NO_FATAL_FAILURE(Settle());
-	ASSERT_NO_FATAL_FAILURE(Arrive(1));
+	ASSERT_NO_FATAL_FAILURE(MakeDear());
 	const uint32_t Program = AddProgram("Seen");
 	ASSERT_TRUE(WaitUntil(
 	    "the program", [&] { return IsReady(Opaque(Program)); }, [&] { Maker->Update(Wanted), GiveWay(); }));
@@ -230,10 +229,7 @@ TEST_F(FPipelineSwapTest, NothingIsHeldWhereItWouldBeAHole)
 
 TEST_F(FPipelineSwapTest, WhatNeverCompilesKeepsNobodyBusy)
 {
-	SwapMs = 60'000.0;
-	FrameMs = 1000.0;
-	ASSERT_NO_FATAL_FAILURE(Settle());
-	ASSERT_NO_FATAL_FAILURE(Arrive(1));
+	ASSERT_NO_FATAL_FAILURE(MakeDear());
 	ASSERT_NO_FATAL_FAILURE(Hold());
 	FLogCapture Log;
 	Wanted.RayTypes[1].Miss = MakeShader("Broken.miss", "void main() { nonsense; }\n");
