@@ -7,21 +7,21 @@
 
 #include <CLI/CLI.hpp>
 
-#include "BenchAnyHit.h"
-#include "BenchCommand.h"
-#include "BenchFrame.h"
-#include "BenchGather.h"
-#include "BenchPipelines.h"
-#include "BenchShaders.h"
-#include "BenchTables.h"
-#include "ChartCommand.h"
-#include "CompareCommand.h"
-#include "InfoCommand.h"
-#include "LanternCore/Log.h"
-#include "LanternCore/Quote.h"
-#include "LanternHost/Signals.h"
-#include "RenderCommand.h"
-#include "StabilityCommand.h"
+#include "Bench/BenchAnyHit.h"
+#include "Bench/BenchCommand.h"
+#include "Bench/BenchFrame.h"
+#include "Bench/BenchGather.h"
+#include "Bench/BenchPipelines.h"
+#include "Bench/BenchShaders.h"
+#include "Bench/BenchTables.h"
+#include "Chart/ChartCommand.h"
+#include "Commands/CompareCommand.h"
+#include "Commands/InfoCommand.h"
+#include "LanternCore/Text/Log.h"
+#include "LanternCore/Text/Quote.h"
+#include "LanternRenderer/Signals.h"
+#include "Commands/RenderCommand.h"
+#include "Stability/StabilityCommand.h"
 
 namespace
 {

@@ -5,9 +5,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "LanternCore/Config.h"
-#include "LanternCore/Quote.h"
-#include "LanternHost/Image.h"
+#include "LanternCore/Config/Config.h"
+#include "LanternCore/Text/Quote.h"
+#include "LanternImage/Image.h"
 
 namespace Lantern
 {

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "LanternCore/Quote.h"
+#include "LanternCore/Text/Quote.h"
 
 namespace Lantern
 {

@@ -4,10 +4,10 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "LanternCore/Config.h"
-#include "LanternCore/Log.h"
-#include "LanternCore/Quote.h"
-#include "LanternCore/TaskTrace.h"
+#include "LanternCore/Config/Config.h"
+#include "LanternCore/Text/Log.h"
+#include "LanternCore/Text/Quote.h"
+#include "LanternCore/Tasks/TaskTrace.h"
 #include "LanternHost/BuiltinScenes.h"
 #include "LanternHost/SceneLoader.h"
 #include "LanternRHIValidation/ValidationDevice.h"

@@ -30,12 +30,26 @@ function(lantern_precompile TARGET)
   target_compile_options(${TARGET} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>) # for ccache
 endfunction()
 
-# lantern_module(NAME SOURCES a.cpp … PUBLIC deps … PRIVATE deps …): a static library in the current folder,
-# Public/ for others, Private/ for itself. Layering is enforced: a module sees only what it links.
+# lantern_sources(OUT FOLDER): every .cpp file of the folder and of those below it.
+function(lantern_sources OUT FOLDER)
+  file(GLOB_RECURSE SOURCES CONFIGURE_DEPENDS ${FOLDER}/*.cpp)
+  set(${OUT} ${SOURCES} PARENT_SCOPE)
+endfunction()
+
+# lantern_module(NAME [EXCLUDE regex] [SOURCES more.h …] PUBLIC deps … PRIVATE deps …): a static library of the current
+# folder. Public/ is for others, Private/ for itself; every .cpp file of Private/ is compiled, but for those that EXCLUDE
+# names. A module without any is headers only. Layering is enforced: a module sees only what it links.
 function(lantern_module NAME)
-  cmake_parse_arguments(M "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
-  if(M_SOURCES)
-    add_library(${NAME} STATIC ${M_SOURCES})
+  cmake_parse_arguments(M "" "EXCLUDE" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  set(SOURCES)
+  if(IS_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/Private AND NOT NAME MATCHES "Headers$")
+    lantern_sources(SOURCES ${CMAKE_CURRENT_SOURCE_DIR}/Private)
+  endif()
+  if(M_EXCLUDE)
+    list(FILTER SOURCES EXCLUDE REGEX ${M_EXCLUDE})
+  endif()
+  if(SOURCES)
+    add_library(${NAME} STATIC ${SOURCES} ${M_SOURCES})
     target_include_directories(${NAME} PUBLIC Public PRIVATE Private)
     target_link_libraries(${NAME} PUBLIC ${M_PUBLIC} PRIVATE LanternOptions ${M_PRIVATE})
   else()
@@ -50,7 +64,7 @@ endfunction()
 # What tests leave for later ones: SPIR-V, the validation layers' verdicts, drivers' machine code. Scripts/Test empties it.
 set(LANTERN_TEST_CACHES ${CMAKE_BINARY_DIR}/Caches)
 # Ends what hangs, and decides nothing else. The longest test takes 90 s on two idle cores with empty caches; single waits
-# have ten minutes (Tests/Unit/WaitTools.h).
+# have ten minutes (Tests/Support/WaitTools.h).
 set(LANTERN_TEST_TIMEOUT 1800)
 
 # lantern_run_test(NAME LABELS fast|… COMMAND … [TIMEOUT seconds] [ENVIRONMENT K=V …]): a program as one ctest entry.
@@ -77,24 +91,31 @@ function(lantern_precompile_test NAME)
   target_compile_options(${NAME} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endfunction()
 
-# lantern_test_program(NAME SOURCES … LIBS …): a GoogleTest program, without a ctest entry.
+# lantern_test_program(NAME [SOURCES …] [EXCLUDE regex] LIBS …): a GoogleTest program without a ctest entry. Without SOURCES it
+# has all .cpp files of the current folder, but for those that EXCLUDE names.
 function(lantern_test_program NAME)
-  cmake_parse_arguments(T "" "" "SOURCES;LIBS" ${ARGN})
+  cmake_parse_arguments(T "" "EXCLUDE" "SOURCES;LIBS" ${ARGN})
+  if(NOT T_SOURCES)
+    lantern_sources(T_SOURCES ${CMAKE_CURRENT_SOURCE_DIR})
+  endif()
+  if(T_EXCLUDE)
+    list(FILTER T_SOURCES EXCLUDE REGEX ${T_EXCLUDE})
+  endif()
   add_executable(${NAME} ${T_SOURCES})
   target_link_libraries(${NAME} PRIVATE ${T_LIBS} LanternOptions GTest::gtest_main GTest::gmock)
-  target_include_directories(${NAME} PRIVATE ${PROJECT_SOURCE_DIR}/Tests/Unit)
+  target_include_directories(${NAME} PRIVATE ${PROJECT_SOURCE_DIR}/Tests)
   lantern_precompile_test(${NAME})
   target_compile_definitions(${NAME} PRIVATE
     LANTERN_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     LANTERN_TEST_CACHE="${LANTERN_TEST_CACHES}/lantern")
 endfunction()
 
-# lantern_test(NAME LABELS fast|… SOURCES … LIBS … [TIMEOUT seconds]): the same with one ctest entry per test case. WHOLE:
+# lantern_test(NAME LABELS fast|… [SOURCES …] [EXCLUDE regex] LIBS … [TIMEOUT seconds]): the same with one ctest entry per test case. WHOLE:
 # one entry for the program, for many small cases whose program takes longer to start than they do (OpenImageIO's libraries:
 # 0.3 s).
 function(lantern_test NAME)
-  cmake_parse_arguments(T "WHOLE" "TIMEOUT" "SOURCES;LIBS;LABELS" ${ARGN})
-  lantern_test_program(${NAME} SOURCES ${T_SOURCES} LIBS ${T_LIBS})
+  cmake_parse_arguments(T "WHOLE" "TIMEOUT;EXCLUDE" "SOURCES;LIBS;LABELS" ${ARGN})
+  lantern_test_program(${NAME} SOURCES ${T_SOURCES} EXCLUDE "${T_EXCLUDE}" LIBS ${T_LIBS})
   if(NOT T_TIMEOUT)
     set(T_TIMEOUT ${LANTERN_TEST_TIMEOUT})
   endif()

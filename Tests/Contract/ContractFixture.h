@@ -3,8 +3,8 @@
 // no validation may have said anything at the end, and nothing may be left over.
 #pragma once
 
-#include "../Unit/WaitTools.h"
-#include "RHIMaker.h"
+#include "Support/WaitTools.h"
+#include "Support/RHIMaker.h"
 
 #include <mutex>
 #include <string>

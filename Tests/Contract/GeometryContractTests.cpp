@@ -1,4 +1,4 @@
-#include "ContractScene.h"
+#include "Support/ContractScene.h"
 
 namespace Lantern
 {

@@ -1,7 +1,7 @@
 // Rays that run (on the mock: that are followed through its memory and table): pixel (x, y) looks down -z at the unit square over it and says what it hit.
 #pragma once
 
-#include "ContractScene.h"
+#include "Support/ContractScene.h"
 #include "MockRays.h"
 
 namespace Lantern

@@ -1,7 +1,7 @@
 // What the Vulkan smoke tests share: a device with validation on, and short ways to fill and read its resources.
 #pragma once
 
-#include "../Unit/WaitTools.h"
+#include "Support/WaitTools.h"
 #include "LanternRHIVulkan/VulkanDevice.h"
 
 #include <gtest/gtest.h>

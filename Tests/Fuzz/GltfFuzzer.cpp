@@ -7,7 +7,7 @@
 #include <cstring>
 #include <string>
 
-#include "../Unit/TextCheck.h"
+#include "Support/TextCheck.h"
 #include "LanternHost/SceneLoader.h"
 
 namespace

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "../Unit/TextCheck.h"
-#include "LanternCore/Config.h"
-#include "LanternCore/IniFile.h"
-#include "LanternCore/Log.h"
+#include "Support/TextCheck.h"
+#include "LanternCore/Config/Config.h"
+#include "LanternCore/Config/IniFile.h"
+#include "LanternCore/Text/Log.h"
 
 namespace Lantern
 {

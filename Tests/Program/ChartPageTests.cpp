@@ -6,9 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "ChartPage.h"
-#include "CoreTestTools.h"
-#include "WaitTools.h"
+#include "Chart/ChartPage.h"
+#include "Support/CoreTestTools.h"
+#include "Support/WaitTools.h"
 
 namespace Lantern
 {

@@ -2,7 +2,7 @@
 #include <map>
 #include <set>
 
-#include "LanternCore/Config.h"
+#include "LanternCore/Config/Config.h"
 #include "ProgramTools.h"
 
 namespace Lantern

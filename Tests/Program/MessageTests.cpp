@@ -1,7 +1,7 @@
 // Files, arguments and settings that are broken or mean harm: whatever they hold, a terminal gets lines that can be
 // shown, and as many of them as the program wrote.
 #include "ProgramTools.h"
-#include "TextCheck.h"
+#include "Support/TextCheck.h"
 
 namespace Lantern
 {

@@ -1,7 +1,7 @@
 // What the program writes: results on standard output and in files, by the names that scripts rely on.
 #include <set>
 
-#include "LanternHost/ImageIO.h"
+#include "LanternImage/ImageIO.h"
 #include "ProgramTools.h"
 
 namespace Lantern

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "CoreTestTools.h"
-#include "WaitTools.h"
+#include "Support/CoreTestTools.h"
+#include "Support/WaitTools.h"
 
 namespace Lantern
 {

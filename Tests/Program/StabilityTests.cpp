@@ -2,7 +2,7 @@
 // themselves are tests of their own, see Programs/lantern/CMakeLists.txt.
 #include <set>
 
-#include "LanternHost/ImageIO.h"
+#include "LanternImage/ImageIO.h"
 #include "ProgramTools.h"
 
 namespace Lantern

@@ -3,9 +3,9 @@
 #include <functional>
 #include <numbers>
 
-#include "LanternHost/ImageStatistics.h"
-#include "RenderFixture.h"
-#include "TestScene.h"
+#include "LanternImage/ImageStatistics.h"
+#include "Support/RenderFixture.h"
+#include "Support/TestScene.h"
 
 namespace Lantern
 {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "RenderFixture.h"
+#include "Support/RenderFixture.h"
 
 namespace Lantern
 {

@@ -1,10 +1,10 @@
 // The Cornell box against the picture that an independent path tracer made of it with 1,024 samples per pixel.
 #include <cmath>
 
-#include "LanternHost/ImageIO.h"
-#include "LanternHost/ImageStatistics.h"
-#include "LanternHost/Metrics.h"
-#include "RenderFixture.h"
+#include "LanternImage/ImageIO.h"
+#include "LanternImage/ImageStatistics.h"
+#include "LanternImage/Metrics.h"
+#include "Support/RenderFixture.h"
 
 namespace Lantern
 {

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "RenderFixture.h"
+#include "Support/RenderFixture.h"
 
 namespace Lantern
 {

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "DenoiseFixture.h"
-#include "LanternHost/ImageIO.h"
-#include "TestScene.h"
+#include "LanternImage/ImageIO.h"
+#include "Support/TestScene.h"
 
 namespace Lantern
 {

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "DenoiseFixture.h"
-#include "LanternHost/Flip.h"
-#include "LanternHost/ImageIO.h"
+#include "LanternImage/Flip.h"
+#include "LanternImage/ImageIO.h"
 
 namespace Lantern
 {

@@ -3,7 +3,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "LanternHost/ImageStatistics.h"
+#include "LanternImage/ImageStatistics.h"
 #include "SignalFixture.h"
 
 namespace Lantern

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "LanternHost/ImageStatistics.h"
-#include "RenderFixture.h"
+#include "LanternImage/ImageStatistics.h"
+#include "Support/RenderFixture.h"
 
 namespace Lantern
 {

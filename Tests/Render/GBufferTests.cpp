@@ -6,11 +6,11 @@
 // The raster is rendered finer and averaged, since a reference pixel is the mean over its area.
 #include <cmath>
 
-#include "LanternHost/ImageStatistics.h"
-#include "LanternHost/Metrics.h"
+#include "LanternImage/ImageStatistics.h"
+#include "LanternImage/Metrics.h"
 #include "LanternHost/SceneLoader.h"
-#include "RenderFixture.h"
-#include "TestScene.h"
+#include "Support/RenderFixture.h"
+#include "Support/TestScene.h"
 
 namespace Lantern
 {

@@ -3,11 +3,11 @@
 #include <cstring>
 #include <random>
 
-#include "LanternCore/ConsoleVariables.h"
+#include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternHost/VertexPacking.h"
-#include "RenderFixture.h"
+#include "Support/RenderFixture.h"
 #include "Skinning/RefitQuality.h"
-#include "TestScene.h"
+#include "Support/TestScene.h"
 
 namespace Lantern
 {

@@ -1,9 +1,9 @@
 // Material programs, stand-ins, procedural geometry and callables, as rays of the frame's RTPSO see them: each pixel of a
 // wall of quads has the base colour that its program says.
-#include "RenderFixture.h"
+#include "Support/RenderFixture.h"
 
-#include "LanternCore/ConsoleVariables.h"
-#include "WaitTools.h"
+#include "LanternCore/Config/ConsoleVariables.h"
+#include "Support/WaitTools.h"
 
 namespace Lantern
 {

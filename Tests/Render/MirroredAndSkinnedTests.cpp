@@ -4,10 +4,10 @@
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "LanternHost/ImageStatistics.h"
+#include "LanternImage/ImageStatistics.h"
 #include "LanternHost/VertexPacking.h"
-#include "RenderFixture.h"
-#include "TestScene.h"
+#include "Support/RenderFixture.h"
+#include "Support/TestScene.h"
 
 namespace Lantern
 {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "MotionOracle.h"
-#include "RenderFixture.h"
+#include "Support/RenderFixture.h"
 
 namespace Lantern
 {

@@ -6,7 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "MotionFixture.h"
-#include "TestScene.h"
+#include "Support/TestScene.h"
 
 namespace Lantern
 {

@@ -1,7 +1,7 @@
 // Alpha-tested geometry told apart by opacity and cut into pieces: the same pictures with fewer alpha tests.
-#include "LanternScene/OpacityClassifier.h"
-#include "RenderFixture.h"
-#include "TestScene.h"
+#include "LanternScene/Opacity/OpacityClassifier.h"
+#include "Support/RenderFixture.h"
+#include "Support/TestScene.h"
 
 namespace Lantern
 {

@@ -4,10 +4,10 @@
 
 #include <gmock/gmock.h>
 
-#include "HistoryTestTools.h"
-#include "LanternCore/ConsoleVariables.h"
+#include "Support/HistoryTestTools.h"
+#include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternRenderer/Frame.h"
-#include "RenderFixture.h"
+#include "Support/RenderFixture.h"
 
 namespace Lantern
 {

@@ -4,9 +4,9 @@
 #include <fstream>
 #include <numbers>
 
-#include "../Unit/SharedFiles.h"
-#include "RenderFixture.h"
-#include "TestScene.h"
+#include "Support/SharedFiles.h"
+#include "Support/RenderFixture.h"
+#include "Support/TestScene.h"
 
 namespace Lantern
 {

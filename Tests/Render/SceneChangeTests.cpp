@@ -1,12 +1,12 @@
 // Frames while the scene and the settings change under them.
 #include <cmath>
 
-#include "LanternCore/ConsoleVariables.h"
-#include "LanternHost/ImageStatistics.h"
+#include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternImage/ImageStatistics.h"
 #include "LanternHost/SceneLoader.h"
-#include "LanternScene/Upload.h"
-#include "RenderFixture.h"
-#include "TestScene.h"
+#include "LanternScene/Memory/Upload.h"
+#include "Support/RenderFixture.h"
+#include "Support/TestScene.h"
 
 namespace Lantern
 {

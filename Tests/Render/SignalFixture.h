@@ -1,9 +1,9 @@
 // Signals of frames and of the reference, and how the two are held against each other.
 #pragma once
 
-#include "LanternHost/ImageStatistics.h"
-#include "RenderFixture.h"
-#include "TestScene.h"
+#include "LanternImage/ImageStatistics.h"
+#include "Support/RenderFixture.h"
+#include "Support/TestScene.h"
 
 namespace Lantern
 {

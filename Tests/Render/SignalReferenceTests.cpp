@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "../Unit/SharedFiles.h"
+#include "Support/SharedFiles.h"
 #include "SignalFixture.h"
 
 namespace Lantern

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "RenderFixture.h"
+#include "Support/RenderFixture.h"
 
 namespace Lantern
 {

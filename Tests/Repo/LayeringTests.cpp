@@ -22,6 +22,16 @@ const FAllowed& GetAllowed()
 	static const std::set<std::string> Scene = {"LanternRHI", "LanternCore", "LanternScene"};
 	static const std::set<std::string> Module = {"LanternRHI",      "LanternCore",      "LanternScene",
 	                                             "LanternRenderer", "LanternRHIVulkan", "LanternRHIValidation"};
+	static const std::set<std::string> Host = [] {
+		std::set<std::string> All = Module;
+		All.insert("LanternImage");
+		return All;
+	}();
+	static const std::set<std::string> Measure = [] {
+		std::set<std::string> All = Host;
+		All.insert("LanternHost");
+		return All;
+	}();
 	static const FAllowed Allowed = {
 	    {"LanternRHI", {}},
 	    {"LanternRHIVulkan", Rhi},
@@ -31,8 +41,10 @@ const FAllowed& GetAllowed()
 	    {"LanternScene", Core},
 	    {"LanternRenderer", Scene},
 	    {"LanternModule", Module},
-	    // The sample engine and the programs are not part of the plugin: they may use all of it.
-	    {"LanternHost", Module},
+	    // Pictures, the sample engine and what is measured with it are not part of the plugin: they may use all of it.
+	    {"LanternImage", Core},
+	    {"LanternHost", Host},
+	    {"LanternMeasure", Measure},
 	};
 	return Allowed;
 }

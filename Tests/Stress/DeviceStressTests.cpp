@@ -2,8 +2,8 @@
 // settings that change, the picture is that of a world that was loaded where the flight ended.
 #include <random>
 
-#include "../Render/RenderFixture.h"
-#include "LanternCore/ConsoleVariables.h"
+#include "Support/RenderFixture.h"
+#include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternHost/VertexPacking.h"
 #include "StreamingWorld.h"
 

@@ -1,8 +1,8 @@
 // Shortage of memory at every n-th allocation, and loss of the device in every phase, while the world streams and
 // pipelines compile. Every fault is one error; the engine goes on, on a new device where the old one is lost.
-#include "RendererTestTools.h"
+#include "Support/RendererTestTools.h"
 #include "StreamingWorld.h"
-#include "WaitTools.h"
+#include "Support/WaitTools.h"
 
 namespace Lantern
 {

@@ -1,5 +1,5 @@
 // A million instances, on the mock: limits are of the specification, not of ours.
-#include "RendererTestTools.h"
+#include "Support/RendererTestTools.h"
 #include "StreamingWorld.h"
 
 namespace Lantern

@@ -1,8 +1,8 @@
 // A flight at 200 m/s over the world: memory stays bounded, nothing dangles, nothing is missing for long.
 #include <cstdlib>
 
-#include "LanternScene/SectionTable.h"
-#include "RendererTestTools.h"
+#include "LanternScene/ShaderTable/SectionTable.h"
+#include "Support/RendererTestTools.h"
 #include "StreamingWorld.h"
 
 namespace Lantern

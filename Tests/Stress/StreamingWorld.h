@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "LanternHost/SampleEngine.h"
-#include "LanternScene/Upload.h"
+#include "LanternScene/Memory/Upload.h"
 
 namespace Lantern
 {

@@ -2,7 +2,7 @@
 // defaults give the frame that they gave before.
 #include <random>
 
-#include "RendererTestTools.h"
+#include "Support/RendererTestTools.h"
 #include "StreamingWorld.h"
 
 namespace Lantern

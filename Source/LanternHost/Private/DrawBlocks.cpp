@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "LanternCore/TaskTrace.h"
-#include "LanternCore/Tasks.h"
+#include "LanternCore/Tasks/TaskTrace.h"
+#include "LanternCore/Tasks/Tasks.h"
 
 namespace Lantern
 {

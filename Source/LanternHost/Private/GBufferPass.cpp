@@ -3,8 +3,8 @@
 #include <bit>
 
 #include "GBufferTypes.h"
-#include "LanternCore/ConsoleVariables.h"
-#include "LanternCore/Log.h"
+#include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternCore/Text/Log.h"
 #include "LanternHost/HostScene.h"
 
 namespace Lantern

@@ -7,10 +7,10 @@
 #include <glm/gtc/packing.hpp>
 
 #include "HostMaterials.h"
-#include "LanternCore/Log.h"
-#include "LanternCore/Tasks.h"
+#include "LanternCore/Text/Log.h"
+#include "LanternCore/Tasks/Tasks.h"
 #include "LanternHost/HostScene.h"
-#include "LanternHost/ToneMap.h"
+#include "LanternImage/ToneMap.h"
 
 namespace Lantern
 {

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "HostMaterials.h"
-#include "LanternCore/ConsoleVariables.h"
-#include "LanternCore/Tasks.h"
+#include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternCore/Tasks/Tasks.h"
 
 namespace Lantern
 {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "GBufferTypes.h"
-#include "LanternCore/Log.h"
+#include "LanternCore/Text/Log.h"
 
 namespace Lantern
 {

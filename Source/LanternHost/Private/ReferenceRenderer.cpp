@@ -5,8 +5,8 @@
 #include <cstring>
 #include <fstream>
 
-#include "LanternCore/Log.h"
-#include "LanternHost/AtomicFile.h"
+#include "LanternCore/Text/Log.h"
+#include "LanternImage/AtomicFile.h"
 
 namespace Lantern
 {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "Gltf/GltfImport.h"
-#include "LanternCore/Quote.h"
+#include "LanternCore/Text/Quote.h"
 #include "LanternHost/BuiltinScenes.h"
 
 namespace Lantern

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "LanternCore/Quote.h"
+#include "LanternCore/Text/Quote.h"
 #include "LanternHost/SceneLoader.h"
 
 namespace Lantern

@@ -7,8 +7,8 @@
 #include <glm/glm.hpp>
 
 #include "LanternModule/Module.h"
-#include "LanternScene/Geometry.h"
-#include "LanternScene/Upload.h"
+#include "LanternScene/Geometry/Geometry.h"
+#include "LanternScene/Memory/Upload.h"
 #include "SceneTypes.h"
 
 namespace Lantern

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "LanternModule/Module.h"
-#include "LanternScene/Geometry.h"
+#include "LanternScene/Geometry/Geometry.h"
 #include "SceneTypes.h"
 
 namespace Lantern

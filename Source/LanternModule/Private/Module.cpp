@@ -10,11 +10,11 @@
 
 #include <tbb/global_control.h>
 
-#include "LanternCore/Config.h"
-#include "LanternCore/ConsoleVariables.h"
-#include "LanternCore/Log.h"
-#include "LanternCore/Quote.h"
-#include "LanternCore/ShaderCompiler.h"
+#include "LanternCore/Config/Config.h"
+#include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternCore/Text/Log.h"
+#include "LanternCore/Text/Quote.h"
+#include "LanternCore/Shaders/ShaderCompiler.h"
 #include "LanternModule/ModuleVulkan.h"
 #include "LanternRHIVulkan/VulkanDevice.h"
 #include "ModuleRenderer.h"

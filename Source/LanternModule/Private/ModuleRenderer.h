@@ -8,8 +8,8 @@
 #include "DeformableMesh.h"
 #include "LanternModule/Module.h"
 #include "LanternRenderer/Frame.h"
-#include "LanternScene/Scene.h"
-#include "LanternScene/Upload.h"
+#include "LanternScene/Scene/Scene.h"
+#include "LanternScene/Memory/Upload.h"
 #include "RefCounted.h"
 #include "SlotTable.h"
 

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <iterator>
 
-#include "LanternCore/ConsoleVariables.h"
+#include "LanternCore/Config/ConsoleVariables.h"
 
 namespace Lantern
 {

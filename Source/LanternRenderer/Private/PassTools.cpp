@@ -1,6 +1,6 @@
 #include "PassTools.h"
 
-#include "LanternCore/ConsoleVariables.h"
+#include "LanternCore/Config/ConsoleVariables.h"
 
 namespace Lantern
 {

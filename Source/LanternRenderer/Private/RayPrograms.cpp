@@ -2,7 +2,7 @@
 
 #include "LanternRenderer/AnyHitCounter.h"
 #include "LanternRenderer/Frame.h"
-#include "LanternScene/SectionTable.h"
+#include "LanternScene/ShaderTable/SectionTable.h"
 
 namespace Lantern
 {

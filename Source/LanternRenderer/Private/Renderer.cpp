@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "AmbientOcclusion/AmbientOcclusion.h"
-#include "LanternCore/ConsoleVariables.h"
-#include "LanternCore/History.h"
-#include "LanternCore/TaskTrace.h"
+#include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternCore/FrameGraph/History.h"
+#include "LanternCore/Tasks/TaskTrace.h"
 #include "LanternRenderer/Frame.h"
 #include "PassTools.h"
 #include "RayPrograms.h"
-#include "Shadow/SunShadow.h"
+#include "SunShadow/SunShadow.h"
 #include "StandInFeedback.h"
 #include "Skinning/RefitQuality.h"
 

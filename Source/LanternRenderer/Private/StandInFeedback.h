@@ -3,9 +3,9 @@
 // frame. Costs nothing where nothing is missing.
 #pragma once
 
-#include "LanternCore/FrameGraph.h"
-#include "LanternScene/PipelineCompiler.h"
-#include "LanternScene/Scene.h"
+#include "LanternCore/FrameGraph/FrameGraph.h"
+#include "LanternScene/Pipelines/RTPSOCompiler.h"
+#include "LanternScene/Scene/Scene.h"
 
 namespace Lantern
 {

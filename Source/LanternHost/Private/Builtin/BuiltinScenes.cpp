@@ -7,11 +7,11 @@
 
 #include <fmt/format.h>
 
-#include "Builtin/Courtyard.h"
-#include "Builtin/StabilityLaterScenes.h"
-#include "Builtin/StabilityScenes.h"
+#include "Builtin/Courtyard/Courtyard.h"
+#include "Builtin/Stability/StabilityLaterScenes.h"
+#include "Builtin/Stability/StabilityScenes.h"
 #include "Builtin/TestScenes.h"
-#include "LanternCore/Quote.h"
+#include "LanternCore/Text/Quote.h"
 
 namespace Lantern
 {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "Builtin/Random.h"
-#include "LanternCore/Tasks.h"
+#include "LanternCore/Tasks/Tasks.h"
 
 namespace Lantern::Builtin
 {

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "Gltf/GltfDocument.h"
-#include "LanternCore/Quote.h"
+#include "LanternCore/Text/Quote.h"
 
 namespace Lantern::Gltf
 {

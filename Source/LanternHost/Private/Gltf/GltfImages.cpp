@@ -6,8 +6,8 @@
 
 #include "Gltf/GltfDocument.h"
 #include "Gltf/StbDecode.h"
-#include "LanternCore/Quote.h"
-#include "LanternCore/Tasks.h"
+#include "LanternCore/Text/Quote.h"
+#include "LanternCore/Tasks/Tasks.h"
 
 namespace Lantern::Gltf
 {

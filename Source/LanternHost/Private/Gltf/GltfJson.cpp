@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "LanternCore/Quote.h"
+#include "LanternCore/Text/Quote.h"
 
 namespace Lantern::Gltf
 {

@@ -4,9 +4,9 @@
 #include <functional>
 #include <string>
 
-#include "LanternHost/Image.h"
+#include "LanternImage/Image.h"
 #include "LanternHost/SampleEngine.h"
-#include "LanternHost/Signals.h"
+#include "LanternRenderer/Signals.h"
 
 namespace Lantern
 {

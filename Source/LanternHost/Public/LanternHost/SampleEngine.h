@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "LanternHost/HostScene.h"
-#include "LanternHost/Image.h"
-#include "LanternHost/Signals.h"
+#include "LanternImage/Image.h"
+#include "LanternRenderer/Signals.h"
 
 namespace Lantern
 {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "LanternHost/SceneDescription.h"
-#include "LanternScene/OpacityPieces.h"
+#include "LanternScene/Opacity/OpacityPieces.h"
 
 namespace Lantern
 {

@@ -5,8 +5,8 @@
 
 #include "AmbientOcclusionTypes.h"
 #include "Denoise/Denoise.h"
-#include "LanternCore/ConsoleVariables.h"
-#include "LanternCore/Log.h"
+#include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternCore/Text/Log.h"
 #include "LanternRenderer/AnyHitCounter.h"
 #include "LanternRenderer/Frame.h"
 #include "Lighting/DirectLighting.h"

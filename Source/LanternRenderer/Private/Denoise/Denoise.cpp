@@ -7,8 +7,8 @@
 
 #include "Denoise/SurfaceHistory.h"
 #include "DenoiseTypes.h"
-#include "LanternCore/ConsoleVariables.h"
-#include "LanternCore/History.h"
+#include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternCore/FrameGraph/History.h"
 #include "PassTools.h"
 
 namespace Lantern

@@ -1,7 +1,7 @@
 #include "Denoise/SurfaceHistory.h"
 
 #include "DenoiseTypes.h"
-#include "LanternCore/History.h"
+#include "LanternCore/FrameGraph/History.h"
 #include "PassTools.h"
 
 namespace Lantern

@@ -1,7 +1,7 @@
 // Diffuse global illumination by brute force: the baseline that every later method must beat.
 #include "IndirectTypes.h"
-#include "LanternCore/ConsoleVariables.h"
-#include "LanternCore/Log.h"
+#include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternCore/Text/Log.h"
 #include "LanternRenderer/Frame.h"
 #include "PassTools.h"
 #include "RayPrograms.h"

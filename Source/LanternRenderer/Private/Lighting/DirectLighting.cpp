@@ -1,5 +1,5 @@
 // Our own composite for hosts that have none: direct light, emission, indirect light or the sky's ambient instead.
-#include "LanternCore/ConsoleVariables.h"
+#include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternRenderer/Frame.h"
 #include "Lighting/DirectLighting.h"
 #include "LightingTypes.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "LanternScene/Scene.h"
+#include "LanternScene/Scene/Scene.h"
 
 namespace Lantern
 {

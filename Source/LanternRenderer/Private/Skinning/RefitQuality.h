@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "LanternRenderer/Renderer.h"
-#include "LanternScene/GeometryStore.h"
+#include "LanternScene/Geometry/GeometryStore.h"
 #include "RefitQualityTypes.h"
 
 namespace Lantern

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "LanternCore/FrameGraph.h"
-#include "LanternScene/GpuTable.h"
+#include "LanternCore/FrameGraph/FrameGraph.h"
+#include "LanternScene/Memory/GpuTable.h"
 
 namespace Lantern
 {

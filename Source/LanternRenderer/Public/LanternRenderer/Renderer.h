@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "LanternCore/FrameGraph.h"
-#include "LanternCore/Tasks.h"
+#include "LanternCore/FrameGraph/FrameGraph.h"
+#include "LanternCore/Tasks/Tasks.h"
 #include "LanternRenderer/AnyHitCounter.h"
 #include "LanternRenderer/View.h"
-#include "LanternScene/PipelineCache.h"
-#include "LanternScene/PipelineCompiler.h"
-#include "LanternScene/Scene.h"
-#include "LanternScene/ShaderBindings.h"
+#include "LanternScene/Pipelines/ComputePipelines.h"
+#include "LanternScene/Pipelines/RTPSOCompiler.h"
+#include "LanternScene/Scene/Scene.h"
+#include "LanternScene/ShaderTable/ShaderBindings.h"
 
 namespace Lantern
 {

@@ -1,0 +1,189 @@
+#include "Bench/BenchCommand.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "Bench/BenchRays.h"
+#include "Bench/BenchScenes.h"
+#include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternCore/Text/Log.h"
+#include "LanternImage/AtomicFile.h"
+#include "Progress.h"
+#include "Session.h"
+
+namespace Lantern
+{
+
+namespace
+{
+/// Pixels on which plugin and raw dispatch may differ: they round positions differently, so that a ray that only just
+/// touches an edge may fall either way.
+constexpr double LeastAgreement = 0.999;
+
+std::vector<FBenchScene> ChooseScenes(const FBenchRaysOptions& Options)
+{
+	std::vector<FBenchScene> Scenes = {MakeBenchScene("courtyard")};
+	for (const std::string& File : Options.Scenes)
+	{
+		if (File != Scenes.front().File)
+		{
+			Scenes.push_back(MakeBenchScene(File));
+		}
+	}
+	if (!Options.Scenes.empty())
+	{
+		return Scenes;
+	}
+	for (const char* Path : {"sponza/Sponza.gltf", "black_forest/black_forest.gltf"})
+	{
+		if (const std::optional<FBenchScene> Scene = FindBenchScene(Path, "bench rays"))
+		{
+			Scenes.push_back(*Scene);
+		}
+	}
+	return Scenes;
+}
+
+nlohmann::json MakeTimes(const FRayTimes& Times)
+{
+	return {{"median", Times.GetMedian()}, {"min", Times.GetMin()}, {"max", Times.GetMax()}};
+}
+
+double GetProcessorRatio(const FRayCase& Case)
+{
+	return Case.RawProcessor.GetMedian() / Case.PluginProcessor.GetMedian();
+}
+
+nlohmann::json MakeJson(const FRayCase& Case, bool bIsCpu)
+{
+	nlohmann::json Json = {{"name", Case.Name},
+	                       {"width", Case.Width},
+	                       {"height", Case.Height},
+	                       {"raw_mrays", Case.GetRawMrays()},
+	                       {"plugin_mrays", Case.GetPluginMrays()},
+	                       {"ratio", Case.GetRatio()},
+	                       {"rays", Case.Rays},
+	                       {"agreement", Case.Agreement},
+	                       {"raw_ms", MakeTimes(Case.Raw)},
+	                       {"plugin_ms", MakeTimes(Case.Plugin)},
+	                       {"repetitions", Case.Raw.Ms.size()}};
+	if (bIsCpu)
+	{
+		Json["ratio_processor_time"] = GetProcessorRatio(Case);
+	}
+	return Json;
+}
+
+void PrintCase(const FRayCase& Case, bool bIsCpu)
+{
+	const auto Times = [](const FRayTimes& T)
+	{ return fmt::format("{:.2f} [{:.2f}, {:.2f}]", T.GetMedian(), T.GetMin(), T.GetMax()); };
+	fmt::print("{:<22} {:>9} {:>8} {:>9.3f} {:>12.3f} {:>6.3f}  {:>26} {:>26}  {:.4f} %{}\n", Case.Name,
+	           fmt::format("{}x{}", Case.Width, Case.Height), Case.Rays, Case.GetRawMrays(), Case.GetPluginMrays(),
+	           Case.GetRatio(), Times(Case.Raw), Times(Case.Plugin), 100.0 * Case.Agreement,
+	           bIsCpu ? fmt::format("  {:.3f} by processor time", GetProcessorRatio(Case)) : "");
+	std::fflush(stdout);
+}
+
+int MeasureScene(FSession& Session, const FBenchScene& Scene, const FBenchRaysOptions& Options, nlohmann::json& Cases)
+{
+	const FRTCapabilities& Capabilities = Session.GetDevice().GetCapabilities();
+	const FPictureOptions Picture = MakeBenchPicture(Scene, Options.Size, Capabilities.bIsCpu);
+	// The hand-written dispatch takes hits as the driver gives them.
+	FConsoleVariables::Get().Set("r.RT.Opacity.Pieces", "0", ERTSetBy::CommandLine, "bench rays");
+	if (const int Status = Session.LoadScene(Picture); Status != ExitDone)
+	{
+		return Status;
+	}
+	const FPluginFolders Folders = FindPluginFolders();
+	FRayBenchSettings Settings;
+	Settings.Repetitions = Options.Repetitions;
+	Settings.ShaderFolders = {Folders.Root + "/Programs/lantern/Bench/Shaders", Folders.Shaders};
+	Settings.CacheFolder = Folders.Cache.empty() ? "" : Folders.Cache + "/shaders";
+	FRayBench Bench(Session.GetDevice(), Session.GetEngine(), std::move(Settings));
+	if (FRTStatus S = Bench.CaptureGBuffer(Session.MakeView(Picture)); !S)
+	{
+		return ReportStatus(S, Scene.Name.c_str());
+	}
+	int Exit = ExitDone;
+	for (const bool bPipeline : {true, false})
+	{
+		if (!(bPipeline ? Capabilities.bRayTracingPipeline : Capabilities.bRayQuery))
+		{
+			LogInfo("{}: the device has no {}", Scene.Name, bPipeline ? "ray-tracing pipelines" : "ray queries");
+			continue;
+		}
+		FRayCase Case;
+		Case.Name = Scene.Name + (bPipeline ? "/pipeline" : "/query");
+		if (FRTStatus S = Bench.Measure(bPipeline, Case); !S)
+		{
+			return ReportStatus(S, Case.Name.c_str());
+		}
+		PrintCase(Case, Capabilities.bIsCpu);
+		Cases.push_back(MakeJson(Case, Capabilities.bIsCpu));
+		if (Case.Agreement < LeastAgreement)
+		{
+			LogError(
+			    "{}: plugin and raw dispatch agree on {:.3f} % of the pixels only: they do not trace the same rays",
+			    Case.Name, 100.0 * Case.Agreement);
+			Exit = ExitCheckFailed;
+		}
+	}
+	return Exit;
+}
+} // namespace
+
+void FBenchRaysOptions::AddTo(CLI::App& App)
+{
+	Device.AddTo(App);
+	App.add_option("SCENE", Scenes,
+	               "Scenes beside the courtyard; without any, Sponza and black_forest of LANTERN_SCENES");
+	App.add_option("--size", Size, "WIDTHxHEIGHT, pixels (1280x720; on a CPU device 640x360)")
+	    ->check(
+	        [](const std::string& Text)
+	        {
+		        FPictureOptions Unused;
+		        ParseSize(Text, Unused);
+		        return std::string();
+	        });
+	App.add_option("--repetitions", Repetitions, "Measured dispatches of each")->check(CLI::Range(1, 100'000));
+	App.add_option("--json", Json, "Write the figures to this file");
+}
+
+int RunBenchRays(const FBenchRaysOptions& Options)
+{
+	if (!Options.Json.empty())
+	{
+		if (FRTStatus S = CheckOutputPath(Options.Json); !S)
+		{
+			return ReportStatus(S, "--json"), ExitBadInput;
+		}
+	}
+	FSession Session;
+	if (const int Status = Session.OpenDevice(Options.Device); Status != ExitDone)
+	{
+		return Session.Close(Status);
+	}
+	const FRTCapabilities& Capabilities = Session.GetDevice().GetCapabilities();
+	nlohmann::json Json = {
+	    {"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"cases", nlohmann::json::array()}};
+	fmt::print("{:<22} {:>9} {:>8} {:>9} {:>12} {:>6}  {:>26} {:>26}  {}\n", "case", "size", "rays", "raw Mr/s",
+	           "plugin Mr/s", "ratio", "raw ms [min, max]", "plugin ms [min, max]", "same pixels");
+	int Exit = ExitDone;
+	for (const FBenchScene& Scene : ChooseScenes(Options))
+	{
+		const int Status = MeasureScene(Session, Scene, Options, Json["cases"]);
+		Exit = Exit == ExitDone ? Status : Exit;
+	}
+	if (!Options.Json.empty() && (Exit == ExitDone || Exit == ExitCheckFailed))
+	{
+		if (FRTStatus S = WriteFileAtomically(Options.Json, Json.dump(2) + "\n"); !S)
+		{
+			return Session.Close((ReportStatus(S, "--json"), ExitBadInput));
+		}
+	}
+	return Session.Close(Exit);
+}
+
+} // namespace Lantern

@@ -1,0 +1,35 @@
+// The driver's part of `lantern bench rtpso`: one pipeline of many hit groups, made whole and from libraries.
+#pragma once
+
+#include <vector>
+
+#include "LanternMeasure/GeneratedMaterials.h"
+#include "LanternRHI/RTInterfaces.h"
+
+namespace Lantern
+{
+
+double MedianOf(std::vector<double> Values);
+
+struct FPipelineRun
+{
+	uint32_t Threads = 0;
+	std::vector<double> MonolithicMs, LibrariesMs, LinkMs;
+	double GlslangMs = 0.0; ///< all hit shaders, on as many threads
+	double FinishMs = 0.0;  ///< from text to RTPSO through the plugin's compiler, on as many threads
+	double GetRatio() const { return MedianOf(MonolithicMs) / (MedianOf(LibrariesMs) + MedianOf(LinkMs)); }
+};
+
+/// Both ways begin with the same SPIR-V but for one constant, which neither has seen before; who goes first alternates.
+FRTStatus MeasurePipelineRun(IRTDevice& Device, FShaderCompiler& Compiler, uint32_t Groups, uint32_t Repetitions,
+                             FPipelineRun& Run);
+
+struct FIncrementalRun
+{
+	std::vector<double> ReadyMs, LinkMs;
+};
+/// One more material among Groups, Added times: until its pipeline is in use, and the link alone.
+FRTStatus MeasureIncremental(IRTDevice& Device, FShaderCompiler& Compiler, uint32_t Groups, uint32_t Added,
+                             FIncrementalRun& Out);
+
+} // namespace Lantern

@@ -1,0 +1,330 @@
+#include "Bench/BenchShaders.h"
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "Bench/BenchShaderList.h"
+#include "LanternCore/Text/Log.h"
+#include "LanternImage/AtomicFile.h"
+#include "LanternMeasure/Methods.h"
+#include "LanternHost/SceneLoader.h"
+#include "LanternRHIMock/MockDevice.h"
+#include "Progress.h"
+#include "Session.h"
+
+namespace Lantern
+{
+
+namespace
+{
+using FClock = std::chrono::steady_clock;
+double SecondsSince(FClock::time_point Start)
+{
+	return std::chrono::duration<double>(FClock::now() - Start).count();
+}
+
+struct FShaderCosts
+{
+	size_t TextBytes = 0, SpirvBytes = 0;
+	double GlslangSeconds = 0.0;
+	double CreateSeconds = 0.0;   ///< until the driver has made the pipeline
+	double FirstUseSeconds = 0.0; ///< of a dispatch of nothing
+	double GetDriverSeconds() const { return CreateSeconds + FirstUseSeconds; }
+};
+
+FRTStatus Load(FSampleEngine& Engine, const std::string& Scene)
+{
+	FLoadResult Loaded = LoadScene(Scene);
+	return Loaded.Scene ? Engine.Load(std::move(*Loaded.Scene))
+	                    : FRTStatus::Error(ERTResult::IoError, "%s", Loaded.Error.c_str());
+}
+
+/// Pipelines are made, and used once without any work: what that takes is compiling.
+class FShaderBench
+{
+public:
+	FShaderBench(IRTDevice& InDevice, const std::string& InShaderFolder)
+	    : Device(InDevice),
+	      ShaderFolder(InShaderFolder),
+	      Compiler(FShaderCompilerDesc{{InShaderFolder}, {}})
+	{
+	}
+
+	FRTStatus Measure(const FPipelineShaders& Pipeline, FShaderCosts& Out)
+	{
+		auto Start = FClock::now();
+		std::vector<FShaderBinary> Binaries(Pipeline.Shaders.size());
+		for (size_t Index = 0; Index < Binaries.size(); ++Index)
+		{
+			Out.TextBytes += Compiler.GetTextBytes(Pipeline.Shaders[Index]);
+			if (FRTStatus S = Compiler.Compile(Pipeline.Shaders[Index], Binaries[Index]); !S)
+			{
+				return S;
+			}
+			Out.SpirvBytes += Binaries[Index].Words.size() * sizeof(uint32_t);
+		}
+		Out.GlslangSeconds = SecondsSince(Start);
+		if (Pipeline.IsRays())
+		{
+			return MeasureRays(Pipeline, Out);
+		}
+		return Pipeline.IsRaster() ? MeasureRaster(Pipeline.RasterScene, Out) : MeasureCompute(Binaries.front(), Out);
+	}
+
+private:
+	FRTStatus MeasureCompute(const FShaderBinary& Binary, FShaderCosts& Out)
+	{
+		FRTComputePipelineDesc Desc;
+		Desc.Shader = Binary.GetCode();
+		TRTRef<IRTPipeline> Pipeline;
+		const auto Start = FClock::now();
+		if (FRTStatus S = Device.CreateComputePipeline(Desc, Pipeline.ReleaseAndGetAddress()); !S)
+		{
+			return S;
+		}
+		Out.CreateSeconds = SecondsSince(Start);
+		return Use(
+		    [&](IRTCommandList& List)
+		    {
+			    List.SetPipeline(Pipeline.Get());
+			    List.Dispatch(0, 1, 1);
+		    },
+		    Out);
+	}
+
+	FRTStatus MeasureRays(const FPipelineShaders& Pipeline, FShaderCosts& Out)
+	{
+		FRTPSO Rtpso;
+		// What glslang takes was measured before, and is taken off.
+		const double Before = Compiler.GetStats().CompileMs;
+		const auto Start = FClock::now();
+		if (FRTStatus S = FRTPSO::Create(Device, Compiler, Pipeline.Programs, Pipeline.Rays, Rtpso); !S)
+		{
+			return S;
+		}
+		Out.CreateSeconds = std::max(SecondsSince(Start) - 1e-3 * (Compiler.GetStats().CompileMs - Before), 0.0);
+		FRTShaderTableDesc TableDesc;
+		TableDesc.Pipeline = Rtpso.GetPipeline();
+		TableDesc.RayGenCount = TableDesc.MissCount = TableDesc.HitCount = 1;
+		TRTRef<IRTShaderTable> Table;
+		if (FRTStatus S = Device.CreateShaderTable(TableDesc, Table.ReleaseAndGetAddress()); !S)
+		{
+			return S;
+		}
+		Table->SetRecord(ERTRecordKind::RayGen, 0, Rtpso.RayGenGroup(0), nullptr, 0);
+		return Use(
+		    [&](IRTCommandList& List)
+		    {
+			    List.UpdateShaderTable(Table.Get());
+			    List.SetPipeline(Rtpso.GetPipeline());
+			    List.TraceRays(Table.Get(), 0, 0, 1, 1);
+		    },
+		    Out);
+	}
+
+	/// Drivers may compile a raster pipeline at the first draw that has vertices and a target, so that a frame is rendered.
+	/// The difference between its first and its second time is what compiling took.
+	FRTStatus MeasureRaster(const std::string& Scene, FShaderCosts& Out)
+	{
+		FMethodScope RasterOnly;
+		RasterOnly.Apply({{"r.RT.Enable", "0", "bench shaders"}});
+		FSampleEngine Engine(Device, FRendererDesc{{ShaderFolder}, {}});
+		if (FRTStatus S = Load(Engine, Scene); !S)
+		{
+			return S;
+		}
+		double Ms[2] = {};
+		for (double& OfFrame : Ms)
+		{
+			FFrameCapture Capture;
+			Capture.bLighting = true;
+			FCapturedFrame Unused;
+			if (FRTStatus S = Engine.RenderFrame(Engine.GetScene().MakeDefaultView(32, 32), 0.0, Capture, &Unused); !S)
+			{
+				return S;
+			}
+			for (const FPassTiming& Pass : Engine.GetRenderer().GetGraphResources().GetTimings())
+			{
+				OfFrame += Pass.Name == "GBuffer" ? Pass.GpuMs : 0.0;
+			}
+		}
+		Out.FirstUseSeconds = std::max(1e-3 * (Ms[0] - Ms[1]), 0.0);
+		return FRTStatus::Success();
+	}
+
+	FRTStatus Use(const std::function<void(IRTCommandList&)>& Record, FShaderCosts& Out)
+	{
+		TRTRef<IRTCommandList> List;
+		if (FRTStatus S = Device.CreateCommandList("Bench", List.ReleaseAndGetAddress()); !S)
+		{
+			return S;
+		}
+		if (FRTStatus S = List->Begin(); !S)
+		{
+			return S;
+		}
+		Record(*List);
+		if (FRTStatus S = List->End(); !S)
+		{
+			return S;
+		}
+		const auto Start = FClock::now();
+		IRTCommandList* const Lists[] = {List.Get()};
+		FRTFence Fence = 0;
+		FRTStatus Status = Device.Submit(Lists, 1, &Fence);
+		Status = Status ? Device.WaitIdle() : Status;
+		Out.FirstUseSeconds = SecondsSince(Start);
+		return Status;
+	}
+
+	IRTDevice& Device;
+	const std::string ShaderFolder;
+	FShaderCompiler Compiler;
+};
+
+FRTStatus ListAll(const FBenchShadersOptions& Options, const FPluginFolders& Folders,
+                  std::vector<FPipelineShaders>& Out)
+{
+	TRTRef<IRTDevice> Mock;
+	if (FRTStatus S = CreateMockDevice({}, Mock.ReleaseAndGetAddress()); !S)
+	{
+		return S;
+	}
+	GetMock(Mock.Get()).SetCallRecording(false);
+	FRendererDesc Desc;
+	Desc.ShaderFolders = {Folders.Shaders};
+	Desc.CacheFolder = Folders.Cache.empty() ? "" : Folders.Cache + "/shaders";
+	FSampleEngine Engine(*Mock, std::move(Desc));
+	for (const std::string& Scene : Options.Scenes)
+	{
+		if (FRTStatus S = Load(Engine, Scene); !S)
+		{
+			return S;
+		}
+		if (FRTStatus S = ListPipelines(Engine, Scene, Folders.Config + "/Methods.ini", Out); !S)
+		{
+			return S;
+		}
+	}
+	std::erase_if(Out, [&](const FPipelineShaders& Pipeline)
+	              { return Pipeline.Name.find(Options.Match) == std::string::npos; });
+	return FRTStatus::Success();
+}
+
+using FMeasured = std::pair<const FPipelineShaders*, FShaderCosts>;
+
+void Print(const std::vector<FMeasured>& All)
+{
+	fmt::print("{:>9} {:>10} {:>9} {:>12} {:>9} {:>9}  {}\n", "text KB", "SPIR-V KB", "glslang s", "pipeline s",
+	           "1st use s", "driver s", "pipeline");
+	double Sum = 0.0;
+	for (const auto& [Pipeline, Costs] : All)
+	{
+		fmt::print("{:>9.1f} {:>10.1f} {:>9.3f} {:>12.3f} {:>9.3f} {:>9.3f}  {}\n", 1e-3 * double(Costs.TextBytes),
+		           1e-3 * double(Costs.SpirvBytes), Costs.GlslangSeconds, Costs.CreateSeconds, Costs.FirstUseSeconds,
+		           Costs.GetDriverSeconds(), Pipeline->Name);
+		Sum += Costs.GetDriverSeconds();
+	}
+	fmt::print("{} pipelines, {:.1f} s of the driver\n", All.size(), Sum);
+}
+
+nlohmann::json MakeJson(const std::vector<FMeasured>& All)
+{
+	nlohmann::json Json = nlohmann::json::array();
+	for (const auto& [Pipeline, Costs] : All)
+	{
+		Json.push_back({{"name", Pipeline->Name},
+		                {"text_bytes", Costs.TextBytes},
+		                {"spirv_bytes", Costs.SpirvBytes},
+		                {"glslang_seconds", Costs.GlslangSeconds},
+		                {"create_seconds", Costs.CreateSeconds},
+		                {"first_use_seconds", Costs.FirstUseSeconds},
+		                {"driver_seconds", Costs.GetDriverSeconds()}});
+	}
+	return Json;
+}
+} // namespace
+
+void FBenchShadersOptions::AddTo(CLI::App& App)
+{
+	Device.AddTo(App);
+	App.add_option("SCENE", Scenes, "Scenes whose shaders are measured (the built-in courtyard)");
+	App.add_option("--match", Match, "Only pipelines with this in their name");
+	App.add_option("--max-seconds", MaxSeconds, "Exit 1 where the driver takes longer for one pipeline (0: no limit)")
+	    ->check(CLI::Range(0.0, 1e6));
+	App.add_option("--json", Json, "Write the figures to this file");
+}
+
+int RunBenchShaders(const FBenchShadersOptions& Options)
+{
+	if (!Options.Json.empty())
+	{
+		if (FRTStatus S = CheckOutputPath(Options.Json); !S)
+		{
+			return ReportStatus(S, "--json"), ExitBadInput;
+		}
+	}
+	const FPluginFolders Folders = FindPluginFolders();
+	if (const int Status = LoadSettings(Folders.Config, Options.Device); Status != ExitDone)
+	{
+		return Status;
+	}
+	std::vector<FPipelineShaders> Pipelines;
+	if (FRTStatus S = ListAll(Options, Folders, Pipelines); !S)
+	{
+		return ReportStatus(S, "bench shaders");
+	}
+	TRTRef<IRTDevice> Device;
+	if (FRTStatus S = OpenUncachedDevice(Options.Device, Device); !S)
+	{
+		LogError("{}", S.Message);
+		return ExitNoDevice;
+	}
+	const FRTCapabilities& Capabilities = Device->GetCapabilities();
+	FShaderBench Bench(*Device, Folders.Shaders);
+	std::vector<FMeasured> All;
+	FProgressLine Progress;
+	for (const FPipelineShaders& Pipeline : Pipelines)
+	{
+		if (Pipeline.IsRays() && !Capabilities.bRayTracingPipeline)
+		{
+			continue;
+		}
+		FShaderCosts Costs;
+		if (FRTStatus S = Bench.Measure(Pipeline, Costs); !S)
+		{
+			return ReportStatus(S, Pipeline.Name.c_str());
+		}
+		All.emplace_back(&Pipeline, Costs);
+		Progress.Show("pipelines", double(All.size()) / double(Pipelines.size()));
+	}
+	Progress.Clear();
+	std::stable_sort(All.begin(), All.end(),
+	                 [](const FMeasured& A, const FMeasured& B)
+	                 { return A.second.GetDriverSeconds() > B.second.GetDriverSeconds(); });
+	Print(All);
+	if (!Options.Json.empty())
+	{
+		const nlohmann::json Json = {
+		    {"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"pipelines", MakeJson(All)}};
+		if (FRTStatus S = WriteFileAtomically(Options.Json, Json.dump(2) + "\n"); !S)
+		{
+			return ReportStatus(S, "--json"), ExitBadInput;
+		}
+	}
+	if (const uint32_t Messages = Device->GetValidationMessageCount(); Messages > 0)
+	{
+		LogError("validation: {} messages", Messages);
+		return ExitCheckFailed;
+	}
+	const bool bOver =
+	    Options.MaxSeconds > 0.0 && !All.empty() && All.front().second.GetDriverSeconds() > Options.MaxSeconds;
+	return bOver ? ExitCheckFailed : ExitDone;
+}
+
+} // namespace Lantern

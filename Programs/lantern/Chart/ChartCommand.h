@@ -1,0 +1,31 @@
+// lantern chart
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "LanternMeasure/Chart/ChartPlan.h"
+#include "Options.h"
+
+namespace Lantern
+{
+
+struct FChartOptions
+{
+	FDeviceOptions Device;
+	FPictureOptions Picture; ///< size and seed
+	std::vector<std::string> Scenes;
+	std::string Output, Json;
+	uint32_t Frames = 20, WarmUp = 16, ReferenceSamples = 256;
+	std::string Signals, Methods, Paths; ///< lists, separated by commas
+	std::string MethodsFile;             ///< empty: Config/Methods.ini
+	double BudgetMinutes = -1.0;         ///< < 0: 10 on devices that are CPUs, none on others; 0: none
+	std::string Shard;
+	std::vector<std::string> Merge;
+	void AddTo(CLI::App& App);
+};
+
+/// An exit status.
+int RunChart(const FChartOptions& Options);
+
+} // namespace Lantern

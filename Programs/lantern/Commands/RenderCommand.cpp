@@ -1,0 +1,237 @@
+#include "Commands/RenderCommand.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternCore/Text/Log.h"
+#include "LanternCore/Tasks/TaskTrace.h"
+#include "LanternImage/AtomicFile.h"
+#include "LanternImage/ImageIO.h"
+#include "LanternHost/ReferenceRenderer.h"
+#include "LanternImage/ToneMap.h"
+#include "Progress.h"
+#include "Session.h"
+
+namespace Lantern
+{
+
+namespace
+{
+struct FPassFigures
+{
+	std::vector<double> GpuMs, CpuMs;
+	uint64_t Rays = 0;
+};
+
+double Median(std::vector<double> Values)
+{
+	if (Values.empty()) { return 0.0; }
+	std::nth_element(Values.begin(), Values.begin() + Values.size() / 2, Values.end());
+	return Values[Values.size() / 2];
+}
+
+/// Timings of several frames, passes in the order of their first appearance.
+class FFigures
+{
+public:
+	void Add(const std::vector<FPassTiming>& Timings)
+	{
+		for (const FPassTiming& Timing : Timings)
+		{
+			if (!Passes.count(Timing.Name)) { Order.push_back(Timing.Name); }
+			FPassFigures& Figures = Passes[Timing.Name];
+			Figures.GpuMs.push_back(Timing.GpuMs);
+			Figures.CpuMs.push_back(Timing.CpuMs);
+			Figures.Rays = std::max(Figures.Rays, Timing.Rays);
+		}
+	}
+	nlohmann::json ToJson() const
+	{
+		nlohmann::json Out = nlohmann::json::array();
+		for (const std::string& Name : Order)
+		{
+			const FPassFigures& P = Passes.at(Name);
+			Out.push_back({{"name", Name}, {"gpu_ms", Median(P.GpuMs)}, {"cpu_ms", Median(P.CpuMs)}, {"rays", P.Rays}});
+		}
+		return Out;
+	}
+
+private:
+	std::vector<std::string> Order;
+	std::map<std::string, FPassFigures> Passes;
+};
+
+nlohmann::json MakeJson(FSession& Session, const FRenderOptions& Options, const FFigures& Figures)
+{
+	const FRTCapabilities& Capabilities = Session.GetDevice().GetCapabilities();
+	const FRTMemoryStats Memory = Session.GetDevice().GetMemoryStats();
+	FRenderer& Renderer = Session.GetEngine().GetRenderer();
+	nlohmann::json Json;
+	Json["device"] = Capabilities.DeviceName;
+	Json["driver"] = Capabilities.DriverName;
+	Json["width"] = Options.Picture.Width;
+	Json["height"] = Options.Picture.Height;
+	Json["frames"] = Options.Frames;
+	Json["passes"] = Figures.ToJson();
+	double Gpu = 0.0, Cpu = 0.0;
+	uint64_t Rays = 0;
+	for (const auto& Pass : Json["passes"])
+	{
+		Gpu += Pass["gpu_ms"].get<double>();
+		Cpu += Pass["cpu_ms"].get<double>();
+		Rays += Pass["rays"].get<uint64_t>();
+	}
+	Json["frame_gpu_ms"] = Gpu;
+	Json["frame_cpu_ms"] = Cpu;
+	Json["rays"] = Rays;
+	Json["memory"] = {{"blas", Memory.Geometry}, {"tlas", Memory.Scene}, {"sbt", Memory.ShaderTable}, {"textures", Memory.Texture}, {"peak", Memory.Peak}};
+	const FRTPSO* Pipeline = Renderer.GetRayPipeline();
+	const uint32_t Groups = Pipeline ? Pipeline->GetHitGroupCount() : 0;
+	const uint32_t Missing = Pipeline ? Pipeline->GetMissingCount() : 0;
+	const double LinkMs = Pipeline ? Renderer.GetRayCompiler().GetStats().LastLinkMs : 0.0;
+	Json["rtpso"] = {{"hit_groups", Groups}, {"compiled", Groups - Missing}, {"missing", Missing}, {"link_ms", LinkMs}};
+	if (const FAnyHitCounts& AnyHits = Renderer.GetAnyHits(); AnyHits.Frames > 0) { Json["any_hit"] = AnyHits.LastFrame; }
+	Json["load_seconds"] = Session.GetLoadSeconds();
+	return Json;
+}
+
+void PrintTable(const nlohmann::json& Json)
+{
+	fmt::print("{:<16} {:>10} {:>10} {:>12}\n", "pass", "GPU ms", "CPU ms", "rays");
+	for (const auto& Pass : Json["passes"])
+	{
+		fmt::print("{:<16} {:>10.3f} {:>10.3f} {:>12}\n", Pass["name"].get<std::string>(), Pass["gpu_ms"].get<double>(), Pass["cpu_ms"].get<double>(),
+		           Pass["rays"].get<uint64_t>());
+	}
+	fmt::print("{:<16} {:>10.3f} {:>10.3f} {:>12}\n", "frame", Json["frame_gpu_ms"].get<double>(), Json["frame_cpu_ms"].get<double>(), Json["rays"].get<uint64_t>());
+}
+
+bool IsDisplayOutput(const std::string& Path) { return Path.size() > 4 && Path.compare(Path.size() - 4, 4, ".png") == 0; }
+
+/// Before any work: can what was asked for be written?
+int CheckOutputs(const FPictureOptions& Picture)
+{
+	if (!Picture.Output.empty())
+	{
+		if (FRTStatus S = CheckImageOutput(Picture.Output); !S) { return ReportStatus(S, "-o"), ExitBadInput; }
+	}
+	if (!Picture.Json.empty())
+	{
+		if (FRTStatus S = CheckOutputPath(Picture.Json); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
+	}
+	return ExitDone;
+}
+
+int WriteOutputs(const FPictureOptions& Picture, const FImage& Image, const nlohmann::json& Json)
+{
+	if (!Picture.Output.empty())
+	{
+		if (FRTStatus S = SaveImageFile(Picture.Output, Image); !S) { return ReportStatus(S, "-o"), ExitBadInput; }
+	}
+	if (!Picture.Json.empty())
+	{
+		if (FRTStatus S = WriteFileAtomically(Picture.Json, Json.dump(2) + "\n"); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
+	}
+	return ExitDone;
+}
+
+int RenderFrames(FSession& Session, const FRenderOptions& Options, FCapturedFrame& Frame, FFigures& Figures)
+{
+	const FView View = Session.MakeView(Options.Picture);
+	FProgressLine Progress;
+	FFrameCapture Capture;
+	for (uint32_t I = 0; I < Options.Frames; ++I)
+	{
+		const bool bLast = I + 1 == Options.Frames;
+		Capture.bDisplay = bLast && IsDisplayOutput(Options.Picture.Output);
+		Capture.bLighting = bLast && !Capture.bDisplay;
+		if (FRTStatus S = Session.GetEngine().RenderFrame(View, Options.Picture.Time, Capture, bLast ? &Frame : nullptr); !S)
+		{
+			return ReportStatus(S, "frame");
+		}
+		// The first frame of several builds and compiles: it is not what a frame costs.
+		if (I > 0 || Options.Frames == 1) { Figures.Add(Session.GetEngine().GetRenderer().GetGraphResources().GetTimings()); }
+		Progress.Show("frames", double(I + 1) / Options.Frames);
+	}
+	return ExitDone;
+}
+} // namespace
+
+int RunRender(const FRenderOptions& Options)
+{
+	const auto Start = std::chrono::steady_clock::now();
+	if (const int Status = CheckOutputs(Options.Picture); Status != ExitDone) { return Status; }
+	FTaskTrace::SetFolder(std::filesystem::path(Options.Picture.Output).parent_path().string());
+	FSession Session;
+	if (const int Status = Session.OpenDevice(Options.Device); Status != ExitDone) { return Session.Close(Status); }
+	if (const int Status = Session.LoadScene(Options.Picture); Status != ExitDone) { return Session.Close(Status); }
+	Session.GetEngine().GetRenderer().SetGraphDump(Options.bDumpGraph);
+	Session.GetEngine().bPresent = true; // what accumulates over frames needs them all, and their times are what is reported
+	FCapturedFrame Frame;
+	FFigures Figures;
+	FProgressLine Compiling;
+	const auto ShowProgress = [&](float Fraction) { Compiling.Show("shaders", Fraction); };
+	if (FRTStatus S = Session.GetEngine().GetRenderer().Precache(Session.GetEngine().GetScene().GetScene(), {}, ShowProgress); !S)
+	{
+		return Session.Close(ReportStatus(S, "shaders"));
+	}
+	Compiling.Clear();
+	int Status = RenderFrames(Session, Options, Frame, Figures);
+	if (Status == ExitDone)
+	{
+		const nlohmann::json Json = MakeJson(Session, Options, Figures);
+		PrintTable(Json);
+		if (Options.bDumpGraph) { fmt::print("{}", Session.GetEngine().GetRenderer().DumpGraph()); }
+		Status = WriteOutputs(Options.Picture, Frame.Display.IsEmpty() ? Frame.Lighting : Frame.Display, Json);
+		const double Seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - Start).count();
+		LogInfo("loaded in {:.2f} s, {:.2f} s in all", Session.GetLoadSeconds(), Seconds);
+	}
+	return Session.Close(Status);
+}
+
+int RunReference(const FReferenceOptions& Options)
+{
+	if (const int Status = CheckOutputs(Options.Picture); Status != ExitDone) { return Status; }
+	if (Options.bResume && Options.Picture.Output.empty())
+	{
+		LogError("--resume needs -o: the state is kept beside the picture");
+		return ExitUsage;
+	}
+	FSession Session;
+	if (const int Status = Session.OpenDevice(Options.Device); Status != ExitDone) { return Session.Close(Status); }
+	if (const int Status = Session.LoadScene(Options.Picture); Status != ExitDone) { return Session.Close(Status); }
+	FProgressLine Progress;
+	FReferenceSettings Settings;
+	FConsoleVariables::Get().BeginFrame();
+	Settings.View = Session.MakeView(Options.Picture);
+	Settings.Time = Options.Picture.Time;
+	Settings.Samples = Options.Samples;
+	Settings.Bounces = Options.Bounces;
+	Settings.Signal = FindSignal(Options.Signal).value_or(ESignal::Frame);
+	Settings.bPixelCenters = Options.bPixelCenters;
+	Settings.StateFile = Options.bResume ? Options.Picture.Output + ".state" : "";
+	Settings.bResume = Options.bResume;
+	Settings.StateSeconds = Options.SaveSeconds;
+	Settings.SceneKey = Session.MakeSceneKey(Options.Picture);
+	Settings.Progress = [&](double Done, uint32_t Total, double Left) {
+		Progress.Show("reference", Done / Total, fmt::format("{:.1f} of {} samples, {} left", Done, Total, FormatSeconds(Left)));
+	};
+	FReferenceResult Result;
+	if (FRTStatus S = RenderReference(Session.GetEngine(), Settings, Result); !S) { return Session.Close(ReportStatus(S, "reference")); }
+	Progress.Clear();
+	const double MPaths = Result.Seconds > 0.0 ? Result.Paths / Result.Seconds * 1e-6 : 0.0;
+	fmt::print("{} samples ({} resumed) in {:.1f} s, {:.2f} Mpaths/s\n", Result.Samples, Result.ResumedSamples, Result.Seconds, MPaths);
+	const FRTCapabilities& Capabilities = Session.GetDevice().GetCapabilities();
+	const nlohmann::json Json = {{"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"width", Options.Picture.Width},
+	                             {"height", Options.Picture.Height}, {"spp", Result.Samples}, {"resumed_spp", Result.ResumedSamples},
+	                             {"bounces", Options.Bounces}, {"seconds", Result.Seconds}, {"paths", Result.Paths}};
+	const bool bDisplay = IsDisplayOutput(Options.Picture.Output);
+	return Session.Close(WriteOutputs(Options.Picture, bDisplay ? ToneMapImage(Result.Radiance, Settings.View.Exposure) : Result.Radiance, Json));
+}
+
+} // namespace Lantern

@@ -1,0 +1,31 @@
+// How a console variable's value is read from text, clamped and shown.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "LanternCore/Config/ConsoleVariables.h"
+
+namespace Lantern
+{
+
+struct FParsedCVar
+{
+	std::optional<FRTCVarValue> Value; ///< absent: Error says why
+	std::string Error;
+	int ClampedTo = 0; ///< -1: raised to the minimum, +1: lowered to the maximum
+};
+
+/// Text as the type that Like holds, clamped to Range.
+FParsedCVar ParseCVar(const FRTCVarValue& Like, FRTCVarRange Range, std::string_view Text);
+
+const char* GetTypeName(const FRTCVarValue& Value);
+bool IsNumber(const FRTCVarValue& Value);
+bool HasMin(FRTCVarRange Range);
+bool HasMax(FRTCVarRange Range);
+/// "1 to 64", "at least 0", "at most 1"; empty if unlimited or not a number.
+std::string DescribeRange(const FRTCVarValue& Like, FRTCVarRange Range);
+bool IsInRange(const FRTCVarValue& Value, FRTCVarRange Range);
+
+} // namespace Lantern

@@ -1,0 +1,221 @@
+// What outlives a frame: the pool of transient resources and the ring of timestamp queries.
+#include <algorithm>
+#include <utility>
+
+#include "FrameGraph/FrameGraphImpl.h"
+#include "LanternCore/Text/Log.h"
+
+namespace Lantern
+{
+
+uint64_t FPoolKey::GetBytes() const
+{
+	uint64_t Bytes = Size;
+	for (uint32_t Mip = 0; bTexture && Mip < MipCount; ++Mip)
+	{
+		Bytes += uint64_t(std::max(Width >> Mip, 1u)) * std::max(Height >> Mip, 1u) * BytesPerTexel(Format);
+	}
+	return Bytes;
+}
+
+FRTStatus FFrameGraphResources::FImpl::Create(const FPoolKey& Key, const std::string& Name,
+                                              std::shared_ptr<FPooledResource>& Out)
+{
+	auto Made = std::make_shared<FPooledResource>();
+	Made->Name = Name;
+	Made->Key = Key;
+	FRTStatus Status;
+	if (Key.bTexture)
+	{
+		FRTTextureDesc Desc;
+		Desc.Width = Key.Width;
+		Desc.Height = Key.Height;
+		Desc.MipCount = Key.MipCount;
+		Desc.Format = Key.Format;
+		Desc.Usage = static_cast<ERTTextureUsage>(Key.Usage);
+		Desc.Name = Name.c_str();
+		Status = Device.CreateTexture(Desc, Made->Texture.ReleaseAndGetAddress());
+	}
+	else
+	{
+		FRTBufferDesc Desc;
+		Desc.Size = Key.Size;
+		Desc.Usage = static_cast<ERTBufferUsage>(Key.Usage);
+		Desc.Name = Name.c_str();
+		Status = Device.CreateBuffer(Desc, Made->Buffer.ReleaseAndGetAddress());
+	}
+	if (Status)
+	{
+		Out = std::move(Made);
+		Pool[Key].push_back(Out);
+	}
+	return Status;
+}
+
+FRTStatus FFrameGraphResources::FImpl::Acquire(const FPoolKey& Key, const std::string& Name, const void* Owner,
+                                               std::shared_ptr<FPooledResource>& Out)
+{
+	Out.reset();
+	for (const std::shared_ptr<FPooledResource>& Item : Pool[Key])
+	{
+		const bool bFree = !Item->bBusy && (!Item->Owner || Item->Owner == Owner);
+		if (bFree && (!Out || Item->Name == Name))
+		{
+			Out = Item;
+		}
+	}
+	FRTStatus Status;
+	if (!Out)
+	{
+		Status = Create(Key, Name, Out);
+		const bool bMemory = Status.Code == ERTResult::OutOfDeviceMemory || Status.Code == ERTResult::OutOfDescriptors;
+		// What other sizes and settings left behind may be all that is in the way.
+		if (bMemory && Trim(0) > 0)
+		{
+			Device.CollectGarbage();
+			Status = Create(Key, Name, Out);
+		}
+	}
+	if (Out)
+	{
+		Out->Owner = Owner;
+		Out->bBusy = true;
+	}
+	return Status;
+}
+
+uint64_t FFrameGraphResources::FImpl::Trim(uint32_t FrameCount)
+{
+	uint64_t Freed = 0;
+	const auto IsOld = [&](const std::shared_ptr<FPooledResource>& Item)
+	{
+		const bool bOld = !Item->Owner && (FrameCount == 0 || Item->LastFrame + FrameCount <= FrameCounter);
+		Freed += bOld ? Item->Key.GetBytes() : 0;
+		return bOld;
+	};
+	for (auto& [Key, Items] : Pool)
+	{
+		std::erase_if(Items, IsOld);
+	}
+	std::erase_if(Pool, [](const auto& Entry) { return Entry.second.empty(); });
+	return Freed;
+}
+
+FTimedFrame& FFrameGraphResources::FImpl::BeginTiming(uint32_t PassCount)
+{
+	constexpr size_t MaxFrames = 8; // more than any engine keeps in flight
+	PollTimings();
+	auto It = std::find_if(Frames.begin(), Frames.end(), [](const auto& Frame) { return !Frame->bPending; });
+	if (It == Frames.end() && Frames.size() < MaxFrames)
+	{
+		It = Frames.insert(It, std::make_unique<FTimedFrame>());
+	}
+	if (It == Frames.end())
+	{
+		// Lists that were recorded but never submitted would otherwise hold the ring for ever.
+		It = std::min_element(Frames.begin(), Frames.end(),
+		                      [](const auto& A, const auto& B) { return A->Serial < B->Serial; });
+	}
+	FTimedFrame& Frame = **It;
+	Frame.Serial = FrameCounter;
+	Frame.Passes.clear();
+	const uint32_t Needed = 2 * PassCount;
+	const bool bTooSmall = !Frame.Pool || Frame.Pool->GetCount() < Needed;
+	if (Device.GetCapabilities().bTimestamps && Needed > 0 && bTooSmall)
+	{
+		uint32_t Count = 64;
+		while (Count < Needed)
+		{
+			Count *= 2;
+		}
+		Frame.LastFirstNs = 0;
+		const FRTStatus Status = Device.CreateQueryPool(ERTQuery::Timestamp, Count, Frame.Pool.ReleaseAndGetAddress());
+		if (!Status)
+		{
+			Frame.Pool.Reset();
+			LogOnce(ERTLogLevel::Warning, fmt::format("No GPU times of passes: {}", Status.Message));
+		}
+	}
+	return Frame;
+}
+
+void FFrameGraphResources::FImpl::PollTimings()
+{
+	std::vector<FTimedFrame*> Pending;
+	for (const auto& Frame : Frames)
+	{
+		if (Frame->bPending)
+		{
+			Pending.push_back(Frame.get());
+		}
+	}
+	std::sort(Pending.begin(), Pending.end(), [](auto* A, auto* B) { return A->Serial < B->Serial; });
+	std::vector<uint64_t> Times;
+	for (FTimedFrame* Frame : Pending)
+	{
+		const uint32_t Count = static_cast<uint32_t>(2 * Frame->Passes.size());
+		Times.resize(Count);
+		if (Frame->Pool && Count > 0)
+		{
+			// The pool still holds its earlier times until the GPU reaches the reset.
+			if (!Frame->Pool->GetResults(0, Count, Times.data()) || Times[0] == Frame->LastFirstNs)
+			{
+				continue;
+			}
+			Frame->LastFirstNs = Times[0];
+			for (uint32_t I = 0; I < Frame->Passes.size(); ++I)
+			{
+				const uint64_t Begin = Times[2 * I], End = Times[2 * I + 1];
+				Frame->Passes[I].GpuMs = End > Begin ? static_cast<double>(End - Begin) * 1e-6 : 0.0;
+			}
+			constexpr size_t MostDone = 64; // where nobody takes them
+			if (Done.size() < MostDone && Times.back() > Times.front())
+			{
+				Done.push_back({Frame->Serial, static_cast<double>(Times.back() - Times.front()) * 1e-6});
+			}
+		}
+		Newest = Frame->Passes;
+		Frame->bPending = false;
+	}
+}
+
+FFrameGraphResources::FFrameGraphResources(IRTDevice& Device) : Impl(std::make_unique<FImpl>(Device)) {}
+FFrameGraphResources::~FFrameGraphResources() = default;
+
+const std::vector<FPassTiming>& FFrameGraphResources::GetTimings()
+{
+	Impl->PollTimings();
+	return Impl->Newest;
+}
+
+uint64_t FFrameGraphResources::GetFrame() const
+{
+	return Impl->FrameCounter;
+}
+
+std::vector<FFrameTiming> FFrameGraphResources::TakeFrameTimings()
+{
+	return std::exchange(Impl->Done, {});
+}
+
+void FFrameGraphResources::Trim(uint32_t Frames)
+{
+	Impl->Trim(Frames);
+}
+
+uint64_t FFrameGraphResources::GetPooledBytes() const
+{
+	uint64_t Bytes = 0;
+	for (const auto& [Key, Items] : Impl->Pool)
+	{
+		Bytes += Key.GetBytes() * Items.size();
+	}
+	return Bytes;
+}
+
+void FFrameGraphResources::PoisonHistory(std::string NamePart)
+{
+	Impl->Poison.push_back(std::move(NamePart));
+}
+
+} // namespace Lantern

@@ -1,0 +1,222 @@
+#include "LanternCore/FrameGraph/History.h"
+
+#include <algorithm>
+#include <cassert>
+#include <map>
+
+namespace Lantern
+{
+
+namespace
+{
+constexpr ERTAccess RestingAccess = ERTAccess::ShaderRead; // of every history between frames
+
+struct FKept
+{
+	bool bValid = false;   ///< holds what a submitted frame wrote
+	bool bUsed = false;    ///< in this frame
+	bool bWritten = false; ///< by this frame; the graph sets it
+	uint32_t UnusedFrames = 0;
+
+	void CountFrame()
+	{
+		UnusedFrames = bUsed ? 0 : UnusedFrames + 1;
+		bUsed = bWritten = false;
+	}
+};
+
+struct FTexturePair : FKept
+{
+	FGraphTextureDesc Desc;
+	TRTRef<IRTTexture> Textures[2];
+	bool bRests[2] = {}; ///< was in a submitted frame, which left it in RestingAccess
+	int Newest = 0;      ///< where bValid: what the frame before wrote
+};
+
+struct FKeptBuffer : FKept
+{
+	FGraphBufferDesc Desc;
+	TRTRef<IRTBuffer> Buffer;
+	bool bRests = false;
+};
+
+bool IsSame(const FGraphTextureDesc& A, const FGraphTextureDesc& B)
+{
+	return A.Width == B.Width && A.Height == B.Height && A.Format == B.Format && A.ExtraUsage == B.ExtraUsage &&
+	       A.MipCount == B.MipCount;
+}
+
+bool IsSame(const FGraphBufferDesc& A, const FGraphBufferDesc& B)
+{
+	return A.Size == B.Size && A.ExtraUsage == B.ExtraUsage;
+}
+
+uint64_t GetTexelBytes(const FGraphTextureDesc& Desc)
+{
+	uint64_t Texels = 0;
+	for (uint32_t Mip = 0; Mip < Desc.MipCount; ++Mip)
+	{
+		Texels += uint64_t(std::max(Desc.Width >> Mip, 1u)) * std::max(Desc.Height >> Mip, 1u);
+	}
+	return Texels * BytesPerTexel(Desc.Format);
+}
+} // namespace
+
+struct FHistoryResources::FImpl
+{
+	explicit FImpl(IRTDevice& InDevice) : Device(InDevice) {}
+	FRTStatus Create(const char* Name, FTexturePair& Pair) const;
+	FRTStatus Create(const char* Name, FKeptBuffer& Kept) const;
+	/// What was released, of another size perhaps, may be all that is in the way.
+	template <class TMake>
+	FRTStatus CreateOrCollect(const TMake& Make) const
+	{
+		FRTStatus Status = Make();
+		if (Status.Code == ERTResult::OutOfDeviceMemory || Status.Code == ERTResult::OutOfDescriptors)
+		{
+			Device.CollectGarbage();
+			Status = Make();
+		}
+		return Status;
+	}
+
+	IRTDevice& Device;
+	FFrameGraph* Graph = nullptr; // between BeginFrame and EndFrame; dead already in EndFrame
+	// Graphs write into the values, which stay where they are.
+	std::map<std::string, FTexturePair, std::less<>> Textures;
+	std::map<std::string, FKeptBuffer, std::less<>> Buffers;
+};
+
+FRTStatus FHistoryResources::FImpl::Create(const char* Name, FTexturePair& Pair) const
+{
+	FRTTextureDesc Desc;
+	Desc.Width = Pair.Desc.Width;
+	Desc.Height = Pair.Desc.Height;
+	Desc.MipCount = Pair.Desc.MipCount;
+	Desc.Format = Pair.Desc.Format;
+	Desc.Usage = ERTTextureUsage::Sampled | ERTTextureUsage::Storage | ERTTextureUsage::CopyDest | Pair.Desc.ExtraUsage;
+	Desc.Name = Name;
+	for (TRTRef<IRTTexture>& Texture : Pair.Textures)
+	{
+		const auto Make = [&] { return Device.CreateTexture(Desc, Texture.ReleaseAndGetAddress()); };
+		if (FRTStatus S = CreateOrCollect(Make); !S) { return S; }
+	}
+	return FRTStatus::Success();
+}
+
+FRTStatus FHistoryResources::FImpl::Create(const char* Name, FKeptBuffer& Kept) const
+{
+	const ERTBufferUsage Usage = ERTBufferUsage::Storage | ERTBufferUsage::CopyDest | Kept.Desc.ExtraUsage;
+	const FRTBufferDesc Desc{Kept.Desc.Size, Usage, ERTMemory::Device, Name};
+	return CreateOrCollect([&] { return Device.CreateBuffer(Desc, Kept.Buffer.ReleaseAndGetAddress()); });
+}
+
+namespace
+{
+/// The item of the name in Items, made anew where it is new or has another description, and marked as used.
+template <class TMap, class TDesc, class TCreate>
+FRTStatus Use(TMap& Items, const char* Name, const TDesc& Desc, const TCreate& Create, typename TMap::mapped_type*& Out)
+{
+	const auto [It, bNew] = Items.try_emplace(Name);
+	Out = &It->second;
+	assert(!Out->bUsed && "asked for twice in one frame");
+	if (bNew || !IsSame(Out->Desc, Desc))
+	{
+		*Out = {};
+		Out->Desc = Desc;
+		if (FRTStatus S = Create(*Out); !S)
+		{
+			Items.erase(It);
+			return S;
+		}
+	}
+	Out->bUsed = true;
+	return FRTStatus::Success();
+}
+} // namespace
+
+FHistoryResources::FHistoryResources(IRTDevice& Device) : Impl(std::make_unique<FImpl>(Device)) {}
+FHistoryResources::~FHistoryResources() = default;
+
+void FHistoryResources::BeginFrame(FFrameGraph& Graph, bool bKeep)
+{
+	assert(!Impl->Graph && "EndFrame was not called");
+	Impl->Graph = &Graph;
+	for (auto& [Name, Pair] : Impl->Textures) { Pair.bValid &= bKeep; }
+	for (auto& [Name, Kept] : Impl->Buffers) { Kept.bValid &= bKeep; }
+}
+
+FRTStatus FHistoryResources::GetTexture(const char* Name, const FGraphTextureDesc& Desc, FHistoryTexture& Out)
+{
+	assert(Impl->Graph && "between BeginFrame and EndFrame");
+	Out = {};
+	FTexturePair* Pair = nullptr;
+	const auto Create = [&](FTexturePair& Made) { return Impl->Create(Name, Made); };
+	if (FRTStatus S = Use(Impl->Textures, Name, Desc, Create, Pair); !S) { return S; }
+	FFrameGraph& Graph = *Impl->Graph;
+	if (Pair->bValid)
+	{
+		const std::string Label = std::string(Name) + " before";
+		Out.Previous = Graph.ImportTexture(Pair->Textures[Pair->Newest].Get(), RestingAccess, RestingAccess, Label.c_str());
+		Graph.MarkHistory(Out.Previous);
+	}
+	const int Next = 1 - Pair->Newest;
+	const ERTAccess State = Pair->bRests[Next] ? RestingAccess : ERTAccess::None;
+	Out.Current = Graph.ImportTexture(Pair->Textures[Next].Get(), State, RestingAccess, Name);
+	Graph.MarkForLater(Out.Current, &Pair->bWritten);
+	return FRTStatus::Success();
+}
+
+FRTStatus FHistoryResources::GetBuffer(const char* Name, const FGraphBufferDesc& Desc, FHistoryBuffer& Out)
+{
+	assert(Impl->Graph && "between BeginFrame and EndFrame");
+	Out = {};
+	FKeptBuffer* Kept = nullptr;
+	const auto Create = [&](FKeptBuffer& Made) { return Impl->Create(Name, Made); };
+	if (FRTStatus S = Use(Impl->Buffers, Name, Desc, Create, Kept); !S) { return S; }
+	FFrameGraph& Graph = *Impl->Graph;
+	Out.bFresh = !Kept->bValid;
+	Out.Buffer = Graph.ImportBuffer(Kept->Buffer.Get(), Kept->bRests ? RestingAccess : ERTAccess::None, RestingAccess, Name);
+	Graph.MarkForLater(Out.Buffer, &Kept->bWritten);
+	if (Kept->bValid) { Graph.MarkHistory(Out.Buffer); }
+	return FRTStatus::Success();
+}
+
+void FHistoryResources::EndFrame(bool bSubmitted)
+{
+	Impl->Graph = nullptr;
+	for (auto& [Name, Pair] : Impl->Textures)
+	{
+		if (Pair.bUsed && bSubmitted) { Pair.bRests[1 - Pair.Newest] = true; } // the graph moves it there, used or not
+		// What was written two frames ago is no history of the frame before.
+		Pair.bValid = Pair.bUsed && bSubmitted && Pair.bWritten;
+		Pair.Newest = Pair.bValid ? 1 - Pair.Newest : Pair.Newest;
+		Pair.CountFrame();
+	}
+	for (auto& [Name, Kept] : Impl->Buffers)
+	{
+		Kept.bValid |= bSubmitted && Kept.bWritten; // a frame that never ran has changed nothing
+		Kept.bRests |= Kept.bUsed && bSubmitted;
+		Kept.CountFrame();
+	}
+	const auto IsUnused = [](const auto& Entry) { return Entry.second.UnusedFrames >= KeepFrames; };
+	std::erase_if(Impl->Textures, IsUnused);
+	std::erase_if(Impl->Buffers, IsUnused);
+}
+
+void FHistoryResources::Clear()
+{
+	assert(!Impl->Graph && "between frames");
+	Impl->Textures.clear();
+	Impl->Buffers.clear();
+}
+
+uint64_t FHistoryResources::GetBytes() const
+{
+	uint64_t Bytes = 0;
+	for (const auto& [Name, Pair] : Impl->Textures) { Bytes += 2 * GetTexelBytes(Pair.Desc); }
+	for (const auto& [Name, Kept] : Impl->Buffers) { Bytes += Kept.Desc.Size; }
+	return Bytes;
+}
+
+} // namespace Lantern

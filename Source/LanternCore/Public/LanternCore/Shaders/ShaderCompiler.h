@@ -1,0 +1,82 @@
+// GLSL to SPIR-V at run time, with glslang as a library and a disk cache keyed by content (all included
+// files, defines, stage), target and compiler version. Thread-safe: many compiles may run at once.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "LanternRHI/RTTypes.h"
+
+namespace Lantern
+{
+
+/// A header in memory. Takes the place of the file of that name, if there is one.
+struct FShaderHeader
+{
+	std::string Include; ///< relative to the search folders; include lines that lead there find this
+	std::string Text;
+	std::string Name; ///< what errors call it, one line; its own quoted includes are searched from this place first
+	friend bool operator==(const FShaderHeader&, const FShaderHeader&) = default;
+};
+
+struct FShaderSource
+{
+	std::string Path; ///< one line, relative to one of the search folders, e.g. "SunShadow/SunShadow.rgen"
+	ERTShaderStage Stage = ERTShaderStage::Compute;
+	/// Name and value; part of the key.
+	std::vector<std::pair<std::string, std::string>> Defines;
+	/// If not empty: compiled instead of the file's text; Path then only names it (generated shaders).
+	std::string Text;
+	std::vector<FShaderHeader> Headers = {}; ///< their texts are part of the key
+	std::string Name = {};                   ///< of the binary; empty: Path
+	friend bool operator==(const FShaderSource&, const FShaderSource&) = default;
+};
+
+struct FShaderBinary
+{
+	std::vector<uint32_t> Words;
+	std::string Name;
+	ERTShaderStage Stage = ERTShaderStage::Compute;
+	bool bFromCache = false;
+	/// For the RHI; valid while this object lives and is not moved.
+	FRTShaderCode GetCode() const { return {Words.data(), Words.size(), Stage, Name.c_str()}; }
+};
+
+struct FShaderCompilerDesc
+{
+	std::vector<std::string> SearchFolders; ///< "Shaders" of the plugin first, then the engine's
+	std::string CacheFolder;                ///< empty: no disk cache
+	bool bDebugInfo = false;
+	bool bOptimize = true;
+};
+
+struct FShaderCompilerStats
+{
+	uint64_t Compiled = 0, CacheHits = 0, Failed = 0;
+	double CompileMs = 0.0; ///< summed over threads
+};
+
+class FShaderCompiler
+{
+public:
+	explicit FShaderCompiler(FShaderCompilerDesc Desc);
+	~FShaderCompiler();
+	/// CompileFailed: the message holds glslang's errors as "Path:line: text", included files resolved.
+	FRTStatus Compile(const FShaderSource& Source, FShaderBinary& Out);
+	/// The cache key (hex), e.g. to notice an edited file. Empty if a file is missing.
+	std::string GetKey(const FShaderSource& Source);
+	/// Bytes of the shader's text and of all files that it includes, each once. 0 if one is missing.
+	size_t GetTextBytes(const FShaderSource& Source);
+	FShaderCompilerStats GetStats() const;
+	/// Frees what all compilers share (glslang's tables of built-in symbols, 13 MB), for a library that is about to
+	/// be unloaded. No compiler may exist.
+	static void FreeSharedMemory();
+
+private:
+	struct FImpl;
+	std::unique_ptr<FImpl> Impl;
+};
+
+} // namespace Lantern

@@ -1,0 +1,106 @@
+// The cases of `lantern stability`, in order, with what is planted in each.
+#include "LanternMeasure/Stability/StabilityCase.h"
+
+#include "LanternCore/Config/ConsoleVariables.h"
+
+namespace Lantern
+{
+
+std::vector<FMethodSetting> KnownSettings(std::initializer_list<std::pair<const char*, const char*>> Settings)
+{
+	std::vector<FMethodSetting> Known;
+	for (const auto& [Name, Value] : Settings)
+	{
+		if (FConsoleVariables::Get().Find(Name)) { Known.push_back({Name, Value, "planted fault"}); }
+	}
+	return Known;
+}
+
+namespace
+{
+constexpr ESignal Sun = ESignal::SunShadow, Occlusion = ESignal::AmbientOcclusion, Diffuse = ESignal::DiffuseGI, Reflected = ESignal::Reflections,
+                  Whole = ESignal::Frame;
+
+FStabilityFault MakeFault(std::vector<FMethodSetting> Settings, const char* Otherwise)
+{
+	FStabilityFault Fault;
+	for (const FMethodSetting& Setting : Settings) { Fault.Text += (Fault.Text.empty() ? "" : " ") + Setting.Name + "=" + Setting.Value; }
+	if (Settings.empty()) { Fault.Text = Otherwise; }
+	Fault.Settings = std::move(Settings);
+	return Fault;
+}
+
+FStabilityFault MakeThinWallFault(const FMethod& Method)
+{
+	if (Method.Signal == Sun) { return MakeFault(KnownSettings({{"r.RT.Shadow.MaxDistance", "1"}}), ""); }
+	return MakeFault({}, "a slit in the roof");
+}
+
+/// Nothing is validated: what was there is taken for what is there, for a minute.
+FStabilityFault MakeUncoveringFault(const FMethod&)
+{
+	return MakeFault(KnownSettings({{"r.RT.Debug.Denoise.Validate", "0"}, {"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Shadow.HistorySeconds", "60"}, {"r.RT.AO.HistorySeconds", "60"}}), "");
+}
+
+/// History that is kept for a minute and never compared with what is there now.
+FStabilityFault MakeStaleFault(const FMethod&)
+{
+	return MakeFault(KnownSettings({{"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Shadow.HistorySeconds", "60"}, {"r.RT.AO.HistorySeconds", "60"}}), "");
+}
+
+FStabilityFault MakeUnguardedFault(const FMethod& Method)
+{
+	const auto IsOn = [&](const char* Name) {
+		for (const auto* Settings : {&Method.Settings, &Method.GetTypical().Settings})
+		{
+			for (const FMethodSetting& Setting : *Settings)
+			{
+				if (Setting.Name == Name && Setting.Value == "1") { return true; }
+			}
+		}
+		return false;
+	};
+	// The composite has a guard of its own: in a whole frame nothing would be seen.
+	const bool bFiltered = Method.Signal != Whole && (IsOn("r.RT.Shadow.Denoise") || IsOn("r.RT.AO.Denoise"));
+	const std::vector<FMethodSetting> Unguarded = KnownSettings({{"r.RT.Debug.Denoise.Guard", "0"}, {"r.RT.Debug.Denoise.Adapt", "0"}});
+	return MakeFault(bFiltered ? Unguarded : std::vector<FMethodSetting>(), "one pixel is overwritten");
+}
+
+FStabilityFault MakePlanesFault(const FMethod&) { return MakeFault(KnownSettings({{"r.RT.Shadow.CullFrontFaces", "1"}}), ""); }
+} // namespace
+
+std::span<const FStabilityCase> GetStabilityCases()
+{
+	static const std::vector<FStabilityCase> Cases = {
+	    {1, "thin wall", {Sun, Diffuse, Reflected}, MeasureThinWall, MakeThinWallFault},
+	    {2, "edge and level of detail", {}},
+	    {3, "nested votes", {}},
+	    {4, "light switch", {}},
+	    {5, "time of day", {Sun, Diffuse, Reflected}, MeasureTimeOfDay, nullptr, "the plugin is not told that the sun moves"},
+	    {6, "flicker", {}},
+	    {7, "tiny emitters", {Diffuse}, MeasureTinyEmitters, nullptr, "a fifth of the candles is out"},
+	    {8, "boiling", {}},
+	    {9, "disocclusion", {Sun, Occlusion, Diffuse, Reflected}, MeasureDisocclusion, MakeUncoveringFault},
+	    {10, "ghost", {Sun, Occlusion, Diffuse, Reflected}, MeasureGhost, MakeStaleFault},
+	    {11, "shadow lag", {Sun}, MeasureShadowLag, nullptr, "the fan is where it was three frames ago"},
+	    {12, "mover in a mirror", {}},
+	    {13, "thin specular", {}},
+	    {14, "not a number", {Sun, Occlusion, Diffuse, Reflected, Whole}, MeasureNotANumber, MakeUnguardedFault},
+	    {15, "huge mesh", {}},
+	    {16, "hash overflow", {}},
+	    {17, "light grid", {}},
+	    {18, "frame rate", {Sun, Occlusion, Diffuse, Reflected}, MeasureFrameRate, nullptr, "every frame is said to last 1/60 s, and changes are not looked for"},
+	    {19, "furnace", {Diffuse, Reflected}, MeasureFurnace, nullptr, "the sky is 5 % brighter"},
+	    {20, "hybrid seams", {Sun, Occlusion, Diffuse}, MeasureSeams, nullptr, "every other tile is brighter, by 10 and 30 % in turn"},
+	    {21, "caustics", {}},
+	    {22, "toon edge", {}},
+	    {23, "fog volume", {}},
+	    {24, "far from the origin", {Sun, Occlusion, Diffuse, Reflected, Whole}, MeasureFarAway, nullptr, "the camera is moved in steps of 1/16 m"},
+	    {25, "single-sided plane", {Sun}, MeasurePlanes, MakePlanesFault},
+	    {26, "missing shaders", {}, MeasureMissingShaders, nullptr, "missing shaders are left out, and colours are of other materials", true},
+	    {27, "odd sizes", {Sun, Occlusion, Diffuse, Reflected, Whole}, MeasureOddSizes, nullptr, "columns beyond the last whole tile of 8 are missing"},
+	};
+	return Cases;
+}
+
+} // namespace Lantern

@@ -1,0 +1,29 @@
+// Figures over parts of pictures. A mask has a byte for each pixel; pixels where it is 0 are left out, and so are those in
+// which anything is not finite. NaN where nothing is left.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "LanternMeasure/SignalReference.h"
+
+namespace Lantern
+{
+
+using FPixelMask = std::vector<uint8_t>;
+
+uint64_t CountPixels(const FPixelMask& Mask);
+/// Mean over pixels and colour channels.
+double MeanOver(const FImage& Image, const FPixelMask& Mask);
+double MeanOver(const FImage& Image);
+/// mean((F − A)(F − B) / (R² + 0.01)): the reference's own noise is not in it, since its halves are independent.
+double RelMseOver(const FImage& F, const FSignalReference& Reference, const FPixelMask& Mask);
+/// Mean of frames of one size.
+FImage MeanImage(const std::vector<FImage>& Frames);
+/// |mean F − mean R| of each quarter of the picture, averaged, over the mean of R: errors of light and lag, not of noise.
+double QuarterError(const FImage& F, const FImage& R);
+/// Mean over pixels of the standard deviation over the frames, over the mean. An empty mask: all pixels.
+double TemporalSigma(const std::vector<FImage>& Frames, const FPixelMask& Mask = {});
+FPixelMask MakeFullMask(const FImage& Image);
+
+} // namespace Lantern

@@ -1,0 +1,330 @@
+#include "Commands/VulkanCommandList.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
+namespace Lantern
+{
+
+// ------------------------------------------------------------------------------------------------ recording
+
+FRTStatus FVulkanCommandList::Initialise(const char* InName)
+{
+	Name = InName ? InName : "";
+	VkCommandPoolCreateInfo PoolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+	PoolInfo.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
+	PoolInfo.queueFamilyIndex = Device.QueueFamily;
+	VkResult Result = Device.Check(Device.Api.CreateCommandPool(Device.Handle, &PoolInfo, nullptr, &Pool));
+	if (Result != VK_SUCCESS)
+	{
+		Pool = VK_NULL_HANDLE;
+		return MakeStatus(Result, "Creating the command pool of", Name.c_str());
+	}
+	VkCommandBufferAllocateInfo Info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+	Info.commandPool = Pool;
+	Info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+	Info.commandBufferCount = 1;
+	Result = Device.Check(Device.Api.AllocateCommandBuffers(Device.Handle, &Info, &Handle));
+	if (Result == VK_SUCCESS)
+	{
+		Device.SetName(VK_OBJECT_TYPE_COMMAND_BUFFER, ToNative(Handle), Name.c_str());
+	}
+	return MakeStatus(Result, "Allocating the command buffer of", Name.c_str());
+}
+
+void FVulkanCommandList::InitialiseImported(VkCommandBuffer Buffer)
+{
+	bImported = true;
+	Handle = Buffer;
+}
+
+FVulkanCommandList::~FVulkanCommandList()
+{
+	ReleaseKept();
+	if (Pool)
+	{
+		Device.Api.DestroyCommandPool(Device.Handle, Pool, nullptr);
+	}
+}
+
+void FVulkanCommandList::Keep(IRTRefCounted* Object)
+{
+	if (Object && Kept.insert(Object).second)
+	{
+		Object->AddRef();
+	}
+}
+
+void FVulkanCommandList::KeepAlive(IRTRefCounted* Object)
+{
+	Keep(Object);
+}
+
+void FVulkanCommandList::ReleaseKept()
+{
+	for (IRTRefCounted* Object : Kept)
+	{
+		Object->Release();
+	}
+	Kept.clear();
+}
+
+FVulkanKept FVulkanCommandList::TakeKept(FRTFence InFence)
+{
+	Fence = InFence;
+	for (const auto& [Queries, Index] : QueriesWritten)
+	{
+		Queries->NoteWrite(Index, InFence);
+	}
+	QueriesWritten.clear();
+	FVulkanKept Result;
+	Result.swap(Kept);
+	return Result;
+}
+
+FRTStatus FVulkanCommandList::Begin()
+{
+	assert(!bImported);
+	if (Device.IsLost())
+	{
+		return Device.LostStatus();
+	}
+	assert(Fence <= Device.GetCompletedFence() && "Begin before the last submission has finished");
+	ReleaseKept();
+	Error = {};
+	Bound = nullptr;
+	SetBoundPoints = 0;
+	PushedBytes = 0;
+	QueriesWritten.clear();
+	VkResult Result = Device.Check(Device.Api.ResetCommandPool(Device.Handle, Pool, 0));
+	VkCommandBufferBeginInfo Info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+	Info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+	Result = Result ? Result : Device.Check(Device.Api.BeginCommandBuffer(Handle, &Info));
+	return MakeStatus(Result, "Beginning command list", Name.c_str());
+}
+
+FRTStatus FVulkanCommandList::End()
+{
+	assert(!bImported);
+	if (Device.IsLost())
+	{
+		return Device.LostStatus();
+	}
+	const VkResult Result = Device.Check(Device.Api.EndCommandBuffer(Handle));
+	return Error ? MakeStatus(Result, "Ending command list", Name.c_str()) : Error;
+}
+
+void FVulkanCommandList::Barrier(const FVulkanAccess& Before, const FVulkanAccess& After)
+{
+	VkMemoryBarrier2 Memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+	Memory.srcStageMask = Before.Stages;
+	Memory.srcAccessMask = Before.Access;
+	Memory.dstStageMask = After.Stages;
+	Memory.dstAccessMask = After.Access;
+	VkDependencyInfo Info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+	Info.memoryBarrierCount = 1;
+	Info.pMemoryBarriers = &Memory;
+	Device.Api.CmdPipelineBarrier2(Handle, &Info);
+}
+
+void FVulkanCommandList::Barriers(const FRTBarrier* Items, uint32_t Count)
+{
+	// Buffers by a global memory barrier: no driver makes a buffer's barrier finer than that.
+	VkMemoryBarrier2 Memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+	std::vector<VkImageMemoryBarrier2> Images;
+	for (uint32_t Index = 0; Index < Count; ++Index)
+	{
+		const FRTBarrier& Item = Items[Index];
+		assert(!(Item.Buffer && Item.Texture));
+		const FVulkanAccess Before = AccessOf(Item.Before, Device.Bits);
+		const FVulkanAccess After = AccessOf(Item.After, Device.Bits);
+		if (!Item.Texture)
+		{
+			Keep(Item.Buffer);
+			Memory.srcStageMask |= Before.Stages;
+			Memory.srcAccessMask |= Before.Access;
+			Memory.dstStageMask |= After.Stages;
+			Memory.dstAccessMask |= After.Access;
+			continue;
+		}
+		Keep(Item.Texture);
+		const FVulkanTexture* Texture = static_cast<const FVulkanTexture*>(Item.Texture);
+		VkImageMemoryBarrier2 Image{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+		// Contents are dropped, but whoever used the memory last must be done with it.
+		Image.srcStageMask = Item.Before == ERTAccess::None ? VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT : Before.Stages;
+		Image.srcAccessMask = Before.Access;
+		Image.dstStageMask = After.Stages;
+		Image.dstAccessMask = After.Access;
+		Image.oldLayout = GetVulkanLayout(Item.Before);
+		Image.newLayout = GetVulkanLayout(Item.After);
+		Image.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+		Image.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+		Image.image = Texture->GetImage();
+		Image.subresourceRange = {AspectOf(Texture->GetDesc().Format), 0, VK_REMAINING_MIP_LEVELS, 0,
+		                          VK_REMAINING_ARRAY_LAYERS};
+		Images.push_back(Image);
+	}
+	VkDependencyInfo Info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+	Info.memoryBarrierCount = Memory.srcStageMask || Memory.dstStageMask ? 1 : 0;
+	Info.pMemoryBarriers = &Memory;
+	Info.imageMemoryBarrierCount = static_cast<uint32_t>(Images.size());
+	Info.pImageMemoryBarriers = Images.data();
+	if (Info.memoryBarrierCount || Info.imageMemoryBarrierCount)
+	{
+		Device.Api.CmdPipelineBarrier2(Handle, &Info);
+	}
+}
+
+// ------------------------------------------------------------------------------------------------ pipelines
+
+void FVulkanCommandList::SetPipeline(IRTPipeline* Pipeline)
+{
+	Keep(Pipeline);
+	Bound = static_cast<FVulkanPipeline*>(Pipeline);
+	Device.Api.CmdBindPipeline(Handle, Bound->BindPoint, Bound->Handle);
+	const uint32_t Bit =
+	    Bound->BindPoint == VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR ? 4u : 1u << static_cast<uint32_t>(Bound->BindPoint);
+	// In an engine's command buffer other sets may have been bound since.
+	if (bImported || !(SetBoundPoints & Bit))
+	{
+		Device.Api.CmdBindDescriptorSets(Handle, Bound->BindPoint, Device.Bindless.PipelineLayout, 0, 1,
+		                                 &Device.Bindless.Set, 0, nullptr);
+		SetBoundPoints |= Bit;
+	}
+}
+
+void FVulkanCommandList::PushConstants(const void* Data, uint32_t Size)
+{
+	assert(Bound && Size % 4 == 0 && Size <= Device.GetCapabilities().MaxPushConstantBytes);
+	Device.Api.CmdPushConstants(Handle, Device.Bindless.PipelineLayout, AllStages(Device.Bits), 0, Size, Data);
+	const uint32_t Remembered = std::min<uint32_t>(Size, sizeof(Pushed));
+	memcpy(Pushed, Data, Remembered);
+	PushedBytes = std::max(PushedBytes, Remembered);
+}
+
+void FVulkanCommandList::Dispatch(uint32_t GroupsX, uint32_t GroupsY, uint32_t GroupsZ)
+{
+	assert(Bound && Bound->BindPoint == VK_PIPELINE_BIND_POINT_COMPUTE);
+	Device.Api.CmdDispatch(Handle, GroupsX, GroupsY, GroupsZ);
+}
+
+// ------------------------------------------------------------------------------------------------ raster
+
+void FVulkanCommandList::BeginRasterPass(const FRTRasterPassDesc& Desc)
+{
+	std::vector<VkRenderingAttachmentInfo> Colors(Desc.ColorCount);
+	for (uint32_t Index = 0; Index < Desc.ColorCount; ++Index)
+	{
+		const FRTColorTarget& Target = Desc.Colors[Index];
+		Keep(Target.Texture);
+		VkRenderingAttachmentInfo& Color = Colors[Index];
+		Color = {VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+		Color.imageView = static_cast<FVulkanTexture*>(Target.Texture)->GetAttachmentView();
+		Color.imageLayout = GetVulkanLayout(ERTAccess::RenderTarget);
+		Color.loadOp = Target.bClear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
+		Color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+		for (uint32_t Channel = 0; Channel < 4; ++Channel)
+		{
+			if (IsIntegerFormat(Target.Texture->GetDesc().Format))
+			{
+				Color.clearValue.color.uint32[Channel] = static_cast<uint32_t>(Target.Clear[Channel]);
+			}
+			else
+			{
+				Color.clearValue.color.float32[Channel] = Target.Clear[Channel];
+			}
+		}
+	}
+	VkRenderingAttachmentInfo Depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+	if (Desc.Depth)
+	{
+		Keep(Desc.Depth);
+		Depth.imageView = static_cast<FVulkanTexture*>(Desc.Depth)->GetAttachmentView();
+		Depth.imageLayout = GetVulkanLayout(ERTAccess::DepthWrite);
+		Depth.loadOp = Desc.bClearDepth ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
+		Depth.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+		Depth.clearValue.depthStencil = {0.0f, 0};
+	}
+	VkRenderingInfo Info{VK_STRUCTURE_TYPE_RENDERING_INFO};
+	Info.renderArea.extent = {Desc.Width, Desc.Height};
+	Info.layerCount = 1;
+	Info.colorAttachmentCount = Desc.ColorCount;
+	Info.pColorAttachments = Colors.data();
+	Info.pDepthAttachment = Desc.Depth ? &Depth : nullptr;
+	Device.Api.CmdBeginRendering(Handle, &Info);
+	const VkViewport Viewport = {0.0f, 0.0f, static_cast<float>(Desc.Width), static_cast<float>(Desc.Height),
+	                             0.0f, 1.0f};
+	Device.Api.CmdSetViewport(Handle, 0, 1, &Viewport);
+	Device.Api.CmdSetScissor(Handle, 0, 1, &Info.renderArea);
+}
+
+void FVulkanCommandList::EndRasterPass()
+{
+	Device.Api.CmdEndRendering(Handle);
+}
+
+void FVulkanCommandList::SetIndexBuffer(IRTBuffer* Buffer, uint64_t Offset, ERTIndexType Type)
+{
+	assert(Type != ERTIndexType::None);
+	Keep(Buffer);
+	Device.Api.CmdBindIndexBuffer(Handle, static_cast<FVulkanBuffer*>(Buffer)->Block.Handle, Offset,
+	                              Type == ERTIndexType::UInt16 ? VK_INDEX_TYPE_UINT16 : VK_INDEX_TYPE_UINT32);
+}
+
+void FVulkanCommandList::Draw(uint32_t VertexCount, uint32_t InstanceCount)
+{
+	Device.Api.CmdDraw(Handle, VertexCount, InstanceCount, 0, 0);
+}
+
+void FVulkanCommandList::DrawIndexed(uint32_t IndexCount, uint32_t InstanceCount, uint32_t FirstIndex,
+                                     int32_t VertexOffset)
+{
+	Device.Api.CmdDrawIndexed(Handle, IndexCount, InstanceCount, FirstIndex, VertexOffset, 0);
+}
+
+// ------------------------------------------------------------------------------------------------ queries, markers
+
+void FVulkanCommandList::WriteTimestamp(IRTQueryPool* Queries, uint32_t Index)
+{
+	Keep(Queries);
+	if (Device.GetCapabilities().bTimestamps)
+	{
+		FVulkanQueryPool* Native = static_cast<FVulkanQueryPool*>(Queries);
+		QueriesWritten.push_back({Native, Index});
+		Device.Api.CmdWriteTimestamp2(Handle, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, Native->Handle, Index);
+	}
+}
+
+void FVulkanCommandList::ResetQueries(IRTQueryPool* Queries, uint32_t First, uint32_t Count)
+{
+	Keep(Queries);
+	FVulkanQueryPool* Native = static_cast<FVulkanQueryPool*>(Queries);
+	Native->NoteReset(First, Count);
+	Device.Api.CmdResetQueryPool(Handle, Native->Handle, First, Count);
+}
+
+void FVulkanCommandList::BeginMarker(const char* MarkerName)
+{
+	if (Device.Instance->bDebugUtils)
+	{
+		VkDebugUtilsLabelEXT Label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
+		Label.pLabelName = MarkerName;
+		Device.Instance->Api.CmdBeginDebugUtilsLabelEXT(Handle, &Label);
+	}
+}
+
+void FVulkanCommandList::EndMarker()
+{
+	if (Device.Instance->bDebugUtils)
+	{
+		Device.Instance->Api.CmdEndDebugUtilsLabelEXT(Handle);
+	}
+}
+
+uint64_t FVulkanCommandList::GetNative(ERTNative Kind) const
+{
+	return Kind == ERTNative::CommandBuffer ? ToNative(Handle) : 0;
+}
+
+} // namespace Lantern

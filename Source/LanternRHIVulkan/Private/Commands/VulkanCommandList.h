@@ -1,0 +1,94 @@
+#pragma once
+
+#include "Resources/VulkanAccel.h"
+#include "Resources/VulkanBuffer.h"
+#include "Pipelines/VulkanPipeline.h"
+#include "Commands/VulkanQueryPool.h"
+#include "ShaderTable/VulkanShaderTable.h"
+#include "Resources/VulkanTexture.h"
+
+namespace Lantern
+{
+
+class FVulkanCommandList final : public TVulkanObject<IRTCommandList>
+{
+public:
+	using TVulkanObject::TVulkanObject;
+	FRTStatus Initialise(const char* InName);
+	/// The engine's command buffer, in the recording state.
+	void InitialiseImported(VkCommandBuffer Buffer);
+
+	// VulkanCommandList.cpp
+	FRTStatus Begin() override;
+	FRTStatus End() override;
+	void Barriers(const FRTBarrier* Items, uint32_t Count) override;
+	void SetPipeline(IRTPipeline* Pipeline) override;
+	void PushConstants(const void* Data, uint32_t Size) override;
+	void Dispatch(uint32_t GroupsX, uint32_t GroupsY, uint32_t GroupsZ) override;
+	void BeginRasterPass(const FRTRasterPassDesc& Desc) override;
+	void EndRasterPass() override;
+	void SetIndexBuffer(IRTBuffer* Buffer, uint64_t Offset, ERTIndexType Type) override;
+	void Draw(uint32_t VertexCount, uint32_t InstanceCount) override;
+	void DrawIndexed(uint32_t IndexCount, uint32_t InstanceCount, uint32_t FirstIndex, int32_t VertexOffset) override;
+	void KeepAlive(IRTRefCounted* Object) override;
+	void WriteTimestamp(IRTQueryPool* Pool, uint32_t Index) override;
+	void ResetQueries(IRTQueryPool* Pool, uint32_t First, uint32_t Count) override;
+	void BeginMarker(const char* Name) override;
+	void EndMarker() override;
+	uint64_t GetNative(ERTNative Kind) const override;
+
+	// VulkanCommandListCopy.cpp
+	void CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTBuffer* Source, uint64_t SourceOffset,
+	                uint64_t Size) override;
+	void CopyBufferRegions(IRTBuffer* Dest, IRTBuffer* Source, const FRTBufferRegion* Regions, uint32_t Count) override;
+	void CopyBufferToTexture(IRTTexture* Dest, uint32_t Mip, uint32_t Layer, IRTBuffer* Source,
+	                         uint64_t SourceOffset) override;
+	void CopyTextureToBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTTexture* Source, uint32_t Mip,
+	                         uint32_t Layer) override;
+	void FillBuffer(IRTBuffer* Dest, uint64_t Offset, uint64_t Size, uint32_t Value) override;
+	void ClearTexture(IRTTexture* Dest, const float Value[4]) override;
+	/// By linear blits: a box filter for even sizes. Of an odd size each texel takes two of the three that it covers.
+	void GenerateMips(IRTTexture* Texture) override;
+
+	// VulkanCommandListTrace.cpp
+	void TraceRays(IRTShaderTable* Table, uint32_t RayGen, uint32_t Width, uint32_t Height, uint32_t Depth) override;
+	/// The bytes are taken at once: lists that update one table are to be submitted in the order of these calls.
+	void UpdateShaderTable(IRTShaderTable* Table) override;
+	void BuildGeometries(const FRTGeometryBuild* Builds, uint32_t Count) override;
+	void WriteCompactedSize(IRTQueryPool* Queries, uint32_t Index, IRTGeometry* Geometry) override;
+	void CompactGeometry(IRTGeometry* Dest, IRTGeometry* Source) override;
+	void BuildScene(IRTScene* Scene, IRTBuffer* Instances, uint64_t InstanceOffset, uint32_t Count, IRTBuffer* Scratch,
+	                uint64_t ScratchOffset) override;
+
+	// For the device.
+	VkCommandBuffer GetHandle() const { return Handle; }
+	bool IsImported() const { return bImported; }
+	/// What went wrong while recording; calls that return nothing leave it here.
+	const FRTStatus& GetError() const { return Error; }
+	/// At submission: the references now belong to it.
+	FVulkanKept TakeKept(FRTFence InFence);
+
+private:
+	~FVulkanCommandList() override;
+	void Keep(IRTRefCounted* Object);
+	void ReleaseKept();
+	void Barrier(const FVulkanAccess& Before, const FVulkanAccess& After);
+	void CopyRecords(const FVulkanShaderTable::FCopies& Item, VkBuffer Dest);
+	void MipBarrier(const FVulkanTexture& Texture, uint32_t First, uint32_t Count, VkImageLayout Before,
+	                VkImageLayout After);
+
+	std::string Name;
+	bool bImported = false;
+	VkCommandPool Pool = VK_NULL_HANDLE;
+	VkCommandBuffer Handle = VK_NULL_HANDLE;
+	FRTFence Fence = 0;
+	FRTStatus Error;
+	FVulkanKept Kept;
+	FVulkanPipeline* Bound = nullptr;
+	uint8_t Pushed[sizeof(FVulkanTableScatter::FPush)] = {}; ///< what a scatter writes over
+	uint32_t PushedBytes = 0;
+	std::vector<std::pair<FVulkanQueryPool*, uint32_t>> QueriesWritten;
+	uint32_t SetBoundPoints = 0; ///< bit per bind point that has the descriptor set
+};
+
+} // namespace Lantern

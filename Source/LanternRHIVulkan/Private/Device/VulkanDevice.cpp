@@ -1,0 +1,296 @@
+#include "Device/VulkanDeviceImpl.h"
+
+#include "Commands/VulkanCommandList.h"
+
+#include <cassert>
+
+namespace Lantern
+{
+
+void AddChild(FVulkanDevice& Device)
+{
+	Device.AddOne();
+}
+
+void RetireChild(FVulkanDevice& Device, void* Object, void (*Delete)(void*))
+{
+	Device.Retire(Object, Delete);
+	Device.DropOne();
+}
+
+FRTStatus SaveVulkanPipelineCache(IRTDevice* Device)
+{
+	return static_cast<FVulkanDevice*>(Device)->SaveCache();
+}
+
+// ------------------------------------------------------------------------------------------------ lifetime
+
+uint32_t FVulkanDevice::Release()
+{
+	const uint32_t Left = References.fetch_sub(1) - 1;
+	if (Left == 0)
+	{
+		// Submissions keep objects, and objects the device: with no one left to collect, that must end here.
+		(void)WaitIdle();
+		CollectUpTo(IsLost() ? ~FRTFence(0) : LastCompleted.load());
+		DropOne();
+	}
+	return Left;
+}
+
+void FVulkanDevice::DropOne()
+{
+	if (Children.fetch_sub(1) == 1)
+	{
+		// Objects deleted below release others: they must not come to this line again.
+		Children.store(1u << 30);
+		delete this;
+	}
+}
+
+void FVulkanDevice::Retire(void* Object, void (*Delete)(void*))
+{
+	std::scoped_lock Lock(GarbageMutex);
+	Garbage.push_back({LastSubmitted.load(), Object, Delete});
+}
+
+void FVulkanDevice::CollectUpTo(FRTFence Done)
+{
+	for (;;)
+	{
+		std::vector<FGarbage> Dead;
+		std::vector<FPacket> Finished;
+		{
+			std::scoped_lock Lock(GarbageMutex);
+			// Both queues are in the order of their fences, or nearly: an entry out of order waits a little longer.
+			while (!Packets.empty() && Packets.front().Fence <= Done)
+			{
+				Finished.push_back(std::move(Packets.front()));
+				Packets.pop_front();
+			}
+			while (!Garbage.empty() && Garbage.front().Fence <= Done)
+			{
+				Dead.push_back(Garbage.front());
+				Garbage.pop_front();
+			}
+		}
+		if (Dead.empty() && Finished.empty())
+		{
+			return;
+		}
+		// Outside the lock: both release further objects.
+		for (const FPacket& Packet : Finished)
+		{
+			for (IRTRefCounted* Object : Packet.Kept)
+			{
+				Object->Release();
+			}
+		}
+		for (const FGarbage& Item : Dead)
+		{
+			Item.Delete(Item.Object);
+		}
+	}
+}
+
+void FVulkanDevice::CollectGarbage()
+{
+	CollectUpTo(IsLost() ? 0 : GetCompletedFence());
+}
+
+// ------------------------------------------------------------------------------------------------ timeline
+
+VkResult FVulkanDevice::Check(VkResult Result)
+{
+	if (Result == VK_ERROR_DEVICE_LOST && !bLost.exchange(true))
+	{
+		Instance->Report(ERTVulkanMessage::Error, "the device was lost");
+	}
+	return Result;
+}
+
+FRTStatus FVulkanDevice::LostStatus() const
+{
+	return FRTStatus::Error(ERTResult::DeviceLost, "The Vulkan device %s was lost.", Probe.Capabilities.DeviceName);
+}
+
+VkResult FVulkanDevice::SubmitBatch(const std::vector<VkCommandBufferSubmitInfo>& Buffers)
+{
+	VkSemaphoreSubmitInfo Signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
+	Signal.semaphore = Timeline;
+	Signal.value = LastSubmitted.load() + 1;
+	Signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+	VkSubmitInfo2 Info{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+	Info.commandBufferInfoCount = static_cast<uint32_t>(Buffers.size());
+	Info.pCommandBufferInfos = Buffers.data();
+	Info.signalSemaphoreInfoCount = 1;
+	Info.pSignalSemaphoreInfos = &Signal;
+	if (QueueLock.Lock)
+	{
+		QueueLock.Lock(QueueLock.User);
+	}
+	const VkResult Result = Check(Api.QueueSubmit2(Queue, 1, &Info, VK_NULL_HANDLE));
+	if (QueueLock.Unlock)
+	{
+		QueueLock.Unlock(QueueLock.User);
+	}
+	if (Result == VK_SUCCESS)
+	{
+		LastSubmitted.store(Signal.value);
+	}
+	return Result;
+}
+
+FRTStatus FVulkanDevice::SubmitLists(IRTCommandList* const* Lists, uint32_t Count, bool bExternal, FRTFence* OutFence)
+{
+	if (OutFence)
+	{
+		*OutFence = 0;
+	}
+	if (IsLost())
+	{
+		return LostStatus();
+	}
+	FRTStatus Recording;
+	std::vector<VkCommandBufferSubmitInfo> Buffers;
+	for (uint32_t Index = 0; Index < Count; ++Index)
+	{
+		FVulkanCommandList* List = static_cast<FVulkanCommandList*>(Lists[Index]);
+		assert(List->IsImported() == bExternal &&
+		       "Submit takes lists of the device, NotifyExternalSubmit imported ones");
+		Recording = Recording ? List->GetError() : Recording;
+		// What an engine says that it has submitted runs, whatever is wrong with it: it must still be waited for.
+		if (!Recording && !bExternal)
+		{
+			return Recording;
+		}
+		if (!bExternal)
+		{
+			VkCommandBufferSubmitInfo Info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
+			Info.commandBuffer = List->GetHandle();
+			Buffers.push_back(Info);
+		}
+	}
+	{
+		std::scoped_lock Lock(SubmitMutex);
+		const VkResult Result = SubmitBatch(Buffers);
+		if (Result != VK_SUCCESS)
+		{
+			return MakeStatus(Result, "vkQueueSubmit2", Count ? "command lists" : "nothing");
+		}
+		const FRTFence Fence = LastSubmitted.load();
+		std::scoped_lock GarbageLock(GarbageMutex);
+		for (uint32_t Index = 0; Index < Count; ++Index)
+		{
+			FVulkanCommandList* List = static_cast<FVulkanCommandList*>(Lists[Index]);
+			Packets.push_back({Fence, List->TakeKept(Fence)});
+		}
+		if (OutFence)
+		{
+			*OutFence = Fence;
+		}
+	}
+	CollectGarbage();
+	return Recording;
+}
+
+FRTStatus FVulkanDevice::Submit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence)
+{
+	return SubmitLists(Lists, Count, false, OutFence);
+}
+
+FRTStatus FVulkanDevice::NotifyExternalSubmit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence)
+{
+	return SubmitLists(Lists, Count, true, OutFence);
+}
+
+FRTFence FVulkanDevice::GetCompletedFence()
+{
+	uint64_t Value = 0;
+	if (!IsLost() && Check(Api.GetSemaphoreCounterValue(Handle, Timeline, &Value)) == VK_SUCCESS)
+	{
+		FRTFence Known = LastCompleted.load();
+		while (Known < Value && !LastCompleted.compare_exchange_weak(Known, Value)) {}
+	}
+	return LastCompleted.load();
+}
+
+FRTStatus FVulkanDevice::WaitFor(FRTFence Fence, uint64_t TimeoutNs)
+{
+	if (IsLost())
+	{
+		return LostStatus();
+	}
+	assert(Fence <= LastSubmitted.load() && "a fence that no submission returned");
+	VkSemaphoreWaitInfo Info{VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
+	Info.semaphoreCount = 1;
+	Info.pSemaphores = &Timeline;
+	Info.pValues = &Fence;
+	const VkResult Result = Check(Api.WaitSemaphores(Handle, &Info, TimeoutNs));
+	if (Result == VK_SUCCESS)
+	{
+		CollectGarbage();
+	}
+	return MakeStatus(Result, "vkWaitSemaphores", "timeline");
+}
+
+FRTStatus FVulkanDevice::WaitIdle()
+{
+	return WaitFor(LastSubmitted.load(), ~uint64_t(0));
+}
+
+// ------------------------------------------------------------------------------------------------ the rest
+
+void FVulkanDevice::Account(EVulkanMemoryKind Kind, int64_t Change)
+{
+	Bytes[static_cast<uint32_t>(Kind)].fetch_add(Change);
+	const int64_t Total = TotalBytes.fetch_add(Change) + Change;
+	int64_t Peak = PeakBytes.load();
+	while (Peak < Total && !PeakBytes.compare_exchange_weak(Peak, Total)) {}
+}
+
+FRTMemoryStats FVulkanDevice::GetMemoryStats() const
+{
+	const auto Of = [&](EVulkanMemoryKind Kind)
+	{ return static_cast<uint64_t>(Bytes[static_cast<uint32_t>(Kind)].load()); };
+	FRTMemoryStats Stats;
+	Stats.Geometry = Of(EVulkanMemoryKind::Geometry);
+	Stats.Scene = Of(EVulkanMemoryKind::Scene);
+	Stats.ShaderTable = Of(EVulkanMemoryKind::ShaderTable);
+	Stats.Texture = Of(EVulkanMemoryKind::Texture);
+	Stats.Buffer = Of(EVulkanMemoryKind::Buffer);
+	Stats.Scratch = Of(EVulkanMemoryKind::Scratch);
+	Stats.Total = static_cast<uint64_t>(TotalBytes.load());
+	Stats.Peak = static_cast<uint64_t>(PeakBytes.load());
+	return Stats;
+}
+
+void FVulkanDevice::SetName(VkObjectType Type, uint64_t Object, const char* Name) const
+{
+	if (!Instance->bDebugUtils || !Instance->Api.SetDebugUtilsObjectNameEXT || !Name || !Name[0] || !Object)
+	{
+		return;
+	}
+	VkDebugUtilsObjectNameInfoEXT Info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
+	Info.objectType = Type;
+	Info.objectHandle = Object;
+	Info.pObjectName = Name;
+	Instance->Api.SetDebugUtilsObjectNameEXT(Handle, &Info);
+}
+
+uint64_t FVulkanDevice::GetNative(ERTNative Kind) const
+{
+	switch (Kind)
+	{
+	case ERTNative::Instance: return ToNative(Instance->Handle);
+	case ERTNative::PhysicalDevice: return ToNative(Physical);
+	case ERTNative::Device: return ToNative(Handle);
+	case ERTNative::Queue: return ToNative(Queue);
+	case ERTNative::QueueFamily: return QueueFamily;
+	case ERTNative::DescriptorSet: return ToNative(Bindless.Set);
+	case ERTNative::PipelineLayout: return ToNative(Bindless.PipelineLayout);
+	default: return 0;
+	}
+}
+
+} // namespace Lantern

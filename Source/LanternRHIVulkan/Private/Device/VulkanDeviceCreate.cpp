@@ -1,0 +1,292 @@
+#include "Device/VulkanDeviceImpl.h"
+
+#include "Device/VulkanRequirements.h"
+
+#include <cassert>
+#include <cstdio>
+
+namespace Lantern
+{
+
+FVulkanDevice::FVulkanDevice(std::unique_ptr<FVulkanInstance> InInstance, VkPhysicalDevice InPhysical,
+                             const FVulkanProbe& InProbe, const char* CacheFile)
+    : Instance(std::move(InInstance)),
+      Physical(InPhysical),
+      Probe(InProbe),
+      Cache(CacheFile)
+{
+	Probe.Features.Link(Probe.Extensions);
+	Bits = {Probe.bAccel, Probe.Capabilities.bRayQuery, Probe.Capabilities.bRayTracingPipeline, Probe.bMaintenance1};
+	QueueFamily = Probe.QueueFamily;
+}
+
+FVulkanDevice::~FVulkanDevice()
+{
+	if (!Handle)
+	{
+		return;
+	}
+	if (Timeline)
+	{
+		(void)WaitIdle();
+		CollectUpTo(~FRTFence(0));
+		if (const FRTStatus Status = Cache.Save(); !Status)
+		{
+			Instance->Report(ERTVulkanMessage::Warning, Status.Message);
+		}
+		Api.DestroySemaphore(Handle, Timeline, nullptr);
+	}
+	Scatter.Destroy(*this);
+	Cache.Destroy();
+	Bindless.Destroy();
+	Memory.Destroy();
+	if (bOwned)
+	{
+		// The table may be incomplete when creation failed half-way.
+		const auto DestroyDevice =
+		    reinterpret_cast<PFN_vkDestroyDevice>(Instance->Api.GetDeviceProcAddr(Handle, "vkDestroyDevice"));
+		DestroyDevice(Handle, nullptr);
+	}
+}
+
+FRTStatus FVulkanDevice::CreateNative()
+{
+	const float Priority = 1.0f;
+	VkDeviceQueueCreateInfo QueueInfo{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+	QueueInfo.queueFamilyIndex = QueueFamily;
+	QueueInfo.queueCount = 1;
+	QueueInfo.pQueuePriorities = &Priority;
+	VkDeviceCreateInfo Info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &Probe.Features.Core};
+	Info.queueCreateInfoCount = 1;
+	Info.pQueueCreateInfos = &QueueInfo;
+	Info.enabledExtensionCount = static_cast<uint32_t>(Probe.Extensions.size());
+	Info.ppEnabledExtensionNames = Probe.Extensions.data();
+	const VkResult Result = Instance->Api.CreateDevice(Physical, &Info, nullptr, &Handle);
+	if (Result != VK_SUCCESS)
+	{
+		Handle = VK_NULL_HANDLE;
+		return MakeStatus(Result, "vkCreateDevice", Probe.Capabilities.DeviceName);
+	}
+	bOwned = true;
+	FRTStatus Status = LoadDeviceApi(Instance->Api, Handle, Bits.bAccel, Bits.bPipeline, &Api);
+	if (!Status)
+	{
+		return Status;
+	}
+	Api.GetDeviceQueue(Handle, QueueFamily, 0, &Queue);
+	return CreateShared();
+}
+
+FRTStatus FVulkanDevice::AdoptNative(VkDevice InDevice, VkQueue InQueue, uint32_t InFamily, const FQueueLock& InLock)
+{
+	Queue = InQueue;
+	QueueFamily = InFamily;
+	QueueLock = InLock;
+	Handle = InDevice;
+	FRTStatus Status = LoadDeviceApi(Instance->Api, Handle, Bits.bAccel, Bits.bPipeline, &Api);
+	return Status ? CreateShared() : Status;
+}
+
+FRTStatus FVulkanDevice::CreateShared()
+{
+	const char* Name = Probe.Capabilities.DeviceName;
+	uint32_t FamilyCount = 0;
+	Instance->Api.GetPhysicalDeviceQueueFamilyProperties(Physical, &FamilyCount, nullptr);
+	std::vector<VkQueueFamilyProperties> Families(FamilyCount);
+	Instance->Api.GetPhysicalDeviceQueueFamilyProperties(Physical, &FamilyCount, Families.data());
+	assert(QueueFamily < FamilyCount);
+	TimestampBits = Families[QueueFamily].timestampValidBits;
+	Probe.Capabilities.bTimestamps = TimestampBits > 0;
+
+	FRTStatus Status = MakeStatus(Memory.Create(Instance->Handle, Physical, Handle, Instance->Api),
+	                              "Creating the memory allocator of", Name);
+	if (!Status)
+	{
+		return Status;
+	}
+	const uint32_t Textures = Probe.Capabilities.MaxBindlessTextures;
+	Status = MakeStatus(
+	    Bindless.Create(Handle, Api, {Textures, Textures, Probe.MaxBindlessSamplers, Probe.MaxBindlessScenes}, Bits),
+	    "Creating the descriptor heap of", Name);
+	if (!Status)
+	{
+		return Status;
+	}
+	char Message[512] = {};
+	Status = MakeStatus(Cache.Create(Handle, Api, Probe, Message, sizeof(Message)), "vkCreatePipelineCache", Name);
+	if (Message[0])
+	{
+		Instance->Report(ERTVulkanMessage::Warning, Message);
+	}
+	if (!Status)
+	{
+		return Status;
+	}
+	VkSemaphoreTypeCreateInfo Type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
+	Type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
+	VkSemaphoreCreateInfo Info{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &Type};
+	Status = MakeStatus(Api.CreateSemaphore(Handle, &Info, nullptr, &Timeline), "vkCreateSemaphore", Name);
+	SetName(VK_OBJECT_TYPE_SEMAPHORE, ToNative(Timeline), "Lantern timeline");
+	SetName(VK_OBJECT_TYPE_DESCRIPTOR_SET, ToNative(Bindless.Set), "Lantern bindless");
+	return Status;
+}
+
+namespace
+{
+
+const char* TypeName(VkPhysicalDeviceType Type)
+{
+	switch (Type)
+	{
+	case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return "discrete";
+	case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return "integrated";
+	case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return "virtual";
+	case VK_PHYSICAL_DEVICE_TYPE_CPU: return "cpu";
+	default: return "other";
+	}
+}
+
+bool IsGoodEnough(const FVulkanProbe& Probe, const FRTVulkanDeviceDesc& Desc)
+{
+	return Probe.bUsable && (Desc.bAllowNoRayTracing || Probe.Capabilities.Rung != ERTRung::None);
+}
+
+/// Larger is better; pipelines before the kind of device, CPUs always last.
+int Score(const FVulkanProbe& Probe)
+{
+	int Points = static_cast<int>(Probe.Capabilities.Rung) + (Probe.Capabilities.bRayQuery ? 8 : 0);
+	Points += Probe.Type == VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU ? 100 : 0;
+	Points += Probe.Type == VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU ? 50 : 0;
+	Points += Probe.Capabilities.bRayTracingPipeline ? 1000 : 0;
+	Points += Probe.Capabilities.Rung != ERTRung::None ? 500 : 0;
+	return Probe.Capabilities.bIsCpu ? Points - 10000 : Points;
+}
+
+FRTStatus ChooseDevice(const FVulkanInstance& Instance, const FRTVulkanDeviceDesc& Desc, VkPhysicalDevice* OutPhysical,
+                       FVulkanProbe* OutProbe)
+{
+	const std::vector<VkPhysicalDevice> Devices = Instance.GetPhysicalDevices();
+	if (Devices.empty())
+	{
+		return FRTStatus::Error(ERTResult::Unsupported,
+		                        "No Vulkan device: the loader is there, but no driver answers.");
+	}
+	const int Count = static_cast<int>(Devices.size());
+	if (Desc.DeviceIndex < -1 || Desc.DeviceIndex >= Count)
+	{
+		return FRTStatus::Error(ERTResult::InvalidArgument, "Device %d was asked for; there are %d, counted from 0.",
+		                        Desc.DeviceIndex, Count);
+	}
+	std::string Reasons;
+	bool bFound = false;
+	for (int Index = 0; Index < Count; ++Index)
+	{
+		if (Desc.DeviceIndex >= 0 && Index != Desc.DeviceIndex)
+		{
+			continue;
+		}
+		FVulkanProbe Probe;
+		ProbeVulkanDevice(Instance.Api, Devices[Index], {Desc.MaxRung, Desc.bDisableRayQuery, Desc.bDisablePipeline},
+		                  &Probe);
+		if (!IsGoodEnough(Probe, Desc))
+		{
+			Reasons += "\n  " + std::to_string(Index) + ": " + DescribeProbe(Probe);
+		}
+		else if (!bFound || Score(Probe) > Score(*OutProbe))
+		{
+			bFound = true;
+			*OutProbe = Probe;
+			*OutPhysical = Devices[Index];
+		}
+	}
+	return bFound ? FRTStatus()
+	              : FRTStatus::Error(ERTResult::Unsupported, "No Vulkan device can run Lantern:%s", Reasons.c_str());
+}
+
+} // namespace
+
+FRTStatus CreateVulkanDevice(const FRTVulkanDeviceDesc& Desc, IRTDevice** Out)
+{
+	*Out = nullptr;
+	auto Instance = std::make_unique<FVulkanInstance>();
+	FRTStatus Status =
+	    Instance->Create({Desc.bValidation, Desc.bSynchronizationValidation, Desc.MessageCallback, Desc.MessageUser});
+	if (!Status)
+	{
+		return Status;
+	}
+	VkPhysicalDevice Physical = VK_NULL_HANDLE;
+	FVulkanProbe Probe;
+	Status = ChooseDevice(*Instance, Desc, &Physical, &Probe);
+	if (!Status)
+	{
+		return Status;
+	}
+	FVulkanDevice* Device = new FVulkanDevice(std::move(Instance), Physical, Probe, Desc.PipelineCacheFile);
+	Device->bCacheLibraries = Desc.bCacheLibraries;
+	Status = Device->CreateNative();
+	if (!Status)
+	{
+		Device->DropOne();
+		return Status;
+	}
+	*Out = Device;
+	return Status;
+}
+
+FRTStatus AdoptVulkanDevice(const FRTVulkanExternalDesc& Desc, IRTDevice** Out)
+{
+	*Out = nullptr;
+	assert(Desc.Instance && Desc.PhysicalDevice && Desc.Device && Desc.Queue && Desc.Requirements);
+	auto Instance = std::make_unique<FVulkanInstance>();
+	FRTStatus Status = Instance->Adopt(Desc.Instance, Desc.GetInstanceProcAddr,
+	                                   {Desc.bCountValidation, false, Desc.MessageCallback, Desc.MessageUser});
+	if (!Status)
+	{
+		return Status;
+	}
+	const FVulkanProbe& Probe = static_cast<const FVulkanRequirements*>(Desc.Requirements)->Probe;
+	FVulkanDevice* Device = new FVulkanDevice(std::move(Instance), Desc.PhysicalDevice, Probe, Desc.PipelineCacheFile);
+	Status = Device->AdoptNative(Desc.Device, Desc.Queue, Desc.QueueFamily,
+	                             {Desc.LockQueue, Desc.UnlockQueue, Desc.QueueUser});
+	if (!Status)
+	{
+		Device->DropOne();
+		return Status;
+	}
+	*Out = Device;
+	return Status;
+}
+
+FRTStatus ListVulkanDevices(FRTVulkanDeviceInfo* Out, uint32_t Capacity, uint32_t* OutCount)
+{
+	*OutCount = 0;
+	FVulkanInstance Instance;
+	FRTStatus Status = Instance.Create({});
+	if (!Status)
+	{
+		return Status;
+	}
+	const std::vector<VkPhysicalDevice> Devices = Instance.GetPhysicalDevices();
+	*OutCount = static_cast<uint32_t>(Devices.size());
+	for (uint32_t Index = 0; Index < Devices.size() && Index < Capacity; ++Index)
+	{
+		FVulkanProbe Probe;
+		ProbeVulkanDevice(Instance.Api, Devices[Index], {}, &Probe);
+		FRTVulkanDeviceInfo& Info = Out[Index];
+		Info = {};
+		snprintf(Info.Name, sizeof(Info.Name), "%s", Probe.Capabilities.DeviceName);
+		snprintf(Info.Driver, sizeof(Info.Driver), "%s", Probe.Capabilities.DriverName);
+		snprintf(Info.Type, sizeof(Info.Type), "%s", TypeName(Probe.Type));
+		Info.ApiVersion = Probe.ApiVersion;
+		Info.bUsable = Probe.bUsable;
+		Info.Rung = Probe.Capabilities.Rung;
+		Info.bRayQuery = Probe.Capabilities.bRayQuery;
+		Info.bRayTracingPipeline = Probe.Capabilities.bRayTracingPipeline;
+		snprintf(Info.Missing, sizeof(Info.Missing), "%s", Probe.Missing.c_str());
+		snprintf(Info.Quirks, sizeof(Info.Quirks), "%s", Probe.QuirkText.c_str());
+	}
+	return Status;
+}
+
+} // namespace Lantern

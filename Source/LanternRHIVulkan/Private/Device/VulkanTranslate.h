@@ -1,0 +1,33 @@
+// From the RHI's words to Vulkan's: formats, usages, accesses.
+#pragma once
+
+#include "Device/VulkanApi.h"
+
+namespace Lantern
+{
+
+struct FVulkanCapabilityBits
+{
+	bool bAccel = false;
+	bool bRayQuery = false;
+	bool bPipeline = false;
+	bool bMaintenance1 = false;
+};
+
+struct FVulkanAccess
+{
+	VkPipelineStageFlags2 Stages = 0;
+	VkAccessFlags2 Access = 0;
+};
+
+VkImageAspectFlags AspectOf(ERTFormat Format);
+bool IsIntegerFormat(ERTFormat Format);
+VkImageUsageFlags ImageUsageOf(const FRTTextureDesc& Desc);
+VkBufferUsageFlags BufferUsageOf(ERTBufferUsage Usage, const FVulkanCapabilityBits& Bits);
+/// Stages that Device has not enabled are left out: naming them is an error.
+FVulkanAccess AccessOf(ERTAccess Access, const FVulkanCapabilityBits& Bits);
+VkShaderStageFlagBits StageOf(ERTShaderStage Stage);
+/// All shader stages that a pipeline of the device may have.
+VkShaderStageFlags AllStages(const FVulkanCapabilityBits& Bits);
+
+} // namespace Lantern

@@ -1,0 +1,60 @@
+// The one descriptor set, bindings as LanternRHI/RTInterfaces.h has them, and the allocators of its indices. An
+// object gives its index back in its destructor, i.e. when the GPU is done with it.
+#pragma once
+
+#include "Device/VulkanTranslate.h"
+
+#include <mutex>
+#include <vector>
+
+namespace Lantern
+{
+
+inline constexpr uint32_t NoBindlessIndex = ~0u;
+
+class FVulkanBindless
+{
+public:
+	enum EBinding : uint32_t
+	{
+		Sampled,
+		Storage,
+		Sampler,
+		Scene,
+		BindingCount,
+	};
+
+	/// Capacities: 0 leaves the binding out.
+	VkResult Create(VkDevice Device, const FVulkanDeviceApi& Api, const uint32_t (&Capacities)[BindingCount],
+	                const FVulkanCapabilityBits& Bits);
+	void Destroy();
+
+	/// NoBindlessIndex when full.
+	uint32_t AddImage(EBinding Binding, VkImageView View);
+	uint32_t AddSampler(VkSampler Sampler);
+	uint32_t AddScene(VkAccelerationStructureKHR Scene);
+	void Remove(EBinding Binding, uint32_t Index);
+
+	VkDescriptorSet Set = VK_NULL_HANDLE;
+	VkPipelineLayout PipelineLayout = VK_NULL_HANDLE;
+	VkDescriptorSetLayout SetLayout = VK_NULL_HANDLE;
+
+private:
+	struct FHeap
+	{
+		uint32_t Capacity = 0;
+		uint32_t Used = 0; ///< indices ever given out
+		std::vector<uint32_t> Free;
+	};
+	/// Mutex held.
+	uint32_t Take(EBinding Binding);
+	void Write(EBinding Binding, uint32_t Index, VkWriteDescriptorSet& Info);
+
+	VkDevice Device = VK_NULL_HANDLE;
+	const FVulkanDeviceApi* Api = nullptr;
+	VkDescriptorPool Pool = VK_NULL_HANDLE;
+	std::mutex Mutex;
+	FHeap Heaps[BindingCount];
+};
+
+} // namespace Lantern

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "Device/VulkanDeviceImpl.h"
+
+#include <string>
+
+namespace Lantern
+{
+
+/// A VkBuffer with its memory and address; what buffers, acceleration structures and shader tables are made of.
+class FVulkanBlock
+{
+public:
+	FVulkanBlock() = default;
+	FVulkanBlock(const FVulkanBlock&) = delete;
+	FVulkanBlock& operator=(const FVulkanBlock&) = delete;
+	~FVulkanBlock() { Destroy(); }
+
+	FRTStatus Create(FVulkanDevice& InDevice, uint64_t Size, VkBufferUsageFlags Usage, ERTMemory InMemory,
+	                 uint64_t Alignment, EVulkanMemoryKind InKind, const char* Name);
+	void Destroy();
+
+	VkBuffer Handle = VK_NULL_HANDLE;
+	VkDeviceAddress Address = 0;
+	FVulkanAllocation Allocation;
+
+private:
+	FVulkanDevice* Device = nullptr;
+	EVulkanMemoryKind Kind = EVulkanMemoryKind::Buffer;
+};
+
+class FVulkanBuffer final : public TVulkanObject<IRTBuffer>
+{
+public:
+	using TVulkanObject::TVulkanObject;
+	FRTStatus Initialise(const FRTBufferDesc& InDesc);
+
+	const FRTBufferDesc& GetDesc() const override { return Desc; }
+	uint64_t GetDeviceAddress() const override { return Block.Address; }
+	void* GetMapped() override { return Desc.Memory == ERTMemory::Device ? nullptr : Block.Allocation.Mapped; }
+	uint64_t GetNative(ERTNative Kind) const override;
+
+	FVulkanBlock Block;
+
+private:
+	FRTBufferDesc Desc;
+	std::string Name;
+};
+
+} // namespace Lantern

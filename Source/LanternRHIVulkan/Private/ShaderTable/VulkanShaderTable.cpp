@@ -1,0 +1,429 @@
+#include "ShaderTable/VulkanShaderTable.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace Lantern
+{
+
+namespace
+{
+
+constexpr VkBufferUsageFlags HostUsage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+constexpr uint64_t MinHostCopyBytes = 64 * 1024;
+/// More staged batches than this are gathered into one.
+constexpr size_t MaxBatches = 4;
+/// More runs than this of one kind are written by a compute pass rather than copied.
+constexpr size_t MaxRegions = 16;
+/// A host copy that as many stagings passed by gives its memory back.
+constexpr uint64_t IdleStagings = 64;
+
+constexpr uint64_t AlignUp(uint64_t Value, uint64_t Alignment)
+{
+	return (Value + Alignment - 1) / Alignment * Alignment;
+}
+
+} // namespace
+
+// ------------------------------------------------------------------------------------------------ creation, growth
+
+FRTStatus FVulkanShaderTable::Initialise(const FRTShaderTableDesc& InDesc)
+{
+	Desc = InDesc;
+	Name = InDesc.Name ? InDesc.Name : "";
+	Desc.Name = Name.c_str();
+	assert(Desc.Pipeline && Desc.RecordDataBytes <= MaxRecordDataBytes && Desc.Copies >= 1);
+	const FRTCapabilities& Caps = Device.GetCapabilities();
+	Handles.Initialise(Caps.ShaderGroupHandleSize);
+	SetPipeline(Desc.Pipeline);
+
+	const uint64_t Handle = AlignUp(Caps.ShaderGroupHandleSize, Caps.ShaderGroupHandleAlignment);
+	// A dispatch names one ray generation record as a region of its own: each starts at the base alignment.
+	const uint64_t Strides[KindCount] = {
+	    AlignUp(Caps.ShaderGroupHandleSize, Caps.ShaderGroupBaseAlignment), Handle,
+	    AlignUp(Caps.ShaderGroupHandleSize + Desc.RecordDataBytes, Caps.ShaderGroupHandleAlignment), Handle};
+	const uint32_t Counts[KindCount] = {Desc.RayGenCount, Desc.MissCount, Desc.HitCount, Desc.CallableCount};
+	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
+	{
+		assert(Strides[Kind] <= Caps.MaxShaderGroupStride);
+		const bool bHit = Kind == static_cast<uint32_t>(ERTRecordKind::Hit);
+		Records[Kind].Initialise(Strides[Kind], Caps.ShaderGroupHandleSize, bHit ? Desc.RecordDataBytes : 0);
+		Records[Kind].Grow(Counts[Kind]);
+	}
+	FRTStatus Status = Device.Scatter.Prepare(Device);
+	Status = Status ? MakeLayout(Counts, Current) : Status;
+	for (uint32_t Copy = 0; Status && Copy < Desc.Copies; ++Copy)
+	{
+		FHostCopy Made;
+		Status = MakeBuffer(std::min(MinHostCopyBytes, Current.Buffer->Size), HostUsage, ERTMemory::Upload, " (host)",
+		                    Made.Buffer);
+		HostCopies.push_back(std::move(Made));
+	}
+	return Status;
+}
+
+FRTStatus FVulkanShaderTable::MakeBuffer(uint64_t Size, VkBufferUsageFlags Usage, ERTMemory Memory, const char* Suffix,
+                                         TRTRef<FVulkanTableBuffer>& Out)
+{
+	TRTRef<FVulkanTableBuffer> Made = MakeVulkanObject<FVulkanTableBuffer>(Device);
+	Made->Size = Size;
+	const uint64_t Alignment = Memory == ERTMemory::Device ? Device.GetCapabilities().ShaderGroupBaseAlignment : 16;
+	FRTStatus Status = Made->Block.Create(Device, Size, Usage, Memory, Alignment, EVulkanMemoryKind::ShaderTable,
+	                                      (Name + Suffix).c_str());
+	if (Status)
+	{
+		Out = std::move(Made);
+	}
+	return Status;
+}
+
+FRTStatus FVulkanShaderTable::MakeLayout(const uint32_t Counts[KindCount], FLayout& Out)
+{
+	const uint64_t Base = Device.GetCapabilities().ShaderGroupBaseAlignment;
+	FLayout Made;
+	uint64_t Size = 0;
+	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
+	{
+		Made.Counts[Kind] = Counts[Kind];
+		Made.Offsets[Kind] = AlignUp(Size, Base);
+		Size = Made.Offsets[Kind] + Records[Kind].GetStride() * Counts[Kind];
+	}
+	const VkBufferUsageFlags Usage = VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+	                                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+	FRTStatus Status = MakeBuffer(std::max(Size, Base), Usage, ERTMemory::Device, "", Made.Buffer);
+	if (Status)
+	{
+		Out = std::move(Made);
+	}
+	return Status;
+}
+
+FRTStatus FVulkanShaderTable::Reserve(const uint32_t Counts[4])
+{
+	uint32_t Wanted[KindCount];
+	bool bGrows = false;
+	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
+	{
+		Wanted[Kind] = std::max(Counts[Kind], Records[Kind].GetCount());
+		bGrows = bGrows || Wanted[Kind] > Records[Kind].GetCount();
+	}
+	if (!bGrows)
+	{
+		return {};
+	}
+	// Where no update has gone into Next yet, Current is still what the contents come from.
+	FRTStatus Status = MakeLayout(Wanted, bCurrentUsed ? Next : Current);
+	if (!Status)
+	{
+		return Status;
+	}
+	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
+	{
+		const uint32_t Before = Records[Kind].GetCount();
+		Records[Kind].Grow(Wanted[Kind]);
+		if (bContentLost)
+		{
+			Records[Kind].MarkDirty({Before, Wanted[Kind] - Before});
+		}
+	}
+	Desc.RayGenCount = Wanted[0];
+	Desc.MissCount = Wanted[1];
+	Desc.HitCount = Wanted[2];
+	Desc.CallableCount = Wanted[3];
+	return Status;
+}
+
+// ------------------------------------------------------------------------------------------------ records
+
+void FVulkanShaderTable::SetPipeline(IRTPipeline* InPipeline)
+{
+	assert(InPipeline);
+	Desc.Pipeline = InPipeline;
+	Pipeline = TRTRef<FVulkanPipeline>(static_cast<FVulkanPipeline*>(InPipeline));
+	assert(Pipeline->GetGroupHandles() && "a ray-tracing pipeline that is no library");
+	Handles.SetPipeline(Pipeline->GetGroupHandles(), Pipeline->GetGroupCount());
+	if (Handles.IsCrowded())
+	{
+		PruneHandles();
+	}
+}
+
+void FVulkanShaderTable::SetRecord(ERTRecordKind Kind, uint32_t Index, uint32_t Group, const void* Data,
+                                   uint32_t DataBytes)
+{
+	assert(Group < Pipeline->GetGroupCount());
+	Of(Kind).SetOne(Index, Handles.GetSlotsOfGroups()[Group], Data, DataBytes);
+}
+
+void FVulkanShaderTable::SetHitRecords(uint32_t First, uint32_t Count, const uint32_t* Groups, const void* Data)
+{
+	assert(std::all_of(Groups, Groups + Count, [&](uint32_t Group) { return Group < Pipeline->GetGroupCount(); }));
+	Of(ERTRecordKind::Hit).Set(First, Count, Handles.GetSlotsOfGroups(), Groups, Data);
+}
+
+void FVulkanShaderTable::SetGroups(ERTRecordKind Kind, uint32_t First, uint32_t Count, const uint32_t* Groups)
+{
+	assert(std::all_of(Groups, Groups + Count, [&](uint32_t Group) { return Group < Pipeline->GetGroupCount(); }));
+	Of(Kind).SetHandles(First, Count, Handles.GetSlotsOfGroups(), Groups);
+}
+
+bool FVulkanShaderTable::IsDirty() const
+{
+	return std::any_of(Records, Records + KindCount, [](const FVulkanTableRecords& Kind) { return Kind.IsDirty(); });
+}
+
+void FVulkanShaderTable::MarkAllDirty()
+{
+	for (FVulkanTableRecords& Kind : Records)
+	{
+		Kind.MarkDirty({0, Kind.GetCount()});
+	}
+}
+
+void FVulkanShaderTable::Invalidate()
+{
+	Batches.clear();
+	MarkAllDirty();
+	bContentLost = true;
+}
+
+// ------------------------------------------------------------------------------------------------ staging
+
+void FVulkanShaderTable::ReturnBatches()
+{
+	for (const FBatch& Batch : Batches)
+	{
+		for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
+		{
+			for (const FRun& Run : Batch.Parts[Kind].Runs)
+			{
+				Records[Kind].MarkDirty(Run);
+			}
+		}
+		for (const FRun& Run : Batch.HitHandles.Runs)
+		{
+			Of(ERTRecordKind::Hit).MarkDirty(Run);
+		}
+	}
+	Batches.clear();
+}
+
+FRTStatus FVulkanShaderTable::Stage()
+{
+	if (!IsDirty())
+	{
+		return {};
+	}
+	if (Batches.size() >= MaxBatches)
+	{
+		ReturnBatches();
+	}
+	FBatch Batch;
+	uint64_t Bytes = 0;
+	TakeDirtyHandles(Batch, Bytes);
+	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
+	{
+		FPart& Part = Batch.Parts[Kind];
+		Records[Kind].TakeDirty(Part.Runs);
+		Part.Count = static_cast<uint32_t>(FVulkanTableRecords::CountRecords(Part.Runs));
+		Part.Offset = Bytes;
+		Bytes += Records[Kind].GetStride() * Part.Count;
+		Part.bScatter = Part.Runs.size() > MaxRegions;
+		Part.IndexOffset = Bytes;
+		Bytes += Part.bScatter ? sizeof(uint32_t) * Part.Count : 0;
+	}
+	FRTStatus Status = FindHostCopy(Bytes, Batch.Source);
+	Batches.push_back(std::move(Batch));
+	if (!Status)
+	{
+		ReturnBatches(); // nothing may count as staged that is not
+		return Status;
+	}
+	Fill(Batches.back());
+	FillHandles(Batches.back());
+	return Status;
+}
+
+void FVulkanShaderTable::Fill(const FBatch& Batch) const
+{
+	uint8_t* Begin = static_cast<uint8_t*>(Batch.Source->Block.Allocation.Mapped);
+	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
+	{
+		const FPart& Part = Batch.Parts[Kind];
+		uint8_t* Dest = Begin + Part.Offset;
+		uint32_t* Index = reinterpret_cast<uint32_t*>(Begin + Part.IndexOffset);
+		for (const FRun& Run : Part.Runs)
+		{
+			Records[Kind].CopyTo(Dest, Run, Handles.GetHandles());
+			Dest += Records[Kind].GetStride() * Run.Count;
+			for (uint32_t Record = 0; Part.bScatter && Record < Run.Count; ++Record)
+			{
+				*Index++ = Run.First + Record;
+			}
+		}
+	}
+}
+
+FRTStatus FVulkanShaderTable::FindHostCopy(uint64_t Size, TRTRef<FVulkanTableBuffer>& Out)
+{
+	++StageCount;
+	DropIdleHostCopies();
+	// Of the free ones that are large enough the smallest; else the largest grows.
+	const auto Find = [&]() -> FHostCopy*
+	{
+		FHostCopy* Best = nullptr;
+		for (FHostCopy& Copy : HostCopies)
+		{
+			if (Copy.Buffer->GetReferences() > 1)
+			{
+				continue;
+			}
+			const uint64_t Has = Copy.Buffer->Size;
+			const uint64_t BestHas = Best ? Best->Buffer->Size : 0;
+			const bool bBetter = Has >= Size ? BestHas < Size || Has < BestHas : BestHas < Size && Has > BestHas;
+			Best = !Best || bBetter ? &Copy : Best;
+		}
+		return Best;
+	};
+	FHostCopy* Copy = Find();
+	if (!Copy)
+	{
+		Device.CollectGarbage(); // the GPU may be done with one
+		Copy = Find();
+	}
+	if (!Copy || Copy->Buffer->Size < Size)
+	{
+		TRTRef<FVulkanTableBuffer> Made;
+		const uint64_t Bytes = std::max(Size + Size / 4, std::min(MinHostCopyBytes, Newest().Buffer->Size));
+		FRTStatus Status = MakeBuffer(Bytes, HostUsage, ERTMemory::Upload, " (host)", Made);
+		if (!Status)
+		{
+			return Status;
+		}
+		Copy = Copy ? Copy : &HostCopies.emplace_back();
+		Copy->Buffer = std::move(Made);
+	}
+	Copy->LastUse = StageCount;
+	Out = Copy->Buffer;
+	return {};
+}
+
+void FVulkanShaderTable::DropIdleHostCopies()
+{
+	const auto IsIdle = [&](const FHostCopy& Copy)
+	{
+		const bool bSpare = Copy.Buffer->Size > MinHostCopyBytes || HostCopies.size() > Desc.Copies;
+		return bSpare && StageCount - Copy.LastUse > IdleStagings && Copy.Buffer->GetReferences() == 1;
+	};
+	const auto Idle = std::find_if(HostCopies.begin(), HostCopies.end(), IsIdle);
+	if (Idle != HostCopies.end())
+	{
+		HostCopies.erase(Idle);
+	}
+}
+
+// ------------------------------------------------------------------------------------------------ the GPU's side
+
+void FVulkanShaderTable::AddMove(FUpdate& Out)
+{
+	const FLayout& To = Newest();
+	const bool bMoves = bCurrentUsed && Next.Buffer;
+	if (bContentLost || (bCurrentUsed && !bMoves))
+	{
+		return;
+	}
+	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
+	{
+		const uint64_t Stride = Records[Kind].GetStride();
+		const uint64_t Old = bMoves ? Stride * Current.Counts[Kind] : 0;
+		const uint64_t All = Stride * To.Counts[Kind];
+		if (Old > 0)
+		{
+			Out.Moved.Source = Current.Buffer;
+			Out.Moved.Regions.push_back({Current.Offsets[Kind], To.Offsets[Kind], Old});
+		}
+		if (All > Old)
+		{
+			Out.Zeros.push_back({To.Offsets[Kind] + Old, All - Old});
+		}
+	}
+}
+
+void FVulkanShaderTable::AddPart(const FBatch& Batch, uint32_t Kind, FCopies& Out)
+{
+	const FPart& Part = Batch.Parts[Kind];
+	const uint64_t Stride = Records[Kind].GetStride();
+	UpdatedBytes += Stride * Part.Count;
+	if (Part.bScatter)
+	{
+		const VkDeviceAddress From = Batch.Source->Block.Address;
+		assert(Stride % sizeof(uint32_t) == 0);
+		Out.Scatters.push_back({Current.Buffer->Block.Address + Current.Offsets[Kind], From + Part.Offset,
+		                        From + Part.IndexOffset, static_cast<uint32_t>(Stride / sizeof(uint32_t)), Part.Count,
+		                        static_cast<uint32_t>(Stride / sizeof(uint32_t)), false});
+		return;
+	}
+	uint64_t Offset = Part.Offset;
+	for (const FRun& Run : Part.Runs)
+	{
+		Out.Regions.push_back({Offset, Current.Offsets[Kind] + Stride * Run.First, Stride * Run.Count});
+		Offset += Stride * Run.Count;
+	}
+}
+
+FRTStatus FVulkanShaderTable::TakeUpdate(FUpdate& Out)
+{
+	FRTStatus Status = Stage();
+	if (!Status)
+	{
+		return Status;
+	}
+	AddMove(Out);
+	if (Next.Buffer)
+	{
+		Current = std::move(Next);
+		Next = {};
+	}
+	Out.Dest = Current.Buffer.Get();
+	UpdatedBytes = 0;
+	for (FBatch& Batch : Batches)
+	{
+		// Handles first: a record that is also new as a whole gets its own again.
+		if (Batch.HitHandles.Count > 0)
+		{
+			FCopies& OfHandles = Out.Copies.emplace_back();
+			AddHandles(Batch, OfHandles);
+			OfHandles.Source = Batch.Source;
+		}
+		FCopies& Copies = Out.Copies.emplace_back();
+		for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
+		{
+			AddPart(Batch, Kind, Copies);
+		}
+		Copies.Source = std::move(Batch.Source);
+	}
+	Batches.clear();
+	bCurrentUsed = true;
+	bContentLost = false;
+	return Status;
+}
+
+VkStridedDeviceAddressRegionKHR FVulkanShaderTable::GetRegion(ERTRecordKind Kind, uint32_t RayGen) const
+{
+	const uint32_t Index = static_cast<uint32_t>(Kind);
+	const uint64_t Stride = Records[Index].GetStride();
+	const uint32_t Count = Current.Counts[Index];
+	const VkDeviceAddress Address = Current.Buffer->Block.Address + Current.Offsets[Index];
+	if (Count == 0)
+	{
+		return {};
+	}
+	if (Kind == ERTRecordKind::RayGen)
+	{
+		assert(RayGen < Count);
+		return {Address + Stride * RayGen, Stride, Stride};
+	}
+	return {Address, Stride, Stride * Count};
+}
+
+} // namespace Lantern

@@ -1,0 +1,143 @@
+// The shader binding table: records on the CPU, host copies of what is new, and the table on the GPU.
+#pragma once
+
+#include "Resources/VulkanBuffer.h"
+#include "ShaderTable/VulkanHandleStore.h"
+#include "Pipelines/VulkanPipeline.h"
+#include "ShaderTable/VulkanTableRecords.h"
+
+namespace Lantern
+{
+
+/// A block that lists keep, and that may go before the table does.
+class FVulkanTableBuffer final : public TVulkanObject<IRTRefCounted>
+{
+public:
+	using TVulkanObject::TVulkanObject;
+	FVulkanBlock Block;
+	uint64_t Size = 0;
+};
+
+class FVulkanShaderTable final : public TVulkanObject<IRTShaderTable>
+{
+public:
+	using TVulkanObject::TVulkanObject;
+	FRTStatus Initialise(const FRTShaderTableDesc& InDesc);
+
+	const FRTShaderTableDesc& GetDesc() const override { return Desc; }
+	void SetRecord(ERTRecordKind Kind, uint32_t Index, uint32_t Group, const void* Data, uint32_t DataBytes) override;
+	void SetHitRecords(uint32_t First, uint32_t Count, const uint32_t* Groups, const void* Data) override;
+	void SetGroups(ERTRecordKind Kind, uint32_t First, uint32_t Count, const uint32_t* Groups) override;
+	void SetPipeline(IRTPipeline* InPipeline) override;
+	FRTStatus Reserve(const uint32_t Counts[4]) override;
+	FRTStatus Stage() override;
+	void Invalidate() override;
+	uint64_t GetRecordStride(ERTRecordKind Kind) const override { return Of(Kind).GetStride(); }
+	uint64_t GetSizeBytes() const override { return Newest().Buffer->Size; }
+	uint64_t GetUpdatedBytes() const override { return UpdatedBytes; }
+
+	struct FCopies
+	{
+		TRTRef<FVulkanTableBuffer> Source;
+		std::vector<VkBufferCopy> Regions;
+		std::vector<FVulkanTableScatter::FPush> Scatters;
+	};
+	struct FFill
+	{
+		uint64_t Offset = 0;
+		uint64_t Size = 0;
+	};
+	/// What the GPU has to do, in this order: zeros and what moves from the table before, then each of Copies.
+	struct FUpdate
+	{
+		FVulkanTableBuffer* Dest = nullptr;
+		std::vector<FFill> Zeros;
+		FCopies Moved;
+		std::vector<FCopies> Copies;
+
+		bool IsEmpty() const { return Zeros.empty() && !Moved.Source && Copies.empty(); }
+	};
+	/// Stages what is not; it counts as copied from here on. On error nothing has been taken.
+	FRTStatus TakeUpdate(FUpdate& Out);
+	/// As the last update left it.
+	FVulkanTableBuffer* GetBuffer() const { return Current.Buffer.Get(); }
+	/// RayGen: the region of one record.
+	VkStridedDeviceAddressRegionKHR GetRegion(ERTRecordKind Kind, uint32_t RayGen) const;
+
+private:
+	static constexpr uint32_t KindCount = 4;
+	using FRun = FVulkanTableRecords::FRun;
+
+	/// A table on the GPU.
+	struct FLayout
+	{
+		TRTRef<FVulkanTableBuffer> Buffer;
+		uint64_t Offsets[KindCount] = {};
+		uint32_t Counts[KindCount] = {};
+	};
+	/// Records of one kind in a host copy, one after another; behind them their indices, where they are scattered.
+	struct FPart
+	{
+		std::vector<FRun> Runs;
+		uint32_t Count = 0; ///< records
+		bool bScatter = false;
+		uint64_t Offset = 0;
+		uint64_t IndexOffset = 0;
+	};
+	/// Hit records whose handles alone are new: numbers of handles in a host copy, and behind them the handles.
+	struct FHandlePart
+	{
+		std::vector<FRun> Runs;
+		uint32_t Count = 0; ///< records
+		uint64_t SlotOffset = 0;
+		uint64_t HandleOffset = 0;
+	};
+	/// A host copy, filled.
+	struct FBatch
+	{
+		TRTRef<FVulkanTableBuffer> Source;
+		FPart Parts[KindCount];
+		FHandlePart HitHandles;
+	};
+	struct FHostCopy
+	{
+		TRTRef<FVulkanTableBuffer> Buffer;
+		uint64_t LastUse = 0; ///< StageCount then
+	};
+
+	FVulkanTableRecords& Of(ERTRecordKind Kind) { return Records[static_cast<uint32_t>(Kind)]; }
+	const FVulkanTableRecords& Of(ERTRecordKind Kind) const { return Records[static_cast<uint32_t>(Kind)]; }
+	const FLayout& Newest() const { return Next.Buffer ? Next : Current; }
+	FRTStatus MakeLayout(const uint32_t Counts[KindCount], FLayout& Out);
+	FRTStatus MakeBuffer(uint64_t Size, VkBufferUsageFlags Usage, ERTMemory Memory, const char* Suffix,
+	                     TRTRef<FVulkanTableBuffer>& Out);
+	void PruneHandles();
+	bool IsDirty() const;
+	void MarkAllDirty();
+	void Fill(const FBatch& Batch) const;
+	void ReturnBatches();
+	/// A free host copy of at least Size bytes; makes one where all are in use.
+	FRTStatus FindHostCopy(uint64_t Size, TRTRef<FVulkanTableBuffer>& Out);
+	void DropIdleHostCopies();
+	void AddMove(FUpdate& Out);
+	void AddPart(const FBatch& Batch, uint32_t Kind, FCopies& Out);
+	void AddHandles(const FBatch& Batch, FCopies& Out);
+	void TakeDirtyHandles(FBatch& Batch, uint64_t& InOutBytes);
+	void FillHandles(const FBatch& Batch) const;
+
+	FRTShaderTableDesc Desc;
+	std::string Name;
+	TRTRef<FVulkanPipeline> Pipeline;
+	FVulkanHandleStore Handles; ///< of Pipeline, and of those before that records still name
+	FVulkanTableRecords Records[KindCount];
+	FLayout Current;           ///< of the last update
+	FLayout Next;              ///< of the next one, where it is another
+	bool bCurrentUsed = false; ///< an update has gone into Current
+	bool bContentLost = false; ///< everything is dirty: nothing need move or be filled with zeros
+	std::vector<FBatch> Batches;
+	std::vector<FHostCopy> HostCopies;
+	uint64_t StageCount = 0;
+	uint64_t UpdatedBytes = 0;
+};
+
+} // namespace Lantern

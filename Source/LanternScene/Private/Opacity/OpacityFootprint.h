@@ -1,0 +1,36 @@
+// Which texels a triangle's alpha test can read, and whether all of them pass or fail.
+#pragma once
+
+#include <array>
+
+#include "LanternScene/Opacity/OpacityPieces.h"
+
+namespace Lantern
+{
+
+/// Texels of at least PassFrom surely pass the test, those of at most FailUpTo surely fail it.
+struct FAlphaLimits
+{
+	int PassFrom = 256;
+	int FailUpTo = -1;
+};
+
+/// A triangle's corners in texels, unwrapped.
+struct FTexelTriangle
+{
+	glm::dvec2 P[3];
+	/// Greatest absolute value, in UV, of what their computation adds up: says how far it may be rounded.
+	glm::dvec2 Magnitude{0};
+};
+
+/// False where the shader's own arithmetic would not be finite.
+bool MakeTexelTriangle(const FAlphaTest& Test, const FVertexAttributes* const (&Corners)[3], FTexelTriangle& Out);
+FAlphaLimits MakeAlphaLimits(const FAlphaTest& Test, const FVertexAttributes* const (&Corners)[3]);
+
+EOpacity ClassifyFootprint(const FAlphaTest& Test, const FAlphaLimits& Limits, const FTexelTriangle& Triangle);
+/// Of a grid over the triangle, of Cells (a power of two) along each axis, Step texels large from Origin on: the cells that it overlaps and that are
+/// not transparent all over: bit x of Rows[y]. May mark some that are.
+void MarkCells(const FAlphaTest& Test, const FAlphaLimits& Limits, const FTexelTriangle& Triangle, glm::dvec2 Origin,
+               glm::dvec2 Step, uint32_t Cells, std::array<uint64_t, MaxOpacityCells>& Rows);
+
+} // namespace Lantern

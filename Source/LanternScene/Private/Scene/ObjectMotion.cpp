@@ -1,0 +1,203 @@
+#include "LanternScene/Scene/ObjectMotion.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <utility>
+
+namespace Lantern
+{
+
+namespace
+{
+/// Entries whose memory is worth giving back at once when nothing moves any more.
+constexpr uint32_t LargeTable = 4096;
+
+template <class T>
+void SwapRemove(std::vector<T>& Values, uint32_t Place)
+{
+	if (Place + 1 < Values.size()) { Values[Place] = std::move(Values.back()); }
+	Values.pop_back();
+}
+
+bool IsEqual(const FObjectMotion& A, const FObjectMotion& B) { return std::memcmp(&A, &B, sizeof(A)) == 0; }
+} // namespace
+
+// ---------------------------------------------------------------------------------------------------- objects
+
+void FObjectMotions::Add(uint32_t Object, const FRTGeometry& Geometry)
+{
+	if (Object >= States.size()) { States.resize(Object + 1); }
+	FState& State = States[Object];
+	assert(State.Entry == NO_MOTION && State.Move == None && !State.Deformable);
+	State.Born = Frame;
+	if (!Geometry.GetInfo().PreviousPositions) { return; }
+	FDeformable& Deformable = Deformables[&Geometry];
+	Deformable.Geometry = &Geometry;
+	State.Deformable = &Deformable;
+	State.Member = static_cast<uint32_t>(Deformable.Objects.size());
+	Deformable.Objects.push_back(Object);
+}
+
+void FObjectMotions::LeaveDeformable(uint32_t Object)
+{
+	FState& State = States[Object];
+	FDeformable* const Deformable = std::exchange(State.Deformable, nullptr);
+	if (!Deformable) { return; }
+	States[Deformable->Objects.back()].Member = State.Member;
+	SwapRemove(Deformable->Objects, State.Member);
+	State.Member = None;
+	const FRTGeometry* const Geometry = Deformable->Geometry;
+	if (Deformable->Objects.empty()) { Deformables.erase(Geometry); }
+}
+
+void FObjectMotions::ForgetMove(uint32_t Object)
+{
+	const uint32_t Place = std::exchange(States[Object].Move, None);
+	if (Place == None) { return; }
+	// The last one moves here, unless it is this one.
+	if (Place + 1 < Moves.size()) { States[Moves.back().Object].Move = Place; }
+	SwapRemove(Moves, Place);
+}
+
+void FObjectMotions::Remove(uint32_t Object)
+{
+	ForgetMove(Object);
+	LeaveDeformable(Object);
+	if (States[Object].Entry != NO_MOTION) { RemoveEntry(States[Object].Entry); }
+	States[Object] = {};
+}
+
+void FObjectMotions::Truncate(uint32_t Count)
+{
+	if (Count >= States.size()) { return; }
+	States.resize(Count);
+	if (States.capacity() / 4 > States.size() + 64) { States.shrink_to_fit(); }
+}
+
+// ---------------------------------------------------------------------------------------------------- changes
+
+FObjectMotion FObjectMotions::MakeMotion(const FObjectData& Data)
+{
+	FObjectMotion Motion{};
+	static_assert(sizeof(Motion.PreviousObjectToWorld) == sizeof(Data.ObjectToWorld));
+	std::memcpy(Motion.PreviousObjectToWorld, Data.ObjectToWorld, sizeof(Data.ObjectToWorld));
+	Motion.PreviousCell = Data.Cell;
+	Motion.PreviousFlags = Data.Flags;
+	return Motion;
+}
+
+void FObjectMotions::BeforeMove(uint32_t Object)
+{
+	FState& State = States[Object];
+	if (State.Move != None || !HasPast(State)) { return; }
+	State.Move = static_cast<uint32_t>(Moves.size());
+	Moves.push_back({Object, MakeMotion(Objects[Object])});
+}
+
+void FObjectMotions::MarkDeformed(const FRTGeometryRef& Geometry)
+{
+	if (!Geometry->GetInfo().PreviousPositions || std::exchange(Geometry->bMotionMarked, true)) { return; }
+	Deformed.push_back(Geometry);
+}
+
+// ---------------------------------------------------------------------------------------------------- a frame
+
+uint64_t FObjectMotions::FindPreviousPositions(const FState& State)
+{
+	const FRTGeometry* const Geometry = State.Deformable ? State.Deformable->Geometry : nullptr;
+	// What was never shown deformed has no positions to come from.
+	if (!Geometry || !Geometry->bMotionMarked || !Geometry->bWasDeformed) { return 0; }
+	return Geometry->GetInfo().PreviousPositions->GetDeviceAddress();
+}
+
+void FObjectMotions::SetEntry(uint32_t Object, uint32_t Entry)
+{
+	States[Object].Entry = Entry;
+	FObjectData Data = Objects[Object];
+	Data.Motion = Entry;
+	Objects.Set(Object, Data);
+}
+
+void FObjectMotions::Write(uint32_t Object, FObjectMotion Motion)
+{
+	Motion.PreviousPositions = FindPreviousPositions(States[Object]);
+	uint32_t Entry = States[Object].Entry;
+	if (Entry == NO_MOTION)
+	{
+		Entry = Table.Add(Motion);
+		Owners.push_back({Object, UpdateNumber});
+		SetEntry(Object, Entry);
+		return;
+	}
+	Owners[Entry].Update = UpdateNumber;
+	if (!IsEqual(Table[Entry], Motion)) { Table.Set(Entry, Motion); }
+}
+
+/// The last entry takes its place.
+void FObjectMotions::RemoveEntry(uint32_t Entry)
+{
+	const uint32_t Last = Table.Num() - 1;
+	const uint32_t Object = Owners[Entry].Object;
+	if (Entry != Last)
+	{
+		Table.Set(Entry, Table[Last]);
+		SetEntry(Owners[Last].Object, Entry);
+	}
+	SetEntry(Object, NO_MOTION);
+	SwapRemove(Owners, Entry);
+	Table.Truncate(Last);
+}
+
+void FObjectMotions::Update(bool bWanted)
+{
+	++UpdateNumber;
+	if (bWanted)
+	{
+		for (const FMove& Move : Moves)
+		{
+			// One that came back, or was set to where it is, did not move.
+			if (!IsEqual(MakeMotion(Objects[Move.Object]), Move.Before)) { Write(Move.Object, Move.Before); }
+		}
+		for (const FRTGeometryRef& Geometry : Deformed)
+		{
+			const auto Found = Deformables.find(Geometry.get());
+			if (Found == Deformables.end() || !Geometry->bWasDeformed) { continue; }
+			for (const uint32_t Object : Found->second.Objects)
+			{
+				const FState& State = States[Object];
+				const bool bWritten = State.Entry != NO_MOTION && Owners[State.Entry].Update == UpdateNumber;
+				if (!bWritten && HasPast(State)) { Write(Object, MakeMotion(Objects[Object])); }
+			}
+		}
+	}
+	// From the end: what takes a removed one's place has been looked at.
+	MostEntries = std::max(MostEntries, Table.Num());
+	for (uint32_t Entry = Table.Num(); Entry-- > 0;)
+	{
+		if (Owners[Entry].Update != UpdateNumber) { RemoveEntry(Entry); }
+	}
+	if (Table.Num() == 0 && std::exchange(MostEntries, 0) > LargeTable)
+	{
+		Table = TGpuTable<FObjectMotion>("ObjectMotions");
+		Owners = {};
+	}
+}
+
+void FObjectMotions::EndFrame(bool bSubmitted)
+{
+	for (const FRTGeometryRef& Geometry : Deformed)
+	{
+		Geometry->bMotionMarked = false;
+		Geometry->bWasDeformed |= bSubmitted;
+	}
+	Deformed.clear();
+	if (!bSubmitted) { return; }
+	++Frame;
+	for (const FMove& Move : Moves) { States[Move.Object].Move = None; }
+	const bool bTooLarge = Moves.capacity() > LargeTable && Moves.size() < Moves.capacity() / 16;
+	Moves.clear();
+	if (bTooLarge) { Moves.shrink_to_fit(); }
+}
+
+} // namespace Lantern

@@ -1,0 +1,74 @@
+#include "ShaderTable/SectionData.h"
+
+namespace Lantern
+{
+
+namespace
+{
+constexpr uint64_t AabbBytes = 6 * sizeof(float);
+
+/// Where the part's triangles lie, and how their indices are to be read.
+void AddTriangles(const FRTGeometry& Geometry, const FRTGeometryPart& Part, FSectionData& Data)
+{
+	const FRTGeometryInfo& Info = Geometry.GetInfo();
+	const bool bShort = !Part.bPieces && Geometry.GetIndexType() == ERTIndexType::UInt16;
+	const uint64_t Whole = Geometry.GetIndices()->GetDeviceAddress() + Geometry.GetIndicesOffset();
+	const uint64_t First = Part.bPieces ? Info.PieceIndices->GetDeviceAddress() : Whole;
+	const uint64_t Indices = First + uint64_t(Part.FirstIndex) * (bShort ? 2 : 4);
+	Data.Positions = Info.Positions->GetDeviceAddress() + Info.PositionsOffset;
+	Data.Attributes = Info.Attributes->GetDeviceAddress() + Info.AttributesOffset;
+	Data.Indices = Indices & ~uint64_t(3); // shaders read whole words
+	Data.Flags |= bShort ? SECTION_INDEX_16 : 0u;
+	Data.Flags |= Indices & 2 ? SECTION_INDEX_ODD : 0u;
+}
+
+/// Whether the alpha test may take texture coordinates and vertices as they are.
+bool HasPlainOpacity(const FRTGeometryInfo& Info, const FMaterialData& Material)
+{
+	return Info.bOpaqueVertices && Material.UVTransform[TEXTURE_BASE_COLOR] == glm::vec4(1, 0, 0, 1) &&
+	       Material.UVOffset[TEXTURE_BASE_COLOR] == glm::vec2(0);
+}
+} // namespace
+
+ERTHitClass GetHitClass(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part,
+                        uint32_t Material)
+{
+	if (Geometry.GetInfo().Sections[Part.Section].bProcedural)
+	{
+		return ERTHitClass::Procedural;
+	}
+	const bool bAlphaTest = Context.bAlphaTest && Context.Override != 2;
+	return bAlphaTest && !Part.bOpaque && (Context.Materials[Material].Flags & MATERIAL_MASKED) ? ERTHitClass::Masked
+	                                                                                            : ERTHitClass::Opaque;
+}
+
+FSectionData MakeSection(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part,
+                         uint32_t MaterialIndex)
+{
+	const FRTGeometryInfo& Info = Geometry.GetInfo();
+	const FMaterialData& Material = Context.Materials[MaterialIndex];
+	const ERTHitClass Class = GetHitClass(Context, Geometry, Part, MaterialIndex);
+	FSectionData Data{};
+	if (Class == ERTHitClass::Procedural)
+	{
+		Data.Positions = Info.Aabbs->GetDeviceAddress() + Info.AabbsOffset + Part.FirstIndex * AabbBytes;
+	}
+	else
+	{
+		AddTriangles(Geometry, Part, Data);
+	}
+	Data.Material = MaterialIndex;
+	Data.Flags |= Class == ERTHitClass::Masked ? SECTION_MASKED : 0u;
+	Data.Flags |= Info.Sections[Part.Section].PieceCount > 0 ? SECTION_PIECES : 0u;
+	Data.Flags |= Part.bPieces ? SECTION_IS_PIECES : 0u;
+	Data.Flags |= Material.UVSets & (1u << TEXTURE_BASE_COLOR) ? SECTION_OPACITY_UV1 : 0u;
+	Data.Flags |= HasPlainOpacity(Info, Material) ? SECTION_PLAIN_OPACITY : 0u;
+	Data.Flags |= Material.Flags & MATERIAL_DOUBLE_SIDED ? SECTION_DOUBLE_SIDED : 0u;
+	Data.Flags |= Info.bHasTangents ? SECTION_TANGENTS : 0u;
+	// The list of emissive triangles is made from the finest level, on the CPU.
+	const bool bListed = !Info.bDynamic && Info.CpuPositions && !Geometry.IsCoarse();
+	Data.Flags |= Material.EmissiveWeight > 0.0f && bListed ? SECTION_LIGHT : 0u;
+	return Data;
+}
+
+} // namespace Lantern

@@ -1,0 +1,442 @@
+#include "LanternScene/ShaderTable/SectionTable.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+#include <cstring>
+#include <utility>
+
+#include "LanternScene/Opacity/OpacityClassifier.h"
+#include "Opacity/OpacityUse.h"
+#include "ShaderTable/SectionData.h"
+
+namespace Lantern
+{
+
+namespace
+{
+constexpr size_t FewestBuckets = 64;
+std::atomic<uint64_t> NewestIdentity = 0;
+
+uint64_t Mix(uint64_t Value)
+{
+	// Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014: the finalizer.
+	Value = (Value ^ (Value >> 30)) * 0xbf58476d1ce4e5b9ull;
+	Value = (Value ^ (Value >> 27)) * 0x94d049bb133111ebull;
+	return Value ^ (Value >> 31);
+}
+
+uint64_t HashRange(const FRTGeometry& Geometry, const std::vector<uint32_t>& Materials)
+{
+	uint64_t Hash = Mix(reinterpret_cast<uintptr_t>(&Geometry));
+	for (const uint32_t Material : Materials)
+	{
+		Hash = Mix(Hash + Material + 0x9e3779b97f4a7c15ull);
+	}
+	return Hash;
+}
+} // namespace
+
+FSectionTable::FSectionTable(const FSectionContext& InContext) : Context(InContext), Identity(++NewestIdentity) {}
+
+FSectionRangeId FSectionTable::Acquire(const FRTGeometry& Geometry, const std::vector<uint32_t>& Materials)
+{
+	assert(Materials.size() == Geometry.GetSectionCount());
+	const uint64_t Hash = HashRange(Geometry, Materials);
+	if (const FSectionRangeId Found = Find(Hash, Geometry, Materials); Found != None)
+	{
+		++Ranges[Found].References;
+		return Found;
+	}
+	const FSectionRangeId Id = AddRange();
+	FSectionRange& Range = Ranges[Id];
+	Range.Geometry = &Geometry;
+	Range.Materials = Materials;
+	Range.Count = Geometry.GetPartCapacity();
+	Range.First = Allocator.Allocate(Range.Count);
+	Range.References = 1;
+	if (Allocator.GetCapacity() > Table.Num())
+	{
+		Table.Set(Allocator.GetCapacity() - 1, FSectionData{});
+		ProgramSlots.resize(Table.Num(), Unused);
+		IsChanged.resize(Table.Num(), false);
+	}
+	Links[Id].Hash = Hash;
+	LinkHash(Id);
+	LinkUses(Id);
+	FillRange(Id);
+	MarkRange(Id);
+	return Id;
+}
+
+void FSectionTable::Release(FSectionRangeId Id)
+{
+	FSectionRange& Range = Ranges[Id];
+	assert(Range.References > 0);
+	if (--Range.References > 0)
+	{
+		return;
+	}
+	UnlinkUses(Id);
+	UnlinkHash(Id);
+	SetFlags(Id, false, false, false);
+	for (uint32_t Part = 0; Part < Range.Count; ++Part)
+	{
+		SetProgramSlot(Range.First + Part, Unused);
+	}
+	Allocator.Free(Range.First, Range.Count);
+	Range.Geometry = nullptr;
+	Range.Materials.clear();
+	FreeIds.push_back(Id);
+	--RangeCount;
+}
+
+FSectionRangeId FSectionTable::AddRange()
+{
+	++RangeCount;
+	if (RangeCount > Buckets.size())
+	{
+		Rehash();
+	}
+	if (!FreeIds.empty())
+	{
+		const FSectionRangeId Id = FreeIds.back();
+		FreeIds.pop_back();
+		return Id;
+	}
+	Ranges.emplace_back();
+	Links.emplace_back();
+	return GetRangeCapacity() - 1;
+}
+
+// ------------------------------------------------------------------------------------------------ finding ranges
+
+FSectionRangeId FSectionTable::Find(uint64_t Hash, const FRTGeometry& Geometry,
+                                    const std::vector<uint32_t>& Materials) const
+{
+	if (Buckets.empty())
+	{
+		return None;
+	}
+	for (FSectionRangeId Id = Buckets[Hash & (Buckets.size() - 1)]; Id != None; Id = Links[Id].NextInBucket)
+	{
+		if (Links[Id].Hash == Hash && Ranges[Id].Geometry == &Geometry && Ranges[Id].Materials == Materials)
+		{
+			return Id;
+		}
+	}
+	return None;
+}
+
+void FSectionTable::LinkHash(FSectionRangeId Id)
+{
+	FSectionRangeId& Head = Buckets[Links[Id].Hash & (Buckets.size() - 1)];
+	Links[Id].NextInBucket = std::exchange(Head, Id);
+}
+
+void FSectionTable::UnlinkHash(FSectionRangeId Id)
+{
+	FSectionRangeId* At = &Buckets[Links[Id].Hash & (Buckets.size() - 1)];
+	while (*At != Id)
+	{
+		At = &Links[*At].NextInBucket;
+	}
+	*At = Links[Id].NextInBucket;
+}
+
+void FSectionTable::Rehash()
+{
+	Buckets.assign(std::max(FewestBuckets, 2 * Buckets.size()), None);
+	for (FSectionRangeId Id = 0; Id < Ranges.size(); ++Id)
+	{
+		if (Ranges[Id].Geometry)
+		{
+			LinkHash(Id);
+		}
+	}
+}
+
+void FSectionTable::LinkUses(FSectionRangeId Id)
+{
+	const FSectionRange& Range = Ranges[Id];
+	FRangeLinks& Link = Links[Id];
+	std::vector<FSectionRangeId>& OfGeometry = RangesOfGeometry[Range.Geometry];
+	Link.GeometryPlace = static_cast<uint32_t>(OfGeometry.size());
+	OfGeometry.push_back(Id);
+	Link.MaterialPlaces.resize(Range.Materials.size());
+	for (uint32_t Section = 0; Section < Range.Materials.size(); ++Section)
+	{
+		const uint32_t Material = Range.Materials[Section];
+		assert(Material < Context.Materials.Num());
+		if (Material >= UsesOfMaterial.size())
+		{
+			UsesOfMaterial.resize(Context.Materials.Num());
+		}
+		Link.MaterialPlaces[Section] = static_cast<uint32_t>(UsesOfMaterial[Material].size());
+		UsesOfMaterial[Material].push_back({Id, Section});
+	}
+}
+
+void FSectionTable::UnlinkUses(FSectionRangeId Id)
+{
+	const FSectionRange& Range = Ranges[Id];
+	const FRangeLinks& Link = Links[Id];
+	const auto OfGeometry = RangesOfGeometry.find(Range.Geometry);
+	const FSectionRangeId Last = OfGeometry->second.back();
+	OfGeometry->second[Link.GeometryPlace] = Last;
+	Links[Last].GeometryPlace = Link.GeometryPlace;
+	OfGeometry->second.pop_back();
+	if (OfGeometry->second.empty())
+	{
+		RangesOfGeometry.erase(OfGeometry);
+	}
+	for (uint32_t Section = 0; Section < Range.Materials.size(); ++Section)
+	{
+		std::vector<FMaterialUse>& Uses = UsesOfMaterial[Range.Materials[Section]];
+		const FMaterialUse LastUse = Uses.back();
+		const uint32_t Place = Link.MaterialPlaces[Section];
+		Uses[Place] = LastUse;
+		Links[LastUse.Range].MaterialPlaces[LastUse.Section] = Place;
+		Uses.pop_back();
+	}
+}
+
+// ------------------------------------------------------------------------------------------------ what they hold
+
+bool FSectionTable::AffectsSections(const FMaterialData& Old, const FMaterialData& New)
+{
+	return Old.Flags != New.Flags || Old.EmissiveWeight != New.EmissiveWeight || Old.UVSets != New.UVSets ||
+	       Old.UVTransform[TEXTURE_BASE_COLOR] != New.UVTransform[TEXTURE_BASE_COLOR] ||
+	       Old.UVOffset[TEXTURE_BASE_COLOR] != New.UVOffset[TEXTURE_BASE_COLOR] || MakeOpacityKey(Old) != MakeOpacityKey(New);
+}
+
+void FSectionTable::MaterialChanged(uint32_t Material)
+{
+	if (Material >= UsesOfMaterial.size())
+	{
+		return;
+	}
+	for (const FMaterialUse& Use : UsesOfMaterial[Material])
+	{
+		const FSectionRange& Range = Ranges[Use.Range];
+		const std::vector<FRTGeometryPart>& Parts = Range.Geometry->GetParts();
+		for (uint32_t Part = 0; Part < Parts.size(); ++Part)
+		{
+			if (Parts[Part].Section == Use.Section)
+			{
+				FillPart(Use.Range, Part);
+			}
+		}
+		UpdateFlags(Use.Range);
+	}
+}
+
+void FSectionTable::GeometryChanged(const FRTGeometry& Geometry)
+{
+	const auto Found = RangesOfGeometry.find(&Geometry);
+	if (Found == RangesOfGeometry.end())
+	{
+		return;
+	}
+	for (const FSectionRangeId Id : Found->second)
+	{
+		FillRange(Id);
+		MarkRange(Id);
+	}
+}
+
+void FSectionTable::RefillAll()
+{
+	for (FSectionRangeId Id = 0; Id < Ranges.size(); ++Id)
+	{
+		if (Ranges[Id].Geometry)
+		{
+			FillRange(Id);
+		}
+	}
+}
+
+void FSectionTable::FillRange(FSectionRangeId Id)
+{
+	const FSectionRange& Range = Ranges[Id];
+	const uint32_t Parts = static_cast<uint32_t>(Range.Geometry->GetParts().size());
+	assert(Parts <= Range.Count);
+	for (uint32_t Part = 0; Part < Parts; ++Part)
+	{
+		FillPart(Id, Part);
+	}
+	for (uint32_t Part = Parts; Part < Range.Count; ++Part)
+	{
+		SetProgramSlot(Range.First + Part, Unused);
+	}
+	UpdateFlags(Id);
+}
+
+void FSectionTable::FillPart(FSectionRangeId Id, uint32_t Part)
+{
+	const FSectionRange& Range = Ranges[Id];
+	const FRTGeometryPart& Where = Range.Geometry->GetParts()[Part];
+	const uint32_t Material = Range.Materials[Where.Section];
+	FHitProgram Program;
+	Program.Program = Material < Context.Programs.size() ? Context.Programs[Material] : StandardProgram;
+	Program.Class = GetHitClass(Context, *Range.Geometry, Where, Material);
+	if (Write(Range.First + Part, MakeSection(Context, *Range.Geometry, Where, Material), Program))
+	{
+		MarkRange(Id); // whether its objects can be drawn may be another matter now
+	}
+}
+
+void FSectionTable::UpdateFlags(FSectionRangeId Id)
+{
+	const FSectionRange& Range = Ranges[Id];
+	bool bMasked = false, bDoubleSided = true, bEmissive = false;
+	for (const uint32_t Material : Range.Materials)
+	{
+		bDoubleSided &= (Context.Materials[Material].Flags & MATERIAL_DOUBLE_SIDED) != 0;
+		bEmissive |= Context.Materials[Material].EmissiveWeight > 0.0f;
+	}
+	const uint32_t Parts = static_cast<uint32_t>(Range.Geometry->GetParts().size());
+	for (uint32_t Part = 0; Part < Parts; ++Part)
+	{
+		bMasked |= (Table[Range.First + Part].Flags & SECTION_MASKED) != 0;
+	}
+	SetFlags(Id, bMasked, bDoubleSided, bEmissive);
+	if (!HasClassifiedMaterials(Context, *Range.Geometry, Range.Materials))
+	{
+		RefutedGeometries.push_back(Range.Geometry->GetSlot());
+	}
+}
+
+void FSectionTable::SetFlags(FSectionRangeId Id, bool bMasked, bool bDoubleSided, bool bEmissive)
+{
+	FSectionRange& Range = Ranges[Id];
+	if (Range.bMasked == bMasked && Range.bDoubleSided == bDoubleSided && Range.bEmissive == bEmissive)
+	{
+		return;
+	}
+	MaskedRangeCount += uint32_t(bMasked) - uint32_t(Range.bMasked);
+	EmissiveRangeCount += uint32_t(bEmissive) - uint32_t(Range.bEmissive);
+	Range.bMasked = bMasked;
+	Range.bDoubleSided = bDoubleSided;
+	Range.bEmissive = bEmissive;
+	MarkRange(Id);
+}
+
+void FSectionTable::MarkRange(FSectionRangeId Id)
+{
+	if (!std::exchange(Links[Id].bChanged, true))
+	{
+		ChangedRanges.push_back(Id);
+	}
+}
+
+bool FSectionTable::Write(uint32_t Section, const FSectionData& Data, FHitProgram Program)
+{
+	const uint32_t Old = ProgramSlots[Section];
+	const bool bSameProgram = Old != Unused && Programs[Old].Program == Program;
+	const bool bSameData = std::memcmp(&Data, &Table[Section], sizeof(Data)) == 0;
+	if (bSameProgram && bSameData)
+	{
+		return false;
+	}
+	if (!bSameData)
+	{
+		Table.Set(Section, Data);
+	}
+	if (!bSameProgram)
+	{
+		SetProgramSlot(Section, FindProgramSlot(Program));
+	}
+	if (!IsChanged[Section])
+	{
+		Changed.push_back(Section);
+		IsChanged[Section] = true;
+	}
+	return !bSameProgram;
+}
+
+std::vector<FSectionRangeId> FSectionTable::TakeChangedRanges()
+{
+	for (const FSectionRangeId Id : ChangedRanges)
+	{
+		Links[Id].bChanged = false;
+	}
+	return std::exchange(ChangedRanges, {});
+}
+
+std::vector<uint32_t> FSectionTable::TakeChanged()
+{
+	for (const uint32_t Section : Changed)
+	{
+		IsChanged[Section] = false;
+	}
+	return std::exchange(Changed, {});
+}
+
+// ------------------------------------------------------------------------------------------------ hit programs
+
+uint32_t FSectionTable::FindProgramSlot(FHitProgram Program)
+{
+	const auto [Found, bNew] = SlotOfProgram.try_emplace(Program, GetProgramSlotCount());
+	if (!bNew)
+	{
+		return Found->second;
+	}
+	++SlotsRevision;
+	if (FreeSlots.empty())
+	{
+		Programs.push_back({Program, 0});
+		return Found->second;
+	}
+	Found->second = FreeSlots.back();
+	FreeSlots.pop_back();
+	Programs[Found->second] = {Program, 0};
+	return Found->second;
+}
+
+void FSectionTable::SetProgramSlot(uint32_t Section, uint32_t Slot)
+{
+	const uint32_t Old = std::exchange(ProgramSlots[Section], Slot);
+	if (Old == Slot)
+	{
+		return;
+	}
+	if (Slot != Unused && Programs[Slot].Sections++ == 0)
+	{
+		bProgramsChanged = true;
+	}
+	if (Old != Unused && --Programs[Old].Sections == 0)
+	{
+		SlotOfProgram.erase(Programs[Old].Program);
+		FreeSlots.push_back(Old);
+		bProgramsChanged = true;
+	}
+}
+
+const std::vector<FHitProgram>& FSectionTable::GetHitPrograms()
+{
+	if (!std::exchange(bProgramsChanged, false))
+	{
+		return ProgramsInUse;
+	}
+	std::vector<FHitProgram> InUse;
+	for (const auto& [Program, Slot] : SlotOfProgram)
+	{
+		InUse.push_back(Program);
+	}
+	std::sort(InUse.begin(), InUse.end());
+	if (InUse != ProgramsInUse)
+	{
+		ProgramsInUse = std::move(InUse);
+		++ProgramsRevision;
+	}
+	return ProgramsInUse;
+}
+
+uint64_t FSectionTable::GetHitProgramsRevision()
+{
+	GetHitPrograms();
+	return ProgramsRevision;
+}
+
+} // namespace Lantern

@@ -1,0 +1,151 @@
+// For the tests of the module: its library on a mock device behind the validation wrapper, with a triangle to add.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "LanternModule/Module.h"
+#include "LanternRHIMock/MockDevice.h"
+#include "LanternRHIValidation/ValidationDevice.h"
+#include "Support/WaitTools.h"
+
+namespace Lantern
+{
+
+#define EXPECT_REFUSED(Expression, Part)                                                                               \
+	do                                                                                                                 \
+	{                                                                                                                  \
+		const FRTStatus Refused = (Expression);                                                                        \
+		EXPECT_EQ(Refused.Code, ERTResult::InvalidArgument);                                                           \
+		EXPECT_THAT(Refused.Message, ::testing::HasSubstr(Part));                                                                 \
+	} while (false)
+#define ASSERT_FINE(Expression)                                                                                        \
+	do                                                                                                                 \
+	{                                                                                                                  \
+		const FRTStatus Fine = (Expression);                                                                           \
+		ASSERT_TRUE(Fine.IsOk()) << Fine.Message;                                                                      \
+	} while (false)
+
+inline constexpr float TrianglePositions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+inline constexpr uint32_t TriangleIndices[] = {0, 1, 2};
+
+class FModuleTest : public ::testing::Test
+{
+protected:
+	void SetUp() override
+	{
+		ASSERT_FINE(CreateMockDevice({}, Inner.ReleaseAndGetAddress()));
+		const auto OnMessage = [](void* User, const char* Text)
+		{ static_cast<FModuleTest*>(User)->Messages.emplace_back(Text); };
+		ASSERT_FINE(WrapWithValidation(Inner.Get(), OnMessage, this, Device.ReleaseAndGetAddress()));
+		ASSERT_EQ(LanternCreateModule(ModuleVersion, Module.ReleaseAndGetAddress()), 0);
+		FRTModuleDesc Desc;
+		Desc.ShaderFolder = LANTERN_SOURCE_DIR "/Shaders";
+		Desc.CacheFolder = LANTERN_TEST_CACHE;
+		ASSERT_FINE(Module->Initialize(Desc));
+		ASSERT_FINE(Module->CreateRenderer(Device.Get(), Renderer.ReleaseAndGetAddress()));
+		ASSERT_FINE(Renderer->AddMaterial({}, &Solid));
+		FRTModuleMaterial Material;
+		Material.bMasked = true;
+		ASSERT_FINE(Renderer->AddMaterial(Material, &Masked));
+		Depth = MakeTexture(ERTFormat::D32_FLOAT, 64);
+		Normals = MakeTexture(ERTFormat::RGBA16_SNORM, 64);
+	}
+	void TearDown() override
+	{
+		Mock().ClearCompileFaults(); // the renderer waits for compiles that a failed test has left in the driver
+		Renderer.Reset();
+		Module.Reset();
+		List.Reset();
+		Depth.Reset();
+		Normals.Reset();
+		Device.Reset();
+		EXPECT_EQ(Messages, std::vector<std::string>());
+		EXPECT_EQ(GetMock(Inner.Get()).GetErrors(), std::vector<std::string>());
+	}
+	FRTMock& Mock() { return GetMock(Inner.Get()); }
+	TRTRef<IRTTexture> MakeTexture(ERTFormat Format, uint32_t Size, ERTTextureUsage Usage = ERTTextureUsage::Sampled,
+	                               const char* Name = "Test")
+	{
+		FRTTextureDesc Desc;
+		Desc.Width = Desc.Height = Size;
+		Desc.Format = Format;
+		Desc.Usage = Usage;
+		Desc.Name = Name;
+		TRTRef<IRTTexture> Out;
+		const FRTStatus Status = Device->ImportTexture(Desc, ++LastNative, Out.ReleaseAndGetAddress());
+		EXPECT_TRUE(Status.IsOk()) << Status.Message;
+		return Out;
+	}
+	static FRTModuleMesh DescribeTriangle()
+	{
+		FRTModuleMesh Mesh;
+		Mesh.Name = "Triangle";
+		Mesh.Positions = TrianglePositions;
+		Mesh.VertexCount = 3;
+		Mesh.Indices = TriangleIndices;
+		Mesh.IndexCount = 3;
+		return Mesh;
+	}
+	ERTMeshHandle AddMesh(const FRTModuleMesh& Mesh)
+	{
+		ERTMeshHandle Handle = ERTMeshHandle::None;
+		const FRTStatus Status = Renderer->AddMesh(Mesh, &Handle);
+		EXPECT_TRUE(Status.IsOk()) << Status.Message;
+		return Handle;
+	}
+	/// One section that cannot be alpha-tested.
+	ERTMeshHandle AddOpaqueMesh()
+	{
+		const FRTModuleSection Section{0, 3, false};
+		FRTModuleMesh Mesh = DescribeTriangle();
+		Mesh.Name = "Wall";
+		Mesh.Sections = &Section;
+		Mesh.SectionCount = 1;
+		return AddMesh(Mesh);
+	}
+	FRTStatus AddObject(ERTMeshHandle Mesh, ERTMaterialHandle Material)
+	{
+		FRTModuleObject Desc;
+		Desc.Mesh = Mesh;
+		Desc.Materials = &Material;
+		Desc.MaterialCount = 1;
+		return Renderer->AddObject(Desc, &Object);
+	}
+	FRTStatus SetSun(double Y, float Irradiance = 1.0f)
+	{
+		FRTModuleSun Sun;
+		Sun.Direction[1] = Y;
+		Sun.Irradiance = Irradiance;
+		return Renderer->SetSun(Sun);
+	}
+	FRTModuleFrame DescribeFrame()
+	{
+		const FRTStatus Status = Device->ImportCommandList(++LastNative, List.ReleaseAndGetAddress());
+		EXPECT_TRUE(Status.IsOk()) << Status.Message;
+		FRTModuleFrame Frame;
+		Frame.Commands = List.Get();
+		Frame.Depth = Depth.Get();
+		Frame.Normals = Normals.Get();
+		return Frame;
+	}
+	FRTStatus Render() { return Renderer->RenderFrame(DescribeFrame(), &Outputs); }
+	/// Buffers of the name that were copied to in the calls so far.
+	uint32_t CountCopies(const char* Name) { return Mock().CountCalls(ERTMockCall::CopyBuffer, Name); }
+
+	TRTRef<IRTDevice> Inner, Device;
+	TRTRef<IRTModule> Module;
+	TRTRef<IRTModuleRenderer> Renderer;
+	TRTRef<IRTTexture> Depth, Normals;
+	TRTRef<IRTCommandList> List;
+	ERTMaterialHandle Solid = ERTMaterialHandle::None, Masked = ERTMaterialHandle::None;
+	ERTObjectHandle Object = ERTObjectHandle::None;
+	FRTModuleOutputs Outputs;
+	std::vector<std::string> Messages;
+	uint64_t LastNative = 0;
+};
+
+} // namespace Lantern

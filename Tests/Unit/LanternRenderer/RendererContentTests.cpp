@@ -1,0 +1,307 @@
+// "Model no more than the scene needs": a frame of a scene that lacks something holds no pass, pipeline, buffer or
+// dispatch for it.
+#include "LanternHost/ReferenceRenderer.h"
+#include "LanternRenderer/Frame.h"
+#include "Support/RendererTestTools.h"
+
+namespace Lantern
+{
+namespace
+{
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+class FRendererContentTest : public FRendererTest
+{
+protected:
+	uint32_t Count(ERTMockCall Kind) { return Mock().CountCalls(Kind); }
+	std::vector<std::string> GetDispatched()
+	{
+		std::vector<std::string> Names;
+		for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::Dispatch))
+		{
+			Names.push_back(Call.Name);
+		}
+		return Names;
+	}
+	FRTStatus RenderReferenceOnce(uint32_t Samples = 1)
+	{
+		FReferenceSettings Settings;
+		Settings.View = LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 16, 8);
+		Settings.Samples = Samples;
+		FReferenceResult Result;
+		Mock().ClearCalls();
+		const FRTStatus Status = RenderReference(*Engine, Settings, Result);
+		EXPECT_TRUE(!Status || Result.Radiance.Width == 16);
+		return Status;
+	}
+};
+
+TEST_F(FRendererContentTest, EverythingAtOnce)
+{
+	LoadAndRender(
+	    {.bMasked = true, .bSkinned = true, .bLights = true, .bTexture = true, .bEmissive = true, .bSky = true});
+	EXPECT_THAT(GetPasses(),
+	            ElementsAre("Skinning", "SceneUpdate", "GBuffer", "Structures", "SunShadow", "Surface", "SunShadowTemporal", "SunShadowFilter0",
+	                        "SunShadowFilter1", "SunShadowFilter2", "SunShadowFilter3", "AmbientOcclusion", "AmbientOcclusionTemporal",
+	                        "AmbientOcclusionFilter0", "AmbientOcclusionFilter1", "AmbientOcclusionFilter2", "AmbientOcclusionFilter3",
+	                        "DirectLighting", "ToneMap"));
+	std::vector<std::string> Dispatched = GetDispatched();
+	std::erase_if(Dispatched, [](const std::string& Name) { return Name.rfind("Denoise/", 0) == 0; });
+	EXPECT_THAT(Dispatched,
+	            ElementsAre("Skinning/Skin.comp", "Skinning/RefitQuality.comp", AllOf(StartsWith("SunShadow/SunShadow.comp"), HasSubstr("HAS_MASKED")),
+	                        AllOf(StartsWith("AmbientOcclusion/AmbientOcclusion.comp"), HasSubstr("HAS_MASKED")),
+	                        "Lighting/DirectLighting.comp HAS_SUN HAS_SKY HAS_LIGHTS", "ToneMap/ToneMap.comp"));
+	EXPECT_EQ(Count(ERTMockCall::DrawIndexed), 4u);
+	EXPECT_EQ(Count(ERTMockCall::BuildGeometry), 4u);
+	EXPECT_THAT(Mock().GetCreatedBuffers(), Contains("Lights"));
+}
+
+TEST_F(FRendererContentTest, SecondFrameOfAStaticSceneCopiesAndBuildsNothing)
+{
+	LoadAndRender({.bMasked = true, .bSkinned = true, .bLights = true, .bSky = true});
+	for (int Frame = 0; Frame < 8; ++Frame) { Render(); } // what was built is compacted
+	EXPECT_THAT(GetPassesWithoutFilters(), ElementsAre("GBuffer", "SunShadow", "AmbientOcclusion", "DirectLighting", "ToneMap"));
+	for (const ERTMockCall Kind : {ERTMockCall::CopyBuffer, ERTMockCall::BuildGeometry, ERTMockCall::BuildScene,
+	                               ERTMockCall::CreateTexture, ERTMockCall::CreateComputePipeline})
+	{
+		EXPECT_EQ(Count(Kind), 0u) << static_cast<int>(Kind);
+	}
+	EXPECT_THAT(Mock().GetCreatedBuffers(), Each("Capture"));
+}
+
+TEST_F(FRendererContentTest, WithoutAlphaTestsThereIsNoAnyHit)
+{
+	Set("r.RT.Shadow.Denoise", "0"); // which wants to know how far off what blocks is
+	Set("r.RT.Shadow.Path", "1");
+	LoadAndRender({});
+	ASSERT_TRUE(GetRTPSO());
+	EXPECT_EQ(GetRTPSO()->GetHitGroupCount(), 1u);
+	uint64_t Shaders = 0;
+	for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::CreateRayTracingPipeline)) { Shaders += Call.Numbers[0]; }
+	EXPECT_EQ(Shaders, 2u) << "ray generation and miss";
+	EXPECT_EQ(Resolve(0, 0).AnyHit, "");
+	EXPECT_THAT(Mock().GetCreatedPipelines(), Not(Contains("GBufferMasked")));
+	Set("r.RT.Shadow.Path", "2");
+	Render();
+	EXPECT_THAT(GetDispatched(), Contains(StartsWith("SunShadow/SunShadow.comp")));
+	EXPECT_THAT(GetDispatched(), Not(Contains(HasSubstr("HAS_MASKED"))));
+
+	Set("r.RT.Shadow.Path", "1");
+	LoadAndRender({.bMasked = true});
+	EXPECT_EQ(GetRTPSO()->GetHitGroupCount(), 2u);
+	EXPECT_EQ(Resolve(0, 0).AnyHit, "") << "an opaque object beside a masked one";
+	EXPECT_EQ(Resolve(1, 0).AnyHit, "Rays/AlphaTest.rahit");
+	EXPECT_THAT(Mock().GetCreatedPipelines(), Contains("GBufferMasked"));
+}
+
+TEST_F(FRendererContentTest, WithoutTheReferenceThereIsNoClosestHitAndNoMaterialRay)
+{
+	Set("r.RT.Shadow.Denoise", "0"); // which wants to know how far off what blocks is
+	Set("r.RT.Shadow.Path", "1");
+	LoadAndRender({.bMasked = true});
+	EXPECT_EQ(GetRTPSO()->GetRayTypeCount(), 1u);
+	EXPECT_EQ(Resolve(1, 0).ClosestHit, "");
+	EXPECT_LE(Mock().FindCalls(ERTMockCall::CreateRayTracingPipeline).at(0).Numbers[3], 4u) << "payload bytes";
+	ASSERT_TRUE(RenderReferenceOnce());
+	EXPECT_EQ(GetRTPSO()->GetRayTypeCount(), 2u);
+	EXPECT_EQ(Resolve(1, 0).ClosestHit, "");
+	EXPECT_EQ(Resolve(1, 1).ClosestHit, "Rays/Material.rchit");
+	EXPECT_EQ(Resolve(0, 1).AnyHit, "");
+	EXPECT_LE(Mock().FindCalls(ERTMockCall::CreateRayTracingPipeline).at(0).Numbers[3], 32u) << "payload bytes";
+	Render();
+	EXPECT_EQ(GetRTPSO()->GetRayTypeCount(), 1u);
+	EXPECT_TRUE(Resolve(1, 0).IsGood()) << Resolve(1, 0).Error;
+	EXPECT_EQ(Resolve(1, 0).AnyHit, "Rays/AlphaTest.rahit");
+}
+
+TEST_F(FRendererContentTest, WithoutSkinningThereIsNoSkinningPass)
+{
+	LoadAndRender({});
+	EXPECT_FALSE(HasPass("Skinning"));
+	EXPECT_THAT(Mock().GetCreatedPipelines(), Not(Contains(HasSubstr("Skin"))));
+	EXPECT_EQ(Mock().FindCalls(ERTMockCall::BuildGeometry).at(0).Numbers[1], 0u);
+	LoadAndRender({.bSkinned = true});
+	EXPECT_TRUE(HasPass("Skinning"));
+	Render();
+	EXPECT_FALSE(HasPass("Skinning")) << "the pose has not changed";
+	Render(0.5);
+	EXPECT_TRUE(HasPass("Skinning"));
+	EXPECT_EQ(Count(ERTMockCall::BuildGeometry), 1u) << "of two geometries one is deformed";
+	EXPECT_EQ(Mock().FindCalls(ERTMockCall::BuildGeometry).at(0).Numbers[1], 1u) << "a refit";
+}
+
+TEST_F(FRendererContentTest, WithoutLightsThereIsNoLightBuffer)
+{
+	LoadAndRender({.bSky = true});
+	EXPECT_THAT(Mock().GetCreatedBuffers(), Not(Contains("Lights")));
+	EXPECT_THAT(GetDispatched(), Contains("Lighting/DirectLighting.comp HAS_SUN HAS_SKY"));
+	EXPECT_EQ(Engine->GetScene().GetScene().GetConstants().Lights, 0u);
+}
+
+TEST_F(FRendererContentTest, WithoutASunNoRayIsTraced)
+{
+	Set("r.RT.Shadow.Path", "1");
+	Set("r.RT.AO", "0"); // has rays of its own where there is a sky
+	LoadAndRender({.bMasked = true, .bSun = false, .bSky = true});
+	EXPECT_THAT(GetPasses(), ElementsAre("SceneUpdate", "GBuffer", "DirectLighting", "ToneMap"));
+	EXPECT_THAT(GetDispatched(), Contains("Lighting/DirectLighting.comp HAS_SKY"));
+	EXPECT_EQ(GetRTPSO(), nullptr);
+	EXPECT_TRUE(Captured.Get(ESignal::SunShadow).IsEmpty());
+	for (const ERTMockCall Kind : {ERTMockCall::CreateRayTracingPipeline, ERTMockCall::CreateShaderTable,
+	                               ERTMockCall::CreateGeometry, ERTMockCall::CreateScene, ERTMockCall::BuildScene})
+	{
+		EXPECT_EQ(Count(Kind), 0u) << static_cast<int>(Kind);
+		for (const FRTMockCall& Call : LoadCalls)
+		{
+			EXPECT_NE(Call.Kind, Kind) << "while loading";
+		}
+	}
+	EXPECT_THAT(Mock().GetCreatedTextures(), Not(Contains("SunShadowVisibility")));
+	ApplySky({.bSun = true, .bSky = true});
+	Render();
+	EXPECT_THAT(GetPassesWithoutFilters(), ElementsAre("GBuffer", "Structures", "ShaderTable", "SunShadow", "DirectLighting", "ToneMap"));
+	EXPECT_EQ(Count(ERTMockCall::BuildGeometry), 2u);
+	EXPECT_EQ(Count(ERTMockCall::TraceRays), 1u);
+}
+
+TEST_F(FRendererContentTest, WithoutASkyItIsNotEvaluated)
+{
+	LoadAndRender({});
+	EXPECT_THAT(GetDispatched(), Contains("Lighting/DirectLighting.comp HAS_SUN"));
+}
+
+TEST_F(FRendererContentTest, EmptySceneIsACorrectEmptyFrame)
+{
+	for (const bool bSun : {true, false})
+	{
+		LoadAndRender({.bObjects = false, .bSun = bSun, .bSky = true});
+		EXPECT_EQ(Count(ERTMockCall::DrawIndexed), 0u);
+		EXPECT_TRUE(HasPass("GBuffer")) << "the targets are cleared";
+		EXPECT_EQ(Count(ERTMockCall::BeginRasterPass), 1u);
+		EXPECT_EQ(Count(ERTMockCall::BuildScene), bSun ? 1u : 0u);
+		EXPECT_EQ(Captured.Get(ESignal::SunShadow).IsEmpty(), !bSun);
+		Render();
+		ASSERT_TRUE(RenderReferenceOnce());
+	}
+}
+
+TEST_F(FRendererContentTest, NothingInViewDrawsNothing)
+{
+	LoadAndRender({});
+	FFrameCapture Capture;
+	Capture.bDisplay = true;
+	Mock().ClearCalls();
+	const FView Away = LookAt({0, 0, 5}, {0, 0, 10}, 1.0f, 32, 32);
+	ASSERT_TRUE(Engine->RenderFrame(Away, 0.0, Capture, &Captured));
+	EXPECT_EQ(Captured.Display.Width, 32u);
+	EXPECT_EQ(Count(ERTMockCall::DrawIndexed), 0u);
+	EXPECT_TRUE(HasPass("SunShadow")) << "what is out of view still casts shadows";
+}
+
+TEST_F(FRendererContentTest, PassesThatNobodyReadsAreCulled)
+{
+	LoadAndRender({});
+	for (int Frame = 0; Frame < 8; ++Frame) { Render(); } // what was built is compacted
+	Mock().ClearCalls();
+	ASSERT_TRUE(Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, {}, nullptr));
+	EXPECT_THAT(GetPasses(), ElementsAre()) << "no output was wanted";
+	FFrameCapture Capture;
+	Capture.Wants(ESignal::SunShadow) = true;
+	Mock().ClearCalls();
+	ASSERT_TRUE(Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, Capture, &Captured));
+	EXPECT_THAT(GetPasses(), ElementsAre("GBuffer", "SunShadow", "Surface", "SunShadowTemporal", "SunShadowFilter0", "SunShadowFilter1",
+	                                     "SunShadowFilter2", "SunShadowFilter3"))
+	    << "a host that lights by itself";
+}
+
+// The scene knows how objects moved since whoever showed it last: to another renderer that is not the frame before.
+TEST_F(FRendererContentTest, AnothersFrameOfTheSceneEndsWhatIsCarriedOver)
+{
+	LoadAndRender({});
+	bool bHasPrevious = false;
+	Engine->ExtraPasses = [&](FFrameContext& Context, const FGBuffer&, const FFrameOutputs&) { bHasPrevious = Context.PreviousView != nullptr; };
+	Render();
+	EXPECT_TRUE(bHasPrevious);
+	FRendererDesc Desc;
+	Desc.ShaderFolders = {GetShaderFolder()};
+	Desc.CacheFolder = LANTERN_TEST_CACHE;
+	FRenderer Other(*Device, Desc);
+	const auto ShowByOther = [&](bool bSubmit)
+	{
+		const FRTStatus Status = Other.BeginFrame(Engine->GetScene().GetScene(), LookAt({0, 0, 9}, {0, 0, 0}, 1.0f, 40, 24), {});
+		ASSERT_TRUE(Status) << Status.Message;
+		if (!bSubmit) { return Other.FrameSubmitted(0); }
+		ASSERT_TRUE(Other.EndFrame(nullptr));
+		ASSERT_TRUE(Other.WaitForAll());
+	};
+	ShowByOther(true);
+	Render();
+	EXPECT_FALSE(bHasPrevious);
+	Render();
+	EXPECT_TRUE(bHasPrevious) << "its own again";
+	ShowByOther(false);
+	Render();
+	EXPECT_TRUE(bHasPrevious) << "a lost frame has shown nothing";
+}
+
+TEST_F(FRendererContentTest, ReferenceKeepsEmittersAndFactsOfItsScene)
+{
+	LoadAndRender({.bEmissive = true});
+	EXPECT_EQ(Engine->GetScene().GetScene().GetConstants().EmissiveTriangleCount, 0u);
+	ASSERT_TRUE(RenderReferenceOnce(2));
+	EXPECT_EQ(Engine->GetScene().GetScene().GetConstants().EmissiveTriangleCount, 2u);
+	EXPECT_THAT(Mock().GetCreatedBuffers(), Contains("EmissiveTriangles"));
+	EXPECT_THAT(GetDispatched(), ElementsAre()) << "no real-time pass runs";
+	ASSERT_TRUE(Load({}));
+	ASSERT_TRUE(RenderReferenceOnce());
+	EXPECT_THAT(Mock().GetCreatedBuffers(), Not(Contains("EmissiveTriangles")));
+}
+
+TEST_F(FRendererContentTest, ReferenceNeedsPipelinesAndSaysSo)
+{
+	FRTMockDesc Desc;
+	Desc.Rung = ERTRung::RayQuery;
+	Open(Desc);
+	ASSERT_TRUE(Load({}));
+	const FRTStatus Status = RenderReferenceOnce();
+	EXPECT_EQ(Status.Code, ERTResult::Unsupported);
+	EXPECT_THAT(std::string(Status.Message), HasSubstr("ray-tracing pipelines"));
+	Render();
+	EXPECT_TRUE(HasPass("SunShadow")) << "ray queries go on";
+}
+
+TEST_F(FRendererContentTest, LadderChoosesThePathAndTheLastRungGoesWithout)
+{
+	struct FRung
+	{
+		ERTRung Rung;
+		bool bRayQuery;
+		uint32_t Traces, Passes;
+	};
+	for (const FRung& Case : {FRung{ERTRung::Pipeline, true, 0, 1}, FRung{ERTRung::Pipeline, false, 1, 1},
+	                          FRung{ERTRung::RayQuery, true, 0, 1}, FRung{ERTRung::None, false, 0, 0}})
+	{
+		FRTMockDesc Desc;
+		Desc.Rung = Case.Rung;
+		Desc.bRayQuery = Case.bRayQuery;
+		Open(Desc);
+		for (const char* Path : {"0", "1", "2"})
+		{
+			Set("r.RT.Shadow.Path", Path);
+			LoadAndRender({.bMasked = true});
+			EXPECT_EQ(HasPass("SunShadow"), Case.Passes > 0);
+			const bool bWanted = Path[0] == '1' && Case.Rung >= ERTRung::Pipeline;
+			EXPECT_EQ(Count(ERTMockCall::TraceRays), bWanted ? 1u : Case.Traces);
+		}
+	}
+}
+
+} // namespace
+} // namespace Lantern

@@ -1,0 +1,299 @@
+// Console variables flipped between frames: the next frame is right, and only what it needs runs.
+#include <random>
+
+#include "Support/RendererTestTools.h"
+#include "SunShadowTypes.h"
+#include "Support/WaitTools.h"
+
+namespace Lantern
+{
+namespace
+{
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class FRendererToggleTest : public FRendererTest
+{
+protected:
+	std::string GetLightingVariant()
+	{
+		for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::Dispatch))
+		{
+			if (Call.Name.rfind("Lighting/DirectLighting.comp", 0) == 0)
+			{
+				return Call.Name.substr(28);
+			}
+		}
+		return "none";
+	}
+	/// Push constants of the sun shadow pass.
+	FSunShadowConstants GetShadowConstants()
+	{
+		FSunShadowConstants Constants{};
+		for (const FRTMockCall& Call : Mock().GetCalls())
+		{
+			const bool bTrace = Call.Kind == ERTMockCall::TraceRays;
+			const bool bQuery = Call.Kind == ERTMockCall::Dispatch && Call.Name.rfind("SunShadow/", 0) == 0;
+			if (!bTrace && !bQuery)
+			{
+				continue;
+			}
+			EXPECT_EQ(Call.Bytes.size(), sizeof(Constants));
+			std::memcpy(&Constants, Call.Bytes.data(), std::min(sizeof(Constants), Call.Bytes.size()));
+		}
+		return Constants;
+	}
+	/// Switches diffuse GI on, and holds its compile up for some frames.
+	void ExpectOcclusionUntilDiffuseGI()
+	{
+		bool bRuns = false;
+		const auto Frame = [&]
+		{
+			ASSERT_NO_FATAL_FAILURE(Render());
+			bRuns = HasPass("DiffuseGI");
+			ASSERT_NE(HasPass("AmbientOcclusion"), bRuns);
+			GiveWay();
+		};
+		const auto LetGo = [&] { Mock().ClearCompileFaults(); };
+		const auto IsInDriver = [&] { return Mock().GetCompilesInDriver() > 0; };
+		Engine->bRealTime = true;
+		Set("r.RT.GI", "1");
+		Mock().HoldCompiles("DiffuseGI");
+		{
+			const FHangGuard Guard("frames while diffuse GI is compiled", LetGo);
+			ASSERT_TRUE(WaitUntil("diffuse GI's compile in the driver", IsInDriver, Frame));
+			for (int I = 0; I < 5; ++I)
+			{
+				ASSERT_NO_FATAL_FAILURE(Frame());
+				EXPECT_FALSE(bRuns) << "before it was compiled";
+			}
+		}
+		LetGo();
+		ASSERT_TRUE(WaitUntil("diffuse GI", [&] { return bRuns; }, Frame));
+	}
+};
+
+TEST_F(FRendererToggleTest, EveryFeatureCanBeSwitchedOffAndOn)
+{
+	LoadAndRender({.bMasked = true, .bLights = true, .bSky = true});
+	struct FCase
+	{
+		const char* Name;
+		const char* Off;
+		const char* On;
+		std::string LightingOff;
+		bool bShadowOff;
+	};
+	const std::string All = " HAS_SUN HAS_SKY HAS_LIGHTS";
+	for (const FCase& Case : {FCase{"r.RT.Enable", "0", "1", All, false}, FCase{"r.RT.Shadow", "0", "1", All, false},
+	                          FCase{"r.RT.LocalLights", "0", "1", " HAS_SUN HAS_SKY", true},
+	                          FCase{"r.RT.SkyAmbient", "0", "1", " HAS_SUN HAS_LIGHTS", true},
+	                          FCase{"r.RT.AlphaTest", "0", "1", All, true}})
+	{
+		for (const char* Path : {"1", "2"})
+		{
+			Set("r.RT.Shadow.Path", Path);
+			Set(Case.Name, Case.Off);
+			Render();
+			EXPECT_EQ(GetLightingVariant(), Case.LightingOff) << Case.Name;
+			EXPECT_EQ(HasPass("SunShadow"), Case.bShadowOff) << Case.Name;
+			EXPECT_EQ(Captured.Get(ESignal::SunShadow).IsEmpty(), !Case.bShadowOff) << Case.Name;
+			Set(Case.Name, Case.On);
+			Render();
+			EXPECT_EQ(GetLightingVariant(), All) << Case.Name;
+			EXPECT_TRUE(HasPass("SunShadow")) << Case.Name;
+		}
+	}
+}
+
+TEST_F(FRendererToggleTest, ShadowOffTracesNothingAndKeepsNoPipeline)
+{
+	Set("r.RT.Shadow.Path", "1");
+	LoadAndRender({});
+	EXPECT_TRUE(GetRTPSO());
+	Set("r.RT.Shadow", "0");
+	Render();
+	EXPECT_FALSE(GetRTPSO());
+	EXPECT_EQ(Mock().CountCalls(ERTMockCall::TraceRays), 0u);
+	EXPECT_FALSE(HasPass("ShaderTable"));
+	Set("r.RT.Shadow", "1");
+	Render();
+	EXPECT_EQ(Mock().CountCalls(ERTMockCall::TraceRays), 1u);
+	EXPECT_EQ(Mock().CountCalls(ERTMockCall::CreateRayTracingPipeline), 0u) << "the pipeline of before is used again";
+	EXPECT_TRUE(Resolve(0, 0).IsGood()) << Resolve(0, 0).Error;
+}
+
+TEST_F(FRendererToggleTest, AlphaTestSwapsThePipelineAndItsRecords)
+{
+	Set("r.RT.Shadow.Path", "1");
+	LoadAndRender({.bMasked = true});
+	EXPECT_EQ(Resolve(1, 0).AnyHit, "Rays/AlphaTest.rahit");
+	for (const char* Name : {"r.RT.AlphaTest", "r.RT.Material.Override"})
+	{
+		const bool bOverride = std::string(Name) == "r.RT.Material.Override";
+		Set(Name, bOverride ? "2" : "0");
+		Render();
+		EXPECT_EQ(GetRTPSO()->GetHitGroupCount(), 1u) << Name;
+		EXPECT_TRUE(Resolve(1, 0).IsGood()) << Resolve(1, 0).Error;
+		EXPECT_EQ(Resolve(1, 0).AnyHit, "") << Name;
+		Set(Name, bOverride ? "0" : "1");
+		Render();
+		EXPECT_TRUE(Resolve(1, 0).IsGood()) << Resolve(1, 0).Error;
+		EXPECT_EQ(Resolve(1, 0).AnyHit, "Rays/AlphaTest.rahit") << Name;
+	}
+}
+
+TEST_F(FRendererToggleTest, ShadowSettingsReachTheShader)
+{
+	LoadAndRender({});
+	EXPECT_EQ(GetShadowConstants().SamplesPerPixel, 1u);
+	Set("r.RT.Shadow.Samples", "16");
+	Set("r.RT.Shadow.MaxDistance", "50");
+	Set("r.RT.Shadow.CullFrontFaces", "1");
+	Set("r.RT.Shadow.InstanceMask", "4");
+	for (const char* Path : {"1", "2"})
+	{
+		Set("r.RT.Shadow.Path", Path);
+		Render();
+		EXPECT_EQ(GetShadowConstants().SamplesPerPixel, 16u);
+		EXPECT_EQ(GetShadowConstants().MaxDistance, 50.0f);
+		EXPECT_EQ(GetShadowConstants().RayFlags, 0x10u);
+		EXPECT_EQ(GetShadowConstants().InstanceMask, 4u);
+		EXPECT_EQ(GetShadowConstants().bSoft, 1u);
+	}
+	Set("r.RT.Shadow.Soft", "0");
+	Render();
+	EXPECT_EQ(GetShadowConstants().SamplesPerPixel, 1u) << "hard shadows need one ray";
+	EXPECT_EQ(GetShadowConstants().bSoft, 0u);
+}
+
+TEST_F(FRendererToggleTest, ValueSetInTheMiddleOfAFrameWaitsForTheNext)
+{
+	LoadAndRender({});
+	Engine->ExtraPasses = [](FFrameContext&, const FGBuffer&, const FFrameOutputs& Outputs)
+	{
+		EXPECT_TRUE(Outputs.SunShadow.Visibility.IsValid());
+		Set("r.RT.Shadow", "0");
+	};
+	Render();
+	EXPECT_TRUE(HasPass("SunShadow"));
+	Engine->ExtraPasses = {};
+	Render();
+	EXPECT_FALSE(HasPass("SunShadow"));
+}
+
+TEST_F(FRendererToggleTest, AnySequenceOfTogglesGivesRightFrames)
+{
+	LoadAndRender({.bMasked = true, .bSkinned = true, .bLights = true, .bEmissive = true, .bSky = true});
+	struct FVariable
+	{
+		const char* Name;
+		std::vector<const char*> Values;
+	};
+	const std::vector<FVariable> Variables = {{"r.RT.Enable", {"0", "1", "1"}},
+	                                          {"r.RT.Shadow", {"0", "1", "1"}},
+	                                          {"r.RT.Shadow.Path", {"0", "1", "2"}},
+	                                          {"r.RT.Shadow.Soft", {"0", "1"}},
+	                                          {"r.RT.Shadow.Samples", {"1", "4"}},
+	                                          {"r.RT.AlphaTest", {"0", "1"}},
+	                                          {"r.RT.Material.Override", {"0", "1", "2"}},
+	                                          {"r.RT.LocalLights", {"0", "1"}},
+	                                          {"r.RT.SkyAmbient", {"0", "1"}},
+	                                          {"r.RT.AO", {"0", "1"}},
+	                                          {"r.RT.AO.Path", {"0", "1", "2"}},
+	                                          {"r.RT.AO.Denoise", {"0", "1", "1"}},
+	                                          {"r.RT.GI", {"0", "1"}},
+	                                          {"r.RT.Reflections", {"0", "1"}},
+	                                          {"r.RT.Shadow.Denoise", {"0", "1", "1"}},
+	                                          {"r.RT.GBuffer.Motion", {"0", "1"}},
+	                                          {"r.RT.Debug.PoisonHistory", {"0", "1", "3"}},
+	                                          {"r.RT.Skinning.RebuildInterval", {"1", "2", "16"}}};
+	std::mt19937 Random(6);
+	FContent Content{.bMasked = true, .bSkinned = true, .bLights = true, .bEmissive = true, .bSky = true};
+	for (int Step = 0; Step < 150; ++Step)
+	{
+		for (uint32_t Changes = Random() % 3; Changes > 0; --Changes)
+		{
+			const FVariable& Variable = Variables[Random() % Variables.size()];
+			Set(Variable.Name, Variable.Values[Random() % Variable.Values.size()]);
+		}
+		if (Random() % 10 == 0)
+		{
+			Content.bSun = Random() % 3 != 0;
+			Content.bSky = Random() % 2;
+			ApplySky(Content);
+		}
+		ASSERT_NO_FATAL_FAILURE(Render(Random() % 4 * 0.25)) << "step " << Step;
+		const auto IsOn = [](const char* Name) { return FConsoleVariables::ToString(FConsoleVariables::Get().Find(Name)->GetValue()) == "1"; };
+		const bool bRays = IsOn("r.RT.Enable");
+		ASSERT_EQ(HasPass("SunShadow"), bRays && Content.bSun && IsOn("r.RT.Shadow")) << "step " << Step;
+		ASSERT_EQ(HasPass("DiffuseGI"), bRays && IsOn("r.RT.GI")) << "step " << Step;
+		ASSERT_EQ(HasPass("Reflections"), bRays && IsOn("r.RT.Reflections")) << "step " << Step;
+		const bool bAmbient = Content.bSky && IsOn("r.RT.SkyAmbient") && !IsOn("r.RT.GI");
+		ASSERT_EQ(HasPass("AmbientOcclusion"), bRays && bAmbient && IsOn("r.RT.AO")) << "step " << Step;
+		const bool bMasked = Engine->GetScene().GetScene().GetFacts().bMasked;
+		for (uint32_t Instance = 0; GetRTPSO() && Instance < 4; ++Instance)
+		{
+			const FRTMockRecord Record = Resolve(Instance, 0);
+			ASSERT_TRUE(Record.IsGood()) << "step " << Step << ": " << Record.Error;
+			ASSERT_EQ(Record.AnyHit.empty(), Instance != 1 || !bMasked) << "step " << Step;
+		}
+	}
+}
+
+/// Until diffuse GI is compiled, the sky's ambient light is there in its stead, and is occluded.
+TEST_F(FRendererToggleTest, AmbientOcclusionStaysUntilDiffuseGIRuns)
+{
+	for (const char* const Path : {"1", "2"})
+	{
+		FConsoleVariables::Get().ResetAll();
+		Open();
+		Set("r.RT.AO.Path", Path);
+		LoadAndRender({.bSky = true});
+		ASSERT_TRUE(HasPass("AmbientOcclusion")) << Path;
+		ASSERT_NO_FATAL_FAILURE(ExpectOcclusionUntilDiffuseGI()) << "path " << Path;
+		Engine->bRealTime = false;
+		Render();
+		EXPECT_TRUE(HasPass("DiffuseGI")) << Path;
+		EXPECT_FALSE(HasPass("AmbientOcclusion")) << Path;
+		const FShaderSource RayGen{"AmbientOcclusion/AmbientOcclusion.rgen", ERTShaderStage::RayGen, {{"ONE_SAMPLE", "1"}}, {}};
+		EXPECT_EQ(GetRTPSO()->FindRayGen(RayGen), NoRayGen) << "nothing is compiled that does not run";
+	}
+}
+
+TEST_F(FRendererToggleTest, SizeOfThePictureMayChangeEveryFrame)
+{
+	LoadAndRender({});
+	for (const uint32_t Size : {1u, 33u, 8u, 200u, 1u})
+	{
+		FFrameCapture Capture;
+		Capture.bDisplay = true;
+		const FRTStatus Status =
+		    Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, Size, 2 * Size), 0.0, Capture, &Captured);
+		ASSERT_TRUE(Status) << Status.Message;
+		EXPECT_EQ(Captured.Display.Width, Size);
+		EXPECT_EQ(Captured.Display.Height, 2 * Size);
+	}
+}
+
+TEST_F(FRendererToggleTest, ManyFramesNeitherLeakNorWait)
+{
+	LoadAndRender({.bMasked = true, .bSkinned = true, .bSky = true});
+	for (int I = 0; I < 5; ++I)
+	{
+		Render(I * 0.1);
+	}
+	const uint32_t Objects = Mock().GetLiveObjectCount();
+	const uint64_t Bytes = Device->GetMemoryStats().Total;
+	for (int I = 0; I < 100; ++I)
+	{
+		Render(I * 0.1);
+	}
+	EXPECT_EQ(Mock().GetLiveObjectCount(), Objects);
+	EXPECT_EQ(Device->GetMemoryStats().Total, Bytes);
+}
+
+} // namespace
+} // namespace Lantern
