@@ -53,22 +53,14 @@ FError FForkRaster::Create(const FForkDevice& InOwner, VkExtent2D InSize)
 	Device = InOwner.Device;
 	Size = InSize;
 	constexpr VkImageUsageFlags Usage = VK_IMAGE_USAGE_SAMPLED_BIT;
-	FError Error = Depth.Create(InOwner, Size, DepthFormat, Usage | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
-	                            VK_IMAGE_ASPECT_DEPTH_BIT);
+	FError Error = Depth.Create(InOwner, Size, DepthFormat, Usage | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_ASPECT_DEPTH_BIT);
 	if (Error.empty())
 	{
-		Error = Normals.Create(InOwner, Size, NormalsFormat, Usage | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
-		                       VK_IMAGE_ASPECT_COLOR_BIT);
+		Error = Normals.Create(InOwner, Size, NormalsFormat, Usage | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
 	}
 	const FBoxMesh Box = MakeBoxMesh();
-	if (Error.empty())
-	{
-		Error = Mesh.Create(InOwner, sizeof(Box), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
-	}
-	if (!Error.empty())
-	{
-		return Error;
-	}
+	if (Error.empty()) { Error = Mesh.Create(InOwner, sizeof(Box), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT); }
+	if (!Error.empty()) { return Error; }
 	std::memcpy(Mesh.Mapped, &Box, sizeof(Box));
 	return CreatePipeline();
 }
@@ -82,20 +74,10 @@ FError FForkRaster::CreatePipeline()
 	vkCreatePipelineLayout(Device, &LayoutInfo, nullptr, &Layout);
 
 	std::array<VkPipelineShaderStageCreateInfo, 2> Stages{};
-	Stages[0] = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-	             nullptr,
-	             0,
-	             VK_SHADER_STAGE_VERTEX_BIT,
-	             CreateShader(Device, ForkVertexShader, sizeof(ForkVertexShader)),
-	             "main",
-	             nullptr};
-	Stages[1] = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-	             nullptr,
-	             0,
-	             VK_SHADER_STAGE_FRAGMENT_BIT,
-	             CreateShader(Device, ForkFragmentShader, sizeof(ForkFragmentShader)),
-	             "main",
-	             nullptr};
+	Stages[0] = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, VK_SHADER_STAGE_VERTEX_BIT,
+	    CreateShader(Device, ForkVertexShader, sizeof(ForkVertexShader)), "main", nullptr};
+	Stages[1] = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, VK_SHADER_STAGE_FRAGMENT_BIT,
+	    CreateShader(Device, ForkFragmentShader, sizeof(ForkFragmentShader)), "main", nullptr};
 
 	const VkPipelineVertexInputStateCreateInfo Vertices = DescribeVertices();
 	VkPipelineInputAssemblyStateCreateInfo Assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
@@ -137,19 +119,14 @@ FError FForkRaster::CreatePipeline()
 	Info.pColorBlendState = &Blend;
 	Info.layout = Layout;
 	const VkResult Result = vkCreateGraphicsPipelines(Device, VK_NULL_HANDLE, 1, &Info, nullptr, &Pipeline);
-	for (const VkPipelineShaderStageCreateInfo& Stage : Stages)
-	{
-		vkDestroyShaderModule(Device, Stage.module, nullptr);
-	}
+	for (const VkPipelineShaderStageCreateInfo& Stage : Stages) { vkDestroyShaderModule(Device, Stage.module, nullptr); }
 	return Result == VK_SUCCESS ? FError() : "vkCreateGraphicsPipelines failed with " + std::to_string(Result);
 }
 
 void FForkRaster::Draw(VkCommandBuffer Commands, const FForkScene& Scene) const
 {
-	Transition(Commands, Depth.Image, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
-	           VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
-	Transition(Commands, Normals.Image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
-	           VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+	Transition(Commands, Depth.Image, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+	Transition(Commands, Normals.Image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
 
 	VkRenderingAttachmentInfo Color{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
 	Color.imageView = Normals.View;
@@ -172,9 +149,9 @@ void FForkRaster::Draw(VkCommandBuffer Commands, const FForkScene& Scene) const
 	vkCmdEndRendering(Commands);
 
 	Transition(Commands, Depth.Image, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-	           VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+	    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 	Transition(Commands, Normals.Image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-	           VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+	    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
 void FForkRaster::DrawBoxes(VkCommandBuffer Commands, const FForkScene& Scene) const

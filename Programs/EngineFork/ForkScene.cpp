@@ -34,10 +34,7 @@ std::optional<FHit> Intersect(const FBox& Box, glm::dvec3 Origin, glm::dvec3 Dir
 		}
 		Leave = std::min(Leave, Middle + Half);
 	}
-	if (Enter > Leave || Enter <= 0.0)
-	{
-		return std::nullopt;
-	}
+	if (Enter > Leave || Enter <= 0.0) { return std::nullopt; }
 	return FHit{Enter, Normal, 0};
 }
 
@@ -52,10 +49,7 @@ std::optional<FHit> FindNearest(const FForkScene& Scene, glm::dvec3 Origin, glm:
 	std::optional<FHit> Nearest;
 	for (size_t Index = 0; Index < Scene.Boxes.size(); ++Index)
 	{
-		if (SeenBy == ESeenBy::Sun && (!Scene.Boxes[Index].bCastsShadow || Scene.Boxes[Index].bCutOut))
-		{
-			continue;
-		}
+		if (SeenBy == ESeenBy::Sun && (!Scene.Boxes[Index].bCastsShadow || Scene.Boxes[Index].bCutOut)) { continue; }
 		const std::optional<FHit> Hit = Intersect(Scene.Boxes[Index], Origin, Direction);
 		if (Hit && (!Nearest || Hit->Distance < Nearest->Distance))
 		{
@@ -77,10 +71,7 @@ struct FSample
 FSample Sample(const FForkScene& Scene, glm::dvec3 CameraRay, glm::dvec3 Shift)
 {
 	const std::optional<FHit> Hit = FindNearest(Scene, Scene.Camera.Position, CameraRay, ESeenBy::Camera);
-	if (!Hit)
-	{
-		return {};
-	}
+	if (!Hit) { return {}; }
 	FSample Result{EExpectation::Shadowed, Hit->Box, Hit->Normal};
 	if (dot(Hit->Normal, -Scene.SunDirection) > 0.0)
 	{
@@ -124,15 +115,9 @@ FBoxMesh MakeBoxMesh(glm::vec3 HalfSize)
 		U[static_cast<int>((Axis + 1) % 3)] = 1.0f;
 		const glm::vec3 V = cross(Normal, U);
 		const std::array<glm::vec3, 4> Corners = {Normal - U - V, Normal + U - V, Normal + U + V, Normal - U + V};
-		for (uint32_t Corner = 0; Corner < 4; ++Corner)
-		{
-			Mesh.Vertices[Face * 4 + Corner] = {Corners[Corner] * HalfSize, Normal};
-		}
+		for (uint32_t Corner = 0; Corner < 4; ++Corner) { Mesh.Vertices[Face * 4 + Corner] = {Corners[Corner] * HalfSize, Normal}; }
 		constexpr std::array<uint32_t, 6> Quad = {0, 1, 2, 0, 2, 3};
-		for (uint32_t Index = 0; Index < 6; ++Index)
-		{
-			Mesh.Indices[Face * 6 + Index] = Face * 4 + Quad[Index];
-		}
+		for (uint32_t Index = 0; Index < 6; ++Index) { Mesh.Indices[Face * 6 + Index] = Face * 4 + Quad[Index]; }
 	}
 	return Mesh;
 }
@@ -159,13 +144,9 @@ EExpectation ExpectPixel(const FForkScene& Scene, uint32_t X, uint32_t Y, uint32
 	{
 		const glm::dvec2 Jitter = Try == 0 ? glm::dvec2(0) : glm::dvec2(Try % 2 ? 0.6 : -0.6, Try > 2 ? 0.6 : -0.6);
 		const double NdcX = (X + 0.5 + Jitter.x) / Width * 2.0 - 1.0, NdcY = (Y + 0.5 + Jitter.y) / Height * 2.0 - 1.0;
-		const glm::dvec3 Ray =
-		    normalize(Camera.Forward + Camera.Right * (NdcX * TanHalf * Aspect) - Camera.Up * (NdcY * TanHalf));
+		const glm::dvec3 Ray = normalize(Camera.Forward + Camera.Right * (NdcX * TanHalf * Aspect) - Camera.Up * (NdcY * TanHalf));
 		const FSample Found = Sample(Scene, Ray, glm::dvec3(Jitter.x, Jitter.x + Jitter.y, Jitter.y) * (Margin / 0.6));
-		if (First && !(*First == Found))
-		{
-			return EExpectation::Unsure;
-		}
+		if (First && !(*First == Found)) { return EExpectation::Unsure; }
 		First = Found;
 	}
 	return First->Expectation;

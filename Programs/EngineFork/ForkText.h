@@ -11,8 +11,8 @@ namespace Fork
 inline std::string Show(const std::string& Text)
 {
 	std::string Out;
-	Lantern::ShowText(Text.data(), Text.size(), Lantern::ERTTextKind::Lines,
-	                  [&](const char* Bytes, size_t Count) { Out.append(Bytes, Count); });
+	Lantern::ShowText(
+	    Text.data(), Text.size(), Lantern::ERTTextKind::Lines, [&](const char* Bytes, size_t Count) { Out.append(Bytes, Count); });
 	return Out;
 }
 

@@ -27,16 +27,13 @@ bool IsLayerInstalled(const char* Name)
 	vkEnumerateInstanceLayerProperties(&Count, Layers.data());
 	for (const VkLayerProperties& Layer : Layers)
 	{
-		if (std::strcmp(Layer.layerName, Name) == 0)
-		{
-			return true;
-		}
+		if (std::strcmp(Layer.layerName, Name) == 0) { return true; }
 	}
 	return false;
 }
 
-VKAPI_ATTR VkBool32 VKAPI_CALL CountMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
-                                            const VkDebugUtilsMessengerCallbackDataEXT* Data, void* User)
+VKAPI_ATTR VkBool32 VKAPI_CALL CountMessage(
+    VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT, const VkDebugUtilsMessengerCallbackDataEXT* Data, void* User)
 {
 	++static_cast<FForkInstance*>(User)->ValidationMessages;
 	std::fprintf(stderr, "validation: %s\n", Show(Data->pMessage).c_str());
@@ -46,8 +43,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL CountMessage(VkDebugUtilsMessageSeverityFlagBitsE
 VkDebugUtilsMessengerCreateInfoEXT DescribeMessenger(FForkInstance* Owner)
 {
 	VkDebugUtilsMessengerCreateInfoEXT Info{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
-	Info.messageSeverity =
-	    VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+	Info.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
 	Info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
 	Info.pfnUserCallback = CountMessage;
 	Info.pUserData = Owner;
@@ -63,10 +59,7 @@ uint32_t FindGraphicsFamily(VkPhysicalDevice Physical)
 	constexpr VkQueueFlags Needed = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
 	for (uint32_t Index = 0; Index < Count; ++Index)
 	{
-		if ((Families[Index].queueFlags & Needed) == Needed)
-		{
-			return Index;
-		}
+		if ((Families[Index].queueFlags & Needed) == Needed) { return Index; }
 	}
 	return ~0u;
 }
@@ -93,14 +86,11 @@ FError FForkInstance::Create()
 		Info.enabledExtensionCount = 1;
 		Info.ppEnabledExtensionNames = &Extension;
 	}
-	if (const FError Error = Check(vkCreateInstance(&Info, nullptr, &Instance), "vkCreateInstance"); !Error.empty())
-	{
-		return Error;
-	}
+	if (const FError Error = Check(vkCreateInstance(&Info, nullptr, &Instance), "vkCreateInstance"); !Error.empty()) { return Error; }
 	if (bValidation)
 	{
-		const auto CreateMessenger = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
-		    vkGetInstanceProcAddr(Instance, "vkCreateDebugUtilsMessengerEXT"));
+		const auto CreateMessenger =
+		    reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(vkGetInstanceProcAddr(Instance, "vkCreateDebugUtilsMessengerEXT"));
 		return Check(CreateMessenger(Instance, &MessengerInfo, nullptr, &Messenger), "vkCreateDebugUtilsMessengerEXT");
 	}
 	return {};
@@ -110,8 +100,8 @@ FForkInstance::~FForkInstance()
 {
 	if (Messenger != VK_NULL_HANDLE)
 	{
-		const auto DestroyMessenger = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
-		    vkGetInstanceProcAddr(Instance, "vkDestroyDebugUtilsMessengerEXT"));
+		const auto DestroyMessenger =
+		    reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(vkGetInstanceProcAddr(Instance, "vkDestroyDebugUtilsMessengerEXT"));
 		DestroyMessenger(Instance, Messenger, nullptr);
 	}
 	vkDestroyInstance(Instance, nullptr);
@@ -132,10 +122,7 @@ FError FForkDevice::Create(VkPhysicalDevice InPhysical, const FDeviceWishes& Wis
 {
 	Physical = InPhysical;
 	QueueFamily = FindGraphicsFamily(Physical);
-	if (QueueFamily == ~0u)
-	{
-		return "the device has no graphics queue";
-	}
+	if (QueueFamily == ~0u) { return "the device has no graphics queue"; }
 	const float Priority = 1.0f;
 	VkDeviceQueueCreateInfo QueueInfo{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
 	QueueInfo.queueFamilyIndex = QueueFamily;
@@ -154,17 +141,14 @@ FError FForkDevice::Create(VkPhysicalDevice InPhysical, const FDeviceWishes& Wis
 	Info.pQueueCreateInfos = &QueueInfo;
 	Info.enabledExtensionCount = static_cast<uint32_t>(Wishes.Extensions.size());
 	Info.ppEnabledExtensionNames = Wishes.Extensions.data();
-	if (FError Error = Check(vkCreateDevice(Physical, &Info, nullptr, &Device), "vkCreateDevice"); !Error.empty())
-	{
-		return Error;
-	}
+	if (FError Error = Check(vkCreateDevice(Physical, &Info, nullptr, &Device), "vkCreateDevice"); !Error.empty()) { return Error; }
 	vkGetDeviceQueue(Device, QueueFamily, 0, &Queue);
 
-	const VkCommandPoolCreateInfo PoolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,
-	                                       VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT, QueueFamily};
+	const VkCommandPoolCreateInfo PoolInfo{
+	    VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT, QueueFamily};
 	vkCreateCommandPool(Device, &PoolInfo, nullptr, &Pool);
-	const VkCommandBufferAllocateInfo CommandsInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, Pool,
-	                                               VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+	const VkCommandBufferAllocateInfo CommandsInfo{
+	    VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, Pool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
 	vkAllocateCommandBuffers(Device, &CommandsInfo, &Commands);
 	const VkFenceCreateInfo FenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
 	return Check(vkCreateFence(Device, &FenceInfo, nullptr, &Fence), "vkCreateFence");
@@ -183,17 +167,13 @@ FForkDevice::~FForkDevice()
 
 FError FForkDevice::BeginCommands()
 {
-	const VkCommandBufferBeginInfo Info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr,
-	                                    VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+	const VkCommandBufferBeginInfo Info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
 	return Check(vkBeginCommandBuffer(Commands, &Info), "vkBeginCommandBuffer");
 }
 
 FError FForkDevice::Submit()
 {
-	if (FError Error = Check(vkEndCommandBuffer(Commands), "vkEndCommandBuffer"); !Error.empty())
-	{
-		return Error;
-	}
+	if (FError Error = Check(vkEndCommandBuffer(Commands), "vkEndCommandBuffer"); !Error.empty()) { return Error; }
 	VkSubmitInfo Info{VK_STRUCTURE_TYPE_SUBMIT_INFO};
 	Info.commandBufferCount = 1;
 	Info.pCommandBuffers = &Commands;
@@ -214,18 +194,14 @@ uint32_t FForkDevice::FindMemory(uint32_t Allowed, VkMemoryPropertyFlags Wanted)
 	vkGetPhysicalDeviceMemoryProperties(Physical, &Properties);
 	for (uint32_t Index = 0; Index < Properties.memoryTypeCount; ++Index)
 	{
-		if ((Allowed >> Index & 1) != 0 && (Properties.memoryTypes[Index].propertyFlags & Wanted) == Wanted)
-		{
-			return Index;
-		}
+		if ((Allowed >> Index & 1) != 0 && (Properties.memoryTypes[Index].propertyFlags & Wanted) == Wanted) { return Index; }
 	}
 	return ~0u;
 }
 
 // ---------------------------------------------------------------------------------------------------- resources
 
-FError FForkImage::Create(const FForkDevice& Owner, VkExtent2D Size, VkFormat Format, VkImageUsageFlags Usage,
-                          VkImageAspectFlags Aspect)
+FError FForkImage::Create(const FForkDevice& Owner, VkExtent2D Size, VkFormat Format, VkImageUsageFlags Usage, VkImageAspectFlags Aspect)
 {
 	Device = Owner.Device;
 	VkImageCreateInfo Info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
@@ -236,19 +212,12 @@ FError FForkImage::Create(const FForkDevice& Owner, VkExtent2D Size, VkFormat Fo
 	Info.arrayLayers = 1;
 	Info.samples = VK_SAMPLE_COUNT_1_BIT;
 	Info.usage = Usage;
-	if (FError Error = Check(vkCreateImage(Device, &Info, nullptr, &Image), "vkCreateImage"); !Error.empty())
-	{
-		return Error;
-	}
+	if (FError Error = Check(vkCreateImage(Device, &Info, nullptr, &Image), "vkCreateImage"); !Error.empty()) { return Error; }
 	VkMemoryRequirements Needs;
 	vkGetImageMemoryRequirements(Device, Image, &Needs);
 	const VkMemoryAllocateInfo Allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, Needs.size,
-	                                      Owner.FindMemory(Needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)};
-	if (FError Error = Check(vkAllocateMemory(Device, &Allocation, nullptr, &Memory), "vkAllocateMemory");
-	    !Error.empty())
-	{
-		return Error;
-	}
+	    Owner.FindMemory(Needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)};
+	if (FError Error = Check(vkAllocateMemory(Device, &Allocation, nullptr, &Memory), "vkAllocateMemory"); !Error.empty()) { return Error; }
 	vkBindImageMemory(Device, Image, Memory, 0);
 	VkImageViewCreateInfo ViewInfo{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
 	ViewInfo.image = Image;
@@ -274,21 +243,13 @@ FError FForkBuffer::Create(const FForkDevice& Owner, VkDeviceSize Size, VkBuffer
 	VkBufferCreateInfo Info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
 	Info.size = Size;
 	Info.usage = Usage;
-	if (FError Error = Check(vkCreateBuffer(Device, &Info, nullptr, &Buffer), "vkCreateBuffer"); !Error.empty())
-	{
-		return Error;
-	}
+	if (FError Error = Check(vkCreateBuffer(Device, &Info, nullptr, &Buffer), "vkCreateBuffer"); !Error.empty()) { return Error; }
 	VkMemoryRequirements Needs;
 	vkGetBufferMemoryRequirements(Device, Buffer, &Needs);
-	constexpr VkMemoryPropertyFlags Visible =
-	    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-	const VkMemoryAllocateInfo Allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, Needs.size,
-	                                      Owner.FindMemory(Needs.memoryTypeBits, Visible)};
-	if (FError Error = Check(vkAllocateMemory(Device, &Allocation, nullptr, &Memory), "vkAllocateMemory");
-	    !Error.empty())
-	{
-		return Error;
-	}
+	constexpr VkMemoryPropertyFlags Visible = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+	const VkMemoryAllocateInfo Allocation{
+	    VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, Needs.size, Owner.FindMemory(Needs.memoryTypeBits, Visible)};
+	if (FError Error = Check(vkAllocateMemory(Device, &Allocation, nullptr, &Memory), "vkAllocateMemory"); !Error.empty()) { return Error; }
 	vkBindBufferMemory(Device, Buffer, Memory, 0);
 	return Check(vkMapMemory(Device, Memory, 0, VK_WHOLE_SIZE, 0, &Mapped), "vkMapMemory");
 }
@@ -302,8 +263,7 @@ FForkBuffer::~FForkBuffer()
 	}
 }
 
-void Transition(VkCommandBuffer Commands, VkImage Image, VkImageAspectFlags Aspect, VkImageLayout From,
-                VkImageLayout To)
+void Transition(VkCommandBuffer Commands, VkImage Image, VkImageAspectFlags Aspect, VkImageLayout From, VkImageLayout To)
 {
 	VkImageMemoryBarrier2 Barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
 	Barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;

@@ -68,8 +68,7 @@ struct FForkImage
 	FForkImage() = default;
 	FForkImage(const FForkImage&) = delete;
 	~FForkImage();
-	FError Create(const FForkDevice& Owner, VkExtent2D Size, VkFormat Format, VkImageUsageFlags Usage,
-	              VkImageAspectFlags Aspect);
+	FError Create(const FForkDevice& Owner, VkExtent2D Size, VkFormat Format, VkImageUsageFlags Usage, VkImageAspectFlags Aspect);
 };
 
 /// A buffer that the CPU can see.
@@ -87,7 +86,6 @@ struct FForkBuffer
 };
 
 /// One image from one layout to another, everything before visible to everything after: the engine is simple.
-void Transition(VkCommandBuffer Commands, VkImage Image, VkImageAspectFlags Aspect, VkImageLayout From,
-                VkImageLayout To);
+void Transition(VkCommandBuffer Commands, VkImage Image, VkImageAspectFlags Aspect, VkImageLayout From, VkImageLayout To);
 
 } // namespace Fork

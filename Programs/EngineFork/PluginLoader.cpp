@@ -11,15 +11,9 @@ namespace Fork
 std::string ReadManifest(const std::filesystem::path& File, FPluginManifest& Out)
 {
 	std::ifstream Stream(File);
-	if (!Stream)
-	{
-		return File.string() + ": cannot be read";
-	}
+	if (!Stream) { return File.string() + ": cannot be read"; }
 	const nlohmann::json Json = nlohmann::json::parse(Stream, nullptr, false);
-	if (!Json.is_object())
-	{
-		return File.string() + ": not a JSON object";
-	}
+	if (!Json.is_object()) { return File.string() + ": not a JSON object"; }
 	try
 	{
 		Json.at("name").get_to(Out.Name);
@@ -47,10 +41,7 @@ std::string FPluginLibrary::Load(const FPluginManifest& Manifest, const std::fil
 	}
 	Path = (Folder / Manifest.Library).string();
 	Handle = dlopen(Path.c_str(), RTLD_NOW | RTLD_LOCAL);
-	if (Handle == nullptr)
-	{
-		return dlerror();
-	}
+	if (Handle == nullptr) { return dlerror(); }
 	Create = reinterpret_cast<Lantern::FRTCreateModule>(dlsym(Handle, Manifest.EntryPoint.c_str()));
 	return Create != nullptr ? std::string() : Path + " has no " + Manifest.EntryPoint;
 }
@@ -63,10 +54,7 @@ std::string FPluginLibrary::CreateModule(Lantern::TRTRef<Lantern::IRTModule>& Ou
 
 bool FPluginLibrary::Unload()
 {
-	if (Handle == nullptr)
-	{
-		return true;
-	}
+	if (Handle == nullptr) { return true; }
 #if defined(__SANITIZE_ADDRESS__)
 	Handle = nullptr; // the leak checker could not tell whose memory it finds, once the library is gone
 	return true;
@@ -74,17 +62,11 @@ bool FPluginLibrary::Unload()
 	dlclose(Handle);
 	Handle = nullptr;
 	void* Still = dlopen(Path.c_str(), RTLD_NOW | RTLD_NOLOAD);
-	if (Still != nullptr)
-	{
-		dlclose(Still);
-	}
+	if (Still != nullptr) { dlclose(Still); }
 	return Still == nullptr;
 #endif
 }
 
-FPluginLibrary::~FPluginLibrary()
-{
-	Unload();
-}
+FPluginLibrary::~FPluginLibrary() { Unload(); }
 
 } // namespace Fork

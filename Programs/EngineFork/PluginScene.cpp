@@ -9,13 +9,10 @@ namespace Fork
 
 using namespace Lantern;
 
-FError ToError(const FRTStatus& Status, const char* What)
-{
-	return Status.IsOk() ? FError() : FError(What) + ": " + Status.Message;
-}
+FError ToError(const FRTStatus& Status, const char* What) { return Status.IsOk() ? FError() : FError(What) + ": " + Status.Message; }
 
-FError FPluginScene::Create(IRTModule& Module, const FForkInstance& Instance, const FForkDevice& Owner,
-                            const IRTVulkanRequirements& Requirements)
+FError FPluginScene::Create(
+    IRTModule& Module, const FForkInstance& Instance, const FForkDevice& Owner, const IRTVulkanRequirements& Requirements)
 {
 	FRTVulkanExternalDesc Desc;
 	Desc.Instance = Instance.Instance;
@@ -25,10 +22,7 @@ FError FPluginScene::Create(IRTModule& Module, const FForkInstance& Instance, co
 	Desc.QueueFamily = Owner.QueueFamily;
 	Desc.Requirements = &Requirements;
 	FError Error = ToError(Module.GetVulkan()->AdoptDevice(Desc, Device.ReleaseAndGetAddress()), "AdoptDevice");
-	if (Error.empty())
-	{
-		Error = ToError(Module.CreateRenderer(Device.Get(), Renderer.ReleaseAndGetAddress()), "CreateRenderer");
-	}
+	if (Error.empty()) { Error = ToError(Module.CreateRenderer(Device.Get(), Renderer.ReleaseAndGetAddress()), "CreateRenderer"); }
 	return Error;
 }
 
@@ -106,24 +100,12 @@ FError FPluginScene::AddBox(const FBox& Box)
 FError FPluginScene::AddScene(const FForkScene& Scene)
 {
 	FError Error = AddBoxMesh(false, RigidMesh);
-	if (Error.empty())
-	{
-		Error = AddBoxMesh(true, DeformableMesh);
-	}
-	if (Error.empty())
-	{
-		Error = AddMaterials();
-	}
-	for (size_t Index = 0; Error.empty() && Index < Scene.Boxes.size(); ++Index)
-	{
-		Error = AddBox(Scene.Boxes[Index]);
-	}
+	if (Error.empty()) { Error = AddBoxMesh(true, DeformableMesh); }
+	if (Error.empty()) { Error = AddMaterials(); }
+	for (size_t Index = 0; Error.empty() && Index < Scene.Boxes.size(); ++Index) { Error = AddBox(Scene.Boxes[Index]); }
 	FRTModuleSun Sun;
 	Sun.Irradiance = 1.0f;
-	for (int Axis = 0; Axis < 3; ++Axis)
-	{
-		Sun.Direction[Axis] = Scene.SunDirection[Axis];
-	}
+	for (int Axis = 0; Axis < 3; ++Axis) { Sun.Direction[Axis] = Scene.SunDirection[Axis]; }
 	return Error.empty() ? ToError(Renderer->SetSun(Sun), "SetSun") : Error;
 }
 
@@ -142,16 +124,13 @@ FError FPluginScene::RemoveBox(size_t Box)
 FError FPluginScene::ScaleVertices(float Scale)
 {
 	const FBoxArrays Arrays(MakeBoxMesh(glm::vec3(Scale)));
-	return ToError(Renderer->UpdateMeshVertices(DeformableMesh, &Arrays.Positions[0].x, &Arrays.Normals[0].x),
-	               "UpdateMeshVertices");
+	return ToError(Renderer->UpdateMeshVertices(DeformableMesh, &Arrays.Positions[0].x, &Arrays.Normals[0].x), "UpdateMeshVertices");
 }
 
 FError FPluginScene::SetBox(size_t Box, const FBox& To)
 {
-	const FError Error =
-	    ToError(Renderer->SetObjectMaterials(Boxes[Box], To.bCutOut ? &CutOut : &Solid, 1), "SetObjectMaterials");
-	return Error.empty() ? ToError(Renderer->SetObjectCastsShadow(Boxes[Box], To.bCastsShadow), "SetObjectCastsShadow")
-	                     : Error;
+	const FError Error = ToError(Renderer->SetObjectMaterials(Boxes[Box], To.bCutOut ? &CutOut : &Solid, 1), "SetObjectMaterials");
+	return Error.empty() ? ToError(Renderer->SetObjectCastsShadow(Boxes[Box], To.bCastsShadow), "SetObjectCastsShadow") : Error;
 }
 
 FError FPluginScene::ImportGBuffer(const FForkRaster& Raster, VkExtent2D Size)
@@ -163,14 +142,13 @@ FError FPluginScene::ImportGBuffer(const FForkRaster& Raster, VkExtent2D Size)
 	Desc.Usage = ERTTextureUsage::Sampled;
 	Desc.Name = "ForkDepth";
 	const auto ToNative = [](VkImage Image) { return reinterpret_cast<uint64_t>(Image); };
-	FError Error = ToError(Device->ImportTexture(Desc, ToNative(Raster.Depth.Image), Depth.ReleaseAndGetAddress()),
-	                       "ImportTexture(depth)");
+	FError Error = ToError(Device->ImportTexture(Desc, ToNative(Raster.Depth.Image), Depth.ReleaseAndGetAddress()), "ImportTexture(depth)");
 	if (Error.empty())
 	{
 		Desc.Format = ERTFormat::RGBA16_SNORM;
 		Desc.Name = "ForkNormals";
-		Error = ToError(Device->ImportTexture(Desc, ToNative(Raster.Normals.Image), Normals.ReleaseAndGetAddress()),
-		                "ImportTexture(normals)");
+		Error =
+		    ToError(Device->ImportTexture(Desc, ToNative(Raster.Normals.Image), Normals.ReleaseAndGetAddress()), "ImportTexture(normals)");
 	}
 	return Error;
 }
@@ -187,10 +165,7 @@ FError FPluginScene::Render(VkCommandBuffer Commands, const FCamera& Camera, boo
 	Out = {};
 	const uint64_t Native = reinterpret_cast<uint64_t>(Commands);
 	FError Error = ToError(Device->ImportCommandList(Native, List.ReleaseAndGetAddress()), "ImportCommandList");
-	if (!Error.empty())
-	{
-		return Error;
-	}
+	if (!Error.empty()) { return Error; }
 	FRTModuleFrame Frame;
 	Frame.Commands = List.Get();
 	Frame.Depth = Depth.Get();

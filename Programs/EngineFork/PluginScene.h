@@ -21,7 +21,7 @@ class FPluginScene
 public:
 	/// Device must have been created with what IRTModuleVulkan::GetRequirements asked for.
 	FError Create(Lantern::IRTModule& Module, const FForkInstance& Instance, const FForkDevice& Owner,
-	              const Lantern::IRTVulkanRequirements& Requirements);
+	    const Lantern::IRTVulkanRequirements& Requirements);
 	FError AddScene(const FForkScene& Scene);
 	/// Box: as AddScene counted them.
 	FError MoveBox(size_t Box, const FBox& To);

@@ -17,10 +17,10 @@
 #include "Chart/ChartCommand.h"
 #include "Commands/CompareCommand.h"
 #include "Commands/InfoCommand.h"
+#include "Commands/RenderCommand.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
 #include "LanternRenderer/Signals.h"
-#include "Commands/RenderCommand.h"
 #include "Stability/StabilityCommand.h"
 
 namespace
@@ -102,12 +102,18 @@ void FCommandLine::AddReference()
 	Reference.Picture.AddTo(*Command);
 	Command->add_option("--spp", Reference.Samples, "Samples per pixel")->check(CLI::Range(1, 1 << 24));
 	Command->add_option("--bounces", Reference.Bounces, "Scattering events, at most")->check(CLI::Range(0, 1 << 16));
-	Command->add_option("--signal", Reference.Signal, "One signal instead of the whole frame: sun_shadow, ambient_occlusion, diffuse_gi, reflections")->check([](const std::string& Text) {
-		return FindSignal(Text) ? std::string() : Quote(Text) + " is none of sun_shadow, ambient_occlusion, diffuse_gi, reflections, frame";
-	});
-	Command->add_flag("--pixel-centers", Reference.bPixelCenters, "Camera rays through pixel centres, as real-time passes shade them; no antialiasing");
+	Command
+	    ->add_option(
+	        "--signal", Reference.Signal, "One signal instead of the whole frame: sun_shadow, ambient_occlusion, diffuse_gi, reflections")
+	    ->check([](const std::string& Text) {
+		    return FindSignal(Text) ? std::string()
+		                            : Quote(Text) + " is none of sun_shadow, ambient_occlusion, diffuse_gi, reflections, frame";
+	    });
+	Command->add_flag(
+	    "--pixel-centers", Reference.bPixelCenters, "Camera rays through pixel centres, as real-time passes shade them; no antialiasing");
 	Command->add_flag("--resume", Reference.bResume, "Keep the sums in OUT.state, and go on from there");
-	Command->add_option("--save-every", Reference.SaveSeconds, "With --resume: seconds after which the sums are kept")->check(CLI::Range(0.0, 1e6));
+	Command->add_option("--save-every", Reference.SaveSeconds, "With --resume: seconds after which the sums are kept")
+	    ->check(CLI::Range(0.0, 1e6));
 	Command->final_callback([this] { Status = RunReference(Reference); });
 }
 
@@ -152,10 +158,12 @@ void FCommandLine::AddBench()
 	CLI::App* const AnyHit = Command->add_subcommand("anyhit", "Alpha tests under rays, with classified triangles and without");
 	BenchAnyHit.AddTo(*AnyHit);
 	AnyHit->final_callback([this] { Status = RunBenchAnyHit(BenchAnyHit); });
-	CLI::App* const Tables = Command->add_subcommand("sbt", "Keeping the shader table: everything each frame, nothing changed, 1 % changed, another pipeline");
+	CLI::App* const Tables =
+	    Command->add_subcommand("sbt", "Keeping the shader table: everything each frame, nothing changed, 1 % changed, another pipeline");
 	BenchTables.AddTo(*Tables);
 	Tables->final_callback([this] { Status = RunBenchTables(BenchTables); });
-	CLI::App* const Gather = Command->add_subcommand("gather", "Which instances of a world 32 km across rays see: by buckets against a plain loop; needs no device");
+	CLI::App* const Gather = Command->add_subcommand(
+	    "gather", "Which instances of a world 32 km across rays see: by buckets against a plain loop; needs no device");
 	BenchGather.AddTo(*Gather);
 	Gather->final_callback([this] { Status = RunBenchGather(BenchGather); });
 	CLI::App* const Pipelines = Command->add_subcommand("rtpso", "Pipelines made whole and from libraries, and what frames notice of it");
@@ -168,7 +176,8 @@ void FCommandLine::AddBench()
 
 void FCommandLine::AddStability()
 {
-	CLI::App* const Command = App.add_subcommand("stability", "Where methods fail: cases with limits, each with a planted fault under which it must fail");
+	CLI::App* const Command =
+	    App.add_subcommand("stability", "Where methods fail: cases with limits, each with a planted fault under which it must fail");
 	Stability.AddTo(*Command);
 	Command->final_callback([this] { Status = RunStability(Stability); });
 }

@@ -41,7 +41,10 @@ void ParseCamera(const std::string& Text, FPictureOptions& Options)
 	const auto N = RequireNumbers("--camera", Text, 7, "px,py,pz,tx,ty,tz,fovY");
 	const FCameraOption Camera{{N[0], N[1], N[2]}, {N[3], N[4], N[5]}, N[6]};
 	if (Camera.Position == Camera.Target) { throw CLI::ValidationError("--camera", "position and target are the same point"); }
-	if (!(Camera.FovY > 0.0 && Camera.FovY < 180.0)) { throw CLI::ValidationError("--camera", "the field of view must lie between 0 and 180 degrees"); }
+	if (!(Camera.FovY > 0.0 && Camera.FovY < 180.0))
+	{
+		throw CLI::ValidationError("--camera", "the field of view must lie between 0 and 180 degrees");
+	}
 	Options.Camera = Camera;
 }
 
@@ -51,7 +54,10 @@ void ParseSun(const std::string& Text, FPictureOptions& Options)
 	const FSunOption Sun{N[0], {N[1], N[2], N[3]}, N[4]};
 	if (Sun.Irradiance < 0.0) { throw CLI::ValidationError("--sun", "the irradiance must not be negative"); }
 	if (glm::length(Sun.Direction) < 1e-12) { throw CLI::ValidationError("--sun", "the direction has no length"); }
-	if (!(Sun.Diameter >= 0.0 && Sun.Diameter <= 180.0)) { throw CLI::ValidationError("--sun", "the diameter must lie between 0 and 180 degrees"); }
+	if (!(Sun.Diameter >= 0.0 && Sun.Diameter <= 180.0))
+	{
+		throw CLI::ValidationError("--sun", "the diameter must lie between 0 and 180 degrees");
+	}
 	Options.Sun = Sun;
 }
 
@@ -69,11 +75,14 @@ void ParseSize(const std::string& Text, FPictureOptions& Options)
 	const auto Width = ParseNumber(std::string_view(Text).substr(0, X));
 	const auto Height = X == std::string::npos ? std::nullopt : ParseNumber(std::string_view(Text).substr(X + 1));
 	const auto IsWhole = [](double Value) { return Value >= 0 && Value == std::floor(Value) && Value < 1e9; };
-	if (!Width || !Height || !IsWhole(*Width) || !IsWhole(*Height)) { throw CLI::ValidationError("--size", Quote(Text) + " is not of the form WIDTHxHEIGHT"); }
+	if (!Width || !Height || !IsWhole(*Width) || !IsWhole(*Height))
+	{
+		throw CLI::ValidationError("--size", Quote(Text) + " is not of the form WIDTHxHEIGHT");
+	}
 	if (!IsImageSizeValid(static_cast<uint64_t>(*Width), static_cast<uint64_t>(*Height)))
 	{
-		throw CLI::ValidationError("--size", Quote(Text) + " is out of range: 1 to " + std::to_string(MaxImageDimension) + " pixels each way, " +
-		                                         std::to_string(MaxImagePixels) + " in all");
+		throw CLI::ValidationError("--size", Quote(Text) + " is out of range: 1 to " + std::to_string(MaxImageDimension) +
+		                                         " pixels each way, " + std::to_string(MaxImagePixels) + " in all");
 	}
 	Options.Width = static_cast<uint32_t>(*Width);
 	Options.Height = static_cast<uint32_t>(*Height);
@@ -112,9 +121,13 @@ void FDeviceOptions::AddSettingsTo(CLI::App& App)
 		return ParseQuality(Text) ? std::string() : Quote(Text) + " is none of low, medium, high, epic, cinematic";
 	});
 	// One value each time, so that a scene may follow.
-	App.add_option("--set", Sets, "NAME=VALUE: a console variable; repeatable")->expected(1)->take_all()->allow_extra_args(false)->check([](const std::string& Text) {
-		return Text.find('=') != std::string::npos ? std::string() : Quote(Text) + " is not of the form NAME=VALUE";
-	});
+	App.add_option("--set", Sets, "NAME=VALUE: a console variable; repeatable")
+	    ->expected(1)
+	    ->take_all()
+	    ->allow_extra_args(false)
+	    ->check([](const std::string& Text) {
+		    return Text.find('=') != std::string::npos ? std::string() : Quote(Text) + " is not of the form NAME=VALUE";
+	    });
 	App.add_option("--config", Configs, "An ini file; repeatable")->expected(1)->take_all()->allow_extra_args(false);
 }
 
@@ -123,13 +136,16 @@ void FPictureOptions::AddTo(CLI::App& App)
 	App.add_option("SCENE", Scene, "A .gltf or .glb, or the name of a built-in scene");
 	App.add_option("-o,--output", Output, "OUT.exr, .pfm (linear radiance) or .png (tone-mapped)");
 	App.add_option("--json", Json, "Write the figures to this file");
-	App.add_option_function<std::string>("--size", [this](const std::string& Text) { ParseSize(Text, *this); }, "WIDTHxHEIGHT, pixels");
-	App.add_option_function<std::string>("--camera", [this](const std::string& Text) { ParseCamera(Text, *this); },
-	                                     "px,py,pz,tx,ty,tz,fovY: metres, vertical degrees");
-	App.add_option_function<std::string>("--sun", [this](const std::string& Text) { ParseSun(Text, *this); },
-	                                     "E,dx,dy,dz,diameter: irradiance on a facing plane, direction in which the light travels, degrees. "
-	                                     "A file without light of its own gets a sun and a sky unless --sun or --sky is given");
-	App.add_option_function<std::string>("--sky", [this](const std::string& Text) { ParseSky(Text, *this); }, "r,g,b: constant radiance");
+	App.add_option_function<std::string>(
+	    "--size", [this](const std::string& Text) { ParseSize(Text, *this); }, "WIDTHxHEIGHT, pixels");
+	App.add_option_function<std::string>(
+	    "--camera", [this](const std::string& Text) { ParseCamera(Text, *this); }, "px,py,pz,tx,ty,tz,fovY: metres, vertical degrees");
+	App.add_option_function<std::string>(
+	    "--sun", [this](const std::string& Text) { ParseSun(Text, *this); },
+	    "E,dx,dy,dz,diameter: irradiance on a facing plane, direction in which the light travels, degrees. "
+	    "A file without light of its own gets a sun and a sky unless --sun or --sky is given");
+	App.add_option_function<std::string>(
+	    "--sky", [this](const std::string& Text) { ParseSky(Text, *this); }, "r,g,b: constant radiance");
 	App.add_flag("--no-scene-lights", bNoSceneLights, "Leave the scene's punctual lights out");
 	App.add_option("--time", Time, "Seconds of animation")->check([](const std::string& Text) {
 		return ParseNumber(Text) ? std::string() : Quote(Text) + " is not a number of seconds";

@@ -14,8 +14,11 @@ namespace Lantern
 
 namespace
 {
-double SecondsSince(std::chrono::steady_clock::time_point Time) { return std::chrono::duration<double>(std::chrono::steady_clock::now() - Time).count(); }
+double SecondsSince(std::chrono::steady_clock::time_point Time)
+{
+	return std::chrono::duration<double>(std::chrono::steady_clock::now() - Time).count();
 }
+} // namespace
 
 FProgressLine::FProgressLine() : Start(std::chrono::steady_clock::now()), Last(Start), bTerminal(isatty(STDERR_FILENO) != 0) {}
 

@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "LanternCore/Config/Config.h"
+#include "LanternCore/Tasks/TaskTrace.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
-#include "LanternCore/Tasks/TaskTrace.h"
 #include "LanternHost/BuiltinScenes.h"
 #include "LanternHost/SceneLoader.h"
 #include "LanternRHIValidation/ValidationDevice.h"
@@ -21,7 +21,8 @@ namespace
 {
 namespace fs = std::filesystem;
 
-TRTConsoleVariable<float> CVarExposure("r.RT.Exposure", 0.0f, "Exposure of the tone-mapped picture, stops, on top of the scene's own.", {-20, 20});
+TRTConsoleVariable<float> CVarExposure(
+    "r.RT.Exposure", 0.0f, "Exposure of the tone-mapped picture, stops, on top of the scene's own.", {-20, 20});
 
 std::string CacheFolder()
 {
@@ -39,7 +40,10 @@ void OnValidationMessage(void* User, const char* Message)
 
 void OnVulkanMessage(void*, ERTVulkanMessage Severity, const char* Text)
 {
-	LogLine(Severity == ERTVulkanMessage::Error ? ERTLogLevel::Error : Severity == ERTVulkanMessage::Warning ? ERTLogLevel::Warning : ERTLogLevel::Info, Text);
+	LogLine(Severity == ERTVulkanMessage::Error     ? ERTLogLevel::Error
+	        : Severity == ERTVulkanMessage::Warning ? ERTLogLevel::Warning
+	                                                : ERTLogLevel::Info,
+	    Text);
 }
 
 FRTVulkanDeviceDesc MakeDeviceDesc(const FDeviceOptions& Options)
@@ -59,7 +63,11 @@ FPluginFolders FindPluginFolders()
 	for (; !Folder.empty(); Folder = Folder.parent_path())
 	{
 		if (fs::exists(Folder / "Plugin.json", Error)) { break; }
-		if (Folder == Folder.root_path()) { Folder.clear(); break; }
+		if (Folder == Folder.root_path())
+		{
+			Folder.clear();
+			break;
+		}
 	}
 	if (const char* Root = std::getenv("LANTERN_ROOT")) { Folder = Root; }
 	return {Folder.string(), (Folder / "Shaders").string(), (Folder / "Config").string(), CacheFolder()};
@@ -198,7 +206,10 @@ void FSession::ApplyLight(const FPictureOptions& Options, const FSceneDescriptio
 	if (Options.bNoSceneLights) { Scene.SetSceneLights(false); }
 	// A scene from a file that says nothing of light, or has a sun but no sky, stands in open air.
 	bool bEmissive = false;
-	for (const FHostMaterial& Material : Description.Materials) { bEmissive |= glm::any(glm::greaterThan(Material.Emissive, glm::vec3(0))); }
+	for (const FHostMaterial& Material : Description.Materials)
+	{
+		bEmissive |= glm::any(glm::greaterThan(Material.Emissive, glm::vec3(0)));
+	}
 	const std::optional<FSunLight> OwnSun = Scene.GetOwnSun();
 	// Whoever names some of the light means that and no more.
 	const bool bNamed = Options.Sun || Options.Sky || Options.bNoSceneLights;
@@ -233,7 +244,8 @@ FView FSession::MakeView(const FPictureOptions& Options) const
 	FView View = Engine->GetScene().MakeDefaultView(Options.Width, Options.Height);
 	if (Options.Camera)
 	{
-		View = LookAt(Options.Camera->Position, Options.Camera->Target, static_cast<float>(glm::radians(Options.Camera->FovY)), Options.Width, Options.Height);
+		View = LookAt(Options.Camera->Position, Options.Camera->Target, static_cast<float>(glm::radians(Options.Camera->FovY)),
+		    Options.Width, Options.Height);
 	}
 	View.Near = Engine->GetScene().NearPlane();
 	View.Seed = Options.Seed;
@@ -248,11 +260,13 @@ std::string FSession::MakeSceneKey(const FPictureOptions& Options) const
 	if (fs::is_regular_file(Options.Scene, Error))
 	{
 		// An edited file is another scene.
-		Key += fmt::format("{} {}\n", fs::file_size(Options.Scene, Error), fs::last_write_time(Options.Scene, Error).time_since_epoch().count());
+		Key += fmt::format(
+		    "{} {}\n", fs::file_size(Options.Scene, Error), fs::last_write_time(Options.Scene, Error).time_since_epoch().count());
 	}
 	const FSunLight& Sun = Engine->GetScene().GetScene().GetSun();
 	const glm::vec3 Sky = Engine->GetScene().GetScene().GetSky();
-	Key += fmt::format("{} {} {} {} {} {} {} {}\n", Sun.Irradiance, Sun.Direction.x, Sun.Direction.y, Sun.Direction.z, Sun.AngularDiameter, Sky.x, Sky.y, Sky.z);
+	Key += fmt::format("{} {} {} {} {} {} {} {}\n", Sun.Irradiance, Sun.Direction.x, Sun.Direction.y, Sun.Direction.z, Sun.AngularDiameter,
+	    Sky.x, Sky.y, Sky.z);
 	Key += Options.bNoSceneLights ? "no scene lights\n" : "";
 	for (const char* Name : {"r.RT.Material.Override", "r.RT.AlphaTest"})
 	{

@@ -37,10 +37,7 @@ CONTRACT_TEST(ReferencesAreCounted)
 CONTRACT_TEST(CopiesThroughDeviceMemory)
 {
 	std::vector<uint32_t> Values(256);
-	for (uint32_t i = 0; i < 256; ++i)
-	{
-		Values[i] = i * i;
-	}
+	for (uint32_t i = 0; i < 256; ++i) { Values[i] = i * i; }
 	const auto Source = Upload(Values);
 	const auto Middle = Make.Buffer(1024);
 	const auto Readback = Make.Buffer(1024, ERTMemory::Readback);
@@ -52,10 +49,7 @@ CONTRACT_TEST(CopiesThroughDeviceMemory)
 	Barrier(List.Get(), Readback.Get(), ERTAccess::CopyWrite, ERTAccess::HostRead);
 	Run(List.Get());
 	const auto* Got = static_cast<const uint32_t*>(Readback->GetMapped());
-	for (uint32_t i = 0; i < 256; ++i)
-	{
-		ASSERT_EQ(Got[i], Values[(i + 240) % 256]) << i;
-	}
+	for (uint32_t i = 0; i < 256; ++i) { ASSERT_EQ(Got[i], Values[(i + 240) % 256]) << i; }
 }
 
 CONTRACT_TEST(CopiesManyRegionsAtOnce)
@@ -87,10 +81,7 @@ CONTRACT_TEST(FillsAPart)
 	Barrier(List.Get(), Readback.Get(), ERTAccess::CopyWrite, ERTAccess::HostRead);
 	Run(List.Get());
 	const auto* Got = static_cast<const uint32_t*>(Readback->GetMapped());
-	for (uint32_t i = 0; i < 8; ++i)
-	{
-		EXPECT_EQ(Got[i], i >= 2 && i < 5 ? 0xdeadbeefu : 0x11111111u) << i;
-	}
+	for (uint32_t i = 0; i < 8; ++i) { EXPECT_EQ(Got[i], i >= 2 && i < 5 ? 0xdeadbeefu : 0x11111111u) << i; }
 }
 
 CONTRACT_TEST(RecordedListKeepsBuffersAlive)
@@ -125,17 +116,13 @@ CONTRACT_TEST(FreshObjectsEveryFrameWithoutWaiting)
 		Last = Fence;
 	}
 	Wait(Last);
-	for (uint32_t Frame = 0; Frame < 64; ++Frame)
-	{
-		EXPECT_EQ(static_cast<const uint32_t*>(Readback->GetMapped())[Frame], Frame);
-	}
+	for (uint32_t Frame = 0; Frame < 64; ++Frame) { EXPECT_EQ(static_cast<const uint32_t*>(Readback->GetMapped())[Frame], Frame); }
 }
 
 CONTRACT_TEST(TooLargeBufferIsAnError)
 {
 	TRTRef<IRTBuffer> Buffer;
-	const FRTStatus Status =
-	    Device().CreateBuffer({1ull << 50, AnyUsage, ERTMemory::Device, "Huge"}, Buffer.ReleaseAndGetAddress());
+	const FRTStatus Status = Device().CreateBuffer({1ull << 50, AnyUsage, ERTMemory::Device, "Huge"}, Buffer.ReleaseAndGetAddress());
 	EXPECT_FALSE(Status.IsOk());
 	EXPECT_FALSE(Buffer);
 	EXPECT_STRNE(Status.Message, "");

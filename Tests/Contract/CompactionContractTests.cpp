@@ -31,8 +31,7 @@ protected:
 		Out.Geometry = MakeGeometry(Out, 0, bUpdate, Name);
 		return Out;
 	}
-	TRTRef<IRTGeometry> MakeGeometry(const FContractGeometry& Like, uint64_t CompactedBytes, bool bUpdate,
-	                                 const char* Name)
+	TRTRef<IRTGeometry> MakeGeometry(const FContractGeometry& Like, uint64_t CompactedBytes, bool bUpdate, const char* Name)
 	{
 		FRTGeometryDesc Desc;
 		Desc.Sections = Like.Sections.data();
@@ -71,8 +70,7 @@ protected:
 };
 
 class FCompactionContract : public TCompaction<TSceneFixture<FContract>>
-{
-};
+{};
 
 TEST_P(FCompactionContract, SizesAreKnownOnceWritten)
 {
@@ -133,26 +131,19 @@ TEST_P(FCompactionContract, SourcesGoWhileTheyAreCopied)
 }
 
 class FCompactedRays : public TCompaction<FRayContract>
-{
-};
+{};
 
 TEST_P(FCompactedRays, RaysMeetTheCopyAsTheSource)
 {
 	MakeTable(8);
-	for (uint32_t i = 0; i < 8; ++i)
-	{
-		SetHit(i, 30 + i);
-	}
+	for (uint32_t i = 0; i < 8; ++i) { SetHit(i, 30 + i); }
 	FContractGeometry Source = MakeSource(8);
 	const uint64_t Size = BuildAndMeasure({&Source})[0];
 	FContractGeometry Copy = Source;
 	Copy.Geometry = MakeGeometry(Source, Size, false, "Copy");
 	Load({}, {Place(Source, 0, 5)});
 	FWords Expected;
-	for (uint32_t i = 0; i < 8; ++i)
-	{
-		Expected.push_back(HitValue(30 + i, 5, i, 0));
-	}
+	for (uint32_t i = 0; i < 8; ++i) { Expected.push_back(HitValue(30 + i, 5, i, 0)); }
 	Expected.push_back(MissOne);
 	EXPECT_EQ(Trace(9, MakePush()), Expected);
 	const auto List = Make.List();
@@ -211,10 +202,7 @@ TEST_P(FCompactedRays, CopiesMayBeRefitted)
 	EXPECT_EQ(Trace(3, MakePush()), (FWords{HitValue(1, 0, 0, 0), HitValue(2, 0, 1, 0), MissOne}));
 	// One to the right.
 	auto* Positions = static_cast<float*>(Copy.Vertices->GetMapped());
-	for (uint32_t i = 0; i < 8; ++i)
-	{
-		Positions[3 * i] += 1.0f;
-	}
+	for (uint32_t i = 0; i < 8; ++i) { Positions[3 * i] += 1.0f; }
 	List = Make.List();
 	Build(List.Get(), Copy, true);
 	BuildScene(List.Get(), Scene.Get(), {Place(Copy, 0)});
@@ -223,11 +211,9 @@ TEST_P(FCompactedRays, CopiesMayBeRefitted)
 }
 
 INSTANTIATE_TEST_SUITE_P(RHI, FCompactionContract,
-                         testing::Values(EContractRHI::Mock, EContractRHI::MockValidated, EContractRHI::Vulkan,
-                                         EContractRHI::VulkanValidated),
-                         [](const auto& Info) { return GetName(Info.param); });
-INSTANTIATE_TEST_SUITE_P(RHI, FCompactedRays, testing::ValuesIn(RayRHIs),
-                         [](const auto& Info) { return GetName(Info.param); });
+    testing::Values(EContractRHI::Mock, EContractRHI::MockValidated, EContractRHI::Vulkan, EContractRHI::VulkanValidated),
+    [](const auto& Info) { return GetName(Info.param); });
+INSTANTIATE_TEST_SUITE_P(RHI, FCompactedRays, testing::ValuesIn(RayRHIs), [](const auto& Info) { return GetName(Info.param); });
 
 } // namespace
 } // namespace Lantern

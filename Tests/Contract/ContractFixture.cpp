@@ -30,37 +30,21 @@ void FContractFixture::SetUp()
 		// For machines that have a driver and no layers.
 		Desc.bValidation = std::getenv("LANTERN_TEST_WITHOUT_LAYERS") == nullptr;
 		Desc.MessageUser = this;
-		Desc.MessageCallback = [](void* User, ERTVulkanMessage Severity, const char* Text)
-		{
-			if (Severity != ERTVulkanMessage::Info)
-			{
-				static_cast<FContractFixture*>(User)->AddMessage(Text);
-			}
+		Desc.MessageCallback = [](void* User, ERTVulkanMessage Severity, const char* Text) {
+			if (Severity != ERTVulkanMessage::Info) { static_cast<FContractFixture*>(User)->AddMessage(Text); }
 		};
 		ASSERT_OK(CreateVulkanDevice(Desc, Inner.ReleaseAndGetAddress()));
 	}
-	else
-	{
-		ASSERT_OK(CreateMockDevice({}, Inner.ReleaseAndGetAddress()));
-	}
+	else { ASSERT_OK(CreateMockDevice({}, Inner.ReleaseAndGetAddress())); }
 	const bool bWrap = GetParam() == EContractRHI::MockValidated || GetParam() == EContractRHI::VulkanValidated;
 	const auto Callback = [](void* User, const char* Text) { static_cast<FContractFixture*>(User)->AddMessage(Text); };
-	if (bWrap)
-	{
-		ASSERT_OK(WrapWithValidation(Inner.Get(), Callback, this, Make.Device.ReleaseAndGetAddress()));
-	}
-	else
-	{
-		Make.Device = Inner;
-	}
+	if (bWrap) { ASSERT_OK(WrapWithValidation(Inner.Get(), Callback, this, Make.Device.ReleaseAndGetAddress())); }
+	else { Make.Device = Inner; }
 }
 
 void FContractFixture::TearDown()
 {
-	if (!Inner)
-	{
-		return;
-	}
+	if (!Inner) { return; }
 	EXPECT_OK(Inner->WaitIdle());
 	Inner->CollectGarbage();
 	EXPECT_EQ(Inner->GetValidationMessageCount(), 0u);
@@ -73,28 +57,19 @@ void FContractFixture::TearDown()
 	Make.Device.Reset();
 	Inner.Reset();
 	// Destroying the device may have brought messages too: leaks.
-	for (const std::string& Message : Messages)
-	{
-		ADD_FAILURE() << Message;
-	}
+	for (const std::string& Message : Messages) { ADD_FAILURE() << Message; }
 }
 
 std::vector<uint8_t> FContractFixture::Read(IRTTexture* Texture, ERTAccess Access, uint32_t Mip, uint32_t Layer)
 {
 	const FRTTextureDesc& Desc = Texture->GetDesc();
-	const uint64_t Bytes = static_cast<uint64_t>(std::max(1u, Desc.Width >> Mip)) * std::max(1u, Desc.Height >> Mip) *
-	                       BytesPerTexel(Desc.Format);
+	const uint64_t Bytes =
+	    static_cast<uint64_t>(std::max(1u, Desc.Width >> Mip)) * std::max(1u, Desc.Height >> Mip) * BytesPerTexel(Desc.Format);
 	const auto Readback = Make.Buffer(Bytes, ERTMemory::Readback, "Readback");
 	const auto List = Make.List("Read");
-	if (Access != ERTAccess::CopyRead)
-	{
-		Barrier(List.Get(), Texture, Access, ERTAccess::CopyRead);
-	}
+	if (Access != ERTAccess::CopyRead) { Barrier(List.Get(), Texture, Access, ERTAccess::CopyRead); }
 	List->CopyTextureToBuffer(Readback.Get(), 0, Texture, Mip, Layer);
-	if (Access != ERTAccess::CopyRead)
-	{
-		Barrier(List.Get(), Texture, ERTAccess::CopyRead, Access);
-	}
+	if (Access != ERTAccess::CopyRead) { Barrier(List.Get(), Texture, ERTAccess::CopyRead, Access); }
 	Barrier(List.Get(), Readback.Get(), ERTAccess::CopyWrite, ERTAccess::HostRead);
 	Run(List.Get());
 	const auto* Begin = static_cast<const uint8_t*>(Readback->GetMapped());
@@ -104,17 +79,11 @@ std::vector<uint8_t> FContractFixture::Read(IRTTexture* Texture, ERTAccess Acces
 namespace
 {
 
-std::string GetParamName(const testing::TestParamInfo<EContractRHI>& Info)
-{
-	return GetName(Info.param);
-}
+std::string GetParamName(const testing::TestParamInfo<EContractRHI>& Info) { return GetName(Info.param); }
 
 INSTANTIATE_TEST_SUITE_P(RHI, FContract,
-                         testing::Values(EContractRHI::Mock, EContractRHI::MockValidated, EContractRHI::Vulkan,
-                                         EContractRHI::VulkanValidated),
-                         GetParamName);
-INSTANTIATE_TEST_SUITE_P(RHI, FContractShaders, testing::Values(EContractRHI::Vulkan, EContractRHI::VulkanValidated),
-                         GetParamName);
+    testing::Values(EContractRHI::Mock, EContractRHI::MockValidated, EContractRHI::Vulkan, EContractRHI::VulkanValidated), GetParamName);
+INSTANTIATE_TEST_SUITE_P(RHI, FContractShaders, testing::Values(EContractRHI::Vulkan, EContractRHI::VulkanValidated), GetParamName);
 
 } // namespace
 } // namespace Lantern

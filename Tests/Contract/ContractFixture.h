@@ -3,8 +3,8 @@
 // no validation may have said anything at the end, and nothing may be left over.
 #pragma once
 
-#include "Support/WaitTools.h"
 #include "Support/RHIMaker.h"
+#include "Support/WaitTools.h"
 
 #include <mutex>
 #include <string>
@@ -73,13 +73,11 @@ private:
 };
 
 class FContract : public FContractFixture
-{
-};
+{};
 
 /// Shaders run.
 class FContractShaders : public FContractFixture
-{
-};
+{};
 
 #define CONTRACT_TEST(Name) TEST_P(FContract, Name)
 #define CONTRACT_SHADER_TEST(Name) TEST_P(FContractShaders, Name)

@@ -28,9 +28,9 @@ namespace Lantern
 
 FRTShaderCode GetContractShader(const char* Name)
 {
-#define LANTERN_CONTRACT_SHADER(Symbol, Stage, File)                                                                   \
-	{                                                                                                                  \
-		Contract_##Symbol, std::size(Contract_##Symbol), Stage, File                                                   \
+#define LANTERN_CONTRACT_SHADER(Symbol, Stage, File)                                                                                       \
+	{                                                                                                                                      \
+		Contract_##Symbol, std::size(Contract_##Symbol), Stage, File                                                                       \
 	}
 	static const FRTShaderCode All[] = {
 	    LANTERN_CONTRACT_SHADER(WriteWords_comp, ERTShaderStage::Compute, "WriteWords.comp"),
@@ -59,10 +59,7 @@ FRTShaderCode GetContractShader(const char* Name)
 #undef LANTERN_CONTRACT_SHADER
 	for (const FRTShaderCode& Shader : All)
 	{
-		if (std::strcmp(Shader.Name, Name) == 0)
-		{
-			return Shader;
-		}
+		if (std::strcmp(Shader.Name, Name) == 0) { return Shader; }
 	}
 	ADD_FAILURE() << "no contract shader " << Name;
 	return {};
@@ -78,8 +75,7 @@ TRTRef<IRTPipeline> MakeComputePipeline(IRTDevice& Device, const char* Shader)
 	return Out;
 }
 
-TRTRef<IRTPipeline> MakeRasterPipeline(IRTDevice& Device, ERTFormat Color, ERTFormat Depth, ERTCull Cull,
-                                       bool bDepthWrite)
+TRTRef<IRTPipeline> MakeRasterPipeline(IRTDevice& Device, ERTFormat Color, ERTFormat Depth, ERTCull Cull, bool bDepthWrite)
 {
 	FRTRasterPipelineDesc Desc;
 	Desc.Vertex = GetContractShader("Triangle.vert");
@@ -98,16 +94,12 @@ TRTRef<IRTPipeline> MakeRasterPipeline(IRTDevice& Device, ERTFormat Color, ERTFo
 	return Out;
 }
 
-FRTStatus CreateRays(IRTDevice& Device, const std::vector<FRayGroup>& Groups, bool bLibrary,
-                     const std::vector<IRTPipeline*>& Libraries, const char* Name, TRTRef<IRTPipeline>& Out)
+FRTStatus CreateRays(IRTDevice& Device, const std::vector<FRayGroup>& Groups, bool bLibrary, const std::vector<IRTPipeline*>& Libraries,
+    const char* Name, TRTRef<IRTPipeline>& Out)
 {
 	std::vector<FRTShaderCode> Shaders;
-	const auto Add = [&](const char* File)
-	{
-		if (!File)
-		{
-			return NoShader;
-		}
+	const auto Add = [&](const char* File) {
+		if (!File) { return NoShader; }
 		Shaders.push_back(GetContractShader(File));
 		return static_cast<uint32_t>(Shaders.size() - 1);
 	};
@@ -135,8 +127,8 @@ FRTStatus CreateRays(IRTDevice& Device, const std::vector<FRayGroup>& Groups, bo
 	return Device.CreateRayTracingPipeline(Desc, Out.ReleaseAndGetAddress());
 }
 
-TRTRef<IRTPipeline> MakeRays(IRTDevice& Device, const std::vector<FRayGroup>& Groups, bool bLibrary,
-                             const std::vector<IRTPipeline*>& Libraries, const char* Name)
+TRTRef<IRTPipeline> MakeRays(
+    IRTDevice& Device, const std::vector<FRayGroup>& Groups, bool bLibrary, const std::vector<IRTPipeline*>& Libraries, const char* Name)
 {
 	TRTRef<IRTPipeline> Out;
 	EXPECT_OK(CreateRays(Device, Groups, bLibrary, Libraries, Name, Out));

@@ -20,8 +20,8 @@ FRTShaderCode GetContractShader(const char* Name);
 
 TRTRef<IRTPipeline> MakeComputePipeline(IRTDevice& Device, const char* Shader);
 /// Triangle.vert and Colour.frag. Color Unknown: depth only.
-TRTRef<IRTPipeline> MakeRasterPipeline(IRTDevice& Device, ERTFormat Color, ERTFormat Depth = ERTFormat::Unknown,
-                                       ERTCull Cull = ERTCull::None, bool bDepthWrite = true);
+TRTRef<IRTPipeline> MakeRasterPipeline(
+    IRTDevice& Device, ERTFormat Color, ERTFormat Depth = ERTFormat::Unknown, ERTCull Cull = ERTCull::None, bool bDepthWrite = true);
 
 /// Groups of MakeRayPipeline.
 enum ERayGroup : uint32_t
@@ -49,13 +49,13 @@ struct FRayGroup
 	const char* Intersection = nullptr;
 };
 /// Payload of 4 bytes, recursion 1. Monolithic, a library, or linked from Libraries.
-FRTStatus CreateRays(IRTDevice& Device, const std::vector<FRayGroup>& Groups, bool bLibrary,
-                     const std::vector<IRTPipeline*>& Libraries, const char* Name, TRTRef<IRTPipeline>& Out);
+FRTStatus CreateRays(IRTDevice& Device, const std::vector<FRayGroup>& Groups, bool bLibrary, const std::vector<IRTPipeline*>& Libraries,
+    const char* Name, TRTRef<IRTPipeline>& Out);
 TRTRef<IRTPipeline> MakeRays(IRTDevice& Device, const std::vector<FRayGroup>& Groups, bool bLibrary = false,
-                             const std::vector<IRTPipeline*>& Libraries = {}, const char* Name = "Rays");
+    const std::vector<IRTPipeline*>& Libraries = {}, const char* Name = "Rays");
 
 /// gl_RayFlags….
-inline constexpr uint32_t RayOpaque = 1, RayNoOpaque = 2, RayFirstHit = 4, RaySkipClosestHit = 8, RayCullBack = 16,
-                          RayCullFront = 32, RayCullOpaque = 64, RayCullNoOpaque = 128;
+inline constexpr uint32_t RayOpaque = 1, RayNoOpaque = 2, RayFirstHit = 4, RaySkipClosestHit = 8, RayCullBack = 16, RayCullFront = 32,
+                          RayCullOpaque = 64, RayCullNoOpaque = 128;
 
 } // namespace Lantern

@@ -13,14 +13,8 @@ CONTRACT_TEST(CapabilitiesAreCoherent)
 	EXPECT_EQ(Device().GetVersion(), RHIVersion);
 	EXPECT_STRNE(Caps().DeviceName, "");
 	EXPECT_STRNE(Caps().DriverName, "");
-	if (Caps().Rung >= ERTRung::Pipeline)
-	{
-		EXPECT_TRUE(Caps().bRayTracingPipeline);
-	}
-	if (Caps().Rung == ERTRung::RayQuery)
-	{
-		EXPECT_TRUE(Caps().bRayQuery);
-	}
+	if (Caps().Rung >= ERTRung::Pipeline) { EXPECT_TRUE(Caps().bRayTracingPipeline); }
+	if (Caps().Rung == ERTRung::RayQuery) { EXPECT_TRUE(Caps().bRayQuery); }
 	if (Caps().bRayTracingPipeline)
 	{
 		EXPECT_GE(Caps().ShaderGroupHandleSize, 32u);
@@ -99,10 +93,7 @@ CONTRACT_TEST(ListsOfOneSubmissionRunInOrder)
 
 CONTRACT_TEST(TimestampsRise)
 {
-	if (!Caps().bTimestamps)
-	{
-		GTEST_SKIP() << "the device has no timestamps";
-	}
+	if (!Caps().bTimestamps) { GTEST_SKIP() << "the device has no timestamps"; }
 	TRTRef<IRTQueryPool> Pool;
 	ASSERT_OK(Device().CreateQueryPool(ERTQuery::Timestamp, 3, Pool.ReleaseAndGetAddress()));
 	EXPECT_EQ(Pool->GetCount(), 3u);

@@ -6,13 +6,11 @@ namespace
 {
 
 class FGeometryContract : public TSceneFixture<FContract>
-{
-};
+{};
 
 TEST_P(FGeometryContract, SizesGrowWithTheGeometry)
 {
-	const auto Sizes = [&](uint32_t Triangles, bool bUpdate)
-	{
+	const auto Sizes = [&](uint32_t Triangles, bool bUpdate) {
 		FRTGeometrySection Section;
 		Section.VertexCount = Triangles * 3;
 		Section.TriangleCount = Triangles;
@@ -56,10 +54,7 @@ TEST_P(FGeometryContract, ManyBuildsInOneCall)
 	std::vector<FContractGeometry> Items;
 	std::vector<FRTGeometryBuild> Builds;
 	uint64_t Offset = 0;
-	for (uint32_t i = 0; i < 16; ++i)
-	{
-		Items.push_back(MakeSquares(1 + i % 3));
-	}
+	for (uint32_t i = 0; i < 16; ++i) { Items.push_back(MakeSquares(1 + i % 3)); }
 	for (const FContractGeometry& Item : Items)
 	{
 		FRTGeometryBuild& Desc = Builds.emplace_back();
@@ -100,9 +95,8 @@ TEST_P(FGeometryContract, MemoryIsCounted)
 }
 
 INSTANTIATE_TEST_SUITE_P(RHI, FGeometryContract,
-                         testing::Values(EContractRHI::Mock, EContractRHI::MockValidated, EContractRHI::Vulkan,
-                                         EContractRHI::VulkanValidated),
-                         [](const auto& Info) { return GetName(Info.param); });
+    testing::Values(EContractRHI::Mock, EContractRHI::MockValidated, EContractRHI::Vulkan, EContractRHI::VulkanValidated),
+    [](const auto& Info) { return GetName(Info.param); });
 
 } // namespace
 } // namespace Lantern

@@ -11,7 +11,7 @@ namespace Lantern
 
 /// What Trace.rgen (or Call.rgen) writes for each of Width pixels in a row. Records that a GPU would stumble over are
 /// test failures.
-std::vector<uint32_t> TraceOnMock(const FRTMock& Mock, IRTShaderTable* Table, IRTScene* Scene,
-                                  const FContractPush& Push, uint32_t Width, uint32_t RayGen);
+std::vector<uint32_t> TraceOnMock(
+    const FRTMock& Mock, IRTShaderTable* Table, IRTScene* Scene, const FContractPush& Push, uint32_t Width, uint32_t RayGen);
 
 } // namespace Lantern

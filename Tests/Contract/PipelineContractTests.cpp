@@ -16,10 +16,7 @@ CONTRACT_TEST(PipelinesOfAllKinds)
 		ASSERT_TRUE(Raster);
 		EXPECT_EQ(Raster->GetGroupCount(), 0u);
 	}
-	if (!Caps().bRayTracingPipeline)
-	{
-		GTEST_SKIP() << "the device has no ray-tracing pipelines";
-	}
+	if (!Caps().bRayTracingPipeline) { GTEST_SKIP() << "the device has no ray-tracing pipelines"; }
 	const auto Rays = MakeRayPipeline(Device());
 	ASSERT_TRUE(Rays);
 	EXPECT_EQ(Rays->GetGroupCount(), 9u);

@@ -15,10 +15,7 @@ protected:
 	void SetUp() override
 	{
 		FContract::SetUp();
-		if (!HasFatalFailure() && !Caps().bPipelineLibraries)
-		{
-			GTEST_SKIP() << "the device has no pipeline libraries";
-		}
+		if (!HasFatalFailure() && !Caps().bPipelineLibraries) { GTEST_SKIP() << "the device has no pipeline libraries"; }
 	}
 };
 
@@ -48,10 +45,7 @@ TEST_P(FLibraryContract, OneLibraryInManyLinks)
 TEST_P(FLibraryContract, LibraryOnlyLinksAreMadeOrRefused)
 {
 	const auto All = MakeRays(Device(), {StageTrace, StageMiss, StageHit}, true, {}, "All");
-	if (!Caps().bLibraryOnlyPipelines && GetParam() != EContractRHI::Vulkan)
-	{
-		GTEST_SKIP() << "mock and wrapper call it wrong use";
-	}
+	if (!Caps().bLibraryOnlyPipelines && GetParam() != EContractRHI::Vulkan) { GTEST_SKIP() << "mock and wrapper call it wrong use"; }
 	TRTRef<IRTPipeline> Linked;
 	const FRTStatus Status = CreateRays(Device(), {}, false, {All.Get()}, "Linked", Linked);
 	EXPECT_EQ(Status.IsOk(), Caps().bLibraryOnlyPipelines) << Status.Message;
@@ -81,14 +75,8 @@ protected:
 	void SetUp() override
 	{
 		FRayStageFixture::SetUp();
-		if (HasFatalFailure() || IsSkipped())
-		{
-			return;
-		}
-		if (!Caps().bPipelineLibraries)
-		{
-			GTEST_SKIP() << "the device has no pipeline libraries";
-		}
+		if (HasFatalFailure() || IsSkipped()) { return; }
+		if (!Caps().bPipelineLibraries) { GTEST_SKIP() << "the device has no pipeline libraries"; }
 		MakeStageScene();
 	}
 	/// Own groups, then a library for each of Split. The libraries are released before the link is used.
@@ -110,10 +98,7 @@ protected:
 	static std::vector<FGroups> Each(const FGroups& Items)
 	{
 		std::vector<FGroups> Out;
-		for (const FRayGroup& Item : Items)
-		{
-			Out.push_back({Item});
-		}
+		for (const FRayGroup& Item : Items) { Out.push_back({Item}); }
 		return Out;
 	}
 };
@@ -151,10 +136,7 @@ TEST_P(FLinkContract, CallablesFromALibrary)
 
 TEST_P(FLinkContract, EveryGroupFromALibrary)
 {
-	if (!Caps().bLibraryOnlyPipelines)
-	{
-		GTEST_SKIP() << "the driver needs ray generation and miss groups in the link";
-	}
+	if (!Caps().bLibraryOnlyPipelines) { GTEST_SKIP() << "the driver needs ray generation and miss groups in the link"; }
 	FGroups All = GetGeneralGroups();
 	const FGroups Hits = GetHitGroups();
 	All.insert(All.end(), Hits.begin(), Hits.end());
@@ -211,10 +193,7 @@ TEST_P(FLinkContract, RelinkedWithOneMoreWhileTheFirstIsInFlight)
 	Table->SetRecord(ERTRecordKind::RayGen, 0, Find(StageTrace), nullptr, 0);
 	Table->SetRecord(ERTRecordKind::Miss, 0, Find(StageMiss), nullptr, 0);
 	Table->SetRecord(ERTRecordKind::Callable, 0, Find(StageSalt), nullptr, 0);
-	for (uint32_t Index = 0; Index < HitRecords; ++Index)
-	{
-		SetHit(Index, 10 + Index, Index < Hits.size() ? Find(Hits[Index]) : StandIn);
-	}
+	for (uint32_t Index = 0; Index < HitRecords; ++Index) { SetHit(Index, 10 + Index, Index < Hits.size() ? Find(Hits[Index]) : StandIn); }
 	FWords Expected = GetExpected(5);
 	Expected[2] = 15 << 16 | 5 << 8 | 3;
 	EXPECT_EQ(Trace(10, MakeStagePush(5)), Expected);
@@ -227,10 +206,7 @@ TEST_P(FLinkContract, RelinkedWithOneMoreWhileTheFirstIsInFlight)
 	Libraries.clear();
 	Table->SetPipeline(Pipeline.Get());
 	std::vector<uint32_t> Handles;
-	for (const FRayGroup& Hit : GetHitGroups())
-	{
-		Handles.push_back(Find(Hit));
-	}
+	for (const FRayGroup& Hit : GetHitGroups()) { Handles.push_back(Find(Hit)); }
 	const uint32_t Trace0[] = {Find(StageTrace), Find(StageCall)}, Miss = Find(StageMiss), Salt = Find(StageSalt);
 	Table->SetGroups(ERTRecordKind::RayGen, 0, 2, Trace0);
 	Table->SetGroups(ERTRecordKind::Miss, 0, 1, &Miss);
@@ -247,19 +223,14 @@ TEST_P(FLinkContract, EightThreadsCompileAndOneLinks)
 	std::vector<std::thread> Threads;
 	for (uint32_t Thread = 0; Thread < ThreadCount; ++Thread)
 	{
-		Threads.emplace_back(
-		    [&, Thread]
-		    {
-			    for (uint32_t Index = Thread; Index < Libraries.size(); Index += ThreadCount)
-			    {
-				    Libraries[Index] = MakeRays(Device(), {Hits[Index % Hits.size()]}, true, {}, "Library");
-			    }
-		    });
+		Threads.emplace_back([&, Thread] {
+			for (uint32_t Index = Thread; Index < Libraries.size(); Index += ThreadCount)
+			{
+				Libraries[Index] = MakeRays(Device(), {Hits[Index % Hits.size()]}, true, {}, "Library");
+			}
+		});
 	}
-	for (std::thread& Thread : Threads)
-	{
-		Thread.join();
-	}
+	for (std::thread& Thread : Threads) { Thread.join(); }
 	std::vector<IRTPipeline*> Pointers;
 	FGroups Order = GetGeneralGroups();
 	for (uint32_t Index = 0; Index < Libraries.size(); ++Index)
@@ -273,20 +244,15 @@ TEST_P(FLinkContract, EightThreadsCompileAndOneLinks)
 	for (uint32_t First = 0; First < Libraries.size(); First += 5 * HitRecords)
 	{
 		MakeStageTable();
-		for (uint32_t Index = 0; Index < HitRecords; ++Index)
-		{
-			SetHit(Index, 10 + Index, 4 + First + Index);
-		}
+		for (uint32_t Index = 0; Index < HitRecords; ++Index) { SetHit(Index, 10 + Index, 4 + First + Index); }
 		ExpectAllStages("round");
 	}
 }
 
 INSTANTIATE_TEST_SUITE_P(RHI, FLibraryContract,
-                         testing::Values(EContractRHI::Mock, EContractRHI::MockValidated, EContractRHI::Vulkan,
-                                         EContractRHI::VulkanValidated),
-                         [](const auto& Info) { return GetName(Info.param); });
-INSTANTIATE_TEST_SUITE_P(RHI, FLinkContract, testing::ValuesIn(RayRHIs),
-                         [](const auto& Info) { return GetName(Info.param); });
+    testing::Values(EContractRHI::Mock, EContractRHI::MockValidated, EContractRHI::Vulkan, EContractRHI::VulkanValidated),
+    [](const auto& Info) { return GetName(Info.param); });
+INSTANTIATE_TEST_SUITE_P(RHI, FLinkContract, testing::ValuesIn(RayRHIs), [](const auto& Info) { return GetName(Info.param); });
 
 } // namespace
 } // namespace Lantern

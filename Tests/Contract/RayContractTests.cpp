@@ -7,8 +7,7 @@ namespace
 {
 
 class FRecordContract : public FRayContract
-{
-};
+{};
 
 TEST_P(FRecordContract, HitAndMiss)
 {
@@ -34,10 +33,7 @@ TEST_P(FRecordContract, OffsetPlusSectionTimesMultiplierPlusRayType)
 {
 	// Two instances of three sections with two ray types: 12 records, each with a value of its own.
 	MakeTable(13);
-	for (uint32_t i = 0; i < 13; ++i)
-	{
-		SetHit(i, 100 + i);
-	}
+	for (uint32_t i = 0; i < 13; ++i) { SetHit(i, 100 + i); }
 	const FContractGeometry Squares = MakeSquares(3);
 	Load({&Squares}, {Place(Squares, 0, 1, 1), Place(Squares, 3, 2, 7)});
 	for (uint32_t RayType = 0; RayType < 2; ++RayType)
@@ -83,10 +79,7 @@ TEST_P(FRecordContract, ScatteredChangesReachTheirRecordsOnly)
 		Instances.push_back(Place(Square, static_cast<float>(i), 0, 5 * i + 1));
 		Expected.push_back(HitValue(1000 + i, 0, 0, 0));
 	}
-	for (uint32_t i = 0; i < 400; ++i)
-	{
-		SetHit(i, i % 5 == 1 ? 1000 + i / 5 : 9);
-	}
+	for (uint32_t i = 0; i < 400; ++i) { SetHit(i, i % 5 == 1 ? 1000 + i / 5 : 9); }
 	Load({&Square}, Instances);
 	EXPECT_EQ(Trace(64, MakePush()), Expected);
 	for (uint32_t Round = 0; Round < 3; ++Round)
@@ -123,10 +116,7 @@ TEST_P(FRecordContract, InvalidateMakesGoodForAListNeverSubmitted)
 			EXPECT_OK(Dropped->End());
 		}
 		Table->Invalidate();
-		if (bGrows)
-		{
-			SetHit(5, 4);
-		}
+		if (bGrows) { SetHit(5, 4); }
 		EXPECT_EQ(Trace(2, MakePush()), (FWords{HitValue(1, 0, 0, 0), HitValue(3, 0, 0, 0)})) << bGrows;
 	}
 	Load({}, {Place(Square, 0, 0, 5)});
@@ -135,15 +125,9 @@ TEST_P(FRecordContract, InvalidateMakesGoodForAListNeverSubmitted)
 
 TEST_P(FRecordContract, UpdatesLeavePipelineAndConstantsAlone)
 {
-	if (!IsVulkan())
-	{
-		GTEST_SKIP() << "the mock runs no shaders";
-	}
+	if (!IsVulkan()) { GTEST_SKIP() << "the mock runs no shaders"; }
 	MakeTable(400);
-	for (uint32_t i = 0; i < 400; i += 3)
-	{
-		SetHit(i, i);
-	}
+	for (uint32_t i = 0; i < 400; i += 3) { SetHit(i, i); }
 	const auto Compute = MakeComputePipeline(Device(), "WriteWords.comp");
 	const auto Output = Make.Buffer(32, ERTMemory::Readback);
 	FContractPush Push;
@@ -158,18 +142,12 @@ TEST_P(FRecordContract, UpdatesLeavePipelineAndConstantsAlone)
 	List->Dispatch(1, 1, 1);
 	Barrier(List.Get(), Output.Get(), ERTAccess::StorageWrite, ERTAccess::HostRead);
 	Run(List.Get());
-	for (uint32_t i = 0; i < 8; ++i)
-	{
-		EXPECT_EQ(static_cast<const uint32_t*>(Output->GetMapped())[i], 5 + i * 2);
-	}
+	for (uint32_t i = 0; i < 8; ++i) { EXPECT_EQ(static_cast<const uint32_t*>(Output->GetMapped())[i], 5 + i * 2); }
 }
 
 TEST_P(FRecordContract, TableChangesWithinAList)
 {
-	if (IsMock())
-	{
-		GTEST_SKIP() << "the mock's rays are followed at the end of a list only";
-	}
+	if (IsMock()) { GTEST_SKIP() << "the mock's rays are followed at the end of a list only"; }
 	MakeTable(1);
 	SetHit(0, 1);
 	const FContractGeometry Square = MakeSquares();
@@ -213,8 +191,8 @@ TEST_P(FRecordContract, InstanceMasks)
 	MakeTable(1);
 	SetHit(0, 1);
 	const FContractGeometry Square = MakeSquares();
-	Load({&Square}, {Place(Square, 0, 0, 0, 0x01), Place(Square, 1, 1, 0, 0x02), Place(Square, 2, 2, 0, 0x80),
-	                 Place(Square, 3, 3, 0, 0x00)});
+	Load({&Square},
+	    {Place(Square, 0, 0, 0, 0x01), Place(Square, 1, 1, 0, 0x02), Place(Square, 2, 2, 0, 0x80), Place(Square, 3, 3, 0, 0x00)});
 	const uint32_t Hits[4] = {HitValue(1, 0, 0, 0), HitValue(1, 1, 0, 0), HitValue(1, 2, 0, 0), MissOne};
 	EXPECT_EQ(Trace(4, MakePush(0, 0x01)), (FWords{Hits[0], MissOne, MissOne, MissOne}));
 	EXPECT_EQ(Trace(4, MakePush(0, 0x82)), (FWords{MissOne, Hits[1], Hits[2], MissOne}));
@@ -239,10 +217,7 @@ TEST_P(FRecordContract, FaceCullingIsChosenPerDispatch)
 	const FWords All = Trace(4, MakePush());
 	const uint32_t Front = HitValue(1, 0, 0, 0);
 	EXPECT_EQ(All[0], Front);
-	for (uint32_t i = 1; i < 4; ++i)
-	{
-		EXPECT_EQ(All[i] & ~1u, HitValue(1, i, 0, 0, true)) << i;
-	}
+	for (uint32_t i = 1; i < 4; ++i) { EXPECT_EQ(All[i] & ~1u, HitValue(1, i, 0, 0, true)) << i; }
 	const FWords NoBack = Trace(4, MakePush(RayCullBack));
 	EXPECT_EQ(NoBack, (FWords{Front, MissOne, All[2], MissOne}));
 	const FWords NoFront = Trace(4, MakePush(RayCullFront));
@@ -274,8 +249,7 @@ TEST_P(FRecordContract, AnyHitOfOneSectionOnly)
 	EXPECT_EQ(Trace(2, MakePush()), (FWords{HitValue(1, 0, 0, 0), MissOne}));
 }
 
-INSTANTIATE_TEST_SUITE_P(RHI, FRecordContract, testing::ValuesIn(RayRHIs),
-                         [](const auto& Info) { return GetName(Info.param); });
+INSTANTIATE_TEST_SUITE_P(RHI, FRecordContract, testing::ValuesIn(RayRHIs), [](const auto& Info) { return GetName(Info.param); });
 
 } // namespace
 } // namespace Lantern

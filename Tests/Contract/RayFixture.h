@@ -1,8 +1,8 @@
 // Rays that run (on the mock: that are followed through its memory and table): pixel (x, y) looks down -z at the unit square over it and says what it hit.
 #pragma once
 
-#include "Support/ContractScene.h"
 #include "MockRays.h"
+#include "Support/ContractScene.h"
 
 namespace Lantern
 {
@@ -16,14 +16,8 @@ protected:
 	void SetUp() override
 	{
 		TSceneFixture::SetUp();
-		if (HasFatalFailure() || IsSkipped())
-		{
-			return;
-		}
-		if (!Caps().bRayTracingPipeline)
-		{
-			GTEST_SKIP() << "the device has no ray-tracing pipelines";
-		}
+		if (HasFatalFailure() || IsSkipped()) { return; }
+		if (!Caps().bRayTracingPipeline) { GTEST_SKIP() << "the device has no ray-tracing pipelines"; }
 		Pipeline = MakeRayPipeline(Device());
 		Scene = Make.Scene(64);
 	}
@@ -75,10 +69,7 @@ protected:
 		List->TraceRays(Table.Get(), RayGen, Width, 1, 1);
 		Barrier(List, Output.Get(), ERTAccess::StorageWrite, ERTAccess::HostRead);
 		Run(List);
-		if (IsMock())
-		{
-			return TraceOnMock(GetMock(&Device()), Table.Get(), Scene.Get(), Push, Width, RayGen);
-		}
+		if (IsMock()) { return TraceOnMock(GetMock(&Device()), Table.Get(), Scene.Get(), Push, Width, RayGen); }
 		const auto* Begin = static_cast<const uint32_t*>(Output->GetMapped());
 		return {Begin, Begin + Width};
 	}
@@ -92,10 +83,7 @@ protected:
 	void Load(const std::vector<const FContractGeometry*>& Geometries, const std::vector<FRTInstance>& Instances)
 	{
 		const auto List = Make.List("Load");
-		for (const FContractGeometry* Geometry : Geometries)
-		{
-			Build(List.Get(), *Geometry);
-		}
+		for (const FContractGeometry* Geometry : Geometries) { Build(List.Get(), *Geometry); }
 		BuildScene(List.Get(), Scene.Get(), Instances);
 		Run(List.Get());
 	}

@@ -7,8 +7,7 @@ namespace
 {
 
 class FTraceContract : public FRayContract
-{
-};
+{};
 
 TEST_P(FTraceContract, EmptySceneMisses)
 {
@@ -41,10 +40,7 @@ TEST_P(FTraceContract, RefitMovesTheTriangles)
 	Load({&Square}, {Place(Square, 0)});
 	EXPECT_EQ(Trace(2, MakePush()), (FWords{HitValue(1, 0, 0, 0), MissOne}));
 	auto* Vertices = static_cast<float*>(Square.Vertices->GetMapped());
-	for (uint32_t i = 0; i < 12; i += 3)
-	{
-		Vertices[i] += 1.0f;
-	}
+	for (uint32_t i = 0; i < 12; i += 3) { Vertices[i] += 1.0f; }
 	const auto List = Make.List("Refit");
 	Make.BuildBarrier(List.Get());
 	Build(List.Get(), Square, true);
@@ -109,10 +105,7 @@ TEST_P(FTraceContract, RemovalWhileRaysAreInFlight)
 		List->PushConstants(&Push, sizeof(Push));
 		List->TraceRays(Table.Get(), 0, 2, 1, 1);
 		Barrier(List.Get(), Outputs.back().Get(), ERTAccess::StorageWrite, ERTAccess::HostRead);
-		if (Frame == 2)
-		{
-			Goes = {};
-		}
+		if (Frame == 2) { Goes = {}; }
 		Last = Make.Submit(List.Get());
 	}
 	Wait(Last);
@@ -129,8 +122,7 @@ TEST_P(FTraceContract, IntersectionShader)
 	MakeTable(1);
 	SetHit(0, 4, GroupDisc);
 	// Discs of radius 0.4 in unit boxes: the ray at (0.5, 0.25) is inside, at a box shifted by 0.45 it is not.
-	const FContractGeometry Boxes =
-	    MakeBoxes({0, 0, -0.1f, 1, 1, 0.1f, 1.45f, 0, -0.1f, 2.45f, 1, 0.1f, 3, 0, -0.1f, 4, 1, 0.1f});
+	const FContractGeometry Boxes = MakeBoxes({0, 0, -0.1f, 1, 1, 0.1f, 1.45f, 0, -0.1f, 2.45f, 1, 0.1f, 3, 0, -0.1f, 4, 1, 0.1f});
 	Load({&Boxes}, {Place(Boxes, 0, 6)});
 	FContractPush Push = MakePush();
 	Push.Input = Boxes.Vertices->GetDeviceAddress();
@@ -153,17 +145,13 @@ TEST_P(FTraceContract, TwoScenesByIndex)
 
 TEST_P(FTraceContract, RayQueryFindsTheSame)
 {
-	if (!Caps().bRayQuery)
-	{
-		GTEST_SKIP() << "the device has no ray query";
-	}
+	if (!Caps().bRayQuery) { GTEST_SKIP() << "the device has no ray query"; }
 	const auto Query = MakeComputePipeline(Device(), "Query.comp");
 	const FContractGeometry Solid = MakeSquares(2, true), Masked = MakeSquares(1, false);
 	FRTInstance Turned = Place(Solid, 5, 5, 0, 0x04);
 	Turned.Transform[0] = Turned.Transform[10] = -1.0f;
 	Load({&Solid, &Masked}, {Place(Solid, 0, 3, 0, 0x01), Place(Masked, 2, 4, 0, 0x02), Turned});
-	const auto Run4 = [&](uint32_t Flags, uint32_t Mask, bool bConfirm)
-	{
+	const auto Run4 = [&](uint32_t Flags, uint32_t Mask, bool bConfirm) {
 		const auto Output = Make.Buffer(16, ERTMemory::Readback, "Output");
 		FContractPush Push = MakePush(Flags, Mask);
 		Push.Output = Output->GetDeviceAddress();
@@ -189,7 +177,7 @@ TEST_P(FTraceContract, RayQueryFindsTheSame)
 }
 
 INSTANTIATE_TEST_SUITE_P(RHI, FTraceContract, testing::Values(EContractRHI::Vulkan, EContractRHI::VulkanValidated),
-                         [](const auto& Info) { return GetName(Info.param); });
+    [](const auto& Info) { return GetName(Info.param); });
 
 } // namespace
 } // namespace Lantern

@@ -12,10 +12,7 @@ protected:
 	void SetUp() override
 	{
 		FRayStageFixture::SetUp();
-		if (HasFatalFailure() || IsSkipped())
-		{
-			return;
-		}
+		if (HasFatalFailure() || IsSkipped()) { return; }
 		FGroups All = GetGeneralGroups();
 		const FGroups Hits = GetHitGroups();
 		All.insert(All.end(), Hits.begin(), Hits.end());
@@ -25,10 +22,7 @@ protected:
 	}
 };
 
-TEST_P(FStageContract, AllAnswerAndGetTheConstants)
-{
-	ExpectAllStages("monolithic");
-}
+TEST_P(FStageContract, AllAnswerAndGetTheConstants) { ExpectAllStages("monolithic"); }
 
 TEST_P(FStageContract, OpaqueRaysRunNoAnyHit)
 {
@@ -48,14 +42,8 @@ TEST_P(FStageContract, NoOpaqueRaysRunItOnSolids)
 TEST_P(FStageContract, OpacityCulls)
 {
 	FWords Solid = GetExpected(5), Open = Solid;
-	for (const uint32_t Pixel : {3u, 4u, 7u, 8u})
-	{
-		Solid[Pixel] = 0xe0000005u;
-	}
-	for (const uint32_t Pixel : {0u, 1u, 2u, 5u, 6u})
-	{
-		Open[Pixel] = 0xe0000005u;
-	}
+	for (const uint32_t Pixel : {3u, 4u, 7u, 8u}) { Solid[Pixel] = 0xe0000005u; }
+	for (const uint32_t Pixel : {0u, 1u, 2u, 5u, 6u}) { Open[Pixel] = 0xe0000005u; }
 	EXPECT_EQ(Trace(10, MakeStagePush(5, RayCullNoOpaque)), Solid);
 	EXPECT_EQ(Trace(10, MakeStagePush(5, RayCullOpaque)), Open);
 }
@@ -63,10 +51,7 @@ TEST_P(FStageContract, OpacityCulls)
 TEST_P(FStageContract, ClosestHitMayBeSkippedAndTheMissShaderKept)
 {
 	FWords Expected = GetExpected(2);
-	for (uint32_t& Word : Expected)
-	{
-		Word = Word == 0xe0000002u ? Word : 0;
-	}
+	for (uint32_t& Word : Expected) { Word = Word == 0xe0000002u ? Word : 0; }
 	EXPECT_EQ(Trace(10, MakeStagePush(2, RaySkipClosestHit)), Expected);
 	// Shadow rays: the same, ending at whatever is met first.
 	EXPECT_EQ(Trace(10, MakeStagePush(2, RaySkipClosestHit | RayFirstHit)), Expected);
@@ -173,18 +158,14 @@ TEST_P(FStageContract, RaysFindCompactedGeometry)
 
 TEST_P(FStageContract, NullRecordsRunNothing)
 {
-	if (GetParam() == EContractRHI::VulkanValidated)
-	{
-		GTEST_SKIP() << "the wrapper reports them";
-	}
+	if (GetParam() == EContractRHI::VulkanValidated) { GTEST_SKIP() << "the wrapper reports them"; }
 	const uint32_t Counts[4] = {2, 1, HitRecords + 4, 1};
 	ASSERT_OK(Table->Reserve(Counts));
 	Load({}, {Place(Squares, 0, 1, HitRecords), Place(Squares, 1, 2, 0)});
 	EXPECT_EQ(Trace(3, MakeStagePush(5)), (FWords{0, 10 << 16 | 5 << 8 | 2, 0xe0000005u}));
 }
 
-INSTANTIATE_TEST_SUITE_P(RHI, FStageContract, testing::ValuesIn(RayRHIs),
-                         [](const auto& Info) { return GetName(Info.param); });
+INSTANTIATE_TEST_SUITE_P(RHI, FStageContract, testing::ValuesIn(RayRHIs), [](const auto& Info) { return GetName(Info.param); });
 
 } // namespace
 } // namespace Lantern

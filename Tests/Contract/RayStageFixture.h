@@ -9,18 +9,14 @@ namespace Lantern
 {
 
 /// Shaders named "Salt…" and Slab.rint answer with push constant G: a stage that does not get the constants is seen.
-inline const FRayGroup StageTrace = {"Trace.rgen"}, StageCall = {"Call.rgen"}, StageMiss = {"SaltMiss.rmiss"},
-                       StageSalt = {"Salt.rcall"}, StageHit = {nullptr, "SaltHit.rchit"},
-                       StageParity = {nullptr, "SaltHit.rchit", "Parity.rahit"},
-                       StageAnyOnly = {nullptr, nullptr, "Parity.rahit"},
-                       StageBox = {nullptr, "BoxHit.rchit", nullptr, "Slab.rint"},
-                       StageBoxParity = {nullptr, "BoxHit.rchit", "Parity.rahit", "Slab.rint"},
-                       StageCalls = {nullptr, "HitCalls.rchit"};
+inline const FRayGroup StageTrace = {"Trace.rgen"}, StageCall = {"Call.rgen"}, StageMiss = {"SaltMiss.rmiss"}, StageSalt = {"Salt.rcall"},
+                       StageHit = {nullptr, "SaltHit.rchit"}, StageParity = {nullptr, "SaltHit.rchit", "Parity.rahit"},
+                       StageAnyOnly = {nullptr, nullptr, "Parity.rahit"}, StageBox = {nullptr, "BoxHit.rchit", nullptr, "Slab.rint"},
+                       StageBoxParity = {nullptr, "BoxHit.rchit", "Parity.rahit", "Slab.rint"}, StageCalls = {nullptr, "HitCalls.rchit"};
 
 inline bool operator==(const FRayGroup& A, const FRayGroup& B)
 {
-	return A.General == B.General && A.ClosestHit == B.ClosestHit && A.AnyHit == B.AnyHit &&
-	       A.Intersection == B.Intersection;
+	return A.General == B.General && A.ClosestHit == B.ClosestHit && A.AnyHit == B.AnyHit && A.Intersection == B.Intersection;
 }
 
 class FRayStageFixture : public FRayContract
@@ -30,10 +26,7 @@ protected:
 	using FGroups = std::vector<FRayGroup>;
 
 	static FGroups GetGeneralGroups() { return {StageTrace, StageCall, StageMiss, StageSalt}; }
-	static FGroups GetHitGroups()
-	{
-		return {StageHit, StageParity, StageAnyOnly, StageBox, StageBoxParity, StageCalls};
-	}
+	static FGroups GetHitGroups() { return {StageHit, StageParity, StageAnyOnly, StageBox, StageBoxParity, StageCalls}; }
 	void TearDown() override
 	{
 		Squares = Masked = {};
@@ -74,10 +67,7 @@ protected:
 		Table->SetRecord(ERTRecordKind::Miss, 0, Find(StageMiss), nullptr, 0);
 		Table->SetRecord(ERTRecordKind::Callable, 0, Find(StageSalt), nullptr, 0);
 		const FGroups Hits = GetHitGroups();
-		for (uint32_t Index = 0; Index < HitRecords; ++Index)
-		{
-			SetHit(Index, 10 + Index, Find(Hits[Index]));
-		}
+		for (uint32_t Index = 0; Index < HitRecords; ++Index) { SetHit(Index, 10 + Index, Find(Hits[Index])); }
 	}
 	/// Pixels 0 … 8: opaque squares with records 0, 1, 2 and 5; masked ones with 1 and 2; a box with 3; two masked boxes,
 	/// one beside the other, with 4. Pixel 9: nothing.
@@ -88,9 +78,8 @@ protected:
 		Boxes = MakeBoxes({0, 0, -0.5f, 1, 1, 0.25f, 1, 0, -0.5f, 2, 1, 0.25f});
 		OpenBoxes = MakeBoxes({0, 0, -0.5f, 1, 1, 0.25f, 1, 0, -0.5f, 2, 1, 0.25f}, false);
 		FRTInstance Box = Place(Boxes, 5, 7, 3), OneBox = Place(OpenBoxes, 7, 9, 4);
-		Load({&Squares, &Masked, &Boxes, &OpenBoxes},
-		     {Place(Squares, 0, 1, 0), Place(Squares, 1, 2, 1), Place(Squares, 2, 3, 5), Place(Masked, 3, 4, 1),
-		      Place(Masked, 4, 5, 2), Box, OneBox});
+		Load({&Squares, &Masked, &Boxes, &OpenBoxes}, {Place(Squares, 0, 1, 0), Place(Squares, 1, 2, 1), Place(Squares, 2, 3, 5),
+		                                                  Place(Masked, 3, 4, 1), Place(Masked, 4, 5, 2), Box, OneBox});
 	}
 	FContractPush MakeStagePush(uint32_t Salt, uint32_t RayFlags = 0) const
 	{
@@ -103,21 +92,12 @@ protected:
 	static FWords GetExpected(uint32_t Salt)
 	{
 		const auto Plain = [&](uint32_t Record, uint32_t Custom) { return (10 + Record) << 16 | Salt << 8 | Custom; };
-		const auto Box = [&](uint32_t Record, uint32_t Primitive)
-		{ return (10 + Record) << 16 | (Salt + Primitive) << 8 | 5; };
+		const auto Box = [&](uint32_t Record, uint32_t Primitive) { return (10 + Record) << 16 | (Salt + Primitive) << 8 | 5; };
 		const uint32_t Miss = 0xe0000000u | Salt;
 		// Masked: the square is of two triangles; the ray meets the first, and Parity looks at record + primitive + salt.
 		const bool bOdd = Salt % 2 != 0;
-		return {Plain(0, 1),
-		        Plain(1, 2),
-		        15 + Salt,
-		        bOdd ? Plain(1, 4) : Miss,
-		        bOdd ? Miss : 0,
-		        Box(3, 0),
-		        Box(3, 1),
-		        bOdd ? Miss : Box(4, 0),
-		        bOdd ? Box(4, 1) : Miss,
-		        Miss};
+		return {Plain(0, 1), Plain(1, 2), 15 + Salt, bOdd ? Plain(1, 4) : Miss, bOdd ? Miss : 0, Box(3, 0), Box(3, 1),
+		    bOdd ? Miss : Box(4, 0), bOdd ? Box(4, 1) : Miss, Miss};
 	}
 	/// Two salts, so that neither an answer from before nor a constant passes.
 	void ExpectAllStages(const char* What)

@@ -6,8 +6,7 @@ namespace
 {
 
 class FSceneContract : public TSceneFixture<FContract>
-{
-};
+{};
 
 TEST_P(FSceneContract, HasAnIndexAndSizes)
 {
@@ -34,10 +33,7 @@ TEST_P(FSceneContract, BuildsWithManyInstancesAtAnOffset)
 	const auto Scene = Make.Scene(Count);
 	const auto Instances = Make.Buffer((Count + 1) * sizeof(FRTInstance), ERTMemory::Upload, "Instances");
 	auto* Items = static_cast<FRTInstance*>(Instances->GetMapped());
-	for (uint32_t i = 1; i <= Count; ++i)
-	{
-		Items[i] = Place(Square, static_cast<float>(i), i % 256);
-	}
+	for (uint32_t i = 1; i <= Count; ++i) { Items[i] = Place(Square, static_cast<float>(i), i % 256); }
 	ASSERT_LE(Scene->GetBuildSizes().BuildScratchBytes, Scratch->GetDesc().Size);
 	const auto List = Make.List();
 	Build(List.Get(), Square);
@@ -84,10 +80,7 @@ TEST_P(FSceneContract, GeometryRemovedWhileFramesAreInFlight)
 		}
 		BuildScene(List.Get(), Scene.Get(), Instances);
 		// Removed between recording and submission, with earlier frames still running.
-		if (Frame == 2)
-		{
-			Goes = {};
-		}
+		if (Frame == 2) { Goes = {}; }
 		Last = Make.Submit(List.Get());
 	}
 	Wait(Last);
@@ -106,9 +99,8 @@ TEST_P(FSceneContract, IndexIsGivenBack)
 }
 
 INSTANTIATE_TEST_SUITE_P(RHI, FSceneContract,
-                         testing::Values(EContractRHI::Mock, EContractRHI::MockValidated, EContractRHI::Vulkan,
-                                         EContractRHI::VulkanValidated),
-                         [](const auto& Info) { return GetName(Info.param); });
+    testing::Values(EContractRHI::Mock, EContractRHI::MockValidated, EContractRHI::Vulkan, EContractRHI::VulkanValidated),
+    [](const auto& Info) { return GetName(Info.param); });
 
 } // namespace
 } // namespace Lantern

@@ -21,10 +21,7 @@ CONTRACT_SHADER_TEST(ComputeWritesThroughAnAddress)
 	List->Dispatch(13, 1, 1);
 	Barrier(List.Get(), Output.Get(), ERTAccess::StorageWrite, ERTAccess::HostRead);
 	Run(List.Get());
-	for (uint32_t i = 0; i < 100; ++i)
-	{
-		EXPECT_EQ(static_cast<const uint32_t*>(Output->GetMapped())[i], 5 + 3 * i);
-	}
+	for (uint32_t i = 0; i < 100; ++i) { EXPECT_EQ(static_cast<const uint32_t*>(Output->GetMapped())[i], 5 + 3 * i); }
 }
 
 CONTRACT_SHADER_TEST(PushConstantsChangeBetweenDispatches)
@@ -45,17 +42,13 @@ CONTRACT_SHADER_TEST(PushConstantsChangeBetweenDispatches)
 	}
 	Barrier(List.Get(), Output.Get(), ERTAccess::StorageWrite, ERTAccess::HostRead);
 	Run(List.Get());
-	for (uint32_t i = 0; i < 16; ++i)
-	{
-		EXPECT_EQ(static_cast<const uint32_t*>(Output->GetMapped())[i], i / 8 * 100 + i % 8);
-	}
+	for (uint32_t i = 0; i < 16; ++i) { EXPECT_EQ(static_cast<const uint32_t*>(Output->GetMapped())[i], i / 8 * 100 + i % 8); }
 }
 
 CONTRACT_SHADER_TEST(StorageImageByIndex)
 {
 	const auto Pipeline = MakeComputePipeline(Device(), "StoreImage.comp");
-	const auto Texture =
-	    Make.Texture(9, 5, ERTFormat::RGBA32_FLOAT, 1, ERTTextureUsage::Storage | ERTTextureUsage::CopySource);
+	const auto Texture = Make.Texture(9, 5, ERTFormat::RGBA32_FLOAT, 1, ERTTextureUsage::Storage | ERTTextureUsage::CopySource);
 	FContractPush Push;
 	Push.A = Texture->GetStorageIndex();
 	Push.C = 9;
@@ -103,10 +96,7 @@ CONTRACT_SHADER_TEST(SampledMipsByIndex)
 	List->Dispatch(1, 1, 1);
 	Barrier(List.Get(), Output.Get(), ERTAccess::StorageWrite, ERTAccess::HostRead);
 	Run(List.Get());
-	for (uint32_t i = 0; i < 3; ++i)
-	{
-		EXPECT_EQ(static_cast<const uint32_t*>(Output->GetMapped())[i], 100 + i * 100);
-	}
+	for (uint32_t i = 0; i < 3; ++i) { EXPECT_EQ(static_cast<const uint32_t*>(Output->GetMapped())[i], 100 + i * 100); }
 }
 
 /// An 8×8 target and triangles over all of it.
@@ -116,12 +106,8 @@ protected:
 	void SetUp() override
 	{
 		FContractShaders::SetUp();
-		if (HasFatalFailure())
-		{
-			return;
-		}
-		Colour =
-		    Make.Texture(8, 8, ERTFormat::RGBA8_UNORM, 1, ERTTextureUsage::RenderTarget | ERTTextureUsage::CopySource);
+		if (HasFatalFailure()) { return; }
+		Colour = Make.Texture(8, 8, ERTFormat::RGBA8_UNORM, 1, ERTTextureUsage::RenderTarget | ERTTextureUsage::CopySource);
 		Depth = Make.Texture(8, 8, ERTFormat::D32_FLOAT, 1, ERTTextureUsage::Depth);
 	}
 	void TearDown() override
@@ -199,8 +185,7 @@ TEST_P(FRasterContract, CullModesAreOpposites)
 {
 	const auto Back = MakeRasterPipeline(Device(), ERTFormat::RGBA8_UNORM, ERTFormat::D32_FLOAT, ERTCull::Back);
 	const auto Front = MakeRasterPipeline(Device(), ERTFormat::RGBA8_UNORM, ERTFormat::D32_FLOAT, ERTCull::Front);
-	const auto Draw = [&](IRTPipeline* Pipeline, bool bFront)
-	{
+	const auto Draw = [&](IRTPipeline* Pipeline, bool bFront) {
 		const auto List = Make.List();
 		BeginPass(List.Get());
 		List->SetPipeline(Pipeline);
@@ -233,7 +218,7 @@ TEST_P(FRasterContract, IndexedDraw)
 }
 
 INSTANTIATE_TEST_SUITE_P(RHI, FRasterContract, testing::Values(EContractRHI::Vulkan, EContractRHI::VulkanValidated),
-                         [](const auto& Info) { return GetName(Info.param); });
+    [](const auto& Info) { return GetName(Info.param); });
 
 } // namespace
 } // namespace Lantern

@@ -11,14 +11,8 @@ protected:
 	void SetUp() override
 	{
 		FContract::SetUp();
-		if (HasFatalFailure())
-		{
-			return;
-		}
-		if (!Caps().bRayTracingPipeline)
-		{
-			GTEST_SKIP() << "the device has no ray-tracing pipelines";
-		}
+		if (HasFatalFailure()) { return; }
+		if (!Caps().bRayTracingPipeline) { GTEST_SKIP() << "the device has no ray-tracing pipelines"; }
 		Pipeline = MakeRayPipeline(Device());
 	}
 	void TearDown() override
@@ -85,10 +79,7 @@ TEST_P(FTableContract, UpdatesManyTimesInFlight)
 	for (uint32_t Frame = 0; Frame < 8; ++Frame)
 	{
 		const uint32_t Data[4] = {Frame};
-		for (uint32_t i = Frame; i < 1000; i += 8)
-		{
-			Table->SetRecord(ERTRecordKind::Hit, i, GroupHit, Data, 16);
-		}
+		for (uint32_t i = Frame; i < 1000; i += 8) { Table->SetRecord(ERTRecordKind::Hit, i, GroupHit, Data, 16); }
 		const auto List = Make.List();
 		List->UpdateShaderTable(Table.Get());
 		List->UpdateShaderTable(Table.Get()); // nothing left to do
@@ -113,8 +104,7 @@ TEST_P(FTableContract, UpdatedBytesFollowWhatChanged)
 {
 	const auto Table = MakeTable(10'000, 16);
 	const std::vector<uint32_t> Groups(10'000, GroupHit);
-	const auto Update = [&]
-	{
+	const auto Update = [&] {
 		const auto List = Make.List();
 		List->UpdateShaderTable(Table.Get());
 		Run(List.Get());
@@ -189,9 +179,8 @@ TEST_P(FTableContract, SetsItsPipelineFree)
 }
 
 INSTANTIATE_TEST_SUITE_P(RHI, FTableContract,
-                         testing::Values(EContractRHI::Mock, EContractRHI::MockValidated, EContractRHI::Vulkan,
-                                         EContractRHI::VulkanValidated),
-                         [](const auto& Info) { return GetName(Info.param); });
+    testing::Values(EContractRHI::Mock, EContractRHI::MockValidated, EContractRHI::Vulkan, EContractRHI::VulkanValidated),
+    [](const auto& Info) { return GetName(Info.param); });
 
 } // namespace
 } // namespace Lantern

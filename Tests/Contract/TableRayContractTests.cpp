@@ -23,17 +23,11 @@ protected:
 	{
 		FRayContract::SetUp();
 		// Frames stay in flight until they are collected.
-		if (!HasFatalFailure() && !IsSkipped() && IsMock())
-		{
-			GetMock(&Device()).SetManualFences(true);
-		}
+		if (!HasFatalFailure() && !IsSkipped() && IsMock()) { GetMock(&Device()).SetManualFences(true); }
 	}
 	void TearDown() override
 	{
-		if (IsMock() && Make.Device)
-		{
-			GetMock(&Device()).SetManualFences(false);
-		}
+		if (IsMock() && Make.Device) { GetMock(&Device()).SetManualFences(false); }
 		Square = {};
 		FRayContract::TearDown();
 	}
@@ -49,18 +43,12 @@ protected:
 	std::vector<FRTInstance> PlaceSquares(const std::vector<uint32_t>& Offsets) const
 	{
 		std::vector<FRTInstance> Instances;
-		for (uint32_t i = 0; i < Offsets.size(); ++i)
-		{
-			Instances.push_back(Place(Square, static_cast<float>(i), i, Offsets[i]));
-		}
+		for (uint32_t i = 0; i < Offsets.size(); ++i) { Instances.push_back(Place(Square, static_cast<float>(i), i, Offsets[i])); }
 		return Instances;
 	}
 	void Finish(FRTFence Fence)
 	{
-		if (IsMock())
-		{
-			GetMock(&Device()).CompleteUpTo(Fence);
-		}
+		if (IsMock()) { GetMock(&Device()).CompleteUpTo(Fence); }
 		Wait(Fence);
 	}
 	/// Offsets: of a scene that replaces the one loaded.
@@ -73,8 +61,7 @@ protected:
 		const auto List = Make.List("Frame");
 		if (!Offsets.empty())
 		{
-			const FRTBarrier Before = {nullptr, nullptr, ERTAccess::TraceRead | ERTAccess::BuildWrite,
-			                           ERTAccess::BuildWrite};
+			const FRTBarrier Before = {nullptr, nullptr, ERTAccess::TraceRead | ERTAccess::BuildWrite, ERTAccess::BuildWrite};
 			List->Barriers(&Before, 1);
 			BuildScene(List.Get(), Scene.Get(), PlaceSquares(Offsets));
 		}
@@ -91,10 +78,7 @@ protected:
 	{
 		Finish(Frame.Fence);
 		const auto Width = static_cast<uint32_t>(Frame.Output->GetDesc().Size / 4);
-		if (IsMock())
-		{
-			return TraceOnMock(GetMock(&Device()), Table.Get(), Scene.Get(), Frame.Push, Width, 0);
-		}
+		if (IsMock()) { return TraceOnMock(GetMock(&Device()), Table.Get(), Scene.Get(), Frame.Push, Width, 0); }
 		const auto* Words = static_cast<const uint32_t*>(Frame.Output->GetMapped());
 		return {Words, Words + Width};
 	}
@@ -117,10 +101,7 @@ TEST_P(FTableRays, RangesAndGroups)
 	MakeTable(12);
 	LoadSquares({2, 5, 9, 11});
 	std::vector<uint32_t> Groups(10, GroupHit), Data;
-	for (uint32_t i = 0; i < 10; ++i)
-	{
-		Data.push_back(100 + i);
-	}
+	for (uint32_t i = 0; i < 10; ++i) { Data.push_back(100 + i); }
 	Table->SetHitRecords(2, 10, Groups.data(), Data.data());
 	const auto Value = [](uint32_t Record, uint32_t Custom) { return HitValue(98 + Record, Custom, 0, 0); };
 	EXPECT_EQ(Collect(Begin(5)), (FWords{Value(2, 0), Value(5, 1), Value(9, 2), Value(11, 3), MissOne}));
@@ -185,10 +166,7 @@ TEST_P(FTableRays, ThePipelineIsSwappedByHandlesAlone)
 {
 	MakeTable(3);
 	LoadSquares({0, 1, 2});
-	for (uint32_t i = 0; i < 3; ++i)
-	{
-		SetHit(i, 20 + i);
-	}
+	for (uint32_t i = 0; i < 3; ++i) { SetHit(i, 20 + i); }
 	const FFrame Before = Begin(4);
 	const TRTRef<IRTPipeline> Old = Pipeline;
 	Pipeline = MakeRayPipeline(Device());
@@ -209,18 +187,15 @@ TEST_P(FTableRays, ManyHandlesAtOnceLeaveTheDataAlone)
 	MakeTable(Count);
 	LoadSquares({1, 300, 1500, Count - 1});
 	std::vector<uint32_t> Wrong(Count, GroupMasked), Right(Count, GroupHit), Data;
-	for (uint32_t i = 0; i < Count; ++i)
-	{
-		Data.push_back(10 + i);
-	}
+	for (uint32_t i = 0; i < Count; ++i) { Data.push_back(10 + i); }
 	Table->SetHitRecords(0, Count, Wrong.data(), Data.data());
 	const FFrame Before = Begin(5);
-	const auto SetAll = [&](const std::vector<uint32_t>& Groups)
-	{ Table->SetGroups(ERTRecordKind::Hit, 0, static_cast<uint32_t>(Groups.size()), Groups.data()); };
-	const auto Expect = [&](const FFrame& Frame, uint32_t Third, const char* When)
-	{
-		EXPECT_EQ(Collect(Frame), (FWords{HitValue(11, 0, 0, 0), HitValue(310, 1, 0, 0), HitValue(Third, 2, 0, 0),
-		                                  HitValue(9 + Count, 3, 0, 0), MissOne}))
+	const auto SetAll = [&](const std::vector<uint32_t>& Groups) {
+		Table->SetGroups(ERTRecordKind::Hit, 0, static_cast<uint32_t>(Groups.size()), Groups.data());
+	};
+	const auto Expect = [&](const FFrame& Frame, uint32_t Third, const char* When) {
+		EXPECT_EQ(Collect(Frame),
+		    (FWords{HitValue(11, 0, 0, 0), HitValue(310, 1, 0, 0), HitValue(Third, 2, 0, 0), HitValue(9 + Count, 3, 0, 0), MissOne}))
 		    << When;
 	};
 	SetAll(Right);
@@ -263,10 +238,7 @@ TEST_P(FTableRays, AReleasedPipelineLivesAsLongAsItsFrames)
 		Device().CollectGarbage();
 	}
 	Frames.push_back(Begin(1));
-	for (const FFrame& Frame : Frames)
-	{
-		EXPECT_EQ(Collect(Frame), FWords{HitValue(3, 0, 0, 0)});
-	}
+	for (const FFrame& Frame : Frames) { EXPECT_EQ(Collect(Frame), FWords{HitValue(3, 0, 0, 0)}); }
 }
 
 TEST_P(FTableRays, SwapAndGrowthAtOnce)
@@ -291,36 +263,22 @@ TEST_P(FTableRays, RecordsFromManyThreadsStagedByAnother)
 	constexpr uint32_t Count = 6400, ThreadCount = 4;
 	MakeTable(Count);
 	std::vector<uint32_t> Offsets;
-	for (uint32_t i = 0; i < 64; ++i)
-	{
-		Offsets.push_back(i * 100 + i);
-	}
+	for (uint32_t i = 0; i < 64; ++i) { Offsets.push_back(i * 100 + i); }
 	LoadSquares(Offsets);
 	for (uint32_t Round = 0; Round < 3; ++Round)
 	{
 		std::vector<std::thread> Threads;
 		for (uint32_t Thread = 0; Thread < ThreadCount; ++Thread)
 		{
-			Threads.emplace_back(
-			    [&, Thread]
-			    {
-				    // Neighbours are set by different threads.
-				    for (uint32_t i = Thread; i < Count; i += ThreadCount)
-				    {
-					    SetHit(i, (i + Round) & 0x7fff);
-				    }
-			    });
+			Threads.emplace_back([&, Thread] {
+				// Neighbours are set by different threads.
+				for (uint32_t i = Thread; i < Count; i += ThreadCount) { SetHit(i, (i + Round) & 0x7fff); }
+			});
 		}
-		for (std::thread& Thread : Threads)
-		{
-			Thread.join();
-		}
+		for (std::thread& Thread : Threads) { Thread.join(); }
 		std::thread([&] { EXPECT_OK(Table->Stage()); }).join();
 		const FWords Found = Collect(Begin(64));
-		for (uint32_t i = 0; i < 64; ++i)
-		{
-			EXPECT_EQ(Found[i], HitValue((Offsets[i] + Round) & 0x7fff, i, 0, 0)) << "square " << i;
-		}
+		for (uint32_t i = 0; i < 64; ++i) { EXPECT_EQ(Found[i], HitValue((Offsets[i] + Round) & 0x7fff, i, 0, 0)) << "square " << i; }
 	}
 }
 
@@ -343,8 +301,7 @@ TEST_P(FTableRays, InvalidateAfterALostList)
 	EXPECT_EQ(Collect(Begin(2)), (FWords{HitValue(1, 0, 0, 0), HitValue(3, 1, 0, 0)}));
 }
 
-INSTANTIATE_TEST_SUITE_P(RHI, FTableRays, testing::ValuesIn(RayRHIs),
-                         [](const auto& Info) { return GetName(Info.param); });
+INSTANTIATE_TEST_SUITE_P(RHI, FTableRays, testing::ValuesIn(RayRHIs), [](const auto& Info) { return GetName(Info.param); });
 
 } // namespace
 } // namespace Lantern

@@ -9,17 +9,13 @@ namespace
 
 CONTRACT_TEST(TextureRoundTripIsTightlyPacked)
 {
-	for (const ERTFormat Format :
-	     {ERTFormat::R8_UNORM, ERTFormat::RGBA8_UNORM, ERTFormat::RGBA8_SRGB, ERTFormat::R16_FLOAT,
-	      ERTFormat::RGBA16_FLOAT, ERTFormat::R32_UINT, ERTFormat::RGBA32_FLOAT})
+	for (const ERTFormat Format : {ERTFormat::R8_UNORM, ERTFormat::RGBA8_UNORM, ERTFormat::RGBA8_SRGB, ERTFormat::R16_FLOAT,
+	         ERTFormat::RGBA16_FLOAT, ERTFormat::R32_UINT, ERTFormat::RGBA32_FLOAT})
 	{
 		SCOPED_TRACE(static_cast<int>(Format));
 		const uint32_t Width = 13, Height = 7;
 		std::vector<uint8_t> Bytes(Width * Height * BytesPerTexel(Format));
-		for (size_t i = 0; i < Bytes.size(); ++i)
-		{
-			Bytes[i] = static_cast<uint8_t>(i * 37 % 61);
-		}
+		for (size_t i = 0; i < Bytes.size(); ++i) { Bytes[i] = static_cast<uint8_t>(i * 37 % 61); }
 		const auto Texture = Make.Texture(Width, Height, Format);
 		const auto Source = Upload(Bytes);
 		const auto List = Make.List();
@@ -72,8 +68,7 @@ CONTRACT_TEST(ClearsAllMips)
 		const std::vector<uint8_t> Texels = Read(Texture.Get(), ERTAccess::CopyWrite, Mip);
 		for (size_t i = 0; i < Texels.size(); i += 4)
 		{
-			ASSERT_EQ(std::vector<uint8_t>(Texels.begin() + i, Texels.begin() + i + 4),
-			          (std::vector<uint8_t>{255, 0, 51, 255}));
+			ASSERT_EQ(std::vector<uint8_t>(Texels.begin() + i, Texels.begin() + i + 4), (std::vector<uint8_t>{255, 0, 51, 255}));
 		}
 	}
 }
@@ -82,8 +77,7 @@ CONTRACT_TEST(ClearsAllMips)
 class FMipContract : public FContract
 {
 protected:
-	std::vector<uint8_t> LastMip(uint32_t Width, uint32_t Height, uint32_t Mips, ERTFormat Format,
-	                             const std::vector<uint8_t>& Texels)
+	std::vector<uint8_t> LastMip(uint32_t Width, uint32_t Height, uint32_t Mips, ERTFormat Format, const std::vector<uint8_t>& Texels)
 	{
 		const auto Texture = Make.Texture(Width, Height, Format, Mips);
 		const auto Source = Upload(Texels);
@@ -101,10 +95,7 @@ TEST_P(FMipContract, MipsAreMeans)
 {
 	// 4×4, the left half 200, the right half 40.
 	std::vector<uint8_t> Texels;
-	for (uint32_t i = 0; i < 16; ++i)
-	{
-		Texels.push_back(i % 4 < 2 ? 200 : 40);
-	}
+	for (uint32_t i = 0; i < 16; ++i) { Texels.push_back(i % 4 < 2 ? 200 : 40); }
 	EXPECT_EQ(LastMip(4, 4, 2, ERTFormat::R8_UNORM, Texels), (std::vector<uint8_t>{200, 40, 200, 40}));
 	EXPECT_NEAR(LastMip(4, 4, 3, ERTFormat::R8_UNORM, Texels).at(0), 120, 1);
 }
@@ -123,24 +114,19 @@ TEST_P(FMipContract, MipsOfOddSizes)
 	EXPECT_EQ(LastMip(7, 5, 3, ERTFormat::R8_UNORM, std::vector<uint8_t>(35, 77)), std::vector<uint8_t>{77});
 	// The mean of a ramp is its middle, whatever the size.
 	std::vector<uint8_t> Ramp;
-	for (uint32_t i = 0; i < 6; ++i)
-	{
-		Ramp.push_back(static_cast<uint8_t>(50 + i * 20));
-	}
+	for (uint32_t i = 0; i < 6; ++i) { Ramp.push_back(static_cast<uint8_t>(50 + i * 20)); }
 	EXPECT_NEAR(LastMip(6, 1, 3, ERTFormat::R8_UNORM, Ramp).at(0), 100, 3);
 }
 
 INSTANTIATE_TEST_SUITE_P(RHI, FMipContract,
-                         testing::Values(EContractRHI::Mock, EContractRHI::MockValidated, EContractRHI::Vulkan,
-                                         EContractRHI::VulkanValidated),
-                         [](const auto& Info) { return GetName(Info.param); });
+    testing::Values(EContractRHI::Mock, EContractRHI::MockValidated, EContractRHI::Vulkan, EContractRHI::VulkanValidated),
+    [](const auto& Info) { return GetName(Info.param); });
 
 CONTRACT_TEST(BindlessIndicesFollowUsage)
 {
 	const auto Sampled = Make.Texture(1, 1, ERTFormat::RGBA8_UNORM, 1, ERTTextureUsage::Sampled);
 	const auto Storage = Make.Texture(1, 1, ERTFormat::RGBA8_UNORM, 1, ERTTextureUsage::Storage);
-	const auto Both =
-	    Make.Texture(1, 1, ERTFormat::RGBA8_UNORM, 1, ERTTextureUsage::Sampled | ERTTextureUsage::Storage);
+	const auto Both = Make.Texture(1, 1, ERTFormat::RGBA8_UNORM, 1, ERTTextureUsage::Sampled | ERTTextureUsage::Storage);
 	EXPECT_EQ(Sampled->GetStorageIndex(), ~0u);
 	EXPECT_EQ(Storage->GetSampledIndex(), ~0u);
 	EXPECT_NE(Sampled->GetSampledIndex(), Both->GetSampledIndex());
@@ -191,10 +177,9 @@ CONTRACT_TEST(TooLargeTextureIsAnError)
 
 CONTRACT_TEST(RasterPassClearsItsTargets)
 {
-	const auto Colour = Make.Texture(6, 5, ERTFormat::RGBA8_UNORM, 1,
-	                                 ERTTextureUsage::RenderTarget | ERTTextureUsage::CopySource, "Colour");
-	const auto Depth =
-	    Make.Texture(6, 5, ERTFormat::D32_FLOAT, 1, ERTTextureUsage::Depth | ERTTextureUsage::Sampled, "Depth");
+	const auto Colour =
+	    Make.Texture(6, 5, ERTFormat::RGBA8_UNORM, 1, ERTTextureUsage::RenderTarget | ERTTextureUsage::CopySource, "Colour");
+	const auto Depth = Make.Texture(6, 5, ERTFormat::D32_FLOAT, 1, ERTTextureUsage::Depth | ERTTextureUsage::Sampled, "Depth");
 	FRTColorTarget Target;
 	Target.Texture = Colour.Get();
 	Target.Clear[1] = 1.0f;
@@ -213,8 +198,7 @@ CONTRACT_TEST(RasterPassClearsItsTargets)
 	const std::vector<uint8_t> Texels = Read(Colour.Get(), ERTAccess::RenderTarget);
 	for (size_t i = 0; i < Texels.size(); i += 4)
 	{
-		ASSERT_EQ(std::vector<uint8_t>(Texels.begin() + i, Texels.begin() + i + 4),
-		          (std::vector<uint8_t>{0, 255, 0, 0}));
+		ASSERT_EQ(std::vector<uint8_t>(Texels.begin() + i, Texels.begin() + i + 4), (std::vector<uint8_t>{0, 255, 0, 0}));
 	}
 }
 

@@ -18,29 +18,21 @@ CONTRACT_TEST(CreationAndSubmissionFromManyThreads)
 	std::vector<std::thread> Threads;
 	for (uint32_t Thread = 0; Thread < ThreadCount; ++Thread)
 	{
-		Threads.emplace_back(
-		    [&, Thread]
-		    {
-			    for (uint32_t Round = 0; Round < Rounds; ++Round)
-			    {
-				    const uint32_t Slot = Thread * Rounds + Round;
-				    const auto Source = Upload(&Slot, 4);
-				    const auto Texture = Make.Texture(8, 8, ERTFormat::RGBA8_UNORM);
-				    const auto List = Make.List();
-				    List->CopyBuffer(Readback.Get(), Slot * 4, Source.Get(), 0, 4);
-				    const FRTFence Fence = Make.Submit(List.Get());
-				    if (Round % 4 == 0)
-				    {
-					    Wait(Fence);
-				    }
-				    Device().CollectGarbage();
-			    }
-		    });
+		Threads.emplace_back([&, Thread] {
+			for (uint32_t Round = 0; Round < Rounds; ++Round)
+			{
+				const uint32_t Slot = Thread * Rounds + Round;
+				const auto Source = Upload(&Slot, 4);
+				const auto Texture = Make.Texture(8, 8, ERTFormat::RGBA8_UNORM);
+				const auto List = Make.List();
+				List->CopyBuffer(Readback.Get(), Slot * 4, Source.Get(), 0, 4);
+				const FRTFence Fence = Make.Submit(List.Get());
+				if (Round % 4 == 0) { Wait(Fence); }
+				Device().CollectGarbage();
+			}
+		});
 	}
-	for (std::thread& Thread : Threads)
-	{
-		Thread.join();
-	}
+	for (std::thread& Thread : Threads) { Thread.join(); }
 	EXPECT_OK(Device().WaitIdle());
 	for (uint32_t Slot = 0; Slot < ThreadCount * Rounds; ++Slot)
 	{
@@ -54,19 +46,13 @@ CONTRACT_TEST(PipelinesFromManyThreads)
 	std::vector<std::thread> Threads;
 	for (uint32_t Thread = 0; Thread < 4; ++Thread)
 	{
-		Threads.emplace_back(
-		    [&, Thread]
-		    {
-			    const bool bRays = Thread % 2 == 0 && Caps().bRayTracingPipeline;
-			    const auto Pipeline =
-			        bRays ? MakeRayPipeline(Device()) : MakeComputePipeline(Device(), "WriteWords.comp");
-			    Good += Pipeline ? 1 : 0;
-		    });
+		Threads.emplace_back([&, Thread] {
+			const bool bRays = Thread % 2 == 0 && Caps().bRayTracingPipeline;
+			const auto Pipeline = bRays ? MakeRayPipeline(Device()) : MakeComputePipeline(Device(), "WriteWords.comp");
+			Good += Pipeline ? 1 : 0;
+		});
 	}
-	for (std::thread& Thread : Threads)
-	{
-		Thread.join();
-	}
+	for (std::thread& Thread : Threads) { Thread.join(); }
 	EXPECT_EQ(Good, 4u);
 }
 
@@ -76,19 +62,11 @@ CONTRACT_TEST(ReferencesFromManyThreads)
 	std::vector<std::thread> Threads;
 	for (uint32_t Thread = 0; Thread < 4; ++Thread)
 	{
-		Threads.emplace_back(
-		    [&]
-		    {
-			    for (uint32_t i = 0; i < 1000; ++i)
-			    {
-				    const TRTRef<IRTBuffer> Copy = Buffer;
-			    }
-		    });
+		Threads.emplace_back([&] {
+			for (uint32_t i = 0; i < 1000; ++i) { const TRTRef<IRTBuffer> Copy = Buffer; }
+		});
 	}
-	for (std::thread& Thread : Threads)
-	{
-		Thread.join();
-	}
+	for (std::thread& Thread : Threads) { Thread.join(); }
 	EXPECT_EQ(Buffer->AddRef(), 2u);
 	EXPECT_EQ(Buffer->Release(), 1u);
 }

@@ -86,21 +86,16 @@ TEST_F(FVulkanSmokeDevice, ErrorsCarryTheObjectsName)
 /// Without this the zero that every other test asserts would prove nothing.
 TEST_F(FVulkanSmokeDevice, ValidationMessagesAreCounted)
 {
-	if (!bValidation)
-	{
-		GTEST_SKIP() << "LANTERN_TEST_WITHOUT_LAYERS is set";
-	}
+	if (!bValidation) { GTEST_SKIP() << "LANTERN_TEST_WITHOUT_LAYERS is set"; }
 	std::string Messages;
 	FRTVulkanDeviceDesc Desc;
 	Desc.bValidation = true;
 	Desc.MessageUser = &Messages;
-	Desc.MessageCallback = [](void* User, ERTVulkanMessage, const char* Text)
-	{ *static_cast<std::string*>(User) += Text; };
+	Desc.MessageCallback = [](void* User, ERTVulkanMessage, const char* Text) { *static_cast<std::string*>(User) += Text; };
 	TRTRef<IRTDevice> Other;
 	ASSERT_OK(CreateVulkanDevice(Desc, Other.ReleaseAndGetAddress()));
 	TRTRef<IRTBuffer> NoCopies;
-	ASSERT_OK(Other->CreateBuffer({64, ERTBufferUsage::Storage, ERTMemory::Device, "NoCopies"},
-	                              NoCopies.ReleaseAndGetAddress()));
+	ASSERT_OK(Other->CreateBuffer({64, ERTBufferUsage::Storage, ERTMemory::Device, "NoCopies"}, NoCopies.ReleaseAndGetAddress()));
 	TRTRef<IRTCommandList> Wrong;
 	ASSERT_OK(Other->CreateCommandList("Wrong", Wrong.ReleaseAndGetAddress()));
 	ASSERT_OK(Wrong->Begin());
@@ -126,21 +121,18 @@ TEST_F(FVulkanSmokeDevice, ManyThreadsMayCreateSubmitAndRelease)
 {
 	TRTRef<IRTPipeline> Pipeline = MakeCompute(Smoke_Fill_comp, "Fill");
 	std::atomic<uint32_t> Failures{0};
-	const auto Work = [&](uint32_t Seed)
-	{
+	const auto Work = [&](uint32_t Seed) {
 		for (uint32_t Round = 0; Round < 20; ++Round)
 		{
 			TRTRef<IRTBuffer> Words;
 			TRTRef<IRTCommandList> Mine;
 			TRTRef<IRTTexture> Texture;
-			bool bOk = Device
-			               ->CreateBuffer({1024, ERTBufferUsage::Storage, ERTMemory::Readback, "Words"},
-			                              Words.ReleaseAndGetAddress())
-			               .IsOk();
+			bool bOk =
+			    Device->CreateBuffer({1024, ERTBufferUsage::Storage, ERTMemory::Readback, "Words"}, Words.ReleaseAndGetAddress()).IsOk();
 			bOk = bOk && Device->CreateCommandList("Mine", Mine.ReleaseAndGetAddress()).IsOk();
 			bOk = bOk && Device
-			                 ->CreateTexture({8, 8, 1, 1, ERTFormat::R8_UNORM, ERTTextureUsage::Sampled, "Texture"},
-			                                 Texture.ReleaseAndGetAddress())
+			                 ->CreateTexture(
+			                     {8, 8, 1, 1, ERTFormat::R8_UNORM, ERTTextureUsage::Sampled, "Texture"}, Texture.ReleaseAndGetAddress())
 			                 .IsOk();
 			bOk = bOk && Mine->Begin().IsOk();
 			if (bOk)
@@ -164,22 +156,15 @@ TEST_F(FVulkanSmokeDevice, ManyThreadsMayCreateSubmitAndRelease)
 				bOk = bOk && Device->Submit(Lists, 1, &Fence).IsOk();
 				if (bOk && Round % 2)
 				{
-					bOk = Device->WaitFor(Fence, ~0ull).IsOk() &&
-					      static_cast<uint32_t*>(Words->GetMapped())[255] == 255 * (Seed + Round);
+					bOk = Device->WaitFor(Fence, ~0ull).IsOk() && static_cast<uint32_t*>(Words->GetMapped())[255] == 255 * (Seed + Round);
 				}
 			}
 			Failures += !bOk;
 		}
 	};
 	std::vector<std::thread> Threads;
-	for (uint32_t Seed = 0; Seed < 4; ++Seed)
-	{
-		Threads.emplace_back(Work, Seed * 100);
-	}
-	for (std::thread& Thread : Threads)
-	{
-		Thread.join();
-	}
+	for (uint32_t Seed = 0; Seed < 4; ++Seed) { Threads.emplace_back(Work, Seed * 100); }
+	for (std::thread& Thread : Threads) { Thread.join(); }
 	EXPECT_EQ(Failures.load(), 0u);
 }
 
@@ -190,8 +175,7 @@ TEST_F(FVulkanSmokeDevice, ObjectsMayOutliveTheDevicesReference)
 	TRTRef<IRTDevice> Other;
 	ASSERT_OK(CreateVulkanDevice(Desc, Other.ReleaseAndGetAddress()));
 	TRTRef<IRTBuffer> Buffer;
-	ASSERT_OK(Other->CreateBuffer({64, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Late"},
-	                              Buffer.ReleaseAndGetAddress()));
+	ASSERT_OK(Other->CreateBuffer({64, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Late"}, Buffer.ReleaseAndGetAddress()));
 	TRTRef<IRTCommandList> Filling;
 	ASSERT_OK(Other->CreateCommandList("Filling", Filling.ReleaseAndGetAddress()));
 	ASSERT_OK(Filling->Begin());
@@ -213,15 +197,15 @@ TEST_F(FVulkanSmokeDevice, PipelineCacheIsKeptAndADamagedOneDiscarded)
 	FRTVulkanDeviceDesc Desc;
 	Desc.PipelineCacheFile = File.c_str();
 	Desc.MessageUser = &Messages;
-	Desc.MessageCallback = [](void* User, ERTVulkanMessage, const char* Text)
-	{ *static_cast<std::string*>(User) += std::string(Text) + "\n"; };
-	const auto MakeOnce = [&]
-	{
+	Desc.MessageCallback = [](void* User, ERTVulkanMessage, const char* Text) {
+		*static_cast<std::string*>(User) += std::string(Text) + "\n";
+	};
+	const auto MakeOnce = [&] {
 		TRTRef<IRTDevice> Other;
 		ASSERT_OK(CreateVulkanDevice(Desc, Other.ReleaseAndGetAddress()));
 		TRTRef<IRTPipeline> Pipeline;
-		ASSERT_OK(Other->CreateComputePipeline({MakeCode(Smoke_Fill_comp, ERTShaderStage::Compute, "Fill"), "Fill"},
-		                                       Pipeline.ReleaseAndGetAddress()));
+		ASSERT_OK(Other->CreateComputePipeline(
+		    {MakeCode(Smoke_Fill_comp, ERTShaderStage::Compute, "Fill"), "Fill"}, Pipeline.ReleaseAndGetAddress()));
 	};
 	ASSERT_NO_FATAL_FAILURE(MakeOnce());
 	EXPECT_EQ(Messages, "");
@@ -259,7 +243,8 @@ TEST_F(FVulkanSmokeDevice, ManyMayShareAPipelineCacheFile)
 	{
 		ASSERT_OK(CreateVulkanDevice(Desc, Other.ReleaseAndGetAddress()));
 		TRTRef<IRTPipeline> Pipeline;
-		ASSERT_OK(Other->CreateComputePipeline({MakeCode(Smoke_Fill_comp, ERTShaderStage::Compute, "Fill"), "Fill"}, Pipeline.ReleaseAndGetAddress()));
+		ASSERT_OK(Other->CreateComputePipeline(
+		    {MakeCode(Smoke_Fill_comp, ERTShaderStage::Compute, "Fill"), "Fill"}, Pipeline.ReleaseAndGetAddress()));
 	}
 	std::vector<std::thread> Threads;
 	std::atomic<int> Failed = 0;
@@ -287,14 +272,8 @@ class FEngine
 public:
 	~FEngine()
 	{
-		if (Device)
-		{
-			Get<PFN_vkDestroyDevice>("vkDestroyDevice")(Device, nullptr);
-		}
-		if (Instance)
-		{
-			Get<PFN_vkDestroyInstance>("vkDestroyInstance")(Instance, nullptr);
-		}
+		if (Device) { Get<PFN_vkDestroyDevice>("vkDestroyDevice")(Device, nullptr); }
+		if (Instance) { Get<PFN_vkDestroyInstance>("vkDestroyInstance")(Instance, nullptr); }
 	}
 
 	template <class T>
@@ -306,12 +285,8 @@ public:
 	bool CreateInstance()
 	{
 		void* Library = dlopen("libvulkan.so.1", RTLD_NOW);
-		GetProc =
-		    Library ? reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(Library, "vkGetInstanceProcAddr")) : nullptr;
-		if (!GetProc)
-		{
-			return false;
-		}
+		GetProc = Library ? reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(Library, "vkGetInstanceProcAddr")) : nullptr;
+		if (!GetProc) { return false; }
 		VkApplicationInfo App{VK_STRUCTURE_TYPE_APPLICATION_INFO};
 		App.apiVersion = VK_API_VERSION_1_3;
 		const char* Layer = "VK_LAYER_KHRONOS_validation";
@@ -351,10 +326,7 @@ public:
 		Info.pQueueCreateInfos = &QueueInfo;
 		Info.enabledExtensionCount = ExtensionCount;
 		Info.ppEnabledExtensionNames = Extensions;
-		if (Get<PFN_vkCreateDevice>("vkCreateDevice")(Physical, &Info, nullptr, &Device) != VK_SUCCESS)
-		{
-			return false;
-		}
+		if (Get<PFN_vkCreateDevice>("vkCreateDevice")(Physical, &Info, nullptr, &Device) != VK_SUCCESS) { return false; }
 		Get<PFN_vkGetDeviceQueue>("vkGetDeviceQueue")(Device, 0, 0, &Queue);
 		return true;
 	}
@@ -422,7 +394,8 @@ void WriteThroughEngine(FEngine& Engine, IRTDevice& Adopted)
 	TRTRef<IRTBuffer> Words;
 	ASSERT_OK(Adopted.CreateBuffer({256, ERTBufferUsage::Storage, ERTMemory::Readback, "Words"}, Words.ReleaseAndGetAddress()));
 	TRTRef<IRTPipeline> Pipeline;
-	ASSERT_OK(Adopted.CreateComputePipeline({MakeCode(Smoke_Fill_comp, ERTShaderStage::Compute, "Fill"), "Fill"}, Pipeline.ReleaseAndGetAddress()));
+	ASSERT_OK(Adopted.CreateComputePipeline(
+	    {MakeCode(Smoke_Fill_comp, ERTShaderStage::Compute, "Fill"), "Fill"}, Pipeline.ReleaseAndGetAddress()));
 	TRTRef<IRTCommandList> Imported;
 	ASSERT_OK(Adopted.ImportCommandList((uint64_t)Commands, Imported.ReleaseAndGetAddress()));
 	Imported->SetPipeline(Pipeline.Get());

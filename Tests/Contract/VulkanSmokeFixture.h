@@ -1,8 +1,8 @@
 // What the Vulkan smoke tests share: a device with validation on, and short ways to fill and read its resources.
 #pragma once
 
-#include "Support/WaitTools.h"
 #include "LanternRHIVulkan/VulkanDevice.h"
+#include "Support/WaitTools.h"
 
 #include <gtest/gtest.h>
 
@@ -17,12 +17,12 @@
 namespace Lantern
 {
 
-#define ASSERT_OK(Expression)                                                                                          \
-	do                                                                                                                 \
-	{                                                                                                                  \
-		const FRTStatus Status_ = (Expression);                                                                        \
-		ASSERT_TRUE(Status_.IsOk()) << Status_.Message;                                                                \
-	} while (false)
+#define ASSERT_OK(Expression)                                                                                                              \
+	do {                                                                                                                                   \
+		const FRTStatus Status_ = (Expression);                                                                                            \
+		ASSERT_TRUE(Status_.IsOk()) << Status_.Message;                                                                                    \
+	}                                                                                                                                      \
+	while (false)
 
 template <size_t Count>
 FRTShaderCode MakeCode(const uint32_t (&Words)[Count], ERTShaderStage Stage, const char* Name)
@@ -47,10 +47,7 @@ protected:
 		Desc.bValidation = !getenv("LANTERN_TEST_WITHOUT_LAYERS");
 		Desc.bSynchronizationValidation = Desc.bValidation;
 		const FRTStatus Status = CreateVulkanDevice(Desc, Device.ReleaseAndGetAddress());
-		if (!Status && getenv("LANTERN_ALLOW_NO_DRIVER"))
-		{
-			GTEST_SKIP() << Status.Message;
-		}
+		if (!Status && getenv("LANTERN_ALLOW_NO_DRIVER")) { GTEST_SKIP() << Status.Message; }
 		ASSERT_TRUE(Status.IsOk()) << Status.Message << "\n(set LANTERN_ALLOW_NO_DRIVER to skip)";
 		ASSERT_OK(Device->CreateCommandList("Smoke", List.ReleaseAndGetAddress()));
 	}
@@ -84,8 +81,8 @@ protected:
 	TRTRef<IRTPipeline> MakeCompute(const uint32_t (&Words)[Count], const char* Name)
 	{
 		TRTRef<IRTPipeline> Pipeline;
-		const FRTStatus Status = Device->CreateComputePipeline({MakeCode(Words, ERTShaderStage::Compute, Name), Name},
-		                                                       Pipeline.ReleaseAndGetAddress());
+		const FRTStatus Status =
+		    Device->CreateComputePipeline({MakeCode(Words, ERTShaderStage::Compute, Name), Name}, Pipeline.ReleaseAndGetAddress());
 		EXPECT_TRUE(Status.IsOk()) << Status.Message;
 		return Pipeline;
 	}

@@ -22,8 +22,7 @@ TEST_F(FVulkanSmokeBasics, ComputeWritesABufferAndTheListIsReused)
 {
 	constexpr uint32_t Count = 1000;
 	TRTRef<IRTPipeline> Pipeline = MakeCompute(Smoke_Fill_comp, "Fill");
-	TRTRef<IRTBuffer> Words =
-	    MakeBuffer(Count * 4, ERTBufferUsage::Storage | ERTBufferUsage::CopySource, ERTMemory::Device, "Words");
+	TRTRef<IRTBuffer> Words = MakeBuffer(Count * 4, ERTBufferUsage::Storage | ERTBufferUsage::CopySource, ERTMemory::Device, "Words");
 	TRTRef<IRTBuffer> Back = MakeBuffer(Count * 4, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Back");
 	EXPECT_EQ(Words->GetMapped(), nullptr);
 	for (const uint32_t Factor : {3u, 7u})
@@ -40,10 +39,7 @@ TEST_F(FVulkanSmokeBasics, ComputeWritesABufferAndTheListIsReused)
 		Barrier(ERTAccess::CopyWrite, ERTAccess::HostRead);
 		ASSERT_NO_FATAL_FAILURE(Run());
 		const uint32_t* Result = static_cast<const uint32_t*>(Back->GetMapped());
-		for (uint32_t Index = 0; Index < Count; ++Index)
-		{
-			ASSERT_EQ(Result[Index], Index * Factor);
-		}
+		for (uint32_t Index = 0; Index < Count; ++Index) { ASSERT_EQ(Result[Index], Index * Factor); }
 	}
 }
 
@@ -85,9 +81,9 @@ TEST_F(FVulkanSmokeBasics, MipsAreAveragesOfTheFirst)
 {
 	constexpr uint32_t Size = 8, Mips = 4;
 	TRTRef<IRTTexture> Texture;
-	ASSERT_OK(Device->CreateTexture(
-	    {Size, Size, Mips, 1, ERTFormat::RGBA16_FLOAT, ERTTextureUsage::Sampled | ERTTextureUsage::CopyDest, "Mips"},
-	    Texture.ReleaseAndGetAddress()));
+	ASSERT_OK(
+	    Device->CreateTexture({Size, Size, Mips, 1, ERTFormat::RGBA16_FLOAT, ERTTextureUsage::Sampled | ERTTextureUsage::CopyDest, "Mips"},
+	        Texture.ReleaseAndGetAddress()));
 	TRTRef<IRTSampler> Sampler;
 	ASSERT_OK(Device->CreateSampler({}, Sampler.ReleaseAndGetAddress()));
 	constexpr uint16_t HalfOne = 0x3c00, HalfTwo = 0x4000;
@@ -115,10 +111,7 @@ TEST_F(FVulkanSmokeBasics, MipsAreAveragesOfTheFirst)
 	Barrier(ERTAccess::StorageWrite, ERTAccess::HostRead);
 	ASSERT_NO_FATAL_FAILURE(Run());
 	const float* Colors = static_cast<const float*>(Output->GetMapped());
-	for (uint32_t Mip = 1; Mip < Mips; ++Mip)
-	{
-		EXPECT_NEAR(Colors[Mip * 4], 1.0f, 0.01f) << Mip;
-	}
+	for (uint32_t Mip = 1; Mip < Mips; ++Mip) { EXPECT_NEAR(Colors[Mip * 4], 1.0f, 0.01f) << Mip; }
 	EXPECT_NEAR(Colors[(Mips - 1) * 4 + 1], 0.5f, 0.01f);
 }
 
@@ -126,11 +119,10 @@ TEST_F(FVulkanSmokeBasics, RasterTrianglesAreSortedByReversedDepth)
 {
 	constexpr uint32_t Size = 32;
 	TRTRef<IRTTexture> Color, Depth;
-	ASSERT_OK(Device->CreateTexture({Size, Size, 1, 1, ERTFormat::RGBA8_UNORM,
-	                                 ERTTextureUsage::RenderTarget | ERTTextureUsage::CopySource, "Color"},
-	                                Color.ReleaseAndGetAddress()));
 	ASSERT_OK(Device->CreateTexture(
-	    {Size, Size, 1, 1, ERTFormat::D32_FLOAT, ERTTextureUsage::Depth | ERTTextureUsage::CopySource, "Depth"},
+	    {Size, Size, 1, 1, ERTFormat::RGBA8_UNORM, ERTTextureUsage::RenderTarget | ERTTextureUsage::CopySource, "Color"},
+	    Color.ReleaseAndGetAddress()));
+	ASSERT_OK(Device->CreateTexture({Size, Size, 1, 1, ERTFormat::D32_FLOAT, ERTTextureUsage::Depth | ERTTextureUsage::CopySource, "Depth"},
 	    Depth.ReleaseAndGetAddress()));
 	const ERTFormat Format = ERTFormat::RGBA8_UNORM;
 	FRTRasterPipelineDesc Desc;
@@ -143,21 +135,19 @@ TEST_F(FVulkanSmokeBasics, RasterTrianglesAreSortedByReversedDepth)
 	TRTRef<IRTPipeline> Pipeline;
 	ASSERT_OK(Device->CreateRasterPipeline(Desc, Pipeline.ReleaseAndGetAddress()));
 	// The left half near (0.75), then the whole target behind it (0.25).
-	const std::vector<float> Points = {-1, -3, 0.75f, 0, 0,  0.75f, -1, 3, 0.75f, // covers x < 0 near the centre
-	                                   -1, -1, 0.25f, 3, -1, 0.25f, -1, 3, 0.25f};
+	const std::vector<float> Points = {-1, -3, 0.75f, 0, 0, 0.75f, -1, 3, 0.75f, // covers x < 0 near the centre
+	    -1, -1, 0.25f, 3, -1, 0.25f, -1, 3, 0.25f};
 	TRTRef<IRTBuffer> Positions = MakeUpload(Points, ERTBufferUsage::Storage, "Positions");
 	TRTRef<IRTBuffer> Indices = MakeUpload(std::vector<uint32_t>{3, 4, 5}, ERTBufferUsage::Index, "Indices");
 	TRTRef<IRTBuffer> Back = MakeBuffer(Size * Size * 4, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Back");
-	TRTRef<IRTBuffer> BackDepth =
-	    MakeBuffer(Size * Size * 4, ERTBufferUsage::CopyDest, ERTMemory::Readback, "BackDepth");
+	TRTRef<IRTBuffer> BackDepth = MakeBuffer(Size * Size * 4, ERTBufferUsage::CopyDest, ERTMemory::Readback, "BackDepth");
 	ASSERT_OK(List->Begin());
 	Barrier(ERTAccess::None, ERTAccess::RenderTarget, Color.Get());
 	Barrier(ERTAccess::None, ERTAccess::DepthWrite, Depth.Get());
 	const FRTColorTarget Target = {Color.Get(), true, {0, 0, 1, 1}};
 	List->BeginRasterPass({&Target, 1, Depth.Get(), true, Size, Size});
 	List->SetPipeline(Pipeline.Get());
-	const auto Push = [&](float Red, float Green)
-	{
+	const auto Push = [&](float Red, float Green) {
 		struct
 		{
 			uint64_t Positions;
@@ -190,9 +180,9 @@ TEST_F(FVulkanSmokeBasics, TrianglesClockwiseOnTheTargetAreBackFaces)
 {
 	constexpr uint32_t Size = 8;
 	TRTRef<IRTTexture> Color;
-	ASSERT_OK(Device->CreateTexture({Size, Size, 1, 1, ERTFormat::RGBA8_UNORM,
-	                                 ERTTextureUsage::RenderTarget | ERTTextureUsage::CopySource, "Color"},
-	                                Color.ReleaseAndGetAddress()));
+	ASSERT_OK(Device->CreateTexture(
+	    {Size, Size, 1, 1, ERTFormat::RGBA8_UNORM, ERTTextureUsage::RenderTarget | ERTTextureUsage::CopySource, "Color"},
+	    Color.ReleaseAndGetAddress()));
 	const ERTFormat Format = ERTFormat::RGBA8_UNORM;
 	FRTRasterPipelineDesc Desc;
 	Desc.Vertex = MakeCode(Smoke_Triangle_vert, ERTShaderStage::Vertex, "Triangle.vert");
@@ -224,18 +214,16 @@ TEST_F(FVulkanSmokeBasics, TrianglesClockwiseOnTheTargetAreBackFaces)
 		List->CopyTextureToBuffer(Back.Get(), 0, Color.Get(), 0, 0);
 		Barrier(ERTAccess::CopyWrite, ERTAccess::HostRead);
 		ASSERT_NO_FATAL_FAILURE(Run());
-		EXPECT_EQ(static_cast<uint32_t*>(Back->GetMapped())[Size * 4 + 4],
-		          bCounterClockwise ? 0xff0000ffu : 0xffff0000u);
+		EXPECT_EQ(static_cast<uint32_t*>(Back->GetMapped())[Size * 4 + 4], bCounterClockwise ? 0xff0000ffu : 0xffff0000u);
 	}
 }
 
 TEST_F(FVulkanSmokeBasics, ClearsAndFillsReachTheirTargets)
 {
 	TRTRef<IRTTexture> Texture;
-	ASSERT_OK(Device->CreateTexture({4, 4, 1, 1, ERTFormat::R32_UINT,
-	                                 ERTTextureUsage::Storage | ERTTextureUsage::CopySource | ERTTextureUsage::CopyDest,
-	                                 "Cleared"},
-	                                Texture.ReleaseAndGetAddress()));
+	ASSERT_OK(Device->CreateTexture(
+	    {4, 4, 1, 1, ERTFormat::R32_UINT, ERTTextureUsage::Storage | ERTTextureUsage::CopySource | ERTTextureUsage::CopyDest, "Cleared"},
+	    Texture.ReleaseAndGetAddress()));
 	TRTRef<IRTBuffer> Back = MakeBuffer(128, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Back");
 	ASSERT_OK(List->Begin());
 	Barrier(ERTAccess::None, ERTAccess::CopyWrite, Texture.Get());
@@ -254,10 +242,7 @@ TEST_F(FVulkanSmokeBasics, ClearsAndFillsReachTheirTargets)
 
 TEST_F(FVulkanSmokeBasics, TimestampsAreOrderedAndUnwrittenOnesSaidToBe)
 {
-	if (!Device->GetCapabilities().bTimestamps)
-	{
-		GTEST_SKIP() << "the device has no timestamps";
-	}
+	if (!Device->GetCapabilities().bTimestamps) { GTEST_SKIP() << "the device has no timestamps"; }
 	TRTRef<IRTQueryPool> Pool;
 	ASSERT_OK(Device->CreateQueryPool(ERTQuery::Timestamp, 4, Pool.ReleaseAndGetAddress()));
 	uint64_t Times[4] = {};
@@ -276,13 +261,8 @@ TEST_F(FVulkanSmokeBasics, TimestampsAreOrderedAndUnwrittenOnesSaidToBe)
 
 TEST_F(FVulkanSmokeBasics, AnImportedTextureIsTheSameImageAndSurvivesItsWrapper)
 {
-	const FRTTextureDesc Desc = {2,
-	                             2,
-	                             1,
-	                             1,
-	                             ERTFormat::R32_FLOAT,
-	                             ERTTextureUsage::CopySource | ERTTextureUsage::CopyDest | ERTTextureUsage::Sampled,
-	                             "Original"};
+	const FRTTextureDesc Desc = {
+	    2, 2, 1, 1, ERTFormat::R32_FLOAT, ERTTextureUsage::CopySource | ERTTextureUsage::CopyDest | ERTTextureUsage::Sampled, "Original"};
 	TRTRef<IRTTexture> Original, Wrapper;
 	ASSERT_OK(Device->CreateTexture(Desc, Original.ReleaseAndGetAddress()));
 	ASSERT_OK(Device->ImportTexture(Desc, Original->GetNative(ERTNative::Image), Wrapper.ReleaseAndGetAddress()));

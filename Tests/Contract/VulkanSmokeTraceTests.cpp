@@ -41,10 +41,7 @@ protected:
 	void SetUp() override
 	{
 		FVulkanSmokeTest::SetUp();
-		if (IsSkipped() || HasFatalFailure())
-		{
-			return;
-		}
+		if (IsSkipped() || HasFatalFailure()) { return; }
 		const std::vector<float> Points = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 2, 0, 0, 1, 1, 0};
 		Vertices = MakeUpload(Points, ERTBufferUsage::GeometryInput, "Vertices");
 		Indices = MakeUpload(std::vector<uint32_t>{0, 1, 2, 3, 4, 5}, ERTBufferUsage::GeometryInput, "Indices");
@@ -67,17 +64,13 @@ protected:
 		ASSERT_OK(Device->CreateScene({4, false, "Scene"}, Scene.ReleaseAndGetAddress()));
 		const FRTBuildSizes A = Geometry->GetBuildSizes(), B = Scene->GetBuildSizes();
 		SceneScratchOffset = (std::max(A.BuildScratchBytes, A.UpdateScratchBytes) + 255) / 256 * 256;
-		Scratch =
-		    MakeBuffer(SceneScratchOffset + B.BuildScratchBytes, ERTBufferUsage::Scratch, ERTMemory::Device, "Scratch");
+		Scratch = MakeBuffer(SceneScratchOffset + B.BuildScratchBytes, ERTBufferUsage::Scratch, ERTMemory::Device, "Scratch");
 	}
 
-	static FRTInstance MakeInstance(float X, uint32_t Custom, uint32_t Mask, uint32_t TableOffset, uint32_t Flags,
-	                                const IRTGeometry& Of)
+	static FRTInstance MakeInstance(float X, uint32_t Custom, uint32_t Mask, uint32_t TableOffset, uint32_t Flags, const IRTGeometry& Of)
 	{
-		FRTInstance Instance = {{1, 0, 0, X, 0, 1, 0, 0, 0, 0, 1, 0},
-		                        Custom | Mask << 24,
-		                        TableOffset | Flags << 24,
-		                        Of.GetDeviceAddress()};
+		FRTInstance Instance = {
+		    {1, 0, 0, X, 0, 1, 0, 0, 0, 0, 1, 0}, Custom | Mask << 24, TableOffset | Flags << 24, Of.GetDeviceAddress()};
 		return Instance;
 	}
 
@@ -96,8 +89,7 @@ protected:
 	void BuildScene(const std::vector<FRTInstance>& Items)
 	{
 		Instances = MakeUpload(Items, ERTBufferUsage::GeometryInput, "Instances");
-		List->BuildScene(Scene.Get(), Instances.Get(), 0, static_cast<uint32_t>(Items.size()), Scratch.Get(),
-		                 SceneScratchOffset);
+		List->BuildScene(Scene.Get(), Instances.Get(), 0, static_cast<uint32_t>(Items.size()), Scratch.Get(), SceneScratchOffset);
 		Barrier(ERTAccess::BuildWrite, ERTAccess::TraceRead);
 	}
 
@@ -105,9 +97,9 @@ protected:
 	void MakePipeline()
 	{
 		const FRTShaderCode Shaders[] = {MakeCode(Smoke_Trace_rgen, ERTShaderStage::RayGen, "Trace.rgen"),
-		                                 MakeCode(Smoke_Trace_rmiss, ERTShaderStage::Miss, "Trace.rmiss"),
-		                                 MakeCode(Smoke_Trace_rchit, ERTShaderStage::ClosestHit, "Trace.rchit"),
-		                                 MakeCode(Smoke_Trace_rahit, ERTShaderStage::AnyHit, "Trace.rahit")};
+		    MakeCode(Smoke_Trace_rmiss, ERTShaderStage::Miss, "Trace.rmiss"),
+		    MakeCode(Smoke_Trace_rchit, ERTShaderStage::ClosestHit, "Trace.rchit"),
+		    MakeCode(Smoke_Trace_rahit, ERTShaderStage::AnyHit, "Trace.rahit")};
 		FRTShaderGroup Groups[4];
 		Groups[0].General = 0;
 		Groups[1].General = 1;
@@ -164,10 +156,7 @@ protected:
 
 TEST_F(FVulkanSmokeTrace, RecordsOfSectionsAndInstancesAreReached)
 {
-	if (SkipWithoutPipeline())
-	{
-		GTEST_SKIP() << "the device has no ray-tracing pipelines";
-	}
+	if (SkipWithoutPipeline()) { GTEST_SKIP() << "the device has no ray-tracing pipelines"; }
 	ASSERT_NO_FATAL_FAILURE(MakePipeline());
 	SetHit(0, 2, {100, 0});
 	SetHit(1, 3, {101, 0});
@@ -203,10 +192,7 @@ constexpr uint32_t FlipFacing = 2;
 
 TEST_F(FVulkanSmokeTrace, FacingFollowsTheInstanceFlag)
 {
-	if (SkipWithoutPipeline())
-	{
-		GTEST_SKIP() << "the device has no ray-tracing pipelines";
-	}
+	if (SkipWithoutPipeline()) { GTEST_SKIP() << "the device has no ray-tracing pipelines"; }
 	ASSERT_NO_FATAL_FAILURE(MakePipeline());
 	SetHit(0, 2, {});
 	SetHit(1, 2, {});
@@ -222,10 +208,7 @@ TEST_F(FVulkanSmokeTrace, FacingFollowsTheInstanceFlag)
 
 TEST_F(FVulkanSmokeTrace, RefitMovesATriangle)
 {
-	if (SkipWithoutPipeline())
-	{
-		GTEST_SKIP() << "the device has no ray-tracing pipelines";
-	}
+	if (SkipWithoutPipeline()) { GTEST_SKIP() << "the device has no ray-tracing pipelines"; }
 	ASSERT_NO_FATAL_FAILURE(MakePipeline());
 	SetHit(0, 2, {100, 0});
 	SetHit(1, 2, {101, 0});
@@ -256,10 +239,7 @@ TEST_F(FVulkanSmokeTrace, RefitMovesATriangle)
 
 TEST_F(FVulkanSmokeTrace, RayQueryFindsTheSameHits)
 {
-	if (!Device->GetCapabilities().bRayQuery)
-	{
-		GTEST_SKIP() << "the device has no ray query";
-	}
+	if (!Device->GetCapabilities().bRayQuery) { GTEST_SKIP() << "the device has no ray query"; }
 	TRTRef<IRTPipeline> Query = MakeCompute(Smoke_Query_comp, "Query");
 	ASSERT_OK(List->Begin());
 	BuildGeometry(false);
@@ -271,19 +251,13 @@ TEST_F(FVulkanSmokeTrace, RayQueryFindsTheSameHits)
 	Barrier(ERTAccess::StorageWrite, ERTAccess::HostRead);
 	ASSERT_NO_FATAL_FAILURE(Run());
 	const uint32_t Expected[RayCount] = {10, 11, 5000, 10, 11, 5000, 5000, 5000};
-	for (uint32_t Ray = 0; Ray < RayCount; ++Ray)
-	{
-		EXPECT_EQ(GetHits()[Ray].Value, Expected[Ray]) << Ray;
-	}
+	for (uint32_t Ray = 0; Ray < RayCount; ++Ray) { EXPECT_EQ(GetHits()[Ray].Value, Expected[Ray]) << Ray; }
 	EXPECT_EQ(GetHits()[4].Custom, 12u);
 }
 
 TEST_F(FVulkanSmokeTrace, AnEmptySceneIsMissed)
 {
-	if (SkipWithoutPipeline())
-	{
-		GTEST_SKIP() << "the device has no ray-tracing pipelines";
-	}
+	if (SkipWithoutPipeline()) { GTEST_SKIP() << "the device has no ray-tracing pipelines"; }
 	ASSERT_NO_FATAL_FAILURE(MakePipeline());
 	ASSERT_OK(List->Begin());
 	List->BuildScene(Scene.Get(), nullptr, 0, 0, Scratch.Get(), SceneScratchOffset);
@@ -295,10 +269,7 @@ TEST_F(FVulkanSmokeTrace, AnEmptySceneIsMissed)
 
 TEST_F(FVulkanSmokeTrace, ReleaseInFlightWaitsForTheGpu)
 {
-	if (SkipWithoutPipeline())
-	{
-		GTEST_SKIP() << "the device has no ray-tracing pipelines";
-	}
+	if (SkipWithoutPipeline()) { GTEST_SKIP() << "the device has no ray-tracing pipelines"; }
 	ASSERT_NO_FATAL_FAILURE(MakePipeline());
 	SetHit(0, 2, {100, 0});
 	SetHit(1, 2, {101, 0});
@@ -333,10 +304,7 @@ TEST_F(FVulkanSmokeTrace, ReleaseInFlightWaitsForTheGpu)
 
 TEST_F(FVulkanSmokeTrace, TableStridesAreAlignedTightly)
 {
-	if (SkipWithoutPipeline())
-	{
-		GTEST_SKIP() << "the device has no ray-tracing pipelines";
-	}
+	if (SkipWithoutPipeline()) { GTEST_SKIP() << "the device has no ray-tracing pipelines"; }
 	ASSERT_NO_FATAL_FAILURE(MakePipeline());
 	const FRTCapabilities& Caps = Device->GetCapabilities();
 	const uint64_t Stride = Table->GetRecordStride(ERTRecordKind::Hit);

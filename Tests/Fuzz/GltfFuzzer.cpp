@@ -7,8 +7,8 @@
 #include <cstring>
 #include <string>
 
-#include "Support/TextCheck.h"
 #include "LanternHost/SceneLoader.h"
+#include "Support/TextCheck.h"
 
 namespace
 {
@@ -34,10 +34,7 @@ std::string MakeGlb(const std::string& Json, const std::string& Binary)
 std::string Prepare(const char* Data, size_t Size)
 {
 	const void* Zero = Size > 0 && Data[0] == '{' ? std::memchr(Data, 0, Size) : nullptr;
-	if (Zero == nullptr)
-	{
-		return std::string(Data, Size);
-	}
+	if (Zero == nullptr) { return std::string(Data, Size); }
 	std::string Json(Data, static_cast<const char*>(Zero)), Binary(static_cast<const char*>(Zero) + 1, Data + Size);
 	Json.resize((Json.size() + 3) / 4 * 4, ' ');
 	Binary.resize((Binary.size() + 3) / 4 * 4, '\0');
@@ -66,10 +63,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* Data, size_t Size)
 		std::fprintf(stderr, "the error cannot be shown\n");
 		std::abort();
 	}
-	if (!Result.Scene)
-	{
-		return 0;
-	}
+	if (!Result.Scene) { return 0; }
 	for (const std::string& Warning : Result.Scene->Warnings)
 	{
 		if (!IsCleanText(Warning))
@@ -89,10 +83,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* Data, size_t Size)
 		const FScenePose Pose = EvaluatePose(*Result.Scene, Time);
 		glm::dvec3 Min, Max;
 		GetSceneBounds(*Result.Scene, Pose, Min, Max);
-		for (size_t I = 0; I < Result.Scene->Nodes.size(); ++I)
-		{
-			EvaluateJoints(*Result.Scene, Pose, int32_t(I));
-		}
+		for (size_t I = 0; I < Result.Scene->Nodes.size(); ++I) { EvaluateJoints(*Result.Scene, Pose, int32_t(I)); }
 	}
 	return 0;
 }

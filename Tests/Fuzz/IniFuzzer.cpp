@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "Support/TextCheck.h"
 #include "LanternCore/Config/Config.h"
 #include "LanternCore/Config/IniFile.h"
 #include "LanternCore/Text/Log.h"
+#include "Support/TextCheck.h"
 
 namespace Lantern
 {
@@ -21,30 +21,26 @@ TRTConsoleVariable<std::string> CVarString("r.RT.Name", "", "");
 
 void Require(bool bCondition)
 {
-	if (!bCondition)
-		std::abort();
+	if (!bCondition) std::abort();
 }
 
 /// But for tabs within it; the rest is the file's, UTF-8 or not.
 bool HasControl(std::string_view Text)
 {
 	for (const char C : Text)
-		if ((static_cast<unsigned char>(C) < 0x20 && C != '\t') || C == 0x7f)
-			return true;
+		if ((static_cast<unsigned char>(C) < 0x20 && C != '\t') || C == 0x7f) return true;
 	return false;
 }
 
 void RequireClean(const FConfigProblems& Problems)
 {
-	for (const std::string& Problem : Problems)
-		Require(IsCleanText(Problem) && Problem.size() < 1000);
+	for (const std::string& Problem : Problems) Require(IsCleanText(Problem) && Problem.size() < 1000);
 }
 
 /// One folder per process: libFuzzer may run several.
 const FConfigFolder& GetFolder()
 {
-	static const FConfigFolder Folder = []
-	{
+	static const FConfigFolder Folder = [] {
 		std::string Pattern = (std::filesystem::temp_directory_path() / "lantern-ini-XXXXXX").string();
 		Require(::mkdtemp(Pattern.data()) != nullptr);
 		return FConfigFolder{Pattern};
@@ -67,8 +63,7 @@ void CheckSyntax(std::string_view Text)
 		Resolver.Apply(File, Section);
 		Resolver.Apply(File, Section);
 	}
-	for (const FIniValue& Value : Resolver.GetValues())
-		Require(!Value.Key.empty());
+	for (const FIniValue& Value : Resolver.GetValues()) Require(!Value.Key.empty());
 }
 
 void CheckMeaning(std::string_view Text, const std::string& Path)
@@ -76,8 +71,7 @@ void CheckMeaning(std::string_view Text, const std::string& Path)
 	std::ofstream(Path, std::ios::binary) << Text;
 	const FConfigFolder& Folder = GetFolder();
 	// Aliases stay for the life of the process; with too many of them each unknown name would take long.
-	if (FConsoleVariables::Get().GetAliases().size() < 20)
-		RequireClean(LoadAliases(Folder));
+	if (FConsoleVariables::Get().GetAliases().size() < 20) RequireClean(LoadAliases(Folder));
 	RequireClean(LoadFile(Folder, Folder.GetDefaults()));
 	RequireClean(LoadScalability(Folder, ERTQuality::Epic));
 	RequireClean(LoadDeviceProfile(Folder, "llvmpipe (LLVM 15.0.6, 256 bits)").Problems);
@@ -101,8 +95,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* Data, size_t Size)
 	const std::string_view Text(reinterpret_cast<const char*>(Data), Size);
 	CheckSyntax(Text);
 	const FConfigFolder& Folder = GetFolder();
-	const std::string Paths[] = {Folder.GetAliases(), Folder.GetDefaults(), Folder.GetScalability(),
-	                             Folder.GetDeviceProfiles()};
+	const std::string Paths[] = {Folder.GetAliases(), Folder.GetDefaults(), Folder.GetScalability(), Folder.GetDeviceProfiles()};
 	// The last byte chooses, so that the text itself stays an ini file.
 	CheckMeaning(Text, Paths[Size > 0 ? Data[Size - 1] % std::size(Paths) : 0]);
 	return 0;

@@ -31,33 +31,18 @@ constexpr const char* Hostile = "</script><script>window.onerror('injected')</sc
 
 json MakePoint(const char* Method, const char* Preset, const json& GpuMs, const json& RelMse, const json& Flip)
 {
-	return {{"signal", "sun_shadow"},
-	        {"method", Method},
-	        {"preset", Preset},
-	        {"path", "still"},
-	        {"gpu_ms", GpuMs},
-	        {"frame_gpu_ms", 20.5},
-	        {"rays_per_pixel", 4},
-	        {"memory", 3145728},
-	        {"relmse", RelMse},
-	        {"flip", Flip},
-	        {"sigma", nullptr},
-	        {"t90_frames", nullptr},
-	        {"ghost", 0.0},
-	        {"leak", nullptr},
-	        {"frames", 24},
-	        {"picture", std::string("picture ") + Preset},
-	        {"heatmap", std::string("heat ") + Preset}};
+	return {{"signal", "sun_shadow"}, {"method", Method}, {"preset", Preset}, {"path", "still"}, {"gpu_ms", GpuMs}, {"frame_gpu_ms", 20.5},
+	    {"rays_per_pixel", 4}, {"memory", 3145728}, {"relmse", RelMse}, {"flip", Flip}, {"sigma", nullptr}, {"t90_frames", nullptr},
+	    {"ghost", 0.0}, {"leak", nullptr}, {"frames", 24}, {"picture", std::string("picture ") + Preset},
+	    {"heatmap", std::string("heat ") + Preset}};
 }
 
 json MakeData()
 {
 	const char* B = "B <!--<script>";
-	json Points = {MakePoint("A", "p1", 1.0, 0.1, 0.3),   MakePoint("A", "p2", 2.0, 0.02, 0.2),
-	               MakePoint("A", "p3", 8.0, 0.001, 0.2), MakePoint("A", "p4", nullptr, 0.0005, 0.01),
-	               MakePoint(B, "q0", 0.0, 0.5, 0.6),     MakePoint(B, "q1", 1.5, 0.05, 0.5),
-	               MakePoint(B, "q2", 3.0, 0.03, 0.4),    MakePoint(B, "q3", 4.0, 0.0, 0.1),
-	               MakePoint(B, "q4", 6.0, -0.001, 0.1)};
+	json Points = {MakePoint("A", "p1", 1.0, 0.1, 0.3), MakePoint("A", "p2", 2.0, 0.02, 0.2), MakePoint("A", "p3", 8.0, 0.001, 0.2),
+	    MakePoint("A", "p4", nullptr, 0.0005, 0.01), MakePoint(B, "q0", 0.0, 0.5, 0.6), MakePoint(B, "q1", 1.5, 0.05, 0.5),
+	    MakePoint(B, "q2", 3.0, 0.03, 0.4), MakePoint(B, "q3", 4.0, 0.0, 0.1), MakePoint(B, "q4", 6.0, -0.001, 0.1)};
 	Points.push_back(MakePoint("A", "p1", 1.0, 0.4, 0.4));
 	Points.back()["path"] = "fast";
 	json Second = MakePoint("A", "p9", 1.0, 0.4, 0.4);
@@ -65,26 +50,15 @@ json MakeData()
 	json Occlusion = MakePoint("C", "r1", 5.0, 0.4, 0.4);
 	Occlusion["signal"] = "ao";
 	Occlusion["path"] = "slow";
-	const json Skipped = {
-	    {"signal", "sun_shadow"}, {"method", "D"}, {"preset", "s"}, {"path", "still"}, {"reason", Hostile}};
+	const json Skipped = {{"signal", "sun_shadow"}, {"method", "D"}, {"preset", "s"}, {"path", "still"}, {"reason", Hostile}};
 	const json Other = {{"signal", "ao"}, {"method", "E"}, {"preset", "s"}, {"path", "still"}, {"reason", "no"}};
 	const json Facts = {{{"fact", "alpha tests"}, {"frame_gpu_ms", 8.0}, {"without_gpu_ms", 6.0}},
-	                    {{"fact", "sky"}, {"frame_gpu_ms", 8.0}, {"without_gpu_ms", nullptr}}};
-	return {
-	    {"version", 1},
-	    {"device", "Test device"},
-	    {"driver", "Driver 1.2"},
-	    {"is_cpu", true},
+	    {{"fact", "sky"}, {"frame_gpu_ms", 8.0}, {"without_gpu_ms", nullptr}}};
+	return {{"version", 1}, {"device", "Test device"}, {"driver", "Driver 1.2"}, {"is_cpu", true},
 	    {"settings", {{"size", Hostile}, {"frames", 24}, {"list", {1, 2}}}},
 	    {"signals", {{{"name", "sun_shadow"}, {"title", "Sun shadow"}}, {{"name", "ao"}, {"title", "Occlusion"}}}},
-	    {"scenes",
-	     {{{"name", "first"},
-	       {"width", 3},
-	       {"height", 2},
-	       {"facts", Facts},
-	       {"points", Points},
-	       {"skipped", {Skipped, Other}}},
-	      {{"name", "second"}, {"facts", json::array()}, {"points", {Second, Occlusion}}, {"skipped", json::array()}}}},
+	    {"scenes", {{{"name", "first"}, {"width", 3}, {"height", 2}, {"facts", Facts}, {"points", Points}, {"skipped", {Skipped, Other}}},
+	                   {{"name", "second"}, {"facts", json::array()}, {"points", {Second, Occlusion}}, {"skipped", json::array()}}}},
 	    {"images", {{"picture q1", Picture}, {"heat q1", HeatMap}, {"picture p1", "not a picture"}}}};
 }
 
@@ -97,20 +71,14 @@ std::string ReadAll(const std::string& Path)
 /// Empty where there is none.
 std::string FindBrowser()
 {
-	if (const char* Chosen = std::getenv("LANTERN_BROWSER"))
-	{
-		return Chosen;
-	}
+	if (const char* Chosen = std::getenv("LANTERN_BROWSER")) { return Chosen; }
 	const char* Path = std::getenv("PATH");
 	std::istringstream Folders(Path != nullptr ? Path : "");
 	for (std::string Folder; std::getline(Folders, Folder, ':');)
 	{
 		for (const char* Name : {"chromium", "chromium-browser", "google-chrome"})
 		{
-			if (std::filesystem::exists(std::filesystem::path(Folder) / Name))
-			{
-				return (std::filesystem::path(Folder) / Name).string();
-			}
+			if (std::filesystem::exists(std::filesystem::path(Folder) / Name)) { return (std::filesystem::path(Folder) / Name).string(); }
 		}
 	}
 	return {};
@@ -121,10 +89,7 @@ std::string ReadLog(const std::string& Path)
 {
 	std::ifstream Stream(Path);
 	std::string Text;
-	for (std::string Line; std::getline(Stream, Line);)
-	{
-		Text += Line.find("dbus") == std::string::npos ? Line + "\n" : "";
-	}
+	for (std::string Line; std::getline(Stream, Line);) { Text += Line.find("dbus") == std::string::npos ? Line + "\n" : ""; }
 	return Text;
 }
 
@@ -143,10 +108,7 @@ protected:
 		Browser = FindBrowser();
 		// Continuous integration installs one (Scripts/Setup does): there a missing one is an error.
 		const bool bDemanded = std::getenv("CI") != nullptr || std::getenv("LANTERN_DEMAND_BROWSER") != nullptr;
-		if (Browser.empty() && bDemanded)
-		{
-			FAIL() << "no Chromium: Scripts/Setup installs the package chromium";
-		}
+		if (Browser.empty() && bDemanded) { FAIL() << "no Chromium: Scripts/Setup installs the package chromium"; }
 		else if (Browser.empty())
 		{
 			GTEST_SKIP() << "no Chromium, so the page was not looked at; Scripts/Setup installs the package chromium";
@@ -165,20 +127,16 @@ window.onerror = (text) => window.driverErrors.push(String(text));
 window.onunhandledrejection = (event) => window.driverErrors.push(String(event.reason));
 window.requestAnimationFrame = (call) => setTimeout(() => call(performance.now()), 16);
 </script>)");
-		InsertBefore(Page, "</body>",
-		             "<script>" + ReadAll(LANTERN_SOURCE_DIR "/Tests/Program/ChartPageDriver.js") + "</script>");
-		if (bLookOnly)
-		{
-			InsertBefore(Page, "lang=\"en\"", "data-drive=\"look\" ");
-		}
+		InsertBefore(Page, "</body>", "<script>" + ReadAll(LANTERN_SOURCE_DIR "/Tests/Program/ChartPageDriver.js") + "</script>");
+		if (bLookOnly) { InsertBefore(Page, "lang=\"en\"", "data-drive=\"look\" "); }
 		const std::string File = Folder.Write("page.html", Page), Base = Folder.GetPath();
-		const std::string Command = fmt::format(
-		    "HOME={0} timeout {3} '{1}' --headless --no-sandbox --disable-gpu "
-		    "--disable-dev-shm-usage "
-		    "--enable-logging=stderr "
-		    "--user-data-dir={0}/profile --window-size=1400,1800 --virtual-time-budget=20000 --dump-dom 'file://{2}' "
-		    ">{0}/dom 2>{0}/log",
-		    Base, Browser, File, WaitLimit.count());
+		const std::string Command =
+		    fmt::format("HOME={0} timeout {3} '{1}' --headless --no-sandbox --disable-gpu "
+		                "--disable-dev-shm-usage "
+		                "--enable-logging=stderr "
+		                "--user-data-dir={0}/profile --window-size=1400,1800 --virtual-time-budget=20000 --dump-dom 'file://{2}' "
+		                ">{0}/dom 2>{0}/log",
+		        Base, Browser, File, WaitLimit.count());
 		const int Status = std::system(Command.c_str());
 		const std::string Dom = ReadAll(Base + "/dom"), Log = ReadLog(Base + "/log");
 		EXPECT_EQ(Status, 0) << Log;
@@ -190,8 +148,7 @@ window.requestAnimationFrame = (call) => setTimeout(() => call(performance.now()
 			ADD_FAILURE() << "the driver did not end; log:\n" << Log;
 			return nullptr;
 		}
-		const json Seen =
-		    json::parse(Dom.substr(At + Begin.size(), Dom.find("</pre>", At) - At - Begin.size()), nullptr, false);
+		const json Seen = json::parse(Dom.substr(At + Begin.size(), Dom.find("</pre>", At) - At - Begin.size()), nullptr, false);
 		EXPECT_THAT(Seen.at("errors"), IsEmpty());
 		EXPECT_EQ(Dom.find("<b id=\"injected\""), std::string::npos) << "text of the data became part of the page";
 		return Seen;
@@ -231,8 +188,8 @@ TEST_F(FChartPageTest, CanBeUsed)
 	EXPECT_EQ(Clicked["picture"]["width"], 3);
 	EXPECT_EQ(Clicked["heatmap"]["width"], 2);
 	EXPECT_EQ(Clicked["picture"]["top"], Clicked["heatmap"]["top"]) << "not side by side";
-	EXPECT_GE(Clicked["heatmap"]["left"].get<double>(),
-	          Clicked["picture"]["left"].get<double>() + Clicked["picture"]["shown"].get<double>());
+	EXPECT_GE(
+	    Clicked["heatmap"]["left"].get<double>(), Clicked["picture"]["left"].get<double>() + Clicked["picture"]["shown"].get<double>());
 	EXPECT_TRUE(Seen["withoutPictures"]["picture"].is_null()) << "what is no picture is not shown as one";
 	EXPECT_EQ(Seen["afterArrow"]["title"], B + " · q1") << "the next point to the right of A's p1";
 }
@@ -273,10 +230,7 @@ TEST_F(FChartPageTest, SurvivesDataWithoutFigures)
 	EXPECT_EQ(Empty["notice"], false);
 
 	json Zeros = MakeData();
-	for (json& Point : Zeros["scenes"][0]["points"])
-	{
-		Point["gpu_ms"] = Point["relmse"] = 0.0;
-	}
+	for (json& Point : Zeros["scenes"][0]["points"]) { Point["gpu_ms"] = Point["relmse"] = 0.0; }
 	EXPECT_GT(Drive(Zeros, true)["start"]["ink"], 50) << "all at the feet of both axes";
 
 	for (json& Point : Zeros["scenes"][0]["points"])

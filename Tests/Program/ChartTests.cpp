@@ -19,8 +19,8 @@ class Chart : public testing::Test
 protected:
 	std::vector<std::string> MakeArguments(const std::string& Output, std::vector<std::string> More = {}) const
 	{
-		std::vector<std::string> Arguments = {"chart", "stability-lid", "-o", Output, "--size", "48x27", "--spp", "4", "--frames", "5", "--warm-up", "2",
-		                                      "--budget", "0", "--methods-file", Methods};
+		std::vector<std::string> Arguments = {"chart", "stability-lid", "-o", Output, "--size", "48x27", "--spp", "4", "--frames", "5",
+		    "--warm-up", "2", "--budget", "0", "--methods-file", Methods};
 		Arguments.insert(Arguments.end(), More.begin(), More.end());
 		return Arguments;
 	}
@@ -34,8 +34,7 @@ protected:
 		const std::string Folder = At(Output + ".parts/");
 		std::vector<std::string> Names;
 		FProgramProcess Process(MakeArguments(At(Output + ".html")));
-		const auto HasParts = [&]
-		{
+		const auto HasParts = [&] {
 			std::error_code Error;
 			if (std::filesystem::is_directory(Folder, Error)) { Names = ListFolder(Folder); }
 			return Names.size() >= 3 || !Process.IsRunning();
@@ -75,7 +74,10 @@ void ExpectPoint(const nlohmann::json& Point)
 		EXPECT_TRUE(Point[Name].is_number() || Point[Name].is_null()) << Name << " is " << Point[Name];
 	}
 	for (const char* Name : {"rays_per_pixel", "memory", "frames"}) { EXPECT_TRUE(Point.at(Name).is_number()) << Name; }
-	for (const char* Name : {"signal", "method", "preset", "path", "picture", "heatmap"}) { EXPECT_TRUE(Point.at(Name).is_string()) << Name; }
+	for (const char* Name : {"signal", "method", "preset", "path", "picture", "heatmap"})
+	{
+		EXPECT_TRUE(Point.at(Name).is_string()) << Name;
+	}
 	for (const char* Name : {"gpu_ms", "frame_gpu_ms", "relmse", "flip"}) { EXPECT_TRUE(Point[Name].is_number()) << Name; }
 	const bool bStill = Point["path"] == "still", bMoves = Point["path"] == "fast" || Point["path"] == "cut";
 	EXPECT_EQ(Point["sigma"].is_number(), bStill);

@@ -28,10 +28,7 @@ std::map<std::string, nlohmann::json> ReadVariables()
 	EXPECT_EQ(Run.Status, 0) << Run.Err;
 	std::map<std::string, nlohmann::json> Variables;
 	const nlohmann::json Json = ReadJson(Folder.GetPath() + "/cvars.json");
-	for (const nlohmann::json& Variable : Json.at("variables"))
-	{
-		Variables[Variable.at("name")] = Variable;
-	}
+	for (const nlohmann::json& Variable : Json.at("variables")) { Variables[Variable.at("name")] = Variable; }
 	return Variables;
 }
 
@@ -68,10 +65,7 @@ TEST(ConsoleVariableProgramTest, EveryVariableThatAnIniFileNamesExists)
 	for (const auto& [Name, Variable] : ReadVariables())
 	{
 		Known.insert(Name);
-		for (const std::string Alias : Variable["aliases"])
-		{
-			Known.insert(Alias);
-		}
+		for (const std::string Alias : Variable["aliases"]) { Known.insert(Alias); }
 	}
 	const std::vector<FConfigReference> References = ListConsoleVariables({LANTERN_SOURCE_DIR "/Config"});
 	EXPECT_GT(References.size(), 10u);
@@ -86,8 +80,7 @@ TEST(ConsoleVariableProgramTest, WrongNameIsOneWarningWithTheNearest)
 	const FProgramRun Run = RunProgram(RenderSmall({"--set", "r.RT.Shadw.Samples=2", "--validate"}));
 	EXPECT_EQ(Run.Status, 0) << Run.Err;
 	EXPECT_THAT(Run.GetMessages(),
-	            ElementsAre(AllOf(HasSubstr("warning"), HasSubstr("--set"), HasSubstr("r.RT.Shadw.Samples"),
-	                              HasSubstr("'r.RT.Shadow.Samples'"))));
+	    ElementsAre(AllOf(HasSubstr("warning"), HasSubstr("--set"), HasSubstr("r.RT.Shadw.Samples"), HasSubstr("'r.RT.Shadow.Samples'"))));
 }
 
 TEST(ConsoleVariableProgramTest, WrongValueIsOneWarningWithTheRange)
@@ -96,8 +89,8 @@ TEST(ConsoleVariableProgramTest, WrongValueIsOneWarningWithTheRange)
 	{
 		const FProgramRun Run = RunProgram(RenderSmall({"--set", std::string("r.RT.Shadow.Samples=") + Value}));
 		EXPECT_EQ(Run.Status, 0) << Run.Err;
-		EXPECT_THAT(Run.GetMessages(), ElementsAre(AllOf(HasSubstr("warning"), HasSubstr("r.RT.Shadow.Samples"),
-		                                                 HasSubstr(Value), HasSubstr("1 to 64"))));
+		EXPECT_THAT(Run.GetMessages(),
+		    ElementsAre(AllOf(HasSubstr("warning"), HasSubstr("r.RT.Shadow.Samples"), HasSubstr(Value), HasSubstr("1 to 64"))));
 	}
 }
 
@@ -109,27 +102,19 @@ TEST(ConsoleVariableProgramTest, WrongIniIsNamedWithItsLineAndTheRestApplies)
 	                                                  "r.RT.Shadow.Samples=abc\n"
 	                                                  "r.RT.Shadow=0\n");
 	const std::string Json = Folder.GetPath() + "/a.json";
-	const FProgramRun Run =
-	    RunProgram({"render", "planes", "--size", "8x8", "--config", Ini, "--json", Json, "--validate"});
+	const FProgramRun Run = RunProgram({"render", "planes", "--size", "8x8", "--config", Ini, "--json", Json, "--validate"});
 	EXPECT_EQ(Run.Status, 0) << Run.Err;
-	EXPECT_THAT(Run.GetMessages(),
-	            ElementsAre(AllOf(HasSubstr("warning"), HasSubstr("wrong.ini:2"), HasSubstr("nonsense")),
-	                        AllOf(HasSubstr("warning"), HasSubstr("wrong.ini:3"), HasSubstr("abc"))));
+	EXPECT_THAT(Run.GetMessages(), ElementsAre(AllOf(HasSubstr("warning"), HasSubstr("wrong.ini:2"), HasSubstr("nonsense")),
+	                                   AllOf(HasSubstr("warning"), HasSubstr("wrong.ini:3"), HasSubstr("abc"))));
 	const nlohmann::json Figures = ReadJson(Json);
-	for (const nlohmann::json& Pass : Figures["passes"])
-	{
-		EXPECT_NE(Pass["name"], "SunShadow") << "line 4 was not applied";
-	}
+	for (const nlohmann::json& Pass : Figures["passes"]) { EXPECT_NE(Pass["name"], "SunShadow") << "line 4 was not applied"; }
 }
 
 TEST(ConsoleVariableProgramTest, BinaryRubbishAsIniIsNoDisaster)
 {
 	const FTemporaryFolder Folder;
 	std::string Rubbish(5000, '\0');
-	for (size_t I = 0; I < Rubbish.size(); ++I)
-	{
-		Rubbish[I] = static_cast<char>(I * 2654435761u >> 13);
-	}
+	for (size_t I = 0; I < Rubbish.size(); ++I) { Rubbish[I] = static_cast<char>(I * 2654435761u >> 13); }
 	const FProgramRun Run = RunProgram(RenderSmall({"--config", Folder.Write("rubbish.ini", Rubbish)}));
 	EXPECT_LT(Run.Status, 128) << Run.Err.substr(0, 1000);
 }
@@ -138,8 +123,7 @@ TEST(ConsoleVariableProgramTest, CommandLineOutranksQualityAndFiles)
 {
 	const FTemporaryFolder Folder;
 	const std::string Ini = Folder.Write("project.ini", "[SystemSettings]\nr.RT.Shadow.Samples=8\n");
-	const auto CountRays = [&](std::vector<std::string> More)
-	{
+	const auto CountRays = [&](std::vector<std::string> More) {
 		const std::string Json = Folder.GetPath() + "/rays.json";
 		More.insert(More.begin(), {"render", "planes", "--size", "10x10", "--sun", "1,0,-1,0,2", "--set", "r.RT.AO=0", "--json", Json});
 		const FProgramRun Run = RunProgram(More);
@@ -149,8 +133,7 @@ TEST(ConsoleVariableProgramTest, CommandLineOutranksQualityAndFiles)
 	EXPECT_EQ(CountRays({}), 1u);
 	EXPECT_EQ(CountRays({"--config", Ini}), 8u);
 	EXPECT_EQ(CountRays({"--config", Ini, "--quality", "epic"}), 4u);
-	EXPECT_EQ(CountRays({"--config", Ini, "--quality", "cinematic", "--set", "r.RayTracing.Shadows.SamplesPerPixel=3"}),
-	          3u)
+	EXPECT_EQ(CountRays({"--config", Ini, "--quality", "cinematic", "--set", "r.RayTracing.Shadows.SamplesPerPixel=3"}), 3u)
 	    << "by its name in UE";
 }
 

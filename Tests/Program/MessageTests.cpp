@@ -35,8 +35,8 @@ TEST(MessageTest, FilesOfBrokenBytes)
 	for (const std::string Name : {"plain.gltf", "bad\xff\x1b\n\u202E.gltf"})
 	{
 		for (const std::string Text :
-		     {"{\"asset\": \"\xff\x1b[31m", "\xff\xfe\x1b", "{\"asset\": {\"version\": \"\\u001b[31m\\u0085\\n\"}}",
-		      "{\"asset\": {\"version\": \"2.0\"}, \"extensionsRequired\": [\"\\u001b[2J\\u202e\\n\"]}"})
+		    {"{\"asset\": \"\xff\x1b[31m", "\xff\xfe\x1b", "{\"asset\": {\"version\": \"\\u001b[31m\\u0085\\n\"}}",
+		        "{\"asset\": {\"version\": \"2.0\"}, \"extensionsRequired\": [\"\\u001b[2J\\u202e\\n\"]}"})
 		{
 			Folder.Write(Name, Text);
 			const FProgramRun Run = RunClean({"render", Name, "-o", "a.pfm"}, Options);
@@ -48,8 +48,7 @@ TEST(MessageTest, FilesOfBrokenBytes)
 	}
 	Folder.Write("bad\xff.png", "\x1b\xff");
 	for (const std::vector<std::string>& Arguments :
-	     {std::vector<std::string>{"compare", "bad\xff.png", Worse + ".png"},
-	      {"chart", "-o", "a.html", "--merge", Worse}})
+	    {std::vector<std::string>{"compare", "bad\xff.png", Worse + ".png"}, {"chart", "-o", "a.html", "--merge", Worse}})
 	{
 		const FProgramRun Run = RunClean(Arguments, Options);
 		EXPECT_EQ(Run.Status, 4);
@@ -125,13 +124,12 @@ TEST(MessageTest, BrokenNamesOfFilesAndScenes)
 TEST(MessageTest, BrokenSettings)
 {
 	const FTemporaryFolder Folder;
-	const std::string Ini =
-	    Folder.Write("bad\xff.ini", "[\xff\u202E]\n[SystemSettings]\n\xff\u0085=1\nr.RT.Shadow.Samples=\xff\n\xff\n");
+	const std::string Ini = Folder.Write("bad\xff.ini", "[\xff\u202E]\n[SystemSettings]\n\xff\u0085=1\nr.RT.Shadow.Samples=\xff\n\xff\n");
 	const FProgramRun FromFile = RunClean({"cvars", "--config", Ini});
 	EXPECT_EQ(FromFile.Status, 0);
 	EXPECT_EQ(FromFile.GetMessages().size(), 4u) << FromFile.Err;
-	const FProgramRun FromLine = RunClean(
-	    {"cvars", "--set", Worse + "=1", "--set", "r.RT.Shadow.Samples=" + Worse, "--set", "r.RT.Trace.File=" + Worse});
+	const FProgramRun FromLine =
+	    RunClean({"cvars", "--set", Worse + "=1", "--set", "r.RT.Shadow.Samples=" + Worse, "--set", "r.RT.Trace.File=" + Worse});
 	EXPECT_EQ(FromLine.Status, 0);
 	EXPECT_THAT(FromLine.GetMessages(), ElementsAre(HasSubstr(WorseShown), HasSubstr(WorseShown)));
 	EXPECT_THAT(FromLine.Out, HasSubstr(WorseShown)) << "the value of a variable is in the table";

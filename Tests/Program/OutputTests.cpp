@@ -17,10 +17,7 @@ using ::testing::Not;
 std::vector<std::string> GetKeys(const nlohmann::json& Object)
 {
 	std::vector<std::string> Keys;
-	for (const auto& [Key, Value] : Object.items())
-	{
-		Keys.push_back(Key);
-	}
+	for (const auto& [Key, Value] : Object.items()) { Keys.push_back(Key); }
 	return Keys;
 }
 
@@ -44,10 +41,7 @@ protected:
 		RunCleanly(Arguments);
 		Json = ReadJson(At("passes.json"));
 		std::vector<std::string> Names;
-		for (const nlohmann::json& Pass : Json["passes"])
-		{
-			Names.push_back(Pass["name"]);
-		}
+		for (const nlohmann::json& Pass : Json["passes"]) { Names.push_back(Pass["name"]); }
 		return Names;
 	}
 
@@ -60,13 +54,13 @@ TEST_F(FOutputTest, RenderWritesWhatTheContractNames)
 	// A build without OpenImageIO writes PFM only.
 	const std::string Picture = CheckImageOutput(At("a.png")) ? "a.png" : "a.pfm";
 	const FProgramRun Run = RunCleanly({"render", "planes", "--size", "40x30", "--frames", "3", "--set", "r.RT.AO=0", "--validate", "-o",
-	                                    At(Picture), "--json", At("a.json")});
+	    At(Picture), "--json", At("a.json")});
 	EXPECT_THAT(Run.Out, HasSubstr("GPU ms"));
 	EXPECT_THAT(Run.Out, HasSubstr("SunShadow"));
 	EXPECT_THAT(Run.Err, HasSubstr("loaded in")) << "the log";
 	const nlohmann::json A = ReadJson(At("a.json"));
-	EXPECT_THAT(GetKeys(A), IsSupersetOf({"device", "driver", "width", "height", "frames", "passes", "frame_gpu_ms",
-	                                      "frame_cpu_ms", "rays", "memory", "rtpso"}));
+	EXPECT_THAT(GetKeys(A), IsSupersetOf({"device", "driver", "width", "height", "frames", "passes", "frame_gpu_ms", "frame_cpu_ms", "rays",
+	                            "memory", "rtpso"}));
 	EXPECT_THAT(GetKeys(A["memory"]), IsSupersetOf({"blas", "tlas", "sbt", "textures", "peak"}));
 	EXPECT_THAT(GetKeys(A["rtpso"]), IsSupersetOf({"hit_groups", "compiled", "missing", "link_ms"}));
 	EXPECT_EQ(A["width"], 40);
@@ -120,14 +114,8 @@ TEST_F(FOutputTest, EverySceneNameOfTheListRenders)
 
 TEST_F(FOutputTest, PictureIsTheSameWhateverItsFileAndLastFrameCounts)
 {
-	if (!CheckImageOutput(At("a.exr")))
-	{
-		GTEST_SKIP() << "a build without OpenImageIO";
-	}
-	for (const char* Name : {"a.pfm", "a.exr"})
-	{
-		RunCleanly({"render", "furnace:0.5", "--size", "16x12", "--validate", "-o", At(Name)});
-	}
+	if (!CheckImageOutput(At("a.exr"))) { GTEST_SKIP() << "a build without OpenImageIO"; }
+	for (const char* Name : {"a.pfm", "a.exr"}) { RunCleanly({"render", "furnace:0.5", "--size", "16x12", "--validate", "-o", At(Name)}); }
 	FImage A, B;
 	ASSERT_TRUE(LoadImageFile(At("a.pfm"), A));
 	ASSERT_TRUE(LoadImageFile(At("a.exr"), B));
@@ -155,8 +143,7 @@ TEST_F(FOutputTest, InfoTellsWhatRunsAndWhyNot)
 	ASSERT_GE(Devices.size(), 1u);
 	for (const nlohmann::json& Device : Devices)
 	{
-		EXPECT_THAT(GetKeys(Device),
-		            IsSupersetOf({"index", "device", "driver", "rung", "features", "missing", "usable"}));
+		EXPECT_THAT(GetKeys(Device), IsSupersetOf({"index", "device", "driver", "rung", "features", "missing", "usable"}));
 		ASSERT_GE(Device["features"].size(), 3u);
 		for (const nlohmann::json& Feature : Device["features"])
 		{
@@ -172,13 +159,12 @@ TEST_F(FOutputTest, CompareWritesTheFigures)
 	RunCleanly({"render", "furnace:0.5", "--size", "32x32", "-o", At("a.pfm")});
 	RunCleanly({"render", "furnace:0.7", "--size", "32x32", "-o", At("b.pfm")});
 	const std::string HeatMap = At(CheckImageOutput(At("h.png")) ? "h.png" : "h.pfm");
-	const FProgramRun Run =
-	    RunCleanly({"compare", At("a.pfm"), At("b.pfm"), "--json", At("c.json"), "--heatmap", HeatMap});
+	const FProgramRun Run = RunCleanly({"compare", At("a.pfm"), At("b.pfm"), "--json", At("c.json"), "--heatmap", HeatMap});
 	EXPECT_THAT(Run.Out, HasSubstr("flip"));
 	EXPECT_EQ(Run.Err, "");
 	const nlohmann::json C = ReadJson(At("c.json"));
-	EXPECT_THAT(GetKeys(C), IsSupersetOf({"mse", "rmse", "relmse", "psnr", "flip", "mean_ratio", "block16_median",
-	                                      "block16_p95", "nonfinite"}));
+	EXPECT_THAT(
+	    GetKeys(C), IsSupersetOf({"mse", "rmse", "relmse", "psnr", "flip", "mean_ratio", "block16_median", "block16_p95", "nonfinite"}));
 	EXPECT_EQ(C["mean_ratio"].size(), 3u);
 	EXPECT_EQ(C["nonfinite"].size(), 2u);
 	EXPECT_GT(std::filesystem::file_size(HeatMap), 0u);
@@ -191,25 +177,14 @@ TEST_F(FOutputTest, CompareWritesTheFigures)
 
 TEST_F(FOutputTest, ExtremeButValidViewsRender)
 {
-	for (const std::vector<std::string>& View : {std::vector<std::string>{"--size", "1x1"},
-	                                             {"--size", "257x3"},
-	                                             {"--camera", "1e15,0,0,0,0,0,60"},
-	                                             {"--camera", "0,0,5,0,0,4.999999,179.9"},
-	                                             {"--camera", "0,5,0,0,0,0,1e-3"},
-	                                             {"--sun", "0,0,-1,0,0"},
-	                                             {"--sun", "1e15,0,-1,0,180"},
-	                                             {"--sky", "0,0,0"},
-	                                             {"--time=-1"},
-	                                             {"--time", "1e15"},
-	                                             {"--seed", "4294967295"},
-	                                             {"--no-scene-lights"}})
+	for (const std::vector<std::string>& View : {std::vector<std::string>{"--size", "1x1"}, {"--size", "257x3"},
+	         {"--camera", "1e15,0,0,0,0,0,60"}, {"--camera", "0,0,5,0,0,4.999999,179.9"}, {"--camera", "0,5,0,0,0,0,1e-3"},
+	         {"--sun", "0,0,-1,0,0"}, {"--sun", "1e15,0,-1,0,180"}, {"--sky", "0,0,0"}, {"--time=-1"}, {"--time", "1e15"},
+	         {"--seed", "4294967295"}, {"--no-scene-lights"}})
 	{
 		std::vector<std::string> Arguments = {"render", "planes", "--validate"};
 		Arguments.insert(Arguments.end(), View.begin(), View.end());
-		if (View[0] != "--size")
-		{
-			Arguments.insert(Arguments.end(), {"--size", "16x16"});
-		}
+		if (View[0] != "--size") { Arguments.insert(Arguments.end(), {"--size", "16x16"}); }
 		const FProgramRun Run = RunProgram(Arguments);
 		EXPECT_EQ(Run.Status, 0) << View[0] << ": " << Run.Err;
 	}

@@ -17,8 +17,8 @@ namespace
 constexpr uid_t Nobody = 65534;
 
 /// In the child: never returns.
-[[noreturn]] void Execute(std::vector<char*>& Arguments, std::vector<char*>& Environment, const char* Out,
-                          const char* Err, const FProgramOptions& Options)
+[[noreturn]] void Execute(
+    std::vector<char*>& Arguments, std::vector<char*>& Environment, const char* Out, const char* Err, const FProgramOptions& Options)
 {
 	const int OutFile = open(Out, O_WRONLY | O_CREAT | O_TRUNC, 0644);
 	const int ErrFile = open(Err, O_WRONLY | O_CREAT | O_TRUNC, 0644);
@@ -26,10 +26,7 @@ constexpr uid_t Nobody = 65534;
 	const bool bFiles = dup2(InFile, 0) >= 0 && dup2(OutFile, 1) >= 0 && dup2(ErrFile, 2) >= 0;
 	const bool bFolder = Options.Folder.empty() || chdir(Options.Folder.c_str()) == 0;
 	const bool bUser = !Options.bUnprivileged || geteuid() != 0 || (setgid(Nobody) == 0 && setuid(Nobody) == 0);
-	if (bFiles && bFolder && bUser)
-	{
-		execve(LANTERN_PROGRAM, Arguments.data(), Environment.data());
-	}
+	if (bFiles && bFolder && bUser) { execve(LANTERN_PROGRAM, Arguments.data(), Environment.data()); }
 	_exit(127);
 }
 
@@ -43,10 +40,7 @@ std::vector<std::string> MakeEnvironment(const FProgramOptions& Options)
 		const bool bKept = Text.substr(0, 3) == "VK_" || Text.substr(0, 3) == "LD_" || Text.substr(0, 5) == "PATH=" ||
 		                   Text.find("SAN_OPTIONS=") != std::string_view::npos || Text.substr(0, 3) == "LP_" ||
 		                   Text.substr(0, 4) == "MESA" || Text.substr(0, 15) == "XDG_CACHE_HOME=";
-		if (bKept)
-		{
-			Strings.emplace_back(Text);
-		}
+		if (bKept) { Strings.emplace_back(Text); }
 	}
 	for (const auto& [Name, Value] : Options.Environment)
 	{
@@ -59,10 +53,7 @@ std::vector<std::string> MakeEnvironment(const FProgramOptions& Options)
 std::vector<char*> MakePointers(std::vector<std::string>& Strings)
 {
 	std::vector<char*> Pointers;
-	for (std::string& Text : Strings)
-	{
-		Pointers.push_back(Text.data());
-	}
+	for (std::string& Text : Strings) { Pointers.push_back(Text.data()); }
 	Pointers.push_back(nullptr);
 	return Pointers;
 }
@@ -80,10 +71,7 @@ std::vector<std::string> FProgramRun::GetMessages() const
 		const bool bDevice = Line.rfind("error", 0) != 0 && Line.rfind("warning", 0) != 0 && Line.back() == ')';
 		// "frames:  50 %  ", which slow machines see and fast ones do not.
 		const bool bProgress = Line.rfind("error", 0) != 0 && Line.rfind("warning", 0) != 0 && Has(" %  ");
-		if (!bDevice && !bProgress && !Has("loaded in ") && !Has("Run with --help"))
-		{
-			Messages.push_back(Line);
-		}
+		if (!bDevice && !bProgress && !Has("loaded in ") && !Has("Run with --help")) { Messages.push_back(Line); }
 	}
 	return Messages;
 }
@@ -98,23 +86,14 @@ FProgramProcess::FProgramProcess(const std::vector<std::string>& Arguments, cons
 	const std::string Kept = Files.GetPath() + "/out", Err = Files.GetPath() + "/err";
 	const std::string Out = Options.StandardOutput.empty() ? Kept : Options.StandardOutput;
 	Pid = fork();
-	if (Pid == 0)
-	{
-		Execute(ArgumentPointers, EnvironmentPointers, Out.c_str(), Err.c_str(), Options);
-	}
+	if (Pid == 0) { Execute(ArgumentPointers, EnvironmentPointers, Out.c_str(), Err.c_str(), Options); }
 }
 
-FProgramProcess::~FProgramProcess()
-{
-	Kill();
-}
+FProgramProcess::~FProgramProcess() { Kill(); }
 
 bool FProgramProcess::IsRunning()
 {
-	if (Pid > 0 && waitpid(Pid, &WaitStatus, WNOHANG) == Pid)
-	{
-		Pid = -1;
-	}
+	if (Pid > 0 && waitpid(Pid, &WaitStatus, WNOHANG) == Pid) { Pid = -1; }
 	return Pid > 0;
 }
 
@@ -137,7 +116,8 @@ std::string FProgramProcess::GetLastLine() const
 
 FProgramRun FProgramProcess::Wait()
 {
-	if (!WaitUntil("`lantern " + Name + "`", [&] { return !IsRunning(); }, {}, [&] { return GetLastLine(); }))
+	if (!WaitUntil(
+	        "`lantern " + Name + "`", [&] { return !IsRunning(); }, {}, [&] { return GetLastLine(); }))
 	{
 		Kill();
 	}
@@ -169,10 +149,7 @@ nlohmann::json ReadJson(const std::string& Path)
 std::vector<std::string> ListFolder(const std::string& Path)
 {
 	std::vector<std::string> Names;
-	for (const auto& Entry : std::filesystem::directory_iterator(Path))
-	{
-		Names.push_back(Entry.path().filename().string());
-	}
+	for (const auto& Entry : std::filesystem::directory_iterator(Path)) { Names.push_back(Entry.path().filename().string()); }
 	std::sort(Names.begin(), Names.end());
 	return Names;
 }

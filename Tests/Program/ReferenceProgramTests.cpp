@@ -13,11 +13,9 @@ class FReferenceProgramTest : public ::testing::Test
 {
 protected:
 	std::string At(const std::string& Name) const { return Folder.GetPath() + "/" + Name; }
-	std::vector<std::string> MakeArguments(const std::string& Output, uint32_t Samples,
-	                                       std::vector<std::string> More = {}) const
+	std::vector<std::string> MakeArguments(const std::string& Output, uint32_t Samples, std::vector<std::string> More = {}) const
 	{
-		More.insert(More.begin(), {"reference", "furnace:0.7", "--size", "64x48", "--spp", std::to_string(Samples),
-		                           "-o", At(Output)});
+		More.insert(More.begin(), {"reference", "furnace:0.7", "--size", "64x48", "--spp", std::to_string(Samples), "-o", At(Output)});
 		return More;
 	}
 	void Run(const std::string& Output, uint32_t Samples, const std::vector<std::string>& More = {})
@@ -43,17 +41,11 @@ protected:
 	bool IsKilledThreeTimes(uint32_t Samples)
 	{
 		Run("whole.pfm", Samples);
-		for (const char* Name : {"cut.pfm", "cut.pfm.state"})
-		{
-			std::filesystem::remove(At(Name));
-		}
+		for (const char* Name : {"cut.pfm", "cut.pfm.state"}) { std::filesystem::remove(At(Name)); }
 		const std::vector<std::string> Arguments = MakeArguments("cut.pfm", Samples, CutOptions);
 		for (int Kill = 0; Kill < 3; ++Kill)
 		{
-			if (HasFailure() || !IsKilledInTheMiddle(Arguments))
-			{
-				return false;
-			}
+			if (HasFailure() || !IsKilledInTheMiddle(Arguments)) { return false; }
 		}
 		return true;
 	}
@@ -108,13 +100,8 @@ TEST_F(FReferenceProgramTest, StateOfAnotherPictureIsRefusedAndKept)
 {
 	Run("a.pfm", 2, {"--resume"});
 	const std::string State = ReadFile(At("a.pfm.state")), Picture = ReadFile(At("a.pfm"));
-	for (const std::vector<std::string>& Other : {std::vector<std::string>{"--seed", "1"},
-	                                              {"--bounces", "2"},
-	                                              {"--sky", "1,1,1"},
-	                                              {"--sun", "1,0,-1,0,1"},
-	                                              {"--camera", "0,0,0,1,0,0,50"},
-	                                              {"--set", "r.RT.Material.Override=2"},
-	                                              {"--no-scene-lights"}})
+	for (const std::vector<std::string>& Other : {std::vector<std::string>{"--seed", "1"}, {"--bounces", "2"}, {"--sky", "1,1,1"},
+	         {"--sun", "1,0,-1,0,1"}, {"--camera", "0,0,0,1,0,0,50"}, {"--set", "r.RT.Material.Override=2"}, {"--no-scene-lights"}})
 	{
 		std::vector<std::string> Arguments = MakeArguments("a.pfm", 2, {"--resume"});
 		Arguments.insert(Arguments.end(), Other.begin(), Other.end());
@@ -132,7 +119,7 @@ TEST_F(FReferenceProgramTest, DamagedStateIsRefused)
 	Run("a.pfm", 2, {"--resume"});
 	const std::string State = ReadFile(At("a.pfm.state"));
 	for (const std::string& Damaged :
-	     {std::string(), State.substr(0, 10), State.substr(0, State.size() - 1), std::string(State.size(), 'x')})
+	    {std::string(), State.substr(0, 10), State.substr(0, State.size() - 1), std::string(State.size(), 'x')})
 	{
 		Folder.Write("a.pfm.state", Damaged);
 		const FProgramRun Result = RunProgram(MakeArguments("a.pfm", 4, {"--resume"}));

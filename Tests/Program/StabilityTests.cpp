@@ -26,7 +26,10 @@ protected:
 		return Result;
 	}
 	/// The planes cast no shadow where they face the sun: the case does not hold.
-	std::vector<std::string> MakeBroken() const { return {"--case", "25", "--method", "SunShadowQuery", "--set", "r.RT.Shadow.CullFrontFaces=1"}; }
+	std::vector<std::string> MakeBroken() const
+	{
+		return {"--case", "25", "--method", "SunShadowQuery", "--set", "r.RT.Shadow.CullFrontFaces=1"};
+	}
 
 	FTemporaryFolder Folder;
 	nlohmann::json Rows;
@@ -36,7 +39,10 @@ TEST_F(FStabilityTest, AllCasesAreListed)
 {
 	const FProgramRun List = RunProgram({"stability", "--list"});
 	EXPECT_EQ(List.Status, 0);
-	for (int Number = 1; Number <= 27; ++Number) { EXPECT_THAT("\n" + List.Out, HasSubstr("\n" + std::string(Number < 10 ? " " : "") + std::to_string(Number) + " ")) << Number; }
+	for (int Number = 1; Number <= 27; ++Number)
+	{
+		EXPECT_THAT("\n" + List.Out, HasSubstr("\n" + std::string(Number < 10 ? " " : "") + std::to_string(Number) + " ")) << Number;
+	}
 }
 
 TEST_F(FStabilityTest, CasesWithoutMethodSaySo)
@@ -56,7 +62,10 @@ TEST_F(FStabilityTest, RowsHaveWhatTheContractNames)
 	const FProgramRun Result = Run({"--case", "25", "--method", "sun shadow, query"});
 	EXPECT_EQ(Result.Status, 0) << Result.Out << Result.Err;
 	ASSERT_EQ(Rows.size(), 1u);
-	for (const char* Key : {"number", "name", "method", "figure", "limit", "holds", "fault_figure", "fault_fails"}) { EXPECT_TRUE(Rows[0].contains(Key)) << Key; }
+	for (const char* Key : {"number", "name", "method", "figure", "limit", "holds", "fault_figure", "fault_fails"})
+	{
+		EXPECT_TRUE(Rows[0].contains(Key)) << Key;
+	}
 	EXPECT_EQ(Rows[0]["number"], 25);
 	EXPECT_EQ(Rows[0]["method"], "sun shadow, query");
 	EXPECT_EQ(Rows[0]["holds"], true);

@@ -24,8 +24,7 @@ struct FUsage
 };
 
 class FUsageTest : public ::testing::TestWithParam<FUsage>
-{
-};
+{};
 
 TEST_P(FUsageTest, GetsOneClearMessage)
 {
@@ -40,10 +39,7 @@ TEST_P(FUsageTest, GetsOneClearMessage)
 	EXPECT_EQ(Run.Status, GetParam().Status) << Run.Err;
 	EXPECT_EQ(Run.Out, "");
 	ASSERT_EQ(Run.GetMessages().size(), 1u) << Run.Err;
-	for (const std::string& Part : GetParam().Message)
-	{
-		EXPECT_THAT(Run.GetMessages()[0], HasSubstr(Part));
-	}
+	for (const std::string& Part : GetParam().Message) { EXPECT_THAT(Run.GetMessages()[0], HasSubstr(Part)); }
 	EXPECT_LT(Run.GetMessages()[0].size(), 300u) << "a message is to be read";
 	EXPECT_EQ(ListFolder(Folder.GetPath()), Before) << "something was left behind";
 }
@@ -106,15 +102,13 @@ const FUsage Usages[] = {
     {"CompareOutput", {"compare", "text.png", "text.png", "--heatmap", "nowhere/h.png"}, 4, {"nowhere/h.png"}},
 };
 
-INSTANTIATE_TEST_SUITE_P(All, FUsageTest, ::testing::ValuesIn(Usages),
-                         [](const auto& Info) { return std::string(Info.param.Name); });
+INSTANTIATE_TEST_SUITE_P(All, FUsageTest, ::testing::ValuesIn(Usages), [](const auto& Info) { return std::string(Info.param.Name); });
 
 TEST(UsageTest, WithoutADriverEveryCommandThatNeedsOneSaysSo)
 {
 	FProgramOptions Options;
 	Options.Environment = {{"VK_DRIVER_FILES", "/nowhere.json"}, {"VK_ICD_FILENAMES", "/nowhere.json"}};
-	for (const std::vector<std::string>& Arguments :
-	     {std::vector<std::string>{"render", "furnace"}, {"reference", "furnace"}, {"info"}})
+	for (const std::vector<std::string>& Arguments : {std::vector<std::string>{"render", "furnace"}, {"reference", "furnace"}, {"info"}})
 	{
 		const FProgramRun Run = RunProgram(Arguments, Options);
 		EXPECT_EQ(Run.Status, 3) << Run.Err;
@@ -147,10 +141,7 @@ TEST(UsageTest, ProtectedFilesAndFoldersStayAsTheyAre)
 	FProgramOptions Options;
 	Options.Folder = Folder.GetPath();
 	Options.bUnprivileged = true;
-	if (RunProgram({"--version"}, Options).Status != 0)
-	{
-		GTEST_SKIP() << "another user may not run the program where it lies";
-	}
+	if (RunProgram({"--version"}, Options).Status != 0) { GTEST_SKIP() << "another user may not run the program where it lies"; }
 	for (const char* Output : {"kept.png", "locked/new.png"})
 	{
 		const FProgramRun Run = RunProgram({"render", "furnace", "--size", "8x8", "-o", Output}, Options);
@@ -176,11 +167,8 @@ TEST(UsageTest, ResultsThatCannotBeWrittenAreAnError)
 
 TEST(UsageTest, HelpAndVersionGoToStandardOutput)
 {
-	for (const std::vector<std::string>& Arguments : {std::vector<std::string>{"--help"},
-	                                                  {"--version"},
-	                                                  {"render", "--help"},
-	                                                  {"reference", "--help"},
-	                                                  {"compare", "--help"}})
+	for (const std::vector<std::string>& Arguments :
+	    {std::vector<std::string>{"--help"}, {"--version"}, {"render", "--help"}, {"reference", "--help"}, {"compare", "--help"}})
 	{
 		const FProgramRun Run = RunProgram(Arguments);
 		EXPECT_EQ(Run.Status, 0);

@@ -15,10 +15,7 @@ namespace
 constexpr double Pi = std::numbers::pi;
 
 /// 1 − (d / R)² blocked by what is at distance d.
-double Visible(double Distance, double Radius)
-{
-	return std::min(1.0, Distance * Distance / (Radius * Radius));
-}
+double Visible(double Distance, double Radius) { return std::min(1.0, Distance * Distance / (Radius * Radius)); }
 
 /// Visibility over the hemisphere by the midpoint rule on the unit disk, on which cosine-weighted directions are uniform.
 /// Distance: along (x, y up, z), to the nearest surface; infinite where there is none.
@@ -41,13 +38,9 @@ double IntegrateOcclusion(double Radius, const std::function<double(glm::dvec3)>
 /// On a floor at distance K · R from an endless wall.
 double BesideWall(double K)
 {
-	if (K >= 1.0)
-	{
-		return 1.0;
-	}
+	if (K >= 1.0) { return 1.0; }
 	// ∫ 2 √(1 − x²) (1 − K²/x²) dx over the disk's chords from K to 1.
-	const auto F = [&](double X)
-	{
+	const auto F = [&](double X) {
 		const double Y = std::sqrt(std::max(0.0, 1.0 - X * X));
 		return X * Y + std::asin(X) + 2.0 * K * K * (Y / X + std::asin(X));
 	};
@@ -55,10 +48,7 @@ double BesideWall(double K)
 }
 
 /// Under an endless ceiling at height K · R: ∫ 2u min(K²/u², 1) du.
-double UnderCeiling(double K)
-{
-	return K >= 1.0 ? 1.0 : K * K * (1.0 - 2.0 * std::log(K));
-}
+double UnderCeiling(double K) { return K >= 1.0 ? 1.0 : K * K * (1.0 - 2.0 * std::log(K)); }
 
 class FAmbientOcclusionTest : public FRenderTest
 {
@@ -84,14 +74,8 @@ protected:
 			EXPECT_OK(GetEngine().RenderFrame(View, 0.0, Capture, &Frame));
 			const FImage& Image = Frame.Get(ESignal::AmbientOcclusion);
 			EXPECT_EQ(Image.Pixels.size(), Sum.Pixels.size()) << "the frame has no ambient occlusion";
-			if (Image.Pixels.size() != Sum.Pixels.size())
-			{
-				return Sum;
-			}
-			for (size_t P = 0; P < Sum.Pixels.size(); ++P)
-			{
-				Sum.Pixels[P] += Image.Pixels[P] / static_cast<float>(Count);
-			}
+			if (Image.Pixels.size() != Sum.Pixels.size()) { return Sum; }
+			for (size_t P = 0; P < Sum.Pixels.size(); ++P) { Sum.Pixels[P] += Image.Pixels[P] / static_cast<float>(Count); }
 		}
 		return Sum;
 	}
@@ -99,8 +83,8 @@ protected:
 	/// From above, Size metres of the floor across, x to the right and z down.
 	static FView MakePlan(glm::dvec3 Center, double Size, uint32_t Pixels, double Height = 20.0)
 	{
-		FView View = LookAt(Center + glm::dvec3(0, Height, 0), Center, static_cast<float>(2.0 * std::atan(0.5 * Size / Height)),
-		                    Pixels, Pixels);
+		FView View =
+		    LookAt(Center + glm::dvec3(0, Height, 0), Center, static_cast<float>(2.0 * std::atan(0.5 * Size / Height)), Pixels, Pixels);
 		View.Up = {0, 0, -1};
 		return View;
 	}
@@ -108,10 +92,7 @@ protected:
 	static double MeanOfColumn(const FImage& Image, uint32_t X)
 	{
 		double Sum = 0.0;
-		for (uint32_t Y = 0; Y < Image.Height; ++Y)
-		{
-			Sum += Image.At(X, Y, 0) / Image.Height;
-		}
+		for (uint32_t Y = 0; Y < Image.Height; ++Y) { Sum += Image.At(X, Y, 0) / Image.Height; }
 		return Sum;
 	}
 
@@ -122,10 +103,7 @@ protected:
 		const int32_t Lambert = Walls.AddLambert(glm::vec3(0.5f));
 		std::vector<FTestScene::FQuad> Quads = {FTestScene::MakeFloor(Lambert, 8.0f)};
 		Quads.push_back({Lambert, {{0, 0, 8}, {0, 0, -8}, {0, 4, -8}, {0, 4, 8}}});
-		if (bCorner)
-		{
-			Quads.push_back({Lambert, {{-8, 0, 0}, {8, 0, 0}, {8, 4, 0}, {-8, 4, 0}}});
-		}
+		if (bCorner) { Quads.push_back({Lambert, {{-8, 0, 0}, {8, 0, 0}, {8, 4, 0}, {-8, 4, 0}}}); }
 		Walls.AddNode(Walls.AddMesh(Quads));
 		return std::move(Walls.Scene);
 	}
@@ -140,10 +118,7 @@ protected:
 		return std::move(Ceiling.Scene);
 	}
 	/// Between floor and ceiling: Size metres of the floor around a place.
-	static FView MakeViewUnder(glm::dvec3 Center, double Size, uint32_t Pixels)
-	{
-		return MakePlan(Center, Size, Pixels, 0.2);
-	}
+	static FView MakeViewUnder(glm::dvec3 Center, double Size, uint32_t Pixels) { return MakePlan(Center, Size, Pixels, 0.2); }
 };
 
 TEST_F(FAmbientOcclusionTest, OpenFloorIsUnoccluded)
@@ -174,10 +149,7 @@ TEST_F(FAmbientOcclusionTest, BesideAWall)
 		SetVariable("r.RT.AO.Path", Path);
 		const FImage Image = RenderOcclusion(MakePlan({0.6, 0, 0}, 1.2, 48), 64);
 		double Worst = 0.0;
-		for (uint32_t X = 0; X < 48; ++X)
-		{
-			Worst = std::max(Worst, std::abs(MeanOfColumn(Image, X) - BesideWall((X + 0.5) * 1.2 / 48)));
-		}
+		for (uint32_t X = 0; X < 48; ++X) { Worst = std::max(Worst, std::abs(MeanOfColumn(Image, X) - BesideWall((X + 0.5) * 1.2 / 48))); }
 		PrintFigure(fmt::format("beside a wall, path {}: worst column off by {:.4f}", Path, Worst));
 		EXPECT_LT(Worst, 0.006) << "path " << Path;
 	}
@@ -239,10 +211,7 @@ TEST_F(FAmbientOcclusionTest, SkyIsUnoccluded)
 	ASSERT_TRUE(Load(MakeCeiling(0.5f)));
 	SetVariable("r.RT.AO.Radius", "100000");
 	const FImage Image = RenderOcclusion(LookAt({0, 30, 60}, {0, 32, 0}, 1.0f, 32, 32));
-	for (uint32_t X = 0; X < 32; ++X)
-	{
-		EXPECT_EQ(Image.At(X, 0, 0), 1.0f);
-	}
+	for (uint32_t X = 0; X < 32; ++X) { EXPECT_EQ(Image.At(X, 0, 0), 1.0f); }
 }
 
 // Half of the ceiling is cut away by its texture.
@@ -305,13 +274,9 @@ TEST_F(FAmbientOcclusionTest, OneToSixteenRays)
 	ASSERT_TRUE(Load(MakeCeiling(0.5f)));
 	const FView View = MakeViewUnder({0, 0, 0}, 0.2, 64);
 	const double Exact = UnderCeiling(0.5);
-	const auto GetScatter = [&](const FImage& Image)
-	{
+	const auto GetScatter = [&](const FImage& Image) {
 		double Sum = 0.0;
-		for (const float Value : Image.Pixels)
-		{
-			Sum += std::pow(Value - Exact, 2) / double(Image.Pixels.size());
-		}
+		for (const float Value : Image.Pixels) { Sum += std::pow(Value - Exact, 2) / double(Image.Pixels.size()); }
 		return std::sqrt(Sum);
 	};
 	double Before = 1e9;
@@ -320,8 +285,8 @@ TEST_F(FAmbientOcclusionTest, OneToSixteenRays)
 		SetVariable("r.RT.AO.Samples", std::to_string(Rays));
 		const FImage Image = RenderOcclusion(View);
 		EXPECT_NEAR(MeanGreen(Image), Exact, 0.02) << Rays;
-		PrintFigure(fmt::format("{} rays: scatter {:.4f}, of independent ones {:.4f}", Rays, GetScatter(Image),
-		                        std::sqrt(Exact * (1.0 - Exact) / Rays)));
+		PrintFigure(fmt::format(
+		    "{} rays: scatter {:.4f}, of independent ones {:.4f}", Rays, GetScatter(Image), std::sqrt(Exact * (1.0 - Exact) / Rays)));
 		// At least as fast as independent samples would: ×4 rays, half the error.
 		EXPECT_LT(GetScatter(Image), 0.55 * Before) << Rays;
 		Before = GetScatter(Image);
@@ -359,7 +324,9 @@ TEST_F(FAmbientOcclusionTest, ItIsThereWhereSomethingUsesIt)
 	const FView View = MakePlan({0.5, 0, 0.5}, 1.0, 16);
 	const auto IsThere = [&](bool bCaptured) {
 		bool bThere = false;
-		GetEngine().ExtraPasses = [&](FFrameContext&, const FGBuffer&, const FFrameOutputs& Frame) { bThere = Frame.AmbientOcclusion.Visibility.IsValid(); };
+		GetEngine().ExtraPasses = [&](FFrameContext&, const FGBuffer&, const FFrameOutputs& Frame) {
+			bThere = Frame.AmbientOcclusion.Visibility.IsValid();
+		};
 		FFrameCapture Capture;
 		FCapturedFrame Frame;
 		Capture.bLighting = true;
@@ -409,7 +376,7 @@ TEST_F(FAmbientOcclusionTest, EqualsReference)
 		Squares += std::pow(Plugin.Pixels[I] - Result.Radiance.Pixels[I], 2) / double(Plugin.Pixels.size());
 	}
 	PrintFigure(fmt::format("courtyard: mean {:.4f}, reference {:.4f}; RMS of the difference {:.4f}", MeanGreen(Plugin),
-	                        MeanGreen(Result.Radiance), std::sqrt(Squares)));
+	    MeanGreen(Result.Radiance), std::sqrt(Squares)));
 	EXPECT_NEAR(MeanGreen(Plugin), MeanGreen(Result.Radiance), 0.002);
 	// 128 samples each: all or nothing scatters by 0.044 at most, the reference's by less.
 	EXPECT_LT(std::sqrt(Squares), 0.05);

@@ -64,15 +64,12 @@ protected:
 		const FShaderSource Source{"BrdfTest.comp", ERTShaderStage::Compute, {}, Shader};
 		EXPECT_OK(GetEngine().GetRenderer().GetPipelines().GetCompute(Source, Pipeline));
 		TRTRef<IRTBuffer> Results;
-		EXPECT_OK(GetDevice().CreateBuffer({uint64_t(Push.Width) * Push.Height * sizeof(glm::vec2),
-		                                    ERTBufferUsage::Storage, ERTMemory::Readback, "Albedos"},
-		                                   Results.ReleaseAndGetAddress()));
+		EXPECT_OK(GetDevice().CreateBuffer(
+		    {uint64_t(Push.Width) * Push.Height * sizeof(glm::vec2), ERTBufferUsage::Storage, ERTMemory::Readback, "Albedos"},
+		    Results.ReleaseAndGetAddress()));
 		TRTRef<IRTCommandList> List;
 		EXPECT_OK(GetDevice().CreateCommandList("Brdf", List.ReleaseAndGetAddress()));
-		if (!Pipeline || !Results || !List)
-		{
-			return {};
-		}
+		if (!Pipeline || !Results || !List) { return {}; }
 		Push.Output = Results->GetDeviceAddress();
 		EXPECT_OK(List->Begin());
 		List->SetPipeline(Pipeline);
@@ -89,8 +86,7 @@ protected:
 		const auto* const Values = static_cast<const glm::vec2*>(Results->GetMapped());
 		for (uint32_t I = 0; I < Push.Width * Push.Height; ++I)
 		{
-			const glm::vec2 At(float(I % Push.Width) / float(Push.Width - 1),
-			                   float(I / Push.Width) / float(Push.Height - 1));
+			const glm::vec2 At(float(I % Push.Width) / float(Push.Width - 1), float(I / Push.Width) / float(Push.Height - 1));
 			const glm::vec2 Place = glm::mix(Push.Low, Push.High, At);
 			Out.push_back({Place.x, Place.y, Values[I].x, Values[I].y});
 		}
@@ -112,9 +108,8 @@ protected:
 				At = Albedo;
 			}
 		}
-		PrintFigure(
-		    fmt::format("{}: off by at most {:.2f} %, at n.v {:.3f}, roughness {:.3f}: {:.5f} instead of {:.5f}", What,
-		                100 * Worst, At.NdotV, At.Roughness, At.Fit, At.Sum));
+		PrintFigure(fmt::format("{}: off by at most {:.2f} %, at n.v {:.3f}, roughness {:.3f}: {:.5f} instead of {:.5f}", What, 100 * Worst,
+		    At.NdotV, At.Roughness, At.Fit, At.Sum));
 		return Worst;
 	}
 };
@@ -125,8 +120,7 @@ TEST_F(FBrdfTest, SumsOverSamplesMeetTheClosedForm)
 {
 	const std::vector<FAlbedo> Albedos = Measure({0, 2, 2, {0.5f, 0.5f}, {1.0f, 1.0f}, 1.0f, 1.0f, 1.0f});
 	ASSERT_EQ(Albedos.size(), 4u);
-	PrintFigure(fmt::format("roughness 1, seen along the normal: {:.5f}, exactly {:.5f}", Albedos[3].Sum,
-	                        1.0 - std::numbers::ln2));
+	PrintFigure(fmt::format("roughness 1, seen along the normal: {:.5f}, exactly {:.5f}", Albedos[3].Sum, 1.0 - std::numbers::ln2));
 	EXPECT_NEAR(Albedos[3].Sum, 1.0 - std::numbers::ln2, 2e-4);
 }
 
@@ -146,13 +140,9 @@ TEST_F(FBrdfTest, SpecularReflectanceHoldsBeyondWhatItWasFittedFor)
 {
 	for (const float F0 : {0.04f, 1.0f})
 	{
-		const glm::vec2 MirrorLow(0.05f, 0.0f), MirrorHigh(1.0f, 0.031f), GrazingLow(0.001f, 0.05f),
-		    GrazingHigh(0.05f, 1.0f);
-		EXPECT_LE(FindWorst(fmt::format("mirror, F0 {}", F0).c_str(), {0, 0, 0, MirrorLow, MirrorHigh, F0, 1.0f, 1.0f}),
-		          0.025);
-		EXPECT_LE(
-		    FindWorst(fmt::format("grazing, F0 {}", F0).c_str(), {0, 0, 0, GrazingLow, GrazingHigh, F0, 1.0f, 1.0f}),
-		    0.13);
+		const glm::vec2 MirrorLow(0.05f, 0.0f), MirrorHigh(1.0f, 0.031f), GrazingLow(0.001f, 0.05f), GrazingHigh(0.05f, 1.0f);
+		EXPECT_LE(FindWorst(fmt::format("mirror, F0 {}", F0).c_str(), {0, 0, 0, MirrorLow, MirrorHigh, F0, 1.0f, 1.0f}), 0.025);
+		EXPECT_LE(FindWorst(fmt::format("grazing, F0 {}", F0).c_str(), {0, 0, 0, GrazingLow, GrazingHigh, F0, 1.0f, 1.0f}), 0.13);
 	}
 }
 

@@ -25,10 +25,7 @@ protected:
 	/// Irradiance of the floor point that the scene's camera looks at.
 	FEstimate EstimateFloorIrradiance(const std::string& Scene, uint32_t Samples)
 	{
-		if (!Load(Scene))
-		{
-			return {};
-		}
+		if (!Load(Scene)) { return {}; }
 		FEstimate Estimate = EstimateMean(MakeView(32, 32), Samples, 1);
 		Estimate.Mean *= Pi / FloorAlbedo;
 		Estimate.StandardError *= Pi / FloorAlbedo;
@@ -70,13 +67,12 @@ TEST_F(FClosedFormTest, SphereAroundPointLight)
 // 3. E = L/2 · Σ Θᵢ (Γᵢ·n), unit square at height 1.
 TEST_F(FClosedFormTest, PolygonLight)
 {
-	const std::pair<double, double> Cases[] = {{0, 0.752275},   {0.5, 0.566645}, {1, 0.265005},
-	                                           {1.5, 0.104637}, {2, 0.043743},   {3, 0.010575}};
+	const std::pair<double, double> Cases[] = {
+	    {0, 0.752275}, {0.5, 0.566645}, {1, 0.265005}, {1.5, 0.104637}, {2, 0.043743}, {3, 0.010575}};
 	for (const auto& [X, Expected] : Cases)
 	{
 		const std::string Name = fmt::format("polygon light, x = {}", X);
-		ExpectClosedForm(Name.c_str(), EstimateFloorIrradiance(fmt::format("polygonlight:{}", X), 32), Expected,
-		                 Tolerance);
+		ExpectClosedForm(Name.c_str(), EstimateFloorIrradiance(fmt::format("polygonlight:{}", X), 32), Expected, Tolerance);
 	}
 }
 
@@ -97,15 +93,15 @@ TEST_F(FClosedFormTest, DiskAndSphereLights)
 	for (const double Height : {0.5, 1.0, 2.0})
 	{
 		const std::string Name = fmt::format("disk, height {}", Height);
-		ExpectClosedForm(Name.c_str(), EstimateFloorIrradiance(fmt::format("disk:{}", Height), 32),
-		                 Pi / (1.0 + Height * Height), Tolerance);
+		ExpectClosedForm(
+		    Name.c_str(), EstimateFloorIrradiance(fmt::format("disk:{}", Height), 32), Pi / (1.0 + Height * Height), Tolerance);
 	}
 	const std::pair<double, double> Cases[] = {{1.0, 0.0}, {2.0, 60.0}};
 	for (const auto& [Distance, Angle] : Cases)
 	{
 		const std::string Name = fmt::format("sphere light, distance {}, angle {}", Distance, Angle);
 		ExpectClosedForm(Name.c_str(), EstimateFloorIrradiance(fmt::format("spherelight:{}:{}", Distance, Angle), 192),
-		                 Pi * 0.25 / (Distance * Distance) * std::cos(Angle * Pi / 180.0), Tolerance);
+		    Pi * 0.25 / (Distance * Distance) * std::cos(Angle * Pi / 180.0), Tolerance);
 	}
 }
 
@@ -150,8 +146,7 @@ TEST_F(FClosedFormTest, GgxAtAlphaOne)
 	for (const double Mu : {0.05, 0.2, 0.4, 0.6, 0.8, 1.0})
 	{
 		const std::string Name = fmt::format("ggx, alpha 1, mu {}", Mu);
-		ExpectClosedForm(Name.c_str(), EstimateMean(MakeGgxView(Mu), 16, 1), 1.0 - Mu * std::log(1.0 + 1.0 / Mu),
-		                 Tolerance);
+		ExpectClosedForm(Name.c_str(), EstimateMean(MakeGgxView(Mu), 16, 1), 1.0 - Mu * std::log(1.0 + 1.0 / Mu), Tolerance);
 	}
 }
 
@@ -160,10 +155,7 @@ TEST_F(FClosedFormTest, GgxHemisphericalMeans)
 	// Six nodes integrate E(μ) to 1e-4 at α = 1, where both are known, and better below.
 	const auto Nodes = MakeGaussLegendre(6);
 	double Check = 0.0;
-	for (const auto& [Mu, Weight] : Nodes)
-	{
-		Check += Weight * 2.0 * Mu * (1.0 - Mu * std::log(1.0 + 1.0 / Mu));
-	}
+	for (const auto& [Mu, Weight] : Nodes) { Check += Weight * 2.0 * Mu * (1.0 - Mu * std::log(1.0 + 1.0 / Mu)); }
 	ASSERT_NEAR(Check, 0.40914, 1e-4);
 	const double Means[] = {0.9997, 0.9953, 0.9756, 0.9405, 0.8823, 0.8029, 0.7074, 0.6042, 0.5024, 0.40914};
 	for (int I = 0; I < 10; ++I)

@@ -20,10 +20,7 @@ protected:
 };
 using FCornellSlowTest = FCornellTest;
 
-double MeanOf(const FImage& Image, uint32_t Channel)
-{
-	return ComputeMeans(Image).Channel[Channel];
-}
+double MeanOf(const FImage& Image, uint32_t Channel) { return ComputeMeans(Image).Channel[Channel]; }
 
 // Eight pictures of 64 × 64 pixels and 128 samples. Their scatter gives the statistical error of each figure:
 // - of a channel's mean, s. The tolerance is the 0.3 % plus 3 s.
@@ -47,13 +44,10 @@ TEST_F(FCornellTest, FewSamplesWithinTheirNoise)
 	for (uint32_t Channel = 0; Channel < 3; ++Channel)
 	{
 		std::vector<double> Ratios;
-		for (const FImage& Batch : Batches)
-		{
-			Ratios.push_back(MeanOf(Batch, Channel) / MeanOf(Reference, Channel));
-		}
+		for (const FImage& Batch : Batches) { Ratios.push_back(MeanOf(Batch, Channel) / MeanOf(Reference, Channel)); }
 		const FEstimate Ratio = MakeEstimate(Ratios);
-		PrintFigure(fmt::format("cornell, channel {}: mean ratio {:.5f} (statistical error {:.5f})", Channel,
-		                        Ratio.Mean, Ratio.StandardError));
+		PrintFigure(
+		    fmt::format("cornell, channel {}: mean ratio {:.5f} (statistical error {:.5f})", Channel, Ratio.Mean, Ratio.StandardError));
 		EXPECT_NEAR(Ratio.Mean, 1.0, 0.003 + 3.0 * Ratio.StandardError);
 		EXPECT_LT(Ratio.StandardError, 0.0015);
 	}
@@ -68,17 +62,13 @@ TEST_F(FCornellTest, FewSamplesWithinTheirNoise)
 	for (size_t Block = 0; Block < Blocks.size(); ++Block)
 	{
 		std::vector<double> Values;
-		for (const auto& Batch : BatchBlocks)
-		{
-			Values.push_back(Batch[Block]);
-		}
+		for (const auto& Batch : BatchBlocks) { Values.push_back(Batch[Block]); }
 		const FEstimate Estimate = MakeEstimate(Values);
 		Errors.push_back(std::abs(Estimate.Mean - Blocks[Block]) / (Blocks[Block] + 0.01));
 		Sigmas.push_back(Estimate.StandardError / (Blocks[Block] + 0.01));
 	}
 	const double Median = ComputePercentile(Errors, 0.5), Noise = 0.6745 * ComputePercentile(Sigmas, 0.5);
-	PrintFigure(
-	    fmt::format("cornell, 1,024 samples at a quarter: block median {:.5f}, of noise alone {:.5f}", Median, Noise));
+	PrintFigure(fmt::format("cornell, 1,024 samples at a quarter: block median {:.5f}, of noise alone {:.5f}", Median, Noise));
 	EXPECT_LT(Median, 0.005 + Noise);
 	EXPECT_LT(Noise, 0.005);
 }
@@ -93,13 +83,9 @@ TEST_F(FCornellSlowTest, FullSamples)
 	ASSERT_TRUE(Load(Scene));
 	FImageMetrics Metrics;
 	ASSERT_OK(CompareImages(TraceReference(MakeView(256, 256), 1024), Reference, Metrics));
-	PrintFigure(fmt::format(
-	    "cornell, 1,024 samples: mean ratio {:.5f} {:.5f} {:.5f}, block16 median {:.5f}, p95 {:.5f}",
+	PrintFigure(fmt::format("cornell, 1,024 samples: mean ratio {:.5f} {:.5f} {:.5f}, block16 median {:.5f}, p95 {:.5f}",
 	    Metrics.MeanRatio[0], Metrics.MeanRatio[1], Metrics.MeanRatio[2], Metrics.Block16Median, Metrics.Block16P95));
-	for (const double Ratio : Metrics.MeanRatio)
-	{
-		EXPECT_NEAR(Ratio, 1.0, 0.003);
-	}
+	for (const double Ratio : Metrics.MeanRatio) { EXPECT_NEAR(Ratio, 1.0, 0.003); }
 	EXPECT_LE(Metrics.Block16Median, 0.005);
 	EXPECT_EQ(Metrics.NonFinite[0], 0u);
 }

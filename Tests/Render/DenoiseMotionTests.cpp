@@ -22,13 +22,16 @@ protected:
 		FTestScene Poles("poles");
 		const int32_t Lambert = Poles.AddLambert(glm::vec3(0.5f), glm::vec3(0), true);
 		Poles.AddNode(Poles.AddMesh({FTestScene::MakeFloor(Lambert, 30.0f)}));
-		const auto AddQuad = [&](glm::vec3 A, glm::vec3 B, glm::vec3 C, glm::vec3 D) { Poles.AddNode(Poles.AddMesh({{Lambert, {A, B, C, D}}})); };
+		const auto AddQuad = [&](glm::vec3 A, glm::vec3 B, glm::vec3 C, glm::vec3 D) {
+			Poles.AddNode(Poles.AddMesh({{Lambert, {A, B, C, D}}}));
+		};
 		// So high above that all of the floor that is looked at lies in its edge's penumbra.
 		AddQuad({-30, 20, -5.5}, {30, 20, -5.5}, {30, 20, -30}, {-30, 20, -30});
 		for (int I = -4; I <= 4; ++I)
 		{
 			const float X = float(I) * PoleDistance;
-			AddQuad({X - PoleHalf, 0, PoleZ}, {X + PoleHalf, 0, PoleZ}, {X + PoleHalf, PoleHeight, PoleZ}, {X - PoleHalf, PoleHeight, PoleZ});
+			AddQuad(
+			    {X - PoleHalf, 0, PoleZ}, {X + PoleHalf, 0, PoleZ}, {X + PoleHalf, PoleHeight, PoleZ}, {X - PoleHalf, PoleHeight, PoleZ});
 		}
 		if (!Load(std::move(Poles.Scene))) { return false; }
 		SetSun(20.0, 4.0f, {0, -1, 0});
@@ -46,7 +49,8 @@ protected:
 		const glm::dvec3 Ahead = glm::normalize(glm::dvec3(View.Forward)), Right = glm::normalize(glm::cross(Ahead, glm::dvec3(0, 1, 0)));
 		const glm::dvec3 Up = glm::cross(Right, Ahead);
 		const double Tan = std::tan(0.5 * View.FovY);
-		const glm::dvec3 Ray = Ahead + Right * (((X + 0.5) / View.Width * 2 - 1) * Tan * View.Width / View.Height) + Up * ((1 - (Y + 0.5) / View.Height * 2) * Tan);
+		const glm::dvec3 Ray = Ahead + Right * (((X + 0.5) / View.Width * 2 - 1) * Tan * View.Width / View.Height) +
+		                       Up * ((1 - (Y + 0.5) / View.Height * 2) * Tan);
 		if (Ray.y >= -1e-3) { return -1; }
 		const glm::dvec3 Floor = View.Position - Ray * (View.Position.y / Ray.y);
 		if (Floor.z > -3.5 || Floor.z < -7.5) { return -1; }
@@ -128,8 +132,8 @@ TEST_F(FDenoiseMotionTest, Disocclusion)
 			Right += MeanOf(Truths[I], Masks.Fresh);
 		}
 		Figures.Darker = 1.0 - Shown / Right;
-		PrintFigure(fmt::format("disocclusion: relMSE after four frames {:.4f}, elsewhere {:.4f} (ratio {:.2f}); darker by {:.2f} %", Figures.Fresh, Figures.Old,
-		                        Figures.Fresh / Figures.Old, 100 * Figures.Darker));
+		PrintFigure(fmt::format("disocclusion: relMSE after four frames {:.4f}, elsewhere {:.4f} (ratio {:.2f}); darker by {:.2f} %",
+		    Figures.Fresh, Figures.Old, Figures.Fresh / Figures.Old, 100 * Figures.Darker));
 		return Figures;
 	};
 	const FFigures Figures = Measure();
@@ -172,7 +176,8 @@ TEST_F(FDenoiseMotionTest, TurningFan)
 			if (ComputeMeanSquare(Image, Truths[Back]) < ComputeMeanSquare(Image, Truths[OutLag])) { OutLag = Back; }
 		}
 		const double Overlap = double(Both) / double(std::max<size_t>(Either, 1));
-		PrintFigure(fmt::format("fan: overlap {:.3f}, lag {} frames, error {:.4f}", Overlap, OutLag, std::sqrt(ComputeMeanSquare(Image, Truths[0]))));
+		PrintFigure(fmt::format(
+		    "fan: overlap {:.3f}, lag {} frames, error {:.4f}", Overlap, OutLag, std::sqrt(ComputeMeanSquare(Image, Truths[0]))));
 		return Overlap;
 	};
 	uint32_t Lag = 0;

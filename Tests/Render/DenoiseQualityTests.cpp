@@ -59,8 +59,8 @@ protected:
 
 	/// Mean figures of a few frames of the sequence, with what the console variables say. Without a filter no frame needs
 	/// those before it.
-	static FFigures MeasureSequence(const std::string& Name, const char* Method, const FSequence& Sequence, const std::vector<uint32_t>& Looked,
-	                                const std::vector<FImage>& Truths, bool bFiltered)
+	static FFigures MeasureSequence(const std::string& Name, const char* Method, const FSequence& Sequence,
+	    const std::vector<uint32_t>& Looked, const std::vector<FImage>& Truths, bool bFiltered)
 	{
 		std::vector<FImage> Images(Sequence.Frames);
 		if (bFiltered) { Images = RenderSequence(Sequence); }
@@ -112,8 +112,8 @@ protected:
 			const FFigures Raw = MeasureSequence(Name, "raw16", Sequence, Looked, Truths, false);
 			UseRays(1);
 			const FFigures One = MeasureSequence(Name, "raw1", Sequence, Looked, Truths, false);
-			PrintFigure(fmt::format("{:24} FLIP: filtered {:.4f}, 16 rays {:.4f}, 1 ray {:.4f}; relMSE: {:.4f}, {:.4f}, {:.4f}", Name, Filtered.Flip, Raw.Flip,
-			                        One.Flip, Filtered.RelMse, Raw.RelMse, One.RelMse));
+			PrintFigure(fmt::format("{:24} FLIP: filtered {:.4f}, 16 rays {:.4f}, 1 ray {:.4f}; relMSE: {:.4f}, {:.4f}, {:.4f}", Name,
+			    Filtered.Flip, Raw.Flip, One.Flip, Filtered.RelMse, Raw.RelMse, One.RelMse));
 			EXPECT_LT(Filtered.Flip, (Path.Speed == 0.0 ? 0.5 : 1.05) * One.Flip) << Name;
 			EXPECT_LT(Filtered.RelMse, One.RelMse) << Name;
 		}

@@ -65,10 +65,10 @@ TEST_F(FDenoiseStillTest, ConvergesToTheTruth)
 		struct
 		{
 			double Bias, First, Eighth, Last;
-		} Figures = {FindBias(MakeMean(Images, 45), Truth), std::sqrt(ComputeMeanSquare(Images[0], Truth)), std::sqrt(ComputeMeanSquare(Images[7], Truth)),
-		             std::sqrt(ComputeMeanSquare(Images[89], Truth))};
-		PrintFigure(fmt::format("still: worst column off by {:.4f}; error of frame 1 {:.4f}, 8 {:.4f}, 90 {:.4f}", Figures.Bias, Figures.First, Figures.Eighth,
-		                        Figures.Last));
+		} Figures = {FindBias(MakeMean(Images, 45), Truth), std::sqrt(ComputeMeanSquare(Images[0], Truth)),
+		    std::sqrt(ComputeMeanSquare(Images[7], Truth)), std::sqrt(ComputeMeanSquare(Images[89], Truth))};
+		PrintFigure(fmt::format("still: worst column off by {:.4f}; error of frame 1 {:.4f}, 8 {:.4f}, 90 {:.4f}", Figures.Bias,
+		    Figures.First, Figures.Eighth, Figures.Last));
 		return Figures;
 	};
 	const auto Figures = Measure();
@@ -143,8 +143,14 @@ TEST_F(FDenoiseStillTest, WhatIsNotANumberIsGoneAtOnce)
 	for (const char* Names : {"", "Surface", "SunShadow"})
 	{
 		const std::vector<FImage> Images = RenderPoisoned(Names);
-		for (uint32_t Frame = 0; Frame < 12; ++Frame) { EXPECT_TRUE(AllFinite(Images[Frame])) << "frame " << Frame << ", poisoned: " << Names; }
-		for (uint32_t Frame = 8; Frame < 12; ++Frame) { EXPECT_EQ(Images[Frame].Pixels, Fresh[Frame - 8].Pixels) << Frame << ", poisoned: " << Names; }
+		for (uint32_t Frame = 0; Frame < 12; ++Frame)
+		{
+			EXPECT_TRUE(AllFinite(Images[Frame])) << "frame " << Frame << ", poisoned: " << Names;
+		}
+		for (uint32_t Frame = 8; Frame < 12; ++Frame)
+		{
+			EXPECT_EQ(Images[Frame].Pixels, Fresh[Frame - 8].Pixels) << Frame << ", poisoned: " << Names;
+		}
 	}
 	// Planted: unguarded, it stays.
 	SetVariable("r.RT.Debug.Denoise.Guard", "0");

@@ -13,8 +13,7 @@ namespace
 constexpr double Pi = std::numbers::pi;
 
 class FDiffuseGITest : public FSignalTest
-{
-};
+{};
 
 // Le (1 + ρ + … + ρ^bounces) from everywhere.
 TEST_F(FDiffuseGITest, FurnaceOfSoManyBounces)
@@ -117,7 +116,7 @@ FSceneDescription MakeHostileScene()
 		return FTestScene::FQuad{Material, {{-2, 0, Z}, {2, 0, Z}, {2, 2, Z}, {-2, 2, Z}}};
 	};
 	const int32_t Mesh = Hostile.AddMesh({FTestScene::MakeFloor(Mirrors, 3.0f), MakeWall(Glasses, -2.0f), MakeWall(Bumpy, -2.5f),
-	                                      FTestScene::MakeFloor(Glows, 0.2f, 1.5f), FTestScene::MakeFloor(Bumpy, 0.5f, 0.4f, {1, 1})});
+	    FTestScene::MakeFloor(Glows, 0.2f, 1.5f), FTestScene::MakeFloor(Bumpy, 0.5f, 0.4f, {1, 1})});
 	// Corners that fall together: no area, and a normal that is none.
 	FHostMesh& Broken = Hostile.Scene.Meshes[size_t(Mesh)];
 	const FHostSection Light = Broken.Sections[3];

@@ -39,7 +39,10 @@ protected:
 	static double CountDark(const FImage& Image)
 	{
 		double Dark = 0.0;
-		for (uint32_t Pixel = 0; Pixel < Image.GetPixelCount(); ++Pixel) { Dark += Image.Pixels[size_t(Pixel) * Image.Channels] < 0.5f ? 1.0 : 0.0; }
+		for (uint32_t Pixel = 0; Pixel < Image.GetPixelCount(); ++Pixel)
+		{
+			Dark += Image.Pixels[size_t(Pixel) * Image.Channels] < 0.5f ? 1.0 : 0.0;
+		}
 		return Dark / double(Image.GetPixelCount());
 	}
 };
@@ -55,7 +58,8 @@ TEST_F(FFarFromOriginTest, ContactsOfThreeMillimetresCastShadows)
 		Dark[Away][0] = CountDark(RenderSunShadow(LookAtShadow(Place)));
 		Dark[Away][1] = CountDark(TraceSignal(ESignal::SunShadow, LookAtShadow(Place), 4));
 	}
-	PrintFigure(fmt::format("dark at the origin: frame {:.3f}, reference {:.3f}; 16 km away: {:.3f}, {:.3f}", Dark[0][0], Dark[0][1], Dark[1][0], Dark[1][1]));
+	PrintFigure(fmt::format(
+	    "dark at the origin: frame {:.3f}, reference {:.3f}; 16 km away: {:.3f}, {:.3f}", Dark[0][0], Dark[0][1], Dark[1][0], Dark[1][1]));
 	for (const int Reference : {0, 1})
 	{
 		EXPECT_GT(Dark[0][Reference], 0.1);

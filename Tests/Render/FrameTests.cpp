@@ -17,10 +17,7 @@ protected:
 	static std::vector<std::string> GetPasses()
 	{
 		std::vector<std::string> Names;
-		for (const FPassTiming& Pass : GetEngine().GetRenderer().GetGraphResources().GetTimings())
-		{
-			Names.push_back(Pass.Name);
-		}
+		for (const FPassTiming& Pass : GetEngine().GetRenderer().GetGraphResources().GetTimings()) { Names.push_back(Pass.Name); }
 		return Names;
 	}
 	static bool Contains(const std::vector<std::string>& Names, const char* Name)
@@ -29,16 +26,12 @@ protected:
 	}
 
 	/// Three frames, then judges the last. Expected: passes beside those of every picture.
-	void ExpectSoundFrames(const FView& View, const std::vector<const char*>& Expected,
-	                       const std::vector<const char*>& Absent)
+	void ExpectSoundFrames(const FView& View, const std::vector<const char*>& Expected, const std::vector<const char*>& Absent)
 	{
 		FCapturedFrame Frame;
 		FFrameCapture Capture;
 		Capture.bLighting = Capture.bDisplay = true;
-		for (int I = 0; I < 3; ++I)
-		{
-			ASSERT_OK(GetEngine().RenderFrame(View, 0.3 * I, Capture, &Frame));
-		}
+		for (int I = 0; I < 3; ++I) { ASSERT_OK(GetEngine().RenderFrame(View, 0.3 * I, Capture, &Frame)); }
 		EXPECT_EQ(CountNonFinitePixels(Frame.Lighting), 0u);
 		for (const FImage* Picture : {&Frame.Lighting, &Frame.Display})
 		{
@@ -55,18 +48,9 @@ protected:
 			EXPECT_GT(std::sqrt(Variance), 0.05 * Mean) << "a picture must show something";
 		}
 		const std::vector<std::string> Passes = GetPasses();
-		for (const char* Pass : {"GBuffer", "DirectLighting", "ToneMap"})
-		{
-			EXPECT_TRUE(Contains(Passes, Pass)) << Pass;
-		}
-		for (const char* Pass : Expected)
-		{
-			EXPECT_TRUE(Contains(Passes, Pass)) << Pass;
-		}
-		for (const char* Pass : Absent)
-		{
-			EXPECT_FALSE(Contains(Passes, Pass)) << Pass;
-		}
+		for (const char* Pass : {"GBuffer", "DirectLighting", "ToneMap"}) { EXPECT_TRUE(Contains(Passes, Pass)) << Pass; }
+		for (const char* Pass : Expected) { EXPECT_TRUE(Contains(Passes, Pass)) << Pass; }
+		for (const char* Pass : Absent) { EXPECT_FALSE(Contains(Passes, Pass)) << Pass; }
 	}
 };
 
@@ -82,8 +66,7 @@ TEST_F(FFrameTest, Sponza)
 	ASSERT_TRUE(Load(Scene));
 	SetSun(0.53);
 	SetSky({0.5f, 0.7f, 1.0f});
-	ExpectSoundFrames(LookAt({-9, 1.6, -0.4}, {10, 3.2, -1.2}, glm::radians(60.0f), 160, 90), {"SunShadow"},
-	                  {"Skinning"});
+	ExpectSoundFrames(LookAt({-9, 1.6, -0.4}, {10, 3.2, -1.2}, glm::radians(60.0f), 160, 90), {"SunShadow"}, {"Skinning"});
 }
 
 TEST_F(FFrameTest, BlackForest)
@@ -92,8 +75,7 @@ TEST_F(FFrameTest, BlackForest)
 	ASSERT_TRUE(Load(Scene));
 	SetSun(0.53);
 	SetSky({0.5f, 0.7f, 1.0f});
-	ExpectSoundFrames(LookAt({541, 20, -200}, {300, 0, -300}, glm::radians(60.0f), 160, 90), {"SunShadow"},
-	                  {"Skinning"});
+	ExpectSoundFrames(LookAt({541, 20, -200}, {300, 0, -300}, glm::radians(60.0f), 160, 90), {"SunShadow"}, {"Skinning"});
 }
 
 TEST_F(FFrameTest, Brainstem)

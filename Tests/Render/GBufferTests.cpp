@@ -6,9 +6,9 @@
 // The raster is rendered finer and averaged, since a reference pixel is the mean over its area.
 #include <cmath>
 
+#include "LanternHost/SceneLoader.h"
 #include "LanternImage/ImageStatistics.h"
 #include "LanternImage/Metrics.h"
-#include "LanternHost/SceneLoader.h"
 #include "Support/RenderFixture.h"
 #include "Support/TestScene.h"
 
@@ -19,32 +19,22 @@ namespace
 {
 
 /// A linear value that an sRGB texel of 8 bits holds exactly.
-float MakeSrgb(int Step)
-{
-	return std::pow((static_cast<float>(Step) / 255.0f + 0.055f) / 1.055f, 2.4f);
-}
+float MakeSrgb(int Step) { return std::pow((static_cast<float>(Step) / 255.0f + 0.055f) / 1.055f, 2.4f); }
 
 class FGBufferTest : public FRenderTest
 {
 protected:
 	/// Scale: by what quantisation makes the raster brighter.
-	static void ExpectAgreement(const char* What, const FImage& Raster, const FImage& Reference, double MeanTolerance,
-	                            double BlockTolerance, double Scale = 1.0)
+	static void ExpectAgreement(
+	    const char* What, const FImage& Raster, const FImage& Reference, double MeanTolerance, double BlockTolerance, double Scale = 1.0)
 	{
 		FImage Scaled = Raster;
-		for (float& Value : Scaled.Pixels)
-		{
-			Value /= static_cast<float>(Scale);
-		}
+		for (float& Value : Scaled.Pixels) { Value /= static_cast<float>(Scale); }
 		FImageMetrics Metrics;
 		ASSERT_OK(CompareImages(Scaled, Reference, Metrics));
-		PrintFigure(fmt::format("{}: mean ratio {:.5f} {:.5f} {:.5f}, block16 median {:.5f}, p95 {:.5f}", What,
-		                        Metrics.MeanRatio[0], Metrics.MeanRatio[1], Metrics.MeanRatio[2], Metrics.Block16Median,
-		                        Metrics.Block16P95));
-		for (const double Ratio : Metrics.MeanRatio)
-		{
-			EXPECT_NEAR(Ratio, 1.0, MeanTolerance) << What;
-		}
+		PrintFigure(fmt::format("{}: mean ratio {:.5f} {:.5f} {:.5f}, block16 median {:.5f}, p95 {:.5f}", What, Metrics.MeanRatio[0],
+		    Metrics.MeanRatio[1], Metrics.MeanRatio[2], Metrics.Block16Median, Metrics.Block16P95));
+		for (const double Ratio : Metrics.MeanRatio) { EXPECT_NEAR(Ratio, 1.0, MeanTolerance) << What; }
 		EXPECT_LE(Metrics.Block16Median, BlockTolerance) << What;
 		EXPECT_EQ(Metrics.NonFinite[0] + Metrics.NonFinite[1], 0u) << What;
 		EXPECT_GT(ComputeMeans(Reference).MaxLuminance, 0.05) << What << ": nothing to see";
@@ -57,8 +47,7 @@ protected:
 		Grey.AddNode(Grey.AddMesh({FTestScene::MakeFloor(Grey.AddLambert(glm::vec3(0.5f)), 4.0f)}));
 		EXPECT_TRUE(Load(std::move(Grey.Scene)));
 		SetSun(0.0, 4.0f, {0, -1, 0});
-		const double Scale =
-		    MeanGreen(RenderLighting(LookAt({0, 2, 1}, {0, 0, 0}, 0.5f, 16, 16))) / (4.0 * 0.5 / 3.14159265358979);
+		const double Scale = MeanGreen(RenderLighting(LookAt({0, 2, 1}, {0, 0, 0}, 0.5f, 16, 16))) / (4.0 * 0.5 / 3.14159265358979);
 		EXPECT_NEAR(Scale, 1.0, 0.009) << "a step of sRGB and the driver's approximation of it";
 		return Scale;
 	}
@@ -68,14 +57,8 @@ protected:
 	{
 		FLoadResult Result = LoadScene(Name);
 		EXPECT_TRUE(Result.Scene.has_value()) << Result.Error;
-		if (!Result.Scene)
-		{
-			return false;
-		}
-		for (FHostMaterial& Material : Result.Scene->Materials)
-		{
-			Material.Emissive = glm::vec3(0);
-		}
+		if (!Result.Scene) { return false; }
+		for (FHostMaterial& Material : Result.Scene->Materials) { Material.Emissive = glm::vec3(0); }
 		const bool bLoaded = Load(std::move(*Result.Scene));
 		SetSun(0.0);
 		SetSky(glm::vec3(0));
@@ -106,8 +89,7 @@ TEST_F(FGBufferTest, SponzaUnderSun)
 	REQUIRE_SCENE(Scene, "sponza/Sponza.gltf");
 	const double GreyScale = MeasureGreyScale();
 	ASSERT_TRUE(LoadDark(Scene));
-	ExpectSunAgreement("sponza, sun, Lambert 0.5",
-	                   LookAt({-9, 1.6, -0.4}, {10, 3.2, -1.2}, glm::radians(60.0f), 160, 90), GreyScale);
+	ExpectSunAgreement("sponza, sun, Lambert 0.5", LookAt({-9, 1.6, -0.4}, {10, 3.2, -1.2}, glm::radians(60.0f), 160, 90), GreyScale);
 }
 
 // With textures, normal maps, alpha tests and the full BRDF. The raster filters textures by mip maps, rays take the
@@ -116,8 +98,7 @@ TEST_F(FGBufferTest, CourtyardMaterialsUnderSun)
 {
 	ASSERT_TRUE(LoadDark("courtyard"));
 	const FView View = MakeView(160, 90);
-	ExpectAgreement("courtyard, sun, its materials", RenderLightingFine(View, 4), TraceReference(View, 32, 1), 0.02,
-	                0.02);
+	ExpectAgreement("courtyard, sun, its materials", RenderLightingFine(View, 4), TraceReference(View, 32, 1), 0.02, 0.02);
 }
 
 // Punctual lights over a floor that nothing hides: the same formula in both.
@@ -154,14 +135,11 @@ TEST_F(FGBufferTest, LightsByFormula)
 	const double Albedo = MakeSrgb(190);
 	Lights.AddNode(Lights.AddMesh({FTestScene::MakeFloor(Lights.AddLambert(glm::vec3(MakeSrgb(190))), 8.0f)}));
 	ASSERT_TRUE(Load(std::move(Lights.Scene)));
-	const auto ExpectRadiance = [&](const char* What, double X, double Irradiance)
-	{
+	const auto ExpectRadiance = [&](const char* What, double X, double Irradiance) {
 		const FView View = LookAt({X, 6, 0}, {X, 0, 0}, 0.0005f, 8, 8);
 		const double Expected = Irradiance * Albedo / 3.14159265358979;
-		EXPECT_NEAR(MeanGreen(RenderLighting(View)), Expected, 0.002 * Expected + 1e-6)
-		    << What << ", raster, x = " << X;
-		EXPECT_NEAR(MeanGreen(TraceReference(View, 1, 1)), Expected, 0.002 * Expected + 1e-6)
-		    << What << ", reference, x = " << X;
+		EXPECT_NEAR(MeanGreen(RenderLighting(View)), Expected, 0.002 * Expected + 1e-6) << What << ", raster, x = " << X;
+		EXPECT_NEAR(MeanGreen(TraceReference(View, 1, 1)), Expected, 0.002 * Expected + 1e-6) << What << ", reference, x = " << X;
 	};
 	SetSun(0.0, 4.0f, {1, -2, 0});
 	ExpectRadiance("sun", 0.0, 4.0 * 2.0 / std::sqrt(5.0));
@@ -177,8 +155,7 @@ TEST_F(FGBufferTest, LightsByFormula)
 		for (const double X : {0.0, 1.5, 2.5})
 		{
 			const double Distance2 = X * X + 4.0;
-			const double Window =
-			    Range > 0.0 ? std::clamp(1.0 - std::pow(Distance2 / (Range * Range), 2.0), 0.0, 1.0) : 1.0;
+			const double Window = Range > 0.0 ? std::clamp(1.0 - std::pow(Distance2 / (Range * Range), 2.0), 0.0, 1.0) : 1.0;
 			ExpectRadiance("point", X, 30.0 * Window / Distance2 * 2.0 / std::sqrt(Distance2));
 		}
 	}
@@ -192,8 +169,7 @@ TEST_F(FGBufferTest, LightsByFormula)
 	for (const double Angle : {0.0, 0.25, 0.4, 0.6, 0.75})
 	{
 		const double X = 2.0 * std::tan(Angle), Distance2 = X * X + 4.0;
-		const double Cone =
-		    std::clamp((std::cos(Angle) - std::cos(Outer)) / (std::cos(Inner) - std::cos(Outer)), 0.0, 1.0);
+		const double Cone = std::clamp((std::cos(Angle) - std::cos(Outer)) / (std::cos(Inner) - std::cos(Outer)), 0.0, 1.0);
 		ExpectRadiance("spot", X, 30.0 * Cone * Cone / Distance2 * 2.0 / std::sqrt(Distance2));
 	}
 }
@@ -212,8 +188,7 @@ TEST_F(FGBufferTest, MaterialsUnderSun)
 			Material.Metallic = 0.5f * float(Row);
 			Material.Roughness = 0.15f + 0.2f * float(Column);
 			Material.Ior = 1.3f + 0.2f * float(Column);
-			Quads.push_back(
-			    FTestScene::MakeFloor(Grid.AddMaterial(Material), 0.5f, 0.0f, {float(Column) - 2, float(Row) - 1}));
+			Quads.push_back(FTestScene::MakeFloor(Grid.AddMaterial(Material), 0.5f, 0.0f, {float(Column) - 2, float(Row) - 1}));
 		}
 	}
 	Grid.AddNode(Grid.AddMesh(Quads));

@@ -5,8 +5,8 @@
 
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternHost/VertexPacking.h"
-#include "Support/RenderFixture.h"
 #include "Skinning/RefitQuality.h"
+#include "Support/RenderFixture.h"
 #include "Support/TestScene.h"
 
 namespace Lantern
@@ -28,8 +28,8 @@ FSceneDescription MakeHills(uint32_t Cells)
 			const glm::vec2 At = 20.0f * glm::vec2(X, Z) / float(Cells) - 10.0f;
 			Mesh.Positions.emplace_back(At.x, Height(At.x, At.y), At.y);
 			FVertexAttributes A{};
-			const glm::vec3 N(Height(At.x - 0.01f, At.y) - Height(At.x + 0.01f, At.y), 0.02f,
-			                  Height(At.x, At.y - 0.01f) - Height(At.x, At.y + 0.01f));
+			const glm::vec3 N(
+			    Height(At.x - 0.01f, At.y) - Height(At.x + 0.01f, At.y), 0.02f, Height(At.x, At.y - 0.01f) - Height(At.x, At.y + 0.01f));
 			A.Normal = PackUnitVector(glm::normalize(N));
 			A.Color = ~0u;
 			Mesh.Attributes.push_back(A);
@@ -73,15 +73,11 @@ TEST_F(FGeometryBudgetTest, CompactedStructuresGiveTheSamePicture)
 		SetVariable("r.RT.Build.Compaction", bCompact ? "1" : "0");
 		ASSERT_TRUE(Load(MakeHills(120)));
 		SetSky(glm::vec3(1));
-		for (int Frame = 0; Frame < 5; ++Frame)
-		{
-			(void)TraceReference(View(), 1, 1);
-		}
+		for (int Frame = 0; Frame < 5; ++Frame) { (void)TraceReference(View(), 1, 1); }
 		Pictures[bCompact] = TraceReference(View(), 16, 2);
 		Bytes[bCompact] = GetDevice().GetMemoryStats().Geometry;
 	}
-	PrintFigure(fmt::format("28,800 triangles: {} bytes, compacted {} ({} saved)", Bytes[0], Bytes[1],
-	                        Stats().CompactionSavedBytes));
+	PrintFigure(fmt::format("28,800 triangles: {} bytes, compacted {} ({} saved)", Bytes[0], Bytes[1], Stats().CompactionSavedBytes));
 	EXPECT_LE(Bytes[1], Bytes[0]);
 	EXPECT_EQ(Pictures[0].Pixels, Pictures[1].Pixels);
 }
@@ -98,8 +94,7 @@ TEST_F(FGeometryBudgetTest, CoarserLevelLooksAlikeInLessMemory)
 	const FImage Coarse = TraceReference(View(), 64, 2);
 	EXPECT_EQ(Stats().Coarse, 1u);
 	EXPECT_LE(Stats().LiveBytes + Stats().ScratchBytes, 4u << 20);
-	PrintFigure(fmt::format(
-	    "115,200 triangles: {} bytes; within 4 MiB: {}; mean {:.4f} and {:.4f}, {:.4f} of the pixels differ by a tenth",
+	PrintFigure(fmt::format("115,200 triangles: {} bytes; within 4 MiB: {}; mean {:.4f} and {:.4f}, {:.4f} of the pixels differ by a tenth",
 	    FullBytes, Stats().LiveBytes, MeanGreen(Full), MeanGreen(Coarse), FractionDiffering(Full, Coarse, 0.1)));
 	EXPECT_NEAR(MeanGreen(Coarse) / MeanGreen(Full), 1.0, 0.01);
 	EXPECT_LT(FractionDiffering(Full, Coarse, 0.1), 0.05);
@@ -135,8 +130,8 @@ TEST_F(FGeometryBudgetTest, BuildBudgetFillsThePictureOverFrames)
 // ---------------------------------------------------------------------------------------------------- refit quality
 
 /// Sums by the plain loop.
-FRefitQualitySum MeasureBrute(const std::vector<glm::vec3>& Positions, const std::vector<uint32_t>& Indices,
-                              uint32_t First, uint32_t Triangles)
+FRefitQualitySum MeasureBrute(
+    const std::vector<glm::vec3>& Positions, const std::vector<uint32_t>& Indices, uint32_t First, uint32_t Triangles)
 {
 	FRefitQualitySum Sum{};
 	for (uint32_t Group = 0; Group < Triangles; Group += REFIT_GROUP_TRIANGLES)
@@ -167,8 +162,7 @@ protected:
 	{
 		FUploader Uploader(GetDevice());
 		TRTRef<IRTBuffer> Out;
-		EXPECT_OK(
-		    Uploader.CreateBuffer("Test", ERTBufferUsage::Storage, Values.data(), Values.size() * sizeof(T), Out));
+		EXPECT_OK(Uploader.CreateBuffer("Test", ERTBufferUsage::Storage, Values.data(), Values.size() * sizeof(T), Out));
 		EXPECT_OK(Uploader.Flush());
 		return Out;
 	}
@@ -176,13 +170,12 @@ protected:
 	static FRefitQualitySum Measure(FRefitQualityConstants C)
 	{
 		IRTPipeline* Pipeline = nullptr;
-		EXPECT_OK(GetEngine().GetRenderer().GetPipelines().GetCompute(
-		    {"Skinning/RefitQuality.comp", ERTShaderStage::Compute, {}, {}}, Pipeline));
+		EXPECT_OK(
+		    GetEngine().GetRenderer().GetPipelines().GetCompute({"Skinning/RefitQuality.comp", ERTShaderStage::Compute, {}, {}}, Pipeline));
 		const uint32_t Groups = FRefitQuality::CountGroups(C.TriangleCount);
 		TRTRef<IRTBuffer> Results;
 		EXPECT_OK(GetDevice().CreateBuffer(
-		    {Groups * sizeof(FRefitQualitySum), ERTBufferUsage::Storage, ERTMemory::Readback, "Sums"},
-		    Results.ReleaseAndGetAddress()));
+		    {Groups * sizeof(FRefitQualitySum), ERTBufferUsage::Storage, ERTMemory::Readback, "Sums"}, Results.ReleaseAndGetAddress()));
 		C.Sums = Results->GetDeviceAddress();
 		TRTRef<IRTCommandList> List;
 		EXPECT_OK(GetDevice().CreateCommandList("Measure", List.ReleaseAndGetAddress()));
@@ -226,15 +219,9 @@ TEST_F(FRefitQualityTest, ShaderEqualsThePlainLoop)
 	std::mt19937 Random(3);
 	std::uniform_real_distribution<float> Uniform(-2.0f, 5.0f);
 	std::vector<glm::vec3> Positions(1000);
-	for (glm::vec3& P : Positions)
-	{
-		P = {Uniform(Random), Uniform(Random), Uniform(Random)};
-	}
+	for (glm::vec3& P : Positions) { P = {Uniform(Random), Uniform(Random), Uniform(Random)}; }
 	std::vector<uint32_t> Indices(3 * 4000 + 6);
-	for (uint32_t& Index : Indices)
-	{
-		Index = Random() % 1000;
-	}
+	for (uint32_t& Index : Indices) { Index = Random() % 1000; }
 	const std::vector<uint16_t> Short(Indices.begin(), Indices.end());
 	const TRTRef<IRTBuffer> P = Upload(Positions), Long32 = Upload(Indices), Short16 = Upload(Short);
 	for (const bool b16 : {false, true})
@@ -274,8 +261,7 @@ TEST_F(FRefitQualityTest, LooseFiguresAreRebuilt)
 		Counts[I] = GetRebuilds();
 		Pictures[I] = RenderSunShadow(MakeView(64, 48), 1, 0, 2.0);
 	}
-	PrintFigure(
-	    fmt::format("brainstem, 20 frames: {} rebuilds, {} above 1.02, {} above 2", Counts[0], Counts[1], Counts[2]));
+	PrintFigure(fmt::format("brainstem, 20 frames: {} rebuilds, {} above 1.02, {} above 2", Counts[0], Counts[1], Counts[2]));
 	EXPECT_EQ(Counts[0], 0u);
 	EXPECT_GT(Counts[1], 0u);
 	EXPECT_LT(Counts[2], Counts[1]);

@@ -51,10 +51,7 @@ void main()
 }
 )";
 	Source.Defines.emplace_back("PIXELS_PER_QUAD", fmt::format("{:.1f}", float(PixelsPerQuad)));
-	if (bCallable)
-	{
-		Source.Defines.emplace_back("CALLABLE", "1");
-	}
+	if (bCallable) { Source.Defines.emplace_back("CALLABLE", "1"); }
 	return Source;
 }
 
@@ -77,14 +74,8 @@ FSceneDescription MakeWall(bool bMasked)
 	Quad.Name = "Quad";
 	Quad.Positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 	Quad.Attributes.resize(4);
-	for (FVertexAttributes& Vertex : Quad.Attributes)
-	{
-		Vertex.Color = ~0u;
-	}
-	for (uint32_t Corner = 0; Corner < 4; ++Corner)
-	{
-		Quad.Attributes[Corner].UV0 = glm::vec2(Quad.Positions[Corner]);
-	}
+	for (FVertexAttributes& Vertex : Quad.Attributes) { Vertex.Color = ~0u; }
+	for (uint32_t Corner = 0; Corner < 4; ++Corner) { Quad.Attributes[Corner].UV0 = glm::vec2(Quad.Positions[Corner]); }
 	Quad.Indices = {0, 1, 2, 0, 2, 3};
 	Quad.Sections = {{0, 6, 0}};
 	Quad.BoundsMax = {1, 1, 0};
@@ -110,7 +101,7 @@ std::string MakeText(double Blue, const char* More = "")
 	                   "FMaterialSurface EvaluateMaterial(FMaterialData M, FMaterialInputs I, uint Override)\n"
 	                   "{{\n\tFMaterialSurface S = EvaluateStandard(M, I, Override);\n\tS.BaseColor.b = "
 	                   "{:.4f};\n\t{}\n\treturn S;\n}}\n",
-	                   Blue, More);
+	    Blue, More);
 }
 
 class FMaterialProgramTest : public FRenderTest
@@ -144,10 +135,7 @@ protected:
 		TRTRef<IRTBuffer> Buffer;
 		const FRTBufferDesc Desc{uint64_t(Width) * Height * 16, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Trace"};
 		ASSERT_OK(GetDevice().CreateBuffer(Desc, Buffer.ReleaseAndGetAddress()));
-		if (bTraced)
-		{
-			AddTrace(Context, RayGen, Buffer.Get());
-		}
+		if (bTraced) { AddTrace(Context, RayGen, Buffer.Get()); }
 		ASSERT_OK(Renderer().EndFrame(nullptr));
 		ASSERT_OK(Renderer().WaitForAll());
 		const auto* const Texels = static_cast<const glm::vec4*>(Buffer->GetMapped());
@@ -159,28 +147,22 @@ protected:
 		const FGraphTexture Target = Graph.CreateTexture({Width, Height, ERTFormat::RGBA32_FLOAT}, "Trace");
 		const FGraphBuffer Readback = Graph.ImportBuffer(Buffer, ERTAccess::None, ERTAccess::HostRead, "Trace");
 		const FFrameContext* const Frame = &Context;
-		Graph.AddPass("Trace",
-		              [&](FPassBuilder& Builder) -> FPassExecute
-		              {
-			              Builder.Write(Target, ERTAccess::StorageWrite);
-			              return [=](FPassContext& Pass)
-			              {
-				              const FTracePush Push{Frame->Pass, Pass.GetTexture(Target)->GetStorageIndex()};
-				              Pass.Commands().SetPipeline(Frame->RayPipeline->GetPipeline());
-				              Pass.Commands().PushConstants(&Push, sizeof(Push));
-				              Pass.Commands().TraceRays(Frame->RayBindings->GetTable(), RayGen, Width, Height, 1);
-			              };
-		              });
-		Graph.AddPass("ReadTrace",
-		              [&](FPassBuilder& Builder) -> FPassExecute
-		              {
-			              Builder.Read(Target, ERTAccess::CopyRead);
-			              Builder.Write(Readback, ERTAccess::CopyWrite);
-			              return [=](FPassContext& Pass) {
-				              Pass.Commands().CopyTextureToBuffer(Pass.GetBuffer(Readback), 0, Pass.GetTexture(Target),
-				                                                  0, 0);
-			              };
-		              });
+		Graph.AddPass("Trace", [&](FPassBuilder& Builder) -> FPassExecute {
+			Builder.Write(Target, ERTAccess::StorageWrite);
+			return [=](FPassContext& Pass) {
+				const FTracePush Push{Frame->Pass, Pass.GetTexture(Target)->GetStorageIndex()};
+				Pass.Commands().SetPipeline(Frame->RayPipeline->GetPipeline());
+				Pass.Commands().PushConstants(&Push, sizeof(Push));
+				Pass.Commands().TraceRays(Frame->RayBindings->GetTable(), RayGen, Width, Height, 1);
+			};
+		});
+		Graph.AddPass("ReadTrace", [&](FPassBuilder& Builder) -> FPassExecute {
+			Builder.Read(Target, ERTAccess::CopyRead);
+			Builder.Write(Readback, ERTAccess::CopyWrite);
+			return [=](FPassContext& Pass) {
+				Pass.Commands().CopyTextureToBuffer(Pass.GetBuffer(Readback), 0, Pass.GetTexture(Target), 0, 0);
+			};
+		});
 	}
 	/// Frames that wait for nothing, until Condition holds: as many as the compiler needs, which depends on the machine.
 	/// Once it has been idle for some frames running, what is not there will never come.
@@ -189,16 +171,14 @@ protected:
 		constexpr int EnoughIdleFrames = 30;
 		int Idle = 0;
 		const auto IsOver = [&] { return Condition() || Idle >= EnoughIdleFrames; };
-		const auto Frame = [&]
-		{
+		const auto Frame = [&] {
 			ASSERT_NO_FATAL_FAILURE(Trace(false));
 			Idle = Renderer().GetRayCompiler().GetStats().bBusy ? 0 : Idle + 1;
 		};
-		const auto Describe = [&]
-		{
+		const auto Describe = [&] {
 			const FRTPSOCompilerStats& Stats = Renderer().GetRayCompiler().GetStats();
-			return fmt::format("{} of {} shader groups compiled, {} pipelines used, {:.1f} s for the last one's first use",
-			                   Stats.Ready, Stats.Wanted, Stats.Links, 1e-3 * Stats.LastSwapMs);
+			return fmt::format("{} of {} shader groups compiled, {} pipelines used, {:.1f} s for the last one's first use", Stats.Ready,
+			    Stats.Wanted, Stats.Links, 1e-3 * Stats.LastSwapMs);
 		};
 		Frame();
 		ASSERT_TRUE(WaitUntil("material programs", IsOver, Frame, Describe));
@@ -256,59 +236,47 @@ TEST_F(FMaterialProgramTest, StandInsServeUntilProgramsAreThere)
 	std::vector<FHitProgram> Programs;
 	for (uint32_t Index = 0; Index < Columns * Rows; ++Index)
 	{
-		Programs.push_back(
-		    {AddProgram("Late" + std::to_string(Index), MakeText(0.5 + Index / 128.0)), ERTHitClass::Opaque});
+		Programs.push_back({AddProgram("Late" + std::to_string(Index), MakeText(0.5 + Index / 128.0)), ERTHitClass::Opaque});
 		World().SetMaterialProgram(Index, Programs.back().Program);
 	}
-	const auto IsReady = [&](FHitProgram Program)
-	{ return Renderer().GetRayPipeline()->GetState(Program) == ERTHitState::Ready; };
+	const auto IsReady = [&](FHitProgram Program) { return Renderer().GetRayPipeline()->GetState(Program) == ERTHitState::Ready; };
 	// In every frame each quad shows its own colour or the stand-in's, just as the frame's RTPSO says; there are no holes.
-	ASSERT_NO_FATAL_FAILURE(TraceUntil(
-	    [&]
-	    {
-		    for (uint32_t Index = 0; Index < Programs.size() && !HasFatalFailure(); ++Index)
-		    {
-			    ExpectQuad(Index, IsReady(Programs[Index]) ? 0.5 + Index / 128.0 : 0.0);
-		    }
-		    return HasFatalFailure() || std::all_of(Programs.begin(), Programs.end(), IsReady);
-	    }));
+	ASSERT_NO_FATAL_FAILURE(TraceUntil([&] {
+		for (uint32_t Index = 0; Index < Programs.size() && !HasFatalFailure(); ++Index)
+		{
+			ExpectQuad(Index, IsReady(Programs[Index]) ? 0.5 + Index / 128.0 : 0.0);
+		}
+		return HasFatalFailure() || std::all_of(Programs.begin(), Programs.end(), IsReady);
+	}));
 }
 
 TEST_F(FMaterialProgramTest, SkippedOnesAreLeftOutUntilTheyAreThere)
 {
 	ASSERT_NO_FATAL_FAILURE(LoadWall());
 	SetVariable("r.RT.Pipeline.Fallback", "0");
-	ASSERT_NO_FATAL_FAILURE(
-	    TraceUntil([&] { return bTraced && At(5).a > 0.0f && !Renderer().GetRayCompiler().GetStats().bBusy; }));
+	ASSERT_NO_FATAL_FAILURE(TraceUntil([&] { return bTraced && At(5).a > 0.0f && !Renderer().GetRayCompiler().GetStats().bBusy; }));
 	const FHitProgram Program{AddProgram("Skipped", MakeText(0.75)), ERTHitClass::Opaque};
 	World().SetMaterialProgram(5, Program.Program);
-	ASSERT_NO_FATAL_FAILURE(TraceUntil(
-	    [&]
-	    {
-		    const bool bReady = Renderer().GetRayPipeline()->GetState(Program) == ERTHitState::Ready;
-		    ExpectQuad(5, bReady ? 0.75 : -1.0);
-		    ExpectQuad(6, 0.0);
-		    return bReady || HasFatalFailure();
-	    }));
+	ASSERT_NO_FATAL_FAILURE(TraceUntil([&] {
+		const bool bReady = Renderer().GetRayPipeline()->GetState(Program) == ERTHitState::Ready;
+		ExpectQuad(5, bReady ? 0.75 : -1.0);
+		ExpectQuad(6, 0.0);
+		return bReady || HasFatalFailure();
+	}));
 }
 
 TEST_F(FMaterialProgramTest, RaysThatHitAStandInAreCounted)
 {
 	ASSERT_NO_FATAL_FAILURE(LoadWall());
 	const uint32_t Broken = AddProgram("BrokenForEver", "nonsense\n");
-	for (const uint32_t Index : {3u, 9u, 10u})
-	{
-		World().SetMaterialProgram(Index, Broken);
-	}
-	const auto GetHits = [&]
-	{
+	for (const uint32_t Index : {3u, 9u, 10u}) { World().SetMaterialProgram(Index, Broken); }
+	const auto GetHits = [&] {
 		const std::vector<FProgramPriority>& Priorities = Renderer().GetProgramPriorities();
 		return Broken < Priorities.size() ? Priorities[Broken].StandInHits : 0u;
 	};
 	ASSERT_NO_FATAL_FAILURE(TraceUntil([&] { return bTraced && GetHits() > 0; }));
 	EXPECT_EQ(GetHits(), 3u * PixelsPerQuad * PixelsPerQuad);
-	EXPECT_NEAR(Renderer().GetProgramPriorities()[Broken].Distance, glm::distance(glm::dvec3(3, 0, 0), View.Position),
-	            3.0);
+	EXPECT_NEAR(Renderer().GetProgramPriorities()[Broken].Distance, glm::distance(glm::dvec3(3, 0, 0), View.Position), 3.0);
 	ExpectQuad(3, 0.0);
 	// Nothing to count where everything is there.
 	World().SetMaterialProgram(3, StandardProgram);
@@ -324,12 +292,10 @@ TEST_F(FMaterialProgramTest, AlphaTestsAreTheProgramsOwn)
 	// By opacity: the left half of the quad is cut away.
 	World().SetMaterialProgram(1, AddProgram("HalfOpacity", MakeText(0.25, "S.Opacity = I.UV0.x < 0.5 ? 0.0 : 1.0;")));
 	// By a test of its own: the upper half.
-	World().SetMaterialProgram(
-	    2, AddProgram("HalfTest",
-	                  MakeText(0.25) +
-	                      "#define MATERIAL_HAS_ALPHA_TEST\n"
-	                      "bool IsHitCutAway(FMaterialRef Materials, FSectionData Section, uint Primitive, vec2 B)\n"
-	                      "{ return FetchInputs(Section, Primitive, B).UV0.y > 0.5; }\n"));
+	World().SetMaterialProgram(2,
+	    AddProgram("HalfTest", MakeText(0.25) + "#define MATERIAL_HAS_ALPHA_TEST\n"
+	                                            "bool IsHitCutAway(FMaterialRef Materials, FSectionData Section, uint Primitive, vec2 B)\n"
+	                                            "{ return FetchInputs(Section, Primitive, B).UV0.y > 0.5; }\n"));
 	// The standard's, as it is.
 	World().SetMaterialProgram(3, AddProgram("Plain", "#define MATERIAL_STANDARD_OPACITY\n" + MakeText(0.25)));
 	ASSERT_NO_FATAL_FAILURE(Trace(true));
@@ -360,14 +326,8 @@ TEST_F(FMaterialProgramTest, EditIsSeenAndABadEditIsNot)
 TEST_F(FMaterialProgramTest, RasterAndRaysRunTheSameProgram)
 {
 	FSceneDescription Wall = MakeWall(false);
-	for (FHostMaterial& Material : Wall.Materials)
-	{
-		Material.BaseColor = glm::vec4(1.0f, 0.5f, 0.0f, 1.0f);
-	}
-	for (const uint32_t Index : {10u, 12u, 21u})
-	{
-		Wall.Materials[Index].Program = "Materials/Checker.glsl";
-	}
+	for (FHostMaterial& Material : Wall.Materials) { Material.BaseColor = glm::vec4(1.0f, 0.5f, 0.0f, 1.0f); }
+	for (const uint32_t Index : {10u, 12u, 21u}) { Wall.Materials[Index].Program = "Materials/Checker.glsl"; }
 	ASSERT_TRUE(Load(std::move(Wall)));
 	SetSky(glm::vec3(0));
 	constexpr uint32_t Size = 64;
@@ -376,20 +336,15 @@ TEST_F(FMaterialProgramTest, RasterAndRaysRunTheSameProgram)
 	TRTRef<IRTBuffer> Buffer;
 	const FRTBufferDesc Desc{Size * Size * 4, ERTBufferUsage::CopyDest, ERTMemory::Readback, "BaseColor"};
 	ASSERT_OK(GetDevice().CreateBuffer(Desc, Buffer.ReleaseAndGetAddress()));
-	GetEngine().ExtraPasses = [&](FFrameContext& Context, const FGBuffer& GBuffer, const FFrameOutputs&)
-	{
-		const FGraphBuffer Readback =
-		    Context.Graph.ImportBuffer(Buffer.Get(), ERTAccess::None, ERTAccess::HostRead, "BaseColor");
-		Context.Graph.AddPass("ReadBaseColor",
-		                      [&](FPassBuilder& Builder) -> FPassExecute
-		                      {
-			                      Builder.Read(GBuffer.BaseColor, ERTAccess::CopyRead);
-			                      Builder.Write(Readback, ERTAccess::CopyWrite);
-			                      return [=](FPassContext& Pass) {
-				                      Pass.Commands().CopyTextureToBuffer(Pass.GetBuffer(Readback), 0,
-				                                                          Pass.GetTexture(GBuffer.BaseColor), 0, 0);
-			                      };
-		                      });
+	GetEngine().ExtraPasses = [&](FFrameContext& Context, const FGBuffer& GBuffer, const FFrameOutputs&) {
+		const FGraphBuffer Readback = Context.Graph.ImportBuffer(Buffer.Get(), ERTAccess::None, ERTAccess::HostRead, "BaseColor");
+		Context.Graph.AddPass("ReadBaseColor", [&](FPassBuilder& Builder) -> FPassExecute {
+			Builder.Read(GBuffer.BaseColor, ERTAccess::CopyRead);
+			Builder.Write(Readback, ERTAccess::CopyWrite);
+			return [=](FPassContext& Pass) {
+				Pass.Commands().CopyTextureToBuffer(Pass.GetBuffer(Readback), 0, Pass.GetTexture(GBuffer.BaseColor), 0, 0);
+			};
+		});
 	};
 	ASSERT_OK(GetEngine().RenderFrame(View, 0.0, {}, nullptr));
 	ASSERT_OK(Renderer().WaitForAll());
@@ -397,16 +352,12 @@ TEST_F(FMaterialProgramTest, RasterAndRaysRunTheSameProgram)
 	uint32_t Dark = 0;
 	for (uint32_t Index = 0; Index < Columns * Rows; ++Index)
 	{
-		for (const glm::vec2 Place :
-		     {glm::vec2(0.25f, 0.25f), glm::vec2(0.75f, 0.25f), glm::vec2(0.25f, 0.75f), glm::vec2(0.75f, 0.75f)})
+		for (const glm::vec2 Place : {glm::vec2(0.25f, 0.25f), glm::vec2(0.75f, 0.25f), glm::vec2(0.25f, 0.75f), glm::vec2(0.75f, 0.75f)})
 		{
 			const glm::vec2 World = glm::vec2(Index % Columns, Index / Columns) + Place;
 			const glm::vec2 Ndc = (World - glm::vec2(4, 2)) / (5.0f * std::tan(0.5f));
 			const glm::ivec2 Pixel((Ndc.x + 1.0f) * 0.5f * Size, (1.0f - Ndc.y) * 0.5f * Size);
-			if (Pixel.x < 0 || Pixel.x >= int(Size))
-			{
-				continue;
-			}
+			if (Pixel.x < 0 || Pixel.x >= int(Size)) { continue; }
 			const bool bDark = Bytes[(size_t(Pixel.y) * Size + size_t(Pixel.x)) * 4] < 200;
 			const glm::vec4 Traced = At(Index, uint32_t(Place.x * PixelsPerQuad), uint32_t(Place.y * PixelsPerQuad));
 			ASSERT_EQ(bDark, Traced.r < 0.5f) << "quad " << Index << " at " << Place.x << ", " << Place.y;
@@ -419,12 +370,8 @@ TEST_F(FMaterialProgramTest, RasterAndRaysRunTheSameProgram)
 TEST_F(FMaterialProgramTest, CallablesAreCalledByTheirIndex)
 {
 	ASSERT_NO_FATAL_FAILURE(LoadWall());
-	ASSERT_NO_FATAL_FAILURE(
-	    Trace(true, {MakeCallable("First", "Data.b = 0.25;"), MakeCallable("Second", "Data.b = 0.5;")}));
-	for (uint32_t Index = 0; Index < Columns * Rows; ++Index)
-	{
-		ExpectQuad(Index, Index % Columns < Columns / 2 ? 0.25 : 0.5);
-	}
+	ASSERT_NO_FATAL_FAILURE(Trace(true, {MakeCallable("First", "Data.b = 0.25;"), MakeCallable("Second", "Data.b = 0.5;")}));
+	for (uint32_t Index = 0; Index < Columns * Rows; ++Index) { ExpectQuad(Index, Index % Columns < Columns / 2 ? 0.25 : 0.5); }
 }
 
 TEST_F(FMaterialProgramTest, ProceduralGeometryHasTheShapeOfItsProgram)
@@ -434,8 +381,7 @@ TEST_F(FMaterialProgramTest, ProceduralGeometryHasTheShapeOfItsProgram)
 	const float Box[6] = {2, 0, 0, 6, 4, 4};
 	FRTGeometryInfo Info;
 	Info.Name = "Ball";
-	const FRTBufferDesc Desc{sizeof(Box), ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput, ERTMemory::Upload,
-	                         "Ball"};
+	const FRTBufferDesc Desc{sizeof(Box), ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput, ERTMemory::Upload, "Ball"};
 	ASSERT_OK(GetDevice().CreateBuffer(Desc, Info.Aabbs.ReleaseAndGetAddress()));
 	std::memcpy(Info.Aabbs->GetMapped(), Box, sizeof(Box));
 	FRTSectionInfo Section;
@@ -446,8 +392,8 @@ TEST_F(FMaterialProgramTest, ProceduralGeometryHasTheShapeOfItsProgram)
 	ASSERT_OK(World().CreateGeometry(std::move(Info), Geometry));
 	FMaterialData Material = World().GetMaterials()[0];
 	Material.BaseColor = glm::vec4(0.5f, 0.5f, 0.0f, 1.0f);
-	const uint32_t Program = Renderer().GetPrograms().Add(
-	    {.Name = "Ball", .Text = MakeText(0.625), .IntersectionPath = "Rays/Ellipsoid.rint"});
+	const uint32_t Program =
+	    Renderer().GetPrograms().Add({.Name = "Ball", .Text = MakeText(0.625), .IntersectionPath = "Rays/Ellipsoid.rint"});
 	FRTObjectInfo Object;
 	Object.Geometry = Geometry;
 	Object.Materials = {World().AddMaterial(Material, Program)};

@@ -4,8 +4,8 @@
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "LanternImage/ImageStatistics.h"
 #include "LanternHost/VertexPacking.h"
+#include "LanternImage/ImageStatistics.h"
 #include "Support/RenderFixture.h"
 #include "Support/TestScene.h"
 
@@ -29,13 +29,10 @@ protected:
 		    FTestScene::MakeFloor(Grey, 1.5f),
 		    {Red, {{1.5f, 0, 1.5f}, {1.5f, 0, -1.5f}, {1.5f, 1, -1.5f}, {1.5f, 1, 1.5f}}},        // faces −x
 		    {Grey, {{-1.5f, 0, -1.5f}, {-0.5f, 0, -1.5f}, {-0.5f, 2, -1.5f}, {-1.5f, 2, -1.5f}}}, // faces +z
-		    {Grey, {{-1.0f, 0, 1.0f}, {-1.0f, 1, 1.0f}, {0.0f, 1, 1.2f}, {0.0f, 0, 1.2f}}}, // shows its back: culled
+		    {Grey, {{-1.0f, 0, 1.0f}, {-1.0f, 1, 1.0f}, {0.0f, 1, 1.2f}, {0.0f, 0, 1.2f}}},       // shows its back: culled
 		    {Light, {{0.2f, 0.2f, -1.0f}, {1.0f, 0.2f, -1.2f}, {1.0f, 0.9f, -1.2f}, {0.2f, 0.9f, -1.0f}}},
 		});
-		if (!bByTransform)
-		{
-			Corner.Scene.Meshes[0] = MakeMirrored(std::move(Corner.Scene.Meshes[0]));
-		}
+		if (!bByTransform) { Corner.Scene.Meshes[0] = MakeMirrored(std::move(Corner.Scene.Meshes[0])); }
 		Corner.AddNode(Mesh, bByTransform ? glm::scale(glm::dmat4(1), {-1, 1, 1}) : glm::dmat4(1));
 		return Load(std::move(Corner.Scene));
 	}
@@ -81,8 +78,8 @@ TEST_F(FMirroredTest, ReferenceEqualsMirroredVertices)
 	EXPECT_GT(ComputeMeans(Seen[0]).MaxLuminance, 2.0) << "the emitter must be seen from its front";
 	EXPECT_LE(FractionDiffering(Seen[0], Seen[1], 1e-3), 0.002);
 	const double Sigma = std::hypot(Emission[0].StandardError, Emission[1].StandardError);
-	PrintFigure(fmt::format("mirrored emitter: {:.5f} by vertices, {:.5f} by transform (statistical error {:.5f})",
-	                        Emission[0].Mean, Emission[1].Mean, Sigma));
+	PrintFigure(fmt::format(
+	    "mirrored emitter: {:.5f} by vertices, {:.5f} by transform (statistical error {:.5f})", Emission[0].Mean, Emission[1].Mean, Sigma));
 	EXPECT_NEAR(Emission[0].Mean, Emission[1].Mean, 3.5 * Sigma);
 	EXPECT_LT(Sigma, 0.01 * Emission[0].Mean);
 	EXPECT_NEAR(MeanGreen(Sun[0]), MeanGreen(Sun[1]), 0.01 * MeanGreen(Sun[0]));
@@ -145,10 +142,7 @@ FSceneDescription MakeRibbon()
 			Weights.Weights[J] = 1.0f / (0.1f + std::abs(P.y - float(3 - J)));
 			Sum += Weights.Weights[J];
 		}
-		for (float& Weight : Weights.Weights)
-		{
-			Weight /= Sum;
-		}
+		for (float& Weight : Weights.Weights) { Weight /= Sum; }
 		Host.Skin.push_back(Weights);
 	}
 	FHostSkin Skin;
@@ -166,8 +160,7 @@ FSceneDescription MakeRibbon()
 		Channel.Node = Skin.Joints.back();
 		Channel.Path = EAnimationPath::Rotation;
 		Channel.Times = {0.0f, 2.0f};
-		const glm::quat Turn =
-		    glm::angleAxis(0.5f + 0.2f * float(J), glm::normalize(glm::vec3(J % 2, 0.3f, 1 - J % 2)));
+		const glm::quat Turn = glm::angleAxis(0.5f + 0.2f * float(J), glm::normalize(glm::vec3(J % 2, 0.3f, 1 - J % 2)));
 		Channel.Values = {{0, 0, 0, 1}, {Turn.x, Turn.y, Turn.z, Turn.w}};
 		Animation.Channels.push_back(Channel);
 		Scene.Nodes.push_back(Joint);
@@ -187,10 +180,7 @@ FSceneDescription BakeRibbon(double Time)
 	for (size_t I = 0; I < Mesh.Positions.size(); ++I)
 	{
 		glm::mat4 M(0);
-		for (int J = 0; J < 4; ++J)
-		{
-			M += Mesh.Skin[I].Weights[J] * Joints[Mesh.Skin[I].Joints[J]];
-		}
+		for (int J = 0; J < 4; ++J) { M += Mesh.Skin[I].Weights[J] * Joints[Mesh.Skin[I].Joints[J]]; }
 		Mesh.Positions[I] = glm::vec3(M * glm::vec4(Mesh.Positions[I], 1));
 		const glm::vec3 Normal = glm::inverseTranspose(glm::mat3(M)) * UnpackUnitVector(Mesh.Attributes[I].Normal);
 		Mesh.Attributes[I].Normal = PackUnitVector(glm::normalize(Normal));
@@ -243,22 +233,15 @@ TEST_F(FSkinnedTest, RasterSilhouetteEqualsReference)
 			// 16 samples all miss what covers 40 % of a pixel once in 3,500 times.
 			const float Sky = Reference.Pixels[3 * I];
 			Inside += Sky == 0.0f ? 1 : 0;
-			Wrong +=
-			    (Sky == 0.0f && Raster.Pixels[3 * I] > 0.4f) || (Sky == 1.0f && Raster.Pixels[3 * I] < 0.6f) ? 1 : 0;
+			Wrong += (Sky == 0.0f && Raster.Pixels[3 * I] > 0.4f) || (Sky == 1.0f && Raster.Pixels[3 * I] < 0.6f) ? 1 : 0;
 		}
-		PrintFigure(fmt::format("brainstem at {} s: {} pixels inside, {} wrong, covers {:.4f} and {:.4f}", Time, Inside,
-		                        Wrong, 1.0 - MeanGreen(Raster), 1.0 - MeanGreen(Reference)));
+		PrintFigure(fmt::format("brainstem at {} s: {} pixels inside, {} wrong, covers {:.4f} and {:.4f}", Time, Inside, Wrong,
+		    1.0 - MeanGreen(Raster), 1.0 - MeanGreen(Reference)));
 		EXPECT_GT(Inside, 500u);
 		EXPECT_LE(Wrong, 2u);
 		EXPECT_NEAR(MeanGreen(Raster), MeanGreen(Reference), 0.002);
-		if (Time > 0.0)
-		{
-			EXPECT_GT(FractionDiffering(First, Raster, 0.5), 0.01) << "it must have moved";
-		}
-		else
-		{
-			First = Raster;
-		}
+		if (Time > 0.0) { EXPECT_GT(FractionDiffering(First, Raster, 0.5), 0.01) << "it must have moved"; }
+		else { First = Raster; }
 	}
 }
 
@@ -273,10 +256,7 @@ TEST_F(FSkinnedTest, RefitEqualsRebuild)
 		SetSun(0.0, 4.0f, {0.25, -1, -0.6});
 		SetVariable("r.RT.Skinning.RebuildInterval", bRebuild ? "1" : "1000");
 		const FView View = MakeView(128, 96);
-		for (int Frame = 0; Frame < 20; ++Frame)
-		{
-			ASSERT_OK(GetEngine().RenderFrame(View, 0.1 * Frame, {}, nullptr));
-		}
+		for (int Frame = 0; Frame < 20; ++Frame) { ASSERT_OK(GetEngine().RenderFrame(View, 0.1 * Frame, {}, nullptr)); }
 		Pictures[bRebuild] = RenderSunShadow(View, 1, 0, 2.0);
 	}
 	const double Mean = ComputeMeans(Pictures[0]).Channel[0];
@@ -296,17 +276,12 @@ TEST_F(FSkinnedTest, ShadowsFollowThePose)
 	const FImage Raster = RenderLightingFine(View, 6, 3.1);
 	const FImage Reference = TraceReference(View, 64, 1, 3.1);
 	const FImage Stale = TraceReference(View, 32, 1, 2.6);
-	const auto Error = [&](const FImage& Other)
-	{
+	const auto Error = [&](const FImage& Other) {
 		double Sum = 0.0;
-		for (size_t I = 0; I < Raster.Pixels.size(); ++I)
-		{
-			Sum += std::abs(Raster.Pixels[I] - Other.Pixels[I]);
-		}
+		for (size_t I = 0; I < Raster.Pixels.size(); ++I) { Sum += std::abs(Raster.Pixels[I] - Other.Pixels[I]); }
 		return Sum / double(Raster.Pixels.size()) / MeanGreen(Reference);
 	};
-	PrintFigure(fmt::format("brainstem under sun: mean difference {:.4f}, half a second earlier {:.4f}",
-	                        Error(Reference), Error(Stale)));
+	PrintFigure(fmt::format("brainstem under sun: mean difference {:.4f}, half a second earlier {:.4f}", Error(Reference), Error(Stale)));
 	// Edges of a model this fine leave the noise of 36 and 64 samples in most of its pixels.
 	EXPECT_LT(Error(Reference), 0.08);
 	EXPECT_GT(Error(Stale), 5.0 * Error(Reference));

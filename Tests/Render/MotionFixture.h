@@ -42,24 +42,20 @@ protected:
 	static std::vector<T> Take(IRTBuffer* Buffer, const FView& View)
 	{
 		std::vector<T> Out(size_t(View.Width) * View.Height);
-		if (Buffer)
-		{
-			std::memcpy(Out.data(), Buffer->GetMapped(), Out.size() * sizeof(T));
-		}
+		if (Buffer) { std::memcpy(Out.data(), Buffer->GetMapped(), Out.size() * sizeof(T)); }
 		return Out;
 	}
 	/// One frame, and its motion. bOwnRaster: with a raster that makes none, whose depth the camera's motion is from.
 	static FMotionPicture Render(const FView& View, double Time = 0.0, bool bOwnRaster = false);
 
 	/// The host's, to 1/100 of a pixel. Before: Now itself where nothing is carried over.
-	static void ExpectExact(const char* What, const FMotionSnapshot& Before, const FMotionSnapshot& Now,
-	                        const FMotionPicture& Picture)
+	static void ExpectExact(const char* What, const FMotionSnapshot& Before, const FMotionSnapshot& Now, const FMotionPicture& Picture)
 	{
 		ExpectExact(What, Before, Now, Picture, Picture.OfHost);
 	}
 	/// Motion: of that picture.
-	static void ExpectExact(const char* What, const FMotionSnapshot& Before, const FMotionSnapshot& Now,
-	                        const FMotionPicture& Picture, const std::vector<glm::vec4>& Motion);
+	static void ExpectExact(const char* What, const FMotionSnapshot& Before, const FMotionSnapshot& Now, const FMotionPicture& Picture,
+	    const std::vector<glm::vec4>& Motion);
 };
 
 } // namespace Lantern

@@ -8,8 +8,7 @@ namespace Lantern
 
 namespace
 {
-std::vector<glm::dvec3> FindPositions(const FHostMesh& Mesh, const std::vector<glm::mat4>& Joints,
-                                      const glm::dmat4& Transform)
+std::vector<glm::dvec3> FindPositions(const FHostMesh& Mesh, const std::vector<glm::mat4>& Joints, const glm::dmat4& Transform)
 {
 	std::vector<glm::dvec3> Out;
 	for (size_t I = 0; I < Mesh.Positions.size(); ++I)
@@ -34,8 +33,8 @@ struct FHit
 };
 
 /// Cramer's rule on Origin + t · Ray = A + v · (B − A) + w · (C − A). Backs of single-sided materials are not seen.
-void Intersect(const glm::dvec3& Origin, const glm::dvec3& Ray, const FMotionSnapshot::FObject& Object,
-               const FSceneDescription& Scene, FHit& Hit)
+void Intersect(
+    const glm::dvec3& Origin, const glm::dvec3& Ray, const FMotionSnapshot::FObject& Object, const FSceneDescription& Scene, FHit& Hit)
 {
 	for (const FHostSection& Section : Object.Mesh->Sections)
 	{
@@ -43,22 +42,15 @@ void Intersect(const glm::dvec3& Origin, const glm::dvec3& Ray, const FMotionSna
 		for (size_t I = Section.FirstIndex; I < Section.FirstIndex + Section.IndexCount; I += 3)
 		{
 			const glm::dvec3& A = Object.Positions[Object.Mesh->Indices[I]];
-			const glm::dvec3 B = Object.Positions[Object.Mesh->Indices[I + 1]] - A,
-			                 C = Object.Positions[Object.Mesh->Indices[I + 2]] - A;
+			const glm::dvec3 B = Object.Positions[Object.Mesh->Indices[I + 1]] - A, C = Object.Positions[Object.Mesh->Indices[I + 2]] - A;
 			const glm::dvec3 Normal = glm::cross(B, C);
 			const double Volume = glm::dot(Normal, Ray), Area2 = glm::dot(Normal, Normal);
 			const bool bFront = (Volume < 0.0) != Object.bMirrored;
-			if (Volume == 0.0 || (!bFront && !bDoubleSided))
-			{
-				continue;
-			}
+			if (Volume == 0.0 || (!bFront && !bDoubleSided)) { continue; }
 			const double T = -glm::dot(Normal, Origin - A) / Volume;
 			const glm::dvec3 P = Origin + T * Ray - A;
 			const double V = glm::dot(glm::cross(P, C), Normal) / Area2, W = glm::dot(glm::cross(B, P), Normal) / Area2;
-			if (T <= Hit.Nearest || T >= Hit.Distance || V < 0.0 || W < 0.0 || V + W > 1.0)
-			{
-				continue;
-			}
+			if (T <= Hit.Nearest || T >= Hit.Distance || V < 0.0 || W < 0.0 || V + W > 1.0) { continue; }
 			Hit = {T, Hit.Nearest, &Object, I, {1.0 - V - W, V, W}};
 		}
 	}
@@ -69,8 +61,7 @@ glm::dvec3 Interpolate(const FMotionSnapshot::FObject& Object, const FHit& Hit)
 	glm::dvec3 Sum(0);
 	for (int Corner = 0; Corner < 3; ++Corner)
 	{
-		Sum +=
-		    Hit.Weights[Corner] * Object.Positions[Object.Mesh->Indices[Hit.FirstIndex + static_cast<size_t>(Corner)]];
+		Sum += Hit.Weights[Corner] * Object.Positions[Object.Mesh->Indices[Hit.FirstIndex + static_cast<size_t>(Corner)]];
 	}
 	return Sum;
 }
@@ -87,14 +78,9 @@ FMotionSnapshot TakeSnapshot(FHostScene& Scene, const FView& View)
 		const uint32_t Index = Scene.GetDraws()[Instance].Object.Index;
 		const glm::dmat4 Transform = Scene.GetScene().FindObject(Index)->Transform;
 		std::vector<glm::mat4> Joints;
-		if (Scene.IsSkinned(Instance))
-		{
-			Joints = EvaluateJoints(Description, Scene.GetPose(), Node);
-		}
-		const FHostMesh& Mesh =
-		    Description.Meshes[static_cast<size_t>(Description.Nodes[static_cast<size_t>(Node)].Mesh)];
-		Out.Objects.push_back(
-		    {Index, glm::determinant(glm::dmat3(Transform)) < 0.0, &Mesh, FindPositions(Mesh, Joints, Transform)});
+		if (Scene.IsSkinned(Instance)) { Joints = EvaluateJoints(Description, Scene.GetPose(), Node); }
+		const FHostMesh& Mesh = Description.Meshes[static_cast<size_t>(Description.Nodes[static_cast<size_t>(Node)].Mesh)];
+		Out.Objects.push_back({Index, glm::determinant(glm::dmat3(Transform)) < 0.0, &Mesh, FindPositions(Mesh, Joints, Transform)});
 	}
 	return Out;
 }
@@ -131,13 +117,9 @@ FExactMotion MakeMotion(const FMotionSnapshot& Before, const FMotionSnapshot& No
 	Out.PreviousPoint = Out.Point = Interpolate(*Hit.Object, Hit);
 	for (const FMotionSnapshot::FObject& Object : Before.Objects)
 	{
-		if (Object.Index == Hit.Object->Index)
-		{
-			Out.PreviousPoint = Interpolate(Object, Hit);
-		}
+		if (Object.Index == Hit.Object->Index) { Out.PreviousPoint = Interpolate(Object, Hit); }
 	}
-	const glm::dvec3 Here = FExactCamera(Now.View).Project(Out.Point),
-	                 Previous = FExactCamera(Before.View).Project(Out.PreviousPoint);
+	const glm::dvec3 Here = FExactCamera(Now.View).Project(Out.Point), Previous = FExactCamera(Before.View).Project(Out.PreviousPoint);
 	Out.Offset = glm::dvec2(Here) - Pixel;
 	Out.Distance = Here.z;
 	Out.Motion = glm::dvec2(Previous) - glm::dvec2(Here);
@@ -159,21 +141,15 @@ std::vector<FTrianglePoint> ClipByDistance(const std::vector<FTrianglePoint>& Po
 	{
 		const FTrianglePoint &A = Polygon[I], &B = Polygon[(I + 1) % Polygon.size()];
 		const double Da = Sign * (A.Distance - Limit), Db = Sign * (B.Distance - Limit);
-		if (Da >= 0.0)
-		{
-			Out.push_back(A);
-		}
-		if ((Da >= 0.0) != (Db >= 0.0))
-		{
-			Out.push_back({glm::mix(A.Weights, B.Weights, Da / (Da - Db)), Limit});
-		}
+		if (Da >= 0.0) { Out.push_back(A); }
+		if ((Da >= 0.0) != (Db >= 0.0)) { Out.push_back({glm::mix(A.Weights, B.Weights, Da / (Da - Db)), Limit}); }
 	}
 	return Out;
 }
 } // namespace
 
-std::optional<FExactMotion> FindMotion(const FMotionSnapshot& Before, const FMotionSnapshot& Now,
-                                       const FSceneDescription& Scene, uint32_t X, uint32_t Y)
+std::optional<FExactMotion> FindMotion(
+    const FMotionSnapshot& Before, const FMotionSnapshot& Now, const FSceneDescription& Scene, uint32_t X, uint32_t Y)
 {
 	const FExactCamera Camera(Now.View);
 	const glm::dvec2 Pixel(X + 0.5, Y + 0.5);
@@ -188,8 +164,8 @@ std::optional<FExactMotion> FindMotion(const FMotionSnapshot& Before, const FMot
 namespace
 {
 /// Of the points of a triangle within a range of distances, the one nearest to Pixel, if it is nearer than Best.
-void FindNearest(const FExactCamera& Camera, const FMotionSnapshot::FObject& Object, size_t FirstIndex,
-                 glm::dvec2 Distances, glm::dvec2 Pixel, FHit& Hit, double& Best)
+void FindNearest(const FExactCamera& Camera, const FMotionSnapshot::FObject& Object, size_t FirstIndex, glm::dvec2 Distances,
+    glm::dvec2 Pixel, FHit& Hit, double& Best)
 {
 	std::vector<FTrianglePoint> Polygon;
 	for (int Corner = 0; Corner < 3; ++Corner)
@@ -220,19 +196,15 @@ void FindNearest(const FExactCamera& Camera, const FMotionSnapshot::FObject& Obj
 }
 } // namespace
 
-std::optional<FExactMotion> FindMotionAt(const FMotionSnapshot& Before, const FMotionSnapshot& Now,
-                                         const FSceneDescription& Scene, uint32_t Index, double Distance,
-                                         double DistanceError, uint32_t X, uint32_t Y)
+std::optional<FExactMotion> FindMotionAt(const FMotionSnapshot& Before, const FMotionSnapshot& Now, const FSceneDescription& Scene,
+    uint32_t Index, double Distance, double DistanceError, uint32_t X, uint32_t Y)
 {
 	const FExactCamera Camera(Now.View);
 	const glm::dvec2 Pixel(X + 0.5, Y + 0.5), Distances = Distance + DistanceError * glm::dvec2(-1.0, 1.0);
 	FHit Hit{Distances[1], Distances[0]};
 	for (const FMotionSnapshot::FObject& Object : Now.Objects)
 	{
-		if (Object.Index != Index)
-		{
-			continue;
-		}
+		if (Object.Index != Index) { continue; }
 		Intersect(Camera.GetPosition(), Camera.MakeRay(Pixel), Object, Scene, Hit);
 		const bool bCentre = Hit.Object != nullptr;
 		double Best = 1e300;

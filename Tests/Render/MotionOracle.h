@@ -52,15 +52,14 @@ struct FExactMotion
 	double PreviousDistance = 0; ///< along the view then
 };
 /// Of the surface in the centre of a pixel; nothing: the sky. Objects that Before does not have stand still.
-std::optional<FExactMotion> FindMotion(const FMotionSnapshot& Before, const FMotionSnapshot& Now,
-                                       const FSceneDescription& Scene, uint32_t X, uint32_t Y);
+std::optional<FExactMotion> FindMotion(
+    const FMotionSnapshot& Before, const FMotionSnapshot& Now, const FSceneDescription& Scene, uint32_t X, uint32_t Y);
 
 /// Of what a raster saw in a pixel, by the object and the distance along the view (metres, ± DistanceError) that it found:
 /// the point nearest to the pixel's centre. A raster moves corners to a grid of subpixels; of a face that is seen nearly
 /// edge-on, all that there is lies within a step of that grid, and which of it a pixel shows is the grid's to say.
 /// Nothing: the object has no such point.
-std::optional<FExactMotion> FindMotionAt(const FMotionSnapshot& Before, const FMotionSnapshot& Now,
-                                         const FSceneDescription& Scene, uint32_t Object, double Distance,
-                                         double DistanceError, uint32_t X, uint32_t Y);
+std::optional<FExactMotion> FindMotionAt(const FMotionSnapshot& Before, const FMotionSnapshot& Now, const FSceneDescription& Scene,
+    uint32_t Object, double Distance, double DistanceError, uint32_t X, uint32_t Y);
 
 } // namespace Lantern

@@ -27,40 +27,29 @@ protected:
 		const int32_t Grey = Room.AddLambert(glm::vec3(0.5f), glm::vec3(0), true);
 		const int32_t Floor = Room.AddMesh({FTestScene::MakeFloor(Grey, 6.0f)});
 		const int32_t Wall = Room.AddMesh({{Grey, {{-6, 0, -4}, {6, 0, -4}, {6, 5, -4}, {-6, 5, -4}}}});
-		const int32_t Box =
-		    Room.AddMesh({{Grey, {{-0.5f, 0, 0.5f}, {0.5f, 0, 0.5f}, {0.5f, 1, 0.4f}, {-0.5f, 1, 0.4f}}},
-		                  {Grey, {{0.5f, 0, 0.5f}, {0.5f, 0, -0.5f}, {0.5f, 1, -0.5f}, {0.5f, 1, 0.4f}}},
-		                  {Grey, {{-0.5f, 1, 0.4f}, {0.5f, 1, 0.4f}, {0.5f, 1, -0.5f}, {-0.5f, 1, -0.5f}}}});
-		for (const int32_t Mesh : {Floor, Wall})
-		{
-			Room.AddNode(Mesh, glm::translate(glm::dmat4(1), Center));
-		}
-		for (int I = 0; I < 3; ++I)
-		{
-			Room.AddNode(Box, MakeBoxTransform(Center, I, 0.0));
-		}
+		const int32_t Box = Room.AddMesh({{Grey, {{-0.5f, 0, 0.5f}, {0.5f, 0, 0.5f}, {0.5f, 1, 0.4f}, {-0.5f, 1, 0.4f}}},
+		    {Grey, {{0.5f, 0, 0.5f}, {0.5f, 0, -0.5f}, {0.5f, 1, -0.5f}, {0.5f, 1, 0.4f}}},
+		    {Grey, {{-0.5f, 1, 0.4f}, {0.5f, 1, 0.4f}, {0.5f, 1, -0.5f}, {-0.5f, 1, -0.5f}}}});
+		for (const int32_t Mesh : {Floor, Wall}) { Room.AddNode(Mesh, glm::translate(glm::dmat4(1), Center)); }
+		for (int I = 0; I < 3; ++I) { Room.AddNode(Box, MakeBoxTransform(Center, I, 0.0)); }
 		return Load(std::move(Room.Scene));
 	}
 	/// Time: a number of frames.
 	static glm::dmat4 MakeBoxTransform(const glm::dvec3& Center, int Box, double Time)
 	{
-		const glm::dvec3 Place =
-		    Center + glm::dvec3(1.6 * (Box - 1) + 0.11 * Time, 0.2 + 0.03 * Time, 0.07 * Time * Box);
-		const glm::dmat4 Turned = glm::rotate(glm::translate(glm::dmat4(1), Place), 0.3 + 0.05 * Time * (Box + 1),
-		                                      glm::normalize(glm::dvec3(0.2, 1, 0.1 * Box)));
+		const glm::dvec3 Place = Center + glm::dvec3(1.6 * (Box - 1) + 0.11 * Time, 0.2 + 0.03 * Time, 0.07 * Time * Box);
+		const glm::dmat4 Turned =
+		    glm::rotate(glm::translate(glm::dmat4(1), Place), 0.3 + 0.05 * Time * (Box + 1), glm::normalize(glm::dvec3(0.2, 1, 0.1 * Box)));
 		return glm::scale(Turned, glm::dvec3(Box == 2 ? -1.0 : 1.0, 1.0 + 0.04 * Time, 1.0));
 	}
 	static FView MakeRoomView(const glm::dvec3& Center, double Time, glm::uvec2 Size = {Width, Height})
 	{
-		return MakeCamera(Center + glm::dvec3(0.13 * Time, 2.0 + 0.02 * Time, 5.0 - 0.09 * Time),
-		                  Center + glm::dvec3(0.05 * Time, 0.8, 0), Size);
+		return MakeCamera(
+		    Center + glm::dvec3(0.13 * Time, 2.0 + 0.02 * Time, 5.0 - 0.09 * Time), Center + glm::dvec3(0.05 * Time, 0.8, 0), Size);
 	}
 	static void MoveBoxes(const glm::dvec3& Center, double Time)
 	{
-		for (int I = 0; I < 3; ++I)
-		{
-			GetScene().SetTransform(static_cast<size_t>(2 + I), MakeBoxTransform(Center, I, Time));
-		}
+		for (int I = 0; I < 3; ++I) { GetScene().SetTransform(static_cast<size_t>(2 + I), MakeBoxTransform(Center, I, Time)); }
 	}
 	struct FRun
 	{
@@ -101,10 +90,7 @@ TEST_F(FMotionTest, WhatStandsStillDoesNotMoveAtAll)
 		const FMotionPicture Picture = Render(View);
 		const FMotionSnapshot Now = TakeSnapshot(GetScene(), View);
 		ExpectExact("still", Now, Now, Picture);
-		for (const glm::vec4& Motion : Picture.OfHost)
-		{
-			ASSERT_EQ(glm::vec2(Motion), glm::vec2(0));
-		}
+		for (const glm::vec4& Motion : Picture.OfHost) { ASSERT_EQ(glm::vec2(Motion), glm::vec2(0)); }
 	}
 }
 
@@ -125,14 +111,8 @@ TEST_F(FMotionTest, CameraThatMovesAndTurns)
 	}
 }
 
-TEST_F(FMotionTest, ObjectsThatMove)
-{
-	ExpectRoomExact("objects", {});
-}
-TEST_F(FMotionTest, FarFromTheOrigin)
-{
-	ExpectRoomExact("16 km away", {.Center = {16'000.3, 500.1, 16'000.7}});
-}
+TEST_F(FMotionTest, ObjectsThatMove) { ExpectRoomExact("objects", {}); }
+TEST_F(FMotionTest, FarFromTheOrigin) { ExpectRoomExact("16 km away", {.Center = {16'000.3, 500.1, 16'000.7}}); }
 
 // Boxes and camera pass the border of a cell, and then the camera passes the place where the origin follows.
 TEST_F(FMotionTest, AcrossCells)
@@ -160,10 +140,7 @@ TEST_F(FMotionTest, MotionEndsWithTheMove)
 	MoveBoxes({0, 0, 0}, 1);
 	(void)Render(View);
 	const FMotionPicture Picture = Render(View);
-	for (const glm::vec4& Motion : Picture.OfHost)
-	{
-		ASSERT_EQ(glm::vec2(Motion), glm::vec2(0));
-	}
+	for (const glm::vec4& Motion : Picture.OfHost) { ASSERT_EQ(glm::vec2(Motion), glm::vec2(0)); }
 }
 
 TEST_F(FMotionTest, AnObjectInAnothersPlaceComesFromNowhere)
@@ -196,10 +173,7 @@ TEST_F(FMotionTest, ACutCarriesNothingOver)
 	const FMotionSnapshot Now = TakeSnapshot(GetScene(), View);
 	ExpectExact("cut", Now, Now, Picture);
 	ExpectExact("cut, from depth", Now, Now, Picture, Picture.OfCamera);
-	for (const glm::vec4& Motion : Picture.OfHost)
-	{
-		ASSERT_EQ(glm::vec2(Motion), glm::vec2(0));
-	}
+	for (const glm::vec4& Motion : Picture.OfHost) { ASSERT_EQ(glm::vec2(Motion), glm::vec2(0)); }
 }
 
 // What was behind the camera was on no screen, however near to it its mirror image would be projected.
@@ -214,10 +188,7 @@ TEST_F(FMotionTest, WhatWasBehindTheCameraPointsOffTheScreen)
 	size_t Seen = 0;
 	for (uint32_t Pixel = 0; Pixel < Width * Height; ++Pixel)
 	{
-		if (Picture.OfHost[Pixel].w == 0.0f)
-		{
-			continue;
-		}
+		if (Picture.OfHost[Pixel].w == 0.0f) { continue; }
 		++Seen;
 		for (const glm::vec4& Motion : {Picture.OfHost[Pixel], Picture.OfCamera[Pixel]})
 		{
@@ -264,19 +235,13 @@ FSceneDescription MakeRibbon(const glm::dvec3& Center)
 		Skin.Joints.push_back(static_cast<int32_t>(Scene.Nodes.size()));
 		Skin.InverseBind.push_back(glm::translate(glm::mat4(1), glm::vec3(0, -0.7f * float(J), 0)));
 		const glm::quat Turn = glm::angleAxis(0.9f, glm::normalize(glm::vec3(J % 2, 0.4f, 1 - J % 2)));
-		Animation.Channels.push_back({Skin.Joints.back(),
-		                              EAnimationPath::Rotation,
-		                              EInterpolation::Linear,
-		                              {0.0f, 2.0f},
-		                              {{0, 0, 0, 1}, {Turn.x, Turn.y, Turn.z, Turn.w}}});
+		Animation.Channels.push_back({Skin.Joints.back(), EAnimationPath::Rotation, EInterpolation::Linear, {0.0f, 2.0f},
+		    {{0, 0, 0, 1}, {Turn.x, Turn.y, Turn.z, Turn.w}}});
 		Scene.Nodes.push_back(Joint);
 	}
 	const glm::vec4 From(glm::vec3(Center), 0);
-	Animation.Channels.push_back({Skin.Joints[0],
-	                              EAnimationPath::Translation,
-	                              EInterpolation::Linear,
-	                              {0.0f, 2.0f},
-	                              {From, From + glm::vec4(1, 0.5f, -1, 0)}});
+	Animation.Channels.push_back(
+	    {Skin.Joints[0], EAnimationPath::Translation, EInterpolation::Linear, {0.0f, 2.0f}, {From, From + glm::vec4(1, 0.5f, -1, 0)}});
 	Scene.Skins.push_back(Skin);
 	Scene.Animations.push_back(Animation);
 	Scene.Nodes[static_cast<size_t>(Node)].Skin = 0;
@@ -293,8 +258,7 @@ TEST_F(FMotionTest, SkinnedMeshes)
 	int Frame = 0;
 	for (const double Time : {0.0, 0.05, 0.1, 0.1, 0.1, 0.2, 0.3})
 	{
-		const FView View =
-		    MakeCamera(Center + glm::dvec3(0.2, 1.2, 2.4 - 0.01 * Frame), Center + glm::dvec3(0, 0.9, 0));
+		const FView View = MakeCamera(Center + glm::dvec3(0.2, 1.2, 2.4 - 0.01 * Frame), Center + glm::dvec3(0, 0.9, 0));
 		const FMotionPicture Picture = Render(View, Time);
 		const FMotionSnapshot Now = TakeSnapshot(GetScene(), View);
 		ExpectExact(fmt::format("skinned, {} s", Time).c_str(), Frame == 0 ? Now : Before, Now, Picture);

@@ -49,8 +49,7 @@ protected:
 			const double Mean = MeanGreen(A);
 			EXPECT_TRUE(Mean > 0.02 && Mean < 0.999) << "there must be light and shadow to tell: " << Mean;
 			EXPECT_GT(Plain, 500u) << What;
-			EXPECT_LE(static_cast<double>(Classified), MostRatio * static_cast<double>(Plain))
-			    << What << ", path " << Path;
+			EXPECT_LE(static_cast<double>(Classified), MostRatio * static_cast<double>(Plain)) << What << ", path " << Path;
 			PrintFigure(fmt::format("{}, path {}: {} of {} alpha tests", What, Path, Classified, Plain));
 		}
 	}
@@ -133,8 +132,7 @@ TEST_F(FOpacityTest, SolidWhereAlphaTestsAreOff)
 	for (const char* Path : {"1", "2"})
 	{
 		SetVariable("r.RT.Shadow.Path", Path);
-		for (const auto& [Name, Off, On] :
-		     {std::tuple("r.RT.AlphaTest", "0", "1"), std::tuple("r.RT.Material.Override", "2", "0")})
+		for (const auto& [Name, Off, On] : {std::tuple("r.RT.AlphaTest", "0", "1"), std::tuple("r.RT.Material.Override", "2", "0")})
 		{
 			SetVariable(Name, Off);
 			SetVariable("r.RT.Opacity.Classify", "0");

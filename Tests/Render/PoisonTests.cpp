@@ -4,9 +4,9 @@
 
 #include <gmock/gmock.h>
 
-#include "Support/HistoryTestTools.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternRenderer/Frame.h"
+#include "Support/HistoryTestTools.h"
 #include "Support/RenderFixture.h"
 
 namespace Lantern
@@ -35,14 +35,12 @@ protected:
 	/// What a frame finds of the one before, which wrote 1.
 	std::vector<uint8_t> ReadBefore(ERTFormat Format, uint32_t Size)
 	{
-		Frame(
-		    [&](FFrameGraph& Graph)
-		    {
-			    const FHistoryTexture Mean = Get("Mean", Size, Format);
-			    AddWriter(Graph, Mean.Current, 1.0f);
-			    AddReader(Graph, Mean.Current);
-			    if (Mean.Previous.IsValid()) { AddReader(Graph, Mean.Previous); }
-		    });
+		Frame([&](FFrameGraph& Graph) {
+			const FHistoryTexture Mean = Get("Mean", Size, Format);
+			AddWriter(Graph, Mean.Current, 1.0f);
+			AddReader(Graph, Mean.Current);
+			if (Mean.Previous.IsValid()) { AddReader(Graph, Mean.Previous); }
+		});
 		EXPECT_OK(GetDevice().WaitIdle());
 		std::vector<uint8_t> Bytes = ReadBytes();
 		Bytes.resize(size_t(Size) * Size * BytesPerTexel(Format));
@@ -53,7 +51,7 @@ protected:
 TEST_F(FPoisonTest, BitsArriveInEveryFormat)
 {
 	for (const ERTFormat Format : {ERTFormat::R16_FLOAT, ERTFormat::RG16_FLOAT, ERTFormat::RGBA16_FLOAT, ERTFormat::R32_FLOAT,
-	                               ERTFormat::RG32_FLOAT, ERTFormat::RGBA32_FLOAT, ERTFormat::R11G11B10_FLOAT})
+	         ERTFormat::RG32_FLOAT, ERTFormat::RGBA32_FLOAT, ERTFormat::R11G11B10_FLOAT})
 	{
 		for (const uint32_t Size : {1u, 3u, 20u})
 		{
@@ -72,14 +70,12 @@ TEST_F(FPoisonTest, BuffersAreFilled)
 	for (int Index = 0; Index < 4; ++Index)
 	{
 		if (Index == 2) { Resources->PoisonHistory(""); }
-		Frame(
-		    [&](FFrameGraph& Graph)
-		    {
-			    const FHistoryBuffer Cache = GetBuffer("Cache", 1000);
-			    EXPECT_EQ(Cache.bFresh, Index == 0);
-			    if (Index == 0 || Index == 3) { AddWriter(Graph, Cache.Buffer, 7); }
-			    AddReader(Graph, Cache.Buffer);
-		    });
+		Frame([&](FFrameGraph& Graph) {
+			const FHistoryBuffer Cache = GetBuffer("Cache", 1000);
+			EXPECT_EQ(Cache.bFresh, Index == 0);
+			if (Index == 0 || Index == 3) { AddWriter(Graph, Cache.Buffer, 7); }
+			AddReader(Graph, Cache.Buffer);
+		});
 		EXPECT_OK(GetDevice().WaitIdle());
 		const std::vector<uint8_t> Bytes = ReadBytes();
 		if (Index == 2) { EXPECT_THAT(Bytes, Each(0xff)); }
@@ -107,7 +103,8 @@ TEST_F(FPoisonTest, NoPictureHasANumberThatIsNone)
 			View.Position.x += 0.01;
 			ASSERT_OK(GetEngine().RenderFrame(View, 0.0, Capture, &Captured));
 			const auto& Timings = GetEngine().GetRenderer().GetGraphResources().GetTimings();
-			Poisoned += uint32_t(std::count_if(Timings.begin(), Timings.end(), [](const FPassTiming& Pass) { return Pass.Name == "Poison"; }));
+			Poisoned +=
+			    uint32_t(std::count_if(Timings.begin(), Timings.end(), [](const FPassTiming& Pass) { return Pass.Name == "Poison"; }));
 			for (const FImage* Image : {&Captured.Lighting, &Captured.Get(ESignal::SunShadow), &Captured.Get(ESignal::AmbientOcclusion)})
 			{
 				EXPECT_FALSE(Image->Pixels.empty());

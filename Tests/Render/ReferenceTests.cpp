@@ -4,8 +4,8 @@
 #include <fstream>
 #include <numbers>
 
-#include "Support/SharedFiles.h"
 #include "Support/RenderFixture.h"
+#include "Support/SharedFiles.h"
 #include "Support/TestScene.h"
 
 namespace Lantern
@@ -31,10 +31,7 @@ protected:
 	{
 		FReferenceResult Result;
 		EXPECT_OK(RenderReference(GetEngine(), Settings, Result));
-		if (OutResumed)
-		{
-			*OutResumed = Result.ResumedSamples;
-		}
+		if (OutResumed) { *OutResumed = Result.ResumedSamples; }
 		return std::move(Result.Radiance);
 	}
 };
@@ -67,10 +64,7 @@ TEST_F(FReferenceTest, ResumedEqualsUninterrupted)
 		Settings.Samples = Samples;
 		const FImage Picture = Run(Settings, &Resumed);
 		EXPECT_EQ(Resumed, Before);
-		if (Samples == 31)
-		{
-			EXPECT_EQ(Picture.Pixels, Whole.Pixels);
-		}
+		if (Samples == 31) { EXPECT_EQ(Picture.Pixels, Whole.Pixels); }
 	}
 }
 
@@ -81,16 +75,14 @@ TEST_F(FReferenceTest, StateOfAnotherPictureIsRefusedAndKept)
 	FReferenceSettings Settings = MakeSettings(2);
 	Settings.StateFile = Folder / "picture.state";
 	Run(Settings);
-	const auto ReadState = [&]
-	{
+	const auto ReadState = [&] {
 		std::ifstream File(Settings.StateFile, std::ios::binary);
 		return std::string(std::istreambuf_iterator<char>(File), {});
 	};
 	const std::string State = ReadState();
 	Settings.bResume = true;
 	Settings.Samples = 4;
-	const auto ExpectRefused = [&](const FReferenceSettings& Other, const char* What)
-	{
+	const auto ExpectRefused = [&](const FReferenceSettings& Other, const char* What) {
 		FReferenceResult Result;
 		const FRTStatus Status = RenderReference(GetEngine(), Other, Result);
 		EXPECT_EQ(Status.Code, ERTResult::InvalidArgument) << What;
@@ -141,10 +133,7 @@ TEST_F(FReferenceTest, EachBounceAddsLight)
 	for (const uint32_t Bounces : {1u, 2u, 3u})
 	{
 		const FImage Now = TraceReference(View, 8, Bounces);
-		for (size_t I = 0; I < Now.Pixels.size(); ++I)
-		{
-			ASSERT_GE(Now.Pixels[I], Before.Pixels[I]) << "bounces " << Bounces;
-		}
+		for (size_t I = 0; I < Now.Pixels.size(); ++I) { ASSERT_GE(Now.Pixels[I], Before.Pixels[I]) << "bounces " << Bounces; }
 		// Sum of the geometric series so far.
 		EXPECT_NEAR(MeanGreen(Now), 1.0 - std::pow(0.5, Bounces + 1.0), 0.01) << "bounces " << Bounces;
 		Before = Now;
@@ -176,8 +165,7 @@ TEST_F(FReferenceTest, SunDiskSeenDirectly)
 		PrintFigure(fmt::format("sun disk of {} degrees: {:.4f} lux of 4", Diameter, Irradiance));
 		EXPECT_NEAR(Irradiance, 4.0, 0.005 * 4.0);
 		const double SinRadius = std::sin(glm::radians(Diameter) / 2);
-		EXPECT_NEAR(Picture.At(Size / 2, Size / 2, 1), 4.0 / (Pi * SinRadius * SinRadius),
-		            1e-3 * Picture.At(Size / 2, Size / 2, 1));
+		EXPECT_NEAR(Picture.At(Size / 2, Size / 2, 1), 4.0 / (Pi * SinRadius * SinRadius), 1e-3 * Picture.At(Size / 2, Size / 2, 1));
 		EXPECT_EQ(Picture.At(1, 1, 1), 0.0f);
 	}
 }
@@ -186,8 +174,7 @@ TEST_F(FReferenceTest, SunDiskSeenDirectly)
 /// their density the integrand is G2/G1 alone (Heitz 2018), smooth at every roughness.
 double IntegrateGgxAlbedo(double Mu, double Alpha)
 {
-	const auto Lambda = [&](double Cos)
-	{ return 0.5 * (std::sqrt(1.0 + Alpha * Alpha * (1.0 / (Cos * Cos) - 1.0)) - 1.0); };
+	const auto Lambda = [&](double Cos) { return 0.5 * (std::sqrt(1.0 + Alpha * Alpha * (1.0 / (Cos * Cos) - 1.0)) - 1.0); };
 	constexpr int Grid = 400;
 	const glm::dvec3 V(std::sqrt(1.0 - Mu * Mu), 0, Mu);
 	const glm::dvec3 Vh = glm::normalize(glm::dvec3(Alpha * V.x, 0, V.z));
@@ -201,10 +188,7 @@ double IntegrateGgxAlbedo(double Mu, double Alpha)
 			const glm::dvec3 Cap(Sin * std::cos(Phi) + Vh.x, Sin * std::sin(Phi), Z + Vh.z);
 			const glm::dvec3 H = glm::normalize(glm::dvec3(Alpha * Cap.x, Alpha * Cap.y, std::max(Cap.z, 1e-12)));
 			const double CosOut = 2.0 * glm::dot(V, H) * H.z - V.z;
-			if (CosOut > 0.0)
-			{
-				Sum += (1.0 + Lambda(Mu)) / (1.0 + Lambda(Mu) + Lambda(CosOut));
-			}
+			if (CosOut > 0.0) { Sum += (1.0 + Lambda(Mu)) / (1.0 + Lambda(Mu) + Lambda(CosOut)); }
 		}
 	}
 	return Sum / (double(Grid) * Grid);
@@ -259,8 +243,7 @@ TEST_F(FReferenceTest, EmitterCutIntoPiecesShinesTheSame)
 			for (int J = 0; J < Count; ++J)
 			{
 				const float Half = 0.5f / float(Count);
-				FTestScene::FQuad Quad =
-				    FTestScene::MakeFloor(Light, Half, 0.7f, {(2 * I + 1) * Half - 0.5f, (2 * J + 1) * Half - 1.5f});
+				FTestScene::FQuad Quad = FTestScene::MakeFloor(Light, Half, 0.7f, {(2 * I + 1) * Half - 0.5f, (2 * J + 1) * Half - 1.5f});
 				std::swap(Quad.P[1], Quad.P[3]); // faces down
 				Pieces.push_back(Quad);
 			}
@@ -271,8 +254,8 @@ TEST_F(FReferenceTest, EmitterCutIntoPiecesShinesTheSame)
 		Estimates[Case] = EstimateMean(View, 24, 1);
 	}
 	const double Sigma = std::hypot(Estimates[0].StandardError, Estimates[1].StandardError);
-	PrintFigure(fmt::format("emitter whole {:.5f}, in pieces {:.5f} (statistical error {:.5f})", Estimates[0].Mean,
-	                        Estimates[1].Mean, Sigma));
+	PrintFigure(
+	    fmt::format("emitter whole {:.5f}, in pieces {:.5f} (statistical error {:.5f})", Estimates[0].Mean, Estimates[1].Mean, Sigma));
 	EXPECT_NEAR(Estimates[0].Mean, Estimates[1].Mean, 3.5 * Sigma);
 	EXPECT_LT(Sigma, 0.005 * Estimates[0].Mean);
 }

@@ -60,10 +60,11 @@ TEST_F(FReflectionsTest, FurnaceOfMetalsAndDielectrics)
 				ASSERT_TRUE(LoadPlane(Metallic, Roughness, Mu));
 				SetIndirect(16, 1);
 				const std::string Name = fmt::format("{} of roughness {}, mu {}", Metallic > 0.5f ? "metal" : "dielectric", Roughness, Mu);
-				const FEstimate Frame = EstimateFrames(ESignal::Frame, PlaneView, 1, 4), Reference = EstimateSignal(ESignal::Frame, PlaneView, 24, 1, 4);
+				const FEstimate Frame = EstimateFrames(ESignal::Frame, PlaneView, 1, 4),
+				                Reference = EstimateSignal(ESignal::Frame, PlaneView, 24, 1, 4);
 				const double Sigma = std::hypot(Frame.StandardError, Reference.StandardError) / Reference.Mean;
-				PrintFigure(fmt::format("{}: frame {:.5f}, reference {:.5f}: {:+.3f} % (statistical error {:.3f} %)", Name, Frame.Mean, Reference.Mean,
-				                        100.0 * (Frame.Mean / Reference.Mean - 1.0), 100.0 * Sigma));
+				PrintFigure(fmt::format("{}: frame {:.5f}, reference {:.5f}: {:+.3f} % (statistical error {:.3f} %)", Name, Frame.Mean,
+				    Reference.Mean, 100.0 * (Frame.Mean / Reference.Mean - 1.0), 100.0 * Sigma));
 				EXPECT_NEAR(Frame.Mean / Reference.Mean, 1.0, 0.01) << Name;
 				EXPECT_LT(Sigma, 0.003) << Name;
 				if (Metallic > 0.5f && Roughness == 0.0f) { EXPECT_NEAR(Frame.Mean, 1.0, 0.002); }
@@ -102,7 +103,8 @@ TEST_F(FReflectionsTest, RougherThanMaxRoughness)
 {
 	ASSERT_TRUE(LoadPlane(1.0f, 0.5f, 0.7));
 	SetIndirect(4, 1);
-	EXPECT_GT(FractionDiffering(RenderSignal(ESignal::Reflections, PlaneView), RenderSignal(ESignal::Reflections, PlaneView, 1, 7), 0.0), 0.5);
+	EXPECT_GT(
+	    FractionDiffering(RenderSignal(ESignal::Reflections, PlaneView), RenderSignal(ESignal::Reflections, PlaneView, 1, 7), 0.0), 0.5);
 	SetVariable("r.RT.Reflections.MaxRoughness", "0.4");
 	const FImage Signal = RenderSignal(ESignal::Reflections, PlaneView);
 	EXPECT_EQ(FractionDiffering(Signal, RenderSignal(ESignal::Reflections, PlaneView, 1, 7), 0.0), 0.0) << "no noise: nothing was traced";

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "LanternCore/Config/ConsoleVariables.h"
-#include "LanternImage/ImageStatistics.h"
 #include "LanternHost/SceneLoader.h"
+#include "LanternImage/ImageStatistics.h"
 #include "LanternScene/Memory/Upload.h"
 #include "Support/RenderFixture.h"
 #include "Support/TestScene.h"
@@ -68,10 +68,7 @@ TEST_F(FSceneChangeTest, ObjectsRemovedWhileFramesAreInFlight)
 		{
 			const FRTObjectId Roof = AddRoof(1.0f + 0.1f * float(Frame));
 			ASSERT_OK(GetEngine().RenderFrame(View, 0.0, {}, nullptr));
-			if (Frame % 3 == 0)
-			{
-				ASSERT_OK(GetEngine().RenderFrame(View, 0.0, {}, nullptr));
-			}
+			if (Frame % 3 == 0) { ASSERT_OK(GetEngine().RenderFrame(View, 0.0, {}, nullptr)); }
 			GetScene().GetScene().RemoveObject(Roof);
 			// And one that no frame ever saw.
 			GetScene().GetScene().RemoveObject(AddRoof(2.0f));
@@ -80,10 +77,7 @@ TEST_F(FSceneChangeTest, ObjectsRemovedWhileFramesAreInFlight)
 		const FRTObjectId Last = AddRoof(1.0f);
 		EXPECT_EQ(MeanGreen(RenderSunShadow(View)), 0.0) << "the newest is there at once";
 		GetScene().GetScene().RemoveObject(Last);
-		for (int Frame = 0; Frame < 4; ++Frame)
-		{
-			EXPECT_EQ(MeanGreen(RenderSunShadow(View)), 1.0);
-		}
+		for (int Frame = 0; Frame < 4; ++Frame) { EXPECT_EQ(MeanGreen(RenderSunShadow(View)), 1.0); }
 		GetDevice().CollectGarbage();
 		EXPECT_EQ(GetDevice().GetMemoryStats().Geometry, Before) << "path " << Path;
 	}
@@ -101,18 +95,9 @@ TEST_F(FSceneChangeTest, FarFromTheOrigin)
 		ASSERT_TRUE(Result.Scene.has_value()) << Result.Error;
 		for (FHostNode& Node : Result.Scene->Nodes)
 		{
-			if (Node.Parent >= 0)
-			{
-				continue;
-			}
-			if (Node.Matrix)
-			{
-				(*Node.Matrix)[3] += glm::dvec4(Offsets[Case], 0);
-			}
-			else
-			{
-				Node.Translation += Offsets[Case];
-			}
+			if (Node.Parent >= 0) { continue; }
+			if (Node.Matrix) { (*Node.Matrix)[3] += glm::dvec4(Offsets[Case], 0); }
+			else { Node.Translation += Offsets[Case]; }
 		}
 		ASSERT_TRUE(Load(std::move(*Result.Scene)));
 		SetSun(0.0);
@@ -122,12 +107,10 @@ TEST_F(FSceneChangeTest, FarFromTheOrigin)
 		Raster[Case] = RenderLightingFine(View, 2);
 		Reference[Case] = TraceReference(View, 4, 2);
 	}
-	const auto Compare = [](const char* What, const FImage& Near, const FImage& Far)
-	{
+	const auto Compare = [](const char* What, const FImage& Near, const FImage& Far) {
 		const double Mean = MeanGreen(Near), Ratio = MeanGreen(Far) / Mean;
 		const double Fraction = FractionDiffering(Near, Far, 0.02 * Mean);
-		PrintFigure(
-		    fmt::format("{} at 22 km: mean ratio {:.6f}, {:.4f} % of the pixels differ", What, Ratio, 100 * Fraction));
+		PrintFigure(fmt::format("{} at 22 km: mean ratio {:.6f}, {:.4f} % of the pixels differ", What, Ratio, 100 * Fraction));
 		EXPECT_NEAR(Ratio, 1.0, 1e-3) << What;
 		return Fraction;
 	};
@@ -159,8 +142,7 @@ TEST_F(FSceneChangeTest, TogglesBetweenFrames)
 	ASSERT_TRUE(Load("courtyard"));
 	FView View = MakeView(96, 54);
 	View.bCut = true; // a frame that accumulates shows those before it, too
-	const auto Draw = [&]
-	{
+	const auto Draw = [&] {
 		GetEngine().SetFrameIndex(0);
 		return RenderLighting(View);
 	};
@@ -170,15 +152,12 @@ TEST_F(FSceneChangeTest, TogglesBetweenFrames)
 	for (const FRTConsoleVariable* Variable : FConsoleVariables::Get().GetAll())
 	{
 		std::vector<std::string> Values;
-		if (const bool* Default = std::get_if<bool>(&Variable->GetDefault()))
-		{
-			Values = {*Default ? "0" : "1"};
-		}
+		if (const bool* Default = std::get_if<bool>(&Variable->GetDefault())) { Values = {*Default ? "0" : "1"}; }
 		else if (std::get_if<int32_t>(&Variable->GetDefault()))
 		{
 			const FRTCVarRange Range = Variable->GetRange();
-			Values = {std::to_string(int(Range.Min)), std::to_string(int(std::min(Range.Max, Range.Min + 2))),
-			          std::to_string(int(Range.Max))};
+			Values = {
+			    std::to_string(int(Range.Min)), std::to_string(int(std::min(Range.Max, Range.Min + 2))), std::to_string(int(Range.Max))};
 		}
 		for (const std::string& Value : Values)
 		{

@@ -52,7 +52,10 @@ FImage FSignalTest::TraceSignal(ESignal Signal, FView View, uint32_t Samples, ui
 FEstimate FSignalTest::EstimateSignal(ESignal Signal, const FView& View, uint32_t Samples, uint32_t Bounces, uint32_t Batches)
 {
 	std::vector<double> Means;
-	for (uint32_t Batch = 0; Batch < Batches; ++Batch) { Means.push_back(MeanGreen(TraceSignal(Signal, View, Samples, Bounces, 1 + Batch))); }
+	for (uint32_t Batch = 0; Batch < Batches; ++Batch)
+	{
+		Means.push_back(MeanGreen(TraceSignal(Signal, View, Samples, Bounces, 1 + Batch)));
+	}
 	return MakeEstimate(Means);
 }
 
@@ -68,8 +71,8 @@ FEstimate FSignalTest::EstimateFrames(ESignal Signal, const FView& View, uint32_
 	return MakeEstimate(Means);
 }
 
-void FSignalTest::ExpectUnbiased(const char* What, ESignal Signal, const FView& View, uint32_t Frames, uint32_t Samples, uint32_t Bounces,
-                                 double Tolerance)
+void FSignalTest::ExpectUnbiased(
+    const char* What, ESignal Signal, const FView& View, uint32_t Frames, uint32_t Samples, uint32_t Bounces, double Tolerance)
 {
 	constexpr uint32_t Batches = 6, BlockSize = 8;
 	std::vector<double> Means[2], Blocks[2];
@@ -105,8 +108,8 @@ void FSignalTest::ExpectUnbiased(const char* What, ESignal Signal, const FView& 
 	}
 	// Of a normal distribution the median of |x| is 0.6745 σ.
 	const double Median = ComputePercentile(Errors, 0.5), Expected = 0.6745 * ComputePercentile(Noise, 0.5);
-	PrintFigure(fmt::format("{}: pass / reference {:.5f} (statistical error {:.5f}); block median {:.5f}, of noise alone {:.5f}", What, Ratio, Sigma,
-	                        Median, Expected));
+	PrintFigure(fmt::format("{}: pass / reference {:.5f} (statistical error {:.5f}); block median {:.5f}, of noise alone {:.5f}", What,
+	    Ratio, Sigma, Median, Expected));
 	EXPECT_NEAR(Ratio, 1.0, Tolerance + 3.0 * Sigma) << What;
 	EXPECT_LT(Sigma, Tolerance) << What << ": too few samples to tell";
 	EXPECT_LT(Median, Tolerance + 1.5 * Expected) << What;

@@ -18,12 +18,14 @@ protected:
 	/// Through pixel centres.
 	FImage TraceSignal(ESignal Signal, FView View, uint32_t Samples, uint32_t Bounces = UnlimitedBounces, uint32_t Seed = 1);
 	/// Mean of the green channel, from Batches pictures of Samples with seeds of their own.
-	FEstimate EstimateSignal(ESignal Signal, const FView& View, uint32_t Samples, uint32_t Bounces = UnlimitedBounces, uint32_t Batches = 8);
+	FEstimate EstimateSignal(
+	    ESignal Signal, const FView& View, uint32_t Samples, uint32_t Bounces = UnlimitedBounces, uint32_t Batches = 8);
 	/// The same of frames: batches of Count frames.
 	FEstimate EstimateFrames(ESignal Signal, const FView& View, uint32_t Count, uint32_t Batches = 8);
 	/// Holds frames against the reference of the same signal: their means agree within Tolerance and three times what
 	/// repetitions scatter, and so do means of blocks, at the median. All of it relative to the reference.
-	void ExpectUnbiased(const char* What, ESignal Signal, const FView& View, uint32_t Frames, uint32_t Samples, uint32_t Bounces, double Tolerance);
+	void ExpectUnbiased(
+	    const char* What, ESignal Signal, const FView& View, uint32_t Frames, uint32_t Samples, uint32_t Bounces, double Tolerance);
 	/// Everything that paths can make, at this many samples and bounces.
 	static void SetIndirect(int32_t Samples, int32_t Bounces);
 };

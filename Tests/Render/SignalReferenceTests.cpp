@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "Support/SharedFiles.h"
 #include "SignalFixture.h"
+#include "Support/SharedFiles.h"
 
 namespace Lantern
 {
@@ -14,8 +14,7 @@ namespace
 constexpr double Pi = std::numbers::pi;
 
 class FSignalReferenceTest : public FSignalTest
-{
-};
+{};
 
 // A floor under a ceiling at height h, falloff 1 − (d/R)². With k = (h/R)²: what is seen is k (1 − ln k).
 TEST_F(FSignalReferenceTest, AmbientOcclusionUnderACeiling)
@@ -29,7 +28,8 @@ TEST_F(FSignalReferenceTest, AmbientOcclusionUnderACeiling)
 	{
 		SetVariable("r.RT.AO.Radius", std::to_string(Radius));
 		const double K = 1.0 / (Radius * Radius);
-		ExpectClosedForm(fmt::format("ceiling, radius {}", Radius).c_str(), EstimateSignal(ESignal::AmbientOcclusion, View, 256), K * (1.0 - std::log(K)), 0.005);
+		ExpectClosedForm(fmt::format("ceiling, radius {}", Radius).c_str(), EstimateSignal(ESignal::AmbientOcclusion, View, 256),
+		    K * (1.0 - std::log(K)), 0.005);
 	}
 	SetVariable("r.RT.AO.Radius", "0.9"); // out of reach
 	EXPECT_DOUBLE_EQ(MeanGreen(TraceSignal(ESignal::AmbientOcclusion, View, 16)), 1.0);
@@ -41,8 +41,8 @@ TEST_F(FSignalReferenceTest, AmbientOcclusionBesideAWall)
 	FTestScene Pair("wall");
 	const int32_t Grey = Pair.AddLambert(glm::vec3(0.5f), glm::vec3(0), true);
 	constexpr float Far = 4000.0f;
-	Pair.AddNode(Pair.AddMesh({FTestScene::MakeFloor(Grey, 10.0f),
-	                           {Grey, {{-0.5f, 0, -Far}, {-0.5f, 0, Far}, {-0.5f, Far, Far}, {-0.5f, Far, -Far}}}}));
+	Pair.AddNode(Pair.AddMesh(
+	    {FTestScene::MakeFloor(Grey, 10.0f), {Grey, {{-0.5f, 0, -Far}, {-0.5f, 0, Far}, {-0.5f, Far, Far}, {-0.5f, Far, -Far}}}}));
 	ASSERT_TRUE(Load(std::move(Pair.Scene)));
 	SetVariable("r.RT.AO.Radius", "1000000");
 	ExpectClosedForm("wall", EstimateSignal(ESignal::AmbientOcclusion, LookAt({0.5, 1, 0}, {0, 0, 0}, 0.3f, 24, 24), 128), 0.5, 0.005);
@@ -56,7 +56,9 @@ TEST_F(FSignalReferenceTest, SunShadowOfAHalfPlane)
 	Pair.AddNode(Pair.AddMesh({FTestScene::MakeFloor(Grey, 10.0f), {Grey, {{-20, 1, -20}, {-20, 1, 20}, {0, 1, 20}, {0, 1, -20}}}}));
 	ASSERT_TRUE(Load(std::move(Pair.Scene)));
 	SetSun(10.0, 4.0f, {0, -1, 0});
-	const auto Estimate = [&](double X) { return EstimateSignal(ESignal::SunShadow, LookAt({X + 1e-4, 0.9, 1}, {X, 0, 0}, 0.001f, 16, 16), 64); };
+	const auto Estimate = [&](double X) {
+		return EstimateSignal(ESignal::SunShadow, LookAt({X + 1e-4, 0.9, 1}, {X, 0, 0}, 0.001f, 16, 16), 64);
+	};
 	ExpectClosedForm("below the edge", Estimate(0.0), 0.5, 0.01);
 	// A segment of the disk: x = h tan r · c leaves (acos(−c) + c √(1 − c²)) / π of it.
 	const double C = 0.5, Tan = std::tan(glm::radians(5.0));
@@ -85,7 +87,8 @@ TEST_F(FSignalReferenceTest, SphereGI)
 	{
 		ASSERT_TRUE(Load(fmt::format("sphere:{}", Albedo)));
 		const FEstimate Estimate = EstimateSignal(ESignal::DiffuseGI, MakeView(32, 32), 16);
-		ExpectClosedForm(fmt::format("sphere GI, albedo {}", Albedo).c_str(), Estimate, 10000.0 / 96.0 * Albedo / (1.0 - Albedo) / Pi, 0.005);
+		ExpectClosedForm(
+		    fmt::format("sphere GI, albedo {}", Albedo).c_str(), Estimate, 10000.0 / 96.0 * Albedo / (1.0 - Albedo) / Pi, 0.005);
 	}
 }
 
@@ -101,7 +104,8 @@ TEST_F(FSignalReferenceTest, SunIsNotIndirectSkyIs)
 	SetSky(glm::vec3(2));
 	EXPECT_NEAR(MeanGreen(TraceSignal(ESignal::DiffuseGI, View, 8)), 2.0, 1e-4);
 	const double Mu = 0.7;
-	ExpectClosedForm("white metal of α = 1 under a sky", EstimateSignal(ESignal::Reflections, View, 64), 2.0 * (1.0 - Mu * std::log(1.0 + 1.0 / Mu)), 0.005);
+	ExpectClosedForm("white metal of α = 1 under a sky", EstimateSignal(ESignal::Reflections, View, 64),
+	    2.0 * (1.0 - Mu * std::log(1.0 + 1.0 / Mu)), 0.005);
 }
 
 // Where all is a Lambert of 0.5 and neither sun nor punctual lights shine: frame = emission + GI / 2, and no reflections.

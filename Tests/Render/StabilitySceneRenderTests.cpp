@@ -19,8 +19,8 @@ bool IsFinite(const FImage& Image)
 
 TEST_F(FStabilitySceneTest, EachIsSeen)
 {
-	for (const char* Name : {"edge", "switch", "flicker", "boiling", "mirror", "railing", "hugemesh", "hash",
-	                         "lightgrid", "caustics", "toon", "fog"})
+	for (const char* Name :
+	    {"edge", "switch", "flicker", "boiling", "mirror", "railing", "hugemesh", "hash", "lightgrid", "caustics", "toon", "fog"})
 	{
 		ASSERT_TRUE(Load(std::string("stability-") + Name));
 		const FImage Image = TraceReference(MakeView(48, 27), 8, 3);
@@ -67,8 +67,7 @@ TEST_F(FStabilitySceneTest, CausticsAreAsBrightAtEveryMoment)
 {
 	ASSERT_TRUE(Load("stability-caustics"));
 	const FView View = LookAt({0, 1.4, 0.6}, {0, 1.6, -1.2}, 0.7f, 32, 18);
-	const double First = MeanGreen(TraceReference(View, 2048, 2, 0.0)),
-	             Later = MeanGreen(TraceReference(View, 2048, 2, 0.5));
+	const double First = MeanGreen(TraceReference(View, 2048, 2, 0.0)), Later = MeanGreen(TraceReference(View, 2048, 2, 0.5));
 	const double Without = MeanGreen(TraceReference(View, 16, 1, 0.0));
 	EXPECT_NEAR(Later, First, 0.15 * First) << "energy is spread anew, not made";
 	EXPECT_GT(First, 20 * Without) << "the wall has no other light to speak of";

@@ -23,10 +23,7 @@ protected:
 		std::vector<double> Means(Image.Width);
 		for (uint32_t Y = 0; Y < Image.Height; ++Y)
 		{
-			for (uint32_t X = 0; X < Image.Width; ++X)
-			{
-				Means[X] += Image.At(X, Y, 0) / Image.Height;
-			}
+			for (uint32_t X = 0; X < Image.Width; ++X) { Means[X] += Image.At(X, Y, 0) / Image.Height; }
 		}
 		return Means;
 	}
@@ -44,10 +41,7 @@ double FindCrossing(const std::vector<double>& Curve, double Level)
 {
 	for (size_t I = 1; I < Curve.size(); ++I)
 	{
-		if (Curve[I - 1] < Level && Curve[I] >= Level)
-		{
-			return double(I) - 0.5 + (Level - Curve[I - 1]) / (Curve[I] - Curve[I - 1]);
-		}
+		if (Curve[I - 1] < Level && Curve[I] >= Level) { return double(I) - 0.5 + (Level - Curve[I - 1]) / (Curve[I] - Curve[I - 1]); }
 	}
 	return -1.0;
 }
@@ -64,10 +58,7 @@ TEST_F(FSunShadowTest, HardEdgeIsExact)
 		const FImage Shadow = RenderSunShadow(MakeView(64, 48));
 		for (uint32_t Y = 0; Y < 48; ++Y)
 		{
-			for (uint32_t X = 0; X < 64; ++X)
-			{
-				ASSERT_EQ(Shadow.At(X, Y, 0), X < 32 ? 0.0f : 1.0f) << X << ", " << Y << " path " << Path;
-			}
+			for (uint32_t X = 0; X < 64; ++X) { ASSERT_EQ(Shadow.At(X, Y, 0), X < 32 ? 0.0f : 1.0f) << X << ", " << Y << " path " << Path; }
 		}
 	}
 }
@@ -77,10 +68,7 @@ TEST_F(FSunShadowTest, SoftIsOffOnDemand)
 	ASSERT_TRUE(Load("penumbra:1"));
 	SetVariable("r.RT.Shadow.Soft", "0");
 	const FImage Shadow = RenderSunShadow(MakeView(64, 8));
-	for (const float Value : Shadow.Pixels)
-	{
-		ASSERT_TRUE(Value == 0.0f || Value == 1.0f);
-	}
+	for (const float Value : Shadow.Pixels) { ASSERT_TRUE(Value == 0.0f || Value == 1.0f); }
 }
 
 // Closed form 8: a penumbra is D·b/a wide, 9.30 mm per metre under the sun; and inside it the visible part of the disk.
@@ -115,10 +103,7 @@ TEST_F(FSunShadowTest, PenumbraWidthInMillimetres)
 	const std::vector<double> Curve = MakeColumnMeans(Shadow);
 	// Between the columns where a tenth and nine tenths of the disk are seen lies a known part of the width.
 	double T = 0.0;
-	for (double Step = 0.5; Step > 1e-9; Step /= 2)
-	{
-		T += DiskFraction(T + Step) <= 0.9 ? Step : 0.0;
-	}
+	for (double Step = 0.5; Step > 1e-9; Step /= 2) { T += DiskFraction(T + Step) <= 0.9 ? Step : 0.0; }
 	const double PixelMillimetres = 4.0 * 9.3026 / 64.0;
 	const double Width = (FindCrossing(Curve, 0.9) - FindCrossing(Curve, 0.1)) * PixelMillimetres / T;
 	PrintFigure(fmt::format("penumbra width per metre: {:.3f} mm (9.30 expected)", Width));
@@ -165,10 +150,7 @@ TEST_F(FSunShadowTest, SamplesFollowFrameAndSeed)
 	// have taken the same 64 points by then, so that a column's mean is of four sets, not of 32.
 	View.Seed = 0;
 	const std::vector<double> Curve = MakeColumnMeans(RenderSunShadow(View, 64));
-	for (uint32_t X = 0; X < 64; ++X)
-	{
-		EXPECT_NEAR(Curve[X], DiskFraction((X + 0.5 - 32.0) / 4.0), 0.035) << X;
-	}
+	for (uint32_t X = 0; X < 64; ++X) { EXPECT_NEAR(Curve[X], DiskFraction((X + 0.5 - 32.0) / 4.0), 0.035) << X; }
 }
 
 // The picture of raster and plugin against the path tracer: sun alone, Lambert, where light is visibility times a
@@ -184,10 +166,7 @@ TEST_F(FSunShadowTest, PenumbraEqualsReference)
 	const std::vector<double> Traced = MakeColumnMeans(Reference);
 	// Albedo 1 under π lux: radiance 1. The reference's pixels are averages over their area, the plugin's are their
 	// centres; in the middle of the penumbra the difference is of second order.
-	for (uint32_t X = 0; X < 64; ++X)
-	{
-		EXPECT_NEAR(Plugin[X], Traced[X], 0.02) << X;
-	}
+	for (uint32_t X = 0; X < 64; ++X) { EXPECT_NEAR(Plugin[X], Traced[X], 0.02) << X; }
 	EXPECT_NEAR(MeanGreen(Reference), 0.5, 0.002);
 }
 
@@ -315,8 +294,7 @@ TEST_F(FSunShadowTest, InstanceMask)
 		SetVariable("r.RT.Shadow.Path", Path);
 		SetVariable("r.RT.Shadow.InstanceMask", "2");
 		EXPECT_EQ(MeanGreen(RenderSunShadow(View)), 1.0);
-		const std::pair<uint8_t, double> Cases[] = {
-		    {MaskAll, 0.0}, {MaskCastsShadow, 0.0}, {MaskVisible, 1.0}, {0x80, 1.0}};
+		const std::pair<uint8_t, double> Cases[] = {{MaskAll, 0.0}, {MaskCastsShadow, 0.0}, {MaskVisible, 1.0}, {0x80, 1.0}};
 		for (const auto& [Mask, Expected] : Cases)
 		{
 			Roof.Mask = Mask;

@@ -23,15 +23,9 @@ struct FQuote
 	std::string Place, Text;
 };
 
-bool IsDocument(const FTextFile& File)
-{
-	return File.Path == "README.md" || (IsUnder(File, "Docs") && HasExtension(File, {".md"}));
-}
+bool IsDocument(const FTextFile& File) { return File.Path == "README.md" || (IsUnder(File, "Docs") && HasExtension(File, {".md"})); }
 
-bool IsSearched(const FTextFile& File)
-{
-	return !HasExtension(File, {".md"}) && !IsUnder(File, "Tests/Repo");
-}
+bool IsSearched(const FTextFile& File) { return !HasExtension(File, {".md"}) && !IsUnder(File, "Tests/Repo"); }
 
 void CollectQuotes(const FTextFile& File, std::vector<FQuote>& Quotes)
 {
@@ -47,10 +41,7 @@ void CollectQuotes(const FTextFile& File, std::vector<FQuote>& Quotes)
 		for (size_t Open = Rest.find('`'); !bFenced && Open != std::string_view::npos; Open = Rest.find('`'))
 		{
 			const size_t Close = Rest.find('`', Open + 1);
-			if (Close == std::string_view::npos)
-			{
-				break;
-			}
+			if (Close == std::string_view::npos) { break; }
 			Quotes.push_back({At(File, Line), std::string(Rest.substr(Open + 1, Close - Open - 1))});
 			Rest.remove_prefix(Close + 1);
 		}
@@ -62,10 +53,7 @@ std::vector<FQuote> GetQuotes()
 	std::vector<FQuote> Quotes;
 	for (const FTextFile& File : GetFiles())
 	{
-		if (IsDocument(File))
-		{
-			CollectQuotes(File, Quotes);
-		}
+		if (IsDocument(File)) { CollectQuotes(File, Quotes); }
 	}
 	return Quotes;
 }
@@ -73,8 +61,7 @@ std::vector<FQuote> GetQuotes()
 /// All words of code: runs of letters, digits and underscores.
 const std::unordered_set<std::string>& GetWords()
 {
-	static const std::unordered_set<std::string> Words = []
-	{
+	static const std::unordered_set<std::string> Words = [] {
 		std::unordered_set<std::string> Found;
 		for (const FTextFile& File : GetFiles())
 		{
@@ -94,8 +81,7 @@ const std::unordered_set<std::string>& GetWords()
 bool OccursInCode(const std::string& Text)
 {
 	return std::any_of(GetFiles().begin(), GetFiles().end(),
-	                   [&](const FTextFile& File)
-	                   { return IsSearched(File) && File.Text.find(Text) != std::string::npos; });
+	    [&](const FTextFile& File) { return IsSearched(File) && File.Text.find(Text) != std::string::npos; });
 }
 
 /// `<Pass>` and `*` become "anything".
@@ -110,10 +96,7 @@ std::regex ToPattern(std::string_view Text)
 			Pattern += "[^/]*";
 			continue;
 		}
-		if (std::string_view(".+()[]{}^$|?\\").find(Text[Index]) != std::string_view::npos)
-		{
-			Pattern += '\\';
-		}
+		if (std::string_view(".+()[]{}^$|?\\").find(Text[Index]) != std::string_view::npos) { Pattern += '\\'; }
 		Pattern += Text[Index];
 	}
 	return std::regex(Pattern);
@@ -121,32 +104,23 @@ std::regex ToPattern(std::string_view Text)
 
 bool PathExists(std::string Text)
 {
-	while (!Text.empty() && Text.back() == '/')
-	{
-		Text.pop_back();
-	}
-	if (Text.find_first_of("<*") == std::string::npos)
-	{
-		return std::filesystem::exists(GetRoot() / Text);
-	}
+	while (!Text.empty() && Text.back() == '/') { Text.pop_back(); }
+	if (Text.find_first_of("<*") == std::string::npos) { return std::filesystem::exists(GetRoot() / Text); }
 	const std::regex Pattern = ToPattern(Text);
 	return std::any_of(GetFiles().begin(), GetFiles().end(),
-	                   [&](const FTextFile& File)
-	                   { return std::regex_search(File.Path, Pattern, std::regex_constants::match_continuous); });
+	    [&](const FTextFile& File) { return std::regex_search(File.Path, Pattern, std::regex_constants::match_continuous); });
 }
 
 bool FileNameExists(const std::string& Name)
 {
 	const std::regex Pattern = ToPattern(Name);
 	return std::any_of(GetFiles().begin(), GetFiles().end(),
-	                   [&](const FTextFile& File)
-	                   { return std::regex_match(std::filesystem::path(File.Path).filename().string(), Pattern); });
+	    [&](const FTextFile& File) { return std::regex_match(std::filesystem::path(File.Path).filename().string(), Pattern); });
 }
 
 bool ConsoleVariableExists(const std::string& Name)
 {
-	return Name.find_first_of("<*") != std::string::npos || OccursInCode('"' + Name + '"') ||
-	       OccursInCode(Name + "="); // an alias
+	return Name.find_first_of("<*") != std::string::npos || OccursInCode('"' + Name + '"') || OccursInCode(Name + "="); // an alias
 }
 
 bool AllWordsExist(const std::string& Text)
@@ -154,18 +128,12 @@ bool AllWordsExist(const std::string& Text)
 	static const std::regex Word("[A-Za-z_][A-Za-z0-9_]*");
 	for (std::sregex_iterator It(Text.begin(), Text.end(), Word), End; It != End; ++It)
 	{
-		if (GetWords().count(It->str()) == 0)
-		{
-			return false;
-		}
+		if (GetWords().count(It->str()) == 0) { return false; }
 	}
 	return true;
 }
 
-bool OptionExists(const std::string& Option)
-{
-	return OccursInCode(Option);
-}
+bool OptionExists(const std::string& Option) { return OccursInCode(Option); }
 
 /// `lantern render --size 640x360`: the subcommand and each option.
 bool CommandExists(const std::string& Command)
@@ -174,10 +142,7 @@ bool CommandExists(const std::string& Command)
 	for (std::sregex_iterator It(Command.begin(), Command.end(), Part), End; It != End; ++It)
 	{
 		const std::string Sub = (*It)[1].str();
-		if (!Sub.empty() ? !OccursInCode('"' + Sub + '"') : !OptionExists((*It)[2].str()))
-		{
-			return false;
-		}
+		if (!Sub.empty() ? !OccursInCode('"' + Sub + '"') : !OptionExists((*It)[2].str())) { return false; }
 	}
 	return true;
 }
@@ -186,53 +151,27 @@ bool CommandExists(const std::string& Command)
 bool IsTrue(const std::string& Text)
 {
 	static const std::regex Path("(Config|Shaders|Source|Tests|Docs|Scripts|Programs|\\.ci)/[^ ]*");
-	static const std::regex FileName(
-	    "[A-Za-z<*][A-Za-z0-9_<>*]*\\.(h|cpp|ini|json|md|txt|glsl|rgen|rchit|rahit|rmiss|comp|vert|frag)");
+	static const std::regex FileName("[A-Za-z<*][A-Za-z0-9_<>*]*\\.(h|cpp|ini|json|md|txt|glsl|rgen|rchit|rahit|rmiss|comp|vert|frag)");
 	static const std::regex Variable("r\\.[A-Za-z<*][A-Za-z0-9.<>*]*");
 	static const std::regex OurType("[FIET]RT[A-Z<][A-Za-z0-9_:<>]*(\\(\\))?");
-	static const std::regex Name(
-	    "[A-Z][a-z0-9]+([A-Z][A-Za-z0-9]*)+(::[A-Za-z0-9]+)*(\\(\\))?|F[A-Z][a-z][A-Za-z0-9:]*(\\(\\))?");
+	static const std::regex Name("[A-Z][a-z0-9]+([A-Z][A-Za-z0-9]*)+(::[A-Za-z0-9]+)*(\\(\\))?|F[A-Z][a-z][A-Za-z0-9:]*(\\(\\))?");
 	static const std::regex Option("--[a-z][a-z-]+( [A-Za-z,.0-9|]+)?");
 	static const std::regex CMakeName("LANTERN_[A-Z0-9_]+(=[A-Z]+)?");
 	static const std::regex Command("lantern [a-z]+.*");
 	static const std::regex Vulkan("V[Kk].*");
 
-	if (std::regex_match(Text, Vulkan))
-	{
-		return true;
-	}
-	if (std::regex_match(Text, Path))
-	{
-		return PathExists(Text);
-	}
+	if (std::regex_match(Text, Vulkan)) { return true; }
+	if (std::regex_match(Text, Path)) { return PathExists(Text); }
 	if (std::regex_match(Text, FileName))
 	{
 		return FileNameExists(Text) || OccursInCode('"' + Text + '"'); // or one that the program writes
 	}
-	if (std::regex_match(Text, Variable))
-	{
-		return ConsoleVariableExists(Text);
-	}
-	if (std::regex_match(Text, Option))
-	{
-		return OptionExists(Text.substr(0, Text.find(' ')));
-	}
-	if (std::regex_match(Text, CMakeName))
-	{
-		return AllWordsExist(Text.substr(0, Text.find('=')));
-	}
-	if (std::regex_match(Text, Command))
-	{
-		return CommandExists(Text);
-	}
-	if (std::regex_match(Text, OurType) && Text.find('<') != std::string::npos)
-	{
-		return true;
-	}
-	if (std::regex_match(Text, OurType) || std::regex_match(Text, Name))
-	{
-		return AllWordsExist(Text);
-	}
+	if (std::regex_match(Text, Variable)) { return ConsoleVariableExists(Text); }
+	if (std::regex_match(Text, Option)) { return OptionExists(Text.substr(0, Text.find(' '))); }
+	if (std::regex_match(Text, CMakeName)) { return AllWordsExist(Text.substr(0, Text.find('='))); }
+	if (std::regex_match(Text, Command)) { return CommandExists(Text); }
+	if (std::regex_match(Text, OurType) && Text.find('<') != std::string::npos) { return true; }
+	if (std::regex_match(Text, OurType) || std::regex_match(Text, Name)) { return AllWordsExist(Text); }
 	return true;
 }
 
@@ -249,16 +188,14 @@ TEST(Documents, QuotedNamesExist)
 // The check itself: each kind of name, once there and once not.
 TEST(Documents, TheCheckTellsTrueFromFalse)
 {
-	for (const char* There :
-	     {"Scripts/Setup", "Source/LanternRHI/", "Source/<Module>/CMakeLists.txt", "RTTypes.h", "IRTDevice::Submit()",
-	      "FRTStatus", "GetDeviceAddress()", "LANTERN_WITH_OIIO=OFF", "VkDevice", "r.RT.<Pass>.<Knob>", "two words"})
+	for (const char* There : {"Scripts/Setup", "Source/LanternRHI/", "Source/<Module>/CMakeLists.txt", "RTTypes.h", "IRTDevice::Submit()",
+	         "FRTStatus", "GetDeviceAddress()", "LANTERN_WITH_OIIO=OFF", "VkDevice", "r.RT.<Pass>.<Knob>", "two words"})
 	{
 		EXPECT_TRUE(IsTrue(There)) << There;
 	}
 	for (const char* Missing :
-	     {"Scripts/Nothing", "Source/<Module>/Nothing.h", "NoSuchFile.cpp", "IRTDevice::NoSuchCall()", "FRTNoSuchThing",
-	      "GetNoSuchThing()", "LANTERN_NO_SUCH_OPTION", "r.RT.No.SuchKnob", "--no-such-option",
-	      "lantern nosuchcommand"})
+	    {"Scripts/Nothing", "Source/<Module>/Nothing.h", "NoSuchFile.cpp", "IRTDevice::NoSuchCall()", "FRTNoSuchThing", "GetNoSuchThing()",
+	        "LANTERN_NO_SUCH_OPTION", "r.RT.No.SuchKnob", "--no-such-option", "lantern nosuchcommand"})
 	{
 		EXPECT_FALSE(IsTrue(Missing)) << Missing;
 	}
@@ -271,8 +208,7 @@ TEST(Documents, LinksLeadSomewhere)
 	for (const FTextFile& File : GetFiles())
 	{
 		const auto Folder = (GetRoot() / File.Path).parent_path();
-		for (std::sregex_iterator It(File.Text.begin(), File.Text.end(), Link), End; IsDocument(File) && It != End;
-		     ++It)
+		for (std::sregex_iterator It(File.Text.begin(), File.Text.end(), Link), End; IsDocument(File) && It != End; ++It)
 		{
 			EXPECT_TRUE(std::filesystem::exists(Folder / (*It)[1].str())) << File.Path << ": " << (*It)[1];
 		}

@@ -16,24 +16,15 @@ constexpr size_t MaxFileLines = 500;
 constexpr size_t LongFunctionLines = 60; ///< reported
 constexpr size_t MaxFunctionLines = 100; ///< refused
 
-bool IsCode(const FTextFile& File)
-{
-	return IsCpp(File) || (IsUnder(File, "Shaders") && File.Path.find(".md") == std::string::npos);
-}
+bool IsCode(const FTextFile& File) { return IsCpp(File) || (IsUnder(File, "Shaders") && File.Path.find(".md") == std::string::npos); }
 
-bool StartsWith(std::string_view Line, std::string_view Word)
-{
-	return Line.substr(0, Word.size()) == Word;
-}
+bool StartsWith(std::string_view Line, std::string_view Word) { return Line.substr(0, Word.size()) == Word; }
 
 bool OpensFunction(std::string_view LineBefore)
 {
 	for (const char* Word : {"namespace", "struct", "class", "enum", "union", "extern", "template"})
 	{
-		if (StartsWith(LineBefore, Word) && LineBefore.find('(') == std::string_view::npos)
-		{
-			return false;
-		}
+		if (StartsWith(LineBefore, Word) && LineBefore.find('(') == std::string_view::npos) { return false; }
 	}
 	return !LineBefore.empty() && LineBefore.find('=') == std::string_view::npos;
 }
@@ -70,10 +61,7 @@ TEST(Hygiene, FilesStayShort)
 {
 	for (const FTextFile& File : GetFiles())
 	{
-		if (IsCode(File))
-		{
-			EXPECT_LE(File.Lines.size(), MaxFileLines) << File.Path << ": one idea per file; split it";
-		}
+		if (IsCode(File)) { EXPECT_LE(File.Lines.size(), MaxFileLines) << File.Path << ": one idea per file; split it"; }
 	}
 }
 
@@ -98,10 +86,8 @@ TEST(Hygiene, FunctionsStayShort)
 TEST(Hygiene, NoPathsOrHostsOfOneMachine)
 {
 	// Written in two parts so that this file does not find itself.
-	const std::vector<std::string> Forbidden = {std::string("/wo") + "rk/",      std::string("/ro") + "ot/",
-	                                            std::string("/ho") + "me/",      std::string("/var/") + "tmp",
-	                                            std::string("debian") + ".org",  std::string("ubuntu") + ".com",
-	                                            std::string("snapshot.") + "deb"};
+	const std::vector<std::string> Forbidden = {std::string("/wo") + "rk/", std::string("/ro") + "ot/", std::string("/ho") + "me/",
+	    std::string("/var/") + "tmp", std::string("debian") + ".org", std::string("ubuntu") + ".com", std::string("snapshot.") + "deb"};
 	for (const FTextFile& File : GetFiles())
 	{
 		for (const std::string& Word : Forbidden)
@@ -118,10 +104,7 @@ TEST(Hygiene, TextFilesEndWithOneNewlineAndNoCarriageReturns)
 {
 	for (const FTextFile& File : GetFiles())
 	{
-		if (!IsCode(File) || File.Text.empty())
-		{
-			continue;
-		}
+		if (!IsCode(File) || File.Text.empty()) { continue; }
 		EXPECT_EQ(File.Text.back(), '\n') << File.Path;
 		EXPECT_EQ(File.Text.find('\r'), std::string::npos) << File.Path;
 	}

@@ -20,8 +20,8 @@ const FAllowed& GetAllowed()
 	static const std::set<std::string> Rhi = {"LanternRHI"};
 	static const std::set<std::string> Core = {"LanternRHI", "LanternCore"};
 	static const std::set<std::string> Scene = {"LanternRHI", "LanternCore", "LanternScene"};
-	static const std::set<std::string> Module = {"LanternRHI",      "LanternCore",      "LanternScene",
-	                                             "LanternRenderer", "LanternRHIVulkan", "LanternRHIValidation"};
+	static const std::set<std::string> Module = {
+	    "LanternRHI", "LanternCore", "LanternScene", "LanternRenderer", "LanternRHIVulkan", "LanternRHIValidation"};
 	static const std::set<std::string> Host = [] {
 		std::set<std::string> All = Module;
 		All.insert("LanternImage");
@@ -49,10 +49,7 @@ const FAllowed& GetAllowed()
 	return Allowed;
 }
 
-std::string GetFirstPart(std::string_view Path)
-{
-	return std::string(Path.substr(0, Path.find('/')));
-}
+std::string GetFirstPart(std::string_view Path) { return std::string(Path.substr(0, Path.find('/'))); }
 
 /// The module of a file under Source/, empty for others.
 std::string GetModule(const FTextFile& File)
@@ -66,10 +63,7 @@ std::vector<std::string> FindUpwardIncludes()
 	for (const FTextFile& File : GetFiles())
 	{
 		const auto Allowed = GetAllowed().find(GetModule(File));
-		if (!IsCpp(File) || Allowed == GetAllowed().end())
-		{
-			continue;
-		}
+		if (!IsCpp(File) || Allowed == GetAllowed().end()) { continue; }
 		for (size_t Line = 0; Line < File.Lines.size(); ++Line)
 		{
 			const std::string Target = GetFirstPart(GetInclude(File.Lines[Line]));
@@ -86,10 +80,7 @@ std::vector<std::string> FindUpwardIncludes()
 std::string Join(const std::vector<std::string>& Lines)
 {
 	std::string Text;
-	for (const std::string& Line : Lines)
-	{
-		Text += "\n  " + Line;
-	}
+	for (const std::string& Line : Lines) { Text += "\n  " + Line; }
 	return Text;
 }
 

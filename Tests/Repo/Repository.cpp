@@ -45,15 +45,9 @@ std::vector<FTextFile> ReadAll()
 	for (; It != fs::recursive_directory_iterator(); ++It)
 	{
 		const fs::path Relative = It->path().lexically_relative(GetRoot());
-		if (It.depth() == 0 && IsForeign(Relative))
-		{
-			It.disable_recursion_pending();
-		}
+		if (It.depth() == 0 && IsForeign(Relative)) { It.disable_recursion_pending(); }
 		// The corpora of the fuzzers are deliberately not what their names say.
-		if (It->is_directory() && Relative.filename() == "Corpus")
-		{
-			It.disable_recursion_pending();
-		}
+		if (It->is_directory() && Relative.filename() == "Corpus") { It.disable_recursion_pending(); }
 		if (It->is_regular_file() && IsText(Relative))
 		{
 			std::ifstream Stream(It->path(), std::ios::binary);
@@ -62,19 +56,13 @@ std::vector<FTextFile> ReadAll()
 		}
 	}
 	std::sort(Files.begin(), Files.end(), [](const FTextFile& A, const FTextFile& B) { return A.Path < B.Path; });
-	for (FTextFile& File : Files)
-	{
-		File.Lines = SplitLines(File.Text);
-	}
+	for (FTextFile& File : Files) { File.Lines = SplitLines(File.Text); }
 	return Files;
 }
 
 } // namespace
 
-fs::path GetRoot()
-{
-	return LANTERN_SOURCE_DIR;
-}
+fs::path GetRoot() { return LANTERN_SOURCE_DIR; }
 
 const std::vector<FTextFile>& GetFiles()
 {
@@ -84,8 +72,7 @@ const std::vector<FTextFile>& GetFiles()
 
 bool IsUnder(const FTextFile& File, std::string_view Folder)
 {
-	return File.Path.size() > Folder.size() && File.Path.compare(0, Folder.size(), Folder) == 0 &&
-	       File.Path[Folder.size()] == '/';
+	return File.Path.size() > Folder.size() && File.Path.compare(0, Folder.size(), Folder) == 0 && File.Path[Folder.size()] == '/';
 }
 
 bool HasExtension(const FTextFile& File, std::initializer_list<std::string_view> Extensions)
@@ -96,30 +83,20 @@ bool HasExtension(const FTextFile& File, std::initializer_list<std::string_view>
 
 bool IsCpp(const FTextFile& File)
 {
-	return HasExtension(File, {".h", ".cpp"}) &&
-	       (IsUnder(File, "Source") || IsUnder(File, "Programs") || IsUnder(File, "Tests"));
+	return HasExtension(File, {".h", ".cpp"}) && (IsUnder(File, "Source") || IsUnder(File, "Programs") || IsUnder(File, "Tests"));
 }
 
 std::string_view GetInclude(std::string_view Line)
 {
 	const size_t Hash = Line.find_first_not_of(" \t");
-	if (Hash == std::string_view::npos || Line[Hash] != '#')
-	{
-		return {};
-	}
+	if (Hash == std::string_view::npos || Line[Hash] != '#') { return {}; }
 	const size_t Word = Line.find("include", Hash);
 	const size_t Open = Word == std::string_view::npos ? Word : Line.find_first_of("<\"", Word);
-	if (Open == std::string_view::npos)
-	{
-		return {};
-	}
+	if (Open == std::string_view::npos) { return {}; }
 	const size_t Close = Line.find_first_of(">\"", Open + 1);
 	return Close == std::string_view::npos ? std::string_view{} : Line.substr(Open + 1, Close - Open - 1);
 }
 
-std::string At(const FTextFile& File, size_t LineIndex)
-{
-	return File.Path + ":" + std::to_string(LineIndex + 1);
-}
+std::string At(const FTextFile& File, size_t LineIndex) { return File.Path + ":" + std::to_string(LineIndex + 1); }
 
 } // namespace Lantern::Repo

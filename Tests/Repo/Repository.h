@@ -21,7 +21,7 @@ std::filesystem::path GetRoot();
 /// All text files that belong to the repository (build folders and git's own left out), sorted by path; read once.
 const std::vector<FTextFile>& GetFiles();
 
-bool IsUnder(const FTextFile& File, std::string_view Folder); ///< Folder without a slash at its end
+bool IsUnder(const FTextFile& File, std::string_view Folder);                                 ///< Folder without a slash at its end
 bool HasExtension(const FTextFile& File, std::initializer_list<std::string_view> Extensions); ///< with their dots
 bool IsCpp(const FTextFile& File);
 

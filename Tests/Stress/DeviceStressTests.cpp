@@ -2,10 +2,10 @@
 // settings that change, the picture is that of a world that was loaded where the flight ended.
 #include <random>
 
-#include "Support/RenderFixture.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternHost/VertexPacking.h"
 #include "StreamingWorld.h"
+#include "Support/RenderFixture.h"
 
 namespace Lantern
 {
@@ -67,7 +67,7 @@ TEST_F(FDeviceStressTest, FlightEndsWithThePictureOfAFreshStart)
 		GetEngine().bRealTime = true;
 		std::mt19937 Random(3);
 		const char* const Toggles[] = {"r.RT.Shadow.Soft", "r.RT.AlphaTest", "r.RT.SBT.Mode", "r.RT.SBT.Prebind", "r.RT.Scene.Hoist",
-		                               "r.RT.Scene.Gather", "r.RT.Culling", "r.RT.Build.Compaction", "r.RT.Pipeline.Libraries"};
+		    "r.RT.Scene.Gather", "r.RT.Culling", "r.RT.Build.Compaction", "r.RT.Pipeline.Libraries"};
 		for (int Frame = 0; Frame <= 80; ++Frame)
 		{
 			const double Seconds = End * Frame / 80.0;

@@ -1,7 +1,7 @@
 // Shortage of memory at every n-th allocation, and loss of the device in every phase, while the world streams and
 // pipelines compile. Every fault is one error; the engine goes on, on a new device where the old one is lost.
-#include "Support/RendererTestTools.h"
 #include "StreamingWorld.h"
+#include "Support/RendererTestTools.h"
 #include "Support/WaitTools.h"
 
 namespace Lantern
@@ -29,13 +29,13 @@ protected:
 	{
 		FRTStatus Status;
 		bool bBusy = true;
-		const auto Step = [&]
-		{
+		const auto Step = [&] {
 			bBusy = Engine->GetRenderer().GetRayCompiler().GetStats().bBusy;
 			Status = Fly(World, First++, 1);
 			GiveWay();
 		};
-		WaitUntil("the pipelines", [&] { return !Status || !bBusy; }, Step);
+		WaitUntil(
+		    "the pipelines", [&] { return !Status || !bBusy; }, Step);
 		return Status;
 	}
 	/// A lost device stays lost.
@@ -76,10 +76,9 @@ TEST_F(FFaultStressTest, EveryAllocationFailsOnceAfterTheOther)
 TEST_F(FFaultStressTest, DeviceLostInEveryPhaseIsRecoveredByANewOne)
 {
 	Set("r.RT.Shadow.Path", "1");
-	const ERTMockCall Phases[] = {ERTMockCall::CreateBuffer,   ERTMockCall::CreateTexture,    ERTMockCall::CreateGeometry,
-	                              ERTMockCall::CreateScene,    ERTMockCall::CreateShaderTable, ERTMockCall::CreateRayTracingPipeline,
-	                              ERTMockCall::CreateComputePipeline, ERTMockCall::Begin,      ERTMockCall::End,
-	                              ERTMockCall::Submit,         ERTMockCall::WaitFor};
+	const ERTMockCall Phases[] = {ERTMockCall::CreateBuffer, ERTMockCall::CreateTexture, ERTMockCall::CreateGeometry,
+	    ERTMockCall::CreateScene, ERTMockCall::CreateShaderTable, ERTMockCall::CreateRayTracingPipeline, ERTMockCall::CreateComputePipeline,
+	    ERTMockCall::Begin, ERTMockCall::End, ERTMockCall::Submit, ERTMockCall::WaitFor};
 	uint32_t Losses = 0;
 	for (const ERTMockCall Phase : Phases)
 	{

@@ -1,6 +1,6 @@
 // A million instances, on the mock: limits are of the specification, not of ours.
-#include "Support/RendererTestTools.h"
 #include "StreamingWorld.h"
+#include "Support/RendererTestTools.h"
 
 namespace Lantern
 {
@@ -8,8 +8,7 @@ namespace
 {
 
 class FManyInstancesTest : public FRendererTest
-{
-};
+{};
 
 TEST_F(FManyInstancesTest, AMillionObjectsOfOneTree)
 {

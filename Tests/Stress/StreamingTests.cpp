@@ -2,8 +2,8 @@
 #include <cstdlib>
 
 #include "LanternScene/ShaderTable/SectionTable.h"
-#include "Support/RendererTestTools.h"
 #include "StreamingWorld.h"
+#include "Support/RendererTestTools.h"
 
 namespace Lantern
 {

@@ -25,9 +25,11 @@ uint32_t TileSeed(uint32_t Seed, int X, int Z)
 } // namespace
 
 FStreamingWorld::FStreamingWorld(IRTDevice& InDevice, FRTScene& InScene, const FStreamingSettings& InSettings)
-    : Device(InDevice), Scene(InScene), Settings(InSettings), Uploader(InDevice)
-{
-}
+    : Device(InDevice),
+      Scene(InScene),
+      Settings(InSettings),
+      Uploader(InDevice)
+{}
 
 glm::dvec3 FStreamingWorld::FlightAt(double Seconds)
 {
@@ -101,9 +103,21 @@ FRTStatus FStreamingWorld::CreateMesh(uint32_t Seed, FRTGeometryRef& Out)
 	Info.BoundsCenter = {0, 1, 0};
 	Info.BoundsRadius = 2.3f;
 	const ERTBufferUsage Usage = ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput | ERTBufferUsage::Index;
-	if (FRTStatus S = Uploader.CreateBuffer("Positions", Usage, Positions.data(), Positions.size() * sizeof(Positions[0]), Info.Positions); !S) { return S; }
-	if (FRTStatus S = Uploader.CreateBuffer("Attributes", Usage, Attributes.data(), Attributes.size() * sizeof(Attributes[0]), Info.Attributes); !S) { return S; }
-	if (FRTStatus S = Uploader.CreateBuffer("Indices", Usage, Indices.data(), Indices.size() * sizeof(Indices[0]), Info.Indices); !S) { return S; }
+	if (FRTStatus S = Uploader.CreateBuffer("Positions", Usage, Positions.data(), Positions.size() * sizeof(Positions[0]), Info.Positions);
+	    !S)
+	{
+		return S;
+	}
+	if (FRTStatus S =
+	        Uploader.CreateBuffer("Attributes", Usage, Attributes.data(), Attributes.size() * sizeof(Attributes[0]), Info.Attributes);
+	    !S)
+	{
+		return S;
+	}
+	if (FRTStatus S = Uploader.CreateBuffer("Indices", Usage, Indices.data(), Indices.size() * sizeof(Indices[0]), Info.Indices); !S)
+	{
+		return S;
+	}
 	return Scene.CreateGeometry(std::move(Info), Out);
 }
 

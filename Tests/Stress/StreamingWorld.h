@@ -14,8 +14,8 @@ namespace Lantern
 
 struct FStreamingSettings
 {
-	double TileSize = 256.0;   ///< metres
-	double Radius = 700.0;     ///< tiles nearer than this are loaded
+	double TileSize = 256.0; ///< metres
+	double Radius = 700.0;   ///< tiles nearer than this are loaded
 	uint32_t ObjectsPerTile = 12;
 	uint32_t MeshesPerTile = 3;
 	uint32_t Seed = 1;

@@ -2,8 +2,8 @@
 // defaults give the frame that they gave before.
 #include <random>
 
-#include "Support/RendererTestTools.h"
 #include "StreamingWorld.h"
+#include "Support/RendererTestTools.h"
 
 namespace Lantern
 {
@@ -23,8 +23,11 @@ protected:
 		if (std::holds_alternative<std::string>(Value)) { return FConsoleVariables::ToString(Value); }
 		// A wide range is walked around the default as well as at its ends.
 		const double Default = std::holds_alternative<float>(Value) ? std::get<float>(Value) : std::get<int32_t>(Value);
-		const double Low = std::max(Range.Min, Default - 4.0 - std::abs(Default)), High = std::min(Range.Max, Default + 4.0 + std::abs(Default));
-		const double Chosen = Share < 0.1 ? std::max(Range.Min, -1e6) : Share < 0.2 ? std::min(Range.Max, 1e6) : Low + (High - Low) * (Share - 0.2) / 0.8;
+		const double Low = std::max(Range.Min, Default - 4.0 - std::abs(Default)),
+		             High = std::min(Range.Max, Default + 4.0 + std::abs(Default));
+		const double Chosen = Share < 0.1   ? std::max(Range.Min, -1e6)
+		                      : Share < 0.2 ? std::min(Range.Max, 1e6)
+		                                    : Low + (High - Low) * (Share - 0.2) / 0.8;
 		return std::holds_alternative<float>(Value) ? std::to_string(Chosen) : std::to_string(static_cast<int64_t>(std::lround(Chosen)));
 	}
 	static bool IsLeftAlone(const std::string& Name)

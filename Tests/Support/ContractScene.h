@@ -28,14 +28,8 @@ protected:
 	void SetUp() override
 	{
 		TBase::SetUp();
-		if (this->HasFatalFailure())
-		{
-			return;
-		}
-		if (this->Caps().Rung == ERTRung::None)
-		{
-			GTEST_SKIP() << "the device has no ray tracing";
-		}
+		if (this->HasFatalFailure()) { return; }
+		if (this->Caps().Rung == ERTRung::None) { GTEST_SKIP() << "the device has no ray tracing"; }
 		Scratch = this->Make.Scratch(4 << 20);
 	}
 	void TearDown() override
@@ -44,8 +38,7 @@ protected:
 		TBase::TearDown();
 	}
 	/// Count unit squares side by side from x = 0, each a section of two triangles, counter-clockwise seen from +z.
-	FContractGeometry MakeSquares(uint32_t Count = 1, bool bOpaque = true, bool bUpdate = false,
-	                              const char* Name = "Squares")
+	FContractGeometry MakeSquares(uint32_t Count = 1, bool bOpaque = true, bool bUpdate = false, const char* Name = "Squares")
 	{
 		FContractGeometry Out;
 		std::vector<float> Vertices;
@@ -114,8 +107,7 @@ protected:
 		this->Make.BuildBarrier(List);
 	}
 	/// Instance of Item moved to x, with the custom index.
-	static FRTInstance Place(const FContractGeometry& Item, float X, uint32_t Custom = 0, uint32_t TableOffset = 0,
-	                         uint32_t Mask = 0xff)
+	static FRTInstance Place(const FContractGeometry& Item, float X, uint32_t Custom = 0, uint32_t TableOffset = 0, uint32_t Mask = 0xff)
 	{
 		FRTInstance Out = FRHIMaker::Instance(Item.GetAddress(), TableOffset);
 		Out.Transform[3] = X;

@@ -21,12 +21,10 @@ class FLogCapture
 public:
 	FLogCapture()
 	{
-		SetLogSink(
-		    [this](ERTLogLevel Level, std::string_view Text)
-		    {
-			    std::lock_guard Lock(Mutex);
-			    Lines.emplace_back(Level, Text);
-		    });
+		SetLogSink([this](ERTLogLevel Level, std::string_view Text) {
+			std::lock_guard Lock(Mutex);
+			Lines.emplace_back(Level, Text);
+		});
 	}
 	~FLogCapture() { SetLogSink({}); }
 
@@ -39,8 +37,7 @@ public:
 	{
 		std::lock_guard Lock(Mutex);
 		std::vector<std::string> Result;
-		for (const auto& [Level, Text] : Lines)
-			Result.push_back(Text);
+		for (const auto& [Level, Text] : Lines) Result.push_back(Text);
 		return Result;
 	}
 

@@ -23,14 +23,13 @@ namespace Lantern
 inline std::filesystem::path GetScenesFolder()
 {
 	const char* Folder = std::getenv("LANTERN_SCENES");
-	return Folder != nullptr ? std::filesystem::path(Folder)
-	                         : std::filesystem::path(LANTERN_SOURCE_DIR) / ".." / "shared" / "scenes";
+	return Folder != nullptr ? std::filesystem::path(Folder) : std::filesystem::path(LANTERN_SOURCE_DIR) / ".." / "shared" / "scenes";
 }
 
-#define LANTERN_REQUIRE_SCENE(Path)                                                                                    \
-	if (!std::filesystem::exists(Path))                                                                                \
-	{                                                                                                                  \
-		GTEST_SKIP() << (Path).string() << " is not there: LANTERN_SCENES names another folder of scenes";             \
+#define LANTERN_REQUIRE_SCENE(Path)                                                                                                        \
+	if (!std::filesystem::exists(Path))                                                                                                    \
+	{                                                                                                                                      \
+		GTEST_SKIP() << (Path).string() << " is not there: LANTERN_SCENES names another folder of scenes";                                 \
 	}
 
 /// A folder of its own for one test, gone afterwards.
@@ -64,14 +63,8 @@ inline std::string EncodeBase64(const std::vector<uint8_t>& Data)
 	{
 		const size_t Count = std::min<size_t>(3, Data.size() - I);
 		uint32_t Bits = 0;
-		for (size_t B = 0; B < 3; ++B)
-		{
-			Bits = Bits << 8 | (B < Count ? Data[I + B] : 0u);
-		}
-		for (size_t C = 0; C < 4; ++C)
-		{
-			Text += C <= Count ? Alphabet[Bits >> (18 - 6 * C) & 63] : '=';
-		}
+		for (size_t B = 0; B < 3; ++B) { Bits = Bits << 8 | (B < Count ? Data[I + B] : 0u); }
+		for (size_t C = 0; C < 4; ++C) { Text += C <= Count ? Alphabet[Bits >> (18 - 6 * C) & 63] : '='; }
 	}
 	return Text;
 }
@@ -97,8 +90,7 @@ public:
 	int AddAccessor(const std::vector<T>& Values, const char* Type, int ComponentType, size_t Count)
 	{
 		const int View = AddView(Values);
-		Json["accessors"].push_back(
-		    {{"bufferView", View}, {"type", Type}, {"componentType", ComponentType}, {"count", Count}});
+		Json["accessors"].push_back({{"bufferView", View}, {"type", Type}, {"componentType", ComponentType}, {"count", Count}});
 		return int(Json["accessors"].size()) - 1;
 	}
 	int AddVec3(const std::vector<float>& Values) { return AddAccessor(Values, "VEC3", 5126, Values.size() / 3); }
@@ -119,8 +111,7 @@ public:
 		nlohmann::json Complete = Json;
 		if (!Data.empty() && !Complete.contains("buffers"))
 		{
-			Complete["buffers"] = {
-			    {{"byteLength", Data.size()}, {"uri", "data:application/octet-stream;base64," + EncodeBase64(Data)}}};
+			Complete["buffers"] = {{{"byteLength", Data.size()}, {"uri", "data:application/octet-stream;base64," + EncodeBase64(Data)}}};
 		}
 		return Complete.dump();
 	}
@@ -168,11 +159,10 @@ inline void ExpectError(const FLoadResult& Result, const std::vector<const char*
 /// 2 × 1 texels, RGBA: (255, 0, 0, 255) and (0, 0, 255, 128).
 inline const std::vector<uint8_t>& GetTinyPng()
 {
-	static const std::vector<uint8_t> Png = {
-	    0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00,
-	    0x00, 0x02, 0x00, 0x00, 0x00, 0x01, 0x08, 0x06, 0x00, 0x00, 0x00, 0xF4, 0x22, 0x7F, 0x8A, 0x00, 0x00, 0x00,
-	    0x0E, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9C, 0x63, 0xF8, 0xCF, 0xC0, 0x00, 0x42, 0x0D, 0x00, 0x0F, 0x7A, 0x03,
-	    0x7E, 0x77, 0xE9, 0x7F, 0x97, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4E, 0x44, 0xAE, 0x42, 0x60, 0x82};
+	static const std::vector<uint8_t> Png = {0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D, 0x49, 0x48, 0x44, 0x52,
+	    0x00, 0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x01, 0x08, 0x06, 0x00, 0x00, 0x00, 0xF4, 0x22, 0x7F, 0x8A, 0x00, 0x00, 0x00, 0x0E, 0x49,
+	    0x44, 0x41, 0x54, 0x78, 0x9C, 0x63, 0xF8, 0xCF, 0xC0, 0x00, 0x42, 0x0D, 0x00, 0x0F, 0x7A, 0x03, 0x7E, 0x77, 0xE9, 0x7F, 0x97, 0x00,
+	    0x00, 0x00, 0x00, 0x49, 0x45, 0x4E, 0x44, 0xAE, 0x42, 0x60, 0x82};
 	return Png;
 }
 

@@ -80,76 +80,62 @@ protected:
 	}
 
 	/// Fills Current with Value. Output: what else the pass writes; valid or not.
-	static void AddWriter(FFrameGraph& Graph, FGraphTexture Current, float Value, FGraphTexture Output = {},
-	                      const char* Name = "Writer")
+	static void AddWriter(FFrameGraph& Graph, FGraphTexture Current, float Value, FGraphTexture Output = {}, const char* Name = "Writer")
 	{
-		Graph.AddPass(Name,
-		              [&](FPassBuilder& Builder) -> FPassExecute
-		              {
-			              Builder.Write(Current, ERTAccess::CopyWrite);
-			              if (Output.IsValid()) { Builder.Write(Output, ERTAccess::CopyWrite); }
-			              return [=](FPassContext& Pass)
-			              {
-				              const float Color[4] = {Value, Value, Value, Value};
-				              Pass.Commands().ClearTexture(Pass.GetTexture(Current), Color);
-				              if (Output.IsValid()) { Pass.Commands().ClearTexture(Pass.GetTexture(Output), Color); }
-			              };
-		              });
+		Graph.AddPass(Name, [&](FPassBuilder& Builder) -> FPassExecute {
+			Builder.Write(Current, ERTAccess::CopyWrite);
+			if (Output.IsValid()) { Builder.Write(Output, ERTAccess::CopyWrite); }
+			return [=](FPassContext& Pass) {
+				const float Color[4] = {Value, Value, Value, Value};
+				Pass.Commands().ClearTexture(Pass.GetTexture(Current), Color);
+				if (Output.IsValid()) { Pass.Commands().ClearTexture(Pass.GetTexture(Output), Color); }
+			};
+		});
 	}
 	static void AddWriter(FFrameGraph& Graph, FGraphBuffer Cache, uint32_t Value)
 	{
-		Graph.AddPass("Writer",
-		              [&](FPassBuilder& Builder) -> FPassExecute
-		              {
-			              Builder.Write(Cache, ERTAccess::CopyWrite);
-			              return [=](FPassContext& Pass)
-			              {
-				              IRTBuffer* const Buffer = Pass.GetBuffer(Cache);
-				              Pass.Commands().FillBuffer(Buffer, 0, Buffer->GetDesc().Size, Value);
-			              };
-		              });
+		Graph.AddPass("Writer", [&](FPassBuilder& Builder) -> FPassExecute {
+			Builder.Write(Cache, ERTAccess::CopyWrite);
+			return [=](FPassContext& Pass) {
+				IRTBuffer* const Buffer = Pass.GetBuffer(Cache);
+				Pass.Commands().FillBuffer(Buffer, 0, Buffer->GetDesc().Size, Value);
+			};
+		});
 	}
 	/// Copies it to the host: to Readbacks, whose newest is this.
 	void AddReader(FFrameGraph& Graph, FGraphTexture Texture)
 	{
 		const FGraphTextureDesc& Desc = Graph.GetDesc(Texture);
 		const FGraphBuffer Host = AddReadback(Graph, uint64_t(Desc.Width) * Desc.Height * BytesPerTexel(Desc.Format));
-		Graph.AddPass("Reader",
-		              [&](FPassBuilder& Builder) -> FPassExecute
-		              {
-			              Builder.Read(Texture, ERTAccess::CopyRead);
-			              Builder.Write(Host, ERTAccess::CopyWrite);
-			              return [=](FPassContext& Pass) {
-				              Pass.Commands().CopyTextureToBuffer(Pass.GetBuffer(Host), 0, Pass.GetTexture(Texture), 0, 0);
-			              };
-		              });
+		Graph.AddPass("Reader", [&](FPassBuilder& Builder) -> FPassExecute {
+			Builder.Read(Texture, ERTAccess::CopyRead);
+			Builder.Write(Host, ERTAccess::CopyWrite);
+			return
+			    [=](FPassContext& Pass) { Pass.Commands().CopyTextureToBuffer(Pass.GetBuffer(Host), 0, Pass.GetTexture(Texture), 0, 0); };
+		});
 	}
 	void AddReader(FFrameGraph& Graph, FGraphBuffer Cache)
 	{
 		const uint64_t Size = Graph.GetDesc(Cache).Size;
 		const FGraphBuffer Host = AddReadback(Graph, Size);
-		Graph.AddPass("Reader",
-		              [&](FPassBuilder& Builder) -> FPassExecute
-		              {
-			              Builder.Read(Cache, ERTAccess::CopyRead);
-			              Builder.Write(Host, ERTAccess::CopyWrite);
-			              return [=](FPassContext& Pass)
-			              { Pass.Commands().CopyBuffer(Pass.GetBuffer(Host), 0, Pass.GetBuffer(Cache), 0, Size); };
-		              });
+		Graph.AddPass("Reader", [&](FPassBuilder& Builder) -> FPassExecute {
+			Builder.Read(Cache, ERTAccess::CopyRead);
+			Builder.Write(Host, ERTAccess::CopyWrite);
+			return [=](FPassContext& Pass) { Pass.Commands().CopyBuffer(Pass.GetBuffer(Host), 0, Pass.GetBuffer(Cache), 0, Size); };
+		});
 	}
 	/// A frame that writes Value and, where there is one, reads what the frame before left.
 	void WriteAndReadBefore(float Value, FFrameCase Case)
 	{
 		Frame(
-		    [&](FFrameGraph& Graph)
-		    {
-			    const FHistoryTexture Mean = Get();
-			    bHadPrevious = Mean.Previous.IsValid();
-			    if (bHadPrevious) { AddReader(Graph, Mean.Previous); }
-			    AddWriter(Graph, Mean.Current, Value);
-			    AddReader(Graph, Mean.Current);
-			    // Of the two readbacks the one before is what tests look at.
-			    if (bHadPrevious) { std::swap(Readbacks.back(), Readbacks[Readbacks.size() - 2]); }
+		    [&](FFrameGraph& Graph) {
+			const FHistoryTexture Mean = Get();
+			bHadPrevious = Mean.Previous.IsValid();
+			if (bHadPrevious) { AddReader(Graph, Mean.Previous); }
+			AddWriter(Graph, Mean.Current, Value);
+			AddReader(Graph, Mean.Current);
+			// Of the two readbacks the one before is what tests look at.
+			if (bHadPrevious) { std::swap(Readbacks.back(), Readbacks[Readbacks.size() - 2]); }
 		    },
 		    Case);
 	}
@@ -193,8 +179,7 @@ protected:
 	void SetUp() override
 	{
 		ASSERT_TRUE(CreateMockDevice({}, Inner.ReleaseAndGetAddress()));
-		const auto OnMessage = [](void* User, const char* Text)
-		{ static_cast<FHistoryTestBase*>(User)->Messages.emplace_back(Text); };
+		const auto OnMessage = [](void* User, const char* Text) { static_cast<FHistoryTestBase*>(User)->Messages.emplace_back(Text); };
 		TRTRef<IRTDevice> Wrapped;
 		ASSERT_TRUE(WrapWithValidation(Inner.Get(), OnMessage, this, Wrapped.ReleaseAndGetAddress()));
 		OpenHistory(*Wrapped);

@@ -26,9 +26,12 @@ struct FMockMaker : FRHIMaker
 	TRTRef<IRTPipeline> RayTracing(const char* Name = "RTPSO") const
 	{
 		const std::pair<ERTShaderStage, const char*> Stages[] = {
-		    {ERTShaderStage::RayGen, "RayGen"},       {ERTShaderStage::Miss, "Miss"},
-		    {ERTShaderStage::ClosestHit, "Stone"},    {ERTShaderStage::ClosestHit, "Leaf"},
-		    {ERTShaderStage::AnyHit, "LeafMask"},     {ERTShaderStage::Callable, "Light"},
+		    {ERTShaderStage::RayGen, "RayGen"},
+		    {ERTShaderStage::Miss, "Miss"},
+		    {ERTShaderStage::ClosestHit, "Stone"},
+		    {ERTShaderStage::ClosestHit, "Leaf"},
+		    {ERTShaderStage::AnyHit, "LeafMask"},
+		    {ERTShaderStage::Callable, "Light"},
 		    {ERTShaderStage::Intersection, "Sphere"},
 		};
 		FRTShaderCode Shaders[std::size(Stages)];

@@ -9,43 +9,38 @@
 namespace Lantern
 {
 
-#define ASSERT_OK(Call)                                                                                                \
-	do                                                                                                                 \
-	{                                                                                                                  \
-		const FRTStatus StatusOfCall = (Call);                                                                         \
-		ASSERT_TRUE(StatusOfCall.IsOk()) << StatusOfCall.Message;                                                      \
-	} while (false)
-#define EXPECT_OK(Call)                                                                                                \
-	do                                                                                                                 \
-	{                                                                                                                  \
-		const FRTStatus StatusOfCall = (Call);                                                                         \
-		EXPECT_TRUE(StatusOfCall.IsOk()) << StatusOfCall.Message;                                                      \
-	} while (false)
+#define ASSERT_OK(Call)                                                                                                                    \
+	do {                                                                                                                                   \
+		const FRTStatus StatusOfCall = (Call);                                                                                             \
+		ASSERT_TRUE(StatusOfCall.IsOk()) << StatusOfCall.Message;                                                                          \
+	}                                                                                                                                      \
+	while (false)
+#define EXPECT_OK(Call)                                                                                                                    \
+	do {                                                                                                                                   \
+		const FRTStatus StatusOfCall = (Call);                                                                                             \
+		EXPECT_TRUE(StatusOfCall.IsOk()) << StatusOfCall.Message;                                                                          \
+	}                                                                                                                                      \
+	while (false)
 
-inline constexpr ERTBufferUsage AnyUsage = ERTBufferUsage::Storage | ERTBufferUsage::Index |
-                                           ERTBufferUsage::CopySource | ERTBufferUsage::CopyDest |
-                                           ERTBufferUsage::GeometryInput;
+inline constexpr ERTBufferUsage AnyUsage =
+    ERTBufferUsage::Storage | ERTBufferUsage::Index | ERTBufferUsage::CopySource | ERTBufferUsage::CopyDest | ERTBufferUsage::GeometryInput;
 
 /// Makes objects of one device; failures are test failures and null.
 struct FRHIMaker
 {
 	TRTRef<IRTDevice> Device;
 
-	TRTRef<IRTBuffer> Buffer(uint64_t Size, ERTMemory Memory = ERTMemory::Device, const char* Name = "Buffer",
-	                         ERTBufferUsage Usage = AnyUsage) const
+	TRTRef<IRTBuffer> Buffer(
+	    uint64_t Size, ERTMemory Memory = ERTMemory::Device, const char* Name = "Buffer", ERTBufferUsage Usage = AnyUsage) const
 	{
 		TRTRef<IRTBuffer> Out;
 		EXPECT_OK(Device->CreateBuffer({Size, Usage, Memory, Name}, Out.ReleaseAndGetAddress()));
 		return Out;
 	}
-	TRTRef<IRTBuffer> Scratch(uint64_t Size = 1 << 20) const
-	{
-		return Buffer(Size, ERTMemory::Device, "Scratch", ERTBufferUsage::Scratch);
-	}
+	TRTRef<IRTBuffer> Scratch(uint64_t Size = 1 << 20) const { return Buffer(Size, ERTMemory::Device, "Scratch", ERTBufferUsage::Scratch); }
 	TRTRef<IRTTexture> Texture(uint32_t Width, uint32_t Height, ERTFormat Format, uint32_t Mips = 1,
-	                           ERTTextureUsage Usage = ERTTextureUsage::Sampled | ERTTextureUsage::CopySource |
-	                                                   ERTTextureUsage::CopyDest,
-	                           const char* Name = "Texture") const
+	    ERTTextureUsage Usage = ERTTextureUsage::Sampled | ERTTextureUsage::CopySource | ERTTextureUsage::CopyDest,
+	    const char* Name = "Texture") const
 	{
 		FRTTextureDesc Desc;
 		Desc.Width = Width;
@@ -83,8 +78,7 @@ struct FRHIMaker
 		Item.IndexType = Indices ? ERTIndexType::UInt32 : ERTIndexType::None;
 		return Item;
 	}
-	TRTRef<IRTGeometry> Geometry(const FRTGeometrySection& Item, const char* Name = "Geometry",
-	                             bool bUpdate = false) const
+	TRTRef<IRTGeometry> Geometry(const FRTGeometrySection& Item, const char* Name = "Geometry", bool bUpdate = false) const
 	{
 		FRTGeometryDesc Desc;
 		Desc.Sections = &Item;
@@ -110,8 +104,8 @@ struct FRHIMaker
 		Item.GeometryAddress = Address;
 		return Item;
 	}
-	static void Build(IRTCommandList* List, IRTGeometry* Geometry, const FRTGeometrySection& Section,
-	                  IRTBuffer* Scratch, bool bUpdate = false, uint64_t Offset = 0)
+	static void Build(IRTCommandList* List, IRTGeometry* Geometry, const FRTGeometrySection& Section, IRTBuffer* Scratch,
+	    bool bUpdate = false, uint64_t Offset = 0)
 	{
 		FRTGeometryBuild Item;
 		Item.Geometry = Geometry;

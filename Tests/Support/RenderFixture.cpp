@@ -24,30 +24,17 @@ class FRenderWorld : public ::testing::Environment
 public:
 	FRTStatus Open()
 	{
-		if (Engine)
-		{
-			return FRTStatus::Success();
-		}
+		if (Engine) { return FRTStatus::Success(); }
 		FRTVulkanDeviceDesc Desc;
 		Desc.bValidation = std::getenv("LANTERN_TEST_WITHOUT_LAYERS") == nullptr;
 		Desc.MessageUser = this;
-		Desc.MessageCallback = [](void* User, ERTVulkanMessage Severity, const char* Text)
-		{
-			if (Severity != ERTVulkanMessage::Info)
-			{
-				static_cast<FRenderWorld*>(User)->AddMessage(Text);
-			}
+		Desc.MessageCallback = [](void* User, ERTVulkanMessage Severity, const char* Text) {
+			if (Severity != ERTVulkanMessage::Info) { static_cast<FRenderWorld*>(User)->AddMessage(Text); }
 		};
 		TRTRef<IRTDevice> Inner;
-		if (FRTStatus S = CreateVulkanDevice(Desc, Inner.ReleaseAndGetAddress()); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = CreateVulkanDevice(Desc, Inner.ReleaseAndGetAddress()); !S) { return S; }
 		const auto OnMessage = [](void* User, const char* Text) { static_cast<FRenderWorld*>(User)->AddMessage(Text); };
-		if (FRTStatus S = WrapWithValidation(Inner.Get(), OnMessage, this, Device.ReleaseAndGetAddress()); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = WrapWithValidation(Inner.Get(), OnMessage, this, Device.ReleaseAndGetAddress()); !S) { return S; }
 		FRendererDesc Renderer;
 		Renderer.ShaderFolders = {LANTERN_SOURCE_DIR "/Shaders"};
 		Renderer.CacheFolder = LANTERN_TEST_CACHE;
@@ -71,10 +58,7 @@ public:
 	void ReportMessages()
 	{
 		std::lock_guard Lock(Mutex);
-		for (const std::string& Message : Messages)
-		{
-			ADD_FAILURE() << "validation: " << Message;
-		}
+		for (const std::string& Message : Messages) { ADD_FAILURE() << "validation: " << Message; }
 		Messages.clear();
 	}
 
@@ -99,14 +83,8 @@ FRenderWorld& GetWorld()
 std::string FindScene(const std::string& Name)
 {
 	fs::path Folder = fs::path(LANTERN_SOURCE_DIR).parent_path() / "shared" / "scenes";
-	if (const char* Shared = std::getenv("LANTERN_SHARED"))
-	{
-		Folder = fs::path(Shared) / "scenes";
-	}
-	if (const char* Scenes = std::getenv("LANTERN_SCENES"))
-	{
-		Folder = Scenes;
-	}
+	if (const char* Shared = std::getenv("LANTERN_SHARED")) { Folder = fs::path(Shared) / "scenes"; }
+	if (const char* Scenes = std::getenv("LANTERN_SCENES")) { Folder = Scenes; }
 	std::error_code Error;
 	return fs::exists(Folder / Name, Error) ? (Folder / Name).string() : std::string();
 }
@@ -114,15 +92,9 @@ std::string FindScene(const std::string& Name)
 FEstimate MakeEstimate(const std::vector<double>& Values)
 {
 	FEstimate Estimate;
-	for (const double Value : Values)
-	{
-		Estimate.Mean += Value / double(Values.size());
-	}
+	for (const double Value : Values) { Estimate.Mean += Value / double(Values.size()); }
 	double Squares = 0.0;
-	for (const double Value : Values)
-	{
-		Squares += (Value - Estimate.Mean) * (Value - Estimate.Mean);
-	}
+	for (const double Value : Values) { Squares += (Value - Estimate.Mean) * (Value - Estimate.Mean); }
 	Estimate.StandardError = std::sqrt(Squares / double(Values.size() * (Values.size() - 1)));
 	return Estimate;
 }
@@ -136,8 +108,8 @@ void PrintFigure(const std::string& Text)
 void ExpectClosedForm(const char* What, const FEstimate& Estimate, double Expected, double Tolerance)
 {
 	const double Error = Estimate.Mean / Expected - 1.0, Sigma = Estimate.StandardError / Expected;
-	PrintFigure(fmt::format("{}: expected {:.6g}, got {:.6g}, off by {:+.3f} % (statistical error {:.3f} %)", What,
-	                        Expected, Estimate.Mean, 100 * Error, 100 * Sigma));
+	PrintFigure(fmt::format("{}: expected {:.6g}, got {:.6g}, off by {:+.3f} % (statistical error {:.3f} %)", What, Expected, Estimate.Mean,
+	    100 * Error, 100 * Sigma));
 	EXPECT_LE(std::abs(Error), Tolerance) << What;
 	EXPECT_LE(Sigma, Tolerance / 3) << What << ": too few samples to tell";
 }
@@ -152,23 +124,14 @@ void FRenderTest::SetUp()
 
 void FRenderTest::TearDown()
 {
-	if (!GetWorld().Engine)
-	{
-		return;
-	}
+	if (!GetWorld().Engine) { return; }
 	GetEngine().ExtraPasses = {};
 	EXPECT_OK(GetEngine().GetRenderer().WaitForAll());
 	GetWorld().ReportMessages();
 }
 
-IRTDevice& FRenderTest::GetDevice()
-{
-	return *GetWorld().Device;
-}
-FSampleEngine& FRenderTest::GetEngine()
-{
-	return *GetWorld().Engine;
-}
+IRTDevice& FRenderTest::GetDevice() { return *GetWorld().Device; }
+FSampleEngine& FRenderTest::GetEngine() { return *GetWorld().Engine; }
 
 bool FRenderTest::Load(const std::string& Name)
 {
@@ -181,16 +144,10 @@ bool FRenderTest::Load(FSceneDescription Scene)
 {
 	const std::string Fault = ValidateScene(Scene);
 	EXPECT_EQ(Fault, "");
-	if (!Fault.empty())
-	{
-		return false;
-	}
+	if (!Fault.empty()) { return false; }
 	const FRTStatus Status = GetEngine().Load(std::move(Scene));
 	EXPECT_TRUE(Status.IsOk()) << Status.Message;
-	if (!Status)
-	{
-		return false;
-	}
+	if (!Status) { return false; }
 	const FSceneDescription& Description = GetScene().GetDescription();
 	FSunLight Sun;
 	if (Description.DefaultSun)
@@ -213,10 +170,7 @@ void FRenderTest::SetSun(double DiameterDegrees, float Irradiance, glm::dvec3 Di
 	GetScene().SetSun(Sun);
 }
 
-void FRenderTest::SetSky(glm::vec3 Radiance)
-{
-	GetScene().GetScene().SetSky(Radiance);
-}
+void FRenderTest::SetSky(glm::vec3 Radiance) { GetScene().GetScene().SetSky(Radiance); }
 
 void FRenderTest::SetVariable(const char* Name, const std::string& Value)
 {
@@ -227,10 +181,7 @@ void FRenderTest::SetVariable(const char* Name, const std::string& Value)
 namespace
 {
 /// After a failure tests go on with a black picture, rather than reading past the end of none.
-bool HasSize(const FImage& Image, const FView& View)
-{
-	return Image.Width == View.Width && Image.Height == View.Height;
-}
+bool HasSize(const FImage& Image, const FView& View) { return Image.Width == View.Width && Image.Height == View.Height; }
 } // namespace
 
 FImage FRenderTest::RenderLighting(const FView& View, double Time)
@@ -260,10 +211,7 @@ FImage FRenderTest::RenderSunShadow(const FView& View, uint32_t Count, uint32_t 
 		Capture.Wants(ESignal::SunShadow) = true;
 		EXPECT_OK(GetEngine().RenderFrame(View, Time, Capture, &Frame));
 		EXPECT_EQ(Frame.Get(ESignal::SunShadow).Pixels.size(), Sum.Pixels.size()) << "the frame has no sun shadows";
-		if (Frame.Get(ESignal::SunShadow).Pixels.size() != Sum.Pixels.size())
-		{
-			return Sum;
-		}
+		if (Frame.Get(ESignal::SunShadow).Pixels.size() != Sum.Pixels.size()) { return Sum; }
 		for (size_t P = 0; P < Sum.Pixels.size(); ++P)
 		{
 			Sum.Pixels[P] += Frame.Get(ESignal::SunShadow).Pixels[P] / static_cast<float>(Count);
@@ -298,10 +246,7 @@ FEstimate FRenderTest::EstimateMean(FView View, uint32_t Samples, uint32_t Bounc
 double MeanGreen(const FImage& Image)
 {
 	double Sum = 0.0;
-	for (size_t I = 0; I < Image.GetPixelCount(); ++I)
-	{
-		Sum += Image.Pixels[I * Image.Channels + (Image.Channels == 1 ? 0 : 1)];
-	}
+	for (size_t I = 0; I < Image.GetPixelCount(); ++I) { Sum += Image.Pixels[I * Image.Channels + (Image.Channels == 1 ? 0 : 1)]; }
 	return Sum / double(Image.GetPixelCount());
 }
 
@@ -342,10 +287,7 @@ FImage Shrink(const FImage& Image, uint32_t Factor)
 	{
 		for (uint32_t X = 0; X < Out.Width * Factor; ++X)
 		{
-			for (uint32_t C = 0; C < Out.Channels; ++C)
-			{
-				Out.At(X / Factor, Y / Factor, C) += Image.At(X, Y, C) * Weight;
-			}
+			for (uint32_t C = 0; C < Out.Channels; ++C) { Out.At(X / Factor, Y / Factor, C) += Image.At(X, Y, C) * Weight; }
 		}
 	}
 	return Out;

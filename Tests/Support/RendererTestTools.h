@@ -40,10 +40,7 @@ inline FHostMesh MakeQuad(const char* Name, int32_t Material, bool bSkinned)
 	Mesh.Sections = {{0, 6, Material}};
 	Mesh.BoundsMin = {-1, -1, 0};
 	Mesh.BoundsMax = {1, 1, 0};
-	if (bSkinned)
-	{
-		Mesh.Skin.resize(4, FSkinWeights{{0, 0, 0, 0}, {1, 0, 0, 0}});
-	}
+	if (bSkinned) { Mesh.Skin.resize(4, FSkinWeights{{0, 0, 0, 0}, {1, 0, 0, 0}}); }
 	return Mesh;
 }
 
@@ -53,8 +50,7 @@ inline FSceneDescription MakeDescription(const FContent& Content)
 	FSceneDescription Scene;
 	Scene.Name = "Test";
 	Scene.Materials.resize(1);
-	const auto AddQuad = [&](const char* Name, int32_t Material, bool bSkinned)
-	{
+	const auto AddQuad = [&](const char* Name, int32_t Material, bool bSkinned) {
 		FHostNode Node;
 		Node.Name = Name;
 		Node.Mesh = static_cast<int32_t>(Scene.Meshes.size());
@@ -62,15 +58,11 @@ inline FSceneDescription MakeDescription(const FContent& Content)
 		Scene.Meshes.push_back(MakeQuad(Name, Material, bSkinned));
 		Scene.Nodes.push_back(Node);
 	};
-	const auto AddMaterial = [&]
-	{
+	const auto AddMaterial = [&] {
 		Scene.Materials.emplace_back();
 		return static_cast<int32_t>(Scene.Materials.size() - 1);
 	};
-	if (Content.bObjects)
-	{
-		AddQuad("Plain", 0, false);
-	}
+	if (Content.bObjects) { AddQuad("Plain", 0, false); }
 	if (Content.bMasked)
 	{
 		const int32_t Material = AddMaterial();
@@ -127,8 +119,7 @@ protected:
 	{
 		Close();
 		ASSERT_TRUE(CreateMockDevice(Desc, Inner.ReleaseAndGetAddress()));
-		const auto OnMessage = [](void* User, const char* Text)
-		{ static_cast<FRendererTest*>(User)->Messages.emplace_back(Text); };
+		const auto OnMessage = [](void* User, const char* Text) { static_cast<FRendererTest*>(User)->Messages.emplace_back(Text); };
 		ASSERT_TRUE(WrapWithValidation(Inner.Get(), OnMessage, this, Device.ReleaseAndGetAddress()));
 		FRendererDesc Renderer;
 		Renderer.ShaderFolders = ShaderFolders;
@@ -146,20 +137,14 @@ protected:
 		Device.Reset();
 		EXPECT_EQ(Messages, std::vector<std::string>());
 		Messages.clear();
-		if (Inner)
-		{
-			EXPECT_EQ(Mock().GetErrors(), std::vector<std::string>());
-		}
+		if (Inner) { EXPECT_EQ(Mock().GetErrors(), std::vector<std::string>()); }
 		Inner.Reset();
 	}
 	FRTMock& Mock() { return GetMock(Inner.Get()); }
 
 	FRTStatus Load(const FContent& Content)
 	{
-		if (FRTStatus Status = Engine->Load(MakeDescription(Content)); !Status)
-		{
-			return Status;
-		}
+		if (FRTStatus Status = Engine->Load(MakeDescription(Content)); !Status) { return Status; }
 		ApplySky(Content);
 		return FRTStatus::Success();
 	}
@@ -201,10 +186,7 @@ protected:
 		std::vector<std::string> Names;
 		for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::BeginMarker))
 		{
-			if (Call.Name != "Readback")
-			{
-				Names.push_back(Call.Name);
-			}
+			if (Call.Name != "Readback") { Names.push_back(Call.Name); }
 		}
 		return Names;
 	}
@@ -213,7 +195,8 @@ protected:
 	{
 		std::vector<std::string> Names = GetPasses();
 		std::erase_if(Names, [](const std::string& Name) {
-			return Name == "Surface" || Name == "CameraMotion" || Name.find("Temporal") != std::string::npos || Name.find("Filter") != std::string::npos;
+			return Name == "Surface" || Name == "CameraMotion" || Name.find("Temporal") != std::string::npos ||
+			       Name.find("Filter") != std::string::npos;
 		});
 		return Names;
 	}
@@ -232,10 +215,7 @@ protected:
 	{
 		const auto Instances = Mock().GetSceneInstances(Unwrap(Engine->GetScene().GetScene().GetStructure()));
 		EXPECT_LT(InstanceIndex, Instances.size());
-		if (InstanceIndex >= Instances.size())
-		{
-			return {};
-		}
+		if (InstanceIndex >= Instances.size()) { return {}; }
 		IRTShaderTable* const Table = Unwrap(Engine->GetRenderer().GetBindings().GetTable());
 		return Mock().ResolveHit(Table, Instances[InstanceIndex].Instance, 0, RayType, GetRTPSO()->GetRayTypeCount());
 	}

@@ -57,10 +57,7 @@ protected:
 	void SetUp() override { Open({}); }
 	void TearDown() override
 	{
-		if (Device)
-		{
-			EXPECT_EQ(Mock().GetErrors(), std::vector<std::string>());
-		}
+		if (Device) { EXPECT_EQ(Mock().GetErrors(), std::vector<std::string>()); }
 	}
 	void Open(const FRTMockDesc& Desc)
 	{
@@ -75,8 +72,7 @@ protected:
 	TRTRef<IRTBuffer> MakeBuffer(const std::string& Name, uint64_t Size)
 	{
 		TRTRef<IRTBuffer> Buffer;
-		const FRTBufferDesc Desc{Size, ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput, ERTMemory::Device,
-		                         Name.c_str()};
+		const FRTBufferDesc Desc{Size, ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput, ERTMemory::Device, Name.c_str()};
 		const FRTStatus Status = Device->CreateBuffer(Desc, Buffer.ReleaseAndGetAddress());
 		EXPECT_TRUE(Status) << Status.Message;
 		return Buffer;
@@ -99,8 +95,7 @@ protected:
 		Info.bOpaqueVertices = Options.bOpaqueVertices;
 		for (uint32_t Section = 0; Section < SectionCount; ++Section)
 		{
-			Info.Sections.push_back(
-			    {3 * Section * Options.TrianglesPerSection, 3 * Options.TrianglesPerSection, Options.bOpaque});
+			Info.Sections.push_back({3 * Section * Options.TrianglesPerSection, 3 * Options.TrianglesPerSection, Options.bOpaque});
 		}
 		if (Options.bCpuData)
 		{
@@ -143,14 +138,8 @@ protected:
 		EXPECT_TRUE(List->Begin());
 		Scene->RefreshFacts();
 		bUpdated = Scene->NeedsUpdate(Camera, Use);
-		if (bUpdated)
-		{
-			EXPECT_TRUE(Scene->Update(*List, *Uploads, Camera, Use));
-		}
-		if (Tracing.Bindings)
-		{
-			EXPECT_TRUE(Tracing.Bindings->Sync(*List, *Tracing.Pipeline, Scene->GetSections()));
-		}
+		if (bUpdated) { EXPECT_TRUE(Scene->Update(*List, *Uploads, Camera, Use)); }
+		if (Tracing.Bindings) { EXPECT_TRUE(Tracing.Bindings->Sync(*List, *Tracing.Pipeline, Scene->GetSections())); }
 		EXPECT_TRUE(List->End());
 		FRTFence Fence = 0;
 		IRTCommandList* const Lists[] = {List.Get()};
@@ -178,10 +167,7 @@ protected:
 		uint64_t Offset = 0;
 		IRTBuffer* const Buffer = Mock().FindBuffer(Address + Index * sizeof(T), &Offset);
 		EXPECT_TRUE(Buffer) << "no buffer holds entry " << Index;
-		if (Buffer)
-		{
-			std::memcpy(&Value, Mock().GetBytes(Buffer) + Offset, sizeof(T));
-		}
+		if (Buffer) { std::memcpy(&Value, Mock().GetBytes(Buffer) + Offset, sizeof(T)); }
 		return Value;
 	}
 

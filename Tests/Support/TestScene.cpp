@@ -33,10 +33,7 @@ int32_t FTestScene::AddHalfCutLambert()
 	Image.Width = Image.Height = Size;
 	Image.bHasAlpha = true;
 	Image.Rgba.assign(4 * Size * Size, 255);
-	for (uint32_t I = 0; I < Size * Size; ++I)
-	{
-		Image.Rgba[4 * I + 3] = I % Size < Size / 2 ? 0 : 255;
-	}
+	for (uint32_t I = 0; I < Size * Size; ++I) { Image.Rgba[4 * I + 3] = I % Size < Size / 2 ? 0 : 255; }
 	FHostTexture Texture;
 	Texture.Image = static_cast<int32_t>(Scene.Images.size());
 	Texture.bRepeatU = Texture.bRepeatV = false;
@@ -89,10 +86,7 @@ int32_t FTestScene::AddMesh(const std::vector<FQuad>& Quads)
 			Mesh.BoundsMax = glm::max(Mesh.BoundsMax, Quad.P[Corner]);
 		}
 		Mesh.Sections.push_back({static_cast<uint32_t>(Mesh.Indices.size()), 6, Quad.Material});
-		for (const uint32_t Corner : {0u, 1u, 2u, 0u, 2u, 3u})
-		{
-			Mesh.Indices.push_back(First + Corner);
-		}
+		for (const uint32_t Corner : {0u, 1u, 2u, 0u, 2u, 3u}) { Mesh.Indices.push_back(First + Corner); }
 	}
 	Scene.Meshes.push_back(std::move(Mesh));
 	return static_cast<int32_t>(Scene.Meshes.size()) - 1;
@@ -133,10 +127,7 @@ FHostMesh MakeMirrored(FHostMesh Mesh)
 		const glm::vec4 Tangent = UnpackTangent(Mesh.Attributes[I].Tangent);
 		Mesh.Attributes[I].Tangent = PackTangent(Tangent * glm::vec4(-1, 1, 1, -1));
 	}
-	for (size_t I = 0; I < Mesh.Indices.size(); I += 3)
-	{
-		std::swap(Mesh.Indices[I + 1], Mesh.Indices[I + 2]);
-	}
+	for (size_t I = 0; I < Mesh.Indices.size(); I += 3) { std::swap(Mesh.Indices[I + 1], Mesh.Indices[I + 2]); }
 	const glm::vec3 Min = Mesh.BoundsMin;
 	Mesh.BoundsMin.x = -Mesh.BoundsMax.x;
 	Mesh.BoundsMax.x = -Min.x;

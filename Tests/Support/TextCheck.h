@@ -20,9 +20,15 @@ struct FForm
 };
 
 inline constexpr FForm Forms[] = {
-    {0x00, 0x7F, 0x00, 0x00, 1}, {0xC2, 0xDF, 0x80, 0xBF, 2}, {0xE0, 0xE0, 0xA0, 0xBF, 3},
-    {0xE1, 0xEC, 0x80, 0xBF, 3}, {0xED, 0xED, 0x80, 0x9F, 3}, {0xEE, 0xEF, 0x80, 0xBF, 3},
-    {0xF0, 0xF0, 0x90, 0xBF, 4}, {0xF1, 0xF3, 0x80, 0xBF, 4}, {0xF4, 0xF4, 0x80, 0x8F, 4},
+    {0x00, 0x7F, 0x00, 0x00, 1},
+    {0xC2, 0xDF, 0x80, 0xBF, 2},
+    {0xE0, 0xE0, 0xA0, 0xBF, 3},
+    {0xE1, 0xEC, 0x80, 0xBF, 3},
+    {0xED, 0xED, 0x80, 0x9F, 3},
+    {0xEE, 0xEF, 0x80, 0xBF, 3},
+    {0xF0, 0xF0, 0x90, 0xBF, 4},
+    {0xF1, 0xF3, 0x80, 0xBF, 4},
+    {0xF4, 0xF4, 0x80, 0x8F, 4},
 };
 
 inline bool IsBetween(char C, uint8_t Min, uint8_t Max)
@@ -36,10 +42,7 @@ inline size_t GetLength(std::string_view Text)
 {
 	for (const FForm& Form : Forms)
 	{
-		if (!IsBetween(Text[0], Form.FirstMin, Form.FirstMax))
-		{
-			continue;
-		}
+		if (!IsBetween(Text[0], Form.FirstMin, Form.FirstMax)) { continue; }
 		bool bWhole = Text.size() >= Form.Length;
 		for (size_t I = 1; bWhole && I < Form.Length; ++I)
 		{
@@ -53,10 +56,7 @@ inline size_t GetLength(std::string_view Text)
 /// What is well-formed and must still not be shown.
 inline bool IsControl(std::string_view Character)
 {
-	if (Character.size() == 1)
-	{
-		return IsBetween(Character[0], 0x00, 0x1F) || Character[0] == 0x7F;
-	}
+	if (Character.size() == 1) { return IsBetween(Character[0], 0x00, 0x1F) || Character[0] == 0x7F; }
 	if (Character.size() == 2)
 	{
 		return Character[0] == '\xC2' && IsBetween(Character[1], 0x80, 0x9F); // C1
@@ -77,10 +77,7 @@ inline size_t FindUnclean(std::string_view Text, std::string_view Allowed)
 	{
 		const size_t Length = GetLength(Text.substr(Place));
 		const bool bAllowed = Allowed.find(Text[Place]) != std::string_view::npos;
-		if (Length == 0 || (!bAllowed && IsControl(Text.substr(Place, Length))))
-		{
-			return Place;
-		}
+		if (Length == 0 || (!bAllowed && IsControl(Text.substr(Place, Length)))) { return Place; }
 		Place += Length;
 	}
 	return Place;
@@ -89,15 +86,9 @@ inline size_t FindUnclean(std::string_view Text, std::string_view Allowed)
 } // namespace TextCheck
 
 /// Valid UTF-8 on one line, without controls.
-inline bool IsCleanText(std::string_view Text)
-{
-	return TextCheck::FindUnclean(Text, "") == Text.size();
-}
+inline bool IsCleanText(std::string_view Text) { return TextCheck::FindUnclean(Text, "") == Text.size(); }
 
 /// The same with line breaks and tabs.
-inline bool AreCleanLines(std::string_view Text)
-{
-	return TextCheck::FindUnclean(Text, "\n\t") == Text.size();
-}
+inline bool AreCleanLines(std::string_view Text) { return TextCheck::FindUnclean(Text, "\n\t") == Text.size(); }
 
 } // namespace Lantern

@@ -17,8 +17,7 @@ protected:
 		FRTMockDesc Desc;
 		Desc.MaxPushConstantBytes = 128;
 		ASSERT_OK(CreateMockDevice(Desc, Inner.ReleaseAndGetAddress()));
-		const auto Callback = [](void* User, const char* Message)
-		{ static_cast<FValidationFixture*>(User)->Messages.push_back(Message); };
+		const auto Callback = [](void* User, const char* Message) { static_cast<FValidationFixture*>(User)->Messages.push_back(Message); };
 		ASSERT_OK(WrapWithValidation(Inner.Get(), Callback, this, Make.Device.ReleaseAndGetAddress()));
 		Mock = &GetMock(Inner.Get());
 	}
@@ -28,10 +27,7 @@ protected:
 	void ExpectMessage(std::initializer_list<const char*> Parts)
 	{
 		ASSERT_EQ(Messages.size(), 1u) << testing::PrintToString(Messages) << ", expected one with " << *Parts.begin();
-		for (const char* Part : Parts)
-		{
-			EXPECT_THAT(Messages[0], testing::HasSubstr(Part));
-		}
+		for (const char* Part : Parts) { EXPECT_THAT(Messages[0], testing::HasSubstr(Part)); }
 		Messages.clear();
 	}
 	/// Calls of this kind that reached the wrapped device.

@@ -21,33 +21,26 @@ namespace Lantern
 /// for; this is ten times that and more, so that it also holds under sanitizers and where other builds have the cores.
 inline constexpr std::chrono::seconds WaitLimit{600};
 inline constexpr uint64_t WaitLimitNs = std::chrono::nanoseconds(WaitLimit).count(); ///< as IRTDevice::WaitFor has it
-inline constexpr std::chrono::seconds WaitLineInterval{5}; ///< between lines that say what is still waited for
+inline constexpr std::chrono::seconds WaitLineInterval{5};                           ///< between lines that say what is still waited for
 
 /// Lets other threads run. Not a time that anything may depend on.
-inline void GiveWay()
-{
-	std::this_thread::sleep_for(std::chrono::milliseconds(1));
-}
+inline void GiveWay() { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }
 
-inline void PrintWaiting(const std::string& What, std::chrono::steady_clock::duration Waited,
-                         const std::string& Progress)
+inline void PrintWaiting(const std::string& What, std::chrono::steady_clock::duration Waited, const std::string& Progress)
 {
 	const auto Seconds = static_cast<long long>(std::chrono::duration_cast<std::chrono::seconds>(Waited).count());
-	std::printf("still waiting for %s: %lld s%s%s\n", What.c_str(), Seconds, Progress.empty() ? "" : ", ",
-	            Progress.c_str());
+	std::printf("still waiting for %s: %lld s%s%s\n", What.c_str(), Seconds, Progress.empty() ? "" : ", ", Progress.c_str());
 	std::fflush(stdout); // or the line is lost where ctest ends the program
 }
 
 /// Polls Condition, with a Step between polls (a frame, say; none: other threads run), and prints a line every few seconds.
 /// False, with a failure of the test: it did not come within Limit, or a Step had a fatal failure.
 /// What: completes "still waiting for …". Progress: what there is so far, "3 of 8 programs".
-inline bool WaitUntil(const std::string& What, const std::function<bool()>& Condition,
-                      const std::function<void()>& Step = {}, const std::function<std::string()>& Progress = {},
-                      std::chrono::steady_clock::duration Limit = WaitLimit)
+inline bool WaitUntil(const std::string& What, const std::function<bool()>& Condition, const std::function<void()>& Step = {},
+    const std::function<std::string()>& Progress = {}, std::chrono::steady_clock::duration Limit = WaitLimit)
 {
 	using FClock = std::chrono::steady_clock;
-	const auto CountFailures = []
-	{
+	const auto CountFailures = [] {
 		const auto* const Info = ::testing::UnitTest::GetInstance()->current_test_info();
 		return Info ? Info->result()->total_part_count() : 0;
 	};
@@ -56,10 +49,7 @@ inline bool WaitUntil(const std::string& What, const std::function<bool()>& Cond
 	auto NextLine = Start + WaitLineInterval;
 	while (!Condition())
 	{
-		if (CountFailures() > Before && ::testing::Test::HasFatalFailure())
-		{
-			return false;
-		}
+		if (CountFailures() > Before && ::testing::Test::HasFatalFailure()) { return false; }
 		const auto Now = FClock::now();
 		const std::string Text = Progress && (Now >= NextLine || Now - Start >= Limit) ? Progress() : std::string();
 		if (Now - Start >= Limit)
@@ -82,14 +72,12 @@ inline bool WaitUntil(const std::string& What, const std::function<bool()>& Cond
 class FHangGuard
 {
 public:
-	FHangGuard(std::string InWhat, std::function<void()> InLetGo,
-	           std::chrono::steady_clock::duration InLimit = WaitLimit)
+	FHangGuard(std::string InWhat, std::function<void()> InLetGo, std::chrono::steady_clock::duration InLimit = WaitLimit)
 	    : What(std::move(InWhat)),
 	      LetGo(std::move(InLetGo)),
 	      Limit(InLimit),
 	      Thread([this] { Watch(); })
-	{
-	}
+	{}
 	~FHangGuard()
 	{
 		{
@@ -111,10 +99,7 @@ private:
 		for (auto Next = Start; !bOver && FClock::now() < End;)
 		{
 			Next = std::min(Next + FClock::duration(WaitLineInterval), End);
-			if (!Over.wait_until(Lock, Next, [&] { return bOver; }) && Next < End)
-			{
-				PrintWaiting(What, Next - Start, {});
-			}
+			if (!Over.wait_until(Lock, Next, [&] { return bOver; }) && Next < End) { PrintWaiting(What, Next - Start, {}); }
 		}
 		if (!bOver)
 		{

@@ -37,7 +37,7 @@ TEST(WaitTools, WhatNeverComesIsAFailureWithItsProgress)
 	static bool bCame = true;
 	EXPECT_NONFATAL_FAILURE(bCame = WaitUntil(
 	                            "Godot", [] { return false; }, {}, [] { return "0 of 1"; }, milliseconds(1)),
-	                        "waited in vain for Godot: 0 of 1");
+	    "waited in vain for Godot: 0 of 1");
 	EXPECT_FALSE(bCame);
 }
 
@@ -58,8 +58,7 @@ TEST(WaitTools, GuardLetsGoOfWhatHangsAndOfNothingElse)
 		const FHangGuard Guard("a call that returns", [] { ++LetGo; });
 	}
 	EXPECT_EQ(LetGo, 0);
-	const auto Hang = []
-	{
+	const auto Hang = [] {
 		const FHangGuard Guard(
 		    "a call that hangs", [] { ++LetGo; }, milliseconds(1));
 		WaitUntil("the guard", [] { return LetGo > 0; });

@@ -9,8 +9,8 @@
 #include "Bench/BenchScenes.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Text/Log.h"
-#include "LanternImage/AtomicFile.h"
 #include "LanternHost/ReferenceRenderer.h"
+#include "LanternImage/AtomicFile.h"
 #include "Session.h"
 
 namespace Lantern
@@ -39,10 +39,7 @@ struct FAnyHitCase
 	double GetRatio() const { return Plain > 0 ? double(Classified) / double(Plain) : 1.0; }
 };
 
-void Set(const char* Name, const std::string& Value)
-{
-	FConsoleVariables::Get().Set(Name, Value, ERTSetBy::CommandLine, "bench anyhit");
-}
+void Set(const char* Name, const std::string& Value) { FConsoleVariables::Get().Set(Name, Value, ERTSetBy::CommandLine, "bench anyhit"); }
 
 void Compare(const FImage& A, const FImage& B, FAnyHitCase& Case)
 {
@@ -70,8 +67,7 @@ public:
 	    : Session(InSession),
 	      Scene(InScene),
 	      View(InSession.MakeView(Picture))
-	{
-	}
+	{}
 
 	FRTStatus RunShadow(bool bPipeline, bool bSoft, FAnyHitCase& Case)
 	{
@@ -88,18 +84,16 @@ public:
 	{
 		Case.Name = Scene.Name + "/pipeline/reference";
 		Case.bPaths = true;
-		return RunBoth(Case,
-		               [&](FImage& Out)
-		               {
-			               FReferenceSettings Settings;
-			               Settings.View = View;
-			               Settings.Samples = ReferenceSamples;
-			               Settings.Bounces = ReferenceBounces;
-			               FReferenceResult Result;
-			               const FRTStatus Status = RenderReference(Session.GetEngine(), Settings, Result);
-			               Out = std::move(Result.Radiance);
-			               return Status;
-		               });
+		return RunBoth(Case, [&](FImage& Out) {
+			FReferenceSettings Settings;
+			Settings.View = View;
+			Settings.Samples = ReferenceSamples;
+			Settings.Bounces = ReferenceBounces;
+			FReferenceResult Result;
+			const FRTStatus Status = RenderReference(Session.GetEngine(), Settings, Result);
+			Out = std::move(Result.Radiance);
+			return Status;
+		});
 	}
 
 private:
@@ -122,19 +116,10 @@ private:
 		FRenderer& Renderer = Session.GetEngine().GetRenderer();
 		Set("r.RT.Opacity.Classify", bClassified ? "1" : "0");
 		Set("r.RT.Opacity.Count", "1");
-		if (FRTStatus S = RenderShadow(Out); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = RenderShadow(Out); !S) { return S; }
 		const uint64_t Before = Renderer.GetAnyHits().Total;
-		if (FRTStatus S = Render(Out); !S)
-		{
-			return S;
-		}
-		if (FRTStatus S = Renderer.WaitForAll(); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = Render(Out); !S) { return S; }
+		if (FRTStatus S = Renderer.WaitForAll(); !S) { return S; }
 		OutCalls = Renderer.GetAnyHits().Total - Before;
 		return FRTStatus::Success();
 	}
@@ -143,14 +128,8 @@ private:
 	FRTStatus RunBoth(FAnyHitCase& Case, FRender Render)
 	{
 		FImage Plain, Classified;
-		if (FRTStatus S = Count(false, Render, Case.Plain, Plain); !S)
-		{
-			return S;
-		}
-		if (FRTStatus S = Count(true, Render, Case.Classified, Classified); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = Count(false, Render, Case.Plain, Plain); !S) { return S; }
+		if (FRTStatus S = Count(true, Render, Case.Classified, Classified); !S) { return S; }
 		if (Plain.IsEmpty() || Plain.Pixels.size() != Classified.Pixels.size())
 		{
 			return FRTStatus::Error(ERTResult::Unsupported, "no picture: the device traces no such rays");
@@ -166,33 +145,21 @@ private:
 
 nlohmann::json MakeJson(const FAnyHitCase& Case, const FSceneOpacity& Opacity)
 {
-	return {{"name", Case.Name},
-	        {"any_hit_plain", Case.Plain},
-	        {"any_hit_classified", Case.Classified},
-	        {"ratio", Case.GetRatio()},
-	        {"classes",
-	         {{"opaque", Opacity.Counts.Opaque},
-	          {"transparent", Opacity.Counts.Transparent},
-	          {"mixed", Opacity.Counts.Mixed}}},
-	        {"pieces", Opacity.Pieces},
-	        {"image_difference", Case.Difference},
-	        {"pixels_different", Case.Pixels}};
+	return {{"name", Case.Name}, {"any_hit_plain", Case.Plain}, {"any_hit_classified", Case.Classified}, {"ratio", Case.GetRatio()},
+	    {"classes", {{"opaque", Opacity.Counts.Opaque}, {"transparent", Opacity.Counts.Transparent}, {"mixed", Opacity.Counts.Mixed}}},
+	    {"pieces", Opacity.Pieces}, {"image_difference", Case.Difference}, {"pixels_different", Case.Pixels}};
 }
 
 int ReportCase(const FAnyHitCase& Case, const FSceneOpacity& Opacity, nlohmann::json& Cases)
 {
-	fmt::print("{:<34} {:>14} {:>14} {:>7.3f} {:>8} {:>12} {:>8} {:>8} {:>12g} {:>8}\n", Case.Name, Case.Plain,
-	           Case.Classified, Case.GetRatio(), Opacity.Counts.Opaque, Opacity.Counts.Transparent,
-	           Opacity.Counts.Mixed, Opacity.Pieces, Case.Difference, Case.Pixels);
+	fmt::print("{:<34} {:>14} {:>14} {:>7.3f} {:>8} {:>12} {:>8} {:>8} {:>12g} {:>8}\n", Case.Name, Case.Plain, Case.Classified,
+	    Case.GetRatio(), Opacity.Counts.Opaque, Opacity.Counts.Transparent, Opacity.Counts.Mixed, Opacity.Pieces, Case.Difference,
+	    Case.Pixels);
 	std::fflush(stdout);
 	Cases.push_back(MakeJson(Case, Opacity));
 	const uint64_t Most = static_cast<uint64_t>(MostPathsElsewhere * double(Case.AllPixels));
-	if (Case.bPaths ? Case.PixelsElsewhere <= Most : Case.Pixels == 0)
-	{
-		return ExitDone;
-	}
-	LogError("{}: {} pixels differ, by up to {}: classified geometry must give the same picture", Case.Name,
-	         Case.Pixels, Case.Difference);
+	if (Case.bPaths ? Case.PixelsElsewhere <= Most : Case.Pixels == 0) { return ExitDone; }
+	LogError("{}: {} pixels differ, by up to {}: classified geometry must give the same picture", Case.Name, Case.Pixels, Case.Difference);
 	return ExitCheckFailed;
 }
 
@@ -200,15 +167,11 @@ int MeasureScene(FSession& Session, const FBenchScene& Scene, const FBenchAnyHit
 {
 	const FRTCapabilities& Capabilities = Session.GetDevice().GetCapabilities();
 	const FPictureOptions Picture = MakeBenchPicture(Scene, Options.Size, Capabilities.bIsCpu);
-	if (const int Status = Session.LoadScene(Picture); Status != ExitDone)
-	{
-		return Status;
-	}
+	if (const int Status = Session.LoadScene(Picture); Status != ExitDone) { return Status; }
 	FAnyHitBench Bench(Session, Scene, Picture);
 	const FSceneOpacity& Opacity = Session.GetEngine().GetScene().GetOpacity();
 	int Exit = ExitDone;
-	const auto Add = [&](const FRTStatus& Status, const FAnyHitCase& Case)
-	{
+	const auto Add = [&](const FRTStatus& Status, const FAnyHitCase& Case) {
 		const int Result = Status ? ReportCase(Case, Opacity, Cases) : ReportStatus(Status, Case.Name.c_str());
 		Exit = Exit == ExitDone ? Result : Exit;
 	};
@@ -238,14 +201,8 @@ int MeasureScene(FSession& Session, const FBenchScene& Scene, const FBenchAnyHit
 std::vector<FBenchScene> ChooseScenes(const FBenchAnyHitOptions& Options)
 {
 	std::vector<FBenchScene> Scenes;
-	for (const std::string& File : Options.Scenes)
-	{
-		Scenes.push_back(MakeBenchScene(File));
-	}
-	if (!Options.Scenes.empty())
-	{
-		return Scenes;
-	}
+	for (const std::string& File : Options.Scenes) { Scenes.push_back(MakeBenchScene(File)); }
+	if (!Options.Scenes.empty()) { return Scenes; }
 	if (const std::optional<FBenchScene> Forest = FindBenchScene("black_forest/black_forest.gltf", "bench anyhit"))
 	{
 		Scenes.push_back(*Forest);
@@ -259,14 +216,11 @@ void FBenchAnyHitOptions::AddTo(CLI::App& App)
 {
 	Device.AddTo(App);
 	App.add_option("SCENE", Scenes, "Scenes; without any, black_forest of LANTERN_SCENES and the courtyard");
-	App.add_option("--size", Size, "WIDTHxHEIGHT, pixels (1280x720; on a CPU device 640x360)")
-	    ->check(
-	        [](const std::string& Text)
-	        {
-		        FPictureOptions Unused;
-		        ParseSize(Text, Unused);
-		        return std::string();
-	        });
+	App.add_option("--size", Size, "WIDTHxHEIGHT, pixels (1280x720; on a CPU device 640x360)")->check([](const std::string& Text) {
+		FPictureOptions Unused;
+		ParseSize(Text, Unused);
+		return std::string();
+	});
 	App.add_option("--json", Json, "Write the figures to this file");
 }
 
@@ -274,21 +228,14 @@ int RunBenchAnyHit(const FBenchAnyHitOptions& Options)
 {
 	if (!Options.Json.empty())
 	{
-		if (FRTStatus S = CheckOutputPath(Options.Json); !S)
-		{
-			return ReportStatus(S, "--json"), ExitBadInput;
-		}
+		if (FRTStatus S = CheckOutputPath(Options.Json); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
 	}
 	FSession Session;
-	if (const int Status = Session.OpenDevice(Options.Device); Status != ExitDone)
-	{
-		return Session.Close(Status);
-	}
+	if (const int Status = Session.OpenDevice(Options.Device); Status != ExitDone) { return Session.Close(Status); }
 	const FRTCapabilities& Capabilities = Session.GetDevice().GetCapabilities();
-	nlohmann::json Json = {
-	    {"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"cases", nlohmann::json::array()}};
-	fmt::print("{:<34} {:>14} {:>14} {:>7} {:>8} {:>12} {:>8} {:>8} {:>12} {:>8}\n", "case", "plain", "classified",
-	           "ratio", "opaque", "transparent", "mixed", "pieces", "difference", "differ");
+	nlohmann::json Json = {{"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"cases", nlohmann::json::array()}};
+	fmt::print("{:<34} {:>14} {:>14} {:>7} {:>8} {:>12} {:>8} {:>8} {:>12} {:>8}\n", "case", "plain", "classified", "ratio", "opaque",
+	    "transparent", "mixed", "pieces", "difference", "differ");
 	int Exit = ExitDone;
 	for (const FBenchScene& Scene : ChooseScenes(Options))
 	{

@@ -26,21 +26,12 @@ std::vector<FBenchScene> ChooseScenes(const FBenchRaysOptions& Options)
 	std::vector<FBenchScene> Scenes = {MakeBenchScene("courtyard")};
 	for (const std::string& File : Options.Scenes)
 	{
-		if (File != Scenes.front().File)
-		{
-			Scenes.push_back(MakeBenchScene(File));
-		}
+		if (File != Scenes.front().File) { Scenes.push_back(MakeBenchScene(File)); }
 	}
-	if (!Options.Scenes.empty())
-	{
-		return Scenes;
-	}
+	if (!Options.Scenes.empty()) { return Scenes; }
 	for (const char* Path : {"sponza/Sponza.gltf", "black_forest/black_forest.gltf"})
 	{
-		if (const std::optional<FBenchScene> Scene = FindBenchScene(Path, "bench rays"))
-		{
-			Scenes.push_back(*Scene);
-		}
+		if (const std::optional<FBenchScene> Scene = FindBenchScene(Path, "bench rays")) { Scenes.push_back(*Scene); }
 	}
 	return Scenes;
 }
@@ -50,39 +41,24 @@ nlohmann::json MakeTimes(const FRayTimes& Times)
 	return {{"median", Times.GetMedian()}, {"min", Times.GetMin()}, {"max", Times.GetMax()}};
 }
 
-double GetProcessorRatio(const FRayCase& Case)
-{
-	return Case.RawProcessor.GetMedian() / Case.PluginProcessor.GetMedian();
-}
+double GetProcessorRatio(const FRayCase& Case) { return Case.RawProcessor.GetMedian() / Case.PluginProcessor.GetMedian(); }
 
 nlohmann::json MakeJson(const FRayCase& Case, bool bIsCpu)
 {
-	nlohmann::json Json = {{"name", Case.Name},
-	                       {"width", Case.Width},
-	                       {"height", Case.Height},
-	                       {"raw_mrays", Case.GetRawMrays()},
-	                       {"plugin_mrays", Case.GetPluginMrays()},
-	                       {"ratio", Case.GetRatio()},
-	                       {"rays", Case.Rays},
-	                       {"agreement", Case.Agreement},
-	                       {"raw_ms", MakeTimes(Case.Raw)},
-	                       {"plugin_ms", MakeTimes(Case.Plugin)},
-	                       {"repetitions", Case.Raw.Ms.size()}};
-	if (bIsCpu)
-	{
-		Json["ratio_processor_time"] = GetProcessorRatio(Case);
-	}
+	nlohmann::json Json = {{"name", Case.Name}, {"width", Case.Width}, {"height", Case.Height}, {"raw_mrays", Case.GetRawMrays()},
+	    {"plugin_mrays", Case.GetPluginMrays()}, {"ratio", Case.GetRatio()}, {"rays", Case.Rays}, {"agreement", Case.Agreement},
+	    {"raw_ms", MakeTimes(Case.Raw)}, {"plugin_ms", MakeTimes(Case.Plugin)}, {"repetitions", Case.Raw.Ms.size()}};
+	if (bIsCpu) { Json["ratio_processor_time"] = GetProcessorRatio(Case); }
 	return Json;
 }
 
 void PrintCase(const FRayCase& Case, bool bIsCpu)
 {
-	const auto Times = [](const FRayTimes& T)
-	{ return fmt::format("{:.2f} [{:.2f}, {:.2f}]", T.GetMedian(), T.GetMin(), T.GetMax()); };
+	const auto Times = [](const FRayTimes& T) { return fmt::format("{:.2f} [{:.2f}, {:.2f}]", T.GetMedian(), T.GetMin(), T.GetMax()); };
 	fmt::print("{:<22} {:>9} {:>8} {:>9.3f} {:>12.3f} {:>6.3f}  {:>26} {:>26}  {:.4f} %{}\n", Case.Name,
-	           fmt::format("{}x{}", Case.Width, Case.Height), Case.Rays, Case.GetRawMrays(), Case.GetPluginMrays(),
-	           Case.GetRatio(), Times(Case.Raw), Times(Case.Plugin), 100.0 * Case.Agreement,
-	           bIsCpu ? fmt::format("  {:.3f} by processor time", GetProcessorRatio(Case)) : "");
+	    fmt::format("{}x{}", Case.Width, Case.Height), Case.Rays, Case.GetRawMrays(), Case.GetPluginMrays(), Case.GetRatio(),
+	    Times(Case.Raw), Times(Case.Plugin), 100.0 * Case.Agreement,
+	    bIsCpu ? fmt::format("  {:.3f} by processor time", GetProcessorRatio(Case)) : "");
 	std::fflush(stdout);
 }
 
@@ -92,20 +68,14 @@ int MeasureScene(FSession& Session, const FBenchScene& Scene, const FBenchRaysOp
 	const FPictureOptions Picture = MakeBenchPicture(Scene, Options.Size, Capabilities.bIsCpu);
 	// The hand-written dispatch takes hits as the driver gives them.
 	FConsoleVariables::Get().Set("r.RT.Opacity.Pieces", "0", ERTSetBy::CommandLine, "bench rays");
-	if (const int Status = Session.LoadScene(Picture); Status != ExitDone)
-	{
-		return Status;
-	}
+	if (const int Status = Session.LoadScene(Picture); Status != ExitDone) { return Status; }
 	const FPluginFolders Folders = FindPluginFolders();
 	FRayBenchSettings Settings;
 	Settings.Repetitions = Options.Repetitions;
 	Settings.ShaderFolders = {Folders.Root + "/Programs/lantern/Bench/Shaders", Folders.Shaders};
 	Settings.CacheFolder = Folders.Cache.empty() ? "" : Folders.Cache + "/shaders";
 	FRayBench Bench(Session.GetDevice(), Session.GetEngine(), std::move(Settings));
-	if (FRTStatus S = Bench.CaptureGBuffer(Session.MakeView(Picture)); !S)
-	{
-		return ReportStatus(S, Scene.Name.c_str());
-	}
+	if (FRTStatus S = Bench.CaptureGBuffer(Session.MakeView(Picture)); !S) { return ReportStatus(S, Scene.Name.c_str()); }
 	int Exit = ExitDone;
 	for (const bool bPipeline : {true, false})
 	{
@@ -116,17 +86,13 @@ int MeasureScene(FSession& Session, const FBenchScene& Scene, const FBenchRaysOp
 		}
 		FRayCase Case;
 		Case.Name = Scene.Name + (bPipeline ? "/pipeline" : "/query");
-		if (FRTStatus S = Bench.Measure(bPipeline, Case); !S)
-		{
-			return ReportStatus(S, Case.Name.c_str());
-		}
+		if (FRTStatus S = Bench.Measure(bPipeline, Case); !S) { return ReportStatus(S, Case.Name.c_str()); }
 		PrintCase(Case, Capabilities.bIsCpu);
 		Cases.push_back(MakeJson(Case, Capabilities.bIsCpu));
 		if (Case.Agreement < LeastAgreement)
 		{
-			LogError(
-			    "{}: plugin and raw dispatch agree on {:.3f} % of the pixels only: they do not trace the same rays",
-			    Case.Name, 100.0 * Case.Agreement);
+			LogError("{}: plugin and raw dispatch agree on {:.3f} % of the pixels only: they do not trace the same rays", Case.Name,
+			    100.0 * Case.Agreement);
 			Exit = ExitCheckFailed;
 		}
 	}
@@ -137,16 +103,12 @@ int MeasureScene(FSession& Session, const FBenchScene& Scene, const FBenchRaysOp
 void FBenchRaysOptions::AddTo(CLI::App& App)
 {
 	Device.AddTo(App);
-	App.add_option("SCENE", Scenes,
-	               "Scenes beside the courtyard; without any, Sponza and black_forest of LANTERN_SCENES");
-	App.add_option("--size", Size, "WIDTHxHEIGHT, pixels (1280x720; on a CPU device 640x360)")
-	    ->check(
-	        [](const std::string& Text)
-	        {
-		        FPictureOptions Unused;
-		        ParseSize(Text, Unused);
-		        return std::string();
-	        });
+	App.add_option("SCENE", Scenes, "Scenes beside the courtyard; without any, Sponza and black_forest of LANTERN_SCENES");
+	App.add_option("--size", Size, "WIDTHxHEIGHT, pixels (1280x720; on a CPU device 640x360)")->check([](const std::string& Text) {
+		FPictureOptions Unused;
+		ParseSize(Text, Unused);
+		return std::string();
+	});
 	App.add_option("--repetitions", Repetitions, "Measured dispatches of each")->check(CLI::Range(1, 100'000));
 	App.add_option("--json", Json, "Write the figures to this file");
 }
@@ -155,21 +117,14 @@ int RunBenchRays(const FBenchRaysOptions& Options)
 {
 	if (!Options.Json.empty())
 	{
-		if (FRTStatus S = CheckOutputPath(Options.Json); !S)
-		{
-			return ReportStatus(S, "--json"), ExitBadInput;
-		}
+		if (FRTStatus S = CheckOutputPath(Options.Json); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
 	}
 	FSession Session;
-	if (const int Status = Session.OpenDevice(Options.Device); Status != ExitDone)
-	{
-		return Session.Close(Status);
-	}
+	if (const int Status = Session.OpenDevice(Options.Device); Status != ExitDone) { return Session.Close(Status); }
 	const FRTCapabilities& Capabilities = Session.GetDevice().GetCapabilities();
-	nlohmann::json Json = {
-	    {"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"cases", nlohmann::json::array()}};
-	fmt::print("{:<22} {:>9} {:>8} {:>9} {:>12} {:>6}  {:>26} {:>26}  {}\n", "case", "size", "rays", "raw Mr/s",
-	           "plugin Mr/s", "ratio", "raw ms [min, max]", "plugin ms [min, max]", "same pixels");
+	nlohmann::json Json = {{"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"cases", nlohmann::json::array()}};
+	fmt::print("{:<22} {:>9} {:>8} {:>9} {:>12} {:>6}  {:>26} {:>26}  {}\n", "case", "size", "rays", "raw Mr/s", "plugin Mr/s", "ratio",
+	    "raw ms [min, max]", "plugin ms [min, max]", "same pixels");
 	int Exit = ExitDone;
 	for (const FBenchScene& Scene : ChooseScenes(Options))
 	{

@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "LanternCore/Config/ConsoleVariables.h"
-#include "LanternCore/Text/Log.h"
 #include "LanternCore/Tasks/Tasks.h"
+#include "LanternCore/Text/Log.h"
 #include "LanternImage/AtomicFile.h"
 #include "LanternRHIMock/MockDevice.h"
 #include "Progress.h"
@@ -31,13 +31,8 @@ struct FStage
 
 const std::vector<FStage>& GetStages()
 {
-	static const std::vector<FStage> Stages = {
-	    {"baseline",
-	     {{"r.RT.Culling", "0"},
-	      {"r.RT.Scene.Gather", "0"},
-	      {"r.RT.SBT.Mode", "0"},
-	      {"r.RT.Scene.Hoist", "0"},
-	      {"r.RT.SBT.Prebind", "0"}}},
+	static const std::vector<FStage> Stages = {{"baseline", {{"r.RT.Culling", "0"}, {"r.RT.Scene.Gather", "0"}, {"r.RT.SBT.Mode", "0"},
+	                                                            {"r.RT.Scene.Hoist", "0"}, {"r.RT.SBT.Prebind", "0"}}},
 	    {"cull_and_global_table", {{"r.RT.Culling", "1"}, {"r.RT.SBT.Mode", "1"}}},
 	    {"hoisted_gather_and_prebuild", {{"r.RT.Scene.Gather", "1"}, {"r.RT.Scene.Hoist", "1"}}},
 	    {"prebound_sbt", {{"r.RT.SBT.Prebind", "1"}}}};
@@ -61,10 +56,7 @@ class FTimes
 public:
 	void Add(const std::string& Part, double Ms)
 	{
-		if (!Parts.count(Part))
-		{
-			Order.push_back(Part);
-		}
+		if (!Parts.count(Part)) { Order.push_back(Part); }
 		Parts[Part].push_back(Ms);
 	}
 	double GetMedian(const std::string& Part) const { return GetSorted(Part, 0.5); }
@@ -76,10 +68,7 @@ private:
 	double GetSorted(const std::string& Part, double At) const
 	{
 		const auto Found = Parts.find(Part);
-		if (Found == Parts.end())
-		{
-			return 0.0;
-		}
+		if (Found == Parts.end()) { return 0.0; }
 		std::vector<double> Values = Found->second;
 		std::sort(Values.begin(), Values.end());
 		const size_t Last = Values.size() - 1;
@@ -107,8 +96,7 @@ public:
 	    : Renderer(InRenderer),
 	      Options(InOptions),
 	      GBufferPass(InRenderer)
-	{
-	}
+	{}
 	FRTStatus Load();
 	FRTStatus Measure();
 	nlohmann::json ToJson() const;
@@ -146,14 +134,8 @@ FRTStatus FFrameBench::Load()
 	Width = Picture.Width;
 	Height = Picture.Height;
 	World = MakeBenchWorld(Options.World);
-	for (const uint32_t Mover : World.Movers)
-	{
-		MoverNodes.push_back(World.Scene.Nodes[Mover]);
-	}
-	if (FRTStatus S = FHostScene::Create(Renderer, std::move(World.Scene), {}, Host); !S)
-	{
-		return S;
-	}
+	for (const uint32_t Mover : World.Movers) { MoverNodes.push_back(World.Scene.Nodes[Mover]); }
+	if (FRTStatus S = FHostScene::Create(Renderer, std::move(World.Scene), {}, Host); !S) { return S; }
 	FSunLight Sun;
 	Sun.Direction = {0.3, -1, 0.4};
 	Sun.Irradiance = 4.0f;
@@ -184,14 +166,8 @@ FView FFrameBench::MakeView() const
 FFrameBench::FChanges FFrameBench::MakeChanges() const
 {
 	FChanges Changes;
-	for (uint32_t I = 0; I < World.Movers.size(); ++I)
-	{
-		Changes.Movers.push_back(MoveObject(MoverNodes[I], I, Frame));
-	}
-	for (uint32_t I = 0; I < World.Characters.size(); ++I)
-	{
-		Changes.Joints.push_back(BendCharacter(I, Frame));
-	}
+	for (uint32_t I = 0; I < World.Movers.size(); ++I) { Changes.Movers.push_back(MoveObject(MoverNodes[I], I, Frame)); }
+	for (uint32_t I = 0; I < World.Characters.size(); ++I) { Changes.Joints.push_back(BendCharacter(I, Frame)); }
 	const size_t Rigid = Host->GetInstanceCount() - World.Characters.size() - 1;
 	for (uint32_t I = 0; I < Options.World.Repainted; ++I)
 	{
@@ -218,55 +194,35 @@ FRTStatus FFrameBench::RenderFrame(FTimes* OutTimes)
 	FChanges Changes = MakeChanges();
 	++Frame;
 	// A CPU driver's threads would take the cores that the frame's tasks are to have.
-	if (FRTStatus S = WaitForDevice(); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = WaitForDevice(); !S) { return S; }
 	Renderer.GetDevice().CollectGarbage();
 	using FClock = std::chrono::steady_clock;
 	const double StartBusy = GetThreadMs();
 	const auto Start = FClock::now();
 	FFrameFeatures Features;
 	Features.bWaitForPipelines = Frame == 1;
-	for (size_t I = 0; I < World.Movers.size(); ++I)
-	{
-		Host->SetTransform(World.Movers[I], Changes.Movers[I]);
-	}
-	for (auto& [Object, Materials] : Changes.Materials)
-	{
-		Host->GetScene().SetMaterials(Object, std::move(Materials));
-	}
+	for (size_t I = 0; I < World.Movers.size(); ++I) { Host->SetTransform(World.Movers[I], Changes.Movers[I]); }
+	for (auto& [Object, Materials] : Changes.Materials) { Host->GetScene().SetMaterials(Object, std::move(Materials)); }
 	Features.Skinning.reserve(World.Characters.size());
 	for (size_t I = 0; I < World.Characters.size(); ++I)
 	{
 		Features.Skinning.push_back(Host->MakeSkinning(World.Characters[I], std::move(Changes.Joints[I])));
 	}
 	const auto Applied = FClock::now();
-	if (FRTStatus S = Renderer.BeginFrame(Host->GetScene(), View, Features); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = Renderer.BeginFrame(Host->GetScene(), View, Features); !S) { return S; }
 	const auto Begun = FClock::now();
 	FFrameContext& Context = Renderer.GetContext();
 	const FFrameOutputs Outputs = AddFramePasses(Context, GBufferPass.Add(Context, *Host));
-	Context.Graph.AddPass("Present",
-	                      [&](FPassBuilder& Builder) -> FPassExecute
-	                      {
-		                      Builder.NeverCull();
-		                      Builder.Read(Outputs.Display, ERTAccess::CopyRead);
-		                      return {};
-	                      });
+	Context.Graph.AddPass("Present", [&](FPassBuilder& Builder) -> FPassExecute {
+		Builder.NeverCull();
+		Builder.Read(Outputs.Display, ERTAccess::CopyRead);
+		return {};
+	});
 	const auto Added = FClock::now();
-	if (FRTStatus S = Renderer.EndFrame(nullptr); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = Renderer.EndFrame(nullptr); !S) { return S; }
 	const auto Ended = FClock::now();
 	const double EndBusy = GetThreadMs();
-	if (!OutTimes)
-	{
-		return FRTStatus::Success();
-	}
+	if (!OutTimes) { return FRTStatus::Success(); }
 	const auto Ms = [](auto From, auto To) { return std::chrono::duration<double, std::milli>(To - From).count(); };
 	OutTimes->Add(Critical, Ms(Start, Ended));
 	OutTimes->Add(Busy, EndBusy - StartBusy);
@@ -274,14 +230,8 @@ FRTStatus FFrameBench::RenderFrame(FTimes* OutTimes)
 	OutTimes->Add("begin frame", Ms(Applied, Begun));
 	OutTimes->Add("add passes", Ms(Begun, Added));
 	OutTimes->Add("record and submit", Ms(Added, Ended));
-	if (FRTStatus S = WaitForDevice(); !S)
-	{
-		return S;
-	}
-	for (const FPassTiming& Pass : Renderer.GetGraphResources().GetTimings())
-	{
-		OutTimes->Add("  " + Pass.Name, Pass.CpuMs);
-	}
+	if (FRTStatus S = WaitForDevice(); !S) { return S; }
+	for (const FPassTiming& Pass : Renderer.GetGraphResources().GetTimings()) { OutTimes->Add("  " + Pass.Name, Pass.CpuMs); }
 	return FRTStatus::Success();
 }
 
@@ -298,10 +248,7 @@ FRTStatus FFrameBench::Measure()
 			for (int I = 0; I < (Round == 0 ? 2 : 3); ++I)
 			{
 				const bool bTimed = Round > 0 && I > 0;
-				if (FRTStatus S = RenderFrame(bTimed ? &Times[Stage] : nullptr); !S)
-				{
-					return S;
-				}
+				if (FRTStatus S = RenderFrame(bTimed ? &Times[Stage] : nullptr); !S) { return S; }
 				Instances[Stage] = Host->GetScene().GetStats().InstancesWritten;
 			}
 			Progress.Show("frames", double(Round * StageCount + Stage + 1) / double((Options.Rounds + 1) * StageCount));
@@ -313,32 +260,17 @@ FRTStatus FFrameBench::Measure()
 nlohmann::json FFrameBench::ToJson() const
 {
 	const FRTCapabilities& Capabilities = Renderer.GetDevice().GetCapabilities();
-	nlohmann::json Json = {{"device", Capabilities.DeviceName},
-	                       {"driver", Capabilities.DriverName},
-	                       {"objects", Options.World.Objects},
-	                       {"skinned", Options.World.Characters},
-	                       {"moved", Options.World.Movers},
-	                       {"repainted", Options.World.Repainted},
-	                       {"section_ranges", Host->GetScene().GetSections().GetRangeCount()},
-	                       {"sections", Host->GetScene().GetSections().GetCapacity()},
-	                       {"threads", GetWorkerCount()},
-	                       {"width", Width},
-	                       {"height", Height},
-	                       {"stages", nlohmann::json::array()}};
+	nlohmann::json Json = {{"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"objects", Options.World.Objects},
+	    {"skinned", Options.World.Characters}, {"moved", Options.World.Movers}, {"repainted", Options.World.Repainted},
+	    {"section_ranges", Host->GetScene().GetSections().GetRangeCount()}, {"sections", Host->GetScene().GetSections().GetCapacity()},
+	    {"threads", GetWorkerCount()}, {"width", Width}, {"height", Height}, {"stages", nlohmann::json::array()}};
 	for (const auto& [Stage, Of] : Times)
 	{
 		nlohmann::json Parts = nlohmann::json::object();
-		for (const std::string& Part : Of.GetParts())
-		{
-			Parts[Part] = Of.GetMedian(Part);
-		}
-		Json["stages"].push_back({{"name", GetStages()[Stage].Name},
-		                          {"cpu_critical_ms", Of.GetMedian(Critical)},
-		                          {"processor_ms", Of.GetMedian(Busy)},
-		                          {"min_ms", Of.GetMin(Critical)},
-		                          {"max_ms", Of.GetMax(Critical)},
-		                          {"instances", Instances.at(Stage)},
-		                          {"breakdown_ms", Parts}});
+		for (const std::string& Part : Of.GetParts()) { Parts[Part] = Of.GetMedian(Part); }
+		Json["stages"].push_back({{"name", GetStages()[Stage].Name}, {"cpu_critical_ms", Of.GetMedian(Critical)},
+		    {"processor_ms", Of.GetMedian(Busy)}, {"min_ms", Of.GetMin(Critical)}, {"max_ms", Of.GetMax(Critical)},
+		    {"instances", Instances.at(Stage)}, {"breakdown_ms", Parts}});
 	}
 	Json["ratio_processor_time"] = Times.at(0).GetMedian(Busy) / Times.rbegin()->second.GetMedian(Busy);
 	Json["ratio"] = Times.at(0).GetMedian(Critical) / Times.rbegin()->second.GetMedian(Critical);
@@ -348,19 +280,13 @@ nlohmann::json FFrameBench::ToJson() const
 void FFrameBench::Print() const
 {
 	fmt::print("{:<20}", "render thread, ms");
-	for (const FStage& Stage : GetStages())
-	{
-		fmt::print(" {:>28}", Stage.Name);
-	}
+	for (const FStage& Stage : GetStages()) { fmt::print(" {:>28}", Stage.Name); }
 	std::vector<std::string> Rows = {Critical};
 	for (const auto& [Stage, Of] : Times)
 	{
 		for (const std::string& Part : Of.GetParts())
 		{
-			if (std::find(Rows.begin(), Rows.end(), Part) == Rows.end())
-			{
-				Rows.push_back(Part);
-			}
+			if (std::find(Rows.begin(), Rows.end(), Part) == Rows.end()) { Rows.push_back(Part); }
 		}
 	}
 	for (const std::string& Row : Rows)
@@ -374,31 +300,18 @@ void FFrameBench::Print() const
 		}
 	}
 	fmt::print("\n{:<20}", "instances");
-	for (const auto& [Stage, Count] : Instances)
-	{
-		fmt::print(" {:>28}", Count);
-	}
-	const auto Ratio = [&](const std::string& Part)
-	{ return Times.at(0).GetMedian(Part) / Times.rbegin()->second.GetMedian(Part); };
+	for (const auto& [Stage, Count] : Instances) { fmt::print(" {:>28}", Count); }
+	const auto Ratio = [&](const std::string& Part) { return Times.at(0).GetMedian(Part) / Times.rbegin()->second.GetMedian(Part); };
 	fmt::print("\nbaseline / last stage: {:.2f} (processor time: {:.2f})\n", Ratio(Critical), Ratio(Busy));
 }
 
 int RunOn(FRenderer& Renderer, const FBenchFrameOptions& Options)
 {
 	FFrameBench Bench(Renderer, Options);
-	if (FRTStatus S = Bench.Load(); !S)
-	{
-		return ReportStatus(S, "bench frame");
-	}
-	if (FRTStatus S = Bench.Measure(); !S)
-	{
-		return ReportStatus(S, "bench frame");
-	}
+	if (FRTStatus S = Bench.Load(); !S) { return ReportStatus(S, "bench frame"); }
+	if (FRTStatus S = Bench.Measure(); !S) { return ReportStatus(S, "bench frame"); }
 	Bench.Print();
-	if (Options.Json.empty())
-	{
-		return ExitDone;
-	}
+	if (Options.Json.empty()) { return ExitDone; }
 	if (FRTStatus S = WriteFileAtomically(Options.Json, Bench.ToJson().dump(2) + "\n"); !S)
 	{
 		return ReportStatus(S, "--json"), ExitBadInput;
@@ -409,15 +322,9 @@ int RunOn(FRenderer& Renderer, const FBenchFrameOptions& Options)
 int RunOnMock(const FBenchFrameOptions& Options)
 {
 	const FPluginFolders Folders = FindPluginFolders();
-	if (const int Status = LoadSettings(Folders.Config, Options.Device); Status != ExitDone)
-	{
-		return Status;
-	}
+	if (const int Status = LoadSettings(Folders.Config, Options.Device); Status != ExitDone) { return Status; }
 	TRTRef<IRTDevice> Device;
-	if (FRTStatus S = CreateMockDevice({}, Device.ReleaseAndGetAddress()); !S)
-	{
-		return ReportStatus(S, "--mock");
-	}
+	if (FRTStatus S = CreateMockDevice({}, Device.ReleaseAndGetAddress()); !S) { return ReportStatus(S, "--mock"); }
 	GetMock(Device.Get()).SetCallRecording(false);
 	FRendererDesc Desc;
 	Desc.ShaderFolders = {Folders.Shaders};
@@ -431,21 +338,17 @@ void FBenchFrameOptions::AddTo(CLI::App& App)
 {
 	Device.AddTo(App);
 	App.add_option("--objects", World.Objects, "Objects of the world")->check(CLI::Range(1'000, 4'000'000));
-	App.add_option("--skinned", World.Characters, "Characters among them that deform each frame")
-	    ->check(CLI::Range(0, 900));
+	App.add_option("--skinned", World.Characters, "Characters among them that deform each frame")->check(CLI::Range(0, 900));
 	App.add_option("--moved", World.Movers, "Objects among them that move each frame")->check(CLI::Range(0, 4'000'000));
 	App.add_option("--repainted", World.Repainted, "Objects among them that get other materials each frame")
 	    ->check(CLI::Range(0, 4'000'000));
 	App.add_option("--rounds", Rounds, "Rounds of all stages in turn; two measured frames of each stage in each")
 	    ->check(CLI::Range(1, 10'000));
-	App.add_option("--size", Size, "WIDTHxHEIGHT, pixels (1280x720; on a CPU device 64x36)")
-	    ->check(
-	        [](const std::string& Text)
-	        {
-		        FPictureOptions Unused;
-		        ParseSize(Text, Unused);
-		        return std::string();
-	        });
+	App.add_option("--size", Size, "WIDTHxHEIGHT, pixels (1280x720; on a CPU device 64x36)")->check([](const std::string& Text) {
+		FPictureOptions Unused;
+		ParseSize(Text, Unused);
+		return std::string();
+	});
 	App.add_flag("--mock", bMock, "On a pretended device without a driver: the plugin's own work alone");
 	App.add_option("--json", Json, "Write the figures to this file");
 }
@@ -454,20 +357,11 @@ int RunBenchFrame(const FBenchFrameOptions& Options)
 {
 	if (!Options.Json.empty())
 	{
-		if (FRTStatus S = CheckOutputPath(Options.Json); !S)
-		{
-			return ReportStatus(S, "--json"), ExitBadInput;
-		}
+		if (FRTStatus S = CheckOutputPath(Options.Json); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
 	}
-	if (Options.bMock)
-	{
-		return RunOnMock(Options);
-	}
+	if (Options.bMock) { return RunOnMock(Options); }
 	FSession Session;
-	if (const int Status = Session.OpenDevice(Options.Device); Status != ExitDone)
-	{
-		return Session.Close(Status);
-	}
+	if (const int Status = Session.OpenDevice(Options.Device); Status != ExitDone) { return Session.Close(Status); }
 	if (!Session.GetDevice().GetCapabilities().bRayTracingPipeline)
 	{
 		LogError("bench frame: the device has no ray-tracing pipelines");

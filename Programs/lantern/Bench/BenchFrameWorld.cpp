@@ -94,10 +94,7 @@ void FWorldMaker::AddMaterials()
 			Material.BaseColor = {Uniform(0.1f, 0.9f), Uniform(0.1f, 0.9f), Uniform(0.1f, 0.9f), 1};
 			Material.Metallic = 0;
 			Material.Roughness = Uniform(0.3f, 1.0f);
-			if (Palette != Leaves)
-			{
-				continue;
-			}
+			if (Palette != Leaves) { continue; }
 			Material.AlphaMode = EAlphaMode::Mask;
 			Material.bDoubleSided = true;
 			Material.Slots[TEXTURE_BASE_COLOR].Texture = 0;
@@ -107,8 +104,7 @@ void FWorldMaker::AddMaterials()
 
 void FWorldMaker::Section(FHostMesh& Mesh, EPalette Palette)
 {
-	const uint32_t First =
-	    Mesh.Sections.empty() ? 0 : Mesh.Sections.back().FirstIndex + Mesh.Sections.back().IndexCount;
+	const uint32_t First = Mesh.Sections.empty() ? 0 : Mesh.Sections.back().FirstIndex + Mesh.Sections.back().IndexCount;
 	const int32_t Material = int32_t(1 + Palette * PaletteSize);
 	Mesh.Sections.push_back({First, uint32_t(Mesh.Indices.size()) - First, Material});
 }
@@ -123,10 +119,7 @@ void FWorldMaker::Quad(FHostMesh& Mesh, glm::vec3 Corner, glm::vec3 U, glm::vec3
 		Mesh.Positions.push_back(Corner + UV.x * U + UV.y * V);
 		Mesh.Attributes.push_back({Normal, 0, UV, UV, 0xffffffffu});
 	}
-	for (const uint32_t I : {0u, 1u, 2u, 0u, 2u, 3u})
-	{
-		Mesh.Indices.push_back(First + I);
-	}
+	for (const uint32_t I : {0u, 1u, 2u, 0u, 2u, 3u}) { Mesh.Indices.push_back(First + I); }
 }
 
 void FWorldMaker::Box(FHostMesh& Mesh, glm::vec3 Center, glm::vec3 Half)
@@ -151,8 +144,7 @@ void FWorldMaker::Ball(FHostMesh& Mesh, glm::vec3 Center, glm::vec3 Radii, uint3
 	{
 		for (uint32_t Column = 0; Column < Columns; ++Column)
 		{
-			const float Theta = float(Pi) * float(Ring) / float(Rings),
-			            Phi = 2 * float(Pi) * float(Column) / float(Columns);
+			const float Theta = float(Pi) * float(Ring) / float(Rings), Phi = 2 * float(Pi) * float(Column) / float(Columns);
 			const glm::vec3 N(std::sin(Theta) * std::cos(Phi), std::cos(Theta), -std::sin(Theta) * std::sin(Phi));
 			Mesh.Positions.push_back(Center + N * Radii * Uniform(1.0f - Roughness, 1.0f));
 			Mesh.Attributes.push_back({PackUnitVector(N), 0, glm::vec2(N.x, N.y), glm::vec2(0), 0xffffffffu});
@@ -163,14 +155,8 @@ void FWorldMaker::Ball(FHostMesh& Mesh, glm::vec3 Center, glm::vec3 Radii, uint3
 		for (uint32_t Column = 0; Column < Columns; ++Column)
 		{
 			const uint32_t A = First + Ring * Columns + Column, B = First + Ring * Columns + (Column + 1) % Columns;
-			if (Ring > 0)
-			{
-				Mesh.Indices.insert(Mesh.Indices.end(), {A, A + Columns, B});
-			}
-			if (Ring + 1 < Rings)
-			{
-				Mesh.Indices.insert(Mesh.Indices.end(), {B, A + Columns, B + Columns});
-			}
+			if (Ring > 0) { Mesh.Indices.insert(Mesh.Indices.end(), {A, A + Columns, B}); }
+			if (Ring + 1 < Rings) { Mesh.Indices.insert(Mesh.Indices.end(), {B, A + Columns, B + Columns}); }
 		}
 	}
 }
@@ -181,8 +167,7 @@ void FWorldMaker::Cards(FHostMesh& Mesh, glm::vec3 Center, float Radius, uint32_
 	{
 		const glm::vec3 At(Uniform(-Radius, Radius), Uniform(-Radius, Radius), Uniform(-Radius, Radius));
 		const float Angle = Uniform(0, 6.28f);
-		Quad(Mesh, Center + At, Size * glm::vec3(std::cos(Angle), 0, std::sin(Angle)),
-		     Size * glm::vec3(0, 1, Uniform(-0.4f, 0.4f)));
+		Quad(Mesh, Center + At, Size * glm::vec3(std::cos(Angle), 0, std::sin(Angle)), Size * glm::vec3(0, 1, Uniform(-0.4f, 0.4f)));
 	}
 }
 
@@ -220,10 +205,7 @@ FHostMesh FWorldMaker::MakeKind(EKind Kind)
 		Section(Mesh, Stone);
 		Box(Mesh, {0, 2 * Half.y + 0.4f, 0}, Half * glm::vec3(1.1f, 0, 1.1f) + glm::vec3(0, 0.4f, 0));
 		Section(Mesh, Bark);
-		for (int I = 0; I < 6; ++I)
-		{
-			Box(Mesh, {Uniform(-Half.x, Half.x), Uniform(1, 2 * Half.y), Half.z}, {0.5f, 0.7f, 0.1f});
-		}
+		for (int I = 0; I < 6; ++I) { Box(Mesh, {Uniform(-Half.x, Half.x), Uniform(1, 2 * Half.y), Half.z}, {0.5f, 0.7f, 0.1f}); }
 		Section(Mesh, Paint);
 	}
 	}
@@ -240,10 +222,7 @@ int32_t FWorldMaker::AddMesh(FHostMesh Mesh)
 		Mesh.BoundsMax = glm::max(Mesh.BoundsMax, P);
 	}
 	std::vector<EPalette>& OfSections = Palettes.emplace_back();
-	for (const FHostSection& S : Mesh.Sections)
-	{
-		OfSections.push_back(EPalette(std::max(0, S.Material - 1) / int32_t(PaletteSize)));
-	}
+	for (const FHostSection& S : Mesh.Sections) { OfSections.push_back(EPalette(std::max(0, S.Material - 1) / int32_t(PaletteSize))); }
 	World.Scene.Meshes.push_back(std::move(Mesh));
 	return int32_t(World.Scene.Meshes.size() - 1);
 }
@@ -254,8 +233,8 @@ int32_t FWorldMaker::MakeCharacter()
 	for (uint32_t Joint = 0; Joint < FBenchWorld::JointCount; ++Joint)
 	{
 		const size_t First = Mesh.Positions.size();
-		Ball(Mesh, {0.12f * float(Joint % 3) - 0.12f, 1.8f * (float(Joint) + 0.5f) / FBenchWorld::JointCount, 0},
-		     glm::vec3(0.12f), 4, 0.0f);
+		Ball(
+		    Mesh, {0.12f * float(Joint % 3) - 0.12f, 1.8f * (float(Joint) + 0.5f) / FBenchWorld::JointCount, 0}, glm::vec3(0.12f), 4, 0.0f);
 		for (size_t V = First; V < Mesh.Positions.size(); ++V)
 		{
 			const auto Next = uint16_t(std::min(Joint + 1, FBenchWorld::JointCount - 1));
@@ -284,21 +263,12 @@ void FWorldMaker::Scatter()
 	{
 		double Kind = double(I) / Rigid;
 		uint32_t K = 0;
-		while (K + 1 < KindCount && Kind >= Share[K])
-		{
-			Kind -= Share[K++];
-		}
+		while (K + 1 < KindCount && Kind >= Share[K]) { Kind -= Share[K++]; }
 		const int32_t Mesh = Meshes[K][Below(uint32_t(Meshes[K].size()))];
 		FHostNode& Node = AddNode(Mesh, Options.Extent);
-		for (const EPalette Palette : Palettes[Mesh])
-		{
-			Node.Materials.push_back(PickMaterial(Palette));
-		}
+		for (const EPalette Palette : Palettes[Mesh]) { Node.Materials.push_back(PickMaterial(Palette)); }
 	}
-	for (uint32_t I = 0; I < Options.Movers; ++I)
-	{
-		World.Movers.push_back(1 + uint32_t(uint64_t(I) * Rigid / Options.Movers));
-	}
+	for (uint32_t I = 0; I < Options.Movers; ++I) { World.Movers.push_back(1 + uint32_t(uint64_t(I) * Rigid / Options.Movers)); }
 }
 
 FBenchWorld FWorldMaker::Make()
@@ -313,10 +283,7 @@ FBenchWorld FWorldMaker::Make()
 	World.Scene.Nodes.emplace_back().Mesh = AddMesh(std::move(Ground));
 	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
 	{
-		for (uint32_t I = 0; I < MeshesOf[Kind]; ++I)
-		{
-			Meshes[Kind].push_back(AddMesh(MakeKind(EKind(Kind))));
-		}
+		for (uint32_t I = 0; I < MeshesOf[Kind]; ++I) { Meshes[Kind].push_back(AddMesh(MakeKind(EKind(Kind)))); }
 	}
 	Scatter();
 	const int32_t Body = MakeCharacter();
@@ -334,10 +301,7 @@ FBenchWorld FWorldMaker::Make()
 }
 } // namespace
 
-FBenchWorld MakeBenchWorld(const FBenchWorldOptions& Options)
-{
-	return FWorldMaker(Options).Make();
-}
+FBenchWorld MakeBenchWorld(const FBenchWorldOptions& Options) { return FWorldMaker(Options).Make(); }
 
 glm::dmat4 MoveObject(const FHostNode& Node, uint32_t Index, uint32_t Frame)
 {

@@ -14,8 +14,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "LanternCore/Text/Log.h"
 #include "LanternCore/Tasks/Tasks.h"
+#include "LanternCore/Text/Log.h"
 #include "LanternImage/AtomicFile.h"
 #include "LanternScene/Instances/Gather.h"
 #include "Options.h"
@@ -93,29 +93,22 @@ private:
 FWorld::FWorld(uint32_t Count) : Table(Count), Placements(Count)
 {
 	std::mt19937_64 Random(20'260'101);
-	const auto Uniform = [&](double Low, double High)
-	{ return std::uniform_real_distribution<double>(Low, High)(Random); };
-	for (uint32_t Kind = 0; Kind < Kinds; ++Kind)
-	{
-		Store.SetBinding(Kind, {0x10'000ull * (Kind + 1), Kind * 4, Kind});
-	}
+	const auto Uniform = [&](double Low, double High) { return std::uniform_real_distribution<double>(Low, High)(Random); };
+	for (uint32_t Kind = 0; Kind < Kinds; ++Kind) { Store.SetBinding(Kind, {0x10'000ull * (Kind + 1), Kind * 4, Kind}); }
 	for (uint32_t Object = 0; Object < Count; ++Object)
 	{
 		// Density falls off with distance r from the middle as exp(−r / 2 km): the radial density r · exp(−r / s) is that of
 		// the sum of two exponential variables.
 		glm::dvec3 At;
-		do
-		{
+		do {
 			const double Distance = -2000.0 * std::log(Uniform(1e-12, 1.0) * Uniform(1e-12, 1.0)),
 			             Angle = Uniform(0, 2 * glm::pi<double>());
 			At = {Distance * std::cos(Angle), 30.0 * std::sin(Distance / 700.0), Distance * std::sin(Angle)};
-		} while (std::max(std::abs(At.x), std::abs(At.z)) > HalfWorld);
+		}
+		while (std::max(std::abs(At.x), std::abs(At.z)) > HalfWorld);
 		double Choice = Uniform(0, 1);
 		const FSize* Size = SizesOfObjects;
-		for (; Size + 1 < std::end(SizesOfObjects) && Choice > Size->Share; ++Size)
-		{
-			Choice -= Size->Share;
-		}
+		for (; Size + 1 < std::end(SizesOfObjects) && Choice > Size->Share; ++Size) { Choice -= Size->Share; }
 		FInstancePlacement& Placement = Placements[Object];
 		const double Turn = Uniform(0, 2 * glm::pi<double>());
 		Placement.Transform[0] = {std::cos(Turn), 0, -std::sin(Turn), 0};
@@ -163,9 +156,9 @@ bool IsSameSet(FRTInstance* A, FRTInstance* B, uint32_t Count)
 {
 	for (FRTInstance* const First : {A, B})
 	{
-		std::sort(First, First + Count,
-		          [](const FRTInstance& L, const FRTInstance& R)
-		          { return (L.CustomIndexAndMask & 0xffffff) < (R.CustomIndexAndMask & 0xffffff); });
+		std::sort(First, First + Count, [](const FRTInstance& L, const FRTInstance& R) {
+			return (L.CustomIndexAndMask & 0xffffff) < (R.CustomIndexAndMask & 0xffffff);
+		});
 	}
 	return std::memcmp(static_cast<const void*>(A), static_cast<const void*>(B), Count * sizeof(FRTInstance)) == 0;
 }
@@ -189,25 +182,16 @@ void MeasureMoving(FWorld& World, uint32_t Frames, FResult& Out)
 		const FCullingRule Rule(MakeView(Frame), {});
 		FRTInstance* const Target = Frame % 2 == 0 ? First.Get() : Second.Get();
 		double CountMs = 0.0;
-		Out.Fast.Ms.push_back(Measure(
-		    [&]
-		    {
-			    CountMs = Measure([&] { Gather.Count(World.Store, Rule); });
-			    Gather.Write(World.Store, Origin, Target);
-		    }));
+		Out.Fast.Ms.push_back(Measure([&] {
+			CountMs = Measure([&] { Gather.Count(World.Store, Rule); });
+			Gather.Write(World.Store, Origin, Target);
+		}));
 		Out.Count.Ms.push_back(CountMs);
 		Out.Kept = Gather.GetCount();
-		if (Frame % 8 != 0)
-		{
-			continue;
-		}
+		if (Frame % 8 != 0) { continue; }
 		uint32_t Kept = 0;
-		Out.Naive.Ms.push_back(
-		    Measure([&] { Kept = GatherStraightforward(World.Store, World.Table.data(), Rule, Origin, Plain.Get()); }));
-		if (Frame % 80 == 0)
-		{
-			Out.bSame &= Kept == Out.Kept && IsSameSet(Target, Plain.Get(), Kept);
-		}
+		Out.Naive.Ms.push_back(Measure([&] { Kept = GatherStraightforward(World.Store, World.Table.data(), Rule, Origin, Plain.Get()); }));
+		if (Frame % 80 == 0) { Out.bSame &= Kept == Out.Kept && IsSameSet(Target, Plain.Get(), Kept); }
 	}
 }
 
@@ -221,14 +205,11 @@ void MeasureOthers(FWorld& World, uint32_t Frames, FResult& Out)
 	const FCullingRule All(MakeView(0), Off), Still(MakeView(0), {});
 	for (uint32_t Frame = 0; Frame < std::max(8u, Frames / 8); ++Frame)
 	{
-		Out.All.Ms.push_back(Measure(
-		    [&]
-		    {
-			    Gather.Count(World.Store, All);
-			    Gather.Write(World.Store, Origin, Target.Get());
-		    }));
-		Out.NaiveAll.Ms.push_back(
-		    Measure([&] { GatherStraightforward(World.Store, World.Table.data(), All, Origin, Target.Get()); }));
+		Out.All.Ms.push_back(Measure([&] {
+			Gather.Count(World.Store, All);
+			Gather.Write(World.Store, Origin, Target.Get());
+		}));
+		Out.NaiveAll.Ms.push_back(Measure([&] { GatherStraightforward(World.Store, World.Table.data(), All, Origin, Target.Get()); }));
 	}
 	FTimes Times;
 	for (uint32_t Frame = 0; Frame < Frames; ++Frame)
@@ -239,36 +220,26 @@ void MeasureOthers(FWorld& World, uint32_t Frames, FResult& Out)
 	for (uint32_t Frame = 0; Frame < Frames; ++Frame)
 	{
 		Out.MovingChanges.Ms.push_back(Measure([&] { World.MoveSome(Frame); }));
-		Out.Moving.Ms.push_back(Measure(
-		    [&]
-		    {
-			    Gather.Count(World.Store, Still);
-			    Gather.Write(World.Store, Origin, Target.Get());
-		    }));
+		Out.Moving.Ms.push_back(Measure([&] {
+			Gather.Count(World.Store, Still);
+			Gather.Write(World.Store, Origin, Target.Get());
+		}));
 	}
 }
 
 nlohmann::json MakeJson(uint32_t Instances, const FWorld& World, FResult& R)
 {
-	return {{"instances", Instances},
-	        {"kept", R.Kept},
-	        {"naive_ms", R.Naive.GetMedian()},
-	        {"ms", R.Fast.GetMedian()},
-	        {"ratio", R.Naive.GetMedian() / R.Fast.GetMedian()},
-	        {"buckets", World.Store.GetBucketCount()},
-	        {"naive", R.Naive.ToJson()},
-	        {"gather", R.Fast.ToJson()},
-	        {"count", R.Count.ToJson()},
-	        {"same_set_counted_again_us", R.StillUs},
-	        {"moving_1pct", {{"changes", R.MovingChanges.ToJson()}, {"gather", R.Moving.ToJson()}}},
-	        {"no_culling", {{"naive", R.NaiveAll.ToJson()}, {"gather", R.All.ToJson()}}}};
+	return {{"instances", Instances}, {"kept", R.Kept}, {"naive_ms", R.Naive.GetMedian()}, {"ms", R.Fast.GetMedian()},
+	    {"ratio", R.Naive.GetMedian() / R.Fast.GetMedian()}, {"buckets", World.Store.GetBucketCount()}, {"naive", R.Naive.ToJson()},
+	    {"gather", R.Fast.ToJson()}, {"count", R.Count.ToJson()}, {"same_set_counted_again_us", R.StillUs},
+	    {"moving_1pct", {{"changes", R.MovingChanges.ToJson()}, {"gather", R.Moving.ToJson()}}},
+	    {"no_culling", {{"naive", R.NaiveAll.ToJson()}, {"gather", R.All.ToJson()}}}};
 }
 } // namespace
 
 void FBenchGatherOptions::AddTo(CLI::App& App)
 {
-	App.add_option("--instances", Sizes, "Objects in the world; may be given several times")
-	    ->check(CLI::Range(1, 16'000'000));
+	App.add_option("--instances", Sizes, "Objects in the world; may be given several times")->check(CLI::Range(1, 16'000'000));
 	App.add_option("--frames", Frames, "Frames of each measurement")->check(CLI::Range(8, 1'000'000));
 	App.add_option("--json", Json, "Write the figures to this file");
 }
@@ -277,15 +248,12 @@ int RunBenchGather(const FBenchGatherOptions& Options)
 {
 	if (!Options.Json.empty())
 	{
-		if (FRTStatus S = CheckOutputPath(Options.Json); !S)
-		{
-			return ReportStatus(S, "--json"), ExitBadInput;
-		}
+		if (FRTStatus S = CheckOutputPath(Options.Json); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
 	}
 	nlohmann::json Json = {{"workers", GetWorkerCount()}, {"sizes", nlohmann::json::array()}};
 	fmt::print("32 x 32 km, {} workers, medians [minima] of {} frames, ms\n", GetWorkerCount(), Options.Frames);
-	fmt::print("{:>9} {:>8} {:>8} {:>17} {:>17} {:>6} {:>17} {:>19} {:>19}\n", "objects", "buckets", "kept", "naive",
-	           "gather", "ratio", "1 % moves", "naive, all kept", "gather, all kept");
+	fmt::print("{:>9} {:>8} {:>8} {:>17} {:>17} {:>6} {:>17} {:>19} {:>19}\n", "objects", "buckets", "kept", "naive", "gather", "ratio",
+	    "1 % moves", "naive, all kept", "gather, all kept");
 	int Exit = ExitDone;
 	for (const uint32_t Instances : Options.Sizes)
 	{
@@ -294,9 +262,8 @@ int RunBenchGather(const FBenchGatherOptions& Options)
 		MeasureMoving(World, Options.Frames, R);
 		MeasureOthers(World, Options.Frames, R);
 		const auto Text = [](FTimes& T) { return fmt::format("{:.3f} [{:.3f}]", T.GetMedian(), T.GetMin()); };
-		fmt::print("{:>9} {:>8} {:>8} {:>17} {:>17} {:>6.1f} {:>17} {:>19} {:>19}\n", Instances,
-		           World.Store.GetBucketCount(), R.Kept, Text(R.Naive), Text(R.Fast),
-		           R.Naive.GetMedian() / R.Fast.GetMedian(), Text(R.Moving), Text(R.NaiveAll), Text(R.All));
+		fmt::print("{:>9} {:>8} {:>8} {:>17} {:>17} {:>6.1f} {:>17} {:>19} {:>19}\n", Instances, World.Store.GetBucketCount(), R.Kept,
+		    Text(R.Naive), Text(R.Fast), R.Naive.GetMedian() / R.Fast.GetMedian(), Text(R.Moving), Text(R.NaiveAll), Text(R.All));
 		std::fflush(stdout);
 		Json["sizes"].push_back(MakeJson(Instances, World, R));
 		if (!R.bSame)
@@ -307,10 +274,7 @@ int RunBenchGather(const FBenchGatherOptions& Options)
 	}
 	if (!Options.Json.empty())
 	{
-		if (FRTStatus S = WriteFileAtomically(Options.Json, Json.dump(2) + "\n"); !S)
-		{
-			return ReportStatus(S, "--json"), ExitBadInput;
-		}
+		if (FRTStatus S = WriteFileAtomically(Options.Json, Json.dump(2) + "\n"); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
 	}
 	return Exit;
 }

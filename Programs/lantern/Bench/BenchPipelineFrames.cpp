@@ -5,8 +5,8 @@
 #include <ctime>
 #include <thread>
 
-#include "LanternMeasure/GeneratedMaterials.h"
 #include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternMeasure/GeneratedMaterials.h"
 
 namespace Lantern
 {
@@ -14,10 +14,7 @@ namespace Lantern
 namespace
 {
 using FClock = std::chrono::steady_clock;
-double MsSince(FClock::time_point Start)
-{
-	return std::chrono::duration<double, std::milli>(FClock::now() - Start).count();
-}
+double MsSince(FClock::time_point Start) { return std::chrono::duration<double, std::milli>(FClock::now() - Start).count(); }
 
 double GetProcessorMs()
 {
@@ -81,10 +78,7 @@ private:
 
 FRTStatus FHitchBench::Load(uint32_t Materials)
 {
-	if (FRTStatus S = Engine.Load(MakeWall(Materials)); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = Engine.Load(MakeWall(Materials)); !S) { return S; }
 	const bool bIsCpu = Device.GetCapabilities().bIsCpu;
 	const double Size = 1.2 * std::ceil(std::sqrt(double(Materials)));
 	View = LookAt({0.0, 0.0, 2.0 * Size}, {0.0, 0.0, 0.0}, 1.0f, bIsCpu ? 64 : 1280, bIsCpu ? 36 : 720);
@@ -109,38 +103,27 @@ FRTStatus FHitchBench::Frame(FFrameTime& Out, bool bWait)
 	Features.RayGens = {MakeBenchRayGen()};
 	View.FrameIndex = Engine.GetFrameIndex();
 	Engine.SetFrameIndex(View.FrameIndex + 1);
-	if (FRTStatus S = Renderer.BeginFrame(GetScene(), View, Features); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = Renderer.BeginFrame(GetScene(), View, Features); !S) { return S; }
 	FFrameContext& Context = Renderer.GetContext();
-	const FGraphTexture Target =
-	    Context.Graph.ImportTexture(Output.Get(), ERTAccess::None, ERTAccess::StorageWrite, "BenchOutput");
+	const FGraphTexture Target = Context.Graph.ImportTexture(Output.Get(), ERTAccess::None, ERTAccess::StorageWrite, "BenchOutput");
 	const uint32_t RayGen = Context.RayPipeline ? Context.RayPipeline->FindRayGen(Features.RayGens[0]) : NoRayGen;
 	if (RayGen != NoRayGen)
 	{
 		FFrameContext* const OfFrame = &Context;
-		Context.Graph.AddPass("Trace",
-		                      [&](FPassBuilder& Builder) -> FPassExecute
-		                      {
-			                      Builder.NeverCull();
-			                      Builder.Write(Target, ERTAccess::StorageWrite);
-			                      return [=](FPassContext& Pass)
-			                      {
-				                      const FTracePush Push{OfFrame->Pass, Pass.GetTexture(Target)->GetStorageIndex()};
-				                      Pass.Commands().SetPipeline(OfFrame->RayPipeline->GetPipeline());
-				                      Pass.Commands().PushConstants(&Push, sizeof(Push));
-				                      Pass.Commands().TraceRays(OfFrame->RayBindings->GetTable(), RayGen,
-				                                                OfFrame->Width, OfFrame->Height, 1);
-			                      };
-		                      });
+		Context.Graph.AddPass("Trace", [&](FPassBuilder& Builder) -> FPassExecute {
+			Builder.NeverCull();
+			Builder.Write(Target, ERTAccess::StorageWrite);
+			return [=](FPassContext& Pass) {
+				const FTracePush Push{OfFrame->Pass, Pass.GetTexture(Target)->GetStorageIndex()};
+				Pass.Commands().SetPipeline(OfFrame->RayPipeline->GetPipeline());
+				Pass.Commands().PushConstants(&Push, sizeof(Push));
+				Pass.Commands().TraceRays(OfFrame->RayBindings->GetTable(), RayGen, OfFrame->Width, OfFrame->Height, 1);
+			};
+		});
 	}
 	const FRTStatus Status = Renderer.EndFrame(nullptr);
 	Out = {MsSince(Start), GetProcessorMs() - StartProcessor};
-	if (Out.Ms < PaceMs)
-	{
-		std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(PaceMs - Out.Ms));
-	}
+	if (Out.Ms < PaceMs) { std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(PaceMs - Out.Ms)); }
 	return Status;
 }
 
@@ -160,16 +143,10 @@ FRTStatus MeasureOnce(IRTDevice& Device, const FRendererDesc& Desc, uint32_t Mat
 {
 	FHitchBench Bench(Device, Desc);
 	FFrameTime Time;
-	if (FRTStatus S = Bench.Load(Materials); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = Bench.Load(Materials); !S) { return S; }
 	FRTStatus Status = Bench.Frame(Time, true);
 	Status = Status ? Bench.Finish() : Status;
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	Bench.RenewPrograms(Materials);
 	const auto Start = FClock::now();
 	Status = Bench.Frame(Time, true);
@@ -179,31 +156,21 @@ FRTStatus MeasureOnce(IRTDevice& Device, const FRendererDesc& Desc, uint32_t Mat
 }
 } // namespace
 
-FRTStatus MeasureHitches(IRTDevice& Device, const FRendererDesc& Desc, uint32_t Materials, uint32_t Threads,
-                         double PaceMs, FHitchRun& Out)
+FRTStatus MeasureHitches(IRTDevice& Device, const FRendererDesc& Desc, uint32_t Materials, uint32_t Threads, double PaceMs, FHitchRun& Out)
 {
 	FConsoleVariables::Get().Set("r.RT.Pipeline.Threads", std::to_string(Threads), ERTSetBy::Console, "bench rtpso");
 	FHitchBench Bench(Device, Desc);
 	Bench.PaceMs = PaceMs;
-	if (FRTStatus S = Bench.Load(Materials); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = Bench.Load(Materials); !S) { return S; }
 	constexpr uint32_t WarmUp = 60, Idle = 300;
 	FFrameTime Time;
 	for (uint32_t Index = 0; Index < WarmUp || Bench.GetCompiler().GetStats().bBusy; ++Index)
 	{
-		if (FRTStatus S = Bench.Frame(Time); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = Bench.Frame(Time); !S) { return S; }
 	}
 	for (uint32_t Index = 0; Index < Idle; ++Index)
 	{
-		if (FRTStatus S = Bench.Frame(Time); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = Bench.Frame(Time); !S) { return S; }
 		Out.Idle.push_back(Time);
 	}
 	const std::vector<FHitProgram> Programs = Bench.RenewPrograms(Materials);
@@ -211,10 +178,7 @@ FRTStatus MeasureHitches(IRTDevice& Device, const FRendererDesc& Desc, uint32_t 
 	const auto Start = FClock::now();
 	while (Out.Ready < Materials)
 	{
-		if (FRTStatus S = Bench.Frame(Time); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = Bench.Frame(Time); !S) { return S; }
 		Out.Compiling.push_back(Time);
 		const auto Current = Bench.GetCompiler().GetCurrent();
 		const FRTPSOCompilerStats Stats = Bench.GetCompiler().GetStats();
@@ -223,15 +187,9 @@ FRTStatus MeasureHitches(IRTDevice& Device, const FRendererDesc& Desc, uint32_t 
 			return FRTStatus::Error(ERTResult::CompileFailed, "a material of the benchmark does not compile");
 		}
 		Out.Ready = 0;
-		for (const FHitProgram Program : Programs)
-		{
-			Out.Ready += Current && Current->GetState(Program) == ERTHitState::Ready ? 1 : 0;
-		}
+		for (const FHitProgram Program : Programs) { Out.Ready += Current && Current->GetState(Program) == ERTHitState::Ready ? 1 : 0; }
 	}
-	if (FRTStatus S = Bench.Finish(); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = Bench.Finish(); !S) { return S; }
 	Out.ArrivedSeconds = 1e-3 * MsSince(Start);
 	Out.Swaps = Bench.GetCompiler().GetStats().Links - Before;
 	return MeasureOnce(Device, Desc, Materials, Out.OnceSeconds);

@@ -27,7 +27,6 @@ struct FHitchRun
 };
 
 /// Threads: of the compiler; 0: its own choice. Frames begin PaceMs apart, or as soon as the one before is done.
-FRTStatus MeasureHitches(IRTDevice& Device, const FRendererDesc& Desc, uint32_t Materials, uint32_t Threads,
-                         double PaceMs, FHitchRun& Out);
+FRTStatus MeasureHitches(IRTDevice& Device, const FRendererDesc& Desc, uint32_t Materials, uint32_t Threads, double PaceMs, FHitchRun& Out);
 
 } // namespace Lantern

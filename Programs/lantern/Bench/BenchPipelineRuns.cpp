@@ -12,15 +12,11 @@ namespace Lantern
 namespace
 {
 using FClock = std::chrono::steady_clock;
-double MsSince(FClock::time_point Start)
-{
-	return std::chrono::duration<double, std::milli>(FClock::now() - Start).count();
-}
+double MsSince(FClock::time_point Start) { return std::chrono::duration<double, std::milli>(FClock::now() - Start).count(); }
 
 constexpr uint32_t PayloadBytes = 32;
 
-FRTRayTracingPipelineDesc MakeDesc(const std::vector<FRTShaderCode>& Codes, const std::vector<FRTShaderGroup>& Groups,
-                                   const char* Name)
+FRTRayTracingPipelineDesc MakeDesc(const std::vector<FRTShaderCode>& Codes, const std::vector<FRTShaderGroup>& Groups, const char* Name)
 {
 	FRTRayTracingPipelineDesc Desc;
 	Desc.Shaders = Codes.data();
@@ -36,14 +32,8 @@ FRTRayTracingPipelineDesc MakeDesc(const std::vector<FRTShaderCode>& Codes, cons
 void AddGeneral(const FBenchShaders& Shaders, std::vector<FRTShaderCode>& Codes, std::vector<FRTShaderGroup>& Groups)
 {
 	Codes.push_back(Shaders.RayGen.GetCode());
-	for (const FShaderBinary& Miss : Shaders.Misses)
-	{
-		Codes.push_back(Miss.GetCode());
-	}
-	for (uint32_t Index = 0; Index < Codes.size(); ++Index)
-	{
-		Groups.push_back({ERTGroupKind::General, Index});
-	}
+	for (const FShaderBinary& Miss : Shaders.Misses) { Codes.push_back(Miss.GetCode()); }
+	for (uint32_t Index = 0; Index < Codes.size(); ++Index) { Groups.push_back({ERTGroupKind::General, Index}); }
 }
 
 FRTStatus MakeMonolithic(IRTDevice& Device, const FBenchShaders& Shaders, double& OutMs)
@@ -60,14 +50,12 @@ FRTStatus MakeMonolithic(IRTDevice& Device, const FBenchShaders& Shaders, double
 	}
 	TRTRef<IRTPipeline> Pipeline;
 	const auto Start = FClock::now();
-	const FRTStatus Status =
-	    Device.CreateRayTracingPipeline(MakeDesc(Codes, Groups, "Monolithic"), Pipeline.ReleaseAndGetAddress());
+	const FRTStatus Status = Device.CreateRayTracingPipeline(MakeDesc(Codes, Groups, "Monolithic"), Pipeline.ReleaseAndGetAddress());
 	OutMs = MsSince(Start);
 	return Status;
 }
 
-FRTStatus MakeFromLibraries(IRTDevice& Device, const FBenchShaders& Shaders, uint32_t Threads, double& OutLibrariesMs,
-                            double& OutLinkMs)
+FRTStatus MakeFromLibraries(IRTDevice& Device, const FBenchShaders& Shaders, uint32_t Threads, double& OutLibrariesMs, double& OutLinkMs)
 {
 	std::vector<FRTShaderCode> GeneralCodes;
 	std::vector<FRTShaderGroup> GeneralGroups;
@@ -78,35 +66,25 @@ FRTStatus MakeFromLibraries(IRTDevice& Device, const FBenchShaders& Shaders, uin
 	std::vector<TRTRef<IRTPipeline>> Libraries(Count);
 	std::vector<FRTStatus> Results(Count);
 	auto Start = FClock::now();
-	RunOnThreads(Threads, Count,
-	             [&](uint32_t Index)
-	             {
-		             FRTShaderGroup Group{Index < Hits ? ERTGroupKind::Triangles : ERTGroupKind::General};
-		             (Index < Hits ? Group.ClosestHit : Group.General) = 0;
-		             FRTRayTracingPipelineDesc Desc = MakeDesc({}, {}, "Library");
-		             const FRTShaderCode Code =
-		                 Index < Hits ? Shaders.Hits[Index].GetCode() : GeneralCodes[Index - Hits];
-		             Desc.Shaders = &Code;
-		             Desc.Groups = &Group;
-		             Desc.ShaderCount = Desc.GroupCount = 1;
-		             Desc.bLibrary = true;
-		             Results[Index] = Device.CreateRayTracingPipeline(Desc, Libraries[Index].ReleaseAndGetAddress());
-	             });
+	RunOnThreads(Threads, Count, [&](uint32_t Index) {
+		FRTShaderGroup Group{Index < Hits ? ERTGroupKind::Triangles : ERTGroupKind::General};
+		(Index < Hits ? Group.ClosestHit : Group.General) = 0;
+		FRTRayTracingPipelineDesc Desc = MakeDesc({}, {}, "Library");
+		const FRTShaderCode Code = Index < Hits ? Shaders.Hits[Index].GetCode() : GeneralCodes[Index - Hits];
+		Desc.Shaders = &Code;
+		Desc.Groups = &Group;
+		Desc.ShaderCount = Desc.GroupCount = 1;
+		Desc.bLibrary = true;
+		Results[Index] = Device.CreateRayTracingPipeline(Desc, Libraries[Index].ReleaseAndGetAddress());
+	});
 	OutLibrariesMs = MsSince(Start);
 	for (const FRTStatus& Result : Results)
 	{
-		if (!Result)
-		{
-			return Result;
-		}
+		if (!Result) { return Result; }
 	}
 	std::vector<IRTPipeline*> Linked;
-	for (const TRTRef<IRTPipeline>& Library : Libraries)
-	{
-		Linked.push_back(Library.Get());
-	}
-	FRTRayTracingPipelineDesc Desc =
-	    bGeneralLibraries ? MakeDesc({}, {}, "Linked") : MakeDesc(GeneralCodes, GeneralGroups, "Linked");
+	for (const TRTRef<IRTPipeline>& Library : Libraries) { Linked.push_back(Library.Get()); }
+	FRTRayTracingPipelineDesc Desc = bGeneralLibraries ? MakeDesc({}, {}, "Linked") : MakeDesc(GeneralCodes, GeneralGroups, "Linked");
 	Desc.Libraries = Linked.data();
 	Desc.LibraryCount = static_cast<uint32_t>(Linked.size());
 	TRTRef<IRTPipeline> Pipeline;
@@ -148,23 +126,16 @@ void SetThreads(uint32_t Threads)
 
 double MedianOf(std::vector<double> Values)
 {
-	if (Values.empty())
-	{
-		return 0.0;
-	}
+	if (Values.empty()) { return 0.0; }
 	std::sort(Values.begin(), Values.end());
 	const size_t Half = Values.size() / 2;
 	return Values.size() % 2 ? Values[Half] : 0.5 * (Values[Half - 1] + Values[Half]);
 }
 
-FRTStatus MeasurePipelineRun(IRTDevice& Device, FShaderCompiler& Compiler, uint32_t Groups, uint32_t Repetitions,
-                             FPipelineRun& Run)
+FRTStatus MeasurePipelineRun(IRTDevice& Device, FShaderCompiler& Compiler, uint32_t Groups, uint32_t Repetitions, FPipelineRun& Run)
 {
 	FBenchShaders Shaders;
-	if (FRTStatus S = CompileBenchShaders(Compiler, Groups, Run.Threads, Shaders, Run.GlslangMs); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = CompileBenchShaders(Compiler, Groups, Run.Threads, Shaders, Run.GlslangMs); !S) { return S; }
 	for (uint32_t Repetition = 0; Repetition < Repetitions; ++Repetition)
 	{
 		for (const bool bMonolithic : {Repetition % 2 == 0, Repetition % 2 != 0})
@@ -174,17 +145,11 @@ FRTStatus MeasurePipelineRun(IRTDevice& Device, FShaderCompiler& Compiler, uint3
 				return FRTStatus::Error(ERTResult::InvalidArgument, "a shader has lost the constant that makes it new");
 			}
 			double Ms = 0.0, LinkMs = 0.0;
-			const FRTStatus Status = bMonolithic ? MakeMonolithic(Device, Shaders, Ms)
-			                                     : MakeFromLibraries(Device, Shaders, Run.Threads, Ms, LinkMs);
-			if (!Status)
-			{
-				return Status;
-			}
+			const FRTStatus Status =
+			    bMonolithic ? MakeMonolithic(Device, Shaders, Ms) : MakeFromLibraries(Device, Shaders, Run.Threads, Ms, LinkMs);
+			if (!Status) { return Status; }
 			(bMonolithic ? Run.MonolithicMs : Run.LibrariesMs).push_back(Ms);
-			if (!bMonolithic)
-			{
-				Run.LinkMs.push_back(LinkMs);
-			}
+			if (!bMonolithic) { Run.LinkMs.push_back(LinkMs); }
 			Device.CollectGarbage();
 		}
 	}
@@ -192,10 +157,7 @@ FRTStatus MeasurePipelineRun(IRTDevice& Device, FShaderCompiler& Compiler, uint3
 	FMaterialPrograms Programs;
 	FRTPSODesc Desc = MakeCompilerDesc();
 	const uint64_t Salt = MakeSalt();
-	for (uint32_t Index = 0; Index < Groups; ++Index)
-	{
-		AddProgram(Programs, Desc, Index, Salt);
-	}
+	for (uint32_t Index = 0; Index < Groups; ++Index) { AddProgram(Programs, Desc, Index, Salt); }
 	FRTPSOCompiler Maker(Device, Compiler, Programs);
 	const auto Start = FClock::now();
 	const FRTStatus Status = Maker.Finish(Desc);
@@ -203,30 +165,22 @@ FRTStatus MeasurePipelineRun(IRTDevice& Device, FShaderCompiler& Compiler, uint3
 	return Status;
 }
 
-FRTStatus MeasureIncremental(IRTDevice& Device, FShaderCompiler& Compiler, uint32_t Groups, uint32_t Added,
-                             FIncrementalRun& Out)
+FRTStatus MeasureIncremental(IRTDevice& Device, FShaderCompiler& Compiler, uint32_t Groups, uint32_t Added, FIncrementalRun& Out)
 {
 	SetThreads(0);
 	FMaterialPrograms Programs;
 	FRTPSODesc Desc = MakeCompilerDesc();
 	const uint64_t Salt = MakeSalt();
-	for (uint32_t Index = 0; Index < Groups; ++Index)
-	{
-		AddProgram(Programs, Desc, Index, Salt);
-	}
+	for (uint32_t Index = 0; Index < Groups; ++Index) { AddProgram(Programs, Desc, Index, Salt); }
 	FRTPSOCompiler Maker(Device, Compiler, Programs);
-	if (FRTStatus S = Maker.Finish(Desc); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = Maker.Finish(Desc); !S) { return S; }
 	// Stand-ins, and the first link with them, are no part of what is measured.
-	const auto Settle = [&]
-	{
-		do
-		{
+	const auto Settle = [&] {
+		do {
 			Maker.Update(Desc);
 			std::this_thread::sleep_for(std::chrono::microseconds(200));
-		} while (Maker.GetStats().bBusy);
+		}
+		while (Maker.GetStats().bBusy);
 	};
 	Settle();
 	for (uint32_t Index = 0; Index < Added; ++Index)

@@ -21,15 +21,13 @@ struct FPipelineRun
 };
 
 /// Both ways begin with the same SPIR-V but for one constant, which neither has seen before; who goes first alternates.
-FRTStatus MeasurePipelineRun(IRTDevice& Device, FShaderCompiler& Compiler, uint32_t Groups, uint32_t Repetitions,
-                             FPipelineRun& Run);
+FRTStatus MeasurePipelineRun(IRTDevice& Device, FShaderCompiler& Compiler, uint32_t Groups, uint32_t Repetitions, FPipelineRun& Run);
 
 struct FIncrementalRun
 {
 	std::vector<double> ReadyMs, LinkMs;
 };
 /// One more material among Groups, Added times: until its pipeline is in use, and the link alone.
-FRTStatus MeasureIncremental(IRTDevice& Device, FShaderCompiler& Compiler, uint32_t Groups, uint32_t Added,
-                             FIncrementalRun& Out);
+FRTStatus MeasureIncremental(IRTDevice& Device, FShaderCompiler& Compiler, uint32_t Groups, uint32_t Added, FIncrementalRun& Out);
 
 } // namespace Lantern

@@ -25,10 +25,7 @@ FRTStatus OpenDevice(const FBenchPipelinesOptions& Options, TRTRef<IRTDevice>& O
 	if (Options.bMock)
 	{
 		FRTMockDesc Desc;
-		if (FRTStatus S = CreateMockDevice(Desc, Out.ReleaseAndGetAddress()); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = CreateMockDevice(Desc, Out.ReleaseAndGetAddress()); !S) { return S; }
 		GetMock(Out.Get()).SetCallRecording(false);
 		GetMock(Out.Get()).SlowCompile("Bench", Options.MockCompileMs);
 		return FRTStatus::Success();
@@ -38,55 +35,33 @@ FRTStatus OpenDevice(const FBenchPipelinesOptions& Options, TRTRef<IRTDevice>& O
 
 nlohmann::json MakeTimes(const std::vector<double>& Ms)
 {
-	if (Ms.empty())
-	{
-		return nullptr;
-	}
-	return {{"median", MedianOf(Ms)},
-	        {"min", *std::min_element(Ms.begin(), Ms.end())},
-	        {"max", *std::max_element(Ms.begin(), Ms.end())}};
+	if (Ms.empty()) { return nullptr; }
+	return {{"median", MedianOf(Ms)}, {"min", *std::min_element(Ms.begin(), Ms.end())}, {"max", *std::max_element(Ms.begin(), Ms.end())}};
 }
 
-FRTStatus MeasureRuns(IRTDevice& Device, FShaderCompiler& Compiler, const FBenchPipelinesOptions& Options,
-                      nlohmann::json& Json)
+FRTStatus MeasureRuns(IRTDevice& Device, FShaderCompiler& Compiler, const FBenchPipelinesOptions& Options, nlohmann::json& Json)
 {
-	fmt::print("{:>8} {:>14} {:>13} {:>9} {:>7} {:>11} {:>11}\n", "threads", "monolithic ms", "libraries ms", "link ms",
-	           "ratio", "glslang ms", "text-RTPSO");
+	fmt::print("{:>8} {:>14} {:>13} {:>9} {:>7} {:>11} {:>11}\n", "threads", "monolithic ms", "libraries ms", "link ms", "ratio",
+	    "glslang ms", "text-RTPSO");
 	for (const uint32_t Threads : Options.Threads)
 	{
 		FPipelineRun Run;
 		Run.Threads = Threads;
-		if (FRTStatus S = MeasurePipelineRun(Device, Compiler, Options.Groups, Options.Repetitions, Run); !S)
-		{
-			return S;
-		}
-		fmt::print("{:>8} {:>14.1f} {:>13.1f} {:>9.2f} {:>7.2f} {:>11.1f} {:>11.1f}\n", Threads,
-		           MedianOf(Run.MonolithicMs), MedianOf(Run.LibrariesMs), MedianOf(Run.LinkMs), Run.GetRatio(),
-		           Run.GlslangMs, Run.FinishMs);
+		if (FRTStatus S = MeasurePipelineRun(Device, Compiler, Options.Groups, Options.Repetitions, Run); !S) { return S; }
+		fmt::print("{:>8} {:>14.1f} {:>13.1f} {:>9.2f} {:>7.2f} {:>11.1f} {:>11.1f}\n", Threads, MedianOf(Run.MonolithicMs),
+		    MedianOf(Run.LibrariesMs), MedianOf(Run.LinkMs), Run.GetRatio(), Run.GlslangMs, Run.FinishMs);
 		std::fflush(stdout);
-		Json["runs"].push_back({{"threads", Threads},
-		                        {"monolithic_ms", MedianOf(Run.MonolithicMs)},
-		                        {"libraries_ms", MedianOf(Run.LibrariesMs)},
-		                        {"link_ms", MedianOf(Run.LinkMs)},
-		                        {"ratio", Run.GetRatio()},
-		                        {"glslang_ms", Run.GlslangMs},
-		                        {"text_to_rtpso_ms", Run.FinishMs},
-		                        {"times",
-		                         {{"monolithic", MakeTimes(Run.MonolithicMs)},
-		                          {"libraries", MakeTimes(Run.LibrariesMs)},
-		                          {"link", MakeTimes(Run.LinkMs)}}}});
+		Json["runs"].push_back({{"threads", Threads}, {"monolithic_ms", MedianOf(Run.MonolithicMs)},
+		    {"libraries_ms", MedianOf(Run.LibrariesMs)}, {"link_ms", MedianOf(Run.LinkMs)}, {"ratio", Run.GetRatio()},
+		    {"glslang_ms", Run.GlslangMs}, {"text_to_rtpso_ms", Run.FinishMs},
+		    {"times", {{"monolithic", MakeTimes(Run.MonolithicMs)}, {"libraries", MakeTimes(Run.LibrariesMs)},
+		                  {"link", MakeTimes(Run.LinkMs)}}}});
 	}
 	FIncrementalRun Incremental;
-	if (FRTStatus S = MeasureIncremental(Device, Compiler, Options.Groups, Options.Added, Incremental); !S)
-	{
-		return S;
-	}
-	fmt::print("one more material: ready after {:.2f} ms, link {:.2f} ms (medians of {})\n",
-	           MedianOf(Incremental.ReadyMs), MedianOf(Incremental.LinkMs), Options.Added);
-	Json["incremental"] = {
-	    {"added", Options.Added},
-	    {"ready_ms", MedianOf(Incremental.ReadyMs)},
-	    {"link_ms", MedianOf(Incremental.LinkMs)},
+	if (FRTStatus S = MeasureIncremental(Device, Compiler, Options.Groups, Options.Added, Incremental); !S) { return S; }
+	fmt::print("one more material: ready after {:.2f} ms, link {:.2f} ms (medians of {})\n", MedianOf(Incremental.ReadyMs),
+	    MedianOf(Incremental.LinkMs), Options.Added);
+	Json["incremental"] = {{"added", Options.Added}, {"ready_ms", MedianOf(Incremental.ReadyMs)}, {"link_ms", MedianOf(Incremental.LinkMs)},
 	    {"times", {{"ready", MakeTimes(Incremental.ReadyMs)}, {"link", MakeTimes(Incremental.LinkMs)}}}};
 	return FRTStatus::Success();
 }
@@ -110,16 +85,14 @@ struct FFrameFigures
 		Order.resize(std::min(Order.size(), Shown));
 		for (const size_t Index : Order)
 		{
-			Longest.push_back(
-			    {{"frame", Index}, {"ms", Frames[Index].Ms}, {"processor_ms", Frames[Index].ProcessorMs}});
+			Longest.push_back({{"frame", Index}, {"ms", Frames[Index].Ms}, {"processor_ms", Frames[Index].ProcessorMs}});
 		}
 	}
 	double Median = 0.0, Worst = 0.0, WorstProcessor = 0.0;
 	nlohmann::json Longest;
 };
 
-FRTStatus MeasureFrames(IRTDevice& Device, const std::string& Shaders, const FBenchPipelinesOptions& Options,
-                        nlohmann::json& Json)
+FRTStatus MeasureFrames(IRTDevice& Device, const std::string& Shaders, const FBenchPipelinesOptions& Options, nlohmann::json& Json)
 {
 	FHitchRun Run;
 	const FRendererDesc Desc{{Shaders}, {}};
@@ -127,8 +100,7 @@ FRTStatus MeasureFrames(IRTDevice& Device, const std::string& Shaders, const FBe
 	// there are cores can run at once.
 	constexpr uint32_t MockThreads = 8;
 	constexpr double MockFrameMs = 4.0;
-	if (FRTStatus S = MeasureHitches(Device, Desc, Options.Groups, Options.bMock ? MockThreads : 0,
-	                                 Options.bMock ? MockFrameMs : 0.0, Run);
+	if (FRTStatus S = MeasureHitches(Device, Desc, Options.Groups, Options.bMock ? MockThreads : 0, Options.bMock ? MockFrameMs : 0.0, Run);
 	    !S)
 	{
 		return S;
@@ -136,36 +108,24 @@ FRTStatus MeasureFrames(IRTDevice& Device, const std::string& Shaders, const FBe
 	const FFrameFigures Idle(Run.Idle), Compiling(Run.Compiling);
 	fmt::print("frames while {} materials compile: median {:.3f} ms, worst {:.3f} ms, of {} (before: median {:.3f} ms, "
 	           "worst {:.3f} ms)\n",
-	           Options.Groups, Compiling.Median, Compiling.Worst, Run.Compiling.size(), Idle.Median, Idle.Worst);
-	fmt::print("processor time of the render thread in these: worst {:.3f} ms (before: {:.3f} ms)\n",
-	           Compiling.WorstProcessor, Idle.WorstProcessor);
-	fmt::print("all in use after {:.2f} s and {} swaps; in a frame that waits for them: {:.2f} s (ratio {:.2f})\n",
-	           Run.ArrivedSeconds, Run.Swaps, Run.OnceSeconds, Run.ArrivedSeconds / Run.OnceSeconds);
+	    Options.Groups, Compiling.Median, Compiling.Worst, Run.Compiling.size(), Idle.Median, Idle.Worst);
+	fmt::print("processor time of the render thread in these: worst {:.3f} ms (before: {:.3f} ms)\n", Compiling.WorstProcessor,
+	    Idle.WorstProcessor);
+	fmt::print("all in use after {:.2f} s and {} swaps; in a frame that waits for them: {:.2f} s (ratio {:.2f})\n", Run.ArrivedSeconds,
+	    Run.Swaps, Run.OnceSeconds, Run.ArrivedSeconds / Run.OnceSeconds);
 	Json["arrival"] = {{"seconds", Run.ArrivedSeconds}, {"swaps", Run.Swaps}, {"once_seconds", Run.OnceSeconds}};
-	Json["hitch"] = {{"median_frame_ms", Compiling.Median},
-	                 {"worst_frame_ms", Compiling.Worst},
-	                 {"frames", Run.Compiling.size()},
-	                 {"worst_frame_processor_ms", Compiling.WorstProcessor},
-	                 {"idle_median_frame_ms", Idle.Median},
-	                 {"idle_worst_frame_ms", Idle.Worst},
-	                 {"idle_worst_frame_processor_ms", Idle.WorstProcessor},
-	                 {"idle_frames", Run.Idle.size()},
-	                 {"longest_frames", Compiling.Longest}};
+	Json["hitch"] = {{"median_frame_ms", Compiling.Median}, {"worst_frame_ms", Compiling.Worst}, {"frames", Run.Compiling.size()},
+	    {"worst_frame_processor_ms", Compiling.WorstProcessor}, {"idle_median_frame_ms", Idle.Median}, {"idle_worst_frame_ms", Idle.Worst},
+	    {"idle_worst_frame_processor_ms", Idle.WorstProcessor}, {"idle_frames", Run.Idle.size()}, {"longest_frames", Compiling.Longest}};
 	return FRTStatus::Success();
 }
 
 int Measure(const FBenchPipelinesOptions& Options, nlohmann::json& Json)
 {
 	const FPluginFolders Folders = FindPluginFolders();
-	if (const int Status = LoadSettings(Folders.Config, Options.Device); Status != ExitDone)
-	{
-		return Status;
-	}
+	if (const int Status = LoadSettings(Folders.Config, Options.Device); Status != ExitDone) { return Status; }
 	TRTRef<IRTDevice> Device;
-	if (FRTStatus S = OpenDevice(Options, Device); !S)
-	{
-		return ReportStatus(S, "bench rtpso");
-	}
+	if (FRTStatus S = OpenDevice(Options, Device); !S) { return ReportStatus(S, "bench rtpso"); }
 	const FRTCapabilities& Capabilities = Device->GetCapabilities();
 	LogInfo("{} ({})", Capabilities.DeviceName, Capabilities.DriverName);
 	if (!Capabilities.bRayTracingPipeline || !Capabilities.bPipelineLibraries)
@@ -173,22 +133,15 @@ int Measure(const FBenchPipelinesOptions& Options, nlohmann::json& Json)
 		LogError("bench rtpso: {} has no ray-tracing pipelines with libraries", Capabilities.DeviceName);
 		return ExitNoDevice;
 	}
-	Json = {{"device", Capabilities.DeviceName},
-	        {"driver", Capabilities.DriverName},
-	        {"cores", std::thread::hardware_concurrency()},
-	        {"hit_groups", Options.Groups}};
+	Json = {{"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"cores", std::thread::hardware_concurrency()},
+	    {"hit_groups", Options.Groups}};
 	if (Capabilities.bIsCpu)
 	{
-		Json["note"] =
-		    "a CPU driver: it may compile machine code only at the first dispatch, which is in none of these times";
+		Json["note"] = "a CPU driver: it may compile machine code only at the first dispatch, which is in none of these times";
 	}
 	FShaderCompiler Compiler{FShaderCompilerDesc{.SearchFolders = {Folders.Shaders}}};
-	FRTStatus Status =
-	    Options.bMock || Options.bHitchOnly ? FRTStatus::Success() : MeasureRuns(*Device, Compiler, Options, Json);
-	if (Status)
-	{
-		Status = MeasureFrames(*Device, Folders.Shaders, Options, Json);
-	}
+	FRTStatus Status = Options.bMock || Options.bHitchOnly ? FRTStatus::Success() : MeasureRuns(*Device, Compiler, Options, Json);
+	if (Status) { Status = MeasureFrames(*Device, Folders.Shaders, Options, Json); }
 	return Status ? ExitDone : ReportStatus(Status, "bench rtpso");
 }
 } // namespace
@@ -196,16 +149,13 @@ int Measure(const FBenchPipelinesOptions& Options, nlohmann::json& Json)
 void FBenchPipelinesOptions::AddTo(CLI::App& App)
 {
 	Device.AddTo(App);
-	App.add_flag("--mock", bMock,
-	             "On the mock device, whose compiles take half a second each: only the frames are measured");
+	App.add_flag("--mock", bMock, "On the mock device, whose compiles take half a second each: only the frames are measured");
 	App.add_flag("--hitch-only", bHitchOnly, "Only the frames");
-	App.add_option("--groups", Groups, "Hit groups, each with a material program of its own")
-	    ->check(CLI::Range(1, 65536));
+	App.add_option("--groups", Groups, "Hit groups, each with a material program of its own")->check(CLI::Range(1, 65536));
 	App.add_option("--threads", Threads, "Numbers of threads")->check(CLI::Range(1, 256));
 	App.add_option("--repetitions", Repetitions, "Pipelines made each way")->check(CLI::Range(1, 1000));
 	App.add_option("--added", Added, "Materials added one after another")->check(CLI::Range(1, 10'000));
-	App.add_option("--mock-compile-ms", MockCompileMs, "How long the mock takes for each material")
-	    ->check(CLI::Range(0, 60'000));
+	App.add_option("--mock-compile-ms", MockCompileMs, "How long the mock takes for each material")->check(CLI::Range(0, 60'000));
 	App.add_option("--json", Json, "Write the figures to this file");
 }
 
@@ -213,19 +163,13 @@ int RunBenchPipelines(const FBenchPipelinesOptions& Options)
 {
 	if (!Options.Json.empty())
 	{
-		if (FRTStatus S = CheckOutputPath(Options.Json); !S)
-		{
-			return ReportStatus(S, "--json"), ExitBadInput;
-		}
+		if (FRTStatus S = CheckOutputPath(Options.Json); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
 	}
 	nlohmann::json Json;
 	const int Exit = Measure(Options, Json);
 	if (Exit == ExitDone && !Options.Json.empty())
 	{
-		if (FRTStatus S = WriteFileAtomically(Options.Json, Json.dump(2) + "\n"); !S)
-		{
-			return ReportStatus(S, "--json"), ExitBadInput;
-		}
+		if (FRTStatus S = WriteFileAtomically(Options.Json, Json.dump(2) + "\n"); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
 	}
 	return Exit;
 }

@@ -20,55 +20,38 @@ VkPipelineShaderStageCreateInfo MakeStage(VkShaderStageFlagBits Stage, VkShaderM
 VkRayTracingShaderGroupCreateInfoKHR MakeGroup(bool bHit, uint32_t Shader)
 {
 	VkRayTracingShaderGroupCreateInfoKHR Group{VK_STRUCTURE_TYPE_RAY_TRACING_SHADER_GROUP_CREATE_INFO_KHR};
-	Group.type =
-	    bHit ? VK_RAY_TRACING_SHADER_GROUP_TYPE_TRIANGLES_HIT_GROUP_KHR : VK_RAY_TRACING_SHADER_GROUP_TYPE_GENERAL_KHR;
+	Group.type = bHit ? VK_RAY_TRACING_SHADER_GROUP_TYPE_TRIANGLES_HIT_GROUP_KHR : VK_RAY_TRACING_SHADER_GROUP_TYPE_GENERAL_KHR;
 	Group.generalShader = bHit ? VK_SHADER_UNUSED_KHR : Shader;
 	Group.closestHitShader = Group.intersectionShader = VK_SHADER_UNUSED_KHR;
 	Group.anyHitShader = bHit ? Shader : VK_SHADER_UNUSED_KHR;
 	return Group;
 }
 
-constexpr uint64_t Align(uint64_t Value, uint64_t Alignment)
-{
-	return (Value + Alignment - 1) / Alignment * Alignment;
-}
+constexpr uint64_t Align(uint64_t Value, uint64_t Alignment) { return (Value + Alignment - 1) / Alignment * Alignment; }
 } // namespace
 
 FRTStatus FRawShadow::CreateComputePipeline()
 {
 	VkShaderModule Module = VK_NULL_HANDLE;
-	if (FRTStatus S = CompileModule("RawShadow.comp", ERTShaderStage::Compute, Module); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = CompileModule("RawShadow.comp", ERTShaderStage::Compute, Module); !S) { return S; }
 	VkComputePipelineCreateInfo Info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
 	Info.stage = MakeStage(VK_SHADER_STAGE_COMPUTE_BIT, Module);
 	Info.layout = Layout;
-	return Check(Vulkan.CreateComputePipelines(Vulkan.Device, VK_NULL_HANDLE, 1, &Info, nullptr, &Pipeline),
-	             "vkCreateComputePipelines");
+	return Check(Vulkan.CreateComputePipelines(Vulkan.Device, VK_NULL_HANDLE, 1, &Info, nullptr, &Pipeline), "vkCreateComputePipelines");
 }
 
 FRTStatus FRawShadow::CreateRayPipeline()
 {
 	VkShaderModule RayGen = VK_NULL_HANDLE, Miss = VK_NULL_HANDLE, AnyHit = VK_NULL_HANDLE;
-	if (FRTStatus S = CompileModule("RawShadow.rgen", ERTShaderStage::RayGen, RayGen); !S)
-	{
-		return S;
-	}
-	if (FRTStatus S = CompileModule("RawShadow.rmiss", ERTShaderStage::Miss, Miss); !S)
-	{
-		return S;
-	}
-	std::vector<VkPipelineShaderStageCreateInfo> Stages = {MakeStage(VK_SHADER_STAGE_RAYGEN_BIT_KHR, RayGen),
-	                                                       MakeStage(VK_SHADER_STAGE_MISS_BIT_KHR, Miss)};
-	std::vector<VkRayTracingShaderGroupCreateInfoKHR> Groups = {MakeGroup(false, 0), MakeGroup(false, 1),
-	                                                            MakeGroup(true, VK_SHADER_UNUSED_KHR)};
+	if (FRTStatus S = CompileModule("RawShadow.rgen", ERTShaderStage::RayGen, RayGen); !S) { return S; }
+	if (FRTStatus S = CompileModule("RawShadow.rmiss", ERTShaderStage::Miss, Miss); !S) { return S; }
+	std::vector<VkPipelineShaderStageCreateInfo> Stages = {
+	    MakeStage(VK_SHADER_STAGE_RAYGEN_BIT_KHR, RayGen), MakeStage(VK_SHADER_STAGE_MISS_BIT_KHR, Miss)};
+	std::vector<VkRayTracingShaderGroupCreateInfoKHR> Groups = {
+	    MakeGroup(false, 0), MakeGroup(false, 1), MakeGroup(true, VK_SHADER_UNUSED_KHR)};
 	if (bMasked)
 	{
-		if (FRTStatus S = CompileModule("RawShadow.rahit", ERTShaderStage::AnyHit, AnyHit); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = CompileModule("RawShadow.rahit", ERTShaderStage::AnyHit, AnyHit); !S) { return S; }
 		Stages.push_back(MakeStage(VK_SHADER_STAGE_ANY_HIT_BIT_KHR, AnyHit));
 		Groups.push_back(MakeGroup(true, 2));
 	}
@@ -79,12 +62,9 @@ FRTStatus FRawShadow::CreateRayPipeline()
 	Info.pGroups = Groups.data();
 	Info.maxPipelineRayRecursionDepth = 1;
 	Info.layout = Layout;
-	const VkResult Result = Vulkan.CreateRayTracingPipelinesKHR(Vulkan.Device, VK_NULL_HANDLE, VK_NULL_HANDLE, 1, &Info,
-	                                                            nullptr, &Pipeline);
-	if (FRTStatus S = Check(Result, "vkCreateRayTracingPipelinesKHR"); !S)
-	{
-		return S;
-	}
+	const VkResult Result =
+	    Vulkan.CreateRayTracingPipelinesKHR(Vulkan.Device, VK_NULL_HANDLE, VK_NULL_HANDLE, 1, &Info, nullptr, &Pipeline);
+	if (FRTStatus S = Check(Result, "vkCreateRayTracingPipelinesKHR"); !S) { return S; }
 	return CreateShaderTable();
 }
 
@@ -93,9 +73,9 @@ FRTStatus FRawShadow::CreateShaderTable()
 	const FRTCapabilities& Capabilities = Desc.Device->GetCapabilities();
 	const uint64_t Handle = Capabilities.ShaderGroupHandleSize, Base = Capabilities.ShaderGroupBaseAlignment;
 	std::vector<uint8_t> Handles(4 * Handle);
-	if (FRTStatus S = Check(Vulkan.GetRayTracingShaderGroupHandlesKHR(Vulkan.Device, Pipeline, 0, bMasked ? 4 : 3,
-	                                                                  Handles.size(), Handles.data()),
-	                        "vkGetRayTracingShaderGroupHandlesKHR");
+	if (FRTStatus S =
+	        Check(Vulkan.GetRayTracingShaderGroupHandlesKHR(Vulkan.Device, Pipeline, 0, bMasked ? 4 : 3, Handles.size(), Handles.data()),
+	            "vkGetRayTracingShaderGroupHandlesKHR");
 	    !S)
 	{
 		return S;
@@ -112,17 +92,14 @@ FRTStatus FRawShadow::CreateShaderTable()
 		std::memcpy(Record + Handle, &Sections[Section], sizeof(FSection));
 	}
 	FUploader Uploader(*Desc.Device);
-	if (FRTStatus S =
-	        Uploader.CreateBuffer("RawShaderTable", ERTBufferUsage::ShaderTable, Records.data(), Records.size(), Table);
-	    !S)
+	if (FRTStatus S = Uploader.CreateBuffer("RawShaderTable", ERTBufferUsage::ShaderTable, Records.data(), Records.size(), Table); !S)
 	{
 		return S;
 	}
 	if (Table->GetDeviceAddress() % Base != 0)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported,
-		                        "raw dispatch: the shader table's address is not a multiple of %u",
-		                        static_cast<unsigned>(Base));
+		return FRTStatus::Error(
+		    ERTResult::Unsupported, "raw dispatch: the shader table's address is not a multiple of %u", static_cast<unsigned>(Base));
 	}
 	RayGenRegion = {Table->GetDeviceAddress(), MissOffset, MissOffset};
 	MissRegion = {Table->GetDeviceAddress() + MissOffset, MissOffset, MissOffset};

@@ -99,10 +99,7 @@ FRTStatus FRawShadow::Create(const FRawShadowDesc& Desc, std::unique_ptr<FRawSha
 {
 	std::unique_ptr<FRawShadow> Raw(new FRawShadow(Desc));
 	FRTStatus Status = Raw->Initialise();
-	if (Status)
-	{
-		Out = std::move(Raw);
-	}
+	if (Status) { Out = std::move(Raw); }
 	return Status;
 }
 
@@ -111,28 +108,18 @@ FRTStatus FRawShadow::Initialise()
 	bMasked = Desc.Scene->GetScene().GetFacts().bMasked;
 	using FStep = FRTStatus (FRawShadow::*)();
 	const FStep CreatePipeline = Desc.bPipeline ? &FRawShadow::CreateRayPipeline : &FRawShadow::CreateComputePipeline;
-	if (FRTStatus S = Vulkan.Load(*Desc.Device); !S)
+	if (FRTStatus S = Vulkan.Load(*Desc.Device); !S) { return S; }
+	for (const FStep Step : {&FRawShadow::CreateOutput, &FRawShadow::CreateTextures, &FRawShadow::CreateSections, &FRawShadow::CreateLayout,
+	         &FRawShadow::CreateDescriptors, CreatePipeline, &FRawShadow::CreateCommands, &FRawShadow::Record})
 	{
-		return S;
-	}
-	for (const FStep Step : {&FRawShadow::CreateOutput, &FRawShadow::CreateTextures, &FRawShadow::CreateSections,
-	                         &FRawShadow::CreateLayout, &FRawShadow::CreateDescriptors, CreatePipeline,
-	                         &FRawShadow::CreateCommands, &FRawShadow::Record})
-	{
-		if (FRTStatus S = (this->*Step)(); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = (this->*Step)(); !S) { return S; }
 	}
 	return FRTStatus::Success();
 }
 
 FRawShadow::~FRawShadow()
 {
-	if (!Vulkan.Device)
-	{
-		return;
-	}
+	if (!Vulkan.Device) { return; }
 	const VkDevice Device = Vulkan.Device;
 	Vulkan.DestroyFence(Device, Fence, nullptr);
 	Vulkan.DestroyQueryPool(Device, Queries, nullptr);
@@ -142,14 +129,8 @@ FRawShadow::~FRawShadow()
 	Vulkan.DestroyDescriptorPool(Device, DescriptorPool, nullptr);
 	Vulkan.DestroyDescriptorSetLayout(Device, SetLayout, nullptr);
 	Vulkan.DestroyImageView(Device, OutputView, nullptr);
-	for (const VkSampler Sampler : Samplers)
-	{
-		Vulkan.DestroySampler(Device, Sampler, nullptr);
-	}
-	for (const VkShaderModule Module : Modules)
-	{
-		Vulkan.DestroyShaderModule(Device, Module, nullptr);
-	}
+	for (const VkSampler Sampler : Samplers) { Vulkan.DestroySampler(Device, Sampler, nullptr); }
+	for (const VkShaderModule Module : Modules) { Vulkan.DestroyShaderModule(Device, Module, nullptr); }
 }
 
 FRTStatus FRawShadow::CreateOutput()
@@ -160,16 +141,9 @@ FRTStatus FRawShadow::CreateOutput()
 	Texture.Format = ERTFormat::R16_FLOAT; // what the plugin writes
 	Texture.Usage = ERTTextureUsage::Storage | ERTTextureUsage::CopySource;
 	Texture.Name = "RawVisibility";
-	if (FRTStatus S = Desc.Device->CreateTexture(Texture, Output.ReleaseAndGetAddress()); !S)
-	{
-		return S;
-	}
-	const FRTBufferDesc Buffer{uint64_t(Texture.Width) * Texture.Height * 2, ERTBufferUsage::CopyDest,
-	                           ERTMemory::Readback, "RawReadback"};
-	if (FRTStatus S = Desc.Device->CreateBuffer(Buffer, Readback.ReleaseAndGetAddress()); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = Desc.Device->CreateTexture(Texture, Output.ReleaseAndGetAddress()); !S) { return S; }
+	const FRTBufferDesc Buffer{uint64_t(Texture.Width) * Texture.Height * 2, ERTBufferUsage::CopyDest, ERTMemory::Readback, "RawReadback"};
+	if (FRTStatus S = Desc.Device->CreateBuffer(Buffer, Readback.ReleaseAndGetAddress()); !S) { return S; }
 	VkImageViewCreateInfo View{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
 	View.image = reinterpret_cast<VkImage>(Output->GetNative(ERTNative::Image));
 	View.viewType = VK_IMAGE_VIEW_TYPE_2D;
@@ -202,17 +176,13 @@ FRTStatus FRawShadow::CreateCommands()
 FRTStatus FRawShadow::Record()
 {
 	const VkImage Image = reinterpret_cast<VkImage>(Output->GetNative(ERTNative::Image));
-	const VkPipelineBindPoint Point =
-	    Desc.bPipeline ? VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR : VK_PIPELINE_BIND_POINT_COMPUTE;
+	const VkPipelineBindPoint Point = Desc.bPipeline ? VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR : VK_PIPELINE_BIND_POINT_COMPUTE;
 	const VkShaderStageFlags Stages = Desc.bPipeline ? VK_SHADER_STAGE_RAYGEN_BIT_KHR : VK_SHADER_STAGE_COMPUTE_BIT;
 	const FRawPush Push = MakePush(Desc);
 	const uint32_t Width = Desc.View.Width, Height = Desc.View.Height;
 
 	const VkCommandBufferBeginInfo Begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-	if (FRTStatus S = Check(Vulkan.BeginCommandBuffer(Commands, &Begin), "vkBeginCommandBuffer"); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = Check(Vulkan.BeginCommandBuffer(Commands, &Begin), "vkBeginCommandBuffer"); !S) { return S; }
 	Vulkan.CmdResetQueryPool(Commands, Queries, 0, 2);
 	Vulkan.CmdWriteTimestamp2(Commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, Queries, 0);
 	const auto ToWrite = MakeImageBarrier(Image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
@@ -226,10 +196,7 @@ FRTStatus FRawShadow::Record()
 		const VkStridedDeviceAddressRegionKHR None{};
 		Vulkan.CmdTraceRaysKHR(Commands, &RayGenRegion, &MissRegion, &HitRegion, &None, Width, Height, 1);
 	}
-	else
-	{
-		Vulkan.CmdDispatch(Commands, (Width + GroupX - 1) / GroupX, (Height + GroupY - 1) / GroupY, 1);
-	}
+	else { Vulkan.CmdDispatch(Commands, (Width + GroupX - 1) / GroupX, (Height + GroupY - 1) / GroupY, 1); }
 	Vulkan.CmdWriteTimestamp2(Commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, Queries, 1);
 	const auto ToCopy = MakeImageBarrier(Image, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
 	const VkDependencyInfo BeforeCopy = MakeDependency(ToCopy);
@@ -238,7 +205,7 @@ FRTStatus FRawShadow::Record()
 	Copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
 	Copy.imageExtent = {Width, Height, 1};
 	Vulkan.CmdCopyImageToBuffer(Commands, Image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-	                            reinterpret_cast<VkBuffer>(Readback->GetNative(ERTNative::Buffer)), 1, &Copy);
+	    reinterpret_cast<VkBuffer>(Readback->GetNative(ERTNative::Buffer)), 1, &Copy);
 	VkMemoryBarrier2 ToHost{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
 	ToHost.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
 	ToHost.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
@@ -262,7 +229,7 @@ FRTStatus FRawShadow::Run(double& OutMs)
 	uint64_t Ticks[2] = {};
 	Result = Result ? Result
 	                : Vulkan.GetQueryPoolResults(Vulkan.Device, Queries, 0, 2, sizeof(Ticks), Ticks, sizeof(Ticks[0]),
-	                                             VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+	                      VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
 	OutMs = static_cast<double>(Ticks[1] - Ticks[0]) * Desc.Device->GetCapabilities().TimestampPeriodNs * 1e-6;
 	return Check(Result, "the dispatch");
 }
@@ -276,27 +243,15 @@ FRTStatus FRawShadow::CompileModule(const char* Path, ERTShaderStage Stage, VkSh
 {
 	FShaderSource Source{Path, Stage, {}, {}};
 	Source.Defines = {{"RAW_GROUP_X", std::to_string(GroupX)}, {"RAW_GROUP_Y", std::to_string(GroupY)}};
-	if (bMasked)
-	{
-		Source.Defines.emplace_back("HAS_MASKED", "1");
-	}
-	if (Desc.bCountRays)
-	{
-		Source.Defines.emplace_back("COUNT_RAYS", "1");
-	}
+	if (bMasked) { Source.Defines.emplace_back("HAS_MASKED", "1"); }
+	if (Desc.bCountRays) { Source.Defines.emplace_back("COUNT_RAYS", "1"); }
 	FShaderBinary Binary;
-	if (FRTStatus S = Desc.Compiler->Compile(Source, Binary); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = Desc.Compiler->Compile(Source, Binary); !S) { return S; }
 	VkShaderModuleCreateInfo Info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
 	Info.codeSize = Binary.Words.size() * sizeof(uint32_t);
 	Info.pCode = Binary.Words.data();
 	const VkResult Result = Vulkan.CreateShaderModule(Vulkan.Device, &Info, nullptr, &Out);
-	if (Result == VK_SUCCESS)
-	{
-		Modules.push_back(Out);
-	}
+	if (Result == VK_SUCCESS) { Modules.push_back(Out); }
 	return Check(Result, Path);
 }
 

@@ -11,8 +11,7 @@ namespace Lantern
 
 FRTStatus FRawShadow::CreateSampler(const FHostTexture& Texture, VkSampler& Out)
 {
-	const auto Address = [](bool bRepeat, bool bMirror)
-	{
+	const auto Address = [](bool bRepeat, bool bMirror) {
 		return bMirror   ? VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT
 		       : bRepeat ? VK_SAMPLER_ADDRESS_MODE_REPEAT
 		                 : VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
@@ -22,10 +21,7 @@ FRTStatus FRawShadow::CreateSampler(const FHostTexture& Texture, VkSampler& Out)
 	Info.addressModeU = Address(Texture.bRepeatU, Texture.bMirrorU);
 	Info.addressModeV = Address(Texture.bRepeatV, Texture.bMirrorV);
 	const VkResult Result = Vulkan.CreateSampler(Vulkan.Device, &Info, nullptr, &Out);
-	if (Result == VK_SUCCESS)
-	{
-		Samplers.push_back(Out);
-	}
+	if (Result == VK_SUCCESS) { Samplers.push_back(Out); }
 	return Check(Result, "vkCreateSampler");
 }
 
@@ -38,24 +34,15 @@ FRTStatus FRawShadow::CreateTextures()
 	for (size_t Material = 0; bMasked && Material < Scene.Materials.size(); ++Material)
 	{
 		const int32_t Texture = Scene.Materials[Material].Slots[TEXTURE_BASE_COLOR].Texture;
-		if (Scene.Materials[Material].AlphaMode == EAlphaMode::Opaque || Texture < 0)
-		{
-			continue;
-		}
+		if (Scene.Materials[Material].AlphaMode == EAlphaMode::Opaque || Texture < 0) { continue; }
 		const auto [Entry, bNew] = Known.try_emplace(Texture, static_cast<uint32_t>(Textures.size()));
 		OfMaterial[Material] = Entry->second;
-		if (!bNew)
-		{
-			continue;
-		}
+		if (!bNew) { continue; }
 		VkDescriptorImageInfo Image{};
-		Image.imageView = reinterpret_cast<VkImageView>(
-		    Desc.Scene->GetImage(Scene.Textures[Texture].Image)->GetNative(ERTNative::ImageView));
+		Image.imageView =
+		    reinterpret_cast<VkImageView>(Desc.Scene->GetImage(Scene.Textures[Texture].Image)->GetNative(ERTNative::ImageView));
 		Image.imageLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-		if (FRTStatus S = CreateSampler(Scene.Textures[Texture], Image.sampler); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = CreateSampler(Scene.Textures[Texture], Image.sampler); !S) { return S; }
 		Textures.push_back(Image);
 	}
 	MaterialTextures = std::move(OfMaterial);
@@ -73,20 +60,17 @@ FRTStatus FRawShadow::CreateSections()
 		const FHostTextureSlot& Slot = Material.Slots[TEXTURE_BASE_COLOR];
 		FSection Section{};
 		Section.Indices = Data.Indices;
-		Section.Coverage =
-		    Data.Attributes + (Slot.UVSet == 0 ? offsetof(FVertexAttributes, UV0) : offsetof(FVertexAttributes, UV1));
+		Section.Coverage = Data.Attributes + (Slot.UVSet == 0 ? offsetof(FVertexAttributes, UV0) : offsetof(FVertexAttributes, UV1));
 		Section.Texture = MaterialTextures[Data.Material];
 		// The material's own opacity goes into the cutoff; without a texture any texel decides the same.
 		const float Cutoff = Desc.Scene->GetScene().GetMaterials()[Data.Material].AlphaCutoff;
-		Section.Cutoff = Slot.Texture >= 0               ? Cutoff / std::max(Material.BaseColor.a, 1e-6f)
-		                 : Material.BaseColor.a < Cutoff ? 2.0f
-		                                                 : -1.0f;
+		Section.Cutoff = Slot.Texture >= 0 ? Cutoff / std::max(Material.BaseColor.a, 1e-6f) : Material.BaseColor.a < Cutoff ? 2.0f : -1.0f;
 		Sections.push_back(Section);
 		SectionMasked.push_back((Data.Flags & SECTION_MASKED) != 0);
 	}
 	FUploader Uploader(*Desc.Device);
-	if (FRTStatus S = Uploader.CreateBuffer("RawSections", ERTBufferUsage::Storage, Sections.data(),
-	                                        Sections.size() * sizeof(FSection), SectionBuffer);
+	if (FRTStatus S = Uploader.CreateBuffer(
+	        "RawSections", ERTBufferUsage::Storage, Sections.data(), Sections.size() * sizeof(FSection), SectionBuffer);
 	    !S)
 	{
 		return S;
@@ -98,20 +82,14 @@ FRTStatus FRawShadow::CreateLayout()
 {
 	const VkShaderStageFlags Trace = Desc.bPipeline ? VK_SHADER_STAGE_RAYGEN_BIT_KHR : VK_SHADER_STAGE_COMPUTE_BIT;
 	const VkShaderStageFlags Hit = Desc.bPipeline ? VK_SHADER_STAGE_ANY_HIT_BIT_KHR : VK_SHADER_STAGE_COMPUTE_BIT;
-	std::vector<VkDescriptorSetLayoutBinding> Bindings = {
-	    {0, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, 1, Trace, nullptr},
-	    {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, Trace, nullptr},
-	    {2, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, Trace, nullptr},
+	std::vector<VkDescriptorSetLayoutBinding> Bindings = {{0, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, 1, Trace, nullptr},
+	    {1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, Trace, nullptr}, {2, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1, Trace, nullptr},
 	    {3, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1, Trace, nullptr}};
 	if (!Textures.empty())
 	{
-		Bindings.push_back(
-		    {4, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, static_cast<uint32_t>(Textures.size()), Hit, nullptr});
+		Bindings.push_back({4, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, static_cast<uint32_t>(Textures.size()), Hit, nullptr});
 	}
-	if (bMasked && !Desc.bPipeline)
-	{
-		Bindings.push_back({5, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, Hit, nullptr});
-	}
+	if (bMasked && !Desc.bPipeline) { Bindings.push_back({5, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, Hit, nullptr}); }
 	VkDescriptorSetLayoutCreateInfo Info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
 	Info.bindingCount = static_cast<uint32_t>(Bindings.size());
 	Info.pBindings = Bindings.data();
@@ -126,10 +104,7 @@ FRTStatus FRawShadow::CreateLayout()
 	Result = Result ? Result : Vulkan.CreatePipelineLayout(Vulkan.Device, &LayoutInfo, nullptr, &Layout);
 
 	std::vector<VkDescriptorPoolSize> Sizes;
-	for (const VkDescriptorSetLayoutBinding& Binding : Bindings)
-	{
-		Sizes.push_back({Binding.descriptorType, Binding.descriptorCount});
-	}
+	for (const VkDescriptorSetLayoutBinding& Binding : Bindings) { Sizes.push_back({Binding.descriptorType, Binding.descriptorCount}); }
 	VkDescriptorPoolCreateInfo Pool{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
 	Pool.maxSets = 1;
 	Pool.poolSizeCount = static_cast<uint32_t>(Sizes.size());
@@ -145,22 +120,18 @@ FRTStatus FRawShadow::CreateLayout()
 
 FRTStatus FRawShadow::CreateDescriptors()
 {
-	const auto Tlas = reinterpret_cast<VkAccelerationStructureKHR>(
-	    Desc.Scene->GetScene().GetStructure()->GetNative(ERTNative::AccelerationStructure));
-	VkWriteDescriptorSetAccelerationStructureKHR Structure{
-	    VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR};
+	const auto Tlas =
+	    reinterpret_cast<VkAccelerationStructureKHR>(Desc.Scene->GetScene().GetStructure()->GetNative(ERTNative::AccelerationStructure));
+	VkWriteDescriptorSetAccelerationStructureKHR Structure{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR};
 	Structure.accelerationStructureCount = 1;
 	Structure.pAccelerationStructures = &Tlas;
-	const auto View = [](IRTTexture* Texture)
-	{ return reinterpret_cast<VkImageView>(Texture->GetNative(ERTNative::ImageView)); };
+	const auto View = [](IRTTexture* Texture) { return reinterpret_cast<VkImageView>(Texture->GetNative(ERTNative::ImageView)); };
 	const VkDescriptorImageInfo Depth{VK_NULL_HANDLE, View(Desc.Depth), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 	const VkDescriptorImageInfo Normals{VK_NULL_HANDLE, View(Desc.Normals), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 	const VkDescriptorImageInfo Target{VK_NULL_HANDLE, OutputView, VK_IMAGE_LAYOUT_GENERAL};
-	const VkDescriptorBufferInfo Buffer{reinterpret_cast<VkBuffer>(SectionBuffer->GetNative(ERTNative::Buffer)), 0,
-	                                    VK_WHOLE_SIZE};
+	const VkDescriptorBufferInfo Buffer{reinterpret_cast<VkBuffer>(SectionBuffer->GetNative(ERTNative::Buffer)), 0, VK_WHOLE_SIZE};
 	std::vector<VkWriteDescriptorSet> Writes;
-	const auto Add = [&](uint32_t Binding, VkDescriptorType Type, const VkDescriptorImageInfo* Images, uint32_t Count)
-	{
+	const auto Add = [&](uint32_t Binding, VkDescriptorType Type, const VkDescriptorImageInfo* Images, uint32_t Count) {
 		VkWriteDescriptorSet Write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
 		Write.dstSet = Set;
 		Write.dstBinding = Binding;
@@ -174,10 +145,7 @@ FRTStatus FRawShadow::CreateDescriptors()
 	Add(1, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, &Depth, 1);
 	Add(2, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, &Normals, 1);
 	Add(3, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, &Target, 1);
-	if (!Textures.empty())
-	{
-		Add(4, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, Textures.data(), static_cast<uint32_t>(Textures.size()));
-	}
+	if (!Textures.empty()) { Add(4, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, Textures.data(), static_cast<uint32_t>(Textures.size())); }
 	if (bMasked && !Desc.bPipeline)
 	{
 		Add(5, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, nullptr, 1);

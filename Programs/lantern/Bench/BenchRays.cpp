@@ -13,10 +13,7 @@ namespace
 {
 constexpr uint16_t HalfOne = 0x3c00;
 
-void Set(const char* Name, const char* Value)
-{
-	FConsoleVariables::Get().Set(Name, Value, ERTSetBy::CommandLine, "bench rays");
-}
+void Set(const char* Name, const char* Value) { FConsoleVariables::Get().Set(Name, Value, ERTSetBy::CommandLine, "bench rays"); }
 
 template <class T>
 T GetVariable(const char* Name)
@@ -25,10 +22,7 @@ T GetVariable(const char* Name)
 }
 
 /// Of all threads of the process: a CPU driver's workers are among them.
-double GetProcessorMs()
-{
-	return double(std::clock()) * (1000.0 / CLOCKS_PER_SEC);
-}
+double GetProcessorMs() { return double(std::clock()) * (1000.0 / CLOCKS_PER_SEC); }
 } // namespace
 
 double FRayTimes::GetMedian() const
@@ -39,30 +33,17 @@ double FRayTimes::GetMedian() const
 	return Sorted.empty() ? 0.0 : Sorted.size() % 2 ? Sorted[Half] : 0.5 * (Sorted[Half - 1] + Sorted[Half]);
 }
 
-double FRayTimes::GetMin() const
-{
-	return Ms.empty() ? 0.0 : *std::min_element(Ms.begin(), Ms.end());
-}
-double FRayTimes::GetMax() const
-{
-	return Ms.empty() ? 0.0 : *std::max_element(Ms.begin(), Ms.end());
-}
-double FRayCase::GetRawMrays() const
-{
-	return double(Rays) / Raw.GetMedian() * 1e-3;
-}
-double FRayCase::GetPluginMrays() const
-{
-	return double(Rays) / Plugin.GetMedian() * 1e-3;
-}
+double FRayTimes::GetMin() const { return Ms.empty() ? 0.0 : *std::min_element(Ms.begin(), Ms.end()); }
+double FRayTimes::GetMax() const { return Ms.empty() ? 0.0 : *std::max_element(Ms.begin(), Ms.end()); }
+double FRayCase::GetRawMrays() const { return double(Rays) / Raw.GetMedian() * 1e-3; }
+double FRayCase::GetPluginMrays() const { return double(Rays) / Plugin.GetMedian() * 1e-3; }
 
 FRayBench::FRayBench(IRTDevice& InDevice, FSampleEngine& InEngine, FRayBenchSettings InSettings)
     : Device(InDevice),
       Engine(InEngine),
       Settings(std::move(InSettings)),
       Compiler(FShaderCompilerDesc{Settings.ShaderFolders, Settings.CacheFolder})
-{
-}
+{}
 
 FRTStatus FRayBench::CreateTargets()
 {
@@ -72,32 +53,22 @@ FRTStatus FRayBench::CreateTargets()
 	Texture.Usage = ERTTextureUsage::Sampled | ERTTextureUsage::CopyDest;
 	Texture.Format = ERTFormat::D32_FLOAT;
 	Texture.Name = "BenchDepth";
-	if (FRTStatus S = Device.CreateTexture(Texture, Depth.ReleaseAndGetAddress()); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = Device.CreateTexture(Texture, Depth.ReleaseAndGetAddress()); !S) { return S; }
 	Texture.Format = ERTFormat::RGBA16_SNORM;
 	Texture.Name = "BenchNormals";
-	if (FRTStatus S = Device.CreateTexture(Texture, Normals.ReleaseAndGetAddress()); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = Device.CreateTexture(Texture, Normals.ReleaseAndGetAddress()); !S) { return S; }
 	const uint64_t Pixels = uint64_t(View.Width) * View.Height;
 	const ERTBufferUsage Both = ERTBufferUsage::CopySource | ERTBufferUsage::CopyDest;
-	if (FRTStatus S =
-	        Device.CreateBuffer({Pixels * 4, Both, ERTMemory::Device, "BenchDepth"}, DepthBytes.ReleaseAndGetAddress());
-	    !S)
+	if (FRTStatus S = Device.CreateBuffer({Pixels * 4, Both, ERTMemory::Device, "BenchDepth"}, DepthBytes.ReleaseAndGetAddress()); !S)
 	{
 		return S;
 	}
-	if (FRTStatus S = Device.CreateBuffer({Pixels * 8, Both, ERTMemory::Device, "BenchNormals"},
-	                                      NormalBytes.ReleaseAndGetAddress());
-	    !S)
+	if (FRTStatus S = Device.CreateBuffer({Pixels * 8, Both, ERTMemory::Device, "BenchNormals"}, NormalBytes.ReleaseAndGetAddress()); !S)
 	{
 		return S;
 	}
-	return Device.CreateBuffer({Pixels * 2, ERTBufferUsage::CopyDest, ERTMemory::Readback, "BenchVisibility"},
-	                           Visibility.ReleaseAndGetAddress());
+	return Device.CreateBuffer(
+	    {Pixels * 2, ERTBufferUsage::CopyDest, ERTMemory::Readback, "BenchVisibility"}, Visibility.ReleaseAndGetAddress());
 }
 
 void FRayBench::AddCopies(FFrameContext& Context, const FGBuffer& GBuffer)
@@ -108,45 +79,34 @@ void FRayBench::AddCopies(FFrameContext& Context, const FGBuffer& GBuffer)
 		FGraphBuffer Bytes;
 	};
 	FFrameGraph& Graph = Context.Graph;
-	const FCopy Copies[] = {
-	    {GBuffer.Depth, Graph.ImportTexture(Depth.Get(), ERTAccess::None, ERTAccess::ShaderRead, "BenchDepth"),
-	     Graph.ImportBuffer(DepthBytes.Get(), ERTAccess::None, ERTAccess::None, "BenchDepthBytes")},
+	const FCopy Copies[] = {{GBuffer.Depth, Graph.ImportTexture(Depth.Get(), ERTAccess::None, ERTAccess::ShaderRead, "BenchDepth"),
+	                            Graph.ImportBuffer(DepthBytes.Get(), ERTAccess::None, ERTAccess::None, "BenchDepthBytes")},
 	    {GBuffer.Normals, Graph.ImportTexture(Normals.Get(), ERTAccess::None, ERTAccess::ShaderRead, "BenchNormals"),
-	     Graph.ImportBuffer(NormalBytes.Get(), ERTAccess::None, ERTAccess::None, "BenchNormalBytes")}};
+	        Graph.ImportBuffer(NormalBytes.Get(), ERTAccess::None, ERTAccess::None, "BenchNormalBytes")}};
 	for (const FCopy& Copy : Copies)
 	{
-		Graph.AddPass("KeepGBuffer",
-		              [&](FPassBuilder& Builder) -> FPassExecute
-		              {
-			              Builder.Read(Copy.From, ERTAccess::CopyRead);
-			              Builder.Write(Copy.Bytes, ERTAccess::CopyWrite);
-			              return [=](FPassContext& Pass) {
-				              Pass.Commands().CopyTextureToBuffer(Pass.GetBuffer(Copy.Bytes), 0,
-				                                                  Pass.GetTexture(Copy.From), 0, 0);
-			              };
-		              });
-		Graph.AddPass("KeepGBuffer",
-		              [&](FPassBuilder& Builder) -> FPassExecute
-		              {
-			              Builder.Read(Copy.Bytes, ERTAccess::CopyRead);
-			              Builder.Write(Copy.To, ERTAccess::CopyWrite);
-			              return [=](FPassContext& Pass) {
-				              Pass.Commands().CopyBufferToTexture(Pass.GetTexture(Copy.To), 0, 0,
-				                                                  Pass.GetBuffer(Copy.Bytes), 0);
-			              };
-		              });
+		Graph.AddPass("KeepGBuffer", [&](FPassBuilder& Builder) -> FPassExecute {
+			Builder.Read(Copy.From, ERTAccess::CopyRead);
+			Builder.Write(Copy.Bytes, ERTAccess::CopyWrite);
+			return [=](FPassContext& Pass) {
+				Pass.Commands().CopyTextureToBuffer(Pass.GetBuffer(Copy.Bytes), 0, Pass.GetTexture(Copy.From), 0, 0);
+			};
+		});
+		Graph.AddPass("KeepGBuffer", [&](FPassBuilder& Builder) -> FPassExecute {
+			Builder.Read(Copy.Bytes, ERTAccess::CopyRead);
+			Builder.Write(Copy.To, ERTAccess::CopyWrite);
+			return [=](FPassContext& Pass) {
+				Pass.Commands().CopyBufferToTexture(Pass.GetTexture(Copy.To), 0, 0, Pass.GetBuffer(Copy.Bytes), 0);
+			};
+		});
 	}
 }
 
 FRTStatus FRayBench::CaptureGBuffer(const FView& InView)
 {
 	View = InView;
-	if (FRTStatus S = CreateTargets(); !S)
-	{
-		return S;
-	}
-	Engine.ExtraPasses = [this](FFrameContext& Context, const FGBuffer& GBuffer, const FFrameOutputs&)
-	{ AddCopies(Context, GBuffer); };
+	if (FRTStatus S = CreateTargets(); !S) { return S; }
+	Engine.ExtraPasses = [this](FFrameContext& Context, const FGBuffer& GBuffer, const FFrameOutputs&) { AddCopies(Context, GBuffer); };
 	const FRTStatus Status = Engine.RenderFrame(View, 0.0, {}, nullptr);
 	Engine.ExtraPasses = {};
 	return Status ? Engine.GetRenderer().WaitForAll() : Status;
@@ -155,10 +115,7 @@ FRTStatus FRayBench::CaptureGBuffer(const FView& InView)
 FRTStatus FRayBench::RunPlugin(double& OutMs)
 {
 	FRenderer& Renderer = Engine.GetRenderer();
-	if (FRTStatus S = Renderer.BeginFrame(Engine.GetScene().GetScene(), View, {}); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = Renderer.BeginFrame(Engine.GetScene().GetScene(), View, {}); !S) { return S; }
 	FFrameContext& Context = Renderer.GetContext();
 	FFrameGraph& Graph = Context.Graph;
 	FSunShadowInputs Inputs;
@@ -167,24 +124,16 @@ FRTStatus FRayBench::RunPlugin(double& OutMs)
 	const FGraphTexture Shadow = AddSunShadowPass(Context, Inputs).Visibility;
 	if (Shadow.IsValid())
 	{
-		const FGraphBuffer Bytes =
-		    Graph.ImportBuffer(Visibility.Get(), ERTAccess::None, ERTAccess::HostRead, "BenchVisibility");
-		Graph.AddPass("Readback",
-		              [&](FPassBuilder& Builder) -> FPassExecute
-		              {
-			              Builder.Read(Shadow, ERTAccess::CopyRead);
-			              Builder.Write(Bytes, ERTAccess::CopyWrite);
-			              return [=](FPassContext& Pass) {
-				              Pass.Commands().CopyTextureToBuffer(Pass.GetBuffer(Bytes), 0, Pass.GetTexture(Shadow), 0,
-				                                                  0);
-			              };
-		              });
+		const FGraphBuffer Bytes = Graph.ImportBuffer(Visibility.Get(), ERTAccess::None, ERTAccess::HostRead, "BenchVisibility");
+		Graph.AddPass("Readback", [&](FPassBuilder& Builder) -> FPassExecute {
+			Builder.Read(Shadow, ERTAccess::CopyRead);
+			Builder.Write(Bytes, ERTAccess::CopyWrite);
+			return
+			    [=](FPassContext& Pass) { Pass.Commands().CopyTextureToBuffer(Pass.GetBuffer(Bytes), 0, Pass.GetTexture(Shadow), 0, 0); };
+		});
 	}
 	FRTStatus Status = Renderer.EndFrame(nullptr);
-	if (Status)
-	{
-		Status = Renderer.WaitForAll();
-	}
+	if (Status) { Status = Renderer.WaitForAll(); }
 	OutMs = -1.0;
 	for (const FPassTiming& Timing : Renderer.GetGraphResources().GetTimings())
 	{
@@ -192,8 +141,7 @@ FRTStatus FRayBench::RunPlugin(double& OutMs)
 	}
 	if (Status && OutMs < 0.0)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported,
-		                        "no time of the sun shadow pass: it did not run, or the device has no timestamps");
+		return FRTStatus::Error(ERTResult::Unsupported, "no time of the sun shadow pass: it did not run, or the device has no timestamps");
 	}
 	return Status;
 }
@@ -223,10 +171,7 @@ FRTStatus FRayBench::RunInTurn(FRawShadow& Raw, FRayCase& Out)
 		{
 			double Ms = 0.0;
 			const double Start = GetProcessorMs();
-			if (FRTStatus S = bRaw ? Raw.Run(Ms) : RunPlugin(Ms); !S)
-			{
-				return S;
-			}
+			if (FRTStatus S = bRaw ? Raw.Run(Ms) : RunPlugin(Ms); !S) { return S; }
 			if (I >= Settings.WarmUp)
 			{
 				(bRaw ? Out.Raw : Out.Plugin).Ms.push_back(Ms);
@@ -240,10 +185,7 @@ FRTStatus FRayBench::RunInTurn(FRawShadow& Raw, FRayCase& Out)
 FRTStatus FRayBench::Measure(bool bPipeline, FRayCase& Out)
 {
 	// What the raw dispatch is written for, whatever the settings say.
-	for (const char* Name : {"r.RT.Enable", "r.RT.Shadow", "r.RT.Shadow.Soft", "r.RT.Shadow.Samples"})
-	{
-		Set(Name, "1");
-	}
+	for (const char* Name : {"r.RT.Enable", "r.RT.Shadow", "r.RT.Shadow.Soft", "r.RT.Shadow.Samples"}) { Set(Name, "1"); }
 	Set("r.RT.Shadow.CullFrontFaces", "0");
 	Set("r.RT.Shadow.Denoise", "0");
 	Set("r.RT.Shadow.Path", bPipeline ? "1" : "2");
@@ -255,20 +197,14 @@ FRTStatus FRayBench::Measure(bool bPipeline, FRayCase& Out)
 	Status = Status ? CreateRaw(bPipeline, true, Counter) : Status;
 	Status = Status ? RunInTurn(*Raw, Out) : Status;
 	Status = Status ? Counter->Run(Ms) : Status;
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	Out.Width = View.Width;
 	Out.Height = View.Height;
 	const uint64_t Pixels = uint64_t(View.Width) * View.Height;
 	const auto* const Plugin = static_cast<const uint16_t*>(Visibility->GetMapped());
 	Out.Rays = static_cast<uint64_t>(std::count(Counter->GetPicture(), Counter->GetPicture() + Pixels, HalfOne));
 	uint64_t Same = 0;
-	for (uint64_t I = 0; I < Pixels; ++I)
-	{
-		Same += Plugin[I] == Raw->GetPicture()[I];
-	}
+	for (uint64_t I = 0; I < Pixels; ++I) { Same += Plugin[I] == Raw->GetPicture()[I]; }
 	Out.Agreement = double(Same) / double(Pixels);
 	return FRTStatus::Success();
 }

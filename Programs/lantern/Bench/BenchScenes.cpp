@@ -18,10 +18,7 @@ FBenchScene MakeBenchScene(const std::string& File)
 	Scene.File = File;
 	const fs::path Path(File);
 	Scene.Name = EscapeText(Path.has_parent_path() ? Path.parent_path().filename().string() : Path.stem().string());
-	if (Scene.Name == "sponza")
-	{
-		Scene.Camera = FCameraOption{{-9, 1.6, -0.4}, {10, 3.2, -1.2}, 60};
-	}
+	if (Scene.Name == "sponza") { Scene.Camera = FCameraOption{{-9, 1.6, -0.4}, {10, 3.2, -1.2}, 60}; }
 	else if (Scene.Name == "black_forest")
 	{
 		Scene.Camera = FCameraOption{{541, 20, -200}, {300, 0, -300}, 60};
@@ -35,10 +32,7 @@ std::optional<FBenchScene> FindBenchScene(const char* Path, const char* Bench)
 	const char* const Folder = std::getenv("LANTERN_SCENES");
 	const fs::path Root = Folder ? fs::path(Folder) : fs::path(FindPluginFolders().Root) / ".." / "shared" / "scenes";
 	std::error_code Error;
-	if (fs::exists(Root / Path, Error))
-	{
-		return MakeBenchScene((Root / Path).lexically_normal().string());
-	}
+	if (fs::exists(Root / Path, Error)) { return MakeBenchScene((Root / Path).lexically_normal().string()); }
 	LogWarning("{}: {} is not there (LANTERN_SCENES names its folder); left out", Bench, EscapePath((Root / Path).string()));
 	return std::nullopt;
 }
@@ -52,10 +46,7 @@ FPictureOptions MakeBenchPicture(const FBenchScene& Scene, const std::string& Si
 	Picture.Sun = FSunOption{4, {0.25, -1, 0.35}, 0.53};
 	Picture.Width = bIsCpu ? 640 : 1280;
 	Picture.Height = bIsCpu ? 360 : 720;
-	if (!Size.empty())
-	{
-		ParseSize(Size, Picture);
-	}
+	if (!Size.empty()) { ParseSize(Size, Picture); }
 	return Picture;
 }
 

@@ -13,10 +13,7 @@ namespace
 std::string NameOf(const FShaderSource& Source)
 {
 	std::string Name = Source.Path;
-	for (const auto& [Define, Value] : Source.Defines)
-	{
-		Name += ' ' + Define + (Value == "1" ? "" : '=' + Value);
-	}
+	for (const auto& [Define, Value] : Source.Defines) { Name += ' ' + Define + (Value == "1" ? "" : '=' + Value); }
 	return Name;
 }
 
@@ -25,10 +22,7 @@ class FPipelineLister
 public:
 	FPipelineLister(FSampleEngine& InEngine, std::vector<FPipelineShaders>& InOut) : Engine(InEngine), Out(InOut)
 	{
-		for (const FPipelineShaders& Known : Out)
-		{
-			Names.insert(Known.Name);
-		}
+		for (const FPipelineShaders& Known : Out) { Names.insert(Known.Name); }
 	}
 
 	/// What frames with the console variables as they are trace with, and dispatch so far.
@@ -40,10 +34,7 @@ public:
 		for (int Frame = 0; Frame < 2; ++Frame)
 		{
 			FCapturedFrame Unused;
-			if (FRTStatus S = Engine.RenderFrame(View, Frame, Capture, &Unused); !S)
-			{
-				return S;
-			}
+			if (FRTStatus S = Engine.RenderFrame(View, Frame, Capture, &Unused); !S) { return S; }
 		}
 		FFrameFeatures Features;
 		Features.Signals.bAmbientOcclusion = Capture.Wants(ESignal::AmbientOcclusion);
@@ -53,9 +44,8 @@ public:
 
 	void AddReferences()
 	{
-		for (const EReferenceSignal Signal :
-		     {EReferenceSignal::Frame, EReferenceSignal::SunShadow, EReferenceSignal::AmbientOcclusion,
-		      EReferenceSignal::DiffuseGI, EReferenceSignal::Reflections})
+		for (const EReferenceSignal Signal : {EReferenceSignal::Frame, EReferenceSignal::SunShadow, EReferenceSignal::AmbientOcclusion,
+		         EReferenceSignal::DiffuseGI, EReferenceSignal::Reflections})
 		{
 			for (const bool bFromGBuffer : {false, true})
 			{
@@ -105,10 +95,7 @@ private:
 			Alone.RayGens = {RayGen};
 			AddPipeline(NameOf(RayGen), std::move(Alone));
 		}
-		if (All.RayGens.size() > 1)
-		{
-			AddPipeline(Name, All);
-		}
+		if (All.RayGens.size() > 1) { AddPipeline(Name, All); }
 	}
 
 	void AddPipeline(const std::string& Name, FRTPSODesc Rays)
@@ -123,10 +110,7 @@ private:
 
 	void Add(FPipelineShaders Pipeline)
 	{
-		if (Names.insert(Pipeline.Name).second)
-		{
-			Out.push_back(std::move(Pipeline));
-		}
+		if (Names.insert(Pipeline.Name).second) { Out.push_back(std::move(Pipeline)); }
 	}
 
 	FSampleEngine& Engine;
@@ -135,8 +119,7 @@ private:
 };
 } // namespace
 
-FRTStatus ListPipelines(FSampleEngine& Engine, const std::string& Scene, const std::string& MethodsFile,
-                        std::vector<FPipelineShaders>& Out)
+FRTStatus ListPipelines(FSampleEngine& Engine, const std::string& Scene, const std::string& MethodsFile, std::vector<FPipelineShaders>& Out)
 {
 	// Shaders leave out what a scene does not have; a sun and a sky nearly all have.
 	FSunLight Sun;
@@ -147,16 +130,12 @@ FRTStatus ListPipelines(FSampleEngine& Engine, const std::string& Scene, const s
 	FPipelineLister Lister(Engine, Out);
 	FFrameCapture Capture;
 	Capture.bDisplay = Capture.bLighting = true;
-	if (FRTStatus S = Lister.RenderAndAdd(Capture); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = Lister.RenderAndAdd(Capture); !S) { return S; }
 	Lister.AddReferences();
 	const FMethods Methods = LoadMethods(MethodsFile);
 	if (!Methods.Problems.empty() || Methods.Methods.empty())
 	{
-		const std::string Problem =
-		    Methods.Problems.empty() ? MethodsFile + ": no method is in it" : Methods.Problems.front();
+		const std::string Problem = Methods.Problems.empty() ? MethodsFile + ": no method is in it" : Methods.Problems.front();
 		return FRTStatus::Error(ERTResult::IoError, "%s", Problem.c_str());
 	}
 	for (const FMethod& Method : Methods.Methods)
@@ -170,10 +149,7 @@ FRTStatus ListPipelines(FSampleEngine& Engine, const std::string& Scene, const s
 			}
 			FFrameCapture Signal;
 			Signal.Wants(Method.Signal) = true;
-			if (FRTStatus S = Lister.RenderAndAdd(Signal); !S)
-			{
-				return S;
-			}
+			if (FRTStatus S = Lister.RenderAndAdd(Signal); !S) { return S; }
 		}
 	}
 	Lister.AddRaster(Scene);

@@ -24,7 +24,7 @@ struct FPipelineShaders
 
 /// Engine: on a mock device, with the scene of that name loaded. Console variables are as before afterwards. Adds to Out what
 /// is not there yet.
-FRTStatus ListPipelines(FSampleEngine& Engine, const std::string& Scene, const std::string& MethodsFile,
-                        std::vector<FPipelineShaders>& Out);
+FRTStatus ListPipelines(
+    FSampleEngine& Engine, const std::string& Scene, const std::string& MethodsFile, std::vector<FPipelineShaders>& Out);
 
 } // namespace Lantern

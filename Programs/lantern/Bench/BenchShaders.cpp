@@ -10,9 +10,9 @@
 
 #include "Bench/BenchShaderList.h"
 #include "LanternCore/Text/Log.h"
+#include "LanternHost/SceneLoader.h"
 #include "LanternImage/AtomicFile.h"
 #include "LanternMeasure/Methods.h"
-#include "LanternHost/SceneLoader.h"
 #include "LanternRHIMock/MockDevice.h"
 #include "Progress.h"
 #include "Session.h"
@@ -23,10 +23,7 @@ namespace Lantern
 namespace
 {
 using FClock = std::chrono::steady_clock;
-double SecondsSince(FClock::time_point Start)
-{
-	return std::chrono::duration<double>(FClock::now() - Start).count();
-}
+double SecondsSince(FClock::time_point Start) { return std::chrono::duration<double>(FClock::now() - Start).count(); }
 
 struct FShaderCosts
 {
@@ -40,8 +37,7 @@ struct FShaderCosts
 FRTStatus Load(FSampleEngine& Engine, const std::string& Scene)
 {
 	FLoadResult Loaded = LoadScene(Scene);
-	return Loaded.Scene ? Engine.Load(std::move(*Loaded.Scene))
-	                    : FRTStatus::Error(ERTResult::IoError, "%s", Loaded.Error.c_str());
+	return Loaded.Scene ? Engine.Load(std::move(*Loaded.Scene)) : FRTStatus::Error(ERTResult::IoError, "%s", Loaded.Error.c_str());
 }
 
 /// Pipelines are made, and used once without any work: what that takes is compiling.
@@ -52,8 +48,7 @@ public:
 	    : Device(InDevice),
 	      ShaderFolder(InShaderFolder),
 	      Compiler(FShaderCompilerDesc{{InShaderFolder}, {}})
-	{
-	}
+	{}
 
 	FRTStatus Measure(const FPipelineShaders& Pipeline, FShaderCosts& Out)
 	{
@@ -62,17 +57,11 @@ public:
 		for (size_t Index = 0; Index < Binaries.size(); ++Index)
 		{
 			Out.TextBytes += Compiler.GetTextBytes(Pipeline.Shaders[Index]);
-			if (FRTStatus S = Compiler.Compile(Pipeline.Shaders[Index], Binaries[Index]); !S)
-			{
-				return S;
-			}
+			if (FRTStatus S = Compiler.Compile(Pipeline.Shaders[Index], Binaries[Index]); !S) { return S; }
 			Out.SpirvBytes += Binaries[Index].Words.size() * sizeof(uint32_t);
 		}
 		Out.GlslangSeconds = SecondsSince(Start);
-		if (Pipeline.IsRays())
-		{
-			return MeasureRays(Pipeline, Out);
-		}
+		if (Pipeline.IsRays()) { return MeasureRays(Pipeline, Out); }
 		return Pipeline.IsRaster() ? MeasureRaster(Pipeline.RasterScene, Out) : MeasureCompute(Binaries.front(), Out);
 	}
 
@@ -83,16 +72,12 @@ private:
 		Desc.Shader = Binary.GetCode();
 		TRTRef<IRTPipeline> Pipeline;
 		const auto Start = FClock::now();
-		if (FRTStatus S = Device.CreateComputePipeline(Desc, Pipeline.ReleaseAndGetAddress()); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = Device.CreateComputePipeline(Desc, Pipeline.ReleaseAndGetAddress()); !S) { return S; }
 		Out.CreateSeconds = SecondsSince(Start);
 		return Use(
-		    [&](IRTCommandList& List)
-		    {
-			    List.SetPipeline(Pipeline.Get());
-			    List.Dispatch(0, 1, 1);
+		    [&](IRTCommandList& List) {
+			List.SetPipeline(Pipeline.Get());
+			List.Dispatch(0, 1, 1);
 		    },
 		    Out);
 	}
@@ -103,26 +88,19 @@ private:
 		// What glslang takes was measured before, and is taken off.
 		const double Before = Compiler.GetStats().CompileMs;
 		const auto Start = FClock::now();
-		if (FRTStatus S = FRTPSO::Create(Device, Compiler, Pipeline.Programs, Pipeline.Rays, Rtpso); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = FRTPSO::Create(Device, Compiler, Pipeline.Programs, Pipeline.Rays, Rtpso); !S) { return S; }
 		Out.CreateSeconds = std::max(SecondsSince(Start) - 1e-3 * (Compiler.GetStats().CompileMs - Before), 0.0);
 		FRTShaderTableDesc TableDesc;
 		TableDesc.Pipeline = Rtpso.GetPipeline();
 		TableDesc.RayGenCount = TableDesc.MissCount = TableDesc.HitCount = 1;
 		TRTRef<IRTShaderTable> Table;
-		if (FRTStatus S = Device.CreateShaderTable(TableDesc, Table.ReleaseAndGetAddress()); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = Device.CreateShaderTable(TableDesc, Table.ReleaseAndGetAddress()); !S) { return S; }
 		Table->SetRecord(ERTRecordKind::RayGen, 0, Rtpso.RayGenGroup(0), nullptr, 0);
 		return Use(
-		    [&](IRTCommandList& List)
-		    {
-			    List.UpdateShaderTable(Table.Get());
-			    List.SetPipeline(Rtpso.GetPipeline());
-			    List.TraceRays(Table.Get(), 0, 0, 1, 1);
+		    [&](IRTCommandList& List) {
+			List.UpdateShaderTable(Table.Get());
+			List.SetPipeline(Rtpso.GetPipeline());
+			List.TraceRays(Table.Get(), 0, 0, 1, 1);
 		    },
 		    Out);
 	}
@@ -134,20 +112,14 @@ private:
 		FMethodScope RasterOnly;
 		RasterOnly.Apply({{"r.RT.Enable", "0", "bench shaders"}});
 		FSampleEngine Engine(Device, FRendererDesc{{ShaderFolder}, {}});
-		if (FRTStatus S = Load(Engine, Scene); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = Load(Engine, Scene); !S) { return S; }
 		double Ms[2] = {};
 		for (double& OfFrame : Ms)
 		{
 			FFrameCapture Capture;
 			Capture.bLighting = true;
 			FCapturedFrame Unused;
-			if (FRTStatus S = Engine.RenderFrame(Engine.GetScene().MakeDefaultView(32, 32), 0.0, Capture, &Unused); !S)
-			{
-				return S;
-			}
+			if (FRTStatus S = Engine.RenderFrame(Engine.GetScene().MakeDefaultView(32, 32), 0.0, Capture, &Unused); !S) { return S; }
 			for (const FPassTiming& Pass : Engine.GetRenderer().GetGraphResources().GetTimings())
 			{
 				OfFrame += Pass.Name == "GBuffer" ? Pass.GpuMs : 0.0;
@@ -160,19 +132,10 @@ private:
 	FRTStatus Use(const std::function<void(IRTCommandList&)>& Record, FShaderCosts& Out)
 	{
 		TRTRef<IRTCommandList> List;
-		if (FRTStatus S = Device.CreateCommandList("Bench", List.ReleaseAndGetAddress()); !S)
-		{
-			return S;
-		}
-		if (FRTStatus S = List->Begin(); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = Device.CreateCommandList("Bench", List.ReleaseAndGetAddress()); !S) { return S; }
+		if (FRTStatus S = List->Begin(); !S) { return S; }
 		Record(*List);
-		if (FRTStatus S = List->End(); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = List->End(); !S) { return S; }
 		const auto Start = FClock::now();
 		IRTCommandList* const Lists[] = {List.Get()};
 		FRTFence Fence = 0;
@@ -187,14 +150,10 @@ private:
 	FShaderCompiler Compiler;
 };
 
-FRTStatus ListAll(const FBenchShadersOptions& Options, const FPluginFolders& Folders,
-                  std::vector<FPipelineShaders>& Out)
+FRTStatus ListAll(const FBenchShadersOptions& Options, const FPluginFolders& Folders, std::vector<FPipelineShaders>& Out)
 {
 	TRTRef<IRTDevice> Mock;
-	if (FRTStatus S = CreateMockDevice({}, Mock.ReleaseAndGetAddress()); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = CreateMockDevice({}, Mock.ReleaseAndGetAddress()); !S) { return S; }
 	GetMock(Mock.Get()).SetCallRecording(false);
 	FRendererDesc Desc;
 	Desc.ShaderFolders = {Folders.Shaders};
@@ -202,17 +161,10 @@ FRTStatus ListAll(const FBenchShadersOptions& Options, const FPluginFolders& Fol
 	FSampleEngine Engine(*Mock, std::move(Desc));
 	for (const std::string& Scene : Options.Scenes)
 	{
-		if (FRTStatus S = Load(Engine, Scene); !S)
-		{
-			return S;
-		}
-		if (FRTStatus S = ListPipelines(Engine, Scene, Folders.Config + "/Methods.ini", Out); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = Load(Engine, Scene); !S) { return S; }
+		if (FRTStatus S = ListPipelines(Engine, Scene, Folders.Config + "/Methods.ini", Out); !S) { return S; }
 	}
-	std::erase_if(Out, [&](const FPipelineShaders& Pipeline)
-	              { return Pipeline.Name.find(Options.Match) == std::string::npos; });
+	std::erase_if(Out, [&](const FPipelineShaders& Pipeline) { return Pipeline.Name.find(Options.Match) == std::string::npos; });
 	return FRTStatus::Success();
 }
 
@@ -220,14 +172,14 @@ using FMeasured = std::pair<const FPipelineShaders*, FShaderCosts>;
 
 void Print(const std::vector<FMeasured>& All)
 {
-	fmt::print("{:>9} {:>10} {:>9} {:>12} {:>9} {:>9}  {}\n", "text KB", "SPIR-V KB", "glslang s", "pipeline s",
-	           "1st use s", "driver s", "pipeline");
+	fmt::print("{:>9} {:>10} {:>9} {:>12} {:>9} {:>9}  {}\n", "text KB", "SPIR-V KB", "glslang s", "pipeline s", "1st use s", "driver s",
+	    "pipeline");
 	double Sum = 0.0;
 	for (const auto& [Pipeline, Costs] : All)
 	{
 		fmt::print("{:>9.1f} {:>10.1f} {:>9.3f} {:>12.3f} {:>9.3f} {:>9.3f}  {}\n", 1e-3 * double(Costs.TextBytes),
-		           1e-3 * double(Costs.SpirvBytes), Costs.GlslangSeconds, Costs.CreateSeconds, Costs.FirstUseSeconds,
-		           Costs.GetDriverSeconds(), Pipeline->Name);
+		    1e-3 * double(Costs.SpirvBytes), Costs.GlslangSeconds, Costs.CreateSeconds, Costs.FirstUseSeconds, Costs.GetDriverSeconds(),
+		    Pipeline->Name);
 		Sum += Costs.GetDriverSeconds();
 	}
 	fmt::print("{} pipelines, {:.1f} s of the driver\n", All.size(), Sum);
@@ -238,13 +190,9 @@ nlohmann::json MakeJson(const std::vector<FMeasured>& All)
 	nlohmann::json Json = nlohmann::json::array();
 	for (const auto& [Pipeline, Costs] : All)
 	{
-		Json.push_back({{"name", Pipeline->Name},
-		                {"text_bytes", Costs.TextBytes},
-		                {"spirv_bytes", Costs.SpirvBytes},
-		                {"glslang_seconds", Costs.GlslangSeconds},
-		                {"create_seconds", Costs.CreateSeconds},
-		                {"first_use_seconds", Costs.FirstUseSeconds},
-		                {"driver_seconds", Costs.GetDriverSeconds()}});
+		Json.push_back({{"name", Pipeline->Name}, {"text_bytes", Costs.TextBytes}, {"spirv_bytes", Costs.SpirvBytes},
+		    {"glslang_seconds", Costs.GlslangSeconds}, {"create_seconds", Costs.CreateSeconds},
+		    {"first_use_seconds", Costs.FirstUseSeconds}, {"driver_seconds", Costs.GetDriverSeconds()}});
 	}
 	return Json;
 }
@@ -264,21 +212,12 @@ int RunBenchShaders(const FBenchShadersOptions& Options)
 {
 	if (!Options.Json.empty())
 	{
-		if (FRTStatus S = CheckOutputPath(Options.Json); !S)
-		{
-			return ReportStatus(S, "--json"), ExitBadInput;
-		}
+		if (FRTStatus S = CheckOutputPath(Options.Json); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
 	}
 	const FPluginFolders Folders = FindPluginFolders();
-	if (const int Status = LoadSettings(Folders.Config, Options.Device); Status != ExitDone)
-	{
-		return Status;
-	}
+	if (const int Status = LoadSettings(Folders.Config, Options.Device); Status != ExitDone) { return Status; }
 	std::vector<FPipelineShaders> Pipelines;
-	if (FRTStatus S = ListAll(Options, Folders, Pipelines); !S)
-	{
-		return ReportStatus(S, "bench shaders");
-	}
+	if (FRTStatus S = ListAll(Options, Folders, Pipelines); !S) { return ReportStatus(S, "bench shaders"); }
 	TRTRef<IRTDevice> Device;
 	if (FRTStatus S = OpenUncachedDevice(Options.Device, Device); !S)
 	{
@@ -291,39 +230,28 @@ int RunBenchShaders(const FBenchShadersOptions& Options)
 	FProgressLine Progress;
 	for (const FPipelineShaders& Pipeline : Pipelines)
 	{
-		if (Pipeline.IsRays() && !Capabilities.bRayTracingPipeline)
-		{
-			continue;
-		}
+		if (Pipeline.IsRays() && !Capabilities.bRayTracingPipeline) { continue; }
 		FShaderCosts Costs;
-		if (FRTStatus S = Bench.Measure(Pipeline, Costs); !S)
-		{
-			return ReportStatus(S, Pipeline.Name.c_str());
-		}
+		if (FRTStatus S = Bench.Measure(Pipeline, Costs); !S) { return ReportStatus(S, Pipeline.Name.c_str()); }
 		All.emplace_back(&Pipeline, Costs);
 		Progress.Show("pipelines", double(All.size()) / double(Pipelines.size()));
 	}
 	Progress.Clear();
 	std::stable_sort(All.begin(), All.end(),
-	                 [](const FMeasured& A, const FMeasured& B)
-	                 { return A.second.GetDriverSeconds() > B.second.GetDriverSeconds(); });
+	    [](const FMeasured& A, const FMeasured& B) { return A.second.GetDriverSeconds() > B.second.GetDriverSeconds(); });
 	Print(All);
 	if (!Options.Json.empty())
 	{
 		const nlohmann::json Json = {
 		    {"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"pipelines", MakeJson(All)}};
-		if (FRTStatus S = WriteFileAtomically(Options.Json, Json.dump(2) + "\n"); !S)
-		{
-			return ReportStatus(S, "--json"), ExitBadInput;
-		}
+		if (FRTStatus S = WriteFileAtomically(Options.Json, Json.dump(2) + "\n"); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
 	}
 	if (const uint32_t Messages = Device->GetValidationMessageCount(); Messages > 0)
 	{
 		LogError("validation: {} messages", Messages);
 		return ExitCheckFailed;
 	}
-	const bool bOver =
-	    Options.MaxSeconds > 0.0 && !All.empty() && All.front().second.GetDriverSeconds() > Options.MaxSeconds;
+	const bool bOver = Options.MaxSeconds > 0.0 && !All.empty() && All.front().second.GetDriverSeconds() > Options.MaxSeconds;
 	return bOver ? ExitCheckFailed : ExitDone;
 }
 

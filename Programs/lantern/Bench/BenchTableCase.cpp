@@ -53,10 +53,7 @@ private:
 
 double MedianOf(std::vector<double> Values)
 {
-	if (Values.empty())
-	{
-		return 0.0;
-	}
+	if (Values.empty()) { return 0.0; }
 	std::nth_element(Values.begin(), Values.begin() + static_cast<ptrdiff_t>(Values.size() / 2), Values.end());
 	return Values[Values.size() / 2];
 }
@@ -98,33 +95,17 @@ FRTStatus CreateBuffer(IRTDevice& Device, const char* Name, uint64_t Size, TRTRe
 }
 } // namespace
 
-double FTableTimes::GetMedian() const
-{
-	return MedianOf(Wall);
-}
-double FTableTimes::GetMin() const
-{
-	return Wall.empty() ? 0.0 : *std::min_element(Wall.begin(), Wall.end());
-}
-double FTableTimes::GetMax() const
-{
-	return Wall.empty() ? 0.0 : *std::max_element(Wall.begin(), Wall.end());
-}
-double FTableTimes::GetProcessorMedian() const
-{
-	return MedianOf(Processor);
-}
+double FTableTimes::GetMedian() const { return MedianOf(Wall); }
+double FTableTimes::GetMin() const { return Wall.empty() ? 0.0 : *std::min_element(Wall.begin(), Wall.end()); }
+double FTableTimes::GetMax() const { return Wall.empty() ? 0.0 : *std::max_element(Wall.begin(), Wall.end()); }
+double FTableTimes::GetProcessorMedian() const { return MedianOf(Processor); }
 
 FRTStatus FTablePrograms::Create(IRTDevice& Device, FShaderCompiler& Compiler)
 {
 	for (uint32_t Pipeline = 0; Pipeline < 2; ++Pipeline)
 	{
-		const FRTStatus Status =
-		    FRTPSO::Create(Device, Compiler, FMaterialPrograms(), MakePrograms(Pipeline), Pipelines[Pipeline]);
-		if (!Status)
-		{
-			return Status;
-		}
+		const FRTStatus Status = FRTPSO::Create(Device, Compiler, FMaterialPrograms(), MakePrograms(Pipeline), Pipelines[Pipeline]);
+		if (!Status) { return Status; }
 	}
 	return FRTStatus::Success();
 }
@@ -135,8 +116,7 @@ FTableCase::FTableCase(IRTDevice& InDevice, const FTablePrograms& InPrograms, ui
       ObjectCount(InObjectCount),
       bShared(bInShared),
       Bindings(InDevice)
-{
-}
+{}
 
 FRTStatus FTableCase::MakeGeometries()
 {
@@ -146,10 +126,7 @@ FRTStatus FTableCase::MakeGeometries()
 		Info.Name = "BenchGeometry";
 		for (TRTRef<IRTBuffer>* Buffer : {&Info.Positions, &Info.Attributes, &Info.Indices})
 		{
-			if (FRTStatus S = CreateBuffer(Device, "BenchGeometry", 256, *Buffer); !S)
-			{
-				return S;
-			}
+			if (FRTStatus S = CreateBuffer(Device, "BenchGeometry", 256, *Buffer); !S) { return S; }
 		}
 		Info.VertexCount = 3;
 		Info.Sections = {{0, 3, false}};
@@ -197,30 +174,18 @@ FRTStatus FTableCase::RunFrame(const std::function<void()>& Change, FTableTimes*
 		const FTableTimer Timer(ChangeTimes);
 		Change();
 	}
-	if (FRTStatus S = List->Begin(); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = List->Begin(); !S) { return S; }
 	FRTStatus Status;
 	{
 		const FTableTimer Timer(Times);
 		Status = Prepare();
-		if (Status)
-		{
-			Status = Bindings.Record(*List);
-		}
+		if (Status) { Status = Bindings.Record(*List); }
 	}
 	const FRTStatus Ended = List->End();
-	if (!Status || !Ended)
-	{
-		return Status ? Ended : Status;
-	}
+	if (!Status || !Ended) { return Status ? Ended : Status; }
 	IRTCommandList* const Lists[] = {List.Get()};
 	FRTFence Fence = 0;
-	if (FRTStatus S = Device.Submit(Lists, 1, &Fence); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = Device.Submit(Lists, 1, &Fence); !S) { return S; }
 	return Device.WaitFor(Fence, WaitNs); // a driver that works on the CPU must not do so while the next frame is timed
 }
 
@@ -228,10 +193,7 @@ FRTStatus FTableCase::MeasureStatic(uint32_t Repetitions, FTableTimes& Out)
 {
 	for (uint32_t Repetition = 0; Repetition < Repetitions; ++Repetition)
 	{
-		if (FRTStatus S = List->Begin(); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = List->Begin(); !S) { return S; }
 		FRTStatus Status;
 		{
 			const FTableTimer Timer(&Out, StaticFrames);
@@ -241,10 +203,7 @@ FRTStatus FTableCase::MeasureStatic(uint32_t Repetitions, FTableTimes& Out)
 			}
 		}
 		const FRTStatus Ended = List->End();
-		if (!Status || !Ended)
-		{
-			return Status ? Ended : Status;
-		}
+		if (!Status || !Ended) { return Status ? Ended : Status; }
 	}
 	return FRTStatus::Success();
 }
@@ -252,33 +211,21 @@ FRTStatus FTableCase::MeasureStatic(uint32_t Repetitions, FTableTimes& Out)
 FRTStatus FTableCase::Measure(uint32_t Repetitions, FTableCaseResult& Out)
 {
 	constexpr uint32_t WarmFrames = 4; // host copies are made, pages touched
-	if (FRTStatus S = MakeGeometries(); !S)
-	{
-		return S;
-	}
-	if (FRTStatus S = Device.CreateCommandList("BenchTables", List.ReleaseAndGetAddress()); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = MakeGeometries(); !S) { return S; }
+	if (FRTStatus S = Device.CreateCommandList("BenchTables", List.ReleaseAndGetAddress()); !S) { return S; }
 	AddObjects();
 	Out.Objects = ObjectCount;
 	Out.Records = Sections.GetCapacity() * FTablePrograms::RayTypes;
-	const auto MeasureFrames =
-	    [&](const std::function<void()>& Change, FTableTimes& Times, FTableTimes* ChangeTimes, uint64_t& OutBytes)
-	{
+	const auto MeasureFrames = [&](const std::function<void()>& Change, FTableTimes& Times, FTableTimes* ChangeTimes, uint64_t& OutBytes) {
 		for (uint32_t Frame = 0; Frame < WarmFrames + Repetitions; ++Frame)
 		{
 			const bool bMeasured = Frame >= WarmFrames;
-			if (FRTStatus S = RunFrame(Change, bMeasured ? &Times : nullptr, bMeasured ? ChangeTimes : nullptr); !S)
-			{
-				return S;
-			}
+			if (FRTStatus S = RunFrame(Change, bMeasured ? &Times : nullptr, bMeasured ? ChangeTimes : nullptr); !S) { return S; }
 			OutBytes = bMeasured ? std::max(OutBytes, Bindings.GetStats().BytesCopied) : 0;
 		}
 		return FRTStatus::Success();
 	};
-	const auto SetMode = [](const char* Mode)
-	{
+	const auto SetMode = [](const char* Mode) {
 		FConsoleVariables::Get().Set("r.RT.SBT.Mode", Mode, ERTSetBy::Console, "bench sbt");
 		FConsoleVariables::Get().BeginFrame();
 	};
@@ -290,10 +237,7 @@ FRTStatus FTableCase::Measure(uint32_t Repetitions, FTableCaseResult& Out)
 	{
 		Status = MeasureFrames([] {}, Unused, nullptr, Out.BytesStatic);
 	}
-	if (Status)
-	{
-		Status = MeasureStatic(Repetitions, Out.Static);
-	}
+	if (Status) { Status = MeasureStatic(Repetitions, Out.Static); }
 	if (Status)
 	{
 		Status = MeasureFrames([this] { ChangeOnePerCent(); }, Out.Dynamic, &Out.DynamicSections, Out.BytesDynamic);

@@ -12,21 +12,17 @@ FRTStatus FBenchVulkan::Load(IRTDevice& Rhi)
 	QueueFamily = static_cast<uint32_t>(Rhi.GetNative(ERTNative::QueueFamily));
 	// The device was created through the same library, so this only finds it again.
 	void* const Library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
-	const auto GetDeviceProcAddr =
-	    Library ? reinterpret_cast<PFN_vkGetDeviceProcAddr>(dlsym(Library, "vkGetDeviceProcAddr")) : nullptr;
+	const auto GetDeviceProcAddr = Library ? reinterpret_cast<PFN_vkGetDeviceProcAddr>(dlsym(Library, "vkGetDeviceProcAddr")) : nullptr;
 	if (!Device || !GetDeviceProcAddr)
 	{
 		return FRTStatus::Error(ERTResult::Unsupported, "the raw dispatch needs a Vulkan device and libvulkan.so.1");
 	}
 	const char* Missing = nullptr;
-#define LANTERN_LOAD(Name)                                                                                             \
-	Name = reinterpret_cast<PFN_vk##Name>(GetDeviceProcAddr(Device, "vk" #Name));                                      \
+#define LANTERN_LOAD(Name)                                                                                                                 \
+	Name = reinterpret_cast<PFN_vk##Name>(GetDeviceProcAddr(Device, "vk" #Name));                                                          \
 	Missing = Name ? Missing : "vk" #Name;
 	LANTERN_BENCH_VULKAN_FUNCTIONS(LANTERN_LOAD)
-	if (Rhi.GetCapabilities().bRayTracingPipeline)
-	{
-		LANTERN_BENCH_VULKAN_PIPELINE_FUNCTIONS(LANTERN_LOAD)
-	}
+	if (Rhi.GetCapabilities().bRayTracingPipeline) { LANTERN_BENCH_VULKAN_PIPELINE_FUNCTIONS(LANTERN_LOAD) }
 #undef LANTERN_LOAD
 	return Missing ? FRTStatus::Error(ERTResult::Unsupported, "the device has no %s", Missing) : FRTStatus::Success();
 }

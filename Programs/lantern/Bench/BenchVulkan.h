@@ -11,50 +11,50 @@
 namespace Lantern
 {
 
-#define LANTERN_BENCH_VULKAN_FUNCTIONS(X)                                                                              \
-	X(AllocateCommandBuffers)                                                                                          \
-	X(AllocateDescriptorSets)                                                                                          \
-	X(BeginCommandBuffer)                                                                                              \
-	X(CmdBindDescriptorSets)                                                                                           \
-	X(CmdBindPipeline)                                                                                                 \
-	X(CmdCopyImageToBuffer)                                                                                            \
-	X(CmdDispatch)                                                                                                     \
-	X(CmdPipelineBarrier2)                                                                                             \
-	X(CmdPushConstants)                                                                                                \
-	X(CmdResetQueryPool)                                                                                               \
-	X(CmdWriteTimestamp2)                                                                                              \
-	X(CreateCommandPool)                                                                                               \
-	X(CreateComputePipelines)                                                                                          \
-	X(CreateDescriptorPool)                                                                                            \
-	X(CreateDescriptorSetLayout)                                                                                       \
-	X(CreateFence)                                                                                                     \
-	X(CreateImageView)                                                                                                 \
-	X(CreatePipelineLayout)                                                                                            \
-	X(CreateQueryPool)                                                                                                 \
-	X(CreateSampler)                                                                                                   \
-	X(CreateShaderModule)                                                                                              \
-	X(DestroyCommandPool)                                                                                              \
-	X(DestroyDescriptorPool)                                                                                           \
-	X(DestroyDescriptorSetLayout)                                                                                      \
-	X(DestroyFence)                                                                                                    \
-	X(DestroyImageView)                                                                                                \
-	X(DestroyPipeline)                                                                                                 \
-	X(DestroyPipelineLayout)                                                                                           \
-	X(DestroyQueryPool)                                                                                                \
-	X(DestroySampler)                                                                                                  \
-	X(DestroyShaderModule)                                                                                             \
-	X(EndCommandBuffer)                                                                                                \
-	X(GetQueryPoolResults)                                                                                             \
-	X(QueueSubmit)                                                                                                     \
-	X(ResetCommandPool)                                                                                                \
-	X(ResetFences)                                                                                                     \
-	X(UpdateDescriptorSets)                                                                                            \
+#define LANTERN_BENCH_VULKAN_FUNCTIONS(X)                                                                                                  \
+	X(AllocateCommandBuffers)                                                                                                              \
+	X(AllocateDescriptorSets)                                                                                                              \
+	X(BeginCommandBuffer)                                                                                                                  \
+	X(CmdBindDescriptorSets)                                                                                                               \
+	X(CmdBindPipeline)                                                                                                                     \
+	X(CmdCopyImageToBuffer)                                                                                                                \
+	X(CmdDispatch)                                                                                                                         \
+	X(CmdPipelineBarrier2)                                                                                                                 \
+	X(CmdPushConstants)                                                                                                                    \
+	X(CmdResetQueryPool)                                                                                                                   \
+	X(CmdWriteTimestamp2)                                                                                                                  \
+	X(CreateCommandPool)                                                                                                                   \
+	X(CreateComputePipelines)                                                                                                              \
+	X(CreateDescriptorPool)                                                                                                                \
+	X(CreateDescriptorSetLayout)                                                                                                           \
+	X(CreateFence)                                                                                                                         \
+	X(CreateImageView)                                                                                                                     \
+	X(CreatePipelineLayout)                                                                                                                \
+	X(CreateQueryPool)                                                                                                                     \
+	X(CreateSampler)                                                                                                                       \
+	X(CreateShaderModule)                                                                                                                  \
+	X(DestroyCommandPool)                                                                                                                  \
+	X(DestroyDescriptorPool)                                                                                                               \
+	X(DestroyDescriptorSetLayout)                                                                                                          \
+	X(DestroyFence)                                                                                                                        \
+	X(DestroyImageView)                                                                                                                    \
+	X(DestroyPipeline)                                                                                                                     \
+	X(DestroyPipelineLayout)                                                                                                               \
+	X(DestroyQueryPool)                                                                                                                    \
+	X(DestroySampler)                                                                                                                      \
+	X(DestroyShaderModule)                                                                                                                 \
+	X(EndCommandBuffer)                                                                                                                    \
+	X(GetQueryPoolResults)                                                                                                                 \
+	X(QueueSubmit)                                                                                                                         \
+	X(ResetCommandPool)                                                                                                                    \
+	X(ResetFences)                                                                                                                         \
+	X(UpdateDescriptorSets)                                                                                                                \
 	X(WaitForFences)
 
 /// Of a device without ray-tracing pipelines: null.
-#define LANTERN_BENCH_VULKAN_PIPELINE_FUNCTIONS(X)                                                                     \
-	X(CmdTraceRaysKHR)                                                                                                 \
-	X(CreateRayTracingPipelinesKHR)                                                                                    \
+#define LANTERN_BENCH_VULKAN_PIPELINE_FUNCTIONS(X)                                                                                         \
+	X(CmdTraceRaysKHR)                                                                                                                     \
+	X(CreateRayTracingPipelinesKHR)                                                                                                        \
 	X(GetRayTracingShaderGroupHandlesKHR)
 
 /// Device functions, loaded for the VkDevice behind an IRTDevice.

@@ -10,12 +10,12 @@
 #include <fmt/format.h>
 
 #include "Chart/ChartPage.h"
-#include "LanternMeasure/Chart/ChartParts.h"
 #include "Chart/ChartSweep.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
-#include "LanternImage/AtomicFile.h"
 #include "LanternHost/SceneHash.h"
+#include "LanternImage/AtomicFile.h"
+#include "LanternMeasure/Chart/ChartParts.h"
 #include "Session.h"
 
 namespace Lantern
@@ -39,15 +39,9 @@ std::vector<std::string> SplitList(const std::string& Text)
 	return Out;
 }
 
-std::string WithEnding(const std::string& Output, const char* Ending)
-{
-	return fs::path(Output).replace_extension(Ending).string();
-}
+std::string WithEnding(const std::string& Output, const char* Ending) { return fs::path(Output).replace_extension(Ending).string(); }
 
-std::string GetJsonPath(const FChartOptions& Options)
-{
-	return Options.Json.empty() ? WithEnding(Options.Output, ".json") : Options.Json;
-}
+std::string GetJsonPath(const FChartOptions& Options) { return Options.Json.empty() ? WithEnding(Options.Output, ".json") : Options.Json; }
 
 /// Names are checked against the registry; empty where all are known. False: said what is not.
 bool ParseSelection(const FChartOptions& Options, const FMethods& Methods, FChartSelection& Out)
@@ -103,14 +97,18 @@ int WriteChart(const FChartOptions& Options, std::vector<FChartPart> Parts)
 	nlohmann::json Data;
 	if (FRTStatus S = MakeChartData(std::move(Parts), Data); !S) { return ReportStatus(S, "chart"), ExitBadInput; }
 	if (FRTStatus S = WriteFileAtomically(Options.Output, MakeChartPage(Data)); !S) { return ReportStatus(S, "-o"), ExitBadInput; }
-	if (FRTStatus S = WriteFileAtomically(GetJsonPath(Options), WithoutImages(Data).dump(2) + "\n"); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
+	if (FRTStatus S = WriteFileAtomically(GetJsonPath(Options), WithoutImages(Data).dump(2) + "\n"); !S)
+	{
+		return ReportStatus(S, "--json"), ExitBadInput;
+	}
 	for (const nlohmann::json& Scene : Data["scenes"])
 	{
-		fmt::print("{}: {} points, {} skipped\n", EscapeText(Scene["name"].get<std::string>()), Scene["points"].size(), Scene["skipped"].size());
+		fmt::print(
+		    "{}: {} points, {} skipped\n", EscapeText(Scene["name"].get<std::string>()), Scene["points"].size(), Scene["skipped"].size());
 		for (const nlohmann::json& Fact : Scene["facts"])
 		{
-			fmt::print("  frame {:.3f} ms, without {} {:.3f} ms\n", Fact["frame_gpu_ms"].get<double>(), EscapeText(Fact["fact"].get<std::string>()),
-			           Fact["without_gpu_ms"].get<double>());
+			fmt::print("  frame {:.3f} ms, without {} {:.3f} ms\n", Fact["frame_gpu_ms"].get<double>(),
+			    EscapeText(Fact["fact"].get<std::string>()), Fact["without_gpu_ms"].get<double>());
 		}
 	}
 	return ExitDone;
@@ -119,7 +117,10 @@ int WriteChart(const FChartOptions& Options, std::vector<FChartPart> Parts)
 int CheckOutputs(const FChartOptions& Options)
 {
 	if (Options.Output.empty()) { return LogError("-o OUT.html is missing"), ExitUsage; }
-	if (fs::path(Options.Output).extension() != ".html") { return LogError("-o {}: does not end in .html", EscapePath(Options.Output)), ExitUsage; }
+	if (fs::path(Options.Output).extension() != ".html")
+	{
+		return LogError("-o {}: does not end in .html", EscapePath(Options.Output)), ExitUsage;
+	}
 	if (FRTStatus S = CheckOutputPath(Options.Output); !S) { return ReportStatus(S, "-o"), ExitBadInput; }
 	if (FRTStatus S = CheckOutputPath(GetJsonPath(Options)); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
 	return ExitDone;
@@ -142,13 +143,15 @@ int LoadRegistry(const FChartOptions& Options, FMethods& Out)
 	return ExitDone;
 }
 
-FChartSweepDesc MakeSweep(const FChartOptions& Options, FSession& Session, const FChartSelection& Selection, std::chrono::steady_clock::time_point Start)
+FChartSweepDesc MakeSweep(
+    const FChartOptions& Options, FSession& Session, const FChartSelection& Selection, std::chrono::steady_clock::time_point Start)
 {
 	const FPluginFolders Folders = FindPluginFolders();
 	FChartSweepDesc Desc;
 	Desc.Scenes = Options.Scenes;
 	if (Desc.Scenes.empty()) { Desc.Scenes = {"courtyard", "stability-poles"}; }
-	Desc.Settings = {Options.Picture.Width, Options.Picture.Height, Options.ReferenceSamples, Options.Frames, Options.WarmUp, Options.Picture.Seed, DescribeVariables()};
+	Desc.Settings = {Options.Picture.Width, Options.Picture.Height, Options.ReferenceSamples, Options.Frames, Options.WarmUp,
+	    Options.Picture.Seed, DescribeVariables()};
 	Desc.Selection = Selection;
 	Desc.Shard = ParseShard(Options.Shard).value_or(FShard());
 	const double Default = Session.GetDevice().GetCapabilities().bIsCpu ? CpuBudgetMinutes : 0.0;
@@ -168,17 +171,20 @@ void FChartOptions::AddTo(CLI::App& App)
 	App.add_option("SCENE", Scenes, "Each a .gltf or .glb, or the name of a built-in scene. Without one: courtyard and stability-poles");
 	App.add_option("-o,--output", Output, "OUT.html. Beside it: the data in OUT.json, and what is done so far in the folder OUT.parts");
 	App.add_option("--json", Json, "Write the data to this file instead");
-	App.add_option_function<std::string>("--size", [this](const std::string& Text) { ParseSize(Text, Picture); }, "WIDTHxHEIGHT, pixels; 320x180");
+	App.add_option_function<std::string>(
+	    "--size", [this](const std::string& Text) { ParseSize(Text, Picture); }, "WIDTHxHEIGHT, pixels; 320x180");
 	App.add_option("--frames", Frames, "Frames that are timed; 20")->check(CLI::Range(5, 100'000));
 	App.add_option("--warm-up", WarmUp, "Frames before them; 16")->check(CLI::Range(1, 100'000));
 	App.add_option("--spp", ReferenceSamples, "Samples of references; 256")->check(CLI::Range(4, 1 << 20));
 	App.add_option("--seed", Picture.Seed, "Of the random numbers");
-	App.add_option("--signals", Signals, "A list with commas: sun_shadow, ambient_occlusion, diffuse_gi, reflections, frame. Without it: all");
+	App.add_option(
+	    "--signals", Signals, "A list with commas: sun_shadow, ambient_occlusion, diffuse_gi, reflections, frame. Without it: all");
 	App.add_option("--methods", Methods, "A list with commas, of names in the file of methods. Without it: all");
 	App.add_option("--methods-file", MethodsFile, "Instead of Config/Methods.ini");
 	App.add_option("--paths", Paths, "A list with commas: still, slow, fast, cut. Without it: all");
-	App.add_option("--budget", BudgetMinutes, "Minutes in which to end: cheap presets first, references of fewer samples, what does not fit is left out. "
-	                                          "0: none. Without it: 10 on a device that is a CPU, none on others")
+	App.add_option("--budget", BudgetMinutes,
+	       "Minutes in which to end: cheap presets first, references of fewer samples, what does not fit is left out. "
+	       "0: none. Without it: 10 on a device that is a CPU, none on others")
 	    ->check(CLI::Range(0.0, 1e6));
 	App.add_option("--shard", Shard, "k/n: only every n-th point, beginning with the k-th")->check([](const std::string& Text) {
 		return ParseShard(Text) ? std::string() : Quote(Text) + " is not of the form k/n with k from 1 to n";

@@ -18,14 +18,8 @@ std::string MakeScriptSafe(std::string_view Json)
 	Safe.reserve(Json.size());
 	for (const char Character : Json)
 	{
-		if (Character == '<')
-		{
-			Safe += "\\u003c";
-		}
-		else
-		{
-			Safe += Character;
-		}
+		if (Character == '<') { Safe += "\\u003c"; }
+		else { Safe += Character; }
 	}
 	return Safe;
 }
@@ -34,8 +28,7 @@ std::string MakeScriptSafe(std::string_view Json)
 
 std::string MakeChartPage(const nlohmann::json& DataWithImages)
 {
-	const std::string Data =
-	    MakeScriptSafe(DataWithImages.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+	const std::string Data = MakeScriptSafe(DataWithImages.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 	const std::string_view Template = GetChartFile("Page.html");
 	std::string Page;
 	Page.reserve(Template.size() + Data.size() + (size_t{1} << 18));

@@ -11,8 +11,8 @@
 
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
-#include "LanternImage/AtomicFile.h"
 #include "LanternHost/BuiltinScenes.h"
+#include "LanternImage/AtomicFile.h"
 
 namespace Lantern
 {
@@ -25,10 +25,7 @@ constexpr double SceneTime = 1.0; // of the home view: paths begin before it
 constexpr const char* NothingThere = "the scene has nothing for it, or the device cannot run it";
 
 /// Presets double or quadruple from one to the next.
-double GuessWork(const FChartItem& Item)
-{
-	return Item.bFacts ? 2.0 : std::pow(2.0, double(std::min<size_t>(Item.Preset, 6)));
-}
+double GuessWork(const FChartItem& Item) { return Item.bFacts ? 2.0 : std::pow(2.0, double(std::min<size_t>(Item.Preset, 6))); }
 
 /// An empty object where there is no such file.
 nlohmann::json ReadSamples(const std::string& File)
@@ -47,7 +44,9 @@ FChartItem WithIndex(FChartItem Item, size_t Index)
 
 std::vector<std::string> NameScenes(const std::vector<std::string>& Scenes)
 {
-	const auto GetShort = [](const std::string& Scene) { return IsBuiltinScene(Scene) ? Scene : std::filesystem::path(Scene).stem().string(); };
+	const auto GetShort = [](const std::string& Scene) {
+		return IsBuiltinScene(Scene) ? Scene : std::filesystem::path(Scene).stem().string();
+	};
 	std::vector<std::string> Out;
 	for (const std::string& Scene : Scenes)
 	{
@@ -59,7 +58,11 @@ std::vector<std::string> NameScenes(const std::vector<std::string>& Scenes)
 }
 
 FChartSweep::FChartSweep(FSession& InSession, const FMethods& InMethods, FChartSweepDesc InDesc)
-    : Session(InSession), Methods(InMethods), Desc(std::move(InDesc)), Names(NameScenes(Desc.Scenes)), Items(ListChartItems(Methods, Desc.Selection))
+    : Session(InSession),
+      Methods(InMethods),
+      Desc(std::move(InDesc)),
+      Names(NameScenes(Desc.Scenes)),
+      Items(ListChartItems(Methods, Desc.Selection))
 {
 	for (size_t Scene = 0; Scene < Desc.Scenes.size(); ++Scene)
 	{
@@ -67,10 +70,7 @@ FChartSweep::FChartSweep(FSession& InSession, const FMethods& InMethods, FChartS
 	}
 }
 
-double FChartSweep::GetSeconds() const
-{
-	return std::chrono::duration<double>(std::chrono::steady_clock::now() - Desc.Start).count();
-}
+double FChartSweep::GetSeconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - Desc.Start).count(); }
 
 double FChartSweep::GetLeft(const FScene& Scene) const
 {
@@ -141,9 +141,9 @@ int FChartSweep::LoadScene(FScene& Scene, std::vector<FChartItem>& OutOwn)
 	const FSunLight& Sun = Host.GetScene().GetSun();
 	const glm::vec3 Sky = Host.GetScene().GetSky();
 	Scene.Key = {Desc.Program, Device.DeviceName, Device.DriverName,
-	             fmt::format("{} sun {} {} {} {} {} sky {} {} {}", Host.GetContentHash().ToHex(), Sun.Irradiance, Sun.Direction.x, Sun.Direction.y,
-	                         Sun.Direction.z, Sun.AngularDiameter, Sky.x, Sky.y, Sky.z),
-	             Desc.Settings};
+	    fmt::format("{} sun {} {} {} {} {} sky {} {} {}", Host.GetContentHash().ToHex(), Sun.Irradiance, Sun.Direction.x, Sun.Direction.y,
+	        Sun.Direction.z, Sun.AngularDiameter, Sky.x, Sky.y, Sky.z),
+	    Desc.Settings};
 	for (size_t I = 0; I < Items.size(); ++I)
 	{
 		const FChartItem Item = WithIndex(Items[I], Scene.Index * Items.size() + I);
@@ -163,7 +163,10 @@ int FChartSweep::Prepare(FScene& Scene, const std::vector<FChartItem>& Own)
 {
 	FSampleEngine& Engine = Session.GetEngine();
 	ShowProgress(Scene, "first frames");
-	if (FRTStatus S = MeasureBaseline(Engine, Methods, Scene.Views.Home, SceneTime, Scene.BaselineBytes); !S) { return ReportStatus(S, Scene.Name.c_str()); }
+	if (FRTStatus S = MeasureBaseline(Engine, Methods, Scene.Views.Home, SceneTime, Scene.BaselineBytes); !S)
+	{
+		return ReportStatus(S, Scene.Name.c_str());
+	}
 	Scene.Switch = std::make_unique<FLightSwitch>(Engine.GetScene());
 	FPathSettings Settings;
 	Settings.Time = SceneTime;
@@ -217,7 +220,8 @@ int FChartSweep::ChooseReferenceSamples(FScene& Scene, const std::vector<FChartI
 		ShowProgress(Scene, fmt::format("how long references of {} take", GetSignalInfo(Signal).Title));
 		if (FRTStatus S = MeasureSampleSeconds(Scene, Signal); !S) { return ReportStatus(S, Scene.Name.c_str()); }
 		// Each path has one more, with a quarter of the samples.
-		Scene.Samples[Signal] = ChooseSamples(Scene.SampleSeconds[Signal] * (1.0 + 0.25 * double(Paths.size())), Budget, Desc.Settings.ReferenceSamples);
+		Scene.Samples[Signal] =
+		    ChooseSamples(Scene.SampleSeconds[Signal] * (1.0 + 0.25 * double(Paths.size())), Budget, Desc.Settings.ReferenceSamples);
 	}
 	// A sweep that is taken up again, or another shard in this folder, goes on with what was chosen first.
 	const std::string File = Desc.PartsFolder + "/samples-" + MakeChartKey(Scene.Key, Methods, {.bFacts = true}) + ".json";
@@ -227,7 +231,8 @@ int FChartSweep::ChooseReferenceSamples(FScene& Scene, const std::vector<FChartI
 	{
 		const char* const Name = GetSignalInfo(Signal).Name;
 		const auto Before = Chosen.find(Name);
-		const bool bUsable = Before != Chosen.end() && Before->is_number_unsigned() && *Before >= 2u && *Before <= Desc.Settings.ReferenceSamples;
+		const bool bUsable =
+		    Before != Chosen.end() && Before->is_number_unsigned() && *Before >= 2u && *Before <= Desc.Settings.ReferenceSamples;
 		if (bUsable) { Samples = Before->get<uint32_t>(); }
 		Chosen[Name] = Samples;
 		Text += fmt::format("{}{} {}", Text.empty() ? "" : ", ", GetSignalInfo(Signal).Title, Samples);
@@ -242,7 +247,10 @@ std::string FChartSweep::FindObstacle(FScene& Scene, const FChartItem& Item)
 {
 	const FMethod& Method = Methods.Methods[Item.Method];
 	if (std::string Missing = GetMissing(Method, Session.GetDevice().GetCapabilities()); !Missing.empty()) { return Missing; }
-	if (Method.Signal == ESignal::SunShadow && !Session.GetEngine().GetScene().GetScene().GetFacts().bSun) { return "the scene has no sun"; }
+	if (Method.Signal == ESignal::SunShadow && !Session.GetEngine().GetScene().GetScene().GetFacts().bSun)
+	{
+		return "the scene has no sun";
+	}
 	if (const auto Dear = Scene.TooDear.find(Item.Method); Dear != Scene.TooDear.end() && Item.Preset >= Dear->second)
 	{
 		return "no time left within the budget: this preset or a cheaper one did not fit";
@@ -266,7 +274,10 @@ FRTStatus FChartSweep::FindDelay(FScene& Scene, const FChartItem& Item, std::str
 	{
 		const FMethodPreset& Preset = Method.Presets[Item.Preset];
 		ShowProgress(Scene, fmt::format("first frames of {}, {}", Method.Title, Preset.Name));
-		if (FRTStatus S = ProbeMethod(Session.GetEngine(), Methods, Method, Preset, Scene.Views.Home, SceneTime, Probe->second); !S) { return S; }
+		if (FRTStatus S = ProbeMethod(Session.GetEngine(), Methods, Method, Preset, Scene.Views.Home, SceneTime, Probe->second); !S)
+		{
+			return S;
+		}
 	}
 	if (!Probe->second.bSignal)
 	{
@@ -285,7 +296,10 @@ FRTStatus FChartSweep::FindDelay(FScene& Scene, const FChartItem& Item, std::str
 	bool bHome = false;
 	for (const auto& [Key, References] : Scene.References) { bHome |= Key.first == Method.Signal; }
 	Seconds = Scene.SampleSeconds[Method.Signal] * Scene.Samples[Method.Signal] * (bHome ? 0.25 : 1.25);
-	if (Seconds > GetLeft(Scene) / 2.0) { OutObstacle = fmt::format("no time left within the budget: its reference takes about {}", FormatSeconds(Seconds)); }
+	if (Seconds > GetLeft(Scene) / 2.0)
+	{
+		OutObstacle = fmt::format("no time left within the budget: its reference takes about {}", FormatSeconds(Seconds));
+	}
 	return FRTStatus::Success();
 }
 
@@ -316,7 +330,8 @@ FRTStatus FChartSweep::GetReferences(FScene& Scene, const FChartItem& Item, FPat
 		}
 		FPathReferenceSettings Settings = MakeReferenceSettings(Scene, Signal);
 		Settings.Progress = [&](double Done, double) {
-			ShowProgress(Scene, fmt::format("reference of {}, {}, {:.0f} %", GetSignalInfo(Signal).Title, GetPathName(Item.Path), 100.0 * Done));
+			ShowProgress(
+			    Scene, fmt::format("reference of {}, {}, {:.0f} %", GetSignalInfo(Signal).Title, GetPathName(Item.Path), 100.0 * Done));
 		};
 		const FPathScript& Path = Scene.Paths[static_cast<size_t>(Item.Path)];
 		if (FRTStatus S = GetPathReferences(Session.GetEngine(), Path, Settings, *Scene.Switch, References); !S) { return S; }
@@ -326,10 +341,7 @@ FRTStatus FChartSweep::GetReferences(FScene& Scene, const FChartItem& Item, FPat
 	return FRTStatus::Success();
 }
 
-int FChartSweep::RunItem(FScene& Scene, const FChartItem& Item)
-{
-	return Item.bFacts ? RunFacts(Scene, Item) : RunPoint(Scene, Item);
-}
+int FChartSweep::RunItem(FScene& Scene, const FChartItem& Item) { return Item.bFacts ? RunFacts(Scene, Item) : RunPoint(Scene, Item); }
 
 int FChartSweep::RunPoint(FScene& Scene, const FChartItem& Item)
 {
@@ -349,7 +361,9 @@ int FChartSweep::RunPoint(FScene& Scene, const FChartItem& Item)
 	Settings.BaselineBytes = Scene.BaselineBytes;
 	if (Scene.Deadline > 0.0) { Settings.MaxSeconds = std::max(0.01, GetLeft(Scene)); }
 	FMeasureResult Result;
-	if (FRTStatus S = MeasureMethod(Session.GetEngine(), Methods, Method, Preset, GetPath(Scene, Item), *References, *Scene.Switch, Settings, Result); !S)
+	if (FRTStatus S =
+	        MeasureMethod(Session.GetEngine(), Methods, Method, Preset, GetPath(Scene, Item), *References, *Scene.Switch, Settings, Result);
+	    !S)
 	{
 		return ReportStatus(S, fmt::format("{}: {}, {}", Scene.Name, Method.Title, Preset.Name).c_str());
 	}
@@ -369,7 +383,7 @@ int FChartSweep::RunPoint(FScene& Scene, const FChartItem& Item)
 
 int FChartSweep::RunFacts(FScene& Scene, const FChartItem& Item)
 {
-	constexpr double FactsPart = 0.15;  // of the scene's time
+	constexpr double FactsPart = 0.15;   // of the scene's time
 	constexpr double MostSeconds = 60.0; // without a budget
 	ShowProgress(Scene, "what facts of the scene cost");
 	FFactSettings Settings;
@@ -392,12 +406,15 @@ int FChartSweep::RunFacts(FScene& Scene, const FChartItem& Item)
 		if (Method.Signal != ESignal::Frame || !GetMissing(Method, Session.GetDevice().GetCapabilities()).empty()) { continue; }
 		std::vector<FFactCost> Costs;
 		EMeasureEnd End = EMeasureEnd::Done;
-		if (FRTStatus S = MeasureFacts(Session.GetEngine(), Methods, &Method, &Method.GetTypical(), Settings, Costs, End); !S) { return ReportStatus(S, Scene.Name.c_str()); }
+		if (FRTStatus S = MeasureFacts(Session.GetEngine(), Methods, &Method, &Method.GetTypical(), Settings, Costs, End); !S)
+		{
+			return ReportStatus(S, Scene.Name.c_str());
+		}
 		if (End != EMeasureEnd::Done) { continue; }
 		for (const FFactCost& Cost : Costs)
 		{
 			Part["facts"].push_back({{"fact", Cost.Fact}, {"frame_gpu_ms", Cost.FrameGpuMs}, {"without_gpu_ms", Cost.WithoutGpuMs},
-			                         {"method", Method.Title}, {"preset", Method.GetTypical().Name}});
+			    {"method", Method.Title}, {"preset", Method.GetTypical().Name}});
 		}
 		break;
 	}

@@ -22,10 +22,10 @@ struct FChartSweepDesc
 	FChartSettings Settings;
 	FChartSelection Selection;
 	FShard Shard;
-	double BudgetSeconds = 0.0; ///< from the start of the program; 0: none
-	std::string PartsFolder;    ///< exists
+	double BudgetSeconds = 0.0;  ///< from the start of the program; 0: none
+	std::string PartsFolder;     ///< exists
 	std::string ReferenceFolder; ///< empty: references are not kept
-	std::string Program;        ///< see FChartKeyParts
+	std::string Program;         ///< see FChartKeyParts
 	std::chrono::steady_clock::time_point Start;
 };
 
@@ -50,13 +50,13 @@ private:
 		std::string Name;
 		FMeasureViews Views;
 		std::unique_ptr<FLightSwitch> Switch;
-		std::vector<FPathScript> Paths, ShortPaths; ///< by EMeasurePath; short: for methods without a history, in haste
+		std::vector<FPathScript> Paths, ShortPaths;               ///< by EMeasurePath; short: for methods without a history, in haste
 		std::map<std::pair<size_t, size_t>, FMethodProbe> Probes; ///< by method and preset; only with a budget
 		FChartKeyParts Key;
 		uint64_t BaselineBytes = 0;
 		std::map<ESignal, uint32_t> Samples; ///< of references
-		double Deadline = 0.0;   ///< seconds after Desc.Start; 0: none
-		std::map<size_t, size_t> TooDear; ///< by method: the first preset that did not fit
+		double Deadline = 0.0;               ///< seconds after Desc.Start; 0: none
+		std::map<size_t, size_t> TooDear;    ///< by method: the first preset that did not fit
 		std::map<std::pair<ESignal, EMeasurePath>, FPathReferences> References;
 		std::map<ESignal, double> SampleSeconds; ///< of a reference, measured; only with a budget
 	};

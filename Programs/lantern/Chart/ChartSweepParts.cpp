@@ -56,27 +56,14 @@ nlohmann::json FChartSweep::MakePoint(FScene& Scene, const FChartItem& Item, con
 	const std::string Key = Part["key"];
 	const FImage& Reference = Scene.References.at({Method.Signal, Item.Path}).Home.Mean;
 	Part["images"] = {{Key + ".picture", MakeJpegUri(MakePicture(Method.Signal, Figures.Picture, Reference))},
-	                  {Key + ".heatmap", MakeJpegUri(ShrinkImage(MakeHeatMap(Figures.FlipMap), MaxPictureWidth))}};
-	return {{"signal", GetSignalInfo(Method.Signal).Name},
-	        {"method", Method.Title},
-	        {"preset", Method.Presets[Item.Preset].Name},
-	        {"path", GetPathName(Item.Path)},
-	        {"gpu_ms", ToJson(Figures.GpuMs)},
-	        {"frame_gpu_ms", ToJson(Figures.FrameGpuMs)},
-	        {"rays_per_pixel", Figures.RaysPerPixel},
-	        {"memory", Figures.MemoryBytes},
-	        {"memory_peak", Figures.PeakBytes},
-	        {"relmse", ToJson(Figures.RelMse)},
-	        {"flip", ToJson(Figures.Flip)},
-	        {"sigma", ToJson(Figures.Sigma)},
-	        {"t90_frames", ToJson(Figures.T90Frames)},
-	        {"t90_reached", Figures.bT90Reached},
-	        {"ghost", ToJson(Figures.Ghost)},
-	        {"leak", ToJson(Figures.Leak)},
-	        {"frames", Figures.Frames},
-	        {"reference_spp", Scene.Samples.at(Method.Signal)},
-	        {"picture", Key + ".picture"},
-	        {"heatmap", Key + ".heatmap"}};
+	    {Key + ".heatmap", MakeJpegUri(ShrinkImage(MakeHeatMap(Figures.FlipMap), MaxPictureWidth))}};
+	return {{"signal", GetSignalInfo(Method.Signal).Name}, {"method", Method.Title}, {"preset", Method.Presets[Item.Preset].Name},
+	    {"path", GetPathName(Item.Path)}, {"gpu_ms", ToJson(Figures.GpuMs)}, {"frame_gpu_ms", ToJson(Figures.FrameGpuMs)},
+	    {"rays_per_pixel", Figures.RaysPerPixel}, {"memory", Figures.MemoryBytes}, {"memory_peak", Figures.PeakBytes},
+	    {"relmse", ToJson(Figures.RelMse)}, {"flip", ToJson(Figures.Flip)}, {"sigma", ToJson(Figures.Sigma)},
+	    {"t90_frames", ToJson(Figures.T90Frames)}, {"t90_reached", Figures.bT90Reached}, {"ghost", ToJson(Figures.Ghost)},
+	    {"leak", ToJson(Figures.Leak)}, {"frames", Figures.Frames}, {"reference_spp", Scene.Samples.at(Method.Signal)},
+	    {"picture", Key + ".picture"}, {"heatmap", Key + ".heatmap"}};
 }
 
 int FChartSweep::Keep(const FScene&, const FChartItem&, FChartPart Part)
@@ -97,8 +84,8 @@ int FChartSweep::Skip(const FScene& Scene, const FChartItem& Item, const std::st
 {
 	const FMethod& Method = Methods.Methods[Item.Method];
 	FChartPart Part = MakePart(Scene, Item);
-	Part["skipped"] = {{"signal", GetSignalInfo(Method.Signal).Name}, {"method", Method.Title}, {"preset", Method.Presets[Item.Preset].Name},
-	                   {"path", GetPathName(Item.Path)}, {"reason", Reason}};
+	Part["skipped"] = {{"signal", GetSignalInfo(Method.Signal).Name}, {"method", Method.Title},
+	    {"preset", Method.Presets[Item.Preset].Name}, {"path", GetPathName(Item.Path)}, {"reason", Reason}};
 	return Keep(Scene, Item, std::move(Part));
 }
 

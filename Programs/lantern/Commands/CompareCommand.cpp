@@ -34,9 +34,8 @@ std::string MakeJson(const FImage& B, const FImageMetrics& Metrics)
 	Json["flip_weighted_median"] = Metrics.FlipWeightedMedian;
 	if (B.Space == EImageSpace::Linear)
 	{
-		Json["flip_exposures"] = {{"start", Metrics.FlipResult.StartExposure},
-		                          {"stop", Metrics.FlipResult.StopExposure},
-		                          {"count", Metrics.FlipResult.ExposureCount}};
+		Json["flip_exposures"] = {{"start", Metrics.FlipResult.StartExposure}, {"stop", Metrics.FlipResult.StopExposure},
+		    {"count", Metrics.FlipResult.ExposureCount}};
 	}
 	Json["mean_ratio"] = Metrics.MeanRatio;
 	Json["block16_median"] = Metrics.Block16Median;
@@ -58,11 +57,10 @@ void PrintTable(const FCompareOptions& Options, const FImage& B, const FImageMet
 	fmt::print("flip            {:.6f}  (weighted median {:.6f})\n", Metrics.Flip, Metrics.FlipWeightedMedian);
 	if (bRadiance)
 	{
-		fmt::print("  exposures     {} from {:+.4f} to {:+.4f} EV\n", Metrics.FlipResult.ExposureCount,
-		           Metrics.FlipResult.StartExposure, Metrics.FlipResult.StopExposure);
+		fmt::print("  exposures     {} from {:+.4f} to {:+.4f} EV\n", Metrics.FlipResult.ExposureCount, Metrics.FlipResult.StartExposure,
+		    Metrics.FlipResult.StopExposure);
 	}
-	fmt::print("mean_ratio      {:.6f} {:.6f} {:.6f}\n", Metrics.MeanRatio[0], Metrics.MeanRatio[1],
-	           Metrics.MeanRatio[2]);
+	fmt::print("mean_ratio      {:.6f} {:.6f} {:.6f}\n", Metrics.MeanRatio[0], Metrics.MeanRatio[1], Metrics.MeanRatio[2]);
 	fmt::print("block16_median  {:.6f}\n", Metrics.Block16Median);
 	fmt::print("block16_p95     {:.6f}\n", Metrics.Block16P95);
 	fmt::print("nonfinite       {} {}\n", Metrics.NonFinite[0], Metrics.NonFinite[1]);
@@ -73,51 +71,27 @@ void PrintTable(const FCompareOptions& Options, const FImage& B, const FImageMet
 FRTStatus CheckOutputs(const FCompareOptions& Options)
 {
 	FRTStatus Status;
-	if (!Options.Heatmap.empty())
-	{
-		Status = CheckImageOutput(Options.Heatmap);
-	}
-	if (Status && !Options.Json.empty())
-	{
-		Status = CheckOutputPath(Options.Json);
-	}
+	if (!Options.Heatmap.empty()) { Status = CheckImageOutput(Options.Heatmap); }
+	if (Status && !Options.Json.empty()) { Status = CheckOutputPath(Options.Json); }
 	return Status;
 }
 
 FRTStatus Compare(const FCompareOptions& Options)
 {
-	if (FRTStatus Status = CheckOutputs(Options); !Status)
-	{
-		return Status;
-	}
+	if (FRTStatus Status = CheckOutputs(Options); !Status) { return Status; }
 	FImage A;
 	FImage B;
-	if (FRTStatus Status = LoadImageFile(Options.A, A); !Status)
-	{
-		return Status;
-	}
-	if (FRTStatus Status = LoadImageFile(Options.B, B); !Status)
-	{
-		return Status;
-	}
+	if (FRTStatus Status = LoadImageFile(Options.A, A); !Status) { return Status; }
+	if (FRTStatus Status = LoadImageFile(Options.B, B); !Status) { return Status; }
 	FImageMetrics Metrics;
-	if (FRTStatus Status = CompareImages(A, B, Metrics); !Status)
-	{
-		return MakeFileError(Status.Code, Options.A, Status.Message);
-	}
+	if (FRTStatus Status = CompareImages(A, B, Metrics); !Status) { return MakeFileError(Status.Code, Options.A, Status.Message); }
 	if (!Options.Heatmap.empty())
 	{
-		if (FRTStatus Status = SaveImageFile(Options.Heatmap, MakeHeatMap(Metrics.FlipResult.Map)); !Status)
-		{
-			return Status;
-		}
+		if (FRTStatus Status = SaveImageFile(Options.Heatmap, MakeHeatMap(Metrics.FlipResult.Map)); !Status) { return Status; }
 	}
 	if (!Options.Json.empty())
 	{
-		if (FRTStatus Status = WriteFileAtomically(Options.Json, MakeJson(B, Metrics)); !Status)
-		{
-			return Status;
-		}
+		if (FRTStatus Status = WriteFileAtomically(Options.Json, MakeJson(B, Metrics)); !Status) { return Status; }
 	}
 	PrintTable(Options, B, Metrics);
 	return FRTStatus::Success();

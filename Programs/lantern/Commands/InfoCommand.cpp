@@ -8,8 +8,8 @@
 #include "LanternCore/Config/Config.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
-#include "LanternImage/AtomicFile.h"
 #include "LanternHost/BuiltinScenes.h"
+#include "LanternImage/AtomicFile.h"
 #include "LanternRHIVulkan/VulkanDevice.h"
 #include "Session.h"
 
@@ -38,19 +38,24 @@ nlohmann::json MakeFeatures(const FRTVulkanDeviceInfo& Info)
 	const bool bAny = Info.bRayQuery || Info.bRayTracingPipeline;
 	nlohmann::json Features = nlohmann::json::array();
 	Features.push_back(Feature("sun shadows, ray query", Info.bUsable && Info.bRayQuery, Info.bRayQuery ? "" : "no VK_KHR_ray_query"));
-	Features.push_back(Feature("sun shadows, pipeline", Info.bUsable && Info.bRayTracingPipeline, Info.bRayTracingPipeline ? "" : "no VK_KHR_ray_tracing_pipeline"));
-	Features.push_back(Feature("reference path tracer", Info.bUsable && Info.bRayTracingPipeline, Info.bRayTracingPipeline ? "" : "no VK_KHR_ray_tracing_pipeline"));
-	Features.push_back(Feature("raster and direct lighting", Info.bUsable && bAny, bAny ? "" : "the program asks for a device that traces rays"));
+	Features.push_back(Feature("sun shadows, pipeline", Info.bUsable && Info.bRayTracingPipeline,
+	    Info.bRayTracingPipeline ? "" : "no VK_KHR_ray_tracing_pipeline"));
+	Features.push_back(Feature("reference path tracer", Info.bUsable && Info.bRayTracingPipeline,
+	    Info.bRayTracingPipeline ? "" : "no VK_KHR_ray_tracing_pipeline"));
+	Features.push_back(
+	    Feature("raster and direct lighting", Info.bUsable && bAny, bAny ? "" : "the program asks for a device that traces rays"));
 	return Features;
 }
 
 void PrintDevice(size_t Index, const FRTVulkanDeviceInfo& Info)
 {
-	fmt::print("device {}: {} ({})\n  driver  {}\n  rung    {}{}\n", Index, Info.Name, Info.Type, Info.Driver, RungName(Info.Rung), Info.bUsable ? "" : " (not usable)");
+	fmt::print("device {}: {} ({})\n  driver  {}\n  rung    {}{}\n", Index, Info.Name, Info.Type, Info.Driver, RungName(Info.Rung),
+	    Info.bUsable ? "" : " (not usable)");
 	for (const auto& Item : MakeFeatures(Info))
 	{
 		const std::string Why = Item["why"];
-		fmt::print("  {:<28} {}{}\n", Item["name"].get<std::string>(), Item["runs"].get<bool>() ? "runs" : "does not run", Why.empty() ? "" : ": " + Why);
+		fmt::print("  {:<28} {}{}\n", Item["name"].get<std::string>(), Item["runs"].get<bool>() ? "runs" : "does not run",
+		    Why.empty() ? "" : ": " + Why);
 	}
 	if (Info.Missing[0]) { fmt::print("  missing:\n{}\n", Info.Missing); }
 	if (Info.Quirks[0]) { fmt::print("  driver faults worked around:\n{}\n", Info.Quirks); }
@@ -78,8 +83,8 @@ int RunInfo(const std::string& Json)
 		const FRTVulkanDeviceInfo& D = Devices[I];
 		PrintDevice(I, D);
 		bSome |= D.bUsable && D.Rung != ERTRung::None;
-		Out["devices"].push_back({{"index", I}, {"device", D.Name}, {"driver", D.Driver}, {"type", D.Type}, {"usable", D.bUsable}, {"rung", RungName(D.Rung)},
-		                          {"features", MakeFeatures(D)}, {"missing", D.Missing}, {"quirks", D.Quirks}});
+		Out["devices"].push_back({{"index", I}, {"device", D.Name}, {"driver", D.Driver}, {"type", D.Type}, {"usable", D.bUsable},
+		    {"rung", RungName(D.Rung)}, {"features", MakeFeatures(D)}, {"missing", D.Missing}, {"quirks", D.Quirks}});
 	}
 	if (!Json.empty())
 	{
@@ -109,8 +114,8 @@ int RunCvars(const FDeviceOptions& Settings, bool bMarkdown, const std::string& 
 	fmt::print("{:<34} {:<10} {:<14} {}\n", "name", "value", "set by", "help");
 	for (const FRTConsoleVariable* Variable : Variables.GetAll())
 	{
-		fmt::print("{:<34} {:<10} {:<14} {}\n", Variable->GetName(), EscapeText(FConsoleVariables::ToString(Variable->GetValue())), ToString(Variable->GetSetBy()),
-		           Variable->GetHelp());
+		fmt::print("{:<34} {:<10} {:<14} {}\n", Variable->GetName(), EscapeText(FConsoleVariables::ToString(Variable->GetValue())),
+		    ToString(Variable->GetSetBy()), Variable->GetHelp());
 	}
 	return ExitDone;
 }

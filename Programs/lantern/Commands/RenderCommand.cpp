@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "LanternCore/Config/ConsoleVariables.h"
-#include "LanternCore/Text/Log.h"
 #include "LanternCore/Tasks/TaskTrace.h"
+#include "LanternCore/Text/Log.h"
+#include "LanternHost/ReferenceRenderer.h"
 #include "LanternImage/AtomicFile.h"
 #include "LanternImage/ImageIO.h"
-#include "LanternHost/ReferenceRenderer.h"
 #include "LanternImage/ToneMap.h"
 #include "Progress.h"
 #include "Session.h"
@@ -89,7 +89,8 @@ nlohmann::json MakeJson(FSession& Session, const FRenderOptions& Options, const 
 	Json["frame_gpu_ms"] = Gpu;
 	Json["frame_cpu_ms"] = Cpu;
 	Json["rays"] = Rays;
-	Json["memory"] = {{"blas", Memory.Geometry}, {"tlas", Memory.Scene}, {"sbt", Memory.ShaderTable}, {"textures", Memory.Texture}, {"peak", Memory.Peak}};
+	Json["memory"] = {{"blas", Memory.Geometry}, {"tlas", Memory.Scene}, {"sbt", Memory.ShaderTable}, {"textures", Memory.Texture},
+	    {"peak", Memory.Peak}};
 	const FRTPSO* Pipeline = Renderer.GetRayPipeline();
 	const uint32_t Groups = Pipeline ? Pipeline->GetHitGroupCount() : 0;
 	const uint32_t Missing = Pipeline ? Pipeline->GetMissingCount() : 0;
@@ -105,10 +106,11 @@ void PrintTable(const nlohmann::json& Json)
 	fmt::print("{:<16} {:>10} {:>10} {:>12}\n", "pass", "GPU ms", "CPU ms", "rays");
 	for (const auto& Pass : Json["passes"])
 	{
-		fmt::print("{:<16} {:>10.3f} {:>10.3f} {:>12}\n", Pass["name"].get<std::string>(), Pass["gpu_ms"].get<double>(), Pass["cpu_ms"].get<double>(),
-		           Pass["rays"].get<uint64_t>());
+		fmt::print("{:<16} {:>10.3f} {:>10.3f} {:>12}\n", Pass["name"].get<std::string>(), Pass["gpu_ms"].get<double>(),
+		    Pass["cpu_ms"].get<double>(), Pass["rays"].get<uint64_t>());
 	}
-	fmt::print("{:<16} {:>10.3f} {:>10.3f} {:>12}\n", "frame", Json["frame_gpu_ms"].get<double>(), Json["frame_cpu_ms"].get<double>(), Json["rays"].get<uint64_t>());
+	fmt::print("{:<16} {:>10.3f} {:>10.3f} {:>12}\n", "frame", Json["frame_gpu_ms"].get<double>(), Json["frame_cpu_ms"].get<double>(),
+	    Json["rays"].get<uint64_t>());
 }
 
 bool IsDisplayOutput(const std::string& Path) { return Path.size() > 4 && Path.compare(Path.size() - 4, 4, ".png") == 0; }
@@ -228,10 +230,11 @@ int RunReference(const FReferenceOptions& Options)
 	fmt::print("{} samples ({} resumed) in {:.1f} s, {:.2f} Mpaths/s\n", Result.Samples, Result.ResumedSamples, Result.Seconds, MPaths);
 	const FRTCapabilities& Capabilities = Session.GetDevice().GetCapabilities();
 	const nlohmann::json Json = {{"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"width", Options.Picture.Width},
-	                             {"height", Options.Picture.Height}, {"spp", Result.Samples}, {"resumed_spp", Result.ResumedSamples},
-	                             {"bounces", Options.Bounces}, {"seconds", Result.Seconds}, {"paths", Result.Paths}};
+	    {"height", Options.Picture.Height}, {"spp", Result.Samples}, {"resumed_spp", Result.ResumedSamples}, {"bounces", Options.Bounces},
+	    {"seconds", Result.Seconds}, {"paths", Result.Paths}};
 	const bool bDisplay = IsDisplayOutput(Options.Picture.Output);
-	return Session.Close(WriteOutputs(Options.Picture, bDisplay ? ToneMapImage(Result.Radiance, Settings.View.Exposure) : Result.Radiance, Json));
+	return Session.Close(
+	    WriteOutputs(Options.Picture, bDisplay ? ToneMapImage(Result.Radiance, Settings.View.Exposure) : Result.Radiance, Json));
 }
 
 } // namespace Lantern

@@ -20,13 +20,21 @@ namespace Lantern
 void FStabilityOptions::AddTo(CLI::App& App)
 {
 	Device.AddTo(App);
-	App.add_option("--case", Cases, "Number of a case; repeatable")->expected(1)->take_all()->allow_extra_args(false)->check([](const std::string& Text) {
-		const auto Number = ParseNumbers(Text, 1);
-		const auto All = GetStabilityCases();
-		const bool bKnown = Number && std::any_of(All.begin(), All.end(), [&](const FStabilityCase& Case) { return Case.Number == (*Number)[0]; });
-		return bKnown ? std::string() : Quote(Text) + " is not the number of a case; --list names them";
-	});
-	App.add_option("--method", Methods, "Name or title of a method of Config/Methods.ini; repeatable")->expected(1)->take_all()->allow_extra_args(false);
+	App.add_option("--case", Cases, "Number of a case; repeatable")
+	    ->expected(1)
+	    ->take_all()
+	    ->allow_extra_args(false)
+	    ->check([](const std::string& Text) {
+		    const auto Number = ParseNumbers(Text, 1);
+		    const auto All = GetStabilityCases();
+		    const bool bKnown =
+		        Number && std::any_of(All.begin(), All.end(), [&](const FStabilityCase& Case) { return Case.Number == (*Number)[0]; });
+		    return bKnown ? std::string() : Quote(Text) + " is not the number of a case; --list names them";
+	    });
+	App.add_option("--method", Methods, "Name or title of a method of Config/Methods.ini; repeatable")
+	    ->expected(1)
+	    ->take_all()
+	    ->allow_extra_args(false);
 	App.add_option("--seeds", Seeds, "Runs of each case with other random numbers: 5, or 2 with --quick")->check(CLI::Range(1, 1000));
 	App.add_option("--spp", Samples, "Samples of references: 4096, or 256 with --quick")->check(CLI::Range(2, 1 << 24));
 	App.add_flag("--quick", bQuick, "Fewer seeds and samples");
@@ -43,10 +51,17 @@ namespace
 class FStabilityRun
 {
 public:
-	FStabilityRun(FSession& InSession, const FStabilityOptions& InOptions, FStabilitySettings Settings, const FMethods& InMethods, const FKnownShortfalls& InKnown)
-	    : Session(InSession), Options(InOptions), Methods(InMethods), Known(InKnown), Stage(InSession.GetEngine(), std::move(Settings)), Seeds(InOptions.Seeds ? InOptions.Seeds : InOptions.bQuick ? 2 : 5)
-	{
-	}
+	FStabilityRun(FSession& InSession, const FStabilityOptions& InOptions, FStabilitySettings Settings, const FMethods& InMethods,
+	    const FKnownShortfalls& InKnown)
+	    : Session(InSession),
+	      Options(InOptions),
+	      Methods(InMethods),
+	      Known(InKnown),
+	      Stage(InSession.GetEngine(), std::move(Settings)),
+	      Seeds(InOptions.Seeds    ? InOptions.Seeds
+	            : InOptions.bQuick ? 2
+	                               : 5)
+	{}
 	FRTStatus Run();
 	std::vector<FStabilityRow>& GetRows() { return Rows; }
 
@@ -55,8 +70,8 @@ private:
 	FRTStatus RunCase(const FStabilityCase& Case);
 	FRTStatus RunMethod(const FStabilityCase& Case, const FMethod* Method);
 	FRTStatus MeasureSeeds(const FStabilityCase& Case, const FMethod* Method, std::vector<std::vector<FStabilityFigure>>& Out);
-	void AddFigures(const FStabilityCase& Case, FStabilityRow Row, const std::vector<std::vector<FStabilityFigure>>& Runs, const FStabilityFault& Fault,
-	                const std::vector<FStabilityFigure>& Broken);
+	void AddFigures(const FStabilityCase& Case, FStabilityRow Row, const std::vector<std::vector<FStabilityFigure>>& Runs,
+	    const FStabilityFault& Fault, const std::vector<FStabilityFigure>& Broken);
 	FRTStatus KeepStrip(const FStabilityCase& Case, const FStabilityRow& Row, ESignal Signal, size_t FirstRow);
 	void Add(FStabilityRow Row);
 
@@ -75,7 +90,8 @@ private:
 bool FStabilityRun::IsWanted(const FMethod& Method) const
 {
 	if (Options.Methods.empty()) { return true; }
-	return std::any_of(Options.Methods.begin(), Options.Methods.end(), [&](const std::string& Name) { return Methods.Find(Name) == &Method; });
+	return std::any_of(
+	    Options.Methods.begin(), Options.Methods.end(), [&](const std::string& Name) { return Methods.Find(Name) == &Method; });
 }
 
 void FStabilityRun::Add(FStabilityRow Row)
@@ -126,7 +142,8 @@ FRTStatus FStabilityRun::MeasureSeeds(const FStabilityCase& Case, const FMethod*
 {
 	for (uint32_t Seed = 0; Seed < (Method ? Seeds : 1); ++Seed)
 	{
-		Progress.Show(fmt::format("{} {}", Case.Number, Case.Name), Fraction, fmt::format("{}, seed {} of {}", Method ? Method->Title : "", Seed + 1, Seeds));
+		Progress.Show(fmt::format("{} {}", Case.Number, Case.Name), Fraction,
+		    fmt::format("{}, seed {} of {}", Method ? Method->Title : "", Seed + 1, Seeds));
 		Stage.Begin(Method ? Method->Signal : ESignal::Frame, Seed + 1, nullptr);
 		if (FRTStatus S = Case.Measure(Stage, Out.emplace_back()); !S) { return S; }
 	}
@@ -157,7 +174,8 @@ FRTStatus FStabilityRun::RunMethod(const FStabilityCase& Case, const FMethod* Me
 	}
 	std::vector<std::vector<FStabilityFigure>> Runs;
 	std::vector<FStabilityFigure> Broken;
-	FRTStatus Status = Refused.empty() ? MeasureSeeds(Case, Method, Runs) : FRTStatus::Error(ERTResult::InvalidArgument, "%s", Refused[0].c_str());
+	FRTStatus Status =
+	    Refused.empty() ? MeasureSeeds(Case, Method, Runs) : FRTStatus::Error(ERTResult::InvalidArgument, "%s", Refused[0].c_str());
 	FStabilityFault Fault;
 	const auto HasLimit = [](const FStabilityFigure& Figure) { return Figure.Limit.has_value(); };
 	if (Status && std::any_of(Runs[0].begin(), Runs[0].end(), HasLimit))
@@ -180,8 +198,8 @@ FRTStatus FStabilityRun::RunMethod(const FStabilityCase& Case, const FMethod* Me
 	return KeepStrip(Case, Row, Method ? Method->Signal : ESignal::Frame, FirstRow);
 }
 
-void FStabilityRun::AddFigures(const FStabilityCase&, FStabilityRow Row, const std::vector<std::vector<FStabilityFigure>>& Runs, const FStabilityFault& Fault,
-                               const std::vector<FStabilityFigure>& Broken)
+void FStabilityRun::AddFigures(const FStabilityCase&, FStabilityRow Row, const std::vector<std::vector<FStabilityFigure>>& Runs,
+    const FStabilityFault& Fault, const std::vector<FStabilityFigure>& Broken)
 {
 	for (size_t Part = 0; Part < Runs[0].size(); ++Part)
 	{
@@ -212,7 +230,8 @@ void FStabilityRun::AddFigures(const FStabilityCase&, FStabilityRow Row, const s
 
 FRTStatus FStabilityRun::KeepStrip(const FStabilityCase& Case, const FStabilityRow& Row, ESignal Signal, size_t FirstRow)
 {
-	const bool bBad = std::any_of(Rows.begin() + static_cast<ptrdiff_t>(FirstRow), Rows.end(), [](const FStabilityRow& R) { return R.IsBad(); });
+	const bool bBad =
+	    std::any_of(Rows.begin() + static_cast<ptrdiff_t>(FirstRow), Rows.end(), [](const FStabilityRow& R) { return R.IsBad(); });
 	if (Options.Output.empty() || Strip.empty() || !(bBad || Options.bAllStrips)) { return FRTStatus::Success(); }
 	std::string Name = fmt::format("{:02}-{}", Case.Number, Row.Method.empty() ? Case.Name : Row.Method);
 	for (char& C : Name)
@@ -263,11 +282,13 @@ int LoadWantedMethods(const FStabilityOptions& Options, FMethods& Out)
 	return ExitDone;
 }
 
-nlohmann::json MakeJson(FSession& Session, const FStabilityOptions& Options, const FStabilitySettings& Settings, const std::vector<FStabilityRow>& Rows)
+nlohmann::json MakeJson(
+    FSession& Session, const FStabilityOptions& Options, const FStabilitySettings& Settings, const std::vector<FStabilityRow>& Rows)
 {
 	const FRTCapabilities& Capabilities = Session.GetDevice().GetCapabilities();
-	return {{"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"width", Settings.Width}, {"height", Settings.Height},
-	        {"quick", Options.bQuick}, {"reference_spp", Settings.ReferenceSamples}, {"cases", MakeStabilityJson(Rows)}};
+	return {{"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"width", Settings.Width},
+	    {"height", Settings.Height}, {"quick", Options.bQuick}, {"reference_spp", Settings.ReferenceSamples},
+	    {"cases", MakeStabilityJson(Rows)}};
 }
 
 int RunInSession(FSession& Session, const FStabilityOptions& Options, const FKnownShortfalls& Known, const FMethods& Methods)

@@ -28,7 +28,10 @@ std::string FormatFigure(const std::optional<double>& Value)
 }
 
 /// JSON knows no NaN.
-nlohmann::json ToJson(const std::optional<double>& Value) { return Value && std::isfinite(*Value) ? nlohmann::json(*Value) : nlohmann::json(nullptr); }
+nlohmann::json ToJson(const std::optional<double>& Value)
+{
+	return Value && std::isfinite(*Value) ? nlohmann::json(*Value) : nlohmann::json(nullptr);
+}
 nlohmann::json ToJson(const std::optional<bool>& Value) { return Value ? nlohmann::json(*Value) : nlohmann::json(nullptr); }
 nlohmann::json ToJson(const std::string& Text) { return Text.empty() ? nlohmann::json(nullptr) : nlohmann::json(Text); }
 } // namespace
@@ -53,7 +56,8 @@ FRTStatus FKnownShortfalls::Load(const std::string& Path)
 		const int Case = std::atoi(Fields[0].c_str() + (bMust ? 0 : 1));
 		if (Fields.size() != 4 || Case < 1 || Fields[3].empty())
 		{
-			return MakeFileError(ERTResult::InvalidArgument, Path + ":" + std::to_string(Number), "is not of the form case | method | part | reason");
+			return MakeFileError(
+			    ERTResult::InvalidArgument, Path + ":" + std::to_string(Number), "is not of the form case | method | part | reason");
 		}
 		Known[{Case, Fields[1], Fields[2]}] = bMust;
 	}
@@ -77,7 +81,11 @@ std::vector<std::string> FKnownShortfalls::Check(const std::vector<FStabilityRow
 	return Bad;
 }
 
-void PrintStabilityHeader() { fmt::print("{:>2} {:<20} {:<42} {:<33} {:>10} {:>10} {:>9} {:<7} {:>10} {}\n", "#", "case", "method", "figure", "median", "worst", "limit", "holds", "fault", "fails"); }
+void PrintStabilityHeader()
+{
+	fmt::print("{:>2} {:<20} {:<42} {:<33} {:>10} {:>10} {:>9} {:<7} {:>10} {}\n", "#", "case", "method", "figure", "median", "worst",
+	    "limit", "holds", "fault", "fails");
+}
 
 void PrintStabilityRow(const FStabilityRow& Row)
 {
@@ -89,8 +97,8 @@ void PrintStabilityRow(const FStabilityRow& Row)
 	const std::string Limit = Row.Limit ? (Row.bFloor ? ">=" : "<=") + FormatFigure(Row.Limit) : "-";
 	const char* const Holds = !Row.Holds ? "-" : *Row.Holds ? "yes" : Row.bKnown ? "known" : "NO";
 	const char* const Fails = !Row.FaultFails ? "-" : *Row.FaultFails ? "yes" : "NO";
-	fmt::print("{:>2} {:<20} {:<42} {:<33} {:>10} {:>10} {:>9} {:<7} {:>10} {}\n", Row.Number, Row.Name, Row.Method, Row.Part, FormatFigure(Row.Figure), FormatFigure(Row.Worst),
-	           Limit, Holds, FormatFigure(Row.FaultFigure), Fails);
+	fmt::print("{:>2} {:<20} {:<42} {:<33} {:>10} {:>10} {:>9} {:<7} {:>10} {}\n", Row.Number, Row.Name, Row.Method, Row.Part,
+	    FormatFigure(Row.Figure), FormatFigure(Row.Worst), Limit, Holds, FormatFigure(Row.FaultFigure), Fails);
 	std::fflush(stdout);
 }
 
@@ -99,23 +107,11 @@ nlohmann::json MakeStabilityJson(const std::vector<FStabilityRow>& Rows)
 	nlohmann::json Cases = nlohmann::json::array();
 	for (const FStabilityRow& Row : Rows)
 	{
-		Cases.push_back({{"number", Row.Number},
-		                 {"name", Row.Name},
-		                 {"part", ToJson(Row.Part)},
-		                 {"method", ToJson(Row.Method)},
-		                 {"preset", ToJson(Row.Preset)},
-		                 {"signal", ToJson(Row.Signal)},
-		                 {"status", ToJson(Row.Status)},
-		                 {"figure", ToJson(Row.Figure)},
-		                 {"worst", ToJson(Row.Worst)},
-		                 {"limit", ToJson(Row.Limit)},
-		                 {"at_least", Row.bFloor},
-		                 {"holds", ToJson(Row.Holds)},
-		                 {"known", Row.bKnown},
-		                 {"fault", ToJson(Row.Fault)},
-		                 {"fault_figure", ToJson(Row.FaultFigure)},
-		                 {"fault_fails", ToJson(Row.FaultFails)},
-		                 {"seeds", Row.Seeds}});
+		Cases.push_back({{"number", Row.Number}, {"name", Row.Name}, {"part", ToJson(Row.Part)}, {"method", ToJson(Row.Method)},
+		    {"preset", ToJson(Row.Preset)}, {"signal", ToJson(Row.Signal)}, {"status", ToJson(Row.Status)}, {"figure", ToJson(Row.Figure)},
+		    {"worst", ToJson(Row.Worst)}, {"limit", ToJson(Row.Limit)}, {"at_least", Row.bFloor}, {"holds", ToJson(Row.Holds)},
+		    {"known", Row.bKnown}, {"fault", ToJson(Row.Fault)}, {"fault_figure", ToJson(Row.FaultFigure)},
+		    {"fault_fails", ToJson(Row.FaultFails)}, {"seeds", Row.Seeds}});
 	}
 	return Cases;
 }

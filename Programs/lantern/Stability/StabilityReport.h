@@ -20,8 +20,8 @@ struct FStabilityRow
 {
 	int Number = 0;
 	std::string Name, Part, Method, Signal, Preset;
-	std::string Status; ///< empty, or why there is no figure: "no method yet"
-	bool bBroken = false; ///< it should have one
+	std::string Status;                         ///< empty, or why there is no figure: "no method yet"
+	bool bBroken = false;                       ///< it should have one
 	std::optional<double> Figure, Worst, Limit; ///< median and worst over the seeds
 	bool bFloor = false;
 	std::optional<bool> Holds;
@@ -53,6 +53,7 @@ void PrintStabilityHeader();
 void PrintStabilityRow(const FStabilityRow& Row);
 nlohmann::json MakeStabilityJson(const std::vector<FStabilityRow>& Rows);
 /// Frames in a row, what they should be below them. Radiance is tone-mapped.
-FRTStatus SaveStrip(const std::string& Path, const std::vector<std::pair<FImage, FImage>>& Strip, const FSignalInfo& Signal, float Exposure);
+FRTStatus SaveStrip(
+    const std::string& Path, const std::vector<std::pair<FImage, FImage>>& Strip, const FSignalInfo& Signal, float Exposure);
 
 } // namespace Lantern

@@ -21,18 +21,12 @@ constexpr size_t RefreshedBlocks = 32;
 /// Order along a Z curve over the ground, the infinite ones behind all others.
 uint64_t GetPlaceKey(const FDrawSphere& Sphere, const glm::dvec3& Min, double Scale)
 {
-	if (!std::isfinite(Sphere.Radius))
-	{
-		return ~0ull;
-	}
+	if (!std::isfinite(Sphere.Radius)) { return ~0ull; }
 	const glm::dvec3 At = glm::clamp((Sphere.Center - Min) * Scale, 0.0, 1048575.0);
 	uint64_t Key = 0;
 	for (int Bit = 0; Bit < 20; ++Bit)
 	{
-		for (int Axis = 0; Axis < 3; ++Axis)
-		{
-			Key |= ((uint64_t(At[Axis]) >> Bit) & 1u) << (3 * Bit + Axis);
-		}
+		for (int Axis = 0; Axis < 3; ++Axis) { Key |= ((uint64_t(At[Axis]) >> Bit) & 1u) << (3 * Bit + Axis); }
 	}
 	return Key;
 }
@@ -73,10 +67,7 @@ void FDrawBlocks::Build(const std::vector<FItem>& Items, const std::vector<FDraw
 	const glm::dvec3 Size = Max - Min;
 	const double Scale = 1048575.0 / std::max({Size.x, Size.y, Size.z, 1e-3});
 	std::vector<std::pair<uint64_t, uint32_t>> Order(Items.size());
-	for (uint32_t Draw = 0; Draw < Order.size(); ++Draw)
-	{
-		Order[Draw] = {GetPlaceKey(Spheres[Draw], Min, Scale), Draw};
-	}
+	for (uint32_t Draw = 0; Draw < Order.size(); ++Draw) { Order[Draw] = {GetPlaceKey(Spheres[Draw], Min, Scale), Draw}; }
 	std::sort(Order.begin(), Order.end());
 	Places.resize(Items.size());
 	Blocks.clear();
@@ -90,18 +81,14 @@ void FDrawBlocks::Build(const std::vector<FItem>& Items, const std::vector<FDraw
 		Bounds.push_back({Block.Center});
 		// Infinite spheres have blocks of their own, so that they make no other infinite.
 		const bool bInfinite = Order[First].first == ~0ull;
-		for (; First < Order.size() && Block.Count < FBlock::Capacity && (Order[First].first == ~0ull) == bInfinite;
-		     ++First)
+		for (; First < Order.size() && Block.Count < FBlock::Capacity && (Order[First].first == ~0ull) == bInfinite; ++First)
 		{
 			const uint32_t Draw = Order[First].second;
 			Places[Draw] = uint32_t(Blocks.size() - 1) * FBlock::Capacity + Block.Count;
 			Block.Items[Block.Count++] = Items[Draw];
 		}
 	}
-	for (uint32_t Draw = 0; Draw < Spheres.size(); ++Draw)
-	{
-		Move(Draw, Spheres[Draw]);
-	}
+	for (uint32_t Draw = 0; Draw < Spheres.size(); ++Draw) { Move(Draw, Spheres[Draw]); }
 }
 
 void FDrawBlocks::Move(uint32_t Draw, const FDrawSphere& Sphere)
@@ -116,10 +103,7 @@ void FDrawBlocks::Move(uint32_t Draw, const FDrawSphere& Sphere)
 	Block.Mirrored = (Block.Mirrored & ~(1ull << Item)) | (uint64_t(Sphere.bMirrored) << Item);
 	FBounds& Of = Bounds[Index];
 	Of.Radius = std::max(Of.Radius, glm::length(Relative) + Block.R[Item]);
-	if (!std::exchange(Of.bStale, true))
-	{
-		Stale.push_back(Index);
-	}
+	if (!std::exchange(Of.bStale, true)) { Stale.push_back(Index); }
 }
 
 void FDrawBlocks::Refresh(uint32_t Index)
@@ -128,8 +112,7 @@ void FDrawBlocks::Refresh(uint32_t Index)
 	float Radius = 0.0f;
 	for (uint32_t I = 0; I < Block.Count; ++I)
 	{
-		const float Reach =
-		    std::sqrt(Block.X[I] * Block.X[I] + Block.Y[I] * Block.Y[I] + Block.Z[I] * Block.Z[I]) + Block.R[I];
+		const float Reach = std::sqrt(Block.X[I] * Block.X[I] + Block.Y[I] * Block.Y[I] + Block.Z[I] * Block.Z[I]) + Block.R[I];
 		Radius = std::max(Radius, Reach);
 	}
 	Bounds[Index].Radius = Radius;
@@ -162,10 +145,7 @@ uint64_t FDrawBlocks::CullItems(const FFrustum& F, const FBlock& Block)
 		                   int(Above * F.CosY - Ahead * F.SinY <= R) & int(R * R >= F.SizePerDistance2 * Distance2));
 	}
 	uint64_t Mask = 0;
-	for (uint32_t I = 0; I < Block.Count; ++I)
-	{
-		Mask |= uint64_t(bSeen[I]) << I;
-	}
+	for (uint32_t I = 0; I < Block.Count; ++I) { Mask |= uint64_t(bSeen[I]) << I; }
 	return Mask;
 }
 
@@ -173,10 +153,7 @@ void FDrawBlocks::Collect(const FView& View, float MinPixels, std::vector<FSeen>
 {
 	FTraceScope Trace("G-buffer culling");
 	const FFrustum Frustum(View, MinPixels);
-	for (size_t I = 0; I < RefreshedBlocks && NextStale < Stale.size(); ++I)
-	{
-		Refresh(Stale[NextStale++]);
-	}
+	for (size_t I = 0; I < RefreshedBlocks && NextStale < Stale.size(); ++I) { Refresh(Stale[NextStale++]); }
 	if (NextStale == Stale.size() || NextStale >= Bounds.size())
 	{
 		Stale.erase(Stale.begin(), Stale.begin() + static_cast<ptrdiff_t>(NextStale));
@@ -185,22 +162,13 @@ void FDrawBlocks::Collect(const FView& View, float MinPixels, std::vector<FSeen>
 	Out.clear();
 	for (uint32_t Index = 0; Index < Bounds.size(); ++Index)
 	{
-		if (MaySeeBlock(Frustum, Bounds[Index]))
-		{
-			Out.push_back({Index, float(glm::distance(Bounds[Index].Center, View.Position)), 0});
-		}
+		if (MaySeeBlock(Frustum, Bounds[Index])) { Out.push_back({Index, float(glm::distance(Bounds[Index].Center, View.Position)), 0}); }
 	}
 	std::sort(Out.begin(), Out.end(),
-	          [](const FSeen& A, const FSeen& B)
-	          { return A.Distance != B.Distance ? A.Distance < B.Distance : A.Block < B.Block; });
-	ParallelFor(Out.size(), BlockGrain,
-	            [&](size_t Begin, size_t End)
-	            {
-		            for (size_t I = Begin; I < End; ++I)
-		            {
-			            Out[I].Items = CullItems(Frustum, Blocks[Out[I].Block]);
-		            }
-	            });
+	    [](const FSeen& A, const FSeen& B) { return A.Distance != B.Distance ? A.Distance < B.Distance : A.Block < B.Block; });
+	ParallelFor(Out.size(), BlockGrain, [&](size_t Begin, size_t End) {
+		for (size_t I = Begin; I < End; ++I) { Out[I].Items = CullItems(Frustum, Blocks[Out[I].Block]); }
+	});
 	std::erase_if(Out, [](const FSeen& Seen) { return Seen.Items == 0; });
 }
 

@@ -13,11 +13,12 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<bool> CVarMotion("r.RT.GBuffer.Motion", true,
-                                    "The sample engine's raster writes motion vectors. Off: histories take what moves for still, and each "
-                                    "pixel costs 16 bytes less.");
-constexpr std::array<ERTFormat, 5> ColorFormats = {ERTFormat::RGBA16_SNORM, ERTFormat::RGBA8_SRGB, ERTFormat::RGBA8_UNORM, ERTFormat::RGBA32_FLOAT,
-                                                   ERTFormat::RGBA32_FLOAT};
-constexpr std::array<const char*, 5> ColorNames = {"GBufferNormals", "GBufferBaseColor", "GBufferMaterial", "GBufferEmissive", "GBufferMotion"};
+    "The sample engine's raster writes motion vectors. Off: histories take what moves for still, and each "
+    "pixel costs 16 bytes less.");
+constexpr std::array<ERTFormat, 5> ColorFormats = {
+    ERTFormat::RGBA16_SNORM, ERTFormat::RGBA8_SRGB, ERTFormat::RGBA8_UNORM, ERTFormat::RGBA32_FLOAT, ERTFormat::RGBA32_FLOAT};
+constexpr std::array<const char*, 5> ColorNames = {
+    "GBufferNormals", "GBufferBaseColor", "GBufferMaterial", "GBufferEmissive", "GBufferMotion"};
 constexpr uint32_t CountColors(bool bMotion) { return bMotion ? 5 : 4; }
 
 } // namespace
@@ -118,7 +119,10 @@ void FGBufferPass::RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHost
 	Scene.GetDrawBlocks().Collect(Frame.View, MinPixels, Seen);
 	if (Seen.empty()) { return; }
 	FUploadSlice Objects;
-	if (FRTStatus S = Renderer.GetUploads().Allocate(uint64_t(Scene.GetPlaceCount()) * sizeof(uint32_t), Objects); !S) { return Frame.Fail(S); }
+	if (FRTStatus S = Renderer.GetUploads().Allocate(uint64_t(Scene.GetPlaceCount()) * sizeof(uint32_t), Objects); !S)
+	{
+		return Frame.Fail(S);
+	}
 	ListObjects(Scene, static_cast<uint32_t*>(Objects.Data));
 	IRTPipeline* Bound = nullptr;
 	IRTBuffer* BoundIndices = nullptr;
@@ -145,7 +149,9 @@ void FGBufferPass::RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHost
 FGBuffer FGBufferPass::Add(FFrameContext& Context, FHostScene& Scene)
 {
 	FFrameGraph& Graph = Context.Graph;
-	const auto Create = [&](ERTFormat Format, const char* Name) { return Graph.CreateTexture({Context.Width, Context.Height, Format}, Name); };
+	const auto Create = [&](ERTFormat Format, const char* Name) {
+		return Graph.CreateTexture({Context.Width, Context.Height, Format}, Name);
+	};
 	FGBuffer Out;
 	Out.Depth = Create(ERTFormat::D32_FLOAT, "GBufferDepth");
 	const bool bMayMove = bMotion && CVarMotion.GetOnRenderThread();

@@ -1,14 +1,14 @@
 // Images, samplers and materials of a loaded scene.
 #include <algorithm>
 #include <bit>
-#include <filesystem>
 #include <cmath>
+#include <filesystem>
 
 #include <glm/gtc/packing.hpp>
 
 #include "HostMaterials.h"
-#include "LanternCore/Text/Log.h"
 #include "LanternCore/Tasks/Tasks.h"
+#include "LanternCore/Text/Log.h"
 #include "LanternHost/HostScene.h"
 #include "LanternImage/ToneMap.h"
 
@@ -20,7 +20,10 @@ namespace
 glm::vec3 MeanColor(const FHostImage& Image)
 {
 	float Decode[256];
-	for (int I = 0; I < 256; ++I) { Decode[I] = Image.bSrgb ? SrgbToLinear(static_cast<float>(I) / 255.0f) : static_cast<float>(I) / 255.0f; }
+	for (int I = 0; I < 256; ++I)
+	{
+		Decode[I] = Image.bSrgb ? SrgbToLinear(static_cast<float>(I) / 255.0f) : static_cast<float>(I) / 255.0f;
+	}
 	glm::dvec3 Sum(0);
 	const size_t Count = size_t(Image.Width) * Image.Height;
 	for (size_t I = 0; I < Count; ++I)
@@ -72,7 +75,8 @@ FRTStatus FHostScene::UploadTextures(FUploader& Uploader, const std::function<vo
 
 FRTStatus FHostScene::GetSampler(const FHostTexture& Texture, uint32_t& OutIndex)
 {
-	const uint32_t Key = Texture.bRepeatU | (Texture.bRepeatV << 1) | (Texture.bMirrorU << 2) | (Texture.bMirrorV << 3) | (Texture.bNearest << 4);
+	const uint32_t Key =
+	    Texture.bRepeatU | (Texture.bRepeatV << 1) | (Texture.bMirrorU << 2) | (Texture.bMirrorV << 3) | (Texture.bNearest << 4);
 	const auto Found = std::find_if(Samplers.begin(), Samplers.end(), [&](const auto& Entry) { return Entry.first == Key; });
 	if (Found != Samplers.end())
 	{
@@ -122,7 +126,8 @@ FRTStatus FHostScene::AddMaterials(FMaterialPrograms& Programs)
 		}
 		Data.EmissiveWeight = MakeEmissiveWeight(MeanEmission);
 		const std::string& Path = Source.Program;
-		Scene.AddMaterial(Data, Path.empty() ? StandardProgram : Programs.FindOrAdd({.Name = std::filesystem::path(Path).stem().string(), .Path = Path}));
+		Scene.AddMaterial(
+		    Data, Path.empty() ? StandardProgram : Programs.FindOrAdd({.Name = std::filesystem::path(Path).stem().string(), .Path = Path}));
 	}
 	return FRTStatus::Success();
 }

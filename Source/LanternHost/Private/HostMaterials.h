@@ -8,10 +8,7 @@ namespace Lantern
 {
 
 /// Blending needs an order; until there is one, a blended surface is cut at half its opacity.
-inline float GetAlphaCutoff(const FHostMaterial& Material)
-{
-	return Material.AlphaMode == EAlphaMode::Blend ? 0.5f : Material.AlphaCutoff;
-}
+inline float GetAlphaCutoff(const FHostMaterial& Material) { return Material.AlphaMode == EAlphaMode::Blend ? 0.5f : Material.AlphaCutoff; }
 
 /// But for its name.
 inline FRTSamplerDesc MakeSamplerDesc(const FHostTexture& Texture)
@@ -22,10 +19,7 @@ inline FRTSamplerDesc MakeSamplerDesc(const FHostTexture& Texture)
 	FRTSamplerDesc Desc;
 	Desc.U = Address(Texture.bRepeatU, Texture.bMirrorU);
 	Desc.V = Address(Texture.bRepeatV, Texture.bMirrorV);
-	if (Texture.bNearest)
-	{
-		Desc.Min = Desc.Mag = ERTFilter::Nearest;
-	}
+	if (Texture.bNearest) { Desc.Min = Desc.Mag = ERTFilter::Nearest; }
 	return Desc;
 }
 

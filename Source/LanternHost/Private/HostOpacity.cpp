@@ -14,10 +14,10 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<float> CVarPieces("r.RT.Opacity.Pieces", 3.0f,
-                                     "Alpha-tested triangles that are neither opaque nor transparent all over are cut "
-                                     "into pieces that leave out what is transparent: at most so many more pieces than "
-                                     "such triangles, where they save most. 0: none. Read when a scene is loaded.",
-                                     {0.0, 64.0});
+    "Alpha-tested triangles that are neither opaque nor transparent all over are cut "
+    "into pieces that leave out what is transparent: at most so many more pieces than "
+    "such triangles, where they save most. 0: none. Read when a scene is loaded.",
+    {0.0, 64.0});
 
 struct FMaskedSection
 {
@@ -25,13 +25,9 @@ struct FMaskedSection
 	FAlphaTest Test;
 };
 
-FAlphaTexels GetAlpha(const FHostImage& Image)
-{
-	return {Image.Rgba.data() + 3, Image.Width, Image.Height, 4};
-}
+FAlphaTexels GetAlpha(const FHostImage& Image) { return {Image.Rgba.data() + 3, Image.Width, Image.Height, 4}; }
 
-FAlphaTest MakeAlphaTest(const FSceneDescription& Description, const FHostMaterial& Material,
-                         const FAlphaPyramid* Texture)
+FAlphaTest MakeAlphaTest(const FSceneDescription& Description, const FHostMaterial& Material, const FAlphaPyramid* Texture)
 {
 	const FHostTextureSlot& Slot = Material.Slots[TEXTURE_BASE_COLOR];
 	FAlphaTest Test;
@@ -103,8 +99,8 @@ bool CanBeCut(const FSceneDescription& Description, const FMaskedSection& Masked
 	return Mesh.Skin.empty() && !bEmits && Masked.Test.Texture;
 }
 
-void CutPieces(const FSceneDescription& Description, const FScenePose& Pose,
-               const std::vector<FMaskedSection>& Sections, FSceneOpacity& Out)
+void CutPieces(
+    const FSceneDescription& Description, const FScenePose& Pose, const std::vector<FMaskedSection>& Sections, FSceneOpacity& Out)
 {
 	const std::vector<float> Weights = FindMeshWeights(Description, Pose);
 	std::map<int32_t, const FAlphaTest*> Tests; // of materials
@@ -112,20 +108,13 @@ void CutPieces(const FSceneDescription& Description, const FScenePose& Pose,
 	std::vector<const FMaskedSection*> Of;
 	for (const FMaskedSection& Masked : Sections)
 	{
-		if (!CanBeCut(Description, Masked))
-		{
-			continue;
-		}
+		if (!CanBeCut(Description, Masked)) { continue; }
 		const FHostMesh& Mesh = Description.Meshes[Masked.Mesh];
 		const FRTSectionInfo& Info = Out.Meshes[Masked.Mesh].Sections[Masked.Section];
 		const uint32_t Mixed = Info.IndexCount - Info.OpaqueIndexCount - Info.TransparentIndexCount;
-		const FAlphaTest* const Test =
-		    Tests.try_emplace(Mesh.Sections[Masked.Section].Material, &Masked.Test).first->second;
-		Sources.push_back({Test,
-		                   Mesh.Attributes.data(),
-		                   Mesh.Positions.data(),
-		                   {Mesh.Indices.data() + Info.FirstIndex, Mixed},
-		                   Weights[Masked.Mesh]});
+		const FAlphaTest* const Test = Tests.try_emplace(Mesh.Sections[Masked.Section].Material, &Masked.Test).first->second;
+		Sources.push_back(
+		    {Test, Mesh.Attributes.data(), Mesh.Positions.data(), {Mesh.Indices.data() + Info.FirstIndex, Mixed}, Weights[Masked.Mesh]});
 		Of.push_back(&Masked);
 	}
 	const auto MostExtra = static_cast<uint64_t>(double(CVarPieces.Get()) * Out.Counts.Mixed);
@@ -143,7 +132,7 @@ void CutPieces(const FSceneDescription& Description, const FScenePose& Pose,
 }
 
 void ClassifyGroup(FSceneDescription& Description, const FAlphaPyramid* Pyramid, std::vector<FMaskedSection>& Group,
-                   std::vector<FMeshOpacity>& Meshes, FOpacityCounts& Counts)
+    std::vector<FMeshOpacity>& Meshes, FOpacityCounts& Counts)
 {
 	for (FMaskedSection& Masked : Group)
 	{
@@ -151,9 +140,9 @@ void ClassifyGroup(FSceneDescription& Description, const FAlphaPyramid* Pyramid,
 		const int32_t Material = Mesh.Sections[Masked.Section].Material;
 		Masked.Test = MakeAlphaTest(Description, Description.Materials[Material], Pyramid);
 		constexpr uint64_t KeyToCome = 1; // materials have no indices on the GPU yet
-		AddCounts(ClassifySection(Masked.Test, KeyToCome, Mesh.Attributes.data(), Mesh.Indices.data(),
-		                          Meshes[Masked.Mesh].Sections[Masked.Section]),
-		          Counts);
+		AddCounts(ClassifySection(
+		              Masked.Test, KeyToCome, Mesh.Attributes.data(), Mesh.Indices.data(), Meshes[Masked.Mesh].Sections[Masked.Section]),
+		    Counts);
 	}
 }
 } // namespace
@@ -173,18 +162,16 @@ FSceneOpacity ClassifySceneOpacity(FSceneDescription& Description, const FSceneP
 	auto Groups = FindMaskedSections(Description);
 	std::vector<std::unique_ptr<FAlphaPyramid>> Pyramids(Groups.size());
 	std::vector<FOpacityCounts> Counts(Groups.size());
-	ParallelFor(Groups.size(), 1,
-	            [&](size_t Begin, size_t End)
-	            {
-		            for (size_t I = Begin; I < End; ++I)
-		            {
-			            if (const int32_t Image = Groups[I].first; Image >= 0)
-			            {
-				            Pyramids[I] = std::make_unique<FAlphaPyramid>(GetAlpha(Description.Images[Image]));
-			            }
-			            ClassifyGroup(Description, Pyramids[I].get(), Groups[I].second, Out.Meshes, Counts[I]);
-		            }
-	            });
+	ParallelFor(Groups.size(), 1, [&](size_t Begin, size_t End) {
+		for (size_t I = Begin; I < End; ++I)
+		{
+			if (const int32_t Image = Groups[I].first; Image >= 0)
+			{
+				Pyramids[I] = std::make_unique<FAlphaPyramid>(GetAlpha(Description.Images[Image]));
+			}
+			ClassifyGroup(Description, Pyramids[I].get(), Groups[I].second, Out.Meshes, Counts[I]);
+		}
+	});
 	std::vector<FMaskedSection> All;
 	for (size_t I = 0; I < Groups.size(); ++I)
 	{

@@ -10,8 +10,8 @@
 namespace Lantern
 {
 
-FRTStatus FHostScene::Create(FRenderer& Renderer, FSceneDescription InDescription, const std::function<void(float)>& Progress,
-                             std::unique_ptr<FHostScene>& Out)
+FRTStatus FHostScene::Create(
+    FRenderer& Renderer, FSceneDescription InDescription, const std::function<void(float)>& Progress, std::unique_ptr<FHostScene>& Out)
 {
 	std::unique_ptr<FHostScene> Host(new FHostScene(Renderer.GetDevice()));
 	Host->Description = std::move(InDescription);
@@ -47,7 +47,7 @@ FRTStatus FHostScene::UploadMesh(FUploader& Uploader, uint32_t Mesh)
 	FMeshBuffers& Buffers = Meshes[Mesh];
 	const auto Upload = [&](const auto& Values, ERTBufferUsage Usage, TRTRef<IRTBuffer>& Buffer) {
 		return Uploader.CreateBuffer(Source.Name.c_str(), Usage | ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput, Values.data(),
-		                             Values.size() * sizeof(Values[0]), Buffer);
+		    Values.size() * sizeof(Values[0]), Buffer);
 	};
 	if (FRTStatus S = Upload(Source.Positions, ERTBufferUsage::None, Buffers.Positions); !S) { return S; }
 	if (FRTStatus S = Upload(Source.Attributes, ERTBufferUsage::None, Buffers.Attributes); !S) { return S; }
@@ -82,7 +82,8 @@ FRTGeometryInfo FHostScene::MakeGeometryInfo(uint32_t Mesh) const
 	Info.Indices = Meshes[Mesh].Indices;
 	Info.VertexCount = static_cast<uint32_t>(Source.Positions.size());
 	Info.bHasTangents = Source.bHasTangents;
-	Info.bOpaqueVertices = std::all_of(Source.Attributes.begin(), Source.Attributes.end(), [](const FVertexAttributes& V) { return V.Color >= 0xff000000u; });
+	Info.bOpaqueVertices =
+	    std::all_of(Source.Attributes.begin(), Source.Attributes.end(), [](const FVertexAttributes& V) { return V.Color >= 0xff000000u; });
 	Info.Sections = Opacity.Meshes[Mesh].Sections;
 	for (size_t Section = 0; Section < Info.Sections.size(); ++Section)
 	{
@@ -101,7 +102,8 @@ FRTStatus FHostScene::CreateSkinnedGeometry(uint32_t Mesh, FRTGeometryRef& Out)
 	FRTGeometryInfo Info = MakeGeometryInfo(Mesh);
 	Info.bDynamic = true;
 	const auto CreateOutput = [&](IRTBuffer& Source, TRTRef<IRTBuffer>& Buffer) {
-		const FRTBufferDesc Desc{Source.GetDesc().Size, ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput, ERTMemory::Device, Info.Name.c_str()};
+		const FRTBufferDesc Desc{
+		    Source.GetDesc().Size, ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput, ERTMemory::Device, Info.Name.c_str()};
 		return Device.CreateBuffer(Desc, Buffer.ReleaseAndGetAddress());
 	};
 	TRTRef<IRTBuffer> Positions, Attributes;
@@ -131,7 +133,8 @@ FRTStatus FHostScene::CreateObjects()
 		const std::vector<int32_t>& Own = Description.Nodes[Node].Materials;
 		for (size_t Section = 0; Section < Description.Meshes[Mesh].Sections.size(); ++Section)
 		{
-			Info.Materials.push_back(static_cast<uint32_t>(Own.empty() ? Description.Meshes[Mesh].Sections[Section].Material : Own[Section]));
+			Info.Materials.push_back(
+			    static_cast<uint32_t>(Own.empty() ? Description.Meshes[Mesh].Sections[Section].Material : Own[Section]));
 		}
 		Info.Transform = Pose.World[Node];
 		Instance.Object = Scene.AddObject(Info);
@@ -160,8 +163,8 @@ uint32_t FHostScene::FindBatches(uint32_t Mesh, const std::vector<uint32_t>& Mat
 	{
 		const FRTSectionInfo& Info = Geometry.GetInfo().Sections[Section];
 		const FHostMaterial& Material = Description.Materials[Materials[Section]];
-		const FDrawBatch Batch{Geometry.GetInfo().Indices.Get(), Info.FirstIndex, Info.IndexCount, Section, Material.AlphaMode != EAlphaMode::Opaque,
-		                       Material.bDoubleSided, Scene.GetMaterialProgram(Materials[Section])};
+		const FDrawBatch Batch{Geometry.GetInfo().Indices.Get(), Info.FirstIndex, Info.IndexCount, Section,
+		    Material.AlphaMode != EAlphaMode::Opaque, Material.bDoubleSided, Scene.GetMaterialProgram(Materials[Section])};
 		std::vector<uint32_t>& OfMesh = BatchesOfMesh[Mesh];
 		const auto Found = std::find_if(OfMesh.begin(), OfMesh.end(), [&](uint32_t Index) { return Batches[Index] == Batch; });
 		if (Found != OfMesh.end())
@@ -185,10 +188,12 @@ FDrawSphere FHostScene::MakeDrawSphere(size_t Instance) const
 	const glm::dmat4& Transform = Scene.GetObject(Draws[Instance].Object).Transform;
 	const FHostMesh& Mesh = Description.Meshes[Description.Nodes[Instances[Instance].Node].Mesh];
 	// No direction is stretched by more than this (the Frobenius norm).
-	const double Scale2 = glm::dot(Transform[0], Transform[0]) + glm::dot(Transform[1], Transform[1]) + glm::dot(Transform[2], Transform[2]);
+	const double Scale2 =
+	    glm::dot(Transform[0], Transform[0]) + glm::dot(Transform[1], Transform[1]) + glm::dot(Transform[2], Transform[2]);
 	FDrawSphere Sphere;
 	Sphere.Center = glm::dvec3(Transform * glm::dvec4(0.5f * (Mesh.BoundsMin + Mesh.BoundsMax), 1.0));
-	Sphere.Radius = Instances[Instance].Skinned ? std::numeric_limits<double>::infinity() : std::sqrt(Scale2) * 0.5 * double(glm::length(Mesh.BoundsMax - Mesh.BoundsMin));
+	Sphere.Radius = Instances[Instance].Skinned ? std::numeric_limits<double>::infinity()
+	                                            : std::sqrt(Scale2) * 0.5 * double(glm::length(Mesh.BoundsMax - Mesh.BoundsMin));
 	Sphere.bMirrored = glm::determinant(glm::dmat3(Transform)) < 0.0;
 	return Sphere;
 }
@@ -252,8 +257,8 @@ std::vector<FSkinningInputs> FHostScene::SetTime(double Time)
 
 bool FHostScene::IsAnimated() const
 {
-	return !Description.Animations.empty() ||
-	       std::any_of(Description.Lights.begin(), Description.Lights.end(), [](const FHostLight& Light) { return Light.FlickerHz > 0.0f; });
+	return !Description.Animations.empty() || std::any_of(Description.Lights.begin(), Description.Lights.end(),
+	                                              [](const FHostLight& Light) { return Light.FlickerHz > 0.0f; });
 }
 
 void FHostScene::SetSceneLights(bool bEnabled)

@@ -76,7 +76,10 @@ FRTStatus FReferenceJob::CreateBuffers()
 	const uint64_t Size = uint64_t(Settings.View.Width) * Settings.View.Height * sizeof(glm::vec4);
 	const ERTBufferUsage Usage = ERTBufferUsage::Storage | ERTBufferUsage::CopySource | ERTBufferUsage::CopyDest;
 	if (FRTStatus S = Device.CreateBuffer({Size, Usage, ERTMemory::Device, "ReferenceSum"}, Sum.ReleaseAndGetAddress()); !S) { return S; }
-	if (FRTStatus S = Device.CreateBuffer({Size, Usage, ERTMemory::Readback, "ReferenceStaging"}, Staging.ReleaseAndGetAddress()); !S) { return S; }
+	if (FRTStatus S = Device.CreateBuffer({Size, Usage, ERTMemory::Readback, "ReferenceStaging"}, Staging.ReleaseAndGetAddress()); !S)
+	{
+		return S;
+	}
 	std::memset(Staging->GetMapped(), 0, Size);
 	return FRTStatus::Success();
 }
@@ -92,7 +95,8 @@ FStateHeader FReferenceJob::MakeHeader(uint32_t Samples) const
 	Header.What = static_cast<uint32_t>(ToReferenceSignal(Settings.Signal)) | (Settings.bPixelCenters ? PixelCentersBit : 0u) |
 	              (Settings.bRasterSurfaces ? RasterSurfacesBit : 0u);
 	const FView& View = Settings.View;
-	const double Camera[] = {View.Position.x, View.Position.y, View.Position.z, View.Forward.x, View.Forward.y, View.Forward.z, View.Up.x, View.Up.y, View.Up.z, View.FovY, Settings.Time};
+	const double Camera[] = {View.Position.x, View.Position.y, View.Position.z, View.Forward.x, View.Forward.y, View.Forward.z, View.Up.x,
+	    View.Up.y, View.Up.z, View.FovY, Settings.Time};
 	Header.Key = HashBytes(Camera, sizeof(Camera), HashBytes(Settings.SceneKey.data(), Settings.SceneKey.size(), 14695981039346656037ull));
 	return Header;
 }
@@ -107,7 +111,8 @@ FRTStatus FReferenceJob::LoadState(uint32_t& OutSamples)
 	const FStateHeader Wanted = MakeHeader(Header.Samples);
 	if (!File || std::memcmp(&Header, &Wanted, sizeof(Header)) != 0)
 	{
-		return MakeFileError(ERTResult::InvalidArgument, Settings.StateFile, "holds the state of another picture (scene, view, light or settings differ); remove it or leave --resume out");
+		return MakeFileError(ERTResult::InvalidArgument, Settings.StateFile,
+		    "holds the state of another picture (scene, view, light or settings differ); remove it or leave --resume out");
 	}
 	const uint64_t Size = Staging->GetDesc().Size;
 	File.read(static_cast<char*>(Staging->GetMapped()), static_cast<std::streamsize>(Size));
@@ -138,8 +143,10 @@ FRTStatus FReferenceJob::Copy(IRTBuffer& Dest, IRTBuffer& Source)
 	if (FRTStatus S = List->Begin(); !S) { return S; }
 	// Between copies the sum belongs to the path tracer, the staging buffer to the CPU.
 	const auto Resting = [&](IRTBuffer& Buffer) { return &Buffer == Sum.Get() ? ERTAccess::StorageWrite : ERTAccess::HostRead; };
-	const FRTBarrier Before[] = {{&Source, nullptr, Resting(Source), ERTAccess::CopyRead}, {&Dest, nullptr, Resting(Dest), ERTAccess::CopyWrite}};
-	const FRTBarrier After[] = {{&Source, nullptr, ERTAccess::CopyRead, Resting(Source)}, {&Dest, nullptr, ERTAccess::CopyWrite, Resting(Dest)}};
+	const FRTBarrier Before[] = {
+	    {&Source, nullptr, Resting(Source), ERTAccess::CopyRead}, {&Dest, nullptr, Resting(Dest), ERTAccess::CopyWrite}};
+	const FRTBarrier After[] = {
+	    {&Source, nullptr, ERTAccess::CopyRead, Resting(Source)}, {&Dest, nullptr, ERTAccess::CopyWrite, Resting(Dest)}};
 	List->Barriers(Before, 2);
 	List->CopyBuffer(&Dest, 0, &Source, 0, Dest.GetDesc().Size);
 	List->Barriers(After, 2);
@@ -210,7 +217,8 @@ FRTStatus FReferenceJob::Run(FReferenceResult& Out)
 			if (Settings.Progress)
 			{
 				const double Fraction = Done - First + double(Samples) * Row / Height;
-				Settings.Progress(First + Fraction, Settings.Samples, SecondsSince(Start) / std::max(Fraction, 1e-6) * (Settings.Samples - First - Fraction));
+				Settings.Progress(First + Fraction, Settings.Samples,
+				    SecondsSince(Start) / std::max(Fraction, 1e-6) * (Settings.Samples - First - Fraction));
 			}
 		}
 		Done += Samples;
@@ -230,7 +238,10 @@ FRTStatus FReferenceJob::Run(FReferenceResult& Out)
 	const auto* Sums = static_cast<const glm::vec4*>(Staging->GetMapped());
 	for (size_t I = 0; I < Out.Radiance.GetPixelCount(); ++I)
 	{
-		for (uint32_t C = 0; C < Channels; ++C) { Out.Radiance.Pixels[Channels * I + C] = Sums[I][static_cast<int>(C)] / std::max(Sums[I].w, 1.0f); }
+		for (uint32_t C = 0; C < Channels; ++C)
+		{
+			Out.Radiance.Pixels[Channels * I + C] = Sums[I][static_cast<int>(C)] / std::max(Sums[I].w, 1.0f);
+		}
 	}
 	return FRTStatus::Success();
 }

@@ -75,7 +75,9 @@ FRTStatus FSampleEngine::AddReadback(FFrameContext& Context, FGraphTexture Textu
 	Out.Height = Context.Height;
 	Out.Format = Context.Graph.GetDesc(Texture).Format;
 	const uint64_t Size = uint64_t(Out.Width) * Out.Height * BytesPerTexel(Out.Format);
-	if (FRTStatus S = Context.Device.CreateBuffer({Size, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Capture"}, Out.Buffer.ReleaseAndGetAddress()); !S)
+	if (FRTStatus S = Context.Device.CreateBuffer(
+	        {Size, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Capture"}, Out.Buffer.ReleaseAndGetAddress());
+	    !S)
 	{
 		return S;
 	}
@@ -118,9 +120,8 @@ void FSampleEngine::KeepSignals(const FFrameOutputs& Frame)
 	};
 	Keep(bPresent, Frame.Display);
 	const std::pair<bool, ESignal> Wanted[] = {{Signals.bSunShadow, ESignal::SunShadow},
-	                                           {Signals.bAmbientOcclusion, ESignal::AmbientOcclusion},
-	                                           {Signals.bDiffuseGI, ESignal::DiffuseGI},
-	                                           {Signals.bReflections, ESignal::Reflections}};
+	    {Signals.bAmbientOcclusion, ESignal::AmbientOcclusion}, {Signals.bDiffuseGI, ESignal::DiffuseGI},
+	    {Signals.bReflections, ESignal::Reflections}};
 	for (const auto& [bWanted, Signal] : Wanted) { Keep(bWanted, GetSignalTexture(Frame, Signal)); }
 }
 

@@ -19,10 +19,7 @@ struct FLocalTransform
 	glm::dvec3 Scale;
 };
 
-glm::dquat ToQuat(const glm::vec4& V)
-{
-	return glm::dquat(V.w, V.x, V.y, V.z);
-}
+glm::dquat ToQuat(const glm::vec4& V) { return glm::dquat(V.w, V.x, V.y, V.z); }
 
 glm::dvec4 NormalizeQuat(const glm::dvec4& V)
 {
@@ -33,17 +30,11 @@ glm::dvec4 NormalizeQuat(const glm::dvec4& V)
 /// The value between keys Key and Key + 1, at Fraction of their distance Span (seconds).
 glm::dvec4 Interpolate(const FHostChannel& Channel, size_t Key, double Fraction, double Span)
 {
-	if (Channel.Interpolation == EInterpolation::Step)
-	{
-		return Channel.Values[Key];
-	}
+	if (Channel.Interpolation == EInterpolation::Step) { return Channel.Values[Key]; }
 	if (Channel.Interpolation == EInterpolation::Linear)
 	{
 		const glm::dvec4 A(Channel.Values[Key]), B(Channel.Values[Key + 1]);
-		if (Channel.Path != EAnimationPath::Rotation)
-		{
-			return glm::mix(A, B, Fraction);
-		}
+		if (Channel.Path != EAnimationPath::Rotation) { return glm::mix(A, B, Fraction); }
 		const glm::dquat Q = glm::slerp(glm::normalize(ToQuat(A)), glm::normalize(ToQuat(B)), Fraction);
 		return {Q.x, Q.y, Q.z, Q.w};
 	}
@@ -60,14 +51,8 @@ glm::dvec4 Sample(const FHostChannel& Channel, double Time)
 	const size_t ValueOffset = Channel.Interpolation == EInterpolation::CubicSpline ? 1 : 0;
 	const size_t Stride = Channel.Interpolation == EInterpolation::CubicSpline ? 3 : 1;
 	const auto After = std::upper_bound(Times.begin(), Times.end(), Time);
-	if (After == Times.begin())
-	{
-		return Channel.Values[ValueOffset];
-	}
-	if (After == Times.end())
-	{
-		return Channel.Values[(Times.size() - 1) * Stride + ValueOffset];
-	}
+	if (After == Times.begin()) { return Channel.Values[ValueOffset]; }
+	if (After == Times.end()) { return Channel.Values[(Times.size() - 1) * Stride + ValueOffset]; }
 	const size_t Key = size_t(After - Times.begin()) - 1;
 	const double Span = double(Times[Key + 1]) - double(Times[Key]);
 	return Interpolate(Channel, Key, (Time - double(Times[Key])) / Span, Span);
@@ -99,7 +84,7 @@ glm::dmat4 Compose(const FLocalTransform& Local)
 {
 	const glm::dmat3 Rotation = glm::mat3_cast(Local.Rotation);
 	return {glm::dvec4(Rotation[0] * Local.Scale.x, 0), glm::dvec4(Rotation[1] * Local.Scale.y, 0),
-	        glm::dvec4(Rotation[2] * Local.Scale.z, 0), glm::dvec4(Local.Translation, 1)};
+	    glm::dvec4(Rotation[2] * Local.Scale.z, 0), glm::dvec4(Local.Translation, 1)};
 }
 
 void GrowBounds(const glm::dvec3& Point, bool& bAny, glm::dvec3& Min, glm::dvec3& Max)
@@ -110,8 +95,8 @@ void GrowBounds(const glm::dvec3& Point, bool& bAny, glm::dvec3& Min, glm::dvec3
 }
 
 /// The exact bounds of a skinned mesh as the pose bends it.
-void GrowSkinnedBounds(const FSceneDescription& Scene, const FScenePose& Pose, int32_t NodeIndex, bool& bAny,
-                       glm::dvec3& Min, glm::dvec3& Max)
+void GrowSkinnedBounds(
+    const FSceneDescription& Scene, const FScenePose& Pose, int32_t NodeIndex, bool& bAny, glm::dvec3& Min, glm::dvec3& Max)
 {
 	const FHostMesh& Mesh = Scene.Meshes[size_t(Scene.Nodes[size_t(NodeIndex)].Mesh)];
 	const std::vector<glm::mat4> Joints = EvaluateJoints(Scene, Pose, NodeIndex);
@@ -139,10 +124,7 @@ FScenePose EvaluatePose(const FSceneDescription& Scene, double Time)
 		const FHostNode& Node = Scene.Nodes[I];
 		Locals[I] = {Node.Translation, glm::dquat(Node.Rotation), glm::dvec3(Node.Scale)};
 	}
-	for (const FHostAnimation& Animation : Scene.Animations)
-	{
-		ApplyAnimation(Animation, Time, Locals);
-	}
+	for (const FHostAnimation& Animation : Scene.Animations) { ApplyAnimation(Animation, Time, Locals); }
 	for (size_t I = 0; I < Scene.Nodes.size(); ++I)
 	{
 		const FHostNode& Node = Scene.Nodes[I];
@@ -163,16 +145,12 @@ std::vector<glm::mat4> EvaluateJoints(const FSceneDescription& Scene, const FSce
 {
 	std::vector<glm::mat4> Joints;
 	const int32_t SkinIndex = Scene.Nodes[size_t(Node)].Skin;
-	if (SkinIndex < 0)
-	{
-		return Joints;
-	}
+	if (SkinIndex < 0) { return Joints; }
 	const FHostSkin& Skin = Scene.Skins[size_t(SkinIndex)];
 	const glm::dmat4& World = Pose.World[size_t(Node)];
 	// A node squashed flat has no inverse; what it shows is nothing anyway.
 	const double Determinant = glm::determinant(World);
-	const glm::dmat4 ToModel =
-	    Determinant != 0 && std::isfinite(1.0 / Determinant) ? glm::inverse(World) : glm::dmat4(1);
+	const glm::dmat4 ToModel = Determinant != 0 && std::isfinite(1.0 / Determinant) ? glm::inverse(World) : glm::dmat4(1);
 	Joints.reserve(Skin.Joints.size());
 	for (size_t I = 0; I < Skin.Joints.size(); ++I)
 	{
@@ -187,10 +165,7 @@ bool GetSceneBounds(const FSceneDescription& Scene, const FScenePose& Pose, glm:
 	for (size_t I = 0; I < Scene.Nodes.size(); ++I)
 	{
 		const FHostNode& Node = Scene.Nodes[I];
-		if (Node.Mesh < 0)
-		{
-			continue;
-		}
+		if (Node.Mesh < 0) { continue; }
 		if (Node.Skin >= 0)
 		{
 			GrowSkinnedBounds(Scene, Pose, int32_t(I), bAny, OutMin, OutMax);
@@ -200,8 +175,7 @@ bool GetSceneBounds(const FSceneDescription& Scene, const FScenePose& Pose, glm:
 		for (int Corner = 0; Corner < 8; ++Corner)
 		{
 			const glm::dvec3 Point((Corner & 1) != 0 ? Mesh.BoundsMax.x : Mesh.BoundsMin.x,
-			                       (Corner & 2) != 0 ? Mesh.BoundsMax.y : Mesh.BoundsMin.y,
-			                       (Corner & 4) != 0 ? Mesh.BoundsMax.z : Mesh.BoundsMin.z);
+			    (Corner & 2) != 0 ? Mesh.BoundsMax.y : Mesh.BoundsMin.y, (Corner & 4) != 0 ? Mesh.BoundsMax.z : Mesh.BoundsMin.z);
 			GrowBounds(glm::dvec3(Pose.World[I] * glm::dvec4(Point, 1)), bAny, OutMin, OutMax);
 		}
 	}

@@ -12,8 +12,7 @@ namespace Lantern
 std::string FContentHash::ToHex() const
 {
 	char Text[33];
-	std::snprintf(Text, sizeof(Text), "%016llx%016llx", static_cast<unsigned long long>(High),
-	              static_cast<unsigned long long>(Low));
+	std::snprintf(Text, sizeof(Text), "%016llx%016llx", static_cast<unsigned long long>(High), static_cast<unsigned long long>(Low));
 	return Text;
 }
 
@@ -36,10 +35,7 @@ FContentHasher::~FContentHasher() = default;
 
 void FContentHasher::AddBytes(const void* Data, size_t Size)
 {
-	if (Size > 0)
-	{
-		XXH3_128bits_update(State->Xxh, Data, Size);
-	}
+	if (Size > 0) { XXH3_128bits_update(State->Xxh, Data, Size); }
 }
 
 void FContentHasher::AddText(std::string_view Text)
@@ -64,10 +60,7 @@ public:
 	void AddList(const std::vector<T>& List)
 	{
 		Hash.Add(static_cast<uint64_t>(List.size()));
-		for (const T& Item : List)
-		{
-			Add(Item);
-		}
+		for (const T& Item : List) { Add(Item); }
 	}
 	/// Of values without padding: all at once.
 	template <class T>
@@ -81,10 +74,7 @@ public:
 	void AddOptional(const std::optional<T>& Value)
 	{
 		Hash.Add(Value.has_value());
-		if (Value)
-		{
-			AddFloats(*Value);
-		}
+		if (Value) { AddFloats(*Value); }
 	}
 	/// Vectors, quaternions and matrices.
 	template <class T>
@@ -104,10 +94,7 @@ public:
 		AddAll(V.Width, V.Height, V.bSrgb, V.bHasAlpha);
 		AddPlain(V.Rgba);
 	}
-	void Add(const FHostTexture& V)
-	{
-		AddAll(V.Image, V.bRepeatU, V.bRepeatV, V.bMirrorU, V.bMirrorV, V.bNearest);
-	}
+	void Add(const FHostTexture& V) { AddAll(V.Image, V.bRepeatU, V.bRepeatV, V.bMirrorU, V.bMirrorV, V.bNearest); }
 	void Add(const FHostTextureSlot& V)
 	{
 		AddAll(V.Texture, V.UVSet);
@@ -118,12 +105,9 @@ public:
 	{
 		AddFloats(V.BaseColor);
 		AddFloats(V.Emissive);
-		AddAll(V.Metallic, V.Roughness, V.NormalScale, V.OcclusionStrength, V.AlphaCutoff, V.Ior, V.Specular,
-		       V.Transmission, V.AlphaMode, V.bDoubleSided);
-		for (const FHostTextureSlot& Slot : V.Slots)
-		{
-			Add(Slot);
-		}
+		AddAll(V.Metallic, V.Roughness, V.NormalScale, V.OcclusionStrength, V.AlphaCutoff, V.Ior, V.Specular, V.Transmission, V.AlphaMode,
+		    V.bDoubleSided);
+		for (const FHostTextureSlot& Slot : V.Slots) { Add(Slot); }
 		Hash.AddText(V.Program);
 	}
 	void Add(const FHostSection& V) { AddAll(V.FirstIndex, V.IndexCount, V.Material); }
@@ -172,10 +156,7 @@ public:
 		Hash.Add(V.Type);
 		AddFloats(V.Color);
 		AddAll(V.Range, V.InnerCone, V.OuterCone);
-		if (V.FlickerHz > 0.0f)
-		{
-			AddAll(V.FlickerHz, V.FlickerDuty, V.FlickerPhase);
-		}
+		if (V.FlickerHz > 0.0f) { AddAll(V.FlickerHz, V.FlickerDuty, V.FlickerPhase); }
 	}
 
 	FContentHasher Hash;

@@ -32,14 +32,8 @@ FLoadResult Guard(const std::string& Name, const T& Import)
 	{
 		Result.Scene = Import();
 		const std::string Error = ValidateScene(*Result.Scene);
-		if (!Error.empty())
-		{
-			throw Gltf::FError(Error);
-		}
-		for (std::string& Warning : Result.Scene->Warnings)
-		{
-			Warning = MakeLine(Warning);
-		}
+		if (!Error.empty()) { throw Gltf::FError(Error); }
+		for (std::string& Warning : Result.Scene->Warnings) { Warning = MakeLine(Warning); }
 	}
 	catch (const std::bad_alloc&)
 	{
@@ -57,8 +51,7 @@ FLoadResult Guard(const std::string& Name, const T& Import)
 std::string GetLowerExtension(const std::filesystem::path& Path)
 {
 	std::string Extension = Path.extension().string();
-	std::transform(Extension.begin(), Extension.end(), Extension.begin(),
-	               [](unsigned char C) { return std::tolower(C); });
+	std::transform(Extension.begin(), Extension.end(), Extension.begin(), [](unsigned char C) { return std::tolower(C); });
 	return Extension;
 }
 
@@ -74,42 +67,34 @@ FLoadResult LoadScene(const std::string& PathOrBuiltinName, const FLoadOptions& 
 		if (Result.Scene)
 		{
 			const std::string Error = ValidateScene(*Result.Scene);
-			if (!Error.empty())
-			{
-				return {std::nullopt, fmt::format("{}: {}", EscapePath(PathOrBuiltinName), Error)};
-			}
+			if (!Error.empty()) { return {std::nullopt, fmt::format("{}: {}", EscapePath(PathOrBuiltinName), Error)}; }
 		}
 		return Result;
 	}
-	return Guard(PathOrBuiltinName,
-	             [&]
-	             {
-		             const std::filesystem::path Path(PathOrBuiltinName);
-		             const std::string Extension = GetLowerExtension(Path);
-		             if (Extension != ".gltf" && Extension != ".glb")
-		             {
-			             throw Gltf::FError("neither a .gltf or .glb file nor a built-in scene (" +
-			                                GetBuiltinSceneNames() + ")");
-		             }
-		             const std::vector<uint8_t> Data = Gltf::ReadFile(Path, MaxFileBytes);
-		             std::filesystem::path Folder = Path.parent_path();
-		             Folder = Folder.empty() ? std::filesystem::path(".") : Folder;
-		             FSceneDescription Scene = Gltf::ImportScene(Data, Folder, Options);
-		             Scene.Name = Path.filename().string();
-		             return Scene;
-	             });
+	return Guard(PathOrBuiltinName, [&] {
+		const std::filesystem::path Path(PathOrBuiltinName);
+		const std::string Extension = GetLowerExtension(Path);
+		if (Extension != ".gltf" && Extension != ".glb")
+		{
+			throw Gltf::FError("neither a .gltf or .glb file nor a built-in scene (" + GetBuiltinSceneNames() + ")");
+		}
+		const std::vector<uint8_t> Data = Gltf::ReadFile(Path, MaxFileBytes);
+		std::filesystem::path Folder = Path.parent_path();
+		Folder = Folder.empty() ? std::filesystem::path(".") : Folder;
+		FSceneDescription Scene = Gltf::ImportScene(Data, Folder, Options);
+		Scene.Name = Path.filename().string();
+		return Scene;
+	});
 }
 
 FLoadResult LoadSceneFromMemory(const void* Data, size_t Size, const std::string& Name, const FLoadOptions& Options)
 {
-	return Guard(Name,
-	             [&]
-	             {
-		             const Gltf::FBytes Bytes(static_cast<const uint8_t*>(Data), Size);
-		             FSceneDescription Scene = Gltf::ImportScene(Bytes, {}, Options);
-		             Scene.Name = Name;
-		             return Scene;
-	             });
+	return Guard(Name, [&] {
+		const Gltf::FBytes Bytes(static_cast<const uint8_t*>(Data), Size);
+		FSceneDescription Scene = Gltf::ImportScene(Bytes, {}, Options);
+		Scene.Name = Name;
+		return Scene;
+	});
 }
 
 } // namespace Lantern

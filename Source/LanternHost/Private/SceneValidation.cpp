@@ -16,20 +16,11 @@ namespace
 // Beyond this, squares of distances overflow a float on the GPU.
 constexpr double MaxCoordinate = 1e15;
 
-bool IsIndex(int32_t Index, size_t Size)
-{
-	return Index >= 0 && size_t(Index) < Size;
-}
+bool IsIndex(int32_t Index, size_t Size) { return Index >= 0 && size_t(Index) < Size; }
 
-bool IsIndexOrNone(int32_t Index, size_t Size)
-{
-	return Index == -1 || IsIndex(Index, Size);
-}
+bool IsIndexOrNone(int32_t Index, size_t Size) { return Index == -1 || IsIndex(Index, Size); }
 
-bool IsFinite(const glm::vec3& V)
-{
-	return std::isfinite(V.x) && std::isfinite(V.y) && std::isfinite(V.z);
-}
+bool IsFinite(const glm::vec3& V) { return std::isfinite(V.x) && std::isfinite(V.y) && std::isfinite(V.z); }
 
 std::string ValidateMaterials(const FSceneDescription& Scene)
 {
@@ -63,17 +54,13 @@ std::string ValidateMaterials(const FSceneDescription& Scene)
 
 std::string ValidateMesh(const FSceneDescription& Scene, const FHostMesh& Mesh)
 {
-	if (Mesh.Attributes.size() != Mesh.Positions.size() ||
-	    (!Mesh.Skin.empty() && Mesh.Skin.size() != Mesh.Positions.size()))
+	if (Mesh.Attributes.size() != Mesh.Positions.size() || (!Mesh.Skin.empty() && Mesh.Skin.size() != Mesh.Positions.size()))
 	{
 		return "positions and attributes differ in number";
 	}
 	for (size_t I = 0; I < Mesh.Positions.size(); ++I)
 	{
-		if (!IsFinite(Mesh.Positions[I]))
-		{
-			return fmt::format("the position of vertex {} is not finite", I);
-		}
+		if (!IsFinite(Mesh.Positions[I])) { return fmt::format("the position of vertex {} is not finite", I); }
 	}
 	for (size_t I = 0; I < Mesh.Indices.size(); ++I)
 	{
@@ -86,8 +73,7 @@ std::string ValidateMesh(const FSceneDescription& Scene, const FHostMesh& Mesh)
 	{
 		const FHostSection& Section = Mesh.Sections[I];
 		if (Section.IndexCount == 0 || Section.IndexCount % 3 != 0 ||
-		    uint64_t(Section.FirstIndex) + Section.IndexCount > Mesh.Indices.size() ||
-		    !IsIndex(Section.Material, Scene.Materials.size()))
+		    uint64_t(Section.FirstIndex) + Section.IndexCount > Mesh.Indices.size() || !IsIndex(Section.Material, Scene.Materials.size()))
 		{
 			return fmt::format("section {} is out of range", I);
 		}
@@ -109,8 +95,7 @@ std::vector<uint16_t> FindMaxJoints(const FSceneDescription& Scene)
 	return Result;
 }
 
-std::string ValidateNode(const FSceneDescription& Scene, const std::vector<uint16_t>& MaxJoints, const FHostNode& Node,
-                         size_t Index)
+std::string ValidateNode(const FSceneDescription& Scene, const std::vector<uint16_t>& MaxJoints, const FHostNode& Node, size_t Index)
 {
 	if (Node.Parent < -1 || Node.Parent >= int64_t(Index))
 	{
@@ -121,10 +106,7 @@ std::string ValidateNode(const FSceneDescription& Scene, const std::vector<uint1
 	{
 		return "mesh, light, camera or skin out of range";
 	}
-	if (Node.Skin >= 0 && (Node.Mesh < 0 || Scene.Meshes[size_t(Node.Mesh)].Skin.empty()))
-	{
-		return "has a skin but no skinned mesh";
-	}
+	if (Node.Skin >= 0 && (Node.Mesh < 0 || Scene.Meshes[size_t(Node.Mesh)].Skin.empty())) { return "has a skin but no skinned mesh"; }
 	if (Node.Skin >= 0 && size_t(MaxJoints[size_t(Node.Mesh)]) >= Scene.Skins[size_t(Node.Skin)].Joints.size())
 	{
 		return fmt::format("its mesh refers to joint {}, which its skin does not have", MaxJoints[size_t(Node.Mesh)]);
@@ -138,14 +120,8 @@ std::string ValidateSkins(const FSceneDescription& Scene)
 	{
 		const FHostSkin& Skin = Scene.Skins[I];
 		bool bValid = Skin.Joints.size() == Skin.InverseBind.size();
-		for (const int32_t Joint : Skin.Joints)
-		{
-			bValid = bValid && IsIndex(Joint, Scene.Nodes.size());
-		}
-		if (!bValid)
-		{
-			return fmt::format("skin {}: joints out of range", I);
-		}
+		for (const int32_t Joint : Skin.Joints) { bValid = bValid && IsIndex(Joint, Scene.Nodes.size()); }
+		if (!bValid) { return fmt::format("skin {}: joints out of range", I); }
 	}
 	for (size_t I = 0; I < Scene.Animations.size(); ++I)
 	{
@@ -167,8 +143,8 @@ std::string ValidateLights(const FSceneDescription& Scene)
 	for (size_t I = 0; I < Scene.Lights.size(); ++I)
 	{
 		const FHostLight& Light = Scene.Lights[I];
-		const bool bWave = Light.FlickerHz >= 0.0f && std::isfinite(Light.FlickerHz) &&
-		                   std::isfinite(Light.FlickerPhase) && Light.FlickerDuty >= 0.0f && Light.FlickerDuty <= 1.0f;
+		const bool bWave = Light.FlickerHz >= 0.0f && std::isfinite(Light.FlickerHz) && std::isfinite(Light.FlickerPhase) &&
+		                   Light.FlickerDuty >= 0.0f && Light.FlickerDuty <= 1.0f;
 		if (!bWave || (Light.FlickerHz > 0.0f && Light.Type == LIGHT_DIRECTIONAL))
 		{
 			return fmt::format("light {} {}: flickers as no light can", I, Quote(Light.Name));
@@ -187,8 +163,8 @@ std::string ValidatePlaces(const FSceneDescription& Scene)
 		{
 			if (!(std::abs(Pose.World[I][C / 4][C % 4]) < MaxCoordinate))
 			{
-				return fmt::format("node {} {}: its place or size in the world is beyond {:g} m", I,
-				                   Quote(Scene.Nodes[I].Name), MaxCoordinate);
+				return fmt::format(
+				    "node {} {}: its place or size in the world is beyond {:g} m", I, Quote(Scene.Nodes[I].Name), MaxCoordinate);
 			}
 		}
 	}
@@ -210,10 +186,7 @@ std::string ValidatePlaces(const FSceneDescription& Scene)
 
 std::string ValidateScene(const FSceneDescription& Scene)
 {
-	if (const std::string Error = ValidateMaterials(Scene); !Error.empty())
-	{
-		return Error;
-	}
+	if (const std::string Error = ValidateMaterials(Scene); !Error.empty()) { return Error; }
 	for (size_t I = 0; I < Scene.Meshes.size(); ++I)
 	{
 		if (const std::string Error = ValidateMesh(Scene, Scene.Meshes[I]); !Error.empty())
@@ -229,14 +202,8 @@ std::string ValidateScene(const FSceneDescription& Scene)
 			return fmt::format("node {} {}: {}", I, Quote(Scene.Nodes[I].Name), Error);
 		}
 	}
-	if (const std::string Error = ValidateSkins(Scene); !Error.empty())
-	{
-		return Error;
-	}
-	if (const std::string Error = ValidateLights(Scene); !Error.empty())
-	{
-		return Error;
-	}
+	if (const std::string Error = ValidateSkins(Scene); !Error.empty()) { return Error; }
+	if (const std::string Error = ValidateLights(Scene); !Error.empty()) { return Error; }
 	return ValidatePlaces(Scene);
 }
 

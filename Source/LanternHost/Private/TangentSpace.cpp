@@ -19,10 +19,7 @@ std::vector<glm::vec3> ComputeSmoothNormals(std::span<const glm::vec3> Positions
 	{
 		const glm::dvec3 A(Positions[Indices[I]]), B(Positions[Indices[I + 1]]), C(Positions[Indices[I + 2]]);
 		const glm::dvec3 Normal = glm::cross(B - A, C - A);
-		for (size_t Corner = 0; Corner < 3; ++Corner)
-		{
-			Sums[Indices[I + Corner]] += Normal;
-		}
+		for (size_t Corner = 0; Corner < 3; ++Corner) { Sums[Indices[I + Corner]] += Normal; }
 	}
 	std::vector<glm::vec3> Normals(Positions.size());
 	for (size_t I = 0; I < Sums.size(); ++I)
@@ -34,7 +31,7 @@ std::vector<glm::vec3> ComputeSmoothNormals(std::span<const glm::vec3> Positions
 }
 
 std::vector<glm::vec4> ComputeTangents(std::span<const glm::vec3> Positions, std::span<const glm::vec3> Normals,
-                                       std::span<const glm::vec2> UVs, std::span<const uint32_t> Indices)
+    std::span<const glm::vec2> UVs, std::span<const uint32_t> Indices)
 {
 	std::vector<glm::dvec3> Along(Positions.size(), glm::dvec3(0)), Across(Positions.size(), glm::dvec3(0));
 	for (size_t I = 0; I + 2 < Indices.size(); I += 3)
@@ -45,10 +42,7 @@ std::vector<glm::vec4> ComputeTangents(std::span<const glm::vec3> Positions, std
 		const glm::dvec2 OriginUV = UVs[A];
 		const glm::dvec2 D1 = glm::dvec2(UVs[B]) - OriginUV, D2 = glm::dvec2(UVs[C]) - OriginUV;
 		const double Determinant = D1.x * D2.y - D2.x * D1.y;
-		if (Determinant == 0 || !std::isfinite(Determinant))
-		{
-			continue;
-		}
+		if (Determinant == 0 || !std::isfinite(Determinant)) { continue; }
 		// The sign alone: dividing would let slivers in texture space outweigh everything else.
 		const double Sign = Determinant > 0 ? 1.0 : -1.0;
 		const glm::dvec3 Tangent = (E1 * D2.y - E2 * D1.y) * Sign;

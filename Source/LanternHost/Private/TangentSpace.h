@@ -20,6 +20,6 @@ std::vector<glm::vec3> ComputeSmoothNormals(std::span<const glm::vec3> Positions
 /// the triangles' UV gradients summed per vertex, made perpendicular to the normal. w: sign of the
 /// bitangent, which in glTF points towards smaller v.
 std::vector<glm::vec4> ComputeTangents(std::span<const glm::vec3> Positions, std::span<const glm::vec3> Normals,
-                                       std::span<const glm::vec2> UVs, std::span<const uint32_t> Indices);
+    std::span<const glm::vec2> UVs, std::span<const uint32_t> Indices);
 
 } // namespace Lantern

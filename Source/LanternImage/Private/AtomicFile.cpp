@@ -20,10 +20,7 @@ namespace fs = std::filesystem;
 namespace
 {
 
-std::string DescribeErrno(int Error)
-{
-	return std::generic_category().message(Error);
-}
+std::string DescribeErrno(int Error) { return std::generic_category().message(Error); }
 
 /// What is to be renamed over: through symbolic links, so that they survive, even to a file that is not there yet.
 fs::path ResolveTarget(const std::string& Path)
@@ -52,12 +49,11 @@ fs::path MakeTemporaryPath(const fs::path& Target)
 {
 	static std::atomic<unsigned> Counter{0};
 	static const unsigned Process = std::random_device()();
-	return GetFolder(Target) / (".lantern-" + std::to_string(getpid()) + "-" + std::to_string(Process) + "-" +
-	                            std::to_string(Counter.fetch_add(1)) + ".tmp");
+	return GetFolder(Target) /
+	       (".lantern-" + std::to_string(getpid()) + "-" + std::to_string(Process) + "-" + std::to_string(Counter.fetch_add(1)) + ".tmp");
 }
 
-FRTStatus CallGuarded(const std::string& Path, const std::function<FRTStatus(const std::string&)>& Write,
-                      const std::string& Temporary)
+FRTStatus CallGuarded(const std::string& Path, const std::function<FRTStatus(const std::string&)>& Write, const std::string& Temporary)
 {
 	try
 	{
@@ -72,10 +68,7 @@ FRTStatus CallGuarded(const std::string& Path, const std::function<FRTStatus(con
 FRTStatus WriteBytes(const std::string& Path, const std::string& Temporary, std::string_view Bytes)
 {
 	std::FILE* File = std::fopen(Temporary.c_str(), "wb");
-	if (!File)
-	{
-		return MakeFileError(ERTResult::IoError, Path, "cannot be written: " + DescribeErrno(errno));
-	}
+	if (!File) { return MakeFileError(ERTResult::IoError, Path, "cannot be written: " + DescribeErrno(errno)); }
 	bool bWritten = std::fwrite(Bytes.data(), 1, Bytes.size(), File) == Bytes.size();
 	int Error = errno;
 	if (std::fclose(File) != 0 && bWritten)
@@ -83,8 +76,7 @@ FRTStatus WriteBytes(const std::string& Path, const std::string& Temporary, std:
 		bWritten = false;
 		Error = errno;
 	}
-	return bWritten ? FRTStatus::Success()
-	                : MakeFileError(ERTResult::IoError, Path, "cannot be written: " + DescribeErrno(Error));
+	return bWritten ? FRTStatus::Success() : MakeFileError(ERTResult::IoError, Path, "cannot be written: " + DescribeErrno(Error));
 }
 
 } // namespace
@@ -104,10 +96,7 @@ FRTStatus CheckOutputPath(const std::string& Path)
 		return MakeFileError(ERTResult::IoError, Path, "cannot be written: its folder does not exist");
 	}
 	const fs::file_status Status = fs::status(Target, Error);
-	if (fs::is_directory(Status))
-	{
-		return MakeFileError(ERTResult::IoError, Path, "cannot be written: it is a folder");
-	}
+	if (fs::is_directory(Status)) { return MakeFileError(ERTResult::IoError, Path, "cannot be written: it is a folder"); }
 	if (fs::exists(Status) && !fs::is_regular_file(Status))
 	{
 		return MakeFileError(ERTResult::IoError, Path, "cannot be written: it is not a regular file");
@@ -124,13 +113,9 @@ FRTStatus CheckOutputPath(const std::string& Path)
 	return FRTStatus::Success();
 }
 
-FRTStatus WriteFileAtomically(const std::string& Path,
-                              const std::function<FRTStatus(const std::string& TemporaryPath)>& Write)
+FRTStatus WriteFileAtomically(const std::string& Path, const std::function<FRTStatus(const std::string& TemporaryPath)>& Write)
 {
-	if (FRTStatus Status = CheckOutputPath(Path); !Status)
-	{
-		return Status;
-	}
+	if (FRTStatus Status = CheckOutputPath(Path); !Status) { return Status; }
 	const fs::path Target = ResolveTarget(Path);
 	const fs::path Temporary = MakeTemporaryPath(Target);
 	std::error_code Ignored;
@@ -139,10 +124,7 @@ FRTStatus WriteFileAtomically(const std::string& Path,
 	{
 		std::error_code Error;
 		fs::rename(Temporary, Target, Error);
-		if (!Error)
-		{
-			return FRTStatus::Success();
-		}
+		if (!Error) { return FRTStatus::Success(); }
 		Status = MakeFileError(ERTResult::IoError, Path, "cannot be written: " + Error.message());
 	}
 	fs::remove(Temporary, Ignored);

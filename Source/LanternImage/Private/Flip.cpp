@@ -29,10 +29,7 @@ constexpr double MostStops = 24.0;
 // ACES curve of the paper: that of ToneMap.h with its input scaled by 0.6.
 constexpr double CurveInput = 0.6;
 
-float ToneMapForFlip(float Linear)
-{
-	return ToneMapAces(static_cast<float>(CurveInput) * Linear);
-}
+float ToneMapForFlip(float Linear) { return ToneMapAces(static_cast<float>(CurveInput) * Linear); }
 
 /// Where the curve reaches TargetLuminance: the positive root of a quadratic equation.
 double InvertCurve()
@@ -54,14 +51,9 @@ public:
 	{
 		FilterForFlip(Test, Kernels, Scratch, TestView);
 		FilterForFlip(Reference, Kernels, Scratch, ReferenceView);
-		ParallelFor(OutMap.GetPixelCount(), PixelGrain,
-		            [&](size_t Begin, size_t End)
-		            {
-			            for (size_t Pixel = Begin; Pixel < End; ++Pixel)
-			            {
-				            OutMap.Pixels[Pixel] = std::max(OutMap.Pixels[Pixel], ComputeError(Pixel));
-			            }
-		            });
+		ParallelFor(OutMap.GetPixelCount(), PixelGrain, [&](size_t Begin, size_t End) {
+			for (size_t Pixel = Begin; Pixel < End; ++Pixel) { OutMap.Pixels[Pixel] = std::max(OutMap.Pixels[Pixel], ComputeError(Pixel)); }
+		});
 	}
 
 private:
@@ -70,8 +62,8 @@ private:
 		const FColor3 A = {TestView.Lab[0][Pixel], TestView.Lab[1][Pixel], TestView.Lab[2][Pixel]};
 		const FColor3 B = {ReferenceView.Lab[0][Pixel], ReferenceView.Lab[1][Pixel], ReferenceView.Lab[2][Pixel]};
 		const float ColorError = ComputeFlipColorError(A, B);
-		const float Strongest = std::max(std::abs(TestView.Edge[Pixel] - ReferenceView.Edge[Pixel]),
-		                                 std::abs(TestView.Point[Pixel] - ReferenceView.Point[Pixel]));
+		const float Strongest = std::max(
+		    std::abs(TestView.Edge[Pixel] - ReferenceView.Edge[Pixel]), std::abs(TestView.Point[Pixel] - ReferenceView.Point[Pixel]));
 		// q_f = 0.5; 1/√2 since a feature can be full in both directions at once.
 		const float FeatureError = std::min(std::sqrt(Strongest * 0.70710678f), 1.0f);
 		return std::pow(ColorError, 1.0f - FeatureError);
@@ -87,26 +79,19 @@ private:
 template <class T>
 void MapValues(const FImage& Source, FImage& OutResult, const T& Function)
 {
-	ParallelFor(Source.Pixels.size(), PixelGrain,
-	            [&](size_t Begin, size_t End)
-	            {
-		            for (size_t Index = Begin; Index < End; ++Index)
-		            {
-			            OutResult.Pixels[Index] = Function(Source.Pixels[Index]);
-		            }
-	            });
+	ParallelFor(Source.Pixels.size(), PixelGrain, [&](size_t Begin, size_t End) {
+		for (size_t Index = Begin; Index < End; ++Index) { OutResult.Pixels[Index] = Function(Source.Pixels[Index]); }
+	});
 }
 
 FImage MakeDisplayLinear(const FImage& Image)
 {
 	FImage Color = MakeColorImage(Image);
 	const bool bDecode = Image.Space == EImageSpace::Display;
-	MapValues(Color, Color,
-	          [bDecode](float Value)
-	          {
-		          const float Clamped = std::clamp(Value, 0.0f, 1.0f);
-		          return bDecode ? SrgbToLinear(Clamped) : Clamped;
-	          });
+	MapValues(Color, Color, [bDecode](float Value) {
+		const float Clamped = std::clamp(Value, 0.0f, 1.0f);
+		return bDecode ? SrgbToLinear(Clamped) : Clamped;
+	});
 	return Color;
 }
 
@@ -126,10 +111,7 @@ FExposureRange FindExposures(const FImage& Reference)
 		Luminances[Pixel] = GetLuminance(Rgb[0], Rgb[1], Rgb[2]);
 	}
 	const double Largest = static_cast<double>(*std::max_element(Luminances.begin(), Luminances.end()));
-	if (Largest <= 0.0)
-	{
-		return {};
-	}
+	if (Largest <= 0.0) { return {}; }
 	// Of an even number, the metric's own tool takes the upper middle.
 	const auto Middle = Luminances.begin() + static_cast<ptrdiff_t>(Luminances.size() / 2);
 	std::nth_element(Luminances.begin(), Middle, Luminances.end());
@@ -199,10 +181,7 @@ FFlipPooled PoolFlip(const FImage& Map, const std::vector<uint8_t>& Mask)
 	std::vector<float> Errors;
 	for (size_t Pixel = 0; Pixel < Map.GetPixelCount(); ++Pixel)
 	{
-		if (Mask.empty() || Mask[Pixel] != 0)
-		{
-			Errors.push_back(Map.Pixels[Pixel]);
-		}
+		if (Mask.empty() || Mask[Pixel] != 0) { Errors.push_back(Map.Pixels[Pixel]); }
 	}
 	if (Errors.empty())
 	{
@@ -211,10 +190,7 @@ FFlipPooled PoolFlip(const FImage& Map, const std::vector<uint8_t>& Mask)
 	}
 	std::sort(Errors.begin(), Errors.end());
 	double Sum = 0.0;
-	for (const float Error : Errors)
-	{
-		Sum += static_cast<double>(Error);
-	}
+	for (const float Error : Errors) { Sum += static_cast<double>(Error); }
 	FFlipPooled Pooled;
 	Pooled.Mean = Sum / static_cast<double>(Errors.size());
 	double Below = 0.0;
@@ -222,10 +198,7 @@ FFlipPooled PoolFlip(const FImage& Map, const std::vector<uint8_t>& Mask)
 	{
 		Below += static_cast<double>(Error);
 		Pooled.WeightedMedian = static_cast<double>(Error);
-		if (Below >= 0.5 * Sum)
-		{
-			break;
-		}
+		if (Below >= 0.5 * Sum) { break; }
 	}
 	return Pooled;
 }

@@ -21,8 +21,8 @@ struct FMatrix3
 
 /// From the chromaticities of Rec.709 and the D65 white point (0.3127, 0.3290).
 constexpr FMatrix3 RgbToXyz = {{{10135552.0 / 24577794.0, 8788810.0 / 24577794.0, 4435075.0 / 24577794.0},
-                                {2613072.0 / 12288897.0, 8788810.0 / 12288897.0, 887015.0 / 12288897.0},
-                                {1425312.0 / 73733382.0, 8788810.0 / 73733382.0, 70074185.0 / 73733382.0}}};
+    {2613072.0 / 12288897.0, 8788810.0 / 12288897.0, 887015.0 / 12288897.0},
+    {1425312.0 / 73733382.0, 8788810.0 / 73733382.0, 70074185.0 / 73733382.0}}};
 
 /// By cofactors; indices wrap, which gives the signs.
 constexpr FMatrix3 Invert(const FMatrix3& A)
@@ -40,10 +40,7 @@ constexpr FMatrix3 Invert(const FMatrix3& A)
 	}
 	for (auto& Row : Inverse.M)
 	{
-		for (double& Value : Row)
-		{
-			Value /= Determinant;
-		}
+		for (double& Value : Row) { Value /= Determinant; }
 	}
 	return Inverse;
 }
@@ -54,10 +51,7 @@ constexpr FMatrix3 NormaliseToWhite(FMatrix3 A)
 	for (auto& Row : A.M)
 	{
 		const double White = Row[0] + Row[1] + Row[2];
-		for (double& Value : Row)
-		{
-			Value /= White;
-		}
+		for (double& Value : Row) { Value /= White; }
 	}
 	return A;
 }
@@ -72,10 +66,7 @@ constexpr FMatrix3f ToFloat(const FMatrix3& A)
 	FMatrix3f B;
 	for (int Row = 0; Row < 3; ++Row)
 	{
-		for (int Column = 0; Column < 3; ++Column)
-		{
-			B.M[Row][Column] = static_cast<float>(A.M[Row][Column]);
-		}
+		for (int Column = 0; Column < 3; ++Column) { B.M[Row][Column] = static_cast<float>(A.M[Row][Column]); }
 	}
 	return B;
 }
@@ -86,7 +77,7 @@ constexpr FMatrix3f RelativeXyzToRgb = ToFloat(Invert(NormaliseToWhite(RgbToXyz)
 FColor3 Multiply(const FMatrix3f& A, const FColor3& V)
 {
 	return {A.M[0][0] * V.X + A.M[0][1] * V.Y + A.M[0][2] * V.Z, A.M[1][0] * V.X + A.M[1][1] * V.Y + A.M[1][2] * V.Z,
-	        A.M[2][0] * V.X + A.M[2][1] * V.Y + A.M[2][2] * V.Z};
+	    A.M[2][0] * V.X + A.M[2][1] * V.Y + A.M[2][2] * V.Z};
 }
 
 /// CIELAB's cube root with its straight part near black.
@@ -106,8 +97,7 @@ float ComputeHyAb(const FColor3& A, const FColor3& B)
 /// The largest distance in the gamut, between green and blue.
 float GetLargestError()
 {
-	static const float Largest =
-	    std::pow(ComputeHyAb(LinearToHuntLab({0.0f, 1.0f, 0.0f}), LinearToHuntLab({0.0f, 0.0f, 1.0f})), Qc);
+	static const float Largest = std::pow(ComputeHyAb(LinearToHuntLab({0.0f, 1.0f, 0.0f}), LinearToHuntLab({0.0f, 0.0f, 1.0f})), Qc);
 	return Largest;
 }
 

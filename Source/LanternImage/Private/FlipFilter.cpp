@@ -47,10 +47,7 @@ static_assert(PlaneCount == std::extent_v<decltype(FFlipScratch::Planes)>);
 double Sum(const std::vector<double>& Weights)
 {
 	double Total = 0.0;
-	for (const double Weight : Weights)
-	{
-		Total += Weight;
-	}
+	for (const double Weight : Weights) { Total += Weight; }
 	return Total;
 }
 
@@ -70,10 +67,7 @@ FFlipKernel Finish(const std::vector<double>& Weights, double Scale)
 {
 	const size_t Centre = Weights.size() / 2;
 	size_t Radius = Centre;
-	while (Radius > 0 && Weights[Centre + Radius] < 1e-9 * Weights[Centre])
-	{
-		--Radius;
-	}
+	while (Radius > 0 && Weights[Centre + Radius] < 1e-9 * Weights[Centre]) { --Radius; }
 	FFlipKernel Kernel;
 	for (size_t Index = Centre - Radius; Index <= Centre + Radius; ++Index)
 	{
@@ -87,15 +81,9 @@ FFlipKernel FinishDerivative(const std::vector<double>& Weights)
 {
 	double Positive = 0.0;
 	double Negative = 0.0;
-	for (const double Weight : Weights)
-	{
-		(Weight > 0.0 ? Positive : Negative) += Weight;
-	}
+	for (const double Weight : Weights) { (Weight > 0.0 ? Positive : Negative) += Weight; }
 	FFlipKernel Kernel;
-	for (const double Weight : Weights)
-	{
-		Kernel.push_back(static_cast<float>(Weight > 0.0 ? Weight / Positive : Weight / -Negative));
-	}
+	for (const double Weight : Weights) { Kernel.push_back(static_cast<float>(Weight > 0.0 ? Weight / Positive : Weight / -Negative)); }
 	return Kernel;
 }
 
@@ -113,26 +101,18 @@ void MakeFeatureKernels(double PixelsPerDegree, FFlipKernels& OutKernels)
 		Point.push_back((Scaled * Scaled - 1.0) * Bell);
 	}
 	const double Total = Sum(Gaussian);
-	for (const double Weight : Gaussian)
-	{
-		OutKernels.Gaussian.push_back(static_cast<float>(Weight / Total));
-	}
+	for (const double Weight : Gaussian) { OutKernels.Gaussian.push_back(static_cast<float>(Weight / Total)); }
 	OutKernels.Edge = FinishDerivative(Edge);
 	OutKernels.Point = FinishDerivative(Point);
 }
 
-size_t GetRadius(const FFlipKernel& Kernel)
-{
-	return Kernel.size() / 2;
-}
+size_t GetRadius(const FFlipKernel& Kernel) { return Kernel.size() / 2; }
 
 /// One channel of a row with its ends repeated, so that the inner loop needs no test.
 class FPaddedRow
 {
 public:
-	FPaddedRow(size_t InCount, size_t InPadding) : Count(InCount), Padding(InPadding), Values(InCount + 2 * InPadding)
-	{
-	}
+	FPaddedRow(size_t InCount, size_t InPadding) : Count(InCount), Padding(InPadding), Values(InCount + 2 * InPadding) {}
 	float& operator[](size_t X) { return Values[Padding + X]; }
 	void RepeatEnds()
 	{
@@ -146,10 +126,7 @@ public:
 		for (size_t Tap = 0; Tap < Kernel.size(); ++Tap)
 		{
 			const float Weight = Kernel[Tap];
-			for (size_t X = 0; X < Count; ++X)
-			{
-				Out[X] += Weight * Source[X + Tap];
-			}
+			for (size_t X = 0; X < Count; ++X) { Out[X] += Weight * Source[X + Tap]; }
 		}
 	}
 
@@ -191,30 +168,22 @@ void FilterRows(const FImage& Image, const FFlipKernels& Kernels, FFlipScratch& 
 }
 
 /// Adds the column convolution of one plane at row Y to Out.
-void AddColumns(const std::vector<float>& Plane, size_t Width, size_t Height, size_t Y, const FFlipKernel& Kernel,
-                std::vector<float>& Out)
+void AddColumns(const std::vector<float>& Plane, size_t Width, size_t Height, size_t Y, const FFlipKernel& Kernel, std::vector<float>& Out)
 {
 	const ptrdiff_t Radius = static_cast<ptrdiff_t>(GetRadius(Kernel));
 	for (ptrdiff_t Tap = -Radius; Tap <= Radius; ++Tap)
 	{
-		const ptrdiff_t Row =
-		    std::clamp(static_cast<ptrdiff_t>(Y) + Tap, ptrdiff_t(0), static_cast<ptrdiff_t>(Height) - 1);
+		const ptrdiff_t Row = std::clamp(static_cast<ptrdiff_t>(Y) + Tap, ptrdiff_t(0), static_cast<ptrdiff_t>(Height) - 1);
 		const float Weight = Kernel[static_cast<size_t>(Tap + Radius)];
 		const float* Source = &Plane[static_cast<size_t>(Row) * Width];
-		for (size_t X = 0; X < Width; ++X)
-		{
-			Out[X] += Weight * Source[X];
-		}
+		for (size_t X = 0; X < Width; ++X) { Out[X] += Weight * Source[X]; }
 	}
 }
 
-float GetLength(float X, float Y)
-{
-	return std::sqrt(X * X + Y * Y);
-}
+float GetLength(float X, float Y) { return std::sqrt(X * X + Y * Y); }
 
-void FilterColumns(const FFlipScratch& Scratch, const FFlipKernels& Kernels, size_t Width, size_t Height, size_t Begin,
-                   size_t End, FFlipView& OutView)
+void FilterColumns(
+    const FFlipScratch& Scratch, const FFlipKernels& Kernels, size_t Width, size_t Height, size_t Begin, size_t End, FFlipView& OutView)
 {
 	enum
 	{
@@ -230,12 +199,10 @@ void FilterColumns(const FFlipScratch& Scratch, const FFlipKernels& Kernels, siz
 	std::vector<float> Sums[SumCount];
 	for (size_t Y = Begin; Y < End; ++Y)
 	{
-		for (std::vector<float>& Row : Sums)
-		{
-			Row.assign(Width, 0.0f);
-		}
-		const auto Add = [&](EPlane Plane, const FFlipKernel& Kernel, int Target)
-		{ AddColumns(Scratch.Planes[Plane], Width, Height, Y, Kernel, Sums[Target]); };
+		for (std::vector<float>& Row : Sums) { Row.assign(Width, 0.0f); }
+		const auto Add = [&](EPlane Plane, const FFlipKernel& Kernel, int Target) {
+			AddColumns(Scratch.Planes[Plane], Width, Height, Y, Kernel, Sums[Target]);
+		};
 		Add(PlaneAchromatic, Kernels.Achromatic, Achromatic);
 		Add(PlaneRedGreen, Kernels.RedGreen, RedGreen);
 		Add(PlaneBlueYellow0, Kernels.BlueYellow[0], BlueYellow);
@@ -246,8 +213,7 @@ void FilterColumns(const FFlipScratch& Scratch, const FFlipKernels& Kernels, siz
 		Add(PlaneGaussian, Kernels.Point, PointY);
 		for (size_t X = 0; X < Width; ++X)
 		{
-			const FColor3 Lab =
-			    LinearToHuntLab(YCxCzToLinear({Sums[Achromatic][X], Sums[RedGreen][X], Sums[BlueYellow][X]}));
+			const FColor3 Lab = LinearToHuntLab(YCxCzToLinear({Sums[Achromatic][X], Sums[RedGreen][X], Sums[BlueYellow][X]}));
 			const size_t Pixel = Y * Width + X;
 			OutView.Lab[0][Pixel] = Lab.X;
 			OutView.Lab[1][Pixel] = Lab.Y;
@@ -264,8 +230,7 @@ FFlipKernels MakeFlipKernels(float PixelsPerDegree)
 {
 	const double Ppd = static_cast<double>(PixelsPerDegree);
 	const int Radius = static_cast<int>(std::ceil(3.0 * std::sqrt(WidestB / (2.0 * Pi * Pi)) * Ppd));
-	const auto MakeNormalised = [&](const FSensitivity& Sensitivity)
-	{
+	const auto MakeNormalised = [&](const FSensitivity& Sensitivity) {
 		const std::vector<double> Weights = MakeBell(Sensitivity, Radius, Ppd);
 		return Finish(Weights, 1.0 / Sum(Weights));
 	};
@@ -284,10 +249,7 @@ FFlipKernels MakeFlipKernels(float PixelsPerDegree)
 		Amplitudes[Index] = Sensitivity.A * std::sqrt(Pi / Sensitivity.B);
 		Total += Amplitudes[Index] * Sum(Bells[Index]) * Sum(Bells[Index]);
 	}
-	for (int Index = 0; Index < 2; ++Index)
-	{
-		Kernels.BlueYellow[Index] = Finish(Bells[Index], std::sqrt(Amplitudes[Index] / Total));
-	}
+	for (int Index = 0; Index < 2; ++Index) { Kernels.BlueYellow[Index] = Finish(Bells[Index], std::sqrt(Amplitudes[Index] / Total)); }
 	MakeFeatureKernels(Ppd, Kernels);
 	return Kernels;
 }
@@ -296,19 +258,14 @@ void FilterForFlip(const FImage& LinearRgb, const FFlipKernels& Kernels, FFlipSc
 {
 	constexpr size_t RowGrain = 8;
 	const size_t PixelCount = LinearRgb.GetPixelCount();
-	for (std::vector<float>& Plane : Scratch.Planes)
-	{
-		Plane.resize(PixelCount);
-	}
+	for (std::vector<float>& Plane : Scratch.Planes) { Plane.resize(PixelCount); }
 	for (std::vector<float>* Plane : {&OutView.Lab[0], &OutView.Lab[1], &OutView.Lab[2], &OutView.Edge, &OutView.Point})
 	{
 		Plane->resize(PixelCount);
 	}
+	ParallelFor(LinearRgb.Height, RowGrain, [&](size_t Begin, size_t End) { FilterRows(LinearRgb, Kernels, Scratch, Begin, End); });
 	ParallelFor(LinearRgb.Height, RowGrain,
-	            [&](size_t Begin, size_t End) { FilterRows(LinearRgb, Kernels, Scratch, Begin, End); });
-	ParallelFor(LinearRgb.Height, RowGrain,
-	            [&](size_t Begin, size_t End)
-	            { FilterColumns(Scratch, Kernels, LinearRgb.Width, LinearRgb.Height, Begin, End, OutView); });
+	    [&](size_t Begin, size_t End) { FilterColumns(Scratch, Kernels, LinearRgb.Width, LinearRgb.Height, Begin, End, OutView); });
 }
 
 } // namespace Lantern

@@ -17,8 +17,7 @@ FImage::FImage(uint32_t InWidth, uint32_t InHeight, uint32_t InChannels, EImageS
 
 bool IsImageSizeValid(uint64_t Width, uint64_t Height)
 {
-	return Width > 0 && Height > 0 && Width <= MaxImageDimension && Height <= MaxImageDimension &&
-	       Width * Height <= MaxImagePixels;
+	return Width > 0 && Height > 0 && Width <= MaxImageDimension && Height <= MaxImageDimension && Width * Height <= MaxImagePixels;
 }
 
 FImage MakeColorImage(const FImage& Image)
@@ -28,10 +27,7 @@ FImage MakeColorImage(const FImage& Image)
 	for (size_t Pixel = 0; Pixel < Image.GetPixelCount(); ++Pixel)
 	{
 		const float* Source = &Image.Pixels[Pixel * Image.Channels];
-		for (size_t Channel = 0; Channel < 3; ++Channel)
-		{
-			Color.Pixels[Pixel * 3 + Channel] = Source[bGrey ? 0 : Channel];
-		}
+		for (size_t Channel = 0; Channel < 3; ++Channel) { Color.Pixels[Pixel * 3 + Channel] = Source[bGrey ? 0 : Channel]; }
 	}
 	return Color;
 }

@@ -24,8 +24,7 @@ enum class EImageFile : uint8_t
 	Exr,
 	Png
 };
-FRTStatus WriteWithLibrary(const std::string& Path, const std::string& Temporary, EImageFile Format,
-                           const FImage& Image);
+FRTStatus WriteWithLibrary(const std::string& Path, const std::string& Temporary, EImageFile Format, const FImage& Image);
 
 /// "32 x 0 is not a valid image size …"
 FRTStatus MakeSizeError(const std::string& Path, const std::string& Width, const std::string& Height);

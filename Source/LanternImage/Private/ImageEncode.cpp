@@ -54,7 +54,8 @@ std::string EncodePng(const FImage& Image)
 	std::string Out;
 	if (Image.IsEmpty()) { return Out; }
 	const std::vector<uint8_t> Bytes = MakeBytes(Image);
-	stbi_write_png_to_func(Append, &Out, static_cast<int>(Image.Width), static_cast<int>(Image.Height), 3, Bytes.data(), static_cast<int>(Image.Width) * 3);
+	stbi_write_png_to_func(
+	    Append, &Out, static_cast<int>(Image.Width), static_cast<int>(Image.Height), 3, Bytes.data(), static_cast<int>(Image.Width) * 3);
 	return Out;
 }
 
@@ -72,10 +73,7 @@ std::string EncodeBase64(std::string_view Bytes)
 	return Out;
 }
 
-std::string MakeJpegUri(const FImage& Image)
-{
-	return "data:image/jpeg;base64," + EncodeBase64(EncodeJpeg(Image));
-}
+std::string MakeJpegUri(const FImage& Image) { return "data:image/jpeg;base64," + EncodeBase64(EncodeJpeg(Image)); }
 
 FImage ShrinkImage(const FImage& Image, uint32_t MaxWidth)
 {

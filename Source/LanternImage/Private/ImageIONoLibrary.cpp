@@ -6,10 +6,7 @@
 namespace Lantern
 {
 
-bool IsImageLibraryPresent()
-{
-	return false;
-}
+bool IsImageLibraryPresent() { return false; }
 
 FRTStatus ReadWithLibrary(const std::string&, FImage&)
 {

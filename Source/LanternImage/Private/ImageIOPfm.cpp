@@ -33,19 +33,13 @@ struct FPfmHeader
 
 constexpr size_t LongestToken = 31;
 
-bool IsSpace(int Character)
-{
-	return Character == ' ' || Character == '\n' || Character == '\r' || Character == '\t';
-}
+bool IsSpace(int Character) { return Character == ' ' || Character == '\n' || Character == '\r' || Character == '\t'; }
 
 /// Next word of the header and the one white-space character after it; empty where there is none.
 std::string ReadToken(std::FILE* File)
 {
 	int Character = std::fgetc(File);
-	while (IsSpace(Character))
-	{
-		Character = std::fgetc(File);
-	}
+	while (IsSpace(Character)) { Character = std::fgetc(File); }
 	std::string Token;
 	while (Character != EOF && !IsSpace(Character) && Token.size() < LongestToken)
 	{
@@ -56,10 +50,7 @@ std::string ReadToken(std::FILE* File)
 	if (Character == '\r')
 	{
 		const int Next = std::fgetc(File);
-		if (Next != '\n' && Next != EOF)
-		{
-			std::ungetc(Next, File);
-		}
+		if (Next != '\n' && Next != EOF) { std::ungetc(Next, File); }
 	}
 	return IsSpace(Character) ? Token : std::string();
 }
@@ -88,8 +79,7 @@ FRTStatus ReadHeader(const std::string& Path, std::FILE* File, FPfmHeader& OutHe
 	{
 		return MakeFileError(ERTResult::IoError, Path, "its PFM header lacks a width and a height");
 	}
-	if (Sizes[0] < 0 || Sizes[1] < 0 ||
-	    !IsImageSizeValid(static_cast<uint64_t>(Sizes[0]), static_cast<uint64_t>(Sizes[1])))
+	if (Sizes[0] < 0 || Sizes[1] < 0 || !IsImageSizeValid(static_cast<uint64_t>(Sizes[0]), static_cast<uint64_t>(Sizes[1])))
 	{
 		return MakeSizeError(Path, Width, Height);
 	}
@@ -105,17 +95,11 @@ FRTStatus ReadHeader(const std::string& Path, std::FILE* File, FPfmHeader& OutHe
 	return FRTStatus::Success();
 }
 
-uint32_t SwapBytes(uint32_t Value)
-{
-	return (Value >> 24) | ((Value >> 8) & 0xFF00u) | ((Value << 8) & 0xFF0000u) | (Value << 24);
-}
+uint32_t SwapBytes(uint32_t Value) { return (Value >> 24) | ((Value >> 8) & 0xFF00u) | ((Value << 8) & 0xFF0000u) | (Value << 24); }
 
 void ToNativeOrder(float* Values, size_t Count, bool bLittleEndian)
 {
-	if (bLittleEndian == (std::endian::native == std::endian::little))
-	{
-		return;
-	}
+	if (bLittleEndian == (std::endian::native == std::endian::little)) { return; }
 	for (size_t Index = 0; Index < Count; ++Index)
 	{
 		Values[Index] = std::bit_cast<float>(SwapBytes(std::bit_cast<uint32_t>(Values[Index])));
@@ -127,15 +111,9 @@ void ToNativeOrder(float* Values, size_t Count, bool bLittleEndian)
 FRTStatus ReadPfm(const std::string& Path, FImage& OutImage)
 {
 	const FFilePointer File(std::fopen(Path.c_str(), "rb"));
-	if (!File)
-	{
-		return MakeFileError(ERTResult::IoError, Path, "cannot be read: " + std::generic_category().message(errno));
-	}
+	if (!File) { return MakeFileError(ERTResult::IoError, Path, "cannot be read: " + std::generic_category().message(errno)); }
 	FPfmHeader Header;
-	if (FRTStatus Status = ReadHeader(Path, File.get(), Header); !Status)
-	{
-		return Status;
-	}
+	if (FRTStatus Status = ReadHeader(Path, File.get(), Header); !Status) { return Status; }
 
 	// Before any memory is taken: a header of a few bytes may ask for gigabytes.
 	const uint64_t Needed = uint64_t(Header.Width) * Header.Height * Header.Channels * sizeof(float);
@@ -143,8 +121,7 @@ FRTStatus ReadPfm(const std::string& Path, FImage& OutImage)
 	if (Present < Needed)
 	{
 		return MakeFileError(ERTResult::IoError, Path,
-		                     "ends early: " + std::to_string(Needed) + " bytes of pixels needed, " +
-		                         std::to_string(Present) + " present");
+		    "ends early: " + std::to_string(Needed) + " bytes of pixels needed, " + std::to_string(Present) + " present");
 	}
 
 	OutImage = FImage(Header.Width, Header.Height, Header.Channels);
@@ -164,21 +141,17 @@ FRTStatus ReadPfm(const std::string& Path, FImage& OutImage)
 FRTStatus WritePfm(const std::string& Path, const std::string& Temporary, const FImage& Image)
 {
 	FFilePointer File(std::fopen(Temporary.c_str(), "wb"));
-	if (!File)
-	{
-		return MakeFileError(ERTResult::IoError, Path, "cannot be written: " + std::generic_category().message(errno));
-	}
+	if (!File) { return MakeFileError(ERTResult::IoError, Path, "cannot be written: " + std::generic_category().message(errno)); }
 	const uint32_t Channels = Image.GetColorChannels();
 	const size_t RowValues = size_t(Image.Width) * Channels;
-	bool bWritten =
-	    std::fprintf(File.get(), "%s\n%u %u\n-1.0\n", Channels == 3 ? "PF" : "Pf", Image.Width, Image.Height) > 0;
+	bool bWritten = std::fprintf(File.get(), "%s\n%u %u\n-1.0\n", Channels == 3 ? "PF" : "Pf", Image.Width, Image.Height) > 0;
 	std::vector<float> Row(RowValues);
 	for (uint32_t Y = Image.Height; Y-- > 0 && bWritten;)
 	{
 		for (uint32_t X = 0; X < Image.Width; ++X)
 		{
-			std::memcpy(&Row[size_t(X) * Channels], &Image.Pixels[(size_t(Y) * Image.Width + X) * Image.Channels],
-			            Channels * sizeof(float));
+			std::memcpy(
+			    &Row[size_t(X) * Channels], &Image.Pixels[(size_t(Y) * Image.Width + X) * Image.Channels], Channels * sizeof(float));
 		}
 		ToNativeOrder(Row.data(), RowValues, true);
 		bWritten = std::fwrite(Row.data(), sizeof(float), RowValues, File.get()) == RowValues;
@@ -190,8 +163,7 @@ FRTStatus WritePfm(const std::string& Path, const std::string& Temporary, const 
 		Error = errno;
 	}
 	return bWritten ? FRTStatus::Success()
-	                : MakeFileError(ERTResult::IoError, Path,
-	                                "cannot be written: " + std::generic_category().message(Error));
+	                : MakeFileError(ERTResult::IoError, Path, "cannot be written: " + std::generic_category().message(Error));
 }
 
 } // namespace Lantern

@@ -10,8 +10,7 @@ namespace Lantern
 
 float GetLuminance(const FImage& Image, uint32_t X, uint32_t Y)
 {
-	return Image.GetColorChannels() == 1 ? Image.At(X, Y, 0)
-	                                     : GetLuminance(Image.At(X, Y, 0), Image.At(X, Y, 1), Image.At(X, Y, 2));
+	return Image.GetColorChannels() == 1 ? Image.At(X, Y, 0) : GetLuminance(Image.At(X, Y, 0), Image.At(X, Y, 1), Image.At(X, Y, 2));
 }
 
 bool IsPixelFinite(const FImage& Image, size_t PixelIndex)
@@ -23,17 +22,11 @@ bool IsPixelFinite(const FImage& Image, size_t PixelIndex)
 uint64_t CountNonFinitePixels(const FImage& Image)
 {
 	uint64_t Count = 0;
-	for (size_t Pixel = 0; Pixel < Image.GetPixelCount(); ++Pixel)
-	{
-		Count += IsPixelFinite(Image, Pixel) ? 0 : 1;
-	}
+	for (size_t Pixel = 0; Pixel < Image.GetPixelCount(); ++Pixel) { Count += IsPixelFinite(Image, Pixel) ? 0 : 1; }
 	return Count;
 }
 
-FImageMeans ComputeMeans(const FImage& Image)
-{
-	return ComputeMeans(Image, 0, 0, Image.Width, Image.Height);
-}
+FImageMeans ComputeMeans(const FImage& Image) { return ComputeMeans(Image, 0, 0, Image.Width, Image.Height); }
 
 FImageMeans ComputeMeans(const FImage& Image, uint32_t X0, uint32_t Y0, uint32_t X1, uint32_t Y1)
 {
@@ -43,10 +36,7 @@ FImageMeans ComputeMeans(const FImage& Image, uint32_t X0, uint32_t Y0, uint32_t
 	{
 		for (uint32_t X = X0; X < std::min(X1, Image.Width); ++X)
 		{
-			if (!IsPixelFinite(Image, static_cast<size_t>(Y) * Image.Width + X))
-			{
-				continue;
-			}
+			if (!IsPixelFinite(Image, static_cast<size_t>(Y) * Image.Width + X)) { continue; }
 			for (uint32_t Channel = 0; Channel < Image.Channels; ++Channel)
 			{
 				Means.Channel[Channel] += static_cast<double>(Image.At(X, Y, Channel));
@@ -59,15 +49,9 @@ FImageMeans ComputeMeans(const FImage& Image, uint32_t X0, uint32_t Y0, uint32_t
 	}
 	const double NaN = std::numeric_limits<double>::quiet_NaN();
 	const double Scale = Means.PixelCount > 0 ? 1.0 / static_cast<double>(Means.PixelCount) : NaN;
-	for (uint32_t Channel = 0; Channel < Image.Channels; ++Channel)
-	{
-		Means.Channel[Channel] *= Scale;
-	}
+	for (uint32_t Channel = 0; Channel < Image.Channels; ++Channel) { Means.Channel[Channel] *= Scale; }
 	Means.Luminance *= Scale;
-	if (Means.PixelCount == 0)
-	{
-		Means.MaxLuminance = NaN;
-	}
+	if (Means.PixelCount == 0) { Means.MaxLuminance = NaN; }
 	return Means;
 }
 
@@ -87,10 +71,7 @@ std::vector<double> ComputeBlockMeans(const FImage& Image, uint32_t BlockSize)
 
 double ComputePercentile(std::vector<double> Values, double Fraction)
 {
-	if (Values.empty())
-	{
-		return std::numeric_limits<double>::quiet_NaN();
-	}
+	if (Values.empty()) { return std::numeric_limits<double>::quiet_NaN(); }
 	std::sort(Values.begin(), Values.end());
 	const double Rank = std::clamp(Fraction, 0.0, 1.0) * static_cast<double>(Values.size() - 1);
 	const size_t Below = static_cast<size_t>(Rank);

@@ -19,20 +19,17 @@ constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
 FRTStatus CheckComparable(const FImage& A, const FImage& B)
 {
-	if (A.IsEmpty() || B.IsEmpty())
-	{
-		return FRTStatus::Error(ERTResult::InvalidArgument, "an image without pixels cannot be compared");
-	}
+	if (A.IsEmpty() || B.IsEmpty()) { return FRTStatus::Error(ERTResult::InvalidArgument, "an image without pixels cannot be compared"); }
 	if (A.Width != B.Width || A.Height != B.Height)
 	{
-		return FRTStatus::Error(ERTResult::InvalidArgument, "the images differ in size: %u x %u and %u x %u", A.Width,
-		                        A.Height, B.Width, B.Height);
+		return FRTStatus::Error(
+		    ERTResult::InvalidArgument, "the images differ in size: %u x %u and %u x %u", A.Width, A.Height, B.Width, B.Height);
 	}
 	if (A.Space != B.Space)
 	{
 		return FRTStatus::Error(ERTResult::InvalidArgument,
-		                        "one image holds radiance (EXR, PFM), the other a display picture (PNG): their values "
-		                        "cannot be compared");
+		    "one image holds radiance (EXR, PFM), the other a display picture (PNG): their values "
+		    "cannot be compared");
 	}
 	return FRTStatus::Success();
 }
@@ -60,24 +57,15 @@ FPair MakePair(const FImage& A, const FImage& B, uint64_t OutNonFinite[2])
 		{
 			float& ValueA = Pair.A.Pixels[Index];
 			float& ValueB = Pair.B.Pixels[Index];
-			if (!bFinite[0])
-			{
-				ValueA = bFinite[1] ? ValueB : 0.0f;
-			}
-			if (!bFinite[1])
-			{
-				ValueB = bFinite[0] ? ValueA : 0.0f;
-			}
+			if (!bFinite[0]) { ValueA = bFinite[1] ? ValueB : 0.0f; }
+			if (!bFinite[1]) { ValueB = bFinite[0] ? ValueA : 0.0f; }
 		}
 	}
 	return Pair;
 }
 
 /// 0/0 is equal, hence 1; anything else over 0 is infinite.
-double ComputeRatio(double A, double B)
-{
-	return A == B && !std::isnan(A) ? 1.0 : A / B;
-}
+double ComputeRatio(double A, double B) { return A == B && !std::isnan(A) ? 1.0 : A / B; }
 
 void ComputeErrors(const FPair& Pair, FImageMetrics& OutMetrics)
 {
@@ -88,10 +76,7 @@ void ComputeErrors(const FPair& Pair, FImageMetrics& OutMetrics)
 	uint64_t Count = 0;
 	for (size_t Pixel = 0; Pixel < Pair.Mask.size(); ++Pixel)
 	{
-		if (!Pair.Counts(Pixel))
-		{
-			continue;
-		}
+		if (!Pair.Counts(Pixel)) { continue; }
 		for (size_t Channel = 0; Channel < 3; ++Channel)
 		{
 			const double A = static_cast<double>(Pair.A.Pixels[Pixel * 3 + Channel]);
@@ -109,15 +94,9 @@ void ComputeErrors(const FPair& Pair, FImageMetrics& OutMetrics)
 	OutMetrics.Mse = Squares * Scale;
 	OutMetrics.Rmse = std::sqrt(OutMetrics.Mse);
 	OutMetrics.RelMse = RelativeSquares * Scale;
-	if (Pair.B.Space == EImageSpace::Display)
-	{
-		Peak = 1.0;
-	}
+	if (Pair.B.Space == EImageSpace::Display) { Peak = 1.0; }
 	OutMetrics.Psnr = 10.0 * std::log10(Peak * Peak / OutMetrics.Mse);
-	if (OutMetrics.Mse == 0.0)
-	{
-		OutMetrics.Psnr = std::numeric_limits<double>::infinity();
-	}
+	if (OutMetrics.Mse == 0.0) { OutMetrics.Psnr = std::numeric_limits<double>::infinity(); }
 	for (size_t Channel = 0; Channel < 3; ++Channel)
 	{
 		OutMetrics.MeanRatio[Channel] = Count > 0 ? ComputeRatio(Sums[0][Channel], Sums[1][Channel]) : NaN;
@@ -130,10 +109,7 @@ void ComputeBlocks(const FPair& Pair, FImageMetrics& OutMetrics)
 	FImage Masked[2] = {Pair.A, Pair.B};
 	for (size_t Pixel = 0; Pixel < Pair.Mask.size(); ++Pixel)
 	{
-		if (!Pair.Counts(Pixel))
-		{
-			Masked[0].Pixels[Pixel * 3] = Masked[1].Pixels[Pixel * 3] = std::numeric_limits<float>::quiet_NaN();
-		}
+		if (!Pair.Counts(Pixel)) { Masked[0].Pixels[Pixel * 3] = Masked[1].Pixels[Pixel * 3] = std::numeric_limits<float>::quiet_NaN(); }
 	}
 	const std::vector<double> MeansA = ComputeBlockMeans(Masked[0], BlockSize);
 	const std::vector<double> MeansB = ComputeBlockMeans(Masked[1], BlockSize);
@@ -153,16 +129,12 @@ void ComputeBlocks(const FPair& Pair, FImageMetrics& OutMetrics)
 
 FRTStatus CompareImages(const FImage& A, const FImage& B, FImageMetrics& OutMetrics)
 {
-	if (FRTStatus Status = CheckComparable(A, B); !Status)
-	{
-		return Status;
-	}
+	if (FRTStatus Status = CheckComparable(A, B); !Status) { return Status; }
 	OutMetrics = FImageMetrics();
 	const FPair Pair = MakePair(A, B, OutMetrics.NonFinite);
 	ComputeErrors(Pair, OutMetrics);
 	ComputeBlocks(Pair, OutMetrics);
-	OutMetrics.FlipResult =
-	    B.Space == EImageSpace::Linear ? ComputeHdrFlip(Pair.A, Pair.B) : ComputeFlip(Pair.A, Pair.B);
+	OutMetrics.FlipResult = B.Space == EImageSpace::Linear ? ComputeHdrFlip(Pair.A, Pair.B) : ComputeFlip(Pair.A, Pair.B);
 	const FFlipPooled Pooled = PoolFlip(OutMetrics.FlipResult.Map, Pair.Mask);
 	OutMetrics.Flip = Pooled.Mean;
 	OutMetrics.FlipWeightedMedian = Pooled.WeightedMedian;

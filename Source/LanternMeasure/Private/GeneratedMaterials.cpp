@@ -23,8 +23,7 @@ std::string MakeLayer(std::mt19937_64& Random)
 {
 	const auto Below = [&](uint32_t Limit) { return static_cast<uint32_t>(Random() % Limit); };
 	const auto Number = [&] { return fmt::format("{:.6f}", 0.05 + double(Below(1'000'000)) / 250'000.0); };
-	const std::string UV =
-	    fmt::format("(I.UV{} * vec2({}, {}) + vec2({}, {}))", Below(2), Number(), Number(), Number(), Number());
+	const std::string UV = fmt::format("(I.UV{} * vec2({}, {}) + vec2({}, {}))", Below(2), Number(), Number(), Number(), Number());
 	std::string Pattern;
 	switch (Below(5))
 	{
@@ -32,21 +31,16 @@ std::string MakeLayer(std::mt19937_64& Random)
 	case 1: Pattern = fmt::format("0.5 + 0.5 * sin(dot({}, vec2({}, {})))", UV, Number(), Number()); break;
 	case 2: Pattern = fmt::format("smoothstep(0.2, 0.8, Noise({}) * Noise({} * {}))", UV, UV, Number()); break;
 	case 3:
-		Pattern = fmt::format("pow(1.0 - abs(dot(S.Normal, normalize(vec3({}, {}, {})))), {})", Number(), Number(),
-		                      Number(), Number());
+		Pattern = fmt::format("pow(1.0 - abs(dot(S.Normal, normalize(vec3({}, {}, {})))), {})", Number(), Number(), Number(), Number());
 		break;
 	default: Pattern = fmt::format("step({}, fract({}.x) * fract({}.y))", Number(), UV, UV); break;
 	}
 	std::string Layer = fmt::format("\t{{\n\t\tfloat W = clamp({}, 0.0, 1.0) * {} * 0.2;\n", Pattern, Number());
-	Layer +=
-	    fmt::format("\t\tS.BaseColor = mix(S.BaseColor, vec3({}, {}, {}) * 0.2, W);\n", Number(), Number(), Number());
+	Layer += fmt::format("\t\tS.BaseColor = mix(S.BaseColor, vec3({}, {}, {}) * 0.2, W);\n", Number(), Number(), Number());
 	switch (Below(4))
 	{
 	case 0: Layer += fmt::format("\t\tS.Roughness = mix(S.Roughness, {} * 0.2, W);\n", Number()); break;
-	case 1:
-		Layer += fmt::format("\t\tS.Normal = normalize(S.Normal + W * vec3({}, {}, {}) * 0.1);\n", Number(), Number(),
-		                     Number());
-		break;
+	case 1: Layer += fmt::format("\t\tS.Normal = normalize(S.Normal + W * vec3({}, {}, {}) * 0.1);\n", Number(), Number(), Number()); break;
 	case 2: Layer += fmt::format("\t\tS.Metallic = clamp(S.Metallic + W * {}, 0.0, 1.0);\n", Number()); break;
 	default:
 		Layer += "\t\tif (HasTexture(M, TEXTURE_BASE_COLOR)) { S.BaseColor *= mix(vec3(1.0), MaterialTexture(M, I, "
@@ -68,22 +62,18 @@ FMaterialProgramDesc MakeBenchProgram(uint32_t Index, uint64_t Salt)
 	std::mt19937_64 Random(Salt ^ (uint64_t(Index) * 0x9e3779b97f4a7c15ull));
 	FMaterialProgramDesc Desc;
 	Desc.Name = fmt::format("Bench{}", Index);
-	Desc.Text =
-	    "#include \"Materials/Standard.glsl\"\n"
-	    "float Noise(vec2 P)\n{\n"
-	    "\tvec2 C = floor(P), F = fract(P);\n"
-	    "\tvec4 H = fract(sin(vec4(dot(C, vec2(127.1, 311.7))) + vec4(0.0, 127.1, 311.7, 438.8)) * 43758.5453);\n"
-	    "\tvec2 U = F * F * (3.0 - 2.0 * F);\n"
-	    "\treturn mix(mix(H.x, H.y, U.x), mix(H.z, H.w, U.x), U.y);\n}\n"
-	    "FMaterialSurface EvaluateMaterial(FMaterialData M, FMaterialInputs I, uint Override)\n{\n"
-	    "\tFMaterialSurface S = EvaluateStandard(M, I, Override);\n";
-	Desc.Text += fmt::format("\tS.BaseColor *= 1.0 + 1.0e-9 * fract(I.UV0.x * {:.9g});\n",
-	                         std::bit_cast<float>(MarkBits + (Index & ~MarkMask)));
+	Desc.Text = "#include \"Materials/Standard.glsl\"\n"
+	            "float Noise(vec2 P)\n{\n"
+	            "\tvec2 C = floor(P), F = fract(P);\n"
+	            "\tvec4 H = fract(sin(vec4(dot(C, vec2(127.1, 311.7))) + vec4(0.0, 127.1, 311.7, 438.8)) * 43758.5453);\n"
+	            "\tvec2 U = F * F * (3.0 - 2.0 * F);\n"
+	            "\treturn mix(mix(H.x, H.y, U.x), mix(H.z, H.w, U.x), U.y);\n}\n"
+	            "FMaterialSurface EvaluateMaterial(FMaterialData M, FMaterialInputs I, uint Override)\n{\n"
+	            "\tFMaterialSurface S = EvaluateStandard(M, I, Override);\n";
+	Desc.Text +=
+	    fmt::format("\tS.BaseColor *= 1.0 + 1.0e-9 * fract(I.UV0.x * {:.9g});\n", std::bit_cast<float>(MarkBits + (Index & ~MarkMask)));
 	const uint32_t Layers = 6 + static_cast<uint32_t>(Random() % 8);
-	for (uint32_t Layer = 0; Layer < Layers; ++Layer)
-	{
-		Desc.Text += MakeLayer(Random);
-	}
+	for (uint32_t Layer = 0; Layer < Layers; ++Layer) { Desc.Text += MakeLayer(Random); }
 	Desc.Text += "\treturn S;\n}\n";
 	return Desc;
 }
@@ -114,43 +104,32 @@ void main()
 	return Source;
 }
 
-FRTStatus CompileBenchShaders(FShaderCompiler& Compiler, uint32_t Count, uint32_t Threads, FBenchShaders& Out,
-                              double& OutMs)
+FRTStatus CompileBenchShaders(FShaderCompiler& Compiler, uint32_t Count, uint32_t Threads, FBenchShaders& Out, double& OutMs)
 {
 	FShaderSource RayGen = MakeBenchRayGen();
 	RayGen.Stage = ERTShaderStage::RayGen;
 	RayGen.Defines = {{"RAY_TYPES", "2"}, {"MATERIAL_RAY", "1"}, {"MATERIAL_MISS", "1"}};
-	if (FRTStatus S = Compiler.Compile(RayGen, Out.RayGen); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = Compiler.Compile(RayGen, Out.RayGen); !S) { return S; }
 	for (const char* Path : {"Rays/Shadow.rmiss", "Rays/Material.rmiss"})
 	{
-		if (FRTStatus S = Compiler.Compile({Path, ERTShaderStage::Miss, {}, {}}, Out.Misses.emplace_back()); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = Compiler.Compile({Path, ERTShaderStage::Miss, {}, {}}, Out.Misses.emplace_back()); !S) { return S; }
 	}
 	FMaterialPrograms Programs;
 	const uint64_t Salt = MakeSalt();
 	std::vector<FShaderSource> Sources;
 	for (uint32_t Index = 0; Index < Count; ++Index)
 	{
-		Sources.push_back(Programs.MakeSource({"Rays/Material.rchit", ERTShaderStage::ClosestHit, {}, {}},
-		                                      Programs.Add(MakeBenchProgram(Index, Salt))));
+		Sources.push_back(
+		    Programs.MakeSource({"Rays/Material.rchit", ERTShaderStage::ClosestHit, {}, {}}, Programs.Add(MakeBenchProgram(Index, Salt))));
 	}
 	Out.Hits.resize(Count);
 	std::vector<FRTStatus> Results(Count);
 	const auto Start = std::chrono::steady_clock::now();
-	RunOnThreads(Threads, Count,
-	             [&](uint32_t Index) { Results[Index] = Compiler.Compile(Sources[Index], Out.Hits[Index]); });
+	RunOnThreads(Threads, Count, [&](uint32_t Index) { Results[Index] = Compiler.Compile(Sources[Index], Out.Hits[Index]); });
 	OutMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - Start).count();
 	for (const FRTStatus& Result : Results)
 	{
-		if (!Result)
-		{
-			return Result;
-		}
+		if (!Result) { return Result; }
 	}
 	return FRTStatus::Success();
 }
@@ -166,25 +145,16 @@ bool RenewShaders(FBenchShaders& Shaders)
 		for (size_t Word = HeaderWords; Word < Hit.Words.size() && !bFound;)
 		{
 			const uint32_t Length = Hit.Words[Word] >> 16;
-			if (Length == 0)
-			{
-				return false;
-			}
+			if (Length == 0) { return false; }
 			if ((Hit.Words[Word] & 0xffffu) == OpConstant && Length == 4)
 			{
 				const uint32_t Value = Hit.Words[Word + 3];
 				bFound = (Value & MarkMask) == MarkBits || (Value >= RenewedBits && Value < RenewedBits + RenewedCount);
-				if (bFound)
-				{
-					Hit.Words[Word + 3] = RenewedBits + Next++ % RenewedCount;
-				}
+				if (bFound) { Hit.Words[Word + 3] = RenewedBits + Next++ % RenewedCount; }
 			}
 			Word += Length;
 		}
-		if (!bFound)
-		{
-			return false;
-		}
+		if (!bFound) { return false; }
 	}
 	return true;
 }

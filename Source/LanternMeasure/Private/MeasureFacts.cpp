@@ -33,7 +33,8 @@ std::vector<FFact> FindFacts(FSampleEngine& Engine)
 		               if (bWithout) { Light.Irradiance = 0.0f; }
 		               E.GetScene().SetSun(Light);
 	               }});
-	Out.push_back({"sky", Facts.bSky, [Sky](FSampleEngine& E, bool bWithout) { E.GetScene().GetScene().SetSky(bWithout ? glm::vec3(0) : Sky); }});
+	Out.push_back(
+	    {"sky", Facts.bSky, [Sky](FSampleEngine& E, bool bWithout) { E.GetScene().GetScene().SetSky(bWithout ? glm::vec3(0) : Sky); }});
 	std::erase_if(Out, [](const FFact& Fact) { return !Fact.bThere; });
 	return Out;
 }
@@ -77,8 +78,8 @@ FRTStatus PlayWithout(FRound& Round, const FFact& Fact, std::vector<double>& Out
 }
 } // namespace
 
-FRTStatus MeasureFacts(FSampleEngine& Engine, const FMethods& Methods, const FMethod* Method, const FMethodPreset* Preset, const FFactSettings& Settings,
-                       std::vector<FFactCost>& Out, EMeasureEnd& OutEnd)
+FRTStatus MeasureFacts(FSampleEngine& Engine, const FMethods& Methods, const FMethod* Method, const FMethodPreset* Preset,
+    const FFactSettings& Settings, std::vector<FFactCost>& Out, EMeasureEnd& OutEnd)
 {
 	OutEnd = EMeasureEnd::Done;
 	FMethodScope Scope;

@@ -171,7 +171,10 @@ std::optional<double> ComputeLeak(const FImage& F, const FImage& R)
 	{
 		const float* const Reference = &R.Pixels[Pixel * R.Channels];
 		const float* const Value = &F.Pixels[Pixel * F.Channels];
-		if (!AreFinite({&F, &R}, Pixel) || std::any_of(Reference, Reference + Colors, [&](float V) { return V >= 1e-3 * Mean; })) { continue; }
+		if (!AreFinite({&F, &R}, Pixel) || std::any_of(Reference, Reference + Colors, [&](float V) { return V >= 1e-3 * Mean; }))
+		{
+			continue;
+		}
 		for (uint32_t C = 0; C < Colors; ++C) { Sum += Value[C]; }
 		++Dark;
 	}

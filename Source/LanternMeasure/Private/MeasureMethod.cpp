@@ -21,10 +21,14 @@ bool FollowsLight(ESignal Signal) { return Signal != ESignal::AmbientOcclusion; 
 class FMeter
 {
 public:
-	FMeter(const FMethod& InMethod, const FPathScript& InPath, const FPathReferences& InReferences, const FMeasureSettings& InSettings, FMeasureResult& InOut)
-	    : Signal(InMethod.Signal), Path(InPath), References(InReferences), Settings(InSettings), Out(InOut)
-	{
-	}
+	FMeter(const FMethod& InMethod, const FPathScript& InPath, const FPathReferences& InReferences, const FMeasureSettings& InSettings,
+	    FMeasureResult& InOut)
+	    : Signal(InMethod.Signal),
+	      Path(InPath),
+	      References(InReferences),
+	      Settings(InSettings),
+	      Out(InOut)
+	{}
 	/// False: that was enough.
 	bool Take(FPlayedFrame& Frame)
 	{
@@ -73,7 +77,10 @@ private:
 	void TakeCost(const FPlayedFrame& Frame)
 	{
 		FMethodFigures& Figures = Out.Figures;
-		if (Frame.Index + 1 == Path.FirstTimed) { Figures.MemoryBytes = Frame.LiveBytes - std::min(Frame.LiveBytes, Settings.BaselineBytes); }
+		if (Frame.Index + 1 == Path.FirstTimed)
+		{
+			Figures.MemoryBytes = Frame.LiveBytes - std::min(Frame.LiveBytes, Settings.BaselineBytes);
+		}
 		if (Frame.Index < Path.FirstTimed || Frame.Index >= Path.FirstTimed + Path.TimedCount) { return; }
 		if (const double Ms = Frame.GetGpuMs(Signal); Ms >= 0.0) { GpuMs.push_back(Ms); }
 		if (const double Ms = Frame.GetGpuMs(); Ms >= 0.0) { FrameGpuMs.push_back(Ms); }
@@ -92,7 +99,10 @@ private:
 			}
 			if (Path.bStill) { Deviation.Add(F); }
 		}
-		if (Path.GhostFrame == Frame.Index && References.Before) { Figures.Ghost = ComputeProjection(F, References.Home, *References.Before); }
+		if (Path.GhostFrame == Frame.Index && References.Before)
+		{
+			Figures.Ghost = ComputeProjection(F, References.Home, *References.Before);
+		}
 		if (Frame.Index != Path.PictureFrame) { return; }
 		Figures.Flip = ComputeSignalFlip(Signal, F, References.Home.Mean, &Figures.FlipMap);
 		Figures.Leak = ComputeLeak(F, References.Home.Mean);
@@ -135,8 +145,8 @@ FScript CutScript(const FPathScript& Path, const FPathReferences& References)
 }
 } // namespace
 
-FRTStatus GetPathReferences(FSampleEngine& Engine, const FPathScript& Path, const FPathReferenceSettings& Settings, const FLightSwitch& Switch,
-                            FPathReferences& Out)
+FRTStatus GetPathReferences(FSampleEngine& Engine, const FPathScript& Path, const FPathReferenceSettings& Settings,
+    const FLightSwitch& Switch, FPathReferences& Out)
 {
 	constexpr uint32_t ReferenceSeed = 0x6c616e74;
 	const auto Get = [&](uint32_t Frame, uint32_t SeedOffset, uint32_t Samples, FSignalReference& Reference) {
@@ -168,8 +178,9 @@ FRTStatus GetPathReferences(FSampleEngine& Engine, const FPathScript& Path, cons
 	return S;
 }
 
-FRTStatus MeasureMethod(FSampleEngine& Engine, const FMethods& Methods, const FMethod& Method, const FMethodPreset& Preset, const FPathScript& Path,
-                        const FPathReferences& References, const FLightSwitch& Switch, const FMeasureSettings& Settings, FMeasureResult& Out)
+FRTStatus MeasureMethod(FSampleEngine& Engine, const FMethods& Methods, const FMethod& Method, const FMethodPreset& Preset,
+    const FPathScript& Path, const FPathReferences& References, const FLightSwitch& Switch, const FMeasureSettings& Settings,
+    FMeasureResult& Out)
 {
 	FMethodScope Scope;
 	if (const std::vector<std::string> Refused = Scope.Apply(Methods, &Method, &Preset); !Refused.empty())
@@ -192,8 +203,8 @@ uint32_t CountPathFrames(const FPathScript& Path)
 	return Path.FirstSwitched ? *Path.FirstSwitched + 2 : static_cast<uint32_t>(Path.Script.size());
 }
 
-FRTStatus ProbeMethod(FSampleEngine& Engine, const FMethods& Methods, const FMethod& Method, const FMethodPreset& Preset, const FView& View, double Time,
-                      FMethodProbe& Out)
+FRTStatus ProbeMethod(FSampleEngine& Engine, const FMethods& Methods, const FMethod& Method, const FMethodPreset& Preset, const FView& View,
+    double Time, FMethodProbe& Out)
 {
 	FMethodScope Scope;
 	Scope.Apply(Methods, &Method, &Preset);

@@ -94,7 +94,8 @@ uint64_t FPlayedFrame::GetRays(ESignal Signal) const
 	return Rays;
 }
 
-FRTStatus PlayScript(FSampleEngine& Engine, const FScript& Script, const FPlaySettings& Settings, const std::function<bool(FPlayedFrame&)>& OnFrame)
+FRTStatus PlayScript(
+    FSampleEngine& Engine, const FScript& Script, const FPlaySettings& Settings, const std::function<bool(FPlayedFrame&)>& OnFrame)
 {
 	const FEngineState State(Engine);
 	FFrameCapture Capture;
@@ -121,8 +122,8 @@ FRTStatus PlayScript(FSampleEngine& Engine, const FScript& Script, const FPlaySe
 	return FRTStatus::Success();
 }
 
-FRTStatus GetScriptReferences(FSampleEngine& Engine, const FScript& Script, const std::vector<uint32_t>& Indices, const FSignalReferenceDesc& InDesc,
-                              FScriptReferences& Out)
+FRTStatus GetScriptReferences(FSampleEngine& Engine, const FScript& Script, const std::vector<uint32_t>& Indices,
+    const FSignalReferenceDesc& InDesc, FScriptReferences& Out)
 {
 	assert(std::is_sorted(Indices.begin(), Indices.end()) && (Indices.empty() || Indices.back() < Script.size()));
 	uint32_t Next = 0;

@@ -61,10 +61,7 @@ std::vector<glm::vec3> Bend(const FSceneDescription& Scene, const FScenePose& Po
 	return Out;
 }
 
-glm::dvec3 GetRight(const FView& View)
-{
-	return glm::normalize(glm::cross(glm::dvec3(View.Forward), glm::dvec3(View.Up)));
-}
+glm::dvec3 GetRight(const FView& View) { return glm::normalize(glm::cross(glm::dvec3(View.Forward), glm::dvec3(View.Up))); }
 
 /// Distances along rays of a Count × Count grid in the middle of the picture; infinity for sky.
 std::vector<double> LookThrough(const FSceneRays& Rays, const FView& View, int Count)

@@ -16,7 +16,8 @@ namespace
 {
 bool EqualsIgnoringCase(std::string_view A, std::string_view B)
 {
-	return std::equal(A.begin(), A.end(), B.begin(), B.end(), [](unsigned char X, unsigned char Y) { return std::tolower(X) == std::tolower(Y); });
+	return std::equal(
+	    A.begin(), A.end(), B.begin(), B.end(), [](unsigned char X, unsigned char Y) { return std::tolower(X) == std::tolower(Y); });
 }
 
 bool StartsIgnoringCase(std::string_view Text, std::string_view Start)
@@ -113,10 +114,16 @@ private:
 		const size_t Colon = Value.Value.find(':');
 		FMethodPreset Preset;
 		Preset.Name = EscapeText(Trim(std::string_view(Value.Value).substr(0, Colon)));
-		if (Colon == std::string::npos || Preset.Name.empty()) { return fmt::format("{}: {} is not of the form PRESET: NAME=VALUE …", Value.Where, Quote(Value.Value)); }
+		if (Colon == std::string::npos || Preset.Name.empty())
+		{
+			return fmt::format("{}: {} is not of the form PRESET: NAME=VALUE …", Value.Where, Quote(Value.Value));
+		}
 		if (Method.FindPreset(Preset.Name)) { return fmt::format("{}: a second preset {}", Value.Where, Quote(Preset.Name)); }
 		std::string Problem;
-		if (ParseSettings(std::string_view(Value.Value).substr(Colon + 1), Value.Where, Preset.Settings, Problem)) { Method.Presets.push_back(std::move(Preset)); }
+		if (ParseSettings(std::string_view(Value.Value).substr(Colon + 1), Value.Where, Preset.Settings, Problem))
+		{
+			Method.Presets.push_back(std::move(Preset));
+		}
 		return Problem;
 	}
 
@@ -160,13 +167,17 @@ FMethods ReadMethods(const FIniFile& File)
 		Method.Where = File.GetWhere(Section.Line);
 		if (!StartsIgnoringCase(Section.Name, Prefix) || Section.Name.size() == Prefix.size())
 		{
-			Out.Problems.push_back(fmt::format("{}: section {} is neither MethodDefaults nor Method.NAME", Method.Where, Quote(Section.Name)));
+			Out.Problems.push_back(
+			    fmt::format("{}: section {} is neither MethodDefaults nor Method.NAME", Method.Where, Quote(Section.Name)));
 			continue;
 		}
 		// Names are shown everywhere and kept in JSON, which takes no broken UTF-8.
 		Method.Name = EscapeText(std::string_view(Section.Name).substr(Prefix.size()));
 		std::string Problem = FMethodParser(Method).Parse(Values);
-		if (Problem.empty() && Out.Find(Method.Title)) { Problem = fmt::format("{}: a second method {}", Method.Where, Quote(Method.Title)); }
+		if (Problem.empty() && Out.Find(Method.Title))
+		{
+			Problem = fmt::format("{}: a second method {}", Method.Where, Quote(Method.Title));
+		}
 		if (Problem.empty()) { Out.Methods.push_back(std::move(Method)); }
 		else { Out.Problems.push_back(std::move(Problem)); }
 	}
@@ -176,27 +187,21 @@ FMethods ReadMethods(const FIniFile& File)
 
 const FMethodPreset* FMethod::FindPreset(std::string_view PresetName) const
 {
-	const auto Found = std::find_if(Presets.begin(), Presets.end(), [&](const FMethodPreset& P) { return EqualsIgnoringCase(P.Name, PresetName); });
+	const auto Found =
+	    std::find_if(Presets.begin(), Presets.end(), [&](const FMethodPreset& P) { return EqualsIgnoringCase(P.Name, PresetName); });
 	return Found == Presets.end() ? nullptr : &*Found;
 }
 
 const FMethod* FMethods::Find(std::string_view NameOrTitle) const
 {
-	const auto Found = std::find_if(Methods.begin(), Methods.end(), [&](const FMethod& M) {
-		return EqualsIgnoringCase(M.Name, NameOrTitle) || EqualsIgnoringCase(M.Title, NameOrTitle);
-	});
+	const auto Found = std::find_if(Methods.begin(), Methods.end(),
+	    [&](const FMethod& M) { return EqualsIgnoringCase(M.Name, NameOrTitle) || EqualsIgnoringCase(M.Title, NameOrTitle); });
 	return Found == Methods.end() ? nullptr : &*Found;
 }
 
-FMethods ParseMethods(std::string_view Text, const std::string& Name)
-{
-	return ReadMethods(FIniFile::Parse(Text, Name));
-}
+FMethods ParseMethods(std::string_view Text, const std::string& Name) { return ReadMethods(FIniFile::Parse(Text, Name)); }
 
-FMethods LoadMethods(const std::string& Path)
-{
-	return ReadMethods(FIniFile::Load(Path));
-}
+FMethods LoadMethods(const std::string& Path) { return ReadMethods(FIniFile::Load(Path)); }
 
 std::string GetMissing(const FMethod& Method, const FRTCapabilities& Capabilities)
 {
@@ -212,7 +217,10 @@ std::vector<std::string> FMethodScope::Apply(const std::vector<FMethodSetting>& 
 	{
 		const FRTConsoleVariable* const Variable = FConsoleVariables::Get().Find(Setting.Name);
 		if (Variable) { Saved.push_back({Variable, Variable->GetValue(), Variable->GetSetBy()}); }
-		if (auto Problem = FConsoleVariables::Get().Set(Setting.Name, Setting.Value, ERTSetBy::Console, Setting.Where)) { Refused.push_back(std::move(*Problem)); }
+		if (auto Problem = FConsoleVariables::Get().Set(Setting.Name, Setting.Value, ERTSetBy::Console, Setting.Where))
+		{
+			Refused.push_back(std::move(*Problem));
+		}
 	}
 	if (!Refused.empty()) { Restore(); }
 	return Refused;

@@ -18,29 +18,17 @@ namespace
 {
 namespace fs = std::filesystem;
 using FClock = std::chrono::steady_clock;
-double SecondsSince(FClock::time_point Start)
-{
-	return std::chrono::duration<double>(FClock::now() - Start).count();
-}
+double SecondsSince(FClock::time_point Start) { return std::chrono::duration<double>(FClock::now() - Start).count(); }
 
 /// Counts what no shader's text says: whatever else changes what a reference of this description is.
 constexpr uint32_t Generation = 2;
 
 /// Away from the small seeds that frames use, whose noise must not be the reference's.
-uint32_t MakeSeed(uint32_t Seed, uint32_t Half)
-{
-	return 0x5245'4600u + 2 * Seed + Half;
-}
+uint32_t MakeSeed(uint32_t Seed, uint32_t Half) { return 0x5245'4600u + 2 * Seed + Half; }
 
-uint32_t GetHalfSamples(const FSignalReferenceDesc& Desc)
-{
-	return std::max(1u, (Desc.Samples + 1) / 2);
-}
+uint32_t GetHalfSamples(const FSignalReferenceDesc& Desc) { return std::max(1u, (Desc.Samples + 1) / 2); }
 
-void AddVector(FContentHasher& Hash, const glm::dvec3& V)
-{
-	Hash.AddBytes(&V, sizeof(V));
-}
+void AddVector(FContentHasher& Hash, const glm::dvec3& V) { Hash.AddBytes(&V, sizeof(V)); }
 
 void AddLights(FContentHasher& Hash, const FRTScene& Scene)
 {
@@ -68,10 +56,7 @@ void AddMaterials(FContentHasher& Hash, const FRTScene& Scene, const FMaterialPr
 	{
 		FMaterialData Data = Scene.GetMaterials()[Index];
 		// Which texture is the content's affair; where it lies in the heap changes from run to run.
-		for (uint32_t& Texture : Data.Textures)
-		{
-			Texture = Texture == NO_TEXTURE ? 1u : 0u;
-		}
+		for (uint32_t& Texture : Data.Textures) { Texture = Texture == NO_TEXTURE ? 1u : 0u; }
 		static_assert(sizeof(FMaterialData) == 212, "hashed as bytes: no padding");
 		Hash.AddBytes(&Data, sizeof(Data));
 		Hash.AddText(Programs.Get(Scene.GetMaterialProgram(Index)).Name);
@@ -83,10 +68,7 @@ void AddObjects(FContentHasher& Hash, const FRTScene& Scene)
 	for (uint32_t Slot = 0; Slot < Scene.GetObjectSlotCount(); ++Slot)
 	{
 		const FRTObjectInfo* const Object = Scene.FindObject(Slot);
-		if (!Object)
-		{
-			continue;
-		}
+		if (!Object) { continue; }
 		Hash.Add(Slot);
 		Hash.AddBytes(&Object->Transform, sizeof(Object->Transform));
 		Hash.AddBytes(Object->Materials.data(), Object->Materials.size() * sizeof(uint32_t));
@@ -98,8 +80,7 @@ void AddObjects(FContentHasher& Hash, const FRTScene& Scene)
 /// Console variables that reach the path tracer beside what its shaders' defines say.
 void AddVariables(FContentHasher& Hash, ESignal Signal)
 {
-	std::vector<const char*> Names = {"r.RT.AlphaTest", "r.RT.Material.Override", "r.RT.Build.MemoryMB",
-	                                  "r.RT.Build.CoarserLevels"};
+	std::vector<const char*> Names = {"r.RT.AlphaTest", "r.RT.Material.Override", "r.RT.Build.MemoryMB", "r.RT.Build.CoarserLevels"};
 	if (Signal == ESignal::AmbientOcclusion)
 	{
 		Names.push_back("r.RT.AO.Radius");
@@ -179,8 +160,7 @@ std::string MakePath(const FSignalReferenceDesc& Desc, const FContentHash& Key)
 	return (fs::path(Desc.CacheFolder) / Name).string();
 }
 
-FRTStatus TraceHalf(FSampleEngine& Engine, const FSignalReferenceDesc& Desc, uint32_t Half, FClock::time_point Start,
-                    FImage& Out)
+FRTStatus TraceHalf(FSampleEngine& Engine, const FSignalReferenceDesc& Desc, uint32_t Half, FClock::time_point Start, FImage& Out)
 {
 	FReferenceSettings Settings;
 	Settings.View = Desc.View;

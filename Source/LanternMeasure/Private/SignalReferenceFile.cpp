@@ -50,15 +50,13 @@ FHeader MakeHeader(const FContentHash& Key, const FReferenceFileShape& Shape, do
 
 void WritePixels(std::ofstream& File, const FImage& Image)
 {
-	File.write(reinterpret_cast<const char*>(Image.Pixels.data()),
-	           static_cast<std::streamsize>(Image.Pixels.size() * sizeof(float)));
+	File.write(reinterpret_cast<const char*>(Image.Pixels.data()), static_cast<std::streamsize>(Image.Pixels.size() * sizeof(float)));
 }
 
 bool ReadPixels(std::ifstream& File, const FReferenceFileShape& Shape, FImage& Out)
 {
 	Out = FImage(Shape.Width, Shape.Height, Shape.Channels);
-	File.read(reinterpret_cast<char*>(Out.Pixels.data()),
-	          static_cast<std::streamsize>(Out.Pixels.size() * sizeof(float)));
+	File.read(reinterpret_cast<char*>(Out.Pixels.data()), static_cast<std::streamsize>(Out.Pixels.size() * sizeof(float)));
 	return static_cast<bool>(File);
 }
 
@@ -100,8 +98,7 @@ FRTStatus WriteReferenceFile(const std::string& Path, const FContentHash& Key, c
 	});
 }
 
-bool ReadReferenceFile(const std::string& Path, const FContentHash& Key, const FReferenceFileShape& Shape,
-                       FSignalReference& Out)
+bool ReadReferenceFile(const std::string& Path, const FContentHash& Key, const FReferenceFileShape& Shape, FSignalReference& Out)
 {
 	std::ifstream File(Path, std::ios::binary);
 	if (!File) { return false; }

@@ -19,7 +19,6 @@ struct FReferenceFileShape
 FRTStatus WriteReferenceFile(const std::string& Path, const FContentHash& Key, const FSignalReference& Reference);
 
 /// False: not there, or not what it should be, which is said. Fills A, B and Seconds.
-bool ReadReferenceFile(const std::string& Path, const FContentHash& Key, const FReferenceFileShape& Shape,
-                       FSignalReference& Out);
+bool ReadReferenceFile(const std::string& Path, const FContentHash& Key, const FReferenceFileShape& Shape, FSignalReference& Out);
 
 } // namespace Lantern

@@ -37,10 +37,7 @@ uint32_t PackOctahedral(glm::vec3 N)
 	return glm::packSnorm2x16(P);
 }
 
-glm::vec3 ReadVector(const float* Data, uint32_t Index)
-{
-	return {Data[Index * 3], Data[Index * 3 + 1], Data[Index * 3 + 2]};
-}
+glm::vec3 ReadVector(const float* Data, uint32_t Index) { return {Data[Index * 3], Data[Index * 3 + 1], Data[Index * 3 + 2]}; }
 
 /// Sum of the normals of the triangles around each vertex, weighted by area.
 std::vector<glm::vec3> MakeNormals(const FRTModuleMesh& Mesh)
@@ -53,10 +50,7 @@ std::vector<glm::vec3> MakeNormals(const FRTModuleMesh& Mesh)
 		const glm::vec3 B = ReadVector(Mesh.Positions, Corner[1]);
 		const glm::vec3 C = ReadVector(Mesh.Positions, Corner[2]);
 		const glm::vec3 Area = cross(B - A, C - A);
-		for (uint32_t I = 0; I < 3; ++I)
-		{
-			Normals[Corner[I]] += Area;
-		}
+		for (uint32_t I = 0; I < 3; ++I) { Normals[Corner[I]] += Area; }
 	}
 	return Normals;
 }
@@ -69,22 +63,13 @@ FRTStatus CheckMesh(const FRTModuleMesh& Mesh)
 	{
 		return Refuse(Mesh, "has no positions or no indices");
 	}
-	if (Mesh.IndexCount % 3 != 0)
-	{
-		return Refuse(Mesh, "the number of indices is not a multiple of 3");
-	}
-	if (const FRTStatus Status = CheckPositions(Mesh); !Status)
-	{
-		return Status;
-	}
+	if (Mesh.IndexCount % 3 != 0) { return Refuse(Mesh, "the number of indices is not a multiple of 3"); }
+	if (const FRTStatus Status = CheckPositions(Mesh); !Status) { return Status; }
 	if (*std::max_element(Mesh.Indices, Mesh.Indices + Mesh.IndexCount) >= Mesh.VertexCount)
 	{
 		return Refuse(Mesh, "an index is out of range");
 	}
-	if (Mesh.Sections != nullptr && Mesh.SectionCount == 0)
-	{
-		return Refuse(Mesh, "has no section");
-	}
+	if (Mesh.Sections != nullptr && Mesh.SectionCount == 0) { return Refuse(Mesh, "has no section"); }
 	for (uint32_t Section = 0; Mesh.Sections != nullptr && Section < Mesh.SectionCount; ++Section)
 	{
 		if (!IsSectionSound(Mesh.Sections[Section], Mesh.IndexCount))
@@ -97,9 +82,8 @@ FRTStatus CheckMesh(const FRTModuleMesh& Mesh)
 
 FRTStatus CheckPositions(const FRTModuleMesh& Mesh)
 {
-	const bool bFinite =
-	    Mesh.Positions != nullptr && std::all_of(Mesh.Positions, Mesh.Positions + size_t(Mesh.VertexCount) * 3,
-	                                             [](float Value) { return std::isfinite(Value); });
+	const bool bFinite = Mesh.Positions != nullptr && std::all_of(Mesh.Positions, Mesh.Positions + size_t(Mesh.VertexCount) * 3,
+	                                                      [](float Value) { return std::isfinite(Value); });
 	return bFinite ? FRTStatus::Success() : Refuse(Mesh, "a position is not finite, or there are none");
 }
 
@@ -108,8 +92,7 @@ void PackNormals(const FRTModuleMesh& Mesh, std::vector<FVertexAttributes>& Attr
 	const std::vector<glm::vec3> Made = Mesh.Normals == nullptr ? MakeNormals(Mesh) : std::vector<glm::vec3>();
 	for (uint32_t Vertex = 0; Vertex < Mesh.VertexCount; ++Vertex)
 	{
-		Attributes[Vertex].Normal =
-		    PackOctahedral(Mesh.Normals != nullptr ? ReadVector(Mesh.Normals, Vertex) : Made[Vertex]);
+		Attributes[Vertex].Normal = PackOctahedral(Mesh.Normals != nullptr ? ReadVector(Mesh.Normals, Vertex) : Made[Vertex]);
 	}
 }
 
@@ -121,10 +104,7 @@ std::vector<FVertexAttributes> PackAttributes(const FRTModuleMesh& Mesh)
 		FVertexAttributes& Out = Attributes[Vertex];
 		Out = {};
 		Out.Color = ~0u;
-		if (Mesh.UVs != nullptr)
-		{
-			Out.UV0 = {Mesh.UVs[Vertex * 2], Mesh.UVs[Vertex * 2 + 1]};
-		}
+		if (Mesh.UVs != nullptr) { Out.UV0 = {Mesh.UVs[Vertex * 2], Mesh.UVs[Vertex * 2 + 1]}; }
 	}
 	PackNormals(Mesh, Attributes);
 	return Attributes;

@@ -12,9 +12,9 @@
 
 #include "LanternCore/Config/Config.h"
 #include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternCore/Shaders/ShaderCompiler.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
-#include "LanternCore/Shaders/ShaderCompiler.h"
 #include "LanternModule/ModuleVulkan.h"
 #include "LanternRHIVulkan/VulkanDevice.h"
 #include "ModuleRenderer.h"
@@ -36,10 +36,7 @@ public:
 	{
 		return GetVulkanRequirements(Desc, Out);
 	}
-	FRTStatus AdoptDevice(const FRTVulkanExternalDesc& Desc, IRTDevice** Out) override
-	{
-		return AdoptVulkanDevice(Desc, Out);
-	}
+	FRTStatus AdoptDevice(const FRTVulkanExternalDesc& Desc, IRTDevice** Out) override { return AdoptVulkanDevice(Desc, Out); }
 };
 
 ERTModuleLog ToModule(ERTLogLevel Level)
@@ -57,12 +54,8 @@ ERTModuleLog ToModule(ERTLogLevel Level)
 FRTStatus CheckFolder(const char* What, const std::string& Folder)
 {
 	std::error_code Ignored;
-	if (std::filesystem::is_directory(Folder, Ignored))
-	{
-		return FRTStatus::Success();
-	}
-	return FRTStatus::Error(ERTResult::IoError, "%s folder \"%s\" does not exist", What,
-	                        EscapePath(Folder).c_str());
+	if (std::filesystem::is_directory(Folder, Ignored)) { return FRTStatus::Success(); }
+	return FRTStatus::Error(ERTResult::IoError, "%s folder \"%s\" does not exist", What, EscapePath(Folder).c_str());
 }
 
 class FModule final : public TRefCounted<IRTModule>
@@ -100,30 +93,18 @@ FModule::~FModule()
 
 FRTStatus FModule::Initialize(const FRTModuleDesc& Desc)
 {
-	if (Desc.ShaderFolder == nullptr)
-	{
-		return FRTStatus::Error(ERTResult::InvalidArgument, "FRTModuleDesc::ShaderFolder is needed");
-	}
+	if (Desc.ShaderFolder == nullptr) { return FRTStatus::Error(ERTResult::InvalidArgument, "FRTModuleDesc::ShaderFolder is needed"); }
 	if (Desc.LogCallback != nullptr)
 	{
-		SetLogSink([Callback = Desc.LogCallback, User = Desc.LogUser](ERTLogLevel Level, std::string_view Text)
-		           { Callback(User, ToModule(Level), std::string(Text).c_str()); });
+		SetLogSink([Callback = Desc.LogCallback, User = Desc.LogUser](
+		               ERTLogLevel Level, std::string_view Text) { Callback(User, ToModule(Level), std::string(Text).c_str()); });
 	}
 	ShaderFolder = Desc.ShaderFolder;
 	CacheFolder = Desc.CacheFolder != nullptr ? Desc.CacheFolder : "";
-	if (const FRTStatus Status = CheckFolder("shader", ShaderFolder); !Status)
-	{
-		return Status;
-	}
-	if (Desc.ConfigFolder == nullptr)
-	{
-		return FRTStatus::Success();
-	}
+	if (const FRTStatus Status = CheckFolder("shader", ShaderFolder); !Status) { return Status; }
+	if (Desc.ConfigFolder == nullptr) { return FRTStatus::Success(); }
 	ConfigFolder = Desc.ConfigFolder;
-	if (const FRTStatus Status = CheckFolder("config", ConfigFolder); !Status)
-	{
-		return Status;
-	}
+	if (const FRTStatus Status = CheckFolder("config", ConfigFolder); !Status) { return Status; }
 	// A problem in a file is logged with its place and is no reason not to run.
 	LoadDefaults({ConfigFolder});
 	return FRTStatus::Success();
@@ -139,23 +120,13 @@ FRTStatus FModule::CreateDevice(bool bValidation, IRTDevice** Out)
 FRTStatus FModule::CreateRenderer(IRTDevice* Device, IRTModuleRenderer** Out)
 {
 	*Out = nullptr;
-	if (ShaderFolder.empty())
-	{
-		return FRTStatus::Error(ERTResult::InvalidArgument, "IRTModule::Initialize was not called");
-	}
-	if (Device == nullptr)
-	{
-		return FRTStatus::Error(ERTResult::InvalidArgument, "CreateRenderer needs a device");
-	}
+	if (ShaderFolder.empty()) { return FRTStatus::Error(ERTResult::InvalidArgument, "IRTModule::Initialize was not called"); }
+	if (Device == nullptr) { return FRTStatus::Error(ERTResult::InvalidArgument, "CreateRenderer needs a device"); }
 	if (Device->GetVersion() != RHIVersion)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "the device speaks RHI version %u, Lantern %u",
-		                        Device->GetVersion(), RHIVersion);
+		return FRTStatus::Error(ERTResult::Unsupported, "the device speaks RHI version %u, Lantern %u", Device->GetVersion(), RHIVersion);
 	}
-	if (!ConfigFolder.empty())
-	{
-		LoadDeviceProfile({ConfigFolder}, Device->GetCapabilities().DeviceName);
-	}
+	if (!ConfigFolder.empty()) { LoadDeviceProfile({ConfigFolder}, Device->GetCapabilities().DeviceName); }
 	*Out = new FModuleRenderer(*this, *Device, {{ShaderFolder}, CacheFolder});
 	return FRTStatus::Success();
 }
@@ -165,23 +136,18 @@ FRTStatus FModule::SetQuality(const std::string& Group, const char* Value)
 	const std::optional<ERTQuality> Quality = ParseQuality(Value);
 	if (!Quality || ConfigFolder.empty())
 	{
-		return FRTStatus::Error(ERTResult::InvalidArgument, "sg.%s=%s: no such level, or no config folder",
-		                        FRTShown(Group.c_str()).Text, FRTShown(Value).Text);
+		return FRTStatus::Error(
+		    ERTResult::InvalidArgument, "sg.%s=%s: no such level, or no config folder", FRTShown(Group.c_str()).Text, FRTShown(Value).Text);
 	}
 	const FConfigProblems Problems = LoadScalabilityGroup({ConfigFolder}, Group, *Quality);
-	return Problems.empty() ? FRTStatus::Success()
-	                        : FRTStatus::Error(ERTResult::InvalidArgument, "%s", Problems.front().c_str());
+	return Problems.empty() ? FRTStatus::Success() : FRTStatus::Error(ERTResult::InvalidArgument, "%s", Problems.front().c_str());
 }
 
 FRTStatus FModule::SetConsoleVariable(const char* Name, const char* Value)
 {
 	const std::string Text = Name;
-	if (Text.rfind("sg.", 0) == 0)
-	{
-		return SetQuality(Text.substr(3), Value);
-	}
-	const std::optional<std::string> Problem =
-	    FConsoleVariables::Get().Set(Text, Value, ERTSetBy::Console, "SetConsoleVariable");
+	if (Text.rfind("sg.", 0) == 0) { return SetQuality(Text.substr(3), Value); }
+	const std::optional<std::string> Problem = FConsoleVariables::Get().Set(Text, Value, ERTSetBy::Console, "SetConsoleVariable");
 	return Problem ? FRTStatus::Error(ERTResult::InvalidArgument, "%s", Problem->c_str()) : FRTStatus::Success();
 }
 
@@ -190,8 +156,7 @@ FRTStatus FModule::GetConsoleVariable(const char* Name, char* Out, size_t Capaci
 	const FRTConsoleVariable* Variable = FConsoleVariables::Get().Find(Name);
 	if (Variable == nullptr)
 	{
-		return FRTStatus::Error(ERTResult::InvalidArgument, "no console variable is called \"%s\"",
-		                        FRTShown(Name).Text);
+		return FRTStatus::Error(ERTResult::InvalidArgument, "no console variable is called \"%s\"", FRTShown(Name).Text);
 	}
 	std::snprintf(Out, Capacity, "%s", FConsoleVariables::ToString(Variable->GetValue()).c_str());
 	return FRTStatus::Success();
@@ -201,19 +166,12 @@ FRTStatus FModule::GetConsoleVariable(const char* Name, char* Out, size_t Capaci
 
 } // namespace Lantern
 
-extern "C" __attribute__((visibility("default"))) int32_t LanternCreateModule(uint32_t RequestedVersion,
-                                                                              Lantern::IRTModule** Out)
+extern "C" __attribute__((visibility("default"))) int32_t LanternCreateModule(uint32_t RequestedVersion, Lantern::IRTModule** Out)
 {
 	using namespace Lantern;
 	*Out = nullptr;
-	if (RequestedVersion != ModuleVersion)
-	{
-		return static_cast<int32_t>(ERTResult::Unsupported);
-	}
-	if (bModuleAlive.exchange(true))
-	{
-		return static_cast<int32_t>(ERTResult::InvalidArgument);
-	}
+	if (RequestedVersion != ModuleVersion) { return static_cast<int32_t>(ERTResult::Unsupported); }
+	if (bModuleAlive.exchange(true)) { return static_cast<int32_t>(ERTResult::InvalidArgument); }
 	*Out = new FModule;
 	return static_cast<int32_t>(ERTResult::Ok);
 }

@@ -17,10 +17,7 @@ glm::dmat4 ToMatrix(const double Rows[12])
 	glm::dmat4 Matrix(1.0);
 	for (int Row = 0; Row < 3; ++Row)
 	{
-		for (int Column = 0; Column < 4; ++Column)
-		{
-			Matrix[Column][Row] = Rows[Row * 4 + Column];
-		}
+		for (int Column = 0; Column < 4; ++Column) { Matrix[Column][Row] = Rows[Row * 4 + Column]; }
 	}
 	return Matrix;
 }
@@ -45,8 +42,9 @@ FView ToView(const FRTModuleFrame& Frame, uint32_t FrameIndex)
 
 FGBuffer ImportGBuffer(FFrameGraph& Graph, const FRTModuleFrame& Frame)
 {
-	const auto Import = [&](IRTTexture* Texture, ERTAccess Access, const char* Name)
-	{ return Texture != nullptr ? Graph.ImportTexture(Texture, Access, ERTAccess::ShaderRead, Name) : FGraphTexture(); };
+	const auto Import = [&](IRTTexture* Texture, ERTAccess Access, const char* Name) {
+		return Texture != nullptr ? Graph.ImportTexture(Texture, Access, ERTAccess::ShaderRead, Name) : FGraphTexture();
+	};
 	FGBuffer Out;
 	Out.Depth = Import(Frame.Depth, Frame.DepthAccess, "EngineDepth");
 	Out.Normals = Import(Frame.Normals, Frame.NormalsAccess, "EngineNormals");
@@ -65,8 +63,7 @@ FModuleRenderer::FModuleRenderer(IRTModule& InOwner, IRTDevice& InDevice, FRende
       Renderer(InDevice, std::move(Desc)),
       Uploader(InDevice),
       VertexUploads(InDevice)
-{
-}
+{}
 
 FModuleRenderer::~FModuleRenderer()
 {
@@ -74,21 +71,18 @@ FModuleRenderer::~FModuleRenderer()
 	(void)Renderer.WaitForAll();
 }
 
-FRTStatus FModuleRenderer::UploadMesh(const FRTModuleMesh& Mesh, const std::vector<FVertexAttributes>& Attributes,
-                                      FRTGeometryInfo& Out)
+FRTStatus FModuleRenderer::UploadMesh(const FRTModuleMesh& Mesh, const std::vector<FVertexAttributes>& Attributes, FRTGeometryInfo& Out)
 {
 	constexpr ERTBufferUsage Usage = ERTBufferUsage::GeometryInput | ERTBufferUsage::Storage;
 	const uint64_t PositionBytes = uint64_t(Mesh.VertexCount) * 12;
 	FRTStatus Status = Uploader.CreateBuffer(Mesh.Name, Usage, Mesh.Positions, PositionBytes, Out.Positions);
 	if (Status)
 	{
-		Status = Uploader.CreateBuffer(Mesh.Name, Usage, Attributes.data(),
-		                               Attributes.size() * sizeof(FVertexAttributes), Out.Attributes);
+		Status = Uploader.CreateBuffer(Mesh.Name, Usage, Attributes.data(), Attributes.size() * sizeof(FVertexAttributes), Out.Attributes);
 	}
 	if (Status)
 	{
-		Status = Uploader.CreateBuffer(Mesh.Name, Usage | ERTBufferUsage::Index, Mesh.Indices,
-		                               uint64_t(Mesh.IndexCount) * 4, Out.Indices);
+		Status = Uploader.CreateBuffer(Mesh.Name, Usage | ERTBufferUsage::Index, Mesh.Indices, uint64_t(Mesh.IndexCount) * 4, Out.Indices);
 	}
 	return Status.IsOk() ? Uploader.Flush() : Status;
 }
@@ -96,10 +90,7 @@ FRTStatus FModuleRenderer::UploadMesh(const FRTModuleMesh& Mesh, const std::vect
 FRTStatus FModuleRenderer::AddMesh(const FRTModuleMesh& Mesh, ERTMeshHandle* Out)
 {
 	*Out = ERTMeshHandle::None;
-	if (const FRTStatus Status = CheckMesh(Mesh); !Status)
-	{
-		return Status;
-	}
+	if (const FRTStatus Status = CheckMesh(Mesh); !Status) { return Status; }
 	FRTGeometryInfo Info;
 	Info.Name = Mesh.Name;
 	Info.VertexCount = Mesh.VertexCount;
@@ -108,16 +99,10 @@ FRTStatus FModuleRenderer::AddMesh(const FRTModuleMesh& Mesh, ERTMeshHandle* Out
 	std::vector<FVertexAttributes> Attributes = PackAttributes(Mesh);
 	FRTStatus Status = UploadMesh(Mesh, Attributes, Info);
 	FMesh Added;
+	if (Status) { Status = Scene.CreateGeometry(std::move(Info), Added.Geometry); }
 	if (Status)
 	{
-		Status = Scene.CreateGeometry(std::move(Info), Added.Geometry);
-	}
-	if (Status)
-	{
-		if (Mesh.bDeformable)
-		{
-			Added.Deformable = std::make_unique<FDeformableMesh>(Mesh, std::move(Attributes), Added.Geometry);
-		}
+		if (Mesh.bDeformable) { Added.Deformable = std::make_unique<FDeformableMesh>(Mesh, std::move(Attributes), Added.Geometry); }
 		*Out = Meshes.Add(std::move(Added));
 	}
 	return Status;
@@ -126,14 +111,11 @@ FRTStatus FModuleRenderer::AddMesh(const FRTModuleMesh& Mesh, ERTMeshHandle* Out
 FRTStatus FModuleRenderer::UpdateMeshVertices(ERTMeshHandle Handle, const float* Positions, const float* Normals)
 {
 	FMesh* const Mesh = Meshes.Find(Handle);
-	if (Mesh == nullptr)
-	{
-		return RefuseMesh("UpdateMeshVertices", Handle);
-	}
+	if (Mesh == nullptr) { return RefuseMesh("UpdateMeshVertices", Handle); }
 	if (!Mesh->Deformable)
 	{
-		return FRTStatus::Error(ERTResult::InvalidArgument, "mesh \"%s\" was added without bDeformable",
-		                        FRTShown(Mesh->Geometry->GetInfo().Name.c_str()).Text);
+		return FRTStatus::Error(
+		    ERTResult::InvalidArgument, "mesh \"%s\" was added without bDeformable", FRTShown(Mesh->Geometry->GetInfo().Name.c_str()).Text);
 	}
 	return Mesh->Deformable->SetVertices(Positions, Normals);
 }
@@ -141,15 +123,12 @@ FRTStatus FModuleRenderer::UpdateMeshVertices(ERTMeshHandle Handle, const float*
 FRTStatus FModuleRenderer::RemoveMesh(ERTMeshHandle Handle)
 {
 	const FMesh* const Mesh = Meshes.Find(Handle);
-	if (Mesh == nullptr)
-	{
-		return RefuseMesh("RemoveMesh", Handle);
-	}
+	if (Mesh == nullptr) { return RefuseMesh("RemoveMesh", Handle); }
 	std::string Name = Mesh->Geometry->GetInfo().Name;
 	if (Mesh->Users > 0)
 	{
-		return FRTStatus::Error(ERTResult::InvalidArgument, "RemoveMesh: %u objects still use mesh \"%s\"", Mesh->Users,
-		                        FRTShown(Name.c_str()).Text);
+		return FRTStatus::Error(
+		    ERTResult::InvalidArgument, "RemoveMesh: %u objects still use mesh \"%s\"", Mesh->Users, FRTShown(Name.c_str()).Text);
 	}
 	const uint32_t Slot = Meshes.GetSlot(Handle);
 	RemovedMeshes.resize(std::max<size_t>(RemovedMeshes.size(), Slot + 1));
@@ -165,25 +144,19 @@ FRTStatus FModuleRenderer::RefuseMesh(const char* Function, ERTMeshHandle Handle
 	{
 		return RefuseHandle(Function, "mesh");
 	}
-	return FRTStatus::Error(ERTResult::InvalidArgument, "%s: no such mesh: \"%s\" was removed", Function,
-	                        FRTShown(RemovedMeshes[Slot].Name.c_str()).Text);
+	return FRTStatus::Error(
+	    ERTResult::InvalidArgument, "%s: no such mesh: \"%s\" was removed", Function, FRTShown(RemovedMeshes[Slot].Name.c_str()).Text);
 }
 
 FRTStatus FModuleRenderer::AddObject(const FRTModuleObject& Object, ERTObjectHandle* Out)
 {
 	*Out = ERTObjectHandle::None;
 	FMesh* const Mesh = Meshes.Find(Object.Mesh);
-	if (Mesh == nullptr)
-	{
-		return RefuseMesh("AddObject", Object.Mesh);
-	}
+	if (Mesh == nullptr) { return RefuseMesh("AddObject", Object.Mesh); }
 	FRTObjectInfo Info;
 	Info.Geometry = Mesh->Geometry;
 	FRTStatus Status = CheckTransform(Object.Transform);
-	if (Status)
-	{
-		Status = ResolveMaterials(Info.Geometry->GetInfo(), Object.Materials, Object.MaterialCount, Info.Materials);
-	}
+	if (Status) { Status = ResolveMaterials(Info.Geometry->GetInfo(), Object.Materials, Object.MaterialCount, Info.Materials); }
 	if (Status)
 	{
 		Info.Transform = ToMatrix(Object.Transform);
@@ -192,8 +165,7 @@ FRTStatus FModuleRenderer::AddObject(const FRTModuleObject& Object, ERTObjectHan
 		const FRTObjectId Id = Scene.AddObject(std::move(Info));
 		if (!Id.IsValid())
 		{
-			return FRTStatus::Error(ERTResult::Unsupported,
-			                        "AddObject: the scene has as many objects as instances can name");
+			return FRTStatus::Error(ERTResult::Unsupported, "AddObject: the scene has as many objects as instances can name");
 		}
 		*Out = Objects.Add({Id, Object.Mesh});
 		++Mesh->Users;
@@ -205,22 +177,15 @@ FRTStatus FModuleRenderer::AddObject(const FRTModuleObject& Object, ERTObjectHan
 FRTStatus FModuleRenderer::SetObjectTransform(ERTObjectHandle Handle, const double Transform[12])
 {
 	const FObject* const Object = Objects.Find(Handle);
-	const FRTStatus Status =
-	    Object != nullptr ? CheckTransform(Transform) : RefuseHandle("SetObjectTransform", "object");
-	if (Status)
-	{
-		Scene.SetTransform(Object->Id, ToMatrix(Transform));
-	}
+	const FRTStatus Status = Object != nullptr ? CheckTransform(Transform) : RefuseHandle("SetObjectTransform", "object");
+	if (Status) { Scene.SetTransform(Object->Id, ToMatrix(Transform)); }
 	return Status;
 }
 
 FRTStatus FModuleRenderer::SetObjectCastsShadow(ERTObjectHandle Handle, bool bCastsShadow)
 {
 	FObject* const Object = Objects.Find(Handle);
-	if (Object == nullptr)
-	{
-		return RefuseHandle("SetObjectCastsShadow", "object");
-	}
+	if (Object == nullptr) { return RefuseHandle("SetObjectCastsShadow", "object"); }
 	// The scene's objects keep their mask for life. All instances are written again after any change, so that a new
 	// object costs what a new mask would.
 	FRTObjectInfo Info = Scene.GetObject(Object->Id);
@@ -233,10 +198,7 @@ FRTStatus FModuleRenderer::SetObjectCastsShadow(ERTObjectHandle Handle, bool bCa
 FRTStatus FModuleRenderer::RemoveObject(ERTObjectHandle Handle)
 {
 	const FObject* const Object = Objects.Find(Handle);
-	if (Object == nullptr)
-	{
-		return RefuseHandle("RemoveObject", "object");
-	}
+	if (Object == nullptr) { return RefuseHandle("RemoveObject", "object"); }
 	RemoveUsers(Scene.GetObject(Object->Id).Materials);
 	Scene.RemoveObject(Object->Id);
 	--Meshes.Find(Object->Mesh)->Users; // it cannot have been removed
@@ -246,10 +208,7 @@ FRTStatus FModuleRenderer::RemoveObject(ERTObjectHandle Handle)
 
 FRTStatus FModuleRenderer::SetSun(const FRTModuleSun& Sun)
 {
-	if (const FRTStatus Status = CheckSun(Sun); !Status)
-	{
-		return Status;
-	}
+	if (const FRTStatus Status = CheckSun(Sun); !Status) { return Status; }
 	FSunLight Light;
 	Light.Direction = {Sun.Direction[0], Sun.Direction[1], Sun.Direction[2]};
 	Light.Color = {Sun.Color[0], Sun.Color[1], Sun.Color[2]};
@@ -262,10 +221,7 @@ FRTStatus FModuleRenderer::SetSun(const FRTModuleSun& Sun)
 FRTStatus FModuleRenderer::SetSky(const float Radiance[3])
 {
 	const FRTStatus Status = CheckSky(Radiance);
-	if (Status)
-	{
-		Scene.SetSky({Radiance[0], Radiance[1], Radiance[2]});
-	}
+	if (Status) { Scene.SetSky({Radiance[0], Radiance[1], Radiance[2]}); }
 	return Status;
 }
 
@@ -274,22 +230,10 @@ void FModuleRenderer::AddPasses(const FRTModuleFrame& Frame)
 	FFrameContext& Context = Renderer.GetContext();
 	const FGBuffer GBuffer = ImportGBuffer(Context.Graph, Frame);
 	FFrameOutputs Made;
-	if (Frame.Wanted.bSunShadow)
-	{
-		Made.SunShadow = AddSunShadowPass(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion});
-	}
-	if (Context.Signals.bAmbientOcclusion)
-	{
-		Made.AmbientOcclusion = AddAmbientOcclusionPass(Context, GBuffer);
-	}
-	if (Context.Signals.bReflections)
-	{
-		Made.Reflections = AddReflectionsPass(Context, GBuffer);
-	}
-	if (Context.Signals.bDiffuseGI)
-	{
-		Made.DiffuseGI = AddDiffuseGIPass(Context, GBuffer);
-	}
+	if (Frame.Wanted.bSunShadow) { Made.SunShadow = AddSunShadowPass(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion}); }
+	if (Context.Signals.bAmbientOcclusion) { Made.AmbientOcclusion = AddAmbientOcclusionPass(Context, GBuffer); }
+	if (Context.Signals.bReflections) { Made.Reflections = AddReflectionsPass(Context, GBuffer); }
+	if (Context.Signals.bDiffuseGI) { Made.DiffuseGI = AddDiffuseGIPass(Context, GBuffer); }
 	HandToEngine(Made);
 }
 
@@ -297,78 +241,48 @@ void FModuleRenderer::AddPasses(const FRTModuleFrame& Frame)
 void FModuleRenderer::HandToEngine(const FFrameOutputs& Made)
 {
 	using FOutput = std::pair<FGraphTexture, TRTRef<IRTTexture>*>;
-	std::vector<FOutput> Outputs = {{Made.SunShadow.Visibility, &SunShadow},
-	                                {Made.AmbientOcclusion.Visibility, &AmbientOcclusion},
-	                                {Made.DiffuseGI.Radiance, &DiffuseGI},
-	                                {Made.Reflections.Radiance, &Reflections}};
+	std::vector<FOutput> Outputs = {{Made.SunShadow.Visibility, &SunShadow}, {Made.AmbientOcclusion.Visibility, &AmbientOcclusion},
+	    {Made.DiffuseGI.Radiance, &DiffuseGI}, {Made.Reflections.Radiance, &Reflections}};
 	std::erase_if(Outputs, [](const FOutput& Output) { return !Output.first.IsValid(); });
-	if (Outputs.empty())
-	{
-		return;
-	}
+	if (Outputs.empty()) { return; }
 	FFrameGraph& Graph = Renderer.GetContext().Graph;
-	for (const auto& [Texture, Held] : Outputs)
-	{
-		Graph.AddUsage(Texture, ERTTextureUsage::CopySource);
-	}
-	Graph.AddPass("HandToEngine",
-	              [&](FPassBuilder& Builder) -> FPassExecute
-	              {
-		              for (const auto& [Texture, Held] : Outputs)
-		              {
-			              Builder.Read(Texture, ERTAccess::ShaderRead);
-		              }
-		              Builder.NeverCull();
-		              return [Outputs](FPassContext& Pass)
-		              {
-			              for (const auto& [Texture, Held] : Outputs)
-			              {
-				              *Held = TRTRef<IRTTexture>(Pass.GetTexture(Texture));
-			              }
-		              };
-	              });
+	for (const auto& [Texture, Held] : Outputs) { Graph.AddUsage(Texture, ERTTextureUsage::CopySource); }
+	Graph.AddPass("HandToEngine", [&](FPassBuilder& Builder) -> FPassExecute {
+		for (const auto& [Texture, Held] : Outputs) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+		Builder.NeverCull();
+		return [Outputs](FPassContext& Pass) {
+			for (const auto& [Texture, Held] : Outputs) { *Held = TRTRef<IRTTexture>(Pass.GetTexture(Texture)); }
+		};
+	});
 }
 
-void FModuleRenderer::ReleaseOutputs()
-{
-	SunShadow = AmbientOcclusion = DiffuseGI = Reflections = nullptr;
-}
+void FModuleRenderer::ReleaseOutputs() { SunShadow = AmbientOcclusion = DiffuseGI = Reflections = nullptr; }
 
 FRTStatus FModuleRenderer::RecordVertices(IRTCommandList& List)
 {
 	FRTStatus Status = FRTStatus::Success();
-	Meshes.ForEach(
-	    [&](FMesh& Mesh)
-	    {
-		    if (Status && Mesh.Deformable && Mesh.Deformable->IsPending())
-		    {
-			    Status = Mesh.Deformable->Record(List, VertexUploads);
-			    Scene.MarkDeformed(Mesh.Geometry);
-		    }
-	    });
+	Meshes.ForEach([&](FMesh& Mesh) {
+		if (Status && Mesh.Deformable && Mesh.Deformable->IsPending())
+		{
+			Status = Mesh.Deformable->Record(List, VertexUploads);
+			Scene.MarkDeformed(Mesh.Geometry);
+		}
+	});
 	return Status;
 }
 
 void FModuleRenderer::FinishVertices(FRTFence Fence)
 {
 	VertexUploads.EndFrame(Fence);
-	Meshes.ForEach(
-	    [&](FMesh& Mesh)
-	    {
-		    if (Mesh.Deformable)
-		    {
-			    Mesh.Deformable->EndFrame(Fence != 0);
-		    }
-	    });
+	Meshes.ForEach([&](FMesh& Mesh) {
+		if (Mesh.Deformable) { Mesh.Deformable->EndFrame(Fence != 0); }
+	});
 }
 
 FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame)
 {
 	// Before BeginFrame, which asks the scene whether anything in it has changed.
-	if (const FRTStatus Status = RecordVertices(*Frame.Commands); !Status)
-	{
-		return Status;
-	}
+	if (const FRTStatus Status = RecordVertices(*Frame.Commands); !Status) { return Status; }
 	FFrameFeatures Features;
 	Features.bBuildAll = Features.bWaitForPipelines = false;
 	Features.bMotion = false; // the engine draws: nothing of the plugin's reads how its objects moved
@@ -377,10 +291,7 @@ FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame)
 	Features.Signals.bAmbientOcclusion = Frame.Wanted.bAmbientOcclusion;
 	Features.Signals.bDiffuseGI = Frame.Wanted.bDiffuseGI;
 	Features.Signals.bReflections = Frame.Wanted.bReflections && Frame.BaseColor != nullptr && Frame.Material != nullptr;
-	if (const FRTStatus Status = Renderer.BeginFrame(Scene, ToView(Frame, FrameIndex++), Features); !Status)
-	{
-		return Status;
-	}
+	if (const FRTStatus Status = Renderer.BeginFrame(Scene, ToView(Frame, FrameIndex++), Features); !Status) { return Status; }
 	AddPasses(Frame);
 	const FRTStatus Status = Renderer.EndFrame(*Frame.Commands);
 	if (!Status)
@@ -393,14 +304,8 @@ FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame)
 FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOutputs* Out)
 {
 	*Out = {};
-	if (Recorded)
-	{
-		return FRTStatus::Error(ERTResult::InvalidArgument, "RenderFrame: EndFrame was not called after the last one");
-	}
-	if (const FRTStatus Status = CheckFrame(Frame); !Status)
-	{
-		return Status;
-	}
+	if (Recorded) { return FRTStatus::Error(ERTResult::InvalidArgument, "RenderFrame: EndFrame was not called after the last one"); }
+	if (const FRTStatus Status = CheckFrame(Frame); !Status) { return Status; }
 	ReleaseOutputs();
 	const FRTStatus Status = RecordFrame(Frame);
 	if (!Status)
@@ -421,10 +326,7 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 
 FRTStatus FModuleRenderer::EndFrame(FRTFence* OutFence)
 {
-	if (!Recorded)
-	{
-		return FRTStatus::Error(ERTResult::InvalidArgument, "EndFrame: RenderFrame recorded nothing");
-	}
+	if (!Recorded) { return FRTStatus::Error(ERTResult::InvalidArgument, "EndFrame: RenderFrame recorded nothing"); }
 	IRTCommandList* List = Recorded.Get();
 	FRTFence Fence = 0;
 	const FRTStatus Status = Device->NotifyExternalSubmit(&List, 1, &Fence);
@@ -432,10 +334,7 @@ FRTStatus FModuleRenderer::EndFrame(FRTFence* OutFence)
 	FinishVertices(Fence);
 	ReplacedTextures.clear();
 	Recorded = nullptr;
-	if (OutFence != nullptr)
-	{
-		*OutFence = Fence;
-	}
+	if (OutFence != nullptr) { *OutFence = Fence; }
 	return Status;
 }
 

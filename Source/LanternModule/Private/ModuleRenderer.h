@@ -8,8 +8,8 @@
 #include "DeformableMesh.h"
 #include "LanternModule/Module.h"
 #include "LanternRenderer/Frame.h"
-#include "LanternScene/Scene/Scene.h"
 #include "LanternScene/Memory/Upload.h"
+#include "LanternScene/Scene/Scene.h"
 #include "RefCounted.h"
 #include "SlotTable.h"
 
@@ -31,8 +31,7 @@ public:
 	FRTStatus RemoveMesh(ERTMeshHandle Handle) override;
 	FRTStatus AddObject(const FRTModuleObject& Object, ERTObjectHandle* Out) override;
 	FRTStatus SetObjectTransform(ERTObjectHandle Handle, const double Transform[12]) override;
-	FRTStatus SetObjectMaterials(ERTObjectHandle Handle, const ERTMaterialHandle* Handles,
-	                             uint32_t MaterialCount) override;
+	FRTStatus SetObjectMaterials(ERTObjectHandle Handle, const ERTMaterialHandle* Handles, uint32_t MaterialCount) override;
 	FRTStatus SetObjectCastsShadow(ERTObjectHandle Handle, bool bCastsShadow) override;
 	FRTStatus RemoveObject(ERTObjectHandle Handle) override;
 	FRTStatus SetSun(const FRTModuleSun& Sun) override;
@@ -70,11 +69,10 @@ private:
 		std::string Name;
 	};
 
-	FRTStatus UploadMesh(const FRTModuleMesh& Mesh, const std::vector<FVertexAttributes>& Attributes,
-	                     FRTGeometryInfo& Out);
+	FRTStatus UploadMesh(const FRTModuleMesh& Mesh, const std::vector<FVertexAttributes>& Attributes, FRTGeometryInfo& Out);
 	/// For a geometry's sections: Ok and their indices, or InvalidArgument.
-	FRTStatus ResolveMaterials(const FRTGeometryInfo& Geometry, const ERTMaterialHandle* Handles, uint32_t Count,
-	                           std::vector<uint32_t>& Out);
+	FRTStatus ResolveMaterials(
+	    const FRTGeometryInfo& Geometry, const ERTMaterialHandle* Handles, uint32_t Count, std::vector<uint32_t>& Out);
 	void AddUsers(const std::vector<uint32_t>& Used);
 	void RemoveUsers(const std::vector<uint32_t>& Used);
 	FRTStatus CheckUsers(uint32_t Material);

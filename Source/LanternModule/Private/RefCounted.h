@@ -15,10 +15,7 @@ public:
 	uint32_t Release() final
 	{
 		const uint32_t Left = --Count;
-		if (Left == 0)
-		{
-			delete this;
-		}
+		if (Left == 0) { delete this; }
 		return Left;
 	}
 

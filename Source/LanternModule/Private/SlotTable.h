@@ -49,10 +49,7 @@ public:
 	{
 		for (FSlot& Slot : Slots)
 		{
-			if (Slot.Value)
-			{
-				Function(*Slot.Value);
-			}
+			if (Slot.Value) { Function(*Slot.Value); }
 		}
 	}
 

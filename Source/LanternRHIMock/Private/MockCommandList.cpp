@@ -9,18 +9,9 @@ namespace Lantern
 namespace
 {
 
-FMockBuffer* AsMock(IRTBuffer* Object)
-{
-	return static_cast<FMockBuffer*>(Object);
-}
-FMockTexture* AsMock(IRTTexture* Object)
-{
-	return static_cast<FMockTexture*>(Object);
-}
-FMockQueryPool* AsMock(IRTQueryPool* Object)
-{
-	return static_cast<FMockQueryPool*>(Object);
-}
+FMockBuffer* AsMock(IRTBuffer* Object) { return static_cast<FMockBuffer*>(Object); }
+FMockTexture* AsMock(IRTTexture* Object) { return static_cast<FMockTexture*>(Object); }
+FMockQueryPool* AsMock(IRTQueryPool* Object) { return static_cast<FMockQueryPool*>(Object); }
 
 /// Simulated duration of one command.
 constexpr uint64_t CommandNs = 1000;
@@ -32,10 +23,7 @@ FMockCommandList::FMockCommandList(std::shared_ptr<FMockState> InState, const ch
       Native(InNative)
 {
 	// An imported command buffer is recording already.
-	if (Native)
-	{
-		Stage = EStage::Recording;
-	}
+	if (Native) { Stage = EStage::Recording; }
 }
 
 void FMockCommandList::Log(ERTMockCall Kind, const std::string& Object, const FRTMockNumbers& Numbers, bool bWithPush)
@@ -50,17 +38,11 @@ void FMockCommandList::Log(ERTMockCall Kind, const std::string& Object, const FR
 	Call.Name = Object;
 	Call.List = Name;
 	Call.Numbers = Numbers;
-	if (bWithPush)
-	{
-		Call.Bytes = Push;
-	}
+	if (bWithPush) { Call.Bytes = Push; }
 	(void)State->Log(std::move(Call)); // a lost device is seen at End() or Submit()
 }
 
-void FMockCommandList::Keep(IRTRefCounted* Object)
-{
-	Kept.emplace_back(Object);
-}
+void FMockCommandList::Keep(IRTRefCounted* Object) { Kept.emplace_back(Object); }
 
 const std::string& FMockCommandList::GetPipelineName() const
 {
@@ -98,10 +80,7 @@ FRTStatus FMockCommandList::Begin()
 	Call.Kind = ERTMockCall::Begin;
 	Call.Name = Call.List = Name;
 	FRTStatus Status = State->Log(std::move(Call));
-	if (Status)
-	{
-		Stage = EStage::Recording;
-	}
+	if (Status) { Stage = EStage::Recording; }
 	return Status;
 }
 
@@ -123,28 +102,15 @@ void FMockCommandList::Barriers(const FRTBarrier* Items, uint32_t Count)
 		const FRTBarrier& Item = Items[i];
 		assert(!(Item.Buffer && Item.Texture));
 		std::string Object;
-		if (Item.Buffer)
-		{
-			Object = AsMock(Item.Buffer)->Name;
-		}
-		if (Item.Texture)
-		{
-			Object = AsMock(Item.Texture)->Name;
-		}
+		if (Item.Buffer) { Object = AsMock(Item.Buffer)->Name; }
+		if (Item.Texture) { Object = AsMock(Item.Texture)->Name; }
 		Log(ERTMockCall::Barrier, Object, {static_cast<uint64_t>(Item.Before), static_cast<uint64_t>(Item.After)});
-		if (Item.Buffer)
-		{
-			Keep(Item.Buffer);
-		}
-		if (Item.Texture)
-		{
-			Keep(Item.Texture);
-		}
+		if (Item.Buffer) { Keep(Item.Buffer); }
+		if (Item.Texture) { Keep(Item.Texture); }
 	}
 }
 
-void FMockCommandList::CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTBuffer* Source, uint64_t SourceOffset,
-                                  uint64_t Size)
+void FMockCommandList::CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTBuffer* Source, uint64_t SourceOffset, uint64_t Size)
 {
 	FMockBuffer* To = AsMock(Dest);
 	FMockBuffer* From = AsMock(Source);
@@ -152,16 +118,13 @@ void FMockCommandList::CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTBuffe
 	Log(ERTMockCall::CopyBuffer, To->Name, {DestOffset, SourceOffset, Size});
 	Keep(Dest);
 	Keep(Source);
-	Then(
-	    [=, this]
-	    {
-		    std::memmove(To->Bytes + DestOffset, From->Bytes + SourceOffset, Size);
-		    CountBytes(&FRTMockTraffic::Buffer, Size);
-	    });
+	Then([=, this] {
+		std::memmove(To->Bytes + DestOffset, From->Bytes + SourceOffset, Size);
+		CountBytes(&FRTMockTraffic::Buffer, Size);
+	});
 }
 
-void FMockCommandList::CopyBufferRegions(IRTBuffer* Dest, IRTBuffer* Source, const FRTBufferRegion* Regions,
-                                         uint32_t Count)
+void FMockCommandList::CopyBufferRegions(IRTBuffer* Dest, IRTBuffer* Source, const FRTBufferRegion* Regions, uint32_t Count)
 {
 	for (uint32_t Index = 0; Index < Count; ++Index)
 	{
@@ -169,40 +132,34 @@ void FMockCommandList::CopyBufferRegions(IRTBuffer* Dest, IRTBuffer* Source, con
 	}
 }
 
-void FMockCommandList::CopyBufferToTexture(IRTTexture* Dest, uint32_t Mip, uint32_t Layer, IRTBuffer* Source,
-                                           uint64_t SourceOffset)
+void FMockCommandList::CopyBufferToTexture(IRTTexture* Dest, uint32_t Mip, uint32_t Layer, IRTBuffer* Source, uint64_t SourceOffset)
 {
 	FMockTexture* To = AsMock(Dest);
 	FMockBuffer* From = AsMock(Source);
 	Log(ERTMockCall::CopyBufferToTexture, To->Name, {Mip, Layer, SourceOffset});
 	Keep(Dest);
 	Keep(Source);
-	Then(
-	    [=, this]
-	    {
-		    std::vector<uint8_t>& Texels = To->GetTexels(Mip, Layer);
-		    assert(SourceOffset + Texels.size() <= From->Desc.Size);
-		    std::memcpy(Texels.data(), From->Bytes + SourceOffset, Texels.size());
-		    CountBytes(&FRTMockTraffic::Buffer, Texels.size());
-	    });
+	Then([=, this] {
+		std::vector<uint8_t>& Texels = To->GetTexels(Mip, Layer);
+		assert(SourceOffset + Texels.size() <= From->Desc.Size);
+		std::memcpy(Texels.data(), From->Bytes + SourceOffset, Texels.size());
+		CountBytes(&FRTMockTraffic::Buffer, Texels.size());
+	});
 }
 
-void FMockCommandList::CopyTextureToBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTTexture* Source, uint32_t Mip,
-                                           uint32_t Layer)
+void FMockCommandList::CopyTextureToBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTTexture* Source, uint32_t Mip, uint32_t Layer)
 {
 	FMockBuffer* To = AsMock(Dest);
 	FMockTexture* From = AsMock(Source);
 	Log(ERTMockCall::CopyTextureToBuffer, From->Name, {Mip, Layer, DestOffset});
 	Keep(Dest);
 	Keep(Source);
-	Then(
-	    [=, this]
-	    {
-		    const std::vector<uint8_t>& Texels = From->GetTexels(Mip, Layer);
-		    assert(DestOffset + Texels.size() <= To->Desc.Size);
-		    std::memcpy(To->Bytes + DestOffset, Texels.data(), Texels.size());
-		    CountBytes(&FRTMockTraffic::Buffer, Texels.size());
-	    });
+	Then([=, this] {
+		const std::vector<uint8_t>& Texels = From->GetTexels(Mip, Layer);
+		assert(DestOffset + Texels.size() <= To->Desc.Size);
+		std::memcpy(To->Bytes + DestOffset, Texels.data(), Texels.size());
+		CountBytes(&FRTMockTraffic::Buffer, Texels.size());
+	});
 }
 
 void FMockCommandList::FillBuffer(IRTBuffer* Dest, uint64_t Offset, uint64_t Size, uint32_t Value)
@@ -211,14 +168,9 @@ void FMockCommandList::FillBuffer(IRTBuffer* Dest, uint64_t Offset, uint64_t Siz
 	assert(Offset % 4 == 0 && Size % 4 == 0 && Offset + Size <= To->Desc.Size);
 	Log(ERTMockCall::FillBuffer, To->Name, {Offset, Size, Value});
 	Keep(Dest);
-	Then(
-	    [=]
-	    {
-		    for (uint64_t At = Offset; At < Offset + Size; At += 4)
-		    {
-			    std::memcpy(To->Bytes + At, &Value, 4);
-		    }
-	    });
+	Then([=] {
+		for (uint64_t At = Offset; At < Offset + Size; At += 4) { std::memcpy(To->Bytes + At, &Value, 4); }
+	});
 }
 
 void FMockCommandList::ClearTexture(IRTTexture* Dest, const float Value[4])
@@ -242,10 +194,7 @@ void FMockCommandList::SetPipeline(IRTPipeline* InPipeline)
 {
 	Pipeline = static_cast<FMockPipeline*>(InPipeline);
 	Push.clear();
-	if (Pipeline->bLibrary)
-	{
-		State->AddError(Name + ": SetPipeline of the library " + Pipeline->Name);
-	}
+	if (Pipeline->bLibrary) { State->AddError(Name + ": SetPipeline of the library " + Pipeline->Name); }
 	Log(ERTMockCall::SetPipeline, GetPipelineName());
 	Keep(InPipeline);
 }
@@ -270,26 +219,17 @@ void FMockCommandList::BeginRasterPass(const FRTRasterPassDesc& Desc)
 	assert(!bInPass);
 	bInPass = true;
 	std::string First = Desc.Depth ? AsMock(Desc.Depth)->Name : std::string();
-	if (Desc.ColorCount)
-	{
-		First = AsMock(Desc.Colors[0].Texture)->Name;
-	}
+	if (Desc.ColorCount) { First = AsMock(Desc.Colors[0].Texture)->Name; }
 	Log(ERTMockCall::BeginRasterPass, First, {Desc.Width, Desc.Height, Desc.ColorCount, Desc.Depth ? 1u : 0u});
 	for (uint32_t i = 0; i < Desc.ColorCount; ++i)
 	{
 		const FRTColorTarget& Target = Desc.Colors[i];
 		Keep(Target.Texture);
-		if (!Target.bClear)
-		{
-			continue;
-		}
+		if (!Target.bClear) { continue; }
 		const std::array<float, 4> Colour = {Target.Clear[0], Target.Clear[1], Target.Clear[2], Target.Clear[3]};
 		Then([To = AsMock(Target.Texture), Colour] { To->Clear(Colour.data()); });
 	}
-	if (!Desc.Depth)
-	{
-		return;
-	}
+	if (!Desc.Depth) { return; }
 	Keep(Desc.Depth);
 	if (Desc.bClearDepth)
 	{
@@ -317,8 +257,7 @@ void FMockCommandList::Draw(uint32_t VertexCount, uint32_t InstanceCount)
 	Then([] {});
 }
 
-void FMockCommandList::DrawIndexed(uint32_t IndexCount, uint32_t InstanceCount, uint32_t FirstIndex,
-                                   int32_t VertexOffset)
+void FMockCommandList::DrawIndexed(uint32_t IndexCount, uint32_t InstanceCount, uint32_t FirstIndex, int32_t VertexOffset)
 {
 	assert(bInPass);
 	Log(ERTMockCall::DrawIndexed, GetPipelineName(),
@@ -339,12 +278,10 @@ void FMockCommandList::WriteTimestamp(IRTQueryPool* Pool, uint32_t Index)
 	assert(Index < Mine->GetCount());
 	Log(ERTMockCall::WriteTimestamp, Mine->Name, {Index});
 	Keep(Pool);
-	Then(
-	    [=, this]
-	    {
-		    std::lock_guard Lock(State->Mutex);
-		    Mine->Values[Index] = State->ClockNs;
-	    });
+	Then([=, this] {
+		std::lock_guard Lock(State->Mutex);
+		Mine->Values[Index] = State->ClockNs;
+	});
 }
 
 void FMockCommandList::ResetQueries(IRTQueryPool* Pool, uint32_t First, uint32_t Count)
@@ -353,21 +290,13 @@ void FMockCommandList::ResetQueries(IRTQueryPool* Pool, uint32_t First, uint32_t
 	assert(First + Count <= Mine->GetCount());
 	Log(ERTMockCall::ResetQueries, Mine->Name, {First, Count});
 	Keep(Pool);
-	Then(
-	    [=, this]
-	    {
-		    std::lock_guard Lock(State->Mutex);
-		    std::fill_n(Mine->Values.begin() + First, Count, 0);
-	    });
+	Then([=, this] {
+		std::lock_guard Lock(State->Mutex);
+		std::fill_n(Mine->Values.begin() + First, Count, 0);
+	});
 }
 
-void FMockCommandList::BeginMarker(const char* MarkerName)
-{
-	Log(ERTMockCall::BeginMarker, MarkerName);
-}
-void FMockCommandList::EndMarker()
-{
-	Log(ERTMockCall::EndMarker, "");
-}
+void FMockCommandList::BeginMarker(const char* MarkerName) { Log(ERTMockCall::BeginMarker, MarkerName); }
+void FMockCommandList::EndMarker() { Log(ERTMockCall::EndMarker, ""); }
 
 } // namespace Lantern

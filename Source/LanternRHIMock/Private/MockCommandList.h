@@ -16,13 +16,10 @@ public:
 	FRTStatus Begin() override;
 	FRTStatus End() override;
 	void Barriers(const FRTBarrier* Items, uint32_t Count) override;
-	void CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTBuffer* Source, uint64_t SourceOffset,
-	                uint64_t Size) override;
+	void CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTBuffer* Source, uint64_t SourceOffset, uint64_t Size) override;
 	void CopyBufferRegions(IRTBuffer* Dest, IRTBuffer* Source, const FRTBufferRegion* Regions, uint32_t Count) override;
-	void CopyBufferToTexture(IRTTexture* Dest, uint32_t Mip, uint32_t Layer, IRTBuffer* Source,
-	                         uint64_t SourceOffset) override;
-	void CopyTextureToBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTTexture* Source, uint32_t Mip,
-	                         uint32_t Layer) override;
+	void CopyBufferToTexture(IRTTexture* Dest, uint32_t Mip, uint32_t Layer, IRTBuffer* Source, uint64_t SourceOffset) override;
+	void CopyTextureToBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTTexture* Source, uint32_t Mip, uint32_t Layer) override;
 	void FillBuffer(IRTBuffer* Dest, uint64_t Offset, uint64_t Size, uint32_t Value) override;
 	void ClearTexture(IRTTexture* Dest, const float Value[4]) override;
 	void GenerateMips(IRTTexture* Texture) override;
@@ -40,7 +37,7 @@ public:
 	void WriteCompactedSize(IRTQueryPool* Queries, uint32_t Index, IRTGeometry* Geometry) override;
 	void CompactGeometry(IRTGeometry* Dest, IRTGeometry* Source) override;
 	void BuildScene(IRTScene* Scene, IRTBuffer* Instances, uint64_t InstanceOffset, uint32_t Count, IRTBuffer* Scratch,
-	                uint64_t ScratchOffset) override;
+	    uint64_t ScratchOffset) override;
 	void KeepAlive(IRTRefCounted* Object) override;
 	void WriteTimestamp(IRTQueryPool* Pool, uint32_t Index) override;
 	void ResetQueries(IRTQueryPool* Pool, uint32_t First, uint32_t Count) override;

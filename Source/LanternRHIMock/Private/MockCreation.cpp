@@ -13,24 +13,18 @@ namespace Lantern
 FRTStatus FMockDevice::CreateBuffer(const FRTBufferDesc& Desc, IRTBuffer** Out)
 {
 	assert(Desc.Size > 0);
-	FRTStatus Status = Start(ERTMockCall::CreateBuffer, Desc.Name,
-	                         {Desc.Size, static_cast<uint64_t>(Desc.Usage), static_cast<uint64_t>(Desc.Memory)});
-	if (!Status)
-	{
-		return Status;
-	}
+	FRTStatus Status =
+	    Start(ERTMockCall::CreateBuffer, Desc.Name, {Desc.Size, static_cast<uint64_t>(Desc.Usage), static_cast<uint64_t>(Desc.Memory)});
+	if (!Status) { return Status; }
 	const EMockMemory Memory = HasAny(Desc.Usage, ERTBufferUsage::Scratch) ? EMockMemory::Scratch : EMockMemory::Buffer;
 	Status = State->Allocate(Memory, Desc.Size, Desc.Name);
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	auto Buffer = std::make_unique<FMockBuffer>(State, Desc);
 	if (!Buffer->HasBytes())
 	{
 		State->FreeMemory(Memory, Desc.Size);
-		return FRTStatus::Error(ERTResult::OutOfHostMemory, "%s: no host memory for %llu bytes",
-		                        FRTShown(Desc.Name).Text, static_cast<unsigned long long>(Desc.Size));
+		return FRTStatus::Error(ERTResult::OutOfHostMemory, "%s: no host memory for %llu bytes", FRTShown(Desc.Name).Text,
+		    static_cast<unsigned long long>(Desc.Size));
 	}
 	return Finish(*State, std::move(Buffer), Memory, Desc.Size, Out);
 }
@@ -40,11 +34,10 @@ FRTStatus FMockDevice::TakeIndices(const FRTTextureDesc& Desc, FMockTexture& Tex
 	std::lock_guard Lock(State->Mutex);
 	const bool bSampled = HasAny(Desc.Usage, ERTTextureUsage::Sampled);
 	const bool bStorage = HasAny(Desc.Usage, ERTTextureUsage::Storage);
-	if ((bSampled && !State->Sampled.Allocate(Texture.Sampled)) ||
-	    (bStorage && !State->Storage.Allocate(Texture.Storage)))
+	if ((bSampled && !State->Sampled.Allocate(Texture.Sampled)) || (bStorage && !State->Storage.Allocate(Texture.Storage)))
 	{
-		return FRTStatus::Error(ERTResult::OutOfDescriptors, "%s: the bindless heap of %u textures is full",
-		                        FRTShown(Desc.Name).Text, State->Desc.MaxBindlessTextures);
+		return FRTStatus::Error(ERTResult::OutOfDescriptors, "%s: the bindless heap of %u textures is full", FRTShown(Desc.Name).Text,
+		    State->Desc.MaxBindlessTextures);
 	}
 	return FRTStatus::Success();
 }
@@ -52,23 +45,17 @@ FRTStatus FMockDevice::TakeIndices(const FRTTextureDesc& Desc, FMockTexture& Tex
 FRTStatus FMockDevice::CreateTexture(const FRTTextureDesc& Desc, IRTTexture** Out)
 {
 	assert(Desc.Width && Desc.Height && Desc.MipCount && Desc.ArraySize && Desc.Format != ERTFormat::Unknown);
-	FRTStatus Status = Start(ERTMockCall::CreateTexture, Desc.Name,
-	                         {Desc.Width, Desc.Height, Desc.MipCount, static_cast<uint64_t>(Desc.Format)});
-	if (!Status)
-	{
-		return Status;
-	}
+	FRTStatus Status =
+	    Start(ERTMockCall::CreateTexture, Desc.Name, {Desc.Width, Desc.Height, Desc.MipCount, static_cast<uint64_t>(Desc.Format)});
+	if (!Status) { return Status; }
 	if (std::max(Desc.Width, Desc.Height) > State->Desc.MaxTextureDimension)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "%s: %u x %u texels, the device allows %u",
-		                        FRTShown(Desc.Name).Text, Desc.Width, Desc.Height, State->Desc.MaxTextureDimension);
+		return FRTStatus::Error(ERTResult::Unsupported, "%s: %u x %u texels, the device allows %u", FRTShown(Desc.Name).Text, Desc.Width,
+		    Desc.Height, State->Desc.MaxTextureDimension);
 	}
 	const uint64_t Bytes = FMockTexture::GetSizeBytes(Desc);
 	Status = State->Allocate(EMockMemory::Texture, Bytes, Desc.Name);
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	auto Texture = std::make_unique<FMockTexture>(State, Desc);
 	Status = TakeIndices(Desc, *Texture);
 	if (!Status)
@@ -81,12 +68,8 @@ FRTStatus FMockDevice::CreateTexture(const FRTTextureDesc& Desc, IRTTexture** Ou
 
 FRTStatus FMockDevice::ImportTexture(const FRTTextureDesc& Desc, uint64_t NativeImage, IRTTexture** Out)
 {
-	FRTStatus Status =
-	    Start(ERTMockCall::ImportTexture, Desc.Name, {Desc.Width, Desc.Height, Desc.MipCount, NativeImage});
-	if (!Status)
-	{
-		return Status;
-	}
+	FRTStatus Status = Start(ERTMockCall::ImportTexture, Desc.Name, {Desc.Width, Desc.Height, Desc.MipCount, NativeImage});
+	if (!Status) { return Status; }
 	auto Texture = std::make_unique<FMockTexture>(State, Desc);
 	Texture->NativeImage = NativeImage;
 	Status = TakeIndices(Desc, *Texture);
@@ -96,17 +79,14 @@ FRTStatus FMockDevice::ImportTexture(const FRTTextureDesc& Desc, uint64_t Native
 FRTStatus FMockDevice::CreateSampler(const FRTSamplerDesc& Desc, IRTSampler** Out)
 {
 	FRTStatus Status = Start(ERTMockCall::CreateSampler, Desc.Name);
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	uint32_t Index = 0;
 	{
 		std::lock_guard Lock(State->Mutex);
 		if (!State->Samplers.Allocate(Index))
 		{
-			return FRTStatus::Error(ERTResult::OutOfDescriptors, "%s: the heap of %u samplers is full",
-			                        FRTShown(Desc.Name).Text, State->Desc.MaxSamplers);
+			return FRTStatus::Error(
+			    ERTResult::OutOfDescriptors, "%s: the heap of %u samplers is full", FRTShown(Desc.Name).Text, State->Desc.MaxSamplers);
 		}
 	}
 	auto Sampler = std::make_unique<FMockSampler>(State, "Sampler", Desc.Name);
@@ -117,44 +97,30 @@ FRTStatus FMockDevice::CreateSampler(const FRTSamplerDesc& Desc, IRTSampler** Ou
 FRTStatus FMockDevice::CreateGeometry(const FRTGeometryDesc& Desc, IRTGeometry** Out)
 {
 	const uint64_t Primitives = FMockGeometry::CountPrimitives(Desc.Sections, Desc.SectionCount);
-	FRTStatus Status = Start(ERTMockCall::CreateGeometry, Desc.Name,
-	                         {Desc.SectionCount, Primitives, Desc.bAllowUpdate ? 1u : 0u, Desc.CompactedBytes});
-	if (!Status)
-	{
-		return Status;
-	}
+	FRTStatus Status =
+	    Start(ERTMockCall::CreateGeometry, Desc.Name, {Desc.SectionCount, Primitives, Desc.bAllowUpdate ? 1u : 0u, Desc.CompactedBytes});
+	if (!Status) { return Status; }
 	if (State->Desc.Rung == ERTRung::None)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "%s: the device has no acceleration structures",
-		                        FRTShown(Desc.Name).Text);
+		return FRTStatus::Error(ERTResult::Unsupported, "%s: the device has no acceleration structures", FRTShown(Desc.Name).Text);
 	}
 	const uint64_t Bytes = FMockGeometry::ComputeSizes(Desc).StructureBytes;
 	Status = State->Allocate(EMockMemory::Geometry, Bytes, Desc.Name);
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	return Finish(*State, std::make_unique<FMockGeometry>(State, Desc), EMockMemory::Geometry, Bytes, Out);
 }
 
 FRTStatus FMockDevice::CreateScene(const FRTSceneDesc& Desc, IRTScene** Out)
 {
 	FRTStatus Status = Start(ERTMockCall::CreateScene, Desc.Name, {Desc.MaxInstances});
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	if (State->Desc.Rung == ERTRung::None)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "%s: the device has no acceleration structures",
-		                        FRTShown(Desc.Name).Text);
+		return FRTStatus::Error(ERTResult::Unsupported, "%s: the device has no acceleration structures", FRTShown(Desc.Name).Text);
 	}
 	const uint64_t Bytes = AlignUp(256 + Desc.MaxInstances * 128ull, 256);
 	Status = State->Allocate(EMockMemory::Scene, Bytes, Desc.Name);
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	uint32_t Index = 0;
 	bool bIndex = false;
 	{
@@ -164,8 +130,8 @@ FRTStatus FMockDevice::CreateScene(const FRTSceneDesc& Desc, IRTScene** Out)
 	if (!bIndex)
 	{
 		State->FreeMemory(EMockMemory::Scene, Bytes);
-		return FRTStatus::Error(ERTResult::OutOfDescriptors, "%s: the heap of %u scenes is full",
-		                        FRTShown(Desc.Name).Text, State->Desc.MaxScenes);
+		return FRTStatus::Error(
+		    ERTResult::OutOfDescriptors, "%s: the heap of %u scenes is full", FRTShown(Desc.Name).Text, State->Desc.MaxScenes);
 	}
 	auto Scene = std::make_unique<FMockScene>(State, "Scene", Desc.Name);
 	Scene->Index = Index;
@@ -177,17 +143,11 @@ FRTStatus FMockDevice::CreateScene(const FRTSceneDesc& Desc, IRTScene** Out)
 FRTStatus FMockDevice::CreateShaderTable(const FRTShaderTableDesc& Desc, IRTShaderTable** Out)
 {
 	assert(Desc.Pipeline && Desc.RecordDataBytes <= MaxRecordDataBytes);
-	FRTStatus Status = Start(ERTMockCall::CreateShaderTable, Desc.Name,
-	                         {Desc.RayGenCount, Desc.MissCount, Desc.HitCount, Desc.CallableCount});
-	if (!Status)
-	{
-		return Status;
-	}
+	FRTStatus Status =
+	    Start(ERTMockCall::CreateShaderTable, Desc.Name, {Desc.RayGenCount, Desc.MissCount, Desc.HitCount, Desc.CallableCount});
+	if (!Status) { return Status; }
 	auto Table = std::make_unique<FMockShaderTable>(State, Desc);
-	if (Table->Pipeline->bLibrary)
-	{
-		State->AddError(Table->Name + ": made for the library " + Table->Pipeline->Name);
-	}
+	if (Table->Pipeline->bLibrary) { State->AddError(Table->Name + ": made for the library " + Table->Pipeline->Name); }
 	Status = Table->Allocate();
 	return Status ? Finish(*State, std::move(Table), EMockMemory::None, 0, Out) : Status;
 }
@@ -195,10 +155,7 @@ FRTStatus FMockDevice::CreateShaderTable(const FRTShaderTableDesc& Desc, IRTShad
 FRTStatus FMockDevice::CreateQueryPool(ERTQuery Kind, uint32_t Count, IRTQueryPool** Out)
 {
 	FRTStatus Status = Start(ERTMockCall::CreateQueryPool, "", {Count, static_cast<uint64_t>(Kind)});
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	auto Pool = std::make_unique<FMockQueryPool>(State, "QueryPool", "");
 	Pool->Kind = Kind;
 	Pool->Values.resize(Count);
@@ -208,10 +165,7 @@ FRTStatus FMockDevice::CreateQueryPool(ERTQuery Kind, uint32_t Count, IRTQueryPo
 FRTStatus FMockDevice::CreateCommandList(const char* Name, IRTCommandList** Out)
 {
 	FRTStatus Status = Start(ERTMockCall::CreateCommandList, Name);
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	return Finish(*State, std::make_unique<FMockCommandList>(State, Name, 0), EMockMemory::None, 0, Out);
 }
 
@@ -219,10 +173,7 @@ FRTStatus FMockDevice::ImportCommandList(uint64_t NativeCommandBuffer, IRTComman
 {
 	assert(NativeCommandBuffer);
 	FRTStatus Status = Start(ERTMockCall::ImportCommandList, "", {NativeCommandBuffer});
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	auto List = std::make_unique<FMockCommandList>(State, "imported", NativeCommandBuffer);
 	return Finish(*State, std::move(List), EMockMemory::None, 0, Out);
 }

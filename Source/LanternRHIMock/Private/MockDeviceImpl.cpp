@@ -73,14 +73,8 @@ FRTStatus FMockDevice::Enqueue(ERTMockCall Kind, IRTCommandList* const* Lists, u
 		Submission.Lists.emplace_back(List);
 	}
 	const FRTStatus Status = Start(Kind, "", {Count, Mock.GetLastFence() + 1});
-	if (!Status)
-	{
-		return Status;
-	}
-	for (TRTRef<FMockCommandList>& List : Submission.Lists)
-	{
-		List->MarkSubmitted();
-	}
+	if (!Status) { return Status; }
+	for (TRTRef<FMockCommandList>& List : Submission.Lists) { List->MarkSubmitted(); }
 	FRTFence Fence = 0;
 	bool bManual = false;
 	{
@@ -89,18 +83,9 @@ FRTStatus FMockDevice::Enqueue(ERTMockCall Kind, IRTCommandList* const* Lists, u
 		bManual = State->bManual;
 		State->Pending.push_back(std::move(Submission));
 	}
-	if (OutFence)
-	{
-		*OutFence = Fence;
-	}
-	if (bManual)
-	{
-		State->Collect();
-	}
-	else
-	{
-		State->Complete(Fence);
-	}
+	if (OutFence) { *OutFence = Fence; }
+	if (bManual) { State->Collect(); }
+	else { State->Complete(Fence); }
 	return FRTStatus::Success();
 }
 
@@ -123,10 +108,7 @@ FRTFence FMockDevice::GetCompletedFence()
 FRTStatus FMockDevice::WaitFor(FRTFence Fence, uint64_t TimeoutNs)
 {
 	FRTStatus Status = Start(ERTMockCall::WaitFor, "", {Fence, TimeoutNs});
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	{
 		std::lock_guard Lock(State->Mutex);
 		assert(Fence <= State->LastSubmitted && "a fence that no submission returned");
@@ -135,8 +117,8 @@ FRTStatus FMockDevice::WaitFor(FRTFence Fence, uint64_t TimeoutNs)
 			++State->BlockingWaits;
 			if (State->bManual && TimeoutNs != ~0ull)
 			{
-				return FRTStatus::Error(ERTResult::Timeout, "fence %llu has not been reached (mock)",
-				                        static_cast<unsigned long long>(Fence));
+				return FRTStatus::Error(
+				    ERTResult::Timeout, "fence %llu has not been reached (mock)", static_cast<unsigned long long>(Fence));
 			}
 		}
 	}
@@ -147,10 +129,7 @@ FRTStatus FMockDevice::WaitFor(FRTFence Fence, uint64_t TimeoutNs)
 FRTStatus FMockDevice::WaitIdle()
 {
 	FRTStatus Status = Start(ERTMockCall::WaitIdle, "");
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	{
 		std::lock_guard Lock(State->Mutex);
 		State->BlockingWaits += State->Pending.empty() ? 0 : 1;
@@ -175,12 +154,10 @@ FRTMemoryStats FMockDevice::GetMemoryStats() const
 FRTStatus CreateMockDevice(const FRTMockDesc& Desc, IRTDevice** Out)
 {
 	const uint32_t Alignments[] = {Desc.HandleAlignment, Desc.BaseAlignment, Desc.ScratchAlignment};
-	const bool bPowers =
-	    std::all_of(std::begin(Alignments), std::end(Alignments), [](uint32_t A) { return std::has_single_bit(A); });
+	const bool bPowers = std::all_of(std::begin(Alignments), std::end(Alignments), [](uint32_t A) { return std::has_single_bit(A); });
 	if (!bPowers || Desc.HandleSize < 32)
 	{
-		return FRTStatus::Error(ERTResult::InvalidArgument,
-		                        "mock: alignments must be powers of two and handles have at least 32 bytes");
+		return FRTStatus::Error(ERTResult::InvalidArgument, "mock: alignments must be powers of two and handles have at least 32 bytes");
 	}
 	auto State = std::make_shared<FMockState>();
 	State->Desc = Desc;

@@ -25,10 +25,7 @@ std::vector<std::string> NamesOf(const FMockState& State, F Matches)
 	std::vector<std::string> Names;
 	for (const FRTMockCall& Call : State.Calls)
 	{
-		if (Matches(Call.Kind))
-		{
-			Names.push_back(Call.Name);
-		}
+		if (Matches(Call.Kind)) { Names.push_back(Call.Name); }
 	}
 	return Names;
 }
@@ -50,16 +47,13 @@ std::vector<FRTMockCall> FRTMock::FindCalls(ERTMockCall Kind, const std::string&
 	return Filter(State, [&](const FRTMockCall& Call) { return Call.Kind == Kind && Call.Name == Name; });
 }
 
-std::vector<FRTMockCall> FRTMock::FindDispatches(const std::string& Pipeline) const
-{
-	return FindCalls(ERTMockCall::Dispatch, Pipeline);
-}
+std::vector<FRTMockCall> FRTMock::FindDispatches(const std::string& Pipeline) const { return FindCalls(ERTMockCall::Dispatch, Pipeline); }
 
 uint32_t FRTMock::CountCalls(ERTMockCall Kind) const
 {
 	std::lock_guard Lock(State.Mutex);
-	return static_cast<uint32_t>(std::count_if(State.Calls.begin(), State.Calls.end(),
-	                                           [=](const FRTMockCall& Call) { return Call.Kind == Kind; }));
+	return static_cast<uint32_t>(
+	    std::count_if(State.Calls.begin(), State.Calls.end(), [=](const FRTMockCall& Call) { return Call.Kind == Kind; }));
 }
 
 uint32_t FRTMock::CountCalls(ERTMockCall Kind, const std::string& Name) const
@@ -73,10 +67,7 @@ void FRTMock::ClearCalls()
 	State.Calls.clear();
 }
 
-void FRTMock::SetCallRecording(bool bRecord)
-{
-	State.bRecordCalls = bRecord;
-}
+void FRTMock::SetCallRecording(bool bRecord) { State.bRecordCalls = bRecord; }
 
 std::vector<std::string> FRTMock::GetCreatedBuffers() const
 {
@@ -90,12 +81,10 @@ std::vector<std::string> FRTMock::GetCreatedTextures() const
 
 std::vector<std::string> FRTMock::GetCreatedPipelines() const
 {
-	return NamesOf(State,
-	               [](ERTMockCall Kind)
-	               {
-		               return Kind == ERTMockCall::CreateComputePipeline || Kind == ERTMockCall::CreateRasterPipeline ||
-		                      Kind == ERTMockCall::CreateRayTracingPipeline;
-	               });
+	return NamesOf(State, [](ERTMockCall Kind) {
+		return Kind == ERTMockCall::CreateComputePipeline || Kind == ERTMockCall::CreateRasterPipeline ||
+		       Kind == ERTMockCall::CreateRayTracingPipeline;
+	});
 }
 
 uint32_t FRTMock::GetLiveObjectCount() const
@@ -108,10 +97,7 @@ std::vector<std::string> FRTMock::GetLiveObjects() const
 {
 	std::lock_guard Lock(State.Mutex);
 	std::vector<std::string> Names;
-	for (const FMockObject* Object : State.Live)
-	{
-		Names.push_back(std::string(Object->Type) + " " + Object->Name);
-	}
+	for (const FMockObject* Object : State.Live) { Names.push_back(std::string(Object->Type) + " " + Object->Name); }
 	std::sort(Names.begin(), Names.end());
 	return Names;
 }
@@ -139,35 +125,23 @@ IRTBuffer* FRTMock::FindBuffer(uint64_t DeviceAddress, uint64_t* OutOffset) cons
 {
 	std::lock_guard Lock(State.Mutex);
 	auto After = State.Buffers.upper_bound(DeviceAddress);
-	if (After == State.Buffers.begin())
-	{
-		return nullptr;
-	}
+	if (After == State.Buffers.begin()) { return nullptr; }
 	const auto& [Address, Buffer] = *std::prev(After);
-	if (DeviceAddress - Address >= Buffer->Desc.Size)
-	{
-		return nullptr;
-	}
-	if (OutOffset)
-	{
-		*OutOffset = DeviceAddress - Address;
-	}
+	if (DeviceAddress - Address >= Buffer->Desc.Size) { return nullptr; }
+	if (OutOffset) { *OutOffset = DeviceAddress - Address; }
 	return Buffer;
 }
 
 FRTMockRecord FRTMock::ResolveRecord(IRTShaderTable* Table, ERTRecordKind Kind, uint32_t Index) const
 {
-	if (const auto* Mine = dynamic_cast<FMockShaderTable*>(Table))
-	{
-		return Mine->Resolve(Kind, Index);
-	}
+	if (const auto* Mine = dynamic_cast<FMockShaderTable*>(Table)) { return Mine->Resolve(Kind, Index); }
 	FRTMockRecord Record;
 	Record.Error = "not a table of a mock device (wrapped?)";
 	return Record;
 }
 
-FRTMockRecord FRTMock::ResolveHit(IRTShaderTable* Table, const FRTInstance& Instance, uint32_t GeometryIndex,
-                                  uint32_t RayType, uint32_t RayMultiplier) const
+FRTMockRecord FRTMock::ResolveHit(
+    IRTShaderTable* Table, const FRTInstance& Instance, uint32_t GeometryIndex, uint32_t RayType, uint32_t RayMultiplier) const
 {
 	const uint32_t Offset = Instance.TableOffsetAndFlags & MaxInstanceIndex;
 	return ResolveRecord(Table, ERTRecordKind::Hit, Offset + GeometryIndex * RayMultiplier + RayType);
@@ -177,10 +151,7 @@ std::vector<FRTMockInstance> FRTMock::GetSceneInstances(IRTScene* Scene) const
 {
 	std::vector<FRTMockInstance> Instances;
 	const auto* Mine = dynamic_cast<FMockScene*>(Scene);
-	if (!Mine)
-	{
-		return Instances;
-	}
+	if (!Mine) { return Instances; }
 	std::lock_guard Lock(State.Mutex);
 	for (size_t i = 0; i < Mine->Instances.size(); ++i)
 	{
@@ -192,9 +163,7 @@ std::vector<FRTMockInstance> FRTMock::GetSceneInstances(IRTScene* Scene) const
 		const auto Dead = State.DeadGeometries.find(Instance.GeometryAddress);
 		Item.bDangling = Found == State.Geometries.end() && Instance.GeometryAddress != 0;
 		Item.Geometry = Found == State.Geometries.end() ? nullptr : Found->second;
-		Item.GeometryName = Found != State.Geometries.end()      ? Found->second->Name
-		                    : Dead != State.DeadGeometries.end() ? Dead->second
-		                                                         : "?";
+		Item.GeometryName = Found != State.Geometries.end() ? Found->second->Name : Dead != State.DeadGeometries.end() ? Dead->second : "?";
 	}
 	return Instances;
 }
@@ -230,16 +199,10 @@ void FRTMock::SetManualFences(bool bManual)
 		std::lock_guard Lock(State.Mutex);
 		State.bManual = bManual;
 	}
-	if (!bManual)
-	{
-		State.Complete(~0ull);
-	}
+	if (!bManual) { State.Complete(~0ull); }
 }
 
-void FRTMock::CompleteUpTo(FRTFence Fence)
-{
-	State.Complete(Fence);
-}
+void FRTMock::CompleteUpTo(FRTFence Fence) { State.Complete(Fence); }
 
 FRTFence FRTMock::GetLastFence() const
 {

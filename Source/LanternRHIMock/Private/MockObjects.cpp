@@ -39,14 +39,8 @@ FMockTexture::FMockTexture(std::shared_ptr<FMockState> InState, const FRTTexture
 FMockTexture::~FMockTexture()
 {
 	std::lock_guard Lock(State->Mutex);
-	if (Sampled != ~0u)
-	{
-		State->Sampled.Free(Sampled);
-	}
-	if (Storage != ~0u)
-	{
-		State->Storage.Free(Storage);
-	}
+	if (Sampled != ~0u) { State->Sampled.Free(Sampled); }
+	if (Storage != ~0u) { State->Storage.Free(Storage); }
 }
 
 uint64_t FMockTexture::GetSizeBytes(const FRTTextureDesc& Desc)
@@ -63,10 +57,7 @@ std::vector<uint8_t>& FMockTexture::GetTexels(uint32_t Mip, uint32_t Layer)
 {
 	assert(Mip < Desc.MipCount && Layer < Desc.ArraySize);
 	std::vector<uint8_t>& Plane = Texels[static_cast<size_t>(Layer) * Desc.MipCount + Mip];
-	if (Plane.empty())
-	{
-		Plane.resize(static_cast<size_t>(GetWidth(Mip)) * GetHeight(Mip) * BytesPerTexel(Desc.Format));
-	}
+	if (Plane.empty()) { Plane.resize(static_cast<size_t>(GetWidth(Mip)) * GetHeight(Mip) * BytesPerTexel(Desc.Format)); }
 	return Plane;
 }
 
@@ -80,10 +71,7 @@ void FMockTexture::Clear(const float Value[4])
 		for (uint32_t Mip = 0; Mip < Desc.MipCount; ++Mip)
 		{
 			std::vector<uint8_t>& Plane = GetTexels(Mip, Layer);
-			for (size_t At = 0; At < Plane.size(); At += Step)
-			{
-				std::memcpy(Plane.data() + At, Texel, Step);
-			}
+			for (size_t At = 0; At < Plane.size(); At += Step) { std::memcpy(Plane.data() + At, Texel, Step); }
 		}
 	}
 }
@@ -116,10 +104,7 @@ FMockPipeline::~FMockPipeline()
 uint64_t FMockGeometry::CountPrimitives(const FRTGeometrySection* Sections, uint32_t Count)
 {
 	uint64_t Sum = 0;
-	for (uint32_t i = 0; i < Count; ++i)
-	{
-		Sum += Sections[i].bProcedural ? Sections[i].VertexCount : Sections[i].TriangleCount;
-	}
+	for (uint32_t i = 0; i < Count; ++i) { Sum += Sections[i].bProcedural ? Sections[i].VertexCount : Sections[i].TriangleCount; }
 	return Sum;
 }
 
@@ -127,8 +112,8 @@ FRTBuildSizes FMockGeometry::ComputeSizes(const FRTGeometryDesc& Desc)
 {
 	const uint64_t Primitives = CountPrimitives(Desc.Sections, Desc.SectionCount);
 	// About what drivers report (100 bytes per triangle); only the proportions matter.
-	return {Desc.CompactedBytes ? Desc.CompactedBytes : AlignUp(256 + Primitives * 100, 256),
-	        AlignUp(256 + Primitives * 64, 256), Desc.bAllowUpdate ? AlignUp(256 + Primitives * 16, 256) : 0};
+	return {Desc.CompactedBytes ? Desc.CompactedBytes : AlignUp(256 + Primitives * 100, 256), AlignUp(256 + Primitives * 64, 256),
+	    Desc.bAllowUpdate ? AlignUp(256 + Primitives * 16, 256) : 0};
 }
 
 FMockGeometry::FMockGeometry(std::shared_ptr<FMockState> InState, const FRTGeometryDesc& Desc)
@@ -144,10 +129,7 @@ FMockGeometry::FMockGeometry(std::shared_ptr<FMockState> InState, const FRTGeome
 	State->Geometries[Address] = this;
 }
 
-FMockGeometry::~FMockGeometry()
-{
-	State->AddDeadGeometry(Address, Name);
-}
+FMockGeometry::~FMockGeometry() { State->AddDeadGeometry(Address, Name); }
 
 FMockScene::~FMockScene()
 {
@@ -161,10 +143,7 @@ bool FMockQueryPool::GetResults(uint32_t First, uint32_t Count, uint64_t* OutVal
 	std::lock_guard Lock(State->Mutex);
 	for (uint32_t i = 0; i < Count; ++i)
 	{
-		if (Values[First + i] == 0)
-		{
-			return false;
-		}
+		if (Values[First + i] == 0) { return false; }
 		OutValues[i] = Values[First + i];
 	}
 	return true;

@@ -132,10 +132,7 @@ public:
 	static uint64_t CountPrimitives(const FRTGeometrySection* Sections, uint32_t Count);
 	static FRTBuildSizes ComputeSizes(const FRTGeometryDesc& Desc);
 	/// What the device says when asked. 60 %, about what drivers reach.
-	uint64_t GetCompactedSize() const
-	{
-		return CompactedBytes ? CompactedBytes : AlignUp(Sizes.StructureBytes * 6 / 10, 128);
-	}
+	uint64_t GetCompactedSize() const { return CompactedBytes ? CompactedBytes : AlignUp(Sizes.StructureBytes * 6 / 10, 128); }
 
 	uint64_t Address = 0;
 	uint32_t SectionCount = 0;

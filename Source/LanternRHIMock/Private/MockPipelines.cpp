@@ -15,10 +15,7 @@ namespace
 
 std::string GetShaderName(const FRTRayTracingPipelineDesc& Desc, uint32_t Index)
 {
-	if (Index == NoShader)
-	{
-		return {};
-	}
+	if (Index == NoShader) { return {}; }
 	assert(Index < Desc.ShaderCount);
 	return Desc.Shaders[Index].Name ? Desc.Shaders[Index].Name : "";
 }
@@ -35,10 +32,7 @@ std::vector<FMockGroup> MakeOwnGroups(const FRTRayTracingPipelineDesc& Desc)
 		Mine.ClosestHit = GetShaderName(Desc, Group.ClosestHit);
 		Mine.AnyHit = GetShaderName(Desc, Group.AnyHit);
 		Mine.Intersection = GetShaderName(Desc, Group.Intersection);
-		if (Group.General != NoShader)
-		{
-			Mine.GeneralStage = Desc.Shaders[Group.General].Stage;
-		}
+		if (Group.General != NoShader) { Mine.GeneralStage = Desc.Shaders[Group.General].Stage; }
 	}
 	return Groups;
 }
@@ -57,10 +51,7 @@ FRTStatus FMockDevice::Compile(const char* Name)
 	const auto IsPart = [&](const std::string& Part) { return Whole.find(Part) != std::string::npos; };
 	uint32_t Milliseconds = 0;
 	std::unique_lock Lock(State->Mutex);
-	for (const auto& [Part, Delay] : State->Slow)
-	{
-		Milliseconds += IsPart(Part) ? Delay : 0;
-	}
+	for (const auto& [Part, Delay] : State->Slow) { Milliseconds += IsPart(Part) ? Delay : 0; }
 	const bool bFail = std::any_of(State->Failing.begin(), State->Failing.end(), IsPart);
 	const auto IsHeld = [&] { return std::any_of(State->Held.begin(), State->Held.end(), IsPart); };
 	if (Milliseconds || IsHeld())
@@ -73,24 +64,15 @@ FRTStatus FMockDevice::Compile(const char* Name)
 		--State->CompilesInDriver;
 	}
 	Lock.unlock();
-	if (bFail)
-	{
-		return FRTStatus::Error(ERTResult::CompileFailed, "%s: compile failed (mock, injected)", Whole.c_str());
-	}
+	if (bFail) { return FRTStatus::Error(ERTResult::CompileFailed, "%s: compile failed (mock, injected)", Whole.c_str()); }
 	return FRTStatus::Success();
 }
 
 FRTStatus FMockDevice::CreateComputePipeline(const FRTComputePipelineDesc& Desc, IRTPipeline** Out)
 {
 	FRTStatus Status = Start(ERTMockCall::CreateComputePipeline, Desc.Name, {Desc.Shader.WordCount});
-	if (Status)
-	{
-		Status = Compile(Desc.Name);
-	}
-	if (!Status)
-	{
-		return Status;
-	}
+	if (Status) { Status = Compile(Desc.Name); }
+	if (!Status) { return Status; }
 	auto Pipeline = std::make_unique<FMockPipeline>(State, "Pipeline", Desc.Name);
 	return Finish(*State, std::move(Pipeline), EMockMemory::None, 0, Out);
 }
@@ -98,14 +80,8 @@ FRTStatus FMockDevice::CreateComputePipeline(const FRTComputePipelineDesc& Desc,
 FRTStatus FMockDevice::CreateRasterPipeline(const FRTRasterPipelineDesc& Desc, IRTPipeline** Out)
 {
 	FRTStatus Status = Start(ERTMockCall::CreateRasterPipeline, Desc.Name, {Desc.ColorCount});
-	if (Status)
-	{
-		Status = Compile(Desc.Name);
-	}
-	if (!Status)
-	{
-		return Status;
-	}
+	if (Status) { Status = Compile(Desc.Name); }
+	if (!Status) { return Status; }
 	auto Pipeline = std::make_unique<FMockPipeline>(State, "Pipeline", Desc.Name);
 	Pipeline->Kind = EMockPipeline::Raster;
 	return Finish(*State, std::move(Pipeline), EMockMemory::None, 0, Out);
@@ -114,14 +90,8 @@ FRTStatus FMockDevice::CreateRasterPipeline(const FRTRasterPipelineDesc& Desc, I
 void FMockDevice::CheckLibrary(const FMockPipeline& Link, const FMockPipeline& Library)
 {
 	const std::string What = Link.Name + ": linked from " + Library.Name;
-	if (!Library.bLibrary)
-	{
-		State->AddError(What + ", which is no library");
-	}
-	if (Library.Interface != Link.Interface)
-	{
-		State->AddError(What + " of other recursion, payload or attribute sizes");
-	}
+	if (!Library.bLibrary) { State->AddError(What + ", which is no library"); }
+	if (Library.Interface != Link.Interface) { State->AddError(What + " of other recursion, payload or attribute sizes"); }
 	const std::vector<FMockGroup>& Groups = *Library.Groups;
 	if (!State->Capabilities.bLibraryOnlyPipelines && std::any_of(Groups.begin(), Groups.end(), IsBoundToLink))
 	{
@@ -132,28 +102,19 @@ void FMockDevice::CheckLibrary(const FMockPipeline& Link, const FMockPipeline& L
 FRTStatus FMockDevice::CreateRayTracingPipeline(const FRTRayTracingPipelineDesc& Desc, IRTPipeline** Out)
 {
 	FRTStatus Status = Start(ERTMockCall::CreateRayTracingPipeline, Desc.Name,
-	                         {Desc.ShaderCount, Desc.GroupCount, Desc.MaxRecursion, Desc.MaxPayloadBytes,
-	                          Desc.LibraryCount, Desc.bLibrary ? 1u : 0u});
-	if (!Status)
-	{
-		return Status;
-	}
+	    {Desc.ShaderCount, Desc.GroupCount, Desc.MaxRecursion, Desc.MaxPayloadBytes, Desc.LibraryCount, Desc.bLibrary ? 1u : 0u});
+	if (!Status) { return Status; }
 	if (!State->Capabilities.bRayTracingPipeline)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "%s: the device has no ray-tracing pipelines",
-		                        FRTShown(Desc.Name).Text);
+		return FRTStatus::Error(ERTResult::Unsupported, "%s: the device has no ray-tracing pipelines", FRTShown(Desc.Name).Text);
 	}
 	if ((Desc.bLibrary || Desc.LibraryCount) && !State->Capabilities.bPipelineLibraries)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "%s: the device has no pipeline libraries",
-		                        FRTShown(Desc.Name).Text);
+		return FRTStatus::Error(ERTResult::Unsupported, "%s: the device has no pipeline libraries", FRTShown(Desc.Name).Text);
 	}
 	assert(!Desc.bLibrary || (Desc.ShaderCount && !Desc.LibraryCount));
 	Status = Compile(Desc.Name);
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	auto Pipeline = std::make_unique<FMockPipeline>(State, Desc.bLibrary ? "Library" : "Pipeline", Desc.Name);
 	Pipeline->Kind = EMockPipeline::RayTracing;
 	Pipeline->bLibrary = Desc.bLibrary;

@@ -15,10 +15,7 @@ bool FMockHeap::Allocate(uint32_t& OutIndex)
 		Freed.pop_back();
 		return true;
 	}
-	if (Next == Size)
-	{
-		return false;
-	}
+	if (Next == Size) { return false; }
 	OutIndex = Next++;
 	return true;
 }
@@ -31,10 +28,7 @@ FRTStatus FMockState::Log(FRTMockCall Call)
 		bLost = true;
 		LoseAt.reset();
 	}
-	if (bRecordCalls)
-	{
-		Calls.push_back(std::move(Call));
-	}
+	if (bRecordCalls) { Calls.push_back(std::move(Call)); }
 	return bLost ? FRTStatus::Error(ERTResult::DeviceLost, "the device was lost (mock)") : FRTStatus::Success();
 }
 
@@ -59,10 +53,7 @@ void FMockState::AddError(std::string Message)
 void FMockState::AddErrorLocked(std::string Message)
 {
 	constexpr size_t MaxErrors = 1000;
-	if (Errors.size() < MaxErrors)
-	{
-		Errors.push_back(std::move(Message));
-	}
+	if (Errors.size() < MaxErrors) { Errors.push_back(std::move(Message)); }
 }
 
 void FMockState::AddDeadGeometry(uint64_t Address, const std::string& Name)
@@ -106,7 +97,7 @@ FRTStatus FMockState::Allocate(EMockMemory Kind, uint64_t Bytes, const char* Nam
 	if (bFail || Bytes > Desc.DeviceMemoryBytes - Memory.Total)
 	{
 		return FRTStatus::Error(ERTResult::OutOfDeviceMemory, "%s: no device memory for %llu bytes (mock%s)", Name,
-		                        static_cast<unsigned long long>(Bytes), bFail ? ", injected" : "");
+		    static_cast<unsigned long long>(Bytes), bFail ? ", injected" : "");
 	}
 	Count(Kind) += Bytes;
 	Memory.Total += Bytes;
@@ -153,10 +144,7 @@ void FMockState::Collect()
 		FMockObject* Object = nullptr;
 		{
 			std::lock_guard Lock(Mutex);
-			if (Retired.empty() || Retired.front().second > Completed)
-			{
-				return;
-			}
+			if (Retired.empty() || Retired.front().second > Completed) { return; }
 			Object = Retired.front().first;
 			Retired.pop_front();
 			Live.erase(Object);
@@ -169,10 +157,7 @@ void FMockState::Collect()
 		}
 		// The destructor may drop the last owner of this state.
 		const std::shared_ptr<FMockState> Keep = Object->State;
-		if (Object->Memory != EMockMemory::None)
-		{
-			FreeMemory(Object->Memory, Object->MemoryBytes);
-		}
+		if (Object->Memory != EMockMemory::None) { FreeMemory(Object->Memory, Object->MemoryBytes); }
 		delete Object;
 	}
 }
@@ -192,10 +177,7 @@ void FMockState::Complete(FRTFence UpTo)
 		}
 		for (FMockSubmission& Submission : Done)
 		{
-			for (TRTRef<FMockCommandList>& List : Submission.Lists)
-			{
-				List->Execute();
-			}
+			for (TRTRef<FMockCommandList>& List : Submission.Lists) { List->Execute(); }
 			std::lock_guard Lock(Mutex);
 			Completed = std::max(Completed, Submission.Fence);
 		}
@@ -207,10 +189,7 @@ void FMockState::Complete(FRTFence UpTo)
 std::string FMockState::DescribeGeometry(uint64_t Address) const
 {
 	const auto Found = Geometries.find(Address);
-	if (Found != Geometries.end())
-	{
-		return "unbuilt " + Found->second->Name;
-	}
+	if (Found != Geometries.end()) { return "unbuilt " + Found->second->Name; }
 	const auto Dead = DeadGeometries.find(Address);
 	return Dead == DeadGeometries.end() ? "no geometry" : "destroyed " + Dead->second;
 }

@@ -40,8 +40,7 @@ public:
 	    : State(std::move(InState)),
 	      Type(InType),
 	      Name(InName ? InName : "")
-	{
-	}
+	{}
 	virtual ~FMockObject() = default;
 	FMockObject(const FMockObject&) = delete;
 	FMockObject& operator=(const FMockObject&) = delete;
@@ -136,9 +135,6 @@ private:
 	uint64_t& Count(EMockMemory Kind);
 };
 
-constexpr uint64_t AlignUp(uint64_t Value, uint64_t Alignment)
-{
-	return (Value + Alignment - 1) / Alignment * Alignment;
-}
+constexpr uint64_t AlignUp(uint64_t Value, uint64_t Alignment) { return (Value + Alignment - 1) / Alignment * Alignment; }
 
 } // namespace Lantern

@@ -13,25 +13,16 @@ FRTStatus FMockShaderTable::TakeUpdate(FUpdate& Out)
 {
 	UpdatedBytes = 0;
 	FRTStatus Status = Stage();
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	Out.Source = std::move(Staged);
 	Out.Ranges = std::move(StagedRanges);
 	Staged.reset();
 	StagedRanges.clear();
-	for (const FRange& Range : Out.Ranges)
-	{
-		Out.Bytes += Range.Count * Layout.Strides[Range.Kind];
-	}
+	for (const FRange& Range : Out.Ranges) { Out.Bytes += Range.Count * Layout.Strides[Range.Kind]; }
 	Out.Pipeline = Pipeline;
 	if (Next)
 	{
-		for (uint32_t Kind = 0; Kind < RecordKinds; ++Kind)
-		{
-			Out.MovedBytes += Current->Layout.Counts[Kind] * Layout.Strides[Kind];
-		}
+		for (uint32_t Kind = 0; Kind < RecordKinds; ++Kind) { Out.MovedBytes += Current->Layout.Counts[Kind] * Layout.Strides[Kind]; }
 		Out.From = std::move(Current);
 		Current = std::move(Next);
 		Next.reset();
@@ -52,7 +43,7 @@ void FMockShaderTable::Execute(const FUpdate& Update)
 			for (uint32_t Kind = 0; Kind < RecordKinds; ++Kind)
 			{
 				std::memcpy(To.Bytes + To.Layout.Starts[Kind], From.Bytes + From.Layout.Starts[Kind],
-				            From.Layout.Counts[Kind] * From.Layout.Strides[Kind]);
+				    From.Layout.Counts[Kind] * From.Layout.Strides[Kind]);
 			}
 			++Moves;
 		}
@@ -74,13 +65,9 @@ void FMockShaderTable::Execute(const FUpdate& Update)
 std::string FMockShaderTable::CheckTrace(const FMockDeviceCopy& Copy, uint64_t PipelineId) const
 {
 	std::lock_guard Lock(DeviceMutex);
-	if (!Copy.bUpdated)
-	{
-		return Name + ": rays traced before any UpdateShaderTable";
-	}
-	return Copy.Pipeline == PipelineId
-	           ? std::string()
-	           : Name + ": rays traced after SetPipeline, before an UpdateShaderTable with its handles";
+	if (!Copy.bUpdated) { return Name + ": rays traced before any UpdateShaderTable"; }
+	return Copy.Pipeline == PipelineId ? std::string()
+	                                   : Name + ": rays traced after SetPipeline, before an UpdateShaderTable with its handles";
 }
 
 FRTMockTable FMockShaderTable::Inspect() const

@@ -11,13 +11,7 @@ struct FMockHandle
 	static constexpr uint64_t TheMagic = 0x454c444e41485452ull;
 
 	FMockHandle() = default;
-	FMockHandle(uint64_t InPipeline, uint32_t InGroup)
-	    : Magic(TheMagic),
-	      Pipeline(InPipeline),
-	      Group(InGroup),
-	      Check(ComputeCheck())
-	{
-	}
+	FMockHandle(uint64_t InPipeline, uint32_t InGroup) : Magic(TheMagic), Pipeline(InPipeline), Group(InGroup), Check(ComputeCheck()) {}
 	bool IsGood() const { return Magic == TheMagic && Check == ComputeCheck(); }
 
 	uint64_t Magic = 0;

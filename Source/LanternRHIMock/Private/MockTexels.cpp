@@ -10,14 +10,8 @@ namespace Lantern
 namespace
 {
 
-float SrgbToLinear(float V)
-{
-	return V <= 0.04045f ? V / 12.92f : std::pow((V + 0.055f) / 1.055f, 2.4f);
-}
-float LinearToSrgb(float V)
-{
-	return V <= 0.0031308f ? V * 12.92f : 1.055f * std::pow(V, 1.0f / 2.4f) - 0.055f;
-}
+float SrgbToLinear(float V) { return V <= 0.04045f ? V / 12.92f : std::pow((V + 0.055f) / 1.055f, 2.4f); }
+float LinearToSrgb(float V) { return V <= 0.0031308f ? V * 12.92f : 1.055f * std::pow(V, 1.0f / 2.4f) - 0.055f; }
 
 enum class EChannel : uint8_t
 {
@@ -82,39 +76,21 @@ void Store(uint8_t* To, uint32_t Index, T Value)
 	std::memcpy(To + Index * sizeof(T), &Value, sizeof(T));
 }
 
-float Quantise(float Value, float Most)
-{
-	return std::floor(std::clamp(Value, 0.0f, 1.0f) * Most + 0.5f);
-}
+float Quantise(float Value, float Most) { return std::floor(std::clamp(Value, 0.0f, 1.0f) * Most + 0.5f); }
 
 void DecodePacked(ERTFormat Format, const uint8_t* Texel, float Out[4])
 {
 	const uint32_t Word = Load<uint32_t>(Texel, 0);
 	glm::vec4 Value(0, 0, 0, 1);
-	if (Format == ERTFormat::RGB10A2_UNORM)
-	{
-		Value = glm::unpackUnorm3x10_1x2(Word);
-	}
-	else if (Format == ERTFormat::R11G11B10_FLOAT)
-	{
-		Value = glm::vec4(glm::unpackF2x11_1x10(Word), 1.0f);
-	}
-	for (int i = 0; i < 4; ++i)
-	{
-		Out[i] = Value[i];
-	}
+	if (Format == ERTFormat::RGB10A2_UNORM) { Value = glm::unpackUnorm3x10_1x2(Word); }
+	else if (Format == ERTFormat::R11G11B10_FLOAT) { Value = glm::vec4(glm::unpackF2x11_1x10(Word), 1.0f); }
+	for (int i = 0; i < 4; ++i) { Out[i] = Value[i]; }
 }
 
 void EncodePacked(ERTFormat Format, const float V[4], uint8_t* Texel)
 {
-	if (Format == ERTFormat::RGB10A2_UNORM)
-	{
-		Store(Texel, 0, glm::packUnorm3x10_1x2({V[0], V[1], V[2], V[3]}));
-	}
-	else if (Format == ERTFormat::R11G11B10_FLOAT)
-	{
-		Store(Texel, 0, glm::packF2x11_1x10({V[0], V[1], V[2]}));
-	}
+	if (Format == ERTFormat::RGB10A2_UNORM) { Store(Texel, 0, glm::packUnorm3x10_1x2({V[0], V[1], V[2], V[3]})); }
+	else if (Format == ERTFormat::R11G11B10_FLOAT) { Store(Texel, 0, glm::packF2x11_1x10({V[0], V[1], V[2]})); }
 }
 
 float DecodeChannel(EChannel Channel, const uint8_t* Texel, uint32_t i)
@@ -139,19 +115,13 @@ void EncodeChannel(EChannel Channel, float Value, uint8_t* Texel, uint32_t i)
 	switch (Channel)
 	{
 	case EChannel::Unorm8: Texel[i] = static_cast<uint8_t>(Quantise(Value, 255.0f)); break;
-	case EChannel::Srgb8:
-		Texel[i] = static_cast<uint8_t>(Quantise(i < 3 ? LinearToSrgb(std::max(Value, 0.0f)) : Value, 255.0f));
-		break;
+	case EChannel::Srgb8: Texel[i] = static_cast<uint8_t>(Quantise(i < 3 ? LinearToSrgb(std::max(Value, 0.0f)) : Value, 255.0f)); break;
 	case EChannel::Unorm16: Store(Texel, i, static_cast<uint16_t>(Quantise(Value, 65535.0f))); break;
-	case EChannel::Snorm16:
-		Store(Texel, i, static_cast<int16_t>(std::lround(std::clamp(Value, -1.0f, 1.0f) * 32767.0f)));
-		break;
+	case EChannel::Snorm16: Store(Texel, i, static_cast<int16_t>(std::lround(std::clamp(Value, -1.0f, 1.0f) * 32767.0f))); break;
 	case EChannel::Half: Store(Texel, i, glm::packHalf1x16(Value)); break;
 	case EChannel::Float: Store(Texel, i, Value); break;
 	case EChannel::UInt16: Store(Texel, i, static_cast<uint16_t>(std::clamp(Value, 0.0f, 65535.0f))); break;
-	case EChannel::UInt32:
-		Store(Texel, i, static_cast<uint32_t>(std::clamp(static_cast<double>(Value), 0.0, 4294967295.0)));
-		break;
+	case EChannel::UInt32: Store(Texel, i, static_cast<uint32_t>(std::clamp(static_cast<double>(Value), 0.0, 4294967295.0))); break;
 	case EChannel::Packed: break;
 	}
 }
@@ -161,27 +131,15 @@ void EncodeChannel(EChannel Channel, float Value, uint8_t* Texel, uint32_t i)
 void DecodeTexel(ERTFormat Format, const uint8_t* Texel, float OutValue[4])
 {
 	const FLayout Layout = GetLayout(Format);
-	if (Layout.Channel == EChannel::Packed)
-	{
-		return DecodePacked(Format, Texel, OutValue);
-	}
-	for (uint32_t i = 0; i < 4; ++i)
-	{
-		OutValue[i] = i < Layout.Count ? DecodeChannel(Layout.Channel, Texel, i) : (i == 3 ? 1.0f : 0.0f);
-	}
+	if (Layout.Channel == EChannel::Packed) { return DecodePacked(Format, Texel, OutValue); }
+	for (uint32_t i = 0; i < 4; ++i) { OutValue[i] = i < Layout.Count ? DecodeChannel(Layout.Channel, Texel, i) : (i == 3 ? 1.0f : 0.0f); }
 }
 
 void EncodeTexel(ERTFormat Format, const float Value[4], uint8_t* OutTexel)
 {
 	const FLayout Layout = GetLayout(Format);
-	if (Layout.Channel == EChannel::Packed)
-	{
-		return EncodePacked(Format, Value, OutTexel);
-	}
-	for (uint32_t i = 0; i < Layout.Count; ++i)
-	{
-		EncodeChannel(Layout.Channel, Value[i], OutTexel, i);
-	}
+	if (Layout.Channel == EChannel::Packed) { return EncodePacked(Format, Value, OutTexel); }
+	for (uint32_t i = 0; i < Layout.Count; ++i) { EncodeChannel(Layout.Channel, Value[i], OutTexel, i); }
 }
 
 void FilterBox(ERTFormat Format, const FTexelPlane& Source, const FTexelPlane& Dest)
@@ -189,8 +147,9 @@ void FilterBox(ERTFormat Format, const FTexelPlane& Source, const FTexelPlane& D
 	const uint32_t Step = BytesPerTexel(Format);
 	const double ScaleX = static_cast<double>(Source.Width) / Dest.Width;
 	const double ScaleY = static_cast<double>(Source.Height) / Dest.Height;
-	const auto Overlap = [](double From, double To, uint32_t Cell)
-	{ return std::max(0.0, std::min(To, Cell + 1.0) - std::max(From, static_cast<double>(Cell))); };
+	const auto Overlap = [](double From, double To, uint32_t Cell) {
+		return std::max(0.0, std::min(To, Cell + 1.0) - std::max(From, static_cast<double>(Cell)));
+	};
 	for (uint32_t Y = 0; Y < Dest.Height; ++Y)
 	{
 		for (uint32_t X = 0; X < Dest.Width; ++X)
@@ -204,14 +163,11 @@ void FilterBox(ERTFormat Format, const FTexelPlane& Source, const FTexelPlane& D
 					float Value[4];
 					DecodeTexel(Format, Source.Texels + (static_cast<size_t>(V) * Source.Width + U) * Step, Value);
 					const double Weight = Overlap(Left, Right, U) * Overlap(Top, Bottom, V) / (ScaleX * ScaleY);
-					for (int i = 0; i < 4; ++i)
-					{
-						Sum[i] += Weight * Value[i];
-					}
+					for (int i = 0; i < 4; ++i) { Sum[i] += Weight * Value[i]; }
 				}
 			}
-			const float Mean[4] = {static_cast<float>(Sum[0]), static_cast<float>(Sum[1]), static_cast<float>(Sum[2]),
-			                       static_cast<float>(Sum[3])};
+			const float Mean[4] = {
+			    static_cast<float>(Sum[0]), static_cast<float>(Sum[1]), static_cast<float>(Sum[2]), static_cast<float>(Sum[3])};
 			EncodeTexel(Format, Mean, Dest.Texels + (static_cast<size_t>(Y) * Dest.Width + X) * Step);
 		}
 	}

@@ -9,24 +9,18 @@
 namespace Lantern
 {
 
-void FMockCommandList::TraceRays(IRTShaderTable* Table, uint32_t RayGen, uint32_t Width, uint32_t Height,
-                                 uint32_t Depth)
+void FMockCommandList::TraceRays(IRTShaderTable* Table, uint32_t RayGen, uint32_t Width, uint32_t Height, uint32_t Depth)
 {
 	auto* Mine = static_cast<FMockShaderTable*>(Table);
 	assert(!bInPass && Pipeline && Pipeline->Kind == EMockPipeline::RayTracing && RayGen < Mine->Desc.RayGenCount);
 	assert(Pipeline->GetGroupCount() == Mine->Pipeline->GetGroupCount());
 	Log(ERTMockCall::TraceRays, GetPipelineName(), {RayGen, Width, Height, Depth}, true);
 	Keep(Table);
-	Then(
-	    [Mine, State = State.get(), Copy = Mine->GetDeviceCopy(), Id = Mine->Pipeline->Id]
-	    {
-		    State->ClockNs += State->UsedPipelines.insert(Id).second ? State->FirstUseNs : 0;
-		    std::string Wrong = Mine->CheckTrace(*Copy, Id);
-		    if (!Wrong.empty())
-		    {
-			    State->AddError(std::move(Wrong));
-		    }
-	    });
+	Then([Mine, State = State.get(), Copy = Mine->GetDeviceCopy(), Id = Mine->Pipeline->Id] {
+		State->ClockNs += State->UsedPipelines.insert(Id).second ? State->FirstUseNs : 0;
+		std::string Wrong = Mine->CheckTrace(*Copy, Id);
+		if (!Wrong.empty()) { State->AddError(std::move(Wrong)); }
+	});
 }
 
 void FMockCommandList::UpdateShaderTable(IRTShaderTable* Table)
@@ -46,10 +40,7 @@ void FMockCommandList::UpdateShaderTable(IRTShaderTable* Table)
 
 void FMockCommandList::BuildGeometries(const FRTGeometryBuild* Builds, uint32_t Count)
 {
-	for (uint32_t i = 0; i < Count; ++i)
-	{
-		BuildGeometry(Builds[i]);
-	}
+	for (uint32_t i = 0; i < Count; ++i) { BuildGeometry(Builds[i]); }
 }
 
 void FMockCommandList::BuildGeometry(const FRTGeometryBuild& Build)
@@ -63,31 +54,17 @@ void FMockCommandList::BuildGeometry(const FRTGeometryBuild& Build)
 	std::vector<FRTGeometrySection> Sections(Build.Sections, Build.Sections + Build.SectionCount);
 	for (const FRTGeometrySection& Section : Sections)
 	{
-		if (Section.Vertices)
-		{
-			Keep(Section.Vertices);
-		}
-		if (Section.Indices)
-		{
-			Keep(Section.Indices);
-		}
+		if (Section.Vertices) { Keep(Section.Vertices); }
+		if (Section.Indices) { Keep(Section.Indices); }
 	}
-	Then(
-	    [this, Geometry, Sections = std::move(Sections), bUpdate = Build.bUpdate]
-	    {
-		    std::lock_guard Lock(State->Mutex);
-		    if (bUpdate && Geometry->Built.BuildCount == 0)
-		    {
-			    State->AddErrorLocked(Geometry->Name + ": updated before any build");
-		    }
-		    if (!bUpdate && Geometry->CompactedBytes)
-		    {
-			    State->AddErrorLocked(Geometry->Name + ": built, but made for a compacted copy");
-		    }
-		    ++(bUpdate ? Geometry->Built.UpdateCount : Geometry->Built.BuildCount);
-		    Geometry->Built.Sections = Sections;
-		    Geometry->Built.CompactedSize = Geometry->GetCompactedSize();
-	    });
+	Then([this, Geometry, Sections = std::move(Sections), bUpdate = Build.bUpdate] {
+		std::lock_guard Lock(State->Mutex);
+		if (bUpdate && Geometry->Built.BuildCount == 0) { State->AddErrorLocked(Geometry->Name + ": updated before any build"); }
+		if (!bUpdate && Geometry->CompactedBytes) { State->AddErrorLocked(Geometry->Name + ": built, but made for a compacted copy"); }
+		++(bUpdate ? Geometry->Built.UpdateCount : Geometry->Built.BuildCount);
+		Geometry->Built.Sections = Sections;
+		Geometry->Built.CompactedSize = Geometry->GetCompactedSize();
+	});
 }
 
 void FMockCommandList::WriteCompactedSize(IRTQueryPool* Queries, uint32_t Index, IRTGeometry* Geometry)
@@ -98,21 +75,16 @@ void FMockCommandList::WriteCompactedSize(IRTQueryPool* Queries, uint32_t Index,
 	Log(ERTMockCall::WriteCompactedSize, Source->Name, {Index});
 	Keep(Queries);
 	Keep(Geometry);
-	Then(
-	    [=, State = State.get()]
-	    {
-		    std::lock_guard Lock(State->Mutex);
-		    if (!Source->Built.IsUsable() || !Source->bAllowCompaction)
-		    {
-			    State->AddErrorLocked(Source->Name + ": compacted size asked of one that is not built, or made without "
-			                                         "bAllowCompaction");
-		    }
-		    if (Pool->Values[Index])
-		    {
-			    State->AddErrorLocked(Source->Name + ": compacted size written to a query that was not reset");
-		    }
-		    Pool->Values[Index] = Source->GetCompactedSize();
-	    });
+	Then([=, State = State.get()] {
+		std::lock_guard Lock(State->Mutex);
+		if (!Source->Built.IsUsable() || !Source->bAllowCompaction)
+		{
+			State->AddErrorLocked(Source->Name + ": compacted size asked of one that is not built, or made without "
+			                                     "bAllowCompaction");
+		}
+		if (Pool->Values[Index]) { State->AddErrorLocked(Source->Name + ": compacted size written to a query that was not reset"); }
+		Pool->Values[Index] = Source->GetCompactedSize();
+	});
 }
 
 void FMockCommandList::CompactGeometry(IRTGeometry* Dest, IRTGeometry* Source)
@@ -123,26 +95,24 @@ void FMockCommandList::CompactGeometry(IRTGeometry* Dest, IRTGeometry* Source)
 	Log(ERTMockCall::CompactGeometry, To->Name);
 	Keep(Dest);
 	Keep(Source);
-	Then(
-	    [=, State = State.get()]
-	    {
-		    std::lock_guard Lock(State->Mutex);
-		    if (!From->Built.IsUsable() || !From->bAllowCompaction || From->CompactedBytes)
-		    {
-			    State->AddErrorLocked(From->Name + ": compacted, but not built, made without bAllowCompaction, or "
-			                                       "compacted already");
-		    }
-		    if (To->CompactedBytes != From->GetCompactedSize() || To->SectionCount != From->SectionCount)
-		    {
-			    State->AddErrorLocked(To->Name + ": not made for the compacted copy of " + From->Name);
-		    }
-		    To->Built = From->Built;
-		    To->Built.CompactedFrom = From->Name;
-	    });
+	Then([=, State = State.get()] {
+		std::lock_guard Lock(State->Mutex);
+		if (!From->Built.IsUsable() || !From->bAllowCompaction || From->CompactedBytes)
+		{
+			State->AddErrorLocked(From->Name + ": compacted, but not built, made without bAllowCompaction, or "
+			                                   "compacted already");
+		}
+		if (To->CompactedBytes != From->GetCompactedSize() || To->SectionCount != From->SectionCount)
+		{
+			State->AddErrorLocked(To->Name + ": not made for the compacted copy of " + From->Name);
+		}
+		To->Built = From->Built;
+		To->Built.CompactedFrom = From->Name;
+	});
 }
 
-void FMockCommandList::BuildScene(IRTScene* Scene, IRTBuffer* Instances, uint64_t InstanceOffset, uint32_t Count,
-                                  IRTBuffer* Scratch, uint64_t ScratchOffset)
+void FMockCommandList::BuildScene(
+    IRTScene* Scene, IRTBuffer* Instances, uint64_t InstanceOffset, uint32_t Count, IRTBuffer* Scratch, uint64_t ScratchOffset)
 {
 	auto* Mine = static_cast<FMockScene*>(Scene);
 	auto* From = static_cast<FMockBuffer*>(Instances);
@@ -150,14 +120,8 @@ void FMockCommandList::BuildScene(IRTScene* Scene, IRTBuffer* Instances, uint64_
 	assert(Count == 0 || (From && InstanceOffset + Count * sizeof(FRTInstance) <= From->Desc.Size));
 	Log(ERTMockCall::BuildScene, Mine->Name, {Count, InstanceOffset, ScratchOffset});
 	Keep(Scene);
-	if (Instances)
-	{
-		Keep(Instances);
-	}
-	if (Scratch)
-	{
-		Keep(Scratch);
-	}
+	if (Instances) { Keep(Instances); }
+	if (Scratch) { Keep(Scratch); }
 	Then([=] { Mine->Build(Count ? From->Bytes + InstanceOffset : nullptr, Count); });
 }
 
@@ -167,10 +131,7 @@ void FMockScene::Build(const uint8_t* Source, uint32_t Count)
 	State->Traffic.Instances += Count * sizeof(FRTInstance);
 	Instances.resize(Count);
 	bBuilt.resize(Count);
-	if (Count)
-	{
-		std::memcpy(Instances.data(), Source, Count * sizeof(FRTInstance));
-	}
+	if (Count) { std::memcpy(Instances.data(), Source, Count * sizeof(FRTInstance)); }
 	// Instances of one geometry tend to follow each other.
 	uint64_t LastAddress = 0;
 	bool bLast = false;

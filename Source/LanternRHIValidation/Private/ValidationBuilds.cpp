@@ -10,21 +10,14 @@ namespace
 
 constexpr uint64_t PositionBytes = 12, BoxBytes = 24;
 
-unsigned long long Wide(uint64_t Value)
-{
-	return Value;
-}
+unsigned long long Wide(uint64_t Value) { return Value; }
 
 } // namespace
 
-bool FValidatedCommandList::CheckScratch(const char* Call, const std::string& Which, IRTBuffer* Scratch,
-                                         uint64_t Offset, uint64_t Bytes)
+bool FValidatedCommandList::CheckScratch(const char* Call, const std::string& Which, IRTBuffer* Scratch, uint64_t Offset, uint64_t Bytes)
 {
 	FValidatedBuffer* Mine = RequireBuffer(Call, "Scratch", Scratch, ERTBufferUsage::Scratch);
-	if (!Mine)
-	{
-		return false;
-	}
+	if (!Mine) { return false; }
 	const uint32_t Alignment = State->Inner->GetCapabilities().ScratchAlignment;
 	if (Alignment && Offset % Alignment)
 	{
@@ -33,8 +26,8 @@ bool FValidatedCommandList::CheckScratch(const char* Call, const std::string& Wh
 	}
 	if (!IsInside(Offset, Bytes, Mine->GetDesc().Size))
 	{
-		Report(Call, Which + Print(": needs %llu bytes of scratch at %llu, %s has %llu", Wide(Bytes), Wide(Offset),
-		                           Mine->Label.c_str(), Wide(Mine->GetDesc().Size)));
+		Report(Call, Which + Print(": needs %llu bytes of scratch at %llu, %s has %llu", Wide(Bytes), Wide(Offset), Mine->Label.c_str(),
+		                         Wide(Mine->GetDesc().Size)));
 		return false;
 	}
 	for (const FScratchRange& Range : ScratchRanges)
@@ -50,25 +43,18 @@ bool FValidatedCommandList::CheckScratch(const char* Call, const std::string& Wh
 	return true;
 }
 
-bool FValidatedCommandList::CheckTriangles(const std::string& Which, const FRTGeometrySection& Section,
-                                           FRTGeometrySection& OutInner)
+bool FValidatedCommandList::CheckTriangles(const std::string& Which, const FRTGeometrySection& Section, FRTGeometrySection& OutInner)
 {
 	const char* Call = "BuildGeometries";
 	if (Section.IndexType == ERTIndexType::None)
 	{
-		if (Section.TriangleCount * 3ull <= Section.VertexCount)
-		{
-			return true;
-		}
+		if (Section.TriangleCount * 3ull <= Section.VertexCount) { return true; }
 		Report(Call, Which + Print(": %u triangles of %u vertices", Section.TriangleCount, Section.VertexCount));
 		return false;
 	}
 	FValidatedBuffer* Indices = RequireBuffer(Call, "Indices", Section.Indices, ERTBufferUsage::GeometryInput);
 	const uint32_t Size = Section.IndexType == ERTIndexType::UInt16 ? 2 : 4;
-	if (!Indices || !CheckRange(Call, *Indices, Section.IndexOffset, Section.TriangleCount * 3ull * Size))
-	{
-		return false;
-	}
+	if (!Indices || !CheckRange(Call, *Indices, Section.IndexOffset, Section.TriangleCount * 3ull * Size)) { return false; }
 	if (Section.IndexOffset % Size)
 	{
 		Report(Call, Which + ": the index offset is not a multiple of the index size");
@@ -89,31 +75,25 @@ bool FValidatedCommandList::CheckTriangles(const std::string& Which, const FRTGe
 	return true;
 }
 
-bool FValidatedCommandList::CheckSection(const FValidatedGeometry& Geometry, uint32_t Index,
-                                         const FRTGeometrySection& Section, FRTGeometrySection& OutInner)
+bool FValidatedCommandList::CheckSection(
+    const FValidatedGeometry& Geometry, uint32_t Index, const FRTGeometrySection& Section, FRTGeometrySection& OutInner)
 {
 	const char* Call = "BuildGeometries";
 	const FRTGeometrySection& Made = Geometry.Track->Sections[Index];
 	const std::string Which = Geometry.Label + Print(", section %u", Index);
 	OutInner = Section;
-	if (Section.VertexCount != Made.VertexCount || Section.VertexStride != Made.VertexStride ||
-	    Section.bOpaque != Made.bOpaque || Section.bProcedural != Made.bProcedural ||
+	if (Section.VertexCount != Made.VertexCount || Section.VertexStride != Made.VertexStride || Section.bOpaque != Made.bOpaque ||
+	    Section.bProcedural != Made.bProcedural ||
 	    (!Section.bProcedural && (Section.TriangleCount != Made.TriangleCount || Section.IndexType != Made.IndexType)))
 	{
 		Report(Call, Which + ": counts, stride, index type or flags are not those of its creation");
 		return false;
 	}
 	FValidatedBuffer* Vertices = RequireBuffer(Call, "Vertices", Section.Vertices, ERTBufferUsage::GeometryInput);
-	if (!Vertices)
-	{
-		return false;
-	}
+	if (!Vertices) { return false; }
 	const uint64_t Last = Section.bProcedural ? BoxBytes : PositionBytes;
 	const uint64_t Bytes = (Section.VertexCount - 1ull) * Section.VertexStride + Last;
-	if (!CheckRange(Call, *Vertices, Section.VertexOffset, Bytes))
-	{
-		return false;
-	}
+	if (!CheckRange(Call, *Vertices, Section.VertexOffset, Bytes)) { return false; }
 	const uint32_t Alignment = Section.bProcedural ? 8 : 4;
 	if (Section.VertexOffset % Alignment)
 	{
@@ -125,15 +105,12 @@ bool FValidatedCommandList::CheckSection(const FValidatedGeometry& Geometry, uin
 	return Section.bProcedural || CheckTriangles(Which, Section, OutInner);
 }
 
-bool FValidatedCommandList::CheckBuild(const FRTGeometryBuild& Build, FRTGeometryBuild& OutInner,
-                                       std::vector<FRTGeometrySection>& OutSections)
+bool FValidatedCommandList::CheckBuild(
+    const FRTGeometryBuild& Build, FRTGeometryBuild& OutInner, std::vector<FRTGeometrySection>& OutSections)
 {
 	const char* Call = "BuildGeometries";
 	auto* Geometry = State->Require<FValidatedGeometry>(Build.Geometry, Where(Call) + ": Geometry");
-	if (!Geometry)
-	{
-		return false;
-	}
+	if (!Geometry) { return false; }
 	const size_t Wanted = Geometry->Track->Sections.size();
 	if (Build.SectionCount != Wanted || !Build.Sections)
 	{
@@ -153,17 +130,11 @@ bool FValidatedCommandList::CheckBuild(const FRTGeometryBuild& Build, FRTGeometr
 	OutSections.resize(Build.SectionCount);
 	for (uint32_t i = 0; i < Build.SectionCount; ++i)
 	{
-		if (!CheckSection(*Geometry, i, Build.Sections[i], OutSections[i]))
-		{
-			return false;
-		}
+		if (!CheckSection(*Geometry, i, Build.Sections[i], OutSections[i])) { return false; }
 	}
 	const FRTBuildSizes Sizes = Geometry->GetBuildSizes();
 	const uint64_t Scratch = Build.bUpdate ? Sizes.UpdateScratchBytes : Sizes.BuildScratchBytes;
-	if (!CheckScratch(Call, Geometry->Label, Build.Scratch, Build.ScratchOffset, Scratch))
-	{
-		return false;
-	}
+	if (!CheckScratch(Call, Geometry->Label, Build.Scratch, Build.ScratchOffset, Scratch)) { return false; }
 	OutInner = Build;
 	OutInner.Geometry = Geometry->Inner.Get();
 	OutInner.Sections = OutSections.data();
@@ -180,44 +151,28 @@ bool FValidatedCommandList::CheckBuild(const FRTGeometryBuild& Build, FRTGeometr
 void FValidatedCommandList::BuildGeometries(const FRTGeometryBuild* Builds, uint32_t Count)
 {
 	const char* Call = "BuildGeometries";
-	if (!CanRecordOutside(Call))
-	{
-		return;
-	}
-	if (!Builds || !Count)
-	{
-		return Report(Call, "no builds");
-	}
+	if (!CanRecordOutside(Call)) { return; }
+	if (!Builds || !Count) { return Report(Call, "no builds"); }
 	std::vector<FRTGeometryBuild> Inners;
 	std::vector<std::vector<FRTGeometrySection>> Sections(Count);
 	for (uint32_t i = 0; i < Count; ++i)
 	{
 		FRTGeometryBuild Mine;
 		bool bTwice = false;
-		for (uint32_t Before = 0; Before < i; ++Before)
-		{
-			bTwice |= Builds[Before].Geometry == Builds[i].Geometry;
-		}
+		for (uint32_t Before = 0; Before < i; ++Before) { bTwice |= Builds[Before].Geometry == Builds[i].Geometry; }
 		if (bTwice)
 		{
 			Report(Call, Print("build %u is of the same geometry as an earlier one of the call", i));
 			continue;
 		}
-		if (CheckBuild(Builds[i], Mine, Sections[i]))
-		{
-			Inners.push_back(Mine);
-		}
+		if (CheckBuild(Builds[i], Mine, Sections[i])) { Inners.push_back(Mine); }
 	}
-	if (Inners.empty())
-	{
-		return;
-	}
+	if (Inners.empty()) { return; }
 	bUnflushedGeometry = bUnflushedBuild = true;
 	Inner->BuildGeometries(Inners.data(), static_cast<uint32_t>(Inners.size()));
 }
 
-bool FValidatedCommandList::CheckInstances(FValidatedScene& Scene, IRTBuffer* Instances, uint64_t Offset,
-                                           uint32_t Count)
+bool FValidatedCommandList::CheckInstances(FValidatedScene& Scene, IRTBuffer* Instances, uint64_t Offset, uint32_t Count)
 {
 	const char* Call = "BuildScene";
 	if (Count > Scene.GetMaxInstances())
@@ -225,15 +180,9 @@ bool FValidatedCommandList::CheckInstances(FValidatedScene& Scene, IRTBuffer* In
 		Report(Call, Scene.Label + Print(": %u instances, it was created for %u", Count, Scene.GetMaxInstances()));
 		return false;
 	}
-	if (Count == 0)
-	{
-		return true;
-	}
+	if (Count == 0) { return true; }
 	FValidatedBuffer* Buffer = RequireBuffer(Call, "Instances", Instances, ERTBufferUsage::GeometryInput);
-	if (!Buffer || !CheckRange(Call, *Buffer, Offset, Count * sizeof(FRTInstance)))
-	{
-		return false;
-	}
+	if (!Buffer || !CheckRange(Call, *Buffer, Offset, Count * sizeof(FRTInstance))) { return false; }
 	if (Offset % 16)
 	{
 		Report(Call, Buffer->Label + Print(": instance offset %llu is not a multiple of 16", Wide(Offset)));
@@ -243,8 +192,7 @@ bool FValidatedCommandList::CheckInstances(FValidatedScene& Scene, IRTBuffer* In
 	return true;
 }
 
-bool FValidatedCommandList::CheckAddresses(const FValidatedScene& Scene, FValidatedBuffer& Buffer, uint64_t Offset,
-                                           uint32_t Count)
+bool FValidatedCommandList::CheckAddresses(const FValidatedScene& Scene, FValidatedBuffer& Buffer, uint64_t Offset, uint32_t Count)
 {
 	const FValidationTracker Tracker(*State);
 	const auto* Bytes = static_cast<const uint8_t*>(Buffer.GetMapped()) + Offset;
@@ -264,52 +212,31 @@ bool FValidatedCommandList::CheckAddresses(const FValidatedScene& Scene, FValida
 			}
 		}
 	}
-	if (!Wrong.empty())
-	{
-		Report("BuildScene", Scene.Label + Print(": instance %u ", Index - 1) + Wrong);
-	}
+	if (!Wrong.empty()) { Report("BuildScene", Scene.Label + Print(": instance %u ", Index - 1) + Wrong); }
 	return Wrong.empty();
 }
 
-void FValidatedCommandList::BuildScene(IRTScene* Scene, IRTBuffer* Instances, uint64_t InstanceOffset, uint32_t Count,
-                                       IRTBuffer* Scratch, uint64_t ScratchOffset)
+void FValidatedCommandList::BuildScene(
+    IRTScene* Scene, IRTBuffer* Instances, uint64_t InstanceOffset, uint32_t Count, IRTBuffer* Scratch, uint64_t ScratchOffset)
 {
 	const char* Call = "BuildScene";
-	if (!CanRecordOutside(Call))
-	{
-		return;
-	}
+	if (!CanRecordOutside(Call)) { return; }
 	auto* Mine = State->Require<FValidatedScene>(Scene, Where(Call) + ": Scene");
-	if (!Mine || !CheckInstances(*Mine, Instances, InstanceOffset, Count))
-	{
-		return;
-	}
-	if (bUnflushedGeometry)
-	{
-		return Report(Call, Mine->Label + ": geometries were built, with no memory barrier from BuildWrite since");
-	}
+	if (!Mine || !CheckInstances(*Mine, Instances, InstanceOffset, Count)) { return; }
+	if (bUnflushedGeometry) { return Report(Call, Mine->Label + ": geometries were built, with no memory barrier from BuildWrite since"); }
 	auto* Buffer = State->Find<FValidatedBuffer>(Instances);
 	const bool bReadable = Buffer && Buffer->GetMapped() && Buffer->GetDesc().Memory == ERTMemory::Upload;
-	if (bReadable && !CheckAddresses(*Mine, *Buffer, InstanceOffset, Count))
-	{
-		return;
-	}
-	if (!CheckScratch(Call, Mine->Label, Scratch, ScratchOffset, Mine->GetBuildSizes().BuildScratchBytes))
-	{
-		return;
-	}
+	if (bReadable && !CheckAddresses(*Mine, *Buffer, InstanceOffset, Count)) { return; }
+	if (!CheckScratch(Call, Mine->Label, Scratch, ScratchOffset, Mine->GetBuildSizes().BuildScratchBytes)) { return; }
 	FValidationStep& Step = AddStep(EKind::BuildScene, Call);
 	Step.What += ": " + Mine->Label;
 	Step.Scene = Mine->Track;
 	Step.Offset = InstanceOffset;
 	Step.Count = Count;
-	if (bReadable)
-	{
-		Step.Memory = Buffer->Inner;
-	}
+	if (bReadable) { Step.Memory = Buffer->Inner; }
 	bUnflushedScene = true;
 	Inner->BuildScene(Mine->Inner.Get(), Buffer ? Buffer->Inner.Get() : nullptr, InstanceOffset, Count,
-	                  State->Find<FValidatedBuffer>(Scratch)->Inner.Get(), ScratchOffset);
+	    State->Find<FValidatedBuffer>(Scratch)->Inner.Get(), ScratchOffset);
 }
 
 } // namespace Lantern

@@ -4,31 +4,22 @@
 namespace Lantern
 {
 
-FValidatedCommandList::FValidatedCommandList(std::shared_ptr<FValidationState> InState, TRTRef<IRTCommandList> InInner,
-                                             const char* Name, bool bInImported)
+FValidatedCommandList::FValidatedCommandList(
+    std::shared_ptr<FValidationState> InState, TRTRef<IRTCommandList> InInner, const char* Name, bool bInImported)
     : TValidated(std::move(InState), MakeLabel("list", Name), std::move(InInner)),
       bImported(bInImported)
 {
-	if (bImported)
-	{
-		Stage = EStage::Recording;
-	}
+	if (bImported) { Stage = EStage::Recording; }
 }
 
 FRTStatus FValidatedCommandList::Begin()
 {
-	if (bImported)
-	{
-		return State->Fail(Where("Begin") + ": an imported list is begun by the engine");
-	}
-	if (Stage == EStage::Recording)
-	{
-		return State->Fail(Where("Begin") + ": it is recording already");
-	}
+	if (bImported) { return State->Fail(Where("Begin") + ": an imported list is begun by the engine"); }
+	if (Stage == EStage::Recording) { return State->Fail(Where("Begin") + ": it is recording already"); }
 	if (Stage == EStage::Submitted && State->Inner->GetCompletedFence() < Fence)
 	{
-		return State->Fail(Where("Begin") + Print(": its submission (fence %llu) has not finished",
-		                                          static_cast<unsigned long long>(Fence)));
+		return State->Fail(
+		    Where("Begin") + Print(": its submission (fence %llu) has not finished", static_cast<unsigned long long>(Fence)));
 	}
 	Steps.clear();
 	KeptGeometries.clear();
@@ -43,22 +34,10 @@ FRTStatus FValidatedCommandList::Begin()
 
 FRTStatus FValidatedCommandList::End()
 {
-	if (bImported)
-	{
-		return State->Fail(Where("End") + ": an imported list is ended by the engine");
-	}
-	if (Stage != EStage::Recording)
-	{
-		return State->Fail(Where("End") + ": it is not recording");
-	}
-	if (bInPass)
-	{
-		return State->Fail(Where("End") + ": within a raster pass");
-	}
-	if (Markers)
-	{
-		Report("End", Print("%u markers are still open", Markers));
-	}
+	if (bImported) { return State->Fail(Where("End") + ": an imported list is ended by the engine"); }
+	if (Stage != EStage::Recording) { return State->Fail(Where("End") + ": it is not recording"); }
+	if (bInPass) { return State->Fail(Where("End") + ": within a raster pass"); }
+	if (Markers) { Report("End", Print("%u markers are still open", Markers)); }
 	Pipeline.Reset();
 	FRTStatus Status = Inner->End();
 	Stage = Status ? EStage::Ended : EStage::Idle;
@@ -67,14 +46,8 @@ FRTStatus FValidatedCommandList::End()
 
 void FValidatedCommandList::Judge(FValidationTracker& Tracker) const
 {
-	for (const FGeometryHold& Hold : KeptGeometries)
-	{
-		Tracker.Keep(Hold.Geometry);
-	}
-	for (const FValidationStep& Step : Steps)
-	{
-		Tracker.Run(Step);
-	}
+	for (const FGeometryHold& Hold : KeptGeometries) { Tracker.Keep(Hold.Geometry); }
+	for (const FValidationStep& Step : Steps) { Tracker.Run(Step); }
 }
 
 void FValidatedCommandList::MarkSubmitted(FRTFence InFence)
@@ -89,24 +62,15 @@ void FValidatedCommandList::MarkSubmitted(FRTFence InFence)
 
 bool FValidatedCommandList::CanRecord(const char* Call)
 {
-	if (Stage == EStage::Recording)
-	{
-		return true;
-	}
+	if (Stage == EStage::Recording) { return true; }
 	Report(Call, "the list is not recording");
 	return false;
 }
 
 bool FValidatedCommandList::CanRecordOutside(const char* Call)
 {
-	if (!CanRecord(Call))
-	{
-		return false;
-	}
-	if (bInPass)
-	{
-		Report(Call, "not allowed within a raster pass");
-	}
+	if (!CanRecord(Call)) { return false; }
+	if (bInPass) { Report(Call, "not allowed within a raster pass"); }
 	return !bInPass;
 }
 
@@ -125,52 +89,34 @@ void FValidatedCommandList::AddUse(const char* Call, const std::shared_ptr<FReso
 	Step.After = Access;
 }
 
-FValidatedBuffer* FValidatedCommandList::RequireBuffer(const char* Call, const char* Argument, IRTBuffer* Buffer,
-                                                       ERTBufferUsage Usage)
+FValidatedBuffer* FValidatedCommandList::RequireBuffer(const char* Call, const char* Argument, IRTBuffer* Buffer, ERTBufferUsage Usage)
 {
 	auto* Found = State->Require<FValidatedBuffer>(Buffer, Where(Call) + ": " + Argument);
-	if (!Found || Found->Has(Usage))
-	{
-		return Found;
-	}
-	static constexpr const char* Names[] = {"Storage",  "Index",         "Indirect", "CopySource",
-	                                        "CopyDest", "GeometryInput", "Scratch",  "ShaderTable"};
+	if (!Found || Found->Has(Usage)) { return Found; }
+	static constexpr const char* Names[] = {
+	    "Storage", "Index", "Indirect", "CopySource", "CopyDest", "GeometryInput", "Scratch", "ShaderTable"};
 	uint32_t Bit = 0;
-	while (!(static_cast<uint32_t>(Usage) & (1u << Bit)))
-	{
-		++Bit;
-	}
+	while (!(static_cast<uint32_t>(Usage) & (1u << Bit))) { ++Bit; }
 	Report(Call, Found->Label + " was created without the usage " + Names[Bit]);
 	return nullptr;
 }
 
-FValidatedTexture* FValidatedCommandList::RequireTexture(const char* Call, const char* Argument, IRTTexture* Texture,
-                                                         ERTTextureUsage Usage)
+FValidatedTexture* FValidatedCommandList::RequireTexture(const char* Call, const char* Argument, IRTTexture* Texture, ERTTextureUsage Usage)
 {
 	auto* Found = State->Require<FValidatedTexture>(Texture, Where(Call) + ": " + Argument);
-	if (!Found || Found->Has(Usage))
-	{
-		return Found;
-	}
+	if (!Found || Found->Has(Usage)) { return Found; }
 	static constexpr const char* Names[] = {"Sampled", "Storage", "RenderTarget", "Depth", "CopySource", "CopyDest"};
 	uint32_t Bit = 0;
-	while (!(static_cast<uint32_t>(Usage) & (1u << Bit)))
-	{
-		++Bit;
-	}
+	while (!(static_cast<uint32_t>(Usage) & (1u << Bit))) { ++Bit; }
 	Report(Call, Found->Label + " was created without the usage " + Names[Bit]);
 	return nullptr;
 }
 
 bool FValidatedCommandList::CheckRange(const char* Call, const FValidatedBuffer& Buffer, uint64_t Offset, uint64_t Size)
 {
-	if (Size > 0 && IsInside(Offset, Size, Buffer.GetDesc().Size))
-	{
-		return true;
-	}
+	if (Size > 0 && IsInside(Offset, Size, Buffer.GetDesc().Size)) { return true; }
 	Report(Call, Buffer.Label + Print(": %llu bytes at %llu of %llu", static_cast<unsigned long long>(Size),
-	                                  static_cast<unsigned long long>(Offset),
-	                                  static_cast<unsigned long long>(Buffer.GetDesc().Size)));
+	                                static_cast<unsigned long long>(Offset), static_cast<unsigned long long>(Buffer.GetDesc().Size)));
 	return false;
 }
 
@@ -196,20 +142,14 @@ bool FValidatedCommandList::CheckBarrier(const FRTBarrier& Item, FRTBarrier& Out
 	if (Item.Buffer)
 	{
 		auto* Buffer = State->Require<FValidatedBuffer>(Item.Buffer, Where(Call) + ": Buffer");
-		if (!Buffer)
-		{
-			return false;
-		}
+		if (!Buffer) { return false; }
 		OutInner.Buffer = Buffer->Inner.Get();
 		Step.Resource = Buffer->Track;
 	}
 	else if (Item.Texture)
 	{
 		auto* Texture = State->Require<FValidatedTexture>(Item.Texture, Where(Call) + ": Texture");
-		if (!Texture)
-		{
-			return false;
-		}
+		if (!Texture) { return false; }
 		OutInner.Texture = Texture->Inner.Get();
 		Step.Resource = Texture->Track;
 	}
@@ -219,27 +159,15 @@ bool FValidatedCommandList::CheckBarrier(const FRTBarrier& Item, FRTBarrier& Out
 
 void FValidatedCommandList::Barriers(const FRTBarrier* Items, uint32_t Count)
 {
-	if (!CanRecordOutside("Barriers") || Count == 0)
-	{
-		return;
-	}
-	if (!Items)
-	{
-		return Report("Barriers", "Items is null");
-	}
+	if (!CanRecordOutside("Barriers") || Count == 0) { return; }
+	if (!Items) { return Report("Barriers", "Items is null"); }
 	std::vector<FRTBarrier> Inners;
 	for (uint32_t i = 0; i < Count; ++i)
 	{
 		FRTBarrier Mine;
-		if (!CheckBarrier(Items[i], Mine))
-		{
-			continue;
-		}
+		if (!CheckBarrier(Items[i], Mine)) { continue; }
 		Inners.push_back(Mine);
-		if (!HasAny(Mine.Before, ERTAccess::BuildWrite))
-		{
-			continue;
-		}
+		if (!HasAny(Mine.Before, ERTAccess::BuildWrite)) { continue; }
 		if (!Mine.Buffer && !Mine.Texture)
 		{
 			bUnflushedGeometry = bUnflushedBuild = bUnflushedScene = false;
@@ -251,18 +179,12 @@ void FValidatedCommandList::Barriers(const FRTBarrier* Items, uint32_t Count)
 			std::erase_if(ScratchRanges, [=](const FScratchRange& Range) { return Range.Buffer == Track; });
 		}
 	}
-	if (!Inners.empty())
-	{
-		Inner->Barriers(Inners.data(), static_cast<uint32_t>(Inners.size()));
-	}
+	if (!Inners.empty()) { Inner->Barriers(Inners.data(), static_cast<uint32_t>(Inners.size())); }
 }
 
 void FValidatedCommandList::KeepAlive(IRTRefCounted* Object)
 {
-	if (!CanRecord("KeepAlive"))
-	{
-		return;
-	}
+	if (!CanRecord("KeepAlive")) { return; }
 	if (!Object || State->IsDead(Object))
 	{
 		State->Require<FValidated>(Object, Where("KeepAlive") + ": Object");
@@ -270,46 +192,25 @@ void FValidatedCommandList::KeepAlive(IRTRefCounted* Object)
 	}
 	// What is no wrapper is the caller's own object, and kept as it is.
 	FValidated* Known = State->FindAny(Object);
-	if (auto* Geometry = dynamic_cast<FValidatedGeometry*>(Known))
-	{
-		KeptGeometries.emplace_back(Geometry->Track);
-	}
+	if (auto* Geometry = dynamic_cast<FValidatedGeometry*>(Known)) { KeptGeometries.emplace_back(Geometry->Track); }
 	Inner->KeepAlive(Known ? Known->GetInner() : Object);
 }
 
 void FValidatedCommandList::WriteTimestamp(IRTQueryPool* Pool, uint32_t Index)
 {
-	if (!CanRecord("WriteTimestamp"))
-	{
-		return;
-	}
+	if (!CanRecord("WriteTimestamp")) { return; }
 	auto* Mine = State->Require<FValidatedQueryPool>(Pool, Where("WriteTimestamp") + ": Pool");
-	if (!Mine)
-	{
-		return;
-	}
-	if (Index >= Mine->GetCount())
-	{
-		return Report("WriteTimestamp", Print("query %u of %u", Index, Mine->GetCount()));
-	}
-	if (Mine->GetKind() != ERTQuery::Timestamp)
-	{
-		return Report("WriteTimestamp", Mine->Label + " is not for timestamps");
-	}
+	if (!Mine) { return; }
+	if (Index >= Mine->GetCount()) { return Report("WriteTimestamp", Print("query %u of %u", Index, Mine->GetCount())); }
+	if (Mine->GetKind() != ERTQuery::Timestamp) { return Report("WriteTimestamp", Mine->Label + " is not for timestamps"); }
 	Inner->WriteTimestamp(Mine->Inner.Get(), Index);
 }
 
 void FValidatedCommandList::ResetQueries(IRTQueryPool* Pool, uint32_t First, uint32_t Count)
 {
-	if (!CanRecordOutside("ResetQueries"))
-	{
-		return;
-	}
+	if (!CanRecordOutside("ResetQueries")) { return; }
 	auto* Mine = State->Require<FValidatedQueryPool>(Pool, Where("ResetQueries") + ": Pool");
-	if (!Mine)
-	{
-		return;
-	}
+	if (!Mine) { return; }
 	if (Count == 0 || !IsInside(First, Count, Mine->GetCount()))
 	{
 		return Report("ResetQueries", Print("queries %u + %u of %u", First, Count, Mine->GetCount()));
@@ -320,28 +221,16 @@ void FValidatedCommandList::ResetQueries(IRTQueryPool* Pool, uint32_t First, uin
 
 void FValidatedCommandList::BeginMarker(const char* Name)
 {
-	if (!CanRecord("BeginMarker"))
-	{
-		return;
-	}
-	if (!Name)
-	{
-		return Report("BeginMarker", "Name is null");
-	}
+	if (!CanRecord("BeginMarker")) { return; }
+	if (!Name) { return Report("BeginMarker", "Name is null"); }
 	++Markers;
 	Inner->BeginMarker(Name);
 }
 
 void FValidatedCommandList::EndMarker()
 {
-	if (!CanRecord("EndMarker"))
-	{
-		return;
-	}
-	if (Markers == 0)
-	{
-		return Report("EndMarker", "no marker is open");
-	}
+	if (!CanRecord("EndMarker")) { return; }
+	if (Markers == 0) { return Report("EndMarker", "no marker is open"); }
 	--Markers;
 	Inner->EndMarker();
 }

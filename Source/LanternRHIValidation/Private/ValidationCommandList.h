@@ -10,19 +10,15 @@ namespace Lantern
 class FValidatedCommandList final : public TValidated<IRTCommandList>
 {
 public:
-	FValidatedCommandList(std::shared_ptr<FValidationState> InState, TRTRef<IRTCommandList> InInner, const char* Name,
-	                      bool bInImported);
+	FValidatedCommandList(std::shared_ptr<FValidationState> InState, TRTRef<IRTCommandList> InInner, const char* Name, bool bInImported);
 
 	FRTStatus Begin() override;
 	FRTStatus End() override;
 	void Barriers(const FRTBarrier* Items, uint32_t Count) override;
-	void CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTBuffer* Source, uint64_t SourceOffset,
-	                uint64_t Size) override;
+	void CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTBuffer* Source, uint64_t SourceOffset, uint64_t Size) override;
 	void CopyBufferRegions(IRTBuffer* Dest, IRTBuffer* Source, const FRTBufferRegion* Regions, uint32_t Count) override;
-	void CopyBufferToTexture(IRTTexture* Dest, uint32_t Mip, uint32_t Layer, IRTBuffer* Source,
-	                         uint64_t SourceOffset) override;
-	void CopyTextureToBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTTexture* Source, uint32_t Mip,
-	                         uint32_t Layer) override;
+	void CopyBufferToTexture(IRTTexture* Dest, uint32_t Mip, uint32_t Layer, IRTBuffer* Source, uint64_t SourceOffset) override;
+	void CopyTextureToBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTTexture* Source, uint32_t Mip, uint32_t Layer) override;
 	void FillBuffer(IRTBuffer* Dest, uint64_t Offset, uint64_t Size, uint32_t Value) override;
 	void ClearTexture(IRTTexture* Dest, const float Value[4]) override;
 	void GenerateMips(IRTTexture* Texture) override;
@@ -40,7 +36,7 @@ public:
 	void WriteCompactedSize(IRTQueryPool* Queries, uint32_t Index, IRTGeometry* Geometry) override;
 	void CompactGeometry(IRTGeometry* Dest, IRTGeometry* Source) override;
 	void BuildScene(IRTScene* Scene, IRTBuffer* Instances, uint64_t InstanceOffset, uint32_t Count, IRTBuffer* Scratch,
-	                uint64_t ScratchOffset) override;
+	    uint64_t ScratchOffset) override;
 	void KeepAlive(IRTRefCounted* Object) override;
 	void WriteTimestamp(IRTQueryPool* Pool, uint32_t Index) override;
 	void ResetQueries(IRTQueryPool* Pool, uint32_t First, uint32_t Count) override;
@@ -77,20 +73,16 @@ private:
 	FValidationStep& AddStep(EKind Kind, const char* Call);
 	void AddUse(const char* Call, const std::shared_ptr<FResourceTrack>& Resource, ERTAccess Access);
 	FValidatedBuffer* RequireBuffer(const char* Call, const char* Argument, IRTBuffer* Buffer, ERTBufferUsage Usage);
-	FValidatedTexture* RequireTexture(const char* Call, const char* Argument, IRTTexture* Texture,
-	                                  ERTTextureUsage Usage);
+	FValidatedTexture* RequireTexture(const char* Call, const char* Argument, IRTTexture* Texture, ERTTextureUsage Usage);
 	bool CheckRange(const char* Call, const FValidatedBuffer& Buffer, uint64_t Offset, uint64_t Size);
-	void CopyRegions(const char* Call, IRTBuffer* Dest, IRTBuffer* Source, const FRTBufferRegion* Regions,
-	                 uint32_t Count);
-	bool CheckTextureCopy(const char* Call, const FValidatedTexture& Texture, uint32_t Mip, uint32_t Layer,
-	                      const FValidatedBuffer& Buffer, uint64_t Offset);
+	void CopyRegions(const char* Call, IRTBuffer* Dest, IRTBuffer* Source, const FRTBufferRegion* Regions, uint32_t Count);
+	bool CheckTextureCopy(
+	    const char* Call, const FValidatedTexture& Texture, uint32_t Mip, uint32_t Layer, const FValidatedBuffer& Buffer, uint64_t Offset);
 	bool CheckBarrier(const FRTBarrier& Item, FRTBarrier& OutInner);
 	FValidatedTexture* CheckTarget(IRTTexture* Texture, const FRTRasterPassDesc& Desc, bool bDepth);
 
-	bool CheckBuild(const FRTGeometryBuild& Build, FRTGeometryBuild& OutInner,
-	                std::vector<FRTGeometrySection>& OutSections);
-	bool CheckSection(const FValidatedGeometry& Geometry, uint32_t Index, const FRTGeometrySection& Section,
-	                  FRTGeometrySection& OutInner);
+	bool CheckBuild(const FRTGeometryBuild& Build, FRTGeometryBuild& OutInner, std::vector<FRTGeometrySection>& OutSections);
+	bool CheckSection(const FValidatedGeometry& Geometry, uint32_t Index, const FRTGeometrySection& Section, FRTGeometrySection& OutInner);
 	bool CheckTriangles(const std::string& Which, const FRTGeometrySection& Section, FRTGeometrySection& OutInner);
 	bool CheckScratch(const char* Call, const std::string& Which, IRTBuffer* Scratch, uint64_t Offset, uint64_t Bytes);
 	bool CheckInstances(FValidatedScene& Scene, IRTBuffer* Instances, uint64_t Offset, uint32_t Count);

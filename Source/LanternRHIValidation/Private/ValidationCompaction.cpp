@@ -9,10 +9,7 @@ namespace Lantern
 namespace
 {
 
-unsigned long long Wide(uint64_t Value)
-{
-	return Value;
-}
+unsigned long long Wide(uint64_t Value) { return Value; }
 
 bool HasSameShape(const FRTGeometrySection& A, const FRTGeometrySection& B)
 {
@@ -38,20 +35,14 @@ bool FValidatedQueryPool::GetResults(uint32_t First, uint32_t Count, uint64_t* O
 		return false;
 	}
 	const bool bThere = Inner->GetResults(First, Count, OutValues);
-	if (!bThere || GetKind() != ERTQuery::CompactedSize)
-	{
-		return bThere;
-	}
+	if (!bThere || GetKind() != ERTQuery::CompactedSize) { return bThere; }
 	const FRTFence Completed = State->Inner->GetCompletedFence();
 	std::lock_guard Lock(State->Mutex);
 	for (uint32_t i = 0; i < Count; ++i)
 	{
 		const FQueryTrack::FQuery& Query = Track->Queries[First + i];
 		// Until the submission that writes it has finished, the pool may still hold the size of another geometry.
-		if (Query.Geometry && Query.Fence <= Completed)
-		{
-			Query.Geometry->CompactedSize = OutValues[i];
-		}
+		if (Query.Geometry && Query.Fence <= Completed) { Query.Geometry->CompactedSize = OutValues[i]; }
 	}
 	return true;
 }
@@ -59,41 +50,23 @@ bool FValidatedQueryPool::GetResults(uint32_t First, uint32_t Count, uint64_t* O
 void FValidatedQueryPool::MarkReset(uint32_t First, uint32_t Count)
 {
 	std::lock_guard Lock(State->Mutex);
-	for (uint32_t i = First; i < First + Count; ++i)
-	{
-		Track->Queries[i].bReset = true;
-	}
+	for (uint32_t i = First; i < First + Count; ++i) { Track->Queries[i].bReset = true; }
 }
 
 void FValidatedCommandList::WriteCompactedSize(IRTQueryPool* Queries, uint32_t Index, IRTGeometry* Geometry)
 {
 	const char* Call = "WriteCompactedSize";
-	if (!CanRecordOutside(Call))
-	{
-		return;
-	}
+	if (!CanRecordOutside(Call)) { return; }
 	auto* Pool = State->Require<FValidatedQueryPool>(Queries, Where(Call) + ": Queries");
 	auto* Mine = State->Require<FValidatedGeometry>(Geometry, Where(Call) + ": Geometry");
-	if (!Pool || !Mine)
-	{
-		return;
-	}
+	if (!Pool || !Mine) { return; }
 	if (Pool->GetKind() != ERTQuery::CompactedSize)
 	{
 		return Report(Call, Mine->Label + ": " + Pool->Label + " is not for compacted sizes");
 	}
-	if (Index >= Pool->GetCount())
-	{
-		return Report(Call, Mine->Label + Print(": query %u of %u", Index, Pool->GetCount()));
-	}
-	if (!Mine->Track->bAllowCompaction)
-	{
-		return Report(Call, Mine->Label + " was created without bAllowCompaction");
-	}
-	if (bUnflushedBuild)
-	{
-		return Report(Call, Mine->Label + ": geometries were built, with no memory barrier from BuildWrite since");
-	}
+	if (Index >= Pool->GetCount()) { return Report(Call, Mine->Label + Print(": query %u of %u", Index, Pool->GetCount())); }
+	if (!Mine->Track->bAllowCompaction) { return Report(Call, Mine->Label + " was created without bAllowCompaction"); }
+	if (bUnflushedBuild) { return Report(Call, Mine->Label + ": geometries were built, with no memory barrier from BuildWrite since"); }
 	{
 		std::lock_guard Lock(State->Mutex);
 		if (!std::exchange(Pool->Track->Queries[Index].bReset, false))
@@ -119,57 +92,32 @@ bool FValidatedCommandList::CheckCompaction(const FValidatedGeometry& Dest, cons
 		std::lock_guard Lock(State->Mutex);
 		Size = From.CompactedSize;
 	}
-	if (!From.bAllowCompaction)
-	{
-		Wrong = Source.Label + " was created without bAllowCompaction";
-	}
-	else if (From.CompactedBytes)
-	{
-		Wrong = Source.Label + " is a compacted copy itself";
-	}
-	else if (!To.CompactedBytes)
-	{
-		Wrong = Dest.Label + " was created without CompactedBytes";
-	}
-	else if (Size == 0)
-	{
-		Wrong = "no compacted size of " + Source.Label + " has been read (WriteCompactedSize, then GetResults)";
-	}
+	if (!From.bAllowCompaction) { Wrong = Source.Label + " was created without bAllowCompaction"; }
+	else if (From.CompactedBytes) { Wrong = Source.Label + " is a compacted copy itself"; }
+	else if (!To.CompactedBytes) { Wrong = Dest.Label + " was created without CompactedBytes"; }
+	else if (Size == 0) { Wrong = "no compacted size of " + Source.Label + " has been read (WriteCompactedSize, then GetResults)"; }
 	else if (To.CompactedBytes != Size)
 	{
 		Wrong = Dest.Label + Print(" was created for %llu bytes, but ", Wide(To.CompactedBytes)) + Source.Label +
 		        Print(" needs %llu", Wide(Size));
 	}
 	else if (To.bAllowUpdate != From.bAllowUpdate || To.bFastBuild != From.bFastBuild ||
-	         !std::equal(To.Sections.begin(), To.Sections.end(), From.Sections.begin(), From.Sections.end(),
-	                     HasSameShape))
+	         !std::equal(To.Sections.begin(), To.Sections.end(), From.Sections.begin(), From.Sections.end(), HasSameShape))
 	{
 		Wrong = Dest.Label + " was created with other sections or flags than " + Source.Label;
 	}
-	if (!Wrong.empty())
-	{
-		Report("CompactGeometry", Wrong);
-	}
+	if (!Wrong.empty()) { Report("CompactGeometry", Wrong); }
 	return Wrong.empty();
 }
 
 void FValidatedCommandList::CompactGeometry(IRTGeometry* Dest, IRTGeometry* Source)
 {
 	const char* Call = "CompactGeometry";
-	if (!CanRecordOutside(Call))
-	{
-		return;
-	}
+	if (!CanRecordOutside(Call)) { return; }
 	auto* To = State->Require<FValidatedGeometry>(Dest, Where(Call) + ": Dest");
 	auto* From = State->Require<FValidatedGeometry>(Source, Where(Call) + ": Source");
-	if (!To || !From || !CheckCompaction(*To, *From))
-	{
-		return;
-	}
-	if (bUnflushedBuild)
-	{
-		return Report(Call, From->Label + ": geometries were built, with no memory barrier from BuildWrite since");
-	}
+	if (!To || !From || !CheckCompaction(*To, *From)) { return; }
+	if (bUnflushedBuild) { return Report(Call, From->Label + ": geometries were built, with no memory barrier from BuildWrite since"); }
 	AddStep(EKind::RequireBuilt, Call).Geometry = From->Track;
 	AddStep(EKind::BuildGeometry, Call).Geometry = To->Track;
 	KeptGeometries.emplace_back(From->Track);

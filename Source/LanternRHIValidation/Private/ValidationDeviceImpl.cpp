@@ -9,43 +9,28 @@ namespace Lantern
 uint32_t FValidatedDevice::Release()
 {
 	const uint32_t Left = --References;
-	if (Left)
-	{
-		return Left;
-	}
+	if (Left) { return Left; }
 	std::vector<std::string> Leaked;
 	{
 		std::lock_guard Lock(State->Mutex);
-		for (const auto& [Key, Object] : State->Live)
-		{
-			Leaked.push_back(Object->Label);
-		}
+		for (const auto& [Key, Object] : State->Live) { Leaked.push_back(Object->Label); }
 	}
 	std::sort(Leaked.begin(), Leaked.end());
-	for (const std::string& Item : Leaked)
-	{
-		State->Report("device: " + Item + " is leaked, it was never released");
-	}
+	for (const std::string& Item : Leaked) { State->Report("device: " + Item + " is leaked, it was never released"); }
 	delete this;
 	return 0;
 }
 
-FRTStatus FValidatedDevice::Collect(IRTCommandList* const* Lists, uint32_t Count, bool bImported,
-                                    std::vector<FValidatedCommandList*>& OutLists)
+FRTStatus FValidatedDevice::Collect(
+    IRTCommandList* const* Lists, uint32_t Count, bool bImported, std::vector<FValidatedCommandList*>& OutLists)
 {
 	const std::string Call = bImported ? "NotifyExternalSubmit" : "Submit";
-	if (Count && !Lists)
-	{
-		return State->Fail(Call + ": Lists is null");
-	}
+	if (Count && !Lists) { return State->Fail(Call + ": Lists is null"); }
 	for (uint32_t i = 0; i < Count; ++i)
 	{
 		const std::string What = Call + Print(": list %u", i);
 		auto* List = State->Require<FValidatedCommandList>(Lists[i], What);
-		if (!List)
-		{
-			return FRTStatus::Error(ERTResult::InvalidArgument, "%s is none", What.c_str());
-		}
+		if (!List) { return FRTStatus::Error(ERTResult::InvalidArgument, "%s is none", What.c_str()); }
 		if (List->IsImported() != bImported)
 		{
 			return State->Fail(Call + ": " + List->Label + (bImported ? " is not imported" : " is imported"));
@@ -54,14 +39,8 @@ FRTStatus FValidatedDevice::Collect(IRTCommandList* const* Lists, uint32_t Count
 		{
 			return State->Fail(Call + ": " + List->Label + " is there twice");
 		}
-		if (List->IsSubmitted())
-		{
-			return State->Fail(Call + ": " + List->Label + " has been submitted already");
-		}
-		if (!bImported && !List->IsEnded())
-		{
-			return State->Fail(Call + ": " + List->Label + " has not been ended");
-		}
+		if (List->IsSubmitted()) { return State->Fail(Call + ": " + List->Label + " has been submitted already"); }
+		if (!bImported && !List->IsEnded()) { return State->Fail(Call + ": " + List->Label + " has not been ended"); }
 		OutLists.push_back(List);
 	}
 	return FRTStatus::Success();
@@ -72,51 +51,29 @@ FRTStatus FValidatedDevice::Submit(IRTCommandList* const* Lists, uint32_t Count,
 	std::lock_guard Order(State->SubmitMutex);
 	std::vector<FValidatedCommandList*> Mine;
 	FRTStatus Status = Collect(Lists, Count, false, Mine);
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	FValidationTracker Tracker(*State);
 	{
 		std::lock_guard Lock(State->Mutex);
-		for (const FValidatedCommandList* List : Mine)
-		{
-			List->Judge(Tracker);
-		}
+		for (const FValidatedCommandList* List : Mine) { List->Judge(Tracker); }
 	}
-	for (const std::string& Message : Tracker.GetMessages())
-	{
-		State->Report(Message);
-	}
+	for (const std::string& Message : Tracker.GetMessages()) { State->Report(Message); }
 	if (!Tracker.GetMessages().empty())
 	{
-		return FRTStatus::Error(ERTResult::InvalidArgument, "Submit refused: %s",
-		                        Tracker.GetMessages().front().c_str());
+		return FRTStatus::Error(ERTResult::InvalidArgument, "Submit refused: %s", Tracker.GetMessages().front().c_str());
 	}
 	std::vector<IRTCommandList*> Inners;
-	for (const FValidatedCommandList* List : Mine)
-	{
-		Inners.push_back(List->Inner.Get());
-	}
+	for (const FValidatedCommandList* List : Mine) { Inners.push_back(List->Inner.Get()); }
 	FRTFence Fence = 0;
 	Status = State->Inner->Submit(Inners.data(), Count, &Fence);
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	{
 		std::lock_guard Lock(State->Mutex);
 		Tracker.Commit(Fence);
 		State->LastFence = std::max(State->LastFence, Fence);
 	}
-	for (FValidatedCommandList* List : Mine)
-	{
-		List->MarkSubmitted(Fence);
-	}
-	if (OutFence)
-	{
-		*OutFence = Fence;
-	}
+	for (FValidatedCommandList* List : Mine) { List->MarkSubmitted(Fence); }
+	if (OutFence) { *OutFence = Fence; }
 	return Status;
 }
 
@@ -125,10 +82,7 @@ FRTStatus FValidatedDevice::NotifyExternalSubmit(IRTCommandList* const* Lists, u
 	std::lock_guard Order(State->SubmitMutex);
 	std::vector<FValidatedCommandList*> Mine;
 	FRTStatus Status = Collect(Lists, Count, true, Mine);
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	// The engine has submitted: what is wrong can be told, but not refused.
 	FValidationTracker Tracker(*State);
 	std::vector<IRTCommandList*> Inners;
@@ -140,32 +94,20 @@ FRTStatus FValidatedDevice::NotifyExternalSubmit(IRTCommandList* const* Lists, u
 			Inners.push_back(List->Inner.Get());
 		}
 	}
-	for (const std::string& Message : Tracker.GetMessages())
-	{
-		State->Report(Message);
-	}
+	for (const std::string& Message : Tracker.GetMessages()) { State->Report(Message); }
 	FRTFence Fence = 0;
 	Status = State->Inner->NotifyExternalSubmit(Inners.data(), Count, &Fence);
 	{
 		std::lock_guard Lock(State->Mutex);
 		Tracker.Commit(Fence);
 	}
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	{
 		std::lock_guard Lock(State->Mutex);
 		State->LastFence = std::max(State->LastFence, Fence);
 	}
-	for (FValidatedCommandList* List : Mine)
-	{
-		List->MarkSubmitted(Fence);
-	}
-	if (OutFence)
-	{
-		*OutFence = Fence;
-	}
+	for (FValidatedCommandList* List : Mine) { List->MarkSubmitted(Fence); }
+	if (OutFence) { *OutFence = Fence; }
 	return Status;
 }
 
@@ -179,17 +121,14 @@ FRTStatus FValidatedDevice::WaitFor(FRTFence Fence, uint64_t TimeoutNs)
 	if (Fence > Last)
 	{
 		return State->Fail(Print("WaitFor: no submission has returned fence %llu, the last one is %llu",
-		                         static_cast<unsigned long long>(Fence), static_cast<unsigned long long>(Last)));
+		    static_cast<unsigned long long>(Fence), static_cast<unsigned long long>(Last)));
 	}
 	return State->Inner->WaitFor(Fence, TimeoutNs);
 }
 
 FRTStatus WrapWithValidation(IRTDevice* Inner, FRTValidationCallback Callback, void* User, IRTDevice** Out)
 {
-	if (!Inner || !Out)
-	{
-		return FRTStatus::Error(ERTResult::InvalidArgument, "WrapWithValidation: a null argument");
-	}
+	if (!Inner || !Out) { return FRTStatus::Error(ERTResult::InvalidArgument, "WrapWithValidation: a null argument"); }
 	*Out = new FValidatedDevice(std::make_shared<FValidationState>(Inner, Callback, User));
 	return FRTStatus::Success();
 }

@@ -46,10 +46,8 @@ private:
 	std::string CheckSections(const FRTGeometryDesc& Desc) const;
 	std::vector<FRTGeometrySection> UnwrapSections(const FRTGeometryDesc& Desc) const;
 	/// OutInners: the wrapped libraries.
-	std::string CheckLibraries(const FRTRayTracingPipelineDesc& Desc,
-	                           std::vector<FValidatedPipeline*>& OutLibraries) const;
-	FRTStatus Collect(IRTCommandList* const* Lists, uint32_t Count, bool bImported,
-	                  std::vector<FValidatedCommandList*>& OutLists);
+	std::string CheckLibraries(const FRTRayTracingPipelineDesc& Desc, std::vector<FValidatedPipeline*>& OutLibraries) const;
+	FRTStatus Collect(IRTCommandList* const* Lists, uint32_t Count, bool bImported, std::vector<FValidatedCommandList*>& OutLists);
 
 	std::atomic<uint32_t> References = 1;
 };

@@ -15,8 +15,7 @@ FValidatedBuffer::FValidatedBuffer(std::shared_ptr<FValidationState> InState, TR
 	State->Buffers.push_back(Track);
 }
 
-FValidatedTexture::FValidatedTexture(std::shared_ptr<FValidationState> InState, TRTRef<IRTTexture> InInner,
-                                     bool bImported)
+FValidatedTexture::FValidatedTexture(std::shared_ptr<FValidationState> InState, TRTRef<IRTTexture> InInner, bool bImported)
     : TValidated(std::move(InState), MakeLabel("texture", InInner->GetDesc().Name), InInner),
       Track(std::make_shared<FResourceTrack>())
 {
@@ -25,8 +24,7 @@ FValidatedTexture::FValidatedTexture(std::shared_ptr<FValidationState> InState, 
 	Track->State.bKnown = !bImported;
 }
 
-FValidatedGeometry::FValidatedGeometry(std::shared_ptr<FValidationState> InState, TRTRef<IRTGeometry> InInner,
-                                       const FRTGeometryDesc& Desc)
+FValidatedGeometry::FValidatedGeometry(std::shared_ptr<FValidationState> InState, TRTRef<IRTGeometry> InInner, const FRTGeometryDesc& Desc)
     : TValidated(std::move(InState), MakeLabel("geometry", Desc.Name), InInner),
       Track(std::make_shared<FGeometryTrack>())
 {

@@ -11,11 +11,7 @@ namespace Lantern
 class FValidated
 {
 public:
-	FValidated(std::shared_ptr<FValidationState> InState, std::string InLabel)
-	    : State(std::move(InState)),
-	      Label(std::move(InLabel))
-	{
-	}
+	FValidated(std::shared_ptr<FValidationState> InState, std::string InLabel) : State(std::move(InState)), Label(std::move(InLabel)) {}
 	virtual ~FValidated() = default;
 	FValidated(const FValidated&) = delete;
 	FValidated& operator=(const FValidated&) = delete;
@@ -119,8 +115,7 @@ public:
 class FValidatedGeometry final : public TValidated<IRTGeometry>
 {
 public:
-	FValidatedGeometry(std::shared_ptr<FValidationState> InState, TRTRef<IRTGeometry> InInner,
-	                   const FRTGeometryDesc& Desc);
+	FValidatedGeometry(std::shared_ptr<FValidationState> InState, TRTRef<IRTGeometry> InInner, const FRTGeometryDesc& Desc);
 	~FValidatedGeometry() override;
 	uint64_t GetDeviceAddress() const override { return Inner->GetDeviceAddress(); }
 	FRTBuildSizes GetBuildSizes() const override { return Inner->GetBuildSizes(); }
@@ -157,8 +152,8 @@ public:
 class FValidatedShaderTable final : public TValidated<IRTShaderTable>
 {
 public:
-	FValidatedShaderTable(std::shared_ptr<FValidationState> InState, TRTRef<IRTShaderTable> InInner,
-	                      const FRTShaderTableDesc& InDesc, FValidatedPipeline* InPipeline);
+	FValidatedShaderTable(std::shared_ptr<FValidationState> InState, TRTRef<IRTShaderTable> InInner, const FRTShaderTableDesc& InDesc,
+	    FValidatedPipeline* InPipeline);
 	const FRTShaderTableDesc& GetDesc() const override { return Desc; }
 	void SetRecord(ERTRecordKind Kind, uint32_t Index, uint32_t Group, const void* Data, uint32_t DataBytes) override;
 	void SetHitRecords(uint32_t First, uint32_t Count, const uint32_t* Groups, const void* Data) override;
@@ -192,8 +187,7 @@ public:
 private:
 	std::string Describe(const char* Call, ERTRecordKind Kind, uint32_t Index) const;
 	/// Reports and says false where the records do not exist or a group may not stand behind them.
-	bool CheckRecords(const char* Call, ERTRecordKind Kind, uint32_t First, uint32_t Count,
-	                  const uint32_t* Groups) const;
+	bool CheckRecords(const char* Call, ERTRecordKind Kind, uint32_t First, uint32_t Count, const uint32_t* Groups) const;
 	void MarkSet(ERTRecordKind Kind, uint32_t First, uint32_t Count);
 	void ResizeTracks();
 

@@ -9,45 +9,26 @@ namespace Lantern
 namespace
 {
 
-constexpr const char* StageNames[] = {"vertex",      "fragment", "compute",      "ray generation", "miss",
-                                      "closest-hit", "any-hit",  "intersection", "callable"};
+constexpr const char* StageNames[] = {
+    "vertex", "fragment", "compute", "ray generation", "miss", "closest-hit", "any-hit", "intersection", "callable"};
 
 std::string CheckShader(const FRTShaderCode& Shader, ERTShaderStage Stage)
 {
 	const std::string Which = MakeLabel("shader", Shader.Name);
-	if (!Shader.Words || !Shader.WordCount)
-	{
-		return Which + " has no code";
-	}
-	if (Shader.Stage == Stage)
-	{
-		return {};
-	}
-	return Which + " is a " + StageNames[static_cast<size_t>(Shader.Stage)] + " shader, not a " +
-	       StageNames[static_cast<size_t>(Stage)] + " shader";
+	if (!Shader.Words || !Shader.WordCount) { return Which + " has no code"; }
+	if (Shader.Stage == Stage) { return {}; }
+	return Which + " is a " + StageNames[static_cast<size_t>(Shader.Stage)] + " shader, not a " + StageNames[static_cast<size_t>(Stage)] +
+	       " shader";
 }
 
 /// One slot of a group: the shader at Index must be of Stage. Required: NoShader is wrong.
-std::string CheckSlot(const FRTRayTracingPipelineDesc& Desc, uint32_t Index, ERTShaderStage Stage, bool bAllowed,
-                      bool bRequired)
+std::string CheckSlot(const FRTRayTracingPipelineDesc& Desc, uint32_t Index, ERTShaderStage Stage, bool bAllowed, bool bRequired)
 {
 	const std::string Name = StageNames[static_cast<size_t>(Stage)];
-	if (Index == NoShader)
-	{
-		return bRequired ? "has no " + Name + " shader" : "";
-	}
-	if (!bAllowed)
-	{
-		return "may have no " + Name + " shader";
-	}
-	if (Index >= Desc.ShaderCount)
-	{
-		return Print("has shader %u of %u", Index, Desc.ShaderCount);
-	}
-	if (Desc.Shaders[Index].Stage == Stage)
-	{
-		return {};
-	}
+	if (Index == NoShader) { return bRequired ? "has no " + Name + " shader" : ""; }
+	if (!bAllowed) { return "may have no " + Name + " shader"; }
+	if (Index >= Desc.ShaderCount) { return Print("has shader %u of %u", Index, Desc.ShaderCount); }
+	if (Desc.Shaders[Index].Stage == Stage) { return {}; }
 	return "has as " + Name + " shader one of another stage";
 }
 
@@ -56,33 +37,14 @@ std::string CheckGroup(const FRTRayTracingPipelineDesc& Desc, const FRTShaderGro
 	const bool bGeneral = Group.Kind == ERTGroupKind::General;
 	const bool bProcedural = Group.Kind == ERTGroupKind::Procedural;
 	std::string Wrong = CheckSlot(Desc, Group.ClosestHit, ERTShaderStage::ClosestHit, !bGeneral, false);
-	if (Wrong.empty())
-	{
-		Wrong = CheckSlot(Desc, Group.AnyHit, ERTShaderStage::AnyHit, !bGeneral, false);
-	}
-	if (Wrong.empty())
-	{
-		Wrong = CheckSlot(Desc, Group.Intersection, ERTShaderStage::Intersection, bProcedural, bProcedural);
-	}
-	if (!Wrong.empty())
-	{
-		return Wrong;
-	}
-	if (!bGeneral)
-	{
-		return Group.General == NoShader ? "" : "is a hit group with a general shader";
-	}
-	if (Group.General == NoShader)
-	{
-		return "has no shader";
-	}
-	if (Group.General >= Desc.ShaderCount)
-	{
-		return Print("has shader %u of %u", Group.General, Desc.ShaderCount);
-	}
+	if (Wrong.empty()) { Wrong = CheckSlot(Desc, Group.AnyHit, ERTShaderStage::AnyHit, !bGeneral, false); }
+	if (Wrong.empty()) { Wrong = CheckSlot(Desc, Group.Intersection, ERTShaderStage::Intersection, bProcedural, bProcedural); }
+	if (!Wrong.empty()) { return Wrong; }
+	if (!bGeneral) { return Group.General == NoShader ? "" : "is a hit group with a general shader"; }
+	if (Group.General == NoShader) { return "has no shader"; }
+	if (Group.General >= Desc.ShaderCount) { return Print("has shader %u of %u", Group.General, Desc.ShaderCount); }
 	const ERTShaderStage Stage = Desc.Shaders[Group.General].Stage;
-	const bool bFits =
-	    Stage == ERTShaderStage::RayGen || Stage == ERTShaderStage::Miss || Stage == ERTShaderStage::Callable;
+	const bool bFits = Stage == ERTShaderStage::RayGen || Stage == ERTShaderStage::Miss || Stage == ERTShaderStage::Callable;
 	return bFits ? "" : std::string("is general, but has a ") + StageNames[static_cast<size_t>(Stage)] + " shader";
 }
 
@@ -92,14 +54,8 @@ std::string CheckShaders(const FRTRayTracingPipelineDesc& Desc)
 	{
 		const FRTShaderCode& Shader = Desc.Shaders[i];
 		const std::string Wrong = CheckShader(Shader, Shader.Stage);
-		if (!Wrong.empty())
-		{
-			return Wrong;
-		}
-		if (Shader.Stage < ERTShaderStage::RayGen)
-		{
-			return MakeLabel("shader", Shader.Name) + " is of no ray-tracing stage";
-		}
+		if (!Wrong.empty()) { return Wrong; }
+		if (Shader.Stage < ERTShaderStage::RayGen) { return MakeLabel("shader", Shader.Name) + " is of no ray-tracing stage"; }
 	}
 	return {};
 }
@@ -107,39 +63,23 @@ std::string CheckShaders(const FRTRayTracingPipelineDesc& Desc)
 /// All but the libraries.
 std::string CheckRayTracing(const FRTRayTracingPipelineDesc& Desc)
 {
-	if ((Desc.ShaderCount && !Desc.Shaders) || (Desc.GroupCount && !Desc.Groups) ||
-	    (Desc.LibraryCount && !Desc.Libraries))
+	if ((Desc.ShaderCount && !Desc.Shaders) || (Desc.GroupCount && !Desc.Groups) || (Desc.LibraryCount && !Desc.Libraries))
 	{
 		return "Shaders, Groups or Libraries is null";
 	}
-	if (Desc.bLibrary && Desc.LibraryCount)
-	{
-		return "a library is not linked from libraries";
-	}
-	if (!Desc.LibraryCount && (!Desc.ShaderCount || !Desc.GroupCount))
-	{
-		return "no shaders or no groups";
-	}
+	if (Desc.bLibrary && Desc.LibraryCount) { return "a library is not linked from libraries"; }
+	if (!Desc.LibraryCount && (!Desc.ShaderCount || !Desc.GroupCount)) { return "no shaders or no groups"; }
 	const std::string Wrong = CheckShaders(Desc);
-	if (!Wrong.empty())
-	{
-		return Wrong;
-	}
+	if (!Wrong.empty()) { return Wrong; }
 	for (uint32_t i = 0; i < Desc.GroupCount; ++i)
 	{
 		const std::string WrongGroup = CheckGroup(Desc, Desc.Groups[i]);
-		if (!WrongGroup.empty())
-		{
-			return Print("group %u ", i) + WrongGroup;
-		}
+		if (!WrongGroup.empty()) { return Print("group %u ", i) + WrongGroup; }
 	}
 	return {};
 }
 
-bool IsRayGen(const FValidatedGroup& Group)
-{
-	return Group.Kind == ERTGroupKind::General && Group.GeneralStage == ERTShaderStage::RayGen;
-}
+bool IsRayGen(const FValidatedGroup& Group) { return Group.Kind == ERTGroupKind::General && Group.GeneralStage == ERTShaderStage::RayGen; }
 
 bool IsRayGenOrMiss(const FValidatedGroup& Group)
 {
@@ -149,30 +89,15 @@ bool IsRayGenOrMiss(const FValidatedGroup& Group)
 std::string CheckRaster(const FRTRasterPipelineDesc& Desc)
 {
 	std::string Wrong = CheckShader(Desc.Vertex, ERTShaderStage::Vertex);
-	if (Wrong.empty() && Desc.Fragment.Words)
-	{
-		Wrong = CheckShader(Desc.Fragment, ERTShaderStage::Fragment);
-	}
-	if (!Wrong.empty())
-	{
-		return Wrong;
-	}
-	if (Desc.ColorCount && (!Desc.ColorFormats || !Desc.Fragment.Words))
-	{
-		return "colour targets, but no formats or no fragment shader";
-	}
+	if (Wrong.empty() && Desc.Fragment.Words) { Wrong = CheckShader(Desc.Fragment, ERTShaderStage::Fragment); }
+	if (!Wrong.empty()) { return Wrong; }
+	if (Desc.ColorCount && (!Desc.ColorFormats || !Desc.Fragment.Words)) { return "colour targets, but no formats or no fragment shader"; }
 	for (uint32_t i = 0; i < Desc.ColorCount; ++i)
 	{
 		const ERTFormat Format = Desc.ColorFormats[i];
-		if (Format == ERTFormat::Unknown || Format == ERTFormat::D32_FLOAT)
-		{
-			return Print("colour target %u has no colour format", i);
-		}
+		if (Format == ERTFormat::Unknown || Format == ERTFormat::D32_FLOAT) { return Print("colour target %u has no colour format", i); }
 	}
-	if (Desc.DepthFormat != ERTFormat::Unknown && Desc.DepthFormat != ERTFormat::D32_FLOAT)
-	{
-		return "DepthFormat is no depth format";
-	}
+	if (Desc.DepthFormat != ERTFormat::Unknown && Desc.DepthFormat != ERTFormat::D32_FLOAT) { return "DepthFormat is no depth format"; }
 	return Desc.ColorCount || Desc.DepthFormat != ERTFormat::Unknown ? "" : "neither colour nor depth targets";
 }
 
@@ -182,16 +107,10 @@ FRTStatus FValidatedDevice::CreateComputePipeline(const FRTComputePipelineDesc& 
 {
 	const std::string Named = MakeLabel("pipeline", Desc.Name);
 	const std::string Wrong = Out ? CheckShader(Desc.Shader, ERTShaderStage::Compute) : "Out is null";
-	if (!Wrong.empty())
-	{
-		return State->Fail("CreateComputePipeline: " + Named + ": " + Wrong);
-	}
+	if (!Wrong.empty()) { return State->Fail("CreateComputePipeline: " + Named + ": " + Wrong); }
 	TRTRef<IRTPipeline> Inner;
 	FRTStatus Status = State->Inner->CreateComputePipeline(Desc, Inner.ReleaseAndGetAddress());
-	if (Status)
-	{
-		*Out = new FValidatedPipeline(State, Named, std::move(Inner));
-	}
+	if (Status) { *Out = new FValidatedPipeline(State, Named, std::move(Inner)); }
 	return Status;
 }
 
@@ -199,16 +118,10 @@ FRTStatus FValidatedDevice::CreateRasterPipeline(const FRTRasterPipelineDesc& De
 {
 	const std::string Named = MakeLabel("pipeline", Desc.Name);
 	const std::string Wrong = Out ? CheckRaster(Desc) : "Out is null";
-	if (!Wrong.empty())
-	{
-		return State->Fail("CreateRasterPipeline: " + Named + ": " + Wrong);
-	}
+	if (!Wrong.empty()) { return State->Fail("CreateRasterPipeline: " + Named + ": " + Wrong); }
 	TRTRef<IRTPipeline> Inner;
 	FRTStatus Status = State->Inner->CreateRasterPipeline(Desc, Inner.ReleaseAndGetAddress());
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	auto* Pipeline = new FValidatedPipeline(State, Named, std::move(Inner));
 	Pipeline->PipelineKind = EPipelineKind::Raster;
 	Pipeline->ColorFormats.assign(Desc.ColorFormats, Desc.ColorFormats + Desc.ColorCount);
@@ -217,20 +130,13 @@ FRTStatus FValidatedDevice::CreateRasterPipeline(const FRTRasterPipelineDesc& De
 	return Status;
 }
 
-std::string FValidatedDevice::CheckLibraries(const FRTRayTracingPipelineDesc& Desc,
-                                             std::vector<FValidatedPipeline*>& OutLibraries) const
+std::string FValidatedDevice::CheckLibraries(const FRTRayTracingPipelineDesc& Desc, std::vector<FValidatedPipeline*>& OutLibraries) const
 {
 	for (uint32_t i = 0; i < Desc.LibraryCount; ++i)
 	{
 		auto* Library = State->Find<FValidatedPipeline>(Desc.Libraries[i]);
-		if (!Library)
-		{
-			return Print("library %u is null, released, or not of this device", i);
-		}
-		if (!Library->bLibrary)
-		{
-			return Library->Label + " is no library (bLibrary)";
-		}
+		if (!Library) { return Print("library %u is null, released, or not of this device", i); }
+		if (!Library->bLibrary) { return Library->Label + " is no library (bLibrary)"; }
 		const std::pair<const char*, std::pair<uint32_t, uint32_t>> Sizes[] = {
 		    {"MaxRecursion", {Desc.MaxRecursion, Library->MaxRecursion}},
 		    {"MaxPayloadBytes", {Desc.MaxPayloadBytes, Library->MaxPayloadBytes}},
@@ -240,13 +146,11 @@ std::string FValidatedDevice::CheckLibraries(const FRTRayTracingPipelineDesc& De
 		{
 			if (Values.first != Values.second)
 			{
-				return Library->Label +
-				       Print(" was made with %s %u, the link has %u", Name, Values.second, Values.first);
+				return Library->Label + Print(" was made with %s %u, the link has %u", Name, Values.second, Values.first);
 			}
 		}
 		// Where there are no libraries at all, the device says so itself.
-		if (State->Inner->GetCapabilities().bPipelineLibraries &&
-		    !State->Inner->GetCapabilities().bLibraryOnlyPipelines &&
+		if (State->Inner->GetCapabilities().bPipelineLibraries && !State->Inner->GetCapabilities().bLibraryOnlyPipelines &&
 		    std::any_of(Library->Groups.begin(), Library->Groups.end(), IsRayGenOrMiss))
 		{
 			return Library->Label + " has ray generation or miss groups, which must be the link's own on this device";
@@ -261,10 +165,7 @@ FRTStatus FValidatedDevice::CreateRayTracingPipeline(const FRTRayTracingPipeline
 	const std::string Named = MakeLabel("pipeline", Desc.Name);
 	std::string Wrong = Out ? CheckRayTracing(Desc) : "Out is null";
 	std::vector<FValidatedPipeline*> Libraries;
-	if (Wrong.empty())
-	{
-		Wrong = CheckLibraries(Desc, Libraries);
-	}
+	if (Wrong.empty()) { Wrong = CheckLibraries(Desc, Libraries); }
 	std::vector<FValidatedGroup> Groups;
 	for (uint32_t i = 0; Wrong.empty() && i < Desc.GroupCount; ++i)
 	{
@@ -288,18 +189,12 @@ FRTStatus FValidatedDevice::CreateRayTracingPipeline(const FRTRayTracingPipeline
 	{
 		Wrong = Print("MaxRecursion %u, the device allows %u", Desc.MaxRecursion, Depth);
 	}
-	if (!Wrong.empty())
-	{
-		return State->Fail("CreateRayTracingPipeline: " + Named + ": " + Wrong);
-	}
+	if (!Wrong.empty()) { return State->Fail("CreateRayTracingPipeline: " + Named + ": " + Wrong); }
 	FRTRayTracingPipelineDesc Mine = Desc;
 	Mine.Libraries = Inners.data();
 	TRTRef<IRTPipeline> Inner;
 	FRTStatus Status = State->Inner->CreateRayTracingPipeline(Mine, Inner.ReleaseAndGetAddress());
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	auto* Pipeline = new FValidatedPipeline(State, Named, std::move(Inner));
 	Pipeline->PipelineKind = EPipelineKind::RayTracing;
 	Pipeline->bLibrary = Desc.bLibrary;

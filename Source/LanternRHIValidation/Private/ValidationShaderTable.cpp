@@ -14,14 +14,8 @@ constexpr const char* KindNames[] = {"ray generation", "miss", "hit", "callable"
 std::string CheckGroupKind(ERTRecordKind Kind, const FValidatedGroup& Group)
 {
 	const bool bHit = Kind == ERTRecordKind::Hit;
-	if (bHit)
-	{
-		return Group.Kind == ERTGroupKind::General ? "is a general group, not a hit group" : "";
-	}
-	if (Group.Kind != ERTGroupKind::General)
-	{
-		return "is a hit group";
-	}
+	if (bHit) { return Group.Kind == ERTGroupKind::General ? "is a general group, not a hit group" : ""; }
+	if (Group.Kind != ERTGroupKind::General) { return "is a hit group"; }
 	const ERTShaderStage Wanted = Kind == ERTRecordKind::RayGen ? ERTShaderStage::RayGen
 	                              : Kind == ERTRecordKind::Miss ? ERTShaderStage::Miss
 	                                                            : ERTShaderStage::Callable;
@@ -44,7 +38,7 @@ FValidatedShaderTable::FUse::FUse(FValidatedShaderTable& InTable, const char* Ca
 }
 
 FValidatedShaderTable::FValidatedShaderTable(std::shared_ptr<FValidationState> InState, TRTRef<IRTShaderTable> InInner,
-                                             const FRTShaderTableDesc& InDesc, FValidatedPipeline* InPipeline)
+    const FRTShaderTableDesc& InDesc, FValidatedPipeline* InPipeline)
     : TValidated(std::move(InState), MakeLabel("shader table", InDesc.Name), InInner),
       Pipeline(InPipeline),
       Track(std::make_shared<FTableTrack>())
@@ -61,10 +55,7 @@ void FValidatedShaderTable::ResizeTracks()
 	std::lock_guard Lock(State->Mutex);
 	for (size_t Kind = 0; Kind < std::size(Counts); ++Kind)
 	{
-		if (Track->Records[Kind].GetCount() != Counts[Kind])
-		{
-			Track->Records[Kind].Resize(Counts[Kind]);
-		}
+		if (Track->Records[Kind].GetCount() != Counts[Kind]) { Track->Records[Kind].Resize(Counts[Kind]); }
 	}
 	Track->RayGen.resize(Desc.RayGenCount);
 }
@@ -74,14 +65,12 @@ std::string FValidatedShaderTable::Describe(const char* Call, ERTRecordKind Kind
 	return std::string(Call) + ": " + Label + Print(": %s record %u", KindNames[static_cast<size_t>(Kind)], Index);
 }
 
-bool FValidatedShaderTable::CheckRecords(const char* Call, ERTRecordKind Kind, uint32_t First, uint32_t Count,
-                                         const uint32_t* Groups) const
+bool FValidatedShaderTable::CheckRecords(const char* Call, ERTRecordKind Kind, uint32_t First, uint32_t Count, const uint32_t* Groups) const
 {
 	const uint32_t Most = Track->Records[static_cast<size_t>(Kind)].GetCount();
 	if (!IsInside(First, Count, Most))
 	{
-		State->Report(Describe(Call, Kind, Count ? First + Count - 1 : First) +
-		              Print(" is out of range, the table has %u", Most));
+		State->Report(Describe(Call, Kind, Count ? First + Count - 1 : First) + Print(" is out of range, the table has %u", Most));
 		return false;
 	}
 	if (Count && !Groups)
@@ -101,8 +90,7 @@ bool FValidatedShaderTable::CheckRecords(const char* Call, ERTRecordKind Kind, u
 		const std::string Mismatch = CheckGroupKind(Kind, Pipeline->Groups[Group]);
 		if (!Mismatch.empty())
 		{
-			State->Report(Describe(Call, Kind, First + i) +
-			              Print(": group %u of %s %s", Group, Pipeline->Label.c_str(), Mismatch.c_str()));
+			State->Report(Describe(Call, Kind, First + i) + Print(": group %u of %s %s", Group, Pipeline->Label.c_str(), Mismatch.c_str()));
 			return false;
 		}
 	}
@@ -112,10 +100,7 @@ bool FValidatedShaderTable::CheckRecords(const char* Call, ERTRecordKind Kind, u
 void FValidatedShaderTable::MarkSet(ERTRecordKind Kind, uint32_t First, uint32_t Count)
 {
 	const uint32_t Generation = Track->Generation;
-	for (uint32_t i = First; i < First + Count; ++i)
-	{
-		Track->Records[static_cast<size_t>(Kind)].Set(i, Generation);
-	}
+	for (uint32_t i = First; i < First + Count; ++i) { Track->Records[static_cast<size_t>(Kind)].Set(i, Generation); }
 	if (Kind == ERTRecordKind::RayGen)
 	{
 		std::lock_guard Lock(State->Mutex);
@@ -123,19 +108,14 @@ void FValidatedShaderTable::MarkSet(ERTRecordKind Kind, uint32_t First, uint32_t
 	}
 }
 
-void FValidatedShaderTable::SetRecord(ERTRecordKind Kind, uint32_t Index, uint32_t Group, const void* Data,
-                                      uint32_t DataBytes)
+void FValidatedShaderTable::SetRecord(ERTRecordKind Kind, uint32_t Index, uint32_t Group, const void* Data, uint32_t DataBytes)
 {
 	const FUse Use(*this, "SetRecord", true);
-	if (!CheckRecords("SetRecord", Kind, Index, 1, &Group))
-	{
-		return;
-	}
+	if (!CheckRecords("SetRecord", Kind, Index, 1, &Group)) { return; }
 	const uint32_t Most = Kind == ERTRecordKind::Hit ? Desc.RecordDataBytes : 0;
 	if (DataBytes > Most)
 	{
-		return State->Report(Describe("SetRecord", Kind, Index) +
-		                     Print(": %u bytes of data, at most %u", DataBytes, Most));
+		return State->Report(Describe("SetRecord", Kind, Index) + Print(": %u bytes of data, at most %u", DataBytes, Most));
 	}
 	Inner->SetRecord(Kind, Index, Group, Data, DataBytes);
 	MarkSet(Kind, Index, 1);
@@ -166,23 +146,11 @@ void FValidatedShaderTable::SetPipeline(IRTPipeline* InPipeline)
 	const FUse Use(*this, "SetPipeline", false);
 	const std::string What = "SetPipeline: " + Label;
 	auto* Mine = State->Require<FValidatedPipeline>(InPipeline, What + ": Pipeline");
-	if (!Mine)
-	{
-		return;
-	}
-	if (Mine->PipelineKind != EPipelineKind::RayTracing)
-	{
-		return State->Report(What + ": " + Mine->Label + " is not for ray tracing");
-	}
-	if (Mine->bLibrary)
-	{
-		return State->Report(What + ": " + Mine->Label + " is a library: link it first");
-	}
+	if (!Mine) { return; }
+	if (Mine->PipelineKind != EPipelineKind::RayTracing) { return State->Report(What + ": " + Mine->Label + " is not for ray tracing"); }
+	if (Mine->bLibrary) { return State->Report(What + ": " + Mine->Label + " is a library: link it first"); }
 	Inner->SetPipeline(Mine->Inner.Get());
-	if (Mine != Pipeline.Get())
-	{
-		++Track->Generation;
-	}
+	if (Mine != Pipeline.Get()) { ++Track->Generation; }
 	Pipeline = TRTRef<FValidatedPipeline>(Mine);
 	Desc.Pipeline = Mine;
 }
@@ -190,15 +158,9 @@ void FValidatedShaderTable::SetPipeline(IRTPipeline* InPipeline)
 FRTStatus FValidatedShaderTable::Reserve(const uint32_t Counts[4])
 {
 	const FUse Use(*this, "Reserve", false);
-	if (!Counts)
-	{
-		return State->Fail("Reserve: " + Label + ": Counts is null");
-	}
+	if (!Counts) { return State->Fail("Reserve: " + Label + ": Counts is null"); }
 	FRTStatus Status = Inner->Reserve(Counts);
-	if (Status)
-	{
-		ResizeTracks();
-	}
+	if (Status) { ResizeTracks(); }
 	return Status;
 }
 

@@ -28,16 +28,12 @@ std::string MakeLabel(const char* Type, const char* Name)
 
 std::string DescribeAccess(ERTAccess Access)
 {
-	static constexpr const char* Names[] = {
-	    "ShaderRead", "StorageRead", "StorageWrite",  "RenderTarget", "DepthWrite", "IndexRead", "IndirectRead",
-	    "CopyRead",   "CopyWrite",   "GeometryInput", "BuildRead",    "BuildWrite", "TraceRead", "HostRead"};
+	static constexpr const char* Names[] = {"ShaderRead", "StorageRead", "StorageWrite", "RenderTarget", "DepthWrite", "IndexRead",
+	    "IndirectRead", "CopyRead", "CopyWrite", "GeometryInput", "BuildRead", "BuildWrite", "TraceRead", "HostRead"};
 	std::string Text;
 	for (uint32_t Bit = 0; Bit < std::size(Names); ++Bit)
 	{
-		if (static_cast<uint32_t>(Access) & (1u << Bit))
-		{
-			Text += (Text.empty() ? "" : "|") + std::string(Names[Bit]);
-		}
+		if (static_cast<uint32_t>(Access) & (1u << Bit)) { Text += (Text.empty() ? "" : "|") + std::string(Names[Bit]); }
 	}
 	return Text.empty() ? "None" : Text;
 }
@@ -45,10 +41,7 @@ std::string DescribeAccess(ERTAccess Access)
 void FValidationState::Report(const std::string& Message)
 {
 	std::lock_guard Lock(CallbackMutex);
-	if (Callback)
-	{
-		Callback(User, Message.c_str());
-	}
+	if (Callback) { Callback(User, Message.c_str()); }
 }
 
 FRTStatus FValidationState::Fail(const std::string& Message)
@@ -81,10 +74,7 @@ FValidated* FValidationState::FindAny(const IRTRefCounted* Key)
 void FRecordTracks::Resize(uint32_t InCount)
 {
 	auto Grown = std::make_unique<std::atomic<uint32_t>[]>(InCount);
-	for (uint32_t i = 0; i < std::min(Count, InCount); ++i)
-	{
-		Grown[i].store(Get(i), std::memory_order_relaxed);
-	}
+	for (uint32_t i = 0; i < std::min(Count, InCount); ++i) { Grown[i].store(Get(i), std::memory_order_relaxed); }
 	Generations = std::move(Grown);
 	Count = InCount;
 }
@@ -96,16 +86,10 @@ void FValidationState::Bury(const std::shared_ptr<FGeometryTrack>& Geometry)
 	Geometry->bDead = true;
 	Geometry->Sections.clear();
 	DeadGeometries.push_back(Geometry);
-	if (DeadGeometries.size() <= MaxDead)
-	{
-		return;
-	}
+	if (DeadGeometries.size() <= MaxDead) { return; }
 	const auto Found = Geometries.find(DeadGeometries.front()->Address);
 	// The address may have been used again.
-	if (Found != Geometries.end() && Found->second == DeadGeometries.front())
-	{
-		Geometries.erase(Found);
-	}
+	if (Found != Geometries.end() && Found->second == DeadGeometries.front()) { Geometries.erase(Found); }
 	DeadGeometries.pop_front();
 }
 
@@ -117,18 +101,9 @@ bool FValidationState::IsDead(const void* Key)
 
 void FValidationState::ReportNotFound(const void* Object, const std::string& What)
 {
-	if (!Object)
-	{
-		Report(What + " is null");
-	}
-	else if (IsDead(Object))
-	{
-		Report(What + " has already been released");
-	}
-	else
-	{
-		Report(What + " is not an object of this device");
-	}
+	if (!Object) { Report(What + " is null"); }
+	else if (IsDead(Object)) { Report(What + " has already been released"); }
+	else { Report(What + " is not an object of this device"); }
 }
 
 } // namespace Lantern

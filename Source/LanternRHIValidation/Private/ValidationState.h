@@ -51,18 +51,12 @@ struct FGeometryTrack
 class FGeometryHold
 {
 public:
-	explicit FGeometryHold(std::shared_ptr<FGeometryTrack> InGeometry) : Geometry(std::move(InGeometry))
-	{
-		++Geometry->Holders;
-	}
+	explicit FGeometryHold(std::shared_ptr<FGeometryTrack> InGeometry) : Geometry(std::move(InGeometry)) { ++Geometry->Holders; }
 	FGeometryHold(FGeometryHold&&) = default;
 	FGeometryHold& operator=(FGeometryHold&&) = delete;
 	~FGeometryHold()
 	{
-		if (Geometry)
-		{
-			--Geometry->Holders;
-		}
+		if (Geometry) { --Geometry->Holders; }
 	}
 
 	std::shared_ptr<FGeometryTrack> Geometry;
@@ -139,8 +133,7 @@ struct FValidationState
 	    : Inner(InInner),
 	      Callback(InCallback),
 	      User(InUser)
-	{
-	}
+	{}
 
 	TRTRef<IRTDevice> Inner;
 	FRTValidationCallback Callback;
@@ -176,10 +169,7 @@ struct FValidationState
 	W* Require(I* Object, const std::string& What)
 	{
 		W* Found = Find<W>(Object);
-		if (!Found)
-		{
-			ReportNotFound(Object, What);
-		}
+		if (!Found) { ReportNotFound(Object, What); }
 		return Found;
 	}
 
@@ -194,9 +184,6 @@ std::string MakeLabel(const char* Type, const char* Name);
 /// printf-style.
 std::string Print(const char* Format, ...) __attribute__((format(printf, 1, 2)));
 /// Offset + Size lies within Whole, without overflow.
-constexpr bool IsInside(uint64_t Offset, uint64_t Size, uint64_t Whole)
-{
-	return Offset <= Whole && Size <= Whole - Offset;
-}
+constexpr bool IsInside(uint64_t Offset, uint64_t Size, uint64_t Whole) { return Offset <= Whole && Size <= Whole - Offset; }
 
 } // namespace Lantern

@@ -11,17 +11,14 @@ namespace
 /// A broken submission repeats itself; the first few messages say it.
 constexpr size_t MaxMessages = 16;
 
-constexpr ERTAccess Writes = ERTAccess::StorageWrite | ERTAccess::RenderTarget | ERTAccess::DepthWrite |
-                             ERTAccess::CopyWrite | ERTAccess::BuildWrite;
+constexpr ERTAccess Writes =
+    ERTAccess::StorageWrite | ERTAccess::RenderTarget | ERTAccess::DepthWrite | ERTAccess::CopyWrite | ERTAccess::BuildWrite;
 
 } // namespace
 
 void FValidationTracker::Add(std::string Message)
 {
-	if (Messages.size() < MaxMessages)
-	{
-		Messages.push_back(std::move(Message));
-	}
+	if (Messages.size() < MaxMessages) { Messages.push_back(std::move(Message)); }
 }
 
 FAccessState& FValidationTracker::Get(const std::shared_ptr<FResourceTrack>& Resource)
@@ -40,16 +37,10 @@ void FValidationTracker::Run(const FValidationStep& Step)
 	case EKind::CheckIndices: return CheckIndices(Step);
 	case EKind::BuildGeometry: Built.insert(Step.Geometry.get()); return;
 	case EKind::UpdateGeometry:
-		if (!IsBuilt(Step.Geometry.get()))
-		{
-			Add(Step.What + ": update of " + Step.Geometry->Label + " before any build");
-		}
+		if (!IsBuilt(Step.Geometry.get())) { Add(Step.What + ": update of " + Step.Geometry->Label + " before any build"); }
 		return;
 	case EKind::RequireBuilt:
-		if (!IsBuilt(Step.Geometry.get()))
-		{
-			Add(Step.What + ": " + Step.Geometry->Label + " was never built");
-		}
+		if (!IsBuilt(Step.Geometry.get())) { Add(Step.What + ": " + Step.Geometry->Label + " was never built"); }
 		return;
 	case EKind::WriteSize: Sizes.push_back(&Step); return;
 	case EKind::BuildScene: return BuildScene(Step);
@@ -64,13 +55,13 @@ void FValidationTracker::Barrier(const FValidationStep& Step)
 	const FResourceTrack& Resource = *Step.Resource;
 	const bool bDiscard = Step.Before == ERTAccess::None;
 	const bool bUnused = !Resource.bTexture && Now.Access == ERTAccess::None;
-	const bool bHostVisible = Resource.Memory == ERTMemory::Upload ||
-	                          (Resource.Memory == ERTMemory::Readback && Now.Access == ERTAccess::HostRead);
+	const bool bHostVisible =
+	    Resource.Memory == ERTMemory::Upload || (Resource.Memory == ERTMemory::Readback && Now.Access == ERTAccess::HostRead);
 	const bool bOverlaps = (Now.bMerged || Now.bImplicit) && HasAny(Now.Access, Step.Before);
 	if (Now.bKnown && Now.Access != Step.Before && !bDiscard && !bUnused && !bHostVisible && !bOverlaps)
 	{
-		Add(Step.What + ": " + Resource.Label + " is in " + DescribeAccess(Now.Access) +
-		    ", the barrier's Before says " + DescribeAccess(Step.Before));
+		Add(Step.What + ": " + Resource.Label + " is in " + DescribeAccess(Now.Access) + ", the barrier's Before says " +
+		    DescribeAccess(Step.Before));
 	}
 	Now = {Step.After};
 }
@@ -80,15 +71,9 @@ void FValidationTracker::MemoryBarrier(const FValidationStep& Step)
 	for (const std::weak_ptr<FResourceTrack>& Item : State.Buffers)
 	{
 		const std::shared_ptr<FResourceTrack> Resource = Item.lock();
-		if (!Resource)
-		{
-			continue;
-		}
+		if (!Resource) { continue; }
 		FAccessState& Now = Get(Resource);
-		if (!HasAny(Now.Access, Step.Before))
-		{
-			continue;
-		}
+		if (!HasAny(Now.Access, Step.Before)) { continue; }
 		Now.Access = Step.After;
 		Now.bImplicit = false;
 		Now.bMerged = true;
@@ -100,14 +85,11 @@ void FValidationTracker::Use(const FValidationStep& Step)
 	const FResourceTrack& Resource = *Step.Resource;
 	FAccessState& Now = Get(Step.Resource);
 	const bool bWrite = HasAny(Step.After, Writes);
-	if (!Now.bKnown || HasAny(Now.Access, Step.After))
-	{
-		return;
-	}
+	if (!Now.bKnown || HasAny(Now.Access, Step.After)) { return; }
 	if (!Resource.bTexture)
 	{
-		const bool bFree = Now.Access == ERTAccess::None || Now.Access == ERTAccess::HostRead ||
-		                   (Resource.Memory == ERTMemory::Upload && !bWrite);
+		const bool bFree =
+		    Now.Access == ERTAccess::None || Now.Access == ERTAccess::HostRead || (Resource.Memory == ERTMemory::Upload && !bWrite);
 		const bool bReads = Now.bImplicit && !HasAny(Now.Access, Writes) && !bWrite;
 		if (bFree || bReads)
 		{
@@ -116,8 +98,7 @@ void FValidationTracker::Use(const FValidationStep& Step)
 			return;
 		}
 	}
-	Add(Step.What + ": " + Resource.Label + " is in " + DescribeAccess(Now.Access) + ", the call needs " +
-	    DescribeAccess(Step.After));
+	Add(Step.What + ": " + Resource.Label + " is in " + DescribeAccess(Now.Access) + ", the call needs " + DescribeAccess(Step.After));
 }
 
 void FValidationTracker::CheckIndices(const FValidationStep& Step)
@@ -132,10 +113,7 @@ void FValidationTracker::CheckIndices(const FValidationStep& Step)
 			std::memcpy(&Short, Bytes + i * 2ull, 2);
 			Index = Short;
 		}
-		else
-		{
-			std::memcpy(&Index, Bytes + i * 4ull, 4);
-		}
+		else { std::memcpy(&Index, Bytes + i * 4ull, 4); }
 		if (Index >= Step.Limit)
 		{
 			return Add(Step.What + Print(": index %u (number %u), but there are %u vertices", Index, i, Step.Limit));
@@ -149,15 +127,11 @@ std::string FValidationTracker::CheckAddress(uint64_t Address, bool bRecording) 
 	if (Found == State.Geometries.end())
 	{
 		// A list may be recorded before its instances are written.
-		return bRecording ? std::string()
-		                  : Print("points at 0x%llx, where no geometry is", static_cast<unsigned long long>(Address));
+		return bRecording ? std::string() : Print("points at 0x%llx, where no geometry is", static_cast<unsigned long long>(Address));
 	}
 	FGeometryTrack* Geometry = Found->second.get();
 	const bool bKept = bRecording ? Geometry->Holders > 0 : Kept.contains(Geometry);
-	if (Geometry->bDead && !bKept)
-	{
-		return "points at the released " + Geometry->Label;
-	}
+	if (Geometry->bDead && !bKept) { return "points at the released " + Geometry->Label; }
 	if (!IsBuilt(Geometry) && !(bRecording && Geometry->bBuildRecorded))
 	{
 		return "points at " + Geometry->Label + ", which was never built";
@@ -180,27 +154,15 @@ void FValidationTracker::BuildScene(const FValidationStep& Step)
 		if (Instance.GeometryAddress != LastGood && Instance.GeometryAddress != 0)
 		{
 			const std::string Wrong = CheckAddress(Instance.GeometryAddress, false);
-			if (!Wrong.empty())
-			{
-				Add(Step.What + Print(": instance %u ", i) + Wrong);
-			}
+			if (!Wrong.empty()) { Add(Step.What + Print(": instance %u ", i) + Wrong); }
 			LastGood = Wrong.empty() ? Instance.GeometryAddress : LastGood;
 		}
 		const uint32_t Offset = Instance.TableOffsetAndFlags & MaxInstanceIndex;
 		const bool bHittable = (Instance.CustomIndexAndMask >> 24) != 0 && Instance.GeometryAddress != 0;
-		if (!bHittable)
-		{
-			continue;
-		}
-		if (Offset / 64 >= Offsets.size())
-		{
-			Offsets.resize(Offset / 64 + 1);
-		}
+		if (!bHittable) { continue; }
+		if (Offset / 64 >= Offsets.size()) { Offsets.resize(Offset / 64 + 1); }
 		Offsets[Offset / 64] |= 1ull << (Offset % 64);
-		if (Content.bAny && Offset <= Content.HighestOffset)
-		{
-			continue;
-		}
+		if (Content.bAny && Offset <= Content.HighestOffset) { continue; }
 		Content.bAny = true;
 		Content.HighestOffset = Offset;
 		Content.HighestInstance = i;
@@ -215,14 +177,8 @@ const FSceneTrack* FValidationTracker::FindOnlyScene(FSceneContent& OutContent) 
 	for (const std::weak_ptr<FSceneTrack>& Item : State.Scenes)
 	{
 		const std::shared_ptr<FSceneTrack> Scene = Item.lock();
-		if (!Scene)
-		{
-			continue;
-		}
-		if (Only)
-		{
-			return nullptr;
-		}
+		if (!Scene) { continue; }
+		if (Only) { return nullptr; }
 		Only = Scene.get();
 		const auto Found = Scenes.find(Scene.get());
 		OutContent = Found == Scenes.end() ? Scene->Content : Found->second;
@@ -235,10 +191,7 @@ void FValidationTracker::TraceRays(const FValidationStep& Step)
 	FTableTrack& Table = *Step.Table;
 	const auto Found = Updated.find(&Table);
 	const uint32_t Generation = Found == Updated.end() ? Table.UpdatedGeneration : Found->second;
-	if (Generation == 0)
-	{
-		Add(Step.What + ": " + Table.Label + " has never been updated on the device");
-	}
+	if (Generation == 0) { Add(Step.What + ": " + Table.Label + " has never been updated on the device"); }
 	else if (Generation < Step.Count)
 	{
 		Add(Step.What + ": " + Table.Label + " has got another pipeline, with no UpdateShaderTable since");
@@ -250,8 +203,8 @@ void FValidationTracker::TraceRays(const FValidationStep& Step)
 	const uint32_t Hits = Table.Records[static_cast<size_t>(ERTRecordKind::Hit)].GetCount();
 	if (Only && Content.bAny && Content.HighestOffset >= Hits)
 	{
-		Add(Step.What + Print(": instance %u of %s reaches hit record %u, but %s has %u", Content.HighestInstance,
-		                      Only->Label.c_str(), Content.HighestOffset, Table.Label.c_str(), Hits));
+		Add(Step.What + Print(": instance %u of %s reaches hit record %u, but %s has %u", Content.HighestInstance, Only->Label.c_str(),
+		                    Content.HighestOffset, Table.Label.c_str(), Hits));
 	}
 }
 
@@ -270,8 +223,7 @@ void FValidationTracker::CheckPipelineOf(const FValidationStep& Step, const FSce
 			if (Records.IsStale(i, Step.Count))
 			{
 				return Add(Step.What + Print(": %s record %u of %s was not set again after SetPipeline",
-				                             Kind == ERTRecordKind::Miss ? "miss" : "callable", i,
-				                             Table.Label.c_str()));
+				                           Kind == ERTRecordKind::Miss ? "miss" : "callable", i, Table.Label.c_str()));
 			}
 		}
 	}
@@ -290,10 +242,7 @@ void FValidationTracker::CheckHits(const FValidationStep& Step, const FSceneCont
 		const uint64_t Most = std::min<uint64_t>(Hits.GetCount(), Content->Offsets->size() * 64);
 		for (uint32_t i = 0; i < Most; ++i)
 		{
-			if (((*Content->Offsets)[i / 64] >> (i % 64) & 1) && Hits.IsStale(i, Step.Count))
-			{
-				return Report(i);
-			}
+			if (((*Content->Offsets)[i / 64] >> (i % 64) & 1) && Hits.IsStale(i, Step.Count)) { return Report(i); }
 		}
 		return;
 	}
@@ -301,36 +250,18 @@ void FValidationTracker::CheckHits(const FValidationStep& Step, const FSceneCont
 	uint32_t Stale = ~0u;
 	for (uint32_t i = 0; i < Hits.GetCount(); ++i)
 	{
-		if (Hits.Get(i) >= Step.Count)
-		{
-			return;
-		}
+		if (Hits.Get(i) >= Step.Count) { return; }
 		Stale = Hits.IsStale(i, Step.Count) && Stale == ~0u ? i : Stale;
 	}
-	if (Stale != ~0u)
-	{
-		Report(Stale);
-	}
+	if (Stale != ~0u) { Report(Stale); }
 }
 
 void FValidationTracker::Commit(FRTFence Fence)
 {
-	for (auto& [Resource, Access] : Accesses)
-	{
-		Resource->State = Access;
-	}
-	for (auto& [Scene, Content] : Scenes)
-	{
-		Scene->Content = Content;
-	}
-	for (FGeometryTrack* Geometry : Built)
-	{
-		Geometry->bBuilt = true;
-	}
-	for (auto& [Table, Generation] : Updated)
-	{
-		Table->UpdatedGeneration = Generation;
-	}
+	for (auto& [Resource, Access] : Accesses) { Resource->State = Access; }
+	for (auto& [Scene, Content] : Scenes) { Scene->Content = Content; }
+	for (FGeometryTrack* Geometry : Built) { Geometry->bBuilt = true; }
+	for (auto& [Table, Generation] : Updated) { Table->UpdatedGeneration = Generation; }
 	for (const FValidationStep* Step : Sizes)
 	{
 		FQueryTrack::FQuery& Query = Step->Queries->Queries[Step->Count];

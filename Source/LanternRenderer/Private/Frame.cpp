@@ -11,7 +11,8 @@ FFrameOutputs AddFramePasses(FFrameContext& Context, const FGBuffer& GBuffer)
 	Out.AmbientOcclusion = AddAmbientOcclusionPass(Context, GBuffer);
 	Out.Reflections = AddReflectionsPass(Context, GBuffer);
 	Out.DiffuseGI = AddDiffuseGIPass(Context, GBuffer);
-	Out.Lighting = AddDirectLightingPass(Context, {GBuffer, Out.SunShadow.Visibility, Out.AmbientOcclusion.Visibility, Out.DiffuseGI.Radiance, Out.Reflections.Radiance});
+	Out.Lighting = AddDirectLightingPass(
+	    Context, {GBuffer, Out.SunShadow.Visibility, Out.AmbientOcclusion.Visibility, Out.DiffuseGI.Radiance, Out.Reflections.Radiance});
 	Out.Display = AddToneMapPass(Context, Out.Lighting);
 	return Out;
 }

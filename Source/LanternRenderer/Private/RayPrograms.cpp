@@ -73,9 +73,9 @@ FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, FRTScene& Sc
 	const std::optional<FPassRays> DiffuseGI = ChooseDiffuseGIRays(Capabilities, Facts);
 	const bool bDiffuseGI = bDiffuseGIReady && DiffuseGI;
 	const auto IsQuery = [&](EFrameRayGen Pass, ERayPath Path) { return Path == ERayPath::Query && IsMade(Pass, Features.Signals); };
-	Programs.bQueries =
-	    !Features.bReference && (IsQuery(EFrameRayGen::SunShadow, ChooseSunShadowPath(Capabilities, Facts)) ||
-	                             IsQuery(EFrameRayGen::AmbientOcclusion, ChooseAmbientOcclusionPath(Capabilities, Facts, Features.Signals, bDiffuseGI)));
+	Programs.bQueries = !Features.bReference && (IsQuery(EFrameRayGen::SunShadow, ChooseSunShadowPath(Capabilities, Facts)) ||
+	                                                IsQuery(EFrameRayGen::AmbientOcclusion,
+	                                                    ChooseAmbientOcclusionPath(Capabilities, Facts, Features.Signals, bDiffuseGI)));
 	bool bShadesHits = !Features.RayGens.empty(), bBlockers = false;
 	const auto Add = [&](EFrameRayGen Pass, std::optional<FPassRays> Rays) {
 		if (!Rays || !IsMade(Pass, Features.Signals)) { return; }
@@ -85,7 +85,10 @@ FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, FRTScene& Sc
 		bBlockers |= Rays->bBlockers;
 		Programs.bLightSampling |= Rays->bShadesHits;
 	};
-	if (Features.bReference) { Add(EFrameRayGen::Reference, ChooseReferenceRays(Facts, Features.ReferenceSignal, Features.bReferenceFromGBuffer)); }
+	if (Features.bReference)
+	{
+		Add(EFrameRayGen::Reference, ChooseReferenceRays(Facts, Features.ReferenceSignal, Features.bReferenceFromGBuffer));
+	}
 	else
 	{
 		// Also without pipelines: passes that need them say so.

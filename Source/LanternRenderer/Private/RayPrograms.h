@@ -24,8 +24,8 @@ struct FRayPrograms
 {
 	FRTPSODesc Desc; ///< no ray generation shaders: no pipeline is needed
 	std::array<std::optional<FShaderSource>, static_cast<size_t>(EFrameRayGen::Count)> RayGens; ///< of Desc.RayGens, by EFrameRayGen
-	bool bQueries = false;       ///< some pass traces inline
-	bool bLightSampling = false; ///< some pass samples emissive triangles
+	bool bQueries = false;                                                                      ///< some pass traces inline
+	bool bLightSampling = false;                                                                ///< some pass samples emissive triangles
 };
 
 /// Scene: its facts are up to date. bDiffuseGIReady: diffuse GI, where it is wanted, is compiled or waited for; until then what
@@ -36,8 +36,8 @@ FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, FRTScene& Sc
 FPassRays ChooseReferenceRays(const FSceneFacts& Facts, EReferenceSignal Signal, bool bFromGBuffer);
 /// Of real-time passes; nullopt where they are off, have nothing to do, or trace inline.
 std::optional<FPassRays> ChooseSunShadowRays(const FRTCapabilities& Capabilities, const FSceneFacts& Facts);
-std::optional<FPassRays> ChooseAmbientOcclusionRays(const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FSignalRequests& Requests,
-                                                    bool bDiffuseGI);
+std::optional<FPassRays> ChooseAmbientOcclusionRays(
+    const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FSignalRequests& Requests, bool bDiffuseGI);
 std::optional<FPassRays> ChooseDiffuseGIRays(const FRTCapabilities& Capabilities, const FSceneFacts& Facts);
 std::optional<FPassRays> ChooseReflectionsRays(const FRTCapabilities& Capabilities, const FSceneFacts& Facts);
 

@@ -12,34 +12,43 @@
 #include "LanternRenderer/Frame.h"
 #include "PassTools.h"
 #include "RayPrograms.h"
-#include "SunShadow/SunShadow.h"
-#include "StandInFeedback.h"
 #include "Skinning/RefitQuality.h"
+#include "StandInFeedback.h"
+#include "SunShadow/SunShadow.h"
 
 namespace Lantern
 {
 
 namespace
 {
-TRTConsoleVariable<bool> CVarAlphaTest("r.RT.AlphaTest", true, "Alpha tests of masked materials, in raster and under rays. Off: masked surfaces are solid.");
+TRTConsoleVariable<bool> CVarAlphaTest(
+    "r.RT.AlphaTest", true, "Alpha tests of masked materials, in raster and under rays. Off: masked surfaces are solid.");
 TRTConsoleVariable<int32_t> CVarMaterialOverride("r.RT.Material.Override", 0,
-                                                 "0: the scene's materials. 1: each a Lambert of its base colour, alpha test kept. 2: each a "
-                                                 "Lambert of 0.5.",
-                                                 {0, 2});
+    "0: the scene's materials. 1: each a Lambert of its base colour, alpha test kept. 2: each a "
+    "Lambert of 0.5.",
+    {0, 2});
 TRTConsoleVariable<bool> CVarPrebind("r.RT.SBT.Prebind", true,
-                                     "Shader records are written by a task beside the frame. Off: on the render thread, where the table is recorded.");
+    "Shader records are written by a task beside the frame. Off: on the render thread, where the table is recorded.");
 TRTConsoleVariable<int32_t> CVarPoisonHistory("r.RT.Debug.PoisonHistory", 0,
-                                              "Every N-th frame overwrites all that frames keep for later ones with bits that are not-a-number: a test "
-                                              "of what guards against them. 0: never.",
-                                              {0, 1000000});
+    "Every N-th frame overwrites all that frames keep for later ones with bits that are not-a-number: a test "
+    "of what guards against them. 0: never.",
+    {0, 1000000});
 // A hang, surely: drivers that have a watchdog report a lost device long before, and a CPU takes minutes for what is brute force.
 constexpr uint64_t WaitNs = 1'200'000'000'000ull;
 } // namespace
 
 FRenderer::FRenderer(IRTDevice& InDevice, FRendererDesc Desc)
-    : Device(InDevice), Compiler(FShaderCompilerDesc{std::move(Desc.ShaderFolders), Desc.CacheFolder}), Pipelines(InDevice, Compiler),
-      Uploads(InDevice), GraphResources(InDevice), RefitQuality(std::make_unique<FRefitQuality>(InDevice)), Bindings(InDevice), AnyHits(InDevice), RayCompiler(InDevice, Compiler, Programs),
-      StandIns(std::make_unique<FStandInFeedback>(InDevice)), History(std::make_unique<FHistoryResources>(InDevice))
+    : Device(InDevice),
+      Compiler(FShaderCompilerDesc{std::move(Desc.ShaderFolders), Desc.CacheFolder}),
+      Pipelines(InDevice, Compiler),
+      Uploads(InDevice),
+      GraphResources(InDevice),
+      RefitQuality(std::make_unique<FRefitQuality>(InDevice)),
+      Bindings(InDevice),
+      AnyHits(InDevice),
+      RayCompiler(InDevice, Compiler, Programs),
+      StandIns(std::make_unique<FStandInFeedback>(InDevice)),
+      History(std::make_unique<FHistoryResources>(InDevice))
 {
 	if (!FTaskTrace::HasFolder()) { FTaskTrace::SetFolder(Desc.CacheFolder); }
 	FTaskTrace::StartIfWanted();
@@ -178,7 +187,8 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	const int32_t PoisonEvery = CVarPoisonHistory.GetOnRenderThread();
 	if (PoisonEvery > 0 && View.FrameIndex % static_cast<uint32_t>(PoisonEvery) == 0) { GraphResources.PoisonHistory(""); }
 	bUpdating = bRayPassesAdded = false;
-	const FRayPrograms Wanted = ChooseRayPrograms(Device.GetCapabilities(), Scene, Features, WaitsForPipelines(Features) || bDiffuseGIReady);
+	const FRayPrograms Wanted =
+	    ChooseRayPrograms(Device.GetCapabilities(), Scene, Features, WaitsForPipelines(Features) || bDiffuseGIReady);
 	FRTStatus Status = PrepareRayPipeline(Wanted, Features);
 	bDiffuseGIReady = Context->GetRayGen(EFrameRayGen::DiffuseGI) != NoRayGen;
 	if (Status) { Status = StartUpdate(View, Wanted, Features); }

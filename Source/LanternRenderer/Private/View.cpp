@@ -22,7 +22,8 @@ glm::mat4 MakeRelativeToClip(const FView& View)
 	const float ScaleY = 1.0f / std::tan(0.5f * View.FovY);
 	const float ScaleX = ScaleY * static_cast<float>(View.Height) / static_cast<float>(View.Width);
 	// Vulkan's clip space has y down; w is the distance along the view, z the constant near: depth = near / w.
-	const glm::vec4 Rows[4] = {glm::vec4(Axes[0] * ScaleX, 0), glm::vec4(Axes[1] * -ScaleY, 0), glm::vec4(0, 0, 0, View.Near), glm::vec4(Axes[2], 0)};
+	const glm::vec4 Rows[4] = {
+	    glm::vec4(Axes[0] * ScaleX, 0), glm::vec4(Axes[1] * -ScaleY, 0), glm::vec4(0, 0, 0, View.Near), glm::vec4(Axes[2], 0)};
 	return glm::transpose(glm::mat4(Rows[0], Rows[1], Rows[2], Rows[3]));
 }
 } // namespace

@@ -4,9 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "Support/CoreTestTools.h"
 #include "LanternCore/Config/Config.h"
 #include "LanternCore/Config/IniFile.h"
+#include "Support/CoreTestTools.h"
 
 namespace Lantern
 {
@@ -57,11 +57,11 @@ TEST_F(Config, EveryMistakeIsNamedWithItsPlaceAndTheRestApplies)
 	                                                 "t.Config.A=3\n[SystemSetings]\nt.Config.A=4\n");
 	const FConfigProblems Problems = LoadFile(Folder, Path);
 	EXPECT_THAT(Problems, ElementsAre(HasSubstr("Game.ini:3: 'nonsense'"),
-	                                  HasSubstr("Game.ini:2: unknown console variable 't.Config.AA'; the nearest name "
-	                                            "is 't.Config.A'"),
-	                                  HasSubstr("Game.ini:4: t.Config.B: 'x' is not a whole number"),
-	                                  HasSubstr("Game.ini:6: unknown section [SystemSetings]; the nearest is "
-	                                            "[SystemSettings]")));
+	                          HasSubstr("Game.ini:2: unknown console variable 't.Config.AA'; the nearest name "
+	                                    "is 't.Config.A'"),
+	                          HasSubstr("Game.ini:4: t.Config.B: 'x' is not a whole number"),
+	                          HasSubstr("Game.ini:6: unknown section [SystemSetings]; the nearest is "
+	                                    "[SystemSettings]")));
 	EXPECT_EQ(CVarA.Get(), 3);
 	Checked(Problems);
 }
@@ -95,8 +95,7 @@ TEST_F(Config, ScalabilitySectionsThatAreNoneAreNamed)
 {
 	Files.Write("Scalability.ini", "[ShadowQuality]\nt.Config.A=1\n[ShadowQuality@9]\nt.Config.A=1\n[@1]\n");
 	EXPECT_THAT(LoadScalability(Folder, ERTQuality::Low),
-	            ElementsAre(HasSubstr(":1: [ShadowQuality] is not"), HasSubstr(":3: [ShadowQuality@9]"),
-	                        HasSubstr(":5: [@1]")));
+	    ElementsAre(HasSubstr(":1: [ShadowQuality] is not"), HasSubstr(":3: [ShadowQuality@9]"), HasSubstr(":5: [@1]")));
 	EXPECT_EQ(CVarA.GetSetBy(), ERTSetBy::Code);
 }
 
@@ -105,10 +104,9 @@ TEST_F(Config, AFileMayChooseAQualityPerGroup)
 	Files.Write("Scalability.ini", "[ShadowQuality@3]\nt.Config.A=4\n[OtherQuality@3]\nt.Config.B=9\n");
 	const std::string Path = Files.Write("Game.ini", "[ScalabilityGroups]\nsg.ShadowQuality=3\n"
 	                                                 "sg.ShadwQuality=3\nsg.OtherQuality=best\n");
-	EXPECT_THAT(
-	    Checked(LoadFile(Folder, Path)),
+	EXPECT_THAT(Checked(LoadFile(Folder, Path)),
 	    ElementsAre(HasSubstr(":3: unknown scalability group 'sg.ShadwQuality'; the nearest is 'ShadowQuality'"),
-	                HasSubstr(":4: sg.OtherQuality: 'best' is not a quality")));
+	        HasSubstr(":4: sg.OtherQuality: 'best' is not a quality")));
 	EXPECT_EQ(CVarA.Get(), 4);
 	EXPECT_EQ(CVarA.GetSetBy(), ERTSetBy::Scalability);
 	EXPECT_EQ(CVarB.Get(), 0);
@@ -122,8 +120,7 @@ TEST(Quality, NamesAndNumbers)
 	EXPECT_FALSE(ParseQuality("5"));
 	EXPECT_FALSE(ParseQuality(""));
 	EXPECT_FALSE(ParseQuality("ultra"));
-	for (const ERTQuality Quality :
-	     {ERTQuality::Low, ERTQuality::Medium, ERTQuality::High, ERTQuality::Epic, ERTQuality::Cinematic})
+	for (const ERTQuality Quality : {ERTQuality::Low, ERTQuality::Medium, ERTQuality::High, ERTQuality::Epic, ERTQuality::Cinematic})
 		EXPECT_EQ(ParseQuality(ToString(Quality)), Quality);
 }
 
@@ -183,12 +180,10 @@ TEST_F(Config, ProfileMistakesAreNamed)
 	                                  "[Nothing]\n");
 	FConfigProblems Problems = Checked(LoadDeviceProfile(Folder, "a").Problems);
 	EXPECT_THAT(Problems, ElementsAre(HasSubstr(":6: unknown key 'CVar' in a device profile; the nearest is 'CVars'"),
-	                                  HasSubstr(":13: [Nothing] is not [NAME DeviceProfile]"),
-	                                  HasSubstr(":8: base profile 'A' is derived from this one"),
-	                                  HasSubstr(":5: 't.Config.B' is not name=value")));
+	                          HasSubstr(":13: [Nothing] is not [NAME DeviceProfile]"),
+	                          HasSubstr(":8: base profile 'A' is derived from this one"), HasSubstr(":5: 't.Config.B' is not name=value")));
 	EXPECT_EQ(CVarA.Get(), 5);
-	EXPECT_THAT(LoadDeviceProfile(Folder, "c").Problems,
-	            testing::Contains(HasSubstr(":11: base profile 'None' does not exist")));
+	EXPECT_THAT(LoadDeviceProfile(Folder, "c").Problems, testing::Contains(HasSubstr(":11: base profile 'None' does not exist")));
 	EXPECT_EQ(CVarB.Get(), 4);
 	EXPECT_EQ(LoadDeviceProfile(Folder, "zzz").Profile, "") << "no Default in this file";
 }
@@ -196,19 +191,17 @@ TEST_F(Config, ProfileMistakesAreNamed)
 TEST_F(Config, ALongChainOfProfilesEnds)
 {
 	std::string Text = "[P0 DeviceProfile]\nMatchDevice=x\nBaseProfileName=P1\n";
-	for (int I = 1; I < 3000; ++I)
-		Text += "[P" + std::to_string(I) + " DeviceProfile]\nBaseProfileName=P" + std::to_string(I + 1) + "\n";
+	for (int I = 1; I < 3000; ++I) Text += "[P" + std::to_string(I) + " DeviceProfile]\nBaseProfileName=P" + std::to_string(I + 1) + "\n";
 	Files.Write("DeviceProfiles.ini", Text);
 	EXPECT_THAT(LoadDeviceProfile(Folder, "x").Problems, ElementsAre(HasSubstr("more than 16 steps away")));
 }
 
 TEST_F(Config, AliasMistakesAreNamed)
 {
-	Files.Write(
-	    "ConsoleVariableAliases.ini",
+	Files.Write("ConsoleVariableAliases.ini",
 	    "[ConsoleVariableAliases]\nx.Config.Empty=\nx.Config.Self=x.Config.Self\nx.Config.Good=t.Config.A\n[X]\n");
-	EXPECT_THAT(Checked(LoadAliases(Folder)), ElementsAre(HasSubstr(":2: 'x.Config.Empty' names no other variable"),
-	                                                      HasSubstr(":3: "), HasSubstr(":5: unknown section [X]")));
+	EXPECT_THAT(Checked(LoadAliases(Folder)),
+	    ElementsAre(HasSubstr(":2: 'x.Config.Empty' names no other variable"), HasSubstr(":3: "), HasSubstr(":5: unknown section [X]")));
 	EXPECT_EQ(FConsoleVariables::Get().Find("x.config.good"), &CVarA);
 }
 
@@ -221,9 +214,9 @@ TEST_F(Config, AllNamesOfAFolderAreListed)
 	std::vector<std::string> Names;
 	for (const FConfigReference& Reference : ListConsoleVariables(Folder))
 		Names.push_back(Reference.Name + Reference.Where.substr(Reference.Where.rfind('/')));
-	EXPECT_THAT(Names, ElementsAre("a.A/DefaultLantern.ini:2", "a.Gone/DefaultLantern.ini:3", "b.B/Scalability.ini:2",
-	                               "c.C/Scalability.ini:4", "d.D/DeviceProfiles.ini:3", "e.E/DeviceProfiles.ini:4",
-	                               "f.F/ConsoleVariableAliases.ini:2"));
+	EXPECT_THAT(
+	    Names, ElementsAre("a.A/DefaultLantern.ini:2", "a.Gone/DefaultLantern.ini:3", "b.B/Scalability.ini:2", "c.C/Scalability.ini:4",
+	               "d.D/DeviceProfiles.ini:3", "e.E/DeviceProfiles.ini:4", "f.F/ConsoleVariableAliases.ini:2"));
 	EXPECT_THAT(Log.GetTexts(), IsEmpty());
 }
 
@@ -233,8 +226,7 @@ const FConfigFolder Shipped{LANTERN_SOURCE_DIR "/Config"};
 
 TEST(ShippedConfig, Parses)
 {
-	for (const std::string& Path :
-	     {Shipped.GetDefaults(), Shipped.GetScalability(), Shipped.GetDeviceProfiles(), Shipped.GetAliases()})
+	for (const std::string& Path : {Shipped.GetDefaults(), Shipped.GetScalability(), Shipped.GetDeviceProfiles(), Shipped.GetAliases()})
 	{
 		const FIniFile File = FIniFile::Load(Path);
 		EXPECT_THAT(File.GetProblems(), IsEmpty());
@@ -251,15 +243,13 @@ TEST(ShippedConfig, EveryGroupSetsTheSameVariablesAtEveryLevel)
 	{
 		const size_t At = Section.Name.find('@');
 		ASSERT_NE(At, std::string::npos);
-		for (const FIniEntry& Entry : Section.Entries)
-			Groups[Section.Name.substr(0, At)][Section.Name.substr(At + 1)].insert(Entry.Key);
+		for (const FIniEntry& Entry : Section.Entries) Groups[Section.Name.substr(0, At)][Section.Name.substr(At + 1)].insert(Entry.Key);
 	}
 	ASSERT_FALSE(Groups.empty());
 	for (const auto& [Group, Levels] : Groups)
 	{
 		EXPECT_EQ(Levels.size(), 5u) << Group;
-		for (const auto& [Level, Keys] : Levels)
-			EXPECT_EQ(Keys, Levels.begin()->second) << Group << "@" << Level;
+		for (const auto& [Level, Keys] : Levels) EXPECT_EQ(Keys, Levels.begin()->second) << Group << "@" << Level;
 	}
 }
 
@@ -271,8 +261,7 @@ TEST(ShippedConfig, KnownDevicesFindTheirProfile)
 	EXPECT_EQ(LoadDeviceProfile(Shipped, "AMD Radeon RX 6800 XT (RADV NAVI21)").Profile, "AMD");
 	EXPECT_EQ(LoadDeviceProfile(Shipped, "Intel(R) Arc(tm) A770").Profile, "Intel");
 	EXPECT_EQ(LoadDeviceProfile(Shipped, "Some new device").Profile, "Default");
-	for (const std::string& Text : Log.GetTexts())
-		EXPECT_THAT(Text, HasSubstr("unknown console variable 'r.RT."));
+	for (const std::string& Text : Log.GetTexts()) EXPECT_THAT(Text, HasSubstr("unknown console variable 'r.RT."));
 }
 
 } // namespace

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "Support/CoreTestTools.h"
 #include "LanternCore/Config/ConsoleVariables.h"
+#include "Support/CoreTestTools.h"
 
 namespace Lantern
 {
@@ -20,10 +20,7 @@ TRTConsoleVariable<bool> CVarFlag("t.Threads.Flag", false, "");
 constexpr int Writers = 4;
 constexpr int WritesEach = 400;
 
-bool IsOneLetter(const std::string& Text)
-{
-	return Text.size() == 64 && Text.find_first_not_of(Text[0]) == std::string::npos;
-}
+bool IsOneLetter(const std::string& Text) { return Text.size() == 64 && Text.find_first_not_of(Text[0]) == std::string::npos; }
 
 void Write(int Writer)
 {
@@ -66,16 +63,13 @@ TEST(ConsoleVariableThreads, AFrameSeesOneValueFromStartToEnd)
 	std::vector<std::thread> Threads;
 	std::atomic<int> Running{Writers};
 	for (int Writer = 0; Writer < Writers; ++Writer)
-		Threads.emplace_back(
-		    [&, Writer]
-		    {
-			    Write(Writer);
-			    --Running;
-		    });
+		Threads.emplace_back([&, Writer] {
+			Write(Writer);
+			--Running;
+		});
 
 	int Frames = 0;
-	do
-	{
+	do {
 		Registry.BeginFrame();
 		const int32_t Count = CVarCount.GetOnRenderThread();
 		const std::string Text = CVarText.GetOnRenderThread();
@@ -86,10 +80,10 @@ TEST(ConsoleVariableThreads, AFrameSeesOneValueFromStartToEnd)
 		EXPECT_EQ(CVarText.GetOnRenderThread(), Text);
 		EXPECT_EQ(CVarFlag.GetOnRenderThread(), bFlag);
 		++Frames;
-	} while (Running > 0);
+	}
+	while (Running > 0);
 
-	for (std::thread& Thread : Threads)
-		Thread.join();
+	for (std::thread& Thread : Threads) Thread.join();
 	bStop = true;
 	Reader.join();
 	Registry.BeginFrame();
@@ -105,19 +99,16 @@ TEST(ConsoleVariableThreads, AFrameSeesOneValueFromStartToEnd)
 TEST(ConsoleVariableThreads, VariablesMayComeAndGoBesideFrames)
 {
 	std::atomic<bool> bDone{false};
-	std::thread Maker(
-	    [&]
-	    {
-		    for (int I = 0; I < 300; ++I)
-		    {
-			    TRTConsoleVariable<int32_t> Variable("t.Threads.Passing", 1, "");
-			    EXPECT_FALSE(FConsoleVariables::Get().Set("t.Threads.Passing", "2", ERTSetBy::Console, ""));
-			    EXPECT_EQ(Variable.Get(), 2);
-		    }
-		    bDone = true;
-	    });
-	while (!bDone)
-		FConsoleVariables::Get().BeginFrame();
+	std::thread Maker([&] {
+		for (int I = 0; I < 300; ++I)
+		{
+			TRTConsoleVariable<int32_t> Variable("t.Threads.Passing", 1, "");
+			EXPECT_FALSE(FConsoleVariables::Get().Set("t.Threads.Passing", "2", ERTSetBy::Console, ""));
+			EXPECT_EQ(Variable.Get(), 2);
+		}
+		bDone = true;
+	});
+	while (!bDone) FConsoleVariables::Get().BeginFrame();
 	Maker.join();
 	EXPECT_EQ(FConsoleVariables::Get().Find("t.Threads.Passing"), nullptr);
 }

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "Support/CoreTestTools.h"
 #include "LanternCore/Config/ConsoleVariables.h"
+#include "Support/CoreTestTools.h"
 
 namespace Lantern
 {
@@ -35,8 +35,7 @@ protected:
 		FConsoleVariables::Get().ResetAll();
 		FConsoleVariables::Get().BeginFrame();
 	}
-	static std::optional<std::string> Set(std::string_view Name, std::string_view Value,
-	                                      ERTSetBy By = ERTSetBy::CommandLine)
+	static std::optional<std::string> Set(std::string_view Name, std::string_view Value, ERTSetBy By = ERTSetBy::CommandLine)
 	{
 		return FConsoleVariables::Get().Set(Name, Value, By, "--set");
 	}
@@ -157,12 +156,11 @@ TEST_F(ConsoleVariables, AHostileNameOrValueMakesAShortPrintableMessage)
 	const std::string Huge(10'000'000, 'x');
 	const std::string Control("a\0b\x1b[31m\n", 9);
 	for (const std::optional<std::string>& Message :
-	     {Set(Huge, "1"), Set("t.Core.Toggle", Huge), Set(Control, "1"), Set("t.Core.FreeInt", Control)})
+	    {Set(Huge, "1"), Set("t.Core.Toggle", Huge), Set(Control, "1"), Set("t.Core.FreeInt", Control)})
 	{
 		ASSERT_TRUE(Message);
 		EXPECT_LT(Message->size(), 300u);
-		EXPECT_TRUE(std::all_of(Message->begin(), Message->end(),
-		                        [](char C) { return static_cast<unsigned char>(C) >= 0x20; }));
+		EXPECT_TRUE(std::all_of(Message->begin(), Message->end(), [](char C) { return static_cast<unsigned char>(C) >= 0x20; }));
 	}
 }
 
@@ -173,8 +171,7 @@ TEST_F(ConsoleVariables, OutOfRangeIsClampedWithOneWarning)
 	ASSERT_EQ(Log.Count(ERTLogLevel::Warning), 1u);
 	EXPECT_THAT(Log.GetTexts()[0], HasSubstr("--set: t.Core.Shadow.Samples: '1000' is out of range (1 to 64); 64"));
 	// A slider held against its end is not reported every frame …
-	for (int Frame = 0; Frame < 10; ++Frame)
-		EXPECT_FALSE(Set("t.Core.Shadow.Samples", std::to_string(2000 + Frame)));
+	for (int Frame = 0; Frame < 10; ++Frame) EXPECT_FALSE(Set("t.Core.Shadow.Samples", std::to_string(2000 + Frame)));
 	EXPECT_EQ(Log.Count(ERTLogLevel::Warning), 1u);
 	// … but at its other end, and after it was right in between, it is.
 	EXPECT_FALSE(Set("t.Core.Shadow.Samples", "-5"));
@@ -200,8 +197,8 @@ TEST_F(ConsoleVariables, NumbersBeyondTheirTypeAreClamped)
 
 TEST_F(ConsoleVariables, AHigherSetterWinsWhateverTheOrder)
 {
-	const ERTSetBy All[] = {ERTSetBy::Code,          ERTSetBy::Ini,         ERTSetBy::Scalability,
-	                        ERTSetBy::DeviceProfile, ERTSetBy::CommandLine, ERTSetBy::Console};
+	const ERTSetBy All[] = {
+	    ERTSetBy::Code, ERTSetBy::Ini, ERTSetBy::Scalability, ERTSetBy::DeviceProfile, ERTSetBy::CommandLine, ERTSetBy::Console};
 	for (const ERTSetBy First : All)
 	{
 		for (const ERTSetBy Second : All)
@@ -225,13 +222,11 @@ TEST_F(ConsoleVariables, CallbackRunsOncePerFrameAndOnlyAfterAChange)
 {
 	int Calls = 0;
 	int32_t Seen = 0;
-	CVarFreeInt.SetCallback(
-	    [&](const FRTConsoleVariable& Variable)
-	    {
-		    ++Calls;
-		    EXPECT_EQ(&Variable, &CVarFreeInt);
-		    Seen = CVarFreeInt.GetOnRenderThread();
-	    });
+	CVarFreeInt.SetCallback([&](const FRTConsoleVariable& Variable) {
+		++Calls;
+		EXPECT_EQ(&Variable, &CVarFreeInt);
+		Seen = CVarFreeInt.GetOnRenderThread();
+	});
 	Registry.BeginFrame();
 	EXPECT_EQ(Calls, 0);
 	EXPECT_FALSE(Set("t.Core.FreeInt", "3"));
@@ -308,10 +303,9 @@ TEST_F(ConsoleVariables, AllAreListedInOrderOfNames)
 {
 	std::vector<std::string> Names;
 	for (const FRTConsoleVariable* Variable : Registry.GetAll())
-		if (Variable->GetName().rfind("t.Core.", 0) == 0)
-			Names.push_back(Variable->GetName());
-	EXPECT_THAT(Names, ElementsAre("t.Core.FreeFloat", "t.Core.FreeInt", "t.Core.Name", "t.Core.Shadow.Distance",
-	                               "t.Core.Shadow.Samples", "t.Core.Toggle"));
+		if (Variable->GetName().rfind("t.Core.", 0) == 0) Names.push_back(Variable->GetName());
+	EXPECT_THAT(Names, ElementsAre("t.Core.FreeFloat", "t.Core.FreeInt", "t.Core.Name", "t.Core.Shadow.Distance", "t.Core.Shadow.Samples",
+	                       "t.Core.Toggle"));
 }
 
 TEST_F(ConsoleVariables, JsonHoldsEveryField)
@@ -323,12 +317,9 @@ TEST_F(ConsoleVariables, JsonHoldsEveryField)
 	nlohmann::json Samples, Distance, Name;
 	for (const nlohmann::json& Entry : Root.at("variables"))
 	{
-		if (Entry.at("name") == "t.Core.Shadow.Samples")
-			Samples = Entry;
-		if (Entry.at("name") == "t.Core.Shadow.Distance")
-			Distance = Entry;
-		if (Entry.at("name") == "t.Core.Name")
-			Name = Entry;
+		if (Entry.at("name") == "t.Core.Shadow.Samples") Samples = Entry;
+		if (Entry.at("name") == "t.Core.Shadow.Distance") Distance = Entry;
+		if (Entry.at("name") == "t.Core.Name") Name = Entry;
 	}
 	EXPECT_EQ(Samples.at("type"), "int");
 	EXPECT_EQ(Samples.at("default"), 1);

@@ -27,10 +27,7 @@ TEST_F(FrameGraphTest, OutOfMemoryNamesTheResourceAndRecordsNothing)
 		MakeDevice();
 		FFrameGraph Graph(*Resources);
 		std::vector<FGraphTexture> Chain;
-		for (const char* Name : {"First", "Second", "Third"})
-		{
-			Chain.push_back(MakeTexture(Graph, Name, 16 << Chain.size()));
-		}
+		for (const char* Name : {"First", "Second", "Third"}) { Chain.push_back(MakeTexture(Graph, Name, 16 << Chain.size())); }
 		const FGraphTexture Out = ImportTexture(Graph, "Out", ERTAccess::None, ERTAccess::None);
 		AddPass(Graph, "P0", {}, {{Chain[0], Storage}});
 		AddPass(Graph, "P1", {{Chain[0], Sampled}}, {{Chain[1], Storage}});
@@ -48,8 +45,7 @@ TEST_F(FrameGraphTest, OutOfMemoryNamesTheResourceAndRecordsNothing)
 
 TEST_F(FrameGraphTest, AfterAFailedFrameTheNextOneRuns)
 {
-	const auto Build = [&](FFrameGraph& Graph)
-	{
+	const auto Build = [&](FFrameGraph& Graph) {
 		const FGraphTexture A = MakeTexture(Graph, "A"), B = MakeTexture(Graph, "B", 32);
 		const FGraphBuffer Out = ImportBuffer(Graph, "Out", ERTAccess::None, ERTAccess::None);
 		AddPass(Graph, "1", {}, {{A, Storage}, {B, Storage}});
@@ -93,52 +89,43 @@ TEST_F(FrameGraphTest, WrongDeclarationsAreErrorsThatNamePassAndResource)
 		const char* Text;
 		std::function<void(FPassBuilder&, FGraphTexture, FGraphBuffer)> Declare;
 	};
-	const FCase Cases[] = {
-	    {"no pass before it writes", [](FPassBuilder& B, FGraphTexture T, FGraphBuffer) { B.Read(T, Sampled); }},
-	    {"no pass before it writes", [](FPassBuilder& B, FGraphTexture, FGraphBuffer F) { B.Read(F, Sampled); }},
-	    {"no pass before it writes",
-	     [](FPassBuilder& B, FGraphTexture T, FGraphBuffer)
-	     {
-		     B.Read(T, ERTAccess::StorageRead);
-		     B.Write(T, Storage);
-	     }},
-	    {"writing access with Read()", [](FPassBuilder& B, FGraphTexture T, FGraphBuffer) { B.Read(T, Storage); }},
-	    {"reading access with Write()", [](FPassBuilder& B, FGraphTexture T, FGraphBuffer) { B.Write(T, Sampled); }},
-	    {"exclude each other",
-	     [](FPassBuilder& B, FGraphTexture T, FGraphBuffer)
-	     {
-		     B.Write(T, ERTAccess::RenderTarget);
-		     B.Write(T, Storage);
-	     }},
-	    {"as only a buffer can be",
-	     [](FPassBuilder& B, FGraphTexture T, FGraphBuffer) { B.Read(T, ERTAccess::IndexRead); }},
-	    {"as only a texture can be",
-	     [](FPassBuilder& B, FGraphTexture, FGraphBuffer F) { B.Write(F, ERTAccess::RenderTarget); }},
-	    {"on the host", [](FPassBuilder& B, FGraphTexture, FGraphBuffer F) { B.Read(F, ERTAccess::HostRead); }},
-	    {"not of this graph", [](FPassBuilder& B, FGraphTexture, FGraphBuffer) { B.Read(FGraphTexture(), Sampled); }},
-	    {"not of this graph",
-	     [](FPassBuilder& B, FGraphTexture T, FGraphBuffer) { B.Read(FGraphBuffer{T.Index}, Sampled); }},
-	};
+	const FCase Cases[] =
+	    {
+	        {"no pass before it writes", [](FPassBuilder& B, FGraphTexture T, FGraphBuffer) { B.Read(T, Sampled); }},
+	        {"no pass before it writes", [](FPassBuilder& B, FGraphTexture, FGraphBuffer F) { B.Read(F, Sampled); }},
+	        {"no pass before it writes",
+	            [](FPassBuilder& B, FGraphTexture T, FGraphBuffer) {
+		B.Read(T, ERTAccess::StorageRead);
+		B.Write(T, Storage);
+	         }},
+	        {"writing access with Read()", [](FPassBuilder& B, FGraphTexture T, FGraphBuffer) { B.Read(T, Storage); }},
+	        {"reading access with Write()", [](FPassBuilder& B, FGraphTexture T, FGraphBuffer) { B.Write(T, Sampled); }},
+	        {"exclude each other",
+	            [](FPassBuilder& B, FGraphTexture T, FGraphBuffer) {
+		B.Write(T, ERTAccess::RenderTarget);
+		B.Write(T, Storage);
+	         }},
+	            {"as only a buffer can be", [](FPassBuilder& B, FGraphTexture T, FGraphBuffer) { B.Read(T, ERTAccess::IndexRead); }},
+	            {"as only a texture can be", [](FPassBuilder& B, FGraphTexture, FGraphBuffer F) { B.Write(F, ERTAccess::RenderTarget); }},
+	            {"on the host", [](FPassBuilder& B, FGraphTexture, FGraphBuffer F) { B.Read(F, ERTAccess::HostRead); }},
+	            {"not of this graph", [](FPassBuilder& B, FGraphTexture, FGraphBuffer) { B.Read(FGraphTexture(), Sampled); }},
+	            {"not of this graph", [](FPassBuilder& B, FGraphTexture T, FGraphBuffer) { B.Read(FGraphBuffer{T.Index}, Sampled); }},
+	            };
 	for (const FCase& Case : Cases)
 	{
 		FFrameGraph Graph(*Resources);
 		const FGraphTexture Texture = MakeTexture(Graph, "TheResource");
 		const FGraphBuffer Buffer = MakeBuffer(Graph, "TheResource");
-		Graph.AddPass("ThePass",
-		              [&](FPassBuilder& B)
-		              {
-			              Case.Declare(B, Texture, Buffer);
-			              B.NeverCull();
-			              return [](FPassContext&) { ADD_FAILURE() << "ran"; };
-		              });
+		Graph.AddPass("ThePass", [&](FPassBuilder& B) {
+			Case.Declare(B, Texture, Buffer);
+			B.NeverCull();
+			return [](FPassContext&) { ADD_FAILURE() << "ran"; };
+		});
 		const FRTStatus Status = Execute(Graph);
 		EXPECT_EQ(Status.Code, ERTResult::InvalidArgument);
 		EXPECT_THAT(Status.Message, HasSubstr(Case.Text));
 		EXPECT_THAT(Status.Message, HasSubstr("'ThePass'"));
-		if (std::string(Case.Text) != "not of this graph")
-		{
-			EXPECT_THAT(Status.Message, HasSubstr("'TheResource'"));
-		}
+		if (std::string(Case.Text) != "not of this graph") { EXPECT_THAT(Status.Message, HasSubstr("'TheResource'")); }
 	}
 }
 
@@ -159,12 +146,10 @@ TEST_F(FrameGraphTest, GettingWhatWasNotDeclaredAsserts)
 	    {
 		    FFrameGraph Graph(*Resources);
 		    const FGraphTexture A = MakeTexture(Graph, "A");
-		    Graph.AddPass("P",
-		                  [&](FPassBuilder& B)
-		                  {
-			                  B.NeverCull();
-			                  return [A](FPassContext& C) { C.GetTexture(A); };
-		                  });
+		    Graph.AddPass("P", [&](FPassBuilder& B) {
+			    B.NeverCull();
+			    return [A](FPassContext& C) { C.GetTexture(A); };
+		    });
 		    Run(Graph);
 	    },
 	    "may use only what it declared");
@@ -176,19 +161,15 @@ TEST_F(FrameGraphTest, GettingWhatWasNotDeclaredAsserts)
 TEST_F(FrameGraphTest, TimingsComeWithTheGpuAndNeverFromAnEarlierFrame)
 {
 	Mock().SetManualFences(true);
-	const auto Frame = [&](const char* Name, uint64_t Rays)
-	{
+	const auto Frame = [&](const char* Name, uint64_t Rays) {
 		FFrameGraph Graph(*Resources);
-		Graph.AddPass(Name,
-		              [&](FPassBuilder& B)
-		              {
-			              B.NeverCull();
-			              return [Rays](FPassContext& C)
-			              {
-				              C.CountRays(Rays);
-				              C.CountRays(1);
-			              };
-		              });
+		Graph.AddPass(Name, [&](FPassBuilder& B) {
+			B.NeverCull();
+			return [Rays](FPassContext& C) {
+				C.CountRays(Rays);
+				C.CountRays(1);
+			};
+		});
 		Graph.AddPass("Culled", [](FPassBuilder&) { return [](FPassContext&) {}; });
 		Run(Graph);
 		return Fence;
@@ -219,12 +200,10 @@ TEST_F(FrameGraphTest, ManyFramesThatNeverFinishDoNotGrowTheRing)
 	for (int I = 0; I < 50; ++I)
 	{
 		FFrameGraph Graph(*Resources);
-		Graph.AddPass("P",
-		              [](FPassBuilder& B)
-		              {
-			              B.NeverCull();
-			              return [](FPassContext&) {};
-		              });
+		Graph.AddPass("P", [](FPassBuilder& B) {
+			B.NeverCull();
+			return [](FPassContext&) {};
+		});
 		Run(Graph);
 	}
 	EXPECT_LE(Mock().CountCalls(ERTMockCall::CreateQueryPool), 8u);
@@ -237,14 +216,9 @@ TEST_F(FrameGraphTest, EveryPassStandsInItsMarkerWithTwoTimestamps)
 	AddPass(Graph, "P", {}, {{Out, Storage}});
 	Run(Graph);
 	std::vector<ERTMockCall> Kinds;
-	for (const FRTMockCall& Call : Mock().GetCalls())
-	{
-		Kinds.push_back(Call.Kind);
-	}
-	const std::vector<ERTMockCall> Expected = {
-	    ERTMockCall::ResetQueries, ERTMockCall::BeginMarker,    ERTMockCall::WriteTimestamp,
-	    ERTMockCall::Barrier,      ERTMockCall::WriteTimestamp, ERTMockCall::EndMarker,
-	    ERTMockCall::End};
+	for (const FRTMockCall& Call : Mock().GetCalls()) { Kinds.push_back(Call.Kind); }
+	const std::vector<ERTMockCall> Expected = {ERTMockCall::ResetQueries, ERTMockCall::BeginMarker, ERTMockCall::WriteTimestamp,
+	    ERTMockCall::Barrier, ERTMockCall::WriteTimestamp, ERTMockCall::EndMarker, ERTMockCall::End};
 	const auto Begin = std::find(Kinds.begin(), Kinds.end(), ERTMockCall::ResetQueries);
 	ASSERT_GE(static_cast<size_t>(Kinds.end() - Begin), Expected.size());
 	EXPECT_EQ(std::vector<ERTMockCall>(Begin, Begin + static_cast<long>(Expected.size())), Expected);

@@ -15,23 +15,19 @@ namespace
 
 constexpr ERTAccess TextureReads[] = {ERTAccess::ShaderRead, ERTAccess::StorageRead, ERTAccess::CopyRead};
 constexpr ERTAccess TextureWrites[] = {ERTAccess::StorageWrite, ERTAccess::RenderTarget, ERTAccess::CopyWrite};
-constexpr ERTAccess BufferReads[] = {ERTAccess::ShaderRead, ERTAccess::IndirectRead, ERTAccess::CopyRead,
-                                     ERTAccess::IndexRead};
+constexpr ERTAccess BufferReads[] = {ERTAccess::ShaderRead, ERTAccess::IndirectRead, ERTAccess::CopyRead, ERTAccess::IndexRead};
 constexpr ERTAccess BufferWrites[] = {ERTAccess::StorageWrite, ERTAccess::CopyWrite};
 
 bool Writes(ERTAccess Access)
 {
-	return HasAny(Access, ERTAccess::StorageWrite | ERTAccess::RenderTarget | ERTAccess::CopyWrite |
-	                          ERTAccess::DepthWrite | ERTAccess::BuildWrite);
+	return HasAny(
+	    Access, ERTAccess::StorageWrite | ERTAccess::RenderTarget | ERTAccess::CopyWrite | ERTAccess::DepthWrite | ERTAccess::BuildWrite);
 }
 
 /// As a backend chooses it: storage is general, everything else has its own.
 int Layout(bool bTexture, ERTAccess Access)
 {
-	if (!bTexture)
-	{
-		return 0;
-	}
+	if (!bTexture) { return 0; }
 	const uint32_t Bits = static_cast<uint32_t>(Access);
 	const bool bGeneral = HasAny(Access, ERTAccess::StorageRead | ERTAccess::StorageWrite) || (Bits & (Bits - 1)) != 0;
 	return bGeneral ? -1 : static_cast<int>(Bits);
@@ -99,16 +95,13 @@ protected:
 		}
 		std::set<size_t> Written;
 		const size_t PassCount = 1 + Random() % 20;
-		for (size_t I = 0; I < PassCount; ++I)
-		{
-			GeneratePass(I, Written);
-		}
+		for (size_t I = 0; I < PassCount; ++I) { GeneratePass(I, Written); }
 	}
 	ERTAccess PickState(bool bTexture)
 	{
 		// Never None for a texture: reading it must be allowed.
-		const ERTAccess Choices[] = {ERTAccess::ShaderRead, ERTAccess::StorageWrite, ERTAccess::CopyRead,
-		                             bTexture ? ERTAccess::RenderTarget : ERTAccess::None};
+		const ERTAccess Choices[] = {
+		    ERTAccess::ShaderRead, ERTAccess::StorageWrite, ERTAccess::CopyRead, bTexture ? ERTAccess::RenderTarget : ERTAccess::None};
 		return Choices[Random() % 4];
 	}
 	void GeneratePass(size_t Index, std::set<size_t>& Written)
@@ -122,10 +115,7 @@ protected:
 		{
 			FRandomUse Use;
 			Use.Resource = Random() % Resources_.size();
-			if (!Mine.insert(Use.Resource).second)
-			{
-				continue;
-			}
+			if (!Mine.insert(Use.Resource).second) { continue; }
 			const FRandomResource& R = Resources_[Use.Resource];
 			const bool bReadable = R.bImported || Written.count(Use.Resource) > 0;
 			const uint32_t Kind = bReadable ? Random() % 5 : 4;
@@ -134,22 +124,13 @@ protected:
 				Use.Read = ERTAccess::StorageRead;
 				Use.Write = ERTAccess::StorageWrite;
 			}
-			else if (Kind <= 3)
-			{
-				Use.Read = R.bTexture ? TextureReads[Random() % 3] : BufferReads[Random() % 4];
-			}
-			else
-			{
-				Use.Write = R.bTexture ? TextureWrites[Random() % 3] : BufferWrites[Random() % 2];
-			}
+			else if (Kind <= 3) { Use.Read = R.bTexture ? TextureReads[Random() % 3] : BufferReads[Random() % 4]; }
+			else { Use.Write = R.bTexture ? TextureWrites[Random() % 3] : BufferWrites[Random() % 2]; }
 			Pass.Uses.push_back(Use);
 		}
 		for (const FRandomUse& Use : Pass.Uses)
 		{
-			if (Use.Write != ERTAccess::None)
-			{
-				Written.insert(Use.Resource);
-			}
+			if (Use.Write != ERTAccess::None) { Written.insert(Use.Resource); }
 		}
 	}
 
@@ -162,19 +143,13 @@ protected:
 			bChanged = false;
 			for (size_t I = 0; I < Passes_.size(); ++I)
 			{
-				if (!Alive[I] && MustRun(I, Alive))
-				{
-					Alive[I] = bChanged = true;
-				}
+				if (!Alive[I] && MustRun(I, Alive)) { Alive[I] = bChanged = true; }
 			}
 		}
 		std::set<std::string> Names;
 		for (size_t I = 0; I < Passes_.size(); ++I)
 		{
-			if (Alive[I])
-			{
-				Names.insert(Passes_[I].Name);
-			}
+			if (Alive[I]) { Names.insert(Passes_[I].Name); }
 		}
 		return Names;
 	}
@@ -183,10 +158,7 @@ protected:
 		bool bMust = Passes_[Index].bNeverCull;
 		for (const FRandomUse& Mine : Passes_[Index].Uses)
 		{
-			if (Mine.Write == ERTAccess::None)
-			{
-				continue;
-			}
+			if (Mine.Write == ERTAccess::None) { continue; }
 			bMust |= Resources_[Mine.Resource].bImported;
 			for (size_t Later = Index + 1; Later < Passes_.size(); ++Later)
 			{
@@ -211,31 +183,18 @@ protected:
 			}
 			else if (R.bImported)
 			{
-				R.bTexture
-				    ? (void)(R.Texture = Graph.ImportTexture(Held[R.Native].Get(), R.Current, R.After, R.Name.c_str()))
-				    : (void)(R.Buffer =
-				                 Graph.ImportBuffer(HeldBuffers[R.Native].Get(), R.Current, R.After, R.Name.c_str()));
+				R.bTexture ? (void)(R.Texture = Graph.ImportTexture(Held[R.Native].Get(), R.Current, R.After, R.Name.c_str()))
+				           : (void)(R.Buffer = Graph.ImportBuffer(HeldBuffers[R.Native].Get(), R.Current, R.After, R.Name.c_str()));
 			}
-			else
-			{
-				DeclareTransient(Graph, R);
-			}
+			else { DeclareTransient(Graph, R); }
 		}
 		for (const FRandomPass& Pass : Passes_)
 		{
-			Graph.AddPass(Pass.Name.c_str(),
-			              [&](FPassBuilder& Builder) -> FPassExecute
-			              {
-				              for (const FRandomUse& Use : Pass.Uses)
-				              {
-					              DeclareUse(Builder, Use);
-				              }
-				              if (Pass.bNeverCull)
-				              {
-					              Builder.NeverCull();
-				              }
-				              return [this, &Pass](FPassContext& Context) { NoteAccesses(Context, Pass); };
-			              });
+			Graph.AddPass(Pass.Name.c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
+				for (const FRandomUse& Use : Pass.Uses) { DeclareUse(Builder, Use); }
+				if (Pass.bNeverCull) { Builder.NeverCull(); }
+				return [this, &Pass](FPassContext& Context) { NoteAccesses(Context, Pass); };
+			});
 		}
 	}
 	static void DeclareTransient(FFrameGraph& Graph, FRandomResource& R)
@@ -243,27 +202,20 @@ protected:
 		// All usages, so that descriptions are often equal and memory is often shared.
 		if (R.bTexture)
 		{
-			const ERTTextureUsage All = ERTTextureUsage::Sampled | ERTTextureUsage::Storage |
-			                            ERTTextureUsage::RenderTarget | ERTTextureUsage::CopySource |
-			                            ERTTextureUsage::CopyDest;
+			const ERTTextureUsage All = ERTTextureUsage::Sampled | ERTTextureUsage::Storage | ERTTextureUsage::RenderTarget |
+			                            ERTTextureUsage::CopySource | ERTTextureUsage::CopyDest;
 			R.Texture = Graph.CreateTexture({R.Size, R.Size, ERTFormat::R32_FLOAT, All, 1}, R.Name.c_str());
 			return;
 		}
-		const ERTBufferUsage All = ERTBufferUsage::Storage | ERTBufferUsage::Index | ERTBufferUsage::Indirect |
-		                           ERTBufferUsage::CopySource | ERTBufferUsage::CopyDest;
+		const ERTBufferUsage All = ERTBufferUsage::Storage | ERTBufferUsage::Index | ERTBufferUsage::Indirect | ERTBufferUsage::CopySource |
+		                           ERTBufferUsage::CopyDest;
 		R.Buffer = Graph.CreateBuffer({256, All}, R.Name.c_str());
 	}
 	void DeclareUse(FPassBuilder& Builder, const FRandomUse& Use) const
 	{
 		const FRandomResource& R = Resources_[Use.Resource];
-		if (Use.Read != ERTAccess::None)
-		{
-			R.bTexture ? Builder.Read(R.Texture, Use.Read) : Builder.Read(R.Buffer, Use.Read);
-		}
-		if (Use.Write != ERTAccess::None)
-		{
-			R.bTexture ? Builder.Write(R.Texture, Use.Write) : Builder.Write(R.Buffer, Use.Write);
-		}
+		if (Use.Read != ERTAccess::None) { R.bTexture ? Builder.Read(R.Texture, Use.Read) : Builder.Read(R.Buffer, Use.Read); }
+		if (Use.Write != ERTAccess::None) { R.bTexture ? Builder.Write(R.Texture, Use.Write) : Builder.Write(R.Buffer, Use.Write); }
 	}
 
 	/// Runs inside a pass: the barriers recorded so far come first, then what the pass does with whom.
@@ -274,8 +226,8 @@ protected:
 		for (const FRandomUse& Use : Pass.Uses)
 		{
 			const FRandomResource& R = Resources_[Use.Resource];
-			const std::string Native = R.bTexture ? Context.GetTexture(R.Texture)->GetDesc().Name
-			                                      : Context.GetBuffer(R.Buffer)->GetDesc().Name;
+			const std::string Native =
+			    R.bTexture ? Context.GetTexture(R.Texture)->GetDesc().Name : Context.GetBuffer(R.Buffer)->GetDesc().Name;
 			Timelines[Native].bTexture = R.bTexture;
 			Timelines[Native].Events.push_back({false, Use.Read | Use.Write, ERTAccess::None});
 			Tenants[Native].push_back({Use.Resource, Ran.size()});
@@ -287,8 +239,7 @@ protected:
 		for (; SeenBarriers < Calls.size(); ++SeenBarriers)
 		{
 			const FRTMockCall& Call = Calls[SeenBarriers];
-			Timelines[Call.Name].Events.push_back(
-			    {true, static_cast<ERTAccess>(Call.Numbers[0]), static_cast<ERTAccess>(Call.Numbers[1])});
+			Timelines[Call.Name].Events.push_back({true, static_cast<ERTAccess>(Call.Numbers[0]), static_cast<ERTAccess>(Call.Numbers[1])});
 		}
 	}
 
@@ -303,10 +254,7 @@ protected:
 			const FEvent& Event = Line.Events[I];
 			if (Event.bBarrier)
 			{
-				if ((Event.Access & Waiting) != Waiting)
-				{
-					return false;
-				}
+				if ((Event.Access & Waiting) != Waiting) { return false; }
 				Waiting = Event.After;
 				bAny = true;
 			}
@@ -320,15 +268,11 @@ protected:
 			for (size_t A = 0; A < B && !Line.Events[B].bBarrier; ++A)
 			{
 				const FEvent &First = Line.Events[A], &Second = Line.Events[B];
-				if (First.bBarrier || First.Access == ERTAccess::None)
-				{
-					continue;
-				}
+				if (First.bBarrier || First.Access == ERTAccess::None) { continue; }
 				if (Writes(First.Access) || Writes(Second.Access))
 				{
-					ASSERT_TRUE(IsOrdered(Line, A, B))
-					    << Name << ": " << AccessText(static_cast<uint64_t>(First.Access)) << " then "
-					    << AccessText(static_cast<uint64_t>(Second.Access));
+					ASSERT_TRUE(IsOrdered(Line, A, B)) << Name << ": " << AccessText(static_cast<uint64_t>(First.Access)) << " then "
+					                                   << AccessText(static_cast<uint64_t>(Second.Access));
 				}
 			}
 		}
@@ -359,10 +303,7 @@ protected:
 	{
 		for (FRandomResource& R : Resources_)
 		{
-			if (!R.bImported)
-			{
-				continue;
-			}
+			if (!R.bImported) { continue; }
 			ERTAccess State = R.Current;
 			bool bFresh = true;
 			for (const FEvent& Event : Timelines[R.Name].Events)
@@ -371,10 +312,7 @@ protected:
 				State = Event.bBarrier ? Event.After : bFresh ? State | Event.Access : State;
 			}
 			const bool bUntouchedBuffer = State == ERTAccess::None && !R.bTexture;
-			if (R.After != ERTAccess::None && !bUntouchedBuffer)
-			{
-				ASSERT_EQ(State, R.After) << R.Name;
-			}
+			if (R.After != ERTAccess::None && !bUntouchedBuffer) { ASSERT_EQ(State, R.After) << R.Name; }
 			R.Current = State;
 		}
 	}
@@ -420,10 +358,7 @@ TEST_F(FrameGraphPropertyTest, AThousandRandomGraphsHaveNoHazard)
 		SeenBarriers = 0;
 		for (const FRandomResource& R : Resources_)
 		{
-			if (R.bImported)
-			{
-				Timelines[R.Name] = {R.bTexture, {{false, R.Current, ERTAccess::None}}};
-			}
+			if (R.bImported) { Timelines[R.Name] = {R.bTexture, {{false, R.Current, ERTAccess::None}}}; }
 		}
 		// The second frame meets the resources as the first left them.
 		for (int Frame = 0; Frame < 2; ++Frame)
@@ -435,8 +370,7 @@ TEST_F(FrameGraphPropertyTest, AThousandRandomGraphsHaveNoHazard)
 			NoteBarriers();
 			ASSERT_EQ(std::set<std::string>(Ran.begin(), Ran.end()), BruteForceAlive()) << Graph.Dump();
 			ASSERT_TRUE(std::is_sorted(Ran.begin(), Ran.end(),
-			                           [](const std::string& A, const std::string& B)
-			                           { return std::stoi(A.substr(1)) < std::stoi(B.substr(1)); }));
+			    [](const std::string& A, const std::string& B) { return std::stoi(A.substr(1)) < std::stoi(B.substr(1)); }));
 			CheckTenants();
 			for (auto& [Name, Line] : Timelines)
 			{
@@ -451,8 +385,7 @@ TEST_F(FrameGraphPropertyTest, AThousandRandomGraphsHaveNoHazard)
 		for (const auto& [Native, Uses] : Tenants)
 		{
 			std::set<size_t> Who;
-			std::transform(Uses.begin(), Uses.end(), std::inserter(Who, Who.end()),
-			               [](const auto& U) { return U.first; });
+			std::transform(Uses.begin(), Uses.end(), std::inserter(Who, Who.end()), [](const auto& U) { return U.first; });
 			Shared += Who.size() > 1 ? 1 : 0;
 		}
 		EXPECT_EQ(Mock().GetErrors(), std::vector<std::string>());

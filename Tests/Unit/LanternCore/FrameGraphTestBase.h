@@ -25,16 +25,12 @@ struct FTestUse
 
 inline std::string AccessText(uint64_t Access)
 {
-	static constexpr const char* Names[] = {
-	    "ShaderRead", "StorageRead", "StorageWrite",  "RenderTarget", "DepthWrite", "IndexRead", "IndirectRead",
-	    "CopyRead",   "CopyWrite",   "GeometryInput", "BuildRead",    "BuildWrite", "TraceRead", "HostRead"};
+	static constexpr const char* Names[] = {"ShaderRead", "StorageRead", "StorageWrite", "RenderTarget", "DepthWrite", "IndexRead",
+	    "IndirectRead", "CopyRead", "CopyWrite", "GeometryInput", "BuildRead", "BuildWrite", "TraceRead", "HostRead"};
 	std::string Text;
 	for (uint32_t Bit = 0; Bit < 14; ++Bit)
 	{
-		if ((Access >> Bit) & 1u)
-		{
-			Text += (Text.empty() ? "" : "|") + std::string(Names[Bit]);
-		}
+		if ((Access >> Bit) & 1u) { Text += (Text.empty() ? "" : "|") + std::string(Names[Bit]); }
 	}
 	return Text.empty() ? "None" : Text;
 }
@@ -47,10 +43,7 @@ protected:
 
 	void Clear()
 	{
-		if (Device)
-		{
-			(void)Device->WaitIdle();
-		}
+		if (Device) { (void)Device->WaitIdle(); }
 		Resources.reset();
 		Held.clear();
 		HeldBuffers.clear();
@@ -83,8 +76,8 @@ protected:
 		FRTTextureDesc Desc;
 		Desc.Width = Desc.Height = 64;
 		Desc.Format = ERTFormat::R32_FLOAT;
-		Desc.Usage = ERTTextureUsage::Sampled | ERTTextureUsage::Storage | ERTTextureUsage::CopySource |
-		             ERTTextureUsage::CopyDest | ERTTextureUsage::RenderTarget;
+		Desc.Usage = ERTTextureUsage::Sampled | ERTTextureUsage::Storage | ERTTextureUsage::CopySource | ERTTextureUsage::CopyDest |
+		             ERTTextureUsage::RenderTarget;
 		Desc.Name = Name;
 		EXPECT_TRUE(Device->CreateTexture(Desc, Held.emplace_back().ReleaseAndGetAddress()).IsOk());
 		return Graph.ImportTexture(Held.back().Get(), Current, After, Name);
@@ -93,8 +86,7 @@ protected:
 	{
 		FRTBufferDesc Desc;
 		Desc.Size = 256;
-		Desc.Usage =
-		    ERTBufferUsage::Storage | ERTBufferUsage::CopyDest | ERTBufferUsage::CopySource | ERTBufferUsage::Index;
+		Desc.Usage = ERTBufferUsage::Storage | ERTBufferUsage::CopyDest | ERTBufferUsage::CopySource | ERTBufferUsage::Index;
 		Desc.Name = Name;
 		EXPECT_TRUE(Device->CreateBuffer(Desc, HeldBuffers.emplace_back().ReleaseAndGetAddress()).IsOk());
 		return Graph.ImportBuffer(HeldBuffers.back().Get(), Current, After, Name);
@@ -102,21 +94,17 @@ protected:
 
 	void AddPass(FFrameGraph& Graph, const std::string& Name, std::vector<FTestUse> Reads, std::vector<FTestUse> Writes)
 	{
-		Graph.AddPass(Name.c_str(),
-		              [&](FPassBuilder& Builder) -> FPassExecute
-		              {
-			              for (const FTestUse& Use : Reads)
-			              {
-				              Use.Texture.IsValid() ? Builder.Read(Use.Texture, Use.Access)
-				                                    : Builder.Read(Use.Buffer, Use.Access);
-			              }
-			              for (const FTestUse& Use : Writes)
-			              {
-				              Use.Texture.IsValid() ? Builder.Write(Use.Texture, Use.Access)
-				                                    : Builder.Write(Use.Buffer, Use.Access);
-			              }
-			              return [this, Name](FPassContext&) { Ran.push_back(Name); };
-		              });
+		Graph.AddPass(Name.c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
+			for (const FTestUse& Use : Reads)
+			{
+				Use.Texture.IsValid() ? Builder.Read(Use.Texture, Use.Access) : Builder.Read(Use.Buffer, Use.Access);
+			}
+			for (const FTestUse& Use : Writes)
+			{
+				Use.Texture.IsValid() ? Builder.Write(Use.Texture, Use.Access) : Builder.Write(Use.Buffer, Use.Access);
+			}
+			return [this, Name](FPassContext&) { Ran.push_back(Name); };
+		});
 	}
 
 	/// Records and submits; nothing is submitted where recording fails.
@@ -147,14 +135,8 @@ protected:
 		std::vector<std::string> Lines;
 		for (const FRTMockCall& Call : Mock().GetCalls())
 		{
-			if (Call.Kind == ERTMockCall::BeginMarker)
-			{
-				Lines.push_back("[" + Call.Name);
-			}
-			else if (Call.Kind == ERTMockCall::EndMarker)
-			{
-				Lines.push_back("]");
-			}
+			if (Call.Kind == ERTMockCall::BeginMarker) { Lines.push_back("[" + Call.Name); }
+			else if (Call.Kind == ERTMockCall::EndMarker) { Lines.push_back("]"); }
 			else if (Call.Kind == ERTMockCall::Barrier)
 			{
 				Lines.push_back(Call.Name + ": " + AccessText(Call.Numbers[0]) + " -> " + AccessText(Call.Numbers[1]));

@@ -68,21 +68,18 @@ TEST_F(FrameGraphTest, NeverCullKeepsAPassAndWhatItReads)
 	FFrameGraph Graph(*Resources);
 	const FGraphTexture A = MakeTexture(Graph, "A");
 	AddPass(Graph, "MakeA", {}, {{A, Storage}});
-	Graph.AddPass("Probe",
-	              [&](FPassBuilder& B)
-	              {
-		              B.Read(A, Sampled);
-		              B.NeverCull();
-		              return [this](FPassContext&) { Ran.push_back("Probe"); };
-	              });
+	Graph.AddPass("Probe", [&](FPassBuilder& B) {
+		B.Read(A, Sampled);
+		B.NeverCull();
+		return [this](FPassContext&) { Ran.push_back("Probe"); };
+	});
 	EXPECT_THAT(Run(Graph), ElementsAre("MakeA", "Probe"));
 }
 
 TEST_F(FrameGraphTest, EarlierPartialWritersOfAReadResourceAreKept)
 {
 	FFrameGraph Graph(*Resources);
-	const FGraphTexture A = MakeTexture(Graph, "A"),
-	                    Out = ImportTexture(Graph, "Out", ERTAccess::None, ERTAccess::None);
+	const FGraphTexture A = MakeTexture(Graph, "A"), Out = ImportTexture(Graph, "Out", ERTAccess::None, ERTAccess::None);
 	AddPass(Graph, "Clear", {}, {{A, ERTAccess::CopyWrite}});
 	AddPass(Graph, "Half", {}, {{A, Storage}});
 	AddPass(Graph, "Use", {{A, Sampled}}, {{Out, Storage}});
@@ -126,30 +123,27 @@ TEST_F(FrameGraphTest, BarriersOfAWriteReadWriteChainAreExact)
 	AddPass(Graph, "Again", {}, {{A, Storage}});
 	AddPass(Graph, "Copy", {{A, ERTAccess::CopyRead}}, {{Out, ERTAccess::CopyWrite}});
 	Run(Graph);
-	EXPECT_THAT(Trace(), ElementsAre("[Write", "A: None -> StorageWrite", "]",                                      //
-	                                 "[Read1", "A: StorageWrite -> ShaderRead", "]",                                //
-	                                 "[Read2", "Out: StorageWrite -> StorageWrite", "]",                            //
-	                                 "[Again", "A: ShaderRead -> StorageWrite", "]",                                //
-	                                 "[Copy", "A: StorageWrite -> CopyRead", "Out: StorageWrite -> CopyWrite", "]", //
-	                                 "Out: CopyWrite -> HostRead"));
+	EXPECT_THAT(Trace(), ElementsAre("[Write", "A: None -> StorageWrite", "]",                              //
+	                         "[Read1", "A: StorageWrite -> ShaderRead", "]",                                //
+	                         "[Read2", "Out: StorageWrite -> StorageWrite", "]",                            //
+	                         "[Again", "A: ShaderRead -> StorageWrite", "]",                                //
+	                         "[Copy", "A: StorageWrite -> CopyRead", "Out: StorageWrite -> CopyWrite", "]", //
+	                         "Out: CopyWrite -> HostRead"));
 }
 
 TEST_F(FrameGraphTest, BarriersOfOnePassAreOneCall)
 {
 	FFrameGraph Graph(*Resources);
 	const FGraphTexture A = MakeTexture(Graph, "A"), B = MakeTexture(Graph, "B"), C = MakeTexture(Graph, "C");
-	Graph.AddPass("Three",
-	              [&](FPassBuilder& Builder)
-	              {
-		              Builder.Write(A, Storage);
-		              Builder.Write(B, ERTAccess::RenderTarget);
-		              Builder.Write(C, ERTAccess::CopyWrite);
-		              Builder.NeverCull();
-		              return [](FPassContext&) {};
-	              });
+	Graph.AddPass("Three", [&](FPassBuilder& Builder) {
+		Builder.Write(A, Storage);
+		Builder.Write(B, ERTAccess::RenderTarget);
+		Builder.Write(C, ERTAccess::CopyWrite);
+		Builder.NeverCull();
+		return [](FPassContext&) {};
+	});
 	Run(Graph);
-	EXPECT_THAT(Trace(), ElementsAre("[Three", "A: None -> StorageWrite", "B: None -> RenderTarget",
-	                                 "C: None -> CopyWrite", "]"));
+	EXPECT_THAT(Trace(), ElementsAre("[Three", "A: None -> StorageWrite", "B: None -> RenderTarget", "C: None -> CopyWrite", "]"));
 }
 
 TEST_F(FrameGraphTest, DifferentReadsOfABufferAreEnteredTogether)
@@ -161,8 +155,8 @@ TEST_F(FrameGraphTest, DifferentReadsOfABufferAreEnteredTogether)
 	AddPass(Graph, "Shade", {{Args, Sampled}}, {{Out, Storage}});
 	AddPass(Graph, "Draw", {{Args, ERTAccess::IndirectRead}}, {{Out, Storage}});
 	Run(Graph);
-	EXPECT_THAT(Trace(), ElementsAre("[Make", "]", "[Shade", "Args: StorageWrite -> ShaderRead|IndirectRead", "]",
-	                                 "[Draw", "Out: StorageWrite -> StorageWrite", "]"));
+	EXPECT_THAT(Trace(), ElementsAre("[Make", "]", "[Shade", "Args: StorageWrite -> ShaderRead|IndirectRead", "]", "[Draw",
+	                         "Out: StorageWrite -> StorageWrite", "]"));
 }
 
 TEST_F(FrameGraphTest, DifferentReadsOfATextureNeedALayoutChange)
@@ -175,9 +169,8 @@ TEST_F(FrameGraphTest, DifferentReadsOfATextureNeedALayoutChange)
 	AddPass(Graph, "Load", {{A, ERTAccess::StorageRead}}, {});
 	AddPass(Graph, "Load2", {{A, ERTAccess::StorageRead}}, {{Out, Storage}});
 	Run(Graph);
-	EXPECT_THAT(Trace(),
-	            ElementsAre("[Make", "A: None -> StorageWrite", "]", "[Sample", "A: StorageWrite -> ShaderRead", "]",
-	                        "[Load2", "A: ShaderRead -> StorageRead", "Out: StorageWrite -> StorageWrite", "]"));
+	EXPECT_THAT(Trace(), ElementsAre("[Make", "A: None -> StorageWrite", "]", "[Sample", "A: StorageWrite -> ShaderRead", "]", "[Load2",
+	                         "A: ShaderRead -> StorageRead", "Out: StorageWrite -> StorageWrite", "]"));
 }
 
 TEST_F(FrameGraphTest, ReadModifyWriteIsOneState)
@@ -186,8 +179,8 @@ TEST_F(FrameGraphTest, ReadModifyWriteIsOneState)
 	const FGraphTexture A = ImportTexture(Graph, "A", Sampled, Sampled);
 	AddPass(Graph, "Blend", {{A, ERTAccess::StorageRead}}, {{A, Storage}});
 	Run(Graph);
-	EXPECT_THAT(Trace(), ElementsAre("[Blend", "A: ShaderRead -> StorageRead|StorageWrite", "]",
-	                                 "A: StorageRead|StorageWrite -> ShaderRead"));
+	EXPECT_THAT(
+	    Trace(), ElementsAre("[Blend", "A: ShaderRead -> StorageRead|StorageWrite", "]", "A: StorageRead|StorageWrite -> ShaderRead"));
 }
 
 TEST_F(FrameGraphTest, ImportedResourcesStartAndEndAsTold)
@@ -201,7 +194,7 @@ TEST_F(FrameGraphTest, ImportedResourcesStartAndEndAsTold)
 	Run(Graph);
 	EXPECT_TRUE(Unused.IsValid());
 	EXPECT_THAT(Trace(), ElementsAre("[P", "Depth: DepthWrite -> ShaderRead", "Left: ShaderRead -> StorageWrite", "]",
-	                                 "Unused: RenderTarget -> ShaderRead"));
+	                         "Unused: RenderTarget -> ShaderRead"));
 }
 
 TEST_F(FrameGraphTest, ImportingTwiceGivesTheSameResource)
@@ -225,13 +218,11 @@ TEST_F(FrameGraphTest, UsageFollowsFromTheAccessesOfPassesThatRun)
 	const FGraphTexture Nobody = MakeTexture(Graph, "Nobody");
 	ERTTextureUsage Usage = ERTTextureUsage::None;
 	AddPass(Graph, "Draw", {}, {{A, ERTAccess::RenderTarget}});
-	Graph.AddPass("Copy",
-	              [&](FPassBuilder& B)
-	              {
-		              B.Read(A, ERTAccess::CopyRead);
-		              B.Write(Out, ERTAccess::CopyWrite);
-		              return [&, A](FPassContext& C) { Usage = C.GetTexture(A)->GetDesc().Usage; };
-	              });
+	Graph.AddPass("Copy", [&](FPassBuilder& B) {
+		B.Read(A, ERTAccess::CopyRead);
+		B.Write(Out, ERTAccess::CopyWrite);
+		return [&, A](FPassContext& C) { Usage = C.GetTexture(A)->GetDesc().Usage; };
+	});
 	AddPass(Graph, "Culled", {{A, Sampled}}, {{Nobody, Storage}});
 	Run(Graph);
 	EXPECT_EQ(Usage, ERTTextureUsage::RenderTarget | ERTTextureUsage::CopySource);
@@ -249,10 +240,10 @@ TEST_F(FrameGraphTest, MemoryIsSharedByThoseThatDoNotOverlap)
 	Run(Graph);
 	EXPECT_THAT(Mock().GetCreatedTextures(), ElementsAre("Out", "A", "B")) << "C takes the place of A";
 	// The new tenant waits for the old one's readers.
-	EXPECT_THAT(Trace(), ElementsAre("[1", "A: None -> StorageWrite", "]",                                        //
-	                                 "[2", "A: StorageWrite -> ShaderRead", "B: None -> StorageWrite", "]",       //
-	                                 "[3", "B: StorageWrite -> ShaderRead", "A: ShaderRead -> StorageWrite", "]", //
-	                                 "[4", "A: StorageWrite -> ShaderRead", "Out: None -> StorageWrite", "]"));
+	EXPECT_THAT(Trace(), ElementsAre("[1", "A: None -> StorageWrite", "]",                                //
+	                         "[2", "A: StorageWrite -> ShaderRead", "B: None -> StorageWrite", "]",       //
+	                         "[3", "B: StorageWrite -> ShaderRead", "A: ShaderRead -> StorageWrite", "]", //
+	                         "[4", "A: StorageWrite -> ShaderRead", "Out: None -> StorageWrite", "]"));
 	EXPECT_EQ(Resources->GetPooledBytes(), 2u * 64 * 64 * 4);
 	EXPECT_THAT(Graph.Dump(), HasSubstr("in place of 'A'"));
 }
@@ -283,16 +274,15 @@ TEST_F(FrameGraphTest, TheNextFrameReusesByNameAndWaitsForThisOne)
 		Run(Graph);
 		EXPECT_EQ(Mock().GetCreatedTextures().size(), Frame == 0 ? 2u : 0u);
 		const char* From = Frame == 0 ? "None" : "ShaderRead";
-		EXPECT_THAT(Trace(), ElementsAre("[1", std::string("A: ") + From + " -> StorageWrite",
-		                                 std::string("B: ") + From + " -> StorageWrite", "]", "[2",
-		                                 "A: StorageWrite -> ShaderRead", "B: StorageWrite -> ShaderRead", "]"));
+		EXPECT_THAT(
+		    Trace(), ElementsAre("[1", std::string("A: ") + From + " -> StorageWrite", std::string("B: ") + From + " -> StorageWrite", "]",
+		                 "[2", "A: StorageWrite -> ShaderRead", "B: StorageWrite -> ShaderRead", "]"));
 	}
 }
 
 TEST_F(FrameGraphTest, TrimFreesWhatWasNotUsedForAWhile)
 {
-	const auto Frame = [&](uint32_t Size)
-	{
+	const auto Frame = [&](uint32_t Size) {
 		FFrameGraph Graph(*Resources);
 		const FGraphTexture A = MakeTexture(Graph, "A", Size);
 		const FGraphBuffer Out = ImportBuffer(Graph, "Out", ERTAccess::None, ERTAccess::None);
@@ -301,10 +291,7 @@ TEST_F(FrameGraphTest, TrimFreesWhatWasNotUsedForAWhile)
 		Run(Graph);
 	};
 	Frame(64);
-	for (int I = 0; I < 3; ++I)
-	{
-		Frame(32);
-	}
+	for (int I = 0; I < 3; ++I) { Frame(32); }
 	Resources->Trim(4);
 	EXPECT_EQ(Resources->GetPooledBytes(), 4u * (64 * 64 + 32 * 32));
 	Resources->Trim(3);
@@ -318,15 +305,12 @@ TEST_F(FrameGraphTest, TwoGraphsCompiledAtOnceDoNotShare)
 	FFrameGraph One(*Resources), Two(*Resources);
 	const FGraphTexture A = MakeTexture(One, "A"), B = MakeTexture(Two, "B");
 	IRTTexture *First = nullptr, *Second = nullptr;
-	const auto Add = [](FFrameGraph& Graph, FGraphTexture Texture, IRTTexture*& Out)
-	{
-		Graph.AddPass("W",
-		              [&](FPassBuilder& Builder)
-		              {
-			              Builder.Write(Texture, Storage);
-			              Builder.NeverCull();
-			              return [&Out, Texture](FPassContext& C) { Out = C.GetTexture(Texture); };
-		              });
+	const auto Add = [](FFrameGraph& Graph, FGraphTexture Texture, IRTTexture*& Out) {
+		Graph.AddPass("W", [&](FPassBuilder& Builder) {
+			Builder.Write(Texture, Storage);
+			Builder.NeverCull();
+			return [&Out, Texture](FPassContext& C) { Out = C.GetTexture(Texture); };
+		});
 	};
 	Add(One, A, First);
 	Add(Two, B, Second);
@@ -350,13 +334,11 @@ TEST_F(FrameGraphTest, OutputsThatNobodyReadsAreNotMade)
 		const FGraphTexture Unread = MakeTexture(Graph, "Unread");
 		const FGraphTexture Result = ImportTexture(Graph, "Result", ERTAccess::None, ERTAccess::ShaderRead);
 		bool bMade = false;
-		Graph.AddPass("Raster",
-		              [&](FPassBuilder& Builder)
-		              {
-			              Builder.Write(Color, ERTAccess::RenderTarget);
-			              Builder.WriteIfRead(Motion, ERTAccess::RenderTarget);
-			              return [&bMade, Motion](FPassContext& C) { bMade = C.GetTexture(Motion) != nullptr; };
-		              });
+		Graph.AddPass("Raster", [&](FPassBuilder& Builder) {
+			Builder.Write(Color, ERTAccess::RenderTarget);
+			Builder.WriteIfRead(Motion, ERTAccess::RenderTarget);
+			return [&bMade, Motion](FPassContext& C) { bMade = C.GetTexture(Motion) != nullptr; };
+		});
 		AddPass(Graph, "Nobody", {{Motion, ERTAccess::ShaderRead}}, {{Unread, Storage}}); // culled, and does not count
 		std::vector<FTestUse> Reads = {{Color, ERTAccess::ShaderRead}};
 		if (bRead) { Reads.push_back({Motion, ERTAccess::ShaderRead}); }
@@ -378,14 +360,12 @@ TEST_F(FrameGraphTest, WhatAPassReadsItselfIsMadeThoughNobodyElseReadsIt)
 	const FGraphTexture Result = ImportTexture(Graph, "Result", ERTAccess::None, ERTAccess::ShaderRead);
 	AddPass(Graph, "Clear", {}, {{Sum, Storage}});
 	bool bMade = false;
-	Graph.AddPass("Add",
-	              [&](FPassBuilder& Builder)
-	              {
-		              Builder.Read(Sum, ERTAccess::StorageRead);
-		              Builder.WriteIfRead(Sum, Storage);
-		              Builder.Write(Result, Storage);
-		              return [&bMade, Sum](FPassContext& C) { bMade = C.GetTexture(Sum) != nullptr; };
-	              });
+	Graph.AddPass("Add", [&](FPassBuilder& Builder) {
+		Builder.Read(Sum, ERTAccess::StorageRead);
+		Builder.WriteIfRead(Sum, Storage);
+		Builder.Write(Result, Storage);
+		return [&bMade, Sum](FPassContext& C) { bMade = C.GetTexture(Sum) != nullptr; };
+	});
 	EXPECT_EQ(Run(Graph), std::vector<std::string>({"Clear"}));
 	EXPECT_TRUE(bMade);
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::Barrier, "Sum"), 2u) << "and it waits for what was written before";

@@ -32,7 +32,7 @@ protected:
 TEST_F(FHistoryPoisonTest, BitsArriveInEveryFormatAndAreGoneAFrameLater)
 {
 	for (const ERTFormat Format : {ERTFormat::R16_FLOAT, ERTFormat::RG16_FLOAT, ERTFormat::RGBA16_FLOAT, ERTFormat::R32_FLOAT,
-	                               ERTFormat::RG32_FLOAT, ERTFormat::RGBA32_FLOAT, ERTFormat::R11G11B10_FLOAT})
+	         ERTFormat::RG32_FLOAT, ERTFormat::RGBA32_FLOAT, ERTFormat::R11G11B10_FLOAT})
 	{
 		for (const uint32_t Size : {1u, 3u, 16u}) // of 3 × 3 texels of 2 bytes the last word is half
 		{
@@ -71,31 +71,26 @@ TEST_F(FHistoryPoisonTest, BuffersAreFilledWhole)
 	for (int Index = 0; Index < 3; ++Index)
 	{
 		if (Index == 2) { Resources->PoisonHistory("Cac"); }
-		Frame(
-		    [&](FFrameGraph& Graph)
-		    {
-			    const FHistoryBuffer Cache = GetBuffer("Cache", 1000);
-			    if (Index == 0) { AddWriter(Graph, Cache.Buffer, 7); }
-			    AddReader(Graph, Cache.Buffer);
-		    });
+		Frame([&](FFrameGraph& Graph) {
+			const FHistoryBuffer Cache = GetBuffer("Cache", 1000);
+			if (Index == 0) { AddWriter(Graph, Cache.Buffer, 7); }
+			AddReader(Graph, Cache.Buffer);
+		});
 		EXPECT_THAT(ReadBytes(), Index == 2 ? testing::Matcher<std::vector<uint8_t>>(Each(0xff)) : Contains(7));
 	}
 }
 
 TEST_F(FHistoryPoisonTest, OnlyWhatHasThePartInItsName)
 {
-	const auto UseBoth = [&]
-	{
-		Frame(
-		    [&](FFrameGraph& Graph)
-		    {
-			    UseTexture(Graph, "Sun.Mean");
-			    UseTexture(Graph, "Sky.Mean");
-		    });
+	const auto UseBoth = [&] {
+		Frame([&](FFrameGraph& Graph) {
+			UseTexture(Graph, "Sun.Mean");
+			UseTexture(Graph, "Sky.Mean");
+		});
 	};
 	UseBoth();
-	for (const auto& [Part, bSun, bSky] :
-	     {std::tuple{"Sun", true, false}, std::tuple{"Sky.Mean", false, true}, std::tuple{"Mean", true, true}, std::tuple{"Moon", false, false}})
+	for (const auto& [Part, bSun, bSky] : {std::tuple{"Sun", true, false}, std::tuple{"Sky.Mean", false, true},
+	         std::tuple{"Mean", true, true}, std::tuple{"Moon", false, false}})
 	{
 		Resources->PoisonHistory(Part);
 		Mock().ClearCalls();
@@ -114,14 +109,12 @@ TEST_F(FHistoryPoisonTest, WhatIsWrittenNowAndWhatIsTransientStays)
 {
 	UseTextureOnce("Mean");
 	Resources->PoisonHistory("");
-	Frame(
-	    [&](FFrameGraph& Graph)
-	    {
-		    const FGraphTexture Mean = Graph.CreateTexture({4, 4, ERTFormat::R32_FLOAT}, "Mean too");
-		    AddWriter(Graph, Mean, 5.0f);
-		    AddReader(Graph, Mean);
-		    UseTexture(Graph, "Mean");
-	    });
+	Frame([&](FFrameGraph& Graph) {
+		const FGraphTexture Mean = Graph.CreateTexture({4, 4, ERTFormat::R32_FLOAT}, "Mean too");
+		AddWriter(Graph, Mean, 5.0f);
+		AddReader(Graph, Mean);
+		UseTexture(Graph, "Mean");
+	});
 	EXPECT_TRUE(std::isnan(ReadNewest<float>(0)));
 	EXPECT_EQ(ReadNewest<float>(1), 1.0f);
 	EXPECT_EQ(ReadNewest<float>(2), 5.0f);
@@ -133,24 +126,19 @@ TEST_F(FHistoryPoisonTest, BarriersOfAllThatWasCopiedDoNotDisturbIt)
 	for (int Index = 0; Index < 4; ++Index)
 	{
 		if (Index > 0) { Resources->PoisonHistory(""); }
-		Frame(
-		    [&](FFrameGraph& Graph)
-		    {
-			    Graph.AddPass("Tables",
-			                  [](FPassBuilder& Builder) -> FPassExecute
-			                  {
-				                  Builder.NeverCull();
-				                  return [](FPassContext& Pass)
-				                  {
-					                  const FRTBarrier All{nullptr, nullptr, ERTAccess::CopyWrite, ERTAccess::ShaderRead | ERTAccess::IndexRead};
-					                  Pass.Commands().Barriers(&All, 1);
-				                  };
-			                  });
-			    UseTexture(Graph, "Mean");
-			    const FHistoryBuffer Cache = GetBuffer();
-			    if (Index == 0) { AddWriter(Graph, Cache.Buffer, 7); }
-			    AddReader(Graph, Cache.Buffer);
-		    });
+		Frame([&](FFrameGraph& Graph) {
+			Graph.AddPass("Tables", [](FPassBuilder& Builder) -> FPassExecute {
+				Builder.NeverCull();
+				return [](FPassContext& Pass) {
+					const FRTBarrier All{nullptr, nullptr, ERTAccess::CopyWrite, ERTAccess::ShaderRead | ERTAccess::IndexRead};
+					Pass.Commands().Barriers(&All, 1);
+				};
+			});
+			UseTexture(Graph, "Mean");
+			const FHistoryBuffer Cache = GetBuffer();
+			if (Index == 0) { AddWriter(Graph, Cache.Buffer, 7); }
+			AddReader(Graph, Cache.Buffer);
+		});
 		EXPECT_THAT(ReadBytes(), Index > 0 ? testing::Matcher<std::vector<uint8_t>>(Each(0xff)) : Contains(7));
 	}
 }
@@ -163,13 +151,11 @@ TEST_F(FHistoryPoisonTest, AlsoWhatNobodyReadsInThisFrame)
 	Frame([&](FFrameGraph&) { (void)Get(); });
 	EXPECT_THAT(GetPasses(), ElementsAre("Poison"));
 
-	Frame(
-	    [&](FFrameGraph& Graph)
-	    {
-		    const FHistoryBuffer Cache = GetBuffer();
-		    AddWriter(Graph, Cache.Buffer, 1);
-		    AddReader(Graph, Cache.Buffer);
-	    });
+	Frame([&](FFrameGraph& Graph) {
+		const FHistoryBuffer Cache = GetBuffer();
+		AddWriter(Graph, Cache.Buffer, 1);
+		AddReader(Graph, Cache.Buffer);
+	});
 	Resources->PoisonHistory("Cache");
 	Mock().ClearCalls();
 	Frame([&](FFrameGraph&) { (void)GetBuffer(); });
@@ -195,25 +181,20 @@ TEST_F(FHistoryPoisonTest, AllLevelsOfATexture)
 	for (int Index = 0; Index < 2; ++Index)
 	{
 		if (Index == 1) { Resources->PoisonHistory(""); }
-		Frame(
-		    [&](FFrameGraph& Graph)
-		    {
-			    FHistoryTexture Mean;
-			    ASSERT_TRUE(History->GetTexture("Mean", Desc, Mean));
-			    AddWriter(Graph, Mean.Current, 1.0f);
-			    AddReader(Graph, Mean.Current);
-			    if (Mean.Previous.IsValid())
-			    {
-				    Graph.AddPass("Look",
-				                  [&](FPassBuilder& Builder) -> FPassExecute
-				                  {
-					                  Builder.Read(Mean.Previous, ERTAccess::ShaderRead);
-					                  Builder.NeverCull();
-					                  return [&, Mean](FPassContext& Pass)
-					                  { Kept = TRTRef<IRTTexture>(Pass.GetTexture(Mean.Previous)); };
-				                  });
-			    }
-		    });
+		Frame([&](FFrameGraph& Graph) {
+			FHistoryTexture Mean;
+			ASSERT_TRUE(History->GetTexture("Mean", Desc, Mean));
+			AddWriter(Graph, Mean.Current, 1.0f);
+			AddReader(Graph, Mean.Current);
+			if (Mean.Previous.IsValid())
+			{
+				Graph.AddPass("Look", [&](FPassBuilder& Builder) -> FPassExecute {
+					Builder.Read(Mean.Previous, ERTAccess::ShaderRead);
+					Builder.NeverCull();
+					return [&, Mean](FPassContext& Pass) { Kept = TRTRef<IRTTexture>(Pass.GetTexture(Mean.Previous)); };
+				});
+			}
+		});
 	}
 	for (uint32_t Mip = 0; Mip < 4; ++Mip)
 	{
@@ -225,7 +206,8 @@ TEST_F(FHistoryPoisonTest, AllLevelsOfATexture)
 
 TEST_F(FHistoryPoisonTest, WhatCannotBeCopiedToIsNamed)
 {
-	const FRTTextureDesc Desc{.Width = 4, .Height = 4, .Format = ERTFormat::R32_FLOAT, .Usage = ERTTextureUsage::Sampled, .Name = "Foreign"};
+	const FRTTextureDesc Desc{
+	    .Width = 4, .Height = 4, .Format = ERTFormat::R32_FLOAT, .Usage = ERTTextureUsage::Sampled, .Name = "Foreign"};
 	TRTRef<IRTTexture> Texture;
 	ASSERT_TRUE(Device->CreateTexture(Desc, Texture.ReleaseAndGetAddress()));
 	Resources->PoisonHistory("");

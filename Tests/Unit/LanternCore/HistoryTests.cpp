@@ -12,8 +12,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 class FHistoryTest : public FHistoryTestBase
-{
-};
+{};
 
 TEST_F(FHistoryTest, AFrameSeesWhatTheOneBeforeWrote)
 {
@@ -34,17 +33,15 @@ TEST_F(FHistoryTest, NamesAreApart)
 {
 	for (int Index = 0; Index < 3; ++Index)
 	{
-		Frame(
-		    [&](FFrameGraph& Graph)
-		    {
-			    for (const auto& [Name, Value] : {std::pair{"Mean", 1.0f}, std::pair{"Length", 2.0f}})
-			    {
-				    const FHistoryTexture Texture = Get(Name);
-				    AddWriter(Graph, Texture.Current, Value);
-				    AddReader(Graph, Index > 0 ? Texture.Previous : Texture.Current);
-				    if (Index > 0) { AddReader(Graph, Texture.Current); }
-			    }
-		    });
+		Frame([&](FFrameGraph& Graph) {
+			for (const auto& [Name, Value] : {std::pair{"Mean", 1.0f}, std::pair{"Length", 2.0f}})
+			{
+				const FHistoryTexture Texture = Get(Name);
+				AddWriter(Graph, Texture.Current, Value);
+				AddReader(Graph, Index > 0 ? Texture.Previous : Texture.Current);
+				if (Index > 0) { AddReader(Graph, Texture.Current); }
+			}
+		});
 	}
 	EXPECT_EQ(ReadNewest<float>(0), 2.0f);
 	EXPECT_EQ(ReadNewest<float>(1), 2.0f);
@@ -54,18 +51,15 @@ TEST_F(FHistoryTest, NamesAreApart)
 
 TEST_F(FHistoryTest, AnotherSizeOrFormatStartsAnew)
 {
-	const auto Write = [&](uint32_t Size, ERTFormat Format)
-	{
-		Frame(
-		    [&](FFrameGraph& Graph)
-		    {
-			    const FHistoryTexture Mean = Get("Mean", Size, Format);
-			    bHadPrevious = Mean.Previous.IsValid();
-			    EXPECT_EQ(Graph.GetDesc(Mean.Current).Width, Size);
-			    EXPECT_EQ(Graph.GetDesc(Mean.Current).Format, Format);
-			    AddWriter(Graph, Mean.Current, 1.0f);
-			    AddReader(Graph, Mean.Current);
-		    });
+	const auto Write = [&](uint32_t Size, ERTFormat Format) {
+		Frame([&](FFrameGraph& Graph) {
+			const FHistoryTexture Mean = Get("Mean", Size, Format);
+			bHadPrevious = Mean.Previous.IsValid();
+			EXPECT_EQ(Graph.GetDesc(Mean.Current).Width, Size);
+			EXPECT_EQ(Graph.GetDesc(Mean.Current).Format, Format);
+			AddWriter(Graph, Mean.Current, 1.0f);
+			AddReader(Graph, Mean.Current);
+		});
 		return bHadPrevious;
 	};
 	EXPECT_FALSE(Write(4, ERTFormat::R32_FLOAT));
@@ -110,7 +104,10 @@ TEST_F(FHistoryTest, AFrameThatDoesNotAskEndsItAndManyFreeIt)
 	Frame([](FFrameGraph&) {});
 	WriteAndReadBefore(3.0f);
 	EXPECT_FALSE(bHadPrevious) << "of two frames before";
-	for (uint32_t Index = 1; Index < FHistoryResources::KeepFrames; ++Index) { Frame([](FFrameGraph&) {}); }
+	for (uint32_t Index = 1; Index < FHistoryResources::KeepFrames; ++Index)
+	{
+		Frame([](FFrameGraph&) {});
+	}
 	EXPECT_GT(History->GetBytes(), 0u);
 	Frame([](FFrameGraph&) {});
 	EXPECT_EQ(History->GetBytes(), 0u);
@@ -146,8 +143,7 @@ TEST_F(FHistoryTest, TwoFramesInFlightDoNotMeet)
 		WriteAndReadBefore(Value);
 		// Frame n writes what frame n - 1 reads, and both are in flight: only a barrier stands between them.
 		const std::vector<FRTMockCall> Barriers = Mock().FindCalls(ERTMockCall::Barrier, "Mean");
-		const auto Orders = [](const FRTMockCall& Call)
-		{
+		const auto Orders = [](const FRTMockCall& Call) {
 			return Call.Numbers[0] == uint64_t(ERTAccess::ShaderRead) && Call.Numbers[1] == uint64_t(ERTAccess::CopyWrite);
 		};
 		EXPECT_EQ(std::count_if(Barriers.begin(), Barriers.end(), Orders), Value > 2.0f ? 1 : 0);
@@ -166,14 +162,12 @@ TEST_F(FHistoryTest, WritingItKeepsNothingAliveAndThenItEnds)
 {
 	WriteAndReadBefore(1.0f);
 	Mock().ClearCalls();
-	Frame(
-	    [&](FFrameGraph& Graph)
-	    {
-		    const FHistoryTexture Mean = Get();
-		    const FGraphTexture Filtered = Graph.CreateTexture({4, 4, ERTFormat::R32_FLOAT}, "Filtered");
-		    EXPECT_TRUE(Mean.Previous.IsValid());
-		    AddWriter(Graph, Mean.Current, 2.0f, Filtered); // and nobody reads it
-	    });
+	Frame([&](FFrameGraph& Graph) {
+		const FHistoryTexture Mean = Get();
+		const FGraphTexture Filtered = Graph.CreateTexture({4, 4, ERTFormat::R32_FLOAT}, "Filtered");
+		EXPECT_TRUE(Mean.Previous.IsValid());
+		AddWriter(Graph, Mean.Current, 2.0f, Filtered); // and nobody reads it
+	});
 	EXPECT_THAT(GetPasses(), ElementsAre());
 	Mock().ClearCalls();
 	WriteAndReadBefore(3.0f);
@@ -189,33 +183,28 @@ TEST_F(FHistoryTest, APassWhoseOtherOutputIsReadWritesIt)
 {
 	for (int Index = 0; Index < 3; ++Index)
 	{
-		Frame(
-		    [&](FFrameGraph& Graph)
-		    {
-			    const FHistoryTexture Mean = Get();
-			    EXPECT_EQ(Mean.Previous.IsValid(), Index > 0);
-			    const FGraphTexture Filtered = Graph.CreateTexture({4, 4, ERTFormat::R32_FLOAT}, "Filtered");
-			    AddWriter(Graph, Mean.Current, 2.0f, Filtered);
-			    AddReader(Graph, Filtered);
-		    });
+		Frame([&](FFrameGraph& Graph) {
+			const FHistoryTexture Mean = Get();
+			EXPECT_EQ(Mean.Previous.IsValid(), Index > 0);
+			const FGraphTexture Filtered = Graph.CreateTexture({4, 4, ERTFormat::R32_FLOAT}, "Filtered");
+			AddWriter(Graph, Mean.Current, 2.0f, Filtered);
+			AddReader(Graph, Filtered);
+		});
 	}
 }
 
 /// A pass that copies the G-buffer for the next frame has no reader in its own.
 void AddUserOf(FFrameGraph& Graph, const FHistoryTexture& Surface, FGraphTexture Output)
 {
-	Graph.AddPass("User",
-	              [&](FPassBuilder& Builder) -> FPassExecute
-	              {
-		              if (Surface.Previous.IsValid()) { Builder.Read(Surface.Previous, ERTAccess::ShaderRead); }
-		              Builder.Keep(Surface.Current);
-		              Builder.Write(Output, ERTAccess::CopyWrite);
-		              return [=](FPassContext& Pass)
-		              {
-			              const float Zero[4] = {};
-			              Pass.Commands().ClearTexture(Pass.GetTexture(Output), Zero);
-		              };
-	              });
+	Graph.AddPass("User", [&](FPassBuilder& Builder) -> FPassExecute {
+		if (Surface.Previous.IsValid()) { Builder.Read(Surface.Previous, ERTAccess::ShaderRead); }
+		Builder.Keep(Surface.Current);
+		Builder.Write(Output, ERTAccess::CopyWrite);
+		return [=](FPassContext& Pass) {
+			const float Zero[4] = {};
+			Pass.Commands().ClearTexture(Pass.GetTexture(Output), Zero);
+		};
+	});
 }
 
 TEST_F(FHistoryTest, WhatAPassKeepsIsWrittenBeforeItAndBehindIt)
@@ -226,17 +215,15 @@ TEST_F(FHistoryTest, WhatAPassKeepsIsWrittenBeforeItAndBehindIt)
 		{
 			Mock().ClearCalls();
 			const bool bRead = Index != 2;
-			Frame(
-			    [&](FFrameGraph& Graph)
-			    {
-				    const FHistoryTexture Surface = Get(bWriterFirst ? "First" : "Second");
-				    EXPECT_EQ(Surface.Previous.IsValid(), Index == 1 || Index == 2);
-				    const FGraphTexture Output = Graph.CreateTexture({4, 4, ERTFormat::R32_FLOAT}, "Output");
-				    if (bWriterFirst) { AddWriter(Graph, Surface.Current, 1.0f); }
-				    AddUserOf(Graph, Surface, Output);
-				    if (!bWriterFirst) { AddWriter(Graph, Surface.Current, 1.0f); }
-				    if (bRead) { AddReader(Graph, Output); }
-			    });
+			Frame([&](FFrameGraph& Graph) {
+				const FHistoryTexture Surface = Get(bWriterFirst ? "First" : "Second");
+				EXPECT_EQ(Surface.Previous.IsValid(), Index == 1 || Index == 2);
+				const FGraphTexture Output = Graph.CreateTexture({4, 4, ERTFormat::R32_FLOAT}, "Output");
+				if (bWriterFirst) { AddWriter(Graph, Surface.Current, 1.0f); }
+				AddUserOf(Graph, Surface, Output);
+				if (!bWriterFirst) { AddWriter(Graph, Surface.Current, 1.0f); }
+				if (bRead) { AddReader(Graph, Output); }
+			});
 			EXPECT_EQ(Mock().CountCalls(ERTMockCall::BeginMarker, "Writer"), bRead ? 1u : 0u) << Index;
 			EXPECT_EQ(Mock().CountCalls(ERTMockCall::BeginMarker, "User"), bRead ? 1u : 0u) << Index;
 		}
@@ -245,17 +232,15 @@ TEST_F(FHistoryTest, WhatAPassKeepsIsWrittenBeforeItAndBehindIt)
 
 TEST_F(FHistoryTest, WhatIsKeptMayKeepMore)
 {
-	Frame(
-	    [&](FFrameGraph& Graph)
-	    {
-		    const FHistoryTexture A = Get("A"), B = Get("B"), Unused = Get("C");
-		    const FGraphTexture Output = Graph.CreateTexture({4, 4, ERTFormat::R32_FLOAT}, "Output");
-		    AddUserOf(Graph, A, Output);
-		    AddReader(Graph, Output);
-		    AddWriter(Graph, B.Current, 1.0f, {}, "WritesB");
-		    AddUserOf(Graph, B, A.Current); // writes A for the first, and keeps B for itself
-		    AddWriter(Graph, Unused.Current, 1.0f, {}, "WritesC");
-	    });
+	Frame([&](FFrameGraph& Graph) {
+		const FHistoryTexture A = Get("A"), B = Get("B"), Unused = Get("C");
+		const FGraphTexture Output = Graph.CreateTexture({4, 4, ERTFormat::R32_FLOAT}, "Output");
+		AddUserOf(Graph, A, Output);
+		AddReader(Graph, Output);
+		AddWriter(Graph, B.Current, 1.0f, {}, "WritesB");
+		AddUserOf(Graph, B, A.Current); // writes A for the first, and keeps B for itself
+		AddWriter(Graph, Unused.Current, 1.0f, {}, "WritesC");
+	});
 	EXPECT_THAT(GetPasses(), ElementsAre("User", "Reader", "WritesB", "User"));
 	EXPECT_THAT(Dump, HasSubstr("keep    B"));
 	EXPECT_THAT(Dump, HasSubstr("WritesC (culled)"));
@@ -264,12 +249,10 @@ TEST_F(FHistoryTest, WhatIsKeptMayKeepMore)
 TEST_F(FHistoryTest, KeepingWhatIsNotOfTheGraphIsAnError)
 {
 	FFrameGraph Graph(*Resources);
-	Graph.AddPass("Bad",
-	              [](FPassBuilder& Builder) -> FPassExecute
-	              {
-		              Builder.Keep(FGraphTexture{77});
-		              return {};
-	              });
+	Graph.AddPass("Bad", [](FPassBuilder& Builder) -> FPassExecute {
+		Builder.Keep(FGraphTexture{77});
+		return {};
+	});
 	const FRTStatus Status = Graph.Compile();
 	EXPECT_EQ(Status.Code, ERTResult::InvalidArgument);
 	EXPECT_THAT(std::string(Status.Message), HasSubstr("'Bad' declares a texture that is not of this graph"));
@@ -280,13 +263,11 @@ TEST_F(FHistoryTest, KeepingWhatIsNotForLaterIsAnError)
 {
 	FFrameGraph Graph(*Resources);
 	const FGraphTexture Mine = Graph.CreateTexture({4, 4, ERTFormat::R32_FLOAT}, "Mine");
-	Graph.AddPass("Bad",
-	              [&](FPassBuilder& Builder) -> FPassExecute
-	              {
-		              Builder.Keep(Mine);
-		              Builder.NeverCull();
-		              return {};
-	              });
+	Graph.AddPass("Bad", [&](FPassBuilder& Builder) -> FPassExecute {
+		Builder.Keep(Mine);
+		Builder.NeverCull();
+		return {};
+	});
 	const FRTStatus Status = Graph.Compile();
 	EXPECT_EQ(Status.Code, ERTResult::InvalidArgument);
 	EXPECT_THAT(std::string(Status.Message), AllOf(HasSubstr("'Bad'"), HasSubstr("'Mine'"), HasSubstr("MarkForLater")));
@@ -297,15 +278,13 @@ TEST_F(FHistoryTest, KeepingWhatIsNotForLaterIsAnError)
 TEST_F(FHistoryTest, ACacheIsFreshUntilItIsWrittenAndKeepsItsContent)
 {
 	bool bFresh = false;
-	const auto Use = [&](uint32_t Value, FFrameCase Case, bool bRead = true)
-	{
+	const auto Use = [&](uint32_t Value, FFrameCase Case, bool bRead = true) {
 		Frame(
-		    [&](FFrameGraph& Graph)
-		    {
-			    const FHistoryBuffer Cache = GetBuffer();
-			    bFresh = Cache.bFresh;
-			    if (Value > 0) { AddWriter(Graph, Cache.Buffer, Value); }
-			    if (bRead) { AddReader(Graph, Cache.Buffer); }
+		    [&](FFrameGraph& Graph) {
+			const FHistoryBuffer Cache = GetBuffer();
+			bFresh = Cache.bFresh;
+			if (Value > 0) { AddWriter(Graph, Cache.Buffer, Value); }
+			if (bRead) { AddReader(Graph, Cache.Buffer); }
 		    },
 		    Case);
 	};
@@ -329,7 +308,10 @@ TEST_F(FHistoryTest, ACacheIsFreshUntilItIsWrittenAndKeepsItsContent)
 	Use(0, {});
 	EXPECT_EQ(ReadNewest<uint32_t>(), 3u);
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::CreateBuffer, "Cache"), 1u);
-	for (uint32_t Index = 0; Index < FHistoryResources::KeepFrames; ++Index) { Frame([](FFrameGraph&) {}); }
+	for (uint32_t Index = 0; Index < FHistoryResources::KeepFrames; ++Index)
+	{
+		Frame([](FFrameGraph&) {});
+	}
 	EXPECT_EQ(History->GetBytes(), 0u);
 }
 
@@ -337,14 +319,12 @@ TEST_F(FHistoryTest, ACacheOfAnotherSizeIsFresh)
 {
 	for (const uint64_t Size : {64u, 64u, 128u})
 	{
-		Frame(
-		    [&](FFrameGraph& Graph)
-		    {
-			    const FHistoryBuffer Cache = GetBuffer("Cache", Size);
-			    EXPECT_EQ(Cache.bFresh, Readbacks.size() != 1);
-			    AddWriter(Graph, Cache.Buffer, 1);
-			    AddReader(Graph, Cache.Buffer);
-		    });
+		Frame([&](FFrameGraph& Graph) {
+			const FHistoryBuffer Cache = GetBuffer("Cache", Size);
+			EXPECT_EQ(Cache.bFresh, Readbacks.size() != 1);
+			AddWriter(Graph, Cache.Buffer, 1);
+			AddReader(Graph, Cache.Buffer);
+		});
 	}
 	EXPECT_EQ(History->GetBytes(), 128u);
 }
@@ -368,10 +348,7 @@ TEST_F(FHistoryTest, NoMemoryIsAnErrorAndTheNextFrameTriesAgain)
 			EXPECT_FALSE(Mean.Current.IsValid());
 			EXPECT_EQ(History->GetBytes(), 0u);
 		}
-		else
-		{
-			EXPECT_TRUE(Status) << "the second try, when what was released is gone";
-		}
+		else { EXPECT_TRUE(Status) << "the second try, when what was released is gone"; }
 		History->EndFrame(false);
 	}
 	WriteAndReadBefore(1.0f);

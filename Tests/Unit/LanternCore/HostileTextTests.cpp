@@ -2,10 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "Support/CoreTestTools.h"
 #include "LanternCore/Config/Config.h"
 #include "LanternCore/Config/IniFile.h"
 #include "LanternCore/Shaders/ShaderCompiler.h"
+#include "Support/CoreTestTools.h"
 #include "Support/TextCheck.h"
 
 namespace Lantern
@@ -49,10 +49,9 @@ protected:
 
 TEST_F(HostileText, IniLines)
 {
-	const FIniFile File = FIniFile::Parse(Broken + "\n[" + Broken + "\n[S] " + Broken + "\n[S]\n" + Broken + "\nA=\"" +
-	                                          Broken + "\n" + "B=\"x\" " + Broken + "\n=" + Broken +
-	                                          "\nC\x1b=1\nD=" + std::string(500, '\xff') + "\x01\n",
-	                                      "T.ini");
+	const FIniFile File = FIniFile::Parse(Broken + "\n[" + Broken + "\n[S] " + Broken + "\n[S]\n" + Broken + "\nA=\"" + Broken + "\n" +
+	                                          "B=\"x\" " + Broken + "\n=" + Broken + "\nC\x1b=1\nD=" + std::string(500, '\xff') + "\x01\n",
+	    "T.ini");
 	ExpectClean(File.GetProblems(), 9);
 	EXPECT_EQ(File.GetProblems()[0], "T.ini:1: '" + BrokenShown + "' stands before any [Section]");
 }
@@ -70,18 +69,15 @@ TEST_F(HostileText, NamesOfIniFiles)
 
 TEST_F(HostileText, SectionsKeysAndValuesOfTheConfigFolder)
 {
-	Files.Write("ConsoleVariableAliases.ini",
-	            "[" + Broken + "]\n[ConsoleVariableAliases]\n" + Broken + "=" + Broken + "\n");
+	Files.Write("ConsoleVariableAliases.ini", "[" + Broken + "]\n[ConsoleVariableAliases]\n" + Broken + "=" + Broken + "\n");
 	ExpectClean(LoadAliases(Folder), 2);
 	Files.Write("Scalability.ini", "[" + Broken + "]\n[" + Broken + "@9]\n[" + Broken + "@0]\nt.Hostile.Number=x\n");
 	ExpectClean(LoadScalability(Folder, ERTQuality::Low), 3);
-	const std::string Game =
-	    Files.Write("Game.ini", "[" + Broken + "]\n[SystemSettings]\n" + Broken + "=1\nt.Hostile.Number=" + Broken +
-	                                "\n[ScalabilityGroups]\nsg." + Broken + "=2\nsg." + Broken + "x=1\n");
+	const std::string Game = Files.Write("Game.ini", "[" + Broken + "]\n[SystemSettings]\n" + Broken + "=1\nt.Hostile.Number=" + Broken +
+	                                                     "\n[ScalabilityGroups]\nsg." + Broken + "=2\nsg." + Broken + "x=1\n");
 	ExpectClean(LoadFile(Folder, Game), 4); // one of the two groups is there
-	Files.Write("DeviceProfiles.ini", "[" + Broken + "]\n[Default DeviceProfile]\n" + Broken +
-	                                      "=1\nBaseProfileName=" + Broken + "\n+CVars=" + Broken +
-	                                      "\n+CVars=" + Broken + "=1\n+CVars=t.Hostile.Number=" + Broken + "\n");
+	Files.Write("DeviceProfiles.ini", "[" + Broken + "]\n[Default DeviceProfile]\n" + Broken + "=1\nBaseProfileName=" + Broken +
+	                                      "\n+CVars=" + Broken + "\n+CVars=" + Broken + "=1\n+CVars=t.Hostile.Number=" + Broken + "\n");
 	ExpectClean(LoadDeviceProfile(Folder, Broken).Problems, 6);
 }
 
@@ -89,10 +85,9 @@ TEST_F(HostileText, ConsoleVariables)
 {
 	FConsoleVariables& Registry = FConsoleVariables::Get();
 	Registry.AddAlias("t.Hostile.Alias" + Worse, "t.Hostile.Number");
-	for (const auto& [Name, Value] : {std::pair<std::string, std::string>{Worse, "1"},
-	                                  {"t.Hostile.Alias" + Worse + "!", "1"}, // the nearest is the alias
-	                                  {"t.Hostile.Number", Worse},
-	                                  {"t.Hostile.Number", std::string(10'000'000, '\xff')}})
+	for (const auto& [Name, Value] :
+	    {std::pair<std::string, std::string>{Worse, "1"}, {"t.Hostile.Alias" + Worse + "!", "1"}, // the nearest is the alias
+	        {"t.Hostile.Number", Worse}, {"t.Hostile.Number", std::string(10'000'000, '\xff')}})
 	{
 		const std::optional<std::string> Problem = Registry.Set(Name, Value, ERTSetBy::CommandLine, "--set");
 		ASSERT_TRUE(Problem);
@@ -106,8 +101,7 @@ TEST_F(HostileText, Shaders)
 	FShaderCompilerDesc Desc;
 	Desc.SearchFolders = {Files.GetPath(), Files.GetPath() + "/" + Worse};
 	FShaderCompiler Compiler(Desc);
-	const auto ErrorOf = [&](const FShaderSource& Source)
-	{
+	const auto ErrorOf = [&](const FShaderSource& Source) {
 		FShaderBinary Out;
 		const FRTStatus Status = Compiler.Compile(Source, Out);
 		EXPECT_EQ(Status.Code, ERTResult::CompileFailed);

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "Support/CoreTestTools.h"
 #include "LanternCore/Config/IniFile.h"
+#include "Support/CoreTestTools.h"
 
 namespace Lantern
 {
@@ -17,11 +17,9 @@ using testing::StartsWith;
 std::vector<std::string> Resolve(const FIniFile& File, std::string_view Section)
 {
 	FIniResolver Resolver;
-	if (const FIniSection* Found = File.FindSection(Section))
-		Resolver.Apply(File, *Found);
+	if (const FIniSection* Found = File.FindSection(Section)) Resolver.Apply(File, *Found);
 	std::vector<std::string> Result;
-	for (const FIniValue& Value : Resolver.GetValues())
-		Result.push_back(Value.Key + "=" + Value.Value);
+	for (const FIniValue& Value : Resolver.GetValues()) Result.push_back(Value.Key + "=" + Value.Value);
 	return Result;
 }
 
@@ -64,10 +62,7 @@ TEST(IniFile, OperationsFollowUE)
 	EXPECT_THAT(ResolveText("[S]\n+A=x\n+A=X\n"), ElementsAre("A=x", "A=X")) << "values keep their case";
 }
 
-TEST(IniFile, SectionsMayBeContinued)
-{
-	EXPECT_THAT(ResolveText("[S]\nA=1\n[Other]\nA=5\n[s]\nB=2\n"), ElementsAre("A=1", "B=2"));
-}
+TEST(IniFile, SectionsMayBeContinued) { EXPECT_THAT(ResolveText("[S]\nA=1\n[Other]\nA=5\n[s]\nB=2\n"), ElementsAre("A=1", "B=2")); }
 
 TEST(IniFile, ADerivedSectionWorksOnItsBase)
 {
@@ -76,17 +71,14 @@ TEST(IniFile, ADerivedSectionWorksOnItsBase)
 	Resolver.Apply(File, *File.FindSection("Base"));
 	Resolver.Apply(File, *File.FindSection("Derived"));
 	std::vector<std::string> Values;
-	for (const FIniValue& Value : Resolver.GetValues())
-		Values.push_back(Value.Value + "@" + Value.Where);
+	for (const FIniValue& Value : Resolver.GetValues()) Values.push_back(Value.Value + "@" + Value.Where);
 	EXPECT_THAT(Values, ElementsAre("b@T.ini:3", "c@T.ini:7", "2@T.ini:8"));
 }
 
 TEST(IniFile, CommentsAndQuotes)
 {
-	EXPECT_THAT(ResolveText("[S] ; the section\nA=4 ; four\nB=x;y\nC=;empty\n ;C=3\n"),
-	            ElementsAre("A=4", "B=x;y", "C="));
-	EXPECT_THAT(
-	    ResolveText("[S]\nA=\" a ; b \" ; note\nB=\"\"\nC=\"say \\\"x\\\" \\\\ \\n\"\nD=\"C:\\dir\"\nE=a\"b\"\n"),
+	EXPECT_THAT(ResolveText("[S] ; the section\nA=4 ; four\nB=x;y\nC=;empty\n ;C=3\n"), ElementsAre("A=4", "B=x;y", "C="));
+	EXPECT_THAT(ResolveText("[S]\nA=\" a ; b \" ; note\nB=\"\"\nC=\"say \\\"x\\\" \\\\ \\n\"\nD=\"C:\\dir\"\nE=a\"b\"\n"),
 	    ElementsAre("A= a ; b ", "B=", "C=say \"x\" \\ \n", "D=C:\\dir", "E=a\"b\""));
 	EXPECT_THAT(ResolveText("[S]\n+CVars=r.X=1\n"), ElementsAre("CVars=r.X=1")) << "the first '=' divides";
 }
@@ -142,8 +134,7 @@ TEST(IniFile, WhatFollowsABrokenHeaderLandsNowhere)
 {
 	for (const char* Header : {"[Broken", "[]", "[ ]", "[T] tail"})
 	{
-		const FIniFile File =
-		    FIniFile::Parse(std::string("[S]\nA=1\n") + Header + "\nB=2\nrubbish\n[S]\nC=3\n", "T.ini");
+		const FIniFile File = FIniFile::Parse(std::string("[S]\nA=1\n") + Header + "\nB=2\nrubbish\n[S]\nC=3\n", "T.ini");
 		ASSERT_EQ(File.GetProblems().size(), 1u) << Header;
 		EXPECT_THAT(File.GetProblems()[0], StartsWith("T.ini:3: "));
 		EXPECT_THAT(Resolve(File, "S"), ElementsAre("A=1", "C=3"));
@@ -161,8 +152,7 @@ TEST(IniFile, EntriesBeforeAnySectionAreProblems)
 TEST(IniFile, NulBytesSpoilTheirLineOnly)
 {
 	const FIniFile File = FIniFile::Parse(std::string_view("[S]\nA=1\0x\nB\0=2\nC=3\n", 19), "T.ini");
-	EXPECT_THAT(File.GetProblems(),
-	            ElementsAre("T.ini:2: control character in 'A=1\\x00x'", "T.ini:3: control character in 'B\\x00=2'"));
+	EXPECT_THAT(File.GetProblems(), ElementsAre("T.ini:2: control character in 'A=1\\x00x'", "T.ini:3: control character in 'B\\x00=2'"));
 	EXPECT_THAT(Resolve(File, "S"), ElementsAre("C=3"));
 }
 
@@ -178,8 +168,7 @@ TEST(IniFile, ALineOfTenMegabytesIsOneShortProblem)
 TEST(IniFile, AFloodOfProblemsIsCounted)
 {
 	std::string Text = "[S]\n";
-	for (int I = 0; I < 5000; ++I)
-		Text += "bad\n";
+	for (int I = 0; I < 5000; ++I) Text += "bad\n";
 	const FIniFile File = FIniFile::Parse(Text + "A=1\n", "T.ini");
 	ASSERT_EQ(File.GetProblems().size(), 101u);
 	EXPECT_EQ(File.GetProblems().back(), "T.ini: 4900 more problems are not listed");
@@ -190,20 +179,17 @@ TEST(IniFile, CostStaysBoundedForAHostileFile)
 {
 	// Unique adds to one key are quadratic if done naively: what bounds them is the number of entries.
 	std::string Text = "[S]\n";
-	for (int I = 0; I < 200'000; ++I)
-		Text += "+A=" + std::to_string(I) + "\n";
+	for (int I = 0; I < 200'000; ++I) Text += "+A=" + std::to_string(I) + "\n";
 	const FIniFile File = FIniFile::Parse(Text, "T.ini");
 	EXPECT_EQ(Resolve(File, "S").size(), 9'999u); // the header counts as one
 	EXPECT_THAT(File.GetProblems(), ElementsAre("T.ini:10001: more than 10000 entries; the rest is ignored"));
-	EXPECT_THAT(FIniFile::Parse(std::string(17 << 20, '\n'), "T.ini").GetProblems(),
-	            ElementsAre("T.ini: larger than 16 MiB"));
+	EXPECT_THAT(FIniFile::Parse(std::string(17 << 20, '\n'), "T.ini").GetProblems(), ElementsAre("T.ini: larger than 16 MiB"));
 }
 
 TEST(IniFile, FilesThatAreNone)
 {
 	const FTemporaryFolder Folder;
-	EXPECT_THAT(FIniFile::Load(Folder.GetPath() + "/none.ini").GetProblems(),
-	            ElementsAre(Folder.GetPath() + "/none.ini: no such file"));
+	EXPECT_THAT(FIniFile::Load(Folder.GetPath() + "/none.ini").GetProblems(), ElementsAre(Folder.GetPath() + "/none.ini: no such file"));
 	EXPECT_THAT(FIniFile::Load(Folder.GetPath()).GetProblems(), ElementsAre(HasSubstr("is a folder, not a file")));
 	EXPECT_THAT(FIniFile::Load("/dev/zero").GetProblems(), ElementsAre("/dev/zero: is not a regular file"));
 	EXPECT_THAT(FIniFile::Load("").GetProblems(), ElementsAre(HasSubstr("no such file")));
@@ -211,8 +197,8 @@ TEST(IniFile, FilesThatAreNone)
 	const std::string Path = Folder.Write("good.ini", "[S]\nA=1");
 	EXPECT_THAT(Resolve(FIniFile::Load(Path), "S"), ElementsAre("A=1"));
 	EXPECT_THAT(FIniFile::Load(Folder.Write("empty.ini", "")).GetProblems(), IsEmpty());
-	EXPECT_THAT(FIniFile::Load(Folder.Write("big.ini", std::string(17 << 20, ' '))).GetProblems(),
-	            ElementsAre(HasSubstr("larger than 16 MiB")));
+	EXPECT_THAT(
+	    FIniFile::Load(Folder.Write("big.ini", std::string(17 << 20, ' '))).GetProblems(), ElementsAre(HasSubstr("larger than 16 MiB")));
 }
 
 } // namespace

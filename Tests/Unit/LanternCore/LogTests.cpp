@@ -55,10 +55,8 @@ TEST_F(Log, WhatNobodyEscapedIsEscapedByTheSink)
 	LogWarning("{}", Raw);
 	LogOnce(ERTLogLevel::Info, Raw);
 	EXPECT_THAT(Capture.GetTexts(), ElementsAre(Shown, Shown));
-	for (int Byte = 0; Byte < 256; ++Byte)
-		LogLine(ERTLogLevel::Info, std::string(1, static_cast<char>(Byte)));
-	for (const std::string& Text : Capture.GetTexts())
-		EXPECT_TRUE(AreCleanLines(Text)) << Text;
+	for (int Byte = 0; Byte < 256; ++Byte) LogLine(ERTLogLevel::Info, std::string(1, static_cast<char>(Byte)));
+	for (const std::string& Text : Capture.GetTexts()) EXPECT_TRUE(AreCleanLines(Text)) << Text;
 	testing::internal::CaptureStderr();
 	SetLogSink([&](ERTLogLevel, std::string_view) { LogInfo("{}", Raw); });
 	LogInfo("outside");
@@ -109,12 +107,10 @@ TEST_F(Log, ASinkMayLogThrowAndReplaceItself)
 {
 	int Calls = 0;
 	testing::internal::CaptureStderr();
-	SetLogSink(
-	    [&](ERTLogLevel, std::string_view)
-	    {
-		    ++Calls;
-		    LogInfo("from inside");
-	    });
+	SetLogSink([&](ERTLogLevel, std::string_view) {
+		++Calls;
+		LogInfo("from inside");
+	});
 	LogInfo("outside");
 	SetLogSink([](ERTLogLevel, std::string_view) { throw std::runtime_error("sink"); });
 	EXPECT_NO_THROW(LogInfo("kept"));
@@ -131,23 +127,20 @@ TEST_F(Log, LinesOfThreadsStayWhole)
 	SetLogSink([&](ERTLogLevel, std::string_view Text) { Lines.emplace_back(Text); });
 	std::vector<std::thread> Threads;
 	for (int Thread = 0; Thread < 4; ++Thread)
-		Threads.emplace_back(
-		    [Thread]
-		    {
-			    for (int I = 0; I < 200; ++I)
-			    {
-				    LogInfo("{}", std::string(40, static_cast<char>('a' + Thread)));
-				    LogOnce(ERTLogLevel::Info, "threads: the same");
-				    LogDebug("{}", I);
-			    }
-		    });
-	for (int I = 0; I < 20; ++I)
-		SetLogLevel(I % 2 ? ERTLogLevel::Info : ERTLogLevel::Debug);
-	for (std::thread& Thread : Threads)
-		Thread.join();
+		Threads.emplace_back([Thread] {
+			for (int I = 0; I < 200; ++I)
+			{
+				LogInfo("{}", std::string(40, static_cast<char>('a' + Thread)));
+				LogOnce(ERTLogLevel::Info, "threads: the same");
+				LogDebug("{}", I);
+			}
+		});
+	for (int I = 0; I < 20; ++I) SetLogLevel(I % 2 ? ERTLogLevel::Info : ERTLogLevel::Debug);
+	for (std::thread& Thread : Threads) Thread.join();
 	SetLogSink({});
-	const auto IsLetters = [](const std::string& Line)
-	{ return Line.size() == 40 && Line.find_first_not_of(Line[0]) == std::string::npos; };
+	const auto IsLetters = [](const std::string& Line) {
+		return Line.size() == 40 && Line.find_first_not_of(Line[0]) == std::string::npos;
+	};
 	EXPECT_EQ(std::count_if(Lines.begin(), Lines.end(), IsLetters), 800);
 	EXPECT_EQ(std::count(Lines.begin(), Lines.end(), "threads: the same"), 1);
 }

@@ -25,12 +25,9 @@ std::string Encode(uint32_t Code)
 {
 	const auto Byte = [](uint32_t Value) { return static_cast<char>(Value); };
 	const auto Next = [&](int Shift) { return Byte(0x80 | (Code >> Shift & 0x3F)); };
-	if (Code < 0x80)
-		return {Byte(Code)};
-	if (Code < 0x800)
-		return {Byte(0xC0 | Code >> 6), Next(0)};
-	if (Code < 0x10000)
-		return {Byte(0xE0 | Code >> 12), Next(6), Next(0)};
+	if (Code < 0x80) return {Byte(Code)};
+	if (Code < 0x800) return {Byte(0xC0 | Code >> 6), Next(0)};
+	if (Code < 0x10000) return {Byte(0xE0 | Code >> 12), Next(6), Next(0)};
 	return {Byte(0xF0 | Code >> 18), Next(12), Next(6), Next(0)};
 }
 
@@ -52,12 +49,10 @@ void ExpectShown(const std::vector<FShown>& Cases)
 
 TEST(TextCheck, FindsWhatItIsFor)
 {
-	for (const char* Clean :
-	     {"", "plain ~", "\xC3\xA4", "\xE2\x80\xA6", "\xF0\x9F\x91\xA9\xE2\x80\x8D\xF0\x9F\x9A\x80"})
+	for (const char* Clean : {"", "plain ~", "\xC3\xA4", "\xE2\x80\xA6", "\xF0\x9F\x91\xA9\xE2\x80\x8D\xF0\x9F\x9A\x80"})
 		EXPECT_TRUE(IsCleanText(Clean)) << Clean;
-	for (const char* Unclean :
-	     {"\n", "\t", "\x1b[31m", "\x7f", "\xC2\x85", "\xE2\x80\xAE", "\xE2\x80\xA8", "\xE2\x81\xA6", "\xEF\xBB\xBF",
-	      "\xff", "a\x80", "\xC3", "\xE2\x80", "\xC0\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80"})
+	for (const char* Unclean : {"\n", "\t", "\x1b[31m", "\x7f", "\xC2\x85", "\xE2\x80\xAE", "\xE2\x80\xA8", "\xE2\x81\xA6", "\xEF\xBB\xBF",
+	         "\xff", "a\x80", "\xC3", "\xE2\x80", "\xC0\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80"})
 		EXPECT_FALSE(IsCleanText(Unclean));
 	EXPECT_FALSE(IsCleanText(std::string_view("\0", 1)));
 	EXPECT_TRUE(AreCleanLines("a\n\tb"));
@@ -71,19 +66,16 @@ TEST(EscapeText, EveryByteAlone)
 	{
 		const std::string Text(1, static_cast<char>(Byte));
 		std::string Expected = {'\\', 'x', Digits[Byte >> 4], Digits[Byte & 15]};
-		if (Byte >= 0x20 && Byte < 0x7F)
-			Expected = Text;
-		else if (Byte == '\n' || Byte == '\r' || Byte == '\t')
-			Expected = Byte == '\n' ? "\\n" : Byte == '\r' ? "\\r" : "\\t";
+		if (Byte >= 0x20 && Byte < 0x7F) Expected = Text;
+		else if (Byte == '\n' || Byte == '\r' || Byte == '\t') Expected = Byte == '\n' ? "\\n" : Byte == '\r' ? "\\r" : "\\t";
 		ExpectShown({{Text, Expected}});
 	}
 }
 
 TEST(EscapeText, WhatPeopleWriteStaysAsItIs)
 {
-	for (const char* Text :
-	     {"", "plain 'text' \"quoted\" 100 %", "C:\\new\\x41", "naïve Ωμέγα 日本語 العربية", "e\u0301 …",
-	      "\U0001F469\u200D\U0001F680", "\u0915\u094D\u200C\u0937", "\uE000", "\U0010FFFD", "\U00020000"})
+	for (const char* Text : {"", "plain 'text' \"quoted\" 100 %", "C:\\new\\x41", "naïve Ωμέγα 日本語 العربية", "e\u0301 …",
+	         "\U0001F469\u200D\U0001F680", "\u0915\u094D\u200C\u0937", "\uE000", "\U0010FFFD", "\U00020000"})
 	{
 		EXPECT_EQ(EscapeText(Text), Text);
 		EXPECT_EQ(EscapeLines(Text), Text);
@@ -134,8 +126,7 @@ TEST(EscapeText, WhatIsNoUtf8IsShownByteByByte)
 TEST(EscapeText, EveryCharacterThereIs)
 {
 	std::string All;
-	for (uint32_t Code = 0; Code < 0x110100; ++Code)
-		All += Encode(Code);
+	for (uint32_t Code = 0; Code < 0x110100; ++Code) All += Encode(Code);
 	const std::string Shown = EscapeText(All), Lines = EscapeLines(All);
 	EXPECT_EQ(TextCheck::FindUnclean(Shown, ""), Shown.size());
 	EXPECT_EQ(TextCheck::FindUnclean(Lines, "\n\t"), Lines.size());
@@ -151,8 +142,7 @@ TEST(EscapeText, AnyBytes)
 	for (int Round = 0; Round < 3000; ++Round)
 	{
 		std::string Text(Random() % 300, '\0');
-		for (char& C : Text)
-			C = static_cast<char>(Random() % 3 ? 0x80 | Random() : Random());
+		for (char& C : Text) C = static_cast<char>(Random() % 3 ? 0x80 | Random() : Random());
 		const std::string Shown = EscapeText(Text);
 		ASSERT_TRUE(IsCleanText(Shown)) << Shown;
 		ASSERT_EQ(EscapeText(Shown), Shown);
@@ -169,8 +159,8 @@ TEST(EscapeText, AnyBytes)
 
 TEST(EscapeLines, KeepsLineBreaksAndTabsAndNothingElse)
 {
-	EXPECT_EQ(EscapeLines("A.glsl:3: 'x'\n\tB.glsl:4\r\n\x1b[31m\v\xff\u2028"),
-	          "A.glsl:3: 'x'\n\tB.glsl:4\\r\n\\x1b[31m\\x0b\\xff\\u{2028}");
+	EXPECT_EQ(
+	    EscapeLines("A.glsl:3: 'x'\n\tB.glsl:4\r\n\x1b[31m\v\xff\u2028"), "A.glsl:3: 'x'\n\tB.glsl:4\\r\n\\x1b[31m\\x0b\\xff\\u{2028}");
 }
 
 TEST(Quote, ShowsWhatIsShortWholeAndOfTheRestItsLength)
@@ -180,15 +170,13 @@ TEST(Quote, ShowsWhatIsShortWholeAndOfTheRestItsLength)
 	EXPECT_EQ(Quote("a\nerror: b"), "'a\\nerror: b'");
 	EXPECT_EQ(Quote(std::string(MaxQuotedBytes, 'x')), "'" + std::string(MaxQuotedBytes, 'x') + "'");
 	EXPECT_EQ(Quote(std::string(MaxQuotedBytes + 1, 'x')),
-	          "'" + std::string(MaxQuotedBytes - 3, 'x') + "…' (" + std::to_string(MaxQuotedBytes + 1) + " bytes)");
-	EXPECT_THAT(Quote(std::string(MaxQuotedBytes, '\1')),
-	            EndsWith("\\x01…' (" + std::to_string(MaxQuotedBytes) + " bytes)"))
+	    "'" + std::string(MaxQuotedBytes - 3, 'x') + "…' (" + std::to_string(MaxQuotedBytes + 1) + " bytes)");
+	EXPECT_THAT(Quote(std::string(MaxQuotedBytes, '\1')), EndsWith("\\x01…' (" + std::to_string(MaxQuotedBytes) + " bytes)"))
 	    << "short, but not when it is escaped";
 	for (const char* Piece : {"x", "\xff", "ä", "€", "😀", "\u202E"})
 	{
 		std::string Huge;
-		while (Huge.size() < 10'000'000)
-			Huge += Piece;
+		while (Huge.size() < 10'000'000) Huge += Piece;
 		const std::string Shown = Quote(Huge);
 		EXPECT_LT(Shown.size(), MaxQuotedBytes + 30);
 		EXPECT_TRUE(IsCleanText(Shown)) << Shown;
@@ -205,8 +193,7 @@ TEST(EscapePath, LosesItsMiddleWhenItIsLong)
 	for (size_t Shift = 0; Shift < 4; ++Shift)
 	{
 		std::string Path(Shift, 'x');
-		while (Path.size() < 1000)
-			Path += "😀ä";
+		while (Path.size() < 1000) Path += "😀ä";
 		const std::string Shown = EscapePath(Path);
 		EXPECT_TRUE(IsCleanText(Shown)) << Shown;
 		EXPECT_EQ(Shown.find('\\'), std::string::npos) << "a character was cut in two: " << Shown;
@@ -222,15 +209,12 @@ TEST(Status, IsCutBetweenCharacters)
 		for (const std::string Piece : {"a", "ä", "€", "😀"})
 		{
 			std::string Text(Length % Piece.size(), 'a');
-			while (Text.size() < Length)
-				Text += Piece;
+			while (Text.size() < Length) Text += Piece;
 			const std::string Message = FRTStatus::Error(ERTResult::IoError, "%s", Text.c_str()).Message;
 			EXPECT_TRUE(IsCleanText(Message)) << Message;
 			EXPECT_EQ(Message.find('\\'), std::string::npos) << "a character was cut in two: " << Message;
-			if (Text.size() <= Room)
-				EXPECT_EQ(Message, Text);
-			else
-				EXPECT_THAT(Message, EndsWith("..."));
+			if (Text.size() <= Room) EXPECT_EQ(Message, Text);
+			else EXPECT_THAT(Message, EndsWith("..."));
 			EXPECT_GE(Message.size(), std::min(Text.size(), Room - 6)) << "more was cut than had to be";
 		}
 	}
@@ -238,8 +222,9 @@ TEST(Status, IsCutBetweenCharacters)
 
 TEST(Status, HoldsNothingThatCannotBeShown)
 {
-	const auto Make = [](const std::string& Text)
-	{ return std::string(FRTStatus::Error(ERTResult::IoError, "a: %s", Text.c_str()).Message); };
+	const auto Make = [](const std::string& Text) {
+		return std::string(FRTStatus::Error(ERTResult::IoError, "a: %s", Text.c_str()).Message);
+	};
 	EXPECT_EQ(Make("two\n\tlines"), "a: two\n\tlines") << "as a shader's log is";
 	EXPECT_EQ(Make("\x1b[31m\r\xff\u202E"), "a: \\x1b[31m\\r\\xff\\u{202e}");
 	for (size_t Shift = 0; Shift < 12; ++Shift)
@@ -261,8 +246,7 @@ TEST(Status, NamesOfObjectsAreShortAndOneLine)
 		for (const char* Piece : {"x", "\x01", "ä", "😀"})
 		{
 			std::string Name(Length % 7, 'n');
-			while (Name.size() < Length)
-				Name += Piece;
+			while (Name.size() < Length) Name += Piece;
 			const std::string Shown = FRTShown(Name.c_str()).Text;
 			EXPECT_EQ(Shown, EscapeText(Name, FRTShown::MaxBytes));
 			EXPECT_TRUE(IsCleanText(Shown));

@@ -43,18 +43,12 @@ private:
 		case 28: Bytes[Word[1]] = Bytes[Word[2]] * Values[Word[3]]; break; // OpTypeArray
 		case 30:                                                           // OpTypeStruct
 			Bytes[Word[1]] = 0;
-			for (uint32_t Member = 2; Member < Count; ++Member)
-			{
-				Bytes[Word[1]] += Bytes[Word[Member]];
-			}
+			for (uint32_t Member = 2; Member < Count; ++Member) { Bytes[Word[1]] += Bytes[Word[Member]]; }
 			break;
 		case 32: Bytes[Word[1]] = Bytes[Word[3]]; break; // OpTypePointer: of what it points to
 		case 43: Values[Word[2]] = Word[3]; break;       // OpConstant
 		case 59:                                         // OpVariable
-			if (Word[3] == StorageRayPayload || Word[3] == StorageIncomingRayPayload)
-			{
-				Payloads.insert(Bytes[Word[1]]);
-			}
+			if (Word[3] == StorageRayPayload || Word[3] == StorageIncomingRayPayload) { Payloads.insert(Bytes[Word[1]]); }
 			break;
 		default: break;
 		}
@@ -66,28 +60,17 @@ private:
 
 const std::map<std::string, ERTShaderStage>& GetRayStages()
 {
-	static const std::map<std::string, ERTShaderStage> Stages = {{".rgen", ERTShaderStage::RayGen},
-	                                                             {".rmiss", ERTShaderStage::Miss},
-	                                                             {".rchit", ERTShaderStage::ClosestHit},
-	                                                             {".rahit", ERTShaderStage::AnyHit}};
+	static const std::map<std::string, ERTShaderStage> Stages = {{".rgen", ERTShaderStage::RayGen}, {".rmiss", ERTShaderStage::Miss},
+	    {".rchit", ERTShaderStage::ClosestHit}, {".rahit", ERTShaderStage::AnyHit}};
 	return Stages;
 }
 
 FShaderSource MakeSource(const std::string& Path)
 {
 	FShaderSource Source{Path, GetRayStages().at(fs::path(Path).extension().string()), {}, {}};
-	for (const char* Index : {"SHADOW_RAY", "SHADOW_MISS"})
-	{
-		Source.Defines.emplace_back(Index, "0");
-	}
-	for (const char* Index : {"MATERIAL_RAY", "MATERIAL_MISS"})
-	{
-		Source.Defines.emplace_back(Index, "1");
-	}
-	for (const char* Fact : {"HAS_SUN", "HAS_SKY", "HAS_LIGHTS", "HAS_EMISSIVE", "HAS_MASKED"})
-	{
-		Source.Defines.emplace_back(Fact, "1");
-	}
+	for (const char* Index : {"SHADOW_RAY", "SHADOW_MISS"}) { Source.Defines.emplace_back(Index, "0"); }
+	for (const char* Index : {"MATERIAL_RAY", "MATERIAL_MISS"}) { Source.Defines.emplace_back(Index, "1"); }
+	for (const char* Fact : {"HAS_SUN", "HAS_SKY", "HAS_LIGHTS", "HAS_EMISSIVE", "HAS_MASKED"}) { Source.Defines.emplace_back(Fact, "1"); }
 	Source.Defines.emplace_back("RAY_TYPES", "2");
 	return Source;
 }
@@ -115,15 +98,9 @@ TEST(RayPayload, MaterialRayIsThirtyTwoBytes)
 	EXPECT_EQ(MeasurePayloads("Rays/Material.rchit"), FSizes{32});
 }
 
-TEST(RayPayload, ReferenceTracesThoseTwo)
-{
-	EXPECT_EQ(MeasurePayloads("Reference/PathTrace.rgen"), (FSizes{4, 32}));
-}
+TEST(RayPayload, ReferenceTracesThoseTwo) { EXPECT_EQ(MeasurePayloads("Reference/PathTrace.rgen"), (FSizes{4, 32})); }
 
-TEST(RayPayload, AlphaTestTouchesNone)
-{
-	EXPECT_EQ(MeasurePayloads("Rays/AlphaTest.rahit"), FSizes{});
-}
+TEST(RayPayload, AlphaTestTouchesNone) { EXPECT_EQ(MeasurePayloads("Rays/AlphaTest.rahit"), FSizes{}); }
 
 // Whatever a later pass adds.
 TEST(RayPayload, NoShaderHasALargerOne)
@@ -132,10 +109,7 @@ TEST(RayPayload, NoShaderHasALargerOne)
 	size_t Shaders = 0;
 	for (const fs::directory_entry& Entry : fs::recursive_directory_iterator(Root))
 	{
-		if (GetRayStages().count(Entry.path().extension().string()) == 0)
-		{
-			continue;
-		}
+		if (GetRayStages().count(Entry.path().extension().string()) == 0) { continue; }
 		++Shaders;
 		const std::string Path = fs::relative(Entry.path(), Root).string();
 		for (const uint32_t Bytes : MeasurePayloads(Path))

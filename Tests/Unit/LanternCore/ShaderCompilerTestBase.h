@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "LanternCore/Text/Log.h"
 #include "LanternCore/Shaders/ShaderCompiler.h"
+#include "LanternCore/Text/Log.h"
 
 namespace Lantern
 {
@@ -27,15 +27,10 @@ protected:
 		ASSERT_NE(mkdtemp(Pattern.data()), nullptr);
 		Root = Pattern;
 		fs::create_directories(Root / "Shaders");
-		SetLogSink(
-		    [this](ERTLogLevel Level, std::string_view Text)
-		    {
-			    std::lock_guard Lock(LogMutex);
-			    if (Level >= ERTLogLevel::Warning)
-			    {
-				    Warnings.emplace_back(Text);
-			    }
-		    });
+		SetLogSink([this](ERTLogLevel Level, std::string_view Text) {
+			std::lock_guard Lock(LogMutex);
+			if (Level >= ERTLogLevel::Warning) { Warnings.emplace_back(Text); }
+		});
 	}
 	void TearDown() override
 	{
@@ -62,10 +57,7 @@ protected:
 	{
 		std::vector<fs::path> Files;
 		std::error_code Code;
-		for (const fs::directory_entry& Entry : fs::directory_iterator(Root / "Cache", Code))
-		{
-			Files.push_back(Entry.path());
-		}
+		for (const fs::directory_entry& Entry : fs::directory_iterator(Root / "Cache", Code)) { Files.push_back(Entry.path()); }
 		return Files;
 	}
 

@@ -18,8 +18,8 @@ std::string Validate(const std::vector<uint32_t>& Words)
 {
 	std::string Message;
 	spvtools::SpirvTools Tools(SPV_ENV_VULKAN_1_3);
-	Tools.SetMessageConsumer([&](spv_message_level_t, const char*, const spv_position_t&, const char* Text)
-	                         { Message += std::string(Text) + "\n"; });
+	Tools.SetMessageConsumer(
+	    [&](spv_message_level_t, const char*, const spv_position_t&, const char* Text) { Message += std::string(Text) + "\n"; });
 	spvtools::ValidatorOptions Options;
 	Options.SetScalarBlockLayout(true);
 	return Tools.Validate(Words.data(), Words.size(), Options) ? "" : "invalid: " + Message;
@@ -48,40 +48,37 @@ std::vector<FStageCase> StageCases()
 	const std::string Head = RayHead;
 	const std::string In = Head + "layout(location = 0) rayPayloadInEXT FPayload Payload;\n";
 	return {
-	    {ERTShaderStage::Vertex, "Vertex", "#version 460\nvoid main() { gl_Position = vec4(gl_VertexIndex); }",
-	     "OpStore"},
+	    {ERTShaderStage::Vertex, "Vertex", "#version 460\nvoid main() { gl_Position = vec4(gl_VertexIndex); }", "OpStore"},
 	    {ERTShaderStage::Fragment, "Fragment",
-	     "#version 460\nlayout(location = 0) out vec4 C;\n"
-	     "void main() { if (gl_FragCoord.x < 3.0) { discard; } C = vec4(1); }",
-	     "OpStore"},
+	        "#version 460\nlayout(location = 0) out vec4 C;\n"
+	        "void main() { if (gl_FragCoord.x < 3.0) { discard; } C = vec4(1); }",
+	        "OpStore"},
 	    {ERTShaderStage::Compute, "GLCompute",
-	     "#version 460\nlayout(local_size_x = 8, local_size_y = 8) in;\nlayout(set = 0, binding = 0) buffer B { uint "
-	     "V[]; };\n"
-	     "void main() { V[gl_GlobalInvocationID.x] = 3u; }",
-	     "LocalSize 8 8 1"},
+	        "#version 460\nlayout(local_size_x = 8, local_size_y = 8) in;\nlayout(set = 0, binding = 0) buffer B { uint "
+	        "V[]; };\n"
+	        "void main() { V[gl_GlobalInvocationID.x] = 3u; }",
+	        "LocalSize 8 8 1"},
 	    {ERTShaderStage::RayGen, "RayGeneration",
-	     Head + "layout(location = 0) rayPayloadEXT FPayload Payload;\n"
-	            "layout(set = 0, binding = 3) uniform accelerationStructureEXT Scene;\n"
-	            "layout(set = 0, binding = 1, rgba16f) uniform image2D Image;\n"
-	            "void main() { Payload.T = 1.0; traceRayEXT(Scene, 0u, 0xffu, 0, 1, 0, vec3(0), 0.0, vec3(0, 0, 1), "
-	            "9.0, 0);\n"
-	            "imageStore(Image, ivec2(gl_LaunchIDEXT.xy), vec4(Payload.Color, Payload.T)); }",
-	     "OpTraceRayKHR"},
+	        Head + "layout(location = 0) rayPayloadEXT FPayload Payload;\n"
+	               "layout(set = 0, binding = 3) uniform accelerationStructureEXT Scene;\n"
+	               "layout(set = 0, binding = 1, rgba16f) uniform image2D Image;\n"
+	               "void main() { Payload.T = 1.0; traceRayEXT(Scene, 0u, 0xffu, 0, 1, 0, vec3(0), 0.0, vec3(0, 0, 1), "
+	               "9.0, 0);\n"
+	               "imageStore(Image, ivec2(gl_LaunchIDEXT.xy), vec4(Payload.Color, Payload.T)); }",
+	        "OpTraceRayKHR"},
 	    {ERTShaderStage::Miss, "Miss", In + "void main() { Payload.Color = vec3(1); }", "IncomingRayPayload"},
 	    {ERTShaderStage::ClosestHit, "ClosestHit",
-	     In + "hitAttributeEXT vec2 Bary;\nvoid main() { Payload.Color = vec3(Bary, 0); Payload.T = gl_HitTEXT; }",
-	     "HitAttribute"},
+	        In + "hitAttributeEXT vec2 Bary;\nvoid main() { Payload.Color = vec3(Bary, 0); Payload.T = gl_HitTEXT; }", "HitAttribute"},
 	    {ERTShaderStage::AnyHit, "AnyHit",
-	     In + "hitAttributeEXT vec2 Bary;\nvoid Reject() { ignoreIntersectionEXT; }\n"
-	          "void main() { if (Bary.x > 0.5) { Reject(); } Payload.T += 1.0; if (Payload.T > 3.0) { terminateRayEXT; "
-	          "} }",
-	     "OpIgnoreIntersectionKHR"},
+	        In + "hitAttributeEXT vec2 Bary;\nvoid Reject() { ignoreIntersectionEXT; }\n"
+	             "void main() { if (Bary.x > 0.5) { Reject(); } Payload.T += 1.0; if (Payload.T > 3.0) { terminateRayEXT; "
+	             "} }",
+	        "OpIgnoreIntersectionKHR"},
 	    {ERTShaderStage::Intersection, "Intersection",
-	     Head + "hitAttributeEXT vec2 Bary;\nvoid main() { Bary = vec2(1); reportIntersectionEXT(gl_RayTminEXT, 0u); }",
-	     "OpReportIntersectionKHR"},
+	        Head + "hitAttributeEXT vec2 Bary;\nvoid main() { Bary = vec2(1); reportIntersectionEXT(gl_RayTminEXT, 0u); }",
+	        "OpReportIntersectionKHR"},
 	    {ERTShaderStage::Callable, "Callable",
-	     Head + "layout(location = 0) callableDataInEXT FPayload Data;\nvoid main() { Data.Color *= 2.0; }",
-	     "IncomingCallableData"},
+	        Head + "layout(location = 0) callableDataInEXT FPayload Data;\nvoid main() { Data.Color *= 2.0; }", "IncomingCallableData"},
 	};
 }
 
@@ -114,29 +111,26 @@ TEST_F(ShaderCompilerTest, RayQueryBufferReferencesAndBindlessArraysCompile)
 {
 	FShaderCompiler Compiler(MakeDesc(false));
 	FShaderBinary Binary;
-	const FRTStatus Status = Compiler.Compile(
-	    {"Query",
-	     ERTShaderStage::Compute,
-	     {},
-	     "#version 460\n#extension GL_EXT_ray_query : require\n#extension GL_EXT_buffer_reference2 : require\n"
-	     "#extension GL_EXT_nonuniform_qualifier : require\n#extension GL_EXT_scalar_block_layout : require\n"
-	     "#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require\n"
-	     "layout(local_size_x = 8) in;\nlayout(buffer_reference, scalar) buffer FOut { float V[]; };\n"
-	     "layout(push_constant, scalar) uniform P { uint64_t Address; uint Scene; } Push;\n"
-	     "layout(set = 0, binding = 3) uniform accelerationStructureEXT Scenes[];\n"
-	     "void main() { rayQueryEXT Q; rayQueryInitializeEXT(Q, Scenes[nonuniformEXT(Push.Scene)], 4u, 255u, vec3(0), "
-	     "0.0,\n"
-	     "vec3(0, 0, 1), 9.0); while (rayQueryProceedEXT(Q)) {}\n"
-	     "FOut(Push.Address).V[gl_GlobalInvocationID.x] = rayQueryGetIntersectionTEXT(Q, true); }"},
-	    Binary);
+	const FRTStatus Status =
+	    Compiler.Compile({"Query", ERTShaderStage::Compute, {},
+	                         "#version 460\n#extension GL_EXT_ray_query : require\n#extension GL_EXT_buffer_reference2 : require\n"
+	                         "#extension GL_EXT_nonuniform_qualifier : require\n#extension GL_EXT_scalar_block_layout : require\n"
+	                         "#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require\n"
+	                         "layout(local_size_x = 8) in;\nlayout(buffer_reference, scalar) buffer FOut { float V[]; };\n"
+	                         "layout(push_constant, scalar) uniform P { uint64_t Address; uint Scene; } Push;\n"
+	                         "layout(set = 0, binding = 3) uniform accelerationStructureEXT Scenes[];\n"
+	                         "void main() { rayQueryEXT Q; rayQueryInitializeEXT(Q, Scenes[nonuniformEXT(Push.Scene)], 4u, 255u, vec3(0), "
+	                         "0.0,\n"
+	                         "vec3(0, 0, 1), 9.0); while (rayQueryProceedEXT(Q)) {}\n"
+	                         "FOut(Push.Address).V[gl_GlobalInvocationID.x] = rayQueryGetIntersectionTEXT(Q, true); }"},
+	        Binary);
 	ASSERT_TRUE(Status.IsOk()) << Status.Message;
 	EXPECT_EQ(Validate(Binary.Words), "");
 }
 
 TEST_F(ShaderCompilerTest, OptimizingMakesItSmaller)
 {
-	const FShaderSource Source{
-	    "A", ERTShaderStage::Compute, {}, Compute("float A = 2.0; float B = A * 3.0; Values[0] = B;")};
+	const FShaderSource Source{"A", ERTShaderStage::Compute, {}, Compute("float A = 2.0; float B = A * 3.0; Values[0] = B;")};
 	FShaderBinary Plain, Optimized;
 	FShaderCompilerDesc Desc = MakeDesc(false);
 	ASSERT_TRUE(FShaderCompiler(Desc).Compile(Source, Optimized).IsOk());
@@ -161,9 +155,8 @@ TEST_F(ShaderCompilerTest, DebugInfoNamesTheFile)
 
 TEST_F(ShaderCompilerTest, IncludesAreFoundBesideTheIncluderFirstThenInTheFolders)
 {
-	Write("Pass/Main.comp",
-	      Compute("Values[0] = Near() + Far() + Engine();",
-	              "#include \"Local.glsl\"\n#include \"Library/Far.glsl\"\n#include <Theirs.glsl>\n"));
+	Write("Pass/Main.comp", Compute("Values[0] = Near() + Far() + Engine();",
+	                            "#include \"Local.glsl\"\n#include \"Library/Far.glsl\"\n#include <Theirs.glsl>\n"));
 	Write("Pass/Local.glsl", "#include \"../Shared/Up.glsl\"\nfloat Near() { return Up(); }\n");
 	Write("Local.glsl", "#error the wrong one\n");
 	Write("Shared/Up.glsl", "float Up() { return 1.0; }\n");
@@ -191,11 +184,8 @@ TEST_F(ShaderCompilerTest, GeneratedTextIncludesAsIfItLayAtItsPath)
 	Write("Materials/Beside.glsl", "float Beside() { return 1.0; }\n");
 	FShaderCompiler Compiler(MakeDesc());
 	FShaderBinary Binary;
-	const FRTStatus Status = Compiler.Compile({"Materials/Generated 7",
-	                                           ERTShaderStage::Compute,
-	                                           {},
-	                                           Compute("Values[0] = Beside();", "#include \"Beside.glsl\"\n")},
-	                                          Binary);
+	const FRTStatus Status = Compiler.Compile(
+	    {"Materials/Generated 7", ERTShaderStage::Compute, {}, Compute("Values[0] = Beside();", "#include \"Beside.glsl\"\n")}, Binary);
 	EXPECT_TRUE(Status.IsOk()) << Status.Message;
 	EXPECT_EQ(Binary.Name, "Materials/Generated 7");
 }
@@ -205,12 +195,10 @@ TEST_F(ShaderCompilerTest, AnIncludeInADeadBranchOrACommentMayBeMissing)
 	FShaderCompiler Compiler(MakeDesc());
 	FShaderBinary Binary;
 	const FRTStatus Status =
-	    Compiler.Compile({"Shared",
-	                      ERTShaderStage::Compute,
-	                      {},
-	                      Compute("Values[0] = 1.0;", "#ifdef __cplusplus\n#include <cstdint>\n#endif\n"
-	                                                  "// #include \"Gone.glsl\"\n/*\n#include \"Gone.glsl\"\n*/\n")},
-	                     Binary);
+	    Compiler.Compile({"Shared", ERTShaderStage::Compute, {},
+	                         Compute("Values[0] = 1.0;", "#ifdef __cplusplus\n#include <cstdint>\n#endif\n"
+	                                                     "// #include \"Gone.glsl\"\n/*\n#include \"Gone.glsl\"\n*/\n")},
+	        Binary);
 	EXPECT_TRUE(Status.IsOk()) << Status.Message;
 }
 
@@ -236,10 +224,9 @@ TEST_F(ShaderCompilerTest, AnErrorAfterAnIncludeNamesTheIncluderAgain)
 {
 	Write("Lib.glsl", "float F() { return 1.0; }\n\n\n\n");
 	FShaderCompiler Compiler(MakeDesc());
-	const std::string Text =
-	    "#version 460\n#include \"Lib.glsl\"\nlayout(local_size_x = 1) in;\nvoid main() { Nope(); }\n";
-	EXPECT_THAT(ErrorOf(Compiler, {"Materials/Rust", ERTShaderStage::Compute, {{"A", "1"}, {"B", "2"}}, Text}),
-	            StartsWith("Materials/Rust:4: "));
+	const std::string Text = "#version 460\n#include \"Lib.glsl\"\nlayout(local_size_x = 1) in;\nvoid main() { Nope(); }\n";
+	EXPECT_THAT(
+	    ErrorOf(Compiler, {"Materials/Rust", ERTShaderStage::Compute, {{"A", "1"}, {"B", "2"}}, Text}), StartsWith("Materials/Rust:4: "));
 }
 
 TEST_F(ShaderCompilerTest, DefinesArriveAndDoNotShiftLines)
@@ -247,8 +234,7 @@ TEST_F(ShaderCompilerTest, DefinesArriveAndDoNotShiftLines)
 	FShaderCompiler Compiler(MakeDesc());
 	const std::string Text = "#version 460\n#if SIZE != 8\n#error no size\n#endif\nlayout(local_size_x = SIZE) "
 	                         "in;\nvoid main() { EMPTY X; }\n";
-	EXPECT_THAT(ErrorOf(Compiler, {"D", ERTShaderStage::Compute, {{"SIZE", "8"}, {"EMPTY", ""}}, Text}),
-	            StartsWith("D:6: "));
+	EXPECT_THAT(ErrorOf(Compiler, {"D", ERTShaderStage::Compute, {{"SIZE", "8"}, {"EMPTY", ""}}, Text}), StartsWith("D:6: "));
 	EXPECT_THAT(ErrorOf(Compiler, {"D", ERTShaderStage::Compute, {{"SIZE", "9"}}, Text}), StartsWith("D:3: "));
 	EXPECT_THAT(ErrorOf(Compiler, {"D", ERTShaderStage::Compute, {{"9SIZE", "9"}}, Text}), HasSubstr("9SIZE"));
 	EXPECT_THAT(ErrorOf(Compiler, {"D", ERTShaderStage::Compute, {{"A", "1\n#error"}}, Text}), HasSubstr("one line"));
@@ -283,15 +269,12 @@ TEST_F(ShaderCompilerTest, ACycleIsAnErrorThatShowsTheChain)
 	Write("B.glsl", "#include \"A.glsl\"\n");
 	FShaderCompiler Compiler(MakeDesc());
 	EXPECT_THAT(ErrorOf(Compiler, {"Main.comp", ERTShaderStage::Compute, {}, {}}),
-	            testing::StrEq("B.glsl:1: cyclic include: A.glsl -> B.glsl -> A.glsl"));
+	    testing::StrEq("B.glsl:1: cyclic include: A.glsl -> B.glsl -> A.glsl"));
 }
 
 TEST_F(ShaderCompilerTest, AVeryDeepChainIsAnErrorNotAnOverflow)
 {
-	for (int I = 0; I < 500; ++I)
-	{
-		Write("C" + std::to_string(I) + ".glsl", "#include \"C" + std::to_string(I + 1) + ".glsl\"\n");
-	}
+	for (int I = 0; I < 500; ++I) { Write("C" + std::to_string(I) + ".glsl", "#include \"C" + std::to_string(I + 1) + ".glsl\"\n"); }
 	Write("C500.glsl", "");
 	FShaderCompiler Compiler(MakeDesc());
 	EXPECT_THAT(ErrorOf(Compiler, {"C0.glsl", ERTShaderStage::Compute, {}, {}}), HasSubstr("nested more than"));
@@ -300,9 +283,8 @@ TEST_F(ShaderCompilerTest, AVeryDeepChainIsAnErrorNotAnOverflow)
 TEST_F(ShaderCompilerTest, RubbishIsAnErrorNotACrash)
 {
 	FShaderCompiler Compiler(MakeDesc());
-	for (const std::string& Text :
-	     {std::string("\0\1\2\xff#include", 13), std::string(100000, '('), std::string("#include \""),
-	      std::string("/* never closed"), std::string("#version 9999\nvoid main(){}")})
+	for (const std::string& Text : {std::string("\0\1\2\xff#include", 13), std::string(100000, '('), std::string("#include \""),
+	         std::string("/* never closed"), std::string("#version 9999\nvoid main(){}")})
 	{
 		EXPECT_NE(ErrorOf(Compiler, {"Rubbish", ERTShaderStage::Compute, {}, Text}), "");
 	}

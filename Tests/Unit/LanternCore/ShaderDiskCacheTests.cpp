@@ -99,8 +99,7 @@ TEST_F(ShaderCacheTest, EverythingThatChangesTheResultChangesTheKey)
 	Desc.bOptimize = false;
 	EXPECT_NE(FShaderCompiler(Desc).GetKey(Base), Key);
 	Desc.bDebugInfo = true;
-	EXPECT_NE(FShaderCompiler(Desc).GetKey(Base), FShaderCompiler(Desc).GetKey(Renamed))
-	    << "its debug info has the name";
+	EXPECT_NE(FShaderCompiler(Desc).GetKey(Base), FShaderCompiler(Desc).GetKey(Renamed)) << "its debug info has the name";
 }
 
 TEST_F(ShaderCacheTest, ACorruptCacheFileIsReplacedWithOneWarning)
@@ -115,8 +114,8 @@ TEST_F(ShaderCacheTest, ACorruptCacheFileIsReplacedWithOneWarning)
 	std::string Flipped = Bytes, HugeCount = Bytes;
 	Flipped[Bytes.size() - 5] ^= 1;
 	HugeCount.replace(8, 8, 8, '\xff');
-	for (const std::string& Bad : {std::string(), Bytes.substr(0, 20), Bytes.substr(0, Bytes.size() - 4),
-	                               Bytes + "more", Flipped, HugeCount, std::string(Bytes.size(), 'x')})
+	for (const std::string& Bad : {std::string(), Bytes.substr(0, 20), Bytes.substr(0, Bytes.size() - 4), Bytes + "more", Flipped,
+	         HugeCount, std::string(Bytes.size(), 'x')})
 	{
 		std::ofstream(File, std::ios::binary | std::ios::trunc) << Bad;
 		Warnings.clear();
@@ -154,7 +153,7 @@ TEST_F(ShaderCacheTest, NothingButWholeFilesStandsInTheCacheFolder)
 	ASSERT_TRUE(Compiler.Compile({"A", ERTShaderStage::Compute, {}, Compute("Values[0] = 1.0;")}, Binary).IsOk());
 	ASSERT_EQ(CacheFiles().size(), 1u);
 	EXPECT_EQ(CacheFiles()[0].filename().string(),
-	          Compiler.GetKey({"A", ERTShaderStage::Compute, {}, Compute("Values[0] = 1.0;")}) + ".spv.cache");
+	    Compiler.GetKey({"A", ERTShaderStage::Compute, {}, Compute("Values[0] = 1.0;")}) + ".spv.cache");
 }
 
 // -------------------------------------------------------------------------------------------------- threads
@@ -166,9 +165,7 @@ TEST_F(ShaderCacheTest, ThirtyTwoVariantsCompileInParallelAsTheyDoAlone)
 	Write("Lib.glsl", "float Poly(float X) { float R = 0.0; for (int I = 0; I < VARIANT; ++I) { R = R * X + float(I); "
 	                  "} return R; }\n");
 	Write("Main.comp", Compute("Values[gl_GlobalInvocationID.x] = Poly(Values[0]);", "#include \"Lib.glsl\"\n"));
-	const auto Source = [](int I) {
-		return FShaderSource{"Main.comp", ERTShaderStage::Compute, {{"VARIANT", std::to_string(I)}}, {}};
-	};
+	const auto Source = [](int I) { return FShaderSource{"Main.comp", ERTShaderStage::Compute, {{"VARIANT", std::to_string(I)}}, {}}; };
 
 	FShaderCompiler Compiler(MakeDesc());
 	std::vector<FShaderBinary> Binaries(Variants);
@@ -176,25 +173,17 @@ TEST_F(ShaderCacheTest, ThirtyTwoVariantsCompileInParallelAsTheyDoAlone)
 	std::vector<std::thread> Workers;
 	for (int T = 0; T < Threads; ++T)
 	{
-		Workers.emplace_back(
-		    [&]
-		    {
-			    // Every variant twice, so that two threads also race for one cache entry.
-			    for (int I = Next++; I < 2 * Variants; I = Next++)
-			    {
-				    FShaderBinary Binary;
-				    Bad += Compiler.Compile(Source(I / 2), Binary).IsOk() ? 0 : 1;
-				    if (I % 2 == 0)
-				    {
-					    Binaries[I / 2] = std::move(Binary);
-				    }
-			    }
-		    });
+		Workers.emplace_back([&] {
+			// Every variant twice, so that two threads also race for one cache entry.
+			for (int I = Next++; I < 2 * Variants; I = Next++)
+			{
+				FShaderBinary Binary;
+				Bad += Compiler.Compile(Source(I / 2), Binary).IsOk() ? 0 : 1;
+				if (I % 2 == 0) { Binaries[I / 2] = std::move(Binary); }
+			}
+		});
 	}
-	for (std::thread& Worker : Workers)
-	{
-		Worker.join();
-	}
+	for (std::thread& Worker : Workers) { Worker.join(); }
 	EXPECT_EQ(Bad, 0);
 	EXPECT_EQ(CacheFiles().size(), static_cast<size_t>(Variants));
 	EXPECT_EQ(Compiler.GetStats().Compiled + Compiler.GetStats().CacheHits, 2u * Variants);

@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "Support/CoreTestTools.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Tasks/TaskTrace.h"
 #include "LanternCore/Tasks/Tasks.h"
+#include "Support/CoreTestTools.h"
 
 namespace Lantern
 {
@@ -50,10 +50,7 @@ protected:
 		std::vector<json> Events;
 		for (const json& Event : Trace.at("traceEvents"))
 		{
-			if (Event.at("ph") == "X")
-			{
-				Events.push_back(Event);
-			}
+			if (Event.at("ph") == "X") { Events.push_back(Event); }
 		}
 		return Events;
 	}
@@ -61,10 +58,7 @@ protected:
 	{
 		for (const json& Event : GetComplete(Trace))
 		{
-			if (Event.at("name") == Name)
-			{
-				return Event;
-			}
+			if (Event.at("name") == Name) { return Event; }
 		}
 		ADD_FAILURE() << "no event " << Name;
 		return {};
@@ -105,12 +99,11 @@ TEST_F(FTraceTest, JsonHasNamesTimesFramesAndNesting)
 	const json Outer = Find(Trace, "Outer"), Inner = Find(Trace, "Inner: quote \" slash \\ line \n end");
 	EXPECT_EQ(Outer.at("tid"), Inner.at("tid"));
 	EXPECT_LE(Outer.at("ts").get<double>(), Inner.at("ts").get<double>());
-	EXPECT_GE(Outer.at("ts").get<double>() + Outer.at("dur").get<double>(),
-	          Inner.at("ts").get<double>() + Inner.at("dur").get<double>());
+	EXPECT_GE(Outer.at("ts").get<double>() + Outer.at("dur").get<double>(), Inner.at("ts").get<double>() + Inner.at("dur").get<double>());
 	EXPECT_GE(Inner.at("dur").get<double>(), 2000.0) << "microseconds";
 	const std::vector<FTraceEvent> Events = FTaskTrace::GetEvents();
-	const auto Slept = std::find_if(Events.begin(), Events.end(), [](const FTraceEvent& Event)
-	                                { return std::string_view(Event.Name).starts_with("Inner"); });
+	const auto Slept = std::find_if(
+	    Events.begin(), Events.end(), [](const FTraceEvent& Event) { return std::string_view(Event.Name).starts_with("Inner"); });
 	ASSERT_NE(Slept, Events.end());
 	const double Nanoseconds = static_cast<double>(Slept->EndNs - Slept->BeginNs);
 	EXPECT_NEAR(Inner.at("dur").get<double>(), Nanoseconds / 1000.0, 1.0);
@@ -118,8 +111,8 @@ TEST_F(FTraceTest, JsonHasNamesTimesFramesAndNesting)
 	bool bNamed = false;
 	for (const json& Event : Trace.at("traceEvents"))
 	{
-		bNamed |= Event.at("ph") == "M" && Event.at("name") == "thread_name" &&
-		          Event.at("args").at("name") == "Main \"one\"" && Event.at("tid") == Outer.at("tid");
+		bNamed |= Event.at("ph") == "M" && Event.at("name") == "thread_name" && Event.at("args").at("name") == "Main \"one\"" &&
+		          Event.at("tid") == Outer.at("tid");
 	}
 	EXPECT_TRUE(bNamed);
 }
@@ -128,10 +121,7 @@ TEST_F(FTraceTest, LongNamesAreCutBetweenCharacters)
 {
 	FTaskTrace::Start();
 	std::string Long;
-	while (Long.size() < 2 * FTraceEvent::MaxName)
-	{
-		Long += "\xc3\xa4";
-	}
+	while (Long.size() < 2 * FTraceEvent::MaxName) { Long += "\xc3\xa4"; }
 	{
 		FTraceScope Scope(Long);
 		FTraceScope Detailed("x", Long);
@@ -148,31 +138,18 @@ TEST_F(FTraceTest, ThreadsRecordAtOnceWhileOthersRead)
 	FTaskTrace::Start();
 	constexpr int Threads = 8, Each = 2000;
 	std::atomic<bool> bDone{false};
-	std::thread Reader(
-	    [&]
-	    {
-		    while (!bDone)
-		    {
-			    EXPECT_TRUE(json::accept(FTaskTrace::ToJson()));
-		    }
-	    });
+	std::thread Reader([&] {
+		while (!bDone) { EXPECT_TRUE(json::accept(FTaskTrace::ToJson())); }
+	});
 	std::vector<std::thread> Writers;
 	for (int T = 0; T < Threads; ++T)
 	{
-		Writers.emplace_back(
-		    [T]
-		    {
-			    FTaskTrace::NameThread("Writer " + std::to_string(T));
-			    for (int I = 0; I < Each; ++I)
-			    {
-				    FTraceScope Scope("Write", std::to_string(T));
-			    }
-		    });
+		Writers.emplace_back([T] {
+			FTaskTrace::NameThread("Writer " + std::to_string(T));
+			for (int I = 0; I < Each; ++I) { FTraceScope Scope("Write", std::to_string(T)); }
+		});
 	}
-	for (std::thread& Writer : Writers)
-	{
-		Writer.join();
-	}
+	for (std::thread& Writer : Writers) { Writer.join(); }
 	bDone = true;
 	Reader.join();
 	std::map<std::string, std::set<uint32_t>> ThreadsByName;
@@ -197,10 +174,7 @@ TEST_F(FTraceTest, MemoryIsBoundedAndTheNewestStay)
 	FTaskTrace::Start();
 	constexpr size_t More = 1000;
 	const size_t Count = FTaskTrace::MaxEventsPerThread + More;
-	for (size_t I = 0; I < Count; ++I)
-	{
-		FTaskTrace::Record("Event", I, I + 1, FTraceEvent::NoFrame);
-	}
+	for (size_t I = 0; I < Count; ++I) { FTaskTrace::Record("Event", I, I + 1, FTraceEvent::NoFrame); }
 	const std::vector<FTraceEvent> Events = FTaskTrace::GetEvents();
 	ASSERT_THAT(Events, SizeIs(FTaskTrace::MaxEventsPerThread));
 	EXPECT_EQ(FTaskTrace::GetForgottenCount(), More);
@@ -224,19 +198,12 @@ TEST_F(FTraceTest, AllThreadsTogetherAreBounded)
 	constexpr size_t Threads = 2 * FTaskTrace::MaxEvents / FTaskTrace::MaxEventsPerThread;
 	for (size_t T = 0; T < Threads; ++T)
 	{
-		std::thread(
-		    []
-		    {
-			    for (size_t I = 0; I < FTaskTrace::MaxEventsPerThread; ++I)
-			    {
-				    FTaskTrace::Record("Event", I, I, 0);
-			    }
-		    })
-		    .join();
+		std::thread([] {
+			for (size_t I = 0; I < FTaskTrace::MaxEventsPerThread; ++I) { FTaskTrace::Record("Event", I, I, 0); }
+		}).join();
 	}
 	EXPECT_LE(FTaskTrace::GetEvents().size(), FTaskTrace::MaxEvents);
-	EXPECT_EQ(FTaskTrace::GetEvents().size() + FTaskTrace::GetForgottenCount(),
-	          Threads * FTaskTrace::MaxEventsPerThread);
+	EXPECT_EQ(FTaskTrace::GetEvents().size() + FTaskTrace::GetForgottenCount(), Threads * FTaskTrace::MaxEventsPerThread);
 }
 
 TEST_F(FTraceTest, FileIsWrittenWhenSwitchedOff)
@@ -278,17 +245,11 @@ TEST_F(FTraceTest, FileOfEveryFewFramesHasTheseFramesAlone)
 	for (uint64_t Frame = 0; Frame < 7; ++Frame)
 	{
 		NextFrame(Frame);
-		if (Frame < 3)
-		{
-			EXPECT_FALSE(std::filesystem::exists(GetPath()));
-		}
+		if (Frame < 3) { EXPECT_FALSE(std::filesystem::exists(GetPath())); }
 		FTraceScope Scope("Work");
 	}
 	std::vector<int> Frames;
-	for (const json& Event : GetComplete(Read()))
-	{
-		Frames.push_back(Event.at("args").at("frame"));
-	}
+	for (const json& Event : GetComplete(Read())) { Frames.push_back(Event.at("args").at("frame")); }
 	EXPECT_THAT(Frames, ::testing::ElementsAre(3, 4, 5));
 }
 
@@ -317,27 +278,19 @@ TEST_F(FTraceTest, TasksAreOnTheirThreads)
 	FTaskGroup Group;
 	for (int I = 0; I < 100; ++I)
 	{
-		Group.Run(
-		    []
-		    {
-			    FTraceScope Scope("Task");
-			    std::this_thread::sleep_for(std::chrono::microseconds(100));
-		    });
+		Group.Run([] {
+			FTraceScope Scope("Task");
+			std::this_thread::sleep_for(std::chrono::microseconds(100));
+		});
 	}
 	Group.Wait();
 	std::map<uint32_t, std::vector<FTraceEvent>> ByThread;
-	for (const FTraceEvent& Event : FTaskTrace::GetEvents())
-	{
-		ByThread[Event.Thread].push_back(Event);
-	}
+	for (const FTraceEvent& Event : FTaskTrace::GetEvents()) { ByThread[Event.Thread].push_back(Event); }
 	size_t Count = 0;
 	for (auto& [Thread, Events] : ByThread)
 	{
 		std::sort(Events.begin(), Events.end(), [](const auto& A, const auto& B) { return A.BeginNs < B.BeginNs; });
-		for (size_t I = 1; I < Events.size(); ++I)
-		{
-			EXPECT_GE(Events[I].BeginNs, Events[I - 1].EndNs);
-		}
+		for (size_t I = 1; I < Events.size(); ++I) { EXPECT_GE(Events[I].BeginNs, Events[I - 1].EndNs); }
 		Count += Events.size();
 	}
 	EXPECT_EQ(Count, 100u);

@@ -4,9 +4,9 @@
 
 #include <glm/gtc/constants.hpp>
 
-#include "Support/GltfTestTools.h"
 #include "LanternHost/BuiltinScenes.h"
 #include "LanternHost/VertexPacking.h"
+#include "Support/GltfTestTools.h"
 
 namespace Lantern
 {
@@ -27,10 +27,7 @@ void ForEachTriangle(const FSceneDescription& Scene, const FTriangleVisitor& Vis
 	const FScenePose Pose = EvaluatePose(Scene, 0);
 	for (size_t N = 0; N < Scene.Nodes.size(); ++N)
 	{
-		if (Scene.Nodes[N].Mesh < 0)
-		{
-			continue;
-		}
+		if (Scene.Nodes[N].Mesh < 0) { continue; }
 		const FHostMesh& Mesh = Scene.Meshes[size_t(Scene.Nodes[N].Mesh)];
 		for (const FHostSection& Section : Mesh.Sections)
 		{
@@ -52,24 +49,18 @@ void ForEachTriangle(const FSceneDescription& Scene, const FTriangleVisitor& Vis
 double ComputeIrradiance(const FSceneDescription& Scene, const glm::dvec3& Point, const glm::dvec3& Normal)
 {
 	double Sum = 0.0;
-	ForEachTriangle(Scene,
-	                [&](const FHostMaterial& Material, const glm::dvec3(&P)[3])
-	                {
-		                const glm::dvec3 Facing = glm::cross(P[1] - P[0], P[2] - P[0]);
-		                if (Material.Emissive.x <= 0 || glm::dot(Facing, Point - P[0]) <= 0)
-		                {
-			                return;
-		                }
-		                double Edges = 0.0;
-		                for (int I = 0; I < 3; ++I)
-		                {
-			                const glm::dvec3 A = glm::normalize(P[I] - Point),
-			                                 B = glm::normalize(P[(I + 1) % 3] - Point);
-			                const double Sin = glm::length(glm::cross(A, B));
-			                Edges += std::atan2(Sin, glm::dot(A, B)) * glm::dot(glm::cross(A, B) / Sin, Normal);
-		                }
-		                Sum += 0.5 * double(Material.Emissive.x) * std::abs(Edges);
-	                });
+	ForEachTriangle(Scene, [&](const FHostMaterial& Material, const glm::dvec3(&P)[3]) {
+		const glm::dvec3 Facing = glm::cross(P[1] - P[0], P[2] - P[0]);
+		if (Material.Emissive.x <= 0 || glm::dot(Facing, Point - P[0]) <= 0) { return; }
+		double Edges = 0.0;
+		for (int I = 0; I < 3; ++I)
+		{
+			const glm::dvec3 A = glm::normalize(P[I] - Point), B = glm::normalize(P[(I + 1) % 3] - Point);
+			const double Sin = glm::length(glm::cross(A, B));
+			Edges += std::atan2(Sin, glm::dot(A, B)) * glm::dot(glm::cross(A, B) / Sin, Normal);
+		}
+		Sum += 0.5 * double(Material.Emissive.x) * std::abs(Edges);
+	});
 	return Sum;
 }
 
@@ -88,7 +79,7 @@ FCameraView GetCamera(const FSceneDescription& Scene)
 		{
 			const glm::dmat4& W = Pose.World[N];
 			return {glm::dvec3(W[3]), -glm::dvec3(W[2]), glm::dvec3(W[0]), glm::dvec3(W[1]),
-			        std::tan(double(Scene.Cameras[size_t(Scene.Nodes[N].Camera)].FovY) / 2)};
+			    std::tan(double(Scene.Cameras[size_t(Scene.Nodes[N].Camera)].FovY) / 2)};
 		}
 	}
 	ADD_FAILURE() << "no camera";
@@ -132,18 +123,17 @@ TEST(BuiltinScenes, WrongNamesAndParametersAreNamed)
 TEST(BuiltinScenes, FurnaceIsClosedAndUniform)
 {
 	const FSceneDescription Scene = Build("furnace:0.7");
-	ForEachTriangle(Scene,
-	                [](const FHostMaterial& M, const glm::dvec3(&)[3])
-	                {
-		                EXPECT_EQ(M.Emissive, glm::vec3(0.5f));
-		                EXPECT_EQ(M.BaseColor.r, 0.7f);
-		                EXPECT_TRUE(M.Metallic == 0 && M.Specular == 0);
-	                });
+	ForEachTriangle(Scene, [](const FHostMaterial& M, const glm::dvec3(&)[3]) {
+		EXPECT_EQ(M.Emissive, glm::vec3(0.5f));
+		EXPECT_EQ(M.BaseColor.r, 0.7f);
+		EXPECT_TRUE(M.Metallic == 0 && M.Specular == 0);
+	});
 	// Closed: from a point inside the walls cover the whole sphere, so that E = π · 0.5 for any normal.
 	const glm::dvec3 Inside(1.5, 2.6, 1.5);
 	double Volume = 0.0;
-	ForEachTriangle(Scene, [&](const FHostMaterial&, const glm::dvec3(&P)[3])
-	                { Volume += glm::dot(P[0] - Inside, glm::cross(P[1] - Inside, P[2] - Inside)) / 6; });
+	ForEachTriangle(Scene, [&](const FHostMaterial&, const glm::dvec3(&P)[3]) {
+		Volume += glm::dot(P[0] - Inside, glm::cross(P[1] - Inside, P[2] - Inside)) / 6;
+	});
 	// Signed: the room inwards, the two boxes in it outwards.
 	EXPECT_NEAR(Volume, -(4.0 * 3 * 4) + 1.0 * 1.6 * 1.0 + 0.8 * 0.8 * 0.8, 1e-4);
 }
@@ -152,21 +142,19 @@ TEST(BuiltinScenes, SphereHasTheAreaAndFluxOfItsFormula)
 {
 	const FSceneDescription Scene = Build("sphere:0.5");
 	double Area = 0.0;
-	ForEachTriangle(Scene,
-	                [&](const FHostMaterial&, const glm::dvec3(&P)[3])
-	                {
-		                const glm::dvec3 N = glm::cross(P[1] - P[0], P[2] - P[0]);
-		                Area += glm::length(N) / 2;
-		                EXPECT_LT(glm::dot(N, P[0]), 0); // inwards
-	                });
+	ForEachTriangle(Scene, [&](const FHostMaterial&, const glm::dvec3(&P)[3]) {
+		const glm::dvec3 N = glm::cross(P[1] - P[0], P[2] - P[0]);
+		Area += glm::length(N) / 2;
+		EXPECT_LT(glm::dot(N, P[0]), 0); // inwards
+	});
 	EXPECT_NEAR(Area, 96.0, 96.0 * 1e-5);
 	EXPECT_NEAR(double(Scene.Lights[0].Color.r) * 4 * glm::pi<double>(), 10000.0, 0.1);
 }
 
 TEST(BuiltinScenes, PolygonLightGivesThePublishedIrradiances)
 {
-	constexpr std::pair<const char*, double> Cases[] = {{"0", .752275},   {"0.5", .566645}, {"1", .265005},
-	                                                    {"1.5", .104637}, {"2", .043743},   {"3", .010575}};
+	constexpr std::pair<const char*, double> Cases[] = {
+	    {"0", .752275}, {"0.5", .566645}, {"1", .265005}, {"1.5", .104637}, {"2", .043743}, {"3", .010575}};
 	for (const auto& [X, Expected] : Cases)
 	{
 		const FSceneDescription Scene = Build(std::string("polygonlight:") + X);
@@ -232,14 +220,12 @@ TEST(BuiltinScenes, PlanesFaceUpAndDown)
 {
 	const FSceneDescription Scene = Build("planes");
 	int Up = 0, Down = 0, DoubleSided = 0;
-	ForEachTriangle(Scene,
-	                [&](const FHostMaterial& M, const glm::dvec3(&P)[3])
-	                {
-		                const bool bUp = glm::cross(P[1] - P[0], P[2] - P[0]).y > 0;
-		                Up += M.Name == "single-sided" && bUp ? 1 : 0;
-		                Down += M.Name == "single-sided" && !bUp ? 1 : 0;
-		                DoubleSided += M.bDoubleSided ? 1 : 0;
-	                });
+	ForEachTriangle(Scene, [&](const FHostMaterial& M, const glm::dvec3(&P)[3]) {
+		const bool bUp = glm::cross(P[1] - P[0], P[2] - P[0]).y > 0;
+		Up += M.Name == "single-sided" && bUp ? 1 : 0;
+		Down += M.Name == "single-sided" && !bUp ? 1 : 0;
+		DoubleSided += M.bDoubleSided ? 1 : 0;
+	});
 	EXPECT_EQ(Up, 2);
 	EXPECT_EQ(Down, 2);
 	EXPECT_EQ(DoubleSided, 2);

@@ -17,10 +17,7 @@ FGltfMaker MakeTriangle()
 	return Maker;
 }
 
-nlohmann::json& GetPrimitive(FGltfMaker& Maker)
-{
-	return Maker.Json["meshes"][0]["primitives"][0];
-}
+nlohmann::json& GetPrimitive(FGltfMaker& Maker) { return Maker.Json["meshes"][0]["primitives"][0]; }
 
 TEST(HostileGltf, FilesThatAreNoFiles)
 {
@@ -36,8 +33,7 @@ TEST(HostileGltf, FilesThatAreNoFiles)
 
 TEST(HostileGltf, JsonThatIsNone)
 {
-	ExpectError(FGltfMaker::LoadText("{\"asset\": {\"version\": \"2.0\"},}"),
-	            {"test.gltf", "not valid JSON", "column"});
+	ExpectError(FGltfMaker::LoadText("{\"asset\": {\"version\": \"2.0\"},}"), {"test.gltf", "not valid JSON", "column"});
 	ExpectError(FGltfMaker::LoadText("[]"), {"expected an object"});
 	ExpectError(FGltfMaker::LoadText("{}"), {"asset"});
 	ExpectError(FGltfMaker::LoadText("{\"asset\": {\"version\": \"1.0\"}}"), {"asset", "1.0"});
@@ -56,10 +52,7 @@ TEST(HostileGltf, DeepNesting)
 	for (const char* Bracket : {"[", "{\"a\":"})
 	{
 		std::string Text = "{\"asset\": {\"version\": \"2.0\"}, \"extras\": ";
-		for (int I = 0; I < 100000; ++I)
-		{
-			Text += Bracket;
-		}
+		for (int I = 0; I < 100000; ++I) { Text += Bracket; }
 		ExpectError(FGltfMaker::LoadText(Text), {"nested deeper"});
 	}
 }
@@ -77,14 +70,8 @@ void ExpectCases(const std::vector<FCase>& Cases)
 	for (const FCase& Case : Cases)
 	{
 		FGltfMaker Maker = MakeTriangle();
-		if (std::string_view(Case.Pointer).starts_with("/buffers"))
-		{
-			Maker.Json["buffers"] = Case.Value;
-		}
-		else
-		{
-			Maker.Json[nlohmann::json::json_pointer(Case.Pointer)] = Case.Value;
-		}
+		if (std::string_view(Case.Pointer).starts_with("/buffers")) { Maker.Json["buffers"] = Case.Value; }
+		else { Maker.Json[nlohmann::json::json_pointer(Case.Pointer)] = Case.Value; }
 		SCOPED_TRACE(std::string(Case.Pointer) + " = " + Case.Value.dump());
 		ExpectError(Maker.Load(), Case.Words);
 	}
@@ -154,9 +141,7 @@ TEST(HostileGltf, WrongMaterialsAndExtensionsAreNamedWithTheirPlace)
 	ExpectCases({
 	    {"/extensionsRequired", {"KHR_draco_mesh_compression"}, {"KHR_draco_mesh_compression", "required"}},
 	    {"/materials", {{{"alphaMode", "FOG"}}}, {"materials[0]", "FOG"}},
-	    {"/materials",
-	     {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}},
-	     {"baseColorTexture.index", "no texture 0"}},
+	    {"/materials", {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}}, {"baseColorTexture.index", "no texture 0"}},
 	    {"/materials", {{{"extensions", {{"KHR_materials_ior", {{"ior", 0.5}}}}}}}, {"ior"}},
 	    {"/cameras", {{{"perspective", {{"yfov", 0}, {"znear", 1}}}}}, {"cameras[0].perspective", "yfov"}},
 	    {"/extensions/KHR_lights_punctual/lights", {{{"type", "sun"}}}, {"lights[0]", "sun"}},
@@ -224,12 +209,9 @@ TEST(HostileGltf, NothingToDrawIsNoError)
 TEST(HostileGltf, SparseIndicesOutOfRange)
 {
 	FGltfMaker Maker = MakeTriangle();
-	const int Indices = Maker.AddView(std::vector<uint8_t>{0, 200}),
-	          Values = Maker.AddView(std::vector<float>(6, 1.0f));
+	const int Indices = Maker.AddView(std::vector<uint8_t>{0, 200}), Values = Maker.AddView(std::vector<float>(6, 1.0f));
 	auto& Sparse = Maker.Json["accessors"][0]["sparse"];
-	Sparse = {{"count", 2},
-	          {"indices", {{"bufferView", Indices}, {"componentType", 5121}}},
-	          {"values", {{"bufferView", Values}}}};
+	Sparse = {{"count", 2}, {"indices", {{"bufferView", Indices}, {"componentType", 5121}}}, {"values", {{"bufferView", Values}}}};
 	ExpectError(Maker.Load(), {"accessors[0]", "sparse index 1 is 200"});
 	Sparse["indices"]["componentType"] = 5126;
 	ExpectError(Maker.Load(), {"accessors[0].sparse.indices", "unsigned"});
@@ -246,18 +228,12 @@ TEST(HostileGltf, SmallFilesThatUnfoldToALot)
 	GetPrimitive(Zeros) = {{"attributes", {{"POSITION", 2}}}};
 	ExpectError(Zeros.Load(Options), {"meshes[0]", "limit"});
 	FGltfMaker Repeated = MakeTriangle();
-	for (int I = 0; I < 20000; ++I)
-	{
-		Repeated.Json["meshes"].push_back(Repeated.Json["meshes"][0]);
-	}
+	for (int I = 0; I < 20000; ++I) { Repeated.Json["meshes"].push_back(Repeated.Json["meshes"][0]); }
 	ExpectError(Repeated.Load(Options), {"limit"});
 	Options = {};
 	Options.MaxNodes = 100;
 	FGltfMaker Nodes = MakeTriangle();
-	for (int I = 0; I < 101; ++I)
-	{
-		Nodes.Json["nodes"].push_back(nlohmann::json::object());
-	}
+	for (int I = 0; I < 101; ++I) { Nodes.Json["nodes"].push_back(nlohmann::json::object()); }
 	ExpectError(Nodes.Load(Options), {"nodes", "100"});
 }
 
@@ -277,10 +253,7 @@ TEST(HostileGltf, ScalesThatMultiplyBeyondAllNumbers)
 {
 	FGltfMaker Maker = MakeTriangle();
 	Maker.Json["nodes"] = nlohmann::json::array();
-	for (int I = 0; I < 400; ++I)
-	{
-		Maker.Json["nodes"].push_back({{"scale", {10, 10, 10}}, {"children", {I + 1}}});
-	}
+	for (int I = 0; I < 400; ++I) { Maker.Json["nodes"].push_back({{"scale", {10, 10, 10}}, {"children", {I + 1}}}); }
 	Maker.Json["nodes"].push_back({{"mesh", 0}});
 	ExpectError(Maker.Load(), {"node 14", "place or size"});
 }
@@ -292,10 +265,7 @@ void SetImage(FGltfMaker& Maker, const nlohmann::json& Image)
 	Maker.Json["materials"] = {{{"normalTexture", {{"index", 0}}}}};
 }
 
-std::string MakeUri(const std::vector<uint8_t>& Data)
-{
-	return "data:image/png;base64," + EncodeBase64(Data);
-}
+std::string MakeUri(const std::vector<uint8_t>& Data) { return "data:image/png;base64," + EncodeBase64(Data); }
 
 TEST(HostileGltf, ImagesThatAreNone)
 {
@@ -331,9 +301,8 @@ TEST(HostileGltf, PathsOutsideTheFolderAreRefused)
 	const auto& Png = GetTinyPng();
 	std::filesystem::create_directory(Folder.Path / "inner");
 	Folder.Write("secret.png", std::string(Png.begin(), Png.end()));
-	for (const std::string Uri :
-	     {"../secret.png", "%2e%2e/secret.png", "a/../../secret.png", "/etc/passwd", "file:///etc/passwd",
-	      "http://example.com/x.png", "..\\secret.png", "c:\\x.png", "..", ""})
+	for (const std::string Uri : {"../secret.png", "%2e%2e/secret.png", "a/../../secret.png", "/etc/passwd", "file:///etc/passwd",
+	         "http://example.com/x.png", "..\\secret.png", "c:\\x.png", "..", ""})
 	{
 		FGltfMaker Maker = MakeTriangle();
 		SetImage(Maker, {{"uri", Uri}});
@@ -343,7 +312,7 @@ TEST(HostileGltf, PathsOutsideTheFolderAreRefused)
 	FGltfMaker Maker = MakeTriangle();
 	SetImage(Maker, {{"uri", "missing.png"}});
 	ExpectError(LoadScene(Folder.Write("inner/scene.gltf", Maker.GetText())),
-	            {"images[0]", "missing.png", "no such file", "materials[0].normalTexture"});
+	    {"images[0]", "missing.png", "no such file", "materials[0].normalTexture"});
 	SetImage(Maker, {{"uri", "."}});
 	ExpectError(LoadScene(Folder.Write("inner/scene.gltf", Maker.GetText())), {"images[0]", "directory"});
 }
@@ -354,10 +323,7 @@ TEST(HostileGltf, MessagesAreOneBearableLine)
 	SetImage(Maker, {{"uri", MakeUri({'x'})}, {"name", std::string(100000, 'n') + "\n\x1b[31m"}});
 	ExpectError(Maker.Load(), {"images[0]"});
 	Maker = MakeTriangle();
-	for (int I = 0; I < 1000; ++I)
-	{
-		Maker.Json["meshes"][0]["primitives"].push_back({{"attributes", nlohmann::json::object()}});
-	}
+	for (int I = 0; I < 1000; ++I) { Maker.Json["meshes"][0]["primitives"].push_back({{"attributes", nlohmann::json::object()}}); }
 	const FLoadResult Result = Maker.Load();
 	ASSERT_TRUE(Result.Scene) << Result.Error;
 	EXPECT_EQ(Result.Scene->Warnings.size(), 51u);
@@ -388,15 +354,10 @@ TEST(HostileGltf, ABufferFileThatEndsEarly)
 TEST(HostileGltf, GlbHeadersThatLie)
 {
 	const std::string Glb = MakeTriangle().GetGlb();
-	const auto LoadGlb = [](const std::string& Data)
-	{ return LoadSceneFromMemory(Data.data(), Data.size(), "test.glb"); };
+	const auto LoadGlb = [](const std::string& Data) { return LoadSceneFromMemory(Data.data(), Data.size(), "test.glb"); };
 	ASSERT_TRUE(LoadGlb(Glb).Scene);
-	for (size_t Length = 0; Length < Glb.size(); ++Length)
-	{
-		EXPECT_FALSE(LoadGlb(Glb.substr(0, Length)).Scene) << Length;
-	}
-	const auto Patch = [&](size_t Offset, uint32_t Value)
-	{
+	for (size_t Length = 0; Length < Glb.size(); ++Length) { EXPECT_FALSE(LoadGlb(Glb.substr(0, Length)).Scene) << Length; }
+	const auto Patch = [&](size_t Offset, uint32_t Value) {
 		std::string Patched = Glb;
 		std::memcpy(Patched.data() + Offset, &Value, 4);
 		return LoadGlb(Patched);
@@ -417,14 +378,12 @@ TEST(HostileGltf, GlbHeadersThatLie)
 
 TEST(HostileGltf, AnimationsThatCannotBePlayed)
 {
-	const auto Load = [](const std::vector<float>& Times, const std::vector<float>& Values, const char* Interpolation)
-	{
+	const auto Load = [](const std::vector<float>& Times, const std::vector<float>& Values, const char* Interpolation) {
 		FGltfMaker Maker = MakeTriangle();
 		const int Input = Maker.AddAccessor(Times, "SCALAR", 5126, Times.size());
 		const int Output = Maker.AddVec3(Values);
-		Maker.Json["animations"] = {
-		    {{"samplers", {{{"input", Input}, {"output", Output}, {"interpolation", Interpolation}}}},
-		     {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}}}}};
+		Maker.Json["animations"] = {{{"samplers", {{{"input", Input}, {"output", Output}, {"interpolation", Interpolation}}}},
+		    {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}}}}};
 		return Maker.Load();
 	};
 	EXPECT_TRUE(Load({0, 1}, {1, 1, 1, 2, 2, 2}, "LINEAR").Scene);
@@ -436,8 +395,8 @@ TEST(HostileGltf, AnimationsThatCannotBePlayed)
 	ExpectError(Load({0, 1}, {1, 1, 1, 2, 2, 2}, "SPLINE"), {"SPLINE"});
 	FGltfMaker Maker = MakeTriangle();
 	Maker.Json["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-	Maker.Json["animations"] = {{{"samplers", {{{"input", 0}, {"output", 0}}}},
-	                             {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}}}}};
+	Maker.Json["animations"] = {
+	    {{"samplers", {{{"input", 0}, {"output", 0}}}}, {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}}}}};
 	ExpectError(Maker.Load(), {"node 0", "matrix"});
 }
 
@@ -445,15 +404,13 @@ TEST(HostileGltf, AnimationsThatCannotBePlayed)
 TEST(HostileGltf, TheFuzzersCorpus)
 {
 	size_t Count = 0;
-	for (const auto& Entry :
-	     std::filesystem::directory_iterator(std::filesystem::path(LANTERN_SOURCE_DIR) / "Tests/Data/GltfCorpus"))
+	for (const auto& Entry : std::filesystem::directory_iterator(std::filesystem::path(LANTERN_SOURCE_DIR) / "Tests/Data/GltfCorpus"))
 	{
 		std::ifstream Stream(Entry.path(), std::ios::binary);
 		const std::string Data((std::istreambuf_iterator<char>(Stream)), std::istreambuf_iterator<char>());
 		FLoadOptions Options;
 		Options.MaxGeometryBytes = Options.MaxImageBytes = 64 << 20;
-		const FLoadResult Result =
-		    LoadSceneFromMemory(Data.data(), Data.size(), Entry.path().filename().string(), Options);
+		const FLoadResult Result = LoadSceneFromMemory(Data.data(), Data.size(), Entry.path().filename().string(), Options);
 		EXPECT_NE(Result.Scene.has_value(), !Result.Error.empty()) << Entry.path();
 		if (Result.Scene)
 		{

@@ -30,11 +30,10 @@ void ExpectClean(const FLoadResult& Result)
 
 TEST(HostileGltfText, JsonOfBrokenBytes)
 {
-	for (const std::string Bytes : {"\xff", "\x1b[31m", "\xC3", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xC0\x80",
-	                                "\u0085", "\u202E", "\x7f", "\r\n\x01"})
+	for (const std::string Bytes :
+	    {"\xff", "\x1b[31m", "\xC3", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xC0\x80", "\u0085", "\u202E", "\x7f", "\r\n\x01"})
 	{
-		for (const std::string Before :
-		     {"", "{\"a\": ", "{\"a\": \"text", "{\"", "{\"a\": \"\\u12", "[1, tr", "{\"a\": \"text\"} "})
+		for (const std::string Before : {"", "{\"a\": ", "{\"a\": \"text", "{\"", "{\"a\": \"\\u12", "[1, tr", "{\"a\": \"text\"} "})
 		{
 			const FLoadResult Result = FGltfMaker::LoadText(Before + Bytes);
 			ExpectError(Result, {"test.gltf: not valid JSON"});
@@ -75,12 +74,10 @@ TEST(HostileGltfText, NamesAndWords)
 	    {"/extensions/KHR_lights_punctual/lights", {{{"type", Worse}}}},
 	    {"/nodes/0", {{"mesh", 0}, {"name", Worse}, {"scale", {1e30, 1, 1}}}},
 	    {"/images", {{{"name", Worse}}}},
-	    {"/animations",
-	     {{{"samplers", {{{"input", 2}, {"output", 0}, {"interpolation", Worse}}}},
-	       {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}}}}}},
-	    {"/animations",
-	     {{{"samplers", {{{"input", 2}, {"output", 0}}}},
-	       {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", Worse}}}}}}}}},
+	    {"/animations", {{{"samplers", {{{"input", 2}, {"output", 0}, {"interpolation", Worse}}}},
+	                        {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}}}}}},
+	    {"/animations", {{{"samplers", {{{"input", 2}, {"output", 0}}}},
+	                        {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", Worse}}}}}}}}},
 	};
 	for (const auto& [Pointer, Value] : Cases)
 	{
@@ -103,10 +100,7 @@ TEST(HostileGltfText, NamesThatAreLong)
 	{
 		FGltfMaker Maker = MakeTriangle();
 		std::string Name;
-		while (Name.size() < 5000)
-		{
-			Name += Piece;
-		}
+		while (Name.size() < 5000) { Name += Piece; }
 		Maker.Json["nodes"][0]["name"] = Name;
 		Maker.Json["nodes"][0]["scale"] = {1e30, 1, 1};
 		const FLoadResult Result = Maker.Load();
@@ -129,8 +123,7 @@ TEST(HostileGltfText, Warnings)
 TEST(HostileGltfText, UrisAndPaths)
 {
 	const FTemporaryFolder Folder;
-	for (const std::string Uri :
-	     {"%ff%1b%0a.bin", "%2e%2e/%ff%1b%0a", "/%ff%c2%85%e2%80%ae", "a:%ff", "%ff%0aerror:forged.bin"})
+	for (const std::string Uri : {"%ff%1b%0a.bin", "%2e%2e/%ff%1b%0a", "/%ff%c2%85%e2%80%ae", "a:%ff", "%ff%0aerror:forged.bin"})
 	{
 		FGltfMaker Maker = MakeTriangle();
 		Maker.Json["buffers"] = {{{"byteLength", 1}, {"uri", Uri}}};
@@ -146,8 +139,7 @@ TEST(HostileGltfText, UrisAndPaths)
 		Maker.Json["materials"] = {{{"normalTexture", {{"index", 0}}}}};
 		ExpectClean(LoadScene(Folder.Write("scene.gltf", Maker.GetText())));
 	}
-	for (const std::string Name :
-	     {"\xff\x1b\nerror: forged.gltf", "\xff\u202E", "courtyard:\x1b[31m\xff", "furnace:\n"})
+	for (const std::string Name : {"\xff\x1b\nerror: forged.gltf", "\xff\u202E", "courtyard:\x1b[31m\xff", "furnace:\n"})
 	{
 		const FLoadResult Result = LoadScene(Name);
 		EXPECT_FALSE(Result.Scene);

@@ -1,6 +1,6 @@
 // Scenes that take more than a second to build or load: the courtyard, and a chain of a million nodes.
-#include "Support/GltfTestTools.h"
 #include "LanternHost/VertexPacking.h"
+#include "Support/GltfTestTools.h"
 
 namespace Lantern
 {
@@ -59,14 +59,8 @@ TEST(Courtyard, IsTheSameEveryTime)
 {
 	const FSceneDescription A = BuildCourtyard(), B = BuildCourtyard();
 	ASSERT_EQ(A.Meshes.size(), B.Meshes.size());
-	for (size_t I = 0; I < A.Meshes.size(); ++I)
-	{
-		EXPECT_EQ(A.Meshes[I].Positions, B.Meshes[I].Positions);
-	}
-	for (size_t I = 0; I < A.Images.size(); ++I)
-	{
-		EXPECT_EQ(A.Images[I].Rgba, B.Images[I].Rgba);
-	}
+	for (size_t I = 0; I < A.Meshes.size(); ++I) { EXPECT_EQ(A.Meshes[I].Positions, B.Meshes[I].Positions); }
+	for (size_t I = 0; I < A.Images.size(); ++I) { EXPECT_EQ(A.Images[I].Rgba, B.Images[I].Rgba); }
 }
 
 /// Single-sided closed shapes must show their fronts: a wrong winding would vanish or shade black.
@@ -85,8 +79,8 @@ TEST(Courtyard, NormalsAgreeWithTheWinding)
 			for (uint32_t I = 0; I < Section.IndexCount; I += 3)
 			{
 				const uint32_t* Index = &Mesh.Indices[Section.FirstIndex + I];
-				const glm::vec3 Face = glm::cross(Mesh.Positions[Index[1]] - Mesh.Positions[Index[0]],
-				                                  Mesh.Positions[Index[2]] - Mesh.Positions[Index[0]]);
+				const glm::vec3 Face =
+				    glm::cross(Mesh.Positions[Index[1]] - Mesh.Positions[Index[0]], Mesh.Positions[Index[2]] - Mesh.Positions[Index[0]]);
 				const glm::vec3 Normal = UnpackUnitVector(Mesh.Attributes[Index[0]].Normal) +
 				                         UnpackUnitVector(Mesh.Attributes[Index[1]].Normal) +
 				                         UnpackUnitVector(Mesh.Attributes[Index[2]].Normal);
@@ -101,10 +95,7 @@ TEST(Courtyard, NormalsAgreeWithTheWinding)
 std::string MakeChain(int Count)
 {
 	std::string Text = "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[";
-	for (int I = 0; I + 1 < Count; ++I)
-	{
-		Text += "{\"children\":[" + std::to_string(I + 1) + "]},";
-	}
+	for (int I = 0; I + 1 < Count; ++I) { Text += "{\"children\":[" + std::to_string(I + 1) + "]},"; }
 	return Text + "{}]}";
 }
 

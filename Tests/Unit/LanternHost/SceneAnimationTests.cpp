@@ -8,8 +8,7 @@ namespace Lantern
 namespace
 {
 
-FSceneDescription MakeAnimated(EAnimationPath Path, EInterpolation Interpolation, std::vector<float> Times,
-                               std::vector<glm::vec4> Values)
+FSceneDescription MakeAnimated(EAnimationPath Path, EInterpolation Interpolation, std::vector<float> Times, std::vector<glm::vec4> Values)
 {
 	FSceneDescription Scene;
 	Scene.Nodes.resize(1);
@@ -26,10 +25,7 @@ FSceneDescription MakeAnimated(EAnimationPath Path, EInterpolation Interpolation
 	return Scene;
 }
 
-glm::dvec3 GetPlace(const FSceneDescription& Scene, double Time)
-{
-	return glm::dvec3(EvaluatePose(Scene, Time).World[0][3]);
-}
+glm::dvec3 GetPlace(const FSceneDescription& Scene, double Time) { return glm::dvec3(EvaluatePose(Scene, Time).World[0][3]); }
 
 TEST(SceneAnimation, StepHoldsAndLinearBlends)
 {
@@ -45,8 +41,7 @@ TEST(SceneAnimation, StepHoldsAndLinearBlends)
 
 TEST(SceneAnimation, TimeIsLooped)
 {
-	const auto Scene =
-	    MakeAnimated(EAnimationPath::Translation, EInterpolation::Linear, {0, 2}, {{0, 0, 0, 0}, {2, 0, 0, 0}});
+	const auto Scene = MakeAnimated(EAnimationPath::Translation, EInterpolation::Linear, {0, 2}, {{0, 0, 0, 0}, {2, 0, 0, 0}});
 	EXPECT_NEAR(GetPlace(Scene, 7.5).x, 1.5, 1e-9);
 	EXPECT_NEAR(GetPlace(Scene, -0.5).x, 1.5, 1e-9);
 	EXPECT_EQ(GetPlace(Scene, 2.0).x, 0.0);
@@ -56,8 +51,7 @@ TEST(SceneAnimation, RotationsTakeTheShortWayAtConstantSpeed)
 {
 	const float H = std::sqrt(0.5f);
 	// A quarter turn about y; the second key is the negative of the same rotation.
-	const auto Scene =
-	    MakeAnimated(EAnimationPath::Rotation, EInterpolation::Linear, {0, 3}, {{0, 0, 0, 1}, {0, -H, 0, -H}});
+	const auto Scene = MakeAnimated(EAnimationPath::Rotation, EInterpolation::Linear, {0, 3}, {{0, 0, 0, 1}, {0, -H, 0, -H}});
 	const glm::dvec3 X = EvaluatePose(Scene, 1.0).World[0] * glm::dvec4(1, 0, 0, 0);
 	EXPECT_NEAR(X.x, std::cos(glm::radians(30.0)), 1e-6);
 	EXPECT_NEAR(X.z, -std::sin(glm::radians(30.0)), 1e-6);
@@ -66,13 +60,9 @@ TEST(SceneAnimation, RotationsTakeTheShortWayAtConstantSpeed)
 TEST(SceneAnimation, CubicSplinesFollowTheirTangents)
 {
 	// x(t) = t³ from 0 to 2: its Hermite form has slopes 0 and 12.
-	const auto Scene =
-	    MakeAnimated(EAnimationPath::Translation, EInterpolation::CubicSpline, {0, 2},
-	                 {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, {12, 0, 0, 0}, {8, 0, 0, 0}, {0, 0, 0, 0}});
-	for (const double Time : {0.0, 0.5, 1.0, 1.7})
-	{
-		EXPECT_NEAR(GetPlace(Scene, Time).x, Time * Time * Time, 1e-6);
-	}
+	const auto Scene = MakeAnimated(EAnimationPath::Translation, EInterpolation::CubicSpline, {0, 2},
+	    {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, {12, 0, 0, 0}, {8, 0, 0, 0}, {0, 0, 0, 0}});
+	for (const double Time : {0.0, 0.5, 1.0, 1.7}) { EXPECT_NEAR(GetPlace(Scene, Time).x, Time * Time * Time, 1e-6); }
 }
 
 TEST(SceneAnimation, ScaleAndRotationComposeInTheRightOrder)
@@ -96,17 +86,13 @@ FGltfMaker MakeArm()
 	Primitive["attributes"]["POSITION"] = Maker.AddVec3({0, 0, 0, 1, 0, 0, 2, 0, 0});
 	Primitive["attributes"]["NORMAL"] = Maker.AddVec3({0, 0, 1, 0, 0, 1, 0, 0, 1});
 	// Unused slots name joints that do not exist: they weigh nothing.
-	Primitive["attributes"]["JOINTS_0"] =
-	    Maker.AddAccessor(std::vector<uint8_t>{0, 99, 0, 0, 0, 1, 0, 0, 1, 0, 99, 0}, "VEC4", 5121, 3);
-	Primitive["attributes"]["WEIGHTS_0"] =
-	    Maker.AddAccessor(std::vector<float>{1, 0, 0, 0, 0.5, 0.5, 0, 0, 2, 0, 0, 0}, "VEC4", 5126, 3);
-	const std::vector<float> Bind = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0,  0, 0, 1,
-	                                 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 1};
+	Primitive["attributes"]["JOINTS_0"] = Maker.AddAccessor(std::vector<uint8_t>{0, 99, 0, 0, 0, 1, 0, 0, 1, 0, 99, 0}, "VEC4", 5121, 3);
+	Primitive["attributes"]["WEIGHTS_0"] = Maker.AddAccessor(std::vector<float>{1, 0, 0, 0, 0.5, 0.5, 0, 0, 2, 0, 0, 0}, "VEC4", 5126, 3);
+	const std::vector<float> Bind = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 1};
 	Maker.Json["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", Maker.AddAccessor(Bind, "MAT4", 5126, 2)}}};
 	// The skinned node's own place does not count.
-	Maker.Json["nodes"] = {{{"mesh", 0}, {"skin", 0}, {"translation", {0, 50, 0}}},
-	                       {{"children", {2}}, {"translation", {0, 0, 7}}},
-	                       {{"translation", {1, 0, 0}}, {"rotation", {0, 0, std::sqrt(0.5), std::sqrt(0.5)}}}};
+	Maker.Json["nodes"] = {{{"mesh", 0}, {"skin", 0}, {"translation", {0, 50, 0}}}, {{"children", {2}}, {"translation", {0, 0, 7}}},
+	    {{"translation", {1, 0, 0}}, {"rotation", {0, 0, std::sqrt(0.5), std::sqrt(0.5)}}}};
 	return Maker;
 }
 
@@ -117,10 +103,7 @@ TEST(SceneAnimation, ASkinBendsItsMeshWhereverItsNodeIs)
 	const FSceneDescription& Scene = *Result.Scene;
 	const FScenePose Pose = EvaluatePose(Scene, 0);
 	int32_t Node = 0;
-	while (Scene.Nodes[size_t(Node)].Skin < 0)
-	{
-		++Node;
-	}
+	while (Scene.Nodes[size_t(Node)].Skin < 0) { ++Node; }
 	const std::vector<glm::mat4> Joints = EvaluateJoints(Scene, Pose, Node);
 	ASSERT_EQ(Joints.size(), 2u);
 	const glm::dvec4 Tip = Pose.World[size_t(Node)] * glm::dvec4(Joints[1] * glm::vec4(2, 0, 0, 1));
@@ -138,8 +121,7 @@ TEST(SceneAnimation, OfEightInfluencesTheStrongestFourStay)
 {
 	FGltfMaker Maker = MakeArm();
 	auto& Attributes = Maker.Json["meshes"][0]["primitives"][0]["attributes"];
-	Attributes["JOINTS_1"] =
-	    Maker.AddAccessor(std::vector<uint16_t>{0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1}, "VEC4", 5123, 3);
+	Attributes["JOINTS_1"] = Maker.AddAccessor(std::vector<uint16_t>{0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1}, "VEC4", 5123, 3);
 	Attributes["WEIGHTS_1"] = Maker.AddAccessor(std::vector<float>(12, 0.25f), "VEC4", 5126, 3);
 	const FLoadResult Result = Maker.Load();
 	ASSERT_TRUE(Result.Scene) << Result.Error;
@@ -161,7 +143,7 @@ TEST(SceneAnimation, ChannelsAreReadFromAFile)
 	Maker.AddTriangle();
 	const int Times = Maker.AddAccessor(std::vector<float>{0, 1}, "SCALAR", 5126, 2);
 	Maker.Json["animations"] = {{{"samplers", {{{"input", Times}, {"output", Maker.AddVec3({0, 0, 0, 2, 0, 0})}}}},
-	                             {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
+	    {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
 	const FLoadResult Result = Maker.Load();
 	ASSERT_TRUE(Result.Scene) << Result.Error;
 	EXPECT_EQ(GetPlace(*Result.Scene, 0.25).x, 0.5);

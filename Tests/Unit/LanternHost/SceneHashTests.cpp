@@ -63,42 +63,33 @@ TEST(FSceneHashTest, EveryChangeShows)
 {
 	using FChange = std::function<void(FSceneDescription&)>;
 	const FChange Changes[] = {
-	    [](auto& S) { S.Images[1].Rgba[15] ^= 1; },
-	    [](auto& S) { std::swap(S.Images[0], S.Images[1]), S.Images[0].Rgba[0] = 1; },
-	    [](auto& S) { S.Images[0].Width = 1, S.Images[0].Height = 4; },
-	    [](auto& S) { S.Images[0].bSrgb = true; },
-	    [](auto& S) { S.Textures[1].Image = 0; },
-	    [](auto& S) { S.Textures[1].bRepeatV = false; },
-	    [](auto& S) { S.Textures[1].bMirrorU = true; },
-	    [](auto& S) { S.Textures[1].bNearest = true; },
-	    [](auto& S) { S.Materials[1].BaseColor.z = 0.5f; },
-	    [](auto& S) { S.Materials[1].Emissive.x = 1.0f; },
-	    [](auto& S) { S.Materials[1].Roughness = 0.5f; },
-	    [](auto& S) { S.Materials[1].AlphaCutoff = 0.25f; },
-	    [](auto& S) { S.Materials[1].AlphaMode = EAlphaMode::Mask; },
-	    [](auto& S) { S.Materials[1].bDoubleSided = true; },
-	    [](auto& S) { S.Materials[1].Slots[TEXTURE_NORMAL].Texture = 1; },
-	    [](auto& S) { S.Materials[1].Slots[TEXTURE_NORMAL].Offset.y = 1.0f; },
-	    [](auto& S) { S.Materials[1].Program = "Own.glsl"; },
-	    [](auto& S) { S.Meshes[0].Positions[2].y = 2.0f; },
-	    [](auto& S) { S.Meshes[0].Attributes[2].Normal = 5; },
-	    [](auto& S) { S.Meshes[0].Skin[0].Weights[3] = 1.0f; },
-	    [](auto& S) { S.Meshes[0].Indices = {0, 2, 1}; },
-	    [](auto& S) { S.Meshes[0].Sections[0].Material = 1; },
-	    [](auto& S) { S.Nodes[1].Parent = 0; },
-	    [](auto& S) { S.Nodes[1].Translation.x = 1e-9; },
-	    [](auto& S) { S.Nodes[1].Matrix = glm::dmat4(1.0); },
-	    [](auto& S) { S.Nodes[0].Materials = {0}; },
-	    [](auto& S) { S.Nodes[0].Materials.clear(); },
-	    [](auto& S) { S.Nodes[1].Light = 0; },
-	    [](auto& S) { S.Nodes.emplace_back(); },
-	    [](auto& S) { S.Skins[0].InverseBind[0][3][0] = 1.0f; },
+	    [](auto& S) {
+		S.Images[1].Rgba[15] ^= 1;
+	    },
+	    [](auto& S) {
+		std::swap(S.Images[0], S.Images[1]), S.Images[0].Rgba[0] = 1;
+	},
+	              [](auto& S) { S.Images[0].Width = 1, S.Images[0].Height = 4; }, [](auto& S) { S.Images[0].bSrgb = true; },
+	              [](auto& S) { S.Textures[1].Image = 0; }, [](auto& S) { S.Textures[1].bRepeatV = false; },
+	              [](auto& S) { S.Textures[1].bMirrorU = true; }, [](auto& S) { S.Textures[1].bNearest = true; },
+	              [](auto& S) { S.Materials[1].BaseColor.z = 0.5f; }, [](auto& S) { S.Materials[1].Emissive.x = 1.0f; },
+	              [](auto& S) { S.Materials[1].Roughness = 0.5f; }, [](auto& S) { S.Materials[1].AlphaCutoff = 0.25f; },
+	              [](auto& S) { S.Materials[1].AlphaMode = EAlphaMode::Mask; }, [](auto& S) { S.Materials[1].bDoubleSided = true; },
+	              [](auto& S) { S.Materials[1].Slots[TEXTURE_NORMAL].Texture = 1; },
+	              [](auto& S) { S.Materials[1].Slots[TEXTURE_NORMAL].Offset.y = 1.0f; },
+	              [](auto& S) { S.Materials[1].Program = "Own.glsl"; }, [](auto& S) { S.Meshes[0].Positions[2].y = 2.0f; },
+	              [](auto& S) { S.Meshes[0].Attributes[2].Normal = 5; }, [](auto& S) { S.Meshes[0].Skin[0].Weights[3] = 1.0f; },
+	              [](auto& S) {
+		S.Meshes[0].Indices = {0, 2, 1};
+	},
+	    [](auto& S) { S.Meshes[0].Sections[0].Material = 1; }, [](auto& S) { S.Nodes[1].Parent = 0; },
+	    [](auto& S) { S.Nodes[1].Translation.x = 1e-9; }, [](auto& S) { S.Nodes[1].Matrix = glm::dmat4(1.0); },
+	    [](auto& S) { S.Nodes[0].Materials = {0}; }, [](auto& S) { S.Nodes[0].Materials.clear(); }, [](auto& S) { S.Nodes[1].Light = 0; },
+	    [](auto& S) { S.Nodes.emplace_back(); }, [](auto& S) { S.Skins[0].InverseBind[0][3][0] = 1.0f; },
 	    [](auto& S) { S.Animations[0].Channels[0].Times[1] = 2.0f; },
-	    [](auto& S) { S.Animations[0].Channels[0].Path = EAnimationPath::Scale; },
-	    [](auto& S) { S.Animations[0].Duration = 2.0f; },
-	    [](auto& S) { S.Lights[0].Color.y = 2.0f; },
-	    [](auto& S) { S.Lights[0].OuterCone = 0.5f; },
-	};
+	    [](auto& S) { S.Animations[0].Channels[0].Path = EAnimationPath::Scale; }, [](auto& S) { S.Animations[0].Duration = 2.0f; },
+	    [](auto& S) { S.Lights[0].Color.y = 2.0f; }, [](auto& S) { S.Lights[0].OuterCone = 0.5f; },
+	    };
 	std::set<std::string> Seen = {HashScene(MakeScene()).ToHex()};
 	for (size_t I = 0; I < std::size(Changes); ++I)
 	{

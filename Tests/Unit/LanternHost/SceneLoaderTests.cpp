@@ -3,8 +3,8 @@
 
 #include <glm/gtc/constants.hpp>
 
-#include "Support/GltfTestTools.h"
 #include "LanternHost/VertexPacking.h"
+#include "Support/GltfTestTools.h"
 
 namespace Lantern
 {
@@ -16,18 +16,15 @@ size_t CountTriangles(const FSceneDescription& Scene)
 	size_t Count = 0;
 	for (const FHostMesh& Mesh : Scene.Meshes)
 	{
-		for (const FHostSection& Section : Mesh.Sections)
-		{
-			Count += Section.IndexCount / 3;
-		}
+		for (const FHostSection& Section : Mesh.Sections) { Count += Section.IndexCount / 3; }
 	}
 	return Count;
 }
 
 bool HasWarning(const FSceneDescription& Scene, const std::string& Word)
 {
-	return std::any_of(Scene.Warnings.begin(), Scene.Warnings.end(),
-	                   [&](const std::string& Warning) { return Warning.find(Word) != std::string::npos; });
+	return std::any_of(
+	    Scene.Warnings.begin(), Scene.Warnings.end(), [&](const std::string& Warning) { return Warning.find(Word) != std::string::npos; });
 }
 
 TEST(VertexPacking, UnitVectorsSurviveWithinHalfAMinuteOfArc)
@@ -89,7 +86,7 @@ TEST(SceneLoader, AllIndexTypesStripsAndFansGiveTheSameSurface)
 	};
 	// A square 0 1 2 3 as the corners (0,0) (1,0) (0,1) (1,1).
 	for (const FCase& Case : {FCase{4, 5121, {0, 1, 2}}, FCase{4, 5123, {0, 1, 2}}, FCase{4, 5125, {0, 1, 2}},
-	                          FCase{5, 5121, {0, 1, 2, 1, 3, 2}}, FCase{6, 5123, {1, 2, 0, 2, 3, 0}}})
+	         FCase{5, 5121, {0, 1, 2, 1, 3, 2}}, FCase{6, 5123, {1, 2, 0, 2, 3, 0}}})
 	{
 		FGltfMaker Maker;
 		auto& Primitive = Maker.AddTriangle();
@@ -97,10 +94,9 @@ TEST(SceneLoader, AllIndexTypesStripsAndFansGiveTheSameSurface)
 		Primitive["attributes"]["NORMAL"] = Maker.AddVec3({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
 		Primitive["mode"] = Case.Mode;
 		const size_t Count = Case.Mode == 4 ? 3 : 4;
-		Primitive["indices"] =
-		    Case.ComponentType == 5121   ? Maker.AddAccessor(std::vector<uint8_t>{0, 1, 2, 3}, "SCALAR", 5121, Count)
-		    : Case.ComponentType == 5123 ? Maker.AddAccessor(std::vector<uint16_t>{0, 1, 2, 3}, "SCALAR", 5123, Count)
-		                                 : Maker.AddAccessor(std::vector<uint32_t>{0, 1, 2, 3}, "SCALAR", 5125, Count);
+		Primitive["indices"] = Case.ComponentType == 5121   ? Maker.AddAccessor(std::vector<uint8_t>{0, 1, 2, 3}, "SCALAR", 5121, Count)
+		                       : Case.ComponentType == 5123 ? Maker.AddAccessor(std::vector<uint16_t>{0, 1, 2, 3}, "SCALAR", 5123, Count)
+		                                                    : Maker.AddAccessor(std::vector<uint32_t>{0, 1, 2, 3}, "SCALAR", 5125, Count);
 		const FLoadResult Result = Maker.Load();
 		ASSERT_TRUE(Result.Scene) << Result.Error;
 		EXPECT_EQ(Result.Scene->Meshes[0].Indices, Case.Expected) << "mode " << Case.Mode;
@@ -124,8 +120,7 @@ TEST(SceneLoader, NormalisedAndQuantisedAttributesAreConverted)
 	const int UV1 = Maker.AddAccessor(std::vector<uint16_t>{0, 65535, 13107, 0, 65535, 0}, "VEC2", 5123, 3);
 	Maker.Json["accessors"][UV1]["normalized"] = true;
 	Primitive["attributes"]["TEXCOORD_1"] = UV1;
-	const int Color =
-	    Maker.AddAccessor(std::vector<uint16_t>{65535, 0, 0, 0, 0, 65535, 0, 0, 0, 0, 65535, 0}, "VEC3", 5123, 3);
+	const int Color = Maker.AddAccessor(std::vector<uint16_t>{65535, 0, 0, 0, 0, 65535, 0, 0, 0, 0, 65535, 0}, "VEC3", 5123, 3);
 	Maker.Json["accessors"][Color]["normalized"] = true;
 	Maker.Json["bufferViews"].back()["byteStride"] = 8;
 	Primitive["attributes"]["COLOR_0"] = Color;
@@ -146,14 +141,12 @@ TEST(SceneLoader, SparseAccessorsReplaceElements)
 	auto& Primitive = Maker.AddTriangle();
 	const int Indices = Maker.AddView(std::vector<uint8_t>{1, 2});
 	const int Values = Maker.AddView(std::vector<float>{5, 0, 0, 0, 6, 0});
-	const nlohmann::json Sparse = {{"count", 2},
-	                               {"indices", {{"bufferView", Indices}, {"componentType", 5121}}},
-	                               {"values", {{"bufferView", Values}}}};
+	const nlohmann::json Sparse = {
+	    {"count", 2}, {"indices", {{"bufferView", Indices}, {"componentType", 5121}}}, {"values", {{"bufferView", Values}}}};
 	Maker.Json["accessors"][Primitive["attributes"]["POSITION"].get<int>()]["sparse"] = Sparse;
 	// A second mesh whose positions are zeros but for the sparse ones.
 	Maker.Json["accessors"].push_back({{"type", "VEC3"}, {"componentType", 5126}, {"count", 3}, {"sparse", Sparse}});
-	Maker.Json["meshes"].push_back(
-	    {{"primitives", {{{"attributes", {{"POSITION", Maker.Json["accessors"].size() - 1}}}}}}});
+	Maker.Json["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", Maker.Json["accessors"].size() - 1}}}}}}});
 	const FLoadResult Result = Maker.Load();
 	ASSERT_TRUE(Result.Scene) << Result.Error;
 	for (const FHostMesh& Mesh : Result.Scene->Meshes)
@@ -198,8 +191,7 @@ FGltfMaker MakeTextured()
 	Maker.Json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}}};
 	Maker.Json["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 0}}};
 	Maker.Json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
-	                            {"normalTexture", {{"index", 1}, {"scale", 0.5}}},
-	                            {"emissiveTexture", {{"index", 0}}}}};
+	    {"normalTexture", {{"index", 1}, {"scale", 0.5}}}, {"emissiveTexture", {{"index", 0}}}}};
 	return Maker;
 }
 
@@ -245,10 +237,8 @@ TEST(SceneLoader, MaterialExtensionsAreRead)
 	Material["alphaMode"] = "MASK";
 	Material["alphaCutoff"] = 0.25;
 	Material["doubleSided"] = true;
-	Material["extensions"] = {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}},
-	                          {"KHR_materials_ior", {{"ior", 1.333}}},
-	                          {"KHR_materials_specular", {{"specularFactor", 0.25}}},
-	                          {"KHR_materials_transmission", {{"transmissionFactor", 1}}}};
+	Material["extensions"] = {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}}, {"KHR_materials_ior", {{"ior", 1.333}}},
+	    {"KHR_materials_specular", {{"specularFactor", 0.25}}}, {"KHR_materials_transmission", {{"transmissionFactor", 1}}}};
 	Material["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]["KHR_texture_transform"] = {
 	    {"offset", {0.5, 0.25}}, {"rotation", glm::half_pi<double>()}, {"scale", {2, 3}}, {"texCoord", 1}};
 	Maker.Json["extensionsUsed"] = {"KHR_texture_transform", "EXT_nonsense"};
@@ -276,15 +266,11 @@ TEST(SceneLoader, LightsAndCamerasAreRead)
 {
 	FGltfMaker Maker;
 	Maker.AddTriangle();
-	Maker.Json["extensions"]["KHR_lights_punctual"]["lights"] = {
-	    {{"type", "spot"},
-	     {"color", {1, 0.5, 0}},
-	     {"intensity", 40},
-	     {"range", 7},
-	     {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.2}}}},
+	Maker.Json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}, {"color", {1, 0.5, 0}}, {"intensity", 40}, {"range", 7},
+	                                                                 {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.2}}}},
 	    {{"type", "directional"}}};
 	Maker.Json["cameras"] = {{{"type", "orthographic"}, {"orthographic", {{"xmag", 1}}}},
-	                         {{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.05}}}}};
+	    {{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.05}}}}};
 	Maker.Json["nodes"].push_back({{"camera", 1}, {"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}});
 	Maker.Json["nodes"].push_back({{"camera", 0}});
 	const FLoadResult Result = Maker.Load();
@@ -307,9 +293,8 @@ TEST(SceneLoader, ParentsComeFirstAndOnlyTheChosenSceneIsShown)
 {
 	FGltfMaker Maker;
 	Maker.AddTriangle();
-	Maker.Json["nodes"] = {{{"mesh", 0}, {"name", "leaf"}},
-	                       {{"children", {0}}, {"translation", {1, 2, 3}}, {"name", "root"}},
-	                       {{"mesh", 0}, {"name", "elsewhere"}}};
+	Maker.Json["nodes"] = {{{"mesh", 0}, {"name", "leaf"}}, {{"children", {0}}, {"translation", {1, 2, 3}}, {"name", "root"}},
+	    {{"mesh", 0}, {"name", "elsewhere"}}};
 	Maker.Json["scenes"] = {{{"nodes", {2}}}, {{"nodes", {1}}}};
 	Maker.Json["scene"] = 1;
 	const FLoadResult Result = Maker.Load();
@@ -396,8 +381,8 @@ TEST(RealScenes, SponzaIsComplete)
 	EXPECT_EQ(Result.Scene->Meshes[0].Sections.size(), 103u);
 	EXPECT_EQ(Result.Scene->Images.size(), 67u);
 	EXPECT_EQ(std::count_if(Result.Scene->Materials.begin(), Result.Scene->Materials.end(),
-	                        [](const FHostMaterial& M) { return M.AlphaMode == EAlphaMode::Mask; }),
-	          3);
+	              [](const FHostMaterial& M) { return M.AlphaMode == EAlphaMode::Mask; }),
+	    3);
 	EXPECT_TRUE(Result.Scene->Warnings.empty());
 }
 
@@ -409,16 +394,12 @@ TEST(RealScenes, GeneratedTangentsRunAsSponzasOwn)
 	LANTERN_REQUIRE_SCENE(Path);
 	const FTemporaryFolder Folder;
 	nlohmann::json Json = nlohmann::json::parse(std::ifstream(Path));
-	for (auto& Primitive : Json["meshes"][0]["primitives"])
-	{
-		Primitive["attributes"].erase("TANGENT");
-	}
+	for (auto& Primitive : Json["meshes"][0]["primitives"]) { Primitive["attributes"].erase("TANGENT"); }
 	for (const auto& Entry : std::filesystem::directory_iterator(Path.parent_path()))
 	{
 		if (Entry.path().extension() != ".gltf")
 		{
-			std::filesystem::create_symlink(std::filesystem::absolute(Entry.path()),
-			                                Folder.Path / Entry.path().filename());
+			std::filesystem::create_symlink(std::filesystem::absolute(Entry.path()), Folder.Path / Entry.path().filename());
 		}
 	}
 	const FLoadResult Theirs = LoadScene(Path.string());
@@ -433,12 +414,8 @@ TEST(RealScenes, GeneratedTangentsRunAsSponzasOwn)
 		for (uint32_t I = 0; I < Section.IndexCount; ++I)
 		{
 			const uint32_t Vertex = A.Indices[Section.FirstIndex + I];
-			if (Ours.Scene->Materials[size_t(Section.Material)].Slots[TEXTURE_NORMAL].Texture < 0)
-			{
-				continue;
-			}
-			const glm::vec4 TA = UnpackTangent(A.Attributes[Vertex].Tangent),
-			                TB = UnpackTangent(B.Attributes[Vertex].Tangent);
+			if (Ours.Scene->Materials[size_t(Section.Material)].Slots[TEXTURE_NORMAL].Texture < 0) { continue; }
+			const glm::vec4 TA = UnpackTangent(A.Attributes[Vertex].Tangent), TB = UnpackTangent(B.Attributes[Vertex].Tangent);
 			++Compared;
 			OppositeSign += TA.w == -TB.w ? 1 : 0;
 			SameDirection += glm::dot(glm::vec3(TA), glm::vec3(TB)) > 0.97f ? 1 : 0;
@@ -455,27 +432,23 @@ TEST(RealScenes, BlackForestIsComplete)
 	LANTERN_REQUIRE_SCENE(Path);
 	const auto Start = std::chrono::steady_clock::now();
 	const FLoadResult Result = LoadScene(Path.string());
-	RecordProperty("seconds",
-	               std::to_string(std::chrono::duration<double>(std::chrono::steady_clock::now() - Start).count()));
+	RecordProperty("seconds", std::to_string(std::chrono::duration<double>(std::chrono::steady_clock::now() - Start).count()));
 	ASSERT_TRUE(Result.Scene) << Result.Error;
 	const FSceneDescription& Scene = *Result.Scene;
 	EXPECT_EQ(CountTriangles(Scene), 317096u);
 	size_t Instanced = 0, Lights = 0;
 	for (const FHostNode& Node : Scene.Nodes)
 	{
-		if (Node.Mesh >= 0)
-		{
-			Instanced += Scene.Meshes[size_t(Node.Mesh)].Indices.size() / 3;
-		}
+		if (Node.Mesh >= 0) { Instanced += Scene.Meshes[size_t(Node.Mesh)].Indices.size() / 3; }
 		Lights += Node.Light >= 0 ? 1 : 0;
 	}
 	EXPECT_EQ(Instanced, 1081410u);
 	EXPECT_EQ(Scene.Nodes.size(), 1765u);
 	EXPECT_EQ(Scene.Materials.size(), 156u);
 	EXPECT_EQ(Lights, 65u);
-	EXPECT_EQ(std::count_if(Scene.Materials.begin(), Scene.Materials.end(),
-	                        [](const FHostMaterial& M) { return M.AlphaMode == EAlphaMode::Mask; }),
-	          48);
+	EXPECT_EQ(std::count_if(
+	              Scene.Materials.begin(), Scene.Materials.end(), [](const FHostMaterial& M) { return M.AlphaMode == EAlphaMode::Mask; }),
+	    48);
 	EXPECT_TRUE(HasWarning(Scene, "KHR_materials_transmission"));
 	EXPECT_TRUE(HasWarning(Scene, "BLEND"));
 	EXPECT_EQ(Scene.Warnings.size(), 2u);
@@ -483,8 +456,7 @@ TEST(RealScenes, BlackForestIsComplete)
 
 TEST(RealScenes, CornellAndRoughnessLoad)
 {
-	const auto Cornell = GetScenesFolder() / "cornell/cornell.gltf",
-	           Roughness = GetScenesFolder() / "roughness/scene.gltf";
+	const auto Cornell = GetScenesFolder() / "cornell/cornell.gltf", Roughness = GetScenesFolder() / "roughness/scene.gltf";
 	LANTERN_REQUIRE_SCENE(Cornell);
 	const FLoadResult A = LoadScene(Cornell.string()), B = LoadScene(Roughness.string());
 	ASSERT_TRUE(A.Scene && B.Scene) << A.Error << B.Error;

@@ -36,10 +36,7 @@ public:
 		const FScenePose Pose = EvaluatePose(Scene, Time);
 		for (size_t Node = 0; Node < Scene.Nodes.size(); ++Node)
 		{
-			if (Scene.Nodes[Node].Mesh < 0)
-			{
-				continue;
-			}
+			if (Scene.Nodes[Node].Mesh < 0) { continue; }
 			const FHostMesh& Mesh = Scene.Meshes[size_t(Scene.Nodes[Node].Mesh)];
 			for (const uint32_t Index : Mesh.Indices)
 			{
@@ -60,10 +57,7 @@ public:
 			const double U = glm::dot(T, P) * Inverse, V = glm::dot(Direction, Q) * Inverse;
 			const double Distance = glm::dot(E2, Q) * Inverse;
 			// A little larger than they are: no ray slips through between two.
-			if (U >= -1e-9 && V >= -1e-9 && U + V <= 1 + 1e-9 && Distance > 1e-6)
-			{
-				Nearest = std::min(Nearest, Distance);
-			}
+			if (U >= -1e-9 && V >= -1e-9 && U + V <= 1 + 1e-9 && Distance > 1e-6) { Nearest = std::min(Nearest, Distance); }
 		}
 		return Nearest;
 	}
@@ -84,10 +78,7 @@ public:
 	double FindFarthest(const glm::dvec3& Origin, int Count) const
 	{
 		double Farthest = 0.0;
-		for (const glm::dvec3& Point : LookAround(Origin, Count))
-		{
-			Farthest = std::max(Farthest, glm::length(Point - Origin));
-		}
+		for (const glm::dvec3& Point : LookAround(Origin, Count)) { Farthest = std::max(Farthest, glm::length(Point - Origin)); }
 		return Farthest;
 	}
 
@@ -115,7 +106,7 @@ FCameraPose GetCamera(const FSceneDescription& Scene, double Time = 0.0)
 		{
 			const glm::dmat4& World = Pose.World[Node];
 			return {glm::dvec3(World[3]), glm::dvec3(World[0]), glm::dvec3(World[1]), -glm::dvec3(World[2]),
-			        std::tan(0.5 * double(Scene.Cameras[size_t(Scene.Nodes[Node].Camera)].FovY))};
+			    std::tan(0.5 * double(Scene.Cameras[size_t(Scene.Nodes[Node].Camera)].FovY))};
 		}
 	}
 	ADD_FAILURE() << "no camera";
@@ -126,10 +117,7 @@ int32_t FindNode(const FSceneDescription& Scene, std::string_view Name)
 {
 	for (size_t Node = 0; Node < Scene.Nodes.size(); ++Node)
 	{
-		if (Scene.Nodes[Node].Name == Name)
-		{
-			return int32_t(Node);
-		}
+		if (Scene.Nodes[Node].Name == Name) { return int32_t(Node); }
 	}
 	ADD_FAILURE() << "no node " << Name;
 	return 0;
@@ -145,10 +133,7 @@ glm::dvec3 GetPlace(const FSceneDescription& Scene, std::string_view Node, doubl
 	return glm::dvec3(EvaluatePose(Scene, Time).World[size_t(FindNode(Scene, Node))][3]);
 }
 
-bool IsDark(const FSceneDescription& Scene)
-{
-	return Scene.DefaultSun->w == 0.0f && *Scene.DefaultSky == glm::vec3(0);
-}
+bool IsDark(const FSceneDescription& Scene) { return Scene.DefaultSun->w == 0.0f && *Scene.DefaultSky == glm::vec3(0); }
 
 /// A sealed room around the camera that has no light but its lamps, all of which are inside.
 void ExpectSealed(const FSceneDescription& Scene, double Size)
@@ -193,8 +178,7 @@ TEST(StabilityScenes, LampsSwitchAndFlicker)
 	const FSceneDescription Switch = Build("stability-switch");
 	ExpectSealed(Switch, 10.0);
 	ASSERT_EQ(Switch.Lights.size(), 1u);
-	for (const auto& [Time, bOn] :
-	     {std::pair(0.0, true), {1.999, true}, {2.0, false}, {3.999, false}, {4.0, true}, {-0.5, false}})
+	for (const auto& [Time, bOn] : {std::pair(0.0, true), {1.999, true}, {2.0, false}, {3.999, false}, {4.0, true}, {-0.5, false}})
 	{
 		EXPECT_EQ(IsLightOn(Switch.Lights[0], Time), bOn) << Time;
 	}
@@ -219,12 +203,8 @@ TEST(StabilityScenes, LampsSwitchAndFlicker)
 		EXPECT_EQ(On, 300) << "half of the time";
 		EXPECT_EQ(Switches, int(2 * Light.FlickerHz));
 	}
-	EXPECT_EQ(std::count_if(Flicker.Lights.begin(), Flicker.Lights.end(),
-	                        [](const FHostLight& L) { return L.FlickerHz == 5; }),
-	          16);
-	EXPECT_EQ(std::count_if(Flicker.Lights.begin(), Flicker.Lights.end(),
-	                        [](const FHostLight& L) { return L.FlickerHz == 15; }),
-	          16);
+	EXPECT_EQ(std::count_if(Flicker.Lights.begin(), Flicker.Lights.end(), [](const FHostLight& L) { return L.FlickerHz == 5; }), 16);
+	EXPECT_EQ(std::count_if(Flicker.Lights.begin(), Flicker.Lights.end(), [](const FHostLight& L) { return L.FlickerHz == 15; }), 16);
 	EXPECT_EQ(Phases.size(), 8u);
 }
 
@@ -267,10 +247,7 @@ TEST(StabilityScenes, ThingsMove)
 	EXPECT_NEAR(GetPlace(Mirror, "mover", 0.75).x, 0.0, 1e-4);
 	EXPECT_NEAR(glm::length(GetPlace(Mirror, "mover", 1.0) - GetPlace(Mirror, "mover", 0.5)), 2.0, 1e-4);
 	int Mirrors = 0;
-	for (const FHostMaterial& Material : Mirror.Materials)
-	{
-		Mirrors += Material.Metallic == 1.0f && Material.Roughness == 0.0f;
-	}
+	for (const FHostMaterial& Material : Mirror.Materials) { Mirrors += Material.Metallic == 1.0f && Material.Roughness == 0.0f; }
 	EXPECT_EQ(Mirrors, 1) << "of both mirrors";
 
 	const FSceneDescription Hash = Build("stability-hash");
@@ -305,10 +282,7 @@ TEST(StabilityScenes, OneMeshIsHugeAndTwoThousandAreSmall)
 	int Small = 0, Close = 0;
 	for (const FHostNode& Node : Scene.Nodes)
 	{
-		if (Node.Name != "thing")
-		{
-			continue;
-		}
+		if (Node.Name != "thing") { continue; }
 		const FHostMesh& Mesh = Scene.Meshes[size_t(Node.Mesh)];
 		Small += glm::length(Mesh.BoundsMax - Mesh.BoundsMin) * Node.Scale.x < 8.0f;
 		Close += glm::length(glm::dvec2(Node.Translation.x, Node.Translation.z)) < 50.0;
@@ -323,10 +297,7 @@ TEST(StabilityScenes, CausticsFallOnAWallThatTheSunDoesNotReach)
 {
 	const FSceneDescription Scene = Build("stability-caustics");
 	const FTriangles Triangles(Scene);
-	for (const double Y : {1.0, 1.5, 2.0, 2.8})
-	{
-		EXPECT_FALSE(Triangles.IsInSun(Scene, {0.3, Y, -1.19})) << Y;
-	}
+	for (const double Y : {1.0, 1.5, 2.0, 2.8}) { EXPECT_FALSE(Triangles.IsInSun(Scene, {0.3, Y, -1.19})) << Y; }
 	const glm::dvec3 Sun = glm::normalize(glm::dvec3(*Scene.DefaultSun));
 	for (const double Z : {0.1, 0.5, 0.9})
 	{
@@ -360,8 +331,7 @@ TEST(StabilityScenes, ToonSeesNoDirectLight)
 	{
 		for (int X = 0; X < 48; ++X)
 		{
-			const double U = ((X + 0.5) / 24 - 1) * 16 / 9 * Camera.TanHalf,
-			             V = ((Y + 0.5) / 13.5 - 1) * Camera.TanHalf;
+			const double U = ((X + 0.5) / 24 - 1) * 16 / 9 * Camera.TanHalf, V = ((Y + 0.5) / 13.5 - 1) * Camera.TanHalf;
 			const glm::dvec3 Direction = glm::normalize(Camera.Forward + U * Camera.Right + V * Camera.Up);
 			const double Distance = Triangles.Trace(Camera.Position, Direction);
 			Lost += Distance == Nothing;

@@ -23,27 +23,18 @@ protected:
 	{
 		const std::filesystem::path Folder = GetSharedFolder() / "metrics";
 		std::ifstream File(Folder / "flip.json");
-		if (!File)
-		{
-			GTEST_SKIP() << "no " << (Folder / "flip.json") << "; set LANTERN_SHARED to the folder that holds metrics/";
-		}
+		if (!File) { GTEST_SKIP() << "no " << (Folder / "flip.json") << "; set LANTERN_SHARED to the folder that holds metrics/"; }
 		const nlohmann::json Pairs = nlohmann::json::parse(File).at("pairs");
 		for (const nlohmann::json& Candidate : Pairs)
 		{
-			if (Candidate.at("test") == GetParam())
-			{
-				Pair = Candidate;
-			}
+			if (Candidate.at("test") == GetParam()) { Pair = Candidate; }
 		}
 		ASSERT_FALSE(Pair.is_null()) << "flip.json lacks " << GetParam();
-		const FRTStatus Loaded[2] = {LoadImageFile(Folder / Pair.at("test"), Test),
-		                             LoadImageFile(Folder / Pair.at("reference"), Reference)};
+		const FRTStatus Loaded[2] = {
+		    LoadImageFile(Folder / Pair.at("test"), Test), LoadImageFile(Folder / Pair.at("reference"), Reference)};
 		for (const FRTStatus& Status : Loaded)
 		{
-			if (Status.Code == ERTResult::Unsupported)
-			{
-				GTEST_SKIP() << Status.Message;
-			}
+			if (Status.Code == ERTResult::Unsupported) { GTEST_SKIP() << Status.Message; }
 			ASSERT_TRUE(Status) << Status.Message;
 		}
 	}
@@ -69,23 +60,18 @@ TEST_P(FlipPairs, AgreesWithTheReferenceTool)
 }
 
 INSTANTIATE_TEST_SUITE_P(, FlipPairs,
-                         testing::Values("sponza_16spp.png", "forest_4spp.png", "sponza_blur5.png", "sponza_bright.png",
-                                         "sponza_shift1.png", "white.png", "checker4.png", "ramp_flip.png",
-                                         "sponza_16spp.exr", "forest_4spp.exr"),
-                         [](const auto& Info)
-                         {
-	                         std::string Name = Info.param;
-	                         Name[Name.size() - 4] = '_';
-	                         return Name;
-                         });
+    testing::Values("sponza_16spp.png", "forest_4spp.png", "sponza_blur5.png", "sponza_bright.png", "sponza_shift1.png", "white.png",
+        "checker4.png", "ramp_flip.png", "sponza_16spp.exr", "forest_4spp.exr"),
+    [](const auto& Info) {
+	std::string Name = Info.param;
+	Name[Name.size() - 4] = '_';
+	return Name;
+});
 
 FImage MakeRamp(uint32_t Width, uint32_t Height, EImageSpace Space)
 {
 	FImage Image(Width, Height, 3, Space);
-	for (size_t Index = 0; Index < Image.Pixels.size(); ++Index)
-	{
-		Image.Pixels[Index] = static_cast<float>(Index % 97) / 96.0f;
-	}
+	for (size_t Index = 0; Index < Image.Pixels.size(); ++Index) { Image.Pixels[Index] = static_cast<float>(Index % 97) / 96.0f; }
 	return Image;
 }
 
@@ -101,10 +87,7 @@ TEST(Flip, DisplayErrorIsSymmetric)
 {
 	const FImage A = MakeRamp(30, 20, EImageSpace::Display);
 	FImage B = A;
-	for (float& Value : B.Pixels)
-	{
-		Value *= Value;
-	}
+	for (float& Value : B.Pixels) { Value *= Value; }
 	const FFlipResult Forward = ComputeFlip(A, B);
 	EXPECT_GT(PoolFlip(Forward.Map).Mean, 0.01);
 	EXPECT_EQ(Forward.Map.Pixels, ComputeFlip(B, A).Map.Pixels);

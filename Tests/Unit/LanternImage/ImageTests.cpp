@@ -41,10 +41,7 @@ constexpr float Infinity = std::numeric_limits<float>::infinity();
 FImage MakePattern(uint32_t Width, uint32_t Height, uint32_t Channels, EImageSpace Space = EImageSpace::Linear)
 {
 	FImage Image(Width, Height, Channels, Space);
-	for (size_t Index = 0; Index < Image.Pixels.size(); ++Index)
-	{
-		Image.Pixels[Index] = static_cast<float>(Index % 256) / 255.0f;
-	}
+	for (size_t Index = 0; Index < Image.Pixels.size(); ++Index) { Image.Pixels[Index] = static_cast<float>(Index % 256) / 255.0f; }
 	return Image;
 }
 
@@ -54,35 +51,24 @@ std::string ReadBytes(const std::string& Path)
 	return {std::istreambuf_iterator<char>(File), std::istreambuf_iterator<char>()};
 }
 
-void WriteBytes(const std::string& Path, const std::string& Bytes)
-{
-	std::ofstream(Path, std::ios::binary) << Bytes;
-}
+void WriteBytes(const std::string& Path, const std::string& Bytes) { std::ofstream(Path, std::ios::binary) << Bytes; }
 
 size_t CountFiles(const std::filesystem::path& Folder)
 {
-	return static_cast<size_t>(
-	    std::distance(std::filesystem::directory_iterator(Folder), std::filesystem::directory_iterator()));
+	return static_cast<size_t>(std::distance(std::filesystem::directory_iterator(Folder), std::filesystem::directory_iterator()));
 }
 
-bool CanWrite(const std::string& Ending)
-{
-	return CheckImageOutput("name" + Ending).Code != ERTResult::Unsupported;
-}
+bool CanWrite(const std::string& Ending) { return CheckImageOutput("name" + Ending).Code != ERTResult::Unsupported; }
 
 // ---------------------------------------------------------------------------------------------------- files
 
 class RoundTrip : public testing::TestWithParam<std::tuple<const char*, uint32_t>>
-{
-};
+{};
 
 TEST_P(RoundTrip, KeepsRadianceAndPictures)
 {
 	const auto& [Ending, Channels] = GetParam();
-	if (!CanWrite(Ending))
-	{
-		GTEST_SKIP() << "this build cannot write " << Ending;
-	}
+	if (!CanWrite(Ending)) { GTEST_SKIP() << "this build cannot write " << Ending; }
 	const bool bPicture = std::strcmp(Ending, ".png") == 0;
 	FImage Saved = MakePattern(13, 7, Channels, bPicture ? EImageSpace::Display : EImageSpace::Linear);
 	if (!bPicture)
@@ -107,12 +93,9 @@ TEST_P(RoundTrip, KeepsRadianceAndPictures)
 }
 
 INSTANTIATE_TEST_SUITE_P(, RoundTrip,
-                         testing::Values(std::tuple(".pfm", 1u), std::tuple(".pfm", 3u), std::tuple(".exr", 1u),
-                                         std::tuple(".exr", 2u), std::tuple(".exr", 3u), std::tuple(".exr", 4u),
-                                         std::tuple(".png", 1u), std::tuple(".png", 2u), std::tuple(".png", 3u),
-                                         std::tuple(".png", 4u)),
-                         [](const auto& Info)
-                         { return (std::get<0>(Info.param) + 1) + std::to_string(std::get<1>(Info.param)); });
+    testing::Values(std::tuple(".pfm", 1u), std::tuple(".pfm", 3u), std::tuple(".exr", 1u), std::tuple(".exr", 2u), std::tuple(".exr", 3u),
+        std::tuple(".exr", 4u), std::tuple(".png", 1u), std::tuple(".png", 2u), std::tuple(".png", 3u), std::tuple(".png", 4u)),
+    [](const auto& Info) { return (std::get<0>(Info.param) + 1) + std::to_string(std::get<1>(Info.param)); });
 
 TEST(ImageFiles, PfmIsLittleEndianFromTheBottom)
 {
@@ -146,10 +129,7 @@ TEST(ImageFiles, PfmDropsAlpha)
 
 TEST(ImageFiles, EndingDecidesTheSpace)
 {
-	if (!CanWrite(".png"))
-	{
-		GTEST_SKIP() << "this build cannot write PNG";
-	}
+	if (!CanWrite(".png")) { GTEST_SKIP() << "this build cannot write PNG"; }
 	const FTemporaryFolder Folder;
 	FImage Linear(4, 1, 3);
 	Linear.Pixels = {0.5f, 0.0f, 1.0f, 9.0f, -1.0f, NaN, Infinity, 0.2f, 0.7f, 0.001f, 0.002f, 0.003f};
@@ -178,8 +158,7 @@ struct FHostile
 };
 
 class HostilePfm : public testing::TestWithParam<FHostile>
-{
-};
+{};
 
 TEST_P(HostilePfm, IsOneClearError)
 {
@@ -194,22 +173,17 @@ TEST_P(HostilePfm, IsOneClearError)
 	EXPECT_EQ(Image.Width, 1u) << "the image passed in must be untouched";
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    , HostilePfm,
+INSTANTIATE_TEST_SUITE_P(, HostilePfm,
     testing::Values(FHostile{"Empty", "", "not a PFM"}, FHostile{"OtherFormat", "\x89PNG\r\n\x1a\n", "not a PFM"},
-                    FHostile{"NoSize", "PF\n", "lacks a width"}, FHostile{"HalfASize", "PF\n12", "lacks a width"},
-                    FHostile{"WordAsSize", "PF\nten 10\n-1\n", "lacks a width"},
-                    FHostile{"Overflow", "PF\n99999999999999999999 1\n-1\n", "lacks a width"},
-                    FHostile{"EndlessToken", "PF\n" + std::string(100'000, '1'), "lacks a width"},
-                    FHostile{"NegativeSize", "PF\n-4 4\n-1\n", "out of range"},
-                    FHostile{"ZeroSize", "PF\n0 4\n-1\n", "out of range"},
-                    FHostile{"HugeSize", "PF\n100000 100000\n-1\n", "out of range"},
-                    FHostile{"ManyPixels", "PF\n65535 65535\n-1\n", "out of range"},
-                    FHostile{"BigAndTruncated", "PF\n10000 10000\n-1\n1234", "ends early"},
-                    FHostile{"OneByteShort", "Pf\n1 1\n-1\n123", "ends early"},
-                    FHostile{"NanScale", "Pf\n1 1\nnan\n1234", "scale"},
-                    FHostile{"InfiniteScale", "Pf\n1 1\n-inf\n1234", "scale"},
-                    FHostile{"ZeroScale", "Pf\n1 1\n0\n1234", "scale"}, FHostile{"NoScale", "Pf\n1 1\n", "scale"}),
+        FHostile{"NoSize", "PF\n", "lacks a width"}, FHostile{"HalfASize", "PF\n12", "lacks a width"},
+        FHostile{"WordAsSize", "PF\nten 10\n-1\n", "lacks a width"},
+        FHostile{"Overflow", "PF\n99999999999999999999 1\n-1\n", "lacks a width"},
+        FHostile{"EndlessToken", "PF\n" + std::string(100'000, '1'), "lacks a width"},
+        FHostile{"NegativeSize", "PF\n-4 4\n-1\n", "out of range"}, FHostile{"ZeroSize", "PF\n0 4\n-1\n", "out of range"},
+        FHostile{"HugeSize", "PF\n100000 100000\n-1\n", "out of range"}, FHostile{"ManyPixels", "PF\n65535 65535\n-1\n", "out of range"},
+        FHostile{"BigAndTruncated", "PF\n10000 10000\n-1\n1234", "ends early"}, FHostile{"OneByteShort", "Pf\n1 1\n-1\n123", "ends early"},
+        FHostile{"NanScale", "Pf\n1 1\nnan\n1234", "scale"}, FHostile{"InfiniteScale", "Pf\n1 1\n-inf\n1234", "scale"},
+        FHostile{"ZeroScale", "Pf\n1 1\n0\n1234", "scale"}, FHostile{"NoScale", "Pf\n1 1\n", "scale"}),
     [](const auto& Info) { return std::string(Info.param.Name); });
 
 TEST(ImageFiles, UnreadablePathsSayWhy)
@@ -224,10 +198,7 @@ TEST(ImageFiles, UnreadablePathsSayWhy)
 
 TEST(ImageFiles, DamagedFilesSayWhy)
 {
-	if (!CanWrite(".exr"))
-	{
-		GTEST_SKIP() << "this build cannot write EXR";
-	}
+	if (!CanWrite(".exr")) { GTEST_SKIP() << "this build cannot write EXR"; }
 	const FTemporaryFolder Folder;
 	FImage Image(1, 1, 1);
 	for (const char* Name : {"damaged.exr", "damaged.png"})
@@ -262,10 +233,7 @@ TEST(ImageFiles, FailedWritesLeaveEverythingAsItWas)
 
 TEST(ImageFiles, WithoutTheLibraryTheOptionIsNamed)
 {
-	if (CanWrite(".exr"))
-	{
-		GTEST_SKIP() << "this build has OpenImageIO";
-	}
+	if (CanWrite(".exr")) { GTEST_SKIP() << "this build has OpenImageIO"; }
 	const FTemporaryFolder Folder;
 	EXPECT_THAT(SaveImageFile(Folder / "a.exr", MakePattern(4, 4, 3)).Message, HasSubstr("LANTERN_WITH_OIIO=OFF"));
 	WriteBytes(Folder / "a.png", "x");
@@ -278,17 +246,14 @@ TEST(AtomicFile, KeepsTheOldFileWhereTheNewOneFails)
 	const FTemporaryFolder Folder;
 	const std::string Path = Folder / "file.txt";
 	ASSERT_TRUE(WriteFileAtomically(Path, "old"));
-	const FRTStatus Failed = WriteFileAtomically(Path,
-	                                             [&](const std::string& Temporary)
-	                                             {
-		                                             WriteBytes(Temporary, "half of the n");
-		                                             EXPECT_EQ(ReadBytes(Path), "old") << "visible before it is whole";
-		                                             return FRTStatus::Error(ERTResult::IoError, "disk full");
-	                                             });
+	const FRTStatus Failed = WriteFileAtomically(Path, [&](const std::string& Temporary) {
+		WriteBytes(Temporary, "half of the n");
+		EXPECT_EQ(ReadBytes(Path), "old") << "visible before it is whole";
+		return FRTStatus::Error(ERTResult::IoError, "disk full");
+	});
 	EXPECT_STREQ(Failed.Message, "disk full");
 	EXPECT_EQ(ReadBytes(Path), "old");
-	EXPECT_FALSE(
-	    WriteFileAtomically(Path, [](const std::string&) -> FRTStatus { throw std::runtime_error("thrown"); }));
+	EXPECT_FALSE(WriteFileAtomically(Path, [](const std::string&) -> FRTStatus { throw std::runtime_error("thrown"); }));
 	EXPECT_EQ(CountFiles(Folder.Get()), 1u);
 	ASSERT_TRUE(WriteFileAtomically(Path, "new"));
 	EXPECT_EQ(ReadBytes(Path), "new");
@@ -359,17 +324,13 @@ TEST(ColorMap, MeetsTheTableBetweenItsAnchors)
 	{
 		int Index;
 		float Rgb[3];
-	} Entries[] = {{0, {0.001462f, 0.000466f, 0.013866f}},   {8, {0.013708f, 0.011771f, 0.068667f}},
-	               {64, {0.316654f, 0.071690f, 0.485380f}},  {128, {0.716387f, 0.214982f, 0.475290f}},
-	               {192, {0.986700f, 0.535582f, 0.382210f}}, {255, {0.987053f, 0.991438f, 0.749504f}}};
+	} Entries[] = {{0, {0.001462f, 0.000466f, 0.013866f}}, {8, {0.013708f, 0.011771f, 0.068667f}}, {64, {0.316654f, 0.071690f, 0.485380f}},
+	    {128, {0.716387f, 0.214982f, 0.475290f}}, {192, {0.986700f, 0.535582f, 0.382210f}}, {255, {0.987053f, 0.991438f, 0.749504f}}};
 	for (const auto& Entry : Entries)
 	{
 		float Rgb[3] = {};
 		GetMagmaColor(static_cast<float>(Entry.Index) / 255.0f, Rgb);
-		for (int Channel = 0; Channel < 3; ++Channel)
-		{
-			EXPECT_NEAR(Rgb[Channel], Entry.Rgb[Channel], 0.01f) << Entry.Index;
-		}
+		for (int Channel = 0; Channel < 3; ++Channel) { EXPECT_NEAR(Rgb[Channel], Entry.Rgb[Channel], 0.01f) << Entry.Index; }
 	}
 	float Broken[3] = {};
 	GetMagmaColor(NaN, Broken);
@@ -381,10 +342,7 @@ TEST(ColorMap, MeetsTheTableBetweenItsAnchors)
 TEST(ImageStatistics, MeansSkipBrokenPixelsAndStayInTheRectangle)
 {
 	FImage Image(4, 2, 3);
-	for (size_t Index = 0; Index < Image.Pixels.size(); ++Index)
-	{
-		Image.Pixels[Index] = static_cast<float>(Index % 3 + 1);
-	}
+	for (size_t Index = 0; Index < Image.Pixels.size(); ++Index) { Image.Pixels[Index] = static_cast<float>(Index % 3 + 1); }
 	Image.At(3, 0, 0) = NaN;
 	Image.At(3, 1, 0) = 100.0f;
 	const FImageMeans All = ComputeMeans(Image);

@@ -41,8 +41,7 @@ FImageMetrics Compare(const FImage& A, const FImage& B)
 
 TEST(Metrics, FollowTheirDefinitions)
 {
-	const FImageMetrics Metrics =
-	    Compare(MakeConstant(32, 32, 1.5f, 0.5f, 2.0f), MakeConstant(32, 32, 1.0f, 0.5f, 4.0f));
+	const FImageMetrics Metrics = Compare(MakeConstant(32, 32, 1.5f, 0.5f, 2.0f), MakeConstant(32, 32, 1.0f, 0.5f, 4.0f));
 	EXPECT_NEAR(Metrics.Mse, (0.25 + 0.0 + 4.0) / 3.0, 1e-12);
 	EXPECT_NEAR(Metrics.Rmse, std::sqrt(4.25 / 3.0), 1e-12);
 	EXPECT_NEAR(Metrics.RelMse, (0.25 / 1.01 + 4.0 / 16.01) / 3.0, 1e-12);
@@ -70,8 +69,8 @@ TEST(Metrics, EqualImages)
 
 TEST(Metrics, DisplayPicturesUseStoredValuesAndPeakOne)
 {
-	const FImageMetrics Metrics = Compare(MakeConstant(8, 8, 0.5f, 0.5f, 0.5f, EImageSpace::Display),
-	                                      MakeConstant(8, 8, 0.25f, 0.25f, 0.25f, EImageSpace::Display));
+	const FImageMetrics Metrics =
+	    Compare(MakeConstant(8, 8, 0.5f, 0.5f, 0.5f, EImageSpace::Display), MakeConstant(8, 8, 0.25f, 0.25f, 0.25f, EImageSpace::Display));
 	EXPECT_NEAR(Metrics.Mse, 0.0625, 1e-12);
 	EXPECT_NEAR(Metrics.Psnr, 10.0 * std::log10(1.0 / 0.0625), 1e-9);
 	EXPECT_EQ(Metrics.FlipResult.ExposureCount, 0u) << "display pictures take the display metric";
@@ -116,10 +115,7 @@ TEST(Metrics, BrokenPixelsAreCountedAndLeftOut)
 	EXPECT_NEAR(Metrics.MeanRatio[2], 0.5, 1e-12);
 	EXPECT_NEAR(Metrics.Block16Median, Clean.Block16Median, 1e-9);
 	EXPECT_NEAR(Metrics.Flip, Clean.Flip, 0.02);
-	for (const float Error : Metrics.FlipResult.Map.Pixels)
-	{
-		EXPECT_TRUE(std::isfinite(Error));
-	}
+	for (const float Error : Metrics.FlipResult.Map.Pixels) { EXPECT_TRUE(std::isfinite(Error)); }
 }
 
 TEST(Metrics, NothingLeftIsNotPerfect)
@@ -209,10 +205,7 @@ TEST_F(CompareCommand, UndefinedFiguresAreNull)
 
 TEST_F(CompareCommand, HeatMapIsAPicture)
 {
-	if (CheckImageOutput(Folder / "heat.png").Code == ERTResult::Unsupported)
-	{
-		GTEST_SKIP() << "this build cannot write PNG";
-	}
+	if (CheckImageOutput(Folder / "heat.png").Code == ERTResult::Unsupported) { GTEST_SKIP() << "this build cannot write PNG"; }
 	FCompareOptions Options;
 	Options.A = Save("a.pfm", MakeConstant(20, 20, 0, 0, 0));
 	Options.B = Save("b.pfm", MakeConstant(20, 20, 2, 2, 2));

@@ -93,7 +93,8 @@ TEST(ChartPlan, KeysDifferWhereMeasurementsDo)
 	const std::string Key = MakeChartKey(Parts, Methods, Item);
 	EXPECT_EQ(Key.size(), 32u);
 	EXPECT_EQ(MakeChartKey(Parts, MakeMethods(), Item), Key);
-	for (std::string FChartKeyParts::*Member : {&FChartKeyParts::Program, &FChartKeyParts::Device, &FChartKeyParts::Driver, &FChartKeyParts::Scene})
+	for (std::string FChartKeyParts::*Member :
+	    {&FChartKeyParts::Program, &FChartKeyParts::Device, &FChartKeyParts::Driver, &FChartKeyParts::Scene})
 	{
 		FChartKeyParts Other = Parts;
 		Other.*Member += '2';
@@ -111,11 +112,13 @@ TEST(ChartPlan, KeysDifferWhereMeasurementsDo)
 
 FChartPart MakePart(char Key, int Order, const char* Method)
 {
-	FChartPart Part = {{"version", 1}, {"key", std::string(32, Key)}, {"order", {0, 1, Order, 0}}, {"device", "d"}, {"driver", "v"}, {"is_cpu", true}};
+	FChartPart Part = {
+	    {"version", 1}, {"key", std::string(32, Key)}, {"order", {0, 1, Order, 0}}, {"device", "d"}, {"driver", "v"}, {"is_cpu", true}};
 	Part["settings"] = {{"size", "4x4"}};
 	Part["scene"] = {{"name", "s"}, {"width", 4}, {"height", 4}};
 	Part["signal"] = {{"name", "frame"}, {"title", "Whole frame"}};
-	Part["point"] = {{"signal", "frame"}, {"method", Method}, {"preset", "p"}, {"path", "still"}, {"relmse", 0.1 * Order}, {"t90_frames", nullptr}};
+	Part["point"] = {
+	    {"signal", "frame"}, {"method", Method}, {"preset", "p"}, {"path", "still"}, {"relmse", 0.1 * Order}, {"t90_frames", nullptr}};
 	Part["images"] = {{std::string(1, Key), "data:"}};
 	return Part;
 }
@@ -161,7 +164,8 @@ TEST(ChartParts, WhatDoesNotBelongTogetherIsAnError)
 	FChartPart B = MakePart('b', 1, "B");
 	B["settings"]["size"] = "8x8";
 	EXPECT_THAT(Merge({MakePart('a', 1, "A"), B}), HasSubstr("error: parts of different settings"));
-	EXPECT_THAT(Merge({MakePart('a', 1, "A"), MakePart('b', 1, "A")}), HasSubstr("error: two different measurements of s: frame, A, p, still"));
+	EXPECT_THAT(
+	    Merge({MakePart('a', 1, "A"), MakePart('b', 1, "A")}), HasSubstr("error: two different measurements of s: frame, A, p, still"));
 	EXPECT_THAT(Merge({}), HasSubstr("error: no part"));
 }
 

@@ -59,7 +59,8 @@ TEST(MeasurePaths, ViewsSeeSomethingAndPassThroughNothing)
 		EXPECT_TRUE(std::isfinite(Rays.Trace(Home.Position, glm::dvec3(Home.Forward))));
 		EXPECT_TRUE(std::isfinite(Rays.Trace(Start.Position, glm::dvec3(Start.Forward))));
 		EXPECT_GT(glm::distance(Start.Position, Home.Position) + glm::distance(Start.Forward, Home.Forward), 1e-3);
-		EXPECT_GT(glm::distance(Views.Cut.Position, Home.Position) + glm::distance(glm::normalize(Views.Cut.Forward), Views.Home.Forward), 0.1);
+		EXPECT_GT(
+		    glm::distance(Views.Cut.Position, Home.Position) + glm::distance(glm::normalize(Views.Cut.Forward), Views.Home.Forward), 0.1);
 	}
 }
 
@@ -105,7 +106,8 @@ TEST_F(Scripts, EveryPathIsJudgedFromHomeAtOneTime)
 
 TEST_F(Scripts, FastIsTenTimesAsFastAsSlow)
 {
-	const FPathScript Slow = MakePathScript(EMeasurePath::Slow, Views, Settings, nullptr), Fast = MakePathScript(EMeasurePath::Fast, Views, Settings, nullptr);
+	const FPathScript Slow = MakePathScript(EMeasurePath::Slow, Views, Settings, nullptr),
+	                  Fast = MakePathScript(EMeasurePath::Fast, Views, Settings, nullptr);
 	const auto GetStep = [](const FPathScript& Path) { return glm::distance(Path.Script[0].View.Position, Path.Script[1].View.Position); };
 	EXPECT_NEAR(GetStep(Fast), 10.0 * GetStep(Slow), 1e-9);
 	EXPECT_NEAR(GetStep(Fast), 2.0 / 36.0, 1e-6); // all of the way in 0.6 s

@@ -89,11 +89,12 @@ TEST_F(Methods, NameTheLineThatIsWrong)
 TEST_F(Methods, TextThatIsBrokenIsShownAsEscapes)
 {
 	const std::string Broken = "\xff\u0085\u202E";
-	for (const std::string& Text : {"[" + Broken + "]\n", "[MethodDefaults]\n" + Broken + "=1\n", "[MethodDefaults]\nCVars=" + Broken + "\n",
-	                                "[MethodDefaults]\nCVars=" + Broken + "=1\n", "[Method.A]\nSignal=" + Broken + "\n", "[Method.A]\n" + Broken + "=1\n",
-	                                "[Method.A]\nNeeds=" + Broken + "\n", "[Method.A]\nPresets=" + Broken + "\n",
-	                                "[Method.A]\nSignal=frame\n+Presets=" + Broken + ":\n+Presets=" + Broken + ": t.Methods.Rays=2\n",
-	                                "[Method.A]\nSignal=frame\n+Presets=p:\nTypical=" + Broken + "\n"})
+	for (const std::string& Text :
+	    {"[" + Broken + "]\n", "[MethodDefaults]\n" + Broken + "=1\n", "[MethodDefaults]\nCVars=" + Broken + "\n",
+	        "[MethodDefaults]\nCVars=" + Broken + "=1\n", "[Method.A]\nSignal=" + Broken + "\n", "[Method.A]\n" + Broken + "=1\n",
+	        "[Method.A]\nNeeds=" + Broken + "\n", "[Method.A]\nPresets=" + Broken + "\n",
+	        "[Method.A]\nSignal=frame\n+Presets=" + Broken + ":\n+Presets=" + Broken + ": t.Methods.Rays=2\n",
+	        "[Method.A]\nSignal=frame\n+Presets=p:\nTypical=" + Broken + "\n"})
 	{
 		const FMethods Read = ParseMethods(Text, "m.ini");
 		ASSERT_EQ(Read.Problems.size(), 1u) << testing::PrintToString(Text);
@@ -103,12 +104,16 @@ TEST_F(Methods, TextThatIsBrokenIsShownAsEscapes)
 	// Names go into tables and JSON.
 	const FMethods Read = ParseMethods("[Method.A" + Broken + "]\nTitle=" + Broken + "\nSignal=frame\n+Presets=" + Broken + ":\n", "m.ini");
 	ASSERT_EQ(Read.Methods.size(), 1u);
-	for (const std::string& Name : {Read.Methods[0].Name, Read.Methods[0].Title, Read.Methods[0].Presets[0].Name}) { EXPECT_TRUE(IsCleanText(Name)) << testing::PrintToString(Name); }
+	for (const std::string& Name : {Read.Methods[0].Name, Read.Methods[0].Title, Read.Methods[0].Presets[0].Name})
+	{
+		EXPECT_TRUE(IsCleanText(Name)) << testing::PrintToString(Name);
+	}
 }
 
 TEST_F(Methods, OneThatIsWrongLeavesTheOthers)
 {
-	const FMethods Read = ParseMethods(std::string(Good) + "[Method.C]\nSignal=frame\nTitle=B\n+Presets=p:\n[Method.D]\nSignal=frame\n+Presets=p:\n", "m.ini");
+	const FMethods Read = ParseMethods(
+	    std::string(Good) + "[Method.C]\nSignal=frame\nTitle=B\n+Presets=p:\n[Method.D]\nSignal=frame\n+Presets=p:\n", "m.ini");
 	EXPECT_THAT(Read.Problems, ElementsAre("m.ini:14: a second method 'B'"));
 	EXPECT_EQ(Read.Methods.size(), 3u);
 	EXPECT_NE(Read.Find("D"), nullptr);
@@ -136,7 +141,7 @@ TEST_F(Methods, ScopePutsBackValueAndWhoSetIt)
 		FMethodScope Scope;
 		EXPECT_THAT(Scope.Apply(Read, &Read.Methods[0], &Read.Methods[0].Presets[0]), IsEmpty());
 		EXPECT_EQ(CVarRays.Get(), 2);
-		EXPECT_TRUE(CVarSoft.Get()); // the method's after the defaults
+		EXPECT_TRUE(CVarSoft.Get());                // the method's after the defaults
 		EXPECT_NE(CVarRays.GetOnRenderThread(), 2); // not before the frame
 		Variables.BeginFrame();
 		EXPECT_EQ(CVarRays.GetOnRenderThread(), 2);
@@ -160,7 +165,8 @@ TEST_F(Methods, ScopePutsBackValueAndWhoSetIt)
 TEST_F(Methods, ScopeWithAWrongValueSetsNothing)
 {
 	FMethodScope Scope;
-	EXPECT_THAT(Scope.Apply({{"t.Methods.Soft", "0", "m.ini:1"}, {"t.Methods.Rays", "many", "m.ini:2"}}), ElementsAre(HasSubstr("m.ini:2")));
+	EXPECT_THAT(
+	    Scope.Apply({{"t.Methods.Soft", "0", "m.ini:1"}, {"t.Methods.Rays", "many", "m.ini:2"}}), ElementsAre(HasSubstr("m.ini:2")));
 	EXPECT_TRUE(CVarSoft.Get());
 	EXPECT_EQ(CVarRays.Get(), 1);
 	EXPECT_EQ(CVarSoft.GetSetBy(), ERTSetBy::Code);
@@ -180,7 +186,8 @@ TEST_F(Methods, ShippedOnesAreRight)
 			EXPECT_THAT(Scope.Apply(Shipped, &Method, &Preset), IsEmpty());
 			for (const FMethodSetting& Setting : Preset.Settings)
 			{
-				EXPECT_EQ(FConsoleVariables::ToString(FConsoleVariables::Get().Find(Setting.Name)->GetValue()), Setting.Value) << Setting.Where;
+				EXPECT_EQ(FConsoleVariables::ToString(FConsoleVariables::Get().Find(Setting.Name)->GetValue()), Setting.Value)
+				    << Setting.Where;
 			}
 		}
 	}

@@ -103,20 +103,18 @@ TEST_F(FSignalReferenceTest, EveryPartOfTheDescriptionCounts)
 	EXPECT_FALSE(Get(MakeDesc()));
 	using FChange = void (*)(FSignalReferenceDesc&);
 	const FChange Changes[] = {
-	    [](auto& D) { D.View.Position.x += 1e-9; },
-	    [](auto& D) { D.View.Forward.x += 0.1f; },
-	    [](auto& D) { D.View.Up.x += 0.1f; },
-	    [](auto& D) { D.View.FovY = 0.9f; },
-	    [](auto& D) { D.View.Width = 8, D.View.Height = 16; },
-	    [](auto& D) { D.Time = 0.5; },
-	    [](auto& D) { D.Signal = ESignal::AmbientOcclusion; },
-	    [](auto& D) { D.Signal = ESignal::SunShadow; },
-	    [](auto& D) { D.Samples = 6; },
-	    [](auto& D) { D.Bounces = 3; },
-	    [](auto& D) { D.Seed = 1; },
-	    [](auto& D) { D.bPixelCenters = false; },
-	    [](auto& D) { D.StateKey = "lid off"; },
-	};
+	    [](auto& D) {
+		D.View.Position.x += 1e-9;
+	    },
+	    [](auto& D) {
+		D.View.Forward.x += 0.1f;
+	},
+	              [](auto& D) { D.View.Up.x += 0.1f; }, [](auto& D) { D.View.FovY = 0.9f; },
+	              [](auto& D) { D.View.Width = 8, D.View.Height = 16; }, [](auto& D) { D.Time = 0.5; },
+	              [](auto& D) { D.Signal = ESignal::AmbientOcclusion; }, [](auto& D) { D.Signal = ESignal::SunShadow; },
+	              [](auto& D) { D.Samples = 6; }, [](auto& D) { D.Bounces = 3; }, [](auto& D) { D.Seed = 1; },
+	              [](auto& D) { D.bPixelCenters = false; }, [](auto& D) { D.StateKey = "lid off"; },
+	              };
 	for (size_t I = 0; I < std::size(Changes); ++I)
 	{
 		FSignalReferenceDesc Desc = MakeDesc();
@@ -125,9 +123,9 @@ TEST_F(FSignalReferenceTest, EveryPartOfTheDescriptionCounts)
 		EXPECT_TRUE(Get(Desc)) << "change " << I;
 	}
 	const FChange Neutral[] = {
-	    [](auto& D) { D.View.FrameIndex = 7; },  [](auto& D) { D.View.Seed = 7; },
-	    [](auto& D) { D.View.Exposure = 2.0f; }, [](auto& D) { D.View.DeltaSeconds = 0.1f; },
-	    [](auto& D) { D.View.bCut = true; },     [](auto& D) { D.Samples = 3; }, // two for each half all the same
+	    [](auto& D) { D.View.FrameIndex = 7; }, [](auto& D) { D.View.Seed = 7; }, [](auto& D) { D.View.Exposure = 2.0f; },
+	    [](auto& D) { D.View.DeltaSeconds = 0.1f; }, [](auto& D) { D.View.bCut = true; },
+	    [](auto& D) { D.Samples = 3; }, // two for each half all the same
 	};
 	for (size_t I = 0; I < std::size(Neutral); ++I)
 	{
@@ -212,7 +210,8 @@ TEST_F(FSignalReferenceTest, AnEditedShaderIsAnotherReference)
 	};
 	Edit("ToneMap/ToneMap.comp");
 	EXPECT_TRUE(Get(MakeDesc())) << "no part of the path tracer";
-	for (const char* const File : {"Reference/PathTrace.rgen", "Library/Sampling.glsl", "Rays/Material.rchit", "Rays/Shadow.rmiss", "Materials/Standard.glsl"})
+	for (const char* const File :
+	    {"Reference/PathTrace.rgen", "Library/Sampling.glsl", "Rays/Material.rchit", "Rays/Shadow.rmiss", "Materials/Standard.glsl"})
 	{
 		Edit(File);
 		EXPECT_FALSE(Get(MakeDesc())) << File;

@@ -32,10 +32,7 @@ protected:
 	void TearDown() override
 	{
 		for (TRTRef<IRTTexture>* Texture : {&Motion, &BaseColor, &Material}) { Texture->Reset(); }
-		for (const auto& [Name, Value] : Changed)
-		{
-			ASSERT_FINE(Module->SetConsoleVariable(Name.c_str(), Value.c_str()));
-		}
+		for (const auto& [Name, Value] : Changed) { ASSERT_FINE(Module->SetConsoleVariable(Name.c_str(), Value.c_str())); }
 		FModuleTest::TearDown();
 	}
 	/// Until the end of the test.
@@ -66,13 +63,13 @@ protected:
 	void RenderUntilComplete(FRTModuleFrame Frame)
 	{
 		Outputs = {};
-		const auto Step = [&]
-		{
+		const auto Step = [&] {
 			Frame.Commands = DescribeFrame().Commands;
 			RenderAndEnd(Frame);
 			GiveWay();
 		};
-		ASSERT_TRUE(WaitUntil("a complete frame", [&] { return Outputs.bComplete; }, Step));
+		ASSERT_TRUE(WaitUntil(
+		    "a complete frame", [&] { return Outputs.bComplete; }, Step));
 	}
 	std::vector<std::string> GetPasses()
 	{
@@ -106,8 +103,8 @@ TEST_F(FModuleSignalTest, NothingAskedForIsNothingMade)
 	EXPECT_EQ(Outputs.SunShadow, nullptr);
 	EXPECT_TRUE(Outputs.bComplete);
 	EXPECT_THAT(GetPasses(), Each("SceneUpdate")) << "the scene's tables";
-	for (const ERTMockCall Kind : {ERTMockCall::CreateComputePipeline, ERTMockCall::CreateRayTracingPipeline,
-	                               ERTMockCall::CreateTexture, ERTMockCall::BuildGeometry, ERTMockCall::BuildScene})
+	for (const ERTMockCall Kind : {ERTMockCall::CreateComputePipeline, ERTMockCall::CreateRayTracingPipeline, ERTMockCall::CreateTexture,
+	         ERTMockCall::BuildGeometry, ERTMockCall::BuildScene})
 	{
 		EXPECT_EQ(Mock().CountCalls(Kind), 0u) << static_cast<int>(Kind);
 	}
@@ -221,8 +218,7 @@ TEST_F(FModuleSignalTest, WrongInputsAreNamed)
 // Paths shade what they hit: what is not a number in a material would be none in the outputs.
 TEST_F(FModuleSignalTest, ImpossibleMaterialsAreNamed)
 {
-	const auto Refuse = [&](const FRTModuleMaterial& Bad, const char* Part)
-	{
+	const auto Refuse = [&](const FRTModuleMaterial& Bad, const char* Part) {
 		ERTMaterialHandle Added = ERTMaterialHandle::None;
 		EXPECT_REFUSED(Renderer->AddMaterial(Bad, &Added), Part);
 		EXPECT_EQ(Added, ERTMaterialHandle::None);

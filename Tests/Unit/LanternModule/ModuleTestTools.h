@@ -15,19 +15,19 @@
 namespace Lantern
 {
 
-#define EXPECT_REFUSED(Expression, Part)                                                                               \
-	do                                                                                                                 \
-	{                                                                                                                  \
-		const FRTStatus Refused = (Expression);                                                                        \
-		EXPECT_EQ(Refused.Code, ERTResult::InvalidArgument);                                                           \
-		EXPECT_THAT(Refused.Message, ::testing::HasSubstr(Part));                                                                 \
-	} while (false)
-#define ASSERT_FINE(Expression)                                                                                        \
-	do                                                                                                                 \
-	{                                                                                                                  \
-		const FRTStatus Fine = (Expression);                                                                           \
-		ASSERT_TRUE(Fine.IsOk()) << Fine.Message;                                                                      \
-	} while (false)
+#define EXPECT_REFUSED(Expression, Part)                                                                                                   \
+	do {                                                                                                                                   \
+		const FRTStatus Refused = (Expression);                                                                                            \
+		EXPECT_EQ(Refused.Code, ERTResult::InvalidArgument);                                                                               \
+		EXPECT_THAT(Refused.Message, ::testing::HasSubstr(Part));                                                                          \
+	}                                                                                                                                      \
+	while (false)
+#define ASSERT_FINE(Expression)                                                                                                            \
+	do {                                                                                                                                   \
+		const FRTStatus Fine = (Expression);                                                                                               \
+		ASSERT_TRUE(Fine.IsOk()) << Fine.Message;                                                                                          \
+	}                                                                                                                                      \
+	while (false)
 
 inline constexpr float TrianglePositions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 inline constexpr uint32_t TriangleIndices[] = {0, 1, 2};
@@ -38,8 +38,7 @@ protected:
 	void SetUp() override
 	{
 		ASSERT_FINE(CreateMockDevice({}, Inner.ReleaseAndGetAddress()));
-		const auto OnMessage = [](void* User, const char* Text)
-		{ static_cast<FModuleTest*>(User)->Messages.emplace_back(Text); };
+		const auto OnMessage = [](void* User, const char* Text) { static_cast<FModuleTest*>(User)->Messages.emplace_back(Text); };
 		ASSERT_FINE(WrapWithValidation(Inner.Get(), OnMessage, this, Device.ReleaseAndGetAddress()));
 		ASSERT_EQ(LanternCreateModule(ModuleVersion, Module.ReleaseAndGetAddress()), 0);
 		FRTModuleDesc Desc;
@@ -67,8 +66,8 @@ protected:
 		EXPECT_EQ(GetMock(Inner.Get()).GetErrors(), std::vector<std::string>());
 	}
 	FRTMock& Mock() { return GetMock(Inner.Get()); }
-	TRTRef<IRTTexture> MakeTexture(ERTFormat Format, uint32_t Size, ERTTextureUsage Usage = ERTTextureUsage::Sampled,
-	                               const char* Name = "Test")
+	TRTRef<IRTTexture> MakeTexture(
+	    ERTFormat Format, uint32_t Size, ERTTextureUsage Usage = ERTTextureUsage::Sampled, const char* Name = "Test")
 	{
 		FRTTextureDesc Desc;
 		Desc.Width = Desc.Height = Size;

@@ -163,8 +163,7 @@ TEST_F(FModuleTest, ReplacedTextureStaysUntilTheFrameInTheMakingHasRun)
 	Mock().SetManualFences(true);
 	ASSERT_FINE(Render());
 	ASSERT_FINE(Renderer->SetMaterial(Solid, {}));
-	const auto IsAlive = [&]
-	{
+	const auto IsAlive = [&] {
 		Device->CollectGarbage();
 		return Mock().CountCalls(ERTMockCall::Destroy, "Leaf") == 0;
 	};
@@ -179,10 +178,7 @@ TEST_F(FModuleTest, ReplacedTextureStaysUntilTheFrameInTheMakingHasRun)
 TEST_F(FModuleTest, StructuresAreBuiltWithinTheBudget)
 {
 	ASSERT_FINE(Module->SetConsoleVariable("r.RT.Build.TrianglesPerFrame", "1"));
-	for (int Mesh = 0; Mesh < 3; ++Mesh)
-	{
-		ASSERT_FINE(AddObject(AddOpaqueMesh(), Solid));
-	}
+	for (int Mesh = 0; Mesh < 3; ++Mesh) { ASSERT_FINE(AddObject(AddOpaqueMesh(), Solid)); }
 	ASSERT_FINE(SetSun(-1.0));
 	for (uint32_t Frame = 1; Frame <= 3; ++Frame)
 	{
@@ -256,8 +252,7 @@ TEST_F(FModuleTest, FramesWaitForNoPipeline)
 	ASSERT_FINE(AddObject(AddOpaqueMesh(), Solid));
 	ASSERT_FINE(SetSun(-1.0));
 	const auto LetGo = [&] { Mock().ClearCompileFaults(); };
-	const auto RenderAndEnd = [&]
-	{
+	const auto RenderAndEnd = [&] {
 		ASSERT_FINE(Render());
 		EXPECT_TRUE(Outputs.SunShadow != nullptr || !Outputs.bComplete);
 		ASSERT_FINE(Renderer->EndFrame(nullptr));

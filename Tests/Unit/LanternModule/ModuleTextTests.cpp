@@ -10,14 +10,14 @@ namespace
 const std::string Worse = "\x1b[31m\xff\u0085\u202E\nerror: forged";
 constexpr const char* WorseShown = "\\x1b[31m\\xff\\u{0085}\\u{202e}\\nerror: forged";
 
-#define EXPECT_REFUSED_CLEANLY(Expression, Part)                                                                       \
-	do                                                                                                                 \
-	{                                                                                                                  \
-		const FRTStatus Clean = (Expression);                                                                          \
-		EXPECT_FALSE(Clean.IsOk());                                                                                    \
-		EXPECT_TRUE(IsCleanText(Clean.Message)) << testing::PrintToString(Clean.Message);                              \
-		EXPECT_THAT(Clean.Message, ::testing::HasSubstr(Part));                                                        \
-	} while (false)
+#define EXPECT_REFUSED_CLEANLY(Expression, Part)                                                                                           \
+	do {                                                                                                                                   \
+		const FRTStatus Clean = (Expression);                                                                                              \
+		EXPECT_FALSE(Clean.IsOk());                                                                                                        \
+		EXPECT_TRUE(IsCleanText(Clean.Message)) << testing::PrintToString(Clean.Message);                                                  \
+		EXPECT_THAT(Clean.Message, ::testing::HasSubstr(Part));                                                                            \
+	}                                                                                                                                      \
+	while (false)
 
 TEST_F(FModuleTest, NamesOfMeshesAreShownAsEscapes)
 {
@@ -42,10 +42,7 @@ TEST_F(FModuleTest, LongNamesLeaveRoomForTheReason)
 	for (const char* Piece : {"n", "ä", "\xff", "\u202E"})
 	{
 		std::string Name;
-		while (Name.size() < 5000)
-		{
-			Name += Piece;
-		}
+		while (Name.size() < 5000) { Name += Piece; }
 		FRTModuleMesh Mesh = DescribeTriangle();
 		Mesh.Name = Name.c_str();
 		Mesh.IndexCount = 2;

@@ -237,10 +237,7 @@ TEST_F(FMockTests, ClearsAndMips)
 	const auto Texture = Make.Texture(3, 2, ERTFormat::RGBA8_SRGB, 2);
 	const auto Upload = Make.Buffer(24, ERTMemory::Upload);
 	auto* Bytes = static_cast<uint8_t*>(Upload->GetMapped());
-	for (int i = 0; i < 24; ++i)
-	{
-		Bytes[i] = i < 12 ? 0 : 255;
-	}
+	for (int i = 0; i < 24; ++i) { Bytes[i] = i < 12 ? 0 : 255; }
 	const auto List = Make.List();
 	List->CopyBufferToTexture(Texture.Get(), 0, 0, Upload.Get(), 0);
 	List->GenerateMips(Texture.Get());
@@ -269,8 +266,7 @@ TEST_F(FMockTests, SceneTellsDanglingAndUnbuiltGeometries)
 	const auto Vertices = Make.Buffer(36, ERTMemory::Upload);
 	const auto Scratch = Make.Scratch();
 	const FRTGeometrySection Section = Make.Section(Vertices.Get());
-	auto Rock = Make.Geometry(Section, "Rock"), Tree = Make.Geometry(Section, "Tree"),
-	     Bush = Make.Geometry(Section, "Bush");
+	auto Rock = Make.Geometry(Section, "Rock"), Tree = Make.Geometry(Section, "Tree"), Bush = Make.Geometry(Section, "Bush");
 	const auto Scene = Make.Scene();
 	const auto Instances = Make.Buffer(3 * sizeof(FRTInstance), ERTMemory::Upload);
 	auto* Items = static_cast<FRTInstance*>(Instances->GetMapped());
@@ -282,8 +278,7 @@ TEST_F(FMockTests, SceneTellsDanglingAndUnbuiltGeometries)
 	List->BuildScene(Scene.Get(), Instances.Get(), 0, 3, Scratch.Get(), 0);
 	Tree.Reset();
 	Make.Submit(List.Get());
-	EXPECT_EQ(Mock->GetErrors(),
-	          (std::vector<std::string>{"Scene: instance 1 of destroyed Tree", "Scene: instance 2 of unbuilt Bush"}));
+	EXPECT_EQ(Mock->GetErrors(), (std::vector<std::string>{"Scene: instance 1 of destroyed Tree", "Scene: instance 2 of unbuilt Bush"}));
 	const auto Found = Mock->GetSceneInstances(Scene.Get());
 	ASSERT_EQ(Found.size(), 3u);
 	EXPECT_TRUE(Found[0].bBuilt && !Found[0].bDangling && Found[0].Geometry == Rock.Get());
@@ -328,23 +323,18 @@ TEST_F(FMockTests, CreationFromManyThreads)
 	std::vector<std::thread> Threads;
 	for (int Thread = 0; Thread < 4; ++Thread)
 	{
-		Threads.emplace_back(
-		    [&]
-		    {
-			    for (int i = 0; i < 50; ++i)
-			    {
-				    const auto Buffer = Make.Buffer(64);
-				    const auto Texture = Make.Texture(4, 4, ERTFormat::R8_UNORM);
-				    const auto List = Make.List();
-				    List->FillBuffer(Buffer.Get(), 0, 64, 1);
-				    Make.Submit(List.Get());
-			    }
-		    });
+		Threads.emplace_back([&] {
+			for (int i = 0; i < 50; ++i)
+			{
+				const auto Buffer = Make.Buffer(64);
+				const auto Texture = Make.Texture(4, 4, ERTFormat::R8_UNORM);
+				const auto List = Make.List();
+				List->FillBuffer(Buffer.Get(), 0, 64, 1);
+				Make.Submit(List.Get());
+			}
+		});
 	}
-	for (std::thread& Thread : Threads)
-	{
-		Thread.join();
-	}
+	for (std::thread& Thread : Threads) { Thread.join(); }
 	EXPECT_EQ(Mock->GetLiveObjectCount(), 0u);
 	EXPECT_EQ(Mock->GetLastFence(), 200u);
 }

@@ -25,8 +25,8 @@ protected:
 		Mock = &GetMock(Make.Device.Get());
 	}
 	/// One group with one shader of that name.
-	TRTRef<IRTPipeline> Library(const char* Name, ERTShaderStage Stage = ERTShaderStage::ClosestHit,
-	                            uint32_t Payload = 32, ERTResult Expected = ERTResult::Ok)
+	TRTRef<IRTPipeline> Library(
+	    const char* Name, ERTShaderStage Stage = ERTShaderStage::ClosestHit, uint32_t Payload = 32, ERTResult Expected = ERTResult::Ok)
 	{
 		const FRTShaderCode Shader = {DummyWords, std::size(DummyWords), Stage, Name};
 		FRTShaderGroup Group;
@@ -106,11 +106,9 @@ TEST_F(FMockLibraryTests, WrongUseOfLibrariesIsAnError)
 	Table->SetPipeline(Wide.Get());
 	const auto List = Make.List();
 	List->SetPipeline(Stone.Get());
-	EXPECT_THAT(Mock->GetErrors(),
-	            testing::ElementsAre("Link: linked from Wide of other recursion, payload or attribute sizes",
-	                                 "Link: linked from Whole, which is no library",
-	                                 "Table: made for the library Stone", "Table: SetPipeline of the library Wide",
-	                                 "List: SetPipeline of the library Stone"));
+	EXPECT_THAT(Mock->GetErrors(), testing::ElementsAre("Link: linked from Wide of other recursion, payload or attribute sizes",
+	                                   "Link: linked from Whole, which is no library", "Table: made for the library Stone",
+	                                   "Table: SetPipeline of the library Wide", "List: SetPipeline of the library Stone"));
 }
 
 TEST_F(FMockLibraryTests, DevicesWithoutLibraryOnlyPipelines)
@@ -154,21 +152,13 @@ TEST_F(FMockLibraryTests, SlowCompilesSleepSideBySide)
 	std::vector<std::thread> Threads;
 	for (uint32_t i = 0; i < 3; ++i)
 	{
-		Threads.emplace_back(
-		    [&]
-		    {
-			    while (!bStop)
-			    {
-				    Library("Slow");
-			    }
-		    });
+		Threads.emplace_back([&] {
+			while (!bStop) { Library("Slow"); }
+		});
 	}
 	WaitUntil("three compiles that sleep at once", [&] { return Mock->GetCompilesInDriver() == 3; });
 	bStop = true;
-	for (std::thread& Thread : Threads)
-	{
-		Thread.join();
-	}
+	for (std::thread& Thread : Threads) { Thread.join(); }
 }
 
 TEST_F(FMockLibraryTests, HeldCompilesWaitSideBySideAndTheDeviceGoesOn)
@@ -179,12 +169,10 @@ TEST_F(FMockLibraryTests, HeldCompilesWaitSideBySideAndTheDeviceGoesOn)
 	std::vector<std::thread> Threads;
 	for (uint32_t i = 0; i < Count; ++i)
 	{
-		Threads.emplace_back(
-		    [&]
-		    {
-			    Library("Held");
-			    ++Made;
-		    });
+		Threads.emplace_back([&] {
+			Library("Held");
+			++Made;
+		});
 	}
 	WaitUntil("all of them in the driver", [&] { return Mock->GetCompilesInDriver() == Count; });
 	{
@@ -195,10 +183,7 @@ TEST_F(FMockLibraryTests, HeldCompilesWaitSideBySideAndTheDeviceGoesOn)
 	EXPECT_EQ(Mock->GetCompilesInDriver(), Count);
 	EXPECT_EQ(Made, 0u);
 	Mock->ClearCompileFaults();
-	for (std::thread& Thread : Threads)
-	{
-		Thread.join();
-	}
+	for (std::thread& Thread : Threads) { Thread.join(); }
 	EXPECT_EQ(Made, Count);
 	EXPECT_EQ(Mock->GetCompilesInDriver(), 0u);
 }
@@ -292,8 +277,7 @@ TEST_F(FMockCompactionTests, WrongUseIsAnError)
 	Make.Submit(List.Get());
 	const char* Asked = ": compacted size asked of one that is not built, or made without bAllowCompaction";
 	EXPECT_THAT(Mock->GetErrors(), testing::ElementsAre(std::string("Source") + Asked, std::string("Plain") + Asked,
-	                                                    "Wrong: not made for the compacted copy of Source",
-	                                                    "Wrong: built, but made for a compacted copy"));
+	                                   "Wrong: not made for the compacted copy of Source", "Wrong: built, but made for a compacted copy"));
 }
 
 TEST_F(FMockCompactionTests, AMillionInstances)
@@ -309,10 +293,7 @@ TEST_F(FMockCompactionTests, AMillionInstances)
 	const auto Scene = Make.Scene(Count);
 	const auto Instances = Make.Buffer(Count * sizeof(FRTInstance), ERTMemory::Upload);
 	auto* Items = static_cast<FRTInstance*>(Instances->GetMapped());
-	for (uint32_t i = 0; i < Count; ++i)
-	{
-		Items[i] = Make.Instance(Rocks[i % Geometries]->GetDeviceAddress(), i);
-	}
+	for (uint32_t i = 0; i < Count; ++i) { Items[i] = Make.Instance(Rocks[i % Geometries]->GetDeviceAddress(), i); }
 	Make.Submit(List.Get());
 	Mock->ClearTraffic();
 	const auto Start = steady_clock::now();

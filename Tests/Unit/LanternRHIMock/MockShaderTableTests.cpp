@@ -41,8 +41,7 @@ protected:
 TEST_P(FMockTableTests, StridesAreAligned)
 {
 	const auto Table = Make.Table(Pipeline.Get(), 3, 20);
-	for (const ERTRecordKind Kind :
-	     {ERTRecordKind::RayGen, ERTRecordKind::Miss, ERTRecordKind::Hit, ERTRecordKind::Callable})
+	for (const ERTRecordKind Kind : {ERTRecordKind::RayGen, ERTRecordKind::Miss, ERTRecordKind::Hit, ERTRecordKind::Callable})
 	{
 		EXPECT_EQ(Table->GetRecordStride(Kind) % GetParam().HandleAlignment, 0u);
 		EXPECT_GE(Table->GetRecordStride(Kind), GetParam().HandleSize);
@@ -91,10 +90,7 @@ TEST_P(FMockTableTests, CopiesDirtyRangesOnly)
 {
 	const auto Table = Make.Table(Pipeline.Get(), 100);
 	const uint64_t Stride = Table->GetRecordStride(ERTRecordKind::Hit);
-	for (const uint32_t Index : {10u, 11u, 12u, 50u, 11u})
-	{
-		Table->SetRecord(ERTRecordKind::Hit, Index, 2, nullptr, 0);
-	}
+	for (const uint32_t Index : {10u, 11u, 12u, 50u, 11u}) { Table->SetRecord(ERTRecordKind::Hit, Index, 2, nullptr, 0); }
 	Update(Table.Get());
 	Update(Table.Get());
 	const auto Calls = Mock->FindCalls(ERTMockCall::UpdateShaderTable);
@@ -403,20 +399,12 @@ TEST_P(FMockTableTests, RecordsFromManyThreads)
 	std::vector<std::thread> Threads;
 	for (uint32_t Thread = 0; Thread < 4; ++Thread)
 	{
-		Threads.emplace_back(
-		    [&, Thread]
-		    {
-			    // Interleaved: neighbours share words of what is dirty.
-			    for (uint32_t i = Thread; i < Count; i += 4)
-			    {
-				    Table->SetRecord(ERTRecordKind::Hit, i, 2 + i % 2, &i, 4);
-			    }
-		    });
+		Threads.emplace_back([&, Thread] {
+			// Interleaved: neighbours share words of what is dirty.
+			for (uint32_t i = Thread; i < Count; i += 4) { Table->SetRecord(ERTRecordKind::Hit, i, 2 + i % 2, &i, 4); }
+		});
 	}
-	for (std::thread& Thread : Threads)
-	{
-		Thread.join();
-	}
+	for (std::thread& Thread : Threads) { Thread.join(); }
 	Update(Table.Get());
 	EXPECT_EQ(Table->GetUpdatedBytes(), Count * Table->GetRecordStride(ERTRecordKind::Hit));
 	for (uint32_t i = 0; i < Count; ++i)
@@ -438,14 +426,11 @@ TEST_P(FMockTableTests, TracingBeforeAnyUpdateIsAnError)
 }
 
 INSTANTIATE_TEST_SUITE_P(Alignments, FMockTableTests,
-                         testing::Values(FAlignments{32, 32, 64}, FAlignments{32, 16, 32}, FAlignments{32, 64, 64},
-                                         FAlignments{64, 64, 256}),
-                         [](const auto& Info)
-                         {
-	                         return "Handle" + std::to_string(Info.param.HandleSize) + "Align" +
-	                                std::to_string(Info.param.HandleAlignment) + "Base" +
-	                                std::to_string(Info.param.BaseAlignment);
-                         });
+    testing::Values(FAlignments{32, 32, 64}, FAlignments{32, 16, 32}, FAlignments{32, 64, 64}, FAlignments{64, 64, 256}),
+    [](const auto& Info) {
+	return "Handle" + std::to_string(Info.param.HandleSize) + "Align" + std::to_string(Info.param.HandleAlignment) + "Base" +
+	       std::to_string(Info.param.BaseAlignment);
+});
 
 } // namespace
 } // namespace Lantern

@@ -15,11 +15,10 @@ protected:
 TEST_F(FValidationCreation, Buffers)
 {
 	TRTRef<IRTBuffer> Out;
-	EXPECT_EQ(Device().CreateBuffer({0, AnyUsage, ERTMemory::Device, "Empty"}, Out.ReleaseAndGetAddress()).Code,
-	          ERTResult::InvalidArgument);
+	EXPECT_EQ(
+	    Device().CreateBuffer({0, AnyUsage, ERTMemory::Device, "Empty"}, Out.ReleaseAndGetAddress()).Code, ERTResult::InvalidArgument);
 	ExpectMessage({"CreateBuffer", "'Empty'", "size is 0"});
-	EXPECT_FALSE(
-	    Device().CreateBuffer({4, ERTBufferUsage::None, ERTMemory::Device, "Useless"}, Out.ReleaseAndGetAddress()));
+	EXPECT_FALSE(Device().CreateBuffer({4, ERTBufferUsage::None, ERTMemory::Device, "Useless"}, Out.ReleaseAndGetAddress()));
 	ExpectMessage({"'Useless'", "no usage"});
 	EXPECT_EQ(Reached(ERTMockCall::CreateBuffer), 0u);
 	EXPECT_FALSE(Out);
@@ -47,8 +46,7 @@ TEST_F(FValidationCreation, Textures)
 	Good.Usage = ERTTextureUsage::Sampled;
 	Good.Name = "T";
 	TRTRef<IRTTexture> Out;
-	const auto Refuses = [&](FRTTextureDesc Desc, const char* Rule)
-	{
+	const auto Refuses = [&](FRTTextureDesc Desc, const char* Rule) {
 		EXPECT_EQ(Device().CreateTexture(Desc, Out.ReleaseAndGetAddress()).Code, ERTResult::InvalidArgument) << Rule;
 		ExpectMessage({"CreateTexture", "'T'", Rule});
 	};
@@ -87,8 +85,8 @@ TEST_F(FValidationCreation, EnvironmentErrorsPassWithoutMessage)
 	EXPECT_EQ(Device().CreateTexture(Desc, Out.ReleaseAndGetAddress()).Code, ERTResult::Unsupported);
 	Mock->FailAllocation(1);
 	TRTRef<IRTBuffer> Buffer;
-	EXPECT_EQ(Device().CreateBuffer({4, AnyUsage, ERTMemory::Device, "B"}, Buffer.ReleaseAndGetAddress()).Code,
-	          ERTResult::OutOfDeviceMemory);
+	EXPECT_EQ(
+	    Device().CreateBuffer({4, AnyUsage, ERTMemory::Device, "B"}, Buffer.ReleaseAndGetAddress()).Code, ERTResult::OutOfDeviceMemory);
 }
 
 TEST_F(FValidationCreation, Geometries)
@@ -96,8 +94,7 @@ TEST_F(FValidationCreation, Geometries)
 	const auto Vertices = Make.Buffer(360);
 	const FRTGeometrySection Good = Make.Section(Vertices.Get());
 	TRTRef<IRTGeometry> Out;
-	const auto Refuses = [&](std::vector<FRTGeometrySection> Sections, const char* Rule)
-	{
+	const auto Refuses = [&](std::vector<FRTGeometrySection> Sections, const char* Rule) {
 		FRTGeometryDesc Desc;
 		Desc.Sections = Sections.data();
 		Desc.SectionCount = static_cast<uint32_t>(Sections.size());
@@ -156,8 +153,7 @@ TEST_F(FValidationCreation, ShaderGroups)
 	    {DummyWords, std::size(DummyWords), ERTShaderStage::Intersection, "Box"},
 	};
 	TRTRef<IRTPipeline> Out;
-	const auto Refuses = [&](std::vector<FRTShaderGroup> Groups, const char* Rule)
-	{
+	const auto Refuses = [&](std::vector<FRTShaderGroup> Groups, const char* Rule) {
 		FRTRayTracingPipelineDesc Desc;
 		Desc.Shaders = Shaders;
 		Desc.ShaderCount = 3;

@@ -291,8 +291,7 @@ TEST_F(FValidationSubmission, HitRecordsBeyondTheTable)
 	const auto Scene = Make.Scene();
 	Table->SetRecord(ERTRecordKind::RayGen, 0, 0, nullptr, 0);
 	Table->SetRecord(ERTRecordKind::Hit, 0, 2, nullptr, 0);
-	const auto Trace = [&](uint32_t TableOffset)
-	{
+	const auto Trace = [&](uint32_t TableOffset) {
 		Items()[0] = Make.Instance(Geometry->GetDeviceAddress(), TableOffset);
 		auto List = Make.List();
 		Make.BuildBarrier(List.Get());

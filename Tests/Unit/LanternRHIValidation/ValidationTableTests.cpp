@@ -16,8 +16,8 @@ protected:
 	/// One group: a hit group, or a ray generation one.
 	FRTStatus Library(const char* Name, TRTRef<IRTPipeline>& Out, uint32_t Payload = 32, bool bRayGen = false)
 	{
-		const FRTShaderCode Shader = {DummyWords, std::size(DummyWords),
-		                              bRayGen ? ERTShaderStage::RayGen : ERTShaderStage::ClosestHit, Name};
+		const FRTShaderCode Shader = {
+		    DummyWords, std::size(DummyWords), bRayGen ? ERTShaderStage::RayGen : ERTShaderStage::ClosestHit, Name};
 		FRTShaderGroup Group;
 		Group.Kind = bRayGen ? ERTGroupKind::General : ERTGroupKind::Triangles;
 		(bRayGen ? Group.General : Group.ClosestHit) = 0;
@@ -43,10 +43,7 @@ protected:
 	TRTRef<IRTCommandList> Trace(IRTShaderTable* Table, IRTPipeline* Pipeline, bool bUpdate = true)
 	{
 		auto List = Make.List();
-		if (bUpdate)
-		{
-			List->UpdateShaderTable(Table);
-		}
+		if (bUpdate) { List->UpdateShaderTable(Table); }
 		List->SetPipeline(Pipeline);
 		List->TraceRays(Table, 0, 1, 1, 1);
 		return List;
@@ -109,8 +106,7 @@ TEST_F(FValidationTables, LibraryOnlyLinksWhereTheDeviceHasNone)
 	Desc.bLibraryOnlyPipelines = false;
 	TRTRef<IRTDevice> Bare;
 	ASSERT_OK(CreateMockDevice(Desc, Bare.ReleaseAndGetAddress()));
-	const auto Callback = [](void* User, const char* Message)
-	{ static_cast<std::vector<std::string>*>(User)->push_back(Message); };
+	const auto Callback = [](void* User, const char* Message) { static_cast<std::vector<std::string>*>(User)->push_back(Message); };
 	ASSERT_OK(WrapWithValidation(Bare.Get(), Callback, &Messages, Make.Device.ReleaseAndGetAddress()));
 	TRTRef<IRTPipeline> Hit, RayGen, Out;
 	ASSERT_OK(Library("Hit", Hit));
@@ -193,8 +189,7 @@ TEST_F(FValidationTables, StaleMissAndHitRecords)
 
 TEST_F(FValidationTables, StaleHitRecordsThatInstancesReach)
 {
-	const auto Vertices = Make.Buffer(36, ERTMemory::Upload, "Vertices"),
-	           Instances = Make.Buffer(256, ERTMemory::Upload);
+	const auto Vertices = Make.Buffer(36, ERTMemory::Upload, "Vertices"), Instances = Make.Buffer(256, ERTMemory::Upload);
 	const auto Scratch = Make.Scratch();
 	const auto Section = Make.Section(Vertices.Get());
 	const auto Geometry = Make.Geometry(Section);
@@ -244,21 +239,13 @@ TEST_F(FValidationTables, StagingMeetsSetting)
 	const uint32_t Group = 2;
 	std::atomic<bool> bStop = false;
 	// Set… calls may meet; staging at the same time may not.
-	std::thread Other(
-	    [&]
-	    {
-		    while (!bStop)
-		    {
-			    for (uint32_t i = 2048; i < 4096; ++i)
-			    {
-				    Table->SetGroups(ERTRecordKind::Hit, i, 1, &Group);
-			    }
-		    }
-	    });
-	for (uint32_t i = 0; i < 2048; ++i)
-	{
-		Table->SetGroups(ERTRecordKind::Hit, i, 1, &Group);
-	}
+	std::thread Other([&] {
+		while (!bStop)
+		{
+			for (uint32_t i = 2048; i < 4096; ++i) { Table->SetGroups(ERTRecordKind::Hit, i, 1, &Group); }
+		}
+	});
+	for (uint32_t i = 0; i < 2048; ++i) { Table->SetGroups(ERTRecordKind::Hit, i, 1, &Group); }
 	bStop = true;
 	Other.join();
 	EXPECT_OK(Table->Stage());
@@ -274,8 +261,7 @@ TEST_F(FValidationTables, SettingWhileAnotherThreadStages)
 	{
 		std::atomic<bool> bSet = false, bStage = false;
 	} Seen;
-	const auto Callback = [](void* User, const char* Message)
-	{
+	const auto Callback = [](void* User, const char* Message) {
 		const bool bNamed = std::strstr(Message, "shader table 'Table' is in use by another thread") != nullptr;
 		EXPECT_TRUE(bNamed) << Message;
 		(std::strstr(Message, "Stage") ? static_cast<FSeen*>(User)->bStage : static_cast<FSeen*>(User)->bSet) = true;
@@ -285,16 +271,12 @@ TEST_F(FValidationTables, SettingWhileAnotherThreadStages)
 	const auto Table = Make.Table(Pipeline.Get(), 4096);
 	const std::vector<uint32_t> Groups(4096, 2);
 	std::atomic<bool> bStop = false;
-	std::thread Other(
-	    [&]
-	    {
-		    while (!bStop)
-		    {
-			    EXPECT_OK(Table->Stage());
-		    }
-	    });
-	WaitUntil("either to meet the other", [&] { return Seen.bSet && Seen.bStage; },
-	          [&] { Table->SetGroups(ERTRecordKind::Hit, 0, 4096, Groups.data()); });
+	std::thread Other([&] {
+		while (!bStop) { EXPECT_OK(Table->Stage()); }
+	});
+	WaitUntil(
+	    "either to meet the other", [&] { return Seen.bSet && Seen.bStage; },
+	    [&] { Table->SetGroups(ERTRecordKind::Hit, 0, 4096, Groups.data()); });
 	bStop = true;
 	Other.join();
 }

@@ -31,10 +31,7 @@ protected:
 		for (uint32_t I = 0; I < Count; ++I)
 		{
 			Spheres.push_back(MakeSphere(Around, Extent));
-			if (I % 97 == 5)
-			{
-				Spheres.back().Radius = std::numeric_limits<double>::infinity();
-			}
+			if (I % 97 == 5) { Spheres.back().Radius = std::numeric_limits<double>::infinity(); }
 			Items.push_back({I, 2 * I, 3});
 		}
 		Blocks.Build(Items, Spheres);
@@ -53,10 +50,7 @@ protected:
 			const FDrawBlocks::FBlock& Block = Blocks.GetBlock(InBlock.Block);
 			for (uint32_t I = 0; I < FDrawBlocks::FBlock::Capacity; ++I)
 			{
-				if (((InBlock.Items >> I) & 1u) == 0)
-				{
-					continue;
-				}
+				if (((InBlock.Items >> I) & 1u) == 0) { continue; }
 				const FDrawBlocks::FItem& Item = Block.Items[I];
 				EXPECT_FALSE(Kept.at(Item.Object)) << "twice";
 				Kept.at(Item.Object) = true;
@@ -69,8 +63,7 @@ protected:
 	}
 	FView MakeView(const glm::dvec3& Around, double Extent)
 	{
-		const glm::dvec3 Position =
-		    Around + glm::dvec3(Uniform(-Extent, Extent), Uniform(-20, 20), Uniform(-Extent, Extent));
+		const glm::dvec3 Position = Around + glm::dvec3(Uniform(-Extent, Extent), Uniform(-20, 20), Uniform(-Extent, Extent));
 		const glm::dvec3 Target = Position + glm::dvec3(Uniform(-1, 1), Uniform(-0.5, 0.5), Uniform(-1, 1));
 		return LookAt(Position, Target, float(Uniform(0.2, 1.8)), 100 + Random() % 1000, 100 + Random() % 1000);
 	}
@@ -84,14 +77,8 @@ protected:
 		const std::vector<bool> Kept = Collect(View);
 		for (size_t I = 0; I < Spheres.size(); ++I)
 		{
-			if (Kept[I])
-			{
-				EXPECT_TRUE(MaySee(View, Spheres[I], 0.5)) << I;
-			}
-			else
-			{
-				EXPECT_FALSE(MaySee(View, Spheres[I], 0.0)) << I;
-			}
+			if (Kept[I]) { EXPECT_TRUE(MaySee(View, Spheres[I], 0.5)) << I; }
+			else { EXPECT_FALSE(MaySee(View, Spheres[I], 0.0)) << I; }
 		}
 	}
 
@@ -103,10 +90,7 @@ protected:
 TEST_F(FDrawBlocksTest, KeepsWhatTheViewSees)
 {
 	Build(5000, {0, 0, 0}, 2000);
-	for (int I = 0; I < 50; ++I)
-	{
-		Check(MakeView({0, 0, 0}, 2000));
-	}
+	for (int I = 0; I < 50; ++I) { Check(MakeView({0, 0, 0}, 2000)); }
 }
 
 TEST_F(FDrawBlocksTest, FarFromTheOriginAndAfterMoves)
@@ -136,14 +120,8 @@ TEST_F(FDrawBlocksTest, SmallOnTheScreenIsLeftOut)
 		{
 			const double Distance = glm::distance(Spheres[I].Center, View.Position);
 			const double Pixels = Spheres[I].Radius / Distance / std::tan(0.5 * View.FovY) * View.Height;
-			if (Large[I])
-			{
-				EXPECT_TRUE(All[I] && Pixels > 3.9) << Pixels;
-			}
-			else
-			{
-				EXPECT_TRUE(!All[I] || Pixels < 4.1) << Pixels;
-			}
+			if (Large[I]) { EXPECT_TRUE(All[I] && Pixels > 3.9) << Pixels; }
+			else { EXPECT_TRUE(!All[I] || Pixels < 4.1) << Pixels; }
 		}
 	}
 }

@@ -29,8 +29,7 @@ TEST_F(FFrameTaskTest, FailedAllocationFailsItsFrameAndTheNextRecovers)
 			Mock().FailAllocation(0);
 			ChangeScene(1);
 			Render(0.1);
-			EXPECT_EQ(GetScene().GetFacts().Objects,
-			          Mock().GetSceneInstances(Unwrap(GetScene().GetStructure())).size());
+			EXPECT_EQ(GetScene().GetFacts().Objects, Mock().GetSceneInstances(Unwrap(GetScene().GetStructure())).size());
 			DescribeRays();
 		}
 		EXPECT_GT(Failures, 8) << "combination " << Combination;
@@ -48,12 +47,9 @@ TEST_F(FFrameTaskTest, FrameLostByAPassRecovers)
 		for (int Frame = 0; Frame < 6; ++Frame)
 		{
 			ChangeScene(Frame);
-			const FRTStatus Status = RenderWith(
-			    [&](FFrameContext& Context)
-			    {
-				    AddPass(Context, "Bad",
-				            [&Context] { Context.Fail(FRTStatus::Error(ERTResult::IoError, "the host's own error")); });
-			    });
+			const FRTStatus Status = RenderWith([&](FFrameContext& Context) {
+				AddPass(Context, "Bad", [&Context] { Context.Fail(FRTStatus::Error(ERTResult::IoError, "the host's own error")); });
+			});
 			EXPECT_THAT(std::string(Status.Message), HasSubstr("the host's own error"));
 		}
 		Render(0.2);
@@ -78,10 +74,7 @@ TEST_F(FFrameTaskTest, RendererGoesWhileItsTasksRun)
 			ASSERT_TRUE(FHostScene::Create(*Renderer, MakeDescription(Everything), {}, Host));
 			Host->SetSun({.Irradiance = 3.0f});
 			std::optional<FBlockedWorkers> Blocked;
-			if (bBlocked)
-			{
-				Blocked.emplace();
-			}
+			if (bBlocked) { Blocked.emplace(); }
 			ASSERT_TRUE(Renderer->BeginFrame(Host->GetScene(), LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), {}));
 			Renderer.reset(); // before EndFrame
 			Blocked.reset();
@@ -122,8 +115,8 @@ TEST_F(FFrameTaskTest, DeviceLossInTheTasksIsTheFramesError)
 {
 	for (int Combination = 0; Combination < Combinations; ++Combination)
 	{
-		for (const ERTMockCall Kind : {ERTMockCall::CreateShaderTable, ERTMockCall::CreateScene,
-		                               ERTMockCall::CreateGeometry, ERTMockCall::CreateBuffer, ERTMockCall::Submit})
+		for (const ERTMockCall Kind : {ERTMockCall::CreateShaderTable, ERTMockCall::CreateScene, ERTMockCall::CreateGeometry,
+		         ERTMockCall::CreateBuffer, ERTMockCall::Submit})
 		{
 			Open();
 			SetToggles(Combination);

@@ -7,7 +7,6 @@ namespace Lantern
 namespace
 {
 
-
 TEST_F(FFrameTaskTest, EveryCombinationRecordsTheSame)
 {
 	constexpr int Frames = 10;
@@ -20,10 +19,7 @@ TEST_F(FFrameTaskTest, EveryCombinationRecordsTheSame)
 		ASSERT_TRUE(Load(Everything));
 		for (int Frame = 0; Frame < Frames; ++Frame)
 		{
-			if (Frame > 0)
-			{
-				ChangeScene(Frame);
-			}
+			if (Frame > 0) { ChangeScene(Frame); }
 			Render(0.1 * Frame);
 			const std::string Where = "combination " + std::to_string(Combination) + ", frame " + std::to_string(Frame);
 			if (Combination == 0)
@@ -52,35 +48,20 @@ TEST_F(FFrameTaskTest, AnySequenceOfTogglesGivesTheSameRays)
 		ASSERT_TRUE(Load(Everything));
 		for (int Frame = 0; Frame < 60; ++Frame)
 		{
-			if (Frame > 0)
-			{
-				ChangeScene(Frame % 8);
-			}
-			if (bToggle)
-			{
-				SetToggles(static_cast<int>(Random() % Combinations));
-			}
+			if (Frame > 0) { ChangeScene(Frame % 8); }
+			if (bToggle) { SetToggles(static_cast<int>(Random() % Combinations)); }
 			Set("r.RT.SBT.Mode", Frame % 5 == 3 ? "0" : "1");
 			Set("r.RT.AlphaTest", Frame % 7 == 6 ? "0" : "1");
 			Render(0.1 * Frame);
-			if (!bToggle)
-			{
-				Rays.push_back(DescribeRays());
-			}
-			else
-			{
-				EXPECT_EQ(DescribeRays(), Rays[Frame]) << "frame " << Frame;
-			}
+			if (!bToggle) { Rays.push_back(DescribeRays()); }
+			else { EXPECT_EQ(DescribeRays(), Rays[Frame]) << "frame " << Frame; }
 		}
 	}
 }
 
 TEST_F(FFrameTaskTest, TasksRunWhileTheRenderThreadRecords)
 {
-	if (GetWorkerCount() < 2)
-	{
-		GTEST_SKIP() << "one core";
-	}
+	if (GetWorkerCount() < 2) { GTEST_SKIP() << "one core"; }
 	StartTrace();
 	ASSERT_TRUE(Load(Everything));
 	bool bSeen = false;
@@ -158,8 +139,8 @@ TEST_F(FFrameTaskTest, HostThatTracesMayAskForStructuresEarlyOrLate)
 		ASSERT_TRUE(Renderer.EndFrame(nullptr));
 		std::vector<std::string> Passes = GetPasses();
 		std::erase(Passes, "SceneUpdate");
-		EXPECT_EQ(Passes, bLate ? (std::vector<std::string>{"Host", "Structures", "Trace"})
-		                        : (std::vector<std::string>{"Structures", "Host", "Trace"}));
+		EXPECT_EQ(Passes,
+		    bLate ? (std::vector<std::string>{"Host", "Structures", "Trace"}) : (std::vector<std::string>{"Structures", "Host", "Trace"}));
 	}
 }
 
@@ -180,8 +161,7 @@ TEST_F(FFrameTaskTest, TraceOfAFrameShowsItsParts)
 	StartTrace();
 	ASSERT_TRUE(Load(Everything));
 	ASSERT_TRUE(RenderWith([](FFrameContext&) {}));
-	const FTraceEvent Begin = FindEvent("BeginFrame"), Record = FindEvent("Record passes"),
-	                  Submit = FindEvent("Submit");
+	const FTraceEvent Begin = FindEvent("BeginFrame"), Record = FindEvent("Record passes"), Submit = FindEvent("Submit");
 	EXPECT_LE(Begin.EndNs, Record.BeginNs);
 	EXPECT_LE(Record.EndNs, Submit.BeginNs);
 	for (const char* Pass : {"Pass: GBuffer", "Pass: Structures", "Pass: ShaderTable", "Pass: SunShadow"})

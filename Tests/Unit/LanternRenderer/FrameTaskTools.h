@@ -11,8 +11,7 @@
 namespace Lantern
 {
 
-inline constexpr FContent Everything{
-    .bMasked = true, .bSkinned = true, .bLights = true, .bTexture = true, .bEmissive = true, .bSky = true};
+inline constexpr FContent Everything{.bMasked = true, .bSkinned = true, .bLights = true, .bTexture = true, .bEmissive = true, .bSky = true};
 
 /// Keeps all of TBB's workers but the calling thread busy until Open.
 class FBlockedWorkers
@@ -23,21 +22,19 @@ public:
 		const size_t Workers = GetWorkerCount() - 1;
 		for (size_t I = 0; I < Workers; ++I)
 		{
-			Group.Run(
-			    [this]
-			    {
-				    std::unique_lock Lock(Mutex);
-				    ++Blocked;
-				    Changed.wait(Lock, [&] { return bOpen; });
-			    });
+			Group.Run([this] {
+				std::unique_lock Lock(Mutex);
+				++Blocked;
+				Changed.wait(Lock, [&] { return bOpen; });
+			});
 		}
-		const auto CountBlocked = [this]
-		{
+		const auto CountBlocked = [this] {
 			const std::lock_guard Lock(Mutex);
 			return Blocked;
 		};
 		const auto Describe = [&] { return std::to_string(CountBlocked()) + " of " + std::to_string(Workers); };
-		bAllBlocked = WaitUntil("workers to be kept busy", [&] { return CountBlocked() == Workers; }, {}, Describe);
+		bAllBlocked = WaitUntil(
+		    "workers to be kept busy", [&] { return CountBlocked() == Workers; }, {}, Describe);
 	}
 	~FBlockedWorkers() { Open(); }
 	bool AreAllBlocked() const { return bAllBlocked; }
@@ -77,10 +74,7 @@ protected:
 	FRTScene& GetScene() { return Engine->GetScene().GetScene(); }
 	static void SetToggles(int Combination)
 	{
-		if (FConsoleVariables::Get().Find("r.RT.Scene.Hoist"))
-		{
-			Set("r.RT.Scene.Hoist", Combination & 1 ? "1" : "0");
-		}
+		if (FConsoleVariables::Get().Find("r.RT.Scene.Hoist")) { Set("r.RT.Scene.Hoist", Combination & 1 ? "1" : "0"); }
 		Set("r.RT.SBT.Prebind", Combination & 2 ? "1" : "0");
 	}
 	static constexpr int Combinations = 4;
@@ -95,10 +89,7 @@ protected:
 			const FRTMockRecord Record = Resolve(I, 0);
 			EXPECT_TRUE(Record.IsGood()) << Record.Error;
 			Text += Instances[I].GeometryName + ' ' + Record.AnyHit + " :";
-			for (const float Value : Instances[I].Instance.Transform)
-			{
-				Text += ' ' + std::to_string(Value);
-			}
+			for (const float Value : Instances[I].Instance.Transform) { Text += ' ' + std::to_string(Value); }
 			Text += '\n';
 		}
 		return Text;
@@ -109,15 +100,9 @@ protected:
 		std::vector<std::string> Lines;
 		for (const FRTMockCall& Call : Mock().GetCalls())
 		{
-			if (Call.List.empty())
-			{
-				continue;
-			}
+			if (Call.List.empty()) { continue; }
 			std::string Line = std::to_string(static_cast<int>(Call.Kind)) + ' ' + Call.Name;
-			for (const uint64_t Number : Call.Numbers)
-			{
-				Line += ' ' + std::to_string(Number);
-			}
+			for (const uint64_t Number : Call.Numbers) { Line += ' ' + std::to_string(Number); }
 			Lines.push_back(Line + ' ' + std::to_string(Call.Bytes.size()));
 		}
 		return Lines;
@@ -129,18 +114,9 @@ protected:
 		glm::dmat4 Transform(1.0);
 		Transform[3] = glm::dvec4(0.1 * Frame, 0, 0, 1);
 		Host.SetTransform(0, Transform);
-		if (Frame == 2)
-		{
-			Added = GetScene().AddObject(GetScene().GetObject(Host.GetDraws()[1].Object));
-		}
-		if (Frame == 4)
-		{
-			GetScene().SetMaterials(Added, {0});
-		}
-		if (Frame == 6)
-		{
-			GetScene().RemoveObject(Added);
-		}
+		if (Frame == 2) { Added = GetScene().AddObject(GetScene().GetObject(Host.GetDraws()[1].Object)); }
+		if (Frame == 4) { GetScene().SetMaterials(Added, {0}); }
+		if (Frame == 6) { GetScene().RemoveObject(Added); }
 		if (Frame == 7)
 		{
 			FMaterialData Material = GetScene().GetMaterials()[1];
@@ -154,35 +130,25 @@ protected:
 		FRenderer& Renderer = Engine->GetRenderer();
 		FView View = LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24);
 		View.FrameIndex = FrameIndex++;
-		if (FRTStatus S = Renderer.BeginFrame(GetScene(), View, {}); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = Renderer.BeginFrame(GetScene(), View, {}); !S) { return S; }
 		FFrameContext& Context = Renderer.GetContext();
-		if (!GBufferPass)
-		{
-			GBufferPass = std::make_unique<FGBufferPass>(Renderer);
-		}
+		if (!GBufferPass) { GBufferPass = std::make_unique<FGBufferPass>(Renderer); }
 		const FGBuffer GBuffer = GBufferPass->Add(Context, Engine->GetScene());
 		Before(Context);
 		const FFrameOutputs Frame = AddFramePasses(Context, GBuffer);
-		Context.Graph.AddPass("Use",
-		                      [&](FPassBuilder& Builder) -> FPassExecute
-		                      {
-			                      Builder.NeverCull();
-			                      Builder.Read(Frame.Display, ERTAccess::ShaderRead);
-			                      return {};
-		                      });
+		Context.Graph.AddPass("Use", [&](FPassBuilder& Builder) -> FPassExecute {
+			Builder.NeverCull();
+			Builder.Read(Frame.Display, ERTAccess::ShaderRead);
+			return {};
+		});
 		return Renderer.EndFrame(nullptr);
 	}
 	static void AddPass(FFrameContext& Context, const char* Name, const std::function<void()>& Do)
 	{
-		Context.Graph.AddPass(Name,
-		                      [&](FPassBuilder& Builder) -> FPassExecute
-		                      {
-			                      Builder.NeverCull();
-			                      return [Do](FPassContext&) { Do(); };
-		                      });
+		Context.Graph.AddPass(Name, [&](FPassBuilder& Builder) -> FPassExecute {
+			Builder.NeverCull();
+			return [Do](FPassContext&) { Do(); };
+		});
 	}
 	static size_t CountEvents(const std::string& Name)
 	{
@@ -193,10 +159,7 @@ protected:
 	{
 		for (const FTraceEvent& Event : FTaskTrace::GetEvents())
 		{
-			if (Name == Event.Name)
-			{
-				return Event;
-			}
+			if (Name == Event.Name) { return Event; }
 		}
 		ADD_FAILURE() << "no event " << Name;
 		return {};

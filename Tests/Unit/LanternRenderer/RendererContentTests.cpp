@@ -24,10 +24,7 @@ protected:
 	std::vector<std::string> GetDispatched()
 	{
 		std::vector<std::string> Names;
-		for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::Dispatch))
-		{
-			Names.push_back(Call.Name);
-		}
+		for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::Dispatch)) { Names.push_back(Call.Name); }
 		return Names;
 	}
 	FRTStatus RenderReferenceOnce(uint32_t Samples = 1)
@@ -45,19 +42,17 @@ protected:
 
 TEST_F(FRendererContentTest, EverythingAtOnce)
 {
-	LoadAndRender(
-	    {.bMasked = true, .bSkinned = true, .bLights = true, .bTexture = true, .bEmissive = true, .bSky = true});
-	EXPECT_THAT(GetPasses(),
-	            ElementsAre("Skinning", "SceneUpdate", "GBuffer", "Structures", "SunShadow", "Surface", "SunShadowTemporal", "SunShadowFilter0",
-	                        "SunShadowFilter1", "SunShadowFilter2", "SunShadowFilter3", "AmbientOcclusion", "AmbientOcclusionTemporal",
-	                        "AmbientOcclusionFilter0", "AmbientOcclusionFilter1", "AmbientOcclusionFilter2", "AmbientOcclusionFilter3",
-	                        "DirectLighting", "ToneMap"));
+	LoadAndRender({.bMasked = true, .bSkinned = true, .bLights = true, .bTexture = true, .bEmissive = true, .bSky = true});
+	EXPECT_THAT(GetPasses(), ElementsAre("Skinning", "SceneUpdate", "GBuffer", "Structures", "SunShadow", "Surface", "SunShadowTemporal",
+	                             "SunShadowFilter0", "SunShadowFilter1", "SunShadowFilter2", "SunShadowFilter3", "AmbientOcclusion",
+	                             "AmbientOcclusionTemporal", "AmbientOcclusionFilter0", "AmbientOcclusionFilter1",
+	                             "AmbientOcclusionFilter2", "AmbientOcclusionFilter3", "DirectLighting", "ToneMap"));
 	std::vector<std::string> Dispatched = GetDispatched();
 	std::erase_if(Dispatched, [](const std::string& Name) { return Name.rfind("Denoise/", 0) == 0; });
-	EXPECT_THAT(Dispatched,
-	            ElementsAre("Skinning/Skin.comp", "Skinning/RefitQuality.comp", AllOf(StartsWith("SunShadow/SunShadow.comp"), HasSubstr("HAS_MASKED")),
-	                        AllOf(StartsWith("AmbientOcclusion/AmbientOcclusion.comp"), HasSubstr("HAS_MASKED")),
-	                        "Lighting/DirectLighting.comp HAS_SUN HAS_SKY HAS_LIGHTS", "ToneMap/ToneMap.comp"));
+	EXPECT_THAT(Dispatched, ElementsAre("Skinning/Skin.comp", "Skinning/RefitQuality.comp",
+	                            AllOf(StartsWith("SunShadow/SunShadow.comp"), HasSubstr("HAS_MASKED")),
+	                            AllOf(StartsWith("AmbientOcclusion/AmbientOcclusion.comp"), HasSubstr("HAS_MASKED")),
+	                            "Lighting/DirectLighting.comp HAS_SUN HAS_SKY HAS_LIGHTS", "ToneMap/ToneMap.comp"));
 	EXPECT_EQ(Count(ERTMockCall::DrawIndexed), 4u);
 	EXPECT_EQ(Count(ERTMockCall::BuildGeometry), 4u);
 	EXPECT_THAT(Mock().GetCreatedBuffers(), Contains("Lights"));
@@ -68,8 +63,8 @@ TEST_F(FRendererContentTest, SecondFrameOfAStaticSceneCopiesAndBuildsNothing)
 	LoadAndRender({.bMasked = true, .bSkinned = true, .bLights = true, .bSky = true});
 	for (int Frame = 0; Frame < 8; ++Frame) { Render(); } // what was built is compacted
 	EXPECT_THAT(GetPassesWithoutFilters(), ElementsAre("GBuffer", "SunShadow", "AmbientOcclusion", "DirectLighting", "ToneMap"));
-	for (const ERTMockCall Kind : {ERTMockCall::CopyBuffer, ERTMockCall::BuildGeometry, ERTMockCall::BuildScene,
-	                               ERTMockCall::CreateTexture, ERTMockCall::CreateComputePipeline})
+	for (const ERTMockCall Kind : {ERTMockCall::CopyBuffer, ERTMockCall::BuildGeometry, ERTMockCall::BuildScene, ERTMockCall::CreateTexture,
+	         ERTMockCall::CreateComputePipeline})
 	{
 		EXPECT_EQ(Count(Kind), 0u) << static_cast<int>(Kind);
 	}
@@ -154,14 +149,11 @@ TEST_F(FRendererContentTest, WithoutASunNoRayIsTraced)
 	EXPECT_THAT(GetDispatched(), Contains("Lighting/DirectLighting.comp HAS_SKY"));
 	EXPECT_EQ(GetRTPSO(), nullptr);
 	EXPECT_TRUE(Captured.Get(ESignal::SunShadow).IsEmpty());
-	for (const ERTMockCall Kind : {ERTMockCall::CreateRayTracingPipeline, ERTMockCall::CreateShaderTable,
-	                               ERTMockCall::CreateGeometry, ERTMockCall::CreateScene, ERTMockCall::BuildScene})
+	for (const ERTMockCall Kind : {ERTMockCall::CreateRayTracingPipeline, ERTMockCall::CreateShaderTable, ERTMockCall::CreateGeometry,
+	         ERTMockCall::CreateScene, ERTMockCall::BuildScene})
 	{
 		EXPECT_EQ(Count(Kind), 0u) << static_cast<int>(Kind);
-		for (const FRTMockCall& Call : LoadCalls)
-		{
-			EXPECT_NE(Call.Kind, Kind) << "while loading";
-		}
+		for (const FRTMockCall& Call : LoadCalls) { EXPECT_NE(Call.Kind, Kind) << "while loading"; }
 	}
 	EXPECT_THAT(Mock().GetCreatedTextures(), Not(Contains("SunShadowVisibility")));
 	ApplySky({.bSun = true, .bSky = true});
@@ -217,7 +209,7 @@ TEST_F(FRendererContentTest, PassesThatNobodyReadsAreCulled)
 	Mock().ClearCalls();
 	ASSERT_TRUE(Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, Capture, &Captured));
 	EXPECT_THAT(GetPasses(), ElementsAre("GBuffer", "SunShadow", "Surface", "SunShadowTemporal", "SunShadowFilter0", "SunShadowFilter1",
-	                                     "SunShadowFilter2", "SunShadowFilter3"))
+	                             "SunShadowFilter2", "SunShadowFilter3"))
 	    << "a host that lights by itself";
 }
 
@@ -226,15 +218,16 @@ TEST_F(FRendererContentTest, AnothersFrameOfTheSceneEndsWhatIsCarriedOver)
 {
 	LoadAndRender({});
 	bool bHasPrevious = false;
-	Engine->ExtraPasses = [&](FFrameContext& Context, const FGBuffer&, const FFrameOutputs&) { bHasPrevious = Context.PreviousView != nullptr; };
+	Engine->ExtraPasses = [&](FFrameContext& Context, const FGBuffer&, const FFrameOutputs&) {
+		bHasPrevious = Context.PreviousView != nullptr;
+	};
 	Render();
 	EXPECT_TRUE(bHasPrevious);
 	FRendererDesc Desc;
 	Desc.ShaderFolders = {GetShaderFolder()};
 	Desc.CacheFolder = LANTERN_TEST_CACHE;
 	FRenderer Other(*Device, Desc);
-	const auto ShowByOther = [&](bool bSubmit)
-	{
+	const auto ShowByOther = [&](bool bSubmit) {
 		const FRTStatus Status = Other.BeginFrame(Engine->GetScene().GetScene(), LookAt({0, 0, 9}, {0, 0, 0}, 1.0f, 40, 24), {});
 		ASSERT_TRUE(Status) << Status.Message;
 		if (!bSubmit) { return Other.FrameSubmitted(0); }
@@ -286,7 +279,7 @@ TEST_F(FRendererContentTest, LadderChoosesThePathAndTheLastRungGoesWithout)
 		uint32_t Traces, Passes;
 	};
 	for (const FRung& Case : {FRung{ERTRung::Pipeline, true, 0, 1}, FRung{ERTRung::Pipeline, false, 1, 1},
-	                          FRung{ERTRung::RayQuery, true, 0, 1}, FRung{ERTRung::None, false, 0, 0}})
+	         FRung{ERTRung::RayQuery, true, 0, 1}, FRung{ERTRung::None, false, 0, 0}})
 	{
 		FRTMockDesc Desc;
 		Desc.Rung = Case.Rung;

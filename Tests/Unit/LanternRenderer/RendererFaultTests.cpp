@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "Support/CoreTestTools.h"
 #include "LanternHost/ReferenceRenderer.h"
 #include "LanternScene/ShaderTable/SectionTable.h"
+#include "Support/CoreTestTools.h"
 #include "Support/RendererTestTools.h"
 
 namespace Lantern
@@ -15,13 +15,8 @@ namespace
 
 using ::testing::HasSubstr;
 
-constexpr FContent Everything{.bMasked = true,
-                              .bSkinned = true,
-                              .bLights = true,
-                              .bTexture = true,
-                              .bEmissive = true,
-                              .bSun = true,
-                              .bSky = true};
+constexpr FContent Everything{
+    .bMasked = true, .bSkinned = true, .bLights = true, .bTexture = true, .bEmissive = true, .bSun = true, .bSky = true};
 
 class FRendererFaultTest : public FRendererTest
 {
@@ -32,15 +27,11 @@ protected:
 		std::vector<std::string> Names;
 		for (const FRTMockCall& Call : Mock().GetCalls())
 		{
-			const bool bAllocation =
-			    Call.Kind == ERTMockCall::CreateBuffer || Call.Kind == ERTMockCall::CreateTexture ||
-			    Call.Kind == ERTMockCall::CreateGeometry || Call.Kind == ERTMockCall::CreateScene ||
-			    Call.Kind == ERTMockCall::CreateShaderTable || Call.Kind == ERTMockCall::ReserveShaderTable ||
-			    Call.Kind == ERTMockCall::MakeHostCopy;
-			if (bAllocation)
-			{
-				Names.push_back(Call.Name);
-			}
+			const bool bAllocation = Call.Kind == ERTMockCall::CreateBuffer || Call.Kind == ERTMockCall::CreateTexture ||
+			                         Call.Kind == ERTMockCall::CreateGeometry || Call.Kind == ERTMockCall::CreateScene ||
+			                         Call.Kind == ERTMockCall::CreateShaderTable || Call.Kind == ERTMockCall::ReserveShaderTable ||
+			                         Call.Kind == ERTMockCall::MakeHostCopy;
+			if (bAllocation) { Names.push_back(Call.Name); }
 		}
 		return Names;
 	}
@@ -56,10 +47,7 @@ protected:
 			const std::vector<std::string> Names = GetAllocations();
 			const uint32_t Failing = FailAt;
 			FailAt -= std::min<uint32_t>(FailAt, static_cast<uint32_t>(Names.size()));
-			if (Status)
-			{
-				return;
-			}
+			if (Status) { return; }
 			++Failures;
 			ASSERT_EQ(Status.Code, ERTResult::OutOfDeviceMemory) << Status.Message;
 			ASSERT_TRUE(Failing > 0 && Failing <= Names.size()) << Status.Message;
@@ -70,10 +58,7 @@ protected:
 	template <class T>
 	void ExpectOnDevice(FAddress Address, const std::vector<T>& Values, const char* What)
 	{
-		if (Values.empty())
-		{
-			return;
-		}
+		if (Values.empty()) { return; }
 		IRTBuffer* const Buffer = Mock().FindBuffer(Address);
 		ASSERT_TRUE(Buffer) << What;
 		EXPECT_EQ(std::memcmp(Mock().GetBytes(Buffer), Values.data(), Values.size() * sizeof(T)), 0) << What;
@@ -132,16 +117,12 @@ TEST_F(FRendererFaultTest, EveryAllocationMayFailOnce)
 			ASSERT_NO_FATAL_FAILURE(Insist([&] { return Load(Everything); }, Failures, FailAt)) << "allocation " << N;
 			for (int Frame = 0; Frame < 3; ++Frame)
 			{
-				ASSERT_NO_FATAL_FAILURE(Insist([&] { return RenderFrame(Frame * 0.1); }, Failures, FailAt))
-				    << "allocation " << N;
+				ASSERT_NO_FATAL_FAILURE(Insist([&] { return RenderFrame(Frame * 0.1); }, Failures, FailAt)) << "allocation " << N;
 			}
 			ASSERT_LE(Failures, 1u);
 			ASSERT_NO_FATAL_FAILURE(ExpectSceneOnDevice()) << "allocation " << N;
 			ASSERT_FALSE(HasFailure()) << "allocation " << N;
-			if (Failures == 0 && N > 60)
-			{
-				break;
-			} // that many there are not: all have been tried
+			if (Failures == 0 && N > 60) { break; } // that many there are not: all have been tried
 			Failed += Failures;
 		}
 		EXPECT_GT(Failed, 30u);
@@ -153,8 +134,9 @@ TEST_F(FRendererFaultTest, SkinningOfALostFrameIsDoneAgain)
 	ASSERT_TRUE(Load(Everything));
 	for (int Frame = 0; Frame < 4; ++Frame)
 	{
-		Engine->ExtraPasses = [](FFrameContext& Context, const FGBuffer&, const FFrameOutputs&)
-		{ Context.Fail(FRTStatus::Error(ERTResult::Unsupported, "on purpose")); };
+		Engine->ExtraPasses = [](FFrameContext& Context, const FGBuffer&, const FFrameOutputs&) {
+			Context.Fail(FRTStatus::Error(ERTResult::Unsupported, "on purpose"));
+		};
 		const FRTStatus Status = RenderFrame(Frame * 0.1);
 		EXPECT_STREQ(Status.Message, "on purpose");
 		Engine->ExtraPasses = {};
@@ -168,16 +150,12 @@ TEST_F(FRendererFaultTest, NothingIsRecordedBehindAFailedPass)
 {
 	// A pass may lack what the failed one was to make: a shader table, the scene's tables.
 	ASSERT_TRUE(Load(Everything));
-	Engine->ExtraPasses = [](FFrameContext& Context, const FGBuffer&, const FFrameOutputs&)
-	{
-		const auto Add = [&](const char* Name, FPassExecute Execute)
-		{
-			Context.Graph.AddPass(Name,
-			                      [&](FPassBuilder& Builder)
-			                      {
-				                      Builder.NeverCull();
-				                      return Execute;
-			                      });
+	Engine->ExtraPasses = [](FFrameContext& Context, const FGBuffer&, const FFrameOutputs&) {
+		const auto Add = [&](const char* Name, FPassExecute Execute) {
+			Context.Graph.AddPass(Name, [&](FPassBuilder& Builder) {
+				Builder.NeverCull();
+				return Execute;
+			});
 		};
 		Add("Fails", [&](FPassContext&) { Context.Fail(FRTStatus::Error(ERTResult::Unsupported, "on purpose")); });
 		Add("Behind", [](FPassContext&) { ADD_FAILURE() << "was recorded"; });
@@ -194,17 +172,11 @@ TEST_F(FRendererFaultTest, MemoryThatIsShortForLongIsNoDisaster)
 {
 	Mock().FailEveryAllocation(3);
 	// Loading needs more than two allocations in a row, so it cannot succeed.
-	for (int I = 0; I < 5; ++I)
-	{
-		EXPECT_EQ(Load(Everything).Code, ERTResult::OutOfDeviceMemory);
-	}
+	for (int I = 0; I < 5; ++I) { EXPECT_EQ(Load(Everything).Code, ERTResult::OutOfDeviceMemory); }
 	Mock().FailEveryAllocation(0);
 	ASSERT_TRUE(Load(Everything));
 	Mock().FailEveryAllocation(1);
-	for (int I = 0; I < 5; ++I)
-	{
-		EXPECT_EQ(RenderFrame(I).Code, ERTResult::OutOfDeviceMemory);
-	}
+	for (int I = 0; I < 5; ++I) { EXPECT_EQ(RenderFrame(I).Code, ERTResult::OutOfDeviceMemory); }
 	Mock().FailEveryAllocation(0);
 	Render();
 	ExpectSceneOnDevice();
@@ -229,8 +201,8 @@ TEST_F(FRendererFaultTest, ReferenceSurvivesFailedAllocations)
 
 TEST_F(FRendererFaultTest, PipelineThatDoesNotCompileIsNamed)
 {
-	for (const char* Name : {"RTPSO", "GBuffer", "GBufferMasked", "Lighting/DirectLighting.comp",
-	                         "ToneMap/ToneMap.comp", "Skinning/Skin.comp"})
+	for (const char* Name :
+	    {"RTPSO", "GBuffer", "GBufferMasked", "Lighting/DirectLighting.comp", "ToneMap/ToneMap.comp", "Skinning/Skin.comp"})
 	{
 		Open();
 		Set("r.RT.Shadow.Path", "1");
@@ -261,8 +233,7 @@ TEST_F(FRendererFaultTest, FeatureWhosePipelineFailsCanBeSwitchedOff)
 	}
 	Mock().ClearCalls();
 	EXPECT_EQ(RenderFrame().Code, ERTResult::CompileFailed);
-	EXPECT_EQ(Mock().CountCalls(ERTMockCall::CreateComputePipeline), 0u)
-	    << "what failed to compile is not tried each frame";
+	EXPECT_EQ(Mock().CountCalls(ERTMockCall::CreateComputePipeline), 0u) << "what failed to compile is not tried each frame";
 	// Another pipeline of the same feature is not the one that failed.
 	Mock().ClearCompileFaults();
 	Set("r.RT.Shadow.Path", "1");
@@ -274,8 +245,8 @@ TEST_F(FRendererFaultTest, FeatureWhosePipelineFailsCanBeSwitchedOff)
 
 TEST_F(FRendererFaultTest, MissingShaderFileIsNamed)
 {
-	for (const char* Missing : {"Lighting/DirectLighting.comp", "SunShadow/SunShadow.rgen", "Rays/Shadow.rmiss",
-	                            "GBuffer/GBuffer.frag", "Library/Brdf.glsl"})
+	for (const char* Missing :
+	    {"Lighting/DirectLighting.comp", "SunShadow/SunShadow.rgen", "Rays/Shadow.rmiss", "GBuffer/GBuffer.frag", "Library/Brdf.glsl"})
 	{
 		const FTemporaryFolder Folder;
 		std::filesystem::copy(GetShaderFolder(), Folder.GetPath(), std::filesystem::copy_options::recursive);
@@ -305,8 +276,7 @@ TEST_F(FRendererFaultTest, WrongShaderIsNamedWithItsLine)
 // ---------------------------------------------------------------------------------------------------- device lost
 
 class FDeviceLostTest : public FRendererFaultTest, public ::testing::WithParamInterface<int>
-{
-};
+{};
 
 TEST_P(FDeviceLostTest, EveryCallSaysSoAndNothingHangs)
 {
@@ -318,31 +288,18 @@ TEST_P(FDeviceLostTest, EveryCallSaysSoAndNothingHangs)
 			Open();
 			Set("r.RT.Shadow.Path", Path);
 			FRTStatus Status;
-			const auto Do = [&](int At, auto Step)
-			{
-				if (At == Phase)
-				{
-					Mock().LoseDeviceAt(Kind);
-				}
-				if (Status)
-				{
-					Status = Step();
-				}
+			const auto Do = [&](int At, auto Step) {
+				if (At == Phase) { Mock().LoseDeviceAt(Kind); }
+				if (Status) { Status = Step(); }
 				const bool bLost = Device->WaitFor(0, 0).Code == ERTResult::DeviceLost;
 				EXPECT_EQ(Status.IsOk(), !bLost) << Status.Message;
-				if (!Status)
-				{
-					EXPECT_EQ(Status.Code, ERTResult::DeviceLost) << Status.Message;
-				}
+				if (!Status) { EXPECT_EQ(Status.Code, ERTResult::DeviceLost) << Status.Message; }
 			};
 			Do(0, [&] { return Load(Everything); });
 			Do(1, [&] { return RenderFrame(0.0); });
 			Do(2, [&] { return RenderFrame(0.1); });
 			Do(3, [&] { return RenderReferenceOnce(); });
-			if (Status)
-			{
-				continue;
-			} // this kind of call is not made then
+			if (Status) { continue; } // this kind of call is not made then
 			// Trying on fails in the same way, as often as one likes.
 			for (int I = 0; I < 3; ++I)
 			{
@@ -364,10 +321,7 @@ TEST_P(FDeviceLostTest, FramesAfterTheLossFailToo)
 		const FRTStatus Status = RenderFrame(0.1 * I);
 		EXPECT_TRUE(!bLost || !Status) << "a frame of a lost device";
 		bLost |= !Status;
-		if (!Status)
-		{
-			EXPECT_EQ(Status.Code, ERTResult::DeviceLost) << Status.Message;
-		}
+		if (!Status) { EXPECT_EQ(Status.Code, ERTResult::DeviceLost) << Status.Message; }
 	}
 }
 

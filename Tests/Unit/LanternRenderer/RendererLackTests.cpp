@@ -20,7 +20,8 @@ using FNames = std::set<std::string>; ///< "pass SunShadow", "texture SunShadowH
 
 struct FStage
 {
-	FContent Content = {.bMasked = true, .bSkinned = true, .bLights = true, .bTexture = true, .bEmissive = true, .bSun = true, .bSky = true};
+	FContent Content = {
+	    .bMasked = true, .bSkinned = true, .bLights = true, .bTexture = true, .bEmissive = true, .bSun = true, .bSky = true};
 	bool bMoves = true; ///< an object travels; what is skinned moves in any case
 	bool bAway = false; ///< the camera looks where nothing is
 	std::vector<std::pair<const char*, const char*>> Settings;
@@ -93,7 +94,10 @@ protected:
 				EXPECT_FALSE(HasPart(Left, Part)) << What << ", path " << Path << ": " << Part << " is there";
 			}
 			const FNames FullStripped = StripVariants(Full);
-			for (const std::string& Name : StripVariants(Left)) { EXPECT_TRUE(FullStripped.count(Name)) << What << ": " << Name << " instead"; }
+			for (const std::string& Name : StripVariants(Left))
+			{
+				EXPECT_TRUE(FullStripped.count(Name)) << What << ": " << Name << " instead";
+			}
 		}
 	}
 };
@@ -125,7 +129,9 @@ TEST_F(FRendererLackTest, NoSun)
 {
 	FStage Stage;
 	Stage.Content.bSun = false;
-	ExpectAbsent("no sun", Stage, {"pass SunShadow", "texture SunShadow", "SunShadowTemporal", "SunShadowFilter", "SunShadowHistory", "SunShadow/SunShadow", "HAS_SUN"});
+	ExpectAbsent("no sun", Stage,
+	    {"pass SunShadow", "texture SunShadow", "SunShadowTemporal", "SunShadowFilter", "SunShadowHistory", "SunShadow/SunShadow",
+	        "HAS_SUN"});
 }
 
 TEST_F(FRendererLackTest, NoSky)
@@ -133,8 +139,8 @@ TEST_F(FRendererLackTest, NoSky)
 	FStage Stage;
 	Stage.Content.bSky = false;
 	ExpectAbsent("no sky", Stage,
-	             {"pass AmbientOcclusion", "texture AmbientOcclusion", "AmbientOcclusionTemporal", "AmbientOcclusionHistory",
-	              "AmbientOcclusion/AmbientOcclusion", "HAS_SKY"});
+	    {"pass AmbientOcclusion", "texture AmbientOcclusion", "AmbientOcclusionTemporal", "AmbientOcclusionHistory",
+	        "AmbientOcclusion/AmbientOcclusion", "HAS_SKY"});
 }
 
 TEST_F(FRendererLackTest, NoEmissiveSurfaces)
@@ -155,8 +161,8 @@ TEST_F(FRendererLackTest, NoObjects)
 {
 	FStage Stage;
 	Stage.Content = {.bObjects = false, .bSky = true};
-	ExpectAbsent("no objects", Stage,
-	             {"Reflections", "AmbientOcclusion", "Standard MATERIAL", "Standard SHADOW", "ObjectMotions", "buffer Lights"});
+	ExpectAbsent(
+	    "no objects", Stage, {"Reflections", "AmbientOcclusion", "Standard MATERIAL", "Standard SHADOW", "ObjectMotions", "buffer Lights"});
 }
 
 TEST_F(FRendererLackTest, NoLightAtAllNoRays)
@@ -164,8 +170,8 @@ TEST_F(FRendererLackTest, NoLightAtAllNoRays)
 	FStage Stage;
 	Stage.Content.bSun = Stage.Content.bSky = Stage.Content.bLights = Stage.Content.bEmissive = false;
 	ExpectAbsent("no light at all", Stage,
-	             {"SunShadow", "AmbientOcclusion", "Reflections", "Structures", "ShaderTable", "RTPSO", "scene structure", "Denoise", "Surface",
-	              "History", "GBufferMotion", "ObjectMotions"});
+	    {"SunShadow", "AmbientOcclusion", "Reflections", "Structures", "ShaderTable", "RTPSO", "scene structure", "Denoise", "Surface",
+	        "History", "GBufferMotion", "ObjectMotions"});
 }
 
 TEST_F(FRendererLackTest, NothingMoves)
@@ -210,8 +216,8 @@ TEST_F(FRendererLackTest, NoFilterNoHistoryAndNoMotion)
 {
 	FStage Stage;
 	Stage.Settings = {{"r.RT.Shadow.Denoise", "0"}, {"r.RT.AO.Denoise", "0"}};
-	ExpectAbsent("no filter", Stage,
-	             {"Denoise", "Temporal", "Filter", "Surface", "History", "GBufferMotion", "ObjectMotions", "SunShadowPenumbra"});
+	ExpectAbsent(
+	    "no filter", Stage, {"Denoise", "Temporal", "Filter", "Surface", "History", "GBufferMotion", "ObjectMotions", "SunShadowPenumbra"});
 	const std::vector<std::pair<const char*, const char*>> Pipeline = {{"r.RT.Shadow.Path", "1"}};
 	EXPECT_TRUE(HasPart(Make({}, Pipeline), "Shadow.rchit"));
 	EXPECT_FALSE(HasPart(Make(Stage, Pipeline), "Shadow.rchit")) << "shadow rays run nothing where they hit";
@@ -246,8 +252,8 @@ TEST_F(FRendererLackTest, RayTracingOffLeavesTheRaster)
 	FStage Stage;
 	Stage.Settings = {{"r.RT.Enable", "0"}, {"r.RT.GI", "1"}};
 	ExpectAbsent("no ray tracing", Stage,
-	             {"SunShadow", "AmbientOcclusion", "Reflections", "Structures", "ShaderTable", "RTPSO", "scene structure", "Denoise", "Surface",
-	              "History", "GBufferMotion", "ObjectMotions", "EmissiveTriangles"});
+	    {"SunShadow", "AmbientOcclusion", "Reflections", "Structures", "ShaderTable", "RTPSO", "scene structure", "Denoise", "Surface",
+	        "History", "GBufferMotion", "ObjectMotions", "EmissiveTriangles"});
 	Mock().ClearCalls();
 	Render(0.3);
 	EXPECT_THAT(GetPassesWithoutFilters(), Not(Contains("Structures")));

@@ -1,8 +1,8 @@
 // Console variables flipped between frames: the next frame is right, and only what it needs runs.
 #include <random>
 
-#include "Support/RendererTestTools.h"
 #include "SunShadowTypes.h"
+#include "Support/RendererTestTools.h"
 #include "Support/WaitTools.h"
 
 namespace Lantern
@@ -21,10 +21,7 @@ protected:
 	{
 		for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::Dispatch))
 		{
-			if (Call.Name.rfind("Lighting/DirectLighting.comp", 0) == 0)
-			{
-				return Call.Name.substr(28);
-			}
+			if (Call.Name.rfind("Lighting/DirectLighting.comp", 0) == 0) { return Call.Name.substr(28); }
 		}
 		return "none";
 	}
@@ -36,10 +33,7 @@ protected:
 		{
 			const bool bTrace = Call.Kind == ERTMockCall::TraceRays;
 			const bool bQuery = Call.Kind == ERTMockCall::Dispatch && Call.Name.rfind("SunShadow/", 0) == 0;
-			if (!bTrace && !bQuery)
-			{
-				continue;
-			}
+			if (!bTrace && !bQuery) { continue; }
 			EXPECT_EQ(Call.Bytes.size(), sizeof(Constants));
 			std::memcpy(&Constants, Call.Bytes.data(), std::min(sizeof(Constants), Call.Bytes.size()));
 		}
@@ -49,8 +43,7 @@ protected:
 	void ExpectOcclusionUntilDiffuseGI()
 	{
 		bool bRuns = false;
-		const auto Frame = [&]
-		{
+		const auto Frame = [&] {
 			ASSERT_NO_FATAL_FAILURE(Render());
 			bRuns = HasPass("DiffuseGI");
 			ASSERT_NE(HasPass("AmbientOcclusion"), bRuns);
@@ -71,7 +64,8 @@ protected:
 			}
 		}
 		LetGo();
-		ASSERT_TRUE(WaitUntil("diffuse GI", [&] { return bRuns; }, Frame));
+		ASSERT_TRUE(WaitUntil(
+		    "diffuse GI", [&] { return bRuns; }, Frame));
 	}
 };
 
@@ -88,9 +82,8 @@ TEST_F(FRendererToggleTest, EveryFeatureCanBeSwitchedOffAndOn)
 	};
 	const std::string All = " HAS_SUN HAS_SKY HAS_LIGHTS";
 	for (const FCase& Case : {FCase{"r.RT.Enable", "0", "1", All, false}, FCase{"r.RT.Shadow", "0", "1", All, false},
-	                          FCase{"r.RT.LocalLights", "0", "1", " HAS_SUN HAS_SKY", true},
-	                          FCase{"r.RT.SkyAmbient", "0", "1", " HAS_SUN HAS_LIGHTS", true},
-	                          FCase{"r.RT.AlphaTest", "0", "1", All, true}})
+	         FCase{"r.RT.LocalLights", "0", "1", " HAS_SUN HAS_SKY", true}, FCase{"r.RT.SkyAmbient", "0", "1", " HAS_SUN HAS_LIGHTS", true},
+	         FCase{"r.RT.AlphaTest", "0", "1", All, true}})
 	{
 		for (const char* Path : {"1", "2"})
 		{
@@ -172,8 +165,7 @@ TEST_F(FRendererToggleTest, ShadowSettingsReachTheShader)
 TEST_F(FRendererToggleTest, ValueSetInTheMiddleOfAFrameWaitsForTheNext)
 {
 	LoadAndRender({});
-	Engine->ExtraPasses = [](FFrameContext&, const FGBuffer&, const FFrameOutputs& Outputs)
-	{
+	Engine->ExtraPasses = [](FFrameContext&, const FGBuffer&, const FFrameOutputs& Outputs) {
 		EXPECT_TRUE(Outputs.SunShadow.Visibility.IsValid());
 		Set("r.RT.Shadow", "0");
 	};
@@ -192,24 +184,13 @@ TEST_F(FRendererToggleTest, AnySequenceOfTogglesGivesRightFrames)
 		const char* Name;
 		std::vector<const char*> Values;
 	};
-	const std::vector<FVariable> Variables = {{"r.RT.Enable", {"0", "1", "1"}},
-	                                          {"r.RT.Shadow", {"0", "1", "1"}},
-	                                          {"r.RT.Shadow.Path", {"0", "1", "2"}},
-	                                          {"r.RT.Shadow.Soft", {"0", "1"}},
-	                                          {"r.RT.Shadow.Samples", {"1", "4"}},
-	                                          {"r.RT.AlphaTest", {"0", "1"}},
-	                                          {"r.RT.Material.Override", {"0", "1", "2"}},
-	                                          {"r.RT.LocalLights", {"0", "1"}},
-	                                          {"r.RT.SkyAmbient", {"0", "1"}},
-	                                          {"r.RT.AO", {"0", "1"}},
-	                                          {"r.RT.AO.Path", {"0", "1", "2"}},
-	                                          {"r.RT.AO.Denoise", {"0", "1", "1"}},
-	                                          {"r.RT.GI", {"0", "1"}},
-	                                          {"r.RT.Reflections", {"0", "1"}},
-	                                          {"r.RT.Shadow.Denoise", {"0", "1", "1"}},
-	                                          {"r.RT.GBuffer.Motion", {"0", "1"}},
-	                                          {"r.RT.Debug.PoisonHistory", {"0", "1", "3"}},
-	                                          {"r.RT.Skinning.RebuildInterval", {"1", "2", "16"}}};
+	const std::vector<FVariable> Variables = {{"r.RT.Enable", {"0", "1", "1"}}, {"r.RT.Shadow", {"0", "1", "1"}},
+	    {"r.RT.Shadow.Path", {"0", "1", "2"}}, {"r.RT.Shadow.Soft", {"0", "1"}}, {"r.RT.Shadow.Samples", {"1", "4"}},
+	    {"r.RT.AlphaTest", {"0", "1"}}, {"r.RT.Material.Override", {"0", "1", "2"}}, {"r.RT.LocalLights", {"0", "1"}},
+	    {"r.RT.SkyAmbient", {"0", "1"}}, {"r.RT.AO", {"0", "1"}}, {"r.RT.AO.Path", {"0", "1", "2"}}, {"r.RT.AO.Denoise", {"0", "1", "1"}},
+	    {"r.RT.GI", {"0", "1"}}, {"r.RT.Reflections", {"0", "1"}}, {"r.RT.Shadow.Denoise", {"0", "1", "1"}},
+	    {"r.RT.GBuffer.Motion", {"0", "1"}}, {"r.RT.Debug.PoisonHistory", {"0", "1", "3"}},
+	    {"r.RT.Skinning.RebuildInterval", {"1", "2", "16"}}};
 	std::mt19937 Random(6);
 	FContent Content{.bMasked = true, .bSkinned = true, .bLights = true, .bEmissive = true, .bSky = true};
 	for (int Step = 0; Step < 150; ++Step)
@@ -226,7 +207,9 @@ TEST_F(FRendererToggleTest, AnySequenceOfTogglesGivesRightFrames)
 			ApplySky(Content);
 		}
 		ASSERT_NO_FATAL_FAILURE(Render(Random() % 4 * 0.25)) << "step " << Step;
-		const auto IsOn = [](const char* Name) { return FConsoleVariables::ToString(FConsoleVariables::Get().Find(Name)->GetValue()) == "1"; };
+		const auto IsOn = [](const char* Name) {
+			return FConsoleVariables::ToString(FConsoleVariables::Get().Find(Name)->GetValue()) == "1";
+		};
 		const bool bRays = IsOn("r.RT.Enable");
 		ASSERT_EQ(HasPass("SunShadow"), bRays && Content.bSun && IsOn("r.RT.Shadow")) << "step " << Step;
 		ASSERT_EQ(HasPass("DiffuseGI"), bRays && IsOn("r.RT.GI")) << "step " << Step;
@@ -270,8 +253,7 @@ TEST_F(FRendererToggleTest, SizeOfThePictureMayChangeEveryFrame)
 	{
 		FFrameCapture Capture;
 		Capture.bDisplay = true;
-		const FRTStatus Status =
-		    Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, Size, 2 * Size), 0.0, Capture, &Captured);
+		const FRTStatus Status = Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, Size, 2 * Size), 0.0, Capture, &Captured);
 		ASSERT_TRUE(Status) << Status.Message;
 		EXPECT_EQ(Captured.Display.Width, Size);
 		EXPECT_EQ(Captured.Display.Height, 2 * Size);
@@ -281,16 +263,10 @@ TEST_F(FRendererToggleTest, SizeOfThePictureMayChangeEveryFrame)
 TEST_F(FRendererToggleTest, ManyFramesNeitherLeakNorWait)
 {
 	LoadAndRender({.bMasked = true, .bSkinned = true, .bSky = true});
-	for (int I = 0; I < 5; ++I)
-	{
-		Render(I * 0.1);
-	}
+	for (int I = 0; I < 5; ++I) { Render(I * 0.1); }
 	const uint32_t Objects = Mock().GetLiveObjectCount();
 	const uint64_t Bytes = Device->GetMemoryStats().Total;
-	for (int I = 0; I < 100; ++I)
-	{
-		Render(I * 0.1);
-	}
+	for (int I = 0; I < 100; ++I) { Render(I * 0.1); }
 	EXPECT_EQ(Mock().GetLiveObjectCount(), Objects);
 	EXPECT_EQ(Device->GetMemoryStats().Total, Bytes);
 }

@@ -16,10 +16,7 @@ protected:
 	{
 		FFrameCapture Capture;
 		Capture.bLighting = bLighting;
-		for (const ESignal Signal : Signals)
-		{
-			Capture.Wants(Signal) = true;
-		}
+		for (const ESignal Signal : Signals) { Capture.Wants(Signal) = true; }
 		Captured = {};
 		Mock().ClearCalls();
 		const FRTStatus Status = Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, Capture, &Captured);
@@ -28,10 +25,7 @@ protected:
 	std::vector<std::string> GetDispatched()
 	{
 		std::vector<std::string> Names;
-		for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::CreateComputePipeline))
-		{
-			Names.push_back(Call.Name);
-		}
+		for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::CreateComputePipeline)) { Names.push_back(Call.Name); }
 		return Names;
 	}
 };
@@ -98,8 +92,7 @@ TEST_F(FSignalCaptureTest, SunShadowsAskedForInEveryFrame)
 TEST_F(FSignalCaptureTest, WhatTheFrameNoLongerHasIsNotThatOfTheFrameBefore)
 {
 	LoadAndRender({});
-	const auto Again = [&]
-	{
+	const auto Again = [&] {
 		FFrameCapture Capture;
 		Capture.Wants(ESignal::SunShadow) = Capture.bDisplay = true;
 		const FRTStatus Status = Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, Capture, &Captured);

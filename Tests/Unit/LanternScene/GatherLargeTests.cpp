@@ -36,20 +36,16 @@ protected:
 		for (uint32_t I = 0; I < ObjectCount; ++I)
 		{
 			const double At = Distance(Random), Turn = Angle(Random);
-			Ids.push_back(
-			    Add(Geometries[I % 20], {Materials[I / 20 % 20]}, {At * std::cos(Turn), 0, At * std::sin(Turn)}));
+			Ids.push_back(Add(Geometries[I % 20], {Materials[I / 20 % 20]}, {At * std::cos(Turn), 0, At * std::sin(Turn)}));
 		}
 	}
 	std::vector<FRTInstance> GetSorted()
 	{
 		std::vector<FRTInstance> Out;
-		for (const FRTMockInstance& Item : GetInstances())
-		{
-			Out.push_back(Item.Instance);
-		}
-		std::sort(Out.begin(), Out.end(),
-		          [](const FRTInstance& A, const FRTInstance& B)
-		          { return (A.CustomIndexAndMask & 0xffffff) < (B.CustomIndexAndMask & 0xffffff); });
+		for (const FRTMockInstance& Item : GetInstances()) { Out.push_back(Item.Instance); }
+		std::sort(Out.begin(), Out.end(), [](const FRTInstance& A, const FRTInstance& B) {
+			return (A.CustomIndexAndMask & 0xffffff) < (B.CustomIndexAndMask & 0xffffff);
+		});
 		return Out;
 	}
 	std::vector<FRTObjectId> Ids;
@@ -88,12 +84,8 @@ TEST_F(FGatherLargeTest, AMillionObjects)
 		Scene->SetTransform(Ids[I], Transform);
 	}
 	Frame({900, 0, 0});
-	EXPECT_LE(Scene->GetStats().BytesCopied,
-	          uint64_t(ObjectCount) / 100 * FGpuTableBase::ChunkEntries * sizeof(FObjectData));
-	for (const FRTObjectId Id : Ids)
-	{
-		Scene->RemoveObject(Id);
-	}
+	EXPECT_LE(Scene->GetStats().BytesCopied, uint64_t(ObjectCount) / 100 * FGpuTableBase::ChunkEntries * sizeof(FObjectData));
+	for (const FRTObjectId Id : Ids) { Scene->RemoveObject(Id); }
 	Frame();
 	EXPECT_EQ(GetInstances().size(), 0u);
 	EXPECT_EQ(Scene->GetInstances().GetBucketCount(), 0u);

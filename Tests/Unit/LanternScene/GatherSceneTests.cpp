@@ -54,10 +54,7 @@ protected:
 		ASSERT_TRUE(List->End());
 		FRTFence Fence = 0;
 		IRTCommandList* const Lists[] = {List.Get()};
-		if (bSubmit)
-		{
-			ASSERT_TRUE(Device->Submit(Lists, 1, &Fence));
-		}
+		if (bSubmit) { ASSERT_TRUE(Device->Submit(Lists, 1, &Fence)); }
 		Uploads->EndFrame(Fence);
 		Scene->EndFrame(bSubmit, Fence);
 	}
@@ -160,10 +157,7 @@ TEST_F(FGatherSceneTest, StillFramesDoNothingAndMovingOnesOnlyWhereTheSetChanges
 {
 	const uint32_t Material = Scene->AddMaterial(MakeMaterial());
 	const FRTGeometryRef Tree = MakeSphere("Tree", 2);
-	for (int I = 0; I < 2000; ++I)
-	{
-		Add(Tree, {Material}, {10.0 * (I % 40), 0, -10.0 * (I / 40)});
-	}
+	for (int I = 0; I < 2000; ++I) { Add(Tree, {Material}, {10.0 * (I % 40), 0, -10.0 * (I / 40)}); }
 	Settle();
 	Mock().ClearCalls();
 	for (const int Mode : {1, 0})
@@ -174,8 +168,8 @@ TEST_F(FGatherSceneTest, StillFramesDoNothingAndMovingOnesOnlyWhereTheSetChanges
 		Frame();
 		EXPECT_FALSE(bUpdated);
 		EXPECT_EQ(Scene->GetStats().BytesCopied, 0u);
-		for (const ERTMockCall Kind : {ERTMockCall::CopyBuffer, ERTMockCall::BuildGeometry, ERTMockCall::BuildScene,
-		                               ERTMockCall::CreateBuffer, ERTMockCall::Barrier})
+		for (const ERTMockCall Kind :
+		    {ERTMockCall::CopyBuffer, ERTMockCall::BuildGeometry, ERTMockCall::BuildScene, ERTMockCall::CreateBuffer, ERTMockCall::Barrier})
 		{
 			EXPECT_EQ(Mock().CountCalls(Kind), 0u) << static_cast<int>(Kind);
 		}
@@ -195,10 +189,7 @@ TEST_F(FGatherSceneTest, WhatMovesCostsWhatMoves)
 	const uint32_t Material = Scene->AddMaterial(MakeMaterial());
 	const FRTGeometryRef Tree = MakeSphere("Tree", 2);
 	std::vector<FRTObjectId> Ids;
-	for (int I = 0; I < 10'000; ++I)
-	{
-		Ids.push_back(Add(Tree, {Material}, {10.0 * (I % 100), 0, -10.0 * (I / 100)}));
-	}
+	for (int I = 0; I < 10'000; ++I) { Ids.push_back(Add(Tree, {Material}, {10.0 * (I % 100), 0, -10.0 * (I / 100)})); }
 	FSceneUse All;
 	All.bCull = false;
 	Settle({}, All);
@@ -213,10 +204,7 @@ TEST_F(FGatherSceneTest, WhatMovesCostsWhatMoves)
 	EXPECT_LE(Scene->GetStats().BytesCopied, 10'000 * sizeof(FObjectData) / 10);
 	const auto Instances = ByObject();
 	ASSERT_EQ(Instances.size(), 10'000u);
-	for (int I = 0; I < 10'000; ++I)
-	{
-		ASSERT_EQ(Instances.at(Ids[I].Index).Instance.Transform[7], I % 100 == 0 ? 3.0f : 0.0f);
-	}
+	for (int I = 0; I < 10'000; ++I) { ASSERT_EQ(Instances.at(Ids[I].Index).Instance.Transform[7], I % 100 == 0 ? 3.0f : 0.0f); }
 }
 
 TEST_F(FGatherSceneTest, RefittedGeometryRebuildsTheStructureFromTheInstancesThatThereAre)
@@ -296,8 +284,7 @@ TEST_F(FGatherSceneTest, GeometryThatWaitsForItsBuildIsLeftOutAndComesLargestFir
 	std::vector<FRTObjectId> Ids;
 	for (int I = 0; I < 10; ++I)
 	{
-		Ids.push_back(Add(MakeSphere("G" + std::to_string(I), 1, {.TrianglesPerSection = 1000}), {Material},
-		                  {0, 0, -500.0 + 40 * I}));
+		Ids.push_back(Add(MakeSphere("G" + std::to_string(I), 1, {.TrianglesPerSection = 1000}), {Material}, {0, 0, -500.0 + 40 * I}));
 	}
 	const FGatherView View({0, 0, 0}, {0, 0, -1}, 1.0f, 720);
 	size_t Last = 0;
@@ -335,10 +322,7 @@ TEST_F(FGatherSceneTest, FramesThatAreLostAreGatheredAgain)
 		const glm::dvec3 Eye(double(Random() % 1000), 0, 0);
 		const bool bSubmit = Random() % 2 == 0;
 		ASSERT_NO_FATAL_FAILURE(ViewFrame({Eye, {0, 0, -1}, 1.0f, 720}, {}, bSubmit));
-		if (!bSubmit)
-		{
-			continue;
-		}
+		if (!bSubmit) { continue; }
 		const FCullingRule Rule(FGatherView(Eye, {0, 0, -1}, 1.0f, 720), FCullingSettings::FromConsole());
 		const auto Instances = ByObject();
 		size_t Kept = 0;
@@ -378,26 +362,15 @@ TEST_F(FGatherSceneTest, TogglingEveryVariableEveryFrameChangesNothingButWhatItS
 {
 	const uint32_t Material = Scene->AddMaterial(MakeMaterial());
 	const FRTGeometryRef Tree = MakeSphere("Tree", 2);
-	for (int I = 0; I < 3000; ++I)
-	{
-		Add(Tree, {Material}, {20.0 * (I % 100), 0, -60.0 * (I / 100)});
-	}
+	for (int I = 0; I < 3000; ++I) { Add(Tree, {Material}, {20.0 * (I % 100), 0, -60.0 * (I / 100)}); }
 	std::mt19937 Random(3);
 	const std::map<std::string, std::vector<std::string>> Values = {{"r.RT.Culling", {"0", "1", "1"}},
-	                                                                {"r.RT.Culling.Radius", {"100", "1000"}},
-	                                                                {"r.RT.Culling.RadiusBehind", {"0", "500"}},
-	                                                                {"r.RT.Culling.Angle", {"0.1", "5"}},
-	                                                                {"r.RT.Culling.AngleBehind", {"0", "1"}},
-	                                                                {"r.RT.Culling.Shadow.MinPixels", {"0", "24"}},
-	                                                                {"r.RT.Culling.Visible.MinPixels", {"0", "3"}},
-	                                                                {"r.RT.Scene.Gather", {"0", "1"}},
-	                                                                {"r.RT.Scene.Hoist", {"0", "1"}}};
+	    {"r.RT.Culling.Radius", {"100", "1000"}}, {"r.RT.Culling.RadiusBehind", {"0", "500"}}, {"r.RT.Culling.Angle", {"0.1", "5"}},
+	    {"r.RT.Culling.AngleBehind", {"0", "1"}}, {"r.RT.Culling.Shadow.MinPixels", {"0", "24"}},
+	    {"r.RT.Culling.Visible.MinPixels", {"0", "3"}}, {"r.RT.Scene.Gather", {"0", "1"}}, {"r.RT.Scene.Hoist", {"0", "1"}}};
 	for (int Step = 0; Step < 200; ++Step)
 	{
-		for (const auto& [Name, Choices] : Values)
-		{
-			SetVariable(Name.c_str(), Choices[Random() % Choices.size()]);
-		}
+		for (const auto& [Name, Choices] : Values) { SetVariable(Name.c_str(), Choices[Random() % Choices.size()]); }
 		FSceneUse Use;
 		Use.bCull = Random() % 8 != 0;
 		const FGatherView View({double(Random() % 2000), 2, -500}, {0.5f, 0, -1}, 1.0f, 720);
@@ -421,16 +394,10 @@ TEST_F(FGatherSceneTest, MemoryFollowsTheSceneDown)
 	const uint32_t Material = Scene->AddMaterial(MakeMaterial());
 	const FRTGeometryRef Tree = MakeSphere("Tree", 2);
 	std::vector<FRTObjectId> Ids;
-	for (int I = 0; I < 50'000; ++I)
-	{
-		Ids.push_back(Add(Tree, {Material}, {20.0 * (I % 100), 0, -60.0 * (I / 100)}));
-	}
+	for (int I = 0; I < 50'000; ++I) { Ids.push_back(Add(Tree, {Material}, {20.0 * (I % 100), 0, -60.0 * (I / 100)})); }
 	Settle();
 	const FRTMemoryStats Large = Device->GetMemoryStats();
-	for (size_t I = 100; I < Ids.size(); ++I)
-	{
-		Scene->RemoveObject(Ids[I]);
-	}
+	for (size_t I = 100; I < Ids.size(); ++I) { Scene->RemoveObject(Ids[I]); }
 	for (int I = 0; I < 1500; ++I)
 	{
 		glm::dmat4 Transform(1.0);
@@ -440,8 +407,7 @@ TEST_F(FGatherSceneTest, MemoryFollowsTheSceneDown)
 	}
 	const FRTMemoryStats Small = Device->GetMemoryStats();
 	EXPECT_LT(Small.Scene, Large.Scene / 100);
-	EXPECT_LT(Small.Buffer, Large.Buffer / 4)
-	    << "of " << Large.Buffer << ": " << testing::PrintToString(Mock().GetLiveObjects());
+	EXPECT_LT(Small.Buffer, Large.Buffer / 4) << "of " << Large.Buffer << ": " << testing::PrintToString(Mock().GetLiveObjects());
 }
 
 TEST_F(FGatherSceneTest, WhatCannotShrinkForWantOfMemoryServesOn)
@@ -450,15 +416,9 @@ TEST_F(FGatherSceneTest, WhatCannotShrinkForWantOfMemoryServesOn)
 	const uint32_t Material = Scene->AddMaterial(MakeMaterial());
 	const FRTGeometryRef Tree = MakeSphere("Tree", 2);
 	std::vector<FRTObjectId> Ids;
-	for (int I = 0; I < 2000; ++I)
-	{
-		Ids.push_back(Add(Tree, {Material}, {20.0 * I, 0, 0}));
-	}
+	for (int I = 0; I < 2000; ++I) { Ids.push_back(Add(Tree, {Material}, {20.0 * I, 0, 0})); }
 	Settle();
-	for (size_t I = 10; I < Ids.size(); ++I)
-	{
-		Scene->RemoveObject(Ids[I]);
-	}
+	for (size_t I = 10; I < Ids.size(); ++I) { Scene->RemoveObject(Ids[I]); }
 	for (int I = 0; I < 600; ++I)
 	{
 		glm::dmat4 Transform(1.0);

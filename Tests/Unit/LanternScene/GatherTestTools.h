@@ -32,8 +32,7 @@ inline std::vector<FRTInstance> SortByObject(const FRTInstance* First, uint32_t 
 {
 	std::vector<FRTInstance> Out(First, First + Count);
 	std::sort(Out.begin(), Out.end(),
-	          [](const FRTInstance& A, const FRTInstance& B)
-	          { return (A.CustomIndexAndMask & 0xffffff) < (B.CustomIndexAndMask & 0xffffff); });
+	    [](const FRTInstance& A, const FRTInstance& B) { return (A.CustomIndexAndMask & 0xffffff) < (B.CustomIndexAndMask & 0xffffff); });
 	return Out;
 }
 
@@ -43,10 +42,7 @@ public:
 	void Set(uint32_t Object, const FInstancePlacement& Placement)
 	{
 		Store.Set(Object, Placement);
-		if (Object >= Table.size())
-		{
-			Table.resize(Object + 1);
-		}
+		if (Object >= Table.size()) { Table.resize(Object + 1); }
 		FObjectData& Data = Table[Object];
 		// Its own arithmetic, not the store's.
 		Data.Cell = FindCell(glm::dvec3(Placement.Transform[3]));
@@ -54,10 +50,7 @@ public:
 		Relative[3] -= glm::dvec4(CellCenter(Data.Cell), 0.0);
 		for (int Row = 0; Row < 3; ++Row)
 		{
-			for (int Column = 0; Column < 4; ++Column)
-			{
-				Data.ObjectToWorld[Row][Column] = static_cast<float>(Relative[Column][Row]);
-			}
+			for (int Column = 0; Column < 4; ++Column) { Data.ObjectToWorld[Row][Column] = static_cast<float>(Relative[Column][Row]); }
 		}
 	}
 	/// Gathers both ways; the same instances with the same 64 bytes.
@@ -74,9 +67,8 @@ public:
 		for (uint32_t I = 0; I < Count; ++I)
 		{
 			ASSERT_EQ(std::memcmp(&Last[I], &Expected[I], sizeof(FRTInstance)), 0)
-			    << "object " << (Expected[I].CustomIndexAndMask & 0xffffff) << ", found "
-			    << (Last[I].CustomIndexAndMask & 0xffffff) << ", masks " << (Last[I].CustomIndexAndMask >> 24)
-			    << " and " << (Expected[I].CustomIndexAndMask >> 24);
+			    << "object " << (Expected[I].CustomIndexAndMask & 0xffffff) << ", found " << (Last[I].CustomIndexAndMask & 0xffffff)
+			    << ", masks " << (Last[I].CustomIndexAndMask >> 24) << " and " << (Expected[I].CustomIndexAndMask >> 24);
 		}
 	}
 

@@ -20,12 +20,10 @@ protected:
 	void SetUp() override
 	{
 		FGeometryStoreTest::SetUp();
-		SetLogSink(
-		    [this](ERTLogLevel, std::string_view Line)
-		    {
-			    std::lock_guard Lock(Mutex);
-			    Lines.emplace_back(Line);
-		    });
+		SetLogSink([this](ERTLogLevel, std::string_view Line) {
+			std::lock_guard Lock(Mutex);
+			Lines.emplace_back(Line);
+		});
 	}
 	void TearDown() override
 	{
@@ -35,29 +33,21 @@ protected:
 	uint32_t CountLines(const std::string& Part)
 	{
 		std::lock_guard Lock(Mutex);
-		return static_cast<uint32_t>(std::count_if(
-		    Lines.begin(), Lines.end(), [&](const std::string& Line) { return Line.find(Part) != std::string::npos; }));
+		return static_cast<uint32_t>(
+		    std::count_if(Lines.begin(), Lines.end(), [&](const std::string& Line) { return Line.find(Part) != std::string::npos; }));
 	}
 	/// Frames until nothing is left to do.
 	void Settle()
 	{
 		constexpr uint32_t Least = 3, Most = 400;
 		uint32_t All = 0, Quiet = 0; // those that may pass the time while a task makes a coarser level are not quiet
-		const auto IsSettled = [&]
-		{ return All >= Least && Stats().Pending == 0 && (Quiet >= Most || !Store->NeedsUpdate()); };
-		const auto Step = [&]
-		{
+		const auto IsSettled = [&] { return All >= Least && Stats().Pending == 0 && (Quiet >= Most || !Store->NeedsUpdate()); };
+		const auto Step = [&] {
 			const FRTStatus Status = Frame();
 			ASSERT_TRUE(Status) << Status.Message;
 			++All;
-			if (Stats().Pending > 0)
-			{
-				GiveWay();
-			}
-			else
-			{
-				++Quiet;
-			}
+			if (Stats().Pending > 0) { GiveWay(); }
+			else { ++Quiet; }
 		};
 		const auto Describe = [&] { return std::to_string(Stats().Pending) + " geometries pending"; };
 		ASSERT_TRUE(WaitUntil("the geometry store to settle", IsSettled, Step, Describe));
@@ -165,10 +155,7 @@ TEST_F(FGeometryMemoryTest, PeakStaysBelowTheBudgetInAStream)
 			for (int I = 0; I < 2; ++I)
 			{
 				const int Key = static_cast<int>(Random() % 60);
-				if (Random() % 2)
-				{
-					Live.erase(Key);
-				}
+				if (Random() % 2) { Live.erase(Key); }
 				else if (!Live.count(Key))
 				{
 					Live[Key] = Make("G", 1 + Random() % (Random() % 50 == 0 ? 60000 : 3000), Random() % 10 == 0);
@@ -176,15 +163,9 @@ TEST_F(FGeometryMemoryTest, PeakStaysBelowTheBudgetInAStream)
 			}
 			for (const auto& [Unused, Geometry] : Live)
 			{
-				if (Geometry->GetInfo().bDynamic)
-				{
-					Store->MarkDeformed(Geometry);
-				}
+				if (Geometry->GetInfo().bDynamic) { Store->MarkDeformed(Geometry); }
 			}
-			if (Mock().GetLastFence() > 2)
-			{
-				Mock().CompleteUpTo(Mock().GetLastFence() - 2);
-			}
+			if (Mock().GetLastFence() > 2) { Mock().CompleteUpTo(Mock().GetLastFence() - 2); }
 			Device->CollectGarbage();
 			ASSERT_TRUE(Frame(false, Random() % 10 != 0));
 			Built += Stats().Built;
@@ -206,10 +187,7 @@ TEST_F(FGeometryMemoryTest, WhatWaitsForMemoryGetsIt)
 	Set("r.RT.Build.MemoryMB", "4");
 	Set("r.RT.Build.CoarserLevels", "0");
 	std::vector<FRTGeometryRef> First;
-	for (int I = 0; I < 5; ++I)
-	{
-		First.push_back(Make("First", 8000));
-	} // 0.8 MB each
+	for (int I = 0; I < 5; ++I) { First.push_back(Make("First", 8000)); } // 0.8 MB each
 	Settle();
 	const FRTGeometryRef Late = Make("Late", 15000);
 	Frames(40);
@@ -273,10 +251,7 @@ TEST_F(FGeometryMemoryTest, ScratchGoesAlsoWhereNothingChanges)
 	ASSERT_TRUE(Frame());
 	EXPECT_GT(Device->GetMemoryStats().Scratch, 1u << 20);
 	uint32_t Count = 0;
-	for (; Store->NeedsUpdate() && Count < 1000; ++Count)
-	{
-		ASSERT_TRUE(Frame());
-	}
+	for (; Store->NeedsUpdate() && Count < 1000; ++Count) { ASSERT_TRUE(Frame()); }
 	EXPECT_LT(Device->GetMemoryStats().Scratch, 1u << 20);
 	EXPECT_LT(Count, 1000u) << "and then there is nothing to do any more";
 }
@@ -295,8 +270,7 @@ void ExpectSound(const FRTGeometry& Geometry, const std::vector<uint32_t>& Indic
 		EXPECT_EQ(P.bOpaque, Section.bOpaque);
 		EXPECT_GE(P.IndexCount, 3u);
 		EXPECT_LT(P.IndexCount, Section.IndexCount);
-		const std::set<uint32_t> Own(Info.CpuIndices + Section.FirstIndex,
-		                             Info.CpuIndices + Section.FirstIndex + Section.IndexCount);
+		const std::set<uint32_t> Own(Info.CpuIndices + Section.FirstIndex, Info.CpuIndices + Section.FirstIndex + Section.IndexCount);
 		for (uint32_t I = P.FirstIndex; I < P.FirstIndex + P.IndexCount; ++I)
 		{
 			EXPECT_TRUE(Own.count(Indices[I])) << "a vertex of another section";
@@ -331,16 +305,13 @@ TEST_F(FGeometryMemoryTest, CoarserLevelSurvivesLostFrames)
 {
 	Set("r.RT.Build.MemoryMB", "2");
 	const FRTGeometryRef Terrain = MakeCpu("Terrain2", 150);
-	const auto LoseFrame = [&]
-	{
+	const auto LoseFrame = [&] {
 		ASSERT_TRUE(Frame(false, false));
 		GiveWay();
 	};
-	ASSERT_TRUE(WaitUntil("the coarser level", [&] { return Stats().Coarse > 0; }, LoseFrame));
-	for (int I = 0; I < 3; ++I)
-	{
-		ASSERT_TRUE(Frame(false, false));
-	}
+	ASSERT_TRUE(WaitUntil(
+	    "the coarser level", [&] { return Stats().Coarse > 0; }, LoseFrame));
+	for (int I = 0; I < 3; ++I) { ASSERT_TRUE(Frame(false, false)); }
 	EXPECT_EQ(GetAddress(Terrain), 0u);
 	ASSERT_TRUE(Frame());
 	ASSERT_NE(GetAddress(Terrain), 0u);
@@ -404,23 +375,20 @@ TEST_F(FGeometryMemoryTest, EveryFailingAllocationIsSurvived)
 			Open({});
 			Shared = MakeBuffer("Shared", 4096);
 			Set("r.RT.Build.MemoryMB", "3");
-			std::vector<FRTGeometryRef> Geometries{MakeCpu("T" + std::to_string(N), 150), Make("A", 3000),
-			                                       Make("B", 500, true), Make("C", 20)};
+			std::vector<FRTGeometryRef> Geometries{
+			    MakeCpu("T" + std::to_string(N), 150), Make("A", 3000), Make("B", 500, true), Make("C", 20)};
 			Mock().FailAllocation(N);
 			int Made = 0;
-			const auto Step = [&]
-			{
+			const auto Step = [&] {
 				Store->MarkDeformed(Geometries[2]);
 				const FRTStatus Status = Frame(bBuildAll && Made == 0);
 				EXPECT_TRUE(Status || Status.Code == ERTResult::OutOfDeviceMemory) << Status.Message;
 				++Made;
-				if (Stats().Pending > 0)
-				{
-					GiveWay();
-				}
+				if (Stats().Pending > 0) { GiveWay(); }
 			};
 			// The coarser level too must meet the fault, however late its task is.
-			ASSERT_TRUE(WaitUntil("all builds", [&] { return Made >= 60 && Stats().Pending == 0; }, Step));
+			ASSERT_TRUE(WaitUntil(
+			    "all builds", [&] { return Made >= 60 && Stats().Pending == 0; }, Step));
 			Mock().FailAllocation(0);
 			Settle();
 			for (const FRTGeometryRef& Geometry : Geometries)
@@ -439,28 +407,19 @@ TEST_F(FGeometryMemoryTest, OftenFailingAllocationsAreSurvived)
 		Open({});
 		Shared = MakeBuffer("Shared", 4096);
 		std::vector<FRTGeometryRef> Geometries;
-		for (int I = 0; I < 20; ++I)
-		{
-			Geometries.push_back(Make("G" + std::to_string(I), 1000, I % 4 == 0));
-		}
+		for (int I = 0; I < 20; ++I) { Geometries.push_back(Make("G" + std::to_string(I), 1000, I % 4 == 0)); }
 		Mock().FailEveryAllocation(N);
-		for (int I = 0; I < 30; ++I)
-		{
-			(void)Frame();
-		}
+		for (int I = 0; I < 30; ++I) { (void)Frame(); }
 		Mock().FailEveryAllocation(0);
 		Settle();
-		for (const FRTGeometryRef& Geometry : Geometries)
-		{
-			EXPECT_NE(GetAddress(Geometry), 0u) << N;
-		}
+		for (const FRTGeometryRef& Geometry : Geometries) { EXPECT_NE(GetAddress(Geometry), 0u) << N; }
 	}
 }
 
 TEST_F(FGeometryMemoryTest, LostDeviceLeavesTheStoreUsable)
 {
 	for (const ERTMockCall Kind : {ERTMockCall::CreateGeometry, ERTMockCall::CreateBuffer, ERTMockCall::CreateQueryPool,
-	                               ERTMockCall::BuildGeometry, ERTMockCall::CompactGeometry, ERTMockCall::Submit})
+	         ERTMockCall::BuildGeometry, ERTMockCall::CompactGeometry, ERTMockCall::Submit})
 	{
 		Open({});
 		Shared = MakeBuffer("Shared", 4096);

@@ -28,10 +28,7 @@ protected:
 	}
 	void TearDown() override
 	{
-		if (Device)
-		{
-			EXPECT_EQ(Mock().GetErrors(), std::vector<std::string>());
-		}
+		if (Device) { EXPECT_EQ(Mock().GetErrors(), std::vector<std::string>()); }
 		Store.reset();
 		Tlas.Reset();
 		FConsoleVariables::Get().ResetAll();
@@ -54,17 +51,13 @@ protected:
 	{
 		TRTRef<IRTBuffer> Buffer;
 		const ERTBufferUsage Usage = ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput;
-		EXPECT_TRUE(
-		    Device->CreateBuffer({Size, Usage, ERTMemory::Device, Name.c_str()}, Buffer.ReleaseAndGetAddress()));
+		EXPECT_TRUE(Device->CreateBuffer({Size, Usage, ERTMemory::Device, Name.c_str()}, Buffer.ReleaseAndGetAddress()));
 		return Buffer;
 	}
 	/// Sections of Triangles each, in one set of small buffers: the mock reads none of them.
 	FRTGeometryInfo MakeInfo(const std::string& Name, uint32_t Triangles, uint32_t Sections = 1)
 	{
-		if (!Shared)
-		{
-			Shared = MakeBuffer("Shared", 4096);
-		}
+		if (!Shared) { Shared = MakeBuffer("Shared", 4096); }
 		FRTGeometryInfo Info;
 		Info.Name = Name;
 		Info.Positions = Info.Attributes = Info.Indices = Shared;
@@ -91,10 +84,7 @@ protected:
 		std::vector<uint32_t>& Indices = CpuIndices.emplace_back();
 		for (uint32_t Y = 0; Y <= Cells; ++Y)
 		{
-			for (uint32_t X = 0; X <= Cells; ++X)
-			{
-				Positions.emplace_back(X, std::sin(0.3f * X) * std::cos(0.2f * Y), Y);
-			}
+			for (uint32_t X = 0; X <= Cells; ++X) { Positions.emplace_back(X, std::sin(0.3f * X) * std::cos(0.2f * Y), Y); }
 		}
 		for (uint32_t Y = 0; Y < Cells; ++Y)
 		{
@@ -125,22 +115,10 @@ protected:
 		}
 		TRTRef<IRTCommandList> List;
 		Status = Device->CreateCommandList("Frame", List.ReleaseAndGetAddress());
-		if (Status)
-		{
-			Status = List->Begin();
-		}
-		if (Status)
-		{
-			Status = Store->Record(*List);
-		}
-		if (Status)
-		{
-			Status = BuildScene(*List);
-		}
-		if (Status)
-		{
-			Status = List->End();
-		}
+		if (Status) { Status = List->Begin(); }
+		if (Status) { Status = Store->Record(*List); }
+		if (Status) { Status = BuildScene(*List); }
+		if (Status) { Status = List->End(); }
 		if (Status && bSubmit)
 		{
 			FRTFence Fence = 0;
@@ -181,37 +159,24 @@ private:
 	void CheckPeak() { MostUsed = std::max(MostUsed, GetUsed()); }
 	FRTStatus BuildScene(IRTCommandList& List)
 	{
-		if (!bInstances)
-		{
-			return FRTStatus::Success();
-		}
+		if (!bInstances) { return FRTStatus::Success(); }
 		constexpr uint32_t Most = 1024;
 		if (!Tlas)
 		{
 			FRTSceneDesc Desc;
 			Desc.MaxInstances = Most;
 			Desc.Name = "Scene";
-			if (FRTStatus S = Device->CreateScene(Desc, Tlas.ReleaseAndGetAddress()); !S)
-			{
-				return S;
-			}
+			if (FRTStatus S = Device->CreateScene(Desc, Tlas.ReleaseAndGetAddress()); !S) { return S; }
 		}
 		TRTRef<IRTBuffer> Instances;
-		const FRTBufferDesc Desc{Most * sizeof(FRTInstance), ERTBufferUsage::GeometryInput, ERTMemory::Upload,
-		                         "Instances"};
-		if (FRTStatus S = Device->CreateBuffer(Desc, Instances.ReleaseAndGetAddress()); !S)
-		{
-			return S;
-		}
+		const FRTBufferDesc Desc{Most * sizeof(FRTInstance), ERTBufferUsage::GeometryInput, ERTMemory::Upload, "Instances"};
+		if (FRTStatus S = Device->CreateBuffer(Desc, Instances.ReleaseAndGetAddress()); !S) { return S; }
 		auto* const Data = static_cast<FRTInstance*>(Instances->GetMapped());
 		uint32_t Count = 0;
 		for (uint32_t Slot = 0; Slot < Store->GetSlotCount() && Count < Most; ++Slot)
 		{
 			const uint64_t Address = Store->GetAddress(Slot);
-			if (Address == 0)
-			{
-				continue;
-			}
+			if (Address == 0) { continue; }
 			Data[Count] = {};
 			Data[Count++].GeometryAddress = Address;
 		}

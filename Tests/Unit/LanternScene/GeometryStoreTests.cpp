@@ -75,10 +75,7 @@ TEST_F(FGeometryStoreTest, BoundsComeFromPositionsAndHoldThem)
 	const FRTGeometryInfo& Made = Geometry->GetInfo();
 	EXPECT_NEAR(Made.BoundsCenter.x, 8.0f, 1e-5f);
 	EXPECT_NEAR(Made.BoundsCenter.z, 8.0f, 1e-5f);
-	for (const glm::vec3 P : CpuPositions.back())
-	{
-		EXPECT_LE(glm::length(P - Made.BoundsCenter), Made.BoundsRadius);
-	}
+	for (const glm::vec3 P : CpuPositions.back()) { EXPECT_LE(glm::length(P - Made.BoundsCenter), Made.BoundsRadius); }
 	EXPECT_LT(Made.BoundsRadius, 12.0f);
 	Info.BoundsRadius = 3.0f; // what the engine knows better
 	ASSERT_TRUE(Store->Create(Info, Geometry));
@@ -92,17 +89,14 @@ TEST_F(FGeometryStoreTest, BoundsComeFromPositionsAndHoldThem)
 TEST_F(FGeometryStoreTest, PartsOfClassifiedSections)
 {
 	FRTGeometryInfo Info = MakeInfo("Tree", 10, 5); // 30 indices each
-	for (FRTSectionInfo& Section : Info.Sections)
-	{
-		Section.bOpaque = false;
-	}
+	for (FRTSectionInfo& Section : Info.Sections) { Section.bOpaque = false; }
 	Info.Sections[0].OpaqueIndexCount = 9; // mixed 15, opaque 9, transparent 6
 	Info.Sections[0].TransparentIndexCount = 6;
 	Info.Sections[1].OpaqueIndexCount = 30;
 	Info.Sections[2].TransparentIndexCount = 30;
 	Info.Sections[3].TransparentIndexCount = 12;
-	const std::vector<FRTGeometryPart> Expected = {{0, 15, 0, false},  {30, 30, 1, true},   {60, 3, 2, false},
-	                                               {90, 18, 3, false}, {120, 30, 4, false}, {15, 9, 0, true}};
+	const std::vector<FRTGeometryPart> Expected = {
+	    {0, 15, 0, false}, {30, 30, 1, true}, {60, 3, 2, false}, {90, 18, 3, false}, {120, 30, 4, false}, {15, 9, 0, true}};
 	FRTGeometryRef Geometry;
 	ASSERT_TRUE(Store->Create(Info, Geometry));
 	EXPECT_EQ(Geometry->GetParts(), Expected);
@@ -142,10 +136,7 @@ TEST_F(FGeometryStoreTest, TrianglesPerFrameAreKept)
 	Set("r.RT.Build.TrianglesPerFrame", "1000");
 	std::vector<FRTGeometryRef> Geometries;
 	std::mt19937 Random(1);
-	for (int I = 0; I < 200; ++I)
-	{
-		Geometries.push_back(Make("G" + std::to_string(I), 1 + Random() % 700));
-	}
+	for (int I = 0; I < 200; ++I) { Geometries.push_back(Make("G" + std::to_string(I), 1 + Random() % 700)); }
 	Geometries.push_back(Make("Huge", 5000));
 	uint32_t Built = 0;
 	uint32_t Count = 0;
@@ -158,20 +149,14 @@ TEST_F(FGeometryStoreTest, TrianglesPerFrameAreKept)
 	}
 	EXPECT_EQ(Built, Geometries.size());
 	EXPECT_GT(Count, 70u);
-	for (const FRTGeometryRef& Geometry : Geometries)
-	{
-		EXPECT_NE(GetAddress(Geometry), 0u);
-	}
+	for (const FRTGeometryRef& Geometry : Geometries) { EXPECT_NE(GetAddress(Geometry), 0u); }
 }
 
 TEST_F(FGeometryStoreTest, BuildAllHeedsNoBudgetOfTriangles)
 {
 	Set("r.RT.Build.TrianglesPerFrame", "10");
 	std::vector<FRTGeometryRef> Geometries;
-	for (int I = 0; I < 50; ++I)
-	{
-		Geometries.push_back(Make("G", 100));
-	}
+	for (int I = 0; I < 50; ++I) { Geometries.push_back(Make("G", 100)); }
 	ASSERT_TRUE(Frame(true));
 	EXPECT_EQ(Stats().Built, 50u);
 	EXPECT_EQ(Stats().Pending, 0u);
@@ -194,10 +179,7 @@ TEST_F(FGeometryStoreTest, LargeOnScreenComesFirstThenTheOldest)
 {
 	Set("r.RT.Build.TrianglesPerFrame", "100");
 	std::vector<FRTGeometryRef> G;
-	for (int I = 0; I < 6; ++I)
-	{
-		G.push_back(Make("G" + std::to_string(I), 100));
-	}
+	for (int I = 0; I < 6; ++I) { G.push_back(Make("G" + std::to_string(I), 100)); }
 	Store->RaisePriority(G[3]->GetSlot(), 0.5f);
 	Store->RaisePriority(G[3]->GetSlot(), 0.1f); // the larger of both counts
 	Store->RaisePriority(G[5]->GetSlot(), 0.4f);
@@ -208,10 +190,7 @@ TEST_F(FGeometryStoreTest, LargeOnScreenComesFirstThenTheOldest)
 		ASSERT_TRUE(Frame());
 		for (size_t J = 0; J < G.size(); ++J)
 		{
-			if (GetAddress(G[J]) == 0 || Seen[J])
-			{
-				continue;
-			}
+			if (GetAddress(G[J]) == 0 || Seen[J]) { continue; }
 			Seen[J] = true;
 			Order += static_cast<char>('0' + J);
 		}
@@ -283,27 +262,15 @@ TEST_F(FGeometryStoreTest, RandomLostFramesLoseNothing)
 	for (int Step = 0; Step < 600; ++Step)
 	{
 		const int Key = static_cast<int>(Random() % 40);
-		if (Random() % 3 == 0)
-		{
-			Live.erase(Key);
-		}
-		else if (!Live.count(Key))
-		{
-			Live[Key] = Make("G" + std::to_string(Step), 1 + Random() % 200, Random() % 3 == 0);
-		}
+		if (Random() % 3 == 0) { Live.erase(Key); }
+		else if (!Live.count(Key)) { Live[Key] = Make("G" + std::to_string(Step), 1 + Random() % 200, Random() % 3 == 0); }
 		for (const auto& [Unused, Geometry] : Live)
 		{
-			if (Geometry->GetInfo().bDynamic && Random() % 2)
-			{
-				Store->MarkDeformed(Geometry);
-			}
+			if (Geometry->GetInfo().bDynamic && Random() % 2) { Store->MarkDeformed(Geometry); }
 		}
 		ASSERT_TRUE(Frame(Random() % 20 == 0, Random() % 3 != 0));
 	}
-	for (int I = 0; I < 60; ++I)
-	{
-		ASSERT_TRUE(Frame());
-	}
+	for (int I = 0; I < 60; ++I) { ASSERT_TRUE(Frame()); }
 	EXPECT_FALSE(Store->NeedsUpdate());
 	for (const auto& [Unused, Geometry] : Live)
 	{
@@ -341,27 +308,18 @@ TEST_F(FGeometryStoreTest, RebuildsOfManyAreSpreadOverFrames)
 {
 	Set("r.RT.Skinning.RebuildInterval", "8");
 	std::vector<FRTGeometryRef> Bodies;
-	for (int I = 0; I < 50; ++I)
-	{
-		Bodies.push_back(Make("Body", 10, true));
-	}
+	for (int I = 0; I < 50; ++I) { Bodies.push_back(Make("Body", 10, true)); }
 	ASSERT_TRUE(Frame());
 	uint32_t Rebuilt = 0;
 	for (int I = 0; I < 64; ++I)
 	{
-		for (const FRTGeometryRef& Body : Bodies)
-		{
-			Store->MarkDeformed(Body);
-		}
+		for (const FRTGeometryRef& Body : Bodies) { Store->MarkDeformed(Body); }
 		ASSERT_TRUE(Frame());
 		EXPECT_LE(Stats().Rebuilt, 7u);
 		EXPECT_EQ(Stats().Rebuilt + Stats().Refitted, 50u);
 		Rebuilt += Stats().Rebuilt;
 	}
-	for (const FRTGeometryRef& Body : Bodies)
-	{
-		EXPECT_GE(Mock().GetGeometry(Body->GetStructure()).BuildCount, 7u);
-	}
+	for (const FRTGeometryRef& Body : Bodies) { EXPECT_GE(Mock().GetGeometry(Body->GetStructure()).BuildCount, 7u); }
 	EXPECT_GE(Rebuilt, 350u);
 }
 
@@ -371,8 +329,7 @@ TEST_F(FGeometryStoreTest, DegradedRefitIsRebuiltOnce)
 	Set("r.RT.Skinning.RebuildQuality", "2");
 	const FRTGeometryRef Body = Make("Body", 10, true), Other = Make("Other", 10, true);
 	Frames(1);
-	const auto Deform = [&]
-	{
+	const auto Deform = [&] {
 		Store->MarkDeformed(Body);
 		Store->MarkDeformed(Other);
 		EXPECT_TRUE(Frame());
@@ -414,39 +371,24 @@ TEST_F(FGeometryStoreTest, ScratchShrinksAfterAWhile)
 		ASSERT_TRUE(Frame());
 	}
 	EXPECT_LT(Device->GetMemoryStats().Scratch, 256u << 10);
-	EXPECT_EQ(Mock().GetGeometry(Body->GetStructure()).UpdateCount +
-	              Mock().GetGeometry(Body->GetStructure()).BuildCount,
-	          67u);
+	EXPECT_EQ(Mock().GetGeometry(Body->GetStructure()).UpdateCount + Mock().GetGeometry(Body->GetStructure()).BuildCount, 67u);
 }
 
 TEST_F(FGeometryStoreTest, BatchesFitTheirScratch)
 {
 	std::vector<FRTGeometryRef> Geometries;
-	for (int I = 0; I < 300; ++I)
-	{
-		Geometries.push_back(Make("G", 5000));
-	} // 96 MB of scratch, were it one batch
+	for (int I = 0; I < 300; ++I) { Geometries.push_back(Make("G", 5000)); } // 96 MB of scratch, were it one batch
 	ASSERT_TRUE(Frame(true));
 	EXPECT_LE(Device->GetMemoryStats().Scratch, 33u << 20);
 	std::vector<std::pair<uint64_t, uint64_t>> Batch;
 	uint32_t Checked = 0;
 	for (const FRTMockCall& Call : Mock().GetCalls())
 	{
-		if (Call.Kind == ERTMockCall::Barrier)
-		{
-			Batch.clear();
-		}
-		if (Call.Kind != ERTMockCall::BuildGeometry)
-		{
-			continue;
-		}
-		const uint64_t First = Call.Numbers[2],
-		               Last = First + Geometries[0]->GetStructure()->GetBuildSizes().BuildScratchBytes;
+		if (Call.Kind == ERTMockCall::Barrier) { Batch.clear(); }
+		if (Call.Kind != ERTMockCall::BuildGeometry) { continue; }
+		const uint64_t First = Call.Numbers[2], Last = First + Geometries[0]->GetStructure()->GetBuildSizes().BuildScratchBytes;
 		EXPECT_LE(Last, Device->GetMemoryStats().Scratch);
-		for (const auto& [Begin, End] : Batch)
-		{
-			EXPECT_TRUE(Last <= Begin || End <= First);
-		}
+		for (const auto& [Begin, End] : Batch) { EXPECT_TRUE(Last <= Begin || End <= First); }
 		Batch.push_back({First, Last});
 		++Checked;
 	}

@@ -31,10 +31,7 @@ FRTPSODesc MakePrograms(uint32_t RayTypes, bool bMasked)
 		FRayType& Ray = Desc.RayTypes.emplace_back();
 		Ray.Name = Name;
 		Ray.Miss = MakeShader(Name + ".miss");
-		if (Type > 0)
-		{
-			Ray.ClosestHit = MakeShader(Name + ".hit");
-		} // the first is a shadow ray
+		if (Type > 0) { Ray.ClosestHit = MakeShader(Name + ".hit"); } // the first is a shadow ray
 		Ray.MaskedAnyHit = MakeShader(Name + ".any");
 		Ray.PayloadBytes = 4;
 	}
@@ -100,26 +97,21 @@ protected:
 		FSectionData Data{};
 		Data.Positions = Info.Positions->GetDeviceAddress() + Info.PositionsOffset;
 		Data.Attributes = Info.Attributes->GetDeviceAddress() + Info.AttributesOffset;
-		const uint64_t Indices = Info.Indices->GetDeviceAddress() + Info.IndicesOffset +
-		                         uint64_t(Info.Sections[Section].FirstIndex) * (bShort ? 2 : 4);
+		const uint64_t Indices =
+		    Info.Indices->GetDeviceAddress() + Info.IndicesOffset + uint64_t(Info.Sections[Section].FirstIndex) * (bShort ? 2 : 4);
 		Data.Indices = Indices / 4 * 4;
 		Data.Material = Object.Materials[Section];
 		Data.Flags = (bShort ? SECTION_INDEX_16 : 0u) | (Indices % 4 ? SECTION_INDEX_ODD : 0u) |
-		             (Info.bHasTangents ? SECTION_TANGENTS : 0u) |
-		             (IsMasked(Object.Materials[Section]) ? SECTION_MASKED : 0u) |
+		             (Info.bHasTangents ? SECTION_TANGENTS : 0u) | (IsMasked(Object.Materials[Section]) ? SECTION_MASKED : 0u) |
 		             (Material.Flags & MATERIAL_DOUBLE_SIDED ? SECTION_DOUBLE_SIDED : 0u) |
 		             (Material.UVSets & (1u << TEXTURE_BASE_COLOR) ? SECTION_OPACITY_UV1 : 0u) |
 		             (Info.bOpaqueVertices && bPlain ? SECTION_PLAIN_OPACITY : 0u);
 		return Data;
 	}
-	bool IsMasked(uint32_t Material) const
-	{
-		return bAlphaTest && (Scene->GetMaterials()[Material].Flags & MATERIAL_MASKED) != 0;
-	}
+	bool IsMasked(uint32_t Material) const { return bAlphaTest && (Scene->GetMaterials()[Material].Flags & MATERIAL_MASKED) != 0; }
 	void ExpectRecord(const FObjectModel& Object, const FRTMockInstance& Item, uint32_t Section, uint32_t Type)
 	{
-		const FRTMockRecord Record =
-		    Mock().ResolveHit(Bindings->GetTable(), Item.Instance, Section, Type, Current->GetRayTypeCount());
+		const FRTMockRecord Record = Mock().ResolveHit(Bindings->GetTable(), Item.Instance, Section, Type, Current->GetRayTypeCount());
 		ASSERT_TRUE(Record.IsGood()) << Record.Error;
 		const std::string Name = "TYPE" + std::to_string(Type);
 		ASSERT_EQ(Record.ClosestHit, Type > 0 ? Name + ".hit" : "");
@@ -131,10 +123,7 @@ protected:
 		const FSectionData Inline = Read<FSectionData>(Scene->GetConstants().Sections, Index);
 		ASSERT_EQ(std::memcmp(&Inline, &Expected, sizeof(Expected)), 0) << "what inline ray queries read";
 	}
-	static uint32_t GetIndex(const FRTMockInstance& Item)
-	{
-		return Item.Instance.CustomIndexAndMask & MaxInstanceIndex;
-	}
+	static uint32_t GetIndex(const FRTMockInstance& Item) { return Item.Instance.CustomIndexAndMask & MaxInstanceIndex; }
 
 	FShaderCompiler Compiler{FShaderCompilerDesc{}};
 	std::map<std::pair<uint32_t, bool>, FRTPSO> Pipelines;
@@ -151,10 +140,7 @@ protected:
 	{
 		FHitRecordTest::SetUp();
 		Random.seed(GetParam().BaseAlignment + GetParam().HandleAlignment);
-		for (int I = 0; I < 6; ++I)
-		{
-			Scene->AddMaterial(RandomMaterial());
-		}
+		for (int I = 0; I < 6; ++I) { Scene->AddMaterial(RandomMaterial()); }
 	}
 	uint32_t Below(size_t Count) { return static_cast<uint32_t>(Random() % Count); }
 	FMaterialData RandomMaterial()
@@ -167,10 +153,7 @@ protected:
 	std::vector<uint32_t> RandomMaterials(const FRTGeometryRef& Geometry)
 	{
 		std::vector<uint32_t> Materials(Geometry->GetSectionCount());
-		for (uint32_t& Material : Materials)
-		{
-			Material = Below(Scene->GetMaterials().Num());
-		}
+		for (uint32_t& Material : Materials) { Material = Below(Scene->GetMaterials().Num()); }
 		return Materials;
 	}
 	void AddOne()
@@ -193,10 +176,7 @@ protected:
 	void Change()
 	{
 		const uint32_t Choice = Below(100);
-		if (Model.empty() || Choice < 35)
-		{
-			return AddOne();
-		}
+		if (Model.empty() || Choice < 35) { return AddOne(); }
 		const auto It = std::next(Model.begin(), Below(Model.size()));
 		auto& [Id, Object] = It->second;
 		if (Choice < 60)
@@ -216,10 +196,7 @@ protected:
 			Transform[3] = glm::dvec4(Object.Position, 1.0);
 			Scene->SetTransform(Id, Transform);
 		}
-		else if (Choice < 97)
-		{
-			Scene->SetMaterial(Below(6), RandomMaterial());
-		}
+		else if (Choice < 97) { Scene->SetMaterial(Below(6), RandomMaterial()); }
 		else
 		{
 			bAlphaTest = !bAlphaTest;
@@ -264,10 +241,7 @@ TEST_P(FHitRecordWalkTest, RecordsFollowEveryChangeOfTheScene)
 	uint32_t RayTypes = 1;
 	for (int Step = 0; Step < 250; ++Step)
 	{
-		for (uint32_t Changes = Below(12); Changes > 0; --Changes)
-		{
-			Change();
-		}
+		for (uint32_t Changes = Below(12); Changes > 0; --Changes) { Change(); }
 		if (Below(10) == 0)
 		{
 			RayTypes = 1 + Below(3); // another set of passes: another pipeline
@@ -275,10 +249,7 @@ TEST_P(FHitRecordWalkTest, RecordsFollowEveryChangeOfTheScene)
 		Render(RayTypes);
 		const std::vector<FRTMockInstance> Instances = GetInstances();
 		ASSERT_EQ(Instances.size(), Model.size());
-		for (const FRTMockInstance& Item : Instances)
-		{
-			ASSERT_NO_FATAL_FAILURE(ExpectInstance(Item)) << "step " << Step;
-		}
+		for (const FRTMockInstance& Item : Instances) { ASSERT_NO_FATAL_FAILURE(ExpectInstance(Item)) << "step " << Step; }
 	}
 	EXPECT_GT(Resolved, 10'000u) << "the walk has become too short to say much";
 }
@@ -288,14 +259,8 @@ TEST_P(FHitRecordTest, FrameCopiesOnlyRecordsOfChangedSections)
 	const uint32_t Material = Scene->AddMaterial(MakeMaterial());
 	const uint32_t Other = Scene->AddMaterial(MakeMaterial());
 	const FRTGeometryRef Tree = MakeGeometry("Tree", 1);
-	for (int I = 0; I < 500; ++I)
-	{
-		Add(MakeGeometry("G" + std::to_string(I), 1), {Material});
-	}
-	for (int I = 0; I < 1000; ++I)
-	{
-		Add(Tree, {Material}, {I, 0, 0});
-	}
+	for (int I = 0; I < 500; ++I) { Add(MakeGeometry("G" + std::to_string(I), 1), {Material}); }
+	for (int I = 0; I < 1000; ++I) { Add(Tree, {Material}, {I, 0, 0}); }
 	Render(2);
 	EXPECT_EQ(Bindings->GetStats().RecordsWritten, 2 * 501u) << "1,000 trees share their records";
 	Mock().ClearCalls();
@@ -312,8 +277,7 @@ TEST_P(FHitRecordTest, FrameCopiesOnlyRecordsOfChangedSections)
 
 TEST_P(FHitRecordTest, TwoScenesTakeTurnsWithOneTable)
 {
-	const auto Fill = [&](const char* Name)
-	{
+	const auto Fill = [&](const char* Name) {
 		const uint32_t Material = Scene->AddMaterial(MakeMaterial());
 		FObjectModel Object{MakeGeometry(Name, 2), {Material, Material}, {}};
 		Add(Object.Geometry, Object.Materials);
@@ -375,8 +339,8 @@ TEST_P(FHitRecordTest, TableThatCannotBeMadeIsMadeLater)
 	ExpectRecord(Object, GetInstances()[0], 0, 0);
 }
 
-const auto Alignments = ::testing::Values(FAlignments{32, 32, 64}, FAlignments{32, 64, 64}, FAlignments{64, 64, 256},
-                                          FAlignments{32, 16, 32});
+const auto Alignments =
+    ::testing::Values(FAlignments{32, 32, 64}, FAlignments{32, 64, 64}, FAlignments{64, 64, 256}, FAlignments{32, 16, 32});
 INSTANTIATE_TEST_SUITE_P(Alignments, FHitRecordTest, Alignments);
 INSTANTIATE_TEST_SUITE_P(Alignments, FHitRecordWalkTest, Alignments);
 

@@ -11,19 +11,13 @@ namespace
 
 using FRandom = std::mt19937;
 
-double Uniform(FRandom& Random, double Low, double High)
-{
-	return std::uniform_real_distribution<double>(Low, High)(Random);
-}
+double Uniform(FRandom& Random, double Low, double High) { return std::uniform_real_distribution<double>(Low, High)(Random); }
 
 /// On a lattice whose distances are often exactly those of MakeRule's limits.
 glm::dvec3 RandomPlace(FRandom& Random, double Extent, const glm::dvec3& Middle)
 {
 	glm::dvec3 At(Uniform(Random, -Extent, Extent), Uniform(Random, -20, 20), Uniform(Random, -Extent, Extent));
-	if (Random() % 2 == 0)
-	{
-		At = glm::round(At / 25.0) * 25.0;
-	}
+	if (Random() % 2 == 0) { At = glm::round(At / 25.0) * 25.0; }
 	return Middle + At;
 }
 
@@ -74,10 +68,7 @@ void ExpectConsistent(const FInstanceStore& Store)
 	for (size_t Index = 0; Index < Store.GetBucketSlots(); ++Index)
 	{
 		const FInstanceBucket* const Bucket = Store.GetBucket(Index);
-		if (!Bucket)
-		{
-			continue;
-		}
+		if (!Bucket) { continue; }
 		ASSERT_GT(Bucket->Count, 0u);
 		for (uint32_t Slot = 0; Slot < Bucket->Count; ++Slot, ++Seen)
 		{
@@ -113,10 +104,7 @@ void RunRandomSteps(uint32_t Seed, int Steps, double Extent, const glm::dvec3& M
 		if (Alive.empty() || (Choice < 40 && Alive.size() < 3000))
 		{
 			const uint32_t Object = Free.empty() ? Next++ : Free.back();
-			if (!Free.empty())
-			{
-				Free.pop_back();
-			}
+			if (!Free.empty()) { Free.pop_back(); }
 			World.Set(Object, RandomPlacement(Random, Extent, Middle));
 			Alive.push_back(Object);
 		}
@@ -128,9 +116,8 @@ void RunRandomSteps(uint32_t Seed, int Steps, double Extent, const glm::dvec3& M
 			{
 				const FInstanceRecord& Record = World.Store.GetRecord(Object);
 				const double Far = std::exp(Uniform(Random, -6, 4));
-				Placement =
-				    PlaceAt(Record.Center + glm::dvec3(Uniform(Random, -Far, Far), 0, Uniform(Random, -Far, Far)),
-				            Record.Radius, Record.Range);
+				Placement = PlaceAt(
+				    Record.Center + glm::dvec3(Uniform(Random, -Far, Far), 0, Uniform(Random, -Far, Far)), Record.Radius, Record.Range);
 			}
 			World.Set(Object, Placement);
 		}
@@ -142,10 +129,7 @@ void RunRandomSteps(uint32_t Seed, int Steps, double Extent, const glm::dvec3& M
 			Alive[Which] = Alive.back();
 			Alive.pop_back();
 		}
-		else if (Choice < 95)
-		{
-			World.Store.SetRange(Alive[Random() % Alive.size()], Random() % 12);
-		}
+		else if (Choice < 95) { World.Store.SetRange(Alive[Random() % Alive.size()], Random() % 12); }
 		else if (Choice < 97)
 		{
 			World.Store.SetBinding(Random() % 12, {Random() % 3 == 0 ? 0u : Random(), static_cast<uint32_t>(Random())});
@@ -202,10 +186,7 @@ TEST(GatherStore, ObjectsOnTheVeryLimitAreDecidedAlike)
 			const glm::dvec3 Away(std::cos(Angle), Uniform(Random, -0.1, 0.1), std::sin(Angle));
 			const int Side = glm::dot(Away, Rule.Forward) < 0 ? 1 : 0;
 			double Limit = std::max(Rule.Radius[Side] + Radius, Radius * Rule.InverseSine[Side]);
-			if (Rule.bShadowLimit && I % 2 == 0)
-			{
-				Limit = Radius * Rule.ShadowScale;
-			}
+			if (Rule.bShadowLimit && I % 2 == 0) { Limit = Radius * Rule.ShadowScale; }
 			const double Nearly = 1.0 + Uniform(Random, -1, 1) * std::pow(10.0, Uniform(Random, -12, -6));
 			glm::dvec3 At = Eye + glm::normalize(Away) * (Limit * Nearly);
 			if (I % 10 == 0) // as close to the border between before and behind
@@ -223,10 +204,7 @@ TEST(GatherStore, ObjectsInOnePlaceAndWithoutNumbersAreKeptToo)
 {
 	FGatherWorld World;
 	World.Store.SetBinding(0, {64, 0});
-	for (uint32_t I = 0; I < 500; ++I)
-	{
-		World.Set(I, PlaceAt({5, 5, 5}, 1.0));
-	}
+	for (uint32_t I = 0; I < 500; ++I) { World.Set(I, PlaceAt({5, 5, 5}, 1.0)); }
 	const double Nan = std::nan("");
 	World.Set(500, PlaceAt({Nan, 0, 0}, 1.0));
 	World.Set(501, PlaceAt({1e30, -1e200, 0}, 1.0));
@@ -234,10 +212,7 @@ TEST(GatherStore, ObjectsInOnePlaceAndWithoutNumbersAreKeptToo)
 	World.Store.Refresh();
 	EXPECT_EQ(World.Gather.Count(World.Store, FCullingRule({}, {})), 503u) << "what has no place is never culled";
 	EXPECT_LE(World.Store.GetBucketCount(), 8u + 3u);
-	for (uint32_t I = 0; I < 500; ++I)
-	{
-		World.Store.Remove(I);
-	}
+	for (uint32_t I = 0; I < 500; ++I) { World.Store.Remove(I); }
 	EXPECT_LE(World.Store.GetBucketCount(), 3u);
 }
 
@@ -246,10 +221,7 @@ TEST(GatherStore, SaysWhetherAnotherSetCameOut)
 	FRandom Random(3);
 	FGatherWorld World;
 	World.Store.SetBinding(0, {64, 0});
-	for (uint32_t I = 0; I < 2000; ++I)
-	{
-		World.Set(I, PlaceAt({10.0 * (I % 50), 0, 10.0 * (I / 50)}, 1.0));
-	}
+	for (uint32_t I = 0; I < 2000; ++I) { World.Set(I, PlaceAt({10.0 * (I % 50), 0, 10.0 * (I / 50)}, 1.0)); }
 	World.Store.Refresh();
 	FCullingSettings Settings;
 	Settings.Radius = Settings.RadiusBehind = 102.3f;
@@ -274,19 +246,13 @@ TEST(GatherStore, TheOrderOfInstancesDoesNotDependOnThreads)
 		FRandom Random(9);
 		FGatherWorld World;
 		World.Store.SetBinding(0, {64, 0});
-		for (uint32_t I = 0; I < 30000; ++I)
-		{
-			World.Set(I, PlaceAt(RandomPlace(Random, 2000, {}), std::abs(RandomRadius(Random))));
-		}
+		for (uint32_t I = 0; I < 30000; ++I) { World.Set(I, PlaceAt(RandomPlace(Random, 2000, {}), std::abs(RandomRadius(Random)))); }
 		World.Store.Refresh();
 		const uint32_t Count = World.Gather.Count(World.Store, FCullingRule({}, {}));
 		FInstanceArray Out(Count);
 		World.Gather.Write(World.Store, {0, 0, 0}, Out.Get());
 		std::vector<FRTInstance> Now(Out.Get(), Out.Get() + Count);
-		if (Try == 0)
-		{
-			First = Now;
-		}
+		if (Try == 0) { First = Now; }
 		ASSERT_EQ(First.size(), Now.size());
 		EXPECT_EQ(std::memcmp(First.data(), Now.data(), Now.size() * sizeof(FRTInstance)), 0);
 	}
@@ -304,14 +270,8 @@ TEST(GatherStore, BucketsStayFullEnoughWhileTheWorldStreams)
 	{
 		const double Ahead = 0.5 * Step;
 		World.Set(Step % Most, PlaceAt({Ahead + Uniform(Random, 0, 500), 0, Uniform(Random, -500, 500)}, 2.0));
-		if (Step == 2 * Most)
-		{
-			MostSlots = World.Store.GetBucketSlots();
-		}
-		if (Step % 1000 == 0)
-		{
-			World.Store.Refresh();
-		}
+		if (Step == 2 * Most) { MostSlots = World.Store.GetBucketSlots(); }
+		if (Step % 1000 == 0) { World.Store.Refresh(); }
 	}
 	World.Store.Refresh();
 	ASSERT_NO_FATAL_FAILURE(ExpectConsistent(World.Store));

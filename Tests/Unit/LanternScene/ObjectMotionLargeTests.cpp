@@ -19,16 +19,10 @@ TEST_F(FObjectMotionLargeTest, AMillionMoveAndStop)
 	const uint32_t Material = Scene->AddMaterial(MakeMaterial());
 	const FRTGeometryRef Tree = MakeGeometry("Tree", 1);
 	std::vector<FRTObjectId> Ids;
-	for (uint32_t I = 0; I < Count; ++I)
-	{
-		Ids.push_back(Add(Tree, {Material}, {I % 1000, 0, I / 1000}));
-	}
+	for (uint32_t I = 0; I < Count; ++I) { Ids.push_back(Add(Tree, {Material}, {I % 1000, 0, I / 1000})); }
 	Frame({}, Use);
 	EXPECT_EQ(Scene->GetMotions().GetTable().Num(), 0u);
-	for (const FRTObjectId Id : Ids)
-	{
-		Scene->SetTransform(Id, glm::translate(glm::dmat4(1.0), {Id.Index % 1000, 1, Id.Index / 1000}));
-	}
+	for (const FRTObjectId Id : Ids) { Scene->SetTransform(Id, glm::translate(glm::dmat4(1.0), {Id.Index % 1000, 1, Id.Index / 1000})); }
 	Frame({}, Use);
 	ASSERT_EQ(Scene->GetMotions().GetTable().Num(), Count);
 	EXPECT_EQ(Scene->GetStats().BytesCopied, uint64_t(Count) * (sizeof(FObjectData) + sizeof(FObjectMotion)));

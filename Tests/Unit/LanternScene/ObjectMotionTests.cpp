@@ -57,8 +57,7 @@ protected:
 	}
 	static glm::dvec3 GetPreviousPlace(const FObjectMotion& Motion)
 	{
-		const glm::dvec3 InCell(Motion.PreviousObjectToWorld[0].w, Motion.PreviousObjectToWorld[1].w,
-		                        Motion.PreviousObjectToWorld[2].w);
+		const glm::dvec3 InCell(Motion.PreviousObjectToWorld[0].w, Motion.PreviousObjectToWorld[1].w, Motion.PreviousObjectToWorld[2].w);
 		return InCell + CellCenter(Motion.PreviousCell);
 	}
 	void Move(FRTObjectId Id, glm::dvec3 Place) { Scene->SetTransform(Id, glm::translate(glm::dmat4(1.0), Place)); }
@@ -277,42 +276,27 @@ TEST_F(FObjectMotionTest, ADeformationThatNeverRanIsNone)
 TEST_F(FObjectMotionTest, MemoryOfACrowdIsGivenBack)
 {
 	std::vector<FRTObjectId> Ids;
-	for (int I = 0; I < 20'000; ++I)
-	{
-		Ids.push_back(Add(Tree, {Material}, {I % 100, 0, I / 100}));
-	}
+	for (int I = 0; I < 20'000; ++I) { Ids.push_back(Add(Tree, {Material}, {I % 100, 0, I / 100})); }
 	Rest();
-	for (const FRTObjectId Id : Ids)
-	{
-		Move(Id, {0, 1, Id.Index});
-	}
+	for (const FRTObjectId Id : Ids) { Move(Id, {0, 1, Id.Index}); }
 	Show();
 	EXPECT_EQ(Scene->GetMotions().GetTable().Num(), Ids.size());
 	EXPECT_EQ(Scene->GetMotions().GetTable().GetCopiedBytes(), Ids.size() * sizeof(FObjectMotion));
 	Show();
 	EXPECT_EQ(Scene->GetMotions().GetTable().Num(), 0u);
 	EXPECT_EQ(Scene->GetMotions().GetTable().GetAddress(), 0u);
-	for (const FRTObjectId Id : Ids)
-	{
-		ASSERT_FALSE(HasMotion(Id));
-	}
+	for (const FRTObjectId Id : Ids) { ASSERT_FALSE(HasMotion(Id)); }
 }
 
 // Not only if all of it stops at once: the last ones to stand must not hold the memory of those before them.
 TEST_F(FObjectMotionTest, MemoryOfACrowdThatComesToRestBitByBitIsGivenBack)
 {
 	std::vector<FRTObjectId> Ids;
-	for (int I = 0; I < 20'000; ++I)
-	{
-		Ids.push_back(Add(Tree, {Material}, {I % 100, 0, I / 100}));
-	}
+	for (int I = 0; I < 20'000; ++I) { Ids.push_back(Add(Tree, {Material}, {I % 100, 0, I / 100})); }
 	Rest();
 	for (const size_t Moving : {size_t(20'000), size_t(100), size_t(0)})
 	{
-		for (size_t I = 0; I < Moving; ++I)
-		{
-			Move(Ids[I], {1, Moving, I});
-		}
+		for (size_t I = 0; I < Moving; ++I) { Move(Ids[I], {1, Moving, I}); }
 		Show();
 		EXPECT_EQ(Scene->GetMotions().GetTable().Num(), Moving);
 	}
@@ -342,10 +326,7 @@ protected:
 		{
 			FKnown New;
 			New.Place = MakePlace();
-			if (Pick(2) == 0)
-			{
-				New.Body = Bodies[static_cast<size_t>(Pick(3))];
-			}
+			if (Pick(2) == 0) { New.Body = Bodies[static_cast<size_t>(Pick(3))]; }
 			New.Id = Add(New.Body ? New.Body : Tree, {Material}, New.Place);
 			Known.push_back(New);
 			return;
@@ -363,10 +344,7 @@ protected:
 			Scene->MarkDeformed(Body);
 			Marked.insert({Body.get(), true});
 		}
-		else
-		{
-			Move(Known[Index].Id, Known[Index].Place = MakePlace());
-		}
+		else { Move(Known[Index].Id, Known[Index].Place = MakePlace()); }
 	}
 	void Check()
 	{
@@ -374,14 +352,10 @@ protected:
 		for (const FKnown& Object : Known)
 		{
 			const auto Before = Shown.find({Object.Id.Index, Object.Id.Generation});
-			const bool bDeforms =
-			    Object.Body && Marked.contains(Object.Body.get()) && Deformed.contains(Object.Body.get());
+			const bool bDeforms = Object.Body && Marked.contains(Object.Body.get()) && Deformed.contains(Object.Body.get());
 			const bool bExpected = Before != Shown.end() && (Before->second != Object.Place || bDeforms);
 			ASSERT_EQ(HasMotion(Object.Id), bExpected) << "object " << Object.Id.Index;
-			if (!bExpected)
-			{
-				continue;
-			}
+			if (!bExpected) { continue; }
 			++Moving;
 			const FObjectMotion Motion = ReadMotion(Object.Id);
 			ASSERT_EQ(GetPreviousPlace(Motion), Before->second);
@@ -391,10 +365,7 @@ protected:
 	}
 	void Keep()
 	{
-		for (const FKnown& Object : Known)
-		{
-			Shown[{Object.Id.Index, Object.Id.Generation}] = Object.Place;
-		}
+		for (const FKnown& Object : Known) { Shown[{Object.Id.Index, Object.Id.Generation}] = Object.Place; }
 		Deformed.insert(Marked.begin(), Marked.end());
 		Marked.clear();
 	}
@@ -408,18 +379,12 @@ protected:
 
 TEST_F(FObjectMotionWalk, AgreesWithAPlainRecord)
 {
-	for (const char* Name : {"A", "B", "C"})
-	{
-		Bodies.push_back(MakeDeformable(Name));
-	}
+	for (const char* Name : {"A", "B", "C"}) { Bodies.push_back(MakeDeformable(Name)); }
 	size_t Most = 0;
 	for (int Step = 0; Step < 2000 && !HasFatalFailure(); ++Step)
 	{
 		const int Changes = Pick(3) == 0 ? 0 : Pick(12);
-		for (int I = 0; I < Changes; ++I)
-		{
-			Change();
-		}
+		for (int I = 0; I < Changes; ++I) { Change(); }
 		Most = std::max(Most, Known.size());
 		if (Pick(8) == 0)
 		{
@@ -429,10 +394,7 @@ TEST_F(FObjectMotionWalk, AgreesWithAPlainRecord)
 		}
 		const bool bWanted = Pick(10) != 0;
 		Frame({}, MakeUse(bWanted));
-		if (bWanted)
-		{
-			Check();
-		}
+		if (bWanted) { Check(); }
 		Keep();
 	}
 	EXPECT_EQ(Most, MostObjects);

@@ -16,10 +16,7 @@ namespace
 constexpr uint32_t Cases = 4000;
 constexpr uint32_t Samples = 600;
 
-float Uniform(std::mt19937& Random, float Low, float High)
-{
-	return std::uniform_real_distribution<float>(Low, High)(Random);
-}
+float Uniform(std::mt19937& Random, float Low, float High) { return std::uniform_real_distribution<float>(Low, High)(Random); }
 
 FAlphaTest MakeRandomTest(std::mt19937& Random, const FAlphaPyramid& Pyramid)
 {
@@ -61,10 +58,7 @@ void MakeRandomTriangle(std::mt19937& Random, FVertexAttributes (&Out)[3])
 glm::vec2 MakeBarycentrics(std::mt19937& Random, uint32_t Sample)
 {
 	const glm::vec2 Corners[] = {{0, 0}, {1, 0}, {0, 1}};
-	if (Sample < 3)
-	{
-		return Corners[Sample];
-	}
+	if (Sample < 3) { return Corners[Sample]; }
 	float U = Uniform(Random, 0.0f, 1.0f), V = Uniform(Random, 0.0f, 1.0f);
 	if (U + V > 1.0f)
 	{
@@ -81,19 +75,13 @@ glm::vec2 MakeBarycentrics(std::mt19937& Random, uint32_t Sample)
 	}
 }
 
-EOpacity Classify(const FAlphaTest& Alpha, const FVertexAttributes (&V)[3])
-{
-	return ClassifyTriangle(Alpha, V[0], V[1], V[2]);
-}
+EOpacity Classify(const FAlphaTest& Alpha, const FVertexAttributes (&V)[3]) { return ClassifyTriangle(Alpha, V[0], V[1], V[2]); }
 
 /// Left half opaque, right half clear, 64 × 64.
 FTestAlpha MakeHalves()
 {
 	FTestAlpha Texture{64, 64, std::vector<uint8_t>(64 * 64)};
-	for (uint32_t I = 0; I < Texture.Alpha.size(); ++I)
-	{
-		Texture.Alpha[I] = I % 64 < 32 ? 255 : 0;
-	}
+	for (uint32_t I = 0; I < Texture.Alpha.size(); ++I) { Texture.Alpha[I] = I % 64 < 32 ? 255 : 0; }
 	return Texture;
 }
 
@@ -148,10 +136,7 @@ TEST(FOpacityClassifierTest, MixedIsSaidOnlyWhereItIsNearlySo)
 	for (uint32_t Case = 0; Case < 1500; ++Case)
 	{
 		FTestAlpha Texture = MakeRandomAlpha(Random);
-		for (uint8_t& Alpha : Texture.Alpha)
-		{
-			Alpha = Alpha < 128 ? 0 : 255;
-		}
+		for (uint8_t& Alpha : Texture.Alpha) { Alpha = Alpha < 128 ? 0 : 255; }
 		const FAlphaPyramid Pyramid(Texture.GetTexels());
 		FAlphaTest Alpha = MakeRandomTest(Random, Pyramid);
 		Alpha.Cutoff = 0.5f;
@@ -159,22 +144,15 @@ TEST(FOpacityClassifierTest, MixedIsSaidOnlyWhereItIsNearlySo)
 		Alpha.bLinear = false;
 		FVertexAttributes V[3];
 		MakeRandomTriangle(Random, V);
-		for (FVertexAttributes& Vertex : V)
-		{
-			Vertex.Color = ~0u;
-		}
-		if (Classify(Alpha, V) != EOpacity::Mixed)
-		{
-			continue;
-		}
+		for (FVertexAttributes& Vertex : V) { Vertex.Color = ~0u; }
+		if (Classify(Alpha, V) != EOpacity::Mixed) { continue; }
 		++Mixed;
 		bool bCut = false, bKept = false;
 		for (uint32_t Sample = 0; Sample < 4000 && !(bCut && bKept); ++Sample)
 		{
 			FVertexAttributes Moved[3] = {V[0], V[1], V[2]};
 			FAlphaTest Beside = Alpha;
-			Beside.UVOffset +=
-			    glm::vec2(Uniform(Random, -0.1f, 0.1f) / Texture.Width, Uniform(Random, -0.1f, 0.1f) / Texture.Height);
+			Beside.UVOffset += glm::vec2(Uniform(Random, -0.1f, 0.1f) / Texture.Width, Uniform(Random, -0.1f, 0.1f) / Texture.Height);
 			(IsCutAway(&Texture, Beside, Moved, MakeBarycentrics(Random, Sample), 0.0) ? bCut : bKept) = true;
 		}
 		Unfounded += !(bCut && bKept);
@@ -194,10 +172,7 @@ TEST(FOpacityClassifierTest, FootprintIsTheTriangleNotItsBox)
 	EXPECT_EQ(ClassifyIn(Alpha, {0.1f, 0.1f}, {0.9f, 0.1f}, {0.1f, 0.9f}), EOpacity::Mixed);
 	// A triangle below the diagonal of a texture whose other half is clear.
 	FTestAlpha Diagonal{64, 64, std::vector<uint8_t>(64 * 64)};
-	for (uint32_t I = 0; I < 64 * 64; ++I)
-	{
-		Diagonal.Alpha[I] = I % 64 + I / 64 < 64 ? 255 : 0;
-	}
+	for (uint32_t I = 0; I < 64 * 64; ++I) { Diagonal.Alpha[I] = I % 64 + I / 64 < 64 ? 255 : 0; }
 	const FAlphaPyramid DiagonalPyramid(Diagonal.GetTexels());
 	Alpha.Texture = &DiagonalPyramid;
 	Alpha.AddressU = Alpha.AddressV = ERTAddress::Clamp;
@@ -224,8 +199,7 @@ TEST(FOpacityClassifierTest, AddressModesDecideWhatLiesOutside)
 	const FTestAlpha Texture = MakeHalves();
 	const FAlphaPyramid Pyramid(Texture.GetTexels());
 	FAlphaTest Alpha = MakeTest(Pyramid);
-	const auto At = [&](ERTAddress Address, float U)
-	{
+	const auto At = [&](ERTAddress Address, float U) {
 		Alpha.AddressU = Address;
 		return ClassifyIn(Alpha, {U, 0.3f}, {U + 0.1f, 0.3f}, {U, 0.4f});
 	};
@@ -244,8 +218,7 @@ TEST(FOpacityClassifierTest, VertexAlphaAndBaseAlphaScaleTheTexture)
 	FAlphaTest Alpha = MakeTest(Pyramid);
 	EXPECT_EQ(ClassifyIn(Alpha, {0, 0}, {1, 0}, {0, 1}), EOpacity::Opaque);
 	EXPECT_EQ(ClassifyIn(Alpha, {0, 0}, {1, 0}, {0, 1}, 100), EOpacity::Transparent);
-	EXPECT_EQ(ClassifyTriangle(Alpha, MakeVertex({0, 0}, 100), MakeVertex({1, 0}), MakeVertex({0, 1})),
-	          EOpacity::Mixed);
+	EXPECT_EQ(ClassifyTriangle(Alpha, MakeVertex({0, 0}, 100), MakeVertex({1, 0}), MakeVertex({0, 1})), EOpacity::Mixed);
 	Alpha.BaseAlpha = 0.6f;
 	EXPECT_EQ(ClassifyIn(Alpha, {0, 0}, {1, 0}, {0, 1}), EOpacity::Transparent);
 	Alpha.BaseAlpha = -1.0f;
@@ -294,10 +267,7 @@ TEST(FOpacityClassifierTest, ReorderingKeepsEveryTriangle)
 		for (size_t T = 0; T < Classes.size(); ++T)
 		{
 			Classes[T] = static_cast<EOpacity>(Random() % 3);
-			for (size_t I = 0; I < 3; ++I)
-			{
-				Indices[3 * T + I] = Random() % 100;
-			}
+			for (size_t I = 0; I < 3; ++I) { Indices[3 * T + I] = Random() % 100; }
 			Before[static_cast<int>(Classes[T])].insert({Indices[3 * T], Indices[3 * T + 1], Indices[3 * T + 2]});
 		}
 		std::vector<uint16_t> Short(Indices.begin(), Indices.end());
@@ -309,10 +279,7 @@ TEST(FOpacityClassifierTest, ReorderingKeepsEveryTriangle)
 			                                                     : int(EOpacity::Transparent);
 			After[Class].insert({Indices[3 * T], Indices[3 * T + 1], Indices[3 * T + 2]});
 		}
-		for (int Class = 0; Class < 3; ++Class)
-		{
-			EXPECT_EQ(Before[Class], After[Class]);
-		}
+		for (int Class = 0; Class < 3; ++Class) { EXPECT_EQ(Before[Class], After[Class]); }
 		ReorderByOpacity(std::span<uint16_t>(Short), Classes);
 		EXPECT_TRUE(std::equal(Short.begin(), Short.end(), Indices.begin(), Indices.end()));
 	}
@@ -324,22 +291,15 @@ TEST(FOpacityClassifierTest, SectionIsOrderedAndItsNeighboursAreLeftAlone)
 	const FAlphaPyramid Pyramid(Texture.GetTexels());
 	const FAlphaTest Alpha = MakeTest(Pyramid);
 	std::vector<FVertexAttributes> Vertices;
-	const auto Add = [&](float U, float Size)
-	{
+	const auto Add = [&](float U, float Size) {
 		for (const glm::vec2 Corner : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1)})
 		{
 			Vertices.push_back(MakeVertex(glm::vec2(U, 0.2f) + Size * Corner));
 		}
 	};
-	for (const float U : {0.7f, 0.2f, 0.45f, 0.8f, 0.1f})
-	{
-		Add(U, 0.1f);
-	}
+	for (const float U : {0.7f, 0.2f, 0.45f, 0.8f, 0.1f}) { Add(U, 0.1f); }
 	std::vector<uint32_t> Indices(Vertices.size());
-	for (uint32_t I = 0; I < Indices.size(); ++I)
-	{
-		Indices[I] = I;
-	}
+	for (uint32_t I = 0; I < Indices.size(); ++I) { Indices[I] = I; }
 	FRTSectionInfo Section;
 	Section.FirstIndex = 3; // the first triangle is another section's
 	Section.IndexCount = 12;
@@ -359,8 +319,7 @@ TEST(FOpacityClassifierTest, KeyFollowsWhatTheAlphaTestReads)
 	Material.Textures[TEXTURE_BASE_COLOR] = 5;
 	const uint64_t Key = MakeOpacityKey(Material);
 	EXPECT_NE(Key, 0u);
-	const auto Differs = [&](auto Change)
-	{
+	const auto Differs = [&](auto Change) {
 		FMaterialData Other = Material;
 		Change(Other);
 		return MakeOpacityKey(Other) != Key;

@@ -13,8 +13,7 @@ namespace
 {
 bool IsInside(const glm::vec2* Corners, glm::vec2 Point)
 {
-	const auto Side = [&](int I)
-	{
+	const auto Side = [&](int I) {
 		const glm::dvec2 A(Corners[I]), B(Corners[(I + 1) % 3]);
 		return (B.x - A.x) * (Point.y - A.y) - (B.y - A.y) * (Point.x - A.x);
 	};
@@ -31,10 +30,7 @@ bool IsCovered(const FOpacityPieces& Pieces, glm::vec2 Point)
 {
 	for (size_t I = 0; I < Pieces.Corners.size(); I += 3)
 	{
-		if (IsInside(&Pieces.Corners[I], Point))
-		{
-			return true;
-		}
+		if (IsInside(&Pieces.Corners[I], Point)) { return true; }
 	}
 	return false;
 }
@@ -60,8 +56,7 @@ FTestAlpha MakeLeaf()
 
 struct FCard
 {
-	std::vector<FVertexAttributes> Vertices = {MakeVertex({0, 0}), MakeVertex({1, 0}), MakeVertex({1, 1}),
-	                                           MakeVertex({0, 1})};
+	std::vector<FVertexAttributes> Vertices = {MakeVertex({0, 0}), MakeVertex({1, 0}), MakeVertex({1, 1}), MakeVertex({0, 1})};
 	std::vector<glm::vec3> Positions = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
 	std::vector<uint32_t> Indices = {0, 1, 2, 0, 2, 3};
 };
@@ -92,10 +87,7 @@ TEST(FOpacityPieceTest, WhatIsLeftOutIsCutAway)
 		Alpha.bLinear = Random() % 2;
 		Alpha.UVTransform = Random() % 2 ? glm::vec4(1, 0, 0, 1) : glm::vec4(0.6f, -0.8f, 0.8f, 0.6f);
 		FVertexAttributes V[3];
-		for (FVertexAttributes& Vertex : V)
-		{
-			Vertex = MakeVertex({Place(Random), Place(Random)}, Random() % 4 ? 255 : 160);
-		}
+		for (FVertexAttributes& Vertex : V) { Vertex = MakeVertex({Place(Random), Place(Random)}, Random() % 4 ? 255 : 160); }
 		for (const FOpacityPieces& Way : MakeOpacityPieces(Alpha, V[0], V[1], V[2], Random() % 2 ? 32 : 64))
 		{
 			++Ways;
@@ -121,8 +113,7 @@ TEST(FOpacityPieceTest, WaysAreOrderedAndStateTheirArea)
 	const FAlphaPyramid Pyramid(Leaf.GetTexels());
 	const FAlphaTest Alpha = MakeLeafTest(Pyramid);
 	const FCard Card;
-	const std::vector<FOpacityPieces> Ways =
-	    MakeOpacityPieces(Alpha, Card.Vertices[0], Card.Vertices[1], Card.Vertices[2]);
+	const std::vector<FOpacityPieces> Ways = MakeOpacityPieces(Alpha, Card.Vertices[0], Card.Vertices[1], Card.Vertices[2]);
 	ASSERT_GE(Ways.size(), 2u);
 	float Share = 1.0f;
 	for (const FOpacityPieces& Way : Ways)
@@ -136,10 +127,7 @@ TEST(FOpacityPieceTest, WaysAreOrderedAndStateTheirArea)
 			Area += GetTwiceArea(&Way.Corners[I]);
 		}
 		EXPECT_NEAR(Area, Way.Share, 0.02) << "but for overlaps";
-		for (const glm::vec2 Corner : Way.Corners)
-		{
-			EXPECT_GT(std::min({Corner.x, Corner.y, 1.0f - Corner.x - Corner.y}), -2e-3f);
-		}
+		for (const glm::vec2 Corner : Way.Corners) { EXPECT_GT(std::min({Corner.x, Corner.y, 1.0f - Corner.x - Corner.y}), -2e-3f); }
 	}
 	// The circle covers 0.479 of the square; its half, of the triangle.
 	EXPECT_GT(Share, 0.479f);
@@ -168,10 +156,7 @@ TEST(FOpacityPieceTest, PiecesGoWhereTheySaveMost)
 	const FAlphaPyramid Pyramid(Leaf.GetTexels());
 	const FAlphaTest Alpha = MakeLeafTest(Pyramid);
 	FCard Large, Small;
-	for (glm::vec3& P : Small.Positions)
-	{
-		P *= 0.1f;
-	}
+	for (glm::vec3& P : Small.Positions) { P *= 0.1f; }
 	const auto MakeSource = [&](const FCard& Card, float Weight) {
 		return FPieceSource{&Alpha, Card.Vertices.data(), Card.Positions.data(), Card.Indices, Weight};
 	};

@@ -72,10 +72,7 @@ protected:
 	std::vector<bool> GetOpaque(const FRTGeometryRef& Geometry)
 	{
 		std::vector<bool> Out;
-		for (const FRTGeometrySection& Section : Mock().GetGeometry(Geometry->GetStructure()).Sections)
-		{
-			Out.push_back(Section.bOpaque);
-		}
+		for (const FRTGeometrySection& Section : Mock().GetGeometry(Geometry->GetStructure()).Sections) { Out.push_back(Section.bOpaque); }
 		return Out;
 	}
 	const FSectionData& GetSection(FRTObjectId Object, uint32_t Part)
@@ -125,7 +122,7 @@ TEST_F(FOpacitySceneTest, PiecesStandInForMixedTriangles)
 	const FSectionData Pieces = GetSection(Object, 0);
 	EXPECT_EQ(Pieces.Indices, Geometry->GetInfo().PieceIndices->GetDeviceAddress());
 	EXPECT_EQ(Pieces.Flags & (SECTION_PIECES | SECTION_IS_PIECES | SECTION_MASKED),
-	          uint32_t(SECTION_PIECES | SECTION_IS_PIECES | SECTION_MASKED));
+	    uint32_t(SECTION_PIECES | SECTION_IS_PIECES | SECTION_MASKED));
 	EXPECT_EQ(GetSection(Object, 2).Flags & (SECTION_PIECES | SECTION_IS_PIECES), uint32_t(SECTION_PIECES));
 	Set("r.RT.Opacity.Classify", "0");
 	ExpectFallback(Geometry);
@@ -138,8 +135,7 @@ TEST_F(FOpacitySceneTest, TogglesFallBackAndReturn)
 	const FRTGeometryRef Geometry = Create(MakeClassifiedInfo());
 	Add(Geometry, {MaskedIndex, SolidIndex});
 	Settle();
-	const auto ExpectReturn = [&]
-	{
+	const auto ExpectReturn = [&] {
 		Settle();
 		EXPECT_EQ(GetBuilt(Geometry), Classified);
 	};

@@ -31,14 +31,8 @@ inline FVertexAttributes MakeVertex(glm::vec2 UV, uint32_t Alpha = 255)
 /// Vulkan 1.3, "Wrapping Operation", of a texel index.
 inline uint32_t WrapTexel(int64_t Index, int64_t Size, ERTAddress Address)
 {
-	if (Address == ERTAddress::Clamp)
-	{
-		return static_cast<uint32_t>(std::clamp<int64_t>(Index, 0, Size - 1));
-	}
-	if (Address == ERTAddress::Repeat)
-	{
-		return static_cast<uint32_t>((Index % Size + Size) % Size);
-	}
+	if (Address == ERTAddress::Clamp) { return static_cast<uint32_t>(std::clamp<int64_t>(Index, 0, Size - 1)); }
+	if (Address == ERTAddress::Repeat) { return static_cast<uint32_t>((Index % Size + Size) % Size); }
 	const int64_t Period = (Index % (2 * Size) + 2 * Size) % (2 * Size) - Size;
 	return static_cast<uint32_t>(Size - 1 - (Period >= 0 ? Period : -(1 + Period)));
 }
@@ -48,16 +42,12 @@ inline float SampleAlpha(const FTestAlpha& Texture, const FAlphaTest& Test, glm:
 {
 	const auto Round = [&](double X) { return Steps > 0.0 ? std::floor(X * Steps + 0.5) / Steps : X; };
 	const double X = Round(double(UV.x) * Texture.Width), Y = Round(double(UV.y) * Texture.Height);
-	const auto Texel = [&](double U, double V)
-	{
+	const auto Texel = [&](double U, double V) {
 		return Texture.At(WrapTexel(static_cast<int64_t>(std::floor(U)), Texture.Width, Test.AddressU),
-		                  WrapTexel(static_cast<int64_t>(std::floor(V)), Texture.Height, Test.AddressV)) /
+		           WrapTexel(static_cast<int64_t>(std::floor(V)), Texture.Height, Test.AddressV)) /
 		       255.0;
 	};
-	if (!Test.bLinear)
-	{
-		return static_cast<float>(Texel(X, Y));
-	}
+	if (!Test.bLinear) { return static_cast<float>(Texel(X, Y)); }
 	const double X0 = std::floor(X - 0.5), Y0 = std::floor(Y - 0.5), A = X - 0.5 - X0, B = Y - 0.5 - Y0;
 	const double Top = (1 - A) * Texel(X0, Y0) + A * Texel(X0 + 1, Y0);
 	const double Bottom = (1 - A) * Texel(X0, Y0 + 1) + A * Texel(X0 + 1, Y0 + 1);
@@ -65,8 +55,8 @@ inline float SampleAlpha(const FTestAlpha& Texture, const FAlphaTest& Test, glm:
 }
 
 /// IsHitCutAway of Shaders/Materials/Standard.glsl.
-inline bool IsCutAway(const FTestAlpha* Texture, const FAlphaTest& Test, const FVertexAttributes (&V)[3],
-                      glm::vec2 Barycentrics, double Steps)
+inline bool IsCutAway(
+    const FTestAlpha* Texture, const FAlphaTest& Test, const FVertexAttributes (&V)[3], glm::vec2 Barycentrics, double Steps)
 {
 	const float W[3] = {1.0f - Barycentrics.x - Barycentrics.y, Barycentrics.x, Barycentrics.y};
 	glm::vec2 UV(0.0f);
@@ -79,10 +69,7 @@ inline bool IsCutAway(const FTestAlpha* Texture, const FAlphaTest& Test, const F
 	const glm::vec4& T = Test.UVTransform;
 	UV = glm::vec2(T.x * UV.x + T.y * UV.y, T.z * UV.x + T.w * UV.y) + Test.UVOffset;
 	float Opacity = Test.BaseAlpha * (VertexAlpha * (1.0f / 255.0f));
-	if (Texture)
-	{
-		Opacity *= SampleAlpha(*Texture, Test, UV, Steps);
-	}
+	if (Texture) { Opacity *= SampleAlpha(*Texture, Test, UV, Steps); }
 	return Opacity < Test.Cutoff;
 }
 
@@ -101,8 +88,7 @@ inline FTestAlpha MakeRandomAlpha(std::mt19937& Random)
 		const uint8_t Value = Random() % 3 ? (Random() % 2 ? 255 : 0) : static_cast<uint8_t>(Random());
 		for (uint32_t Y = Y0; Y < Y1; ++Y)
 		{
-			std::fill(Texture.Alpha.begin() + Y * Texture.Width + X0, Texture.Alpha.begin() + Y * Texture.Width + X1,
-			          Value);
+			std::fill(Texture.Alpha.begin() + Y * Texture.Width + X0, Texture.Alpha.begin() + Y * Texture.Width + X1, Value);
 		}
 	}
 	return Texture;

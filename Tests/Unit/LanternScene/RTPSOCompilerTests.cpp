@@ -114,10 +114,7 @@ TEST_F(FPipelineCompilerTest, MostHitComesFirstThenNearest)
 	Start({});
 	Device->Close("Generate"); // the first of all
 	const std::vector<std::string> Names = {"Far", "Near", "Seen", "MoreSeen"};
-	for (const std::string& Name : Names)
-	{
-		AddProgram(Name);
-	}
+	for (const std::string& Name : Names) { AddProgram(Name); }
 	Maker->SetPriorities({{}, {0, 50.0f}, {0, 2.0f}, {10, 90.0f}, {500, 100.0f}});
 	Maker->Update(Wanted);
 	Device->Open();
@@ -127,10 +124,7 @@ TEST_F(FPipelineCompilerTest, MostHitComesFirstThenNearest)
 	{
 		for (const std::string& Name : Names)
 		{
-			if (Asked == Name + " MATERIAL opaque")
-			{
-				Order.push_back(Name);
-			}
+			if (Asked == Name + " MATERIAL opaque") { Order.push_back(Name); }
 		}
 	}
 	EXPECT_THAT(Order, ElementsAre("MoreSeen", "Seen", "Near", "Far"));
@@ -156,12 +150,10 @@ TEST_F(FPipelineCompilerTest, NothingIsTracedBeforeItsStandInIsThere)
 	AddProgram("Rust");
 	Device->Close("StandIn");
 	Device->Close("Rust");
-	Until(
-	    [&]
-	    {
-		    const FRTPSOCompilerStats& Stats = Maker->GetStats();
-		    return Device->WasAsked("StandIn") && Device->WasAsked("Rust") && Stats.Ready + 2 == Stats.Wanted;
-	    });
+	Until([&] {
+		const FRTPSOCompilerStats& Stats = Maker->GetStats();
+		return Device->WasAsked("StandIn") && Device->WasAsked("Rust") && Stats.Ready + 2 == Stats.Wanted;
+	});
 	for (int Frame = 0; Frame < 100; ++Frame)
 	{
 		Maker->Update(Wanted);
@@ -178,19 +170,13 @@ TEST_F(FPipelineCompilerTest, WhatIsNotWantedForLongIsDropped)
 {
 	Set("r.RT.Pipeline.KeepFrames", "10");
 	const FRTPSODesc Few = Wanted;
-	for (int I = 0; I < 30; ++I)
-	{
-		AddProgram("P" + std::to_string(I));
-	}
+	for (int I = 0; I < 30; ++I) { AddProgram("P" + std::to_string(I)); }
 	const FRTPSODesc Many = Wanted;
 	FinishWanted();
 	EXPECT_GE(GetIdleStats().Kept, 30u);
 	Wanted = Few;
 	FinishWanted();
-	for (int Frame = 0; Frame < 60; ++Frame)
-	{
-		FinishWanted();
-	}
+	for (int Frame = 0; Frame < 60; ++Frame) { FinishWanted(); }
 	EXPECT_LE(GetIdleStats().Kept, 6u);
 	// Pipelines and libraries; another thread destroys them.
 	WaitFor([&] { return Device->Mock().GetLiveObjectCount() <= 12u; });
@@ -240,10 +226,7 @@ TEST_F(FPipelineCompilerTest, LinkThatFailsIsToldOnceAndTheOldOneStays)
 	Device->Mock().FailCompile("RTPSO");
 	AddProgram("Rust");
 	UntilIdle();
-	for (int Frame = 0; Frame < 100; ++Frame)
-	{
-		Maker->Update(Wanted);
-	}
+	for (int Frame = 0; Frame < 100; ++Frame) { Maker->Update(Wanted); }
 	UntilIdle();
 	EXPECT_EQ(Maker->GetCurrent(), Before);
 	EXPECT_EQ(Log.Count(ERTLogLevel::Error), 1u);

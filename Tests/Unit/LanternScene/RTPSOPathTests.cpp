@@ -54,14 +54,11 @@ TEST_P(FPipelinePathTest, FinishMakesAllThatIsWanted)
 	EXPECT_EQ(Current->GetMissingCount(), 0u);
 	for (uint32_t I = 0; I < 2; ++I)
 	{
-		EXPECT_EQ(ResolveGroup(*Current, ERTRecordKind::Miss, Current->MissGroup(I)).General,
-		          I ? "MATERIAL.miss" : "SHADOW.miss");
-		EXPECT_EQ(ResolveGroup(*Current, ERTRecordKind::Callable, Current->CallableGroup(I)).General,
-		          "Call" + std::to_string(I));
+		EXPECT_EQ(ResolveGroup(*Current, ERTRecordKind::Miss, Current->MissGroup(I)).General, I ? "MATERIAL.miss" : "SHADOW.miss");
+		EXPECT_EQ(ResolveGroup(*Current, ERTRecordKind::Callable, Current->CallableGroup(I)).General, "Call" + std::to_string(I));
 		const uint32_t RayGen = Current->FindRayGen(Wanted.RayGens[I]);
 		ASSERT_NE(RayGen, NoRayGen);
-		EXPECT_EQ(ResolveGroup(*Current, ERTRecordKind::RayGen, Current->RayGenGroup(RayGen)).General,
-		          I ? "Second" : "Generate");
+		EXPECT_EQ(ResolveGroup(*Current, ERTRecordKind::RayGen, Current->RayGenGroup(RayGen)).General, I ? "Second" : "Generate");
 	}
 	// Libraries alone: the link has no group of its own; with the quirk the general ones; else all in one.
 	const auto Links = Device->Mock().FindCalls(ERTMockCall::CreateRayTracingPipeline, "RTPSO");
@@ -77,10 +74,7 @@ TEST_P(FPipelinePathTest, ThatFinishIsOverTheNextOneCostsNothing)
 	FinishWanted();
 	Device->ForgetAsked();
 	const auto Before = Maker->GetCurrent();
-	for (int Frame = 0; Frame < 10; ++Frame)
-	{
-		FinishWanted();
-	}
+	for (int Frame = 0; Frame < 10; ++Frame) { FinishWanted(); }
 	EXPECT_EQ(Maker->GetCurrent(), Before);
 	EXPECT_THAT(Device->GetAsked(), ElementsAre());
 }
@@ -137,10 +131,7 @@ TEST_P(FPipelinePathTest, OneThatFailsIsToldOnceAndTheRestGoesOn)
 	Wanted.HitPrograms.push_back(Masked(Broken));
 	const uint32_t Rust = AddProgram("Rust");
 	UntilIdle();
-	for (int Frame = 0; Frame < 50; ++Frame)
-	{
-		Maker->Update(Wanted);
-	}
+	for (int Frame = 0; Frame < 50; ++Frame) { Maker->Update(Wanted); }
 	ExpectOwn(Opaque(Rust), "Rust");
 	ExpectStandIn(Opaque(Broken));
 	ExpectStandIn(Masked(Broken));
@@ -164,10 +155,7 @@ TEST_P(FPipelinePathTest, SkippedHitProgramsAreMissing)
 	EXPECT_EQ(ResolveHit(*Current, 1, Opaque(Rust)).ClosestHit, "") << "no stand-in was compiled";
 	Device->Open();
 	Until([&] { return IsReady(Opaque(Rust)); });
-	for (const std::string& Name : Device->GetAsked())
-	{
-		EXPECT_EQ(Name.find("StandIn"), std::string::npos);
-	}
+	for (const std::string& Name : Device->GetAsked()) { EXPECT_EQ(Name.find("StandIn"), std::string::npos); }
 }
 
 TEST_P(FPipelinePathTest, WithoutRayGenerationOrMissThereIsNoPipelineAndFinishSaysWhy)
@@ -242,19 +230,16 @@ TEST(MaterialProgramsTest, TextOfAProgramIsPartOfItsShadersKeys)
 	std::filesystem::create_directory(Folder.GetPath() + "/Materials");
 	Folder.Write("Materials/Material.glsl", "float Value() { return 0.0; }\n");
 	Folder.Write("Materials/Other.glsl", "#define OTHER 1.0\n");
-	FShaderCompiler Compiler(
-	    FShaderCompilerDesc{.SearchFolders = {Folder.GetPath()}, .CacheFolder = Folder.GetPath() + "/cache"});
+	FShaderCompiler Compiler(FShaderCompilerDesc{.SearchFolders = {Folder.GetPath()}, .CacheFolder = Folder.GetPath() + "/cache"});
 	FMaterialPrograms Programs;
 	FShaderSource Shader;
 	Shader.Path = "Test.comp";
 	Shader.Text = "#version 460\n#include \"Materials/Material.glsl\"\nlayout(local_size_x = 1) in;\n"
 	              "layout(set = 0, binding = 0) buffer F { float Out; };\nvoid main() { Out = Value(); }\n";
-	const uint32_t One =
-	    Programs.Add({.Name = "One", .Text = "#include \"Other.glsl\"\nfloat Value() { return OTHER; }\n"});
+	const uint32_t One = Programs.Add({.Name = "One", .Text = "#include \"Other.glsl\"\nfloat Value() { return OTHER; }\n"});
 	const uint32_t Same = Programs.Add({.Name = "Same", .Text = Programs.Get(One).Text});
 	const uint32_t Two = Programs.Add({.Name = "Two", .Text = "float Value() { return 2.0; }\n"});
-	const auto Compile = [&](uint32_t Program)
-	{
+	const auto Compile = [&](uint32_t Program) {
 		FShaderBinary Binary;
 		const FRTStatus Status = Compiler.Compile(Programs.MakeSource(Shader, Program), Binary);
 		EXPECT_TRUE(Status) << Status.Message;
@@ -273,9 +258,8 @@ TEST(MaterialProgramsTest, TextOfAProgramIsPartOfItsShadersKeys)
 	EXPECT_EQ(Programs.FindOrAdd({.Name = "Two", .Text = "float Value() { return 2.0; }\n"}), Two);
 }
 
-INSTANTIATE_TEST_SUITE_P(Paths, FPipelinePathTest,
-                         ::testing::Values(EPath::Libraries, EPath::OwnGeneralGroups, EPath::NoLibraries,
-                                           EPath::LibrariesOff));
+INSTANTIATE_TEST_SUITE_P(
+    Paths, FPipelinePathTest, ::testing::Values(EPath::Libraries, EPath::OwnGeneralGroups, EPath::NoLibraries, EPath::LibrariesOff));
 
 } // namespace
 } // namespace Lantern

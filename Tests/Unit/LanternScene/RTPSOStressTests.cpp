@@ -40,8 +40,7 @@ protected:
 		Info.Name = "Quad";
 		for (TRTRef<IRTBuffer>* Buffer : {&Info.Positions, &Info.Attributes, &Info.Indices})
 		{
-			const FRTBufferDesc Desc{1024, ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput, ERTMemory::Device,
-			                         "Quad"};
+			const FRTBufferDesc Desc{1024, ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput, ERTMemory::Device, "Quad"};
 			ASSERT_TRUE(Device->CreateBuffer(Desc, Buffer->ReleaseAndGetAddress()));
 		}
 		Info.VertexCount = 3;
@@ -65,10 +64,7 @@ protected:
 		Wanted.HitPrograms = Sections->GetHitPrograms();
 		Maker->Update(Wanted);
 		Current = Maker->GetCurrent();
-		if (!Current)
-		{
-			return;
-		}
+		if (!Current) { return; }
 		TRTRef<IRTCommandList> List;
 		ASSERT_TRUE(Device->CreateCommandList("Frame", List.ReleaseAndGetAddress()));
 		ASSERT_TRUE(List->Begin());
@@ -89,8 +85,7 @@ protected:
 			{
 				FRTInstance Instance{};
 				Instance.TableOffsetAndFlags = Section * Current->GetRayTypeCount();
-				const FRTMockRecord Record =
-				    Device->Mock().ResolveHit(Bindings->GetTable(), Instance, 0, Type, Current->GetRayTypeCount());
+				const FRTMockRecord Record = Device->Mock().ResolveHit(Bindings->GetTable(), Instance, 0, Type, Current->GetRayTypeCount());
 				ASSERT_TRUE(Record.IsGood()) << Record.Error;
 				const bool bAnyHit = Hit.Class == ERTHitClass::Masked && !Current->IsMissing(Hit);
 				ASSERT_EQ(!Record.AnyHit.empty(), bAnyHit);
@@ -100,48 +95,37 @@ protected:
 	std::string NameOf(FHitProgram Hit, const std::string& Seen) const
 	{
 		// Before there is a stand-in, the standard program serves.
-		if (Current->IsStandIn(Hit))
-		{
-			return Seen.ends_with(" (StandIn)") ? " (StandIn)" : "";
-		}
+		if (Current->IsStandIn(Hit)) { return Seen.ends_with(" (StandIn)") ? " (StandIn)" : ""; }
 		return Hit.Program == StandardProgram ? "" : " (" + Programs->Get(Hit.Program).Name + ")";
 	}
 	/// Each record runs its own program, or the stand-in of its class, or, where it is to be left out, nothing.
 	void ExpectRecords()
 	{
-		if (!Current)
-		{
-			return;
-		}
+		if (!Current) { return; }
 		for (const auto& [Section, Hit] : Expected)
 		{
 			for (uint32_t Type = 0; Type < Current->GetRayTypeCount(); ++Type)
 			{
 				FRTInstance Instance{};
 				Instance.TableOffsetAndFlags = Section * Current->GetRayTypeCount();
-				const FRTMockRecord Record =
-				    Device->Mock().ResolveHit(Bindings->GetTable(), Instance, 0, Type, Current->GetRayTypeCount());
+				const FRTMockRecord Record = Device->Mock().ResolveHit(Bindings->GetTable(), Instance, 0, Type, Current->GetRayTypeCount());
 				ASSERT_TRUE(Record.IsGood()) << Record.Error;
 				const bool bRuns = !Current->IsMissing(Hit);
 				const bool bMasked = Hit.Class == ERTHitClass::Masked;
 				ASSERT_EQ(Record.ClosestHit, bRuns && Type == 1 ? "MATERIAL.hit" + NameOf(Hit, Record.ClosestHit) : "");
-				ASSERT_EQ(Record.AnyHit, bRuns && bMasked
-				                             ? (Type == 1 ? "MATERIAL.any" : "SHADOW.any") + NameOf(Hit, Record.AnyHit)
-				                             : "");
+				ASSERT_EQ(Record.AnyHit, bRuns && bMasked ? (Type == 1 ? "MATERIAL.any" : "SHADOW.any") + NameOf(Hit, Record.AnyHit) : "");
 			}
 		}
 	}
 	/// Frames, each with right records, until Condition holds.
 	void FramesUntil(const char* What, const std::function<bool()>& Condition)
 	{
-		const auto Step = [&]
-		{
+		const auto Step = [&] {
 			ASSERT_NO_FATAL_FAILURE(Frame());
 			ASSERT_NO_FATAL_FAILURE(ExpectRecords());
 			GiveWay();
 		};
-		const auto Describe = [&]
-		{
+		const auto Describe = [&] {
 			const uint32_t Ready = Current ? Count(ERTHitState::Ready) : 0;
 			return std::to_string(Ready) + " of " + std::to_string(Expected.size()) + " programs ready";
 		};
@@ -149,9 +133,8 @@ protected:
 	}
 	uint32_t Count(ERTHitState State) const
 	{
-		return static_cast<uint32_t>(std::count_if(Expected.begin(), Expected.end(),
-		                                           [&](const auto& Entry)
-		                                           { return Current->GetState(Entry.second) == State; }));
+		return static_cast<uint32_t>(
+		    std::count_if(Expected.begin(), Expected.end(), [&](const auto& Entry) { return Current->GetState(Entry.second) == State; }));
 	}
 
 	std::unique_ptr<FRTScene> Scene;
@@ -181,16 +164,15 @@ TEST_F(FPipelineStressTest, TwoHundredMaterialsArriveAndSomeAreNeverReady)
 			Never += bNever;
 			Broken += bBroken;
 			const std::string Name = (bNever ? "Never" : bBroken ? "Broken" : "P") + std::to_string(Added);
-			const uint32_t Program = Programs->Add(
-			    {.Name = Name, .Text = bBroken ? "float Value() { return wrong; }\n" : MakeText(int(Added))});
+			const uint32_t Program =
+			    Programs->Add({.Name = Name, .Text = bBroken ? "float Value() { return wrong; }\n" : MakeText(int(Added))});
 			AddSection(Program, Random() % 3 == 0);
 		}
 		ASSERT_NO_FATAL_FAILURE(Frame());
 		ASSERT_NO_FATAL_FAILURE(ExpectRecords()) << "frame " << Index;
 		GiveWay(); // else they are over before anything is compiled
 	}
-	const auto IsOver = [&]
-	{
+	const auto IsOver = [&] {
 		const bool bReady = Current && Count(ERTHitState::Ready) == Added - Broken - Never;
 		return bReady && Log.Count(ERTLogLevel::Error) >= Broken;
 	};
@@ -198,8 +180,7 @@ TEST_F(FPipelineStressTest, TwoHundredMaterialsArriveAndSomeAreNeverReady)
 	EXPECT_EQ(Count(ERTHitState::StandIn), Broken + Never);
 	EXPECT_EQ(Log.Count(ERTLogLevel::Error), Broken) << "each is told once";
 	// The one that is held keeps the compiler busy: its figures may be old once, and are not for ever.
-	const auto AreFailuresCounted = [&]
-	{
+	const auto AreFailuresCounted = [&] {
 		const FRTPSOCompilerStats& Stats = Maker->GetStats();
 		return Stats.Failed >= Broken && Stats.Failed == Stats.Failures;
 	};
@@ -211,10 +192,7 @@ TEST_F(FPipelineStressTest, SlowCompilesAreSeenByNoFrame)
 	AddSection(StandardProgram, false);
 	ASSERT_NO_FATAL_FAILURE(FramesUntil("the first pipeline", [&] { return Current != nullptr; }));
 	Device->Close("Slow");
-	for (int I = 0; I < 4; ++I)
-	{
-		AddSection(Programs->Add({.Name = "Slow" + std::to_string(I), .Text = MakeText(I)}), I % 2 == 0);
-	}
+	for (int I = 0; I < 4; ++I) { AddSection(Programs->Add({.Name = "Slow" + std::to_string(I), .Text = MakeText(I)}), I % 2 == 0); }
 	{
 		// The driver lets go only after these: a frame that waited would wait for ever.
 		const FHangGuard Guard("frames while the driver holds compiles", [&] { Device->Open(); });
@@ -235,8 +213,7 @@ TEST_F(FPipelineStressTest, EverythingIsToggledInEveryFrame)
 {
 	std::mt19937 Random(7);
 	const auto Below = [&](size_t Limit) { return static_cast<uint32_t>(Random() % Limit); };
-	const auto Toggle = [&](const char* Name, std::vector<const char*> Values)
-	{ Set(Name, Values[Below(Values.size())]); };
+	const auto Toggle = [&](const char* Name, std::vector<const char*> Values) { Set(Name, Values[Below(Values.size())]); };
 	const FRTPSODesc Both = Wanted;
 	for (int Index = 0; Index < 300; ++Index)
 	{
@@ -246,27 +223,12 @@ TEST_F(FPipelineStressTest, EverythingIsToggledInEveryFrame)
 		Toggle("r.RT.Pipeline.Fallback", {"0", "1"});
 		Toggle("r.RT.Pipeline.KeepFrames", {"1", "20"});
 		Toggle("r.RT.SBT.Mode", {"0", "1"});
-		if (Below(4) == 0)
-		{
-			AddSection(Programs->Add({.Name = "P" + std::to_string(Index), .Text = MakeText(Index)}), Below(2));
-		}
-		if (Below(6) == 0)
-		{
-			Programs->Edit(Below(Programs->GetCount()), {.Name = "E" + std::to_string(Index), .Text = MakeText(Index)});
-		}
+		if (Below(4) == 0) { AddSection(Programs->Add({.Name = "P" + std::to_string(Index), .Text = MakeText(Index)}), Below(2)); }
+		if (Below(6) == 0) { Programs->Edit(Below(Programs->GetCount()), {.Name = "E" + std::to_string(Index), .Text = MakeText(Index)}); }
 		Wanted = Both;
-		if (Below(8) == 0)
-		{
-			Wanted.RayTypes.pop_back();
-		}
-		if (Below(8) == 0)
-		{
-			Wanted.RayGens[0].Defines.emplace_back("V", "1");
-		}
-		if (Below(10) == 0)
-		{
-			Maker->Reload();
-		}
+		if (Below(8) == 0) { Wanted.RayTypes.pop_back(); }
+		if (Below(8) == 0) { Wanted.RayGens[0].Defines.emplace_back("V", "1"); }
+		if (Below(10) == 0) { Maker->Reload(); }
 		if (Below(30) == 0)
 		{
 			Wanted.HitPrograms = Sections->GetHitPrograms();
@@ -277,10 +239,8 @@ TEST_F(FPipelineStressTest, EverythingIsToggledInEveryFrame)
 		ASSERT_NO_FATAL_FAILURE(ExpectClasses()) << "frame " << Index;
 	}
 	Wanted = Both;
-	const auto IsWhole = [&]
-	{ return Current && Count(ERTHitState::Ready) == Expected.size() && Current->GetRayTypeCount() == 2; };
-	const auto Step = [&]
-	{
+	const auto IsWhole = [&] { return Current && Count(ERTHitState::Ready) == Expected.size() && Current->GetRayTypeCount() == 2; };
+	const auto Step = [&] {
 		ASSERT_NO_FATAL_FAILURE(Frame());
 		GiveWay();
 	};
@@ -292,18 +252,13 @@ TEST_F(FPipelineStressTest, EndInTheMiddleOfACompileIsClean)
 	for (const char* Part : {"Slow", "RTPSO"})
 	{
 		Device->Close(Part);
-		for (int I = 0; I < 20; ++I)
-		{
-			AddProgram("Slow" + std::to_string(I));
-		}
+		for (int I = 0; I < 20; ++I) { AddProgram("Slow" + std::to_string(I)); }
 		Until([&] { return Device->WasAsked(Part); }, "a compile in the driver");
 		// The compiler waits for what is in the driver, and nobody sees it wait: right whichever of the two comes first.
-		std::thread Driver(
-		    [&]
-		    {
-			    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-			    Device->Open();
-		    });
+		std::thread Driver([&] {
+			std::this_thread::sleep_for(std::chrono::milliseconds(20));
+			Device->Open();
+		});
 		Maker = nullptr;
 		Driver.join();
 		Maker = std::make_unique<FRTPSOCompiler>(*Device, *Compiler, *Programs);
@@ -314,10 +269,7 @@ TEST_F(FPipelineStressTest, EndInTheMiddleOfACompileIsClean)
 TEST_F(FPipelineStressTest, LostDeviceEndsCompilingAndNothingElse)
 {
 	UntilIdle();
-	for (int I = 0; I < 20; ++I)
-	{
-		AddProgram("P" + std::to_string(I));
-	}
+	for (int I = 0; I < 20; ++I) { AddProgram("P" + std::to_string(I)); }
 	Device->Close("P1");
 	Until([&] { return Device->WasAsked("P1"); }, "a compile in the driver");
 	Device->Mock().LoseDevice();

@@ -43,8 +43,7 @@ protected:
 	{
 		// A link that was asked for is there in the next frame, so that figures do not depend on how soon its thread runs.
 		const auto AreLinked = [&] {
-			return Device->CountAsked("RTPSO") ==
-			       Device->Mock().CountCalls(ERTMockCall::CreateRayTracingPipeline, "RTPSO");
+			return Device->CountAsked("RTPSO") == Device->Mock().CountCalls(ERTMockCall::CreateRayTracingPipeline, "RTPSO");
 		};
 		ASSERT_TRUE(WaitUntil("a link", AreLinked));
 		Maker->Update(Wanted);
@@ -53,14 +52,8 @@ protected:
 		{
 			Last = Maker->GetCurrent();
 			const double Cost = SwapMs + PerGroupMs * (Last->GetHitGroupCount() - Last->GetMissingCount());
-			if (Swaps++ == 0)
-			{
-				FirstSwap = NowMs;
-			}
-			else
-			{
-				WorstShare = std::max(WorstShare, SwapTime / (NowMs - FirstSwap));
-			}
+			if (Swaps++ == 0) { FirstSwap = NowMs; }
+			else { WorstShare = std::max(WorstShare, SwapTime / (NowMs - FirstSwap)); }
 			SwapTime += Cost;
 			Ms += Cost;
 		}
@@ -81,29 +74,21 @@ protected:
 	void Arrive(uint32_t Count, bool bStream = false)
 	{
 		std::vector<FHitProgram> Arrived;
-		const auto Ask = [&](uint32_t I)
-		{
+		const auto Ask = [&](uint32_t I) {
 			Device->Close(NameOf(I));
 			Arrived.push_back(Opaque(AddProgram(NameOf(I))));
 		};
-		for (uint32_t I = 0; I < Count && !bStream; ++I)
-		{
-			Ask(I);
-		}
+		for (uint32_t I = 0; I < Count && !bStream; ++I) { Ask(I); }
 		for (uint32_t I = 0; I < Count; ++I)
 		{
-			if (bStream)
-			{
-				Ask(I);
-			}
+			if (bStream) { Ask(I); }
 			const uint64_t Before = GetCompiled();
 			Device->Open(NameOf(I));
 			const auto IsCompiled = [&] { return GetCompiled() > Before; };
 			ASSERT_TRUE(WaitUntil("a compile", IsCompiled, [&] { Maker->Update(Wanted), GiveWay(); }));
 			ASSERT_NO_FATAL_FAILURE(Frame());
 		}
-		const auto AreReady = [&]
-		{ return std::all_of(Arrived.begin(), Arrived.end(), [&](FHitProgram P) { return IsReady(P); }); };
+		const auto AreReady = [&] { return std::all_of(Arrived.begin(), Arrived.end(), [&](FHitProgram P) { return IsReady(P); }); };
 		ASSERT_TRUE(WaitUntil("all programs", AreReady, [&] { Frame(), GiveWay(); }));
 	}
 	/// A swap has just taken a minute: four more would pass until the next one may begin.
@@ -118,8 +103,7 @@ protected:
 	void Hold()
 	{
 		Held = AddProgram("Held");
-		const auto IsHeld = [&]
-		{
+		const auto IsHeld = [&] {
 			const FRTPSOCompilerStats& Stats = Maker->GetStats();
 			return Stats.Ready == Stats.Wanted && Stats.bBusy;
 		};
@@ -162,8 +146,8 @@ TEST_F(FPipelineSwapTest, DearSwapsAreFewAndTakeAFifthOfTheTime)
 			EXPECT_GE(Swaps, 1u);
 			EXPECT_LE(Swaps, 10u) << "one for each doubling, the first and the last";
 			EXPECT_LE(WorstShare, 0.2 + 0.01);
-			fmt::print("[  figure  ] {} + {} ms a swap, {}: {} swaps, {:.3f} of the time before the last\n", Fixed,
-			           PerGroup, bStream ? "one by one" : "at once", Swaps, WorstShare);
+			fmt::print("[  figure  ] {} + {} ms a swap, {}: {} swaps, {:.3f} of the time before the last\n", Fixed, PerGroup,
+			    bStream ? "one by one" : "at once", Swaps, WorstShare);
 		}
 	}
 }
@@ -189,10 +173,7 @@ TEST_F(FPipelineSwapTest, CheapSwapsAreNotHeldBack)
 		SwapMs = 1.1;
 		ASSERT_NO_FATAL_FAILURE(Settle());
 		ASSERT_NO_FATAL_FAILURE(Arrive(128));
-		if (Expected == 0)
-		{
-			Expected = Swaps;
-		}
+		if (Expected == 0) { Expected = Swaps; }
 	}
 	EXPECT_GE(Expected, 15u);
 	EXPECT_GE(Swaps * 10, Expected * 8);

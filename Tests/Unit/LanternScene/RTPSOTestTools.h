@@ -13,10 +13,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "Support/CoreTestTools.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternRHIMock/MockDevice.h"
 #include "LanternScene/Pipelines/RTPSOCompiler.h"
+#include "Support/CoreTestTools.h"
 #include "Support/WaitTools.h"
 
 namespace Lantern
@@ -72,8 +72,7 @@ public:
 	bool WasAsked(const std::string& Part) const
 	{
 		const std::lock_guard Lock(Mutex);
-		return std::any_of(Asked.begin(), Asked.end(),
-		                   [&](const std::string& Name) { return Name.find(Part) != std::string::npos; });
+		return std::any_of(Asked.begin(), Asked.end(), [&](const std::string& Name) { return Name.find(Part) != std::string::npos; });
 	}
 	void ForgetAsked()
 	{
@@ -99,30 +98,18 @@ public:
 	const FRTCapabilities& GetCapabilities() const override { return Inner->GetCapabilities(); }
 	FRTStatus CreateBuffer(const FRTBufferDesc& D, IRTBuffer** O) override { return Inner->CreateBuffer(D, O); }
 	FRTStatus CreateTexture(const FRTTextureDesc& D, IRTTexture** O) override { return Inner->CreateTexture(D, O); }
-	FRTStatus ImportTexture(const FRTTextureDesc& D, uint64_t N, IRTTexture** O) override
-	{
-		return Inner->ImportTexture(D, N, O);
-	}
+	FRTStatus ImportTexture(const FRTTextureDesc& D, uint64_t N, IRTTexture** O) override { return Inner->ImportTexture(D, N, O); }
 	FRTStatus CreateSampler(const FRTSamplerDesc& D, IRTSampler** O) override { return Inner->CreateSampler(D, O); }
 	FRTStatus CreateComputePipeline(const FRTComputePipelineDesc& D, IRTPipeline** O) override
 	{
 		return Inner->CreateComputePipeline(D, O);
 	}
-	FRTStatus CreateRasterPipeline(const FRTRasterPipelineDesc& D, IRTPipeline** O) override
-	{
-		return Inner->CreateRasterPipeline(D, O);
-	}
+	FRTStatus CreateRasterPipeline(const FRTRasterPipelineDesc& D, IRTPipeline** O) override { return Inner->CreateRasterPipeline(D, O); }
 	FRTStatus CreateGeometry(const FRTGeometryDesc& D, IRTGeometry** O) override { return Inner->CreateGeometry(D, O); }
 	FRTBuildSizes GetGeometrySizes(const FRTGeometryDesc& D) override { return Inner->GetGeometrySizes(D); }
 	FRTStatus CreateScene(const FRTSceneDesc& D, IRTScene** O) override { return Inner->CreateScene(D, O); }
-	FRTStatus CreateShaderTable(const FRTShaderTableDesc& D, IRTShaderTable** O) override
-	{
-		return Inner->CreateShaderTable(D, O);
-	}
-	FRTStatus CreateQueryPool(ERTQuery K, uint32_t C, IRTQueryPool** O) override
-	{
-		return Inner->CreateQueryPool(K, C, O);
-	}
+	FRTStatus CreateShaderTable(const FRTShaderTableDesc& D, IRTShaderTable** O) override { return Inner->CreateShaderTable(D, O); }
+	FRTStatus CreateQueryPool(ERTQuery K, uint32_t C, IRTQueryPool** O) override { return Inner->CreateQueryPool(K, C, O); }
 	FRTStatus CreateCommandList(const char* N, IRTCommandList** O) override { return Inner->CreateCommandList(N, O); }
 	FRTStatus ImportCommandList(uint64_t N, IRTCommandList** O) override { return Inner->ImportCommandList(N, O); }
 	FRTStatus Submit(IRTCommandList* const* L, uint32_t C, FRTFence* O) override { return Inner->Submit(L, C, O); }
@@ -154,10 +141,7 @@ protected:
 	void SetUp() override
 	{
 		FConsoleVariables::Get().ResetAll();
-		for (const char* Name : {"/Materials", "/Rays"})
-		{
-			std::filesystem::create_directory(Folder.GetPath() + Name);
-		}
+		for (const char* Name : {"/Materials", "/Rays"}) { std::filesystem::create_directory(Folder.GetPath() + Name); }
 		Folder.Write("Materials/Material.glsl", "float Value() { return 0.0; }\n");
 		Set("r.RT.Pipeline.Threads", "2");
 		Set("r.RT.Pipeline.RoundMs", "600000"); // rounds end when they are done
@@ -216,8 +200,7 @@ protected:
 	/// A program of its own text, wanted from now on.
 	uint32_t AddProgram(const std::string& Name, ERTHitClass Class = ERTHitClass::Opaque)
 	{
-		const uint32_t Program =
-		    Programs->Add({.Name = Name, .Text = MakeText(static_cast<int>(Programs->GetCount()))});
+		const uint32_t Program = Programs->Add({.Name = Name, .Text = MakeText(static_cast<int>(Programs->GetCount()))});
 		Wanted.HitPrograms.push_back({Program, Class});
 		return Program;
 	}
@@ -226,8 +209,7 @@ protected:
 	/// Frames until Condition holds.
 	void Until(const std::function<bool()>& Condition, const char* What = "the pipeline compiler")
 	{
-		const auto Frame = [&]
-		{
+		const auto Frame = [&] {
 			Maker->Update(Wanted);
 			GiveWay();
 		};
@@ -243,8 +225,7 @@ protected:
 	{
 		constexpr int Running = 4;
 		int Idle = 0;
-		const auto IsIdle = [&]
-		{
+		const auto IsIdle = [&] {
 			Idle = Maker->GetStats().bBusy ? 0 : Idle + 1;
 			return Idle >= Running;
 		};
@@ -254,8 +235,7 @@ protected:
 	FRTPSOCompilerStats GetIdleStats()
 	{
 		FRTPSOCompilerStats Stats;
-		const auto IsIdle = [&]
-		{
+		const auto IsIdle = [&] {
 			Stats = Maker->GetStats();
 			return !Stats.bBusy;
 		};
@@ -265,8 +245,8 @@ protected:
 	std::string DescribeProgress()
 	{
 		const FRTPSOCompilerStats& Stats = Maker->GetStats();
-		return std::to_string(Stats.Ready) + " of " + std::to_string(Stats.Wanted) + " groups ready, " +
-		       std::to_string(Stats.Links) + " links taken";
+		return std::to_string(Stats.Ready) + " of " + std::to_string(Stats.Wanted) + " groups ready, " + std::to_string(Stats.Links) +
+		       " links taken";
 	}
 	bool IsReady(FHitProgram Program)
 	{
@@ -335,13 +315,7 @@ protected:
 	std::vector<TRTRef<IRTShaderTable>> Tables;
 };
 
-constexpr FHitProgram Opaque(uint32_t Program)
-{
-	return {Program, ERTHitClass::Opaque};
-}
-constexpr FHitProgram Masked(uint32_t Program)
-{
-	return {Program, ERTHitClass::Masked};
-}
+constexpr FHitProgram Opaque(uint32_t Program) { return {Program, ERTHitClass::Opaque}; }
+constexpr FHitProgram Masked(uint32_t Program) { return {Program, ERTHitClass::Masked}; }
 
 } // namespace Lantern

@@ -13,23 +13,14 @@ namespace
 
 using FSceneObjectTest = FSceneTest;
 
-uint32_t GetObjectIndex(const FRTMockInstance& Item)
-{
-	return Item.Instance.CustomIndexAndMask & MaxInstanceIndex;
-}
-uint32_t GetFlags(const FRTMockInstance& Item)
-{
-	return Item.Instance.TableOffsetAndFlags >> 24;
-}
+uint32_t GetObjectIndex(const FRTMockInstance& Item) { return Item.Instance.CustomIndexAndMask & MaxInstanceIndex; }
+uint32_t GetFlags(const FRTMockInstance& Item) { return Item.Instance.TableOffsetAndFlags >> 24; }
 
 TEST_F(FSceneObjectTest, StaticSecondFrameDoesNothing)
 {
 	const uint32_t Material = Scene->AddMaterial(MakeMaterial());
 	const FRTGeometryRef Tree = MakeGeometry("Tree", 1);
-	for (int I = 0; I < 100; ++I)
-	{
-		Add(Tree, {Material}, {I, 0, 0});
-	}
+	for (int I = 0; I < 100; ++I) { Add(Tree, {Material}, {I, 0, 0}); }
 	Scene->SetLights(std::vector<FSceneLight>(3));
 	Frame();
 	EXPECT_EQ(Scene->GetStats().GeometriesBuilt, 1u);
@@ -38,8 +29,8 @@ TEST_F(FSceneObjectTest, StaticSecondFrameDoesNothing)
 	Mock().ClearCalls();
 	Frame();
 	EXPECT_FALSE(bUpdated);
-	for (const ERTMockCall Kind : {ERTMockCall::CopyBuffer, ERTMockCall::BuildGeometry, ERTMockCall::BuildScene,
-	                               ERTMockCall::CreateBuffer, ERTMockCall::Barrier})
+	for (const ERTMockCall Kind :
+	    {ERTMockCall::CopyBuffer, ERTMockCall::BuildGeometry, ERTMockCall::BuildScene, ERTMockCall::CreateBuffer, ERTMockCall::Barrier})
 	{
 		EXPECT_EQ(Mock().CountCalls(Kind), 0u) << static_cast<int>(Kind);
 	}
@@ -90,10 +81,7 @@ TEST_F(FSceneObjectTest, ObjectsRemovedWhileNobodyTracedAreGoneWhenRaysReturn)
 	Scene->RemoveObject(Goes);
 	FSceneUse NoRays;
 	NoRays.bRays = false;
-	for (int I = 0; I < 4; ++I)
-	{
-		Frame({}, NoRays);
-	}
+	for (int I = 0; I < 4; ++I) { Frame({}, NoRays); }
 	Frame();
 	ASSERT_EQ(GetInstances().size(), 1u);
 	EXPECT_EQ(GetInstances()[0].GeometryName, "Stays");
@@ -120,12 +108,8 @@ TEST_F(FSceneObjectTest, TransformsAreRelativeToTheSnappedOrigin)
 	const uint32_t Material = Scene->AddMaterial(MakeMaterial());
 	const FRTGeometryRef Tree = MakeGeometry("Tree", 1);
 	const glm::dvec3 Far(16'000.0, 120.0, -15'999.0);
-	const std::vector<glm::dvec3> Positions = {
-	    Far + glm::dvec3(0.0001, 0, 0), Far + glm::dvec3(999.9, -3, 0.5), {0, 0, 0}};
-	for (const glm::dvec3& Position : Positions)
-	{
-		Add(Tree, {Material}, Position);
-	}
+	const std::vector<glm::dvec3> Positions = {Far + glm::dvec3(0.0001, 0, 0), Far + glm::dvec3(999.9, -3, 0.5), {0, 0, 0}};
+	for (const glm::dvec3& Position : Positions) { Add(Tree, {Material}, Position); }
 	Frame(Far);
 	const glm::dvec3 Origin = Scene->GetOrigin();
 	for (int Axis = 0; Axis < 3; ++Axis)
@@ -175,14 +159,10 @@ TEST_F(FSceneObjectTest, FlagsAndMasksReachTheInstances)
 	const FRTObjectId Masked = Scene->AddObject(Info);
 	const FRTObjectId Solid = Add(Tree, {Opaque, Opaque});
 	Frame();
-	const auto Find = [&](FRTObjectId Id)
-	{
+	const auto Find = [&](FRTObjectId Id) {
 		for (const FRTMockInstance& Item : GetInstances())
 		{
-			if (GetObjectIndex(Item) == Id.Index)
-			{
-				return Item;
-			}
+			if (GetObjectIndex(Item) == Id.Index) { return Item; }
 		}
 		ADD_FAILURE() << "object " << Id.Index << " is not in the scene";
 		return FRTMockInstance();
@@ -194,17 +174,18 @@ TEST_F(FSceneObjectTest, FlagsAndMasksReachTheInstances)
 	EXPECT_EQ(Read<FObjectData>(Scene->GetConstants().Objects, Masked.Index).Flags, OBJECT_MIRRORED);
 	EXPECT_EQ(Read<FObjectData>(Scene->GetConstants().Objects, Solid.Index).Flags, 0u);
 	// Each way of making the leaves solid, and back.
-	const std::vector<std::pair<std::function<void()>, uint32_t>> Steps = {
-	    {[&] { Scene->SetAlphaTest(false); }, InstanceForceOpaque},
-	    {[&] { Scene->SetAlphaTest(true); }, 0},
-	    {[&] { Scene->SetMaterialOverride(2); }, InstanceForceOpaque},
-	    {[&] { Scene->SetMaterialOverride(1); }, 0},
-	    {[&] { Scene->SetMaterial(Leaves, MakeMaterial()); }, InstanceForceOpaque},
-	    {[&] { Scene->SetMaterial(Leaves, MakeMaterial(MATERIAL_MASKED)); }, 0},
-	    {[&] {
-		     Scene->SetMaterials(Masked, {Opaque, Opaque});
-	     },
-	     InstanceForceOpaque},
+	const std::vector<std::pair<std::function<void()>, uint32_t>> Steps =
+	    {
+	        {[&] { Scene->SetAlphaTest(false); }, InstanceForceOpaque},
+	        {[&] { Scene->SetAlphaTest(true); }, 0},
+	        {[&] { Scene->SetMaterialOverride(2); }, InstanceForceOpaque},
+	        {[&] { Scene->SetMaterialOverride(1); }, 0},
+	        {[&] { Scene->SetMaterial(Leaves, MakeMaterial()); }, InstanceForceOpaque},
+	        {[&] { Scene->SetMaterial(Leaves, MakeMaterial(MATERIAL_MASKED)); }, 0},
+	        {[&] {
+		Scene->SetMaterials(Masked, {Opaque, Opaque});
+	         },
+	            InstanceForceOpaque},
 	};
 	for (size_t Step = 0; Step < Steps.size(); ++Step)
 	{
@@ -245,22 +226,15 @@ TEST_F(FSceneObjectTest, RemovalWhileFramesAreInFlightLeavesNothingDangling)
 			Mock().CompleteUpTo(++Seen);
 			for (const FRTMockInstance& Item : GetInstances())
 			{
-				ASSERT_FALSE(Item.bDangling)
-				    << "frame " << Seen << ": rays would reach destroyed " << Item.GeometryName;
+				ASSERT_FALSE(Item.bDangling) << "frame " << Seen << ": rays would reach destroyed " << Item.GeometryName;
 				ASSERT_TRUE(Item.bBuilt);
 			}
 		}
 	}
 	Mock().SetManualFences(false);
 	EXPECT_EQ(GetInstances().size(), Ids.size());
-	for (const FRTObjectId Id : Ids)
-	{
-		Scene->RemoveObject(Id);
-	}
-	for (int I = 0; I < 5; ++I)
-	{
-		Frame();
-	}
+	for (const FRTObjectId Id : Ids) { Scene->RemoveObject(Id); }
+	for (int I = 0; I < 5; ++I) { Frame(); }
 	EXPECT_EQ(Device->GetMemoryStats().Geometry, 0u) << "geometry without objects is still there";
 }
 
@@ -293,10 +267,7 @@ TEST_F(FSceneObjectTest, DeformedGeometryIsRefittedAndRebuiltEveryInterval)
 TEST_F(FSceneObjectTest, HundredsOfGeometriesAreBuiltInBatchesThatShareScratch)
 {
 	const uint32_t Material = Scene->AddMaterial(MakeMaterial());
-	for (int I = 0; I < 300; ++I)
-	{
-		Add(MakeGeometry("G" + std::to_string(I), 1, {.TrianglesPerSection = 5000}), {Material});
-	}
+	for (int I = 0; I < 300; ++I) { Add(MakeGeometry("G" + std::to_string(I), 1, {.TrianglesPerSection = 5000}), {Material}); }
 	Frame();
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::BuildGeometry), 300u);
 	EXPECT_EQ(GetInstances().size(), 300u);
@@ -306,14 +277,8 @@ TEST_F(FSceneObjectTest, HundredsOfGeometriesAreBuiltInBatchesThatShareScratch)
 	bool bFirst = true;
 	for (const FRTMockCall& Call : Mock().GetCalls())
 	{
-		if (Call.Kind == ERTMockCall::Barrier)
-		{
-			bFirst = true;
-		}
-		if (Call.Kind != ERTMockCall::BuildGeometry)
-		{
-			continue;
-		}
+		if (Call.Kind == ERTMockCall::Barrier) { bFirst = true; }
+		if (Call.Kind != ERTMockCall::BuildGeometry) { continue; }
 		EXPECT_TRUE(bFirst || Call.Numbers[2] > Last);
 		Last = Call.Numbers[2];
 		bFirst = false;
@@ -328,16 +293,10 @@ TEST_F(FSceneObjectTest, SceneGrowsAndEmpties)
 	EXPECT_EQ(GetInstances().size(), 0u) << "an empty scene can be traced";
 	EXPECT_TRUE(Scene->GetStructure());
 	std::vector<FRTObjectId> Ids;
-	for (int I = 0; I < 1000; ++I)
-	{
-		Ids.push_back(Add(Tree, {Material}));
-	}
+	for (int I = 0; I < 1000; ++I) { Ids.push_back(Add(Tree, {Material})); }
 	Frame();
 	EXPECT_EQ(GetInstances().size(), 1000u);
-	for (const FRTObjectId Id : Ids)
-	{
-		Scene->RemoveObject(Id);
-	}
+	for (const FRTObjectId Id : Ids) { Scene->RemoveObject(Id); }
 	Frame();
 	EXPECT_EQ(GetInstances().size(), 0u);
 	EXPECT_EQ(Scene->GetFacts().Objects, 0u);
@@ -417,8 +376,7 @@ TEST_F(FSceneObjectTest, CumulativePowerEndsAtExactlyOne)
 	for (uint32_t Try = 0; Try < 50; ++Try)
 	{
 		Open({});
-		const FRTGeometryRef Panel =
-		    MakeGeometry("Panel", 1, {.bCpuData = true, .TrianglesPerSection = 1 + Try % 7 * 5});
+		const FRTGeometryRef Panel = MakeGeometry("Panel", 1, {.bCpuData = true, .TrianglesPerSection = 1 + Try % 7 * 5});
 		for (uint32_t I = 0; I < 1 + Random() % 5; ++I)
 		{
 			const float Weight = 0.001f * static_cast<float>(1 + Random() % 100000);
@@ -445,8 +403,7 @@ TEST_F(FSceneObjectTest, LostFrameIsRecordedAgain)
 	const FRTGeometryRef Body = MakeGeometry("Body", 1, {.bDynamic = true});
 	const FRTObjectId Id = Add(Body, {Material});
 	Scene->SetLights(std::vector<FSceneLight>(2));
-	const auto LoseOne = [&]
-	{
+	const auto LoseOne = [&] {
 		TRTRef<IRTCommandList> List;
 		ASSERT_TRUE(Device->CreateCommandList("Lost", List.ReleaseAndGetAddress()));
 		ASSERT_TRUE(List->Begin());

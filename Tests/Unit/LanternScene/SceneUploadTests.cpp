@@ -38,10 +38,7 @@ protected:
 		const FRTStatus Status = Table.Flush(*Device, *List, *Uploads);
 		EXPECT_TRUE(Status) << Status.Message;
 		uint64_t Copied = 0;
-		for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::CopyBuffer))
-		{
-			Copied += Call.Numbers[2];
-		}
+		for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::CopyBuffer)) { Copied += Call.Numbers[2]; }
 		EXPECT_EQ(Copied, Table.GetCopiedBytes());
 		Uploads->EndFrame(Submit(*List));
 		return Copied;
@@ -49,10 +46,7 @@ protected:
 	template <class T>
 	void ExpectOnDevice(const TGpuTable<T>& Table)
 	{
-		if (Table.Num() == 0)
-		{
-			return;
-		}
+		if (Table.Num() == 0) { return; }
 		IRTBuffer* const Buffer = Mock().FindBuffer(Table.GetAddress());
 		ASSERT_TRUE(Buffer);
 		ASSERT_GE(Buffer->GetDesc().Size, Table.Num() * sizeof(T));
@@ -78,10 +72,7 @@ TEST_F(FUploadTest, TableCopiesDirtyChunksOnly)
 {
 	constexpr uint32_t Chunk = FGpuTableBase::ChunkEntries;
 	TGpuTable<uint32_t> Table("Table");
-	for (uint32_t I = 0; I < 10 * Chunk + 5; ++I)
-	{
-		Table.Add(I);
-	}
+	for (uint32_t I = 0; I < 10 * Chunk + 5; ++I) { Table.Add(I); }
 	Flush(Table);
 	Table.Set(0, 100);
 	Table.Set(1, 101);
@@ -104,10 +95,7 @@ TEST_F(FUploadTest, TableGrowsByDoublingAndCopiesAllThen)
 	Flush(Table);
 	const uint64_t Small = Mock().FindBuffer(Table.GetAddress())->GetDesc().Size;
 	const uint64_t Address = Table.GetAddress();
-	while (Table.Num() * sizeof(uint64_t) < Small)
-	{
-		Table.Add(Table.Num());
-	}
+	while (Table.Num() * sizeof(uint64_t) < Small) { Table.Add(Table.Num()); }
 	Flush(Table);
 	EXPECT_EQ(Table.GetAddress(), Address);
 	Table.Add(5);
@@ -169,13 +157,9 @@ TEST_F(FUploadTest, TableEqualsItsCopyOverRandomSteps)
 	TGpuTable<FEntry> Table("Table");
 	std::set<uint32_t> Dirty;
 	std::mt19937 Random(2);
-	const auto MarkAll = [&]
-	{
+	const auto MarkAll = [&] {
 		Dirty.clear();
-		for (uint32_t I = 0; I < Table.Num(); I += FGpuTableBase::ChunkEntries)
-		{
-			Dirty.insert(I / FGpuTableBase::ChunkEntries);
-		}
+		for (uint32_t I = 0; I < Table.Num(); I += FGpuTableBase::ChunkEntries) { Dirty.insert(I / FGpuTableBase::ChunkEntries); }
 	};
 	for (int Step = 0; Step < 5000; ++Step)
 	{
@@ -187,25 +171,16 @@ TEST_F(FUploadTest, TableEqualsItsCopyOverRandomSteps)
 			Table.Set(Index, Value);
 			Dirty.insert(Index / FGpuTableBase::ChunkEntries);
 		}
-		else if (Choice < 98)
-		{
-			Dirty.insert(Table.Add(Value) / FGpuTableBase::ChunkEntries);
-		}
+		else if (Choice < 98) { Dirty.insert(Table.Add(Value) / FGpuTableBase::ChunkEntries); }
 		else if (Choice < 99)
 		{
 			Table.Assign(std::vector<FEntry>(Random() % 700, Value));
 			MarkAll();
 		}
-		if (Random() % 8 != 0)
-		{
-			continue;
-		}
+		if (Random() % 8 != 0) { continue; }
 		const uint64_t Before = Table.GetAddress();
 		const uint64_t Copied = Flush(Table);
-		if (Table.GetAddress() != Before)
-		{
-			MarkAll();
-		}
+		if (Table.GetAddress() != Before) { MarkAll(); }
 		uint64_t Expected = 0;
 		for (const uint32_t Chunk : Dirty)
 		{
@@ -236,10 +211,7 @@ TEST_F(FUploadTest, SlicesDoNotOverlapAndAreAligned)
 		Slices.emplace_back(Slice.Address, Slice.Address + Size);
 	}
 	std::sort(Slices.begin(), Slices.end());
-	for (size_t I = 1; I < Slices.size(); ++I)
-	{
-		EXPECT_LE(Slices[I - 1].second, Slices[I].first);
-	}
+	for (size_t I = 1; I < Slices.size(); ++I) { EXPECT_LE(Slices[I - 1].second, Slices[I].first); }
 }
 
 TEST_F(FUploadTest, PagesAreUsedAgainOnlyAfterTheirFence)
@@ -247,8 +219,7 @@ TEST_F(FUploadTest, PagesAreUsedAgainOnlyAfterTheirFence)
 	Mock().SetManualFences(true);
 	std::set<uint64_t> InFlight;
 	std::vector<std::pair<FRTFence, uint64_t>> Order;
-	const auto OneFrame = [&]
-	{
+	const auto OneFrame = [&] {
 		FUploadSlice Slice;
 		ASSERT_TRUE(Uploads->Allocate(100, Slice));
 		EXPECT_FALSE(InFlight.count(Slice.Address)) << "memory that the GPU may still read was given out again";
@@ -257,25 +228,16 @@ TEST_F(FUploadTest, PagesAreUsedAgainOnlyAfterTheirFence)
 		InFlight.insert(Slice.Address);
 		Order.emplace_back(Fence, Slice.Address);
 	};
-	for (int I = 0; I < 3; ++I)
-	{
-		OneFrame();
-	}
+	for (int I = 0; I < 3; ++I) { OneFrame(); }
 	EXPECT_EQ(InFlight.size(), 3u);
 	Mock().CompleteUpTo(Order[0].first);
 	InFlight.erase(Order[0].second);
 	OneFrame();
 	EXPECT_EQ(Order.back().second, Order[0].second) << "the finished page was not used again";
-	for (const auto& [Fence, Address] : Order)
-	{
-		Mock().CompleteUpTo(Fence);
-	}
+	for (const auto& [Fence, Address] : Order) { Mock().CompleteUpTo(Fence); }
 	InFlight.clear();
 	Mock().ClearCalls();
-	for (int I = 0; I < 3; ++I)
-	{
-		OneFrame();
-	}
+	for (int I = 0; I < 3; ++I) { OneFrame(); }
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::CreateBuffer), 0u) << "a steady state allocates nothing";
 	Mock().SetManualFences(false);
 }
@@ -292,16 +254,10 @@ TEST_F(FUploadTest, CopyReadsWhatWasPushedEvenWhereTheCpuRunsAhead)
 		List->CopyBuffer(Target.Get(), Value * 4, Slice.Buffer, Slice.Offset, 4);
 		const FRTFence Fence = Submit(*List);
 		Uploads->EndFrame(Fence);
-		if (Fence > 2)
-		{
-			Mock().CompleteUpTo(Fence - 2);
-		}
+		if (Fence > 2) { Mock().CompleteUpTo(Fence - 2); }
 	}
 	Mock().SetManualFences(false);
-	for (uint32_t Value = 0; Value < 64; ++Value)
-	{
-		EXPECT_EQ(reinterpret_cast<uint32_t*>(Mock().GetBytes(Target.Get()))[Value], Value);
-	}
+	for (uint32_t Value = 0; Value < 64; ++Value) { EXPECT_EQ(reinterpret_cast<uint32_t*>(Mock().GetBytes(Target.Get()))[Value], Value); }
 }
 
 // ---------------------------------------------------------------------------------------------------- FUploader
@@ -327,22 +283,17 @@ TEST_F(FUploadTest, UploaderFillsBuffersOfAnySize)
 
 TEST_F(FUploadTest, UploaderOutlivesALostDevice)
 {
-	for (const ERTMockCall Kind :
-	     {ERTMockCall::CreateBuffer, ERTMockCall::CreateCommandList, ERTMockCall::Begin, ERTMockCall::CopyBuffer,
-	      ERTMockCall::End, ERTMockCall::Submit, ERTMockCall::WaitFor})
+	for (const ERTMockCall Kind : {ERTMockCall::CreateBuffer, ERTMockCall::CreateCommandList, ERTMockCall::Begin, ERTMockCall::CopyBuffer,
+	         ERTMockCall::End, ERTMockCall::Submit, ERTMockCall::WaitFor})
 	{
 		Open({});
 		Mock().LoseDeviceAt(Kind);
 		FUploader Uploader(*Device);
 		TRTRef<IRTBuffer> Buffer;
 		FRTStatus Status = Uploader.CreateBuffer("Data", ERTBufferUsage::Storage, "abcd", 4, Buffer);
-		if (Status)
-		{
-			Status = Uploader.Flush();
-		}
+		if (Status) { Status = Uploader.Flush(); }
 		EXPECT_EQ(Status.Code, ERTResult::DeviceLost) << static_cast<int>(Kind);
-		EXPECT_EQ(Uploader.CreateBuffer("More", ERTBufferUsage::Storage, "abcd", 4, Buffer).Code,
-		          ERTResult::DeviceLost);
+		EXPECT_EQ(Uploader.CreateBuffer("More", ERTBufferUsage::Storage, "abcd", 4, Buffer).Code, ERTResult::DeviceLost);
 	}
 }
 

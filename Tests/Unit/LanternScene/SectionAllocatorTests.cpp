@@ -15,10 +15,7 @@ namespace
 TEST(SectionAllocator, NeighboursThatAreFreeBecomeOneRun)
 {
 	FSectionAllocator Allocator;
-	for (uint32_t I = 0; I < 4; ++I)
-	{
-		ASSERT_EQ(Allocator.Allocate(1), I);
-	}
+	for (uint32_t I = 0; I < 4; ++I) { ASSERT_EQ(Allocator.Allocate(1), I); }
 	// In an order that merges with the one before, the one behind, and both.
 	Allocator.Free(0, 1);
 	Allocator.Free(2, 1);
@@ -115,10 +112,7 @@ TEST(SectionAllocator, EmptiedIsOneRunAgain)
 		Runs.push_back({Allocator.Allocate(Count), Count});
 	}
 	std::shuffle(Runs.begin(), Runs.end(), Random);
-	for (const FRun& Run : Runs)
-	{
-		Allocator.Free(Run.First, Run.Count);
-	}
+	for (const FRun& Run : Runs) { Allocator.Free(Run.First, Run.Count); }
 	const uint32_t Capacity = Allocator.GetCapacity();
 	EXPECT_EQ(Allocator.Allocate(Capacity), 0u);
 	EXPECT_EQ(Allocator.GetCapacity(), Capacity);

@@ -17,10 +17,7 @@ protected:
 	void SetUp() override
 	{
 		FSceneTest::SetUp();
-		for (int I = 0; I < 10; ++I)
-		{
-			Materials.Add(MakeMaterial());
-		}
+		for (int I = 0; I < 10; ++I) { Materials.Add(MakeMaterial()); }
 	}
 	FRTGeometryRef MakeTree(const std::string& Name, uint32_t Sections)
 	{
@@ -55,10 +52,7 @@ TEST_F(FSectionTableTest, SameGeometryAndMaterialsShareARange)
 {
 	const FRTGeometryRef Tree = MakeTree("Tree", 3);
 	const FSectionRangeId Id = Acquire(Tree, {1, 2, 3});
-	for (int I = 0; I < 100'000; ++I)
-	{
-		ASSERT_EQ(Acquire(Tree, {1, 2, 3}), Id);
-	}
+	for (int I = 0; I < 100'000; ++I) { ASSERT_EQ(Acquire(Tree, {1, 2, 3}), Id); }
 	EXPECT_EQ(Table.GetCapacity(), 3u);
 	EXPECT_EQ(Table.GetRangeCount(), 1u);
 	EXPECT_EQ(Table.TakeChanged().size(), 3u) << "100,000 instances of one tree have the records of one";
@@ -114,10 +108,7 @@ TEST_F(FSectionTableTest, ChangesAreReportedOnceAndOnlyOnce)
 	Table.RefillAll();
 	EXPECT_FALSE(Table.HasChanged()) << "nothing was different";
 	// Nobody takes the changes for a long time: the list must not grow with every write.
-	for (uint32_t I = 0; I < 1001; ++I)
-	{
-		Edit(1, MakeMaterial(I % 2 ? 0 : MATERIAL_MASKED));
-	}
+	for (uint32_t I = 0; I < 1001; ++I) { Edit(1, MakeMaterial(I % 2 ? 0 : MATERIAL_MASKED)); }
 	EXPECT_EQ(Table.TakeChanged(), (std::vector<uint32_t>{1}));
 	EXPECT_EQ(Table.TakeChangedRanges(), (std::vector<FSectionRangeId>{Id}));
 	EXPECT_TRUE(Table.GetRange(Id).bMasked);
@@ -138,8 +129,7 @@ TEST_F(FSectionTableTest, RangeThatComesBackIsWrittenAgain)
 TEST_F(FSectionTableTest, MaterialReachesOnlyTheSectionsThatUseIt)
 {
 	const FRTGeometryRef Tree = MakeTree("Tree", 2), Bush = MakeTree("Bush", 3);
-	const FSectionRangeId First = Acquire(Tree, {0, 1}), Second = Acquire(Bush, {2, 1, 1}),
-	                      Third = Acquire(Tree, {3, 3});
+	const FSectionRangeId First = Acquire(Tree, {0, 1}), Second = Acquire(Bush, {2, 1, 1}), Third = Acquire(Tree, {3, 3});
 	Table.TakeChanged();
 	Table.TakeChangedRanges();
 	Edit(1, MakeMaterial(MATERIAL_MASKED));
@@ -230,8 +220,7 @@ TEST_F(FSectionTableTest, ClassifiedSectionHasARecordForItsOpaqueTriangles)
 	EXPECT_EQ(Table.Get(First + 2).Material, 0u);
 	Table.TakeChanged();
 	Edit(0, MakeMaterial(MATERIAL_DOUBLE_SIDED));
-	EXPECT_EQ(TakeSorted(), (std::vector<uint32_t>{First, First + 1, First + 2}))
-	    << "all parts of the material's sections";
+	EXPECT_EQ(TakeSorted(), (std::vector<uint32_t>{First, First + 1, First + 2})) << "all parts of the material's sections";
 }
 
 TEST_F(FSectionTableTest, ProceduralSectionPointsAtItsBoxes)
@@ -261,10 +250,7 @@ protected:
 		{
 			const FRTGeometryRef& Geometry = Geometries[Below(Geometries.size())];
 			std::vector<uint32_t> Set(Geometry->GetSectionCount());
-			for (uint32_t& Material : Set)
-			{
-				Material = Below(4);
-			}
+			for (uint32_t& Material : Set) { Material = Below(4); }
 			const FSectionRangeId Id = Acquire(Geometry, Set);
 			const auto [Known, bNew] = Model.try_emplace({Geometry.get(), Set}, Id);
 			ASSERT_EQ(Known->second, Id);
@@ -275,10 +261,7 @@ protected:
 			std::swap(References[Below(References.size())], References.back());
 			const FSectionRangeId Id = References.back();
 			References.pop_back();
-			if (Table.GetRange(Id).References == 1)
-			{
-				Model.erase({Table.GetRange(Id).Geometry, Table.GetRange(Id).Materials});
-			}
+			if (Table.GetRange(Id).References == 1) { Model.erase({Table.GetRange(Id).Geometry, Table.GetRange(Id).Materials}); }
 			Table.Release(Id);
 		}
 		else
@@ -307,8 +290,8 @@ protected:
 				ASSERT_EQ(Taken[Number]++, 0u) << "two ranges share section " << Number;
 				const bool bOne = Materials[Material].Flags & MATERIAL_MASKED;
 				bMasked |= bOne;
-				const FHitProgram Program{Material < Programs.size() ? Programs[Material] : 0,
-				                          bOne ? ERTHitClass::Masked : ERTHitClass::Opaque};
+				const FHitProgram Program{
+				    Material < Programs.size() ? Programs[Material] : 0, bOne ? ERTHitClass::Masked : ERTHitClass::Opaque};
 				InUse.insert(Program);
 				ASSERT_EQ(Table.GetHitProgram(Number), Program);
 				ASSERT_EQ(Table.Get(Number).Material, Material);
@@ -337,10 +320,7 @@ TEST_F(FSectionTableWalk, AgreesWithBruteForceOverRandomSteps)
 	for (int I = 0; I < 20'000; ++I)
 	{
 		ASSERT_NO_FATAL_FAILURE(Step()) << "step " << I;
-		if (I % 100 == 0)
-		{
-			ASSERT_NO_FATAL_FAILURE(Check()) << "step " << I;
-		}
+		if (I % 100 == 0) { ASSERT_NO_FATAL_FAILURE(Check()) << "step " << I; }
 	}
 }
 

@@ -15,10 +15,7 @@ protected:
 	void SetUp() override
 	{
 		FSceneTest::SetUp();
-		for (uint32_t I = 0; I < 2; ++I)
-		{
-			Pipelines.push_back(FModelPipeline::Make(*Device, I, 2, 5 + I));
-		}
+		for (uint32_t I = 0; I < 2; ++I) { Pipelines.push_back(FModelPipeline::Make(*Device, I, 2, 5 + I)); }
 		Geometry = MakeGeometry("Tree", 1);
 		Bindings = std::make_unique<FShaderBindings>(*Device);
 	}
@@ -66,8 +63,7 @@ protected:
 		const FRTMockRecord Record = Mock().ResolveRecord(Bindings->GetTable(), ERTRecordKind::Hit, 2 * Section + Type);
 		ASSERT_TRUE(Record.IsGood()) << Record.Error;
 		ASSERT_EQ(Record.ClosestHit, Pipelines[Pipeline]->Expect(Table.GetHitProgram(Section), Type).ClosestHit);
-		ASSERT_EQ(std::memcmp(Record.Data.data(), &Table.Get(Section), sizeof(FSectionData)), 0)
-		    << "section " << Section;
+		ASSERT_EQ(std::memcmp(Record.Data.data(), &Table.Get(Section), sizeof(FSectionData)), 0) << "section " << Section;
 	}
 	void ExpectAllRecords(uint32_t Pipeline)
 	{
@@ -97,8 +93,8 @@ TEST_F(FTableBindingTest, StaticFrameWritesCopiesAndMakesNothing)
 		EXPECT_EQ(Stats.RecordsWritten + Stats.HandlesWritten, 0u);
 		EXPECT_EQ(Stats.BytesCopied, 0u);
 	}
-	for (const ERTMockCall Kind : {ERTMockCall::UpdateShaderTable, ERTMockCall::StageShaderTable,
-	                               ERTMockCall::CreateBuffer, ERTMockCall::MakeHostCopy, ERTMockCall::Barrier})
+	for (const ERTMockCall Kind : {ERTMockCall::UpdateShaderTable, ERTMockCall::StageShaderTable, ERTMockCall::CreateBuffer,
+	         ERTMockCall::MakeHostCopy, ERTMockCall::Barrier})
 	{
 		EXPECT_EQ(Mock().CountCalls(Kind), 0u);
 	}
@@ -159,8 +155,7 @@ TEST_F(FTableBindingTest, GrowthWaitsForNothingAndKeepsWhatWasWritten)
 		const uint32_t Before = Table.GetCapacity();
 		AddRanges(1 + Before / 4);
 		Last = Submit(0);
-		EXPECT_EQ(Bindings->GetStats().RecordsWritten, 2 * (Table.GetCapacity() - Before))
-		    << "what was there is written again";
+		EXPECT_EQ(Bindings->GetStats().RecordsWritten, 2 * (Table.GetCapacity() - Before)) << "what was there is written again";
 		Growths += Bindings->GetTable()->GetDesc().HitCount > Had;
 	}
 	EXPECT_GE(Growths, 8u);
@@ -195,10 +190,7 @@ TEST_F(FTableBindingTest, ModeOfThePaperWritesAndCopiesEverythingEachFrame)
 TEST_F(FTableBindingTest, ManyInstancesOfOneTreeHaveTheRecordsOfOne)
 {
 	Materials.Add(MakeMaterial());
-	for (int I = 0; I < 100'000; ++I)
-	{
-		Table.Acquire(*Geometry, {0});
-	}
+	for (int I = 0; I < 100'000; ++I) { Table.Acquire(*Geometry, {0}); }
 	EXPECT_EQ(Frame().RecordsWritten, 2u);
 	EXPECT_EQ(Table.GetRangeCount(), 1u);
 }
@@ -209,8 +201,7 @@ TEST_F(FTableBindingTest, StrideIsTheTightestThatTheDeviceAllows)
 	{
 		uint32_t Handle, Alignment, Base, Stride;
 	};
-	for (const FCase& Case :
-	     {FCase{32, 16, 32, 64}, FCase{32, 32, 64, 64}, FCase{32, 64, 64, 64}, FCase{64, 64, 256, 128}})
+	for (const FCase& Case : {FCase{32, 16, 32, 64}, FCase{32, 32, 64, 64}, FCase{32, 64, 64, 64}, FCase{64, 64, 256, 128}})
 	{
 		FRTMockDesc Desc;
 		Desc.HandleSize = Case.Handle;

@@ -14,10 +14,7 @@ class FSwapPacerTest : public ::testing::Test
 {
 protected:
 	void SetUp() override { Pacer.SetLimits(0.2, 100ms); }
-	void Pass(FSwapPacer::FSeconds Duration)
-	{
-		Now += std::chrono::duration_cast<std::chrono::steady_clock::duration>(Duration);
-	}
+	void Pass(FSwapPacer::FSeconds Duration) { Now += std::chrono::duration_cast<std::chrono::steady_clock::duration>(Duration); }
 	void Submit() { Pacer.FrameSubmitted(++Submitted); }
 	void Finish(FSwapPacer::FSeconds Duration)
 	{
@@ -43,14 +40,8 @@ protected:
 		for (int Ms = 0; Ms < 1'000'000; ++Ms)
 		{
 			const auto Then = Now + std::chrono::milliseconds(Ms);
-			if (bAsked)
-			{
-				Copy.ProgramsAsked(Then);
-			}
-			if (Copy.MayLink(Then, Swap))
-			{
-				return 1e-3 * Ms;
-			}
+			if (bAsked) { Copy.ProgramsAsked(Then); }
+			if (Copy.MayLink(Then, Swap)) { return 1e-3 * Ms; }
 		}
 		return -1.0;
 	}
@@ -71,10 +62,7 @@ TEST_F(FSwapPacerTest, NothingIsHeldBackWhereNoDurationIsKnown)
 
 TEST_F(FSwapPacerTest, CostIsWhatTheFirstFrameTakesBeyondThoseAroundIt)
 {
-	for (int I = 0; I < 5; ++I)
-	{
-		Frame(10ms);
-	}
+	for (int I = 0; I < 5; ++I) { Frame(10ms); }
 	Swap(510ms);
 	EXPECT_NEAR(Pacer.GetCost().count(), 0.5, 1e-9);
 	// Frames that become longer for good are no cost of a swap.
@@ -156,8 +144,7 @@ TEST_F(FSwapPacerTest, DearSwapsWaitForWhatIsBeingCompiledAsLongAsTheyTake)
 	EXPECT_TRUE(Pacer.MayLink(Now + 15600ms, {1, 300, true})) << "16 s at most";
 	Pacer.LinkStarted();
 	Pacer.ProgramsAsked(Now + 1h);
-	EXPECT_FALSE(Pacer.MayLink(Now + 1h + 3900ms, {10, 30, true}))
-	    << "counted from what was asked for first since then";
+	EXPECT_FALSE(Pacer.MayLink(Now + 1h + 3900ms, {10, 30, true})) << "counted from what was asked for first since then";
 }
 
 TEST_F(FSwapPacerTest, CheapSwapsWaitForLessThanAFrame)

@@ -13,8 +13,7 @@ namespace
 FGroupNames MakeNames(const std::string& Stem, ERTHitClass Class, uint32_t RayType)
 {
 	const std::string Name = Stem + ".t" + std::to_string(RayType);
-	return {Name + ".hit", Class == ERTHitClass::Masked ? Name + ".any" : "",
-	        Class == ERTHitClass::Procedural ? Name + ".int" : ""};
+	return {Name + ".hit", Class == ERTHitClass::Masked ? Name + ".any" : "", Class == ERTHitClass::Procedural ? Name + ".int" : ""};
 }
 
 std::string StemOf(FHitProgram Program)
@@ -22,10 +21,7 @@ std::string StemOf(FHitProgram Program)
 	return "p" + std::to_string(Program.Program) + "." + std::to_string(static_cast<int>(Program.Class));
 }
 
-std::string StandInStem(size_t Class)
-{
-	return "standin." + std::to_string(Class);
-}
+std::string StandInStem(size_t Class) { return "standin." + std::to_string(Class); }
 
 /// Shaders and groups of a pipeline in the making.
 struct FMaker
@@ -37,10 +33,7 @@ struct FMaker
 
 	uint32_t AddShader(const std::string& Name, ERTShaderStage Stage)
 	{
-		if (Name.empty())
-		{
-			return NoShader;
-		}
+		if (Name.empty()) { return NoShader; }
 		Names.push_back(Name);
 		Codes.push_back({&Word, 1, Stage, Names.back().c_str()});
 		return static_cast<uint32_t>(Codes.size() - 1);
@@ -66,10 +59,7 @@ struct FMaker
 		std::iota(NewOf.begin(), NewOf.end(), 0u);
 		std::shuffle(NewOf.begin(), NewOf.end(), Random);
 		std::vector<FRTShaderGroup> Moved(Groups.size());
-		for (size_t Old = 0; Old < Groups.size(); ++Old)
-		{
-			Moved[NewOf[Old]] = Groups[Old];
-		}
+		for (size_t Old = 0; Old < Groups.size(); ++Old) { Moved[NewOf[Old]] = Groups[Old]; }
 		Groups = Moved;
 		return NewOf;
 	}
@@ -78,28 +68,18 @@ struct FMaker
 /// Of each program and class the hit groups, but for some; of each class a stand-in, or none.
 void AddHits(FMaker& Maker, FModelPipeline& Model, FRTPSOLayout& Layout, std::mt19937& Random)
 {
-	const auto Add = [&](const std::string& Stem, ERTHitClass Class)
-	{
+	const auto Add = [&](const std::string& Stem, ERTHitClass Class) {
 		std::vector<uint32_t> Groups;
-		for (uint32_t Type = 0; Type < Model.RayTypes; ++Type)
-		{
-			Groups.push_back(Maker.AddHit(MakeNames(Stem, Class, Type)));
-		}
+		for (uint32_t Type = 0; Type < Model.RayTypes; ++Type) { Groups.push_back(Maker.AddHit(MakeNames(Stem, Class, Type))); }
 		return Groups;
 	};
 	for (uint32_t Class = 0; Class < HitClassCount; ++Class)
 	{
 		Model.HasStandIn[Class] = Random() % 4 != 0;
-		if (Model.HasStandIn[Class])
-		{
-			Layout.StandIns[Class] = Add(StandInStem(Class), static_cast<ERTHitClass>(Class));
-		}
+		if (Model.HasStandIn[Class]) { Layout.StandIns[Class] = Add(StandInStem(Class), static_cast<ERTHitClass>(Class)); }
 		for (uint32_t Program = 0; Program < 5; ++Program)
 		{
-			if (Random() % 3 == 0)
-			{
-				continue;
-			}
+			if (Random() % 3 == 0) { continue; }
 			const FHitProgram Hit{Program, static_cast<ERTHitClass>(Class)};
 			Model.Ready.insert(Hit);
 			Layout.Hits.push_back({Hit, ERTHitState::Ready, Add(StemOf(Hit), Hit.Class)});
@@ -109,40 +89,26 @@ void AddHits(FMaker& Maker, FModelPipeline& Model, FRTPSOLayout& Layout, std::mt
 
 void Renumber(FRTPSOLayout& Layout, const std::vector<uint32_t>& NewOf)
 {
-	const auto All = [&](std::vector<uint32_t>& Groups)
-	{
-		for (uint32_t& Group : Groups)
-		{
-			Group = NewOf[Group];
-		}
+	const auto All = [&](std::vector<uint32_t>& Groups) {
+		for (uint32_t& Group : Groups) { Group = NewOf[Group]; }
 	};
 	All(Layout.RayGenGroups);
 	All(Layout.MissGroups);
 	All(Layout.CallableGroups);
-	for (FRTPSOLayout::FHit& Hit : Layout.Hits)
-	{
-		All(Hit.Groups);
-	}
-	for (std::vector<uint32_t>& Groups : Layout.StandIns)
-	{
-		All(Groups);
-	}
+	for (FRTPSOLayout::FHit& Hit : Layout.Hits) { All(Hit.Groups); }
+	for (std::vector<uint32_t>& Groups : Layout.StandIns) { All(Groups); }
 	Layout.EmptyHitGroup = NewOf[Layout.EmptyHitGroup];
 }
 } // namespace
 
 FGroupNames FModelPipeline::Expect(FHitProgram Program, uint32_t RayType) const
 {
-	if (Ready.count(Program))
-	{
-		return MakeNames(StemOf(Program), Program.Class, RayType);
-	}
+	if (Ready.count(Program)) { return MakeNames(StemOf(Program), Program.Class, RayType); }
 	const size_t Class = static_cast<size_t>(Program.Class);
 	return HasStandIn[Class] ? MakeNames(StandInStem(Class), Program.Class, RayType) : FGroupNames{};
 }
 
-std::shared_ptr<FModelPipeline> FModelPipeline::Make(IRTDevice& Device, uint32_t Number, uint32_t RayTypes,
-                                                     uint32_t RandomSeed)
+std::shared_ptr<FModelPipeline> FModelPipeline::Make(IRTDevice& Device, uint32_t Number, uint32_t RayTypes, uint32_t RandomSeed)
 {
 	std::mt19937 Random(RandomSeed);
 	auto Model = std::make_shared<FModelPipeline>();
@@ -173,10 +139,7 @@ std::shared_ptr<FModelPipeline> FModelPipeline::Make(IRTDevice& Device, uint32_t
 	Desc.GroupCount = static_cast<uint32_t>(Maker.Groups.size());
 	Desc.Name = Model->Name.c_str();
 	TRTRef<IRTPipeline> Pipeline;
-	if (!Device.CreateRayTracingPipeline(Desc, Pipeline.ReleaseAndGetAddress()))
-	{
-		return nullptr;
-	}
+	if (!Device.CreateRayTracingPipeline(Desc, Pipeline.ReleaseAndGetAddress())) { return nullptr; }
 	Model->Pipeline = FRTPSO(std::move(Pipeline), std::move(Layout));
 	return Model;
 }
@@ -189,8 +152,8 @@ FMaterialData FModelMaterial::ToData() const
 	return Data;
 }
 
-FModelSection ExpectSection(const FRTGeometry& Geometry, const FRTGeometryPart& Part, uint32_t MaterialIndex,
-                            const FModelMaterial& Material, bool bAlphaTest)
+FModelSection ExpectSection(
+    const FRTGeometry& Geometry, const FRTGeometryPart& Part, uint32_t MaterialIndex, const FModelMaterial& Material, bool bAlphaTest)
 {
 	const FRTGeometryInfo& Info = Geometry.GetInfo();
 	FModelSection Section;
@@ -204,8 +167,8 @@ FModelSection ExpectSection(const FRTGeometry& Geometry, const FRTGeometryPart& 
 	else
 	{
 		const bool bShort = Geometry.GetIndexType() == ERTIndexType::UInt16;
-		const uint64_t Indices = Geometry.GetIndices()->GetDeviceAddress() + Geometry.GetIndicesOffset() +
-		                         (bShort ? 2u : 4u) * Part.FirstIndex;
+		const uint64_t Indices =
+		    Geometry.GetIndices()->GetDeviceAddress() + Geometry.GetIndicesOffset() + (bShort ? 2u : 4u) * Part.FirstIndex;
 		Data.Positions = Info.Positions->GetDeviceAddress() + Info.PositionsOffset;
 		Data.Attributes = Info.Attributes->GetDeviceAddress() + Info.AttributesOffset;
 		Data.Indices = Indices / 4 * 4;

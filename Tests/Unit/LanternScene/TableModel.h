@@ -48,7 +48,7 @@ struct FModelSection
 	FSectionData Data{};
 	FHitProgram Program;
 };
-FModelSection ExpectSection(const FRTGeometry& Geometry, const FRTGeometryPart& Part, uint32_t MaterialIndex,
-                            const FModelMaterial& Material, bool bAlphaTest);
+FModelSection ExpectSection(
+    const FRTGeometry& Geometry, const FRTGeometryPart& Part, uint32_t MaterialIndex, const FModelMaterial& Material, bool bAlphaTest);
 
 } // namespace Lantern

@@ -57,10 +57,7 @@ private:
 	void CheckGeneral(const FSubmittedFrame& Frame);
 	void Fail(const std::string& Why)
 	{
-		if (Result.Failure.empty())
-		{
-			Result.Failure = Why;
-		}
+		if (Result.Failure.empty()) { Result.Failure = Why; }
 	}
 	FRTMock& Mock() { return GetMock(Device.Get()); }
 
@@ -93,10 +90,7 @@ FWalker::FWalker(const FWalkSettings& InSettings) : Settings(InSettings)
 	Scene = std::make_unique<FWalkScene>(*Device);
 	Bindings = std::make_unique<FShaderBindings>(*Device);
 	Lists.resize(Settings.InFlight + 1);
-	for (TRTRef<IRTCommandList>& List : Lists)
-	{
-		(void)Device->CreateCommandList("Frame", List.ReleaseAndGetAddress());
-	}
+	for (TRTRef<IRTCommandList>& List : Lists) { (void)Device->CreateCommandList("Frame", List.ReleaseAndGetAddress()); }
 	Swap(1, 1);
 }
 
@@ -104,10 +98,7 @@ FWalker::~FWalker()
 {
 	FConsoleVariables::Get().ResetAll();
 	FConsoleVariables::Get().BeginFrame();
-	if (Device)
-	{
-		Mock().SetManualFences(false);
-	}
+	if (Device) { Mock().SetManualFences(false); }
 }
 
 // ------------------------------------------------------------------------------------------------ what happens
@@ -116,10 +107,7 @@ void FWalker::Swap(uint32_t Types, uint32_t Random)
 {
 	Pipeline = FModelPipeline::Make(*Device, PipelinesMade++, Types, Random);
 	++Result.Swaps;
-	if (!Pipeline)
-	{
-		Fail("a pipeline cannot be made");
-	}
+	if (!Pipeline) { Fail("a pipeline cannot be made"); }
 }
 
 void FWalker::Corrupt(const FWalkStep& Step)
@@ -159,10 +147,7 @@ void FWalker::Do(const FWalkStep& Step)
 FRTStatus FWalker::Record()
 {
 	IRTCommandList& List = *Lists[Result.Frames % Lists.size()];
-	if (FRTStatus S = List.Begin(); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = List.Begin(); !S) { return S; }
 	FRTStatus Status = Bindings->Record(List);
 	List.SetPipeline(Pipeline->Pipeline.GetPipeline());
 	List.TraceRays(Bindings->GetTable(), 0, 1, 1, 1);
@@ -174,40 +159,25 @@ void FWalker::DoFrame(const FWalkStep& Step)
 {
 	const bool bMayFail = Step.Kind == EWalkStep::FailAllocation;
 	const uint32_t Before = Bindings->GetTable() ? Bindings->GetTable()->GetDesc().HitCount : 0;
-	if (bMayFail)
-	{
-		Mock().FailAllocation(1 + Step.A % 2);
-	}
+	if (bMayFail) { Mock().FailAllocation(1 + Step.A % 2); }
 	FRTStatus Status = Bindings->Prepare(Pipeline->Pipeline, Scene->GetSections());
 	if (Status && Step.Kind == EWalkStep::DropFrame)
 	{
 		return; // never recorded, so nothing is lost
 	}
-	if (Status)
-	{
-		Status = Record();
-	}
+	if (Status) { Status = Record(); }
 	Mock().FailAllocation(0);
 	Result.Growths += Bindings->GetTable() && Before > 0 && Bindings->GetTable()->GetDesc().HitCount > Before;
 	if (!Status)
 	{
-		if (!bMayFail)
-		{
-			return Fail("a frame failed: " + std::string(Status.Message));
-		}
+		if (!bMayFail) { return Fail("a frame failed: " + std::string(Status.Message)); }
 		++Result.FailedFrames;
 		return Lose();
 	}
-	if (Step.Kind == EWalkStep::LoseFrame)
-	{
-		return Lose();
-	}
+	if (Step.Kind == EWalkStep::LoseFrame) { return Lose(); }
 	CheckQuiet();
 	Submit();
-	while (InFlight.size() > Settings.InFlight)
-	{
-		CompleteOldest(Step.A);
-	}
+	while (InFlight.size() > Settings.InFlight) { CompleteOldest(Step.A); }
 }
 
 void FWalker::CheckQuiet()
@@ -225,10 +195,7 @@ void FWalker::Submit()
 {
 	FSubmittedFrame& Frame = InFlight.emplace_back();
 	IRTCommandList* const Submitted[] = {Lists[Result.Frames % Lists.size()].Get()};
-	if (FRTStatus S = Device->Submit(Submitted, 1, &Frame.Fence); !S)
-	{
-		Fail(S.Message);
-	}
+	if (FRTStatus S = Device->Submit(Submitted, 1, &Frame.Fence); !S) { Fail(S.Message); }
 	Frame.Pipeline = Pipeline;
 	Frame.Table = TRTRef<IRTShaderTable>(Bindings->GetTable());
 	Frame.Sections = Scene->MakeExpectations();
@@ -245,10 +212,7 @@ void FWalker::CompleteOldest(uint32_t Random)
 
 void FWalker::Check(const FSubmittedFrame& Frame, bool bAll, uint32_t Random)
 {
-	if (bAll)
-	{
-		CheckGeneral(Frame);
-	}
+	if (bAll) { CheckGeneral(Frame); }
 	const size_t Count = bAll ? Frame.Sections.size() : std::min<size_t>(RecordsPerFrame, Frame.Sections.size());
 	for (size_t I = 0; I < Count && Result.Failure.empty(); ++I)
 	{
@@ -264,43 +228,37 @@ void FWalker::CheckSection(const FSubmittedFrame& Frame, const FExpectation& Sec
 		FRTInstance Instance{};
 		Instance.TableOffsetAndFlags = Section.Section * Types;
 		const FRTMockRecord Record = Mock().ResolveHit(Frame.Table.Get(), Instance, 0, Type, Types);
-		const std::string Where = "section " + std::to_string(Section.Section) + ", ray type " + std::to_string(Type) +
-		                          " of " + std::to_string(Types);
-		if (!Record.IsGood())
-		{
-			return Fail(Where + ": " + Record.Error);
-		}
+		const std::string Where =
+		    "section " + std::to_string(Section.Section) + ", ray type " + std::to_string(Type) + " of " + std::to_string(Types);
+		if (!Record.IsGood()) { return Fail(Where + ": " + Record.Error); }
 		const FGroupNames Expected = Frame.Pipeline->Expect(Section.Has.Program, Type);
-		if (!(FGroupNames{Record.ClosestHit, Record.AnyHit, Record.Intersection} == Expected) ||
-		    Record.Pipeline != Frame.Pipeline->Name)
+		if (!(FGroupNames{Record.ClosestHit, Record.AnyHit, Record.Intersection} == Expected) || Record.Pipeline != Frame.Pipeline->Name)
 		{
-			return Fail(Where + ": runs '" + Record.ClosestHit + "' '" + Record.AnyHit + "' '" + Record.Intersection +
-			            "' of " + Record.Pipeline + ", not '" + Expected.ClosestHit + "' '" + Expected.AnyHit + "' '" +
-			            Expected.Intersection + "' of " + Frame.Pipeline->Name);
+			return Fail(Where + ": runs '" + Record.ClosestHit + "' '" + Record.AnyHit + "' '" + Record.Intersection + "' of " +
+			            Record.Pipeline + ", not '" + Expected.ClosestHit + "' '" + Expected.AnyHit + "' '" + Expected.Intersection +
+			            "' of " + Frame.Pipeline->Name);
 		}
 		FSectionData Data;
 		std::memcpy(&Data, Record.Data.data(), sizeof(Data));
 		if (std::memcmp(&Data, &Section.Has.Data, sizeof(Data)) != 0)
 		{
-			return Fail(Where + ": material " + std::to_string(Data.Material) + ", flags " +
-			            std::to_string(Data.Flags) + ", not material " + std::to_string(Section.Has.Data.Material) +
-			            ", flags " + std::to_string(Section.Has.Data.Flags));
+			return Fail(Where + ": material " + std::to_string(Data.Material) + ", flags " + std::to_string(Data.Flags) +
+			            ", not material " + std::to_string(Section.Has.Data.Material) + ", flags " +
+			            std::to_string(Section.Has.Data.Flags));
 		}
 	}
 }
 
 void FWalker::CheckGeneral(const FSubmittedFrame& Frame)
 {
-	const auto CheckKind = [&](ERTRecordKind Kind, uint32_t Count, const char* Stem)
-	{
+	const auto CheckKind = [&](ERTRecordKind Kind, uint32_t Count, const char* Stem) {
 		for (uint32_t Index = 0; Index < Count; ++Index, ++Result.RecordsChecked)
 		{
 			const FRTMockRecord Record = Mock().ResolveRecord(Frame.Table.Get(), Kind, Index);
-			if (!Record.IsGood() || Record.General != Stem + std::to_string(Index) ||
-			    Record.Pipeline != Frame.Pipeline->Name)
+			if (!Record.IsGood() || Record.General != Stem + std::to_string(Index) || Record.Pipeline != Frame.Pipeline->Name)
 			{
-				Fail(std::string(Stem) + std::to_string(Index) + ": runs '" + Record.General + "' of " +
-				     Record.Pipeline + " " + Record.Error);
+				Fail(std::string(Stem) + std::to_string(Index) + ": runs '" + Record.General + "' of " + Record.Pipeline + " " +
+				     Record.Error);
 			}
 		}
 	};
@@ -309,10 +267,7 @@ void FWalker::CheckGeneral(const FSubmittedFrame& Frame)
 	for (uint32_t Index = 0; Index < Table.HitCount; ++Index)
 	{
 		const FRTMockRecord Record = Mock().ResolveRecord(Frame.Table.Get(), ERTRecordKind::Hit, Index);
-		if (Record.bInRange && Record.bStale)
-		{
-			return Fail(Record.Error);
-		}
+		if (Record.bInRange && Record.bStale) { return Fail(Record.Error); }
 	}
 	CheckKind(ERTRecordKind::RayGen, Frame.Pipeline->Pipeline.GetRayGenCount(), "gen");
 	CheckKind(ERTRecordKind::Miss, Frame.Pipeline->RayTypes, "miss");
@@ -333,26 +288,14 @@ FWalkResult FWalker::Run(const std::vector<FWalkStep>& Steps)
 		Mock().CompleteUpTo(Frame.Fence);
 		Check(Frame, true, 0);
 	}
-	if (!Scene->GetFailure().empty())
-	{
-		Fail(Scene->GetFailure());
-	}
-	if (Mock().GetBlockingWaits() > 0)
-	{
-		Fail("something waited for the device");
-	}
-	for (const std::string& Error : Mock().GetErrors())
-	{
-		Fail(Error);
-	}
+	if (!Scene->GetFailure().empty()) { Fail(Scene->GetFailure()); }
+	if (Mock().GetBlockingWaits() > 0) { Fail("something waited for the device"); }
+	for (const std::string& Error : Mock().GetErrors()) { Fail(Error); }
 	return Result;
 }
 
 } // namespace
 
-FWalkResult RunWalk(const FWalkSettings& Settings, const std::vector<FWalkStep>& Steps)
-{
-	return FWalker(Settings).Run(Steps);
-}
+FWalkResult RunWalk(const FWalkSettings& Settings, const std::vector<FWalkStep>& Steps) { return FWalker(Settings).Run(Steps); }
 
 } // namespace Lantern

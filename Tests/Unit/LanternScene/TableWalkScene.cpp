@@ -15,10 +15,7 @@ struct FGeometryTestAccess
 		Geometry.IndicesOffset = Offset;
 		Geometry.IndexType = Type;
 	}
-	static void SetParts(FRTGeometry& Geometry, std::vector<FRTGeometryPart> Parts)
-	{
-		Geometry.Parts = std::move(Parts);
-	}
+	static void SetParts(FRTGeometry& Geometry, std::vector<FRTGeometryPart> Parts) { Geometry.Parts = std::move(Parts); }
 };
 
 namespace
@@ -26,27 +23,17 @@ namespace
 constexpr uint32_t MaterialCount = 7, GeometryCount = 8, MostObjects = 160;
 } // namespace
 
-FWalkScene::FWalkScene(IRTDevice& InDevice)
-    : Device(InDevice),
-      ModelMaterials(MaterialCount),
-      Programs(MaterialCount, StandardProgram)
+FWalkScene::FWalkScene(IRTDevice& InDevice) : Device(InDevice), ModelMaterials(MaterialCount), Programs(MaterialCount, StandardProgram)
 {
-	for (const FModelMaterial& Material : ModelMaterials)
-	{
-		Materials.Add(Material.ToData());
-	}
+	for (const FModelMaterial& Material : ModelMaterials) { Materials.Add(Material.ToData()); }
 	MakeGeometries();
 }
 
 TRTRef<IRTBuffer> FWalkScene::MakeBuffer(uint64_t Size)
 {
 	TRTRef<IRTBuffer> Buffer;
-	const FRTBufferDesc Desc{Size, ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput, ERTMemory::Device,
-	                         "Geometry"};
-	if (FRTStatus S = Device.CreateBuffer(Desc, Buffer.ReleaseAndGetAddress()); !S)
-	{
-		Failure = S.Message;
-	}
+	const FRTBufferDesc Desc{Size, ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput, ERTMemory::Device, "Geometry"};
+	if (FRTStatus S = Device.CreateBuffer(Desc, Buffer.ReleaseAndGetAddress()); !S) { Failure = S.Message; }
 	return Buffer;
 }
 
@@ -81,19 +68,13 @@ std::vector<uint32_t> FWalkScene::DrawMaterials(uint32_t Geometry, uint32_t Rand
 {
 	std::minstd_rand Draw(Random | 1u);
 	std::vector<uint32_t> Drawn(Geometries[Geometry]->GetSectionCount());
-	for (uint32_t& Material : Drawn)
-	{
-		Material = Draw() % MaterialCount;
-	}
+	for (uint32_t& Material : Drawn) { Material = Draw() % MaterialCount; }
 	return Drawn;
 }
 
 void FWalkScene::Add(uint32_t Geometry, uint32_t Random)
 {
-	if (Objects.size() >= MostObjects)
-	{
-		return;
-	}
+	if (Objects.size() >= MostObjects) { return; }
 	FWalkObject& Object = Objects.emplace_back();
 	Object.Geometry = Geometry % GeometryCount;
 	Object.Materials = DrawMaterials(Object.Geometry, Random);
@@ -133,13 +114,10 @@ void FWalkScene::ChangeGeometry(const FWalkStep& Step)
 	const FRTGeometryInfo& Info = Geometry.GetInfo();
 	if (Step.B % 2)
 	{
-		FGeometryTestAccess::SetIndices(Geometry, MakeBuffer(4096), 2 * (Step.C % 7),
-		                                Step.C % 2 ? ERTIndexType::UInt16 : ERTIndexType::UInt32);
+		FGeometryTestAccess::SetIndices(
+		    Geometry, MakeBuffer(4096), 2 * (Step.C % 7), Step.C % 2 ? ERTIndexType::UInt16 : ERTIndexType::UInt32);
 	}
-	else
-	{
-		FGeometryTestAccess::SetParts(Geometry, MakeGeometryParts(Info, Step.C % 2));
-	}
+	else { FGeometryTestAccess::SetParts(Geometry, MakeGeometryParts(Info, Step.C % 2)); }
 	Sections.GeometryChanged(Geometry);
 }
 
@@ -154,19 +132,13 @@ void FWalkScene::Do(const FWalkStep& Step)
 	case EWalkStep::ChangeGeometry: return ChangeGeometry(Step);
 	case EWalkStep::ToggleAlphaTest: Context.bAlphaTest = !Context.bAlphaTest; return Sections.RefillAll();
 	case EWalkStep::Burst:
-		for (uint32_t I = 0; I < 24; ++I)
-		{
-			Add(Step.A + I, Step.B + I * 977);
-		}
+		for (uint32_t I = 0; I < 24; ++I) { Add(Step.A + I, Step.B + I * 977); }
 		return;
 	case EWalkStep::RemoveObject: return bAny ? Remove(Chosen(Step.A)) : void();
 	case EWalkStep::SetMaterials: return bAny ? SetMaterials(Objects[Chosen(Step.A)], Step.B) : void();
 	case EWalkStep::MoveObject: return bAny ? std::swap(Objects[Chosen(Step.A)], Objects[Chosen(Step.B)]) : void();
 	case EWalkStep::Purge:
-		while (Objects.size() > 1 + Step.A % 4)
-		{
-			Remove(Chosen(Step.B));
-		}
+		while (Objects.size() > 1 + Step.A % 4) { Remove(Chosen(Step.B)); }
 		return;
 	default: return;
 	}
@@ -183,8 +155,7 @@ std::vector<FExpectation> FWalkScene::MakeExpectations() const
 		{
 			const FRTGeometryPart& Where = Geometry.GetParts()[Part];
 			const uint32_t Material = Object.Materials[Where.Section];
-			All.push_back(
-			    {First + Part, ExpectSection(Geometry, Where, Material, ModelMaterials[Material], Context.bAlphaTest)});
+			All.push_back({First + Part, ExpectSection(Geometry, Where, Material, ModelMaterials[Material], Context.bAlphaTest)});
 		}
 	}
 	return All;

@@ -43,15 +43,9 @@ std::vector<FWalkStep> ShrinkWalk(const FWalkSettings& Settings, std::vector<FWa
 		{
 			std::vector<FWalkStep> Fewer = Steps;
 			Fewer.erase(Fewer.begin() + static_cast<ptrdiff_t>(First),
-			            Fewer.begin() + static_cast<ptrdiff_t>(std::min(First + Chunk, Steps.size())));
-			if (RunWalk(Settings, Fewer).Failure.empty())
-			{
-				First += Chunk;
-			}
-			else
-			{
-				Steps = std::move(Fewer);
-			}
+			    Fewer.begin() + static_cast<ptrdiff_t>(std::min(First + Chunk, Steps.size())));
+			if (RunWalk(Settings, Fewer).Failure.empty()) { First += Chunk; }
+			else { Steps = std::move(Fewer); }
 		}
 	}
 	return Steps;
@@ -59,16 +53,15 @@ std::vector<FWalkStep> ShrinkWalk(const FWalkSettings& Settings, std::vector<FWa
 
 std::string ToString(const std::vector<FWalkStep>& Steps)
 {
-	constexpr const char* Names[] = {
-	    "Frame",          "AddObject",       "RemoveObject",   "MoveObject",     "SetMaterials", "EditMaterial",
-	    "ChangeGeometry", "ToggleAlphaTest", "SwapPipeline",   "ChangeRayTypes", "Burst",        "Purge",
-	    "LoseFrame",      "DropFrame",       "FailAllocation", "ToggleMode",     "Corrupt"};
+	constexpr const char* Names[] = {"Frame", "AddObject", "RemoveObject", "MoveObject", "SetMaterials", "EditMaterial", "ChangeGeometry",
+	    "ToggleAlphaTest", "SwapPipeline", "ChangeRayTypes", "Burst", "Purge", "LoseFrame", "DropFrame", "FailAllocation", "ToggleMode",
+	    "Corrupt"};
 	static_assert(std::size(Names) == static_cast<size_t>(EWalkStep::Count));
 	std::string Text;
 	for (const FWalkStep& Step : Steps)
 	{
-		Text += "\n  {EWalkStep::" + std::string(Names[static_cast<size_t>(Step.Kind)]) + ", " +
-		        std::to_string(Step.A) + "u, " + std::to_string(Step.B) + "u, " + std::to_string(Step.C) + "u},";
+		Text += "\n  {EWalkStep::" + std::string(Names[static_cast<size_t>(Step.Kind)]) + ", " + std::to_string(Step.A) + "u, " +
+		        std::to_string(Step.B) + "u, " + std::to_string(Step.C) + "u},";
 	}
 	return Text;
 }

@@ -12,8 +12,8 @@ namespace Lantern
 
 void PrintTo(const FWalkSettings& Settings, std::ostream* Out)
 {
-	*Out << Settings.HandleSize << "/" << Settings.HandleAlignment << "/" << Settings.BaseAlignment << ", "
-	     << Settings.InFlight << " in flight";
+	*Out << Settings.HandleSize << "/" << Settings.HandleAlignment << "/" << Settings.BaseAlignment << ", " << Settings.InFlight
+	     << " in flight";
 }
 
 namespace
@@ -22,22 +22,19 @@ namespace
 constexpr uint32_t SeedCount = 40, StepCount = 500;
 
 class FTableWalkTest : public ::testing::TestWithParam<FWalkSettings>
-{
-};
+{};
 
 TEST_P(FTableWalkTest, EveryRecordThatARayReachesIsTheModels)
 {
 	FWalkResult Sum;
-	const uint32_t FirstSeed =
-	    GetParam().BaseAlignment * 1000 + GetParam().HandleAlignment * 100 + GetParam().InFlight * 10'000'000;
+	const uint32_t FirstSeed = GetParam().BaseAlignment * 1000 + GetParam().HandleAlignment * 100 + GetParam().InFlight * 10'000'000;
 	for (uint32_t Seed = 1; Seed <= SeedCount; ++Seed)
 	{
 		const std::vector<FWalkStep> Steps = MakeWalk(FirstSeed + Seed, StepCount);
 		const FWalkResult Result = RunWalk(GetParam(), Steps);
 		if (!Result.Failure.empty())
 		{
-			const std::vector<FWalkStep> Fewest =
-			    ShrinkWalk(GetParam(), {Steps.begin(), Steps.begin() + Result.Step + 1});
+			const std::vector<FWalkStep> Fewest = ShrinkWalk(GetParam(), {Steps.begin(), Steps.begin() + Result.Step + 1});
 			FAIL() << "seed " << FirstSeed + Seed << ", step " << Result.Step << ": " << Result.Failure
 			       << "\nfewest steps: " << Fewest.size() << ToString(Fewest) << "\n"
 			       << RunWalk(GetParam(), Fewest).Failure;
@@ -91,9 +88,7 @@ TEST(TableWalk, FindsOneWrongRecordAndShrinksToIt)
 	EXPECT_GT(Result.Step, Before);
 	const std::vector<FWalkStep> Fewest = ShrinkWalk(Settings, {Steps.begin(), Steps.begin() + Result.Step + 1});
 	EXPECT_LE(Fewest.size(), 8u) << ToString(Fewest);
-	EXPECT_EQ(std::count_if(Fewest.begin(), Fewest.end(),
-	                        [](const FWalkStep& Step) { return Step.Kind == EWalkStep::Corrupt; }),
-	          1);
+	EXPECT_EQ(std::count_if(Fewest.begin(), Fewest.end(), [](const FWalkStep& Step) { return Step.Kind == EWalkStep::Corrupt; }), 1);
 }
 
 } // namespace

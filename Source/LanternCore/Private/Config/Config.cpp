@@ -22,8 +22,7 @@ void Report(FConfigProblems& Problems, std::string Text)
 FIniFile LoadIni(const std::string& Path, FConfigProblems& Problems)
 {
 	FIniFile File = FIniFile::Load(Path);
-	for (const std::string& Problem : File.GetProblems())
-		Report(Problems, Problem);
+	for (const std::string& Problem : File.GetProblems()) Report(Problems, Problem);
 	return File;
 }
 
@@ -52,20 +51,17 @@ constexpr std::array<std::string_view, 2> VariableSections = {"SystemSettings", 
 
 bool IsVariableSection(std::string_view Name)
 {
-	return std::any_of(VariableSections.begin(), VariableSections.end(),
-	                   [&](std::string_view Known) { return EqualsIgnoringCase(Name, Known); });
+	return std::any_of(
+	    VariableSections.begin(), VariableSections.end(), [&](std::string_view Known) { return EqualsIgnoringCase(Name, Known); });
 }
 
-bool IsEngineSection(std::string_view Name)
-{
-	return EqualsIgnoringCase(Name.substr(0, 8), "/Script/");
-}
+bool IsEngineSection(std::string_view Name) { return EqualsIgnoringCase(Name.substr(0, 8), "/Script/"); }
 
-void ReportUnknownSection(const FIniFile& File, const FIniSection& Section, const std::vector<std::string_view>& Known,
-                          FConfigProblems& Problems)
+void ReportUnknownSection(
+    const FIniFile& File, const FIniSection& Section, const std::vector<std::string_view>& Known, FConfigProblems& Problems)
 {
 	Report(Problems, fmt::format("{}: unknown section [{}]; the nearest is [{}]", File.GetWhere(Section.Line),
-	                             EscapeText(Section.Name, MaxQuotedBytes), FindNearest(Section.Name, Known)));
+	                     EscapeText(Section.Name, MaxQuotedBytes), FindNearest(Section.Name, Known)));
 }
 
 /// A section's name taken apart: "ShadowQuality@3".
@@ -78,8 +74,7 @@ struct FScalabilityName
 std::optional<FScalabilityName> ParseScalabilityName(std::string_view Name)
 {
 	const size_t At = Name.rfind('@');
-	if (At == std::string_view::npos || At == 0)
-		return std::nullopt;
+	if (At == std::string_view::npos || At == 0) return std::nullopt;
 	const std::optional<ERTQuality> Quality = ParseQuality(Name.substr(At + 1));
 	return Quality ? std::optional(FScalabilityName{Name.substr(0, At), *Quality}) : std::nullopt;
 }
@@ -99,17 +94,15 @@ void ReportBadScalabilitySections(const FIniFile& File, FConfigProblems& Problem
 {
 	for (const FIniSection& Section : File.GetSections())
 		if (!ParseScalabilityName(Section.Name))
-			Report(Problems,
-			       fmt::format("{}: [{}] is not [Group@0] … [Group@4]", File.GetWhere(Section.Line),
-			                   EscapeText(Section.Name, MaxQuotedBytes)));
+			Report(Problems, fmt::format("{}: [{}] is not [Group@0] … [Group@4]", File.GetWhere(Section.Line),
+			                     EscapeText(Section.Name, MaxQuotedBytes)));
 }
 
 std::vector<std::string_view> GetGroups(const FIniFile& File)
 {
 	std::vector<std::string_view> Groups;
 	for (const FIniSection& Section : File.GetSections())
-		if (const std::optional<FScalabilityName> Name = ParseScalabilityName(Section.Name))
-			Groups.push_back(Name->Group);
+		if (const std::optional<FScalabilityName> Name = ParseScalabilityName(Section.Name)) Groups.push_back(Name->Group);
 	return Groups;
 }
 
@@ -117,42 +110,33 @@ std::vector<std::string_view> GetGroups(const FIniFile& File)
 void ApplyGroupChoice(const FIniFile& Scalability, const FIniValue& Choice, FConfigProblems& Problems)
 {
 	std::string_view Group = Choice.Key;
-	if (EqualsIgnoringCase(Group.substr(0, 3), "sg."))
-		Group.remove_prefix(3);
+	if (EqualsIgnoringCase(Group.substr(0, 3), "sg.")) Group.remove_prefix(3);
 	const std::vector<std::string_view> Groups = GetGroups(Scalability);
-	const bool bKnown = std::any_of(Groups.begin(), Groups.end(),
-	                                [&](std::string_view Known) { return EqualsIgnoringCase(Known, Group); });
+	const bool bKnown = std::any_of(Groups.begin(), Groups.end(), [&](std::string_view Known) { return EqualsIgnoringCase(Known, Group); });
 	const std::optional<ERTQuality> Quality = ParseQuality(Choice.Value);
 	if (!bKnown)
-		Report(Problems, fmt::format("{}: unknown scalability group {}; the nearest is {}", Choice.Where,
-		                             Quote(Choice.Key), Quote(FindNearest(Group, Groups))));
+		Report(Problems, fmt::format("{}: unknown scalability group {}; the nearest is {}", Choice.Where, Quote(Choice.Key),
+		                     Quote(FindNearest(Group, Groups))));
 	else if (!Quality)
-		Report(Problems, fmt::format("{}: {}: {} is not a quality (0 to 4, or low, medium, high, epic, cinematic)",
-		                             Choice.Where, EscapeText(Choice.Key, MaxQuotedBytes), Quote(Choice.Value)));
-	else
-		ApplyScalability(Scalability, Group, *Quality, Problems);
+		Report(Problems, fmt::format("{}: {}: {} is not a quality (0 to 4, or low, medium, high, epic, cinematic)", Choice.Where,
+		                     EscapeText(Choice.Key, MaxQuotedBytes), Quote(Choice.Value)));
+	else ApplyScalability(Scalability, Group, *Quality, Problems);
 }
 
-void ApplyGroupChoices(const FConfigFolder& Folder, const FIniFile& File, const FIniSection& Section,
-                       FConfigProblems& Problems)
+void ApplyGroupChoices(const FConfigFolder& Folder, const FIniFile& File, const FIniSection& Section, FConfigProblems& Problems)
 {
 	const FIniFile Scalability = LoadIni(Folder.GetScalability(), Problems);
-	for (const FIniValue& Choice : ResolveSection(File, Section))
-		ApplyGroupChoice(Scalability, Choice, Problems);
+	for (const FIniValue& Choice : ResolveSection(File, Section)) ApplyGroupChoice(Scalability, Choice, Problems);
 }
 
 } // namespace
 
-const char* ToString(ERTQuality Quality)
-{
-	return QualityNames[static_cast<size_t>(Quality)];
-}
+const char* ToString(ERTQuality Quality) { return QualityNames[static_cast<size_t>(Quality)]; }
 
 std::optional<ERTQuality> ParseQuality(std::string_view Text)
 {
 	for (size_t Level = 0; Level < QualityNames.size(); ++Level)
-		if (EqualsIgnoringCase(Text, QualityNames[Level]) || Text == std::to_string(Level))
-			return static_cast<ERTQuality>(Level);
+		if (EqualsIgnoringCase(Text, QualityNames[Level]) || Text == std::to_string(Level)) return static_cast<ERTQuality>(Level);
 	return std::nullopt;
 }
 
@@ -171,8 +155,7 @@ FConfigProblems LoadAliases(const FConfigFolder& Folder)
 		{
 			if (Value.Value.empty() || EqualsIgnoringCase(Value.Key, Value.Value))
 				Report(Problems, fmt::format("{}: {} names no other variable", Value.Where, Quote(Value.Key)));
-			else
-				FConsoleVariables::Get().AddAlias(Value.Key, Value.Value);
+			else FConsoleVariables::Get().AddAlias(Value.Key, Value.Value);
 		}
 	}
 	return Problems;
@@ -184,10 +167,8 @@ FConfigProblems LoadFile(const FConfigFolder& Folder, const std::string& Path)
 	const FIniFile File = LoadIni(Path, Problems);
 	for (const FIniSection& Section : File.GetSections())
 	{
-		if (IsVariableSection(Section.Name))
-			SetVariables(ResolveSection(File, Section), ERTSetBy::Ini, Problems);
-		else if (EqualsIgnoringCase(Section.Name, GroupSection))
-			ApplyGroupChoices(Folder, File, Section, Problems);
+		if (IsVariableSection(Section.Name)) SetVariables(ResolveSection(File, Section), ERTSetBy::Ini, Problems);
+		else if (EqualsIgnoringCase(Section.Name, GroupSection)) ApplyGroupChoices(Folder, File, Section, Problems);
 		else if (!IsEngineSection(Section.Name))
 			ReportUnknownSection(File, Section, {VariableSections[0], VariableSections[1], GroupSection}, Problems);
 	}
@@ -222,18 +203,14 @@ FConfigProblems LoadScalabilityGroup(const FConfigFolder& Folder, std::string_vi
 std::vector<FConfigReference> ListConsoleVariables(const FConfigFolder& Folder)
 {
 	std::vector<FConfigReference> Result;
-	const auto AddKeys = [&](const FIniFile& File, const FIniSection& Section)
-	{
-		for (const FIniEntry& Entry : Section.Entries)
-			Result.push_back({Entry.Key, File.GetWhere(Entry.Line)});
+	const auto AddKeys = [&](const FIniFile& File, const FIniSection& Section) {
+		for (const FIniEntry& Entry : Section.Entries) Result.push_back({Entry.Key, File.GetWhere(Entry.Line)});
 	};
 	const FIniFile Defaults = FIniFile::Load(Folder.GetDefaults());
 	for (const FIniSection& Section : Defaults.GetSections())
-		if (IsVariableSection(Section.Name))
-			AddKeys(Defaults, Section);
+		if (IsVariableSection(Section.Name)) AddKeys(Defaults, Section);
 	const FIniFile Scalability = FIniFile::Load(Folder.GetScalability());
-	for (const FIniSection& Section : Scalability.GetSections())
-		AddKeys(Scalability, Section);
+	for (const FIniSection& Section : Scalability.GetSections()) AddKeys(Scalability, Section);
 	const FIniFile Profiles = FIniFile::Load(Folder.GetDeviceProfiles());
 	for (const FIniSection& Section : Profiles.GetSections())
 		for (const FIniEntry& Entry : Section.Entries)
@@ -242,8 +219,7 @@ std::vector<FConfigReference> ListConsoleVariables(const FConfigFolder& Folder)
 	const FIniFile Aliases = FIniFile::Load(Folder.GetAliases());
 	for (const FIniSection& Section : Aliases.GetSections())
 		for (const FIniEntry& Entry : Section.Entries)
-			if (!Entry.Value.empty())
-				Result.push_back({Entry.Value, Aliases.GetWhere(Entry.Line)});
+			if (!Entry.Value.empty()) Result.push_back({Entry.Value, Aliases.GetWhere(Entry.Line)});
 	return Result;
 }
 

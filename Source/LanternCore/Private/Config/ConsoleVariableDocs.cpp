@@ -20,8 +20,7 @@ using FVariables = std::vector<const FRTConsoleVariable*>;
 std::string GetStem(const std::string& Name)
 {
 	size_t End = 0;
-	for (int Part = 0; Part < 3 && End != std::string::npos; ++Part)
-		End = Name.find('.', Part == 0 ? 0 : End + 1);
+	for (int Part = 0; Part < 3 && End != std::string::npos; ++Part) End = Name.find('.', Part == 0 ? 0 : End + 1);
 	return Name.substr(0, End);
 }
 
@@ -29,8 +28,7 @@ std::string GetStem(const std::string& Name)
 std::map<std::pair<bool, std::string>, FVariables> GroupByPass(const FVariables& Variables)
 {
 	std::map<std::string, FVariables> ByStem;
-	for (const FRTConsoleVariable* Variable : Variables)
-		ByStem[GetStem(Variable->GetName())].push_back(Variable);
+	for (const FRTConsoleVariable* Variable : Variables) ByStem[GetStem(Variable->GetName())].push_back(Variable);
 	std::map<std::pair<bool, std::string>, FVariables> Groups;
 	for (const auto& [Stem, Members] : ByStem)
 	{
@@ -47,12 +45,9 @@ std::string EscapeCell(std::string_view Text)
 	std::string Result;
 	for (const char C : Text)
 	{
-		if (C == '|')
-			Result += "\\|";
-		else if (C == '\n')
-			Result += "<br>";
-		else if (C != '\r')
-			Result += C;
+		if (C == '|') Result += "\\|";
+		else if (C == '\n') Result += "<br>";
+		else if (C != '\r') Result += C;
 	}
 	return Result;
 }
@@ -62,8 +57,7 @@ std::vector<std::string> GetAliasesOf(const FRTConsoleVariable& Variable)
 	const FConsoleVariables& Registry = FConsoleVariables::Get();
 	std::vector<std::string> Result;
 	for (const auto& [Alias, Name] : Registry.GetAliases())
-		if (Registry.Find(Alias) == &Variable && Alias != Variable.GetName())
-			Result.push_back(Alias);
+		if (Registry.Find(Alias) == &Variable && Alias != Variable.GetName()) Result.push_back(Alias);
 	return Result;
 }
 
@@ -75,19 +69,16 @@ std::string FormatRow(const FRTConsoleVariable& Variable)
 	for (const std::string& Alias : GetAliasesOf(Variable))
 		Aliases += fmt::format("{}`{}`", Aliases.empty() ? "" : ", ", EscapeCell(EscapeText(Alias)));
 	return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", EscapeCell(Variable.GetName()), GetTypeName(Default),
-	                   DefaultText.empty() ? "" : fmt::format("`{}`", EscapeCell(DefaultText)),
-	                   DescribeRange(Default, Variable.GetRange()), EscapeCell(Variable.GetHelp()), Aliases);
+	    DefaultText.empty() ? "" : fmt::format("`{}`", EscapeCell(DefaultText)), DescribeRange(Default, Variable.GetRange()),
+	    EscapeCell(Variable.GetHelp()), Aliases);
 }
 
 nlohmann::json ToJsonValue(const FRTCVarValue& Value)
 {
-	if (const auto* Bool = std::get_if<bool>(&Value))
-		return *Bool;
-	if (const auto* Int = std::get_if<int32_t>(&Value))
-		return *Int;
+	if (const auto* Bool = std::get_if<bool>(&Value)) return *Bool;
+	if (const auto* Int = std::get_if<int32_t>(&Value)) return *Int;
 	// By way of the shortest text: 0.1f shall be 0.1, not 0.10000000149.
-	if (std::holds_alternative<float>(Value))
-		return std::strtod(FConsoleVariables::ToString(Value).c_str(), nullptr);
+	if (std::holds_alternative<float>(Value)) return std::strtod(FConsoleVariables::ToString(Value).c_str(), nullptr);
 	return std::get<std::string>(Value);
 }
 
@@ -103,10 +94,8 @@ nlohmann::json ToJsonObject(const FRTConsoleVariable& Variable)
 	    {"help", Variable.GetHelp()},
 	    {"aliases", GetAliasesOf(Variable)},
 	};
-	if (IsNumber(Default) && HasMin(Variable.GetRange()))
-		Object["min"] = Variable.GetRange().Min;
-	if (IsNumber(Default) && HasMax(Variable.GetRange()))
-		Object["max"] = Variable.GetRange().Max;
+	if (IsNumber(Default) && HasMin(Variable.GetRange())) Object["min"] = Variable.GetRange().Min;
+	if (IsNumber(Default) && HasMax(Variable.GetRange())) Object["max"] = Variable.GetRange().Max;
 	return Object;
 }
 
@@ -122,9 +111,8 @@ std::string FConsoleVariables::ToMarkdown() const
 	{
 		Text += fmt::format("\n## {}\n\n| Name | Type | Default | Range | Meaning | Also known as |\n"
 		                    "|---|---|---|---|---|---|\n",
-		                    Key.second);
-		for (const FRTConsoleVariable* Variable : Variables)
-			Text += FormatRow(*Variable);
+		    Key.second);
+		for (const FRTConsoleVariable* Variable : Variables) Text += FormatRow(*Variable);
 	}
 	return Text;
 }
@@ -132,8 +120,7 @@ std::string FConsoleVariables::ToMarkdown() const
 std::string FConsoleVariables::ToJson() const
 {
 	nlohmann::json List = nlohmann::json::array();
-	for (const FRTConsoleVariable* Variable : GetAll())
-		List.push_back(ToJsonObject(*Variable));
+	for (const FRTConsoleVariable* Variable : GetAll()) List.push_back(ToJsonObject(*Variable));
 	// Values may hold any bytes: what is not UTF-8 is replaced rather than thrown about.
 	return nlohmann::json{{"variables", std::move(List)}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }

@@ -18,23 +18,19 @@ namespace
 std::optional<bool> ParseBoolWord(std::string_view Text)
 {
 	for (const char* Word : {"true", "yes", "on"})
-		if (EqualsIgnoringCase(Text, Word))
-			return true;
+		if (EqualsIgnoringCase(Text, Word)) return true;
 	for (const char* Word : {"false", "no", "off"})
-		if (EqualsIgnoringCase(Text, Word))
-			return false;
+		if (EqualsIgnoringCase(Text, Word)) return false;
 	return std::nullopt;
 }
 
 /// A finite decimal number that is the whole text. One too large for a double is none.
 std::optional<double> ParseNumber(std::string_view Text)
 {
-	if (Text.size() > 1 && Text[0] == '+' && Text[1] != '-')
-		Text.remove_prefix(1);
+	if (Text.size() > 1 && Text[0] == '+' && Text[1] != '-') Text.remove_prefix(1);
 	double Number = 0.0;
 	const auto [End, Error] = std::from_chars(Text.data(), Text.data() + Text.size(), Number);
-	if (Error != std::errc() || End != Text.data() + Text.size() || !std::isfinite(Number))
-		return std::nullopt;
+	if (Error != std::errc() || End != Text.data() + Text.size() || !std::isfinite(Number)) return std::nullopt;
 	return Number;
 }
 
@@ -55,24 +51,20 @@ double Clamp(double Number, double Min, double Max, int& OutClampedTo)
 
 FParsedCVar ParseBool(std::string_view Text)
 {
-	if (Text == "0" || Text == "1")
-		return {.Value = Text == "1"};
-	if (const std::optional<bool> Word = ParseBoolWord(Text))
-		return {.Value = *Word};
+	if (Text == "0" || Text == "1") return {.Value = Text == "1"};
+	if (const std::optional<bool> Word = ParseBoolWord(Text)) return {.Value = *Word};
 	return {.Error = "is not a bool (0, 1, false or true)"};
 }
 
 FParsedCVar ParseInt(FRTCVarRange Range, std::string_view Text)
 {
-	if (const std::optional<bool> Word = ParseBoolWord(Text))
-		return ParseInt(Range, *Word ? "1" : "0");
+	if (const std::optional<bool> Word = ParseBoolWord(Text)) return ParseInt(Range, *Word ? "1" : "0");
 	const std::optional<double> Number = ParseNumber(Text);
-	if (!Number || *Number != std::trunc(*Number))
-		return {.Error = "is not a whole number"};
+	if (!Number || *Number != std::trunc(*Number)) return {.Error = "is not a whole number"};
 	using FLimits = std::numeric_limits<int32_t>;
 	FParsedCVar Result;
 	const double Clamped = Clamp(*Number, std::max<double>(std::ceil(Range.Min), FLimits::min()),
-	                             std::min<double>(std::floor(Range.Max), FLimits::max()), Result.ClampedTo);
+	    std::min<double>(std::floor(Range.Max), FLimits::max()), Result.ClampedTo);
 	Result.Value = static_cast<int32_t>(Clamped);
 	return Result;
 }
@@ -80,22 +72,18 @@ FParsedCVar ParseInt(FRTCVarRange Range, std::string_view Text)
 FParsedCVar ParseFloat(FRTCVarRange Range, std::string_view Text)
 {
 	const std::optional<double> Number = ParseNumber(Text);
-	if (!Number)
-		return {.Error = "is not a number"};
+	if (!Number) return {.Error = "is not a number"};
 	constexpr double Largest = std::numeric_limits<float>::max();
 	FParsedCVar Result;
-	const double Clamped =
-	    Clamp(*Number, std::max(Range.Min, -Largest), std::min(Range.Max, Largest), Result.ClampedTo);
+	const double Clamped = Clamp(*Number, std::max(Range.Min, -Largest), std::min(Range.Max, Largest), Result.ClampedTo);
 	Result.Value = static_cast<float>(Clamped);
 	return Result;
 }
 
 double ToNumber(const FRTCVarValue& Value)
 {
-	if (const auto* Int = std::get_if<int32_t>(&Value))
-		return *Int;
-	if (const auto* Float = std::get_if<float>(&Value))
-		return *Float;
+	if (const auto* Int = std::get_if<int32_t>(&Value)) return *Int;
+	if (const auto* Float = std::get_if<float>(&Value)) return *Float;
 	return 0.0;
 }
 
@@ -106,11 +94,9 @@ constexpr double NoBound = 1e30;
 
 FParsedCVar ParseCVar(const FRTCVarValue& Like, FRTCVarRange Range, std::string_view Text)
 {
-	if (std::holds_alternative<std::string>(Like))
-		return {.Value = std::string(Text)};
+	if (std::holds_alternative<std::string>(Like)) return {.Value = std::string(Text)};
 	Text = Trim(Text);
-	if (std::holds_alternative<bool>(Like))
-		return ParseBool(Text);
+	if (std::holds_alternative<bool>(Like)) return ParseBool(Text);
 	return std::holds_alternative<int32_t>(Like) ? ParseInt(Range, Text) : ParseFloat(Range, Text);
 }
 
@@ -121,29 +107,17 @@ const char* GetTypeName(const FRTCVarValue& Value)
 	return Names[Value.index()];
 }
 
-bool IsNumber(const FRTCVarValue& Value)
-{
-	return std::holds_alternative<int32_t>(Value) || std::holds_alternative<float>(Value);
-}
+bool IsNumber(const FRTCVarValue& Value) { return std::holds_alternative<int32_t>(Value) || std::holds_alternative<float>(Value); }
 
-bool HasMin(FRTCVarRange Range)
-{
-	return Range.Min > -NoBound;
-}
+bool HasMin(FRTCVarRange Range) { return Range.Min > -NoBound; }
 
-bool HasMax(FRTCVarRange Range)
-{
-	return Range.Max < NoBound;
-}
+bool HasMax(FRTCVarRange Range) { return Range.Max < NoBound; }
 
 std::string DescribeRange(const FRTCVarValue& Like, FRTCVarRange Range)
 {
-	if (!IsNumber(Like))
-		return {};
-	if (HasMin(Range) && HasMax(Range))
-		return fmt::format("{:g} to {:g}", Range.Min, Range.Max);
-	if (HasMin(Range))
-		return fmt::format("at least {:g}", Range.Min);
+	if (!IsNumber(Like)) return {};
+	if (HasMin(Range) && HasMax(Range)) return fmt::format("{:g} to {:g}", Range.Min, Range.Max);
+	if (HasMin(Range)) return fmt::format("at least {:g}", Range.Min);
 	return HasMax(Range) ? fmt::format("at most {:g}", Range.Max) : std::string();
 }
 

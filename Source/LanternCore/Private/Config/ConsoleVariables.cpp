@@ -32,38 +32,22 @@ const char* ToString(ERTSetBy By)
 // The variable.
 
 FRTConsoleVariable::FRTConsoleVariable(const char* Name, FRTCVarValue Default, const char* Help, FRTCVarRange Range)
-    : State(new FState{
-          .Name = Name, .Help = Help, .Default = Default, .Range = Range, .Latest = Default, .Published = Default})
+    : State(new FState{.Name = Name, .Help = Help, .Default = Default, .Range = Range, .Latest = Default, .Published = Default})
 {
 	assert(Range.Min <= Range.Max);
 	assert(IsInRange(Default, Range));
 	FConsoleVariables::Get().Impl->Register(*this);
 }
 
-FRTConsoleVariable::~FRTConsoleVariable()
-{
-	FConsoleVariables::Get().Impl->Unregister(*this);
-}
+FRTConsoleVariable::~FRTConsoleVariable() { FConsoleVariables::Get().Impl->Unregister(*this); }
 
-const std::string& FRTConsoleVariable::GetName() const
-{
-	return State->Name;
-}
+const std::string& FRTConsoleVariable::GetName() const { return State->Name; }
 
-const std::string& FRTConsoleVariable::GetHelp() const
-{
-	return State->Help;
-}
+const std::string& FRTConsoleVariable::GetHelp() const { return State->Help; }
 
-const FRTCVarValue& FRTConsoleVariable::GetDefault() const
-{
-	return State->Default;
-}
+const FRTCVarValue& FRTConsoleVariable::GetDefault() const { return State->Default; }
 
-FRTCVarRange FRTConsoleVariable::GetRange() const
-{
-	return State->Range;
-}
+FRTCVarRange FRTConsoleVariable::GetRange() const { return State->Range; }
 
 ERTSetBy FRTConsoleVariable::GetSetBy() const
 {
@@ -116,11 +100,9 @@ FRTConsoleVariable* FConsoleVariables::FImpl::Find(std::string_view NameOrAlias)
 	// An alias may lead to an alias; as many steps as there are aliases end any circle.
 	for (size_t Step = 0; Step <= Aliases.size(); ++Step)
 	{
-		if (const auto Variable = Variables.find(Name); Variable != Variables.end())
-			return Variable->second;
+		if (const auto Variable = Variables.find(Name); Variable != Variables.end()) return Variable->second;
 		const auto Alias = Aliases.find(Name);
-		if (Alias == Aliases.end())
-			return nullptr;
+		if (Alias == Aliases.end()) return nullptr;
 		Name = FoldCase(Alias->second.Name);
 	}
 	return nullptr;
@@ -129,20 +111,16 @@ FRTConsoleVariable* FConsoleVariables::FImpl::Find(std::string_view NameOrAlias)
 std::string FConsoleVariables::FImpl::DescribeUnknown(std::string_view Name) const
 {
 	std::vector<std::string_view> Known;
-	for (const auto& [Folded, Variable] : Variables)
-		Known.push_back(Variable->GetName());
-	for (const auto& [Folded, Alias] : Aliases)
-		Known.push_back(Alias.Alias);
+	for (const auto& [Folded, Variable] : Variables) Known.push_back(Variable->GetName());
+	for (const auto& [Folded, Alias] : Aliases) Known.push_back(Alias.Alias);
 	std::string Message = fmt::format("unknown console variable {}", Quote(Name));
-	if (!Known.empty())
-		Message += fmt::format("; the nearest name is {}", Quote(FindNearest(Name, Known)));
+	if (!Known.empty()) Message += fmt::format("; the nearest name is {}", Quote(FindNearest(Name, Known)));
 	return Message;
 }
 
 void FConsoleVariables::FImpl::MarkDirty(FRTConsoleVariable& Variable)
 {
-	if (Variable.State->bDirty)
-		return;
+	if (Variable.State->bDirty) return;
 	Variable.State->bDirty = true;
 	Dirty.push_back(&Variable);
 }
@@ -160,28 +138,24 @@ FConsoleVariables& FConsoleVariables::Get()
 	return *Instance;
 }
 
-FConsoleVariables::FImpl::FOutcome FConsoleVariables::FImpl::Set(std::string_view Name, std::string_view Value,
-                                                                 ERTSetBy By)
+FConsoleVariables::FImpl::FOutcome FConsoleVariables::FImpl::Set(std::string_view Name, std::string_view Value, ERTSetBy By)
 {
 	std::unique_lock Lock(Mutex);
 	FRTConsoleVariable* Variable = Find(Name);
-	if (!Variable)
-		return {.bRefused = true, .Warning = DescribeUnknown(Name)};
+	if (!Variable) return {.bRefused = true, .Warning = DescribeUnknown(Name)};
 
 	FRTConsoleVariable::FState& State = *Variable->State;
 	FParsedCVar Parsed = ParseCVar(State.Default, State.Range, Value);
 	std::string Range = DescribeRange(State.Default, State.Range);
 	if (!Parsed.Value)
 		return {.bRefused = true,
-		        .Warning = fmt::format("{}: {} {}{}{}", State.Name, Quote(Value), Parsed.Error,
-		                               Range.empty() ? "" : "; range: ", Range)};
-	if (By < State.SetBy)
-		return {};
+		    .Warning = fmt::format("{}: {} {}{}{}", State.Name, Quote(Value), Parsed.Error, Range.empty() ? "" : "; range: ", Range)};
+	if (By < State.SetBy) return {};
 
 	FOutcome Outcome;
 	if (Parsed.ClampedTo != 0 && Parsed.ClampedTo != State.ClampWarned)
 		Outcome.Warning = fmt::format("{}: {} is out of range ({}); {} is used", State.Name, Quote(Value),
-		                              Range.empty() ? "the limits of its type" : Range, ToString(*Parsed.Value));
+		    Range.empty() ? "the limits of its type" : Range, ToString(*Parsed.Value));
 	State.ClampWarned = Parsed.ClampedTo;
 	State.SetBy = By;
 	State.Latest = std::move(*Parsed.Value);
@@ -189,14 +163,11 @@ FConsoleVariables::FImpl::FOutcome FConsoleVariables::FImpl::Set(std::string_vie
 	return Outcome;
 }
 
-std::optional<std::string> FConsoleVariables::Set(std::string_view Name, std::string_view Value, ERTSetBy By,
-                                                  std::string_view Where)
+std::optional<std::string> FConsoleVariables::Set(std::string_view Name, std::string_view Value, ERTSetBy By, std::string_view Where)
 {
 	FImpl::FOutcome Outcome = Impl->Set(Trim(Name), Value, By);
-	if (Outcome.Warning.empty())
-		return std::nullopt;
-	if (!Where.empty())
-		Outcome.Warning = fmt::format("{}: {}", Where, Outcome.Warning);
+	if (Outcome.Warning.empty()) return std::nullopt;
+	if (!Where.empty()) Outcome.Warning = fmt::format("{}: {}", Where, Outcome.Warning);
 	// Logged outside the lock: a log sink may ask for a variable.
 	LogLine(ERTLogLevel::Warning, Outcome.Warning);
 	return Outcome.bRefused ? std::optional(std::move(Outcome.Warning)) : std::nullopt;
@@ -212,8 +183,7 @@ std::vector<const FRTConsoleVariable*> FConsoleVariables::GetAll() const
 {
 	std::shared_lock Lock(Impl->Mutex);
 	std::vector<const FRTConsoleVariable*> Result;
-	for (const auto& [Folded, Variable] : Impl->Variables)
-		Result.push_back(Variable);
+	for (const auto& [Folded, Variable] : Impl->Variables) Result.push_back(Variable);
 	return Result;
 }
 
@@ -227,8 +197,7 @@ std::vector<std::pair<std::string, std::string>> FConsoleVariables::GetAliases()
 {
 	std::shared_lock Lock(Impl->Mutex);
 	std::vector<std::pair<std::string, std::string>> Result;
-	for (const auto& [Folded, Alias] : Impl->Aliases)
-		Result.emplace_back(Alias.Alias, Alias.Name);
+	for (const auto& [Folded, Alias] : Impl->Aliases) Result.emplace_back(Alias.Alias, Alias.Name);
 	return Result;
 }
 
@@ -242,17 +211,14 @@ void FConsoleVariables::BeginFrame()
 		{
 			FRTConsoleVariable::FState& State = *Variable->State;
 			State.bDirty = false;
-			if (State.Published == State.Latest)
-				continue;
+			if (State.Published == State.Latest) continue;
 			State.Published = State.Latest;
-			if (State.Callback)
-				Callbacks.emplace_back(State.Callback, Variable);
+			if (State.Callback) Callbacks.emplace_back(State.Callback, Variable);
 		}
 		Impl->Dirty.clear();
 	}
 	// After the lock: a callback may read or set variables; what it sets is published by the next frame.
-	for (const auto& [Callback, Variable] : Callbacks)
-		Callback(*Variable);
+	for (const auto& [Callback, Variable] : Callbacks) Callback(*Variable);
 }
 
 void FConsoleVariables::Restore(const FRTConsoleVariable& Variable, FRTCVarValue Value, ERTSetBy By)
@@ -280,10 +246,8 @@ void FConsoleVariables::ResetAll()
 
 std::string FConsoleVariables::ToString(const FRTCVarValue& Value)
 {
-	if (const auto* Bool = std::get_if<bool>(&Value))
-		return *Bool ? "1" : "0";
-	if (const auto* Int = std::get_if<int32_t>(&Value))
-		return fmt::format("{}", *Int);
+	if (const auto* Bool = std::get_if<bool>(&Value)) return *Bool ? "1" : "0";
+	if (const auto* Int = std::get_if<int32_t>(&Value)) return fmt::format("{}", *Int);
 	if (const auto* Float = std::get_if<float>(&Value))
 		return fmt::format("{}", *Float); // the shortest text that reads back as the same value
 	return std::get<std::string>(Value);

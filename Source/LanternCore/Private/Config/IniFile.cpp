@@ -24,8 +24,7 @@ constexpr size_t MaxProblems = 100;
 std::string_view CutComment(std::string_view Text)
 {
 	for (size_t I = 0; I < Text.size(); ++I)
-		if (Text[I] == ';' && (I == 0 || Text[I - 1] == ' ' || Text[I - 1] == '\t'))
-			return Text.substr(0, I);
+		if (Text[I] == ';' && (I == 0 || Text[I - 1] == ' ' || Text[I - 1] == '\t')) return Text.substr(0, I);
 	return Text;
 }
 
@@ -43,18 +42,15 @@ std::optional<std::string> ParseQuoted(std::string_view Text, std::string& OutEr
 	{
 		if (Text[I] == '"')
 		{
-			if (IsBlankOrComment(Text.substr(I + 1)))
-				return Value;
+			if (IsBlankOrComment(Text.substr(I + 1))) return Value;
 			OutError = fmt::format("text after the closing quotation mark: {}", Quote(Trim(Text.substr(I + 1))));
 			return std::nullopt;
 		}
 		if (Text[I] == '\\' && I + 1 < Text.size())
 		{
 			const char Escaped = Text[++I];
-			if (Escaped == 'n' || Escaped == 't')
-				Value += Escaped == 'n' ? '\n' : '\t';
-			else if (Escaped == '"' || Escaped == '\\')
-				Value += Escaped;
+			if (Escaped == 'n' || Escaped == 't') Value += Escaped == 'n' ? '\n' : '\t';
+			else if (Escaped == '"' || Escaped == '\\') Value += Escaped;
 			else
 				// Not an escape: a Windows path, most likely.
 				(Value += '\\') += Escaped;
@@ -81,8 +77,7 @@ std::optional<ERTIniOperation> GetOperation(char Prefix)
 bool HasControlCharacter(std::string_view Text)
 {
 	for (const char C : Text)
-		if ((static_cast<unsigned char>(C) < 0x20 && C != '\t') || C == 0x7f)
-			return true;
+		if ((static_cast<unsigned char>(C) < 0x20 && C != '\t') || C == 0x7f) return true;
 	return false;
 }
 
@@ -96,12 +91,9 @@ public:
 	void ParseText(std::string_view Text)
 	{
 		constexpr std::string_view Utf8Mark = "\xEF\xBB\xBF";
-		if (Text.size() > MaxFileBytes)
-			return AddFileProblem(fmt::format("larger than {} MiB", MaxFileBytes >> 20));
-		if (Text.substr(0, 2) == "\xFF\xFE" || Text.substr(0, 2) == "\xFE\xFF")
-			return AddFileProblem("UTF-16; save it as UTF-8");
-		if (Text.substr(0, 3) == Utf8Mark)
-			Text.remove_prefix(3);
+		if (Text.size() > MaxFileBytes) return AddFileProblem(fmt::format("larger than {} MiB", MaxFileBytes >> 20));
+		if (Text.substr(0, 2) == "\xFF\xFE" || Text.substr(0, 2) == "\xFE\xFF") return AddFileProblem("UTF-16; save it as UTF-8");
+		if (Text.substr(0, 3) == Utf8Mark) Text.remove_prefix(3);
 		while (!Text.empty())
 		{
 			++Line;
@@ -114,18 +106,13 @@ public:
 			File.Problems.push_back(fmt::format("{}: {} more problems are not listed", EscapePath(File.Name), SuppressedProblems));
 	}
 
-	void AddFileProblem(std::string_view Text)
-	{
-		File.Problems.push_back(fmt::format("{}: {}", EscapePath(File.Name), Text));
-	}
+	void AddFileProblem(std::string_view Text) { File.Problems.push_back(fmt::format("{}: {}", EscapePath(File.Name), Text)); }
 
 private:
 	void AddProblem(std::string_view Text)
 	{
-		if (File.Problems.size() < MaxProblems)
-			File.Problems.push_back(fmt::format("{}: {}", File.GetWhere(Line), Text));
-		else
-			++SuppressedProblems;
+		if (File.Problems.size() < MaxProblems) File.Problems.push_back(fmt::format("{}: {}", File.GetWhere(Line), Text));
+		else ++SuppressedProblems;
 	}
 
 	void ParseLine(std::string_view Text)
@@ -133,14 +120,10 @@ private:
 		if (Text.size() > MaxLineBytes)
 			return AddProblem(fmt::format("a line of {} bytes; at most {} are read", Text.size(), MaxLineBytes));
 		Text = Trim(Text);
-		if (Text.empty() || Text[0] == ';')
-			return;
-		if (HasControlCharacter(Text))
-			return AddProblem(fmt::format("control character in {}", Quote(Text)));
-		if (Text[0] == '[')
-			ParseHeader(Text);
-		else
-			ParseEntry(Text);
+		if (Text.empty() || Text[0] == ';') return;
+		if (HasControlCharacter(Text)) return AddProblem(fmt::format("control character in {}", Quote(Text)));
+		if (Text[0] == '[') ParseHeader(Text);
+		else ParseEntry(Text);
 	}
 
 	void ParseHeader(std::string_view Text)
@@ -148,11 +131,9 @@ private:
 		// What follows a broken header must not land in the section before it.
 		State = EState::Skip;
 		const size_t End = Text.find(']');
-		if (End == std::string_view::npos)
-			return AddProblem(fmt::format("section without ']': {}; its entries are ignored", Quote(Text)));
+		if (End == std::string_view::npos) return AddProblem(fmt::format("section without ']': {}; its entries are ignored", Quote(Text)));
 		const std::string_view SectionName = Trim(Text.substr(1, End - 1));
-		if (SectionName.empty())
-			return AddProblem("section without a name; its entries are ignored");
+		if (SectionName.empty()) return AddProblem("section without a name; its entries are ignored");
 		if (!IsBlankOrComment(Text.substr(End + 1)))
 			return AddProblem(fmt::format("text after ']': {}; the section's entries are ignored", Quote(Text)));
 		const auto [Place, bNew] = File.SectionByName.emplace(FoldCase(SectionName), File.Sections.size());
@@ -171,10 +152,8 @@ private:
 
 	void ParseEntry(std::string_view Text)
 	{
-		if (State == EState::Skip)
-			return;
-		if (State == EState::BeforeSections)
-			return AddProblem(fmt::format("{} stands before any [Section]", Quote(Text)));
+		if (State == EState::Skip) return;
+		if (State == EState::BeforeSections) return AddProblem(fmt::format("{} stands before any [Section]", Quote(Text)));
 		const std::string_view Whole = Text;
 		FIniEntry Entry{.Line = Line};
 		if (const std::optional<ERTIniOperation> Operation = GetOperation(Text[0]))
@@ -183,19 +162,14 @@ private:
 			Text.remove_prefix(1);
 		}
 		const size_t Equals = Text.find('=');
-		const bool bMayLackValue =
-		    Entry.Operation == ERTIniOperation::Remove || Entry.Operation == ERTIniOperation::Clear;
+		const bool bMayLackValue = Entry.Operation == ERTIniOperation::Remove || Entry.Operation == ERTIniOperation::Clear;
 		if (Equals == std::string_view::npos && !bMayLackValue)
 			return AddProblem(fmt::format("{} is neither Key=Value nor [Section]", Quote(Whole)));
 		Entry.Key = Trim(Equals == std::string_view::npos ? CutComment(Text) : Text.substr(0, Equals));
-		if (Entry.Key.empty())
-			return AddProblem(fmt::format("no key in {}", Quote(Whole)));
-		if (Equals == std::string_view::npos)
-			Entry.Operation = ERTIniOperation::Clear;
-		else if (!ParseValue(Trim(Text.substr(Equals + 1)), Entry.Value))
-			return;
-		if (CountEntry())
-			File.Sections[Section].Entries.push_back(std::move(Entry));
+		if (Entry.Key.empty()) return AddProblem(fmt::format("no key in {}", Quote(Whole)));
+		if (Equals == std::string_view::npos) Entry.Operation = ERTIniOperation::Clear;
+		else if (!ParseValue(Trim(Text.substr(Equals + 1)), Entry.Value)) return;
+		if (CountEntry()) File.Sections[Section].Entries.push_back(std::move(Entry));
 	}
 
 	bool ParseValue(std::string_view Text, std::string& OutValue)
@@ -218,8 +192,7 @@ private:
 
 	bool CountEntry()
 	{
-		if (++EntryCount == MaxEntries + 1)
-			AddProblem(fmt::format("more than {} entries; the rest is ignored", MaxEntries));
+		if (++EntryCount == MaxEntries + 1) AddProblem(fmt::format("more than {} entries; the rest is ignored", MaxEntries));
 		return EntryCount <= MaxEntries;
 	}
 
@@ -263,8 +236,7 @@ FIniFile FIniFile::Load(const std::string& Path)
 	std::ifstream Stream(Path, std::ios::binary);
 	// One byte more than allowed shows the file too large, whatever its size was said to be.
 	std::string Text(std::min<uintmax_t>(std::filesystem::file_size(Path, Error), MaxFileBytes) + 1, '\0');
-	if (Stream)
-		Stream.read(Text.data(), static_cast<std::streamsize>(Text.size()));
+	if (Stream) Stream.read(Text.data(), static_cast<std::streamsize>(Text.size()));
 	if (!Stream.is_open() || Stream.bad())
 	{
 		Parser.AddFileProblem("cannot be read");
@@ -281,10 +253,7 @@ const FIniSection* FIniFile::FindSection(std::string_view SectionName) const&
 	return Place == SectionByName.end() ? nullptr : &Sections[Place->second];
 }
 
-std::string FIniFile::GetWhere(uint32_t Line) const
-{
-	return fmt::format("{}:{}", EscapePath(Name), Line);
-}
+std::string FIniFile::GetWhere(uint32_t Line) const { return fmt::format("{}:{}", EscapePath(Name), Line); }
 
 // FIniResolver
 
@@ -302,8 +271,7 @@ void FIniResolver::Apply(const FIniFile& File, const FIniSection& Section)
 			Put(File, Entry, Key, Pair);
 			break;
 		case ERTIniOperation::Add:
-			if (SlotsOfPair.find(Pair) == SlotsOfPair.end())
-				Put(File, Entry, Key, Pair);
+			if (SlotsOfPair.find(Pair) == SlotsOfPair.end()) Put(File, Entry, Key, Pair);
 			break;
 		case ERTIniOperation::Append: Put(File, Entry, Key, Pair); break;
 		case ERTIniOperation::Remove: RemovePair(Pair); break;
@@ -322,12 +290,10 @@ void FIniResolver::Put(const FIniFile& File, const FIniEntry& Entry, const std::
 void FIniResolver::RemoveAll(const std::string& Key)
 {
 	const auto Place = SlotsOfKey.find(Key);
-	if (Place == SlotsOfKey.end())
-		return;
+	if (Place == SlotsOfKey.end()) return;
 	for (const size_t Index : Place->second)
 	{
-		if (!Slots[Index].bAlive)
-			continue;
+		if (!Slots[Index].bAlive) continue;
 		Slots[Index].bAlive = false;
 		std::string Pair = Key;
 		(Pair += '\0') += Slots[Index].Value.Value;
@@ -339,10 +305,8 @@ void FIniResolver::RemoveAll(const std::string& Key)
 void FIniResolver::RemovePair(const std::string& Pair)
 {
 	const auto Place = SlotsOfPair.find(Pair);
-	if (Place == SlotsOfPair.end())
-		return;
-	for (const size_t Index : Place->second)
-		Slots[Index].bAlive = false;
+	if (Place == SlotsOfPair.end()) return;
+	for (const size_t Index : Place->second) Slots[Index].bAlive = false;
 	SlotsOfPair.erase(Place);
 }
 
@@ -350,8 +314,7 @@ std::vector<FIniValue> FIniResolver::GetValues() const
 {
 	std::vector<FIniValue> Result;
 	for (const FSlot& Slot : Slots)
-		if (Slot.bAlive)
-			Result.push_back(Slot.Value);
+		if (Slot.bAlive) Result.push_back(Slot.Value);
 	return Result;
 }
 

@@ -17,9 +17,7 @@ namespace
 class FBuilder final : public FPassBuilder
 {
 public:
-	FBuilder(FGraphPass& InPass, const std::vector<FGraphResource>& InResources) : Pass(InPass), Resources(InResources)
-	{
-	}
+	FBuilder(FGraphPass& InPass, const std::vector<FGraphResource>& InResources) : Pass(InPass), Resources(InResources) {}
 	void Read(FGraphTexture Texture, ERTAccess Access) override { Add(Texture.Index, true).Read |= Access; }
 	void Read(FGraphBuffer Buffer, ERTAccess Access) override { Add(Buffer.Index, false).Read |= Access; }
 	void Write(FGraphTexture Texture, ERTAccess Access) override { Add(Texture.Index, true).Write |= Access; }
@@ -40,24 +38,17 @@ private:
 		const bool bIs = Index < Resources.size() && Resources[Index].bTexture == bTexture;
 		if (!bIs)
 		{
-			Pass.BadUse = bTexture ? "declares a texture that is not of this graph"
-			                       : "declares a buffer that is not of this graph";
+			Pass.BadUse = bTexture ? "declares a texture that is not of this graph" : "declares a buffer that is not of this graph";
 		}
 		return bIs;
 	}
 	void AddKeep(uint32_t Index, bool bTexture)
 	{
-		if (IsOfGraph(Index, bTexture))
-		{
-			Pass.Keeps.push_back(Index);
-		}
+		if (IsOfGraph(Index, bTexture)) { Pass.Keeps.push_back(Index); }
 	}
 	FPassUse& Add(uint32_t Index, bool bTexture)
 	{
-		if (!IsOfGraph(Index, bTexture))
-		{
-			return Ignored;
-		}
+		if (!IsOfGraph(Index, bTexture)) { return Ignored; }
 		const auto Is = [&](const FPassUse& Use) { return Use.Resource == Index; };
 		const auto It = std::find_if(Pass.Uses.begin(), Pass.Uses.end(), Is);
 		return It != Pass.Uses.end() ? *It : Pass.Uses.emplace_back(FPassUse{Index});
@@ -71,24 +62,19 @@ private:
 class FContext final : public FPassContext
 {
 public:
-	FContext(IRTCommandList& InCommands, IRTDevice& InDevice, const FGraphPass& InPass,
-	         const std::vector<FGraphResource>& InResources)
+	FContext(IRTCommandList& InCommands, IRTDevice& InDevice, const FGraphPass& InPass, const std::vector<FGraphResource>& InResources)
 	    : List(InCommands),
 	      DeviceUsed(InDevice),
 	      Pass(InPass),
 	      Resources(InResources)
-	{
-	}
+	{}
 	IRTCommandList& Commands() override { return List; }
 	IRTDevice& Device() override { return DeviceUsed; }
 	IRTTexture* GetTexture(FGraphTexture Texture) override
 	{
 		return IsDeclared(Texture.Index) ? Resources[Texture.Index].GetTexture() : nullptr;
 	}
-	IRTBuffer* GetBuffer(FGraphBuffer Buffer) override
-	{
-		return IsDeclared(Buffer.Index) ? Resources[Buffer.Index].GetBuffer() : nullptr;
-	}
+	IRTBuffer* GetBuffer(FGraphBuffer Buffer) override { return IsDeclared(Buffer.Index) ? Resources[Buffer.Index].GetBuffer() : nullptr; }
 	void CountRays(uint64_t More) override { Rays += More; }
 
 	uint64_t Rays = 0;
@@ -112,8 +98,7 @@ private:
 
 const FPassUse* FGraphPass::Find(uint32_t Resource) const
 {
-	const auto It =
-	    std::find_if(Uses.begin(), Uses.end(), [&](const FPassUse& Use) { return Use.Resource == Resource; });
+	const auto It = std::find_if(Uses.begin(), Uses.end(), [&](const FPassUse& Use) { return Use.Resource == Resource; });
 	return It != Uses.end() ? &*It : nullptr;
 }
 
@@ -141,8 +126,7 @@ std::string FGraphResource::Describe() const
 {
 	if (bTexture)
 	{
-		return fmt::format("texture '{}' ({}x{} {})", Name, TextureDesc.Width, TextureDesc.Height,
-		                   ToString(TextureDesc.Format));
+		return fmt::format("texture '{}' ({}x{} {})", Name, TextureDesc.Width, TextureDesc.Height, ToString(TextureDesc.Format));
 	}
 	return fmt::format("buffer '{}' ({} bytes)", Name, BufferDesc.Size);
 }
@@ -281,26 +265,17 @@ void FFrameGraph::AddPass(const char* Name, const std::function<FPassExecute(FPa
 
 FRTStatus FFrameGraph::Compile()
 {
-	if (Impl->bCompiled)
-	{
-		return Impl->CompileStatus;
-	}
+	if (Impl->bCompiled) { return Impl->CompileStatus; }
 	Impl->bCompiled = true;
 	Impl->CompileStatus = Impl->Validate();
-	if (Impl->CompileStatus)
-	{
-		Impl->CompileStatus = Impl->AddPoison();
-	}
+	if (Impl->CompileStatus) { Impl->CompileStatus = Impl->AddPoison(); }
 	if (Impl->CompileStatus)
 	{
 		Impl->Cull();
 		Impl->FindLifetimes();
 		Impl->CompileStatus = Impl->Allocate();
 	}
-	if (Impl->CompileStatus)
-	{
-		Impl->PlaceBarriers();
-	}
+	if (Impl->CompileStatus) { Impl->PlaceBarriers(); }
 	return Impl->CompileStatus;
 }
 
@@ -328,10 +303,7 @@ void FFrameGraph::FImpl::RecordBarriers(IRTCommandList& Commands, const std::vec
 		Item.Before = Barrier.Before;
 		Item.After = Barrier.After;
 	}
-	if (!Items.empty())
-	{
-		Commands.Barriers(Items.data(), static_cast<uint32_t>(Items.size()));
-	}
+	if (!Items.empty()) { Commands.Barriers(Items.data(), static_cast<uint32_t>(Items.size())); }
 }
 
 void FFrameGraph::FImpl::Record(IRTCommandList& Commands, const FRTStatus* Failure)
@@ -342,41 +314,23 @@ void FFrameGraph::FImpl::Record(IRTCommandList& Commands, const FRTStatus* Failu
 	Shared.Poison.clear();
 	FTimedFrame& Frame = Shared.BeginTiming(AliveCount);
 	IRTQueryPool* Queries = AliveCount > 0 ? Frame.Pool.Get() : nullptr;
-	if (Queries)
-	{
-		Commands.ResetQueries(Queries, 0, 2 * AliveCount);
-	}
+	if (Queries) { Commands.ResetQueries(Queries, 0, 2 * AliveCount); }
 	for (const FGraphPass& Pass : Passes)
 	{
-		if (Pass.bCulled)
-		{
-			continue;
-		}
+		if (Pass.bCulled) { continue; }
 		FTraceScope Trace("Pass", Pass.Name);
 		const auto Start = std::chrono::steady_clock::now();
 		const uint32_t Query = static_cast<uint32_t>(2 * Frame.Passes.size());
 		Commands.BeginMarker(Pass.Name.c_str());
-		if (Queries)
-		{
-			Commands.WriteTimestamp(Queries, Query);
-		}
+		if (Queries) { Commands.WriteTimestamp(Queries, Query); }
 		RecordBarriers(Commands, Pass.Barriers);
 		FContext Context(Commands, Shared.Device, Pass, Resources);
-		if (Pass.Execute)
-		{
-			Pass.Execute(Context);
-		}
-		if (Queries)
-		{
-			Commands.WriteTimestamp(Queries, Query + 1);
-		}
+		if (Pass.Execute) { Pass.Execute(Context); }
+		if (Queries) { Commands.WriteTimestamp(Queries, Query + 1); }
 		Commands.EndMarker();
 		const std::chrono::duration<double, std::milli> Time = std::chrono::steady_clock::now() - Start;
 		Frame.Passes.push_back({Pass.Name, -1.0, Time.count(), Context.Rays});
-		if (Failure && !*Failure)
-		{
-			return;
-		}
+		if (Failure && !*Failure) { return; }
 	}
 	RecordBarriers(Commands, FinalBarriers);
 	Frame.bPending = true;
@@ -387,10 +341,7 @@ void FFrameGraph::FImpl::Record(IRTCommandList& Commands, const FRTStatus* Failu
 	}
 }
 
-uint32_t FFrameGraph::GetPassCount() const
-{
-	return static_cast<uint32_t>(Impl->Passes.size());
-}
+uint32_t FFrameGraph::GetPassCount() const { return static_cast<uint32_t>(Impl->Passes.size()); }
 
 uint32_t FFrameGraph::GetCulledPassCount() const
 {

@@ -6,12 +6,8 @@ namespace Lantern
 ERTTextureUsage GetTextureUsage(ERTAccess Access)
 {
 	ERTTextureUsage Usage = ERTTextureUsage::None;
-	const auto Add = [&](ERTAccess Bits, ERTTextureUsage Needed)
-	{
-		if (HasAny(Access, Bits))
-		{
-			Usage |= Needed;
-		}
+	const auto Add = [&](ERTAccess Bits, ERTTextureUsage Needed) {
+		if (HasAny(Access, Bits)) { Usage |= Needed; }
 	};
 	Add(ERTAccess::ShaderRead, ERTTextureUsage::Sampled);
 	Add(ERTAccess::StorageRead | ERTAccess::StorageWrite, ERTTextureUsage::Storage);
@@ -25,12 +21,8 @@ ERTTextureUsage GetTextureUsage(ERTAccess Access)
 ERTBufferUsage GetBufferUsage(ERTAccess Access)
 {
 	ERTBufferUsage Usage = ERTBufferUsage::None;
-	const auto Add = [&](ERTAccess Bits, ERTBufferUsage Needed)
-	{
-		if (HasAny(Access, Bits))
-		{
-			Usage |= Needed;
-		}
+	const auto Add = [&](ERTAccess Bits, ERTBufferUsage Needed) {
+		if (HasAny(Access, Bits)) { Usage |= Needed; }
 	};
 	Add(ERTAccess::ShaderRead | ERTAccess::StorageRead | ERTAccess::StorageWrite, ERTBufferUsage::Storage);
 	Add(ERTAccess::IndexRead, ERTBufferUsage::Index);
@@ -45,16 +37,12 @@ ERTBufferUsage GetBufferUsage(ERTAccess Access)
 
 std::string ToString(ERTAccess Access)
 {
-	static constexpr const char* Names[] = {
-	    "ShaderRead", "StorageRead", "StorageWrite",  "RenderTarget", "DepthWrite", "IndexRead", "IndirectRead",
-	    "CopyRead",   "CopyWrite",   "GeometryInput", "BuildRead",    "BuildWrite", "TraceRead", "HostRead"};
+	static constexpr const char* Names[] = {"ShaderRead", "StorageRead", "StorageWrite", "RenderTarget", "DepthWrite", "IndexRead",
+	    "IndirectRead", "CopyRead", "CopyWrite", "GeometryInput", "BuildRead", "BuildWrite", "TraceRead", "HostRead"};
 	std::string Text;
 	for (uint32_t Bit = 0; Bit < sizeof(Names) / sizeof(Names[0]); ++Bit)
 	{
-		if ((static_cast<uint32_t>(Access) >> Bit) & 1u)
-		{
-			Text += (Text.empty() ? "" : "|") + std::string(Names[Bit]);
-		}
+		if ((static_cast<uint32_t>(Access) >> Bit) & 1u) { Text += (Text.empty() ? "" : "|") + std::string(Names[Bit]); }
 	}
 	return Text.empty() ? "None" : Text;
 }

@@ -9,21 +9,15 @@
 namespace Lantern
 {
 
-constexpr ERTAccess WriteAccesses = ERTAccess::StorageWrite | ERTAccess::RenderTarget | ERTAccess::DepthWrite |
-                                    ERTAccess::CopyWrite | ERTAccess::BuildWrite;
+constexpr ERTAccess WriteAccesses =
+    ERTAccess::StorageWrite | ERTAccess::RenderTarget | ERTAccess::DepthWrite | ERTAccess::CopyWrite | ERTAccess::BuildWrite;
 
-constexpr bool IsWrite(ERTAccess Access)
-{
-	return HasAny(Access, WriteAccesses);
-}
+constexpr bool IsWrite(ERTAccess Access) { return HasAny(Access, WriteAccesses); }
 constexpr ERTAccess Without(ERTAccess Access, ERTAccess Bits)
 {
 	return static_cast<ERTAccess>(static_cast<uint32_t>(Access) & ~static_cast<uint32_t>(Bits));
 }
-constexpr bool Contains(ERTAccess Access, ERTAccess Bits)
-{
-	return (Access & Bits) == Bits;
-}
+constexpr bool Contains(ERTAccess Access, ERTAccess Bits) { return (Access & Bits) == Bits; }
 constexpr bool IsSingle(ERTAccess Access)
 {
 	const uint32_t Bits = static_cast<uint32_t>(Access);
@@ -49,9 +43,8 @@ ERTTextureUsage GetTextureUsage(ERTAccess Access);
 ERTBufferUsage GetBufferUsage(ERTAccess Access);
 
 /// Accesses that a texture cannot have.
-constexpr ERTAccess BufferOnlyAccesses = ERTAccess::IndexRead | ERTAccess::IndirectRead | ERTAccess::GeometryInput |
-                                         ERTAccess::BuildRead | ERTAccess::BuildWrite | ERTAccess::TraceRead |
-                                         ERTAccess::HostRead;
+constexpr ERTAccess BufferOnlyAccesses = ERTAccess::IndexRead | ERTAccess::IndirectRead | ERTAccess::GeometryInput | ERTAccess::BuildRead |
+                                         ERTAccess::BuildWrite | ERTAccess::TraceRead | ERTAccess::HostRead;
 constexpr ERTAccess TextureOnlyAccesses = ERTAccess::RenderTarget | ERTAccess::DepthWrite;
 
 /// "ShaderRead|CopyRead".

@@ -6,44 +6,28 @@
 namespace Lantern
 {
 
-FRTStatus FFrameGraph::FImpl::ValidateUse(const FGraphPass& Pass, const FPassUse& Use,
-                                          const std::vector<bool>& Written) const
+FRTStatus FFrameGraph::FImpl::ValidateUse(const FGraphPass& Pass, const FPassUse& Use, const std::vector<bool>& Written) const
 {
 	const FGraphResource& Resource = Resources[Use.Resource];
 	const ERTAccess Access = Use.GetAccess();
-	const auto Fail = [&](const char* Why)
-	{
+	const auto Fail = [&](const char* Why) {
 		return FRTStatus::Error(ERTResult::InvalidArgument, "Frame graph: pass '%s', %s: %s (%s)", Pass.Name.c_str(),
-		                        Resource.Describe().c_str(), Why, ToString(Access).c_str());
+		    Resource.Describe().c_str(), Why, ToString(Access).c_str());
 	};
-	if (IsWrite(Use.Read))
-	{
-		return Fail("declares a writing access with Read()");
-	}
-	if (Use.Write != ERTAccess::None && !IsWrite(Use.Write))
-	{
-		return Fail("declares a reading access with Write()");
-	}
-	if (!CanCombine(Access))
-	{
-		return Fail("combines accesses that exclude each other");
-	}
+	if (IsWrite(Use.Read)) { return Fail("declares a writing access with Read()"); }
+	if (Use.Write != ERTAccess::None && !IsWrite(Use.Write)) { return Fail("declares a reading access with Write()"); }
+	if (!CanCombine(Access)) { return Fail("combines accesses that exclude each other"); }
 	if (HasAny(Access, Resource.bTexture ? BufferOnlyAccesses : TextureOnlyAccesses))
 	{
-		return Fail(Resource.bTexture ? "uses a texture as only a buffer can be"
-		                              : "uses a buffer as only a texture can be");
+		return Fail(Resource.bTexture ? "uses a texture as only a buffer can be" : "uses a buffer as only a texture can be");
 	}
 	if (!Resource.bImported && HasAny(Access, ERTAccess::HostRead))
 	{
 		return Fail("reads a transient buffer on the host; import a readback buffer");
 	}
 	// An imported buffer in None may have been filled by the host; a texture cannot.
-	const bool bFilled =
-	    Written[Use.Resource] || (Resource.bImported && (!Resource.bTexture || Resource.Current != ERTAccess::None));
-	if (Use.Read != ERTAccess::None && !bFilled)
-	{
-		return Fail("reads what no pass before it writes");
-	}
+	const bool bFilled = Written[Use.Resource] || (Resource.bImported && (!Resource.bTexture || Resource.Current != ERTAccess::None));
+	if (Use.Read != ERTAccess::None && !bFilled) { return Fail("reads what no pass before it writes"); }
 	return FRTStatus::Success();
 }
 
@@ -54,29 +38,23 @@ FRTStatus FFrameGraph::FImpl::Validate() const
 	{
 		if (!Pass.BadUse.empty())
 		{
-			return FRTStatus::Error(ERTResult::InvalidArgument, "Frame graph: pass '%s' %s", Pass.Name.c_str(),
-			                        Pass.BadUse.c_str());
+			return FRTStatus::Error(ERTResult::InvalidArgument, "Frame graph: pass '%s' %s", Pass.Name.c_str(), Pass.BadUse.c_str());
 		}
 		for (const uint32_t Kept : Pass.Keeps)
 		{
 			if (!Resources[Kept].bForLater)
 			{
-				return FRTStatus::Error(ERTResult::InvalidArgument, "Frame graph: pass '%s' keeps %s, which MarkForLater was not called for",
-				                        Pass.Name.c_str(), Resources[Kept].Describe().c_str());
+				return FRTStatus::Error(ERTResult::InvalidArgument,
+				    "Frame graph: pass '%s' keeps %s, which MarkForLater was not called for", Pass.Name.c_str(),
+				    Resources[Kept].Describe().c_str());
 			}
 		}
 		for (const FPassUse& Use : Pass.Uses)
 		{
 			const FRTStatus Status = ValidateUse(Pass, Use, Written);
-			if (!Status)
-			{
-				return Status;
-			}
+			if (!Status) { return Status; }
 		}
-		for (const FPassUse& Use : Pass.Uses)
-		{
-			Written[Use.Resource] = Written[Use.Resource] || Use.Write != ERTAccess::None;
-		}
+		for (const FPassUse& Use : Pass.Uses) { Written[Use.Resource] = Written[Use.Resource] || Use.Write != ERTAccess::None; }
 	}
 	return FRTStatus::Success();
 }
@@ -107,8 +85,7 @@ void FFrameGraph::FImpl::CullWhatNobodyReads(std::vector<bool> Needed)
 {
 	// Backwards: a pass runs if something behind it that runs reads what it writes. A write does not end the need
 	// for earlier ones, for it may cover only a part.
-	const auto IsWanted = [&](const FPassUse& Use)
-	{
+	const auto IsWanted = [&](const FPassUse& Use) {
 		const FGraphResource& Resource = Resources[Use.Resource];
 		const bool bSeenOutside = Resource.bImported && !Resource.bForLater;
 		return Use.Write != ERTAccess::None && (bSeenOutside || Needed[Use.Resource]);
@@ -128,19 +105,12 @@ void FFrameGraph::FImpl::DropUnreadOutputs()
 	std::vector<bool> Needed(Resources.size(), false);
 	for (auto Pass = Passes.rbegin(); Pass != Passes.rend(); ++Pass)
 	{
-		if (Pass->bCulled)
-		{
-			continue;
-		}
-		const auto IsUnread = [&](const FPassUse& Use)
-		{
+		if (Pass->bCulled) { continue; }
+		const auto IsUnread = [&](const FPassUse& Use) {
 			// What the pass reads itself must be there, and as it was left.
 			const bool bOutput = Use.bIfRead && Use.Read == ERTAccess::None && !Resources[Use.Resource].bImported;
 			const bool bDrop = bOutput && !Needed[Use.Resource];
-			if (bDrop)
-			{
-				Pass->Dropped.push_back(Use.Resource);
-			}
+			if (bDrop) { Pass->Dropped.push_back(Use.Resource); }
 			return bDrop;
 		};
 		std::erase_if(Pass->Uses, IsUnread);
@@ -155,12 +125,8 @@ void FFrameGraph::FImpl::ReportWritten() const
 {
 	for (uint32_t Index = 0; Index < Resources.size(); ++Index)
 	{
-		if (!Resources[Index].OutWritten)
-		{
-			continue;
-		}
-		const auto Writes = [&](const FGraphPass& Pass)
-		{
+		if (!Resources[Index].OutWritten) { continue; }
+		const auto Writes = [&](const FGraphPass& Pass) {
 			const FPassUse* const Use = Pass.Find(Index);
 			return !Pass.bCulled && Use && Use->Write != ERTAccess::None;
 		};
@@ -189,31 +155,22 @@ FRTStatus FFrameGraph::FImpl::Allocate()
 {
 	for (uint32_t Index = 0; Index < Passes.size(); ++Index)
 	{
-		if (Passes[Index].bCulled)
-		{
-			continue;
-		}
+		if (Passes[Index].bCulled) { continue; }
 		for (const FPassUse& Use : Passes[Index].Uses)
 		{
 			FGraphResource& Resource = Resources[Use.Resource];
-			if (Resource.bImported || Resource.FirstPass != Index)
-			{
-				continue;
-			}
+			if (Resource.bImported || Resource.FirstPass != Index) { continue; }
 			const FRTStatus Status = Shared.Acquire(Resource.MakeKey(), Resource.Name, this, Resource.Pooled);
 			if (!Status)
 			{
-				return FRTStatus::Error(Status.Code, "Frame graph: cannot create %s for pass '%s': %s",
-				                        Resource.Describe().c_str(), Passes[Index].Name.c_str(), Status.Message);
+				return FRTStatus::Error(Status.Code, "Frame graph: cannot create %s for pass '%s': %s", Resource.Describe().c_str(),
+				    Passes[Index].Name.c_str(), Status.Message);
 			}
 		}
 		for (const FPassUse& Use : Passes[Index].Uses)
 		{
 			const FGraphResource& Resource = Resources[Use.Resource];
-			if (!Resource.bImported && Resource.LastPass == Index)
-			{
-				Resource.Pooled->bBusy = false;
-			}
+			if (!Resource.bImported && Resource.LastPass == Index) { Resource.Pooled->bBusy = false; }
 		}
 	}
 	return FRTStatus::Success();
@@ -228,40 +185,27 @@ void FFrameGraph::FImpl::PlaceBarriers()
 	{
 		for (const FPassUse& Use : Passes[Index].Uses)
 		{
-			if (Passes[Index].bCulled)
-			{
-				continue;
-			}
-			if (Uses[Use.Resource].empty())
-			{
-				Order.push_back(Use.Resource);
-			}
+			if (Passes[Index].bCulled) { continue; }
+			if (Uses[Use.Resource].empty()) { Order.push_back(Use.Resource); }
 			Uses[Use.Resource].emplace_back(Index, Use.GetAccess());
 		}
 	}
-	for (const uint32_t Resource : Order)
-	{
-		PlaceBarriersOf(Resource, Uses[Resource]);
-	}
+	for (const uint32_t Resource : Order) { PlaceBarriersOf(Resource, Uses[Resource]); }
 	for (uint32_t Index = 0; Index < Resources.size(); ++Index)
 	{
-		if (Uses[Index].empty() && Resources[Index].bImported)
-		{
-			PlaceBarriersOf(Index, {});
-		}
+		if (Uses[Index].empty() && Resources[Index].bImported) { PlaceBarriersOf(Index, {}); }
 	}
 	for (FGraphPass& Pass : Passes)
 	{
 		std::sort(Pass.Barriers.begin(), Pass.Barriers.end(),
-		          [](const FGraphBarrier& A, const FGraphBarrier& B) { return A.Resource < B.Resource; });
+		    [](const FGraphBarrier& A, const FGraphBarrier& B) { return A.Resource < B.Resource; });
 	}
 }
 
 void FFrameGraph::FImpl::PlaceBarriersOf(uint32_t Index, const std::vector<std::pair<uint32_t, ERTAccess>>& Uses)
 {
 	const FGraphResource& Resource = Resources[Index];
-	const auto SharesLayout = [&](ERTAccess A, ERTAccess B)
-	{ return !Resource.bTexture || GetLayoutClass(A) == GetLayoutClass(B); };
+	const auto SharesLayout = [&](ERTAccess A, ERTAccess B) { return !Resource.bTexture || GetLayoutClass(A) == GetLayoutClass(B); };
 
 	// The contents of a pooled resource are worthless, but its last tenant's work must be over.
 	ERTAccess State = Resource.Current;
@@ -275,28 +219,20 @@ void FFrameGraph::FImpl::PlaceBarriersOf(uint32_t Index, const std::vector<std::
 		// Reads in a row become one state, entered once for all of them.
 		ERTAccess Access = Uses[Begin].second;
 		size_t End = Begin + 1;
-		while (!IsWrite(Access) && End < Uses.size() && !IsWrite(Uses[End].second) &&
-		       SharesLayout(Access, Uses[End].second))
+		while (!IsWrite(Access) && End < Uses.size() && !IsWrite(Uses[End].second) && SharesLayout(Access, Uses[End].second))
 		{
 			Access |= Uses[End++].second;
 		}
-		const bool bCovered =
-		    !IsWrite(State) && !IsWrite(Access) && Contains(State, Access) && SharesLayout(State, Access);
+		const bool bCovered = !IsWrite(State) && !IsWrite(Access) && Contains(State, Access) && SharesLayout(State, Access);
 		const bool bFresh = State == ERTAccess::None && !Resource.bTexture;
 		if (!bCovered)
 		{
-			if (!bFresh)
-			{
-				Passes[Uses[Begin].first].Barriers.push_back({Index, State, Access});
-			}
+			if (!bFresh) { Passes[Uses[Begin].first].Barriers.push_back({Index, State, Access}); }
 			State = Access;
 		}
 		Begin = End;
 	}
-	if (Resource.Pooled)
-	{
-		PooledAccess[Resource.Pooled.get()] = State;
-	}
+	if (Resource.Pooled) { PooledAccess[Resource.Pooled.get()] = State; }
 	// Exactly After, even where the state holds it among other reads: the engine's next barrier names it alone.
 	const bool bNothingToWaitFor = State == ERTAccess::None && !Resource.bTexture;
 	if (Resource.bImported && Resource.After != ERTAccess::None && Resource.After != State && !bNothingToWaitFor)

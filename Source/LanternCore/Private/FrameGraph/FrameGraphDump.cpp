@@ -15,19 +15,10 @@ std::string DumpUses(const FGraphPass& Pass, const std::vector<FGraphResource>& 
 	for (const FPassUse& Use : Pass.Uses)
 	{
 		const std::string& Name = Resources[Use.Resource].Name;
-		if (Use.Read != ERTAccess::None)
-		{
-			Text += fmt::format("      read    {}  {}\n", Name, ToString(Use.Read));
-		}
-		if (Use.Write != ERTAccess::None)
-		{
-			Text += fmt::format("      write   {}  {}\n", Name, ToString(Use.Write));
-		}
+		if (Use.Read != ERTAccess::None) { Text += fmt::format("      read    {}  {}\n", Name, ToString(Use.Read)); }
+		if (Use.Write != ERTAccess::None) { Text += fmt::format("      write   {}  {}\n", Name, ToString(Use.Write)); }
 	}
-	for (const uint32_t Kept : Pass.Keeps)
-	{
-		Text += fmt::format("      keep    {}\n", Resources[Kept].Name);
-	}
+	for (const uint32_t Kept : Pass.Keeps) { Text += fmt::format("      keep    {}\n", Resources[Kept].Name); }
 	return Text;
 }
 
@@ -36,8 +27,8 @@ std::string DumpBarriers(const std::vector<FGraphBarrier>& Barriers, const std::
 	std::string Text;
 	for (const FGraphBarrier& Barrier : Barriers)
 	{
-		Text += fmt::format("      barrier {}  {} -> {}\n", Resources[Barrier.Resource].Name, ToString(Barrier.Before),
-		                    ToString(Barrier.After));
+		Text += fmt::format(
+		    "      barrier {}  {} -> {}\n", Resources[Barrier.Resource].Name, ToString(Barrier.Before), ToString(Barrier.After));
 	}
 	return Text;
 }
@@ -45,10 +36,7 @@ std::string DumpBarriers(const std::vector<FGraphBarrier>& Barriers, const std::
 std::string DumpResource(const FGraphResource& Resource)
 {
 	std::string Text = fmt::format("  {}, {}", Resource.Describe(), Resource.bImported ? "imported" : "transient");
-	if (Resource.FirstPass == NoPass)
-	{
-		return Text + ", unused\n";
-	}
+	if (Resource.FirstPass == NoPass) { return Text + ", unused\n"; }
 	Text += fmt::format(", passes {} to {}", Resource.FirstPass, Resource.LastPass);
 	if (Resource.Pooled)
 	{
@@ -71,17 +59,10 @@ std::string FFrameGraph::Dump() const
 		Body += fmt::format("  {:3} {}{}\n", Index, Pass.Name, Pass.bCulled ? " (culled)" : "");
 		Body += DumpBarriers(Pass.Barriers, Impl->Resources) + DumpUses(Pass, Impl->Resources);
 	}
-	if (!Impl->FinalBarriers.empty())
-	{
-		Body += "  end\n" + DumpBarriers(Impl->FinalBarriers, Impl->Resources);
-	}
+	if (!Impl->FinalBarriers.empty()) { Body += "  end\n" + DumpBarriers(Impl->FinalBarriers, Impl->Resources); }
 	Body += "resources\n";
-	for (const FGraphResource& Resource : Impl->Resources)
-	{
-		Body += DumpResource(Resource);
-	}
-	return fmt::format("frame graph: {} passes, {} culled, {} barriers\n{}", GetPassCount(), GetCulledPassCount(),
-	                   BarrierCount, Body);
+	for (const FGraphResource& Resource : Impl->Resources) { Body += DumpResource(Resource); }
+	return fmt::format("frame graph: {} passes, {} culled, {} barriers\n{}", GetPassCount(), GetCulledPassCount(), BarrierCount, Body);
 }
 
 } // namespace Lantern

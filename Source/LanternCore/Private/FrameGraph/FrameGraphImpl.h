@@ -59,8 +59,7 @@ struct FFrameGraphResources::FImpl
 
 	/// Takes a pooled resource that Owner may use, or creates one. Name of the same resource is preferred, so that
 	/// bindless indices and debugger names stay the same from frame to frame.
-	FRTStatus Acquire(const FPoolKey& Key, const std::string& Name, const void* Owner,
-	                  std::shared_ptr<FPooledResource>& Out);
+	FRTStatus Acquire(const FPoolKey& Key, const std::string& Name, const void* Owner, std::shared_ptr<FPooledResource>& Out);
 	FRTStatus Create(const FPoolKey& Key, const std::string& Name, std::shared_ptr<FPooledResource>& Out);
 	/// Returns bytes freed.
 	uint64_t Trim(uint32_t Frames);
@@ -98,10 +97,7 @@ struct FGraphResource
 	std::shared_ptr<FPooledResource> Pooled;
 
 	FPoolKey MakeKey() const;
-	IRTTexture* GetTexture() const
-	{
-		return bImported ? ImportedTexture.Get() : Pooled ? Pooled->Texture.Get() : nullptr;
-	}
+	IRTTexture* GetTexture() const { return bImported ? ImportedTexture.Get() : Pooled ? Pooled->Texture.Get() : nullptr; }
 	IRTBuffer* GetBuffer() const { return bImported ? ImportedBuffer.Get() : Pooled ? Pooled->Buffer.Get() : nullptr; }
 	std::string Describe() const; ///< "texture 'Name' (64x64 R8_UNORM)"
 };

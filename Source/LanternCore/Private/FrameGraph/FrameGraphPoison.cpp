@@ -13,10 +13,7 @@ namespace
 constexpr uint32_t NotANumber = ~0u;
 
 /// Of the largest level.
-uint64_t GetBytes(const FGraphTextureDesc& Desc)
-{
-	return uint64_t(Desc.Width) * Desc.Height * BytesPerTexel(Desc.Format);
-}
+uint64_t GetBytes(const FGraphTextureDesc& Desc) { return uint64_t(Desc.Width) * Desc.Height * BytesPerTexel(Desc.Format); }
 
 bool CanBePoisoned(const FGraphResource& Resource)
 {
@@ -58,10 +55,7 @@ void PoisonTextures(FPassContext& Pass, FGraphBuffer Bits, const std::vector<FGr
 	for (const FGraphTexture Texture : Textures)
 	{
 		IRTTexture* const Dest = Pass.GetTexture(Texture);
-		for (uint32_t Mip = 0; Mip < Dest->GetDesc().MipCount; ++Mip)
-		{
-			Commands.CopyBufferToTexture(Dest, Mip, 0, Source, 0);
-		}
+		for (uint32_t Mip = 0; Mip < Dest->GetDesc().MipCount; ++Mip) { Commands.CopyBufferToTexture(Dest, Mip, 0, Source, 0); }
 	}
 	SwitchBits(Pass, Bits, ERTAccess::CopyRead, ERTAccess::StorageWrite);
 }
@@ -74,24 +68,14 @@ FRTStatus FFrameGraph::FImpl::FindPoisoned(std::vector<FGraphTexture>& OutTextur
 	{
 		const FGraphResource& Resource = Resources[Index];
 		const auto IsIn = [&](const std::string& Part) { return Resource.Name.find(Part) != std::string::npos; };
-		if (!Resource.bHistory || std::none_of(Shared.Poison.begin(), Shared.Poison.end(), IsIn))
-		{
-			continue;
-		}
+		if (!Resource.bHistory || std::none_of(Shared.Poison.begin(), Shared.Poison.end(), IsIn)) { continue; }
 		if (!CanBePoisoned(Resource))
 		{
-			return FRTStatus::Error(ERTResult::InvalidArgument,
-			                        "Frame graph: %s cannot be poisoned: it has no usage CopyDest",
-			                        Resource.Describe().c_str());
+			return FRTStatus::Error(
+			    ERTResult::InvalidArgument, "Frame graph: %s cannot be poisoned: it has no usage CopyDest", Resource.Describe().c_str());
 		}
-		if (Resource.bTexture)
-		{
-			OutTextures.push_back({Index});
-		}
-		else
-		{
-			OutBuffers.push_back({Index});
-		}
+		if (Resource.bTexture) { OutTextures.push_back({Index}); }
+		else { OutBuffers.push_back({Index}); }
 	}
 	return FRTStatus::Success();
 }
@@ -101,10 +85,7 @@ FRTStatus FFrameGraph::FImpl::AddPoison()
 	std::vector<FGraphTexture> Textures;
 	std::vector<FGraphBuffer> Buffers;
 	const FRTStatus Status = FindPoisoned(Textures, Buffers);
-	if (!Status || (Textures.empty() && Buffers.empty()))
-	{
-		return Status;
-	}
+	if (!Status || (Textures.empty() && Buffers.empty())) { return Status; }
 	FGraphPass Pass;
 	Pass.Name = "Poison";
 	Pass.bNeverCull = true;
@@ -130,13 +111,9 @@ FRTStatus FFrameGraph::FImpl::AddPoison()
 		Resource.BufferDesc = {(Bytes + 3) / 4 * 4, ERTBufferUsage::CopySource | ERTBufferUsage::CopyDest};
 		Write(Bits.Index, ERTAccess::StorageWrite);
 	}
-	Pass.Execute = [=](FPassContext& Context)
-	{
+	Pass.Execute = [=](FPassContext& Context) {
 		for (const auto& [Buffer, Access] : Filled) { FillBuffer(Context, Buffer, Access); }
-		if (Bits.IsValid())
-		{
-			PoisonTextures(Context, Bits, Textures);
-		}
+		if (Bits.IsValid()) { PoisonTextures(Context, Bits, Textures); }
 	};
 	Passes.insert(Passes.begin(), std::move(Pass));
 	return FRTStatus::Success();

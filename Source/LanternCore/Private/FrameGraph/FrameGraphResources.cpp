@@ -18,8 +18,7 @@ uint64_t FPoolKey::GetBytes() const
 	return Bytes;
 }
 
-FRTStatus FFrameGraphResources::FImpl::Create(const FPoolKey& Key, const std::string& Name,
-                                              std::shared_ptr<FPooledResource>& Out)
+FRTStatus FFrameGraphResources::FImpl::Create(const FPoolKey& Key, const std::string& Name, std::shared_ptr<FPooledResource>& Out)
 {
 	auto Made = std::make_shared<FPooledResource>();
 	Made->Name = Name;
@@ -52,17 +51,14 @@ FRTStatus FFrameGraphResources::FImpl::Create(const FPoolKey& Key, const std::st
 	return Status;
 }
 
-FRTStatus FFrameGraphResources::FImpl::Acquire(const FPoolKey& Key, const std::string& Name, const void* Owner,
-                                               std::shared_ptr<FPooledResource>& Out)
+FRTStatus FFrameGraphResources::FImpl::Acquire(
+    const FPoolKey& Key, const std::string& Name, const void* Owner, std::shared_ptr<FPooledResource>& Out)
 {
 	Out.reset();
 	for (const std::shared_ptr<FPooledResource>& Item : Pool[Key])
 	{
 		const bool bFree = !Item->bBusy && (!Item->Owner || Item->Owner == Owner);
-		if (bFree && (!Out || Item->Name == Name))
-		{
-			Out = Item;
-		}
+		if (bFree && (!Out || Item->Name == Name)) { Out = Item; }
 	}
 	FRTStatus Status;
 	if (!Out)
@@ -87,16 +83,12 @@ FRTStatus FFrameGraphResources::FImpl::Acquire(const FPoolKey& Key, const std::s
 uint64_t FFrameGraphResources::FImpl::Trim(uint32_t FrameCount)
 {
 	uint64_t Freed = 0;
-	const auto IsOld = [&](const std::shared_ptr<FPooledResource>& Item)
-	{
+	const auto IsOld = [&](const std::shared_ptr<FPooledResource>& Item) {
 		const bool bOld = !Item->Owner && (FrameCount == 0 || Item->LastFrame + FrameCount <= FrameCounter);
 		Freed += bOld ? Item->Key.GetBytes() : 0;
 		return bOld;
 	};
-	for (auto& [Key, Items] : Pool)
-	{
-		std::erase_if(Items, IsOld);
-	}
+	for (auto& [Key, Items] : Pool) { std::erase_if(Items, IsOld); }
 	std::erase_if(Pool, [](const auto& Entry) { return Entry.second.empty(); });
 	return Freed;
 }
@@ -106,15 +98,11 @@ FTimedFrame& FFrameGraphResources::FImpl::BeginTiming(uint32_t PassCount)
 	constexpr size_t MaxFrames = 8; // more than any engine keeps in flight
 	PollTimings();
 	auto It = std::find_if(Frames.begin(), Frames.end(), [](const auto& Frame) { return !Frame->bPending; });
-	if (It == Frames.end() && Frames.size() < MaxFrames)
-	{
-		It = Frames.insert(It, std::make_unique<FTimedFrame>());
-	}
+	if (It == Frames.end() && Frames.size() < MaxFrames) { It = Frames.insert(It, std::make_unique<FTimedFrame>()); }
 	if (It == Frames.end())
 	{
 		// Lists that were recorded but never submitted would otherwise hold the ring for ever.
-		It = std::min_element(Frames.begin(), Frames.end(),
-		                      [](const auto& A, const auto& B) { return A->Serial < B->Serial; });
+		It = std::min_element(Frames.begin(), Frames.end(), [](const auto& A, const auto& B) { return A->Serial < B->Serial; });
 	}
 	FTimedFrame& Frame = **It;
 	Frame.Serial = FrameCounter;
@@ -124,10 +112,7 @@ FTimedFrame& FFrameGraphResources::FImpl::BeginTiming(uint32_t PassCount)
 	if (Device.GetCapabilities().bTimestamps && Needed > 0 && bTooSmall)
 	{
 		uint32_t Count = 64;
-		while (Count < Needed)
-		{
-			Count *= 2;
-		}
+		while (Count < Needed) { Count *= 2; }
 		Frame.LastFirstNs = 0;
 		const FRTStatus Status = Device.CreateQueryPool(ERTQuery::Timestamp, Count, Frame.Pool.ReleaseAndGetAddress());
 		if (!Status)
@@ -144,10 +129,7 @@ void FFrameGraphResources::FImpl::PollTimings()
 	std::vector<FTimedFrame*> Pending;
 	for (const auto& Frame : Frames)
 	{
-		if (Frame->bPending)
-		{
-			Pending.push_back(Frame.get());
-		}
+		if (Frame->bPending) { Pending.push_back(Frame.get()); }
 	}
 	std::sort(Pending.begin(), Pending.end(), [](auto* A, auto* B) { return A->Serial < B->Serial; });
 	std::vector<uint64_t> Times;
@@ -158,10 +140,7 @@ void FFrameGraphResources::FImpl::PollTimings()
 		if (Frame->Pool && Count > 0)
 		{
 			// The pool still holds its earlier times until the GPU reaches the reset.
-			if (!Frame->Pool->GetResults(0, Count, Times.data()) || Times[0] == Frame->LastFirstNs)
-			{
-				continue;
-			}
+			if (!Frame->Pool->GetResults(0, Count, Times.data()) || Times[0] == Frame->LastFirstNs) { continue; }
 			Frame->LastFirstNs = Times[0];
 			for (uint32_t I = 0; I < Frame->Passes.size(); ++I)
 			{
@@ -188,34 +167,19 @@ const std::vector<FPassTiming>& FFrameGraphResources::GetTimings()
 	return Impl->Newest;
 }
 
-uint64_t FFrameGraphResources::GetFrame() const
-{
-	return Impl->FrameCounter;
-}
+uint64_t FFrameGraphResources::GetFrame() const { return Impl->FrameCounter; }
 
-std::vector<FFrameTiming> FFrameGraphResources::TakeFrameTimings()
-{
-	return std::exchange(Impl->Done, {});
-}
+std::vector<FFrameTiming> FFrameGraphResources::TakeFrameTimings() { return std::exchange(Impl->Done, {}); }
 
-void FFrameGraphResources::Trim(uint32_t Frames)
-{
-	Impl->Trim(Frames);
-}
+void FFrameGraphResources::Trim(uint32_t Frames) { Impl->Trim(Frames); }
 
 uint64_t FFrameGraphResources::GetPooledBytes() const
 {
 	uint64_t Bytes = 0;
-	for (const auto& [Key, Items] : Impl->Pool)
-	{
-		Bytes += Key.GetBytes() * Items.size();
-	}
+	for (const auto& [Key, Items] : Impl->Pool) { Bytes += Key.GetBytes() * Items.size(); }
 	return Bytes;
 }
 
-void FFrameGraphResources::PoisonHistory(std::string NamePart)
-{
-	Impl->Poison.push_back(std::move(NamePart));
-}
+void FFrameGraphResources::PoisonHistory(std::string NamePart) { Impl->Poison.push_back(std::move(NamePart)); }
 
 } // namespace Lantern

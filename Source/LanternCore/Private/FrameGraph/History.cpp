@@ -42,14 +42,10 @@ struct FKeptBuffer : FKept
 
 bool IsSame(const FGraphTextureDesc& A, const FGraphTextureDesc& B)
 {
-	return A.Width == B.Width && A.Height == B.Height && A.Format == B.Format && A.ExtraUsage == B.ExtraUsage &&
-	       A.MipCount == B.MipCount;
+	return A.Width == B.Width && A.Height == B.Height && A.Format == B.Format && A.ExtraUsage == B.ExtraUsage && A.MipCount == B.MipCount;
 }
 
-bool IsSame(const FGraphBufferDesc& A, const FGraphBufferDesc& B)
-{
-	return A.Size == B.Size && A.ExtraUsage == B.ExtraUsage;
-}
+bool IsSame(const FGraphBufferDesc& A, const FGraphBufferDesc& B) { return A.Size == B.Size && A.ExtraUsage == B.ExtraUsage; }
 
 uint64_t GetTexelBytes(const FGraphTextureDesc& Desc)
 {

@@ -55,12 +55,8 @@ public:
 	FTreeIncluder(const FIncludeTree& InTree, const std::string& Searched)
 	    : Tree(InTree),
 	      NotFound(fmt::format("file not found (searched its folder and {})", Searched))
-	{
-	}
-	IncludeResult* includeLocal(const char* Header, const char* From, size_t) override
-	{
-		return Find(Header, From, true);
-	}
+	{}
+	IncludeResult* includeLocal(const char* Header, const char* From, size_t) override { return Find(Header, From, true); }
 	IncludeResult* includeSystem(const char* Header, const char* From, size_t) override
 	{
 		// glslang asks here too when a quoted include was not found: the last answer is what it prints.
@@ -102,12 +98,9 @@ std::string CleanLog(std::string_view Log)
 		std::string_view Line = Log.substr(0, End);
 		Log.remove_prefix(std::min(End + 1, Log.size()));
 		const bool bError = Line.starts_with("ERROR: ");
-		if (bError)
-		{
-			Line.remove_prefix(7);
-		}
-		const bool bSummary = bError && Line.find("compilation error") != std::string_view::npos &&
-		                      Line.find("No code generated") != std::string_view::npos;
+		if (bError) { Line.remove_prefix(7); }
+		const bool bSummary =
+		    bError && Line.find("compilation error") != std::string_view::npos && Line.find("No code generated") != std::string_view::npos;
 		if (!Line.empty() && !bSummary)
 		{
 			Out += Out.empty() ? "" : "\n";
@@ -135,10 +128,7 @@ void Optimize(std::vector<uint32_t>& Words)
 	spvtools::OptimizerOptions Options;
 	Options.set_run_validator(false);
 	std::vector<uint32_t> Smaller;
-	if (Optimizer.Run(Words.data(), Words.size(), &Smaller, Options) && !Smaller.empty())
-	{
-		Words = std::move(Smaller);
-	}
+	if (Optimizer.Run(Words.data(), Words.size(), &Smaller, Options) && !Smaller.empty()) { Words = std::move(Smaller); }
 }
 
 } // namespace
@@ -147,9 +137,8 @@ std::string GetGlslangVersion()
 {
 	constexpr int PassesVersion = 1; // to be raised when Optimize changes
 	const glslang::Version Version = glslang::GetVersion();
-	return fmt::format("glslang {}.{}.{}{} generator {} Vulkan 1.3 SPIR-V 1.5 {} passes {}", Version.major,
-	                   Version.minor, Version.patch, Version.flavor ? Version.flavor : "",
-	                   glslang::GetSpirvGeneratorVersion(), spvSoftwareVersionString(), PassesVersion);
+	return fmt::format("glslang {}.{}.{}{} generator {} Vulkan 1.3 SPIR-V 1.5 {} passes {}", Version.major, Version.minor, Version.patch,
+	    Version.flavor ? Version.flavor : "", glslang::GetSpirvGeneratorVersion(), spvSoftwareVersionString(), PassesVersion);
 }
 
 // Not at the exit of the process: other threads may still compile then.
@@ -205,15 +194,9 @@ bool CompileWithGlslang(const FGlslangJob& Job, std::vector<uint32_t>& OutWords,
 	std::vector<unsigned int> Words;
 	glslang::GlslangToSpv(*Program.getIntermediate(Stage), Words, &Logger, &Options);
 	OutWords.assign(Words.begin(), Words.end());
-	if (Job.bOptimize)
-	{
-		Optimize(OutWords);
-	}
+	if (Job.bOptimize) { Optimize(OutWords); }
 	OutLog = CleanLog(std::string(Shader.getInfoLog()) + Logger.getAllMessages());
-	if (OutWords.empty())
-	{
-		OutLog = fmt::format("{}:0: no SPIR-V generated: {}", EscapePath(Root.Name), OutLog);
-	}
+	if (OutWords.empty()) { OutLog = fmt::format("{}:0: no SPIR-V generated: {}", EscapePath(Root.Name), OutLog); }
 	return !OutWords.empty();
 }
 

@@ -5,9 +5,9 @@
 #include <cctype>
 #include <chrono>
 
-#include "Shaders/GlslangCompile.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
+#include "Shaders/GlslangCompile.h"
 #include "Shaders/ShaderDiskCache.h"
 #include "Shaders/ShaderIncludes.h"
 
@@ -20,15 +20,11 @@ namespace
 bool IsIdentifier(const std::string& Name)
 {
 	const auto IsWord = [](unsigned char C) { return std::isalnum(C) || C == '_'; };
-	return !Name.empty() && !std::isdigit(static_cast<unsigned char>(Name[0])) &&
-	       std::all_of(Name.begin(), Name.end(), IsWord);
+	return !Name.empty() && !std::isdigit(static_cast<unsigned char>(Name[0])) && std::all_of(Name.begin(), Name.end(), IsWord);
 }
 
 /// A name of several lines could forge one of the compiler's log.
-bool IsOneLine(std::string_view Text)
-{
-	return Text.find_first_of("\n\r") == std::string_view::npos;
-}
+bool IsOneLine(std::string_view Text) { return Text.find_first_of("\n\r") == std::string_view::npos; }
 
 /// What is wrong with the names and defines, or empty.
 std::string CheckSource(const FShaderSource& Source)
@@ -43,7 +39,7 @@ std::string CheckSource(const FShaderSource& Source)
 		if (!IsIdentifier(Name) || !IsOneLine(Value))
 		{
 			return fmt::format("{}:0: define \"{}\" = \"{}\" is not a name and one line of text", EscapePath(Source.Path),
-			                   EscapeText(Name, MaxQuotedBytes), EscapeText(Value, MaxQuotedBytes));
+			    EscapeText(Name, MaxQuotedBytes), EscapeText(Value, MaxQuotedBytes));
 		}
 	}
 	return {};
@@ -52,17 +48,11 @@ std::string CheckSource(const FShaderSource& Source)
 std::string MakePreamble(const FShaderSource& Source)
 {
 	std::string Text = "#extension GL_GOOGLE_include_directive : require\n";
-	for (const auto& [Name, Value] : Source.Defines)
-	{
-		Text += fmt::format("#define {} {}\n", Name, Value);
-	}
+	for (const auto& [Name, Value] : Source.Defines) { Text += fmt::format("#define {} {}\n", Name, Value); }
 	return Text;
 }
 
-void Append(std::string& Bytes, const void* Data, size_t Size)
-{
-	Bytes.append(static_cast<const char*>(Data), Size);
-}
+void Append(std::string& Bytes, const void* Data, size_t Size) { Bytes.append(static_cast<const char*>(Data), Size); }
 
 void AppendText(std::string& Bytes, std::string_view Text)
 {
@@ -80,8 +70,7 @@ struct FShaderCompiler::FImpl
 	      Resolver(Desc.SearchFolders, Files),
 	      Disk(Desc.CacheFolder),
 	      Version(GetGlslangVersion())
-	{
-	}
+	{}
 
 	FHash128 MakeKey(const FIncludeTree& Tree, const FShaderSource& Source, const std::string& Preamble) const;
 	FRTStatus Fail(const FShaderSource& Source, const std::string& Log);
@@ -94,8 +83,7 @@ struct FShaderCompiler::FImpl
 	std::atomic<uint64_t> Compiled{0}, CacheHits{0}, Failed{0}, CompileNs{0};
 };
 
-FHash128 FShaderCompiler::FImpl::MakeKey(const FIncludeTree& Tree, const FShaderSource& Source,
-                                         const std::string& Preamble) const
+FHash128 FShaderCompiler::FImpl::MakeKey(const FIncludeTree& Tree, const FShaderSource& Source, const std::string& Preamble) const
 {
 	std::string Bytes;
 	AppendText(Bytes, Version);
@@ -133,15 +121,9 @@ FRTStatus FShaderCompiler::Compile(const FShaderSource& Source, FShaderBinary& O
 	Out.Name = Source.Name.empty() ? Source.Path : Source.Name;
 	Out.Stage = Source.Stage;
 	const std::string Wrong = CheckSource(Source);
-	if (!Wrong.empty())
-	{
-		return Impl->Fail(Source, Wrong);
-	}
+	if (!Wrong.empty()) { return Impl->Fail(Source, Wrong); }
 	const FIncludeTree Tree = Impl->Resolver.Resolve(Source);
-	if (!Tree.Error.empty())
-	{
-		return Impl->Fail(Source, Tree.Error);
-	}
+	if (!Tree.Error.empty()) { return Impl->Fail(Source, Tree.Error); }
 	const std::string Preamble = MakePreamble(Source);
 	const FHash128 Key = Impl->MakeKey(Tree, Source, Preamble);
 	if (Impl->Disk.Load(Key, Out.Words))
@@ -152,8 +134,7 @@ FRTStatus FShaderCompiler::Compile(const FShaderSource& Source, FShaderBinary& O
 	}
 
 	const auto Start = std::chrono::steady_clock::now();
-	FGlslangJob Job{
-	    &Tree, Source.Stage, Preamble, Impl->Resolver.GetFoldersText(), Impl->Desc.bDebugInfo, Impl->Desc.bOptimize};
+	FGlslangJob Job{&Tree, Source.Stage, Preamble, Impl->Resolver.GetFoldersText(), Impl->Desc.bDebugInfo, Impl->Desc.bOptimize};
 	std::string Log;
 	const bool bOk = CompileWithGlslang(Job, Out.Words, Log);
 	const auto Time = std::chrono::steady_clock::now() - Start;
@@ -163,10 +144,7 @@ FRTStatus FShaderCompiler::Compile(const FShaderSource& Source, FShaderBinary& O
 		Out.Words.clear();
 		return Impl->Fail(Source, Log);
 	}
-	if (!Log.empty())
-	{
-		LogWarning("Shader {}: {}", EscapePath(Source.Path), Log);
-	}
+	if (!Log.empty()) { LogWarning("Shader {}: {}", EscapePath(Source.Path), Log); }
 	++Impl->Compiled;
 	Impl->Disk.Store(Key, Out.Words);
 	return FRTStatus::Success();
@@ -175,25 +153,16 @@ FRTStatus FShaderCompiler::Compile(const FShaderSource& Source, FShaderBinary& O
 std::string FShaderCompiler::GetKey(const FShaderSource& Source)
 {
 	const FIncludeTree Tree = Impl->Resolver.Resolve(Source);
-	if (!Tree.Error.empty() || Tree.bMissing)
-	{
-		return {};
-	}
+	if (!Tree.Error.empty() || Tree.bMissing) { return {}; }
 	return FShaderDiskCache::ToHex(Impl->MakeKey(Tree, Source, MakePreamble(Source)));
 }
 
 size_t FShaderCompiler::GetTextBytes(const FShaderSource& Source)
 {
 	const FIncludeTree Tree = Impl->Resolver.Resolve(Source);
-	if (!Tree.Error.empty() || Tree.bMissing)
-	{
-		return 0;
-	}
+	if (!Tree.Error.empty() || Tree.bMissing) { return 0; }
 	size_t Bytes = 0;
-	for (const FIncludeTree::FNode& Node : Tree.Nodes)
-	{
-		Bytes += Node.File->Text.size();
-	}
+	for (const FIncludeTree::FNode& Node : Tree.Nodes) { Bytes += Node.File->Text.size(); }
 	return Bytes;
 }
 

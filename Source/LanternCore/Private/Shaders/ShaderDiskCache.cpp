@@ -36,38 +36,24 @@ struct FCacheHeader
 };
 static_assert(sizeof(FCacheHeader) == 40, "written as it lies in memory: no padding");
 
-uint64_t Checksum(const std::vector<uint32_t>& Words)
-{
-	return XXH3_64bits(Words.data(), Words.size() * sizeof(uint32_t));
-}
+uint64_t Checksum(const std::vector<uint32_t>& Words) { return XXH3_64bits(Words.data(), Words.size() * sizeof(uint32_t)); }
 
 /// Null if the file is as Store wrote it, else what is wrong with it.
 const char* Parse(std::ifstream& File, uint64_t FileBytes, const FHash128& Key, std::vector<uint32_t>& OutWords)
 {
 	FCacheHeader Header;
-	if (!File.read(reinterpret_cast<char*>(&Header), sizeof(Header)))
-	{
-		return "too short for a header";
-	}
-	if (Header.Magic != CacheMagic || Header.HeaderBytes != sizeof(Header) || !(Header.Key == Key))
-	{
-		return "not the header expected";
-	}
-	if (Header.WordCount == 0 || Header.WordCount > MaxWords ||
-	    FileBytes != sizeof(Header) + Header.WordCount * sizeof(uint32_t))
+	if (!File.read(reinterpret_cast<char*>(&Header), sizeof(Header))) { return "too short for a header"; }
+	if (Header.Magic != CacheMagic || Header.HeaderBytes != sizeof(Header) || !(Header.Key == Key)) { return "not the header expected"; }
+	if (Header.WordCount == 0 || Header.WordCount > MaxWords || FileBytes != sizeof(Header) + Header.WordCount * sizeof(uint32_t))
 	{
 		return "wrong length";
 	}
 	OutWords.resize(Header.WordCount);
-	if (!File.read(reinterpret_cast<char*>(OutWords.data()),
-	               static_cast<std::streamsize>(OutWords.size() * sizeof(uint32_t))))
+	if (!File.read(reinterpret_cast<char*>(OutWords.data()), static_cast<std::streamsize>(OutWords.size() * sizeof(uint32_t))))
 	{
 		return "unreadable";
 	}
-	if (Checksum(OutWords) != Header.Checksum)
-	{
-		return "wrong checksum";
-	}
+	if (Checksum(OutWords) != Header.Checksum) { return "wrong checksum"; }
 	return OutWords[0] == SpirvMagic ? nullptr : "not SPIR-V";
 }
 
@@ -82,35 +68,20 @@ int GetProcessId()
 
 } // namespace
 
-std::string FShaderDiskCache::ToHex(const FHash128& Key)
-{
-	return fmt::format("{:016x}{:016x}", Key.High, Key.Low);
-}
+std::string FShaderDiskCache::ToHex(const FHash128& Key) { return fmt::format("{:016x}{:016x}", Key.High, Key.Low); }
 
 bool FShaderDiskCache::Load(const FHash128& Key, std::vector<uint32_t>& OutWords)
 {
 	OutWords.clear();
-	if (Folder.empty())
-	{
-		return false;
-	}
+	if (Folder.empty()) { return false; }
 	const fs::path Path = PathOf(Key);
 	std::error_code Code;
 	const uint64_t Bytes = fs::file_size(Path, Code);
 	std::ifstream File;
-	if (!Code)
-	{
-		File.open(Path, std::ios::binary);
-	}
-	if (Code || !File)
-	{
-		return false;
-	}
+	if (!Code) { File.open(Path, std::ios::binary); }
+	if (Code || !File) { return false; }
 	const char* Wrong = Parse(File, Bytes, Key, OutWords);
-	if (!Wrong)
-	{
-		return true;
-	}
+	if (!Wrong) { return true; }
 	File.close();
 	OutWords.clear();
 	LogWarning("Shader cache: {} is corrupt ({}) and is made anew", EscapePath(Path.string()), Wrong);
@@ -122,17 +93,13 @@ void FShaderDiskCache::WarnOnce(const std::string& Reason)
 {
 	if (!bWarned.exchange(true))
 	{
-		LogWarning("Shader cache: cannot write to {} ({}); shaders are compiled on every start",
-		           EscapePath(Folder.string()), Reason);
+		LogWarning("Shader cache: cannot write to {} ({}); shaders are compiled on every start", EscapePath(Folder.string()), Reason);
 	}
 }
 
 void FShaderDiskCache::Store(const FHash128& Key, const std::vector<uint32_t>& Words)
 {
-	if (Folder.empty())
-	{
-		return;
-	}
+	if (Folder.empty()) { return; }
 	std::error_code Code;
 	fs::create_directories(Folder, Code);
 	if (Code)
@@ -154,13 +121,9 @@ void FShaderDiskCache::Store(const FHash128& Key, const std::vector<uint32_t>& W
 		return;
 	}
 	File.write(reinterpret_cast<const char*>(&Header), sizeof(Header));
-	File.write(reinterpret_cast<const char*>(Words.data()),
-	           static_cast<std::streamsize>(Words.size() * sizeof(uint32_t)));
+	File.write(reinterpret_cast<const char*>(Words.data()), static_cast<std::streamsize>(Words.size() * sizeof(uint32_t)));
 	File.close();
-	if (File)
-	{
-		fs::rename(Temporary, Path, Code);
-	}
+	if (File) { fs::rename(Temporary, Path, Code); }
 	if (!File || Code)
 	{
 		WarnOnce(Code ? Code.message() : std::string("write failed: disk full?"));

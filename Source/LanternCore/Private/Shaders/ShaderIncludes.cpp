@@ -50,10 +50,7 @@ std::string StripComments(std::string_view Text)
 			++I;
 			continue;
 		}
-		if (State != EState::Code)
-		{
-			Out[I] = ' ';
-		}
+		if (State != EState::Code) { Out[I] = ' '; }
 	}
 	return Out;
 }
@@ -68,26 +65,14 @@ bool ParseIncludeLine(std::string_view Line, FIncludeLine& Out)
 {
 	constexpr std::string_view Word = "include";
 	Line = TrimLeft(Line);
-	if (Line.empty() || Line.front() != '#')
-	{
-		return false;
-	}
+	if (Line.empty() || Line.front() != '#') { return false; }
 	Line = TrimLeft(Line.substr(1));
-	if (!Line.starts_with(Word))
-	{
-		return false;
-	}
+	if (!Line.starts_with(Word)) { return false; }
 	Line = TrimLeft(Line.substr(Word.size()));
-	if (Line.empty() || (Line.front() != '"' && Line.front() != '<'))
-	{
-		return false;
-	}
+	if (Line.empty() || (Line.front() != '"' && Line.front() != '<')) { return false; }
 	Out.bQuoted = Line.front() == '"';
 	const size_t End = Line.find(Out.bQuoted ? '"' : '>', 1);
-	if (End == std::string_view::npos)
-	{
-		return false;
-	}
+	if (End == std::string_view::npos) { return false; }
 	Out.Name = Line.substr(1, End - 1);
 	return !Out.Name.empty();
 }
@@ -132,16 +117,10 @@ std::shared_ptr<const FShaderFile> MakeShaderFile(std::string Text)
 std::shared_ptr<const FShaderFile> FShaderFileCache::Read(const fs::path& Path)
 {
 	std::error_code Code;
-	if (!fs::is_regular_file(Path, Code) || Code)
-	{
-		return nullptr;
-	}
+	if (!fs::is_regular_file(Path, Code) || Code) { return nullptr; }
 	const fs::file_time_type Modified = fs::last_write_time(Path, Code);
 	const uintmax_t Size = Code ? 0 : fs::file_size(Path, Code);
-	if (Code)
-	{
-		return nullptr;
-	}
+	if (Code) { return nullptr; }
 	const std::string Id = Path.string();
 	{
 		std::lock_guard Lock(Mutex);
@@ -152,10 +131,7 @@ std::shared_ptr<const FShaderFile> FShaderFileCache::Read(const fs::path& Path)
 		}
 	}
 	std::ifstream Stream(Path, std::ios::binary);
-	if (!Stream)
-	{
-		return nullptr;
-	}
+	if (!Stream) { return nullptr; }
 	auto File = MakeShaderFile(std::string(std::istreambuf_iterator<char>(Stream), std::istreambuf_iterator<char>()));
 	// A file time has the grain of a clock tick or worse: a file written just now may be written once more
 	// without its time changing, so it is read again until it is older than that.
@@ -177,10 +153,7 @@ struct FIncludeResolver::FWalk
 		const std::string Name = Include.lexically_normal().generic_string();
 		for (const FShaderHeader& Header : Source.Headers)
 		{
-			if (Header.Include == Name)
-			{
-				return &Header;
-			}
+			if (Header.Include == Name) { return &Header; }
 		}
 		return nullptr;
 	}
@@ -201,10 +174,7 @@ std::string FIncludeResolver::NameOf(const fs::path& Location) const
 	for (const fs::path& Folder : Folders)
 	{
 		const fs::path Relative = Location.lexically_relative(Folder);
-		if (Relative.empty() || *Relative.begin() == "..")
-		{
-			continue;
-		}
+		if (Relative.empty() || *Relative.begin() == "..") { continue; }
 		// Two folders may hold the same relative path: only the first found may be called by it.
 		const auto Is = [&](const fs::path& Other) { return fs::is_regular_file(Other / Relative, Code); };
 		const auto First = std::find_if(Folders.begin(), Folders.end(), Is);
@@ -215,30 +185,19 @@ std::string FIncludeResolver::NameOf(const fs::path& Location) const
 
 bool FIncludeResolver::FindInFolders(const fs::path& Relative, FFound& Out)
 {
-	const auto Try = [&](const fs::path& Location)
-	{
+	const auto Try = [&](const fs::path& Location) {
 		Out.File = Files.Read(Location);
 		Out.Location = Location;
 		return Out.File != nullptr;
 	};
 	bool bFound = false;
-	if (Relative.is_absolute())
-	{
-		bFound = Try(Relative.lexically_normal());
-	}
-	for (size_t I = 0; I < Folders.size() && !bFound; ++I)
-	{
-		bFound = Try((Folders[I] / Relative).lexically_normal());
-	}
-	if (bFound)
-	{
-		Out.Name = NameOf(Out.Location);
-	}
+	if (Relative.is_absolute()) { bFound = Try(Relative.lexically_normal()); }
+	for (size_t I = 0; I < Folders.size() && !bFound; ++I) { bFound = Try((Folders[I] / Relative).lexically_normal()); }
+	if (bFound) { Out.Name = NameOf(Out.Location); }
 	return bFound;
 }
 
-bool FIncludeResolver::FindInclude(const FWalk& Walk, const FIncludeTree::FNode& From, const FIncludeLine& Line,
-                                   FFound& Out)
+bool FIncludeResolver::FindInclude(const FWalk& Walk, const FIncludeTree::FNode& From, const FIncludeLine& Line, FFound& Out)
 {
 	const FShaderHeader* Header = Line.bQuoted ? Walk.FindHeader(fs::path(From.Name).parent_path() / Line.Name) : nullptr;
 	Header = Header ? Header : Walk.FindHeader(Line.Name);
@@ -260,10 +219,7 @@ bool FIncludeResolver::FindInclude(const FWalk& Walk, const FIncludeTree::FNode&
 		}
 	}
 	// Text in memory has no place on disk, only a path that says where it would lie in a search folder.
-	if (Line.bQuoted && From.Location.empty() && FindInFolders(fs::path(From.Name).parent_path() / Line.Name, Out))
-	{
-		return true;
-	}
+	if (Line.bQuoted && From.Location.empty() && FindInFolders(fs::path(From.Name).parent_path() / Line.Name, Out)) { return true; }
 	return FindInFolders(Line.Name, Out);
 }
 
@@ -291,24 +247,21 @@ void FIncludeResolver::Visit(FWalk& Walk, int Index)
 		{
 			std::string Chain;
 			std::for_each(Above, Walk.Stack.end(), [&](int Node) { Chain += EscapePath(Tree.Nodes[Node].Name) + " -> "; });
-			Tree.Error = fmt::format("{}:{}: cyclic include: {}{}", EscapePath(Tree.Nodes[Index].Name), Line.Line,
-			                         Chain, EscapePath(Found.Name));
+			Tree.Error =
+			    fmt::format("{}:{}: cyclic include: {}{}", EscapePath(Tree.Nodes[Index].Name), Line.Line, Chain, EscapePath(Found.Name));
 			return;
 		}
 		if (Walk.Stack.size() >= MaxDepth)
 		{
-			Tree.Error = fmt::format("{}:{}: includes are nested more than {} deep", EscapePath(Tree.Nodes[Index].Name),
-			                         Line.Line, MaxDepth);
+			Tree.Error =
+			    fmt::format("{}:{}: includes are nested more than {} deep", EscapePath(Tree.Nodes[Index].Name), Line.Line, MaxDepth);
 			return;
 		}
 		if (bNew)
 		{
 			Tree.Nodes.push_back({Found.Name, Found.Location, Found.File, {}});
 			Visit(Walk, Target);
-			if (!Tree.Error.empty())
-			{
-				return;
-			}
+			if (!Tree.Error.empty()) { return; }
 		}
 	}
 	Walk.Stack.pop_back();
@@ -319,10 +272,7 @@ FIncludeTree FIncludeResolver::Resolve(const FShaderSource& Source)
 	const std::string& Path = Source.Path;
 	FIncludeTree Tree;
 	FWalk Walk{Tree, Source, {}, {}};
-	if (!Source.Text.empty())
-	{
-		Tree.Nodes.push_back({Path, {}, MakeShaderFile(Source.Text), {}});
-	}
+	if (!Source.Text.empty()) { Tree.Nodes.push_back({Path, {}, MakeShaderFile(Source.Text), {}}); }
 	else
 	{
 		FFound Found;

@@ -68,7 +68,7 @@ struct FIncludeTree
 {
 	struct FNode
 	{
-		std::string Name; ///< as errors show it: relative to its search folder, the whole path if that is ambiguous
+		std::string Name;               ///< as errors show it: relative to its search folder, the whole path if that is ambiguous
 		std::filesystem::path Location; ///< empty for text given in memory
 		std::shared_ptr<const FShaderFile> File;
 		std::vector<int> Targets; ///< one per include line: index of a node, Missing

@@ -28,14 +28,14 @@ namespace
 namespace fs = std::filesystem;
 
 TRTConsoleVariable<bool> CVarTrace("r.RT.Trace", false,
-                                   "Records which task ran when and on which thread. The file, Chrome trace JSON for "
-                                   "ui.perfetto.dev, is written when it is switched off and at shutdown.");
-TRTConsoleVariable<std::string> CVarTraceFile("r.RT.Trace.File", "LanternTrace.json",
-                                              "File of r.RT.Trace; relative to the output or cache folder.");
+    "Records which task ran when and on which thread. The file, Chrome trace JSON for "
+    "ui.perfetto.dev, is written when it is switched off and at shutdown.");
+TRTConsoleVariable<std::string> CVarTraceFile(
+    "r.RT.Trace.File", "LanternTrace.json", "File of r.RT.Trace; relative to the output or cache folder.");
 TRTConsoleVariable<int32_t> CVarTraceFrames("r.RT.Trace.Frames", 0,
-                                            "With r.RT.Trace: writes the file every so many frames, each time with "
-                                            "these frames alone, which costs some milliseconds. 0: only at the end.",
-                                            {0, 1'000'000});
+    "With r.RT.Trace: writes the file every so many frames, each time with "
+    "these frames alone, which costs some milliseconds. 0: only at the end.",
+    {0, 1'000'000});
 
 /// One thread's events, a ring once it is full. Threads that come when there are MaxBuffers share the last.
 struct FBuffer
@@ -49,10 +49,7 @@ struct FBuffer
 constexpr size_t MaxBuffers = 256;
 constexpr size_t MaxThreadNames = 4096;
 
-uint64_t ReadClock()
-{
-	return static_cast<uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
-}
+uint64_t ReadClock() { return static_cast<uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count()); }
 
 /// Never destroyed, as the log: threads may still end their scopes while the program ends.
 struct FRecorder
@@ -87,14 +84,8 @@ FThread& GetThread()
 	{
 		FRecorder& Recorder = GetRecorder();
 		std::lock_guard Lock(Recorder.Mutex);
-		if (Recorder.Buffers.size() < MaxBuffers)
-		{
-			Recorder.Buffers.push_back(std::make_unique<FBuffer>());
-		}
-		if (Recorder.Names.size() < MaxThreadNames)
-		{
-			Recorder.Names.push_back(fmt::format("Worker {}", Recorder.Names.size()));
-		}
+		if (Recorder.Buffers.size() < MaxBuffers) { Recorder.Buffers.push_back(std::make_unique<FBuffer>()); }
+		if (Recorder.Names.size() < MaxThreadNames) { Recorder.Names.push_back(fmt::format("Worker {}", Recorder.Names.size())); }
 		ThisThread = {Recorder.Buffers.back().get(), static_cast<uint32_t>(Recorder.Names.size() - 1)};
 	}
 	return ThisThread;
@@ -142,10 +133,7 @@ void FTaskTrace::Start()
 	bOn = true;
 }
 
-void FTaskTrace::Stop()
-{
-	bOn = false;
-}
+void FTaskTrace::Stop() { bOn = false; }
 
 void FTaskTrace::Clear()
 {
@@ -183,8 +171,7 @@ void FTaskTrace::Record(std::string_view Name, uint64_t BeginNs, uint64_t EndNs,
 	{
 		if (Buffer.Oldest != 0) // a ring that grows again must be in order first
 		{
-			std::rotate(Buffer.Events.begin(), Buffer.Events.begin() + static_cast<ptrdiff_t>(Buffer.Oldest),
-			            Buffer.Events.end());
+			std::rotate(Buffer.Events.begin(), Buffer.Events.begin() + static_cast<ptrdiff_t>(Buffer.Oldest), Buffer.Events.end());
 			Buffer.Oldest = 0;
 		}
 		Buffer.Events.push_back(Event);
@@ -204,10 +191,7 @@ void FTaskTrace::NameThread(std::string_view Name)
 	const uint32_t Index = GetThread().Index;
 	FRecorder& Recorder = GetRecorder();
 	std::lock_guard Lock(Recorder.Mutex);
-	if (Recorder.Names[Index] != Name)
-	{
-		Recorder.Names[Index] = Name;
-	}
+	if (Recorder.Names[Index] != Name) { Recorder.Names[Index] = Name; }
 }
 
 std::vector<FTraceEvent> FTaskTrace::GetEvents()
@@ -248,31 +232,22 @@ std::string FTaskTrace::ToJson()
 	std::vector<FTraceEvent> Events = GetEvents();
 	// Viewers nest equal beginnings in the order of the file: the longest comes first.
 	std::sort(Events.begin(), Events.end(),
-	          [](const FTraceEvent& A, const FTraceEvent& B)
-	          { return A.BeginNs != B.BeginNs ? A.BeginNs < B.BeginNs : A.EndNs > B.EndNs; });
+	    [](const FTraceEvent& A, const FTraceEvent& B) { return A.BeginNs != B.BeginNs ? A.BeginNs < B.BeginNs : A.EndNs > B.EndNs; });
 	std::string Json = "{\"displayTimeUnit\":\"ms\",\"traceEvents\":[\n"
 	                   "{\"ph\":\"M\",\"pid\":1,\"name\":\"process_name\",\"args\":{\"name\":\"Lantern\"}}";
 	const std::vector<std::string> Names = GetThreadNames();
 	std::vector<bool> bUsed(Names.size());
-	for (const FTraceEvent& Event : Events)
-	{
-		bUsed[Event.Thread] = true;
-	}
+	for (const FTraceEvent& Event : Events) { bUsed[Event.Thread] = true; }
 	for (size_t Thread = 0; Thread < Names.size(); ++Thread)
 	{
-		if (!bUsed[Thread])
-		{
-			continue;
-		}
-		Json +=
-		    fmt::format(",\n{{\"ph\":\"M\",\"pid\":1,\"tid\":{},\"name\":\"thread_name\",\"args\":{{\"name\":{}}}}}",
-		                Thread, ToJsonText(Names[Thread]));
+		if (!bUsed[Thread]) { continue; }
+		Json += fmt::format(",\n{{\"ph\":\"M\",\"pid\":1,\"tid\":{},\"name\":\"thread_name\",\"args\":{{\"name\":{}}}}}", Thread,
+		    ToJsonText(Names[Thread]));
 	}
 	for (const FTraceEvent& Event : Events)
 	{
-		Json +=
-		    fmt::format(",\n{{\"ph\":\"X\",\"pid\":1,\"tid\":{},\"name\":{},\"ts\":{:.3f},\"dur\":{:.3f}", Event.Thread,
-		                ToJsonText(Event.Name), double(Event.BeginNs) * 1e-3, double(Event.EndNs - Event.BeginNs) * 1e-3);
+		Json += fmt::format(",\n{{\"ph\":\"X\",\"pid\":1,\"tid\":{},\"name\":{},\"ts\":{:.3f},\"dur\":{:.3f}", Event.Thread,
+		    ToJsonText(Event.Name), double(Event.BeginNs) * 1e-3, double(Event.EndNs - Event.BeginNs) * 1e-3);
 		Json += Event.Frame >= 0 ? fmt::format(",\"args\":{{\"frame\":{}}}}}", Event.Frame) : "}";
 	}
 	Json += fmt::format("\n],\"otherData\":{{\"forgotten\":{}}}}}\n", GetForgottenCount());
@@ -289,19 +264,10 @@ FRTStatus FTaskTrace::Write(const std::string& Path)
 		std::ofstream File(Temporary, std::ios::binary);
 		File.write(Json.data(), static_cast<std::streamsize>(Json.size()));
 		File.close();
-		if (!File)
-		{
-			Error = std::error_code(errno ? errno : EIO, std::generic_category());
-		}
+		if (!File) { Error = std::error_code(errno ? errno : EIO, std::generic_category()); }
 	}
-	if (!Error)
-	{
-		fs::rename(Temporary, Path, Error);
-	}
-	if (!Error)
-	{
-		return FRTStatus::Success();
-	}
+	if (!Error) { fs::rename(Temporary, Path, Error); }
+	if (!Error) { return FRTStatus::Success(); }
 	std::error_code Ignored;
 	fs::remove(Temporary, Ignored);
 	return FRTStatus::Error(ERTResult::IoError, "%s: %s", EscapePath(Path).c_str(), Error.message().c_str());
@@ -323,10 +289,7 @@ bool FTaskTrace::HasFolder()
 
 void FTaskTrace::StartIfWanted()
 {
-	if (IsOn() || !CVarTrace.Get())
-	{
-		return;
-	}
+	if (IsOn() || !CVarTrace.Get()) { return; }
 	Start();
 	GetRecorder().FramesSinceFile = 0;
 	GetRecorder().bUnwritten = true;
@@ -337,10 +300,7 @@ void FTaskTrace::BeginFrame(uint64_t Frame)
 {
 	CurrentFrame.store(static_cast<int64_t>(Frame), std::memory_order_relaxed);
 	const bool bWanted = CVarTrace.GetOnRenderThread();
-	if (!bWanted && !IsOn())
-	{
-		return;
-	}
+	if (!bWanted && !IsOn()) { return; }
 	FRecorder& Recorder = GetRecorder();
 	if (!bWanted)
 	{
@@ -364,10 +324,7 @@ void FTaskTrace::BeginFrame(uint64_t Frame)
 void FTaskTrace::Flush()
 {
 	FRecorder& Recorder = GetRecorder();
-	if (!Recorder.bUnwritten.exchange(false))
-	{
-		return;
-	}
+	if (!Recorder.bUnwritten.exchange(false)) { return; }
 	Recorder.FramesSinceFile = 0;
 	const std::string Path = MakeFilePath();
 	if (FRTStatus S = Write(Path); !S)

@@ -25,8 +25,7 @@ namespace Lantern
 
 void ParallelFor(size_t Count, size_t Grain, const std::function<void(size_t, size_t)>& Body)
 {
-	if (Count == 0)
-		return;
+	if (Count == 0) return;
 	Grain = std::max<size_t>(Grain, 1);
 	if (Count / 2 < Grain)
 	{
@@ -38,13 +37,11 @@ void ParallelFor(size_t Count, size_t Grain, const std::function<void(size_t, si
 	const tbb::blocked_range<size_t> Range(0, Count, 2 * Grain - 1);
 	[[maybe_unused]] const char Fork = 0;
 	LANTERN_MARK_RELEASE(&Fork);
-	tbb::parallel_for(Range,
-	                  [&](const tbb::blocked_range<size_t>& Chunk) noexcept
-	                  {
-		                  LANTERN_MARK_ACQUIRE(&Fork);
-		                  Body(Chunk.begin(), Chunk.end());
-		                  LANTERN_MARK_RELEASE(&Fork);
-	                  });
+	tbb::parallel_for(Range, [&](const tbb::blocked_range<size_t>& Chunk) noexcept {
+		LANTERN_MARK_ACQUIRE(&Fork);
+		Body(Chunk.begin(), Chunk.end());
+		LANTERN_MARK_RELEASE(&Fork);
+	});
 	LANTERN_MARK_ACQUIRE(&Fork);
 }
 
@@ -55,10 +52,7 @@ struct FTaskGroup::FImpl
 
 FTaskGroup::FTaskGroup() : Impl(std::make_unique<FImpl>()) {}
 
-FTaskGroup::~FTaskGroup()
-{
-	Wait();
-}
+FTaskGroup::~FTaskGroup() { Wait(); }
 
 void FTaskGroup::Run(std::function<void()> Task)
 {
@@ -66,14 +60,13 @@ void FTaskGroup::Run(std::function<void()> Task)
 	// TBB may run a copy: one shared body serves callables that are costly to copy.
 	auto Shared = std::make_shared<std::function<void()>>(std::move(Task));
 	LANTERN_MARK_RELEASE(Order);
-	Impl->Group.run(
-	    [Order, Shared = std::move(Shared)]() noexcept // nothing of it is left behind for this thread to destroy
+	Impl->Group.run([Order, Shared = std::move(Shared)]() noexcept // nothing of it is left behind for this thread to destroy
 	    {
-		    LANTERN_MARK_ACQUIRE(Order);
-		    (*Shared)();
-		    *Shared = nullptr;
-		    LANTERN_MARK_RELEASE(Order);
-	    });
+		LANTERN_MARK_ACQUIRE(Order);
+		(*Shared)();
+		*Shared = nullptr;
+		LANTERN_MARK_RELEASE(Order);
+	});
 }
 
 void FTaskGroup::Wait()
@@ -82,9 +75,6 @@ void FTaskGroup::Wait()
 	LANTERN_MARK_ACQUIRE(Impl.get());
 }
 
-size_t GetWorkerCount()
-{
-	return static_cast<size_t>(std::max(1, tbb::this_task_arena::max_concurrency()));
-}
+size_t GetWorkerCount() { return static_cast<size_t>(std::max(1, tbb::this_task_arena::max_concurrency())); }
 
 } // namespace Lantern

@@ -88,16 +88,12 @@ void SetLogSink(std::function<void(ERTLogLevel, std::string_view)> Sink)
 	Log.Sink = Sink ? std::make_shared<const FSink>(std::move(Sink)) : nullptr;
 }
 
-void SetLogLevel(ERTLogLevel Minimum)
-{
-	FLog::Get().Minimum = Minimum;
-}
+void SetLogLevel(ERTLogLevel Minimum) { FLog::Get().Minimum = Minimum; }
 
 void LogLine(ERTLogLevel Level, std::string_view RawText)
 {
 	FLog& Log = FLog::Get();
-	if (Level < Log.Minimum)
-		return;
+	if (Level < Log.Minimum) return;
 	// The guard behind all that quotes: what a caller forgot to escape must not reach a terminal or an engine's log.
 	const std::string Text = EscapeLines(RawText);
 	if (bInsideSink)
@@ -129,12 +125,10 @@ void LogOnce(ERTLogLevel Level, std::string_view Text)
 {
 	FLog& Log = FLog::Get();
 	// A text that the level hides has not been logged: it may still appear when the level drops.
-	if (Level < Log.Minimum)
-		return;
+	if (Level < Log.Minimum) return;
 	{
 		std::lock_guard Lock(Log.OnceMutex);
-		if (!Log.Once.emplace(Text).second)
-			return;
+		if (!Log.Once.emplace(Text).second) return;
 	}
 	LogLine(Level, Text);
 }

@@ -19,10 +19,7 @@ std::string Escape(std::string_view Text, ERTTextKind Kind)
 
 } // namespace
 
-std::string EscapeText(std::string_view Text)
-{
-	return Escape(Text, ERTTextKind::OneLine);
-}
+std::string EscapeText(std::string_view Text) { return Escape(Text, ERTTextKind::OneLine); }
 
 std::string EscapeText(std::string_view Text, size_t MaxBytes)
 {
@@ -30,15 +27,11 @@ std::string EscapeText(std::string_view Text, size_t MaxBytes)
 	constexpr size_t LongestCharacter = 4;
 	std::string Result(MaxBytes + 1, '\0');
 	const std::string_view Start = Text.substr(0, MaxBytes + LongestCharacter);
-	Result.resize(
-	    ShowText(Result.data(), Result.size(), Start.data(), Start.size(), ERTTextKind::OneLine, Ellipsis.data()));
+	Result.resize(ShowText(Result.data(), Result.size(), Start.data(), Start.size(), ERTTextKind::OneLine, Ellipsis.data()));
 	return Result;
 }
 
-std::string EscapeLines(std::string_view Text)
-{
-	return Escape(Text, ERTTextKind::Lines);
-}
+std::string EscapeLines(std::string_view Text) { return Escape(Text, ERTTextKind::Lines); }
 
 std::string Quote(std::string_view Text)
 {
@@ -50,18 +43,11 @@ std::string Quote(std::string_view Text)
 std::string EscapePath(std::string_view Path)
 {
 	const std::string Shown = EscapeText(Path);
-	if (Shown.size() <= MaxPathBytes)
-	{
-		return Shown;
-	}
+	if (Shown.size() <= MaxPathBytes) { return Shown; }
 	constexpr size_t Half = (MaxPathBytes - Ellipsis.size()) / 2;
 	size_t Tail = Shown.size() - Half;
-	while ((static_cast<unsigned char>(Shown[Tail]) & 0xC0) == 0x80)
-	{
-		++Tail;
-	}
-	return Shown.substr(0, FitCharacters(Shown.data(), Shown.size(), Half)) + std::string(Ellipsis) +
-	       Shown.substr(Tail);
+	while ((static_cast<unsigned char>(Shown[Tail]) & 0xC0) == 0x80) { ++Tail; }
+	return Shown.substr(0, FitCharacters(Shown.data(), Shown.size(), Half)) + std::string(Ellipsis) + Shown.substr(Tail);
 }
 
 } // namespace Lantern

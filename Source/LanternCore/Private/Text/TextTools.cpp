@@ -8,15 +8,9 @@ namespace Lantern
 namespace
 {
 
-char Fold(char C)
-{
-	return C >= 'A' && C <= 'Z' ? static_cast<char>(C - 'A' + 'a') : C;
-}
+char Fold(char C) { return C >= 'A' && C <= 'Z' ? static_cast<char>(C - 'A' + 'a') : C; }
 
-bool FoldedEqual(char A, char B)
-{
-	return Fold(A) == Fold(B);
-}
+bool FoldedEqual(char A, char B) { return Fold(A) == Fold(B); }
 
 } // namespace
 
@@ -27,10 +21,7 @@ std::string FoldCase(std::string_view Text)
 	return Result;
 }
 
-bool EqualsIgnoringCase(std::string_view A, std::string_view B)
-{
-	return std::equal(A.begin(), A.end(), B.begin(), B.end(), FoldedEqual);
-}
+bool EqualsIgnoringCase(std::string_view A, std::string_view B) { return std::equal(A.begin(), A.end(), B.begin(), B.end(), FoldedEqual); }
 
 bool ContainsIgnoringCase(std::string_view Text, std::string_view Part)
 {
@@ -41,8 +32,7 @@ std::string_view Trim(std::string_view Text)
 {
 	constexpr std::string_view Blanks = " \t\r\v\f";
 	const size_t First = Text.find_first_not_of(Blanks);
-	if (First == std::string_view::npos)
-		return {};
+	if (First == std::string_view::npos) return {};
 	return Text.substr(First, Text.find_last_not_of(Blanks) - First + 1);
 }
 
@@ -53,8 +43,7 @@ size_t GetEditDistance(std::string_view A, std::string_view B)
 	B = B.substr(0, MaxLength);
 	// Rows of the table for A's last two prefixes and the current one.
 	std::array<size_t, MaxLength + 1> BeforeLast{}, Last{}, Row{};
-	for (size_t J = 0; J <= B.size(); ++J)
-		Row[J] = J;
+	for (size_t J = 0; J <= B.size(); ++J) Row[J] = J;
 	for (size_t I = 1; I <= A.size(); ++I)
 	{
 		BeforeLast = Last;
@@ -108,8 +97,7 @@ bool MatchesWildcard(std::string_view Text, std::string_view Pattern)
 			P = StarPattern + 1;
 			T = ++StarText;
 		}
-		else
-			return false;
+		else return false;
 	}
 	return Pattern.find_first_not_of('*', P) == std::string_view::npos;
 }

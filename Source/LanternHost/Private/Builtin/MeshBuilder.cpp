@@ -15,10 +15,7 @@ namespace Lantern::Builtin
 
 FMeshBuilder& FMeshBuilder::BeginSection(int32_t Material)
 {
-	if (Mesh.Sections.empty() || Mesh.Sections.back().IndexCount > 0)
-	{
-		Mesh.Sections.emplace_back();
-	}
+	if (Mesh.Sections.empty() || Mesh.Sections.back().IndexCount > 0) { Mesh.Sections.emplace_back(); }
 	Mesh.Sections.back().FirstIndex = uint32_t(Mesh.Indices.size());
 	Mesh.Sections.back().Material = Material;
 	return *this;
@@ -66,10 +63,7 @@ namespace
 glm::vec2 MapBox(const glm::vec3& P, const glm::vec3& Normal)
 {
 	const glm::vec3 Size = glm::abs(Normal);
-	if (Size.y >= Size.x && Size.y >= Size.z)
-	{
-		return {P.x, Normal.y >= 0 ? P.z : -P.z};
-	}
+	if (Size.y >= Size.x && Size.y >= Size.z) { return {P.x, Normal.y >= 0 ? P.z : -P.z}; }
 	return Size.x > Size.z ? glm::vec2(Normal.x >= 0 ? -P.z : P.z, -P.y) : glm::vec2(Normal.z >= 0 ? P.x : -P.x, -P.y);
 }
 
@@ -80,10 +74,7 @@ void FMeshBuilder::AddQuad(const glm::vec3& P0, const glm::vec3& P1, const glm::
 	const glm::vec3 Normal = glm::normalize(glm::cross(P2 - P0, P3 - P1));
 	uint32_t Vertices[4];
 	int I = 0;
-	for (const glm::vec3& P : {P0, P1, P2, P3})
-	{
-		Vertices[I++] = AddVertex(P, Normal, MapBox(P, Normal) * TexelScale);
-	}
+	for (const glm::vec3& P : {P0, P1, P2, P3}) { Vertices[I++] = AddVertex(P, Normal, MapBox(P, Normal) * TexelScale); }
 	AddTriangle(Vertices[0], Vertices[1], Vertices[2]);
 	AddTriangle(Vertices[0], Vertices[2], Vertices[3]);
 }
@@ -116,14 +107,8 @@ void FMeshBuilder::AddBox(const glm::vec3& Min, const glm::vec3& Max, bool bInwa
 				P[Corner][V] = C >= 2 ? Max[V] : Min[V];
 			}
 			// Sides stand upright: u runs along the horizontal edge.
-			if (Axis != 1 && std::abs(P[1].y - P[0].y) > std::abs(P[2].y - P[1].y))
-			{
-				AddQuad(P[1], P[2], P[3], P[0]);
-			}
-			else
-			{
-				AddQuad(P[0], P[1], P[2], P[3]);
-			}
+			if (Axis != 1 && std::abs(P[1].y - P[0].y) > std::abs(P[2].y - P[1].y)) { AddQuad(P[1], P[2], P[3], P[0]); }
+			else { AddQuad(P[0], P[1], P[2], P[3]); }
 		}
 	}
 }
@@ -132,28 +117,17 @@ void FMeshBuilder::AddBeveledBox(const glm::vec3& Min, const glm::vec3& Max, flo
 {
 	const glm::vec3 Center = (Min + Max) * 0.5f, Half = (Max - Min) * 0.5f;
 	// Corner points of the face whose normal is Axis: inset by the bevel in the two other directions.
-	const auto GetPoint = [&](int Axis, const glm::vec3& Sign)
-	{
+	const auto GetPoint = [&](int Axis, const glm::vec3& Sign) {
 		glm::vec3 P = Half - glm::vec3(Bevel);
 		P[Axis] = Half[Axis];
 		return Center + P * Sign;
 	};
-	const auto AddOriented = [&](glm::vec3 P0, glm::vec3 P1, glm::vec3 P2, glm::vec3 P3)
-	{
+	const auto AddOriented = [&](glm::vec3 P0, glm::vec3 P1, glm::vec3 P2, glm::vec3 P3) {
 		const glm::vec3 Normal = glm::cross(P1 - P0, P2 - P0);
-		if (glm::dot(Normal, (P0 + P2) * 0.5f - Center) < 0)
-		{
-			std::swap(P1, P3);
-		}
+		if (glm::dot(Normal, (P0 + P2) * 0.5f - Center) < 0) { std::swap(P1, P3); }
 		// u horizontal, v upright, as for walls
-		if (std::abs(P1.y - P0.y) > std::abs(P2.y - P1.y))
-		{
-			AddQuad(P1, P2, P3, P0);
-		}
-		else
-		{
-			AddQuad(P0, P1, P2, P3);
-		}
+		if (std::abs(P1.y - P0.y) > std::abs(P2.y - P1.y)) { AddQuad(P1, P2, P3, P0); }
+		else { AddQuad(P0, P1, P2, P3); }
 	};
 	for (int Axis = 0; Axis < 3; ++Axis)
 	{
@@ -161,8 +135,7 @@ void FMeshBuilder::AddBeveledBox(const glm::vec3& Min, const glm::vec3& Max, flo
 		for (int Bits = 0; Bits < 4; ++Bits)
 		{
 			const float SA = (Bits & 1) != 0 ? 1.0f : -1.0f, SB = (Bits & 2) != 0 ? 1.0f : -1.0f;
-			const auto MakeSign = [&](float A, float B, float C)
-			{
+			const auto MakeSign = [&](float A, float B, float C) {
 				glm::vec3 Sign;
 				Sign[Axis] = A;
 				Sign[U] = B;
@@ -171,12 +144,12 @@ void FMeshBuilder::AddBeveledBox(const glm::vec3& Min, const glm::vec3& Max, flo
 			};
 			if ((Bits & 2) != 0)
 			{
-				AddOriented(GetPoint(Axis, MakeSign(SA, -1, -1)), GetPoint(Axis, MakeSign(SA, 1, -1)),
-				            GetPoint(Axis, MakeSign(SA, 1, 1)), GetPoint(Axis, MakeSign(SA, -1, 1)));
+				AddOriented(GetPoint(Axis, MakeSign(SA, -1, -1)), GetPoint(Axis, MakeSign(SA, 1, -1)), GetPoint(Axis, MakeSign(SA, 1, 1)),
+				    GetPoint(Axis, MakeSign(SA, -1, 1)));
 			}
 			// The edge along V, between the faces of Axis and U.
-			AddOriented(GetPoint(Axis, MakeSign(SA, SB, -1)), GetPoint(Axis, MakeSign(SA, SB, 1)),
-			            GetPoint(U, MakeSign(SA, SB, 1)), GetPoint(U, MakeSign(SA, SB, -1)));
+			AddOriented(GetPoint(Axis, MakeSign(SA, SB, -1)), GetPoint(Axis, MakeSign(SA, SB, 1)), GetPoint(U, MakeSign(SA, SB, 1)),
+			    GetPoint(U, MakeSign(SA, SB, -1)));
 		}
 	}
 	for (int Corner = 0; Corner < 8; ++Corner)
@@ -185,14 +158,13 @@ void FMeshBuilder::AddBeveledBox(const glm::vec3& Min, const glm::vec3& Max, flo
 		const bool bEven = Sign.x * Sign.y * Sign.z > 0;
 		const glm::vec3 X = GetPoint(0, Sign), Y = GetPoint(bEven ? 1 : 2, Sign), Z = GetPoint(bEven ? 2 : 1, Sign);
 		const glm::vec3 Normal = glm::normalize(Sign);
-		const uint32_t A = AddVertex(X, Normal, {0, 0}), B = AddVertex(Y, Normal, {0, 0}),
-		               C = AddVertex(Z, Normal, {0, 0});
+		const uint32_t A = AddVertex(X, Normal, {0, 0}), B = AddVertex(Y, Normal, {0, 0}), C = AddVertex(Z, Normal, {0, 0});
 		AddTriangle(A, B, C);
 	}
 }
 
-void FMeshBuilder::AddLatheBand(const glm::vec2& A, const glm::vec2& B, const glm::vec2& NormalA,
-                                const glm::vec2& NormalB, float VA, float VB, int Segments)
+void FMeshBuilder::AddLatheBand(
+    const glm::vec2& A, const glm::vec2& B, const glm::vec2& NormalA, const glm::vec2& NormalB, float VA, float VB, int Segments)
 {
 	const float Around = glm::two_pi<float>() * std::max(std::max(A.x, B.x), 0.05f);
 	uint32_t PreviousA = 0, PreviousB = 0;
@@ -201,20 +173,12 @@ void FMeshBuilder::AddLatheBand(const glm::vec2& A, const glm::vec2& B, const gl
 		const float Angle = glm::two_pi<float>() * float(I) / float(Segments);
 		const float Cos = std::cos(Angle), Sin = -std::sin(Angle);
 		const float U = Around * float(I) / float(Segments) * TexelScale;
-		const uint32_t LowerVertex =
-		    AddVertex({A.x * Cos, A.y, A.x * Sin}, {NormalA.x * Cos, NormalA.y, NormalA.x * Sin}, {U, -VA});
-		const uint32_t UpperVertex =
-		    AddVertex({B.x * Cos, B.y, B.x * Sin}, {NormalB.x * Cos, NormalB.y, NormalB.x * Sin}, {U, -VB});
+		const uint32_t LowerVertex = AddVertex({A.x * Cos, A.y, A.x * Sin}, {NormalA.x * Cos, NormalA.y, NormalA.x * Sin}, {U, -VA});
+		const uint32_t UpperVertex = AddVertex({B.x * Cos, B.y, B.x * Sin}, {NormalB.x * Cos, NormalB.y, NormalB.x * Sin}, {U, -VB});
 		if (I > 0)
 		{
-			if (A.x > 0)
-			{
-				AddTriangle(PreviousA, LowerVertex, UpperVertex);
-			}
-			if (B.x > 0)
-			{
-				AddTriangle(PreviousA, UpperVertex, PreviousB);
-			}
+			if (A.x > 0) { AddTriangle(PreviousA, LowerVertex, UpperVertex); }
+			if (B.x > 0) { AddTriangle(PreviousA, UpperVertex, PreviousB); }
 		}
 		PreviousA = LowerVertex;
 		PreviousB = UpperVertex;
@@ -224,8 +188,7 @@ void FMeshBuilder::AddLatheBand(const glm::vec2& A, const glm::vec2& B, const gl
 void FMeshBuilder::AddLathe(std::span<const glm::vec2> Profile, int Segments)
 {
 	// Outward normal of a step of the profile.
-	const auto GetNormal = [&](size_t I) -> glm::vec2
-	{
+	const auto GetNormal = [&](size_t I) -> glm::vec2 {
 		const glm::vec2 D = Profile[I + 1] - Profile[I];
 		return glm::length(D) > 0 ? glm::normalize(glm::vec2(D.y, -D.x)) : glm::vec2(0);
 	};
@@ -234,15 +197,11 @@ void FMeshBuilder::AddLathe(std::span<const glm::vec2> Profile, int Segments)
 	{
 		const glm::vec2 Own = GetNormal(I);
 		const float Length = glm::length(Profile[I + 1] - Profile[I]) * TexelScale;
-		if (Length == 0.0f)
-		{
-			continue;
-		}
+		if (Length == 0.0f) { continue; }
 		// A zero step on either side means a crease: its normal adds nothing.
 		const glm::vec2 Before = I > 0 ? GetNormal(I - 1) : glm::vec2(0);
 		const glm::vec2 After = I + 2 < Profile.size() ? GetNormal(I + 1) : glm::vec2(0);
-		AddLatheBand(Profile[I], Profile[I + 1], glm::normalize(Own + Before), glm::normalize(Own + After), V,
-		             V + Length, Segments);
+		AddLatheBand(Profile[I], Profile[I + 1], glm::normalize(Own + Before), glm::normalize(Own + After), V, V + Length, Segments);
 		V += Length;
 	}
 }
@@ -261,19 +220,17 @@ FIcosphere MakeIcosphere(int Subdivisions)
 	const double T = (1.0 + std::sqrt(5.0)) / 2.0;
 	FIcosphere Sphere;
 	for (const glm::dvec3& P : {glm::dvec3(-1, T, 0), glm::dvec3(1, T, 0), glm::dvec3(-1, -T, 0), glm::dvec3(1, -T, 0),
-	                            glm::dvec3(0, -1, T), glm::dvec3(0, 1, T), glm::dvec3(0, -1, -T), glm::dvec3(0, 1, -T),
-	                            glm::dvec3(T, 0, -1), glm::dvec3(T, 0, 1), glm::dvec3(-T, 0, -1), glm::dvec3(-T, 0, 1)})
+	         glm::dvec3(0, -1, T), glm::dvec3(0, 1, T), glm::dvec3(0, -1, -T), glm::dvec3(0, 1, -T), glm::dvec3(T, 0, -1),
+	         glm::dvec3(T, 0, 1), glm::dvec3(-T, 0, -1), glm::dvec3(-T, 0, 1)})
 	{
 		Sphere.Directions.push_back(glm::normalize(P));
 	}
-	Sphere.Triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-	                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-	                    {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+	Sphere.Triangles = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6},
+	    {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8}, {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
 	for (int Level = 0; Level < Subdivisions; ++Level)
 	{
 		std::map<std::pair<uint32_t, uint32_t>, uint32_t> Middles;
-		const auto GetMiddle = [&](uint32_t A, uint32_t B)
-		{
+		const auto GetMiddle = [&](uint32_t A, uint32_t B) {
 			const auto [Found, bNew] = Middles.try_emplace(std::minmax(A, B), uint32_t(Sphere.Directions.size()));
 			if (bNew)
 			{
@@ -306,10 +263,7 @@ void FMeshBuilder::AddSphere(const glm::vec3& Center, float Radius, int Subdivis
 		const glm::vec2 UV(std::atan2(N.z, N.x) / glm::two_pi<float>() + 0.5f, std::acos(N.y) / glm::pi<float>());
 		AddVertex(Center + N * Radius, bInward ? -N : N, UV);
 	}
-	for (const glm::uvec3& T : Sphere.Triangles)
-	{
-		AddTriangle(Base + T.x, Base + (bInward ? T.z : T.y), Base + (bInward ? T.y : T.z));
-	}
+	for (const glm::uvec3& T : Sphere.Triangles) { AddTriangle(Base + T.x, Base + (bInward ? T.z : T.y), Base + (bInward ? T.y : T.z)); }
 }
 
 void FMeshBuilder::AddDisk(const glm::vec3& Center, const glm::vec3& Normal, float Radius, int Segments)
@@ -322,10 +276,7 @@ void FMeshBuilder::AddDisk(const glm::vec3& Center, const glm::vec3& Normal, flo
 		const float Angle = glm::two_pi<float>() * float(I) / float(Segments);
 		const glm::vec2 P = Radius * glm::vec2(std::cos(Angle), std::sin(Angle));
 		const uint32_t Vertex = AddVertex(Center + U * P.x + V * P.y, Normal, P * TexelScale);
-		if (I > 0)
-		{
-			AddTriangle(Middle, Previous, Vertex);
-		}
+		if (I > 0) { AddTriangle(Middle, Previous, Vertex); }
 		Previous = Vertex;
 	}
 }
@@ -367,8 +318,7 @@ double FMeshBuilder::ComputeArea() const
 	double Area = 0.0;
 	for (size_t I = 0; I + 2 < Mesh.Indices.size(); I += 3)
 	{
-		const glm::dvec3 A(Mesh.Positions[Mesh.Indices[I]]), B(Mesh.Positions[Mesh.Indices[I + 1]]),
-		    C(Mesh.Positions[Mesh.Indices[I + 2]]);
+		const glm::dvec3 A(Mesh.Positions[Mesh.Indices[I]]), B(Mesh.Positions[Mesh.Indices[I + 1]]), C(Mesh.Positions[Mesh.Indices[I + 2]]);
 		Area += 0.5 * glm::length(glm::cross(B - A, C - A));
 	}
 	return Area;
@@ -376,10 +326,7 @@ double FMeshBuilder::ComputeArea() const
 
 void FMeshBuilder::Scale(float Factor)
 {
-	for (glm::vec3& Position : Mesh.Positions)
-	{
-		Position *= Factor;
-	}
+	for (glm::vec3& Position : Mesh.Positions) { Position *= Factor; }
 }
 
 FHostMesh FMeshBuilder::Build()

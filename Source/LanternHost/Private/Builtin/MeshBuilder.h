@@ -55,8 +55,8 @@ public:
 	FHostMesh Build();
 
 private:
-	void AddLatheBand(const glm::vec2& A, const glm::vec2& B, const glm::vec2& NormalA, const glm::vec2& NormalB,
-	                  float VA, float VB, int Segments);
+	void AddLatheBand(
+	    const glm::vec2& A, const glm::vec2& B, const glm::vec2& NormalA, const glm::vec2& NormalB, float VA, float VB, int Segments);
 
 	FHostMesh Mesh;
 	std::vector<glm::vec3> Normals;

@@ -17,22 +17,15 @@ uint32_t Wrap(int Index, uint32_t Cells)
 	return uint32_t((Index % Size + Size) % Size);
 }
 
-float Smooth(float T)
-{
-	return T * T * T * (T * (T * 6.0f - 15.0f) + 10.0f);
-}
+float Smooth(float T) { return T * T * T * (T * (T * 6.0f - 15.0f) + 10.0f); }
 
-uint8_t ToUnorm(float V)
-{
-	return uint8_t(glm::clamp(V, 0.0f, 1.0f) * 255.0f + 0.5f);
-}
+uint8_t ToUnorm(float V) { return uint8_t(glm::clamp(V, 0.0f, 1.0f) * 255.0f + 0.5f); }
 
 /// By table: a power per texel and channel would take longer than all the noise.
 uint8_t ToSrgb(float V)
 {
 	constexpr int Size = 4096;
-	static const std::vector<uint8_t> Table = []
-	{
+	static const std::vector<uint8_t> Table = [] {
 		std::vector<uint8_t> Values(Size + 1);
 		for (int I = 0; I <= Size; ++I)
 		{
@@ -66,7 +59,7 @@ float SampleNoise(const glm::vec2& P, uint32_t Cells, uint32_t Seed)
 	const FLatticeStep X = FindCell(P.x * float(Cells), Cells), Y = FindCell(P.y * float(Cells), Cells);
 	const auto At = [&](uint32_t CellX, uint32_t CellY) { return HashToFloat(HashLattice(CellX, CellY, Seed)); };
 	return glm::mix(glm::mix(At(X.Cell, Y.Cell), At(X.Next, Y.Cell), X.Fraction),
-	                glm::mix(At(X.Cell, Y.Next), At(X.Next, Y.Next), X.Fraction), Y.Fraction);
+	    glm::mix(At(X.Cell, Y.Next), At(X.Next, Y.Next), X.Fraction), Y.Fraction);
 }
 
 float SampleFractal(const glm::vec2& P, uint32_t Cells, int Octaves, float Gain, uint32_t Seed)
@@ -98,40 +91,30 @@ std::vector<FSurfacePoint> EvaluateAll(const FSurfaceDescription& Description)
 {
 	const size_t Size = Description.Size;
 	std::vector<FSurfacePoint> Points(Size * Size);
-	ParallelFor(Size, 16,
-	            [&](size_t Begin, size_t End)
-	            {
-		            for (size_t Y = Begin; Y < End; ++Y)
-		            {
-			            for (size_t X = 0; X < Size; ++X)
-			            {
-				            const glm::vec2 P = (glm::vec2(float(X), float(Y)) + 0.5f) / float(Size);
-				            Points[Y * Size + X] = Description.Evaluate(P);
-			            }
-		            }
-	            });
+	ParallelFor(Size, 16, [&](size_t Begin, size_t End) {
+		for (size_t Y = Begin; Y < End; ++Y)
+		{
+			for (size_t X = 0; X < Size; ++X)
+			{
+				const glm::vec2 P = (glm::vec2(float(X), float(Y)) + 0.5f) / float(Size);
+				Points[Y * Size + X] = Description.Evaluate(P);
+			}
+		}
+	});
 	return Points;
 }
 
 FHostImage MakeColorMap(const FSurfaceDescription& Description, const std::vector<FSurfacePoint>& Points)
 {
 	FHostImage Image = MakeImage(Description, "colour", true);
-	ParallelFor(Points.size(), 16384,
-	            [&](size_t Begin, size_t End)
-	            {
-		            for (size_t I = Begin; I < End; ++I)
-		            {
-			            for (int C = 0; C < 3; ++C)
-			            {
-				            Image.Rgba[I * 4 + size_t(C)] = ToSrgb(Points[I].Albedo[C]);
-			            }
-			            Image.Rgba[I * 4 + 3] = ToUnorm(Points[I].Alpha);
-		            }
-	            });
-	for (size_t I = 3; I < Image.Rgba.size() && !Image.bHasAlpha; I += 4)
-	{
-		Image.bHasAlpha = Image.Rgba[I] != 255;
-	}
+	ParallelFor(Points.size(), 16384, [&](size_t Begin, size_t End) {
+		for (size_t I = Begin; I < End; ++I)
+		{
+			for (int C = 0; C < 3; ++C) { Image.Rgba[I * 4 + size_t(C)] = ToSrgb(Points[I].Albedo[C]); }
+			Image.Rgba[I * 4 + 3] = ToUnorm(Points[I].Alpha);
+		}
+	});
+	for (size_t I = 3; I < Image.Rgba.size() && !Image.bHasAlpha; I += 4) { Image.bHasAlpha = Image.Rgba[I] != 255; }
 	return Image;
 }
 
@@ -141,28 +124,19 @@ FHostImage MakeNormalMap(const FSurfaceDescription& Description, const std::vect
 	const size_t Size = Description.Size;
 	const float Texel = Description.Metres / float(Size);
 	const auto At = [&](size_t X, size_t Y) { return Points[(Y % Size) * Size + X % Size].Height; };
-	const auto FillRow = [&](size_t Y)
-	{
+	const auto FillRow = [&](size_t Y) {
 		for (size_t X = 0; X < Size; ++X)
 		{
 			const float DX = (At(X + 1, Y) - At(X + Size - 1, Y)) / (2 * Texel);
 			const float DY = (At(X, Y + 1) - At(X, Y + Size - 1)) / (2 * Texel);
 			// v runs down and the bitangent against it, up: glTF's convention.
 			const glm::vec3 N = glm::normalize(glm::vec3(-DX, DY, 1));
-			for (int C = 0; C < 3; ++C)
-			{
-				Image.Rgba[(Y * Size + X) * 4 + size_t(C)] = ToUnorm(N[C] * 0.5f + 0.5f);
-			}
+			for (int C = 0; C < 3; ++C) { Image.Rgba[(Y * Size + X) * 4 + size_t(C)] = ToUnorm(N[C] * 0.5f + 0.5f); }
 		}
 	};
-	ParallelFor(Size, 16,
-	            [&](size_t Begin, size_t End)
-	            {
-		            for (size_t Y = Begin; Y < End; ++Y)
-		            {
-			            FillRow(Y);
-		            }
-	            });
+	ParallelFor(Size, 16, [&](size_t Begin, size_t End) {
+		for (size_t Y = Begin; Y < End; ++Y) { FillRow(Y); }
+	});
 	return Image;
 }
 
@@ -185,10 +159,7 @@ FHostMaterial MakeSurfaceMaterial(FSceneBuilder& Builder, const FSurfaceDescript
 	FHostMaterial Material;
 	Material.Name = Description.Name;
 	Material.Slots[TEXTURE_BASE_COLOR].Texture = Builder.AddImage(MakeColorMap(Description, Points));
-	if (Description.bNormalMap)
-	{
-		Material.Slots[TEXTURE_NORMAL].Texture = Builder.AddImage(MakeNormalMap(Description, Points));
-	}
+	if (Description.bNormalMap) { Material.Slots[TEXTURE_NORMAL].Texture = Builder.AddImage(MakeNormalMap(Description, Points)); }
 	if (Description.bRoughnessMap)
 	{
 		Material.Slots[TEXTURE_METALLIC_ROUGHNESS].Texture = Builder.AddImage(MakeRoughnessMap(Description, Points));
@@ -199,10 +170,7 @@ FHostMaterial MakeSurfaceMaterial(FSceneBuilder& Builder, const FSurfaceDescript
 		Material.Roughness = Points[0].Roughness;
 	}
 	const float Scale = Description.bUnitUV ? 1.0f : 1.0f / Description.Metres;
-	for (FHostTextureSlot& Slot : Material.Slots)
-	{
-		Slot.Transform = {Scale, 0, 0, Scale};
-	}
+	for (FHostTextureSlot& Slot : Material.Slots) { Slot.Transform = {Scale, 0, 0, Scale}; }
 	return Material;
 }
 

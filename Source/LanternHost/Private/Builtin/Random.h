@@ -36,9 +36,6 @@ inline uint32_t HashLattice(uint32_t X, uint32_t Y, uint32_t Seed)
 	return H ^ H >> 15;
 }
 
-inline float HashToFloat(uint32_t Hash)
-{
-	return float(Hash >> 8) * 0x1p-24f;
-}
+inline float HashToFloat(uint32_t Hash) { return float(Hash >> 8) * 0x1p-24f; }
 
 } // namespace Lantern::Builtin

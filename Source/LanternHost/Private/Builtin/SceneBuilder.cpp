@@ -38,8 +38,8 @@ int32_t FSceneBuilder::AddMesh(FMeshBuilder& Builder)
 	return int32_t(Scene.Meshes.size() - 1);
 }
 
-int32_t FSceneBuilder::AddNode(const char* Name, int32_t Mesh, const glm::vec3& Position, float YawRadians,
-                               const glm::vec3& Scale, int32_t Parent)
+int32_t FSceneBuilder::AddNode(
+    const char* Name, int32_t Mesh, const glm::vec3& Position, float YawRadians, const glm::vec3& Scale, int32_t Parent)
 {
 	FHostNode Node;
 	Node.Name = Name;

@@ -23,7 +23,7 @@ public:
 	int32_t AddMesh(FMeshBuilder& Builder);
 
 	int32_t AddNode(const char* Name, int32_t Mesh, const glm::vec3& Position = glm::vec3(0), float YawRadians = 0.0f,
-	                const glm::vec3& Scale = glm::vec3(1), int32_t Parent = -1);
+	    const glm::vec3& Scale = glm::vec3(1), int32_t Parent = -1);
 	/// Looks from one point to another. FovY in degrees. The image's up is Up as far as it can be.
 	void AddCamera(const glm::dvec3& From, const glm::dvec3& To, float FovYDegrees, const glm::dvec3& Up = {0, 1, 0});
 	int32_t AddPointLight(const char* Name, const glm::vec3& Position, const glm::vec3& Candela, float Range = 0.0f);

@@ -28,10 +28,7 @@ void AddFloor(FSceneBuilder& Builder, float Albedo)
 	Builder.AddNode("floor", Builder.AddMesh(Mesh));
 }
 
-int32_t AddEmitter(FSceneBuilder& Builder)
-{
-	return Builder.AddLambert("emitter", glm::vec3(0), glm::vec3(1));
-}
+int32_t AddEmitter(FSceneBuilder& Builder) { return Builder.AddLambert("emitter", glm::vec3(0), glm::vec3(1)); }
 
 /// Looks at a point of the floor from a low height, where no emitter is in the way.
 void AddPointCamera(FSceneBuilder& Builder, const glm::dvec3& Point)
@@ -39,10 +36,7 @@ void AddPointCamera(FSceneBuilder& Builder, const glm::dvec3& Point)
 	Builder.AddCamera(Point + glm::dvec3(0, 0.3, 0.6), Point, PointFov);
 }
 
-void Darken(FSceneBuilder& Builder)
-{
-	Builder.SetLight(Down, 0.0f, glm::vec3(0));
-}
+void Darken(FSceneBuilder& Builder) { Builder.SetLight(Down, 0.0f, glm::vec3(0)); }
 
 } // namespace
 
@@ -98,14 +92,8 @@ FSceneDescription BuildFormFactors(bool bPerpendicular)
 	Builder.AddNode("receiver", Builder.AddMesh(Receiver));
 	FMeshBuilder Emitter("emitter");
 	Emitter.BeginSection(AddEmitter(Builder));
-	if (bPerpendicular)
-	{
-		Emitter.AddQuad({-0.5f, 0, -0.5f}, {0.5f, 0, -0.5f}, {0.5f, 1, -0.5f}, {-0.5f, 1, -0.5f});
-	}
-	else
-	{
-		Emitter.AddQuad({-0.5f, 1, -0.5f}, {0.5f, 1, -0.5f}, {0.5f, 1, 0.5f}, {-0.5f, 1, 0.5f});
-	}
+	if (bPerpendicular) { Emitter.AddQuad({-0.5f, 0, -0.5f}, {0.5f, 0, -0.5f}, {0.5f, 1, -0.5f}, {-0.5f, 1, -0.5f}); }
+	else { Emitter.AddQuad({-0.5f, 1, -0.5f}, {0.5f, 1, -0.5f}, {0.5f, 1, 0.5f}, {-0.5f, 1, 0.5f}); }
 	Builder.AddNode("emitter", Builder.AddMesh(Emitter));
 	// From between the squares: at half a metre and 90° the square fills a square picture.
 	Builder.AddCamera({0, 0.5, 0}, {0, 0, 0}, 90, {0, 0, -1});
@@ -192,14 +180,8 @@ FSceneDescription BuildPlanes()
 		FMeshBuilder Mesh(I == 0 ? "facing up" : I == 1 ? "facing down" : "double-sided");
 		Mesh.BeginSection(I == 2 ? Double : Single);
 		const glm::vec3 A(-0.75f, 0, 0.75f), B(0.75f, 0, 0.75f), C(0.75f, 0, -0.75f), D(-0.75f, 0, -0.75f);
-		if (I == 1)
-		{
-			Mesh.AddQuad(A, D, C, B);
-		}
-		else
-		{
-			Mesh.AddQuad(A, B, C, D);
-		}
+		if (I == 1) { Mesh.AddQuad(A, D, C, B); }
+		else { Mesh.AddQuad(A, B, C, D); }
 		const int32_t MeshIndex = Builder.AddMesh(Mesh);
 		Builder.AddNode(Builder.Scene.Meshes.back().Name.c_str(), MeshIndex, {float(I - 1) * 2.5f, 1.5f, 0});
 	}

@@ -22,10 +22,7 @@ FHostSkin ReadSkin(FDocument& Document, const FJson& Json)
 {
 	FHostSkin Skin;
 	const FJson Joints = Json.Member("joints");
-	if (Joints.Count() == 0)
-	{
-		Json.Fail("has no joints");
-	}
+	if (Joints.Count() == 0) { Json.Fail("has no joints"); }
 	for (size_t I = 0; I < Joints.Count(); ++I)
 	{
 		const FJson Joint = Joints.Element(I);
@@ -52,10 +49,7 @@ FHostSkin ReadSkin(FDocument& Document, const FJson& Json)
 	Skin.InverseBind.resize(Skin.Joints.size());
 	for (size_t I = 0; I < Skin.InverseBind.size(); ++I)
 	{
-		if (!IsFinite(&Skin.InverseBind[I][0][0], 16))
-		{
-			Json.Fail(fmt::format("inverse bind matrix {} is not finite", I));
-		}
+		if (!IsFinite(&Skin.InverseBind[I][0][0], 16)) { Json.Fail(fmt::format("inverse bind matrix {} is not finite", I)); }
 	}
 	return Skin;
 }
@@ -70,17 +64,13 @@ void CheckJoints(FDocument& Document)
 	{
 		for (const FSkinWeights& Weights : Scene.Meshes[M].Skin)
 		{
-			MaxJoint[M] =
-			    std::max(MaxJoint[M], int32_t(*std::max_element(Weights.Joints.begin(), Weights.Joints.end())));
+			MaxJoint[M] = std::max(MaxJoint[M], int32_t(*std::max_element(Weights.Joints.begin(), Weights.Joints.end())));
 		}
 	}
 	for (size_t I = 0; I < Scene.Nodes.size(); ++I)
 	{
 		FHostNode& Node = Scene.Nodes[I];
-		if (Node.Skin < 0)
-		{
-			continue;
-		}
+		if (Node.Skin < 0) { continue; }
 		if (MaxJoint[size_t(Node.Mesh)] < 0)
 		{
 			Document.Warn("skinned nodes whose mesh has no JOINTS_0 and WEIGHTS_0 are rendered rigid");
@@ -92,7 +82,7 @@ void CheckJoints(FDocument& Document)
 			if (size_t(MaxJoint[size_t(Node.Mesh)]) >= Skin.Joints.size())
 			{
 				throw FError(fmt::format("node {}: its mesh refers to joint {}, but skins[{}] has {}", Quote(Node.Name),
-				                         MaxJoint[size_t(Node.Mesh)], Node.Skin, Skin.Joints.size()));
+				    MaxJoint[size_t(Node.Mesh)], Node.Skin, Skin.Joints.size()));
 			}
 			// Every skinned node needs vertices and joints of its own, whoever bends them.
 			Document.ChargeGeometry(Nodes, Scene.Meshes[size_t(Node.Mesh)].Positions.size(), 24);
@@ -129,8 +119,7 @@ void ReadTimes(FDocument& Document, const FJson& Sampler, FHostChannel& Channel)
 	Channel.Times = ReadScalars(Accessor);
 	for (size_t I = 0; I < Channel.Times.size(); ++I)
 	{
-		if (!std::isfinite(Channel.Times[I]) || Channel.Times[I] < 0 ||
-		    (I > 0 && Channel.Times[I] < Channel.Times[I - 1]))
+		if (!std::isfinite(Channel.Times[I]) || Channel.Times[I] < 0 || (I > 0 && Channel.Times[I] < Channel.Times[I - 1]))
 		{
 			Sampler.Fail(fmt::format("time {} is not finite, negative or before the one before it", I));
 		}
@@ -154,15 +143,14 @@ void ReadValues(FDocument& Document, const FJson& Sampler, FHostChannel& Channel
 	if (Accessor.Components != Components || Accessor.Count != Channel.Times.size() * PerKey)
 	{
 		Sampler.Fail(fmt::format("'output' has {} × {} numbers, expected {} × {}", Accessor.Count, Accessor.Components,
-		                         Channel.Times.size() * PerKey, Components));
+		    Channel.Times.size() * PerKey, Components));
 	}
 	Document.ChargeGeometry(Sampler, Accessor.Count, sizeof(glm::vec4));
 	Channel.Values = ReadVec4(Accessor, glm::vec4(0));
 	for (size_t I = 0; I < Channel.Values.size(); ++I)
 	{
 		// A bound, too: products of transforms must stay finite.
-		if (!IsFinite(&Channel.Values[I][0], 4) ||
-		    glm::any(glm::greaterThan(glm::abs(Channel.Values[I]), glm::vec4(1e18f))))
+		if (!IsFinite(&Channel.Values[I][0], 4) || glm::any(glm::greaterThan(glm::abs(Channel.Values[I]), glm::vec4(1e18f))))
 		{
 			Sampler.Fail(fmt::format("value {} is not finite or too large", I));
 		}
@@ -188,13 +176,8 @@ bool ReadTarget(FDocument& Document, const FJson& Channel, FHostChannel& Out)
 		return false; // the specification wants such channels ignored
 	}
 	Out.Node = Document.NodeRemap[size_t(Node)];
-	Out.Path = Path == "translation" ? EAnimationPath::Translation
-	           : Path == "rotation"  ? EAnimationPath::Rotation
-	                                 : EAnimationPath::Scale;
-	if (Document.Scene.Nodes[size_t(Out.Node)].Matrix)
-	{
-		Channel.Fail(fmt::format("node {} is animated but has a matrix", Node));
-	}
+	Out.Path = Path == "translation" ? EAnimationPath::Translation : Path == "rotation" ? EAnimationPath::Rotation : EAnimationPath::Scale;
+	if (Document.Scene.Nodes[size_t(Out.Node)].Matrix) { Channel.Fail(fmt::format("node {} is animated but has a matrix", Node)); }
 	return true;
 }
 
@@ -224,10 +207,7 @@ void ReadAnimations(FDocument& Document)
 				Animation.Channels.push_back(std::move(Channel));
 			}
 		}
-		if (!Animation.Channels.empty())
-		{
-			Document.Scene.Animations.push_back(std::move(Animation));
-		}
+		if (!Animation.Channels.empty()) { Document.Scene.Animations.push_back(std::move(Animation)); }
 	}
 }
 

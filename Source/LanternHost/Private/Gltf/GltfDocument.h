@@ -83,10 +83,7 @@ struct FDocument
 	}
 	void ReportProgress(std::string_view Stage, float Fraction) const
 	{
-		if (Options.Progress)
-		{
-			Options.Progress(Stage, Fraction);
-		}
+		if (Options.Progress) { Options.Progress(Stage, Fraction); }
 	}
 	/// Counts bytes that the file unfolds to; throws past the limit.
 	void ChargeGeometry(const FJson& Place, uint64_t Count, uint64_t BytesEach);

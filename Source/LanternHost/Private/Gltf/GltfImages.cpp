@@ -6,8 +6,8 @@
 
 #include "Gltf/GltfDocument.h"
 #include "Gltf/StbDecode.h"
-#include "LanternCore/Text/Quote.h"
 #include "LanternCore/Tasks/Tasks.h"
+#include "LanternCore/Text/Quote.h"
 
 namespace Lantern::Gltf
 {
@@ -28,18 +28,9 @@ FBlob ReadImageBytes(const FDocument& Document, const FJson& Json)
 	FBlob Blob;
 	const FJson Uri = Json.Member("uri");
 	const int32_t View = Json.GetIndex("bufferView", Document.BufferViews.size(), "buffer view");
-	if (Uri.Exists() == (View >= 0))
-	{
-		Json.Fail("needs either a 'uri' or a 'bufferView'");
-	}
-	if (View >= 0)
-	{
-		Blob.Bytes = Document.BufferViews[View];
-	}
-	else if (IsDataUri(Uri.ToString()))
-	{
-		Blob.Own(DecodeDataUri(Uri, Uri.ToString()));
-	}
+	if (Uri.Exists() == (View >= 0)) { Json.Fail("needs either a 'uri' or a 'bufferView'"); }
+	if (View >= 0) { Blob.Bytes = Document.BufferViews[View]; }
+	else if (IsDataUri(Uri.ToString())) { Blob.Own(DecodeDataUri(Uri, Uri.ToString())); }
 	else
 	{
 		const std::filesystem::path Path = ResolveUri(Uri, Uri.ToString(), Document.Folder);
@@ -59,10 +50,7 @@ FBlob ReadImageBytes(const FDocument& Document, const FJson& Json)
 void Measure(const FDocument& Document, const FEncodedImage& Encoded, uint64_t& InOutBytes)
 {
 	uint32_t Width = 0, Height = 0;
-	if (!GetImageSize(Encoded.Blob.Bytes, Width, Height))
-	{
-		throw FError("not a PNG or JPEG image");
-	}
+	if (!GetImageSize(Encoded.Blob.Bytes, Width, Height)) { throw FError("not a PNG or JPEG image"); }
 	if (Width > Document.Options.MaxImageSize || Height > Document.Options.MaxImageSize)
 	{
 		throw FError(fmt::format("{}×{} texels; the limit is {}²", Width, Height, Document.Options.MaxImageSize));
@@ -70,8 +58,7 @@ void Measure(const FDocument& Document, const FEncodedImage& Encoded, uint64_t& 
 	InOutBytes += uint64_t(Width) * Height * 4;
 	if (InOutBytes > Document.Options.MaxImageBytes)
 	{
-		throw FError(
-		    fmt::format("the images unfold to more than the limit of {} bytes", Document.Options.MaxImageBytes));
+		throw FError(fmt::format("the images unfold to more than the limit of {} bytes", Document.Options.MaxImageBytes));
 	}
 	FHostImage& Image = Document.Scene.Images[Encoded.HostImage];
 	Image.Width = Width;
@@ -94,8 +81,7 @@ void Collect(FDocument& Document, std::vector<FEncodedImage>& OutEncoded, std::m
 		const auto [First, bNew] = FirstByName.try_emplace(Key, I);
 		FEncodedImage Encoded;
 		Encoded.HostImage = bNew ? I : First->second;
-		Encoded.Place =
-		    fmt::format("images[{}] {} ({})", Source.GltfImage, Quote(Document.Scene.Images[I].Name), Source.UsedBy);
+		Encoded.Place = fmt::format("images[{}] {} ({})", Source.GltfImage, Quote(Document.Scene.Images[I].Name), Source.UsedBy);
 		try
 		{
 			if (bNew)
@@ -128,35 +114,30 @@ void ReadImages(FDocument& Document)
 
 	std::mutex ProgressMutex;
 	size_t Done = 0;
-	ParallelFor(Encoded.size(), 1,
-	            [&](size_t Begin, size_t End)
-	            {
-		            for (size_t I = Begin; I < End; ++I)
-		            {
-			            FHostImage& Image = Document.Scene.Images[Encoded[I].HostImage];
-			            try
-			            {
-				            Encoded[I].Error = DecodeImage(Encoded[I].Blob.Bytes, Image.Rgba, Image.bHasAlpha);
-				            if (Encoded[I].Error.empty() && Image.Rgba.size() != size_t(Image.Width) * Image.Height * 4)
-				            {
-					            Encoded[I].Error = "its size changes between header and pixels";
-				            }
-			            }
-			            catch (const std::bad_alloc&)
-			            {
-				            Encoded[I].Error = "out of memory";
-			            }
-			            Encoded[I].Blob = {};
-			            const std::lock_guard Lock(ProgressMutex);
-			            Document.ReportProgress("images", float(++Done) / float(Encoded.size()));
-		            }
-	            });
+	ParallelFor(Encoded.size(), 1, [&](size_t Begin, size_t End) {
+		for (size_t I = Begin; I < End; ++I)
+		{
+			FHostImage& Image = Document.Scene.Images[Encoded[I].HostImage];
+			try
+			{
+				Encoded[I].Error = DecodeImage(Encoded[I].Blob.Bytes, Image.Rgba, Image.bHasAlpha);
+				if (Encoded[I].Error.empty() && Image.Rgba.size() != size_t(Image.Width) * Image.Height * 4)
+				{
+					Encoded[I].Error = "its size changes between header and pixels";
+				}
+			}
+			catch (const std::bad_alloc&)
+			{
+				Encoded[I].Error = "out of memory";
+			}
+			Encoded[I].Blob = {};
+			const std::lock_guard Lock(ProgressMutex);
+			Document.ReportProgress("images", float(++Done) / float(Encoded.size()));
+		}
+	});
 	for (const FEncodedImage& Image : Encoded)
 	{
-		if (!Image.Error.empty())
-		{
-			throw FError(fmt::format("{}: cannot be decoded: {}", Image.Place, Image.Error));
-		}
+		if (!Image.Error.empty()) { throw FError(fmt::format("{}: cannot be decoded: {}", Image.Place, Image.Error)); }
 	}
 	for (const auto& [Copy, Original] : Same)
 	{

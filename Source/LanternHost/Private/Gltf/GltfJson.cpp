@@ -18,14 +18,8 @@ void FJson::AppendPath(std::string& Out) const
 	if (Parent != nullptr)
 	{
 		Parent->AppendPath(Out);
-		if (Key == nullptr)
-		{
-			Out += fmt::format("[{}]", Index);
-		}
-		else
-		{
-			Out += Out.empty() ? Key : fmt::format(".{}", Key);
-		}
+		if (Key == nullptr) { Out += fmt::format("[{}]", Index); }
+		else { Out += Out.empty() ? Key : fmt::format(".{}", Key); }
 	}
 }
 
@@ -44,18 +38,12 @@ void FJson::Fail(std::string_view Message) const
 
 void FJson::RequireObject() const
 {
-	if (!Value->is_object())
-	{
-		Fail(fmt::format("expected an object, found {}", Value->type_name()));
-	}
+	if (!Value->is_object()) { Fail(fmt::format("expected an object, found {}", Value->type_name())); }
 }
 
 FJson FJson::Member(const char* MemberKey) const
 {
-	if (Value == nullptr)
-	{
-		return FJson(nullptr, this, MemberKey, 0);
-	}
+	if (Value == nullptr) { return FJson(nullptr, this, MemberKey, 0); }
 	RequireObject();
 	const auto Found = Value->find(MemberKey);
 	return FJson(Found == Value->end() ? nullptr : &*Found, this, MemberKey, 0);
@@ -63,20 +51,11 @@ FJson FJson::Member(const char* MemberKey) const
 
 FJson FJson::Extension(const char* Name) const
 {
-	if (Value == nullptr)
-	{
-		return {};
-	}
+	if (Value == nullptr) { return {}; }
 	RequireObject();
 	const auto Extensions = Value->find("extensions");
-	if (Extensions == Value->end())
-	{
-		return {};
-	}
-	if (!Extensions->is_object())
-	{
-		Fail("'extensions' is not an object");
-	}
+	if (Extensions == Value->end()) { return {}; }
+	if (!Extensions->is_object()) { Fail("'extensions' is not an object"); }
 	const auto Found = Extensions->find(Name);
 	// Named without the "extensions" in between, which would need a parent that lives on.
 	return Found == Extensions->end() ? FJson() : FJson(&*Found, this, Name, 0);
@@ -84,81 +63,47 @@ FJson FJson::Extension(const char* Name) const
 
 size_t FJson::Count() const
 {
-	if (Value == nullptr)
-	{
-		return 0;
-	}
-	if (!Value->is_array())
-	{
-		Fail(fmt::format("expected an array, found {}", Value->type_name()));
-	}
+	if (Value == nullptr) { return 0; }
+	if (!Value->is_array()) { Fail(fmt::format("expected an array, found {}", Value->type_name())); }
 	return Value->size();
 }
 
-FJson FJson::Element(size_t ElementIndex) const
-{
-	return FJson(&(*Value)[ElementIndex], this, nullptr, ElementIndex);
-}
+FJson FJson::Element(size_t ElementIndex) const { return FJson(&(*Value)[ElementIndex], this, nullptr, ElementIndex); }
 
-std::string FJson::Dump() const
-{
-	return Value != nullptr ? Value->dump() : std::string();
-}
+std::string FJson::Dump() const { return Value != nullptr ? Value->dump() : std::string(); }
 
 uint64_t FJson::ToUInt(uint64_t Max) const
 {
 	uint64_t Result = 0;
-	if (Value->is_number_unsigned())
-	{
-		Result = Value->get<uint64_t>();
-	}
+	if (Value->is_number_unsigned()) { Result = Value->get<uint64_t>(); }
 	else if (Value->is_number_float() && Value->get<double>() >= 0 && Value->get<double>() < 0x1p53 &&
 	         std::floor(Value->get<double>()) == Value->get<double>())
 	{
 		Result = uint64_t(Value->get<double>()); // "3.0", as some writers have it
 	}
-	else
-	{
-		Fail(fmt::format("expected a non-negative integer, found {}",
-		                 Value->is_number() ? Value->dump() : Value->type_name()));
-	}
-	if (Result > Max)
-	{
-		Fail(fmt::format("{} is more than {}", Result, Max));
-	}
+	else { Fail(fmt::format("expected a non-negative integer, found {}", Value->is_number() ? Value->dump() : Value->type_name())); }
+	if (Result > Max) { Fail(fmt::format("{} is more than {}", Result, Max)); }
 	return Result;
 }
 
 double FJson::ToNumber() const
 {
-	if (!Value->is_number())
-	{
-		Fail(fmt::format("expected a number, found {}", Value->type_name()));
-	}
+	if (!Value->is_number()) { Fail(fmt::format("expected a number, found {}", Value->type_name())); }
 	const double Number = Value->get<double>();
-	if (!std::isfinite(Number))
-	{
-		Fail("not a finite number");
-	}
+	if (!std::isfinite(Number)) { Fail("not a finite number"); }
 	return Number;
 }
 
 float FJson::ToFloat() const
 {
 	const double Number = ToNumber();
-	if (std::abs(Number) > double(std::numeric_limits<float>::max()))
-	{
-		Fail(fmt::format("{} is beyond what a float holds", Number));
-	}
+	if (std::abs(Number) > double(std::numeric_limits<float>::max())) { Fail(fmt::format("{} is beyond what a float holds", Number)); }
 	return float(Number);
 }
 
 const std::string& FJson::ToString() const
 {
-	if (!Value->is_string())
-	{
-		Fail(fmt::format("expected a string, found {}", Value->type_name()));
-	}
+	if (!Value->is_string()) { Fail(fmt::format("expected a string, found {}", Value->type_name())); }
 	return Value->get_ref<const std::string&>();
 }
 
@@ -171,10 +116,7 @@ uint64_t FJson::GetUInt(const char* MemberKey, uint64_t Default, uint64_t Max) c
 int32_t FJson::GetIndex(const char* MemberKey, size_t Size, const char* What) const
 {
 	const FJson Found = Member(MemberKey);
-	if (!Found.Exists())
-	{
-		return -1;
-	}
+	if (!Found.Exists()) { return -1; }
 	const uint64_t FoundIndex = Found.ToUInt(UINT64_MAX);
 	if (FoundIndex >= Size || FoundIndex > uint64_t(INT32_MAX))
 	{
@@ -186,10 +128,7 @@ int32_t FJson::GetIndex(const char* MemberKey, size_t Size, const char* What) co
 int32_t FJson::RequireIndex(const char* MemberKey, size_t Size, const char* What) const
 {
 	const int32_t Found = GetIndex(MemberKey, Size, What);
-	if (Found < 0)
-	{
-		Fail(fmt::format("'{}' is missing", MemberKey));
-	}
+	if (Found < 0) { Fail(fmt::format("'{}' is missing", MemberKey)); }
 	return Found;
 }
 
@@ -202,14 +141,8 @@ float FJson::GetFloat(const char* MemberKey, float Default) const
 bool FJson::GetBool(const char* MemberKey, bool Default) const
 {
 	const FJson Found = Member(MemberKey);
-	if (!Found.Exists())
-	{
-		return Default;
-	}
-	if (!Found.Value->is_boolean())
-	{
-		Found.Fail(fmt::format("expected true or false, found {}", Found.Value->type_name()));
-	}
+	if (!Found.Exists()) { return Default; }
+	if (!Found.Value->is_boolean()) { Found.Fail(fmt::format("expected true or false, found {}", Found.Value->type_name())); }
 	return Found.Value->get<bool>();
 }
 
@@ -222,14 +155,8 @@ std::string FJson::GetString(const char* MemberKey, const char* Default) const
 bool FJson::GetNumbers(const char* MemberKey, size_t Size, double* Out) const
 {
 	const FJson Found = Member(MemberKey);
-	if (!Found.Exists())
-	{
-		return false;
-	}
-	if (Found.Count() != Size)
-	{
-		Found.Fail(fmt::format("expected {} numbers, found {}", Size, Found.Count()));
-	}
+	if (!Found.Exists()) { return false; }
+	if (Found.Count() != Size) { Found.Fail(fmt::format("expected {} numbers, found {}", Size, Found.Count())); }
 	for (size_t I = 0; I < Size; ++I)
 	{
 		// As floats: what a float cannot hold would become infinite further on.
@@ -275,21 +202,12 @@ void CheckNesting(std::string_view Text)
 			I += C == '\\' ? 1 : 0;
 			bInString = C != '"';
 		}
-		else if (C == '"')
-		{
-			bInString = true;
-		}
+		else if (C == '"') { bInString = true; }
 		else if (C == '{' || C == '[')
 		{
-			if (++Depth > MaxNesting)
-			{
-				throw FError(fmt::format("byte {}: JSON nested deeper than {} levels", I, MaxNesting));
-			}
+			if (++Depth > MaxNesting) { throw FError(fmt::format("byte {}: JSON nested deeper than {} levels", I, MaxNesting)); }
 		}
-		else if (C == '}' || C == ']')
-		{
-			--Depth;
-		}
+		else if (C == '}' || C == ']') { --Depth; }
 	}
 }
 

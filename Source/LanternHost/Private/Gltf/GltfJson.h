@@ -64,8 +64,7 @@ private:
 	      Parent(InParent),
 	      Key(InKey),
 	      Index(InIndex)
-	{
-	}
+	{}
 	void AppendPath(std::string& Out) const;
 
 	const nlohmann::json* Value = nullptr;

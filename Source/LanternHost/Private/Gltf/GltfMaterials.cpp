@@ -23,8 +23,7 @@ public:
 	      Textures(InDocument.Root.Member("textures")),
 	      Images(InDocument.Root.Member("images")),
 	      Samplers(InDocument.Root.Member("samplers"))
-	{
-	}
+	{}
 
 	int32_t Get(const FJson& TextureInfo, bool bSrgb)
 	{
@@ -63,10 +62,7 @@ private:
 	int32_t GetImage(const FJson& Texture, const FJson& UsedBy, bool bSrgb)
 	{
 		const int32_t Source = Texture.GetIndex("source", Images.Count(), "image");
-		if (Source < 0)
-		{
-			Texture.Fail("has no 'source' in a format that is read (PNG or JPEG)");
-		}
+		if (Source < 0) { Texture.Fail("has no 'source' in a format that is read (PNG or JPEG)"); }
 		const FJson Image = Images.Element(size_t(Source));
 		const FJson UriJson = Image.Member("uri");
 		const bool bFile = UriJson.Exists() && !IsDataUri(UriJson.ToString());
@@ -77,10 +73,7 @@ private:
 		{
 			FHostImage Result;
 			Result.Name = bFile ? Key : Image.GetString("name", "");
-			if (Result.Name.empty())
-			{
-				Result.Name = fmt::format("image {}", Source);
-			}
+			if (Result.Name.empty()) { Result.Name = fmt::format("image {}", Source); }
 			Result.bSrgb = bSrgb;
 			Document.Scene.Images.push_back(std::move(Result));
 			Document.ImageSources.push_back({size_t(Source), UsedBy.GetPath()});
@@ -114,8 +107,7 @@ void ReadTransform(FDocument& Document, const FJson& Info, FHostTextureSlot& Out
 	}
 }
 
-void ReadSlot(FDocument& Document, FTextureTable& Table, const FJson& Parent, const char* Key, bool bSrgb,
-              FHostTextureSlot& OutSlot)
+void ReadSlot(FDocument& Document, FTextureTable& Table, const FJson& Parent, const char* Key, bool bSrgb, FHostTextureSlot& OutSlot)
 {
 	const FJson Info = Parent.Member(Key);
 	if (Info.Exists())
@@ -126,25 +118,16 @@ void ReadSlot(FDocument& Document, FTextureTable& Table, const FJson& Parent, co
 	}
 }
 
-float Clamp01(const FJson& Json, const char* Key, float Default)
-{
-	return glm::clamp(Json.GetFloat(Key, Default), 0.0f, 1.0f);
-}
+float Clamp01(const FJson& Json, const char* Key, float Default) { return glm::clamp(Json.GetFloat(Key, Default), 0.0f, 1.0f); }
 
 void ReadExtensions(FDocument& Document, const FJson& Json, FHostMaterial& Material)
 {
 	const FJson Strength = Json.Extension("KHR_materials_emissive_strength");
 	Material.Emissive *= std::max(Strength.GetFloat("emissiveStrength", 1.0f), 0.0f);
-	if (!glm::all(glm::lessThan(Material.Emissive, glm::vec3(1e30f))))
-	{
-		Json.Fail("emission is beyond what a float holds");
-	}
+	if (!glm::all(glm::lessThan(Material.Emissive, glm::vec3(1e30f)))) { Json.Fail("emission is beyond what a float holds"); }
 	const FJson Ior = Json.Extension("KHR_materials_ior");
 	Material.Ior = Ior.GetFloat("ior", 1.5f);
-	if (Material.Ior != 0.0f && Material.Ior < 1.0f)
-	{
-		Ior.Fail(fmt::format("ior {} is neither 0 nor at least 1", Material.Ior));
-	}
+	if (Material.Ior != 0.0f && Material.Ior < 1.0f) { Ior.Fail(fmt::format("ior {} is neither 0 nor at least 1", Material.Ior)); }
 	const FJson Specular = Json.Extension("KHR_materials_specular");
 	Material.Specular = Clamp01(Specular, "specularFactor", 1.0f);
 	if (Specular.Member("specularTexture").Exists() || Specular.Member("specularColorTexture").Exists() ||
@@ -154,10 +137,7 @@ void ReadExtensions(FDocument& Document, const FJson& Json, FHostMaterial& Mater
 	}
 	const FJson Transmission = Json.Extension("KHR_materials_transmission");
 	Material.Transmission = Clamp01(Transmission, "transmissionFactor", 0.0f);
-	if (Material.Transmission > 0)
-	{
-		Document.Warn("KHR_materials_transmission: transmissive materials are rendered as opaque");
-	}
+	if (Material.Transmission > 0) { Document.Warn("KHR_materials_transmission: transmissive materials are rendered as opaque"); }
 }
 
 /// Unlit materials become emitters of their base colour: what they look like, although they then also light others.
@@ -180,19 +160,13 @@ void ReadUnlit(FDocument& Document, const FJson& Json, FHostMaterial& Material)
 void ReadAlpha(FDocument& Document, const FJson& Json, FHostMaterial& Material)
 {
 	const std::string Mode = Json.GetString("alphaMode", "OPAQUE");
-	if (Mode == "MASK")
-	{
-		Material.AlphaMode = EAlphaMode::Mask;
-	}
+	if (Mode == "MASK") { Material.AlphaMode = EAlphaMode::Mask; }
 	else if (Mode == "BLEND")
 	{
 		Material.AlphaMode = EAlphaMode::Blend;
 		Document.Warn("alphaMode BLEND: blended materials are not composited");
 	}
-	else if (Mode != "OPAQUE")
-	{
-		Json.Fail(fmt::format("{} is no alphaMode", Quote(Mode)));
-	}
+	else if (Mode != "OPAQUE") { Json.Fail(fmt::format("{} is no alphaMode", Quote(Mode))); }
 	Material.AlphaCutoff = std::max(Json.GetFloat("alphaCutoff", 0.5f), 0.0f);
 	Material.bDoubleSided = Json.GetBool("doubleSided", false);
 }

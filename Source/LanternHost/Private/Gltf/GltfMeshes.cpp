@@ -57,23 +57,17 @@ void CheckComponents(const FJson& Json, const FAccessor& Accessor, uint32_t Min,
 	if (Accessor.Components < Min || Accessor.Components > Max)
 	{
 		Json.Fail(fmt::format("accessor has {} components, expected {}", Accessor.Components,
-		                      Min == Max ? std::to_string(Min) : fmt::format("{} or {}", Min, Max)));
+		    Min == Max ? std::to_string(Min) : fmt::format("{} or {}", Min, Max)));
 	}
 }
 
 const FAccessor* FMeshReader::FindAttribute(const FJson& Attributes, const char* Name, size_t VertexCount) const
 {
 	const int32_t Index = Attributes.GetIndex(Name, Document.Accessors.size(), "accessor");
-	if (Index < 0)
-	{
-		return nullptr;
-	}
+	if (Index < 0) { return nullptr; }
 	const FAccessor& Accessor = Document.Accessors[size_t(Index)];
 	const FJson Place = Attributes.Member(Name);
-	if (Accessor.Count != VertexCount)
-	{
-		Place.Fail(fmt::format("{} elements, but POSITION has {}", Accessor.Count, VertexCount));
-	}
+	if (Accessor.Count != VertexCount) { Place.Fail(fmt::format("{} elements, but POSITION has {}", Accessor.Count, VertexCount)); }
 	const std::string_view Text(Name);
 	const bool bUV = Text.starts_with("TEXCOORD"), bNormal = Text == "NORMAL";
 	const uint32_t Min = bUV ? 2 : bNormal || Text == "COLOR_0" ? 3 : 4;
@@ -82,10 +76,7 @@ const FAccessor* FMeshReader::FindAttribute(const FJson& Attributes, const char*
 	return &Accessor;
 }
 
-bool IsFinite(const glm::vec3& V)
-{
-	return std::isfinite(V.x) && std::isfinite(V.y) && std::isfinite(V.z);
-}
+bool IsFinite(const glm::vec3& V) { return std::isfinite(V.x) && std::isfinite(V.y) && std::isfinite(V.z); }
 
 /// Texture coordinates, colours: harmless where they are not numbers, so zero will do, and a word about it.
 template <class TVector>
@@ -114,10 +105,7 @@ void FMeshReader::ReadVertices(const FJson& Json, const FJson& Attributes, FPrim
 	Out.Positions = ReadVec3(Position);
 	for (size_t I = 0; I < Out.Positions.size(); ++I)
 	{
-		if (!IsFinite(Out.Positions[I]))
-		{
-			Json.Fail(fmt::format("the position of vertex {} is not finite", I));
-		}
+		if (!IsFinite(Out.Positions[I])) { Json.Fail(fmt::format("the position of vertex {} is not finite", I)); }
 	}
 	const size_t Count = Out.Positions.size();
 	if (const FAccessor* Normal = FindAttribute(Attributes, "NORMAL", Count))
@@ -148,14 +136,10 @@ void FMeshReader::ReadVertices(const FJson& Json, const FJson& Attributes, FPrim
 /// The four strongest of up to eight influences, renormalised.
 FSkinWeights KeepStrongest(std::array<std::pair<float, uint16_t>, 8>& Influences)
 {
-	std::stable_sort(Influences.begin(), Influences.end(),
-	                 [](const auto& A, const auto& B) { return A.first > B.first; });
+	std::stable_sort(Influences.begin(), Influences.end(), [](const auto& A, const auto& B) { return A.first > B.first; });
 	FSkinWeights Result;
 	float Sum = 0.0f;
-	for (size_t I = 0; I < 4; ++I)
-	{
-		Sum += Influences[I].first;
-	}
+	for (size_t I = 0; I < 4; ++I) { Sum += Influences[I].first; }
 	for (size_t I = 0; I < 4; ++I)
 	{
 		// A joint without weight is no reference: files leave any number there.
@@ -163,10 +147,7 @@ FSkinWeights KeepStrongest(std::array<std::pair<float, uint16_t>, 8>& Influences
 		Result.Joints[I] = bUsed ? Influences[I].second : uint16_t(0);
 		Result.Weights[I] = bUsed ? Influences[I].first / Sum : 0.0f;
 	}
-	if (!(Sum > 0))
-	{
-		Result.Weights[0] = 1.0f;
-	}
+	if (!(Sum > 0)) { Result.Weights[0] = 1.0f; }
 	return Result;
 }
 
@@ -180,10 +161,7 @@ void FMeshReader::ReadSkin(const FJson& Attributes, FPrimitive& Out)
 		const char* const WeightNames[2] = {"WEIGHTS_0", "WEIGHTS_1"};
 		const FAccessor* Joints = FindAttribute(Attributes, JointNames[Set], Count);
 		const FAccessor* Weights = FindAttribute(Attributes, WeightNames[Set], Count);
-		if (Joints == nullptr || Weights == nullptr)
-		{
-			continue;
-		}
+		if (Joints == nullptr || Weights == nullptr) { continue; }
 		if (Joints->Elements.Type != EComponent::U8 && Joints->Elements.Type != EComponent::U16)
 		{
 			const FJson Place = Attributes.Member(JointNames[Set]);
@@ -203,10 +181,7 @@ void FMeshReader::ReadSkin(const FJson& Attributes, FPrimitive& Out)
 			}
 		}
 	}
-	for (auto& Influence : Influences)
-	{
-		Out.Skin.push_back(KeepStrongest(Influence));
-	}
+	for (auto& Influence : Influences) { Out.Skin.push_back(KeepStrongest(Influence)); }
 }
 
 template <class T>
@@ -216,10 +191,7 @@ void Gather(std::vector<T>& Values, const std::vector<uint32_t>& Indices)
 	{
 		std::vector<T> Gathered;
 		Gathered.reserve(Indices.size());
-		for (const uint32_t Index : Indices)
-		{
-			Gathered.push_back(Values[Index]);
-		}
+		for (const uint32_t Index : Indices) { Gathered.push_back(Values[Index]); }
 		Values = std::move(Gathered);
 	}
 }
@@ -233,10 +205,7 @@ void FMeshReader::MakeFlat(const FJson& Json, FPrimitive& Primitive) const
 	Gather(Primitive.UV[0], Primitive.Indices);
 	Gather(Primitive.UV[1], Primitive.Indices);
 	Gather(Primitive.Skin, Primitive.Indices);
-	for (size_t I = 0; I < Primitive.Indices.size(); ++I)
-	{
-		Primitive.Indices[I] = uint32_t(I);
-	}
+	for (size_t I = 0; I < Primitive.Indices.size(); ++I) { Primitive.Indices[I] = uint32_t(I); }
 	Primitive.Normals = ComputeSmoothNormals(Primitive.Positions, Primitive.Indices);
 }
 
@@ -266,12 +235,8 @@ void FMeshReader::AddTangents(FPrimitive& Primitive) const
 {
 	const FHostMaterial& Material = Document.Scene.Materials[size_t(Primitive.Material)];
 	const FHostTextureSlot& Slot = Material.Slots[TEXTURE_NORMAL];
-	if (Slot.Texture < 0 || !Primitive.Tangents.empty() || Primitive.UV[Slot.UVSet].empty())
-	{
-		return;
-	}
-	Primitive.Tangents =
-	    ComputeTangents(Primitive.Positions, Primitive.Normals, Primitive.UV[Slot.UVSet], Primitive.Indices);
+	if (Slot.Texture < 0 || !Primitive.Tangents.empty() || Primitive.UV[Slot.UVSet].empty()) { return; }
+	Primitive.Tangents = ComputeTangents(Primitive.Positions, Primitive.Normals, Primitive.UV[Slot.UVSet], Primitive.Indices);
 }
 
 /// Where a tangent is unusable, any direction along the surface.
@@ -279,10 +244,7 @@ uint32_t PackTangentAt(const FPrimitive& Primitive, size_t I)
 {
 	const glm::vec3& Normal = Primitive.Normals[I];
 	glm::vec4 Tangent(0);
-	if (!Primitive.Tangents.empty())
-	{
-		Tangent = Primitive.Tangents[I];
-	}
+	if (!Primitive.Tangents.empty()) { Tangent = Primitive.Tangents[I]; }
 	const double Length = IsFinite(glm::vec3(Tangent)) ? glm::length(glm::dvec3(Tangent)) : 0.0;
 	const glm::vec3 Unit = Length > 1e-20 ? glm::vec3(glm::dvec3(Tangent) / Length) : GetPerpendicular(Normal);
 	return PackTangent(glm::vec4(Unit, Tangent.w < 0 ? -1.0f : 1.0f));
@@ -294,10 +256,7 @@ void FMeshReader::AppendSection(uint32_t BaseVertex, const FPrimitive& Primitive
 	Section.FirstIndex = uint32_t(Mesh.Indices.size());
 	Section.IndexCount = uint32_t(Primitive.Indices.size());
 	Section.Material = Primitive.Material;
-	for (const uint32_t Index : Primitive.Indices)
-	{
-		Mesh.Indices.push_back(BaseVertex + Index);
-	}
+	for (const uint32_t Index : Primitive.Indices) { Mesh.Indices.push_back(BaseVertex + Index); }
 	Mesh.Sections.push_back(Section);
 }
 
@@ -336,30 +295,21 @@ void FMeshReader::Append(const FJson& Json, const FPrimitive& Primitive)
 void FMeshReader::ReadPrimitive(const FJson& Json)
 {
 	const FJson Attributes = Json.Member("attributes");
-	if (!Attributes.Exists())
-	{
-		Json.Fail("'attributes' is missing");
-	}
+	if (!Attributes.Exists()) { Json.Fail("'attributes' is missing"); }
 	FPrimitive Primitive;
 	Primitive.Material = Json.GetIndex("material", Document.Scene.Materials.size(), "material");
 	if (Primitive.Material < 0)
 	{
 		Primitive.Material = int32_t(Document.Scene.Materials.size()); // the default one, appended by ReadMeshes
 	}
-	if (Json.Member("targets").Exists())
-	{
-		Document.Warn("morph targets are not read");
-	}
+	if (Json.Member("targets").Exists()) { Document.Warn("morph targets are not read"); }
 	const int32_t Position = Attributes.GetIndex("POSITION", Document.Accessors.size(), "accessor");
 	if (Position < 0)
 	{
 		Document.Warn(fmt::format("{}: left out, it has no POSITION", Json.GetPath()));
 		return;
 	}
-	if (!ReadTriangles(Document, Json, Document.Accessors[size_t(Position)].Count, Primitive.Indices))
-	{
-		return;
-	}
+	if (!ReadTriangles(Document, Json, Document.Accessors[size_t(Position)].Count, Primitive.Indices)) { return; }
 	if (Primitive.Indices.empty())
 	{
 		Document.Warn(fmt::format("{}: left out, it has no triangles", Json.GetPath()));
@@ -368,8 +318,7 @@ void FMeshReader::ReadPrimitive(const FJson& Json)
 	const bool bDefaultMaterial = size_t(Primitive.Material) == Document.Scene.Materials.size();
 	const bool bNeedsTangents =
 	    !bDefaultMaterial && Document.Scene.Materials[size_t(Primitive.Material)].Slots[TEXTURE_NORMAL].Texture >= 0;
-	const bool bShareable =
-	    Attributes.Member("NORMAL").Exists() && (!bNeedsTangents || Attributes.Member("TANGENT").Exists());
+	const bool bShareable = Attributes.Member("NORMAL").Exists() && (!bNeedsTangents || Attributes.Member("TANGENT").Exists());
 	const std::string Key = Attributes.Dump();
 	if (const auto Found = Ranges.find(Key); bShareable && Found != Ranges.end())
 	{
@@ -377,19 +326,10 @@ void FMeshReader::ReadPrimitive(const FJson& Json)
 		return;
 	}
 	ReadVertices(Json, Attributes, Primitive);
-	if (Primitive.Normals.empty())
-	{
-		MakeFlat(Json, Primitive);
-	}
+	if (Primitive.Normals.empty()) { MakeFlat(Json, Primitive); }
 	FixNormals(Primitive);
-	if (bNeedsTangents)
-	{
-		AddTangents(Primitive);
-	}
-	if (bShareable)
-	{
-		Ranges[Key] = uint32_t(Mesh.Positions.size());
-	}
+	if (bNeedsTangents) { AddTangents(Primitive); }
+	if (bShareable) { Ranges[Key] = uint32_t(Mesh.Positions.size()); }
 	Append(Json, Primitive);
 }
 
@@ -428,10 +368,7 @@ void ReadMeshes(FDocument& Document)
 			Document.MeshRemap.push_back(-1);
 			continue;
 		}
-		for (const FHostSection& Section : Mesh.Sections)
-		{
-			bDefaultMaterialUsed |= size_t(Section.Material) == DefaultMaterial;
-		}
+		for (const FHostSection& Section : Mesh.Sections) { bDefaultMaterialUsed |= size_t(Section.Material) == DefaultMaterial; }
 		ComputeBounds(Mesh);
 		Document.MeshRemap.push_back(int32_t(Document.Scene.Meshes.size()));
 		Document.Scene.Meshes.push_back(std::move(Mesh));

@@ -26,14 +26,8 @@ std::vector<int32_t> ReadParents(const FJson& Nodes)
 		{
 			const FJson Child = Children.Element(C);
 			const uint64_t Index = Child.ToUInt(UINT64_MAX);
-			if (Index >= Count)
-			{
-				Child.Fail(fmt::format("there is no node {} (there are {})", Index, Count));
-			}
-			if (Parents[Index] >= 0)
-			{
-				Child.Fail(fmt::format("node {} is already a child of node {}", Index, Parents[Index]));
-			}
+			if (Index >= Count) { Child.Fail(fmt::format("there is no node {} (there are {})", Index, Count)); }
+			if (Parents[Index] >= 0) { Child.Fail(fmt::format("node {} is already a child of node {}", Index, Parents[Index])); }
 			Parents[Index] = int32_t(I);
 		}
 	}
@@ -47,10 +41,7 @@ std::vector<int32_t> OrderNodes(const FJson& Nodes, const std::vector<int32_t>& 
 	Order.reserve(Parents.size());
 	for (size_t I = 0; I < Parents.size(); ++I)
 	{
-		if (Parents[I] < 0)
-		{
-			Order.push_back(int32_t(I));
-		}
+		if (Parents[I] < 0) { Order.push_back(int32_t(I)); }
 	}
 	std::vector<bool> bVisited(Parents.size(), false);
 	for (size_t Next = 0; Next < Order.size(); ++Next)
@@ -58,10 +49,7 @@ std::vector<int32_t> OrderNodes(const FJson& Nodes, const std::vector<int32_t>& 
 		bVisited[size_t(Order[Next])] = true;
 		const FJson Json = Nodes.Element(size_t(Order[Next]));
 		const FJson Children = Json.Member("children");
-		for (size_t C = 0; C < Children.Count(); ++C)
-		{
-			Order.push_back(int32_t(Children.Element(C).ToUInt(INT32_MAX)));
-		}
+		for (size_t C = 0; C < Children.Count(); ++C) { Order.push_back(int32_t(Children.Element(C).ToUInt(INT32_MAX))); }
 	}
 	for (size_t I = 0; I < Parents.size(); ++I)
 	{
@@ -80,32 +68,20 @@ std::vector<bool> FindShown(FDocument& Document, const std::vector<int32_t>& Par
 	const FJson Scenes = Document.Root.Member("scenes");
 	std::vector<bool> bShown(Parents.size(), Scenes.Count() == 0);
 	const int32_t Default = Document.Root.GetIndex("scene", Scenes.Count(), "scene");
-	if (Scenes.Count() == 0)
-	{
-		return bShown;
-	}
+	if (Scenes.Count() == 0) { return bShown; }
 	const FJson Scene = Scenes.Element(size_t(std::max(Default, 0)));
 	const FJson Roots = Scene.Member("nodes");
 	for (size_t I = 0; I < Roots.Count(); ++I)
 	{
 		const FJson Root = Roots.Element(I);
 		const uint64_t Index = Root.ToUInt(UINT64_MAX);
-		if (Index >= Parents.size())
-		{
-			Root.Fail(fmt::format("there is no node {} (there are {})", Index, Parents.size()));
-		}
-		if (Parents[Index] >= 0)
-		{
-			Root.Fail(fmt::format("node {} is no root: it is a child of node {}", Index, Parents[Index]));
-		}
+		if (Index >= Parents.size()) { Root.Fail(fmt::format("there is no node {} (there are {})", Index, Parents.size())); }
+		if (Parents[Index] >= 0) { Root.Fail(fmt::format("node {} is no root: it is a child of node {}", Index, Parents[Index])); }
 		bShown[Index] = true;
 	}
 	for (const int32_t Node : Order)
 	{
-		if (Parents[size_t(Node)] >= 0)
-		{
-			bShown[size_t(Node)] = bShown[size_t(Parents[size_t(Node)])];
-		}
+		if (Parents[size_t(Node)] >= 0) { bShown[size_t(Node)] = bShown[size_t(Parents[size_t(Node)])]; }
 	}
 	return bShown;
 }
@@ -114,10 +90,7 @@ glm::quat ReadRotation(const FJson& Json)
 {
 	const glm::dvec4 V(Json.GetVec4("rotation", glm::vec4(0, 0, 0, 1)));
 	const double Length = glm::length(V);
-	if (!(Length > 1e-12))
-	{
-		Json.Fail("rotation has no length");
-	}
+	if (!(Length > 1e-12)) { Json.Fail("rotation has no length"); }
 	return glm::quat(glm::dquat(V.w, V.x, V.y, V.z) / Length);
 }
 
@@ -127,10 +100,7 @@ void ReadTransform(const FJson& Json, FHostNode& Node)
 	if (Json.GetNumbers("matrix", 16, M))
 	{
 		glm::dmat4 Matrix;
-		for (int I = 0; I < 16; ++I)
-		{
-			Matrix[I / 4][I % 4] = M[I];
-		}
+		for (int I = 0; I < 16; ++I) { Matrix[I / 4][I % 4] = M[I]; }
 		Node.Matrix = Matrix;
 	}
 	Node.Translation = glm::dvec3(Json.GetVec3("translation", glm::vec3(0)));
@@ -168,17 +138,10 @@ FHostLight ReadLight(const FJson& Json)
 	FHostLight Light;
 	Light.Name = Json.GetString("name", "");
 	const std::string Type = Json.GetString("type", "");
-	if (Type != "point" && Type != "spot" && Type != "directional")
-	{
-		Json.Fail(fmt::format("{} is no type of light", Quote(Type)));
-	}
+	if (Type != "point" && Type != "spot" && Type != "directional") { Json.Fail(fmt::format("{} is no type of light", Quote(Type))); }
 	Light.Type = Type == "point" ? LIGHT_POINT : Type == "spot" ? LIGHT_SPOT : LIGHT_DIRECTIONAL;
-	Light.Color =
-	    glm::max(Json.GetVec3("color", glm::vec3(1)), glm::vec3(0)) * std::max(Json.GetFloat("intensity", 1.0f), 0.0f);
-	if (!glm::all(glm::lessThan(Light.Color, glm::vec3(1e30f))))
-	{
-		Json.Fail("its intensity is beyond what a float holds");
-	}
+	Light.Color = glm::max(Json.GetVec3("color", glm::vec3(1)), glm::vec3(0)) * std::max(Json.GetFloat("intensity", 1.0f), 0.0f);
+	if (!glm::all(glm::lessThan(Light.Color, glm::vec3(1e30f)))) { Json.Fail("its intensity is beyond what a float holds"); }
 	Light.Range = std::max(Json.GetFloat("range", 0.0f), 0.0f);
 	if (Light.Type == LIGHT_SPOT)
 	{
@@ -227,19 +190,12 @@ void ExpandInstances(FDocument& Document, const FJson& NodeJson, int32_t NodeInd
 {
 	const FJson Extension = NodeJson.Extension("EXT_mesh_gpu_instancing");
 	FSceneDescription& Scene = Document.Scene;
-	if (!Extension.Exists() || Scene.Nodes[size_t(NodeIndex)].Mesh < 0)
-	{
-		return;
-	}
+	if (!Extension.Exists() || Scene.Nodes[size_t(NodeIndex)].Mesh < 0) { return; }
 	const FJson Attributes = Extension.Member("attributes");
 	size_t Count = 0;
-	const auto Read = [&](const char* Name, uint32_t Components, const glm::vec4& Fill)
-	{
+	const auto Read = [&](const char* Name, uint32_t Components, const glm::vec4& Fill) {
 		const int32_t Index = Attributes.GetIndex(Name, Document.Accessors.size(), "accessor");
-		if (Index < 0)
-		{
-			return std::vector<glm::vec4>();
-		}
+		if (Index < 0) { return std::vector<glm::vec4>(); }
 		const FAccessor& Accessor = Document.Accessors[size_t(Index)];
 		if (Accessor.Components != Components || (Count != 0 && Accessor.Count != Count) || Accessor.Count == 0)
 		{
@@ -267,10 +223,7 @@ void ExpandInstances(FDocument& Document, const FJson& NodeJson, int32_t NodeInd
 		{
 			const glm::dvec4 V(Rotations[I]);
 			const double Length = glm::length(V);
-			if (!(Length > 1e-12) || !std::isfinite(Length))
-			{
-				Attributes.Fail(fmt::format("ROTATION {} is no rotation", I));
-			}
+			if (!(Length > 1e-12) || !std::isfinite(Length)) { Attributes.Fail(fmt::format("ROTATION {} is no rotation", I)); }
 			Node.Rotation = glm::quat(glm::dquat(V.w, V.x, V.y, V.z) / Length);
 		}
 		Scene.Nodes.push_back(Node);
@@ -288,10 +241,7 @@ void ReadNodes(FDocument& Document)
 	ReadCameras(Document, CameraRemap);
 
 	const FJson Nodes = Document.Root.Member("nodes");
-	if (Nodes.Count() > Document.Options.MaxNodes)
-	{
-		Nodes.Fail(fmt::format("more than {} nodes", Document.Options.MaxNodes));
-	}
+	if (Nodes.Count() > Document.Options.MaxNodes) { Nodes.Fail(fmt::format("more than {} nodes", Document.Options.MaxNodes)); }
 	const std::vector<int32_t> Parents = ReadParents(Nodes);
 	const std::vector<int32_t> Order = OrderNodes(Nodes, Parents);
 	const std::vector<bool> bShown = FindShown(Document, Parents, Order);

@@ -21,14 +21,8 @@ std::vector<uint32_t> ToList(uint64_t Mode, std::vector<uint32_t>&& Source)
 	std::vector<uint32_t> List;
 	for (size_t I = 0; I + 2 < Source.size(); ++I)
 	{
-		if (Mode == ModeStrip)
-		{
-			List.insert(List.end(), {Source[I], Source[I + 1 + I % 2], Source[I + 2 - I % 2]});
-		}
-		else
-		{
-			List.insert(List.end(), {Source[I + 1], Source[I + 2], Source[0]});
-		}
+		if (Mode == ModeStrip) { List.insert(List.end(), {Source[I], Source[I + 1 + I % 2], Source[I + 2 - I % 2]}); }
+		else { List.insert(List.end(), {Source[I + 1], Source[I + 2], Source[0]}); }
 	}
 	return List;
 }
@@ -68,15 +62,11 @@ bool ReadTriangles(FDocument& Document, const FJson& Json, uint64_t VertexCount,
 	{
 		Document.ChargeGeometry(Json, VertexCount, Mode == ModeTriangles ? 4 : 16);
 		Source.resize(VertexCount);
-		for (size_t I = 0; I < Source.size(); ++I)
-		{
-			Source[I] = uint32_t(I);
-		}
+		for (size_t I = 0; I < Source.size(); ++I) { Source[I] = uint32_t(I); }
 	}
 	if (Mode == ModeTriangles && Source.size() % 3 != 0)
 	{
-		Document.Warn(
-		    fmt::format("{}: {} indices are no whole triangles; the rest is left out", Json.GetPath(), Source.size()));
+		Document.Warn(fmt::format("{}: {} indices are no whole triangles; the rest is left out", Json.GetPath(), Source.size()));
 	}
 	OutIndices = ToList(Mode, std::move(Source));
 	return true;

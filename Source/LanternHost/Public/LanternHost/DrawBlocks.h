@@ -33,8 +33,7 @@ public:
 	{
 		static constexpr uint32_t Capacity = 64;
 
-		alignas(64) float X[Capacity] = {}, Y[Capacity] = {}, Z[Capacity] = {},
-		                  R[Capacity] = {}; ///< relative to Center
+		alignas(64) float X[Capacity] = {}, Y[Capacity] = {}, Z[Capacity] = {}, R[Capacity] = {}; ///< relative to Center
 		FItem Items[Capacity];
 		uint64_t Mirrored = 0; ///< bit per item
 		uint32_t Count = 0;

@@ -22,8 +22,8 @@ class FHostScene
 public:
 	/// Takes the description, drops its texels once they are on the GPU, keeps its meshes for light sampling.
 	/// Progress may be empty; 0 … 1.
-	static FRTStatus Create(FRenderer& Renderer, FSceneDescription Description, const std::function<void(float)>& Progress,
-	                        std::unique_ptr<FHostScene>& Out);
+	static FRTStatus Create(
+	    FRenderer& Renderer, FSceneDescription Description, const std::function<void(float)>& Progress, std::unique_ptr<FHostScene>& Out);
 
 	FRTScene& GetScene() { return Scene; }
 	const FSceneDescription& GetDescription() const { return Description; }
@@ -51,7 +51,7 @@ public:
 		uint32_t FirstIndex = 0, IndexCount = 0;
 		uint32_t Section = 0; ///< of the object
 		bool bMasked = false, bDoubleSided = false;
-		uint32_t Program = StandardProgram; ///< as it was when the scene was loaded
+		uint32_t Program = StandardProgram;  ///< as it was when the scene was loaded
 		uint32_t FirstPlace = 0, Places = 0; ///< in a list of all objects by batch
 		friend bool operator==(const FDrawBatch&, const FDrawBatch&) = default;
 	};

@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
-#include "LanternImage/Image.h"
 #include "LanternHost/SampleEngine.h"
+#include "LanternImage/Image.h"
 #include "LanternRenderer/Signals.h"
 
 namespace Lantern
@@ -38,7 +38,7 @@ struct FReferenceSettings
 
 struct FReferenceResult
 {
-	FImage Radiance; ///< mean of the samples; channels as GetSignalInfo says
+	FImage Radiance;    ///< mean of the samples; channels as GetSignalInfo says
 	uint64_t Paths = 0; ///< traced in this run
 	double Seconds = 0.0;
 	uint32_t Samples = 0;        ///< in the picture; more than asked for where the state had more

@@ -16,8 +16,8 @@ namespace Lantern
 /// What of a frame is read back.
 struct FFrameCapture
 {
-	bool bLighting = false;   ///< linear radiance
-	bool bDisplay = false;    ///< tone-mapped
+	bool bLighting = false; ///< linear radiance
+	bool bDisplay = false;  ///< tone-mapped
 	/// Each as FFrameOutputs has it, 1 or 3 channels; nothing where the frame does not have it. What is asked for here is
 	/// made also where the composite has no use for it. ESignal::Frame is bLighting by another name.
 	std::array<bool, static_cast<size_t>(ESignal::Count)> bSignals{};

@@ -21,9 +21,9 @@ struct FHostImage
 {
 	std::string Name; ///< for messages: file or "image 3"
 	uint32_t Width = 0, Height = 0;
-	bool bSrgb = false;               ///< colour data
-	std::vector<uint8_t> Rgba;        ///< Width × Height × 4, top row first
-	bool bHasAlpha = false;           ///< some texel's alpha is below 255
+	bool bSrgb = false;        ///< colour data
+	std::vector<uint8_t> Rgba; ///< Width × Height × 4, top row first
+	bool bHasAlpha = false;    ///< some texel's alpha is below 255
 };
 
 struct FHostTexture
@@ -34,12 +34,17 @@ struct FHostTexture
 	bool bNearest = false;
 };
 
-enum class EAlphaMode : uint8_t { Opaque, Mask, Blend };
+enum class EAlphaMode : uint8_t
+{
+	Opaque,
+	Mask,
+	Blend
+};
 
 struct FHostTextureSlot
 {
-	int32_t Texture = -1; ///< into Textures; −1: none
-	uint32_t UVSet = 0;   ///< 0 or 1
+	int32_t Texture = -1;            ///< into Textures; −1: none
+	uint32_t UVSet = 0;              ///< 0 or 1
 	glm::vec4 Transform{1, 0, 0, 1}; ///< rows of the 2×2 part of KHR_texture_transform
 	glm::vec2 Offset{0};
 };
@@ -76,11 +81,11 @@ struct FSkinWeights
 struct FHostMesh
 {
 	std::string Name;
-	std::vector<glm::vec3> Positions;            ///< finite
-	std::vector<FVertexAttributes> Attributes;   ///< as many as Positions; normals always there
-	std::vector<FSkinWeights> Skin;              ///< empty, or as many as Positions
-	std::vector<uint32_t> Indices;               ///< < Positions.size()
-	std::vector<FHostSection> Sections;          ///< > 0
+	std::vector<glm::vec3> Positions;          ///< finite
+	std::vector<FVertexAttributes> Attributes; ///< as many as Positions; normals always there
+	std::vector<FSkinWeights> Skin;            ///< empty, or as many as Positions
+	std::vector<uint32_t> Indices;             ///< < Positions.size()
+	std::vector<FHostSection> Sections;        ///< > 0
 	bool bHasTangents = false;
 	glm::vec3 BoundsMin{0}, BoundsMax{0};
 };
@@ -103,15 +108,25 @@ struct FHostSkin
 	std::vector<glm::mat4> InverseBind;
 };
 
-enum class EAnimationPath : uint8_t { Translation, Rotation, Scale };
-enum class EInterpolation : uint8_t { Step, Linear, CubicSpline };
+enum class EAnimationPath : uint8_t
+{
+	Translation,
+	Rotation,
+	Scale
+};
+enum class EInterpolation : uint8_t
+{
+	Step,
+	Linear,
+	CubicSpline
+};
 
 struct FHostChannel
 {
 	int32_t Node = -1;
 	EAnimationPath Path = EAnimationPath::Translation;
 	EInterpolation Interpolation = EInterpolation::Linear;
-	std::vector<float> Times; ///< ascending
+	std::vector<float> Times;      ///< ascending
 	std::vector<glm::vec4> Values; ///< xyz or quaternion xyzw; three per key for cubic splines
 };
 
@@ -126,8 +141,8 @@ struct FHostLight
 {
 	std::string Name;
 	uint32_t Type = LIGHT_POINT;
-	glm::vec3 Color{1}; ///< intensity included: cd, or lux where directional
-	float Range = 0.0f; ///< 0: unlimited
+	glm::vec3 Color{1};                                ///< intensity included: cd, or lux where directional
+	float Range = 0.0f;                                ///< 0: unlimited
 	float InnerCone = 0.0f, OuterCone = 0.7853981634f; ///< radians
 	/// A square wave for lights that flicker or are switched: on for FlickerDuty of each period, off for the rest. A period
 	/// begins at time 0, or FlickerPhase periods before it. Not with directional lights, which shine as the sun.
@@ -155,10 +170,10 @@ struct FSceneDescription
 	std::vector<FHostCamera> Cameras;
 	std::vector<std::string> Warnings; ///< one line each, with their place; logged by whoever loads
 	/// What a built-in scene suggests where the command line says nothing.
-	std::optional<glm::vec3> DefaultSky;       ///< constant radiance
-	std::optional<glm::vec4> DefaultSun;       ///< direction in which it travels, irradiance
-	float DefaultSunDiameter = 0.53f;          ///< degrees
-	float DefaultExposure = 0.0f;              ///< EV
+	std::optional<glm::vec3> DefaultSky; ///< constant radiance
+	std::optional<glm::vec4> DefaultSun; ///< direction in which it travels, irradiance
+	float DefaultSunDiameter = 0.53f;    ///< degrees
+	float DefaultExposure = 0.0f;        ///< EV
 };
 
 /// Transforms of one moment.

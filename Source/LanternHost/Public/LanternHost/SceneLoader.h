@@ -45,8 +45,7 @@ struct FLoadResult
 FLoadResult LoadScene(const std::string& PathOrBuiltinName, const FLoadOptions& Options = {});
 
 /// The same for a `.gltf` or `.glb` in memory (told apart by the magic number). External files are refused.
-FLoadResult LoadSceneFromMemory(const void* Data, size_t Size, const std::string& Name,
-								const FLoadOptions& Options = {});
+FLoadResult LoadSceneFromMemory(const void* Data, size_t Size, const std::string& Name, const FLoadOptions& Options = {});
 
 /// Checks every promise of SceneDescription.h: indices in range, finite values, parents first, … Returns an empty
 /// string, or what is wrong and where.

@@ -13,8 +13,7 @@ namespace Lantern
 /// Lets Write fill a temporary file beside Path, then renames it over Path. If anything fails, the temporary file
 /// is removed, Path stays as it was, and the status names Path (never the temporary) and the reason. A symbolic
 /// link is followed. Write must close what it opens.
-FRTStatus WriteFileAtomically(const std::string& Path,
-                              const std::function<FRTStatus(const std::string& TemporaryPath)>& Write);
+FRTStatus WriteFileAtomically(const std::string& Path, const std::function<FRTStatus(const std::string& TemporaryPath)>& Write);
 
 /// The same for bytes at hand.
 FRTStatus WriteFileAtomically(const std::string& Path, std::string_view Bytes);

@@ -10,10 +10,7 @@ namespace Lantern
 {
 
 /// Rec.709 luminance; of display values: luma.
-inline float GetLuminance(float R, float G, float B)
-{
-	return 0.2126f * R + 0.7152f * G + 0.0722f * B;
-}
+inline float GetLuminance(float R, float G, float B) { return 0.2126f * R + 0.7152f * G + 0.0722f * B; }
 /// Luminance of a pixel; grey images: the value itself.
 float GetLuminance(const FImage& Image, uint32_t X, uint32_t Y);
 

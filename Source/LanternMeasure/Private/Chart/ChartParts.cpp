@@ -21,10 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr int PartVersion = 1;
 
-bool IsKey(const std::string& Text)
-{
-	return Text.size() == 32 && Text.find_first_not_of("0123456789abcdef") == std::string::npos;
-}
+bool IsKey(const std::string& Text) { return Text.size() == 32 && Text.find_first_not_of("0123456789abcdef") == std::string::npos; }
 
 bool HasMembers(const FChartPart& Part)
 {
@@ -65,7 +62,10 @@ std::string GetIdentity(const FChartPart& Part)
 	std::string Text = Part["scene"]["name"].get<std::string>();
 	if (Part.contains("facts")) { return Text + ": facts"; }
 	const nlohmann::json& Body = Part.contains("point") ? Part["point"] : Part["skipped"];
-	for (const char* Name : {"signal", "method", "preset", "path"}) { Text += (Name == std::string_view("signal") ? ": " : ", ") + Body.value(Name, std::string()); }
+	for (const char* Name : {"signal", "method", "preset", "path"})
+	{
+		Text += (Name == std::string_view("signal") ? ": " : ", ") + Body.value(Name, std::string());
+	}
 	return Text;
 }
 
@@ -101,11 +101,12 @@ FRTStatus CheckParts(const std::vector<FChartPart>& Parts)
 		if (Part["settings"] != Parts.front()["settings"])
 		{
 			return FRTStatus::Error(ERTResult::InvalidArgument, "%s",
-			                        fmt::format("parts of different settings: {} and {}", ShowSettings(Parts.front()), ShowSettings(Part)).c_str());
+			    fmt::format("parts of different settings: {} and {}", ShowSettings(Parts.front()), ShowSettings(Part)).c_str());
 		}
 		if (!Seen.insert(GetIdentity(Part)).second)
 		{
-			return FRTStatus::Error(ERTResult::InvalidArgument, "%s", fmt::format("two different measurements of {}", EscapeText(GetIdentity(Part))).c_str());
+			return FRTStatus::Error(
+			    ERTResult::InvalidArgument, "%s", fmt::format("two different measurements of {}", EscapeText(GetIdentity(Part))).c_str());
 		}
 	}
 	return FRTStatus::Success();
@@ -135,10 +136,7 @@ nlohmann::json ListSignals(const std::vector<FChartPart>& Parts)
 }
 } // namespace
 
-std::string GetPartFile(const std::string& Folder, const std::string& Key)
-{
-	return Folder + '/' + Key + ".json";
-}
+std::string GetPartFile(const std::string& Folder, const std::string& Key) { return Folder + '/' + Key + ".json"; }
 
 FRTStatus WritePart(const std::string& Folder, const FChartPart& InPart)
 {
@@ -176,8 +174,9 @@ FRTStatus MakeChartData(std::vector<FChartPart> InParts, nlohmann::json& Out)
 	const std::vector<FChartPart> Parts = Unify(std::move(InParts));
 	if (Parts.empty()) { return FRTStatus::Error(ERTResult::InvalidArgument, "no part of a chart is there"); }
 	if (FRTStatus S = CheckParts(Parts); !S) { return S; }
-	Out = {{"version", 1}, {"device", JoinNames(Parts, "device")}, {"driver", JoinNames(Parts, "driver")}, {"settings", Parts.front()["settings"]},
-	       {"signals", ListSignals(Parts)}, {"scenes", nlohmann::json::array()}, {"images", nlohmann::json::object()}};
+	Out = {{"version", 1}, {"device", JoinNames(Parts, "device")}, {"driver", JoinNames(Parts, "driver")},
+	    {"settings", Parts.front()["settings"]}, {"signals", ListSignals(Parts)}, {"scenes", nlohmann::json::array()},
+	    {"images", nlohmann::json::object()}};
 	Out["is_cpu"] = std::any_of(Parts.begin(), Parts.end(), [](const FChartPart& Part) { return Part["is_cpu"].get<bool>(); });
 	std::map<std::string, size_t> SceneIndices;
 	for (const FChartPart& Part : Parts)

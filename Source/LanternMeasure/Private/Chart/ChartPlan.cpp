@@ -35,7 +35,7 @@ void AddSettings(FContentHasher& Hasher, const std::vector<FMethodSetting>& Sett
 nlohmann::json FChartSettings::ToJson() const
 {
 	return {{"size", fmt::format("{}x{}", Width, Height)}, {"reference_spp", ReferenceSamples}, {"frames", Frames}, {"warm_up", WarmUp},
-	        {"seed", Seed}, {"variables", Variables}};
+	    {"seed", Seed}, {"variables", Variables}};
 }
 
 std::string DescribeVariables()
@@ -76,7 +76,10 @@ std::optional<FShard> ParseShard(std::string_view Text)
 		const auto [End, Error] = std::from_chars(Part.data(), Part.data() + Part.size(), Number);
 		return Error == std::errc() && End == Part.data() + Part.size() && Number > 0;
 	};
-	if (!Parse(Text.substr(0, Slash), Out.Number) || !Parse(Text.substr(Slash + 1), Out.Count) || Out.Number > Out.Count) { return std::nullopt; }
+	if (!Parse(Text.substr(0, Slash), Out.Number) || !Parse(Text.substr(Slash + 1), Out.Count) || Out.Number > Out.Count)
+	{
+		return std::nullopt;
+	}
 	return Out;
 }
 

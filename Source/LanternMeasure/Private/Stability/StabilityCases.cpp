@@ -18,8 +18,8 @@ std::vector<FMethodSetting> KnownSettings(std::initializer_list<std::pair<const 
 
 namespace
 {
-constexpr ESignal Sun = ESignal::SunShadow, Occlusion = ESignal::AmbientOcclusion, Diffuse = ESignal::DiffuseGI, Reflected = ESignal::Reflections,
-                  Whole = ESignal::Frame;
+constexpr ESignal Sun = ESignal::SunShadow, Occlusion = ESignal::AmbientOcclusion, Diffuse = ESignal::DiffuseGI,
+                  Reflected = ESignal::Reflections, Whole = ESignal::Frame;
 
 FStabilityFault MakeFault(std::vector<FMethodSetting> Settings, const char* Otherwise)
 {
@@ -39,13 +39,16 @@ FStabilityFault MakeThinWallFault(const FMethod& Method)
 /// Nothing is validated: what was there is taken for what is there, for a minute.
 FStabilityFault MakeUncoveringFault(const FMethod&)
 {
-	return MakeFault(KnownSettings({{"r.RT.Debug.Denoise.Validate", "0"}, {"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Shadow.HistorySeconds", "60"}, {"r.RT.AO.HistorySeconds", "60"}}), "");
+	return MakeFault(KnownSettings({{"r.RT.Debug.Denoise.Validate", "0"}, {"r.RT.Debug.Denoise.Adapt", "0"},
+	                     {"r.RT.Shadow.HistorySeconds", "60"}, {"r.RT.AO.HistorySeconds", "60"}}),
+	    "");
 }
 
 /// History that is kept for a minute and never compared with what is there now.
 FStabilityFault MakeStaleFault(const FMethod&)
 {
-	return MakeFault(KnownSettings({{"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Shadow.HistorySeconds", "60"}, {"r.RT.AO.HistorySeconds", "60"}}), "");
+	return MakeFault(
+	    KnownSettings({{"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Shadow.HistorySeconds", "60"}, {"r.RT.AO.HistorySeconds", "60"}}), "");
 }
 
 FStabilityFault MakeUnguardedFault(const FMethod& Method)
@@ -89,16 +92,20 @@ std::span<const FStabilityCase> GetStabilityCases()
 	    {15, "huge mesh", {}},
 	    {16, "hash overflow", {}},
 	    {17, "light grid", {}},
-	    {18, "frame rate", {Sun, Occlusion, Diffuse, Reflected}, MeasureFrameRate, nullptr, "every frame is said to last 1/60 s, and changes are not looked for"},
+	    {18, "frame rate", {Sun, Occlusion, Diffuse, Reflected}, MeasureFrameRate, nullptr,
+	        "every frame is said to last 1/60 s, and changes are not looked for"},
 	    {19, "furnace", {Diffuse, Reflected}, MeasureFurnace, nullptr, "the sky is 5 % brighter"},
 	    {20, "hybrid seams", {Sun, Occlusion, Diffuse}, MeasureSeams, nullptr, "every other tile is brighter, by 10 and 30 % in turn"},
 	    {21, "caustics", {}},
 	    {22, "toon edge", {}},
 	    {23, "fog volume", {}},
-	    {24, "far from the origin", {Sun, Occlusion, Diffuse, Reflected, Whole}, MeasureFarAway, nullptr, "the camera is moved in steps of 1/16 m"},
+	    {24, "far from the origin", {Sun, Occlusion, Diffuse, Reflected, Whole}, MeasureFarAway, nullptr,
+	        "the camera is moved in steps of 1/16 m"},
 	    {25, "single-sided plane", {Sun}, MeasurePlanes, MakePlanesFault},
-	    {26, "missing shaders", {}, MeasureMissingShaders, nullptr, "missing shaders are left out, and colours are of other materials", true},
-	    {27, "odd sizes", {Sun, Occlusion, Diffuse, Reflected, Whole}, MeasureOddSizes, nullptr, "columns beyond the last whole tile of 8 are missing"},
+	    {26, "missing shaders", {}, MeasureMissingShaders, nullptr, "missing shaders are left out, and colours are of other materials",
+	        true},
+	    {27, "odd sizes", {Sun, Occlusion, Diffuse, Reflected, Whole}, MeasureOddSizes, nullptr,
+	        "columns beyond the last whole tile of 8 are missing"},
 	};
 	return Cases;
 }

@@ -15,7 +15,10 @@ FCpuScene::FCpuScene(const FSceneDescription& Scene, double Time)
 		for (size_t I = 0; I + 2 < Mesh.Indices.size(); I += 3)
 		{
 			glm::dvec3 P[3];
-			for (size_t Corner = 0; Corner < 3; ++Corner) { P[Corner] = glm::dvec3(Pose.World[Node] * glm::dvec4(glm::dvec3(Mesh.Positions[Mesh.Indices[I + Corner]]), 1.0)); }
+			for (size_t Corner = 0; Corner < 3; ++Corner)
+			{
+				P[Corner] = glm::dvec3(Pose.World[Node] * glm::dvec4(glm::dvec3(Mesh.Positions[Mesh.Indices[I + Corner]]), 1.0));
+			}
 			Triangles.push_back({P[0], P[1] - P[0], P[2] - P[0], static_cast<int32_t>(Node)});
 		}
 	}
@@ -75,7 +78,10 @@ std::vector<std::optional<FCpuHit>> TracePicture(const FCpuScene& Scene, const F
 	std::vector<std::optional<FCpuHit>> Hits;
 	for (uint32_t Y = 0; Y < View.Height; ++Y)
 	{
-		for (uint32_t X = 0; X < View.Width; ++X) { Hits.push_back(Scene.Trace(View.Position, GetRayDirection(View, {X + 0.5, Y + 0.5}), 1e30, Skip)); }
+		for (uint32_t X = 0; X < View.Width; ++X)
+		{
+			Hits.push_back(Scene.Trace(View.Position, GetRayDirection(View, {X + 0.5, Y + 0.5}), 1e30, Skip));
+		}
 	}
 	return Hits;
 }

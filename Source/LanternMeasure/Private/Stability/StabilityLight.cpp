@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "LanternImage/ImageStatistics.h"
+#include "LanternMeasure/Stability/StabilityStage.h"
 #include "Stability/StabilityFigures.h"
 #include "Stability/StabilityGeometry.h"
-#include "LanternMeasure/Stability/StabilityStage.h"
 
 namespace Lantern
 {
@@ -136,7 +136,10 @@ FRTStatus MeasureTinyEmitters(FStabilityStage& Stage, std::vector<FStabilityFigu
 	if (Stage.IsFaulty())
 	{
 		Shots[0].Change = [](FHostScene& Scene) {
-			for (size_t I = 2; I < Scene.GetInstanceCount(); I += 5) { Scene.SetTransform(I, glm::dmat4(glm::dvec4(1, 0, 0, 0), {0, 1, 0, 0}, {0, 0, 1, 0}, {0, -50, 0, 1})); }
+			for (size_t I = 2; I < Scene.GetInstanceCount(); I += 5)
+			{
+				Scene.SetTransform(I, glm::dmat4(glm::dvec4(1, 0, 0, 0), {0, 1, 0, 0}, {0, 0, 1, 0}, {0, -50, 0, 1}));
+			}
 		};
 	}
 	std::vector<FImage> Frames;
@@ -187,7 +190,8 @@ FRTStatus MeasureFurnace(FStabilityStage& Stage, std::vector<FStabilityFigure>& 
 			{
 				if (!Hits[Pixel] || Scene.Nodes[static_cast<size_t>(Hits[Pixel]->Node)].Name != Name) { continue; }
 				// The rim is left out: a pixel there holds sky too.
-				const glm::dvec3 Center = Scene.Nodes[static_cast<size_t>(Hits[Pixel]->Node)].Translation, Off = Hits[Pixel]->Position - Center;
+				const glm::dvec3 Center = Scene.Nodes[static_cast<size_t>(Hits[Pixel]->Node)].Translation,
+				                 Off = Hits[Pixel]->Position - Center;
 				Mask[Pixel] = Off.x * Off.x + Off.y * Off.y < 0.6 ? 1 : 0;
 			}
 			const double R = MeanOver(Reference.Mean, Mask);

@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "LanternMeasure/GeneratedMaterials.h"
 #include "LanternCore/Text/Log.h"
-#include "Stability/StabilityFigures.h"
+#include "LanternMeasure/GeneratedMaterials.h"
 #include "LanternMeasure/Stability/StabilityStage.h"
+#include "Stability/StabilityFigures.h"
 
 namespace Lantern
 {
@@ -63,7 +63,7 @@ FMaterialProgramDesc MakeProgram(uint32_t Index, uint64_t Salt)
 	Desc.Text = fmt::format("#include \"Materials/Standard.glsl\"\n// {}\n"
 	                        "FMaterialSurface EvaluateMaterial(FMaterialData M, FMaterialInputs I, uint Override)\n"
 	                        "{{\n\tFMaterialSurface S = EvaluateStandard(M, I, Override);\n\tS.BaseColor.b = {:.6f};\n\treturn S;\n}}\n",
-	                        Salt, 0.6 + Index / 1024.0);
+	    Salt, 0.6 + Index / 1024.0);
 	return Desc;
 }
 
@@ -76,7 +76,10 @@ public:
 	FRenderer& GetRenderer() { return Renderer; }
 	/// Of the last frame: colour and distance, of the middle of a quad; nothing where no pipeline was there yet.
 	bool HasPicture() const { return !Picture.empty(); }
-	glm::vec4 At(uint32_t Quad) const { return Picture[size_t(Quad / Columns * PixelsPerQuad + 2) * Width + Quad % Columns * PixelsPerQuad + 2]; }
+	glm::vec4 At(uint32_t Quad) const
+	{
+		return Picture[size_t(Quad / Columns * PixelsPerQuad + 2) * Width + Quad % Columns * PixelsPerQuad + 2];
+	}
 	FImage MakeImage() const;
 
 private:
@@ -153,7 +156,8 @@ struct FMaterialCounts
 };
 
 /// Each quad shows its own red and green always, and its program's blue or, until that is there, the stand-in's.
-void CountQuads(const FMaterialFrames& Frames, const std::vector<FHitProgram>& Programs, const FRTPSO& Pipeline, bool bShifted, FMaterialCounts& Counts)
+void CountQuads(
+    const FMaterialFrames& Frames, const std::vector<FHitProgram>& Programs, const FRTPSO& Pipeline, bool bShifted, FMaterialCounts& Counts)
 {
 	Counts.Ready = 0;
 	for (uint32_t Quad = 0; Quad < Columns * Rows; ++Quad)
@@ -167,7 +171,8 @@ void CountQuads(const FMaterialFrames& Frames, const std::vector<FHitProgram>& P
 		const bool bOwn = Quad < Programs.size() && Pipeline.GetState(Programs[Quad]) == ERTHitState::Ready;
 		const uint32_t Of = bShifted ? (Quad + 1) % (Columns * Rows) : Quad;
 		const double Blue = bOwn ? 0.6 + Quad / 1024.0 : 0.5;
-		const bool bRight = std::abs(Color.r - float(Of % Columns) / Columns) < 2e-3 && std::abs(Color.g - float(Of / Columns) / Rows) < 2e-3 && std::abs(Color.b - Blue) < 2e-3;
+		const bool bRight = std::abs(Color.r - float(Of % Columns) / Columns) < 2e-3 &&
+		                    std::abs(Color.g - float(Of / Columns) / Rows) < 2e-3 && std::abs(Color.b - Blue) < 2e-3;
 		Counts.Wrong += bRight ? 0 : 1;
 		Counts.Ready += bOwn ? 1 : 0;
 	}
@@ -202,9 +207,15 @@ FRTStatus MeasureMissingShaders(FStabilityStage& Stage, std::vector<FStabilityFi
 {
 	if (FRTStatus S = Stage.Load("stability-materials"); !S) { return S; }
 	FMaterialFrames Frames(Stage);
-	if (!Frames.GetRenderer().GetDevice().GetCapabilities().bRayTracingPipeline) { return FRTStatus::Error(ERTResult::Unsupported, "no ray-tracing pipelines"); }
+	if (!Frames.GetRenderer().GetDevice().GetCapabilities().bRayTracingPipeline)
+	{
+		return FRTStatus::Error(ERTResult::Unsupported, "no ray-tracing pipelines");
+	}
 	FMethodScope Skip; // long before: pipelines that were made with stand-ins serve until others are there
-	if (Stage.IsFaulty() && !Skip.Apply({{"r.RT.Pipeline.Fallback", "0", "planted fault"}}).empty()) { return FRTStatus::Error(ERTResult::InvalidArgument, "r.RT.Pipeline.Fallback"); }
+	if (Stage.IsFaulty() && !Skip.Apply({{"r.RT.Pipeline.Fallback", "0", "planted fault"}}).empty())
+	{
+		return FRTStatus::Error(ERTResult::InvalidArgument, "r.RT.Pipeline.Fallback");
+	}
 	FMaterialCounts Counts;
 	double Ms = 0.0;
 	FPatience Patience;
@@ -234,7 +245,10 @@ FRTStatus MeasureMissingShaders(FStabilityStage& Stage, std::vector<FStabilityFi
 		if (Frames.HasPicture()) { CountQuads(Frames, Programs, *Frames.GetRenderer().GetRayPipeline(), Stage.IsFaulty(), Counts); }
 		if (I == 30) { Stage.AddToStrip(Frames.MakeImage(), {}); }
 		if (I % 500 == 499) { LogInfo("{} of {} material programs are there", Counts.Ready, Compilable); }
-		if (Patience.IsOver(IsBusy())) { return FRTStatus::Error(ERTResult::CompileFailed, "%u of %u programs came", Counts.Ready, Compilable); }
+		if (Patience.IsOver(IsBusy()))
+		{
+			return FRTStatus::Error(ERTResult::CompileFailed, "%u of %u programs came", Counts.Ready, Compilable);
+		}
 		// As under the fault, where holes are what is looked for: it need not see the end.
 		if (Stage.IsFaulty() && I >= 60) { break; }
 	}
@@ -244,7 +258,8 @@ FRTStatus MeasureMissingShaders(FStabilityStage& Stage, std::vector<FStabilityFi
 	Out.push_back({"black holes", double(Counts.Holes), 0.0});
 	Out.push_back({"wrong records", double(Counts.Wrong), 0.0});
 	const double Worst = *std::max_element(Counts.Ms.begin(), Counts.Ms.end());
-	Out.push_back({"longest frame above the median, ms", Worst - Idle, bCpu || Stage.IsFaulty() ? std::nullopt : std::optional<double>(2.0)});
+	Out.push_back(
+	    {"longest frame above the median, ms", Worst - Idle, bCpu || Stage.IsFaulty() ? std::nullopt : std::optional<double>(2.0)});
 	return FRTStatus::Success();
 }
 

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "LanternImage/ImageStatistics.h"
+#include "LanternMeasure/Stability/StabilityStage.h"
 #include "Stability/StabilityFigures.h"
 #include "Stability/StabilityGeometry.h"
-#include "LanternMeasure/Stability/StabilityStage.h"
 
 namespace Lantern
 {
@@ -19,7 +19,8 @@ constexpr double FrameSeconds = 1.0 / 60.0;
 
 /// The camera moves for Moving frames and stops. Mask: what only the last moving frame uncovered, so that frame 4 after it
 /// is the fourth in which it is seen.
-FRTStatus MeasureUncovering(FStabilityStage& Stage, const char* What, const std::function<FView(double)>& ViewAt, std::vector<FStabilityFigure>& Out)
+FRTStatus MeasureUncovering(
+    FStabilityStage& Stage, const char* What, const std::function<FView(double)>& ViewAt, std::vector<FStabilityFigure>& Out)
 {
 	constexpr size_t Moving = 24, Rest = 64, After = 3;
 	std::vector<FStabilityShot> Shots(Moving + Rest);
@@ -37,15 +38,20 @@ FRTStatus MeasureUncovering(FStabilityStage& Stage, const char* What, const std:
 	const FImage& Fourth = Frames[Moving - 1 + After];
 	double Converged = 0.0;
 	constexpr size_t LastFrames = 8;
-	for (size_t I = Frames.size() - LastFrames; I < Frames.size(); ++I) { Converged += RelMseOver(Frames[I], Reference, Mask) / LastFrames; }
+	for (size_t I = Frames.size() - LastFrames; I < Frames.size(); ++I)
+	{
+		Converged += RelMseOver(Frames[I], Reference, Mask) / LastFrames;
+	}
 	Stage.AddToStrip(Frames[Moving - 1], Reference.Mean);
 	Stage.AddToStrip(Fourth, Reference.Mean);
 	Stage.AddToStrip(Frames.back(), Reference.Mean);
 	const bool bKeeps = Stage.KeepsHistory();
 	const auto Limit = [&](double Value) { return bKeeps ? std::optional<double>(Value) : std::nullopt; };
 	// An error of 1e-3 is 3 % of the signal: where little is uncertain the converged one may be far below what can be seen.
-	Out.push_back({fmt::format("{}: relMSE to converged", What), RelMseOver(Fourth, Reference, Mask) / std::max(Converged, 1e-3), Limit(3.0)});
-	Out.push_back({fmt::format("{}: mean, off by", What), std::abs(1.0 - MeanOver(Fourth, Mask) / MeanOver(Reference.Mean, Mask)), Limit(0.05)});
+	Out.push_back(
+	    {fmt::format("{}: relMSE to converged", What), RelMseOver(Fourth, Reference, Mask) / std::max(Converged, 1e-3), Limit(3.0)});
+	Out.push_back(
+	    {fmt::format("{}: mean, off by", What), std::abs(1.0 - MeanOver(Fourth, Mask) / MeanOver(Reference.Mean, Mask)), Limit(0.05)});
 	const std::vector<FImage> Last(Frames.end() - 16, Frames.end());
 	Out.push_back({fmt::format("{}: sigma", What), TemporalSigma(Last, MakeFullMask(Last[0])), std::nullopt});
 	return FRTStatus::Success();
@@ -79,7 +85,9 @@ struct FTrail
 	/// what the method makes of Now when all stands still, for what it does to that is no trail.
 	void Add(const FImage& F, const FImage& Rest, const FSignalReference& Now, const FSignalReference& Old, const FSignalReference& Later)
 	{
-		const auto Differ = [&](const FSignalReference& Was, size_t I) { return std::abs(double(Was.Mean.Pixels[I]) - double(Now.Mean.Pixels[I])); };
+		const auto Differ = [&](const FSignalReference& Was, size_t I) {
+			return std::abs(double(Was.Mean.Pixels[I]) - double(Now.Mean.Pixels[I]));
+		};
 		double Swing = 0.0;
 		for (size_t I = 0; I < F.Pixels.size(); ++I) { Swing = std::max(Swing, Differ(Old, I)); }
 		for (size_t I = 0; I < F.Pixels.size(); ++I)
@@ -262,7 +270,8 @@ FRTStatus MeasureResponse(FStabilityStage& Stage, double Rate, const FPixelMask&
 
 /// Time to 90 % at 30 and 144 frames a second against that at 60. A frame is as fast as it can be seen: that much is taken
 /// off a difference, and shorter times count as one frame.
-FRTStatus CompareRates(FStabilityStage& Stage, const char* What, const FPixelMask& Mask, double Before, double After, std::vector<FStabilityFigure>& Out)
+FRTStatus CompareRates(
+    FStabilityStage& Stage, const char* What, const FPixelMask& Mask, double Before, double After, std::vector<FStabilityFigure>& Out)
 {
 	const double Rates[3] = {60.0, 30.0, 144.0};
 	double Seconds[3] = {};
@@ -275,7 +284,8 @@ FRTStatus CompareRates(FStabilityStage& Stage, const char* What, const FPixelMas
 	for (int I = 1; I < 3; ++I)
 	{
 		const double Frame = 1.0 / std::min(Rates[I], 60.0), Difference = std::abs(Seconds[I] - Seconds[0]) - Frame;
-		Out.push_back({fmt::format("{}{} fps against 60", What, Rates[I]), std::isfinite(Difference) ? std::max(0.0, Difference) / std::max(Seconds[0], FrameSeconds) : Difference, Limit});
+		Out.push_back({fmt::format("{}{} fps against 60", What, Rates[I]),
+		    std::isfinite(Difference) ? std::max(0.0, Difference) / std::max(Seconds[0], FrameSeconds) : Difference, Limit});
 	}
 	return FRTStatus::Success();
 }

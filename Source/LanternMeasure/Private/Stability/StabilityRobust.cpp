@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "LanternImage/ImageStatistics.h"
+#include "LanternMeasure/Stability/StabilityStage.h"
 #include "Stability/StabilityFigures.h"
 #include "Stability/StabilityGeometry.h"
-#include "LanternMeasure/Stability/StabilityStage.h"
 
 namespace Lantern
 {
@@ -41,11 +41,13 @@ FRTStatus MeasureNotANumber(FStabilityStage& Stage, std::vector<FStabilityFigure
 	};
 	for (const size_t I : {Poisoned - 1, Poisoned, Poisoned + 1, Count - 1}) { Stage.AddToStrip(Frames[I], {}); }
 	// A guard that is off does nothing as long as there is nothing to guard against.
-	Out.push_back({"pixels before injection", CountIn(0, Poisoned), Stage.IsBroken() && !Stage.IsFaulty() ? std::nullopt : std::optional<double>(0.0)});
+	Out.push_back({"pixels before injection", CountIn(0, Poisoned),
+	    Stage.IsBroken() && !Stage.IsFaulty() ? std::nullopt : std::optional<double>(0.0)});
 	Out.push_back({"pixels in its frames", CountIn(Poisoned, Poisoned + 1) + CountIn(Again, Again + 1), 0.0});
 	Out.push_back({"pixels later", CountIn(Poisoned + 1, Again) + CountIn(Again + 1, Count), 0.0});
 	const FImage Before = MeanImage({Frames.begin() + 7, Frames.begin() + Poisoned}), After = MeanImage({Frames.end() - 8, Frames.end()});
-	Out.push_back({"mean, off by", std::abs(MeanOver(After) / MeanOver(Before) - 1.0), Stage.IsBroken() ? std::nullopt : std::optional<double>(0.05)});
+	Out.push_back({"mean, off by", std::abs(MeanOver(After) / MeanOver(Before) - 1.0),
+	    Stage.IsBroken() ? std::nullopt : std::optional<double>(0.05)});
 	return FRTStatus::Success();
 }
 
@@ -85,7 +87,10 @@ FImage GetDeviation(const std::vector<FImage>& Frames, const FImage& Mean)
 	for (size_t I = 0; I < Mean.Pixels.size(); ++I)
 	{
 		double Squares = 0.0;
-		for (const FImage& Frame : Frames) { Squares += (double(Frame.Pixels[I]) - double(Mean.Pixels[I])) * (double(Frame.Pixels[I]) - double(Mean.Pixels[I])); }
+		for (const FImage& Frame : Frames)
+		{
+			Squares += (double(Frame.Pixels[I]) - double(Mean.Pixels[I])) * (double(Frame.Pixels[I]) - double(Mean.Pixels[I]));
+		}
 		Deviation.Pixels[I] = static_cast<float>(std::sqrt(Squares / double(Frames.size() - 1)));
 	}
 	return Deviation;
@@ -113,7 +118,10 @@ FRTStatus MeasureSeams(FStabilityStage& Stage, std::vector<FStabilityFigure>& Ou
 	{
 		for (uint32_t Pixel = 0; Pixel < Width * Height; ++Pixel)
 		{
-			for (uint32_t C = 0; C < Frames[F].Channels && (Pixel % Width / 8) % 2; ++C) { Frames[F].Pixels[Pixel * Frames[F].Channels + C] *= F % 2 ? 1.3f : 1.1f; }
+			for (uint32_t C = 0; C < Frames[F].Channels && (Pixel % Width / 8) % 2; ++C)
+			{
+				Frames[F].Pixels[Pixel * Frames[F].Channels + C] *= F % 2 ? 1.3f : 1.1f;
+			}
 		}
 	}
 	const FImage Mean = MeanImage(Frames);
@@ -254,12 +262,18 @@ FRTStatus CountWrongPixels(FStabilityStage& Stage, uint32_t Width, uint32_t Heig
 	const double Value = GetFlatValue(Stage);
 	for (FImage& Frame : Frames)
 	{
-		if (Frame.Width != Width || Frame.Height != Height) { return FRTStatus::Error(ERTResult::InvalidArgument, "a picture of another size"); }
+		if (Frame.Width != Width || Frame.Height != Height)
+		{
+			return FRTStatus::Error(ERTResult::InvalidArgument, "a picture of another size");
+		}
 		for (uint32_t Pixel = 0; Pixel < Width * Height; ++Pixel)
 		{
 			if (Stage.IsFaulty() && Pixel % Width >= (Width & ~7u)) { Frame.Pixels[size_t(Pixel) * Frame.Channels] = 0.0f; }
 			bool bWrong = false;
-			for (uint32_t C = 0; C < Frame.Channels; ++C) { bWrong |= !(std::abs(double(Frame.Pixels[size_t(Pixel) * Frame.Channels + C]) - Value) <= 0.02 * Value); }
+			for (uint32_t C = 0; C < Frame.Channels; ++C)
+			{
+				bWrong |= !(std::abs(double(Frame.Pixels[size_t(Pixel) * Frame.Channels + C]) - Value) <= 0.02 * Value);
+			}
 			OutWrong += bWrong ? 1 : 0;
 		}
 	}
@@ -284,7 +298,8 @@ FRTStatus MeasureOddSizes(FStabilityStage& Stage, std::vector<FStabilityFigure>&
 	for (const char* Value : {"3", "7"})
 	{
 		FMethodScope Odd;
-		const std::vector<FMethodSetting> Settings = KnownSettings({{"r.RT.Shadow.Samples", Value}, {"r.RT.AO.Samples", Value}, {"r.RT.GI.Samples", Value}, {"r.RT.Reflections.Samples", Value}});
+		const std::vector<FMethodSetting> Settings = KnownSettings(
+		    {{"r.RT.Shadow.Samples", Value}, {"r.RT.AO.Samples", Value}, {"r.RT.GI.Samples", Value}, {"r.RT.Reflections.Samples", Value}});
 		if (!Odd.Apply(Settings).empty()) { return FRTStatus::Error(ERTResult::InvalidArgument, "%s rays", Value); }
 		if (FRTStatus S = CountWrongPixels(Stage, 37, 23, Wrong); !S) { return S; }
 	}

@@ -25,8 +25,7 @@ struct FBenchShaders
 /// The ray generation shader of the benchmark: camera rays of the material type into an image.
 FShaderSource MakeBenchRayGen();
 /// glslang on Threads threads; OutMs: how long all hit shaders took together, wall clock.
-FRTStatus CompileBenchShaders(FShaderCompiler& Compiler, uint32_t Count, uint32_t Threads, FBenchShaders& Out,
-                              double& OutMs);
+FRTStatus CompileBenchShaders(FShaderCompiler& Compiler, uint32_t Count, uint32_t Threads, FBenchShaders& Out, double& OutMs);
 /// Puts another constant into each hit shader, so that it is a new one to a driver. False: there is none to replace.
 bool RenewShaders(FBenchShaders& Shaders);
 
@@ -38,19 +37,11 @@ void RunOnThreads(uint32_t Threads, uint32_t Count, F Task)
 	std::vector<std::thread> Workers;
 	for (uint32_t Thread = 0; Thread < Threads; ++Thread)
 	{
-		Workers.emplace_back(
-		    [&]
-		    {
-			    for (uint32_t Index = Next++; Index < Count; Index = Next++)
-			    {
-				    Task(Index);
-			    }
-		    });
+		Workers.emplace_back([&] {
+			for (uint32_t Index = Next++; Index < Count; Index = Next++) { Task(Index); }
+		});
 	}
-	for (std::thread& Worker : Workers)
-	{
-		Worker.join();
-	}
+	for (std::thread& Worker : Workers) { Worker.join(); }
 }
 
 } // namespace Lantern

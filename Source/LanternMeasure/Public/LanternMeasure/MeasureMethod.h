@@ -28,8 +28,8 @@ struct FPathReferenceSettings
 	std::function<void(double Done, double SecondsLeft)> Progress; ///< may be empty
 };
 /// Before the script is played. Out.Home stays if it is there already, since all paths of a signal share it. The light is put back. A signal without a light switch (ambient occlusion) gets no Switched.
-FRTStatus GetPathReferences(FSampleEngine& Engine, const FPathScript& Path, const FPathReferenceSettings& Settings, const FLightSwitch& Switch,
-                            FPathReferences& Out);
+FRTStatus GetPathReferences(FSampleEngine& Engine, const FPathScript& Path, const FPathReferenceSettings& Settings,
+    const FLightSwitch& Switch, FPathReferences& Out);
 
 /// Absent figures do not apply, see MeasureFigures.h.
 struct FMethodFigures
@@ -70,8 +70,9 @@ struct FMeasureResult
 
 /// Sets the method's variables, plays the script, and puts all back: variables, light, histories. Path must be of the
 /// signal's references. FRTStatus: what the device or the renderer could not do.
-FRTStatus MeasureMethod(FSampleEngine& Engine, const FMethods& Methods, const FMethod& Method, const FMethodPreset& Preset, const FPathScript& Path,
-                        const FPathReferences& References, const FLightSwitch& Switch, const FMeasureSettings& Settings, FMeasureResult& Out);
+FRTStatus MeasureMethod(FSampleEngine& Engine, const FMethods& Methods, const FMethod& Method, const FMethodPreset& Preset,
+    const FPathScript& Path, const FPathReferences& References, const FLightSwitch& Switch, const FMeasureSettings& Settings,
+    FMeasureResult& Out);
 
 /// What two frames of a method tell, before its references are traced.
 struct FMethodProbe
@@ -80,8 +81,8 @@ struct FMethodProbe
 	bool bHistory = false;     ///< something is carried over from frame to frame: figures need a warm-up
 	double FrameSeconds = 0.0; ///< of the second, on the clock; the first compiles and builds
 };
-FRTStatus ProbeMethod(FSampleEngine& Engine, const FMethods& Methods, const FMethod& Method, const FMethodPreset& Preset, const FView& View, double Time,
-                      FMethodProbe& Out);
+FRTStatus ProbeMethod(FSampleEngine& Engine, const FMethods& Methods, const FMethod& Method, const FMethodPreset& Preset, const FView& View,
+    double Time, FMethodProbe& Out);
 /// Frames that MeasureMethod plays of a path: the light switch ends with its answer, after two of them at best.
 uint32_t CountPathFrames(const FPathScript& Path);
 
@@ -99,12 +100,12 @@ struct FFactSettings
 	FView View;
 	double Time = 1.0;
 	uint32_t Rounds = 3, FramesPerRound = 7, WarmUp = 2; ///< in turn, so that a slow drift meets all alike
-	double MaxSeconds = 0.0;                            ///< 0: as long as it takes
+	double MaxSeconds = 0.0;                             ///< 0: as long as it takes
 };
 /// Frames of a method with and without each fact that the scene has: alpha tests (r.RT.AlphaTest), animation (time held
 /// still), local lights, sun and sky (taken out of the scene), all in turn in each round. Medians over all rounds. Empty on a device without
 /// timestamps. TooLong: nothing is measured.
-FRTStatus MeasureFacts(FSampleEngine& Engine, const FMethods& Methods, const FMethod* Method, const FMethodPreset* Preset, const FFactSettings& Settings,
-                       std::vector<FFactCost>& Out, EMeasureEnd& OutEnd);
+FRTStatus MeasureFacts(FSampleEngine& Engine, const FMethods& Methods, const FMethod* Method, const FMethodPreset* Preset,
+    const FFactSettings& Settings, std::vector<FFactCost>& Out, EMeasureEnd& OutEnd);
 
 } // namespace Lantern

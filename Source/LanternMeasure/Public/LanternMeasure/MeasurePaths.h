@@ -55,11 +55,11 @@ private:
 struct FMeasureViews
 {
 	FView Home;
-	FView Cut;              ///< sees other things, or the same from elsewhere
-	glm::dvec3 Focus{0};    ///< what Home looks at: the median distance of what its middle sees
-	glm::dvec3 Travel{0};   ///< from Home to where the fast path begins; at most 0.4 of the distance to Focus, and at most half
-	                        ///< of the free way, so that no path passes through anything
-	double PanRadians = 0;  ///< where there is no room to move: the view turns by so much instead
+	FView Cut;             ///< sees other things, or the same from elsewhere
+	glm::dvec3 Focus{0};   ///< what Home looks at: the median distance of what its middle sees
+	glm::dvec3 Travel{0};  ///< from Home to where the fast path begins; at most 0.4 of the distance to Focus, and at most half
+	                       ///< of the free way, so that no path passes through anything
+	double PanRadians = 0; ///< where there is no room to move: the view turns by so much instead
 	/// Way: 0 is home, 1 the beginning of the fast path.
 	FView GetView(double Way) const;
 };
@@ -94,13 +94,13 @@ struct FPathScript
 	static constexpr uint32_t SettleFrames = 4; ///< after which ghosts are looked for
 	FScript Script;
 	uint32_t FirstTimed = 0, TimedCount = 0;
-	std::vector<uint32_t> ErrorFrames;    ///< seen from home, with the light on: all have the reference of PictureFrame
-	uint32_t PictureFrame = 0;            ///< the last of them
+	std::vector<uint32_t> ErrorFrames; ///< seen from home, with the light on: all have the reference of PictureFrame
+	uint32_t PictureFrame = 0;         ///< the last of them
 	/// Whose reference a ghost would look like; not of the slow path, on which frames differ too little …
 	std::optional<uint32_t> BeforeFrame;
-	std::optional<uint32_t> GhostFrame;   ///< … in this frame
+	std::optional<uint32_t> GhostFrame;    ///< … in this frame
 	std::optional<uint32_t> FirstSwitched; ///< from here to the end: the light is switched
-	bool bStill = false;                  ///< nothing changes from one of ErrorFrames to the next
+	bool bStill = false;                   ///< nothing changes from one of ErrorFrames to the next
 };
 /// Switch: null: none. It must outlive the script.
 FPathScript MakePathScript(EMeasurePath Path, const FMeasureViews& Views, const FPathSettings& Settings, const FLightSwitch* Switch);

@@ -31,24 +31,25 @@ struct FPlayedFrame
 	FCapturedFrame Images; ///< of the signals asked for; empty where not captured or where the frame does not have it
 	/// Of this very frame, without the reading back.
 	std::vector<FPassTiming> Passes;
-	uint64_t LiveBytes = 0; ///< of the device after the frame
-	double Seconds = 0.0;   ///< on the clock, from its change to its picture
-	double GetGpuMs() const;    ///< sum of all passes; < 0: the device has no timestamps
+	uint64_t LiveBytes = 0;                ///< of the device after the frame
+	double Seconds = 0.0;                  ///< on the clock, from its change to its picture
+	double GetGpuMs() const;               ///< sum of all passes; < 0: the device has no timestamps
 	double GetGpuMs(ESignal Signal) const; ///< of the signal's passes (Signals.h)
 	uint64_t GetRays(ESignal Signal) const;
 };
 
 struct FPlaySettings
 {
-	std::vector<ESignal> Signals;  ///< made in every frame and captured where the script says so; the lit frame always is
-	bool bKeepHistory = false;     ///< goes on from the frame before the script; else histories begin empty and frames at 0
-	bool bRealTime = false;        ///< as FSampleEngine::bRealTime
+	std::vector<ESignal> Signals; ///< made in every frame and captured where the script says so; the lit frame always is
+	bool bKeepHistory = false;    ///< goes on from the frame before the script; else histories begin empty and frames at 0
+	bool bRealTime = false;       ///< as FSampleEngine::bRealTime
 };
 
 /// OnFrame: called after each frame; false ends the script. Histories are emptied and the frame graph's idle memory is
 /// freed first, unless bKeepHistory. The engine's own settings are put back. Each frame is waited for, so that timings
 /// belong to it.
-FRTStatus PlayScript(FSampleEngine& Engine, const FScript& Script, const FPlaySettings& Settings, const std::function<bool(FPlayedFrame&)>& OnFrame);
+FRTStatus PlayScript(
+    FSampleEngine& Engine, const FScript& Script, const FPlaySettings& Settings, const std::function<bool(FPlayedFrame&)>& OnFrame);
 
 struct FScriptReferences
 {
@@ -59,7 +60,7 @@ struct FScriptReferences
 /// References of a signal for the script's frames in Indices (ascending): runs the changes up to each, traces, goes on.
 /// Desc: its Signal, Samples, Bounces, Seed, StateKey, CacheFolder and Progress; the script gives the rest. StateKey is
 /// needed where changes do what FSignalReferenceDesc::StateKey says is not seen; each frame's index is added to it then.
-FRTStatus GetScriptReferences(FSampleEngine& Engine, const FScript& Script, const std::vector<uint32_t>& Indices, const FSignalReferenceDesc& Desc,
-                              FScriptReferences& Out);
+FRTStatus GetScriptReferences(FSampleEngine& Engine, const FScript& Script, const std::vector<uint32_t>& Indices,
+    const FSignalReferenceDesc& Desc, FScriptReferences& Out);
 
 } // namespace Lantern

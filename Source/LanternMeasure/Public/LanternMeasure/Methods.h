@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "LanternCore/Config/ConsoleVariables.h"
-#include "LanternRenderer/Signals.h"
 #include "LanternRHI/RTTypes.h"
+#include "LanternRenderer/Signals.h"
 
 namespace Lantern
 {

@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
-#include "LanternImage/Image.h"
 #include "LanternHost/SampleEngine.h"
+#include "LanternImage/Image.h"
 #include "LanternRenderer/Signals.h"
 
 namespace Lantern
@@ -19,7 +19,7 @@ struct FSignalReferenceDesc
 	uint32_t Samples = 256; ///< of Mean; each half has half of them, at least one
 	uint32_t Bounces = 64;  ///< see FReferenceSettings
 	uint32_t Seed = 0;
-	bool bPixelCenters = true; ///< see FReferenceSettings: real-time passes see no more of a pixel than its centre
+	bool bPixelCenters = true;   ///< see FReferenceSettings: real-time passes see no more of a pixel than its centre
 	bool bRasterSurfaces = true; ///< see FReferenceSettings; ignored for ESignal::Frame
 	/// Names what a script changed in the scene that neither its file nor the console variables say. Objects moved, masks,
 	/// materials, lights, sun and sky as they stand in FRTScene are seen without it; buffers that were edited are not.

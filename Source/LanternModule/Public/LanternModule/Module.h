@@ -37,9 +37,9 @@ using FRTModuleLogCallback = void (*)(void* User, ERTModuleLog Level, const char
 /// Folders: absolute, or relative to the process's working directory.
 struct FRTModuleDesc
 {
-	const char* ConfigFolder = nullptr; ///< Plugin.json's configFolder; null: console variables keep their defaults
-	const char* ShaderFolder = nullptr; ///< Plugin.json's shaderFolder; needed
-	const char* CacheFolder = nullptr;  ///< compiled shaders are kept here, and created if missing; null: not kept
+	const char* ConfigFolder = nullptr;         ///< Plugin.json's configFolder; null: console variables keep their defaults
+	const char* ShaderFolder = nullptr;         ///< Plugin.json's shaderFolder; needed
+	const char* CacheFolder = nullptr;          ///< compiled shaders are kept here, and created if missing; null: not kept
 	FRTModuleLogCallback LogCallback = nullptr; ///< null: standard error
 	void* LogUser = nullptr;
 };
@@ -221,8 +221,7 @@ public:
 	virtual FRTStatus AddObject(const FRTModuleObject& Object, ERTObjectHandle* Out) = 0;
 	virtual FRTStatus SetObjectTransform(ERTObjectHandle Handle, const double Transform[12]) = 0;
 	/// As in AddObject.
-	virtual FRTStatus SetObjectMaterials(ERTObjectHandle Handle, const ERTMaterialHandle* Materials,
-	                                     uint32_t Count) = 0;
+	virtual FRTStatus SetObjectMaterials(ERTObjectHandle Handle, const ERTMaterialHandle* Materials, uint32_t Count) = 0;
 	virtual FRTStatus SetObjectCastsShadow(ERTObjectHandle Handle, bool bCastsShadow) = 0;
 	/// At any time, also while frames that see it are in flight.
 	virtual FRTStatus RemoveObject(ERTObjectHandle Handle) = 0;

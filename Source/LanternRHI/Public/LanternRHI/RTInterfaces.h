@@ -146,7 +146,7 @@ public:
 	virtual void CopyBufferToTexture(IRTTexture* Dest, uint32_t Mip, uint32_t Layer, IRTBuffer* Source, uint64_t SourceOffset) = 0;
 	virtual void CopyTextureToBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTTexture* Source, uint32_t Mip, uint32_t Layer) = 0;
 	virtual void FillBuffer(IRTBuffer* Dest, uint64_t Offset, uint64_t Size, uint32_t Value) = 0; ///< multiples of 4
-	virtual void ClearTexture(IRTTexture* Dest, const float Value[4]) = 0; ///< colour; access CopyWrite
+	virtual void ClearTexture(IRTTexture* Dest, const float Value[4]) = 0;                        ///< colour; access CopyWrite
 	/// Mips 1… from mip 0 by a box filter, linear in the format's decoded space. All in access CopyWrite,
 	/// left in ShaderRead. Width and height need not be powers of two.
 	virtual void GenerateMips(IRTTexture* Texture) = 0;
@@ -173,7 +173,8 @@ public:
 	/// Dest was created with CompactedBytes of what WriteCompactedSize said of Source. Dest is in BuildWrite afterwards.
 	virtual void CompactGeometry(IRTGeometry* Dest, IRTGeometry* Source) = 0;
 	/// Instances: FRTInstance[Count] at InstanceOffset (a multiple of 16). Count may be 0.
-	virtual void BuildScene(IRTScene* Scene, IRTBuffer* Instances, uint64_t InstanceOffset, uint32_t Count, IRTBuffer* Scratch, uint64_t ScratchOffset) = 0;
+	virtual void BuildScene(
+	    IRTScene* Scene, IRTBuffer* Instances, uint64_t InstanceOffset, uint32_t Count, IRTBuffer* Scratch, uint64_t ScratchOffset) = 0;
 	/// Keeps what the list uses without naming it (through an address, an index, or a scene's instances) until the GPU is
 	/// done. FRTScene holds its geometries itself.
 	virtual void KeepAlive(IRTRefCounted* Object) = 0;

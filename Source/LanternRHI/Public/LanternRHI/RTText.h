@@ -35,18 +35,12 @@ inline uint32_t DecodeCharacter(const char* Text, size_t Size, uint32_t& OutCode
 		return 1;
 	}
 	const uint32_t Length = First >= 0xF0 ? 4 : First >= 0xE0 ? 3 : 2;
-	if (First < 0xC0 || First >= 0xF8 || Size < Length)
-	{
-		return 0;
-	}
+	if (First < 0xC0 || First >= 0xF8 || Size < Length) { return 0; }
 	uint32_t Code = First & (0x7Fu >> Length);
 	for (uint32_t I = 1; I < Length; ++I)
 	{
 		const uint32_t Next = static_cast<uint8_t>(Text[I]);
-		if ((Next & 0xC0) != 0x80)
-		{
-			return 0;
-		}
+		if ((Next & 0xC0) != 0x80) { return 0; }
 		Code = Code << 6 | (Next & 0x3F);
 	}
 	const bool bSurrogate = Code >= 0xD800 && Code <= 0xDFFF;
@@ -77,16 +71,10 @@ inline bool IsShowable(uint32_t Code)
 	    {0xFFF9, 0xFFFB},   // annotations
 	    {0xE0000, 0xE007F}, // tags
 	};
-	if (Code < 0x7F)
-	{
-		return Code >= 0x20;
-	}
+	if (Code < 0x7F) { return Code >= 0x20; }
 	for (const FRange& Range : Hidden)
 	{
-		if (Code >= Range.First && Code <= Range.Last)
-		{
-			return false;
-		}
+		if (Code >= Range.First && Code <= Range.Last) { return false; }
 	}
 	return (Code & 0xFFFE) != 0xFFFE && Code <= 0x10FFFF;
 }
@@ -105,10 +93,7 @@ inline FRTShownCharacter ShowCharacter(const char* Text, size_t Size, ERTTextKin
 	const bool bKept = Kind == ERTTextKind::Lines && (Code == '\n' || Code == '\t');
 	if (Length > 0 && (bKept || IsShowable(Code)))
 	{
-		for (uint32_t I = 0; I < Length; ++I)
-		{
-			Put(Text[I]);
-		}
+		for (uint32_t I = 0; I < Length; ++I) { Put(Text[I]); }
 		return Out;
 	}
 	Put('\\');
@@ -130,10 +115,7 @@ inline FRTShownCharacter ShowCharacter(const char* Text, size_t Size, ERTTextKin
 	for (uint32_t Shift = 24; Shift > 0;)
 	{
 		Shift -= 4;
-		if (Shift < 16 || Code >> Shift != 0)
-		{
-			Put(Digits[Code >> Shift & 15]);
-		}
+		if (Shift < 16 || Code >> Shift != 0) { Put(Digits[Code >> Shift & 15]); }
 	}
 	Put('}');
 	return Out;
@@ -157,16 +139,9 @@ void ShowText(const char* Text, size_t Size, ERTTextKind Kind, F&& Take)
 inline size_t ShowText(char* Out, size_t Capacity, const char* Text, size_t Size, ERTTextKind Kind, const char* Mark)
 {
 	size_t MarkSize = 0, Used = 0, Fit = 0;
-	while (Mark[MarkSize] != 0)
-	{
-		++MarkSize;
-	}
-	const auto Append = [&](const char* From, size_t Count)
-	{
-		for (size_t I = 0; I < Count; ++I)
-		{
-			Out[Used++] = From[I];
-		}
+	while (Mark[MarkSize] != 0) { ++MarkSize; }
+	const auto Append = [&](const char* From, size_t Count) {
+		for (size_t I = 0; I < Count; ++I) { Out[Used++] = From[I]; }
 	};
 	while (Size > 0)
 	{
@@ -189,17 +164,11 @@ inline size_t ShowText(char* Out, size_t Capacity, const char* Text, size_t Size
 /// How many of the first Max bytes of Text can be kept without cutting a UTF-8 character in two.
 inline size_t FitCharacters(const char* Text, size_t Size, size_t Max)
 {
-	if (Size <= Max)
-	{
-		return Size;
-	}
+	if (Size <= Max) { return Size; }
 	const auto IsInside = [Text](size_t I) { return (static_cast<uint8_t>(Text[I]) & 0xC0) == 0x80; };
 	for (size_t End = Max; End > 0 && Max - End < 4; --End)
 	{
-		if (!IsInside(End))
-		{
-			return End;
-		}
+		if (!IsInside(End)) { return End; }
 	}
 	return Max; // no UTF-8
 }
@@ -214,10 +183,7 @@ struct FRTShown
 	{
 		// No more is looked at than can be shown.
 		size_t Size = 0;
-		while (InText != nullptr && Size < sizeof(Text) + 4 && InText[Size] != 0)
-		{
-			++Size;
-		}
+		while (InText != nullptr && Size < sizeof(Text) + 4 && InText[Size] != 0) { ++Size; }
 		ShowText(Text, sizeof(Text), InText, Size, ERTTextKind::OneLine, "…");
 	}
 

@@ -104,12 +104,12 @@ enum class ERTTextureUsage : uint32_t
 /// storage texture or buffer (read-modify-write).
 enum class ERTAccess : uint32_t
 {
-	None = 0,               ///< contents undefined (textures: layout undefined)
-	ShaderRead = 1 << 0,    ///< sampled texture, or buffer read by any shader stage
-	StorageRead = 1 << 1,   ///< imageLoad
-	StorageWrite = 1 << 2,  ///< imageStore, buffer writes, atomics
-	RenderTarget = 1 << 3,  ///< colour attachment, read and write
-	DepthWrite = 1 << 4,    ///< depth attachment, read and write
+	None = 0,              ///< contents undefined (textures: layout undefined)
+	ShaderRead = 1 << 0,   ///< sampled texture, or buffer read by any shader stage
+	StorageRead = 1 << 1,  ///< imageLoad
+	StorageWrite = 1 << 2, ///< imageStore, buffer writes, atomics
+	RenderTarget = 1 << 3, ///< colour attachment, read and write
+	DepthWrite = 1 << 4,   ///< depth attachment, read and write
 	IndexRead = 1 << 5,
 	IndirectRead = 1 << 6,
 	CopyRead = 1 << 7,
@@ -141,10 +141,10 @@ enum class ERTShaderStage : uint8_t
 	Callable,
 };
 
-#define LANTERN_RT_FLAGS(E)                                                                                       \
-	constexpr E operator|(E A, E B) { return static_cast<E>(static_cast<uint32_t>(A) | static_cast<uint32_t>(B)); } \
-	constexpr E operator&(E A, E B) { return static_cast<E>(static_cast<uint32_t>(A) & static_cast<uint32_t>(B)); } \
-	constexpr E& operator|=(E& A, E B) { return A = A | B; }                                                        \
+#define LANTERN_RT_FLAGS(E)                                                                                                                \
+	constexpr E operator|(E A, E B) { return static_cast<E>(static_cast<uint32_t>(A) | static_cast<uint32_t>(B)); }                        \
+	constexpr E operator&(E A, E B) { return static_cast<E>(static_cast<uint32_t>(A) & static_cast<uint32_t>(B)); }                        \
+	constexpr E& operator|=(E& A, E B) { return A = A | B; }                                                                               \
 	constexpr bool HasAny(E A, E B) { return (static_cast<uint32_t>(A) & static_cast<uint32_t>(B)) != 0; }
 
 LANTERN_RT_FLAGS(ERTBufferUsage)
@@ -227,8 +227,17 @@ struct FRTTextureDesc
 	const char* Name = "";
 };
 
-enum class ERTFilter : uint8_t { Nearest, Linear };
-enum class ERTAddress : uint8_t { Repeat, Clamp, Mirror };
+enum class ERTFilter : uint8_t
+{
+	Nearest,
+	Linear
+};
+enum class ERTAddress : uint8_t
+{
+	Repeat,
+	Clamp,
+	Mirror
+};
 
 struct FRTSamplerDesc
 {
@@ -253,7 +262,12 @@ struct FRTComputePipelineDesc
 	const char* Name = "";
 };
 
-enum class ERTCull : uint8_t { None, Back, Front };
+enum class ERTCull : uint8_t
+{
+	None,
+	Back,
+	Front
+};
 
 /// Raster pipelines pull their vertices from buffer addresses: there is no vertex input. Counter-clockwise is
 /// front; depth is reversed (1 near, 0 far), test is greater-or-equal.
@@ -356,10 +370,10 @@ inline constexpr uint8_t InstanceForceNoOpaque = 8;
 /// As the GPU reads it; written by the CPU or a shader into a GeometryInput buffer.
 struct FRTInstance
 {
-	float Transform[12];                ///< object to world, 3 rows of 4
-	uint32_t CustomIndexAndMask;        ///< index: low 24 bits; mask: high 8
-	uint32_t TableOffsetAndFlags;       ///< first hit record: low 24 bits; Instance… flags: high 8
-	uint64_t GeometryAddress;           ///< IRTGeometry::GetDeviceAddress()
+	float Transform[12];          ///< object to world, 3 rows of 4
+	uint32_t CustomIndexAndMask;  ///< index: low 24 bits; mask: high 8
+	uint32_t TableOffsetAndFlags; ///< first hit record: low 24 bits; Instance… flags: high 8
+	uint64_t GeometryAddress;     ///< IRTGeometry::GetDeviceAddress()
 };
 static_assert(sizeof(FRTInstance) == 64, "layout of VkAccelerationStructureInstanceKHR");
 
@@ -406,7 +420,13 @@ struct FRTShaderTableDesc
 	const char* Name = "";
 };
 
-enum class ERTRecordKind : uint8_t { RayGen, Miss, Hit, Callable };
+enum class ERTRecordKind : uint8_t
+{
+	RayGen,
+	Miss,
+	Hit,
+	Callable
+};
 
 struct FRTBarrier
 {

@@ -197,8 +197,8 @@ public:
 	/// Any record of the device's copy of the table, as executed submissions left it: what is in flight is not in it yet.
 	FRTMockRecord ResolveRecord(IRTShaderTable* Table, ERTRecordKind Kind, uint32_t Index) const;
 	/// The hit record a ray reaches: TableOffset + GeometryIndex · RayMultiplier + RayType.
-	FRTMockRecord ResolveHit(IRTShaderTable* Table, const FRTInstance& Instance, uint32_t GeometryIndex,
-	                         uint32_t RayType, uint32_t RayMultiplier) const;
+	FRTMockRecord ResolveHit(
+	    IRTShaderTable* Table, const FRTInstance& Instance, uint32_t GeometryIndex, uint32_t RayType, uint32_t RayMultiplier) const;
 	/// Instances of the last executed BuildScene.
 	std::vector<FRTMockInstance> GetSceneInstances(IRTScene* Scene) const;
 	FRTMockGeometry GetGeometry(IRTGeometry* Geometry) const;

@@ -26,10 +26,7 @@ FRTStatus FVulkanCommandList::Initialise(const char* InName)
 	Info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
 	Info.commandBufferCount = 1;
 	Result = Device.Check(Device.Api.AllocateCommandBuffers(Device.Handle, &Info, &Handle));
-	if (Result == VK_SUCCESS)
-	{
-		Device.SetName(VK_OBJECT_TYPE_COMMAND_BUFFER, ToNative(Handle), Name.c_str());
-	}
+	if (Result == VK_SUCCESS) { Device.SetName(VK_OBJECT_TYPE_COMMAND_BUFFER, ToNative(Handle), Name.c_str()); }
 	return MakeStatus(Result, "Allocating the command buffer of", Name.c_str());
 }
 
@@ -42,41 +39,26 @@ void FVulkanCommandList::InitialiseImported(VkCommandBuffer Buffer)
 FVulkanCommandList::~FVulkanCommandList()
 {
 	ReleaseKept();
-	if (Pool)
-	{
-		Device.Api.DestroyCommandPool(Device.Handle, Pool, nullptr);
-	}
+	if (Pool) { Device.Api.DestroyCommandPool(Device.Handle, Pool, nullptr); }
 }
 
 void FVulkanCommandList::Keep(IRTRefCounted* Object)
 {
-	if (Object && Kept.insert(Object).second)
-	{
-		Object->AddRef();
-	}
+	if (Object && Kept.insert(Object).second) { Object->AddRef(); }
 }
 
-void FVulkanCommandList::KeepAlive(IRTRefCounted* Object)
-{
-	Keep(Object);
-}
+void FVulkanCommandList::KeepAlive(IRTRefCounted* Object) { Keep(Object); }
 
 void FVulkanCommandList::ReleaseKept()
 {
-	for (IRTRefCounted* Object : Kept)
-	{
-		Object->Release();
-	}
+	for (IRTRefCounted* Object : Kept) { Object->Release(); }
 	Kept.clear();
 }
 
 FVulkanKept FVulkanCommandList::TakeKept(FRTFence InFence)
 {
 	Fence = InFence;
-	for (const auto& [Queries, Index] : QueriesWritten)
-	{
-		Queries->NoteWrite(Index, InFence);
-	}
+	for (const auto& [Queries, Index] : QueriesWritten) { Queries->NoteWrite(Index, InFence); }
 	QueriesWritten.clear();
 	FVulkanKept Result;
 	Result.swap(Kept);
@@ -86,10 +68,7 @@ FVulkanKept FVulkanCommandList::TakeKept(FRTFence InFence)
 FRTStatus FVulkanCommandList::Begin()
 {
 	assert(!bImported);
-	if (Device.IsLost())
-	{
-		return Device.LostStatus();
-	}
+	if (Device.IsLost()) { return Device.LostStatus(); }
 	assert(Fence <= Device.GetCompletedFence() && "Begin before the last submission has finished");
 	ReleaseKept();
 	Error = {};
@@ -107,10 +86,7 @@ FRTStatus FVulkanCommandList::Begin()
 FRTStatus FVulkanCommandList::End()
 {
 	assert(!bImported);
-	if (Device.IsLost())
-	{
-		return Device.LostStatus();
-	}
+	if (Device.IsLost()) { return Device.LostStatus(); }
 	const VkResult Result = Device.Check(Device.Api.EndCommandBuffer(Handle));
 	return Error ? MakeStatus(Result, "Ending command list", Name.c_str()) : Error;
 }
@@ -161,8 +137,7 @@ void FVulkanCommandList::Barriers(const FRTBarrier* Items, uint32_t Count)
 		Image.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
 		Image.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
 		Image.image = Texture->GetImage();
-		Image.subresourceRange = {AspectOf(Texture->GetDesc().Format), 0, VK_REMAINING_MIP_LEVELS, 0,
-		                          VK_REMAINING_ARRAY_LAYERS};
+		Image.subresourceRange = {AspectOf(Texture->GetDesc().Format), 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
 		Images.push_back(Image);
 	}
 	VkDependencyInfo Info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
@@ -170,10 +145,7 @@ void FVulkanCommandList::Barriers(const FRTBarrier* Items, uint32_t Count)
 	Info.pMemoryBarriers = &Memory;
 	Info.imageMemoryBarrierCount = static_cast<uint32_t>(Images.size());
 	Info.pImageMemoryBarriers = Images.data();
-	if (Info.memoryBarrierCount || Info.imageMemoryBarrierCount)
-	{
-		Device.Api.CmdPipelineBarrier2(Handle, &Info);
-	}
+	if (Info.memoryBarrierCount || Info.imageMemoryBarrierCount) { Device.Api.CmdPipelineBarrier2(Handle, &Info); }
 }
 
 // ------------------------------------------------------------------------------------------------ pipelines
@@ -183,13 +155,11 @@ void FVulkanCommandList::SetPipeline(IRTPipeline* Pipeline)
 	Keep(Pipeline);
 	Bound = static_cast<FVulkanPipeline*>(Pipeline);
 	Device.Api.CmdBindPipeline(Handle, Bound->BindPoint, Bound->Handle);
-	const uint32_t Bit =
-	    Bound->BindPoint == VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR ? 4u : 1u << static_cast<uint32_t>(Bound->BindPoint);
+	const uint32_t Bit = Bound->BindPoint == VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR ? 4u : 1u << static_cast<uint32_t>(Bound->BindPoint);
 	// In an engine's command buffer other sets may have been bound since.
 	if (bImported || !(SetBoundPoints & Bit))
 	{
-		Device.Api.CmdBindDescriptorSets(Handle, Bound->BindPoint, Device.Bindless.PipelineLayout, 0, 1,
-		                                 &Device.Bindless.Set, 0, nullptr);
+		Device.Api.CmdBindDescriptorSets(Handle, Bound->BindPoint, Device.Bindless.PipelineLayout, 0, 1, &Device.Bindless.Set, 0, nullptr);
 		SetBoundPoints |= Bit;
 	}
 }
@@ -230,10 +200,7 @@ void FVulkanCommandList::BeginRasterPass(const FRTRasterPassDesc& Desc)
 			{
 				Color.clearValue.color.uint32[Channel] = static_cast<uint32_t>(Target.Clear[Channel]);
 			}
-			else
-			{
-				Color.clearValue.color.float32[Channel] = Target.Clear[Channel];
-			}
+			else { Color.clearValue.color.float32[Channel] = Target.Clear[Channel]; }
 		}
 	}
 	VkRenderingAttachmentInfo Depth{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
@@ -253,23 +220,19 @@ void FVulkanCommandList::BeginRasterPass(const FRTRasterPassDesc& Desc)
 	Info.pColorAttachments = Colors.data();
 	Info.pDepthAttachment = Desc.Depth ? &Depth : nullptr;
 	Device.Api.CmdBeginRendering(Handle, &Info);
-	const VkViewport Viewport = {0.0f, 0.0f, static_cast<float>(Desc.Width), static_cast<float>(Desc.Height),
-	                             0.0f, 1.0f};
+	const VkViewport Viewport = {0.0f, 0.0f, static_cast<float>(Desc.Width), static_cast<float>(Desc.Height), 0.0f, 1.0f};
 	Device.Api.CmdSetViewport(Handle, 0, 1, &Viewport);
 	Device.Api.CmdSetScissor(Handle, 0, 1, &Info.renderArea);
 }
 
-void FVulkanCommandList::EndRasterPass()
-{
-	Device.Api.CmdEndRendering(Handle);
-}
+void FVulkanCommandList::EndRasterPass() { Device.Api.CmdEndRendering(Handle); }
 
 void FVulkanCommandList::SetIndexBuffer(IRTBuffer* Buffer, uint64_t Offset, ERTIndexType Type)
 {
 	assert(Type != ERTIndexType::None);
 	Keep(Buffer);
 	Device.Api.CmdBindIndexBuffer(Handle, static_cast<FVulkanBuffer*>(Buffer)->Block.Handle, Offset,
-	                              Type == ERTIndexType::UInt16 ? VK_INDEX_TYPE_UINT16 : VK_INDEX_TYPE_UINT32);
+	    Type == ERTIndexType::UInt16 ? VK_INDEX_TYPE_UINT16 : VK_INDEX_TYPE_UINT32);
 }
 
 void FVulkanCommandList::Draw(uint32_t VertexCount, uint32_t InstanceCount)
@@ -277,8 +240,7 @@ void FVulkanCommandList::Draw(uint32_t VertexCount, uint32_t InstanceCount)
 	Device.Api.CmdDraw(Handle, VertexCount, InstanceCount, 0, 0);
 }
 
-void FVulkanCommandList::DrawIndexed(uint32_t IndexCount, uint32_t InstanceCount, uint32_t FirstIndex,
-                                     int32_t VertexOffset)
+void FVulkanCommandList::DrawIndexed(uint32_t IndexCount, uint32_t InstanceCount, uint32_t FirstIndex, int32_t VertexOffset)
 {
 	Device.Api.CmdDrawIndexed(Handle, IndexCount, InstanceCount, FirstIndex, VertexOffset, 0);
 }
@@ -316,15 +278,9 @@ void FVulkanCommandList::BeginMarker(const char* MarkerName)
 
 void FVulkanCommandList::EndMarker()
 {
-	if (Device.Instance->bDebugUtils)
-	{
-		Device.Instance->Api.CmdEndDebugUtilsLabelEXT(Handle);
-	}
+	if (Device.Instance->bDebugUtils) { Device.Instance->Api.CmdEndDebugUtilsLabelEXT(Handle); }
 }
 
-uint64_t FVulkanCommandList::GetNative(ERTNative Kind) const
-{
-	return Kind == ERTNative::CommandBuffer ? ToNative(Handle) : 0;
-}
+uint64_t FVulkanCommandList::GetNative(ERTNative Kind) const { return Kind == ERTNative::CommandBuffer ? ToNative(Handle) : 0; }
 
 } // namespace Lantern

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "Commands/VulkanQueryPool.h"
+#include "Pipelines/VulkanPipeline.h"
 #include "Resources/VulkanAccel.h"
 #include "Resources/VulkanBuffer.h"
-#include "Pipelines/VulkanPipeline.h"
-#include "Commands/VulkanQueryPool.h"
-#include "ShaderTable/VulkanShaderTable.h"
 #include "Resources/VulkanTexture.h"
+#include "ShaderTable/VulkanShaderTable.h"
 
 namespace Lantern
 {
@@ -38,13 +38,10 @@ public:
 	uint64_t GetNative(ERTNative Kind) const override;
 
 	// VulkanCommandListCopy.cpp
-	void CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTBuffer* Source, uint64_t SourceOffset,
-	                uint64_t Size) override;
+	void CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTBuffer* Source, uint64_t SourceOffset, uint64_t Size) override;
 	void CopyBufferRegions(IRTBuffer* Dest, IRTBuffer* Source, const FRTBufferRegion* Regions, uint32_t Count) override;
-	void CopyBufferToTexture(IRTTexture* Dest, uint32_t Mip, uint32_t Layer, IRTBuffer* Source,
-	                         uint64_t SourceOffset) override;
-	void CopyTextureToBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTTexture* Source, uint32_t Mip,
-	                         uint32_t Layer) override;
+	void CopyBufferToTexture(IRTTexture* Dest, uint32_t Mip, uint32_t Layer, IRTBuffer* Source, uint64_t SourceOffset) override;
+	void CopyTextureToBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTTexture* Source, uint32_t Mip, uint32_t Layer) override;
 	void FillBuffer(IRTBuffer* Dest, uint64_t Offset, uint64_t Size, uint32_t Value) override;
 	void ClearTexture(IRTTexture* Dest, const float Value[4]) override;
 	/// By linear blits: a box filter for even sizes. Of an odd size each texel takes two of the three that it covers.
@@ -58,7 +55,7 @@ public:
 	void WriteCompactedSize(IRTQueryPool* Queries, uint32_t Index, IRTGeometry* Geometry) override;
 	void CompactGeometry(IRTGeometry* Dest, IRTGeometry* Source) override;
 	void BuildScene(IRTScene* Scene, IRTBuffer* Instances, uint64_t InstanceOffset, uint32_t Count, IRTBuffer* Scratch,
-	                uint64_t ScratchOffset) override;
+	    uint64_t ScratchOffset) override;
 
 	// For the device.
 	VkCommandBuffer GetHandle() const { return Handle; }
@@ -74,8 +71,7 @@ private:
 	void ReleaseKept();
 	void Barrier(const FVulkanAccess& Before, const FVulkanAccess& After);
 	void CopyRecords(const FVulkanShaderTable::FCopies& Item, VkBuffer Dest);
-	void MipBarrier(const FVulkanTexture& Texture, uint32_t First, uint32_t Count, VkImageLayout Before,
-	                VkImageLayout After);
+	void MipBarrier(const FVulkanTexture& Texture, uint32_t First, uint32_t Count, VkImageLayout Before, VkImageLayout After);
 
 	std::string Name;
 	bool bImported = false;

@@ -15,10 +15,7 @@ void FVulkanCommandList::UpdateShaderTable(IRTShaderTable* Table)
 		Error = Status;
 		return;
 	}
-	if (Update.IsEmpty())
-	{
-		return;
-	}
+	if (Update.IsEmpty()) { return; }
 	// Rays of earlier frames may still read the table, and an earlier update may still write it.
 	const FVulkanAccess Trace = AccessOf(ERTAccess::TraceRead, Device.Bits);
 	FVulkanAccess Write = AccessOf(ERTAccess::CopyWrite | ERTAccess::CopyRead, Device.Bits);
@@ -30,10 +27,7 @@ void FVulkanCommandList::UpdateShaderTable(IRTShaderTable* Table)
 	{
 		Device.Api.CmdFillBuffer(Handle, Update.Dest->Block.Handle, Zeros.Offset, Zeros.Size, 0);
 	}
-	if (Update.Moved.Source)
-	{
-		CopyRecords(Update.Moved, Update.Dest->Block.Handle);
-	}
+	if (Update.Moved.Source) { CopyRecords(Update.Moved, Update.Dest->Block.Handle); }
 	bool bWritten = !Update.Zeros.empty() || Update.Moved.Source;
 	for (const FVulkanShaderTable::FCopies& Item : Update.Copies)
 	{
@@ -52,13 +46,9 @@ void FVulkanCommandList::CopyRecords(const FVulkanShaderTable::FCopies& Item, Vk
 	Keep(Item.Source.Get());
 	if (!Item.Regions.empty())
 	{
-		Device.Api.CmdCopyBuffer(Handle, Item.Source->Block.Handle, Dest, static_cast<uint32_t>(Item.Regions.size()),
-		                         Item.Regions.data());
+		Device.Api.CmdCopyBuffer(Handle, Item.Source->Block.Handle, Dest, static_cast<uint32_t>(Item.Regions.size()), Item.Regions.data());
 	}
-	for (const FVulkanTableScatter::FPush& Scatter : Item.Scatters)
-	{
-		Device.Scatter.Record(Device, Handle, Scatter);
-	}
+	for (const FVulkanTableScatter::FPush& Scatter : Item.Scatters) { Device.Scatter.Record(Device, Handle, Scatter); }
 	// What the caller has set stays set.
 	if (!Item.Scatters.empty() && Bound && Bound->BindPoint == VK_PIPELINE_BIND_POINT_COMPUTE)
 	{
@@ -66,13 +56,11 @@ void FVulkanCommandList::CopyRecords(const FVulkanShaderTable::FCopies& Item, Vk
 	}
 	if (!Item.Scatters.empty() && PushedBytes > 0)
 	{
-		Device.Api.CmdPushConstants(Handle, Device.Bindless.PipelineLayout, AllStages(Device.Bits), 0, PushedBytes,
-		                            Pushed);
+		Device.Api.CmdPushConstants(Handle, Device.Bindless.PipelineLayout, AllStages(Device.Bits), 0, PushedBytes, Pushed);
 	}
 }
 
-void FVulkanCommandList::TraceRays(IRTShaderTable* Table, uint32_t RayGen, uint32_t Width, uint32_t Height,
-                                   uint32_t Depth)
+void FVulkanCommandList::TraceRays(IRTShaderTable* Table, uint32_t RayGen, uint32_t Width, uint32_t Height, uint32_t Depth)
 {
 	Keep(Table);
 	const FVulkanShaderTable* Native = static_cast<const FVulkanShaderTable*>(Table);
@@ -87,10 +75,7 @@ void FVulkanCommandList::TraceRays(IRTShaderTable* Table, uint32_t RayGen, uint3
 
 void FVulkanCommandList::BuildGeometries(const FRTGeometryBuild* Builds, uint32_t Count)
 {
-	if (Count == 0)
-	{
-		return;
-	}
+	if (Count == 0) { return; }
 	std::vector<FVulkanSections> Sections(Count);
 	std::vector<VkAccelerationStructureBuildGeometryInfoKHR> Infos(Count);
 	std::vector<const VkAccelerationStructureBuildRangeInfoKHR*> Ranges(Count);
@@ -113,8 +98,7 @@ void FVulkanCommandList::BuildGeometries(const FRTGeometryBuild* Builds, uint32_
 		Info = {VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR};
 		Info.type = VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR;
 		Info.flags = Geometry->Flags;
-		Info.mode = Build.bUpdate ? VK_BUILD_ACCELERATION_STRUCTURE_MODE_UPDATE_KHR
-		                          : VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR;
+		Info.mode = Build.bUpdate ? VK_BUILD_ACCELERATION_STRUCTURE_MODE_UPDATE_KHR : VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR;
 		Info.srcAccelerationStructure = Build.bUpdate ? Geometry->Handle : VK_NULL_HANDLE;
 		Info.dstAccelerationStructure = Geometry->Handle;
 		Info.geometryCount = Build.SectionCount;
@@ -131,8 +115,7 @@ void FVulkanCommandList::WriteCompactedSize(IRTQueryPool* Queries, uint32_t Inde
 	Keep(Queries);
 	Keep(Geometry);
 	QueriesWritten.push_back({Native, Index});
-	Device.Api.CmdWriteAccelerationStructuresPropertiesKHR(
-	    Handle, 1, &static_cast<const FVulkanGeometry*>(Geometry)->Handle,
+	Device.Api.CmdWriteAccelerationStructuresPropertiesKHR(Handle, 1, &static_cast<const FVulkanGeometry*>(Geometry)->Handle,
 	    VK_QUERY_TYPE_ACCELERATION_STRUCTURE_COMPACTED_SIZE_KHR, Native->Handle, Index);
 }
 
@@ -147,8 +130,8 @@ void FVulkanCommandList::CompactGeometry(IRTGeometry* Dest, IRTGeometry* Source)
 	Device.Api.CmdCopyAccelerationStructureKHR(Handle, &Info);
 }
 
-void FVulkanCommandList::BuildScene(IRTScene* Scene, IRTBuffer* Instances, uint64_t InstanceOffset, uint32_t Count,
-                                    IRTBuffer* Scratch, uint64_t ScratchOffset)
+void FVulkanCommandList::BuildScene(
+    IRTScene* Scene, IRTBuffer* Instances, uint64_t InstanceOffset, uint32_t Count, IRTBuffer* Scratch, uint64_t ScratchOffset)
 {
 	static_assert(sizeof(FRTInstance) == sizeof(VkAccelerationStructureInstanceKHR));
 	assert(InstanceOffset % 16 == 0 && (Instances || Count == 0));

@@ -40,26 +40,17 @@ FRTStatus FVulkanQueryPool::Initialise(ERTQuery InKind, uint32_t InCount)
 
 void FVulkanQueryPool::NoteReset(uint32_t First, uint32_t InCount)
 {
-	for (uint32_t Index = First; Index < First + InCount && Index < WrittenBy.size(); ++Index)
-	{
-		WrittenBy[Index].store(NeverWritten);
-	}
+	for (uint32_t Index = First; Index < First + InCount && Index < WrittenBy.size(); ++Index) { WrittenBy[Index].store(NeverWritten); }
 }
 
 void FVulkanQueryPool::NoteWrite(uint32_t Index, FRTFence Fence)
 {
-	if (Index < WrittenBy.size())
-	{
-		WrittenBy[Index].store(Fence);
-	}
+	if (Index < WrittenBy.size()) { WrittenBy[Index].store(Fence); }
 }
 
 uint64_t FVulkanQueryPool::Convert(uint64_t Value) const
 {
-	if (Kind == ERTQuery::CompactedSize)
-	{
-		return Value;
-	}
+	if (Kind == ERTQuery::CompactedSize) { return Value; }
 	const uint64_t Mask = Device.TimestampBits >= 64 ? ~uint64_t(0) : (uint64_t(1) << Device.TimestampBits) - 1;
 	return static_cast<uint64_t>(static_cast<double>(Value & Mask) * Device.GetCapabilities().TimestampPeriodNs);
 }
@@ -67,29 +58,19 @@ uint64_t FVulkanQueryPool::Convert(uint64_t Value) const
 bool FVulkanQueryPool::GetResults(uint32_t First, uint32_t InCount, uint64_t* OutValues)
 {
 	assert(First + InCount <= Count);
-	if (Device.IsLost() || (Kind == ERTQuery::Timestamp && !Device.GetCapabilities().bTimestamps))
-	{
-		return false;
-	}
+	if (Device.IsLost() || (Kind == ERTQuery::Timestamp && !Device.GetCapabilities().bTimestamps)) { return false; }
 	const FRTFence Completed = WrittenBy.empty() ? 0 : Device.GetCompletedFence();
 	const auto IsWritten = [&](const std::atomic<FRTFence>& Fence) { return Fence.load() <= Completed; };
-	if (!WrittenBy.empty() && !std::all_of(WrittenBy.begin() + First, WrittenBy.begin() + First + InCount, IsWritten))
-	{
-		return false;
-	}
+	if (!WrittenBy.empty() && !std::all_of(WrittenBy.begin() + First, WrittenBy.begin() + First + InCount, IsWritten)) { return false; }
 	struct FResult
 	{
 		uint64_t Value;
 		uint64_t bAvailable;
 	};
 	std::vector<FResult> Results(InCount);
-	const VkResult Code = Device.Check(Device.Api.GetQueryPoolResults(
-	    Device.Handle, Handle, First, InCount, Results.size() * sizeof(FResult), Results.data(), sizeof(FResult),
-	    VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WITH_AVAILABILITY_BIT));
-	if (Code != VK_SUCCESS && Code != VK_NOT_READY)
-	{
-		return false;
-	}
+	const VkResult Code = Device.Check(Device.Api.GetQueryPoolResults(Device.Handle, Handle, First, InCount,
+	    Results.size() * sizeof(FResult), Results.data(), sizeof(FResult), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WITH_AVAILABILITY_BIT));
+	if (Code != VK_SUCCESS && Code != VK_NOT_READY) { return false; }
 	bool bAll = true;
 	for (uint32_t Index = 0; Index < InCount; ++Index)
 	{

@@ -12,102 +12,102 @@
 namespace Lantern
 {
 
-#define LANTERN_VK_INSTANCE_FUNCTIONS(X)                                                                               \
-	X(DestroyInstance)                                                                                                 \
-	X(EnumeratePhysicalDevices)                                                                                        \
-	X(GetPhysicalDeviceProperties2)                                                                                    \
-	X(GetPhysicalDeviceProperties)                                                                                     \
-	X(GetPhysicalDeviceFeatures2)                                                                                      \
-	X(GetPhysicalDeviceQueueFamilyProperties)                                                                          \
-	X(GetPhysicalDeviceMemoryProperties)                                                                               \
-	X(GetPhysicalDeviceFormatProperties)                                                                               \
-	X(GetPhysicalDeviceImageFormatProperties)                                                                          \
-	X(EnumerateDeviceExtensionProperties)                                                                              \
-	X(CreateDevice)                                                                                                    \
+#define LANTERN_VK_INSTANCE_FUNCTIONS(X)                                                                                                   \
+	X(DestroyInstance)                                                                                                                     \
+	X(EnumeratePhysicalDevices)                                                                                                            \
+	X(GetPhysicalDeviceProperties2)                                                                                                        \
+	X(GetPhysicalDeviceProperties)                                                                                                         \
+	X(GetPhysicalDeviceFeatures2)                                                                                                          \
+	X(GetPhysicalDeviceQueueFamilyProperties)                                                                                              \
+	X(GetPhysicalDeviceMemoryProperties)                                                                                                   \
+	X(GetPhysicalDeviceFormatProperties)                                                                                                   \
+	X(GetPhysicalDeviceImageFormatProperties)                                                                                              \
+	X(EnumerateDeviceExtensionProperties)                                                                                                  \
+	X(CreateDevice)                                                                                                                        \
 	X(GetDeviceProcAddr)
 
 /// Absent without VK_EXT_debug_utils: checked before use.
-#define LANTERN_VK_DEBUG_FUNCTIONS(X)                                                                                  \
-	X(CreateDebugUtilsMessengerEXT)                                                                                    \
-	X(DestroyDebugUtilsMessengerEXT)                                                                                   \
-	X(SetDebugUtilsObjectNameEXT)                                                                                      \
-	X(CmdBeginDebugUtilsLabelEXT)                                                                                      \
+#define LANTERN_VK_DEBUG_FUNCTIONS(X)                                                                                                      \
+	X(CreateDebugUtilsMessengerEXT)                                                                                                        \
+	X(DestroyDebugUtilsMessengerEXT)                                                                                                       \
+	X(SetDebugUtilsObjectNameEXT)                                                                                                          \
+	X(CmdBeginDebugUtilsLabelEXT)                                                                                                          \
 	X(CmdEndDebugUtilsLabelEXT)
 
-#define LANTERN_VK_DEVICE_FUNCTIONS(X)                                                                                 \
-	X(DestroyDevice)                                                                                                   \
-	X(GetDeviceQueue)                                                                                                  \
-	X(DeviceWaitIdle)                                                                                                  \
-	X(QueueWaitIdle)                                                                                                   \
-	X(QueueSubmit2)                                                                                                    \
-	X(CreateSemaphore)                                                                                                 \
-	X(DestroySemaphore)                                                                                                \
-	X(GetSemaphoreCounterValue)                                                                                        \
-	X(WaitSemaphores)                                                                                                  \
-	X(CreateCommandPool)                                                                                               \
-	X(DestroyCommandPool)                                                                                              \
-	X(ResetCommandPool)                                                                                                \
-	X(AllocateCommandBuffers)                                                                                          \
-	X(BeginCommandBuffer)                                                                                              \
-	X(EndCommandBuffer)                                                                                                \
-	X(CreateQueryPool)                                                                                                 \
-	X(DestroyQueryPool)                                                                                                \
-	X(ResetQueryPool)                                                                                                  \
-	X(GetQueryPoolResults)                                                                                             \
-	X(GetBufferDeviceAddress)                                                                                          \
-	X(CreateImageView)                                                                                                 \
-	X(DestroyImageView)                                                                                                \
-	X(CreateSampler)                                                                                                   \
-	X(DestroySampler)                                                                                                  \
-	X(CreateDescriptorSetLayout)                                                                                       \
-	X(DestroyDescriptorSetLayout)                                                                                      \
-	X(CreateDescriptorPool)                                                                                            \
-	X(DestroyDescriptorPool)                                                                                           \
-	X(AllocateDescriptorSets)                                                                                          \
-	X(UpdateDescriptorSets)                                                                                            \
-	X(CreatePipelineLayout)                                                                                            \
-	X(DestroyPipelineLayout)                                                                                           \
-	X(CreateShaderModule)                                                                                              \
-	X(DestroyShaderModule)                                                                                             \
-	X(CreatePipelineCache)                                                                                             \
-	X(DestroyPipelineCache)                                                                                            \
-	X(GetPipelineCacheData)                                                                                            \
-	X(CreateComputePipelines)                                                                                          \
-	X(CreateGraphicsPipelines)                                                                                         \
-	X(DestroyPipeline)                                                                                                 \
-	X(CmdPipelineBarrier2)                                                                                             \
-	X(CmdCopyBuffer)                                                                                                   \
-	X(CmdCopyBufferToImage)                                                                                            \
-	X(CmdCopyImageToBuffer)                                                                                            \
-	X(CmdFillBuffer)                                                                                                   \
-	X(CmdClearColorImage)                                                                                              \
-	X(CmdBlitImage)                                                                                                    \
-	X(CmdBindPipeline)                                                                                                 \
-	X(CmdBindDescriptorSets)                                                                                           \
-	X(CmdPushConstants)                                                                                                \
-	X(CmdDispatch)                                                                                                     \
-	X(CmdBeginRendering)                                                                                               \
-	X(CmdEndRendering)                                                                                                 \
-	X(CmdSetViewport)                                                                                                  \
-	X(CmdSetScissor)                                                                                                   \
-	X(CmdBindIndexBuffer)                                                                                              \
-	X(CmdDraw)                                                                                                         \
-	X(CmdDrawIndexed)                                                                                                  \
-	X(CmdResetQueryPool)                                                                                               \
+#define LANTERN_VK_DEVICE_FUNCTIONS(X)                                                                                                     \
+	X(DestroyDevice)                                                                                                                       \
+	X(GetDeviceQueue)                                                                                                                      \
+	X(DeviceWaitIdle)                                                                                                                      \
+	X(QueueWaitIdle)                                                                                                                       \
+	X(QueueSubmit2)                                                                                                                        \
+	X(CreateSemaphore)                                                                                                                     \
+	X(DestroySemaphore)                                                                                                                    \
+	X(GetSemaphoreCounterValue)                                                                                                            \
+	X(WaitSemaphores)                                                                                                                      \
+	X(CreateCommandPool)                                                                                                                   \
+	X(DestroyCommandPool)                                                                                                                  \
+	X(ResetCommandPool)                                                                                                                    \
+	X(AllocateCommandBuffers)                                                                                                              \
+	X(BeginCommandBuffer)                                                                                                                  \
+	X(EndCommandBuffer)                                                                                                                    \
+	X(CreateQueryPool)                                                                                                                     \
+	X(DestroyQueryPool)                                                                                                                    \
+	X(ResetQueryPool)                                                                                                                      \
+	X(GetQueryPoolResults)                                                                                                                 \
+	X(GetBufferDeviceAddress)                                                                                                              \
+	X(CreateImageView)                                                                                                                     \
+	X(DestroyImageView)                                                                                                                    \
+	X(CreateSampler)                                                                                                                       \
+	X(DestroySampler)                                                                                                                      \
+	X(CreateDescriptorSetLayout)                                                                                                           \
+	X(DestroyDescriptorSetLayout)                                                                                                          \
+	X(CreateDescriptorPool)                                                                                                                \
+	X(DestroyDescriptorPool)                                                                                                               \
+	X(AllocateDescriptorSets)                                                                                                              \
+	X(UpdateDescriptorSets)                                                                                                                \
+	X(CreatePipelineLayout)                                                                                                                \
+	X(DestroyPipelineLayout)                                                                                                               \
+	X(CreateShaderModule)                                                                                                                  \
+	X(DestroyShaderModule)                                                                                                                 \
+	X(CreatePipelineCache)                                                                                                                 \
+	X(DestroyPipelineCache)                                                                                                                \
+	X(GetPipelineCacheData)                                                                                                                \
+	X(CreateComputePipelines)                                                                                                              \
+	X(CreateGraphicsPipelines)                                                                                                             \
+	X(DestroyPipeline)                                                                                                                     \
+	X(CmdPipelineBarrier2)                                                                                                                 \
+	X(CmdCopyBuffer)                                                                                                                       \
+	X(CmdCopyBufferToImage)                                                                                                                \
+	X(CmdCopyImageToBuffer)                                                                                                                \
+	X(CmdFillBuffer)                                                                                                                       \
+	X(CmdClearColorImage)                                                                                                                  \
+	X(CmdBlitImage)                                                                                                                        \
+	X(CmdBindPipeline)                                                                                                                     \
+	X(CmdBindDescriptorSets)                                                                                                               \
+	X(CmdPushConstants)                                                                                                                    \
+	X(CmdDispatch)                                                                                                                         \
+	X(CmdBeginRendering)                                                                                                                   \
+	X(CmdEndRendering)                                                                                                                     \
+	X(CmdSetViewport)                                                                                                                      \
+	X(CmdSetScissor)                                                                                                                       \
+	X(CmdBindIndexBuffer)                                                                                                                  \
+	X(CmdDraw)                                                                                                                             \
+	X(CmdDrawIndexed)                                                                                                                      \
+	X(CmdResetQueryPool)                                                                                                                   \
 	X(CmdWriteTimestamp2)
 
-#define LANTERN_VK_ACCEL_FUNCTIONS(X)                                                                                  \
-	X(CreateAccelerationStructureKHR)                                                                                  \
-	X(DestroyAccelerationStructureKHR)                                                                                 \
-	X(GetAccelerationStructureBuildSizesKHR)                                                                           \
-	X(GetAccelerationStructureDeviceAddressKHR)                                                                        \
-	X(CmdBuildAccelerationStructuresKHR)                                                                               \
-	X(CmdCopyAccelerationStructureKHR)                                                                                 \
+#define LANTERN_VK_ACCEL_FUNCTIONS(X)                                                                                                      \
+	X(CreateAccelerationStructureKHR)                                                                                                      \
+	X(DestroyAccelerationStructureKHR)                                                                                                     \
+	X(GetAccelerationStructureBuildSizesKHR)                                                                                               \
+	X(GetAccelerationStructureDeviceAddressKHR)                                                                                            \
+	X(CmdBuildAccelerationStructuresKHR)                                                                                                   \
+	X(CmdCopyAccelerationStructureKHR)                                                                                                     \
 	X(CmdWriteAccelerationStructuresPropertiesKHR)
 
-#define LANTERN_VK_PIPELINE_FUNCTIONS(X)                                                                               \
-	X(CreateRayTracingPipelinesKHR)                                                                                    \
-	X(GetRayTracingShaderGroupHandlesKHR)                                                                              \
+#define LANTERN_VK_PIPELINE_FUNCTIONS(X)                                                                                                   \
+	X(CreateRayTracingPipelinesKHR)                                                                                                        \
+	X(GetRayTracingShaderGroupHandlesKHR)                                                                                                  \
 	X(CmdTraceRaysKHR)
 
 #define LANTERN_VK_DECLARE(Name) PFN_vk##Name Name = nullptr;
@@ -141,7 +141,6 @@ FRTStatus OpenVulkanLoader(FVulkanLoader* Out);
 /// GetInstanceProcAddr: the loader's, or the engine's own. Unsupported when a core function is absent.
 FRTStatus LoadInstanceApi(PFN_vkGetInstanceProcAddr GetInstanceProcAddr, VkInstance Instance, FVulkanInstanceApi* Out);
 /// Unsupported when a function of the extensions asked for is absent, i.e. they were not enabled.
-FRTStatus LoadDeviceApi(const FVulkanInstanceApi& Instance, VkDevice Device, bool bAccel, bool bPipeline,
-                        FVulkanDeviceApi* Out);
+FRTStatus LoadDeviceApi(const FVulkanInstanceApi& Instance, VkDevice Device, bool bAccel, bool bPipeline, FVulkanDeviceApi* Out);
 
 } // namespace Lantern

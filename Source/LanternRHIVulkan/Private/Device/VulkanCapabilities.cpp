@@ -30,15 +30,13 @@ struct FSupported
 	FVulkanFeatures Features;
 	VkPhysicalDeviceProperties2 Core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
 	VkPhysicalDeviceVulkan12Properties Vulkan12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES};
-	VkPhysicalDeviceAccelerationStructurePropertiesKHR Accel{
-	    VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
-	VkPhysicalDeviceRayTracingPipelinePropertiesKHR Pipeline{
-	    VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR};
+	VkPhysicalDeviceAccelerationStructurePropertiesKHR Accel{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
+	VkPhysicalDeviceRayTracingPipelinePropertiesKHR Pipeline{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR};
 
 	bool Has(const char* Name) const
 	{
-		return std::any_of(Extensions.begin(), Extensions.end(),
-		                   [&](const VkExtensionProperties& Item) { return strcmp(Item.extensionName, Name) == 0; });
+		return std::any_of(
+		    Extensions.begin(), Extensions.end(), [&](const VkExtensionProperties& Item) { return strcmp(Item.extensionName, Name) == 0; });
 	}
 };
 
@@ -51,10 +49,7 @@ void QuerySupported(const FVulkanInstanceApi& Api, VkPhysicalDevice Physical, FS
 	Out.Extensions.resize(Count);
 
 	std::vector<const char*> Names;
-	for (const VkExtensionProperties& Item : Out.Extensions)
-	{
-		Names.push_back(Item.extensionName);
-	}
+	for (const VkExtensionProperties& Item : Out.Extensions) { Names.push_back(Item.extensionName); }
 	Out.Features.Link(Names);
 	Api.GetPhysicalDeviceFeatures2(Physical, &Out.Features.Core);
 
@@ -65,20 +60,17 @@ void QuerySupported(const FVulkanInstanceApi& Api, VkPhysicalDevice Physical, FS
 		*Tail = &Out.Accel;
 		Tail = &Out.Accel.pNext;
 	}
-	if (Out.Has(VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME))
-	{
-		*Tail = &Out.Pipeline;
-	}
+	if (Out.Has(VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME)) { *Tail = &Out.Pipeline; }
 	Api.GetPhysicalDeviceProperties2(Physical, &Out.Core);
 }
 
 /// Copies a feature that every device must have from Supported to the enabled set, or notes its absence.
-#define LANTERN_VK_NEED(Structure, Feature)                                                                            \
-	Out.Features.Structure.Feature = Supported.Features.Structure.Feature;                                             \
-	if (!Supported.Features.Structure.Feature)                                                                         \
-	{                                                                                                                  \
-		bAll = false;                                                                                                  \
-		Out.Missing += "feature " #Feature ": nothing runs without it\n";                                              \
+#define LANTERN_VK_NEED(Structure, Feature)                                                                                                \
+	Out.Features.Structure.Feature = Supported.Features.Structure.Feature;                                                                 \
+	if (!Supported.Features.Structure.Feature)                                                                                             \
+	{                                                                                                                                      \
+		bAll = false;                                                                                                                      \
+		Out.Missing += "feature " #Feature ": nothing runs without it\n";                                                                  \
 	}
 #define LANTERN_VK_WANT(Structure, Feature) Out.Features.Structure.Feature = Supported.Features.Structure.Feature;
 
@@ -137,37 +129,22 @@ FLadder FindLadder(const FSupported& Supported, std::string& Missing)
 	const FVulkanFeatures& Features = Supported.Features;
 	FLadder Ladder;
 	Ladder.bAccel = Supported.Has(VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME) &&
-	                Supported.Has(VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME) &&
-	                Features.Accel.accelerationStructure &&
+	                Supported.Has(VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME) && Features.Accel.accelerationStructure &&
 	                Features.Accel.descriptorBindingAccelerationStructureUpdateAfterBind;
 	Ladder.bQuery = Ladder.bAccel && Supported.Has(VK_KHR_RAY_QUERY_EXTENSION_NAME) && Features.Query.rayQuery;
-	Ladder.bPipeline = Ladder.bAccel && Supported.Has(VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME) &&
-	                   Features.Pipeline.rayTracingPipeline;
+	Ladder.bPipeline = Ladder.bAccel && Supported.Has(VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME) && Features.Pipeline.rayTracingPipeline;
 	Ladder.bReorder = Ladder.bPipeline && Supported.Has(VK_NV_RAY_TRACING_INVOCATION_REORDER_EXTENSION_NAME) &&
 	                  Features.Reorder.rayTracingInvocationReorder;
-	Ladder.bMicromap =
-	    Ladder.bPipeline && Supported.Has(VK_EXT_OPACITY_MICROMAP_EXTENSION_NAME) && Features.Micromap.micromap;
+	Ladder.bMicromap = Ladder.bPipeline && Supported.Has(VK_EXT_OPACITY_MICROMAP_EXTENSION_NAME) && Features.Micromap.micromap;
 	if (!Ladder.bAccel)
 	{
 		Missing += "VK_KHR_acceleration_structure (with bindless descriptors): no ray-traced feature runs\n";
 		return Ladder;
 	}
-	if (!Ladder.bQuery)
-	{
-		Missing += "VK_KHR_ray_query: no inline rays; rays need pipelines\n";
-	}
-	if (!Ladder.bPipeline)
-	{
-		Missing += "VK_KHR_ray_tracing_pipeline: no hit groups, so no reference path tracer and no RTPSO\n";
-	}
-	if (!Ladder.bReorder)
-	{
-		Missing += "VK_NV_ray_tracing_invocation_reorder: divergent hit shading is slower\n";
-	}
-	if (!Ladder.bMicromap)
-	{
-		Missing += "VK_EXT_opacity_micromap: alpha tests run in any-hit shaders\n";
-	}
+	if (!Ladder.bQuery) { Missing += "VK_KHR_ray_query: no inline rays; rays need pipelines\n"; }
+	if (!Ladder.bPipeline) { Missing += "VK_KHR_ray_tracing_pipeline: no hit groups, so no reference path tracer and no RTPSO\n"; }
+	if (!Ladder.bReorder) { Missing += "VK_NV_ray_tracing_invocation_reorder: divergent hit shading is slower\n"; }
+	if (!Ladder.bMicromap) { Missing += "VK_EXT_opacity_micromap: alpha tests run in any-hit shaders\n"; }
 	return Ladder;
 }
 
@@ -183,14 +160,8 @@ void ApplyWishes(const FVulkanProbeDesc& Desc, FLadder& Ladder)
 
 ERTRung RungOf(const FLadder& Ladder)
 {
-	if (!Ladder.bPipeline)
-	{
-		return Ladder.bQuery ? ERTRung::RayQuery : ERTRung::None;
-	}
-	if (!Ladder.bReorder)
-	{
-		return ERTRung::Pipeline;
-	}
+	if (!Ladder.bPipeline) { return Ladder.bQuery ? ERTRung::RayQuery : ERTRung::None; }
+	if (!Ladder.bReorder) { return ERTRung::Pipeline; }
 	return Ladder.bMicromap ? ERTRung::Micromap : ERTRung::Reorder;
 }
 
@@ -200,15 +171,11 @@ void EnablePipelines(const FSupported& Supported, FVulkanProbe& Out)
 	FRTCapabilities& Caps = Out.Capabilities;
 	Out.Extensions.push_back(VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME);
 	Features.Pipeline.rayTracingPipeline = VK_TRUE;
-	Features.Pipeline.rayTracingPipelineTraceRaysIndirect =
-	    Supported.Features.Pipeline.rayTracingPipelineTraceRaysIndirect;
+	Features.Pipeline.rayTracingPipelineTraceRaysIndirect = Supported.Features.Pipeline.rayTracingPipelineTraceRaysIndirect;
 	Features.Pipeline.rayTraversalPrimitiveCulling = Supported.Features.Pipeline.rayTraversalPrimitiveCulling;
 	Caps.bIndirectTrace = Features.Pipeline.rayTracingPipelineTraceRaysIndirect;
 	Caps.bPipelineLibraries = Supported.Has(VK_KHR_PIPELINE_LIBRARY_EXTENSION_NAME);
-	if (Caps.bPipelineLibraries)
-	{
-		Out.Extensions.push_back(VK_KHR_PIPELINE_LIBRARY_EXTENSION_NAME);
-	}
+	if (Caps.bPipelineLibraries) { Out.Extensions.push_back(VK_KHR_PIPELINE_LIBRARY_EXTENSION_NAME); }
 }
 
 void EnableLadder(const FSupported& Supported, const FLadder& Ladder, FVulkanProbe& Out)
@@ -221,25 +188,20 @@ void EnableLadder(const FSupported& Supported, const FLadder& Ladder, FVulkanPro
 	Caps.bReorder = Ladder.bReorder;
 	Caps.bMicromap = Ladder.bMicromap;
 	Out.bAccel = Ladder.bAccel;
-	if (!Ladder.bAccel)
-	{
-		return;
-	}
+	if (!Ladder.bAccel) { return; }
 	Out.Extensions.push_back(VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME);
 	Out.Extensions.push_back(VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME);
 	Features.Accel.accelerationStructure = VK_TRUE;
 	Features.Accel.descriptorBindingAccelerationStructureUpdateAfterBind = VK_TRUE;
 	Caps.bDeferredOperations = true;
-	if (Supported.Has(VK_KHR_RAY_TRACING_MAINTENANCE_1_EXTENSION_NAME) &&
-	    Supported.Features.Maintenance1.rayTracingMaintenance1)
+	if (Supported.Has(VK_KHR_RAY_TRACING_MAINTENANCE_1_EXTENSION_NAME) && Supported.Features.Maintenance1.rayTracingMaintenance1)
 	{
 		Out.Extensions.push_back(VK_KHR_RAY_TRACING_MAINTENANCE_1_EXTENSION_NAME);
 		Features.Maintenance1.rayTracingMaintenance1 = VK_TRUE;
 		Out.bMaintenance1 = true;
 	}
 #ifdef VK_KHR_ray_tracing_position_fetch
-	if (Supported.Has(VK_KHR_RAY_TRACING_POSITION_FETCH_EXTENSION_NAME) &&
-	    Supported.Features.PositionFetch.rayTracingPositionFetch)
+	if (Supported.Has(VK_KHR_RAY_TRACING_POSITION_FETCH_EXTENSION_NAME) && Supported.Features.PositionFetch.rayTracingPositionFetch)
 	{
 		Out.Extensions.push_back(VK_KHR_RAY_TRACING_POSITION_FETCH_EXTENSION_NAME);
 		Features.PositionFetch.rayTracingPositionFetch = VK_TRUE;
@@ -251,10 +213,7 @@ void EnableLadder(const FSupported& Supported, const FLadder& Ladder, FVulkanPro
 		Out.Extensions.push_back(VK_KHR_RAY_QUERY_EXTENSION_NAME);
 		Features.Query.rayQuery = VK_TRUE;
 	}
-	if (Ladder.bPipeline)
-	{
-		EnablePipelines(Supported, Out);
-	}
+	if (Ladder.bPipeline) { EnablePipelines(Supported, Out); }
 	if (Ladder.bReorder)
 	{
 		Out.Extensions.push_back(VK_NV_RAY_TRACING_INVOCATION_REORDER_EXTENSION_NAME);
@@ -275,9 +234,8 @@ void FillRayTracingLimits(const FSupported& Supported, FVulkanProbe& Out)
 		Caps.ScratchAlignment = std::max(Supported.Accel.minAccelerationStructureScratchOffsetAlignment, 1u);
 		Caps.MaxInstanceCount = Supported.Accel.maxInstanceCount;
 		Caps.MaxPrimitiveCount = Supported.Accel.maxPrimitiveCount;
-		Out.MaxBindlessScenes =
-		    std::min({WantedScenes, Supported.Accel.maxPerStageDescriptorUpdateAfterBindAccelerationStructures,
-		              Supported.Accel.maxDescriptorSetUpdateAfterBindAccelerationStructures});
+		Out.MaxBindlessScenes = std::min({WantedScenes, Supported.Accel.maxPerStageDescriptorUpdateAfterBindAccelerationStructures,
+		    Supported.Accel.maxDescriptorSetUpdateAfterBindAccelerationStructures});
 	}
 	if (Caps.bRayTracingPipeline)
 	{
@@ -299,15 +257,14 @@ void FillLimits(const FSupported& Supported, FVulkanProbe& Out)
 	Out.MaxAnisotropy = Out.bAnisotropy ? Supported.Core.properties.limits.maxSamplerAnisotropy : 1.0f;
 	FillRayTracingLimits(Supported, Out);
 
-	Out.MaxBindlessSamplers = std::min({WantedSamplers, Limits.maxPerStageDescriptorUpdateAfterBindSamplers,
-	                                    Limits.maxDescriptorSetUpdateAfterBindSamplers});
+	Out.MaxBindlessSamplers =
+	    std::min({WantedSamplers, Limits.maxPerStageDescriptorUpdateAfterBindSamplers, Limits.maxDescriptorSetUpdateAfterBindSamplers});
 	uint32_t PerStage = Limits.maxPerStageUpdateAfterBindResources;
 	const uint32_t Others = Out.MaxBindlessSamplers + Out.MaxBindlessScenes + OtherResources;
 	PerStage = PerStage > Others ? (PerStage - Others) / 2 : 0;
-	Caps.MaxBindlessTextures = std::min(
-	    {WantedTextures, PerStage, Limits.maxPerStageDescriptorUpdateAfterBindSampledImages,
-	     Limits.maxPerStageDescriptorUpdateAfterBindStorageImages, Limits.maxDescriptorSetUpdateAfterBindSampledImages,
-	     Limits.maxDescriptorSetUpdateAfterBindStorageImages});
+	Caps.MaxBindlessTextures = std::min({WantedTextures, PerStage, Limits.maxPerStageDescriptorUpdateAfterBindSampledImages,
+	    Limits.maxPerStageDescriptorUpdateAfterBindStorageImages, Limits.maxDescriptorSetUpdateAfterBindSampledImages,
+	    Limits.maxDescriptorSetUpdateAfterBindStorageImages});
 }
 
 void FillQueueAndMemory(const FVulkanInstanceApi& Api, VkPhysicalDevice Physical, FVulkanProbe& Out)
@@ -343,7 +300,7 @@ void FillNames(const FSupported& Supported, FVulkanProbe& Out)
 	// Escaped here: they go into messages, reports and tables everywhere.
 	snprintf(Out.Capabilities.DeviceName, sizeof(Out.Capabilities.DeviceName), "%s", FRTShown(Core.deviceName).Text);
 	snprintf(Out.Capabilities.DriverName, sizeof(Out.Capabilities.DriverName), "%s %s", FRTShown(Driver.driverName).Text,
-	         FRTShown(Driver.driverInfo).Text);
+	    FRTShown(Driver.driverInfo).Text);
 	Out.Capabilities.bIsCpu = Core.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
 	Out.Type = Core.deviceType;
 	Out.VendorId = Core.vendorID;
@@ -364,8 +321,7 @@ void FVulkanFeatures::Link(const std::vector<const char*>& Extensions)
 	Vulkan12.pNext = &Vulkan13;
 	void** Tail = &Vulkan13.pNext;
 	*Tail = nullptr;
-	const auto Add = [&](const char* Extension, auto& Structure)
-	{
+	const auto Add = [&](const char* Extension, auto& Structure) {
 		Structure.pNext = nullptr;
 		if (Contains(Extensions, Extension))
 		{
@@ -384,8 +340,7 @@ void FVulkanFeatures::Link(const std::vector<const char*>& Extensions)
 #endif
 }
 
-void ProbeVulkanDevice(const FVulkanInstanceApi& Api, VkPhysicalDevice Physical, const FVulkanProbeDesc& Desc,
-                       FVulkanProbe* Out)
+void ProbeVulkanDevice(const FVulkanInstanceApi& Api, VkPhysicalDevice Physical, const FVulkanProbeDesc& Desc, FVulkanProbe* Out)
 {
 	*Out = {};
 	VkPhysicalDeviceProperties Properties{};
@@ -394,8 +349,7 @@ void ProbeVulkanDevice(const FVulkanInstanceApi& Api, VkPhysicalDevice Physical,
 	if (Properties.apiVersion < VK_API_VERSION_1_3)
 	{
 		// Structures of 1.2 and 1.3 must not be asked of it.
-		snprintf(Out->Capabilities.DeviceName, sizeof(Out->Capabilities.DeviceName), "%s",
-		         FRTShown(Properties.deviceName).Text);
+		snprintf(Out->Capabilities.DeviceName, sizeof(Out->Capabilities.DeviceName), "%s", FRTShown(Properties.deviceName).Text);
 		Out->Type = Properties.deviceType;
 		Out->Capabilities.bIsCpu = Properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
 		Out->Missing = "Vulkan 1.3: nothing runs without it\n";
@@ -410,10 +364,7 @@ void ProbeVulkanDevice(const FVulkanInstanceApi& Api, VkPhysicalDevice Physical,
 	EnableLadder(Supported, Ladder, *Out);
 	FillLimits(Supported, *Out);
 	FillQueueAndMemory(Api, Physical, *Out);
-	if (Out->QueueFamily == FVulkanProbe::NoQueueFamily)
-	{
-		Out->Missing += "a queue for graphics and compute: nothing runs without it\n";
-	}
+	if (Out->QueueFamily == FVulkanProbe::NoQueueFamily) { Out->Missing += "a queue for graphics and compute: nothing runs without it\n"; }
 	Out->Capabilities.bLibraryOnlyPipelines =
 	    Out->Capabilities.bPipelineLibraries && !HasQuirk(Out->Quirks, EVulkanQuirk::LinkedPushConstantsLost);
 	Out->bUsable = bBaseline && Out->QueueFamily != FVulkanProbe::NoQueueFamily;

@@ -17,17 +17,14 @@ struct FVulkanFeatures
 	VkPhysicalDeviceVulkan11Features Vulkan11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES};
 	VkPhysicalDeviceVulkan12Features Vulkan12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
 	VkPhysicalDeviceVulkan13Features Vulkan13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-	VkPhysicalDeviceAccelerationStructureFeaturesKHR Accel{
-	    VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
-	VkPhysicalDeviceRayTracingPipelineFeaturesKHR Pipeline{
-	    VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR};
+	VkPhysicalDeviceAccelerationStructureFeaturesKHR Accel{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
+	VkPhysicalDeviceRayTracingPipelineFeaturesKHR Pipeline{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR};
 	VkPhysicalDeviceRayQueryFeaturesKHR Query{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR};
 	VkPhysicalDeviceRayTracingMaintenance1FeaturesKHR Maintenance1{
 	    VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_MAINTENANCE_1_FEATURES_KHR};
 	VkPhysicalDeviceRayTracingInvocationReorderFeaturesNV Reorder{
 	    VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_INVOCATION_REORDER_FEATURES_NV};
-	VkPhysicalDeviceOpacityMicromapFeaturesEXT Micromap{
-	    VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_OPACITY_MICROMAP_FEATURES_EXT};
+	VkPhysicalDeviceOpacityMicromapFeaturesEXT Micromap{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_OPACITY_MICROMAP_FEATURES_EXT};
 #ifdef VK_KHR_ray_tracing_position_fetch
 	VkPhysicalDeviceRayTracingPositionFetchFeaturesKHR PositionFetch{
 	    VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_POSITION_FETCH_FEATURES_KHR};
@@ -68,7 +65,6 @@ struct FVulkanProbe
 	FVulkanFeatures Features;            ///< to enable; call Link after a copy
 };
 
-void ProbeVulkanDevice(const FVulkanInstanceApi& Api, VkPhysicalDevice Physical, const FVulkanProbeDesc& Desc,
-                       FVulkanProbe* Out);
+void ProbeVulkanDevice(const FVulkanInstanceApi& Api, VkPhysicalDevice Physical, const FVulkanProbeDesc& Desc, FVulkanProbe* Out);
 
 } // namespace Lantern

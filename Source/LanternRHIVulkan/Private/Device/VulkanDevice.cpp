@@ -7,10 +7,7 @@
 namespace Lantern
 {
 
-void AddChild(FVulkanDevice& Device)
-{
-	Device.AddOne();
-}
+void AddChild(FVulkanDevice& Device) { Device.AddOne(); }
 
 void RetireChild(FVulkanDevice& Device, void* Object, void (*Delete)(void*))
 {
@@ -18,10 +15,7 @@ void RetireChild(FVulkanDevice& Device, void* Object, void (*Delete)(void*))
 	Device.DropOne();
 }
 
-FRTStatus SaveVulkanPipelineCache(IRTDevice* Device)
-{
-	return static_cast<FVulkanDevice*>(Device)->SaveCache();
-}
+FRTStatus SaveVulkanPipelineCache(IRTDevice* Device) { return static_cast<FVulkanDevice*>(Device)->SaveCache(); }
 
 // ------------------------------------------------------------------------------------------------ lifetime
 
@@ -74,38 +68,23 @@ void FVulkanDevice::CollectUpTo(FRTFence Done)
 				Garbage.pop_front();
 			}
 		}
-		if (Dead.empty() && Finished.empty())
-		{
-			return;
-		}
+		if (Dead.empty() && Finished.empty()) { return; }
 		// Outside the lock: both release further objects.
 		for (const FPacket& Packet : Finished)
 		{
-			for (IRTRefCounted* Object : Packet.Kept)
-			{
-				Object->Release();
-			}
+			for (IRTRefCounted* Object : Packet.Kept) { Object->Release(); }
 		}
-		for (const FGarbage& Item : Dead)
-		{
-			Item.Delete(Item.Object);
-		}
+		for (const FGarbage& Item : Dead) { Item.Delete(Item.Object); }
 	}
 }
 
-void FVulkanDevice::CollectGarbage()
-{
-	CollectUpTo(IsLost() ? 0 : GetCompletedFence());
-}
+void FVulkanDevice::CollectGarbage() { CollectUpTo(IsLost() ? 0 : GetCompletedFence()); }
 
 // ------------------------------------------------------------------------------------------------ timeline
 
 VkResult FVulkanDevice::Check(VkResult Result)
 {
-	if (Result == VK_ERROR_DEVICE_LOST && !bLost.exchange(true))
-	{
-		Instance->Report(ERTVulkanMessage::Error, "the device was lost");
-	}
+	if (Result == VK_ERROR_DEVICE_LOST && !bLost.exchange(true)) { Instance->Report(ERTVulkanMessage::Error, "the device was lost"); }
 	return Result;
 }
 
@@ -125,45 +104,26 @@ VkResult FVulkanDevice::SubmitBatch(const std::vector<VkCommandBufferSubmitInfo>
 	Info.pCommandBufferInfos = Buffers.data();
 	Info.signalSemaphoreInfoCount = 1;
 	Info.pSignalSemaphoreInfos = &Signal;
-	if (QueueLock.Lock)
-	{
-		QueueLock.Lock(QueueLock.User);
-	}
+	if (QueueLock.Lock) { QueueLock.Lock(QueueLock.User); }
 	const VkResult Result = Check(Api.QueueSubmit2(Queue, 1, &Info, VK_NULL_HANDLE));
-	if (QueueLock.Unlock)
-	{
-		QueueLock.Unlock(QueueLock.User);
-	}
-	if (Result == VK_SUCCESS)
-	{
-		LastSubmitted.store(Signal.value);
-	}
+	if (QueueLock.Unlock) { QueueLock.Unlock(QueueLock.User); }
+	if (Result == VK_SUCCESS) { LastSubmitted.store(Signal.value); }
 	return Result;
 }
 
 FRTStatus FVulkanDevice::SubmitLists(IRTCommandList* const* Lists, uint32_t Count, bool bExternal, FRTFence* OutFence)
 {
-	if (OutFence)
-	{
-		*OutFence = 0;
-	}
-	if (IsLost())
-	{
-		return LostStatus();
-	}
+	if (OutFence) { *OutFence = 0; }
+	if (IsLost()) { return LostStatus(); }
 	FRTStatus Recording;
 	std::vector<VkCommandBufferSubmitInfo> Buffers;
 	for (uint32_t Index = 0; Index < Count; ++Index)
 	{
 		FVulkanCommandList* List = static_cast<FVulkanCommandList*>(Lists[Index]);
-		assert(List->IsImported() == bExternal &&
-		       "Submit takes lists of the device, NotifyExternalSubmit imported ones");
+		assert(List->IsImported() == bExternal && "Submit takes lists of the device, NotifyExternalSubmit imported ones");
 		Recording = Recording ? List->GetError() : Recording;
 		// What an engine says that it has submitted runs, whatever is wrong with it: it must still be waited for.
-		if (!Recording && !bExternal)
-		{
-			return Recording;
-		}
+		if (!Recording && !bExternal) { return Recording; }
 		if (!bExternal)
 		{
 			VkCommandBufferSubmitInfo Info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
@@ -174,10 +134,7 @@ FRTStatus FVulkanDevice::SubmitLists(IRTCommandList* const* Lists, uint32_t Coun
 	{
 		std::scoped_lock Lock(SubmitMutex);
 		const VkResult Result = SubmitBatch(Buffers);
-		if (Result != VK_SUCCESS)
-		{
-			return MakeStatus(Result, "vkQueueSubmit2", Count ? "command lists" : "nothing");
-		}
+		if (Result != VK_SUCCESS) { return MakeStatus(Result, "vkQueueSubmit2", Count ? "command lists" : "nothing"); }
 		const FRTFence Fence = LastSubmitted.load();
 		std::scoped_lock GarbageLock(GarbageMutex);
 		for (uint32_t Index = 0; Index < Count; ++Index)
@@ -185,10 +142,7 @@ FRTStatus FVulkanDevice::SubmitLists(IRTCommandList* const* Lists, uint32_t Coun
 			FVulkanCommandList* List = static_cast<FVulkanCommandList*>(Lists[Index]);
 			Packets.push_back({Fence, List->TakeKept(Fence)});
 		}
-		if (OutFence)
-		{
-			*OutFence = Fence;
-		}
+		if (OutFence) { *OutFence = Fence; }
 	}
 	CollectGarbage();
 	return Recording;
@@ -217,27 +171,18 @@ FRTFence FVulkanDevice::GetCompletedFence()
 
 FRTStatus FVulkanDevice::WaitFor(FRTFence Fence, uint64_t TimeoutNs)
 {
-	if (IsLost())
-	{
-		return LostStatus();
-	}
+	if (IsLost()) { return LostStatus(); }
 	assert(Fence <= LastSubmitted.load() && "a fence that no submission returned");
 	VkSemaphoreWaitInfo Info{VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
 	Info.semaphoreCount = 1;
 	Info.pSemaphores = &Timeline;
 	Info.pValues = &Fence;
 	const VkResult Result = Check(Api.WaitSemaphores(Handle, &Info, TimeoutNs));
-	if (Result == VK_SUCCESS)
-	{
-		CollectGarbage();
-	}
+	if (Result == VK_SUCCESS) { CollectGarbage(); }
 	return MakeStatus(Result, "vkWaitSemaphores", "timeline");
 }
 
-FRTStatus FVulkanDevice::WaitIdle()
-{
-	return WaitFor(LastSubmitted.load(), ~uint64_t(0));
-}
+FRTStatus FVulkanDevice::WaitIdle() { return WaitFor(LastSubmitted.load(), ~uint64_t(0)); }
 
 // ------------------------------------------------------------------------------------------------ the rest
 
@@ -251,8 +196,7 @@ void FVulkanDevice::Account(EVulkanMemoryKind Kind, int64_t Change)
 
 FRTMemoryStats FVulkanDevice::GetMemoryStats() const
 {
-	const auto Of = [&](EVulkanMemoryKind Kind)
-	{ return static_cast<uint64_t>(Bytes[static_cast<uint32_t>(Kind)].load()); };
+	const auto Of = [&](EVulkanMemoryKind Kind) { return static_cast<uint64_t>(Bytes[static_cast<uint32_t>(Kind)].load()); };
 	FRTMemoryStats Stats;
 	Stats.Geometry = Of(EVulkanMemoryKind::Geometry);
 	Stats.Scene = Of(EVulkanMemoryKind::Scene);
@@ -267,10 +211,7 @@ FRTMemoryStats FVulkanDevice::GetMemoryStats() const
 
 void FVulkanDevice::SetName(VkObjectType Type, uint64_t Object, const char* Name) const
 {
-	if (!Instance->bDebugUtils || !Instance->Api.SetDebugUtilsObjectNameEXT || !Name || !Name[0] || !Object)
-	{
-		return;
-	}
+	if (!Instance->bDebugUtils || !Instance->Api.SetDebugUtilsObjectNameEXT || !Name || !Name[0] || !Object) { return; }
 	VkDebugUtilsObjectNameInfoEXT Info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
 	Info.objectType = Type;
 	Info.objectHandle = Object;

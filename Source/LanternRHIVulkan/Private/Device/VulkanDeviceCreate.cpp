@@ -8,8 +8,8 @@
 namespace Lantern
 {
 
-FVulkanDevice::FVulkanDevice(std::unique_ptr<FVulkanInstance> InInstance, VkPhysicalDevice InPhysical,
-                             const FVulkanProbe& InProbe, const char* CacheFile)
+FVulkanDevice::FVulkanDevice(
+    std::unique_ptr<FVulkanInstance> InInstance, VkPhysicalDevice InPhysical, const FVulkanProbe& InProbe, const char* CacheFile)
     : Instance(std::move(InInstance)),
       Physical(InPhysical),
       Probe(InProbe),
@@ -22,18 +22,12 @@ FVulkanDevice::FVulkanDevice(std::unique_ptr<FVulkanInstance> InInstance, VkPhys
 
 FVulkanDevice::~FVulkanDevice()
 {
-	if (!Handle)
-	{
-		return;
-	}
+	if (!Handle) { return; }
 	if (Timeline)
 	{
 		(void)WaitIdle();
 		CollectUpTo(~FRTFence(0));
-		if (const FRTStatus Status = Cache.Save(); !Status)
-		{
-			Instance->Report(ERTVulkanMessage::Warning, Status.Message);
-		}
+		if (const FRTStatus Status = Cache.Save(); !Status) { Instance->Report(ERTVulkanMessage::Warning, Status.Message); }
 		Api.DestroySemaphore(Handle, Timeline, nullptr);
 	}
 	Scatter.Destroy(*this);
@@ -43,8 +37,7 @@ FVulkanDevice::~FVulkanDevice()
 	if (bOwned)
 	{
 		// The table may be incomplete when creation failed half-way.
-		const auto DestroyDevice =
-		    reinterpret_cast<PFN_vkDestroyDevice>(Instance->Api.GetDeviceProcAddr(Handle, "vkDestroyDevice"));
+		const auto DestroyDevice = reinterpret_cast<PFN_vkDestroyDevice>(Instance->Api.GetDeviceProcAddr(Handle, "vkDestroyDevice"));
 		DestroyDevice(Handle, nullptr);
 	}
 }
@@ -69,10 +62,7 @@ FRTStatus FVulkanDevice::CreateNative()
 	}
 	bOwned = true;
 	FRTStatus Status = LoadDeviceApi(Instance->Api, Handle, Bits.bAccel, Bits.bPipeline, &Api);
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	Api.GetDeviceQueue(Handle, QueueFamily, 0, &Queue);
 	return CreateShared();
 }
@@ -98,30 +88,17 @@ FRTStatus FVulkanDevice::CreateShared()
 	TimestampBits = Families[QueueFamily].timestampValidBits;
 	Probe.Capabilities.bTimestamps = TimestampBits > 0;
 
-	FRTStatus Status = MakeStatus(Memory.Create(Instance->Handle, Physical, Handle, Instance->Api),
-	                              "Creating the memory allocator of", Name);
-	if (!Status)
-	{
-		return Status;
-	}
+	FRTStatus Status =
+	    MakeStatus(Memory.Create(Instance->Handle, Physical, Handle, Instance->Api), "Creating the memory allocator of", Name);
+	if (!Status) { return Status; }
 	const uint32_t Textures = Probe.Capabilities.MaxBindlessTextures;
-	Status = MakeStatus(
-	    Bindless.Create(Handle, Api, {Textures, Textures, Probe.MaxBindlessSamplers, Probe.MaxBindlessScenes}, Bits),
+	Status = MakeStatus(Bindless.Create(Handle, Api, {Textures, Textures, Probe.MaxBindlessSamplers, Probe.MaxBindlessScenes}, Bits),
 	    "Creating the descriptor heap of", Name);
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	char Message[512] = {};
 	Status = MakeStatus(Cache.Create(Handle, Api, Probe, Message, sizeof(Message)), "vkCreatePipelineCache", Name);
-	if (Message[0])
-	{
-		Instance->Report(ERTVulkanMessage::Warning, Message);
-	}
-	if (!Status)
-	{
-		return Status;
-	}
+	if (Message[0]) { Instance->Report(ERTVulkanMessage::Warning, Message); }
+	if (!Status) { return Status; }
 	VkSemaphoreTypeCreateInfo Type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
 	Type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
 	VkSemaphoreCreateInfo Info{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &Type};
@@ -162,36 +139,28 @@ int Score(const FVulkanProbe& Probe)
 	return Probe.Capabilities.bIsCpu ? Points - 10000 : Points;
 }
 
-FRTStatus ChooseDevice(const FVulkanInstance& Instance, const FRTVulkanDeviceDesc& Desc, VkPhysicalDevice* OutPhysical,
-                       FVulkanProbe* OutProbe)
+FRTStatus ChooseDevice(
+    const FVulkanInstance& Instance, const FRTVulkanDeviceDesc& Desc, VkPhysicalDevice* OutPhysical, FVulkanProbe* OutProbe)
 {
 	const std::vector<VkPhysicalDevice> Devices = Instance.GetPhysicalDevices();
 	if (Devices.empty())
 	{
-		return FRTStatus::Error(ERTResult::Unsupported,
-		                        "No Vulkan device: the loader is there, but no driver answers.");
+		return FRTStatus::Error(ERTResult::Unsupported, "No Vulkan device: the loader is there, but no driver answers.");
 	}
 	const int Count = static_cast<int>(Devices.size());
 	if (Desc.DeviceIndex < -1 || Desc.DeviceIndex >= Count)
 	{
-		return FRTStatus::Error(ERTResult::InvalidArgument, "Device %d was asked for; there are %d, counted from 0.",
-		                        Desc.DeviceIndex, Count);
+		return FRTStatus::Error(
+		    ERTResult::InvalidArgument, "Device %d was asked for; there are %d, counted from 0.", Desc.DeviceIndex, Count);
 	}
 	std::string Reasons;
 	bool bFound = false;
 	for (int Index = 0; Index < Count; ++Index)
 	{
-		if (Desc.DeviceIndex >= 0 && Index != Desc.DeviceIndex)
-		{
-			continue;
-		}
+		if (Desc.DeviceIndex >= 0 && Index != Desc.DeviceIndex) { continue; }
 		FVulkanProbe Probe;
-		ProbeVulkanDevice(Instance.Api, Devices[Index], {Desc.MaxRung, Desc.bDisableRayQuery, Desc.bDisablePipeline},
-		                  &Probe);
-		if (!IsGoodEnough(Probe, Desc))
-		{
-			Reasons += "\n  " + std::to_string(Index) + ": " + DescribeProbe(Probe);
-		}
+		ProbeVulkanDevice(Instance.Api, Devices[Index], {Desc.MaxRung, Desc.bDisableRayQuery, Desc.bDisablePipeline}, &Probe);
+		if (!IsGoodEnough(Probe, Desc)) { Reasons += "\n  " + std::to_string(Index) + ": " + DescribeProbe(Probe); }
 		else if (!bFound || Score(Probe) > Score(*OutProbe))
 		{
 			bFound = true;
@@ -199,8 +168,7 @@ FRTStatus ChooseDevice(const FVulkanInstance& Instance, const FRTVulkanDeviceDes
 			*OutPhysical = Devices[Index];
 		}
 	}
-	return bFound ? FRTStatus()
-	              : FRTStatus::Error(ERTResult::Unsupported, "No Vulkan device can run Lantern:%s", Reasons.c_str());
+	return bFound ? FRTStatus() : FRTStatus::Error(ERTResult::Unsupported, "No Vulkan device can run Lantern:%s", Reasons.c_str());
 }
 
 } // namespace
@@ -209,19 +177,12 @@ FRTStatus CreateVulkanDevice(const FRTVulkanDeviceDesc& Desc, IRTDevice** Out)
 {
 	*Out = nullptr;
 	auto Instance = std::make_unique<FVulkanInstance>();
-	FRTStatus Status =
-	    Instance->Create({Desc.bValidation, Desc.bSynchronizationValidation, Desc.MessageCallback, Desc.MessageUser});
-	if (!Status)
-	{
-		return Status;
-	}
+	FRTStatus Status = Instance->Create({Desc.bValidation, Desc.bSynchronizationValidation, Desc.MessageCallback, Desc.MessageUser});
+	if (!Status) { return Status; }
 	VkPhysicalDevice Physical = VK_NULL_HANDLE;
 	FVulkanProbe Probe;
 	Status = ChooseDevice(*Instance, Desc, &Physical, &Probe);
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	FVulkanDevice* Device = new FVulkanDevice(std::move(Instance), Physical, Probe, Desc.PipelineCacheFile);
 	Device->bCacheLibraries = Desc.bCacheLibraries;
 	Status = Device->CreateNative();
@@ -239,16 +200,12 @@ FRTStatus AdoptVulkanDevice(const FRTVulkanExternalDesc& Desc, IRTDevice** Out)
 	*Out = nullptr;
 	assert(Desc.Instance && Desc.PhysicalDevice && Desc.Device && Desc.Queue && Desc.Requirements);
 	auto Instance = std::make_unique<FVulkanInstance>();
-	FRTStatus Status = Instance->Adopt(Desc.Instance, Desc.GetInstanceProcAddr,
-	                                   {Desc.bCountValidation, false, Desc.MessageCallback, Desc.MessageUser});
-	if (!Status)
-	{
-		return Status;
-	}
+	FRTStatus Status =
+	    Instance->Adopt(Desc.Instance, Desc.GetInstanceProcAddr, {Desc.bCountValidation, false, Desc.MessageCallback, Desc.MessageUser});
+	if (!Status) { return Status; }
 	const FVulkanProbe& Probe = static_cast<const FVulkanRequirements*>(Desc.Requirements)->Probe;
 	FVulkanDevice* Device = new FVulkanDevice(std::move(Instance), Desc.PhysicalDevice, Probe, Desc.PipelineCacheFile);
-	Status = Device->AdoptNative(Desc.Device, Desc.Queue, Desc.QueueFamily,
-	                             {Desc.LockQueue, Desc.UnlockQueue, Desc.QueueUser});
+	Status = Device->AdoptNative(Desc.Device, Desc.Queue, Desc.QueueFamily, {Desc.LockQueue, Desc.UnlockQueue, Desc.QueueUser});
 	if (!Status)
 	{
 		Device->DropOne();
@@ -263,10 +220,7 @@ FRTStatus ListVulkanDevices(FRTVulkanDeviceInfo* Out, uint32_t Capacity, uint32_
 	*OutCount = 0;
 	FVulkanInstance Instance;
 	FRTStatus Status = Instance.Create({});
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	const std::vector<VkPhysicalDevice> Devices = Instance.GetPhysicalDevices();
 	*OutCount = static_cast<uint32_t>(Devices.size());
 	for (uint32_t Index = 0; Index < Devices.size() && Index < Capacity; ++Index)

@@ -1,16 +1,16 @@
 // The device: what the objects share, the queue's timeline, and the garbage that waits for it.
 #pragma once
 
-#include "LanternRHIVulkan/VulkanInterop.h"
-#include "Resources/VulkanBindless.h"
 #include "Device/VulkanCapabilities.h"
 #include "Device/VulkanInstance.h"
 #include "Device/VulkanMemory.h"
 #include "Device/VulkanObject.h"
-#include "Pipelines/VulkanPipelineCache.h"
 #include "Device/VulkanStatus.h"
-#include "ShaderTable/VulkanTableScatter.h"
 #include "Device/VulkanTranslate.h"
+#include "LanternRHIVulkan/VulkanInterop.h"
+#include "Pipelines/VulkanPipelineCache.h"
+#include "Resources/VulkanBindless.h"
+#include "ShaderTable/VulkanTableScatter.h"
 
 #include <deque>
 #include <memory>
@@ -43,8 +43,8 @@ public:
 		void* User = nullptr;
 	};
 
-	FVulkanDevice(std::unique_ptr<FVulkanInstance> InInstance, VkPhysicalDevice InPhysical, const FVulkanProbe& InProbe,
-	              const char* CacheFile);
+	FVulkanDevice(
+	    std::unique_ptr<FVulkanInstance> InInstance, VkPhysicalDevice InPhysical, const FVulkanProbe& InProbe, const char* CacheFile);
 
 	/// Creates the VkDevice that the probe describes.
 	FRTStatus CreateNative();

@@ -13,17 +13,11 @@ template <class T, class TInterface, class TInitialise>
 FRTStatus CreateObject(FVulkanDevice& Device, TInterface** Out, TInitialise Initialise)
 {
 	*Out = nullptr;
-	if (Device.IsLost())
-	{
-		return Device.LostStatus();
-	}
+	if (Device.IsLost()) { return Device.LostStatus(); }
 	// AddRef and Release of TRTRef: a failed object goes the way of every released one.
 	TRTRef<T> Object = MakeVulkanObject<T>(Device);
 	FRTStatus Status = Initialise(*Object.Get());
-	if (Status)
-	{
-		HandOut(Object, Out);
-	}
+	if (Status) { HandOut(Object, Out); }
 	return Status;
 }
 
@@ -36,15 +30,13 @@ FRTStatus FVulkanDevice::CreateBuffer(const FRTBufferDesc& Desc, IRTBuffer** Out
 
 FRTStatus FVulkanDevice::CreateTexture(const FRTTextureDesc& Desc, IRTTexture** Out)
 {
-	return CreateObject<FVulkanTexture>(*this, Out,
-	                                    [&](FVulkanTexture& It) { return It.Initialise(Desc, VK_NULL_HANDLE); });
+	return CreateObject<FVulkanTexture>(*this, Out, [&](FVulkanTexture& It) { return It.Initialise(Desc, VK_NULL_HANDLE); });
 }
 
 FRTStatus FVulkanDevice::ImportTexture(const FRTTextureDesc& Desc, uint64_t NativeImage, IRTTexture** Out)
 {
 	assert(NativeImage);
-	return CreateObject<FVulkanTexture>(*this, Out,
-	                                    [&](FVulkanTexture& It) { return It.Initialise(Desc, (VkImage)NativeImage); });
+	return CreateObject<FVulkanTexture>(*this, Out, [&](FVulkanTexture& It) { return It.Initialise(Desc, (VkImage)NativeImage); });
 }
 
 FRTStatus FVulkanDevice::CreateSampler(const FRTSamplerDesc& Desc, IRTSampler** Out)
@@ -64,8 +56,7 @@ FRTStatus FVulkanDevice::CreateRasterPipeline(const FRTRasterPipelineDesc& Desc,
 
 FRTStatus FVulkanDevice::CreateRayTracingPipeline(const FRTRayTracingPipelineDesc& Desc, IRTPipeline** Out)
 {
-	return CreateObject<FVulkanPipeline>(*this, Out,
-	                                     [&](FVulkanPipeline& It) { return It.InitialiseRayTracing(Desc); });
+	return CreateObject<FVulkanPipeline>(*this, Out, [&](FVulkanPipeline& It) { return It.InitialiseRayTracing(Desc); });
 }
 
 FRTStatus FVulkanDevice::CreateGeometry(const FRTGeometryDesc& Desc, IRTGeometry** Out)
@@ -101,12 +92,10 @@ FRTStatus FVulkanDevice::CreateCommandList(const char* Name, IRTCommandList** Ou
 FRTStatus FVulkanDevice::ImportCommandList(uint64_t NativeCommandBuffer, IRTCommandList** Out)
 {
 	assert(NativeCommandBuffer);
-	return CreateObject<FVulkanCommandList>(*this, Out,
-	                                        [&](FVulkanCommandList& It)
-	                                        {
-		                                        It.InitialiseImported((VkCommandBuffer)NativeCommandBuffer);
-		                                        return FRTStatus();
-	                                        });
+	return CreateObject<FVulkanCommandList>(*this, Out, [&](FVulkanCommandList& It) {
+		It.InitialiseImported((VkCommandBuffer)NativeCommandBuffer);
+		return FRTStatus();
+	});
 }
 
 } // namespace Lantern

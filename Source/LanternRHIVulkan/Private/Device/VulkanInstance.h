@@ -1,8 +1,8 @@
 // A VkInstance, ours or the engine's, and the messages of its validation.
 #pragma once
 
-#include "LanternRHIVulkan/VulkanDevice.h"
 #include "Device/VulkanApi.h"
+#include "LanternRHIVulkan/VulkanDevice.h"
 
 #include <atomic>
 #include <memory>
@@ -41,13 +41,12 @@ public:
 	bool bDebugUtils = false;
 
 private:
-	FRTStatus CheckLayers(const FVulkanLoader& Loader, const FOptions& Options, std::vector<const char*>& Layers,
-	                      std::vector<const char*>& Extensions);
+	FRTStatus CheckLayers(
+	    const FVulkanLoader& Loader, const FOptions& Options, std::vector<const char*>& Layers, std::vector<const char*>& Extensions);
 	FRTStatus CreateMessenger();
 
-	static VKAPI_ATTR VkBool32 VKAPI_CALL OnMessage(VkDebugUtilsMessageSeverityFlagBitsEXT Severity,
-	                                                VkDebugUtilsMessageTypeFlagsEXT Types,
-	                                                const VkDebugUtilsMessengerCallbackDataEXT* Data, void* User);
+	static VKAPI_ATTR VkBool32 VKAPI_CALL OnMessage(VkDebugUtilsMessageSeverityFlagBitsEXT Severity, VkDebugUtilsMessageTypeFlagsEXT Types,
+	    const VkDebugUtilsMessengerCallbackDataEXT* Data, void* User);
 
 	bool bOwned = false;
 	VkDebugUtilsMessengerEXT Messenger = VK_NULL_HANDLE;

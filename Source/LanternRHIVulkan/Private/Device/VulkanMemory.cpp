@@ -47,24 +47,14 @@ using namespace Vma;
 namespace
 {
 
-VmaAllocator AsAllocator(void* Allocator)
-{
-	return static_cast<VmaAllocator>(Allocator);
-}
-VmaAllocation AsBlock(const FVulkanAllocation& Allocation)
-{
-	return static_cast<VmaAllocation>(Allocation.Block);
-}
+VmaAllocator AsAllocator(void* Allocator) { return static_cast<VmaAllocator>(Allocator); }
+VmaAllocation AsBlock(const FVulkanAllocation& Allocation) { return static_cast<VmaAllocation>(Allocation.Block); }
 
 } // namespace
 
-FVulkanMemory::~FVulkanMemory()
-{
-	Destroy();
-}
+FVulkanMemory::~FVulkanMemory() { Destroy(); }
 
-VkResult FVulkanMemory::Create(VkInstance Instance, VkPhysicalDevice Physical, VkDevice Device,
-                               const FVulkanInstanceApi& Api)
+VkResult FVulkanMemory::Create(VkInstance Instance, VkPhysicalDevice Physical, VkDevice Device, const FVulkanInstanceApi& Api)
 {
 	VmaVulkanFunctions Functions{};
 	Functions.vkGetInstanceProcAddr = Api.GetInstanceProcAddr;
@@ -91,8 +81,8 @@ void FVulkanMemory::Destroy()
 	}
 }
 
-VkResult FVulkanMemory::CreateBuffer(const VkBufferCreateInfo& Info, ERTMemory Kind, uint64_t Alignment,
-                                     VkBuffer* OutBuffer, FVulkanAllocation* Out)
+VkResult FVulkanMemory::CreateBuffer(
+    const VkBufferCreateInfo& Info, ERTMemory Kind, uint64_t Alignment, VkBuffer* OutBuffer, FVulkanAllocation* Out)
 {
 	VmaAllocationCreateInfo Wish{};
 	Wish.usage = VMA_MEMORY_USAGE_AUTO;
@@ -115,8 +105,8 @@ VkResult FVulkanMemory::CreateBuffer(const VkBufferCreateInfo& Info, ERTMemory K
 	}
 	VmaAllocation Block = nullptr;
 	VmaAllocationInfo Result{};
-	const VkResult Code = vmaCreateBufferWithAlignment(AsAllocator(Allocator), &Info, &Wish,
-	                                                   std::max<uint64_t>(Alignment, 1), OutBuffer, &Block, &Result);
+	const VkResult Code =
+	    vmaCreateBufferWithAlignment(AsAllocator(Allocator), &Info, &Wish, std::max<uint64_t>(Alignment, 1), OutBuffer, &Block, &Result);
 	*Out = {Block, Result.pMappedData, Result.size};
 	return Code;
 }

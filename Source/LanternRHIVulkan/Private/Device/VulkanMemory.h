@@ -24,8 +24,7 @@ public:
 
 	VkResult Create(VkInstance Instance, VkPhysicalDevice Physical, VkDevice Device, const FVulkanInstanceApi& Api);
 	void Destroy();
-	VkResult CreateBuffer(const VkBufferCreateInfo& Info, ERTMemory Kind, uint64_t Alignment, VkBuffer* OutBuffer,
-	                      FVulkanAllocation* Out);
+	VkResult CreateBuffer(const VkBufferCreateInfo& Info, ERTMemory Kind, uint64_t Alignment, VkBuffer* OutBuffer, FVulkanAllocation* Out);
 	VkResult CreateImage(const VkImageCreateInfo& Info, VkImage* OutImage, FVulkanAllocation* Out);
 	void DestroyBuffer(VkBuffer Buffer, const FVulkanAllocation& Allocation);
 	void DestroyImage(VkImage Image, const FVulkanAllocation& Allocation);

@@ -19,10 +19,7 @@ enum class EVulkanQuirk : uint32_t
 	TimestampsWait = 1 << 3,
 };
 
-constexpr bool HasQuirk(uint32_t Flags, EVulkanQuirk Flag)
-{
-	return (Flags & static_cast<uint32_t>(Flag)) != 0;
-}
+constexpr bool HasQuirk(uint32_t Flags, EVulkanQuirk Flag) { return (Flags & static_cast<uint32_t>(Flag)) != 0; }
 
 /// Flags of EVulkanQuirk that hold for the driver. OutText: one line per quirk; may be null.
 uint32_t FindQuirks(VkDriverId Driver, uint32_t DriverVersion, char* OutText, size_t TextSize);

@@ -19,22 +19,16 @@ void MergeBools(void* Into, const void* From)
 	VkBool32* Dest = reinterpret_cast<VkBool32*>(static_cast<char*>(Into) + First);
 	const VkBool32* Source = reinterpret_cast<const VkBool32*>(static_cast<const char*>(From) + First);
 	// Padding at the end of an odd number of flags is merged too, which does no harm.
-	for (size_t Index = 0; Index < (sizeof(T) - First) / sizeof(VkBool32); ++Index)
-	{
-		Dest[Index] |= Source[Index];
-	}
+	for (size_t Index = 0; Index < (sizeof(T) - First) / sizeof(VkBool32); ++Index) { Dest[Index] |= Source[Index]; }
 }
 
 void MergeStructure(VkBaseOutStructure* Into, const VkBaseOutStructure* From)
 {
 	switch (From->sType)
 	{
-	case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES:
-		return MergeBools<VkPhysicalDeviceVulkan11Features>(Into, From);
-	case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES:
-		return MergeBools<VkPhysicalDeviceVulkan12Features>(Into, From);
-	case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES:
-		return MergeBools<VkPhysicalDeviceVulkan13Features>(Into, From);
+	case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES: return MergeBools<VkPhysicalDeviceVulkan11Features>(Into, From);
+	case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES: return MergeBools<VkPhysicalDeviceVulkan12Features>(Into, From);
+	case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES: return MergeBools<VkPhysicalDeviceVulkan13Features>(Into, From);
 	case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR:
 		return MergeBools<VkPhysicalDeviceAccelerationStructureFeaturesKHR>(Into, From);
 	case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR:
@@ -47,10 +41,7 @@ void MergeStructure(VkBaseOutStructure* Into, const VkBaseOutStructure* From)
 
 VkBaseOutStructure* FindStructure(VkBaseOutStructure* Chain, VkStructureType Type)
 {
-	while (Chain && Chain->sType != Type)
-	{
-		Chain = Chain->pNext;
-	}
+	while (Chain && Chain->sType != Type) { Chain = Chain->pNext; }
 	return Chain;
 }
 
@@ -59,10 +50,7 @@ VkBaseOutStructure* FindStructure(VkBaseOutStructure* Chain, VkStructureType Typ
 uint32_t FVulkanRequirements::Release()
 {
 	const uint32_t Left = References.fetch_sub(1) - 1;
-	if (Left == 0)
-	{
-		delete this;
-	}
+	if (Left == 0) { delete this; }
 	return Left;
 }
 
@@ -71,10 +59,7 @@ void FVulkanRequirements::MergeInto(VkPhysicalDeviceFeatures2* EngineChain)
 	assert(EngineChain && EngineChain != &Probe.Features.Core);
 	VkBaseOutStructure* Head = reinterpret_cast<VkBaseOutStructure*>(EngineChain);
 	VkBaseOutStructure* Tail = Head;
-	while (Tail->pNext)
-	{
-		Tail = Tail->pNext;
-	}
+	while (Tail->pNext) { Tail = Tail->pNext; }
 	MergeBools<VkPhysicalDeviceFeatures2>(EngineChain, &Probe.Features.Core);
 	VkBaseOutStructure* Next = static_cast<VkBaseOutStructure*>(Probe.Features.Core.pNext);
 	Probe.Features.Core.pNext = nullptr; // its structures now belong to the engine's chain
@@ -83,10 +68,7 @@ void FVulkanRequirements::MergeInto(VkPhysicalDeviceFeatures2* EngineChain)
 		VkBaseOutStructure* Ours = Next;
 		Next = Next->pNext;
 		Ours->pNext = nullptr;
-		if (VkBaseOutStructure* Theirs = FindStructure(Head, Ours->sType))
-		{
-			MergeStructure(Theirs, Ours);
-		}
+		if (VkBaseOutStructure* Theirs = FindStructure(Head, Ours->sType)) { MergeStructure(Theirs, Ours); }
 		else
 		{
 			Tail->pNext = Ours;
@@ -102,14 +84,8 @@ std::string DescribeProbe(const FVulkanProbe& Probe)
 	Text += Probe.Capabilities.DriverName[0] ? Probe.Capabilities.DriverName : "driver older than Vulkan 1.3";
 	Text += ") lacks ";
 	std::string Missing = Probe.Missing;
-	while (!Missing.empty() && Missing.back() == '\n')
-	{
-		Missing.pop_back();
-	}
-	for (size_t At = Missing.find('\n'); At != std::string::npos; At = Missing.find('\n', At))
-	{
-		Missing.replace(At, 1, "; ");
-	}
+	while (!Missing.empty() && Missing.back() == '\n') { Missing.pop_back(); }
+	for (size_t At = Missing.find('\n'); At != std::string::npos; At = Missing.find('\n', At)) { Missing.replace(At, 1, "; "); }
 	return Text + (Missing.empty() ? "nothing, but ray tracing was switched off by request" : Missing);
 }
 
@@ -121,18 +97,12 @@ FRTStatus GetVulkanRequirements(const FRTVulkanRequirementsDesc& Desc, IRTVulkan
 	{
 		FVulkanLoader Loader;
 		FRTStatus Status = OpenVulkanLoader(&Loader);
-		if (!Status)
-		{
-			return Status;
-		}
+		if (!Status) { return Status; }
 		GetInstanceProcAddr = Loader.GetInstanceProcAddr;
 	}
 	FVulkanInstanceApi Api;
 	FRTStatus Status = LoadInstanceApi(GetInstanceProcAddr, Desc.Instance, &Api);
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	FVulkanProbe Probe;
 	ProbeVulkanDevice(Api, Desc.PhysicalDevice, {Desc.MaxRung, Desc.bDisableRayQuery, Desc.bDisablePipeline}, &Probe);
 	if (!Probe.bUsable || (Probe.Capabilities.Rung == ERTRung::None && !Desc.bAllowNoRayTracing))

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "LanternRHIVulkan/VulkanInterop.h"
 #include "Device/VulkanCapabilities.h"
+#include "LanternRHIVulkan/VulkanInterop.h"
 
 #include <atomic>
 
@@ -11,10 +11,7 @@ namespace Lantern
 class FVulkanRequirements final : public IRTVulkanRequirements
 {
 public:
-	explicit FVulkanRequirements(const FVulkanProbe& InProbe) : Probe(InProbe)
-	{
-		Probe.Features.Link(Probe.Extensions);
-	}
+	explicit FVulkanRequirements(const FVulkanProbe& InProbe) : Probe(InProbe) { Probe.Features.Link(Probe.Extensions); }
 
 	uint32_t AddRef() override { return References.fetch_add(1) + 1; }
 	uint32_t Release() override;

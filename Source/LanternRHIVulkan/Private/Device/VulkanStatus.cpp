@@ -9,7 +9,7 @@ const char* ToString(VkResult Result)
 {
 	switch (Result)
 	{
-#define LANTERN_VK_CASE(Value)                                                                                         \
+#define LANTERN_VK_CASE(Value)                                                                                                             \
 	case Value: return #Value;
 		LANTERN_VK_CASE(VK_SUCCESS)
 		LANTERN_VK_CASE(VK_NOT_READY)

@@ -3,8 +3,8 @@
 #include <string>
 #include <string_view>
 
-#include "LanternRHI/RTText.h"
 #include "Device/VulkanApi.h"
+#include "LanternRHI/RTText.h"
 
 namespace Lantern
 {

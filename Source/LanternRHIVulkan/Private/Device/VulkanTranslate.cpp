@@ -39,10 +39,7 @@ VkFormat GetVulkanFormat(ERTFormat Format)
 
 VkImageLayout GetVulkanLayout(ERTAccess Access)
 {
-	if (HasAny(Access, ERTAccess::StorageRead | ERTAccess::StorageWrite))
-	{
-		return VK_IMAGE_LAYOUT_GENERAL;
-	}
+	if (HasAny(Access, ERTAccess::StorageRead | ERTAccess::StorageWrite)) { return VK_IMAGE_LAYOUT_GENERAL; }
 	switch (Access)
 	{
 	case ERTAccess::None: return VK_IMAGE_LAYOUT_UNDEFINED;
@@ -76,12 +73,8 @@ bool IsIntegerFormat(ERTFormat Format)
 VkImageUsageFlags ImageUsageOf(const FRTTextureDesc& Desc)
 {
 	VkImageUsageFlags Usage = 0;
-	const auto Map = [&](ERTTextureUsage From, VkImageUsageFlags To)
-	{
-		if (HasAny(Desc.Usage, From))
-		{
-			Usage |= To;
-		}
+	const auto Map = [&](ERTTextureUsage From, VkImageUsageFlags To) {
+		if (HasAny(Desc.Usage, From)) { Usage |= To; }
 	};
 	Map(ERTTextureUsage::Sampled, VK_IMAGE_USAGE_SAMPLED_BIT);
 	Map(ERTTextureUsage::Storage, VK_IMAGE_USAGE_STORAGE_BIT);
@@ -100,25 +93,15 @@ VkBufferUsageFlags BufferUsageOf(ERTBufferUsage Usage, const FVulkanCapabilityBi
 {
 	// Buffers are reached by address and may be filled or read back: what costs nothing is always there.
 	VkBufferUsageFlags Result = VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-	const auto Map = [&](ERTBufferUsage From, VkBufferUsageFlags To)
-	{
-		if (HasAny(Usage, From))
-		{
-			Result |= To;
-		}
+	const auto Map = [&](ERTBufferUsage From, VkBufferUsageFlags To) {
+		if (HasAny(Usage, From)) { Result |= To; }
 	};
 	Map(ERTBufferUsage::Index, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
 	Map(ERTBufferUsage::Indirect, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
 	Map(ERTBufferUsage::CopySource, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
 	Map(ERTBufferUsage::CopyDest, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-	if (Bits.bAccel)
-	{
-		Map(ERTBufferUsage::GeometryInput, VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR);
-	}
-	if (Bits.bPipeline)
-	{
-		Map(ERTBufferUsage::ShaderTable, VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR);
-	}
+	if (Bits.bAccel) { Map(ERTBufferUsage::GeometryInput, VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR); }
+	if (Bits.bPipeline) { Map(ERTBufferUsage::ShaderTable, VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR); }
 	return Result;
 }
 
@@ -127,12 +110,9 @@ namespace
 
 VkPipelineStageFlags2 ShaderStages(const FVulkanCapabilityBits& Bits)
 {
-	VkPipelineStageFlags2 Stages = VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
-	                               VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-	if (Bits.bPipeline)
-	{
-		Stages |= VK_PIPELINE_STAGE_2_RAY_TRACING_SHADER_BIT_KHR;
-	}
+	VkPipelineStageFlags2 Stages =
+	    VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+	if (Bits.bPipeline) { Stages |= VK_PIPELINE_STAGE_2_RAY_TRACING_SHADER_BIT_KHR; }
 	return Stages;
 }
 
@@ -144,10 +124,7 @@ FVulkanAccess TraceReadOf(const FVulkanCapabilityBits& Bits)
 		Result.Stages |= VK_PIPELINE_STAGE_2_RAY_TRACING_SHADER_BIT_KHR;
 		// Without maintenance1 the shader table is read as SHADER_READ.
 		Result.Access |= VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR;
-		if (Bits.bMaintenance1)
-		{
-			Result.Access |= VK_ACCESS_2_SHADER_BINDING_TABLE_READ_BIT_KHR;
-		}
+		if (Bits.bMaintenance1) { Result.Access |= VK_ACCESS_2_SHADER_BINDING_TABLE_READ_BIT_KHR; }
 	}
 	if (Bits.bRayQuery)
 	{
@@ -159,22 +136,15 @@ FVulkanAccess TraceReadOf(const FVulkanCapabilityBits& Bits)
 
 FVulkanAccess BuildAccessOf(ERTAccess One, const FVulkanCapabilityBits& Bits)
 {
-	if (One == ERTAccess::TraceRead)
-	{
-		return TraceReadOf(Bits);
-	}
-	if (!Bits.bAccel)
-	{
-		return {};
-	}
+	if (One == ERTAccess::TraceRead) { return TraceReadOf(Bits); }
+	if (!Bits.bAccel) { return {}; }
 	const VkPipelineStageFlags2 Build = VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR;
 	switch (One)
 	{
 	case ERTAccess::GeometryInput: return {Build, VK_ACCESS_2_SHADER_READ_BIT};
 	case ERTAccess::BuildRead: return {Build, VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR};
 	case ERTAccess::BuildWrite:
-		return {Build,
-		        VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR | VK_ACCESS_2_ACCELERATION_STRUCTURE_WRITE_BIT_KHR};
+		return {Build, VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR | VK_ACCESS_2_ACCELERATION_STRUCTURE_WRITE_BIT_KHR};
 	default: return {};
 	}
 }
@@ -184,17 +154,15 @@ FVulkanAccess OneAccessOf(ERTAccess One, const FVulkanCapabilityBits& Bits)
 	switch (One)
 	{
 	case ERTAccess::None: return {};
-	case ERTAccess::ShaderRead:
-		return {ShaderStages(Bits), VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT};
+	case ERTAccess::ShaderRead: return {ShaderStages(Bits), VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT};
 	case ERTAccess::StorageRead: return {ShaderStages(Bits), VK_ACCESS_2_SHADER_STORAGE_READ_BIT};
-	case ERTAccess::StorageWrite:
-		return {ShaderStages(Bits), VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
+	case ERTAccess::StorageWrite: return {ShaderStages(Bits), VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
 	case ERTAccess::RenderTarget:
 		return {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-		        VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+		    VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
 	case ERTAccess::DepthWrite:
 		return {VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
-		        VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
+		    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
 	case ERTAccess::IndexRead: return {VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT};
 	case ERTAccess::IndirectRead: return {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT};
 	case ERTAccess::CopyRead: return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT};
@@ -242,8 +210,7 @@ VkShaderStageFlags AllStages(const FVulkanCapabilityBits& Bits)
 	if (Bits.bPipeline)
 	{
 		Stages |= VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR | VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR |
-		          VK_SHADER_STAGE_ANY_HIT_BIT_KHR | VK_SHADER_STAGE_INTERSECTION_BIT_KHR |
-		          VK_SHADER_STAGE_CALLABLE_BIT_KHR;
+		          VK_SHADER_STAGE_ANY_HIT_BIT_KHR | VK_SHADER_STAGE_INTERSECTION_BIT_KHR | VK_SHADER_STAGE_CALLABLE_BIT_KHR;
 	}
 	return Stages;
 }

@@ -41,8 +41,8 @@ struct FRasterState
 		Depth.depthCompareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
 		for (uint32_t Index = 0; Index < Desc.ColorCount; ++Index)
 		{
-			Attachments[Index].colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
-			                                    VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+			Attachments[Index].colorWriteMask =
+			    VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
 			Formats[Index] = GetVulkanFormat(Desc.ColorFormats[Index]);
 		}
 		Blend.attachmentCount = Desc.ColorCount;
@@ -92,30 +92,21 @@ FRTStatus FVulkanPipeline::InitialiseCompute(const FRTComputePipelineDesc& Desc)
 {
 	FVulkanModules Modules(Device);
 	FRTStatus Status = Modules.Add(Desc.Shader);
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	BindPoint = VK_PIPELINE_BIND_POINT_COMPUTE;
 	VkComputePipelineCreateInfo Info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
 	Info.stage = Modules.Stages[0];
 	Info.layout = Device.Bindless.PipelineLayout;
 	return Finish(Device.Api.CreateComputePipelines(Device.Handle, Device.Cache.Handle, 1, &Info, nullptr, &Handle),
-	              "Creating compute pipeline", Desc.Name);
+	    "Creating compute pipeline", Desc.Name);
 }
 
 FRTStatus FVulkanPipeline::InitialiseRaster(const FRTRasterPipelineDesc& Desc)
 {
 	FVulkanModules Modules(Device);
 	FRTStatus Status = Modules.Add(Desc.Vertex);
-	if (Status && Desc.Fragment.Words)
-	{
-		Status = Modules.Add(Desc.Fragment);
-	}
-	if (!Status)
-	{
-		return Status;
-	}
+	if (Status && Desc.Fragment.Words) { Status = Modules.Add(Desc.Fragment); }
+	if (!Status) { return Status; }
 	BindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
 	const FRasterState State(Desc);
 	VkGraphicsPipelineCreateInfo Info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &State.Rendering};
@@ -131,7 +122,7 @@ FRTStatus FVulkanPipeline::InitialiseRaster(const FRTRasterPipelineDesc& Desc)
 	Info.pDynamicState = &State.Dynamic;
 	Info.layout = Device.Bindless.PipelineLayout;
 	return Finish(Device.Api.CreateGraphicsPipelines(Device.Handle, Device.Cache.Handle, 1, &Info, nullptr, &Handle),
-	              "Creating raster pipeline", Desc.Name);
+	    "Creating raster pipeline", Desc.Name);
 }
 
 uint64_t FVulkanPipeline::GetNative(ERTNative Kind) const

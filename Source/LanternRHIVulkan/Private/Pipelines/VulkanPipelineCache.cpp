@@ -35,10 +35,7 @@ constexpr char Magic[8] = {'L', 'N', 'P', 'S', 'O', '0', '1', '\n'};
 uint64_t HashBytes(const std::vector<char>& Data)
 {
 	uint64_t Hash = 14695981039346656037ull;
-	for (const char Byte : Data)
-	{
-		Hash = (Hash ^ static_cast<uint8_t>(Byte)) * 1099511628211ull;
-	}
+	for (const char Byte : Data) { Hash = (Hash ^ static_cast<uint8_t>(Byte)) * 1099511628211ull; }
 	return Hash;
 }
 
@@ -61,8 +58,8 @@ const char* ReadCacheFile(FILE* Stream, const FHeader& Expected, std::vector<cha
 	{
 		return "is no pipeline cache";
 	}
-	if (Header.VendorId != Expected.VendorId || Header.DeviceId != Expected.DeviceId ||
-	    Header.DriverVersion != Expected.DriverVersion || memcmp(Header.Uuid, Expected.Uuid, VK_UUID_SIZE) != 0)
+	if (Header.VendorId != Expected.VendorId || Header.DeviceId != Expected.DeviceId || Header.DriverVersion != Expected.DriverVersion ||
+	    memcmp(Header.Uuid, Expected.Uuid, VK_UUID_SIZE) != 0)
 	{
 		return "is another driver's or device's";
 	}
@@ -70,23 +67,17 @@ const char* ReadCacheFile(FILE* Stream, const FHeader& Expected, std::vector<cha
 	while (OutData.size() <= Header.DataBytes)
 	{
 		const size_t Count = fread(Chunk, 1, sizeof(Chunk), Stream);
-		if (Count == 0)
-		{
-			break;
-		}
+		if (Count == 0) { break; }
 		OutData.insert(OutData.end(), Chunk, Chunk + Count);
 	}
-	if (OutData.size() != Header.DataBytes || HashBytes(OutData) != Header.Checksum)
-	{
-		return "is damaged";
-	}
+	if (OutData.size() != Header.DataBytes || HashBytes(OutData) != Header.Checksum) { return "is damaged"; }
 	return nullptr;
 }
 
 } // namespace
 
-VkResult FVulkanPipelineCache::Create(VkDevice InDevice, const FVulkanDeviceApi& InApi, const FVulkanProbe& Probe,
-                                      char* OutMessage, size_t MessageSize)
+VkResult FVulkanPipelineCache::Create(
+    VkDevice InDevice, const FVulkanDeviceApi& InApi, const FVulkanProbe& Probe, char* OutMessage, size_t MessageSize)
 {
 	Device = InDevice;
 	Api = &InApi;
@@ -107,12 +98,8 @@ VkResult FVulkanPipelineCache::Create(VkDevice InDevice, const FVulkanDeviceApi&
 	Info.initialDataSize = Data.size();
 	Info.pInitialData = Data.data();
 	const VkResult Result = Api->CreatePipelineCache(Device, &Info, nullptr, &Handle);
-	if (Result == VK_SUCCESS || Data.empty())
-	{
-		return Result;
-	}
-	snprintf(OutMessage, MessageSize, "pipeline cache %s is refused by the driver (%s): discarded", Show(File).c_str(),
-	         ToString(Result));
+	if (Result == VK_SUCCESS || Data.empty()) { return Result; }
+	snprintf(OutMessage, MessageSize, "pipeline cache %s is refused by the driver (%s): discarded", Show(File).c_str(), ToString(Result));
 	Info.initialDataSize = 0;
 	return Api->CreatePipelineCache(Device, &Info, nullptr, &Handle);
 }
@@ -128,19 +115,13 @@ void FVulkanPipelineCache::Destroy()
 
 FRTStatus FVulkanPipelineCache::Save()
 {
-	if (File.empty() || !Handle)
-	{
-		return {};
-	}
+	if (File.empty() || !Handle) { return {}; }
 	std::scoped_lock Lock(Mutex);
 	size_t Size = 0;
 	VkResult Result = Api->GetPipelineCacheData(Device, Handle, &Size, nullptr);
 	std::vector<char> Data(Size);
 	Result = Result ? Result : Api->GetPipelineCacheData(Device, Handle, &Size, Data.data());
-	if (Result != VK_SUCCESS && Result != VK_INCOMPLETE)
-	{
-		return MakeStatus(Result, "vkGetPipelineCacheData", File.c_str());
-	}
+	if (Result != VK_SUCCESS && Result != VK_INCOMPLETE) { return MakeStatus(Result, "vkGetPipelineCacheData", File.c_str()); }
 	Data.resize(Size);
 	FHeader Header;
 	memcpy(&Header, Prefix.data(), sizeof(Header));
@@ -153,12 +134,10 @@ FRTStatus FVulkanPipelineCache::Save()
 	int Reason = errno;
 	if (Descriptor < 0)
 	{
-		return FRTStatus::Error(ERTResult::IoError, "pipeline cache %s was not written: %s", Show(File).c_str(),
-		                        strerror(Reason));
+		return FRTStatus::Error(ERTResult::IoError, "pipeline cache %s was not written: %s", Show(File).c_str(), strerror(Reason));
 	}
 	FILE* Stream = fdopen(Descriptor, "wb");
-	bool bWritten = Stream && fwrite(&Header, sizeof(Header), 1, Stream) == 1 &&
-	                (Size == 0 || fwrite(Data.data(), Size, 1, Stream) == 1);
+	bool bWritten = Stream && fwrite(&Header, sizeof(Header), 1, Stream) == 1 && (Size == 0 || fwrite(Data.data(), Size, 1, Stream) == 1);
 	Reason = errno;
 	if ((Stream ? fclose(Stream) : close(Descriptor)) != 0)
 	{
@@ -173,8 +152,7 @@ FRTStatus FVulkanPipelineCache::Save()
 	if (!bWritten)
 	{
 		remove(Temporary.c_str());
-		return FRTStatus::Error(ERTResult::IoError, "pipeline cache %s was not written: %s", Show(File).c_str(),
-		                        strerror(Reason));
+		return FRTStatus::Error(ERTResult::IoError, "pipeline cache %s was not written: %s", Show(File).c_str(), strerror(Reason));
 	}
 	return {};
 }

@@ -16,8 +16,7 @@ public:
 	explicit FVulkanPipelineCache(const char* InFile) : File(InFile ? InFile : "") {}
 
 	/// OutMessage: why the file was discarded; empty when it was used or there was none.
-	VkResult Create(VkDevice InDevice, const FVulkanDeviceApi& InApi, const FVulkanProbe& Probe, char* OutMessage,
-	                size_t MessageSize);
+	VkResult Create(VkDevice InDevice, const FVulkanDeviceApi& InApi, const FVulkanProbe& Probe, char* OutMessage, size_t MessageSize);
 	void Destroy();
 	/// Written beside the file and renamed over it: a reader never sees half of it.
 	FRTStatus Save();

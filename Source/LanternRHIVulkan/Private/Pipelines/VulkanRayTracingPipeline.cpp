@@ -27,12 +27,10 @@ VkRayTracingShaderGroupTypeKHR GroupTypeOf(ERTGroupKind Kind)
 }
 
 /// `void main() {}` as a closest-hit shader, by glslang.
-constexpr uint32_t EmptyClosestHit[] = {
-    0x07230203, 0x00010500, 0x0008000b, 0x00000006, 0x00000000, 0x00020011, 0x0000117f, 0x0006000a, 0x5f565053,
-    0x5f52484b, 0x5f796172, 0x63617274, 0x00676e69, 0x0006000b, 0x00000001, 0x4c534c47, 0x6474732e, 0x3035342e,
-    0x00000000, 0x0003000e, 0x00000000, 0x00000001, 0x0005000f, 0x000014c4, 0x00000004, 0x6e69616d, 0x00000000,
-    0x00020013, 0x00000002, 0x00030021, 0x00000003, 0x00000002, 0x00050036, 0x00000002, 0x00000004, 0x00000000,
-    0x00000003, 0x000200f8, 0x00000005, 0x000100fd, 0x00010038};
+constexpr uint32_t EmptyClosestHit[] = {0x07230203, 0x00010500, 0x0008000b, 0x00000006, 0x00000000, 0x00020011, 0x0000117f, 0x0006000a,
+    0x5f565053, 0x5f52484b, 0x5f796172, 0x63617274, 0x00676e69, 0x0006000b, 0x00000001, 0x4c534c47, 0x6474732e, 0x3035342e, 0x00000000,
+    0x0003000e, 0x00000000, 0x00000001, 0x0005000f, 0x000014c4, 0x00000004, 0x6e69616d, 0x00000000, 0x00020013, 0x00000002, 0x00030021,
+    0x00000003, 0x00000002, 0x00050036, 0x00000002, 0x00000004, 0x00000000, 0x00000003, 0x000200f8, 0x00000005, 0x000100fd, 0x00010038};
 
 using FGroups = std::vector<VkRayTracingShaderGroupCreateInfoKHR>;
 
@@ -55,9 +53,9 @@ FGroups MakeGroups(const FRTRayTracingPipelineDesc& Desc)
 
 bool HasHitShader(const FGroups& Groups)
 {
-	return std::any_of(Groups.begin(), Groups.end(),
-	                   [](const VkRayTracingShaderGroupCreateInfoKHR& Group)
-	                   { return Group.closestHitShader != NoShader || Group.anyHitShader != NoShader; });
+	return std::any_of(Groups.begin(), Groups.end(), [](const VkRayTracingShaderGroupCreateInfoKHR& Group) {
+		return Group.closestHitShader != NoShader || Group.anyHitShader != NoShader;
+	});
 }
 
 /// EVulkanQuirk::CrashWithoutHitShaders: a group behind those asked for, which no shader table knows of.
@@ -76,28 +74,22 @@ FRTStatus CheckSupport(const FVulkanDevice& Device, const FRTRayTracingPipelineD
 	const FRTCapabilities& Caps = Device.GetCapabilities();
 	if (!Caps.bRayTracingPipeline)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "'%s': the device has no ray-tracing pipelines",
-		                        FRTShown(Desc.Name).Text);
+		return FRTStatus::Error(ERTResult::Unsupported, "'%s': the device has no ray-tracing pipelines", FRTShown(Desc.Name).Text);
 	}
 	if (Desc.MaxRecursion > Caps.MaxRayRecursionDepth)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "'%s' needs recursion %u; the device's limit is %u",
-		                        FRTShown(Desc.Name).Text, Desc.MaxRecursion, Caps.MaxRayRecursionDepth);
+		return FRTStatus::Error(ERTResult::Unsupported, "'%s' needs recursion %u; the device's limit is %u", FRTShown(Desc.Name).Text,
+		    Desc.MaxRecursion, Caps.MaxRayRecursionDepth);
 	}
-	if (Desc.LibraryCount == 0 && !Desc.bLibrary)
-	{
-		return {};
-	}
+	if (Desc.LibraryCount == 0 && !Desc.bLibrary) { return {}; }
 	if (!Caps.bPipelineLibraries)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "'%s': the device has no pipeline libraries",
-		                        FRTShown(Desc.Name).Text);
+		return FRTStatus::Error(ERTResult::Unsupported, "'%s': the device has no pipeline libraries", FRTShown(Desc.Name).Text);
 	}
 	if (!Desc.bLibrary && Desc.GroupCount == 0 && !Caps.bLibraryOnlyPipelines)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported,
-		                        "'%s': this driver needs ray generation and miss groups among the link's own",
-		                        FRTShown(Desc.Name).Text);
+		return FRTStatus::Error(ERTResult::Unsupported, "'%s': this driver needs ray generation and miss groups among the link's own",
+		    FRTShown(Desc.Name).Text);
 	}
 	return {};
 }
@@ -119,22 +111,15 @@ struct FRayTracingState
 		Interface.maxPipelineRayHitAttributeSize = Desc.MaxAttributeBytes;
 		Info.maxPipelineRayRecursionDepth = Desc.MaxRecursion;
 		Info.flags = Desc.bLibrary ? VK_PIPELINE_CREATE_LIBRARY_BIT_KHR : 0;
-		if (Desc.LibraryCount > 0)
-		{
-			Info.pLibraryInfo = &LibraryInfo;
-		}
-		if (Desc.LibraryCount > 0 || Desc.bLibrary)
-		{
-			Info.pLibraryInterface = &Interface;
-		}
+		if (Desc.LibraryCount > 0) { Info.pLibraryInfo = &LibraryInfo; }
+		if (Desc.LibraryCount > 0 || Desc.bLibrary) { Info.pLibraryInterface = &Interface; }
 	}
 	FRayTracingState(const FRayTracingState&) = delete;
 	FRayTracingState& operator=(const FRayTracingState&) = delete;
 
 	std::vector<VkPipeline> Libraries;
 	VkPipelineLibraryCreateInfoKHR LibraryInfo{VK_STRUCTURE_TYPE_PIPELINE_LIBRARY_CREATE_INFO_KHR};
-	VkRayTracingPipelineInterfaceCreateInfoKHR Interface{
-	    VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_INTERFACE_CREATE_INFO_KHR};
+	VkRayTracingPipelineInterfaceCreateInfoKHR Interface{VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_INTERFACE_CREATE_INFO_KHR};
 	VkRayTracingPipelineCreateInfoKHR Info{VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CREATE_INFO_KHR};
 };
 
@@ -144,14 +129,8 @@ FRTStatus FVulkanPipeline::InitialiseRayTracing(const FRTRayTracingPipelineDesc&
 {
 	FRTStatus Status = CheckSupport(Device, Desc);
 	FVulkanModules Modules(Device);
-	for (uint32_t Index = 0; Status && Index < Desc.ShaderCount; ++Index)
-	{
-		Status = Modules.Add(Desc.Shaders[Index]);
-	}
-	if (!Status)
-	{
-		return Status;
-	}
+	for (uint32_t Index = 0; Status && Index < Desc.ShaderCount; ++Index) { Status = Modules.Add(Desc.Shaders[Index]); }
+	if (!Status) { return Status; }
 	FGroups Groups = MakeGroups(Desc);
 	bHasHitShader = HasHitShader(Groups);
 	GroupCount = Desc.GroupCount;
@@ -166,10 +145,7 @@ FRTStatus FVulkanPipeline::InitialiseRayTracing(const FRTRayTracingPipelineDesc&
 	if (!bLibrary && !bHasHitShader && HasQuirk(Device.Probe.Quirks, EVulkanQuirk::CrashWithoutHitShaders))
 	{
 		Status = AddUnusedHitShader(Modules, Groups);
-		if (!Status)
-		{
-			return Status;
-		}
+		if (!Status) { return Status; }
 	}
 	BindPoint = VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR;
 	FRayTracingState State(Desc);
@@ -179,23 +155,19 @@ FRTStatus FVulkanPipeline::InitialiseRayTracing(const FRTRayTracingPipelineDesc&
 	State.Info.pGroups = Groups.data();
 	State.Info.layout = Device.Bindless.PipelineLayout;
 	const VkPipelineCache Cache = bLibrary && !Device.bCacheLibraries ? VK_NULL_HANDLE : Device.Cache.Handle;
-	Status = Finish(
-	    Device.Api.CreateRayTracingPipelinesKHR(Device.Handle, VK_NULL_HANDLE, Cache, 1, &State.Info, nullptr, &Handle),
+	Status = Finish(Device.Api.CreateRayTracingPipelinesKHR(Device.Handle, VK_NULL_HANDLE, Cache, 1, &State.Info, nullptr, &Handle),
 	    "Creating ray-tracing pipeline", Desc.Name);
-	return Status && !bLibrary ? ReadGroupHandles(Desc.GroupCount, static_cast<uint32_t>(Groups.size()), Desc.Name)
-	                           : Status;
+	return Status && !bLibrary ? ReadGroupHandles(Desc.GroupCount, static_cast<uint32_t>(Groups.size()), Desc.Name) : Status;
 }
 
 FRTStatus FVulkanPipeline::ReadGroupHandles(uint32_t OwnCount, uint32_t NativeOwnCount, const char* Name)
 {
 	const size_t HandleSize = Device.GetCapabilities().ShaderGroupHandleSize;
 	GroupHandles.resize(GroupCount * HandleSize);
-	const auto Read = [&](uint32_t NativeFirst, uint32_t First, uint32_t Count)
-	{
+	const auto Read = [&](uint32_t NativeFirst, uint32_t First, uint32_t Count) {
 		return Count == 0 ? VK_SUCCESS
 		                  : Device.Check(Device.Api.GetRayTracingShaderGroupHandlesKHR(
-		                        Device.Handle, Handle, NativeFirst, Count, Count * HandleSize,
-		                        GroupHandles.data() + First * HandleSize));
+		                        Device.Handle, Handle, NativeFirst, Count, Count * HandleSize, GroupHandles.data() + First * HandleSize));
 	};
 	VkResult Result = Read(0, 0, OwnCount);
 	Result = Result ? Result : Read(NativeOwnCount, OwnCount, GroupCount - OwnCount);

@@ -32,12 +32,8 @@ public:
 		VkPipelineShaderStageCreateInfo Stage{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
 		Stage.stage = StageOf(Code.Stage);
 		Stage.pName = "main";
-		const VkResult Result =
-		    Device.Check(Device.Api.CreateShaderModule(Device.Handle, &Info, nullptr, &Stage.module));
-		if (Result != VK_SUCCESS)
-		{
-			return MakeStatus(Result, "Creating shader", Code.Name);
-		}
+		const VkResult Result = Device.Check(Device.Api.CreateShaderModule(Device.Handle, &Info, nullptr, &Stage.module));
+		if (Result != VK_SUCCESS) { return MakeStatus(Result, "Creating shader", Code.Name); }
 		Device.SetName(VK_OBJECT_TYPE_SHADER_MODULE, ToNative(Stage.module), Code.Name);
 		Stages.push_back(Stage);
 		return {};

@@ -21,10 +21,7 @@ VkIndexType IndexTypeOf(ERTIndexType Type)
 	return VK_INDEX_TYPE_NONE_KHR;
 }
 
-VkDeviceAddress AddressIn(IRTBuffer* Buffer, uint64_t Offset)
-{
-	return Buffer ? Buffer->GetDeviceAddress() + Offset : 0;
-}
+VkDeviceAddress AddressIn(IRTBuffer* Buffer, uint64_t Offset) { return Buffer ? Buffer->GetDeviceAddress() + Offset : 0; }
 
 VkAccelerationStructureGeometryKHR MakeGeometry(const FRTGeometrySection& Section)
 {
@@ -47,22 +44,17 @@ VkAccelerationStructureGeometryKHR MakeGeometry(const FRTGeometrySection& Sectio
 	Triangles.vertexStride = Section.VertexStride;
 	Triangles.maxVertex = Section.VertexCount - 1;
 	Triangles.indexType = IndexTypeOf(Section.IndexType);
-	Triangles.indexData.deviceAddress =
-	    Section.IndexType == ERTIndexType::None ? 0 : AddressIn(Section.Indices, Section.IndexOffset);
+	Triangles.indexData.deviceAddress = Section.IndexType == ERTIndexType::None ? 0 : AddressIn(Section.Indices, Section.IndexOffset);
 	return Geometry;
 }
 
 /// Creates the structure that Info's sizes ask for, in a block of its own.
-FRTStatus CreateStructure(FVulkanDevice& Device, VkAccelerationStructureTypeKHR Type, uint64_t Size,
-                          EVulkanMemoryKind Kind, const char* Name, FVulkanBlock& Block,
-                          VkAccelerationStructureKHR* Out)
+FRTStatus CreateStructure(FVulkanDevice& Device, VkAccelerationStructureTypeKHR Type, uint64_t Size, EVulkanMemoryKind Kind,
+    const char* Name, FVulkanBlock& Block, VkAccelerationStructureKHR* Out)
 {
-	FRTStatus Status = Block.Create(Device, Size, VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR,
-	                                ERTMemory::Device, 256, Kind, Name);
-	if (!Status)
-	{
-		return Status;
-	}
+	FRTStatus Status =
+	    Block.Create(Device, Size, VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR, ERTMemory::Device, 256, Kind, Name);
+	if (!Status) { return Status; }
 	VkAccelerationStructureCreateInfoKHR Info{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR};
 	Info.buffer = Block.Handle;
 	Info.size = Size;
@@ -77,12 +69,11 @@ FRTStatus CreateStructure(FVulkanDevice& Device, VkAccelerationStructureTypeKHR 
 	return {};
 }
 
-FRTBuildSizes QuerySizes(FVulkanDevice& Device, const VkAccelerationStructureBuildGeometryInfoKHR& Info,
-                         const uint32_t* PrimitiveCounts)
+FRTBuildSizes QuerySizes(FVulkanDevice& Device, const VkAccelerationStructureBuildGeometryInfoKHR& Info, const uint32_t* PrimitiveCounts)
 {
 	VkAccelerationStructureBuildSizesInfoKHR Native{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR};
-	Device.Api.GetAccelerationStructureBuildSizesKHR(Device.Handle, VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR,
-	                                                 &Info, PrimitiveCounts, &Native);
+	Device.Api.GetAccelerationStructureBuildSizesKHR(
+	    Device.Handle, VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &Info, PrimitiveCounts, &Native);
 	FRTBuildSizes Sizes;
 	Sizes.StructureBytes = Native.accelerationStructureSize;
 	Sizes.BuildScratchBytes = Native.buildScratchSize;
@@ -93,15 +84,13 @@ FRTBuildSizes QuerySizes(FVulkanDevice& Device, const VkAccelerationStructureBui
 
 FRTStatus NoRayTracing(const char* Name)
 {
-	return FRTStatus::Error(ERTResult::Unsupported, "'%s': the device has no acceleration structures",
-	                        FRTShown(Name).Text);
+	return FRTStatus::Error(ERTResult::Unsupported, "'%s': the device has no acceleration structures", FRTShown(Name).Text);
 }
 
 VkBuildAccelerationStructureFlagsKHR FlagsOf(const FRTGeometryDesc& Desc)
 {
-	VkBuildAccelerationStructureFlagsKHR Flags = Desc.bFastBuild
-	                                                 ? VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_BUILD_BIT_KHR
-	                                                 : VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
+	VkBuildAccelerationStructureFlagsKHR Flags = Desc.bFastBuild ? VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_BUILD_BIT_KHR
+	                                                             : VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
 	Flags |= Desc.bAllowUpdate ? VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_UPDATE_BIT_KHR : 0;
 	Flags |= Desc.bAllowCompaction ? VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_COMPACTION_BIT_KHR : 0;
 	return Flags;
@@ -118,8 +107,7 @@ void FVulkanSections::Assign(const FRTGeometrySection* Sections, uint32_t Count)
 		Geometries[Index] = MakeGeometry(Sections[Index]);
 		// Offsets are in the addresses.
 		Ranges[Index] = {};
-		Ranges[Index].primitiveCount =
-		    Sections[Index].bProcedural ? Sections[Index].VertexCount : Sections[Index].TriangleCount;
+		Ranges[Index].primitiveCount = Sections[Index].bProcedural ? Sections[Index].VertexCount : Sections[Index].TriangleCount;
 	}
 }
 
@@ -128,10 +116,7 @@ FRTBuildSizes QueryGeometrySizes(FVulkanDevice& Device, const FRTGeometryDesc& D
 	FVulkanSections Sections;
 	Sections.Assign(Desc.Sections, Desc.SectionCount);
 	std::vector<uint32_t> Counts;
-	for (const VkAccelerationStructureBuildRangeInfoKHR& Range : Sections.Ranges)
-	{
-		Counts.push_back(Range.primitiveCount);
-	}
+	for (const VkAccelerationStructureBuildRangeInfoKHR& Range : Sections.Ranges) { Counts.push_back(Range.primitiveCount); }
 	VkAccelerationStructureBuildGeometryInfoKHR Info{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR};
 	Info.type = VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR;
 	Info.flags = FlagsOf(Desc);
@@ -142,38 +127,26 @@ FRTBuildSizes QueryGeometrySizes(FVulkanDevice& Device, const FRTGeometryDesc& D
 
 FRTStatus FVulkanGeometry::Initialise(const FRTGeometryDesc& Desc)
 {
-	if (!Device.Bits.bAccel)
-	{
-		return NoRayTracing(Desc.Name);
-	}
+	if (!Device.Bits.bAccel) { return NoRayTracing(Desc.Name); }
 	assert(Desc.SectionCount > 0);
 	SectionCount = Desc.SectionCount;
 	Flags = FlagsOf(Desc);
 	uint64_t Total = 0;
 	for (uint32_t Index = 0; Index < SectionCount; ++Index)
 	{
-		Total +=
-		    Desc.Sections[Index].bProcedural ? Desc.Sections[Index].VertexCount : Desc.Sections[Index].TriangleCount;
+		Total += Desc.Sections[Index].bProcedural ? Desc.Sections[Index].VertexCount : Desc.Sections[Index].TriangleCount;
 	}
 	if (Total > Device.GetCapabilities().MaxPrimitiveCount)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "Geometry '%s' has %llu primitives; the limit is %llu",
-		                        FRTShown(Desc.Name).Text, static_cast<unsigned long long>(Total),
-		                        static_cast<unsigned long long>(Device.GetCapabilities().MaxPrimitiveCount));
+		return FRTStatus::Error(ERTResult::Unsupported, "Geometry '%s' has %llu primitives; the limit is %llu", FRTShown(Desc.Name).Text,
+		    static_cast<unsigned long long>(Total), static_cast<unsigned long long>(Device.GetCapabilities().MaxPrimitiveCount));
 	}
 	Sizes = QueryGeometrySizes(Device, Desc);
-	if (Desc.CompactedBytes > 0)
-	{
-		Sizes.StructureBytes = Desc.CompactedBytes;
-	}
+	if (Desc.CompactedBytes > 0) { Sizes.StructureBytes = Desc.CompactedBytes; }
 	FRTStatus Status = CreateStructure(Device, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, Sizes.StructureBytes,
-	                                   EVulkanMemoryKind::Geometry, Desc.Name, Block, &Handle);
-	if (!Status)
-	{
-		return Status;
-	}
-	VkAccelerationStructureDeviceAddressInfoKHR AddressInfo{
-	    VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR};
+	    EVulkanMemoryKind::Geometry, Desc.Name, Block, &Handle);
+	if (!Status) { return Status; }
+	VkAccelerationStructureDeviceAddressInfoKHR AddressInfo{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR};
 	AddressInfo.accelerationStructure = Handle;
 	Address = Device.Api.GetAccelerationStructureDeviceAddressKHR(Device.Handle, &AddressInfo);
 	return {};
@@ -181,10 +154,7 @@ FRTStatus FVulkanGeometry::Initialise(const FRTGeometryDesc& Desc)
 
 FVulkanGeometry::~FVulkanGeometry()
 {
-	if (Handle)
-	{
-		Device.Api.DestroyAccelerationStructureKHR(Device.Handle, Handle, nullptr);
-	}
+	if (Handle) { Device.Api.DestroyAccelerationStructureKHR(Device.Handle, Handle, nullptr); }
 }
 
 uint64_t FVulkanGeometry::GetNative(ERTNative Kind) const
@@ -208,16 +178,12 @@ VkAccelerationStructureGeometryKHR FVulkanScene::MakeInstances(VkDeviceAddress I
 
 FRTStatus FVulkanScene::Initialise(const FRTSceneDesc& Desc)
 {
-	if (!Device.Bits.bAccel)
-	{
-		return NoRayTracing(Desc.Name);
-	}
+	if (!Device.Bits.bAccel) { return NoRayTracing(Desc.Name); }
 	MaxInstances = Desc.MaxInstances;
 	if (MaxInstances > Device.GetCapabilities().MaxInstanceCount)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "Scene '%s' of %u instances; the device's limit is %llu",
-		                        FRTShown(Desc.Name).Text, MaxInstances,
-		                        static_cast<unsigned long long>(Device.GetCapabilities().MaxInstanceCount));
+		return FRTStatus::Error(ERTResult::Unsupported, "Scene '%s' of %u instances; the device's limit is %llu", FRTShown(Desc.Name).Text,
+		    MaxInstances, static_cast<unsigned long long>(Device.GetCapabilities().MaxInstanceCount));
 	}
 	Flags = Desc.bFastBuild ? VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_BUILD_BIT_KHR
 	                        : VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
@@ -228,17 +194,13 @@ FRTStatus FVulkanScene::Initialise(const FRTSceneDesc& Desc)
 	Info.geometryCount = 1;
 	Info.pGeometries = &Geometry;
 	Sizes = QuerySizes(Device, Info, &MaxInstances);
-	FRTStatus Status =
-	    CreateStructure(Device, Info.type, Sizes.StructureBytes, EVulkanMemoryKind::Scene, Desc.Name, Block, &Handle);
-	if (!Status)
-	{
-		return Status;
-	}
+	FRTStatus Status = CreateStructure(Device, Info.type, Sizes.StructureBytes, EVulkanMemoryKind::Scene, Desc.Name, Block, &Handle);
+	if (!Status) { return Status; }
 	Index = Device.Bindless.AddScene(Handle);
 	if (Index == NoBindlessIndex)
 	{
-		return FRTStatus::Error(ERTResult::OutOfDescriptors, "Scene '%s': all %u indices are in use",
-		                        FRTShown(Desc.Name).Text, Device.Probe.MaxBindlessScenes);
+		return FRTStatus::Error(
+		    ERTResult::OutOfDescriptors, "Scene '%s': all %u indices are in use", FRTShown(Desc.Name).Text, Device.Probe.MaxBindlessScenes);
 	}
 	return {};
 }
@@ -246,10 +208,7 @@ FRTStatus FVulkanScene::Initialise(const FRTSceneDesc& Desc)
 FVulkanScene::~FVulkanScene()
 {
 	Device.Bindless.Remove(FVulkanBindless::Scene, Index);
-	if (Handle)
-	{
-		Device.Api.DestroyAccelerationStructureKHR(Device.Handle, Handle, nullptr);
-	}
+	if (Handle) { Device.Api.DestroyAccelerationStructureKHR(Device.Handle, Handle, nullptr); }
 }
 
 uint64_t FVulkanScene::GetNative(ERTNative Kind) const

@@ -8,14 +8,13 @@ namespace Lantern
 namespace
 {
 
-constexpr VkDescriptorType Types[FVulkanBindless::BindingCount] = {
-    VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, VK_DESCRIPTOR_TYPE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR};
+constexpr VkDescriptorType Types[FVulkanBindless::BindingCount] = {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+    VK_DESCRIPTOR_TYPE_SAMPLER, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR};
 
 } // namespace
 
-VkResult FVulkanBindless::Create(VkDevice InDevice, const FVulkanDeviceApi& InApi,
-                                 const uint32_t (&Capacities)[BindingCount], const FVulkanCapabilityBits& Bits)
+VkResult FVulkanBindless::Create(
+    VkDevice InDevice, const FVulkanDeviceApi& InApi, const uint32_t (&Capacities)[BindingCount], const FVulkanCapabilityBits& Bits)
 {
 	Device = InDevice;
 	Api = &InApi;
@@ -26,18 +25,14 @@ VkResult FVulkanBindless::Create(VkDevice InDevice, const FVulkanDeviceApi& InAp
 	for (uint32_t Binding = 0; Binding < BindingCount; ++Binding)
 	{
 		Heaps[Binding].Capacity = Capacities[Binding];
-		if (Capacities[Binding] == 0)
-		{
-			continue;
-		}
+		if (Capacities[Binding] == 0) { continue; }
 		Bindings[Count] = {Binding, Types[Binding], Capacities[Binding], AllStages(Bits), nullptr};
 		Flags[Count] = VK_DESCRIPTOR_BINDING_UPDATE_AFTER_BIND_BIT | VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT |
 		               VK_DESCRIPTOR_BINDING_UPDATE_UNUSED_WHILE_PENDING_BIT;
 		Sizes[Count] = {Types[Binding], Capacities[Binding]};
 		++Count;
 	}
-	VkDescriptorSetLayoutBindingFlagsCreateInfo FlagInfo{
-	    VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_BINDING_FLAGS_CREATE_INFO};
+	VkDescriptorSetLayoutBindingFlagsCreateInfo FlagInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_BINDING_FLAGS_CREATE_INFO};
 	FlagInfo.bindingCount = Count;
 	FlagInfo.pBindingFlags = Flags;
 	VkDescriptorSetLayoutCreateInfo LayoutInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, &FlagInfo};
@@ -70,10 +65,7 @@ VkResult FVulkanBindless::Create(VkDevice InDevice, const FVulkanDeviceApi& InAp
 
 void FVulkanBindless::Destroy()
 {
-	if (!Api)
-	{
-		return;
-	}
+	if (!Api) { return; }
 	Api->DestroyPipelineLayout(Device, PipelineLayout, nullptr);
 	Api->DestroyDescriptorPool(Device, Pool, nullptr);
 	Api->DestroyDescriptorSetLayout(Device, SetLayout, nullptr);
@@ -108,9 +100,8 @@ uint32_t FVulkanBindless::AddImage(EBinding Binding, VkImageView View)
 	const uint32_t Index = Take(Binding);
 	if (Index != NoBindlessIndex)
 	{
-		const VkDescriptorImageInfo Image = {VK_NULL_HANDLE, View,
-		                                     Binding == Storage ? VK_IMAGE_LAYOUT_GENERAL
-		                                                        : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+		const VkDescriptorImageInfo Image = {
+		    VK_NULL_HANDLE, View, Binding == Storage ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 		VkWriteDescriptorSet Info{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
 		Info.pImageInfo = &Image;
 		Write(Binding, Index, Info);
@@ -138,8 +129,7 @@ uint32_t FVulkanBindless::AddScene(VkAccelerationStructureKHR InScene)
 	const uint32_t Index = Take(Scene);
 	if (Index != NoBindlessIndex)
 	{
-		VkWriteDescriptorSetAccelerationStructureKHR Structures{
-		    VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR};
+		VkWriteDescriptorSetAccelerationStructureKHR Structures{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR};
 		Structures.accelerationStructureCount = 1;
 		Structures.pAccelerationStructures = &InScene;
 		VkWriteDescriptorSet Info{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, &Structures};
@@ -150,10 +140,7 @@ uint32_t FVulkanBindless::AddScene(VkAccelerationStructureKHR InScene)
 
 void FVulkanBindless::Remove(EBinding Binding, uint32_t Index)
 {
-	if (Index == NoBindlessIndex)
-	{
-		return;
-	}
+	if (Index == NoBindlessIndex) { return; }
 	std::scoped_lock Lock(Mutex);
 	assert(Index < Heaps[Binding].Used);
 	Heaps[Binding].Free.push_back(Index);

@@ -25,8 +25,8 @@ public:
 	};
 
 	/// Capacities: 0 leaves the binding out.
-	VkResult Create(VkDevice Device, const FVulkanDeviceApi& Api, const uint32_t (&Capacities)[BindingCount],
-	                const FVulkanCapabilityBits& Bits);
+	VkResult Create(
+	    VkDevice Device, const FVulkanDeviceApi& Api, const uint32_t (&Capacities)[BindingCount], const FVulkanCapabilityBits& Bits);
 	void Destroy();
 
 	/// NoBindlessIndex when full.

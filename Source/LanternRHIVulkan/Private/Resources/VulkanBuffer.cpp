@@ -8,8 +8,8 @@
 namespace Lantern
 {
 
-FRTStatus FVulkanBlock::Create(FVulkanDevice& InDevice, uint64_t Size, VkBufferUsageFlags Usage, ERTMemory InMemory,
-                               uint64_t Alignment, EVulkanMemoryKind InKind, const char* Name)
+FRTStatus FVulkanBlock::Create(FVulkanDevice& InDevice, uint64_t Size, VkBufferUsageFlags Usage, ERTMemory InMemory, uint64_t Alignment,
+    EVulkanMemoryKind InKind, const char* Name)
 {
 	assert(!Handle && Size > 0);
 	Kind = InKind;
@@ -28,7 +28,7 @@ FRTStatus FVulkanBlock::Create(FVulkanDevice& InDevice, uint64_t Size, VkBufferU
 		FRTStatus Status = MakeStatus(Result, "Creating buffer", Name);
 		return Status.Code == ERTResult::OutOfDeviceMemory
 		           ? FRTStatus::Error(Status.Code, "Creating buffer '%s' of %llu bytes: %s", FRTShown(Name).Text,
-		                              static_cast<unsigned long long>(Size), ToString(Result))
+		                 static_cast<unsigned long long>(Size), ToString(Result))
 		           : Status;
 	}
 	Device = &InDevice;
@@ -60,21 +60,12 @@ FRTStatus FVulkanBuffer::Initialise(const FRTBufferDesc& InDesc)
 	// An acceleration structure build reads addresses that are multiples of 16 at most; shader tables and scratch say
 	// what they need.
 	uint64_t Alignment = 16;
-	if (bScratch)
-	{
-		Alignment = std::max<uint64_t>(Alignment, Caps.ScratchAlignment);
-	}
-	if (HasAny(Desc.Usage, ERTBufferUsage::ShaderTable))
-	{
-		Alignment = std::max<uint64_t>(Alignment, Caps.ShaderGroupBaseAlignment);
-	}
+	if (bScratch) { Alignment = std::max<uint64_t>(Alignment, Caps.ScratchAlignment); }
+	if (HasAny(Desc.Usage, ERTBufferUsage::ShaderTable)) { Alignment = std::max<uint64_t>(Alignment, Caps.ShaderGroupBaseAlignment); }
 	return Block.Create(Device, Desc.Size, BufferUsageOf(Desc.Usage, Device.Bits), Desc.Memory, Alignment,
-	                    bScratch ? EVulkanMemoryKind::Scratch : EVulkanMemoryKind::Buffer, Desc.Name);
+	    bScratch ? EVulkanMemoryKind::Scratch : EVulkanMemoryKind::Buffer, Desc.Name);
 }
 
-uint64_t FVulkanBuffer::GetNative(ERTNative Kind) const
-{
-	return Kind == ERTNative::Buffer ? ToNative(Block.Handle) : 0;
-}
+uint64_t FVulkanBuffer::GetNative(ERTNative Kind) const { return Kind == ERTNative::Buffer ? ToNative(Block.Handle) : 0; }
 
 } // namespace Lantern

@@ -16,8 +16,8 @@ public:
 	FVulkanBlock& operator=(const FVulkanBlock&) = delete;
 	~FVulkanBlock() { Destroy(); }
 
-	FRTStatus Create(FVulkanDevice& InDevice, uint64_t Size, VkBufferUsageFlags Usage, ERTMemory InMemory,
-	                 uint64_t Alignment, EVulkanMemoryKind InKind, const char* Name);
+	FRTStatus Create(FVulkanDevice& InDevice, uint64_t Size, VkBufferUsageFlags Usage, ERTMemory InMemory, uint64_t Alignment,
+	    EVulkanMemoryKind InKind, const char* Name);
 	void Destroy();
 
 	VkBuffer Handle = VK_NULL_HANDLE;

@@ -18,10 +18,7 @@ FRTStatus FVulkanTexture::Initialise(const FRTTextureDesc& InDesc, VkImage Impor
 	if (!Imported)
 	{
 		FRTStatus Status = CreateImage();
-		if (!Status)
-		{
-			return Status;
-		}
+		if (!Status) { return Status; }
 	}
 	return CreateViews();
 }
@@ -30,10 +27,7 @@ FVulkanTexture::~FVulkanTexture()
 {
 	Device.Bindless.Remove(FVulkanBindless::Sampled, SampledIndex);
 	Device.Bindless.Remove(FVulkanBindless::Storage, StorageIndex);
-	for (VkImageView View : {SampledView, StorageView, AttachmentView})
-	{
-		Device.Api.DestroyImageView(Device.Handle, View, nullptr);
-	}
+	for (VkImageView View : {SampledView, StorageView, AttachmentView}) { Device.Api.DestroyImageView(Device.Handle, View, nullptr); }
 	if (bOwned)
 	{
 		Device.Memory.DestroyImage(Image, Allocation);
@@ -59,15 +53,13 @@ FRTStatus FVulkanTexture::CreateImage()
 	    Device.Physical, Info.format, Info.imageType, Info.tiling, Info.usage, 0, &Limits);
 	if (Result != VK_SUCCESS)
 	{
-		return FRTStatus::Error(
-		    ERTResult::Unsupported, "Texture '%s': the device has no format %d with the usages %#x asked for (%s)",
+		return FRTStatus::Error(ERTResult::Unsupported, "Texture '%s': the device has no format %d with the usages %#x asked for (%s)",
 		    FRTShown(Desc.Name).Text, static_cast<int>(Info.format), static_cast<unsigned>(Info.usage), ToString(Result));
 	}
-	if (Desc.Width > Limits.maxExtent.width || Desc.Height > Limits.maxExtent.height ||
-	    Desc.MipCount > Limits.maxMipLevels || Desc.ArraySize > Limits.maxArrayLayers)
+	if (Desc.Width > Limits.maxExtent.width || Desc.Height > Limits.maxExtent.height || Desc.MipCount > Limits.maxMipLevels ||
+	    Desc.ArraySize > Limits.maxArrayLayers)
 	{
-		return FRTStatus::Error(
-		    ERTResult::Unsupported, "Texture '%s': %ux%u, %u mips, %u layers; the device's limit is %ux%u, %u, %u",
+		return FRTStatus::Error(ERTResult::Unsupported, "Texture '%s': %ux%u, %u mips, %u layers; the device's limit is %ux%u, %u, %u",
 		    FRTShown(Desc.Name).Text, Desc.Width, Desc.Height, Desc.MipCount, Desc.ArraySize, Limits.maxExtent.width,
 		    Limits.maxExtent.height, Limits.maxMipLevels, Limits.maxArrayLayers);
 	}
@@ -99,52 +91,35 @@ FRTStatus FVulkanTexture::CreateView(uint32_t MipCount, uint32_t LayerCount, VkI
 	Info.format = GetVulkanFormat(Desc.Format);
 	Info.subresourceRange = {AspectOf(Desc.Format), 0, MipCount, 0, LayerCount};
 	const VkResult Result = Device.Check(Device.Api.CreateImageView(Device.Handle, &Info, nullptr, Out));
-	if (Result == VK_SUCCESS)
-	{
-		Device.SetName(VK_OBJECT_TYPE_IMAGE_VIEW, ToNative(*Out), Desc.Name);
-	}
+	if (Result == VK_SUCCESS) { Device.SetName(VK_OBJECT_TYPE_IMAGE_VIEW, ToNative(*Out), Desc.Name); }
 	return MakeStatus(Result, "Creating a view of texture", Desc.Name);
 }
 
 FRTStatus FVulkanTexture::CreateViews()
 {
 	FRTStatus Status;
-	const auto NoIndex = [&](const char* Binding)
-	{
-		return FRTStatus::Error(ERTResult::OutOfDescriptors, "Texture '%s': all %u %s indices are in use",
-		                        FRTShown(Desc.Name).Text, Device.GetCapabilities().MaxBindlessTextures, Binding);
+	const auto NoIndex = [&](const char* Binding) {
+		return FRTStatus::Error(ERTResult::OutOfDescriptors, "Texture '%s': all %u %s indices are in use", FRTShown(Desc.Name).Text,
+		    Device.GetCapabilities().MaxBindlessTextures, Binding);
 	};
 	if (HasAny(Desc.Usage, ERTTextureUsage::Sampled))
 	{
 		Status = CreateView(Desc.MipCount, Desc.ArraySize, VK_IMAGE_USAGE_SAMPLED_BIT, &SampledView);
-		if (!Status)
-		{
-			return Status;
-		}
+		if (!Status) { return Status; }
 		SampledIndex = Device.Bindless.AddImage(FVulkanBindless::Sampled, SampledView);
-		if (SampledIndex == NoBindlessIndex)
-		{
-			return NoIndex("sampled");
-		}
+		if (SampledIndex == NoBindlessIndex) { return NoIndex("sampled"); }
 	}
 	if (HasAny(Desc.Usage, ERTTextureUsage::Storage))
 	{
 		Status = CreateView(1, Desc.ArraySize, VK_IMAGE_USAGE_STORAGE_BIT, &StorageView);
-		if (!Status)
-		{
-			return Status;
-		}
+		if (!Status) { return Status; }
 		StorageIndex = Device.Bindless.AddImage(FVulkanBindless::Storage, StorageView);
-		if (StorageIndex == NoBindlessIndex)
-		{
-			return NoIndex("storage");
-		}
+		if (StorageIndex == NoBindlessIndex) { return NoIndex("storage"); }
 	}
 	if (HasAny(Desc.Usage, ERTTextureUsage::RenderTarget | ERTTextureUsage::Depth))
 	{
-		const VkImageUsageFlags Usage = HasAny(Desc.Usage, ERTTextureUsage::Depth)
-		                                    ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
-		                                    : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+		const VkImageUsageFlags Usage =
+		    HasAny(Desc.Usage, ERTTextureUsage::Depth) ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
 		Status = CreateView(1, 1, Usage, &AttachmentView);
 	}
 	return Status;
@@ -201,8 +176,8 @@ FRTStatus FVulkanSampler::Initialise(const FRTSamplerDesc& Desc)
 	Index = Device.Bindless.AddSampler(Handle);
 	if (Index == NoBindlessIndex)
 	{
-		return FRTStatus::Error(ERTResult::OutOfDescriptors, "Sampler '%s': all %u indices are in use",
-		                        FRTShown(Name).Text, Device.Probe.MaxBindlessSamplers);
+		return FRTStatus::Error(
+		    ERTResult::OutOfDescriptors, "Sampler '%s': all %u indices are in use", FRTShown(Name).Text, Device.Probe.MaxBindlessSamplers);
 	}
 	return {};
 }

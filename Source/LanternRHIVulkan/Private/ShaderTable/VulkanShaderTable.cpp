@@ -18,10 +18,7 @@ constexpr size_t MaxRegions = 16;
 /// A host copy that as many stagings passed by gives its memory back.
 constexpr uint64_t IdleStagings = 64;
 
-constexpr uint64_t AlignUp(uint64_t Value, uint64_t Alignment)
-{
-	return (Value + Alignment - 1) / Alignment * Alignment;
-}
+constexpr uint64_t AlignUp(uint64_t Value, uint64_t Alignment) { return (Value + Alignment - 1) / Alignment * Alignment; }
 
 } // namespace
 
@@ -39,8 +36,7 @@ FRTStatus FVulkanShaderTable::Initialise(const FRTShaderTableDesc& InDesc)
 
 	const uint64_t Handle = AlignUp(Caps.ShaderGroupHandleSize, Caps.ShaderGroupHandleAlignment);
 	// A dispatch names one ray generation record as a region of its own: each starts at the base alignment.
-	const uint64_t Strides[KindCount] = {
-	    AlignUp(Caps.ShaderGroupHandleSize, Caps.ShaderGroupBaseAlignment), Handle,
+	const uint64_t Strides[KindCount] = {AlignUp(Caps.ShaderGroupHandleSize, Caps.ShaderGroupBaseAlignment), Handle,
 	    AlignUp(Caps.ShaderGroupHandleSize + Desc.RecordDataBytes, Caps.ShaderGroupHandleAlignment), Handle};
 	const uint32_t Counts[KindCount] = {Desc.RayGenCount, Desc.MissCount, Desc.HitCount, Desc.CallableCount};
 	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
@@ -55,25 +51,20 @@ FRTStatus FVulkanShaderTable::Initialise(const FRTShaderTableDesc& InDesc)
 	for (uint32_t Copy = 0; Status && Copy < Desc.Copies; ++Copy)
 	{
 		FHostCopy Made;
-		Status = MakeBuffer(std::min(MinHostCopyBytes, Current.Buffer->Size), HostUsage, ERTMemory::Upload, " (host)",
-		                    Made.Buffer);
+		Status = MakeBuffer(std::min(MinHostCopyBytes, Current.Buffer->Size), HostUsage, ERTMemory::Upload, " (host)", Made.Buffer);
 		HostCopies.push_back(std::move(Made));
 	}
 	return Status;
 }
 
-FRTStatus FVulkanShaderTable::MakeBuffer(uint64_t Size, VkBufferUsageFlags Usage, ERTMemory Memory, const char* Suffix,
-                                         TRTRef<FVulkanTableBuffer>& Out)
+FRTStatus FVulkanShaderTable::MakeBuffer(
+    uint64_t Size, VkBufferUsageFlags Usage, ERTMemory Memory, const char* Suffix, TRTRef<FVulkanTableBuffer>& Out)
 {
 	TRTRef<FVulkanTableBuffer> Made = MakeVulkanObject<FVulkanTableBuffer>(Device);
 	Made->Size = Size;
 	const uint64_t Alignment = Memory == ERTMemory::Device ? Device.GetCapabilities().ShaderGroupBaseAlignment : 16;
-	FRTStatus Status = Made->Block.Create(Device, Size, Usage, Memory, Alignment, EVulkanMemoryKind::ShaderTable,
-	                                      (Name + Suffix).c_str());
-	if (Status)
-	{
-		Out = std::move(Made);
-	}
+	FRTStatus Status = Made->Block.Create(Device, Size, Usage, Memory, Alignment, EVulkanMemoryKind::ShaderTable, (Name + Suffix).c_str());
+	if (Status) { Out = std::move(Made); }
 	return Status;
 }
 
@@ -91,10 +82,7 @@ FRTStatus FVulkanShaderTable::MakeLayout(const uint32_t Counts[KindCount], FLayo
 	const VkBufferUsageFlags Usage = VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
 	                                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
 	FRTStatus Status = MakeBuffer(std::max(Size, Base), Usage, ERTMemory::Device, "", Made.Buffer);
-	if (Status)
-	{
-		Out = std::move(Made);
-	}
+	if (Status) { Out = std::move(Made); }
 	return Status;
 }
 
@@ -107,24 +95,15 @@ FRTStatus FVulkanShaderTable::Reserve(const uint32_t Counts[4])
 		Wanted[Kind] = std::max(Counts[Kind], Records[Kind].GetCount());
 		bGrows = bGrows || Wanted[Kind] > Records[Kind].GetCount();
 	}
-	if (!bGrows)
-	{
-		return {};
-	}
+	if (!bGrows) { return {}; }
 	// Where no update has gone into Next yet, Current is still what the contents come from.
 	FRTStatus Status = MakeLayout(Wanted, bCurrentUsed ? Next : Current);
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
 	{
 		const uint32_t Before = Records[Kind].GetCount();
 		Records[Kind].Grow(Wanted[Kind]);
-		if (bContentLost)
-		{
-			Records[Kind].MarkDirty({Before, Wanted[Kind] - Before});
-		}
+		if (bContentLost) { Records[Kind].MarkDirty({Before, Wanted[Kind] - Before}); }
 	}
 	Desc.RayGenCount = Wanted[0];
 	Desc.MissCount = Wanted[1];
@@ -142,14 +121,10 @@ void FVulkanShaderTable::SetPipeline(IRTPipeline* InPipeline)
 	Pipeline = TRTRef<FVulkanPipeline>(static_cast<FVulkanPipeline*>(InPipeline));
 	assert(Pipeline->GetGroupHandles() && "a ray-tracing pipeline that is no library");
 	Handles.SetPipeline(Pipeline->GetGroupHandles(), Pipeline->GetGroupCount());
-	if (Handles.IsCrowded())
-	{
-		PruneHandles();
-	}
+	if (Handles.IsCrowded()) { PruneHandles(); }
 }
 
-void FVulkanShaderTable::SetRecord(ERTRecordKind Kind, uint32_t Index, uint32_t Group, const void* Data,
-                                   uint32_t DataBytes)
+void FVulkanShaderTable::SetRecord(ERTRecordKind Kind, uint32_t Index, uint32_t Group, const void* Data, uint32_t DataBytes)
 {
 	assert(Group < Pipeline->GetGroupCount());
 	Of(Kind).SetOne(Index, Handles.GetSlotsOfGroups()[Group], Data, DataBytes);
@@ -174,10 +149,7 @@ bool FVulkanShaderTable::IsDirty() const
 
 void FVulkanShaderTable::MarkAllDirty()
 {
-	for (FVulkanTableRecords& Kind : Records)
-	{
-		Kind.MarkDirty({0, Kind.GetCount()});
-	}
+	for (FVulkanTableRecords& Kind : Records) { Kind.MarkDirty({0, Kind.GetCount()}); }
 }
 
 void FVulkanShaderTable::Invalidate()
@@ -195,29 +167,17 @@ void FVulkanShaderTable::ReturnBatches()
 	{
 		for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
 		{
-			for (const FRun& Run : Batch.Parts[Kind].Runs)
-			{
-				Records[Kind].MarkDirty(Run);
-			}
+			for (const FRun& Run : Batch.Parts[Kind].Runs) { Records[Kind].MarkDirty(Run); }
 		}
-		for (const FRun& Run : Batch.HitHandles.Runs)
-		{
-			Of(ERTRecordKind::Hit).MarkDirty(Run);
-		}
+		for (const FRun& Run : Batch.HitHandles.Runs) { Of(ERTRecordKind::Hit).MarkDirty(Run); }
 	}
 	Batches.clear();
 }
 
 FRTStatus FVulkanShaderTable::Stage()
 {
-	if (!IsDirty())
-	{
-		return {};
-	}
-	if (Batches.size() >= MaxBatches)
-	{
-		ReturnBatches();
-	}
+	if (!IsDirty()) { return {}; }
+	if (Batches.size() >= MaxBatches) { ReturnBatches(); }
 	FBatch Batch;
 	uint64_t Bytes = 0;
 	TakeDirtyHandles(Batch, Bytes);
@@ -256,10 +216,7 @@ void FVulkanShaderTable::Fill(const FBatch& Batch) const
 		{
 			Records[Kind].CopyTo(Dest, Run, Handles.GetHandles());
 			Dest += Records[Kind].GetStride() * Run.Count;
-			for (uint32_t Record = 0; Part.bScatter && Record < Run.Count; ++Record)
-			{
-				*Index++ = Run.First + Record;
-			}
+			for (uint32_t Record = 0; Part.bScatter && Record < Run.Count; ++Record) { *Index++ = Run.First + Record; }
 		}
 	}
 }
@@ -269,15 +226,11 @@ FRTStatus FVulkanShaderTable::FindHostCopy(uint64_t Size, TRTRef<FVulkanTableBuf
 	++StageCount;
 	DropIdleHostCopies();
 	// Of the free ones that are large enough the smallest; else the largest grows.
-	const auto Find = [&]() -> FHostCopy*
-	{
+	const auto Find = [&]() -> FHostCopy* {
 		FHostCopy* Best = nullptr;
 		for (FHostCopy& Copy : HostCopies)
 		{
-			if (Copy.Buffer->GetReferences() > 1)
-			{
-				continue;
-			}
+			if (Copy.Buffer->GetReferences() > 1) { continue; }
 			const uint64_t Has = Copy.Buffer->Size;
 			const uint64_t BestHas = Best ? Best->Buffer->Size : 0;
 			const bool bBetter = Has >= Size ? BestHas < Size || Has < BestHas : BestHas < Size && Has > BestHas;
@@ -296,10 +249,7 @@ FRTStatus FVulkanShaderTable::FindHostCopy(uint64_t Size, TRTRef<FVulkanTableBuf
 		TRTRef<FVulkanTableBuffer> Made;
 		const uint64_t Bytes = std::max(Size + Size / 4, std::min(MinHostCopyBytes, Newest().Buffer->Size));
 		FRTStatus Status = MakeBuffer(Bytes, HostUsage, ERTMemory::Upload, " (host)", Made);
-		if (!Status)
-		{
-			return Status;
-		}
+		if (!Status) { return Status; }
 		Copy = Copy ? Copy : &HostCopies.emplace_back();
 		Copy->Buffer = std::move(Made);
 	}
@@ -310,16 +260,12 @@ FRTStatus FVulkanShaderTable::FindHostCopy(uint64_t Size, TRTRef<FVulkanTableBuf
 
 void FVulkanShaderTable::DropIdleHostCopies()
 {
-	const auto IsIdle = [&](const FHostCopy& Copy)
-	{
+	const auto IsIdle = [&](const FHostCopy& Copy) {
 		const bool bSpare = Copy.Buffer->Size > MinHostCopyBytes || HostCopies.size() > Desc.Copies;
 		return bSpare && StageCount - Copy.LastUse > IdleStagings && Copy.Buffer->GetReferences() == 1;
 	};
 	const auto Idle = std::find_if(HostCopies.begin(), HostCopies.end(), IsIdle);
-	if (Idle != HostCopies.end())
-	{
-		HostCopies.erase(Idle);
-	}
+	if (Idle != HostCopies.end()) { HostCopies.erase(Idle); }
 }
 
 // ------------------------------------------------------------------------------------------------ the GPU's side
@@ -328,10 +274,7 @@ void FVulkanShaderTable::AddMove(FUpdate& Out)
 {
 	const FLayout& To = Newest();
 	const bool bMoves = bCurrentUsed && Next.Buffer;
-	if (bContentLost || (bCurrentUsed && !bMoves))
-	{
-		return;
-	}
+	if (bContentLost || (bCurrentUsed && !bMoves)) { return; }
 	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
 	{
 		const uint64_t Stride = Records[Kind].GetStride();
@@ -342,10 +285,7 @@ void FVulkanShaderTable::AddMove(FUpdate& Out)
 			Out.Moved.Source = Current.Buffer;
 			Out.Moved.Regions.push_back({Current.Offsets[Kind], To.Offsets[Kind], Old});
 		}
-		if (All > Old)
-		{
-			Out.Zeros.push_back({To.Offsets[Kind] + Old, All - Old});
-		}
+		if (All > Old) { Out.Zeros.push_back({To.Offsets[Kind] + Old, All - Old}); }
 	}
 }
 
@@ -358,9 +298,8 @@ void FVulkanShaderTable::AddPart(const FBatch& Batch, uint32_t Kind, FCopies& Ou
 	{
 		const VkDeviceAddress From = Batch.Source->Block.Address;
 		assert(Stride % sizeof(uint32_t) == 0);
-		Out.Scatters.push_back({Current.Buffer->Block.Address + Current.Offsets[Kind], From + Part.Offset,
-		                        From + Part.IndexOffset, static_cast<uint32_t>(Stride / sizeof(uint32_t)), Part.Count,
-		                        static_cast<uint32_t>(Stride / sizeof(uint32_t)), false});
+		Out.Scatters.push_back({Current.Buffer->Block.Address + Current.Offsets[Kind], From + Part.Offset, From + Part.IndexOffset,
+		    static_cast<uint32_t>(Stride / sizeof(uint32_t)), Part.Count, static_cast<uint32_t>(Stride / sizeof(uint32_t)), false});
 		return;
 	}
 	uint64_t Offset = Part.Offset;
@@ -374,10 +313,7 @@ void FVulkanShaderTable::AddPart(const FBatch& Batch, uint32_t Kind, FCopies& Ou
 FRTStatus FVulkanShaderTable::TakeUpdate(FUpdate& Out)
 {
 	FRTStatus Status = Stage();
-	if (!Status)
-	{
-		return Status;
-	}
+	if (!Status) { return Status; }
 	AddMove(Out);
 	if (Next.Buffer)
 	{
@@ -396,10 +332,7 @@ FRTStatus FVulkanShaderTable::TakeUpdate(FUpdate& Out)
 			OfHandles.Source = Batch.Source;
 		}
 		FCopies& Copies = Out.Copies.emplace_back();
-		for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
-		{
-			AddPart(Batch, Kind, Copies);
-		}
+		for (uint32_t Kind = 0; Kind < KindCount; ++Kind) { AddPart(Batch, Kind, Copies); }
 		Copies.Source = std::move(Batch.Source);
 	}
 	Batches.clear();
@@ -414,10 +347,7 @@ VkStridedDeviceAddressRegionKHR FVulkanShaderTable::GetRegion(ERTRecordKind Kind
 	const uint64_t Stride = Records[Index].GetStride();
 	const uint32_t Count = Current.Counts[Index];
 	const VkDeviceAddress Address = Current.Buffer->Block.Address + Current.Offsets[Index];
-	if (Count == 0)
-	{
-		return {};
-	}
+	if (Count == 0) { return {}; }
 	if (Kind == ERTRecordKind::RayGen)
 	{
 		assert(RayGen < Count);

@@ -1,9 +1,9 @@
 // The shader binding table: records on the CPU, host copies of what is new, and the table on the GPU.
 #pragma once
 
+#include "Pipelines/VulkanPipeline.h"
 #include "Resources/VulkanBuffer.h"
 #include "ShaderTable/VulkanHandleStore.h"
-#include "Pipelines/VulkanPipeline.h"
 #include "ShaderTable/VulkanTableRecords.h"
 
 namespace Lantern
@@ -109,8 +109,7 @@ private:
 	const FVulkanTableRecords& Of(ERTRecordKind Kind) const { return Records[static_cast<uint32_t>(Kind)]; }
 	const FLayout& Newest() const { return Next.Buffer ? Next : Current; }
 	FRTStatus MakeLayout(const uint32_t Counts[KindCount], FLayout& Out);
-	FRTStatus MakeBuffer(uint64_t Size, VkBufferUsageFlags Usage, ERTMemory Memory, const char* Suffix,
-	                     TRTRef<FVulkanTableBuffer>& Out);
+	FRTStatus MakeBuffer(uint64_t Size, VkBufferUsageFlags Usage, ERTMemory Memory, const char* Suffix, TRTRef<FVulkanTableBuffer>& Out);
 	void PruneHandles();
 	bool IsDirty() const;
 	void MarkAllDirty();

@@ -10,15 +10,9 @@ namespace Lantern
 void FVulkanShaderTable::PruneHandles()
 {
 	std::vector<bool> Used(Handles.GetCount(), false);
-	for (const FVulkanTableRecords& Kind : Records)
-	{
-		Kind.MarkUsed(Used);
-	}
+	for (const FVulkanTableRecords& Kind : Records) { Kind.MarkUsed(Used); }
 	const std::vector<uint32_t> NewOf = Handles.Prune(Used);
-	for (FVulkanTableRecords& Kind : Records)
-	{
-		Kind.Renumber(NewOf);
-	}
+	for (FVulkanTableRecords& Kind : Records) { Kind.Renumber(NewOf); }
 }
 
 void FVulkanShaderTable::TakeDirtyHandles(FBatch& Batch, uint64_t& InOutBytes)
@@ -34,10 +28,7 @@ void FVulkanShaderTable::TakeDirtyHandles(FBatch& Batch, uint64_t& InOutBytes)
 			Part.Count = static_cast<uint32_t>(FVulkanTableRecords::CountRecords(Part.Runs));
 			continue;
 		}
-		for (const FRun& Run : Runs)
-		{
-			Kind.MarkDirty(Run);
-		}
+		for (const FRun& Run : Runs) { Kind.MarkDirty(Run); }
 	}
 	FHandlePart& Part = Batch.HitHandles;
 	if (Part.Count > 0)
@@ -51,10 +42,7 @@ void FVulkanShaderTable::TakeDirtyHandles(FBatch& Batch, uint64_t& InOutBytes)
 void FVulkanShaderTable::FillHandles(const FBatch& Batch) const
 {
 	const FHandlePart& Part = Batch.HitHandles;
-	if (Part.Count == 0)
-	{
-		return;
-	}
+	if (Part.Count == 0) { return; }
 	uint8_t* Begin = static_cast<uint8_t*>(Batch.Source->Block.Allocation.Mapped);
 	uint32_t* Slot = reinterpret_cast<uint32_t*>(Begin + Part.SlotOffset);
 	for (const FRun& Run : Part.Runs)
@@ -62,8 +50,7 @@ void FVulkanShaderTable::FillHandles(const FBatch& Batch) const
 		Of(ERTRecordKind::Hit).CopySlotsTo(Slot, Run);
 		Slot += Run.Count;
 	}
-	memcpy(Begin + Part.HandleOffset, Handles.GetHandles(),
-	       uint64_t(Handles.GetCount()) * Device.GetCapabilities().ShaderGroupHandleSize);
+	memcpy(Begin + Part.HandleOffset, Handles.GetHandles(), uint64_t(Handles.GetCount()) * Device.GetCapabilities().ShaderGroupHandleSize);
 }
 
 void FVulkanShaderTable::AddHandles(const FBatch& Batch, FCopies& Out)
@@ -77,9 +64,8 @@ void FVulkanShaderTable::AddHandles(const FBatch& Batch, FCopies& Out)
 	VkDeviceAddress Slots = From + Part.SlotOffset;
 	for (const FRun& Run : Part.Runs)
 	{
-		Out.Scatters.push_back({To + Stride * Run.First, From + Part.HandleOffset, Slots,
-		                        HandleSize / uint32_t(sizeof(uint32_t)), Run.Count,
-		                        static_cast<uint32_t>(Stride / sizeof(uint32_t)), true});
+		Out.Scatters.push_back({To + Stride * Run.First, From + Part.HandleOffset, Slots, HandleSize / uint32_t(sizeof(uint32_t)),
+		    Run.Count, static_cast<uint32_t>(Stride / sizeof(uint32_t)), true});
 		Slots += sizeof(uint32_t) * Run.Count;
 	}
 	UpdatedBytes += sizeof(uint32_t) * uint64_t(Part.Count) + uint64_t(Handles.GetCount()) * HandleSize;

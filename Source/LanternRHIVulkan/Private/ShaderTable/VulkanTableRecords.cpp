@@ -11,10 +11,7 @@ namespace Lantern
 namespace
 {
 
-constexpr uint64_t FullMask(uint32_t Bits)
-{
-	return Bits >= 64 ? ~uint64_t(0) : (uint64_t(1) << Bits) - 1;
-}
+constexpr uint64_t FullMask(uint32_t Bits) { return Bits >= 64 ? ~uint64_t(0) : (uint64_t(1) << Bits) - 1; }
 
 } // namespace
 
@@ -55,113 +52,69 @@ void FVulkanTableRecords::ForEachPiece(uint32_t First, uint32_t InCount, TWrite&
 		{
 			Word.store(Mask, std::memory_order_relaxed); // no other thread names a record of this word
 		}
-		else if (Mask & ~Word.load(std::memory_order_relaxed))
-		{
-			Word.fetch_or(Mask, std::memory_order_relaxed);
-		}
+		else if (Mask & ~Word.load(std::memory_order_relaxed)) { Word.fetch_or(Mask, std::memory_order_relaxed); }
 		bAny = bAny || Mask;
 		Done += Piece;
 	}
-	if (bAny && !bDirty.load(std::memory_order_relaxed))
-	{
-		bDirty.store(true, std::memory_order_relaxed);
-	}
+	if (bAny && !bDirty.load(std::memory_order_relaxed)) { bDirty.store(true, std::memory_order_relaxed); }
 }
 
-void FVulkanTableRecords::Set(uint32_t First, uint32_t InCount, const uint32_t* SlotsOfGroups, const uint32_t* Groups,
-                              const void* Data)
+void FVulkanTableRecords::Set(uint32_t First, uint32_t InCount, const uint32_t* SlotsOfGroups, const uint32_t* Groups, const void* Data)
 {
 	const uint8_t* Source = static_cast<const uint8_t*>(Data);
-	ForEachPiece(First, InCount,
-	             [&](FPage& Page, uint32_t Within, uint32_t Done, uint32_t Piece)
-	             {
-		             for (uint32_t Index = 0; Index < Piece; ++Index)
-		             {
-			             Page.Slots[Within + Index] = SlotsOfGroups[Groups[Done + Index]];
-		             }
-		             uint8_t* Dest = Page.Data.get() + size_t(DataBytes) * Within;
-		             if (Source)
-		             {
-			             memcpy(Dest, Source + size_t(DataBytes) * Done, size_t(DataBytes) * Piece);
-		             }
-		             else
-		             {
-			             memset(Dest, 0, size_t(DataBytes) * Piece);
-		             }
-		             return FullMask(Piece);
-	             });
+	ForEachPiece(First, InCount, [&](FPage& Page, uint32_t Within, uint32_t Done, uint32_t Piece) {
+		for (uint32_t Index = 0; Index < Piece; ++Index) { Page.Slots[Within + Index] = SlotsOfGroups[Groups[Done + Index]]; }
+		uint8_t* Dest = Page.Data.get() + size_t(DataBytes) * Within;
+		if (Source) { memcpy(Dest, Source + size_t(DataBytes) * Done, size_t(DataBytes) * Piece); }
+		else { memset(Dest, 0, size_t(DataBytes) * Piece); }
+		return FullMask(Piece);
+	});
 }
 
 void FVulkanTableRecords::SetOne(uint32_t Index, uint32_t Slot, const void* Data, uint32_t InDataBytes)
 {
 	assert(InDataBytes <= DataBytes);
-	ForEachPiece(Index, 1,
-	             [&](FPage& Page, uint32_t Within, uint32_t, uint32_t)
-	             {
-		             Page.Slots[Within] = Slot;
-		             uint8_t* Dest = Page.Data.get() + size_t(DataBytes) * Within;
-		             const uint32_t Given = Data ? InDataBytes : 0;
-		             if (Given)
-		             {
-			             memcpy(Dest, Data, Given);
-		             }
-		             if (Given < DataBytes)
-		             {
-			             memset(Dest + Given, 0, DataBytes - Given);
-		             }
-		             return uint64_t(1);
-	             });
+	ForEachPiece(Index, 1, [&](FPage& Page, uint32_t Within, uint32_t, uint32_t) {
+		Page.Slots[Within] = Slot;
+		uint8_t* Dest = Page.Data.get() + size_t(DataBytes) * Within;
+		const uint32_t Given = Data ? InDataBytes : 0;
+		if (Given) { memcpy(Dest, Data, Given); }
+		if (Given < DataBytes) { memset(Dest + Given, 0, DataBytes - Given); }
+		return uint64_t(1);
+	});
 }
 
-void FVulkanTableRecords::SetHandles(uint32_t First, uint32_t InCount, const uint32_t* SlotsOfGroups,
-                                     const uint32_t* Groups)
+void FVulkanTableRecords::SetHandles(uint32_t First, uint32_t InCount, const uint32_t* SlotsOfGroups, const uint32_t* Groups)
 {
 	const bool bMany = InCount >= ManyHandles;
 	bool bAny = false;
-	ForEachPiece(First, InCount,
-	             [&](FPage& Page, uint32_t Within, uint32_t Done, uint32_t Piece)
-	             {
-		             uint64_t Changed = 0;
-		             for (uint32_t Index = 0; Index < Piece; ++Index)
-		             {
-			             const uint32_t Slot = SlotsOfGroups[Groups[Done + Index]];
-			             Changed |= uint64_t(Page.Slots[Within + Index] != Slot) << Index;
-			             Page.Slots[Within + Index] = Slot;
-		             }
-		             if (bMany && Changed && !Page.bHandlesDirty.load(std::memory_order_relaxed))
-		             {
-			             Page.bHandlesDirty.store(true, std::memory_order_relaxed);
-		             }
-		             bAny = bAny || Changed;
-		             return bMany ? uint64_t(0) : Changed;
-	             });
-	if (bMany && bAny)
-	{
-		bAnyHandlesDirty.store(true, std::memory_order_relaxed);
-	}
+	ForEachPiece(First, InCount, [&](FPage& Page, uint32_t Within, uint32_t Done, uint32_t Piece) {
+		uint64_t Changed = 0;
+		for (uint32_t Index = 0; Index < Piece; ++Index)
+		{
+			const uint32_t Slot = SlotsOfGroups[Groups[Done + Index]];
+			Changed |= uint64_t(Page.Slots[Within + Index] != Slot) << Index;
+			Page.Slots[Within + Index] = Slot;
+		}
+		if (bMany && Changed && !Page.bHandlesDirty.load(std::memory_order_relaxed))
+		{
+			Page.bHandlesDirty.store(true, std::memory_order_relaxed);
+		}
+		bAny = bAny || Changed;
+		return bMany ? uint64_t(0) : Changed;
+	});
+	if (bMany && bAny) { bAnyHandlesDirty.store(true, std::memory_order_relaxed); }
 }
 
 void FVulkanTableRecords::TakeDirtyHandles(std::vector<FRun>& Out)
 {
-	if (!bAnyHandlesDirty.exchange(false, std::memory_order_relaxed))
-	{
-		return;
-	}
+	if (!bAnyHandlesDirty.exchange(false, std::memory_order_relaxed)) { return; }
 	for (uint32_t First = 0; First < Count; First += PageRecords)
 	{
-		if (!Pages[First / PageRecords]->bHandlesDirty.exchange(false, std::memory_order_relaxed))
-		{
-			continue;
-		}
+		if (!Pages[First / PageRecords]->bHandlesDirty.exchange(false, std::memory_order_relaxed)) { continue; }
 		const uint32_t Length = std::min(PageRecords, Count - First);
-		if (!Out.empty() && Out.back().First + Out.back().Count == First)
-		{
-			Out.back().Count += Length;
-		}
-		else
-		{
-			Out.push_back({First, Length});
-		}
+		if (!Out.empty() && Out.back().First + Out.back().Count == First) { Out.back().Count += Length; }
+		else { Out.push_back({First, Length}); }
 	}
 }
 
@@ -182,10 +135,7 @@ void FVulkanTableRecords::MarkUsed(std::vector<bool>& Used) const
 {
 	for (const std::unique_ptr<FPage>& Page : Pages)
 	{
-		for (const uint32_t Slot : Page->Slots)
-		{
-			Used[Slot] = true;
-		}
+		for (const uint32_t Slot : Page->Slots) { Used[Slot] = true; }
 	}
 }
 
@@ -193,10 +143,7 @@ void FVulkanTableRecords::Renumber(const std::vector<uint32_t>& NewOf)
 {
 	for (const std::unique_ptr<FPage>& Page : Pages)
 	{
-		for (uint32_t& Slot : Page->Slots)
-		{
-			Slot = NewOf[Slot];
-		}
+		for (uint32_t& Slot : Page->Slots) { Slot = NewOf[Slot]; }
 	}
 }
 
@@ -207,32 +154,20 @@ void FVulkanTableRecords::MarkDirty(FRun Run)
 
 void FVulkanTableRecords::TakeDirty(std::vector<FRun>& Out)
 {
-	if (!bDirty.exchange(false, std::memory_order_relaxed))
-	{
-		return;
-	}
+	if (!bDirty.exchange(false, std::memory_order_relaxed)) { return; }
 	const size_t Start = Out.size();
 	for (uint32_t First = 0; First < Count; First += WordBits)
 	{
 		std::atomic<uint64_t>& Dirty = Pages[First / PageRecords]->Dirty[First % PageRecords / WordBits];
 		uint64_t Word = Dirty.load(std::memory_order_relaxed);
-		if (Word == 0)
-		{
-			continue;
-		}
+		if (Word == 0) { continue; }
 		Dirty.store(0, std::memory_order_relaxed);
 		while (Word)
 		{
 			const uint32_t Begin = static_cast<uint32_t>(std::countr_zero(Word));
 			const uint32_t Length = static_cast<uint32_t>(std::countr_one(Word >> Begin));
-			if (Out.size() > Start && Out.back().First + Out.back().Count == First + Begin)
-			{
-				Out.back().Count += Length;
-			}
-			else
-			{
-				Out.push_back({First + Begin, Length});
-			}
+			if (Out.size() > Start && Out.back().First + Out.back().Count == First + Begin) { Out.back().Count += Length; }
+			else { Out.push_back({First + Begin, Length}); }
 			Word &= ~(FullMask(Length) << Begin);
 		}
 	}
@@ -241,16 +176,12 @@ void FVulkanTableRecords::TakeDirty(std::vector<FRun>& Out)
 uint64_t FVulkanTableRecords::CountRecords(const std::vector<FRun>& Runs)
 {
 	uint64_t Sum = 0;
-	for (const FRun& Run : Runs)
-	{
-		Sum += Run.Count;
-	}
+	for (const FRun& Run : Runs) { Sum += Run.Count; }
 	return Sum;
 }
 
 template <uint32_t HandleBytes, uint32_t RecordBytes>
-void FVulkanTableRecords::ComposeFixed(uint8_t* Dest, const FPage& Page, uint32_t Within, uint32_t InCount,
-                                       const uint8_t* Handles)
+void FVulkanTableRecords::ComposeFixed(uint8_t* Dest, const FPage& Page, uint32_t Within, uint32_t InCount, const uint8_t* Handles)
 {
 	const uint8_t* Data = Page.Data.get() + size_t(RecordBytes) * Within;
 	for (uint32_t Index = 0; Index < InCount; ++Index, Dest += HandleBytes + RecordBytes, Data += RecordBytes)
@@ -260,14 +191,10 @@ void FVulkanTableRecords::ComposeFixed(uint8_t* Dest, const FPage& Page, uint32_
 	}
 }
 
-void FVulkanTableRecords::Compose(uint8_t* Dest, const FPage& Page, uint32_t Within, uint32_t InCount,
-                                  const uint8_t* Handles) const
+void FVulkanTableRecords::Compose(uint8_t* Dest, const FPage& Page, uint32_t Within, uint32_t InCount, const uint8_t* Handles) const
 {
 	// Sizes known at compile time make a record a few vector moves.
-	if (HandleSize == 32 && DataBytes == 32 && Stride == 64)
-	{
-		return ComposeFixed<32, 32>(Dest, Page, Within, InCount, Handles);
-	}
+	if (HandleSize == 32 && DataBytes == 32 && Stride == 64) { return ComposeFixed<32, 32>(Dest, Page, Within, InCount, Handles); }
 	const uint8_t* Data = Page.Data.get() + size_t(DataBytes) * Within;
 	for (uint32_t Index = 0; Index < InCount; ++Index, Dest += Stride, Data += DataBytes)
 	{

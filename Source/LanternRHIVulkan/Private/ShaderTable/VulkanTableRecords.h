@@ -40,10 +40,7 @@ public:
 	void Renumber(const std::vector<uint32_t>& NewOf);
 
 	void MarkDirty(FRun Run);
-	bool IsDirty() const
-	{
-		return bDirty.load(std::memory_order_relaxed) || bAnyHandlesDirty.load(std::memory_order_relaxed);
-	}
+	bool IsDirty() const { return bDirty.load(std::memory_order_relaxed) || bAnyHandlesDirty.load(std::memory_order_relaxed); }
 	/// Appends the dirty runs, in order, and makes them clean.
 	void TakeDirty(std::vector<FRun>& Out);
 	/// The same for runs of which the handles alone are dirty; records between them that are not may be among them.
@@ -72,8 +69,7 @@ private:
 	template <class TWrite>
 	void ForEachPiece(uint32_t First, uint32_t InCount, TWrite&& Write);
 	template <uint32_t HandleBytes, uint32_t RecordBytes>
-	static void ComposeFixed(uint8_t* Dest, const FPage& Page, uint32_t Within, uint32_t InCount,
-	                         const uint8_t* Handles);
+	static void ComposeFixed(uint8_t* Dest, const FPage& Page, uint32_t Within, uint32_t InCount, const uint8_t* Handles);
 	void Compose(uint8_t* Dest, const FPage& Page, uint32_t Within, uint32_t InCount, const uint8_t* Handles) const;
 
 	uint64_t Stride = 0;

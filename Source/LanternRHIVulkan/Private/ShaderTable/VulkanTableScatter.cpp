@@ -13,22 +13,15 @@ namespace Lantern
 FRTStatus FVulkanTableScatter::Prepare(FVulkanDevice& Device)
 {
 	std::scoped_lock Lock(Mutex);
-	if (Pipeline)
-	{
-		return {};
-	}
+	if (Pipeline) { return {}; }
 	FVulkanModules Modules(Device);
-	FRTStatus Status = Modules.Add(
-	    {ScatterRecords_comp, std::size(ScatterRecords_comp), ERTShaderStage::Compute, "ScatterRecords.comp"});
-	if (!Status)
-	{
-		return Status;
-	}
+	FRTStatus Status = Modules.Add({ScatterRecords_comp, std::size(ScatterRecords_comp), ERTShaderStage::Compute, "ScatterRecords.comp"});
+	if (!Status) { return Status; }
 	VkComputePipelineCreateInfo Info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
 	Info.stage = Modules.Stages[0];
 	Info.layout = Device.Bindless.PipelineLayout;
-	const VkResult Result = Device.Check(
-	    Device.Api.CreateComputePipelines(Device.Handle, Device.Cache.Handle, 1, &Info, nullptr, &Pipeline));
+	const VkResult Result =
+	    Device.Check(Device.Api.CreateComputePipelines(Device.Handle, Device.Cache.Handle, 1, &Info, nullptr, &Pipeline));
 	Pipeline = Result == VK_SUCCESS ? Pipeline : VK_NULL_HANDLE;
 	Device.SetName(VK_OBJECT_TYPE_PIPELINE, ToNative(Pipeline), "ScatterRecords");
 	return MakeStatus(Result, "Creating compute pipeline", "ScatterRecords");

@@ -19,24 +19,28 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<bool> CVarEnable("r.RT.AO", true,
-                                    "Ray-traced ambient occlusion of the sky's ambient light. Costs nothing without a sky (r.RT.SkyAmbient), "
-                                    "and where diffuse global illumination takes its place.");
+    "Ray-traced ambient occlusion of the sky's ambient light. Costs nothing without a sky (r.RT.SkyAmbient), "
+    "and where diffuse global illumination takes its place.");
 TRTConsoleVariable<int32_t> CVarSamples("r.RT.AO.Samples", 1, "Ambient occlusion rays per pixel.", {1, 16});
 TRTConsoleVariable<float> CVarRadius("r.RT.AO.Radius", 2.0f,
-                                     "What is farther away than so many metres does not occlude; what is nearer does by 1 - (distance / radius)^2.",
-                                     {0.001, 1e6});
+    "What is farther away than so many metres does not occlude; what is nearer does by 1 - (distance / radius)^2.", {0.001, 1e6});
 TRTConsoleVariable<int32_t> CVarPath("r.RT.AO.Path", 0, "0: what the device does best. 1: ray-tracing pipeline. 2: ray query.", {0, 2});
-TRTConsoleVariable<int32_t> CVarMask("r.RT.AO.InstanceMask", MaskCastsShadow, "Only objects that share a bit with this mask occlude.", {0, 255});
+TRTConsoleVariable<int32_t> CVarMask(
+    "r.RT.AO.InstanceMask", MaskCastsShadow, "Only objects that share a bit with this mask occlude.", {0, 255});
 TRTConsoleVariable<bool> CVarDenoise("r.RT.AO.Denoise", true, "Ambient occlusion is accumulated over frames and smoothed along surfaces.");
-TRTConsoleVariable<float> CVarHistory("r.RT.AO.HistorySeconds", 0.5f, "Time constant of what r.RT.AO.Denoise accumulates. 0: nothing is.", {0.0, 60.0});
-TRTConsoleVariable<int32_t> CVarPasses("r.RT.AO.FilterPasses", 4, "Passes of the filter of r.RT.AO.Denoise; n of them reach 2^n - 1 pixels.", {0, 5});
-TRTConsoleVariable<float> CVarSigma("r.RT.AO.FilterSigma", 1.2f, "Which differences the filter takes for noise, in standard deviations.", {0.0, 100.0});
+TRTConsoleVariable<float> CVarHistory(
+    "r.RT.AO.HistorySeconds", 0.5f, "Time constant of what r.RT.AO.Denoise accumulates. 0: nothing is.", {0.0, 60.0});
+TRTConsoleVariable<int32_t> CVarPasses(
+    "r.RT.AO.FilterPasses", 4, "Passes of the filter of r.RT.AO.Denoise; n of them reach 2^n - 1 pixels.", {0, 5});
+TRTConsoleVariable<float> CVarSigma(
+    "r.RT.AO.FilterSigma", 1.2f, "Which differences the filter takes for noise, in standard deviations.", {0.0, 100.0});
 TRTConsoleVariable<float> CVarClamp("r.RT.AO.ClampSigma", 7.0f,
-                                    "Accumulated occlusion stays within what the neighbourhood says now, give or take this many standard deviations. 0: any.", {0.0, 100.0});
+    "Accumulated occlusion stays within what the neighbourhood says now, give or take this many standard deviations. 0: any.",
+    {0.0, 100.0});
 TRTConsoleVariable<float> CVarChange("r.RT.AO.ChangeSigma", 2.0f,
-                                     "Accumulation starts anew where occlusion has changed by more than this many standard errors. 0: never.", {0.0, 100.0});
+    "Accumulation starts anew where occlusion has changed by more than this many standard errors. 0: never.", {0.0, 100.0});
 TRTConsoleVariable<float> CVarResampling("r.RT.AO.Resampling", 0.5f,
-                                         "How much of the difference between neighbours counts as error where accumulated occlusion is resampled between them.", {0.0, 100.0});
+    "How much of the difference between neighbours counts as error where accumulated occlusion is resampled between them.", {0.0, 100.0});
 
 /// Whether the frame does anything with it.
 bool IsWanted(const FSceneFacts& Facts, const FSignalRequests& Requests, bool bDiffuseGI)
@@ -95,7 +99,8 @@ FGraphTexture AddTracePass(FFrameContext& Context, const FGBuffer& GBuffer, IRTP
 			}
 			Pass.Commands().SetPipeline(Frame->RayPipeline->GetPipeline());
 			Pass.Commands().PushConstants(&Constants, sizeof(Constants));
-			Pass.Commands().TraceRays(Frame->RayBindings->GetTable(), Frame->GetRayGen(EFrameRayGen::AmbientOcclusion), Frame->Width, Frame->Height, 1);
+			Pass.Commands().TraceRays(
+			    Frame->RayBindings->GetTable(), Frame->GetRayGen(EFrameRayGen::AmbientOcclusion), Frame->Width, Frame->Height, 1);
 		};
 	});
 	return Output;
@@ -107,7 +112,8 @@ FAmbientOcclusionSettings GetAmbientOcclusionSettings()
 	return {CVarRadius.GetOnRenderThread(), static_cast<uint32_t>(CVarMask.GetOnRenderThread())};
 }
 
-ERayPath ChooseAmbientOcclusionPath(const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FSignalRequests& Requests, bool bDiffuseGI)
+ERayPath ChooseAmbientOcclusionPath(
+    const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FSignalRequests& Requests, bool bDiffuseGI)
 {
 	if (!IsWanted(Facts, Requests, bDiffuseGI)) { return ERayPath::None; }
 	const int32_t Wanted = CVarPath.GetOnRenderThread();
@@ -123,8 +129,8 @@ ERayPath ChooseAmbientOcclusionPath(const FRTCapabilities& Capabilities, const F
 	return ERayPath::None;
 }
 
-std::optional<FPassRays> ChooseAmbientOcclusionRays(const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FSignalRequests& Requests,
-                                                    bool bDiffuseGI)
+std::optional<FPassRays> ChooseAmbientOcclusionRays(
+    const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FSignalRequests& Requests, bool bDiffuseGI)
 {
 	if (ChooseAmbientOcclusionPath(Capabilities, Facts, Requests, bDiffuseGI) != ERayPath::Pipeline) { return std::nullopt; }
 	return MakePassRays("AmbientOcclusion/AmbientOcclusion.rgen", MakeDefines(), false);

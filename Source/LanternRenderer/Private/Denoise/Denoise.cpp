@@ -17,8 +17,10 @@ namespace Lantern
 namespace
 {
 // What `lantern stability` switches off to see that its cases notice.
-TRTConsoleVariable<bool> CVarValidate("r.RT.Debug.Denoise.Validate", true, "Planted fault. Off: the filter takes what was in a pixel's place before for its surface, whatever it was.");
-TRTConsoleVariable<bool> CVarAdapt("r.RT.Debug.Denoise.Adapt", true, "Planted fault. Off: the filter neither clamps what it accumulated nor looks for changes or noise, whatever its client asks for.");
+TRTConsoleVariable<bool> CVarValidate("r.RT.Debug.Denoise.Validate", true,
+    "Planted fault. Off: the filter takes what was in a pixel's place before for its surface, whatever it was.");
+TRTConsoleVariable<bool> CVarAdapt("r.RT.Debug.Denoise.Adapt", true,
+    "Planted fault. Off: the filter neither clamps what it accumulated nor looks for changes or noise, whatever its client asks for.");
 TRTConsoleVariable<bool> CVarGuard("r.RT.Debug.Denoise.Guard", true, "Planted fault. Off: the filter takes what is not a number for one.");
 constexpr uint32_t MaxPasses = 5;
 constexpr float NoiseSeconds = 0.08f; // over which the estimate of the noise is accumulated
@@ -29,7 +31,7 @@ struct FDenoiser
 	FFrameContext& Context;
 	const FDenoiseInputs& Inputs;
 	std::string Name;
-	bool bColor;          ///< three channels
+	bool bColor;           ///< three channels
 	ERTFormat ImageFormat; ///< of a mean beside its variance
 	IRTPipeline* Temporal = nullptr;
 	IRTPipeline* Filter = nullptr;
@@ -40,8 +42,14 @@ struct FDenoiser
 	FGraphTexture AddFilterPass(FGraphTexture Input, FGraphTexture Output, uint32_t Index);
 };
 
-uint32_t GetSampled(FPassContext& Pass, FGraphTexture Texture) { return Texture.IsValid() ? Pass.GetTexture(Texture)->GetSampledIndex() : NO_TEXTURE; }
-uint32_t GetStorage(FPassContext& Pass, FGraphTexture Texture) { return Texture.IsValid() ? Pass.GetTexture(Texture)->GetStorageIndex() : NO_TEXTURE; }
+uint32_t GetSampled(FPassContext& Pass, FGraphTexture Texture)
+{
+	return Texture.IsValid() ? Pass.GetTexture(Texture)->GetSampledIndex() : NO_TEXTURE;
+}
+uint32_t GetStorage(FPassContext& Pass, FGraphTexture Texture)
+{
+	return Texture.IsValid() ? Pass.GetTexture(Texture)->GetStorageIndex() : NO_TEXTURE;
+}
 
 float GetMinAlpha(float HistorySeconds, float DeltaSeconds)
 {
@@ -74,7 +82,10 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 		if (Inputs.Extent.IsValid()) { Builder.Read(Inputs.Extent, ERTAccess::ShaderRead); }
 		if (bReproject)
 		{
-			for (const FGraphTexture Texture : {Surface.Motion, Surface.Previous, History.Previous}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+			for (const FGraphTexture Texture : {Surface.Motion, Surface.Previous, History.Previous})
+			{
+				Builder.Read(Texture, ERTAccess::ShaderRead);
+			}
 			if (bColor) { Builder.Read(Moments.Previous, ERTAccess::ShaderRead); }
 		}
 		Builder.Write(History.Current, ERTAccess::StorageWrite);
@@ -88,8 +99,8 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 		C.NoiseAlpha = GetMinAlpha(NoiseSeconds, Context.View.DeltaSeconds);
 		C.Resampling = Inputs.Settings.Resampling;
 		C.RaysPerPixel = static_cast<float>(std::max(Inputs.RaysPerPixel, 1u));
-		return [=, Signal = Inputs.Signal, Extent = Inputs.Extent, Pipeline = Temporal, Kept = History, KeptMoments = Moments, Width = Context.Width,
-		        Height = Context.Height](FPassContext& Pass) mutable {
+		return [=, Signal = Inputs.Signal, Extent = Inputs.Extent, Pipeline = Temporal, Kept = History, KeptMoments = Moments,
+		           Width = Context.Width, Height = Context.Height](FPassContext& Pass) mutable {
 			C.Signal = GetSampled(Pass, Signal);
 			C.Extent = GetSampled(Pass, Extent);
 			C.Surface = GetSampled(Pass, Surface.Current);
@@ -137,7 +148,8 @@ FGraphTexture AddDenoisePasses(FFrameContext& Context, const FDenoiseInputs& Inp
 	assert(Format == ERTFormat::R16_FLOAT || Format == ERTFormat::RGBA16_FLOAT);
 	assert(!Inputs.Extent.IsValid() || Format == ERTFormat::R16_FLOAT);
 	const bool bColor = Format == ERTFormat::RGBA16_FLOAT;
-	FDenoiser Denoiser{Context, Inputs, Inputs.Name, bColor, bColor || Inputs.Extent.IsValid() ? ERTFormat::RGBA16_FLOAT : ERTFormat::RG16_FLOAT};
+	FDenoiser Denoiser{
+	    Context, Inputs, Inputs.Name, bColor, bColor || Inputs.Extent.IsValid() ? ERTFormat::RGBA16_FLOAT : ERTFormat::RG16_FLOAT};
 	const uint32_t Passes = std::min(Inputs.Settings.Passes, MaxPasses);
 	Denoiser.Temporal = RequireCompute(Context, "Denoise/Temporal.comp", MakeDefines(bColor, Inputs.Extent.IsValid()));
 	Denoiser.Filter = Passes > 0 ? RequireCompute(Context, "Denoise/Filter.comp", MakeDefines(bColor, Inputs.Extent.IsValid())) : nullptr;

@@ -21,11 +21,11 @@ struct FDenoiseSettings
 	float ChangeSigma = 2.0f;
 	/// How much of the difference between a history's texels counts as error where it is resampled between them.
 	float Resampling = 0.5f;
-	uint32_t Passes = 4;         ///< of the wavelet, 0 to 5; together they reach 2^Passes − 1 pixels
-	float SigmaValue = 4.0f;     ///< edge stop on the signal, in standard deviations
-	float ReachExtent = 0.25f;   ///< standard deviation of the wavelet's reach where extents are known, in extents
-	float SigmaNormal = 64.0f;   ///< exponent of the cosine between normals
-	float SigmaDepth = 1.0f;     ///< edge stop on the distance to the neighbour's plane, in pixel footprints
+	uint32_t Passes = 4;       ///< of the wavelet, 0 to 5; together they reach 2^Passes − 1 pixels
+	float SigmaValue = 4.0f;   ///< edge stop on the signal, in standard deviations
+	float ReachExtent = 0.25f; ///< standard deviation of the wavelet's reach where extents are known, in extents
+	float SigmaNormal = 64.0f; ///< exponent of the cosine between normals
+	float SigmaDepth = 1.0f;   ///< edge stop on the distance to the neighbour's plane, in pixel footprints
 };
 
 struct FDenoiseInputs

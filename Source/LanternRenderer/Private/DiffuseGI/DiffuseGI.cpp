@@ -11,12 +11,13 @@ namespace Lantern
 
 namespace
 {
-TRTConsoleVariable<bool> CVarEnable("r.RT.GI", false, "Diffuse global illumination by path tracing, without a filter. Off: unoccluded ambient light of the sky.");
+TRTConsoleVariable<bool> CVarEnable(
+    "r.RT.GI", false, "Diffuse global illumination by path tracing, without a filter. Off: unoccluded ambient light of the sky.");
 TRTConsoleVariable<int32_t> CVarSamples("r.RT.GI.Samples", 1, "Paths of diffuse global illumination per pixel.", {1, 64});
 TRTConsoleVariable<int32_t> CVarBounces("r.RT.GI.Bounces", 1,
-                                        "How many surfaces may reflect light before it comes to the one that is lit. The reference of as many has one scattering "
-                                        "event more, the last.",
-                                        {1, 4});
+    "How many surfaces may reflect light before it comes to the one that is lit. The reference of as many has one scattering "
+    "event more, the last.",
+    {1, 4});
 } // namespace
 
 std::optional<FPassRays> ChooseDiffuseGIRays(const FRTCapabilities& Capabilities, const FSceneFacts& Facts)
@@ -24,7 +25,8 @@ std::optional<FPassRays> ChooseDiffuseGIRays(const FRTCapabilities& Capabilities
 	if (!IsRayTracingEnabled() || !CVarEnable.GetOnRenderThread() || Facts.Objects == 0 || !HasAnyLight(Facts)) { return std::nullopt; }
 	if (!Capabilities.bRayTracingPipeline)
 	{
-		LogOnce(ERTLogLevel::Warning, "r.RT.GI is off: paths run material shaders where they hit, and this device has no ray-tracing pipelines");
+		LogOnce(ERTLogLevel::Warning,
+		    "r.RT.GI is off: paths run material shaders where they hit, and this device has no ray-tracing pipelines");
 		return std::nullopt;
 	}
 	return MakePassRays("DiffuseGI/DiffuseGI.rgen", MakePathDefines(Facts), true);
@@ -36,7 +38,8 @@ FDiffuseGIOutputs AddDiffuseGIPass(FFrameContext& Context, const FGBuffer& GBuff
 	if (!bWanted || Context.GetRayGen(EFrameRayGen::DiffuseGI) == NoRayGen) { return {}; }
 	Context.RequireRays();
 	FDiffuseGIOutputs Out;
-	Out.Radiance = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA16_FLOAT, ERTTextureUsage::CopySource}, "DiffuseGI");
+	Out.Radiance =
+	    Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA16_FLOAT, ERTTextureUsage::CopySource}, "DiffuseGI");
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass("DiffuseGI", [&](FPassBuilder& Builder) -> FPassExecute {
 		for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
@@ -53,7 +56,8 @@ FDiffuseGIOutputs AddDiffuseGIPass(FFrameContext& Context, const FGBuffer& GBuff
 			Pass.CountRays(uint64_t(Frame->Width) * Frame->Height * C.SamplesPerPixel * GetMaxPathRays(Frame->Facts, Bounces));
 			Pass.Commands().SetPipeline(Frame->RayPipeline->GetPipeline());
 			Pass.Commands().PushConstants(&C, sizeof(C));
-			Pass.Commands().TraceRays(Frame->RayBindings->GetTable(), Frame->GetRayGen(EFrameRayGen::DiffuseGI), Frame->Width, Frame->Height, 1);
+			Pass.Commands().TraceRays(
+			    Frame->RayBindings->GetTable(), Frame->GetRayGen(EFrameRayGen::DiffuseGI), Frame->Width, Frame->Height, 1);
 		};
 	});
 	return Out;

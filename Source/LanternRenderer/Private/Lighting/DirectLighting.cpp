@@ -1,7 +1,7 @@
 // Our own composite for hosts that have none: direct light, emission, indirect light or the sky's ambient instead.
+#include "Lighting/DirectLighting.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternRenderer/Frame.h"
-#include "Lighting/DirectLighting.h"
 #include "LightingTypes.h"
 #include "PassTools.h"
 
@@ -12,7 +12,7 @@ namespace
 {
 TRTConsoleVariable<bool> CVarLocalLights("r.RT.LocalLights", true, "Direct light of the scene's point, spot and directional lights.");
 TRTConsoleVariable<bool> CVarSkyAmbient("r.RT.SkyAmbient", true, "Ambient light of the sky, where indirect light is not traced.");
-}
+} // namespace
 
 bool HasSkyAmbient(const FSceneFacts& Facts) { return Facts.bSky && CVarSkyAmbient.GetOnRenderThread(); }
 
@@ -29,7 +29,10 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 	const uint32_t Width = Context.Width, Height = Context.Height;
 	Context.Graph.AddPass("DirectLighting", [&](FPassBuilder& Builder) -> FPassExecute {
 		const FGBuffer& G = Inputs.GBuffer;
-		for (const FGraphTexture Texture : {G.Depth, G.Normals, G.BaseColor, G.Material, G.Emissive}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+		for (const FGraphTexture Texture : {G.Depth, G.Normals, G.BaseColor, G.Material, G.Emissive})
+		{
+			Builder.Read(Texture, ERTAccess::ShaderRead);
+		}
 		for (const FGraphTexture Texture : {Inputs.SunShadow, Inputs.AmbientOcclusion, Inputs.DiffuseGI, Inputs.Reflections})
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }

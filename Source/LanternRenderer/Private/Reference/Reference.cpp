@@ -30,8 +30,8 @@ void AddReferencePass(FFrameContext& Context, const FReferencePassInputs& Inputs
 {
 	if (Context.GetRayGen(EFrameRayGen::Reference) == NoRayGen)
 	{
-		Context.Fail(FRTStatus::Error(ERTResult::Unsupported, "the reference path tracer needs ray-tracing pipelines, which %s does not have",
-		                              Context.Device.GetCapabilities().DeviceName));
+		Context.Fail(FRTStatus::Error(ERTResult::Unsupported,
+		    "the reference path tracer needs ray-tracing pipelines, which %s does not have", Context.Device.GetCapabilities().DeviceName));
 		return;
 	}
 	Context.RequireRays();
@@ -65,7 +65,8 @@ void AddReferencePass(FFrameContext& Context, const FReferencePassInputs& Inputs
 			Pass.CountRays(uint64_t(Frame->Width) * Inputs.RowCount * Inputs.SampleCount);
 			Pass.Commands().SetPipeline(Frame->RayPipeline->GetPipeline());
 			Pass.Commands().PushConstants(&C, sizeof(C));
-			Pass.Commands().TraceRays(Frame->RayBindings->GetTable(), Frame->GetRayGen(EFrameRayGen::Reference), Frame->Width, Inputs.RowCount, 1);
+			Pass.Commands().TraceRays(
+			    Frame->RayBindings->GetTable(), Frame->GetRayGen(EFrameRayGen::Reference), Frame->Width, Inputs.RowCount, 1);
 		};
 	});
 }

@@ -37,7 +37,8 @@ struct FSkinDispatch
 bool KeepsPrevious(const FRTGeometryInfo& Info, bool bMotion) { return bMotion && Info.PreviousPositions; }
 
 /// Joints of all items, and the items themselves in the order of their sizes, in memory of the frame.
-FRTStatus UploadItems(FFrameUploads& Uploads, const std::vector<FSkinningInputs>& Inputs, bool bMotion, std::vector<FSkinItem>& Items, FAddress& OutItems)
+FRTStatus UploadItems(
+    FFrameUploads& Uploads, const std::vector<FSkinningInputs>& Inputs, bool bMotion, std::vector<FSkinItem>& Items, FAddress& OutItems)
 {
 	uint64_t JointCount = 0;
 	for (const FSkinningInputs& Input : Inputs) { JointCount += Input.Joints.size(); }
@@ -54,7 +55,8 @@ FRTStatus UploadItems(FFrameUploads& Uploads, const std::vector<FSkinningInputs>
 		Item.Joints = Joints.Address + static_cast<uint64_t>(Next - static_cast<glm::mat4*>(Joints.Data)) * sizeof(glm::mat4);
 		Item.Positions = Info.Positions->GetDeviceAddress() + Info.PositionsOffset;
 		Item.Attributes = Info.Attributes->GetDeviceAddress() + Info.AttributesOffset;
-		Item.PreviousPositions = KeepsPrevious(Info, bMotion) && Input.Geometry->WasDeformed() ? Info.PreviousPositions->GetDeviceAddress() : 0;
+		Item.PreviousPositions =
+		    KeepsPrevious(Info, bMotion) && Input.Geometry->WasDeformed() ? Info.PreviousPositions->GetDeviceAddress() : 0;
 		Item.VertexCount = Info.VertexCount;
 		Next = std::copy(Input.Joints.begin(), Input.Joints.end(), Next);
 	}

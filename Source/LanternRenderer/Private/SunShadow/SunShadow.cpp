@@ -1,4 +1,5 @@
 // Ray-traced sun shadows: for every pixel, the fraction of the sun's disk that it sees.
+#include "SunShadow/SunShadow.h"
 #include "Denoise/Denoise.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Text/Log.h"
@@ -6,7 +7,6 @@
 #include "LanternRenderer/Frame.h"
 #include "PassTools.h"
 #include "RayPrograms.h"
-#include "SunShadow/SunShadow.h"
 #include "SunShadowTypes.h"
 
 namespace Lantern
@@ -20,21 +20,26 @@ TRTConsoleVariable<int32_t> CVarPath("r.RT.Shadow.Path", 0, "0: what the device 
 TRTConsoleVariable<float> CVarMaxDistance("r.RT.Shadow.MaxDistance", 100000.0f, "Length of sun shadow rays, metres.", {0.01, 1e9});
 TRTConsoleVariable<bool> CVarSoft("r.RT.Shadow.Soft", true, "Penumbrae of the sun's disk. Off: hard shadows from its centre.");
 TRTConsoleVariable<bool> CVarCullFront("r.RT.Shadow.CullFrontFaces", false,
-                                       "Sun shadow rays ignore faces turned towards the sun, as shadow maps drawn with front-face culling do. Objects "
-                                       "all of whose materials are double-sided still cast.");
-TRTConsoleVariable<int32_t> CVarMask("r.RT.Shadow.InstanceMask", MaskCastsShadow, "Only objects that share a bit with this mask cast sun shadows.", {0, 255});
+    "Sun shadow rays ignore faces turned towards the sun, as shadow maps drawn with front-face culling do. Objects "
+    "all of whose materials are double-sided still cast.");
+TRTConsoleVariable<int32_t> CVarMask(
+    "r.RT.Shadow.InstanceMask", MaskCastsShadow, "Only objects that share a bit with this mask cast sun shadows.", {0, 255});
 TRTConsoleVariable<bool> CVarDenoise("r.RT.Shadow.Denoise", true,
-                                    "Soft sun shadows are accumulated over frames and smoothed along surfaces. Off: as the frame's rays see them.");
-TRTConsoleVariable<float> CVarHistory("r.RT.Shadow.HistorySeconds", 0.5f, "Time constant of what r.RT.Shadow.Denoise accumulates. 0: nothing is.", {0.0, 60.0});
-TRTConsoleVariable<int32_t> CVarPasses("r.RT.Shadow.FilterPasses", 4, "Passes of the filter of r.RT.Shadow.Denoise; n of them reach 2^n - 1 pixels.", {0, 5});
-TRTConsoleVariable<float> CVarSigma("r.RT.Shadow.FilterSigma", 2.0f, "Which differences the filter takes for noise, in standard deviations.", {0.0, 100.0});
-TRTConsoleVariable<float> CVarReach("r.RT.Shadow.FilterReach", 0.25f, "How much of a penumbra's width the filter reaches over.", {0.001, 100.0});
+    "Soft sun shadows are accumulated over frames and smoothed along surfaces. Off: as the frame's rays see them.");
+TRTConsoleVariable<float> CVarHistory(
+    "r.RT.Shadow.HistorySeconds", 0.5f, "Time constant of what r.RT.Shadow.Denoise accumulates. 0: nothing is.", {0.0, 60.0});
+TRTConsoleVariable<int32_t> CVarPasses(
+    "r.RT.Shadow.FilterPasses", 4, "Passes of the filter of r.RT.Shadow.Denoise; n of them reach 2^n - 1 pixels.", {0, 5});
+TRTConsoleVariable<float> CVarSigma(
+    "r.RT.Shadow.FilterSigma", 2.0f, "Which differences the filter takes for noise, in standard deviations.", {0.0, 100.0});
+TRTConsoleVariable<float> CVarReach(
+    "r.RT.Shadow.FilterReach", 0.25f, "How much of a penumbra's width the filter reaches over.", {0.001, 100.0});
 TRTConsoleVariable<float> CVarClamp("r.RT.Shadow.ClampSigma", 7.0f,
-                                    "Accumulated shadows stay within what the neighbourhood says now, give or take this many standard deviations. 0: any.", {0.0, 100.0});
+    "Accumulated shadows stay within what the neighbourhood says now, give or take this many standard deviations. 0: any.", {0.0, 100.0});
 TRTConsoleVariable<float> CVarChange("r.RT.Shadow.ChangeSigma", 2.0f,
-                                     "Accumulation starts anew where shadows have changed by more than this many standard errors. 0: never.", {0.0, 100.0});
+    "Accumulation starts anew where shadows have changed by more than this many standard errors. 0: never.", {0.0, 100.0});
 TRTConsoleVariable<float> CVarResampling("r.RT.Shadow.Resampling", 0.5f,
-                                         "How much of the difference between neighbours counts as error where accumulated shadows are resampled between them.", {0.0, 100.0});
+    "How much of the difference between neighbours counts as error where accumulated shadows are resampled between them.", {0.0, 100.0});
 
 // A ray towards the sun sees the backs of faces that are turned towards it. gl_RayFlagsCullBackFacingTrianglesEXT
 constexpr uint32_t RayFlagCullTowardsSun = 0x10;
@@ -82,8 +87,14 @@ ESunShadowPath ChooseSunShadowPath(const FRTCapabilities& Capabilities, const FS
 	const int32_t Wanted = CVarPath.GetOnRenderThread();
 	if (Wanted == 1 && Capabilities.bRayTracingPipeline) { return ESunShadowPath::Pipeline; }
 	if (Wanted == 2 && Capabilities.bRayQuery) { return ESunShadowPath::Query; }
-	if (Wanted == 1) { LogOnce(ERTLogLevel::Warning, "r.RT.Shadow.Path=1: this device has no ray-tracing pipelines; ray queries are used"); }
-	if (Wanted == 2) { LogOnce(ERTLogLevel::Warning, "r.RT.Shadow.Path=2: this device has no ray queries; the ray-tracing pipeline is used"); }
+	if (Wanted == 1)
+	{
+		LogOnce(ERTLogLevel::Warning, "r.RT.Shadow.Path=1: this device has no ray-tracing pipelines; ray queries are used");
+	}
+	if (Wanted == 2)
+	{
+		LogOnce(ERTLogLevel::Warning, "r.RT.Shadow.Path=2: this device has no ray queries; the ray-tracing pipeline is used");
+	}
 	// Inline rays know the standard program alone.
 	if (Facts.bOwnShapes && Capabilities.bRayTracingPipeline) { return ESunShadowPath::Pipeline; }
 	// Measured on lavapipe: inline rays are 10–20 % faster for a payload this small; NVIDIA's driver here has pipelines only.
@@ -137,7 +148,10 @@ FSunShadowOutputs AddSunShadowPass(FFrameContext& Context, const FSunShadowInput
 	Out.Visibility = Context.Graph.CreateTexture(
 	    {Context.Width, Context.Height, ERTFormat::R16_FLOAT, ERTTextureUsage::CopySource}, "SunShadowVisibility"); // engines copy it
 	FGraphTexture Penumbra;
-	if (IsFiltered()) { Penumbra = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::R16_FLOAT}, "SunShadowPenumbra"); }
+	if (IsFiltered())
+	{
+		Penumbra = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::R16_FLOAT}, "SunShadowPenumbra");
+	}
 	const bool bSoft = IsSoft(Context);
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass("SunShadow", [&](FPassBuilder& Builder) -> FPassExecute {
@@ -160,7 +174,8 @@ FSunShadowOutputs AddSunShadowPass(FFrameContext& Context, const FSunShadowInput
 			}
 			Pass.Commands().SetPipeline(Frame->RayPipeline->GetPipeline());
 			Pass.Commands().PushConstants(&Constants, sizeof(Constants));
-			Pass.Commands().TraceRays(Frame->RayBindings->GetTable(), Frame->GetRayGen(EFrameRayGen::SunShadow), Frame->Width, Frame->Height, 1);
+			Pass.Commands().TraceRays(
+			    Frame->RayBindings->GetTable(), Frame->GetRayGen(EFrameRayGen::SunShadow), Frame->Width, Frame->Height, 1);
 		};
 	});
 	if (AreSunShadowsFiltered(Context)) { Out.Visibility = Denoise(Context, Inputs, Out.Visibility, Penumbra); }

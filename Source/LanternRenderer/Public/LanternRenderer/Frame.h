@@ -91,13 +91,19 @@ FGraphTexture AddCameraMotionPass(FFrameContext& Context, FGraphTexture Depth);
 /// All of it. The host may use SunShadow alone and light by itself: passes whose results it does not read are culled.
 FFrameOutputs AddFramePasses(FFrameContext& Context, const FGBuffer& GBuffer);
 
-enum class ERayPath : uint8_t { None, Pipeline, Query };
+enum class ERayPath : uint8_t
+{
+	None,
+	Pipeline,
+	Query
+};
 using ESunShadowPath = ERayPath;
 /// Which path sun shadows take this frame.
 ERayPath ChooseSunShadowPath(const FRTCapabilities& Capabilities, const FSceneFacts& Facts);
 /// The same of ambient occlusion. None where nothing uses it: no ambient light of the sky, or diffuse global illumination
 /// instead of it (bDiffuseGI: its rays are ready, not merely wanted), and nobody asks.
-ERayPath ChooseAmbientOcclusionPath(const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FSignalRequests& Requests, bool bDiffuseGI);
+ERayPath ChooseAmbientOcclusionPath(
+    const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FSignalRequests& Requests, bool bDiffuseGI);
 
 struct FReferencePassInputs
 {

@@ -236,7 +236,7 @@ private:
 	FRTStatus FrameStatus;
 	FSceneUse FrameUse;
 	FUploadSlice SceneConstants, ViewConstants;
-	bool bUpdating = false;       // the scene has something to record in this frame
+	bool bUpdating = false; // the scene has something to record in this frame
 	bool bRayPassesAdded = false;
 	bool bFrameLost = false;
 	static constexpr int MaxInFlight = 2;
@@ -244,12 +244,17 @@ private:
 	FRTFence Fences[MaxInFlight] = {};
 	int Slot = 0;
 	std::unique_ptr<FHistoryResources> History;
-	FView LastView;             // of the newest frame that reached the GPU
-	uint64_t LastScene = 0;     // identity of its scene's sections, which outlives an address; 0: none
+	FView LastView;              // of the newest frame that reached the GPU
+	uint64_t LastScene = 0;      // identity of its scene's sections, which outlives an address; 0: none
 	uint32_t LastSceneFrame = 0; // what the scene counted it as: another renderer's frame may have followed
 	std::string LastDump;
 	bool bDumpGraph = false;
-	enum class EPrebind : uint8_t { None, InLine, Running };
+	enum class EPrebind : uint8_t
+	{
+		None,
+		InLine,
+		Running
+	};
 	EPrebind Prebind = EPrebind::None;
 	FRTStatus PrebindStatus;
 	FTaskGroup PrebindTask; // last: it ends before what it uses

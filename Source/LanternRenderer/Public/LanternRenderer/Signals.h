@@ -23,10 +23,10 @@ enum class ESignal : uint8_t
 struct FSignalInfo
 {
 	ESignal Signal;
-	const char* Name;       ///< "sun_shadow"; in files and on the command line
-	const char* Title;      ///< "Sun shadow"
-	uint32_t Channels;      ///< 1 or 3
-	bool bRadiance;         ///< unbounded; else 0 to 1
+	const char* Name;  ///< "sun_shadow"; in files and on the command line
+	const char* Title; ///< "Sun shadow"
+	uint32_t Channels; ///< 1 or 3
+	bool bRadiance;    ///< unbounded; else 0 to 1
 	/// Passes of the frame graph whose names begin with one of these are its cost. Empty: all of the frame.
 	std::span<const char* const> Passes;
 };

@@ -18,24 +18,15 @@ std::vector<FRTGeometryPart> MakeGeometryParts(const FRTGeometryInfo& Info, bool
 		const uint32_t Opaque = bClassified ? From.OpaqueIndexCount : 0;
 		const uint32_t Mixed = From.IndexCount - Opaque - Transparent;
 		const FRTGeometryPart OpaquePart{From.FirstIndex + Mixed, Opaque, Section, true};
-		if (!bClassified || !From.IsClassified())
-		{
-			Parts.push_back({From.FirstIndex, From.IndexCount, Section, From.bOpaque});
-		}
+		if (!bClassified || !From.IsClassified()) { Parts.push_back({From.FirstIndex, From.IndexCount, Section, From.bOpaque}); }
 		else if (Mixed > 0)
 		{
 			const FRTGeometryPart Pieces{3 * From.FirstPiece, 3 * From.PieceCount, Section, From.bOpaque, true};
 			Parts.push_back(From.PieceCount > 0 ? Pieces : FRTGeometryPart{From.FirstIndex, Mixed, Section, From.bOpaque});
-			if (Opaque > 0)
-			{
-				Behind.push_back(OpaquePart);
-			}
+			if (Opaque > 0) { Behind.push_back(OpaquePart); }
 		}
 		// A part is never empty: of nothing but transparent triangles one stays, and its any-hit shader lets rays pass.
-		else
-		{
-			Parts.push_back(Opaque > 0 ? OpaquePart : FRTGeometryPart{From.FirstIndex, 3, Section, From.bOpaque});
-		}
+		else { Parts.push_back(Opaque > 0 ? OpaquePart : FRTGeometryPart{From.FirstIndex, 3, Section, From.bOpaque}); }
 	}
 	Parts.insert(Parts.end(), Behind.begin(), Behind.end());
 	return Parts;
@@ -43,16 +34,10 @@ std::vector<FRTGeometryPart> MakeGeometryParts(const FRTGeometryInfo& Info, bool
 
 void FillBounds(FRTGeometryInfo& Info)
 {
-	if (Info.BoundsRadius >= 0.0f || Info.bDynamic || !Info.CpuPositions || Info.VertexCount == 0)
-	{
-		return;
-	}
+	if (Info.BoundsRadius >= 0.0f || Info.bDynamic || !Info.CpuPositions || Info.VertexCount == 0) { return; }
 	for (const FRTSectionInfo& Section : Info.Sections)
 	{
-		if (Section.bProcedural)
-		{
-			return;
-		} // boxes may lie anywhere
+		if (Section.bProcedural) { return; } // boxes may lie anywhere
 	}
 	glm::vec3 Low = Info.CpuPositions[0], High = Low;
 	for (uint32_t Vertex = 1; Vertex < Info.VertexCount; ++Vertex)
@@ -67,10 +52,7 @@ void FillBounds(FRTGeometryInfo& Info)
 		const glm::vec3 Away = Info.CpuPositions[Vertex] - Center;
 		SquaredRadius = glm::max(SquaredRadius, glm::dot(Away, Away));
 	}
-	if (!std::isfinite(SquaredRadius))
-	{
-		return;
-	}
+	if (!std::isfinite(SquaredRadius)) { return; }
 	Info.BoundsCenter = Center;
 	Info.BoundsRadius = std::sqrt(SquaredRadius) * (1.0f + 1e-5f); // rounding must leave no vertex outside
 }
@@ -126,28 +108,19 @@ FRTGeometry::FRTGeometry(FRTGeometryInfo InInfo)
 	FillBounds(Info);
 	Parts = MakeGeometryParts(Info);
 	PartCapacity = GetSectionCount();
-	for (const FRTSectionInfo& Section : Info.Sections)
-	{
-		PartCapacity += Section.IsClassified() ? 1 : 0;
-	}
+	for (const FRTSectionInfo& Section : Info.Sections) { PartCapacity += Section.IsClassified() ? 1 : 0; }
 }
 
 FRTGeometry::~FRTGeometry()
 {
 	Coarser.reset(); // it reads the CPU's data, which may go with this
-	if (Releases)
-	{
-		Releases->Add(Slot, Info.bDynamic, std::move(Structure), std::move(Indices));
-	}
+	if (Releases) { Releases->Add(Slot, Info.bDynamic, std::move(Structure), std::move(Indices)); }
 }
 
 uint64_t FRTGeometry::GetPrimitiveCount() const
 {
 	uint64_t Count = 0;
-	for (const FRTGeometryPart& Part : Parts)
-	{
-		Count += Info.Sections[Part.Section].bProcedural ? Part.IndexCount : Part.IndexCount / 3;
-	}
+	for (const FRTGeometryPart& Part : Parts) { Count += Info.Sections[Part.Section].bProcedural ? Part.IndexCount : Part.IndexCount / 3; }
 	return Count;
 }
 

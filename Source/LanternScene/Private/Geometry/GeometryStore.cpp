@@ -19,14 +19,12 @@ constexpr uint64_t SmallScratchBytes = 256 << 10; // not worth a new allocation
 
 FRTStatus RefuseSection(const FRTGeometryInfo& Info, size_t Section, const char* Reason)
 {
-	return FRTStatus::Error(ERTResult::InvalidArgument, "geometry \"%s\", section %zu: %s",
-	                        FRTShown(Info.Name.c_str()).Text, Section, Reason);
+	return FRTStatus::Error(
+	    ERTResult::InvalidArgument, "geometry \"%s\", section %zu: %s", FRTShown(Info.Name.c_str()).Text, Section, Reason);
 }
 } // namespace
 
-FGeometryStore::FGeometryStore(IRTDevice& InDevice) : Device(InDevice), Releases(std::make_shared<FGeometryReleases>())
-{
-}
+FGeometryStore::FGeometryStore(IRTDevice& InDevice) : Device(InDevice), Releases(std::make_shared<FGeometryReleases>()) {}
 FGeometryStore::~FGeometryStore() = default;
 
 // ---------------------------------------------------------------------------------------------------- slots
@@ -43,29 +41,14 @@ FRTStatus FGeometryStore::Check(const FRTGeometryInfo& Info) const
 		const FRTSectionInfo& Section = Info.Sections[Index];
 		if (Section.bProcedural)
 		{
-			if (Section.IndexCount == 0)
-			{
-				return RefuseSection(Info, Index, "no boxes");
-			}
-			if (!Info.Aabbs)
-			{
-				return RefuseSection(Info, Index, "boxes, but no buffer of them");
-			}
+			if (Section.IndexCount == 0) { return RefuseSection(Info, Index, "no boxes"); }
+			if (!Info.Aabbs) { return RefuseSection(Info, Index, "boxes, but no buffer of them"); }
 			Primitives += Section.IndexCount;
 			continue;
 		}
-		if (Section.IndexCount < 3)
-		{
-			return RefuseSection(Info, Index, "no triangles");
-		}
-		if (Section.IndexCount % 3 != 0)
-		{
-			return RefuseSection(Info, Index, "the number of indices is not a multiple of 3");
-		}
-		if (!Info.Positions || !Info.Attributes || !Info.Indices)
-		{
-			return RefuseSection(Info, Index, "a buffer is missing");
-		}
+		if (Section.IndexCount < 3) { return RefuseSection(Info, Index, "no triangles"); }
+		if (Section.IndexCount % 3 != 0) { return RefuseSection(Info, Index, "the number of indices is not a multiple of 3"); }
+		if (!Info.Positions || !Info.Attributes || !Info.Indices) { return RefuseSection(Info, Index, "a buffer is missing"); }
 		if (uint64_t(Section.OpaqueIndexCount) + Section.TransparentIndexCount > Section.IndexCount)
 		{
 			return RefuseSection(Info, Index, "more classified triangles than triangles");
@@ -74,9 +57,8 @@ FRTStatus FGeometryStore::Check(const FRTGeometryInfo& Info) const
 	}
 	if (const uint64_t Most = Device.GetCapabilities().MaxPrimitiveCount; Primitives > Most)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "%s has %llu triangles; the device allows %llu",
-		                        FRTShown(Info.Name.c_str()).Text, static_cast<unsigned long long>(Primitives),
-		                        static_cast<unsigned long long>(Most));
+		return FRTStatus::Error(ERTResult::Unsupported, "%s has %llu triangles; the device allows %llu", FRTShown(Info.Name.c_str()).Text,
+		    static_cast<unsigned long long>(Primitives), static_cast<unsigned long long>(Most));
 	}
 	return FRTStatus::Success();
 }
@@ -91,10 +73,7 @@ uint32_t FGeometryStore::TakeSlot()
 	}
 	const uint32_t Slot = GetSlotCount();
 	assert(Slot < ChunkSlots * MaxChunks);
-	if (Slot % ChunkSlots == 0)
-	{
-		Priorities[Slot / ChunkSlots] = std::make_unique<std::atomic<uint32_t>[]>(ChunkSlots);
-	}
+	if (Slot % ChunkSlots == 0) { Priorities[Slot / ChunkSlots] = std::make_unique<std::atomic<uint32_t>[]>(ChunkSlots); }
 	Entries.emplace_back();
 	Addresses.push_back(0);
 	return Slot;
@@ -102,10 +81,7 @@ uint32_t FGeometryStore::TakeSlot()
 
 FRTStatus FGeometryStore::Create(FRTGeometryInfo Info, FRTGeometryRef& Out)
 {
-	if (FRTStatus S = Check(Info); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = Check(Info); !S) { return S; }
 	DrainReleases();
 	const uint32_t Slot = TakeSlot();
 	auto Geometry = std::make_shared<FRTGeometry>(std::move(Info));
@@ -167,10 +143,7 @@ const FRTGeometry* FGeometryStore::Get(uint32_t Slot) const
 
 void FGeometryStore::MarkChanged(FEntry& Entry)
 {
-	if (Entry.bChanged)
-	{
-		return;
-	}
+	if (Entry.bChanged) { return; }
 	Entry.bChanged = true;
 	Changed.push_back(MakeRef(Entry).Slot);
 }
@@ -178,20 +151,14 @@ void FGeometryStore::MarkChanged(FEntry& Entry)
 void FGeometryStore::SetAddress(FEntry& Entry, uint64_t Address)
 {
 	uint64_t& Now = Addresses[MakeRef(Entry).Slot];
-	if (Now == Address)
-	{
-		return;
-	}
+	if (Now == Address) { return; }
 	Now = Address;
 	MarkChanged(Entry);
 }
 
 std::vector<uint32_t> FGeometryStore::TakeChanged()
 {
-	for (const uint32_t Slot : Changed)
-	{
-		Entries[Slot].bChanged = false;
-	}
+	for (const uint32_t Slot : Changed) { Entries[Slot].bChanged = false; }
 	return std::exchange(Changed, {});
 }
 
@@ -209,77 +176,46 @@ void FGeometryStore::MarkDeformed(const FRTGeometryRef& Geometry)
 	assert(Geometry->Info.bDynamic);
 	FEntry& Entry = Entries[Geometry->Slot];
 	const bool bThere = Entry.State == EState::Built || Entry.State == EState::Building;
-	if (!bThere || Entry.bDeformed)
-	{
-		return;
-	} // its first build sees the new vertices
+	if (!bThere || Entry.bDeformed) { return; } // its first build sees the new vertices
 	Entry.bDeformed = true;
 	Deformed.push_back(MakeRef(Entry));
 }
 
 void FGeometryStore::SetRefitQuality(uint32_t Slot, float Ratio)
 {
-	if (Slot < Entries.size())
-	{
-		Entries[Slot].RefitRatio = Ratio;
-	}
+	if (Slot < Entries.size()) { Entries[Slot].RefitRatio = Ratio; }
 }
 
-uint32_t FGeometryStore::GetBuildCount(uint32_t Slot) const
-{
-	return Slot < Entries.size() ? Entries[Slot].Builds : 0;
-}
+uint32_t FGeometryStore::GetBuildCount(uint32_t Slot) const { return Slot < Entries.size() ? Entries[Slot].Builds : 0; }
 
 // ---------------------------------------------------------------------------------------------------- frame
 
 bool FGeometryStore::NeedsUpdate() const
 {
-	if (!Pending.empty() || !Deformed.empty() || !WantSize.empty() || !Copied.empty() || !Releases->IsEmpty())
-	{
-		return true;
-	}
-	const auto Fits = [&](FSlotRef Ref)
-	{ return Entries[Ref.Slot].Generation == Ref.Generation && FitsCompacted(Entries[Ref.Slot]); };
-	if (std::any_of(Sized.begin(), Sized.end(), Fits))
-	{
-		return true;
-	}
-	if (IsScratchTooLarge())
-	{
-		return true;
-	}
+	if (!Pending.empty() || !Deformed.empty() || !WantSize.empty() || !Copied.empty() || !Releases->IsEmpty()) { return true; }
+	const auto Fits = [&](FSlotRef Ref) { return Entries[Ref.Slot].Generation == Ref.Generation && FitsCompacted(Entries[Ref.Slot]); };
+	if (std::any_of(Sized.begin(), Sized.end(), Fits)) { return true; }
+	if (IsScratchTooLarge()) { return true; }
 	const uint64_t Room = Refused.empty() ? 0 : GetRoom();
 	for (const FSlotRef Ref : Refused)
 	{
 		const FEntry& Entry = Entries[Ref.Slot];
-		if (Entry.Generation == Ref.Generation && !Entry.Owner.expired() && IsWorthAnother(Entry, Room))
-		{
-			return true;
-		}
+		if (Entry.Generation == Ref.Generation && !Entry.Owner.expired() && IsWorthAnother(Entry, Room)) { return true; }
 	}
 	for (const FSizeBatch& Batch : Batches)
 	{
 		std::vector<uint64_t> Sizes(Batch.Items.size());
-		if (Batch.Queries->GetResults(0, static_cast<uint32_t>(Sizes.size()), Sizes.data()))
-		{
-			return true;
-		}
+		if (Batch.Queries->GetResults(0, static_cast<uint32_t>(Sizes.size()), Sizes.data())) { return true; }
 	}
-	return std::any_of(Coarsening.begin(), Coarsening.end(),
-	                   [&](FSlotRef Ref)
-	                   {
-		                   const FEntry& Entry = Entries[Ref.Slot];
-		                   return Entry.Generation == Ref.Generation && !Entry.Owner.expired() &&
-		                          Entry.Geometry->Coarser && Entry.Geometry->Coarser->IsDone();
-	                   });
+	return std::any_of(Coarsening.begin(), Coarsening.end(), [&](FSlotRef Ref) {
+		const FEntry& Entry = Entries[Ref.Slot];
+		return Entry.Generation == Ref.Generation && !Entry.Owner.expired() && Entry.Geometry->Coarser && Entry.Geometry->Coarser->IsDone();
+	});
 }
 
 FRTStatus FGeometryStore::BeginFrame(bool bBuildAll)
 {
-	if (!Recorded.empty() || !Copying.empty())
-	{
-		Lost();
-	} // EndFrame was not called
+	if (!Recorded.empty() || !Copying.empty()) { Lost(); } // EndFrame was not called
 	++Frame;
 	Stats.TrianglesBuilt = 0;
 	Stats.Built = Stats.Refitted = Stats.Rebuilt = Stats.Compacted = Stats.WaitingForMemory = 0;
@@ -288,45 +224,26 @@ FRTStatus FGeometryStore::BeginFrame(bool bBuildAll)
 	TakeSizes();
 	ReconsiderRefused();
 	FRTStatus Status = ChooseRefits();
-	if (Status)
-	{
-		Status = ChooseCompactions();
-	}
-	if (Status)
-	{
-		Status = TakeCoarser();
-	}
-	if (Status)
-	{
-		Status = ChooseBuilds(bBuildAll);
-	}
-	if (Status)
-	{
-		Status = ReserveBatchScratch();
-	}
-	if (!Status)
-	{
-		Lost();
-	}
+	if (Status) { Status = ChooseCompactions(); }
+	if (Status) { Status = TakeCoarser(); }
+	if (Status) { Status = ChooseBuilds(bBuildAll); }
+	if (Status) { Status = ReserveBatchScratch(); }
+	if (!Status) { Lost(); }
 	UpdateStats();
 	return Status;
 }
 
 FRTStatus FGeometryStore::Record(IRTCommandList& List)
 {
-	if (Recorded.empty() && Copying.empty() && WantSize.empty())
-	{
-		return FRTStatus::Success();
-	}
+	if (Recorded.empty() && Copying.empty() && WantSize.empty()) { return FRTStatus::Success(); }
 	RecordStaging(List);
 	const FRTBarrier Before{nullptr, nullptr, ERTAccess::TraceRead | ERTAccess::BuildRead | ERTAccess::BuildWrite,
-	                        ERTAccess::BuildWrite | ERTAccess::BuildRead};
+	    ERTAccess::BuildWrite | ERTAccess::BuildRead};
 	List.Barriers(&Before, 1);
 	RecordBuilds(List);
 	RecordCompaction(List);
 	const FRTStatus Status = RecordQueries(List);
-	const FRTBarrier After{nullptr, nullptr, ERTAccess::BuildWrite,
-	                       ERTAccess::BuildWrite | ERTAccess::BuildRead | ERTAccess::TraceRead};
+	const FRTBarrier After{nullptr, nullptr, ERTAccess::BuildWrite, ERTAccess::BuildWrite | ERTAccess::BuildRead | ERTAccess::TraceRead};
 	List.Barriers(&After, 1);
 	return Status;
 }
@@ -338,10 +255,7 @@ void FGeometryStore::EndFrame(bool bSubmitted)
 		Submitted();
 		ShrinkScratch();
 	}
-	else
-	{
-		Lost();
-	}
+	else { Lost(); }
 	UpdateStats();
 }
 
@@ -360,15 +274,9 @@ void FGeometryStore::Submitted()
 			++Entry.Builds;
 		}
 	}
-	for (const FSlotRef Ref : Copying)
-	{
-		Entries[Ref.Slot].Compaction = ECompaction::Copied;
-	}
+	for (const FSlotRef Ref : Copying) { Entries[Ref.Slot].Compaction = ECompaction::Copied; }
 	Copied.insert(Copied.end(), Copying.begin(), Copying.end());
-	for (FSizeBatch& Batch : Batches)
-	{
-		Batch.bSubmitted = true;
-	}
+	for (FSizeBatch& Batch : Batches) { Batch.bSubmitted = true; }
 	Recorded.clear();
 	Copying.clear();
 	Held.clear();
@@ -389,10 +297,7 @@ void FGeometryStore::Lost()
 			continue;
 		}
 		Entry.bRebuild |= !Entry.bUpdate;
-		if (Entry.bDeformed)
-		{
-			continue;
-		}
+		if (Entry.bDeformed) { continue; }
 		Entry.bDeformed = true;
 		Deformed.push_back(Ref);
 	}
@@ -406,22 +311,17 @@ void FGeometryStore::Lost()
 		for (const FSlotRef Ref : Batch.Items)
 		{
 			FEntry* const Entry = Batch.bSubmitted ? nullptr : Resolve(Ref);
-			if (!Entry || Entry->Compaction != ECompaction::Queried)
-			{
-				continue;
-			}
+			if (!Entry || Entry->Compaction != ECompaction::Queried) { continue; }
 			Entry->Compaction = ECompaction::Wanted;
 			WantSize.push_back(Ref);
 		}
 	}
 	std::erase_if(Batches, [](const FSizeBatch& Batch) { return !Batch.bSubmitted; });
 	// Of builds that were lost, no size can be asked.
-	std::erase_if(WantSize,
-	              [&](FSlotRef Ref)
-	              {
-		              const FEntry* const Entry = Resolve(Ref);
-		              return !Entry || Entry->Compaction != ECompaction::Wanted;
-	              });
+	std::erase_if(WantSize, [&](FSlotRef Ref) {
+		const FEntry* const Entry = Resolve(Ref);
+		return !Entry || Entry->Compaction != ECompaction::Wanted;
+	});
 	Recorded.clear();
 	Copying.clear();
 	Held.clear();
@@ -442,10 +342,7 @@ void FGeometryStore::ShrinkScratch()
 		RecentScratchNeed = 0;
 		return;
 	}
-	if (++FramesScratchTooLarge < ShrinkAfterFrames)
-	{
-		return;
-	}
+	if (++FramesScratchTooLarge < ShrinkAfterFrames) { return; }
 	Scratch = nullptr; // made anew, as small as will do, by whoever needs it next
 	LastReleaseFrame = Frame;
 	FramesScratchTooLarge = 0;

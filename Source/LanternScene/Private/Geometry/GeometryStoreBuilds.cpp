@@ -14,18 +14,14 @@ namespace Lantern
 
 namespace
 {
-TRTConsoleVariable<int32_t> CVarTriangles(
-    "r.RT.Build.TrianglesPerFrame", 500000,
+TRTConsoleVariable<int32_t> CVarTriangles("r.RT.Build.TrianglesPerFrame", 500000,
     "Triangles of acceleration structures built in a frame, near and large ones first; at least one geometry. "
     "0: all at once. Offline pictures build all.",
     {0, 2'000'000'000});
-TRTConsoleVariable<int32_t>
-    CVarRebuildInterval("r.RT.Skinning.RebuildInterval", 16,
-                        "Deformed geometry is refitted, and rebuilt every so many frames. 1: always rebuilt.",
-                        {1, 1000});
+TRTConsoleVariable<int32_t> CVarRebuildInterval(
+    "r.RT.Skinning.RebuildInterval", 16, "Deformed geometry is refitted, and rebuilt every so many frames. 1: always rebuilt.", {1, 1000});
 // Above 2, rays visit so many more boxes that a rebuild pays within a few frames; a walking figure stays below 1.5.
-TRTConsoleVariable<float> CVarRebuildQuality(
-    "r.RT.Skinning.RebuildQuality", 2.0f,
+TRTConsoleVariable<float> CVarRebuildQuality("r.RT.Skinning.RebuildQuality", 2.0f,
     "Deformed geometry is rebuilt when the boxes around its triangles are so many times looser than at the "
     "last build. 0: never for that reason.",
     {0.0, 1000.0});
@@ -38,10 +34,7 @@ constexpr float AgingPerFrame = 0.005f;
 // A geometry that the next release could make room for holds others back no longer than this.
 constexpr uint32_t MostWaitFrames = 32;
 
-uint64_t AlignUp(uint64_t Value, uint64_t Alignment)
-{
-	return (Value + Alignment - 1) / Alignment * Alignment;
-}
+uint64_t AlignUp(uint64_t Value, uint64_t Alignment) { return (Value + Alignment - 1) / Alignment * Alignment; }
 } // namespace
 
 // ---------------------------------------------------------------------------------------------------- choosing
@@ -66,10 +59,7 @@ void FGeometryStore::UpdateSizes(FEntry& Entry)
 	Entry.Triangles = Entry.Geometry->GetPrimitiveCount();
 }
 
-bool FGeometryStore::WantsRefitQuality() const
-{
-	return CVarRebuildQuality.GetOnRenderThread() > 0.0f;
-}
+bool FGeometryStore::WantsRefitQuality() const { return CVarRebuildQuality.GetOnRenderThread() > 0.0f; }
 
 void FGeometryStore::Queue(FEntry& Entry)
 {
@@ -81,25 +71,17 @@ void FGeometryStore::ChooseRebuilds(std::vector<FEntry*>& Due, uint32_t Interval
 {
 	const float Threshold = CVarRebuildQuality.GetOnRenderThread();
 	// Characters that came together must not all be rebuilt in one frame: the worst come first, the others follow.
-	const auto MakeKey = [=](const FEntry& Entry)
-	{
+	const auto MakeKey = [=](const FEntry& Entry) {
 		const bool bDegraded = Threshold > 0.0f && Entry.RefitRatio > Threshold;
-		return std::tuple(!Entry.bRebuild, bDegraded ? -Entry.RefitRatio : 0.0f, -int64_t(Entry.RefitsSinceBuild),
-		                  Entry.Age);
+		return std::tuple(!Entry.bRebuild, bDegraded ? -Entry.RefitRatio : 0.0f, -int64_t(Entry.RefitsSinceBuild), Entry.Age);
 	};
 	std::sort(Due.begin(), Due.end(), [&](const FEntry* A, const FEntry* B) { return MakeKey(*A) < MakeKey(*B); });
 	const uint32_t Most = std::max(1u, (DynamicCount + Interval - 1) / Interval);
 	for (FEntry* const Entry : Due)
 	{
-		if (Stats.Rebuilt >= Most && !Entry->bRebuild)
-		{
-			break;
-		}
+		if (Stats.Rebuilt >= Most && !Entry->bRebuild) { break; }
 		const uint64_t Bytes = Entry->Sizes.BuildScratchBytes;
-		if (!Entry->bRebuild && GetScratchGrowth(std::max(Need, Bytes)) > GetRoom())
-		{
-			continue;
-		}
+		if (!Entry->bRebuild && GetScratchGrowth(std::max(Need, Bytes)) > GetRoom()) { continue; }
 		Entry->bUpdate = false;
 		++Stats.Rebuilt;
 		Stats.TrianglesBuilt += Entry->Triangles;
@@ -117,18 +99,12 @@ FRTStatus FGeometryStore::ChooseRefits()
 	for (const FSlotRef Ref : Deformed)
 	{
 		FEntry* const Entry = Resolve(Ref);
-		if (!Entry || Entry->State != EState::Built)
-		{
-			continue;
-		}
+		if (!Entry || Entry->State != EState::Built) { continue; }
 		Entry->bDeformed = false;
 		Entry->bUpdate = true;
 		Need = std::max(Need, Entry->Sizes.UpdateScratchBytes);
 		Work.push_back(Entry);
-		if (Entry->bRebuild || IsDegraded(*Entry) || Entry->RefitsSinceBuild + 1 >= Interval)
-		{
-			Due.push_back(Entry);
-		}
+		if (Entry->bRebuild || IsDegraded(*Entry) || Entry->RefitsSinceBuild + 1 >= Interval) { Due.push_back(Entry); }
 	}
 	Deformed.clear();
 	for (FEntry* const Entry : Work)
@@ -145,50 +121,31 @@ FRTStatus FGeometryStore::ChooseRefits()
 
 void FGeometryStore::OrderPending(bool bBuildAll)
 {
-	std::erase_if(Pending,
-	              [&](FSlotRef Ref)
-	              {
-		              const FEntry* const Entry = Resolve(Ref);
-		              return !Entry || Entry->State != EState::Pending;
-	              });
+	std::erase_if(Pending, [&](FSlotRef Ref) {
+		const FEntry* const Entry = Resolve(Ref);
+		return !Entry || Entry->State != EState::Pending;
+	});
 	std::vector<std::pair<float, FSlotRef>> Scored;
 	Scored.reserve(Pending.size());
 	for (const FSlotRef Ref : Pending)
 	{
 		FEntry& Entry = Entries[Ref.Slot];
 		std::atomic<uint32_t>& Priority = Priorities[Ref.Slot / ChunkSlots][Ref.Slot % ChunkSlots];
-		if (const uint32_t Bits = Priority.exchange(0, std::memory_order_relaxed))
-		{
-			Entry.ScreenSize = std::bit_cast<float>(Bits);
-		}
+		if (const uint32_t Bits = Priority.exchange(0, std::memory_order_relaxed)) { Entry.ScreenSize = std::bit_cast<float>(Bits); }
 		float Score = Entry.ScreenSize + AgingPerFrame * static_cast<float>(Frame - Entry.QueuedFrame);
-		if (bBuildAll && GetRoom() != ~0ull)
-		{
-			Score = -static_cast<float>(Entry.Sizes.StructureBytes);
-		} // see ChooseBuilds
-		if (Entry.bLost)
-		{
-			Score = std::numeric_limits<float>::max();
-		}
+		if (bBuildAll && GetRoom() != ~0ull) { Score = -static_cast<float>(Entry.Sizes.StructureBytes); } // see ChooseBuilds
+		if (Entry.bLost) { Score = std::numeric_limits<float>::max(); }
 		Scored.push_back({Score, Ref});
 	}
-	std::sort(Scored.begin(), Scored.end(),
-	          [&](const auto& A, const auto& B) {
-		          return A.first != B.first ? A.first > B.first
-		                                    : Entries[A.second.Slot].Age < Entries[B.second.Slot].Age;
-	          });
-	for (size_t I = 0; I < Scored.size(); ++I)
-	{
-		Pending[I] = Scored[I].second;
-	}
+	std::sort(Scored.begin(), Scored.end(), [&](const auto& A, const auto& B) {
+		return A.first != B.first ? A.first > B.first : Entries[A.second.Slot].Age < Entries[B.second.Slot].Age;
+	});
+	for (size_t I = 0; I < Scored.size(); ++I) { Pending[I] = Scored[I].second; }
 }
 
 FRTStatus FGeometryStore::ChooseBuilds(bool bBuildAll)
 {
-	if (Pending.empty())
-	{
-		return FRTStatus::Success();
-	}
+	if (Pending.empty()) { return FRTStatus::Success(); }
 	OrderPending(bBuildAll);
 	const uint64_t Limit = static_cast<uint64_t>(CVarTriangles.GetOnRenderThread());
 	const std::vector<FSlotRef> Order = std::exchange(Pending, {});
@@ -199,17 +156,11 @@ FRTStatus FGeometryStore::ChooseBuilds(bool bBuildAll)
 	{
 		FEntry& Entry = Entries[Order[Next].Slot];
 		const bool bSpent = Limit > 0 && Stats.Built > 0 && !Entry.bLost; // what was in the picture stays there
-		if (!bBuildAll && bSpent && Stats.TrianglesBuilt + Entry.Triangles > Limit)
-		{
-			break;
-		}
+		if (!bBuildAll && bSpent && Stats.TrianglesBuilt + Entry.Triangles > Limit) { break; }
 		// All at once, smallest first: each may take an equal share of the room, and what small ones leave goes to the large.
 		const uint64_t Share = bBuildAll ? GetRoom() / (Order.size() - Next) : ~0ull;
 		Status = ChooseBuild(Entry, bBuildAll, Share, bStop);
-		if (Entry.State == EState::Pending)
-		{
-			Pending.push_back(Order[Next]);
-		}
+		if (Entry.State == EState::Pending) { Pending.push_back(Order[Next]); }
 	}
 	Pending.insert(Pending.end(), Order.begin() + static_cast<ptrdiff_t>(Next), Order.end());
 	return Status;
@@ -221,8 +172,7 @@ FRTStatus FGeometryStore::ChooseBuild(FEntry& Entry, bool bBuildAll, uint64_t Sh
 	const uint64_t Structure = Entry.Geometry->Structure ? 0 : Entry.Sizes.StructureBytes;
 	const uint64_t Need = Structure + GetScratchGrowth(Entry.Sizes.BuildScratchBytes);
 	// While it is compacted there are two of it.
-	const bool bOverlap =
-	    !bBuildAll && Entry.Misfits < PatienceFrames && IsCompactionOn() && !Entry.Geometry->Info.bDynamic;
+	const bool bOverlap = !bBuildAll && Entry.Misfits < PatienceFrames && IsCompactionOn() && !Entry.Geometry->Info.bDynamic;
 	const uint64_t Overlap = bOverlap ? static_cast<uint64_t>(static_cast<double>(Structure) * CompactedShare) : 0;
 	if (Room != ~0ull && Need + Overlap > std::min(Room, Share))
 	{
@@ -235,10 +185,7 @@ FRTStatus FGeometryStore::ChooseBuild(FEntry& Entry, bool bBuildAll, uint64_t Sh
 		return OnMisfit(Entry, bBuildAll, std::min(Room, Share));
 	}
 	const FRTStatus Status = Admit(Entry);
-	if (Status.Code != ERTResult::OutOfDeviceMemory || bBuildAll)
-	{
-		return Status;
-	}
+	if (Status.Code != ERTResult::OutOfDeviceMemory || bBuildAll) { return Status; }
 	// The device has less than the budget: as if it did not fit.
 	++Stats.WaitingForMemory;
 	return OnMisfit(Entry, bBuildAll, Entry.Sizes.StructureBytes / 2);
@@ -246,20 +193,14 @@ FRTStatus FGeometryStore::ChooseBuild(FEntry& Entry, bool bBuildAll, uint64_t Sh
 
 FRTStatus FGeometryStore::Admit(FEntry& Entry)
 {
-	if (FRTStatus S = GrowScratch(Entry.Sizes.BuildScratchBytes); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = GrowScratch(Entry.Sizes.BuildScratchBytes); !S) { return S; }
 	FRTGeometry& Geometry = *Entry.Geometry;
 	if (!Geometry.Structure)
 	{
 		const std::vector<FRTGeometrySection> Sections = MakeStructureSections(Geometry);
 		const FRTGeometryDesc Desc = MakeDesc(Entry, Sections);
 		Entry.bCompactable = Desc.bAllowCompaction;
-		if (FRTStatus S = Device.CreateGeometry(Desc, Geometry.Structure.ReleaseAndGetAddress()); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = Device.CreateGeometry(Desc, Geometry.Structure.ReleaseAndGetAddress()); !S) { return S; }
 		Entry.Sizes = Geometry.Structure->GetBuildSizes();
 	}
 	Held.push_back(Entry.Owner.lock());
@@ -295,18 +236,12 @@ FRTStatus FGeometryStore::GrowScratch(uint64_t Bytes)
 	ScratchNeed = std::max(ScratchNeed, Bytes);
 	if (GetScratchGrowth(Bytes) > 0)
 	{
-		const FRTBufferDesc Desc{GetScratchGrowth(Bytes), ERTBufferUsage::Scratch | ERTBufferUsage::Storage,
-		                         ERTMemory::Device, "BuildScratch"};
+		const FRTBufferDesc Desc{
+		    GetScratchGrowth(Bytes), ERTBufferUsage::Scratch | ERTBufferUsage::Storage, ERTMemory::Device, "BuildScratch"};
 		TRTRef<IRTBuffer> Larger;
-		if (FRTStatus S = Device.CreateBuffer(Desc, Larger.ReleaseAndGetAddress()); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = Device.CreateBuffer(Desc, Larger.ReleaseAndGetAddress()); !S) { return S; }
 		Stats.PeakBytes = std::max(Stats.PeakBytes, GetUsed());
-		if (Scratch)
-		{
-			LastReleaseFrame = Frame;
-		}
+		if (Scratch) { LastReleaseFrame = Frame; }
 		Scratch = std::move(Larger);
 	}
 	return FRTStatus::Success();
@@ -323,10 +258,7 @@ FRTStatus FGeometryStore::ReserveBatchScratch()
 	}
 	// More is quicker, for builds of one batch overlap, but what there is will do: it holds each alone.
 	Sum = std::min(Sum, BatchScratchBytes);
-	if (Sum == 0 || GetScratchGrowth(Sum) > GetRoom() / 4)
-	{
-		return FRTStatus::Success();
-	}
+	if (Sum == 0 || GetScratchGrowth(Sum) > GetRoom() / 4) { return FRTStatus::Success(); }
 	const FRTStatus Status = GrowScratch(Sum);
 	return Status.Code == ERTResult::OutOfDeviceMemory ? FRTStatus::Success() : Status;
 }
@@ -338,10 +270,7 @@ void FGeometryStore::RecordStaging(IRTCommandList& List)
 	for (const FSlotRef Ref : Recorded)
 	{
 		const FEntry& Entry = Entries[Ref.Slot];
-		if (!Entry.Staging)
-		{
-			continue;
-		}
+		if (!Entry.Staging) { continue; }
 		IRTBuffer* const Indices = Entry.Geometry->Indices.Get();
 		const FRTBarrier Before{Indices, nullptr, ERTAccess::None, ERTAccess::CopyWrite};
 		const FRTBarrier After{Indices, nullptr, ERTAccess::CopyWrite, UploadedAccess};
@@ -364,10 +293,7 @@ void FGeometryStore::RecordBuilds(IRTCommandList& List)
 		{
 			const FEntry& Entry = Entries[Recorded[Next].Slot];
 			const uint64_t Bytes = Entry.bUpdate ? Entry.Sizes.UpdateScratchBytes : Entry.Sizes.BuildScratchBytes;
-			if (!Builds.empty() && Used + Bytes > Scratch->GetDesc().Size)
-			{
-				break;
-			}
+			if (!Builds.empty() && Used + Bytes > Scratch->GetDesc().Size) { break; }
 			FRTGeometryBuild& Build = Builds.emplace_back();
 			Sections.push_back(MakeStructureSections(*Entry.Geometry));
 			Build.Geometry = Entry.Geometry->Structure.Get();
@@ -394,16 +320,11 @@ void FGeometryStore::RecordCompaction(IRTCommandList& List)
 
 FRTStatus FGeometryStore::RecordQueries(IRTCommandList& List)
 {
-	std::erase_if(WantSize,
-	              [&](FSlotRef Ref)
-	              {
-		              const FEntry* const Entry = Resolve(Ref);
-		              return !Entry || Entry->Compaction != ECompaction::Wanted;
-	              });
-	if (WantSize.empty())
-	{
-		return FRTStatus::Success();
-	}
+	std::erase_if(WantSize, [&](FSlotRef Ref) {
+		const FEntry* const Entry = Resolve(Ref);
+		return !Entry || Entry->Compaction != ECompaction::Wanted;
+	});
+	if (WantSize.empty()) { return FRTStatus::Success(); }
 	// A pool of its own for each frame: one that is used again could still show the answers of its last use.
 	FSizeBatch Batch;
 	const auto Count = static_cast<uint32_t>(WantSize.size());

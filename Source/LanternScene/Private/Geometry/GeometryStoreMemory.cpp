@@ -14,18 +14,16 @@ namespace Lantern
 
 namespace
 {
-TRTConsoleVariable<int32_t> CVarMemory(
-    "r.RT.Build.MemoryMB", 0,
+TRTConsoleVariable<int32_t> CVarMemory("r.RT.Build.MemoryMB", 0,
     "Most memory of acceleration structures and their builds, at the peak, in MiB: living, being built, being "
     "compacted, scratch, and released but still in use. 0: no limit.",
     {0, 1 << 20});
-TRTConsoleVariable<bool> CVarCompaction("r.RT.Build.Compaction", true,
-                                        "Static acceleration structures are copied to as little memory as they need.");
-TRTConsoleVariable<bool> CVarCoarser(
-    "r.RT.Build.CoarserLevels", true,
+TRTConsoleVariable<bool> CVarCompaction(
+    "r.RT.Build.Compaction", true, "Static acceleration structures are copied to as little memory as they need.");
+TRTConsoleVariable<bool> CVarCoarser("r.RT.Build.CoarserLevels", true,
     "Static geometry that does not fit into r.RT.Build.MemoryMB is simplified. Off: it is left out of the scene.");
 
-constexpr double LeastSaved = 0.1; // of a structure: below that, its copy is not worth the bandwidth
+constexpr double LeastSaved = 0.1;                       // of a structure: below that, its copy is not worth the bandwidth
 constexpr uint64_t CompactedBytesPerFrame = 64ull << 20; // beside at least one
 constexpr uint64_t ScratchStep = 64 << 10;
 // The GPU lets go of what was released within the frames that are in flight.
@@ -34,23 +32,14 @@ constexpr uint32_t MaxCoarsenings = 4;
 constexpr double LeastShare = 1.0 / 64; // of the triangles: a coarser level than that is no picture of the geometry
 constexpr double Safety = 0.9;          // of the room: bytes are not quite proportional to triangles
 
-double ToMiB(uint64_t Bytes)
-{
-	return static_cast<double>(Bytes) / (1 << 20);
-}
+double ToMiB(uint64_t Bytes) { return static_cast<double>(Bytes) / (1 << 20); }
 } // namespace
 
-bool IsCompactionOn()
-{
-	return CVarCompaction.GetOnRenderThread();
-}
+bool IsCompactionOn() { return CVarCompaction.GetOnRenderThread(); }
 
 // ---------------------------------------------------------------------------------------------------- budget
 
-uint64_t FGeometryStore::GetBudget() const
-{
-	return static_cast<uint64_t>(CVarMemory.GetOnRenderThread()) << 20;
-}
+uint64_t FGeometryStore::GetBudget() const { return static_cast<uint64_t>(CVarMemory.GetOnRenderThread()) << 20; }
 
 uint64_t FGeometryStore::GetUsed() const
 {
@@ -87,27 +76,18 @@ void FGeometryStore::TakeSizes()
 	for (FSizeBatch& Batch : Batches)
 	{
 		std::vector<uint64_t> Sizes(Batch.Items.size());
-		if (!Batch.bSubmitted || !Batch.Queries->GetResults(0, static_cast<uint32_t>(Sizes.size()), Sizes.data()))
-		{
-			continue;
-		}
+		if (!Batch.bSubmitted || !Batch.Queries->GetResults(0, static_cast<uint32_t>(Sizes.size()), Sizes.data())) { continue; }
 		Batch.Queries = nullptr;
 		for (size_t Index = 0; Index < Sizes.size(); ++Index)
 		{
 			FEntry* const Entry = Resolve(Batch.Items[Index]);
-			if (!Entry || Entry->Compaction != ECompaction::Queried)
-			{
-				continue;
-			}
+			if (!Entry || Entry->Compaction != ECompaction::Queried) { continue; }
 			const double Share = static_cast<double>(Sizes[Index]) / static_cast<double>(Entry->Sizes.StructureBytes);
 			CompactedShare += 0.1f * (static_cast<float>(std::min(Share, 1.0)) - CompactedShare);
 			const bool bWorthIt = Sizes[Index] > 0 && Share <= 1.0 - LeastSaved;
 			Entry->Compaction = bWorthIt ? ECompaction::Sized : ECompaction::None;
 			Entry->CompactedBytes = Sizes[Index];
-			if (bWorthIt)
-			{
-				Sized.push_back(Batch.Items[Index]);
-			}
+			if (bWorthIt) { Sized.push_back(Batch.Items[Index]); }
 		}
 	}
 	std::erase_if(Batches, [](const FSizeBatch& Batch) { return !Batch.Queries; });
@@ -121,19 +101,14 @@ bool FGeometryStore::FitsCompacted(const FEntry& Entry) const
 
 FRTStatus FGeometryStore::ChooseCompactions()
 {
-	if (Sized.empty())
-	{
-		return FRTStatus::Success();
-	}
-	std::erase_if(Sized,
-	              [&](FSlotRef Ref)
-	              {
-		              const FEntry* const Entry = Resolve(Ref);
-		              return !Entry || Entry->Compaction != ECompaction::Sized;
-	              });
+	if (Sized.empty()) { return FRTStatus::Success(); }
+	std::erase_if(Sized, [&](FSlotRef Ref) {
+		const FEntry* const Entry = Resolve(Ref);
+		return !Entry || Entry->Compaction != ECompaction::Sized;
+	});
 	// The smallest first: each that is done makes room for a larger one.
 	std::sort(Sized.begin(), Sized.end(),
-	          [&](FSlotRef A, FSlotRef B) { return Entries[A.Slot].CompactedBytes < Entries[B.Slot].CompactedBytes; });
+	    [&](FSlotRef A, FSlotRef B) { return Entries[A.Slot].CompactedBytes < Entries[B.Slot].CompactedBytes; });
 	uint64_t Bytes = 0;
 	size_t Next = 0;
 	FRTStatus Status = FRTStatus::Success();
@@ -141,20 +116,14 @@ FRTStatus FGeometryStore::ChooseCompactions()
 	{
 		FEntry& Entry = Entries[Sized[Next].Slot];
 		const bool bFits = Entry.Compacted || FitsCompacted(Entry);
-		if (!bFits || (Bytes > 0 && Bytes + Entry.CompactedBytes > CompactedBytesPerFrame))
-		{
-			break;
-		}
+		if (!bFits || (Bytes > 0 && Bytes + Entry.CompactedBytes > CompactedBytesPerFrame)) { break; }
 		if (!Entry.Compacted)
 		{
 			const std::vector<FRTGeometrySection> Sections = MakeStructureSections(*Entry.Geometry);
 			FRTGeometryDesc Desc = MakeDesc(Entry, Sections);
 			Desc.CompactedBytes = Entry.CompactedBytes;
 			Status = Device.CreateGeometry(Desc, Entry.Compacted.ReleaseAndGetAddress());
-			if (!Status)
-			{
-				break;
-			}
+			if (!Status) { break; }
 			Stats.PeakBytes = std::max(Stats.PeakBytes, GetUsed());
 		}
 		Bytes += Entry.CompactedBytes;
@@ -173,10 +142,7 @@ void FGeometryStore::TakeCompacted()
 	for (const FSlotRef Ref : Copied)
 	{
 		FEntry* const Entry = Resolve(Ref);
-		if (!Entry || Entry->Compaction != ECompaction::Copied)
-		{
-			continue;
-		}
+		if (!Entry || Entry->Compaction != ECompaction::Copied) { continue; }
 		Entry->Compaction = ECompaction::None;
 		Stats.CompactionSavedBytes += Entry->Sizes.StructureBytes - Entry->CompactedBytes;
 		Entry->Sizes.StructureBytes = Entry->CompactedBytes;
@@ -192,32 +158,22 @@ void FGeometryStore::TakeCompacted()
 bool FGeometryStore::CanCoarsen(const FEntry& Entry) const
 {
 	const FRTGeometryInfo& Info = Entry.Geometry->Info;
-	const bool bBoxes = std::any_of(Info.Sections.begin(), Info.Sections.end(),
-	                                [](const FRTSectionInfo& Section) { return Section.bProcedural; });
+	const bool bBoxes =
+	    std::any_of(Info.Sections.begin(), Info.Sections.end(), [](const FRTSectionInfo& Section) { return Section.bProcedural; });
 	return CVarCoarser.GetOnRenderThread() && Info.CpuPositions && Info.CpuIndices && !Info.bDynamic && !bBoxes &&
 	       Entry.Coarsenings < MaxCoarsenings;
 }
 
 bool FGeometryStore::StartCoarser(FEntry& Entry, uint64_t Room)
 {
-	if (!CanCoarsen(Entry))
-	{
-		return false;
-	}
-	const double Need =
-	    static_cast<double>(Entry.Sizes.StructureBytes + GetScratchGrowth(Entry.Sizes.BuildScratchBytes));
+	if (!CanCoarsen(Entry)) { return false; }
+	const double Need = static_cast<double>(Entry.Sizes.StructureBytes + GetScratchGrowth(Entry.Sizes.BuildScratchBytes));
 	const double Triangles = Safety * static_cast<double>(Room) / Need * static_cast<double>(Entry.Triangles);
 	uint64_t All = 0;
-	for (const FRTSectionInfo& Section : Entry.Geometry->Info.Sections)
-	{
-		All += Section.IndexCount / 3;
-	}
+	for (const FRTSectionInfo& Section : Entry.Geometry->Info.Sections) { All += Section.IndexCount / 3; }
 	// Always from the finest level: simplifying twice would add up errors.
 	const double Share = std::min(Triangles, 0.75 * static_cast<double>(Entry.Triangles)) / static_cast<double>(All);
-	if (Share < LeastShare)
-	{
-		return false;
-	}
+	if (Share < LeastShare) { return false; }
 	++Entry.Coarsenings;
 	Entry.Geometry->Structure = nullptr;
 	Entry.Geometry->Coarser = std::make_unique<FCoarserLevel>(Entry.Geometry->Info, Share);
@@ -233,18 +189,9 @@ FRTStatus FGeometryStore::TakeCoarser()
 	for (const FSlotRef Ref : Work)
 	{
 		FEntry* const Entry = Resolve(Ref);
-		if (!Entry || Entry->State != EState::Coarsening)
-		{
-			continue;
-		}
-		if (Status && Entry->Geometry->Coarser->IsDone())
-		{
-			Status = TakeCoarser(*Entry);
-		}
-		if (Entry->State == EState::Coarsening)
-		{
-			Coarsening.push_back(Ref);
-		}
+		if (!Entry || Entry->State != EState::Coarsening) { continue; }
+		if (Status && Entry->Geometry->Coarser->IsDone()) { Status = TakeCoarser(*Entry); }
+		if (Entry->State == EState::Coarsening) { Coarsening.push_back(Ref); }
 	}
 	return Status;
 }
@@ -260,20 +207,15 @@ FRTStatus FGeometryStore::TakeCoarser(FEntry& Entry)
 		return FRTStatus::Success();
 	}
 	const uint64_t Bytes = Level.GetIndices().size() * sizeof(uint32_t);
-	const ERTBufferUsage Usage =
-	    ERTBufferUsage::Index | ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput | ERTBufferUsage::CopyDest;
+	const ERTBufferUsage Usage = ERTBufferUsage::Index | ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput | ERTBufferUsage::CopyDest;
 	TRTRef<IRTBuffer> Indices, Staging;
-	FRTStatus Status = Device.CreateBuffer({Bytes, Usage, ERTMemory::Device, Geometry.Info.Name.c_str()},
-	                                       Indices.ReleaseAndGetAddress());
+	FRTStatus Status = Device.CreateBuffer({Bytes, Usage, ERTMemory::Device, Geometry.Info.Name.c_str()}, Indices.ReleaseAndGetAddress());
 	if (Status)
 	{
-		Status = Device.CreateBuffer({Bytes, ERTBufferUsage::CopySource, ERTMemory::Upload, Geometry.Info.Name.c_str()},
-		                             Staging.ReleaseAndGetAddress());
+		Status = Device.CreateBuffer(
+		    {Bytes, ERTBufferUsage::CopySource, ERTMemory::Upload, Geometry.Info.Name.c_str()}, Staging.ReleaseAndGetAddress());
 	}
-	if (!Status)
-	{
-		return Status.Code == ERTResult::OutOfDeviceMemory ? FRTStatus::Success() : Status;
-	} // again in the next frame
+	if (!Status) { return Status.Code == ERTResult::OutOfDeviceMemory ? FRTStatus::Success() : Status; } // again in the next frame
 	std::memcpy(Staging->GetMapped(), Level.GetIndices().data(), Bytes);
 	Stats.Coarse += std::exchange(Entry.bCoarse, true) ? 0 : 1;
 	const uint64_t Before = Entry.Triangles, BytesBefore = Entry.Sizes.StructureBytes;
@@ -292,8 +234,8 @@ FRTStatus FGeometryStore::TakeCoarser(FEntry& Entry)
 		LogOnce(ERTLogLevel::Warning, fmt::format("Scene: geometry \"{}\" does not fit: {:.1f} MiB of acceleration "
 		                                          "structure, r.RT.Build.MemoryMB {}; a coarser "
 		                                          "level of {} of its {} triangles takes its place",
-		                                          EscapeText(Geometry.Info.Name, MaxQuotedBytes), ToMiB(BytesBefore),
-		                                          CVarMemory.GetOnRenderThread(), Entry.Triangles, Before));
+		                                  EscapeText(Geometry.Info.Name, MaxQuotedBytes), ToMiB(BytesBefore),
+		                                  CVarMemory.GetOnRenderThread(), Entry.Triangles, Before));
 	}
 	return FRTStatus::Success();
 }
@@ -304,47 +246,28 @@ void FGeometryStore::Refuse(FEntry& Entry, uint64_t Room)
 	Entry.RefusedRoom = Room;
 	Entry.Geometry->Structure = nullptr;
 	Refused.push_back(MakeRef(Entry));
-	if (std::exchange(Entry.bSaid, true))
-	{
-		return;
-	}
+	if (std::exchange(Entry.bSaid, true)) { return; }
 	LogOnce(ERTLogLevel::Warning,
-	        fmt::format(
-	            "Scene: geometry \"{}\" ({} triangles) is left out: {:.1f} MiB of acceleration structure do not fit, "
-	            "r.RT.Build.MemoryMB {}, {:.1f} MiB in use",
-	            EscapeText(Entry.Geometry->Info.Name, MaxQuotedBytes), Entry.Triangles, ToMiB(Entry.Sizes.StructureBytes),
-	            CVarMemory.GetOnRenderThread(), ToMiB(GetUsed())));
+	    fmt::format("Scene: geometry \"{}\" ({} triangles) is left out: {:.1f} MiB of acceleration structure do not fit, "
+	                "r.RT.Build.MemoryMB {}, {:.1f} MiB in use",
+	        EscapeText(Entry.Geometry->Info.Name, MaxQuotedBytes), Entry.Triangles, ToMiB(Entry.Sizes.StructureBytes),
+	        CVarMemory.GetOnRenderThread(), ToMiB(GetUsed())));
 }
 
 FRTStatus FGeometryStore::OnMisfit(FEntry& Entry, bool bBuildAll, uint64_t Room)
 {
-	if (!bBuildAll && ++Entry.Misfits <= PatienceFrames)
-	{
-		return FRTStatus::Success();
-	}
+	if (!bBuildAll && ++Entry.Misfits <= PatienceFrames) { return FRTStatus::Success(); }
 	if (!StartCoarser(Entry, Room))
 	{
 		Refuse(Entry, Room);
 		return FRTStatus::Success();
 	}
-	if (!bBuildAll)
-	{
-		return FRTStatus::Success();
-	}
+	if (!bBuildAll) { return FRTStatus::Success(); }
 	Entry.Geometry->Coarser->Wait();
-	if (FRTStatus S = TakeCoarser(); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = TakeCoarser(); !S) { return S; }
 	std::erase_if(Pending, [&](FSlotRef Ref) { return Ref.Slot == MakeRef(Entry).Slot; });
-	if (Entry.State != EState::Pending)
-	{
-		return FRTStatus::Success();
-	}
-	if (Entry.Sizes.StructureBytes + GetScratchGrowth(Entry.Sizes.BuildScratchBytes) <= GetRoom())
-	{
-		return Admit(Entry);
-	}
+	if (Entry.State != EState::Pending) { return FRTStatus::Success(); }
+	if (Entry.Sizes.StructureBytes + GetScratchGrowth(Entry.Sizes.BuildScratchBytes) <= GetRoom()) { return Admit(Entry); }
 	Refuse(Entry, Room);
 	return FRTStatus::Success();
 }
@@ -357,26 +280,15 @@ bool FGeometryStore::IsWorthAnother(const FEntry& Entry, uint64_t Room) const
 
 void FGeometryStore::ReconsiderRefused()
 {
-	if (Refused.empty())
-	{
-		return;
-	}
+	if (Refused.empty()) { return; }
 	const uint64_t Room = GetRoom();
-	std::erase_if(Refused,
-	              [&](FSlotRef Ref)
-	              {
-		              FEntry* const Entry = Resolve(Ref);
-		              if (!Entry || Entry->State != EState::Refused)
-		              {
-			              return true;
-		              }
-		              if (!IsWorthAnother(*Entry, Room))
-		              {
-			              return false;
-		              }
-		              Queue(*Entry);
-		              return true;
-	              });
+	std::erase_if(Refused, [&](FSlotRef Ref) {
+		FEntry* const Entry = Resolve(Ref);
+		if (!Entry || Entry->State != EState::Refused) { return true; }
+		if (!IsWorthAnother(*Entry, Room)) { return false; }
+		Queue(*Entry);
+		return true;
+	});
 }
 
 } // namespace Lantern

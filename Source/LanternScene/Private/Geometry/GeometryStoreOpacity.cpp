@@ -6,10 +6,7 @@ namespace Lantern
 
 void FGeometryStore::ForgetStructure(FEntry& Entry)
 {
-	if (Entry.Geometry->Structure)
-	{
-		LastReleaseFrame = Frame;
-	}
+	if (Entry.Geometry->Structure) { LastReleaseFrame = Frame; }
 	Entry.Geometry->Structure = nullptr;
 	Entry.Geometry->bBuilt = false;
 	Entry.Compaction = ECompaction::None;
@@ -18,10 +15,7 @@ void FGeometryStore::ForgetStructure(FEntry& Entry)
 	const uint32_t Slot = MakeRef(Entry).Slot;
 	for (FSizeBatch& Batch : Batches)
 	{
-		for (FSlotRef& Item : Batch.Items)
-		{
-			Item.Generation = Item.Slot == Slot ? ~Entry.Generation : Item.Generation;
-		}
+		for (FSlotRef& Item : Batch.Items) { Item.Generation = Item.Slot == Slot ? ~Entry.Generation : Item.Generation; }
 	}
 	SetAddress(Entry, 0);
 }
@@ -32,10 +26,7 @@ void FGeometryStore::ApplyOpacity(FEntry& Entry)
 	const bool bClassified = bUseOpacity && !Entry.bRefuted;
 	// Coarser levels are made from whole sections.
 	const bool bCoarser = Geometry.bCoarse || Entry.State == EState::Coarsening;
-	if (!Geometry.HasClassifiedSections() || Geometry.bClassified == bClassified || bCoarser)
-	{
-		return;
-	}
+	if (!Geometry.HasClassifiedSections() || Geometry.bClassified == bClassified || bCoarser) { return; }
 	Geometry.bClassified = bClassified;
 	Geometry.Parts = MakeGeometryParts(Geometry.Info, bClassified);
 	const bool bThere = Entry.State == EState::Built || Entry.State == EState::Building;
@@ -51,17 +42,11 @@ void FGeometryStore::ApplyOpacity(FEntry& Entry)
 
 void FGeometryStore::SetOpacityUse(bool bUsed)
 {
-	if (bUseOpacity == bUsed)
-	{
-		return;
-	}
+	if (bUseOpacity == bUsed) { return; }
 	bUseOpacity = bUsed;
 	for (FEntry& Entry : Entries)
 	{
-		if (!Entry.Owner.expired())
-		{
-			ApplyOpacity(Entry);
-		}
+		if (!Entry.Owner.expired()) { ApplyOpacity(Entry); }
 	}
 }
 
@@ -69,10 +54,7 @@ void FGeometryStore::RefuteOpacity(uint32_t Slot)
 {
 	FEntry& Entry = Entries[Slot];
 	Entry.bRefuted = true;
-	if (!Entry.Owner.expired())
-	{
-		ApplyOpacity(Entry);
-	}
+	if (!Entry.Owner.expired()) { ApplyOpacity(Entry); }
 }
 
 } // namespace Lantern

@@ -14,8 +14,7 @@ struct FMergeAdvice
 {
 	/// Fewer triangles than this are small.
 	static constexpr uint64_t SmallTriangles = 64;
-	uint32_t Objects =
-	    0; ///< small, static, of one section, each the only one of its geometry, with a material in common
+	uint32_t Objects = 0;   ///< small, static, of one section, each the only one of its geometry, with a material in common
 	uint32_t Materials = 0; ///< different ones among them: as many meshes would be left
 };
 

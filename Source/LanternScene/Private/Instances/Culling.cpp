@@ -10,26 +10,20 @@ namespace Lantern
 
 namespace
 {
-TRTConsoleVariable<bool>
-    CVarCulling("r.RT.Culling", true,
-                "Leaves out of the rays' scene what is far away and small. Off: all objects are in it.");
-TRTConsoleVariable<float> CVarRadius("r.RT.Culling.Radius", 1000.0f,
-                                     "Metres before the camera up to which every object is kept.", {0, 1e9});
-TRTConsoleVariable<float> CVarRadiusBehind("r.RT.Culling.RadiusBehind", 500.0f,
-                                           "Metres behind the camera up to which every object is kept.", {0, 1e9});
-TRTConsoleVariable<float> CVarAngle(
-    "r.RT.Culling.Angle", 0.25f,
-    "Beyond r.RT.Culling.Radius, objects seen under at least this angle (centre to rim, degrees) are kept. 0: all.",
-    {0, 90});
-TRTConsoleVariable<float> CVarAngleBehind(
-    "r.RT.Culling.AngleBehind", 1.0f,
+TRTConsoleVariable<bool> CVarCulling(
+    "r.RT.Culling", true, "Leaves out of the rays' scene what is far away and small. Off: all objects are in it.");
+TRTConsoleVariable<float> CVarRadius(
+    "r.RT.Culling.Radius", 1000.0f, "Metres before the camera up to which every object is kept.", {0, 1e9});
+TRTConsoleVariable<float> CVarRadiusBehind(
+    "r.RT.Culling.RadiusBehind", 500.0f, "Metres behind the camera up to which every object is kept.", {0, 1e9});
+TRTConsoleVariable<float> CVarAngle("r.RT.Culling.Angle", 0.25f,
+    "Beyond r.RT.Culling.Radius, objects seen under at least this angle (centre to rim, degrees) are kept. 0: all.", {0, 90});
+TRTConsoleVariable<float> CVarAngleBehind("r.RT.Culling.AngleBehind", 1.0f,
     "Behind the camera and beyond r.RT.Culling.RadiusBehind: the angle from which objects are kept. 0: all.", {0, 90});
-TRTConsoleVariable<float> CVarShadowPixels("r.RT.Culling.Shadow.MinPixels", 0.0f,
-                                           "Objects that are fewer pixels across cast no ray-traced shadow.",
-                                           {0, 16384});
-TRTConsoleVariable<float>
-    CVarVisiblePixels("r.RT.Culling.Visible.MinPixels", 0.0f,
-                      "Objects that are fewer pixels across are seen by no rays but those of shadows.", {0, 16384});
+TRTConsoleVariable<float> CVarShadowPixels(
+    "r.RT.Culling.Shadow.MinPixels", 0.0f, "Objects that are fewer pixels across cast no ray-traced shadow.", {0, 16384});
+TRTConsoleVariable<float> CVarVisiblePixels(
+    "r.RT.Culling.Visible.MinPixels", 0.0f, "Objects that are fewer pixels across are seen by no rays but those of shadows.", {0, 16384});
 
 double InvertSine(float Degrees)
 {
@@ -61,14 +55,8 @@ FCullingRule::FCullingRule(const FGatherView& View, const FCullingSettings& Sett
 	PixelsPerSlope = View.Height / std::tan(0.5 * double(View.FovY));
 	bVisibleLimit = Settings.VisibleMinPixels > 0.0f && View.Height > 0;
 	bShadowLimit = Settings.ShadowMinPixels > 0.0f && View.Height > 0;
-	if (bVisibleLimit)
-	{
-		VisibleScale = PixelsPerSlope / Settings.VisibleMinPixels;
-	}
-	if (bShadowLimit)
-	{
-		ShadowScale = PixelsPerSlope / Settings.ShadowMinPixels;
-	}
+	if (bVisibleLimit) { VisibleScale = PixelsPerSlope / Settings.VisibleMinPixels; }
+	if (bShadowLimit) { ShadowScale = PixelsPerSlope / Settings.ShadowMinPixels; }
 }
 
 float FCullingRule::ScreenSize(const glm::dvec3& Center, double SphereRadius) const

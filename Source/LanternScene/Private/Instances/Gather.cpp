@@ -45,8 +45,8 @@ FKernelRule MakeKernelRule(const FCullingRule& Rule, const glm::dvec3& Center)
 }
 
 /// One instance, put together in registers and stored in one go: the memory may be write-combined.
-inline void WriteInstance(FRTInstance* Out, const float* Transform, const glm::vec3& Offset, uint32_t IndexAndMask,
-                          const FInstanceBinding& Binding)
+inline void WriteInstance(
+    FRTInstance* Out, const float* Transform, const glm::vec3& Offset, uint32_t IndexAndMask, const FInstanceBinding& Binding)
 {
 	const uint64_t Words[2] = {IndexAndMask | (uint64_t(Binding.TableOffsetAndFlags) << 32), Binding.GeometryAddress};
 #if defined(__SSE2__)
@@ -57,15 +57,12 @@ inline void WriteInstance(FRTInstance* Out, const float* Transform, const glm::v
 		const __m128 Add = _mm_set_ps(Offset[Row], -0.0f, -0.0f, -0.0f);
 		_mm_stream_ps(To + 4 * Row, _mm_add_ps(_mm_load_ps(Transform + 4 * Row), Add));
 	}
-	_mm_stream_si128(reinterpret_cast<__m128i*>(To + 12),
-	                 _mm_set_epi64x(static_cast<long long>(Words[1]), static_cast<long long>(Words[0])));
+	_mm_stream_si128(
+	    reinterpret_cast<__m128i*>(To + 12), _mm_set_epi64x(static_cast<long long>(Words[1]), static_cast<long long>(Words[0])));
 #else
 	FRTInstance Value;
 	std::memcpy(Value.Transform, Transform, sizeof(Value.Transform));
-	for (int Row = 0; Row < 3; ++Row)
-	{
-		Value.Transform[4 * Row + 3] += Offset[Row];
-	}
+	for (int Row = 0; Row < 3; ++Row) { Value.Transform[4 * Row + 3] += Offset[Row]; }
 	std::memcpy(&Value.CustomIndexAndMask, Words, sizeof(Words));
 	std::memcpy(Out, &Value, sizeof(Value));
 #endif
@@ -73,8 +70,7 @@ inline void WriteInstance(FRTInstance* Out, const float* Transform, const glm::v
 
 inline uint32_t MaskBits(bool bOthers, bool bShadow)
 {
-	return 0xffffffu | (bOthers ? uint32_t(0xff & ~MASK_CASTS_SHADOW) << 24 : 0u) |
-	       (bShadow ? uint32_t(MASK_CASTS_SHADOW) << 24 : 0u);
+	return 0xffffffu | (bOthers ? uint32_t(0xff & ~MASK_CASTS_SHADOW) << 24 : 0u) | (bShadow ? uint32_t(MASK_CASTS_SHADOW) << 24 : 0u);
 }
 } // namespace
 
@@ -92,10 +88,7 @@ FInstanceGather::FKept FInstanceGather::CullBucket(const FPass& Pass, size_t Ind
 	const FInstanceBucket& Bucket = *Pass.Store.GetBucket(Index);
 	const uint64_t Used = Bucket.Used();
 	FKept Out;
-	if (!Pass.Rule.bCull)
-	{
-		Out.Others = Out.Shadow = Used;
-	}
+	if (!Pass.Rule.bCull) { Out.Others = Out.Shadow = Used; }
 	else if (Bucket.Group > 0)
 	{
 		const uint8_t Bits = GroupBits[Bucket.Group];
@@ -112,26 +105,21 @@ FInstanceGather::FKept FInstanceGather::CullBucket(const FPass& Pass, size_t Ind
 		const FBucketBounds& Bounds = Pass.Store.GetBounds();
 		const glm::dvec3 Cell = CellCenter(Bucket.Cell);
 		const glm::dvec3 Away = glm::dvec3(Bounds.X[Index], Bounds.Y[Index], Bounds.Z[Index]) - Cell;
-		const float Extent =
-		    Bounds.Extent[Index] + static_cast<float>(std::abs(Away.x) + std::abs(Away.y) + std::abs(Away.z));
+		const float Extent = Bounds.Extent[Index] + static_cast<float>(std::abs(Away.x) + std::abs(Away.y) + std::abs(Away.z));
 		const FBucketMasks Masks = TestBucket(Bucket, MakeKernelRule(Pass.Rule, Cell), Extent);
 		Out.Others = Masks.Others & Used & ~Masks.Unsure;
 		Out.Shadow = Masks.Shadow & Used & ~Masks.Unsure;
 		// What fp32 cannot tell, fp64 decides as it does everywhere else.
 		for (uint64_t Left = Masks.Unsure & Used; Left != 0; Left &= Left - 1)
 		{
-			const FInstanceRecord& Record =
-			    Pass.Store.GetRecord(Bucket.Object(static_cast<uint32_t>(std::countr_zero(Left))));
+			const FInstanceRecord& Record = Pass.Store.GetRecord(Bucket.Object(static_cast<uint32_t>(std::countr_zero(Left))));
 			const uint8_t Bits = Pass.Rule.Test(Record.Center, Record.Radius);
 			Out.Others |= (Bits & ~MASK_CASTS_SHADOW) ? Left & (~Left + 1) : 0;
 			Out.Shadow |= (Bits & MASK_CASTS_SHADOW) ? Left & (~Left + 1) : 0;
 		}
 	}
 	Out.Written = (Out.Others & Bucket.SeenByOthers) | (Out.Shadow & Bucket.SeenByShadow);
-	if (Pass.bDropMissing && Out.Written != 0)
-	{
-		Out.Written = DropMissing(Pass, Bucket, Out.Written);
-	}
+	if (Pass.bDropMissing && Out.Written != 0) { Out.Written = DropMissing(Pass, Bucket, Out.Written); }
 	return Out;
 }
 
@@ -143,15 +131,9 @@ uint64_t FInstanceGather::DropMissing(const FPass& Pass, const FInstanceBucket& 
 	{
 		const auto Slot = static_cast<uint32_t>(std::countr_zero(Left));
 		const FInstanceBinding& Binding = Pass.Store.GetBinding(Bucket.Range[Slot]);
-		if (Binding.GeometryAddress != 0)
-		{
-			continue;
-		}
+		if (Binding.GeometryAddress != 0) { continue; }
 		There &= ~(1ull << Slot);
-		if (Binding.GeometrySlot == Told || Binding.GeometrySlot == ~0u || !Pass.Missing)
-		{
-			continue;
-		}
+		if (Binding.GeometrySlot == Told || Binding.GeometrySlot == ~0u || !Pass.Missing) { continue; }
 		Told = Binding.GeometrySlot;
 		const FInstanceRecord& Record = Pass.Store.GetRecord(Bucket.Object(Slot));
 		Pass.Missing(Told, Pass.Rule.ScreenSize(Record.Center, Record.Radius));
@@ -163,10 +145,7 @@ uint32_t FInstanceGather::CountBlock(const FPass& Pass, size_t Block, bool& OutC
 {
 	const size_t First = Block * BlockBuckets, Buckets = std::min(BlockBuckets, Pass.Store.GetBucketSlots() - First);
 	uint32_t Classes[BlockBuckets] = {};
-	if (Pass.Rule.bCull)
-	{
-		ClassifyBuckets(Pass.Store.GetBounds(), First, Buckets, Pass.World, Classes);
-	}
+	if (Pass.Rule.bCull) { ClassifyBuckets(Pass.Store.GetBounds(), First, Buckets, Pass.World, Classes); }
 	const bool bNoGroups = Pass.Store.GetGroups().size() == 1;
 	uint32_t Found = 0;
 	for (size_t I = 0; I < Buckets; ++I)
@@ -175,10 +154,7 @@ uint32_t FInstanceGather::CountBlock(const FPass& Pass, size_t Block, bool& OutC
 		FKept New;
 		// Most of a large world: not even the bucket is looked at. A group's bucket may be kept for the group's sake.
 		const bool bGone = bNoGroups && Classes[I] == (BucketNoOthers | BucketNoShadow);
-		if (!bGone && Pass.Store.GetBucket(First + I))
-		{
-			New = CullBucket(Pass, First + I, Classes[I]);
-		}
+		if (!bGone && Pass.Store.GetBucket(First + I)) { New = CullBucket(Pass, First + I, Classes[I]); }
 		Found += static_cast<uint32_t>(std::popcount(New.Written));
 		OutChanged |= !(New == Old);
 		Old = New;
@@ -186,48 +162,30 @@ uint32_t FInstanceGather::CountBlock(const FPass& Pass, size_t Block, bool& OutC
 	return Found;
 }
 
-uint32_t FInstanceGather::Count(const FInstanceStore& Store, const FCullingRule& Rule,
-                                const FMissingGeometrySink& Missing)
+uint32_t FInstanceGather::Count(const FInstanceStore& Store, const FCullingRule& Rule, const FMissingGeometrySink& Missing)
 {
 	const size_t Buckets = Store.GetBucketSlots(), Blocks = (Buckets + BlockBuckets - 1) / BlockBuckets;
 	Kept.resize(Buckets);
 	BlockOffsets.resize(Blocks);
 	GroupBits.resize(Store.GetGroups().size());
-	ParallelFor(GroupBits.size(), 1024,
-	            [&](size_t Begin, size_t End)
-	            {
-		            for (size_t I = Begin; I < End; ++I)
-		            {
-			            GroupBits[I] = Rule.Test(Store.GetGroups()[I].Center, Store.GetGroups()[I].Radius);
-		            }
-	            });
+	ParallelFor(GroupBits.size(), 1024, [&](size_t Begin, size_t End) {
+		for (size_t I = Begin; I < End; ++I) { GroupBits[I] = Rule.Test(Store.GetGroups()[I].Center, Store.GetGroups()[I].Radius); }
+	});
 	const FPass Pass{Store, Rule, MakeKernelRule(Rule, glm::dvec3(0)), Missing, Store.HasMissing()};
 	std::atomic<bool> bAnyChanged = false;
-	ParallelFor(Blocks, 4,
-	            [&](size_t Begin, size_t End)
-	            {
-		            bool bHere = false;
-		            for (size_t Block = Begin; Block < End; ++Block)
-		            {
-			            BlockOffsets[Block] = CountBlock(Pass, Block, bHere);
-		            }
-		            if (bHere)
-		            {
-			            bAnyChanged.store(true, std::memory_order_relaxed);
-		            }
-	            });
+	ParallelFor(Blocks, 4, [&](size_t Begin, size_t End) {
+		bool bHere = false;
+		for (size_t Block = Begin; Block < End; ++Block) { BlockOffsets[Block] = CountBlock(Pass, Block, bHere); }
+		if (bHere) { bAnyChanged.store(true, std::memory_order_relaxed); }
+	});
 	Total = 0;
-	for (uint32_t& Offset : BlockOffsets)
-	{
-		Total += std::exchange(Offset, Total);
-	}
+	for (uint32_t& Offset : BlockOffsets) { Total += std::exchange(Offset, Total); }
 	bChanged = bAnyChanged || SeenRevision != Store.GetRevision();
 	SeenRevision = Store.GetRevision();
 	return Total;
 }
 
-void FInstanceGather::WriteBlock(const FInstanceStore& Store, const glm::dvec3& Origin, size_t Block,
-                                 FRTInstance* Out) const
+void FInstanceGather::WriteBlock(const FInstanceStore& Store, const glm::dvec3& Origin, size_t Block, FRTInstance* Out) const
 {
 	const FInstanceBinding* const Bindings = Store.GetBindings();
 	const size_t End = std::min((Block + 1) * BlockBuckets, Kept.size());
@@ -235,18 +193,14 @@ void FInstanceGather::WriteBlock(const FInstanceStore& Store, const glm::dvec3& 
 	for (size_t I = Block * BlockBuckets; I < End; ++I)
 	{
 		const FKept& Here = Kept[I];
-		if (Here.Written == 0)
-		{
-			continue;
-		}
+		if (Here.Written == 0) { continue; }
 		const FInstanceBucket& Bucket = *Store.GetBucket(I);
 		const glm::vec3 Offset = CellOffset(Bucket.Cell, Origin);
 		for (uint64_t Left = Here.Written; Left != 0; Left &= Left - 1)
 		{
 			const auto Slot = static_cast<uint32_t>(std::countr_zero(Left));
 			const uint32_t Bits = MaskBits((Here.Others >> Slot) & 1, (Here.Shadow >> Slot) & 1);
-			WriteInstance(Next++, Bucket.Transform[Slot], Offset, Bucket.IndexAndMask[Slot] & Bits,
-			              Bindings[Bucket.Range[Slot]]);
+			WriteInstance(Next++, Bucket.Transform[Slot], Offset, Bucket.IndexAndMask[Slot] & Bits, Bindings[Bucket.Range[Slot]]);
 		}
 	}
 #if defined(__SSE2__)
@@ -257,53 +211,35 @@ void FInstanceGather::WriteBlock(const FInstanceStore& Store, const glm::dvec3& 
 void FInstanceGather::Write(const FInstanceStore& Store, const glm::dvec3& Origin, FRTInstance* Out) const
 {
 	assert(SeenRevision == Store.GetRevision() && reinterpret_cast<uintptr_t>(Out) % 16 == 0);
-	ParallelFor(BlockOffsets.size(), 4,
-	            [&](size_t Begin, size_t End)
-	            {
-		            for (size_t Block = Begin; Block < End; ++Block)
-		            {
-			            WriteBlock(Store, Origin, Block, Out);
-		            }
-	            });
+	ParallelFor(BlockOffsets.size(), 4, [&](size_t Begin, size_t End) {
+		for (size_t Block = Begin; Block < End; ++Block) { WriteBlock(Store, Origin, Block, Out); }
+	});
 }
 
-uint32_t GatherStraightforward(const FInstanceStore& Store, const FObjectData* Objects, const FCullingRule& Rule,
-                               const glm::dvec3& Origin, FRTInstance* Out, const FMissingGeometrySink& Missing)
+uint32_t GatherStraightforward(const FInstanceStore& Store, const FObjectData* Objects, const FCullingRule& Rule, const glm::dvec3& Origin,
+    FRTInstance* Out, const FMissingGeometrySink& Missing)
 {
 	const std::vector<FInstanceRecord>& Records = Store.GetRecords();
 	uint32_t Written = 0;
 	for (uint32_t Index = 0; Index < Records.size(); ++Index)
 	{
 		const FInstanceRecord& Record = Records[Index];
-		if (!Record.bAlive)
-		{
-			continue;
-		}
+		if (!Record.bAlive) { continue; }
 		const FInstanceGroup& Group = Store.GetGroups()[Record.Group];
-		const uint8_t Bits =
-		    Record.Group > 0 ? Rule.Test(Group.Center, Group.Radius) : Rule.Test(Record.Center, Record.Radius);
+		const uint8_t Bits = Record.Group > 0 ? Rule.Test(Group.Center, Group.Radius) : Rule.Test(Record.Center, Record.Radius);
 		const uint8_t Mask = Record.Mask & Bits;
-		if (Mask == 0)
-		{
-			continue;
-		}
+		if (Mask == 0) { continue; }
 		const FInstanceBinding& Binding = Store.GetBinding(Record.Range);
 		if (Binding.GeometryAddress == 0)
 		{
-			if (Missing && Binding.GeometrySlot != ~0u)
-			{
-				Missing(Binding.GeometrySlot, Rule.ScreenSize(Record.Center, Record.Radius));
-			}
+			if (Missing && Binding.GeometrySlot != ~0u) { Missing(Binding.GeometrySlot, Rule.ScreenSize(Record.Center, Record.Radius)); }
 			continue;
 		}
 		FRTInstance& Instance = Out[Written++];
 		static_assert(sizeof(Instance.Transform) == sizeof(FObjectData::ObjectToWorld));
 		std::memcpy(Instance.Transform, Objects[Index].ObjectToWorld, sizeof(Instance.Transform));
 		const glm::vec3 Offset = CellOffset(Objects[Index].Cell, Origin);
-		for (int Row = 0; Row < 3; ++Row)
-		{
-			Instance.Transform[4 * Row + 3] += Offset[Row];
-		}
+		for (int Row = 0; Row < 3; ++Row) { Instance.Transform[4 * Row + 3] += Offset[Row]; }
 		Instance.CustomIndexAndMask = Index | (uint32_t(Mask) << 24);
 		Instance.TableOffsetAndFlags = Binding.TableOffsetAndFlags;
 		Instance.GeometryAddress = Binding.GeometryAddress;

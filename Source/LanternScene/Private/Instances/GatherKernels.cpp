@@ -22,28 +22,15 @@ constexpr uint32_t Capacity = FInstanceBucket::Capacity;
 constexpr float PlaceError = 1e-6f;
 constexpr float SquareError = 4e-6f;
 
-LANTERN_KERNEL_INLINE float Larger(float A, float B)
-{
-	return A > B ? A : B;
-}
-LANTERN_KERNEL_INLINE float Smaller(float A, float B)
-{
-	return A < B ? A : B;
-}
+LANTERN_KERNEL_INLINE float Larger(float A, float B) { return A > B ? A : B; }
+LANTERN_KERNEL_INLINE float Smaller(float A, float B) { return A < B ? A : B; }
 /// Whole vectors: the loops need no remainder.
-LANTERN_KERNEL_INLINE uint32_t RoundUp(uint32_t Count)
-{
-	return (Count + 15) & ~15u;
-}
-LANTERN_KERNEL_INLINE float Square(float A)
-{
-	return A * A;
-}
+LANTERN_KERNEL_INLINE uint32_t RoundUp(uint32_t Count) { return (Count + 15) & ~15u; }
+LANTERN_KERNEL_INLINE float Square(float A) { return A * A; }
 
 LANTERN_KERNEL_INLINE void ClassifyLoop(const float* __restrict X, const float* __restrict Y, const float* __restrict Z,
-                                        const float* __restrict Extent, const float* __restrict RMin,
-                                        const float* __restrict RMax, size_t Count, const FKernelRule& InRule,
-                                        uint32_t* __restrict Out)
+    const float* __restrict Extent, const float* __restrict RMin, const float* __restrict RMax, size_t Count, const FKernelRule& InRule,
+    uint32_t* __restrict Out)
 {
 	const FKernelRule Rule = InRule;
 	const float EyeSize = std::fabs(Rule.Eye[0]) + std::fabs(Rule.Eye[1]) + std::fabs(Rule.Eye[2]);
@@ -62,8 +49,7 @@ LANTERN_KERNEL_INLINE void ClassifyLoop(const float* __restrict X, const float* 
 		const float FarAhead = bAllAhead ? MostBefore : FarBoth, NearAhead = bAllAhead ? LeastBefore : NearBoth;
 		const float Far = bAllBehind ? MostBehind : FarAhead, Near = bAllBehind ? LeastBehind : NearAhead;
 		// Not farther than L even at its far end: D ≤ L − Reach; farther than L even at its near end: D > L + Reach.
-		const float OthersNear =
-		    Smaller(Near, RMin[I] * Rule.VisibleScale + Rule.VisibleBase) * (1 - PlaceError) - Reach;
+		const float OthersNear = Smaller(Near, RMin[I] * Rule.VisibleScale + Rule.VisibleBase) * (1 - PlaceError) - Reach;
 		const float ShadowNear = Smaller(Near, RMin[I] * Rule.ShadowScale + Rule.ShadowBase) * (1 - PlaceError) - Reach;
 		const float OthersFar = Smaller(Far, RMax[I] * Rule.VisibleScale + Rule.VisibleBase) * (1 + PlaceError) + Reach;
 		const float ShadowFar = Smaller(Far, RMax[I] * Rule.ShadowScale + Rule.ShadowBase) * (1 + PlaceError) + Reach;
@@ -81,8 +67,8 @@ LANTERN_KERNEL_INLINE void ClassifyLoop(const float* __restrict X, const float* 
 constexpr uint32_t FlagOthers = 1, FlagShadow = 2, FlagUnsure = 4;
 
 /// Margin: how wrong a square of a distance may be. Reach: how wrong a distance along an axis may be.
-LANTERN_KERNEL_INLINE void TestLoop(const FInstanceBucket& Bucket, const FKernelRule& InRule, float Margin, float Reach,
-                                    uint32_t* __restrict Out)
+LANTERN_KERNEL_INLINE void TestLoop(
+    const FInstanceBucket& Bucket, const FKernelRule& InRule, float Margin, float Reach, uint32_t* __restrict Out)
 {
 	const FKernelRule Rule = InRule;
 	const uint32_t Count = RoundUp(Bucket.Count);
@@ -98,8 +84,7 @@ LANTERN_KERNEL_INLINE void TestLoop(const FInstanceBucket& Bucket, const FKernel
 		const float LeastBoth = Smaller(Before, Behind), MostBoth = Larger(Before, Behind);
 		const float LeastBefore = bSurelyBefore ? Before : LeastBoth, MostBefore = bSurelyBefore ? Before : MostBoth;
 		const float Least = bSurelyBehind ? Behind : LeastBefore, Most = bSurelyBehind ? Behind : MostBefore;
-		const float Others = Square(R * Rule.VisibleScale + Rule.VisibleBase),
-		            Shadow = Square(R * Rule.ShadowScale + Rule.ShadowBase);
+		const float Others = Square(R * Rule.VisibleScale + Rule.VisibleBase), Shadow = Square(R * Rule.ShadowScale + Rule.ShadowBase);
 		const float Above = D2 + Margin, Below = D2 - Margin;
 		const uint32_t Kept = Above <= Least ? 1u : 0u, Dropped = Below > Most ? 1u : 0u;
 		const uint32_t OthersKept = Above <= Others ? 1u : 0u, OthersDropped = Below > Others ? 1u : 0u;
@@ -112,21 +97,15 @@ LANTERN_KERNEL_INLINE void TestLoop(const FInstanceBucket& Bucket, const FKernel
 
 LANTERN_KERNEL_INLINE void PackLoop(const uint32_t* __restrict Flags, uint32_t Count, uint8_t* __restrict Bytes)
 {
-	for (uint32_t I = 0; I < Count; ++I)
-	{
-		Bytes[I] = static_cast<uint8_t>(Flags[I]);
-	}
+	for (uint32_t I = 0; I < Count; ++I) { Bytes[I] = static_cast<uint8_t>(Flags[I]); }
 }
 
 #ifdef LANTERN_KERNEL_AVX2
-LANTERN_KERNEL_AVX2 void ClassifyAvx2(const FBucketBounds& B, size_t First, size_t Count, const FKernelRule& Rule,
-                                      uint32_t* Out)
+LANTERN_KERNEL_AVX2 void ClassifyAvx2(const FBucketBounds& B, size_t First, size_t Count, const FKernelRule& Rule, uint32_t* Out)
 {
-	ClassifyLoop(&B.X[First], &B.Y[First], &B.Z[First], &B.Extent[First], &B.RMin[First], &B.RMax[First], Count, Rule,
-	             Out);
+	ClassifyLoop(&B.X[First], &B.Y[First], &B.Z[First], &B.Extent[First], &B.RMin[First], &B.RMax[First], Count, Rule, Out);
 }
-LANTERN_KERNEL_AVX2 void TestAvx2(const FInstanceBucket& Bucket, const FKernelRule& Rule, float Margin, float Reach,
-                                  uint8_t* Out)
+LANTERN_KERNEL_AVX2 void TestAvx2(const FInstanceBucket& Bucket, const FKernelRule& Rule, float Margin, float Reach, uint8_t* Out)
 {
 	alignas(64) uint32_t Flags[Capacity];
 	TestLoop(Bucket, Rule, Margin, Reach, Flags);
@@ -137,8 +116,7 @@ const bool bHasAvx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("
 
 void ClassifyPlain(const FBucketBounds& B, size_t First, size_t Count, const FKernelRule& Rule, uint32_t* Out)
 {
-	ClassifyLoop(&B.X[First], &B.Y[First], &B.Z[First], &B.Extent[First], &B.RMin[First], &B.RMax[First], Count, Rule,
-	             Out);
+	ClassifyLoop(&B.X[First], &B.Y[First], &B.Z[First], &B.Extent[First], &B.RMin[First], &B.RMax[First], Count, Rule, Out);
 }
 void TestPlain(const FInstanceBucket& Bucket, const FKernelRule& Rule, float Margin, float Reach, uint8_t* Out)
 {
@@ -163,14 +141,10 @@ uint64_t CollectBits(const uint8_t* Bytes, uint32_t Count, uint32_t Shift)
 }
 } // namespace
 
-void ClassifyBuckets(const FBucketBounds& Bounds, size_t First, size_t Count, const FKernelRule& Rule,
-                     uint32_t* OutClass)
+void ClassifyBuckets(const FBucketBounds& Bounds, size_t First, size_t Count, const FKernelRule& Rule, uint32_t* OutClass)
 {
 #ifdef LANTERN_KERNEL_AVX2
-	if (bHasAvx2)
-	{
-		return ClassifyAvx2(Bounds, First, Count, Rule, OutClass);
-	}
+	if (bHasAvx2) { return ClassifyAvx2(Bounds, First, Count, Rule, OutClass); }
 #endif
 	ClassifyPlain(Bounds, First, Count, Rule, OutClass);
 }
@@ -180,17 +154,13 @@ FBucketMasks TestBucket(const FInstanceBucket& Bucket, const FKernelRule& Rule, 
 	const float Size = BucketExtent + std::fabs(Rule.Eye[0]) + std::fabs(Rule.Eye[1]) + std::fabs(Rule.Eye[2]);
 	alignas(64) uint8_t Flags[Capacity];
 #ifdef LANTERN_KERNEL_AVX2
-	if (bHasAvx2)
-	{
-		TestAvx2(Bucket, Rule, SquareError * Size * Size, PlaceError * Size, Flags);
-	}
+	if (bHasAvx2) { TestAvx2(Bucket, Rule, SquareError * Size * Size, PlaceError * Size, Flags); }
 	else
 #endif
 	{
 		TestPlain(Bucket, Rule, SquareError * Size * Size, PlaceError * Size, Flags);
 	}
-	return {CollectBits(Flags, Bucket.Count, 0), CollectBits(Flags, Bucket.Count, 1),
-	        CollectBits(Flags, Bucket.Count, 2)};
+	return {CollectBits(Flags, Bucket.Count, 0), CollectBits(Flags, Bucket.Count, 1), CollectBits(Flags, Bucket.Count, 2)};
 }
 
 } // namespace Lantern

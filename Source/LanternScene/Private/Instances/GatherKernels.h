@@ -24,8 +24,7 @@ enum EBucketClass : uint32_t
 	BucketNoShadow = 8,
 };
 /// Buckets First … First + Count − 1; Rule in the world.
-void ClassifyBuckets(const FBucketBounds& Bounds, size_t First, size_t Count, const FKernelRule& Rule,
-                     uint32_t* OutClass);
+void ClassifyBuckets(const FBucketBounds& Bounds, size_t First, size_t Count, const FKernelRule& Rule, uint32_t* OutClass);
 
 /// One bit per object. Where Unsure, the others mean nothing.
 struct FBucketMasks

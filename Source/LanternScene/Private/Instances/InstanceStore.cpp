@@ -18,10 +18,7 @@ constexpr int32_t UnboundedLevel = 1001;
 /// Two radii of one level differ by less than a factor of two.
 int32_t LevelOf(double Radius)
 {
-	if (Radius >= UnboundedRadius)
-	{
-		return UnboundedLevel;
-	}
+	if (Radius >= UnboundedRadius) { return UnboundedLevel; }
 	return std::clamp(static_cast<int32_t>(std::ilogb(std::max(Radius, 1e-3))), -10, 40);
 }
 
@@ -29,10 +26,7 @@ void MakeRows(const glm::dmat4& Transform, const glm::dvec3& Center, float Out[1
 {
 	for (int Row = 0; Row < 3; ++Row)
 	{
-		for (int Column = 0; Column < 3; ++Column)
-		{
-			Out[4 * Row + Column] = static_cast<float>(Transform[Column][Row]);
-		}
+		for (int Column = 0; Column < 3; ++Column) { Out[4 * Row + Column] = static_cast<float>(Transform[Column][Row]); }
 		Out[4 * Row + 3] = static_cast<float>(Transform[3][Row] - Center[Row]);
 	}
 }
@@ -61,24 +55,23 @@ glm::dvec3 FindOrigin(const glm::dvec3& World)
 {
 	const glm::dvec3 Center = CellCenter(FindCell(World));
 	glm::dvec3 Origin;
-	for (int Axis = 0; Axis < 3; ++Axis) { Origin[Axis] = Center[Axis] + OriginStep * FindStep(World[Axis] - Center[Axis], OriginStep, 0.5 * CellSize / OriginStep); }
+	for (int Axis = 0; Axis < 3; ++Axis)
+	{
+		Origin[Axis] = Center[Axis] + OriginStep * FindStep(World[Axis] - Center[Axis], OriginStep, 0.5 * CellSize / OriginStep);
+	}
 	return Origin;
 }
 
 void FBucketBounds::Resize(size_t Count)
 {
-	for (std::vector<float>* Array : {&X, &Y, &Z, &Extent, &RMin})
-	{
-		Array->resize(Count, 0.0f);
-	}
+	for (std::vector<float>* Array : {&X, &Y, &Z, &Extent, &RMin}) { Array->resize(Count, 0.0f); }
 	RMax.resize(Count, -1.0f);
 }
 
 size_t FInstanceStore::FKeyHash::operator()(const FKey& Key) const
 {
 	uint64_t Hash = 0;
-	for (const uint32_t Part :
-	     {uint32_t(Key.Cell.x), uint32_t(Key.Cell.y), uint32_t(Key.Cell.z), uint32_t(Key.Level), Key.Group})
+	for (const uint32_t Part : {uint32_t(Key.Cell.x), uint32_t(Key.Cell.y), uint32_t(Key.Cell.z), uint32_t(Key.Level), Key.Group})
 	{
 		Hash = (Hash ^ Part) * 0x9e3779b97f4a7c15ull;
 		Hash ^= Hash >> 29;
@@ -103,10 +96,7 @@ const float* FInstanceStore::GetTransform(uint32_t Object) const
 void FInstanceStore::Set(uint32_t Object, const FInstancePlacement& Placement)
 {
 	++Revision;
-	if (Object >= Records.size())
-	{
-		Records.resize(Object + 1);
-	}
+	if (Object >= Records.size()) { Records.resize(Object + 1); }
 	FInstanceRecord& Record = Records[Object];
 	FInstanceRecord New = Record;
 	New.Cell = FindCell(glm::dvec3(Placement.Transform[3]));
@@ -124,48 +114,27 @@ void FInstanceStore::Set(uint32_t Object, const FInstancePlacement& Placement)
 		MarkGroupDirty(New.Group);
 		Record = New;
 		WriteSlot(*Buckets[New.Bucket], New.Slot, Object, Rows, At);
-		if (Record.Range != Placement.Range)
-		{
-			SetRange(Object, Placement.Range);
-		}
+		if (Record.Range != Placement.Range) { SetRange(Object, Placement.Range); }
 		return;
 	}
-	if (Record.bAlive)
-	{
-		Detach(Object);
-	}
+	if (Record.bAlive) { Detach(Object); }
 	New.Group = FindGroup(Placement.Group);
 	New.Range = Placement.Range;
 	New.bAlive = true;
 	Records[Object] = New;
 	++Count;
-	if (Placement.Range >= Bindings.size())
-	{
-		SetBinding(Placement.Range, {});
-	}
-	if (RangeUsers[Placement.Range]++ == 0 && Bindings[Placement.Range].GeometryAddress == 0)
-	{
-		++MissingBindings;
-	}
+	if (Placement.Range >= Bindings.size()) { SetBinding(Placement.Range, {}); }
+	if (RangeUsers[Placement.Range]++ == 0 && Bindings[Placement.Range].GeometryAddress == 0) { ++MissingBindings; }
 	JoinGroup(Object);
 	Insert(Object, Rows, At);
 }
 
 bool FInstanceStore::StaysInBucket(const FInstanceRecord& Record, const FInstanceRecord& New, const glm::vec3& Place)
 {
-	if (!(MakeKey(New) == MakeKey(Record)))
-	{
-		return false;
-	}
+	if (!(MakeKey(New) == MakeKey(Record))) { return false; }
 	const uint32_t Bucket = Record.Bucket;
-	if (IsWithinBounds(Bucket, New, Place))
-	{
-		return true;
-	}
-	if (Buckets[Bucket]->Node == None || FindLeaf(MakeKey(New), Place) != Bucket)
-	{
-		return false;
-	}
+	if (IsWithinBounds(Bucket, New, Place)) { return true; }
+	if (Buckets[Bucket]->Node == None || FindLeaf(MakeKey(New), Place) != Bucket) { return false; }
 	MarkDirty(Bucket);
 	return true;
 }
@@ -175,8 +144,8 @@ bool FInstanceStore::IsWithinBounds(uint32_t Bucket, const FInstanceRecord& New,
 	const glm::vec3 World(CellCenter(New.Cell) + glm::dvec3(Place));
 	const glm::vec3 Away = World - glm::vec3(Bounds.X[Bucket], Bounds.Y[Bucket], Bounds.Z[Bucket]);
 	const float Radius = static_cast<float>(New.Radius);
-	return glm::dot(Away, Away) <= 0.98f * Bounds.Extent[Bucket] * Bounds.Extent[Bucket] &&
-	       Radius >= Bounds.RMin[Bucket] && Radius <= Bounds.RMax[Bucket];
+	return glm::dot(Away, Away) <= 0.98f * Bounds.Extent[Bucket] * Bounds.Extent[Bucket] && Radius >= Bounds.RMin[Bucket] &&
+	       Radius <= Bounds.RMax[Bucket];
 }
 
 void FInstanceStore::Detach(uint32_t Object)
@@ -185,10 +154,7 @@ void FInstanceStore::Detach(uint32_t Object)
 	assert(Record.bAlive);
 	Extract(Object);
 	LeaveGroup(Object);
-	if (--RangeUsers[Record.Range] == 0 && Bindings[Record.Range].GeometryAddress == 0)
-	{
-		--MissingBindings;
-	}
+	if (--RangeUsers[Record.Range] == 0 && Bindings[Record.Range].GeometryAddress == 0) { --MissingBindings; }
 	Record.bAlive = false;
 	--Count;
 }
@@ -197,32 +163,17 @@ void FInstanceStore::Remove(uint32_t Object)
 {
 	++Revision;
 	Detach(Object);
-	while (!Records.empty() && !Records.back().bAlive)
-	{
-		Records.pop_back();
-	}
-	if (Records.capacity() / 4 > Records.size() + 64)
-	{
-		Records.shrink_to_fit();
-	}
+	while (!Records.empty() && !Records.back().bAlive) { Records.pop_back(); }
+	if (Records.capacity() / 4 > Records.size() + 64) { Records.shrink_to_fit(); }
 }
 
 void FInstanceStore::SetRange(uint32_t Object, uint32_t Range)
 {
 	++Revision;
-	if (Range >= Bindings.size())
-	{
-		SetBinding(Range, {});
-	}
+	if (Range >= Bindings.size()) { SetBinding(Range, {}); }
 	FInstanceRecord& Record = Records[Object];
-	if (--RangeUsers[Record.Range] == 0 && Bindings[Record.Range].GeometryAddress == 0)
-	{
-		--MissingBindings;
-	}
-	if (RangeUsers[Range]++ == 0 && Bindings[Range].GeometryAddress == 0)
-	{
-		++MissingBindings;
-	}
+	if (--RangeUsers[Record.Range] == 0 && Bindings[Record.Range].GeometryAddress == 0) { --MissingBindings; }
+	if (RangeUsers[Range]++ == 0 && Bindings[Range].GeometryAddress == 0) { ++MissingBindings; }
 	Record.Range = Range;
 	Buckets[Record.Bucket]->Range[Record.Slot] = Range;
 }
@@ -235,10 +186,7 @@ void FInstanceStore::SetBinding(uint32_t Range, const FInstanceBinding& Binding)
 		RangeUsers.resize(Range + 1, 0);
 	}
 	FInstanceBinding& Old = Bindings[Range];
-	if (Old == Binding)
-	{
-		return;
-	}
+	if (Old == Binding) { return; }
 	++Revision;
 	if (RangeUsers[Range] > 0)
 	{
@@ -248,8 +196,7 @@ void FInstanceStore::SetBinding(uint32_t Range, const FInstanceBinding& Binding)
 	Old = Binding;
 }
 
-void FInstanceStore::WriteSlot(FInstanceBucket& Bucket, uint32_t Slot, uint32_t Object, const float* Rows,
-                               const glm::vec3& Place)
+void FInstanceStore::WriteSlot(FInstanceBucket& Bucket, uint32_t Slot, uint32_t Object, const float* Rows, const glm::vec3& Place)
 {
 	const FInstanceRecord& Record = Records[Object];
 	Bucket.X[Slot] = Place.x;
@@ -276,8 +223,7 @@ void FInstanceStore::Place(uint32_t Object, uint32_t Bucket, const float* Rows, 
 
 void FInstanceStore::MoveSlot(FInstanceBucket& From, uint32_t FromSlot, uint32_t ToBucket)
 {
-	Place(From.Object(FromSlot), ToBucket, From.Transform[FromSlot],
-	      {From.X[FromSlot], From.Y[FromSlot], From.Z[FromSlot]});
+	Place(From.Object(FromSlot), ToBucket, From.Transform[FromSlot], {From.X[FromSlot], From.Y[FromSlot], From.Z[FromSlot]});
 }
 
 void FInstanceStore::Insert(uint32_t Object, const float* Rows, const glm::vec3& At)
@@ -307,16 +253,10 @@ void FInstanceStore::Extract(uint32_t Object)
 	Records[Object].Bucket = None;
 	if (Bucket.Count == 0)
 	{
-		if (Bucket.Node != None)
-		{
-			RemoveLeaf(Index);
-		}
+		if (Bucket.Node != None) { RemoveLeaf(Index); }
 		FreeBucket(Index);
 	}
-	else if (Bucket.Count < FInstanceBucket::Capacity / 4 && Bucket.Node != None)
-	{
-		MergeWithSibling(Index);
-	}
+	else if (Bucket.Count < FInstanceBucket::Capacity / 4 && Bucket.Node != None) { MergeWithSibling(Index); }
 }
 
 uint32_t FInstanceStore::AllocateBucket(const FKey& Key, uint32_t Node)
@@ -339,10 +279,7 @@ uint32_t FInstanceStore::AllocateBucket(const FKey& Key, uint32_t Node)
 	Bucket.Group = Key.Group;
 	Bucket.Node = Node;
 	// The unused end of a bucket is computed with, too.
-	for (float* Array : {Bucket.X, Bucket.Y, Bucket.Z, Bucket.R})
-	{
-		std::fill_n(Array, FInstanceBucket::Capacity, 0.0f);
-	}
+	for (float* Array : {Bucket.X, Bucket.Y, Bucket.Z, Bucket.R}) { std::fill_n(Array, FInstanceBucket::Capacity, 0.0f); }
 	return Index;
 }
 
@@ -356,10 +293,7 @@ void FInstanceStore::FreeBucket(uint32_t Index)
 void FInstanceStore::MarkDirty(uint32_t Index)
 {
 	FInstanceBucket& Bucket = *Buckets[Index];
-	if (Bucket.bDirty)
-	{
-		return;
-	}
+	if (Bucket.bDirty) { return; }
 	Bucket.bDirty = true;
 	DirtyBuckets.push_back(Index);
 }
@@ -400,21 +334,13 @@ void FInstanceStore::Refresh()
 	// A bucket that was freed and made again is listed twice.
 	std::sort(DirtyBuckets.begin(), DirtyBuckets.end());
 	DirtyBuckets.erase(std::unique(DirtyBuckets.begin(), DirtyBuckets.end()), DirtyBuckets.end());
-	ParallelFor(DirtyBuckets.size(), 64,
-	            [&](size_t Begin, size_t End)
-	            {
-		            for (size_t I = Begin; I < End; ++I)
-		            {
-			            RefreshBucket(DirtyBuckets[I]);
-		            }
-	            });
+	ParallelFor(DirtyBuckets.size(), 64, [&](size_t Begin, size_t End) {
+		for (size_t I = Begin; I < End; ++I) { RefreshBucket(DirtyBuckets[I]); }
+	});
 	DirtyBuckets.clear();
 	for (const uint32_t Group : DirtyGroups)
 	{
-		if (Groups[Group].bDirty)
-		{
-			RefreshGroup(Groups[Group]);
-		}
+		if (Groups[Group].bDirty) { RefreshGroup(Groups[Group]); }
 	}
 	DirtyGroups.clear();
 }

@@ -14,10 +14,7 @@ constexpr uint32_t None = ~0u;
 /// Two neighbours that have no more objects than this together become one bucket.
 constexpr uint32_t MergeCount = 40;
 
-float* AxisOf(FInstanceBucket& Bucket, int32_t Axis)
-{
-	return Axis == 0 ? Bucket.X : Axis == 1 ? Bucket.Y : Bucket.Z;
-}
+float* AxisOf(FInstanceBucket& Bucket, int32_t Axis) { return Axis == 0 ? Bucket.X : Axis == 1 ? Bucket.Y : Bucket.Z; }
 
 /// The longest side of what the bucket holds, and where to cut it; false: nothing tells its objects apart.
 bool ChooseCut(FInstanceBucket& Bucket, int32_t& OutAxis, float& OutSplit)
@@ -33,18 +30,12 @@ bool ChooseCut(FInstanceBucket& Bucket, int32_t& OutAxis, float& OutSplit)
 			OutAxis = Axis;
 		}
 	}
-	if (!(Longest > 0.0f))
-	{
-		return false;
-	}
+	if (!(Longest > 0.0f)) { return false; }
 	std::array<float, FInstanceBucket::Capacity> Sorted{};
 	std::copy_n(AxisOf(Bucket, OutAxis), Bucket.Count, Sorted.begin());
 	std::sort(Sorted.begin(), Sorted.begin() + Bucket.Count);
 	OutSplit = Sorted[Bucket.Count / 2];
-	if (OutSplit <= Sorted[0])
-	{
-		OutSplit = *std::upper_bound(Sorted.begin(), Sorted.begin() + Bucket.Count, Sorted[0]);
-	}
+	if (OutSplit <= Sorted[0]) { OutSplit = *std::upper_bound(Sorted.begin(), Sorted.begin() + Bucket.Count, Sorted[0]); }
 	return true;
 }
 } // namespace
@@ -71,10 +62,7 @@ uint32_t FInstanceStore::FindLeaf(const FKey& Key, const glm::vec3& At)
 		Nodes[Found->second].Child[0] = AllocateBucket(Key, Found->second);
 	}
 	uint32_t Node = Found->second;
-	while (Nodes[Node].Axis >= 0)
-	{
-		Node = Nodes[Node].Child[At[Nodes[Node].Axis] < Nodes[Node].Split ? 0 : 1];
-	}
+	while (Nodes[Node].Axis >= 0) { Node = Nodes[Node].Child[At[Nodes[Node].Axis] < Nodes[Node].Split ? 0 : 1]; }
 	return Nodes[Node].Child[0];
 }
 
@@ -111,10 +99,7 @@ void FInstanceStore::Split(uint32_t Index)
 		}
 		MoveSlot(Bucket, Slot, Other);
 		const uint32_t Last = --Bucket.Count;
-		if (Slot == Last)
-		{
-			break;
-		}
+		if (Slot == Last) { break; }
 		const uint32_t Moved = Bucket.Object(Last);
 		WriteSlot(Bucket, Slot, Moved, Bucket.Transform[Last], {Bucket.X[Last], Bucket.Y[Last], Bucket.Z[Last]});
 		Records[Moved].Slot = static_cast<uint8_t>(Slot);
@@ -128,14 +113,8 @@ void FInstanceStore::Collapse(uint32_t Parent, uint32_t Kept, uint32_t Dropped)
 	FNode Node = Nodes[Kept];
 	Node.Parent = Nodes[Parent].Parent;
 	Nodes[Parent] = Node;
-	if (Node.Axis < 0)
-	{
-		Buckets[Node.Child[0]]->Node = Parent;
-	}
-	else
-	{
-		Nodes[Node.Child[0]].Parent = Nodes[Node.Child[1]].Parent = Parent;
-	}
+	if (Node.Axis < 0) { Buckets[Node.Child[0]]->Node = Parent; }
+	else { Nodes[Node.Child[0]].Parent = Nodes[Node.Child[1]].Parent = Parent; }
 	FreeNodes.push_back(Kept);
 	FreeNodes.push_back(Dropped);
 }
@@ -156,25 +135,13 @@ void FInstanceStore::RemoveLeaf(uint32_t Index)
 void FInstanceStore::MergeWithSibling(uint32_t Index)
 {
 	const uint32_t Leaf = Buckets[Index]->Node, Parent = Nodes[Leaf].Parent;
-	if (Parent == None)
-	{
-		return;
-	}
+	if (Parent == None) { return; }
 	const uint32_t Sibling = Nodes[Parent].Child[Nodes[Parent].Child[0] == Leaf ? 1 : 0];
-	if (Nodes[Sibling].Axis >= 0)
-	{
-		return;
-	}
+	if (Nodes[Sibling].Axis >= 0) { return; }
 	const uint32_t Other = Nodes[Sibling].Child[0];
-	if (Buckets[Index]->Count + Buckets[Other]->Count > MergeCount)
-	{
-		return;
-	}
+	if (Buckets[Index]->Count + Buckets[Other]->Count > MergeCount) { return; }
 	FInstanceBucket& From = *Buckets[Index];
-	for (uint32_t Slot = 0; Slot < From.Count; ++Slot)
-	{
-		MoveSlot(From, Slot, Other);
-	}
+	for (uint32_t Slot = 0; Slot < From.Count; ++Slot) { MoveSlot(From, Slot, Other); }
 	Collapse(Parent, Sibling, Leaf);
 	FreeBucket(Index);
 }
@@ -183,15 +150,9 @@ void FInstanceStore::MergeWithSibling(uint32_t Index)
 
 uint32_t FInstanceStore::FindGroup(uint32_t Name)
 {
-	if (Name == 0)
-	{
-		return 0;
-	}
+	if (Name == 0) { return 0; }
 	const auto [Found, bNew] = GroupsByName.try_emplace(Name, 0);
-	if (!bNew)
-	{
-		return Found->second;
-	}
+	if (!bNew) { return Found->second; }
 	if (FreeGroups.empty())
 	{
 		Found->second = static_cast<uint32_t>(Groups.size());
@@ -209,10 +170,7 @@ uint32_t FInstanceStore::FindGroup(uint32_t Name)
 
 void FInstanceStore::MarkGroupDirty(uint32_t Index)
 {
-	if (Index == 0 || Groups[Index].bDirty)
-	{
-		return;
-	}
+	if (Index == 0 || Groups[Index].bDirty) { return; }
 	Groups[Index].bDirty = true;
 	DirtyGroups.push_back(Index);
 }
@@ -220,10 +178,7 @@ void FInstanceStore::MarkGroupDirty(uint32_t Index)
 void FInstanceStore::JoinGroup(uint32_t Object)
 {
 	const uint32_t Index = Records[Object].Group;
-	if (Index == 0)
-	{
-		return;
-	}
+	if (Index == 0) { return; }
 	Records[Object].Member = static_cast<uint32_t>(Groups[Index].Members.size());
 	Groups[Index].Members.push_back(Object);
 	MarkGroupDirty(Index);
@@ -232,19 +187,13 @@ void FInstanceStore::JoinGroup(uint32_t Object)
 void FInstanceStore::LeaveGroup(uint32_t Object)
 {
 	const uint32_t Index = Records[Object].Group;
-	if (Index == 0)
-	{
-		return;
-	}
+	if (Index == 0) { return; }
 	FInstanceGroup& Group = Groups[Index];
 	const uint32_t Last = Group.Members.back();
 	Group.Members[Records[Object].Member] = Last;
 	Records[Last].Member = Records[Object].Member;
 	Group.Members.pop_back();
-	if (!Group.Members.empty())
-	{
-		return MarkGroupDirty(Index);
-	}
+	if (!Group.Members.empty()) { return MarkGroupDirty(Index); }
 	GroupsByName.erase(GroupNames[Index]);
 	GroupNames[Index] = 0;
 	Group = {};
@@ -268,10 +217,7 @@ void FInstanceStore::RefreshGroup(FInstanceGroup& Group)
 		Group.Radius = std::max(Group.Radius, glm::distance(Group.Center, Record.Center) + Record.Radius);
 	}
 	// One member that must stay keeps them all.
-	if (Group.Radius >= UnboundedRadius)
-	{
-		Group.Radius = UnboundedRadius;
-	}
+	if (Group.Radius >= UnboundedRadius) { Group.Radius = UnboundedRadius; }
 }
 
 } // namespace Lantern

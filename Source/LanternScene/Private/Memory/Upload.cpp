@@ -107,7 +107,11 @@ void FFrameUploads::Collect()
 	const FRTFence Completed = Device.GetCompletedFence();
 	for (size_t I = 0; I < InFlight.size();)
 	{
-		if (InFlight[I].Fence > Completed) { ++I; continue; }
+		if (InFlight[I].Fence > Completed)
+		{
+			++I;
+			continue;
+		}
 		Free.push_back(std::move(InFlight[I]));
 		if (I + 1 < InFlight.size()) { InFlight[I] = std::move(InFlight.back()); }
 		InFlight.pop_back();
@@ -135,7 +139,7 @@ FRTStatus FFrameUploads::Allocate(uint64_t Size, FUploadSlice& Out)
 		{
 			Page.Size = std::max(PageBytes, Align(Size));
 			const FRTBufferDesc Desc{Page.Size, ERTBufferUsage::CopySource | ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput,
-			                         ERTMemory::Upload, "FrameUploads"};
+			    ERTMemory::Upload, "FrameUploads"};
 			if (FRTStatus S = Device.CreateBuffer(Desc, Page.Buffer.ReleaseAndGetAddress()); !S) { return S; }
 		}
 		Current.push_back(std::move(Page));

@@ -40,21 +40,14 @@ FScale MakeScale(float BaseAlpha, uint32_t A, uint32_t B, uint32_t C)
 	return {BaseAlpha * (Low / 255.0) * (1.0 - ProductMargin), BaseAlpha * (High / 255.0) * (1.0 + ProductMargin)};
 }
 
-bool SurelyPasses(double Scale, double Alpha, float Cutoff)
-{
-	return Scale * std::max(0.0, Alpha) >= Cutoff;
-}
+bool SurelyPasses(double Scale, double Alpha, float Cutoff) { return Scale * std::max(0.0, Alpha) >= Cutoff; }
 
-bool SurelyFails(double Scale, double Alpha, float Cutoff)
-{
-	return Scale * std::min(1.0, Alpha) < Cutoff;
-}
+bool SurelyFails(double Scale, double Alpha, float Cutoff) { return Scale * std::min(1.0, Alpha) < Cutoff; }
 
 FAlphaLimits MakeLimits(const FScale& Scale, float Cutoff)
 {
 	// Both hold from some alpha on.
-	const auto FindFirst = [](auto Holds)
-	{
+	const auto FindFirst = [](auto Holds) {
 		int Low = 0, High = 256;
 		while (Low < High)
 		{
@@ -82,22 +75,16 @@ FCorner TransformCorner(const FAlphaTest& Test, const FVertexAttributes& Vertex)
 	const glm::dvec2 Offset(Test.UVOffset);
 	const glm::dvec2 Size = glm::abs(UV);
 	return {{T.x * UV.x + T.y * UV.y + Offset.x, T.z * UV.x + T.w * UV.y + Offset.y},
-	        {std::abs(T.x) * Size.x + std::abs(T.y) * Size.y + std::abs(Offset.x),
-	         std::abs(T.z) * Size.x + std::abs(T.w) * Size.y + std::abs(Offset.y)}};
+	    {std::abs(T.x) * Size.x + std::abs(T.y) * Size.y + std::abs(Offset.x),
+	        std::abs(T.z) * Size.x + std::abs(T.w) * Size.y + std::abs(Offset.y)}};
 }
 
 EOpacity ClassifyTextured(const FAlphaTest& Test, const FVertexAttributes* const (&Corners)[3])
 {
 	const FAlphaLimits Limits = MakeAlphaLimits(Test, Corners);
 	const FAlphaRange All = Test.Texture->GetRange(Test.Texture->GetLevelCount() - 1, 0, 0);
-	if (All.Min >= Limits.PassFrom)
-	{
-		return EOpacity::Opaque;
-	}
-	if (All.Max <= Limits.FailUpTo)
-	{
-		return EOpacity::Transparent;
-	}
+	if (All.Min >= Limits.PassFrom) { return EOpacity::Opaque; }
+	if (All.Max <= Limits.FailUpTo) { return EOpacity::Transparent; }
 	FTexelTriangle Triangle;
 	return MakeTexelTriangle(Test, Corners, Triangle) ? ClassifyFootprint(Test, Limits, Triangle) : EOpacity::Mixed;
 }
@@ -118,8 +105,7 @@ FOpacityCounts Reorder(std::span<TIndex> Indices, std::span<const EOpacity> Clas
 	for (size_t Triangle = 0; Triangle < Classes.size(); ++Triangle)
 	{
 		const size_t To = Next[static_cast<int>(Classes[Triangle])]++;
-		std::copy_n(Source.begin() + static_cast<ptrdiff_t>(3 * Triangle), 3,
-		            Indices.begin() + static_cast<ptrdiff_t>(3 * To));
+		std::copy_n(Source.begin() + static_cast<ptrdiff_t>(3 * Triangle), 3, Indices.begin() + static_cast<ptrdiff_t>(3 * To));
 	}
 	return Counts;
 }
@@ -139,10 +125,7 @@ bool MakeTexelTriangle(const FAlphaTest& Test, const FVertexAttributes* const (&
 		Out.P[I] = Corner.UV * glm::dvec2(Texels.Width, Texels.Height);
 		Out.Magnitude = glm::max(Out.Magnitude, Corner.Magnitude);
 		// fp32 overflows where this does not.
-		if (!(Corner.Magnitude.x < 1.0e30) || !(Corner.Magnitude.y < 1.0e30))
-		{
-			return false;
-		}
+		if (!(Corner.Magnitude.x < 1.0e30) || !(Corner.Magnitude.y < 1.0e30)) { return false; }
 	}
 	return true;
 }
@@ -179,13 +162,9 @@ uint64_t MakeOpacityKey(const FMaterialData& Material, uint32_t Program)
 	return Key == 0 ? 1 : Key;
 }
 
-EOpacity ClassifyTriangle(const FAlphaTest& Test, const FVertexAttributes& A, const FVertexAttributes& B,
-                          const FVertexAttributes& C)
+EOpacity ClassifyTriangle(const FAlphaTest& Test, const FVertexAttributes& A, const FVertexAttributes& B, const FVertexAttributes& C)
 {
-	if (!(Test.BaseAlpha >= 0.0f) || (Test.bTextured && !Test.Texture))
-	{
-		return EOpacity::Mixed;
-	}
+	if (!(Test.BaseAlpha >= 0.0f) || (Test.bTextured && !Test.Texture)) { return EOpacity::Mixed; }
 	const FScale Scale = MakeScale(Test.BaseAlpha, A.Color, B.Color, C.Color);
 	if (!Test.bTextured)
 	{
@@ -196,8 +175,8 @@ EOpacity ClassifyTriangle(const FAlphaTest& Test, const FVertexAttributes& A, co
 	return ClassifyTextured(Test, {&A, &B, &C});
 }
 
-void ClassifyTriangles(const FAlphaTest& Test, const FVertexAttributes* Vertices, std::span<const uint32_t> Indices,
-                       std::span<EOpacity> Out)
+void ClassifyTriangles(
+    const FAlphaTest& Test, const FVertexAttributes* Vertices, std::span<const uint32_t> Indices, std::span<EOpacity> Out)
 {
 	assert(Indices.size() == 3 * Out.size());
 	std::unordered_map<FFootprintKey, uint32_t, FFootprintHash> Known;
@@ -206,40 +185,26 @@ void ClassifyTriangles(const FAlphaTest& Test, const FVertexAttributes* Vertices
 	{
 		const FFootprintKey Key = MakeFootprintKey(Test, Vertices, &Indices[3 * size_t(T)]);
 		const auto [It, bNew] = Known.try_emplace(Key, static_cast<uint32_t>(First.size()));
-		if (bNew)
-		{
-			First.push_back(T);
-		}
+		if (bNew) { First.push_back(T); }
 		Footprints[T] = It->second;
 	}
 	std::vector<EOpacity> Classes(First.size());
-	ParallelFor(First.size(), TrianglesPerTask,
-	            [&](size_t Begin, size_t End)
-	            {
-		            for (size_t I = Begin; I < End; ++I)
-		            {
-			            const uint32_t* const C = &Indices[3 * size_t(First[I])];
-			            Classes[I] = ClassifyTriangle(Test, Vertices[C[0]], Vertices[C[1]], Vertices[C[2]]);
-		            }
-	            });
-	for (size_t T = 0; T < Out.size(); ++T)
-	{
-		Out[T] = Classes[Footprints[T]];
-	}
+	ParallelFor(First.size(), TrianglesPerTask, [&](size_t Begin, size_t End) {
+		for (size_t I = Begin; I < End; ++I)
+		{
+			const uint32_t* const C = &Indices[3 * size_t(First[I])];
+			Classes[I] = ClassifyTriangle(Test, Vertices[C[0]], Vertices[C[1]], Vertices[C[2]]);
+		}
+	});
+	for (size_t T = 0; T < Out.size(); ++T) { Out[T] = Classes[Footprints[T]]; }
 }
 
-FOpacityCounts ReorderByOpacity(std::span<uint32_t> Indices, std::span<const EOpacity> Classes)
-{
-	return Reorder(Indices, Classes);
-}
+FOpacityCounts ReorderByOpacity(std::span<uint32_t> Indices, std::span<const EOpacity> Classes) { return Reorder(Indices, Classes); }
 
-FOpacityCounts ReorderByOpacity(std::span<uint16_t> Indices, std::span<const EOpacity> Classes)
-{
-	return Reorder(Indices, Classes);
-}
+FOpacityCounts ReorderByOpacity(std::span<uint16_t> Indices, std::span<const EOpacity> Classes) { return Reorder(Indices, Classes); }
 
-FOpacityCounts ClassifySection(const FAlphaTest& Test, uint64_t Key, const FVertexAttributes* Vertices,
-                               uint32_t* Indices, FRTSectionInfo& Section)
+FOpacityCounts ClassifySection(
+    const FAlphaTest& Test, uint64_t Key, const FVertexAttributes* Vertices, uint32_t* Indices, FRTSectionInfo& Section)
 {
 	assert(!Section.bOpaque && !Section.bProcedural);
 	const std::span<uint32_t> Range(Indices + Section.FirstIndex, Section.IndexCount);

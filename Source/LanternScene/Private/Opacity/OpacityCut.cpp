@@ -66,12 +66,9 @@ public:
 			for (size_t T = 0; T < S.Indices.size() / 3; ++T)
 			{
 				const uint32_t* const Corners = &S.Indices[3 * T];
-				const auto [It, bNew] = Known.try_emplace(MakeFootprintKey(*S.Test, S.Vertices, Corners),
-				                                          static_cast<uint32_t>(Footprints.size()));
-				if (bNew)
-				{
-					Footprints.push_back({Source, T, 0.0, {}});
-				}
+				const auto [It, bNew] =
+				    Known.try_emplace(MakeFootprintKey(*S.Test, S.Vertices, Corners), static_cast<uint32_t>(Footprints.size()));
+				if (bNew) { Footprints.push_back({Source, T, 0.0, {}}); }
 				const glm::vec3 E1 = S.Positions[Corners[1]] - S.Positions[Corners[0]];
 				const glm::vec3 E2 = S.Positions[Corners[2]] - S.Positions[Corners[0]];
 				const float Area = 0.5f * glm::length(glm::cross(E1, E2)) * S.Weight;
@@ -90,26 +87,22 @@ public:
 			Order[I] = I;
 			Total += Footprints[I].Area;
 		}
-		std::stable_sort(Order.begin(), Order.end(),
-		                 [&](uint32_t A, uint32_t B) { return Footprints[A].Area > Footprints[B].Area; });
+		std::stable_sort(Order.begin(), Order.end(), [&](uint32_t A, uint32_t B) { return Footprints[A].Area > Footprints[B].Area; });
 		size_t Count = 0;
 		for (double Sum = 0.0; Count < std::min(Order.size(), MaxFootprints) && Sum < WorthwhileShare * Total; ++Count)
 		{
 			Sum += Footprints[Order[Count]].Area;
 		}
-		ParallelFor(Count, 8,
-		            [&](size_t Begin, size_t End)
-		            {
-			            for (size_t I = Begin; I < End; ++I)
-			            {
-				            FFootprint& Footprint = Footprints[Order[I]];
-				            const FPieceSource& S = Sources[Footprint.Source];
-				            const uint32_t* const C = &S.Indices[3 * Footprint.Triangle];
-				            Footprint.Ways =
-				                MakeOpacityPieces(*S.Test, S.Vertices[C[0]], S.Vertices[C[1]], S.Vertices[C[2]],
-				                                  I < FineFootprints ? MaxOpacityCells : MaxOpacityCells / 2);
-			            }
-		            });
+		ParallelFor(Count, 8, [&](size_t Begin, size_t End) {
+			for (size_t I = Begin; I < End; ++I)
+			{
+				FFootprint& Footprint = Footprints[Order[I]];
+				const FPieceSource& S = Sources[Footprint.Source];
+				const uint32_t* const C = &S.Indices[3 * Footprint.Triangle];
+				Footprint.Ways = MakeOpacityPieces(*S.Test, S.Vertices[C[0]], S.Vertices[C[1]], S.Vertices[C[2]],
+				    I < FineFootprints ? MaxOpacityCells : MaxOpacityCells / 2);
+			}
+		});
 	}
 
 	uint64_t CountExtra(double Price) const
@@ -165,10 +158,7 @@ public:
 			{
 				Out.Positions.push_back(glm::vec3(P0 + double(At.x) * (P1 - P0) + double(At.y) * (P2 - P0)));
 			}
-			for (size_t Piece = 0; Piece < Corners.size() / 3; ++Piece)
-			{
-				Out.Indices.insert(Out.Indices.end(), {C[0], C[1], C[2]});
-			}
+			for (size_t Piece = 0; Piece < Corners.size() / 3; ++Piece) { Out.Indices.insert(Out.Indices.end(), {C[0], C[1], C[2]}); }
 		}
 		return bCut ? Out : FOpacityPieceList{};
 	}
@@ -180,15 +170,9 @@ private:
 		double High = 0.0;
 		for (const std::vector<FTriangleRef>& OfSource : Triangles)
 		{
-			for (const FTriangleRef& T : OfSource)
-			{
-				High = std::max(High, double(T.Area));
-			}
+			for (const FTriangleRef& T : OfSource) { High = std::max(High, double(T.Area)); }
 		}
-		if (CountExtra(0.0) <= MostExtra)
-		{
-			return {0.0, 0.0};
-		}
+		if (CountExtra(0.0) <= MostExtra) { return {0.0, 0.0}; }
 		// Areas span many orders of magnitude: steps are of the exponent.
 		double Low = High * 1e-9;
 		for (int Step = 0; Step < PriceSteps && High > Low * 1.01; ++Step)
@@ -208,22 +192,14 @@ private:
 std::vector<FOpacityPieceList> CutOpacityPieces(std::span<const FPieceSource> Sources, uint64_t MostExtra)
 {
 	std::vector<FOpacityPieceList> Out(Sources.size());
-	if (MostExtra == 0)
-	{
-		return Out;
-	}
+	if (MostExtra == 0) { return Out; }
 	FCutter Cutter(Sources);
 	Cutter.FindFootprints();
 	Cutter.FindWays();
 	Cutter.ChooseWays(MostExtra);
-	ParallelFor(Sources.size(), 1,
-	            [&](size_t Begin, size_t End)
-	            {
-		            for (size_t Source = Begin; Source < End; ++Source)
-		            {
-			            Out[Source] = Cutter.MakePieces(Source);
-		            }
-	            });
+	ParallelFor(Sources.size(), 1, [&](size_t Begin, size_t End) {
+		for (size_t Source = Begin; Source < End; ++Source) { Out[Source] = Cutter.MakePieces(Source); }
+	});
 	return Out;
 }
 

@@ -61,20 +61,14 @@ struct FInterval
 /// Where the texels [Low, High) lie in a repetition of the texture.
 FInterval Place(const FAxis& Axis, int64_t Tile, double Low, double High)
 {
-	if (Axis.bAll)
-	{
-		return {Axis.Min, Axis.Max};
-	}
+	if (Axis.bAll) { return {Axis.Min, Axis.Max}; }
 	if (Axis.Address == ERTAddress::Clamp)
 	{
 		// Border texels go on for ever.
 		return {Low <= 0.0 ? std::min(Axis.Min, 0.0) : Low, High >= Axis.Size ? std::max(Axis.Max, Axis.Size) : High};
 	}
 	const double Origin = static_cast<double>(Tile) * Axis.Size;
-	if (Axis.Address == ERTAddress::Mirror && (Tile & 1) != 0)
-	{
-		return {Origin + Axis.Size - High, Origin + Axis.Size - Low};
-	}
+	if (Axis.Address == ERTAddress::Mirror && (Tile & 1) != 0) { return {Origin + Axis.Size - High, Origin + Axis.Size - Low}; }
 	return {Origin + Low, Origin + High};
 }
 
@@ -99,38 +93,26 @@ public:
 	}
 	bool MayOverlap(glm::dvec2 Min, glm::dvec2 Max) const
 	{
-		if (Min.x > High.x || Max.x < Low.x || Min.y > High.y || Max.y < Low.y)
-		{
-			return false;
-		}
+		if (Min.x > High.x || Max.x < Low.x || Min.y > High.y || Max.y < Low.y) { return false; }
 		const glm::dvec2 Center = 0.5 * (Min + Max), Half = 0.5 * (Max - Min);
 		for (int I = 0; I < 3; ++I)
 		{
 			const double At = glm::dot(Normals[I], Center);
 			const double Radius = Half.x * std::abs(Normals[I].x) + Half.y * std::abs(Normals[I].y) + Slack[I];
-			if (At + Radius < From[I] || At - Radius > To[I])
-			{
-				return false;
-			}
+			if (At + Radius < From[I] || At - Radius > To[I]) { return false; }
 		}
 		return true;
 	}
 
 	bool Contains(glm::dvec2 Min, glm::dvec2 Max) const
 	{
-		if (Min.x < Low.x || Max.x > High.x || Min.y < Low.y || Max.y > High.y)
-		{
-			return false;
-		}
+		if (Min.x < Low.x || Max.x > High.x || Min.y < Low.y || Max.y > High.y) { return false; }
 		const glm::dvec2 Center = 0.5 * (Min + Max), Half = 0.5 * (Max - Min);
 		for (int I = 0; I < 3; ++I)
 		{
 			const double At = glm::dot(Normals[I], Center);
 			const double Radius = Half.x * std::abs(Normals[I].x) + Half.y * std::abs(Normals[I].y);
-			if (At - Radius < From[I] || At + Radius > To[I])
-			{
-				return false;
-			}
+			if (At - Radius < From[I] || At + Radius > To[I]) { return false; }
 		}
 		return true;
 	}
@@ -143,14 +125,8 @@ private:
 struct FBoxTest
 {
 	glm::dvec2 Low, High;
-	bool MayOverlap(glm::dvec2 Min, glm::dvec2 Max) const
-	{
-		return Min.x <= High.x && Max.x >= Low.x && Min.y <= High.y && Max.y >= Low.y;
-	}
-	bool Contains(glm::dvec2 Min, glm::dvec2 Max) const
-	{
-		return Min.x >= Low.x && Max.x <= High.x && Min.y >= Low.y && Max.y <= High.y;
-	}
+	bool MayOverlap(glm::dvec2 Min, glm::dvec2 Max) const { return Min.x <= High.x && Max.x >= Low.x && Min.y <= High.y && Max.y >= Low.y; }
+	bool Contains(glm::dvec2 Min, glm::dvec2 Max) const { return Min.x >= Low.x && Max.x <= High.x && Min.y >= Low.y && Max.y <= High.y; }
 };
 
 /// Walks the pyramid's blocks that the shape may read in one repetition of the texture.
@@ -158,23 +134,19 @@ template <class TShape>
 class TFootprintWalk
 {
 public:
-	TFootprintWalk(const FAlphaPyramid& InPyramid, const FAlphaLimits& InLimits, const FAxis& InU, const FAxis& InV,
-	               const TShape& InShape, bool bPassOnly)
+	TFootprintWalk(const FAlphaPyramid& InPyramid, const FAlphaLimits& InLimits, const FAxis& InU, const FAxis& InV, const TShape& InShape,
+	    bool bPassOnly)
 	    : Pyramid(InPyramid),
 	      Limits(InLimits),
 	      U(InU),
 	      V(InV),
 	      Shape(InShape),
 	      bSeesFail(bPassOnly)
-	{
-	}
+	{}
 	bool IsMixed() const { return bSeesPass && bSeesFail; }
 	EOpacity GetResult() const
 	{
-		if (bSeesPass == bSeesFail)
-		{
-			return EOpacity::Mixed;
-		}
+		if (bSeesPass == bSeesFail) { return EOpacity::Mixed; }
 		return bSeesPass ? EOpacity::Opaque : EOpacity::Transparent;
 	}
 	void VisitTile(int64_t TileU, int64_t TileV)
@@ -188,8 +160,7 @@ public:
 			{
 				const uint32_t X = 2 * Block.X + (Child & 1), Y = 2 * Block.Y + (Child >> 1);
 				const uint32_t Level = Block.Level - 1;
-				if (uint64_t(X) << Level < Pyramid.GetTexels().Width &&
-				    uint64_t(Y) << Level < Pyramid.GetTexels().Height)
+				if (uint64_t(X) << Level < Pyramid.GetTexels().Width && uint64_t(Y) << Level < Pyramid.GetTexels().Height)
 				{
 					Visit({Level, X, Y}, TileU, TileV);
 				}
@@ -207,17 +178,11 @@ private:
 	{
 		const FAlphaRange Range = Pyramid.GetRange(Block.Level, Block.X, Block.Y);
 		const bool bPass = Range.Min >= Limits.PassFrom, bFail = Range.Max <= Limits.FailUpTo;
-		if ((bPass && bSeesPass) || (bFail && bSeesFail))
-		{
-			return;
-		}
+		if ((bPass && bSeesPass) || (bFail && bSeesFail)) { return; }
 		const double Size = static_cast<double>(uint64_t(1) << Block.Level);
 		const FInterval X = Place(U, TileU, Block.X * Size, std::min((Block.X + 1) * Size, U.Size));
 		const FInterval Y = Place(V, TileV, Block.Y * Size, std::min((Block.Y + 1) * Size, V.Size));
-		if (!Shape.MayOverlap({X.Low - U.Reach, Y.Low - V.Reach}, {X.High + U.Reach, Y.High + V.Reach}))
-		{
-			return;
-		}
+		if (!Shape.MayOverlap({X.Low - U.Reach, Y.Low - V.Reach}, {X.High + U.Reach, Y.High + V.Reach})) { return; }
 		if (bPass || bFail)
 		{
 			bSeesPass |= bPass;
@@ -228,10 +193,7 @@ private:
 		{
 			bSeesPass = bSeesFail = true;
 		}
-		else
-		{
-			Stack.push_back(Block);
-		}
+		else { Stack.push_back(Block); }
 	}
 
 	const FAlphaPyramid& Pyramid;
@@ -246,16 +208,12 @@ private:
 };
 
 template <class TShape>
-EOpacity Walk(const FAlphaTest& Test, const FAlphaLimits& Limits, const FAxis& U, const FAxis& V, const TShape& Shape,
-              bool bPassOnly)
+EOpacity Walk(const FAlphaTest& Test, const FAlphaLimits& Limits, const FAxis& U, const FAxis& V, const TShape& Shape, bool bPassOnly)
 {
 	TFootprintWalk<TShape> Footprint(*Test.Texture, Limits, U, V, Shape, bPassOnly);
 	for (int64_t TileV = V.FirstTile; TileV <= V.LastTile && !Footprint.IsMixed(); ++TileV)
 	{
-		for (int64_t TileU = U.FirstTile; TileU <= U.LastTile && !Footprint.IsMixed(); ++TileU)
-		{
-			Footprint.VisitTile(TileU, TileV);
-		}
+		for (int64_t TileU = U.FirstTile; TileU <= U.LastTile && !Footprint.IsMixed(); ++TileU) { Footprint.VisitTile(TileU, TileV); }
 	}
 	return Footprint.GetResult();
 }
@@ -263,8 +221,8 @@ EOpacity Walk(const FAlphaTest& Test, const FAlphaLimits& Limits, const FAxis& U
 class FCellMarker
 {
 public:
-	FCellMarker(const FAlphaTest& InTest, const FAlphaLimits& InLimits, const FTexelTriangle& T, glm::dvec2 InOrigin,
-	            glm::dvec2 InStep, std::array<uint64_t, MaxOpacityCells>& OutRows)
+	FCellMarker(const FAlphaTest& InTest, const FAlphaLimits& InLimits, const FTexelTriangle& T, glm::dvec2 InOrigin, glm::dvec2 InStep,
+	    std::array<uint64_t, MaxOpacityCells>& OutRows)
 	    : Test(InTest),
 	      Limits(InLimits),
 	      Magnitude(T.Magnitude),
@@ -272,15 +230,11 @@ public:
 	      Origin(InOrigin),
 	      Step(InStep),
 	      Rows(OutRows)
-	{
-	}
+	{}
 	void Mark(uint32_t X, uint32_t Y, uint32_t Size)
 	{
 		const glm::dvec2 Low = Origin + glm::dvec2(X, Y) * Step, High = Low + double(Size) * Step;
-		if (!Triangle.MayOverlap(Low, High) || IsTransparent(Low, High))
-		{
-			return;
-		}
+		if (!Triangle.MayOverlap(Low, High) || IsTransparent(Low, High)) { return; }
 		if (Size == 1)
 		{
 			Rows[Y] |= 1ull << X;
@@ -319,8 +273,8 @@ EOpacity ClassifyFootprint(const FAlphaTest& Test, const FAlphaLimits& Limits, c
 	return Walk(Test, Limits, U, V, FTriangleTest({T.P[0], T.P[1], T.P[2]}), false);
 }
 
-void MarkCells(const FAlphaTest& Test, const FAlphaLimits& Limits, const FTexelTriangle& Triangle, glm::dvec2 Origin,
-               glm::dvec2 Step, uint32_t Cells, std::array<uint64_t, MaxOpacityCells>& Rows)
+void MarkCells(const FAlphaTest& Test, const FAlphaLimits& Limits, const FTexelTriangle& Triangle, glm::dvec2 Origin, glm::dvec2 Step,
+    uint32_t Cells, std::array<uint64_t, MaxOpacityCells>& Rows)
 {
 	FCellMarker(Test, Limits, Triangle, Origin, Step, Rows).Mark(0, 0, Cells);
 }

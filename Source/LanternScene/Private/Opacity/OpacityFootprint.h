@@ -30,7 +30,7 @@ FAlphaLimits MakeAlphaLimits(const FAlphaTest& Test, const FVertexAttributes* co
 EOpacity ClassifyFootprint(const FAlphaTest& Test, const FAlphaLimits& Limits, const FTexelTriangle& Triangle);
 /// Of a grid over the triangle, of Cells (a power of two) along each axis, Step texels large from Origin on: the cells that it overlaps and that are
 /// not transparent all over: bit x of Rows[y]. May mark some that are.
-void MarkCells(const FAlphaTest& Test, const FAlphaLimits& Limits, const FTexelTriangle& Triangle, glm::dvec2 Origin,
-               glm::dvec2 Step, uint32_t Cells, std::array<uint64_t, MaxOpacityCells>& Rows);
+void MarkCells(const FAlphaTest& Test, const FAlphaLimits& Limits, const FTexelTriangle& Triangle, glm::dvec2 Origin, glm::dvec2 Step,
+    uint32_t Cells, std::array<uint64_t, MaxOpacityCells>& Rows);
 
 } // namespace Lantern

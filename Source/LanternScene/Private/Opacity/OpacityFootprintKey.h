@@ -32,8 +32,7 @@ struct FFootprintHash
 };
 
 /// Corners: three indices.
-inline FFootprintKey MakeFootprintKey(const FAlphaTest& Test, const FVertexAttributes* Vertices,
-                                      const uint32_t* Corners)
+inline FFootprintKey MakeFootprintKey(const FAlphaTest& Test, const FVertexAttributes* Vertices, const uint32_t* Corners)
 {
 	FFootprintKey Key{&Test, {}};
 	for (int I = 0; I < 3; ++I)

@@ -29,10 +29,7 @@ struct FPolygon
 	size_t Count = 0;
 	void Add(glm::dvec2 Corner)
 	{
-		if (Count < Corners.size())
-		{
-			Corners[Count++] = Corner;
-		}
+		if (Count < Corners.size()) { Corners[Count++] = Corner; }
 	}
 	const glm::dvec2& operator[](size_t I) const { return Corners[I]; }
 	const glm::dvec2& Next(size_t I) const { return Corners[I + 1 < Count ? I + 1 : 0]; }
@@ -41,10 +38,7 @@ struct FPolygon
 double GetArea(const FPolygon& P)
 {
 	double Twice = 0.0;
-	for (size_t I = 0; I < P.Count; ++I)
-	{
-		Twice += P[I].x * P.Next(I).y - P[I].y * P.Next(I).x;
-	}
+	for (size_t I = 0; I < P.Count; ++I) { Twice += P[I].x * P.Next(I).y - P[I].y * P.Next(I).x; }
 	return 0.5 * std::abs(Twice);
 }
 
@@ -56,14 +50,8 @@ FPolygon Clip(const FPolygon& In, glm::dvec2 Normal, double Limit)
 	{
 		const glm::dvec2 &A = In[I], &B = In.Next(I);
 		const double DistanceA = Limit - glm::dot(Normal, A), DistanceB = Limit - glm::dot(Normal, B);
-		if (DistanceA >= 0.0)
-		{
-			Out.Add(A);
-		}
-		if ((DistanceA >= 0.0) != (DistanceB >= 0.0))
-		{
-			Out.Add(A + (B - A) * (DistanceA / (DistanceA - DistanceB)));
-		}
+		if (DistanceA >= 0.0) { Out.Add(A); }
+		if ((DistanceA >= 0.0) != (DistanceB >= 0.0)) { Out.Add(A + (B - A) * (DistanceA / (DistanceA - DistanceB))); }
 	}
 	return Out;
 }
@@ -91,10 +79,7 @@ public:
 	      Origin(glm::min(T.P[0], glm::min(T.P[1], T.P[2])))
 	{
 		Step = (glm::max(T.P[0], glm::max(T.P[1], T.P[2])) - Origin) / double(Cells);
-		for (const glm::dvec2 Corner : T.P)
-		{
-			Triangle.Add((Corner - Origin) / Step);
-		}
+		for (const glm::dvec2 Corner : T.P) { Triangle.Add((Corner - Origin) / Step); }
 		Area = GetArea(Triangle);
 	}
 	bool IsUsable() const { return Step.x > 0.0 && Step.y > 0.0 && Area > 1e-3 && std::isfinite(Area); }
@@ -130,10 +115,7 @@ public:
 			{
 				const double First = std::countr_zero(Row), Last = 64 - std::countl_zero(Row);
 				const double Of[4] = {Last + Y + 1, Last - Y, Y + 1 - First, -First - Y};
-				for (int I = 0; I < 4; ++I)
-				{
-					Reach[I] = std::max(Reach[I], Of[I]);
-				}
+				for (int I = 0; I < 4; ++I) { Reach[I] = std::max(Reach[I], Of[I]); }
 			}
 		}
 		return Reach;
@@ -161,10 +143,7 @@ public:
 	void AddPieces(const FRect& R, FOpacityPieces& Out) const;
 
 private:
-	static uint64_t GetColumns(const FRect& R)
-	{
-		return (R.X1 >= 64 ? ~0ull : (1ull << R.X1) - 1) & ~((1ull << R.X0) - 1);
-	}
+	static uint64_t GetColumns(const FRect& R) { return (R.X1 >= 64 ? ~0ull : (1ull << R.X1) - 1) & ~((1ull << R.X0) - 1); }
 
 	const int Cells;
 	glm::dvec2 Origin, Step{0};
@@ -177,24 +156,14 @@ FSplit FPieceGrid::FindSplit(const FRect& R) const
 {
 	FSplit Best;
 	const double Share = GetShare(R);
-	const auto Try = [&](FRect Low, FRect High)
-	{
+	const auto Try = [&](FRect Low, FRect High) {
 		Low = Tighten(Low);
 		High = Tighten(High);
 		const double Saving = Share - GetShare(Low) - GetShare(High);
-		if (Saving > Best.Saving)
-		{
-			Best = {Low, High, Saving};
-		}
+		if (Saving > Best.Saving) { Best = {Low, High, Saving}; }
 	};
-	for (int X = R.X0 + 1; X < R.X1; ++X)
-	{
-		Try({R.X0, R.Y0, X, R.Y1}, {X, R.Y0, R.X1, R.Y1});
-	}
-	for (int Y = R.Y0 + 1; Y < R.Y1; ++Y)
-	{
-		Try({R.X0, R.Y0, R.X1, Y}, {R.X0, Y, R.X1, R.Y1});
-	}
+	for (int X = R.X0 + 1; X < R.X1; ++X) { Try({R.X0, R.Y0, X, R.Y1}, {X, R.Y0, R.X1, R.Y1}); }
+	for (int Y = R.Y0 + 1; Y < R.Y1; ++Y) { Try({R.X0, R.Y0, R.X1, Y}, {R.X0, Y, R.X1, R.Y1}); }
 	return Best;
 }
 
@@ -210,17 +179,13 @@ void FPieceGrid::AddPieces(const FRect& R, FOpacityPieces& Out) const
 	const FPolygon Polygon = GetPolygon(R, CellOverlap, Larger);
 	const glm::dvec2 E1 = Triangle[1] - Triangle[0], E2 = Triangle[2] - Triangle[0];
 	const double Determinant = E1.x * E2.y - E1.y * E2.x;
-	const auto ToBarycentrics = [&](glm::dvec2 P)
-	{
+	const auto ToBarycentrics = [&](glm::dvec2 P) {
 		const glm::dvec2 D = P - Triangle[0];
 		return glm::vec2((D.x * E2.y - D.y * E2.x) / Determinant, (E1.x * D.y - E1.y * D.x) / Determinant);
 	};
 	for (size_t I = 2; I < Polygon.Count; ++I)
 	{
-		for (const size_t Corner : {size_t(0), I - 1, I})
-		{
-			Out.Corners.push_back(ToBarycentrics(Polygon[Corner]));
-		}
+		for (const size_t Corner : {size_t(0), I - 1, I}) { Out.Corners.push_back(ToBarycentrics(Polygon[Corner])); }
 	}
 }
 
@@ -237,28 +202,19 @@ FOpacityPieces MakePieces(const FPieceGrid& Grid, const std::vector<FRect>& Rect
 }
 } // namespace
 
-std::vector<FOpacityPieces> MakeOpacityPieces(const FAlphaTest& Test, const FVertexAttributes& A,
-                                              const FVertexAttributes& B, const FVertexAttributes& C, uint32_t Cells)
+std::vector<FOpacityPieces> MakeOpacityPieces(
+    const FAlphaTest& Test, const FVertexAttributes& A, const FVertexAttributes& B, const FVertexAttributes& C, uint32_t Cells)
 {
 	assert(std::has_single_bit(Cells) && Cells <= MaxOpacityCells);
 	std::vector<FOpacityPieces> Out;
 	const FVertexAttributes* const Corners[3] = {&A, &B, &C};
 	FTexelTriangle Triangle;
-	if (!Test.Texture || !(Test.BaseAlpha >= 0.0f) || !MakeTexelTriangle(Test, Corners, Triangle))
-	{
-		return Out;
-	}
+	if (!Test.Texture || !(Test.BaseAlpha >= 0.0f) || !MakeTexelTriangle(Test, Corners, Triangle)) { return Out; }
 	FPieceGrid Grid(Triangle, Cells);
-	if (!Grid.IsUsable())
-	{
-		return Out;
-	}
+	if (!Grid.IsUsable()) { return Out; }
 	Grid.Mark(Test, MakeAlphaLimits(Test, Corners), Triangle);
 	std::vector<FRect> Rects = {Grid.Tighten({0, 0, static_cast<int>(Cells), static_cast<int>(Cells)})};
-	if (Rects[0].IsEmpty())
-	{
-		return Out;
-	}
+	if (Rects[0].IsEmpty()) { return Out; }
 	std::vector<FSplit> Splits = {Grid.FindSplit(Rects[0])};
 	float Share = 1.0f - static_cast<float>(LeastSaving);
 	while (true)
@@ -269,12 +225,9 @@ std::vector<FOpacityPieces> MakeOpacityPieces(const FAlphaTest& Test, const FVer
 			Share = Pieces.Share - static_cast<float>(LeastSaving);
 			Out.push_back(std::move(Pieces));
 		}
-		const auto Best = std::max_element(Splits.begin(), Splits.end(),
-		                                   [](const FSplit& X, const FSplit& Y) { return X.Saving < Y.Saving; });
-		if (Best->Saving < LeastSaving || Rects.size() >= MaxOpacityRects)
-		{
-			return Out;
-		}
+		const auto Best =
+		    std::max_element(Splits.begin(), Splits.end(), [](const FSplit& X, const FSplit& Y) { return X.Saving < Y.Saving; });
+		if (Best->Saving < LeastSaving || Rects.size() >= MaxOpacityRects) { return Out; }
 		const FSplit Split = *Best;
 		const size_t At = static_cast<size_t>(Best - Splits.begin());
 		Rects[At] = Split.Low;

@@ -8,8 +8,7 @@ namespace Lantern
 
 namespace
 {
-TRTConsoleVariable<bool> CVarClassify(
-    "r.RT.Opacity.Classify", true,
+TRTConsoleVariable<bool> CVarClassify("r.RT.Opacity.Classify", true,
     "Triangles of alpha-tested geometry that are opaque or transparent all over, as found at load, need no "
     "alpha test under rays. Off: every triangle is tested. Changing it rebuilds their geometry.");
 
@@ -20,28 +19,18 @@ bool IsOpacityWanted(const FSectionContext& Context)
 }
 } // namespace
 
-bool HasClassifiedMaterials(const FSectionContext& Context, const FRTGeometry& Geometry,
-                            const std::vector<uint32_t>& Materials)
+bool HasClassifiedMaterials(const FSectionContext& Context, const FRTGeometry& Geometry, const std::vector<uint32_t>& Materials)
 {
-	if (!Geometry.HasClassifiedSections())
-	{
-		return true;
-	}
+	if (!Geometry.HasClassifiedSections()) { return true; }
 	for (uint32_t Section = 0; Section < Materials.size(); ++Section)
 	{
 		const FRTSectionInfo& Info = Geometry.GetInfo().Sections[Section];
-		if (!Info.IsClassified())
-		{
-			continue;
-		}
+		if (!Info.IsClassified()) { continue; }
 		const uint32_t Material = Materials[Section];
 		const uint32_t Program = Material < Context.Programs.size() ? Context.Programs[Material] : StandardProgram;
 		// The list of emissive triangles counts whole triangles.
 		const bool bEmissivePieces = Info.PieceCount > 0 && Context.Materials[Material].EmissiveWeight > 0.0f;
-		if (bEmissivePieces || MakeOpacityKey(Context.Materials[Material], Program) != Info.OpacityKey)
-		{
-			return false;
-		}
+		if (bEmissivePieces || MakeOpacityKey(Context.Materials[Material], Program) != Info.OpacityKey) { return false; }
 	}
 	return true;
 }
@@ -53,10 +42,7 @@ bool NeedsOpacityUpdate(const FSectionContext& Context, const FSectionTable& Sec
 
 void UpdateOpacityUse(const FSectionContext& Context, FSectionTable& Sections, FGeometryStore& Store)
 {
-	for (const uint32_t Slot : Sections.TakeRefutedGeometries())
-	{
-		Store.RefuteOpacity(Slot);
-	}
+	for (const uint32_t Slot : Sections.TakeRefutedGeometries()) { Store.RefuteOpacity(Slot); }
 	Store.SetOpacityUse(IsOpacityWanted(Context));
 }
 

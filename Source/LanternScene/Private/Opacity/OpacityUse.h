@@ -10,8 +10,7 @@ namespace Lantern
 {
 
 /// Whether every classified section of the geometry has the alpha test that it was classified for. Materials: per section.
-bool HasClassifiedMaterials(const FSectionContext& Context, const FRTGeometry& Geometry,
-                            const std::vector<uint32_t>& Materials);
+bool HasClassifiedMaterials(const FSectionContext& Context, const FRTGeometry& Geometry, const std::vector<uint32_t>& Materials);
 
 /// Whether UpdateOpacityUse would change anything.
 bool NeedsOpacityUpdate(const FSectionContext& Context, const FSectionTable& Sections, const FGeometryStore& Store);

@@ -17,12 +17,9 @@ FMaterialProgramDesc WithShownName(FMaterialProgramDesc Desc)
 	Desc.Name = EscapeText(Desc.Name, MaxQuotedBytes);
 	return Desc;
 }
-}
+} // namespace
 
-FMaterialPrograms::FMaterialPrograms()
-{
-	Add({.Name = StandardProgramName});
-}
+FMaterialPrograms::FMaterialPrograms() { Add({.Name = StandardProgramName}); }
 
 uint32_t FMaterialPrograms::Add(FMaterialProgramDesc Desc)
 {
@@ -35,10 +32,7 @@ uint32_t FMaterialPrograms::FindOrAdd(FMaterialProgramDesc Desc)
 	Desc = WithShownName(std::move(Desc));
 	for (uint32_t Program = 0; Program < GetCount(); ++Program)
 	{
-		if (Get(Program) == Desc)
-		{
-			return Program;
-		}
+		if (Get(Program) == Desc) { return Program; }
 	}
 	return Add(std::move(Desc));
 }
@@ -48,10 +42,7 @@ void FMaterialPrograms::Edit(uint32_t Program, FMaterialProgramDesc Desc)
 	assert(Program < GetCount());
 	Desc = WithShownName(std::move(Desc));
 	FEntry& Entry = Entries[Program];
-	if (*Entry.Desc == Desc)
-	{
-		return;
-	}
+	if (*Entry.Desc == Desc) { return; }
 	Entry.Desc = std::make_shared<const FMaterialProgramDesc>(std::move(Desc));
 	++Entry.Revision;
 	++Edits;
@@ -68,10 +59,7 @@ FShaderSource FMaterialPrograms::MakeSource(FShaderSource Shader, const FMateria
 		const std::string Name = Program.Path.empty() ? "Materials/" + Program.Name + ".glsl" : Program.Path;
 		Shader.Headers.push_back({MaterialHeader, Program.Text, Name});
 	}
-	else if (!Program.Path.empty())
-	{
-		Shader.Headers.push_back({MaterialHeader, "#include \"" + Program.Path + "\"\n", MaterialHeader});
-	}
+	else if (!Program.Path.empty()) { Shader.Headers.push_back({MaterialHeader, "#include \"" + Program.Path + "\"\n", MaterialHeader}); }
 	return Shader;
 }
 

@@ -108,8 +108,7 @@ struct FLinkedPipeline
 
 struct FRTPSOCompiler::FImpl
 {
-	FImpl(IRTDevice& InDevice, FShaderCompiler& InCompiler, const FMaterialPrograms& InPrograms,
-	      FPipelineTimeSource InTime);
+	FImpl(IRTDevice& InDevice, FShaderCompiler& InCompiler, const FMaterialPrograms& InPrograms, FPipelineTimeSource InTime);
 	~FImpl();
 
 	/// Something that the pacer is told under Mutex.
@@ -192,10 +191,10 @@ struct FRTPSOCompiler::FImpl
 	FShaderCompiler& Compiler;
 	const FMaterialPrograms& Programs;
 
-	std::shared_ptr<const FRTPSO> Taken; ///< Current's pipeline; the render thread's, without Mutex
+	std::shared_ptr<const FRTPSO> Taken;                        ///< Current's pipeline; the render thread's, without Mutex
 	std::optional<std::vector<FProgramPriority>> NewPriorities; ///< the same
 	FRTPSOCompilerStats Known;                                  ///< the same
-	std::vector<FFrameEvent> FrameEvents; ///< the same; that the pacer has not been told of
+	std::vector<FFrameEvent> FrameEvents;                       ///< the same; that the pacer has not been told of
 	const FPipelineTimeSource Time;
 
 	mutable std::mutex Mutex;

@@ -8,8 +8,8 @@
 #include <unistd.h>
 #endif
 
-#include "LanternCore/Text/Log.h"
 #include "LanternCore/Tasks/TaskTrace.h"
+#include "LanternCore/Text/Log.h"
 #include "Pipelines/RTPSOCompilerImpl.h"
 
 namespace Lantern
@@ -48,10 +48,7 @@ void FRTPSOCompiler::FImpl::RunCompiler(uint32_t Index)
 	for (;;)
 	{
 		WorkAdded.wait(Lock, [&] { return bStop || (Index < ThreadLimit && !IsQueueEmpty()); });
-		if (bStop)
-		{
-			return;
-		}
+		if (bStop) { return; }
 		CompileNext(Lock);
 	}
 }
@@ -63,22 +60,10 @@ void FRTPSOCompiler::FImpl::RunLinker()
 	for (;;)
 	{
 		WorkAdded.wait(Lock, [&] { return bStop || bLinkWanted || bReload || !Trash.empty(); });
-		if (bStop)
-		{
-			return;
-		}
-		if (bLinkWanted)
-		{
-			LinkNext(Lock);
-		}
-		else if (bReload)
-		{
-			LookForEdits(Lock);
-		}
-		else
-		{
-			EmptyTrash(Lock);
-		}
+		if (bStop) { return; }
+		if (bLinkWanted) { LinkNext(Lock); }
+		else if (bReload) { LookForEdits(Lock); }
+		else { EmptyTrash(Lock); }
 	}
 }
 
@@ -99,10 +84,7 @@ void FRTPSOCompiler::FImpl::CompileNext(std::unique_lock<std::mutex>& Lock)
 		FTraceScope Trace("Compile", Job.Unit.Name);
 		Job.ContentKey = GetContentKey(Job.Unit);
 		Status = CompileShaders(Job, *Build);
-		if (Status && Job.Slot->bLibrary)
-		{
-			Status = CompileLibrary(Job, *Build);
-		}
+		if (Status && Job.Slot->bLibrary) { Status = CompileLibrary(Job, *Build); }
 	}
 
 	Lock.lock();
@@ -117,10 +99,7 @@ void FRTPSOCompiler::FImpl::CompileNext(std::unique_lock<std::mutex>& Lock)
 std::string FRTPSOCompiler::FImpl::GetContentKey(const FPipelineUnit& Unit)
 {
 	std::string Key;
-	for (size_t I = 0; I < Unit.Shaders.size(); ++I)
-	{
-		Key += Compiler.GetKey(Unit.GetSource(I)) + ' ';
-	}
+	for (size_t I = 0; I < Unit.Shaders.size(); ++I) { Key += Compiler.GetKey(Unit.GetSource(I)) + ' '; }
 	return Key;
 }
 
@@ -141,18 +120,12 @@ FRTStatus FRTPSOCompiler::FImpl::CompileShaders(FJob& Job, FPipelineBuild& Build
 FRTStatus FRTPSOCompiler::FImpl::GetBinary(const FShaderSource& Source, uint64_t Version, FShaderBinaryRef& Out)
 {
 	std::string Key = MakeSourceKey(Source) + '|' + Source.Name + '|' + std::to_string(Version);
-	for (const FShaderHeader& Header : Source.Headers)
-	{
-		Key += '|' + Header.Text;
-	}
+	for (const FShaderHeader& Header : Source.Headers) { Key += '|' + Header.Text; }
 	std::shared_ptr<FSharedShader> Entry;
 	{
 		const std::lock_guard Lock(Mutex);
 		std::shared_ptr<FSharedShader>& Found = Shared[Key];
-		if (!Found)
-		{
-			Found = std::make_shared<FSharedShader>();
-		}
+		if (!Found) { Found = std::make_shared<FSharedShader>(); }
 		Entry = Found;
 	}
 	const std::lock_guard Lock(Entry->Mutex);
@@ -237,17 +210,10 @@ void FRTPSOCompiler::FImpl::ReportFailure(const FJob& Job, const FRTStatus& Stat
 {
 	// Several groups are made from one text; they differ in what else they say behind the first line.
 	constexpr size_t MostReported = 1000;
-	if (Reported.size() > MostReported)
-	{
-		Reported.clear();
-	}
+	if (Reported.size() > MostReported) { Reported.clear(); }
 	const std::string_view Text = Status.Message;
-	if (!Reported.insert(std::to_string(Job.Version) + std::string(Text.substr(0, Text.find('\n')))).second)
-	{
-		return;
-	}
-	LogError("{} does not compile{}:\n{}", Job.Unit.Name, Job.Slot->Ready ? "; the version before stays" : "",
-	         Status.Message);
+	if (!Reported.insert(std::to_string(Job.Version) + std::string(Text.substr(0, Text.find('\n')))).second) { return; }
+	LogError("{} does not compile{}:\n{}", Job.Unit.Name, Job.Slot->Ready ? "; the version before stays" : "", Status.Message);
 }
 
 void FRTPSOCompiler::FImpl::LinkNext(std::unique_lock<std::mutex>& Lock)
@@ -270,25 +236,13 @@ void FRTPSOCompiler::FImpl::LinkNext(std::unique_lock<std::mutex>& Lock)
 	LinkStatus = Status;
 	Stats.LastLinkMs = Ms;
 	++DoneCount;
-	if (Status)
-	{
-		Linked = {std::move(Pipeline), std::move(Plan), bLinkExact, Frame};
-	}
-	else if (Status.Code == ERTResult::DeviceLost)
-	{
-		LoseDevice(Status);
-	}
+	if (Status) { Linked = {std::move(Pipeline), std::move(Plan), bLinkExact, Frame}; }
+	else if (Status.Code == ERTResult::DeviceLost) { LoseDevice(Status); }
 	else
 	{
 		FailedLink = std::move(Plan.Key);
-		if (IsShortage(Status))
-		{
-			RetryFrame = Frame + RetryFrames;
-		}
-		else if (Reported.insert(Status.Message).second)
-		{
-			LogError("RTPSO: the link fails; the one before stays: {}", Status.Message);
-		}
+		if (IsShortage(Status)) { RetryFrame = Frame + RetryFrames; }
+		else if (Reported.insert(Status.Message).second) { LogError("RTPSO: the link fails; the one before stays: {}", Status.Message); }
 	}
 	SomethingDone.notify_all();
 }
@@ -314,10 +268,7 @@ void FRTPSOCompiler::FImpl::LookForEdits(std::unique_lock<std::mutex>& Lock)
 	std::vector<FLook> Looks;
 	for (const auto& [Key, Slot] : Slots)
 	{
-		if (Slot->IsSettled())
-		{
-			Looks.push_back({Slot, Slot->Unit, Slot->ContentKey, Slot->GetVersion()});
-		}
+		if (Slot->IsSettled()) { Looks.push_back({Slot, Slot->Unit, Slot->ContentKey, Slot->GetVersion()}); }
 	}
 	Lock.unlock();
 	std::erase_if(Looks, [&](const FLook& Look) { return GetContentKey(Look.Unit) == Look.ContentKey; });
@@ -325,10 +276,7 @@ void FRTPSOCompiler::FImpl::LookForEdits(std::unique_lock<std::mutex>& Lock)
 	bReload = false;
 	for (const FLook& Look : Looks)
 	{
-		if (Look.Slot->GetVersion() != Look.Version)
-		{
-			continue;
-		}
+		if (Look.Slot->GetVersion() != Look.Version) { continue; }
 		++Look.Slot->Reloads;
 		bDirty = true;
 		bFinished = false;

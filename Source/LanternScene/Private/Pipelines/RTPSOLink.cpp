@@ -18,16 +18,10 @@ public:
 	/// Builds of which the pipeline consists, each once.
 	void AddBuilds()
 	{
-		for (const auto* List : {&Plan.RayGens, &Plan.Misses, &Plan.Callables})
-		{
-			AddList(*List);
-		}
+		for (const auto* List : {&Plan.RayGens, &Plan.Misses, &Plan.Callables}) { AddList(*List); }
 		for (const auto* List : {&Plan.StandIns, &Plan.Hits})
 		{
-			for (const FLinkPlan::FHit& Hit : *List)
-			{
-				AddList(Hit.Builds);
-			}
+			for (const FLinkPlan::FHit& Hit : *List) { AddList(Hit.Builds); }
 		}
 		if (!Plan.Misses.front()->bEmptyGroup)
 		{
@@ -41,10 +35,7 @@ public:
 			Numbers[Build] = Next;
 			Next += Build->bEmptyGroup ? 2 : 1;
 		}
-		if (Plan.Misses.front()->bEmptyGroup)
-		{
-			EmptyGroup = Numbers[Plan.Misses.front().get()] + 1;
-		}
+		if (Plan.Misses.front()->bEmptyGroup) { EmptyGroup = Numbers[Plan.Misses.front().get()] + 1; }
 	}
 
 	FRTPSOLayout MakeLayout() const
@@ -60,10 +51,7 @@ public:
 		{
 			Layout.StandIns[static_cast<size_t>(Hit.Program.Class)] = NumbersOf(Hit.Builds);
 		}
-		for (const FLinkPlan::FHit& Hit : Plan.Hits)
-		{
-			Layout.Hits.push_back({Hit.Program, Hit.State, NumbersOf(Hit.Builds)});
-		}
+		for (const FLinkPlan::FHit& Hit : Plan.Hits) { Layout.Hits.push_back({Hit.Program, Hit.State, NumbersOf(Hit.Builds)}); }
 		return Layout;
 	}
 
@@ -86,18 +74,9 @@ private:
 	{
 		for (const FPipelineBuildRef& Build : Builds)
 		{
-			if (!Build || !Numbers.try_emplace(Build.get(), 0).second)
-			{
-				continue;
-			}
-			if (Build->Library)
-			{
-				LibraryBuilds.push_back(Build.get());
-			}
-			else
-			{
-				AddOwn(*Build);
-			}
+			if (!Build || !Numbers.try_emplace(Build.get(), 0).second) { continue; }
+			if (Build->Library) { LibraryBuilds.push_back(Build.get()); }
+			else { AddOwn(*Build); }
 		}
 	}
 
@@ -107,10 +86,7 @@ private:
 		for (const FShaderBinaryRef& Binary : Build.Codes)
 		{
 			const auto [It, bNew] = Shaders.try_emplace(Binary.get(), static_cast<uint32_t>(Codes.size()));
-			if (bNew)
-			{
-				Codes.push_back(Binary->GetCode());
-			}
+			if (bNew) { Codes.push_back(Binary->GetCode()); }
 			Indices.push_back(It->second);
 		}
 		Numbers[&Build] = static_cast<uint32_t>(Groups.size());
@@ -120,10 +96,7 @@ private:
 	std::vector<uint32_t> NumbersOf(const std::vector<FPipelineBuildRef>& Builds) const
 	{
 		std::vector<uint32_t> Out;
-		for (const FPipelineBuildRef& Build : Builds)
-		{
-			Out.push_back(Build ? Numbers.at(Build.get()) : EmptyGroup);
-		}
+		for (const FPipelineBuildRef& Build : Builds) { Out.push_back(Build ? Numbers.at(Build.get()) : EmptyGroup); }
 		return Out;
 	}
 
@@ -142,10 +115,7 @@ bool TakeBuilds(const FHitSlots& Hit, std::vector<FPipelineBuildRef>& Out)
 {
 	for (const FPipelineSlotRef& Slot : Hit.Types)
 	{
-		if (Slot && !Slot->Ready)
-		{
-			return false;
-		}
+		if (Slot && !Slot->Ready) { return false; }
 		Out.push_back(Slot ? Slot->Ready : nullptr);
 	}
 	return true;
@@ -154,10 +124,7 @@ bool TakeBuilds(const FHitSlots& Hit, std::vector<FPipelineBuildRef>& Out)
 void AppendKey(FLinkPlan& Plan, const std::vector<FPipelineBuildRef>& Builds)
 {
 	Plan.Key.push_back(Builds.size());
-	for (const FPipelineBuildRef& Build : Builds)
-	{
-		Plan.Key.push_back(Build ? Build->Id : 0);
-	}
+	for (const FPipelineBuildRef& Build : Builds) { Plan.Key.push_back(Build ? Build->Id : 0); }
 }
 
 void AppendKey(FLinkPlan& Plan, const std::vector<FLinkPlan::FHit>& Hits)
@@ -178,10 +145,7 @@ FLinkPlan FRTPSOCompiler::FImpl::MakePlan() const
 	Plan.bComplete = !Wanted.Misses.empty();
 	for (size_t I = 0; I < Wanted.RayGens.size(); ++I)
 	{
-		if (!Wanted.RayGens[I]->Ready)
-		{
-			continue;
-		}
+		if (!Wanted.RayGens[I]->Ready) { continue; }
 		Plan.RayGens.push_back(Wanted.RayGens[I]->Ready);
 		Plan.RayGenSources.push_back(WantedDesc.RayGens[I]);
 	}
@@ -199,10 +163,7 @@ FLinkPlan FRTPSOCompiler::FImpl::MakePlan() const
 	for (const FHitSlots& Hit : Wanted.StandIns)
 	{
 		FLinkPlan::FHit Entry{Hit.Program, ERTHitState::StandIn, {}};
-		if (TakeBuilds(Hit, Entry.Builds))
-		{
-			Plan.StandIns.push_back(std::move(Entry));
-		}
+		if (TakeBuilds(Hit, Entry.Builds)) { Plan.StandIns.push_back(std::move(Entry)); }
 		else
 		{
 			// Without it there would be holes. One that does not compile holds up nothing.
@@ -213,46 +174,31 @@ FLinkPlan FRTPSOCompiler::FImpl::MakePlan() const
 	for (const FHitSlots& Hit : Wanted.Hits)
 	{
 		FLinkPlan::FHit Entry{Hit.Program, ERTHitState::Ready, {}};
-		if (!TakeBuilds(Hit, Entry.Builds))
-		{
-			Entry = {Hit.Program, ERTHitState::Missing, {}};
-		}
+		if (!TakeBuilds(Hit, Entry.Builds)) { Entry = {Hit.Program, ERTHitState::Missing, {}}; }
 		Plan.Hits.push_back(std::move(Entry));
 	}
 	Plan.bComplete &= !Plan.RayGens.empty();
 	Plan.bStandardServes = bStandardServes;
 	Plan.Key.push_back(bStandardServes);
-	for (const auto* List : {&Plan.RayGens, &Plan.Misses, &Plan.Callables})
-	{
-		AppendKey(Plan, *List);
-	}
-	for (const auto* List : {&Plan.StandIns, &Plan.Hits})
-	{
-		AppendKey(Plan, *List);
-	}
+	for (const auto* List : {&Plan.RayGens, &Plan.Misses, &Plan.Callables}) { AppendKey(Plan, *List); }
+	for (const auto* List : {&Plan.StandIns, &Plan.Hits}) { AppendKey(Plan, *List); }
 	return Plan;
 }
 
 bool FRTPSOCompiler::FImpl::CoversFrame(const FLinkPlan& Made, const FLinkPlan& Plan)
 {
-	if (Made.bStandardServes != Plan.bStandardServes || Made.Misses != Plan.Misses ||
-	    Made.Callables != Plan.Callables || Made.StandIns.size() != Plan.StandIns.size())
+	if (Made.bStandardServes != Plan.bStandardServes || Made.Misses != Plan.Misses || Made.Callables != Plan.Callables ||
+	    Made.StandIns.size() != Plan.StandIns.size())
 	{
 		return false;
 	}
 	for (const FPipelineBuildRef& Build : Plan.RayGens)
 	{
-		if (std::find(Made.RayGens.begin(), Made.RayGens.end(), Build) == Made.RayGens.end())
-		{
-			return false;
-		}
+		if (std::find(Made.RayGens.begin(), Made.RayGens.end(), Build) == Made.RayGens.end()) { return false; }
 	}
 	for (size_t I = 0; I < Plan.StandIns.size(); ++I)
 	{
-		if (Made.StandIns[I].Program != Plan.StandIns[I].Program || Made.StandIns[I].Builds != Plan.StandIns[I].Builds)
-		{
-			return false;
-		}
+		if (Made.StandIns[I].Program != Plan.StandIns[I].Program || Made.StandIns[I].Builds != Plan.StandIns[I].Builds) { return false; }
 	}
 	return true;
 }
@@ -260,12 +206,8 @@ bool FRTPSOCompiler::FImpl::CoversFrame(const FLinkPlan& Made, const FLinkPlan& 
 size_t FRTPSOCompiler::FImpl::CountNewPrograms(const FLinkPlan& Made, const FLinkPlan& Plan)
 {
 	std::map<FHitProgram, const FLinkPlan::FHit*> Hits;
-	for (const FLinkPlan::FHit& Hit : Made.Hits)
-	{
-		Hits[Hit.Program] = &Hit;
-	}
-	const auto IsNew = [&](const FLinkPlan::FHit& Hit)
-	{
+	for (const FLinkPlan::FHit& Hit : Made.Hits) { Hits[Hit.Program] = &Hit; }
+	const auto IsNew = [&](const FLinkPlan::FHit& Hit) {
 		const auto Found = Hits.find(Hit.Program);
 		return Hit.State == ERTHitState::Ready && (Found == Hits.end() || Found->second->Builds != Hit.Builds);
 	};
@@ -277,10 +219,7 @@ FRTStatus FRTPSOCompiler::FImpl::Link(const FLinkPlan& Plan, std::shared_ptr<con
 	FLinker Linker(Plan);
 	Linker.AddBuilds();
 	TRTRef<IRTPipeline> Pipeline;
-	if (FRTStatus S = Device.CreateRayTracingPipeline(Linker.MakeDesc(), Pipeline.ReleaseAndGetAddress()); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = Device.CreateRayTracingPipeline(Linker.MakeDesc(), Pipeline.ReleaseAndGetAddress()); !S) { return S; }
 	Out = std::make_shared<const FRTPSO>(std::move(Pipeline), Linker.MakeLayout());
 	return FRTStatus::Success();
 }

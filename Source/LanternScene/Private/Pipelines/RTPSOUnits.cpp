@@ -35,23 +35,14 @@ void AddShader(FPipelineUnit& Unit, FShaderSource Source, ERTShaderStage Stage)
 	Unit.Shaders.push_back(std::move(Source));
 }
 
-bool IsShared(const FRayType& Type, ERTHitClass Class)
-{
-	return Type.ClosestHit && Type.bSharedClosestHit && Class == ERTHitClass::Opaque;
-}
+bool IsShared(const FRayType& Type, ERTHitClass Class) { return Type.ClosestHit && Type.bSharedClosestHit && Class == ERTHitClass::Opaque; }
 } // namespace
 
 std::string MakeSourceKey(const FShaderSource& Source)
 {
 	std::string Key = std::to_string(static_cast<int>(Source.Stage)) + Source.Path;
-	for (const auto& [Name, Value] : Source.Defines)
-	{
-		Key += '|' + Name + '=' + Value;
-	}
-	if (!Source.Text.empty())
-	{
-		Key += '|' + std::to_string(std::hash<std::string>()(Source.Text));
-	}
+	for (const auto& [Name, Value] : Source.Defines) { Key += '|' + Name + '=' + Value; }
+	if (!Source.Text.empty()) { Key += '|' + std::to_string(std::hash<std::string>()(Source.Text)); }
 	return Key;
 }
 
@@ -80,8 +71,7 @@ FPipelineUnit MakeEmptyCallableUnit()
 	return MakeGeneralUnit(std::move(Source), ERTShaderStage::Callable);
 }
 
-FPipelineUnit MakeHitUnit(const FRTPSODesc& Desc, uint32_t RayType, FHitProgram Program,
-                          const FMaterialPrograms& Programs)
+FPipelineUnit MakeHitUnit(const FRTPSODesc& Desc, uint32_t RayType, FHitProgram Program, const FMaterialPrograms& Programs)
 {
 	const FRayType& Type = Desc.RayTypes[RayType];
 	FPipelineUnit Unit;
@@ -91,62 +81,39 @@ FPipelineUnit MakeHitUnit(const FRTPSODesc& Desc, uint32_t RayType, FHitProgram 
 		Unit.Kind = ERTGroupKind::Triangles;
 		return Unit;
 	}
-	Unit.Key =
-	    "hit " + std::to_string(Program.Program) + (Program.Class == ERTHitClass::Procedural ? " procedural:" : ":");
+	Unit.Key = "hit " + std::to_string(Program.Program) + (Program.Class == ERTHitClass::Procedural ? " procedural:" : ":");
 	constexpr const char* Classes[HitClassCount] = {" opaque", " masked", " procedural"};
 	Unit.Name = Programs.Get(Program.Program).Name + ' ' + Type.Name + Classes[static_cast<uint32_t>(Program.Class)];
 	Unit.Version = Programs.GetRevision(Program.Program);
 	Unit.Program = Programs.Share(Program.Program);
 	Unit.Kind = Program.Class == ERTHitClass::Procedural ? ERTGroupKind::Procedural : ERTGroupKind::Triangles;
-	if (Type.ClosestHit)
-	{
-		AddShader(Unit, *Type.ClosestHit, ERTShaderStage::ClosestHit);
-	}
-	if (Program.Class == ERTHitClass::Masked)
-	{
-		AddShader(Unit, Type.MaskedAnyHit, ERTShaderStage::AnyHit);
-	}
+	if (Type.ClosestHit) { AddShader(Unit, *Type.ClosestHit, ERTShaderStage::ClosestHit); }
+	if (Program.Class == ERTHitClass::Masked) { AddShader(Unit, Type.MaskedAnyHit, ERTShaderStage::AnyHit); }
 	if (Program.Class == ERTHitClass::Procedural)
 	{
 		FShaderSource Source;
 		Source.Path = Programs.Get(Program.Program).IntersectionPath;
-		if (Source.Path.empty())
-		{
-			Source.Path = "Rays/NoIntersection.rint";
-		}
+		if (Source.Path.empty()) { Source.Path = "Rays/NoIntersection.rint"; }
 		AddShader(Unit, std::move(Source), ERTShaderStage::Intersection);
 	}
 	for (FShaderSource& Source : Unit.Shaders)
 	{
-		if (Unit.Kind == ERTGroupKind::Procedural)
-		{
-			Source.Defines.emplace_back("PROCEDURAL", "1");
-		}
+		if (Unit.Kind == ERTGroupKind::Procedural) { Source.Defines.emplace_back("PROCEDURAL", "1"); }
 	}
 	return Unit;
 }
 
-FPipelineUnit MakeStandInUnit(const FRTPSODesc& Desc, uint32_t RayType, ERTHitClass Class,
-                              const FMaterialPrograms& Programs)
+FPipelineUnit MakeStandInUnit(const FRTPSODesc& Desc, uint32_t RayType, ERTHitClass Class, const FMaterialPrograms& Programs)
 {
 	FPipelineUnit Unit = MakeHitUnit(Desc, RayType, {StandardProgram, Class}, Programs);
-	if (IsShared(Desc.RayTypes[RayType], Class))
-	{
-		return Unit;
-	}
+	if (IsShared(Desc.RayTypes[RayType], Class)) { return Unit; }
 	Unit.Key = "stand-in " + Unit.Key;
 	Unit.Name = "StandIn" + Unit.Name.substr(Programs.Get(StandardProgram).Name.size());
 	for (FShaderSource& Source : Unit.Shaders)
 	{
 		Source.Name = Source.Path + " (StandIn)";
-		if (Source.Stage != ERTShaderStage::Intersection)
-		{
-			Source.Defines.emplace_back("STAND_IN", "1");
-		}
-		if (Source.Stage == ERTShaderStage::Intersection)
-		{
-			Source.Path = "Rays/NoIntersection.rint";
-		}
+		if (Source.Stage != ERTShaderStage::Intersection) { Source.Defines.emplace_back("STAND_IN", "1"); }
+		if (Source.Stage == ERTShaderStage::Intersection) { Source.Path = "Rays/NoIntersection.rint"; }
 	}
 	return Unit;
 }
@@ -154,15 +121,11 @@ FPipelineUnit MakeStandInUnit(const FRTPSODesc& Desc, uint32_t RayType, ERTHitCl
 uint32_t GetPayloadBytes(const FRTPSODesc& Desc)
 {
 	uint32_t Bytes = 4;
-	for (const FRayType& Type : Desc.RayTypes)
-	{
-		Bytes = std::max(Bytes, Type.PayloadBytes);
-	}
+	for (const FRayType& Type : Desc.RayTypes) { Bytes = std::max(Bytes, Type.PayloadBytes); }
 	return Bytes;
 }
 
-FRTShaderGroup MakeGroup(ERTGroupKind Kind, const std::vector<ERTShaderStage>& Stages,
-                         const std::vector<uint32_t>& Indices)
+FRTShaderGroup MakeGroup(ERTGroupKind Kind, const std::vector<ERTShaderStage>& Stages, const std::vector<uint32_t>& Indices)
 {
 	assert(Indices.size() == Stages.size());
 	FRTShaderGroup Group{Kind};

@@ -14,26 +14,17 @@ void FSwapPacer::SetLimits(double InShare, FSeconds InRound)
 
 void FSwapPacer::FrameSubmitted(uint64_t Frame)
 {
-	if (!std::exchange(bSwapped, false))
-	{
-		return;
-	}
+	if (!std::exchange(bSwapped, false)) { return; }
 	constexpr size_t MostInFlight = 8; // of a device that never says what frames take
 	Firsts.push_back(Frame);
-	if (Firsts.size() > MostInFlight)
-	{
-		Firsts.pop_front();
-	}
+	if (Firsts.size() > MostInFlight) { Firsts.pop_front(); }
 }
 
 void FSwapPacer::FrameDone(uint64_t Frame, FSeconds Duration, FTime Now)
 {
 	bKnown = true;
 	// A later frame is done: the duration of this one was never found out.
-	while (!Firsts.empty() && Firsts.front() < Frame)
-	{
-		Firsts.pop_front();
-	}
+	while (!Firsts.empty() && Firsts.front() < Frame) { Firsts.pop_front(); }
 	if (!Firsts.empty() && Firsts.front() == Frame)
 	{
 		Firsts.pop_front();
@@ -67,27 +58,18 @@ void FSwapPacer::ProgramsAsked(FTime Now)
 
 bool FSwapPacer::MayLink(FTime Now, const FSwap& Swap) const
 {
-	if (!bKnown || Share >= 1.0)
-	{
-		return true;
-	}
+	if (!bKnown || Share >= 1.0) { return true; }
 	if (bSwapped || !Firsts.empty())
 	{
 		return false; // what the swap before has cost is not known yet
 	}
 	const FSeconds Wait = Cost * (1.0 / Share - 1.0);
-	if (Now - SwapEnd < Wait)
-	{
-		return false;
-	}
+	if (Now - SwapEnd < Wait) { return false; }
 	// By its size; a pipeline that was small is no good measure of one that is hundreds of times as large.
 	constexpr double MostGrowth = 16.0;
 	const double Growth = double(Swap.InUse + Swap.New) / double(std::max<size_t>(Swap.InUse, 1));
 	const FSeconds Expected = Cost * std::min(Growth, MostGrowth);
-	if (Swap.bMore && Expected > Round && Now - FirstAsked < Expected)
-	{
-		return false;
-	}
+	if (Swap.bMore && Expected > Round && Now - FirstAsked < Expected) { return false; }
 	const bool bCheap = Wait <= Round;
 	const bool bDoubles = Swap.New >= Swap.InUse;
 	const bool bQuiet = Now - LastAsked >= Wait;

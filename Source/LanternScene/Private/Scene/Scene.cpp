@@ -7,8 +7,8 @@
 #include <functional>
 #include <utility>
 
-#include "LanternCore/Text/Log.h"
 #include "Geometry/MergeAdvice.h"
+#include "LanternCore/Text/Log.h"
 
 namespace Lantern
 {
@@ -50,7 +50,7 @@ FRTScene::~FRTScene() { GatherTasks.Wait(); }
 
 FRTStatus FRTScene::CreateGeometry(FRTGeometryInfo Info, FRTGeometryRef& Out) { return Geometries.Create(std::move(Info), Out); }
 
-void FRTScene::MarkDeformed(const FRTGeometryRef& Geometry) 
+void FRTScene::MarkDeformed(const FRTGeometryRef& Geometry)
 {
 	Geometries.MarkDeformed(Geometry);
 	Motions.MarkDeformed(Geometry);
@@ -274,9 +274,10 @@ void FRTScene::AdviseMerging()
 		}
 	});
 	if (Advice.Objects - Advice.Materials < LeastMergeSaving) { return; }
-	LogInfo("Scene: {} of {} objects are meshes of one section below {} triangles, used once, that share their material with others. Merged "
-	        "by material they would be {}: {} acceleration structures and instances fewer.",
-	        Advice.Objects, Instances.GetCount(), FMergeAdvice::SmallTriangles, Advice.Materials, Advice.Objects - Advice.Materials);
+	LogInfo(
+	    "Scene: {} of {} objects are meshes of one section below {} triangles, used once, that share their material with others. Merged "
+	    "by material they would be {}: {} acceleration structures and instances fewer.",
+	    Advice.Objects, Instances.GetCount(), FMergeAdvice::SmallTriangles, Advice.Materials, Advice.Objects - Advice.Materials);
 }
 
 } // namespace Lantern

@@ -50,7 +50,8 @@ void FRTScene::ListEmissiveObjects()
 	bEmissiveObjectsChanged = false;
 }
 
-double FRTScene::AddEmissiveTriangles(uint32_t Index, double Power, std::vector<FEmissiveTriangle>& Triangles, std::vector<double>& Cumulative) const
+double FRTScene::AddEmissiveTriangles(
+    uint32_t Index, double Power, std::vector<FEmissiveTriangle>& Triangles, std::vector<double>& Cumulative) const
 {
 	const FObject& Object = Objects[Index];
 	const FRTGeometryInfo& Info = Object.Info.Geometry->GetInfo();

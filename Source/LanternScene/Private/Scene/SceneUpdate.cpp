@@ -15,13 +15,12 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<int32_t> CVarGather("r.RT.Scene.Gather", 1,
-                                       "How the instances of a frame are gathered. 0: by a plain loop over all "
-                                       "objects. 1: by buckets, in parallel. Both give the "
-                                       "same instances.",
-                                       {0, 1});
-TRTConsoleVariable<bool>
-    CVarHoist("r.RT.Scene.Hoist", true,
-              "Instances are gathered by tasks beside the rest of the frame. Off: at once, while the frame waits.");
+    "How the instances of a frame are gathered. 0: by a plain loop over all "
+    "objects. 1: by buckets, in parallel. Both give the "
+    "same instances.",
+    {0, 1});
+TRTConsoleVariable<bool> CVarHoist(
+    "r.RT.Scene.Hoist", true, "Instances are gathered by tasks beside the rest of the frame. Off: at once, while the frame waits.");
 
 constexpr uint32_t FewestInstances = 64;
 /// Frames for which an acceleration structure may be four times too large.
@@ -40,10 +39,9 @@ bool FRTScene::NeedsUpdate(const FGatherView& View, const FSceneUse& Use) const
 {
 	const bool bGeometry = Geometries.NeedsUpdate() || NeedsOpacityUpdate(SectionContext, Sections, Geometries);
 	const bool bBind = bBindAll || Sections.HasChangedRanges();
-	const bool bGather =
-	    bStructureStale || bInstancesStale || bBind || bGeometry || !(MakeGatherKey(View, Use.bCull) == GatheredKey);
-	return bLightsChanged || Motions.NeedsUpdate(Use.bMotion) || (Use.bRays && bGather) || (Use.bLightSampling && bEmissiveChanged) || AreTablesDirty() ||
-	       SnapOrigin(View.Position) != Origin;
+	const bool bGather = bStructureStale || bInstancesStale || bBind || bGeometry || !(MakeGatherKey(View, Use.bCull) == GatheredKey);
+	return bLightsChanged || Motions.NeedsUpdate(Use.bMotion) || (Use.bRays && bGather) || (Use.bLightSampling && bEmissiveChanged) ||
+	       AreTablesDirty() || SnapOrigin(View.Position) != Origin;
 }
 
 glm::dvec3 FRTScene::SnapOrigin(glm::dvec3 Camera) const
@@ -56,10 +54,7 @@ glm::dvec3 FRTScene::SnapOrigin(glm::dvec3 Camera) const
 void FRTScene::MoveOrigin(glm::dvec3 Camera)
 {
 	const glm::dvec3 Snapped = SnapOrigin(Camera);
-	if (Snapped == Origin)
-	{
-		return;
-	}
+	if (Snapped == Origin) { return; }
 	Origin = Snapped;
 	bLightsChanged = true;
 }
@@ -71,16 +66,14 @@ void FRTScene::BindRange(FSectionRangeId Id)
 	if (Range.Geometry)
 	{
 		// Facing can be switched off for instances, not for sections: mixed objects are culled.
-		const uint32_t Flags =
-		    (Range.bMasked ? 0u : InstanceForceOpaque) | (Range.bDoubleSided ? InstanceCullDisable : 0u);
+		const uint32_t Flags = (Range.bMasked ? 0u : InstanceForceOpaque) | (Range.bDoubleSided ? InstanceCullDisable : 0u);
 		Binding.TableOffsetAndFlags = ((Range.First * RayTypes) & 0xffffffu) | (Flags << 24);
 		Binding.GeometrySlot = Range.Geometry->GetSlot();
 		Binding.GeometryAddress = Geometries.GetAddress(Binding.GeometrySlot);
 		const size_t Parts = MissingPrograms.empty() ? 0 : Range.Geometry->GetParts().size();
 		for (uint32_t Part = 0; Part < Parts; ++Part)
 		{
-			if (std::binary_search(MissingPrograms.begin(), MissingPrograms.end(),
-			                       Sections.GetHitProgram(Range.First + Part)))
+			if (std::binary_search(MissingPrograms.begin(), MissingPrograms.end(), Sections.GetHitProgram(Range.First + Part)))
 			{
 				Binding = {}; // for want of shaders, not of its structure
 				break;
@@ -95,10 +88,7 @@ void FRTScene::TakeGeometryChanges()
 	for (const uint32_t Slot : Geometries.TakeChanged())
 	{
 		const FRTGeometry* const Geometry = Geometries.Get(Slot);
-		if (!Geometry)
-		{
-			continue;
-		}
+		if (!Geometry) { continue; }
 		Sections.GeometryChanged(*Geometry);
 		bEmissiveChanged |= Geometry->IsCoarse(); // its triangles are no longer those that light sampling lists
 	}
@@ -110,16 +100,10 @@ void FRTScene::UpdateBindings()
 	const std::vector<FSectionRangeId> Changed = Sections.TakeChangedRanges();
 	if (std::exchange(bBindAll, false))
 	{
-		for (FSectionRangeId Id = 0; Id < Sections.GetRangeCapacity(); ++Id)
-		{
-			BindRange(Id);
-		}
+		for (FSectionRangeId Id = 0; Id < Sections.GetRangeCapacity(); ++Id) { BindRange(Id); }
 		return;
 	}
-	for (const FSectionRangeId Id : Changed)
-	{
-		BindRange(Id);
-	}
+	for (const FSectionRangeId Id : Changed) { BindRange(Id); }
 }
 
 void FRTScene::UpdateOpacity()
@@ -142,35 +126,17 @@ FRTStatus FRTScene::BeginUpdate(const FGatherView& View, const FSceneUse& Use)
 	bStructuresRecorded = false;
 	if (Use.bRays)
 	{
-		if (FRTStatus S = Geometries.BeginFrame(Use.bBuildAll); !S)
-		{
-			return S;
-		}
+		if (FRTStatus S = Geometries.BeginFrame(Use.bBuildAll); !S) { return S; }
 	}
 	UpdateBindings();
 	Instances.Refresh();
 	Motions.Update(Use.bMotion);
-	if (bLightsChanged)
-	{
-		UpdateLights();
-	}
-	if (Use.bLightSampling && bEmissiveChanged)
-	{
-		UpdateEmissiveTriangles();
-	}
+	if (bLightsChanged) { UpdateLights(); }
+	if (Use.bLightSampling && bEmissiveChanged) { UpdateEmissiveTriangles(); }
 	RefreshFacts();
-	if (!Use.bRays)
-	{
-		return FRTStatus::Success();
-	}
-	if (FRTStatus S = CheckLimits(); !S)
-	{
-		return S;
-	}
-	if (!bAdvised && Instances.GetCount() > 0)
-	{
-		AdviseMerging();
-	}
+	if (!Use.bRays) { return FRTStatus::Success(); }
+	if (FRTStatus S = CheckLimits(); !S) { return S; }
+	if (!bAdvised && Instances.GetCount() > 0) { AdviseMerging(); }
 	StartGather(View);
 	return FRTStatus::Success();
 }
@@ -183,10 +149,7 @@ FRTScene::FGatherKey FRTScene::MakeGatherKey(const FGatherView& View, bool bCull
 	Key.Culling = FCullingSettings::FromConsole();
 	Key.Culling.bEnabled &= bCull;
 	// Without culling the view decides nothing but what is built first.
-	if (Key.Culling.bEnabled || Instances.HasMissing())
-	{
-		Key.View = View;
-	}
+	if (Key.Culling.bEnabled || Instances.HasMissing()) { Key.View = View; }
 	Key.Origin = SnapOrigin(View.Position);
 	Key.Revision = Instances.GetRevision();
 	Key.Mode = CVarGather.GetOnRenderThread();
@@ -197,54 +160,34 @@ void FRTScene::StartGather(const FGatherView& View)
 {
 	const FGatherKey Key = MakeGatherKey(View, FrameUse.bCull);
 	GatherStatus = FRTStatus::Success();
-	if (!bInstancesStale && Key == GatheredKey)
-	{
-		return;
-	}
+	if (!bInstancesStale && Key == GatheredKey) { return; }
 	bGathering = true;
 	const FGatherKey Before = std::exchange(GatheredKey, Key);
 	const auto Task = [this, Key, Before] { GatherStatus = GatherInstances(Key, Before); };
-	if (CVarHoist.GetOnRenderThread())
-	{
-		GatherTasks.Run(Task);
-	}
-	else
-	{
-		Task();
-	}
+	if (CVarHoist.GetOnRenderThread()) { GatherTasks.Run(Task); }
+	else { Task(); }
 }
 
 FRTStatus FRTScene::GatherInstances(const FGatherKey& Key, const FGatherKey& Before)
 {
 	FTraceScope Scope("Gather instances");
 	const FCullingRule Rule(Key.View, Key.Culling);
-	const FMissingGeometrySink Missing = [this, &Key](uint32_t Slot, float Pixels)
-	{ Geometries.RaisePriority(Slot, Pixels / static_cast<float>(std::max(1u, Key.View.Height))); };
+	const FMissingGeometrySink Missing = [this, &Key](uint32_t Slot, float Pixels) {
+		Geometries.RaisePriority(Slot, Pixels / static_cast<float>(std::max(1u, Key.View.Height)));
+	};
 	uint32_t Count = Instances.GetCount();
 	if (Key.Mode != 0)
 	{
 		Count = Gather.Count(Instances, Rule, Missing);
 		const bool bSame = !Gather.HasChanged() && Before.Mode == Key.Mode && Before.Origin == Key.Origin;
-		if (bSame && !bInstancesStale)
-		{
-			return FRTStatus::Success();
-		}
+		if (bSame && !bInstancesStale) { return FRTStatus::Success(); }
 	}
 	bInstancesStale = true; // until all of it is written
 	IRTBuffer* Buffer = nullptr;
-	if (FRTStatus S = InstanceUploads.Reserve(Count, Buffer); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = InstanceUploads.Reserve(Count, Buffer); !S) { return S; }
 	auto* const Out = static_cast<FRTInstance*>(Buffer->GetMapped());
-	if (Key.Mode == 0)
-	{
-		Count = GatherStraightforward(Instances, ObjectData.All().data(), Rule, Key.Origin, Out, Missing);
-	}
-	else
-	{
-		Gather.Write(Instances, Key.Origin, Out);
-	}
+	if (Key.Mode == 0) { Count = GatherStraightforward(Instances, ObjectData.All().data(), Rule, Key.Origin, Out, Missing); }
+	else { Gather.Write(Instances, Key.Origin, Out); }
 	GatheredCount = Count;
 	bInstancesStale = false;
 	bStructureStale = true;
@@ -254,10 +197,7 @@ FRTStatus FRTScene::GatherInstances(const FGatherKey& Key, const FGatherKey& Bef
 // What the tasks are done with.
 FRTStatus FRTScene::FinishGather()
 {
-	if (!std::exchange(bGathering, false))
-	{
-		return FRTStatus::Success();
-	}
+	if (!std::exchange(bGathering, false)) { return FRTStatus::Success(); }
 	FTraceScope Scope("Wait for instances");
 	GatherTasks.Wait();
 	return GatherStatus;
@@ -268,12 +208,9 @@ FRTStatus FRTScene::FinishGather()
 FRTStatus FRTScene::CheckLimits() const
 {
 	// An instance names its first hit record with 24 bits.
-	if (uint64_t(Sections.GetCapacity()) * RayTypes <= MaxInstanceIndex)
-	{
-		return FRTStatus::Success();
-	}
-	return FRTStatus::Error(ERTResult::Unsupported, "the scene has %u sections; %u ray types allow %u",
-	                        Sections.GetCapacity(), RayTypes, MaxInstanceIndex / RayTypes);
+	if (uint64_t(Sections.GetCapacity()) * RayTypes <= MaxInstanceIndex) { return FRTStatus::Success(); }
+	return FRTStatus::Error(ERTResult::Unsupported, "the scene has %u sections; %u ray types allow %u", Sections.GetCapacity(), RayTypes,
+	    MaxInstanceIndex / RayTypes);
 }
 
 FRTStatus FRTScene::ReserveStructure(uint32_t InstanceCount)
@@ -281,47 +218,34 @@ FRTStatus FRTScene::ReserveStructure(uint32_t InstanceCount)
 	const uint32_t Capacity = Structure ? Structure->GetMaxInstances() : 0;
 	const bool bTooLarge = Capacity / 4 > std::max(FewestInstances, InstanceCount);
 	FramesTooLarge = bTooLarge ? FramesTooLarge + 1 : 0;
-	if (Structure && Capacity >= InstanceCount && FramesTooLarge < ShrinkFrames)
-	{
-		return FRTStatus::Success();
-	}
+	if (Structure && Capacity >= InstanceCount && FramesTooLarge < ShrinkFrames) { return FRTStatus::Success(); }
 	const uint64_t Most = std::min<uint64_t>(Device.GetCapabilities().MaxInstanceCount, MaxInstanceIndex);
 	if (InstanceCount > Most)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "%u objects are in the rays' scene; the device allows %llu",
-		                        InstanceCount, static_cast<unsigned long long>(Most));
+		return FRTStatus::Error(ERTResult::Unsupported, "%u objects are in the rays' scene; the device allows %llu", InstanceCount,
+		    static_cast<unsigned long long>(Most));
 	}
 	FRTSceneDesc Desc;
-	Desc.MaxInstances = static_cast<uint32_t>(
-	    std::min<uint64_t>(Most, std::max<uint64_t>(FewestInstances, uint64_t(InstanceCount) * 3 / 2)));
+	Desc.MaxInstances =
+	    static_cast<uint32_t>(std::min<uint64_t>(Most, std::max<uint64_t>(FewestInstances, uint64_t(InstanceCount) * 3 / 2)));
 	Desc.Name = "Scene";
 	TRTRef<IRTScene> New;
 	const FRTStatus Status = Device.CreateScene(Desc, New.ReleaseAndGetAddress());
 	FramesTooLarge = 0;
-	if (Status)
-	{
-		Structure = std::move(New);
-	}
+	if (Status) { Structure = std::move(New); }
 	// For want of memory the one that is too large serves on.
-	return Status.Code == ERTResult::OutOfDeviceMemory && Capacity >= InstanceCount && Structure ? FRTStatus::Success()
-	                                                                                             : Status;
+	return Status.Code == ERTResult::OutOfDeviceMemory && Capacity >= InstanceCount && Structure ? FRTStatus::Success() : Status;
 }
 
 FRTStatus FRTScene::BuildStructure(IRTCommandList& List)
 {
-	if (FRTStatus S = ReserveStructure(GatheredCount); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = ReserveStructure(GatheredCount); !S) { return S; }
 	IRTBuffer* Scratch = nullptr;
-	if (FRTStatus S =
-	        Geometries.ReserveScratch(std::max<uint64_t>(1, Structure->GetBuildSizes().BuildScratchBytes), Scratch);
-	    !S)
+	if (FRTStatus S = Geometries.ReserveScratch(std::max<uint64_t>(1, Structure->GetBuildSizes().BuildScratchBytes), Scratch); !S)
 	{
 		return S;
 	}
-	const FRTBarrier Before{nullptr, nullptr, ERTAccess::TraceRead | ERTAccess::BuildWrite,
-	                        ERTAccess::BuildWrite | ERTAccess::BuildRead};
+	const FRTBarrier Before{nullptr, nullptr, ERTAccess::TraceRead | ERTAccess::BuildWrite, ERTAccess::BuildWrite | ERTAccess::BuildRead};
 	List.Barriers(&Before, 1);
 	List.BuildScene(Structure.Get(), InstanceUploads.Use(), 0, GatheredCount, Scratch, 0);
 	const FRTBarrier After{nullptr, nullptr, ERTAccess::BuildWrite, ERTAccess::TraceRead};
@@ -333,24 +257,17 @@ FRTStatus FRTScene::BuildStructure(IRTCommandList& List)
 
 FRTStatus FRTScene::RecordTables(IRTCommandList& List, FFrameUploads& Uploads)
 {
-	if (!AreTablesDirty())
-	{
-		return FRTStatus::Success();
-	}
+	if (!AreTablesDirty()) { return FRTStatus::Success(); }
 	const FRTBarrier Before{nullptr, nullptr, UploadedAccess, ERTAccess::CopyWrite};
 	List.Barriers(&Before, 1);
 	for (FRTStatus S : {Materials.Flush(Device, List, Uploads), ObjectData.Flush(Device, List, Uploads),
-	                    LightData.Flush(Device, List, Uploads), EmissiveTriangles.Flush(Device, List, Uploads),
-	                    Sections.GetTable().Flush(Device, List, Uploads), Motions.GetTable().Flush(Device, List, Uploads)})
+	         LightData.Flush(Device, List, Uploads), EmissiveTriangles.Flush(Device, List, Uploads),
+	         Sections.GetTable().Flush(Device, List, Uploads), Motions.GetTable().Flush(Device, List, Uploads)})
 	{
-		if (!S)
-		{
-			return S;
-		}
+		if (!S) { return S; }
 	}
 	Stats.BytesCopied = Materials.GetCopiedBytes() + ObjectData.GetCopiedBytes() + LightData.GetCopiedBytes() +
-	                    EmissiveTriangles.GetCopiedBytes() + Sections.GetTable().GetCopiedBytes() +
-	                    Motions.GetTable().GetCopiedBytes();
+	                    EmissiveTriangles.GetCopiedBytes() + Sections.GetTable().GetCopiedBytes() + Motions.GetTable().GetCopiedBytes();
 	const FRTBarrier After{nullptr, nullptr, ERTAccess::CopyWrite, UploadedAccess};
 	List.Barriers(&After, 1);
 	return FRTStatus::Success();
@@ -364,21 +281,12 @@ FRTStatus FRTScene::RecordUpdate(IRTCommandList& List, FFrameUploads& Uploads)
 
 FRTStatus FRTScene::RecordStructures(IRTCommandList& List, FFrameUploads&)
 {
-	if (!FrameUse.bRays)
-	{
-		return FRTStatus::Success();
-	}
+	if (!FrameUse.bRays) { return FRTStatus::Success(); }
 	bStructuresRecorded = true;
-	if (FRTStatus S = Geometries.Record(List); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = Geometries.Record(List); !S) { return S; }
 	Stats.GeometriesBuilt = Geometries.GetStats().Built + Geometries.GetStats().Rebuilt;
 	Stats.GeometriesRefitted = Geometries.GetStats().Refitted;
-	if (FRTStatus S = FinishGather(); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = FinishGather(); !S) { return S; }
 	// Bounds of what was refitted are others, though its instances are not.
 	const bool bBuilt = Stats.GeometriesBuilt + Stats.GeometriesRefitted > 0;
 	return bStructureStale || bBuilt ? BuildStructure(List) : FRTStatus::Success();
@@ -386,10 +294,7 @@ FRTStatus FRTScene::RecordStructures(IRTCommandList& List, FFrameUploads&)
 
 FRTStatus FRTScene::Update(IRTCommandList& List, FFrameUploads& Uploads, const FGatherView& View, const FSceneUse& Use)
 {
-	if (FRTStatus S = BeginUpdate(View, Use); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = BeginUpdate(View, Use); !S) { return S; }
 	return RecordUpdate(List, Uploads);
 }
 
@@ -408,15 +313,9 @@ void FRTScene::EndFrame(bool bSubmitted, FRTFence Fence)
 {
 	(void)FinishGather(); // of a frame that ended early
 	InstanceUploads.EndFrame(bSubmitted, Fence);
-	if (std::exchange(bGeometriesBegun, false))
-	{
-		Geometries.EndFrame(bSubmitted && bStructuresRecorded);
-	}
+	if (std::exchange(bGeometriesBegun, false)) { Geometries.EndFrame(bSubmitted && bStructuresRecorded); }
 	Motions.EndFrame(bSubmitted);
-	if (!bSubmitted)
-	{
-		return Rerecord();
-	}
+	if (!bSubmitted) { return Rerecord(); }
 	RetiredBefore = std::move(Retired);
 	Retired.clear();
 }

@@ -6,17 +6,11 @@
 namespace Lantern
 {
 
-FSectionAllocator::FSectionAllocator()
-{
-	Heads.fill(None);
-}
+FSectionAllocator::FSectionAllocator() { Heads.fill(None); }
 
 uint32_t FSectionAllocator::ClassOf(uint32_t Size)
 {
-	if (Size < ExactSizes)
-	{
-		return Size;
-	}
+	if (Size < ExactSizes) { return Size; }
 	const uint32_t Power = static_cast<uint32_t>(std::bit_width(Size)) - 1;
 	const uint32_t Step = static_cast<uint32_t>(std::bit_width(Subdivisions)) - 1;
 	return ExactSizes + (Power - 6) * Subdivisions + ((Size >> (Power - Step)) & (Subdivisions - 1));
@@ -27,14 +21,8 @@ uint32_t FSectionAllocator::FindClass(uint32_t AtLeast) const
 	for (uint32_t Word = AtLeast / WordBits; Word < Occupied.size(); ++Word)
 	{
 		uint64_t Bits = Occupied[Word];
-		if (Word == AtLeast / WordBits)
-		{
-			Bits &= ~uint64_t(0) << (AtLeast % WordBits);
-		}
-		if (Bits != 0)
-		{
-			return Word * WordBits + static_cast<uint32_t>(std::countr_zero(Bits));
-		}
+		if (Word == AtLeast / WordBits) { Bits &= ~uint64_t(0) << (AtLeast % WordBits); }
+		if (Bits != 0) { return Word * WordBits + static_cast<uint32_t>(std::countr_zero(Bits)); }
 	}
 	return None;
 }
@@ -44,10 +32,7 @@ void FSectionAllocator::Insert(uint32_t First, uint32_t Size)
 	const uint32_t Class = ClassOf(Size);
 	Cells[First] = {Size, None, Heads[Class]};
 	Cells[First + Size - 1].Size = Size;
-	if (Heads[Class] != None)
-	{
-		Cells[Heads[Class]].Previous = First;
-	}
+	if (Heads[Class] != None) { Cells[Heads[Class]].Previous = First; }
 	Heads[Class] = First;
 	Occupied[Class / WordBits] |= uint64_t(1) << (Class % WordBits);
 	FreeCount += Size;
@@ -58,14 +43,8 @@ void FSectionAllocator::Remove(uint32_t First)
 	const FCell Cell = Cells[First];
 	const uint32_t Class = ClassOf(Cell.Size);
 	(Cell.Previous == None ? Heads[Class] : Cells[Cell.Previous].Next) = Cell.Next;
-	if (Cell.Next != None)
-	{
-		Cells[Cell.Next].Previous = Cell.Previous;
-	}
-	if (Heads[Class] == None)
-	{
-		Occupied[Class / WordBits] &= ~(uint64_t(1) << (Class % WordBits));
-	}
+	if (Cell.Next != None) { Cells[Cell.Next].Previous = Cell.Previous; }
+	if (Heads[Class] == None) { Occupied[Class / WordBits] &= ~(uint64_t(1) << (Class % WordBits)); }
 	Cells[First + Cell.Size - 1].Size = 0;
 	Cells[First] = {};
 	FreeCount -= Cell.Size;
@@ -97,16 +76,10 @@ uint32_t FSectionAllocator::Allocate(uint32_t Count)
 		const bool bLast = Class == None && !Cells.empty() && Cells.back().Size >= Count;
 		First = bLast ? GetCapacity() - Cells.back().Size : Class == None ? None : Heads[Class];
 	}
-	if (First == None)
-	{
-		return Grow(Count);
-	}
+	if (First == None) { return Grow(Count); }
 	const uint32_t Size = Cells[First].Size;
 	Remove(First);
-	if (Size > Count)
-	{
-		Insert(First + Count, Size - Count);
-	}
+	if (Size > Count) { Insert(First + Count, Size - Count); }
 	return First;
 }
 

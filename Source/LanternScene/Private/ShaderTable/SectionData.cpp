@@ -30,20 +30,14 @@ bool HasPlainOpacity(const FRTGeometryInfo& Info, const FMaterialData& Material)
 }
 } // namespace
 
-ERTHitClass GetHitClass(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part,
-                        uint32_t Material)
+ERTHitClass GetHitClass(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part, uint32_t Material)
 {
-	if (Geometry.GetInfo().Sections[Part.Section].bProcedural)
-	{
-		return ERTHitClass::Procedural;
-	}
+	if (Geometry.GetInfo().Sections[Part.Section].bProcedural) { return ERTHitClass::Procedural; }
 	const bool bAlphaTest = Context.bAlphaTest && Context.Override != 2;
-	return bAlphaTest && !Part.bOpaque && (Context.Materials[Material].Flags & MATERIAL_MASKED) ? ERTHitClass::Masked
-	                                                                                            : ERTHitClass::Opaque;
+	return bAlphaTest && !Part.bOpaque && (Context.Materials[Material].Flags & MATERIAL_MASKED) ? ERTHitClass::Masked : ERTHitClass::Opaque;
 }
 
-FSectionData MakeSection(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part,
-                         uint32_t MaterialIndex)
+FSectionData MakeSection(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part, uint32_t MaterialIndex)
 {
 	const FRTGeometryInfo& Info = Geometry.GetInfo();
 	const FMaterialData& Material = Context.Materials[MaterialIndex];
@@ -53,10 +47,7 @@ FSectionData MakeSection(const FSectionContext& Context, const FRTGeometry& Geom
 	{
 		Data.Positions = Info.Aabbs->GetDeviceAddress() + Info.AabbsOffset + Part.FirstIndex * AabbBytes;
 	}
-	else
-	{
-		AddTriangles(Geometry, Part, Data);
-	}
+	else { AddTriangles(Geometry, Part, Data); }
 	Data.Material = MaterialIndex;
 	Data.Flags |= Class == ERTHitClass::Masked ? SECTION_MASKED : 0u;
 	Data.Flags |= Info.Sections[Part.Section].PieceCount > 0 ? SECTION_PIECES : 0u;

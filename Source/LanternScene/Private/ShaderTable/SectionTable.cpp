@@ -29,10 +29,7 @@ uint64_t Mix(uint64_t Value)
 uint64_t HashRange(const FRTGeometry& Geometry, const std::vector<uint32_t>& Materials)
 {
 	uint64_t Hash = Mix(reinterpret_cast<uintptr_t>(&Geometry));
-	for (const uint32_t Material : Materials)
-	{
-		Hash = Mix(Hash + Material + 0x9e3779b97f4a7c15ull);
-	}
+	for (const uint32_t Material : Materials) { Hash = Mix(Hash + Material + 0x9e3779b97f4a7c15ull); }
 	return Hash;
 }
 } // namespace
@@ -73,17 +70,11 @@ void FSectionTable::Release(FSectionRangeId Id)
 {
 	FSectionRange& Range = Ranges[Id];
 	assert(Range.References > 0);
-	if (--Range.References > 0)
-	{
-		return;
-	}
+	if (--Range.References > 0) { return; }
 	UnlinkUses(Id);
 	UnlinkHash(Id);
 	SetFlags(Id, false, false, false);
-	for (uint32_t Part = 0; Part < Range.Count; ++Part)
-	{
-		SetProgramSlot(Range.First + Part, Unused);
-	}
+	for (uint32_t Part = 0; Part < Range.Count; ++Part) { SetProgramSlot(Range.First + Part, Unused); }
 	Allocator.Free(Range.First, Range.Count);
 	Range.Geometry = nullptr;
 	Range.Materials.clear();
@@ -94,10 +85,7 @@ void FSectionTable::Release(FSectionRangeId Id)
 FSectionRangeId FSectionTable::AddRange()
 {
 	++RangeCount;
-	if (RangeCount > Buckets.size())
-	{
-		Rehash();
-	}
+	if (RangeCount > Buckets.size()) { Rehash(); }
 	if (!FreeIds.empty())
 	{
 		const FSectionRangeId Id = FreeIds.back();
@@ -111,19 +99,12 @@ FSectionRangeId FSectionTable::AddRange()
 
 // ------------------------------------------------------------------------------------------------ finding ranges
 
-FSectionRangeId FSectionTable::Find(uint64_t Hash, const FRTGeometry& Geometry,
-                                    const std::vector<uint32_t>& Materials) const
+FSectionRangeId FSectionTable::Find(uint64_t Hash, const FRTGeometry& Geometry, const std::vector<uint32_t>& Materials) const
 {
-	if (Buckets.empty())
-	{
-		return None;
-	}
+	if (Buckets.empty()) { return None; }
 	for (FSectionRangeId Id = Buckets[Hash & (Buckets.size() - 1)]; Id != None; Id = Links[Id].NextInBucket)
 	{
-		if (Links[Id].Hash == Hash && Ranges[Id].Geometry == &Geometry && Ranges[Id].Materials == Materials)
-		{
-			return Id;
-		}
+		if (Links[Id].Hash == Hash && Ranges[Id].Geometry == &Geometry && Ranges[Id].Materials == Materials) { return Id; }
 	}
 	return None;
 }
@@ -137,10 +118,7 @@ void FSectionTable::LinkHash(FSectionRangeId Id)
 void FSectionTable::UnlinkHash(FSectionRangeId Id)
 {
 	FSectionRangeId* At = &Buckets[Links[Id].Hash & (Buckets.size() - 1)];
-	while (*At != Id)
-	{
-		At = &Links[*At].NextInBucket;
-	}
+	while (*At != Id) { At = &Links[*At].NextInBucket; }
 	*At = Links[Id].NextInBucket;
 }
 
@@ -149,10 +127,7 @@ void FSectionTable::Rehash()
 	Buckets.assign(std::max(FewestBuckets, 2 * Buckets.size()), None);
 	for (FSectionRangeId Id = 0; Id < Ranges.size(); ++Id)
 	{
-		if (Ranges[Id].Geometry)
-		{
-			LinkHash(Id);
-		}
+		if (Ranges[Id].Geometry) { LinkHash(Id); }
 	}
 }
 
@@ -168,10 +143,7 @@ void FSectionTable::LinkUses(FSectionRangeId Id)
 	{
 		const uint32_t Material = Range.Materials[Section];
 		assert(Material < Context.Materials.Num());
-		if (Material >= UsesOfMaterial.size())
-		{
-			UsesOfMaterial.resize(Context.Materials.Num());
-		}
+		if (Material >= UsesOfMaterial.size()) { UsesOfMaterial.resize(Context.Materials.Num()); }
 		Link.MaterialPlaces[Section] = static_cast<uint32_t>(UsesOfMaterial[Material].size());
 		UsesOfMaterial[Material].push_back({Id, Section});
 	}
@@ -186,10 +158,7 @@ void FSectionTable::UnlinkUses(FSectionRangeId Id)
 	OfGeometry->second[Link.GeometryPlace] = Last;
 	Links[Last].GeometryPlace = Link.GeometryPlace;
 	OfGeometry->second.pop_back();
-	if (OfGeometry->second.empty())
-	{
-		RangesOfGeometry.erase(OfGeometry);
-	}
+	if (OfGeometry->second.empty()) { RangesOfGeometry.erase(OfGeometry); }
 	for (uint32_t Section = 0; Section < Range.Materials.size(); ++Section)
 	{
 		std::vector<FMaterialUse>& Uses = UsesOfMaterial[Range.Materials[Section]];
@@ -212,20 +181,14 @@ bool FSectionTable::AffectsSections(const FMaterialData& Old, const FMaterialDat
 
 void FSectionTable::MaterialChanged(uint32_t Material)
 {
-	if (Material >= UsesOfMaterial.size())
-	{
-		return;
-	}
+	if (Material >= UsesOfMaterial.size()) { return; }
 	for (const FMaterialUse& Use : UsesOfMaterial[Material])
 	{
 		const FSectionRange& Range = Ranges[Use.Range];
 		const std::vector<FRTGeometryPart>& Parts = Range.Geometry->GetParts();
 		for (uint32_t Part = 0; Part < Parts.size(); ++Part)
 		{
-			if (Parts[Part].Section == Use.Section)
-			{
-				FillPart(Use.Range, Part);
-			}
+			if (Parts[Part].Section == Use.Section) { FillPart(Use.Range, Part); }
 		}
 		UpdateFlags(Use.Range);
 	}
@@ -234,10 +197,7 @@ void FSectionTable::MaterialChanged(uint32_t Material)
 void FSectionTable::GeometryChanged(const FRTGeometry& Geometry)
 {
 	const auto Found = RangesOfGeometry.find(&Geometry);
-	if (Found == RangesOfGeometry.end())
-	{
-		return;
-	}
+	if (Found == RangesOfGeometry.end()) { return; }
 	for (const FSectionRangeId Id : Found->second)
 	{
 		FillRange(Id);
@@ -249,10 +209,7 @@ void FSectionTable::RefillAll()
 {
 	for (FSectionRangeId Id = 0; Id < Ranges.size(); ++Id)
 	{
-		if (Ranges[Id].Geometry)
-		{
-			FillRange(Id);
-		}
+		if (Ranges[Id].Geometry) { FillRange(Id); }
 	}
 }
 
@@ -261,14 +218,8 @@ void FSectionTable::FillRange(FSectionRangeId Id)
 	const FSectionRange& Range = Ranges[Id];
 	const uint32_t Parts = static_cast<uint32_t>(Range.Geometry->GetParts().size());
 	assert(Parts <= Range.Count);
-	for (uint32_t Part = 0; Part < Parts; ++Part)
-	{
-		FillPart(Id, Part);
-	}
-	for (uint32_t Part = Parts; Part < Range.Count; ++Part)
-	{
-		SetProgramSlot(Range.First + Part, Unused);
-	}
+	for (uint32_t Part = 0; Part < Parts; ++Part) { FillPart(Id, Part); }
+	for (uint32_t Part = Parts; Part < Range.Count; ++Part) { SetProgramSlot(Range.First + Part, Unused); }
 	UpdateFlags(Id);
 }
 
@@ -296,24 +247,15 @@ void FSectionTable::UpdateFlags(FSectionRangeId Id)
 		bEmissive |= Context.Materials[Material].EmissiveWeight > 0.0f;
 	}
 	const uint32_t Parts = static_cast<uint32_t>(Range.Geometry->GetParts().size());
-	for (uint32_t Part = 0; Part < Parts; ++Part)
-	{
-		bMasked |= (Table[Range.First + Part].Flags & SECTION_MASKED) != 0;
-	}
+	for (uint32_t Part = 0; Part < Parts; ++Part) { bMasked |= (Table[Range.First + Part].Flags & SECTION_MASKED) != 0; }
 	SetFlags(Id, bMasked, bDoubleSided, bEmissive);
-	if (!HasClassifiedMaterials(Context, *Range.Geometry, Range.Materials))
-	{
-		RefutedGeometries.push_back(Range.Geometry->GetSlot());
-	}
+	if (!HasClassifiedMaterials(Context, *Range.Geometry, Range.Materials)) { RefutedGeometries.push_back(Range.Geometry->GetSlot()); }
 }
 
 void FSectionTable::SetFlags(FSectionRangeId Id, bool bMasked, bool bDoubleSided, bool bEmissive)
 {
 	FSectionRange& Range = Ranges[Id];
-	if (Range.bMasked == bMasked && Range.bDoubleSided == bDoubleSided && Range.bEmissive == bEmissive)
-	{
-		return;
-	}
+	if (Range.bMasked == bMasked && Range.bDoubleSided == bDoubleSided && Range.bEmissive == bEmissive) { return; }
 	MaskedRangeCount += uint32_t(bMasked) - uint32_t(Range.bMasked);
 	EmissiveRangeCount += uint32_t(bEmissive) - uint32_t(Range.bEmissive);
 	Range.bMasked = bMasked;
@@ -324,10 +266,7 @@ void FSectionTable::SetFlags(FSectionRangeId Id, bool bMasked, bool bDoubleSided
 
 void FSectionTable::MarkRange(FSectionRangeId Id)
 {
-	if (!std::exchange(Links[Id].bChanged, true))
-	{
-		ChangedRanges.push_back(Id);
-	}
+	if (!std::exchange(Links[Id].bChanged, true)) { ChangedRanges.push_back(Id); }
 }
 
 bool FSectionTable::Write(uint32_t Section, const FSectionData& Data, FHitProgram Program)
@@ -335,18 +274,9 @@ bool FSectionTable::Write(uint32_t Section, const FSectionData& Data, FHitProgra
 	const uint32_t Old = ProgramSlots[Section];
 	const bool bSameProgram = Old != Unused && Programs[Old].Program == Program;
 	const bool bSameData = std::memcmp(&Data, &Table[Section], sizeof(Data)) == 0;
-	if (bSameProgram && bSameData)
-	{
-		return false;
-	}
-	if (!bSameData)
-	{
-		Table.Set(Section, Data);
-	}
-	if (!bSameProgram)
-	{
-		SetProgramSlot(Section, FindProgramSlot(Program));
-	}
+	if (bSameProgram && bSameData) { return false; }
+	if (!bSameData) { Table.Set(Section, Data); }
+	if (!bSameProgram) { SetProgramSlot(Section, FindProgramSlot(Program)); }
 	if (!IsChanged[Section])
 	{
 		Changed.push_back(Section);
@@ -357,19 +287,13 @@ bool FSectionTable::Write(uint32_t Section, const FSectionData& Data, FHitProgra
 
 std::vector<FSectionRangeId> FSectionTable::TakeChangedRanges()
 {
-	for (const FSectionRangeId Id : ChangedRanges)
-	{
-		Links[Id].bChanged = false;
-	}
+	for (const FSectionRangeId Id : ChangedRanges) { Links[Id].bChanged = false; }
 	return std::exchange(ChangedRanges, {});
 }
 
 std::vector<uint32_t> FSectionTable::TakeChanged()
 {
-	for (const uint32_t Section : Changed)
-	{
-		IsChanged[Section] = false;
-	}
+	for (const uint32_t Section : Changed) { IsChanged[Section] = false; }
 	return std::exchange(Changed, {});
 }
 
@@ -378,10 +302,7 @@ std::vector<uint32_t> FSectionTable::TakeChanged()
 uint32_t FSectionTable::FindProgramSlot(FHitProgram Program)
 {
 	const auto [Found, bNew] = SlotOfProgram.try_emplace(Program, GetProgramSlotCount());
-	if (!bNew)
-	{
-		return Found->second;
-	}
+	if (!bNew) { return Found->second; }
 	++SlotsRevision;
 	if (FreeSlots.empty())
 	{
@@ -397,14 +318,8 @@ uint32_t FSectionTable::FindProgramSlot(FHitProgram Program)
 void FSectionTable::SetProgramSlot(uint32_t Section, uint32_t Slot)
 {
 	const uint32_t Old = std::exchange(ProgramSlots[Section], Slot);
-	if (Old == Slot)
-	{
-		return;
-	}
-	if (Slot != Unused && Programs[Slot].Sections++ == 0)
-	{
-		bProgramsChanged = true;
-	}
+	if (Old == Slot) { return; }
+	if (Slot != Unused && Programs[Slot].Sections++ == 0) { bProgramsChanged = true; }
 	if (Old != Unused && --Programs[Old].Sections == 0)
 	{
 		SlotOfProgram.erase(Programs[Old].Program);
@@ -415,15 +330,9 @@ void FSectionTable::SetProgramSlot(uint32_t Section, uint32_t Slot)
 
 const std::vector<FHitProgram>& FSectionTable::GetHitPrograms()
 {
-	if (!std::exchange(bProgramsChanged, false))
-	{
-		return ProgramsInUse;
-	}
+	if (!std::exchange(bProgramsChanged, false)) { return ProgramsInUse; }
 	std::vector<FHitProgram> InUse;
-	for (const auto& [Program, Slot] : SlotOfProgram)
-	{
-		InUse.push_back(Program);
-	}
+	for (const auto& [Program, Slot] : SlotOfProgram) { InUse.push_back(Program); }
 	std::sort(InUse.begin(), InUse.end());
 	if (InUse != ProgramsInUse)
 	{

@@ -16,8 +16,7 @@ namespace Lantern
 
 namespace
 {
-TRTConsoleVariable<int32_t> CVarMode(
-    "r.RT.SBT.Mode", 1,
+TRTConsoleVariable<int32_t> CVarMode("r.RT.SBT.Mode", 1,
     "Shader table. 0: every record is written and copied each frame, as in the paper's first version. 1: only what "
     "changed.",
     {0, 1});
@@ -31,8 +30,7 @@ constexpr size_t SectionGrain = 4096;
 class FRecordBatch
 {
 public:
-	FRecordBatch(IRTShaderTable& InTable, const FSectionTable& InSections, const uint32_t* InGroups,
-	             uint32_t InRayTypes)
+	FRecordBatch(IRTShaderTable& InTable, const FSectionTable& InSections, const uint32_t* InGroups, uint32_t InRayTypes)
 	    : Table(InTable),
 	      Sections(InSections),
 	      GroupsOfSlots(InGroups),
@@ -58,10 +56,7 @@ public:
 	}
 	void Flush()
 	{
-		if (Count > 0)
-		{
-			Table.SetHitRecords(First, Count, Groups.data(), Data.data());
-		}
+		if (Count > 0) { Table.SetHitRecords(First, Count, Groups.data(), Data.data()); }
 		Count = 0;
 	}
 
@@ -76,28 +71,21 @@ private:
 	std::array<FSectionData, Capacity> Data;
 };
 
-uint32_t WithRoom(uint32_t Has, uint32_t Needed)
-{
-	return Has >= Needed ? Has : Needed + Needed / 2;
-}
+uint32_t WithRoom(uint32_t Has, uint32_t Needed) { return Has >= Needed ? Has : Needed + Needed / 2; }
 } // namespace
 
 FRTStatus FShaderBindings::Prepare(const FRTPSO& Pipeline, FSectionTable& Sections)
 {
 	Stats = {};
 	const bool bEachFrame = CVarMode.GetOnRenderThread() == 0;
-	const bool bSameSections =
-	    BoundSections == Sections.GetIdentity() && RayTypes == Pipeline.GetRayTypeCount() && !bRewrite;
+	const bool bSameSections = BoundSections == Sections.GetIdentity() && RayTypes == Pipeline.GetRayTypeCount() && !bRewrite;
 	const bool bSamePipeline = BoundPipeline == Pipeline.GetPipeline() && Table;
 	if (bSameSections && bSamePipeline && !Sections.HasChanged() && !bEachFrame)
 	{
 		return bPending ? Table->Stage() : FRTStatus::Success();
 	}
 	bRewrite |= !bSameSections;
-	if (FRTStatus S = Reserve(Pipeline, Sections); !S)
-	{
-		return S;
-	}
+	if (FRTStatus S = Reserve(Pipeline, Sections); !S) { return S; }
 	bPending = true;
 	BoundSections = Sections.GetIdentity();
 	RayTypes = Pipeline.GetRayTypeCount();
@@ -113,27 +101,12 @@ FRTStatus FShaderBindings::Prepare(const FRTPSO& Pipeline, FSectionTable& Sectio
 	}
 	std::vector<uint32_t> Changed = Sections.TakeChanged();
 	LookUpGroups(Pipeline, Sections);
-	if (bRewrite)
-	{
-		WriteAll(Sections);
-	}
-	else if (!bSamePipeline)
-	{
-		WriteHandles(Sections);
-	}
-	if (bRewrite || !bSamePipeline)
-	{
-		WriteHandlesBehind(Sections);
-	}
+	if (bRewrite) { WriteAll(Sections); }
+	else if (!bSamePipeline) { WriteHandles(Sections); }
+	if (bRewrite || !bSamePipeline) { WriteHandlesBehind(Sections); }
 	RecordsUsed = std::max(RecordsUsed, Sections.GetCapacity() * RayTypes);
-	if (bEachFrame)
-	{
-		WriteEveryRange(Pipeline, Sections);
-	}
-	else if (!bRewrite)
-	{
-		WriteChanged(Sections, std::move(Changed));
-	}
+	if (bEachFrame) { WriteEveryRange(Pipeline, Sections); }
+	else if (!bRewrite) { WriteChanged(Sections, std::move(Changed)); }
 	bRewrite = false;
 	return Table->Stage();
 }
@@ -142,10 +115,7 @@ FRTStatus FShaderBindings::Reserve(const FRTPSO& Pipeline, const FSectionTable& 
 {
 	const uint32_t HitCount = std::max(1u, Sections.GetCapacity() * Pipeline.GetRayTypeCount());
 	// Callable records cannot be taken back, and nothing of this pipeline could be written to them.
-	if (Table && Table->GetDesc().CallableCount > 0 && Pipeline.GetCallableCount() == 0)
-	{
-		Table.Reset();
-	}
+	if (Table && Table->GetDesc().CallableCount > 0 && Pipeline.GetCallableCount() == 0) { Table.Reset(); }
 	if (!Table)
 	{
 		FRTShaderTableDesc Desc;
@@ -161,100 +131,75 @@ FRTStatus FShaderBindings::Reserve(const FRTPSO& Pipeline, const FSectionTable& 
 		return Device.CreateShaderTable(Desc, Table.ReleaseAndGetAddress());
 	}
 	const FRTShaderTableDesc& Has = Table->GetDesc();
-	const uint32_t Counts[] = {WithRoom(Has.RayGenCount, Pipeline.GetRayGenCount()),
-	                           WithRoom(Has.MissCount, Pipeline.GetRayTypeCount()), WithRoom(Has.HitCount, HitCount),
-	                           WithRoom(Has.CallableCount, Pipeline.GetCallableCount())};
+	const uint32_t Counts[] = {WithRoom(Has.RayGenCount, Pipeline.GetRayGenCount()), WithRoom(Has.MissCount, Pipeline.GetRayTypeCount()),
+	    WithRoom(Has.HitCount, HitCount), WithRoom(Has.CallableCount, Pipeline.GetCallableCount())};
 	return Table->Reserve(Counts);
 }
 
 void FShaderBindings::SetGeneralRecords(const FRTPSO& Pipeline)
 {
 	// Records behind the pipeline's last, which an earlier pipeline used, must not keep its handles.
-	const auto SetAll = [&](ERTRecordKind Kind, uint32_t Count, uint32_t TableCount, auto GroupOf)
-	{
+	const auto SetAll = [&](ERTRecordKind Kind, uint32_t Count, uint32_t TableCount, auto GroupOf) {
 		for (uint32_t Index = 0; Count > 0 && Index < TableCount; ++Index)
 		{
 			Table->SetRecord(Kind, Index, GroupOf(std::min(Index, Count - 1)), nullptr, 0);
 		}
 	};
 	const FRTShaderTableDesc& Has = Table->GetDesc();
-	SetAll(ERTRecordKind::RayGen, Pipeline.GetRayGenCount(), Has.RayGenCount,
-	       [&](uint32_t Index) { return Pipeline.RayGenGroup(Index); });
-	SetAll(ERTRecordKind::Miss, Pipeline.GetRayTypeCount(), Has.MissCount,
-	       [&](uint32_t Index) { return Pipeline.MissGroup(Index); });
+	SetAll(ERTRecordKind::RayGen, Pipeline.GetRayGenCount(), Has.RayGenCount, [&](uint32_t Index) { return Pipeline.RayGenGroup(Index); });
+	SetAll(ERTRecordKind::Miss, Pipeline.GetRayTypeCount(), Has.MissCount, [&](uint32_t Index) { return Pipeline.MissGroup(Index); });
 	SetAll(ERTRecordKind::Callable, Pipeline.GetCallableCount(), Has.CallableCount,
-	       [&](uint32_t Index) { return Pipeline.CallableGroup(Index); });
+	    [&](uint32_t Index) { return Pipeline.CallableGroup(Index); });
 }
 
 void FShaderBindings::LookUpGroups(const FRTPSO& Pipeline, const FSectionTable& Sections)
 {
-	if (GroupsRevision == Sections.GetProgramSlotsRevision())
-	{
-		return;
-	}
+	if (GroupsRevision == Sections.GetProgramSlotsRevision()) { return; }
 	GroupsRevision = Sections.GetProgramSlotsRevision();
 	Groups.clear();
 	for (uint32_t Slot = 0; Slot < Sections.GetProgramSlotCount(); ++Slot)
 	{
-		for (uint32_t Type = 0; Type < RayTypes; ++Type)
-		{
-			Groups.push_back(Pipeline.HitGroup(Type, Sections.GetProgramOfSlot(Slot)));
-		}
+		for (uint32_t Type = 0; Type < RayTypes; ++Type) { Groups.push_back(Pipeline.HitGroup(Type, Sections.GetProgramOfSlot(Slot))); }
 	}
 }
 
 void FShaderBindings::WriteChanged(const FSectionTable& Sections, std::vector<uint32_t> Changed)
 {
 	std::sort(Changed.begin(), Changed.end());
-	ParallelFor(Changed.size(), SectionGrain,
-	            [&](size_t Begin, size_t End)
-	            {
-		            FRecordBatch Batch(*Table, Sections, Groups.data(), RayTypes);
-		            for (size_t Index = Begin; Index < End; ++Index)
-		            {
-			            Batch.Add(Changed[Index]);
-		            }
-		            Batch.Flush();
-	            });
+	ParallelFor(Changed.size(), SectionGrain, [&](size_t Begin, size_t End) {
+		FRecordBatch Batch(*Table, Sections, Groups.data(), RayTypes);
+		for (size_t Index = Begin; Index < End; ++Index) { Batch.Add(Changed[Index]); }
+		Batch.Flush();
+	});
 	Stats.RecordsWritten += static_cast<uint32_t>(Changed.size()) * RayTypes;
 }
 
 void FShaderBindings::WriteAll(const FSectionTable& Sections)
 {
-	ParallelFor(Sections.GetCapacity(), SectionGrain,
-	            [&](size_t Begin, size_t End)
-	            {
-		            FRecordBatch Batch(*Table, Sections, Groups.data(), RayTypes);
-		            for (size_t Section = Begin; Section < End; ++Section)
-		            {
-			            Batch.Add(static_cast<uint32_t>(Section));
-		            }
-		            Batch.Flush();
-	            });
+	ParallelFor(Sections.GetCapacity(), SectionGrain, [&](size_t Begin, size_t End) {
+		FRecordBatch Batch(*Table, Sections, Groups.data(), RayTypes);
+		for (size_t Section = Begin; Section < End; ++Section) { Batch.Add(static_cast<uint32_t>(Section)); }
+		Batch.Flush();
+	});
 	Stats.RecordsWritten += Sections.GetCapacity() * RayTypes;
 }
 
 void FShaderBindings::WriteHandles(const FSectionTable& Sections)
 {
-	ParallelFor(Sections.GetCapacity(), SectionGrain,
-	            [&](size_t Begin, size_t End)
-	            {
-		            std::array<uint32_t, 1024> OfRecords;
-		            const size_t Step = OfRecords.size() / RayTypes;
-		            for (size_t First = Begin; First < End; First += Step)
-		            {
-			            uint32_t Count = 0;
-			            for (size_t Section = First; Section < std::min(First + Step, End); ++Section)
-			            {
-				            const uint32_t* const Source =
-				                &Groups[Sections.GetProgramSlot(static_cast<uint32_t>(Section)) * RayTypes];
-				            Count = static_cast<uint32_t>(std::copy_n(Source, RayTypes, OfRecords.begin() + Count) -
-				                                          OfRecords.begin());
-			            }
-			            Table->SetGroups(ERTRecordKind::Hit, static_cast<uint32_t>(First) * RayTypes, Count,
-			                             OfRecords.data());
-		            }
-	            });
+	ParallelFor(Sections.GetCapacity(), SectionGrain, [&](size_t Begin, size_t End) {
+		std::array<uint32_t, 1024> OfRecords;
+		const size_t Step = OfRecords.size() / RayTypes;
+		for (size_t First = Begin; First < End; First += Step)
+		{
+			uint32_t Count = 0;
+			for (size_t Section = First; Section < std::min(First + Step, End); ++Section)
+			{
+				const uint32_t* const Source = &Groups[Sections.GetProgramSlot(static_cast<uint32_t>(Section)) * RayTypes];
+				Count = static_cast<uint32_t>(std::copy_n(Source, RayTypes, OfRecords.begin() + Count) - OfRecords.begin());
+			}
+			Table->SetGroups(ERTRecordKind::Hit, static_cast<uint32_t>(First) * RayTypes, Count, OfRecords.data());
+		}
+	});
 	Stats.HandlesWritten += Sections.GetCapacity() * RayTypes;
 }
 
@@ -276,18 +221,14 @@ void FShaderBindings::WriteEveryRange(const FRTPSO& Pipeline, const FSectionTabl
 	for (FSectionRangeId Id = 0; Id < Sections.GetRangeCapacity(); ++Id)
 	{
 		const FSectionRange& Range = Sections.GetRange(Id);
-		if (!Range.Geometry)
-		{
-			continue;
-		}
+		if (!Range.Geometry) { continue; }
 		for (uint32_t Section = Range.First; Section < Range.First + Range.Count; ++Section)
 		{
 			const FSectionData& Data = Sections.Get(Section);
 			const FHitProgram Program = Sections.GetHitProgram(Section);
 			for (uint32_t Type = 0; Type < RayTypes; ++Type)
 			{
-				Table->SetRecord(ERTRecordKind::Hit, Section * RayTypes + Type, Pipeline.HitGroup(Type, Program), &Data,
-				                 sizeof(Data));
+				Table->SetRecord(ERTRecordKind::Hit, Section * RayTypes + Type, Pipeline.HitGroup(Type, Program), &Data, sizeof(Data));
 			}
 		}
 		Stats.RecordsWritten += Range.Count * RayTypes;
@@ -296,10 +237,7 @@ void FShaderBindings::WriteEveryRange(const FRTPSO& Pipeline, const FSectionTabl
 
 FRTStatus FShaderBindings::Record(IRTCommandList& List)
 {
-	if (!std::exchange(bPending, false))
-	{
-		return FRTStatus::Success();
-	}
+	if (!std::exchange(bPending, false)) { return FRTStatus::Success(); }
 	List.UpdateShaderTable(Table.Get());
 	Stats.BytesCopied = Table->GetUpdatedBytes();
 	return FRTStatus::Success();

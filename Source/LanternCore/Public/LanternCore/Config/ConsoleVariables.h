@@ -70,8 +70,7 @@ class TRTConsoleVariable : public FRTConsoleVariable
 public:
 	TRTConsoleVariable(const char* Name, T Default, const char* Help, FRTCVarRange Range = {})
 	    : FRTConsoleVariable(Name, FRTCVarValue(std::move(Default)), Help, Range)
-	{
-	}
+	{}
 	T Get() const { return std::get<T>(GetValue()); }
 	/// As of the last BeginFrame; only on the thread that calls BeginFrame or tasks that it waits for.
 	const T& GetOnRenderThread() const;

@@ -26,7 +26,7 @@ struct FHistoryTexture
 	/// In ShaderRead; invalid: there is none (first use, a cut, another size or format, a lost frame, or one that did not
 	/// write Current).
 	FGraphTexture Previous;
-	FGraphTexture Current;  ///< to be written wholly by one of the frame's passes; may be read by those behind it
+	FGraphTexture Current; ///< to be written wholly by one of the frame's passes; may be read by those behind it
 };
 
 struct FHistoryBuffer

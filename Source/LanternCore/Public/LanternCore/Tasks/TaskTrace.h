@@ -84,25 +84,16 @@ class FTraceScope
 public:
 	explicit FTraceScope(std::string_view InName)
 	{
-		if (FTaskTrace::IsOn())
-		{
-			Begin(InName, {});
-		}
+		if (FTaskTrace::IsOn()) { Begin(InName, {}); }
 	}
 	/// "Name: Detail". Detail is read at once.
 	FTraceScope(std::string_view InName, std::string_view Detail)
 	{
-		if (FTaskTrace::IsOn())
-		{
-			Begin(InName, Detail);
-		}
+		if (FTaskTrace::IsOn()) { Begin(InName, Detail); }
 	}
 	~FTraceScope()
 	{
-		if (bRecording)
-		{
-			End();
-		}
+		if (bRecording) { End(); }
 	}
 	FTraceScope(const FTraceScope&) = delete;
 	FTraceScope& operator=(const FTraceScope&) = delete;

@@ -12,7 +12,13 @@
 namespace Lantern
 {
 
-enum class ERTLogLevel : uint8_t { Debug, Info, Warning, Error };
+enum class ERTLogLevel : uint8_t
+{
+	Debug,
+	Info,
+	Warning,
+	Error
+};
 
 /// Replaces where lines go (an engine's log); an empty function restores standard error. A sink gets valid UTF-8
 /// without control characters; line breaks and tabs stay, for messages of several lines.
@@ -24,12 +30,24 @@ void LogLine(ERTLogLevel Level, std::string_view Text);
 void LogOnce(ERTLogLevel Level, std::string_view Text);
 
 template <class... T>
-void LogDebug(fmt::format_string<T...> Format, T&&... Args) { LogLine(ERTLogLevel::Debug, fmt::format(Format, std::forward<T>(Args)...)); }
+void LogDebug(fmt::format_string<T...> Format, T&&... Args)
+{
+	LogLine(ERTLogLevel::Debug, fmt::format(Format, std::forward<T>(Args)...));
+}
 template <class... T>
-void LogInfo(fmt::format_string<T...> Format, T&&... Args) { LogLine(ERTLogLevel::Info, fmt::format(Format, std::forward<T>(Args)...)); }
+void LogInfo(fmt::format_string<T...> Format, T&&... Args)
+{
+	LogLine(ERTLogLevel::Info, fmt::format(Format, std::forward<T>(Args)...));
+}
 template <class... T>
-void LogWarning(fmt::format_string<T...> Format, T&&... Args) { LogLine(ERTLogLevel::Warning, fmt::format(Format, std::forward<T>(Args)...)); }
+void LogWarning(fmt::format_string<T...> Format, T&&... Args)
+{
+	LogLine(ERTLogLevel::Warning, fmt::format(Format, std::forward<T>(Args)...));
+}
 template <class... T>
-void LogError(fmt::format_string<T...> Format, T&&... Args) { LogLine(ERTLogLevel::Error, fmt::format(Format, std::forward<T>(Args)...)); }
+void LogError(fmt::format_string<T...> Format, T&&... Args)
+{
+	LogLine(ERTLogLevel::Error, fmt::format(Format, std::forward<T>(Args)...));
+}
 
 } // namespace Lantern

@@ -27,16 +27,9 @@ glm::vec2 GetArchPoint(float Radius, float T)
 void AddArchFace(FMeshBuilder& Mesh, float Side)
 {
 	const float Z = HalfThickness * Side;
-	const auto AddFace = [&](const glm::vec2& A, const glm::vec2& B, const glm::vec2& C, const glm::vec2& D)
-	{
-		if (Side > 0)
-		{
-			Mesh.AddQuad({A, Z}, {B, Z}, {C, Z}, {D, Z});
-		}
-		else
-		{
-			Mesh.AddQuad({A, Z}, {D, Z}, {C, Z}, {B, Z});
-		}
+	const auto AddFace = [&](const glm::vec2& A, const glm::vec2& B, const glm::vec2& C, const glm::vec2& D) {
+		if (Side > 0) { Mesh.AddQuad({A, Z}, {B, Z}, {C, Z}, {D, Z}); }
+		else { Mesh.AddQuad({A, Z}, {D, Z}, {C, Z}, {B, Z}); }
 	};
 	constexpr float HalfBay = BayWidth / 2;
 	AddFace({-HalfBay, Springing}, {-ArchRadius, Springing}, {-ArchRadius, WallTop}, {-HalfBay, WallTop});
@@ -74,16 +67,14 @@ int32_t MakeArchBay(const FCourtyard& Yard)
 	Mesh.BeginSection(Yard.M.Ashlar);
 	AddArchFace(Mesh, 1.0f);
 	AddArchFace(Mesh, -1.0f);
-	Mesh.AddQuad({-HalfBay, Springing, -HalfThickness}, {-ArchRadius, Springing, -HalfThickness},
-	             {-ArchRadius, Springing, HalfThickness}, {-HalfBay, Springing, HalfThickness});
-	Mesh.AddQuad({ArchRadius, Springing, -HalfThickness}, {HalfBay, Springing, -HalfThickness},
-	             {HalfBay, Springing, HalfThickness}, {ArchRadius, Springing, HalfThickness});
+	Mesh.AddQuad({-HalfBay, Springing, -HalfThickness}, {-ArchRadius, Springing, -HalfThickness}, {-ArchRadius, Springing, HalfThickness},
+	    {-HalfBay, Springing, HalfThickness});
+	Mesh.AddQuad({ArchRadius, Springing, -HalfThickness}, {HalfBay, Springing, -HalfThickness}, {HalfBay, Springing, HalfThickness},
+	    {ArchRadius, Springing, HalfThickness});
 	Mesh.BeginSection(Yard.M.Trim);
 	AddVoussoirs(Mesh);
-	Mesh.AddBeveledBox({-HalfBay, WallTop - 0.24f, -HalfThickness - 0.10f},
-	                   {HalfBay, WallTop - 0.10f, HalfThickness + 0.10f}, 0.03f);
-	Mesh.AddBeveledBox({-HalfBay, WallTop - 0.10f, -HalfThickness - 0.18f}, {HalfBay, WallTop, HalfThickness + 0.18f},
-	                   0.02f);
+	Mesh.AddBeveledBox({-HalfBay, WallTop - 0.24f, -HalfThickness - 0.10f}, {HalfBay, WallTop - 0.10f, HalfThickness + 0.10f}, 0.03f);
+	Mesh.AddBeveledBox({-HalfBay, WallTop - 0.10f, -HalfThickness - 0.18f}, {HalfBay, WallTop, HalfThickness + 0.18f}, 0.02f);
 	return Yard.Builder.AddMesh(Mesh);
 }
 
@@ -92,11 +83,9 @@ int32_t MakeColumn(const FCourtyard& Yard)
 	FMeshBuilder Mesh("column");
 	Mesh.BeginSection(Yard.M.Trim);
 	Mesh.AddBeveledBox({-0.27f, 0, -0.27f}, {0.27f, 0.12f, 0.27f}, 0.012f);
-	const glm::vec2 Profile[] = {{0.26f, 0.12f},  {0.275f, 0.15f}, {0.26f, 0.19f}, {0.22f, 0.20f},  {0.22f, 0.20f},
-	                             {0.205f, 0.23f}, {0.22f, 0.26f},  {0.19f, 0.28f}, {0.19f, 0.28f},  {0.185f, 0.90f},
-	                             {0.175f, 1.60f}, {0.16f, 2.08f},  {0.16f, 2.08f}, {0.185f, 2.10f}, {0.185f, 2.13f},
-	                             {0.165f, 2.14f}, {0.165f, 2.14f}, {0.17f, 2.22f}, {0.20f, 2.29f},  {0.25f, 2.34f},
-	                             {0.27f, 2.37f}};
+	const glm::vec2 Profile[] = {{0.26f, 0.12f}, {0.275f, 0.15f}, {0.26f, 0.19f}, {0.22f, 0.20f}, {0.22f, 0.20f}, {0.205f, 0.23f},
+	    {0.22f, 0.26f}, {0.19f, 0.28f}, {0.19f, 0.28f}, {0.185f, 0.90f}, {0.175f, 1.60f}, {0.16f, 2.08f}, {0.16f, 2.08f}, {0.185f, 2.10f},
+	    {0.185f, 2.13f}, {0.165f, 2.14f}, {0.165f, 2.14f}, {0.17f, 2.22f}, {0.20f, 2.29f}, {0.25f, 2.34f}, {0.27f, 2.37f}};
 	Mesh.AddLathe(Profile, 32);
 	Mesh.AddBeveledBox({-0.29f, 2.37f, -0.29f}, {0.29f, Springing, 0.29f}, 0.02f);
 	return Yard.Builder.AddMesh(Mesh);
@@ -122,10 +111,7 @@ void PlaceRow(const FCourtyard& Yard, int32_t Bay, int32_t Column, const glm::ve
 	{
 		const float Offset = (float(I) - float(BayCount - 1) / 2) * BayWidth;
 		Yard.Builder.AddNode("arch", Bay, Center + Along * Offset, Yaw);
-		if (I > 0)
-		{
-			Yard.Builder.AddNode("column", Column, Center + Along * (Offset - BayWidth / 2), Yaw);
-		}
+		if (I > 0) { Yard.Builder.AddNode("column", Column, Center + Along * (Offset - BayWidth / 2), Yaw); }
 	}
 }
 
@@ -133,9 +119,8 @@ int32_t MakeBaluster(const FCourtyard& Yard)
 {
 	FMeshBuilder Mesh("baluster");
 	Mesh.BeginSection(Yard.M.Trim);
-	const glm::vec2 Profile[] = {{0.07f, 0},      {0.07f, 0.05f},  {0.07f, 0.05f},  {0.035f, 0.07f}, {0.055f, 0.14f},
-	                             {0.075f, 0.22f}, {0.06f, 0.32f},  {0.035f, 0.42f}, {0.03f, 0.48f},  {0.055f, 0.50f},
-	                             {0.055f, 0.52f}, {0.055f, 0.52f}, {0.07f, 0.54f},  {0.07f, 0.58f}};
+	const glm::vec2 Profile[] = {{0.07f, 0}, {0.07f, 0.05f}, {0.07f, 0.05f}, {0.035f, 0.07f}, {0.055f, 0.14f}, {0.075f, 0.22f},
+	    {0.06f, 0.32f}, {0.035f, 0.42f}, {0.03f, 0.48f}, {0.055f, 0.50f}, {0.055f, 0.52f}, {0.055f, 0.52f}, {0.07f, 0.54f}, {0.07f, 0.58f}};
 	Mesh.AddLathe(Profile, 16);
 	return Yard.Builder.AddMesh(Mesh);
 }
@@ -173,10 +158,7 @@ void BuildArcades(const FCourtyard& Yard)
 	PlaceRow(Yard, Bay, Column, {-YardHalf, GalleryHeight, 0}, Q);
 	for (const float X : {-YardHalf, YardHalf})
 	{
-		for (const float Z : {-YardHalf, YardHalf})
-		{
-			Yard.Builder.AddNode("corner pier", Pier, {X, GalleryHeight, Z});
-		}
+		for (const float Z : {-YardHalf, YardHalf}) { Yard.Builder.AddNode("corner pier", Pier, {X, GalleryHeight, Z}); }
 	}
 	AddBalustrade(Yard);
 }

@@ -25,10 +25,7 @@ struct FLeaf
 /// Half the width of a leaf at T along it, 0 … 1.
 float GetHalfWidth(ELeafKind Kind, float T)
 {
-	if (T <= 0.0f || T >= 1.0f)
-	{
-		return 0.0f;
-	}
+	if (T <= 0.0f || T >= 1.0f) { return 0.0f; }
 	switch (Kind)
 	{
 	case ELeafKind::Broad: return std::sin(glm::pi<float>() * std::pow(T, 0.75f));
@@ -91,8 +88,7 @@ FSurfacePoint EvaluateLeaves(const std::vector<FLeaf>& Leaves, ELeafKind Kind, c
 	S.Albedo = Leaves[Leaves.size() / 2].Color;
 	S.Alpha = 0.0f;
 	S.Roughness = 0.6f;
-	if (Kind != ELeafKind::Flower && P.y > 0.25f &&
-	    std::abs(P.x - 0.5f - 0.03f * std::sin((0.97f - P.y) / 0.72f * 7.0f)) < 0.008f)
+	if (Kind != ELeafKind::Flower && P.y > 0.25f && std::abs(P.x - 0.5f - 0.03f * std::sin((0.97f - P.y) / 0.72f * 7.0f)) < 0.008f)
 	{
 		S.Albedo = {0.16f, 0.12f, 0.05f};
 		S.Alpha = 1.0f;

@@ -21,15 +21,13 @@ void AddStone(const FCourtyard& Yard)
 	Mesh.BeginSection(Yard.M.Trim);
 	const glm::vec2 Step[] = {{2.45f, 0}, {2.45f, 0.14f}, {2.45f, 0.14f}, {2.42f, 0.16f}, {2.0f, 0.16f}};
 	Mesh.AddLathe(Step, 64);
-	const glm::vec2 Basin[] = {{1.95f, 0.16f}, {1.98f, 0.22f}, {1.88f, 0.28f}, {1.85f, 0.50f}, {1.90f, 0.58f},
-	                           {2.00f, 0.62f}, {2.02f, 0.68f}, {1.98f, 0.72f}, {1.98f, 0.72f}, {1.70f, 0.72f},
-	                           {1.70f, 0.72f}, {1.66f, 0.66f}, {1.66f, 0.20f}};
+	const glm::vec2 Basin[] = {{1.95f, 0.16f}, {1.98f, 0.22f}, {1.88f, 0.28f}, {1.85f, 0.50f}, {1.90f, 0.58f}, {2.00f, 0.62f},
+	    {2.02f, 0.68f}, {1.98f, 0.72f}, {1.98f, 0.72f}, {1.70f, 0.72f}, {1.70f, 0.72f}, {1.66f, 0.66f}, {1.66f, 0.20f}};
 	Mesh.AddLathe(Basin, 64);
-	const glm::vec2 Stem[] = {
-	    {0.42f, 0.2f},  {0.42f, 0.60f}, {0.42f, 0.60f}, {0.34f, 0.66f}, {0.20f, 0.78f}, {0.16f, 0.95f}, {0.22f, 1.10f},
-	    {0.26f, 1.18f}, {0.18f, 1.27f}, {0.16f, 1.32f}, {0.30f, 1.36f}, {0.62f, 1.48f}, {0.84f, 1.66f}, {0.90f, 1.70f},
-	    {0.90f, 1.74f}, {0.90f, 1.74f}, {0.84f, 1.74f}, {0.84f, 1.74f}, {0.60f, 1.58f}, {0.14f, 1.54f}, {0.14f, 1.54f},
-	    {0.12f, 1.80f}, {0.09f, 2.00f}, {0.13f, 2.08f}, {0.10f, 2.16f}, {0.0f, 2.18f}};
+	const glm::vec2 Stem[] = {{0.42f, 0.2f}, {0.42f, 0.60f}, {0.42f, 0.60f}, {0.34f, 0.66f}, {0.20f, 0.78f}, {0.16f, 0.95f}, {0.22f, 1.10f},
+	    {0.26f, 1.18f}, {0.18f, 1.27f}, {0.16f, 1.32f}, {0.30f, 1.36f}, {0.62f, 1.48f}, {0.84f, 1.66f}, {0.90f, 1.70f}, {0.90f, 1.74f},
+	    {0.90f, 1.74f}, {0.84f, 1.74f}, {0.84f, 1.74f}, {0.60f, 1.58f}, {0.14f, 1.54f}, {0.14f, 1.54f}, {0.12f, 1.80f}, {0.09f, 2.00f},
+	    {0.13f, 2.08f}, {0.10f, 2.16f}, {0.0f, 2.18f}};
 	Mesh.AddLathe(Stem, 48);
 	Yard.Builder.AddNode("fountain", Yard.Builder.AddMesh(Mesh), Place);
 }
@@ -62,12 +60,11 @@ void AddArmillary(const FCourtyard& Yard)
 {
 	FMeshBuilder Mesh("armillary sphere");
 	Mesh.BeginSection(Yard.M.Bronze);
-	const auto AddRing = [&](const glm::mat4& Turn, float Radius, float Width)
-	{
+	const auto AddRing = [&](const glm::mat4& Turn, float Radius, float Width) {
 		Mesh.SetTransform(Turn);
 		const glm::vec2 Profile[] = {{Radius - 0.012f, -Width}, {Radius - 0.012f, -Width}, {Radius + 0.012f, -Width},
-		                             {Radius + 0.012f, -Width}, {Radius + 0.012f, Width},  {Radius + 0.012f, Width},
-		                             {Radius - 0.012f, Width},  {Radius - 0.012f, Width},  {Radius - 0.012f, -Width}};
+		    {Radius + 0.012f, -Width}, {Radius + 0.012f, Width}, {Radius + 0.012f, Width}, {Radius - 0.012f, Width},
+		    {Radius - 0.012f, Width}, {Radius - 0.012f, -Width}};
 		Mesh.AddLathe(Profile, 48);
 	};
 	const glm::mat4 One(1);
@@ -80,8 +77,7 @@ void AddArmillary(const FCourtyard& Yard)
 	const glm::vec3 Axis[] = {{0, -0.55f, 0}, {0, 0.55f, 0}};
 	const float Radii[] = {0.012f, 0.012f};
 	Mesh.AddTube(Axis, Radii, 10);
-	const int32_t Node =
-	    Yard.Builder.AddNode("armillary sphere", Yard.Builder.AddMesh(Mesh), Place + glm::vec3(0, 2.68f, 0));
+	const int32_t Node = Yard.Builder.AddNode("armillary sphere", Yard.Builder.AddMesh(Mesh), Place + glm::vec3(0, 2.68f, 0));
 	AddTurning(Yard.Builder, Node, 12.0f);
 }
 

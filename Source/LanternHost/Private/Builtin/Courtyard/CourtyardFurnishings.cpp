@@ -29,10 +29,7 @@ int32_t MakeLantern(const FCourtyard& Yard)
 	Mesh.AddBeveledBox({-H - 0.01f, -0.93f, -H - 0.01f}, {H + 0.01f, -0.90f, H + 0.01f}, 0.004f);
 	for (const float X : {-H, H})
 	{
-		for (const float Z : {-H, H})
-		{
-			Mesh.AddBeveledBox({X - 0.012f, -0.90f, Z - 0.012f}, {X + 0.012f, -0.625f, Z + 0.012f}, 0.003f);
-		}
+		for (const float Z : {-H, H}) { Mesh.AddBeveledBox({X - 0.012f, -0.90f, Z - 0.012f}, {X + 0.012f, -0.625f, Z + 0.012f}, 0.003f); }
 	}
 	Mesh.BeginSection(Yard.M.Glow);
 	constexpr float P = H - 0.008f;
@@ -49,8 +46,7 @@ void AddLanterns(const FCourtyard& Yard)
 	for (int I = 0; I < BayCount; I += 2)
 	{
 		const float T = (float(I) - float(BayCount - 1) / 2) * BayWidth;
-		for (const glm::vec3& Place :
-		     {glm::vec3(T, ArcadeTop - 0.36f, -YardHalf - 1.2f), glm::vec3(YardHalf + 1.2f, ArcadeTop - 0.36f, T)})
+		for (const glm::vec3& Place : {glm::vec3(T, ArcadeTop - 0.36f, -YardHalf - 1.2f), glm::vec3(YardHalf + 1.2f, ArcadeTop - 0.36f, T)})
 		{
 			Yard.Builder.AddNode("lantern", Lantern, Place);
 			Yard.Builder.AddPointLight("lantern", Place + Below, Candela, 7.0f);
@@ -63,8 +59,7 @@ int32_t MakeBanner(const FCourtyard& Yard, int32_t Material)
 {
 	constexpr int Across = 16, Down = 32;
 	constexpr float Width = 0.9f, Height = 2.7f;
-	const auto GetPoint = [](float U, float V)
-	{
+	const auto GetPoint = [](float U, float V) {
 		const float Fold = 0.075f * V * std::sin(U * 9.0f + V * 2.5f) + 0.05f * V * V * std::sin(V * 5.0f);
 		const float Hem = U < 0.5f ? U : 1 - U; // swallow-tailed
 		return glm::vec3((U - 0.5f) * Width * (1 - 0.05f * V), -V * (Height - Hem * 0.5f), Fold);
@@ -109,8 +104,7 @@ void AddBanners(const FCourtyard& Yard)
 	for (int I = 0; I < BayCount - 1; ++I)
 	{
 		const float T = (float(I) - float(BayCount - 2) / 2) * BayWidth;
-		Yard.Builder.AddNode("banner", I % 2 == 0 ? Red : Blue, {T, UpperTop - 0.55f, -YardHalf + 0.32f},
-		                     0.06f * float(I % 3 - 1));
+		Yard.Builder.AddNode("banner", I % 2 == 0 ? Red : Blue, {T, UpperTop - 0.55f, -YardHalf + 0.32f}, 0.06f * float(I % 3 - 1));
 	}
 }
 
@@ -134,8 +128,7 @@ void AddWeatherVane(const FCourtyard& Yard)
 	const glm::vec3 Place(-YardHalf, ArcadeTop + 0.86f, -1.2f);
 	FMeshBuilder Pole("vane pole");
 	Pole.BeginSection(Yard.M.Iron);
-	const glm::vec2 Profile[] = {{0.10f, 0},     {0.10f, 0.06f}, {0.10f, 0.06f},
-	                             {0.03f, 0.12f}, {0.02f, 1.1f},  {0.0f, 1.14f}};
+	const glm::vec2 Profile[] = {{0.10f, 0}, {0.10f, 0.06f}, {0.10f, 0.06f}, {0.03f, 0.12f}, {0.02f, 1.1f}, {0.0f, 1.14f}};
 	Pole.AddLathe(Profile, 16);
 	Yard.Builder.AddNode("vane pole", Yard.Builder.AddMesh(Pole), Place);
 

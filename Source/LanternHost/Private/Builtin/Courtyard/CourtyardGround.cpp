@@ -18,8 +18,7 @@ void AddHills(const FCourtyard& Yard)
 	constexpr int Rings = 40, Segments = 96;
 	FMeshBuilder Mesh("hills");
 	Mesh.BeginSection(Yard.M.Grass);
-	const auto GetPoint = [](int Ring, int Segment)
-	{
+	const auto GetPoint = [](int Ring, int Segment) {
 		const float T = float(Ring) / float(Rings);
 		const float Radius = 14.0f + 700.0f * T * T * T;
 		const float Angle = glm::two_pi<float>() * float(Segment % Segments) / float(Segments);
@@ -34,8 +33,7 @@ void AddHills(const FCourtyard& Yard)
 		for (int Segment = 0; Segment <= Segments; ++Segment)
 		{
 			const glm::vec3 P = GetPoint(Ring, Segment);
-			const glm::vec3 Out =
-			    GetPoint(std::min(Ring + 1, Rings), Segment) - GetPoint(std::max(Ring - 1, 0), Segment);
+			const glm::vec3 Out = GetPoint(std::min(Ring + 1, Rings), Segment) - GetPoint(std::max(Ring - 1, 0), Segment);
 			const glm::vec3 Along = GetPoint(Ring, Segment + 1) - GetPoint(Ring, Segment + Segments - 1);
 			Mesh.AddVertex(P, glm::normalize(glm::cross(Along, Out)), glm::vec2(P.x, P.z));
 		}

@@ -51,8 +51,7 @@ int32_t AddAshlar(FSceneBuilder& Builder)
 	FSurfaceDescription D;
 	D.Name = "ashlar";
 	D.Metres = 2.4f;
-	D.Evaluate = [](const glm::vec2& P)
-	{
+	D.Evaluate = [](const glm::vec2& P) {
 		const FMasonry Piece = FindPiece(P, 4, 8, 2.4f, true, 11);
 		const float Grain = SampleFractal(P, 16, 5, 0.6f, 21), Stain = SampleFractal(P, 3, 4, 0.5f, 22);
 		const float Joint = 1.0f - SmoothStep(0.004f, 0.012f, Piece.EdgeDistance);
@@ -71,8 +70,7 @@ int32_t AddTrim(FSceneBuilder& Builder)
 	FSurfaceDescription D;
 	D.Name = "limestone";
 	D.Size = 256;
-	D.Evaluate = [](const glm::vec2& P)
-	{
+	D.Evaluate = [](const glm::vec2& P) {
 		const float Grain = SampleFractal(P, 8, 5, 0.6f, 31), Vein = SampleFractal(P, 2, 4, 0.5f, 32);
 		FSurfacePoint S;
 		S.Albedo = glm::vec3(0.72f, 0.65f, 0.53f) * (0.78f + 0.22f * Grain + 0.15f * Vein);
@@ -88,8 +86,7 @@ int32_t AddPlaster(FSceneBuilder& Builder)
 	FSurfaceDescription D;
 	D.Name = "plaster";
 	D.Metres = 3.0f;
-	D.Evaluate = [](const glm::vec2& P)
-	{
+	D.Evaluate = [](const glm::vec2& P) {
 		const float Trowel = SampleFractal(P, 6, 5, 0.55f, 41), Stain = SampleFractal(P, 2, 4, 0.6f, 42);
 		const float Worn = SmoothStep(0.60f, 0.68f, SampleFractal(P, 3, 5, 0.55f, 43));
 		FSurfacePoint S;
@@ -108,8 +105,7 @@ int32_t AddPaving(FSceneBuilder& Builder)
 	FSurfaceDescription D;
 	D.Name = "paving";
 	D.Metres = 3.2f;
-	D.Evaluate = [](const glm::vec2& P)
-	{
+	D.Evaluate = [](const glm::vec2& P) {
 		const FMasonry Piece = FindPiece(P, 4, 4, 3.2f, false, 51);
 		const uint32_t Column = uint32_t(P.x * 4.0f), Row = uint32_t(P.y * 4.0f);
 		const float Grain = SampleFractal(P, 16, 5, 0.55f, 52), Worn = SampleFractal(P, 4, 4, 0.5f, 53);
@@ -131,8 +127,7 @@ int32_t AddRoofTile(FSceneBuilder& Builder)
 	D.Name = "roof tile";
 	D.Size = 256;
 	D.Metres = 1.5f;
-	D.Evaluate = [](const glm::vec2& P)
-	{
+	D.Evaluate = [](const glm::vec2& P) {
 		const float Grain = SampleFractal(P, 12, 5, 0.6f, 61), Moss = SampleFractal(P, 4, 5, 0.6f, 62);
 		FSurfacePoint S;
 		S.Albedo = glm::mix(glm::vec3(0.50f, 0.17f, 0.07f), glm::vec3(0.62f, 0.29f, 0.13f), Grain);
@@ -149,8 +144,7 @@ int32_t AddWood(FSceneBuilder& Builder, const char* Name, const glm::vec3& Color
 	FSurfaceDescription D;
 	D.Name = Name;
 	D.Metres = 1.2f;
-	D.Evaluate = [Color, Seed](const glm::vec2& P)
-	{
+	D.Evaluate = [Color, Seed](const glm::vec2& P) {
 		const uint32_t Plank = uint32_t(P.x * 8.0f);
 		const float Edge = std::min(P.x * 8.0f - float(Plank), 1.0f + float(Plank) - P.x * 8.0f) * 0.15f;
 		const float Shift = HashToFloat(HashLattice(Plank, 1, Seed));
@@ -169,15 +163,13 @@ int32_t AddWood(FSceneBuilder& Builder, const char* Name, const glm::vec3& Color
 	return Builder.AddMaterial(MakeSurfaceMaterial(Builder, D));
 }
 
-int32_t AddMetal(FSceneBuilder& Builder, const char* Name, const glm::vec3& Clean, const glm::vec3& Aged, float Age,
-                 uint32_t Seed)
+int32_t AddMetal(FSceneBuilder& Builder, const char* Name, const glm::vec3& Clean, const glm::vec3& Aged, float Age, uint32_t Seed)
 {
 	FSurfaceDescription D;
 	D.Name = Name;
 	D.Size = 256;
 	D.bNormalMap = false;
-	D.Evaluate = [=](const glm::vec2& P)
-	{
+	D.Evaluate = [=](const glm::vec2& P) {
 		const float Patina = SmoothStep(0.62f - Age, 0.80f - Age, SampleFractal(P, 6, 6, 0.6f, Seed));
 		FSurfacePoint S;
 		S.Albedo = glm::mix(Clean, Aged, Patina);
@@ -193,8 +185,7 @@ int32_t AddTerracotta(FSceneBuilder& Builder)
 	FSurfaceDescription D;
 	D.Name = "terracotta";
 	D.Size = 256;
-	D.Evaluate = [](const glm::vec2& P)
-	{
+	D.Evaluate = [](const glm::vec2& P) {
 		const float Grain = SampleFractal(P, 8, 6, 0.6f, 71), Lime = SampleFractal(P, 3, 5, 0.6f, 72);
 		FSurfacePoint S;
 		S.Albedo = glm::vec3(0.58f, 0.26f, 0.13f) * (0.75f + 0.4f * Grain);
@@ -212,8 +203,7 @@ int32_t AddWater(FSceneBuilder& Builder)
 	D.Name = "water";
 	D.bRoughnessMap = false;
 	D.Metres = 1.6f;
-	D.Evaluate = [](const glm::vec2& P)
-	{
+	D.Evaluate = [](const glm::vec2& P) {
 		FSurfacePoint S;
 		S.Albedo = {0.03f, 0.11f, 0.12f};
 		S.Roughness = 0.04f;
@@ -231,8 +221,7 @@ int32_t AddCloth(FSceneBuilder& Builder, const char* Name, const glm::vec3& Grou
 	D.Name = Name;
 	D.bUnitUV = true;
 	D.bRoughnessMap = false;
-	D.Evaluate = [=](const glm::vec2& P)
-	{
+	D.Evaluate = [=](const glm::vec2& P) {
 		const float Border = std::min(std::min(P.x, 1.0f - P.x), P.y * 3.0f);
 		const glm::vec2 C = (P - glm::vec2(0.5f, 0.42f)) * glm::vec2(1.0f, 3.0f);
 		const float Angle = std::atan2(C.y, C.x), Radius = glm::length(C);
@@ -257,8 +246,7 @@ int32_t AddGround(FSceneBuilder& Builder, const char* Name, const glm::vec3& A, 
 	D.Name = Name;
 	D.Metres = 4.0f;
 	D.bRoughnessMap = false;
-	D.Evaluate = [=](const glm::vec2& P)
-	{
+	D.Evaluate = [=](const glm::vec2& P) {
 		const float Fine = SampleFractal(P, 32, 4, 0.7f, Seed), Broad = SampleFractal(P, 4, 5, 0.5f, Seed + 7);
 		FSurfacePoint S;
 		S.Albedo = glm::mix(A, B, Broad) * (0.55f + 0.8f * Fine);

@@ -21,13 +21,11 @@ glm::vec3 RandomDirection(FRandomStream& Random)
 }
 
 /// A card from its stem along Up; Normal is what it is lit by, which need not be its own: the crown's looks rounder.
-void AddCard(FMeshBuilder& Mesh, const glm::vec3& Stem, const glm::vec3& Up, const glm::vec3& Facing, float Size,
-             const glm::vec3& Normal)
+void AddCard(FMeshBuilder& Mesh, const glm::vec3& Stem, const glm::vec3& Up, const glm::vec3& Facing, float Size, const glm::vec3& Normal)
 {
 	const glm::vec3 Side = glm::normalize(glm::cross(Up, Facing)) * Size * 0.5f, Top = Up * Size;
 	const uint32_t A = Mesh.AddVertex(Stem - Side, Normal, {0, 1}), B = Mesh.AddVertex(Stem + Side, Normal, {1, 1});
-	const uint32_t C = Mesh.AddVertex(Stem + Side + Top, Normal, {1, 0}),
-	               D = Mesh.AddVertex(Stem - Side + Top, Normal, {0, 0});
+	const uint32_t C = Mesh.AddVertex(Stem + Side + Top, Normal, {1, 0}), D = Mesh.AddVertex(Stem - Side + Top, Normal, {0, 0});
 	// The front is on the side of the normal, since a back face would turn it round.
 	const glm::vec3 Front = glm::cross(Side, Top);
 	if (glm::dot(Front, Normal) >= 0)
@@ -86,13 +84,9 @@ void AddTrunk(FMeshBuilder& Mesh, const glm::vec3& Top, float Radius)
 void AddPot(const FCourtyard& Yard, FMeshBuilder& Mesh, float Scale)
 {
 	Mesh.BeginSection(Yard.M.Terracotta);
-	std::vector<glm::vec2> Profile = {{0.0f, 0},      {0.24f, 0},     {0.24f, 0},     {0.26f, 0.03f}, {0.34f, 0.35f},
-	                                  {0.37f, 0.48f}, {0.37f, 0.48f}, {0.42f, 0.49f}, {0.43f, 0.53f}, {0.42f, 0.58f},
-	                                  {0.42f, 0.58f}, {0.36f, 0.58f}, {0.36f, 0.58f}, {0.35f, 0.50f}};
-	for (glm::vec2& P : Profile)
-	{
-		P *= Scale;
-	}
+	std::vector<glm::vec2> Profile = {{0.0f, 0}, {0.24f, 0}, {0.24f, 0}, {0.26f, 0.03f}, {0.34f, 0.35f}, {0.37f, 0.48f}, {0.37f, 0.48f},
+	    {0.42f, 0.49f}, {0.43f, 0.53f}, {0.42f, 0.58f}, {0.42f, 0.58f}, {0.36f, 0.58f}, {0.36f, 0.58f}, {0.35f, 0.50f}};
+	for (glm::vec2& P : Profile) { P *= Scale; }
 	Mesh.AddLathe(Profile, 32);
 	Mesh.BeginSection(Yard.M.Earth);
 	Mesh.AddDisk({0, 0.52f * Scale, 0}, {0, 1, 0}, 0.36f * Scale, 24);
@@ -110,8 +104,7 @@ void AddTrees(const FCourtyard& Yard)
 	const glm::vec2 Places[] = {{-5.2f, -5.2f}, {5.2f, -5.2f}, {-5.2f, 4.6f}, {1.9f, -6.3f}, {-1.9f, -6.3f}};
 	for (int I = 0; I < 5; ++I)
 	{
-		Yard.Builder.AddNode("tree", Tree, {Places[I].x, 0, Places[I].y}, float(I) * 1.7f,
-		                     glm::vec3(0.92f + 0.05f * float(I % 3)));
+		Yard.Builder.AddNode("tree", Tree, {Places[I].x, 0, Places[I].y}, float(I) * 1.7f, glm::vec3(0.92f + 0.05f * float(I % 3)));
 	}
 }
 
@@ -125,16 +118,14 @@ void AddCypresses(const FCourtyard& Yard)
 	for (int I = 0; I < 900; ++I)
 	{
 		const float T = Random.NextFloat(), Angle = Random.Between(0, glm::two_pi<float>());
-		const float Radius = 0.85f * std::pow(std::sin(glm::pi<float>() * std::min(0.06f + 0.94f * T, 0.99f)), 0.7f) *
-		                     (1.0f - 0.45f * T);
+		const float Radius = 0.85f * std::pow(std::sin(glm::pi<float>() * std::min(0.06f + 0.94f * T, 0.99f)), 0.7f) * (1.0f - 0.45f * T);
 		const glm::vec3 Out(std::cos(Angle), 0, std::sin(Angle));
 		const glm::vec3 Stem = Out * Radius * Random.Between(0.6f, 1.0f) + glm::vec3(0, 0.5f + 6.6f * T, 0);
 		const float Shade = Random.Between(0.6f, 1.0f);
 		Mesh.SetColor(glm::vec3(Shade));
-		const glm::vec3 Up =
-		    glm::normalize(Out * 0.45f + glm::vec3(Random.Between(-0.3f, 0.3f), 1, Random.Between(-0.3f, 0.3f)));
+		const glm::vec3 Up = glm::normalize(Out * 0.45f + glm::vec3(Random.Between(-0.3f, 0.3f), 1, Random.Between(-0.3f, 0.3f)));
 		AddCard(Mesh, Stem, Up, glm::normalize(Out + RandomDirection(Random) * 0.6f), Random.Between(0.55f, 0.9f),
-		        glm::normalize(Out + glm::vec3(0, 0.35f, 0)));
+		    glm::normalize(Out + glm::vec3(0, 0.35f, 0)));
 	}
 	const int32_t Cypress = Yard.Builder.AddMesh(Mesh);
 	FRandomStream Places(41);
@@ -144,8 +135,7 @@ void AddCypresses(const FCourtyard& Yard)
 		const bool bNear = I < 7;
 		const float X = bNear ? -24.0f - Places.Between(0, 4) : -Places.Between(28, 90);
 		const float Z = bNear ? -17.0f + float(I) * 2.6f : Places.Between(-60, 10);
-		Yard.Builder.AddNode("cypress", Cypress, {X, -0.1f, Z}, Places.Between(0, 6),
-		                     glm::vec3(Places.Between(0.7f, 1.15f)));
+		Yard.Builder.AddNode("cypress", Cypress, {X, -0.1f, Z}, Places.Between(0, 6), glm::vec3(Places.Between(0.7f, 1.15f)));
 	}
 }
 
@@ -165,12 +155,9 @@ int32_t MakeIvy(const FCourtyard& Yard, uint32_t Seed, float Height, float Sprea
 			Angle = glm::clamp(Angle + Random.Between(-0.45f, 0.45f), -1.2f, 1.2f);
 			P += 0.05f * glm::vec2(std::sin(Angle), std::cos(Angle));
 			const float LeafAngle = Random.Between(-2.2f, 2.2f);
-			const glm::vec3 Up =
-			    glm::normalize(glm::vec3(std::sin(LeafAngle), std::cos(LeafAngle), Random.Between(0.1f, 0.5f)));
-			const glm::vec3 Facing =
-			    glm::normalize(glm::vec3(Random.Between(-0.5f, 0.5f), Random.Between(-0.1f, 0.6f), 1));
-			const glm::vec3 Stem(P + glm::vec2(Random.Between(-0.12f, 0.12f), Random.Between(-0.12f, 0.12f)),
-			                     Random.Between(0.02f, 0.12f));
+			const glm::vec3 Up = glm::normalize(glm::vec3(std::sin(LeafAngle), std::cos(LeafAngle), Random.Between(0.1f, 0.5f)));
+			const glm::vec3 Facing = glm::normalize(glm::vec3(Random.Between(-0.5f, 0.5f), Random.Between(-0.1f, 0.6f), 1));
+			const glm::vec3 Stem(P + glm::vec2(Random.Between(-0.12f, 0.12f), Random.Between(-0.12f, 0.12f)), Random.Between(0.02f, 0.12f));
 			Mesh.SetColor(glm::vec3(Random.Between(0.65f, 1.0f)));
 			AddCard(Mesh, Stem, Up, Facing, Random.Between(0.16f, 0.30f), glm::normalize(Facing + Up * 0.3f));
 		}
@@ -227,15 +214,11 @@ void AddFallenLeaves(const FCourtyard& Yard)
 		const glm::vec3 Up(std::cos(Angle), Random.Between(0.02f, 0.15f), std::sin(Angle));
 		Mesh.SetColor({1.0f, Random.Between(0.4f, 0.8f), 0.4f});
 		AddCard(Mesh, {Random.Between(-1.1f, 1.1f), 0.012f, Random.Between(-1.1f, 1.1f)}, glm::normalize(Up), {0, 1, 0},
-		        Random.Between(0.10f, 0.2f), {0, 1, 0});
+		    Random.Between(0.10f, 0.2f), {0, 1, 0});
 	}
 	const int32_t Leaves = Yard.Builder.AddMesh(Mesh);
-	const glm::vec2 Places[] = {{-5.0f, -4.6f}, {5.0f, -4.4f}, {-4.6f, 4.2f},
-	                            {2.4f, -5.6f},  {3.8f, 4.2f},  {-1.5f, 3.2f}};
-	for (int I = 0; I < 6; ++I)
-	{
-		Yard.Builder.AddNode("fallen leaves", Leaves, {Places[I].x, 0, Places[I].y}, float(I) * 1.1f);
-	}
+	const glm::vec2 Places[] = {{-5.0f, -4.6f}, {5.0f, -4.4f}, {-4.6f, 4.2f}, {2.4f, -5.6f}, {3.8f, 4.2f}, {-1.5f, 3.2f}};
+	for (int I = 0; I < 6; ++I) { Yard.Builder.AddNode("fallen leaves", Leaves, {Places[I].x, 0, Places[I].y}, float(I) * 1.1f); }
 }
 
 } // namespace

@@ -21,9 +21,7 @@ struct FOpening
 
 void AddWallWithOpening(FMeshBuilder& Mesh, float Half, float Top, const FOpening& O)
 {
-	const auto AddFace = [&](float X0, float Y0, float X1, float Y1) {
-		Mesh.AddQuad({X0, Y0, 0}, {X1, Y0, 0}, {X1, Y1, 0}, {X0, Y1, 0});
-	};
+	const auto AddFace = [&](float X0, float Y0, float X1, float Y1) { Mesh.AddQuad({X0, Y0, 0}, {X1, Y0, 0}, {X1, Y1, 0}, {X0, Y1, 0}); };
 	AddFace(-Half, 0, O.X0, Top);
 	AddFace(O.X1, 0, Half, Top);
 	AddFace(O.X0, O.Y1, O.X1, Top);
@@ -50,8 +48,8 @@ void AddShutter(FMeshBuilder& Mesh, float X, float Y0, float Y1)
 	for (int I = 1; I < Slats; ++I)
 	{
 		const float Y = Y0 + (Y1 - Y0) * float(I) / float(Slats);
-		Mesh.AddQuad({X - Half + 0.05f, Y - 0.035f, 0.065f}, {X + Half - 0.05f, Y - 0.035f, 0.065f},
-		             {X + Half - 0.05f, Y + 0.03f, 0.03f}, {X - Half + 0.05f, Y + 0.03f, 0.03f});
+		Mesh.AddQuad({X - Half + 0.05f, Y - 0.035f, 0.065f}, {X + Half - 0.05f, Y - 0.035f, 0.065f}, {X + Half - 0.05f, Y + 0.03f, 0.03f},
+		    {X - Half + 0.05f, Y + 0.03f, 0.03f});
 	}
 }
 
@@ -70,14 +68,8 @@ int32_t MakeWindowBay(const FCourtyard& Yard, int32_t Glass)
 	Mesh.BeginSection(Yard.M.DarkWood);
 	AddShutter(Mesh, -0.80f, 0.97f, 2.63f);
 	AddShutter(Mesh, 0.80f, 0.97f, 2.63f);
-	for (const float X : {-0.5f, -0.025f, 0.45f})
-	{
-		Mesh.AddBeveledBox({X, 0.95f, -0.20f}, {X + 0.05f, 2.65f, -0.14f}, 0.006f);
-	}
-	for (const float Y : {0.95f, 1.50f, 2.05f, 2.60f})
-	{
-		Mesh.AddBeveledBox({-0.45f, Y, -0.195f}, {0.45f, Y + 0.05f, -0.145f}, 0.006f);
-	}
+	for (const float X : {-0.5f, -0.025f, 0.45f}) { Mesh.AddBeveledBox({X, 0.95f, -0.20f}, {X + 0.05f, 2.65f, -0.14f}, 0.006f); }
+	for (const float Y : {0.95f, 1.50f, 2.05f, 2.60f}) { Mesh.AddBeveledBox({-0.45f, Y, -0.195f}, {0.45f, Y + 0.05f, -0.145f}, 0.006f); }
 	Mesh.BeginSection(Glass);
 	Mesh.AddQuad({-0.5f, 0.95f, -0.18f}, {0.5f, 0.95f, -0.18f}, {0.5f, 2.65f, -0.18f}, {-0.5f, 2.65f, -0.18f});
 	return Yard.Builder.AddMesh(Mesh);
@@ -102,8 +94,7 @@ int32_t MakeDoorBay(const FCourtyard& Yard)
 	{
 		for (const float Y : {0.35f, 1.25f, 2.15f})
 		{
-			Mesh.AddBeveledBox({Side > 0 ? 0.16f : -0.74f, Y, -0.17f}, {Side > 0 ? 0.74f : -0.16f, Y + 0.07f, -0.145f},
-			                   0.005f);
+			Mesh.AddBeveledBox({Side > 0 ? 0.16f : -0.74f, Y, -0.17f}, {Side > 0 ? 0.74f : -0.16f, Y + 0.07f, -0.145f}, 0.005f);
 		}
 		Mesh.SetTransform(glm::mat4(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, Side * 0.10f, 1.12f, -0.155f, 1));
 		const glm::vec2 Ring[] = {{0.045f, -0.01f}, {0.06f, -0.01f}, {0.06f, 0.01f}, {0.045f, 0.01f}, {0.045f, -0.01f}};

@@ -80,7 +80,8 @@ FSceneDescription BuildStabilityBoiling()
 	FRandomStream Random(640);
 	for (int I = 0; I < 640; ++I)
 	{
-		const glm::vec3 At{-19.5f + float(I % 40) + Random.Between(-0.3f, 0.3f), Random.Between(0.4f, 4.6f), -7.5f + float(I / 40) + Random.Between(-0.3f, 0.3f)};
+		const glm::vec3 At{-19.5f + float(I % 40) + Random.Between(-0.3f, 0.3f), Random.Between(0.4f, 4.6f),
+		    -7.5f + float(I / 40) + Random.Between(-0.3f, 0.3f)};
 		const glm::vec3 Color{Random.Between(0.2f, 1.0f), Random.Between(0.2f, 1.0f), Random.Between(0.2f, 1.0f)};
 		Builder.AddPointLight("lamp", At, 0.35f * Color * Random.Between(0.3f, 1.7f));
 	}

@@ -101,7 +101,8 @@ FSceneDescription BuildStabilityHash()
 		for (const float Side : {-1.0f, 1.0f})
 		{
 			const float Near = Side * Random.Between(5.0f, 9.0f), Far = Side * Random.Between(14.0f, 30.0f);
-			const glm::vec3 Min(std::min(Near, Far), 0, Z - Block * Random.Between(0.6f, 0.95f)), Max(std::max(Near, Far), Random.Between(4.0f, 26.0f), Z);
+			const glm::vec3 Min(std::min(Near, Far), 0, Z - Block * Random.Between(0.6f, 0.95f)),
+			    Max(std::max(Near, Far), Random.Between(4.0f, 26.0f), Z);
 			AddBoxNode(Builder, "block", Walls[size_t(Random.NextFloat() * 11.99f)], Min, Max);
 		}
 	}

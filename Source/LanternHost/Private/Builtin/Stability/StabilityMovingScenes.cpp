@@ -14,7 +14,8 @@ FSceneDescription BuildStabilityPoles()
 {
 	FSceneBuilder Builder("stability-poles");
 	AddGround(Builder, AddPaint(Builder, "floor", glm::vec3(0.5f), 0.4f), 12.0f);
-	const int32_t Light = AddPaint(Builder, "light stripe", {0.75f, 0.7f, 0.6f}, 0.5f), Dark = AddPaint(Builder, "dark stripe", {0.25f, 0.3f, 0.4f}, 0.5f);
+	const int32_t Light = AddPaint(Builder, "light stripe", {0.75f, 0.7f, 0.6f}, 0.5f),
+	              Dark = AddPaint(Builder, "dark stripe", {0.25f, 0.3f, 0.4f}, 0.5f);
 	for (const glm::vec3& Side : {glm::vec3(0, 0, -1), glm::vec3(0, 0, 1), glm::vec3(-1, 0, 0), glm::vec3(1, 0, 0)})
 	{
 		AddStripes(Builder, "wall", Light, Dark, 6.0f * Side + glm::vec3(0, 1.5f, 0), -Side, 12.0f, 3.0f, 0.6f);
@@ -42,7 +43,8 @@ FSceneDescription BuildStabilityGhost()
 {
 	FSceneBuilder Builder("stability-ghost");
 	AddGround(Builder, AddPaint(Builder, "floor", glm::vec3(0.5f), 0.3f), 12.0f);
-	const int32_t Light = AddPaint(Builder, "light stripe", glm::vec3(0.7f), 0.5f), Dark = AddPaint(Builder, "dark stripe", glm::vec3(0.2f), 0.5f);
+	const int32_t Light = AddPaint(Builder, "light stripe", glm::vec3(0.7f), 0.5f),
+	              Dark = AddPaint(Builder, "dark stripe", glm::vec3(0.2f), 0.5f);
 	AddStripes(Builder, "wall", Light, Dark, {0, 1.5f, -2}, {0, 0, 1}, 12.0f, 3.0f, 0.3f);
 	FMeshBuilder Cube("cube");
 	Cube.BeginSection(Builder.AddLambert("glow", glm::vec3(0.5f), {6.0f, 4.0f, 2.0f}));
@@ -68,7 +70,10 @@ FSceneDescription BuildStabilityFan()
 	}
 	const int32_t Node = Builder.AddNode("fan", Builder.AddMesh(Fan), {0, 1.6f, 0});
 	std::vector<glm::vec4> Turns;
-	for (int I = 0; I <= 4; ++I) { Turns.emplace_back(0, std::sin(glm::pi<float>() * float(I) / 4), 0, std::cos(glm::pi<float>() * float(I) / 4)); }
+	for (int I = 0; I <= 4; ++I)
+	{
+		Turns.emplace_back(0, std::sin(glm::pi<float>() * float(I) / 4), 0, std::cos(glm::pi<float>() * float(I) / 4));
+	}
 	AddKeys(Builder, Node, EAnimationPath::Rotation, 1.0f, std::move(Turns));
 	Builder.AddCamera({0, 1.3, 2.4}, {0, 0, 0.1}, 60);
 	Builder.SetLight({0.05f, -1, 0.1f}, 4.0f, {0.3f, 0.4f, 0.6f});

@@ -40,8 +40,8 @@ void AddGround(FSceneBuilder& Builder, int32_t Material, float Size, float Y)
 	Builder.AddNode("ground", Builder.AddMesh(Mesh));
 }
 
-void AddStripes(FSceneBuilder& Builder, const char* Name, int32_t A, int32_t B, const glm::vec3& Center, const glm::vec3& Normal, float Width,
-                float Height, float Stripe)
+void AddStripes(FSceneBuilder& Builder, const char* Name, int32_t A, int32_t B, const glm::vec3& Center, const glm::vec3& Normal,
+    float Width, float Height, float Stripe)
 {
 	const glm::vec3 Up(0, Height / 2, 0), Right = glm::cross(glm::vec3(0, 1, 0), Normal);
 	const int Count = int(std::ceil(Width / Stripe));
@@ -51,7 +51,8 @@ void AddStripes(FSceneBuilder& Builder, const char* Name, int32_t A, int32_t B, 
 		Mesh.BeginSection(Odd ? B : A);
 		for (int I = Odd; I < Count; I += 2)
 		{
-			const glm::vec3 Left = Center + Right * (float(I) * Stripe - Width / 2), Next = Center + Right * (std::min(float(I + 1) * Stripe, Width) - Width / 2);
+			const glm::vec3 Left = Center + Right * (float(I) * Stripe - Width / 2),
+			                Next = Center + Right * (std::min(float(I + 1) * Stripe, Width) - Width / 2);
 			Mesh.AddQuad(Left - Up, Next - Up, Next + Up, Left + Up);
 		}
 	}

@@ -13,8 +13,8 @@ void AddBoxNode(FSceneBuilder& Builder, const char* Name, int32_t Material, cons
 /// A floor of Size metres each way at height Y.
 void AddGround(FSceneBuilder& Builder, int32_t Material, float Size, float Y = 0.0f);
 /// Vertical stripes of two materials over the quad that stands at Center, facing Normal (horizontal).
-void AddStripes(FSceneBuilder& Builder, const char* Name, int32_t A, int32_t B, const glm::vec3& Center, const glm::vec3& Normal, float Width,
-                float Height, float Stripe);
+void AddStripes(FSceneBuilder& Builder, const char* Name, int32_t A, int32_t B, const glm::vec3& Center, const glm::vec3& Normal,
+    float Width, float Height, float Stripe);
 /// Keys at constant speed; Path: Translation (xyz) or Rotation (quaternion xyzw).
 void AddKeys(FSceneBuilder& Builder, int32_t Node, EAnimationPath Path, float Seconds, std::vector<glm::vec4> Values);
 

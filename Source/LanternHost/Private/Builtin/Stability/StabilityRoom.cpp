@@ -45,10 +45,7 @@ void AddRoom(FSceneBuilder& Builder, int32_t Material, const glm::vec3& Min, con
 	Mesh.AddBox({A.x, A.y, Z0}, {Left, B.y, Z1});
 	Mesh.AddBox({Right, A.y, Z0}, {B.x, B.y, Z1});
 	Mesh.AddBox({Left, Opening.Top, Z0}, {Right, B.y, Z1});
-	if (Opening.Bottom > Min.y)
-	{
-		Mesh.AddBox({Left, A.y, Z0}, {Right, Opening.Bottom, Z1});
-	}
+	if (Opening.Bottom > Min.y) { Mesh.AddBox({Left, A.y, Z0}, {Right, Opening.Bottom, Z1}); }
 	Builder.AddNode("room", Builder.AddMesh(Mesh));
 }
 

@@ -13,7 +13,8 @@ FSceneDescription BuildStabilityMirror()
 {
 	FSceneBuilder Builder("stability-mirror");
 	AddGround(Builder, AddPaint(Builder, "floor", glm::vec3(0.45f), 0.5f), 14.0f);
-	const int32_t Light = AddPaint(Builder, "light stripe", {0.7f, 0.65f, 0.55f}, 0.6f), Dark = AddPaint(Builder, "dark stripe", {0.2f, 0.25f, 0.35f}, 0.6f);
+	const int32_t Light = AddPaint(Builder, "light stripe", {0.7f, 0.65f, 0.55f}, 0.6f),
+	              Dark = AddPaint(Builder, "dark stripe", {0.2f, 0.25f, 0.35f}, 0.6f);
 	AddStripes(Builder, "wall behind", Light, Dark, {0, 1.5f, 4.5f}, {0, 0, -1}, 14.0f, 3.0f, 0.5f);
 	AddBoxNode(Builder, "wall", AddPaint(Builder, "wall", {0.5f, 0.45f, 0.4f}, 0.7f), {-4, 0, -2.4f}, {4, 3.2f, -2.1f});
 	const int32_t Silver = AddMetal(Builder, "silver", glm::vec3(0.95f), 0.0f);

@@ -52,8 +52,8 @@ FSceneDescription BuildStabilityTime()
 {
 	FSceneBuilder Builder("stability-time");
 	AddGround(Builder, AddPaint(Builder, "ground", glm::vec3(0.5f), 0.5f), 60.0f);
-	const int32_t Materials[] = {AddPaint(Builder, "plaster", {0.8f, 0.75f, 0.7f}, 0.7f), AddPaint(Builder, "brick", {0.6f, 0.3f, 0.2f}, 0.6f),
-	                             AddPaint(Builder, "slate", {0.3f, 0.35f, 0.4f}, 0.3f)};
+	const int32_t Materials[] = {AddPaint(Builder, "plaster", {0.8f, 0.75f, 0.7f}, 0.7f),
+	    AddPaint(Builder, "brick", {0.6f, 0.3f, 0.2f}, 0.6f), AddPaint(Builder, "slate", {0.3f, 0.35f, 0.4f}, 0.3f)};
 	FRandomStream Random(5);
 	for (int I = 0; I < 9; ++I)
 	{
@@ -92,7 +92,7 @@ FSceneDescription BuildStabilityNan()
 	FSceneBuilder Builder("stability-nan");
 	AddGround(Builder, AddPaint(Builder, "floor", glm::vec3(0.5f), 0.0f), 20.0f);
 	const int32_t Materials[] = {AddMetal(Builder, "mirror", glm::vec3(1), 0.0f), AddPaint(Builder, "glass-like", glm::vec3(0.2f), 0.0f),
-	                             AddMetal(Builder, "black metal", glm::vec3(0), 0.0f), AddPaint(Builder, "white", glm::vec3(1), 1.0f)};
+	    AddMetal(Builder, "black metal", glm::vec3(0), 0.0f), AddPaint(Builder, "white", glm::vec3(1), 1.0f)};
 	for (int I = 0; I < 4; ++I)
 	{
 		FMeshBuilder Sphere("sphere");
@@ -128,7 +128,8 @@ FSceneDescription BuildStabilityFurnace()
 			const std::string Name = fmt::format("{} {}", Metal ? "metal" : "dielectric", I);
 			FMeshBuilder Sphere(Name);
 			const float Roughness = float(I) / 4.0f;
-			Sphere.BeginSection(Metal ? AddMetal(Builder, Name.c_str(), glm::vec3(1), Roughness) : AddPaint(Builder, Name.c_str(), glm::vec3(1), Roughness));
+			Sphere.BeginSection(Metal ? AddMetal(Builder, Name.c_str(), glm::vec3(1), Roughness)
+			                          : AddPaint(Builder, Name.c_str(), glm::vec3(1), Roughness));
 			Sphere.AddSphere(glm::vec3(0), 1.0f, 4);
 			Builder.AddNode(Name.c_str(), Builder.AddMesh(Sphere), {float(I - 2) * 4.0f, Metal ? -2.0f : 2.0f, 0});
 		}

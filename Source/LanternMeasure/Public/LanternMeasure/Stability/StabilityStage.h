@@ -29,7 +29,7 @@ struct FStabilityShot
 	double Time = 0.0;
 	/// Before the frame; sets the scene to a state, never relative to the one it is in. May be empty.
 	std::function<void(FHostScene&)> Change;
-	bool bKeep = false;   ///< its picture is wanted
+	bool bKeep = false; ///< its picture is wanted
 	/// Histories with this in their names are not-a-number when it begins; "*": all.
 	std::string Poison;
 };

@@ -44,8 +44,8 @@ struct FRTGeometryInfo
 	TRTRef<IRTBuffer> Indices;
 	uint64_t IndicesOffset = 0; ///< bytes, a multiple of 4
 	ERTIndexType IndexType = ERTIndexType::UInt32;
-	TRTRef<IRTBuffer> Aabbs;  ///< six floats each: min, max; null without procedural sections
-	uint64_t AabbsOffset = 0; ///< bytes, a multiple of 8
+	TRTRef<IRTBuffer> Aabbs;          ///< six floats each: min, max; null without procedural sections
+	uint64_t AabbsOffset = 0;         ///< bytes, a multiple of 8
 	TRTRef<IRTBuffer> PiecePositions; ///< float3, three for each piece; null without pieces
 	TRTRef<IRTBuffer> PieceIndices;   ///< uint32, three for each piece: the corners of the triangle that it is a piece of
 	uint32_t VertexCount = 0;

@@ -20,8 +20,7 @@ struct FGatherView
 	      Forward(InForward),
 	      FovY(InFovY),
 	      Height(InHeight)
-	{
-	}
+	{}
 
 	glm::dvec3 Position{0}; ///< in the world, metres
 	glm::vec3 Forward{0, 0, -1};
@@ -68,29 +67,17 @@ struct FCullingRule
 	/// others go together.
 	uint8_t Test(const glm::dvec3& Center, double SphereRadius) const
 	{
-		if (!bCull)
-		{
-			return 0xff;
-		}
+		if (!bCull) { return 0xff; }
 		const glm::dvec3 Away = Center - Eye;
 		const double Distance2 = glm::dot(Away, Away);
 		const int Side = glm::dot(Away, Forward) < -SphereRadius ? 1 : 0;
 		const double Near = Radius[Side] + SphereRadius, Large = SphereRadius * InverseSine[Side];
 		const double Limit = Near > Large ? Near : Large;
-		if (!(Distance2 <= Limit * Limit))
-		{
-			return 0;
-		}
+		if (!(Distance2 <= Limit * Limit)) { return 0; }
 		const double Visible = SphereRadius * VisibleScale, Shadow = SphereRadius * ShadowScale;
 		uint8_t Bits = 0;
-		if (!bVisibleLimit || Distance2 <= Visible * Visible)
-		{
-			Bits |= 0xff & ~MASK_CASTS_SHADOW;
-		}
-		if (!bShadowLimit || Distance2 <= Shadow * Shadow)
-		{
-			Bits |= MASK_CASTS_SHADOW;
-		}
+		if (!bVisibleLimit || Distance2 <= Visible * Visible) { Bits |= 0xff & ~MASK_CASTS_SHADOW; }
+		if (!bShadowLimit || Distance2 <= Shadow * Shadow) { Bits |= MASK_CASTS_SHADOW; }
 		return Bits;
 	}
 	/// Pixels across.

@@ -27,20 +27,14 @@ namespace Lantern
 inline constexpr double CellSize = CELL_SIZE;
 /// Cell whose centre is nearest.
 glm::ivec3 FindCell(const glm::dvec3& World);
-inline glm::dvec3 CellCenter(const glm::ivec3& Cell)
-{
-	return glm::dvec3(Cell) * CellSize;
-}
+inline glm::dvec3 CellCenter(const glm::ivec3& Cell) { return glm::dvec3(Cell) * CellSize; }
 /// A scene's origin is on a grid of this step, metres. It divides a cell, so that offsets from origins to cells are exact in
 /// fp32; rays are as precise as their coordinates are small, see Docs/Architecture.md.
 inline constexpr double OriginStep = 64.0;
 /// The place for an origin that is nearest.
 glm::dvec3 FindOrigin(const glm::dvec3& World);
 /// From an origin to the centre of Cell, metres.
-inline glm::vec3 CellOffset(const glm::ivec3& Cell, const glm::dvec3& Origin)
-{
-	return glm::vec3(CellCenter(Cell) - Origin);
-}
+inline glm::vec3 CellOffset(const glm::ivec3& Cell, const glm::dvec3& Origin) { return glm::vec3(CellCenter(Cell) - Origin); }
 
 /// What all instances of one section range have in common.
 struct FInstanceBinding

@@ -21,7 +21,8 @@ public:
 	uint64_t GetAddress() const { return Buffer ? Buffer->GetDeviceAddress() : 0; }
 	/// Copies what changed. The buffer grows by doubling, and shrinks when it has been four times too large in many
 	/// flushes; its address then changes.
-	FRTStatus Flush(IRTDevice& Device, IRTCommandList& List, FFrameUploads& Uploads, const void* Data, uint64_t EntryBytes, uint64_t EntryCount, const char* Name);
+	FRTStatus Flush(IRTDevice& Device, IRTCommandList& List, FFrameUploads& Uploads, const void* Data, uint64_t EntryBytes,
+	    uint64_t EntryCount, const char* Name);
 	bool IsDirty() const { return bDirty; }
 	uint64_t GetCopiedBytes() const { return CopiedBytes; } ///< by the last flush
 

@@ -57,10 +57,7 @@ public:
 	uint32_t GetLevelCount() const { return static_cast<uint32_t>(Levels.size()) + 1; }
 	FAlphaRange GetRange(uint32_t Level, uint32_t X, uint32_t Y) const
 	{
-		if (Level > 0)
-		{
-			return Levels[Level - 1].Ranges[size_t(Y) * Levels[Level - 1].Width + X];
-		}
+		if (Level > 0) { return Levels[Level - 1].Ranges[size_t(Y) * Levels[Level - 1].Width + X]; }
 		const uint8_t Value = Texels.Alpha[(size_t(Y) * Texels.Width + X) * Texels.TexelBytes];
 		return {Value, Value};
 	}
@@ -98,12 +95,11 @@ FAlphaTest MakeAlphaTest(const FMaterialData& Material, const FAlphaPyramid* Tex
 uint64_t MakeOpacityKey(const FMaterialData& Material, uint32_t Program = 0);
 
 /// Of one triangle. Never wrong, whatever the coordinates: mixed where it cannot tell.
-EOpacity ClassifyTriangle(const FAlphaTest& Test, const FVertexAttributes& A, const FVertexAttributes& B,
-                          const FVertexAttributes& C);
+EOpacity ClassifyTriangle(const FAlphaTest& Test, const FVertexAttributes& A, const FVertexAttributes& B, const FVertexAttributes& C);
 
 /// All triangles of Indices, in parallel. Out: a third as many as Indices.
-void ClassifyTriangles(const FAlphaTest& Test, const FVertexAttributes* Vertices, std::span<const uint32_t> Indices,
-                       std::span<EOpacity> Out);
+void ClassifyTriangles(
+    const FAlphaTest& Test, const FVertexAttributes* Vertices, std::span<const uint32_t> Indices, std::span<EOpacity> Out);
 
 struct FOpacityCounts
 {
@@ -116,7 +112,7 @@ FOpacityCounts ReorderByOpacity(std::span<uint16_t> Indices, std::span<const EOp
 
 /// Classifies a section and reorders its range of Indices (the geometry's). Where all is mixed the section stays as it
 /// was. The section must be alpha-tested (bOpaque false) and made of triangles.
-FOpacityCounts ClassifySection(const FAlphaTest& Test, uint64_t Key, const FVertexAttributes* Vertices,
-                               uint32_t* Indices, FRTSectionInfo& Section);
+FOpacityCounts ClassifySection(
+    const FAlphaTest& Test, uint64_t Key, const FVertexAttributes* Vertices, uint32_t* Indices, FRTSectionInfo& Section);
 
 } // namespace Lantern

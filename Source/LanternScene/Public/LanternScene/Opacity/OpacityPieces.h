@@ -30,9 +30,8 @@ inline constexpr uint32_t MaxOpacityRects = 16, MaxOpacityCells = 64;
 
 /// Ways to cover a mixed triangle, with more pieces and less area each. Empty where nothing can be told or saved. Cells:
 /// of the grid on which it is told, along each axis; a power of two.
-std::vector<FOpacityPieces> MakeOpacityPieces(const FAlphaTest& Test, const FVertexAttributes& A,
-                                              const FVertexAttributes& B, const FVertexAttributes& C,
-                                              uint32_t Cells = 32);
+std::vector<FOpacityPieces> MakeOpacityPieces(
+    const FAlphaTest& Test, const FVertexAttributes& A, const FVertexAttributes& B, const FVertexAttributes& C, uint32_t Cells = 32);
 
 /// Mixed triangles of one section, as ClassifySection leaves them at the start of its range.
 struct FPieceSource

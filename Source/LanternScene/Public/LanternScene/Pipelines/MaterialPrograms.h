@@ -70,10 +70,7 @@ public:
 	uint64_t GetEdits() const { return Edits; }                                        ///< of all programs so far
 
 	/// Shader with Program for its material: "Materials/Material.glsl" is the program's text.
-	FShaderSource MakeSource(FShaderSource Shader, uint32_t Program) const
-	{
-		return MakeSource(std::move(Shader), Get(Program));
-	}
+	FShaderSource MakeSource(FShaderSource Shader, uint32_t Program) const { return MakeSource(std::move(Shader), Get(Program)); }
 	static FShaderSource MakeSource(FShaderSource Shader, const FMaterialProgramDesc& Program);
 
 private:

@@ -78,8 +78,8 @@ public:
 
 	/// Makes one at once, on the calling thread's workers and without libraries: for tests, tools and comparison. Errors
 	/// name shader, file and line.
-	static FRTStatus Create(IRTDevice& Device, FShaderCompiler& Compiler, const FMaterialPrograms& Programs,
-	                        const FRTPSODesc& Desc, FRTPSO& Out);
+	static FRTStatus Create(
+	    IRTDevice& Device, FShaderCompiler& Compiler, const FMaterialPrograms& Programs, const FRTPSODesc& Desc, FRTPSO& Out);
 
 	IRTPipeline* GetPipeline() const { return Pipeline.Get(); }
 	uint32_t GetRayTypeCount() const { return static_cast<uint32_t>(Layout.MissGroups.size()); }
@@ -97,10 +97,7 @@ public:
 	uint32_t MissGroup(uint32_t RayType) const { return Layout.MissGroups[RayType]; }
 	uint32_t CallableGroup(uint32_t Index) const { return Layout.CallableGroups[Index]; }
 	/// Its own, or that of what stands in for it; where there is neither, a group that runs nothing. Any thread.
-	uint32_t HitGroup(uint32_t RayType, FHitProgram Program) const
-	{
-		return HitGroups[IndexOf(Program) * GetRayTypeCount() + RayType];
-	}
+	uint32_t HitGroup(uint32_t RayType, FHitProgram Program) const { return HitGroups[IndexOf(Program) * GetRayTypeCount() + RayType]; }
 	ERTHitState GetState(FHitProgram Program) const { return States[IndexOf(Program)]; }
 	bool IsStandIn(FHitProgram Program) const { return GetState(Program) == ERTHitState::StandIn; }
 	bool IsMissing(FHitProgram Program) const { return GetState(Program) == ERTHitState::Missing; }
@@ -111,8 +108,7 @@ private:
 	/// Programs that the pipeline knows nothing of share one entry for each class, at the end.
 	uint32_t IndexOf(FHitProgram Program) const
 	{
-		const uint32_t Index =
-		    std::min(Program.Program, KnownPrograms) * HitClassCount + static_cast<uint32_t>(Program.Class);
+		const uint32_t Index = std::min(Program.Program, KnownPrograms) * HitClassCount + static_cast<uint32_t>(Program.Class);
 		return Index;
 	}
 

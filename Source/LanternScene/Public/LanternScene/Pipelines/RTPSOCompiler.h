@@ -46,15 +46,15 @@ struct FProgramPriority
 
 struct FRTPSOCompilerStats
 {
-	uint32_t Wanted = 0; ///< shader groups that the last Update or Finish asked for
-	uint32_t Ready = 0;  ///< of them, compiled
-	uint32_t Failed = 0; ///< of them, with errors and nothing older to use
-	uint32_t Kept = 0;   ///< compiled groups in memory, wanted or not
+	uint32_t Wanted = 0;                                                     ///< shader groups that the last Update or Finish asked for
+	uint32_t Ready = 0;                                                      ///< of them, compiled
+	uint32_t Failed = 0;                                                     ///< of them, with errors and nothing older to use
+	uint32_t Kept = 0;                                                       ///< compiled groups in memory, wanted or not
 	uint64_t Rounds = 0, Links = 0, Compiled = 0, Failures = 0, Dropped = 0; ///< since creation
 	double GlslangMs = 0.0, DriverMs = 0.0;                                  ///< summed over threads, links left out
 	double LastLinkMs = 0.0;
 	double LastSwapMs = 0.0; ///< what the last swap has cost the frame that first used it; 0: nothing, or not known
-	bool bBusy = false; ///< something is being compiled, linked, or is waiting for it
+	bool bBusy = false;      ///< something is being compiled, linked, or is waiting for it
 };
 
 /// What time it is; empty: the steady clock.
@@ -64,8 +64,7 @@ class FRTPSOCompiler
 {
 public:
 	/// All must outlive it. Programs is read by Update and Finish only. Time: any thread may ask it; for tests.
-	FRTPSOCompiler(IRTDevice& Device, FShaderCompiler& Compiler, const FMaterialPrograms& Programs,
-	               FPipelineTimeSource Time = {});
+	FRTPSOCompiler(IRTDevice& Device, FShaderCompiler& Compiler, const FMaterialPrograms& Programs, FPipelineTimeSource Time = {});
 	/// Waits for compiles that a driver is in the middle of; what has not been started is forgotten.
 	~FRTPSOCompiler();
 	FRTPSOCompiler(const FRTPSOCompiler&) = delete;

@@ -22,7 +22,7 @@ struct FRTObjectId
 };
 
 /// Bits of FRTObjectInfo::Mask by convention; rays of a pass name those that they want to see.
-inline constexpr uint8_t MaskVisible = MASK_VISIBLE;     ///< seen by camera, reflection and GI rays
+inline constexpr uint8_t MaskVisible = MASK_VISIBLE;          ///< seen by camera, reflection and GI rays
 inline constexpr uint8_t MaskCastsShadow = MASK_CASTS_SHADOW; ///< seen by shadow rays
 inline constexpr uint8_t MaskAll = 0xff;
 

@@ -17,10 +17,10 @@
 #include <vector>
 
 #include "LanternCore/Tasks/Tasks.h"
-#include "LanternScene/Instances/Gather.h"
 #include "LanternScene/Geometry/GeometryStore.h"
-#include "LanternScene/Memory/GpuTable.h"
+#include "LanternScene/Instances/Gather.h"
 #include "LanternScene/Instances/InstanceUploads.h"
+#include "LanternScene/Memory/GpuTable.h"
 #include "LanternScene/Scene/Object.h"
 #include "LanternScene/Scene/ObjectMotion.h"
 #include "LanternScene/Scene/ObjectPivots.h"
@@ -200,7 +200,8 @@ private:
 	void UpdateLights();
 	void ListEmissiveObjects();
 	void UpdateEmissiveTriangles();
-	double AddEmissiveTriangles(uint32_t Object, double Power, std::vector<FEmissiveTriangle>& Triangles, std::vector<double>& Cumulative) const;
+	double AddEmissiveTriangles(
+	    uint32_t Object, double Power, std::vector<FEmissiveTriangle>& Triangles, std::vector<double>& Cumulative) const;
 	void AdviseMerging();
 	// SceneUpdate.cpp
 	glm::dvec3 SnapOrigin(glm::dvec3 Camera) const;
@@ -223,8 +224,8 @@ private:
 	glm::dvec3 Origin{0};
 	FGeometryStore Geometries{Device};
 	std::vector<FObject> Objects;
-	std::vector<uint32_t> FreeObjects;    // a heap, the lowest first, so that the table's end falls free
-	uint32_t GenerationFloor = 0;         // of slots that the table never had, or has lost
+	std::vector<uint32_t> FreeObjects;                  // a heap, the lowest first, so that the table's end falls free
+	uint32_t GenerationFloor = 0;                       // of slots that the table never had, or has lost
 	std::vector<FRTGeometryRef> Retired, RetiredBefore; // see EndFrame
 	TGpuTable<FMaterialData> Materials{"Materials"};
 	std::vector<uint32_t> MaterialPrograms;

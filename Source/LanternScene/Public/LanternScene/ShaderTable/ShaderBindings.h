@@ -61,7 +61,7 @@ private:
 	const IRTPipeline* BoundPipeline = nullptr; // identity only; the table keeps it
 	uint64_t BoundSections = 0;                 // FSectionTable::GetIdentity
 	uint32_t RayTypes = 0;
-	uint32_t RecordsUsed = 0; // hit records that ever were
+	uint32_t RecordsUsed = 0;     // hit records that ever were
 	std::vector<uint32_t> Groups; // of each program slot and ray type
 	uint64_t GroupsRevision = ~0ull;
 	bool bRewrite = true;  // no record can be relied on
