@@ -115,7 +115,7 @@ struct FFrameContext
 	IRTDevice& Device;
 	FFrameGraph& Graph;
 	FRTScene& Scene;
-	FPipelineCache& Pipelines;
+	FComputePipelines& Pipelines;
 	FSceneFacts Facts;
 	FPassConstants Pass; ///< addresses of this frame's constants
 	FView View{};
@@ -183,7 +183,7 @@ public:
 	IRTDevice& GetDevice() { return Device; }
 	FShaderCompiler& GetCompiler() { return Compiler; }
 	FMaterialPrograms& GetPrograms() { return Programs; }
-	FPipelineCache& GetPipelines() { return Pipelines; }
+	FComputePipelines& GetPipelines() { return Pipelines; }
 	FRefitQuality& GetRefitQuality() { return *RefitQuality; }
 	FFrameUploads& GetUploads() { return Uploads; }
 	FHistoryResources& GetHistory() { return *History; }
@@ -218,7 +218,7 @@ private:
 
 	IRTDevice& Device;
 	FShaderCompiler Compiler;
-	FPipelineCache Pipelines;
+	FComputePipelines Pipelines;
 	FFrameUploads Uploads;
 	FFrameGraphResources GraphResources;
 	std::unique_ptr<FRefitQuality> RefitQuality;

@@ -3,7 +3,7 @@
 namespace Lantern
 {
 
-FRTStatus FPipelineCache::GetCompute(const FShaderSource& Source, IRTPipeline*& Out)
+FRTStatus FComputePipelines::GetCompute(const FShaderSource& Source, IRTPipeline*& Out)
 {
 	std::string Key = Source.Path;
 	for (const auto& [Name, Value] : Source.Defines) { Key += ' ' + Name + (Value == "1" ? "" : '=' + Value); }
@@ -26,7 +26,7 @@ FRTStatus FPipelineCache::GetCompute(const FShaderSource& Source, IRTPipeline*& 
 	return Entry.Status;
 }
 
-std::vector<FShaderSource> FPipelineCache::GetSources() const
+std::vector<FShaderSource> FComputePipelines::GetSources() const
 {
 	std::vector<FShaderSource> Sources;
 	for (const auto& [Key, Entry] : Entries) { Sources.push_back(Entry.Source); }

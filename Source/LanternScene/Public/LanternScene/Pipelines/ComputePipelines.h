@@ -12,10 +12,10 @@ namespace Lantern
 {
 
 /// One thread at a time.
-class FPipelineCache
+class FComputePipelines
 {
 public:
-	FPipelineCache(IRTDevice& InDevice, FShaderCompiler& InCompiler) : Device(InDevice), Compiler(InCompiler) {}
+	FComputePipelines(IRTDevice& InDevice, FShaderCompiler& InCompiler) : Device(InDevice), Compiler(InCompiler) {}
 	/// Out lives as long as the cache; its name is the shader's path and the names of its defines. A shader that failed
 	/// to compile fails again without being compiled again.
 	FRTStatus GetCompute(const FShaderSource& Source, IRTPipeline*& Out);
