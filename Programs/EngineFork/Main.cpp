@@ -156,8 +156,8 @@ FError RunFrame(FStage& Stage, const FForkScene& Scene, bool bCut, bool& bOutHas
 	Error = Plugin.Render(Device.Commands, Scene.Camera, bCut, Outputs);
 	if (!Error.empty()) { return Error; }
 	VkDeviceSize Offset = 0;
-	bOutHasMask = Outputs.SunShadow != nullptr && Outputs.AmbientOcclusion != nullptr;
-	for (IRTTexture* Mask : {Outputs.SunShadow, Outputs.AmbientOcclusion})
+	bOutHasMask = Outputs.Get(ESignal::SunShadow) != nullptr && Outputs.Get(ESignal::AmbientOcclusion) != nullptr;
+	for (IRTTexture* Mask : {Outputs.Get(ESignal::SunShadow), Outputs.Get(ESignal::AmbientOcclusion)})
 	{
 		if (Mask != nullptr && Mask->GetDesc().Format != ERTFormat::R16_FLOAT)
 		{

@@ -182,7 +182,7 @@ FError FPluginScene::Render(VkCommandBuffer Commands, const FCamera& Camera, boo
 	const std::chrono::duration<float> Since = Now - std::exchange(LastFrame, Now);
 	Frame.DeltaSeconds = std::clamp(Since.count(), 1e-4f, 1.0f); // the first frame has none before it
 	Frame.bCut = bCut;
-	Frame.Wanted.bAmbientOcclusion = true;
+	Frame.Wanted.Add(ESignal::AmbientOcclusion);
 	Error = ToError(Renderer->RenderFrame(Frame, &Out), "RenderFrame");
 	bComplete = Out.bComplete;
 	return Error;

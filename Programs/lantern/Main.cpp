@@ -20,7 +20,7 @@
 #include "Commands/RenderCommand.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
-#include "LanternRenderer/Signals.h"
+#include "LanternSignals/Signals.h"
 #include "Stability/StabilityCommand.h"
 
 namespace
@@ -102,13 +102,9 @@ void FCommandLine::AddReference()
 	Reference.Picture.AddTo(*Command);
 	Command->add_option("--spp", Reference.Samples, "Samples per pixel")->check(CLI::Range(1, 1 << 24));
 	Command->add_option("--bounces", Reference.Bounces, "Scattering events, at most")->check(CLI::Range(0, 1 << 16));
-	Command
-	    ->add_option(
-	        "--signal", Reference.Signal, "One signal instead of the whole frame: sun_shadow, ambient_occlusion, diffuse_gi, reflections")
-	    ->check([](const std::string& Text) {
-		    return FindSignal(Text) ? std::string()
-		                            : Quote(Text) + " is none of sun_shadow, ambient_occlusion, diffuse_gi, reflections, frame";
-	    });
+	Command->add_option("--signal", Reference.Signal, "One signal instead of the whole frame: " + ListSignalNames())
+	    ->check(
+	        [](const std::string& Text) { return FindSignal(Text) ? std::string() : Quote(Text) + " is none of " + ListSignalNames(); });
 	Command->add_flag(
 	    "--pixel-centers", Reference.bPixelCenters, "Camera rays through pixel centres, as real-time passes shade them; no antialiasing");
 	Command->add_flag("--resume", Reference.bResume, "Keep the sums in OUT.state, and go on from there");

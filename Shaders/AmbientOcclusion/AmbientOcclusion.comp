@@ -3,7 +3,7 @@
 #include "AmbientOcclusion.glsl"
 #include "../Rays/QueryShadow.glsl"
 
-layout(local_size_x = AMBIENT_OCCLUSION_GROUP_SIZE, local_size_y = AMBIENT_OCCLUSION_GROUP_SIZE) in;
+layout(local_size_x = RAY_QUERY_GROUP_SIZE, local_size_y = RAY_QUERY_GROUP_SIZE) in;
 
 bool TraceOcclusion(vec3 Origin, vec3 Direction, float Length)
 {

@@ -5,7 +5,7 @@
 #define LANTERN_AMBIENT_OCCLUSION_PASS_GLSL
 
 #include "../Shared/AmbientOcclusionTypes.h"
-#include "../Library/AmbientOcclusion.glsl"
+#include "OcclusionFalloff.glsl"
 #include "../Library/Bindings.glsl"
 #include "../Library/Random.glsl"
 #include "../Library/View.glsl"

@@ -24,7 +24,7 @@ vec3 ShadeDirect(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, FGBuff
 	vec3 Radiance = vec3(0.0);
 	B.Alpha = max(B.Alpha, 2.0 * MinAlpha); // a point light has no image in a perfect mirror
 #ifdef HAS_SUN
-	float Sun = Push.SunShadow != NO_TEXTURE ? texelFetch(Textures[Push.SunShadow], Pixel, 0).x : 1.0;
+	float Sun = Push.SunVisibility != NO_TEXTURE ? texelFetch(Textures[Push.SunVisibility], Pixel, 0).x : 1.0;
 	if (Sun > 0.0)
 	{
 		Radiance += EvaluateBrdfCos(B, LocalV, -Scene.SunDirection * Basis) * Scene.SunColor * (Scene.SunIrradiance * Sun);
@@ -60,11 +60,11 @@ vec3 ShadeIndirect(FSceneConstants Scene, ivec2 Pixel, FBrdf B, float NdotV, vec
 	float Visibility = 1.0;
 #ifdef HAS_SKY
 	Ambient = Scene.SkyRadiance * Material.y;
-	if (Push.AmbientOcclusion != NO_TEXTURE) { Visibility = texelFetch(Textures[Push.AmbientOcclusion], Pixel, 0).x; }
+	if (Push.SkyVisibility != NO_TEXTURE) { Visibility = texelFetch(Textures[Push.SkyVisibility], Pixel, 0).x; }
 #endif
 	vec3 Diffuse = Ambient * Visibility;
-	if (Push.DiffuseGI != NO_TEXTURE) { Diffuse = texelFetch(Textures[Push.DiffuseGI], Pixel, 0).rgb; }
-	vec4 Specular = Push.Reflections != NO_TEXTURE ? texelFetch(Textures[Push.Reflections], Pixel, 0) : vec4(0.0);
+	if (Push.IndirectDiffuse != NO_TEXTURE) { Diffuse = texelFetch(Textures[Push.IndirectDiffuse], Pixel, 0).rgb; }
+	vec4 Specular = Push.IndirectSpecular != NO_TEXTURE ? texelFetch(Textures[Push.IndirectSpecular], Pixel, 0) : vec4(0.0);
 	if (Specular.a <= 0.0)
 	{
 		Specular.rgb = Ambient * SpecularReflectance(B, NdotV, Material.x) * SpecularOcclusion(NdotV, Visibility, Material.x);

@@ -11,12 +11,22 @@ struct FLightingConstants
 {
 	FPassConstants Pass;
 	uint Depth, Normals, BaseColor, Material, Emissive; // sampled indices
-	uint SunShadow;                                     // sampled index, or NO_TEXTURE: unshadowed
-	uint AmbientOcclusion;                              // sampled index, or NO_TEXTURE: unoccluded
-	uint DiffuseGI, Reflections;                        // sampled indices, or NO_TEXTURE: the sky's ambient light stands in
+	uint SunVisibility;                                 // sampled index, or NO_TEXTURE: unshadowed
+	uint SkyVisibility;                                 // sampled index, or NO_TEXTURE: unoccluded
+	uint IndirectDiffuse, IndirectSpecular;             // sampled indices, or NO_TEXTURE: the sky's ambient light stands in
 	uint Output;                                        // storage index
 };
 LANTERN_ASSERT_SIZE(FLightingConstants, 56);
+
+struct FDebugViewConstants
+{
+	FPassConstants Pass;
+	uint Input;  // sampled index: the signal
+	uint Output; // storage index
+	uint bRadiance; // 0: shown as it is, grey; 1: exposed and tone-mapped
+	uint Pad;
+};
+LANTERN_ASSERT_SIZE(FDebugViewConstants, 32);
 
 struct FToneMapConstants
 {

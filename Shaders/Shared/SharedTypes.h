@@ -3,6 +3,8 @@
 #ifndef LANTERN_SHARED_TYPES_H
 #define LANTERN_SHARED_TYPES_H
 
+#define RAY_QUERY_GROUP_SIZE 8 // threads in x and y of passes that trace by ray queries
+
 #ifdef __cplusplus
 #include <cstdint>
 #include <glm/glm.hpp>

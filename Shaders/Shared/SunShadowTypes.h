@@ -5,8 +5,6 @@
 
 LANTERN_SHARED_BEGIN
 
-#define SUN_SHADOW_GROUP_SIZE 8 // threads in x and y of the ray-query path
-
 struct FSunShadowConstants
 {
 	FPassConstants Pass;

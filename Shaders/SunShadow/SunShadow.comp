@@ -3,7 +3,7 @@
 #include "SunShadow.glsl"
 #include "../Rays/QueryShadow.glsl"
 
-layout(local_size_x = SUN_SHADOW_GROUP_SIZE, local_size_y = SUN_SHADOW_GROUP_SIZE) in;
+layout(local_size_x = RAY_QUERY_GROUP_SIZE, local_size_y = RAY_QUERY_GROUP_SIZE) in;
 
 float TraceSun(vec3 Origin, vec3 Direction)
 {

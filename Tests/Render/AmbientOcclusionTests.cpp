@@ -70,7 +70,7 @@ protected:
 		{
 			FCapturedFrame Frame;
 			FFrameCapture Capture;
-			Capture.Wants(ESignal::AmbientOcclusion) = true;
+			Capture.Signals.Add(ESignal::AmbientOcclusion);
 			EXPECT_OK(GetEngine().RenderFrame(View, 0.0, Capture, &Frame));
 			const FImage& Image = Frame.Get(ESignal::AmbientOcclusion);
 			EXPECT_EQ(Image.Pixels.size(), Sum.Pixels.size()) << "the frame has no ambient occlusion";
@@ -325,12 +325,12 @@ TEST_F(FAmbientOcclusionTest, ItIsThereWhereSomethingUsesIt)
 	const auto IsThere = [&](bool bCaptured) {
 		bool bThere = false;
 		GetEngine().ExtraPasses = [&](FFrameContext&, const FGBuffer&, const FFrameOutputs& Frame) {
-			bThere = Frame.AmbientOcclusion.Visibility.IsValid();
+			bThere = Frame.Get(ESignal::AmbientOcclusion).IsValid();
 		};
 		FFrameCapture Capture;
 		FCapturedFrame Frame;
 		Capture.bLighting = true;
-		Capture.Wants(ESignal::AmbientOcclusion) = bCaptured;
+		if (bCaptured) { Capture.Signals.Add(ESignal::AmbientOcclusion); }
 		EXPECT_OK(GetEngine().RenderFrame(View, 0.0, Capture, &Frame));
 		EXPECT_EQ(!Frame.Get(ESignal::AmbientOcclusion).IsEmpty(), bThere && bCaptured);
 		GetEngine().ExtraPasses = {};

@@ -15,7 +15,7 @@ std::vector<FImage> FDenoiseTest::RenderSequence(const FSequence& Sequence)
 		FView View = Sequence.Camera(Frame);
 		View.bCut = Frame == 0;
 		FFrameCapture Capture;
-		Capture.Wants(ESignal::SunShadow) = true;
+		Capture.Signals.Add(ESignal::SunShadow);
 		FCapturedFrame Captured;
 		EXPECT_OK(GetEngine().RenderFrame(View, Sequence.Time(Frame), Capture, &Captured));
 		FImage& Image = Captured.Get(ESignal::SunShadow);

@@ -110,7 +110,7 @@ TEST_F(FDenoiseStillTest, ForgetsAtCuts)
 	(void)RenderSequence(MakeStill(8));
 	FCapturedFrame Captured;
 	FFrameCapture Capture;
-	Capture.Wants(ESignal::SunShadow) = true;
+	Capture.Signals.Add(ESignal::SunShadow);
 	const auto RenderNext = [&](uint32_t Width) {
 		GetEngine().SetFrameIndex(0);
 		EXPECT_OK(GetEngine().RenderFrame(MakeView(Width, Width), 0.0, Capture, &Captured));

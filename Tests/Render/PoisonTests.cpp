@@ -91,7 +91,7 @@ TEST_F(FPoisonTest, NoPictureHasANumberThatIsNone)
 	SetSky(glm::vec3(1.0f));
 	FFrameCapture Capture;
 	Capture.bLighting = Capture.bDisplay = true;
-	Capture.Wants(ESignal::SunShadow) = Capture.Wants(ESignal::AmbientOcclusion) = true;
+	Capture.Signals = {ESignal::SunShadow, ESignal::AmbientOcclusion};
 	FView View = MakeView(48, 32);
 	for (const char* Every : {"0", "3", "1"})
 	{

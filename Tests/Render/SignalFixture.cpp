@@ -13,7 +13,7 @@ FImage FSignalTest::RenderSignal(ESignal Signal, const FView& View, uint32_t Cou
 	for (uint32_t I = 0; I < Count; ++I)
 	{
 		FFrameCapture Capture;
-		Capture.Wants(Signal) = true;
+		Capture.Signals.Add(Signal);
 		FCapturedFrame Frame;
 		EXPECT_OK(GetEngine().RenderFrame(View, 0.0, Capture, &Frame));
 		const FImage& Picture = Frame.Get(Signal);
@@ -27,7 +27,7 @@ FImage FSignalTest::RenderSignal(ESignal Signal, const FView& View, uint32_t Cou
 bool FSignalTest::HasSignal(ESignal Signal, const FView& View)
 {
 	FFrameCapture Capture;
-	Capture.Wants(Signal) = true;
+	Capture.Signals.Add(Signal);
 	FCapturedFrame Frame;
 	EXPECT_OK(GetEngine().RenderFrame(View, 0.0, Capture, &Frame));
 	return !Frame.Get(Signal).IsEmpty();

@@ -19,9 +19,9 @@ const FAllowed& GetAllowed()
 {
 	static const std::set<std::string> Rhi = {"LanternRHI"};
 	static const std::set<std::string> Core = {"LanternRHI", "LanternCore"};
-	static const std::set<std::string> Scene = {"LanternRHI", "LanternCore", "LanternScene"};
+	static const std::set<std::string> Scene = {"LanternRHI", "LanternCore", "LanternScene", "LanternSignals"};
 	static const std::set<std::string> Module = {
-	    "LanternRHI", "LanternCore", "LanternScene", "LanternRenderer", "LanternRHIVulkan", "LanternRHIValidation"};
+	    "LanternRHI", "LanternCore", "LanternScene", "LanternRenderer", "LanternRHIVulkan", "LanternRHIValidation", "LanternSignals"};
 	static const std::set<std::string> Host = [] {
 		std::set<std::string> All = Module;
 		All.insert("LanternImage");
@@ -38,6 +38,7 @@ const FAllowed& GetAllowed()
 	    {"LanternRHIMock", Rhi},
 	    {"LanternRHIValidation", Rhi},
 	    {"LanternCore", Rhi},
+	    {"LanternSignals", Rhi},
 	    {"LanternScene", Core},
 	    {"LanternRenderer", Scene},
 	    {"LanternModule", Module},

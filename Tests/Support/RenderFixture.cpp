@@ -208,7 +208,7 @@ FImage FRenderTest::RenderSunShadow(const FView& View, uint32_t Count, uint32_t 
 	{
 		FCapturedFrame Frame;
 		FFrameCapture Capture;
-		Capture.Wants(ESignal::SunShadow) = true;
+		Capture.Signals.Add(ESignal::SunShadow);
 		EXPECT_OK(GetEngine().RenderFrame(View, Time, Capture, &Frame));
 		EXPECT_EQ(Frame.Get(ESignal::SunShadow).Pixels.size(), Sum.Pixels.size()) << "the frame has no sun shadows";
 		if (Frame.Get(ESignal::SunShadow).Pixels.size() != Sum.Pixels.size()) { return Sum; }

@@ -159,7 +159,8 @@ protected:
 	FRTStatus RenderFrame(double Time = 0.0, glm::dvec3 Camera = {0, 0, 5})
 	{
 		FFrameCapture Capture;
-		Capture.bDisplay = Capture.bLighting = Capture.Wants(ESignal::SunShadow) = true;
+		Capture.bDisplay = Capture.bLighting = true;
+		Capture.Signals.Add(ESignal::SunShadow);
 		Captured = {};
 		return Engine->RenderFrame(LookAt(Camera, {0, 0, 0}, 1.0f, 40, 24), Time, Capture, &Captured);
 	}

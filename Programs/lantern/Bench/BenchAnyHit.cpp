@@ -101,7 +101,7 @@ private:
 	{
 		FSampleEngine& Engine = Session.GetEngine();
 		FFrameCapture Capture;
-		Capture.Wants(ESignal::SunShadow) = true;
+		Capture.Signals.Add(ESignal::SunShadow);
 		FCapturedFrame Frame;
 		Engine.SetFrameIndex(CountedFrame);
 		const FRTStatus Status = Engine.RenderFrame(View, 0.0, Capture, &Frame);

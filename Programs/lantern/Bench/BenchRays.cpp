@@ -118,10 +118,10 @@ FRTStatus FRayBench::RunPlugin(double& OutMs)
 	if (FRTStatus S = Renderer.BeginFrame(Engine.GetScene().GetScene(), View, {}); !S) { return S; }
 	FFrameContext& Context = Renderer.GetContext();
 	FFrameGraph& Graph = Context.Graph;
-	FSunShadowInputs Inputs;
+	FGBuffer Inputs;
 	Inputs.Depth = Graph.ImportTexture(Depth.Get(), ERTAccess::ShaderRead, ERTAccess::ShaderRead, "BenchDepth");
 	Inputs.Normals = Graph.ImportTexture(Normals.Get(), ERTAccess::ShaderRead, ERTAccess::ShaderRead, "BenchNormals");
-	const FGraphTexture Shadow = AddSunShadowPass(Context, Inputs).Visibility;
+	const FGraphTexture Shadow = AddSignalPass(Context, ESignal::SunShadow, Inputs);
 	if (Shadow.IsValid())
 	{
 		const FGraphBuffer Bytes = Graph.ImportBuffer(Visibility.Get(), ERTAccess::None, ERTAccess::HostRead, "BenchVisibility");

@@ -37,22 +37,21 @@ public:
 			if (FRTStatus S = Engine.RenderFrame(View, Frame, Capture, &Unused); !S) { return S; }
 		}
 		FFrameFeatures Features;
-		Features.Signals.bAmbientOcclusion = Capture.Wants(ESignal::AmbientOcclusion);
+		Features.Signals.Wanted = Capture.Signals;
 		AddRays(Features);
 		return FRTStatus::Success();
 	}
 
 	void AddReferences()
 	{
-		for (const EReferenceSignal Signal : {EReferenceSignal::Frame, EReferenceSignal::SunShadow, EReferenceSignal::AmbientOcclusion,
-		         EReferenceSignal::DiffuseGI, EReferenceSignal::Reflections})
+		for (const FSignalInfo& Info : SignalInfos)
 		{
 			for (const bool bFromGBuffer : {false, true})
 			{
 				FFrameFeatures Features;
 				Features.bReference = true;
-				Features.ReferenceSignal = Signal;
-				Features.bReferenceFromGBuffer = bFromGBuffer && Signal != EReferenceSignal::Frame;
+				Features.ReferenceSignal = Info.Signal;
+				Features.bReferenceFromGBuffer = bFromGBuffer && Info.Signal != ESignal::Frame;
 				AddRays(Features);
 			}
 		}
@@ -148,7 +147,7 @@ FRTStatus ListPipelines(FSampleEngine& Engine, const std::string& Scene, const s
 				return FRTStatus::Error(ERTResult::InvalidArgument, "%s", Refused.front().c_str());
 			}
 			FFrameCapture Signal;
-			Signal.Wants(Method.Signal) = true;
+			Signal.Signals.Add(Method.Signal);
 			if (FRTStatus S = Lister.RenderAndAdd(Signal); !S) { return S; }
 		}
 	}

@@ -177,8 +177,7 @@ void FChartOptions::AddTo(CLI::App& App)
 	App.add_option("--warm-up", WarmUp, "Frames before them; 16")->check(CLI::Range(1, 100'000));
 	App.add_option("--spp", ReferenceSamples, "Samples of references; 256")->check(CLI::Range(4, 1 << 20));
 	App.add_option("--seed", Picture.Seed, "Of the random numbers");
-	App.add_option(
-	    "--signals", Signals, "A list with commas: sun_shadow, ambient_occlusion, diffuse_gi, reflections, frame. Without it: all");
+	App.add_option("--signals", Signals, "A list with commas of " + ListSignalNames() + ". Without it: all");
 	App.add_option("--methods", Methods, "A list with commas, of names in the file of methods. Without it: all");
 	App.add_option("--methods-file", MethodsFile, "Instead of Config/Methods.ini");
 	App.add_option("--paths", Paths, "A list with commas: still, slow, fast, cut. Without it: all");

@@ -247,7 +247,7 @@ std::string FChartSweep::FindObstacle(FScene& Scene, const FChartItem& Item)
 {
 	const FMethod& Method = Methods.Methods[Item.Method];
 	if (std::string Missing = GetMissing(Method, Session.GetDevice().GetCapabilities()); !Missing.empty()) { return Missing; }
-	if (Method.Signal == ESignal::SunShadow && !Session.GetEngine().GetScene().GetScene().GetFacts().bSun)
+	if (GetSignalInfo(Method.Signal).bNeedsSun && !Session.GetEngine().GetScene().GetScene().GetFacts().bSun)
 	{
 		return "the scene has no sun";
 	}

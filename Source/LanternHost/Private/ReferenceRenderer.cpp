@@ -29,18 +29,6 @@ struct FStateHeader
 
 constexpr uint32_t PixelCentersBit = 1u << 16, RasterSurfacesBit = 1u << 17;
 
-EReferenceSignal ToReferenceSignal(ESignal Signal)
-{
-	switch (Signal)
-	{
-	case ESignal::SunShadow: return EReferenceSignal::SunShadow;
-	case ESignal::AmbientOcclusion: return EReferenceSignal::AmbientOcclusion;
-	case ESignal::DiffuseGI: return EReferenceSignal::DiffuseGI;
-	case ESignal::Reflections: return EReferenceSignal::Reflections;
-	default: return EReferenceSignal::Frame;
-	}
-}
-
 // FNV-1a: names a set of settings, protects nothing.
 uint64_t HashBytes(const void* Data, size_t Size, uint64_t Hash)
 {
@@ -92,7 +80,7 @@ FStateHeader FReferenceJob::MakeHeader(uint32_t Samples) const
 	Header.Samples = Samples;
 	Header.Bounces = Settings.Bounces;
 	Header.Seed = Settings.View.Seed;
-	Header.What = static_cast<uint32_t>(ToReferenceSignal(Settings.Signal)) | (Settings.bPixelCenters ? PixelCentersBit : 0u) |
+	Header.What = static_cast<uint32_t>(Settings.Signal) | (Settings.bPixelCenters ? PixelCentersBit : 0u) |
 	              (Settings.bRasterSurfaces ? RasterSurfacesBit : 0u);
 	const FView& View = Settings.View;
 	const double Camera[] = {View.Position.x, View.Position.y, View.Position.z, View.Forward.x, View.Forward.y, View.Forward.z, View.Up.x,
@@ -162,7 +150,7 @@ FRTStatus FReferenceJob::Trace(uint32_t FirstSample, uint32_t SampleCount, uint3
 	FRenderer& Renderer = Engine.GetRenderer();
 	FFrameFeatures Features;
 	Features.bReference = true;
-	Features.ReferenceSignal = ToReferenceSignal(Settings.Signal);
+	Features.ReferenceSignal = Settings.Signal;
 	Features.bReferenceFromGBuffer = Settings.bRasterSurfaces && Settings.Signal != ESignal::Frame;
 	Features.Skinning = Engine.MoveTo(Settings.Time);
 	if (FRTStatus S = Renderer.BeginFrame(Engine.GetScene().GetScene(), Settings.View, Features); !S) { return S; }

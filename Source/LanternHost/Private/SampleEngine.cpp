@@ -41,20 +41,6 @@ FImage DecodeReadback(const void* Data, uint32_t Width, uint32_t Height, ERTForm
 	return Image;
 }
 
-FGraphTexture GetSignalTexture(const FFrameOutputs& Frame, ESignal Signal)
-{
-	switch (Signal)
-	{
-	case ESignal::SunShadow: return Frame.SunShadow.Visibility;
-	case ESignal::AmbientOcclusion: return Frame.AmbientOcclusion.Visibility;
-	case ESignal::DiffuseGI: return Frame.DiffuseGI.Radiance;
-	case ESignal::Reflections: return Frame.Reflections.Radiance;
-	case ESignal::Frame: return Frame.Lighting;
-	case ESignal::Count: break;
-	}
-	assert(false);
-	return {};
-}
 } // namespace
 
 FSampleEngine::FSampleEngine(IRTDevice& Device, FRendererDesc Desc) : Renderer(Device, std::move(Desc)), GBufferPass(Renderer) {}
@@ -102,7 +88,7 @@ FRTStatus FSampleEngine::AddReadbacks(const FFrameOutputs& Frame, const FFrameCa
 	{
 		const auto Signal = static_cast<ESignal>(I);
 		if (Signal == ESignal::Frame) { continue; }
-		if (FRTStatus S = Add(Capture.Wants(Signal), GetSignalTexture(Frame, Signal), Out.Signals[I]); !S) { return S; }
+		if (FRTStatus S = Add(Capture.Wants(Signal), Frame.Get(Signal), Out.Signals[I]); !S) { return S; }
 	}
 	return FRTStatus::Success();
 }
@@ -119,10 +105,7 @@ void FSampleEngine::KeepSignals(const FFrameOutputs& Frame)
 		});
 	};
 	Keep(bPresent, Frame.Display);
-	const std::pair<bool, ESignal> Wanted[] = {{Signals.bSunShadow, ESignal::SunShadow},
-	    {Signals.bAmbientOcclusion, ESignal::AmbientOcclusion}, {Signals.bDiffuseGI, ESignal::DiffuseGI},
-	    {Signals.bReflections, ESignal::Reflections}};
-	for (const auto& [bWanted, Signal] : Wanted) { Keep(bWanted, GetSignalTexture(Frame, Signal)); }
+	for (const FSignalInfo& Info : SignalInfos) { Keep(Signals.Wanted.Has(Info.Signal), Frame.Get(Info.Signal)); }
 }
 
 void FSampleEngine::DecodeReadbacks(const FReadbacks& Readbacks, const FFrameCapture& Capture, FCapturedFrame& Out)
@@ -158,9 +141,7 @@ FRTStatus FSampleEngine::RenderFrame(const FView& InView, double Time, const FFr
 	Features.Skinning = MoveTo(Time);
 	Features.bWaitForPipelines = Features.bBuildAll = !bRealTime;
 	Features.Signals = Signals;
-	Features.Signals.bAmbientOcclusion |= Capture.Wants(ESignal::AmbientOcclusion);
-	Features.Signals.bDiffuseGI |= Capture.Wants(ESignal::DiffuseGI);
-	Features.Signals.bReflections |= Capture.Wants(ESignal::Reflections);
+	Features.Signals.Wanted |= Capture.Signals;
 	FView View = InView;
 	View.FrameIndex = FrameIndex++;
 	if (FRTStatus S = Renderer.BeginFrame(Scene->GetScene(), View, Features); !S) { return S; }

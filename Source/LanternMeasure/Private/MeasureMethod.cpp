@@ -15,7 +15,6 @@ namespace
 bool IsIn(const std::vector<uint32_t>& Sorted, uint32_t Index) { return std::binary_search(Sorted.begin(), Sorted.end(), Index); }
 
 /// Ambient occlusion knows no light.
-bool FollowsLight(ESignal Signal) { return Signal != ESignal::AmbientOcclusion; }
 
 /// Takes figures from frames as they come.
 class FMeter
@@ -171,7 +170,7 @@ FRTStatus GetPathReferences(FSampleEngine& Engine, const FPathScript& Path, cons
 	{
 		if (FRTStatus S = Get(*Path.BeforeFrame, 1, Settings.OtherSamples, Out.Before.emplace()); !S) { return S; }
 	}
-	if (!Path.FirstSwitched || !FollowsLight(Settings.Signal)) { return FRTStatus::Success(); }
+	if (!Path.FirstSwitched || !GetSignalInfo(Settings.Signal).bLit) { return FRTStatus::Success(); }
 	Switch.Set(Engine.GetScene(), true);
 	const FRTStatus S = Get(*Path.FirstSwitched, 2, Settings.OtherSamples, Out.Switched.emplace());
 	Switch.Set(Engine.GetScene(), false);

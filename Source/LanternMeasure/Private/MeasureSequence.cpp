@@ -46,8 +46,7 @@ double SumPasses(const std::vector<FPassTiming>& Passes, T&& IsWanted)
 
 bool IsOfSignal(std::string_view Pass, ESignal Signal)
 {
-	const auto Names = GetSignalInfo(Signal).Passes;
-	return Names.empty() || std::any_of(Names.begin(), Names.end(), [&](const char* Name) { return Pass.starts_with(Name); });
+	return Pass.starts_with(GetSignalInfo(Signal).Pass); // "": all passes are the frame's
 }
 
 FRTStatus StartAnew(FSampleEngine& Engine)
@@ -102,10 +101,8 @@ FRTStatus PlayScript(
 	Capture.bLighting = true;
 	for (const ESignal Signal : Settings.Signals)
 	{
-		Capture.Wants(Signal) = true;
-		Engine.Signals.bAmbientOcclusion |= Signal == ESignal::AmbientOcclusion;
-		Engine.Signals.bDiffuseGI |= Signal == ESignal::DiffuseGI;
-		Engine.Signals.bReflections |= Signal == ESignal::Reflections;
+		Capture.Signals.Add(Signal);
+		Engine.Signals.Wanted.Add(Signal);
 	}
 	Engine.bRealTime = Settings.bRealTime;
 	if (!Settings.bKeepHistory)

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstring>
 #include <filesystem>
+#include <sstream>
 
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Text/Log.h"
@@ -80,13 +81,10 @@ void AddObjects(FContentHasher& Hash, const FRTScene& Scene)
 /// Console variables that reach the path tracer beside what its shaders' defines say.
 void AddVariables(FContentHasher& Hash, ESignal Signal)
 {
-	std::vector<const char*> Names = {"r.RT.AlphaTest", "r.RT.Material.Override", "r.RT.Build.MemoryMB", "r.RT.Build.CoarserLevels"};
-	if (Signal == ESignal::AmbientOcclusion)
-	{
-		Names.push_back("r.RT.AO.Radius");
-		Names.push_back("r.RT.AO.InstanceMask");
-	}
-	for (const char* const Name : Names)
+	std::vector<std::string> Names = {"r.RT.AlphaTest", "r.RT.Material.Override", "r.RT.Build.MemoryMB", "r.RT.Build.CoarserLevels"};
+	std::istringstream OfSignal(GetSignalInfo(Signal).ReferenceVariables);
+	for (std::string Name; OfSignal >> Name;) { Names.push_back(Name); }
+	for (const std::string& Name : Names)
 	{
 		const FRTConsoleVariable* const Variable = FConsoleVariables::Get().Find(Name);
 		Hash.AddText(Variable ? FConsoleVariables::ToString(Variable->GetValue()) : std::string());
@@ -104,27 +102,13 @@ void AddView(FContentHasher& Hash, const FView& View)
 	Hash.Add(View.Height);
 }
 
-EReferenceSignal ToReferenceSignal(ESignal Signal)
-{
-	switch (Signal)
-	{
-	case ESignal::SunShadow: return EReferenceSignal::SunShadow;
-	case ESignal::AmbientOcclusion: return EReferenceSignal::AmbientOcclusion;
-	case ESignal::DiffuseGI: return EReferenceSignal::DiffuseGI;
-	case ESignal::Reflections: return EReferenceSignal::Reflections;
-	case ESignal::Frame:
-	case ESignal::Count: break;
-	}
-	return EReferenceSignal::Frame;
-}
-
 /// The scene is where the reference will have it.
 FContentHash MakeKey(FSampleEngine& Engine, const FSignalReferenceDesc& Desc)
 {
 	FRTScene& Scene = Engine.GetScene().GetScene();
 	FFrameFeatures Features;
 	Features.bReference = true;
-	Features.ReferenceSignal = ToReferenceSignal(Desc.Signal);
+	Features.ReferenceSignal = Desc.Signal;
 	Features.bReferenceFromGBuffer = Desc.bRasterSurfaces && Desc.Signal != ESignal::Frame;
 	FContentHasher Hash;
 	Hash.Add(Generation);

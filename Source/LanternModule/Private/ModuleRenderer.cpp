@@ -1,3 +1,4 @@
+// The module's scene and frame, on top of FRTScene and FRenderer.
 #include "ModuleRenderer.h"
 
 #include <algorithm>
@@ -230,33 +231,39 @@ void FModuleRenderer::AddPasses(const FRTModuleFrame& Frame)
 	FFrameContext& Context = Renderer.GetContext();
 	const FGBuffer GBuffer = ImportGBuffer(Context.Graph, Frame);
 	FFrameOutputs Made;
-	if (Frame.Wanted.bSunShadow) { Made.SunShadow = AddSunShadowPass(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion}); }
-	if (Context.Signals.bAmbientOcclusion) { Made.AmbientOcclusion = AddAmbientOcclusionPass(Context, GBuffer); }
-	if (Context.Signals.bReflections) { Made.Reflections = AddReflectionsPass(Context, GBuffer); }
-	if (Context.Signals.bDiffuseGI) { Made.DiffuseGI = AddDiffuseGIPass(Context, GBuffer); }
+	for (const FSignalInfo& Info : SignalInfos)
+	{
+		if (Context.Signals.Wanted.Has(Info.Signal)) { Made.Get(Info.Signal) = AddSignalPass(Context, Info.Signal, GBuffer); }
+	}
 	HandToEngine(Made);
 }
 
 /// The engine reads them after the graph has ended: the last pass leaves them readable and holds on to them.
 void FModuleRenderer::HandToEngine(const FFrameOutputs& Made)
 {
-	using FOutput = std::pair<FGraphTexture, TRTRef<IRTTexture>*>;
-	std::vector<FOutput> Outputs = {{Made.SunShadow.Visibility, &SunShadow}, {Made.AmbientOcclusion.Visibility, &AmbientOcclusion},
-	    {Made.DiffuseGI.Radiance, &DiffuseGI}, {Made.Reflections.Radiance, &Reflections}};
-	std::erase_if(Outputs, [](const FOutput& Output) { return !Output.first.IsValid(); });
-	if (Outputs.empty()) { return; }
+	struct FHandOver
+	{
+		FGraphTexture Texture;
+		TRTRef<IRTTexture>* Held;
+	};
+	std::vector<FHandOver> Handed;
+	for (size_t I = 0; I < SignalCount; ++I)
+	{
+		if (Made.Signals[I].IsValid()) { Handed.push_back({Made.Signals[I], &Outputs[I]}); }
+	}
+	if (Handed.empty()) { return; }
 	FFrameGraph& Graph = Renderer.GetContext().Graph;
-	for (const auto& [Texture, Held] : Outputs) { Graph.AddUsage(Texture, ERTTextureUsage::CopySource); }
+	for (const auto& [Texture, Held] : Handed) { Graph.AddUsage(Texture, ERTTextureUsage::CopySource); }
 	Graph.AddPass("HandToEngine", [&](FPassBuilder& Builder) -> FPassExecute {
-		for (const auto& [Texture, Held] : Outputs) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+		for (const auto& [Texture, Held] : Handed) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		Builder.NeverCull();
-		return [Outputs](FPassContext& Pass) {
-			for (const auto& [Texture, Held] : Outputs) { *Held = TRTRef<IRTTexture>(Pass.GetTexture(Texture)); }
+		return [Handed](FPassContext& Pass) {
+			for (const auto& [Texture, Held] : Handed) { *Held = TRTRef<IRTTexture>(Pass.GetTexture(Texture)); }
 		};
 	});
 }
 
-void FModuleRenderer::ReleaseOutputs() { SunShadow = AmbientOcclusion = DiffuseGI = Reflections = nullptr; }
+void FModuleRenderer::ReleaseOutputs() { Outputs.fill(nullptr); }
 
 FRTStatus FModuleRenderer::RecordVertices(IRTCommandList& List)
 {
@@ -287,10 +294,12 @@ FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame)
 	Features.bBuildAll = Features.bWaitForPipelines = false;
 	Features.bMotion = false; // the engine draws: nothing of the plugin's reads how its objects moved
 	Features.Signals.bNothingElse = true;
-	Features.Signals.bSunShadow = Frame.Wanted.bSunShadow;
-	Features.Signals.bAmbientOcclusion = Frame.Wanted.bAmbientOcclusion;
-	Features.Signals.bDiffuseGI = Frame.Wanted.bDiffuseGI;
-	Features.Signals.bReflections = Frame.Wanted.bReflections && Frame.BaseColor != nullptr && Frame.Material != nullptr;
+	const bool bSurface = Frame.BaseColor != nullptr && Frame.Material != nullptr;
+	for (const FSignalInfo& Info : SignalInfos)
+	{
+		const bool bMakes = Info.Signal != ESignal::Frame && (bSurface || !Info.bNeedsSurface);
+		if (bMakes && Frame.Wanted.Has(Info.Signal)) { Features.Signals.Wanted.Add(Info.Signal); }
+	}
 	if (const FRTStatus Status = Renderer.BeginFrame(Scene, ToView(Frame, FrameIndex++), Features); !Status) { return Status; }
 	AddPasses(Frame);
 	const FRTStatus Status = Renderer.EndFrame(*Frame.Commands);
@@ -315,10 +324,7 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 		return Status;
 	}
 	Recorded = TRTRef<IRTCommandList>(Frame.Commands);
-	Out->SunShadow = SunShadow.Get();
-	Out->AmbientOcclusion = AmbientOcclusion.Get();
-	Out->DiffuseGI = DiffuseGI.Get();
-	Out->Reflections = Reflections.Get();
+	for (size_t I = 0; I < SignalCount; ++I) { Out->Signals[I] = Outputs[I].Get(); }
 	Out->bShadersReady = Renderer.AreRayProgramsReady();
 	Out->bComplete = Out->bShadersReady && Scene.GetGeometries().GetStats().Pending == 0;
 	return Status;

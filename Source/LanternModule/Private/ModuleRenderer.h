@@ -1,6 +1,7 @@
 // IRTModuleRenderer over FRTScene and FRenderer.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -101,9 +102,8 @@ private:
 	TSlotTable<FMesh, ERTMeshHandle> Meshes;
 	std::vector<FRemovedMesh> RemovedMeshes; ///< by slot
 	TSlotTable<FObject, ERTObjectHandle> Objects;
-	TRTRef<IRTCommandList> Recorded; ///< between RenderFrame and EndFrame
-	/// Of the last frame.
-	TRTRef<IRTTexture> SunShadow, AmbientOcclusion, DiffuseGI, Reflections;
+	TRTRef<IRTCommandList> Recorded;                     ///< between RenderFrame and EndFrame
+	std::array<TRTRef<IRTTexture>, SignalCount> Outputs; ///< of the last frame
 	uint32_t FrameIndex = 0;
 };
 

@@ -1,19 +1,27 @@
 // The frame's table of contents.
 #include "LanternRenderer/Frame.h"
 
+#include "AmbientOcclusion/AmbientOcclusion.h"
+#include "DebugView/DebugView.h"
+#include "DiffuseGI/DiffuseGI.h"
+#include "Lighting/DirectLighting.h"
+#include "Reflections/Reflections.h"
+#include "SunShadow/SunShadow.h"
+
 namespace Lantern
 {
 
 FFrameOutputs AddFramePasses(FFrameContext& Context, const FGBuffer& GBuffer)
 {
 	FFrameOutputs Out;
-	Out.SunShadow = AddSunShadowPass(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion});
-	Out.AmbientOcclusion = AddAmbientOcclusionPass(Context, GBuffer);
-	Out.Reflections = AddReflectionsPass(Context, GBuffer);
-	Out.DiffuseGI = AddDiffuseGIPass(Context, GBuffer);
-	Out.Lighting = AddDirectLightingPass(
-	    Context, {GBuffer, Out.SunShadow.Visibility, Out.AmbientOcclusion.Visibility, Out.DiffuseGI.Radiance, Out.Reflections.Radiance});
+	Out.Get(ESignal::SunShadow) = AddSunShadowPass(Context, GBuffer);
+	Out.Get(ESignal::AmbientOcclusion) = AddAmbientOcclusionPass(Context, GBuffer);
+	Out.Get(ESignal::Reflections) = AddReflectionsPass(Context, GBuffer);
+	Out.Get(ESignal::DiffuseGI) = AddDiffuseGIPass(Context, GBuffer);
+	Out.Lighting = AddDirectLightingPass(Context, {GBuffer, Out.Get(ESignal::SunShadow), Out.Get(ESignal::AmbientOcclusion),
+	                                                  Out.Get(ESignal::DiffuseGI), Out.Get(ESignal::Reflections)});
 	Out.Display = AddToneMapPass(Context, Out.Lighting);
+	Out.Display = AddDebugView(Context, Out);
 	return Out;
 }
 

@@ -1,6 +1,5 @@
+// What passes share.
 #include "PassTools.h"
-
-#include "LanternCore/Config/ConsoleVariables.h"
 
 namespace Lantern
 {
@@ -12,7 +11,7 @@ TRTConsoleVariable<bool> CVarEnable("r.RT.Enable", true, "All of the plugin's ra
 
 bool IsRayTracingEnabled() { return CVarEnable.GetOnRenderThread(); }
 
-IRTPipeline* RequireCompute(const FFrameContext& Context, const char* Path, std::vector<std::pair<std::string, std::string>> Defines)
+IRTPipeline* RequireCompute(const FFrameContext& Context, const char* Path, FShaderDefines Defines)
 {
 	FShaderSource Source;
 	Source.Path = Path;
@@ -27,9 +26,26 @@ IRTPipeline* RequireCompute(const FFrameContext& Context, const char* Path, std:
 	return Pipeline;
 }
 
-std::vector<std::pair<std::string, std::string>> MakeFactDefines(const FSceneFacts& Facts)
+std::string MakeShaderPath(ESignal Signal, const char* Suffix)
 {
-	std::vector<std::pair<std::string, std::string>> Defines;
+	const std::string Pass = GetSignalInfo(Signal).Pass;
+	return Pass + "/" + Pass + Suffix;
+}
+
+uint32_t GetSampledIndex(FPassContext& Pass, FGraphTexture Texture)
+{
+	return Texture.IsValid() ? Pass.GetTexture(Texture)->GetSampledIndex() : NO_TEXTURE;
+}
+
+uint32_t GetStorageIndex(FPassContext& Pass, FGraphTexture Texture)
+{
+	IRTTexture* const Found = Texture.IsValid() ? Pass.GetTexture(Texture) : nullptr;
+	return Found ? Found->GetStorageIndex() : NO_TEXTURE;
+}
+
+FShaderDefines MakeFactDefines(const FSceneFacts& Facts)
+{
+	FShaderDefines Defines;
 	const auto Add = [&](bool bHas, const char* Name) {
 		if (bHas) { Defines.emplace_back(Name, "1"); }
 	};
@@ -40,9 +56,9 @@ std::vector<std::pair<std::string, std::string>> MakeFactDefines(const FSceneFac
 	return Defines;
 }
 
-std::vector<std::pair<std::string, std::string>> MakePathDefines(const FSceneFacts& Facts)
+FShaderDefines MakePathDefines(const FSceneFacts& Facts)
 {
-	std::vector<std::pair<std::string, std::string>> Defines = MakeFactDefines(Facts);
+	FShaderDefines Defines = MakeFactDefines(Facts);
 	if (Facts.bEmissive) { Defines.emplace_back("HAS_EMISSIVE", "1"); }
 	return Defines;
 }

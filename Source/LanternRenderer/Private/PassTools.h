@@ -1,15 +1,24 @@
-// What passes share.
+// What passes share: compute pipelines by shader, defines by what the scene has, names of shaders.
 #pragma once
 
-#include "LanternRenderer/Renderer.h"
+#include <optional>
+#include <string>
+
+#include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternRenderer/Frame.h"
 
 namespace Lantern
 {
 
+using FShaderDefines = std::vector<std::pair<std::string, std::string>>;
+
 constexpr uint32_t DivideUp(uint32_t Value, uint32_t By) { return (Value + By - 1) / By; }
 
-/// A compute pipeline by shader; failure is recorded in the context and gives null: the pass is then not added.
-IRTPipeline* RequireCompute(const FFrameContext& Context, const char* Path, std::vector<std::pair<std::string, std::string>> Defines = {});
+/// Returns the compute pipeline of a shader. Null: an error, which the context then has, and the pass is not added.
+IRTPipeline* RequireCompute(const FFrameContext& Context, const char* Path, FShaderDefines Defines = {});
+
+/// Names a signal's shader: "SunShadow/SunShadow" + Suffix.
+std::string MakeShaderPath(ESignal Signal, const char* Suffix);
 
 template <class T>
 void Dispatch2D(FPassContext& Pass, IRTPipeline* Pipeline, const T& Constants, uint32_t Width, uint32_t Height, uint32_t GroupSize)
@@ -19,22 +28,27 @@ void Dispatch2D(FPassContext& Pass, IRTPipeline* Pipeline, const T& Constants, u
 	Pass.Commands().Dispatch(DivideUp(Width, GroupSize), DivideUp(Height, GroupSize), 1);
 }
 
+/// Returns the index by which shaders sample a texture, or NO_TEXTURE if it is invalid.
+uint32_t GetSampledIndex(FPassContext& Pass, FGraphTexture Texture);
+/// Returns the index by which shaders write a texture, or NO_TEXTURE if it is invalid or culled.
+uint32_t GetStorageIndex(FPassContext& Pass, FGraphTexture Texture);
+
 /// r.RT.Enable.
 bool IsRayTracingEnabled();
 
-/// HAS_… for what the scene has, so that the rest is not compiled.
-std::vector<std::pair<std::string, std::string>> MakeFactDefines(const FSceneFacts& Facts);
+/// Returns HAS_… for what the scene has, so that shaders are compiled without the rest.
+FShaderDefines MakeFactDefines(const FSceneFacts& Facts);
 
-/// The same, with what light sampling in shaders asks of it (Shaders/Rays/PathLights.glsl).
-std::vector<std::pair<std::string, std::string>> MakePathDefines(const FSceneFacts& Facts);
+/// Returns MakeFactDefines and what light sampling in shaders needs beside them (Shaders/Rays/PathLights.glsl).
+FShaderDefines MakePathDefines(const FSceneFacts& Facts);
 
-/// Whether there is anything that paths could bring.
+/// Returns whether paths could bring any light.
 bool HasAnyLight(const FSceneFacts& Facts);
-/// The most rays that one path of a brute-force pass casts, shadow rays counted, Bounces being the surfaces that it may shade
-/// after the first: paths that leave the scene cast fewer.
+/// Returns the most rays that one path casts, shadow rays included. Bounces counts the surfaces that it may shade after the
+/// first. Paths that leave the scene cast fewer.
 uint64_t GetMaxPathRays(const FSceneFacts& Facts, uint32_t Bounces);
 
-/// Nothing where Items is empty.
+/// Adds nothing if Items is empty.
 FRTStatus AddSkinningPass(FFrameContext& Context, FFrameUploads& Uploads, const std::vector<FSkinningInputs>& Items, bool bMotion);
 
 } // namespace Lantern

@@ -1,8 +1,10 @@
+// Collects from the registry of signals what a frame traces with.
 #include "RayPrograms.h"
 
-#include "LanternRenderer/AnyHitCounter.h"
-#include "LanternRenderer/Frame.h"
+#include "Feedback/AnyHitCounter.h"
 #include "LanternScene/ShaderTable/SectionTable.h"
+#include "Reference/Reference.h"
+#include "SignalPasses.h"
 
 namespace Lantern
 {
@@ -43,60 +45,57 @@ FRayType MakeMaterialRay()
 }
 
 /// See FSignalRequests::bNothingElse.
-bool IsMade(EFrameRayGen Pass, const FSignalRequests& Requests)
+bool IsMade(ESignal Signal, const FSignalRequests& Requests) { return !Requests.bNothingElse || Requests.Wanted.Has(Signal); }
+
+/// Collects passes into one frame's programs.
+struct FCollector
 {
-	switch (Pass)
+	FRayPrograms& Programs;
+	bool bShadesHits = false, bBlockers = false;
+
+	void Add(ESignal Signal, FPassRays Rays, std::string RayGenPath)
 	{
-	case EFrameRayGen::SunShadow: return !Requests.bNothingElse || Requests.bSunShadow;
-	case EFrameRayGen::AmbientOcclusion: return !Requests.bNothingElse || Requests.bAmbientOcclusion;
-	case EFrameRayGen::DiffuseGI: return !Requests.bNothingElse || Requests.bDiffuseGI;
-	case EFrameRayGen::Reflections: return !Requests.bNothingElse || Requests.bReflections;
-	case EFrameRayGen::Reference:
-	case EFrameRayGen::Count: break;
+		FShaderSource RayGen = Shader(RayGenPath.c_str());
+		RayGen.Defines = std::move(Rays.Defines);
+		Programs.Desc.RayGens.push_back(RayGen);
+		Programs.RayGens[ToIndex(Signal)] = std::move(RayGen);
+		bShadesHits |= Rays.bShadesHits;
+		bBlockers |= Rays.bBlockers;
+		Programs.bLightSampling |= Rays.bShadesHits;
 	}
-	return true;
+};
+
+/// Also on devices without pipelines: passes that need them say so.
+void CollectSignals(
+    FCollector& Collector, const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FSignalRequests& Requests, FSignalSet Ready)
+{
+	std::array<FPassRays, SignalCount> Chosen;
+	ForEachSignalPass([&](const FSignalPass& Pass) {
+		const bool bMayBeReplaced = Pass.ReplacedBy != ESignal::Count && Ready.Has(Pass.ReplacedBy);
+		const bool bReplaced =
+		    bMayBeReplaced && GetSignalPass(Pass.ReplacedBy).ChooseRays({Capabilities, Facts, Requests}).Path != ERayPath::None;
+		if (IsMade(Pass.Signal, Requests)) { Chosen[ToIndex(Pass.Signal)] = Pass.ChooseRays({Capabilities, Facts, Requests, bReplaced}); }
+	});
+	ForEachSignalPass([&](const FSignalPass& Pass) {
+		FPassRays& Rays = Chosen[ToIndex(Pass.Signal)];
+		Collector.Programs.bQueries |= Rays.Path == ERayPath::Query;
+		if (Rays.Path == ERayPath::Pipeline) { Collector.Add(Pass.Signal, std::move(Rays), MakeShaderPath(Pass.Signal, ".rgen")); }
+	});
 }
 } // namespace
 
-FPassRays MakePassRays(const char* RayGenPath, std::vector<std::pair<std::string, std::string>> Defines, bool bShadesHits)
+FRayPrograms ChooseRayPrograms(
+    const FRTCapabilities& Capabilities, FRTScene& Scene, const FFrameFeatures& Features, const FSignalRequests& Requests, FSignalSet Ready)
 {
-	FPassRays Rays{Shader(RayGenPath), bShadesHits};
-	Rays.RayGen.Defines = std::move(Defines);
-	return Rays;
-}
-
-FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, FRTScene& Scene, const FFrameFeatures& Features, bool bDiffuseGIReady)
-{
-	const FSceneFacts& Facts = Scene.GetFacts();
 	FRayPrograms Programs;
 	FRTPSODesc& Desc = Programs.Desc;
-	const std::optional<FPassRays> DiffuseGI = ChooseDiffuseGIRays(Capabilities, Facts);
-	const bool bDiffuseGI = bDiffuseGIReady && DiffuseGI;
-	const auto IsQuery = [&](EFrameRayGen Pass, ERayPath Path) { return Path == ERayPath::Query && IsMade(Pass, Features.Signals); };
-	Programs.bQueries = !Features.bReference && (IsQuery(EFrameRayGen::SunShadow, ChooseSunShadowPath(Capabilities, Facts)) ||
-	                                                IsQuery(EFrameRayGen::AmbientOcclusion,
-	                                                    ChooseAmbientOcclusionPath(Capabilities, Facts, Features.Signals, bDiffuseGI)));
-	bool bShadesHits = !Features.RayGens.empty(), bBlockers = false;
-	const auto Add = [&](EFrameRayGen Pass, std::optional<FPassRays> Rays) {
-		if (!Rays || !IsMade(Pass, Features.Signals)) { return; }
-		Desc.RayGens.push_back(Rays->RayGen);
-		Programs.RayGens[static_cast<size_t>(Pass)] = std::move(Rays->RayGen);
-		bShadesHits |= Rays->bShadesHits;
-		bBlockers |= Rays->bBlockers;
-		Programs.bLightSampling |= Rays->bShadesHits;
-	};
+	FCollector Collector{Programs, !Features.RayGens.empty()};
 	if (Features.bReference)
 	{
-		Add(EFrameRayGen::Reference, ChooseReferenceRays(Facts, Features.ReferenceSignal, Features.bReferenceFromGBuffer));
+		Collector.Add(ESignal::Frame, ChooseReferenceRays(Scene.GetFacts(), Features.ReferenceSignal, Features.bReferenceFromGBuffer),
+		    GetReferencePath(Features.ReferenceSignal));
 	}
-	else
-	{
-		// Also without pipelines: passes that need them say so.
-		Add(EFrameRayGen::SunShadow, ChooseSunShadowRays(Capabilities, Facts));
-		Add(EFrameRayGen::AmbientOcclusion, ChooseAmbientOcclusionRays(Capabilities, Facts, Features.Signals, bDiffuseGI));
-		Add(EFrameRayGen::DiffuseGI, DiffuseGI);
-		Add(EFrameRayGen::Reflections, ChooseReflectionsRays(Capabilities, Facts));
-	}
+	else { CollectSignals(Collector, Capabilities, Scene.GetFacts(), Requests, Ready); }
 	Desc.RayGens.insert(Desc.RayGens.end(), Features.RayGens.begin(), Features.RayGens.end());
 	if (Desc.RayGens.empty() || !Capabilities.bRayTracingPipeline)
 	{
@@ -104,8 +103,8 @@ FRayPrograms ChooseRayPrograms(const FRTCapabilities& Capabilities, FRTScene& Sc
 		Programs.RayGens.fill(std::nullopt);
 		return Programs;
 	}
-	Desc.RayTypes = {MakeShadowRay(bBlockers)};
-	if (bShadesHits) { Desc.RayTypes.push_back(MakeMaterialRay()); }
+	Desc.RayTypes = {MakeShadowRay(Collector.bBlockers)};
+	if (Collector.bShadesHits) { Desc.RayTypes.push_back(MakeMaterialRay()); }
 	Desc.Callables = Features.Callables;
 	Desc.HitPrograms = Scene.GetSections().GetHitPrograms();
 	return Programs;

@@ -1,3 +1,4 @@
+// The frame from BeginFrame to EndFrame.
 #include "LanternRenderer/Renderer.h"
 
 #include <algorithm>
@@ -5,16 +6,16 @@
 #include <cstring>
 #include <utility>
 
-#include "AmbientOcclusion/AmbientOcclusion.h"
+#include "DebugView/DebugView.h"
+#include "Feedback/AnyHitCounter.h"
+#include "Feedback/StandInFeedback.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/FrameGraph/History.h"
 #include "LanternCore/Tasks/TaskTrace.h"
 #include "LanternRenderer/Frame.h"
-#include "PassTools.h"
 #include "RayPrograms.h"
+#include "SignalPasses.h"
 #include "Skinning/RefitQuality.h"
-#include "StandInFeedback.h"
-#include "SunShadow/SunShadow.h"
 
 namespace Lantern
 {
@@ -45,7 +46,7 @@ FRenderer::FRenderer(IRTDevice& InDevice, FRendererDesc Desc)
       GraphResources(InDevice),
       RefitQuality(std::make_unique<FRefitQuality>(InDevice)),
       Bindings(InDevice),
-      AnyHits(InDevice),
+      AnyHits(std::make_unique<FAnyHitCounter>(InDevice)),
       RayCompiler(InDevice, Compiler, Programs),
       StandIns(std::make_unique<FStandInFeedback>(InDevice)),
       History(std::make_unique<FHistoryResources>(InDevice))
@@ -68,8 +69,11 @@ FRTStatus FRenderer::WaitForAll()
 	{
 		if (FRTStatus S = Device.WaitFor(Fence, WaitNs); !S) { return S; }
 	}
+	AnyHits->TakeAll();
 	return FRTStatus::Success();
 }
+
+const FAnyHitCounts& FRenderer::GetAnyHits() const { return AnyHits->Get(); }
 
 FRTStatus FRenderer::WaitForSlot()
 {
@@ -81,6 +85,13 @@ FRTStatus FRenderer::WaitForSlot()
 
 namespace
 {
+FSignalSet AllSignals()
+{
+	FSignalSet All;
+	for (const FSignalInfo& Info : SignalInfos) { All.Add(Info.Signal); }
+	return All;
+}
+
 bool WaitsForPipelines(const FFrameFeatures& Features)
 {
 	return Features.bWaitForPipelines || Features.bReference || GetPipelineFallback() == ERTFallback::Wait;
@@ -124,7 +135,7 @@ FRTStatus FRenderer::PrepareRayPipeline(const FRayPrograms& Wanted, const FFrame
 	for (size_t I = 0; I < Wanted.RayGens.size(); ++I)
 	{
 		if (!Wanted.RayGens[I]) { continue; }
-		const bool bExact = I == static_cast<size_t>(EFrameRayGen::Reference);
+		const bool bExact = I == ToIndex(ESignal::Frame); // the reference
 		Context->RayGens[I] = bExact ? RayPipeline->FindRayGen(*Wanted.RayGens[I]) : RayPipeline->FindRayGenVariant(*Wanted.RayGens[I]);
 	}
 	const auto HasRayGen = [&](const FShaderSource& RayGen) { return RayPipeline->FindRayGen(RayGen) != NoRayGen; };
@@ -142,7 +153,7 @@ FRTPSODesc FRenderer::GetRayPrograms(FRTScene& Scene, const FFrameFeatures& Feat
 	Scene.SetAlphaTest(CVarAlphaTest.GetOnRenderThread());
 	Scene.SetMaterialOverride(static_cast<uint32_t>(CVarMaterialOverride.GetOnRenderThread()));
 	Scene.RefreshFacts();
-	return ChooseRayPrograms(Device.GetCapabilities(), Scene, Features, true).Desc;
+	return ChooseRayPrograms(Device.GetCapabilities(), Scene, Features, Features.Signals, AllSignals()).Desc;
 }
 
 FRTStatus FRenderer::Precache(FRTScene& Scene, const FFrameFeatures& Features, const std::function<void(float)>& Progress)
@@ -183,26 +194,31 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	Context->PreviousView = bSameScene && bSameSize && !View.bCut && !Features.bReference ? &LastView : nullptr;
 	Context->History = History.get();
 	Context->Signals = Features.Signals;
+	if (!Features.Signals.bNothingElse) { Context->Signals.Wanted.Add(GetDebugView()); }
 	History->BeginFrame(*Graph, Context->PreviousView != nullptr);
 	const int32_t PoisonEvery = CVarPoisonHistory.GetOnRenderThread();
 	if (PoisonEvery > 0 && View.FrameIndex % static_cast<uint32_t>(PoisonEvery) == 0) { GraphResources.PoisonHistory(""); }
 	bUpdating = bRayPassesAdded = false;
 	const FRayPrograms Wanted =
-	    ChooseRayPrograms(Device.GetCapabilities(), Scene, Features, WaitsForPipelines(Features) || bDiffuseGIReady);
+	    ChooseRayPrograms(Device.GetCapabilities(), Scene, Features, Context->Signals, WaitsForPipelines(Features) ? AllSignals() : Ready);
 	FRTStatus Status = PrepareRayPipeline(Wanted, Features);
-	bDiffuseGIReady = Context->GetRayGen(EFrameRayGen::DiffuseGI) != NoRayGen;
+	Ready = {};
+	ForEachSignalPass([&](const FSignalPass& Pass) {
+		if (Context->GetRayGen(Pass.Signal) != NoRayGen) { Ready.Add(Pass.Signal); }
+	});
 	if (Status) { Status = StartUpdate(View, Wanted, Features); }
 	if (Status) { Status = AllocateConstants(); }
-	if (Status) { Status = AnyHits.Begin(); }
-	if (Status) { Status = StandIns->Begin(Scene, View.Position, bStandIns); }
+	if (Status) { Status = AnyHits->BeginFrame(Slot); }
+	if (Status) { Status = StandIns->BeginFrame(Slot, Scene, View.Position, bStandIns); }
+	RefitQuality->BeginFrame(Slot, Scene.GetGeometries());
 	if (Status) { Status = AddSkinningPass(*Context, Uploads, Features.Skinning, FrameUse.bMotion); }
 	if (!Status)
 	{
 		DropFrame();
 		return Status;
 	}
-	AnyHits.AddClear(*Graph);
-	StandIns->AddClear(*Graph);
+	AnyHits->GetCounters().AddClear(*Graph);
+	StandIns->GetCounters().AddClear(*Graph);
 	AddTables();
 	if (Features.bRays && !Features.bLateRays) { AddRayPasses(); }
 	return FRTStatus::Success();
@@ -212,7 +228,11 @@ namespace
 {
 bool IsMotionWanted(const FFrameContext& Context)
 {
-	return Context.Signals.bMotion || AreSunShadowsFiltered(Context) || IsAmbientOcclusionFiltered(Context);
+	bool bWanted = Context.Signals.bMotion;
+	ForEachSignalPass([&](const FSignalPass& Pass) {
+		bWanted |= Pass.WantsMotion && Pass.WantsMotion(Context.Scene) && ChooseSignalRays(Context, Pass.Signal).Path != ERayPath::None;
+	});
+	return bWanted;
 }
 } // namespace
 
@@ -275,8 +295,8 @@ FRTStatus FRenderer::AllocateConstants()
 void FRenderer::WriteConstants()
 {
 	FSceneConstants OfScene = Context->Scene.GetConstants();
-	OfScene.AnyHitCounter = AnyHits.GetAddress();
-	OfScene.StandInHits = StandIns->GetAddress();
+	OfScene.AnyHitCounter = AnyHits->GetCounters().GetAddress();
+	OfScene.StandInHits = StandIns->GetCounters().GetAddress();
 	const FViewConstants OfView = MakeViewConstants(Context->View, Context->Scene.GetOrigin(), Context->PreviousView);
 	std::memcpy(SceneConstants.Data, &OfScene, sizeof(OfScene));
 	std::memcpy(ViewConstants.Data, &OfView, sizeof(OfView));
@@ -330,13 +350,20 @@ void FRenderer::KeepHistory(bool bSubmitted)
 	LastView = Context->View;
 }
 
+void FRenderer::EndFeedback(bool bSubmitted)
+{
+	AnyHits->GetCounters().EndFrame(bSubmitted);
+	StandIns->GetCounters().EndFrame(bSubmitted);
+	RefitQuality->EndFrame(Context->Scene.GetGeometries(), bSubmitted);
+}
+
 /// A frame that was begun and cannot go on.
 void FRenderer::DropFrame()
 {
 	PrebindTask.Wait();
 	Graph.reset();
 	if (bUpdating) { Context->Scene.EndFrame(false); }
-	RefitQuality->EndFrame(Context->Scene.GetGeometries(), 0);
+	EndFeedback(false);
 	KeepHistory(false);
 	Context.reset();
 	Uploads.EndFrame(0); // nothing reads them
@@ -352,8 +379,8 @@ FRTStatus FRenderer::Execute(IRTCommandList& List)
 {
 	assert(Graph);
 	AddRayPasses(); // also where nobody asked: what was begun is recorded, so that the next frame finds it done
-	AnyHits.AddRead(*Graph);
-	StandIns->AddRead(*Graph);
+	AnyHits->GetCounters().AddRead(*Graph);
+	StandIns->GetCounters().AddRead(*Graph);
 	FRTStatus Status = FrameStatus;
 	if (Status)
 	{
@@ -400,10 +427,8 @@ void FRenderer::FrameSubmitted(FRTFence Fence)
 	Fences[Slot] = Fence;
 	if (Fence != 0) { RayCompiler.FrameSubmitted(GraphResources.GetFrame()); }
 	Uploads.EndFrame(Fence);
-	AnyHits.Submitted(Fence);
-	StandIns->Submitted(Fence);
 	Context->Scene.EndFrame(Fence != 0, Fence);
-	RefitQuality->EndFrame(Context->Scene.GetGeometries(), Fence);
+	EndFeedback(Fence != 0);
 	KeepHistory(Fence != 0);
 	Context.reset();
 	bFrameLost = Fence == 0;

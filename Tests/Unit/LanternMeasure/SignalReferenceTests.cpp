@@ -211,7 +211,7 @@ TEST_F(FSignalReferenceTest, AnEditedShaderIsAnotherReference)
 	Edit("ToneMap/ToneMap.comp");
 	EXPECT_TRUE(Get(MakeDesc())) << "no part of the path tracer";
 	for (const char* const File :
-	    {"Reference/PathTrace.rgen", "Library/Sampling.glsl", "Rays/Material.rchit", "Rays/Shadow.rmiss", "Materials/Standard.glsl"})
+	    {"Reference/PathTrace.glsl", "Library/Sampling.glsl", "Rays/Material.rchit", "Rays/Shadow.rmiss", "Materials/Standard.glsl"})
 	{
 		Edit(File);
 		EXPECT_FALSE(Get(MakeDesc())) << File;

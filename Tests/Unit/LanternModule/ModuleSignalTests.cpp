@@ -49,7 +49,7 @@ protected:
 		Frame.Motion = Motion.Get();
 		Frame.BaseColor = BaseColor.Get();
 		Frame.Material = Material.Get();
-		Frame.Wanted = {true, true, true, true};
+		Frame.Wanted = {ESignal::SunShadow, ESignal::AmbientOcclusion, ESignal::DiffuseGI, ESignal::Reflections};
 		return Frame;
 	}
 	/// Calls are those of this frame.
@@ -87,10 +87,10 @@ TEST_F(FModuleSignalTest, ByDefaultThereAreSunShadowsOnly)
 	const float Sky[3] = {1, 1, 1};
 	ASSERT_FINE(Renderer->SetSky(Sky));
 	RenderAndEnd(DescribeFrame());
-	EXPECT_NE(Outputs.SunShadow, nullptr);
-	EXPECT_EQ(Outputs.AmbientOcclusion, nullptr);
-	EXPECT_EQ(Outputs.DiffuseGI, nullptr);
-	EXPECT_EQ(Outputs.Reflections, nullptr);
+	EXPECT_NE(Outputs.Get(ESignal::SunShadow), nullptr);
+	EXPECT_EQ(Outputs.Get(ESignal::AmbientOcclusion), nullptr);
+	EXPECT_EQ(Outputs.Get(ESignal::DiffuseGI), nullptr);
+	EXPECT_EQ(Outputs.Get(ESignal::Reflections), nullptr);
 	EXPECT_THAT(GetPasses(), Not(Contains(AnyOf(StartsWith("Ambient"), StartsWith("DiffuseGI"), StartsWith("Reflections")))));
 	EXPECT_THAT(Mock().GetCreatedPipelines(), Not(Contains(HasSubstr("Ambient"))));
 }
@@ -98,9 +98,9 @@ TEST_F(FModuleSignalTest, ByDefaultThereAreSunShadowsOnly)
 TEST_F(FModuleSignalTest, NothingAskedForIsNothingMade)
 {
 	FRTModuleFrame Frame = DescribeAll();
-	Frame.Wanted = {false, false, false, false};
+	Frame.Wanted = {};
 	RenderAndEnd(Frame);
-	EXPECT_EQ(Outputs.SunShadow, nullptr);
+	EXPECT_EQ(Outputs.Get(ESignal::SunShadow), nullptr);
 	EXPECT_TRUE(Outputs.bComplete);
 	EXPECT_THAT(GetPasses(), Each("SceneUpdate")) << "the scene's tables";
 	for (const ERTMockCall Kind : {ERTMockCall::CreateComputePipeline, ERTMockCall::CreateRayTracingPipeline, ERTMockCall::CreateTexture,
@@ -117,21 +117,21 @@ TEST_F(FModuleSignalTest, AmbientOcclusionAloneNeedsNoSunAndNoSky)
 		Set("r.RT.AO.Path", Path);
 		ASSERT_FINE(SetSun(-1.0, 0.0f));
 		FRTModuleFrame Frame = DescribeFrame();
-		Frame.Wanted = {.bSunShadow = true, .bAmbientOcclusion = true};
+		Frame.Wanted = {ESignal::SunShadow, ESignal::AmbientOcclusion};
 		RenderUntilComplete(Frame);
-		EXPECT_EQ(Outputs.SunShadow, nullptr) << "no sun";
-		ASSERT_NE(Outputs.AmbientOcclusion, nullptr);
-		EXPECT_EQ(Outputs.AmbientOcclusion->GetDesc().Format, ERTFormat::R16_FLOAT);
-		EXPECT_EQ(Outputs.AmbientOcclusion->GetDesc().Width, 64u);
-		EXPECT_TRUE(HasAny(Outputs.AmbientOcclusion->GetDesc().Usage, ERTTextureUsage::CopySource));
+		EXPECT_EQ(Outputs.Get(ESignal::SunShadow), nullptr) << "no sun";
+		ASSERT_NE(Outputs.Get(ESignal::AmbientOcclusion), nullptr);
+		EXPECT_EQ(Outputs.Get(ESignal::AmbientOcclusion)->GetDesc().Format, ERTFormat::R16_FLOAT);
+		EXPECT_EQ(Outputs.Get(ESignal::AmbientOcclusion)->GetDesc().Width, 64u);
+		EXPECT_TRUE(HasAny(Outputs.Get(ESignal::AmbientOcclusion)->GetDesc().Usage, ERTTextureUsage::CopySource));
 		EXPECT_THAT(GetPasses(), Contains("AmbientOcclusion"));
 		EXPECT_THAT(GetPasses(), Not(Contains("SunShadow")));
 	}
 	Set("r.RT.AO", "0");
 	FRTModuleFrame Frame = DescribeFrame();
-	Frame.Wanted.bAmbientOcclusion = true;
+	Frame.Wanted.Add(ESignal::AmbientOcclusion);
 	RenderAndEnd(Frame);
-	EXPECT_EQ(Outputs.AmbientOcclusion, nullptr);
+	EXPECT_EQ(Outputs.Get(ESignal::AmbientOcclusion), nullptr);
 	EXPECT_TRUE(Outputs.bComplete) << "off is not missing";
 }
 
@@ -140,38 +140,38 @@ TEST_F(FModuleSignalTest, IndirectLightIsGivenWhereItIsAskedForAndOn)
 	const float Sky[3] = {1, 1, 1};
 	ASSERT_FINE(Renderer->SetSky(Sky));
 	RenderUntilComplete(DescribeAll());
-	EXPECT_EQ(Outputs.DiffuseGI, nullptr) << "off by default";
-	EXPECT_EQ(Outputs.Reflections, nullptr);
-	EXPECT_NE(Outputs.AmbientOcclusion, nullptr);
+	EXPECT_EQ(Outputs.Get(ESignal::DiffuseGI), nullptr) << "off by default";
+	EXPECT_EQ(Outputs.Get(ESignal::Reflections), nullptr);
+	EXPECT_NE(Outputs.Get(ESignal::AmbientOcclusion), nullptr);
 	Set("r.RT.GI", "1");
 	Set("r.RT.Reflections", "1");
 	RenderUntilComplete(DescribeAll());
-	ASSERT_TRUE(Outputs.DiffuseGI && Outputs.Reflections);
-	for (IRTTexture* const Texture : {Outputs.DiffuseGI, Outputs.Reflections})
+	ASSERT_TRUE(Outputs.Get(ESignal::DiffuseGI) && Outputs.Get(ESignal::Reflections));
+	for (IRTTexture* const Texture : {Outputs.Get(ESignal::DiffuseGI), Outputs.Get(ESignal::Reflections)})
 	{
 		EXPECT_EQ(Texture->GetDesc().Format, ERTFormat::RGBA16_FLOAT);
 		EXPECT_TRUE(HasAny(Texture->GetDesc().Usage, ERTTextureUsage::CopySource));
 	}
-	EXPECT_NE(Outputs.AmbientOcclusion, nullptr) << "asked for beside it";
+	EXPECT_NE(Outputs.Get(ESignal::AmbientOcclusion), nullptr) << "asked for beside it";
 	EXPECT_THAT(GetPasses(), IsSupersetOf({"SunShadow", "AmbientOcclusion", "Reflections", "DiffuseGI"}));
 	FRTModuleFrame Frame = DescribeAll();
 	Frame.BaseColor = nullptr;
 	RenderUntilComplete(Frame);
-	EXPECT_EQ(Outputs.Reflections, nullptr) << "an input is missing";
-	EXPECT_NE(Outputs.DiffuseGI, nullptr);
+	EXPECT_EQ(Outputs.Get(ESignal::Reflections), nullptr) << "an input is missing";
+	EXPECT_NE(Outputs.Get(ESignal::DiffuseGI), nullptr);
 	EXPECT_THAT(GetPasses(), Not(Contains("Reflections")));
 }
 
 TEST_F(FModuleSignalTest, WithoutMotionThatOfTheCameraStandsIn)
 {
 	FRTModuleFrame Frame = DescribeFrame();
-	Frame.Wanted = {.bSunShadow = false, .bAmbientOcclusion = true};
+	Frame.Wanted = {ESignal::AmbientOcclusion};
 	RenderUntilComplete(Frame);
 	Frame.Commands = DescribeFrame().Commands;
 	RenderAndEnd(Frame);
 	EXPECT_THAT(GetPasses(), Contains("CameraMotion")) << "a history is followed";
 	Frame = DescribeAll();
-	Frame.Wanted = {.bSunShadow = false, .bAmbientOcclusion = true};
+	Frame.Wanted = {ESignal::AmbientOcclusion};
 	RenderAndEnd(Frame);
 	EXPECT_THAT(GetPasses(), Not(Contains("CameraMotion")));
 	EXPECT_THAT(GetPasses(), Contains("AmbientOcclusionTemporal"));
@@ -252,7 +252,7 @@ TEST_F(FModuleSignalTest, ImpossibleMaterialsAreNamed)
 TEST_F(FModuleSignalTest, ACutAndALostFrameEndTheHistory)
 {
 	FRTModuleFrame Frame = DescribeFrame();
-	Frame.Wanted = {.bSunShadow = false, .bAmbientOcclusion = true};
+	Frame.Wanted = {ESignal::AmbientOcclusion};
 	RenderUntilComplete(Frame);
 	const auto HasHistory = [&] { return Mock().CountCalls(ERTMockCall::BeginMarker, "CameraMotion") > 0; };
 	Frame.Commands = DescribeFrame().Commands;
@@ -270,13 +270,13 @@ TEST_F(FModuleSignalTest, ACutAndALostFrameEndTheHistory)
 	Depth = MakeTexture(ERTFormat::D32_FLOAT, 32);
 	Normals = MakeTexture(ERTFormat::RGBA16_SNORM, 32);
 	Frame = DescribeFrame();
-	Frame.Wanted.bAmbientOcclusion = true;
+	Frame.Wanted.Add(ESignal::AmbientOcclusion);
 	EXPECT_FALSE(Renderer->RenderFrame(Frame, &Outputs).IsOk());
 	Mock().FailEveryAllocation(0);
 	Frame.Commands = DescribeFrame().Commands;
 	RenderAndEnd(Frame);
 	EXPECT_FALSE(HasHistory());
-	EXPECT_EQ(Outputs.AmbientOcclusion->GetDesc().Width, 32u);
+	EXPECT_EQ(Outputs.Get(ESignal::AmbientOcclusion)->GetDesc().Width, 32u);
 }
 
 } // namespace

@@ -184,7 +184,7 @@ TEST_F(FModuleTest, StructuresAreBuiltWithinTheBudget)
 	{
 		ASSERT_FINE(Render());
 		EXPECT_EQ(Outputs.bComplete, Frame == 3);
-		EXPECT_NE(Outputs.SunShadow, nullptr);
+		EXPECT_NE(Outputs.Get(ESignal::SunShadow), nullptr);
 		ASSERT_FINE(Renderer->EndFrame(nullptr));
 		EXPECT_EQ(Mock().CountCalls(ERTMockCall::BuildGeometry), Frame);
 	}
@@ -254,7 +254,7 @@ TEST_F(FModuleTest, FramesWaitForNoPipeline)
 	const auto LetGo = [&] { Mock().ClearCompileFaults(); };
 	const auto RenderAndEnd = [&] {
 		ASSERT_FINE(Render());
-		EXPECT_TRUE(Outputs.SunShadow != nullptr || !Outputs.bComplete);
+		EXPECT_TRUE(Outputs.Get(ESignal::SunShadow) != nullptr || !Outputs.bComplete);
 		ASSERT_FINE(Renderer->EndFrame(nullptr));
 		GiveWay();
 	};
@@ -264,14 +264,14 @@ TEST_F(FModuleTest, FramesWaitForNoPipeline)
 		const FHangGuard Guard("a frame while everything is compiled", LetGo);
 		ASSERT_NO_FATAL_FAILURE(RenderAndEnd());
 	}
-	EXPECT_EQ(Outputs.SunShadow, nullptr);
+	EXPECT_EQ(Outputs.Get(ESignal::SunShadow), nullptr);
 	EXPECT_FALSE(Outputs.bShadersReady);
 	EXPECT_FALSE(Outputs.bComplete);
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::BuildGeometry), 1u) << "structures are built meanwhile";
 	ASSERT_TRUE(WaitUntil("a compile in the driver", [&] { return Mock().GetCompilesInDriver() > 0; }));
 	LetGo();
 	ASSERT_TRUE(WaitUntil("shadows", IsComplete, RenderAndEnd));
-	EXPECT_TRUE(Outputs.bShadersReady && Outputs.SunShadow != nullptr);
+	EXPECT_TRUE(Outputs.bShadersReady && Outputs.Get(ESignal::SunShadow) != nullptr);
 
 	// A material that must be told apart from solid ones: shadows stay, and it is said that its own are not there.
 	Mock().HoldCompiles("RTPSO");
@@ -280,14 +280,14 @@ TEST_F(FModuleTest, FramesWaitForNoPipeline)
 		const FHangGuard Guard("a frame while the alpha test is linked", LetGo);
 		ASSERT_NO_FATAL_FAILURE(RenderAndEnd());
 	}
-	EXPECT_NE(Outputs.SunShadow, nullptr);
+	EXPECT_NE(Outputs.Get(ESignal::SunShadow), nullptr);
 	EXPECT_FALSE(Outputs.bShadersReady);
 	LetGo();
 	ASSERT_TRUE(WaitUntil("shadows of the alpha test", IsComplete, RenderAndEnd));
 	ASSERT_FINE(SetSun(-1.0, 0.0f));
 	ASSERT_FINE(Render());
 	EXPECT_TRUE(Outputs.bComplete) << "without a sun nothing is missing";
-	EXPECT_EQ(Outputs.SunShadow, nullptr);
+	EXPECT_EQ(Outputs.Get(ESignal::SunShadow), nullptr);
 	ASSERT_FINE(Renderer->EndFrame(nullptr));
 	ASSERT_FINE(Module->SetConsoleVariable("r.RT.Shadow.Path", "0"));
 }
@@ -339,7 +339,7 @@ TEST_F(FModuleTest, VerticesOfALostFrameAreCopiedAgain)
 	Mock().FailEveryAllocation(0);
 	Mock().ClearCalls();
 	ASSERT_FINE(Render());
-	EXPECT_NE(Outputs.SunShadow, nullptr);
+	EXPECT_NE(Outputs.Get(ESignal::SunShadow), nullptr);
 	ASSERT_FINE(Renderer->EndFrame(nullptr));
 	EXPECT_EQ(CountCopies("Cloth"), 2u);
 }

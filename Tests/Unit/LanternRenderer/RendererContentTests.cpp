@@ -205,7 +205,7 @@ TEST_F(FRendererContentTest, PassesThatNobodyReadsAreCulled)
 	ASSERT_TRUE(Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, {}, nullptr));
 	EXPECT_THAT(GetPasses(), ElementsAre()) << "no output was wanted";
 	FFrameCapture Capture;
-	Capture.Wants(ESignal::SunShadow) = true;
+	Capture.Signals.Add(ESignal::SunShadow);
 	Mock().ClearCalls();
 	ASSERT_TRUE(Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, Capture, &Captured));
 	EXPECT_THAT(GetPasses(), ElementsAre("GBuffer", "SunShadow", "Surface", "SunShadowTemporal", "SunShadowFilter0", "SunShadowFilter1",

@@ -166,7 +166,7 @@ TEST_F(FRendererToggleTest, ValueSetInTheMiddleOfAFrameWaitsForTheNext)
 {
 	LoadAndRender({});
 	Engine->ExtraPasses = [](FFrameContext&, const FGBuffer&, const FFrameOutputs& Outputs) {
-		EXPECT_TRUE(Outputs.SunShadow.Visibility.IsValid());
+		EXPECT_TRUE(Outputs.Get(ESignal::SunShadow).IsValid());
 		Set("r.RT.Shadow", "0");
 	};
 	Render();

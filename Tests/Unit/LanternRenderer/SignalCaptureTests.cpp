@@ -16,7 +16,7 @@ protected:
 	{
 		FFrameCapture Capture;
 		Capture.bLighting = bLighting;
-		for (const ESignal Signal : Signals) { Capture.Wants(Signal) = true; }
+		for (const ESignal Signal : Signals) { Capture.Signals.Add(Signal); }
 		Captured = {};
 		Mock().ClearCalls();
 		const FRTStatus Status = Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, Capture, &Captured);
@@ -74,7 +74,7 @@ TEST_F(FSignalCaptureTest, WhatIsAskedForIsMadeWithoutUse)
 TEST_F(FSignalCaptureTest, AskedForInEveryFrame)
 {
 	LoadAndRender({.bSun = false});
-	Engine->Signals.bAmbientOcclusion = true;
+	Engine->Signals.Wanted.Add(ESignal::AmbientOcclusion);
 	Capture({}, true);
 	EXPECT_TRUE(HasPass("AmbientOcclusion")) << "for those that follow";
 }
@@ -84,7 +84,7 @@ TEST_F(FSignalCaptureTest, SunShadowsAskedForInEveryFrame)
 	LoadAndRender({});
 	Capture({});
 	EXPECT_FALSE(HasPass("SunShadowTemporal")) << "nobody looks";
-	Engine->Signals.bSunShadow = true;
+	Engine->Signals.Wanted.Add(ESignal::SunShadow);
 	Capture({});
 	EXPECT_TRUE(HasPass("SunShadowTemporal"));
 }
@@ -94,7 +94,8 @@ TEST_F(FSignalCaptureTest, WhatTheFrameNoLongerHasIsNotThatOfTheFrameBefore)
 	LoadAndRender({});
 	const auto Again = [&] {
 		FFrameCapture Capture;
-		Capture.Wants(ESignal::SunShadow) = Capture.bDisplay = true;
+		Capture.bDisplay = true;
+		Capture.Signals.Add(ESignal::SunShadow);
 		const FRTStatus Status = Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, Capture, &Captured);
 		ASSERT_TRUE(Status) << Status.Message;
 	};

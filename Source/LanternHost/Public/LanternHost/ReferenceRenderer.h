@@ -6,7 +6,7 @@
 
 #include "LanternHost/SampleEngine.h"
 #include "LanternImage/Image.h"
-#include "LanternRenderer/Signals.h"
+#include "LanternSignals/Signals.h"
 
 namespace Lantern
 {

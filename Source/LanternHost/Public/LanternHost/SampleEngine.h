@@ -8,7 +8,7 @@
 
 #include "LanternHost/HostScene.h"
 #include "LanternImage/Image.h"
-#include "LanternRenderer/Signals.h"
+#include "LanternSignals/Signals.h"
 
 namespace Lantern
 {
@@ -20,17 +20,16 @@ struct FFrameCapture
 	bool bDisplay = false;  ///< tone-mapped
 	/// Each as FFrameOutputs has it, 1 or 3 channels; nothing where the frame does not have it. What is asked for here is
 	/// made also where the composite has no use for it. ESignal::Frame is bLighting by another name.
-	std::array<bool, static_cast<size_t>(ESignal::Count)> bSignals{};
-	bool& Wants(ESignal Signal) { return bSignals[static_cast<size_t>(Signal)]; }
-	bool Wants(ESignal Signal) const { return bSignals[static_cast<size_t>(Signal)]; }
+	FSignalSet Signals;
+	bool Wants(ESignal Signal) const { return Signals.Has(Signal); }
 };
 
 struct FCapturedFrame
 {
 	FImage Lighting, Display;
-	std::array<FImage, static_cast<size_t>(ESignal::Count)> Signals;
-	FImage& Get(ESignal Signal) { return Signals[static_cast<size_t>(Signal)]; }
-	const FImage& Get(ESignal Signal) const { return Signals[static_cast<size_t>(Signal)]; }
+	std::array<FImage, SignalCount> Signals;
+	FImage& Get(ESignal Signal) { return Signals[ToIndex(Signal)]; }
+	const FImage& Get(ESignal Signal) const { return Signals[ToIndex(Signal)]; }
 };
 
 class FSampleEngine
@@ -78,7 +77,7 @@ private:
 	struct FReadbacks
 	{
 		FReadback Lighting, Display;
-		std::array<FReadback, static_cast<size_t>(ESignal::Count)> Signals;
+		std::array<FReadback, SignalCount> Signals;
 	};
 	FRTStatus AddReadback(FFrameContext& Context, FGraphTexture Texture, FReadback& Out);
 	void KeepSignals(const FFrameOutputs& Frame);

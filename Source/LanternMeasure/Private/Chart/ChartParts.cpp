@@ -10,7 +10,7 @@
 
 #include "LanternCore/Text/Quote.h"
 #include "LanternImage/AtomicFile.h"
-#include "LanternRenderer/Signals.h"
+#include "LanternSignals/Signals.h"
 
 namespace Lantern
 {

@@ -81,7 +81,7 @@ FRTStatus FStabilityStage::Play(const std::vector<FStabilityShot>& Shots, std::v
 	Engine.GetRenderer().GetHistory().Clear();
 	Engine.SetFrameIndex(0);
 	FFrameCapture Capture;
-	Capture.Wants(Signal) = true;
+	Capture.Signals.Add(Signal);
 	for (size_t I = 0; I < Shots.size(); ++I)
 	{
 		const FStabilityShot& Shot = Shots[I];

@@ -11,7 +11,7 @@
 
 #include "LanternImage/Image.h"
 #include "LanternMeasure/SignalReference.h"
-#include "LanternRenderer/Signals.h"
+#include "LanternSignals/Signals.h"
 
 namespace Lantern
 {

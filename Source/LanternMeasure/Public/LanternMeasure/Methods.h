@@ -20,7 +20,7 @@
 
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternRHI/RTTypes.h"
-#include "LanternRenderer/Signals.h"
+#include "LanternSignals/Signals.h"
 
 namespace Lantern
 {

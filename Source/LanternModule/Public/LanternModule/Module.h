@@ -14,12 +14,14 @@
 #pragma once
 
 #include "LanternRHI/RTInterfaces.h"
+#include "LanternSignals/Signals.h"
 
 namespace Lantern
 {
 
-/// Bumped when anything in this header changes. The library refuses another version.
-inline constexpr uint32_t ModuleVersion = 4;
+/// Bumped when anything in this header changes. The library refuses another version. A new signal is no change: the arrays have
+/// room for MaxSignals.
+inline constexpr uint32_t ModuleVersion = 5;
 
 class IRTModuleVulkan;
 
@@ -128,16 +130,6 @@ struct FRTModuleView
 	float Near = 0.1f;             ///< > 0
 };
 
-/// What the engine reads of a frame's outputs. The rest is not traced, allocates nothing and compiles nothing. What is
-/// asked for still needs its console variable on (r.RT.Shadow, r.RT.AO, r.RT.GI, r.RT.Reflections).
-struct FRTModuleSignals
-{
-	bool bSunShadow = true;
-	bool bAmbientOcclusion = false;
-	bool bDiffuseGI = false;
-	bool bReflections = false; ///< needs BaseColor and Material
-};
-
 /// The engine's G-buffer of one frame, all of one size, imported with IRTDevice::ImportTexture. All textures Sampled. The
 /// access of each: how the engine used it last, not None; it is left in ShaderRead.
 struct FRTModuleFrame
@@ -161,7 +153,10 @@ struct FRTModuleFrame
 	ERTAccess MotionAccess = ERTAccess::ShaderRead;
 	ERTAccess BaseColorAccess = ERTAccess::ShaderRead;
 	ERTAccess MaterialAccess = ERTAccess::ShaderRead;
-	FRTModuleSignals Wanted;
+	/// Signals that the engine reads; ESignal::Frame is none. What is not wanted is not traced, allocates nothing and compiles
+	/// nothing. What is wanted still needs its console variable on (r.RT.Shadow, r.RT.AO, …). A signal with
+	/// FSignalInfo::bNeedsSurface needs BaseColor and Material.
+	FSignalSet Wanted = {ESignal::SunShadow};
 	/// Since the frame before, finite, > 0. What is accumulated is kept for seconds, whatever the frame rate.
 	float DeltaSeconds = 1.0f / 60.0f;
 	/// Nothing is carried over from the frame before: another place, another world. A change of size is seen without it.
@@ -174,16 +169,9 @@ struct FRTModuleFrame
 /// missing, or shaders are not there yet.
 struct FRTModuleOutputs
 {
-	/// Fraction of the sun that each pixel sees: 1 lit, 0 shadowed. R16_FLOAT.
-	IRTTexture* SunShadow = nullptr;
-	/// R16_FLOAT: cosine-weighted fraction of the hemisphere about the shading normal in which nothing is within
-	/// r.RT.AO.Radius; what is there counts less the farther away it is. 1: open.
-	IRTTexture* AmbientOcclusion = nullptr;
-	/// RGBA16_FLOAT: indirect irradiance / π about the shading normal: all light but that which comes straight from the sun's
-	/// disk. Times diffuse albedo it is radiance.
-	IRTTexture* DiffuseGI = nullptr;
-	/// RGBA16_FLOAT: what the surface's specular lobe reflects towards the camera, Fresnel included, of the same light.
-	IRTTexture* Reflections = nullptr;
+	/// By ESignal, which says what each holds; formats are in SignalInfos.
+	IRTTexture* Signals[MaxSignals] = {};
+	IRTTexture* Get(ESignal Signal) const { return Signals[ToIndex(Signal)]; }
 	/// Ray-tracing shaders are compiled in the background; RenderFrame never waits for them. False: some that the scene
 	/// wants are not there yet. An output is null until its first are; from then on objects whose own are missing have the
 	/// shadow of a stand-in, or none (r.RT.Pipeline.Fallback, by which an engine may also have frames that wait). What does

@@ -1,19 +1,18 @@
+// ESignal::AmbientOcclusion: what is near about a surface's normal, by shadow rays of random length.
 #pragma once
 
-#include "LanternRenderer/Renderer.h"
+#include "RayPath.h"
+#include "ReferenceTypes.h"
 
 namespace Lantern
 {
 
-/// What the reference of the signal has to know of r.RT.AO.…
-struct FAmbientOcclusionSettings
-{
-	float Radius = 2.0f;       ///< metres
-	uint32_t InstanceMask = 0; ///< of what occludes
-};
-FAmbientOcclusionSettings GetAmbientOcclusionSettings();
-
-/// Whether the frame's ambient occlusion, if there is any, is filtered over frames.
-bool IsAmbientOcclusionFiltered(const FFrameContext& Context);
+FPassRays ChooseAmbientOcclusionRays(const FPassQuery& Query);
+/// Reads Depth, Normals and, if there is any, Motion of the G-buffer.
+FGraphTexture AddAmbientOcclusionPass(FFrameContext& Context, const FGBuffer& GBuffer);
+/// Returns whether ambient occlusion, if there is any, is filtered over frames.
+bool IsAmbientOcclusionFiltered(const FRTScene& Scene);
+/// Fills radius and mask.
+void SetAmbientOcclusionReference(FReferenceConstants& Constants);
 
 } // namespace Lantern

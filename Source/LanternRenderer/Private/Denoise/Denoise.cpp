@@ -1,3 +1,4 @@
+// Passes of the filter: temporal accumulation, then the wavelet.
 #include "Denoise/Denoise.h"
 
 #include <algorithm>
@@ -30,6 +31,7 @@ struct FDenoiser
 {
 	FFrameContext& Context;
 	const FDenoiseInputs& Inputs;
+	const FDenoiseSettings& Settings;
 	std::string Name;
 	bool bColor;           ///< three channels
 	ERTFormat ImageFormat; ///< of a mean beside its variance
@@ -41,15 +43,6 @@ struct FDenoiser
 	FGraphTexture AddTemporalPass(FGraphTexture Output);
 	FGraphTexture AddFilterPass(FGraphTexture Input, FGraphTexture Output, uint32_t Index);
 };
-
-uint32_t GetSampled(FPassContext& Pass, FGraphTexture Texture)
-{
-	return Texture.IsValid() ? Pass.GetTexture(Texture)->GetSampledIndex() : NO_TEXTURE;
-}
-uint32_t GetStorage(FPassContext& Pass, FGraphTexture Texture)
-{
-	return Texture.IsValid() ? Pass.GetTexture(Texture)->GetStorageIndex() : NO_TEXTURE;
-}
 
 float GetMinAlpha(float HistorySeconds, float DeltaSeconds)
 {
@@ -93,24 +86,24 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 		Builder.Write(Output, ERTAccess::StorageWrite);
 		FTemporalConstants C{};
 		C.Pass = Context.Pass;
-		C.MinAlpha = GetMinAlpha(Inputs.Settings.HistorySeconds, Context.View.DeltaSeconds);
-		C.ClampSigma = CVarAdapt.GetOnRenderThread() ? Inputs.Settings.ClampSigma : 0.0f;
-		C.ChangeSigma = CVarAdapt.GetOnRenderThread() ? Inputs.Settings.ChangeSigma : 0.0f;
+		C.MinAlpha = GetMinAlpha(Settings.HistorySeconds, Context.View.DeltaSeconds);
+		C.ClampSigma = CVarAdapt.GetOnRenderThread() ? Settings.ClampSigma : 0.0f;
+		C.ChangeSigma = CVarAdapt.GetOnRenderThread() ? Settings.ChangeSigma : 0.0f;
 		C.NoiseAlpha = GetMinAlpha(NoiseSeconds, Context.View.DeltaSeconds);
-		C.Resampling = Inputs.Settings.Resampling;
+		C.Resampling = Settings.Resampling;
 		C.RaysPerPixel = static_cast<float>(std::max(Inputs.RaysPerPixel, 1u));
 		return [=, Signal = Inputs.Signal, Extent = Inputs.Extent, Pipeline = Temporal, Kept = History, KeptMoments = Moments,
 		           Width = Context.Width, Height = Context.Height](FPassContext& Pass) mutable {
-			C.Signal = GetSampled(Pass, Signal);
-			C.Extent = GetSampled(Pass, Extent);
-			C.Surface = GetSampled(Pass, Surface.Current);
-			C.Motion = GetSampled(Pass, bReproject ? Surface.Motion : FGraphTexture{});
-			C.PreviousSurface = GetSampled(Pass, bReproject ? Surface.Previous : FGraphTexture{});
-			C.History = GetSampled(Pass, bReproject ? Kept.Previous : FGraphTexture{});
-			C.Moments = GetSampled(Pass, bReproject ? KeptMoments.Previous : FGraphTexture{});
-			C.OutHistory = GetStorage(Pass, Kept.Current);
-			C.OutMoments = GetStorage(Pass, KeptMoments.Current);
-			C.Output = GetStorage(Pass, Output);
+			C.Signal = GetSampledIndex(Pass, Signal);
+			C.Extent = GetSampledIndex(Pass, Extent);
+			C.Surface = GetSampledIndex(Pass, Surface.Current);
+			C.Motion = GetSampledIndex(Pass, bReproject ? Surface.Motion : FGraphTexture{});
+			C.PreviousSurface = GetSampledIndex(Pass, bReproject ? Surface.Previous : FGraphTexture{});
+			C.History = GetSampledIndex(Pass, bReproject ? Kept.Previous : FGraphTexture{});
+			C.Moments = GetSampledIndex(Pass, bReproject ? KeptMoments.Previous : FGraphTexture{});
+			C.OutHistory = GetStorageIndex(Pass, Kept.Current);
+			C.OutMoments = GetStorageIndex(Pass, KeptMoments.Current);
+			C.Output = GetStorageIndex(Pass, Output);
 			Dispatch2D(Pass, Pipeline, C, Width, Height, DENOISE_GROUP_SIZE);
 		};
 	});
@@ -127,14 +120,14 @@ FGraphTexture FDenoiser::AddFilterPass(FGraphTexture Input, FGraphTexture Output
 		FFilterConstants C{};
 		C.Pass = Context.Pass;
 		C.Step = 1u << Index;
-		C.SigmaValue = Inputs.Settings.SigmaValue;
-		C.SigmaNormal = Inputs.Settings.SigmaNormal;
-		C.SigmaDepth = Inputs.Settings.SigmaDepth;
-		C.ReachExtent = Inputs.Settings.ReachExtent;
+		C.SigmaValue = Settings.SigmaValue;
+		C.SigmaNormal = Settings.SigmaNormal;
+		C.SigmaDepth = Settings.SigmaDepth;
+		C.ReachExtent = Settings.ReachExtent;
 		return [=, Pipeline = Filter, Width = Context.Width, Height = Context.Height](FPassContext& Pass) mutable {
-			C.Input = GetSampled(Pass, Input);
-			C.Surface = GetSampled(Pass, Surface);
-			C.Output = GetStorage(Pass, Output);
+			C.Input = GetSampledIndex(Pass, Input);
+			C.Surface = GetSampledIndex(Pass, Surface);
+			C.Output = GetStorageIndex(Pass, Output);
 			Dispatch2D(Pass, Pipeline, C, Width, Height, DENOISE_GROUP_SIZE);
 		};
 	});
@@ -142,19 +135,19 @@ FGraphTexture FDenoiser::AddFilterPass(FGraphTexture Input, FGraphTexture Output
 }
 } // namespace
 
-FGraphTexture AddDenoisePasses(FFrameContext& Context, const FDenoiseInputs& Inputs)
+FGraphTexture AddDenoise(FFrameContext& Context, const FGBuffer& GBuffer, const FDenoiseInputs& Inputs, const FDenoiseSettings& Settings)
 {
 	const ERTFormat Format = Context.Graph.GetDesc(Inputs.Signal).Format;
 	assert(Format == ERTFormat::R16_FLOAT || Format == ERTFormat::RGBA16_FLOAT);
 	assert(!Inputs.Extent.IsValid() || Format == ERTFormat::R16_FLOAT);
 	const bool bColor = Format == ERTFormat::RGBA16_FLOAT;
-	FDenoiser Denoiser{
-	    Context, Inputs, Inputs.Name, bColor, bColor || Inputs.Extent.IsValid() ? ERTFormat::RGBA16_FLOAT : ERTFormat::RG16_FLOAT};
-	const uint32_t Passes = std::min(Inputs.Settings.Passes, MaxPasses);
+	FDenoiser Denoiser{Context, Inputs, Settings, Inputs.Name, bColor,
+	    bColor || Inputs.Extent.IsValid() ? ERTFormat::RGBA16_FLOAT : ERTFormat::RG16_FLOAT};
+	const uint32_t Passes = std::min(Settings.Passes, MaxPasses);
 	Denoiser.Temporal = RequireCompute(Context, "Denoise/Temporal.comp", MakeDefines(bColor, Inputs.Extent.IsValid()));
 	Denoiser.Filter = Passes > 0 ? RequireCompute(Context, "Denoise/Filter.comp", MakeDefines(bColor, Inputs.Extent.IsValid())) : nullptr;
 	if (!Denoiser.Temporal || (Passes > 0 && !Denoiser.Filter)) { return Inputs.Signal; }
-	if (!RequireSurface(Context, {Inputs.Depth, Inputs.Normals, Inputs.Motion})) { return Inputs.Signal; }
+	if (!RequireSurface(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion})) { return Inputs.Signal; }
 	const auto Require = [&](const char* Suffix, ERTFormat Kept, FHistoryTexture& Out) {
 		return Context.History->GetTexture((Denoiser.Name + Suffix).c_str(), {Context.Width, Context.Height, Kept}, Out);
 	};

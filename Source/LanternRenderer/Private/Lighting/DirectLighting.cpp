@@ -1,7 +1,7 @@
 // Our own composite for hosts that have none: direct light, emission, indirect light or the sky's ambient instead.
 #include "Lighting/DirectLighting.h"
+
 #include "LanternCore/Config/ConsoleVariables.h"
-#include "LanternRenderer/Frame.h"
 #include "LightingTypes.h"
 #include "PassTools.h"
 
@@ -33,13 +33,13 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 		{
 			Builder.Read(Texture, ERTAccess::ShaderRead);
 		}
-		for (const FGraphTexture Texture : {Inputs.SunShadow, Inputs.AmbientOcclusion, Inputs.DiffuseGI, Inputs.Reflections})
+		for (const FGraphTexture Texture : {Inputs.SunVisibility, Inputs.SkyVisibility, Inputs.IndirectDiffuse, Inputs.IndirectSpecular})
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
 		Builder.Write(Output, ERTAccess::StorageWrite);
 		return [=](FPassContext& Pass) {
-			const auto Sampled = [&](FGraphTexture Texture) { return Pass.GetTexture(Texture)->GetSampledIndex(); };
+			const auto Sampled = [&](FGraphTexture Texture) { return GetSampledIndex(Pass, Texture); };
 			FLightingConstants C{};
 			C.Pass = PassConstants;
 			C.Depth = Sampled(Inputs.GBuffer.Depth);
@@ -47,11 +47,10 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 			C.BaseColor = Sampled(Inputs.GBuffer.BaseColor);
 			C.Material = Sampled(Inputs.GBuffer.Material);
 			C.Emissive = Sampled(Inputs.GBuffer.Emissive);
-			const auto SampledOrNone = [&](FGraphTexture Texture) { return Texture.IsValid() ? Sampled(Texture) : NO_TEXTURE; };
-			C.SunShadow = SampledOrNone(Inputs.SunShadow);
-			C.AmbientOcclusion = SampledOrNone(Inputs.AmbientOcclusion);
-			C.DiffuseGI = SampledOrNone(Inputs.DiffuseGI);
-			C.Reflections = SampledOrNone(Inputs.Reflections);
+			C.SunVisibility = Sampled(Inputs.SunVisibility);
+			C.SkyVisibility = Sampled(Inputs.SkyVisibility);
+			C.IndirectDiffuse = Sampled(Inputs.IndirectDiffuse);
+			C.IndirectSpecular = Sampled(Inputs.IndirectSpecular);
 			C.Output = Pass.GetTexture(Output)->GetStorageIndex();
 			Dispatch2D(Pass, Pipeline, C, Width, Height, LIGHTING_GROUP_SIZE);
 		};

@@ -1,11 +1,24 @@
+// Our own composite, for hosts that have none.
 #pragma once
 
-#include "LanternScene/Scene/Scene.h"
+#include "LanternRenderer/Frame.h"
 
 namespace Lantern
 {
 
-/// Whether the composite has ambient light of the sky (r.RT.SkyAmbient), which ambient occlusion darkens.
+/// Returns whether the composite has ambient light of the sky (r.RT.SkyAmbient), which ambient occlusion darkens.
 bool HasSkyAmbient(const FSceneFacts& Facts);
+
+/// The composite's inputs by what they mean for light, whichever pass made them.
+struct FDirectLightingInputs
+{
+	FGBuffer GBuffer;
+	FGraphTexture SunVisibility;    ///< invalid: the sun is unshadowed
+	FGraphTexture SkyVisibility;    ///< invalid: the sky is unoccluded
+	FGraphTexture IndirectDiffuse;  ///< invalid: the sky's ambient light stands in
+	FGraphTexture IndirectSpecular; ///< invalid: the sky's ambient light stands in
+};
+/// Adds direct light, emission and indirect light. Returns linear radiance, RGBA32_FLOAT.
+FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightingInputs& Inputs);
 
 } // namespace Lantern

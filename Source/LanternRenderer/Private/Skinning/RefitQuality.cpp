@@ -1,3 +1,4 @@
+// How loose refitted acceleration structures have become: what is measured, and what it says.
 #include "Skinning/RefitQuality.h"
 
 #include <algorithm>
@@ -20,25 +21,22 @@ float FRefitQuality::ComputeLooseness(const FRefitQualitySum* Sums, uint32_t Cou
 	return Triangles > 0.0 ? static_cast<float>(Boxes / Triangles) : 0.0f;
 }
 
-void FRefitQuality::Take(FGeometryStore& Store)
+void FRefitQuality::BeginFrame(uint32_t Slot, FGeometryStore& Store)
 {
-	const FRTFence Completed = Device.GetCompletedFence();
-	for (FBatch& Batch : InFlight)
-	{
-		if (Batch.Fence > Completed) { continue; }
-		const auto* const Sums = static_cast<const FRefitQualitySum*>(Batch.Results->GetMapped());
-		for (const FItem& Item : Batch.Items) { Take(Store, Item, Sums + Item.First); }
-		Batch.Items.clear();
-		Free.push_back(std::move(Batch));
-	}
-	std::erase_if(InFlight, [](const FBatch& Batch) { return !Batch.Results; });
+	Ring.BeginFrame(Slot, [&](const FRing::FSlot& Old) {
+		const auto* const Sums = static_cast<const FRefitQualitySum*>(Old.Buffer->GetMapped());
+		for (const FItem& Item : Old.Notes) { Take(Store, Item, Sums + Item.First); }
+	});
 }
 
 void FRefitQuality::Take(FGeometryStore& Store, const FItem& Item, const FRefitQualitySum* Sums)
 {
 	const std::shared_ptr<FRTGeometry> Geometry = Item.Geometry.lock();
 	// Measured before the last build: it says nothing of the structure that there is now.
-	if (!Geometry || Item.Builds == 0 || Item.Builds != Store.GetBuildCount(Item.Slot)) { return; }
+	if (!Geometry || Store.Get(Item.Slot) != Geometry.get() || Item.Builds == 0 || Item.Builds != Store.GetBuildCount(Item.Slot))
+	{
+		return;
+	}
 	const float Looseness = ComputeLooseness(Sums, Item.Count);
 	Baselines.resize(std::max<size_t>(Baselines.size(), Item.Slot + 1));
 	FBaseline& Baseline = Baselines[Item.Slot];
@@ -46,24 +44,11 @@ void FRefitQuality::Take(FGeometryStore& Store, const FItem& Item, const FRefitQ
 	if (Baseline.Looseness > 0.0f) { Store.SetRefitQuality(Item.Slot, Looseness / Baseline.Looseness); }
 }
 
-bool FRefitQuality::ReserveResults(FBatch& Batch, uint64_t Bytes)
-{
-	if (Batch.Results && Batch.Results->GetDesc().Size >= Bytes) { return true; }
-	const FRTBufferDesc Desc{std::max<uint64_t>(Bytes, 4096), ERTBufferUsage::Storage, ERTMemory::Readback, "RefitQuality"};
-	return Device.CreateBuffer(Desc, Batch.Results.ReleaseAndGetAddress()).IsOk();
-}
-
 FRefitQuality::FWork FRefitQuality::Prepare(FGeometryStore& Store, const std::vector<FSkinningInputs>& Items)
 {
-	Take(Store);
 	FWork Work;
 	if (Items.empty() || !Store.WantsRefitQuality()) { return Work; }
-	FBatch Batch;
-	if (!Free.empty())
-	{
-		Batch = std::move(Free.back());
-		Free.pop_back();
-	}
+	std::vector<FItem> Measured;
 	uint32_t Sums = 0;
 	for (size_t I = 0; I < std::min(PerFrame, Items.size()); ++I)
 	{
@@ -85,30 +70,25 @@ FRefitQuality::FWork FRefitQuality::Prepare(FGeometryStore& Store, const std::ve
 			Sums += CountGroups(C.TriangleCount);
 		}
 		Item.Count = Sums - Item.First;
-		Batch.Items.push_back(std::move(Item));
+		Measured.push_back(std::move(Item));
 	}
-	if (Sums == 0 || !ReserveResults(Batch, Sums * sizeof(FRefitQualitySum))) { return {}; }
-	for (FRefitQualityConstants& C : Work.Dispatches) { C.Sums = Batch.Results->GetDeviceAddress() + C.Sums * sizeof(FRefitQualitySum); }
-	Work.Results = Batch.Results;
-	Current = std::make_unique<FBatch>(std::move(Batch));
+	if (Sums == 0) { return {}; }
+	FRTStatus Status;
+	FRing::FSlot* const Slot = Ring.Write(std::max<uint64_t>(Sums * sizeof(FRefitQualitySum), 4096), Status);
+	if (!Slot) { return {}; }
+	for (FRefitQualityConstants& C : Work.Dispatches) { C.Sums = Slot->Buffer->GetDeviceAddress() + C.Sums * sizeof(FRefitQualitySum); }
+	Work.Results = Slot->Buffer;
+	Slot->Notes = std::move(Measured);
 	return Work;
 }
 
-void FRefitQuality::EndFrame(const FGeometryStore& Store, FRTFence Fence)
+void FRefitQuality::EndFrame(const FGeometryStore& Store, bool bSubmitted)
 {
-	if (!Current) { return; }
-	FBatch Batch = std::move(*Current);
-	Current.reset();
-	if (Fence == 0)
-	{
-		Batch.Items.clear();
-		Free.push_back(std::move(Batch));
-		return;
-	}
+	Ring.EndFrame(bSubmitted);
+	FRing::FSlot* const Slot = Ring.GetCurrent();
+	if (!Slot) { return; }
 	// With this frame's builds in it: a geometry that was rebuilt in it has its new baseline.
-	for (FItem& Item : Batch.Items) { Item.Builds = Store.GetBuildCount(Item.Slot); }
-	Batch.Fence = Fence;
-	InFlight.push_back(std::move(Batch));
+	for (FItem& Item : Slot->Notes) { Item.Builds = Store.GetBuildCount(Item.Slot); }
 }
 
 } // namespace Lantern

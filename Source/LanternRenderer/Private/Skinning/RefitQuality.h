@@ -11,12 +11,13 @@
 // What it does not see: parts that touched when the tree was built, are no neighbours in the index buffer, and have come
 // apart since. For those there is r.RT.Skinning.RebuildInterval.
 //
-// The sums come back a few frames later; nothing waits for them.
+// The sums come back two frames later (TReadbackRing); nothing waits for them.
 #pragma once
 
 #include <memory>
 #include <vector>
 
+#include "Feedback/ReadbackRing.h"
 #include "LanternRenderer/Renderer.h"
 #include "LanternScene/Geometry/GeometryStore.h"
 #include "RefitQualityTypes.h"
@@ -30,22 +31,22 @@ public:
 	/// Geometries measured in a frame, in turn: hundreds of characters must not cost hundreds of dispatches more.
 	static constexpr size_t PerFrame = 16;
 
-	explicit FRefitQuality(IRTDevice& InDevice) : Device(InDevice) {}
-	/// Tells the store what came back.
-	void Take(FGeometryStore& Store);
-	/// What is to be dispatched behind the skinning of Items in this frame, and into which buffer. None where the store
-	/// wants none. Failures (memory) mean that nothing is measured.
+	explicit FRefitQuality(IRTDevice& InDevice) : Ring(InDevice, "RefitQuality", ERTBufferUsage::Storage) {}
+	/// Slot: as in TReadbackRing::BeginFrame. Tells the store what the frame that had the slot before measured.
+	void BeginFrame(uint32_t Slot, FGeometryStore& Store);
+	/// What is to be dispatched behind the skinning of Items in this frame, and the buffer for its results. Empty if the store
+	/// wants nothing measured, or if there is no memory for results.
 	struct FWork
 	{
 		std::vector<FRefitQualityConstants> Dispatches;
 		TRTRef<IRTBuffer> Results;
 	};
 	FWork Prepare(FGeometryStore& Store, const std::vector<FSkinningInputs>& Items);
-	/// Fence: 0 where the frame never runs.
-	void EndFrame(const FGeometryStore& Store, FRTFence Fence);
+	/// bSubmitted: false if the frame never runs.
+	void EndFrame(const FGeometryStore& Store, bool bSubmitted);
 
 	static uint32_t CountGroups(uint32_t Triangles);
-	/// Of all sums of one geometry: surface of boxes over area of triangles; 0: it has no area.
+	/// Returns the surface of boxes over the area of triangles, summed over one geometry; 0: it has no area.
 	static float ComputeLooseness(const FRefitQualitySum* Sums, uint32_t Count);
 
 private:
@@ -55,12 +56,7 @@ private:
 		uint32_t Slot = 0, Builds = 0;
 		uint32_t First = 0, Count = 0; // sums
 	};
-	struct FBatch
-	{
-		TRTRef<IRTBuffer> Results;
-		std::vector<FItem> Items;
-		FRTFence Fence = 0;
-	};
+	using FRing = TReadbackRing<std::vector<FItem>>;
 	struct FBaseline
 	{
 		std::weak_ptr<FRTGeometry> Geometry;
@@ -68,11 +64,8 @@ private:
 		float Looseness = 0.0f;
 	};
 	void Take(FGeometryStore& Store, const FItem& Item, const FRefitQualitySum* Sums);
-	bool ReserveResults(FBatch& Batch, uint64_t Bytes);
 
-	IRTDevice& Device;
-	std::vector<FBatch> Free, InFlight;
-	std::unique_ptr<FBatch> Current;  // of this frame
+	FRing Ring;
 	std::vector<FBaseline> Baselines; // by slot
 	size_t Next = 0;
 };

@@ -1,14 +1,15 @@
+// ESignal::SunShadow: the sun's disk, seen or not, by shadow rays.
 #pragma once
 
-#include "LanternRenderer/Renderer.h"
+#include "RayPath.h"
 
 namespace Lantern
 {
 
-/// Of the sun shadow shaders, as the console variables stand: one sample per pixel is a shader without a loop.
-std::vector<std::pair<std::string, std::string>> MakeSunShadowDefines();
-
-/// Whether the frame's sun shadows, if there are any, are filtered over frames.
-bool AreSunShadowsFiltered(const FFrameContext& Context);
+FPassRays ChooseSunShadowRays(const FPassQuery& Query);
+/// Reads Depth, Normals and, if there is any, Motion of the G-buffer.
+FGraphTexture AddSunShadowPass(FFrameContext& Context, const FGBuffer& GBuffer);
+/// Returns whether the scene's sun shadows, if there are any, are filtered over frames.
+bool IsSunShadowFiltered(const FRTScene& Scene);
 
 } // namespace Lantern

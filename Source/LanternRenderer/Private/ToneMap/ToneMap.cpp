@@ -1,3 +1,4 @@
+// The display transform: exposure, filmic curve, sRGB.
 #include "LanternRenderer/Frame.h"
 #include "LightingTypes.h"
 #include "PassTools.h"

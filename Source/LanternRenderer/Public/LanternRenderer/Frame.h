@@ -6,7 +6,7 @@
 namespace Lantern
 {
 
-/// What the host's raster gives.
+/// The host's G-buffer.
 struct FGBuffer
 {
 	FGraphTexture Depth;     ///< D32, reversed: near / distance along the view; 0: sky
@@ -20,90 +20,26 @@ struct FGBuffer
 	FGraphTexture Motion;
 };
 
-/// What the plugin gives. A texture is invalid where the scene has no use for it.
-struct FSunShadowOutputs
-{
-	FGraphTexture Visibility; ///< R16_FLOAT: fraction of the sun's disk that is seen
-};
-
-struct FAmbientOcclusionOutputs
-{
-	/// R16_FLOAT: cosine-weighted fraction of the hemisphere about the shading normal in which nothing is within
-	/// r.RT.AO.Radius; what is there counts less the farther away it is.
-	FGraphTexture Visibility;
-};
-
-struct FDiffuseGIOutputs
-{
-	/// RGBA16_FLOAT: indirect irradiance / π, about the shading normal: all light that arrives but that of the sun's disk and
-	/// of punctual lights, which direct lighting has. Sky and emissive surfaces are in it. A direction below the geometric
-	/// surface brings nothing. Sky pixels: 0.
-	FGraphTexture Radiance;
-};
-
-struct FReflectionOutputs
-{
-	/// RGBA16_FLOAT: what the surface's specular lobe reflects towards the camera (Fresnel included), of the same light. A
-	/// mirror (roughness² < 0.001) is a delta. a: 1, or 0 where the surface is rougher than r.RT.Reflections.MaxRoughness;
-	/// there rgb is what it would reflect of an unoccluded sky. Sky pixels: 0.
-	FGraphTexture Radiance;
-};
-
+/// What a frame made. A texture is invalid if the scene has no use for it, if it is off, or if its shaders are being compiled.
 struct FFrameOutputs
 {
-	FSunShadowOutputs SunShadow;
-	FAmbientOcclusionOutputs AmbientOcclusion;
-	FDiffuseGIOutputs DiffuseGI;
-	FReflectionOutputs Reflections;
-	FGraphTexture Lighting; ///< RGBA32_FLOAT, linear radiance
-	FGraphTexture Display;  ///< RGBA8_UNORM, tone-mapped, sRGB-encoded
+	std::array<FGraphTexture, SignalCount> Signals; ///< as FSignalInfo says; that of ESignal::Frame is Lighting
+	FGraphTexture Lighting;                         ///< RGBA32_FLOAT, linear radiance
+	FGraphTexture Display;                          ///< RGBA8_UNORM, tone-mapped, sRGB-encoded
+	FGraphTexture& Get(ESignal Signal) { return Signal == ESignal::Frame ? Lighting : Signals[ToIndex(Signal)]; }
+	const FGraphTexture& Get(ESignal Signal) const { return Signal == ESignal::Frame ? Lighting : Signals[ToIndex(Signal)]; }
 };
 
-struct FSunShadowInputs
-{
-	FGraphTexture Depth, Normals; ///< as in FGBuffer
-	FGraphTexture Motion;         ///< as in FGBuffer; may be invalid
-};
-/// Invalid outputs: no sun, or shadows are off.
-FSunShadowOutputs AddSunShadowPass(FFrameContext& Context, const FSunShadowInputs& Inputs);
-
-/// The same of the other signals. All take what they need of the G-buffer, and give invalid outputs where they are off,
-/// where the scene has nothing for them, or while their shaders are being compiled.
-FAmbientOcclusionOutputs AddAmbientOcclusionPass(FFrameContext& Context, const FGBuffer& GBuffer);
-FDiffuseGIOutputs AddDiffuseGIPass(FFrameContext& Context, const FGBuffer& GBuffer);
-FReflectionOutputs AddReflectionsPass(FFrameContext& Context, const FGBuffer& GBuffer);
-
-struct FDirectLightingInputs
-{
-	FGBuffer GBuffer;
-	FGraphTexture SunShadow;        ///< may be invalid: unshadowed
-	FGraphTexture AmbientOcclusion; ///< may be invalid: the sky is unoccluded
-	FGraphTexture DiffuseGI;        ///< may be invalid: then the sky's ambient light stands in
-	FGraphTexture Reflections;      ///< may be invalid: the same
-};
-FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightingInputs& Inputs);
+/// Adds the pass of one signal and returns its output; Signal: neither Frame nor Count. Once a frame. Invalid: see FFrameOutputs.
+FGraphTexture AddSignalPass(FFrameContext& Context, ESignal Signal, const FGBuffer& GBuffer);
 
 FGraphTexture AddToneMapPass(FFrameContext& Context, FGraphTexture Radiance);
 
 /// Motion of a world that stands still, from depth alone, as FGBuffer::Motion has it but for w = 0.
 FGraphTexture AddCameraMotionPass(FFrameContext& Context, FGraphTexture Depth);
 
-/// All of it. The host may use SunShadow alone and light by itself: passes whose results it does not read are culled.
+/// Adds all passes. A host may read single outputs and light by itself: passes whose results nobody reads are culled.
 FFrameOutputs AddFramePasses(FFrameContext& Context, const FGBuffer& GBuffer);
-
-enum class ERayPath : uint8_t
-{
-	None,
-	Pipeline,
-	Query
-};
-using ESunShadowPath = ERayPath;
-/// Which path sun shadows take this frame.
-ERayPath ChooseSunShadowPath(const FRTCapabilities& Capabilities, const FSceneFacts& Facts);
-/// The same of ambient occlusion. None where nothing uses it: no ambient light of the sky, or diffuse global illumination
-/// instead of it (bDiffuseGI: its rays are ready, not merely wanted), and nobody asks.
-ERayPath ChooseAmbientOcclusionPath(
-    const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FSignalRequests& Requests, bool bDiffuseGI);
 
 struct FReferencePassInputs
 {
@@ -114,8 +50,8 @@ struct FReferencePassInputs
 	bool bPixelCenters = false; ///< camera rays through pixel centres, as the G-buffer has them; else all over the pixel
 	FGBuffer GBuffer;           ///< with FFrameFeatures::bReferenceFromGBuffer
 };
-/// Of the signal that the frame began with, FFrameFeatures::ReferenceSignal, as the outputs above define it: a grey one is
-/// in all three channels. Sky: visibilities are 1, radiances 0.
+/// Adds samples of FFrameFeatures::ReferenceSignal. A signal of one channel has its value in all three. Sky pixels: visibilities
+/// are 1, radiances 0.
 void AddReferencePass(FFrameContext& Context, const FReferencePassInputs& Inputs);
 
 } // namespace Lantern

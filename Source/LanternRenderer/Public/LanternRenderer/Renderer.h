@@ -9,12 +9,12 @@
 
 #include "LanternCore/FrameGraph/FrameGraph.h"
 #include "LanternCore/Tasks/Tasks.h"
-#include "LanternRenderer/AnyHitCounter.h"
 #include "LanternRenderer/View.h"
 #include "LanternScene/Pipelines/ComputePipelines.h"
 #include "LanternScene/Pipelines/RTPSOCompiler.h"
 #include "LanternScene/Scene/Scene.h"
 #include "LanternScene/ShaderTable/ShaderBindings.h"
+#include "LanternSignals/Signals.h"
 
 namespace Lantern
 {
@@ -34,33 +34,24 @@ struct FSkinningInputs
 	std::vector<glm::mat4> Joints;
 };
 
-/// Signals that somebody reads beside the composite: they are made also where the composite has no use for them (ambient
-/// occlusion without a sky). Their own console variables still rule.
+/// What is asked of a frame beside the composite.
 struct FSignalRequests
 {
-	bool bAmbientOcclusion = false, bDiffuseGI = false, bReflections = false;
-	/// The host lights by itself: there is no composite, and what is not asked for is not made. Then bSunShadow asks, too.
-	bool bNothingElse = false, bSunShadow = false;
-	/// How objects moved (FSceneConstants::ObjectMotions), also where no filter follows it.
+	/// Signals that somebody reads. They are made even if the composite has no use for them, such as ambient occlusion without
+	/// a sky. Their own console variables still rule.
+	FSignalSet Wanted;
+	/// The host lights by itself: there is no composite, and only wanted signals are made.
+	bool bNothingElse = false;
+	/// Records how objects moved (FSceneConstants::ObjectMotions), even if no filter follows it.
 	bool bMotion = false;
-};
-
-/// What the reference path tracer makes: the whole frame, or one signal as the outputs in Frame.h define it.
-enum class EReferenceSignal : uint8_t
-{
-	Frame,
-	SunShadow,
-	AmbientOcclusion,
-	DiffuseGI,
-	Reflections,
 };
 
 /// What a frame is to do beside its cameras and console variables.
 struct FFrameFeatures
 {
-	bool bReference = false; ///< the path tracer instead of real-time passes
-	EReferenceSignal ReferenceSignal = EReferenceSignal::Frame;
-	/// The reference takes the surfaces of FReferencePassInputs::GBuffer. Not for EReferenceSignal::Frame.
+	bool bReference = false;                  ///< the path tracer instead of real-time passes
+	ESignal ReferenceSignal = ESignal::Frame; ///< the whole frame, or one signal as LanternSignals/Signals.h defines it
+	/// The reference takes the surfaces of FReferencePassInputs::GBuffer. Not for ESignal::Frame.
 	bool bReferenceFromGBuffer = false;
 	/// Passes of the host's own trace rays: acceleration structures are kept whatever else does, and are recorded at the
 	/// start of the frame …
@@ -84,17 +75,15 @@ struct FFrameFeatures
 	FSignalRequests Signals;
 };
 
-/// Passes of the frame that trace through its RTPSO.
-enum class EFrameRayGen : uint8_t
+/// Counts of alpha tests under rays, with r.RT.Opacity.Count. A frame's count arrives two frames later, or with WaitForAll.
+struct FAnyHitCounts
 {
-	SunShadow,
-	AmbientOcclusion,
-	DiffuseGI,
-	Reflections,
-	Reference,
-	Count,
+	uint64_t LastFrame = 0; ///< count of the newest frame that has arrived; modulo 2³²
+	uint64_t Total = 0;     ///< sum over all frames that have arrived
+	uint32_t Frames = 0;    ///< number of frames that have arrived
 };
 
+class FAnyHitCounter;
 class FHistoryResources;
 class FRefitQuality;
 class FRenderer;
@@ -123,13 +112,14 @@ struct FFrameContext
 	/// Null where no pass of this frame traces through a pipeline.
 	const FRTPSO* RayPipeline = nullptr;
 	FShaderBindings* RayBindings = nullptr;
-	/// By EFrameRayGen; NoRayGen where the frame does not have it, or not yet.
-	std::array<uint32_t, static_cast<size_t>(EFrameRayGen::Count)> RayGens = [] {
-		std::array<uint32_t, static_cast<size_t>(EFrameRayGen::Count)> None;
+	/// Ray generation shaders of RayPipeline by signal; that of ESignal::Frame is the reference path tracer. NoRayGen: the frame
+	/// does not have it, or it is still being compiled.
+	std::array<uint32_t, SignalCount> RayGens = [] {
+		std::array<uint32_t, SignalCount> None;
 		None.fill(NoRayGen);
 		return None;
 	}();
-	uint32_t GetRayGen(EFrameRayGen Which) const { return RayGens[static_cast<size_t>(Which)]; }
+	uint32_t GetRayGen(ESignal Signal) const { return RayGens[ToIndex(Signal)]; }
 	/// The frame before this one; null where nothing may be carried over from it: the first, a cut, another size, a lost one,
 	/// one that another renderer's frame of the scene has followed.
 	const FView* PreviousView = nullptr;
@@ -196,7 +186,7 @@ public:
 	/// What the compiler was told last of each program that is not ready.
 	const std::vector<FProgramPriority>& GetProgramPriorities() const;
 	const FShaderBindings& GetBindings() const { return Bindings; }
-	const FAnyHitCounts& GetAnyHits() { return AnyHits.Get(); } ///< with r.RT.Opacity.Count
+	const FAnyHitCounts& GetAnyHits() const;
 	/// Whether executed frames leave DumpGraph a text; off by default, for it takes longer than the graph.
 	void SetGraphDump(bool bEnabled) { bDumpGraph = bEnabled; }
 	const std::string& DumpGraph() const { return LastDump; } ///< of the last executed frame
@@ -213,6 +203,7 @@ private:
 	void WriteConstants();
 	void DropFrame();
 	void KeepHistory(bool bSubmitted);
+	void EndFeedback(bool bSubmitted);
 	FRTStatus WaitForSlot();
 	FRTStatus Execute(IRTCommandList& List);
 
@@ -223,13 +214,13 @@ private:
 	FFrameGraphResources GraphResources;
 	std::unique_ptr<FRefitQuality> RefitQuality;
 	FShaderBindings Bindings;
-	FAnyHitCounter AnyHits;
+	std::unique_ptr<FAnyHitCounter> AnyHits;
 	FMaterialPrograms Programs;
 	FRTPSOCompiler RayCompiler;
 	std::unique_ptr<FStandInFeedback> StandIns;
 	bool bStandIns = false; // some hit program of the frame is not ready
 	bool bRaysReady = true;
-	bool bDiffuseGIReady = false; // in the last frame
+	FSignalSet Ready; // signals whose ray generation shaders the last frame had
 	std::shared_ptr<const FRTPSO> RayPipeline;
 	std::unique_ptr<FFrameGraph> Graph;
 	std::unique_ptr<FFrameContext> Context;
@@ -239,10 +230,10 @@ private:
 	bool bUpdating = false; // the scene has something to record in this frame
 	bool bRayPassesAdded = false;
 	bool bFrameLost = false;
-	static constexpr int MaxInFlight = 2;
+	static constexpr uint32_t MaxInFlight = 2;
 	TRTRef<IRTCommandList> Lists[MaxInFlight];
 	FRTFence Fences[MaxInFlight] = {};
-	int Slot = 0;
+	uint32_t Slot = 0; // of this frame, in Lists and Fences
 	std::unique_ptr<FHistoryResources> History;
 	FView LastView;              // of the newest frame that reached the GPU
 	uint64_t LastScene = 0;      // identity of its scene's sections, which outlives an address; 0: none

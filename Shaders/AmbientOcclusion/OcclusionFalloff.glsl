@@ -3,7 +3,7 @@
 #ifndef LANTERN_AMBIENT_OCCLUSION_GLSL
 #define LANTERN_AMBIENT_OCCLUSION_GLSL
 
-#include "Sampling.glsl"
+#include "../Library/Sampling.glsl"
 
 // With the nearest surface in a direction at Distance ≤ Radius. One that touches blocks all, one at Radius nothing, so that
 // nothing pops where it comes within reach.

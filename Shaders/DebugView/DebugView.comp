@@ -1,0 +1,18 @@
+// Shows one signal: a visibility as grey, a radiance as the picture would show it.
+#version 460
+#include "../Shared/LightingTypes.h"
+#include "../Library/Bindings.glsl"
+#include "../Library/ToneMap.glsl"
+
+layout(local_size_x = LIGHTING_GROUP_SIZE, local_size_y = LIGHTING_GROUP_SIZE) in;
+layout(push_constant, scalar) uniform FPush { FDebugViewConstants Push; };
+
+void main()
+{
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	uvec2 Pixel = gl_GlobalInvocationID.xy;
+	if (any(greaterThanEqual(Pixel, uvec2(View.Width, View.Height)))) { return; }
+	vec3 Value = texelFetch(Textures[Push.Input], ivec2(Pixel), 0).rgb;
+	vec3 Color = Push.bRadiance != 0u ? ToneMapFilmic(Value * View.Exposure) : clamp(Value.rrr, 0.0, 1.0);
+	imageStore(Images[Push.Output], ivec2(Pixel), vec4(LinearToSrgb(Color), 1.0));
+}

@@ -1,0 +1,11 @@
+// References of indirect light: one path through one lobe of the surface.
+#ifndef LANTERN_GATHER_SIGNAL_GLSL
+#define LANTERN_GATHER_SIGNAL_GLSL
+
+vec3 GatherSignal(FSceneConstants Scene, FBrdf Lobe, FMaterialHit Hit, vec3 P, vec3 V, inout FRandom Random)
+{
+	mat3 Basis = MakeBasis(BendNormal(Hit.Normal, V));
+	return GatherIndirect(Scene, Lobe, Basis, V * Basis, P, Hit.GeometricNormal, NextRandom4(Random).xy, Push.MaxBounces, Random);
+}
+
+#endif

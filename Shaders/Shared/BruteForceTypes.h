@@ -1,0 +1,22 @@
+// Indirect light by brute force, for all signals.
+#ifndef LANTERN_BRUTE_FORCE_TYPES_H
+#define LANTERN_BRUTE_FORCE_TYPES_H
+
+#include "SceneTypes.h"
+
+LANTERN_SHARED_BEGIN
+
+struct FBruteForceConstants
+{
+	FPassConstants Pass;
+	uint Depth, Normals, BaseColor, Material; // sampled indices; the last two: NO_TEXTURE for signals that read neither
+	uint Output;                              // storage index
+	uint SamplesPerPixel;
+	uint MaxBounces; // scattering events, that at the pixel included
+	float MaxRoughness; // rougher surfaces are not traced
+};
+LANTERN_ASSERT_SIZE(FBruteForceConstants, 48);
+
+LANTERN_SHARED_END
+
+#endif

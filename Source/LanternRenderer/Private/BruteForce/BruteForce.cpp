@@ -1,0 +1,58 @@
+// Indirect light by brute force, for any signal whose ray-generation shader gathers paths (Shaders/Rays/IndirectSampling.glsl).
+#include "BruteForce/BruteForce.h"
+
+#include "BruteForceTypes.h"
+#include "SignalPasses.h"
+
+namespace Lantern
+{
+
+FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery& Query)
+{
+	FPassRays Rays;
+	if (!IsRayTracingEnabled() || !Settings.Enable.GetOnRenderThread()) { return Rays; }
+	if (Query.Facts.Objects == 0 || !HasAnyLight(Query.Facts)) { return Rays; }
+	Rays.Path = ChooseShadingRayPath(Query, Settings.Enable);
+	Rays.Defines = MakePathDefines(Query.Facts);
+	Rays.bShadesHits = true;
+	return Rays;
+}
+
+FGraphTexture AddBruteForcePass(const FBruteForcePass& Settings, FFrameContext& Context, const FGBuffer& GBuffer)
+{
+	const FSignalInfo& Info = GetSignalInfo(Settings.Signal);
+	const std::optional<FRayDispatch> Dispatch = RequireRayDispatch(Context, Settings.Signal, ChooseSignalRays(Context, Settings.Signal));
+	if (!Dispatch) { return {}; }
+	const FGraphTexture Output =
+	    Context.Graph.CreateTexture({Context.Width, Context.Height, Info.Format, ERTTextureUsage::CopySource}, Info.Pass);
+	const FFrameContext* const Frame = &Context;
+	Context.Graph.AddPass(Info.Pass, [&](FPassBuilder& Builder) -> FPassExecute {
+		Builder.Read(GBuffer.Depth, ERTAccess::ShaderRead);
+		Builder.Read(GBuffer.Normals, ERTAccess::ShaderRead);
+		const FGraphTexture BaseColor = Info.bNeedsSurface ? GBuffer.BaseColor : FGraphTexture();
+		const FGraphTexture Material = Info.bNeedsSurface ? GBuffer.Material : FGraphTexture();
+		for (const FGraphTexture Texture : {BaseColor, Material})
+		{
+			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+		}
+		Builder.Write(Output, ERTAccess::StorageWrite);
+		return [=, &Settings](FPassContext& Pass) {
+			const uint32_t Bounces = static_cast<uint32_t>(Settings.Bounces.GetOnRenderThread());
+			FBruteForceConstants C{};
+			C.Pass = Frame->Pass;
+			C.Depth = GetSampledIndex(Pass, GBuffer.Depth);
+			C.Normals = GetSampledIndex(Pass, GBuffer.Normals);
+			C.BaseColor = GetSampledIndex(Pass, BaseColor);
+			C.Material = GetSampledIndex(Pass, Material);
+			C.Output = GetStorageIndex(Pass, Output);
+			C.SamplesPerPixel = static_cast<uint32_t>(Settings.Samples.GetOnRenderThread());
+			C.MaxBounces = Bounces + 1;
+			C.MaxRoughness = Settings.MaxRoughness ? Settings.MaxRoughness->GetOnRenderThread() : 1.0f;
+			Pass.CountRays(uint64_t(Frame->Width) * Frame->Height * C.SamplesPerPixel * GetMaxPathRays(Frame->Facts, Bounces));
+			DispatchRays(Pass, *Frame, *Dispatch, C);
+		};
+	});
+	return Output;
+}
+
+} // namespace Lantern

@@ -1,0 +1,50 @@
+// Shows a signal of the registry on the screen.
+#include "DebugView/DebugView.h"
+
+#include "LanternCore/Text/Log.h"
+#include "LanternCore/Text/Quote.h"
+#include "LightingTypes.h"
+#include "PassTools.h"
+
+namespace Lantern
+{
+
+namespace
+{
+TRTConsoleVariable<std::string> CVarView("r.RT.Debug.View", "frame",
+    "Shows one signal instead of the picture, by its name in Config/Methods.ini, such as ambient_occlusion. frame: the picture.");
+} // namespace
+
+ESignal GetDebugView()
+{
+	const std::string& Name = CVarView.GetOnRenderThread();
+	const std::optional<ESignal> Signal = FindSignal(Name);
+	if (!Signal) { LogOnce(ERTLogLevel::Warning, "r.RT.Debug.View: " + Quote(Name) + " is none of " + ListSignalNames()); }
+	return Signal.value_or(ESignal::Frame);
+}
+
+FGraphTexture AddDebugView(FFrameContext& Context, const FFrameOutputs& Outputs)
+{
+	const ESignal Signal = GetDebugView();
+	const FGraphTexture Input = Outputs.Get(Signal);
+	if (Signal == ESignal::Frame || !Input.IsValid()) { return Outputs.Display; }
+	IRTPipeline* const Pipeline = RequireCompute(Context, "DebugView/DebugView.comp");
+	if (!Pipeline) { return Outputs.Display; }
+	const FGraphTexture Output = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA8_UNORM}, "DebugView");
+	const FFrameContext* const Frame = &Context;
+	Context.Graph.AddPass("DebugView", [&](FPassBuilder& Builder) -> FPassExecute {
+		Builder.Read(Input, ERTAccess::ShaderRead);
+		Builder.Write(Output, ERTAccess::StorageWrite);
+		return [=](FPassContext& Pass) {
+			FDebugViewConstants C{};
+			C.Pass = Frame->Pass;
+			C.Input = GetSampledIndex(Pass, Input);
+			C.Output = GetStorageIndex(Pass, Output);
+			C.bRadiance = GetSignalInfo(Signal).bRadiance ? 1u : 0u;
+			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, LIGHTING_GROUP_SIZE);
+		};
+	});
+	return Output;
+}
+
+} // namespace Lantern

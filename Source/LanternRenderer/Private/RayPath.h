@@ -1,0 +1,74 @@
+// How a pass traces: through the frame's ray-tracing pipeline, or by ray queries in a compute shader.
+//
+// A signal's shaders lie in Shaders/<Pass>/: <Pass>.rgen for the pipeline, <Pass>.comp for ray queries. They trace the same
+// rays and share push constants.
+#pragma once
+
+#include "PassTools.h"
+
+namespace Lantern
+{
+
+enum class ERayPath : uint8_t
+{
+	None, ///< the pass is off, or the device can trace neither way
+	Pipeline,
+	Query,
+};
+
+/// What the passes of one frame are chosen by.
+struct FPassQuery
+{
+	const FRTCapabilities& Capabilities;
+	const FSceneFacts& Facts;
+	const FSignalRequests& Requests;
+	/// Another signal of this frame serves instead (FSignalPass::ReplacedBy): the pass runs only if somebody asks for it.
+	bool bReplaced = false;
+};
+
+/// What one pass wants of the frame's RTPSO, or of a compute pipeline.
+struct FPassRays
+{
+	ERayPath Path = ERayPath::None;
+	FShaderDefines Defines; ///< of its shaders, on either path
+	/// Its rays shade what they hit and may sample the scene's emissive triangles (Shaders/Rays/PathTracing.glsl). If
+	/// false, it casts shadow rays only, and the RTPSO needs no closest-hit shader for it.
+	bool bShadesHits = false;
+	bool bBlockers = false; ///< its shadow rays report the distance of the blocker
+};
+
+/// Chooses the path. Wanted is a console variable: 0 for the faster one, 1 for the pipeline, 2 for ray queries. Logs once if
+/// the device lacks what was asked for. What names the pass in messages: "sun shadows are".
+ERayPath ChooseRayPath(const FPassQuery& Query, const TRTConsoleVariable<int32_t>& Wanted, const char* What);
+/// Chooses for passes whose rays shade hits, which ray queries cannot. Variable switches the pass, and is named in the message.
+ERayPath ChooseShadingRayPath(const FPassQuery& Query, const TRTConsoleVariable<bool>& Variable);
+
+/// One pass's pipeline in this frame.
+struct FRayDispatch
+{
+	IRTPipeline* Compute = nullptr; ///< null: through the frame's RTPSO
+	uint32_t RayGen = NoRayGen;     ///< of the frame's RTPSO
+};
+
+/// Finds the pipeline by which Signal is traced in this frame, and requires the frame's acceleration structures. nullopt: there
+/// is none (Rays.Path is None, its shaders are still being compiled, or an error, which the context then has).
+std::optional<FRayDispatch> RequireRayDispatch(const FFrameContext& Context, ESignal Signal, const FPassRays& Rays);
+
+/// Traces Width × Height rays through the ray-generation shader RayGen of the frame's RTPSO.
+template <class T>
+void TraceFrameRays(FPassContext& Pass, const FFrameContext& Frame, uint32_t RayGen, const T& Constants, uint32_t Width, uint32_t Height)
+{
+	Pass.Commands().SetPipeline(Frame.RayPipeline->GetPipeline());
+	Pass.Commands().PushConstants(&Constants, sizeof(Constants));
+	Pass.Commands().TraceRays(Frame.RayBindings->GetTable(), RayGen, Width, Height, 1);
+}
+
+/// Runs a pass for each pixel of the frame, on either path. Compute shaders have groups of RAY_QUERY_GROUP_SIZE².
+template <class T>
+void DispatchRays(FPassContext& Pass, const FFrameContext& Frame, const FRayDispatch& Dispatch, const T& Constants)
+{
+	if (Dispatch.Compute) { return Dispatch2D(Pass, Dispatch.Compute, Constants, Frame.Width, Frame.Height, RAY_QUERY_GROUP_SIZE); }
+	TraceFrameRays(Pass, Frame, Dispatch.RayGen, Constants, Frame.Width, Frame.Height);
+}
+
+} // namespace Lantern

@@ -1,0 +1,38 @@
+// The private half of the registry of signals (LanternSignals/Signals.h): how each one is made.
+#pragma once
+
+#include "RayPath.h"
+#include "ReferenceTypes.h"
+
+namespace Lantern
+{
+
+struct FSignalPass
+{
+	ESignal Signal;
+	/// What the pass traces in a frame. Path None: it is off, or has nothing to do. Render thread; no side effects but LogOnce.
+	FPassRays (*ChooseRays)(const FPassQuery& Query);
+	/// Adds the pass and returns its output. Invalid: ChooseRays chose no path, or shaders are still being compiled.
+	FGraphTexture (*Add)(FFrameContext& Context, const FGBuffer& GBuffer);
+	/// Whether the pass, if it runs, follows how objects moved (FSceneConstants::ObjectMotions). Null: it does not.
+	bool (*WantsMotion)(const FRTScene& Scene) = nullptr;
+	/// A signal that serves in its place once its rays are ready. Count: there is none.
+	ESignal ReplacedBy = ESignal::Count;
+	/// Fills what the signal's reference reads of the constants beside the rest. Null: nothing.
+	void (*SetReferenceConstants)(FReferenceConstants& Constants) = nullptr;
+};
+
+/// Returns how Signal is made. Signal: neither Frame nor Count.
+const FSignalPass& GetSignalPass(ESignal Signal);
+
+/// Returns what Signal traces in this frame.
+FPassRays ChooseSignalRays(const FFrameContext& Context, ESignal Signal);
+
+/// Calls Visit(const FSignalPass&) for all signals but Frame.
+template <class TVisit>
+void ForEachSignalPass(TVisit&& Visit)
+{
+	for (size_t I = ToIndex(ESignal::Frame) + 1; I < SignalCount; ++I) { Visit(GetSignalPass(static_cast<ESignal>(I))); }
+}
+
+} // namespace Lantern

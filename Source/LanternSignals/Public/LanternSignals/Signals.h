@@ -1,0 +1,130 @@
+// The registry of signals. A signal is a picture that the plugin makes for a host: a shadow mask, occlusion, indirect light.
+//
+// This list is the only one. The module's inputs and outputs, the frame, the reference path tracer, captures, `lantern chart`,
+// `lantern stability` and r.RT.Debug.View go through it. A new signal takes an enumerator and a row here, a row in
+// LanternRenderer/Private/SignalPasses.cpp and a call in Frame.cpp. Scripts/NewPass writes them; see Docs/AddingAPass.md.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "LanternRHI/RTTypes.h"
+
+namespace Lantern
+{
+
+/// New signals go to the end: an engine that was compiled with an older list keeps its numbers.
+enum class ESignal : uint8_t
+{
+	/// The whole frame: linear radiance, in nits. The composite and the reference path tracer make it; no module output.
+	Frame,
+	/// Fraction of the sun's disk that a pixel sees: 1 lit, 0 shadowed.
+	SunShadow,
+	/// Cosine-weighted fraction of the hemisphere about the shading normal in which nothing is within r.RT.AO.Radius. A
+	/// surface within that radius counts less the farther away it is. 1: open.
+	AmbientOcclusion,
+	/// Indirect irradiance / π about the shading normal. It holds all light but that of the sun's disk and of punctual lights,
+	/// which direct lighting adds. The sky and emissive surfaces are in it. Times diffuse albedo it is radiance. A direction
+	/// below the geometric surface brings nothing. Sky pixels: 0.
+	DiffuseGI,
+	/// Radiance that the surface's specular lobe reflects towards the camera, Fresnel included, of the light that DiffuseGI
+	/// has. A mirror (roughness² < 0.001) is a delta. Alpha is 1, or 0 where the surface is rougher than
+	/// r.RT.Reflections.MaxRoughness. There rgb is the reflection of an unoccluded sky. Sky pixels: 0.
+	Reflections,
+	Count,
+};
+
+inline constexpr size_t SignalCount = static_cast<size_t>(ESignal::Count);
+/// Room in the module's arrays, so that a new signal changes no layout.
+inline constexpr size_t MaxSignals = 32;
+static_assert(SignalCount <= MaxSignals);
+
+constexpr size_t ToIndex(ESignal Signal) { return static_cast<size_t>(Signal); }
+
+/// A set of signals.
+class FSignalSet
+{
+public:
+	constexpr FSignalSet() = default;
+	constexpr FSignalSet(std::initializer_list<ESignal> Signals)
+	{
+		for (const ESignal Signal : Signals) { Add(Signal); }
+	}
+	constexpr bool Has(ESignal Signal) const { return (Bits >> ToIndex(Signal) & 1u) != 0; }
+	constexpr void Add(ESignal Signal) { Bits |= 1u << ToIndex(Signal); }
+	constexpr void Remove(ESignal Signal) { Bits &= ~(1u << ToIndex(Signal)); }
+	constexpr FSignalSet& operator|=(FSignalSet Other)
+	{
+		Bits |= Other.Bits;
+		return *this;
+	}
+	constexpr bool operator==(FSignalSet Other) const { return Bits == Other.Bits; }
+
+private:
+	uint32_t Bits = 0;
+};
+
+/// What everybody may know of a signal. How it is made stands in LanternRenderer/Private/SignalPasses.cpp.
+struct FSignalInfo
+{
+	ESignal Signal;
+	const char* Name;  ///< "sun_shadow": in files and on the command line
+	const char* Title; ///< "Sun shadow"
+	/// Folder, shader and passes begin with it: Shaders/<Pass>/<Pass>.rgen, frame-graph passes "<Pass>…". Those passes are the
+	/// signal's cost. "" stands for all passes of the frame.
+	const char* Pass;
+	ERTFormat Format;   ///< of the output
+	uint32_t Channels;  ///< 1 or 3
+	bool bRadiance;     ///< unbounded and ≥ 0; if false, 0 to 1
+	bool bNeedsSun;     ///< the scene must have a sun
+	bool bLit;          ///< follows changes of light; if false, only geometry counts
+	bool bNeedsSurface; ///< reads base colour and material of the G-buffer
+	/// Console variables that its reference depends on beside the scene, separated by blanks.
+	const char* ReferenceVariables;
+};
+
+inline constexpr FSignalInfo SignalInfos[] = {
+    {ESignal::Frame, "frame", "Whole frame", "", ERTFormat::RGBA32_FLOAT, 3, true, false, true, true, ""},
+    {ESignal::SunShadow, "sun_shadow", "Sun shadow", "SunShadow", ERTFormat::R16_FLOAT, 1, false, true, true, false, ""},
+    {ESignal::AmbientOcclusion, "ambient_occlusion", "Ambient occlusion", "AmbientOcclusion", ERTFormat::R16_FLOAT, 1, false, false, false,
+        false, "r.RT.AO.Radius r.RT.AO.InstanceMask"},
+    {ESignal::DiffuseGI, "diffuse_gi", "Diffuse GI", "DiffuseGI", ERTFormat::RGBA16_FLOAT, 3, true, false, true, false, ""},
+    {ESignal::Reflections, "reflections", "Reflections", "Reflections", ERTFormat::RGBA16_FLOAT, 3, true, false, true, true, ""},
+};
+static_assert(sizeof(SignalInfos) / sizeof(SignalInfos[0]) == SignalCount, "each signal needs a row");
+static_assert(
+    [] {
+	for (size_t I = 0; I < SignalCount; ++I)
+	{
+		if (ToIndex(SignalInfos[I].Signal) != I) { return false; }
+	}
+	return true;
+    }(),
+    "rows stand in the order of ESignal");
+
+/// Signal: not Count.
+constexpr const FSignalInfo& GetSignalInfo(ESignal Signal) { return SignalInfos[ToIndex(Signal)]; }
+
+/// Finds a signal by its name in files; nullopt if there is none.
+inline std::optional<ESignal> FindSignal(std::string_view Name)
+{
+	for (const FSignalInfo& Info : SignalInfos)
+	{
+		if (Name == Info.Name) { return Info.Signal; }
+	}
+	return std::nullopt;
+}
+
+/// Returns the names of all signals, for messages and help: "frame, sun_shadow, …".
+inline std::string ListSignalNames()
+{
+	std::string Names;
+	for (const FSignalInfo& Info : SignalInfos) { Names += (Names.empty() ? "" : ", ") + std::string(Info.Name); }
+	return Names;
+}
+
+} // namespace Lantern
