@@ -12,8 +12,10 @@ endif()
 
 find_program(LANTERN_CCACHE ccache)
 if(LANTERN_CCACHE)
-  # ccache keeps files with a precompiled header only if it need not look at that header's own time and defines.
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${LANTERN_CCACHE})
+  # ccache keeps files with a precompiled header only if it need not look at that header's own time and defines. Paths below
+  # the repository are relative, so that another copy of it (Tests/NewPass) finds what this one has compiled.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros
+    CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${LANTERN_CCACHE})
 endif()
 
 add_library(LanternOptions INTERFACE)
@@ -97,6 +99,12 @@ function(lantern_test_program NAME)
   cmake_parse_arguments(T "" "EXCLUDE" "SOURCES;LIBS" ${ARGN})
   if(NOT T_SOURCES)
     lantern_sources(T_SOURCES ${CMAKE_CURRENT_SOURCE_DIR})
+    if(LANTERN_TEST_FILES AND NOT NAME STREQUAL "RepoTests")
+      list(FILTER T_SOURCES INCLUDE REGEX ${LANTERN_TEST_FILES})
+    endif()
+  endif()
+  if(NOT T_SOURCES)
+    list(APPEND T_SOURCES ${CMAKE_BINARY_DIR}/LanternTestHeaders.cpp)
   endif()
   if(T_EXCLUDE)
     list(FILTER T_SOURCES EXCLUDE REGEX ${T_EXCLUDE})

@@ -17,7 +17,7 @@ constexpr uint32_t DivideUp(uint32_t Value, uint32_t By) { return (Value + By - 
 /// Returns the compute pipeline of a shader. Null: an error, which the context then has, and the pass is not added.
 IRTPipeline* RequireCompute(const FFrameContext& Context, const char* Path, FShaderDefines Defines = {});
 
-/// Names a signal's shader: "SunShadow/SunShadow" + Suffix.
+/// Names a signal's shader: "<Pass>/<Pass>" + Suffix.
 std::string MakeShaderPath(ESignal Signal, const char* Suffix);
 
 template <class T>

@@ -82,6 +82,27 @@ protected:
 	std::vector<std::pair<std::string, std::string>> Changed;
 };
 
+TEST_F(FModuleSignalTest, EverySignalOfTheRegistryIsAnOutput)
+{
+	const float Sky[3] = {1, 1, 1};
+	ASSERT_FINE(Renderer->SetSky(Sky));
+	Set("r.RT.GI", "1");
+	Set("r.RT.Reflections", "1");
+	for (const FSignalInfo& Info : SignalInfos)
+	{
+		if (Info.Signal == ESignal::Frame) { continue; }
+		FRTModuleFrame Frame = DescribeAll();
+		Frame.Wanted = {Info.Signal};
+		RenderUntilComplete(Frame);
+		for (const FSignalInfo& Other : SignalInfos)
+		{
+			EXPECT_EQ(Outputs.Get(Other.Signal) != nullptr, Other.Signal == Info.Signal) << Other.Name;
+		}
+		ASSERT_NE(Outputs.Get(Info.Signal), nullptr) << Info.Name;
+		EXPECT_EQ(Outputs.Get(Info.Signal)->GetDesc().Format, Info.Format) << Info.Name;
+	}
+}
+
 TEST_F(FModuleSignalTest, ByDefaultThereAreSunShadowsOnly)
 {
 	const float Sky[3] = {1, 1, 1};

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternImage/ImageStatistics.h"
 #include "LanternMeasure/Stability/StabilityStage.h"
 #include "Stability/StabilityFigures.h"
@@ -286,7 +287,8 @@ FRTStatus CountWrongPixels(FStabilityStage& Stage, uint32_t Width, uint32_t Heig
 /// frames. Then odd numbers of rays. The fault: columns beyond the last whole tile of 8 are not written.
 FRTStatus MeasureOddSizes(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out)
 {
-	if (FRTStatus S = Stage.Load(Stage.GetSignal() == ESignal::Reflections ? "stability-flat:1" : "stability-flat:0"); !S) { return S; }
+	const bool bShiny = Stage.GetSignal() != ESignal::Frame && GetSignalInfo(Stage.GetSignal()).bNeedsSurface;
+	if (FRTStatus S = Stage.Load(bShiny ? "stability-flat:1" : "stability-flat:0"); !S) { return S; }
 	const std::pair<uint32_t, uint32_t> Sizes[] = {{1, 1}, {1, 37}, {53, 1}, {2, 3}, {7, 5}, {97, 61}, {64, 36}, {131, 73}};
 	uint64_t Wrong = 0;
 	for (const auto& [Width, Height] : Sizes)
@@ -298,8 +300,11 @@ FRTStatus MeasureOddSizes(FStabilityStage& Stage, std::vector<FStabilityFigure>&
 	for (const char* Value : {"3", "7"})
 	{
 		FMethodScope Odd;
-		const std::vector<FMethodSetting> Settings = KnownSettings(
-		    {{"r.RT.Shadow.Samples", Value}, {"r.RT.AO.Samples", Value}, {"r.RT.GI.Samples", Value}, {"r.RT.Reflections.Samples", Value}});
+		std::vector<FMethodSetting> Settings;
+		for (const FRTConsoleVariable* const Variable : FConsoleVariables::Get().GetAll())
+		{
+			if (Variable->GetName().ends_with(".Samples")) { Settings.push_back({Variable->GetName(), Value, "odd numbers of rays"}); }
+		}
 		if (!Odd.Apply(Settings).empty()) { return FRTStatus::Error(ERTResult::InvalidArgument, "%s rays", Value); }
 		if (FRTStatus S = CountWrongPixels(Stage, 37, 23, Wrong); !S) { return S; }
 	}
