@@ -23,7 +23,10 @@ struct FQuote
 	std::string Place, Text;
 };
 
-bool IsDocument(const FTextFile& File) { return File.Path == "README.md" || (IsUnder(File, "Docs") && HasExtension(File, {".md"})); }
+bool IsDocument(const FTextFile& File)
+{
+	return File.Path == "README.md" || File.Path == "CONTRIBUTING.md" || (IsUnder(File, "Docs") && HasExtension(File, {".md"}));
+}
 
 bool IsSearched(const FTextFile& File) { return !HasExtension(File, {".md"}) && !IsUnder(File, "Tests/Repo"); }
 

@@ -65,6 +65,22 @@ TEST(Hygiene, FilesStayShort)
 	}
 }
 
+TEST(Hygiene, SourceFilesOpenWithWhatLivesThere)
+{
+	size_t Seen = 0;
+	for (const FTextFile& File : GetFiles())
+	{
+		const bool bChecked = HasExtension(File, {".cpp"}) && (IsUnder(File, "Source") || IsUnder(File, "Programs"));
+		if (!bChecked) { continue; }
+		++Seen;
+		// One word would only repeat the file's name.
+		const std::string_view First = File.Lines.empty() ? std::string_view() : File.Lines[0];
+		const bool bComment = StartsWith(First, "// ") && First.find(' ', 3) != std::string_view::npos;
+		EXPECT_TRUE(bComment) << File.Path << ": the first line must be a comment that says what lives in the file";
+	}
+	EXPECT_GT(Seen, 100u) << "found no files to check";
+}
+
 TEST(Hygiene, FunctionsStayShort)
 {
 	size_t Seen = 0;

@@ -1,3 +1,4 @@
+// Reads the repository once, without git's own files and build folders.
 #include "Repository.h"
 
 #include <algorithm>
@@ -16,7 +17,8 @@ namespace
 bool IsForeign(const fs::path& Name)
 {
 	const std::string Text = Name.string();
-	return (Text[0] == '.' && Text != ".ci" && fs::is_directory(GetRoot() / Name)) || Text.rfind("Build", 0) == 0;
+	const bool bOurs = Text[0] != '.' || Text == ".ci" || Text == ".github" || !fs::is_directory(GetRoot() / Name);
+	return !bOurs || Text.rfind("Build", 0) == 0;
 }
 
 bool IsText(const fs::path& Path)
