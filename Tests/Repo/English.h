@@ -10,8 +10,8 @@ namespace Lantern::Repo
 
 inline constexpr size_t MaxSentenceWords = 25;
 
-/// Splits prose into sentences. Inline code becomes one word, a link its text. A sentence ends with ".", "!" or "?" if the next
-/// word begins with a capital, a digit, a bracket or a quotation mark, or names a console variable.
+/// Splits prose into sentences. Inline code becomes one word, and a link becomes its text. ".", "!" or "?" ends a sentence if the
+/// next word begins with a capital, a digit, a bracket or a quotation mark, or names a console variable.
 std::vector<std::string> SplitSentences(std::string_view Prose);
 
 /// Counts what stands between blanks and contains a letter or a digit.
