@@ -114,7 +114,7 @@ protected:
 		FConsoleVariables::Get().ResetAll();
 		FConsoleVariables::Get().BeginFrame();
 	}
-	static std::string GetShaderFolder() { return std::string(LANTERN_SOURCE_DIR) + "/Shaders"; }
+	static std::string GetShaderFolder() { return LANTERN_SOURCE_DIR "/Shaders"; }
 	void Open(const FRTMockDesc& Desc = {}, const std::vector<std::string>& ShaderFolders = {GetShaderFolder()})
 	{
 		Close();

@@ -77,7 +77,7 @@ FShaderSource MakeSource(const std::string& Path)
 
 std::multiset<uint32_t> MeasurePayloads(const std::string& Path)
 {
-	FShaderCompiler Compiler(FShaderCompilerDesc{{std::string(LANTERN_SOURCE_DIR) + "/Shaders"}, ""});
+	FShaderCompiler Compiler(FShaderCompilerDesc{{LANTERN_SOURCE_DIR "/Shaders"}, ""});
 	FShaderBinary Binary;
 	const FRTStatus Status = Compiler.Compile(MakeSource(Path), Binary);
 	EXPECT_TRUE(Status) << Path << ": " << Status.Message;
@@ -105,7 +105,7 @@ TEST(RayPayload, AlphaTestTouchesNone) { EXPECT_EQ(MeasurePayloads("Rays/AlphaTe
 // Whatever a later pass adds.
 TEST(RayPayload, NoShaderHasALargerOne)
 {
-	const fs::path Root = std::string(LANTERN_SOURCE_DIR) + "/Shaders";
+	const fs::path Root = LANTERN_SOURCE_DIR "/Shaders";
 	size_t Shaders = 0;
 	for (const fs::directory_entry& Entry : fs::recursive_directory_iterator(Root))
 	{
@@ -124,7 +124,7 @@ TEST(RayPayload, NoShaderHasALargerOne)
 // The reader itself: a structure of known size, arrays included.
 TEST(RayPayload, IsMeasured)
 {
-	FShaderCompiler Compiler(FShaderCompilerDesc{{std::string(LANTERN_SOURCE_DIR) + "/Shaders"}, ""});
+	FShaderCompiler Compiler(FShaderCompilerDesc{{LANTERN_SOURCE_DIR "/Shaders"}, ""});
 	FShaderSource Source = MakeSource("Test.rmiss");
 	Source.Text = "#version 460\n#extension GL_EXT_ray_tracing : require\n"
 	              "struct FInner { vec3 A; uint B; };\nstruct FPayload { FInner Inner[2]; float C; };\n"
