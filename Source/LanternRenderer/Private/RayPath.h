@@ -50,8 +50,8 @@ struct FRayDispatch
 	uint32_t RayGen = NoRayGen;     ///< of the frame's RTPSO
 };
 
-/// Finds the pipeline by which Signal is traced in this frame, and requires the frame's acceleration structures. nullopt: there
-/// is none (Rays.Path is None, its shaders are still being compiled, or an error, which the context then has).
+/// Finds the pipeline by which Signal is traced in this frame, and requires the frame's acceleration structures. nullopt: Rays.Path
+/// is None, or shaders are still being compiled, or an error, which the context then has.
 std::optional<FRayDispatch> RequireRayDispatch(const FFrameContext& Context, ESignal Signal, const FPassRays& Rays);
 
 /// Traces Width × Height rays through the ray-generation shader RayGen of the frame's RTPSO.

@@ -1,3 +1,4 @@
+// Matrices and constants of a view, and its frustum.
 #include "LanternRenderer/View.h"
 
 #include <cassert>

@@ -26,7 +26,7 @@ TRTConsoleVariable<bool> CVarGuard("r.RT.Debug.Denoise.Guard", true, "Planted fa
 constexpr uint32_t MaxPasses = 5;
 constexpr float NoiseSeconds = 0.08f; // over which the estimate of the noise is accumulated
 
-/// Of one signal in one frame.
+/// One signal in one frame.
 struct FDenoiser
 {
 	FFrameContext& Context;

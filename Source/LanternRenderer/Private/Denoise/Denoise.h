@@ -1,7 +1,10 @@
-// One filter for all noisy signals. It accumulates over time where the surface was seen before, estimates the variance that
-// is left, and smooths by it along surfaces (Schied et al. 2017, "Spatiotemporal Variance-Guided Filtering"; Dammertz et al.
-// 2010, "Edge-Avoiding À-Trous Wavelet Transform"). History is clamped to what the neighbourhood says now (Salvi 2016, "An
-// Excursion in Temporal Supersampling"), so that it follows shadows that move.
+// One filter for all noisy signals. It accumulates over time where the surface was seen before, and estimates the variance that
+// is left. It then smooths by that variance along surfaces. History is clamped to the neighbourhood of this frame, so that it
+// follows shadows that move.
+//
+// Schied et al. 2017, "Spatiotemporal Variance-Guided Filtering".
+// Dammertz et al. 2010, "Edge-Avoiding À-Trous Wavelet Transform".
+// Salvi 2016, "An Excursion in Temporal Supersampling".
 //
 // No value that is not a number lives on: signals, histories and guides are tested where they are loaded. What fails counts
 // as missing.

@@ -1,3 +1,4 @@
+// Packs what pixels show, and keeps it for the next frame.
 #include "Denoise/SurfaceHistory.h"
 
 #include "DenoiseTypes.h"

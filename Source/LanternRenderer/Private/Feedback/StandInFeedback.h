@@ -1,6 +1,6 @@
-// Tells the RTPSO's compiler which material programs matter most among those that are not ready: how many rays hit their
-// stand-ins, and how near their objects are. Nothing waits: the GPU counts and is read two frames later, and each frame looks
-// at a part of the scene. It costs nothing while nothing is missing.
+// Tells the RTPSO's compiler which material programs matter most among those that are not ready. It knows how many rays hit
+// their stand-ins, and how near their objects are. Nothing waits: the GPU counts and is read two frames later, and each frame
+// looks at a part of the scene. It costs nothing while nothing is missing.
 #pragma once
 
 #include "Feedback/GpuCounters.h"

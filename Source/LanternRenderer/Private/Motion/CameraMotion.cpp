@@ -1,3 +1,4 @@
+// Motion vectors of a world that stands still, from depth and two cameras.
 #include "LanternRenderer/Frame.h"
 #include "MotionTypes.h"
 #include "PassTools.h"

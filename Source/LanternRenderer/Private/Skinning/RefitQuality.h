@@ -1,15 +1,17 @@
-// How good a refitted acceleration structure still is, told from the deformed triangles alone.
+// Measures how good a refitted acceleration structure still is, from the deformed triangles alone.
 //
-// A refit keeps the tree and moves its boxes, so that "the quality of such a refitted tree can degrade rapidly" (Kopta et
-// al., "Fast, Effective BVH Updates for Animated Scenes", I3D 2012), and rebuilding when it has degraded beats rebuilding
-// at fixed times (Lauterbach et al., "RT-DEFORM: Interactive Ray Tracing of Dynamic Scenes using BVHs", 2006, who compare
-// surface areas of parents and children). By the surface area heuristic, rays visit a box in proportion to its surface.
-// The driver's boxes cannot be read, but leaves hold neighbouring triangles, and neighbours follow each other in index
-// buffers. So: the surface of the boxes around each 32 consecutive triangles, summed, is measured after skinning. It is
-// divided by the area of the triangles, so that a figure that grows, of which a rebuild makes nothing better, does not
-// count as one that comes apart; and by the same value at the last build, so that meshes in any order can be compared.
-// What it does not see: parts that touched when the tree was built, are no neighbours in the index buffer, and have come
-// apart since. For those there is r.RT.Skinning.RebuildInterval.
+// A refit keeps the tree and moves its boxes, so that "the quality of such a refitted tree can degrade rapidly" (Kopta et al.,
+// "Fast, Effective BVH Updates for Animated Scenes", I3D 2012). Rebuilding a tree that has degraded beats rebuilding at fixed
+// times. Lauterbach et al. ("RT-DEFORM: Interactive Ray Tracing of Dynamic Scenes using BVHs", 2006) compare surface areas of
+// parents and children for that.
+//
+// Rays visit a box in proportion to its surface (surface area heuristic). The driver's boxes cannot be read. But leaves hold
+// neighbouring triangles, and neighbours follow each other in index buffers. The measure therefore sums the surface of the boxes
+// around each 32 consecutive triangles, after skinning.
+//
+// The sum is divided by the area of the triangles, because a rebuild does not help a figure that merely grows. It is also divided
+// by its value at the last build, so that meshes in any order can be compared. It does not see parts that touched when the tree
+// was built, are no neighbours in the index buffer, and have come apart since. r.RT.Skinning.RebuildInterval is there for those.
 //
 // The sums come back two frames later (TReadbackRing); nothing waits for them.
 #pragma once

@@ -1,3 +1,4 @@
+// Linear blend skinning into the geometries' own buffers, and the measure of refit quality behind it.
 #include <algorithm>
 
 #include "GBufferTypes.h"

@@ -1,4 +1,4 @@
-// The frame's passes, in order: see Frame.cpp.
+// The frame's passes: Frame.cpp has them in order.
 #pragma once
 
 #include "LanternRenderer/Renderer.h"
@@ -14,9 +14,9 @@ struct FGBuffer
 	FGraphTexture BaseColor; ///< RGBA8_SRGB: base colour, a: metalness
 	FGraphTexture Material;  ///< RGBA8_UNORM: roughness, occlusion, sqrt(F0) of the dielectric, specular weight
 	FGraphTexture Emissive;  ///< any float format: nits
-	/// RGBA32_FLOAT. xy: from the pixel's centre to where its surface was in the frame before, in pixels; z: how far it was
-	/// along the view then, metres; w: its object's index + 1, 0: unknown. What was behind the camera then points off the
-	/// screen, with z = 0. Where depth is 0 nothing is read. Invalid: the host has none, and what moves is taken for still.
+	/// RGBA32_FLOAT. xy: offset from the pixel's centre to where its surface was in the frame before, in pixels. z: distance along
+	/// the view then, in metres. w: index of the object + 1; 0: unknown. A surface that was behind the camera points off the
+	/// screen, with z = 0. Pixels with depth 0 are not read. Invalid: the host has none, and moving objects count as still.
 	FGraphTexture Motion;
 };
 
@@ -35,7 +35,7 @@ FGraphTexture AddSignalPass(FFrameContext& Context, ESignal Signal, const FGBuff
 
 FGraphTexture AddToneMapPass(FFrameContext& Context, FGraphTexture Radiance);
 
-/// Motion of a world that stands still, from depth alone, as FGBuffer::Motion has it but for w = 0.
+/// Makes FGBuffer::Motion of a world that stands still, from depth alone, with w = 0.
 FGraphTexture AddCameraMotionPass(FFrameContext& Context, FGraphTexture Depth);
 
 /// Adds all passes. A host may read single outputs and light by itself: passes whose results nobody reads are culled.
@@ -45,10 +45,10 @@ struct FReferencePassInputs
 {
 	FGraphBuffer Sum; ///< vec4[Width · Height]: sums of radiance, and of samples in w
 	uint32_t FirstSample = 0, SampleCount = 1;
-	uint32_t MaxBounces = 0; ///< 0: directly seen light only
+	uint32_t MaxBounces = 0; ///< scattering events at most; 0: directly seen light only
 	uint32_t FirstRow = 0, RowCount = 0;
-	bool bPixelCenters = false; ///< camera rays through pixel centres, as the G-buffer has them; else all over the pixel
-	FGBuffer GBuffer;           ///< with FFrameFeatures::bReferenceFromGBuffer
+	bool bPixelCenters = false; ///< camera rays pass through pixel centres, as in the G-buffer; if false, all over the pixel
+	FGBuffer GBuffer;           ///< needed with FFrameFeatures::bReferenceFromGBuffer
 };
 /// Adds samples of FFrameFeatures::ReferenceSignal. A signal of one channel has its value in all three. Sky pixels: visibilities
 /// are 1, radiances 0.

@@ -1,4 +1,4 @@
-// What a frame is made with: shader compiler, pipelines, the RTPSO and its table, memory for constants. A frame
+// The renderer owns what frames are made with: shader compiler, pipelines, the RTPSO and its shader table, upload memory. A frame
 // is built between BeginFrame and EndFrame; two may be in flight. Render thread only.
 #pragma once
 
@@ -21,11 +21,11 @@ namespace Lantern
 
 struct FRendererDesc
 {
-	std::vector<std::string> ShaderFolders; ///< the plugin's Shaders first
-	std::string CacheFolder;                ///< compiled shaders; empty: none
+	std::vector<std::string> ShaderFolders; ///< searched in order; the plugin's Shaders first
+	std::string CacheFolder;                ///< keeps compiled shaders between runs; empty: they are not kept
 };
 
-/// One deformed geometry: linear blend skinning from its source into the buffers of the geometry.
+/// One geometry to be deformed by linear blend skinning, from source vertices into the geometry's own buffers.
 struct FSkinningInputs
 {
 	FRTGeometryRef Geometry; ///< dynamic; its Positions and Attributes are written
@@ -49,28 +49,28 @@ struct FSignalRequests
 /// What a frame is to do beside its cameras and console variables.
 struct FFrameFeatures
 {
-	bool bReference = false;                  ///< the path tracer instead of real-time passes
+	bool bReference = false;                  ///< traces the reference instead of real-time passes
 	ESignal ReferenceSignal = ESignal::Frame; ///< the whole frame, or one signal as LanternSignals/Signals.h defines it
-	/// The reference takes the surfaces of FReferencePassInputs::GBuffer. Not for ESignal::Frame.
+	/// The reference starts at the surfaces of FReferencePassInputs::GBuffer. Not for ESignal::Frame.
 	bool bReferenceFromGBuffer = false;
-	/// Passes of the host's own trace rays: acceleration structures are kept whatever else does, and are recorded at the
-	/// start of the frame …
+	/// The host traces rays in passes of its own. Acceleration structures are then kept even if no pass of the plugin needs
+	/// them. They are recorded at the start of the frame.
 	bool bRays = false;
-	bool bLateRays = false; ///< … or, with this, where the host calls FFrameContext::RequireRays
-	/// The frame waits for what it needs compiled, so that each picture is complete. Else it uses what is ready, see
-	/// FRTPSOCompiler. The reference always waits.
+	/// Records acceleration structures where the host calls FFrameContext::RequireRays instead.
+	bool bLateRays = false;
+	/// The frame waits until all of its shaders are compiled, so that each picture is complete. If false, it uses what is
+	/// ready (FRTPSOCompiler). The reference always waits.
 	bool bWaitForPipelines = true;
-	/// Ray generation shaders of the host's own passes, which then trace all ray types through the frame's RTPSO
+	/// Ray generation shaders of the host's own passes. They trace all ray types through the frame's RTPSO
 	/// (FFrameContext::RayPipeline, FRTPSO::FindRayGen). Their push constants begin with FPassConstants.
 	std::vector<FShaderSource> RayGens;
-	std::vector<FShaderSource> Callables; ///< that these call, by index
-	/// All acceleration structures that wait are built now, so that each picture is complete. Else within
-	/// r.RT.Build.TrianglesPerFrame, and objects whose geometry waits are not seen by rays. The reference builds all.
+	std::vector<FShaderSource> Callables; ///< callable shaders of RayGens, by index
+	/// Builds all acceleration structures that wait, so that each picture is complete. If false, r.RT.Build.TrianglesPerFrame
+	/// limits a frame's builds, and rays do not see objects whose geometry waits. The reference builds all.
 	bool bBuildAll = true;
 	std::vector<FSkinningInputs> Skinning;
-	/// The host makes its motion vectors of FSceneConstants::ObjectMotions, which then say how objects moved since the frame
-	/// before, wherever a filter follows it or FSignalRequests::bMotion asks. An engine that has motion vectors of its own
-	/// saves 72 bytes a frame for each object that moves.
+	/// The host makes its motion vectors from FSceneConstants::ObjectMotions. These are recorded if a filter follows motion, or if
+	/// FSignalRequests::bMotion asks. An engine with motion vectors of its own saves 72 bytes a frame for each moving object.
 	bool bMotion = true;
 	FSignalRequests Signals;
 };
@@ -90,15 +90,16 @@ class FRenderer;
 class FStandInFeedback;
 struct FRayPrograms;
 
-/// What pixels show and showed, for passes that reproject; made by the first that asks (Denoise/SurfaceHistory.h).
+/// Surfaces that pixels show and showed, for passes that reproject. The first pass that asks makes them
+/// (Denoise/SurfaceHistory.h).
 struct FSurfaceTextures
 {
 	FGraphTexture Current;  ///< RG32_FLOAT, see Shaders/Library/History.glsl
-	FGraphTexture Previous; ///< of the frame before; invalid: there is none
+	FGraphTexture Previous; ///< Current of the frame before; invalid: there is none
 	FGraphTexture Motion;   ///< as in FGBuffer; invalid where Previous is
 };
 
-/// Given to every pass.
+/// The frame as passes see it.
 struct FFrameContext
 {
 	IRTDevice& Device;
@@ -120,10 +121,10 @@ struct FFrameContext
 		return None;
 	}();
 	uint32_t GetRayGen(ESignal Signal) const { return RayGens[ToIndex(Signal)]; }
-	/// The frame before this one; null where nothing may be carried over from it: the first, a cut, another size, a lost one,
-	/// one that another renderer's frame of the scene has followed.
+	/// The view of the frame before. Null if nothing may be carried over from it: there was none, a cut, another size, or a lost
+	/// frame. Null as well if another renderer has made a frame of the scene since.
 	const FView* PreviousView = nullptr;
-	/// What passes keep from frame to frame.
+	/// Textures that passes keep from frame to frame.
 	FHistoryResources* History = nullptr;
 	FSurfaceTextures Surface;
 	FSignalRequests Signals;
@@ -134,9 +135,8 @@ struct FFrameContext
 		if (Status->IsOk()) { *Status = Error; }
 	}
 	FRenderer* Owner = nullptr;
-	/// Whoever traces rays calls this before adding its pass. The first call adds what rays need of the frame:
-	/// acceleration structures and shader records. They are gathered and written by tasks meanwhile, so the later it comes,
-	/// and the more the host adds before (its G-buffer), the less there is to wait for.
+	/// Passes that trace rays call this before they add themselves. The first call adds the passes that record acceleration
+	/// structures and shader records. Tasks prepare these meanwhile, so a late first call waits less.
 	void RequireRays() const;
 };
 
@@ -146,27 +146,30 @@ public:
 	FRenderer(IRTDevice& Device, FRendererDesc Desc);
 	~FRenderer();
 
-	/// At load, between frames: compiles what frames of the scene with these features will trace with, and waits for it.
-	/// Progress (0 … 1) may be empty. What does not compile is said, and is an error only where frames cannot do without.
+	/// Compiles what frames of the scene with these features will trace with, and waits for it. For load time, between frames.
+	/// Progress gets 0 to 1 and may be empty. Shaders that do not compile are logged; the result is an error only if frames
+	/// cannot do without them.
 	FRTStatus Precache(FRTScene& Scene, const FFrameFeatures& Features, const std::function<void(float)>& Progress);
-	/// What such frames trace with; without ray generation shaders where they need no pipeline. Between frames.
+	/// Returns what such frames trace with; without ray generation shaders if they need no pipeline. Between frames.
 	FRTPSODesc GetRayPrograms(FRTScene& Scene, const FFrameFeatures& Features);
-	/// Names the texts of all shaders that such frames trace with, their includes and the compiler: another text, another name.
+	/// Returns a name for the texts of all shaders that such frames trace with, their includes and the compiler. Another text has
+	/// another name.
 	std::string GetRayShaderKey(FRTScene& Scene, const FFrameFeatures& Features);
-	/// Waits until at most one earlier frame is in flight, publishes console variables, and starts a frame: gathering
-	/// instances and writing shader records begin as tasks, the scene's tables are the first pass. The scene must not change
-	/// until EndFrame, and must live until then.
+	/// Starts a frame. It waits until at most one earlier frame is in flight, and publishes console variables. Tasks begin to gather
+	/// instances and to write shader records; the scene's tables are the first pass. The scene must live, and must not change,
+	/// until EndFrame.
 	FRTStatus BeginFrame(FRTScene& Scene, const FView& View, const FFrameFeatures& Features);
 	FFrameContext& GetContext(); ///< between BeginFrame and EndFrame
 	/// Executes the graph and submits. OutFence may be null.
 	FRTStatus EndFrame(FRTFence* OutFence);
-	/// The same, recorded into the engine's command list, which the engine submits and then reports by
-	/// FrameSubmitted with its fence. Objects that move in between count as moved before the frame: no motion vectors say so.
+	/// Records the frame into the engine's command list. The engine submits it and then calls FrameSubmitted with its fence.
+	/// Objects that move in between count as moved before the frame: their motion vectors do not say so.
 	FRTStatus EndFrame(IRTCommandList& List);
-	/// 0: it never will be (EndFrame failed, the engine dropped its list, or gives the frame up before EndFrame).
+	/// Ends a frame that an engine submits. Fence 0: it never will be submitted, because EndFrame failed, or because the engine
+	/// drops its list or gives the frame up before EndFrame.
 	void FrameSubmitted(FRTFence Fence);
 
-	/// The newest frame failed, and nothing of it reached the GPU.
+	/// Returns whether the newest frame failed, so that nothing of it reached the GPU.
 	bool IsFrameLost() const { return bFrameLost; }
 
 	FRTStatus WaitForAll();
@@ -178,18 +181,18 @@ public:
 	FFrameUploads& GetUploads() { return Uploads; }
 	FHistoryResources& GetHistory() { return *History; }
 	FFrameGraphResources& GetGraphResources() { return GraphResources; }
-	/// RTPSO of the last frame; null if it had none.
+	/// Returns the RTPSO of the last frame; null if it had none.
 	const FRTPSO* GetRayPipeline() const { return RayPipeline.get(); }
 	FRTPSOCompiler& GetRayCompiler() { return RayCompiler; }
-	/// All that the last frame wanted to trace with was compiled, or cannot be.
+	/// Returns whether all shaders that the last frame wanted to trace with are compiled, or cannot be.
 	bool AreRayProgramsReady() { return bRaysReady || (RayPipeline && !RayCompiler.GetStats().bBusy); }
-	/// What the compiler was told last of each program that is not ready.
+	/// Returns what the compiler was last told of each program that is not ready, by program.
 	const std::vector<FProgramPriority>& GetProgramPriorities() const;
 	const FShaderBindings& GetBindings() const { return Bindings; }
 	const FAnyHitCounts& GetAnyHits() const;
-	/// Whether executed frames leave DumpGraph a text; off by default, for it takes longer than the graph.
+	/// Makes executed frames leave a text for DumpGraph. Off by default, because it takes longer than the graph itself.
 	void SetGraphDump(bool bEnabled) { bDumpGraph = bEnabled; }
-	const std::string& DumpGraph() const { return LastDump; } ///< of the last executed frame
+	const std::string& DumpGraph() const { return LastDump; } ///< the last executed frame, as text
 
 private:
 	friend struct FFrameContext;

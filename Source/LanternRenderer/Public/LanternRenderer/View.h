@@ -21,13 +21,14 @@ struct FView
 	uint32_t FrameIndex = 0;
 	uint32_t Seed = 0;
 	float Exposure = 0.0f; ///< stops
-	/// Since the frame before, > 0. Histories are kept in seconds, so that 30 and 144 frames a second behave alike.
+	/// Time since the frame before, in seconds, > 0. Histories are kept in seconds, so that 30 and 144 frames a second behave alike.
 	float DeltaSeconds = 1.0f / 60.0f;
-	/// Nothing is carried over from the frame before: another place, another world.
+	/// Carries nothing over from the frame before: another place, another world.
 	bool bCut = false;
 };
 
-/// Origin: of the scene, see FRTScene. Previous: the frame before; null: there is none, or it has nothing to give.
+/// Fills the constants of a view. Origin: the scene's (FRTScene::GetOrigin). Previous: the view of the frame before; null: nothing is
+/// carried over from it.
 FViewConstants MakeViewConstants(const FView& View, glm::dvec3 Origin, const FView* Previous = nullptr);
 
 /// The volume that a view sees, for culling on the CPU.
@@ -35,7 +36,7 @@ class FViewFrustum
 {
 public:
 	explicit FViewFrustum(const FView& View);
-	/// False: nothing of the sphere is seen. True may be wrong near the edges.
+	/// Returns false if nothing of the sphere is seen. True may be wrong near the edges.
 	bool MaySee(glm::dvec3 Center, double Radius) const;
 
 private:
@@ -43,7 +44,7 @@ private:
 	double Near, CosX, SinX, CosY, SinY; // of half the angles of view
 };
 
-/// Looks from Position to Target, y up (or z, where that is where it looks).
+/// Looks from Position to Target with y up, or with -z up if it looks along y.
 FView LookAt(glm::dvec3 Position, glm::dvec3 Target, float FovY, uint32_t Width, uint32_t Height);
 
 } // namespace Lantern
