@@ -1,5 +1,5 @@
-// One pass of the edge-avoiding à-trous wavelet: taps count by how likely they show the same surface, and the same value,
-// by the variance that is left of it.
+// One pass of the edge-avoiding à-trous wavelet (Dammertz et al. 2010), steered by variance (Schied et al. 2017). The weight of a
+// tap is the likelihood that it shows the same surface and, within the noise that accumulation has left, the same value.
 #version 460
 #include "../Shared/DenoiseTypes.h"
 #include "../Library/View.glsl"
@@ -21,7 +21,7 @@ vec4 Filter(FViewConstants View, ivec2 Pixel, FSurface Surface)
 	vec4 Values[Taps];
 	Values[Center] = texelFetch(Textures[Push.Input], Pixel, 0);
 	float Variance = GetVariance(Values[Center]);
-	if (Variance <= 0.0) { return Values[Center]; } // no noise: nothing to filter, and nothing read
+	if (Variance <= 0.0) { return Values[Center]; } // a value without noise needs no filter; nothing more is read
 	for (int Tap = 0; Tap < Taps; ++Tap)
 	{
 		ivec2 P = Pixel + ivec2(Tap % 3 - 1, Tap / 3 - 1) * int(Push.Step);
@@ -33,10 +33,10 @@ vec4 Filter(FViewConstants View, ivec2 Pixel, FSurface Surface)
 	float CenterValue = GetBrightness(GetSignal(Values[Center]));
 	float Narrow = 0.0;
 #ifdef WITH_EXTENT
-	// Over a part of the transition only.
+	// The reach is a part of the transition's extent: a wider one would blur the transition itself.
 	float Width = max(Push.ReachExtent * Values[Center].z / float(Push.Step), 1.0e-3);
 	Narrow = 0.5 / (Width * Width);
-	if (Narrow > 8.0) { return Values[Center]; } // no tap would count
+	if (Narrow > 8.0) { return Values[Center]; } // every other tap's weight would vanish
 #endif
 	FSignal Sum = FSignal(0.0);
 	float SumVariance = 0.0, SumWeights = 0.0;

@@ -1,11 +1,12 @@
-// A signal of one channel or three, by CHANNELS.
+// Type of the signal that is filtered. CHANNELS is 1 (visibility, 0 to 1) or 3 (a colour, 0 or more).
 #ifndef LANTERN_DENOISE_SIGNAL_GLSL
 #define LANTERN_DENOISE_SIGNAL_GLSL
 
 #include "../Library/History.glsl"
 
-const float MaxHalf = 65504.0;
+const float MaxHalf = 65504.0; // the largest number of a half float
 
+// GetVariance, WithVariance: texels that hold a mean beside the variance of its brightness.
 #if CHANNELS == 1
 #define FSignal float
 FSignal GetSignal(vec4 V) { return V.x; }

@@ -1,4 +1,5 @@
-// Depth, geometric normal and object of each pixel, packed: a guide for this frame and the memory of the next.
+// Packs distance, geometric normal and object of each pixel: a guide for this frame's filters, and for the next frame's
+// reprojection.
 #version 460
 #include "../Shared/DenoiseTypes.h"
 #include "../Library/History.glsl"

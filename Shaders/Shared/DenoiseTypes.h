@@ -6,49 +6,51 @@
 LANTERN_SHARED_BEGIN
 
 #define DENOISE_GROUP_SIZE 8
-#define DENOISE_WINDOW_RADIUS 3 // of the neighbourhood that tells what the signal is now: 7×7 pixels
+#define DENOISE_WINDOW_RADIUS 3 // pixels; the signal's range in this frame comes from a window of 7×7
 
-// What a pixel shows, for those that come back to it: see Library/History.glsl.
+// Constants of Denoise/Surface.comp, which packs the surface that each pixel shows (Library/History.glsl).
 struct FSurfaceConstants
 {
 	FPassConstants Pass;
 	uint Depth, Normals; // sampled indices
-	uint Motion;         // sampled index, or NO_TEXTURE: no object is known
+	uint Motion;         // sampled index; NO_TEXTURE: objects are unknown
 	uint Output;         // storage index
 };
 LANTERN_ASSERT_SIZE(FSurfaceConstants, 32);
 
-// Sampled indices but for outputs. Histories: mean, standard deviation of one frame's noise, frames that the mean is worth,
-// mean of the neighbourhood. Of three channels: the mean and the frames; the others go to a second texture.
+// Constants of Denoise/Temporal.comp. Inputs are sampled indices, outputs are storage indices.
+// A history of one channel holds the mean, one frame's noise (standard deviation), the frames that the mean is worth, and the
+// neighbourhood's mean. With three channels it holds the mean and the frames; a second texture, Moments, holds the rest.
 struct FTemporalConstants
 {
 	FPassConstants Pass;
-	uint Signal;
+	uint Signal; // a mean over the frame's rays
 	uint Surface;
-	uint Motion, PreviousSurface, History; // NO_TEXTURE: nothing to reproject
-	uint Moments;                          // of three channels only
-	uint Extent;                           // WITH_EXTENT only: pixels
-	uint OutHistory, OutMoments;           // storage indices
-	uint Output;                           // storage index: mean, and its variance
-	float MinAlpha;                        // weight of a new frame in a mean that has been accumulated for long
-	float ClampSigma;                      // 0: not clamped
-	float ChangeSigma;                     // 0: changes are not looked for
-	float NoiseAlpha;                      // weight of a new frame in the estimate of the noise
-	float Resampling;                      // how much is made of what resampling a history that is not smooth may do to it
-	float RaysPerPixel;                    // of visibility: that a frame's value is the mean of
+	uint Motion, PreviousSurface, History; // NO_TEXTURE, all three: nothing to reproject
+	uint Moments;                          // three channels only
+	uint Extent;                           // WITH_EXTENT only: width of the transition (penumbra), pixels; 0: unknown
+	uint OutHistory, OutMoments;           // written for the next frame; OutMoments: three channels only
+	uint Output;                           // mean, and its variance
+	float MinAlpha;                        // least weight of a new frame, 0 to 1
+	float ClampSigma;                      // range of the clamp, in the window's standard deviations; 0: not clamped
+	float ChangeSigma;                     // change that shortens the history, in standard errors; 0: changes are not looked for
+	float NoiseAlpha;                      // three channels only: weight of a new frame in the estimate of the noise, 0 to 1
+	float Resampling;                      // share of the history's second differences that counts as error of resampling
+	float RaysPerPixel;                    // one channel only: number of rays of which a frame's value is the mean
 };
 LANTERN_ASSERT_SIZE(FTemporalConstants, 80);
 
+// Constants of Denoise/Filter.comp.
 struct FFilterConstants
 {
 	FPassConstants Pass;
-	uint Input;   // sampled index: mean, and its variance
-	uint Surface; // sampled index
-	uint Output;  // storage index
-	uint Step;    // pixels between taps
-	float SigmaValue;
-	float SigmaNormal;
-	float SigmaDepth;
+	uint Input;        // sampled index: mean, and its variance
+	uint Surface;      // sampled index
+	uint Output;       // storage index
+	uint Step;         // pixels between taps
+	float SigmaValue;  // edge stop on the signal, in standard deviations
+	float SigmaNormal; // exponent of the cosine between normals
+	float SigmaDepth;  // edge stop on the distance to the neighbour's plane, in pixel footprints
 	float ReachExtent; // WITH_EXTENT only: standard deviation of the reach, in extents
 };
 LANTERN_ASSERT_SIZE(FFilterConstants, 48);

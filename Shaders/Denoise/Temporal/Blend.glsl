@@ -1,0 +1,50 @@
+// Step "blend" of the temporal filter: joins this frame's value with the mean of those before.
+//   Takes: this frame's value, the history, and the noise of one frame.
+//   Gives: FAccumulated, what the pixel keeps.
+//   Why: the weights follow from the variances on both sides (Kalman 1960). The history's variance is what accumulation has
+//   left of the noise, plus the error of resampling. With many frames the weight becomes constant: the mean is then
+//   exponential, with a time constant in seconds.
+#ifndef LANTERN_TEMPORAL_BLEND_GLSL
+#define LANTERN_TEMPORAL_BLEND_GLSL
+
+#include "Noise.glsl"
+
+#if CHANNELS == 1
+// Variance that a disagreement with the frame adds to a resampled history beside an edge: it belongs to the other side. A
+// history of the very same point is right to disagree, because rays differ.
+float GetEdgeVariance(FFrameEstimate Frame, FHistory History)
+{
+	float Difference = Frame.Value - History.Past.Mean;
+	return (1.0 - GetSoftness(Frame.Extent)) * Difference * Difference;
+}
+#endif
+
+// Weight of the frame's value.
+float GetAlpha(FHistory History, float Noise)
+{
+	float Frames = History.Past.Frames;
+	if (Frames <= 0.0) { return 1.0; }
+#ifdef NO_ADAPTION // r.RT.Debug.Denoise.Adapt
+	return max(1.0 / (Frames + 1.0), Push.MinAlpha);
+#else
+	float PastVariance = Noise / Frames + History.ResamplingVariance;
+	return Noise > 1.0e-6 * (1.0 + PastVariance) ? max(PastVariance / (PastVariance + Noise), Push.MinAlpha) : 1.0;
+#endif
+}
+
+FAccumulated Blend(FFrameEstimate Frame, FHistory History, float Noise)
+{
+	float Alpha = GetAlpha(History, Noise);
+	FAccumulated Past = History.Past;
+	float NeighborhoodMean = mix(Past.NeighborhoodMean, Frame.Neighborhood.Mean, Alpha);
+	return FAccumulated(mix(Past.Mean, Frame.Value, Alpha), sqrt(Noise), 1.0 / Alpha, NeighborhoodMean);
+}
+
+// For a pixel without a value: the history if there is one, else the window's mean.
+FAccumulated FillIn(FFrameEstimate Frame, FAccumulated Past, float Noise)
+{
+	if (Past.Frames > 0.0) { return Past; }
+	return FAccumulated(Frame.Window.Mean, sqrt(Noise), 0.0, Frame.Neighborhood.Mean);
+}
+
+#endif

@@ -1,0 +1,55 @@
+// Step "load" of the temporal filter: copies the signal of a work group's pixels, and of those around them, to shared memory.
+//   Takes: the images Push.Signal, Push.Surface and Push.Extent.
+//   Gives: TileSignal, TileInverseDepth and TileExtent, after a barrier.
+//   Why: up to 49 windows contain the same pixel, and each would fetch it. A pixel of the sky, or with a signal that is not
+//   finite, has the inverse depth 0: no later step counts it.
+#ifndef LANTERN_TEMPORAL_LOAD_GLSL
+#define LANTERN_TEMPORAL_LOAD_GLSL
+
+#include "../Signal.glsl"
+
+const int GroupSize = DENOISE_GROUP_SIZE;
+const int WindowRadius = DENOISE_WINDOW_RADIUS;
+// Pixels that lie in the window of at least one of the group's pixels. The tile has one ring more: the neighbours of these.
+const int InnerSize = GroupSize + 2 * WindowRadius;
+const int TileSize = InnerSize + 2;
+
+shared FSignal TileSignal[TileSize * TileSize];
+shared float TileInverseDepth[TileSize * TileSize]; // 1 / distance, linear in screen space over a plane; 0: no value
+#ifdef WITH_EXTENT
+shared float TileExtent[TileSize * TileSize]; // pixels; 0: unknown
+#endif
+
+// Index into the tile of the pixel at Offset from the invocation's own.
+int GetTileIndex(ivec2 Offset)
+{
+	ivec2 P = ivec2(gl_LocalInvocationID.xy) + WindowRadius + 1 + Offset;
+	return P.y * TileSize + P.x;
+}
+
+FSignal SanitizeSignal(FSignal Value, bool bValid) { return bValid ? clamp(Value, FSignal(0.0), FSignal(MaxHalf)) : FSignal(0.0); }
+
+void LoadTile(ivec2 Size)
+{
+	ivec2 First = ivec2(gl_WorkGroupID.xy) * GroupSize - (WindowRadius + 1);
+	[[dont_unroll]] for (int I = int(gl_LocalInvocationIndex); I < TileSize * TileSize; I += GroupSize * GroupSize)
+	{
+		ivec2 P = First + ivec2(I % TileSize, I / TileSize);
+		bool bInside = all(greaterThanEqual(P, ivec2(0))) && all(lessThan(P, Size));
+		P = clamp(P, ivec2(0), Size - 1);
+		FSignal Value = GetSignal(texelFetch(Textures[Push.Signal], P, 0));
+		float Distance = texelFetch(Textures[Push.Surface], P, 0).x;
+		bool bValid = bInside && Distance > 0.0 && IsFinite(Distance) && IsSignalFinite(Value);
+		TileInverseDepth[I] = bValid ? 1.0 / Distance : 0.0;
+#ifdef WITH_EXTENT
+		float Extent = bValid ? texelFetch(Textures[Push.Extent], P, 0).x : 0.0;
+		TileExtent[I] = IsFinite(Extent) ? Extent : 0.0;
+#endif
+		TileSignal[I] = SanitizeSignal(Value, bValid);
+	}
+}
+
+// Whether a pixel of the tile is more than a tenth nearer or farther than the invocation's own, hence of another surface.
+bool IsAtOtherDepth(int I, float InverseDepth) { return abs(TileInverseDepth[I] - InverseDepth) > 0.1 * InverseDepth; }
+
+#endif

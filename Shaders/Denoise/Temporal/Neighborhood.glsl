@@ -1,0 +1,77 @@
+// Step "neighbourhood" of the temporal filter: mean brightness, and variance by outliers, of 5×5 pixels of one surface.
+//   Takes: the tile of Load.glsl.
+//   Gives: FNeighborhood. MeasureOutliers needs the tile complete; MeasureNeighborhood needs the outliers complete.
+//   Why: the spread of neighbours says nothing about noise, because edges and lines have a spread too. They also have company:
+//   of four neighbours, two continue a line. A pixel that differs from nearly all of its neighbours is therefore noise.
+#ifndef LANTERN_TEMPORAL_NEIGHBORHOOD_GLSL
+#define LANTERN_TEMPORAL_NEIGHBORHOOD_GLSL
+
+#include "Load.glsl"
+
+const int NeighborhoodRadius = 2;
+
+shared float OutlierVariance[InnerSize * InnerSize]; // of each pixel; negative: unknown
+
+struct FNeighborhood
+{
+	float Mean;            // brightness
+	float OutlierVariance; // negative: unknown
+	float Count;           // pixels at about the depth of the middle, at least 1
+};
+
+// Whether pixel I of the tile and those one Step before and behind it lie on one plane.
+bool IsPlanar(int I, int Step)
+{
+	float Sum = TileInverseDepth[I - Step] + TileInverseDepth[I + Step];
+	return TileInverseDepth[I - Step] > 0.0 && TileInverseDepth[I + Step] > 0.0 &&
+	       abs(Sum - 2.0 * TileInverseDepth[I]) < 0.02 * TileInverseDepth[I];
+}
+
+// Square of the least amount by which the pixel differs from at least three of its four neighbours. If only two of them
+// are on its surface, from these two. For random zeros and ones its mean is the variance within a quarter. Negative: unknown.
+float MeasureOutlier(int I)
+{
+	if (TileInverseDepth[I] <= 0.0) { return -1.0; }
+	bool bX = IsPlanar(I, 1), bY = IsPlanar(I, TileSize);
+	if (!bX && !bY) { return -1.0; }
+	vec2 X = vec2(GetBrightness(TileSignal[I - 1]), GetBrightness(TileSignal[I + 1]));
+	vec2 Y = vec2(GetBrightness(TileSignal[I - TileSize]), GetBrightness(TileSignal[I + TileSize]));
+	vec2 Range = bX ? X : Y;
+	// The second and the third of the four in order.
+	if (bX && bY) { Range = vec2(max(min(X.x, X.y), min(Y.x, Y.y)), min(max(X.x, X.y), max(Y.x, Y.y))); }
+	float Value = GetBrightness(TileSignal[I]);
+	float Outlier = Value - clamp(Value, min(Range.x, Range.y), max(Range.x, Range.y));
+	return Outlier * Outlier;
+}
+
+void MeasureOutliers()
+{
+	[[dont_unroll]] for (int I = int(gl_LocalInvocationIndex); I < InnerSize * InnerSize; I += GroupSize * GroupSize)
+	{
+		OutlierVariance[I] = MeasureOutlier((I / InnerSize + 1) * TileSize + I % InnerSize + 1);
+	}
+}
+
+FNeighborhood MeasureNeighborhood()
+{
+	float InverseDepth = TileInverseDepth[GetTileIndex(ivec2(0))];
+	ivec2 Inner = ivec2(gl_LocalInvocationID.xy) + WindowRadius;
+	float Sum = 0.0, Count = 0.0, OutlierSum = 0.0, OutlierCount = 0.0;
+	[[dont_unroll]] for (int Y = -NeighborhoodRadius; Y <= NeighborhoodRadius; ++Y)
+	{
+		[[dont_unroll]] for (int X = -NeighborhoodRadius; X <= NeighborhoodRadius; ++X)
+		{
+			int I = GetTileIndex(ivec2(X, Y));
+			if (IsAtOtherDepth(I, InverseDepth)) { continue; }
+			Sum += GetBrightness(TileSignal[I]);
+			Count += 1.0;
+			float Outlier = OutlierVariance[(Inner.y + Y) * InnerSize + Inner.x + X];
+			if (Outlier < 0.0) { continue; }
+			OutlierSum += Outlier;
+			OutlierCount += 1.0;
+		}
+	}
+	return FNeighborhood(Sum / max(Count, 1.0), OutlierCount >= 3.0 ? OutlierSum / OutlierCount : -1.0, max(Count, 1.0));
+}
+
+#endif

@@ -1,0 +1,82 @@
+// Step "noise" of the temporal filter: the variance that chance gives to one frame's value.
+//   Takes: neighbourhood, window and extents of this frame; the history.
+//   Gives: FFrameEstimate with the noise of the frame alone, and EstimateNoise with what the history adds.
+//   Why: a signal without noise needs neither other frames nor a filter, however much structure it has. Hard shadows stay as
+//   they are. Visibility is a mean of rays that see or do not see: its variance is binomial and needs no estimate but p's.
+//   Where a transition is narrower than a pixel, it is an edge and no noise: a frame alone is right about it. SIGMA, of
+//   NVIDIA's Real-Time Denoisers, takes the size of its blur from the same extent. The noise of a colour is that of its outliers.
+#ifndef LANTERN_TEMPORAL_NOISE_GLSL
+#define LANTERN_TEMPORAL_NOISE_GLSL
+
+#include "Types.glsl"
+
+// Extents in pixels: a transition up to the first is an edge, one from the second on is a soft penumbra.
+const float EdgeExtent = 0.2, SoftExtent = 1.0;
+const float EdgeNoise = 1.0e-3;          // share of the noise that an edge keeps
+const float TrustedHistoryFrames = 16.0; // with so many, the history says as much about p as the neighbourhood does
+
+// Variance of the mean of a frame's rays if each sees with probability P.
+float GetVisibilityVariance(float P)
+{
+	P = clamp(P, 0.0, 1.0);
+	return P * (1.0 - P) / Push.RaysPerPixel;
+}
+
+// Extent of the transition in which the pixel lies, or beside which it lies: the mean of those around it that know theirs.
+float MeasureExtent()
+{
+#ifdef WITH_EXTENT
+	float InverseDepth = TileInverseDepth[GetTileIndex(ivec2(0))];
+	float Sum = 0.0, Weights = 0.0;
+	[[dont_unroll]] for (int Y = -WindowRadius; Y <= WindowRadius; ++Y)
+	{
+		[[dont_unroll]] for (int X = -WindowRadius; X <= WindowRadius; ++X)
+		{
+			int I = GetTileIndex(ivec2(X, Y));
+			if (TileExtent[I] <= 0.0 || IsAtOtherDepth(I, InverseDepth)) { continue; }
+			float Weight = 1.0 / float(1 + X * X + Y * Y);
+			Sum += Weight * TileExtent[I];
+			Weights += Weight;
+		}
+	}
+	return Weights > 0.0 ? min(Sum / Weights, MaxHalf) : MaxHalf;
+#else
+	return MaxHalf;
+#endif
+}
+
+float GetFrameNoise(FNeighborhood Neighborhood, FWindow Window)
+{
+#if CHANNELS == 1
+	return GetVisibilityVariance(Neighborhood.Mean);
+#else
+	return Neighborhood.OutlierVariance >= 0.0 ? Neighborhood.OutlierVariance : Window.Variance;
+#endif
+}
+
+FFrameEstimate EstimateFrame()
+{
+	int Own = GetTileIndex(ivec2(0));
+	FWindow Window = MeasureWindow();
+	FNeighborhood Neighborhood = MeasureNeighborhood();
+	float Noise = GetFrameNoise(Neighborhood, Window);
+	return FFrameEstimate(TileSignal[Own], TileInverseDepth[Own] > 0.0, Window, Neighborhood, Noise, MeasureExtent());
+}
+
+// 0: the transition is an edge; 1: it is a soft penumbra.
+float GetSoftness(float Extent) { return smoothstep(EdgeExtent, SoftExtent, Extent); }
+
+// Noise of one frame with the help of the history, of which the share Unchanged still holds.
+float EstimateNoise(FFrameEstimate Frame, FAccumulated Past, float Unchanged)
+{
+#if CHANNELS == 1
+	float Frames = Past.Frames * Unchanged;
+	float P = mix(Frame.Neighborhood.Mean, Past.Mean, Frames / (Frames + TrustedHistoryFrames));
+	return GetVisibilityVariance(P) * max(GetSoftness(Frame.Extent), EdgeNoise);
+#else
+	if (Past.Frames <= 0.0) { return Frame.NoiseVariance; }
+	return mix(Frame.NoiseVariance, Past.NoiseSigma * Past.NoiseSigma, (1.0 - Push.NoiseAlpha) * Unchanged);
+#endif
+}
+
+#endif

@@ -1,0 +1,34 @@
+// Step "store" of the temporal filter: writes the mean with its variance for the wavelet, and the history for the next frame.
+//   Takes: FAccumulated, the extent in pixels, and the variance of one frame's value by what is around the pixel.
+//   Gives: the images Push.Output, Push.OutHistory and Push.OutMoments.
+//   Why: the variance of few frames is known less well, and a start that is blurred is better than one that is wrong.
+#ifndef LANTERN_TEMPORAL_STORE_GLSL
+#define LANTERN_TEMPORAL_STORE_GLSL
+
+#include "Types.glsl"
+
+float GetOutputVariance(FAccumulated A, float FrameNoise)
+{
+	float Frames = max(A.Frames, 1.0);
+	float Variance = A.NoiseSigma * A.NoiseSigma / Frames * (1.0 + 1.0 / Frames);
+#if CHANNELS == 1 && !defined(WITH_EXTENT)
+	// If one ray in many is blocked, pixels that have met none know as little as those that have.
+	Variance = max(Variance, 0.5 * FrameNoise / Frames);
+#endif
+	return min(Variance, MaxHalf);
+}
+
+void Store(ivec2 Pixel, FAccumulated A, float Extent, float FrameNoise)
+{
+	vec4 Output = WithVariance(A.Mean, GetOutputVariance(A, FrameNoise));
+	imageStore(Images[Push.Output], Pixel, Output + vec4(0.0, 0.0, CHANNELS == 1 ? Extent : 0.0, 0.0));
+	float NoiseSigma = min(A.NoiseSigma, MaxHalf), NeighborhoodMean = min(A.NeighborhoodMean, MaxHalf);
+#if CHANNELS == 1
+	imageStore(Images[Push.OutHistory], Pixel, vec4(A.Mean, NoiseSigma, A.Frames, NeighborhoodMean));
+#else
+	imageStore(Images[Push.OutHistory], Pixel, vec4(A.Mean, A.Frames));
+	imageStore(Images[Push.OutMoments], Pixel, vec4(NoiseSigma, NeighborhoodMean, 0.0, 0.0));
+#endif
+}
+
+#endif

@@ -1,0 +1,37 @@
+// What the steps of the temporal filter hand on: the estimate of this frame, and what is known from the frames before.
+#ifndef LANTERN_TEMPORAL_TYPES_GLSL
+#define LANTERN_TEMPORAL_TYPES_GLSL
+
+#include "Neighborhood.glsl"
+#include "Window.glsl"
+
+// What this frame alone says about a pixel.
+struct FFrameEstimate
+{
+	FSignal Value;
+	bool bHasValue; // false: the signal is not finite
+	FWindow Window;
+	FNeighborhood Neighborhood;
+	float NoiseVariance; // of one frame's value; of visibility as if the pixel had no edges
+	float Extent;        // width of the transition (penumbra), pixels; MaxHalf: as wide as can be
+};
+
+// What a pixel keeps from frame to frame.
+struct FAccumulated
+{
+	FSignal Mean;
+	float NoiseSigma;       // standard deviation of one frame's noise
+	float Frames;           // number of frames that the mean is worth; 0: nothing is known
+	float NeighborhoodMean; // of the brightness, over time
+};
+
+// The accumulated signal where the pixel's surface was in the previous frame.
+struct FHistory
+{
+	FAccumulated Past;
+	float ResamplingVariance; // that resampling may have added to the mean
+	bool bResampled;          // read between texels; false: the texel is that of the same point
+	ivec2 Texel;              // nearest to the position
+};
+
+#endif
