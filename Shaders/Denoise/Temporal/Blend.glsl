@@ -10,8 +10,8 @@
 #include "Noise.glsl"
 
 #if CHANNELS == 1
-// Variance that a disagreement with the frame adds to a resampled history beside an edge: it belongs to the other side. A
-// history of the very same point is right to disagree, because rays differ.
+// Variance that a disagreement with the frame adds to a resampled history beside an edge, for it belongs to the other side.
+// The caller leaves out a history of the very same point: its disagreement is chance, because rays differ.
 float GetEdgeVariance(FFrameEstimate Frame, FHistory History)
 {
 	float Difference = Frame.Value - History.Past.Mean;

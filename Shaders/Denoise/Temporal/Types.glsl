@@ -12,7 +12,7 @@ struct FFrameEstimate
 	bool bHasValue; // false: the signal is not finite
 	FWindow Window;
 	FNeighborhood Neighborhood;
-	float NoiseVariance; // of one frame's value; of visibility as if the pixel had no edges
+	float NoiseVariance; // variance of one frame's value; for visibility as if every transition were soft
 	float Extent;        // width of the transition (penumbra), pixels; MaxHalf: as wide as can be
 };
 
@@ -22,16 +22,16 @@ struct FAccumulated
 	FSignal Mean;
 	float NoiseSigma;       // standard deviation of one frame's noise
 	float Frames;           // number of frames that the mean is worth; 0: nothing is known
-	float NeighborhoodMean; // of the brightness, over time
+	float NeighborhoodMean; // mean brightness of the neighbourhood, over time
 };
 
 // The accumulated signal where the pixel's surface was in the previous frame.
 struct FHistory
 {
 	FAccumulated Past;
-	float ResamplingVariance; // that resampling may have added to the mean
-	bool bResampled;          // read between texels; false: the texel is that of the same point
-	ivec2 Texel;              // nearest to the position
+	float ResamplingVariance; // error of the mean by resampling, as a variance
+	bool bResampled;          // read between texels; false: the position is that of a texel, which is the very same point
+	ivec2 Texel;              // texel that is nearest to the position
 };
 
 #endif
