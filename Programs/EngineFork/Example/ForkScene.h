@@ -1,4 +1,4 @@
-// What the engine shows: boxes and a sun, simple enough that the right shadow is known in closed form.
+// What the engine shows: boxes and a sun.
 #pragma once
 
 #include <array>
@@ -23,19 +23,18 @@ struct FCamera
 {
 	glm::dvec3 Position{0};
 	glm::dvec3 Forward{0, 0, -1}, Right{1, 0, 0}, Up{0, 1, 0}; ///< orthonormal
-	double FovY = 1.0;
-	double Near = 0.1;
+	double FovY = 1.0;                                         ///< vertical, radians
+	double Near = 0.1;                                         ///< metres
 };
 
 struct FForkScene
 {
 	std::vector<FBox> Boxes;
-	glm::dvec3 SunDirection{0, -1, 0}; ///< in which the light travels, unit length
+	glm::dvec3 SunDirection{0, -1, 0}; ///< direction in which the light travels, unit length
 	FCamera Camera;
 };
 
-/// A floor, a floating cube, a pillar that may be deformed, a slab that casts no shadow, and a cut-out cube, all moved
-/// by Offset.
+/// A floor, a floating cube, a deformable pillar, a slab that casts no shadow, and a cut-out cube. Offset moves all of them.
 FForkScene MakeScene(glm::dvec3 Offset);
 
 struct FVertex
@@ -49,21 +48,10 @@ struct FBoxMesh
 	std::array<uint32_t, 36> Indices; ///< counter-clockwise from outside
 };
 
-/// From −HalfSize to HalfSize.
+/// A box from −HalfSize to HalfSize.
 FBoxMesh MakeBoxMesh(glm::vec3 HalfSize = glm::vec3(1));
 
-/// Of positions relative to the camera; Vulkan's clip space, reversed depth without a far plane.
+/// Projects positions relative to the camera to Vulkan's clip space, with reversed depth and no far plane.
 glm::mat4 GetRelativeToClip(const FCamera& Camera, double Aspect);
-
-enum class EExpectation : uint8_t
-{
-	Unsure, ///< an edge of a box or of a shadow is near
-	Sky,
-	Lit,
-	Shadowed,
-};
-
-/// The truth for the pixel, found by intersecting boxes in double precision.
-EExpectation ExpectPixel(const FForkScene& Scene, uint32_t X, uint32_t Y, uint32_t Width, uint32_t Height);
 
 } // namespace Fork

@@ -1,4 +1,5 @@
-#include "PluginScene.h"
+// The engine's scene and its frames, handed to the plugin.
+#include "Example/PluginScene.h"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +9,6 @@ namespace Fork
 {
 
 using namespace Lantern;
-
-FError ToError(const FRTStatus& Status, const char* What) { return Status.IsOk() ? FError() : FError(What) + ": " + Status.Message; }
 
 FError FPluginScene::Create(
     IRTModule& Module, const FForkInstance& Instance, const FForkDevice& Owner, const IRTVulkanRequirements& Requirements)
@@ -40,7 +39,7 @@ std::array<double, 12> GetTransform(const FBox& Box)
 	return Rows;
 }
 
-/// The plugin's arrays are of single numbers: positions apart from normals.
+/// The plugin reads positions and normals from an array each.
 struct FBoxArrays
 {
 	explicit FBoxArrays(const FBoxMesh& Box)
@@ -157,7 +156,7 @@ void FPluginScene::ReleaseGBuffer()
 {
 	Depth.Reset();
 	Normals.Reset();
-	Device->CollectGarbage(); // the views of the images go now, not some time later
+	if (Device) { Device->CollectGarbage(); } // destroys the plugin's views of the images now, not some time later
 }
 
 FError FPluginScene::Render(VkCommandBuffer Commands, const FCamera& Camera, bool bCut, FRTModuleOutputs& Out)

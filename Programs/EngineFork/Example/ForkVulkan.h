@@ -1,26 +1,24 @@
-// The engine's Vulkan: its own instance, device, queue and objects. Deliberately plain, as an engine that has
-// never heard of Lantern would be; the one place where the plugin is asked is FForkDevice::Create.
+// The engine's Vulkan: its own instance, device, queue and objects. It is plain on purpose, like an engine that has never heard
+// of Lantern. Only FForkDevice::Create lets the plugin have a say.
 #pragma once
 
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
 
 #include <vulkan/vulkan.h>
 
+#include "Example/ForkError.h"
+
 namespace Fork
 {
-
-/// What the engine could not do, in words; empty means it went well.
-using FError = std::string;
 
 struct FForkInstance
 {
 	VkInstance Instance = VK_NULL_HANDLE;
 	VkDebugUtilsMessengerEXT Messenger = VK_NULL_HANDLE;
-	bool bValidation = false;        ///< the validation layer is installed and on
-	uint32_t ValidationMessages = 0; ///< warnings and errors so far
+	bool bValidation = false;        ///< the validation layer is installed and enabled
+	uint32_t ValidationMessages = 0; ///< number of warnings and errors so far
 
 	FForkInstance() = default;
 	FForkInstance(const FForkInstance&) = delete;
@@ -29,7 +27,7 @@ struct FForkInstance
 	std::vector<VkPhysicalDevice> ListDevices() const;
 };
 
-/// What the plugin wants of the device that the engine is about to create.
+/// What the plugin needs from the device that the engine is about to create.
 struct FDeviceWishes
 {
 	std::vector<const char*> Extensions;
@@ -54,7 +52,7 @@ struct FForkDevice
 	FError BeginCommands();
 	FError Submit(); ///< ends and submits Commands
 	FError WaitForSubmit();
-	/// Index of a memory type among Allowed with all of Wanted; ~0u when there is none.
+	/// Index of a memory type that is in Allowed and has all of Wanted; ~0u if there is none.
 	uint32_t FindMemory(uint32_t Allowed, VkMemoryPropertyFlags Wanted) const;
 };
 
@@ -85,7 +83,7 @@ struct FForkBuffer
 	FError Create(const FForkDevice& Owner, VkDeviceSize Size, VkBufferUsageFlags Usage);
 };
 
-/// One image from one layout to another, everything before visible to everything after: the engine is simple.
+/// Moves one image from one layout to another. All commands before it finish first, which is simple and slow.
 void Transition(VkCommandBuffer Commands, VkImage Image, VkImageAspectFlags Aspect, VkImageLayout From, VkImageLayout To);
 
 } // namespace Fork

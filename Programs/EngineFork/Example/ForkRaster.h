@@ -1,8 +1,8 @@
 // The engine's G-buffer: its images and the raster pass that fills them, in plain Vulkan.
 #pragma once
 
-#include "ForkScene.h"
-#include "ForkVulkan.h"
+#include "Example/ForkScene.h"
+#include "Example/ForkVulkan.h"
 
 namespace Fork
 {

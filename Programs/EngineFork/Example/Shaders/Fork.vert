@@ -2,7 +2,7 @@
 layout(push_constant) uniform FPush
 {
 	mat4 RelativeToClip;
-	vec4 Offset; // xyz: of the box, relative to the camera
+	vec4 Offset; // xyz: position of the box relative to the camera
 	vec4 Scale;
 } Push;
 

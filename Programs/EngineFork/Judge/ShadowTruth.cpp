@@ -1,4 +1,5 @@
-#include "ForkScene.h"
+// The truth about the shadow of boxes: their intersections with rays in double precision.
+#include "Judge/ShadowTruth.h"
 
 #include <cmath>
 #include <limits>
@@ -85,54 +86,6 @@ FSample Sample(const FForkScene& Scene, glm::dvec3 CameraRay, glm::dvec3 Shift)
 }
 
 } // namespace
-
-FForkScene MakeScene(glm::dvec3 Offset)
-{
-	FForkScene Scene;
-	Scene.Boxes = {
-	    {Offset + glm::dvec3(0, -0.5, 0), {10, 0.5, 10}},
-	    {Offset + glm::dvec3(-1, 2.5, 0), {1, 1, 1}},
-	    {Offset + glm::dvec3(3, 2, -2), {0.4, 2, 0.4}, true, false, true},
-	    {Offset + glm::dvec3(-5, 2, 3), {1, 0.2, 1}, false},
-	    {Offset + glm::dvec3(4.5, 1.2, 3), {0.6, 0.6, 0.6}, true, true},
-	};
-	Scene.SunDirection = normalize(glm::dvec3(0.6, -1.0, 0.35));
-	Scene.Camera.Position = Offset + glm::dvec3(2, 6, 11);
-	Scene.Camera.Forward = normalize(Offset + glm::dvec3(0.5, 0.5, 0) - Scene.Camera.Position);
-	Scene.Camera.Right = normalize(cross(Scene.Camera.Forward, glm::dvec3(0, 1, 0)));
-	Scene.Camera.Up = cross(Scene.Camera.Right, Scene.Camera.Forward);
-	return Scene;
-}
-
-FBoxMesh MakeBoxMesh(glm::vec3 HalfSize)
-{
-	FBoxMesh Mesh;
-	for (uint32_t Face = 0; Face < 6; ++Face)
-	{
-		const uint32_t Axis = Face / 2;
-		glm::vec3 Normal(0), U(0);
-		Normal[static_cast<int>(Axis)] = Face % 2 == 0 ? 1.0f : -1.0f;
-		U[static_cast<int>((Axis + 1) % 3)] = 1.0f;
-		const glm::vec3 V = cross(Normal, U);
-		const std::array<glm::vec3, 4> Corners = {Normal - U - V, Normal + U - V, Normal + U + V, Normal - U + V};
-		for (uint32_t Corner = 0; Corner < 4; ++Corner) { Mesh.Vertices[Face * 4 + Corner] = {Corners[Corner] * HalfSize, Normal}; }
-		constexpr std::array<uint32_t, 6> Quad = {0, 1, 2, 0, 2, 3};
-		for (uint32_t Index = 0; Index < 6; ++Index) { Mesh.Indices[Face * 6 + Index] = Face * 4 + Quad[Index]; }
-	}
-	return Mesh;
-}
-
-glm::mat4 GetRelativeToClip(const FCamera& Camera, double Aspect)
-{
-	const double Scale = 1.0 / std::tan(Camera.FovY * 0.5);
-	const glm::dvec3 X = Camera.Right * (Scale / Aspect), Y = Camera.Up * -Scale;
-	glm::dmat4 Rows(0.0); // each column here is a row of the result
-	Rows[0] = glm::dvec4(X, 0.0);
-	Rows[1] = glm::dvec4(Y, 0.0);
-	Rows[2] = glm::dvec4(0.0, 0.0, 0.0, Camera.Near);
-	Rows[3] = glm::dvec4(Camera.Forward, 0.0);
-	return glm::mat4(transpose(Rows));
-}
 
 EExpectation ExpectPixel(const FForkScene& Scene, uint32_t X, uint32_t Y, uint32_t Width, uint32_t Height)
 {

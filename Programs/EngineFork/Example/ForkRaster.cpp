@@ -1,4 +1,5 @@
-#include "ForkRaster.h"
+// The raster pass that fills the G-buffer.
+#include "Example/ForkRaster.h"
 
 #include <array>
 #include <cstddef>

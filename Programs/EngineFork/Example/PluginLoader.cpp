@@ -1,5 +1,7 @@
-#include "PluginLoader.h"
+// Reads Plugin.json, opens the library and initializes the module.
+#include "Example/PluginLoader.h"
 
+#include <cstdio>
 #include <fstream>
 
 #include <dlfcn.h>
@@ -8,7 +10,7 @@
 namespace Fork
 {
 
-std::string ReadManifest(const std::filesystem::path& File, FPluginManifest& Out)
+FError ReadManifest(const std::filesystem::path& File, FPluginManifest& Out)
 {
 	std::ifstream Stream(File);
 	if (!Stream) { return File.string() + ": cannot be read"; }
@@ -33,7 +35,7 @@ std::string ReadManifest(const std::filesystem::path& File, FPluginManifest& Out
 	return {};
 }
 
-std::string FPluginLibrary::Load(const FPluginManifest& Manifest, const std::filesystem::path& Folder)
+FError FPluginLibrary::Load(const FPluginManifest& Manifest, const std::filesystem::path& Folder)
 {
 	if (Manifest.ModuleVersion != Lantern::ModuleVersion || Manifest.RHIVersion != Lantern::RHIVersion)
 	{
@@ -43,13 +45,13 @@ std::string FPluginLibrary::Load(const FPluginManifest& Manifest, const std::fil
 	Handle = dlopen(Path.c_str(), RTLD_NOW | RTLD_LOCAL);
 	if (Handle == nullptr) { return dlerror(); }
 	Create = reinterpret_cast<Lantern::FRTCreateModule>(dlsym(Handle, Manifest.EntryPoint.c_str()));
-	return Create != nullptr ? std::string() : Path + " has no " + Manifest.EntryPoint;
+	return Create != nullptr ? FError() : Path + " has no " + Manifest.EntryPoint;
 }
 
-std::string FPluginLibrary::CreateModule(Lantern::TRTRef<Lantern::IRTModule>& Out) const
+FError FPluginLibrary::CreateModule(Lantern::TRTRef<Lantern::IRTModule>& Out) const
 {
 	const int32_t Result = Create(Lantern::ModuleVersion, Out.ReleaseAndGetAddress());
-	return Result == 0 ? std::string() : "the library refused module version " + std::to_string(Lantern::ModuleVersion);
+	return Result == 0 ? FError() : "the library refused module version " + std::to_string(Lantern::ModuleVersion);
 }
 
 bool FPluginLibrary::Unload()
@@ -68,5 +70,23 @@ bool FPluginLibrary::Unload()
 }
 
 FPluginLibrary::~FPluginLibrary() { Unload(); }
+
+FError InitializeModule(Lantern::IRTModule& Module, const FPluginManifest& Manifest, const FSettings& Settings)
+{
+	using namespace Lantern;
+	FRTModuleDesc Desc;
+	Desc.ConfigFolder = Manifest.ConfigFolder.c_str();
+	Desc.ShaderFolder = Manifest.ShaderFolder.c_str();
+	Desc.LogCallback = [](void*, ERTModuleLog Level, const char* Text) {
+		if (Level >= ERTModuleLog::Warning) { std::fprintf(stderr, "plugin: %s\n", Show(Text).c_str()); }
+	};
+	FError Error = ToError(Module.Initialize(Desc), "Initialize");
+	for (size_t Index = 0; Error.empty() && Index < Settings.size(); ++Index)
+	{
+		const auto& [Name, Value] = Settings[Index];
+		Error = ToError(Module.SetConsoleVariable(Name.c_str(), Value.c_str()), "SetConsoleVariable");
+	}
+	return Error;
+}
 
 } // namespace Fork

@@ -1,10 +1,9 @@
-#include "ForkVulkan.h"
+// The engine's Vulkan instance, device, images and buffers.
+#include "Example/ForkVulkan.h"
 
 #include <array>
 #include <cstdio>
 #include <cstring>
-
-#include "ForkText.h"
 
 namespace Fork
 {

@@ -2,51 +2,47 @@
 #pragma once
 
 #include <chrono>
-#include <string>
 #include <vector>
 
-#include "ForkRaster.h"
-#include "ForkScene.h"
-#include "ForkVulkan.h"
+#include "Example/ForkRaster.h"
+#include "Example/ForkScene.h"
+#include "Example/ForkVulkan.h"
 #include "LanternModule/ModuleVulkan.h"
 
 namespace Fork
 {
 
-/// Empty if Status is fine, else its message after What.
-FError ToError(const Lantern::FRTStatus& Status, const char* What);
-
 class FPluginScene
 {
 public:
-	/// Device must have been created with what IRTModuleVulkan::GetRequirements asked for.
+	/// Owner must have been created with Requirements, which come from IRTModuleVulkan::GetRequirements.
 	FError Create(Lantern::IRTModule& Module, const FForkInstance& Instance, const FForkDevice& Owner,
 	    const Lantern::IRTVulkanRequirements& Requirements);
 	FError AddScene(const FForkScene& Scene);
-	/// Box: as AddScene counted them.
+	/// Box is an index into FForkScene::Boxes.
 	FError MoveBox(size_t Box, const FBox& To);
+	/// The indices of later boxes become smaller by one.
 	FError RemoveBox(size_t Box);
-	/// Of the deformable boxes; their transforms stay.
+	/// Scales the vertices of the deformable boxes; their transforms stay.
 	FError ScaleVertices(float Scale);
-	/// What of it is asked for by bCastsShadow and bCutOut.
+	/// Takes bCastsShadow and bCutOut over from To.
 	FError SetBox(size_t Box, const FBox& To);
 	FError ImportGBuffer(const FForkRaster& Raster, VkExtent2D Size);
-	void ReleaseGBuffer(); ///< before the raster's images go
-	/// Records the plugin's work; Commands is recording and the G-buffer is in it. bCut: nothing is as it was in the frame
-	/// before. Out: null textures where the plugin has nothing to show yet.
+	void ReleaseGBuffer(); ///< must be called before the images of the raster are destroyed
+	/// Records the plugin's work. Commands must be recording and must have drawn the G-buffer. bCut: this frame has nothing in common
+	/// with the frame before. A texture of Out is null while the plugin has nothing to show in it.
 	FError Render(VkCommandBuffer Commands, const FCamera& Camera, bool bCut, Lantern::FRTModuleOutputs& Out);
-	/// After the commands were submitted.
+	/// Must be called after Commands were submitted.
 	FError FinishFrame();
-	/// The last frame had all its shaders and acceleration structures.
+	/// True if the last frame had all its shaders and acceleration structures.
 	bool IsComplete() const { return bComplete; }
-	Lantern::IRTDevice& GetDevice() { return *Device; }
 
 private:
 	FError AddBoxMesh(bool bDeformable, Lantern::ERTMeshHandle& Out);
 	FError AddMaterials();
 	FError AddBox(const FBox& Box);
 
-	Lantern::TRTRef<Lantern::IRTDevice> Device; // declared first: goes last
+	Lantern::TRTRef<Lantern::IRTDevice> Device; // declared first, so that it is released last
 	Lantern::TRTRef<Lantern::IRTModuleRenderer> Renderer;
 	Lantern::ERTMeshHandle RigidMesh{}, DeformableMesh{};
 	Lantern::ERTMaterialHandle Solid{}, CutOut{};

@@ -1,0 +1,97 @@
+// The engine's start and its frame, with the plugin in both.
+#include "Example/ForkEngine.h"
+
+#include <cstdio>
+#include <utility>
+
+namespace Fork
+{
+
+using namespace Lantern;
+
+namespace
+{
+
+constexpr VkDeviceSize MaskBytes = PixelCount * 2; // of each mask, in halves
+
+/// The plugin leaves its outputs readable by shaders. The engine copies an output and restores its layout.
+void CopyMask(VkCommandBuffer Commands, IRTTexture& Mask, const FForkBuffer& Readback, VkDeviceSize Offset)
+{
+	const auto Image = reinterpret_cast<VkImage>(Mask.GetNative(ERTNative::Image));
+	Transition(Commands, Image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+	VkBufferImageCopy Region{};
+	Region.bufferOffset = Offset;
+	Region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+	Region.imageExtent = {FrameSize.width, FrameSize.height, 1};
+	vkCmdCopyImageToBuffer(Commands, Image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, Readback.Buffer, 1, &Region);
+	Transition(Commands, Image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+}
+
+} // namespace
+
+FForkEngine::~FForkEngine() { Plugin.ReleaseGBuffer(); }
+
+FError FForkEngine::CreateDevice()
+{
+	FError Reasons = "no Vulkan device";
+	for (VkPhysicalDevice Physical : Instance.ListDevices())
+	{
+		FRTVulkanRequirementsDesc Desc;
+		Desc.Instance = Instance.Instance;
+		Desc.PhysicalDevice = Physical;
+		const FRTStatus Status = Module.GetVulkan()->GetRequirements(Desc, Requirements.ReleaseAndGetAddress());
+		if (!Status.IsOk())
+		{
+			Reasons += std::string("; ") + Status.Message;
+			continue;
+		}
+		FDeviceWishes Wishes;
+		Wishes.Extensions.assign(Requirements->GetExtensions(), Requirements->GetExtensions() + Requirements->GetExtensionCount());
+		Wishes.MergeFeatures = [&](VkPhysicalDeviceFeatures2* Chain) { Requirements->MergeInto(Chain); };
+		std::printf("device: %s, %s\n", Requirements->GetCapabilities().DeviceName, Requirements->GetCapabilities().DriverName);
+		return Device.Create(Physical, Wishes);
+	}
+	return Reasons;
+}
+
+FError FForkEngine::LoadScene(const FForkScene& Scene)
+{
+	FError Error = Plugin.Create(Module, Instance, Device, *Requirements);
+	if (Error.empty()) { Error = Raster.Create(Device, FrameSize); }
+	if (Error.empty()) { Error = Readback.Create(Device, 2 * MaskBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT); }
+	if (Error.empty()) { Error = Plugin.AddScene(Scene); }
+	return Error.empty() ? Plugin.ImportGBuffer(Raster, FrameSize) : Error;
+}
+
+FError FForkEngine::CopyOutputs(const FRTModuleOutputs& Outputs, FFrameMasks& Out) const
+{
+	Out = {};
+	VkDeviceSize Offset = 0;
+	for (const auto& [Mask, Memory] :
+	    {std::pair(Outputs.SunShadow, &Out.SunShadow), std::pair(Outputs.AmbientOcclusion, &Out.AmbientOcclusion)})
+	{
+		if (Mask != nullptr)
+		{
+			if (Mask->GetDesc().Format != ERTFormat::R16_FLOAT) { return "an output has another format than this engine reads"; }
+			CopyMask(Device.Commands, *Mask, Readback, Offset);
+			*Memory = static_cast<const uint16_t*>(Readback.Mapped) + Offset / sizeof(uint16_t);
+		}
+		Offset += MaskBytes;
+	}
+	return {};
+}
+
+FError FForkEngine::RunFrame(const FForkScene& Scene, bool bCut, FFrameMasks& Out)
+{
+	FError Error = Device.BeginCommands();
+	if (!Error.empty()) { return Error; }
+	Raster.Draw(Device.Commands, Scene);
+	FRTModuleOutputs Outputs;
+	Error = Plugin.Render(Device.Commands, Scene.Camera, bCut, Outputs);
+	if (Error.empty()) { Error = CopyOutputs(Outputs, Out); }
+	if (Error.empty()) { Error = Device.Submit(); }
+	if (Error.empty()) { Error = Plugin.FinishFrame(); }
+	return Error.empty() ? Device.WaitForSubmit() : Error;
+}
+
+} // namespace Fork

@@ -1,0 +1,15 @@
+// What the judge has the engine do: the scene as made, then changed as in a game.
+#pragma once
+
+#include <string>
+
+#include "Example/ForkEngine.h"
+
+namespace Fork
+{
+
+/// Runs frames of Scene and of changed versions of it until each is complete, and judges each. Picture: file for the first shadow mask;
+/// empty for none.
+FError CheckScenes(FForkEngine& Engine, FForkScene Scene, const std::string& Picture);
+
+} // namespace Fork

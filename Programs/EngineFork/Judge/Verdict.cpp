@@ -1,0 +1,59 @@
+// Compares shadow mask and ambient occlusion with what they must be.
+#include "Judge/Verdict.h"
+
+#include <cstdio>
+
+#include <glm/gtc/packing.hpp>
+
+#include "Judge/ShadowTruth.h"
+
+namespace Fork
+{
+
+FVerdict JudgeShadow(const FForkScene& Scene, const uint16_t* Mask)
+{
+	FVerdict Verdict;
+	for (uint32_t Y = 0; Y < FrameSize.height; ++Y)
+	{
+		for (uint32_t X = 0; X < FrameSize.width; ++X)
+		{
+			const EExpectation Expected = ExpectPixel(Scene, X, Y, FrameSize.width, FrameSize.height);
+			const float Found = glm::unpackHalf1x16(Mask[Y * FrameSize.width + X]);
+			const float Right = Expected == EExpectation::Shadowed ? 0.0f : 1.0f;
+			Verdict.Wrong += Expected != EExpectation::Unsure && Found != Right;
+			Verdict.Unsure += Expected == EExpectation::Unsure;
+			Verdict.Sky += Expected == EExpectation::Sky;
+			Verdict.Lit += Expected == EExpectation::Lit;
+			Verdict.Shadowed += Expected == EExpectation::Shadowed;
+		}
+	}
+	return Verdict;
+}
+
+FError JudgeOcclusion(const uint16_t* Visibility)
+{
+	uint32_t Open = 0;
+	for (uint32_t Pixel = 0; Pixel < PixelCount; ++Pixel)
+	{
+		const float Found = glm::unpackHalf1x16(Visibility[Pixel]);
+		if (!(Found >= 0.0f && Found <= 1.01f)) { return "ambient occlusion is " + std::to_string(Found) + " somewhere"; }
+		Open += Found > 0.95f;
+	}
+	const uint32_t Occluded = PixelCount - Open;
+	std::printf("ambient occlusion: %u open, %u occluded\n", Open, Occluded);
+	return Open > PixelCount / 2 && Occluded > PixelCount / 500 ? FError() : "ambient occlusion is not where it must be";
+}
+
+FError WritePicture(const std::string& Path, const uint16_t* Mask)
+{
+	std::FILE* File = std::fopen(Path.c_str(), "wb");
+	if (File == nullptr) { return Path + " cannot be written"; }
+	std::fprintf(File, "P5\n%u %u\n255\n", FrameSize.width, FrameSize.height);
+	for (uint32_t Pixel = 0; Pixel < PixelCount; ++Pixel)
+	{
+		std::fputc(static_cast<int>(glm::unpackHalf1x16(Mask[Pixel]) * 255.0f + 0.5f), File);
+	}
+	return std::fclose(File) == 0 ? FError() : Path + " cannot be written";
+}
+
+} // namespace Fork
