@@ -1,3 +1,4 @@
+// The table of built-in scenes, and how their names and parameters are read.
 #include "LanternHost/BuiltinScenes.h"
 
 #include <array>
@@ -8,9 +9,8 @@
 #include <fmt/format.h>
 
 #include "Builtin/Courtyard/Courtyard.h"
-#include "Builtin/Stability/StabilityLaterScenes.h"
 #include "Builtin/Stability/StabilityScenes.h"
-#include "Builtin/TestScenes.h"
+#include "Builtin/Tests/TestScenes.h"
 #include "LanternCore/Text/Quote.h"
 
 namespace Lantern
@@ -154,7 +154,7 @@ std::string GetBuiltinSceneNames()
 	std::string Names;
 	for (const FBuiltinSceneInfo& Info : GetBuiltinScenes())
 	{
-		// Those of the stability suite are too many for a message.
+		// The scenes of the stability suite are too many for a message.
 		if (std::string_view(Info.Name).starts_with("stability-")) { continue; }
 		Names += (Names.empty() ? "" : ", ") + std::string(Info.Name);
 	}

@@ -1,3 +1,4 @@
+// Materials, boxes, stripes, lamps and animations of the stability scenes.
 #include "Builtin/Stability/StabilityParts.h"
 
 #include <cmath>
@@ -71,6 +72,18 @@ void AddKeys(FSceneBuilder& Builder, int32_t Node, EAnimationPath Path, float Se
 	Channel.Values = std::move(Values);
 	Animation.Channels.push_back(std::move(Channel));
 	Builder.Scene.Animations.push_back(std::move(Animation));
+}
+
+void SetDarkness(FSceneBuilder& Builder, float Exposure)
+{
+	Builder.Scene.DefaultExposure = Exposure;
+	Builder.SetLight({0, -1, 0}, 0.0f, glm::vec3(0));
+}
+
+void AddFlicker(FSceneBuilder& Builder, float Hz, float Phase)
+{
+	Builder.Scene.Lights.back().FlickerHz = Hz;
+	Builder.Scene.Lights.back().FlickerPhase = Phase;
 }
 
 } // namespace Lantern::Builtin

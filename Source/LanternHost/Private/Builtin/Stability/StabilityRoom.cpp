@@ -1,3 +1,4 @@
+// Rooms of slabs, closed or with one opening.
 #include "Builtin/Stability/StabilityRoom.h"
 
 namespace Lantern::Builtin

@@ -6,16 +6,16 @@
 namespace Lantern::Builtin
 {
 
-/// Six slabs of 20 cm around the space from Min to Max, overlapping at the edges: no light comes in.
+/// Adds six slabs of 20 cm around the space from Min to Max. They overlap at the edges, so that no light comes in.
 void AddRoom(FSceneBuilder& Builder, int32_t Material, const glm::vec3& Min, const glm::vec3& Max);
 
 enum class EOpening : uint8_t
 {
-	Front,
-	Back
-}; ///< towards +z, −z
+	Front, ///< towards +z
+	Back,  ///< towards −z
+};
 
-/// The same with an opening in one wall: Half metres to both sides of the wall's middle at X, from Bottom to Top.
+/// An opening in one wall: Half metres to either side of X, from Bottom to Top.
 struct FOpening
 {
 	EOpening Side = EOpening::Front;
