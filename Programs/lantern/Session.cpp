@@ -1,3 +1,4 @@
+// Finds the plugin's folders, opens the device and loads scenes for the commands.
 #include "Session.h"
 
 #include <chrono>
@@ -162,10 +163,7 @@ int FSession::OpenDevice(const FDeviceOptions& Options)
 	}
 	const FRTCapabilities& Capabilities = Device->GetCapabilities();
 	LogInfo("{} ({})", Capabilities.DeviceName, Capabilities.DriverName);
-	FRendererDesc Renderer;
-	Renderer.ShaderFolders = {Folders.Shaders};
-	Renderer.CacheFolder = Folders.Cache.empty() ? "" : Folders.Cache + "/shaders";
-	Engine = std::make_unique<FSampleEngine>(*Device, std::move(Renderer));
+	Engine = std::make_unique<FSampleEngine>(*Device, Folders.DescribeRenderer());
 	return ExitDone;
 }
 

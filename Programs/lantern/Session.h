@@ -14,6 +14,9 @@ namespace Lantern
 struct FPluginFolders
 {
 	std::string Root, Shaders, Config, Cache;
+	/// Folder for compiled shaders; empty without a cache.
+	std::string GetShaderCache() const { return Cache.empty() ? "" : Cache + "/shaders"; }
+	FRendererDesc DescribeRenderer() const { return {{Shaders}, GetShaderCache()}; }
 };
 FPluginFolders FindPluginFolders();
 

@@ -1,3 +1,4 @@
+// lantern bench anyhit: counts alpha tests with classified triangles and without, and compares the pictures.
 #include "Bench/BenchAnyHit.h"
 
 #include <cmath>
@@ -6,12 +7,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "Bench/BenchScenes.h"
+#include "Bench/BenchRun.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternHost/ReferenceRenderer.h"
-#include "LanternImage/AtomicFile.h"
-#include "Session.h"
 
 namespace Lantern
 {
@@ -177,11 +176,7 @@ int MeasureScene(FSession& Session, const FBenchScene& Scene, const FBenchAnyHit
 	};
 	for (const bool bPipeline : {true, false})
 	{
-		if (!(bPipeline ? Capabilities.bRayTracingPipeline : Capabilities.bRayQuery))
-		{
-			LogInfo("{}: the device has no {}", Scene.Name, bPipeline ? "ray-tracing pipelines" : "ray queries");
-			continue;
-		}
+		if (!HasRayPath(Capabilities, bPipeline, Scene)) { continue; }
 		for (const bool bSoft : {false, true})
 		{
 			FAnyHitCase Case;
@@ -216,40 +211,24 @@ void FBenchAnyHitOptions::AddTo(CLI::App& App)
 {
 	Device.AddTo(App);
 	App.add_option("SCENE", Scenes, "Scenes; without any, black_forest of LANTERN_SCENES and the courtyard");
-	App.add_option("--size", Size, "WIDTHxHEIGHT, pixels (1280x720; on a CPU device 640x360)")->check([](const std::string& Text) {
-		FPictureOptions Unused;
-		ParseSize(Text, Unused);
-		return std::string();
-	});
-	App.add_option("--json", Json, "Write the figures to this file");
+	AddBenchSize(App, Size, "1280x720; on a CPU device 640x360");
+	AddBenchJson(App, Json);
 }
 
 int RunBenchAnyHit(const FBenchAnyHitOptions& Options)
 {
-	if (!Options.Json.empty())
-	{
-		if (FRTStatus S = CheckOutputPath(Options.Json); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
-	}
-	FSession Session;
-	if (const int Status = Session.OpenDevice(Options.Device); Status != ExitDone) { return Session.Close(Status); }
-	const FRTCapabilities& Capabilities = Session.GetDevice().GetCapabilities();
-	nlohmann::json Json = {{"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"cases", nlohmann::json::array()}};
-	fmt::print("{:<34} {:>14} {:>14} {:>7} {:>8} {:>12} {:>8} {:>8} {:>12} {:>8}\n", "case", "plain", "classified", "ratio", "opaque",
-	    "transparent", "mixed", "pieces", "difference", "differ");
-	int Exit = ExitDone;
-	for (const FBenchScene& Scene : ChooseScenes(Options))
-	{
-		const int Status = MeasureScene(Session, Scene, Options, Json["cases"]);
-		Exit = Exit == ExitDone ? Status : Exit;
-	}
-	if (!Options.Json.empty() && (Exit == ExitDone || Exit == ExitCheckFailed))
-	{
-		if (FRTStatus S = WriteFileAtomically(Options.Json, Json.dump(2) + "\n"); !S)
-		{
-			return Session.Close((ReportStatus(S, "--json"), ExitBadInput));
-		}
-	}
-	return Session.Close(Exit);
+	FSceneBench Bench;
+	Bench.Device = Options.Device;
+	Bench.Json = Options.Json;
+	Bench.PrintHeader = [] {
+		fmt::print("{:<34} {:>14} {:>14} {:>7} {:>8} {:>12} {:>8} {:>8} {:>12} {:>8}\n", "case", "plain", "classified", "ratio", "opaque",
+		    "transparent", "mixed", "pieces", "difference", "differ");
+	};
+	Bench.ChooseScenes = [&] { return ChooseScenes(Options); };
+	Bench.Measure = [&](FSession& Session, const FBenchScene& Scene, nlohmann::json& Cases) {
+		return MeasureScene(Session, Scene, Options, Cases);
+	};
+	return RunSceneBench(Bench);
 }
 
 } // namespace Lantern

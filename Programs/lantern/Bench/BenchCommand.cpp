@@ -1,3 +1,4 @@
+// lantern bench rays: options, the scenes, and the table of figures.
 #include "Bench/BenchCommand.h"
 
 #include <CLI/CLI.hpp>
@@ -5,12 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "Bench/BenchRays.h"
-#include "Bench/BenchScenes.h"
+#include "Bench/BenchRun.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Text/Log.h"
-#include "LanternImage/AtomicFile.h"
-#include "Progress.h"
-#include "Session.h"
 
 namespace Lantern
 {
@@ -36,25 +34,20 @@ std::vector<FBenchScene> ChooseScenes(const FBenchRaysOptions& Options)
 	return Scenes;
 }
 
-nlohmann::json MakeTimes(const FRayTimes& Times)
-{
-	return {{"median", Times.GetMedian()}, {"min", Times.GetMin()}, {"max", Times.GetMax()}};
-}
-
 double GetProcessorRatio(const FRayCase& Case) { return Case.RawProcessor.GetMedian() / Case.PluginProcessor.GetMedian(); }
 
 nlohmann::json MakeJson(const FRayCase& Case, bool bIsCpu)
 {
 	nlohmann::json Json = {{"name", Case.Name}, {"width", Case.Width}, {"height", Case.Height}, {"raw_mrays", Case.GetRawMrays()},
 	    {"plugin_mrays", Case.GetPluginMrays()}, {"ratio", Case.GetRatio()}, {"rays", Case.Rays}, {"agreement", Case.Agreement},
-	    {"raw_ms", MakeTimes(Case.Raw)}, {"plugin_ms", MakeTimes(Case.Plugin)}, {"repetitions", Case.Raw.Ms.size()}};
+	    {"raw_ms", Case.Raw.ToJson()}, {"plugin_ms", Case.Plugin.ToJson()}, {"repetitions", Case.Raw.GetCount()}};
 	if (bIsCpu) { Json["ratio_processor_time"] = GetProcessorRatio(Case); }
 	return Json;
 }
 
 void PrintCase(const FRayCase& Case, bool bIsCpu)
 {
-	const auto Times = [](const FRayTimes& T) { return fmt::format("{:.2f} [{:.2f}, {:.2f}]", T.GetMedian(), T.GetMin(), T.GetMax()); };
+	const auto Times = [](const FBenchTimes& T) { return fmt::format("{:.2f} [{:.2f}, {:.2f}]", T.GetMedian(), T.GetMin(), T.GetMax()); };
 	fmt::print("{:<22} {:>9} {:>8} {:>9.3f} {:>12.3f} {:>6.3f}  {:>26} {:>26}  {:.4f} %{}\n", Case.Name,
 	    fmt::format("{}x{}", Case.Width, Case.Height), Case.Rays, Case.GetRawMrays(), Case.GetPluginMrays(), Case.GetRatio(),
 	    Times(Case.Raw), Times(Case.Plugin), 100.0 * Case.Agreement,
@@ -73,17 +66,13 @@ int MeasureScene(FSession& Session, const FBenchScene& Scene, const FBenchRaysOp
 	FRayBenchSettings Settings;
 	Settings.Repetitions = Options.Repetitions;
 	Settings.ShaderFolders = {Folders.Root + "/Programs/lantern/Bench/Shaders", Folders.Shaders};
-	Settings.CacheFolder = Folders.Cache.empty() ? "" : Folders.Cache + "/shaders";
+	Settings.CacheFolder = Folders.GetShaderCache();
 	FRayBench Bench(Session.GetDevice(), Session.GetEngine(), std::move(Settings));
 	if (FRTStatus S = Bench.CaptureGBuffer(Session.MakeView(Picture)); !S) { return ReportStatus(S, Scene.Name.c_str()); }
 	int Exit = ExitDone;
 	for (const bool bPipeline : {true, false})
 	{
-		if (!(bPipeline ? Capabilities.bRayTracingPipeline : Capabilities.bRayQuery))
-		{
-			LogInfo("{}: the device has no {}", Scene.Name, bPipeline ? "ray-tracing pipelines" : "ray queries");
-			continue;
-		}
+		if (!HasRayPath(Capabilities, bPipeline, Scene)) { continue; }
 		FRayCase Case;
 		Case.Name = Scene.Name + (bPipeline ? "/pipeline" : "/query");
 		if (FRTStatus S = Bench.Measure(bPipeline, Case); !S) { return ReportStatus(S, Case.Name.c_str()); }
@@ -104,41 +93,25 @@ void FBenchRaysOptions::AddTo(CLI::App& App)
 {
 	Device.AddTo(App);
 	App.add_option("SCENE", Scenes, "Scenes beside the courtyard; without any, Sponza and black_forest of LANTERN_SCENES");
-	App.add_option("--size", Size, "WIDTHxHEIGHT, pixels (1280x720; on a CPU device 640x360)")->check([](const std::string& Text) {
-		FPictureOptions Unused;
-		ParseSize(Text, Unused);
-		return std::string();
-	});
+	AddBenchSize(App, Size, "1280x720; on a CPU device 640x360");
 	App.add_option("--repetitions", Repetitions, "Measured dispatches of each")->check(CLI::Range(1, 100'000));
-	App.add_option("--json", Json, "Write the figures to this file");
+	AddBenchJson(App, Json);
 }
 
 int RunBenchRays(const FBenchRaysOptions& Options)
 {
-	if (!Options.Json.empty())
-	{
-		if (FRTStatus S = CheckOutputPath(Options.Json); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
-	}
-	FSession Session;
-	if (const int Status = Session.OpenDevice(Options.Device); Status != ExitDone) { return Session.Close(Status); }
-	const FRTCapabilities& Capabilities = Session.GetDevice().GetCapabilities();
-	nlohmann::json Json = {{"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"cases", nlohmann::json::array()}};
-	fmt::print("{:<22} {:>9} {:>8} {:>9} {:>12} {:>6}  {:>26} {:>26}  {}\n", "case", "size", "rays", "raw Mr/s", "plugin Mr/s", "ratio",
-	    "raw ms [min, max]", "plugin ms [min, max]", "same pixels");
-	int Exit = ExitDone;
-	for (const FBenchScene& Scene : ChooseScenes(Options))
-	{
-		const int Status = MeasureScene(Session, Scene, Options, Json["cases"]);
-		Exit = Exit == ExitDone ? Status : Exit;
-	}
-	if (!Options.Json.empty() && (Exit == ExitDone || Exit == ExitCheckFailed))
-	{
-		if (FRTStatus S = WriteFileAtomically(Options.Json, Json.dump(2) + "\n"); !S)
-		{
-			return Session.Close((ReportStatus(S, "--json"), ExitBadInput));
-		}
-	}
-	return Session.Close(Exit);
+	FSceneBench Bench;
+	Bench.Device = Options.Device;
+	Bench.Json = Options.Json;
+	Bench.PrintHeader = [] {
+		fmt::print("{:<22} {:>9} {:>8} {:>9} {:>12} {:>6}  {:>26} {:>26}  {}\n", "case", "size", "rays", "raw Mr/s", "plugin Mr/s", "ratio",
+		    "raw ms [min, max]", "plugin ms [min, max]", "same pixels");
+	};
+	Bench.ChooseScenes = [&] { return ChooseScenes(Options); };
+	Bench.Measure = [&](FSession& Session, const FBenchScene& Scene, nlohmann::json& Cases) {
+		return MeasureScene(Session, Scene, Options, Cases);
+	};
+	return RunSceneBench(Bench);
 }
 
 } // namespace Lantern

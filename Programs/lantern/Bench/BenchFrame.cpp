@@ -1,3 +1,4 @@
+// lantern bench frame: renders the open world stage by stage and times the render thread.
 #include "Bench/BenchFrame.h"
 
 #include <algorithm>
@@ -10,13 +11,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "Bench/BenchRun.h"
+#include "Bench/BenchTimes.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Tasks/Tasks.h"
 #include "LanternCore/Text/Log.h"
-#include "LanternImage/AtomicFile.h"
 #include "LanternRHIMock/MockDevice.h"
 #include "Progress.h"
-#include "Session.h"
 
 namespace Lantern
 {
@@ -50,38 +51,32 @@ void SetStage(size_t Stage)
 	}
 }
 
-/// Milliseconds of the frames of one stage.
-class FTimes
+/// Milliseconds of the frames of one stage, by part.
+class FStageTimes
 {
 public:
 	void Add(const std::string& Part, double Ms)
 	{
 		if (!Parts.count(Part)) { Order.push_back(Part); }
-		Parts[Part].push_back(Ms);
+		Parts[Part].Add(Ms);
 	}
-	double GetMedian(const std::string& Part) const { return GetSorted(Part, 0.5); }
-	double GetMin(const std::string& Part) const { return GetSorted(Part, 0.0); }
-	double GetMax(const std::string& Part) const { return GetSorted(Part, 1.0); }
+	/// Has no values if there is no such part.
+	FBenchTimes Get(const std::string& Part) const
+	{
+		const auto Found = Parts.find(Part);
+		return Found != Parts.end() ? Found->second : FBenchTimes();
+	}
 	const std::vector<std::string>& GetParts() const { return Order; }
 
 private:
-	double GetSorted(const std::string& Part, double At) const
-	{
-		const auto Found = Parts.find(Part);
-		if (Found == Parts.end()) { return 0.0; }
-		std::vector<double> Values = Found->second;
-		std::sort(Values.begin(), Values.end());
-		const size_t Last = Values.size() - 1;
-		return 0.5 * (Values[size_t(At * double(Last))] + Values[Last - size_t((1.0 - At) * double(Last))]);
-	}
 	std::vector<std::string> Order;
-	std::map<std::string, std::vector<double>> Parts;
+	std::map<std::string, FBenchTimes> Parts;
 };
 
 const std::string Critical = "critical path";
 const std::string Busy = "  processor time";
 
-/// Of the calling thread: what other programs on the machine take from it is no part of it, nor is what it waits for.
+/// Processor time of the calling thread. Time taken by other programs is no part of it, nor is time spent waiting.
 double GetThreadMs()
 {
 	timespec Time{};
@@ -111,7 +106,7 @@ private:
 	};
 	FView MakeView() const;
 	FChanges MakeChanges() const;
-	FRTStatus RenderFrame(FTimes* Times);
+	FRTStatus RenderFrame(FStageTimes* Times);
 	FRTStatus WaitForDevice();
 
 	FRenderer& Renderer;
@@ -122,7 +117,7 @@ private:
 	std::unique_ptr<FHostScene> Host;
 	uint32_t Width = 0, Height = 0;
 	uint32_t Frame = 0;
-	std::map<size_t, FTimes> Times; // by stage
+	std::map<size_t, FStageTimes> Times; // by stage
 	std::map<size_t, uint32_t> Instances;
 };
 
@@ -188,7 +183,7 @@ FRTStatus FFrameBench::WaitForDevice()
 	return Renderer.WaitForAll();
 }
 
-FRTStatus FFrameBench::RenderFrame(FTimes* OutTimes)
+FRTStatus FFrameBench::RenderFrame(FStageTimes* OutTimes)
 {
 	const FView View = MakeView();
 	FChanges Changes = MakeChanges();
@@ -259,21 +254,21 @@ FRTStatus FFrameBench::Measure()
 
 nlohmann::json FFrameBench::ToJson() const
 {
-	const FRTCapabilities& Capabilities = Renderer.GetDevice().GetCapabilities();
-	nlohmann::json Json = {{"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"objects", Options.World.Objects},
-	    {"skinned", Options.World.Characters}, {"moved", Options.World.Movers}, {"repainted", Options.World.Repainted},
-	    {"section_ranges", Host->GetScene().GetSections().GetRangeCount()}, {"sections", Host->GetScene().GetSections().GetCapacity()},
-	    {"threads", GetWorkerCount()}, {"width", Width}, {"height", Height}, {"stages", nlohmann::json::array()}};
+	nlohmann::json Json = DescribeBenchDevice(Renderer.GetDevice().GetCapabilities());
+	Json.update({{"objects", Options.World.Objects}, {"skinned", Options.World.Characters}, {"moved", Options.World.Movers},
+	    {"repainted", Options.World.Repainted}, {"section_ranges", Host->GetScene().GetSections().GetRangeCount()},
+	    {"sections", Host->GetScene().GetSections().GetCapacity()}, {"threads", GetWorkerCount()}, {"width", Width}, {"height", Height},
+	    {"stages", nlohmann::json::array()}});
 	for (const auto& [Stage, Of] : Times)
 	{
 		nlohmann::json Parts = nlohmann::json::object();
-		for (const std::string& Part : Of.GetParts()) { Parts[Part] = Of.GetMedian(Part); }
-		Json["stages"].push_back({{"name", GetStages()[Stage].Name}, {"cpu_critical_ms", Of.GetMedian(Critical)},
-		    {"processor_ms", Of.GetMedian(Busy)}, {"min_ms", Of.GetMin(Critical)}, {"max_ms", Of.GetMax(Critical)},
+		for (const std::string& Part : Of.GetParts()) { Parts[Part] = Of.Get(Part).GetMedian(); }
+		Json["stages"].push_back({{"name", GetStages()[Stage].Name}, {"cpu_critical_ms", Of.Get(Critical).GetMedian()},
+		    {"processor_ms", Of.Get(Busy).GetMedian()}, {"min_ms", Of.Get(Critical).GetMin()}, {"max_ms", Of.Get(Critical).GetMax()},
 		    {"instances", Instances.at(Stage)}, {"breakdown_ms", Parts}});
 	}
-	Json["ratio_processor_time"] = Times.at(0).GetMedian(Busy) / Times.rbegin()->second.GetMedian(Busy);
-	Json["ratio"] = Times.at(0).GetMedian(Critical) / Times.rbegin()->second.GetMedian(Critical);
+	Json["ratio_processor_time"] = Times.at(0).Get(Busy).GetMedian() / Times.rbegin()->second.Get(Busy).GetMedian();
+	Json["ratio"] = Times.at(0).Get(Critical).GetMedian() / Times.rbegin()->second.Get(Critical).GetMedian();
 	return Json;
 }
 
@@ -295,42 +290,33 @@ void FFrameBench::Print() const
 		for (const auto& [Stage, Of] : Times)
 		{
 			const std::string Range =
-			    Row == Critical || Row == Busy ? fmt::format(" [{:.2f}, {:.2f}]", Of.GetMin(Row), Of.GetMax(Row)) : "";
-			fmt::print(" {:>28}", fmt::format("{:.3f}{}", Of.GetMedian(Row), Range));
+			    Row == Critical || Row == Busy ? fmt::format(" [{:.2f}, {:.2f}]", Of.Get(Row).GetMin(), Of.Get(Row).GetMax()) : "";
+			fmt::print(" {:>28}", fmt::format("{:.3f}{}", Of.Get(Row).GetMedian(), Range));
 		}
 	}
 	fmt::print("\n{:<20}", "instances");
 	for (const auto& [Stage, Count] : Instances) { fmt::print(" {:>28}", Count); }
-	const auto Ratio = [&](const std::string& Part) { return Times.at(0).GetMedian(Part) / Times.rbegin()->second.GetMedian(Part); };
+	const auto Ratio = [&](const std::string& Part) {
+		return Times.at(0).Get(Part).GetMedian() / Times.rbegin()->second.Get(Part).GetMedian();
+	};
 	fmt::print("\nbaseline / last stage: {:.2f} (processor time: {:.2f})\n", Ratio(Critical), Ratio(Busy));
 }
 
-int RunOn(FRenderer& Renderer, const FBenchFrameOptions& Options)
+int RunOn(FRenderer& Renderer, const FBenchFrameOptions& Options, nlohmann::json& Figures)
 {
 	FFrameBench Bench(Renderer, Options);
 	if (FRTStatus S = Bench.Load(); !S) { return ReportStatus(S, "bench frame"); }
 	if (FRTStatus S = Bench.Measure(); !S) { return ReportStatus(S, "bench frame"); }
 	Bench.Print();
-	if (Options.Json.empty()) { return ExitDone; }
-	if (FRTStatus S = WriteFileAtomically(Options.Json, Bench.ToJson().dump(2) + "\n"); !S)
-	{
-		return ReportStatus(S, "--json"), ExitBadInput;
-	}
+	Figures = Bench.ToJson();
 	return ExitDone;
 }
 
-int RunOnMock(const FBenchFrameOptions& Options)
+int RunInSession(FSession& Session, const FBenchFrameOptions& Options, nlohmann::json& Figures)
 {
-	const FPluginFolders Folders = FindPluginFolders();
-	if (const int Status = LoadSettings(Folders.Config, Options.Device); Status != ExitDone) { return Status; }
-	TRTRef<IRTDevice> Device;
-	if (FRTStatus S = CreateMockDevice({}, Device.ReleaseAndGetAddress()); !S) { return ReportStatus(S, "--mock"); }
-	GetMock(Device.Get()).SetCallRecording(false);
-	FRendererDesc Desc;
-	Desc.ShaderFolders = {Folders.Shaders};
-	Desc.CacheFolder = Folders.Cache.empty() ? "" : Folders.Cache + "/shaders";
-	FRenderer Renderer(*Device, std::move(Desc));
-	return RunOn(Renderer, Options);
+	if (Session.GetDevice().GetCapabilities().bRayTracingPipeline) { return RunOn(Session.GetEngine().GetRenderer(), Options, Figures); }
+	LogError("bench frame: the device has no ray-tracing pipelines");
+	return ExitNoDevice;
 }
 } // namespace
 
@@ -344,30 +330,23 @@ void FBenchFrameOptions::AddTo(CLI::App& App)
 	    ->check(CLI::Range(0, 4'000'000));
 	App.add_option("--rounds", Rounds, "Rounds of all stages in turn; two measured frames of each stage in each")
 	    ->check(CLI::Range(1, 10'000));
-	App.add_option("--size", Size, "WIDTHxHEIGHT, pixels (1280x720; on a CPU device 64x36)")->check([](const std::string& Text) {
-		FPictureOptions Unused;
-		ParseSize(Text, Unused);
-		return std::string();
-	});
+	AddBenchSize(App, Size, "1280x720; on a CPU device 64x36");
 	App.add_flag("--mock", bMock, "On a pretended device without a driver: the plugin's own work alone");
-	App.add_option("--json", Json, "Write the figures to this file");
+	AddBenchJson(App, Json);
 }
 
 int RunBenchFrame(const FBenchFrameOptions& Options)
 {
-	if (!Options.Json.empty())
-	{
-		if (FRTStatus S = CheckOutputPath(Options.Json); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
-	}
-	if (Options.bMock) { return RunOnMock(Options); }
-	FSession Session;
-	if (const int Status = Session.OpenDevice(Options.Device); Status != ExitDone) { return Session.Close(Status); }
-	if (!Session.GetDevice().GetCapabilities().bRayTracingPipeline)
-	{
-		LogError("bench frame: the device has no ray-tracing pipelines");
-		return Session.Close(ExitNoDevice);
-	}
-	return Session.Close(RunOn(Session.GetEngine().GetRenderer(), Options));
+	return RunBench(Options.Json, [&](nlohmann::json& Figures) {
+		if (!Options.bMock)
+		{
+			return RunInBenchSession(Options.Device, [&](FSession& Session) { return RunInSession(Session, Options, Figures); });
+		}
+		return RunOnBenchMock(Options.Device, [&](IRTDevice& Device) {
+			FRenderer Renderer(Device, FindPluginFolders().DescribeRenderer());
+			return RunOn(Renderer, Options, Figures);
+		});
+	});
 }
 
 } // namespace Lantern

@@ -1,3 +1,4 @@
+// lantern bench gather: the world, the plain loop, and the times of either way.
 #include "Bench/BenchGather.h"
 
 #include <algorithm>
@@ -14,12 +15,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "Bench/BenchRun.h"
+#include "Bench/BenchTimes.h"
 #include "LanternCore/Tasks/Tasks.h"
 #include "LanternCore/Text/Log.h"
-#include "LanternImage/AtomicFile.h"
 #include "LanternScene/Instances/Gather.h"
-#include "Options.h"
-#include "Session.h"
 
 namespace Lantern
 {
@@ -36,19 +36,6 @@ struct FSize
 };
 /// A wooded country: bushes and rocks, trees, huts, buildings.
 constexpr FSize SizesOfObjects[] = {{{0.5, 2}, 0.60}, {{3, 9}, 0.35}, {{8, 20}, 0.045}, {{20, 60}, 0.005}};
-
-/// Times in milliseconds.
-struct FTimes
-{
-	std::vector<double> Ms;
-	double GetMedian()
-	{
-		std::sort(Ms.begin(), Ms.end());
-		return Ms[Ms.size() / 2];
-	}
-	double GetMin() const { return *std::min_element(Ms.begin(), Ms.end()); }
-	nlohmann::json ToJson() { return {{"median", GetMedian()}, {"min", GetMin()}}; }
-};
 
 template <class FWork>
 double Measure(FWork Work)
@@ -167,7 +154,7 @@ struct FResult
 {
 	uint32_t Kept = 0;
 	bool bSame = true;
-	FTimes Naive, NaiveAll, Fast, Count, Moving, MovingChanges, All;
+	FBenchTimes Naive, NaiveAll, Fast, Count, Moving, MovingChanges, All;
 	double StillUs = 0.0;
 };
 
@@ -182,15 +169,15 @@ void MeasureMoving(FWorld& World, uint32_t Frames, FResult& Out)
 		const FCullingRule Rule(MakeView(Frame), {});
 		FRTInstance* const Target = Frame % 2 == 0 ? First.Get() : Second.Get();
 		double CountMs = 0.0;
-		Out.Fast.Ms.push_back(Measure([&] {
+		Out.Fast.Add(Measure([&] {
 			CountMs = Measure([&] { Gather.Count(World.Store, Rule); });
 			Gather.Write(World.Store, Origin, Target);
 		}));
-		Out.Count.Ms.push_back(CountMs);
+		Out.Count.Add(CountMs);
 		Out.Kept = Gather.GetCount();
 		if (Frame % 8 != 0) { continue; }
 		uint32_t Kept = 0;
-		Out.Naive.Ms.push_back(Measure([&] { Kept = GatherStraightforward(World.Store, World.Table.data(), Rule, Origin, Plain.Get()); }));
+		Out.Naive.Add(Measure([&] { Kept = GatherStraightforward(World.Store, World.Table.data(), Rule, Origin, Plain.Get()); }));
 		if (Frame % 80 == 0) { Out.bSame &= Kept == Out.Kept && IsSameSet(Target, Plain.Get(), Kept); }
 	}
 }
@@ -205,29 +192,29 @@ void MeasureOthers(FWorld& World, uint32_t Frames, FResult& Out)
 	const FCullingRule All(MakeView(0), Off), Still(MakeView(0), {});
 	for (uint32_t Frame = 0; Frame < std::max(8u, Frames / 8); ++Frame)
 	{
-		Out.All.Ms.push_back(Measure([&] {
+		Out.All.Add(Measure([&] {
 			Gather.Count(World.Store, All);
 			Gather.Write(World.Store, Origin, Target.Get());
 		}));
-		Out.NaiveAll.Ms.push_back(Measure([&] { GatherStraightforward(World.Store, World.Table.data(), All, Origin, Target.Get()); }));
+		Out.NaiveAll.Add(Measure([&] { GatherStraightforward(World.Store, World.Table.data(), All, Origin, Target.Get()); }));
 	}
-	FTimes Times;
+	FBenchTimes Times;
 	for (uint32_t Frame = 0; Frame < Frames; ++Frame)
 	{
-		Times.Ms.push_back(Measure([&] { Gather.Count(World.Store, Still); }));
+		Times.Add(Measure([&] { Gather.Count(World.Store, Still); }));
 	}
 	Out.StillUs = 1000.0 * Times.GetMedian();
 	for (uint32_t Frame = 0; Frame < Frames; ++Frame)
 	{
-		Out.MovingChanges.Ms.push_back(Measure([&] { World.MoveSome(Frame); }));
-		Out.Moving.Ms.push_back(Measure([&] {
+		Out.MovingChanges.Add(Measure([&] { World.MoveSome(Frame); }));
+		Out.Moving.Add(Measure([&] {
 			Gather.Count(World.Store, Still);
 			Gather.Write(World.Store, Origin, Target.Get());
 		}));
 	}
 }
 
-nlohmann::json MakeJson(uint32_t Instances, const FWorld& World, FResult& R)
+nlohmann::json MakeJson(uint32_t Instances, const FWorld& World, const FResult& R)
 {
 	return {{"instances", Instances}, {"kept", R.Kept}, {"naive_ms", R.Naive.GetMedian()}, {"ms", R.Fast.GetMedian()},
 	    {"ratio", R.Naive.GetMedian() / R.Fast.GetMedian()}, {"buckets", World.Store.GetBucketCount()}, {"naive", R.Naive.ToJson()},
@@ -235,22 +222,10 @@ nlohmann::json MakeJson(uint32_t Instances, const FWorld& World, FResult& R)
 	    {"moving_1pct", {{"changes", R.MovingChanges.ToJson()}, {"gather", R.Moving.ToJson()}}},
 	    {"no_culling", {{"naive", R.NaiveAll.ToJson()}, {"gather", R.All.ToJson()}}}};
 }
-} // namespace
 
-void FBenchGatherOptions::AddTo(CLI::App& App)
+int MeasureSizes(const FBenchGatherOptions& Options, nlohmann::json& Json)
 {
-	App.add_option("--instances", Sizes, "Objects in the world; may be given several times")->check(CLI::Range(1, 16'000'000));
-	App.add_option("--frames", Frames, "Frames of each measurement")->check(CLI::Range(8, 1'000'000));
-	App.add_option("--json", Json, "Write the figures to this file");
-}
-
-int RunBenchGather(const FBenchGatherOptions& Options)
-{
-	if (!Options.Json.empty())
-	{
-		if (FRTStatus S = CheckOutputPath(Options.Json); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
-	}
-	nlohmann::json Json = {{"workers", GetWorkerCount()}, {"sizes", nlohmann::json::array()}};
+	Json = {{"workers", GetWorkerCount()}, {"sizes", nlohmann::json::array()}};
 	fmt::print("32 x 32 km, {} workers, medians [minima] of {} frames, ms\n", GetWorkerCount(), Options.Frames);
 	fmt::print("{:>9} {:>8} {:>8} {:>17} {:>17} {:>6} {:>17} {:>19} {:>19}\n", "objects", "buckets", "kept", "naive", "gather", "ratio",
 	    "1 % moves", "naive, all kept", "gather, all kept");
@@ -261,7 +236,7 @@ int RunBenchGather(const FBenchGatherOptions& Options)
 		FResult R;
 		MeasureMoving(World, Options.Frames, R);
 		MeasureOthers(World, Options.Frames, R);
-		const auto Text = [](FTimes& T) { return fmt::format("{:.3f} [{:.3f}]", T.GetMedian(), T.GetMin()); };
+		const auto Text = [](const FBenchTimes& T) { return fmt::format("{:.3f} [{:.3f}]", T.GetMedian(), T.GetMin()); };
 		fmt::print("{:>9} {:>8} {:>8} {:>17} {:>17} {:>6.1f} {:>17} {:>19} {:>19}\n", Instances, World.Store.GetBucketCount(), R.Kept,
 		    Text(R.Naive), Text(R.Fast), R.Naive.GetMedian() / R.Fast.GetMedian(), Text(R.Moving), Text(R.NaiveAll), Text(R.All));
 		std::fflush(stdout);
@@ -272,11 +247,20 @@ int RunBenchGather(const FBenchGatherOptions& Options)
 			Exit = ExitCheckFailed;
 		}
 	}
-	if (!Options.Json.empty())
-	{
-		if (FRTStatus S = WriteFileAtomically(Options.Json, Json.dump(2) + "\n"); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
-	}
 	return Exit;
+}
+} // namespace
+
+void FBenchGatherOptions::AddTo(CLI::App& App)
+{
+	App.add_option("--instances", Sizes, "Objects in the world; may be given several times")->check(CLI::Range(1, 16'000'000));
+	App.add_option("--frames", Frames, "Frames of each measurement")->check(CLI::Range(8, 1'000'000));
+	AddBenchJson(App, Json);
+}
+
+int RunBenchGather(const FBenchGatherOptions& Options)
+{
+	return RunBench(Options.Json, [&](nlohmann::json& Figures) { return MeasureSizes(Options, Figures); });
 }
 
 } // namespace Lantern

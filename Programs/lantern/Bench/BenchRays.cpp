@@ -1,3 +1,4 @@
+// Measures the sun shadow pass and the raw dispatch in turn.
 #include "Bench/BenchRays.h"
 
 #include <algorithm>
@@ -21,20 +22,10 @@ T GetVariable(const char* Name)
 	return std::get<T>(FConsoleVariables::Get().Find(Name)->GetValue());
 }
 
-/// Of all threads of the process: a CPU driver's workers are among them.
+/// Processor time of all threads of the process: a CPU driver's workers are among them.
 double GetProcessorMs() { return double(std::clock()) * (1000.0 / CLOCKS_PER_SEC); }
 } // namespace
 
-double FRayTimes::GetMedian() const
-{
-	std::vector<double> Sorted = Ms;
-	std::sort(Sorted.begin(), Sorted.end());
-	const size_t Half = Sorted.size() / 2;
-	return Sorted.empty() ? 0.0 : Sorted.size() % 2 ? Sorted[Half] : 0.5 * (Sorted[Half - 1] + Sorted[Half]);
-}
-
-double FRayTimes::GetMin() const { return Ms.empty() ? 0.0 : *std::min_element(Ms.begin(), Ms.end()); }
-double FRayTimes::GetMax() const { return Ms.empty() ? 0.0 : *std::max_element(Ms.begin(), Ms.end()); }
 double FRayCase::GetRawMrays() const { return double(Rays) / Raw.GetMedian() * 1e-3; }
 double FRayCase::GetPluginMrays() const { return double(Rays) / Plugin.GetMedian() * 1e-3; }
 
@@ -174,8 +165,8 @@ FRTStatus FRayBench::RunInTurn(FRawShadow& Raw, FRayCase& Out)
 			if (FRTStatus S = bRaw ? Raw.Run(Ms) : RunPlugin(Ms); !S) { return S; }
 			if (I >= Settings.WarmUp)
 			{
-				(bRaw ? Out.Raw : Out.Plugin).Ms.push_back(Ms);
-				(bRaw ? Out.RawProcessor : Out.PluginProcessor).Ms.push_back(GetProcessorMs() - Start);
+				(bRaw ? Out.Raw : Out.Plugin).Add(Ms);
+				(bRaw ? Out.RawProcessor : Out.PluginProcessor).Add(GetProcessorMs() - Start);
 			}
 		}
 	}

@@ -4,29 +4,21 @@
 #include <string>
 #include <vector>
 
+#include "Bench/BenchTimes.h"
 #include "LanternHost/SampleEngine.h"
 
 namespace Lantern
 {
 
-/// Times of one contestant, milliseconds.
-struct FRayTimes
-{
-	std::vector<double> Ms;
-	double GetMedian() const;
-	double GetMin() const;
-	double GetMax() const;
-};
-
 struct FRayCase
 {
 	std::string Name;
 	uint32_t Width = 0, Height = 0;
-	uint64_t Rays = 0;    ///< pixels that trace one: no sky, no surface turned away from the sun
-	double Agreement = 0; ///< fraction of pixels on which both say the same
-	FRayTimes Raw, Plugin;
-	/// Processor time of the same runs. On a CPU driver its ratio stands where other programs disturb the times above.
-	FRayTimes RawProcessor, PluginProcessor;
+	uint64_t Rays = 0;       ///< pixels that trace one: no sky, no surface turned away from the sun
+	double Agreement = 0;    ///< fraction of pixels on which both say the same
+	FBenchTimes Raw, Plugin; ///< milliseconds
+	/// Processor time of the same runs, in milliseconds. On a CPU driver its ratio holds where other programs disturb the times above.
+	FBenchTimes RawProcessor, PluginProcessor;
 	double GetRawMrays() const; ///< by the median time
 	double GetPluginMrays() const;
 	double GetRatio() const { return GetPluginMrays() / GetRawMrays(); }

@@ -1,3 +1,4 @@
+// lantern bench shaders: compiles every pipeline that frames may need, and times the driver.
 #include "Bench/BenchShaders.h"
 
 #include <algorithm>
@@ -8,14 +9,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "Bench/BenchRun.h"
 #include "Bench/BenchShaderList.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternHost/SceneLoader.h"
-#include "LanternImage/AtomicFile.h"
 #include "LanternMeasure/Methods.h"
-#include "LanternRHIMock/MockDevice.h"
 #include "Progress.h"
-#include "Session.h"
 
 namespace Lantern
 {
@@ -153,12 +152,8 @@ private:
 FRTStatus ListAll(const FBenchShadersOptions& Options, const FPluginFolders& Folders, std::vector<FPipelineShaders>& Out)
 {
 	TRTRef<IRTDevice> Mock;
-	if (FRTStatus S = CreateMockDevice({}, Mock.ReleaseAndGetAddress()); !S) { return S; }
-	GetMock(Mock.Get()).SetCallRecording(false);
-	FRendererDesc Desc;
-	Desc.ShaderFolders = {Folders.Shaders};
-	Desc.CacheFolder = Folders.Cache.empty() ? "" : Folders.Cache + "/shaders";
-	FSampleEngine Engine(*Mock, std::move(Desc));
+	if (FRTStatus S = CreateBenchMock(Mock); !S) { return S; }
+	FSampleEngine Engine(*Mock, Folders.DescribeRenderer());
 	for (const std::string& Scene : Options.Scenes)
 	{
 		if (FRTStatus S = Load(Engine, Scene); !S) { return S; }
@@ -196,24 +191,9 @@ nlohmann::json MakeJson(const std::vector<FMeasured>& All)
 	}
 	return Json;
 }
-} // namespace
 
-void FBenchShadersOptions::AddTo(CLI::App& App)
+int MeasureAll(const FBenchShadersOptions& Options, nlohmann::json& Figures)
 {
-	Device.AddTo(App);
-	App.add_option("SCENE", Scenes, "Scenes whose shaders are measured (the built-in courtyard)");
-	App.add_option("--match", Match, "Only pipelines with this in their name");
-	App.add_option("--max-seconds", MaxSeconds, "Exit 1 where the driver takes longer for one pipeline (0: no limit)")
-	    ->check(CLI::Range(0.0, 1e6));
-	App.add_option("--json", Json, "Write the figures to this file");
-}
-
-int RunBenchShaders(const FBenchShadersOptions& Options)
-{
-	if (!Options.Json.empty())
-	{
-		if (FRTStatus S = CheckOutputPath(Options.Json); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
-	}
 	const FPluginFolders Folders = FindPluginFolders();
 	if (const int Status = LoadSettings(Folders.Config, Options.Device); Status != ExitDone) { return Status; }
 	std::vector<FPipelineShaders> Pipelines;
@@ -240,12 +220,8 @@ int RunBenchShaders(const FBenchShadersOptions& Options)
 	std::stable_sort(All.begin(), All.end(),
 	    [](const FMeasured& A, const FMeasured& B) { return A.second.GetDriverSeconds() > B.second.GetDriverSeconds(); });
 	Print(All);
-	if (!Options.Json.empty())
-	{
-		const nlohmann::json Json = {
-		    {"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"pipelines", MakeJson(All)}};
-		if (FRTStatus S = WriteFileAtomically(Options.Json, Json.dump(2) + "\n"); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
-	}
+	Figures = DescribeBenchDevice(Capabilities);
+	Figures["pipelines"] = MakeJson(All);
 	if (const uint32_t Messages = Device->GetValidationMessageCount(); Messages > 0)
 	{
 		LogError("validation: {} messages", Messages);
@@ -253,6 +229,22 @@ int RunBenchShaders(const FBenchShadersOptions& Options)
 	}
 	const bool bOver = Options.MaxSeconds > 0.0 && !All.empty() && All.front().second.GetDriverSeconds() > Options.MaxSeconds;
 	return bOver ? ExitCheckFailed : ExitDone;
+}
+} // namespace
+
+void FBenchShadersOptions::AddTo(CLI::App& App)
+{
+	Device.AddTo(App);
+	App.add_option("SCENE", Scenes, "Scenes whose shaders are measured (the built-in courtyard)");
+	App.add_option("--match", Match, "Only pipelines with this in their name");
+	App.add_option("--max-seconds", MaxSeconds, "Exit 1 where the driver takes longer for one pipeline (0: no limit)")
+	    ->check(CLI::Range(0.0, 1e6));
+	AddBenchJson(App, Json);
+}
+
+int RunBenchShaders(const FBenchShadersOptions& Options)
+{
+	return RunBench(Options.Json, [&](nlohmann::json& Figures) { return MeasureAll(Options, Figures); });
 }
 
 } // namespace Lantern

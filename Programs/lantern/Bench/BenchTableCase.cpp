@@ -1,3 +1,4 @@
+// One size of lantern bench sbt: its objects, their changes, and the measured frames.
 #include "Bench/BenchTableCase.h"
 
 #include <algorithm>
@@ -38,8 +39,8 @@ public:
 		const double ProcessorEnd = GetSeconds(CLOCK_PROCESS_CPUTIME_ID);
 		if (Times)
 		{
-			Times->Wall.push_back(1e6 * (WallEnd - Wall) / Frames);
-			Times->Processor.push_back(1e6 * (ProcessorEnd - Processor) / Frames);
+			Times->Wall.Add(1e6 * (WallEnd - Wall) / Frames);
+			Times->Processor.Add(1e6 * (ProcessorEnd - Processor) / Frames);
 		}
 	}
 	FTableTimer(const FTableTimer&) = delete;
@@ -50,13 +51,6 @@ private:
 	uint32_t Frames;
 	double Wall, Processor;
 };
-
-double MedianOf(std::vector<double> Values)
-{
-	if (Values.empty()) { return 0.0; }
-	std::nth_element(Values.begin(), Values.begin() + static_cast<ptrdiff_t>(Values.size() / 2), Values.end());
-	return Values[Values.size() / 2];
-}
 
 /// Body may use P, the payload. No two shaders are the same, nor have the same code: drivers give those one handle.
 FShaderSource MakeShader(const std::string& Name, const std::string& Body)
@@ -94,11 +88,6 @@ FRTStatus CreateBuffer(IRTDevice& Device, const char* Name, uint64_t Size, TRTRe
 	return Device.CreateBuffer(Desc, Out.ReleaseAndGetAddress());
 }
 } // namespace
-
-double FTableTimes::GetMedian() const { return MedianOf(Wall); }
-double FTableTimes::GetMin() const { return Wall.empty() ? 0.0 : *std::min_element(Wall.begin(), Wall.end()); }
-double FTableTimes::GetMax() const { return Wall.empty() ? 0.0 : *std::max_element(Wall.begin(), Wall.end()); }
-double FTableTimes::GetProcessorMedian() const { return MedianOf(Processor); }
 
 FRTStatus FTablePrograms::Create(IRTDevice& Device, FShaderCompiler& Compiler)
 {

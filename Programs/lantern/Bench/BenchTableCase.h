@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "Bench/BenchTimes.h"
 #include "LanternCore/Shaders/ShaderCompiler.h"
 #include "LanternScene/Pipelines/RTPSO.h"
 #include "LanternScene/ShaderTable/SectionTable.h"
@@ -17,12 +18,8 @@ namespace Lantern
 /// Microseconds of each repetition.
 struct FTableTimes
 {
-	std::vector<double> Wall;
-	std::vector<double> Processor; ///< of all threads
-	double GetMedian() const;
-	double GetMin() const;
-	double GetMax() const;
-	double GetProcessorMedian() const;
+	FBenchTimes Wall;
+	FBenchTimes Processor; ///< of all threads
 };
 
 struct FTableCaseResult

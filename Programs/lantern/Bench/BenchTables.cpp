@@ -1,3 +1,4 @@
+// lantern bench sbt: options and the table of figures.
 #include "Bench/BenchTables.h"
 
 #include <cstdio>
@@ -6,13 +7,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "Bench/BenchRun.h"
 #include "Bench/BenchTableCase.h"
 #include "LanternCore/Tasks/Tasks.h"
 #include "LanternCore/Text/Log.h"
-#include "LanternImage/AtomicFile.h"
-#include "LanternRHIMock/MockDevice.h"
-#include "Progress.h"
-#include "Session.h"
 
 namespace Lantern
 {
@@ -21,16 +19,18 @@ namespace
 {
 nlohmann::json MakeTimes(const FTableTimes& Times)
 {
-	return {
-	    {"median", Times.GetMedian()}, {"min", Times.GetMin()}, {"max", Times.GetMax()}, {"processor_median", Times.GetProcessorMedian()}};
+	nlohmann::json Json = Times.Wall.ToJson();
+	Json["processor_median"] = Times.Processor.GetMedian();
+	return Json;
 }
 
 nlohmann::json MakeJson(const FTableCaseResult& Case)
 {
-	return {{"objects", Case.Objects}, {"records", Case.Records}, {"full_rewrite_us", Case.Full.GetMedian()},
-	    {"static_us", Case.Static.GetMedian()}, {"dynamic_1pct_us", Case.Dynamic.GetMedian()},
-	    {"dynamic_1pct_sections_us", Case.DynamicSections.GetMedian()}, {"swap_us", Case.Swap.GetMedian()}, {"bytes_full", Case.BytesFull},
-	    {"bytes_static", Case.BytesStatic}, {"bytes_dynamic", Case.BytesDynamic}, {"bytes_swap", Case.BytesSwap},
+	return {{"objects", Case.Objects}, {"records", Case.Records}, {"full_rewrite_us", Case.Full.Wall.GetMedian()},
+	    {"static_us", Case.Static.Wall.GetMedian()}, {"dynamic_1pct_us", Case.Dynamic.Wall.GetMedian()},
+	    {"dynamic_1pct_sections_us", Case.DynamicSections.Wall.GetMedian()}, {"swap_us", Case.Swap.Wall.GetMedian()},
+	    {"bytes_full", Case.BytesFull}, {"bytes_static", Case.BytesStatic}, {"bytes_dynamic", Case.BytesDynamic},
+	    {"bytes_swap", Case.BytesSwap},
 	    {"times", {{"full_rewrite", MakeTimes(Case.Full)}, {"static", MakeTimes(Case.Static)}, {"dynamic_1pct", MakeTimes(Case.Dynamic)},
 	                  {"dynamic_1pct_sections", MakeTimes(Case.DynamicSections)}, {"swap", MakeTimes(Case.Swap)}}}};
 }
@@ -43,27 +43,18 @@ void PrintHeader()
 
 void PrintCase(const FTableCaseResult& Case, bool bShared)
 {
-	const auto Times = [](const FTableTimes& T) { return fmt::format("{:.1f} [{:.0f}, {:.0f}]", T.GetMedian(), T.GetMin(), T.GetMax()); };
+	const auto Times = [](const FTableTimes& T) {
+		return fmt::format("{:.1f} [{:.0f}, {:.0f}]", T.Wall.GetMedian(), T.Wall.GetMin(), T.Wall.GetMax());
+	};
 	fmt::print("{:>8} {:>8} {:>8}  {:>22} {:>10.4f} {:>22} {:>12.1f} {:>22}  {:>11} {:>11} {:>11}\n", Case.Objects,
-	    bShared ? "shared" : "own", Case.Records, Times(Case.Full), Case.Static.GetMedian(), Times(Case.Dynamic),
-	    Case.DynamicSections.GetMedian(), Times(Case.Swap), Case.BytesFull, Case.BytesDynamic, Case.BytesSwap);
+	    bShared ? "shared" : "own", Case.Records, Times(Case.Full), Case.Static.Wall.GetMedian(), Times(Case.Dynamic),
+	    Case.DynamicSections.Wall.GetMedian(), Times(Case.Swap), Case.BytesFull, Case.BytesDynamic, Case.BytesSwap);
 	fmt::print("{:>26}  full / static {:.0f}, full / 1 % {:.1f}, full / swap {:.2f}; by processor time 1 % {:.1f}, "
 	           "swap {:.2f}\n",
-	    "", Case.Full.GetMedian() / Case.Static.GetMedian(), Case.Full.GetMedian() / Case.Dynamic.GetMedian(),
-	    Case.Full.GetMedian() / Case.Swap.GetMedian(), Case.Full.GetProcessorMedian() / Case.Dynamic.GetProcessorMedian(),
-	    Case.Full.GetProcessorMedian() / Case.Swap.GetProcessorMedian());
+	    "", Case.Full.Wall.GetMedian() / Case.Static.Wall.GetMedian(), Case.Full.Wall.GetMedian() / Case.Dynamic.Wall.GetMedian(),
+	    Case.Full.Wall.GetMedian() / Case.Swap.Wall.GetMedian(), Case.Full.Processor.GetMedian() / Case.Dynamic.Processor.GetMedian(),
+	    Case.Full.Processor.GetMedian() / Case.Swap.Processor.GetMedian());
 	std::fflush(stdout);
-}
-
-FRTStatus OpenMock(const FBenchTablesOptions& Options, TRTRef<IRTDevice>& Out)
-{
-	if (LoadSettings(FindPluginFolders().Config, Options.Device) != ExitDone)
-	{
-		return FRTStatus::Error(ERTResult::InvalidArgument, "settings could not be read");
-	}
-	if (FRTStatus S = CreateMockDevice({}, Out.ReleaseAndGetAddress()); !S) { return S; }
-	GetMock(Out.Get()).SetCallRecording(false);
-	return FRTStatus::Success();
 }
 
 int MeasureAll(IRTDevice& Device, const FBenchTablesOptions& Options, nlohmann::json& Json)
@@ -94,6 +85,20 @@ int MeasureAll(IRTDevice& Device, const FBenchTablesOptions& Options, nlohmann::
 	}
 	return Exit;
 }
+
+int MeasureOn(IRTDevice& Device, const FBenchTablesOptions& Options, nlohmann::json& Json)
+{
+	const FRTCapabilities& Capabilities = Device.GetCapabilities();
+	if (!Capabilities.bRayTracingPipeline)
+	{
+		LogError("bench sbt: {} has no ray-tracing pipelines, so no shader tables", Capabilities.DeviceName);
+		return ExitNoDevice;
+	}
+	Json = DescribeBenchDevice(Capabilities);
+	Json["workers"] = GetWorkerCount();
+	Json["ray_types"] = FTablePrograms::RayTypes;
+	return MeasureAll(Device, Options, Json);
+}
 } // namespace
 
 void FBenchTablesOptions::AddTo(CLI::App& App)
@@ -102,37 +107,16 @@ void FBenchTablesOptions::AddTo(CLI::App& App)
 	App.add_flag("--mock", bMock, "On the mock device instead of a driver");
 	App.add_option("--objects", Objects, "Numbers of objects")->check(CLI::Range(100, 4'000'000));
 	App.add_option("--repetitions", Repetitions, "Measured frames of each kind")->check(CLI::Range(1, 100'000));
-	App.add_option("--json", Json, "Write the figures to this file");
+	AddBenchJson(App, Json);
 }
 
 int RunBenchTables(const FBenchTablesOptions& Options)
 {
-	if (!Options.Json.empty())
-	{
-		if (FRTStatus S = CheckOutputPath(Options.Json); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
-	}
-	FSession Session;
-	TRTRef<IRTDevice> Mock;
-	if (Options.bMock)
-	{
-		if (FRTStatus S = OpenMock(Options, Mock); !S) { return ReportStatus(S, "--mock"); }
-	}
-	else if (const int Status = Session.OpenDevice(Options.Device); Status != ExitDone) { return Session.Close(Status); }
-	IRTDevice& Device = Options.bMock ? *Mock : Session.GetDevice();
-	const FRTCapabilities& Capabilities = Device.GetCapabilities();
-	if (!Capabilities.bRayTracingPipeline)
-	{
-		LogError("bench sbt: {} has no ray-tracing pipelines, so no shader tables", Capabilities.DeviceName);
-		return Session.Close(ExitNoDevice);
-	}
-	nlohmann::json Json = {{"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"workers", GetWorkerCount()},
-	    {"ray_types", FTablePrograms::RayTypes}};
-	int Exit = MeasureAll(Device, Options, Json);
-	if (!Options.Json.empty() && (Exit == ExitDone || Exit == ExitCheckFailed))
-	{
-		if (FRTStatus S = WriteFileAtomically(Options.Json, Json.dump(2) + "\n"); !S) { Exit = (ReportStatus(S, "--json"), ExitBadInput); }
-	}
-	return Session.Close(Exit);
+	return RunBench(Options.Json, [&](nlohmann::json& Figures) {
+		const auto Measure = [&](IRTDevice& Device) { return MeasureOn(Device, Options, Figures); };
+		if (Options.bMock) { return RunOnBenchMock(Options.Device, Measure); }
+		return RunInBenchSession(Options.Device, [&](FSession& Session) { return Measure(Session.GetDevice()); });
+	});
 }
 
 } // namespace Lantern

@@ -1,3 +1,4 @@
+// lantern info, lantern cvars and the list of scenes.
 #include "Commands/InfoCommand.h"
 
 #include <vector>
@@ -5,11 +6,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "JsonFile.h"
 #include "LanternCore/Config/Config.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
 #include "LanternHost/BuiltinScenes.h"
-#include "LanternImage/AtomicFile.h"
 #include "LanternRHIVulkan/VulkanDevice.h"
 #include "Session.h"
 
@@ -86,10 +87,7 @@ int RunInfo(const std::string& Json)
 		Out["devices"].push_back({{"index", I}, {"device", D.Name}, {"driver", D.Driver}, {"type", D.Type}, {"usable", D.bUsable},
 		    {"rung", RungName(D.Rung)}, {"features", MakeFeatures(D)}, {"missing", D.Missing}, {"quirks", D.Quirks}});
 	}
-	if (!Json.empty())
-	{
-		if (FRTStatus S = WriteFileAtomically(Json, Out.dump(2) + "\n"); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
-	}
+	if (const int Status = WriteJsonFile(Json, Out.dump(2) + "\n"); Status != ExitDone) { return Status; }
 	if (bSome) { return ExitDone; }
 	LogError("no device that traces rays was found");
 	return ExitNoDevice;
@@ -106,11 +104,7 @@ int RunCvars(const FDeviceOptions& Settings, bool bMarkdown, const std::string& 
 		return ExitDone;
 	}
 	if (const int Status = LoadSettings(Folder, Settings); Status != ExitDone) { return Status; }
-	if (!Json.empty())
-	{
-		if (FRTStatus S = WriteFileAtomically(Json, Variables.ToJson()); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
-		return ExitDone;
-	}
+	if (!Json.empty()) { return WriteJsonFile(Json, Variables.ToJson()); }
 	fmt::print("{:<34} {:<10} {:<14} {}\n", "name", "value", "set by", "help");
 	for (const FRTConsoleVariable* Variable : Variables.GetAll())
 	{

@@ -1,3 +1,4 @@
+// lantern render and lantern reference: frames through the plugin, and the path tracer.
 #include "Commands/RenderCommand.h"
 
 #include <algorithm>
@@ -7,11 +8,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "JsonFile.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Tasks/TaskTrace.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternHost/ReferenceRenderer.h"
-#include "LanternImage/AtomicFile.h"
 #include "LanternImage/ImageIO.h"
 #include "LanternImage/ToneMap.h"
 #include "Progress.h"
@@ -122,11 +123,7 @@ int CheckOutputs(const FPictureOptions& Picture)
 	{
 		if (FRTStatus S = CheckImageOutput(Picture.Output); !S) { return ReportStatus(S, "-o"), ExitBadInput; }
 	}
-	if (!Picture.Json.empty())
-	{
-		if (FRTStatus S = CheckOutputPath(Picture.Json); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
-	}
-	return ExitDone;
+	return CheckJsonFile(Picture.Json);
 }
 
 int WriteOutputs(const FPictureOptions& Picture, const FImage& Image, const nlohmann::json& Json)
@@ -135,11 +132,7 @@ int WriteOutputs(const FPictureOptions& Picture, const FImage& Image, const nloh
 	{
 		if (FRTStatus S = SaveImageFile(Picture.Output, Image); !S) { return ReportStatus(S, "-o"), ExitBadInput; }
 	}
-	if (!Picture.Json.empty())
-	{
-		if (FRTStatus S = WriteFileAtomically(Picture.Json, Json.dump(2) + "\n"); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
-	}
-	return ExitDone;
+	return WriteJsonFile(Picture.Json, Json.dump(2) + "\n");
 }
 
 int RenderFrames(FSession& Session, const FRenderOptions& Options, FCapturedFrame& Frame, FFigures& Figures)

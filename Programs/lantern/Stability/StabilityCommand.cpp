@@ -1,3 +1,4 @@
+// lantern stability: runs cases, plants their faults and judges the rows.
 #include "Stability/StabilityCommand.h"
 
 #include <algorithm>
@@ -7,9 +8,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "JsonFile.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
-#include "LanternImage/AtomicFile.h"
 #include "Progress.h"
 #include "Session.h"
 #include "Stability/StabilityReport.h"
@@ -243,10 +244,7 @@ FRTStatus FStabilityRun::KeepStrip(const FStabilityCase& Case, const FStabilityR
 
 int CheckOutputs(const FStabilityOptions& Options)
 {
-	if (!Options.Json.empty())
-	{
-		if (FRTStatus S = CheckOutputPath(Options.Json); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
-	}
+	if (const int Status = CheckJsonFile(Options.Json); Status != ExitDone) { return Status; }
 	if (Options.Output.empty()) { return ExitDone; }
 	std::error_code Error;
 	std::filesystem::create_directories(Options.Output, Error);
@@ -303,11 +301,8 @@ int RunInSession(FSession& Session, const FStabilityOptions& Options, const FKno
 	const std::vector<std::string> Bad = Known.Check(Run.GetRows());
 	for (const std::string& Line : Bad) { fmt::print("{}\n", Line); }
 	fmt::print("{} figures, {} bad\n", Run.GetRows().size(), Bad.size());
-	if (!Options.Json.empty())
-	{
-		const std::string Text = MakeJson(Session, Options, Settings, Run.GetRows()).dump(2) + "\n";
-		if (FRTStatus S = WriteFileAtomically(Options.Json, Text); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
-	}
+	const std::string Text = MakeJson(Session, Options, Settings, Run.GetRows()).dump(2) + "\n";
+	if (const int Status = WriteJsonFile(Options.Json, Text); Status != ExitDone) { return Status; }
 	if (!Methods.Problems.empty()) { return ExitBadInput; }
 	return Bad.empty() ? ExitDone : ExitCheckFailed;
 }

@@ -1,0 +1,87 @@
+// The head that benchmarks share: --json, --size, the device or the mock, the loop over scenes.
+#include "Bench/BenchRun.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "JsonFile.h"
+#include "LanternCore/Text/Log.h"
+#include "LanternRHIMock/MockDevice.h"
+
+namespace Lantern
+{
+
+void AddBenchJson(CLI::App& App, std::string& Json) { App.add_option("--json", Json, "Write the figures to this file"); }
+
+void AddBenchSize(CLI::App& App, std::string& Text, const char* Defaults)
+{
+	App.add_option("--size", Text, std::string("WIDTHxHEIGHT, pixels (") + Defaults + ")")->check([](const std::string& Size) {
+		FPictureOptions Unused;
+		ParseSize(Size, Unused);
+		return std::string();
+	});
+}
+
+int RunBench(const std::string& File, const std::function<int(nlohmann::json& Figures)>& Body)
+{
+	if (const int Status = CheckJsonFile(File); Status != ExitDone) { return Status; }
+	nlohmann::json Figures;
+	const int Exit = Body(Figures);
+	if ((Exit != ExitDone && Exit != ExitCheckFailed) || Figures.is_null()) { return Exit; }
+	const int Written = WriteJsonFile(File, Figures.dump(2) + "\n");
+	return Written == ExitDone ? Exit : Written;
+}
+
+int RunInBenchSession(const FDeviceOptions& Options, const std::function<int(FSession&)>& Body)
+{
+	FSession Session;
+	const int Opened = Session.OpenDevice(Options);
+	return Session.Close(Opened == ExitDone ? Body(Session) : Opened);
+}
+
+int RunOnBenchMock(const FDeviceOptions& Options, const std::function<int(IRTDevice&)>& Body)
+{
+	if (const int Status = LoadSettings(FindPluginFolders().Config, Options); Status != ExitDone) { return Status; }
+	TRTRef<IRTDevice> Device;
+	if (FRTStatus S = CreateBenchMock(Device); !S) { return ReportStatus(S, "--mock"); }
+	return Body(*Device);
+}
+
+FRTStatus CreateBenchMock(TRTRef<IRTDevice>& Out)
+{
+	const FRTStatus Status = CreateMockDevice({}, Out.ReleaseAndGetAddress());
+	if (Status) { GetMock(Out.Get()).SetCallRecording(false); }
+	return Status;
+}
+
+nlohmann::json DescribeBenchDevice(const FRTCapabilities& Capabilities)
+{
+	return {{"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}};
+}
+
+bool HasRayPath(const FRTCapabilities& Capabilities, bool bPipeline, const FBenchScene& Scene)
+{
+	if (bPipeline ? Capabilities.bRayTracingPipeline : Capabilities.bRayQuery) { return true; }
+	LogInfo("{}: the device has no {}", Scene.Name, bPipeline ? "ray-tracing pipelines" : "ray queries");
+	return false;
+}
+
+int RunSceneBench(const FSceneBench& Bench)
+{
+	return RunBench(Bench.Json, [&](nlohmann::json& Figures) {
+		return RunInBenchSession(Bench.Device, [&](FSession& Session) {
+			Figures = DescribeBenchDevice(Session.GetDevice().GetCapabilities());
+			nlohmann::json& Cases = Figures["cases"] = nlohmann::json::array();
+			Bench.PrintHeader();
+			int Exit = ExitDone;
+			for (const FBenchScene& Scene : Bench.ChooseScenes())
+			{
+				const int Status = Bench.Measure(Session, Scene, Cases);
+				Exit = Exit == ExitDone ? Status : Exit;
+			}
+			return Exit;
+		});
+	});
+}
+
+} // namespace Lantern

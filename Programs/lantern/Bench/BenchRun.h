@@ -1,0 +1,55 @@
+// What benchmarks have in common: options, device, scenes, and the file for their figures.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "Bench/BenchScenes.h"
+#include "LanternRHI/RTInterfaces.h"
+#include "Options.h"
+#include "Session.h"
+
+namespace Lantern
+{
+
+void AddBenchJson(CLI::App& App, std::string& Json); ///< --json
+/// --size. Text stays empty if the option is absent; Defaults says in the help what holds then.
+void AddBenchSize(CLI::App& App, std::string& Text, const char* Defaults);
+
+/// Runs Body and writes the figures that it puts into its argument to File, if File is not empty. Nothing is written without figures, or
+/// if Body ends with another status than ExitDone or ExitCheckFailed. Returns an exit status.
+int RunBench(const std::string& File, const std::function<int(nlohmann::json& Figures)>& Body);
+
+/// Opens the session's device and runs Body with it. Returns an exit status.
+int RunInBenchSession(const FDeviceOptions& Options, const std::function<int(FSession&)>& Body);
+
+/// Runs Body with the mock device, after loading the settings. The mock records no calls. Returns an exit status.
+int RunOnBenchMock(const FDeviceOptions& Options, const std::function<int(IRTDevice&)>& Body);
+
+/// A mock device that records no calls.
+FRTStatus CreateBenchMock(TRTRef<IRTDevice>& Out);
+
+/// {"device": …, "driver": …}
+nlohmann::json DescribeBenchDevice(const FRTCapabilities& Capabilities);
+
+/// Whether the device traces rays by this path. If not, the log says so for the scene.
+bool HasRayPath(const FRTCapabilities& Capabilities, bool bPipeline, const FBenchScene& Scene);
+
+/// A benchmark that measures scenes one after another.
+struct FSceneBench
+{
+	FDeviceOptions Device;
+	std::string Json;
+	std::function<void()> PrintHeader;
+	std::function<std::vector<FBenchScene>()> ChooseScenes;
+	/// Appends to Cases. Returns an exit status.
+	std::function<int(FSession&, const FBenchScene&, nlohmann::json& Cases)> Measure;
+};
+
+/// Measures all scenes, also after one has failed. Returns the first exit status that is not ExitDone.
+int RunSceneBench(const FSceneBench& Bench);
+
+} // namespace Lantern

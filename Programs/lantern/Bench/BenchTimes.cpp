@@ -1,0 +1,23 @@
+// Median, smallest and largest of repeated measurements.
+#include "Bench/BenchTimes.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+namespace Lantern
+{
+
+double FBenchTimes::GetMedian() const
+{
+	std::vector<double> Sorted = Values;
+	std::sort(Sorted.begin(), Sorted.end());
+	const size_t Half = Sorted.size() / 2;
+	return Sorted.empty() ? 0.0 : Sorted.size() % 2 ? Sorted[Half] : 0.5 * (Sorted[Half - 1] + Sorted[Half]);
+}
+
+double FBenchTimes::GetMin() const { return Values.empty() ? 0.0 : *std::min_element(Values.begin(), Values.end()); }
+double FBenchTimes::GetMax() const { return Values.empty() ? 0.0 : *std::max_element(Values.begin(), Values.end()); }
+nlohmann::json FBenchTimes::ToJson() const { return {{"median", GetMedian()}, {"min", GetMin()}, {"max", GetMax()}}; }
+
+} // namespace Lantern

@@ -1,0 +1,26 @@
+// Repeated measurements of one thing.
+#pragma once
+
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace Lantern
+{
+
+/// Values are in the unit of whoever adds them. Every figure of no values is 0.
+class FBenchTimes
+{
+public:
+	void Add(double Value) { Values.push_back(Value); }
+	size_t GetCount() const { return Values.size(); }
+	double GetMedian() const; ///< the mean of the middle two if the number is even
+	double GetMin() const;
+	double GetMax() const;
+	nlohmann::json ToJson() const; ///< median, min and max
+
+private:
+	std::vector<double> Values;
+};
+
+} // namespace Lantern
