@@ -8,10 +8,10 @@
 #include <CLI/CLI.hpp>
 
 #include "Bench/BenchAnyHit.h"
-#include "Bench/BenchCommand.h"
 #include "Bench/BenchFrame.h"
 #include "Bench/BenchGather.h"
 #include "Bench/BenchPipelines.h"
+#include "Bench/BenchRaysCommand.h"
 #include "Bench/BenchShaders.h"
 #include "Bench/BenchTables.h"
 #include "Chart/ChartCommand.h"

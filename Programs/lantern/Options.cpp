@@ -1,3 +1,4 @@
+// Parses and checks what the command line says.
 #include "Options.h"
 
 #include <charconv>

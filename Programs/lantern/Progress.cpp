@@ -1,3 +1,4 @@
+// The progress line on standard error.
 #include "Progress.h"
 
 #include <cmath>

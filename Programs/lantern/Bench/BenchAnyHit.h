@@ -1,4 +1,4 @@
-// lantern bench anyhit
+// lantern bench anyhit: alpha tests under rays, with classified triangles and without.
 #pragma once
 
 #include <string>
@@ -17,14 +17,14 @@ namespace Lantern
 struct FBenchAnyHitOptions
 {
 	FDeviceOptions Device;
-	std::vector<std::string> Scenes; ///< none: black_forest where it is found, and the courtyard
+	std::vector<std::string> Scenes; ///< empty: black_forest if it is found, and the courtyard
 	std::string Size;                ///< WIDTHxHEIGHT; empty: 1280×720, on a CPU device 640×360
 	std::string Json;
 	void AddTo(CLI::App& App);
 };
 
-/// Alpha tests under rays, with the triangles of alpha-tested geometry told apart by opacity and without. Prints a
-/// table, and writes it as JSON where asked. ExitCheckFailed where the two pictures are not the same in every pixel.
+/// Counts alpha tests with the triangles of alpha-tested geometry classified by opacity, and without. Prints a table, and writes it as JSON
+/// if asked. ExitCheckFailed if the two pictures differ in a pixel.
 int RunBenchAnyHit(const FBenchAnyHitOptions& Options);
 
 } // namespace Lantern

@@ -1,3 +1,4 @@
+// The open world of lantern bench frame: meshes, objects and their motion.
 #include "Bench/BenchFrameWorld.h"
 
 #include <algorithm>
@@ -25,7 +26,7 @@ enum EKind : uint32_t
 	House,
 	KindCount
 };
-/// Of all objects, and meshes of the kind.
+/// Share of each kind among all objects, and number of its meshes.
 constexpr double Share[KindCount] = {0.35, 0.25, 0.20, 0.15, 0.05};
 constexpr uint32_t MeshesOf[KindCount] = {96, 64, 96, 96, 48};
 

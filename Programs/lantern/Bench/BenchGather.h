@@ -1,5 +1,5 @@
-// lantern bench gather: which instances of a large world a frame's acceleration structure is built from, against a
-// straightforward loop over all objects. Needs no device.
+// lantern bench gather: finds the instances of a large world for a frame's acceleration structure. A loop over all objects is the
+// yardstick. It needs no device.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ struct FBenchGatherOptions
 	void AddTo(CLI::App& App);
 };
 
-/// Prints a table, and writes it as JSON where asked. ExitCheckFailed where the two do not find the same instances.
+/// Prints a table, and writes it as JSON if asked. ExitCheckFailed if the two do not find the same instances.
 int RunBenchGather(const FBenchGatherOptions& Options);
 
 } // namespace Lantern

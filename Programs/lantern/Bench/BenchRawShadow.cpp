@@ -1,3 +1,4 @@
+// The raw dispatch: its push constants, command buffer and timing.
 #include "Bench/BenchRawShadow.h"
 
 #include <cmath>

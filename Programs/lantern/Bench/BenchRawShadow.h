@@ -1,6 +1,6 @@
-// The yardstick of `lantern bench rays`: sun shadow rays by plain Vulkan, as one would write them by hand for this
-// one job. Pipeline, shader table, descriptor set, command buffer and tables are its own; of the RHI it uses the
-// device, memory, the acceleration structure and the pictures that the plugin's pass reads, too.
+// The yardstick of `lantern bench rays`: sun shadow rays by plain Vulkan, as one would write them by hand for this one job. It has a
+// pipeline, shader table, descriptor set, command buffer and tables of its own. From the RHI it takes device and memory, and the
+// acceleration structure and pictures that the plugin's pass reads.
 #pragma once
 
 #include <memory>
@@ -24,21 +24,21 @@ struct FRawShadowDesc
 	IRTTexture* Normals = nullptr;
 	float MaxDistance = 0.0f;
 	uint32_t InstanceMask = 0;
-	bool bPipeline = false;  ///< else ray query
-	bool bCountRays = false; ///< traces nothing: the picture is 1 where a ray would be traced
+	bool bPipeline = false;  ///< otherwise ray query
+	bool bCountRays = false; ///< traces nothing; the picture is 1 in pixels that would trace a ray
 };
 
-/// One thread; nothing else may use the queue during Create and Run.
+/// One thread may use it. Nothing else may use the queue during Create and Run.
 class FRawShadow
 {
 public:
-	/// The scene's hit records must be one for each section: the RTPSO in use has a single ray type.
+	/// The scene must have one hit record for each section, which holds if the RTPSO in use has a single ray type.
 	static FRTStatus Create(const FRawShadowDesc& Desc, std::unique_ptr<FRawShadow>& Out);
 	~FRawShadow();
 
-	/// One dispatch in a submission of its own, waited for. OutMs: by timestamps around it.
+	/// Submits one dispatch and waits for it. OutMs is its time by timestamps.
 	FRTStatus Run(double& OutMs);
-	/// Visibility of the last Run, fp16, rows from the top.
+	/// Visibility of the last Run: halves, rows from the top.
 	const uint16_t* GetPicture() const;
 
 private:

@@ -14,8 +14,8 @@ struct FRayCase
 {
 	std::string Name;
 	uint32_t Width = 0, Height = 0;
-	uint64_t Rays = 0;       ///< pixels that trace one: no sky, no surface turned away from the sun
-	double Agreement = 0;    ///< fraction of pixels on which both say the same
+	uint64_t Rays = 0;       ///< number of pixels that trace a ray: no sky, no surface turned away from the sun
+	double Agreement = 0;    ///< fraction of pixels on which the two agree
 	FBenchTimes Raw, Plugin; ///< milliseconds
 	/// Processor time of the same runs, in milliseconds. On a CPU driver its ratio holds where other programs disturb the times above.
 	FBenchTimes RawProcessor, PluginProcessor;
@@ -27,8 +27,8 @@ struct FRayCase
 struct FRayBenchSettings
 {
 	uint32_t WarmUp = 3, Repetitions = 21;
-	std::vector<std::string> ShaderFolders; ///< of the raw dispatch
-	std::string CacheFolder;                ///< of its compiled shaders; empty: none
+	std::vector<std::string> ShaderFolders; ///< for the raw dispatch
+	std::string CacheFolder;                ///< for its compiled shaders; empty: none
 };
 
 class FRawShadow;
@@ -40,7 +40,7 @@ public:
 
 	/// Draws the G-buffer of View once and keeps it. The engine's scene must stay as it is until the last Measure.
 	FRTStatus CaptureGBuffer(const FView& InView);
-	/// One ray per pixel, through ray-tracing pipelines or ray queries. Needs a device that has them.
+	/// Traces one ray per pixel, through ray-tracing pipelines or ray queries. The device must have them.
 	FRTStatus Measure(bool bPipeline, FRayCase& Out);
 
 private:

@@ -1,3 +1,4 @@
+// Finds scenes of the benchmarks and chooses their views.
 #include "Bench/BenchScenes.h"
 
 #include <cstdlib>

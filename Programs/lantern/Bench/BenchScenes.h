@@ -1,4 +1,4 @@
-// Scenes that benchmarks run on, with the views and the sun of the project's other figures.
+// Scenes of the benchmarks, with the views and the sun of the project's other figures.
 #pragma once
 
 #include <optional>
@@ -17,12 +17,12 @@ struct FBenchScene
 	bool bNoSceneLights = false;
 };
 
-/// What is known of scenes by the name of their folder.
+/// Describes a scene. The name of its folder decides the camera and the lights.
 FBenchScene MakeBenchScene(const std::string& File);
-/// Under the folder that LANTERN_SCENES names, else shared/scenes beside the repository; none if it is not there, which
-/// is said. Path: relative to it.
+/// Looks for Path under the folder that LANTERN_SCENES names, otherwise under shared/scenes beside the repository. Nothing, with a warning
+/// in the log, if it is not there.
 std::optional<FBenchScene> FindBenchScene(const char* Path, const char* Bench);
-/// Size: WIDTHxHEIGHT; empty: 1280×720, on a CPU device 640×360.
+/// Size is WIDTHxHEIGHT. If it is empty, the picture has 1280×720 pixels, on a CPU device 640×360.
 FPictureOptions MakeBenchPicture(const FBenchScene& Scene, const std::string& Size, bool bIsCpu);
 
 } // namespace Lantern

@@ -1,3 +1,4 @@
+// Renders frames on the mock device and lists the pipelines that they asked for.
 #include "Bench/BenchShaderList.h"
 
 #include <set>

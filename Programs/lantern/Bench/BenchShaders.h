@@ -1,5 +1,5 @@
-// lantern bench shaders: what it costs to compile each shader that frames of a scene may need, dearest first. A driver may
-// compile when a pipeline is made or when it is first used (lavapipe: 25 s of a first frame, before this was measured).
+// lantern bench shaders: the cost of compiling each shader that frames of a scene may need, dearest first. A driver may compile when a
+// pipeline is made or when it is first used. On lavapipe that took 25 s of a first frame, before this was measured.
 #pragma once
 
 #include <string>
@@ -20,12 +20,12 @@ struct FBenchShadersOptions
 	FDeviceOptions Device;
 	std::vector<std::string> Scenes = {"courtyard"};
 	std::string Match;       ///< part of a name; empty: all
-	double MaxSeconds = 0.0; ///< of the driver, for one pipeline; 0: no limit
+	double MaxSeconds = 0.0; ///< limit of the driver's time for one pipeline; 0: no limit
 	std::string Json;
 	void AddTo(CLI::App& App);
 };
 
-/// Prints a table, and writes it as JSON where asked. ExitCheckFailed where a pipeline takes longer than MaxSeconds.
+/// Prints a table, and writes it as JSON if asked. ExitCheckFailed if a pipeline takes longer than MaxSeconds.
 int RunBenchShaders(const FBenchShadersOptions& Options);
 
 } // namespace Lantern

@@ -1,4 +1,4 @@
-// One size of lantern bench sbt: objects with sections and records, and frames in which more or less of them changes.
+// One size of lantern bench sbt: objects with sections and records, and frames in which some of them change.
 #pragma once
 
 #include <array>
@@ -26,11 +26,11 @@ struct FTableCaseResult
 {
 	uint32_t Objects = 0, Records = 0;
 	FTableTimes Full, Static, Dynamic, Swap;
-	FTableTimes DynamicSections; ///< the sections' part of the dynamic frames: not in Dynamic
+	FTableTimes DynamicSections; ///< time of the sections in dynamic frames, which is not in Dynamic
 	uint64_t BytesFull = 0, BytesStatic = 0, BytesDynamic = 0, BytesSwap = 0;
 };
 
-/// Two pipelines of the same programs with other shaders, to swap between.
+/// Two pipelines to swap between. Their programs are the same, their shaders differ.
 struct FTablePrograms
 {
 	FRTPSO Pipelines[2];
@@ -41,7 +41,7 @@ struct FTablePrograms
 class FTableCase
 {
 public:
-	/// bShared: all objects have one of a few material sets; otherwise each has its own, so that no two share a record.
+	/// If bShared, all objects have one of a few material sets. Otherwise each has its own, so that no two share a record.
 	FTableCase(IRTDevice& Device, const FTablePrograms& Programs, uint32_t ObjectCount, bool bShared);
 	FRTStatus Measure(uint32_t Repetitions, FTableCaseResult& Out);
 
@@ -50,7 +50,7 @@ private:
 	void AddObjects();
 	void ChangeOnePerCent();
 	FRTStatus Prepare() { return Bindings.Prepare(Programs.Pipelines[Pipeline], Sections); }
-	/// Change, then Prepare and Record, which are measured; then everything is submitted and waited for.
+	/// Runs Change, then Prepare and Record, which are measured. Submits everything and waits for it.
 	FRTStatus RunFrame(const std::function<void()>& Change, FTableTimes* Times, FTableTimes* ChangeTimes = nullptr);
 	FRTStatus MeasureStatic(uint32_t Repetitions, FTableTimes& Out);
 

@@ -1,4 +1,4 @@
-// lantern bench sbt: what it costs to keep the shader table, by how much changed.
+// lantern bench sbt: the cost of keeping the shader table current, by how much has changed.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ struct FBenchTablesOptions
 	void AddTo(CLI::App& App);
 };
 
-/// Prints a table, and writes it as JSON where asked. ExitCheckFailed where a static frame copied anything.
+/// Prints a table, and writes it as JSON if asked. ExitCheckFailed if a static frame copied anything.
 int RunBenchTables(const FBenchTablesOptions& Options);
 
 } // namespace Lantern

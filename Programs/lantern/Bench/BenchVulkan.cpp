@@ -1,3 +1,4 @@
+// Loads Vulkan functions for the device behind an IRTDevice.
 #include "Bench/BenchVulkan.h"
 
 #include <dlfcn.h>

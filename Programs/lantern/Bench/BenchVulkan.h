@@ -1,4 +1,4 @@
-// Functions of plain Vulkan for code that goes past the RHI: the benchmark's hand-written dispatch.
+// Plain Vulkan functions for the hand-written dispatch of the benchmark, which goes past the RHI.
 #pragma once
 
 #ifndef VK_NO_PROTOTYPES
@@ -51,7 +51,7 @@ namespace Lantern
 	X(UpdateDescriptorSets)                                                                                                                \
 	X(WaitForFences)
 
-/// Of a device without ray-tracing pipelines: null.
+/// These are null on a device without ray-tracing pipelines.
 #define LANTERN_BENCH_VULKAN_PIPELINE_FUNCTIONS(X)                                                                                         \
 	X(CmdTraceRaysKHR)                                                                                                                     \
 	X(CreateRayTracingPipelinesKHR)                                                                                                        \
@@ -68,11 +68,11 @@ struct FBenchVulkan
 	LANTERN_BENCH_VULKAN_PIPELINE_FUNCTIONS(LANTERN_DECLARE)
 #undef LANTERN_DECLARE
 
-	/// Unsupported where the device is no Vulkan device or the loader cannot be opened.
+	/// Unsupported if the device is no Vulkan device or the loader cannot be opened.
 	FRTStatus Load(IRTDevice& Rhi);
 };
 
-/// The error of a Vulkan call that failed.
+/// Describes a Vulkan call that failed.
 FRTStatus MakeVulkanError(VkResult Result, const char* What);
 
 } // namespace Lantern

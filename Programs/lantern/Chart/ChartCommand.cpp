@@ -1,3 +1,4 @@
+// lantern chart: options, the plan, and the page with its JSON.
 #include "Chart/ChartCommand.h"
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// lantern chart
+// lantern chart: error against time of all methods, as one page.
 #pragma once
 
 #include <string>
@@ -19,13 +19,13 @@ struct FChartOptions
 	uint32_t Frames = 20, WarmUp = 16, ReferenceSamples = 256;
 	std::string Signals, Methods, Paths; ///< lists, separated by commas
 	std::string MethodsFile;             ///< empty: Config/Methods.ini
-	double BudgetMinutes = -1.0;         ///< < 0: 10 on devices that are CPUs, none on others; 0: none
+	double BudgetMinutes = -1.0;         ///< < 0: 10 on CPU devices, none on others; 0: none
 	std::string Shard;
 	std::vector<std::string> Merge;
 	void AddTo(CLI::App& App);
 };
 
-/// An exit status.
+/// Returns an exit status.
 int RunChart(const FChartOptions& Options);
 
 } // namespace Lantern

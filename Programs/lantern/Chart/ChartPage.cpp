@@ -1,3 +1,4 @@
+// Puts the data of a chart into its page.
 #include "Chart/ChartPage.h"
 
 #include <cassert>

@@ -1,3 +1,4 @@
+// Measures the items of a chart within its budget.
 #include "Chart/ChartSweep.h"
 
 #include <algorithm>

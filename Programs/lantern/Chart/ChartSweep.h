@@ -29,17 +29,17 @@ struct FChartSweepDesc
 	std::chrono::steady_clock::time_point Start;
 };
 
-/// The name of each scene in the chart: its file's name without ending, or that of a built-in scene; where two would have
-/// the same, both are called as they were given.
+/// The name of each scene in the chart: that of its file without ending, or that of a built-in scene. Scenes whose names would be equal are
+/// called as they were given.
 std::vector<std::string> NameScenes(const std::vector<std::string>& Scenes);
 
 class FChartSweep
 {
 public:
 	FChartSweep(FSession& Session, const FMethods& Methods, FChartSweepDesc Desc);
-	/// An exit status. Parts of what was done stay, whatever comes after.
+	/// Returns an exit status. Parts of items that were done stay, whatever comes after.
 	int Run();
-	/// Parts of all items of all scenes that are there, this shard's or not.
+	/// Parts of all items of all scenes that exist, in this shard or in another.
 	const std::vector<FChartPart>& GetParts() const { return Parts; }
 
 private:
@@ -54,7 +54,7 @@ private:
 		std::map<std::pair<size_t, size_t>, FMethodProbe> Probes; ///< by method and preset; only with a budget
 		FChartKeyParts Key;
 		uint64_t BaselineBytes = 0;
-		std::map<ESignal, uint32_t> Samples; ///< of references
+		std::map<ESignal, uint32_t> Samples; ///< number of samples of the references
 		double Deadline = 0.0;               ///< seconds after Desc.Start; 0: none
 		std::map<size_t, size_t> TooDear;    ///< by method: the first preset that did not fit
 		std::map<std::pair<ESignal, EMeasurePath>, FPathReferences> References;
@@ -69,10 +69,10 @@ private:
 	int RunItem(FScene& Scene, const FChartItem& Item);
 	int RunPoint(FScene& Scene, const FChartItem& Item);
 	int RunFacts(FScene& Scene, const FChartItem& Item);
-	/// Only with a budget. Probes the method first; OutObstacle: empty, or why the item is not measured.
+	/// Probes the method; only with a budget. OutObstacle is empty, or says why the item is not measured.
 	FRTStatus FindDelay(FScene& Scene, const FChartItem& Item, std::string& OutObstacle);
 	const FPathScript& GetPath(const FScene& Scene, const FChartItem& Item) const;
-	/// Empty, or why the item is not measured.
+	/// Says why the item is not measured; empty if it is.
 	std::string FindObstacle(FScene& Scene, const FChartItem& Item);
 	FRTStatus GetReferences(FScene& Scene, const FChartItem& Item, FPathReferences*& Out);
 	FPathReferenceSettings MakeReferenceSettings(const FScene& Scene, ESignal Signal) const;

@@ -1,3 +1,4 @@
+// lantern compare: metrics of two images, as a table, JSON and heat map.
 #include "Commands/CompareCommand.h"
 
 #include <cstdio>

@@ -14,9 +14,9 @@ struct FCompareOptions
 	std::string Json;    ///< empty: none
 };
 
-/// Prints a table to standard output and writes what was asked for. Returns the exit status: 0, or 4 with a message
-/// in the log where an image cannot be read, the two cannot be compared, or a file cannot be written.
-/// In the JSON, a figure that is infinite (psnr of equal images) or undefined (no finite pixel) is null.
+/// Prints a table to standard output and writes what was asked for. The exit status is 0, or 4 with a message in the log. It is 4 if an
+/// image cannot be read, the two cannot be compared, or a file cannot be written. In the JSON, a figure that is infinite (psnr of equal
+/// images) or undefined (no finite pixel) is null.
 int RunCompare(const FCompareOptions& Options);
 
 } // namespace Lantern

@@ -1,4 +1,4 @@
-// lantern info, lantern cvars, lantern render --list
+// lantern info, lantern cvars and lantern render --list.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace Lantern
 {
 
 int RunInfo(const std::string& Json);
-/// Values and who set them, as the settings leave them.
+/// Prints console variables as the settings leave them, and who set each.
 int RunCvars(const FDeviceOptions& Settings, bool bMarkdown, const std::string& Json);
 int RunListScenes();
 

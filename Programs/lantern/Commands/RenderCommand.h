@@ -1,4 +1,4 @@
-// lantern render, lantern reference
+// lantern render and lantern reference.
 #pragma once
 
 #include "Options.h"
@@ -21,7 +21,7 @@ struct FReferenceOptions
 	FPictureOptions Picture;
 	uint32_t Samples = 256;
 	uint32_t Bounces = 64;
-	std::string Signal = "frame"; ///< as FindSignal knows it
+	std::string Signal = "frame"; ///< a name that FindSignal knows
 	bool bPixelCenters = false;
 	bool bResume = false;
 	double SaveSeconds = 20.0;

@@ -1,3 +1,4 @@
+// Prints rows, writes JSON and strips, and reads the list of known shortfalls.
 #include "Stability/StabilityReport.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What `lantern stability` says: rows of a table, JSON, strips, and the list of known shortfalls.
+// The output of `lantern stability`: rows of a table, JSON, strips, and the list of known shortfalls.
 #pragma once
 
 #include <map>
@@ -21,7 +21,7 @@ struct FStabilityRow
 	int Number = 0;
 	std::string Name, Part, Method, Signal, Preset;
 	std::string Status;                         ///< empty, or why there is no figure: "no method yet"
-	bool bBroken = false;                       ///< it should have one
+	bool bBroken = false;                       ///< there should be a figure
 	std::optional<double> Figure, Worst, Limit; ///< median and worst over the seeds
 	bool bFloor = false;
 	std::optional<bool> Holds;
@@ -30,19 +30,19 @@ struct FStabilityRow
 	std::optional<bool> FaultFails;
 	uint32_t Seeds = 0;
 	bool bKnown = false; ///< a known shortfall
-	/// What a build must not pass with, known shortfalls aside.
+	/// Whether a build must not pass with it, known shortfalls aside.
 	bool IsBad() const { return bBroken || (Holds && !*Holds) || (FaultFails && !*FaultFails); }
 };
 
-/// Known shortfalls: lines "case | method | part | reason"; # begins a comment. Where ~ is before the case's number, the figure
-/// is so near its limit that chance decides: it may fail, and need not.
+/// Known shortfalls: lines "case | method | part | reason"; # begins a comment. A ~ before the number of the case means that the figure is
+/// near its limit and chance decides: it may fail, and need not.
 class FKnownShortfalls
 {
 public:
 	/// Errors name file and line.
 	FRTStatus Load(const std::string& Path);
 	bool Has(const FStabilityRow& Row) const;
-	/// What is bad: rows that fail and are not known, and known ones that hold again. Only what ran.
+	/// Lists what is bad: rows that fail and are not known, and known ones that hold again. Cases that did not run are left out.
 	std::vector<std::string> Check(const std::vector<FStabilityRow>& Rows) const;
 
 private:
@@ -52,7 +52,7 @@ private:
 void PrintStabilityHeader();
 void PrintStabilityRow(const FStabilityRow& Row);
 nlohmann::json MakeStabilityJson(const std::vector<FStabilityRow>& Rows);
-/// Frames in a row, what they should be below them. Radiance is tone-mapped.
+/// Saves frames in a row, with what they should be below them. Radiance is tone-mapped.
 FRTStatus SaveStrip(
     const std::string& Path, const std::vector<std::pair<FImage, FImage>>& Strip, const FSignalInfo& Signal, float Exposure);
 

@@ -1,3 +1,4 @@
+// Writes a temporary file and renames it over its target.
 #include "LanternImage/AtomicFile.h"
 
 #include <atomic>
@@ -43,8 +44,8 @@ fs::path GetFolder(const fs::path& File)
 	return Folder.empty() ? fs::path(".") : Folder;
 }
 
-/// In the same folder, since a rename works within one file system only; short, since Path may have the longest
-/// name that there is; with a random part, since processes of several machines share folders, and process ids.
+/// The temporary file is in the folder of Target, since a rename works within one file system only. Its name is short, since Target may
+/// have the longest name that there is. It has a random part, since processes of several machines share folders and process ids.
 fs::path MakeTemporaryPath(const fs::path& Target)
 {
 	static std::atomic<unsigned> Counter{0};

@@ -1,3 +1,4 @@
+// The Magma colour map and heat maps.
 #include "LanternImage/ColorMap.h"
 
 #include <algorithm>

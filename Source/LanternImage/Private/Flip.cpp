@@ -1,3 +1,4 @@
+// FLIP of display images, HDR-FLIP of radiance, and the pooling of error maps.
 #include "LanternImage/Flip.h"
 
 #include <algorithm>
@@ -22,8 +23,8 @@ constexpr size_t PixelGrain = 8192;
 /// Luminance that the first exposure gives the brightest pixel and the last one the median pixel.
 constexpr double TargetLuminance = 0.85;
 
-/// A median this many stops below the maximum counts as this dark: without a bound, a mostly black reference would
-/// ask for any number of exposures.
+/// A median that is darker counts as this many stops below the maximum. Without a bound, a mostly black reference would ask for any number
+/// of exposures.
 constexpr double MostStops = 24.0;
 
 // ACES curve of the paper: that of ToneMap.h with its input scaled by 0.6.
@@ -112,7 +113,7 @@ FExposureRange FindExposures(const FImage& Reference)
 	}
 	const double Largest = static_cast<double>(*std::max_element(Luminances.begin(), Luminances.end()));
 	if (Largest <= 0.0) { return {}; }
-	// Of an even number, the metric's own tool takes the upper middle.
+	// If the number is even, the metric's own tool takes the upper middle.
 	const auto Middle = Luminances.begin() + static_cast<ptrdiff_t>(Luminances.size() / 2);
 	std::nth_element(Luminances.begin(), Middle, Luminances.end());
 	const double Median = std::max(static_cast<double>(*Middle), Largest * std::exp2(-MostStops));

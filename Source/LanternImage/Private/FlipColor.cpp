@@ -1,3 +1,4 @@
+// Colour spaces and the colour error of FLIP.
 #include "FlipColor.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The spatial filters of FLIP, by rows and columns.
 #include "FlipFilter.h"
 
 #include <algorithm>

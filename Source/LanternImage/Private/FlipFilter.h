@@ -22,7 +22,7 @@ struct FFlipKernels
 
 FFlipKernels MakeFlipKernels(float PixelsPerDegree);
 
-/// What is compared: Hunt-adjusted CIELAB as the eye resolves it, and feature strengths. One value per pixel each.
+/// The maps that are compared, one value per pixel each: Hunt-adjusted CIELAB as the eye resolves it, and feature strengths.
 struct FFlipView
 {
 	std::vector<float> Lab[3];
@@ -36,7 +36,7 @@ struct FFlipScratch
 	std::vector<float> Planes[7];
 };
 
-/// LinearRgb: three channels in 0 to 1. Beyond the border, the border's pixels repeat. Uses all workers.
+/// LinearRgb has three channels in 0 to 1. Beyond the border, the pixels of the border repeat. All workers take part.
 void FilterForFlip(const FImage& LinearRgb, const FFlipKernels& Kernels, FFlipScratch& Scratch, FFlipView& OutView);
 
 } // namespace Lantern

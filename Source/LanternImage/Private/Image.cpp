@@ -1,3 +1,4 @@
+// Construction of images, and limits of their size.
 #include "LanternImage/Image.h"
 
 #include <cassert>

@@ -1,5 +1,5 @@
-// What ImageIO.h dispatches to. Paths exist and are regular files when read; when written, they are temporary
-// files, and errors name Path, the file they will become. Exceptions may leave these; ImageIO.cpp catches them.
+// The codecs that ImageIO.h dispatches to. A path that is read exists and is a regular file. A path that is written is a temporary file;
+// errors name Path, the file that it will become. Exceptions may leave these functions; ImageIO.cpp catches them.
 #pragma once
 
 #include <string>
@@ -10,12 +10,12 @@
 namespace Lantern
 {
 
-/// PFM ("portable float map"): "PF" or "Pf", width, height, scale, then rows from the bottom. The sign of the scale
-/// gives the byte order (negative: little-endian); its magnitude has no agreed meaning and is ignored.
+/// PFM ("portable float map"): "PF" or "Pf", width, height, scale, then rows from the bottom. A negative scale means little-endian bytes.
+/// The magnitude of the scale has no agreed meaning and is ignored.
 FRTStatus ReadPfm(const std::string& Path, FImage& OutImage);
 FRTStatus WritePfm(const std::string& Path, const std::string& Temporary, const FImage& Image);
 
-/// Every other format. Without OpenImageIO these only say so.
+/// Every other format. Without OpenImageIO these functions only say so.
 bool IsImageLibraryPresent();
 FRTStatus ReadWithLibrary(const std::string& Path, FImage& OutImage);
 

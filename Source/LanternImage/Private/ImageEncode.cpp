@@ -1,3 +1,4 @@
+// JPEG, PNG and base64 in memory.
 #include "LanternImage/ImageEncode.h"
 
 #include <cmath>

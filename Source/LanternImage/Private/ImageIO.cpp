@@ -1,3 +1,4 @@
+// Chooses the codec for an image file and turns exceptions into errors.
 #include "LanternImage/ImageIO.h"
 
 #include <algorithm>

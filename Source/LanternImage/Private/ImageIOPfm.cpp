@@ -1,3 +1,4 @@
+// Reads and writes PFM files.
 #include <bit>
 #include <cerrno>
 #include <charconv>

@@ -1,3 +1,4 @@
+// Means, percentiles and masks of images.
 #include "LanternImage/ImageStatistics.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Compares two images by every metric.
 #include "LanternImage/Metrics.h"
 
 #include <algorithm>
@@ -34,7 +35,7 @@ FRTStatus CheckComparable(const FImage& A, const FImage& B)
 	return FRTStatus::Success();
 }
 
-/// Both images in three channels, and which pixels count.
+/// The two images in three channels, and which pixels count.
 struct FPair
 {
 	FImage A;

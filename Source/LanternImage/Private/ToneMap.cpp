@@ -1,3 +1,4 @@
+// The sRGB transfer functions and the ACES curve.
 #include "LanternImage/ToneMap.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Quads, boxes, lathes, spheres and tubes as triangles.
 #include "Builtin/MeshBuilder.h"
 
 #include <algorithm>

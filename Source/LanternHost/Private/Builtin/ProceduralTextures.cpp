@@ -1,3 +1,4 @@
+// Value noise, and the maps of procedural surfaces.
 #include "Builtin/ProceduralTextures.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Adds materials, meshes, nodes, cameras and lights to a scene description.
 #include "Builtin/SceneBuilder.h"
 
 #include <glm/gtc/quaternion.hpp>

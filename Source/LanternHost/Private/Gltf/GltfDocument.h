@@ -27,7 +27,7 @@ enum class EComponent : uint32_t
 	F32 = 5126
 };
 
-/// Elements within bytes that have been checked to hold them all.
+/// Elements of an accessor. The bytes have been checked to hold all of them.
 struct FElements
 {
 	const uint8_t* Data = nullptr; ///< null: all zeros
@@ -62,17 +62,17 @@ struct FDocument
 	std::vector<uint32_t> BufferViewStrides;
 	std::vector<FAccessor> Accessors;
 
-	/// Where the bytes of Scene.Images come from, filled by ReadMaterials.
+	/// Where the bytes of Scene.Images come from; ReadMaterials fills it.
 	struct FImageSource
 	{
 		size_t GltfImage = 0;
 		std::string UsedBy; ///< "materials[3].normalTexture"
 	};
 	std::vector<FImageSource> ImageSources;
-	/// New index by index in the file; −1: a mesh of which nothing is left.
+	/// New index by index in the file; −1 for a mesh of which nothing is left.
 	std::vector<int32_t> MeshRemap, NodeRemap;
 
-	/// One warning per text, and not more of them than anyone reads.
+	/// Adds a warning once per text, and no more warnings than anyone reads.
 	void Warn(const std::string& Text)
 	{
 		constexpr size_t MaxWarnings = 50;
@@ -85,7 +85,7 @@ struct FDocument
 	{
 		if (Options.Progress) { Options.Progress(Stage, Fraction); }
 	}
-	/// Counts bytes that the file unfolds to; throws past the limit.
+	/// Counts the bytes that the file unfolds to. Throws past the limit.
 	void ChargeGeometry(const FJson& Place, uint64_t Count, uint64_t BytesEach);
 
 private:
@@ -96,8 +96,8 @@ private:
 void ReadBuffers(FDocument& Document);
 void ReadAccessors(FDocument& Document);
 
-/// Reads an accessor as floats, normalised integers to −1 … 1 or 0 … 1, other integers as they are. Components beyond
-/// the accessor's are left as they were in Fill.
+/// Reads an accessor as floats. Normalised integers become −1 to 1 or 0 to 1; other integers stay as they are. Components that the accessor
+/// lacks are left as they were in Fill.
 std::vector<glm::vec4> ReadVec4(const FAccessor& Accessor, const glm::vec4& Fill);
 std::vector<glm::vec3> ReadVec3(const FAccessor& Accessor);
 std::vector<glm::vec2> ReadVec2(const FAccessor& Accessor);

@@ -1,3 +1,4 @@
+// Reads files, the GLB container and data URIs.
 #include "Gltf/GltfFile.h"
 
 #include <array>

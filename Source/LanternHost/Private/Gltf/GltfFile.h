@@ -1,5 +1,5 @@
-// Bytes: files, the GLB container, data URIs, and the buffers and accessors that look into them. Everything is checked
-// in 64 bits before it is read.
+// Bytes of an asset: files, the GLB container and data URIs, and the buffers and accessors that look into them. Sizes are checked in 64
+// bits before anything is read.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ struct FGlb
 };
 FGlb SplitGlb(FBytes Data);
 
-/// A buffer's or image's bytes: owned, or a view of what lives as long as the document.
+/// Bytes of a buffer or an image. They are owned, or a view of bytes that live as long as the document.
 struct FBlob
 {
 	FBlob() = default;
@@ -47,8 +47,8 @@ struct FBlob
 bool IsDataUri(std::string_view Uri);
 std::vector<uint8_t> DecodeDataUri(const FJson& Place, std::string_view Uri);
 
-/// The path of a file beside the asset. Refused with a message: absolute paths, other schemes, paths that leave the
-/// asset's folder; and everything if Folder is empty (an asset in memory).
+/// The path of a file beside the asset. Absolute paths, other schemes and paths that leave the asset's folder are refused with a message.
+/// If Folder is empty (an asset in memory), every path is refused.
 std::filesystem::path ResolveUri(const FJson& Place, std::string_view Uri, const std::filesystem::path& Folder);
 
 } // namespace Lantern::Gltf

@@ -1,3 +1,4 @@
+// The steps of an import, in order.
 #include "Gltf/GltfImport.h"
 
 #include <algorithm>

@@ -9,8 +9,8 @@
 namespace Lantern::Gltf
 {
 
-/// Data: a .gltf or .glb. Folder: where external files lie; empty: none are read. Throws FError and what the
-/// standard library throws.
+/// Imports a .gltf or .glb. External files lie in Folder; if it is empty, none are read. Throws FError and what the standard library
+/// throws.
 FSceneDescription ImportScene(FBytes Data, const std::filesystem::path& Folder, const FLoadOptions& Options);
 
 } // namespace Lantern::Gltf

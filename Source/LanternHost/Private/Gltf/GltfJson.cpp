@@ -1,3 +1,4 @@
+// Typed access to JSON values, with their place in every error.
 #include "Gltf/GltfJson.h"
 
 #include <algorithm>

@@ -12,15 +12,15 @@
 namespace Lantern::Gltf
 {
 
-/// What is wrong and where, without the file's name; what it quotes of the file is escaped. Thrown inside the loader
-/// only; LoadScene turns it into text.
+/// Says what is wrong and where, without the file's name. Quotes from the file are escaped. It is thrown inside the loader only; LoadScene
+/// turns it into text.
 class FError : public std::runtime_error
 {
 public:
 	using std::runtime_error::runtime_error;
 };
 
-/// Refers to a value, and to its parent for the path, so the parent must live as long.
+/// Refers to a value, and to its parent for the path: the parent must live as long.
 class FJson
 {
 public:
@@ -31,12 +31,12 @@ public:
 	[[noreturn]] void Fail(std::string_view Message) const;
 	std::string GetPath() const;
 
-	/// Absent members are values that do not Exist(); a value that is no object (array) is an error.
+	/// Absent members are values that do not Exist(). It is an error if the value is no object or no array.
 	FJson Member(const char* Key) const;
 	FJson Extension(const char* Name) const;
 	size_t Count() const; ///< 0 if absent
 	FJson Element(size_t Index) const;
-	std::string Dump() const; ///< as text: equal for equal values
+	std::string Dump() const; ///< text that is equal for equal values
 
 	/// The value itself, which must exist and have the type.
 	uint64_t ToUInt(uint64_t Max) const;
@@ -52,7 +52,7 @@ public:
 	float GetFloat(const char* Key, float Default) const;
 	bool GetBool(const char* Key, bool Default) const;
 	std::string GetString(const char* Key, const char* Default) const;
-	/// An array of exactly Size numbers. False, and Out as it was, if absent.
+	/// Reads an array of exactly Size numbers. If absent, it returns false and Out stays as it was.
 	bool GetNumbers(const char* Key, size_t Size, double* Out) const;
 	glm::vec2 GetVec2(const char* Key, const glm::vec2& Default) const;
 	glm::vec3 GetVec3(const char* Key, const glm::vec3& Default) const;
@@ -73,7 +73,7 @@ private:
 	size_t Index = 0;
 };
 
-/// Parses; the text may not nest deeper than any glTF does. Throws FError.
+/// Parses text that may not nest deeper than any glTF does. Throws FError.
 nlohmann::json ParseJson(std::string_view Text);
 
 } // namespace Lantern::Gltf

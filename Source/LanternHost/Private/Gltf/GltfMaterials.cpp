@@ -1,4 +1,4 @@
-// Materials, and which textures and images they use as what.
+// Reads materials, and decides which images their textures need as colour or as data.
 #include <cmath>
 #include <map>
 
@@ -13,8 +13,8 @@ namespace Lantern::Gltf
 namespace
 {
 
-/// Hands out FHostTexture and FHostImage indices. An image that serves as colour and as data exists twice, since
-/// its sRGB flag is part of its format; images that share a file exist once.
+/// Hands out FHostTexture and FHostImage indices. An image that serves as colour and as data exists twice, since its sRGB flag is part of
+/// its format. Images that share a file exist once.
 class FTextureTable
 {
 public:

@@ -1,3 +1,4 @@
+// Triangle lists from lists, strips and fans.
 #include "Gltf/GltfTriangles.h"
 
 #include <fmt/format.h>

@@ -9,8 +9,8 @@
 namespace Lantern::Gltf
 {
 
-/// Indices into the primitive's own vertices, three per triangle, each below VertexCount. False, with a warning, for
-/// points and lines.
+/// Gives indices into the primitive's own vertices, three per triangle, each below VertexCount. Returns false, with a warning, for points
+/// and lines.
 bool ReadTriangles(FDocument& Document, const FJson& Json, uint64_t VertexCount, std::vector<uint32_t>& OutIndices);
 
 } // namespace Lantern::Gltf

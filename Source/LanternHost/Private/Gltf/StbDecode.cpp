@@ -1,3 +1,4 @@
+// PNG and JPEG to RGBA, by stb_image.
 #include "Gltf/StbDecode.h"
 
 #include <algorithm>

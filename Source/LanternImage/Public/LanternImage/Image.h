@@ -15,8 +15,8 @@ enum class EImageSpace : uint8_t
 	Display, ///< sRGB-encoded, 0 to 1: a picture
 };
 
-/// Float32, interleaved, rows from the top. One or three channels are colour; two or four end in alpha,
-/// which is kept as it is stored and never encoded. An empty image has no pixel. Not thread-safe to change.
+/// Float32, interleaved, rows from the top. One or three channels are colour; two or four end in alpha. Alpha is kept as it is stored and
+/// is never encoded. An empty image has no pixel. Changes are not thread-safe.
 struct FImage
 {
 	uint32_t Width = 0;
@@ -41,11 +41,11 @@ private:
 	size_t GetOffset(uint32_t X, uint32_t Y) const { return (static_cast<size_t>(Y) * Width + X) * Channels; }
 };
 
-/// Largest sizes that are read or made; more is taken for a mistake or an attack.
+/// Largest sizes that are read or made. A larger size is taken for a mistake or an attack.
 inline constexpr uint32_t MaxImageDimension = 65'535;
 inline constexpr uint64_t MaxImagePixels = uint64_t(1) << 27;
 
-/// True where a file or a command line may ask for this size: not zero and within the limits above.
+/// True if a file or a command line may ask for this size: it is not zero and within the limits above.
 bool IsImageSizeValid(uint64_t Width, uint64_t Height);
 
 /// Three colour channels without alpha: grey is repeated.

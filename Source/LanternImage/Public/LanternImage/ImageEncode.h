@@ -8,18 +8,19 @@
 namespace Lantern
 {
 
-/// A display picture (linear ones are encoded first, clamped to 0 to 1; alpha is dropped) as JPEG, baseline, Quality 1 to
-/// 100. Empty for an empty image. The same image gives the same bytes.
+/// Encodes an image as baseline JPEG; Quality is 1 to 100. A linear image is first clamped to 0 to 1 and encoded as sRGB. Alpha is
+/// dropped. Equal images give equal bytes. The result is empty for an empty image.
 std::string EncodeJpeg(const FImage& Image, int Quality = 88);
-/// The same as PNG, 8 bits a channel.
+/// Encodes an image as PNG, 8 bits a channel, under the rules of EncodeJpeg.
 std::string EncodePng(const FImage& Image);
 
-/// RFC 4648, with padding.
+/// Base 64 of RFC 4648, with padding.
 std::string EncodeBase64(std::string_view Bytes);
 /// "data:image/jpeg;base64,…"
 std::string MakeJpegUri(const FImage& Image);
 
-/// Means of whole pixels so that it is no wider than MaxWidth; itself where it is that already. Not finite counts as 0.
+/// Averages whole pixels until the image is no wider than MaxWidth. An image that is narrow enough stays as it is. Values that are not
+/// finite count as 0.
 FImage ShrinkImage(const FImage& Image, uint32_t MaxWidth);
 
 } // namespace Lantern

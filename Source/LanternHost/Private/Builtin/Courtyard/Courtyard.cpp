@@ -1,3 +1,4 @@
+// Puts the courtyard together from its parts.
 #include "Builtin/Courtyard/Courtyard.h"
 
 #include "Builtin/Courtyard/CourtyardMaterials.h"

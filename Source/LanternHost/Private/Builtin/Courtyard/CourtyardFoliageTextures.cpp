@@ -1,3 +1,4 @@
+// Draws sprays of leaves into alpha-tested textures.
 #include "Builtin/Courtyard/CourtyardFoliageTextures.h"
 
 #include <cmath>

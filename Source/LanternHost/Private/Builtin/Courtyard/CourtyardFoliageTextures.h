@@ -14,7 +14,7 @@ enum class ELeafKind
 	Flower
 };
 
-/// Double-sided, alpha-masked; for unit texture coordinates with the stem at the bottom middle.
+/// Double-sided and alpha-masked. Unit texture coordinates put the stem at the bottom middle.
 int32_t AddLeafMaterial(FSceneBuilder& Builder, ELeafKind Kind);
 
 } // namespace Lantern::Builtin

@@ -1,3 +1,4 @@
+// The materials of the courtyard: stone, plaster, tiles, wood, metal, terracotta, water, cloth and ground.
 #include "Builtin/Courtyard/CourtyardMaterials.h"
 
 #include <cmath>

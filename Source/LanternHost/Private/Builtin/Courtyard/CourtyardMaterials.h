@@ -1,4 +1,4 @@
-// What the courtyard is made of.
+// The materials of the courtyard.
 #pragma once
 
 #include "Builtin/SceneBuilder.h"

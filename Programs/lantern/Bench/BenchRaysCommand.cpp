@@ -1,5 +1,5 @@
 // lantern bench rays: options, the scenes, and the table of figures.
-#include "Bench/BenchCommand.h"
+#include "Bench/BenchRaysCommand.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace Lantern
 
 namespace
 {
-/// Pixels on which plugin and raw dispatch may differ: they round positions differently, so that a ray that only just
+/// Least fraction of pixels on which plugin and raw dispatch must agree. They round positions differently, so that a ray that only just
 /// touches an edge may fall either way.
 constexpr double LeastAgreement = 0.999;
 

@@ -1,4 +1,4 @@
-// lantern bench rays
+// lantern bench rays: the sun shadow pass against a hand-written dispatch.
 #pragma once
 
 #include <string>
@@ -17,14 +17,14 @@ namespace Lantern
 struct FBenchRaysOptions
 {
 	FDeviceOptions Device;
-	std::vector<std::string> Scenes; ///< files; none: Sponza and black_forest where they are found
+	std::vector<std::string> Scenes; ///< files beside the courtyard; empty: Sponza and black_forest if they are found
 	std::string Size;                ///< WIDTHxHEIGHT; empty: 1280×720, on a CPU device 640×360
 	std::string Json;
 	uint32_t Repetitions = 21;
 	void AddTo(CLI::App& App);
 };
 
-/// Prints a table, and writes it as JSON where asked. ExitCheckFailed where the two do not trace the same rays.
+/// Prints a table, and writes it as JSON if asked. ExitCheckFailed if the two do not trace the same rays.
 int RunBenchRays(const FBenchRaysOptions& Options);
 
 } // namespace Lantern
