@@ -91,6 +91,7 @@ struct FEngineFrame
 	void Barriers(std::initializer_list<FRTBarrier> Items) { List->Barriers(Items.begin(), uint32_t(Items.size())); }
 
 	IRTDevice& Device;
+	FRTModuleView View = {{0, CameraHeight, 0}, {0, -1, 0}, {0, 0, -1}, FovY, Near}; // straight down
 	TRTRef<IRTCommandList> List, Commands;
 	TRTRef<IRTTexture> Depth, Normals;
 	TRTRef<IRTBuffer> Readback;
@@ -118,7 +119,6 @@ int main(int Count, char** Arguments)
 	Check(Module->CreateDevice(bValidate, Device.ReleaseAndGetAddress()));
 	TRTRef<IRTModuleRenderer> Renderer;
 	Check(Module->CreateRenderer(Device.Get(), Renderer.ReleaseAndGetAddress()));
-
 	ERTMaterialHandle White = ERTMaterialHandle::None;
 	ERTMeshHandle Cube = ERTMeshHandle::None;
 	ERTObjectHandle Floor, Box; // by which an engine moves them
@@ -129,9 +129,8 @@ int main(int Count, char** Arguments)
 	Check(Renderer->SetSun({.Direction = {1, -1, 0}, .Irradiance = 1.0f}));
 
 	FEngineFrame Engine(*Device);
-	const FRTModuleView View = {{0, CameraHeight, 0}, {0, -1, 0}, {0, 0, -1}, FovY, Near};
 	FRTModuleOutputs Outputs;
-	Check(Renderer->RenderFrame({Engine.Commands.Get(), View, Engine.Depth.Get(), Engine.Normals.Get()}, &Outputs));
+	Check(Renderer->RenderFrame({Engine.Commands.Get(), Engine.View, Engine.Depth.Get(), Engine.Normals.Get()}, &Outputs));
 	Engine.Submit(Outputs.SunShadow);
 	Check(Renderer->EndFrame(nullptr));
 	// README end
