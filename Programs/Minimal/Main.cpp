@@ -131,7 +131,7 @@ int main(int Count, char** Arguments)
 	FEngineFrame Engine(*Device);
 	FRTModuleOutputs Outputs;
 	Check(Renderer->RenderFrame({Engine.Commands.Get(), Engine.View, Engine.Depth.Get(), Engine.Normals.Get()}, &Outputs));
-	Engine.Submit(Outputs.SunShadow);
+	Engine.Submit(Outputs.Get(ESignal::SunShadow));
 	Check(Renderer->EndFrame(nullptr));
 	// README end
 

@@ -67,8 +67,8 @@ FError FForkEngine::CopyOutputs(const FRTModuleOutputs& Outputs, FFrameMasks& Ou
 {
 	Out = {};
 	VkDeviceSize Offset = 0;
-	for (const auto& [Mask, Memory] :
-	    {std::pair(Outputs.SunShadow, &Out.SunShadow), std::pair(Outputs.AmbientOcclusion, &Out.AmbientOcclusion)})
+	for (const auto& [Mask, Memory] : {std::pair(Outputs.Get(ESignal::SunShadow), &Out.SunShadow),
+	         std::pair(Outputs.Get(ESignal::AmbientOcclusion), &Out.AmbientOcclusion)})
 	{
 		if (Mask != nullptr)
 		{
