@@ -1,5 +1,5 @@
-// Quadric error simplification (Garland & Heckbert, "Surface Simplification Using Quadric Error Metrics", SIGGRAPH 1997)
-// and, where seams and borders stop it short of the target, vertex clustering: both as meshoptimizer has them.
+// FCoarserLevel: quadric error simplification (Garland & Heckbert, "Surface Simplification Using Quadric Error Metrics",
+// SIGGRAPH 1997). Vertex clustering follows where seams and borders stop it short of the target. meshoptimizer has them.
 #include "Geometry/CoarserLevel.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A coarser level of detail in the making: fewer triangles over the same vertices, simplified beside the frame.
+// A coarser level of detail: fewer triangles over the same vertices, simplified by a task beside the frame.
 #pragma once
 
 #include <atomic>
@@ -14,8 +14,8 @@ namespace Lantern
 class FCoarserLevel
 {
 public:
-	/// Share: of each section's triangles, at most; each keeps one at least. Reads Info's CPU data until it is done or
-	/// destroyed, which waits for the section in hand.
+	/// Share: the most that stays of each section's triangles, 0 to 1. Each section keeps at least one triangle. The task
+	/// reads Info and its CPU data until it is done, or until the destructor, which waits for the current section.
 	FCoarserLevel(const FRTGeometryInfo& Info, double Share);
 	~FCoarserLevel() { bCancel = true; }
 	FCoarserLevel(const FCoarserLevel&) = delete;
@@ -23,10 +23,11 @@ public:
 
 	bool IsDone() const { return bDone.load(std::memory_order_acquire); }
 	void Wait() { Task.Wait(); }
-	// Once done.
-	/// Empty: there was no memory to make it.
+
+	// Valid once the level is done.
+	/// Empty: there was no memory for the level.
 	const std::vector<uint32_t>& GetIndices() const { return Indices; }
-	/// One for each section, ranges of GetIndices().
+	/// One part for each section; ranges count GetIndices().
 	const std::vector<FRTGeometryPart>& GetParts() const { return Parts; }
 
 private:
@@ -35,7 +36,7 @@ private:
 	std::vector<uint32_t> Indices;
 	std::vector<FRTGeometryPart> Parts;
 	std::atomic<bool> bDone{false}, bCancel{false};
-	FTaskGroup Task; // last: waits before the rest goes
+	FTaskGroup Task; // last: its destructor waits before the rest goes
 };
 
 } // namespace Lantern

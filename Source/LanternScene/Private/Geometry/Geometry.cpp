@@ -1,3 +1,4 @@
+// FRTGeometry: its parts, its bounds and its sections as the RHI takes them.
 #include "LanternScene/Geometry/Geometry.h"
 
 #include <cmath>
@@ -25,7 +26,7 @@ std::vector<FRTGeometryPart> MakeGeometryParts(const FRTGeometryInfo& Info, bool
 			Parts.push_back(From.PieceCount > 0 ? Pieces : FRTGeometryPart{From.FirstIndex, Mixed, Section, From.bOpaque});
 			if (Opaque > 0) { Behind.push_back(OpaquePart); }
 		}
-		// A part is never empty: of nothing but transparent triangles one stays, and its any-hit shader lets rays pass.
+		// A part is never empty. If all triangles are transparent, one stays, and its any-hit shader lets rays pass.
 		else { Parts.push_back(Opaque > 0 ? OpaquePart : FRTGeometryPart{From.FirstIndex, 3, Section, From.bOpaque}); }
 	}
 	Parts.insert(Parts.end(), Behind.begin(), Behind.end());

@@ -1,4 +1,4 @@
-// What geometries leave behind when their last owner lets go: on any thread, perhaps after the store is gone.
+// What geometries leave behind when their last owner lets go, on any thread and perhaps after the store is gone.
 #pragma once
 
 #include <mutex>
@@ -10,6 +10,7 @@
 namespace Lantern
 {
 
+/// Threads: any.
 struct FGeometryReleases
 {
 	struct FItem

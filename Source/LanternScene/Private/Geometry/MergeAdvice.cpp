@@ -1,3 +1,4 @@
+// FindMergeable: counts small meshes that share a material.
 #include "Geometry/MergeAdvice.h"
 
 #include <unordered_map>

@@ -1,5 +1,5 @@
-// Small meshes that would better be one: each costs an acceleration structure, an instance and a box that overlaps its
-// neighbours'.
+// Advice to merge small meshes. Each of them costs an acceleration structure, an instance and a box that overlaps those of its
+// neighbours.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,16 @@ namespace Lantern
 
 struct FMergeAdvice
 {
-	/// Fewer triangles than this are small.
+	/// A mesh with fewer triangles than this is small.
 	static constexpr uint64_t SmallTriangles = 64;
-	uint32_t Objects = 0;   ///< small, static, of one section, each the only one of its geometry, with a material in common
-	uint32_t Materials = 0; ///< different ones among them: as many meshes would be left
+	/// Objects that are small and static, have one section, are the only one of their geometry and share a material with
+	/// another such object.
+	uint32_t Objects = 0;
+	/// Different materials among them: this many meshes would be left.
+	uint32_t Materials = 0;
 };
 
-/// ForEach calls what it is given with every object.
+/// ForEach calls the function that it is given with every object. It is called twice.
 FMergeAdvice FindMergeable(const std::function<void(const std::function<void(const FRTObjectInfo&)>&)>& ForEach);
 
 } // namespace Lantern

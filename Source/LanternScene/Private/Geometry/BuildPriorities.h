@@ -1,0 +1,48 @@
+// How large each geometry was seen on the screen, raised by any thread while the render thread chooses builds.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cassert>
+#include <cstdint>
+#include <memory>
+
+namespace Lantern
+{
+
+class FBuildPriorities
+{
+public:
+	static constexpr uint32_t ChunkSlots = 4096, MaxChunks = 4096;
+
+	/// Makes Slot known and sets its priority to 0. Render thread; no other thread may name the slot at that time.
+	void Reset(uint32_t Slot)
+	{
+		assert(Slot < ChunkSlots * MaxChunks);
+		std::unique_ptr<std::atomic<uint32_t>[]>& Chunk = Chunks[Slot / ChunkSlots];
+		if (!Chunk) { Chunk = std::make_unique<std::atomic<uint32_t>[]>(ChunkSlots); }
+		Chunk[Slot % ChunkSlots].store(0, std::memory_order_relaxed);
+	}
+	/// Keeps the largest ScreenSize (heights of the picture). What is negative or no number counts as 0.
+	/// Slot must be known. Lock-free; any thread.
+	void Raise(uint32_t Slot, float ScreenSize)
+	{
+		// Floats that are not negative are ordered as their bits are.
+		const uint32_t Bits = std::bit_cast<uint32_t>(ScreenSize > 0.0f ? ScreenSize : 0.0f);
+		std::atomic<uint32_t>& Priority = Chunks[Slot / ChunkSlots][Slot % ChunkSlots];
+		uint32_t Before = Priority.load(std::memory_order_relaxed);
+		while (Before < Bits && !Priority.compare_exchange_weak(Before, Bits, std::memory_order_relaxed)) {}
+	}
+	/// The largest size since the last call; 0: none. Any thread.
+	float Take(uint32_t Slot)
+	{
+		return std::bit_cast<float>(Chunks[Slot / ChunkSlots][Slot % ChunkSlots].exchange(0, std::memory_order_relaxed));
+	}
+
+private:
+	/// Bits of floats, in chunks that never move because any thread writes to them.
+	std::array<std::unique_ptr<std::atomic<uint32_t>[]>, MaxChunks> Chunks;
+};
+
+} // namespace Lantern

@@ -1,0 +1,62 @@
+// The slots of FGeometryStore: which geometry has which, where its structure lies, which ones changed.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "Geometry/GeometryEntry.h"
+
+namespace Lantern
+{
+
+/// Threads: render thread. Only a geometry's last owner may let go on any thread.
+class FGeometrySlots
+{
+public:
+	/// Addresses gets one element for each slot, 0 if the slot has no structure to trace. It must outlive this.
+	explicit FGeometrySlots(std::vector<uint64_t>& Addresses);
+	FGeometrySlots(const FGeometrySlots&) = delete;
+	FGeometrySlots& operator=(const FGeometrySlots&) = delete;
+
+	/// Gives Geometry a slot, a free one first. References to entries end here; slots do not move.
+	FGeometryEntry& Add(const std::shared_ptr<FRTGeometry>& Geometry);
+	/// Frees the slots of geometries whose last owner has let go since the last call. Returns how many there were.
+	/// OutCoarse: how many of them were coarser levels.
+	uint32_t FreeReleased(uint32_t& OutCoarse);
+	bool HasReleased() const;
+
+	FGeometryEntry& operator[](uint32_t Slot) { return Entries[Slot]; }
+	const FGeometryEntry& operator[](uint32_t Slot) const { return Entries[Slot]; }
+	/// Null: the geometry is gone.
+	FGeometryEntry* Resolve(FGeometrySlotRef Ref);
+	const FGeometryEntry* Resolve(FGeometrySlotRef Ref) const;
+	FGeometrySlotRef MakeRef(const FGeometryEntry& Entry) const;
+	uint32_t GetSlot(const FGeometryEntry& Entry) const { return static_cast<uint32_t>(&Entry - Entries.data()); }
+	uint32_t GetCount() const { return static_cast<uint32_t>(Entries.size()); }
+	/// Null: the slot is free.
+	const FRTGeometry* GetGeometry(uint32_t Slot) const;
+	/// Number of dynamic geometries.
+	uint32_t GetDynamicCount() const { return DynamicCount; }
+
+	/// A different address marks the slot as changed.
+	void SetAddress(FGeometryEntry& Entry, uint64_t Address);
+	void MarkChanged(FGeometryEntry& Entry);
+	/// Slots that changed since the last call, each once, in the order of their first change.
+	std::vector<uint32_t> TakeChanged();
+
+	/// Keeps the geometry alive until DropHeld: commands that name it are being recorded.
+	void Hold(const FGeometryEntry& Entry) { Held.push_back(Entry.Owner.lock()); }
+	void DropHeld() { Held.clear(); }
+
+private:
+	std::shared_ptr<FGeometryReleases> Releases;
+	std::vector<FGeometryEntry> Entries;
+	std::vector<uint64_t>& Addresses;
+	std::vector<uint32_t> FreeSlots, Changed;
+	std::vector<FRTGeometryRef> Held;
+	uint64_t NextAge = 0;
+	uint32_t DynamicCount = 0;
+};
+
+} // namespace Lantern
