@@ -1,0 +1,222 @@
+// FGeometryBuildQueue: the order of builds and the limit of triangles. No device.
+#include "Geometry/GeometryBuildQueue.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "LanternCore/Config/ConsoleVariables.h"
+
+namespace Lantern
+{
+namespace
+{
+
+class FGeometryBuildQueueTest : public ::testing::Test
+{
+protected:
+	void SetUp() override
+	{
+		FConsoleVariables::Get().ResetAll();
+		SetLimit(0);
+	}
+	void TearDown() override
+	{
+		FConsoleVariables::Get().ResetAll();
+		FConsoleVariables::Get().BeginFrame();
+	}
+	static void SetLimit(uint32_t Triangles)
+	{
+		const std::string Text = std::to_string(Triangles);
+		EXPECT_EQ(FConsoleVariables::Get().Set("r.RT.Build.TrianglesPerFrame", Text, ERTSetBy::Console, "test"), std::nullopt);
+		FConsoleVariables::Get().BeginFrame();
+	}
+	/// Queues a geometry. Its slot is the number of those before it. The result is valid until the next call.
+	FGeometryEntry& Add(uint64_t Triangles = 100, float ScreenSize = 0.0f)
+	{
+		FRTGeometryInfo Info;
+		Info.Sections = {{0, 3}};
+		Owners.push_back(std::make_shared<FRTGeometry>(std::move(Info)));
+		FGeometryEntry& Entry = Slots.Add(Owners.back());
+		Queue.ResetPriority(Slots.GetSlot(Entry));
+		Entry.Triangles = Triangles;
+		Entry.QueuedFrame = Frame;
+		if (ScreenSize > 0.0f) { Queue.RaisePriority(Slots.GetSlot(Entry), ScreenSize); }
+		Queue.Add(Entry);
+		return Entry;
+	}
+	/// Starts all that the queue offers. Returns their slots as digits.
+	std::string Run(bool bAll = false, bool bSmallestFirst = false)
+	{
+		Stats.Built = 0;
+		Stats.TrianglesBuilt = 0;
+		std::string Order;
+		const FRTStatus Status = Queue.Run({Frame, bAll, bSmallestFirst}, [&](FGeometryEntry& Entry, size_t, bool&) {
+			Build(Entry);
+			Order += std::to_string(Slots.GetSlot(Entry));
+			return FRTStatus::Success();
+		});
+		EXPECT_TRUE(Status);
+		return Order;
+	}
+	void Build(FGeometryEntry& Entry)
+	{
+		Entry.State = EGeometryState::Building;
+		++Stats.Built;
+		Stats.TrianglesBuilt += Entry.Triangles;
+	}
+
+	std::vector<uint64_t> Addresses;
+	FGeometrySlots Slots{Addresses};
+	FGeometryStoreStats Stats;
+	FGeometryBuildQueue Queue{Slots, Stats};
+	std::vector<FRTGeometryRef> Owners;
+	uint64_t Frame = 1;
+};
+
+TEST_F(FGeometryBuildQueueTest, BigOnScreenComesFirstThenTheOldest)
+{
+	Add();
+	Add(100, 0.2f);
+	Add();
+	Add(100, 0.9f);
+	EXPECT_EQ(Queue.GetCount(), 4u);
+	EXPECT_EQ(Run(), "3102");
+	EXPECT_TRUE(Queue.IsEmpty());
+	EXPECT_EQ(Run(), "");
+}
+
+TEST_F(FGeometryBuildQueueTest, SizeOnScreenIsRememberedUntilItIsSeenAnew)
+{
+	SetLimit(100);
+	Add(100, 0.5f);
+	Add(100, 0.4f);
+	Add(100, 0.3f);
+	EXPECT_EQ(Run(), "0");
+	EXPECT_EQ(Slots[2].ScreenSize, 0.3f);
+	Queue.RaisePriority(2, 0.1f);
+	EXPECT_EQ(Run(), "1") << "0.4 is what was seen of it last";
+	EXPECT_EQ(Slots[2].ScreenSize, 0.1f);
+}
+
+TEST_F(FGeometryBuildQueueTest, SmallestFirstGoesByBytes)
+{
+	Add(100, 9.0f).Sizes.StructureBytes = 3000;
+	Add().Sizes.StructureBytes = 1000;
+	Add().Sizes.StructureBytes = 2000;
+	EXPECT_EQ(Run(true, true), "120");
+}
+
+TEST_F(FGeometryBuildQueueTest, LostBuildsComeFirstInAnyOrder)
+{
+	Add(100, 5.0f).Sizes.StructureBytes = 1;
+	Add().Sizes.StructureBytes = 100;
+	Slots[1].bLost = true;
+	EXPECT_EQ(Run(), "10");
+	Queue.Add(Slots[0]);
+	Queue.Add(Slots[1]);
+	EXPECT_EQ(Run(true, true), "10");
+}
+
+TEST_F(FGeometryBuildQueueTest, WaitingGainsTwoHundredthOfAHeightInAFrame)
+{
+	SetLimit(100);
+	for (const uint64_t Waited : {190u, 210u})
+	{
+		Owners.clear();
+		uint32_t Coarse = 0;
+		Slots.FreeReleased(Coarse);
+		while (!Queue.IsEmpty()) { Run(true); }
+		const uint32_t Old = Slots.GetSlot(Add());
+		Frame += Waited;
+		const uint32_t New = Slots.GetSlot(Add(100, 1.0f));
+		Run();
+		EXPECT_EQ(Slots[Old].State == EGeometryState::Building, Waited == 210u);
+		EXPECT_EQ(Slots[New].State == EGeometryState::Building, Waited == 190u);
+	}
+}
+
+TEST_F(FGeometryBuildQueueTest, LimitEndsTheRoundAtTheFirstThatExceedsIt)
+{
+	SetLimit(250);
+	Add(100);
+	Add(100);
+	Add(100);
+	Add(10);
+	EXPECT_EQ(Run(), "01") << "what is behind does not overtake";
+	EXPECT_EQ(Queue.GetCount(), 2u);
+	EXPECT_EQ(Run(), "23");
+}
+
+TEST_F(FGeometryBuildQueueTest, FirstBuildOfAFrameMayExceedTheLimit)
+{
+	SetLimit(50);
+	Add(1000);
+	Add(1);
+	EXPECT_EQ(Run(), "0");
+	EXPECT_EQ(Run(), "1");
+}
+
+TEST_F(FGeometryBuildQueueTest, LostBuildsAndFullRoundsIgnoreTheLimit)
+{
+	SetLimit(100);
+	for (int I = 0; I < 3; ++I) { Add(100).bLost = true; }
+	Add(100);
+	EXPECT_EQ(Run(), "012");
+	Add(100);
+	EXPECT_EQ(Run(true), "34");
+}
+
+TEST_F(FGeometryBuildQueueTest, StopAndErrorKeepTheRestInOrder)
+{
+	for (const bool bError : {false, true})
+	{
+		std::vector<size_t> Left;
+		for (int I = 0; I < 4; ++I) { Add(); }
+		const uint32_t First = Slots.GetCount() - 4;
+		const FRTStatus Status = Queue.Run({Frame}, [&](FGeometryEntry& Entry, size_t InLeft, bool& bOutStop) {
+			Left.push_back(InLeft);
+			const bool bSecond = Slots.GetSlot(Entry) == First + 1;
+			if (!bSecond) { Build(Entry); }
+			bOutStop = bSecond && !bError;
+			return bSecond && bError ? FRTStatus::Error(ERTResult::DeviceLost, "gone") : FRTStatus::Success();
+		});
+		EXPECT_EQ(Status.Code, bError ? ERTResult::DeviceLost : ERTResult::Ok);
+		EXPECT_EQ(Left, std::vector<size_t>({4, 3}));
+		EXPECT_EQ(Queue.GetCount(), 3u) << "the one that waits stays too";
+		const std::string Rest = std::to_string(First + 1) + std::to_string(First + 2) + std::to_string(First + 3);
+		EXPECT_EQ(Run(), Rest);
+	}
+}
+
+TEST_F(FGeometryBuildQueueTest, WhatStartAddsWaitsForTheNextRound)
+{
+	Add();
+	Add();
+	Slots[1].State = EGeometryState::Refused;
+	uint32_t Calls = 0;
+	const FRTStatus Status = Queue.Run({Frame}, [&](FGeometryEntry& Entry, size_t, bool&) {
+		++Calls;
+		Build(Entry);
+		Queue.Add(Slots[1]);
+		return FRTStatus::Success();
+	});
+	EXPECT_TRUE(Status);
+	EXPECT_EQ(Calls, 1u) << "what is no longer pending is not offered";
+	EXPECT_EQ(Run(), "1");
+}
+
+TEST_F(FGeometryBuildQueueTest, GoneAndRemovedAreNotOffered)
+{
+	Add();
+	Add();
+	Add();
+	Owners[1].reset();
+	Queue.Remove(2);
+	EXPECT_EQ(Queue.GetCount(), 2u);
+	EXPECT_EQ(Run(), "0");
+	EXPECT_TRUE(Queue.IsEmpty());
+}
+
+} // namespace
+} // namespace Lantern
