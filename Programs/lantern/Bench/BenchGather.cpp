@@ -19,7 +19,7 @@
 #include "Bench/BenchTimes.h"
 #include "LanternCore/Tasks/Tasks.h"
 #include "LanternCore/Text/Log.h"
-#include "LanternScene/Instances/Gather.h"
+#include "LanternScene/Instances/GatherBaseline.h"
 
 namespace Lantern
 {

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "LanternScene/Instances/Gather.h"
+#include "LanternScene/Instances/GatherBaseline.h"
 
 namespace Lantern
 {

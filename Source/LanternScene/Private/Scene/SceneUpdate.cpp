@@ -1,12 +1,13 @@
-// One frame of a scene: what changed is taken over, instances are gathered as tasks, and uploads and builds recorded.
+// FSceneUpdate: the order in which a frame takes over changes and records uploads and builds.
+#include "Scene/SceneUpdate.h"
+
 #include <algorithm>
-#include <cassert>
-#include <cmath>
+#include <functional>
 #include <utility>
 
-#include "LanternCore/Config/ConsoleVariables.h"
+#include "Geometry/MergeAdvice.h"
 #include "LanternCore/Tasks/TaskTrace.h"
-#include "LanternScene/Scene/Scene.h"
+#include "LanternCore/Text/Log.h"
 #include "Opacity/OpacityUse.h"
 
 namespace Lantern
@@ -14,310 +15,198 @@ namespace Lantern
 
 namespace
 {
-TRTConsoleVariable<int32_t> CVarGather("r.RT.Scene.Gather", 1,
-    "How the instances of a frame are gathered. 0: by a plain loop over all "
-    "objects. 1: by buckets, in parallel. Both give the "
-    "same instances.",
-    {0, 1});
-TRTConsoleVariable<bool> CVarHoist(
-    "r.RT.Scene.Hoist", true, "Instances are gathered by tasks beside the rest of the frame. Off: at once, while the frame waits.");
+/// Objects that merging must save to be worth a line in the log.
+constexpr uint32_t LeastMergeSaving = 64;
 
-constexpr uint32_t FewestInstances = 64;
-/// Frames for which an acceleration structure may be four times too large.
-constexpr uint32_t ShrinkFrames = 240;
+void AdviseMerging(const FSceneObjects& Objects)
+{
+	const FMergeAdvice Advice = FindMergeable([&Objects](const std::function<void(const FRTObjectInfo&)>& Visit) {
+		for (uint32_t Slot = 0; Slot < Objects.GetSlotCount(); ++Slot)
+		{
+			if (const FRTObjectInfo* const Object = Objects.Find(Slot)) { Visit(*Object); }
+		}
+	});
+	if (Advice.Objects - Advice.Materials < LeastMergeSaving) { return; }
+	LogInfo(
+	    "Scene: {} of {} objects are meshes of one section below {} triangles, used once, that share their material with others. Merged "
+	    "by material they would be {}: {} acceleration structures and instances fewer.",
+	    Advice.Objects, Objects.GetInstances().GetCount(), FMergeAdvice::SmallTriangles, Advice.Materials,
+	    Advice.Objects - Advice.Materials);
+}
+
+/// Tells whether only its material program knows the shape of a surface: it is a box, or has an alpha test of its own.
+bool HasOwnShape(const FHitProgram& Program)
+{
+	return Program.Class == ERTHitClass::Procedural || (Program.Class == ERTHitClass::Masked && Program.Program != StandardProgram);
+}
 } // namespace
 
 // ---------------------------------------------------------------------------------------------------- what changed
 
-bool FRTScene::AreTablesDirty() const
+const FSceneFacts& FSceneUpdate::RefreshFacts()
 {
-	return Materials.IsDirty() || ObjectData.IsDirty() || LightData.IsDirty() || EmissiveTriangles.IsDirty() ||
-	       Sections.GetTable().IsDirty() || Motions.GetTable().IsDirty();
+	FSectionTable& Sections = Parts.Materials.GetSections();
+	UpdateOpacity(); // which hit programs there are depends on it
+	Facts.Objects = Parts.Objects.GetInstances().GetCount();
+	Facts.DynamicGeometries = Parts.Geometries.GetDynamicCount();
+	Facts.EmissiveTriangles = Parts.Emissive.GetTable().Num();
+	Facts.bMasked = Sections.GetMaskedRangeCount() > 0;
+	Facts.bOwnShapes = std::any_of(Sections.GetHitPrograms().begin(), Sections.GetHitPrograms().end(), HasOwnShape);
+	Facts.bEmissive = Sections.GetEmissiveRangeCount() > 0;
+	RefreshLightFacts();
+	return Facts;
 }
 
-bool FRTScene::NeedsUpdate(const FGatherView& View, const FSceneUse& Use) const
+void FSceneUpdate::RefreshLightFacts()
 {
-	const bool bGeometry = Geometries.NeedsUpdate() || NeedsOpacityUpdate(SectionContext, Sections, Geometries);
-	const bool bBind = bBindAll || Sections.HasChangedRanges();
-	const bool bGather = bStructureStale || bInstancesStale || bBind || bGeometry || !(MakeGatherKey(View, Use.bCull) == GatheredKey);
-	return bLightsChanged || Motions.NeedsUpdate(Use.bMotion) || (Use.bRays && bGather) || (Use.bLightSampling && bEmissiveChanged) ||
-	       AreTablesDirty() || SnapOrigin(View.Position) != Origin;
+	Facts.Lights = static_cast<uint32_t>(Parts.Lights.GetLights().size());
+	Facts.bSun = Parts.Lights.HasSun();
+	Facts.bSky = Parts.Lights.HasSky();
 }
 
-glm::dvec3 FRTScene::SnapOrigin(glm::dvec3 Camera) const
+bool FSceneUpdate::NeedsUpdate(const FGatherView& View, const FSceneUse& InUse) const
+{
+	const FSectionTable& Sections = Parts.Materials.GetSections();
+	const glm::dvec3 NewOrigin = SnapOrigin(View.Position);
+	const bool bGeometry = Parts.Geometries.NeedsUpdate() || NeedsOpacityUpdate(Parts.Materials.GetContext(), Sections, Parts.Geometries);
+	const bool bGather = Bindings.NeedsUpdate(Sections) || bGeometry || Structure.NeedsGather(View, InUse.bCull, NewOrigin);
+	return Parts.Lights.NeedsUpdate() || Parts.Objects.GetMotions().NeedsUpdate(InUse.bMotion) || (InUse.bRays && bGather) ||
+	       (InUse.bLightSampling && Parts.Emissive.NeedsUpdate()) || AreTablesDirty() || NewOrigin != Origin;
+}
+
+glm::dvec3 FSceneUpdate::SnapOrigin(glm::dvec3 Camera) const
 {
 	// A camera that goes to and fro across a border of the grid must not move the origin each time.
 	const glm::dvec3 Away = glm::abs(Camera - Origin);
 	return std::max({Away.x, Away.y, Away.z}) <= 0.75 * OriginStep ? Origin : FindOrigin(Camera);
 }
 
-void FRTScene::MoveOrigin(glm::dvec3 Camera)
+void FSceneUpdate::MoveOrigin(glm::dvec3 Camera)
 {
 	const glm::dvec3 Snapped = SnapOrigin(Camera);
 	if (Snapped == Origin) { return; }
 	Origin = Snapped;
-	bLightsChanged = true;
+	Parts.Lights.OnOriginMoved();
 }
 
-void FRTScene::BindRange(FSectionRangeId Id)
+void FSceneUpdate::TakeGeometryChanges()
 {
-	const FSectionRange& Range = Sections.GetRange(Id);
-	FInstanceBinding Binding;
-	if (Range.Geometry)
+	for (const uint32_t Slot : Parts.Geometries.TakeChanged())
 	{
-		// Facing can be switched off for instances, not for sections: mixed objects are culled.
-		const uint32_t Flags = (Range.bMasked ? 0u : InstanceForceOpaque) | (Range.bDoubleSided ? InstanceCullDisable : 0u);
-		Binding.TableOffsetAndFlags = ((Range.First * RayTypes) & 0xffffffu) | (Flags << 24);
-		Binding.GeometrySlot = Range.Geometry->GetSlot();
-		Binding.GeometryAddress = Geometries.GetAddress(Binding.GeometrySlot);
-		const size_t Parts = MissingPrograms.empty() ? 0 : Range.Geometry->GetParts().size();
-		for (uint32_t Part = 0; Part < Parts; ++Part)
-		{
-			if (std::binary_search(MissingPrograms.begin(), MissingPrograms.end(), Sections.GetHitProgram(Range.First + Part)))
-			{
-				Binding = {}; // for want of shaders, not of its structure
-				break;
-			}
-		}
-	}
-	Instances.SetBinding(Id, Binding);
-}
-
-void FRTScene::TakeGeometryChanges()
-{
-	for (const uint32_t Slot : Geometries.TakeChanged())
-	{
-		const FRTGeometry* const Geometry = Geometries.Get(Slot);
+		const FRTGeometry* const Geometry = Parts.Geometries.Get(Slot);
 		if (!Geometry) { continue; }
-		Sections.GeometryChanged(*Geometry);
-		bEmissiveChanged |= Geometry->IsCoarse(); // its triangles are no longer those that light sampling lists
+		Parts.Materials.GetSections().GeometryChanged(*Geometry);
+		if (Geometry->IsCoarse()) { Parts.Emissive.MarkTriangles(); } // they are no longer those that light sampling lists
 	}
 }
 
-void FRTScene::UpdateBindings()
+void FSceneUpdate::UpdateOpacity()
 {
-	TakeGeometryChanges();
-	const std::vector<FSectionRangeId> Changed = Sections.TakeChangedRanges();
-	if (std::exchange(bBindAll, false))
-	{
-		for (FSectionRangeId Id = 0; Id < Sections.GetRangeCapacity(); ++Id) { BindRange(Id); }
-		return;
-	}
-	for (const FSectionRangeId Id : Changed) { BindRange(Id); }
-}
-
-void FRTScene::UpdateOpacity()
-{
-	UpdateOpacityUse(SectionContext, Sections, Geometries);
+	UpdateOpacityUse(Parts.Materials.GetContext(), Parts.Materials.GetSections(), Parts.Geometries);
 	TakeGeometryChanges();
 }
 
-FRTStatus FRTScene::BeginUpdate(const FGatherView& View, const FSceneUse& Use)
+FRTStatus FSceneUpdate::Begin(const FGatherView& View, const FSceneUse& InUse)
 {
 	FTraceScope Scope("Scene update");
-	(void)FinishGather(); // of a frame that was given up
+	(void)Structure.FinishGather(); // of a frame that was given up
 	Stats = {};
-	FrameUse = Use;
+	Use = InUse;
 	MoveOrigin(View.Position);
-	Pivots.Update(Origin);
+	Parts.Objects.GetPivots().Update(Origin);
 	UpdateOpacity();
-	bGeometryWork = Use.bRays && Geometries.NeedsUpdate();
+	bGeometryWork = Use.bRays && Parts.Geometries.NeedsUpdate();
 	bGeometriesBegun = Use.bRays;
 	bStructuresRecorded = false;
 	if (Use.bRays)
 	{
-		if (FRTStatus S = Geometries.BeginFrame(Use.bBuildAll); !S) { return S; }
+		if (FRTStatus S = Parts.Geometries.BeginFrame(Use.bBuildAll); !S) { return S; }
 	}
-	UpdateBindings();
+	TakeGeometryChanges();
+	FSectionTable& Sections = Parts.Materials.GetSections();
+	FInstanceStore& Instances = Parts.Objects.GetInstances();
+	Bindings.Update(Sections, Parts.Geometries, Instances);
 	Instances.Refresh();
-	Motions.Update(Use.bMotion);
-	if (bLightsChanged) { UpdateLights(); }
-	if (Use.bLightSampling && bEmissiveChanged) { UpdateEmissiveTriangles(); }
+	Parts.Objects.GetMotions().Update(Use.bMotion);
+	Parts.Lights.Update(Origin);
+	if (Use.bLightSampling && Parts.Emissive.NeedsUpdate()) { Parts.Emissive.Update(Parts.Objects, Parts.Materials); }
 	RefreshFacts();
 	if (!Use.bRays) { return FRTStatus::Success(); }
-	if (FRTStatus S = CheckLimits(); !S) { return S; }
-	if (!bAdvised && Instances.GetCount() > 0) { AdviseMerging(); }
-	StartGather(View);
-	return FRTStatus::Success();
-}
-
-// ---------------------------------------------------------------------------------------------------- gathering
-
-FRTScene::FGatherKey FRTScene::MakeGatherKey(const FGatherView& View, bool bCull) const
-{
-	FGatherKey Key;
-	Key.Culling = FCullingSettings::FromConsole();
-	Key.Culling.bEnabled &= bCull;
-	// Without culling the view decides nothing but what is built first.
-	if (Key.Culling.bEnabled || Instances.HasMissing()) { Key.View = View; }
-	Key.Origin = SnapOrigin(View.Position);
-	Key.Revision = Instances.GetRevision();
-	Key.Mode = CVarGather.GetOnRenderThread();
-	return Key;
-}
-
-void FRTScene::StartGather(const FGatherView& View)
-{
-	const FGatherKey Key = MakeGatherKey(View, FrameUse.bCull);
-	GatherStatus = FRTStatus::Success();
-	if (!bInstancesStale && Key == GatheredKey) { return; }
-	bGathering = true;
-	const FGatherKey Before = std::exchange(GatheredKey, Key);
-	const auto Task = [this, Key, Before] { GatherStatus = GatherInstances(Key, Before); };
-	if (CVarHoist.GetOnRenderThread()) { GatherTasks.Run(Task); }
-	else { Task(); }
-}
-
-FRTStatus FRTScene::GatherInstances(const FGatherKey& Key, const FGatherKey& Before)
-{
-	FTraceScope Scope("Gather instances");
-	const FCullingRule Rule(Key.View, Key.Culling);
-	const FMissingGeometrySink Missing = [this, &Key](uint32_t Slot, float Pixels) {
-		Geometries.RaisePriority(Slot, Pixels / static_cast<float>(std::max(1u, Key.View.Height)));
-	};
-	uint32_t Count = Instances.GetCount();
-	if (Key.Mode != 0)
+	if (FRTStatus S = Bindings.CheckLimits(Sections); !S) { return S; }
+	if (!bAdvised && Instances.GetCount() > 0)
 	{
-		Count = Gather.Count(Instances, Rule, Missing);
-		const bool bSame = !Gather.HasChanged() && Before.Mode == Key.Mode && Before.Origin == Key.Origin;
-		if (bSame && !bInstancesStale) { return FRTStatus::Success(); }
+		bAdvised = true;
+		AdviseMerging(Parts.Objects);
 	}
-	bInstancesStale = true; // until all of it is written
-	IRTBuffer* Buffer = nullptr;
-	if (FRTStatus S = InstanceUploads.Reserve(Count, Buffer); !S) { return S; }
-	auto* const Out = static_cast<FRTInstance*>(Buffer->GetMapped());
-	if (Key.Mode == 0) { Count = GatherStraightforward(Instances, ObjectData.All().data(), Rule, Key.Origin, Out, Missing); }
-	else { Gather.Write(Instances, Key.Origin, Out); }
-	GatheredCount = Count;
-	bInstancesStale = false;
-	bStructureStale = true;
+	Structure.StartGather(View, Use.bCull, Origin);
 	return FRTStatus::Success();
-}
-
-// What the tasks are done with.
-FRTStatus FRTScene::FinishGather()
-{
-	if (!std::exchange(bGathering, false)) { return FRTStatus::Success(); }
-	FTraceScope Scope("Wait for instances");
-	GatherTasks.Wait();
-	return GatherStatus;
 }
 
 // ---------------------------------------------------------------------------------------------------- recording
 
-FRTStatus FRTScene::CheckLimits() const
+template <class FVisit>
+void FSceneUpdate::VisitTables(FVisit Visit) const
 {
-	// An instance names its first hit record with 24 bits.
-	if (uint64_t(Sections.GetCapacity()) * RayTypes <= MaxInstanceIndex) { return FRTStatus::Success(); }
-	return FRTStatus::Error(ERTResult::Unsupported, "the scene has %u sections; %u ray types allow %u", Sections.GetCapacity(), RayTypes,
-	    MaxInstanceIndex / RayTypes);
+	Visit(Parts.Materials.GetTable());
+	Visit(Parts.Objects.GetTable());
+	Visit(Parts.Lights.GetTable());
+	Visit(Parts.Emissive.GetTable());
+	Visit(Parts.Materials.GetSections().GetTable());
+	Visit(Parts.Objects.GetMotions().GetTable());
 }
 
-FRTStatus FRTScene::ReserveStructure(uint32_t InstanceCount)
+bool FSceneUpdate::AreTablesDirty() const
 {
-	const uint32_t Capacity = Structure ? Structure->GetMaxInstances() : 0;
-	const bool bTooLarge = Capacity / 4 > std::max(FewestInstances, InstanceCount);
-	FramesTooLarge = bTooLarge ? FramesTooLarge + 1 : 0;
-	if (Structure && Capacity >= InstanceCount && FramesTooLarge < ShrinkFrames) { return FRTStatus::Success(); }
-	const uint64_t Most = std::min<uint64_t>(Device.GetCapabilities().MaxInstanceCount, MaxInstanceIndex);
-	if (InstanceCount > Most)
-	{
-		return FRTStatus::Error(ERTResult::Unsupported, "%u objects are in the rays' scene; the device allows %llu", InstanceCount,
-		    static_cast<unsigned long long>(Most));
-	}
-	FRTSceneDesc Desc;
-	Desc.MaxInstances =
-	    static_cast<uint32_t>(std::min<uint64_t>(Most, std::max<uint64_t>(FewestInstances, uint64_t(InstanceCount) * 3 / 2)));
-	Desc.Name = "Scene";
-	TRTRef<IRTScene> New;
-	const FRTStatus Status = Device.CreateScene(Desc, New.ReleaseAndGetAddress());
-	FramesTooLarge = 0;
-	if (Status) { Structure = std::move(New); }
-	// For want of memory the one that is too large serves on.
-	return Status.Code == ERTResult::OutOfDeviceMemory && Capacity >= InstanceCount && Structure ? FRTStatus::Success() : Status;
+	bool bDirty = false;
+	VisitTables([&](const FGpuTableBase& Table) { bDirty |= Table.IsDirty(); });
+	return bDirty;
 }
 
-FRTStatus FRTScene::BuildStructure(IRTCommandList& List)
-{
-	if (FRTStatus S = ReserveStructure(GatheredCount); !S) { return S; }
-	IRTBuffer* Scratch = nullptr;
-	if (FRTStatus S = Geometries.ReserveScratch(std::max<uint64_t>(1, Structure->GetBuildSizes().BuildScratchBytes), Scratch); !S)
-	{
-		return S;
-	}
-	const FRTBarrier Before{nullptr, nullptr, ERTAccess::TraceRead | ERTAccess::BuildWrite, ERTAccess::BuildWrite | ERTAccess::BuildRead};
-	List.Barriers(&Before, 1);
-	List.BuildScene(Structure.Get(), InstanceUploads.Use(), 0, GatheredCount, Scratch, 0);
-	const FRTBarrier After{nullptr, nullptr, ERTAccess::BuildWrite, ERTAccess::TraceRead};
-	List.Barriers(&After, 1);
-	Stats.InstancesWritten = StructureCount = GatheredCount;
-	bStructureStale = false;
-	return FRTStatus::Success();
-}
-
-FRTStatus FRTScene::RecordTables(IRTCommandList& List, FFrameUploads& Uploads)
+FRTStatus FSceneUpdate::RecordTables(IRTCommandList& List, FFrameUploads& Uploads)
 {
 	if (!AreTablesDirty()) { return FRTStatus::Success(); }
 	const FRTBarrier Before{nullptr, nullptr, UploadedAccess, ERTAccess::CopyWrite};
 	List.Barriers(&Before, 1);
-	for (FRTStatus S : {Materials.Flush(Device, List, Uploads), ObjectData.Flush(Device, List, Uploads),
-	         LightData.Flush(Device, List, Uploads), EmissiveTriangles.Flush(Device, List, Uploads),
-	         Sections.GetTable().Flush(Device, List, Uploads), Motions.GetTable().Flush(Device, List, Uploads)})
-	{
-		if (!S) { return S; }
-	}
-	Stats.BytesCopied = Materials.GetCopiedBytes() + ObjectData.GetCopiedBytes() + LightData.GetCopiedBytes() +
-	                    EmissiveTriangles.GetCopiedBytes() + Sections.GetTable().GetCopiedBytes() + Motions.GetTable().GetCopiedBytes();
+	FRTStatus First;
+	uint64_t Bytes = 0;
+	VisitTables([&](auto& Table) {
+		const FRTStatus Status = Table.Flush(Parts.Device, List, Uploads);
+		if (First) { First = Status; }
+		Bytes += Table.GetCopiedBytes();
+	});
+	if (!First) { return First; }
+	Stats.BytesCopied = Bytes;
 	const FRTBarrier After{nullptr, nullptr, ERTAccess::CopyWrite, UploadedAccess};
 	List.Barriers(&After, 1);
 	return FRTStatus::Success();
 }
 
-FRTStatus FRTScene::RecordUpdate(IRTCommandList& List, FFrameUploads& Uploads)
+FRTStatus FSceneUpdate::RecordStructures(IRTCommandList& List)
 {
-	const FRTStatus Status = RecordTables(List, Uploads);
-	return Status ? RecordStructures(List, Uploads) : Status;
-}
-
-FRTStatus FRTScene::RecordStructures(IRTCommandList& List, FFrameUploads&)
-{
-	if (!FrameUse.bRays) { return FRTStatus::Success(); }
+	if (!Use.bRays) { return FRTStatus::Success(); }
 	bStructuresRecorded = true;
-	if (FRTStatus S = Geometries.Record(List); !S) { return S; }
-	Stats.GeometriesBuilt = Geometries.GetStats().Built + Geometries.GetStats().Rebuilt;
-	Stats.GeometriesRefitted = Geometries.GetStats().Refitted;
-	if (FRTStatus S = FinishGather(); !S) { return S; }
+	if (FRTStatus S = Parts.Geometries.Record(List); !S) { return S; }
+	Stats.GeometriesBuilt = Parts.Geometries.GetStats().Built + Parts.Geometries.GetStats().Rebuilt;
+	Stats.GeometriesRefitted = Parts.Geometries.GetStats().Refitted;
+	if (FRTStatus S = Structure.FinishGather(); !S) { return S; }
 	// Bounds of what was refitted are others, though its instances are not.
 	const bool bBuilt = Stats.GeometriesBuilt + Stats.GeometriesRefitted > 0;
-	return bStructureStale || bBuilt ? BuildStructure(List) : FRTStatus::Success();
+	if (!Structure.IsStale() && !bBuilt) { return FRTStatus::Success(); }
+	if (FRTStatus S = Structure.Build(List); !S) { return S; }
+	Stats.InstancesWritten = Structure.GetInstanceCount();
+	return FRTStatus::Success();
 }
 
-FRTStatus FRTScene::Update(IRTCommandList& List, FFrameUploads& Uploads, const FGatherView& View, const FSceneUse& Use)
+void FSceneUpdate::EndFrame(bool bSubmitted, FRTFence Fence)
 {
-	if (FRTStatus S = BeginUpdate(View, Use); !S) { return S; }
-	return RecordUpdate(List, Uploads);
-}
-
-void FRTScene::Rerecord()
-{
-	Materials.Invalidate();
-	ObjectData.Invalidate();
-	LightData.Invalidate();
-	EmissiveTriangles.Invalidate();
-	Sections.GetTable().Invalidate();
-	Motions.GetTable().Invalidate();
-	bStructureStale = true;
-}
-
-void FRTScene::EndFrame(bool bSubmitted, FRTFence Fence)
-{
-	(void)FinishGather(); // of a frame that ended early
-	InstanceUploads.EndFrame(bSubmitted, Fence);
-	if (std::exchange(bGeometriesBegun, false)) { Geometries.EndFrame(bSubmitted && bStructuresRecorded); }
-	Motions.EndFrame(bSubmitted);
-	if (!bSubmitted) { return Rerecord(); }
-	RetiredBefore = std::move(Retired);
-	Retired.clear();
+	(void)Structure.FinishGather(); // of a frame that ended early
+	Structure.EndFrame(bSubmitted, Fence);
+	if (std::exchange(bGeometriesBegun, false)) { Parts.Geometries.EndFrame(bSubmitted && bStructuresRecorded); }
+	if (!bSubmitted)
+	{
+		VisitTables([](auto& Table) { Table.Invalidate(); });
+	}
+	Parts.Objects.EndFrame(bSubmitted);
 }
 
 } // namespace Lantern

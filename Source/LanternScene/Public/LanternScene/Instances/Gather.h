@@ -52,9 +52,4 @@ private:
 	bool bChanged = true;
 };
 
-/// Writes to Out, in the order of objects, what FInstanceGather writes in its own; returns how many. Reads the records
-/// of the store and the objects' entries of the GPU table, not the buckets. Out: room for all objects.
-uint32_t GatherStraightforward(const FInstanceStore& Store, const FObjectData* Objects, const FCullingRule& Rule, const glm::dvec3& Origin,
-    FRTInstance* Out, const FMissingGeometrySink& Missing = {});
-
 } // namespace Lantern

@@ -1,0 +1,59 @@
+// FSceneMaterials: a change of a material goes on to its sections only where they depend on it.
+#include "LanternScene/Scene/SceneMaterials.h"
+
+#include <cassert>
+#include <utility>
+
+#include "LanternScene/Scene/EmissiveTriangles.h"
+
+namespace Lantern
+{
+
+uint32_t FSceneMaterials::Add(const FMaterialData& Material, uint32_t Program)
+{
+	if (!Free.empty())
+	{
+		const uint32_t Index = Free.back();
+		Free.pop_back();
+		Table.Set(Index, Material);
+		Programs[Index] = Program;
+		return Index;
+	}
+	Programs.push_back(Program);
+	return Table.Add(Material);
+}
+
+void FSceneMaterials::Remove(uint32_t Index)
+{
+	assert(Index < Table.Num() && !Sections.IsMaterialUsed(Index));
+	Free.push_back(Index);
+}
+
+void FSceneMaterials::Set(uint32_t Index, const FMaterialData& Material)
+{
+	assert(Index < Table.Num());
+	const FMaterialData Old = Table[Index];
+	if (Old.EmissiveWeight != Material.EmissiveWeight) { Emissive.MarkObjects(); }
+	Table.Set(Index, Material);
+	// An animated colour or roughness goes no further.
+	if (FSectionTable::AffectsSections(Old, Material)) { Sections.MaterialChanged(Index); }
+}
+
+void FSceneMaterials::SetProgram(uint32_t Index, uint32_t Program)
+{
+	assert(Index < Table.Num());
+	if (std::exchange(Programs[Index], Program) == Program) { return; }
+	Sections.MaterialChanged(Index);
+}
+
+void FSceneMaterials::SetOverride(uint32_t Override)
+{
+	if (std::exchange(Context.Override, Override) != Override) { Sections.RefillAll(); }
+}
+
+void FSceneMaterials::SetAlphaTest(bool bEnabled)
+{
+	if (std::exchange(Context.bAlphaTest, bEnabled) != bEnabled) { Sections.RefillAll(); }
+}
+
+} // namespace Lantern

@@ -1,0 +1,185 @@
+// FSceneObjects: the handle table, and the entries of an object in all that follows from it.
+#include "LanternScene/Scene/SceneObjects.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <utility>
+
+#include "LanternCore/Text/Log.h"
+#include "LanternScene/Scene/EmissiveTriangles.h"
+
+namespace Lantern
+{
+
+namespace
+{
+/// Packs what rounding to fp32 took from the translation: three signed fields of 10 bits, in steps of 2⁻²⁵ m.
+uint32_t PackTranslationRest(const glm::dmat4& Transform, const FObjectData& Data)
+{
+	uint32_t Packed = 0;
+	for (int Axis = 0; Axis < 3; ++Axis)
+	{
+		const double Rest = Transform[3][Axis] - CellCenter(Data.Cell)[Axis] - double(Data.ObjectToWorld[Axis].w);
+		// What is no number, or too far away for cells, is left as it is.
+		const double Steps = std::abs(Rest) < 1e-3 ? std::clamp(std::round(Rest * 33'554'432.0), -512.0, 511.0) : 0.0;
+		Packed |= (static_cast<uint32_t>(static_cast<int32_t>(Steps)) & 1023u) << (2 + 10 * Axis);
+	}
+	return Packed;
+}
+
+/// Returns an upper bound of how much a transform stretches. It is exact where the transform's axes stay at right angles.
+/// The largest row sum of MᵀM bounds the square of the largest singular value of M (Gershgorin).
+double GetStretch(const glm::dmat4& Transform)
+{
+	const glm::dmat3 Linear(Transform);
+	const glm::dmat3 Gram = glm::transpose(Linear) * Linear;
+	double Largest = 0.0;
+	for (int Row = 0; Row < 3; ++Row)
+	{
+		Largest = std::max(Largest, std::abs(Gram[0][Row]) + std::abs(Gram[1][Row]) + std::abs(Gram[2][Row]));
+	}
+	return std::sqrt(Largest);
+}
+} // namespace
+
+// ---------------------------------------------------------------------------------------------------- handle table
+
+/// Returns ~0 if none is left.
+uint32_t FSceneObjects::TakeSlot()
+{
+	if (!FreeSlots.empty() && FreeSlots.front() < Objects.size())
+	{
+		std::pop_heap(FreeSlots.begin(), FreeSlots.end(), std::greater());
+		const uint32_t Slot = FreeSlots.back();
+		FreeSlots.pop_back();
+		return Slot;
+	}
+	FreeSlots.clear(); // all of them are behind the end
+	const uint32_t Slot = GetSlotCount();
+	if (Slot > MaxInstanceIndex) { return ~0u; }
+	Objects.emplace_back().Generation = GenerationFloor;
+	return Slot;
+}
+
+void FSceneObjects::FreeSlot(uint32_t Slot)
+{
+	Objects[Slot].Info = {};
+	Objects[Slot].bAlive = false;
+	++Objects[Slot].Generation;
+	FreeSlots.push_back(Slot);
+	std::push_heap(FreeSlots.begin(), FreeSlots.end(), std::greater());
+	while (!Objects.empty() && !Objects.back().bAlive)
+	{
+		GenerationFloor = std::max(GenerationFloor, Objects.back().Generation);
+		Objects.pop_back();
+	}
+	Table.Truncate(GetSlotCount());
+	Motions.Truncate(GetSlotCount());
+	if (Objects.capacity() / 4 > Objects.size() + 64) { Objects.shrink_to_fit(); }
+}
+
+FSceneObjects::FObject& FSceneObjects::Resolve(FRTObjectId Id)
+{
+	assert(Id.Index < Objects.size() && Objects[Id.Index].bAlive && Objects[Id.Index].Generation == Id.Generation);
+	return Objects[Id.Index];
+}
+
+// ---------------------------------------------------------------------------------------------------- changes
+
+FRTObjectId FSceneObjects::Add(FRTObjectInfo Info)
+{
+	assert(Info.Geometry && Info.Materials.size() == Info.Geometry->GetSectionCount());
+	const uint32_t Slot = TakeSlot();
+	if (Slot == ~0u)
+	{
+		LogOnce(ERTLogLevel::Error, "the scene has 2^24 objects; an instance cannot name more, and further ones are left out");
+		return {};
+	}
+	FObject& Object = Objects[Slot];
+	Object.Info = std::move(Info);
+	Object.bAlive = true;
+	Object.Range = Sections.Acquire(*Object.Info.Geometry, Object.Info.Materials);
+	Motions.Add(Slot, *Object.Info.Geometry);
+	Write(Slot);
+	MarkEmissive(Object.Range);
+	return {Slot, Object.Generation};
+}
+
+void FSceneObjects::Remove(FRTObjectId Id)
+{
+	FObject& Object = Resolve(Id);
+	MarkEmissive(Object.Range);
+	Instances.Remove(Id.Index);
+	Motions.Remove(Id.Index);
+	Pivots.Remove(Id.Index);
+	Sections.Release(Object.Range);
+	Retired.push_back(std::move(Object.Info.Geometry));
+	FreeSlot(Id.Index);
+}
+
+void FSceneObjects::SetTransform(FRTObjectId Id, const glm::dmat4& Transform)
+{
+	FObject& Object = Resolve(Id);
+	Motions.BeforeMove(Id.Index);
+	Object.Info.Transform = Transform;
+	Write(Id.Index);
+	if (Sections.GetRange(Object.Range).bEmissive) { Emissive.MarkTriangles(); }
+}
+
+void FSceneObjects::SetMaterials(FRTObjectId Id, std::vector<uint32_t> SectionMaterials)
+{
+	FObject& Object = Resolve(Id);
+	const FSectionRangeId Range = Sections.Acquire(*Object.Info.Geometry, SectionMaterials);
+	MarkEmissive(Object.Range);
+	MarkEmissive(Range);
+	Sections.Release(std::exchange(Object.Range, Range));
+	Object.Info.Materials = std::move(SectionMaterials);
+	Write(Id.Index);
+}
+
+void FSceneObjects::MarkEmissive(FSectionRangeId Range)
+{
+	if (Sections.GetRange(Range).bEmissive) { Emissive.MarkObjects(); }
+}
+
+void FSceneObjects::Write(uint32_t Slot)
+{
+	const FObject& Object = Objects[Slot];
+	const glm::dmat4& Transform = Object.Info.Transform;
+	const FRTGeometryInfo& Geometry = Object.Info.Geometry->GetInfo();
+	FInstancePlacement Placement;
+	Placement.Transform = Transform;
+	if (Geometry.BoundsRadius >= 0.0f)
+	{
+		Placement.Center = glm::dvec3(Transform * glm::dvec4(Geometry.BoundsCenter, 1.0));
+		Placement.Radius = GetStretch(Transform) * double(Geometry.BoundsRadius);
+	}
+	Pivots.Set(Slot, glm::dvec3(Transform[3]), Placement.Center, Placement.Radius);
+	Placement.Range = Object.Range;
+	Placement.Group = Object.Info.Group;
+	Placement.Mask = Object.Info.Mask;
+	Instances.Set(Slot, Placement);
+
+	FObjectData Data{};
+	std::memcpy(Data.ObjectToWorld, Instances.GetTransform(Slot), sizeof(Data.ObjectToWorld));
+	Data.FirstSection = Sections.GetRange(Object.Range).First;
+	Data.Cell = Instances.GetRecord(Slot).Cell;
+	Data.Flags = (glm::determinant(glm::dmat3(Transform)) < 0.0 ? OBJECT_MIRRORED : 0u) | PackTranslationRest(Transform, Data);
+	Data.Motion = Motions.GetEntry(Slot);
+	Table.Set(Slot, Data);
+}
+
+// ---------------------------------------------------------------------------------------------------- a frame
+
+void FSceneObjects::EndFrame(bool bSubmitted)
+{
+	Motions.EndFrame(bSubmitted);
+	if (!bSubmitted) { return; }
+	RetiredBefore = std::move(Retired);
+	Retired.clear();
+}
+
+} // namespace Lantern

@@ -1,0 +1,90 @@
+// FSceneObjects keeps the objects of a scene: a handle table of what the engine set, and what follows from it. That is
+// FObjectData[] on the GPU, the store that instances are gathered from, the motions and the pivots.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "LanternScene/Instances/InstanceStore.h"
+#include "LanternScene/Memory/GpuTable.h"
+#include "LanternScene/Scene/Object.h"
+#include "LanternScene/Scene/ObjectMotion.h"
+#include "LanternScene/Scene/ObjectPivots.h"
+#include "LanternScene/ShaderTable/SectionTable.h"
+#include "SceneTypes.h"
+
+namespace Lantern
+{
+
+class FEmissiveTriangles;
+
+/// Threads: one at a time. The cost of a change does not depend on the number of objects.
+class FSceneObjects
+{
+public:
+	/// Takes section ranges from Sections. Marks Emissive when an emissive object comes, goes or moves. Both outlive this.
+	FSceneObjects(FSectionTable& InSections, FEmissiveTriangles& InEmissive) : Sections(InSections), Emissive(InEmissive) {}
+	FSceneObjects(const FSceneObjects&) = delete;
+	FSceneObjects& operator=(const FSceneObjects&) = delete;
+
+	/// Returns an invalid id, and logs that once, if there are MaxInstanceIndex + 1 objects already.
+	FRTObjectId Add(FRTObjectInfo Info);
+	/// Keeps the geometry until EndFrame was called for two submitted frames.
+	void Remove(FRTObjectId Id);
+	void SetTransform(FRTObjectId Id, const glm::dmat4& Transform);
+	/// SectionMaterials holds one material for each section of the geometry.
+	void SetMaterials(FRTObjectId Id, std::vector<uint32_t> SectionMaterials);
+	const FRTObjectInfo& Get(FRTObjectId Id) const { return Resolve(Id).Info; }
+	/// Returns the index of the object's first section in FSectionData[].
+	uint32_t GetFirstSection(FRTObjectId Id) const { return Sections.GetRange(Resolve(Id).Range).First; }
+
+	/// Slots of the handle table. FRTObjectId::Index is one of them.
+	uint32_t GetSlotCount() const { return static_cast<uint32_t>(Objects.size()); }
+	/// Returns null if the slot is free. Slot < GetSlotCount().
+	const FRTObjectInfo* Find(uint32_t Slot) const { return Objects[Slot].bAlive ? &Objects[Slot].Info : nullptr; }
+	/// Returns the section range of the object in the slot, which must not be free.
+	FSectionRangeId GetRange(uint32_t Slot) const { return Objects[Slot].Range; }
+
+	/// Ends a frame of the motions. Releases the geometries of objects removed before it if the frame was submitted.
+	void EndFrame(bool bSubmitted);
+
+	/// FObjectData[], by slot.
+	TGpuTable<FObjectData>& GetTable() { return Table; }
+	const TGpuTable<FObjectData>& GetTable() const { return Table; }
+	FInstanceStore& GetInstances() { return Instances; }
+	const FInstanceStore& GetInstances() const { return Instances; }
+	FObjectMotions& GetMotions() { return Motions; }
+	const FObjectMotions& GetMotions() const { return Motions; }
+	FObjectPivots& GetPivots() { return Pivots; }
+	const FObjectPivots& GetPivots() const { return Pivots; }
+
+private:
+	struct FObject
+	{
+		FRTObjectInfo Info;
+		uint32_t Generation = 0;
+		FSectionRangeId Range = 0;
+		bool bAlive = false;
+	};
+	FObject& Resolve(FRTObjectId Id);
+	const FObject& Resolve(FRTObjectId Id) const { return const_cast<FSceneObjects*>(this)->Resolve(Id); }
+	uint32_t TakeSlot();
+	void FreeSlot(uint32_t Slot);
+	void Write(uint32_t Slot);
+	void MarkEmissive(FSectionRangeId Range);
+
+	FSectionTable& Sections;
+	FEmissiveTriangles& Emissive;
+	std::vector<FObject> Objects;
+	std::vector<uint32_t> FreeSlots;                    // a heap, the lowest first, so that the end of the table falls free
+	uint32_t GenerationFloor = 0;                       // of slots that the table never had, or has lost
+	std::vector<FRTGeometryRef> Retired, RetiredBefore; // of objects removed since the last submitted frame, and before it
+	TGpuTable<FObjectData> Table{"Objects"};
+	FObjectMotions Motions{Table};
+	FObjectPivots Pivots;
+	FInstanceStore Instances;
+};
+
+} // namespace Lantern
