@@ -65,17 +65,17 @@ FCullingRule MakeRule(FRandom& Random, double Extent, const glm::dvec3& Middle)
 void ExpectConsistent(const FInstanceStore& Store)
 {
 	uint32_t Seen = 0;
-	for (size_t Index = 0; Index < Store.GetBucketSlots(); ++Index)
+	for (size_t Index = 0; Index < Store.GetBucketCapacity(); ++Index)
 	{
 		const FInstanceBucket* const Bucket = Store.GetBucket(Index);
 		if (!Bucket) { continue; }
 		ASSERT_GT(Bucket->Count, 0u);
-		for (uint32_t Slot = 0; Slot < Bucket->Count; ++Slot, ++Seen)
+		for (uint32_t Lane = 0; Lane < Bucket->Count; ++Lane, ++Seen)
 		{
-			const FInstanceRecord& Record = Store.GetRecord(Bucket->Object(Slot));
+			const FInstanceRecord& Record = Store.GetRecord(Bucket->Object(Lane));
 			ASSERT_TRUE(Record.bAlive);
 			ASSERT_EQ(Record.Bucket, Index);
-			ASSERT_EQ(Record.Slot, Slot);
+			ASSERT_EQ(Record.Lane, Lane);
 			ASSERT_EQ(Record.Cell, Bucket->Cell);
 			ASSERT_EQ(Record.Group, Bucket->Group);
 			const FBucketBounds& Bounds = Store.GetBounds();
@@ -265,17 +265,17 @@ TEST(GatherStore, BucketsStayFullEnoughWhileTheWorldStreams)
 	World.Store.SetBinding(0, {64, 0});
 	FRandom Random(5);
 	constexpr uint32_t Most = 4000;
-	size_t MostSlots = 0;
+	size_t MostBuckets = 0;
 	for (uint32_t Step = 0; Step < 40000; ++Step)
 	{
 		const double Ahead = 0.5 * Step;
 		World.Set(Step % Most, PlaceAt({Ahead + Uniform(Random, 0, 500), 0, Uniform(Random, -500, 500)}, 2.0));
-		if (Step == 2 * Most) { MostSlots = World.Store.GetBucketSlots(); }
+		if (Step == 2 * Most) { MostBuckets = World.Store.GetBucketCapacity(); }
 		if (Step % 1000 == 0) { World.Store.Refresh(); }
 	}
 	World.Store.Refresh();
 	ASSERT_NO_FATAL_FAILURE(ExpectConsistent(World.Store));
-	EXPECT_LE(World.Store.GetBucketSlots(), 2 * MostSlots);
+	EXPECT_LE(World.Store.GetBucketCapacity(), 2 * MostBuckets);
 	EXPECT_LE(World.Store.GetBucketCount(), Most / 10);
 }
 

@@ -129,13 +129,13 @@ uint64_t FInstanceGather::DropMissing(const FPass& Pass, const FInstanceBucket& 
 	uint32_t Told = ~0u;
 	for (; Left != 0; Left &= Left - 1)
 	{
-		const auto Slot = static_cast<uint32_t>(std::countr_zero(Left));
-		const FInstanceBinding& Binding = Pass.Store.GetBinding(Bucket.Range[Slot]);
+		const auto Lane = static_cast<uint32_t>(std::countr_zero(Left));
+		const FInstanceBinding& Binding = Pass.Store.GetBinding(Bucket.Range[Lane]);
 		if (Binding.GeometryAddress != 0) { continue; }
-		There &= ~(1ull << Slot);
+		There &= ~(1ull << Lane);
 		if (Binding.GeometrySlot == Told || Binding.GeometrySlot == ~0u || !Pass.Missing) { continue; }
 		Told = Binding.GeometrySlot;
-		const FInstanceRecord& Record = Pass.Store.GetRecord(Bucket.Object(Slot));
+		const FInstanceRecord& Record = Pass.Store.GetRecord(Bucket.Object(Lane));
 		Pass.Missing(Told, Pass.Rule.ScreenSize(Record.Center, Record.Radius));
 	}
 	return There;
@@ -143,7 +143,7 @@ uint64_t FInstanceGather::DropMissing(const FPass& Pass, const FInstanceBucket& 
 
 uint32_t FInstanceGather::CountBlock(const FPass& Pass, size_t Block, bool& OutChanged)
 {
-	const size_t First = Block * BlockBuckets, Buckets = std::min(BlockBuckets, Pass.Store.GetBucketSlots() - First);
+	const size_t First = Block * BlockBuckets, Buckets = std::min(BlockBuckets, Pass.Store.GetBucketCapacity() - First);
 	uint32_t Classes[BlockBuckets] = {};
 	if (Pass.Rule.bCull) { ClassifyBuckets(Pass.Store.GetBounds(), First, Buckets, Pass.World, Classes); }
 	const bool bNoGroups = Pass.Store.GetGroups().size() == 1;
@@ -164,7 +164,7 @@ uint32_t FInstanceGather::CountBlock(const FPass& Pass, size_t Block, bool& OutC
 
 uint32_t FInstanceGather::Count(const FInstanceStore& Store, const FCullingRule& Rule, const FMissingGeometrySink& Missing)
 {
-	const size_t Buckets = Store.GetBucketSlots(), Blocks = (Buckets + BlockBuckets - 1) / BlockBuckets;
+	const size_t Buckets = Store.GetBucketCapacity(), Blocks = (Buckets + BlockBuckets - 1) / BlockBuckets;
 	Kept.resize(Buckets);
 	BlockOffsets.resize(Blocks);
 	GroupBits.resize(Store.GetGroups().size());
@@ -198,9 +198,9 @@ void FInstanceGather::WriteBlock(const FInstanceStore& Store, const glm::dvec3& 
 		const glm::vec3 Offset = CellOffset(Bucket.Cell, Origin);
 		for (uint64_t Left = Here.Written; Left != 0; Left &= Left - 1)
 		{
-			const auto Slot = static_cast<uint32_t>(std::countr_zero(Left));
-			const uint32_t Bits = MaskBits((Here.Others >> Slot) & 1, (Here.Shadow >> Slot) & 1);
-			WriteInstance(Next++, Bucket.Transform[Slot], Offset, Bucket.IndexAndMask[Slot] & Bits, Bindings[Bucket.Range[Slot]]);
+			const auto Lane = static_cast<uint32_t>(std::countr_zero(Left));
+			const uint32_t Bits = MaskBits((Here.Others >> Lane) & 1, (Here.Shadow >> Lane) & 1);
+			WriteInstance(Next++, Bucket.Transform[Lane], Offset, Bucket.IndexAndMask[Lane] & Bits, Bindings[Bucket.Range[Lane]]);
 		}
 	}
 #if defined(__SSE2__)

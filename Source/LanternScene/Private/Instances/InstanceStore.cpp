@@ -90,7 +90,7 @@ FInstanceStore::FKey FInstanceStore::MakeKey(const FInstanceRecord& Record)
 const float* FInstanceStore::GetTransform(uint32_t Object) const
 {
 	const FInstanceRecord& Record = Records[Object];
-	return Buckets[Record.Bucket]->Transform[Record.Slot];
+	return Buckets[Record.Bucket]->Transform[Record.Lane];
 }
 
 void FInstanceStore::Set(uint32_t Object, const FInstancePlacement& Placement)
@@ -113,7 +113,7 @@ void FInstanceStore::Set(uint32_t Object, const FInstancePlacement& Placement)
 	{
 		MarkGroupDirty(New.Group);
 		Record = New;
-		WriteSlot(*Buckets[New.Bucket], New.Slot, Object, Rows, At);
+		WriteLane(*Buckets[New.Bucket], New.Lane, Object, Rows, At);
 		if (Record.Range != Placement.Range) { SetRange(Object, Placement.Range); }
 		return;
 	}
@@ -175,7 +175,7 @@ void FInstanceStore::SetRange(uint32_t Object, uint32_t Range)
 	if (--RangeUsers[Record.Range] == 0 && Bindings[Record.Range].GeometryAddress == 0) { --MissingBindings; }
 	if (RangeUsers[Range]++ == 0 && Bindings[Range].GeometryAddress == 0) { ++MissingBindings; }
 	Record.Range = Range;
-	Buckets[Record.Bucket]->Range[Record.Slot] = Range;
+	Buckets[Record.Bucket]->Range[Record.Lane] = Range;
 }
 
 void FInstanceStore::SetBinding(uint32_t Range, const FInstanceBinding& Binding)
@@ -196,17 +196,17 @@ void FInstanceStore::SetBinding(uint32_t Range, const FInstanceBinding& Binding)
 	Old = Binding;
 }
 
-void FInstanceStore::WriteSlot(FInstanceBucket& Bucket, uint32_t Slot, uint32_t Object, const float* Rows, const glm::vec3& Place)
+void FInstanceStore::WriteLane(FInstanceBucket& Bucket, uint32_t Lane, uint32_t Object, const float* Rows, const glm::vec3& Place)
 {
 	const FInstanceRecord& Record = Records[Object];
-	Bucket.X[Slot] = Place.x;
-	Bucket.Y[Slot] = Place.y;
-	Bucket.Z[Slot] = Place.z;
-	Bucket.R[Slot] = static_cast<float>(Record.Radius);
-	std::memcpy(Bucket.Transform[Slot], Rows, sizeof(Bucket.Transform[Slot]));
-	Bucket.IndexAndMask[Slot] = Object | (uint32_t(Record.Mask) << 24);
-	Bucket.Range[Slot] = Record.Range;
-	const uint64_t Bit = 1ull << Slot;
+	Bucket.X[Lane] = Place.x;
+	Bucket.Y[Lane] = Place.y;
+	Bucket.Z[Lane] = Place.z;
+	Bucket.R[Lane] = static_cast<float>(Record.Radius);
+	std::memcpy(Bucket.Transform[Lane], Rows, sizeof(Bucket.Transform[Lane]));
+	Bucket.IndexAndMask[Lane] = Object | (uint32_t(Record.Mask) << 24);
+	Bucket.Range[Lane] = Record.Range;
+	const uint64_t Bit = 1ull << Lane;
 	Bucket.SeenByShadow = (Bucket.SeenByShadow & ~Bit) | ((Record.Mask & MASK_CASTS_SHADOW) ? Bit : 0);
 	Bucket.SeenByOthers = (Bucket.SeenByOthers & ~Bit) | ((Record.Mask & ~MASK_CASTS_SHADOW) ? Bit : 0);
 }
@@ -214,16 +214,16 @@ void FInstanceStore::WriteSlot(FInstanceBucket& Bucket, uint32_t Slot, uint32_t 
 void FInstanceStore::Place(uint32_t Object, uint32_t Bucket, const float* Rows, const glm::vec3& Place)
 {
 	FInstanceBucket& Into = *Buckets[Bucket];
-	const uint32_t Slot = Into.Count++;
+	const uint32_t Lane = Into.Count++;
 	Records[Object].Bucket = Bucket;
-	Records[Object].Slot = static_cast<uint8_t>(Slot);
-	WriteSlot(Into, Slot, Object, Rows, Place);
+	Records[Object].Lane = static_cast<uint8_t>(Lane);
+	WriteLane(Into, Lane, Object, Rows, Place);
 	MarkDirty(Bucket);
 }
 
-void FInstanceStore::MoveSlot(FInstanceBucket& From, uint32_t FromSlot, uint32_t ToBucket)
+void FInstanceStore::MoveLane(FInstanceBucket& From, uint32_t FromLane, uint32_t ToBucket)
 {
-	Place(From.Object(FromSlot), ToBucket, From.Transform[FromSlot], {From.X[FromSlot], From.Y[FromSlot], From.Z[FromSlot]});
+	Place(From.Object(FromLane), ToBucket, From.Transform[FromLane], {From.X[FromLane], From.Y[FromLane], From.Z[FromLane]});
 }
 
 void FInstanceStore::Insert(uint32_t Object, const float* Rows, const glm::vec3& At)
@@ -240,14 +240,14 @@ void FInstanceStore::Insert(uint32_t Object, const float* Rows, const glm::vec3&
 
 void FInstanceStore::Extract(uint32_t Object)
 {
-	const uint32_t Index = Records[Object].Bucket, Slot = Records[Object].Slot;
+	const uint32_t Index = Records[Object].Bucket, Lane = Records[Object].Lane;
 	FInstanceBucket& Bucket = *Buckets[Index];
 	const uint32_t Last = --Bucket.Count;
-	if (Slot != Last)
+	if (Lane != Last)
 	{
 		const uint32_t Moved = Bucket.Object(Last);
-		WriteSlot(Bucket, Slot, Moved, Bucket.Transform[Last], {Bucket.X[Last], Bucket.Y[Last], Bucket.Z[Last]});
-		Records[Moved].Slot = static_cast<uint8_t>(Slot);
+		WriteLane(Bucket, Lane, Moved, Bucket.Transform[Last], {Bucket.X[Last], Bucket.Y[Last], Bucket.Z[Last]});
+		Records[Moved].Lane = static_cast<uint8_t>(Lane);
 	}
 	MarkDirty(Index);
 	Records[Object].Bucket = None;

@@ -90,19 +90,19 @@ void FInstanceStore::Split(uint32_t Index)
 	Nodes[Node].Split = Cut;
 	Nodes[Node].Child[0] = Low;
 	Nodes[Node].Child[1] = High;
-	for (uint32_t Slot = 0; Slot < Bucket.Count;)
+	for (uint32_t Lane = 0; Lane < Bucket.Count;)
 	{
-		if (AxisOf(Bucket, Axis)[Slot] < Cut)
+		if (AxisOf(Bucket, Axis)[Lane] < Cut)
 		{
-			++Slot;
+			++Lane;
 			continue;
 		}
-		MoveSlot(Bucket, Slot, Other);
+		MoveLane(Bucket, Lane, Other);
 		const uint32_t Last = --Bucket.Count;
-		if (Slot == Last) { break; }
+		if (Lane == Last) { break; }
 		const uint32_t Moved = Bucket.Object(Last);
-		WriteSlot(Bucket, Slot, Moved, Bucket.Transform[Last], {Bucket.X[Last], Bucket.Y[Last], Bucket.Z[Last]});
-		Records[Moved].Slot = static_cast<uint8_t>(Slot);
+		WriteLane(Bucket, Lane, Moved, Bucket.Transform[Last], {Bucket.X[Last], Bucket.Y[Last], Bucket.Z[Last]});
+		Records[Moved].Lane = static_cast<uint8_t>(Lane);
 	}
 	MarkDirty(Index);
 }
@@ -141,7 +141,7 @@ void FInstanceStore::MergeWithSibling(uint32_t Index)
 	const uint32_t Other = Nodes[Sibling].Child[0];
 	if (Buckets[Index]->Count + Buckets[Other]->Count > MergeCount) { return; }
 	FInstanceBucket& From = *Buckets[Index];
-	for (uint32_t Slot = 0; Slot < From.Count; ++Slot) { MoveSlot(From, Slot, Other); }
+	for (uint32_t Lane = 0; Lane < From.Count; ++Lane) { MoveLane(From, Lane, Other); }
 	Collapse(Parent, Sibling, Leaf);
 	FreeBucket(Index);
 }

@@ -55,7 +55,7 @@ FSectionRangeId FSectionTable::Acquire(const FRTGeometry& Geometry, const std::v
 	if (Allocator.GetCapacity() > Table.Num())
 	{
 		Table.Set(Allocator.GetCapacity() - 1, FSectionData{});
-		ProgramSlots.resize(Table.Num(), Unused);
+		HitPrograms.Resize(Table.Num());
 		IsChanged.resize(Table.Num(), false);
 	}
 	Links[Id].Hash = Hash;
@@ -74,7 +74,7 @@ void FSectionTable::Release(FSectionRangeId Id)
 	UnlinkUses(Id);
 	UnlinkHash(Id);
 	SetFlags(Id, false, false, false);
-	for (uint32_t Part = 0; Part < Range.Count; ++Part) { SetProgramSlot(Range.First + Part, Unused); }
+	for (uint32_t Part = 0; Part < Range.Count; ++Part) { HitPrograms.Clear(Range.First + Part); }
 	Allocator.Free(Range.First, Range.Count);
 	Range.Geometry = nullptr;
 	Range.Materials.clear();
@@ -219,7 +219,7 @@ void FSectionTable::FillRange(FSectionRangeId Id)
 	const uint32_t Parts = static_cast<uint32_t>(Range.Geometry->GetParts().size());
 	assert(Parts <= Range.Count);
 	for (uint32_t Part = 0; Part < Parts; ++Part) { FillPart(Id, Part); }
-	for (uint32_t Part = Parts; Part < Range.Count; ++Part) { SetProgramSlot(Range.First + Part, Unused); }
+	for (uint32_t Part = Parts; Part < Range.Count; ++Part) { HitPrograms.Clear(Range.First + Part); }
 	UpdateFlags(Id);
 }
 
@@ -271,18 +271,16 @@ void FSectionTable::MarkRange(FSectionRangeId Id)
 
 bool FSectionTable::Write(uint32_t Section, const FSectionData& Data, FHitProgram Program)
 {
-	const uint32_t Old = ProgramSlots[Section];
-	const bool bSameProgram = Old != Unused && Programs[Old].Program == Program;
-	const bool bSameData = std::memcmp(&Data, &Table[Section], sizeof(Data)) == 0;
-	if (bSameProgram && bSameData) { return false; }
-	if (!bSameData) { Table.Set(Section, Data); }
-	if (!bSameProgram) { SetProgramSlot(Section, FindProgramSlot(Program)); }
+	const bool bOtherData = std::memcmp(&Data, &Table[Section], sizeof(Data)) != 0;
+	if (bOtherData) { Table.Set(Section, Data); }
+	const bool bOtherProgram = HitPrograms.Set(Section, Program);
+	if (!bOtherData && !bOtherProgram) { return false; }
 	if (!IsChanged[Section])
 	{
 		Changed.push_back(Section);
 		IsChanged[Section] = true;
 	}
-	return !bSameProgram;
+	return bOtherProgram;
 }
 
 std::vector<FSectionRangeId> FSectionTable::TakeChangedRanges()
@@ -295,57 +293,6 @@ std::vector<uint32_t> FSectionTable::TakeChanged()
 {
 	for (const uint32_t Section : Changed) { IsChanged[Section] = false; }
 	return std::exchange(Changed, {});
-}
-
-// ------------------------------------------------------------------------------------------------ hit programs
-
-uint32_t FSectionTable::FindProgramSlot(FHitProgram Program)
-{
-	const auto [Found, bNew] = SlotOfProgram.try_emplace(Program, GetProgramSlotCount());
-	if (!bNew) { return Found->second; }
-	++SlotsRevision;
-	if (FreeSlots.empty())
-	{
-		Programs.push_back({Program, 0});
-		return Found->second;
-	}
-	Found->second = FreeSlots.back();
-	FreeSlots.pop_back();
-	Programs[Found->second] = {Program, 0};
-	return Found->second;
-}
-
-void FSectionTable::SetProgramSlot(uint32_t Section, uint32_t Slot)
-{
-	const uint32_t Old = std::exchange(ProgramSlots[Section], Slot);
-	if (Old == Slot) { return; }
-	if (Slot != Unused && Programs[Slot].Sections++ == 0) { bProgramsChanged = true; }
-	if (Old != Unused && --Programs[Old].Sections == 0)
-	{
-		SlotOfProgram.erase(Programs[Old].Program);
-		FreeSlots.push_back(Old);
-		bProgramsChanged = true;
-	}
-}
-
-const std::vector<FHitProgram>& FSectionTable::GetHitPrograms()
-{
-	if (!std::exchange(bProgramsChanged, false)) { return ProgramsInUse; }
-	std::vector<FHitProgram> InUse;
-	for (const auto& [Program, Slot] : SlotOfProgram) { InUse.push_back(Program); }
-	std::sort(InUse.begin(), InUse.end());
-	if (InUse != ProgramsInUse)
-	{
-		ProgramsInUse = std::move(InUse);
-		++ProgramsRevision;
-	}
-	return ProgramsInUse;
-}
-
-uint64_t FSectionTable::GetHitProgramsRevision()
-{
-	GetHitPrograms();
-	return ProgramsRevision;
 }
 
 } // namespace Lantern

@@ -10,6 +10,7 @@
 #include "LanternCore/Tasks/Tasks.h"
 #include "LanternScene/Pipelines/RTPSO.h"
 #include "LanternScene/ShaderTable/SectionTable.h"
+#include "ShaderTable/FullRewrite.h"
 
 namespace Lantern
 {
@@ -33,7 +34,8 @@ public:
 	FRecordBatch(IRTShaderTable& InTable, const FSectionTable& InSections, const uint32_t* InGroups, uint32_t InRayTypes)
 	    : Table(InTable),
 	      Sections(InSections),
-	      GroupsOfSlots(InGroups),
+	      Programs(InSections.GetHitProgramIndex()),
+	      GroupsOfPrograms(InGroups),
 	      RayTypes(InRayTypes)
 	{
 		assert(RayTypes <= Capacity);
@@ -45,7 +47,7 @@ public:
 			Flush();
 			First = Section * RayTypes;
 		}
-		const uint32_t* const Source = GroupsOfSlots + Sections.GetProgramSlot(Section) * RayTypes;
+		const uint32_t* const Source = GroupsOfPrograms + Programs.GetIndex(Section) * RayTypes;
 		const FSectionData& OfSection = Sections.Get(Section);
 		for (uint32_t Type = 0; Type < RayTypes; ++Type, ++Count)
 		{
@@ -64,7 +66,8 @@ private:
 	static constexpr uint32_t Capacity = 256;
 	IRTShaderTable& Table;
 	const FSectionTable& Sections;
-	const uint32_t* GroupsOfSlots;
+	const FHitProgramIndex& Programs;
+	const uint32_t* GroupsOfPrograms;
 	uint32_t RayTypes;
 	uint32_t First = 0, Count = 0, Next = ~0u;
 	std::array<uint32_t, Capacity> Groups;
@@ -77,10 +80,10 @@ uint32_t WithRoom(uint32_t Has, uint32_t Needed) { return Has >= Needed ? Has : 
 FRTStatus FShaderBindings::Prepare(const FRTPSO& Pipeline, FSectionTable& Sections)
 {
 	Stats = {};
-	const bool bEachFrame = CVarMode.GetOnRenderThread() == 0;
+	const bool bRewriteEachFrame = CVarMode.GetOnRenderThread() == 0;
 	const bool bSameSections = BoundSections == Sections.GetIdentity() && RayTypes == Pipeline.GetRayTypeCount() && !bRewrite;
 	const bool bSamePipeline = BoundPipeline == Pipeline.GetPipeline() && Table;
-	if (bSameSections && bSamePipeline && !Sections.HasChanged() && !bEachFrame)
+	if (bSameSections && bSamePipeline && !Sections.HasChanged() && !bRewriteEachFrame)
 	{
 		return bPending ? Table->Stage() : FRTStatus::Success();
 	}
@@ -105,7 +108,7 @@ FRTStatus FShaderBindings::Prepare(const FRTPSO& Pipeline, FSectionTable& Sectio
 	else if (!bSamePipeline) { WriteHandles(Sections); }
 	if (bRewrite || !bSamePipeline) { WriteHandlesBehind(Sections); }
 	RecordsUsed = std::max(RecordsUsed, Sections.GetCapacity() * RayTypes);
-	if (bEachFrame) { WriteEveryRange(Pipeline, Sections); }
+	if (bRewriteEachFrame) { Stats.RecordsWritten += RewriteHitRecords(*Table, Pipeline, Sections); }
 	else if (!bRewrite) { WriteChanged(Sections, std::move(Changed)); }
 	bRewrite = false;
 	return Table->Stage();
@@ -154,12 +157,13 @@ void FShaderBindings::SetGeneralRecords(const FRTPSO& Pipeline)
 
 void FShaderBindings::LookUpGroups(const FRTPSO& Pipeline, const FSectionTable& Sections)
 {
-	if (GroupsRevision == Sections.GetProgramSlotsRevision()) { return; }
-	GroupsRevision = Sections.GetProgramSlotsRevision();
+	const FHitProgramIndex& Programs = Sections.GetHitProgramIndex();
+	if (GroupsRevision == Programs.GetIndicesRevision()) { return; }
+	GroupsRevision = Programs.GetIndicesRevision();
 	Groups.clear();
-	for (uint32_t Slot = 0; Slot < Sections.GetProgramSlotCount(); ++Slot)
+	for (uint32_t Index = 0; Index < Programs.GetCount(); ++Index)
 	{
-		for (uint32_t Type = 0; Type < RayTypes; ++Type) { Groups.push_back(Pipeline.HitGroup(Type, Sections.GetProgramOfSlot(Slot))); }
+		for (uint32_t Type = 0; Type < RayTypes; ++Type) { Groups.push_back(Pipeline.HitGroup(Type, Programs.GetProgramAt(Index))); }
 	}
 }
 
@@ -186,6 +190,7 @@ void FShaderBindings::WriteAll(const FSectionTable& Sections)
 
 void FShaderBindings::WriteHandles(const FSectionTable& Sections)
 {
+	const FHitProgramIndex& Programs = Sections.GetHitProgramIndex();
 	ParallelFor(Sections.GetCapacity(), SectionGrain, [&](size_t Begin, size_t End) {
 		std::array<uint32_t, 1024> OfRecords;
 		const size_t Step = OfRecords.size() / RayTypes;
@@ -194,7 +199,7 @@ void FShaderBindings::WriteHandles(const FSectionTable& Sections)
 			uint32_t Count = 0;
 			for (size_t Section = First; Section < std::min(First + Step, End); ++Section)
 			{
-				const uint32_t* const Source = &Groups[Sections.GetProgramSlot(static_cast<uint32_t>(Section)) * RayTypes];
+				const uint32_t* const Source = &Groups[Programs.GetIndex(static_cast<uint32_t>(Section)) * RayTypes];
 				Count = static_cast<uint32_t>(std::copy_n(Source, RayTypes, OfRecords.begin() + Count) - OfRecords.begin());
 			}
 			Table->SetGroups(ERTRecordKind::Hit, static_cast<uint32_t>(First) * RayTypes, Count, OfRecords.data());
@@ -213,25 +218,6 @@ void FShaderBindings::WriteHandlesBehind(const FSectionTable& Sections)
 	{
 		const uint32_t Count = std::min(static_cast<uint32_t>(OfRecords.size()), RecordsUsed - First);
 		Table->SetGroups(ERTRecordKind::Hit, First, Count, OfRecords.data());
-	}
-}
-
-void FShaderBindings::WriteEveryRange(const FRTPSO& Pipeline, const FSectionTable& Sections)
-{
-	for (FSectionRangeId Id = 0; Id < Sections.GetRangeCapacity(); ++Id)
-	{
-		const FSectionRange& Range = Sections.GetRange(Id);
-		if (!Range.Geometry) { continue; }
-		for (uint32_t Section = Range.First; Section < Range.First + Range.Count; ++Section)
-		{
-			const FSectionData& Data = Sections.Get(Section);
-			const FHitProgram Program = Sections.GetHitProgram(Section);
-			for (uint32_t Type = 0; Type < RayTypes; ++Type)
-			{
-				Table->SetRecord(ERTRecordKind::Hit, Section * RayTypes + Type, Pipeline.HitGroup(Type, Program), &Data, sizeof(Data));
-			}
-		}
-		Stats.RecordsWritten += Range.Count * RayTypes;
 	}
 }
 

@@ -66,7 +66,7 @@ struct FInstanceRecord
 	uint32_t Group = 0;  ///< index into the store's groups; 0: none
 	uint32_t Member = 0; ///< place in the group's list
 	uint32_t Bucket = ~0u;
-	uint8_t Slot = 0;
+	uint8_t Lane = 0;
 	uint8_t Mask = 0;
 	bool bAlive = false;
 };
@@ -87,7 +87,7 @@ struct FInstanceBucket
 	uint32_t Node = ~0u; ///< of the tree that finds it; ~0: none
 	bool bDirty = false;
 
-	uint32_t Object(uint32_t Slot) const { return IndexAndMask[Slot] & 0xffffffu; }
+	uint32_t Object(uint32_t Lane) const { return IndexAndMask[Lane] & 0xffffffu; }
 	uint64_t Used() const { return Count == Capacity ? ~0ull : (1ull << Count) - 1; }
 };
 
@@ -135,7 +135,7 @@ public:
 
 	/// Brings bounds of buckets and groups up to date, in time proportional to what changed. Before gathering.
 	void Refresh();
-	size_t GetBucketSlots() const { return Buckets.size(); } ///< empty ones included
+	size_t GetBucketCapacity() const { return Buckets.size(); } ///< empty ones included
 	const FInstanceBucket* GetBucket(size_t Index) const { return Buckets[Index].get(); }
 	const FBucketBounds& GetBounds() const { return Bounds; }
 	const std::vector<FInstanceGroup>& GetGroups() const { return Groups; } ///< [0] is none
@@ -166,8 +166,8 @@ private:
 	void Extract(uint32_t Object);
 	void Detach(uint32_t Object);
 	void Place(uint32_t Object, uint32_t Bucket, const float* Rows, const glm::vec3& Place);
-	void WriteSlot(FInstanceBucket& Bucket, uint32_t Slot, uint32_t Object, const float* Rows, const glm::vec3& Place);
-	void MoveSlot(FInstanceBucket& From, uint32_t FromSlot, uint32_t ToBucket);
+	void WriteLane(FInstanceBucket& Bucket, uint32_t Lane, uint32_t Object, const float* Rows, const glm::vec3& Place);
+	void MoveLane(FInstanceBucket& From, uint32_t FromLane, uint32_t ToBucket);
 	bool StaysInBucket(const FInstanceRecord& Record, const FInstanceRecord& New, const glm::vec3& Place);
 	bool IsWithinBounds(uint32_t Bucket, const FInstanceRecord& New, const glm::vec3& Place) const;
 	void MarkDirty(uint32_t Bucket);

@@ -12,6 +12,7 @@
 #include "LanternScene/Memory/GpuTable.h"
 #include "LanternScene/Pipelines/MaterialPrograms.h"
 #include "LanternScene/Scene/Object.h"
+#include "LanternScene/ShaderTable/HitProgramIndex.h"
 #include "LanternScene/ShaderTable/SectionAllocator.h"
 #include "SceneTypes.h"
 
@@ -91,18 +92,13 @@ public:
 	TGpuTable<FSectionData>& GetTable() { return Table; }
 	const TGpuTable<FSectionData>& GetTable() const { return Table; }
 
-	FHitProgram GetHitProgram(uint32_t Section) const { return Programs[ProgramSlots[Section]].Program; }
-	/// A small number for the section's hit program, < GetProgramSlotCount, so that what is looked up for each program can
-	/// be kept in an array. Sections that nobody uses may have any.
-	uint32_t GetProgramSlot(uint32_t Section) const { return ProgramSlots[Section]; }
-	uint32_t GetProgramSlotCount() const { return static_cast<uint32_t>(Programs.size()); }
-	FHitProgram GetProgramOfSlot(uint32_t Slot) const { return Programs[Slot].Program; }
-	/// Another number whenever GetProgramOfSlot would answer something else.
-	uint64_t GetProgramSlotsRevision() const { return SlotsRevision; }
+	FHitProgram GetHitProgram(uint32_t Section) const { return HitPrograms.GetProgram(Section); }
 	/// All hit programs in use, sorted.
-	const std::vector<FHitProgram>& GetHitPrograms();
-	/// Another number whenever GetHitPrograms would return something else.
-	uint64_t GetHitProgramsRevision();
+	const std::vector<FHitProgram>& GetHitPrograms() { return HitPrograms.GetInUse(); }
+	/// Changes whenever GetHitPrograms would return something else.
+	uint64_t GetHitProgramsRevision() { return HitPrograms.GetInUseRevision(); }
+	/// Numbers of the sections' hit programs.
+	const FHitProgramIndex& GetHitProgramIndex() const { return HitPrograms; }
 
 private:
 	static constexpr uint32_t None = ~0u;
@@ -121,11 +117,6 @@ private:
 		FSectionRangeId Range;
 		uint32_t Section; // of the geometry
 	};
-	struct FProgramUse
-	{
-		FHitProgram Program;
-		uint32_t Sections = 0;
-	};
 
 	FSectionRangeId Find(uint64_t Hash, const FRTGeometry& Geometry, const std::vector<uint32_t>& Materials) const;
 	FSectionRangeId AddRange();
@@ -141,8 +132,6 @@ private:
 	void MarkRange(FSectionRangeId Id);
 	/// Whether the hit program was another.
 	bool Write(uint32_t Section, const FSectionData& Data, FHitProgram Program);
-	void SetProgramSlot(uint32_t Section, uint32_t Slot);
-	uint32_t FindProgramSlot(FHitProgram Program);
 
 	const FSectionContext& Context;
 	const uint64_t Identity;
@@ -160,15 +149,7 @@ private:
 	std::vector<uint32_t> RefutedGeometries;
 	std::vector<uint32_t> Changed;
 	std::vector<bool> IsChanged; // per section: nobody may take changes for a long time, and the list must not grow
-
-	static constexpr uint32_t Unused = 0; // slot of sections that are in no range; no program's
-	std::vector<uint32_t> ProgramSlots;   // per section
-	std::vector<FProgramUse> Programs{FProgramUse{}};
-	std::unordered_map<FHitProgram, uint32_t> SlotOfProgram; // in use only
-	std::vector<uint32_t> FreeSlots;
-	std::vector<FHitProgram> ProgramsInUse;
-	uint64_t ProgramsRevision = 0, SlotsRevision = 0;
-	bool bProgramsChanged = false;
+	FHitProgramIndex HitPrograms;
 };
 
 } // namespace Lantern

@@ -54,7 +54,6 @@ private:
 	void WriteAll(const FSectionTable& Sections);
 	void WriteHandles(const FSectionTable& Sections);
 	void WriteHandlesBehind(const FSectionTable& Sections);
-	void WriteEveryRange(const FRTPSO& Pipeline, const FSectionTable& Sections);
 
 	IRTDevice& Device;
 	TRTRef<IRTShaderTable> Table;
