@@ -1,0 +1,91 @@
+// FEmissiveTriangles: which triangles are listed, where they lie and how much of the power each has.
+#include "ScenePartsTestTools.h"
+
+namespace Lantern
+{
+namespace
+{
+
+class FEmissiveTrianglesTest : public FScenePartsTest
+{
+protected:
+	FRTGeometryRef CreatePanel(uint32_t SectionCount = 1) { return Create(SectionCount, {.bCpuData = true, .TrianglesPerSection = 2}); }
+	static glm::dmat4 MoveTo(glm::dvec3 Position)
+	{
+		glm::dmat4 Transform(1.0);
+		Transform[3] = glm::dvec4(Position, 1.0);
+		return Transform;
+	}
+};
+
+TEST_F(FEmissiveTrianglesTest, SectionsThatEmitAreListed)
+{
+	const uint32_t Dark = Materials.Add(MakeMaterial()), Bright = Materials.Add(MakeMaterial(0, 3.0f));
+	Place(CreatePanel(), {Dark});
+	const FRTObjectId Id = Place(CreatePanel(2), {Dark, Bright}, {5, 0, 0});
+	UpdateEmissive();
+	ASSERT_EQ(Emissive.GetTable().Num(), 2u);
+	EXPECT_FLOAT_EQ(Emissive.GetPower(), 3.0f) << "two triangles of half a square metre";
+	for (uint32_t I = 0; I < 2; ++I)
+	{
+		const FEmissiveTriangle& Triangle = Emissive.GetTable()[I];
+		EXPECT_EQ(Triangle.Object, Id.Index);
+		EXPECT_EQ(Triangle.Section, Objects.GetFirstSection(Id) + 1);
+		EXPECT_EQ(Triangle.Primitive, I);
+		EXPECT_EQ(Triangle.P0, glm::vec3(5 + 2 + I, 0, 0)) << "section 1 begins with the third triangle";
+		EXPECT_EQ(Triangle.P1, glm::vec3(5 + 3 + I, 0, 0));
+		EXPECT_EQ(Triangle.CumulativePower, I == 0 ? 0.5f : 1.0f);
+	}
+}
+
+TEST_F(FEmissiveTrianglesTest, TrianglesFollowTheirObject)
+{
+	const FRTObjectId Id = Place(CreatePanel(), {Materials.Add(MakeMaterial(0, 1.0f))});
+	UpdateEmissive();
+	Objects.SetTransform(Id, MoveTo({CellSize + 7.0, 0, 0}));
+	EXPECT_TRUE(Emissive.NeedsUpdate());
+	UpdateEmissive();
+	ASSERT_EQ(Emissive.GetTable().Num(), 2u);
+	EXPECT_EQ(Emissive.GetTable()[0].P0, glm::vec3(7, 0, 0)) << "relative to the centre of the object's cell";
+}
+
+TEST_F(FEmissiveTrianglesTest, WhatDoesNotEmitMarksNothing)
+{
+	const FRTObjectId Id = Place(CreatePanel(), {Materials.Add(MakeMaterial())});
+	UpdateEmissive();
+	Objects.SetTransform(Id, MoveTo({1, 2, 3}));
+	Objects.Remove(Id);
+	EXPECT_FALSE(Emissive.NeedsUpdate());
+}
+
+TEST_F(FEmissiveTrianglesTest, TrianglesWithoutAreaAreLeftOut)
+{
+	const FRTObjectId Flat = Place(CreatePanel(), {Materials.Add(MakeMaterial(0, 1.0f))});
+	glm::dmat4 Squeeze(1.0);
+	Squeeze[1] = glm::dvec4(0.0);
+	Objects.SetTransform(Flat, Squeeze);
+	UpdateEmissive();
+	EXPECT_EQ(Emissive.GetTable().Num(), 0u);
+	EXPECT_EQ(Emissive.GetPower(), 0.0f);
+}
+
+TEST_F(FEmissiveTrianglesTest, ObjectsThatCeaseToEmitLeaveTheList)
+{
+	const uint32_t Dark = Materials.Add(MakeMaterial()), Bright = Materials.Add(MakeMaterial(0, 1.0f));
+	const FRTObjectId Changed = Place(CreatePanel(), {Bright});
+	const FRTObjectId Removed = Place(CreatePanel(), {Bright});
+	UpdateEmissive();
+	ASSERT_EQ(Emissive.GetTable().Num(), 4u);
+	Objects.SetMaterials(Changed, {Dark});
+	EXPECT_TRUE(Emissive.NeedsUpdate());
+	UpdateEmissive();
+	ASSERT_EQ(Emissive.GetTable().Num(), 2u);
+	EXPECT_EQ(Emissive.GetTable()[0].Object, Removed.Index);
+	Objects.Remove(Removed);
+	EXPECT_TRUE(Emissive.NeedsUpdate());
+	UpdateEmissive();
+	EXPECT_EQ(Emissive.GetTable().Num(), 0u);
+}
+
+} // namespace
+} // namespace Lantern
