@@ -16,7 +16,7 @@ protected:
 		FScenePartsTest::SetUp();
 		Structure = std::make_unique<FSceneStructure>(*Device, *Geometries, Objects);
 		Material = Materials.Add(MakeMaterial());
-		Tree = Create(1); // of unknown bounds: never culled
+		Tree = Create(1, {.bDynamic = true}); // never culled, for its bounds are unknown, and never compacted
 	}
 	/// Gathers for View, builds what is stale, and submits. Returns whether it built.
 	bool Gather(const FGatherView& View, bool bCull = true, glm::dvec3 Origin = {}, bool bSubmit = true)

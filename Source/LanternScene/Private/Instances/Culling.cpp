@@ -1,3 +1,4 @@
+// The console variables of culling, and the rule that is made of them for a frame.
 #include "LanternScene/Instances/Culling.h"
 
 #include <algorithm>
@@ -11,23 +12,25 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<bool> CVarCulling(
-    "r.RT.Culling", true, "Leaves out of the rays' scene what is far away and small. Off: all objects are in it.");
+    "r.RT.Culling", true, "Hides objects from rays that are far away and small. Off: rays see all objects.");
 TRTConsoleVariable<float> CVarRadius(
-    "r.RT.Culling.Radius", 1000.0f, "Metres before the camera up to which every object is kept.", {0, 1e9});
+    "r.RT.Culling.Radius", 1000.0f, "Distance before the camera up to which every object is kept, metres.", {0, 1e9});
 TRTConsoleVariable<float> CVarRadiusBehind(
-    "r.RT.Culling.RadiusBehind", 500.0f, "Metres behind the camera up to which every object is kept.", {0, 1e9});
+    "r.RT.Culling.RadiusBehind", 500.0f, "Distance behind the camera up to which every object is kept, metres.", {0, 1e9});
 TRTConsoleVariable<float> CVarAngle("r.RT.Culling.Angle", 0.25f,
-    "Beyond r.RT.Culling.Radius, objects seen under at least this angle (centre to rim, degrees) are kept. 0: all.", {0, 90});
+    "Least angle, from centre to rim in degrees, under which objects beyond r.RT.Culling.Radius are kept. 0: all are kept.", {0, 90});
 TRTConsoleVariable<float> CVarAngleBehind("r.RT.Culling.AngleBehind", 1.0f,
-    "Behind the camera and beyond r.RT.Culling.RadiusBehind: the angle from which objects are kept. 0: all.", {0, 90});
-TRTConsoleVariable<float> CVarShadowPixels(
-    "r.RT.Culling.Shadow.MinPixels", 0.0f, "Objects that are fewer pixels across cast no ray-traced shadow.", {0, 16384});
-TRTConsoleVariable<float> CVarVisiblePixels(
-    "r.RT.Culling.Visible.MinPixels", 0.0f, "Objects that are fewer pixels across are seen by no rays but those of shadows.", {0, 16384});
+    "Least angle, from centre to rim in degrees, under which objects behind the camera and beyond r.RT.Culling.RadiusBehind are kept. 0: "
+    "all are kept.",
+    {0, 90});
+TRTConsoleVariable<float> CVarShadowPixels("r.RT.Culling.Shadow.MinPixels", 0.0f,
+    "Objects that are fewer pixels across than this cast no ray-traced shadows. 0: all do.", {0, 16384});
+TRTConsoleVariable<float> CVarVisiblePixels("r.RT.Culling.Visible.MinPixels", 0.0f,
+    "Objects that are fewer pixels across than this are seen by shadow rays alone. 0: all rays see all objects.", {0, 16384});
 
 double InvertSine(float Degrees)
 {
-	// A finite bound keeps radius 0 from making a NaN.
+	// The result is finite, so that a radius of 0 times it is not a NaN.
 	return 1.0 / std::max(1e-15, std::sin(glm::radians(double(std::clamp(Degrees, 0.0f, 90.0f)))));
 }
 } // namespace
@@ -61,7 +64,7 @@ FCullingRule::FCullingRule(const FGatherView& View, const FCullingSettings& Sett
 
 float FCullingRule::ScreenSize(const glm::dvec3& Center, double SphereRadius) const
 {
-	// Not rays alone decide: what surrounds the camera fills the screen.
+	// The distance is at least the radius: a sphere around the camera fills the screen.
 	const double Distance = std::max(glm::distance(Center, Eye), std::max(SphereRadius, 1e-6));
 	return static_cast<float>(SphereRadius / Distance * PixelsPerSlope);
 }

@@ -1,3 +1,4 @@
+// FInstanceGather: counts and writes blocks of buckets in parallel.
 #include "LanternScene/Instances/Gather.h"
 
 #include <algorithm>
@@ -44,7 +45,7 @@ FKernelRule MakeKernelRule(const FCullingRule& Rule, const glm::dvec3& Center)
 	return Out;
 }
 
-/// One instance, put together in registers and stored in one go: the memory may be write-combined.
+/// Puts an instance together in registers and stores it at once: the memory may be write-combined.
 inline void WriteInstance(
     FRTInstance* Out, const float* Transform, const glm::vec3& Offset, uint32_t IndexAndMask, const FInstanceBinding& Binding)
 {
@@ -53,7 +54,7 @@ inline void WriteInstance(
 	float* const To = reinterpret_cast<float*>(Out);
 	for (int Row = 0; Row < 3; ++Row)
 	{
-		// −0 is what changes nothing when added.
+		// Adding −0 changes nothing, not even the sign of −0.
 		const __m128 Add = _mm_set_ps(Offset[Row], -0.0f, -0.0f, -0.0f);
 		_mm_stream_ps(To + 4 * Row, _mm_add_ps(_mm_load_ps(Transform + 4 * Row), Add));
 	}
@@ -109,7 +110,7 @@ FInstanceGather::FKept FInstanceGather::CullBucket(const FPass& Pass, size_t Ind
 		const FBucketMasks Masks = TestBucket(Bucket, MakeKernelRule(Pass.Rule, Cell), Extent);
 		Out.Others = Masks.Others & Used & ~Masks.Unsure;
 		Out.Shadow = Masks.Shadow & Used & ~Masks.Unsure;
-		// What fp32 cannot tell, fp64 decides as it does everywhere else.
+		// If fp32 cannot tell, fp64 decides, by the rule that holds everywhere else.
 		for (uint64_t Left = Masks.Unsure & Used; Left != 0; Left &= Left - 1)
 		{
 			const FInstanceRecord& Record = Pass.Store.GetRecord(Bucket.Object(static_cast<uint32_t>(std::countr_zero(Left))));
@@ -152,7 +153,7 @@ uint32_t FInstanceGather::CountBlock(const FPass& Pass, size_t Block, bool& OutC
 	{
 		FKept& Old = Kept[First + I];
 		FKept New;
-		// Most of a large world: not even the bucket is looked at. A group's bucket may be kept for the group's sake.
+		// Most of a large world is culled without reading the bucket. Buckets of groups must be read: the group decides.
 		const bool bGone = bNoGroups && Classes[I] == (BucketNoOthers | BucketNoShadow);
 		if (!bGone && Pass.Store.GetBucket(First + I)) { New = CullBucket(Pass, First + I, Classes[I]); }
 		Found += static_cast<uint32_t>(std::popcount(New.Written));

@@ -1,10 +1,11 @@
+// The inner loops of gathering, and the choice between their AVX2 and plain builds.
 #include "Instances/GatherKernels.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
-// The kernels are compiled twice, and the better one is chosen when the program runs.
+// Kernels are compiled twice. The processor decides at run time which is called.
 #if (defined(__x86_64__) || defined(__i386__)) && defined(__GNUC__)
 #define LANTERN_KERNEL_AVX2 __attribute__((target("avx2,fma")))
 #define LANTERN_KERNEL_INLINE inline __attribute__((always_inline))
@@ -18,13 +19,13 @@ namespace Lantern
 namespace
 {
 constexpr uint32_t Capacity = FInstanceBucket::Capacity;
-/// Of differences of fp32 coordinates, relative to the larger of the two: three roundings and those of the squares.
+/// Error of a difference of fp32 coordinates, relative to the larger of the two: three roundings, and those of the squares.
 constexpr float PlaceError = 1e-6f;
 constexpr float SquareError = 4e-6f;
 
 LANTERN_KERNEL_INLINE float Larger(float A, float B) { return A > B ? A : B; }
 LANTERN_KERNEL_INLINE float Smaller(float A, float B) { return A < B ? A : B; }
-/// Whole vectors: the loops need no remainder.
+/// Rounds up to whole vectors, so that loops need no remainder.
 LANTERN_KERNEL_INLINE uint32_t RoundUp(uint32_t Count) { return (Count + 15) & ~15u; }
 LANTERN_KERNEL_INLINE float Square(float A) { return A * A; }
 
@@ -48,13 +49,13 @@ LANTERN_KERNEL_INLINE void ClassifyLoop(const float* __restrict X, const float* 
 		const float FarBoth = Larger(MostBefore, MostBehind), NearBoth = Smaller(LeastBefore, LeastBehind);
 		const float FarAhead = bAllAhead ? MostBefore : FarBoth, NearAhead = bAllAhead ? LeastBefore : NearBoth;
 		const float Far = bAllBehind ? MostBehind : FarAhead, Near = bAllBehind ? LeastBehind : NearAhead;
-		// Not farther than L even at its far end: D ≤ L − Reach; farther than L even at its near end: D > L + Reach.
+		// The far end of the bucket is within L if D ≤ L − Reach. The near end is beyond L if D > L + Reach.
 		const float OthersNear = Smaller(Near, RMin[I] * Rule.VisibleScale + Rule.VisibleBase) * (1 - PlaceError) - Reach;
 		const float ShadowNear = Smaller(Near, RMin[I] * Rule.ShadowScale + Rule.ShadowBase) * (1 - PlaceError) - Reach;
 		const float OthersFar = Smaller(Far, RMax[I] * Rule.VisibleScale + Rule.VisibleBase) * (1 + PlaceError) + Reach;
 		const float ShadowFar = Smaller(Far, RMax[I] * Rule.ShadowScale + Rule.ShadowBase) * (1 + PlaceError) + Reach;
 		const float Above = D2 * (1 + SquareError), Below = D2 * (1 - SquareError);
-		// Below 0 there is no such distance, though its square would be one.
+		// A limit below 0 is never met, but its square could be. The sign is kept.
 		const float OthersNear2 = OthersNear * std::fabs(OthersNear), ShadowNear2 = ShadowNear * std::fabs(ShadowNear);
 		const uint32_t AllOthers = Above <= OthersNear2 ? BucketAllOthers : 0u;
 		const uint32_t AllShadow = Above <= ShadowNear2 ? BucketAllShadow : 0u;
@@ -66,7 +67,7 @@ LANTERN_KERNEL_INLINE void ClassifyLoop(const float* __restrict X, const float* 
 
 constexpr uint32_t FlagOthers = 1, FlagShadow = 2, FlagUnsure = 4;
 
-/// Margin: how wrong a square of a distance may be. Reach: how wrong a distance along an axis may be.
+/// Margin bounds the error of a squared distance. Reach bounds the error of a distance along an axis.
 LANTERN_KERNEL_INLINE void TestLoop(
     const FInstanceBucket& Bucket, const FKernelRule& InRule, float Margin, float Reach, uint32_t* __restrict Out)
 {
@@ -89,7 +90,7 @@ LANTERN_KERNEL_INLINE void TestLoop(
 		const uint32_t Kept = Above <= Least ? 1u : 0u, Dropped = Below > Most ? 1u : 0u;
 		const uint32_t OthersKept = Above <= Others ? 1u : 0u, OthersDropped = Below > Others ? 1u : 0u;
 		const uint32_t ShadowKept = Above <= Shadow ? 1u : 0u, ShadowDropped = Below > Shadow ? 1u : 0u;
-		// Sure: left out altogether, or kept with every limit on the screen decided.
+		// An object is sure if it is left out altogether, or is kept and both limits on the screen are decided.
 		const uint32_t Sure = Dropped | (Kept & (OthersKept | OthersDropped) & (ShadowKept | ShadowDropped));
 		Out[I] = (Kept & OthersKept) * FlagOthers | (Kept & ShadowKept) * FlagShadow | (Sure ^ 1u) * FlagUnsure;
 	}
@@ -125,7 +126,7 @@ void TestPlain(const FInstanceBucket& Bucket, const FKernelRule& Rule, float Mar
 	PackLoop(Flags, RoundUp(Bucket.Count), Out);
 }
 
-/// Bit Shift of each of Count bytes.
+/// Collects bit Shift of each of Count bytes.
 uint64_t CollectBits(const uint8_t* Bytes, uint32_t Count, uint32_t Shift)
 {
 	uint64_t Mask = 0;

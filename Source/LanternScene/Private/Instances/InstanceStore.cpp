@@ -1,3 +1,4 @@
+// FInstanceStore: objects, bindings and buckets. The trees and groups are in InstanceTree.cpp.
 #include "LanternScene/Instances/InstanceStore.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace
 constexpr uint32_t None = ~0u;
 constexpr int32_t GroupLevel = 1000;
 constexpr int32_t UnboundedLevel = 1001;
-/// Two radii of one level differ by less than a factor of two.
+/// Returns the level of size. Two radii of one level differ by less than a factor of two.
 int32_t LevelOf(double Radius)
 {
 	if (Radius >= UnboundedRadius) { return UnboundedLevel; }
@@ -34,7 +35,7 @@ void MakeRows(const glm::dmat4& Transform, const glm::dvec3& Center, float Out[1
 
 namespace
 {
-/// The nearest of −Most to Most steps; for what is no number the first.
+/// Returns the nearest number of steps in −Most … Most; −Most if At is not a number.
 double FindStep(double At, double Step, double Most)
 {
 	const double Nearest = std::floor(At / Step + 0.5);
@@ -44,7 +45,7 @@ double FindStep(double At, double Step, double Most)
 
 glm::ivec3 FindCell(const glm::dvec3& World)
 {
-	// Beyond, and for what is no number, places within a cell are large; nothing overflows.
+	// Beyond Most, and for NaN, positions in a cell are large, but nothing overflows.
 	constexpr double Most = 1 << 30;
 	glm::ivec3 Cell;
 	for (int Axis = 0; Axis < 3; ++Axis) { Cell[Axis] = static_cast<int32_t>(FindStep(World[Axis], CellSize, Most)); }
@@ -278,7 +279,7 @@ uint32_t FInstanceStore::AllocateBucket(const FKey& Key, uint32_t Node)
 	Bucket.Level = Key.Level;
 	Bucket.Group = Key.Group;
 	Bucket.Node = Node;
-	// The unused end of a bucket is computed with, too.
+	// Kernels compute with the unused lanes, too.
 	for (float* Array : {Bucket.X, Bucket.Y, Bucket.Z, Bucket.R}) { std::fill_n(Array, FInstanceBucket::Capacity, 0.0f); }
 	return Index;
 }
@@ -331,7 +332,7 @@ void FInstanceStore::RefreshBucket(uint32_t Index)
 void FInstanceStore::Refresh()
 {
 	std::erase_if(DirtyBuckets, [&](uint32_t Index) { return !Buckets[Index] || !Buckets[Index]->bDirty; });
-	// A bucket that was freed and made again is listed twice.
+	// A bucket that was freed and allocated again is listed twice.
 	std::sort(DirtyBuckets.begin(), DirtyBuckets.end());
 	DirtyBuckets.erase(std::unique(DirtyBuckets.begin(), DirtyBuckets.end()), DirtyBuckets.end());
 	ParallelFor(DirtyBuckets.size(), 64, [&](size_t Begin, size_t End) {

@@ -1,5 +1,5 @@
-// How FInstanceStore finds the bucket for an object, and its groups. Each cell, level of size and group has a k-d tree
-// whose leaves are buckets: a full one is split at the median of its longest side.
+// FInstanceStore: the trees that find the bucket for an object, and the groups. Each cell, level of size and group has a k-d
+// tree whose leaves are buckets. A full bucket is split at the median of its longest side.
 #include <algorithm>
 #include <array>
 
@@ -11,12 +11,12 @@ namespace Lantern
 namespace
 {
 constexpr uint32_t None = ~0u;
-/// Two neighbours that have no more objects than this together become one bucket.
+/// Two sibling leaves that have no more objects than this together become one bucket.
 constexpr uint32_t MergeCount = 40;
 
 float* AxisOf(FInstanceBucket& Bucket, int32_t Axis) { return Axis == 0 ? Bucket.X : Axis == 1 ? Bucket.Y : Bucket.Z; }
 
-/// The longest side of what the bucket holds, and where to cut it; false: nothing tells its objects apart.
+/// Finds the longest side of the objects' bounds and where to cut it. Returns false if all objects are in one place.
 bool ChooseCut(FInstanceBucket& Bucket, int32_t& OutAxis, float& OutSplit)
 {
 	float Longest = 0.0f;
@@ -74,7 +74,7 @@ void FInstanceStore::Split(uint32_t Index)
 	float Cut = 0.0f;
 	if (!ChooseCut(*Buckets[Index], Axis, Cut))
 	{
-		// All in one place: the full bucket leaves the tree, a fresh one takes its leaf.
+		// All objects are in one place: the full bucket leaves the tree, and a fresh one takes its leaf.
 		Buckets[Index]->Node = None;
 		Nodes[Node].Child[0] = AllocateBucket(Key, Node);
 		return;
@@ -107,7 +107,7 @@ void FInstanceStore::Split(uint32_t Index)
 	MarkDirty(Index);
 }
 
-/// Kept, a child of Parent, takes its place.
+/// Moves Kept, a child of Parent, to the place of Parent.
 void FInstanceStore::Collapse(uint32_t Parent, uint32_t Kept, uint32_t Dropped)
 {
 	FNode Node = Nodes[Kept];
@@ -216,7 +216,7 @@ void FInstanceStore::RefreshGroup(FInstanceGroup& Group)
 		const FInstanceRecord& Record = Records[Object];
 		Group.Radius = std::max(Group.Radius, glm::distance(Group.Center, Record.Center) + Record.Radius);
 	}
-	// One member that must stay keeps them all.
+	// One member without bounds keeps the whole group.
 	if (Group.Radius >= UnboundedRadius) { Group.Radius = UnboundedRadius; }
 }
 

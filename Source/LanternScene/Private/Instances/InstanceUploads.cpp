@@ -1,3 +1,4 @@
+// FInstanceUploads: which buffer is free, and which is too large.
 #include "LanternScene/Instances/InstanceUploads.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@ namespace
 {
 constexpr uint64_t LeastBytes = 1024 * sizeof(FRTInstance);
 constexpr uint32_t MostIdleFrames = 120;
-/// A peak is forgotten by half in about 90 frames.
+/// RecentBytes falls by half in about 90 frames.
 constexpr uint64_t FadeShift = 7;
 } // namespace
 
@@ -63,7 +64,7 @@ void FInstanceUploads::EndFrame(bool bSubmitted, FRTFence Fence)
 	const FRTFence Completed = Device.GetCompletedFence();
 	std::erase_if(Pages, [&](FPage& Page) {
 		End(Page);
-		// The list that reads a lost one keeps it as long as it has to.
+		// The command list that reads a lost page keeps its buffer alive.
 		return Page.bLost || (Page.Fence <= Completed && (++Page.IdleFrames > MostIdleFrames || IsTooLarge(Page)));
 	});
 }

@@ -1,3 +1,4 @@
+// FGpuTableBase: dirty chunks, the size of the buffer, and the copies of a flush.
 #include "LanternScene/Memory/GpuTable.h"
 
 namespace Lantern
@@ -45,14 +46,14 @@ FRTStatus FGpuTableBase::Resize(IRTDevice& Device, uint64_t Needed, const char* 
 		return Status;
 	}
 	OutNew = false;
-	// For want of memory the one that is too large serves on.
+	// If memory is short, the buffer that is too large stays in use.
 	return Status.Code == ERTResult::OutOfDeviceMemory && Size >= Needed ? FRTStatus::Success() : Status;
 }
 
 FRTStatus FGpuTableBase::CopyRuns(IRTCommandList& List, FFrameUploads& Uploads, const uint8_t* Data, uint64_t ChunkBytes, uint64_t Bytes)
 {
 	std::sort(DirtyChunks.begin(), DirtyChunks.end());
-	// Chunks behind the end: the table has become shorter since.
+	// Chunks behind the end are dropped: the table has become shorter since.
 	const uint64_t Chunks = (Bytes + ChunkBytes - 1) / ChunkBytes;
 	const auto End = std::lower_bound(DirtyChunks.begin(), DirtyChunks.end(), Chunks);
 	if (End == DirtyChunks.begin()) { return FRTStatus::Success(); }

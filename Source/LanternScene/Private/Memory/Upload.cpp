@@ -1,3 +1,4 @@
+// FUploader: one staging buffer and its waits. FFrameUploads: pages that are used again after their fence.
 #include "LanternScene/Memory/Upload.h"
 
 #include <algorithm>
@@ -123,7 +124,7 @@ FRTStatus FFrameUploads::Allocate(uint64_t Size, FUploadSlice& Out)
 	if (Current.empty() || Used + Size > Current.back().Size)
 	{
 		Collect();
-		// The smallest that is large enough, so that large ones are idle where they are not needed.
+		// The smallest page that is large enough, so that large ones stay idle and are freed.
 		auto Fitting = Free.end();
 		for (auto Page = Free.begin(); Page != Free.end(); ++Page)
 		{

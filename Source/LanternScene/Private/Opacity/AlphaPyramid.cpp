@@ -1,3 +1,4 @@
+// FAlphaPyramid: levels of least and greatest alpha.
 #include <algorithm>
 #include <cassert>
 

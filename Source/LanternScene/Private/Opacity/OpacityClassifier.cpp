@@ -1,3 +1,4 @@
+// Classification of triangles: limits of alpha, corners in texels, and the order of indices.
 #include "LanternScene/Opacity/OpacityClassifier.h"
 
 #include <algorithm>
@@ -15,15 +16,15 @@ namespace Lantern
 
 namespace
 {
-// Half a step of 8 bits: what filtering and decoding may be off by.
+// Error of filtering and decoding: half a step of 8 bits.
 constexpr double TexelMargin = 0.5 / 255.0;
-// Of the interpolated vertex alpha and of the products.
+// Error of the interpolated vertex alpha and of the products.
 constexpr double ProductMargin = 1.0e-5;
 constexpr size_t TrianglesPerTask = 64;
 
 uint64_t Mix(uint64_t Value)
 {
-	// Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014: the finalizer.
+	// The finalizer of Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014.
 	Value = (Value ^ (Value >> 30)) * 0xbf58476d1ce4e5b9ull;
 	Value = (Value ^ (Value >> 27)) * 0x94d049bb133111ebull;
 	return Value ^ (Value >> 31);
@@ -46,7 +47,7 @@ bool SurelyFails(double Scale, double Alpha, float Cutoff) { return Scale * std:
 
 FAlphaLimits MakeLimits(const FScale& Scale, float Cutoff)
 {
-	// Both hold from some alpha on.
+	// Each condition holds from some alpha on.
 	const auto FindFirst = [](auto Holds) {
 		int Low = 0, High = 256;
 		while (Low < High)
@@ -62,7 +63,7 @@ FAlphaLimits MakeLimits(const FScale& Scale, float Cutoff)
 	return Limits;
 }
 
-/// Of one corner: its coordinates and what they were added up from.
+/// Coordinates of a corner, and the greatest terms that they were added up from.
 struct FCorner
 {
 	glm::dvec2 UV, Magnitude;
@@ -124,7 +125,7 @@ bool MakeTexelTriangle(const FAlphaTest& Test, const FVertexAttributes* const (&
 		const FCorner Corner = TransformCorner(Test, *Corners[I]);
 		Out.P[I] = Corner.UV * glm::dvec2(Texels.Width, Texels.Height);
 		Out.Magnitude = glm::max(Out.Magnitude, Corner.Magnitude);
-		// fp32 overflows where this does not.
+		// The fp32 of the shader overflows here, though fp64 does not.
 		if (!(Corner.Magnitude.x < 1.0e30) || !(Corner.Magnitude.y < 1.0e30)) { return false; }
 	}
 	return true;

@@ -1,5 +1,5 @@
-// Which triangles are cut into how many pieces. Cards of foliage share their texture coordinates by the thousand, so that
-// ways to cut are found for each distinct footprint once; what a piece more is worth is one price for all triangles.
+// CutOpacityPieces: which triangles are cut into how many pieces. Thousands of foliage cards share texture coordinates, so
+// ways to cut are found once for each distinct footprint. One price for a piece, in area, holds for all triangles.
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
@@ -14,9 +14,9 @@ namespace Lantern
 
 namespace
 {
-// A third of a millisecond each. What is worth least stays whole …
+// Ways of one footprint take a third of a millisecond. The footprints that are worth least stay whole.
 constexpr size_t MaxFootprints = 512;
-// … and what is worth most deserves a finer grid, which takes four times as long.
+// The footprints that are worth most get a finer grid, which takes four times as long.
 constexpr size_t FineFootprints = 64;
 constexpr double WorthwhileShare = 0.98; // of the area of all triangles
 constexpr int PriceSteps = 40;
@@ -35,7 +35,7 @@ struct FTriangleRef
 	const FOpacityPieces* Way = nullptr; // null: whole
 };
 
-/// The way that is worth most at a price of a piece in area; null: none is worth it.
+/// Returns the way that saves most area at the price, in area, of a piece; null if none is worth it.
 const FOpacityPieces* Choose(const FFootprint& Footprint, double Area, double Price)
 {
 	const FOpacityPieces* Best = nullptr;
@@ -129,7 +129,7 @@ public:
 			for (FTriangleRef& T : OfSource)
 			{
 				T.Way = Choose(Footprints[T.Footprint], T.Area, High);
-				// Many triangles are alike, and change their way at the same price: some still can.
+				// Many triangles are alike, and change their way at one price. Some of them still can.
 				const FOpacityPieces* const Finer = Choose(Footprints[T.Footprint], T.Area, Low);
 				const size_t More = (Finer ? Finer->GetCount() : 1) - (T.Way ? T.Way->GetCount() : 1);
 				if (More <= Left)
@@ -164,7 +164,7 @@ public:
 	}
 
 private:
-	/// Area that a piece must save: one price that is just too low for MostExtra, and one that is not.
+	/// Returns two prices of a piece, in area: one just too low for MostExtra, and one that is high enough.
 	std::pair<double, double> FindPrice(uint64_t MostExtra) const
 	{
 		double High = 0.0;
@@ -173,7 +173,7 @@ private:
 			for (const FTriangleRef& T : OfSource) { High = std::max(High, double(T.Area)); }
 		}
 		if (CountExtra(0.0) <= MostExtra) { return {0.0, 0.0}; }
-		// Areas span many orders of magnitude: steps are of the exponent.
+		// Areas span many orders of magnitude, so the search halves the exponent.
 		double Low = High * 1e-9;
 		for (int Step = 0; Step < PriceSteps && High > Low * 1.01; ++Step)
 		{

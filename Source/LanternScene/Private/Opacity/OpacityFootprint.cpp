@@ -1,3 +1,4 @@
+// The texels that a triangle can read: blocks of the alpha pyramid are walked until they decide.
 #include "Opacity/OpacityFootprint.h"
 
 #include <algorithm>
@@ -12,11 +13,11 @@ namespace
 {
 // Texels beside the footprint that a sampler may still read: implementations round coordinates to 1/256 of a texel.
 constexpr double SamplerMargin = 1.0 / 32.0;
-// Of the shader's own arithmetic, in fp32: three products and sums for the position, two for the transform.
+// Error of the shader's own fp32 arithmetic: three products and sums for the position, two for the transform.
 constexpr double RelativeMargin = 1.0e-6;
 // A triangle over more repetitions than this along an axis is taken to see all of the texture along it.
 constexpr double MaxTiles = 8.0;
-// What is not known after this many blocks stays mixed.
+// A triangle that is not decided after this many blocks stays mixed.
 constexpr uint32_t MaxVisits = 16384;
 
 /// One axis of texel space, in which the triangle lies unwrapped.
@@ -58,13 +59,13 @@ struct FInterval
 	double Low, High;
 };
 
-/// Where the texels [Low, High) lie in a repetition of the texture.
+/// Finds where the texels [Low, High) lie in a repetition of the texture.
 FInterval Place(const FAxis& Axis, int64_t Tile, double Low, double High)
 {
 	if (Axis.bAll) { return {Axis.Min, Axis.Max}; }
 	if (Axis.Address == ERTAddress::Clamp)
 	{
-		// Border texels go on for ever.
+		// A border texel goes on without end.
 		return {Low <= 0.0 ? std::min(Axis.Min, 0.0) : Low, High >= Axis.Size ? std::max(Axis.Max, Axis.Size) : High};
 	}
 	const double Origin = static_cast<double>(Tile) * Axis.Size;
@@ -188,7 +189,7 @@ private:
 			bSeesPass |= bPass;
 			bSeesFail |= bFail;
 		}
-		// All of its texels are read: one that does not pass, and one that does not fail.
+		// All texels of the block are read. One of them does not pass, and one does not fail.
 		else if (Block.Level == 0 || ++Visits > MaxVisits || Shape.Contains({X.Low, Y.Low}, {X.High, Y.High}))
 		{
 			bSeesPass = bSeesFail = true;

@@ -1,4 +1,4 @@
-// Which texels a triangle's alpha test can read, and whether all of them pass or fail.
+// Finds which texels a triangle's alpha test can read, and whether all of them pass or fail.
 #pragma once
 
 #include <array>
@@ -19,17 +19,17 @@ struct FAlphaLimits
 struct FTexelTriangle
 {
 	glm::dvec2 P[3];
-	/// Greatest absolute value, in UV, of what their computation adds up: says how far it may be rounded.
+	/// Greatest absolute value, in UV, of the terms that their computation adds up. It bounds the rounding error.
 	glm::dvec2 Magnitude{0};
 };
 
-/// False where the shader's own arithmetic would not be finite.
+/// Returns false if the shader's own arithmetic would not be finite.
 bool MakeTexelTriangle(const FAlphaTest& Test, const FVertexAttributes* const (&Corners)[3], FTexelTriangle& Out);
 FAlphaLimits MakeAlphaLimits(const FAlphaTest& Test, const FVertexAttributes* const (&Corners)[3]);
 
 EOpacity ClassifyFootprint(const FAlphaTest& Test, const FAlphaLimits& Limits, const FTexelTriangle& Triangle);
-/// Of a grid over the triangle, of Cells (a power of two) along each axis, Step texels large from Origin on: the cells that it overlaps and that are
-/// not transparent all over: bit x of Rows[y]. May mark some that are.
+/// Marks, as bit x of Rows[y], the cells of a grid that the triangle overlaps and that are not wholly transparent. May mark
+/// some that are. The grid begins at Origin and has Cells (a power of two) cells of Step texels along each axis.
 void MarkCells(const FAlphaTest& Test, const FAlphaLimits& Limits, const FTexelTriangle& Triangle, glm::dvec2 Origin, glm::dvec2 Step,
     uint32_t Cells, std::array<uint64_t, MaxOpacityCells>& Rows);
 

@@ -1,4 +1,4 @@
-// Cards of foliage share their texture coordinates by the thousand: what is found for one is found for all.
+// Key of what a triangle reads of a texture. Thousands of foliage cards share their texture coordinates, and so their cuts.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ struct FFootprintHash
 	}
 };
 
-/// Corners: three indices.
+/// Corners points to three indices.
 inline FFootprintKey MakeFootprintKey(const FAlphaTest& Test, const FVertexAttributes* Vertices, const uint32_t* Corners)
 {
 	FFootprintKey Key{&Test, {}};

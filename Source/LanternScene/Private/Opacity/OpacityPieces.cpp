@@ -1,5 +1,5 @@
-// A triangle's footprint is laid over a grid of cells, of which those are marked that are not surely transparent. Boxes
-// around marked cells are split where that saves most area; each box, clipped by the triangle, makes its pieces.
+// MakeOpacityPieces: a triangle's footprint is laid over a grid, and cells that are not surely transparent are marked. Boxes
+// around marked cells are split where that saves most area. Each box, clipped by the triangle, makes pieces.
 #include "LanternScene/Opacity/OpacityPieces.h"
 
 #include <algorithm>
@@ -15,14 +15,14 @@ namespace Lantern
 
 namespace
 {
-// Pieces reach into each other by this much of a cell, and beyond the triangle by this much of it: the rounding of
-// their corners, far from the origin too, must not open a gap.
+// Pieces overlap each other by this share of a cell, and the triangle's border by this share of the triangle. The rounding
+// of their corners must not open a gap, not even far from the origin.
 constexpr double CellOverlap = 1.0 / 128.0;
 constexpr double TriangleOverlap = 1.0 / 2048.0;
 constexpr double LeastSaving = 0.002; // of the triangle's area, for a split
 constexpr double LeastCorner = 0.006; // for a corner cut off
 
-/// Convex: a triangle has three corners, and each side of an octagon adds one at most.
+/// A convex polygon. A triangle has three corners, and each side of an octagon adds one at most.
 struct FPolygon
 {
 	std::array<glm::dvec2, 12> Corners;
@@ -42,7 +42,7 @@ double GetArea(const FPolygon& P)
 	return 0.5 * std::abs(Twice);
 }
 
-/// Sutherland and Hodgman 1974, one side: keeps what is up to Limit along Normal.
+/// Keeps the part up to Limit along Normal (Sutherland and Hodgman 1974, for one side).
 FPolygon Clip(const FPolygon& In, glm::dvec2 Normal, double Limit)
 {
 	FPolygon Out;
@@ -70,7 +70,7 @@ struct FSplit
 	double Saving = 0.0;
 };
 
-/// In a frame of its own: the triangle's box is [0, cells]².
+/// The grid's coordinates are its own: the triangle's box is [0, cells]².
 class FPieceGrid
 {
 public:
@@ -104,7 +104,7 @@ public:
 		}
 		return Any ? FRect{std::countr_zero(Any), First, 64 - std::countl_zero(Any), Last + 1} : FRect{};
 	}
-	/// How far marked cells reach along Diagonals.
+	/// Returns how far marked cells reach along Diagonals.
 	std::array<double, 4> FindReach(const FRect& R) const
 	{
 		const uint64_t Columns = GetColumns(R);
@@ -120,7 +120,7 @@ public:
 		}
 		return Reach;
 	}
-	/// The rectangle without corners that are worth cutting off, larger by Overlap on each side, clipped by Shape.
+	/// Returns the rectangle, larger by Overlap on each side, clipped by Shape. Corners that are worth it are cut off.
 	FPolygon GetPolygon(const FRect& R, double Overlap, const FPolygon& Shape) const
 	{
 		FPolygon Out = Clip(Clip(Shape, {1, 0}, R.X1 + Overlap), {-1, 0}, Overlap - R.X0);

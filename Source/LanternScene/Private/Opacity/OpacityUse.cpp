@@ -1,3 +1,4 @@
+// Whether classified triangles may be used: the console variable, and the keys of materials.
 #include "Opacity/OpacityUse.h"
 
 #include "LanternCore/Config/ConsoleVariables.h"
@@ -9,10 +10,10 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<bool> CVarClassify("r.RT.Opacity.Classify", true,
-    "Triangles of alpha-tested geometry that are opaque or transparent all over, as found at load, need no "
-    "alpha test under rays. Off: every triangle is tested. Changing it rebuilds their geometry.");
+    "Skips the alpha test under rays for triangles that were found at load to be wholly opaque or transparent. Off: every triangle of "
+    "alpha-tested geometry is tested. A change rebuilds that geometry.");
 
-/// Where alpha tests are off, what is cut away must be solid.
+/// Without alpha tests, what they would cut away must be solid.
 bool IsOpacityWanted(const FSectionContext& Context)
 {
 	return CVarClassify.GetOnRenderThread() && Context.bAlphaTest && Context.Override != 2;

@@ -1,3 +1,4 @@
+// FObjectMotions: moves are noted as they happen, and entries are made of them once a frame.
 #include "LanternScene/Scene/ObjectMotion.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@ namespace Lantern
 
 namespace
 {
-/// Entries whose memory is worth giving back at once when nothing moves any more.
+/// A table of more entries than this is freed at once when nothing moves any more.
 constexpr uint32_t LargeTable = 4096;
 
 template <class T>
@@ -106,7 +107,7 @@ void FObjectMotions::MarkDeformed(const FRTGeometryRef& Geometry)
 uint64_t FObjectMotions::FindPreviousPositions(const FState& State)
 {
 	const FRTGeometry* const Geometry = State.Deformable ? State.Deformable->Geometry : nullptr;
-	// What was never shown deformed has no positions to come from.
+	// A geometry that was never shown deformed has no previous positions.
 	if (!Geometry || !Geometry->bMotionMarked || !Geometry->bWasDeformed) { return 0; }
 	return Geometry->GetInfo().PreviousPositions->GetDeviceAddress();
 }
@@ -134,7 +135,7 @@ void FObjectMotions::Write(uint32_t Object, FObjectMotion Motion)
 	if (!IsEqual(Table[Entry], Motion)) { Table.Set(Entry, Motion); }
 }
 
-/// The last entry takes its place.
+/// Moves the last entry to the place of the removed one.
 void FObjectMotions::RemoveEntry(uint32_t Entry)
 {
 	const uint32_t Last = Table.Num() - 1;
@@ -156,7 +157,7 @@ void FObjectMotions::Update(bool bWanted)
 	{
 		for (const FMove& Move : Moves)
 		{
-			// One that came back, or was set to where it is, did not move.
+			// An object that came back, or was set to where it is, did not move.
 			if (!IsEqual(MakeMotion(Objects[Move.Object]), Move.Before)) { Write(Move.Object, Move.Before); }
 		}
 		for (const FRTGeometryRef& Geometry : Deformed)
@@ -171,7 +172,7 @@ void FObjectMotions::Update(bool bWanted)
 			}
 		}
 	}
-	// From the end: what takes a removed one's place has been looked at.
+	// From the end: the entry that takes the place of a removed one has been looked at already.
 	MostEntries = std::max(MostEntries, Table.Num());
 	for (uint32_t Entry = Table.Num(); Entry-- > 0;)
 	{

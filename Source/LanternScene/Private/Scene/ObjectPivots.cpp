@@ -1,3 +1,4 @@
+// FObjectPivots: the largest reach is kept up to date, and searched anew only if it may have lessened.
 #include "LanternScene/Scene/ObjectPivots.h"
 
 #include <algorithm>

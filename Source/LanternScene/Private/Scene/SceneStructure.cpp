@@ -123,7 +123,7 @@ FRTStatus FSceneStructure::Reserve(uint32_t InstanceCount)
 	const FRTStatus Status = Device.CreateScene(Desc, New.ReleaseAndGetAddress());
 	FramesTooLarge = 0;
 	if (Status) { Structure = std::move(New); }
-	// For want of memory the one that is too large serves on.
+	// If memory is short, the structure that is too large stays in use.
 	return Status.Code == ERTResult::OutOfDeviceMemory && Capacity >= InstanceCount && Structure ? FRTStatus::Success() : Status;
 }
 

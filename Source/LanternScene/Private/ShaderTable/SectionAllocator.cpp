@@ -1,3 +1,4 @@
+// FSectionAllocator: size classes, their lists, and runs that merge.
 #include "LanternScene/ShaderTable/SectionAllocator.h"
 
 #include <bit>
@@ -66,8 +67,8 @@ uint32_t FSectionAllocator::Grow(uint32_t Count)
 uint32_t FSectionAllocator::Allocate(uint32_t Count)
 {
 	assert(Count > 0);
-	// The next class has only runs that are long enough; of Count's own the newest may be, and the last run of all is
-	// better used than left behind by growing.
+	// Count's own class may have runs that are too short, so only its newest is tried. All runs of greater classes are long
+	// enough. The last run of the array is used before the array grows.
 	const uint32_t Own = Heads[ClassOf(Count)];
 	uint32_t First = Own;
 	if (Own == None || Cells[Own].Size < Count)

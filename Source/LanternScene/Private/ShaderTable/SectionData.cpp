@@ -1,3 +1,4 @@
+// FSectionData of a part: addresses, flags and hit class.
 #include "ShaderTable/SectionData.h"
 
 namespace Lantern
@@ -7,7 +8,7 @@ namespace
 {
 constexpr uint64_t AabbBytes = 6 * sizeof(float);
 
-/// Where the part's triangles lie, and how their indices are to be read.
+/// Fills in where the part's triangles lie and how their indices are read.
 void AddTriangles(const FRTGeometry& Geometry, const FRTGeometryPart& Part, FSectionData& Data)
 {
 	const FRTGeometryInfo& Info = Geometry.GetInfo();
@@ -22,7 +23,7 @@ void AddTriangles(const FRTGeometry& Geometry, const FRTGeometryPart& Part, FSec
 	Data.Flags |= Indices & 2 ? SECTION_INDEX_ODD : 0u;
 }
 
-/// Whether the alpha test may take texture coordinates and vertices as they are.
+/// Tells whether the alpha test needs neither a transform of texture coordinates nor the alpha of vertices.
 bool HasPlainOpacity(const FRTGeometryInfo& Info, const FMaterialData& Material)
 {
 	return Info.bOpaqueVertices && Material.UVTransform[TEXTURE_BASE_COLOR] == glm::vec4(1, 0, 0, 1) &&
@@ -56,7 +57,7 @@ FSectionData MakeSection(const FSectionContext& Context, const FRTGeometry& Geom
 	Data.Flags |= HasPlainOpacity(Info, Material) ? SECTION_PLAIN_OPACITY : 0u;
 	Data.Flags |= Material.Flags & MATERIAL_DOUBLE_SIDED ? SECTION_DOUBLE_SIDED : 0u;
 	Data.Flags |= Info.bHasTangents ? SECTION_TANGENTS : 0u;
-	// The list of emissive triangles is made from the finest level, on the CPU.
+	// Emissive triangles are listed on the CPU, and of the finest level of detail only.
 	const bool bListed = !Info.bDynamic && Info.CpuPositions && !Geometry.IsCoarse();
 	Data.Flags |= Material.EmissiveWeight > 0.0f && bListed ? SECTION_LIGHT : 0u;
 	return Data;

@@ -1,4 +1,4 @@
-// What a part of an object is, as shaders read it, from its geometry and its material.
+// Makes the FSectionData of a part, as shaders read it, from its geometry and its material.
 #pragma once
 
 #include "LanternScene/ShaderTable/SectionTable.h"
@@ -6,9 +6,9 @@
 namespace Lantern
 {
 
-/// Masked only where any-hit shaders can run: not for what the geometry says is opaque.
+/// Returns Masked only if any-hit shaders can run: not for parts that the geometry states as opaque.
 ERTHitClass GetHitClass(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part, uint32_t Material);
-/// Material: of the part's section.
+/// Material is that of the part's section.
 FSectionData MakeSection(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part, uint32_t Material);
 
 } // namespace Lantern

@@ -1,3 +1,4 @@
+// FSectionTable: ranges are found by a hash table, and filled from geometry and materials.
 #include "LanternScene/ShaderTable/SectionTable.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ std::atomic<uint64_t> NewestIdentity = 0;
 
 uint64_t Mix(uint64_t Value)
 {
-	// Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014: the finalizer.
+	// The finalizer of Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014.
 	Value = (Value ^ (Value >> 30)) * 0xbf58476d1ce4e5b9ull;
 	Value = (Value ^ (Value >> 27)) * 0x94d049bb133111ebull;
 	return Value ^ (Value >> 31);
@@ -233,7 +234,7 @@ void FSectionTable::FillPart(FSectionRangeId Id, uint32_t Part)
 	Program.Class = GetHitClass(Context, *Range.Geometry, Where, Material);
 	if (Write(Range.First + Part, MakeSection(Context, *Range.Geometry, Where, Material), Program))
 	{
-		MarkRange(Id); // whether its objects can be drawn may be another matter now
+		MarkRange(Id); // the new program's shaders may be missing
 	}
 }
 

@@ -1,3 +1,4 @@
+// FShaderBindings: which records a frame writes, in batches and by tasks.
 #include "LanternScene/ShaderTable/ShaderBindings.h"
 
 #include <algorithm>
@@ -18,16 +19,14 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<int32_t> CVarMode("r.RT.SBT.Mode", 1,
-    "Shader table. 0: every record is written and copied each frame, as in the paper's first version. 1: only what "
-    "changed.",
-    {0, 1});
+    "Selects which records of the shader table are written and copied in a frame. 0: all, a baseline. 1: those that changed.", {0, 1});
 
 static_assert(sizeof(FSectionData) <= MaxRecordDataBytes);
 
-/// Sections that are worth a task of their own.
+/// Number of sections that is worth a task of its own.
 constexpr size_t SectionGrain = 4096;
 
-/// Collects records of sections in a row, and hands them over in pieces that stay in the first-level cache.
+/// Collects records of consecutive sections, and writes them in batches that stay in the first-level cache.
 class FRecordBatch
 {
 public:
@@ -117,7 +116,7 @@ FRTStatus FShaderBindings::Prepare(const FRTPSO& Pipeline, FSectionTable& Sectio
 FRTStatus FShaderBindings::Reserve(const FRTPSO& Pipeline, const FSectionTable& Sections)
 {
 	const uint32_t HitCount = std::max(1u, Sections.GetCapacity() * Pipeline.GetRayTypeCount());
-	// Callable records cannot be taken back, and nothing of this pipeline could be written to them.
+	// A table cannot lose its callable records, and this pipeline has nothing to write to them.
 	if (Table && Table->GetDesc().CallableCount > 0 && Pipeline.GetCallableCount() == 0) { Table.Reset(); }
 	if (!Table)
 	{
@@ -141,7 +140,7 @@ FRTStatus FShaderBindings::Reserve(const FRTPSO& Pipeline, const FSectionTable& 
 
 void FShaderBindings::SetGeneralRecords(const FRTPSO& Pipeline)
 {
-	// Records behind the pipeline's last, which an earlier pipeline used, must not keep its handles.
+	// Records behind the pipeline's last must not keep handles of an earlier pipeline that used them.
 	const auto SetAll = [&](ERTRecordKind Kind, uint32_t Count, uint32_t TableCount, auto GroupOf) {
 		for (uint32_t Index = 0; Count > 0 && Index < TableCount; ++Index)
 		{
@@ -210,7 +209,7 @@ void FShaderBindings::WriteHandles(const FSectionTable& Sections)
 
 void FShaderBindings::WriteHandlesBehind(const FSectionTable& Sections)
 {
-	// Fewer ray types need fewer records. No ray reaches the others, but they must not keep handles that are gone.
+	// Fewer ray types need fewer records. No ray reaches the others, but they must not keep handles of an old pipeline.
 	const uint32_t End = Sections.GetCapacity() * RayTypes;
 	std::array<uint32_t, 1024> OfRecords;
 	OfRecords.fill(Groups[0]);

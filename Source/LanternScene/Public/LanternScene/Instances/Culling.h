@@ -1,6 +1,6 @@
-// Which objects rays may leave out: by distance and angular size, each with its own value before and behind the
-// camera, and by size on the screen for each type of ray. All of it is one rule on a bounding sphere: an object
-// counts while it is no farther away than a limit that grows with its radius.
+// Culling for rays. Objects are left out by distance and angular size, with separate limits before and behind the camera.
+// They are also left out by size on the screen, with a limit for shadow rays and one for all others. One rule on a bounding
+// sphere does all of it: an object is kept up to a distance that grows with its radius.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -10,7 +10,7 @@
 namespace Lantern
 {
 
-/// From where a frame looks.
+/// The camera of a frame.
 struct FGatherView
 {
 	FGatherView() = default;
@@ -25,33 +25,33 @@ struct FGatherView
 	glm::dvec3 Position{0}; ///< in the world, metres
 	glm::vec3 Forward{0, 0, -1};
 	float FovY = 1.0f;   ///< radians
-	uint32_t Height = 0; ///< pixels: for minimum screen sizes; 0: those do not apply
+	uint32_t Height = 0; ///< pixels, for minimum screen sizes; 0: those do not apply
 	friend bool operator==(const FGatherView&, const FGatherView&) = default;
 };
 
-/// The console variables r.RT.Culling and r.RT.Culling.….
+/// Values of the console variables r.RT.Culling and r.RT.Culling.….
 struct FCullingSettings
 {
 	bool bEnabled = true;
-	/// Everything that reaches nearer than this is kept, metres …
+	/// Objects that reach nearer than this are kept, metres.
 	float Radius = 1000.0f, RadiusBehind = 500.0f;
-	/// … and beyond it what is seen under at least this angle (from its centre to its rim), degrees.
+	/// Beyond Radius, objects are kept if their angle from centre to rim is at least this. Degrees.
 	float Angle = 0.25f, AngleBehind = 1.0f;
-	/// Smaller on the screen than this many pixels across: not seen by shadow rays, not seen by all others. 0: all are.
+	/// Objects that are fewer pixels across are not seen by shadow rays, or by all other rays. 0: no limit.
 	float ShadowMinPixels = 0.0f, VisibleMinPixels = 0.0f;
 	friend bool operator==(const FCullingSettings&, const FCullingSettings&) = default;
 
-	/// As of this frame. Render thread.
+	/// Returns the values of this frame. Render thread.
 	static FCullingSettings FromConsole();
 };
 
-/// Stands for the radius of what has no known bounds: larger than any limit.
+/// Radius of objects without known bounds: larger than any limit.
 inline constexpr double UnboundedRadius = 1e18;
 
-/// View and settings, prepared for many spheres. Index 0: before the camera, 1: wholly behind it.
+/// View and settings, prepared for tests of many spheres. Arrays have index 0 before the camera and 1 wholly behind it.
 struct FCullingRule
 {
-	FCullingRule() = default; ///< keeps all
+	FCullingRule() = default; ///< keeps all objects
 	FCullingRule(const FGatherView& View, const FCullingSettings& Settings);
 
 	bool bCull = false;
@@ -59,12 +59,12 @@ struct FCullingRule
 	glm::dvec3 Forward{0, 0, -1};
 	double Radius[2] = {0, 0};
 	double InverseSine[2] = {1, 1}; ///< one over the sine of the angle
-	/// Distance up to which a radius is large enough on the screen: radius · PixelScale. Infinite: no such limit.
+	/// A radius is large enough on the screen up to the distance radius · scale, if the limit is on.
 	double VisibleScale = 0, ShadowScale = 0;
 	bool bVisibleLimit = false, bShadowLimit = false;
 
-	/// Bits of an instance mask that a sphere keeps; 0: it is left out. The shadow bit is MASK_CASTS_SHADOW, all
-	/// others go together.
+	/// Returns the bits of an instance mask that a sphere keeps; 0: it is left out. The shadow bit is MASK_CASTS_SHADOW; all
+	/// other bits are kept or dropped together.
 	uint8_t Test(const glm::dvec3& Center, double SphereRadius) const
 	{
 		if (!bCull) { return 0xff; }
@@ -80,7 +80,7 @@ struct FCullingRule
 		if (!bShadowLimit || Distance2 <= Shadow * Shadow) { Bits |= MASK_CASTS_SHADOW; }
 		return Bits;
 	}
-	/// Pixels across.
+	/// Returns the size of a sphere on the screen: pixels across.
 	float ScreenSize(const glm::dvec3& Center, double SphereRadius) const;
 
 private:

@@ -1,7 +1,6 @@
-// Which instances a frame's acceleration structure is built from, and writing them. FInstanceGather works in two
-// phases over an FInstanceStore, each in parallel: Count decides and counts, Write puts the instances where they
-// belong. The order of instances follows from the history of the store alone, never from threads.
-// GatherStraightforward is the same in one loop: the oracle of the tests and the baseline of `lantern bench gather`.
+// FInstanceGather selects and writes the instances from which a frame's acceleration structure is built. It works in two
+// phases over an FInstanceStore, each in parallel: Count culls and counts, Write writes the instances to their places.
+// The order of instances follows from the history of the store alone, never from threads.
 #pragma once
 
 #include <functional>
@@ -13,29 +12,29 @@
 namespace Lantern
 {
 
-/// Told of objects that would be seen but whose geometry is missing: its slot, and how many pixels across the object
-/// is. From several threads at once; the same slot any number of times.
+/// Receives the geometry slot and the size, pixels across, of each object that is seen but whose geometry is missing.
+/// Called from several threads at once, any number of times for a slot.
 using FMissingGeometrySink = std::function<void(uint32_t Slot, float ScreenSize)>;
 
 class FInstanceGather
 {
 public:
-	/// Number of instances to write. The store was refreshed, and must not change until Write is done.
+	/// Returns the number of instances to write. The store must have been refreshed, and must not change until Write returns.
 	uint32_t Count(const FInstanceStore& Store, const FCullingRule& Rule, const FMissingGeometrySink& Missing = {});
-	/// After Count: whether another set of objects or other mask bits came out than from the Count before; true also
-	/// wherever the store changed in between.
+	/// Tells, after Count, whether other objects or mask bits were kept than by the previous Count. It is true, too, if the
+	/// store changed in between.
 	bool HasChanged() const { return bChanged; }
 	uint32_t GetCount() const { return Total; }
-	/// Out: room for GetCount() instances, aligned to 16 bytes; only written, in ascending order (write-combined memory).
-	/// Origin: what transforms are relative to.
+	/// Writes GetCount() instances to Out, whose transforms are relative to Origin. Out is aligned to 16 bytes. It is only
+	/// written, never read, each task's part in ascending order: the memory may be write-combined.
 	void Write(const FInstanceStore& Store, const glm::dvec3& Origin, FRTInstance* Out) const;
 
 private:
-	/// Of the objects of one bucket.
+	/// One bit for each object of a bucket.
 	struct FKept
 	{
-		uint64_t Shadow = 0, Others = 0; ///< what culling leaves
-		uint64_t Written = 0;            ///< with bits left, and with geometry
+		uint64_t Shadow = 0, Others = 0; ///< culling keeps it for shadow rays, for all other rays
+		uint64_t Written = 0;            ///< it has mask bits left, and its geometry is there
 		friend bool operator==(const FKept&, const FKept&) = default;
 	};
 	struct FPass;

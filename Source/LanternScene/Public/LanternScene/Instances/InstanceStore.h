@@ -1,12 +1,11 @@
-// What the acceleration structure of a scene is gathered from, laid out for gathering: buckets of up to 64 objects
-// that lie close together and are of about the same size, each with bounds, so that most buckets are kept or left out
-// whole. An object's transform and centre are floats relative to the centre of its cell, a cube of CellSize of the
-// double-precision world.
+// FInstanceStore keeps the objects of a scene in a layout for gathering. Up to 64 objects that lie close together and are of
+// about one size form a bucket. Each bucket has bounds, so that most are kept or left out whole. An object's transform and
+// centre are floats relative to the centre of its cell. A cell is a cube of CellSize of the double-precision world.
 //
-// What instances share through their sections (geometry address, first hit record, flags) is one FInstanceBinding per
-// section range: a compacted geometry or a new RTPSO touches bindings, never instances.
+// Instances of a section range share geometry address, first hit record and flags. These are one FInstanceBinding for each
+// range: a compacted geometry or a new RTPSO changes bindings, never instances.
 //
-// Threads: one at a time; the const functions from any number at once.
+// Threads: one at a time; const functions may run on any number at once.
 #pragma once
 
 #include <array>
@@ -22,55 +21,56 @@
 namespace Lantern
 {
 
-/// Cells and places within them. Within 1.8 km of the origin, the place that the GPU adds up (offset of the cell, exact in
-/// fp32, plus place within it) is right to 0.1 mm.
+/// Side of a cell, metres. The GPU adds a cell's offset, which is exact in fp32, and the position in the cell. Within 1.8 km
+/// of the origin the sum is right to 0.1 mm.
 inline constexpr double CellSize = CELL_SIZE;
-/// Cell whose centre is nearest.
+/// Returns the cell whose centre is nearest.
 glm::ivec3 FindCell(const glm::dvec3& World);
 inline glm::dvec3 CellCenter(const glm::ivec3& Cell) { return glm::dvec3(Cell) * CellSize; }
-/// A scene's origin is on a grid of this step, metres. It divides a cell, so that offsets from origins to cells are exact in
-/// fp32; rays are as precise as their coordinates are small, see Docs/Architecture.md.
+/// Step of the grid on which a scene's origin lies, metres. It divides CellSize, so that offsets from origins to cells are
+/// exact in fp32. The smaller the coordinates of rays, the more precise they are, see Docs/Architecture.md.
 inline constexpr double OriginStep = 64.0;
-/// The place for an origin that is nearest.
+/// Returns the point of that grid, within the cell of World, that is nearest.
 glm::dvec3 FindOrigin(const glm::dvec3& World);
-/// From an origin to the centre of Cell, metres.
+/// Returns the vector from an origin to the centre of Cell, metres.
 inline glm::vec3 CellOffset(const glm::ivec3& Cell, const glm::dvec3& Origin) { return glm::vec3(CellCenter(Cell) - Origin); }
 
-/// What all instances of one section range have in common.
+/// What all instances of a section range have in common.
 struct FInstanceBinding
 {
-	uint64_t GeometryAddress = 0;     ///< 0: not there (yet): its objects are left out
+	uint64_t GeometryAddress = 0;     ///< 0: the geometry is not there (yet), and its objects are left out
 	uint32_t TableOffsetAndFlags = 0; ///< as in FRTInstance
-	uint32_t GeometrySlot = ~0u;      ///< whose priority rises while it is missing; ~0: nobody's
+	uint32_t GeometrySlot = ~0u;      ///< the geometry whose priority rises while it is missing; ~0: none
 	friend bool operator==(const FInstanceBinding&, const FInstanceBinding&) = default;
 };
 
-/// An object as the store is told of it.
+/// What the store is told of an object.
 struct FInstancePlacement
 {
 	glm::dmat4 Transform{1.0}; ///< object to world, affine
-	glm::dvec3 Center{0};      ///< of its bounding sphere, in the world
+	glm::dvec3 Center{0};      ///< of the bounding sphere, in the world
 	double Radius = -1.0;      ///< < 0: unknown, never left out
-	uint32_t Range = 0;        ///< of sections
-	uint32_t Group = 0;        ///< > 0: kept or left out together with the others of the group
+	uint32_t Range = 0;        ///< section range
+	uint32_t Group = 0;        ///< > 0: kept or left out together with the other objects of the group
 	uint8_t Mask = 0xff;
 };
 
-/// The plain record of one object: what exact tests and the straightforward loop read.
+/// The plain record of one object. Exact tests and the plain gather read it.
 struct FInstanceRecord
 {
 	glm::dvec3 Center{0};
-	double Radius = 0; ///< UnboundedRadius: unknown
+	double Radius = 0; ///< UnboundedRadius if unknown
 	glm::ivec3 Cell{0};
 	uint32_t Range = 0;
 	uint32_t Group = 0;  ///< index into the store's groups; 0: none
 	uint32_t Member = 0; ///< place in the group's list
 	uint32_t Bucket = ~0u;
-	uint8_t Lane = 0;
+	uint8_t Lane = 0; ///< in the bucket
 	uint8_t Mask = 0;
 	bool bAlive = false;
 };
 
+/// Objects in arrays, one lane for each; lanes from Count on are unused.
 struct FInstanceBucket
 {
 	static constexpr uint32_t Capacity = 64;
@@ -79,23 +79,23 @@ struct FInstanceBucket
 	alignas(64) float Transform[Capacity][12];                            ///< rows, relative to the cell's centre
 	uint32_t IndexAndMask[Capacity];                                      ///< as in FRTInstance
 	uint32_t Range[Capacity];
-	uint64_t SeenByShadow = 0, SeenByOthers = 0; ///< per object: whether its mask has such bits
+	uint64_t SeenByShadow = 0, SeenByOthers = 0; ///< one bit a lane: the object's mask has such bits
 	glm::ivec3 Cell{0};
 	int32_t Level = 0;
 	uint32_t Group = 0;
 	uint32_t Count = 0;
-	uint32_t Node = ~0u; ///< of the tree that finds it; ~0: none
+	uint32_t Node = ~0u; ///< leaf of the k-d tree that finds the bucket; ~0: none
 	bool bDirty = false;
 
 	uint32_t Object(uint32_t Lane) const { return IndexAndMask[Lane] & 0xffffffu; }
 	uint64_t Used() const { return Count == Capacity ? ~0ull : (1ull << Count) - 1; }
 };
 
-/// Bounds of all buckets in the world, in arrays: fp32 with its error in mind. RMax < 0: none.
+/// Bounds of all buckets in the world, in arrays; fp32, and users allow for its error. RMax < 0: the bucket is unused.
 struct FBucketBounds
 {
-	std::vector<float> X, Y, Z, Extent; ///< sphere around the centres of the objects
-	std::vector<float> RMin, RMax;      ///< their radii
+	std::vector<float> X, Y, Z, Extent; ///< sphere around the centres of the objects, Extent its radius
+	std::vector<float> RMin, RMax;      ///< least and greatest radius of the objects' own spheres
 	void Resize(size_t Count);
 };
 
@@ -107,6 +107,7 @@ struct FInstanceGroup
 	bool bDirty = false;
 };
 
+/// Groups have indices of the store, which differ from the names that objects give them.
 class FInstanceStore
 {
 public:
@@ -115,7 +116,7 @@ public:
 	FInstanceStore(const FInstanceStore&) = delete;
 	FInstanceStore& operator=(const FInstanceStore&) = delete;
 
-	/// Adds Object or changes it. Object ≤ MaxInstanceIndex.
+	/// Adds the object or changes it. Object ≤ MaxInstanceIndex.
 	void Set(uint32_t Object, const FInstancePlacement& Placement);
 	void Remove(uint32_t Object);
 	void SetRange(uint32_t Object, uint32_t Range);
@@ -123,17 +124,17 @@ public:
 
 	const FInstanceRecord& GetRecord(uint32_t Object) const { return Records[Object]; }
 	const std::vector<FInstanceRecord>& GetRecords() const { return Records; }
-	/// Rows of the object's transform, relative to its cell.
+	/// Returns 12 floats: the rows of the object's transform, relative to its cell.
 	const float* GetTransform(uint32_t Object) const;
-	uint32_t GetCount() const { return Count; } ///< objects in it
+	uint32_t GetCount() const { return Count; } ///< objects in the store
 	const FInstanceBinding* GetBindings() const { return Bindings.data(); }
 	const FInstanceBinding& GetBinding(uint32_t Range) const { return Bindings[Range]; }
-	/// Some object's geometry is missing (a binding in use has no address).
+	/// Tells whether some object's geometry is missing: a binding in use has no address.
 	bool HasMissing() const { return MissingBindings > 0; }
-	/// Differs after every change that instances could show.
+	/// Changes with every change that instances could show.
 	uint64_t GetRevision() const { return Revision; }
 
-	/// Brings bounds of buckets and groups up to date, in time proportional to what changed. Before gathering.
+	/// Brings bounds of buckets and groups up to date, before gathering. Takes time in proportion to what changed.
 	void Refresh();
 	size_t GetBucketCapacity() const { return Buckets.size(); } ///< empty ones included
 	const FInstanceBucket* GetBucket(size_t Index) const { return Buckets[Index].get(); }
@@ -153,12 +154,12 @@ private:
 	{
 		size_t operator()(const FKey& Key) const;
 	};
-	/// Of the k-d trees that find the bucket for a place: one tree per cell, level of size and group.
+	/// A node of the k-d trees that find the bucket for a position: one tree for each cell, level of size and group.
 	struct FNode
 	{
 		float Split = 0.0f;
 		int32_t Axis = -1;          ///< -1: a leaf
-		uint32_t Child[2] = {0, 0}; ///< leaf: [0] is the bucket
+		uint32_t Child[2] = {0, 0}; ///< in a leaf [0] is the bucket
 		uint32_t Parent = ~0u;
 	};
 	static FKey MakeKey(const FInstanceRecord& Record);
@@ -199,7 +200,7 @@ private:
 	std::unordered_map<uint32_t, uint32_t> GroupsByName;
 	std::vector<FInstanceBinding> Bindings;
 	std::vector<uint32_t> RangeUsers; // objects of each range
-	uint32_t MissingBindings = 0;     // of ranges with users
+	uint32_t MissingBindings = 0;     // without an address, of ranges with users
 	uint32_t Count = 0;
 	uint64_t Revision = 1;
 };

@@ -1,5 +1,6 @@
-// Mapped memory that instances are written to and that the GPU builds from: one buffer a frame, used again when its
-// frame is done, grown by half, and given back when it has been too large for long.
+// FInstanceUploads gives the mapped memory that instances are written to and the GPU builds from: one buffer a frame. A
+// buffer is used again when its frame is done. New ones have room for half as many instances again. One that was too large
+// for long is released.
 #pragma once
 
 #include <vector>
@@ -9,7 +10,7 @@
 namespace Lantern
 {
 
-/// One thread at a time.
+/// Threads: one at a time.
 class FInstanceUploads
 {
 public:
@@ -17,11 +18,11 @@ public:
 	FInstanceUploads(const FInstanceUploads&) = delete;
 	FInstanceUploads& operator=(const FInstanceUploads&) = delete;
 
-	/// A buffer for Count instances that nobody reads; the current one from now on. Never waits.
+	/// Returns a buffer for Count instances that the GPU does not read. It is the current one from now on. Never waits.
 	FRTStatus Reserve(uint32_t Count, IRTBuffer*& OutBuffer);
-	/// The current buffer, which this frame's commands read. Its contents stay until the next Reserve.
+	/// Returns the current buffer and marks it as read by this frame. Its contents stay until the next Reserve.
 	IRTBuffer* Use();
-	/// bSubmitted, Fence: as FRTScene::EndFrame.
+	/// bSubmitted and Fence are as in FRTScene::EndFrame.
 	void EndFrame(bool bSubmitted, FRTFence Fence);
 
 private:
@@ -30,7 +31,7 @@ private:
 		TRTRef<IRTBuffer> Buffer;
 		FRTFence Fence = 0; ///< of the newest frame that read it
 		bool bUsed = false; ///< by this frame
-		bool bLost = false; ///< was read by a frame whose fence is unknown: it can never be written again
+		bool bLost = false; ///< read by a frame whose fence is unknown: it can never be written again
 		uint32_t IdleFrames = 0;
 	};
 	bool IsTooLarge(const FPage& Page) const;

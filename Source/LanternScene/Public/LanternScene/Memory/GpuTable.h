@@ -1,4 +1,4 @@
-// An array on the CPU and its copy on the GPU, of which only what changed travels.
+// TGpuTable is an array on the CPU with a copy on the GPU. Only what changed is copied.
 #pragma once
 
 #include <algorithm>
@@ -11,16 +11,16 @@
 namespace Lantern
 {
 
-/// The untyped part. Entries are marked in chunks of ChunkEntries; a flush copies runs of marked chunks, in time of what
-/// is marked.
+/// The untyped part of a table. Entries are marked in chunks of ChunkEntries. A flush copies runs of marked chunks, and
+/// takes time in proportion to them.
 class FGpuTableBase
 {
 public:
 	static constexpr uint32_t ChunkEntries = 8;
 
 	uint64_t GetAddress() const { return Buffer ? Buffer->GetDeviceAddress() : 0; }
-	/// Copies what changed. The buffer grows by doubling, and shrinks when it has been four times too large in many
-	/// flushes; its address then changes.
+	/// Records the copy of what changed. The buffer grows by doubling, and shrinks if it was four times too large for many
+	/// flushes. Its address then changes.
 	FRTStatus Flush(IRTDevice& Device, IRTCommandList& List, FFrameUploads& Uploads, const void* Data, uint64_t EntryBytes,
 	    uint64_t EntryCount, const char* Name);
 	bool IsDirty() const { return bDirty; }
@@ -62,7 +62,7 @@ public:
 		Entries[Index] = Value;
 		Mark(Index);
 	}
-	/// All of it travels again: the last flush was recorded, but never submitted.
+	/// Marks all entries: the last flush was recorded, but never submitted.
 	void Invalidate() { MarkAll(Entries.size()); }
 	void Assign(std::vector<T> Values)
 	{

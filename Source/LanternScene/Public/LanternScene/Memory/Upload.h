@@ -1,5 +1,5 @@
-// Ways of getting bytes to the GPU: FUploader while loading (submits and waits by itself), FFrameUploads within
-// a frame (memory that lives until the GPU has finished that frame). Each belongs to one thread.
+// Two ways to get bytes to the GPU. FUploader is for loading: it submits and waits by itself. FFrameUploads gives memory
+// within a frame, which lives until the GPU has finished that frame. Each belongs to one thread.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 namespace Lantern
 {
 
-/// How buffers are read once they are filled.
+/// Accesses that may follow an upload.
 inline constexpr ERTAccess UploadedAccess = ERTAccess::ShaderRead | ERTAccess::IndexRead | ERTAccess::GeometryInput;
 
 class FUploader
@@ -21,9 +21,9 @@ public:
 	~FUploader();
 	/// Creates a device-local buffer and fills it. Size > 0.
 	FRTStatus CreateBuffer(const char* Name, ERTBufferUsage Usage, const void* Data, uint64_t Size, TRTRef<IRTBuffer>& Out);
-	/// Mip 0 from tightly packed rows, the others generated; left in ShaderRead.
+	/// Fills mip 0 from tightly packed rows and generates the others. The texture is left in ShaderRead.
 	FRTStatus CreateTexture(const FRTTextureDesc& Desc, const void* Texels, TRTRef<IRTTexture>& Out);
-	/// Submits what is pending and waits for it.
+	/// Submits pending copies and waits for them.
 	FRTStatus Flush();
 
 private:
@@ -49,12 +49,11 @@ class FFrameUploads
 {
 public:
 	explicit FFrameUploads(IRTDevice& Device);
-	/// Mapped memory for the current frame; Size > 0, aligned to 256 bytes.
+	/// Returns mapped memory for the current frame, aligned to 256 bytes. Size > 0.
 	FRTStatus Allocate(uint64_t Size, FUploadSlice& Out);
-	/// Allocates and copies.
+	/// Allocates memory and copies Data to it.
 	FRTStatus Push(const void* Data, uint64_t Size, FUploadSlice& Out);
-	/// What was allocated since the last call is in use until Fence. Memory that nobody has needed for many frames is
-	/// given back.
+	/// Keeps the memory that was allocated since the last call until Fence. Frees memory that was idle for many frames.
 	void EndFrame(FRTFence Fence);
 
 private:
@@ -68,7 +67,7 @@ private:
 	void Collect();
 	IRTDevice& Device;
 	std::vector<FPage> Free, Current, InFlight;
-	uint64_t Used = 0; // of Current.back()
+	uint64_t Used = 0; // bytes of Current.back()
 };
 
 } // namespace Lantern

@@ -12,7 +12,7 @@
 namespace Lantern
 {
 
-/// Names an object of a scene. Stale after RemoveObject: using it then is an assert.
+/// Names an object of a scene. It is stale after RemoveObject; using it then is an assert.
 struct FRTObjectId
 {
 	uint32_t Index = ~0u;
@@ -21,7 +21,7 @@ struct FRTObjectId
 	friend bool operator==(FRTObjectId, FRTObjectId) = default;
 };
 
-/// Bits of FRTObjectInfo::Mask by convention; rays of a pass name those that they want to see.
+/// Bits of FRTObjectInfo::Mask by convention. Rays of a pass name those that they see.
 inline constexpr uint8_t MaskVisible = MASK_VISIBLE;          ///< seen by camera, reflection and GI rays
 inline constexpr uint8_t MaskCastsShadow = MASK_CASTS_SHADOW; ///< seen by shadow rays
 inline constexpr uint8_t MaskAll = 0xff;
@@ -32,7 +32,7 @@ struct FRTObjectInfo
 	std::vector<uint32_t> Materials; ///< per section, indices of the scene's materials
 	glm::dmat4 Transform{1.0};       ///< object to world, affine, metres
 	uint8_t Mask = MaskAll;
-	/// > 0: culled together with all objects of the same group, by the size and place of the whole group.
+	/// > 0: the object is culled together with all objects of this group, by the bounds of the whole group.
 	uint32_t Group = 0;
 };
 

@@ -1,12 +1,11 @@
-// Where objects were in the frame before: FObjectMotion[], with an entry for each object that moved or was deformed since
-// the last submitted frame, and for no other. Costs follow what moves: an object that stands still has no entry, and once
-// nothing moves nothing is written.
+// FObjectMotions keeps where objects were in the previous frame: FObjectMotion[]. An object has an entry only if it moved
+// or was deformed since the last submitted frame. Costs follow what moves: once nothing moves, nothing is written.
 //
-// Transforms are kept as they were on the GPU, relative to their cell, so that a moving origin changes no entry and the
-// difference between the two frames is exact wherever in the world they are.
+// Transforms are kept as they were on the GPU, relative to their cell. A moving origin therefore changes no entry, and the
+// difference between two frames is exact everywhere in the world.
 //
-// There is one frame before: of a scene that several renderers show in turn, only the one that showed it last may carry
-// anything over.
+// There is only one previous frame. If several renderers show a scene in turn, only the one that showed it last may
+// reuse its history.
 //
 // Threads: one at a time.
 #pragma once
@@ -24,27 +23,28 @@ namespace Lantern
 class FObjectMotions
 {
 public:
-	/// InObjects: whose Motion members are kept up to date; outlives this.
+	/// Keeps the Motion members of InObjects up to date. InObjects outlives this.
 	explicit FObjectMotions(TGpuTable<FObjectData>& InObjects) : Objects(InObjects) {}
 
-	/// A new object: it has no past until a frame has shown it.
+	/// Adds an object. It has no motion until a submitted frame has shown it.
 	void Add(uint32_t Object, const FRTGeometry& Geometry);
 	void Remove(uint32_t Object);
-	/// Before the object's transform becomes another. What counts is where the last submitted frame showed it.
+	/// Call this before the object's transform changes. The motion leads to where the last submitted frame showed it.
 	void BeforeMove(uint32_t Object);
-	/// The geometry's vertices are new in this frame. Matters where it has FRTGeometryInfo::PreviousPositions.
+	/// Tells that the geometry's vertices are new in this frame. Has no effect without FRTGeometryInfo::PreviousPositions.
 	void MarkDeformed(const FRTGeometryRef& Geometry);
-	/// For FObjectData::Motion.
+	/// Returns the value for FObjectData::Motion.
 	uint32_t GetEntry(uint32_t Object) const { return Object < States.size() ? States[Object].Entry : NO_MOTION; }
-	/// Forgets objects from Count on, all of which were removed.
+	/// Forgets objects from Count on. All of them must have been removed.
 	void Truncate(uint32_t Count);
 
+	/// Tells whether Update would do anything.
 	bool NeedsUpdate(bool bWanted) const { return Table.Num() > 0 || (bWanted && !(Moves.empty() && Deformed.empty())); }
-	/// Entries for this frame; none where nobody wants them.
+	/// Makes the entries of this frame; none if not bWanted.
 	void Update(bool bWanted);
-	/// bSubmitted: the frame is now the one before. Else the one before stays what it was.
+	/// If bSubmitted, this frame becomes the previous one. Otherwise the previous one stays.
 	void EndFrame(bool bSubmitted);
-	/// Counts frames that were submitted, by whichever renderer: what these motions lead back to is the newest.
+	/// Counts the frames that any renderer submitted. The motions lead back to the newest of them.
 	uint32_t GetFrame() const { return Frame; }
 
 	TGpuTable<FObjectMotion>& GetTable() { return Table; }
@@ -52,7 +52,7 @@ public:
 
 private:
 	static constexpr uint32_t None = ~0u;
-	/// A geometry that keeps its previous positions, and who has it.
+	/// A geometry that keeps its previous positions, and the objects that have it.
 	struct FDeformable
 	{
 		const FRTGeometry* Geometry = nullptr;

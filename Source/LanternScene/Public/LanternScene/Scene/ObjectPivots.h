@@ -1,9 +1,10 @@
-// How far away from objects' own origins (pivots) rays meet them. A driver turns rays into an object's space, by a translation
-// as large as the pivot is far away from the scene's origin; what fp32 loses there does not show in the coordinates of the hit,
-// as for a terrain in one piece. Shaders leave surfaces by more where some object is like that (Math.glsl, OffsetRayOrigin).
+// FObjectPivots finds how far from their own origins (pivots) rays meet objects. A driver moves rays into an object's
+// space, by a translation as long as the pivot is far from the scene's origin. The precision that fp32 loses there does not
+// show in the coordinates of the hit. A terrain in one piece is an example. Shaders offset ray origins by more if a scene has
+// such an object (Math.glsl, OffsetRayOrigin).
 //
-// Only objects that reach farther than LeastReach from their pivots are kept. A change costs O(1), unless it is of the very
-// object that decides; an origin that moves costs a look at all that are kept.
+// Only objects that reach farther than LeastReach from their pivots are kept. A change costs O(1), unless it lessens the
+// object that decides. A moving origin costs O(objects kept).
 #pragma once
 
 #include <cstdint>
@@ -20,13 +21,13 @@ class FObjectPivots
 public:
 	static constexpr double LeastReach = 8.0; ///< metres
 
-	/// Sphere: around the object, in the world; Radius < 0: unknown, and the object is taken to be small.
+	/// Center and Radius give the bounding sphere in the world. Radius < 0: unknown; the object is taken to be small.
 	void Set(uint32_t Object, const glm::dvec3& Pivot, const glm::dvec3& Center, double Radius);
 	void Remove(uint32_t Object);
 	void Update(const glm::dvec3& Origin);
-	/// As of Update and the changes since; largest over all objects of min(distance of the pivot from the origin, distance of
-	/// the object's farthest point from its pivot), where no point of the object is as far away from the origin itself. Metres,
-	/// maximum norm; at least LeastReach.
+	/// Returns the largest reach of an object, as of Update and the changes since; at least LeastReach. Metres, maximum norm.
+	/// An object's reach is the lesser of two distances: pivot to origin, and pivot to the object's farthest point. Objects
+	/// whose nearest point is at least that far from the origin do not count.
 	float GetReach() const { return static_cast<float>(Reach); }
 
 private:
@@ -34,7 +35,7 @@ private:
 	{
 		glm::dvec3 Pivot{0}, Center{0};
 		double Radius = 0.0;
-		double Farthest = 0.0; // of its points from the pivot
+		double Farthest = 0.0; // distance of a point of the object from the pivot
 		uint32_t Object = 0;
 	};
 	double Measure(const FPivot& Pivot) const;

@@ -1,7 +1,7 @@
 // rtScene: the objects valid this frame, their materials and lights, and the acceleration structure over them.
 //
 // World positions are double precision. The GPU sees positions relative to an origin that follows the camera in steps of
-// OriginStep, so that fp32 keeps ≤ 0.1 mm within a kilometre of the camera. Objects are stored relative to their own cell of
+// OriginStep. Within a kilometre of the camera, the error of fp32 is then ≤ 0.1 mm. Objects are stored relative to their own cell of
 // the world: when the origin moves, only the table of punctual lights is rewritten.
 //
 // Costs follow changes. An update in which neither scene nor view changed does nothing. One object that changes costs no

@@ -24,7 +24,8 @@ class FEmissiveTriangles;
 class FSceneObjects
 {
 public:
-	/// Takes section ranges from Sections. Marks Emissive when an emissive object comes, goes or moves. Both outlive this.
+	/// Takes section ranges from InSections. Marks InEmissive when an emissive object comes, goes or moves. The arguments
+	/// outlive this.
 	FSceneObjects(FSectionTable& InSections, FEmissiveTriangles& InEmissive) : Sections(InSections), Emissive(InEmissive) {}
 	FSceneObjects(const FSceneObjects&) = delete;
 	FSceneObjects& operator=(const FSceneObjects&) = delete;

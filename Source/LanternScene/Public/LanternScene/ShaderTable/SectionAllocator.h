@@ -1,6 +1,6 @@
-// Runs of section numbers out of one growing array, in constant time. Free runs lie in lists by size class (as in
-// Masmano et al., "TLSF: a new dynamic memory allocator for real-time systems", 2004), and merge with their neighbours
-// the moment they become free.
+// FSectionAllocator gives runs of section numbers out of one growing array, in constant time. Free runs lie in lists by size
+// class, and merge with their neighbours as soon as they become free. Source: Masmano et al., "TLSF: a new dynamic memory
+// allocator for real-time systems", 2004.
 #pragma once
 
 #include <array>
@@ -14,22 +14,22 @@ class FSectionAllocator
 {
 public:
 	FSectionAllocator();
-	/// First of Count (> 0) numbers in a row. Grows only where no free run of the size's class is long enough.
+	/// Returns the first of Count (> 0) numbers in a row. Grows only if no free run of a fitting size class is long enough.
 	uint32_t Allocate(uint32_t Count);
-	/// Exactly what one Allocate gave.
+	/// Frees exactly what one Allocate gave.
 	void Free(uint32_t First, uint32_t Count);
 	uint32_t GetCapacity() const { return static_cast<uint32_t>(Cells.size()); } ///< one past the last ever in use
 	uint32_t GetFreeCount() const { return FreeCount; }                          ///< numbers below it that are free
 
 private:
-	static constexpr uint32_t ExactSizes = 64;  // sizes below have a class of their own …
-	static constexpr uint32_t Subdivisions = 8; // … above, so many share each power of two
+	static constexpr uint32_t ExactSizes = 64;  // sizes below this have a class of their own
+	static constexpr uint32_t Subdivisions = 8; // classes for each power of two from there on
 	static constexpr uint32_t ClassCount = ExactSizes + (32 - 6) * Subdivisions;
 	static constexpr uint32_t WordBits = 64;
 	static constexpr uint32_t None = ~0u;
 
-	// Of a free run, the first and the last cell hold its size, the first also its place in the list of its class. All
-	// other cells have size 0.
+	// The first and the last cell of a free run hold its size; the first also holds its neighbours in the list of its class.
+	// All other cells have size 0.
 	struct FCell
 	{
 		uint32_t Size = 0, Previous = None, Next = None;

@@ -1,8 +1,8 @@
-// Which sections exist: one range of FSectionData per (geometry, material set), shared by all objects that
-// have both, so that 100,000 instances of one tree have one range. The hit records of the shader table follow
-// the same numbering: record = section · ray types + ray type.
+// FSectionTable keeps the sections of a scene: a range of FSectionData for each pair of geometry and material set. All objects
+// that have both share the range: 100,000 instances of one tree have one. Hit records of the shader table are numbered
+// alike: record = section · ray types + ray type.
 //
-// A range has an entry for each part of its geometry; the first ones are the geometry's sections, in their order.
+// A range has an entry for each part of its geometry. The first entries are the geometry's sections, in their order.
 #pragma once
 
 #include <unordered_map>
@@ -19,43 +19,43 @@
 namespace Lantern
 {
 
-/// Names a range; below FSectionTable::GetRangeCapacity. Constant over the range's life, then used again.
+/// Names a range; less than FSectionTable::GetRangeCapacity(). Constant over the range's life, then used again.
 using FSectionRangeId = uint32_t;
 
 struct FSectionRange
 {
-	const FRTGeometry* Geometry = nullptr; ///< null: no range has this id
+	const FRTGeometry* Geometry = nullptr; ///< null if no range has this id
 	std::vector<uint32_t> Materials;       ///< per section
 	uint32_t First = 0;                    ///< section number of its first entry
-	uint32_t Count = 0;                    ///< entries, the geometry's part capacity
+	uint32_t Count = 0;                    ///< number of entries: the geometry's part capacity
 	uint32_t References = 0;
 	bool bMasked = false;      ///< alpha tests run on some part
-	bool bDoubleSided = false; ///< all materials are
-	bool bEmissive = false;    ///< some material is
+	bool bDoubleSided = false; ///< all materials are double-sided
+	bool bEmissive = false;    ///< some material emits
 };
 
-/// What sections are made from; owned by the scene. Who changes it tells the table.
+/// What sections are made from beside geometry; owned by FSceneMaterials, which tells the table of changes.
 struct FSectionContext
 {
 	const TGpuTable<FMaterialData>& Materials;
-	const std::vector<uint32_t>& Programs; ///< of materials; those behind its end have StandardProgram
+	const std::vector<uint32_t>& Programs; ///< by material; materials behind the end have StandardProgram
 	bool bAlphaTest = true;
 	uint32_t Override = 0; ///< as FRTScene::SetMaterialOverride
 };
 
-/// Threads: one at a time; those that only read may be several.
+/// Threads: one at a time; functions that only read may run on several.
 class FSectionTable
 {
 public:
-	/// Context outlives the table.
+	/// InContext outlives the table.
 	explicit FSectionTable(const FSectionContext& InContext);
 	FSectionTable(const FSectionTable&) = delete;
 	FSectionTable& operator=(const FSectionTable&) = delete;
 
-	/// Differs for every table that was ever made, unlike its address.
+	/// Returns a number that no other table of this process ever has, unlike its address.
 	uint64_t GetIdentity() const { return Identity; }
-	/// The range of this geometry and these materials, one for each section; takes a reference. Constant time, amortised.
-	/// The geometry outlives the range.
+	/// Returns the range of this geometry and these materials, one for each section, and takes a reference. Takes amortised
+	/// constant time. The geometry must outlive the range.
 	FSectionRangeId Acquire(const FRTGeometry& Geometry, const std::vector<uint32_t>& Materials);
 	void Release(FSectionRangeId Id);
 	const FSectionRange& GetRange(FSectionRangeId Id) const { return Ranges[Id]; }
@@ -64,46 +64,46 @@ public:
 	uint32_t GetMaskedRangeCount() const { return MaskedRangeCount; }
 	uint32_t GetEmissiveRangeCount() const { return EmissiveRangeCount; }
 
-	/// Whether MaterialChanged has anything to do: not for an animated colour.
+	/// Tells whether MaterialChanged would do anything. False for an animated colour, for example.
 	static bool AffectsSections(const FMaterialData& Old, const FMaterialData& New);
-	/// The material or its program is another now: O(sections that use it).
+	/// Rewrites the sections of a material that changed or has another program. O(sections that use it).
 	void MaterialChanged(uint32_t Material);
 	bool IsMaterialUsed(uint32_t Material) const { return Material < UsesOfMaterial.size() && !UsesOfMaterial[Material].empty(); }
-	/// Its address, parts or index buffer are others now: O(ranges of it).
+	/// Rewrites the ranges of a geometry whose address, parts or index buffer changed. O(ranges of it).
 	void GeometryChanged(const FRTGeometry& Geometry);
-	/// The context's other members changed.
+	/// Rewrites all sections: bAlphaTest or Override of the context changed.
 	void RefillAll();
 
-	/// Ranges that are new, or of which a flag, a hit program or the geometry changed, since the last call, each once. Some may have been
-	/// released meanwhile.
+	/// Returns the ranges that are new, or whose flags, hit programs or geometry changed since the last call, each once.
+	/// Some may have been released meanwhile.
 	std::vector<FSectionRangeId> TakeChangedRanges();
 	bool HasChangedRanges() const { return !ChangedRanges.empty(); }
-	/// Sections written since the last call, each once, for whoever keeps hit records. Some may have been released
-	/// meanwhile.
+	/// Returns the sections written since the last call, each once, for the writer of hit records. Some may have been
+	/// released meanwhile.
 	std::vector<uint32_t> TakeChanged();
-	/// Slots of geometries that were given another alpha test than they were classified for, since the last call. Some may
-	/// come twice, or have been released meanwhile.
+	/// Returns the slots of geometries that objects use with another alpha test than that of their classification, since the
+	/// last call. Some may come twice, or have been released meanwhile.
 	std::vector<uint32_t> TakeRefutedGeometries() { return std::exchange(RefutedGeometries, {}); }
 	bool HasRefutedGeometries() const { return !RefutedGeometries.empty(); }
-	bool HasChanged() const { return !Changed.empty(); } ///< whether TakeChanged would return any
+	bool HasChanged() const { return !Changed.empty(); } ///< TakeChanged would return some
 
 	const FSectionData& Get(uint32_t Section) const { return Table[Section]; }
-	uint32_t GetCapacity() const { return Table.Num(); } ///< one past the last section that was ever in use
+	uint32_t GetCapacity() const { return Table.Num(); } ///< one past the greatest section that was ever in use
 	TGpuTable<FSectionData>& GetTable() { return Table; }
 	const TGpuTable<FSectionData>& GetTable() const { return Table; }
 
 	FHitProgram GetHitProgram(uint32_t Section) const { return HitPrograms.GetProgram(Section); }
-	/// All hit programs in use, sorted.
+	/// Returns all hit programs in use, sorted.
 	const std::vector<FHitProgram>& GetHitPrograms() { return HitPrograms.GetInUse(); }
 	/// Changes whenever GetHitPrograms would return something else.
 	uint64_t GetHitProgramsRevision() { return HitPrograms.GetInUseRevision(); }
-	/// Numbers of the sections' hit programs.
+	/// Returns the numbers of the sections' hit programs.
 	const FHitProgramIndex& GetHitProgramIndex() const { return HitPrograms; }
 
 private:
 	static constexpr uint32_t None = ~0u;
 
-	// How a range is found, and found again when it goes.
+	// Where a range is linked, so that its links are found in constant time when it goes.
 	struct FRangeLinks
 	{
 		uint64_t Hash = 0;
@@ -130,7 +130,7 @@ private:
 	void UpdateFlags(FSectionRangeId Id);
 	void SetFlags(FSectionRangeId Id, bool bMasked, bool bDoubleSided, bool bEmissive);
 	void MarkRange(FSectionRangeId Id);
-	/// Whether the hit program was another.
+	/// Returns whether the hit program was another.
 	bool Write(uint32_t Section, const FSectionData& Data, FHitProgram Program);
 
 	const FSectionContext& Context;
@@ -148,7 +148,7 @@ private:
 	std::vector<FSectionRangeId> ChangedRanges;
 	std::vector<uint32_t> RefutedGeometries;
 	std::vector<uint32_t> Changed;
-	std::vector<bool> IsChanged; // per section: nobody may take changes for a long time, and the list must not grow
+	std::vector<bool> IsChanged; // by section: if nobody takes changes for a long time, the list must not grow
 	FHitProgramIndex HitPrograms;
 };
 
