@@ -47,21 +47,10 @@ void FHitProgramIndex::SetIndex(uint32_t Section, uint32_t Index)
 const std::vector<FHitProgram>& FHitProgramIndex::GetInUse()
 {
 	if (!std::exchange(bInUseStale, false)) { return InUse; }
-	std::vector<FHitProgram> Now;
-	for (const auto& [Program, Index] : IndexOfProgram) { Now.push_back(Program); }
-	std::sort(Now.begin(), Now.end());
-	if (Now != InUse)
-	{
-		InUse = std::move(Now);
-		++InUseRevision;
-	}
+	InUse.clear();
+	for (const auto& [Program, Index] : IndexOfProgram) { InUse.push_back(Program); }
+	std::sort(InUse.begin(), InUse.end());
 	return InUse;
-}
-
-uint64_t FHitProgramIndex::GetInUseRevision()
-{
-	GetInUse();
-	return InUseRevision;
 }
 
 } // namespace Lantern

@@ -4,8 +4,8 @@
 //
 // An engine classifies a section once, at load, on the CPU.
 //
-//   FAlphaPyramid Pyramid(Texels);                                // once a texture
-//   FAlphaTest Test = MakeAlphaTest(Material, &Pyramid, Sampler); // once a material
+//   FAlphaPyramid Pyramid(Texels);                                // once a texture.
+//   FAlphaTest Test = MakeAlphaTest(Material, &Pyramid, Sampler); // once a material.
 //   ClassifySection(Test, MakeOpacityKey(Material), Vertices, Indices, Section);
 //
 // It uploads the indices afterwards, since they are reordered. The scene does the rest: an object that uses the section

@@ -31,8 +31,6 @@ public:
 	uint64_t GetIndicesRevision() const { return IndicesRevision; }
 	/// Returns all programs in use, sorted.
 	const std::vector<FHitProgram>& GetInUse();
-	/// Changes whenever GetInUse would return something else.
-	uint64_t GetInUseRevision();
 
 private:
 	static constexpr uint32_t NoProgram = 0;
@@ -49,7 +47,7 @@ private:
 	std::unordered_map<FHitProgram, uint32_t> IndexOfProgram; // in use only
 	std::vector<uint32_t> FreeIndices;
 	std::vector<FHitProgram> InUse; // sorted; as of the last GetInUse
-	uint64_t InUseRevision = 0, IndicesRevision = 0;
+	uint64_t IndicesRevision = 0;
 	bool bInUseStale = false;
 };
 

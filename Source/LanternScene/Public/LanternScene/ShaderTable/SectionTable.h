@@ -95,8 +95,6 @@ public:
 	FHitProgram GetHitProgram(uint32_t Section) const { return HitPrograms.GetProgram(Section); }
 	/// Returns all hit programs in use, sorted.
 	const std::vector<FHitProgram>& GetHitPrograms() { return HitPrograms.GetInUse(); }
-	/// Changes whenever GetHitPrograms would return something else.
-	uint64_t GetHitProgramsRevision() { return HitPrograms.GetInUseRevision(); }
 	/// Returns the numbers of the sections' hit programs.
 	const FHitProgramIndex& GetHitProgramIndex() const { return HitPrograms; }
 
