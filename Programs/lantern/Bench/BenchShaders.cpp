@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "Bench/BenchPipelineWhole.h"
 #include "Bench/BenchRun.h"
 #include "Bench/BenchShaderList.h"
 #include "LanternCore/Text/Log.h"
@@ -84,11 +85,9 @@ private:
 	FRTStatus MeasureRays(const FPipelineShaders& Pipeline, FShaderCosts& Out)
 	{
 		FRTPSO Rtpso;
-		// What glslang takes was measured before, and is taken off.
-		const double Before = Compiler.GetStats().CompileMs;
-		const auto Start = FClock::now();
-		if (FRTStatus S = FRTPSO::Create(Device, Compiler, Pipeline.Programs, Pipeline.Rays, Rtpso); !S) { return S; }
-		Out.CreateSeconds = std::max(SecondsSince(Start) - 1e-3 * (Compiler.GetStats().CompileMs - Before), 0.0);
+		double DriverMs = 0.0;
+		if (FRTStatus S = MakeWholeRTPSO(Device, Compiler, Pipeline.Programs, Pipeline.Rays, Rtpso, &DriverMs); !S) { return S; }
+		Out.CreateSeconds = 1e-3 * DriverMs;
 		FRTShaderTableDesc TableDesc;
 		TableDesc.Pipeline = Rtpso.GetPipeline();
 		TableDesc.RayGenCount = TableDesc.MissCount = TableDesc.HitCount = 1;

@@ -5,6 +5,7 @@
 #include <ctime>
 #include <utility>
 
+#include "Bench/BenchPipelineWhole.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 
 namespace Lantern
@@ -93,7 +94,7 @@ FRTStatus FTablePrograms::Create(IRTDevice& Device, FShaderCompiler& Compiler)
 {
 	for (uint32_t Pipeline = 0; Pipeline < 2; ++Pipeline)
 	{
-		const FRTStatus Status = FRTPSO::Create(Device, Compiler, FMaterialPrograms(), MakePrograms(Pipeline), Pipelines[Pipeline]);
+		const FRTStatus Status = MakeWholeRTPSO(Device, Compiler, FMaterialPrograms(), MakePrograms(Pipeline), Pipelines[Pipeline]);
 		if (!Status) { return Status; }
 	}
 	return FRTStatus::Success();

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "LanternCore/Shaders/ShaderCompiler.h"
+#include "LanternScene/Pipelines/RTPSOCompiler.h"
 #include "Support/SceneTestTools.h"
 
 namespace Lantern
@@ -77,8 +78,11 @@ protected:
 		const auto [It, bNew] = Pipelines.try_emplace({RayTypes, bMasked});
 		if (bNew)
 		{
-			const FRTStatus Status = FRTPSO::Create(*Device, Compiler, FMaterialPrograms(), MakePrograms(RayTypes, bMasked), It->second);
+			const FMaterialPrograms Programs;
+			FRTPSOCompiler Maker(*Device, Compiler, Programs);
+			const FRTStatus Status = Maker.Finish(MakePrograms(RayTypes, bMasked));
 			EXPECT_TRUE(Status) << Status.Message;
+			It->second = *Maker.GetCurrent();
 		}
 		return It->second;
 	}

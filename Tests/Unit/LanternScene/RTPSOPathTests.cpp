@@ -49,7 +49,7 @@ TEST_P(FPipelinePathTest, FinishMakesAllThatIsWanted)
 	ExpectOwn(Masked(StandardProgram), "");
 	ExpectOwn(Opaque(Rust), "Rust");
 	ExpectOwn(Masked(Leaves), "Leaves");
-	EXPECT_TRUE(Current->IsStandIn(Opaque(Leaves))) << "nobody asked for it: the standard program serves";
+	EXPECT_EQ(Current->GetState(Opaque(Leaves)), ERTHitState::StandIn) << "nobody asked for it: the standard program serves";
 	EXPECT_EQ(Current->GetHitGroupCount(), 8u);
 	EXPECT_EQ(Current->GetMissingCount(), 0u);
 	for (uint32_t I = 0; I < 2; ++I)
@@ -220,7 +220,7 @@ TEST_P(FPipelinePathTest, ProceduralGroupsRunTheProgramsIntersection)
 	EXPECT_EQ(ResolveHit(*Current, 1, Program).ClosestHit, "MATERIAL.hit (Ball)");
 	EXPECT_EQ(ResolveHit(*Current, 0, Program).Intersection, "Sphere.rint (Ball)") << "shadow rays must hit it too";
 	const FHitProgram Unknown{Ball + 1, ERTHitClass::Procedural};
-	EXPECT_TRUE(Current->IsStandIn(Unknown));
+	EXPECT_EQ(Current->GetState(Unknown), ERTHitState::StandIn);
 	EXPECT_EQ(ResolveHit(*Current, 1, Unknown).Intersection, "Rays/NoIntersection.rint (StandIn)");
 }
 

@@ -95,7 +95,7 @@ protected:
 	std::string NameOf(FHitProgram Hit, const std::string& Seen) const
 	{
 		// Before there is a stand-in, the standard program serves.
-		if (Current->IsStandIn(Hit)) { return Seen.ends_with(" (StandIn)") ? " (StandIn)" : ""; }
+		if (Current->GetState(Hit) == ERTHitState::StandIn) { return Seen.ends_with(" (StandIn)") ? " (StandIn)" : ""; }
 		return Hit.Program == StandardProgram ? "" : " (" + Programs->Get(Hit.Program).Name + ")";
 	}
 	/// Each record runs its own program, or the stand-in of its class, or, where it is to be left out, nothing.

@@ -1,3 +1,4 @@
+// Compute pipelines, compiled when they are first asked for.
 #include "LanternScene/Pipelines/ComputePipelines.h"
 
 namespace Lantern
@@ -8,7 +9,7 @@ FRTStatus FComputePipelines::GetCompute(const FShaderSource& Source, IRTPipeline
 	std::string Key = Source.Path;
 	for (const auto& [Name, Value] : Source.Defines) { Key += ' ' + Name + (Value == "1" ? "" : '=' + Value); }
 	FEntry& Entry = Entries[Key];
-	// What the code is wrong in stays wrong; a shortage of memory passes.
+	// A compile error stays; a shortage of memory passes.
 	if (!Entry.Pipeline && Entry.Status.Code != ERTResult::CompileFailed)
 	{
 		Entry.Source = Source;

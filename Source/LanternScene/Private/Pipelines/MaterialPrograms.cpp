@@ -1,3 +1,4 @@
+// The list of material programs, and the source of a shader with one of them.
 #include "LanternScene/Pipelines/MaterialPrograms.h"
 
 #include <cassert>
@@ -11,7 +12,7 @@ namespace
 {
 constexpr const char* MaterialHeader = "Materials/Material.glsl";
 
-/// Messages, traces and shaders are called by the name, and an engine may give any.
+/// Messages, traces and shaders show the name, and an engine may give any text.
 FMaterialProgramDesc WithShownName(FMaterialProgramDesc Desc)
 {
 	Desc.Name = EscapeText(Desc.Name, MaxQuotedBytes);

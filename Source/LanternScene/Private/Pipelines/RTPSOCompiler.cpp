@@ -1,11 +1,12 @@
+// The front of the RTPSO compiler: console variables, the lock, and who waits for what.
 #include "LanternScene/Pipelines/RTPSOCompiler.h"
 
 #include <algorithm>
-#include <cassert>
+#include <mutex>
 #include <utility>
 
 #include "LanternCore/Config/ConsoleVariables.h"
-#include "Pipelines/RTPSOCompilerImpl.h"
+#include "Pipelines/RTPSOThreads.h"
 
 namespace Lantern
 {
@@ -13,90 +14,86 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<bool> CVarLibraries("r.RT.Pipeline.Libraries", true,
-    "Each shader group is a pipeline library of its own, where the device has them. "
-    "Off: a link compiles everything anew.");
-TRTConsoleVariable<int32_t> CVarThreads(
-    "r.RT.Pipeline.Threads", 0, "Threads that compile pipelines. 0: one less than the machine has, at least one.", {0, 256});
+    "Compiles each shader group to a pipeline library, if the device supports them. 0: each link compiles everything anew.");
+TRTConsoleVariable<int32_t> CVarThreads("r.RT.Pipeline.Threads", 0,
+    "Number of threads that compile pipelines. 0: one less than the machine has cores, at least one.", {0, 256});
 TRTConsoleVariable<int32_t> CVarRoundMs(
-    "r.RT.Pipeline.RoundMs", 100, "Milliseconds after which what is compiled is linked, though more is waiting.", {1, 1e6});
+    "r.RT.Pipeline.RoundMs", 100, "Longest time, in milliseconds, that compiled shaders wait for others before they are linked.", {1, 1e6});
 TRTConsoleVariable<int32_t> CVarFallback("r.RT.Pipeline.Fallback", 1,
-    "Objects whose shaders are not compiled yet. 0: left out. 1: drawn with the standard material. 2: the frame waits.", {0, 2});
+    "Treatment of objects whose shaders are not compiled yet. 0: they are left out. 1: they are drawn with the standard material. "
+    "2: the frame waits.",
+    {0, 2});
 TRTConsoleVariable<int32_t> CVarKeepFrames(
-    "r.RT.Pipeline.KeepFrames", 1000, "Frames after which compiled shaders that nothing wants are dropped.", {1, 1e6});
+    "r.RT.Pipeline.KeepFrames", 1000, "Number of frames for which compiled shaders are kept after their last use.", {1, 1e6});
 TRTConsoleVariable<float> CVarSwapShare("r.RT.Pipeline.SwapShare", 0.2f,
-    "Most of the time that first uses of new pipelines may take. Materials that are ready wait for it, where the driver "
-    "compiles at first use. 1: they never wait.",
+    "Largest share of the time that first uses of new pipelines may take. Materials that are ready wait, if the driver compiles "
+    "a pipeline at its first use. 1: they never wait.",
     {FSwapPacer::LeastShare, 1});
 TRTConsoleVariable<float> CVarReloadSeconds("r.RT.Pipeline.ReloadSeconds", 0.0f,
-    "Seconds between looks for edited shader files, whose pipelines are then compiled anew. 0: never.", {0, 3600});
+    "Seconds between searches for edited shader files. Pipelines of edited files are compiled anew. 0: no search.", {0, 3600});
+
+FRTPSOSettings GetSettings()
+{
+	FRTPSOSettings Settings;
+	Settings.bLibraries = CVarLibraries.GetOnRenderThread();
+	Settings.RoundLength = std::chrono::milliseconds(CVarRoundMs.GetOnRenderThread());
+	Settings.KeepFrames = static_cast<uint64_t>(CVarKeepFrames.GetOnRenderThread());
+	Settings.Fallback = GetPipelineFallback();
+	Settings.SwapShare = CVarSwapShare.GetOnRenderThread();
+	Settings.ReloadSeconds = CVarReloadSeconds.GetOnRenderThread();
+	return Settings;
+}
+
+uint32_t GetThreadCount()
+{
+	const int32_t Asked = CVarThreads.GetOnRenderThread();
+	const uint32_t Cores = std::max(1u, std::thread::hardware_concurrency());
+	return Asked > 0 ? static_cast<uint32_t>(Asked) : std::max(1u, Cores - 1);
+}
 } // namespace
 
 ERTFallback GetPipelineFallback() { return static_cast<ERTFallback>(CVarFallback.GetOnRenderThread()); }
 
-FRTPSOCompiler::FRTPSOCompiler(IRTDevice& Device, FShaderCompiler& Compiler, const FMaterialPrograms& Programs, FPipelineTimeSource Time)
-    : Impl(std::make_unique<FImpl>(Device, Compiler, Programs, std::move(Time)))
+/// Threads: the render thread, one call at a time. What lies behind Mutex is shared with the threads of FRTPSOThreads.
+struct FRTPSOCompiler::FImpl
+{
+	/// A frame that was submitted, or that is done.
+	struct FFrameEvent
+	{
+		uint64_t Frame = 0;
+		std::chrono::steady_clock::time_point Time;
+		std::optional<double> GpuMs; ///< none: it was submitted
+	};
+
+	FImpl(IRTDevice& Device, FShaderCompiler& Compiler, const FMaterialPrograms& Programs, FPipelineTimeSource InTime);
+	void AddFrameEvent(const FFrameEvent& Event);
+	void TellPacer();
+	void Begin(const FRTPSODesc& Desc, bool bFinish);
+	FRTStatus FinishAll(std::unique_lock<std::mutex>& Lock, const FRTPSODesc& Desc, const std::function<void(float)>& Progress);
+	FRTStatus FinishUnits(std::unique_lock<std::mutex>& Lock, const std::function<void(float)>& Progress);
+	FRTStatus FinishLink(std::unique_lock<std::mutex>& Lock);
+
+	const FPipelineTimeSource Time; ///< any thread may call it
+	std::shared_ptr<const FRTPSO> Taken;
+	std::optional<std::vector<FProgramPriority>> NewPriorities;
+	FRTPSOCompilerStats Known;
+	std::vector<FFrameEvent> FrameEvents; ///< those that the pacer has not been told
+	const FUnitCompiler UnitCompiler;
+	std::mutex Mutex;          ///< never held during a call of glslang, of the driver's compiler, or of the file system
+	FRTPSOScheduler Scheduler; ///< guarded by Mutex
+	FRTPSOThreads Threads;     ///< last: its end joins them
+};
+
+FRTPSOCompiler::FImpl::FImpl(IRTDevice& Device, FShaderCompiler& Compiler, const FMaterialPrograms& Programs, FPipelineTimeSource InTime)
+    : Time(InTime ? std::move(InTime) : [] { return std::chrono::steady_clock::now(); }),
+      UnitCompiler(Device, Compiler),
+      Scheduler(Device.GetCapabilities(), Programs, Time, [this] { Threads.Wake(); }),
+      Threads(Mutex, Scheduler, UnitCompiler, Device)
 {}
-
-FRTPSOCompiler::~FRTPSOCompiler() = default;
-
-FRTPSOCompiler::FImpl::FImpl(
-    IRTDevice& InDevice, FShaderCompiler& InCompiler, const FMaterialPrograms& InPrograms, FPipelineTimeSource InTime)
-    : Device(InDevice),
-      Compiler(InCompiler),
-      Programs(InPrograms),
-      Time(InTime ? std::move(InTime) : [] { return FPipelineClock::now(); })
-{}
-
-FRTPSOCompiler::FImpl::~FImpl()
-{
-	{
-		const std::lock_guard Lock(Mutex);
-		bStop = true;
-	}
-	WorkAdded.notify_all();
-	for (std::thread& Thread : Threads) { Thread.join(); }
-}
-
-bool FRTPSOCompiler::FImpl::AreLibrariesOn() { return CVarLibraries.GetOnRenderThread(); }
-
-void FRTPSOCompiler::FImpl::StartThreads()
-{
-	const int32_t Asked = CVarThreads.GetOnRenderThread();
-	const uint32_t Cores = std::max(1u, std::thread::hardware_concurrency());
-	const uint32_t Limit = Asked > 0 ? static_cast<uint32_t>(Asked) : std::max(1u, Cores - 1);
-	if (Limit != ThreadLimit)
-	{
-		ThreadLimit = Limit;
-		WorkAdded.notify_all();
-	}
-	if (Threads.empty())
-	{
-		Threads.emplace_back([this] { RunLinker(); });
-	}
-	while (Threads.size() < size_t(Limit) + 1)
-	{
-		const uint32_t Index = static_cast<uint32_t>(Threads.size() - 1);
-		Threads.emplace_back([this, Index] { RunCompiler(Index); });
-	}
-}
-
-void FRTPSOCompiler::FImpl::TakeLink()
-{
-	if (!bLinkDone) { return; }
-	bLinkDone = false;
-	bDirty = true; // more may have become ready since
-	if (!LinkStatus) { return; }
-	++Stats.Links;
-	Pacer.Swapped();
-	RetireCurrent();
-	Current = std::move(Linked);
-	Taken = Current.Pipeline;
-	Current.LastUsed = Frame;
-	Linked = {};
-}
 
 void FRTPSOCompiler::FImpl::TellPacer()
 {
+	FSwapPacer& Pacer = Scheduler.GetPacer();
 	for (const FFrameEvent& Event : FrameEvents)
 	{
 		if (Event.GpuMs) { Pacer.FrameDone(Event.Frame, std::chrono::duration<double, std::milli>(*Event.GpuMs), Event.Time); }
@@ -105,7 +102,7 @@ void FRTPSOCompiler::FImpl::TellPacer()
 	FrameEvents.clear();
 }
 
-/// Also where frames have nothing for Update to do: what they report must not pile up.
+/// Tells the pacer at once if it can, so that events do not pile up where frames do not call Update.
 void FRTPSOCompiler::FImpl::AddFrameEvent(const FFrameEvent& Event)
 {
 	FrameEvents.push_back(Event);
@@ -113,133 +110,79 @@ void FRTPSOCompiler::FImpl::AddFrameEvent(const FFrameEvent& Event)
 	if (Lock.owns_lock()) { TellPacer(); }
 }
 
-void FRTPSOCompiler::FImpl::Begin(const FRTPSODesc& Desc, bool bWait)
+void FRTPSOCompiler::FImpl::Begin(const FRTPSODesc& Desc, bool bFinish)
 {
-	++Frame;
-	RoundMs = CVarRoundMs.GetOnRenderThread();
-	KeepFrames = CVarKeepFrames.GetOnRenderThread();
-	Pacer.SetLimits(CVarSwapShare.GetOnRenderThread(), std::chrono::milliseconds(RoundMs));
 	TellPacer();
-	if (NewPriorities) { Priorities = std::exchange(NewPriorities, std::nullopt).value(); }
-	StartThreads();
-	TakeLink();
-	if (const bool bServes = GetPipelineFallback() != ERTFallback::Skip; bServes != bStandardServes)
-	{
-		bStandardServes = bServes;
-		bDirty = true;
-		bFinished = false;
-	}
-	SetWanted(Desc, bWait ? std::nullopt : std::optional(GetPipelineFallback() == ERTFallback::StandIn));
-	if (RetryFrame > 0 && Frame >= RetryFrame)
-	{
-		RetryFrame = 0;
-		FailedLink.clear();
-		bDirty = true;
-	}
-	DropOld();
+	if (NewPriorities) { Scheduler.SetPriorities(std::exchange(NewPriorities, std::nullopt).value()); }
+	Threads.SetCount(GetThreadCount());
+	Scheduler.BeginFrame(Desc, GetSettings(), bFinish);
+	Taken = Scheduler.GetCurrent();
 }
 
-void FRTPSOCompiler::Update(const FRTPSODesc& Wanted)
+FRTStatus FRTPSOCompiler::FImpl::FinishUnits(std::unique_lock<std::mutex>& Lock, const std::function<void(float)>& Progress)
 {
-	// A thread of lower priority may be kept from running while it holds the lock: then this frame goes on without.
-	const std::unique_lock Lock(Impl->Mutex, std::try_to_lock);
-	if (!Lock.owns_lock() || Impl->bLost) { return; }
-	Impl->Begin(Wanted, false);
-	Impl->EndRoundIfOver();
-	if (std::exchange(Impl->bDirty, false))
+	while (!Scheduler.AdvanceUnits())
 	{
-		Impl->StartRound(false);
-		Impl->StartLink(false);
-	}
-	else if (Impl->bHeld && Impl->Pacer.MayLink(Impl->Time(), Impl->HeldSwap)) { Impl->StartLink(false); }
-	const float Seconds = CVarReloadSeconds.GetOnRenderThread();
-	if (Seconds > 0.0f && Impl->Time() > Impl->NextReload)
-	{
-		Impl->NextReload = Impl->Time() + std::chrono::milliseconds(static_cast<int64_t>(Seconds * 1000.0f));
-		Impl->bReload = true;
-		Impl->WorkAdded.notify_all();
-	}
-}
-
-FRTStatus FRTPSOCompiler::FImpl::FindFatalError() const
-{
-	if (bLost) { return LostError; }
-	for (const FPipelineSlotRef& Slot : Wanted.All)
-	{
-		const bool bFailed = !Slot->Ready && !Slot->Error.IsOk();
-		const bool bShortage = bFailed && Slot->FailedVersion != Slot->GetVersion();
-		if (bFailed && (Slot->bEssential || bShortage)) { return Slot->Error; }
-	}
-	return FRTStatus::Success();
-}
-
-FRTStatus FRTPSOCompiler::FImpl::FinishSlots(std::unique_lock<std::mutex>& Lock, const std::function<void(float)>& Progress)
-{
-	bNoDeadline = true;
-	for (FPipelineSlotRef& Slot : Wanted.All)
-	{
-		Slot->RetryAt = 0;
-		if (Slot->FailedVersion != Slot->GetVersion()) { Slot->Error = FRTStatus::Success(); }
-	}
-	for (;;)
-	{
-		StartRound(true);
-		const auto IsDone = [](const FPipelineSlotRef& Slot) { return Slot->IsSettled(); };
-		const size_t Done = static_cast<size_t>(std::count_if(Wanted.All.begin(), Wanted.All.end(), IsDone));
-		const FRTStatus Error = FindFatalError();
-		if (Done == Wanted.All.size() || !Error)
-		{
-			bNoDeadline = false;
-			return Error;
-		}
+		// Counted before Progress is called: a result that comes meanwhile is not waited for.
+		const uint64_t Before = Scheduler.GetResultCount();
 		if (Progress)
 		{
+			const float Done = Scheduler.GetProgress();
 			Lock.unlock();
-			Progress(static_cast<float>(Done) / static_cast<float>(Wanted.All.size()));
+			Progress(Done);
 			Lock.lock();
 		}
-		const uint64_t Before = DoneCount;
-		SomethingDone.wait(Lock, [&] { return DoneCount != Before || bLost; });
+		Threads.WaitForResult(Lock, [&] { return Scheduler.GetResultCount() != Before || Scheduler.IsLost(); });
 	}
+	return Scheduler.FindFatalError();
 }
 
 FRTStatus FRTPSOCompiler::FImpl::FinishLink(std::unique_lock<std::mutex>& Lock)
 {
 	for (;;)
 	{
-		SomethingDone.wait(Lock, [&] { return (!bLinking && !bLinkWanted) || bLost; });
-		if (bLost) { return LostError; }
-		TakeLink();
-		const FLinkPlan Plan = MakePlan();
-		if (!Plan.bComplete) { return FRTStatus::Error(ERTResult::CompileFailed, "nothing that could be linked"); }
-		if (Current.Pipeline && Current.Plan.Key == Plan.Key) { return FRTStatus::Success(); }
-		if (FailedLink == Plan.Key && !LinkStatus.IsOk())
-		{
-			// A shortage of memory passes: the next call tries again.
-			if (LinkStatus.Code != ERTResult::CompileFailed) { FailedLink.clear(); }
-			return LinkStatus;
-		}
-		StartLink(true);
+		Threads.WaitForResult(Lock, [&] { return !Scheduler.IsLinkUnderWay() || Scheduler.IsLost(); });
+		const std::optional<FRTStatus> Status = Scheduler.AdvanceLink();
+		Taken = Scheduler.GetCurrent();
+		if (Status) { return *Status; }
 	}
+}
+
+FRTStatus FRTPSOCompiler::FImpl::FinishAll(
+    std::unique_lock<std::mutex>& Lock, const FRTPSODesc& Desc, const std::function<void(float)>& Progress)
+{
+	if (FRTStatus S = FinishUnits(Lock, Progress); !S) { return S; }
+	if (Scheduler.AddStandIns(Desc))
+	{
+		if (FRTStatus S = FinishUnits(Lock, Progress); !S) { return S; }
+	}
+	return FinishLink(Lock);
+}
+
+FRTPSOCompiler::FRTPSOCompiler(IRTDevice& Device, FShaderCompiler& Compiler, const FMaterialPrograms& Programs, FPipelineTimeSource Time)
+    : Impl(std::make_unique<FImpl>(Device, Compiler, Programs, std::move(Time)))
+{}
+
+FRTPSOCompiler::~FRTPSOCompiler() = default;
+
+void FRTPSOCompiler::Update(const FRTPSODesc& Wanted)
+{
+	// A thread of lower priority may be kept from running while it holds the lock: then this frame goes on without.
+	const std::unique_lock Lock(Impl->Mutex, std::try_to_lock);
+	if (!Lock.owns_lock() || Impl->Scheduler.IsLost()) { return; }
+	Impl->Begin(Wanted, false);
+	Impl->Scheduler.Advance();
 }
 
 FRTStatus FRTPSOCompiler::Finish(const FRTPSODesc& Wanted, const std::function<void(float)>& Progress)
 {
 	std::unique_lock Lock(Impl->Mutex);
-	if (Impl->bLost) { return Impl->LostError; }
+	if (Impl->Scheduler.IsLost()) { return Impl->Scheduler.FindFatalError(); }
 	Impl->Begin(Wanted, true);
-	Impl->bHeld = false;
 	// The usual frame: nothing is new.
-	if (!Impl->bDirty && Impl->bFinished) { return FRTStatus::Success(); }
-	FRTStatus Status = Impl->FinishSlots(Lock, Progress);
-	if (Status && !Impl->AreHitsCompiled() && GetPipelineFallback() != ERTFallback::Skip)
-	{
-		Impl->SetWanted(Wanted, true);
-		Status = Impl->FinishSlots(Lock, Progress);
-	}
-	if (Status) { Status = Impl->FinishLink(Lock); }
-	Impl->bFinished = Status.IsOk();
-	Impl->bDirty = !Status;
+	if (Impl->Scheduler.BeginFinish()) { return FRTStatus::Success(); }
+	const FRTStatus Status = Impl->FinishAll(Lock, Wanted, Progress);
+	Impl->Scheduler.EndFinish(Status);
 	if (Status && Progress)
 	{
 		Lock.unlock();
@@ -259,31 +202,16 @@ void FRTPSOCompiler::SetPriorities(std::vector<FProgramPriority> ByProgram) { Im
 void FRTPSOCompiler::Reload()
 {
 	const std::lock_guard Lock(Impl->Mutex);
-	Impl->StartThreads();
-	Impl->bReload = true;
-	Impl->WorkAdded.notify_all();
+	Impl->Threads.SetCount(GetThreadCount());
+	Impl->Scheduler.AskForEdits();
 }
 
 const FRTPSOCompilerStats& FRTPSOCompiler::GetStats() const
 {
 	FRTPSOCompilerStats& Out = Impl->Known;
 	const std::unique_lock Lock(Impl->Mutex, std::try_to_lock);
-	if (!Lock.owns_lock())
-	{
-		Out.bBusy = true; // with whoever has the lock
-		return Out;
-	}
-	Out = Impl->Stats;
-	for (const FPipelineSlotRef& Slot : Impl->Wanted.All)
-	{
-		++Out.Wanted;
-		Out.Ready += Slot->Ready ? 1 : 0;
-		Out.Failed += !Slot->Ready && Slot->FailedVersion == Slot->GetVersion() ? 1 : 0;
-	}
-	for (const auto& [Key, Slot] : Impl->Slots) { Out.Kept += Slot->Ready ? 1 : 0; }
-	Out.bBusy = Impl->bRound || Impl->Running > 0 || Impl->bLinking || Impl->bLinkWanted || Impl->bLinkDone || Impl->bDirty ||
-	            Impl->bHeld || Impl->bReload;
-	Out.LastSwapMs = 1e3 * Impl->Pacer.GetCost().count();
+	if (!Lock.owns_lock()) { Out.bBusy = true; } // with what the owner of the lock does
+	else { Impl->Scheduler.Count(Out); }
 	return Out;
 }
 

@@ -1,21 +1,21 @@
-// From compiled units to a linked RTPSO.
-#include <algorithm>
-#include <cassert>
+// The groups of a link, own ones and those of libraries, and their numbers.
+#include "Pipelines/RTPSOLink.h"
 
-#include "Pipelines/RTPSOCompilerImpl.h"
+#include <cassert>
+#include <unordered_map>
 
 namespace Lantern
 {
 
 namespace
 {
-/// Numbers the groups of a link: its own first, then those of each library.
+/// Numbers the groups of a link: first its own groups, then those of each library.
 class FLinker
 {
 public:
 	explicit FLinker(const FLinkPlan& InPlan) : Plan(InPlan) {}
 
-	/// Builds of which the pipeline consists, each once.
+	/// Adds each build of the plan once.
 	void AddBuilds()
 	{
 		for (const auto* List : {&Plan.RayGens, &Plan.Misses, &Plan.Callables}) { AddList(*List); }
@@ -109,113 +109,11 @@ private:
 	std::vector<FRTShaderGroup> Groups;
 	uint32_t EmptyGroup = 0;
 };
-
-/// False: some type is not compiled.
-bool TakeBuilds(const FHitSlots& Hit, std::vector<FPipelineBuildRef>& Out)
-{
-	for (const FPipelineSlotRef& Slot : Hit.Types)
-	{
-		if (Slot && !Slot->Ready) { return false; }
-		Out.push_back(Slot ? Slot->Ready : nullptr);
-	}
-	return true;
-}
-
-void AppendKey(FLinkPlan& Plan, const std::vector<FPipelineBuildRef>& Builds)
-{
-	Plan.Key.push_back(Builds.size());
-	for (const FPipelineBuildRef& Build : Builds) { Plan.Key.push_back(Build ? Build->Id : 0); }
-}
-
-void AppendKey(FLinkPlan& Plan, const std::vector<FLinkPlan::FHit>& Hits)
-{
-	Plan.Key.push_back(Hits.size());
-	for (const FLinkPlan::FHit& Hit : Hits)
-	{
-		Plan.Key.push_back(uint64_t(Hit.Program.Program) * 16 + uint64_t(Hit.Program.Class) * 4 + uint64_t(Hit.State));
-		AppendKey(Plan, Hit.Builds);
-	}
-}
 } // namespace
 
-FLinkPlan FRTPSOCompiler::FImpl::MakePlan() const
+FRTStatus LinkRTPSO(IRTDevice& Device, const FLinkPlan& Plan, std::shared_ptr<const FRTPSO>& Out)
 {
-	FLinkPlan Plan;
-	Plan.PayloadBytes = GetPayloadBytes(WantedDesc);
-	Plan.bComplete = !Wanted.Misses.empty();
-	for (size_t I = 0; I < Wanted.RayGens.size(); ++I)
-	{
-		if (!Wanted.RayGens[I]->Ready) { continue; }
-		Plan.RayGens.push_back(Wanted.RayGens[I]->Ready);
-		Plan.RayGenSources.push_back(WantedDesc.RayGens[I]);
-	}
-	for (const FPipelineSlotRef& Slot : Wanted.Misses)
-	{
-		Plan.Misses.push_back(Slot->Ready);
-		Plan.bComplete &= Slot->Ready != nullptr;
-	}
-	for (const FPipelineSlotRef& Slot : Wanted.Callables)
-	{
-		const bool bRefused = !Slot->Ready && Slot->IsSettled();
-		Plan.Callables.push_back(bRefused ? Wanted.EmptyCallable->Ready : Slot->Ready);
-		Plan.bComplete &= Plan.Callables.back() != nullptr;
-	}
-	for (const FHitSlots& Hit : Wanted.StandIns)
-	{
-		FLinkPlan::FHit Entry{Hit.Program, ERTHitState::StandIn, {}};
-		if (TakeBuilds(Hit, Entry.Builds)) { Plan.StandIns.push_back(std::move(Entry)); }
-		else
-		{
-			// Without it there would be holes. One that does not compile holds up nothing.
-			const auto IsSettled = [](const FPipelineSlotRef& Slot) { return !Slot || Slot->IsSettled(); };
-			Plan.bComplete &= std::all_of(Hit.Types.begin(), Hit.Types.end(), IsSettled);
-		}
-	}
-	for (const FHitSlots& Hit : Wanted.Hits)
-	{
-		FLinkPlan::FHit Entry{Hit.Program, ERTHitState::Ready, {}};
-		if (!TakeBuilds(Hit, Entry.Builds)) { Entry = {Hit.Program, ERTHitState::Missing, {}}; }
-		Plan.Hits.push_back(std::move(Entry));
-	}
-	Plan.bComplete &= !Plan.RayGens.empty();
-	Plan.bStandardServes = bStandardServes;
-	Plan.Key.push_back(bStandardServes);
-	for (const auto* List : {&Plan.RayGens, &Plan.Misses, &Plan.Callables}) { AppendKey(Plan, *List); }
-	for (const auto* List : {&Plan.StandIns, &Plan.Hits}) { AppendKey(Plan, *List); }
-	return Plan;
-}
-
-bool FRTPSOCompiler::FImpl::CoversFrame(const FLinkPlan& Made, const FLinkPlan& Plan)
-{
-	if (Made.bStandardServes != Plan.bStandardServes || Made.Misses != Plan.Misses || Made.Callables != Plan.Callables ||
-	    Made.StandIns.size() != Plan.StandIns.size())
-	{
-		return false;
-	}
-	for (const FPipelineBuildRef& Build : Plan.RayGens)
-	{
-		if (std::find(Made.RayGens.begin(), Made.RayGens.end(), Build) == Made.RayGens.end()) { return false; }
-	}
-	for (size_t I = 0; I < Plan.StandIns.size(); ++I)
-	{
-		if (Made.StandIns[I].Program != Plan.StandIns[I].Program || Made.StandIns[I].Builds != Plan.StandIns[I].Builds) { return false; }
-	}
-	return true;
-}
-
-size_t FRTPSOCompiler::FImpl::CountNewPrograms(const FLinkPlan& Made, const FLinkPlan& Plan)
-{
-	std::map<FHitProgram, const FLinkPlan::FHit*> Hits;
-	for (const FLinkPlan::FHit& Hit : Made.Hits) { Hits[Hit.Program] = &Hit; }
-	const auto IsNew = [&](const FLinkPlan::FHit& Hit) {
-		const auto Found = Hits.find(Hit.Program);
-		return Hit.State == ERTHitState::Ready && (Found == Hits.end() || Found->second->Builds != Hit.Builds);
-	};
-	return static_cast<size_t>(std::count_if(Plan.Hits.begin(), Plan.Hits.end(), IsNew));
-}
-
-FRTStatus FRTPSOCompiler::FImpl::Link(const FLinkPlan& Plan, std::shared_ptr<const FRTPSO>& Out)
-{
+	assert(Plan.bComplete);
 	FLinker Linker(Plan);
 	Linker.AddBuilds();
 	TRTRef<IRTPipeline> Pipeline;

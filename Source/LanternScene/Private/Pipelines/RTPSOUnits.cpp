@@ -1,3 +1,4 @@
+// The shaders of each shader group, as its description and its material program say.
 #include "Pipelines/RTPSOUnits.h"
 
 #include <algorithm>

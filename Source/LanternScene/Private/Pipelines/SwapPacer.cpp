@@ -1,3 +1,4 @@
+// What a swap has cost, and when the next link may begin.
 #include "Pipelines/SwapPacer.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ void FSwapPacer::SetLimits(double InShare, FSeconds InRound)
 void FSwapPacer::FrameSubmitted(uint64_t Frame)
 {
 	if (!std::exchange(bSwapped, false)) { return; }
-	constexpr size_t MostInFlight = 8; // of a device that never says what frames take
+	constexpr size_t MostInFlight = 8; // for a device that never reports durations
 	Firsts.push_back(Frame);
 	if (Firsts.size() > MostInFlight) { Firsts.pop_front(); }
 }
@@ -23,7 +24,7 @@ void FSwapPacer::FrameSubmitted(uint64_t Frame)
 void FSwapPacer::FrameDone(uint64_t Frame, FSeconds Duration, FTime Now)
 {
 	bKnown = true;
-	// A later frame is done: the duration of this one was never found out.
+	// A later frame is done: the duration of this one will not come.
 	while (!Firsts.empty() && Firsts.front() < Frame) { Firsts.pop_front(); }
 	if (!Firsts.empty() && Firsts.front() == Frame)
 	{
@@ -36,7 +37,7 @@ void FSwapPacer::FrameDone(uint64_t Frame, FSeconds Duration, FTime Now)
 	}
 	if (std::exchange(bRefine, false))
 	{
-		// Frames that take longer from now on, because they show more, are no cost of the swap.
+		// Frames that take longer from now on show more. That is no cost of the swap.
 		Cost = std::clamp(FirstDuration - Duration, FSeconds(0.0), Cost);
 	}
 	Usual[UsualCount++ % Usual.size()] = Duration;
@@ -61,11 +62,11 @@ bool FSwapPacer::MayLink(FTime Now, const FSwap& Swap) const
 	if (!bKnown || Share >= 1.0) { return true; }
 	if (bSwapped || !Firsts.empty())
 	{
-		return false; // what the swap before has cost is not known yet
+		return false; // the cost of the swap before is not known yet
 	}
 	const FSeconds Wait = Cost * (1.0 / Share - 1.0);
 	if (Now - SwapEnd < Wait) { return false; }
-	// By its size; a pipeline that was small is no good measure of one that is hundreds of times as large.
+	// The cost is taken to grow with the size, within limits: a small pipeline is no measure of one a hundred times as large.
 	constexpr double MostGrowth = 16.0;
 	const double Growth = double(Swap.InUse + Swap.New) / double(std::max<size_t>(Swap.InUse, 1));
 	const FSeconds Expected = Cost * std::min(Growth, MostGrowth);

@@ -1,4 +1,4 @@
-// Compute pipelines by shader and defines, compiled on first use and kept.
+// Compute pipelines by shader and defines. Each is compiled when it is first asked for, and kept.
 #pragma once
 
 #include <map>
@@ -11,16 +11,16 @@
 namespace Lantern
 {
 
-/// One thread at a time.
+/// Threads: one call at a time.
 class FComputePipelines
 {
 public:
 	FComputePipelines(IRTDevice& InDevice, FShaderCompiler& InCompiler) : Device(InDevice), Compiler(InCompiler) {}
-	/// Out lives as long as the cache; its name is the shader's path and the names of its defines. A shader that failed
-	/// to compile fails again without being compiled again.
+	/// Out: the pipeline, which lives as long as this object; null on an error. Its name is the path of the shader, followed by
+	/// its defines. A shader that does not compile fails again without another compile; a shortage of memory is tried again.
 	FRTStatus GetCompute(const FShaderSource& Source, IRTPipeline*& Out);
 	size_t GetCount() const { return Entries.size(); }
-	/// Of all that was asked for, in the order of their names.
+	/// The sources of all pipelines that were asked for, ordered by name.
 	std::vector<FShaderSource> GetSources() const;
 
 private:

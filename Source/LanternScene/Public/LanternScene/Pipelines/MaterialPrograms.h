@@ -1,13 +1,15 @@
-// Material programs: what a material's surface is, as GLSL. The hit groups of each program are made by the RTPSO's
-// compiler (PipelineCompiler.h); the host's raster may use the same text.
+// Material programs: the surface of a material as GLSL. The RTPSO compiler (RTPSOCompiler.h) makes the hit groups of each
+// program. The host's raster may use the same text.
 //
-// A program defines
+// A program defines this function:
 //   FMaterialSurface EvaluateMaterial(FMaterialData M, FMaterialInputs I, uint Override)
-// and may include "Materials/Standard.glsl" and build on its EvaluateStandard. Further, with these macros defined:
-//   MATERIAL_STANDARD_OPACITY  Opacity is the standard's: the alpha test under rays reads no more than that needs
-//   MATERIAL_HAS_ALPHA_TEST    its own test: bool IsHitCutAway(FMaterialRef, FSectionData, uint Primitive, vec2 Barycentrics)
-// Without either, the alpha test evaluates the whole program. Inline ray queries know the standard program alone. Lights are sampled by the standard's emission: a program
-// leaves it as it is on materials that emit.
+// It may include "Materials/Standard.glsl" and build on EvaluateStandard. It may also define one of two macros.
+//   MATERIAL_STANDARD_OPACITY says that the opacity is that of the standard program. The alpha test then reads only what that
+//   needs.
+//   MATERIAL_HAS_ALPHA_TEST says that the program has an alpha test. The signature of the test is
+//   bool IsHitCutAway(FMaterialRef, FSectionData, uint Primitive, vec2 Barycentrics)
+// If neither is defined, the alpha test evaluates the whole program. Inline ray queries use the standard program for all materials.
+// Lights are sampled by the emission of the standard program. A program must leave the emission of materials that emit as it is.
 #pragma once
 
 #include <cstdint>
@@ -21,20 +23,20 @@
 namespace Lantern
 {
 
-/// glTF metallic-roughness, Materials/Standard.glsl. Always there.
+/// The glTF metallic-roughness material, Materials/Standard.glsl. Every FMaterialPrograms begins with it.
 inline constexpr uint32_t StandardProgram = 0;
 inline constexpr const char* StandardProgramName = "Standard";
 
 struct FMaterialProgramDesc
 {
-	std::string Name;             ///< for messages; kept as EscapeText shows it, at most MaxQuotedBytes
+	std::string Name;             ///< for messages; escaped by EscapeText, at most MaxQuotedBytes
 	std::string Path;             ///< GLSL, relative to the shader folders
-	std::string Text;             ///< if not empty: instead of the file; Path then only names it in messages
+	std::string Text;             ///< GLSL that replaces the file, if not empty; Path then only names it in messages
 	std::string IntersectionPath; ///< intersection shader, for procedural geometry; may be empty
 	friend bool operator==(const FMaterialProgramDesc&, const FMaterialProgramDesc&) = default;
 };
 
-/// What a stand-in has to be like.
+/// The kind of hit group that a section needs. A stand-in is of the same class as what it stands in for.
 enum class ERTHitClass : uint8_t
 {
 	Opaque,
@@ -43,7 +45,7 @@ enum class ERTHitClass : uint8_t
 };
 inline constexpr uint32_t HitClassCount = 3;
 
-/// What a section's hit groups are made from: one for each ray type.
+/// What the hit groups of a section are made from. There is one group for each ray type.
 struct FHitProgram
 {
 	uint32_t Program = StandardProgram;
@@ -52,24 +54,25 @@ struct FHitProgram
 	friend auto operator<=>(const FHitProgram&, const FHitProgram&) = default;
 };
 
-/// The programs of a renderer, by index; never removed. Render thread.
+/// The programs of a renderer, by index. None is ever removed.
+/// Threads: the render thread. Descriptions that Share returns are for any thread.
 class FMaterialPrograms
 {
 public:
 	FMaterialPrograms();
 	uint32_t Add(FMaterialProgramDesc Desc);
-	/// The program that is like this, if there is one.
+	/// Returns the program with an equal description, or adds one.
 	uint32_t FindOrAdd(FMaterialProgramDesc Desc);
-	/// The new text is compiled and takes the old one's place when it is ready; if it does not compile, the old one stays.
+	/// Replaces the description. The old shaders stay in use until the new ones are compiled, or for good if those do not compile.
 	void Edit(uint32_t Program, FMaterialProgramDesc Desc);
 	uint32_t GetCount() const { return static_cast<uint32_t>(Entries.size()); }
 	const FMaterialProgramDesc& Get(uint32_t Program) const { return *Entries[Program].Desc; }
-	/// Stays as it is when the program is edited. For other threads.
+	/// Returns a description that later edits do not change, for other threads.
 	const std::shared_ptr<const FMaterialProgramDesc>& Share(uint32_t Program) const { return Entries[Program].Desc; }
-	uint32_t GetRevision(uint32_t Program) const { return Entries[Program].Revision; } ///< changes with each Edit
-	uint64_t GetEdits() const { return Edits; }                                        ///< of all programs so far
+	uint32_t GetRevision(uint32_t Program) const { return Entries[Program].Revision; } ///< rises with each Edit that changes something
+	uint64_t GetEdits() const { return Edits; }                                        ///< sum of all revisions
 
-	/// Shader with Program for its material: "Materials/Material.glsl" is the program's text.
+	/// Returns Shader with Program as its material: the include "Materials/Material.glsl" is the text of the program.
 	FShaderSource MakeSource(FShaderSource Shader, uint32_t Program) const { return MakeSource(std::move(Shader), Get(Program)); }
 	static FShaderSource MakeSource(FShaderSource Shader, const FMaterialProgramDesc& Program);
 

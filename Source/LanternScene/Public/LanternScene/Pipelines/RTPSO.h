@@ -1,6 +1,5 @@
-// The RTPSO: one ray-tracing pipeline for all dispatches of a frame, made of what the scene needs. A scene
-// without alpha-tested materials has no any-hit shader in it; a frame without a pass that shades hits has no
-// closest-hit shader.
+// The RTPSO: one ray-tracing pipeline for all dispatches of a frame. It holds what the scene needs and no more. A scene
+// without alpha-tested materials has no any-hit shader in it; a frame that shades no hits has no closest-hit shader.
 #pragma once
 
 #include <algorithm>
@@ -15,15 +14,15 @@
 namespace Lantern
 {
 
-/// A kind of ray: what it runs where it hits and where it misses. In shaders NAME_RAY and NAME_MISS are its
-/// indices, RAY_TYPES their number. Hit shaders are compiled once for each program: see FMaterialPrograms::MakeSource.
+/// A kind of ray: the shaders that run where it hits and where it misses. Shaders see its indices as NAME_RAY and NAME_MISS,
+/// and the number of ray types as RAY_TYPES. Hit shaders are compiled once for each program: see FMaterialPrograms::MakeSource.
 struct FRayType
 {
 	std::string Name; ///< upper case
 	FShaderSource Miss;
 	std::optional<FShaderSource> ClosestHit;
-	bool bSharedClosestHit = false; ///< it runs nothing of a material's program: one for all opaque ones
-	FShaderSource MaskedAnyHit;
+	bool bSharedClosestHit = false; ///< ClosestHit runs no material program: all opaque hit programs share one group
+	FShaderSource MaskedAnyHit;     ///< the alpha test
 	uint32_t PayloadBytes = 0;
 	friend bool operator==(const FRayType&, const FRayType&) = default;
 };
@@ -32,80 +31,77 @@ struct FRTPSODesc
 {
 	std::vector<FRayType> RayTypes;
 	std::vector<FShaderSource> RayGens;
-	std::vector<FShaderSource> Callables; ///< record i of the table is callable i
+	std::vector<FShaderSource> Callables; ///< callable record i of the shader table runs Callables[i]
 	std::vector<FHitProgram> HitPrograms;
 	friend bool operator==(const FRTPSODesc&, const FRTPSODesc&) = default;
 };
 
-/// All shaders that the description names, each once: programs' own among them.
+/// Lists each shader of the description once, those of material programs included.
 std::vector<FShaderSource> ListShaders(const FRTPSODesc& Desc, const FMaterialPrograms& Programs);
 
 inline constexpr uint32_t NoRayGen = ~0u;
 
+/// What a pipeline runs for a hit program.
 enum class ERTHitState : uint8_t
 {
-	Missing, ///< nothing to run: objects that use it are to be left out of the scene
-	StandIn, ///< a stand-in of its class
-	Ready,
+	Missing, ///< nothing: the scene leaves out objects that use it
+	StandIn, ///< the stand-in of its class
+	Ready,   ///< the program itself
 };
 
-/// What a linked pipeline holds, by group number.
+/// The content of a linked pipeline, by group number.
 struct FRTPSOLayout
 {
 	struct FHit
 	{
 		FHitProgram Program;
 		ERTHitState State = ERTHitState::Missing;
-		std::vector<uint32_t> Groups; ///< by ray type
+		std::vector<uint32_t> Groups; ///< by ray type; empty if missing
 	};
-	std::vector<FShaderSource> RayGens; ///< those that are in it
+	std::vector<FShaderSource> RayGens; ///< by record; a pipeline may have fewer than its description
 	std::vector<uint32_t> RayGenGroups, MissGroups, CallableGroups;
 	std::vector<FHit> Hits;
-	/// By ray type: what stands in for hit programs that are not in Hits. Empty: nothing does.
+	/// By class, then by ray type: the groups that stand in for hit programs which are missing. Empty: there are none.
 	std::array<std::vector<uint32_t>, HitClassCount> StandIns;
-	/// Where a class has no stand-in: the standard program of that class serves, if it is ready.
+	/// The standard program of a class, if it is ready, stands in where the class has no stand-in.
 	bool bStandardServes = false;
-	uint32_t EmptyHitGroup = 0; ///< runs nothing
+	uint32_t EmptyHitGroup = 0; ///< a hit group without shaders
 };
 
-/// An immutable pipeline and its numbering. Lives as long as somebody holds it; what was recorded with it keeps what it
-/// needs.
+/// A linked pipeline and its group numbers, made by FRTPSOCompiler. Lives as long as somebody holds it. A command list keeps
+/// alive what it was recorded with.
+/// Threads: immutable, any number at once.
 class FRTPSO
 {
 public:
 	FRTPSO() = default;
 	FRTPSO(TRTRef<IRTPipeline> InPipeline, FRTPSOLayout InLayout);
 
-	/// Makes one at once, on the calling thread's workers and without libraries: for tests, tools and comparison. Errors
-	/// name shader, file and line.
-	static FRTStatus Create(
-	    IRTDevice& Device, FShaderCompiler& Compiler, const FMaterialPrograms& Programs, const FRTPSODesc& Desc, FRTPSO& Out);
-
 	IRTPipeline* GetPipeline() const { return Pipeline.Get(); }
 	uint32_t GetRayTypeCount() const { return static_cast<uint32_t>(Layout.MissGroups.size()); }
 	uint32_t GetRayGenCount() const { return static_cast<uint32_t>(Layout.RayGenGroups.size()); }
 	uint32_t GetCallableCount() const { return static_cast<uint32_t>(Layout.CallableGroups.size()); }
-	/// Hit programs times ray types.
+	/// Hit programs times ray types, missing ones included.
 	uint32_t GetHitGroupCount() const { return static_cast<uint32_t>(Layout.Hits.size()) * GetRayTypeCount(); }
-	/// Of them, those that are not there yet.
+	/// Hit groups whose program is not compiled yet.
 	uint32_t GetMissingCount() const { return MissingCount; }
-	/// Record of a ray generation shader (as in FRTPSODesc: path and defines) in the table; NoRayGen: not in it.
+	/// Finds the shader-table record of a ray generation shader by path, defines and text, as FRTPSODesc has them. NoRayGen: the
+	/// pipeline does not have it.
 	uint32_t FindRayGen(const FShaderSource& Source) const;
-	/// The same, or else a variant of it: the same path with other defines.
+	/// Finds the record of a ray generation shader as FindRayGen does, or else one with the same path and other defines.
 	uint32_t FindRayGenVariant(const FShaderSource& Source) const;
 	uint32_t RayGenGroup(uint32_t Index) const { return Layout.RayGenGroups[Index]; }
 	uint32_t MissGroup(uint32_t RayType) const { return Layout.MissGroups[RayType]; }
 	uint32_t CallableGroup(uint32_t Index) const { return Layout.CallableGroups[Index]; }
-	/// Its own, or that of what stands in for it; where there is neither, a group that runs nothing. Any thread.
+	/// The group of the program, or else of its stand-in, or else one that runs nothing.
 	uint32_t HitGroup(uint32_t RayType, FHitProgram Program) const { return HitGroups[IndexOf(Program) * GetRayTypeCount() + RayType]; }
 	ERTHitState GetState(FHitProgram Program) const { return States[IndexOf(Program)]; }
-	bool IsStandIn(FHitProgram Program) const { return GetState(Program) == ERTHitState::StandIn; }
 	bool IsMissing(FHitProgram Program) const { return GetState(Program) == ERTHitState::Missing; }
-	/// Differs for every pipeline.
+	/// A number that no other pipeline of the process has.
 	uint64_t GetRevision() const { return Revision; }
 
 private:
-	/// Programs that the pipeline knows nothing of share one entry for each class, at the end.
+	/// Programs that the pipeline does not know share one entry for each class, behind the known ones.
 	uint32_t IndexOf(FHitProgram Program) const
 	{
 		const uint32_t Index = std::min(Program.Program, KnownPrograms) * HitClassCount + static_cast<uint32_t>(Program.Class);
