@@ -1,3 +1,4 @@
+// Frames of a wall of quads, each with a material of its own, while all materials are compiled.
 #include "Bench/BenchPipelineFrames.h"
 
 #include <chrono>

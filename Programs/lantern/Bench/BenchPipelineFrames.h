@@ -22,7 +22,8 @@ struct FHitchRun
 	uint32_t Ready = 0;                ///< materials that are, at the end
 	uint64_t Swaps = 0;                ///< of pipelines, until then
 	double ArrivedSeconds = 0.0;       ///< until then, and the GPU is done
-	/// The same materials, but for a constant: a frame that waits until all are compiled, to its end on the GPU.
+	/// Duration of one frame that waits until all materials are compiled, to its end on the GPU. They differ in one constant
+	/// from those of Compiling.
 	double OnceSeconds = 0.0;
 };
 

@@ -1,3 +1,4 @@
+// Pipelines made whole, from libraries, and by the RTPSO compiler, with the clock around them.
 #include "Bench/BenchPipelineRuns.h"
 
 #include <algorithm>

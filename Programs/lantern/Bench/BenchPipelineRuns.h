@@ -20,7 +20,8 @@ struct FPipelineRun
 	double GetRatio() const { return MedianOf(MonolithicMs) / (MedianOf(LibrariesMs) + MedianOf(LinkMs)); }
 };
 
-/// Both ways begin with the same SPIR-V but for one constant, which neither has seen before; who goes first alternates.
+/// Measures a monolithic pipeline and one from libraries. They begin with equal SPIR-V, but for a constant that no driver has
+/// seen before. Which of the two goes first alternates.
 FRTStatus MeasurePipelineRun(IRTDevice& Device, FShaderCompiler& Compiler, uint32_t Groups, uint32_t Repetitions, FPipelineRun& Run);
 
 struct FIncrementalRun

@@ -1,3 +1,4 @@
+// The tables and the JSON of lantern bench rtpso.
 #include "Bench/BenchPipelines.h"
 
 #include <algorithm>

@@ -54,7 +54,7 @@ uint32_t GetThreadCount()
 
 ERTFallback GetPipelineFallback() { return static_cast<ERTFallback>(CVarFallback.GetOnRenderThread()); }
 
-/// Threads: the render thread, one call at a time. What lies behind Mutex is shared with the threads of FRTPSOThreads.
+/// Threads: the render thread, one call at a time. Members guarded by Mutex are shared with the threads of FRTPSOThreads.
 struct FRTPSOCompiler::FImpl
 {
 	/// A frame that was submitted, or that is done.
@@ -79,7 +79,7 @@ struct FRTPSOCompiler::FImpl
 	FRTPSOCompilerStats Known;
 	std::vector<FFrameEvent> FrameEvents; ///< those that the pacer has not been told
 	const FUnitCompiler UnitCompiler;
-	std::mutex Mutex;          ///< never held during a call of glslang, of the driver's compiler, or of the file system
+	std::mutex Mutex;          ///< never held during a call of the driver, of glslang, or of the file system
 	FRTPSOScheduler Scheduler; ///< guarded by Mutex
 	FRTPSOThreads Threads;     ///< last: its end joins them
 };
@@ -167,7 +167,7 @@ FRTPSOCompiler::~FRTPSOCompiler() = default;
 
 void FRTPSOCompiler::Update(const FRTPSODesc& Wanted)
 {
-	// A thread of lower priority may be kept from running while it holds the lock: then this frame goes on without.
+	// A thread of lower priority may be kept from running while it holds the lock. This frame then goes on without an update.
 	const std::unique_lock Lock(Impl->Mutex, std::try_to_lock);
 	if (!Lock.owns_lock() || Impl->Scheduler.IsLost()) { return; }
 	Impl->Begin(Wanted, false);

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "Pipelines/RTPSOFailureLog.h"
-#include "Pipelines/RTPSOLinks.h"
+#include "Pipelines/RTPSOLinkState.h"
 #include "Pipelines/RTPSORound.h"
 #include "Pipelines/SwapPacer.h"
 
@@ -55,10 +55,11 @@ public:
 	void Advance();
 	void SetPriorities(std::vector<FProgramPriority> ByProgram) { Units.SetPriorities(std::move(ByProgram)); }
 	FSwapPacer& GetPacer() { return Pacer; }
+	/// Has the background thread look for edited shader files.
 	void AskForEdits();
 
 	// ---- The render thread, in FRTPSOCompiler::Finish
-	/// Whether everything in Desc of BeginFrame was compiled and linked by an earlier Finish. Else begins that.
+	/// True: an earlier Finish has compiled and linked everything that BeginFrame wants. False: the work begins.
 	bool BeginFinish();
 	/// Compiles what is missing, without a deadline. True: all wanted units are settled, or there is a fatal error.
 	bool AdvanceUnits();
@@ -86,7 +87,7 @@ public:
 	const FRTPSOUnitSet& GetUnits() const { return Units; }
 	const std::shared_ptr<const FRTPSO>& GetCurrent() const { return Links.GetCurrent().Pipeline; }
 	bool IsLinkUnderWay() const { return Links.IsUnderWay(); }
-	bool IsLost() const { return Lost.has_value(); } ///< the device is
+	bool IsLost() const { return Lost.has_value(); } ///< the device is lost
 	FRTStatus FindFatalError() const { return Lost ? *Lost : Units.FindFatalError(); }
 	uint64_t GetResultCount() const { return Results; } ///< compiles, links and looks for edits that have ended
 	void Count(FRTPSOCompilerStats& Out) const;
@@ -108,7 +109,7 @@ private:
 	FRTPSOSettings Settings;
 	FRTPSOUnitSet Units;
 	FCompileRound Round;
-	FRTPSOLinks Links;
+	FRTPSOLinkState Links;
 	FSwapPacer Pacer;
 	FTrash Trash;
 	FRTPSOFailureLog Failures;
@@ -118,7 +119,7 @@ private:
 	uint64_t Results = 0;
 	uint64_t RetryFrame = 0;  ///< when to try again what failed for want of memory; 0: nothing did
 	bool bDirty = false;      ///< there may be something to compile or to link
-	bool bNoDeadline = false; ///< of the round, while Finish waits for it
+	bool bNoDeadline = false; ///< rounds have none while Finish waits for them
 	bool bFinished = false;   ///< the current pipeline is all that the newest Finish could make of what is wanted
 	bool bHeld = false;       ///< programs are ready to be linked, but the pacer has them wait
 	FSwapPacer::FSwap HeldSwap;

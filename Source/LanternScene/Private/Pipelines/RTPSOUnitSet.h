@@ -103,7 +103,7 @@ public:
 	/// Lets units that failed for want of memory be compiled again at once.
 	void ForgetShortages();
 
-	/// Units whose files can be compared, for LookForEdits on a thread without the lock.
+	/// Lists all settled units, for a thread that compares their files without the lock.
 	std::vector<FUnitLook> ListSettled() const;
 	/// Wants Edited compiled anew, where no newer version has come meanwhile. True: there is any.
 	bool Reload(const std::vector<FUnitLook>& Edited);

@@ -21,7 +21,7 @@ struct FLinkedRTPSO
 
 /// At most one link at a time: Ask, Begin, End, Take.
 /// Threads: the caller holds the lock of the RTPSO compiler. Begin and End are for the background thread, the rest is for any.
-class FRTPSOLinks
+class FRTPSOLinkState
 {
 public:
 	bool IsIdle() const { return State == EState::Idle; }

@@ -1,5 +1,5 @@
 // The states of a link, and which of the pipelines before it are kept.
-#include "Pipelines/RTPSOLinks.h"
+#include "Pipelines/RTPSOLinkState.h"
 
 #include <algorithm>
 #include <cassert>
@@ -8,7 +8,7 @@
 namespace Lantern
 {
 
-bool FRTPSOLinks::Ask(FLinkPlan Plan, bool bExact)
+bool FRTPSOLinkState::Ask(FLinkPlan Plan, bool bExact)
 {
 	assert(IsIdle() && Plan.bComplete);
 	const auto Found = std::find_if(Recent.begin(), Recent.end(), [&](const FLinkedRTPSO& Entry) { return Entry.Plan.Key == Plan.Key; });
@@ -26,14 +26,14 @@ bool FRTPSOLinks::Ask(FLinkPlan Plan, bool bExact)
 	return true;
 }
 
-FLinkPlan FRTPSOLinks::Begin()
+FLinkPlan FRTPSOLinkState::Begin()
 {
 	assert(IsAsked());
 	State = EState::Linking;
 	return std::exchange(AskedPlan, {});
 }
 
-void FRTPSOLinks::End(const FRTStatus& Result, std::shared_ptr<const FRTPSO> Pipeline, FLinkPlan Plan, uint64_t Frame)
+void FRTPSOLinkState::End(const FRTStatus& Result, std::shared_ptr<const FRTPSO> Pipeline, FLinkPlan Plan, uint64_t Frame)
 {
 	assert(State == EState::Linking && Result.IsOk() == (Pipeline != nullptr));
 	State = EState::Done;
@@ -42,7 +42,7 @@ void FRTPSOLinks::End(const FRTStatus& Result, std::shared_ptr<const FRTPSO> Pip
 	else if (Result.Code != ERTResult::DeviceLost) { FailedKey = std::move(Plan.Key); }
 }
 
-bool FRTPSOLinks::Take(uint64_t Frame)
+bool FRTPSOLinkState::Take(uint64_t Frame)
 {
 	assert(IsDone());
 	State = EState::Idle;
@@ -53,7 +53,7 @@ bool FRTPSOLinks::Take(uint64_t Frame)
 	return true;
 }
 
-void FRTPSOLinks::RetireCurrent(uint64_t Frame)
+void FRTPSOLinkState::RetireCurrent(uint64_t Frame)
 {
 	if (!Current.Pipeline) { return; }
 	Current.LastUsed = Frame;
@@ -70,7 +70,7 @@ void FRTPSOLinks::RetireCurrent(uint64_t Frame)
 	Recent.pop_back();
 }
 
-void FRTPSOLinks::DropRetired(uint64_t Frame, FTrash& Trash)
+void FRTPSOLinkState::DropRetired(uint64_t Frame, FTrash& Trash)
 {
 	constexpr uint64_t HeldFrames = 4;
 	for (; !Retired.empty() && Frame - Retired.front().LastUsed > HeldFrames; Retired.pop_front())
@@ -79,7 +79,7 @@ void FRTPSOLinks::DropRetired(uint64_t Frame, FTrash& Trash)
 	}
 }
 
-void FRTPSOLinks::DropOld(uint64_t Frame, uint64_t KeepFrames, FTrash& Trash)
+void FRTPSOLinkState::DropOld(uint64_t Frame, uint64_t KeepFrames, FTrash& Trash)
 {
 	for (; !Recent.empty() && Frame - Recent.back().LastUsed > KeepFrames; Recent.pop_back()) { Trash.Discard(std::move(Recent.back())); }
 }
