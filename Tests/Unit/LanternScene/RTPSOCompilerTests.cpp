@@ -239,6 +239,27 @@ TEST_F(FPipelineCompilerTest, LinkThatFailsIsToldOnceAndTheOldOneStays)
 	Until([&] { return IsReady(Opaque(Moss)); });
 }
 
+TEST_F(FPipelineCompilerTest, FinishMissesNoResultThatComesWhileItReportsProgress)
+{
+	AddProgram("Rust");
+	Device->Close("Rust");
+	bool bOpened = false;
+	const auto Progress = [&](float) {
+		if (std::exchange(bOpened, true)) { return; }
+		const auto IsReadyBut = [&](uint32_t Missing) {
+			const FRTPSOCompilerStats& Stats = Maker->GetStats();
+			return Stats.Wanted > 0 && Stats.Ready + Missing == Stats.Wanted;
+		};
+		EXPECT_TRUE(WaitUntil("all units but one", [&] { return IsReadyBut(1); }));
+		Device->Open();
+		EXPECT_TRUE(WaitUntil("the last unit", [&] { return IsReadyBut(0); }));
+	};
+	const FHangGuard Guard("the end of Finish, once all units are compiled", [&] { Maker->Reload(); });
+	ASSERT_TRUE(Maker->Finish(Wanted, Progress));
+	EXPECT_TRUE(bOpened);
+	EXPECT_EQ(Maker->GetCurrent()->GetMissingCount(), 0u);
+}
+
 TEST_F(FPipelineCompilerTest, EditedFilesAreNoticedByReload)
 {
 	Folder.Write("Materials/Rust.glsl", "#include \"Shared.glsl\"\nfloat Value() { return Shared(); }\n");

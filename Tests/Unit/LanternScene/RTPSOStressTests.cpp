@@ -1,5 +1,6 @@
-// The RTPSO compiler under bad conditions: hundreds of programs arriving while frames go on, some never ready; every console
-// variable changed in every frame; an end, or a lost device, in the middle of a compile. And never a wrong record.
+// The RTPSO compiler under bad conditions. Hundreds of programs arrive while frames go on, and some are never ready. Every
+// console variable changes in every frame. The end, or the loss of the device, comes in the middle of a compile. No frame may
+// ever see a wrong record.
 #include <chrono>
 #include <random>
 #include <thread>

@@ -1,6 +1,6 @@
-// The RTPSO compiler on a device whose first frame with a new pipeline takes long: how many swaps many programs need, and how
-// much of the time they take. Time passes with the test's frames only, and a program is compiled in each, so that the figures
-// are those of any machine.
+// The RTPSO compiler on a device whose first frame with a new pipeline takes long. The tests count the swaps that many
+// programs need, and the share of the time that swaps take. Time passes with the test's frames only, and one program is
+// compiled in each, so that the figures are those of any machine.
 #include <atomic>
 
 #include <fmt/format.h>
@@ -69,7 +69,7 @@ protected:
 		SwapTime = WorstShare = 0.0;
 	}
 
-	/// Count programs, of which one is compiled in each frame, until all are in use. bStream: one is asked for in each frame;
+	/// Runs frames until Count new programs are in use. One is compiled in each frame. bStream: one is asked for in each frame,
 	/// else all at once.
 	void Arrive(uint32_t Count, bool bStream = false)
 	{

@@ -1,5 +1,5 @@
-// For the tests of the RTPSO compiler: a device whose compiles the test holds up and lets go, small programs, and what the
-// records of a pipeline run.
+// Tools for tests of the RTPSO compiler: a device whose compiles the test holds up, small programs, and the shaders that
+// records run.
 #pragma once
 
 #include <condition_variable>
@@ -48,7 +48,7 @@ public:
 		}
 		Opened.notify_all();
 	}
-	/// What Close(Part) has closed.
+	/// Lets pipelines go that Close(Part) holds.
 	void Open(const std::string& Part)
 	{
 		{
@@ -57,7 +57,7 @@ public:
 		}
 		Opened.notify_all();
 	}
-	/// Names of what the driver was asked for, in the order in which it was.
+	/// Names of the pipelines that the driver was asked for, in that order.
 	std::vector<std::string> GetAsked() const
 	{
 		const std::lock_guard Lock(Mutex);
@@ -215,12 +215,13 @@ protected:
 		};
 		ASSERT_TRUE(WaitUntil(What, Condition, Frame, [&] { return DescribeProgress(); }));
 	}
-	/// The same without frames.
+	/// Waits without frames until Condition holds.
 	void WaitFor(const std::function<bool()>& Condition, const char* What = "the pipeline compiler, without frames")
 	{
 		ASSERT_TRUE(WaitUntil(What, Condition, {}, [&] { return DescribeProgress(); }));
 	}
-	/// In several frames running: one that finds the compiler's lock taken starts nothing, and looks as idle as before.
+	/// Waits until the compiler is idle in several frames running. A frame that finds its lock taken starts nothing, and looks as
+	/// idle as before.
 	void UntilIdle()
 	{
 		constexpr int Running = 4;
@@ -231,7 +232,7 @@ protected:
 		};
 		Until(IsIdle, "the pipeline compiler to be idle");
 	}
-	/// Of an idle compiler: while its lock is taken, GetStats has old figures, and says that it is busy.
+	/// Returns the figures of an idle compiler. While its lock is taken, GetStats has old figures and says that it is busy.
 	FRTPSOCompilerStats GetIdleStats()
 	{
 		FRTPSOCompilerStats Stats;
@@ -259,7 +260,7 @@ protected:
 		ASSERT_TRUE(Status) << Status.Message;
 		ASSERT_TRUE(Maker->GetCurrent());
 	}
-	/// What a hit record of Program runs.
+	/// Returns the shaders that a hit record of Program runs.
 	FRTMockRecord ResolveHit(const FRTPSO& Pipeline, uint32_t RayType, FHitProgram Program)
 	{
 		return ResolveGroup(Pipeline, ERTRecordKind::Hit, Pipeline.HitGroup(RayType, Program));
