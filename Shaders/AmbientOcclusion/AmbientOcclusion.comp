@@ -1,3 +1,4 @@
+// Ambient occlusion by inline ray query.
 #version 460
 #extension GL_EXT_ray_query : require
 #include "AmbientOcclusion.glsl"
@@ -5,9 +6,9 @@
 
 layout(local_size_x = RAY_QUERY_GROUP_SIZE, local_size_y = RAY_QUERY_GROUP_SIZE) in;
 
-bool TraceOcclusion(vec3 Origin, vec3 Direction, float Length)
+bool IsUnoccluded(vec3 Origin, vec3 Direction, float Length)
 {
-	return QueryBlocker(FSceneRef(Push.Pass.Scene).Data, 0u, Push.InstanceMask, Origin, Direction, Length) < 0.0;
+	return QueryBlockerDistance(FSceneRef(Push.Pass.Scene).Data, 0u, Push.InstanceMask, Origin, Direction, Length) < 0.0;
 }
 
-void main() { ShadePixel(gl_GlobalInvocationID.xy); }
+void main() { TracePixel(gl_GlobalInvocationID.xy); }

@@ -1,6 +1,6 @@
-// What the pipeline and the ray-query path share: which rays a pixel casts. The includer defines
-//   bool TraceOcclusion(vec3 Origin, vec3 Direction, float Length)   true: nothing is in the way
-// ONE_SAMPLE: SamplesPerPixel is known to be 1. Without the loop nothing but the pixel lives across the trace.
+// Ambient occlusion of a pixel; the ray-tracing pipeline and the ray-query path share it. The includer defines
+//   bool IsUnoccluded(vec3 Origin, vec3 Direction, float Length)   true: the ray hits nothing
+// ONE_SAMPLE: SamplesPerPixel is known to be 1. Without the loop, only the pixel's coordinates stay live across the trace.
 #ifndef LANTERN_AMBIENT_OCCLUSION_PASS_GLSL
 #define LANTERN_AMBIENT_OCCLUSION_PASS_GLSL
 
@@ -12,7 +12,7 @@
 
 layout(push_constant, scalar) uniform FPush { FAmbientOcclusionConstants Push; };
 
-bool TraceOcclusion(vec3 Origin, vec3 Direction, float Length);
+bool IsUnoccluded(vec3 Origin, vec3 Direction, float Length);
 
 #ifdef ONE_SAMPLE
 const uint SamplesPerPixel = 1u;
@@ -20,7 +20,7 @@ const uint SamplesPerPixel = 1u;
 #define SamplesPerPixel Push.SamplesPerPixel
 #endif
 
-void ShadePixel(uvec2 Pixel)
+void TracePixel(uvec2 Pixel)
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	if (any(greaterThanEqual(Pixel, uvec2(View.Width, View.Height)))) { return; }
@@ -32,19 +32,19 @@ void ShadePixel(uvec2 Pixel)
 	}
 	vec4 Normals = texelFetch(Textures[Push.Normals], ivec2(Pixel), 0);
 	vec3 N = OctDecode(Normals.xy), Ng = OctDecode(Normals.zw);
-	vec3 Relative = RelativePositionFromDepth(View, Pixel, Depth);
-	vec3 Origin = RasterRayOrigin(FSceneRef(Push.Pass.Scene).Data, View, Relative, Ng);
-	float Visible = 0.0;
-	// Another stream than the sun shadow's, and of its own for the length: two of Sobol's dimensions serve the direction.
+	vec3 CameraRelative = RelativePositionFromDepth(View, Pixel, Depth);
+	vec3 Origin = RasterRayOrigin(FSceneRef(Push.Pass.Scene).Data, View, CameraRelative, Ng);
+	float VisibleSamples = 0.0;
+	// The seed differs from the sun shadow's, and the length has a seed of its own: the direction takes both Sobol dimensions.
 	uint Seed = HashPcg(HashPcg(Pixel.x + HashPcg(Pixel.y + HashPcg(View.Seed))) + 1u), LengthSeed = HashPcg(Seed);
 	for (uint Sample = 0; Sample < SamplesPerPixel; ++Sample)
 	{
 		uint Index = View.FrameIndex * SamplesPerPixel + Sample;
 		vec3 Direction = SampleOcclusionDirection(N, SobolOwen2(Index, Seed));
 		float Length = SampleOcclusionLength(SobolOwen2(Index, LengthSeed).x, Push.Radius);
-		if (dot(Ng, Direction) > 0.0 && TraceOcclusion(Origin, Direction, Length)) { Visible += 1.0; }
+		if (dot(Ng, Direction) > 0.0 && IsUnoccluded(Origin, Direction, Length)) { VisibleSamples += 1.0; }
 	}
-	imageStore(Images[Push.Output], ivec2(Pixel), vec4(Visible / float(SamplesPerPixel)));
+	imageStore(Images[Push.Output], ivec2(Pixel), vec4(VisibleSamples / float(SamplesPerPixel)));
 }
 
 #endif

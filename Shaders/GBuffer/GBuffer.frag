@@ -1,3 +1,4 @@
+// The fragment shader of the G-buffer. MASKED: with the alpha test. MOTION: also writes motion vectors.
 #version 460
 #define MATERIAL_IMPLICIT_LOD
 #include "../Shared/GBufferTypes.h"
@@ -43,7 +44,7 @@ void main()
 #ifdef MASKED
 	if (Surface.Opacity < Material.AlphaCutoff) { discard; }
 #endif
-	// Both normals towards the camera, as the hit shaders do.
+	// Turns both normals towards the camera, as the hit shaders do.
 	if (dot(Ng, InRelative) > 0.0) { Ng = -Ng; }
 	bool bMirrored = (FObjectRef(Scene.Objects).Data[InObject].Flags & OBJECT_MIRRORED) != 0u;
 	if (gl_FrontFacing == bMirrored) { Surface.Normal = -Surface.Normal; }
@@ -53,6 +54,6 @@ void main()
 	OutMaterial = vec4(Surface.Roughness, Surface.Occlusion, sqrt(Surface.F0), Surface.Specular);
 	OutEmissive = vec4(Surface.Emissive, 0.0);
 #ifdef MOTION
-	OutMotion = vec4(MotionOf(FViewRef(Push.Pass.View).Data, InRelative, InPreviousRelative), float(InObject + 1u));
+	OutMotion = vec4(ComputeMotion(FViewRef(Push.Pass.View).Data, InRelative, InPreviousRelative), float(InObject + 1u));
 #endif
 }

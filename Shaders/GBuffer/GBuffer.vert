@@ -1,3 +1,4 @@
+// The vertex shader of the G-buffer. MOTION: also outputs the previous position.
 #version 460
 #include "../Shared/GBufferTypes.h"
 #include "../Library/VertexFetch.glsl"
@@ -15,30 +16,31 @@ layout(location = 6) flat out uint OutSection;
 layout(location = 7) out vec3 OutPreviousRelative; // to the previous camera
 #endif
 
-// Half a unit in the last place of what lies 512 m from its cell's centre is 0.015 mm, which motion vectors of a surface seen
-// edge-on show. FObjectData::Flags has the rest of the translation, in units of 2^-25 m.
-vec3 TranslationRest(uint Flags)
+// Unpacks what rounding to fp32 took from an object's translation; FObjectData::Flags holds it in units of 2^-25 m. Without
+// it, an object 512 m from its cell's centre is off by up to 0.015 mm, which shows in motion vectors of edge-on surfaces.
+vec3 UnpackTranslationRemainder(uint Flags)
 {
 	int Packed = int(Flags);
 	return vec3(bitfieldExtract(Packed, 2, 10), bitfieldExtract(Packed, 12, 10), bitfieldExtract(Packed, 22, 10)) * (1.0 / 33554432.0);
 }
 
-// The sum of the large, which nearly cancel out near the origin, comes first, as it does in instances.
-vec3 MakeRelative(vec4 ObjectToWorld[3], vec3 Cell, uint Flags, vec3 Position, vec3 Camera)
+// Large terms are added first, as in the instances of the acceleration structure: near the origin they nearly cancel out.
+// CellOffset: of the object's cell, from the scene's origin.
+vec3 CameraRelativePosition(vec4 ObjectToWorld[3], vec3 CellOffset, uint Flags, vec3 Position, vec3 Camera)
 {
 	vec3 Translation = vec3(ObjectToWorld[0].w, ObjectToWorld[1].w, ObjectToWorld[2].w);
-	vec3 Place = (Cell + Translation) - Camera + TranslationRest(Flags);
-	return Place + vec3(dot(ObjectToWorld[0].xyz, Position), dot(ObjectToWorld[1].xyz, Position), dot(ObjectToWorld[2].xyz, Position));
+	vec3 ObjectOrigin = (CellOffset + Translation) - Camera + UnpackTranslationRemainder(Flags);
+	return ObjectOrigin + vec3(dot(ObjectToWorld[0].xyz, Position), dot(ObjectToWorld[1].xyz, Position), dot(ObjectToWorld[2].xyz, Position));
 }
 
 #ifdef MOTION
-vec3 MakePreviousRelative(FSceneConstants Scene, FViewConstants View, FObjectData Object, vec3 Position, vec3 Relative)
+vec3 PreviousCameraRelativePosition(FSceneConstants Scene, FViewConstants View, FObjectData Object, vec3 Position, vec3 Relative)
 {
 	if (View.bHistory == 0u) { return Relative; }
 	if (Object.Motion == NO_MOTION) { return Relative + View.CameraMotion; }
 	FObjectMotion Motion = FObjectMotionRef(Scene.ObjectMotions).Data[Object.Motion];
 	if (Motion.PreviousPositions != 0ul) { Position = FPositionRef(Motion.PreviousPositions).Data[gl_VertexIndex]; }
-	return MakeRelative(Motion.PreviousObjectToWorld, CellOffset(Scene, Motion.PreviousCell), Motion.PreviousFlags, Position, View.CameraPosition) + View.CameraMotion;
+	return CameraRelativePosition(Motion.PreviousObjectToWorld, CellOffset(Scene, Motion.PreviousCell), Motion.PreviousFlags, Position, View.CameraPosition) + View.CameraMotion;
 }
 #endif
 
@@ -51,13 +53,13 @@ void main()
 	FSectionData Section = FSectionRef(Scene.Sections).Data[OutSection];
 	vec3 Position = FPositionRef(Section.Positions).Data[gl_VertexIndex];
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
-	FMaterialInputs Inputs = InputsFromVertex(FAttributeRef(Section.Attributes).Data[gl_VertexIndex], Section.Flags);
+	FMaterialInputs Inputs = UnpackVertex(FAttributeRef(Section.Attributes).Data[gl_VertexIndex], Section.Flags);
 
 	mat3 Linear = transpose(mat3(Object.ObjectToWorld[0].xyz, Object.ObjectToWorld[1].xyz, Object.ObjectToWorld[2].xyz));
-	OutRelative = MakeRelative(Object.ObjectToWorld, CellOffset(Scene, Object.Cell), Object.Flags, Position, View.CameraPosition);
-	// Cofactors: the inverse transpose up to a positive factor, times the determinant's sign.
+	OutRelative = CameraRelativePosition(Object.ObjectToWorld, CellOffset(Scene, Object.Cell), Object.Flags, Position, View.CameraPosition);
+	// The cofactor matrix is the inverse transpose times the determinant.
 	mat3 Cofactors = mat3(cross(Linear[1], Linear[2]), cross(Linear[2], Linear[0]), cross(Linear[0], Linear[1]));
-	// A mirror turns cross products around: the normal keeps the object's outside, the bitangent its direction.
+	// Mirroring flips cross products. The normal keeps pointing to the object's outside; the bitangent keeps its direction.
 	float Handedness = (Object.Flags & OBJECT_MIRRORED) != 0u ? -1.0 : 1.0;
 	OutNormal = Cofactors * Inputs.Normal * Handedness;
 	OutTangent = vec4(Linear * Inputs.Tangent.xyz, Inputs.Tangent.w * Handedness);
@@ -65,6 +67,6 @@ void main()
 	OutColor = Inputs.Color;
 	gl_Position = View.RelativeToClip * vec4(OutRelative, 1.0);
 #ifdef MOTION
-	OutPreviousRelative = MakePreviousRelative(Scene, View, Object, Position, OutRelative);
+	OutPreviousRelative = PreviousCameraRelativePosition(Scene, View, Object, Position, OutRelative);
 #endif
 }

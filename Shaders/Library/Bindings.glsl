@@ -1,4 +1,4 @@
-// The bindless set and typed access to memory; the same for every shader (see RTInterfaces.h).
+// The bindless descriptor set and typed buffer references. Every shader uses this one layout (see RTInterfaces.h).
 #ifndef LANTERN_BINDINGS_GLSL
 #define LANTERN_BINDINGS_GLSL
 
@@ -28,7 +28,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FPo
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FAttributeRef { FVertexAttributes Data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FIndexRef { uint Data[]; };
 
-// From the scene's origin to the centre of a cell: exact, and so is the sum with a translation of like size and other sign.
+// Returns the offset from the scene's origin to the centre of Cell, in metres. It is exact in fp32; so is its sum with a
+// translation of similar size and opposite sign.
 vec3 CellOffset(FSceneConstants Scene, ivec3 Cell) { return vec3(Cell - Scene.OriginCell) * CELL_SIZE - Scene.OriginInCell; }
 
 #endif

@@ -1,5 +1,7 @@
 // The glTF 2.0 material model (Khronos, glTF 2.0 specification, appendix B): a Lambert base under a dielectric
-// GGX layer, mixed with a metal by metalness. Height-correlated Smith masking (Heitz 2014), α = roughness².
+// GGX layer, mixed with a metal by metalness. Masking is height-correlated Smith (Heitz 2014), with α = roughness².
+// Naming: V points to the viewer, L to the light, H is their half vector; the functions take them in the local frame whose
+// +z is the shading normal. U holds uniform random numbers in [0, 1). "Pdf" is a probability density over solid angle.
 #ifndef LANTERN_BRDF_GLSL
 #define LANTERN_BRDF_GLSL
 
@@ -10,42 +12,44 @@ struct FBrdf
 	vec3 BaseColor;
 	float Metallic;
 	float Alpha;    // roughness²
-	float F0;       // of the dielectric
-	float Specular; // weight of the dielectric's layer
-	float Diffuse;  // weight of the base below it: 1; 0: the specular lobe alone
+	float F0;       // reflectance of the dielectric at normal incidence
+	float Specular; // weight of the dielectric layer
+	float Diffuse;  // weight of the Lambert base: 1, or 0 for the specular lobe alone
 };
 
-// Below this a lobe is a delta: fp32 cannot resolve it, and a mirror is not a very smooth rough surface.
+// A lobe with a smaller Alpha is treated as a delta (a perfect mirror), since fp32 cannot resolve it.
 const float MinAlpha = 1.0e-3;
 
-bool IsMirror(FBrdf B) { return B.Alpha < MinAlpha; }
+bool IsMirror(FBrdf Brdf) { return Brdf.Alpha < MinAlpha; }
 
 float SchlickWeight(float CosTheta)
 {
-	float M = clamp(1.0 - CosTheta, 0.0, 1.0);
-	return (M * M) * (M * M) * M;
+	float Base = clamp(1.0 - CosTheta, 0.0, 1.0);
+	return (Base * Base) * (Base * Base) * Base;
 }
 
-float DielectricFresnel(FBrdf B, float VdotH) { return B.Specular * mix(B.F0, 1.0, SchlickWeight(VdotH)); }
+float DielectricFresnel(FBrdf Brdf, float VdotH) { return Brdf.Specular * mix(Brdf.F0, 1.0, SchlickWeight(VdotH)); }
 
-// Fresnel of the whole specular lobe, metal and dielectric.
-vec3 SpecularFresnel(FBrdf B, float VdotH)
+// Returns the Fresnel reflectance of the whole specular lobe, metal and dielectric.
+vec3 SpecularFresnel(FBrdf Brdf, float VdotH)
 {
-	vec3 Metal = mix(B.BaseColor, vec3(1.0), SchlickWeight(VdotH));
-	return mix(vec3(DielectricFresnel(B, VdotH)), Metal, B.Metallic);
+	vec3 Metal = mix(Brdf.BaseColor, vec3(1.0), SchlickWeight(VdotH));
+	return mix(vec3(DielectricFresnel(Brdf, VdotH)), Metal, Brdf.Metallic);
 }
 
-vec3 DiffuseAlbedo(FBrdf B) { return B.BaseColor * ((1.0 - B.Metallic) * B.Diffuse); }
+vec3 DiffuseAlbedo(FBrdf Brdf) { return Brdf.BaseColor * ((1.0 - Brdf.Metallic) * Brdf.Diffuse); }
 
-// A white Lambert: what it reflects is irradiance / π.
+// Makes a white Lambert surface, which reflects irradiance / π.
 FBrdf MakeWhiteLambert() { return FBrdf(vec3(1.0), 0.0, 1.0, 0.0, 0.0, 1.0); }
-FBrdf MakeSpecularLobe(FBrdf B)
+
+// Removes the diffuse lobe.
+FBrdf MakeSpecularLobe(FBrdf Brdf)
 {
-	B.Diffuse = 0.0;
-	return B;
+	Brdf.Diffuse = 0.0;
+	return Brdf;
 }
 
-// A shading normal that faces away from the viewer is bent back to grazing.
+// Bends a shading normal that faces away from the viewer back to grazing.
 vec3 BendNormal(vec3 N, vec3 V)
 {
 	float NdotV = dot(N, V);
@@ -54,130 +58,125 @@ vec3 BendNormal(vec3 N, vec3 V)
 
 float GgxDistribution(float NdotH, float Alpha)
 {
-	float A2 = Alpha * Alpha;
-	// 1 − n·h² would cancel near the peak of a narrow lobe.
-	float D = (NdotH * A2 - NdotH) * NdotH + 1.0;
-	return A2 / (Pi * D * D);
+	float AlphaSquared = Alpha * Alpha;
+	// The form 1 − n·h² would cancel near the peak of a narrow lobe.
+	float D = (NdotH * AlphaSquared - NdotH) * NdotH + 1.0;
+	return AlphaSquared / (Pi * D * D);
 }
 
-// G2 / (4 n·l n·v), height-correlated.
+// Returns G2 / (4 n·l n·v), height-correlated.
 float SmithVisibility(float NdotL, float NdotV, float Alpha)
 {
-	float A2 = Alpha * Alpha;
-	float L = NdotV * sqrt(NdotL * NdotL * (1.0 - A2) + A2);
-	float V = NdotL * sqrt(NdotV * NdotV * (1.0 - A2) + A2);
+	float AlphaSquared = Alpha * Alpha;
+	float L = NdotV * sqrt(NdotL * NdotL * (1.0 - AlphaSquared) + AlphaSquared);
+	float V = NdotL * sqrt(NdotV * NdotV * (1.0 - AlphaSquared) + AlphaSquared);
 	return 0.5 / max(L + V, 1.0e-20);
 }
 
-// f · n·l in the frame where the normal is +z. The specular part of a mirror is a delta and not in it.
-vec3 EvaluateBrdfCos(FBrdf B, vec3 V, vec3 L)
+// Returns the BRDF times n·l. The result omits the specular lobe of a mirror, which is a delta.
+vec3 EvaluateBrdfCos(FBrdf Brdf, vec3 V, vec3 L)
 {
 	if (L.z <= 0.0 || V.z <= 0.0) { return vec3(0.0); }
 	vec3 H = V + L;
-	float Length2 = dot(H, H);
-	H = Length2 > 1.0e-16 ? H * inversesqrt(Length2) : vec3(0.0, 0.0, 1.0);
+	float LengthSquared = dot(H, H);
+	H = LengthSquared > 1.0e-16 ? H * inversesqrt(LengthSquared) : vec3(0.0, 0.0, 1.0);
 	float VdotH = clamp(dot(V, H), 0.0, 1.0);
-	vec3 Diffuse = DiffuseAlbedo(B) * ((1.0 - DielectricFresnel(B, VdotH)) / Pi);
+	vec3 Diffuse = DiffuseAlbedo(Brdf) * ((1.0 - DielectricFresnel(Brdf, VdotH)) / Pi);
 	vec3 Specular = vec3(0.0);
-	if (!IsMirror(B))
+	if (!IsMirror(Brdf))
 	{
-		Specular = SpecularFresnel(B, VdotH) * (GgxDistribution(H.z, B.Alpha) * SmithVisibility(L.z, V.z, B.Alpha));
+		Specular = SpecularFresnel(Brdf, VdotH) * (GgxDistribution(H.z, Brdf.Alpha) * SmithVisibility(L.z, V.z, Brdf.Alpha));
 	}
 	return (Diffuse + Specular) * L.z;
 }
 
-// Visible normals, spherical caps (Dupuy & Benyoub 2023), with the cap bounded by what reflects upwards
-// (Eto & Tokuyoshi 2023, "Bounded VNDF Sampling for Smith–GGX Reflections").
+// Samples GGX visible normals with spherical caps (Dupuy & Benyoub 2023). The cap is bounded to normals that reflect upwards
+// (Eto & Tokuyoshi 2023, "Bounded VNDF Sampling for Smith–GGX Reflections"); this is that paper's factor k.
 float BoundedVndfK(vec3 V, float Alpha)
 {
 	float S = 1.0 + length(V.xy);
-	float A2 = Alpha * Alpha, S2 = S * S;
-	return (1.0 - A2) * S2 / (S2 + A2 * V.z * V.z);
+	float AlphaSquared = Alpha * Alpha, S2 = S * S;
+	return (1.0 - AlphaSquared) * S2 / (S2 + AlphaSquared * V.z * V.z);
 }
 
-vec3 SampleGgxHalf(vec3 V, float Alpha, vec2 U)
+vec3 SampleGgxHalfVector(vec3 V, float Alpha, vec2 U)
 {
 	vec3 Stretched = normalize(vec3(V.xy * Alpha, V.z));
 	float Phi = 2.0 * Pi * U.x;
-	float Lower = BoundedVndfK(V, Alpha) * Stretched.z;
-	float Z = fma(1.0 - U.y, 1.0 + Lower, -Lower);
+	float CapBottom = BoundedVndfK(V, Alpha) * Stretched.z;
+	float Z = fma(1.0 - U.y, 1.0 + CapBottom, -CapBottom);
 	float Sin = sqrt(clamp(1.0 - Z * Z, 0.0, 1.0));
 	vec3 H = vec3(Sin * cos(Phi), Sin * sin(Phi), Z) + Stretched;
 	return normalize(vec3(H.xy * Alpha, max(H.z, 1.0e-9)));
 }
 
-// Density of the reflected direction under SampleGgxHalf.
-float GgxDensity(vec3 V, vec3 H, float Alpha)
+// Returns the pdf of the direction that V is reflected to about a sampled half vector H.
+float GgxPdf(vec3 V, vec3 H, float Alpha)
 {
-	vec2 Av = Alpha * V.xy;
-	float Length2 = dot(Av, Av);
-	float T = sqrt(Length2 + V.z * V.z);
+	vec2 StretchedXY = Alpha * V.xy;
+	float LengthSquared = dot(StretchedXY, StretchedXY);
+	float T = sqrt(LengthSquared + V.z * V.z);
 	return GgxDistribution(H.z, Alpha) / (2.0 * (BoundedVndfK(V, Alpha) * V.z + T));
 }
 
-// How often the specular lobe is chosen: by what each lobe reflects at this angle.
-float SpecularProbability(FBrdf B, vec3 V)
+// Returns the probability of sampling the specular lobe, from the luminance that each lobe reflects at this angle.
+float SpecularProbability(FBrdf Brdf, vec3 V)
 {
-	float Specular = Luminance(SpecularFresnel(B, V.z));
-	float Diffuse = Luminance(DiffuseAlbedo(B)) * (1.0 - DielectricFresnel(B, V.z));
+	float Specular = Luminance(SpecularFresnel(Brdf, V.z));
+	float Diffuse = Luminance(DiffuseAlbedo(Brdf)) * (1.0 - DielectricFresnel(Brdf, V.z));
 	if (Specular <= 0.0) { return 0.0; }
 	if (Diffuse <= 0.0) { return 1.0; }
 	return clamp(Specular / (Specular + Diffuse), 0.1, 0.9);
 }
 
-// Density over solid angle of SampleBrdf for L; without a mirror's delta.
-float BrdfDensity(FBrdf B, vec3 V, vec3 L)
+// Returns the pdf with which SampleBrdf samples L. It omits the delta of a mirror.
+float BrdfPdf(FBrdf Brdf, vec3 V, vec3 L)
 {
 	if (L.z <= 0.0 || V.z <= 0.0) { return 0.0; }
-	float P = SpecularProbability(B, V);
-	float Density = (1.0 - P) * L.z / Pi;
-	if (P > 0.0 && !IsMirror(B)) { Density += P * GgxDensity(V, normalize(V + L), B.Alpha); }
-	return Density;
+	float SpecularChance = SpecularProbability(Brdf, V);
+	float Pdf = (1.0 - SpecularChance) * L.z / Pi;
+	if (SpecularChance > 0.0 && !IsMirror(Brdf)) { Pdf += SpecularChance * GgxPdf(V, normalize(V + L), Brdf.Alpha); }
+	return Pdf;
 }
 
-// Means over what arrives at a surface from everywhere alike; for what is known of light as one number.
-//
-// Of the base layer: what it reflects of irradiance / π. Its part is the mean of 1 − F(V·H) over a cosine-weighted
-// hemisphere of L; the mean of (1 − V·H)⁵ is a function of n·v alone, fitted by a cubic (largest error 7e-5).
-vec3 DiffuseReflectance(FBrdf B, float NdotV)
+// Returns the directional albedo of the base layer: the share of irradiance / π that it reflects towards the viewer if the
+// incident light is uniform. The dielectric layer transmits the mean of 1 − F(V·H) over a cosine-weighted hemisphere of L.
+// The mean of (1 − V·H)⁵ depends on n·v alone and is fitted by a cubic (largest error 7e-5).
+vec3 DiffuseReflectance(FBrdf Brdf, float NdotV)
 {
 	float Weight = ((-0.025707 * NdotV + 0.075238) * NdotV - 0.077609) * NdotV + 0.02809;
-	return DiffuseAlbedo(B) * (1.0 - B.Specular * mix(B.F0, 1.0, Weight));
+	return DiffuseAlbedo(Brdf) * (1.0 - Brdf.Specular * mix(Brdf.F0, 1.0, Weight));
 }
 
-// Of the specular lobe. x: with F = 1 everywhere; y: with Schlick's (1 − V·H)⁵ instead, the part that F90 weighs.
+// Returns the directional albedo of the specular lobe. x: with F = 1 everywhere. y: with Schlick's (1 − V·H)⁵ in place of F,
+// the part that F90 weighs.
 //
-// Quotients of polynomials in N·V and roughness, fitted to sums over visible normals (Heitz 2018) at 2,000 places: linear
-// least squares with the denominator of the round before (Sanathanan and Koerner 1963), then Levenberg-Marquardt with weights
-// that follow the error, so that the largest one is what falls. What F0 from 0.04 to 1 makes of them is off by at most 1.7 %
-// for N·V and roughness from 0.05 to 1, by 2.3 % for mirrors, and by 12 % nearer to grazing.
+// These are rational functions of N·V and roughness, fitted to sums over visible normals (Heitz 2018) at 2,000 points. The
+// fit is linear least squares with the denominator of the previous iteration (Sanathanan and Koerner 1963). It is followed
+// by Levenberg-Marquardt with weights that follow the error, which lowers the largest error.
+// Error of the reflectance for F0 from 0.04 to 1: at most 1.7 % for N·V and roughness from 0.05 to 1, 2.3 % for mirrors,
+// and 12 % nearer to grazing.
 vec2 SpecularAlbedo(float NdotV, float Roughness)
 {
 	float X = NdotV, S = sqrt(NdotV), Y = Roughness;
-	float LostTop = 0.324209 + Y * (0.314086 * Y - 0.341756) + X * (3.7826 + 19.138 * Y - 5.01642 * X);
-	float LostBottom = 1.0 + Y * (-10.4645 + Y * (37.0926 - 19.1813 * Y)) +
+	float LossNumerator = 0.324209 + Y * (0.314086 * Y - 0.341756) + X * (3.7826 + 19.138 * Y - 5.01642 * X);
+	float LossDenominator = 1.0 + Y * (-10.4645 + Y * (37.0926 - 19.1813 * Y)) +
 	                   X * (-2.60585 + Y * (-24.5752 + Y * (105.267 - 53.7577 * Y)) + X * (108.714 + Y * (125.498 * Y - 240.747)));
-	float EdgeTop = 1.10756 + Y * (-0.288161 - 0.0524491 * Y) + S * (-1.8583 + 0.480398 * Y + 0.680239 * S);
-	float EdgeBottom = 1.0 + Y * (1.99652 + Y * (12.3659 - 0.898989 * Y)) +
+	float GrazingNumerator = 1.10756 + Y * (-0.288161 - 0.0524491 * Y) + S * (-1.8583 + 0.480398 * Y + 0.680239 * S);
+	float GrazingDenominator = 1.0 + Y * (1.99652 + Y * (12.3659 - 0.898989 * Y)) +
 	                   S * (-1.12204 + Y * (-15.3701 + Y * (26.4931 * Y - 8.94885)) + S * (1.6254 + Y * (20.9912 - 31.6698 * Y)));
-	float All = 1.0 - Y * Y * LostTop / LostBottom;
-	return vec2(All, min((1.0 - X) * (1.0 - X) * EdgeTop / EdgeBottom, All));
+	float Albedo = 1.0 - Y * Y * LossNumerator / LossDenominator;
+	return vec2(Albedo, min((1.0 - X) * (1.0 - X) * GrazingNumerator / GrazingDenominator, Albedo));
 }
 
-// F90 is the specular weight for dielectrics and 1 for metals.
-vec3 SpecularReflectance(FBrdf B, float NdotV, float Roughness)
+// Returns the directional albedo of the specular lobe with its Fresnel term. F90 is the specular weight for dielectrics and
+// 1 for metals.
+vec3 SpecularReflectance(FBrdf Brdf, float NdotV, float Roughness)
 {
 	vec2 Albedo = SpecularAlbedo(clamp(NdotV, 0.0, 1.0), Roughness);
-	float Dielectric = B.Specular * mix(Albedo.y, Albedo.x, B.F0);
-	vec3 Metal = mix(vec3(Albedo.y), vec3(Albedo.x), B.BaseColor);
-	return mix(vec3(Dielectric), Metal, B.Metallic);
+	float Dielectric = Brdf.Specular * mix(Albedo.y, Albedo.x, Brdf.F0);
+	vec3 Metal = mix(vec3(Albedo.y), vec3(Albedo.x), Brdf.BaseColor);
+	return mix(vec3(Dielectric), Metal, Brdf.Metallic);
 }
-
-struct FBrdfSample
-{
-	vec3 Direction; // z ≤ 0: absorbed
-	vec3 Weight;    // f · cos / density
-	float Density;  // infinite for a delta
-};
 
 #endif

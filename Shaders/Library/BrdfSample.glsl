@@ -1,35 +1,44 @@
+// Importance sampling of the BRDF: chooses a lobe, then a direction from it.
 #ifndef LANTERN_BRDF_SAMPLE_GLSL
 #define LANTERN_BRDF_SAMPLE_GLSL
 
 #include "Brdf.glsl"
 #include "Sampling.glsl"
 
-FBrdfSample SampleBrdf(FBrdf B, vec3 V, vec3 U)
+struct FBrdfSample
 {
-	FBrdfSample S;
-	S.Direction = vec3(0.0, 0.0, -1.0);
-	S.Weight = vec3(0.0);
-	S.Density = 0.0;
-	float P = SpecularProbability(B, V);
-	if (U.z < P)
+	vec3 Direction; // local frame; z ≤ 0: absorbed
+	vec3 Weight;    // BRDF · n·l / Pdf
+	float Pdf;      // over solid angle; infinite for a delta
+};
+
+// V: local frame, towards the viewer. U: xy choose the direction, z the lobe.
+FBrdfSample SampleBrdf(FBrdf Brdf, vec3 V, vec3 U)
+{
+	FBrdfSample Sample;
+	Sample.Direction = vec3(0.0, 0.0, -1.0);
+	Sample.Weight = vec3(0.0);
+	Sample.Pdf = 0.0;
+	float SpecularChance = SpecularProbability(Brdf, V);
+	if (U.z < SpecularChance)
 	{
-		if (IsMirror(B))
+		if (IsMirror(Brdf))
 		{
-			S.Direction = vec3(-V.xy, V.z);
-			S.Weight = SpecularFresnel(B, V.z) / P;
-			S.Density = uintBitsToFloat(0x7f800000u);
-			return S;
+			Sample.Direction = vec3(-V.xy, V.z);
+			Sample.Weight = SpecularFresnel(Brdf, V.z) / SpecularChance;
+			Sample.Pdf = uintBitsToFloat(0x7f800000u);
+			return Sample;
 		}
-		S.Direction = reflect(-V, SampleGgxHalf(V, B.Alpha, U.xy));
+		Sample.Direction = reflect(-V, SampleGgxHalfVector(V, Brdf.Alpha, U.xy));
 	}
 	else
 	{
-		S.Direction = SampleCosineHemisphere(U.xy);
+		Sample.Direction = SampleCosineHemisphere(U.xy);
 	}
-	if (S.Direction.z <= 0.0) { return S; }
-	S.Density = BrdfDensity(B, V, S.Direction);
-	if (S.Density > 0.0) { S.Weight = EvaluateBrdfCos(B, V, S.Direction) / S.Density; }
-	return S;
+	if (Sample.Direction.z <= 0.0) { return Sample; }
+	Sample.Pdf = BrdfPdf(Brdf, V, Sample.Direction);
+	if (Sample.Pdf > 0.0) { Sample.Weight = EvaluateBrdfCos(Brdf, V, Sample.Direction) / Sample.Pdf; }
+	return Sample;
 }
 
 #endif

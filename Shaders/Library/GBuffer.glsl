@@ -1,4 +1,5 @@
-// What the host's raster says of a pixel's surface. Depth > 0: not the sky.
+// Reads the surface of a pixel from the host's G-buffer. A depth of 0 is the sky.
+// BaseColor texels: rgb base colour, a metallic. Material texels: roughness, occlusion, sqrt(F0), specular.
 #ifndef LANTERN_GBUFFER_GLSL
 #define LANTERN_GBUFFER_GLSL
 
@@ -8,7 +9,7 @@
 
 struct FGBufferPoint
 {
-	vec3 Relative; // to the camera
+	vec3 Relative; // position relative to the camera, metres
 	vec3 V;        // towards the camera
 	vec3 N, Ng;    // shading normal, bent towards the viewer; geometric normal
 };

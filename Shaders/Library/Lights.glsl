@@ -5,28 +5,28 @@
 #include "Bindings.glsl"
 #include "Math.glsl"
 
-// Irradiance of a plane facing the light at P; direction towards it, and how far it is.
-vec3 PunctualIrradiance(FLightData Light, vec3 P, out vec3 Towards, out float Distance)
+// Returns the irradiance of a plane at P that faces the light. ToLight: unit length; Distance: metres, 1e30 if directional.
+vec3 PunctualIrradiance(FLightData Light, vec3 P, out vec3 ToLight, out float Distance)
 {
 	if (Light.Type == LIGHT_DIRECTIONAL)
 	{
-		Towards = -Light.Direction;
+		ToLight = -Light.Direction;
 		Distance = 1.0e30;
 		return Light.Color;
 	}
-	Towards = Light.Position - P;
-	float Distance2 = max(dot(Towards, Towards), 1.0e-12);
-	Distance = sqrt(Distance2);
-	Towards /= Distance;
-	float Attenuation = 1.0 / Distance2;
+	ToLight = Light.Position - P;
+	float DistanceSquared = max(dot(ToLight, ToLight), 1.0e-12);
+	Distance = sqrt(DistanceSquared);
+	ToLight /= Distance;
+	float Attenuation = 1.0 / DistanceSquared;
 	if (Light.Range > 0.0)
 	{
-		float Ratio = Distance2 / (Light.Range * Light.Range);
+		float Ratio = DistanceSquared / (Light.Range * Light.Range);
 		Attenuation *= clamp(1.0 - Ratio * Ratio, 0.0, 1.0);
 	}
 	if (Light.Type == LIGHT_SPOT)
 	{
-		float Angular = clamp(-dot(Light.Direction, Towards) * Light.SpotScale + Light.SpotOffset, 0.0, 1.0);
+		float Angular = clamp(-dot(Light.Direction, ToLight) * Light.SpotScale + Light.SpotOffset, 0.0, 1.0);
 		Attenuation *= Angular * Angular;
 	}
 	return Light.Color * Attenuation;

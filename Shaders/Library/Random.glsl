@@ -1,7 +1,8 @@
+// Random numbers: hashes, independent streams, and Owen-scrambled Sobol points.
 #ifndef LANTERN_RANDOM_GLSL
 #define LANTERN_RANDOM_GLSL
 
-// PCG output permutation as a hash (Jarzynski & Olano 2020, "Hash Functions for GPU Rendering").
+// Hashes a word with PCG's output permutation (Jarzynski & Olano 2020, "Hash Functions for GPU Rendering").
 uint HashPcg(uint V)
 {
 	uint State = V * 747796405u + 2891336453u;
@@ -9,13 +10,13 @@ uint HashPcg(uint V)
 	return (Word >> 22u) ^ Word;
 }
 
-// Independent uniform numbers; the state is a counter-based stream of its own per (pixel, sample, seed).
+// A counter-based stream of independent uniform numbers. Each (pixel, sample, seed) has its own.
 struct FRandom
 {
 	uvec4 State;
 };
 
-// Four words at once, pcg4d of the same paper.
+// Hashes four words at once (pcg4d, Jarzynski & Olano 2020).
 uvec4 HashPcg4(uvec4 V)
 {
 	V = V * 1664525u + 1013904223u;
@@ -38,7 +39,7 @@ FRandom MakeRandom(uvec2 Pixel, uint Sample, uint Seed)
 	return R;
 }
 
-// In [0, 1).
+// Returns four numbers in [0, 1).
 vec4 NextRandom4(inout FRandom R)
 {
 	R.State.w++;
@@ -46,8 +47,8 @@ vec4 NextRandom4(inout FRandom R)
 }
 
 // Owen-scrambled Sobol points, two dimensions (Burley 2020, "Practical Hash-based Owen Scrambling", with the
-// Laine–Karras style permutation of Vegdahl's constants). A scramble permutes reversed bits; what is reversed twice
-// on the way is not reversed at all here.
+// Laine–Karras style permutation of Vegdahl's constants). An Owen scramble permutes the bits in reversed order. The functions
+// below take and return reversed bits, so that pairs of reversals cancel out.
 uint PermuteReversed(uint X, uint Seed)
 {
 	X ^= X * 0x3d20adeau;
@@ -58,8 +59,8 @@ uint PermuteReversed(uint X, uint Seed)
 	return X;
 }
 
-// Bits of the second Sobol dimension, reversed. Its direction numbers are Pascal's triangle modulo 2, which is the
-// fifth Kronecker power of a 2×2 triangle: five steps instead of one for each bit of the index.
+// Returns the second Sobol dimension with its bits reversed. Its direction numbers are Pascal's triangle modulo 2, the fifth
+// Kronecker power of a 2×2 triangle. This takes five steps instead of one for each bit of the index.
 uint SobolDimension1Reversed(uint Index)
 {
 	Index ^= (Index >> 1u) & 0x55555555u;
@@ -69,6 +70,7 @@ uint SobolDimension1Reversed(uint Index)
 	return Index ^ (Index >> 16u);
 }
 
+// Returns point Index of the sequence that Seed scrambles, in [0, 1)².
 vec2 SobolOwen2(uint Index, uint Seed)
 {
 	Index = bitfieldReverse(PermuteReversed(bitfieldReverse(Index), Seed));
@@ -77,20 +79,21 @@ vec2 SobolOwen2(uint Index, uint Seed)
 	return vec2(uvec2(X, Y) >> 8u) * (1.0 / 16777216.0);
 }
 
-// One sequence for 8×8 pixels, which they share in Z order, so that what a filter gathers from neighbours completes itself as
-// the points of one pixel do (Ahmed & Wonka 2020, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via
-// Hierarchical Ordering of Pixels"). Exclusive or keeps aligned blocks together: those of pixels in one frame, and those of
-// frames in one pixel.
+// Tiles of 8×8 pixels share one Sobol sequence in Z order, so that the points of neighbouring pixels stratify together, as
+// those of one pixel do (Ahmed & Wonka 2020, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via
+// Hierarchical Ordering of Pixels"). The index is pixel XOR frame. XOR keeps aligned blocks of the sequence together, over
+// the pixels of one frame and over the frames of one pixel.
 struct FTileSequence
 {
-	uint Index; // of this pixel's points in this frame, in units of the points that it takes
+	uint Index; // of this pixel in this frame; multiply by the samples per pixel to get the first point
 	uint Seed;
 };
 
+// SeedHash: HashPcg of the view's seed.
 FTileSequence MakeTileSequence(uvec2 Pixel, uint FrameIndex, uint SeedHash)
 {
 	uvec2 P = Pixel & 7u;
-	P = (P | (P << 2u)) & 0x13u; // bits 0 and 1, and 2 at 4
+	P = (P | (P << 2u)) & 0x13u; // interleave: bits 0 and 1 stay, bit 2 moves to 4
 	P = (P | (P << 1u)) & 0x15u;
 	uvec2 Tile = Pixel >> 3u;
 	return FTileSequence(FrameIndex ^ (P.x | (P.y << 1u)), HashPcg(Tile.x + HashPcg(Tile.y + SeedHash)));

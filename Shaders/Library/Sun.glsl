@@ -1,28 +1,28 @@
-// The sun: a disk of uniform radiance, given by the irradiance of a plane that faces it. The shadow pass and
-// the reference sample the same disk with this one function, which is why their penumbrae agree.
+// The sun: a disk of uniform radiance, given by the irradiance of a plane that faces it. The shadow pass and the reference
+// share SampleSunDirection, so that their penumbrae agree.
 #ifndef LANTERN_SUN_GLSL
 #define LANTERN_SUN_GLSL
 
 #include "Sampling.glsl"
 
-// Direction towards a point of the disk.
+// Samples a direction towards a point of the disk.
 vec3 SampleSunDirection(FSceneConstants Scene, vec2 U)
 {
-	vec3 Towards = -Scene.SunDirection;
-	return MakeBasis(Towards) * SampleCone(U, Scene.SunOneMinusCos);
+	vec3 ToSun = -Scene.SunDirection;
+	return MakeBasis(ToSun) * SampleCone(U, Scene.SunOneMinusCos);
 }
 
-// Density over solid angle; infinite for a point.
-float SunDensity(FSceneConstants Scene) { return 1.0 / (2.0 * Pi * Scene.SunOneMinusCos); }
+// Returns the pdf of SampleSunDirection over solid angle; infinite for a point.
+float SunPdf(FSceneConstants Scene) { return 1.0 / (2.0 * Pi * Scene.SunOneMinusCos); }
 
 bool IsInSunDisk(FSceneConstants Scene, vec3 Direction)
 {
-	// |d − t|² = 2(1 − cos) keeps precision where cos itself has none left.
+	// The squared distance of unit vectors is 2(1 − cos). It keeps precision where cos itself has none left.
 	vec3 Difference = Direction + Scene.SunDirection;
 	return dot(Difference, Difference) < 2.0 * Scene.SunOneMinusCos;
 }
 
-// Radiance of the disk: a facing plane receives ∫cosθ dω = π sin²r of it.
+// Returns the radiance of the disk. A plane that faces a disk of angular radius r receives ∫cosθ dω = π sin²r times that.
 vec3 SunRadiance(FSceneConstants Scene)
 {
 	float SinSquared = Scene.SunOneMinusCos * (2.0 - Scene.SunOneMinusCos);

@@ -1,59 +1,62 @@
-// From a section and a triangle to interpolated attributes: once, for hit shaders, ray queries and raster.
+// Fetches vertices: from a section and a triangle to interpolated attributes. Hit shaders, ray queries and the raster share it.
 #ifndef LANTERN_VERTEX_FETCH_GLSL
 #define LANTERN_VERTEX_FETCH_GLSL
 
 #include "Bindings.glsl"
 #include "Math.glsl"
 
-// What EvaluateMaterial gets. World space, relative to the scene's origin.
+// Input of EvaluateMaterial, in world space relative to the scene's origin.
 struct FMaterialInputs
 {
 	vec3 Normal;  // interpolated, towards the front face
-	vec4 Tangent; // w: sign of the bitangent; 0: the vertices have none
+	vec4 Tangent; // w: sign of the bitangent; 0: the vertices have no tangents
 	vec2 UV0, UV1;
 	vec4 Color;
 };
 
-// Without a branch on the width: any-hit shaders wait for as little as possible before these loads.
+// Returns the three vertex indices of a triangle. There is no branch on the index width, so that any-hit shaders can issue
+// these loads early.
 uvec3 FetchTriangle(FSectionData Section, uint Primitive)
 {
-	uint Half = Section.Flags & SECTION_INDEX_16; // 1: two indices in a word
+	uint IndicesPerWordLog2 = Section.Flags & SECTION_INDEX_16; // the flag's bit is 1: two indices a word
 	uvec3 Index = 3 * Primitive + ((Section.Flags & SECTION_INDEX_ODD) != 0u ? 1u : 0u) + uvec3(0, 1, 2);
 	FIndexRef Words = FIndexRef(Section.Indices);
-	uvec3 Word = uvec3(Words.Data[Index.x >> Half], Words.Data[Index.y >> Half], Words.Data[Index.z >> Half]);
-	return Half == 0u ? Word : (Word >> ((Index & 1u) * 16u)) & 0xffffu;
+	uvec3 Word = uvec3(Words.Data[Index.x >> IndicesPerWordLog2], Words.Data[Index.y >> IndicesPerWordLog2], Words.Data[Index.z >> IndicesPerWordLog2]);
+	return IndicesPerWordLog2 == 0u ? Word : (Word >> ((Index & 1u) * 16u)) & 0xffffu;
 }
 
-FMaterialInputs InputsFromVertex(FVertexAttributes V, uint SectionFlags)
+// Object space.
+FMaterialInputs UnpackVertex(FVertexAttributes V, uint SectionFlags)
 {
-	FMaterialInputs I;
-	I.Normal = UnpackOct(V.Normal);
-	I.Tangent = vec4(0.0);
+	FMaterialInputs Inputs;
+	Inputs.Normal = UnpackOct(V.Normal);
+	Inputs.Tangent = vec4(0.0);
 	if ((SectionFlags & SECTION_TANGENTS) != 0u)
 	{
-		I.Tangent = vec4(UnpackOct(V.Tangent), (V.Tangent & 0x10000u) != 0u ? -1.0 : 1.0);
+		Inputs.Tangent = vec4(UnpackOct(V.Tangent), (V.Tangent & 0x10000u) != 0u ? -1.0 : 1.0);
 	}
-	I.UV0 = V.UV0;
-	I.UV1 = V.UV1;
-	I.Color = unpackUnorm4x8(V.Color);
-	return I;
+	Inputs.UV0 = V.UV0;
+	Inputs.UV1 = V.UV1;
+	Inputs.Color = unpackUnorm4x8(V.Color);
+	return Inputs;
 }
 
-// Only what the alpha test needs.
-FMaterialInputs FetchCoverageInputs(FSectionData Section, uint Primitive, vec2 Barycentrics)
+// Interpolates only what textures need: coordinates and colour. Normal and Tangent are zero.
+FMaterialInputs FetchTextureInputs(FSectionData Section, uint Primitive, vec2 Barycentrics)
 {
-	uvec3 T = FetchTriangle(Section, Primitive);
-	FAttributeRef A = FAttributeRef(Section.Attributes);
-	vec3 W = vec3(1.0 - Barycentrics.x - Barycentrics.y, Barycentrics);
-	FMaterialInputs I;
-	I.Normal = vec3(0.0);
-	I.Tangent = vec4(0.0);
-	I.UV0 = W.x * A.Data[T.x].UV0 + W.y * A.Data[T.y].UV0 + W.z * A.Data[T.z].UV0;
-	I.UV1 = W.x * A.Data[T.x].UV1 + W.y * A.Data[T.y].UV1 + W.z * A.Data[T.z].UV1;
-	I.Color = W.x * unpackUnorm4x8(A.Data[T.x].Color) + W.y * unpackUnorm4x8(A.Data[T.y].Color) + W.z * unpackUnorm4x8(A.Data[T.z].Color);
-	return I;
+	uvec3 Triangle = FetchTriangle(Section, Primitive);
+	FAttributeRef Attributes = FAttributeRef(Section.Attributes);
+	vec3 Weights = vec3(1.0 - Barycentrics.x - Barycentrics.y, Barycentrics);
+	FMaterialInputs Inputs;
+	Inputs.Normal = vec3(0.0);
+	Inputs.Tangent = vec4(0.0);
+	Inputs.UV0 = Weights.x * Attributes.Data[Triangle.x].UV0 + Weights.y * Attributes.Data[Triangle.y].UV0 + Weights.z * Attributes.Data[Triangle.z].UV0;
+	Inputs.UV1 = Weights.x * Attributes.Data[Triangle.x].UV1 + Weights.y * Attributes.Data[Triangle.y].UV1 + Weights.z * Attributes.Data[Triangle.z].UV1;
+	Inputs.Color = Weights.x * unpackUnorm4x8(Attributes.Data[Triangle.x].Color) + Weights.y * unpackUnorm4x8(Attributes.Data[Triangle.y].Color) + Weights.z * unpackUnorm4x8(Attributes.Data[Triangle.z].Color);
+	return Inputs;
 }
 
+// FVertexAttributes seen from one of its sets of texture coordinates on: a stride of 28 bytes.
 struct FVertexUV
 {
 	vec2 UV;
@@ -61,12 +64,12 @@ struct FVertexUV
 };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FVertexUVRef { FVertexUV Data[]; };
 
-// What opacity needs, of the one set of coordinates that it uses. Any-hit shaders and ray queries run on all that a
-// ray meets, where each word of a vertex is a load of its own; the section's flags come with its record, so that
-// nothing here waits for the material.
+// Interpolates the one set of texture coordinates that opacity uses. Alpha tests run on every candidate hit of a ray, and
+// each word of a vertex is a separate load there. The section's flags come with its hit record, so that these loads do not
+// wait for the material.
 vec2 FetchOpacityUV(FSectionData Section, uvec3 Triangle, vec2 Barycentrics)
 {
-	uint Offset = (Section.Flags & SECTION_OPACITY_UV1) != 0u ? 16u : 8u; // of FVertexAttributes::UV1, UV0
+	uint Offset = (Section.Flags & SECTION_OPACITY_UV1) != 0u ? 16u : 8u; // bytes to FVertexAttributes::UV1 or UV0
 	FVertexUVRef V = FVertexUVRef(Section.Attributes + Offset);
 	return (1.0 - Barycentrics.x - Barycentrics.y) * V.Data[Triangle.x].UV + Barycentrics.x * V.Data[Triangle.y].UV +
 	       Barycentrics.y * V.Data[Triangle.z].UV;
@@ -74,53 +77,55 @@ vec2 FetchOpacityUV(FSectionData Section, uvec3 Triangle, vec2 Barycentrics)
 
 float FetchVertexAlpha(FSectionData Section, uvec3 Triangle, vec2 Barycentrics)
 {
-	FAttributeRef A = FAttributeRef(Section.Attributes);
-	vec3 Alpha = vec3(A.Data[Triangle.x].Color >> 24u, A.Data[Triangle.y].Color >> 24u, A.Data[Triangle.z].Color >> 24u);
+	FAttributeRef Attributes = FAttributeRef(Section.Attributes);
+	vec3 Alpha = vec3(Attributes.Data[Triangle.x].Color >> 24u, Attributes.Data[Triangle.y].Color >> 24u, Attributes.Data[Triangle.z].Color >> 24u);
 	return dot(vec3(1.0 - Barycentrics.x - Barycentrics.y, Barycentrics), Alpha) * (1.0 / 255.0);
 }
 
-// All of it, still in object space.
-FMaterialInputs FetchInputs(FSectionData Section, uint Primitive, vec2 Barycentrics)
+// Interpolates all attributes, in object space.
+FMaterialInputs FetchMaterialInputs(FSectionData Section, uint Primitive, vec2 Barycentrics)
 {
-	uvec3 T = FetchTriangle(Section, Primitive);
-	FAttributeRef A = FAttributeRef(Section.Attributes);
-	FMaterialInputs I0 = InputsFromVertex(A.Data[T.x], Section.Flags);
-	FMaterialInputs I1 = InputsFromVertex(A.Data[T.y], Section.Flags);
-	FMaterialInputs I2 = InputsFromVertex(A.Data[T.z], Section.Flags);
-	vec3 W = vec3(1.0 - Barycentrics.x - Barycentrics.y, Barycentrics);
-	FMaterialInputs I;
-	I.Normal = W.x * I0.Normal + W.y * I1.Normal + W.z * I2.Normal;
-	I.Tangent = vec4(W.x * I0.Tangent.xyz + W.y * I1.Tangent.xyz + W.z * I2.Tangent.xyz, I0.Tangent.w);
-	I.UV0 = W.x * I0.UV0 + W.y * I1.UV0 + W.z * I2.UV0;
-	I.UV1 = W.x * I0.UV1 + W.y * I1.UV1 + W.z * I2.UV1;
-	I.Color = W.x * I0.Color + W.y * I1.Color + W.z * I2.Color;
-	return I;
+	uvec3 Triangle = FetchTriangle(Section, Primitive);
+	FAttributeRef Attributes = FAttributeRef(Section.Attributes);
+	FMaterialInputs Inputs0 = UnpackVertex(Attributes.Data[Triangle.x], Section.Flags);
+	FMaterialInputs Inputs1 = UnpackVertex(Attributes.Data[Triangle.y], Section.Flags);
+	FMaterialInputs Inputs2 = UnpackVertex(Attributes.Data[Triangle.z], Section.Flags);
+	vec3 Weights = vec3(1.0 - Barycentrics.x - Barycentrics.y, Barycentrics);
+	FMaterialInputs Inputs;
+	Inputs.Normal = Weights.x * Inputs0.Normal + Weights.y * Inputs1.Normal + Weights.z * Inputs2.Normal;
+	Inputs.Tangent = vec4(Weights.x * Inputs0.Tangent.xyz + Weights.y * Inputs1.Tangent.xyz + Weights.z * Inputs2.Tangent.xyz, Inputs0.Tangent.w);
+	Inputs.UV0 = Weights.x * Inputs0.UV0 + Weights.y * Inputs1.UV0 + Weights.z * Inputs2.UV0;
+	Inputs.UV1 = Weights.x * Inputs0.UV1 + Weights.y * Inputs1.UV1 + Weights.z * Inputs2.UV1;
+	Inputs.Color = Weights.x * Inputs0.Color + Weights.y * Inputs1.Color + Weights.z * Inputs2.Color;
+	return Inputs;
 }
 
 void FetchPositions(FSectionData Section, uint Primitive, out vec3 P0, out vec3 P1, out vec3 P2)
 {
-	uvec3 T = FetchTriangle(Section, Primitive);
-	FPositionRef P = FPositionRef(Section.Positions);
-	P0 = P.Data[T.x];
-	P1 = P.Data[T.y];
-	P2 = P.Data[T.z];
+	uvec3 Triangle = FetchTriangle(Section, Primitive);
+	FPositionRef Positions = FPositionRef(Section.Positions);
+	P0 = Positions.Data[Triangle.x];
+	P1 = Positions.Data[Triangle.y];
+	P2 = Positions.Data[Triangle.z];
 }
 
-// Where a ray, in the object's space, meets a triangle: distance and barycentrics (Möller and Trumbore 1997).
+// Intersects a ray with the plane of a triangle, in object space (Möller and Trumbore 1997). x: distance along the ray;
+// yz: barycentrics of the second and third corner.
 vec3 IntersectTriangle(FSectionData Section, uint Primitive, vec3 Origin, vec3 Direction)
 {
 	vec3 P0, P1, P2;
 	FetchPositions(Section, Primitive, P0, P1, P2);
-	vec3 E1 = P1 - P0, E2 = P2 - P0, S = Origin - P0;
-	vec3 H = cross(Direction, E2), Q = cross(S, E1);
-	return vec3(dot(E2, Q), dot(S, H), dot(Direction, Q)) / dot(E1, H);
+	vec3 Edge1 = P1 - P0, Edge2 = P2 - P0, FromP0 = Origin - P0;
+	vec3 H = cross(Direction, Edge2), Q = cross(FromP0, Edge1);
+	return vec3(dot(Edge2, Q), dot(FromP0, H), dot(Direction, Q)) / dot(Edge1, H);
 }
 
-// Of what IntersectTriangle returned at a hit: whether only the piece reaches there.
-bool IsBesideTriangle(FSectionData Section, vec3 Where)
+// Returns whether a hit lies on a piece but outside of the whole triangle (see SECTION_IS_PIECES). TriangleHit: from
+// IntersectTriangle.
+bool IsOutsideTriangle(FSectionData Section, vec3 TriangleHit)
 {
-	bool bBeside = Where.y < 0.0 || Where.z < 0.0 || Where.y + Where.z > 1.0;
-	return bBeside && (Section.Flags & SECTION_IS_PIECES) != 0u;
+	bool bOutside = TriangleHit.y < 0.0 || TriangleHit.z < 0.0 || TriangleHit.y + TriangleHit.z > 1.0;
+	return bOutside && (Section.Flags & SECTION_IS_PIECES) != 0u;
 }
 
 #endif

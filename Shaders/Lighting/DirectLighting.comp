@@ -1,6 +1,6 @@
-// The composite: direct light of the sun and the scene's lights, indirect light, emission, and the sky itself.
-// HAS_SUN, HAS_LIGHTS, HAS_SKY: what the scene has; the rest is not compiled. HAS_SKY is for the sky's ambient light, which
-// stands in where indirect light was not traced.
+// Composites the frame: direct light of the sun and of punctual lights, indirect light, emission, and the sky itself.
+// HAS_SUN, HAS_LIGHTS, HAS_SKY: defined if the scene has such; other code is not compiled. HAS_SKY is for the ambient light of
+// the sky, which replaces indirect light that was not traced.
 #version 460
 #include "../Shared/LightingTypes.h"
 #include "../Library/GBuffer.glsl"
@@ -19,15 +19,15 @@ vec3 ShadeSky(FSceneConstants Scene, vec3 Direction)
 	return L;
 }
 
-vec3 ShadeDirect(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, FGBufferPoint Point, FBrdf B, mat3 Basis, vec3 LocalV)
+vec3 ShadeDirect(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, FGBufferPoint Point, FBrdf Brdf, mat3 Basis, vec3 LocalV)
 {
 	vec3 Radiance = vec3(0.0);
-	B.Alpha = max(B.Alpha, 2.0 * MinAlpha); // a point light has no image in a perfect mirror
+	Brdf.Alpha = max(Brdf.Alpha, 2.0 * MinAlpha); // a perfect mirror would show no point light
 #ifdef HAS_SUN
-	float Sun = Push.SunVisibility != NO_TEXTURE ? texelFetch(Textures[Push.SunVisibility], Pixel, 0).x : 1.0;
-	if (Sun > 0.0)
+	float SunVisibility = Push.SunVisibility != NO_TEXTURE ? texelFetch(Textures[Push.SunVisibility], Pixel, 0).x : 1.0;
+	if (SunVisibility > 0.0)
 	{
-		Radiance += EvaluateBrdfCos(B, LocalV, -Scene.SunDirection * Basis) * Scene.SunColor * (Scene.SunIrradiance * Sun);
+		Radiance += EvaluateBrdfCos(Brdf, LocalV, -Scene.SunDirection * Basis) * Scene.SunColor * (Scene.SunIrradiance * SunVisibility);
 	}
 #endif
 #ifdef HAS_LIGHTS
@@ -35,26 +35,27 @@ vec3 ShadeDirect(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, FGBuff
 	FLightRef Lights = FLightRef(Scene.Lights);
 	for (uint I = 0; I < Scene.LightCount; ++I)
 	{
-		vec3 Towards;
+		vec3 ToLight;
 		float Distance;
-		vec3 Irradiance = PunctualIrradiance(Lights.Data[I], P, Towards, Distance);
-		if (MaxComponent(Irradiance) > 0.0 && dot(Point.Ng, Towards) > 0.0)
+		vec3 Irradiance = PunctualIrradiance(Lights.Data[I], P, ToLight, Distance);
+		if (MaxComponent(Irradiance) > 0.0 && dot(Point.Ng, ToLight) > 0.0)
 		{
-			Radiance += EvaluateBrdfCos(B, LocalV, Towards * Basis) * Irradiance;
+			Radiance += EvaluateBrdfCos(Brdf, LocalV, ToLight * Basis) * Irradiance;
 		}
 	}
 #endif
 	return Radiance;
 }
 
-// Lagarde and de Rousiers 2014 ("Moving Frostbite to Physically Based Rendering"): fits how ambient occlusion, which is about
-// the whole hemisphere, narrows to a lobe.
+// Estimates the occlusion of a specular lobe from ambient occlusion, which covers the whole hemisphere (fit of Lagarde and de
+// Rousiers 2014, "Moving Frostbite to Physically Based Rendering").
 float SpecularOcclusion(float NdotV, float Visibility, float Roughness)
 {
 	return clamp(pow(NdotV + Visibility, exp2(-16.0 * Roughness - 1.0)) - 1.0 + Visibility, 0.0, 1.0);
 }
 
-vec3 ShadeIndirect(FSceneConstants Scene, ivec2 Pixel, FBrdf B, float NdotV, vec4 Material)
+// Material: texel of the G-buffer; y: the material's own occlusion.
+vec3 ShadeIndirect(FSceneConstants Scene, ivec2 Pixel, FBrdf Brdf, float NdotV, vec4 Material)
 {
 	vec3 Ambient = vec3(0.0);
 	float Visibility = 1.0;
@@ -67,20 +68,20 @@ vec3 ShadeIndirect(FSceneConstants Scene, ivec2 Pixel, FBrdf B, float NdotV, vec
 	vec4 Specular = Push.IndirectSpecular != NO_TEXTURE ? texelFetch(Textures[Push.IndirectSpecular], Pixel, 0) : vec4(0.0);
 	if (Specular.a <= 0.0)
 	{
-		Specular.rgb = Ambient * SpecularReflectance(B, NdotV, Material.x) * SpecularOcclusion(NdotV, Visibility, Material.x);
+		Specular.rgb = Ambient * SpecularReflectance(Brdf, NdotV, Material.x) * SpecularOcclusion(NdotV, Visibility, Material.x);
 	}
-	return DiffuseReflectance(B, NdotV) * Diffuse + Specular.rgb;
+	return DiffuseReflectance(Brdf, NdotV) * Diffuse + Specular.rgb;
 }
 
 vec3 ShadeSurface(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, float Depth)
 {
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
 	vec4 Material = texelFetch(Textures[Push.Material], Pixel, 0);
-	FBrdf B = MakeGBufferBrdf(texelFetch(Textures[Push.BaseColor], Pixel, 0), Material);
+	FBrdf Brdf = MakeGBufferBrdf(texelFetch(Textures[Push.BaseColor], Pixel, 0), Material);
 	mat3 Basis = MakeBasis(Point.N);
 	vec3 LocalV = Point.V * Basis;
-	return texelFetch(Textures[Push.Emissive], Pixel, 0).rgb + ShadeDirect(Scene, View, Pixel, Point, B, Basis, LocalV) +
-	       ShadeIndirect(Scene, Pixel, B, LocalV.z, Material);
+	return texelFetch(Textures[Push.Emissive], Pixel, 0).rgb + ShadeDirect(Scene, View, Pixel, Point, Brdf, Basis, LocalV) +
+	       ShadeIndirect(Scene, Pixel, Brdf, LocalV.z, Material);
 }
 
 void main()

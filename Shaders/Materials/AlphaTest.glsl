@@ -1,4 +1,5 @@
-// The alpha test at a hit, as the material program has it.
+// The alpha test at a hit, by the material program. A hit is cut away if its opacity is below the material's cutoff.
+// The macros MATERIAL_… are documented in MaterialPrograms.h.
 #ifndef LANTERN_ALPHA_TEST_GLSL
 #define LANTERN_ALPHA_TEST_GLSL
 
@@ -10,8 +11,8 @@ bool IsHitCutAway(FMaterialRef Materials, FSectionData Section, uint Primitive, 
 #ifdef MATERIAL_STANDARD_OPACITY
 	return IsStandardHitCutAway(Materials, Section, Primitive, Barycentrics);
 #else
-	FMaterialData M = Materials.Data[Section.Material];
-	return EvaluateMaterial(M, FetchInputs(Section, Primitive, Barycentrics), 0u).Opacity < M.AlphaCutoff;
+	FMaterialData Material = Materials.Data[Section.Material];
+	return EvaluateMaterial(Material, FetchMaterialInputs(Section, Primitive, Barycentrics), 0u).Opacity < Material.AlphaCutoff;
 #endif
 }
 #endif

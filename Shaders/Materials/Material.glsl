@@ -1,4 +1,4 @@
-// The material program of a shader: the standard one. Other programs take this file's place (FMaterialPrograms).
+// The material program of a shader. This is the standard one; other programs replace this file (FMaterialPrograms).
 #ifndef LANTERN_MATERIAL_GLSL
 #define LANTERN_MATERIAL_GLSL
 
@@ -6,6 +6,6 @@
 
 #define MATERIAL_STANDARD_OPACITY
 
-FMaterialSurface EvaluateMaterial(FMaterialData M, FMaterialInputs I, uint Override) { return EvaluateStandard(M, I, Override); }
+FMaterialSurface EvaluateMaterial(FMaterialData Material, FMaterialInputs Inputs, uint Override) { return EvaluateStandard(Material, Inputs, Override); }
 
 #endif

@@ -1,9 +1,8 @@
-// glTF 2.0 metallic-roughness, and what other material programs may build on. EvaluateMaterial (Material.glsl) is the one
-// place that says what a surface is made of: the raster G-buffer, the hit groups and the alpha test all call it.
+// The glTF 2.0 metallic-roughness material, which other material programs may build on. EvaluateMaterial (Material.glsl) alone
+// defines the material of a surface: the raster G-buffer, the hit groups and the alpha test all call it.
 //
-// The includer may define
-//   MATERIAL_TEXTURE(Slot, UV)  how a texture is sampled (default: finest level, as rays do)
-//   MATERIAL_COVERAGE_ONLY      only Opacity is wanted
+// MATERIAL_IMPLICIT_LOD: textures are sampled with the level of detail of screen-space derivatives (fragment shaders).
+// Otherwise they are sampled at the finest level.
 #ifndef LANTERN_STANDARD_MATERIAL_GLSL
 #define LANTERN_STANDARD_MATERIAL_GLSL
 
@@ -15,11 +14,11 @@ struct FMaterialSurface
 	float Opacity;
 	vec3 Emissive; // nits
 	float Metallic;
-	vec3 Normal; // unit
+	vec3 Normal;     // unit length
 	float Roughness; // perceptual
-	float Occlusion;
-	float F0; // of the dielectric
-	float Specular;
+	float Occlusion; // 1: unoccluded
+	float F0;        // reflectance of the dielectric at normal incidence
+	float Specular;  // weight of the dielectric layer
 };
 
 #ifdef MATERIAL_IMPLICIT_LOD
@@ -30,111 +29,112 @@ struct FMaterialSurface
 	textureLod(sampler2D(Textures[nonuniformEXT((Slot)&0xffffffu)], Samplers[nonuniformEXT((Slot) >> 24)]), UV, 0.0)
 #endif
 
-vec2 TransformUV(FMaterialData M, vec2 UV, uint Slot)
+// Slot: TEXTURE_….
+vec2 TransformUV(FMaterialData Material, vec2 UV, uint Slot)
 {
-	vec4 T = M.UVTransform[Slot];
-	return vec2(dot(T.xy, UV), dot(T.zw, UV)) + M.UVOffset[Slot];
+	vec4 T = Material.UVTransform[Slot];
+	return vec2(dot(T.xy, UV), dot(T.zw, UV)) + Material.UVOffset[Slot];
 }
 
-vec2 MaterialUV(FMaterialData M, FMaterialInputs I, uint Slot)
+vec2 MaterialUV(FMaterialData Material, FMaterialInputs Inputs, uint Slot)
 {
-	return TransformUV(M, (M.UVSets & (1u << Slot)) != 0u ? I.UV1 : I.UV0, Slot);
+	return TransformUV(Material, (Material.UVSets & (1u << Slot)) != 0u ? Inputs.UV1 : Inputs.UV0, Slot);
 }
 
-vec4 MaterialTexture(FMaterialData M, FMaterialInputs I, uint Slot)
+vec4 MaterialTexture(FMaterialData Material, FMaterialInputs Inputs, uint Slot)
 {
-	return SampleMaterialTexture(M.Textures[Slot], MaterialUV(M, I, Slot));
+	return SampleMaterialTexture(Material.Textures[Slot], MaterialUV(Material, Inputs, Slot));
 }
 
-bool HasTexture(FMaterialData M, uint Slot) { return M.Textures[Slot] != NO_TEXTURE; }
+bool HasTexture(FMaterialData Material, uint Slot) { return Material.Textures[Slot] != NO_TEXTURE; }
 
-vec4 EvaluateBaseColor(FMaterialData M, FMaterialInputs I)
+vec4 EvaluateBaseColor(FMaterialData Material, FMaterialInputs Inputs)
 {
-	vec4 Color = M.BaseColor * I.Color;
-	if (HasTexture(M, TEXTURE_BASE_COLOR)) { Color *= MaterialTexture(M, I, TEXTURE_BASE_COLOR); }
+	vec4 Color = Material.BaseColor * Inputs.Color;
+	if (HasTexture(Material, TEXTURE_BASE_COLOR)) { Color *= MaterialTexture(Material, Inputs, TEXTURE_BASE_COLOR); }
 	return Color;
 }
 
-float EvaluateOpacity(FMaterialData M, FMaterialInputs I) { return EvaluateBaseColor(M, I).a; }
+float EvaluateOpacity(FMaterialData Material, FMaterialInputs Inputs) { return EvaluateBaseColor(Material, Inputs).a; }
 
-// Cut away by the alpha test? glTF: an alpha below the cutoff is.
-bool IsCutAway(FMaterialData M, FMaterialInputs I)
+// Returns whether the alpha test discards the surface: its opacity is below the cutoff (glTF 2.0).
+bool IsCutAway(FMaterialData Material, FMaterialInputs Inputs)
 {
-	return (M.Flags & MATERIAL_MASKED) != 0u && EvaluateOpacity(M, I) < M.AlphaCutoff;
+	return (Material.Flags & MATERIAL_MASKED) != 0u && EvaluateOpacity(Material, Inputs) < Material.AlphaCutoff;
 }
 
-// The same at a hit on a masked section, reading only what it needs.
+// Tests a hit on a masked section as IsCutAway does, but loads only what the test needs.
 bool IsStandardHitCutAway(FMaterialRef Materials, FSectionData Section, uint Primitive, vec2 Barycentrics)
 {
-	FMaterialData M = Materials.Data[Section.Material];
+	FMaterialData Material = Materials.Data[Section.Material];
 	uvec3 Triangle = FetchTriangle(Section, Primitive);
 	vec2 UV = FetchOpacityUV(Section, Triangle, Barycentrics);
-	float Opacity = M.BaseColor.a;
+	float Opacity = Material.BaseColor.a;
 	if ((Section.Flags & SECTION_PLAIN_OPACITY) == 0u)
 	{
-		UV = TransformUV(M, UV, TEXTURE_BASE_COLOR);
+		UV = TransformUV(Material, UV, TEXTURE_BASE_COLOR);
 		Opacity *= FetchVertexAlpha(Section, Triangle, Barycentrics);
 	}
-	if (HasTexture(M, TEXTURE_BASE_COLOR)) { Opacity *= SampleMaterialTexture(M.Textures[TEXTURE_BASE_COLOR], UV).a; }
-	return Opacity < M.AlphaCutoff;
+	if (HasTexture(Material, TEXTURE_BASE_COLOR)) { Opacity *= SampleMaterialTexture(Material.Textures[TEXTURE_BASE_COLOR], UV).a; }
+	return Opacity < Material.AlphaCutoff;
 }
 
-vec3 EvaluateEmission(FMaterialData M, FMaterialInputs I)
+vec3 EvaluateEmission(FMaterialData Material, FMaterialInputs Inputs)
 {
-	vec3 E = M.Emissive;
-	if (MaxComponent(E) > 0.0 && HasTexture(M, TEXTURE_EMISSIVE)) { E *= MaterialTexture(M, I, TEXTURE_EMISSIVE).rgb; }
-	return E;
+	vec3 Emission = Material.Emissive;
+	if (MaxComponent(Emission) > 0.0 && HasTexture(Material, TEXTURE_EMISSIVE)) { Emission *= MaterialTexture(Material, Inputs, TEXTURE_EMISSIVE).rgb; }
+	return Emission;
 }
 
-vec3 EvaluateNormal(FMaterialData M, FMaterialInputs I)
+vec3 EvaluateNormal(FMaterialData Material, FMaterialInputs Inputs)
 {
-	vec3 N = NormalizeOr(I.Normal, vec3(0.0, 0.0, 1.0));
-	if (!HasTexture(M, TEXTURE_NORMAL) || I.Tangent.w == 0.0) { return N; }
-	vec3 T = I.Tangent.xyz - N * dot(I.Tangent.xyz, N);
-	float Length2 = dot(T, T);
-	if (Length2 < 1.0e-12) { return N; }
-	T *= inversesqrt(Length2);
-	vec3 Map = MaterialTexture(M, I, TEXTURE_NORMAL).xyz * 2.0 - 1.0;
-	Map.xy *= M.NormalScale;
-	return NormalizeOr(T * Map.x + cross(N, T) * (I.Tangent.w * Map.y) + N * Map.z, N);
+	vec3 N = NormalizeOr(Inputs.Normal, vec3(0.0, 0.0, 1.0));
+	if (!HasTexture(Material, TEXTURE_NORMAL) || Inputs.Tangent.w == 0.0) { return N; }
+	vec3 T = Inputs.Tangent.xyz - N * dot(Inputs.Tangent.xyz, N);
+	float LengthSquared = dot(T, T);
+	if (LengthSquared < 1.0e-12) { return N; }
+	T *= inversesqrt(LengthSquared);
+	vec3 Map = MaterialTexture(Material, Inputs, TEXTURE_NORMAL).xyz * 2.0 - 1.0;
+	Map.xy *= Material.NormalScale;
+	return NormalizeOr(T * Map.x + cross(N, T) * (Inputs.Tangent.w * Map.y) + N * Map.z, N);
 }
 
-// Override: r.RT.Material.Override.
-FMaterialSurface EvaluateStandard(FMaterialData M, FMaterialInputs I, uint Override)
+// Override: value of r.RT.Material.Override; 0: none.
+FMaterialSurface EvaluateStandard(FMaterialData Material, FMaterialInputs Inputs, uint Override)
 {
-	FMaterialSurface S;
-	vec4 Color = EvaluateBaseColor(M, I);
-	S.BaseColor = Color.rgb;
-	S.Opacity = Color.a;
-	S.Emissive = EvaluateEmission(M, I);
-	S.Occlusion = 1.0;
+	FMaterialSurface Surface;
+	vec4 Color = EvaluateBaseColor(Material, Inputs);
+	Surface.BaseColor = Color.rgb;
+	Surface.Opacity = Color.a;
+	Surface.Emissive = EvaluateEmission(Material, Inputs);
+	Surface.Occlusion = 1.0;
 	if (Override != 0u)
 	{
-		S.BaseColor = Override == 1u ? Color.rgb : vec3(0.5);
-		S.Metallic = 0.0;
-		S.Roughness = 1.0;
-		S.F0 = 0.0;
-		S.Specular = 0.0;
-		S.Normal = NormalizeOr(I.Normal, vec3(0.0, 0.0, 1.0));
-		return S;
+		Surface.BaseColor = Override == 1u ? Color.rgb : vec3(0.5);
+		Surface.Metallic = 0.0;
+		Surface.Roughness = 1.0;
+		Surface.F0 = 0.0;
+		Surface.Specular = 0.0;
+		Surface.Normal = NormalizeOr(Inputs.Normal, vec3(0.0, 0.0, 1.0));
+		return Surface;
 	}
-	S.Metallic = M.Metallic;
-	S.Roughness = M.Roughness;
-	if (HasTexture(M, TEXTURE_METALLIC_ROUGHNESS))
+	Surface.Metallic = Material.Metallic;
+	Surface.Roughness = Material.Roughness;
+	if (HasTexture(Material, TEXTURE_METALLIC_ROUGHNESS))
 	{
-		vec2 RoughnessMetallic = MaterialTexture(M, I, TEXTURE_METALLIC_ROUGHNESS).gb;
-		S.Roughness *= RoughnessMetallic.x;
-		S.Metallic *= RoughnessMetallic.y;
+		vec2 RoughnessMetallic = MaterialTexture(Material, Inputs, TEXTURE_METALLIC_ROUGHNESS).gb;
+		Surface.Roughness *= RoughnessMetallic.x;
+		Surface.Metallic *= RoughnessMetallic.y;
 	}
-	if (HasTexture(M, TEXTURE_OCCLUSION))
+	if (HasTexture(Material, TEXTURE_OCCLUSION))
 	{
-		S.Occlusion = mix(1.0, MaterialTexture(M, I, TEXTURE_OCCLUSION).r, M.OcclusionStrength);
+		Surface.Occlusion = mix(1.0, MaterialTexture(Material, Inputs, TEXTURE_OCCLUSION).r, Material.OcclusionStrength);
 	}
-	float R = (M.Ior - 1.0) / (M.Ior + 1.0);
-	S.F0 = R * R;
-	S.Specular = M.Specular;
-	S.Normal = EvaluateNormal(M, I);
-	return S;
+	float Ratio = (Material.Ior - 1.0) / (Material.Ior + 1.0);
+	Surface.F0 = Ratio * Ratio;
+	Surface.Specular = Material.Specular;
+	Surface.Normal = EvaluateNormal(Material, Inputs);
+	return Surface;
 }
 
 #endif

@@ -1,4 +1,4 @@
-// Motion of a world that stands still, from depth and the two cameras.
+// Motion vectors of a static world, from depth and the cameras of two frames.
 #version 460
 #include "../Shared/MotionTypes.h"
 #include "../Library/Motion.glsl"
@@ -17,7 +17,7 @@ void main()
 	if (Depth > 0.0)
 	{
 		vec3 Relative = RelativePositionFromDepth(View, Pixel, Depth);
-		Motion = MotionOf(View, Relative, Relative + View.CameraMotion);
+		Motion = ComputeMotion(View, Relative, Relative + View.CameraMotion);
 	}
 	imageStore(Images[Push.Output], ivec2(Pixel), vec4(Motion, 0.0));
 }

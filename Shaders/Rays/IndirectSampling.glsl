@@ -1,4 +1,4 @@
-// What the brute-force passes of indirect light share.
+// Sampling shared by the brute-force passes of indirect light: diffuse GI and reflections.
 #ifndef LANTERN_INDIRECT_SAMPLING_GLSL
 #define LANTERN_INDIRECT_SAMPLING_GLSL
 
@@ -7,12 +7,13 @@
 
 const float MaxHalf = 65504.0;
 
-// No NaN and no infinity may reach an output, nor become one there: a sun may well be brighter than fp16 holds.
-vec3 KeepFinite(vec3 L) { return mix(clamp(L, vec3(0.0), vec3(MaxHalf)), vec3(0.0), isnan(L)); }
+// Removes NaNs, and clamps to what fp16 holds: a sun may be brighter, and would become infinite in the output.
+vec3 ClampToFinite(vec3 L) { return mix(clamp(L, vec3(0.0), vec3(MaxHalf)), vec3(0.0), isnan(L)); }
 
-// Mean of what a pixel's samples bring through one lobe. The first directions are Owen-scrambled Sobol points that go on from
-// frame to frame, all else is a stream of its own for each sample; Salt keeps passes apart.
-vec3 GatherSamples(FSceneConstants Scene, FViewConstants View, uvec2 Pixel, FGBufferPoint Point, FBrdf Lobe, uint Samples, uint MaxBounces, uint Salt)
+// Returns the mean radiance of a pixel's paths through one lobe. The first direction of a path is an Owen-scrambled Sobol
+// point; the sequence continues from frame to frame. All other random numbers come from an independent stream for each
+// sample. Salt decorrelates passes.
+vec3 AverageIndirectSamples(FSceneConstants Scene, FViewConstants View, uvec2 Pixel, FGBufferPoint Point, FBrdf Lobe, uint Samples, uint MaxBounces, uint Salt)
 {
 	vec3 P = RasterRayOrigin(Scene, View, Point.Relative, Point.Ng);
 	mat3 Basis = MakeBasis(Point.N);
@@ -27,7 +28,7 @@ vec3 GatherSamples(FSceneConstants Scene, FViewConstants View, uvec2 Pixel, FGBu
 		vec3 L = GatherIndirect(Scene, Lobe, Basis, V, P, Point.Ng, SobolOwen2(Index, Seed), MaxBounces, Random);
 		Sum += mix(L, vec3(0.0), isnan(L));
 	}
-	return KeepFinite(Sum / float(Samples));
+	return ClampToFinite(Sum / float(Samples));
 }
 
 #endif

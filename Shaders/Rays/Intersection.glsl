@@ -1,5 +1,5 @@
-// For intersection shaders of material programs (FMaterialProgramDesc::IntersectionPath): the box that a ray met, and how
-// to report a surface in it.
+// Tools for intersection shaders of material programs (FMaterialProgramDesc::IntersectionPath): the box that the ray met,
+// and the report of a surface in it.
 #ifndef LANTERN_INTERSECTION_GLSL
 #define LANTERN_INTERSECTION_GLSL
 
@@ -10,7 +10,7 @@ layout(shaderRecordEXT, scalar) readonly buffer FRecord { FSectionData Section; 
 layout(push_constant, scalar) uniform FPush { FPassConstants Pass; };
 hitAttributeEXT vec2 NormalAttribute; // octahedral, object space, towards the outside
 
-// Object space.
+// Returns the corners of the box, in object space.
 void GetBox(out vec3 Min, out vec3 Max)
 {
 	FPositionRef Corners = FPositionRef(Section.Positions);
@@ -18,7 +18,8 @@ void GetBox(out vec3 Min, out vec3 Max)
 	Max = Corners.Data[2 * gl_PrimitiveID + 1];
 }
 
-// T along the object-space ray (gl_ObjectRayOriginEXT, gl_ObjectRayDirectionEXT). False: not within the ray's range.
+// Reports a hit at parameter T of the object-space ray (gl_ObjectRayOriginEXT, gl_ObjectRayDirectionEXT). Returns false if T is
+// outside of the ray's range. ObjectNormal: towards the outside, any length.
 bool ReportSurface(float T, vec3 ObjectNormal)
 {
 	NormalAttribute = OctEncode(normalize(ObjectNormal));

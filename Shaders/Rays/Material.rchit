@@ -1,3 +1,5 @@
+// Shades a hit of a material ray: evaluates the material program and packs the surface into the payload.
+// PROCEDURAL: the hit is in a box (an intersection shader's), not on a triangle.
 #version 460
 #extension GL_EXT_ray_tracing : require
 #include "../Library/Bindings.glsl"
@@ -20,24 +22,24 @@ void main()
 	CountStandIn(Scene.StandInHits, Section.Material);
 	FMaterialData Material = FMaterialRef(Scene.Materials).Data[Section.Material];
 #ifdef PROCEDURAL
-	vec3 Where = vec3(gl_HitTEXT, 0.0, 0.0);
+	vec3 TriangleHit = vec3(gl_HitTEXT, 0.0, 0.0);
 	vec3 ObjectNormal = OctDecode(NormalAttribute);
 	FMaterialInputs Inputs = FMaterialInputs(ObjectNormal, vec4(0.0), vec2(0.0), vec2(0.0), vec4(1.0));
 #else
-	vec3 Where = vec3(gl_HitTEXT, Barycentrics);
+	vec3 TriangleHit = vec3(gl_HitTEXT, Barycentrics);
 	if ((Section.Flags & SECTION_PIECES) != 0u)
 	{
-		Where = IntersectTriangle(Section, gl_PrimitiveID, gl_ObjectRayOriginEXT, gl_ObjectRayDirectionEXT);
+		TriangleHit = IntersectTriangle(Section, gl_PrimitiveID, gl_ObjectRayOriginEXT, gl_ObjectRayDirectionEXT);
 	}
-	FMaterialInputs Inputs = FetchInputs(Section, gl_PrimitiveID, Where.yz);
+	FMaterialInputs Inputs = FetchMaterialInputs(Section, gl_PrimitiveID, TriangleHit.yz);
 	vec3 P0, P1, P2;
 	FetchPositions(Section, gl_PrimitiveID, P0, P1, P2);
-	vec3 ObjectNormal = cross(P1 - P0, P2 - P0);
+	vec3 ObjectNormal = cross(P1 - P0, P2 - P0); // any length
 #endif
 	Inputs.Normal = (Inputs.Normal * gl_WorldToObjectEXT).xyz;
-	mat3 Linear = mat3(gl_ObjectToWorldEXT);
-	Inputs.Tangent.xyz = Linear * Inputs.Tangent.xyz;
-	if (determinant(Linear) < 0.0) { Inputs.Tangent.w = -Inputs.Tangent.w; } // the normal keeps the object's outside
+	mat3 ObjectToWorld = mat3(gl_ObjectToWorldEXT);
+	Inputs.Tangent.xyz = ObjectToWorld * Inputs.Tangent.xyz;
+	if (determinant(ObjectToWorld) < 0.0) { Inputs.Tangent.w = -Inputs.Tangent.w; } // the normal keeps the object's outside
 	FMaterialSurface Surface = EvaluateMaterial(Material, Inputs, Scene.MaterialOverride);
 
 	// The inverse transpose keeps the object's own outside, also where the transform mirrors.
@@ -51,7 +53,7 @@ void main()
 	}
 
 	FMaterialHit Hit;
-	Hit.Distance = Where.x;
+	Hit.Distance = TriangleHit.x;
 	Hit.Normal = Surface.Normal;
 	Hit.GeometricNormal = Ng;
 	Hit.BaseColor = Surface.BaseColor;

@@ -1,3 +1,4 @@
+// Miss of a material ray: a negative distance.
 #version 460
 #extension GL_EXT_ray_tracing : require
 #include "MaterialPayload.glsl"

@@ -1,6 +1,6 @@
-// The material ray's payload: 32 bytes hold all that shading needs. The quantisation is finer than any figure
-// the reference has to reach: base colours in unorm16, since a closed room of albedo 0.9 multiplies their error by
-// ten, emission in fp16 (relative error ≤ 0.05 %), directions octahedral.
+// The payload of material rays: 32 bytes hold all that shading needs. The quantisation is finer than the accuracy that the
+// reference must reach. Base colours are unorm16, since a closed room of albedo 0.9 multiplies their error by ten. Emission
+// is fp16 (relative error ≤ 0.05 %), directions are octahedral.
 //   W0 distance                      W4 base colour b unorm16 | roughness unorm16
 //   W1 shading normal, octahedral    W5 flags 2 | sqrt(F0) 12 | specular 8 | metallic 10
 //   W2 geometric normal, octahedral  W6 emission rg fp16
@@ -12,12 +12,12 @@
 
 struct FMaterialPayload
 {
-	float Distance; // < 0: nothing was hit
+	float Distance; // metres; < 0: nothing was hit
 	uint W1, W2, W3, W4, W5, W6, W7;
 };
 
-// Emission is scaled by this before fp16, so that lamps of millions of nits survive; what is dimmer than 0.004 nits
-// loses digits instead.
+// Emission is scaled by this before it is stored as fp16, so that lamps of millions of nits fit. Emission below 0.004 nits
+// loses precision instead.
 const float EmissionScale = 1.0 / 64.0;
 const float MaxEmission = 65504.0 / EmissionScale; // nits
 
@@ -31,44 +31,44 @@ struct FMaterialHit
 	vec3 BaseColor;
 	float Roughness, Metallic, F0, Specular;
 	vec3 Emissive;
-	float EmissiveWeight; // 0: no light sampling reaches this surface
-	uint Flags;
+	float EmissiveWeight; // FMaterialData::EmissiveWeight; 0: light sampling does not sample this surface
+	uint Flags;           // HIT_…
 };
 
-FMaterialPayload PackHit(FMaterialHit H)
+FMaterialPayload PackHit(FMaterialHit Hit)
 {
-	FMaterialPayload P;
-	P.Distance = H.Distance;
-	P.W1 = PackOct(H.Normal);
-	P.W2 = PackOct(H.GeometricNormal);
-	P.W3 = packUnorm2x16(H.BaseColor.rg);
-	P.W4 = packUnorm2x16(vec2(H.BaseColor.b, H.Roughness));
-	P.W5 = (H.Flags & 3u) | (uint(sqrt(clamp(H.F0, 0.0, 1.0)) * 4095.0 + 0.5) << 2) |
-	       (uint(clamp(H.Specular, 0.0, 1.0) * 255.0 + 0.5) << 14) | (uint(clamp(H.Metallic, 0.0, 1.0) * 1023.0 + 0.5) << 22);
-	vec3 E = min(H.Emissive, vec3(MaxEmission)) * EmissionScale;
-	P.W6 = packHalf2x16(E.rg);
-	P.W7 = packHalf2x16(vec2(E.b, H.EmissiveWeight));
-	return P;
+	FMaterialPayload Payload;
+	Payload.Distance = Hit.Distance;
+	Payload.W1 = PackOct(Hit.Normal);
+	Payload.W2 = PackOct(Hit.GeometricNormal);
+	Payload.W3 = packUnorm2x16(Hit.BaseColor.rg);
+	Payload.W4 = packUnorm2x16(vec2(Hit.BaseColor.b, Hit.Roughness));
+	Payload.W5 = (Hit.Flags & 3u) | (uint(sqrt(clamp(Hit.F0, 0.0, 1.0)) * 4095.0 + 0.5) << 2) |
+	       (uint(clamp(Hit.Specular, 0.0, 1.0) * 255.0 + 0.5) << 14) | (uint(clamp(Hit.Metallic, 0.0, 1.0) * 1023.0 + 0.5) << 22);
+	vec3 Emission = min(Hit.Emissive, vec3(MaxEmission)) * EmissionScale;
+	Payload.W6 = packHalf2x16(Emission.rg);
+	Payload.W7 = packHalf2x16(vec2(Emission.b, Hit.EmissiveWeight));
+	return Payload;
 }
 
-FMaterialHit UnpackHit(FMaterialPayload P)
+FMaterialHit UnpackHit(FMaterialPayload Payload)
 {
-	FMaterialHit H;
-	H.Distance = P.Distance;
-	H.Normal = UnpackOct(P.W1);
-	H.GeometricNormal = UnpackOct(P.W2);
-	vec2 BlueAndRoughness = unpackUnorm2x16(P.W4);
-	H.BaseColor = vec3(unpackUnorm2x16(P.W3), BlueAndRoughness.x);
-	H.Roughness = BlueAndRoughness.y;
-	H.Flags = P.W5 & 3u;
-	float RootF0 = float((P.W5 >> 2) & 0xfffu) / 4095.0;
-	H.F0 = RootF0 * RootF0;
-	H.Specular = float((P.W5 >> 14) & 0xffu) / 255.0;
-	H.Metallic = float(P.W5 >> 22) / 1023.0;
-	vec2 BlueAndWeight = unpackHalf2x16(P.W7);
-	H.Emissive = vec3(unpackHalf2x16(P.W6), BlueAndWeight.x) / EmissionScale;
-	H.EmissiveWeight = BlueAndWeight.y;
-	return H;
+	FMaterialHit Hit;
+	Hit.Distance = Payload.Distance;
+	Hit.Normal = UnpackOct(Payload.W1);
+	Hit.GeometricNormal = UnpackOct(Payload.W2);
+	vec2 BlueAndRoughness = unpackUnorm2x16(Payload.W4);
+	Hit.BaseColor = vec3(unpackUnorm2x16(Payload.W3), BlueAndRoughness.x);
+	Hit.Roughness = BlueAndRoughness.y;
+	Hit.Flags = Payload.W5 & 3u;
+	float RootF0 = float((Payload.W5 >> 2) & 0xfffu) / 4095.0;
+	Hit.F0 = RootF0 * RootF0;
+	Hit.Specular = float((Payload.W5 >> 14) & 0xffu) / 255.0;
+	Hit.Metallic = float(Payload.W5 >> 22) / 1023.0;
+	vec2 BlueAndWeight = unpackHalf2x16(Payload.W7);
+	Hit.Emissive = vec3(unpackHalf2x16(Payload.W6), BlueAndWeight.x) / EmissionScale;
+	Hit.EmissiveWeight = BlueAndWeight.y;
+	return Hit;
 }
 
 #endif

@@ -1,142 +1,148 @@
-// Next-event estimation, one function per kind of light. Include PathTracing.glsl, which declares what this needs.
+// Next-event estimation, one function for each kind of light; included by PathTracing.glsl, which declares what this needs.
+// Each returns reflected radiance; lights that BRDF sampling can find as well are weighted by the power heuristic. Parameters:
+//   Basis  local frame whose z is the shading normal; Direction * Basis is local, Basis * Direction is world
+//   V      towards the viewer, local;  P  ray origin, already offset from the surface
+//   Ng     geometric normal, towards the viewer;  U  random numbers in [0, 1)
 #ifndef LANTERN_PATH_LIGHTS_GLSL
 #define LANTERN_PATH_LIGHTS_GLSL
 
 bool IsVisible(FSceneConstants Scene, vec3 Origin, vec3 Direction, float Distance)
 {
-	ShadowPayload.Blocker = BlockedAnywhere;
+	ShadowPayload.BlockerDistance = BlockedAtUnknownDistance;
 	traceRayEXT(Scenes[Scene.Tlas], gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT, MASK_CASTS_SHADOW, SHADOW_RAY,
 	            RAY_TYPES, SHADOW_MISS, Origin, 0.0, Direction, Distance, 1);
 	return IsVisible(ShadowPayload);
 }
 
 #ifdef HAS_SUN
-vec3 SampleSun(FSceneConstants Scene, FBrdf B, mat3 Basis, vec3 V, vec3 P, vec3 Ng, vec2 U)
+vec3 SampleSun(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, vec2 U)
 {
-	bool bPoint = Scene.SunOneMinusCos <= 0.0;
-	vec3 Towards = bPoint ? -Scene.SunDirection : SampleSunDirection(Scene, U);
-	if (dot(Towards, Ng) <= 0.0) { return vec3(0.0); }
-	vec3 Local = Towards * Basis;
-	vec3 F = EvaluateBrdfCos(B, V, Local);
-	if (MaxComponent(F) <= 0.0 || !IsVisible(Scene, P, Towards, 1.0e30)) { return vec3(0.0); }
-	if (bPoint) { return F * Scene.SunColor * Scene.SunIrradiance; }
-	float Density = SunDensity(Scene);
-	return F * SunRadiance(Scene) * (PowerHeuristic(Density, BrdfDensity(B, V, Local)) / Density);
+	bool bPointSun = Scene.SunOneMinusCos <= 0.0;
+	vec3 ToLight = bPointSun ? -Scene.SunDirection : SampleSunDirection(Scene, U);
+	if (dot(ToLight, Ng) <= 0.0) { return vec3(0.0); }
+	vec3 LocalToLight = ToLight * Basis;
+	vec3 BrdfCos = EvaluateBrdfCos(Brdf, V, LocalToLight);
+	if (MaxComponent(BrdfCos) <= 0.0 || !IsVisible(Scene, P, ToLight, 1.0e30)) { return vec3(0.0); }
+	if (bPointSun) { return BrdfCos * Scene.SunColor * Scene.SunIrradiance; }
+	float Pdf = SunPdf(Scene);
+	return BrdfCos * SunRadiance(Scene) * (PowerHeuristic(Pdf, BrdfPdf(Brdf, V, LocalToLight)) / Pdf);
 }
 #endif
 
 #ifdef HAS_SKY
-vec3 SampleSky(FSceneConstants Scene, FBrdf B, mat3 Basis, vec3 V, vec3 P, vec3 Ng, vec2 U)
+vec3 SampleSky(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, vec2 U)
 {
-	vec3 Local = SampleCosineHemisphere(U);
-	vec3 Towards = Basis * Local;
-	if (Local.z <= 0.0 || dot(Towards, Ng) <= 0.0) { return vec3(0.0); }
-	vec3 F = EvaluateBrdfCos(B, V, Local);
-	if (MaxComponent(F) <= 0.0 || !IsVisible(Scene, P, Towards, 1.0e30)) { return vec3(0.0); }
-	float Density = Local.z / Pi;
-	return F * Scene.SkyRadiance * (PowerHeuristic(Density, BrdfDensity(B, V, Local)) / Density);
+	vec3 LocalToLight = SampleCosineHemisphere(U);
+	vec3 ToLight = Basis * LocalToLight;
+	if (LocalToLight.z <= 0.0 || dot(ToLight, Ng) <= 0.0) { return vec3(0.0); }
+	vec3 BrdfCos = EvaluateBrdfCos(Brdf, V, LocalToLight);
+	if (MaxComponent(BrdfCos) <= 0.0 || !IsVisible(Scene, P, ToLight, 1.0e30)) { return vec3(0.0); }
+	float Pdf = LocalToLight.z / Pi;
+	return BrdfCos * Scene.SkyRadiance * (PowerHeuristic(Pdf, BrdfPdf(Brdf, V, LocalToLight)) / Pdf);
 }
 #endif
 
 #ifdef HAS_LIGHTS
-// One light, chosen by its unshadowed irradiance: weighted reservoir over all of them.
-vec3 SamplePunctual(FSceneConstants Scene, FBrdf B, mat3 Basis, vec3 V, vec3 P, vec3 Ng, float U)
+// Samples one light with a probability proportional to its unshadowed irradiance, by weighted reservoir sampling over all.
+vec3 SamplePunctual(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, float U)
 {
 	FLightRef Lights = FLightRef(Scene.Lights);
-	float Total = 0.0, ChosenWeight = 0.0, ChosenDistance = 0.0;
-	vec3 ChosenIrradiance = vec3(0.0), ChosenTowards = vec3(0.0);
+	float TotalWeight = 0.0, ChosenWeight = 0.0, ChosenDistance = 0.0;
+	vec3 ChosenIrradiance = vec3(0.0), ChosenToLight = vec3(0.0);
 	for (uint I = 0; I < Scene.LightCount; ++I)
 	{
-		vec3 Towards;
+		vec3 ToLight;
 		float Distance;
-		vec3 Irradiance = PunctualIrradiance(Lights.Data[I], P, Towards, Distance);
+		vec3 Irradiance = PunctualIrradiance(Lights.Data[I], P, ToLight, Distance);
 		float Weight = Luminance(Irradiance);
-		if (Weight <= 0.0 || dot(Towards, Ng) <= 0.0) { continue; }
-		Total += Weight;
-		float Chance = Weight / Total;
-		if (U < Chance)
+		if (Weight <= 0.0 || dot(ToLight, Ng) <= 0.0) { continue; }
+		TotalWeight += Weight;
+		float Probability = Weight / TotalWeight;
+		if (U < Probability)
 		{
-			U /= Chance;
+			U /= Probability;
 			ChosenWeight = Weight;
 			ChosenIrradiance = Irradiance;
-			ChosenTowards = Towards;
+			ChosenToLight = ToLight;
 			ChosenDistance = Distance;
 		}
-		else { U = (U - Chance) / (1.0 - Chance); }
+		else { U = (U - Probability) / (1.0 - Probability); }
 		U = min(U, 0.99999994);
 	}
 	if (ChosenWeight <= 0.0) { return vec3(0.0); }
-	vec3 F = EvaluateBrdfCos(B, V, ChosenTowards * Basis);
-	if (MaxComponent(F) <= 0.0 || !IsVisible(Scene, P, ChosenTowards, ChosenDistance)) { return vec3(0.0); }
-	return F * ChosenIrradiance * (Total / ChosenWeight);
+	vec3 BrdfCos = EvaluateBrdfCos(Brdf, V, ChosenToLight * Basis);
+	if (MaxComponent(BrdfCos) <= 0.0 || !IsVisible(Scene, P, ChosenToLight, ChosenDistance)) { return vec3(0.0); }
+	return BrdfCos * ChosenIrradiance * (TotalWeight / ChosenWeight);
 }
 #endif
 
 #ifdef HAS_EMISSIVE
+// Returns the first triangle whose cumulative power exceeds U, by binary search.
 uint FindEmissiveTriangle(FSceneConstants Scene, float U)
 {
 	FEmissiveRef Triangles = FEmissiveRef(Scene.EmissiveTriangles);
-	uint Low = 0u, High = Scene.EmissiveTriangleCount - 1u;
-	while (Low < High)
+	uint First = 0u, Last = Scene.EmissiveTriangleCount - 1u;
+	while (First < Last)
 	{
-		uint Middle = (Low + High) >> 1;
-		if (Triangles.Data[Middle].CumulativePower > U) { High = Middle; }
-		else { Low = Middle + 1u; }
+		uint Middle = (First + Last) >> 1;
+		if (Triangles.Data[Middle].CumulativePower > U) { Last = Middle; }
+		else { First = Middle + 1u; }
 	}
-	return Low;
+	return First;
 }
 
-vec3 SampleEmissive(FSceneConstants Scene, FBrdf B, mat3 Basis, vec3 V, vec3 P, vec3 Ng, vec3 U)
+vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, vec3 U)
 {
-	if (Scene.EmissiveTriangleCount == 0u) { return vec3(0.0); } // all emitters are deformed ones
-	FEmissiveTriangle T = FEmissiveRef(Scene.EmissiveTriangles).Data[FindEmissiveTriangle(Scene, U.z)];
+	if (Scene.EmissiveTriangleCount == 0u) { return vec3(0.0); } // emitters exist, but deformed ones are not in the list
+	FEmissiveTriangle Triangle = FEmissiveRef(Scene.EmissiveTriangles).Data[FindEmissiveTriangle(Scene, U.z)];
 	vec2 Barycentrics = SampleTriangle(U.xy);
-	vec3 Point = T.P0 + (T.P1 - T.P0) * Barycentrics.x + (T.P2 - T.P0) * Barycentrics.y;
-	Point += CellOffset(Scene, FObjectRef(Scene.Objects).Data[T.Object].Cell);
-	vec3 Towards = Point - P;
-	float Distance2 = dot(Towards, Towards);
-	if (Distance2 < 1.0e-12) { return vec3(0.0); }
-	float Distance = sqrt(Distance2);
-	Towards /= Distance;
-	if (dot(Towards, Ng) <= 0.0) { return vec3(0.0); }
+	vec3 Point = Triangle.P0 + (Triangle.P1 - Triangle.P0) * Barycentrics.x + (Triangle.P2 - Triangle.P0) * Barycentrics.y;
+	Point += CellOffset(Scene, FObjectRef(Scene.Objects).Data[Triangle.Object].Cell);
+	vec3 ToLight = Point - P;
+	float DistanceSquared = dot(ToLight, ToLight);
+	if (DistanceSquared < 1.0e-12) { return vec3(0.0); }
+	float Distance = sqrt(DistanceSquared);
+	ToLight /= Distance;
+	if (dot(ToLight, Ng) <= 0.0) { return vec3(0.0); }
 
-	FSectionData Section = FSectionRef(Scene.Sections).Data[T.Section];
+	FSectionData Section = FSectionRef(Scene.Sections).Data[Triangle.Section];
 	FMaterialData Material = FMaterialRef(Scene.Materials).Data[Section.Material];
-	float Cos = -dot(normalize(cross(T.P1 - T.P0, T.P2 - T.P0)), Towards);
-	if ((T.Flags & OBJECT_MIRRORED) != 0u) { Cos = -Cos; }
-	if ((Section.Flags & SECTION_DOUBLE_SIDED) != 0u) { Cos = abs(Cos); }
-	vec3 F = EvaluateBrdfCos(B, V, Towards * Basis);
-	if (Cos <= 1.0e-6 || MaxComponent(F) <= 0.0) { return vec3(0.0); }
-	FMaterialInputs Inputs = FetchCoverageInputs(Section, T.Primitive, Barycentrics);
-	vec3 Emission = min(EvaluateEmission(Material, Inputs), vec3(MaxEmission)); // as the payload carries it
+	float CosAtLight = -dot(normalize(cross(Triangle.P1 - Triangle.P0, Triangle.P2 - Triangle.P0)), ToLight);
+	if ((Triangle.Flags & OBJECT_MIRRORED) != 0u) { CosAtLight = -CosAtLight; }
+	if ((Section.Flags & SECTION_DOUBLE_SIDED) != 0u) { CosAtLight = abs(CosAtLight); }
+	vec3 BrdfCos = EvaluateBrdfCos(Brdf, V, ToLight * Basis);
+	if (CosAtLight <= 1.0e-6 || MaxComponent(BrdfCos) <= 0.0) { return vec3(0.0); }
+	FMaterialInputs Inputs = FetchTextureInputs(Section, Triangle.Primitive, Barycentrics);
+	vec3 Emission = min(EvaluateEmission(Material, Inputs), vec3(MaxEmission)); // the limit that the payload has
 #ifdef HAS_MASKED
 	if (IsCutAway(Material, Inputs)) { return vec3(0.0); }
 #endif
-	// Stops short of the emitter, by more the flatter the ray meets it.
-	float Gap = PositionError(Point, Scene.ObjectReach, Distance) / max(Cos, 0.1);
-	if (MaxComponent(Emission) <= 0.0 || !IsVisible(Scene, P, Towards, max(Distance - Gap, 0.0))) { return vec3(0.0); }
-	float Density = Material.EmissiveWeight / Scene.EmissivePower * Distance2 / Cos;
-	return F * Emission * (PowerHeuristic(Density, BrdfDensity(B, V, Towards * Basis)) / Density);
+	// The shadow ray stops short of the emitter, the more so the more grazing it arrives.
+	float Margin = PositionError(Point, Scene.ObjectReach, Distance) / max(CosAtLight, 0.1);
+	if (MaxComponent(Emission) <= 0.0 || !IsVisible(Scene, P, ToLight, max(Distance - Margin, 0.0))) { return vec3(0.0); }
+	float Pdf = Material.EmissiveWeight / Scene.EmissivePower * DistanceSquared / CosAtLight;
+	return BrdfCos * Emission * (PowerHeuristic(Pdf, BrdfPdf(Brdf, V, ToLight * Basis)) / Pdf);
 }
 #endif
 
-vec3 SampleLights(FSceneConstants Scene, FBrdf B, mat3 Basis, vec3 V, vec3 P, vec3 Ng, inout FRandom Random)
+// Sums one sample of each kind of light. Takes eight random numbers, whatever kinds there are.
+vec3 SampleLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, inout FRandom Random)
 {
 	vec3 L = vec3(0.0);
-	if (IsMirror(B) && SpecularProbability(B, V) >= 1.0) { return L; }
+	if (IsMirror(Brdf) && SpecularProbability(Brdf, V) >= 1.0) { return L; }
 	vec4 U0 = NextRandom4(Random);
 	vec4 U1 = NextRandom4(Random);
 #ifdef HAS_SUN
-	L += SampleSun(Scene, B, Basis, V, P, Ng, U0.xy);
+	L += SampleSun(Scene, Brdf, Basis, V, P, Ng, U0.xy);
 #endif
 #ifdef HAS_SKY
-	L += SampleSky(Scene, B, Basis, V, P, Ng, U0.zw);
+	L += SampleSky(Scene, Brdf, Basis, V, P, Ng, U0.zw);
 #endif
 #ifdef HAS_LIGHTS
-	L += SamplePunctual(Scene, B, Basis, V, P, Ng, U1.w);
+	L += SamplePunctual(Scene, Brdf, Basis, V, P, Ng, U1.w);
 #endif
 #ifdef HAS_EMISSIVE
-	L += SampleEmissive(Scene, B, Basis, V, P, Ng, U1.xyz);
+	L += SampleEmissive(Scene, Brdf, Basis, V, P, Ng, U1.xyz);
 #endif
 	return L;
 }

@@ -1,6 +1,6 @@
-// Paths of light, for ray generation shaders: the reference and brute-force passes. Next-event estimation for each kind of
-// light that the scene has, combined with BRDF sampling by multiple importance sampling (Veach 1997); Russian roulette.
-// HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_EMISSIVE, HAS_MASKED: what the scene has.
+// Path tracing for ray generation shaders: the reference and the brute-force passes. Combines next-event estimation for each
+// kind of light with BRDF sampling by multiple importance sampling (Veach 1997), and ends paths by Russian roulette.
+// HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_EMISSIVE, HAS_MASKED: defined if the scene has such.
 #ifndef LANTERN_PATH_TRACING_GLSL
 #define LANTERN_PATH_TRACING_GLSL
 
@@ -20,7 +20,7 @@ layout(location = 1) rayPayloadEXT FShadowPayload ShadowPayload;
 #include "PathLights.glsl"
 
 const float Infinity = 1.0e30;
-const float RouletteFloor = 0.25;
+const float RouletteThreshold = 0.25; // throughput below which Russian roulette may end a path
 
 FMaterialHit TraceMaterial(FSceneConstants Scene, uint Mask, vec3 Origin, vec3 Direction, float MaxDistance)
 {
@@ -33,55 +33,57 @@ FMaterialHit TraceMaterial(FSceneConstants Scene, vec3 Origin, vec3 Direction)
 	return TraceMaterial(Scene, MASK_VISIBLE, Origin, Direction, Infinity);
 }
 
-// What a ray that hits nothing brings, weighted against next-event estimation from N (the vertex it left).
-vec3 ShadeMiss(FSceneConstants Scene, vec3 Direction, float Density, float NdotL)
+// Returns the radiance of the sky and the sun's disk along a ray that hits nothing, weighted against next-event estimation.
+// Pdf: with which Direction was sampled; NdotL: its cosine at the vertex that it left.
+vec3 ShadeMiss(FSceneConstants Scene, vec3 Direction, float Pdf, float NdotL)
 {
 	vec3 L = vec3(0.0);
 #ifdef HAS_SKY
-	L += Scene.SkyRadiance * PowerHeuristic(Density, NdotL / Pi);
+	L += Scene.SkyRadiance * PowerHeuristic(Pdf, NdotL / Pi);
 #endif
 #ifdef HAS_SUN
 	if (Scene.SunOneMinusCos > 0.0 && IsInSunDisk(Scene, Direction))
 	{
-		L += SunRadiance(Scene) * PowerHeuristic(Density, SunDensity(Scene));
+		L += SunRadiance(Scene) * PowerHeuristic(Pdf, SunPdf(Scene));
 	}
 #endif
 	return L;
 }
 
-vec3 ShadeEmission(FSceneConstants Scene, FMaterialHit Hit, vec3 Direction, float Density)
+// Returns the emission of a hit surface, weighted against next-event estimation. Pdf: with which Direction was sampled.
+vec3 ShadeEmission(FSceneConstants Scene, FMaterialHit Hit, vec3 Direction, float Pdf)
 {
 	if (MaxComponent(Hit.Emissive) <= 0.0) { return vec3(0.0); }
-	float Cos = abs(dot(Hit.GeometricNormal, Direction));
-	float LightDensity = 0.0;
+	float CosAtLight = abs(dot(Hit.GeometricNormal, Direction));
+	float LightPdf = 0.0;
 #ifdef HAS_EMISSIVE
-	if (Hit.EmissiveWeight > 0.0) { LightDensity = Hit.EmissiveWeight / Scene.EmissivePower * Hit.Distance * Hit.Distance / max(Cos, 1.0e-8); }
+	if (Hit.EmissiveWeight > 0.0) { LightPdf = Hit.EmissiveWeight / Scene.EmissivePower * Hit.Distance * Hit.Distance / max(CosAtLight, 1.0e-8); }
 #endif
-	return Hit.Emissive * PowerHeuristic(Density, LightDensity);
+	return Hit.Emissive * PowerHeuristic(Pdf, LightPdf);
 }
 
 FBrdf MakeBrdf(FMaterialHit Hit)
 {
-	FBrdf B;
-	B.BaseColor = Hit.BaseColor;
-	B.Metallic = Hit.Metallic;
-	B.Alpha = Hit.Roughness * Hit.Roughness;
-	B.F0 = Hit.F0;
-	B.Specular = Hit.Specular;
-	B.Diffuse = 1.0;
-	return B;
+	FBrdf Brdf;
+	Brdf.BaseColor = Hit.BaseColor;
+	Brdf.Metallic = Hit.Metallic;
+	Brdf.Alpha = Hit.Roughness * Hit.Roughness;
+	Brdf.F0 = Hit.F0;
+	Brdf.Specular = Hit.Specular;
+	Brdf.Diffuse = 1.0;
+	return Brdf;
 }
 
-// What comes back along a ray that was traced from Origin to Hit. Density and NdotL: of its direction at the vertex that it
-// left, for what next-event estimation there has found already. Bounce: how often the path has been scattered before.
-vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direction, float Density, float NdotL, uint Bounce, uint MaxBounces,
+// Returns the radiance that arrives along a ray traced from Origin to Hit. Pdf and NdotL belong to its direction at the vertex
+// that it left; they weigh it against the next-event estimation there. Bounce: how often the path was scattered before.
+vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direction, float Pdf, float NdotL, uint Bounce, uint MaxBounces,
                 inout FRandom Random)
 {
 	vec3 Radiance = vec3(0.0), Throughput = vec3(1.0);
 	for (;; ++Bounce)
 	{
-		if (Hit.Distance < 0.0) { return Radiance + Throughput * ShadeMiss(Scene, Direction, Density, NdotL); }
-		Radiance += Throughput * ShadeEmission(Scene, Hit, Direction, Density);
+		if (Hit.Distance < 0.0) { return Radiance + Throughput * ShadeMiss(Scene, Direction, Pdf, NdotL); }
+		Radiance += Throughput * ShadeEmission(Scene, Hit, Direction, Pdf);
 		if (Bounce >= MaxBounces) { return Radiance; }
 
 		vec3 P = OffsetRayOrigin(Origin + Direction * Hit.Distance, Hit.GeometricNormal, Scene.ObjectReach, Hit.Distance);
@@ -96,26 +98,26 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 		Throughput *= Sample.Weight;
 		Direction = Basis * Sample.Direction;
 		if (dot(Direction, Hit.GeometricNormal) <= 0.0) { return Radiance; }
-		Density = Sample.Density;
+		Pdf = Sample.Pdf;
 		NdotL = Sample.Direction.z;
 
 		if (Bounce >= 3u)
 		{
-			// Survivors keep RouletteFloor: in bright rooms roulette on the throughput itself is most of the noise
-			// (albedo 0.9, closed: 10 times the samples for the same error).
-			float Survive = min(MaxComponent(Throughput) / RouletteFloor, 1.0);
-			if (NextRandom4(Random).x >= Survive) { return Radiance; }
-			Throughput /= Survive;
+			// Survivors continue with a throughput of RouletteThreshold. Roulette on the throughput itself would cause most
+			// of the noise in bright rooms (closed, albedo 0.9: 10 times the samples for the same error).
+			float SurvivalProbability = min(MaxComponent(Throughput) / RouletteThreshold, 1.0);
+			if (NextRandom4(Random).x >= SurvivalProbability) { return Radiance; }
+			Throughput /= SurvivalProbability;
 		}
 		Origin = P;
 		Hit = TraceMaterial(Scene, Origin, Direction);
 	}
 }
 
-// What one lobe reflects at the first vertex of a path, of all light but that of the sun's disk and of punctual lights: these
-// shine there directly, which is direct lighting's. Lobe: MakeWhiteLambert or MakeSpecularLobe. V: in the frame of Basis;
-// Ng: geometric normal, towards the viewer; P: already off the surface. U: chooses the direction. The sky is found by the
-// lobe's own samples alone: it is uniform, and light sampling would find no more.
+// Returns the indirect light that one lobe reflects at the first vertex of a path. It excludes the sun's disk and punctual
+// lights that shine there directly; the lighting pass adds those. It includes the sky and emissive triangles.
+// Lobe: MakeWhiteLambert or MakeSpecularLobe. U: chooses the direction. Other parameters: see PathLights.glsl.
+// Only the lobe samples the sky. The sky is uniform, so that light sampling would not reduce the noise.
 vec3 GatherIndirect(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, vec3 Ng, vec2 U, uint MaxBounces, inout FRandom Random)
 {
 	vec3 Radiance = vec3(0.0);
@@ -123,8 +125,8 @@ vec3 GatherIndirect(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 
 	float Specular = SpecularProbability(Lobe, V); // 0 or 1
 	if (Specular <= 0.0 && Lobe.Diffuse <= 0.0) { return Radiance; }
 #ifdef HAS_EMISSIVE
-	vec3 ULight = NextRandom4(Random).xyz;
-	if (Specular <= 0.0 || !IsMirror(Lobe)) { Radiance += SampleEmissive(Scene, Lobe, Basis, V, P, Ng, ULight); }
+	vec3 LightSample = NextRandom4(Random).xyz;
+	if (Specular <= 0.0 || !IsMirror(Lobe)) { Radiance += SampleEmissive(Scene, Lobe, Basis, V, P, Ng, LightSample); }
 #endif
 	FBrdfSample Sample = SampleBrdf(Lobe, V, vec3(U, 0.5));
 	vec3 Direction = Basis * Sample.Direction;
@@ -137,7 +139,7 @@ vec3 GatherIndirect(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 
 #endif
 		return Radiance;
 	}
-	return Radiance + Sample.Weight * FollowPath(Scene, Hit, P, Direction, Sample.Density, Sample.Direction.z, 1u, MaxBounces, Random);
+	return Radiance + Sample.Weight * FollowPath(Scene, Hit, P, Direction, Sample.Pdf, Sample.Direction.z, 1u, MaxBounces, Random);
 }
 
 #endif

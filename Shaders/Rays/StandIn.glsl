@@ -1,5 +1,5 @@
-// STAND_IN: the shader runs in place of one that is not compiled yet. The rays that hit it are counted by material, so that
-// what is seen most is compiled first.
+// Counts the rays that hit stand-ins, by material, so that the materials seen most are compiled first.
+// STAND_IN: defined if this shader runs in place of one that is not compiled yet.
 #ifndef LANTERN_STAND_IN_GLSL
 #define LANTERN_STAND_IN_GLSL
 

@@ -91,7 +91,7 @@ struct FObjectData
 {
 	vec4 ObjectToWorld[3]; // rows; relative to the centre of its cell
 	uint FirstSection;     // into FSectionData[]
-	uint Flags;            // OBJECT_…, and what rounding took from the translation: see TranslationRest in GBuffer.vert
+	uint Flags;            // OBJECT_…, and what rounding took from the translation: see UnpackTranslationRemainder in GBuffer.vert
 	ivec3 Cell;            // of the world; see CellOffset in Bindings.glsl
 	uint Motion;           // into FObjectMotion[], or NO_MOTION
 };

@@ -1,7 +1,7 @@
-// What the pipeline and the ray-query path share: which rays a pixel casts. The includer defines
-//   float TraceSun(vec3 Origin, vec3 Direction)   distance to what is in the way; negative: nothing is
-// WITH_PENUMBRA: how wide the penumbra of what is in the way is, is told, too.
-// ONE_SAMPLE: SamplesPerPixel is known to be 1. Without the loop nothing but the pixel lives across the trace.
+// Sun visibility of a pixel; the ray-tracing pipeline and the ray-query path share it. The includer defines
+//   float TraceSunRay(vec3 Origin, vec3 Direction)   distance to a blocker; negative: the ray is unblocked
+// WITH_PENUMBRA: also writes the width of the penumbra, for the denoiser.
+// ONE_SAMPLE: SamplesPerPixel is known to be 1. Without the loop, only the pixel's coordinates stay live across the trace.
 #ifndef LANTERN_SUN_SHADOW_GLSL
 #define LANTERN_SUN_SHADOW_GLSL
 
@@ -13,7 +13,7 @@
 
 layout(push_constant, scalar) uniform FPush { FSunShadowConstants Push; };
 
-float TraceSun(vec3 Origin, vec3 Direction);
+float TraceSunRay(vec3 Origin, vec3 Direction);
 
 #ifdef ONE_SAMPLE
 const uint SamplesPerPixel = 1u;
@@ -28,7 +28,7 @@ void StorePenumbra(uvec2 Pixel, float Penumbra)
 #endif
 }
 
-void ShadePixel(uvec2 Pixel)
+void TracePixel(uvec2 Pixel)
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	if (any(greaterThanEqual(Pixel, uvec2(View.Width, View.Height)))) { return; }
@@ -41,26 +41,26 @@ void ShadePixel(uvec2 Pixel)
 	}
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	vec3 Ng = OctDecode(texelFetch(Textures[Push.Normals], ivec2(Pixel), 0).zw);
-	vec3 Relative = RelativePositionFromDepth(View, Pixel, Depth);
-	vec3 Origin = RasterRayOrigin(Scene, View, Relative, Ng);
-	float Visible = 0.0, Blockers = 0.0, Blocked = 0.0;
+	vec3 CameraRelative = RelativePositionFromDepth(View, Pixel, Depth);
+	vec3 Origin = RasterRayOrigin(Scene, View, CameraRelative, Ng);
+	float VisibleSamples = 0.0, BlockerDistanceSum = 0.0, BlockedSamples = 0.0;
 	FTileSequence Sequence = MakeTileSequence(Pixel, View.FrameIndex, HashPcg(View.Seed));
 	for (uint Sample = 0; Sample < SamplesPerPixel; ++Sample)
 	{
 		vec3 Direction = -Scene.SunDirection;
 		if (Push.bSoft != 0u) { Direction = SampleSunDirection(Scene, SobolOwen2(Sequence.Index * SamplesPerPixel + Sample, Sequence.Seed)); }
 		if (dot(Ng, Direction) <= 0.0) { continue; }
-		float Blocker = TraceSun(Origin, Direction);
-		Visible += Blocker < 0.0 ? 1.0 : 0.0;
-		Blocked += Blocker < 0.0 ? 0.0 : 1.0;
-		Blockers += max(Blocker, 0.0);
+		float BlockerDistance = TraceSunRay(Origin, Direction);
+		VisibleSamples += BlockerDistance < 0.0 ? 1.0 : 0.0;
+		BlockedSamples += BlockerDistance < 0.0 ? 0.0 : 1.0;
+		BlockerDistanceSum += max(BlockerDistance, 0.0);
 	}
-	imageStore(Images[Push.Output], ivec2(Pixel), vec4(Visible / float(SamplesPerPixel)));
-	// The disk's diameter, as the blockers' edges draw it on the surface, in pixels; 0: nothing is in the way. Of the surface's
-	// own horizon nothing is known.
+	imageStore(Images[Push.Output], ivec2(Pixel), vec4(VisibleSamples / float(SamplesPerPixel)));
+	// Width of the penumbra in pixels: the diameter of the sun's disk, projected past the mean blocker onto the surface. 0: no
+	// blocker. A surface that turns away from the sun gives no blocker distance; its width is set to 1e-3.
 	float Diameter = 2.0 * sqrt(2.0 * Scene.SunOneMinusCos);
-	float Penumbra = Visible < float(SamplesPerPixel) ? 1.0e-3 : 0.0;
-	if (Blocked > 0.0) { Penumbra = Diameter * Blockers / Blocked * abs(dot(Ng, normalize(Relative))) / (PixelAngle(View) * (View.Near / Depth)); }
+	float Penumbra = VisibleSamples < float(SamplesPerPixel) ? 1.0e-3 : 0.0;
+	if (BlockedSamples > 0.0) { Penumbra = Diameter * BlockerDistanceSum / BlockedSamples * abs(dot(Ng, normalize(CameraRelative))) / (PixelAngle(View) * (View.Near / Depth)); }
 	StorePenumbra(Pixel, Penumbra);
 }
 

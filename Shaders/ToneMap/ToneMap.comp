@@ -1,3 +1,4 @@
+// Exposure, tone mapping and sRGB encoding.
 #version 460
 #include "../Shared/LightingTypes.h"
 #include "../Library/Bindings.glsl"

@@ -295,7 +295,7 @@ TEST_F(FMaterialProgramTest, AlphaTestsAreTheProgramsOwn)
 	World().SetMaterialProgram(2,
 	    AddProgram("HalfTest", MakeText(0.25) + "#define MATERIAL_HAS_ALPHA_TEST\n"
 	                                            "bool IsHitCutAway(FMaterialRef Materials, FSectionData Section, uint Primitive, vec2 B)\n"
-	                                            "{ return FetchInputs(Section, Primitive, B).UV0.y > 0.5; }\n"));
+	                                            "{ return FetchMaterialInputs(Section, Primitive, B).UV0.y > 0.5; }\n"));
 	// The standard's, as it is.
 	World().SetMaterialProgram(3, AddProgram("Plain", "#define MATERIAL_STANDARD_OPACITY\n" + MakeText(0.25)));
 	ASSERT_NO_FATAL_FAILURE(Trace(true));
