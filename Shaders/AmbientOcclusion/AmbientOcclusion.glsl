@@ -6,9 +6,8 @@
 
 #include "../Shared/AmbientOcclusionTypes.h"
 #include "OcclusionFalloff.glsl"
-#include "../Library/Bindings.glsl"
+#include "../Library/GBuffer.glsl"
 #include "../Library/Random.glsl"
-#include "../Library/View.glsl"
 
 layout(push_constant, scalar) uniform FPush { FAmbientOcclusionConstants Push; };
 
@@ -23,26 +22,24 @@ const uint SamplesPerPixel = 1u;
 void TracePixel(uvec2 Pixel)
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
-	if (any(greaterThanEqual(Pixel, uvec2(View.Width, View.Height)))) { return; }
-	float Depth = texelFetch(Textures[Push.Depth], ivec2(Pixel), 0).x;
+	if (IsOutsideView(View, Pixel)) { return; }
+	float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
 	if (Depth <= 0.0) // sky
 	{
 		imageStore(Images[Push.Output], ivec2(Pixel), vec4(1.0));
 		return;
 	}
-	vec4 Normals = texelFetch(Textures[Push.Normals], ivec2(Pixel), 0);
-	vec3 N = OctDecode(Normals.xy), Ng = OctDecode(Normals.zw);
-	vec3 CameraRelative = RelativePositionFromDepth(View, Pixel, Depth);
-	vec3 Origin = RasterRayOrigin(FSceneRef(Push.Pass.Scene).Data, View, CameraRelative, Ng);
+	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), Depth);
+	vec3 Origin = RasterRayOrigin(FSceneRef(Push.Pass.Scene).Data, View, Point.Relative, Point.Ng);
 	float VisibleSamples = 0.0;
 	// The seed differs from the sun shadow's, and the length has a seed of its own: the direction takes both Sobol dimensions.
 	uint Seed = HashPcg(HashPcg(Pixel.x + HashPcg(Pixel.y + HashPcg(View.Seed))) + 1u), LengthSeed = HashPcg(Seed);
 	for (uint Sample = 0; Sample < SamplesPerPixel; ++Sample)
 	{
 		uint Index = View.FrameIndex * SamplesPerPixel + Sample;
-		vec3 Direction = SampleOcclusionDirection(N, SobolOwen2(Index, Seed));
+		vec3 Direction = SampleOcclusionDirection(Point.N, SobolOwen2(Index, Seed));
 		float Length = SampleOcclusionLength(SobolOwen2(Index, LengthSeed).x, Push.Radius);
-		if (dot(Ng, Direction) > 0.0 && IsUnoccluded(Origin, Direction, Length)) { VisibleSamples += 1.0; }
+		if (dot(Point.Ng, Direction) > 0.0 && IsUnoccluded(Origin, Direction, Length)) { VisibleSamples += 1.0; }
 	}
 	imageStore(Images[Push.Output], ivec2(Pixel), vec4(VisibleSamples / float(SamplesPerPixel)));
 }

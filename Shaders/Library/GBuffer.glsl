@@ -11,17 +11,23 @@ struct FGBufferPoint
 {
 	vec3 Relative; // position relative to the camera, metres
 	vec3 V;        // towards the camera
-	vec3 N, Ng;    // shading normal, bent towards the viewer; geometric normal
+	vec3 N;        // shading normal, as the material has it
+	vec3 BentN;    // shading normal, bent so that it faces the viewer
+	vec3 Ng;       // geometric normal, towards the viewer
 };
 
+float LoadDepth(uint Texture, ivec2 Pixel) { return texelFetch(Textures[Texture], Pixel, 0).x; }
+
+// Normals: sampled index. Depth: of this pixel, > 0.
 FGBufferPoint LoadGBufferPoint(FViewConstants View, uint Normals, ivec2 Pixel, float Depth)
 {
-	vec4 Encoded = texelFetch(Textures[Normals], Pixel, 0);
+	vec4 OctNormals = texelFetch(Textures[Normals], Pixel, 0);
 	FGBufferPoint Point;
 	Point.Relative = RelativePositionFromDepth(View, uvec2(Pixel), Depth);
 	Point.V = -normalize(Point.Relative);
-	Point.N = BendNormal(OctDecode(Encoded.xy), Point.V);
-	Point.Ng = OctDecode(Encoded.zw);
+	Point.N = OctDecode(OctNormals.xy);
+	Point.BentN = BendNormal(Point.N, Point.V);
+	Point.Ng = OctDecode(OctNormals.zw);
 	return Point;
 }
 

@@ -5,6 +5,9 @@
 #include "Bindings.glsl"
 #include "Math.glsl"
 
+// Whether a thread of the last, partly used work groups has no pixel.
+bool IsOutsideView(FViewConstants View, uvec2 Pixel) { return any(greaterThanEqual(Pixel, uvec2(View.Width, View.Height))); }
+
 // Returns the direction through Pixel, of length 1 along the view axis (not normalised). The first pixel's centre is at 0.5.
 vec3 CameraRay(FViewConstants View, vec2 Pixel)
 {

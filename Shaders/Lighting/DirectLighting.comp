@@ -78,7 +78,7 @@ vec3 ShadeSurface(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, float
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
 	vec4 Material = texelFetch(Textures[Push.Material], Pixel, 0);
 	FBrdf Brdf = MakeGBufferBrdf(texelFetch(Textures[Push.BaseColor], Pixel, 0), Material);
-	mat3 Basis = MakeBasis(Point.N);
+	mat3 Basis = MakeBasis(Point.BentN);
 	vec3 LocalV = Point.V * Basis;
 	return texelFetch(Textures[Push.Emissive], Pixel, 0).rgb + ShadeDirect(Scene, View, Pixel, Point, Brdf, Basis, LocalV) +
 	       ShadeIndirect(Scene, Pixel, Brdf, LocalV.z, Material);
@@ -88,9 +88,9 @@ void main()
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	uvec2 Pixel = gl_GlobalInvocationID.xy;
-	if (any(greaterThanEqual(Pixel, uvec2(View.Width, View.Height)))) { return; }
+	if (IsOutsideView(View, Pixel)) { return; }
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
-	float Depth = texelFetch(Textures[Push.Depth], ivec2(Pixel), 0).x;
+	float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
 	vec3 Radiance = Depth > 0.0 ? ShadeSurface(Scene, View, ivec2(Pixel), Depth) : ShadeSky(Scene, normalize(CameraRay(View, vec2(Pixel) + 0.5)));
 	imageStore(Images[Push.Output], ivec2(Pixel), vec4(Radiance, 1.0));
 }

@@ -11,7 +11,7 @@ void main()
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	uvec2 Pixel = gl_GlobalInvocationID.xy;
-	if (any(greaterThanEqual(Pixel, uvec2(View.Width, View.Height)))) { return; }
+	if (IsOutsideView(View, Pixel)) { return; }
 	float Depth = texelFetch(Textures[Push.Depth], ivec2(Pixel), 0).r;
 	vec3 Motion = vec3(0.0);
 	if (Depth > 0.0)

@@ -6,10 +6,9 @@
 #define LANTERN_SUN_SHADOW_GLSL
 
 #include "../Shared/SunShadowTypes.h"
-#include "../Library/Bindings.glsl"
+#include "../Library/GBuffer.glsl"
 #include "../Library/Random.glsl"
 #include "../Library/Sun.glsl"
-#include "../Library/View.glsl"
 
 layout(push_constant, scalar) uniform FPush { FSunShadowConstants Push; };
 
@@ -31,8 +30,8 @@ void StorePenumbra(uvec2 Pixel, float Penumbra)
 void TracePixel(uvec2 Pixel)
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
-	if (any(greaterThanEqual(Pixel, uvec2(View.Width, View.Height)))) { return; }
-	float Depth = texelFetch(Textures[Push.Depth], ivec2(Pixel), 0).x;
+	if (IsOutsideView(View, Pixel)) { return; }
+	float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
 	if (Depth <= 0.0) // sky
 	{
 		imageStore(Images[Push.Output], ivec2(Pixel), vec4(1.0));
@@ -40,16 +39,15 @@ void TracePixel(uvec2 Pixel)
 		return;
 	}
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
-	vec3 Ng = OctDecode(texelFetch(Textures[Push.Normals], ivec2(Pixel), 0).zw);
-	vec3 CameraRelative = RelativePositionFromDepth(View, Pixel, Depth);
-	vec3 Origin = RasterRayOrigin(Scene, View, CameraRelative, Ng);
+	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), Depth);
+	vec3 Origin = RasterRayOrigin(Scene, View, Point.Relative, Point.Ng);
 	float VisibleSamples = 0.0, BlockerDistanceSum = 0.0, BlockedSamples = 0.0;
 	FTileSequence Sequence = MakeTileSequence(Pixel, View.FrameIndex, HashPcg(View.Seed));
 	for (uint Sample = 0; Sample < SamplesPerPixel; ++Sample)
 	{
 		vec3 Direction = -Scene.SunDirection;
 		if (Push.bSoft != 0u) { Direction = SampleSunDirection(Scene, SobolOwen2(Sequence.Index * SamplesPerPixel + Sample, Sequence.Seed)); }
-		if (dot(Ng, Direction) <= 0.0) { continue; }
+		if (dot(Point.Ng, Direction) <= 0.0) { continue; }
 		float BlockerDistance = TraceSunRay(Origin, Direction);
 		VisibleSamples += BlockerDistance < 0.0 ? 1.0 : 0.0;
 		BlockedSamples += BlockerDistance < 0.0 ? 0.0 : 1.0;
@@ -60,7 +58,11 @@ void TracePixel(uvec2 Pixel)
 	// blocker. A surface that turns away from the sun gives no blocker distance; its width is set to 1e-3.
 	float Diameter = 2.0 * sqrt(2.0 * Scene.SunOneMinusCos);
 	float Penumbra = VisibleSamples < float(SamplesPerPixel) ? 1.0e-3 : 0.0;
-	if (BlockedSamples > 0.0) { Penumbra = Diameter * BlockerDistanceSum / BlockedSamples * abs(dot(Ng, normalize(CameraRelative))) / (PixelAngle(View) * (View.Near / Depth)); }
+	if (BlockedSamples > 0.0)
+	{
+		float Foreshortening = abs(dot(Point.Ng, normalize(Point.Relative)));
+		Penumbra = Diameter * BlockerDistanceSum / BlockedSamples * Foreshortening / (PixelAngle(View) * (View.Near / Depth));
+	}
 	StorePenumbra(Pixel, Penumbra);
 }
 
