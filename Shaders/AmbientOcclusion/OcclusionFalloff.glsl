@@ -14,8 +14,8 @@ float OcclusionVisibility(float Distance, float Radius)
 }
 
 // Samples a ray length such that the ray is blocked with probability 1 − OcclusionVisibility of the surface that it meets.
-// The mean of this binary result equals the mean visibility. The ray therefore needs no hit distance: it ends at the first
-// hit, it is shorter than Radius, and the shaders of shadow rays serve it.
+// The mean of this binary result equals the mean visibility. The ray therefore needs no hit distance and ends at the first
+// hit. It is shorter than Radius, and the shaders of shadow rays serve it.
 float SampleOcclusionLength(float U, float Radius) { return Radius * sqrt(U); }
 
 vec3 SampleOcclusionDirection(vec3 N, vec2 U) { return MakeBasis(N) * SampleCosineHemisphere(U); }

@@ -1,10 +1,10 @@
 // Shows one signal: a visibility as grey, a radiance as the picture would show it.
 #version 460
-#include "../Shared/LightingTypes.h"
+#include "../Shared/DebugViewTypes.h"
 #include "../Library/Bindings.glsl"
 #include "../Library/ToneMap.glsl"
 
-layout(local_size_x = LIGHTING_GROUP_SIZE, local_size_y = LIGHTING_GROUP_SIZE) in;
+layout(local_size_x = DEBUG_VIEW_GROUP_SIZE, local_size_y = DEBUG_VIEW_GROUP_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FDebugViewConstants Push; };
 
 void main()

@@ -40,7 +40,8 @@ vec3 PreviousCameraRelativePosition(FSceneConstants Scene, FViewConstants View, 
 	if (Object.Motion == NO_MOTION) { return Relative + View.CameraMotion; }
 	FObjectMotion Motion = FObjectMotionRef(Scene.ObjectMotions).Data[Object.Motion];
 	if (Motion.PreviousPositions != 0ul) { Position = FPositionRef(Motion.PreviousPositions).Data[gl_VertexIndex]; }
-	return CameraRelativePosition(Motion.PreviousObjectToWorld, CellOffset(Scene, Motion.PreviousCell), Motion.PreviousFlags, Position, View.CameraPosition) + View.CameraMotion;
+	return CameraRelativePosition(Motion.PreviousObjectToWorld, CellOffset(Scene, Motion.PreviousCell), Motion.PreviousFlags, Position,
+	                              View.CameraPosition) + View.CameraMotion;
 }
 #endif
 

@@ -1,7 +1,7 @@
 // The glTF 2.0 material model (Khronos, glTF 2.0 specification, appendix B): a Lambert base under a dielectric
 // GGX layer, mixed with a metal by metalness. Masking is height-correlated Smith (Heitz 2014), with α = roughness².
-// Naming: V points to the viewer, L to the light, H is their half vector; the functions take them in the local frame whose
-// +z is the shading normal. U holds uniform random numbers in [0, 1). "Pdf" is a probability density over solid angle.
+// Naming: V points to the viewer, L to the light, H is their half vector. All are in the local frame whose +z is
+// the shading normal. U holds uniform random numbers in [0, 1). "Pdf" is a probability density over solid angle.
 #ifndef LANTERN_BRDF_GLSL
 #define LANTERN_BRDF_GLSL
 
@@ -148,14 +148,14 @@ vec3 DiffuseReflectance(FBrdf Brdf, float NdotV)
 	return DiffuseAlbedo(Brdf) * (1.0 - Brdf.Specular * mix(Brdf.F0, 1.0, Weight));
 }
 
-// Returns the directional albedo of the specular lobe. x: with F = 1 everywhere. y: with Schlick's (1 − V·H)⁵ in place of F,
-// the part that F90 weighs.
+// Returns the directional albedo of the specular lobe. x is the albedo with F = 1 everywhere. y uses
+// Schlick's (1 − V·H)⁵ in place of F, which is the part that F90 weighs.
 //
 // These are rational functions of N·V and roughness, fitted to sums over visible normals (Heitz 2018) at 2,000 points. The
 // fit is linear least squares with the denominator of the previous iteration (Sanathanan and Koerner 1963). It is followed
 // by Levenberg-Marquardt with weights that follow the error, which lowers the largest error.
-// Error of the reflectance for F0 from 0.04 to 1: at most 1.7 % for N·V and roughness from 0.05 to 1, 2.3 % for mirrors,
-// and 12 % nearer to grazing.
+// For F0 from 0.04 to 1, N·V and roughness from 0.05 to 1, the reflectance is off by at most 1.7 %. The error is at most 2.3 %
+// for mirrors, and 12 % nearer to grazing.
 vec2 SpecularAlbedo(float NdotV, float Roughness)
 {
 	float X = NdotV, S = sqrt(NdotV), Y = Roughness;

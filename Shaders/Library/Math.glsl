@@ -46,9 +46,9 @@ mat3 MakeBasis(vec3 N)
 }
 
 // Rays start at an offset from their surface, so that they do not hit it again. The distance between a hit point and its
-// surface, as traversal computes it, is proportional to the largest number that fp32 rounded on the way:
-// - the coordinates of the point and of the ray that found it, relative to the scene's origin, which is near the camera;
-// - the translation into the object's space. It exceeds these coordinates only if the object itself is larger.
+// surface, as traversal computes it, is proportional to the largest number that fp32 rounded on the way. There are two candidates:
+// - The coordinates of the point and of the ray that found it, relative to the scene's origin, which is near the camera.
+// - The translation into the object's space. It exceeds these coordinates only if the object itself is larger.
 //   FSceneConstants::ObjectReach (FObjectPivots) is the largest one of any object near the camera, and at least 8 m.
 // Rounding alone costs 2 units of 2^-24 of that number a step ("Solving Self-Intersection Artifacts in DirectX Raytracing",
 // NVIDIA 2023). Wächter and Binder 2019 ("A Fast and Robust Method for Avoiding Self-Intersection") allow 256 units.
@@ -57,13 +57,19 @@ mat3 MakeBasis(vec3 N)
 const float CoordinateError = 1.2e-5;
 
 // Returns the bound of the error of a hit point, in metres. TraceDistance: length of the ray that found it, metres.
-float PositionError(vec3 P, float ObjectReach, float TraceDistance) { return CoordinateError * (max(MaxComponent(abs(P)), ObjectReach) + TraceDistance); }
+float PositionError(vec3 P, float ObjectReach, float TraceDistance)
+{
+	return CoordinateError * (max(MaxComponent(abs(P)), ObjectReach) + TraceDistance);
+}
 
 // Offsets a hit point along its geometric normal Ng, which faces the side that the next ray leaves to.
-vec3 OffsetRayOrigin(vec3 P, vec3 Ng, float ObjectReach, float TraceDistance) { return P + Ng * PositionError(P, ObjectReach, TraceDistance); }
+vec3 OffsetRayOrigin(vec3 P, vec3 Ng, float ObjectReach, float TraceDistance)
+{
+	return P + Ng * PositionError(P, ObjectReach, TraceDistance);
+}
 
 // Offsets a point that was reconstructed from rasterised depth. The rasteriser snaps vertices to a grid of 1/256 of a pixel
-// (VkPhysicalDeviceLimits::subPixelPrecisionBits), by up to half a step, and the surface's depth moves with them.
+// (VkPhysicalDeviceLimits::subPixelPrecisionBits), by up to half a step. The surface's depth moves with them.
 // PixelWidth: width of a pixel at the point, metres.
 vec3 OffsetRasterPoint(vec3 P, vec3 Ng, float ObjectReach, float PixelWidth)
 {

@@ -79,8 +79,8 @@ vec2 SobolOwen2(uint Index, uint Seed)
 	return vec2(uvec2(X, Y) >> 8u) * (1.0 / 16777216.0);
 }
 
-// Tiles of 8×8 pixels share one Sobol sequence in Z order, so that the points of neighbouring pixels stratify together, as
-// those of one pixel do (Ahmed & Wonka 2020, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via
+// Tiles of 8×8 pixels share one Sobol sequence in Z order, so that the points of neighbouring pixels stratify together
+// (Ahmed & Wonka 2020, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via
 // Hierarchical Ordering of Pixels"). The index is pixel XOR frame. XOR keeps aligned blocks of the sequence together, over
 // the pixels of one frame and over the frames of one pixel.
 struct FTileSequence

@@ -18,11 +18,11 @@ struct FMaterialInputs
 // these loads early.
 uvec3 FetchTriangle(FSectionData Section, uint Primitive)
 {
-	uint IndicesPerWordLog2 = Section.Flags & SECTION_INDEX_16; // the flag's bit is 1: two indices a word
+	uint WordShift = Section.Flags & SECTION_INDEX_16; // the flag's bit is 1: two indices a word
 	uvec3 Index = 3 * Primitive + ((Section.Flags & SECTION_INDEX_ODD) != 0u ? 1u : 0u) + uvec3(0, 1, 2);
 	FIndexRef Words = FIndexRef(Section.Indices);
-	uvec3 Word = uvec3(Words.Data[Index.x >> IndicesPerWordLog2], Words.Data[Index.y >> IndicesPerWordLog2], Words.Data[Index.z >> IndicesPerWordLog2]);
-	return IndicesPerWordLog2 == 0u ? Word : (Word >> ((Index & 1u) * 16u)) & 0xffffu;
+	uvec3 Word = uvec3(Words.Data[Index.x >> WordShift], Words.Data[Index.y >> WordShift], Words.Data[Index.z >> WordShift]);
+	return WordShift == 0u ? Word : (Word >> ((Index & 1u) * 16u)) & 0xffffu;
 }
 
 // Object space.
@@ -45,14 +45,17 @@ FMaterialInputs UnpackVertex(FVertexAttributes V, uint SectionFlags)
 FMaterialInputs FetchTextureInputs(FSectionData Section, uint Primitive, vec2 Barycentrics)
 {
 	uvec3 Triangle = FetchTriangle(Section, Primitive);
-	FAttributeRef Attributes = FAttributeRef(Section.Attributes);
+	FAttributeRef Vertices = FAttributeRef(Section.Attributes);
 	vec3 Weights = vec3(1.0 - Barycentrics.x - Barycentrics.y, Barycentrics);
 	FMaterialInputs Inputs;
 	Inputs.Normal = vec3(0.0);
 	Inputs.Tangent = vec4(0.0);
-	Inputs.UV0 = Weights.x * Attributes.Data[Triangle.x].UV0 + Weights.y * Attributes.Data[Triangle.y].UV0 + Weights.z * Attributes.Data[Triangle.z].UV0;
-	Inputs.UV1 = Weights.x * Attributes.Data[Triangle.x].UV1 + Weights.y * Attributes.Data[Triangle.y].UV1 + Weights.z * Attributes.Data[Triangle.z].UV1;
-	Inputs.Color = Weights.x * unpackUnorm4x8(Attributes.Data[Triangle.x].Color) + Weights.y * unpackUnorm4x8(Attributes.Data[Triangle.y].Color) + Weights.z * unpackUnorm4x8(Attributes.Data[Triangle.z].Color);
+	Inputs.UV0 = Weights.x * Vertices.Data[Triangle.x].UV0 + Weights.y * Vertices.Data[Triangle.y].UV0 +
+	             Weights.z * Vertices.Data[Triangle.z].UV0;
+	Inputs.UV1 = Weights.x * Vertices.Data[Triangle.x].UV1 + Weights.y * Vertices.Data[Triangle.y].UV1 +
+	             Weights.z * Vertices.Data[Triangle.z].UV1;
+	Inputs.Color = Weights.x * unpackUnorm4x8(Vertices.Data[Triangle.x].Color) + Weights.y * unpackUnorm4x8(Vertices.Data[Triangle.y].Color) +
+	               Weights.z * unpackUnorm4x8(Vertices.Data[Triangle.z].Color);
 	return Inputs;
 }
 
@@ -77,8 +80,8 @@ vec2 FetchOpacityUV(FSectionData Section, uvec3 Triangle, vec2 Barycentrics)
 
 float FetchVertexAlpha(FSectionData Section, uvec3 Triangle, vec2 Barycentrics)
 {
-	FAttributeRef Attributes = FAttributeRef(Section.Attributes);
-	vec3 Alpha = vec3(Attributes.Data[Triangle.x].Color >> 24u, Attributes.Data[Triangle.y].Color >> 24u, Attributes.Data[Triangle.z].Color >> 24u);
+	FAttributeRef Vertices = FAttributeRef(Section.Attributes);
+	vec3 Alpha = vec3(Vertices.Data[Triangle.x].Color >> 24u, Vertices.Data[Triangle.y].Color >> 24u, Vertices.Data[Triangle.z].Color >> 24u);
 	return dot(vec3(1.0 - Barycentrics.x - Barycentrics.y, Barycentrics), Alpha) * (1.0 / 255.0);
 }
 
@@ -86,14 +89,15 @@ float FetchVertexAlpha(FSectionData Section, uvec3 Triangle, vec2 Barycentrics)
 FMaterialInputs FetchMaterialInputs(FSectionData Section, uint Primitive, vec2 Barycentrics)
 {
 	uvec3 Triangle = FetchTriangle(Section, Primitive);
-	FAttributeRef Attributes = FAttributeRef(Section.Attributes);
-	FMaterialInputs Inputs0 = UnpackVertex(Attributes.Data[Triangle.x], Section.Flags);
-	FMaterialInputs Inputs1 = UnpackVertex(Attributes.Data[Triangle.y], Section.Flags);
-	FMaterialInputs Inputs2 = UnpackVertex(Attributes.Data[Triangle.z], Section.Flags);
+	FAttributeRef Vertices = FAttributeRef(Section.Attributes);
+	FMaterialInputs Inputs0 = UnpackVertex(Vertices.Data[Triangle.x], Section.Flags);
+	FMaterialInputs Inputs1 = UnpackVertex(Vertices.Data[Triangle.y], Section.Flags);
+	FMaterialInputs Inputs2 = UnpackVertex(Vertices.Data[Triangle.z], Section.Flags);
 	vec3 Weights = vec3(1.0 - Barycentrics.x - Barycentrics.y, Barycentrics);
 	FMaterialInputs Inputs;
 	Inputs.Normal = Weights.x * Inputs0.Normal + Weights.y * Inputs1.Normal + Weights.z * Inputs2.Normal;
-	Inputs.Tangent = vec4(Weights.x * Inputs0.Tangent.xyz + Weights.y * Inputs1.Tangent.xyz + Weights.z * Inputs2.Tangent.xyz, Inputs0.Tangent.w);
+	Inputs.Tangent = vec4(Weights.x * Inputs0.Tangent.xyz + Weights.y * Inputs1.Tangent.xyz + Weights.z * Inputs2.Tangent.xyz,
+	                      Inputs0.Tangent.w);
 	Inputs.UV0 = Weights.x * Inputs0.UV0 + Weights.y * Inputs1.UV0 + Weights.z * Inputs2.UV0;
 	Inputs.UV1 = Weights.x * Inputs0.UV1 + Weights.y * Inputs1.UV1 + Weights.z * Inputs2.UV1;
 	Inputs.Color = Weights.x * Inputs0.Color + Weights.y * Inputs1.Color + Weights.z * Inputs2.Color;
@@ -109,8 +113,8 @@ void FetchPositions(FSectionData Section, uint Primitive, out vec3 P0, out vec3 
 	P2 = Positions.Data[Triangle.z];
 }
 
-// Intersects a ray with the plane of a triangle, in object space (Möller and Trumbore 1997). x: distance along the ray;
-// yz: barycentrics of the second and third corner.
+// Intersects a ray with the plane of a triangle, in object space (Möller and Trumbore 1997). The result's x is the
+// distance along the ray, yz are the barycentrics of the second and third corner.
 vec3 IntersectTriangle(FSectionData Section, uint Primitive, vec3 Origin, vec3 Direction)
 {
 	vec3 P0, P1, P2;

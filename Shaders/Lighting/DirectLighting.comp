@@ -47,8 +47,8 @@ vec3 ShadeDirect(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, FGBuff
 	return Radiance;
 }
 
-// Estimates the occlusion of a specular lobe from ambient occlusion, which covers the whole hemisphere (fit of Lagarde and de
-// Rousiers 2014, "Moving Frostbite to Physically Based Rendering").
+// Estimates the occlusion of a specular lobe from ambient occlusion, which covers the whole hemisphere. The fit is that of
+// Lagarde and de Rousiers (2014, "Moving Frostbite to Physically Based Rendering").
 float SpecularOcclusion(float NdotV, float Visibility, float Roughness)
 {
 	return clamp(pow(NdotV + Visibility, exp2(-16.0 * Roughness - 1.0)) - 1.0 + Visibility, 0.0, 1.0);
@@ -91,6 +91,7 @@ void main()
 	if (IsOutsideView(View, Pixel)) { return; }
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
-	vec3 Radiance = Depth > 0.0 ? ShadeSurface(Scene, View, ivec2(Pixel), Depth) : ShadeSky(Scene, normalize(CameraRay(View, vec2(Pixel) + 0.5)));
+	vec3 Radiance = Depth > 0.0 ? ShadeSurface(Scene, View, ivec2(Pixel), Depth)
+	                            : ShadeSky(Scene, normalize(CameraRay(View, vec2(Pixel) + 0.5)));
 	imageStore(Images[Push.Output], ivec2(Pixel), vec4(Radiance, 1.0));
 }

@@ -6,6 +6,9 @@
 
 #define MATERIAL_STANDARD_OPACITY
 
-FMaterialSurface EvaluateMaterial(FMaterialData Material, FMaterialInputs Inputs, uint Override) { return EvaluateStandard(Material, Inputs, Override); }
+FMaterialSurface EvaluateMaterial(FMaterialData Material, FMaterialInputs Inputs, uint Override)
+{
+	return EvaluateStandard(Material, Inputs, Override);
+}
 
 #endif

@@ -82,7 +82,10 @@ bool IsStandardHitCutAway(FMaterialRef Materials, FSectionData Section, uint Pri
 vec3 EvaluateEmission(FMaterialData Material, FMaterialInputs Inputs)
 {
 	vec3 Emission = Material.Emissive;
-	if (MaxComponent(Emission) > 0.0 && HasTexture(Material, TEXTURE_EMISSIVE)) { Emission *= MaterialTexture(Material, Inputs, TEXTURE_EMISSIVE).rgb; }
+	if (MaxComponent(Emission) > 0.0 && HasTexture(Material, TEXTURE_EMISSIVE))
+	{
+		Emission *= MaterialTexture(Material, Inputs, TEXTURE_EMISSIVE).rgb;
+	}
 	return Emission;
 }
 

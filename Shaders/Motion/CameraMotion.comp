@@ -1,10 +1,10 @@
 // Motion vectors of a static world, from depth and the cameras of two frames.
 #version 460
-#include "../Shared/MotionTypes.h"
+#include "../Shared/CameraMotionTypes.h"
 #include "../Library/Motion.glsl"
 #include "../Library/View.glsl"
 
-layout(local_size_x = MOTION_GROUP_SIZE, local_size_y = MOTION_GROUP_SIZE) in;
+layout(local_size_x = CAMERA_MOTION_GROUP_SIZE, local_size_y = CAMERA_MOTION_GROUP_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FCameraMotionConstants Push; };
 
 void main()

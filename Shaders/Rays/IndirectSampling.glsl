@@ -13,7 +13,8 @@ vec3 ClampToFinite(vec3 L) { return mix(clamp(L, vec3(0.0), vec3(MaxHalf)), vec3
 // Returns the mean radiance of a pixel's paths through one lobe. The first direction of a path is an Owen-scrambled Sobol
 // point; the sequence continues from frame to frame. All other random numbers come from an independent stream for each
 // sample. Salt decorrelates passes.
-vec3 AverageIndirectSamples(FSceneConstants Scene, FViewConstants View, uvec2 Pixel, FGBufferPoint Point, FBrdf Lobe, uint Samples, uint MaxBounces, uint Salt)
+vec3 AverageIndirectSamples(FSceneConstants Scene, FViewConstants View, uvec2 Pixel, FGBufferPoint Point, FBrdf Lobe, uint Samples,
+                            uint MaxBounces, uint Salt)
 {
 	vec3 P = RasterRayOrigin(Scene, View, Point.Relative, Point.Ng);
 	mat3 Basis = MakeBasis(Point.BentN);

@@ -57,7 +57,10 @@ vec3 ShadeEmission(FSceneConstants Scene, FMaterialHit Hit, vec3 Direction, floa
 	float CosAtLight = abs(dot(Hit.GeometricNormal, Direction));
 	float LightPdf = 0.0;
 #ifdef HAS_EMISSIVE
-	if (Hit.EmissiveWeight > 0.0) { LightPdf = Hit.EmissiveWeight / Scene.EmissivePower * Hit.Distance * Hit.Distance / max(CosAtLight, 1.0e-8); }
+	if (Hit.EmissiveWeight > 0.0)
+	{
+		LightPdf = Hit.EmissiveWeight / Scene.EmissivePower * Hit.Distance * Hit.Distance / max(CosAtLight, 1.0e-8);
+	}
 #endif
 	return Hit.Emissive * PowerHeuristic(Pdf, LightPdf);
 }

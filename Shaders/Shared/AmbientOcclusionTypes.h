@@ -1,3 +1,4 @@
+// Constants of ambient occlusion, shared by C++ and GLSL.
 #ifndef LANTERN_AMBIENT_OCCLUSION_TYPES_H
 #define LANTERN_AMBIENT_OCCLUSION_TYPES_H
 

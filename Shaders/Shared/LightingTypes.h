@@ -1,3 +1,4 @@
+// Constants of direct lighting, shared by C++ and GLSL.
 #ifndef LANTERN_LIGHTING_TYPES_H
 #define LANTERN_LIGHTING_TYPES_H
 
@@ -5,7 +6,7 @@
 
 LANTERN_SHARED_BEGIN
 
-#define LIGHTING_GROUP_SIZE 8
+#define LIGHTING_GROUP_SIZE 8 // threads in x and y
 
 struct FLightingConstants
 {
@@ -17,24 +18,6 @@ struct FLightingConstants
 	uint Output;                                        // storage index
 };
 LANTERN_ASSERT_SIZE(FLightingConstants, 56);
-
-struct FDebugViewConstants
-{
-	FPassConstants Pass;
-	uint Input;  // sampled index: the signal
-	uint Output; // storage index
-	uint bRadiance; // 0: shown as it is, grey; 1: exposed and tone-mapped
-	uint Pad;
-};
-LANTERN_ASSERT_SIZE(FDebugViewConstants, 32);
-
-struct FToneMapConstants
-{
-	FPassConstants Pass;
-	uint Input;  // sampled index
-	uint Output; // storage index
-};
-LANTERN_ASSERT_SIZE(FToneMapConstants, 24);
 
 LANTERN_SHARED_END
 

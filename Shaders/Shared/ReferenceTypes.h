@@ -1,3 +1,4 @@
+// Constants of the reference path tracer, shared by C++ and GLSL.
 #ifndef LANTERN_REFERENCE_TYPES_H
 #define LANTERN_REFERENCE_TYPES_H
 
@@ -8,15 +9,15 @@ LANTERN_SHARED_BEGIN
 struct FReferenceConstants
 {
 	FPassConstants Pass;
-	FAddress Sum; // vec4[Width · Height], sum of all samples so far
+	FAddress Sum; // vec4[Width · Height]: rgb sum of all samples so far, a their count
 	uint FirstSample;
 	uint SampleCount; // of this dispatch
 	uint MaxBounces;
-	uint FirstRow; // a dispatch renders a band of rows, so that none runs for seconds
-	uint bPixelCenters; // all camera rays through the pixel's centre
+	uint FirstRow; // of this dispatch: the frame is split into bands of rows, so that no dispatch takes seconds
+	uint bPixelCenters; // 1: all camera rays pass through the pixel's centre
 	float OcclusionRadius; // metres
-	uint OcclusionMask;    // of objects that occlude
-	uint Depth, Normals, BaseColor, Material; // sampled indices, where the raster's surfaces are taken
+	uint OcclusionMask;    // instance mask of ambient occlusion rays
+	uint Depth, Normals, BaseColor, Material; // sampled indices, FROM_GBUFFER only
 	uint Pad;
 };
 LANTERN_ASSERT_SIZE(FReferenceConstants, 72);

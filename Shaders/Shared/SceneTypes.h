@@ -1,4 +1,4 @@
-// What shaders know of the scene. One name on both sides.
+// The scene as shaders see it: structures that C++ and GLSL share.
 #ifndef LANTERN_SCENE_TYPES_H
 #define LANTERN_SCENE_TYPES_H
 
@@ -6,7 +6,7 @@
 
 LANTERN_SHARED_BEGIN
 
-// Vertex data beside the position (which has a buffer of its own: float3, 12 bytes).
+// Vertex data except the position, which has a buffer of its own (float3, 12 bytes).
 struct FVertexAttributes
 {
 	uint Normal;  // octahedral, 2 × snorm16 (Cigolle et al. 2014)
@@ -25,21 +25,21 @@ LANTERN_ASSERT_SIZE(FVertexAttributes, 28);
 #define SECTION_INDEX_ODD 32u    // 16-bit indices that start in the upper half of the word at Indices
 #define SECTION_LIGHT 16u        // its triangles are in the list of emissive triangles
 #define SECTION_OPACITY_UV1 64u  // the base colour uses the second set of texture coordinates
-// The base colour's coordinates are not transformed and every vertex's alpha is 1: the alpha test reads neither.
+// The base colour's texture coordinates are not transformed, and every vertex has alpha 1: the alpha test reads neither.
 #define SECTION_PLAIN_OPACITY 128u
-// Rays may meet pieces of the section's triangles: what lies at a hit is found anew, from the ray and the whole triangle,
-// so that it is the same whether it was a piece or not.
+// The acceleration structure may hold pieces of the section's triangles. Shaders therefore recompute a hit from the ray and the
+// whole triangle, so that pieces do not change the result.
 #define SECTION_PIECES 256u
-// These are the pieces. They reach beyond their triangles by a little, where there is nothing.
+// The section consists of such pieces. They extend slightly beyond their triangles; hits there are ignored.
 #define SECTION_IS_PIECES 512u
 
-// One section of an object: which triangles, and what they are made of. The local data of a hit record, and
-// an entry of the section table that inline ray queries read.
+// One section of an object: its triangles and its material. It is the local data of a hit record, and an entry of the section
+// table that inline ray queries read.
 struct FSectionData
 {
 	FAddress Positions;  // float3[]
 	FAddress Attributes; // FVertexAttributes[]
-	FAddress Indices;
+	FAddress Indices;    // 16 or 32 bits each, see SECTION_INDEX_…
 	uint Material; // index into FMaterialData[]
 	uint Flags;
 };
@@ -51,8 +51,8 @@ LANTERN_ASSERT_SIZE(FSectionData, 32);
 
 #define NO_TEXTURE 0xffffffffu
 
-// A texture with its sampler: sampled index in the low 24 bits, sampler index in the high 8; or NO_TEXTURE.
-// Bit i of UVSets: which texture coordinate set slot i uses.
+// A texture slot holds a texture with its sampler: sampled index in the low 24 bits, sampler index in the high 8; or NO_TEXTURE.
+// Bit i of UVSets is the texture coordinate set that slot i uses.
 #define TEXTURE_BASE_COLOR 0
 #define TEXTURE_METALLIC_ROUGHNESS 1
 #define TEXTURE_NORMAL 2
@@ -76,40 +76,40 @@ struct FMaterialData
 	uint Flags;
 	uint UVSets;
 	uint Textures[TEXTURE_SLOTS];
-	vec4 UVTransform[TEXTURE_SLOTS]; // 2×2 matrix, rows xy and zw …
-	vec2 UVOffset[TEXTURE_SLOTS];    // … and translation
-	float EmissiveWeight; // luminance of the mean emission, rounded to fp16: sets the density of light sampling
+	vec4 UVTransform[TEXTURE_SLOTS]; // 2×2 matrix, rows xy and zw
+	vec2 UVOffset[TEXTURE_SLOTS];    // added after UVTransform
+	float EmissiveWeight; // luminance of the mean emission, rounded to fp16; the pdf of light sampling is proportional to it
 };
 LANTERN_ASSERT_SIZE(FMaterialData, 212);
 
-// The world in cells: fp32 positions relative to the centre of a cell, and offsets between cells, which fp32 holds
-// exactly, stay right far away from the world's origin.
+// The world is divided into cells. Positions are fp32, relative to the centre of a cell, and offsets between cells are exact in
+// fp32. Precision thus does not degrade far away from the world's origin.
 #define CELL_SIZE 1024.0f // metres; a multiple of the step of the scene's origin
 
-// One object, as instances refer to it by custom index.
+// One object. Instances refer to it by custom index.
 struct FObjectData
 {
 	vec4 ObjectToWorld[3]; // rows; relative to the centre of its cell
 	uint FirstSection;     // into FSectionData[]
-	uint Flags;            // OBJECT_…, and what rounding took from the translation: see UnpackTranslationRemainder in GBuffer.vert
-	ivec3 Cell;            // of the world; see CellOffset in Bindings.glsl
+	uint Flags;            // OBJECT_…, and the rounding error of the translation: see UnpackTranslationRemainder in GBuffer.vert
+	ivec3 Cell;            // cell of the world; see CellOffset in Bindings.glsl
 	uint Motion;           // into FObjectMotion[], or NO_MOTION
 };
 LANTERN_ASSERT_SIZE(FObjectData, 72);
 
-#define NO_MOTION 0xffffffffu // the object was where it is, and as it is, in the frame before
+#define NO_MOTION 0xffffffffu // the object has neither moved nor deformed since the previous frame
 
-// Where an object was in the frame before.
+// The placement and shape of an object in the previous frame.
 struct FObjectMotion
 {
-	vec4 PreviousObjectToWorld[3]; // as FObjectData::ObjectToWorld …
-	ivec3 PreviousCell;            // … and Cell
-	uint PreviousFlags;            // … and Flags
-	FAddress PreviousPositions; // float3[], what the vertices of a deformed geometry were; 0: as they are now
+	vec4 PreviousObjectToWorld[3]; // see FObjectData::ObjectToWorld
+	ivec3 PreviousCell;            // see FObjectData::Cell
+	uint PreviousFlags;            // see FObjectData::Flags
+	FAddress PreviousPositions;    // float3[], previous vertices of a deformed geometry; 0: unchanged
 };
 LANTERN_ASSERT_SIZE(FObjectMotion, 72);
 
-// Bits of an object's mask by convention; rays name those that they want to see.
+// Bits of an object's instance mask, by convention. A ray meets an object if their masks share a bit.
 #define MASK_VISIBLE 1u      // camera, reflection and GI rays
 #define MASK_CASTS_SHADOW 2u // shadow rays
 
@@ -132,46 +132,46 @@ struct FLightData
 };
 LANTERN_ASSERT_SIZE(FLightData, 52);
 
-// A triangle that emits, for next-event estimation. Corners are relative to the centre of the object's cell, so that a moving
-// origin rewrites none.
+// An emissive triangle, for next-event estimation. Its corners are relative to the centre of the object's cell, so that they
+// stay valid when the scene's origin moves.
 struct FEmissiveTriangle
 {
 	vec3 P0;
-	float CumulativePower; // normalised: the last one is 1
+	float CumulativePower; // of all triangles up to this one; normalised, so that the last value is 1
 	vec3 P1;
 	uint Object;
 	vec3 P2;
 	uint Section; // into FSectionData[]
 	uint Primitive;
-	uint Flags; // OBJECT_MIRRORED: the winding is turned around
+	uint Flags; // OBJECT_MIRRORED: the winding is reversed
 	uint Pad0, Pad1;
 };
 LANTERN_ASSERT_SIZE(FEmissiveTriangle, 64);
 
-// The scene as passes see it: one block a frame.
+// Constants of the scene, one block a frame.
 struct FSceneConstants
 {
 	FAddress Objects;   // FObjectData[]
 	FAddress Sections;  // FSectionData[]
 	FAddress Materials; // FMaterialData[]
 	FAddress Lights;    // FLightData[]
-	FAddress EmissiveTriangles;
+	FAddress EmissiveTriangles; // FEmissiveTriangle[]
 	uint LightCount;
 	uint EmissiveTriangleCount;
-	float EmissivePower; // sum of weight · area
+	float EmissivePower; // sum of EmissiveWeight · area over all emissive triangles
 	uint Tlas;           // index in the bindless heap
 	vec3 SunDirection;   // in which its light travels
 	float SunIrradiance; // on a plane that faces it, lux
-	vec3 SunColor;
+	vec3 SunColor;       // multiplies SunIrradiance
 	float SunOneMinusCos; // 1 − cosine of its angular radius; 0: a point
-	vec3 SkyRadiance;
+	vec3 SkyRadiance;      // uniform, nits
 	uint MaterialOverride; // r.RT.Material.Override
-	ivec3 OriginCell;      // that the scene's origin lies in
+	ivec3 OriginCell;      // cell that the scene's origin lies in
 	float ObjectReach;     // see OffsetRayOrigin in Math.glsl, metres
-	vec3 OriginInCell;     // from its cell's centre, metres
+	vec3 OriginInCell;     // scene's origin relative to the centre of its cell, metres
 	uint Pad0;
-	FAddress AnyHitCounter; // of alpha tests under rays, where they count (r.RT.Opacity.Count)
-	FAddress StandInHits;   // uint[], by material: rays that hit its stand-in; 0: nobody counts
+	FAddress AnyHitCounter; // uint: counts alpha tests of rays, if r.RT.Opacity.Count is on
+	FAddress StandInHits;   // uint[], by material: rays that hit a stand-in of its shader; 0: not counted
 	FAddress ObjectMotions; // FObjectMotion[]; 0: nothing moved
 };
 LANTERN_ASSERT_SIZE(FSceneConstants, 160);
@@ -179,7 +179,7 @@ LANTERN_ASSERT_SIZE(FSceneConstants, 160);
 // A camera. Positions are relative to the scene's origin.
 struct FViewConstants
 {
-	mat4 RelativeToClip; // of positions relative to the camera; reversed, infinite depth
+	mat4 RelativeToClip; // clip space from positions relative to the camera; reversed, infinite depth
 	vec3 CameraPosition;
 	float TanHalfFovY;
 	vec3 CameraRight;
@@ -192,18 +192,18 @@ struct FViewConstants
 	uint Height;
 	uint Seed;
 	float Exposure; // factor, not stops
-	// The frame before, for what is carried over from it. A point's position relative to its camera is the position
-	// relative to this one, plus CameraMotion.
+	// The previous frame, for reprojection. A point's position relative to the previous camera is its position relative to this
+	// camera plus CameraMotion.
 	mat4 PreviousRelativeToClip;
 	vec3 CameraMotion; // from the previous camera's position to this one's, metres
 	float PreviousNear;
 	vec3 PreviousForward; // unit length
-	float DeltaSeconds; // since that frame
-	uint bHistory; // 0: nothing may be carried over (first frame, cut, another size); the members above are this frame's
+	float DeltaSeconds; // since the previous frame
+	uint bHistory; // 0: there is no usable previous frame (first frame, cut, another size); the members above are this frame's
 };
 LANTERN_ASSERT_SIZE(FViewConstants, 244);
 
-// First push constants of every pass; a pass's own follow.
+// The first push constants of every pass. Those of the pass itself follow.
 struct FPassConstants
 {
 	FAddress Scene; // FSceneConstants

@@ -1,5 +1,5 @@
-// Included by C++ and GLSL alike: vector names and integer types that mean the same on both sides.
-// GLSL side: scalar block layout everywhere, so that C++ structs of 4-byte members match without padding rules.
+// Types that C++ and GLSL share: vector names and integer types with one meaning on both sides. GLSL uses scalar block layout
+// everywhere, so that C++ structs of 4-byte members match without padding rules.
 #ifndef LANTERN_SHARED_TYPES_H
 #define LANTERN_SHARED_TYPES_H
 

@@ -1,3 +1,4 @@
+// Constants of sun shadows, shared by C++ and GLSL.
 #ifndef LANTERN_SUN_SHADOW_TYPES_H
 #define LANTERN_SUN_SHADOW_TYPES_H
 
@@ -13,9 +14,9 @@ struct FSunShadowConstants
 	uint Output;  // storage index
 	uint SamplesPerPixel;
 	float MaxDistance; // metres
-	uint RayFlags;     // gl_RayFlags… beside those that the pass needs
+	uint RayFlags;     // gl_RayFlags… to add to those that the pass needs
 	uint InstanceMask;
-	uint bSoft; // 0: hard shadows from the centre of the disk
+	uint bSoft; // 0: hard shadows, from the centre of the sun's disk
 	uint OutPenumbra; // storage index, or NO_TEXTURE; WITH_PENUMBRA only
 	uint Pad;
 };

@@ -40,7 +40,9 @@ void main()
 	uint Group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
 	uint FirstTriangle = (Group * REFIT_GROUP_SIZE + gl_LocalInvocationID.x) * REFIT_GROUP_TRIANGLES;
 	uint Lane = gl_LocalInvocationID.x;
-	Sums[Lane] = FirstTriangle < Push.TriangleCount ? MeasureBox(FirstTriangle, min(REFIT_GROUP_TRIANGLES, Push.TriangleCount - FirstTriangle)) : vec2(0.0);
+	Sums[Lane] = FirstTriangle < Push.TriangleCount
+	                 ? MeasureBox(FirstTriangle, min(REFIT_GROUP_TRIANGLES, Push.TriangleCount - FirstTriangle))
+	                 : vec2(0.0);
 	barrier();
 	for (uint Stride = REFIT_GROUP_SIZE / 2; Stride > 0u; Stride /= 2u)
 	{

@@ -1,7 +1,7 @@
 // Linear blend skinning into the object's own vertex buffers (glTF 2.0, 3.7.3.3). Copies the old positions to
 // PreviousPositions first.
 #version 460
-#include "../Shared/GBufferTypes.h"
+#include "../Shared/SkinningTypes.h"
 #include "../Library/Bindings.glsl"
 #include "../Library/Math.glsl"
 

@@ -1,5 +1,6 @@
 // Sun visibility of a pixel; the ray-tracing pipeline and the ray-query path share it. The includer defines
 //   float TraceSunRay(vec3 Origin, vec3 Direction)   distance to a blocker; negative: the ray is unblocked
+//
 // WITH_PENUMBRA: also writes the width of the penumbra, for the denoiser.
 // ONE_SAMPLE: SamplesPerPixel is known to be 1. Without the loop, only the pixel's coordinates stay live across the trace.
 #ifndef LANTERN_SUN_SHADOW_GLSL

@@ -1,10 +1,10 @@
 // Exposure, tone mapping and sRGB encoding.
 #version 460
-#include "../Shared/LightingTypes.h"
+#include "../Shared/ToneMapTypes.h"
 #include "../Library/ToneMap.glsl"
 #include "../Library/View.glsl"
 
-layout(local_size_x = LIGHTING_GROUP_SIZE, local_size_y = LIGHTING_GROUP_SIZE) in;
+layout(local_size_x = TONE_MAP_GROUP_SIZE, local_size_y = TONE_MAP_GROUP_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FToneMapConstants Push; };
 
 void main()

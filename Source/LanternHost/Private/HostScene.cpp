@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "GBufferTypes.h"
+#include "SkinningTypes.h"
 #include "LanternCore/Text/Log.h"
 
 namespace Lantern

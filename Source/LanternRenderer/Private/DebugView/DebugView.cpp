@@ -3,7 +3,7 @@
 
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
-#include "LightingTypes.h"
+#include "DebugViewTypes.h"
 #include "PassTools.h"
 
 namespace Lantern
@@ -41,7 +41,7 @@ FGraphTexture AddDebugView(FFrameContext& Context, const FFrameOutputs& Outputs)
 			C.Input = GetSampledIndex(Pass, Input);
 			C.Output = GetStorageIndex(Pass, Output);
 			C.bRadiance = GetSignalInfo(Signal).bRadiance ? 1u : 0u;
-			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, LIGHTING_GROUP_SIZE);
+			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, DEBUG_VIEW_GROUP_SIZE);
 		};
 	});
 	return Output;

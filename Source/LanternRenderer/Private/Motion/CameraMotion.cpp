@@ -1,6 +1,6 @@
 // Motion vectors of a world that stands still, from depth and two cameras.
 #include "LanternRenderer/Frame.h"
-#include "MotionTypes.h"
+#include "CameraMotionTypes.h"
 #include "PassTools.h"
 
 namespace Lantern
@@ -21,7 +21,7 @@ FGraphTexture AddCameraMotionPass(FFrameContext& Context, FGraphTexture Depth)
 			C.Pass = PassConstants;
 			C.Depth = Pass.GetTexture(Depth)->GetSampledIndex();
 			C.Output = Pass.GetTexture(Output)->GetStorageIndex();
-			Dispatch2D(Pass, Pipeline, C, Width, Height, MOTION_GROUP_SIZE);
+			Dispatch2D(Pass, Pipeline, C, Width, Height, CAMERA_MOTION_GROUP_SIZE);
 		};
 	});
 	return Output;

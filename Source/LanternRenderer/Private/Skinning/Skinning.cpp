@@ -1,7 +1,7 @@
 // Linear blend skinning into the geometries' own buffers, and the measure of refit quality behind it.
 #include <algorithm>
 
-#include "GBufferTypes.h"
+#include "SkinningTypes.h"
 #include "PassTools.h"
 #include "Skinning/RefitQuality.h"
 

@@ -1,6 +1,6 @@
 // The display transform: exposure, filmic curve, sRGB.
 #include "LanternRenderer/Frame.h"
-#include "LightingTypes.h"
+#include "ToneMapTypes.h"
 #include "PassTools.h"
 
 namespace Lantern
@@ -21,7 +21,7 @@ FGraphTexture AddToneMapPass(FFrameContext& Context, FGraphTexture Radiance)
 			C.Pass = PassConstants;
 			C.Input = Pass.GetTexture(Radiance)->GetSampledIndex();
 			C.Output = Pass.GetTexture(Output)->GetStorageIndex();
-			Dispatch2D(Pass, Pipeline, C, Width, Height, LIGHTING_GROUP_SIZE);
+			Dispatch2D(Pass, Pipeline, C, Width, Height, TONE_MAP_GROUP_SIZE);
 		};
 	});
 	return Output;

@@ -1,11 +1,12 @@
-#ifndef LANTERN_MOTION_TYPES_H
-#define LANTERN_MOTION_TYPES_H
+// Constants of camera motion, shared by C++ and GLSL.
+#ifndef LANTERN_CAMERA_MOTION_TYPES_H
+#define LANTERN_CAMERA_MOTION_TYPES_H
 
 #include "SceneTypes.h"
 
 LANTERN_SHARED_BEGIN
 
-#define MOTION_GROUP_SIZE 8
+#define CAMERA_MOTION_GROUP_SIZE 8 // threads in x and y
 
 struct FCameraMotionConstants
 {
