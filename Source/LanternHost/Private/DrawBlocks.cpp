@@ -1,3 +1,4 @@
+// Sorts draws into blocks of nearby objects and culls them against a view.
 #include "LanternHost/DrawBlocks.h"
 
 #include <algorithm>

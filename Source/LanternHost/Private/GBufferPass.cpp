@@ -1,3 +1,4 @@
+// Records the raster G-buffer: its pipelines, culled batches and draws.
 #include <algorithm>
 #include <array>
 #include <bit>

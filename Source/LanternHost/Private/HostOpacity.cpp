@@ -1,3 +1,4 @@
+// Classifies and cuts the alpha-tested triangles of a scene before upload.
 #include "LanternHost/SceneOpacity.h"
 
 #include <cmath>

@@ -1,11 +1,12 @@
+// Uploads a scene description and animates it: geometry, materials, lights, objects.
 #include "LanternHost/HostScene.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "SkinningTypes.h"
 #include "LanternCore/Text/Log.h"
+#include "SkinningTypes.h"
 
 namespace Lantern
 {

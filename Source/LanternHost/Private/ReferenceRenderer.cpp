@@ -1,3 +1,4 @@
+// Accumulates the reference path tracer over dispatches, with resume files.
 #include "LanternHost/ReferenceRenderer.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The frame loop of the sample engine: scene time, G-buffer, renderer, submission.
 #include "LanternHost/SampleEngine.h"
 
 #include <cassert>

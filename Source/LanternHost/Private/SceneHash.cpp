@@ -1,3 +1,4 @@
+// Hashes everything of a scene that pictures depend on.
 #include "LanternHost/SceneHash.h"
 
 #include <cassert>

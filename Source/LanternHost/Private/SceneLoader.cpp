@@ -1,3 +1,4 @@
+// Loads a scene by name or file: built-in scenes and glTF.
 #include "LanternHost/SceneLoader.h"
 
 #include <algorithm>

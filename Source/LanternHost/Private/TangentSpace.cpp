@@ -1,3 +1,4 @@
+// Generates tangents for vertices that have none.
 #include "TangentSpace.h"
 
 #include <cmath>

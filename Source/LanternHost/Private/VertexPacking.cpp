@@ -1,3 +1,4 @@
+// Packs vertex attributes as shaders read them.
 #include "LanternHost/VertexPacking.h"
 
 #include <cmath>

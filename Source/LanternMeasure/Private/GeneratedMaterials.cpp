@@ -1,3 +1,4 @@
+// Generates material programs of realistic size, and compiles or traces them.
 #include "LanternMeasure/GeneratedMaterials.h"
 
 #include <bit>

@@ -1,3 +1,4 @@
+// Error figures of an image against references with noise of their own.
 #include "LanternMeasure/MeasureFigures.h"
 
 #include <algorithm>

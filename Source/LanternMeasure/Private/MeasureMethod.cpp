@@ -1,3 +1,4 @@
+// Measures one method on one path: settings, frames, errors, times.
 #include "LanternMeasure/MeasureMethod.h"
 
 #include <algorithm>

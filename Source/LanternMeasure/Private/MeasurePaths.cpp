@@ -1,3 +1,4 @@
+// Camera paths for any scene, and their scripts.
 #include "LanternMeasure/MeasurePaths.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Plays a script through the sample engine and collects pictures and timings.
 #include "LanternMeasure/MeasureSequence.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Reads Config/Methods.ini, and applies a method to the console variables.
 #include "LanternMeasure/Methods.h"
 
 #include <algorithm>

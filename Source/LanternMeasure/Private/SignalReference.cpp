@@ -1,3 +1,4 @@
+// References of signals: traced by the reference path tracer, and cached on disk.
 #include "LanternMeasure/SignalReference.h"
 
 #include <algorithm>

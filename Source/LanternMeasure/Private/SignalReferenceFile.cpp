@@ -1,3 +1,4 @@
+// The file format of cached signal references.
 #include "SignalReferenceFile.h"
 
 #include <cmath>

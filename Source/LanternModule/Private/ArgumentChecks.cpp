@@ -1,3 +1,4 @@
+// Checks of what an engine hands to the module.
 #include "ArgumentChecks.h"
 
 #include <algorithm>

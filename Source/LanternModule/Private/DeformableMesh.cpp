@@ -1,3 +1,4 @@
+// Meshes whose vertices the engine updates: uploads and previous positions.
 #include "DeformableMesh.h"
 
 #include <cstring>

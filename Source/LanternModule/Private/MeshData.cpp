@@ -1,3 +1,4 @@
+// Converts mesh data of an engine to the vertex and index formats of shaders.
 #include "MeshData.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Loads the ini files of a Config folder into console variables.
 #include "LanternCore/Config/Config.h"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ FIniFile LoadIni(const std::string& Path, FConfigProblems& Problems)
 
 void SetVariables(const std::vector<FIniValue>& Values, ERTSetBy By, FConfigProblems& Problems)
 {
-	// The registry has logged what it returns.
+	// The registry has logged the message that it returns.
 	for (const FIniValue& Value : Values)
 		if (std::optional<std::string> Problem = FConsoleVariables::Get().Set(Value.Key, Value.Value, By, Value.Where))
 			Problems.push_back(std::move(*Problem));
@@ -64,7 +65,7 @@ void ReportUnknownSection(
 	                     EscapeText(Section.Name, MaxQuotedBytes), FindNearest(Section.Name, Known)));
 }
 
-/// A section's name taken apart: "ShadowQuality@3".
+/// The parts of a section's name: "ShadowQuality@3".
 struct FScalabilityName
 {
 	std::string_view Group;
@@ -79,7 +80,7 @@ std::optional<FScalabilityName> ParseScalabilityName(std::string_view Name)
 	return Quality ? std::optional(FScalabilityName{Name.substr(0, At), *Quality}) : std::nullopt;
 }
 
-/// An empty Group stands for all.
+/// Group empty: all groups.
 void ApplyScalability(const FIniFile& File, std::string_view Group, ERTQuality Quality, FConfigProblems& Problems)
 {
 	for (const FIniSection& Section : File.GetSections())
@@ -106,7 +107,7 @@ std::vector<std::string_view> GetGroups(const FIniFile& File)
 	return Groups;
 }
 
-/// sg.ShadowQuality=3
+/// Applies sg.ShadowQuality=3.
 void ApplyGroupChoice(const FIniFile& Scalability, const FIniValue& Choice, FConfigProblems& Problems)
 {
 	std::string_view Group = Choice.Key;

@@ -13,14 +13,14 @@ namespace Lantern
 
 /// Logs a warning and keeps it.
 void Report(FConfigProblems& Problems, std::string Text);
-/// The file's own problems are reported.
+/// Loads a file and reports its problems.
 FIniFile LoadIni(const std::string& Path, FConfigProblems& Problems);
 void SetVariables(const std::vector<FIniValue>& Values, ERTSetBy By, FConfigProblems& Problems);
 std::vector<FIniValue> ResolveSection(const FIniFile& File, const FIniSection& Section);
 
-/// Is this the key of a device profile's variables, "CVars"?
+/// Whether this is the key of a device profile's variables, "CVars".
 bool IsProfileVariableKey(std::string_view Key);
-/// "name=value" in two, trimmed; without '=' the second is empty.
+/// Splits "name=value" into two trimmed parts; without '=' the second is empty.
 std::pair<std::string, std::string> SplitAssignment(std::string_view Text);
 
 } // namespace Lantern

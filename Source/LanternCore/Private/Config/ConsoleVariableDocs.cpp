@@ -1,4 +1,4 @@
-// The reference of console variables, as Markdown for people and JSON for programs.
+// Writes the reference of console variables, as Markdown for people and JSON for programs.
 #include <cstdlib>
 #include <map>
 
@@ -77,7 +77,7 @@ nlohmann::json ToJsonValue(const FRTCVarValue& Value)
 {
 	if (const auto* Bool = std::get_if<bool>(&Value)) return *Bool;
 	if (const auto* Int = std::get_if<int32_t>(&Value)) return *Int;
-	// By way of the shortest text: 0.1f shall be 0.1, not 0.10000000149.
+	// Goes through the shortest text, so that 0.1f becomes 0.1, not 0.10000000149.
 	if (std::holds_alternative<float>(Value)) return std::strtod(FConsoleVariables::ToString(Value).c_str(), nullptr);
 	return std::get<std::string>(Value);
 }
@@ -121,7 +121,7 @@ std::string FConsoleVariables::ToJson() const
 {
 	nlohmann::json List = nlohmann::json::array();
 	for (const FRTConsoleVariable* Variable : GetAll()) List.push_back(ToJsonObject(*Variable));
-	// Values may hold any bytes: what is not UTF-8 is replaced rather than thrown about.
+	// Values may hold any bytes. Invalid UTF-8 is replaced, since nlohmann-json would throw.
 	return nlohmann::json{{"variables", std::move(List)}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

@@ -1,5 +1,5 @@
-// What stands behind FConsoleVariables. One lock guards all that any thread may touch; FState::Published belongs to
-// the render thread alone and is read without it.
+// Internals of FConsoleVariables. One lock guards everything that any thread may touch. FState::Published belongs to the render
+// thread alone, which reads it without the lock.
 #pragma once
 
 #include <map>
@@ -31,14 +31,14 @@ struct FRTConsoleVariable::FState
 struct FConsoleVariables::FImpl
 {
 	mutable std::shared_mutex Mutex;
-	/// By folded name.
+	/// Keys are folded names.
 	std::map<std::string, FRTConsoleVariable*> Variables;
 	struct FAlias
 	{
 		std::string Alias, Name;
 	};
 	std::map<std::string, FAlias> Aliases;
-	/// Set since the last BeginFrame.
+	/// Variables that were set since the last BeginFrame.
 	std::vector<FRTConsoleVariable*> Dirty;
 
 	void Register(FRTConsoleVariable& Variable);

@@ -1,3 +1,4 @@
+// Values of console variables: parsing, clamping and printing.
 #include "Config/ConsoleVariableValues.h"
 
 #include <algorithm>
@@ -24,7 +25,7 @@ std::optional<bool> ParseBoolWord(std::string_view Text)
 	return std::nullopt;
 }
 
-/// A finite decimal number that is the whole text. One too large for a double is none.
+/// Parses a finite decimal number that is the whole text. Fails if it is too large for a double.
 std::optional<double> ParseNumber(std::string_view Text)
 {
 	if (Text.size() > 1 && Text[0] == '+' && Text[1] != '-') Text.remove_prefix(1);
@@ -87,7 +88,7 @@ double ToNumber(const FRTCVarValue& Value)
 	return 0.0;
 }
 
-/// Beyond this a bound counts as none; it is FRTCVarRange's own default.
+/// Bounds beyond this count as absent; it is the default of FRTCVarRange.
 constexpr double NoBound = 1e30;
 
 } // namespace

@@ -1,4 +1,4 @@
-// How a console variable's value is read from text, clamped and shown.
+// Reads the value of a console variable from text, clamps it, and shows it.
 #pragma once
 
 #include <optional>
@@ -17,14 +17,14 @@ struct FParsedCVar
 	int ClampedTo = 0; ///< -1: raised to the minimum, +1: lowered to the maximum
 };
 
-/// Text as the type that Like holds, clamped to Range.
+/// Parses Text as the type that Like holds, clamped to Range.
 FParsedCVar ParseCVar(const FRTCVarValue& Like, FRTCVarRange Range, std::string_view Text);
 
 const char* GetTypeName(const FRTCVarValue& Value);
 bool IsNumber(const FRTCVarValue& Value);
 bool HasMin(FRTCVarRange Range);
 bool HasMax(FRTCVarRange Range);
-/// "1 to 64", "at least 0", "at most 1"; empty if unlimited or not a number.
+/// Returns "1 to 64", "at least 0" or "at most 1"; empty if unlimited or not a number.
 std::string DescribeRange(const FRTCVarValue& Like, FRTCVarRange Range);
 bool IsInRange(const FRTCVarValue& Value, FRTCVarRange Range);
 

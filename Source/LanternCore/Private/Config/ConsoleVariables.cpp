@@ -1,3 +1,4 @@
+// The registry of console variables: who may set a value, and its publication to the render thread.
 #include "LanternCore/Config/ConsoleVariables.h"
 
 #include <algorithm>
@@ -78,7 +79,7 @@ template const int32_t& TRTConsoleVariable<int32_t>::GetOnRenderThread() const;
 template const float& TRTConsoleVariable<float>::GetOnRenderThread() const;
 template const std::string& TRTConsoleVariable<std::string>::GetOnRenderThread() const;
 
-// The registry's inside.
+// FConsoleVariables::FImpl.
 
 void FConsoleVariables::FImpl::Register(FRTConsoleVariable& Variable)
 {
@@ -97,7 +98,7 @@ void FConsoleVariables::FImpl::Unregister(FRTConsoleVariable& Variable)
 FRTConsoleVariable* FConsoleVariables::FImpl::Find(std::string_view NameOrAlias) const
 {
 	std::string Name = FoldCase(NameOrAlias);
-	// An alias may lead to an alias; as many steps as there are aliases end any circle.
+	// An alias may lead to an alias. Limiting the steps to the number of aliases ends any cycle.
 	for (size_t Step = 0; Step <= Aliases.size(); ++Step)
 	{
 		if (const auto Variable = Variables.find(Name); Variable != Variables.end()) return Variable->second;

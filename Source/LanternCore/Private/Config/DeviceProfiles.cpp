@@ -1,3 +1,4 @@
+// Device profiles: choosing one by the device name, and applying it with its base profiles.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -16,10 +17,10 @@ constexpr std::string_view DefaultProfile = "Default";
 constexpr std::string_view MatchKey = "MatchDevice";
 constexpr std::string_view BaseKey = "BaseProfileName";
 constexpr std::string_view VariablesKey = "CVars";
-/// UE's platform name; read by nobody here, and no mistake.
+/// UE's platform name. It is accepted and ignored.
 constexpr std::string_view TypeKey = "DeviceType";
 
-/// "Lavapipe" of "Lavapipe DeviceProfile"; empty if the section is none.
+/// Returns "Lavapipe" for "Lavapipe DeviceProfile"; empty if the section is not a profile.
 std::string_view GetProfileName(const FIniSection& Section)
 {
 	const std::string_view Name = Section.Name;
@@ -73,7 +74,7 @@ void CheckProfiles(const FIniFile& File, FConfigProblems& Problems)
 
 constexpr size_t MaxChain = 16;
 
-/// The profile, its base, the base's base … A circle ends where it closes.
+/// Returns the profile, its base, the base's base, and so on. A cycle ends where it closes.
 std::vector<const FIniSection*> GetChain(const FIniFile& File, const FIniSection* Profile, FConfigProblems& Problems)
 {
 	std::vector<const FIniSection*> Chain;

@@ -1,3 +1,4 @@
+// The parser of ini files, and the resolver of their operations.
 #include "LanternCore/Config/IniFile.h"
 
 #include <algorithm>
@@ -34,7 +35,7 @@ bool IsBlankOrComment(std::string_view Text)
 	return Text.empty() || Text[0] == ';';
 }
 
-/// Text begins with a quotation mark.
+/// Text must begin with a quotation mark.
 std::optional<std::string> ParseQuoted(std::string_view Text, std::string& OutError)
 {
 	std::string Value;
@@ -128,7 +129,7 @@ private:
 
 	void ParseHeader(std::string_view Text)
 	{
-		// What follows a broken header must not land in the section before it.
+		// Entries after a broken header must not go to the previous section.
 		State = EState::Skip;
 		const size_t End = Text.find(']');
 		if (End == std::string_view::npos) return AddProblem(fmt::format("section without ']': {}; its entries are ignored", Quote(Text)));
@@ -234,7 +235,7 @@ FIniFile FIniFile::Load(const std::string& Path)
 		return File;
 	}
 	std::ifstream Stream(Path, std::ios::binary);
-	// One byte more than allowed shows the file too large, whatever its size was said to be.
+	// One byte more than allowed shows that the file is too large, whatever size the file system reported.
 	std::string Text(std::min<uintmax_t>(std::filesystem::file_size(Path, Error), MaxFileBytes) + 1, '\0');
 	if (Stream) Stream.read(Text.data(), static_cast<std::streamsize>(Text.size()));
 	if (!Stream.is_open() || Stream.bad())

@@ -1,3 +1,4 @@
+// The interface of the frame graph: declaring resources and passes, and executing what was compiled.
 #include "LanternCore/FrameGraph/FrameGraph.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Maps accesses to usage flags, layouts and names.
 #include "FrameGraph/FrameGraphAccess.h"
 
 namespace Lantern

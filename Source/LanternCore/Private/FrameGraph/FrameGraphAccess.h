@@ -1,5 +1,4 @@
-// What an access means to the frame graph: does it write, which layout does it ask of a texture, which usage of
-// a resource.
+// Properties of accesses for the frame graph: whether they write, their texture layout, and the usage that they need.
 #pragma once
 
 #include <string>
@@ -24,15 +23,15 @@ constexpr bool IsSingle(ERTAccess Access)
 	return Bits != 0 && (Bits & (Bits - 1)) == 0;
 }
 
-/// A write stands alone, but for reading what StorageWrite writes (see ERTAccess).
+/// A write excludes all other accesses, except reads combined with StorageWrite (see ERTAccess).
 constexpr bool CanCombine(ERTAccess Access)
 {
 	const ERTAccess Rest = Without(Access, ERTAccess::ShaderRead | ERTAccess::StorageRead);
 	return !IsWrite(Access) || Rest == ERTAccess::StorageWrite || (IsSingle(Access) && IsSingle(Rest));
 }
 
-/// Two accesses of a texture share a layout if and only if this is equal: storage and mixed reads need the general
-/// one, every other access has its own.
+/// Two accesses of a texture share a layout if and only if their classes are equal. Storage accesses and mixed reads need the
+/// general layout; every other access has its own.
 constexpr ERTAccess GetLayoutClass(ERTAccess Access)
 {
 	const bool bGeneral = HasAny(Access, ERTAccess::StorageRead | ERTAccess::StorageWrite) || !IsSingle(Access);
@@ -47,7 +46,7 @@ constexpr ERTAccess BufferOnlyAccesses = ERTAccess::IndexRead | ERTAccess::Indir
                                          ERTAccess::BuildWrite | ERTAccess::TraceRead | ERTAccess::HostRead;
 constexpr ERTAccess TextureOnlyAccesses = ERTAccess::RenderTarget | ERTAccess::DepthWrite;
 
-/// "ShaderRead|CopyRead".
+/// Returns "ShaderRead|CopyRead".
 std::string ToString(ERTAccess Access);
 const char* ToString(ERTFormat Format);
 

@@ -1,4 +1,4 @@
-// From declarations to a plan: what is wrong, what runs, what lives when, and which barriers stand where.
+// Compiles declarations to a plan: reports errors, culls passes, computes lifetimes, and places barriers.
 #include <algorithm>
 
 #include "FrameGraph/FrameGraphImpl.h"
@@ -61,8 +61,8 @@ FRTStatus FFrameGraph::FImpl::Validate() const
 
 void FFrameGraph::FImpl::Cull()
 {
-	// What a pass keeps for the next frame is needed at the end of this one, and what writes it may keep more: so often
-	// until nothing is added.
+	// A resource that a pass keeps for the next frame is needed at the end of this one. A pass that writes it may keep more
+	// resources, hence the loop until nothing is added.
 	std::vector<bool> Kept(Resources.size(), false);
 	for (bool bChanged = true; bChanged;)
 	{
@@ -83,8 +83,8 @@ void FFrameGraph::FImpl::Cull()
 
 void FFrameGraph::FImpl::CullWhatNobodyReads(std::vector<bool> Needed)
 {
-	// Backwards: a pass runs if something behind it that runs reads what it writes. A write does not end the need
-	// for earlier ones, for it may cover only a part.
+	// Backwards: a pass runs if a later pass that runs reads what it writes. Earlier writes stay needed, since a write may cover
+	// only a part.
 	const auto IsWanted = [&](const FPassUse& Use) {
 		const FGraphResource& Resource = Resources[Use.Resource];
 		const bool bSeenOutside = Resource.bImported && !Resource.bForLater;
@@ -107,7 +107,7 @@ void FFrameGraph::FImpl::DropUnreadOutputs()
 	{
 		if (Pass->bCulled) { continue; }
 		const auto IsUnread = [&](const FPassUse& Use) {
-			// What the pass reads itself must be there, and as it was left.
+			// A resource that the pass itself reads must keep its content.
 			const bool bOutput = Use.bIfRead && Use.Read == ERTAccess::None && !Resources[Use.Resource].bImported;
 			const bool bDrop = bOutput && !Needed[Use.Resource];
 			if (bDrop) { Pass->Dropped.push_back(Use.Resource); }
@@ -179,7 +179,7 @@ FRTStatus FFrameGraph::FImpl::Allocate()
 void FFrameGraph::FImpl::PlaceBarriers()
 {
 	std::vector<std::vector<std::pair<uint32_t, ERTAccess>>> Uses(Resources.size());
-	// In order of first use, so that of two that share a pooled resource the earlier comes first.
+	// In order of first use, so that the earlier of two users of one pooled resource comes first.
 	std::vector<uint32_t> Order;
 	for (uint32_t Index = 0; Index < Passes.size(); ++Index)
 	{
@@ -207,7 +207,7 @@ void FFrameGraph::FImpl::PlaceBarriersOf(uint32_t Index, const std::vector<std::
 	const FGraphResource& Resource = Resources[Index];
 	const auto SharesLayout = [&](ERTAccess A, ERTAccess B) { return !Resource.bTexture || GetLayoutClass(A) == GetLayoutClass(B); };
 
-	// The contents of a pooled resource are worthless, but its last tenant's work must be over.
+	// The old content of a pooled resource is discarded, but the work of its previous user must have finished.
 	ERTAccess State = Resource.Current;
 	if (Resource.Pooled)
 	{
@@ -216,7 +216,7 @@ void FFrameGraph::FImpl::PlaceBarriersOf(uint32_t Index, const std::vector<std::
 	}
 	for (size_t Begin = 0; Begin < Uses.size();)
 	{
-		// Reads in a row become one state, entered once for all of them.
+		// Consecutive reads become one state, which one barrier enters.
 		ERTAccess Access = Uses[Begin].second;
 		size_t End = Begin + 1;
 		while (!IsWrite(Access) && End < Uses.size() && !IsWrite(Uses[End].second) && SharesLayout(Access, Uses[End].second))
@@ -233,7 +233,7 @@ void FFrameGraph::FImpl::PlaceBarriersOf(uint32_t Index, const std::vector<std::
 		Begin = End;
 	}
 	if (Resource.Pooled) { PooledAccess[Resource.Pooled.get()] = State; }
-	// Exactly After, even where the state holds it among other reads: the engine's next barrier names it alone.
+	// Leaves exactly After, even if the current state includes it: the engine's next barrier names After alone.
 	const bool bNothingToWaitFor = State == ERTAccess::None && !Resource.bTexture;
 	if (Resource.bImported && Resource.After != ERTAccess::None && Resource.After != State && !bNothingToWaitFor)
 	{

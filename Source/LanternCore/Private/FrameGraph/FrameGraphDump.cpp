@@ -1,4 +1,4 @@
-// The graph as text, for people and for tests.
+// Prints the graph as text, for people and for tests.
 #include <fmt/format.h>
 
 #include "FrameGraph/FrameGraphImpl.h"

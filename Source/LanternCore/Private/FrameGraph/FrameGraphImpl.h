@@ -1,4 +1,4 @@
-// Inside of the frame graph, shared by the files FrameGraph*.cpp.
+// Internals of the frame graph, shared by the files FrameGraph*.cpp.
 #pragma once
 
 #include <chrono>
@@ -57,14 +57,14 @@ struct FFrameGraphResources::FImpl
 {
 	explicit FImpl(IRTDevice& InDevice) : Device(InDevice) {}
 
-	/// Takes a pooled resource that Owner may use, or creates one. Name of the same resource is preferred, so that
-	/// bindless indices and debugger names stay the same from frame to frame.
+	/// Takes a free pooled resource, or creates one. Prefers one of this name, so that bindless indices and debugger names stay
+	/// equal from frame to frame.
 	FRTStatus Acquire(const FPoolKey& Key, const std::string& Name, const void* Owner, std::shared_ptr<FPooledResource>& Out);
 	FRTStatus Create(const FPoolKey& Key, const std::string& Name, std::shared_ptr<FPooledResource>& Out);
 	/// Returns bytes freed.
 	uint64_t Trim(uint32_t Frames);
 
-	/// A frame to record into: with a query pool for PassCount passes, if the device has timestamps.
+	/// Returns a frame to record into. It has a query pool for PassCount passes if the device has timestamps.
 	FTimedFrame& BeginTiming(uint32_t PassCount);
 	void PollTimings();
 
@@ -158,7 +158,7 @@ struct FFrameGraph::FImpl
 	std::vector<FGraphPass> Passes;
 	std::vector<FGraphBarrier> FinalBarriers;
 	std::unordered_map<const void*, uint32_t> Imported; ///< native object to resource
-	/// Access of every pooled resource behind the passes compiled so far.
+	/// Access of every pooled resource after the passes compiled so far.
 	std::unordered_map<FPooledResource*, ERTAccess> PooledAccess;
 	bool bCompiled = false;
 	bool bExecuted = false;

@@ -1,4 +1,4 @@
-// Overwrites what earlier frames left with bits that are not-a-number, so that tests see who lets it through.
+// Overwrites histories with bits that are not-a-number, so that tests find the passes that let them through.
 #include <algorithm>
 
 #include "FrameGraph/FrameGraphImpl.h"
@@ -9,10 +9,10 @@ namespace Lantern
 namespace
 {
 
-// All ones: the exponent full and a mantissa, whatever the float format.
+// All bits set is a NaN in every float format.
 constexpr uint32_t NotANumber = ~0u;
 
-/// Of the largest level.
+/// Bytes of the largest mip level.
 uint64_t GetBytes(const FGraphTextureDesc& Desc) { return uint64_t(Desc.Width) * Desc.Height * BytesPerTexel(Desc.Format); }
 
 bool CanBePoisoned(const FGraphResource& Resource)
@@ -30,8 +30,8 @@ void SwitchBits(FPassContext& Pass, FGraphBuffer Bits, ERTAccess Before, ERTAcce
 	Pass.Commands().Barriers(&Barrier, 1);
 }
 
-/// How the pass leaves buffers. Not in CopyWrite, where it can be: barriers of memory as such, behind copies of later passes
-/// (the scene's tables), would take them along.
+/// The access in which the pass leaves buffers. It avoids CopyWrite if possible, since global memory barriers after later copies
+/// (the scene's tables) would cover these buffers as well.
 ERTAccess GetBufferAccess(const FGraphResource& Resource)
 {
 	return HasAny(Resource.BufferDesc.ExtraUsage, ERTBufferUsage::Storage) ? ERTAccess::StorageWrite : ERTAccess::CopyWrite;
@@ -45,7 +45,7 @@ void FillBuffer(FPassContext& Pass, FGraphBuffer Buffer, ERTAccess Access)
 	if (Access != ERTAccess::CopyWrite) { SwitchBits(Pass, Buffer, ERTAccess::CopyWrite, Access); }
 }
 
-/// Textures take the bits from a filled buffer, which is left as it was declared.
+/// Copies the bits to a texture from a filled buffer, which is left as it was declared.
 void PoisonTextures(FPassContext& Pass, FGraphBuffer Bits, const std::vector<FGraphTexture>& Textures)
 {
 	IRTCommandList& Commands = Pass.Commands();

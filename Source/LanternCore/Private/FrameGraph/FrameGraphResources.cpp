@@ -1,4 +1,4 @@
-// What outlives a frame: the pool of transient resources and the ring of timestamp queries.
+// Resources that outlive a frame: the pool of transient resources and the ring of timestamp queries.
 #include <algorithm>
 #include <utility>
 
@@ -65,7 +65,7 @@ FRTStatus FFrameGraphResources::FImpl::Acquire(
 	{
 		Status = Create(Key, Name, Out);
 		const bool bMemory = Status.Code == ERTResult::OutOfDeviceMemory || Status.Code == ERTResult::OutOfDescriptors;
-		// What other sizes and settings left behind may be all that is in the way.
+		// Idle resources of other sizes and settings may occupy the memory that is missing.
 		if (bMemory && Trim(0) > 0)
 		{
 			Device.CollectGarbage();
@@ -101,7 +101,7 @@ FTimedFrame& FFrameGraphResources::FImpl::BeginTiming(uint32_t PassCount)
 	if (It == Frames.end() && Frames.size() < MaxFrames) { It = Frames.insert(It, std::make_unique<FTimedFrame>()); }
 	if (It == Frames.end())
 	{
-		// Lists that were recorded but never submitted would otherwise hold the ring for ever.
+		// Command lists that were recorded but never submitted would otherwise occupy the ring for ever.
 		It = std::min_element(Frames.begin(), Frames.end(), [](const auto& A, const auto& B) { return A->Serial < B->Serial; });
 	}
 	FTimedFrame& Frame = **It;

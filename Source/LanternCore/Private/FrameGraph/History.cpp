@@ -1,3 +1,4 @@
+// Histories: textures and buffers that outlive the frame graph, created, kept and freed by use.
 #include "LanternCore/FrameGraph/History.h"
 
 #include <algorithm>
@@ -63,7 +64,7 @@ struct FHistoryResources::FImpl
 	explicit FImpl(IRTDevice& InDevice) : Device(InDevice) {}
 	FRTStatus Create(const char* Name, FTexturePair& Pair) const;
 	FRTStatus Create(const char* Name, FKeptBuffer& Kept) const;
-	/// What was released, of another size perhaps, may be all that is in the way.
+	/// Released resources, perhaps of another size, may occupy the memory that is missing.
 	template <class TMake>
 	FRTStatus CreateOrCollect(const TMake& Make) const
 	{
@@ -78,7 +79,7 @@ struct FHistoryResources::FImpl
 
 	IRTDevice& Device;
 	FFrameGraph* Graph = nullptr; // between BeginFrame and EndFrame; dead already in EndFrame
-	// Graphs write into the values, which stay where they are.
+	// Graphs write into the values; a map does not move them.
 	std::map<std::string, FTexturePair, std::less<>> Textures;
 	std::map<std::string, FKeptBuffer, std::less<>> Buffers;
 };
@@ -109,7 +110,7 @@ FRTStatus FHistoryResources::FImpl::Create(const char* Name, FKeptBuffer& Kept) 
 
 namespace
 {
-/// The item of the name in Items, made anew where it is new or has another description, and marked as used.
+/// Returns the item of this name, marked as used. Creates it if it is new or has another description.
 template <class TMap, class TDesc, class TCreate>
 FRTStatus Use(TMap& Items, const char* Name, const TDesc& Desc, const TCreate& Create, typename TMap::mapped_type*& Out)
 {
@@ -184,7 +185,7 @@ void FHistoryResources::EndFrame(bool bSubmitted)
 	for (auto& [Name, Pair] : Impl->Textures)
 	{
 		if (Pair.bUsed && bSubmitted) { Pair.bRests[1 - Pair.Newest] = true; } // the graph moves it there, used or not
-		// What was written two frames ago is no history of the frame before.
+		// Content written two frames ago is not a history of the previous frame.
 		Pair.bValid = Pair.bUsed && bSubmitted && Pair.bWritten;
 		Pair.Newest = Pair.bValid ? 1 - Pair.Newest : Pair.Newest;
 		Pair.CountFrame();

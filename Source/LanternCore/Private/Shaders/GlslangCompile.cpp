@@ -1,3 +1,4 @@
+// Compiles one shader with glslang, then optimises its SPIR-V.
 #include "Shaders/GlslangCompile.h"
 
 #include <mutex>
@@ -48,7 +49,7 @@ EShLanguage ToGlslang(ERTShaderStage Stage)
 	return EShLangCompute;
 }
 
-/// Serves what the include scan found, so that key and compiled text can never differ.
+/// Serves the files that the include scan found, so that key and compiled text can never differ.
 class FTreeIncluder final : public glslang::TShader::Includer
 {
 public:
@@ -87,8 +88,8 @@ private:
 	const std::string NotFound;
 };
 
-/// glslang writes "ERROR: Path:line: text" and closes with a count: editors and people want "Path:line: text". It quotes
-/// the source as it is.
+/// Converts glslang's "ERROR: Path:line: text" to "Path:line: text", as editors expect, and drops its closing count. Escapes the
+/// result, since glslang quotes the source verbatim.
 std::string CleanLog(std::string_view Log)
 {
 	std::string Out;
@@ -110,9 +111,9 @@ std::string CleanLog(std::string_view Log)
 	return EscapeLines(Out);
 }
 
-/// Drops what no driver should have to parse. glslang's own list (SpvOptions) begins by inlining everything, which
-/// every driver does again: a hit shader of 9,600 words took 75 ms with it and shrank by 17 %, with these passes
-/// 11 ms (7 ms of it glslang) and 7 %.
+/// Removes code that drivers need not parse. glslang's own pass list (SpvOptions) begins by inlining everything, which every
+/// driver does again. A hit shader of 9,600 words took 75 ms with that list and shrank by 17 %. These passes take 11 ms (7 ms
+/// of them in glslang) and shrink it by 7 %.
 void Optimize(std::vector<uint32_t>& Words)
 {
 	spvtools::Optimizer Optimizer(SPV_ENV_VULKAN_1_3);
@@ -141,7 +142,7 @@ std::string GetGlslangVersion()
 	    Version.flavor ? Version.flavor : "", glslang::GetSpirvGeneratorVersion(), spvSoftwareVersionString(), PassesVersion);
 }
 
-// Not at the exit of the process: other threads may still compile then.
+// Not called at the exit of the process, since other threads may still compile then.
 void FinalizeGlslang()
 {
 	const std::lock_guard Lock(ProcessMutex);
@@ -164,7 +165,7 @@ bool CompileWithGlslang(const FGlslangJob& Job, std::vector<uint32_t>& OutWords,
 	Flags |= Job.bDebugInfo ? EShMsgDebugInfo : 0u;
 	const EShMessages Messages = static_cast<EShMessages>(Flags);
 
-	// A program must go before its shaders: declared in this order.
+	// A program must be destroyed before its shaders, hence this order of declarations.
 	glslang::TShader Shader(Stage);
 	glslang::TProgram Program;
 	Shader.setStringsWithLengthsAndNames(&Text, &Length, &Name, 1);

@@ -21,14 +21,14 @@ struct FGlslangJob
 	bool bOptimize = true;
 };
 
-/// False: OutLog holds the errors, one "Path:line: text" per line. True: OutLog holds warnings, if any.
-/// Any number may run at once.
+/// Compiles one shader; thread-safe. On failure OutLog holds the errors, one "Path:line: text" a line; on success it holds
+/// warnings, if any.
 bool CompileWithGlslang(const FGlslangJob& Job, std::vector<uint32_t>& OutWords, std::string& OutLog);
 
-/// Frees what glslang keeps between compilations. None may be running; the next one starts it anew.
+/// Frees what glslang keeps between compilations. No compilation may be running; the next one initialises glslang again.
 void FinalizeGlslang();
 
-/// Version of compiler and target: part of every cache key.
+/// Returns the version of compiler and target, a part of every cache key.
 std::string GetGlslangVersion();
 
 } // namespace Lantern

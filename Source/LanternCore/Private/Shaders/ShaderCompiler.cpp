@@ -1,3 +1,4 @@
+// The shader compiler: resolves includes, asks the disk cache, compiles what it lacks.
 #include "LanternCore/Shaders/ShaderCompiler.h"
 
 #include <algorithm>
@@ -23,10 +24,10 @@ bool IsIdentifier(const std::string& Name)
 	return !Name.empty() && !std::isdigit(static_cast<unsigned char>(Name[0])) && std::all_of(Name.begin(), Name.end(), IsWord);
 }
 
-/// A name of several lines could forge one of the compiler's log.
+/// A name of several lines could forge a line of the compiler's log.
 bool IsOneLine(std::string_view Text) { return Text.find_first_of("\n\r") == std::string_view::npos; }
 
-/// What is wrong with the names and defines, or empty.
+/// Returns what is wrong with the names and defines, or an empty string.
 std::string CheckSource(const FShaderSource& Source)
 {
 	const auto HasOneLine = [](const FShaderHeader& Header) { return IsOneLine(Header.Name); };
@@ -90,8 +91,8 @@ FHash128 FShaderCompiler::FImpl::MakeKey(const FIncludeTree& Tree, const FShader
 	AppendText(Bytes, Preamble);
 	const uint8_t Options[3] = {static_cast<uint8_t>(Source.Stage), Desc.bDebugInfo, Desc.bOptimize};
 	Append(Bytes, Options, sizeof(Options));
-	// Names are left out (they reach the binary only with debug information), so that generated shaders of equal
-	// text share an entry; Targets say which include line stands for which content.
+	// Names reach the binary only with debug information. They are otherwise left out, so that generated shaders of equal text
+	// share an entry. Targets say which include line stands for which content.
 	for (const FIncludeTree::FNode& Node : Tree.Nodes)
 	{
 		AppendText(Bytes, Desc.bDebugInfo ? Node.Name : std::string());

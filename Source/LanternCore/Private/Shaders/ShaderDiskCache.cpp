@@ -1,3 +1,4 @@
+// The disk cache of compiled shaders: one checked file for each key.
 #include "Shaders/ShaderDiskCache.h"
 
 #include <cstring>
@@ -38,7 +39,7 @@ static_assert(sizeof(FCacheHeader) == 40, "written as it lies in memory: no padd
 
 uint64_t Checksum(const std::vector<uint32_t>& Words) { return XXH3_64bits(Words.data(), Words.size() * sizeof(uint32_t)); }
 
-/// Null if the file is as Store wrote it, else what is wrong with it.
+/// Returns null if the file is as Store wrote it, else what is wrong with it.
 const char* Parse(std::ifstream& File, uint64_t FileBytes, const FHash128& Key, std::vector<uint32_t>& OutWords)
 {
 	FCacheHeader Header;

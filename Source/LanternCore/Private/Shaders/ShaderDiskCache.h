@@ -1,5 +1,5 @@
-// SPIR-V on disk, one file per key. A reader sees a whole file or none (written aside, then renamed), and a file
-// that does not check is thrown away.
+// The disk cache of SPIR-V, one file per key. Files are written aside and then renamed, so that readers never see a part. A file
+// with a wrong checksum is deleted.
 #pragma once
 
 #include <atomic>
@@ -16,7 +16,7 @@ namespace Lantern
 class FShaderDiskCache
 {
 public:
-	/// Folder empty: no cache. It is created when first written to.
+	/// Folder: empty for no cache; created at the first write.
 	explicit FShaderDiskCache(std::string InFolder) : Folder(std::move(InFolder)) {}
 	bool Load(const FHash128& Key, std::vector<uint32_t>& OutWords);
 	void Store(const FHash128& Key, const std::vector<uint32_t>& Words);

@@ -1,3 +1,4 @@
+// Reads shader files and resolves their #include lines to a tree.
 #include "Shaders/ShaderIncludes.h"
 
 #include <algorithm>
@@ -133,8 +134,8 @@ std::shared_ptr<const FShaderFile> FShaderFileCache::Read(const fs::path& Path)
 	std::ifstream Stream(Path, std::ios::binary);
 	if (!Stream) { return nullptr; }
 	auto File = MakeShaderFile(std::string(std::istreambuf_iterator<char>(Stream), std::istreambuf_iterator<char>()));
-	// A file time has the grain of a clock tick or worse: a file written just now may be written once more
-	// without its time changing, so it is read again until it is older than that.
+	// File times have the resolution of a clock tick or worse. A file just written may be written again without a new time, so
+	// it is read again until it is older than that.
 	const bool bSettled = fs::file_time_type::clock::now() - Modified > std::chrono::seconds(2);
 	std::lock_guard Lock(Mutex);
 	Entries[Id] = {Modified, Size, bSettled, File};
@@ -175,7 +176,7 @@ std::string FIncludeResolver::NameOf(const fs::path& Location) const
 	{
 		const fs::path Relative = Location.lexically_relative(Folder);
 		if (Relative.empty() || *Relative.begin() == "..") { continue; }
-		// Two folders may hold the same relative path: only the first found may be called by it.
+		// Two folders may hold the same relative path. Only the first one found may use it as its name.
 		const auto Is = [&](const fs::path& Other) { return fs::is_regular_file(Other / Relative, Code); };
 		const auto First = std::find_if(Folders.begin(), Folders.end(), Is);
 		return First != Folders.end() && *First == Folder ? Relative.generic_string() : Location.generic_string();
@@ -218,7 +219,7 @@ bool FIncludeResolver::FindInclude(const FWalk& Walk, const FIncludeTree::FNode&
 			return true;
 		}
 	}
-	// Text in memory has no place on disk, only a path that says where it would lie in a search folder.
+	// Text in memory has no file, only a path where it would lie in a search folder.
 	if (Line.bQuoted && From.Location.empty() && FindInFolders(fs::path(From.Name).parent_path() / Line.Name, Out)) { return true; }
 	return FindInFolders(Line.Name, Out);
 }

@@ -1,5 +1,5 @@
-// Reads shader files and follows their #include lines textually, without preprocessing: the cache key must be
-// known without a compiler, and an include inside a dead #if only makes the key finer, never wrong.
+// Reads shader files and follows their #include lines textually, without preprocessing, since the cache key must be known
+// without a compiler. An include inside a dead #if only makes the key finer, never wrong.
 #pragma once
 
 #include <chrono>
@@ -24,7 +24,7 @@ struct FIncludeLine
 	bool bQuoted = false; ///< false: <angle brackets>, which only the search folders serve
 };
 
-/// #include lines of Text outside comments, in order.
+/// Returns the #include lines of Text outside of comments, in order.
 std::vector<FIncludeLine> FindIncludeLines(std::string_view Text);
 
 struct FHash128
@@ -34,7 +34,7 @@ struct FHash128
 };
 FHash128 HashBytes(std::string_view Bytes);
 
-/// Contents of one file with what follows from them; immutable once made.
+/// The content of one file, with its hash and its #include lines. Immutable.
 struct FShaderFile
 {
 	std::string Text;
@@ -48,7 +48,7 @@ std::shared_ptr<const FShaderFile> MakeShaderFile(std::string Text);
 class FShaderFileCache
 {
 public:
-	/// Null: not a readable file.
+	/// Returns null if the file cannot be read.
 	std::shared_ptr<const FShaderFile> Read(const std::filesystem::path& Path);
 
 private:

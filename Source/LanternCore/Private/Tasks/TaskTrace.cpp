@@ -1,3 +1,4 @@
+// The recorder of task traces: rings of events, one for each thread, and the file.
 #include "LanternCore/Tasks/TaskTrace.h"
 
 #include <algorithm>
@@ -28,16 +29,16 @@ namespace
 namespace fs = std::filesystem;
 
 TRTConsoleVariable<bool> CVarTrace("r.RT.Trace", false,
-    "Records which task ran when and on which thread. The file, Chrome trace JSON for "
-    "ui.perfetto.dev, is written when it is switched off and at shutdown.");
+    "Records which task ran when and on which thread. Writes Chrome trace JSON, for "
+    "ui.perfetto.dev, when it is switched off and at shutdown.");
 TRTConsoleVariable<std::string> CVarTraceFile(
-    "r.RT.Trace.File", "LanternTrace.json", "File of r.RT.Trace; relative to the output or cache folder.");
+    "r.RT.Trace.File", "LanternTrace.json", "File that r.RT.Trace writes; relative to the output or cache folder.");
 TRTConsoleVariable<int32_t> CVarTraceFrames("r.RT.Trace.Frames", 0,
-    "With r.RT.Trace: writes the file every so many frames, each time with "
-    "these frames alone, which costs some milliseconds. 0: only at the end.",
+    "Writes the file of r.RT.Trace every so many frames, each time with these "
+    "frames alone, which costs some milliseconds. 0: only at the end.",
     {0, 1'000'000});
 
-/// One thread's events, a ring once it is full. Threads that come when there are MaxBuffers share the last.
+/// The events of one thread, a ring once it is full. If there are MaxBuffers already, further threads share the last one.
 struct FBuffer
 {
 	std::mutex Mutex; // wanted by its thread alone but for Clear and reading
@@ -70,7 +71,7 @@ FRecorder& GetRecorder()
 	return *Recorder;
 }
 
-/// Without a destructor: one would keep a library that was loaded at run time in memory until the thread ends.
+/// Has no destructor, since a destructor would keep a library loaded at run time in memory until the thread ends.
 struct FThread
 {
 	FBuffer* Buffer = nullptr;
@@ -91,7 +92,7 @@ FThread& GetThread()
 	return ThisThread;
 }
 
-/// A name that is cut ends at the border of a UTF-8 character.
+/// Cuts a long name at the border of a UTF-8 character.
 size_t CopyName(char* Out, size_t Room, std::string_view Text)
 {
 	const size_t Length = FitCharacters(Text.data(), Text.size(), Room);
@@ -230,7 +231,7 @@ uint64_t FTaskTrace::GetForgottenCount()
 std::string FTaskTrace::ToJson()
 {
 	std::vector<FTraceEvent> Events = GetEvents();
-	// Viewers nest equal beginnings in the order of the file: the longest comes first.
+	// Viewers nest events of equal beginning in the order of the file, so that the longest comes first.
 	std::sort(Events.begin(), Events.end(),
 	    [](const FTraceEvent& A, const FTraceEvent& B) { return A.BeginNs != B.BeginNs ? A.BeginNs < B.BeginNs : A.EndNs > B.EndNs; });
 	std::string Json = "{\"displayTimeUnit\":\"ms\",\"traceEvents\":[\n"

@@ -1,3 +1,4 @@
+// Parallel loops and task groups over oneTBB.
 #include "LanternCore/Tasks/Tasks.h"
 
 #include <algorithm>
@@ -7,10 +8,10 @@
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
-// The packaged libtbb is not built for the thread sanitizer, which therefore sees neither that starting a task and
-// waiting for it order memory nor how TBB's templates synchronise. In that build (LANTERN_TSAN, see CMakeLists.txt)
-// this file is left out of the instrumentation, and two marks tell the order of tasks, so that races between the
-// bodies of tasks are still found. Elsewhere the marks are nothing.
+// The packaged libtbb is not built for the thread sanitizer. The sanitizer therefore does not see the memory order of starting
+// and awaiting a task, nor the synchronisation of TBB's templates. Its build (LANTERN_TSAN, see CMakeLists.txt) does not
+// instrument this file. Two marks then tell it the order of tasks, so that it still finds races between the bodies of tasks.
+// In other builds the marks do nothing.
 #ifdef LANTERN_TSAN
 #include <sanitizer/tsan_interface.h>
 #define LANTERN_MARK_ACQUIRE(Address) __tsan_acquire(const_cast<void*>(static_cast<const void*>(Address)))
@@ -32,8 +33,8 @@ void ParallelFor(size_t Count, size_t Grain, const std::function<void(size_t, si
 		Body(0, Count);
 		return;
 	}
-	// A range is halved while it is longer than the limit, so that no half is shorter than Grain. What a body throws
-	// is a bug: it ends the program at the place where it was thrown.
+	// A range is halved while it is longer than the limit, so that no half is shorter than Grain. An exception of a body is a
+	// bug and ends the program where it is thrown.
 	const tbb::blocked_range<size_t> Range(0, Count, 2 * Grain - 1);
 	[[maybe_unused]] const char Fork = 0;
 	LANTERN_MARK_RELEASE(&Fork);

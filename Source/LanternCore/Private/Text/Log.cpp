@@ -1,3 +1,4 @@
+// The log: its sink, its level, and the lines that are logged once.
 #include "LanternCore/Text/Log.h"
 
 #include <atomic>
@@ -76,7 +77,7 @@ struct FLog
 	}
 };
 
-/// What a sink itself logs would reach the sink again, without end: it goes to standard error.
+/// Messages that a sink itself logs go to standard error, since they would reach the sink again without end.
 thread_local bool bInsideSink = false;
 
 } // namespace
@@ -94,7 +95,7 @@ void LogLine(ERTLogLevel Level, std::string_view RawText)
 {
 	FLog& Log = FLog::Get();
 	if (Level < Log.Minimum) return;
-	// The guard behind all that quotes: what a caller forgot to escape must not reach a terminal or an engine's log.
+	// Text that a caller forgot to escape must not reach a terminal or an engine's log.
 	const std::string Text = EscapeLines(RawText);
 	if (bInsideSink)
 	{

@@ -1,3 +1,4 @@
+// Escapes and shortens text from outside for messages.
 #include "LanternCore/Text/Quote.h"
 
 #include <fmt/format.h>
@@ -23,7 +24,7 @@ std::string EscapeText(std::string_view Text) { return Escape(Text, ERTTextKind:
 
 std::string EscapeText(std::string_view Text, size_t MaxBytes)
 {
-	// Escapes are never shorter than what they stand for: no more of a huge text need be looked at.
+	// Escapes are never shorter than the text they replace, so that no more of a huge text need be read.
 	constexpr size_t LongestCharacter = 4;
 	std::string Result(MaxBytes + 1, '\0');
 	const std::string_view Start = Text.substr(0, MaxBytes + LongestCharacter);

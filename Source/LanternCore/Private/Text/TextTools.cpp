@@ -1,3 +1,4 @@
+// Text tools: trimming, case folding, nearest names.
 #include "Text/TextTools.h"
 
 #include <algorithm>

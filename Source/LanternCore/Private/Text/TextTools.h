@@ -12,16 +12,16 @@ namespace Lantern
 std::string FoldCase(std::string_view Text);
 bool EqualsIgnoringCase(std::string_view A, std::string_view B);
 bool ContainsIgnoringCase(std::string_view Text, std::string_view Part);
-/// Without blanks (space, tab, CR, vertical tab, form feed) at both ends.
+/// Removes blanks (space, tab, CR, vertical tab, form feed) at both ends.
 std::string_view Trim(std::string_view Text);
 
-/// Edits (insert, delete, replace, swap of neighbours) from A to B, ignoring case; the optimal-string-alignment
-/// distance. Only the first 128 characters of each are looked at.
+/// Returns the optimal-string-alignment distance, ignoring case: edits (insert, delete, replace, swap of neighbours) from A to B.
+/// Only the first 128 characters of each count.
 size_t GetEditDistance(std::string_view A, std::string_view B);
-/// The candidate of the least distance, the first of equals; empty if there are no candidates.
+/// Returns the nearest candidate, the first one if several are equal; empty if there are no candidates.
 std::string_view FindNearest(std::string_view Text, const std::vector<std::string_view>& Candidates);
 
-/// Case-insensitive; '*' stands for any run of characters, '?' for one. Time is linear in the product of lengths.
+/// Case-insensitive; '*' matches any run of characters, '?' one character. Time is linear in the product of lengths.
 bool MatchesWildcard(std::string_view Text, std::string_view Pattern);
 
 } // namespace Lantern

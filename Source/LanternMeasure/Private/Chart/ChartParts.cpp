@@ -1,3 +1,4 @@
+// The parts of a chart: reading, checking and merging their JSON.
 #include "LanternMeasure/Chart/ChartParts.h"
 
 #include <algorithm>

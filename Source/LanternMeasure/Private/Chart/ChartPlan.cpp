@@ -1,3 +1,4 @@
+// The plan of a chart: which parts are to be measured.
 #include "LanternMeasure/Chart/ChartPlan.h"
 
 #include <algorithm>

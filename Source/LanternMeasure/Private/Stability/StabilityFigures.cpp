@@ -1,3 +1,4 @@
+// Figures of stability cases over parts of pictures: means, errors, deviations.
 #include "Stability/StabilityFigures.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// The scene on the CPU: rays traced triangle by triangle, projections and disocclusions.
 #include "Stability/StabilityGeometry.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// The stage of a stability case: scene, engine, frames and limits.
 #include "LanternMeasure/Stability/StabilityStage.h"
 
 #include <cmath>

@@ -1,14 +1,14 @@
-// What the ini files of a Config folder mean: they set console variables. Syntax: IniFile.h. The folder holds
+// Loads the ini files of a Config folder, which set console variables. IniFile.h describes the syntax. The folder holds:
 //
 //   DefaultLantern.ini           [SystemSettings] and [ConsoleVariables]: name=value
 //   Scalability.ini              [ShadowQuality@0] … [ShadowQuality@4]: name=value per group and level
 //   DeviceProfiles.ini           [NAME DeviceProfile]: MatchDevice=, BaseProfileName=, +CVars=name=value
 //   ConsoleVariableAliases.ini   [ConsoleVariableAliases]: old or engine name=our name
 //
-// Load in the order of ERTSetBy (the order decides nothing, who sets does): LoadDefaults, LoadFile for each --config,
-// LoadScalability, LoadDeviceProfile, then --set. From one thread; values reach the render thread as with
-// FConsoleVariables::Set. Each function returns its problems, already logged as warnings, each naming file and line;
-// what is not named there has been applied.
+// The usual order is that of ERTSetBy: LoadDefaults, LoadFile for each --config, LoadScalability, LoadDeviceProfile, then --set.
+// The result does not depend on the order, since a higher ERTSetBy always wins. All functions are called from one thread.
+// Values reach the render thread as with FConsoleVariables::Set. Each function returns its problems, which name file and line
+// and are already logged as warnings. All other settings are applied.
 #pragma once
 
 #include <optional>
@@ -42,38 +42,38 @@ enum class ERTQuality : uint8_t
 	Cinematic
 };
 const char* ToString(ERTQuality Quality);
-/// A name ("epic", case-insensitive) or a number ("3").
+/// Parses a name ("epic", case-insensitive) or a number ("3").
 std::optional<ERTQuality> ParseQuality(std::string_view Text);
 
-/// Aliases; first, since the other files may use them.
+/// Loads the aliases. Must come first, since the other files may use them.
 FConfigProblems LoadAliases(const FConfigFolder& Folder);
-/// LoadAliases, then DefaultLantern.ini.
+/// Calls LoadAliases, then loads DefaultLantern.ini.
 FConfigProblems LoadDefaults(const FConfigFolder& Folder);
-/// A further file of DefaultLantern.ini's kind (--config, a project's own), set by ERTSetBy::Ini. It may choose
-/// quality per group: [ScalabilityGroups] sg.ShadowQuality=3, by Folder's Scalability.ini.
-/// Sections named /Script/… are an engine's and are left to it.
+/// Loads another file of the kind of DefaultLantern.ini (--config, a project's own), with ERTSetBy::Ini. The file may choose
+/// the quality of a group of Folder's Scalability.ini: [ScalabilityGroups] sg.ShadowQuality=3.
+/// Ignores sections named /Script/…, which belong to an engine.
 FConfigProblems LoadFile(const FConfigFolder& Folder, const std::string& Path);
-/// Every group of Scalability.ini at this level.
+/// Applies this level of every group of Scalability.ini.
 FConfigProblems LoadScalability(const FConfigFolder& Folder, ERTQuality Quality);
-/// One group ("ShadowQuality").
+/// Applies this level of one group ("ShadowQuality").
 FConfigProblems LoadScalabilityGroup(const FConfigFolder& Folder, std::string_view Group, ERTQuality Quality);
 
 struct FDeviceProfileResult
 {
-	std::string Profile; ///< the one chosen; empty: none matched and there is no "Default"
+	std::string Profile; ///< name of the chosen profile; empty: none matched and there is no "Default"
 	FConfigProblems Problems;
 };
-/// The first profile of the file one of whose MatchDevice patterns matches the device's name, else "Default". A
-/// pattern is a part of the name, or with * and ? the whole name; case is ignored. MatchDevice is not inherited.
+/// Applies the first profile with a MatchDevice pattern that matches the device's name, else "Default". A pattern matches a
+/// part of the name or, if it contains * or ?, the whole name. Case is ignored. MatchDevice is not inherited.
 FDeviceProfileResult LoadDeviceProfile(const FConfigFolder& Folder, std::string_view DeviceName);
 
 struct FConfigReference
 {
-	std::string Name;  ///< of a console variable, or an alias, as written
+	std::string Name;  ///< console variable or alias, as written in the file
 	std::string Where; ///< "Config/Scalability.ini:12"
 };
-/// Every console variable that any file of the folder names, in all sections, levels and profiles. Sets nothing and
-/// logs nothing; with it a test checks that all of them exist.
+/// Lists every console variable that any file of the folder names, in all sections, levels and profiles. Sets and logs
+/// nothing. A test uses it to check that all of them exist.
 std::vector<FConfigReference> ListConsoleVariables(const FConfigFolder& Folder);
 
 } // namespace Lantern

@@ -4,8 +4,8 @@
 //       "Sun shadow rays per pixel.", {1, 64});
 //   ... CVarShadowSamples.GetOnRenderThread()
 //
-// Set from any thread. The value that the render thread reads changes only in
-// FConsoleVariables::BeginFrame(), so that a toggle flipped in the middle of a frame never breaks it.
+// Values may be set from any thread. The value that the render thread reads changes only in FConsoleVariables::BeginFrame(), so
+// that a change in the middle of a frame cannot break the frame.
 #pragma once
 
 #include <cstdint>
@@ -20,27 +20,27 @@
 namespace Lantern
 {
 
-/// Who set a value last. A lower one never overrides a higher one (UE's order, shortened).
+/// Who set a value last. A lower setter never overrides a higher one (the order of UE, shortened).
 enum class ERTSetBy : uint8_t
 {
-	Code,          ///< the default
-	Ini,           ///< Default*.ini and --config
+	Code,          ///< the default in the code
+	Ini,           ///< DefaultLantern.ini and --config
 	Scalability,   ///< Scalability.ini by --quality
 	DeviceProfile, ///< DeviceProfiles.ini by device
 	CommandLine,   ///< --set
-	Console,       ///< set by the host at run time; always wins
+	Console,       ///< the host at run time; always wins
 };
 const char* ToString(ERTSetBy By);
 
 using FRTCVarValue = std::variant<bool, int32_t, float, std::string>;
 
-/// Inclusive. Values outside are clamped, with one warning. Ignored for bool and string.
+/// Inclusive range. Values outside are clamped, with one warning. Ignored for bool and string.
 struct FRTCVarRange
 {
 	double Min = -1e30, Max = 1e30;
 };
 
-/// Untyped part. Lives as long as the program (static storage); registers itself on construction.
+/// The untyped part of a console variable. Has static storage; the constructor registers it.
 class FRTConsoleVariable
 {
 public:
@@ -54,8 +54,8 @@ public:
 	const FRTCVarValue& GetDefault() const;
 	FRTCVarRange GetRange() const;
 	ERTSetBy GetSetBy() const;
-	FRTCVarValue GetValue() const; ///< the newest value, any thread
-	/// Called by BeginFrame, on its thread, after the value changed.
+	FRTCVarValue GetValue() const; ///< the newest value; any thread
+	/// BeginFrame calls Callback on its thread after the value changed.
 	void SetCallback(std::function<void(const FRTConsoleVariable&)> Callback);
 
 protected:
@@ -72,35 +72,35 @@ public:
 	    : FRTConsoleVariable(Name, FRTCVarValue(std::move(Default)), Help, Range)
 	{}
 	T Get() const { return std::get<T>(GetValue()); }
-	/// As of the last BeginFrame; only on the thread that calls BeginFrame or tasks that it waits for.
+	/// Returns the value as of the last BeginFrame. Only on the thread that calls BeginFrame, and in tasks that it waits for.
 	const T& GetOnRenderThread() const;
 };
 
-/// The registry.
+/// The registry of all console variables.
 class FConsoleVariables
 {
 public:
 	static FConsoleVariables& Get();
 
-	/// Sets by name or alias (case-insensitive, as UE). Accepts 0/1/true/false for bool. A wrong name, type
-	/// or value gives one clear message naming the nearest known name, logged as a warning, and is returned;
-	/// nothing changes then. Where says the place for the message ("--set", "Config/X.ini:12").
-	/// A value refused because a higher ERTSetBy set it before is no error.
+	/// Sets a variable by name or alias (case-insensitive, as in UE). Accepts 0/1/true/false for bool. Where is the place for
+	/// the message ("--set", "Config/X.ini:12"). Returns a message if name, type or value is wrong; nothing changes then. The
+	/// message names the nearest known name and is also logged as a warning. It is not an error if a higher ERTSetBy has set
+	/// the variable; the value is then ignored.
 	std::optional<std::string> Set(std::string_view Name, std::string_view Value, ERTSetBy By, std::string_view Where);
 	const FRTConsoleVariable* Find(std::string_view NameOrAlias) const;
 	std::vector<const FRTConsoleVariable*> GetAll() const; ///< sorted by name
-	/// Old or engine name → ours. One line in ConsoleVariableAliases.ini each.
+	/// Makes Alias, an old or an engine's name, stand for Name. ConsoleVariableAliases.ini has one line for each.
 	void AddAlias(std::string_view Alias, std::string_view Name);
 	std::vector<std::pair<std::string, std::string>> GetAliases() const;
 
-	/// Publishes values to the render thread and runs callbacks of those that changed.
+	/// Publishes values to the render thread and runs the callbacks of those that changed.
 	void BeginFrame();
-	/// Puts a variable back to what its GetValue() and GetSetBy() were, whoever set it since. Value: of its type.
+	/// Restores an earlier GetValue() and GetSetBy() of a variable, whoever set it since. Value must have the variable's type.
 	void Restore(const FRTConsoleVariable& Variable, FRTCVarValue Value, ERTSetBy By);
-	/// Back to defaults, ERTSetBy::Code (tests).
+	/// Resets all variables to their defaults and ERTSetBy::Code. For tests.
 	void ResetAll();
 
-	std::string ToMarkdown() const; ///< Docs/ConsoleVariables.md
+	std::string ToMarkdown() const; ///< the text of Docs/ConsoleVariables.md
 	std::string ToJson() const;
 	static std::string ToString(const FRTCVarValue& Value);
 

@@ -1,4 +1,4 @@
-// Ini files in UE's syntax: what a file says, not yet what it means (for that see Config.h).
+// Ini files in UE's syntax. This header covers the syntax only; Config.h gives the files their meaning.
 //
 //   [Section]              names are case-insensitive; a section may be continued further down
 //   Key=Value              sets: replaces all values that Key had
@@ -9,9 +9,9 @@
 //   Key="a ; b"            quoted: blanks and ';' belong to the value; \" \\ \n \t are escapes
 //   ; comment              also after a value, if a blank stands before the ';'
 //
-// The parser is our own: of the packaged libraries, SimpleIni skips malformed lines without a word and keeps no line
-// numbers, and inih reports only the first bad line of a file and cuts a line at a NUL byte. Here every bad line must
-// be named while the rest still applies.
+// The parser is our own, since every bad line must be named while the rest still applies. Among the packaged libraries,
+// SimpleIni skips malformed lines silently and keeps no line numbers. inih reports only the first bad line of a file and cuts
+// a line at a NUL byte.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ namespace Lantern
 enum class ERTIniOperation : uint8_t
 {
 	Set,    ///< Key=Value
-	Add,    ///< +Key=Value, unless present
+	Add,    ///< +Key=Value; ignored if Key has this value already
 	Append, ///< .Key=Value
 	Remove, ///< -Key=Value
 	Clear,  ///< !Key or -Key
@@ -46,31 +46,31 @@ struct FIniSection
 	std::vector<FIniEntry> Entries;
 };
 
-/// One value that stands after all operations, as it is in the file, with the place that gave it ("Config/X.ini:12").
+/// A value that remains after all operations, spelled as in the file. Where: the place that set it ("Config/X.ini:12").
 struct FIniValue
 {
 	std::string Key, Value, Where;
 };
 
-/// A parsed file. Nothing throws and nothing is logged: problems are kept. Limits, so that a hostile file costs
-/// bounded time and memory: 16 MiB per file, 64 KiB per line, 10,000 entries, 100 problems listed.
+/// A parsed file. Nothing throws and nothing is logged; GetProblems lists what is wrong. Limits bound the cost of a hostile
+/// file: 16 MiB per file, 64 KiB per line, 10,000 entries, 100 listed problems.
 class FIniFile
 {
 public:
-	/// Name stands for the text in messages. UTF-8, with or without byte order mark; LF, CRLF or CR.
+	/// Parses UTF-8 with or without a byte order mark, and LF, CRLF or CR. Messages call the text Name.
 	static FIniFile Parse(std::string_view Text, std::string Name);
-	/// A file that is missing, not a file, unreadable or too large has no sections and one problem.
+	/// Loads a file. One that is missing, not a file, unreadable or too large gives no sections and one problem.
 	static FIniFile Load(const std::string& Path);
 
 	const std::string& GetName() const { return Name; }
-	/// In the order of their first headers.
+	/// Returns the sections in the order of their first headers.
 	const std::vector<FIniSection>& GetSections() const& { return Sections; }
 	const std::vector<FIniSection>& GetSections() && = delete; // for (… : FIniFile::Load(…).GetSections()) dangles
 	const FIniSection* FindSection(std::string_view SectionName) const&;
 	const FIniSection* FindSection(std::string_view SectionName) && = delete;
-	/// "Name:line: text", in order of lines; each one line that may be shown, whatever the file holds.
+	/// Returns problems as "Name:line: text", in order of lines. Each is one line and safe to show, whatever the file holds.
 	const std::vector<std::string>& GetProblems() const { return Problems; }
-	/// "Name:line", escaped: for messages.
+	/// Returns "Name:line", escaped for messages.
 	std::string GetWhere(uint32_t Line) const;
 
 private:
@@ -81,13 +81,13 @@ private:
 	std::vector<std::string> Problems;
 };
 
-/// Carries out the entries of one section after another (a base profile, then the one derived from it). Keys are
+/// Applies the entries of one section after another (a base profile, then a profile derived from it). Keys are
 /// case-insensitive, values are not. Linear in the number of entries.
 class FIniResolver
 {
 public:
 	void Apply(const FIniFile& File, const FIniSection& Section);
-	/// In the order in which they were set.
+	/// Returns the remaining values in the order in which they were set.
 	std::vector<FIniValue> GetValues() const;
 
 private:
@@ -102,7 +102,7 @@ private:
 	};
 	std::vector<FSlot> Slots;
 	std::unordered_map<std::string, std::vector<size_t>> SlotsOfKey;
-	/// By folded key, a NUL, and the value.
+	// By folded key, a NUL, and the value.
 	std::unordered_map<std::string, std::vector<size_t>> SlotsOfPair;
 };
 

@@ -1,8 +1,8 @@
-// The frame graph. A frame is a list of passes; each declares what it reads and writes, and records its
-// commands later. From the declarations follow barriers, lifetimes of transient resources (one that is over
-// hands its place to a later one of equal description, in this frame or the next; there is no aliasing of
-// memory between different descriptions), and which passes run at all: one whose results nobody reads is
-// culled. Passes run in the order of AddPass. Barriers between the commands of one pass are its own affair.
+// The frame graph. A frame is a list of passes. Each pass declares what it reads and writes, and records its commands later.
+// Barriers, lifetimes of transient resources and culling follow from the declarations. A pass is culled if nobody reads its
+// results. A transient resource reuses an earlier one of equal description, of this frame or the previous one, whose lifetime
+// has ended. Memory is not aliased between different descriptions. Passes run in the order of AddPass. A pass records the
+// barriers between its own commands itself.
 //
 //   FGraphTexture Mask = Graph.CreateTexture({.Width = W, .Height = H, .Format = …}, "SunShadowMask");
 //   Graph.AddPass("SunShadow", [&](FPassBuilder& B) {
@@ -11,8 +11,8 @@
 //       return [=](FPassContext& C) { C.Commands().SetPipeline(…); … C.GetTexture(Mask)->GetStorageIndex() … };
 //   });
 //
-// A graph object is built, executed once, and thrown away; FFrameGraphResources keeps pools, timestamps and
-// statistics across frames. Single-threaded.
+// A graph object is built, executed once, and destroyed. FFrameGraphResources keeps pools, timestamps and statistics across
+// frames. Single-threaded.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +41,7 @@ struct FGraphTextureDesc
 {
 	uint32_t Width = 0, Height = 0;
 	ERTFormat Format = ERTFormat::Unknown;
-	/// Usage follows from the declared accesses; add what they do not show.
+	/// Usage beyond what follows from the declared accesses.
 	ERTTextureUsage ExtraUsage = ERTTextureUsage::None;
 	uint32_t MipCount = 1;
 };
@@ -57,10 +57,11 @@ class FPassContext
 public:
 	virtual IRTCommandList& Commands() = 0;
 	virtual IRTDevice& Device() = 0;
-	/// Asserts unless the pass declared it. Null only for what nobody reads of FPassBuilder::WriteIfRead.
+	/// Asserts that the pass declared the texture. Returns null only for a texture of FPassBuilder::WriteIfRead that nobody
+	/// reads.
 	virtual IRTTexture* GetTexture(FGraphTexture Texture) = 0;
 	virtual IRTBuffer* GetBuffer(FGraphBuffer Buffer) = 0;
-	/// Counts rays for the table of passes.
+	/// Adds rays to FPassTiming::Rays of this pass.
 	virtual void CountRays(uint64_t Rays) = 0;
 
 protected:
@@ -69,9 +70,9 @@ protected:
 
 using FPassExecute = std::function<void(FPassContext&)>;
 
-/// Read and Write of the same resource in one pass: it modifies what earlier passes left (StorageRead or ShaderRead
-/// with StorageWrite only). Reading what no earlier pass wrote, and accesses that exclude each other, are errors
-/// of Compile() that name pass and resource.
+/// Declares what a pass reads and writes. A pass that both reads and writes a resource modifies what earlier passes left; only
+/// StorageRead or ShaderRead may be combined with StorageWrite. Compile() returns an error that names pass and resource if no
+/// earlier pass wrote what is read, or if accesses exclude each other.
 class FPassBuilder
 {
 public:
@@ -79,12 +80,12 @@ public:
 	virtual void Read(FGraphBuffer Buffer, ERTAccess Access) = 0;
 	virtual void Write(FGraphTexture Texture, ERTAccess Access) = 0;
 	virtual void Write(FGraphBuffer Buffer, ERTAccess Access) = 0;
-	/// One of several outputs of the pass. Where no pass that runs reads it, it is not made: GetTexture is null.
+	/// Declares an optional output. If no pass that runs reads it, it is not created, and GetTexture returns null.
 	virtual void WriteIfRead(FGraphTexture Texture, ERTAccess Access) = 0;
-	/// Runs even if nobody reads its outputs (readback, writes to imported resources do so by themselves).
+	/// Makes the pass run even if nobody reads its outputs. Readback and writes to imported resources imply this.
 	virtual void NeverCull() = 0;
-	/// This pass reads in the next frame what these hold at the end of this one: whatever writes them, before it or behind
-	/// it, runs if it does. For what is marked by FFrameGraph::MarkForLater; no access of this pass, and no barrier.
+	/// Says that this pass will read the resource in the next frame. The passes that write it, earlier or later, then run if
+	/// this pass runs. Only for resources of FFrameGraph::MarkForLater. Adds no access and no barrier.
 	virtual void Keep(FGraphTexture Texture) = 0;
 	virtual void Keep(FGraphBuffer Buffer) = 0;
 
@@ -96,37 +97,38 @@ struct FPassTiming
 {
 	std::string Name;
 	double GpuMs = 0.0; ///< < 0: no timestamps on this device
-	double CpuMs = 0.0; ///< recording, on the render thread
+	double CpuMs = 0.0; ///< time to record, on the render thread
 	uint64_t Rays = 0;
 };
 
-/// What outlives a frame: transient resource pool, timestamp queries, last finished timings.
-/// From the begin of its first pass to the end of its last.
+/// GPU time of a frame, from the begin of its first pass to the end of its last.
 struct FFrameTiming
 {
 	uint64_t Frame = 0; ///< FFrameGraphResources::GetFrame
 	double GpuMs = 0.0;
 };
 
+/// Resources that outlive a frame: the pool of transient resources, timestamp queries and the last finished timings.
 class FFrameGraphResources
 {
 public:
 	explicit FFrameGraphResources(IRTDevice& Device);
 	~FFrameGraphResources();
-	/// Timings of the newest frame that the GPU has finished, in order of execution.
+	/// Returns the passes of the newest frame that the GPU has finished, in order of execution.
 	const std::vector<FPassTiming>& GetTimings();
-	/// Number of the graph that was executed last; rises.
+	/// Returns the number of the last executed graph; it increases.
 	uint64_t GetFrame() const;
-	/// Graphs that were found done since the last call, oldest first. One that was not submitted, or of a device without
-	/// timestamps, never comes.
+	/// Returns the frames that the GPU has finished since the last call, oldest first. Frames that were not submitted are left
+	/// out, and so are all frames on a device without timestamps.
 	std::vector<FFrameTiming> TakeFrameTimings();
-	/// Frees pooled resources not used in the last Frames executed graphs or, with 0, all that are idle. Nothing else
-	/// shrinks the pool but a shortage of memory: call it every frame or so.
+	/// Frees pooled resources that the last Frames executed graphs did not use; 0: all that are idle. Should be called about
+	/// once a frame, since otherwise only a shortage of memory shrinks the pool.
 	void Trim(uint32_t Frames);
 	uint64_t GetPooledBytes() const;
-	/// A debug facility: before the first pass of the next executed graph, everything in it that is marked as history and
-	/// whose name contains NamePart ("": all) is overwritten with bits that are not-a-number in every float format, by a pass
-	/// "Poison" of the graph's own. Calls before the same graph add up. What has no CopyDest usage is an error of Compile().
+	/// Overwrites histories with not-a-number, for debugging. It affects the resources of the next executed graph that are
+	/// marked as history and whose name contains NamePart ("": all). A pass "Poison", before the first one, writes bits that
+	/// are NaN in every float format. Calls before the same graph add up. Compile() returns an error if such a resource lacks
+	/// CopyDest usage.
 	void PoisonHistory(std::string NamePart);
 
 private:
@@ -145,35 +147,36 @@ public:
 
 	FGraphTexture CreateTexture(const FGraphTextureDesc& Desc, const char* Name);
 	FGraphBuffer CreateBuffer(const FGraphBufferDesc& Desc, const char* Name);
-	/// Current: how it was last used, exactly; After (if not None): the access in which to leave it. Writing to an
-	/// imported resource keeps a pass from being culled. The same object twice gives the same handle.
+	/// Imports a resource. Current must be exactly how it was last used; After, if not None, is the access to leave it in. A
+	/// pass that writes to an imported resource is not culled. Importing an object twice returns the same handle.
 	FGraphTexture ImportTexture(IRTTexture* Texture, ERTAccess Current, ERTAccess After, const char* Name);
 	FGraphBuffer ImportBuffer(IRTBuffer* Buffer, ERTAccess Current, ERTAccess After, const char* Name);
-	/// An imported resource whose content comes from earlier frames: see FFrameGraphResources::PoisonHistory.
+	/// Marks an imported resource whose content comes from earlier frames: see FFrameGraphResources::PoisonHistory.
 	void MarkHistory(FGraphTexture Texture);
 	void MarkHistory(FGraphBuffer Buffer);
-	/// An imported resource that is written for later frames only: by themselves, unlike others, writes to it keep no pass
-	/// from being culled. Their pass runs if one that runs reads what it writes, or says FPassBuilder::Keep. OutWritten (may
-	/// be null) must live until Compile, which sets it to whether a pass that runs writes the resource.
+	/// Marks an imported resource that is written for later frames only. Unlike with other imported resources, a pass that
+	/// writes it may be culled. The pass runs if one that runs reads the resource, or declares FPassBuilder::Keep. OutWritten
+	/// (may be null) must live until Compile, which sets it to whether a pass that runs writes the resource.
 	void MarkForLater(FGraphTexture Texture, bool* OutWritten = nullptr);
 	void MarkForLater(FGraphBuffer Buffer, bool* OutWritten = nullptr);
-	/// What somebody does with a transient texture behind the graph, beside what passes declare.
+	/// Adds usage to a transient texture for accesses after the graph, which no pass declares.
 	void AddUsage(FGraphTexture Texture, ERTTextureUsage Usage);
 	const FGraphTextureDesc& GetDesc(FGraphTexture Texture) const;
 	const FGraphBufferDesc& GetDesc(FGraphBuffer Buffer) const;
 
-	/// Setup runs at once and returns what to record; it runs only if the pass is not culled.
+	/// Adds a pass. Setup runs at once and returns the function that records the commands. That function runs only if the pass
+	/// is not culled.
 	void AddPass(const char* Name, const std::function<FPassExecute(FPassBuilder&)>& Setup);
 
-	/// Culls, allocates, records into Commands. On error (out of memory, device lost) nothing is recorded after
-	/// the failing point and the message says which resource. Commands must be submitted, and graphs of the same
-	/// FFrameGraphResources in the order of their Execute, on one queue: pooled resources carry their state over.
-	/// Failure (may be null): where a pass sets it to an error, those behind it are not recorded, and it is returned.
+	/// Culls passes, allocates resources, and records into Commands. On error (out of memory, device lost) nothing is recorded
+	/// after the failing point; the message names the resource. Commands must be submitted. Graphs of one FFrameGraphResources
+	/// must be submitted in the order of their Execute, on one queue, since pooled resources carry their state over.
+	/// Failure (may be null): if a pass sets it to an error, later passes are not recorded, and Execute returns it.
 	FRTStatus Execute(IRTCommandList& Commands, const FRTStatus* Failure = nullptr);
 
-	/// Passes (culled ones marked), resources with size and lifetime, barriers: after Execute or Compile.
+	/// Lists passes (culled ones are marked), resources with size and lifetime, and barriers. After Execute or Compile.
 	std::string Dump() const;
-	FRTStatus Compile(); ///< all of Execute but the recording
+	FRTStatus Compile(); ///< does all of Execute except recording
 	uint32_t GetPassCount() const;
 	uint32_t GetCulledPassCount() const;
 

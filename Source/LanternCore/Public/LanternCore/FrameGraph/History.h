@@ -1,16 +1,17 @@
-// What one frame leaves for the next: named textures and buffers that outlive the frame graph. Histories are written
-// anew each frame from what the frame before left (two of each, in turn); caches are changed in place. Both are marked
-// in the graph, so that tests can poison them (FFrameGraphResources::PoisonHistory).
+// Histories: named textures and buffers that one frame leaves for the next and that outlive the frame graph. A history texture
+// is double-buffered: each frame reads the previous one and writes the current one. A cache buffer is changed in place. The
+// graph marks all of them, so that tests can poison them (FFrameGraphResources::PoisonHistory).
 //
 //   FHistoryTexture Mean = History.GetTexture("SunShadow.Mean", {W, H, ERTFormat::RG16_FLOAT});
 //   if (Mean.Previous.IsValid()) { … reproject … }   // else: start anew
 //   … write Mean.Current, wholly …
 //
-// Writing a history keeps no pass alive by itself: what nobody reads is culled, and the history then ends. A pass that has
-// no other output, such as one that copies the G-buffer for the next frame, runs if a pass that runs reads Current in this
-// frame, or says FPassBuilder::Keep(Current): "I shall read it in the next". Say it from the first frame on.
+// Writing a history does not keep a pass from being culled; if it is culled, the history ends. Some passes have no other
+// output, such as one that copies the G-buffer for the next frame. Such a pass runs if a pass that runs reads Current in this
+// frame or declares FPassBuilder::Keep(Current), that is, will read it in the next frame. Declare it from the first frame on.
 //
-// A frame: BeginFrame → Get… → (graph executed and submitted) → EndFrame. Of one view. Render thread.
+// The calls of a frame are BeginFrame → Get… → (graph executed and submitted) → EndFrame. One object serves one view. Render
+// thread only.
 #pragma once
 
 #include <memory>
@@ -23,16 +24,16 @@ namespace Lantern
 
 struct FHistoryTexture
 {
-	/// In ShaderRead; invalid: there is none (first use, a cut, another size or format, a lost frame, or one that did not
-	/// write Current).
+	/// The previous frame's texture, in ShaderRead. Invalid if there is none: on first use, after a cut, with another size or
+	/// format, or after a frame that was lost or did not write Current.
 	FGraphTexture Previous;
-	FGraphTexture Current; ///< to be written wholly by one of the frame's passes; may be read by those behind it
+	FGraphTexture Current; ///< one of the frame's passes must write all of it; later passes may read it
 };
 
 struct FHistoryBuffer
 {
 	FGraphBuffer Buffer;
-	/// Nothing has been written to it since it was made or since a cut: its content is undefined, and must be written wholly.
+	/// True if nothing was written since its creation or a cut: the content is undefined and must be written wholly.
 	bool bFresh = false;
 };
 
@@ -44,19 +45,20 @@ public:
 	FHistoryResources(const FHistoryResources&) = delete;
 	FHistoryResources& operator=(const FHistoryResources&) = delete;
 
-	/// bKeep: false forgets the content of all (not their memory): a cut.
+	/// bKeep: false invalidates the content of all histories but keeps their memory (a cut).
 	void BeginFrame(FFrameGraph& Graph, bool bKeep);
-	/// The same name once a frame; another size or format starts anew. Error: no memory; the frame cannot go on with this
-	/// pass. May be sampled, stored to and copied to; ExtraUsage: what else. Memory: two textures of the description.
+	/// Returns the history of this name, once a frame. Another size or format starts anew. Fails if there is no memory; the
+	/// pass must then be left out. The textures may be sampled, stored to and copied to; ExtraUsage adds to that. Takes the
+	/// memory of two textures.
 	FRTStatus GetTexture(const char* Name, const FGraphTextureDesc& Desc, FHistoryTexture& Out);
-	/// A cache, changed in place: it keeps its content in frames that do not write it, or do not ask for it.
+	/// Returns the cache of this name. It keeps its content in frames that do not write it or do not ask for it.
 	FRTStatus GetBuffer(const char* Name, const FGraphBufferDesc& Desc, FHistoryBuffer& Out);
-	/// After the graph was executed. bSubmitted: false: the frame never runs, and what it would have written is not there.
-	/// What no frame asked for in the last KeepFrames frames is freed, when the GPU is done with it.
+	/// Call after the graph was executed. bSubmitted false: the frame never runs, so that its writes do not count. Frees what
+	/// no frame asked for in the last KeepFrames frames, once the GPU is done with it.
 	void EndFrame(bool bSubmitted);
-	/// Frees all of it. Between frames.
+	/// Frees everything. Only between frames.
 	void Clear();
-	uint64_t GetBytes() const; ///< without the driver's padding
+	uint64_t GetBytes() const; ///< memory held, without the driver's padding
 
 	static constexpr uint32_t KeepFrames = 8;
 

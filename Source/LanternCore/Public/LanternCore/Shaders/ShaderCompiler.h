@@ -1,5 +1,5 @@
-// GLSL to SPIR-V at run time, with glslang as a library and a disk cache keyed by content (all included
-// files, defines, stage), target and compiler version. Thread-safe: many compiles may run at once.
+// Compiles GLSL to SPIR-V at run time, with glslang as a library and a disk cache. The cache key covers the content of all
+// included files, defines, stage, target and compiler version. Thread-safe: many compiles may run at once.
 #pragma once
 
 #include <memory>
@@ -12,12 +12,12 @@
 namespace Lantern
 {
 
-/// A header in memory. Takes the place of the file of that name, if there is one.
+/// A header in memory. It replaces the file of that name, if there is one.
 struct FShaderHeader
 {
-	std::string Include; ///< relative to the search folders; include lines that lead there find this
+	std::string Include; ///< relative to the search folders; #include lines that resolve to it get Text
 	std::string Text;
-	std::string Name; ///< what errors call it, one line; its own quoted includes are searched from this place first
+	std::string Name; ///< for messages, one line; its own quoted includes are searched relative to this path first
 	friend bool operator==(const FShaderHeader&, const FShaderHeader&) = default;
 };
 
@@ -25,9 +25,9 @@ struct FShaderSource
 {
 	std::string Path; ///< one line, relative to one of the search folders, e.g. "SunShadow/SunShadow.rgen"
 	ERTShaderStage Stage = ERTShaderStage::Compute;
-	/// Name and value; part of the key.
+	/// Names and values; part of the key.
 	std::vector<std::pair<std::string, std::string>> Defines;
-	/// If not empty: compiled instead of the file's text; Path then only names it (generated shaders).
+	/// If not empty, this is compiled instead of a file (generated shaders); Path is then for messages only.
 	std::string Text;
 	std::vector<FShaderHeader> Headers = {}; ///< their texts are part of the key
 	std::string Name = {};                   ///< of the binary; empty: Path
@@ -40,7 +40,7 @@ struct FShaderBinary
 	std::string Name;
 	ERTShaderStage Stage = ERTShaderStage::Compute;
 	bool bFromCache = false;
-	/// For the RHI; valid while this object lives and is not moved.
+	/// Returns a view for the RHI, valid while this object lives and is not moved.
 	FRTShaderCode GetCode() const { return {Words.data(), Words.size(), Stage, Name.c_str()}; }
 };
 
@@ -63,15 +63,15 @@ class FShaderCompiler
 public:
 	explicit FShaderCompiler(FShaderCompilerDesc Desc);
 	~FShaderCompiler();
-	/// CompileFailed: the message holds glslang's errors as "Path:line: text", included files resolved.
+	/// Fails with CompileFailed; the message holds glslang's errors as "Path:line: text", where Path may be an included file.
 	FRTStatus Compile(const FShaderSource& Source, FShaderBinary& Out);
-	/// The cache key (hex), e.g. to notice an edited file. Empty if a file is missing.
+	/// Returns the cache key (hex), for example to notice an edited file. Empty if a file is missing.
 	std::string GetKey(const FShaderSource& Source);
-	/// Bytes of the shader's text and of all files that it includes, each once. 0 if one is missing.
+	/// Returns the bytes of the shader's text and of all files that it includes, each counted once. 0 if one is missing.
 	size_t GetTextBytes(const FShaderSource& Source);
 	FShaderCompilerStats GetStats() const;
-	/// Frees what all compilers share (glslang's tables of built-in symbols, 13 MB), for a library that is about to
-	/// be unloaded. No compiler may exist.
+	/// Frees what all compilers share (glslang's tables of built-in symbols, 13 MB) before the library is unloaded. No compiler
+	/// may exist.
 	static void FreeSharedMemory();
 
 private:

@@ -1,11 +1,11 @@
-// Task trace: what ran when and on which thread, as Chrome trace JSON that Perfetto (ui.perfetto.dev) opens.
+// Task trace: records what ran when and on which thread, as Chrome trace JSON that Perfetto (ui.perfetto.dev) opens.
 //
 //   FTraceScope Scope("Gather");                  // until the end of the block
 //   FTraceScope Scope("Compile", Shader.Path);    // "Compile: Rays/AlphaTest.rahit"
 //
-// Off (the default) a scope costs one relaxed load. On, it takes two readings of the clock and a lock that nobody else
-// wants. Switched by r.RT.Trace; r.RT.Trace.File names the file, r.RT.Trace.Frames writes it every so many frames.
-// Everything here may be called from any thread.
+// If the trace is off (the default), a scope costs one relaxed load. If it is on, a scope reads the clock twice and takes an
+// uncontended lock. r.RT.Trace switches it, r.RT.Trace.File names the file, and r.RT.Trace.Frames writes it every so many
+// frames. All functions may be called from any thread.
 #pragma once
 
 #include <atomic>
@@ -27,12 +27,12 @@ struct FTraceEvent
 
 	char Name[MaxName + 1] = {};
 	uint64_t BeginNs = 0, EndNs = 0; ///< since the trace was switched on
-	int64_t Frame = NoFrame;         ///< in which it began; NoFrame: before the first
-	uint32_t Thread = 0;             ///< small number, see FTaskTrace::GetThreadNames
+	int64_t Frame = NoFrame;         ///< frame in which it began; NoFrame: before the first
+	uint32_t Thread = 0;             ///< index into FTaskTrace::GetThreadNames
 };
 
-/// The recorder. Memory is bounded: a thread that has MaxEventsPerThread, or all of them together MaxEvents, forgets
-/// its oldest for each new one.
+/// The recorder. Its memory is bounded: beyond MaxEventsPerThread, or MaxEvents over all threads, a new event replaces the
+/// oldest one of its thread.
 class FTaskTrace
 {
 public:
@@ -40,37 +40,37 @@ public:
 	static constexpr size_t MaxEvents = 1u << 18;
 
 	static bool IsOn() { return bOn.load(std::memory_order_relaxed); }
-	/// Forgets what there was and records from now on.
+	/// Discards all events and starts to record.
 	static void Start();
-	/// What was recorded stays until Start or Clear.
+	/// Stops recording. The events stay until Start or Clear.
 	static void Stop();
 	static void Clear();
 
-	/// Begin, End: of GetNow().
+	/// BeginNs, EndNs: from GetNow().
 	static void Record(std::string_view Name, uint64_t BeginNs, uint64_t EndNs, int64_t Frame);
 	static uint64_t GetNow(); ///< nanoseconds since Start
 	static int64_t GetFrame() { return CurrentFrame.load(std::memory_order_relaxed); }
-	/// Of the calling thread; without one it is "Worker n". The newest name wins.
+	/// Names the calling thread; the default is "Worker n". The newest name wins.
 	static void NameThread(std::string_view Name);
 
-	/// In no particular order. What runs at the moment is not in it.
+	/// Returns finished events, in no particular order.
 	static std::vector<FTraceEvent> GetEvents();
 	static std::vector<std::string> GetThreadNames(); ///< by FTraceEvent::Thread
 	static uint64_t GetForgottenCount();
-	/// Chrome trace format: one complete event ("X", microseconds) each, and the names of threads.
+	/// Returns Chrome trace JSON: one complete event ("X", microseconds) each, and the names of threads.
 	static std::string ToJson();
-	/// Appears whole or not at all.
+	/// Writes ToJson to a file, atomically.
 	static FRTStatus Write(const std::string& Path);
 
-	/// Where a relative r.RT.Trace.File lies; empty: the current folder.
+	/// Sets the folder that a relative r.RT.Trace.File lies in; empty: the current folder.
 	static void SetFolder(std::string Folder);
 	static bool HasFolder();
-	/// r.RT.Trace is followed from the first frame on. Whoever works before that (loads, compiles) calls this.
+	/// Starts if r.RT.Trace is on. For work before the first BeginFrame (loading, compiling).
 	static void StartIfWanted();
-	/// At the start of a frame, on the render thread, after FConsoleVariables::BeginFrame: follows the console variables,
-	/// and writes the file where one is due. A file that cannot be written is said once.
+	/// Follows the console variables, and writes the file if it is due. Call at the start of a frame, on the render thread,
+	/// after FConsoleVariables::BeginFrame. A file that cannot be written is logged once.
 	static void BeginFrame(uint64_t Frame);
-	/// Writes what was recorded since the last file. Whoever renders calls it before it goes.
+	/// Writes what was recorded since the last file. Whoever renders calls it at shutdown.
 	static void Flush();
 
 private:
@@ -86,7 +86,7 @@ public:
 	{
 		if (FTaskTrace::IsOn()) { Begin(InName, {}); }
 	}
-	/// "Name: Detail". Detail is read at once.
+	/// Records "Name: Detail". Detail is copied at once.
 	FTraceScope(std::string_view InName, std::string_view Detail)
 	{
 		if (FTaskTrace::IsOn()) { Begin(InName, Detail); }
@@ -103,7 +103,7 @@ private:
 	void End();
 
 	bool bRecording = false;
-	uint8_t Length; // the rest is not even initialised unless the trace is on
+	uint8_t Length; // this and what follows are initialised only if the trace is on
 	char Name[FTraceEvent::MaxName];
 	uint64_t BeginNs;
 	int64_t Frame;

@@ -8,12 +8,12 @@
 namespace Lantern
 {
 
-/// Runs Body(Begin, End) over [0, Count) in chunks of at least Grain, on all workers; returns when done.
-/// Body must not throw: that ends the program.
+/// Runs Body(Begin, End) over [0, Count) in chunks of at least Grain, on all workers. Returns when all are done. Body must not
+/// throw; an exception ends the program.
 void ParallelFor(size_t Count, size_t Grain, const std::function<void(size_t, size_t)>& Body);
 
-/// A set of tasks that can be waited for. Destruction waits. Tasks must not throw: that
-/// ends the program. Run may be called from any thread, also by a task of the group; Wait only by the owner.
+/// A set of tasks that can be waited for. The destructor waits. Tasks must not throw; an exception ends the program. Run may be
+/// called from any thread, also by a task of the group; Wait only by the owner.
 class FTaskGroup
 {
 public:

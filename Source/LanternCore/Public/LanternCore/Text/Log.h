@@ -1,5 +1,5 @@
-// Log: one sink for the whole plugin. Results go to standard output by their owners; the log goes to standard
-// error, or to where the engine points it. Thread-safe.
+// The log: one sink for the whole plugin. The log goes to standard error, or to the engine's sink. Results do not belong in the
+// log; their owners write them to standard output. Thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -20,13 +20,13 @@ enum class ERTLogLevel : uint8_t
 	Error
 };
 
-/// Replaces where lines go (an engine's log); an empty function restores standard error. A sink gets valid UTF-8
-/// without control characters; line breaks and tabs stay, for messages of several lines.
+/// Redirects the log to Sink (an engine's log); an empty function restores standard error. The sink gets valid UTF-8 without
+/// control characters except line breaks and tabs, which messages of several lines contain.
 void SetLogSink(std::function<void(ERTLogLevel, std::string_view)> Sink);
 void SetLogLevel(ERTLogLevel Minimum);
-/// What Text quotes from outside is to be escaped by the caller (Quote.h): only that keeps line breaks out of it.
+/// Logs one message. The caller must escape text from outside that it quotes (Quote.h), else that text may contain line breaks.
 void LogLine(ERTLogLevel Level, std::string_view Text);
-/// Logs a given text once per process.
+/// Logs a message unless the process has logged the same text before.
 void LogOnce(ERTLogLevel Level, std::string_view Text);
 
 template <class... T>

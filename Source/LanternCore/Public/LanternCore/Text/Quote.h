@@ -1,5 +1,5 @@
-// Text from outside in messages: files, command lines, environment, engines and drivers may hold anything. It is
-// escaped where it is quoted, by what LanternRHI/RTText.h says; the log's sink escapes what was forgotten. Thread-safe.
+// Quotes text from outside in messages. Text of files, command lines, environment, engines and drivers may contain anything.
+// It is escaped where it is quoted, by the rules of LanternRHI/RTText.h; the log's sink escapes what was forgotten. Thread-safe.
 #pragma once
 
 #include <string>
@@ -10,21 +10,21 @@
 namespace Lantern
 {
 
-/// Most bytes of what Quote shows between its quotation marks.
+/// Quote shows at most so many bytes between its quotation marks.
 inline constexpr size_t MaxQuotedBytes = FRTShown::MaxBytes;
-/// Most bytes of what EscapePath shows.
+/// EscapePath shows at most so many bytes.
 inline constexpr size_t MaxPathBytes = 256;
 
-/// One line of valid UTF-8 without control characters, of any length. Escaping twice changes nothing.
+/// Returns one line of valid UTF-8 without control characters, of any length. Escaping twice changes nothing.
 std::string EscapeText(std::string_view Text);
-/// At most MaxBytes, at least 3, of the escaped text; it then ends in "…".
+/// Returns at most MaxBytes (≥ 3) of the escaped text; it ends in "…" if it was cut.
 std::string EscapeText(std::string_view Text, size_t MaxBytes);
-/// As EscapeText, but line breaks and tabs stay: for messages of several lines, and for sinks.
+/// Escapes as EscapeText does, but keeps line breaks and tabs. For messages of several lines, and for sinks.
 std::string EscapeLines(std::string_view Text);
 
-/// In single quotes, escaped, at most MaxQuotedBytes; behind what was cut stands how long it is.
+/// Returns Text escaped and in single quotes, at most MaxQuotedBytes of it. If it was cut, its full length follows.
 std::string Quote(std::string_view Text);
-/// Escaped; beyond MaxPathBytes without its middle, since both ends tell something.
+/// Escapes a path. Longer ones than MaxPathBytes lose their middle, since both ends are informative.
 std::string EscapePath(std::string_view Path);
 
 } // namespace Lantern
