@@ -15,9 +15,6 @@ using testing::IsEmpty;
 
 using FrameGraphTest = FFrameGraphTestBase;
 
-constexpr ERTAccess Sampled = ERTAccess::ShaderRead;
-constexpr ERTAccess Storage = ERTAccess::StorageWrite;
-
 // --------------------------------------------------------------------------------------------------- errors
 
 TEST_F(FrameGraphTest, OutOfMemoryNamesTheResourceAndRecordsNothing)

@@ -13,6 +13,8 @@
 namespace Lantern
 {
 
+inline constexpr ERTAccess Sampled = ERTAccess::ShaderRead, Storage = ERTAccess::StorageWrite;
+
 /// A texture or a buffer, with how it is used.
 struct FTestUse
 {

@@ -15,9 +15,6 @@ using testing::IsEmpty;
 
 using FrameGraphTest = FFrameGraphTestBase;
 
-constexpr ERTAccess Sampled = ERTAccess::ShaderRead;
-constexpr ERTAccess Storage = ERTAccess::StorageWrite;
-
 // -------------------------------------------------------------------------------------------------- culling
 
 // What GetDesc returns lies in a list that grows (the address sanitizer sees what is read from where it was).

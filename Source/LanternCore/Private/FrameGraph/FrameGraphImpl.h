@@ -57,8 +57,8 @@ struct FFrameGraphResources::FImpl
 {
 	explicit FImpl(IRTDevice& InDevice) : Device(InDevice) {}
 
-	/// Takes a free pooled resource, or creates one. Prefers one of this name, so that bindless indices and debugger names stay
-	/// equal from frame to frame.
+	/// Takes a pooled resource that Owner may use, or creates one. Prefers one of this name, so that bindless indices and
+	/// debugger names stay equal from frame to frame.
 	FRTStatus Acquire(const FPoolKey& Key, const std::string& Name, const void* Owner, std::shared_ptr<FPooledResource>& Out);
 	FRTStatus Create(const FPoolKey& Key, const std::string& Name, std::shared_ptr<FPooledResource>& Out);
 	/// Returns bytes freed.

@@ -4,16 +4,11 @@
 #include <cstring>
 #include <fstream>
 
-#if defined(_WIN32)
-#include <process.h>
-#else
-#include <unistd.h>
-#endif
-
 #include <xxhash.h>
 
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
+#include "Process/ProcessId.h"
 
 namespace Lantern
 {
@@ -56,15 +51,6 @@ const char* Parse(std::ifstream& File, uint64_t FileBytes, const FHash128& Key, 
 	}
 	if (Checksum(OutWords) != Header.Checksum) { return "wrong checksum"; }
 	return OutWords[0] == SpirvMagic ? nullptr : "not SPIR-V";
-}
-
-int GetProcessId()
-{
-#if defined(_WIN32)
-	return _getpid();
-#else
-	return static_cast<int>(getpid());
-#endif
 }
 
 } // namespace

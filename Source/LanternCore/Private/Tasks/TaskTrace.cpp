@@ -9,17 +9,12 @@
 #include <memory>
 #include <mutex>
 
-#if defined(_WIN32)
-#include <process.h>
-#else
-#include <unistd.h>
-#endif
-
 #include <nlohmann/json.hpp>
 
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
+#include "Process/ProcessId.h"
 
 namespace Lantern
 {
@@ -98,15 +93,6 @@ size_t CopyName(char* Out, size_t Room, std::string_view Text)
 	const size_t Length = FitCharacters(Text.data(), Text.size(), Room);
 	std::memcpy(Out, Text.data(), Length);
 	return Length;
-}
-
-int GetProcessId()
-{
-#if defined(_WIN32)
-	return _getpid();
-#else
-	return static_cast<int>(getpid());
-#endif
 }
 
 std::string ToJsonText(std::string_view Text)
