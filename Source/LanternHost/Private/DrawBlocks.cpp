@@ -16,10 +16,10 @@ namespace Lantern
 namespace
 {
 constexpr size_t BlockGrain = 256;
-/// Blocks whose bounds are measured anew in a frame: all in turn, so that wandering objects do not keep bounds large.
+/// Number of blocks whose bounds are recomputed in a frame. All take turns, so that moving objects do not keep bounds large.
 constexpr size_t RefreshedBlocks = 32;
 
-/// Order along a Z curve over the ground, the infinite ones behind all others.
+/// Returns the position along a Z curve over the ground. Infinite spheres come last.
 uint64_t GetPlaceKey(const FDrawSphere& Sphere, const glm::dvec3& Min, double Scale)
 {
 	if (!std::isfinite(Sphere.Radius)) { return ~0ull; }
@@ -80,7 +80,7 @@ void FDrawBlocks::Build(const std::vector<FItem>& Items, const std::vector<FDraw
 		FBlock& Block = Blocks.emplace_back();
 		Block.Center = Spheres[Order[First].second].Center;
 		Bounds.push_back({Block.Center});
-		// Infinite spheres have blocks of their own, so that they make no other infinite.
+		// Infinite spheres have blocks of their own, so that they do not make the bounds of others infinite.
 		const bool bInfinite = Order[First].first == ~0ull;
 		for (; First < Order.size() && Block.Count < FBlock::Capacity && (Order[First].first == ~0ull) == bInfinite; ++First)
 		{
@@ -132,7 +132,7 @@ bool FDrawBlocks::MaySeeBlock(const FFrustum& F, const FBounds& Block)
 uint64_t FDrawBlocks::CullItems(const FFrustum& F, const FBlock& Block)
 {
 	const glm::vec3 D(Block.Center - F.Eye);
-	// Rounding must leave out nothing that the view sees.
+	// Conservative: rounding must not cull anything that the view sees.
 	const float Slack = 1e-5f * (std::abs(D.x) + std::abs(D.y) + std::abs(D.z)) + 1e-4f;
 	uint8_t bSeen[FBlock::Capacity];
 	for (uint32_t I = 0; I < FBlock::Capacity; ++I)

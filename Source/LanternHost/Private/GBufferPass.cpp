@@ -14,8 +14,8 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<bool> CVarMotion("r.RT.GBuffer.Motion", true,
-    "The sample engine's raster writes motion vectors. Off: histories take what moves for still, and each "
-    "pixel costs 16 bytes less.");
+    "Makes the sample engine's raster write motion vectors. If off, histories treat moving objects as static, "
+    "and each pixel costs 16 bytes less.");
 constexpr std::array<ERTFormat, 5> ColorFormats = {
     ERTFormat::RGBA16_SNORM, ERTFormat::RGBA8_SRGB, ERTFormat::RGBA8_UNORM, ERTFormat::RGBA32_FLOAT, ERTFormat::RGBA32_FLOAT};
 constexpr std::array<const char*, 5> ColorNames = {
@@ -74,7 +74,7 @@ IRTPipeline* FGBufferPass::GetPipeline(const FFrameContext& Context, const FPipe
 	{
 		const bool bTried = Entry.Revision == Revision && Key.Program != StandardProgram;
 		const FRTStatus Status = bTried ? FRTStatus::Success() : CreatePipeline(Key, Entry.Pipeline);
-		// What the code is wrong in stays wrong; a shortage of memory passes.
+		// Errors in the shader's code are permanent; a shortage of memory may pass.
 		if (Status || Status.Code == ERTResult::CompileFailed) { Entry.Revision = Revision; }
 		if (!Status && (Key.Program == StandardProgram || Status.Code != ERTResult::CompileFailed))
 		{
@@ -87,7 +87,7 @@ IRTPipeline* FGBufferPass::GetPipeline(const FFrameContext& Context, const FPipe
 	return GetPipeline(Context, {StandardProgram, Key.bMasked, Key.Cull, Key.bMotion});
 }
 
-/// The objects of each batch in its places, near before far, and the batches in the order of their nearest objects.
+/// Lists the objects of each batch in its places, near before far, and orders the batches by their nearest objects.
 void FGBufferPass::ListObjects(FHostScene& Scene, uint32_t* Objects)
 {
 	const uint32_t* const Indices = Scene.GetBatchIndices().data();

@@ -1,4 +1,4 @@
-// Images, samplers and materials of a loaded scene.
+// Uploads images and creates samplers and materials of a loaded scene.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -33,7 +33,7 @@ glm::vec3 MeanColor(const FHostImage& Image)
 	return glm::vec3(Sum / double(std::max<size_t>(Count, 1)));
 }
 
-/// The density of light sampling must be the same number wherever it is computed; payloads carry it as fp16.
+/// Rounds to fp16, as payloads do, since the pdf of light sampling must be one number wherever it is computed.
 float MakeEmissiveWeight(glm::vec3 Emission)
 {
 	const float Luminance = glm::dot(Emission, glm::vec3(0.2126f, 0.7152f, 0.0722f)) / 64.0f;
@@ -46,7 +46,7 @@ FRTStatus FHostScene::UploadTextures(FUploader& Uploader, const std::function<vo
 {
 	Images.resize(Description.Images.size());
 	ImageMeans.resize(Description.Images.size(), glm::vec3(1));
-	// Means matter for emissive textures only.
+	// Only emissive textures need their mean.
 	for (const FHostMaterial& Material : Description.Materials)
 	{
 		const int32_t Texture = Material.Slots[TEXTURE_EMISSIVE].Texture;

@@ -15,9 +15,9 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<float> CVarPieces("r.RT.Opacity.Pieces", 3.0f,
-    "Alpha-tested triangles that are neither opaque nor transparent all over are cut "
-    "into pieces that leave out what is transparent: at most so many more pieces than "
-    "such triangles, where they save most. 0: none. Read when a scene is loaded.",
+    "Cuts alpha-tested triangles that are partly transparent into pieces without the "
+    "transparent parts. Adds at most so many pieces for each such triangle on average, "
+    "where they save most. 0: none. Read when a scene is loaded.",
     {0.0, 64.0});
 
 struct FMaskedSection
@@ -49,7 +49,7 @@ FAlphaTest MakeAlphaTest(const FSceneDescription& Description, const FHostMateri
 	return Test;
 }
 
-/// By image, so that neighbours read the same texels.
+/// Finds masked sections, grouped by image, so that consecutive ones read the same texels.
 std::vector<std::pair<int32_t, std::vector<FMaskedSection>>> FindMaskedSections(const FSceneDescription& Description)
 {
 	std::map<int32_t, std::vector<FMaskedSection>> Out; // -1: no texture
@@ -69,7 +69,7 @@ std::vector<std::pair<int32_t, std::vector<FMaskedSection>>> FindMaskedSections(
 	return {Out.begin(), Out.end()};
 }
 
-/// How much area in the world a square metre of each mesh stands for.
+/// Returns the total world area that a square metre of each mesh represents.
 std::vector<float> FindMeshWeights(const FSceneDescription& Description, const FScenePose& Pose)
 {
 	std::vector<float> Weights(Description.Meshes.size(), 0.0f);
@@ -91,7 +91,7 @@ void AddCounts(const FOpacityCounts& From, FOpacityCounts& To)
 	To.Transparent += From.Transparent;
 }
 
-/// Pieces do not follow a skin, and the list of emissive triangles counts whole ones.
+/// Excludes skinned meshes, which pieces cannot follow, and emitters, whose list counts whole triangles.
 bool CanBeCut(const FSceneDescription& Description, const FMaskedSection& Masked)
 {
 	const FHostMesh& Mesh = Description.Meshes[Masked.Mesh];

@@ -177,7 +177,7 @@ uint32_t FHostScene::FindBatches(uint32_t Mesh, const std::vector<uint32_t>& Mat
 		OfMesh.push_back(List.back());
 		Batches.push_back(Batch);
 	}
-	// Most sets of materials draw alike: one list for them, which then stays in the cache.
+	// Most sets of materials give equal batches. They share one list, which then stays in the CPU cache.
 	const auto [First, bNewList] = BatchLists.try_emplace(List, static_cast<uint32_t>(BatchIndices.size()));
 	if (bNewList) { BatchIndices.insert(BatchIndices.end(), List.begin(), List.end()); }
 	Entry->second = First->second;
@@ -188,7 +188,7 @@ FDrawSphere FHostScene::MakeDrawSphere(size_t Instance) const
 {
 	const glm::dmat4& Transform = Scene.GetObject(Draws[Instance].Object).Transform;
 	const FHostMesh& Mesh = Description.Meshes[Description.Nodes[Instances[Instance].Node].Mesh];
-	// No direction is stretched by more than this (the Frobenius norm).
+	// The Frobenius norm bounds how much any direction is stretched.
 	const double Scale2 =
 	    glm::dot(Transform[0], Transform[0]) + glm::dot(Transform[1], Transform[1]) + glm::dot(Transform[2], Transform[2]);
 	FDrawSphere Sphere;
@@ -297,7 +297,7 @@ float FHostScene::NearPlane() const
 {
 	glm::dvec3 Min(-1), Max(1);
 	GetSceneBounds(Description, Pose, Min, Max);
-	// Reversed depth without a far plane loses nothing to a near plane as close as the scene is small.
+	// With reversed depth and no far plane, a near plane this close costs no precision.
 	return static_cast<float>(std::clamp(0.0005 * glm::length(Max - Min), 1e-4, 0.05));
 }
 
@@ -340,7 +340,7 @@ void FHostScene::UpdateLights()
 		// glTF lights shine along −z of their node.
 		const glm::dvec3 Axis = -glm::dvec3(World[2]);
 		Light.Data.Direction = glm::length(Axis) > 0.0 ? glm::vec3(glm::normalize(Axis)) : glm::vec3(0, -1, 0);
-		// One that is off keeps its place, so that methods which remember lights by index remember the right ones.
+		// A light that is off keeps its index, since methods may remember lights by index.
 		Light.Data.Color = IsLightOn(Source, LightTime) ? Source.Color : glm::vec3(0);
 		Light.Data.Range = Source.Range;
 		// KHR_lights_punctual, "Inner and Outer Cone Angles".

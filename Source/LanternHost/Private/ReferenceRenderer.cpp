@@ -17,7 +17,7 @@ namespace
 using FClock = std::chrono::steady_clock;
 double SecondsSince(FClock::time_point Start) { return std::chrono::duration<double>(FClock::now() - Start).count(); }
 
-// A dispatch should take about this long: short enough for a watchdog, long enough to hide the submission.
+// Target time of a dispatch: short enough for a watchdog, long enough to hide the submission.
 constexpr double TargetSeconds = 0.3;
 
 struct FStateHeader
@@ -30,7 +30,7 @@ struct FStateHeader
 
 constexpr uint32_t PixelCentersBit = 1u << 16, RasterSurfacesBit = 1u << 17;
 
-// FNV-1a: names a set of settings, protects nothing.
+// FNV-1a. It identifies a set of settings and does not protect against intent.
 uint64_t HashBytes(const void* Data, size_t Size, uint64_t Hash)
 {
 	for (size_t I = 0; I < Size; ++I) { Hash = (Hash ^ static_cast<const uint8_t*>(Data)[I]) * 1099511628211ull; }
@@ -130,7 +130,7 @@ FRTStatus FReferenceJob::Copy(IRTBuffer& Dest, IRTBuffer& Source)
 	TRTRef<IRTCommandList> List;
 	if (FRTStatus S = Device.CreateCommandList("ReferenceCopy", List.ReleaseAndGetAddress()); !S) { return S; }
 	if (FRTStatus S = List->Begin(); !S) { return S; }
-	// Between copies the sum belongs to the path tracer, the staging buffer to the CPU.
+	// Between copies the path tracer owns the sum, and the CPU owns the staging buffer.
 	const auto Resting = [&](IRTBuffer& Buffer) { return &Buffer == Sum.Get() ? ERTAccess::StorageWrite : ERTAccess::HostRead; };
 	const FRTBarrier Before[] = {
 	    {&Source, nullptr, Resting(Source), ERTAccess::CopyRead}, {&Dest, nullptr, Resting(Dest), ERTAccess::CopyWrite}};

@@ -94,7 +94,7 @@ FRTStatus FSampleEngine::AddReadbacks(const FFrameOutputs& Frame, const FFrameCa
 	return FRTStatus::Success();
 }
 
-/// What is shown or asked for in every frame runs also where nothing else reads it.
+/// Keeps the passes of signals that are shown or requested in every frame, even if nothing else reads them.
 void FSampleEngine::KeepSignals(const FFrameOutputs& Frame)
 {
 	const auto Keep = [&](bool bWanted, FGraphTexture Texture) {
@@ -122,7 +122,7 @@ void FSampleEngine::DecodeReadbacks(const FReadbacks& Readbacks, const FFrameCap
 
 void FSampleEngine::SeekTo(double Time)
 {
-	// What was skinned for a lost frame never ran.
+	// The skinning of a lost frame never ran and must be repeated.
 	if (LastTime == Time && !Renderer.IsFrameLost()) { return; }
 	LastTime = Time;
 	Skinning = Scene->SetTime(Time);

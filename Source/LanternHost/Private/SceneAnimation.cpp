@@ -27,7 +27,7 @@ glm::dvec4 NormalizeQuat(const glm::dvec4& V)
 	return Length > 1e-12 ? V / Length : glm::dvec4(0, 0, 0, 1);
 }
 
-/// The value between keys Key and Key + 1, at Fraction of their distance Span (seconds).
+/// Interpolates between keys Key and Key + 1, at Fraction of their distance Span (seconds).
 glm::dvec4 Interpolate(const FHostChannel& Channel, size_t Key, double Fraction, double Span)
 {
 	if (Channel.Interpolation == EInterpolation::Step) { return Channel.Values[Key]; }
@@ -94,7 +94,7 @@ void GrowBounds(const glm::dvec3& Point, bool& bAny, glm::dvec3& Min, glm::dvec3
 	bAny = true;
 }
 
-/// The exact bounds of a skinned mesh as the pose bends it.
+/// Computes the exact bounds of a skinned mesh in the pose.
 void GrowSkinnedBounds(
     const FSceneDescription& Scene, const FScenePose& Pose, int32_t NodeIndex, bool& bAny, glm::dvec3& Min, glm::dvec3& Max)
 {
@@ -136,7 +136,7 @@ FScenePose EvaluatePose(const FSceneDescription& Scene, double Time)
 
 bool IsLightOn(const FHostLight& Light, double Time)
 {
-	// A millionth of a period forgives that frames' times are sums of rounded numbers.
+	// Tolerates a millionth of a period, since times of frames are sums of rounded numbers.
 	const double Periods = Time * double(Light.FlickerHz) + double(Light.FlickerPhase) + 1e-6;
 	return Light.FlickerHz <= 0.0f || Periods - std::floor(Periods) < double(Light.FlickerDuty);
 }
@@ -148,7 +148,7 @@ std::vector<glm::mat4> EvaluateJoints(const FSceneDescription& Scene, const FSce
 	if (SkinIndex < 0) { return Joints; }
 	const FHostSkin& Skin = Scene.Skins[size_t(SkinIndex)];
 	const glm::dmat4& World = Pose.World[size_t(Node)];
-	// A node squashed flat has no inverse; what it shows is nothing anyway.
+	// A node scaled to zero along an axis has no inverse; it shows nothing anyway.
 	const double Determinant = glm::determinant(World);
 	const glm::dmat4 ToModel = Determinant != 0 && std::isfinite(1.0 / Determinant) ? glm::inverse(World) : glm::dmat4(1);
 	Joints.reserve(Skin.Joints.size());

@@ -53,7 +53,7 @@ FContentHash FContentHasher::Finish() const
 
 namespace
 {
-/// One overload for each type of a description; each says which members make a picture.
+/// One overload for each type of a description. Each adds the members that affect pictures.
 class FSceneHasher
 {
 public:
@@ -63,7 +63,7 @@ public:
 		Hash.Add(static_cast<uint64_t>(List.size()));
 		for (const T& Item : List) { Add(Item); }
 	}
-	/// Of values without padding: all at once.
+	/// Adds all values at once; T must have no padding.
 	template <class T>
 	void AddPlain(const std::vector<T>& List)
 	{

@@ -17,14 +17,14 @@ namespace Lantern
 namespace
 {
 
-/// One line of bearable length: many names, each of them quoted, may still be much.
+/// Makes one line of bounded length, since many quoted names may still be long.
 std::string MakeLine(std::string_view Text)
 {
 	constexpr size_t MaxLength = 600;
 	return EscapeText(Text, MaxLength);
 }
 
-/// Runs Import, which may throw, and turns everything into a result. The boundary that no exception crosses.
+/// Runs Import, which may throw, and converts exceptions to errors. No exception crosses this boundary.
 template <class T>
 FLoadResult Guard(const std::string& Name, const T& Import)
 {

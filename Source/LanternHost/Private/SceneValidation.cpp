@@ -1,4 +1,4 @@
-// The promises of SceneDescription.h, checked.
+// Checks the promises of SceneDescription.h.
 #include <algorithm>
 #include <cmath>
 
@@ -81,7 +81,7 @@ std::string ValidateMesh(const FSceneDescription& Scene, const FHostMesh& Mesh)
 	return Mesh.Sections.empty() ? "there are no sections" : std::string();
 }
 
-/// The highest joint that each mesh refers to.
+/// Returns the highest joint index that each mesh uses.
 std::vector<uint16_t> FindMaxJoints(const FSceneDescription& Scene)
 {
 	std::vector<uint16_t> Result(Scene.Meshes.size(), 0);
@@ -153,7 +153,7 @@ std::string ValidateLights(const FSceneDescription& Scene)
 	return {};
 }
 
-/// Where the nodes stand at the start: products of finite transforms need not be finite.
+/// Checks world transforms at the start, since products of finite transforms need not be finite.
 std::string ValidatePlaces(const FSceneDescription& Scene)
 {
 	const FScenePose Pose = EvaluatePose(Scene, 0.0);

@@ -14,7 +14,7 @@ glm::vec3 GetPerpendicular(const glm::vec3& N)
 
 std::vector<glm::vec3> ComputeSmoothNormals(std::span<const glm::vec3> Positions, std::span<const uint32_t> Indices)
 {
-	// In double: the square of a coordinate near the end of float's range must not overflow.
+	// Double precision, so that squares of coordinates near the limit of float do not overflow.
 	std::vector<glm::dvec3> Sums(Positions.size(), glm::dvec3(0));
 	for (size_t I = 0; I + 2 < Indices.size(); I += 3)
 	{
@@ -44,7 +44,7 @@ std::vector<glm::vec4> ComputeTangents(std::span<const glm::vec3> Positions, std
 		const glm::dvec2 D1 = glm::dvec2(UVs[B]) - OriginUV, D2 = glm::dvec2(UVs[C]) - OriginUV;
 		const double Determinant = D1.x * D2.y - D2.x * D1.y;
 		if (Determinant == 0 || !std::isfinite(Determinant)) { continue; }
-		// The sign alone: dividing would let slivers in texture space outweigh everything else.
+		// Uses only the sign, since a division would let slivers in texture space outweigh everything else.
 		const double Sign = Determinant > 0 ? 1.0 : -1.0;
 		const glm::dvec3 Tangent = (E1 * D2.y - E2 * D1.y) * Sign;
 		const glm::dvec3 Bitangent = (E2 * D1.x - E1 * D2.x) * Sign;

@@ -1,6 +1,6 @@
-// The raster's objects, in blocks of up to 64 that lie close together: a view takes or leaves most blocks whole, and
-// looks at single objects only in those that its edges cross. Centres are floats relative to the block, views are
-// doubles: nothing is lost far from the origin.
+// Groups the raster's objects in blocks of up to 64 that lie close together. Culling accepts or rejects most blocks whole, and
+// tests single objects only in blocks that cross the border of the view. Centres are floats relative to the block and views
+// are doubles, so that precision does not degrade far from the origin.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,11 @@
 namespace Lantern
 {
 
-/// Sphere around an object, in the world.
+/// Bounding sphere of an object, in world space.
 struct FDrawSphere
 {
 	glm::dvec3 Center{0};
-	double Radius = 0.0; ///< infinite: never left out
+	double Radius = 0.0; ///< infinite: never culled
 	bool bMirrored = false;
 };
 
@@ -39,7 +39,7 @@ public:
 		uint32_t Count = 0;
 		glm::dvec3 Center{0};
 	};
-	/// Items of a block that a view may see.
+	/// A block that a view may see, with its visible items.
 	struct FSeen
 	{
 		uint32_t Block = 0;
@@ -47,22 +47,22 @@ public:
 		uint64_t Items = 0;    ///< bit per item
 	};
 
-	/// Index in both: of the draw.
+	/// Builds the blocks. The index into both arrays is that of the draw.
 	void Build(const std::vector<FItem>& Items, const std::vector<FDrawSphere>& Spheres);
 	void Move(uint32_t Draw, const FDrawSphere& Sphere);
-	/// Blocks with something in view, near before far. Smaller than MinPixels across on the screen is not seen. Cheap: some
-	/// hundredths of a millisecond for each 100,000 objects and core.
+	/// Collects blocks with something in view, near before far. Objects smaller than MinPixels across on the screen are culled.
+	/// Takes some hundredths of a millisecond for each 100,000 objects and core.
 	void Collect(const FView& View, float MinPixels, std::vector<FSeen>& Out);
 	const FBlock& GetBlock(uint32_t Index) const { return Blocks[Index]; }
 
 private:
 	struct FFrustum;
-	/// Around all items of a block; apart from the blocks, since a view looks at all of them.
+	/// Bounds of a block's items. They are stored apart from the blocks, since culling reads all of them.
 	struct FBounds
 	{
 		glm::dvec3 Center{0};
-		float Radius = 0.0f; ///< grows with each item that moves …
-		bool bStale = false; ///< … and waits to be measured anew
+		float Radius = 0.0f; ///< grows with each item that moves
+		bool bStale = false; ///< Radius is to be recomputed
 	};
 	void Refresh(uint32_t Index);
 	static bool MaySeeBlock(const FFrustum& Frustum, const FBounds& Bounds);

@@ -1,4 +1,4 @@
-// A loaded scene handed to the plugin: buffers and textures on the GPU, an rtObject per mesh node.
+// A loaded scene on the GPU: buffers, textures, and one object of the plugin's scene for each node with a mesh.
 #pragma once
 
 #include <functional>
@@ -20,42 +20,42 @@ namespace Lantern
 class FHostScene
 {
 public:
-	/// Takes the description, drops its texels once they are on the GPU, keeps its meshes for light sampling.
-	/// Progress may be empty; 0 … 1.
+	/// Uploads a description. Drops its texels once they are on the GPU; keeps its meshes for light sampling. Progress gets 0 … 1
+	/// and may be empty.
 	static FRTStatus Create(
 	    FRenderer& Renderer, FSceneDescription Description, const std::function<void(float)>& Progress, std::unique_ptr<FHostScene>& Out);
 
 	FRTScene& GetScene() { return Scene; }
 	const FSceneDescription& GetDescription() const { return Description; }
-	/// Of the description as it was given, texels included.
+	/// Returns the hash of the description as Create received it, texels included.
 	const FContentHash& GetContentHash() const { return ContentHash; }
-	/// Moves objects, lights and joints to Time (seconds); returns what must be skinned in the next frame.
+	/// Moves objects, lights and joints to Time (seconds). Returns what the next frame must skin.
 	std::vector<FSkinningInputs> SetTime(double Time);
 	bool IsAnimated() const;
 	const FScenePose& GetPose() const { return Pose; }
-	/// Off: only what the command line gives lights the scene. On by default.
+	/// Switches the scene's own lights; on by default. If they are off, only lights of the command line remain.
 	void SetSceneLights(bool bEnabled);
 	bool HasSceneLights() const { return bSceneLights; }
-	/// The scene's first directional light, if there is one: it shines as the sun, with shadows, or not at all.
+	/// Returns the scene's first directional light. It shines only as the sun, with shadows. Other ones are punctual lights.
 	std::optional<FSunLight> GetOwnSun() const;
 	void SetSun(const FSunLight& Sun) { Scene.SetSun(Sun); }
-	/// Metres; fits the scene's size, at most 5 cm.
+	/// Returns a near distance that fits the scene's size, metres, at most 0.05.
 	float NearPlane() const;
-	/// The file's first camera, else one that sees all of the scene.
+	/// Returns the view of the file's first camera, else one that sees all of the scene.
 	FView MakeDefaultView(uint32_t Width, uint32_t Height) const;
 
-	/// What the raster draws at once: a section of a mesh, for all objects whose material has the same kind of pipeline.
+	/// One draw call of the raster: a section of a mesh, for all objects whose material has one kind of pipeline.
 	struct FDrawBatch
 	{
 		IRTBuffer* Indices = nullptr;
 		uint32_t FirstIndex = 0, IndexCount = 0;
-		uint32_t Section = 0; ///< of the object
+		uint32_t Section = 0; ///< index within the object
 		bool bMasked = false, bDoubleSided = false;
-		uint32_t Program = StandardProgram;  ///< as it was when the scene was loaded
-		uint32_t FirstPlace = 0, Places = 0; ///< in a list of all objects by batch
+		uint32_t Program = StandardProgram;  ///< of the material when the scene was loaded
+		uint32_t FirstPlace = 0, Places = 0; ///< range in a list of all objects by batch
 		friend bool operator==(const FDrawBatch&, const FDrawBatch&) = default;
 	};
-	/// An object as the raster sees it, at the index of its instance.
+	/// An object as the raster sees it. Its index is that of the instance.
 	struct FDraw
 	{
 		FRTObjectId Object;
@@ -65,19 +65,19 @@ public:
 	FDrawBlocks& GetDrawBlocks() { return DrawBlocks; }
 	const std::vector<FDrawBatch>& GetBatches() const { return Batches; }
 	const std::vector<uint32_t>& GetBatchIndices() const { return BatchIndices; }
-	uint32_t GetPlaceCount() const { return PlaceCount; } ///< of all batches
+	uint32_t GetPlaceCount() const { return PlaceCount; } ///< over all batches
 
-	/// Instances are the nodes with meshes, in their order.
+	/// Returns the number of instances: nodes with meshes, in order.
 	size_t GetInstanceCount() const { return Instances.size(); }
 	int32_t GetNode(size_t Instance) const { return Instances[Instance].Node; }
 	bool IsSkinned(size_t Instance) const { return Instances[Instance].Skinned != nullptr; }
-	/// Moves one object, past the animations. Whoever moves it in GetScene() itself leaves the raster behind.
+	/// Moves one object independently of animations. Moving it in GetScene() directly would not move it in the raster.
 	void SetTransform(size_t Instance, const glm::dmat4& Transform);
-	/// Deforms a skinned one in the next frame; Joints as EvaluateJoints has them.
+	/// Deforms a skinned instance in the next frame. Joints: as EvaluateJoints returns them.
 	FSkinningInputs MakeSkinning(size_t Instance, std::vector<glm::mat4> Joints) const;
-	/// But for the pieces themselves, which are on the GPU.
+	/// Returns the classification of alpha-tested triangles, without the pieces themselves, which are on the GPU.
 	const FSceneOpacity& GetOpacity() const { return Opacity; }
-	/// Of FSceneDescription::Images, on the GPU in ShaderRead.
+	/// Returns the texture of an image of FSceneDescription::Images, in ShaderRead.
 	IRTTexture* GetImage(int32_t Image) const { return Images[static_cast<size_t>(Image)].Get(); }
 
 private:
@@ -136,12 +136,12 @@ class FGBufferPass
 {
 public:
 	explicit FGBufferPass(FRenderer& InRenderer) : Renderer(InRenderer) {}
-	/// Both must live until the frame's EndFrame.
+	/// Adds the raster pass. Context and Scene must live until the frame's EndFrame.
 	FGBuffer Add(FFrameContext& Context, FHostScene& Scene);
-	/// What is smaller on the screen than so many pixels across is not drawn. 0, the default: all is.
+	/// Culls objects smaller than so many pixels across on the screen. 0, the default, draws all.
 	void SetMinPixels(float Pixels) { MinPixels = Pixels; }
-	/// Whether FGBuffer::Motion is made; on by default. It costs 16 bytes a pixel, a transform more for each vertex and two for
-	/// each pixel; frames without denoisers or temporal passes need not have it.
+	/// Enables FGBuffer::Motion; on by default. It costs 16 bytes a pixel, one more transform a vertex and two a pixel. Frames
+	/// without denoisers or temporal passes do not need it.
 	void SetMotion(bool bEnabled) { bMotion = bEnabled; }
 
 	/// Shaders of one of the pass's pipelines.
@@ -149,7 +149,7 @@ public:
 	{
 		FShaderSource Vertex, Fragment;
 	};
-	/// Of all that was drawn with so far.
+	/// Returns the shaders of all pipelines used so far.
 	std::vector<FProgram> GetPrograms() const;
 
 private:

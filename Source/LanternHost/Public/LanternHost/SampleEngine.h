@@ -1,4 +1,4 @@
-// The little engine that the plugin runs in when there is no other: loads a scene, renders frames, reads pictures.
+// The sample engine, which the plugin runs in if there is no other: loads a scene, renders frames, reads pictures back.
 #pragma once
 
 #include <array>
@@ -13,13 +13,13 @@
 namespace Lantern
 {
 
-/// What of a frame is read back.
+/// The pictures of a frame to read back.
 struct FFrameCapture
 {
 	bool bLighting = false; ///< linear radiance
 	bool bDisplay = false;  ///< tone-mapped
-	/// Each as FFrameOutputs has it, 1 or 3 channels; nothing where the frame does not have it. What is asked for here is
-	/// made also where the composite has no use for it. ESignal::Frame is bLighting by another name.
+	/// Signals as in FFrameOutputs, with 1 or 3 channels; empty if the frame does not have one. A signal is traced even if the
+	/// composite does not use it. ESignal::Frame is an alias of bLighting.
 	FSignalSet Signals;
 	bool Wants(ESignal Signal) const { return Signals.Has(Signal); }
 };
@@ -41,29 +41,29 @@ public:
 	FHostScene& GetScene() { return *Scene; }
 	FRenderer& GetRenderer() { return Renderer; }
 
-	/// Moves the scene to Time (seconds), for whoever asks it something between frames.
+	/// Moves the scene to Time (seconds), so that it can be queried between frames.
 	void SeekTo(double Time);
-	/// The same; returns what the next frame must skin: nothing where the scene was there in the frame before.
+	/// Moves the scene to Time, and returns what the next frame must skin. The list is empty if the previous frame had this time.
 	std::vector<FSkinningInputs> MoveTo(double Time);
-	/// Where it is; nothing before the first frame.
+	/// Returns the scene's time; absent before the first frame.
 	std::optional<double> GetTime() const { return LastTime; }
-	/// Renders one frame at Time (seconds) and, where something is captured, waits for it. The view's FrameIndex is set here;
-	/// its DeltaSeconds and bCut are the caller's: what is accumulated over frames follows them.
+	/// Renders one frame at Time (seconds), and waits for it if something is captured. Sets the view's FrameIndex; the caller
+	/// sets DeltaSeconds and bCut, which temporal accumulation follows.
 	FRTStatus RenderFrame(const FView& View, double Time, const FFrameCapture& Capture, FCapturedFrame* Out);
-	/// The raster of a frame that somebody else began with this engine's renderer and scene.
+	/// Adds the raster to a frame that the caller began with this engine's renderer and scene.
 	FGBuffer AddGBuffer(FFrameContext& Context) { return GBufferPass.Add(Context, *Scene); }
 	const FGBufferPass& GetGBufferPass() const { return GBufferPass; }
-	/// Extra passes of a test or benchmark: called after the plugin's own.
+	/// Adds passes of a test or benchmark; called after the plugin's own passes.
 	std::function<void(FFrameContext&, const FGBuffer&, const FFrameOutputs&)> ExtraPasses;
-	/// Frames wait for no pipeline and builds keep to their budget, as in a game; off: every frame is complete.
+	/// On: frames do not wait for pipelines, and builds keep to their budget, as in a game. Off: every frame is complete.
 	bool bRealTime = false;
-	/// Every frame is shown, as in a game. Off: passes whose results nobody captures do not run.
+	/// On: every frame is shown, as in a game. Off: passes run only if their results are captured.
 	bool bPresent = false;
-	/// Asked for in every frame, captured or not: what a signal accumulates over frames is then there when it is captured.
+	/// Signals to make in every frame, captured or not, so that they have accumulated when they are captured.
 	FSignalRequests Signals;
-	/// How often ExtraPasses etc. find the frame: index of the next one.
+	/// Returns the index of the next frame.
 	uint32_t GetFrameIndex() const { return FrameIndex; }
-	/// Random numbers follow the index: two frames of the same index and seed draw the same.
+	/// Sets the index of the next frame. Random numbers depend on it: frames of equal index and seed draw equal numbers.
 	void SetFrameIndex(uint32_t Index) { FrameIndex = Index; }
 
 private:

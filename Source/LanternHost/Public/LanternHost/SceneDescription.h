@@ -1,6 +1,5 @@
-// A scene on the CPU, as loaded from a file or built by code, before anything of it reaches a GPU.
-// Right-handed, y up, metres, radians; linear Rec.709. Plain data: no invariants beyond those stated, which
-// the loader and ValidateScene() guarantee to everything that comes after.
+// A scene on the CPU, as loaded from a file or built by code, before it reaches a GPU. Right-handed, y up, metres, radians,
+// linear Rec.709. It is plain data. The loader and ValidateScene() guarantee the invariants stated here.
 #pragma once
 
 #include <array>
@@ -21,7 +20,7 @@ struct FHostImage
 {
 	std::string Name; ///< for messages: file or "image 3"
 	uint32_t Width = 0, Height = 0;
-	bool bSrgb = false;        ///< colour data
+	bool bSrgb = false;        ///< colour data, sRGB-encoded
 	std::vector<uint8_t> Rgba; ///< Width × Height × 4, top row first
 	bool bHasAlpha = false;    ///< some texel's alpha is below 255
 };
@@ -97,9 +96,9 @@ struct FHostNode
 	glm::dvec3 Translation{0};
 	glm::quat Rotation{1, 0, 0, 0};
 	glm::vec3 Scale{1};
-	std::optional<glm::dmat4> Matrix; ///< instead of the three above
+	std::optional<glm::dmat4> Matrix; ///< replaces the three members above
 	int32_t Mesh = -1, Skin = -1, Light = -1, Camera = -1;
-	std::vector<int32_t> Materials; ///< by section, instead of the mesh's; empty: the mesh's. Masked only where the mesh's is
+	std::vector<int32_t> Materials; ///< by section, replacing the mesh's; empty: the mesh's. Masked only where the mesh's material is
 };
 
 struct FHostSkin
@@ -145,7 +144,7 @@ struct FHostLight
 	float Range = 0.0f;                                ///< 0: unlimited
 	float InnerCone = 0.0f, OuterCone = 0.7853981634f; ///< radians
 	/// A square wave for lights that flicker or are switched: on for FlickerDuty of each period, off for the rest. A period
-	/// begins at time 0, or FlickerPhase periods before it. Not with directional lights, which shine as the sun.
+	/// begins FlickerPhase periods before time 0. Not for directional lights, which shine as the sun.
 	float FlickerHz = 0.0f; ///< 0: always on
 	float FlickerDuty = 0.5f, FlickerPhase = 0.0f;
 };
@@ -168,15 +167,15 @@ struct FSceneDescription
 	std::vector<FHostAnimation> Animations;
 	std::vector<FHostLight> Lights;
 	std::vector<FHostCamera> Cameras;
-	std::vector<std::string> Warnings; ///< one line each, with their place; logged by whoever loads
-	/// What a built-in scene suggests where the command line says nothing.
-	std::optional<glm::vec3> DefaultSky; ///< constant radiance
-	std::optional<glm::vec4> DefaultSun; ///< direction in which it travels, irradiance
+	std::vector<std::string> Warnings; ///< one line each, with their place; the caller of the loader logs them
+	/// Defaults that a built-in scene suggests; the command line overrides them.
+	std::optional<glm::vec3> DefaultSky; ///< uniform radiance
+	std::optional<glm::vec4> DefaultSun; ///< xyz: direction in which the light travels; w: irradiance
 	float DefaultSunDiameter = 0.53f;    ///< degrees
 	float DefaultExposure = 0.0f;        ///< EV
 };
 
-/// Transforms of one moment.
+/// World transforms at one time.
 struct FScenePose
 {
 	std::vector<glm::dmat4> World; ///< per node
@@ -185,13 +184,13 @@ struct FScenePose
 /// Samples all animations at Time (seconds, looped) and composes world transforms.
 FScenePose EvaluatePose(const FSceneDescription& Scene, double Time);
 
-/// Whether the light is on at Time (seconds). A switch belongs to what comes after it.
+/// Whether the light is on at Time (seconds). At the moment of a switch, the new state counts.
 bool IsLightOn(const FHostLight& Light, double Time);
 
-/// Joint matrices (model space of the skinned node, glTF 2.0 §3.7.3.3) of node's skin.
+/// Returns the joint matrices of Node's skin, in the model space of the skinned node (glTF 2.0 §3.7.3.3).
 std::vector<glm::mat4> EvaluateJoints(const FSceneDescription& Scene, const FScenePose& Pose, int32_t Node);
 
-/// World-space bounds of all meshes in the pose (skinned meshes: as the pose bends them). False if nothing is there.
+/// Computes the world-space bounds of all meshes in the pose, skinned meshes included. Returns false if there are none.
 bool GetSceneBounds(const FSceneDescription& Scene, const FScenePose& Pose, glm::dvec3& OutMin, glm::dvec3& OutMax);
 
 } // namespace Lantern

@@ -1,5 +1,5 @@
-// Names content: what is equal has an equal hash, on every machine of the same byte order, and what differs has another.
-// XXH3 with 128 bits (Collet 2019): no protection against intent, but no accident will ever hit twice.
+// Content hashes. Equal content has an equal hash on every machine of one byte order. The hash is XXH3 with 128 bits (Collet
+// 2019). Accidental collisions do not occur in practice; it does not protect against intended ones.
 #pragma once
 
 #include <cstddef>
@@ -21,14 +21,14 @@ struct FContentHash
 	friend bool operator==(const FContentHash&, const FContentHash&) = default;
 };
 
-/// Hashes values in the order in which they come. Not for structs with padding, whose bytes nobody sets.
+/// Hashes values in the order of the calls. Not for structs with padding, whose bytes are undefined.
 class FContentHasher
 {
 public:
 	FContentHasher();
 	~FContentHasher();
 	void AddBytes(const void* Data, size_t Size);
-	/// With its length before it, so that what follows cannot flow into it.
+	/// Adds the length, then the text, so that text and later values cannot be confused.
 	void AddText(std::string_view Text);
 	template <class T>
 	void Add(const T& Value)
@@ -43,8 +43,8 @@ private:
 	std::unique_ptr<FState> State;
 };
 
-/// Of everything in it that a picture can depend on: names of nodes, warnings and the like are left out. Texels must still be
-/// there; FHostScene::GetContentHash has what they were at load.
+/// Hashes everything that a picture can depend on, which excludes names of nodes, warnings and the like. The texels must still
+/// be there; FHostScene::GetContentHash returns the hash at load.
 FContentHash HashScene(const FSceneDescription& Scene);
 
 } // namespace Lantern

@@ -1,4 +1,4 @@
-// Alpha-tested triangles of a loaded scene, told apart and cut while its texels are still on the CPU.
+// Classifies and cuts the alpha-tested triangles of a loaded scene, while its texels are still on the CPU.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace Lantern
 
 struct FMeshOpacity
 {
-	/// As the mesh's, with all but the key of what classification adds.
+	/// Sections of the mesh, with everything that classification adds except the key.
 	std::vector<FRTSectionInfo> Sections;
 	FOpacityPieceList Pieces;
 };
@@ -23,7 +23,7 @@ struct FSceneOpacity
 	uint64_t Pieces = 0;
 };
 
-/// Reorders the indices of alpha-tested sections. The pose says how large and how many objects are.
+/// Classifies and cuts; reorders the indices of alpha-tested sections. Pose tells how large and how many the objects are.
 FSceneOpacity ClassifySceneOpacity(FSceneDescription& Description, const FScenePose& Pose);
 
 } // namespace Lantern

@@ -1,5 +1,5 @@
-// Figures over parts of pictures. A mask has a byte for each pixel; pixels where it is 0 are left out, and so are those in
-// which anything is not finite. NaN where nothing is left.
+// Figures over parts of pictures. A mask has a byte for each pixel. Pixels with mask 0, or with a value that is not
+// finite, are left out. A figure is NaN if no pixel is left.
 #pragma once
 
 #include <cstdint>

@@ -17,7 +17,8 @@ struct FCpuHit
 	int32_t Node = -1;
 };
 
-/// For small scenes: a ray costs as much as there are triangles. Both faces are hit.
+/// A scene for brute-force rays. The cost of a ray is linear in the number of triangles, which suits small scenes. Rays hit front
+/// and back faces.
 class FCpuScene
 {
 public:

@@ -1,5 +1,5 @@
-// Material programs for `lantern bench rtpso`: text made up at run time, of realistic size, no two alike, so that neither a
-// driver nor a cache has seen them before.
+// Generates material programs of realistic size for `lantern bench rtpso`. No two are alike, so that neither a driver nor a
+// cache has seen them before.
 #pragma once
 
 #include <atomic>
@@ -12,9 +12,9 @@
 namespace Lantern
 {
 
-/// Index and Salt both make a difference.
+/// Makes a program whose text depends on Index and Salt.
 FMaterialProgramDesc MakeBenchProgram(uint32_t Index, uint64_t Salt);
-uint64_t MakeSalt(); ///< never the same again
+uint64_t MakeSalt(); ///< random; differs at each call
 
 /// SPIR-V of a pipeline with one hit group for each of Count programs.
 struct FBenchShaders
@@ -22,14 +22,14 @@ struct FBenchShaders
 	FShaderBinary RayGen;
 	std::vector<FShaderBinary> Misses, Hits;
 };
-/// The ray generation shader of the benchmark: camera rays of the material type into an image.
+/// Makes the benchmark's ray generation shader, which traces material rays from the camera into an image.
 FShaderSource MakeBenchRayGen();
-/// glslang on Threads threads; OutMs: how long all hit shaders took together, wall clock.
+/// Compiles with glslang on Threads threads. OutMs: wall time of all hit shaders together.
 FRTStatus CompileBenchShaders(FShaderCompiler& Compiler, uint32_t Count, uint32_t Threads, FBenchShaders& Out, double& OutMs);
-/// Puts another constant into each hit shader, so that it is a new one to a driver. False: there is none to replace.
+/// Replaces a constant in each hit shader, so that it is new to a driver. Returns false if there is no such constant.
 bool RenewShaders(FBenchShaders& Shaders);
 
-/// Runs Task(0 … Count − 1), each once, on threads of its own: as many as said, whatever the machine has.
+/// Runs Task(0 … Count − 1), each once, on Threads new threads, however many cores the machine has.
 template <class F>
 void RunOnThreads(uint32_t Threads, uint32_t Count, F Task)
 {

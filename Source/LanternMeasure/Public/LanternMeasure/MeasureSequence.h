@@ -1,6 +1,6 @@
-// Scripts: a sequence of frames in which camera, time, light and anything else change as written, played through the
-// sample engine while pictures, timings and memory are taken. References of a script's frames are traced before it is
-// played, since a reference frame in between would end every history.
+// Scripts: sequences of frames that state camera, time, light and other changes. The sample engine plays them and collects
+// pictures, timings and memory. References of a script's frames are traced before it is played, since a reference frame in
+// between would end every history.
 #pragma once
 
 #include <functional>
@@ -18,21 +18,21 @@ struct FScriptFrame
 {
 	FView View; ///< with DeltaSeconds and bCut
 	double Time = 0.0;
-	/// Before the frame: sets the scene to a state, never changes it relative to what it is, since it runs more than once
-	/// (for references, then for the frames). What it set is the script's owner's to put back. May be empty.
+	/// Runs before the frame. It must set an absolute state of the scene, since it runs more than once (for references, then
+	/// for the frames). The script's owner restores the scene afterwards. May be empty.
 	std::function<void(FSampleEngine&)> Change;
-	bool bCapture = true; ///< else the frame is only rendered and timed, as whole as the others
+	bool bCapture = true; ///< false: the frame is rendered completely and timed, but not read back
 };
 using FScript = std::vector<FScriptFrame>;
 
 struct FPlayedFrame
 {
 	uint32_t Index = 0;    ///< in the script
-	FCapturedFrame Images; ///< of the signals asked for; empty where not captured or where the frame does not have it
-	/// Of this very frame, without the reading back.
+	FCapturedFrame Images; ///< the requested signals; empty if not captured, or if the frame lacks it
+	/// Timings of this frame, without readback.
 	std::vector<FPassTiming> Passes;
-	uint64_t LiveBytes = 0;                ///< of the device after the frame
-	double Seconds = 0.0;                  ///< on the clock, from its change to its picture
+	uint64_t LiveBytes = 0;                ///< memory of the device after the frame
+	double Seconds = 0.0;                  ///< wall time, from its change to its picture
 	double GetGpuMs() const;               ///< sum of all passes; < 0: the device has no timestamps
 	double GetGpuMs(ESignal Signal) const; ///< of the signal's passes (Signals.h)
 	uint64_t GetRays(ESignal Signal) const;
@@ -40,26 +40,25 @@ struct FPlayedFrame
 
 struct FPlaySettings
 {
-	std::vector<ESignal> Signals; ///< made in every frame and captured where the script says so; the lit frame always is
-	bool bKeepHistory = false;    ///< goes on from the frame before the script; else histories begin empty and frames at 0
+	std::vector<ESignal> Signals; ///< made in every frame, captured if the script says so; the lit frame is always made
+	bool bKeepHistory = false;    ///< continues the histories; else they begin empty, and frame indices at 0
 	bool bRealTime = false;       ///< as FSampleEngine::bRealTime
 };
 
-/// OnFrame: called after each frame; false ends the script. Histories are emptied and the frame graph's idle memory is
-/// freed first, unless bKeepHistory. The engine's own settings are put back. Each frame is waited for, so that timings
-/// belong to it.
+/// Plays a script. Calls OnFrame after each frame; false ends the script. Unless bKeepHistory, first empties the histories and
+/// frees the frame graph's idle memory. Restores the engine's settings. Waits for each frame, so that timings belong to it.
 FRTStatus PlayScript(
     FSampleEngine& Engine, const FScript& Script, const FPlaySettings& Settings, const std::function<bool(FPlayedFrame&)>& OnFrame);
 
 struct FScriptReferences
 {
-	/// Of the script's frames, by index.
+	/// References by index of the script's frame.
 	std::map<uint32_t, FSignalReference> Frames;
 };
 
-/// References of a signal for the script's frames in Indices (ascending): runs the changes up to each, traces, goes on.
-/// Desc: its Signal, Samples, Bounces, Seed, StateKey, CacheFolder and Progress; the script gives the rest. StateKey is
-/// needed where changes do what FSignalReferenceDesc::StateKey says is not seen; each frame's index is added to it then.
+/// Traces the references of a signal for the script's frames in Indices (ascending), running the changes up to each one. Uses
+/// Signal, Samples, Bounces, Seed, StateKey, CacheFolder and Progress of Desc; the script determines the rest. StateKey is
+/// needed for changes that FSignalReferenceDesc::StateKey says are not seen. Each frame's index is then added to it.
 FRTStatus GetScriptReferences(FSampleEngine& Engine, const FScript& Script, const std::vector<uint32_t>& Indices,
     const FSignalReferenceDesc& Desc, FScriptReferences& Out);
 

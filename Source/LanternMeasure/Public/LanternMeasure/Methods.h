@@ -1,17 +1,17 @@
-// Methods: ways of making a signal, each a named set of console variables with presets from cheap to dear. They are
-// registered in Config/Methods.ini; what is there is a line on the chart (lantern chart) and runs in the stability suite
-// (lantern stability) with no other code.
+// Methods: ways of making a signal. Each is a named set of console variables with presets from cheap to expensive. They are
+// registered in Config/Methods.ini. Each entry is a line on the chart (lantern chart) and runs in the stability suite (lantern
+// stability) without further code.
 //
-//   [MethodDefaults]                        set before every method: all signals off, so that a method is what it sets
+//   [MethodDefaults]                        set before every method; turns all signals off
 //   +CVars=r.RT.Shadow=0
 //   [Method.SunShadowQuery]
 //   Title=sun shadow, query
 //   Signal=sun_shadow                       see Signals.h
 //   Needs=query                             pipeline, query or any: what the device must have
-//   +CVars=r.RT.Shadow=1 r.RT.Shadow.Path=2 of all presets; NAME=VALUE, separated by blanks
-//   +Presets=hard: r.RT.Shadow.Soft=0       NAME: and what it sets
+//   +CVars=r.RT.Shadow=1 r.RT.Shadow.Path=2 for all presets; NAME=VALUE, separated by blanks
+//   +Presets=hard: r.RT.Shadow.Soft=0       NAME: and its settings
 //   +Presets=4 rays: r.RT.Shadow.Samples=4
-//   Typical=4 rays                          the preset for those who run one only; absent: the first
+//   Typical=4 rays                          the preset to use if only one is run; absent: the first
 #pragma once
 
 #include <string>
@@ -50,8 +50,8 @@ struct FMethod
 	std::string Title; ///< "sun shadow, query"
 	ESignal Signal = ESignal::Frame;
 	EMethodNeeds Needs = EMethodNeeds::Any;
-	std::vector<FMethodSetting> Settings; ///< of all presets
-	std::vector<FMethodPreset> Presets;   ///< cheap to dear; > 0
+	std::vector<FMethodSetting> Settings; ///< for all presets
+	std::vector<FMethodPreset> Presets;   ///< cheap to expensive; not empty
 	size_t Typical = 0;                   ///< into Presets
 	std::string Where;
 	const FMethodPreset* FindPreset(std::string_view PresetName) const; ///< null: none of this name
@@ -62,21 +62,20 @@ struct FMethods
 {
 	std::vector<FMethodSetting> Defaults;
 	std::vector<FMethod> Methods;
-	/// One line each, with file and line. A method with a problem is not in Methods; the others are.
+	/// One line each, with file and line. A method with a problem is left out of Methods.
 	std::vector<std::string> Problems;
 	const FMethod* Find(std::string_view NameOrTitle) const; ///< case ignored; null: there is none
 };
 
-/// Console variables must be registered already: one that is not known is a problem. Nothing is logged.
+/// Parses methods. Unknown console variables are problems, so that all must be registered already. Nothing is logged.
 FMethods ParseMethods(std::string_view Text, const std::string& Name);
 FMethods LoadMethods(const std::string& Path);
 
-/// Why the device cannot run it; empty where it can.
+/// Returns why the device cannot run the method; empty if it can.
 std::string GetMissing(const FMethod& Method, const FRTCapabilities& Capabilities);
 
-/// Sets console variables for as long as it lives, above whoever set them before (ERTSetBy::Console), and puts them back
-/// to the value and the ERTSetBy that they had. Both take effect for the render thread with the next frame. Scopes may be
-/// nested; the inner ends first. On the thread that renders.
+/// Sets console variables during its lifetime, with ERTSetBy::Console, which overrides all others. Then restores their values
+/// and ERTSetBy. Changes reach the render thread with the next frame. Scopes may be nested. Render thread only.
 class FMethodScope
 {
 public:
@@ -85,11 +84,11 @@ public:
 	FMethodScope(const FMethodScope&) = delete;
 	FMethodScope& operator=(const FMethodScope&) = delete;
 
-	/// Defaults, then the method's, then the preset's; either may be null. Returns what was refused (wrong value), with file
-	/// and line, empty if nothing was: then all of it is put back.
+	/// Sets the defaults, then the method's settings, then the preset's; Method and Preset may be null. Returns messages of
+	/// refused settings (wrong values) with file and line. If there are any, all settings are restored.
 	std::vector<std::string> Apply(const FMethods& Methods, const FMethod* Method, const FMethodPreset* Preset);
 	std::vector<std::string> Apply(const std::vector<FMethodSetting>& Settings);
-	/// Before the end of its life.
+	/// Restores everything before the destructor does.
 	void Restore();
 
 private:

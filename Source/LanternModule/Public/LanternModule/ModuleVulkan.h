@@ -1,8 +1,8 @@
-// Handing an engine's VkDevice to the plugin. Apart from Module.h, so that an engine on another API, or one that
-// lets Lantern make its own device, needs no Vulkan header.
+// Adopts an engine's VkDevice. It is separate, so that an engine on another API, or one that lets Lantern create
+// the device, needs no Vulkan header.
 //
-// Order and rules are those of LanternRHIVulkan/VulkanInterop.h, whose types these are: GetRequirements for the
-// VkPhysicalDevice, enable what it lists in vkCreateDevice, AdoptDevice.
+// The order of calls: GetRequirements for the VkPhysicalDevice, enable what it lists in vkCreateDevice, AdoptDevice.
+// LanternRHIVulkan/VulkanInterop.h has the types and the rules.
 #pragma once
 
 #include "LanternModule/Module.h"

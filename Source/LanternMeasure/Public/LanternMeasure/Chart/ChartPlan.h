@@ -1,4 +1,4 @@
-// What a chart measures: items in a fixed order, which of them a shard does, and under which names they are kept.
+// The plan of a chart: its items in a fixed order, their distribution over shards, and the keys of their results.
 #pragma once
 
 #include <optional>
@@ -17,14 +17,14 @@ namespace Lantern
 struct FChartSettings
 {
 	uint32_t Width = 320, Height = 180;
-	uint32_t ReferenceSamples = 256; ///< asked for; a budget may take fewer
+	uint32_t ReferenceSamples = 256; ///< requested; a time budget may reduce it
 	uint32_t Frames = 20, WarmUp = 16;
 	uint32_t Seed = 0;
-	std::string Variables; ///< console variables that are not as the code has them: "A=1 B=2", sorted
+	std::string Variables; ///< console variables that differ from the code's defaults: "A=1 B=2", sorted
 	nlohmann::json ToJson() const;
 };
 
-/// Console variables that files, a device profile or the command line set to other values than the code's.
+/// Returns console variables that files, a device profile or the command line set to other values than the code's defaults.
 std::string DescribeVariables();
 
 struct FChartSelection
@@ -34,7 +34,7 @@ struct FChartSelection
 	std::vector<EMeasurePath> Paths;  ///< empty: all
 };
 
-/// One point of a scene, or its facts.
+/// One point of a scene, or the costs of its facts.
 struct FChartItem
 {
 	bool bFacts = false;
@@ -43,7 +43,7 @@ struct FChartItem
 	size_t Index = 0;              ///< over all scenes
 };
 
-/// A scene's items in their order: facts, then by path, method, preset.
+/// Returns a scene's items in order: facts first, then by path, method and preset.
 std::vector<FChartItem> ListChartItems(const FMethods& Methods, const FChartSelection& Selection);
 
 struct FShard
@@ -51,16 +51,17 @@ struct FShard
 	uint32_t Number = 1, Count = 1; ///< Number: 1 … Count
 	bool Has(size_t Item) const { return Item % Count == Number - 1; }
 };
-/// "2/8".
+/// Parses "2/8".
 std::optional<FShard> ParseShard(std::string_view Text);
 
-/// The order in which to measure within a budget: what is cheap first, and of that what stands still.
+/// Sorts items for measuring within a time budget: cheap ones first, and among them still paths first.
 void SortByPrice(std::vector<FChartItem>& Items);
 
-/// Samples of references that fit: the largest power of two with Seconds · samples ≤ Budget, 4 to Most.
+/// Returns the number of reference samples that fits: the largest power of two with SecondsPerSample · samples ≤ Budget, in 4 to
+/// Most.
 uint32_t ChooseSamples(double SecondsPerSample, double Budget, uint32_t Most);
 
-/// What a part's key is made of. Equal texts: the same measurement.
+/// The components of a part's key. Equal components mean an equal measurement.
 struct FChartKeyParts
 {
 	std::string Program; ///< hash of the program and its shaders

@@ -1,4 +1,4 @@
-// What a case of `lantern stability` is: scene, motion and metric in one function, its limits, and a planted fault.
+// A case of `lantern stability`: scene, motion and metric in one function, limits, and a planted fault.
 #pragma once
 
 #include <optional>
@@ -17,16 +17,16 @@ class FStabilityStage;
 struct FStabilityFigure
 {
 	std::string Part;            ///< "10 cm wall"
-	double Value = 0.0;          ///< NaN: could not be measured, which does not hold
-	std::optional<double> Limit; ///< absent: recorded only
-	bool bFloor = false;         ///< the limit is the least, not the most
+	double Value = 0.0;          ///< NaN: could not be measured, which counts as failed
+	std::optional<double> Limit; ///< absent: the value is only recorded
+	bool bFloor = false;         ///< the limit is a minimum, not a maximum
 	bool Holds() const { return !Limit || (bFloor ? Value >= *Limit : Value <= *Limit); }
 };
 
 struct FStabilityFault
 {
 	std::string Text; ///< what is broken, for the report
-	/// Console variables set for the method's frames (not for references). Empty: the case itself breaks something where
+	/// Console variables set for the method's frames (not for references). Empty: the case itself breaks something if
 	/// FStabilityStage::IsFaulty.
 	std::vector<FMethodSetting> Settings;
 };
@@ -35,22 +35,22 @@ struct FStabilityCase
 {
 	int Number;
 	const char* Name;
-	std::vector<ESignal> Signals; ///< that it applies to
-	/// Null: no method yet.
+	std::vector<ESignal> Signals; ///< signals that the case applies to
+	/// Measures the case. Null: no method supports it yet.
 	FRTStatus (*Measure)(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out) = nullptr;
-	/// By method; null: the case breaks something itself, see FaultText.
+	/// Makes the fault for a method. Null: the case itself breaks something, see FaultText.
 	FStabilityFault (*MakeFault)(const FMethod& Method) = nullptr;
 	const char* FaultText = "";
-	/// The case is about the plugin, not about a method: it runs once.
+	/// The case tests the plugin, not a method, and runs once.
 	bool bNoMethod = false;
 };
 
 std::span<const FStabilityCase> GetStabilityCases();
 
-/// Those of the variables that there are, as settings.
+/// Returns those of the variables that exist, as settings.
 std::vector<FMethodSetting> KnownSettings(std::initializer_list<std::pair<const char*, const char*>> Settings);
 
-// The measurements; each is described where it is made.
+// The measurements. Each is described at its definition.
 FRTStatus MeasureThinWall(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureTimeOfDay(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureTinyEmitters(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);

@@ -1,4 +1,4 @@
-// Where cases of `lantern stability` are played: loads scenes, plays sequences of one method's signal, has references.
+// The stage for cases of `lantern stability`: loads scenes, plays sequences of one method's signal, and provides references.
 #pragma once
 
 #include <functional>
@@ -27,10 +27,10 @@ struct FStabilityShot
 {
 	FView View;
 	double Time = 0.0;
-	/// Before the frame; sets the scene to a state, never relative to the one it is in. May be empty.
+	/// Runs before the frame. It must set an absolute state of the scene. May be empty.
 	std::function<void(FHostScene&)> Change;
-	bool bKeep = false; ///< its picture is wanted
-	/// Histories with this in their names are not-a-number when it begins; "*": all.
+	bool bKeep = false; ///< return its picture
+	/// Histories whose names contain this are set to not-a-number before the frame; "*": all.
 	std::string Poison;
 };
 
@@ -39,37 +39,38 @@ class FStabilityStage
 public:
 	FStabilityStage(FSampleEngine& InEngine, FStabilitySettings InSettings) : Engine(InEngine), Settings(std::move(InSettings)) {}
 
-	/// What runs next. Fault: null where nothing is broken.
+	/// Begins a run. Fault: null if nothing is broken.
 	void Begin(ESignal InSignal, uint32_t InSeed, const FStabilityFault* InFault);
 
-	/// A built-in scene, in its first state: moved objects, sun and sky are as the scene says.
+	/// Loads a built-in scene, or resets it: objects, sun and sky return to their initial state.
 	FRTStatus Load(const std::string& Scene);
 	FSampleEngine& GetEngine() { return Engine; }
 	FHostScene& GetScene() { return Engine.GetScene(); }
 	const FStabilitySettings& GetSettings() const { return Settings; }
 	ESignal GetSignal() const { return Signal; }
 	uint32_t GetSeed() const { return Seed; }
-	/// Something is broken, be it by console variables …
+	/// Whether something is broken, by console variables or by the case itself.
 	bool IsBroken() const { return Fault != nullptr; }
-	/// … or by the case itself.
+	/// Whether the case itself must break something.
 	bool IsFaulty() const { return Fault && Fault->Settings.empty(); }
 
-	/// The scene's camera; DeltaSeconds for 60 frames a second.
+	/// Returns the view of the scene's camera, with DeltaSeconds for 60 frames a second.
 	FView MakeView() const;
 	FView MakeView(glm::dvec3 Position, glm::dvec3 Target, float FovYDegrees) const;
 
-	/// From empty histories. OutFrames: as many as shots; empty pictures where they were not wanted. An error where the
-	/// method does not make its signal. Run: other random numbers of the same seed.
+	/// Plays shots from empty histories. OutFrames has as many pictures as shots; those without bKeep are empty. Fails if the
+	/// method does not make its signal. Run selects other random numbers of one seed.
 	FRTStatus Play(const std::vector<FStabilityShot>& Shots, std::vector<FImage>& OutFrames, int Run = 0);
-	/// Whether the method of the last Play keeps anything from frame to frame.
+	/// Whether the method of the last Play has a history.
 	bool KeepsHistory() const { return bKeepsHistory; }
-	/// Of the scene in its present state. Not between the frames of a sequence: Play is one.
+	/// Traces or reads a reference of the scene in its current state. Play plays whole sequences, so that this never falls
+	/// between their frames.
 	FRTStatus GetReference(const FView& View, double Time, FSignalReference& Out);
 
-	/// Pictures for the strip, newest run only: a frame and what it should be (may be empty).
+	/// Adds a frame and its reference (may be empty) to the picture strip, which holds the newest run only.
 	void AddToStrip(const FImage& Frame, const FImage& Reference);
 	const std::vector<std::pair<FImage, FImage>>& GetStrip() const { return Strip; }
-	/// For pictures of radiance.
+	/// Returns the exposure for pictures of radiance.
 	float GetExposure() const { return Exposure; }
 
 private:
