@@ -1,6 +1,6 @@
 // Motion vectors of a world that stands still, from depth and two cameras.
-#include "LanternRenderer/Frame.h"
 #include "CameraMotionTypes.h"
+#include "LanternRenderer/Frame.h"
 #include "PassTools.h"
 
 namespace Lantern

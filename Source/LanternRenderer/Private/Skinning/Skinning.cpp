@@ -1,9 +1,9 @@
 // Linear blend skinning into the geometries' own buffers, and the measure of refit quality behind it.
 #include <algorithm>
 
-#include "SkinningTypes.h"
 #include "PassTools.h"
 #include "Skinning/RefitQuality.h"
+#include "SkinningTypes.h"
 
 namespace Lantern
 {

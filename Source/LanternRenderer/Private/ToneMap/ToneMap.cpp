@@ -1,7 +1,7 @@
 // The display transform: exposure, filmic curve, sRGB.
 #include "LanternRenderer/Frame.h"
-#include "ToneMapTypes.h"
 #include "PassTools.h"
+#include "ToneMapTypes.h"
 
 namespace Lantern
 {
