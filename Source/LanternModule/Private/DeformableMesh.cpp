@@ -1,4 +1,4 @@
-// Meshes whose vertices the engine updates: uploads and previous positions.
+// Meshes whose vertices the engine replaces: keeps the new vertices and uploads them.
 #include "DeformableMesh.h"
 
 #include <cstring>
