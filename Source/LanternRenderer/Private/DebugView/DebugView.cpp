@@ -1,9 +1,9 @@
 // Shows a signal of the registry on the screen.
 #include "DebugView/DebugView.h"
 
+#include "DebugViewTypes.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
-#include "DebugViewTypes.h"
 #include "PassTools.h"
 
 namespace Lantern
