@@ -18,10 +18,12 @@ using FAllowed = std::map<std::string, std::set<std::string>, std::less<>>;
 const FAllowed& GetAllowed()
 {
 	static const std::set<std::string> Rhi = {"LanternRHI"};
+	static const std::set<std::string> Peer = {"LanternRHI", "LanternRHICommon"};
 	static const std::set<std::string> Core = {"LanternRHI", "LanternCore"};
 	static const std::set<std::string> Scene = {"LanternRHI", "LanternCore", "LanternScene", "LanternSignals"};
 	static const std::set<std::string> Module = {
-	    "LanternRHI", "LanternCore", "LanternScene", "LanternRenderer", "LanternRHIVulkan", "LanternRHIValidation", "LanternSignals"};
+	    "LanternRHI", "LanternRHICommon", "LanternCore", "LanternScene", "LanternRenderer", "LanternRHIVulkan", "LanternRHIValidation",
+	    "LanternSignals"};
 	static const std::set<std::string> Host = [] {
 		std::set<std::string> All = Module;
 		All.insert("LanternImage");
@@ -34,9 +36,10 @@ const FAllowed& GetAllowed()
 	}();
 	static const FAllowed Allowed = {
 	    {"LanternRHI", {}},
-	    {"LanternRHIVulkan", Rhi},
-	    {"LanternRHIMock", Rhi},
-	    {"LanternRHIValidation", Rhi},
+	    {"LanternRHICommon", Rhi},
+	    {"LanternRHIVulkan", Peer},
+	    {"LanternRHIMock", Peer},
+	    {"LanternRHIValidation", Peer},
 	    {"LanternCore", Rhi},
 	    {"LanternSignals", Rhi},
 	    {"LanternScene", Core},

@@ -16,9 +16,9 @@
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
 #include "LanternModule/ModuleVulkan.h"
+#include "LanternRHICommon/RefCounted.h"
 #include "LanternRHIVulkan/VulkanDevice.h"
 #include "ModuleRenderer.h"
-#include "RefCounted.h"
 
 namespace Lantern
 {

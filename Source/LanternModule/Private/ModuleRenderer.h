@@ -8,10 +8,10 @@
 
 #include "DeformableMesh.h"
 #include "LanternModule/Module.h"
+#include "LanternRHICommon/RefCounted.h"
 #include "LanternRenderer/Frame.h"
 #include "LanternScene/Memory/Upload.h"
 #include "LanternScene/Scene/Scene.h"
-#include "RefCounted.h"
 #include "SlotTable.h"
 
 namespace Lantern

@@ -114,7 +114,7 @@ void FMockCommandList::CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTBuffe
 {
 	FMockBuffer* To = AsMock(Dest);
 	FMockBuffer* From = AsMock(Source);
-	assert(DestOffset + Size <= To->Desc.Size && SourceOffset + Size <= From->Desc.Size);
+	assert(IsInside(DestOffset, Size, To->Desc.Size) && IsInside(SourceOffset, Size, From->Desc.Size));
 	Log(ERTMockCall::CopyBuffer, To->Name, {DestOffset, SourceOffset, Size});
 	Keep(Dest);
 	Keep(Source);
@@ -141,7 +141,7 @@ void FMockCommandList::CopyBufferToTexture(IRTTexture* Dest, uint32_t Mip, uint3
 	Keep(Source);
 	Then([=, this] {
 		std::vector<uint8_t>& Texels = To->GetTexels(Mip, Layer);
-		assert(SourceOffset + Texels.size() <= From->Desc.Size);
+		assert(IsInside(SourceOffset, Texels.size(), From->Desc.Size));
 		std::memcpy(Texels.data(), From->Bytes + SourceOffset, Texels.size());
 		CountBytes(&FRTMockTraffic::Buffer, Texels.size());
 	});
@@ -156,7 +156,7 @@ void FMockCommandList::CopyTextureToBuffer(IRTBuffer* Dest, uint64_t DestOffset,
 	Keep(Source);
 	Then([=, this] {
 		const std::vector<uint8_t>& Texels = From->GetTexels(Mip, Layer);
-		assert(DestOffset + Texels.size() <= To->Desc.Size);
+		assert(IsInside(DestOffset, Texels.size(), To->Desc.Size));
 		std::memcpy(To->Bytes + DestOffset, Texels.data(), Texels.size());
 		CountBytes(&FRTMockTraffic::Buffer, Texels.size());
 	});
@@ -165,7 +165,7 @@ void FMockCommandList::CopyTextureToBuffer(IRTBuffer* Dest, uint64_t DestOffset,
 void FMockCommandList::FillBuffer(IRTBuffer* Dest, uint64_t Offset, uint64_t Size, uint32_t Value)
 {
 	FMockBuffer* To = AsMock(Dest);
-	assert(Offset % 4 == 0 && Size % 4 == 0 && Offset + Size <= To->Desc.Size);
+	assert(Offset % 4 == 0 && Size % 4 == 0 && IsInside(Offset, Size, To->Desc.Size));
 	Log(ERTMockCall::FillBuffer, To->Name, {Offset, Size, Value});
 	Keep(Dest);
 	Then([=] {

@@ -34,7 +34,9 @@ FRTStatus FMockDevice::TakeIndices(const FRTTextureDesc& Desc, FMockTexture& Tex
 	std::lock_guard Lock(State->Mutex);
 	const bool bSampled = HasAny(Desc.Usage, ERTTextureUsage::Sampled);
 	const bool bStorage = HasAny(Desc.Usage, ERTTextureUsage::Storage);
-	if ((bSampled && !State->Sampled.Allocate(Texture.Sampled)) || (bStorage && !State->Storage.Allocate(Texture.Storage)))
+	if (bSampled) { Texture.Sampled = State->Sampled.Allocate(); }
+	if (bStorage) { Texture.Storage = State->Storage.Allocate(); }
+	if ((bSampled && Texture.Sampled == FIndexAllocator::None) || (bStorage && Texture.Storage == FIndexAllocator::None))
 	{
 		return FRTStatus::Error(ERTResult::OutOfDescriptors, "%s: the bindless heap of %u textures is full", FRTShown(Desc.Name).Text,
 		    State->Desc.MaxBindlessTextures);
@@ -83,7 +85,8 @@ FRTStatus FMockDevice::CreateSampler(const FRTSamplerDesc& Desc, IRTSampler** Ou
 	uint32_t Index = 0;
 	{
 		std::lock_guard Lock(State->Mutex);
-		if (!State->Samplers.Allocate(Index))
+		Index = State->Samplers.Allocate();
+		if (Index == FIndexAllocator::None)
 		{
 			return FRTStatus::Error(
 			    ERTResult::OutOfDescriptors, "%s: the heap of %u samplers is full", FRTShown(Desc.Name).Text, State->Desc.MaxSamplers);
@@ -121,13 +124,12 @@ FRTStatus FMockDevice::CreateScene(const FRTSceneDesc& Desc, IRTScene** Out)
 	const uint64_t Bytes = AlignUp(256 + Desc.MaxInstances * 128ull, 256);
 	Status = State->Allocate(EMockMemory::Scene, Bytes, Desc.Name);
 	if (!Status) { return Status; }
-	uint32_t Index = 0;
-	bool bIndex = false;
+	uint32_t Index = FIndexAllocator::None;
 	{
 		std::lock_guard Lock(State->Mutex);
-		bIndex = State->Scenes.Allocate(Index);
+		Index = State->Scenes.Allocate();
 	}
-	if (!bIndex)
+	if (Index == FIndexAllocator::None)
 	{
 		State->FreeMemory(EMockMemory::Scene, Bytes);
 		return FRTStatus::Error(

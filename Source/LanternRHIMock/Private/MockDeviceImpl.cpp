@@ -47,15 +47,10 @@ FRTCapabilities MakeCapabilities(const FRTMockDesc& Desc)
 
 FMockDevice::FMockDevice(std::shared_ptr<FMockState> InState) : Mock(*InState), State(std::move(InState)) {}
 
-uint32_t FMockDevice::Release()
+void FMockDevice::OnFinalRelease()
 {
-	const uint32_t Left = --References;
-	if (Left == 0)
-	{
-		State->Complete(~0ull);
-		delete this;
-	}
-	return Left;
+	State->Complete(~0ull);
+	delete this;
 }
 
 FRTStatus FMockDevice::Start(ERTMockCall Kind, const char* Name, const FRTMockNumbers& Numbers)
@@ -81,7 +76,7 @@ FRTStatus FMockDevice::Enqueue(ERTMockCall Kind, IRTCommandList* const* Lists, u
 		std::lock_guard Lock(State->Mutex);
 		Fence = Submission.Fence = ++State->LastSubmitted;
 		bManual = State->bManual;
-		State->Pending.push_back(std::move(Submission));
+		State->Pending.Push(Fence, std::move(Submission));
 	}
 	if (OutFence) { *OutFence = Fence; }
 	if (bManual) { State->Collect(); }
@@ -132,7 +127,7 @@ FRTStatus FMockDevice::WaitIdle()
 	if (!Status) { return Status; }
 	{
 		std::lock_guard Lock(State->Mutex);
-		State->BlockingWaits += State->Pending.empty() ? 0 : 1;
+		State->BlockingWaits += State->Pending.IsEmpty() ? 0 : 1;
 	}
 	State->Complete(~0ull);
 	return FRTStatus::Success();
@@ -162,10 +157,10 @@ FRTStatus CreateMockDevice(const FRTMockDesc& Desc, IRTDevice** Out)
 	auto State = std::make_shared<FMockState>();
 	State->Desc = Desc;
 	State->Capabilities = MakeCapabilities(Desc);
-	State->Sampled.SetSize(Desc.MaxBindlessTextures);
-	State->Storage.SetSize(Desc.MaxBindlessTextures);
-	State->Samplers.SetSize(Desc.MaxSamplers);
-	State->Scenes.SetSize(Desc.MaxScenes);
+	State->Sampled.SetCapacity(Desc.MaxBindlessTextures);
+	State->Storage.SetCapacity(Desc.MaxBindlessTextures);
+	State->Samplers.SetCapacity(Desc.MaxSamplers);
+	State->Scenes.SetCapacity(Desc.MaxScenes);
 	*Out = new FMockDevice(std::move(State));
 	return FRTStatus::Success();
 }

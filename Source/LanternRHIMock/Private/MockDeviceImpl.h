@@ -5,13 +5,10 @@
 namespace Lantern
 {
 
-class FMockDevice final : public IRTDevice
+class FMockDevice final : public TRefCounted<IRTDevice>
 {
 public:
 	explicit FMockDevice(std::shared_ptr<FMockState> InState);
-
-	uint32_t AddRef() override { return ++References; }
-	uint32_t Release() override;
 
 	uint32_t GetVersion() const override { return RHIVersion; }
 	const FRTCapabilities& GetCapabilities() const override { return State->Capabilities; }
@@ -42,6 +39,7 @@ public:
 	FRTMock Mock;
 
 private:
+	void OnFinalRelease() override;
 	/// Logs, then checks the loss of the device.
 	FRTStatus Start(ERTMockCall Kind, const char* Name, const FRTMockNumbers& Numbers = {});
 	FRTStatus TakeIndices(const FRTTextureDesc& Desc, FMockTexture& Texture);
@@ -51,7 +49,6 @@ private:
 	FRTStatus Enqueue(ERTMockCall Kind, IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence);
 
 	std::shared_ptr<FMockState> State;
-	std::atomic<uint32_t> References = 1;
 };
 
 /// Hands the object out with its accounted memory.

@@ -139,7 +139,7 @@ FMockScene::~FMockScene()
 
 bool FMockQueryPool::GetResults(uint32_t First, uint32_t Count, uint64_t* OutValues)
 {
-	assert(static_cast<uint64_t>(First) + Count <= Values.size());
+	assert(IsInside(First, Count, Values.size()));
 	std::lock_guard Lock(State->Mutex);
 	for (uint32_t i = 0; i < Count; ++i)
 	{

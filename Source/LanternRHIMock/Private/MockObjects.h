@@ -1,9 +1,9 @@
 // Resources, pipelines, geometries, scenes and tables of the mock.
 #pragma once
 
+#include "LanternRHICommon/RefCounted.h"
 #include "MockState.h"
 
-#include <atomic>
 #include <cstdlib>
 
 namespace Lantern
@@ -11,24 +11,17 @@ namespace Lantern
 
 /// Reference counting and the common part for interface I.
 template <class I>
-class TMockObject : public I, public FMockObject
+class TMockObject : public TRefCounted<I>, public FMockObject
 {
 public:
 	using FMockObject::FMockObject;
-	uint32_t AddRef() override { return ++References; }
-	uint32_t Release() override
-	{
-		const uint32_t Left = --References;
-		if (Left == 0)
-		{
-			const std::shared_ptr<FMockState> Keep = State;
-			Keep->Retire(this);
-		}
-		return Left;
-	}
 
 private:
-	std::atomic<uint32_t> References = 1;
+	void OnFinalRelease() final
+	{
+		const std::shared_ptr<FMockState> Keep = State;
+		Keep->Retire(this);
+	}
 };
 
 class FMockBuffer final : public TMockObject<IRTBuffer>
@@ -115,6 +108,8 @@ public:
 	EMockPipeline Kind = EMockPipeline::Compute;
 	uint64_t Id = 0;    ///< in the handles of its groups
 	FMockGroups Groups; ///< own ones first, then those of each library
+	/// Of its groups, as the device gives them out: ShaderGroupHandleSize bytes each.
+	std::vector<uint8_t> Handles;
 	bool bLibrary = false;
 	std::array<uint32_t, 3> Interface = {}; ///< recursion, payload and attribute bytes: a link's must be its libraries'
 };

@@ -2,10 +2,12 @@
 
 #include "LanternRHI/RTText.h"
 #include "MockDeviceImpl.h"
+#include "MockTableHandle.h"
 
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <cstring>
 #include <thread>
 
 namespace Lantern
@@ -41,6 +43,17 @@ std::vector<FMockGroup> MakeOwnGroups(const FRTRayTracingPipelineDesc& Desc)
 bool IsBoundToLink(const FMockGroup& Group)
 {
 	return Group.Kind == ERTGroupKind::General && Group.GeneralStage != ERTShaderStage::Callable;
+}
+
+std::vector<uint8_t> MakeHandles(const FMockPipeline& Pipeline, uint32_t HandleSize)
+{
+	std::vector<uint8_t> Handles(static_cast<size_t>(Pipeline.GetGroupCount()) * HandleSize);
+	for (uint32_t Group = 0; Group < Pipeline.GetGroupCount(); ++Group)
+	{
+		const FMockHandle Handle(Pipeline.Id, Group);
+		std::memcpy(Handles.data() + static_cast<size_t>(Group) * HandleSize, &Handle, sizeof(Handle));
+	}
+	return Handles;
 }
 
 } // namespace
@@ -133,6 +146,7 @@ FRTStatus FMockDevice::CreateRayTracingPipeline(const FRTRayTracingPipelineDesc&
 		Pipeline->Id = State->NextPipeline++;
 		State->Pipelines[Pipeline->Id] = Pipeline->Name;
 	}
+	Pipeline->Handles = MakeHandles(*Pipeline, State->Desc.HandleSize);
 	return Finish(*State, std::move(Pipeline), EMockMemory::None, 0, Out);
 }
 

@@ -1,25 +1,13 @@
 // The shader binding table of the mock: records on the CPU, a ring of host copies, and what the device holds.
 #pragma once
 
+#include "LanternRHICommon/ShaderTableRecords.h"
 #include "MockObjects.h"
 
 #include <atomic>
 
 namespace Lantern
 {
-
-inline constexpr uint32_t RecordKinds = 4;
-
-/// Where the records of each kind stand in a host or device copy.
-struct FMockTableLayout
-{
-	std::array<uint32_t, RecordKinds> Counts = {};
-	std::array<uint64_t, RecordKinds> Strides = {}, Starts = {};
-	uint64_t Size = 0;
-
-	void Arrange(uint32_t BaseAlignment);
-	uint64_t GetOffset(uint32_t Kind, uint32_t Index) const { return Starts[Kind] + Strides[Kind] * Index; }
-};
 
 /// Memory of one copy; counts as the device's until its last owner lets go.
 class FMockTableMemory
@@ -48,13 +36,12 @@ struct FMockHostCopy : FMockTableMemory
 struct FMockDeviceCopy : FMockTableMemory
 {
 	using FMockTableMemory::FMockTableMemory;
-	FMockTableLayout Layout;
+	FTableLayout Layout;
 	uint64_t Pipeline = 0; ///< id of the one it was last updated for
 	FMockGroups Groups;    ///< of that pipeline
 	bool bUpdated = false;
 };
 
-/// A handle holds a magic number, its pipeline's id and the group.
 class FMockShaderTable final : public TMockObject<IRTShaderTable>
 {
 public:
@@ -70,8 +57,8 @@ public:
 	FRTStatus Reserve(const uint32_t Counts[4]) override;
 	FRTStatus Stage() override;
 	void Invalidate() override;
-	uint64_t GetRecordStride(ERTRecordKind Kind) const override { return Layout.Strides[static_cast<uint32_t>(Kind)]; }
-	uint64_t GetSizeBytes() const override { return Layout.Size; }
+	uint64_t GetRecordStride(ERTRecordKind Kind) const override { return Records.GetLayout().Strides[static_cast<uint32_t>(Kind)]; }
+	uint64_t GetSizeBytes() const override { return Records.GetLayout().Size; }
 	uint64_t GetUpdatedBytes() const override { return UpdatedBytes; }
 
 	struct FRange
@@ -101,11 +88,6 @@ public:
 	TRTRef<FMockPipeline> Pipeline;
 
 private:
-	using FDirtyWords = std::unique_ptr<std::atomic<uint64_t>[]>;
-
-	uint8_t* GetRecord(uint32_t Kind, uint32_t Index) { return Records[Kind].data() + Layout.Strides[Kind] * Index; }
-	void WriteHandle(uint8_t* Record, uint32_t Group) const;
-	void MarkDirty(uint32_t Kind, uint32_t First, uint32_t Count);
 	/// Moves the dirty records into Staged.
 	void Gather();
 	void MergeStaged();
@@ -113,12 +95,8 @@ private:
 	void Unstage();
 	FRTStatus AcquireHostCopy(std::shared_ptr<FMockHostCopy>& OutUse);
 	FRTStatus AddHostCopy(std::shared_ptr<FMockHostCopy>& Out, bool bCount);
-	void SetCounts(const std::array<uint32_t, RecordKinds>& Counts);
 
-	FMockTableLayout Layout;
-	std::array<std::vector<uint8_t>, RecordKinds> Records;
-	std::array<FDirtyWords, RecordKinds> Dirty; ///< a bit per record
-	std::array<std::atomic<bool>, RecordKinds> bDirty = {};
+	FShaderTableRecords Records;
 	uint64_t UpdatedBytes = 0;
 
 	std::vector<std::shared_ptr<FMockHostCopy>> Ring;

@@ -7,19 +7,6 @@
 namespace Lantern
 {
 
-bool FMockHeap::Allocate(uint32_t& OutIndex)
-{
-	if (!Freed.empty())
-	{
-		OutIndex = Freed.back();
-		Freed.pop_back();
-		return true;
-	}
-	if (Next == Size) { return false; }
-	OutIndex = Next++;
-	return true;
-}
-
 FRTStatus FMockState::Log(FRTMockCall Call)
 {
 	std::lock_guard Lock(Mutex);
@@ -131,7 +118,7 @@ void FMockState::Retire(FMockObject* Object)
 {
 	{
 		std::lock_guard Lock(Mutex);
-		Retired.emplace_back(Object, LastSubmitted);
+		Retired.Push(LastSubmitted, Object);
 	}
 	Collect();
 }
@@ -144,9 +131,9 @@ void FMockState::Collect()
 		FMockObject* Object = nullptr;
 		{
 			std::lock_guard Lock(Mutex);
-			if (Retired.empty() || Retired.front().second > Completed) { return; }
-			Object = Retired.front().first;
-			Retired.pop_front();
+			const std::optional<FMockObject*> Oldest = Retired.Pop(Completed);
+			if (!Oldest) { return; }
+			Object = *Oldest;
 			Live.erase(Object);
 			if (bRecordCalls)
 			{
@@ -169,11 +156,7 @@ void FMockState::Complete(FRTFence UpTo)
 		std::lock_guard Execute(ExecuteMutex);
 		{
 			std::lock_guard Lock(Mutex);
-			while (!Pending.empty() && Pending.front().Fence <= UpTo)
-			{
-				Done.push_back(std::move(Pending.front()));
-				Pending.erase(Pending.begin());
-			}
+			while (std::optional<FMockSubmission> Oldest = Pending.Pop(UpTo)) { Done.push_back(std::move(*Oldest)); }
 		}
 		for (FMockSubmission& Submission : Done)
 		{

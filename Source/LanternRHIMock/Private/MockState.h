@@ -2,6 +2,9 @@
 // device (a leak, which a test reports) is no use after free.
 #pragma once
 
+#include "LanternRHICommon/Arithmetic.h"
+#include "LanternRHICommon/FenceQueue.h"
+#include "LanternRHICommon/IndexAllocator.h"
 #include "LanternRHIMock/MockDevice.h"
 
 #include <atomic>
@@ -52,20 +55,6 @@ public:
 	uint64_t MemoryBytes = 0;
 };
 
-/// Indices of a bindless heap.
-class FMockHeap
-{
-public:
-	void SetSize(uint32_t InSize) { Size = InSize; }
-	bool Allocate(uint32_t& OutIndex);
-	void Free(uint32_t Index) { Freed.push_back(Index); }
-
-private:
-	uint32_t Size = 0;
-	uint32_t Next = 0;
-	std::vector<uint32_t> Freed;
-};
-
 struct FMockSubmission
 {
 	FRTFence Fence = 0;
@@ -89,13 +78,13 @@ struct FMockState
 	std::unordered_map<uint64_t, std::string> DeadGeometries;
 	std::deque<uint64_t> DeadOrder;
 	std::map<uint64_t, std::string> Pipelines; ///< live, by the id in their handles
-	FMockHeap Sampled, Storage, Samplers, Scenes;
+	FIndexAllocator Sampled, Storage, Samplers, Scenes;
 	uint64_t NextAddress = 0x100000;
 	uint64_t NextPipeline = 1;
 	FRTMemoryStats Memory;
 
-	std::vector<FMockSubmission> Pending;
-	std::deque<std::pair<FMockObject*, FRTFence>> Retired; ///< fences rise
+	TFenceQueue<FMockSubmission> Pending;
+	TFenceQueue<FMockObject*> Retired;
 	FRTFence LastSubmitted = 0, Completed = 0;
 	uint64_t ClockNs = 1000; ///< guarded by ExecuteMutex
 	uint64_t FirstUseNs = 0; ///< guarded by ExecuteMutex, as is
@@ -134,7 +123,5 @@ struct FMockState
 private:
 	uint64_t& Count(EMockMemory Kind);
 };
-
-constexpr uint64_t AlignUp(uint64_t Value, uint64_t Alignment) { return (Value + Alignment - 1) / Alignment * Alignment; }
 
 } // namespace Lantern

@@ -18,11 +18,11 @@ FRTStatus FMockShaderTable::TakeUpdate(FUpdate& Out)
 	Out.Ranges = std::move(StagedRanges);
 	Staged.reset();
 	StagedRanges.clear();
-	for (const FRange& Range : Out.Ranges) { Out.Bytes += Range.Count * Layout.Strides[Range.Kind]; }
+	for (const FRange& Range : Out.Ranges) { Out.Bytes += Range.Count * Records.GetLayout().Strides[Range.Kind]; }
 	Out.Pipeline = Pipeline;
 	if (Next)
 	{
-		for (uint32_t Kind = 0; Kind < RecordKinds; ++Kind) { Out.MovedBytes += Current->Layout.Counts[Kind] * Layout.Strides[Kind]; }
+		for (uint32_t Kind = 0; Kind < RecordKindCount; ++Kind) { Out.MovedBytes += Current->Layout.GetRegionBytes(Kind); }
 		Out.From = std::move(Current);
 		Current = std::move(Next);
 		Next.reset();
@@ -40,10 +40,9 @@ void FMockShaderTable::Execute(const FUpdate& Update)
 		if (Update.From)
 		{
 			const FMockDeviceCopy& From = *Update.From;
-			for (uint32_t Kind = 0; Kind < RecordKinds; ++Kind)
+			for (uint32_t Kind = 0; Kind < RecordKindCount; ++Kind)
 			{
-				std::memcpy(To.Bytes + To.Layout.Starts[Kind], From.Bytes + From.Layout.Starts[Kind],
-				    From.Layout.Counts[Kind] * From.Layout.Strides[Kind]);
+				std::memcpy(To.Bytes + To.Layout.Offsets[Kind], From.Bytes + From.Layout.Offsets[Kind], From.Layout.GetRegionBytes(Kind));
 			}
 			++Moves;
 		}
@@ -95,7 +94,7 @@ FRTMockRecord FMockShaderTable::Resolve(ERTRecordKind Kind, uint32_t Index) cons
 	uint64_t Expected = 0;
 	{
 		std::lock_guard Lock(DeviceMutex);
-		const FMockTableLayout& There = Executed->Layout;
+		const FTableLayout& There = Executed->Layout;
 		Record.bInRange = Index < There.Counts[Which];
 		if (!Record.bInRange)
 		{

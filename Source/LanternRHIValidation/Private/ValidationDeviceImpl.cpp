@@ -6,10 +6,8 @@
 namespace Lantern
 {
 
-uint32_t FValidatedDevice::Release()
+void FValidatedDevice::OnFinalRelease()
 {
-	const uint32_t Left = --References;
-	if (Left) { return Left; }
 	std::vector<std::string> Leaked;
 	{
 		std::lock_guard Lock(State->Mutex);
@@ -18,7 +16,6 @@ uint32_t FValidatedDevice::Release()
 	std::sort(Leaked.begin(), Leaked.end());
 	for (const std::string& Item : Leaked) { State->Report("device: " + Item + " is leaked, it was never released"); }
 	delete this;
-	return 0;
 }
 
 FRTStatus FValidatedDevice::Collect(

@@ -5,13 +5,11 @@
 namespace Lantern
 {
 
-class FValidatedDevice final : public IRTDevice, public FValidated
+class FValidatedDevice final : public TRefCounted<IRTDevice>, public FValidated
 {
 public:
 	explicit FValidatedDevice(std::shared_ptr<FValidationState> InState) : FValidated(std::move(InState), "device") {}
 
-	uint32_t AddRef() override { return ++References; }
-	uint32_t Release() override;
 	IRTRefCounted* GetInner() const override { return State->Inner.Get(); }
 
 	uint32_t GetVersion() const override { return State->Inner->GetVersion(); }
@@ -41,6 +39,8 @@ public:
 	uint64_t GetNative(ERTNative Kind) const override { return State->Inner->GetNative(Kind); }
 
 private:
+	/// Reports what was never released.
+	void OnFinalRelease() override;
 	/// Empty where the description is good.
 	std::string CheckTexture(const FRTTextureDesc& Desc) const;
 	std::string CheckSections(const FRTGeometryDesc& Desc) const;
@@ -48,8 +48,6 @@ private:
 	/// OutInners: the wrapped libraries.
 	std::string CheckLibraries(const FRTRayTracingPipelineDesc& Desc, std::vector<FValidatedPipeline*>& OutLibraries) const;
 	FRTStatus Collect(IRTCommandList* const* Lists, uint32_t Count, bool bImported, std::vector<FValidatedCommandList*>& OutLists);
-
-	std::atomic<uint32_t> References = 1;
 };
 
 } // namespace Lantern

@@ -1,6 +1,7 @@
 // The wrappers around single objects. Most only forward; shader tables check their records.
 #pragma once
 
+#include "LanternRHICommon/RefCounted.h"
 #include "ValidationState.h"
 
 #include <atomic>
@@ -22,7 +23,7 @@ public:
 };
 
 template <class I>
-class TValidated : public I, public FValidated
+class TValidated : public TRefCounted<I>, public FValidated
 {
 public:
 	TValidated(std::shared_ptr<FValidationState> InState, std::string InLabel, TRTRef<I> InInner)
@@ -31,23 +32,16 @@ public:
 	{
 		State->Add(this, this);
 	}
-	uint32_t AddRef() override { return ++References; }
-	uint32_t Release() override
-	{
-		const uint32_t Left = --References;
-		if (Left == 0)
-		{
-			State->Remove(this);
-			delete this;
-		}
-		return Left;
-	}
 	IRTRefCounted* GetInner() const override { return Inner.Get(); }
 
 	TRTRef<I> Inner;
 
 private:
-	std::atomic<uint32_t> References = 1;
+	void OnFinalRelease() final
+	{
+		State->Remove(this);
+		delete this;
+	}
 };
 
 class FValidatedBuffer final : public TValidated<IRTBuffer>

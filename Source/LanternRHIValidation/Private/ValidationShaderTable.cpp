@@ -51,9 +51,9 @@ void FValidatedShaderTable::ResizeTracks()
 {
 	Desc = Inner->GetDesc();
 	Desc.Pipeline = Pipeline.Get();
-	const uint32_t Counts[] = {Desc.RayGenCount, Desc.MissCount, Desc.HitCount, Desc.CallableCount};
+	const FRecordCounts Counts = GetRecordCounts(Desc);
 	std::lock_guard Lock(State->Mutex);
-	for (size_t Kind = 0; Kind < std::size(Counts); ++Kind)
+	for (uint32_t Kind = 0; Kind < RecordKindCount; ++Kind)
 	{
 		if (Track->Records[Kind].GetCount() != Counts[Kind]) { Track->Records[Kind].Resize(Counts[Kind]); }
 	}

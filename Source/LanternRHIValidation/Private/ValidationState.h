@@ -1,6 +1,8 @@
 // What the validation wrapper's device and objects share: who lives, who died, what state each resource is in.
 #pragma once
 
+#include "LanternRHICommon/Arithmetic.h"
+#include "LanternRHICommon/TableLayout.h"
 #include "LanternRHIValidation/ValidationDevice.h"
 
 #include <array>
@@ -119,7 +121,7 @@ private:
 struct FTableTrack
 {
 	std::string Label;
-	std::array<FRecordTracks, 4> Records; ///< by ERTRecordKind
+	std::array<FRecordTracks, RecordKindCount> Records; ///< by ERTRecordKind
 	std::vector<ERecordState> RayGen;
 	std::atomic<uint32_t> Generation = 1; ///< of the pipeline that SetPipeline left
 	uint32_t UpdatedGeneration = 0;       ///< of the last update submitted; 0: there was none
@@ -183,7 +185,5 @@ std::string DescribeAccess(ERTAccess Access);
 std::string MakeLabel(const char* Type, const char* Name);
 /// printf-style.
 std::string Print(const char* Format, ...) __attribute__((format(printf, 1, 2)));
-/// Offset + Size lies within Whole, without overflow.
-constexpr bool IsInside(uint64_t Offset, uint64_t Size, uint64_t Whole) { return Offset <= Whole && Size <= Whole - Offset; }
 
 } // namespace Lantern

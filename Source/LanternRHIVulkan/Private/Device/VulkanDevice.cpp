@@ -19,17 +19,12 @@ FRTStatus SaveVulkanPipelineCache(IRTDevice* Device) { return static_cast<FVulka
 
 // ------------------------------------------------------------------------------------------------ lifetime
 
-uint32_t FVulkanDevice::Release()
+void FVulkanDevice::OnFinalRelease()
 {
-	const uint32_t Left = References.fetch_sub(1) - 1;
-	if (Left == 0)
-	{
-		// Submissions keep objects, and objects the device: with no one left to collect, that must end here.
-		(void)WaitIdle();
-		CollectUpTo(IsLost() ? ~FRTFence(0) : LastCompleted.load());
-		DropOne();
-	}
-	return Left;
+	// Submissions keep objects, and objects the device: with no one left to collect, that must end here.
+	(void)WaitIdle();
+	CollectUpTo(IsLost() ? ~FRTFence(0) : LastCompleted.load());
+	DropOne();
 }
 
 void FVulkanDevice::DropOne()
@@ -45,7 +40,7 @@ void FVulkanDevice::DropOne()
 void FVulkanDevice::Retire(void* Object, void (*Delete)(void*))
 {
 	std::scoped_lock Lock(GarbageMutex);
-	Garbage.push_back({LastSubmitted.load(), Object, Delete});
+	Garbage.Push(LastSubmitted.load(), {Object, Delete});
 }
 
 void FVulkanDevice::CollectUpTo(FRTFence Done)
@@ -53,26 +48,17 @@ void FVulkanDevice::CollectUpTo(FRTFence Done)
 	for (;;)
 	{
 		std::vector<FGarbage> Dead;
-		std::vector<FPacket> Finished;
+		std::vector<FVulkanKept> Finished;
 		{
 			std::scoped_lock Lock(GarbageMutex);
-			// Both queues are in the order of their fences, or nearly: an entry out of order waits a little longer.
-			while (!Packets.empty() && Packets.front().Fence <= Done)
-			{
-				Finished.push_back(std::move(Packets.front()));
-				Packets.pop_front();
-			}
-			while (!Garbage.empty() && Garbage.front().Fence <= Done)
-			{
-				Dead.push_back(Garbage.front());
-				Garbage.pop_front();
-			}
+			while (std::optional<FVulkanKept> Kept = Packets.Pop(Done)) { Finished.push_back(std::move(*Kept)); }
+			while (const std::optional<FGarbage> Item = Garbage.Pop(Done)) { Dead.push_back(*Item); }
 		}
 		if (Dead.empty() && Finished.empty()) { return; }
-		// Outside the lock: both release further objects.
-		for (const FPacket& Packet : Finished)
+		// Outside the lock: these calls release further objects.
+		for (const FVulkanKept& Kept : Finished)
 		{
-			for (IRTRefCounted* Object : Packet.Kept) { Object->Release(); }
+			for (IRTRefCounted* Object : Kept) { Object->Release(); }
 		}
 		for (const FGarbage& Item : Dead) { Item.Delete(Item.Object); }
 	}
@@ -140,7 +126,7 @@ FRTStatus FVulkanDevice::SubmitLists(IRTCommandList* const* Lists, uint32_t Coun
 		for (uint32_t Index = 0; Index < Count; ++Index)
 		{
 			FVulkanCommandList* List = static_cast<FVulkanCommandList*>(Lists[Index]);
-			Packets.push_back({Fence, List->TakeKept(Fence)});
+			Packets.Push(Fence, List->TakeKept(Fence));
 		}
 		if (OutFence) { *OutFence = Fence; }
 	}

@@ -7,12 +7,12 @@
 #include "Device/VulkanObject.h"
 #include "Device/VulkanStatus.h"
 #include "Device/VulkanTranslate.h"
+#include "LanternRHICommon/FenceQueue.h"
 #include "LanternRHIVulkan/VulkanInterop.h"
 #include "Pipelines/VulkanPipelineCache.h"
 #include "Resources/VulkanBindless.h"
 #include "ShaderTable/VulkanTableScatter.h"
 
-#include <deque>
 #include <memory>
 #include <unordered_set>
 
@@ -33,7 +33,7 @@ enum class EVulkanMemoryKind : uint32_t
 /// References that a submission holds until it has finished.
 using FVulkanKept = std::unordered_set<IRTRefCounted*>;
 
-class FVulkanDevice final : public IRTDevice
+class FVulkanDevice final : public TRefCounted<IRTDevice>
 {
 public:
 	struct FQueueLock
@@ -52,8 +52,6 @@ public:
 	FRTStatus AdoptNative(VkDevice InDevice, VkQueue InQueue, uint32_t InFamily, const FQueueLock& InLock);
 
 	// IRTDevice
-	uint32_t AddRef() override { return References.fetch_add(1) + 1; }
-	uint32_t Release() override;
 	uint32_t GetVersion() const override { return RHIVersion; }
 	const FRTCapabilities& GetCapabilities() const override { return Probe.Capabilities; }
 	FRTStatus CreateBuffer(const FRTBufferDesc& Desc, IRTBuffer** Out) override;
@@ -107,19 +105,14 @@ public:
 	bool bCacheLibraries = true;
 
 private:
-	~FVulkanDevice() override;
-
 	struct FGarbage
 	{
-		FRTFence Fence = 0;
 		void* Object = nullptr;
 		void (*Delete)(void*) = nullptr;
 	};
-	struct FPacket
-	{
-		FRTFence Fence = 0;
-		FVulkanKept Kept;
-	};
+
+	~FVulkanDevice() override;
+	void OnFinalRelease() override;
 
 	FRTStatus CreateShared();
 	/// SubmitMutex held.
@@ -137,11 +130,10 @@ private:
 	std::atomic<bool> bLost{false};
 
 	std::mutex GarbageMutex;
-	std::deque<FGarbage> Garbage;
-	std::deque<FPacket> Packets;
+	TFenceQueue<FGarbage> Garbage;
+	TFenceQueue<FVulkanKept> Packets;
 
-	/// The user's references, and what is alive: the objects, plus one while the user holds a reference.
-	std::atomic<uint32_t> References{1};
+	/// The objects that are alive, plus one while the user holds a reference to the device.
 	std::atomic<uint32_t> Children{1};
 
 	std::atomic<int64_t> Bytes[static_cast<uint32_t>(EVulkanMemoryKind::Count)] = {};

@@ -1,10 +1,10 @@
-// Reference counting of everything a device creates. The last Release hands the object to the device, which
-// deletes it (and with it the native object) once the GPU is past all work submitted by then.
+// Reference counting of everything that a device creates. The last Release hands the object to the device. The device
+// deletes it, and with it the native object, once the GPU has finished all work submitted by then.
 #pragma once
 
 #include "LanternRHI/RTInterfaces.h"
+#include "LanternRHICommon/RefCounted.h"
 
-#include <atomic>
 #include <utility>
 
 namespace Lantern
@@ -18,26 +18,10 @@ void AddChild(FVulkanDevice& Device);
 void RetireChild(FVulkanDevice& Device, void* Object, void (*Delete)(void*));
 
 template <class TInterface>
-class TVulkanObject : public TInterface
+class TVulkanObject : public TRefCounted<TInterface>
 {
 public:
 	explicit TVulkanObject(FVulkanDevice& InDevice) : Device(InDevice) { AddChild(Device); }
-	TVulkanObject(const TVulkanObject&) = delete;
-	TVulkanObject& operator=(const TVulkanObject&) = delete;
-
-	uint32_t AddRef() override { return References.fetch_add(1, std::memory_order_relaxed) + 1; }
-	uint32_t Release() override
-	{
-		const uint32_t Left = References.fetch_sub(1, std::memory_order_acq_rel) - 1;
-		if (Left == 0)
-		{
-			RetireChild(Device, this, [](void* Object) { delete static_cast<TVulkanObject*>(Object); });
-		}
-		return Left;
-	}
-
-	/// 1 means that only the caller has it: no one else can take another.
-	uint32_t GetReferences() const { return References.load(std::memory_order_acquire); }
 
 	FVulkanDevice& Device;
 
@@ -45,7 +29,10 @@ protected:
 	~TVulkanObject() override = default;
 
 private:
-	std::atomic<uint32_t> References{1};
+	void OnFinalRelease() final
+	{
+		RetireChild(Device, this, [](void* Object) { delete static_cast<TVulkanObject*>(Object); });
+	}
 };
 
 /// Takes the one reference of a new object.

@@ -47,13 +47,6 @@ VkBaseOutStructure* FindStructure(VkBaseOutStructure* Chain, VkStructureType Typ
 
 } // namespace
 
-uint32_t FVulkanRequirements::Release()
-{
-	const uint32_t Left = References.fetch_sub(1) - 1;
-	if (Left == 0) { delete this; }
-	return Left;
-}
-
 void FVulkanRequirements::MergeInto(VkPhysicalDeviceFeatures2* EngineChain)
 {
 	assert(EngineChain && EngineChain != &Probe.Features.Core);

@@ -1,7 +1,5 @@
 #include "Resources/VulkanBindless.h"
 
-#include <cassert>
-
 namespace Lantern
 {
 
@@ -24,7 +22,7 @@ VkResult FVulkanBindless::Create(
 	uint32_t Count = 0;
 	for (uint32_t Binding = 0; Binding < BindingCount; ++Binding)
 	{
-		Heaps[Binding].Capacity = Capacities[Binding];
+		Indices[Binding].SetCapacity(Capacities[Binding]);
 		if (Capacities[Binding] == 0) { continue; }
 		Bindings[Count] = {Binding, Types[Binding], Capacities[Binding], AllStages(Bits), nullptr};
 		Flags[Count] = VK_DESCRIPTOR_BINDING_UPDATE_AFTER_BIND_BIT | VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT |
@@ -72,18 +70,6 @@ void FVulkanBindless::Destroy()
 	Api = nullptr;
 }
 
-uint32_t FVulkanBindless::Take(EBinding Binding)
-{
-	FHeap& Heap = Heaps[Binding];
-	if (!Heap.Free.empty())
-	{
-		const uint32_t Index = Heap.Free.back();
-		Heap.Free.pop_back();
-		return Index;
-	}
-	return Heap.Used < Heap.Capacity ? Heap.Used++ : NoBindlessIndex;
-}
-
 void FVulkanBindless::Write(EBinding Binding, uint32_t Index, VkWriteDescriptorSet& Info)
 {
 	Info.dstSet = Set;
@@ -97,7 +83,7 @@ void FVulkanBindless::Write(EBinding Binding, uint32_t Index, VkWriteDescriptorS
 uint32_t FVulkanBindless::AddImage(EBinding Binding, VkImageView View)
 {
 	std::scoped_lock Lock(Mutex);
-	const uint32_t Index = Take(Binding);
+	const uint32_t Index = Indices[Binding].Allocate();
 	if (Index != NoBindlessIndex)
 	{
 		const VkDescriptorImageInfo Image = {
@@ -112,7 +98,7 @@ uint32_t FVulkanBindless::AddImage(EBinding Binding, VkImageView View)
 uint32_t FVulkanBindless::AddSampler(VkSampler InSampler)
 {
 	std::scoped_lock Lock(Mutex);
-	const uint32_t Index = Take(Sampler);
+	const uint32_t Index = Indices[Sampler].Allocate();
 	if (Index != NoBindlessIndex)
 	{
 		const VkDescriptorImageInfo Image = {InSampler, VK_NULL_HANDLE, VK_IMAGE_LAYOUT_UNDEFINED};
@@ -126,7 +112,7 @@ uint32_t FVulkanBindless::AddSampler(VkSampler InSampler)
 uint32_t FVulkanBindless::AddScene(VkAccelerationStructureKHR InScene)
 {
 	std::scoped_lock Lock(Mutex);
-	const uint32_t Index = Take(Scene);
+	const uint32_t Index = Indices[Scene].Allocate();
 	if (Index != NoBindlessIndex)
 	{
 		VkWriteDescriptorSetAccelerationStructureKHR Structures{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR};
@@ -142,8 +128,7 @@ void FVulkanBindless::Remove(EBinding Binding, uint32_t Index)
 {
 	if (Index == NoBindlessIndex) { return; }
 	std::scoped_lock Lock(Mutex);
-	assert(Index < Heaps[Binding].Used);
-	Heaps[Binding].Free.push_back(Index);
+	Indices[Binding].Free(Index);
 }
 
 } // namespace Lantern

@@ -3,14 +3,14 @@
 #pragma once
 
 #include "Device/VulkanTranslate.h"
+#include "LanternRHICommon/IndexAllocator.h"
 
 #include <mutex>
-#include <vector>
 
 namespace Lantern
 {
 
-inline constexpr uint32_t NoBindlessIndex = ~0u;
+inline constexpr uint32_t NoBindlessIndex = FIndexAllocator::None;
 
 class FVulkanBindless
 {
@@ -40,21 +40,13 @@ public:
 	VkDescriptorSetLayout SetLayout = VK_NULL_HANDLE;
 
 private:
-	struct FHeap
-	{
-		uint32_t Capacity = 0;
-		uint32_t Used = 0; ///< indices ever given out
-		std::vector<uint32_t> Free;
-	};
-	/// Mutex held.
-	uint32_t Take(EBinding Binding);
 	void Write(EBinding Binding, uint32_t Index, VkWriteDescriptorSet& Info);
 
 	VkDevice Device = VK_NULL_HANDLE;
 	const FVulkanDeviceApi* Api = nullptr;
 	VkDescriptorPool Pool = VK_NULL_HANDLE;
 	std::mutex Mutex;
-	FHeap Heaps[BindingCount];
+	FIndexAllocator Indices[BindingCount];
 };
 
 } // namespace Lantern

@@ -18,8 +18,6 @@ constexpr size_t MaxRegions = 16;
 /// A host copy that as many stagings passed by gives its memory back.
 constexpr uint64_t IdleStagings = 64;
 
-constexpr uint64_t AlignUp(uint64_t Value, uint64_t Alignment) { return (Value + Alignment - 1) / Alignment * Alignment; }
-
 } // namespace
 
 // ------------------------------------------------------------------------------------------------ creation, growth
@@ -30,24 +28,10 @@ FRTStatus FVulkanShaderTable::Initialise(const FRTShaderTableDesc& InDesc)
 	Name = InDesc.Name ? InDesc.Name : "";
 	Desc.Name = Name.c_str();
 	assert(Desc.Pipeline && Desc.RecordDataBytes <= MaxRecordDataBytes && Desc.Copies >= 1);
-	const FRTCapabilities& Caps = Device.GetCapabilities();
-	Handles.Initialise(Caps.ShaderGroupHandleSize);
+	Records.Initialise(Device.GetCapabilities(), Desc, EHandleUpdates::Apart);
 	SetPipeline(Desc.Pipeline);
-
-	const uint64_t Handle = AlignUp(Caps.ShaderGroupHandleSize, Caps.ShaderGroupHandleAlignment);
-	// A dispatch names one ray generation record as a region of its own: each starts at the base alignment.
-	const uint64_t Strides[KindCount] = {AlignUp(Caps.ShaderGroupHandleSize, Caps.ShaderGroupBaseAlignment), Handle,
-	    AlignUp(Caps.ShaderGroupHandleSize + Desc.RecordDataBytes, Caps.ShaderGroupHandleAlignment), Handle};
-	const uint32_t Counts[KindCount] = {Desc.RayGenCount, Desc.MissCount, Desc.HitCount, Desc.CallableCount};
-	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
-	{
-		assert(Strides[Kind] <= Caps.MaxShaderGroupStride);
-		const bool bHit = Kind == static_cast<uint32_t>(ERTRecordKind::Hit);
-		Records[Kind].Initialise(Strides[Kind], Caps.ShaderGroupHandleSize, bHit ? Desc.RecordDataBytes : 0);
-		Records[Kind].Grow(Counts[Kind]);
-	}
 	FRTStatus Status = Device.Scatter.Prepare(Device);
-	Status = Status ? MakeLayout(Counts, Current) : Status;
+	Status = Status ? MakeDeviceTable(GetRecordCounts(Desc), Current) : Status;
 	for (uint32_t Copy = 0; Status && Copy < Desc.Copies; ++Copy)
 	{
 		FHostCopy Made;
@@ -68,47 +52,32 @@ FRTStatus FVulkanShaderTable::MakeBuffer(
 	return Status;
 }
 
-FRTStatus FVulkanShaderTable::MakeLayout(const uint32_t Counts[KindCount], FLayout& Out)
+FRTStatus FVulkanShaderTable::MakeDeviceTable(const FRecordCounts& Counts, FDeviceTable& Out)
 {
-	const uint64_t Base = Device.GetCapabilities().ShaderGroupBaseAlignment;
-	FLayout Made;
-	uint64_t Size = 0;
-	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
-	{
-		Made.Counts[Kind] = Counts[Kind];
-		Made.Offsets[Kind] = AlignUp(Size, Base);
-		Size = Made.Offsets[Kind] + Records[Kind].GetStride() * Counts[Kind];
-	}
+	FDeviceTable Made;
+	Made.Layout = Records.GetLayout();
+	Made.Layout.SetCounts(Counts);
 	const VkBufferUsageFlags Usage = VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
 	                                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-	FRTStatus Status = MakeBuffer(std::max(Size, Base), Usage, ERTMemory::Device, "", Made.Buffer);
+	FRTStatus Status = MakeBuffer(std::max(Made.Layout.Size, Made.Layout.BaseAlignment), Usage, ERTMemory::Device, "", Made.Buffer);
 	if (Status) { Out = std::move(Made); }
 	return Status;
 }
 
 FRTStatus FVulkanShaderTable::Reserve(const uint32_t Counts[4])
 {
-	uint32_t Wanted[KindCount];
-	bool bGrows = false;
-	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
-	{
-		Wanted[Kind] = std::max(Counts[Kind], Records[Kind].GetCount());
-		bGrows = bGrows || Wanted[Kind] > Records[Kind].GetCount();
-	}
-	if (!bGrows) { return {}; }
+	const FRecordCounts Before = Records.GetLayout().Counts;
+	const FRecordCounts Grown = GrowRecordCounts(Before, Counts);
+	if (Grown == Before) { return {}; }
 	// Where no update has gone into Next yet, Current is still what the contents come from.
-	FRTStatus Status = MakeLayout(Wanted, bCurrentUsed ? Next : Current);
+	FRTStatus Status = MakeDeviceTable(Grown, bCurrentUsed ? Next : Current);
 	if (!Status) { return Status; }
-	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
+	Records.Grow(Grown);
+	for (uint32_t Kind = 0; bContentLost && Kind < RecordKindCount; ++Kind)
 	{
-		const uint32_t Before = Records[Kind].GetCount();
-		Records[Kind].Grow(Wanted[Kind]);
-		if (bContentLost) { Records[Kind].MarkDirty({Before, Wanted[Kind] - Before}); }
+		Records[Kind].MarkDirty({Before[Kind], Grown[Kind] - Before[Kind]});
 	}
-	Desc.RayGenCount = Wanted[0];
-	Desc.MissCount = Wanted[1];
-	Desc.HitCount = Wanted[2];
-	Desc.CallableCount = Wanted[3];
+	SetRecordCounts(Desc, Grown);
 	return Status;
 }
 
@@ -120,42 +89,28 @@ void FVulkanShaderTable::SetPipeline(IRTPipeline* InPipeline)
 	Desc.Pipeline = InPipeline;
 	Pipeline = TRTRef<FVulkanPipeline>(static_cast<FVulkanPipeline*>(InPipeline));
 	assert(Pipeline->GetGroupHandles() && "a ray-tracing pipeline that is no library");
-	Handles.SetPipeline(Pipeline->GetGroupHandles(), Pipeline->GetGroupCount());
-	if (Handles.IsCrowded()) { PruneHandles(); }
+	Records.SetPipeline(Pipeline->GetGroupHandles(), Pipeline->GetGroupCount());
 }
 
 void FVulkanShaderTable::SetRecord(ERTRecordKind Kind, uint32_t Index, uint32_t Group, const void* Data, uint32_t DataBytes)
 {
-	assert(Group < Pipeline->GetGroupCount());
-	Of(Kind).SetOne(Index, Handles.GetSlotsOfGroups()[Group], Data, DataBytes);
+	Records.SetRecord(Kind, Index, Group, Data, DataBytes);
 }
 
 void FVulkanShaderTable::SetHitRecords(uint32_t First, uint32_t Count, const uint32_t* Groups, const void* Data)
 {
-	assert(std::all_of(Groups, Groups + Count, [&](uint32_t Group) { return Group < Pipeline->GetGroupCount(); }));
-	Of(ERTRecordKind::Hit).Set(First, Count, Handles.GetSlotsOfGroups(), Groups, Data);
+	Records.SetHitRecords(First, Count, Groups, Data);
 }
 
 void FVulkanShaderTable::SetGroups(ERTRecordKind Kind, uint32_t First, uint32_t Count, const uint32_t* Groups)
 {
-	assert(std::all_of(Groups, Groups + Count, [&](uint32_t Group) { return Group < Pipeline->GetGroupCount(); }));
-	Of(Kind).SetHandles(First, Count, Handles.GetSlotsOfGroups(), Groups);
-}
-
-bool FVulkanShaderTable::IsDirty() const
-{
-	return std::any_of(Records, Records + KindCount, [](const FVulkanTableRecords& Kind) { return Kind.IsDirty(); });
-}
-
-void FVulkanShaderTable::MarkAllDirty()
-{
-	for (FVulkanTableRecords& Kind : Records) { Kind.MarkDirty({0, Kind.GetCount()}); }
+	Records.SetGroups(Kind, First, Count, Groups);
 }
 
 void FVulkanShaderTable::Invalidate()
 {
 	Batches.clear();
-	MarkAllDirty();
+	Records.MarkAllDirty();
 	bContentLost = true;
 }
 
@@ -165,27 +120,27 @@ void FVulkanShaderTable::ReturnBatches()
 {
 	for (const FBatch& Batch : Batches)
 	{
-		for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
+		for (uint32_t Kind = 0; Kind < RecordKindCount; ++Kind)
 		{
 			for (const FRun& Run : Batch.Parts[Kind].Runs) { Records[Kind].MarkDirty(Run); }
 		}
-		for (const FRun& Run : Batch.HitHandles.Runs) { Of(ERTRecordKind::Hit).MarkDirty(Run); }
+		for (const FRun& Run : Batch.HitHandles.Runs) { Records.Of(ERTRecordKind::Hit).MarkDirty(Run); }
 	}
 	Batches.clear();
 }
 
 FRTStatus FVulkanShaderTable::Stage()
 {
-	if (!IsDirty()) { return {}; }
+	if (!Records.IsDirty()) { return {}; }
 	if (Batches.size() >= MaxBatches) { ReturnBatches(); }
 	FBatch Batch;
 	uint64_t Bytes = 0;
 	TakeDirtyHandles(Batch, Bytes);
-	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
+	for (uint32_t Kind = 0; Kind < RecordKindCount; ++Kind)
 	{
 		FPart& Part = Batch.Parts[Kind];
 		Records[Kind].TakeDirty(Part.Runs);
-		Part.Count = static_cast<uint32_t>(FVulkanTableRecords::CountRecords(Part.Runs));
+		Part.Count = static_cast<uint32_t>(FTableRecords::CountRecords(Part.Runs));
 		Part.Offset = Bytes;
 		Bytes += Records[Kind].GetStride() * Part.Count;
 		Part.bScatter = Part.Runs.size() > MaxRegions;
@@ -207,14 +162,14 @@ FRTStatus FVulkanShaderTable::Stage()
 void FVulkanShaderTable::Fill(const FBatch& Batch) const
 {
 	uint8_t* Begin = static_cast<uint8_t*>(Batch.Source->Block.Allocation.Mapped);
-	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
+	for (uint32_t Kind = 0; Kind < RecordKindCount; ++Kind)
 	{
 		const FPart& Part = Batch.Parts[Kind];
 		uint8_t* Dest = Begin + Part.Offset;
 		uint32_t* Index = reinterpret_cast<uint32_t*>(Begin + Part.IndexOffset);
 		for (const FRun& Run : Part.Runs)
 		{
-			Records[Kind].CopyTo(Dest, Run, Handles.GetHandles());
+			Records.CopyTo(Dest, Kind, Run);
 			Dest += Records[Kind].GetStride() * Run.Count;
 			for (uint32_t Record = 0; Part.bScatter && Record < Run.Count; ++Record) { *Index++ = Run.First + Record; }
 		}
@@ -272,20 +227,20 @@ void FVulkanShaderTable::DropIdleHostCopies()
 
 void FVulkanShaderTable::AddMove(FUpdate& Out)
 {
-	const FLayout& To = Newest();
+	const FDeviceTable& To = Newest();
 	const bool bMoves = bCurrentUsed && Next.Buffer;
 	if (bContentLost || (bCurrentUsed && !bMoves)) { return; }
-	for (uint32_t Kind = 0; Kind < KindCount; ++Kind)
+	for (uint32_t Kind = 0; Kind < RecordKindCount; ++Kind)
 	{
 		const uint64_t Stride = Records[Kind].GetStride();
-		const uint64_t Old = bMoves ? Stride * Current.Counts[Kind] : 0;
-		const uint64_t All = Stride * To.Counts[Kind];
+		const uint64_t Old = bMoves ? Stride * Current.Layout.Counts[Kind] : 0;
+		const uint64_t All = Stride * To.Layout.Counts[Kind];
 		if (Old > 0)
 		{
 			Out.Moved.Source = Current.Buffer;
-			Out.Moved.Regions.push_back({Current.Offsets[Kind], To.Offsets[Kind], Old});
+			Out.Moved.Regions.push_back({Current.Layout.Offsets[Kind], To.Layout.Offsets[Kind], Old});
 		}
-		if (All > Old) { Out.Zeros.push_back({To.Offsets[Kind] + Old, All - Old}); }
+		if (All > Old) { Out.Zeros.push_back({To.Layout.Offsets[Kind] + Old, All - Old}); }
 	}
 }
 
@@ -298,14 +253,14 @@ void FVulkanShaderTable::AddPart(const FBatch& Batch, uint32_t Kind, FCopies& Ou
 	{
 		const VkDeviceAddress From = Batch.Source->Block.Address;
 		assert(Stride % sizeof(uint32_t) == 0);
-		Out.Scatters.push_back({Current.Buffer->Block.Address + Current.Offsets[Kind], From + Part.Offset, From + Part.IndexOffset,
+		Out.Scatters.push_back({Current.Buffer->Block.Address + Current.Layout.Offsets[Kind], From + Part.Offset, From + Part.IndexOffset,
 		    static_cast<uint32_t>(Stride / sizeof(uint32_t)), Part.Count, static_cast<uint32_t>(Stride / sizeof(uint32_t)), false});
 		return;
 	}
 	uint64_t Offset = Part.Offset;
 	for (const FRun& Run : Part.Runs)
 	{
-		Out.Regions.push_back({Offset, Current.Offsets[Kind] + Stride * Run.First, Stride * Run.Count});
+		Out.Regions.push_back({Offset, Current.Layout.Offsets[Kind] + Stride * Run.First, Stride * Run.Count});
 		Offset += Stride * Run.Count;
 	}
 }
@@ -332,7 +287,7 @@ FRTStatus FVulkanShaderTable::TakeUpdate(FUpdate& Out)
 			OfHandles.Source = Batch.Source;
 		}
 		FCopies& Copies = Out.Copies.emplace_back();
-		for (uint32_t Kind = 0; Kind < KindCount; ++Kind) { AddPart(Batch, Kind, Copies); }
+		for (uint32_t Kind = 0; Kind < RecordKindCount; ++Kind) { AddPart(Batch, Kind, Copies); }
 		Copies.Source = std::move(Batch.Source);
 	}
 	Batches.clear();
@@ -345,8 +300,8 @@ VkStridedDeviceAddressRegionKHR FVulkanShaderTable::GetRegion(ERTRecordKind Kind
 {
 	const uint32_t Index = static_cast<uint32_t>(Kind);
 	const uint64_t Stride = Records[Index].GetStride();
-	const uint32_t Count = Current.Counts[Index];
-	const VkDeviceAddress Address = Current.Buffer->Block.Address + Current.Offsets[Index];
+	const uint32_t Count = Current.Layout.Counts[Index];
+	const VkDeviceAddress Address = Current.Buffer->Block.Address + Current.Layout.Offsets[Index];
 	if (Count == 0) { return {}; }
 	if (Kind == ERTRecordKind::RayGen)
 	{

@@ -1,10 +1,9 @@
 // The shader binding table: records on the CPU, host copies of what is new, and the table on the GPU.
 #pragma once
 
+#include "LanternRHICommon/ShaderTableRecords.h"
 #include "Pipelines/VulkanPipeline.h"
 #include "Resources/VulkanBuffer.h"
-#include "ShaderTable/VulkanHandleStore.h"
-#include "ShaderTable/VulkanTableRecords.h"
 
 namespace Lantern
 {
@@ -32,7 +31,7 @@ public:
 	FRTStatus Reserve(const uint32_t Counts[4]) override;
 	FRTStatus Stage() override;
 	void Invalidate() override;
-	uint64_t GetRecordStride(ERTRecordKind Kind) const override { return Of(Kind).GetStride(); }
+	uint64_t GetRecordStride(ERTRecordKind Kind) const override { return Records.GetLayout().Strides[static_cast<uint32_t>(Kind)]; }
 	uint64_t GetSizeBytes() const override { return Newest().Buffer->Size; }
 	uint64_t GetUpdatedBytes() const override { return UpdatedBytes; }
 
@@ -65,15 +64,12 @@ public:
 	VkStridedDeviceAddressRegionKHR GetRegion(ERTRecordKind Kind, uint32_t RayGen) const;
 
 private:
-	static constexpr uint32_t KindCount = 4;
-	using FRun = FVulkanTableRecords::FRun;
+	using FRun = FTableRecords::FRun;
 
-	/// A table on the GPU.
-	struct FLayout
+	struct FDeviceTable
 	{
 		TRTRef<FVulkanTableBuffer> Buffer;
-		uint64_t Offsets[KindCount] = {};
-		uint32_t Counts[KindCount] = {};
+		FTableLayout Layout;
 	};
 	/// Records of one kind in a host copy, one after another; behind them their indices, where they are scattered.
 	struct FPart
@@ -96,7 +92,7 @@ private:
 	struct FBatch
 	{
 		TRTRef<FVulkanTableBuffer> Source;
-		FPart Parts[KindCount];
+		FPart Parts[RecordKindCount];
 		FHandlePart HitHandles;
 	};
 	struct FHostCopy
@@ -105,14 +101,9 @@ private:
 		uint64_t LastUse = 0; ///< StageCount then
 	};
 
-	FVulkanTableRecords& Of(ERTRecordKind Kind) { return Records[static_cast<uint32_t>(Kind)]; }
-	const FVulkanTableRecords& Of(ERTRecordKind Kind) const { return Records[static_cast<uint32_t>(Kind)]; }
-	const FLayout& Newest() const { return Next.Buffer ? Next : Current; }
-	FRTStatus MakeLayout(const uint32_t Counts[KindCount], FLayout& Out);
+	const FDeviceTable& Newest() const { return Next.Buffer ? Next : Current; }
+	FRTStatus MakeDeviceTable(const FRecordCounts& Counts, FDeviceTable& Out);
 	FRTStatus MakeBuffer(uint64_t Size, VkBufferUsageFlags Usage, ERTMemory Memory, const char* Suffix, TRTRef<FVulkanTableBuffer>& Out);
-	void PruneHandles();
-	bool IsDirty() const;
-	void MarkAllDirty();
 	void Fill(const FBatch& Batch) const;
 	void ReturnBatches();
 	/// A free host copy of at least Size bytes; makes one where all are in use.
@@ -127,10 +118,9 @@ private:
 	FRTShaderTableDesc Desc;
 	std::string Name;
 	TRTRef<FVulkanPipeline> Pipeline;
-	FVulkanHandleStore Handles; ///< of Pipeline, and of those before that records still name
-	FVulkanTableRecords Records[KindCount];
-	FLayout Current;           ///< of the last update
-	FLayout Next;              ///< of the next one, where it is another
+	FShaderTableRecords Records;
+	FDeviceTable Current;      ///< of the last update
+	FDeviceTable Next;         ///< of the next one, where it is another
 	bool bCurrentUsed = false; ///< an update has gone into Current
 	bool bContentLost = false; ///< everything is dirty: nothing need move or be filled with zeros
 	std::vector<FBatch> Batches;

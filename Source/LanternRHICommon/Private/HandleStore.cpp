@@ -1,4 +1,5 @@
-#include "ShaderTable/VulkanHandleStore.h"
+// FHandleStore: the distinct handles of shader groups, by number.
+#include "LanternRHICommon/HandleStore.h"
 
 #include <algorithm>
 #include <utility>
@@ -6,27 +7,27 @@
 namespace Lantern
 {
 
-void FVulkanHandleStore::Initialise(uint32_t InHandleSize)
+void FHandleStore::Initialise(uint32_t InHandleSize)
 {
 	HandleSize = InHandleSize;
 	Bytes.assign(HandleSize, 0);
 	Slots = {{std::string(HandleSize, '\0'), Null}};
 }
 
-uint32_t FVulkanHandleStore::FindOrAdd(const uint8_t* Handle)
+uint32_t FHandleStore::FindOrAdd(const uint8_t* Handle)
 {
 	const auto [Found, bNew] = Slots.try_emplace(std::string(reinterpret_cast<const char*>(Handle), HandleSize), GetCount());
 	if (bNew) { Bytes.insert(Bytes.end(), Handle, Handle + HandleSize); }
 	return Found->second;
 }
 
-void FVulkanHandleStore::SetPipeline(const uint8_t* Handles, uint32_t GroupCount)
+void FHandleStore::SetPipeline(const uint8_t* Handles, uint32_t GroupCount)
 {
 	SlotsOfGroups.resize(GroupCount);
 	for (uint32_t Group = 0; Group < GroupCount; ++Group) { SlotsOfGroups[Group] = FindOrAdd(Handles + size_t(Group) * HandleSize); }
 }
 
-std::vector<uint32_t> FVulkanHandleStore::Prune(const std::vector<bool>& Used)
+std::vector<uint32_t> FHandleStore::Prune(const std::vector<bool>& Used)
 {
 	std::vector<bool> Kept = Used;
 	Kept[Null] = true;

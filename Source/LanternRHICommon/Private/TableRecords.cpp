@@ -1,4 +1,5 @@
-#include "ShaderTable/VulkanTableRecords.h"
+// FTableRecords: the shader records of one kind on the CPU, and which of them the GPU lacks.
+#include "LanternRHICommon/TableRecords.h"
 
 #include <algorithm>
 #include <bit>
@@ -15,15 +16,16 @@ constexpr uint64_t FullMask(uint32_t Bits) { return Bits >= 64 ? ~uint64_t(0) : 
 
 } // namespace
 
-void FVulkanTableRecords::Initialise(uint64_t InStride, uint32_t InHandleSize, uint32_t InDataBytes)
+void FTableRecords::Initialise(uint64_t InStride, uint32_t InHandleSize, uint32_t InDataBytes, EHandleUpdates InHandleUpdates)
 {
 	Stride = InStride;
 	HandleSize = InHandleSize;
 	DataBytes = InDataBytes;
+	HandleUpdates = InHandleUpdates;
 	assert(Stride >= HandleSize + DataBytes);
 }
 
-void FVulkanTableRecords::Grow(uint32_t InCount)
+void FTableRecords::Grow(uint32_t InCount)
 {
 	const size_t PageCount = (size_t(InCount) + PageRecords - 1) / PageRecords;
 	while (Pages.size() < PageCount)
@@ -36,7 +38,7 @@ void FVulkanTableRecords::Grow(uint32_t InCount)
 }
 
 template <class TWrite>
-void FVulkanTableRecords::ForEachPiece(uint32_t First, uint32_t InCount, TWrite&& Write)
+void FTableRecords::ForEachPiece(uint32_t First, uint32_t InCount, TWrite&& Write)
 {
 	assert(uint64_t(First) + InCount <= Count);
 	bool bAny = false;
@@ -59,7 +61,7 @@ void FVulkanTableRecords::ForEachPiece(uint32_t First, uint32_t InCount, TWrite&
 	if (bAny && !bDirty.load(std::memory_order_relaxed)) { bDirty.store(true, std::memory_order_relaxed); }
 }
 
-void FVulkanTableRecords::Set(uint32_t First, uint32_t InCount, const uint32_t* SlotsOfGroups, const uint32_t* Groups, const void* Data)
+void FTableRecords::Set(uint32_t First, uint32_t InCount, const uint32_t* SlotsOfGroups, const uint32_t* Groups, const void* Data)
 {
 	const uint8_t* Source = static_cast<const uint8_t*>(Data);
 	ForEachPiece(First, InCount, [&](FPage& Page, uint32_t Within, uint32_t Done, uint32_t Piece) {
@@ -71,7 +73,7 @@ void FVulkanTableRecords::Set(uint32_t First, uint32_t InCount, const uint32_t* 
 	});
 }
 
-void FVulkanTableRecords::SetOne(uint32_t Index, uint32_t Slot, const void* Data, uint32_t InDataBytes)
+void FTableRecords::SetOne(uint32_t Index, uint32_t Slot, const void* Data, uint32_t InDataBytes)
 {
 	assert(InDataBytes <= DataBytes);
 	ForEachPiece(Index, 1, [&](FPage& Page, uint32_t Within, uint32_t, uint32_t) {
@@ -84,9 +86,9 @@ void FVulkanTableRecords::SetOne(uint32_t Index, uint32_t Slot, const void* Data
 	});
 }
 
-void FVulkanTableRecords::SetHandles(uint32_t First, uint32_t InCount, const uint32_t* SlotsOfGroups, const uint32_t* Groups)
+void FTableRecords::SetHandles(uint32_t First, uint32_t InCount, const uint32_t* SlotsOfGroups, const uint32_t* Groups)
 {
-	const bool bMany = InCount >= ManyHandles;
+	const bool bMany = HandleUpdates == EHandleUpdates::Apart && InCount >= ManyHandles;
 	bool bAny = false;
 	ForEachPiece(First, InCount, [&](FPage& Page, uint32_t Within, uint32_t Done, uint32_t Piece) {
 		uint64_t Changed = 0;
@@ -106,7 +108,7 @@ void FVulkanTableRecords::SetHandles(uint32_t First, uint32_t InCount, const uin
 	if (bMany && bAny) { bAnyHandlesDirty.store(true, std::memory_order_relaxed); }
 }
 
-void FVulkanTableRecords::TakeDirtyHandles(std::vector<FRun>& Out)
+void FTableRecords::TakeDirtyHandles(std::vector<FRun>& Out)
 {
 	if (!bAnyHandlesDirty.exchange(false, std::memory_order_relaxed)) { return; }
 	for (uint32_t First = 0; First < Count; First += PageRecords)
@@ -118,7 +120,7 @@ void FVulkanTableRecords::TakeDirtyHandles(std::vector<FRun>& Out)
 	}
 }
 
-void FVulkanTableRecords::CopySlotsTo(uint32_t* Dest, FRun Run) const
+void FTableRecords::CopySlotsTo(uint32_t* Dest, FRun Run) const
 {
 	while (Run.Count > 0)
 	{
@@ -131,7 +133,7 @@ void FVulkanTableRecords::CopySlotsTo(uint32_t* Dest, FRun Run) const
 	}
 }
 
-void FVulkanTableRecords::MarkUsed(std::vector<bool>& Used) const
+void FTableRecords::MarkUsed(std::vector<bool>& Used) const
 {
 	for (const std::unique_ptr<FPage>& Page : Pages)
 	{
@@ -139,7 +141,7 @@ void FVulkanTableRecords::MarkUsed(std::vector<bool>& Used) const
 	}
 }
 
-void FVulkanTableRecords::Renumber(const std::vector<uint32_t>& NewOf)
+void FTableRecords::Renumber(const std::vector<uint32_t>& NewOf)
 {
 	for (const std::unique_ptr<FPage>& Page : Pages)
 	{
@@ -147,12 +149,12 @@ void FVulkanTableRecords::Renumber(const std::vector<uint32_t>& NewOf)
 	}
 }
 
-void FVulkanTableRecords::MarkDirty(FRun Run)
+void FTableRecords::MarkDirty(FRun Run)
 {
 	ForEachPiece(Run.First, Run.Count, [](FPage&, uint32_t, uint32_t, uint32_t Piece) { return FullMask(Piece); });
 }
 
-void FVulkanTableRecords::TakeDirty(std::vector<FRun>& Out)
+void FTableRecords::TakeDirty(std::vector<FRun>& Out)
 {
 	if (!bDirty.exchange(false, std::memory_order_relaxed)) { return; }
 	const size_t Start = Out.size();
@@ -173,7 +175,7 @@ void FVulkanTableRecords::TakeDirty(std::vector<FRun>& Out)
 	}
 }
 
-uint64_t FVulkanTableRecords::CountRecords(const std::vector<FRun>& Runs)
+uint64_t FTableRecords::CountRecords(const std::vector<FRun>& Runs)
 {
 	uint64_t Sum = 0;
 	for (const FRun& Run : Runs) { Sum += Run.Count; }
@@ -181,7 +183,7 @@ uint64_t FVulkanTableRecords::CountRecords(const std::vector<FRun>& Runs)
 }
 
 template <uint32_t HandleBytes, uint32_t RecordBytes>
-void FVulkanTableRecords::ComposeFixed(uint8_t* Dest, const FPage& Page, uint32_t Within, uint32_t InCount, const uint8_t* Handles)
+void FTableRecords::ComposeFixed(uint8_t* Dest, const FPage& Page, uint32_t Within, uint32_t InCount, const uint8_t* Handles)
 {
 	const uint8_t* Data = Page.Data.get() + size_t(RecordBytes) * Within;
 	for (uint32_t Index = 0; Index < InCount; ++Index, Dest += HandleBytes + RecordBytes, Data += RecordBytes)
@@ -191,7 +193,7 @@ void FVulkanTableRecords::ComposeFixed(uint8_t* Dest, const FPage& Page, uint32_
 	}
 }
 
-void FVulkanTableRecords::Compose(uint8_t* Dest, const FPage& Page, uint32_t Within, uint32_t InCount, const uint8_t* Handles) const
+void FTableRecords::Compose(uint8_t* Dest, const FPage& Page, uint32_t Within, uint32_t InCount, const uint8_t* Handles) const
 {
 	// Sizes known at compile time make a record a few vector moves.
 	if (HandleSize == 32 && DataBytes == 32 && Stride == 64) { return ComposeFixed<32, 32>(Dest, Page, Within, InCount, Handles); }
@@ -204,7 +206,7 @@ void FVulkanTableRecords::Compose(uint8_t* Dest, const FPage& Page, uint32_t Wit
 	}
 }
 
-void FVulkanTableRecords::CopyTo(uint8_t* Dest, FRun Run, const uint8_t* Handles) const
+void FTableRecords::CopyTo(uint8_t* Dest, FRun Run, const uint8_t* Handles) const
 {
 	while (Run.Count > 0)
 	{
