@@ -47,7 +47,6 @@ public:
 	// For the device:
 	bool IsImported() const { return bImported; }
 	bool IsEnded() const { return Stage == EStage::Ended; }
-	bool IsRecording() const { return Stage == EStage::Recording; }
 	bool IsSubmitted() const { return Stage == EStage::Submitted; }
 	void Judge(FValidationTracker& Tracker) const;
 	void MarkSubmitted(FRTFence InFence);

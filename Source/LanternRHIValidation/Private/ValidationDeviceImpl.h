@@ -45,7 +45,7 @@ private:
 	std::string CheckTexture(const FRTTextureDesc& Desc) const;
 	std::string CheckSections(const FRTGeometryDesc& Desc) const;
 	std::vector<FRTGeometrySection> UnwrapSections(const FRTGeometryDesc& Desc) const;
-	/// OutInners: the wrapped libraries.
+	/// Empty where the libraries are good. OutLibraries: the wrappers around them.
 	std::string CheckLibraries(const FRTRayTracingPipelineDesc& Desc, std::vector<FValidatedPipeline*>& OutLibraries) const;
 	FRTStatus Collect(IRTCommandList* const* Lists, uint32_t Count, bool bImported, std::vector<FValidatedCommandList*>& OutLists);
 };

@@ -1,5 +1,5 @@
-// What every call of the RHI stands on: results that are values, and objects that are counted. C++17, no Vulkan,
-// no standard containers.
+// What every call of the RHI stands on: results that are values, and objects that are counted. C++17, no Vulkan, no standard
+// containers.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 namespace Lantern
 {
 
-/// Bumped when any interface or description below changes. A plugin refuses another version with a message.
-inline constexpr uint32_t RHIVersion = 2;
+/// Changes with every change of an interface or a description of the RHI. The plugin refuses another version with a message.
+inline constexpr uint32_t RHIVersion = 3;
 
 // ---------------------------------------------------------------------------------------------------- status
 
@@ -27,8 +27,8 @@ enum class ERTResult : int32_t
 	IoError,
 };
 
-/// Result of a call that depends on the environment. Ok carries no message. Fixed size, so that it crosses
-/// an ABI; a longer message is cut between two characters, never lost silently (it then ends in "...").
+/// Result of a call that depends on the environment. Ok carries no message. The size is fixed, so that a status crosses an
+/// ABI. A longer message is cut between two characters and ends in "...".
 struct [[nodiscard]] FRTStatus
 {
 	static constexpr size_t MaxMessage = 508;
@@ -40,7 +40,7 @@ struct [[nodiscard]] FRTStatus
 	explicit operator bool() const { return IsOk(); }
 
 	static FRTStatus Success() { return {}; }
-	/// printf-style. Whatever goes in, the message is valid UTF-8 without control characters, line breaks and tabs aside.
+	/// Formats as printf. The message is valid UTF-8 without control characters, line breaks and tabs aside, whatever goes in.
 	/// A name from outside still needs FRTShown (RTText.h), which lets no line break through.
 	static FRTStatus Error(ERTResult InCode, const char* Format, ...)
 #if defined(__GNUC__)
@@ -52,9 +52,9 @@ struct [[nodiscard]] FRTStatus
 // ---------------------------------------------------------------------------------------------------- reference counting
 
 /// Base of every RHI object. Thread-safe. An object starts with one reference, owned by whoever created it.
-/// A command list keeps a reference to all it recorded until the GPU has finished with it, and the device
-/// destroys native objects only after the last submission that may use them: Release() is always safe for what is recorded
-/// by name. What an unsubmitted list reaches only by address or bindless index must live until it was submitted.
+/// A command list keeps references to all that it recorded until the GPU has finished with it. The device destroys native
+/// objects only after the last submission that may use them. Release() is therefore always safe for what is recorded by name.
+/// What an unsubmitted list reaches only by address or bindless index must live until the list was submitted.
 class IRTRefCounted
 {
 public:
