@@ -1,3 +1,4 @@
+// FRTStatus: formats and cuts messages.
 #include "LanternRHI/RTStatus.h"
 
 #include <cstdarg>

@@ -1,6 +1,6 @@
-// Text from outside in messages: names of an engine, files, drivers. It may hold anything; what would steer a terminal,
-// hide something, or is no UTF-8, is shown as an escape. C++17, no standard containers; LanternCore/Quote.h has the
-// same for strings. Everything here is thread-safe.
+// Text from outside in messages: names of an engine, files, drivers. It may hold anything. Whatever would steer a terminal,
+// hide something or is no UTF-8 is shown as an escape. C++17, no standard containers; LanternCore/Text/Quote.h has this for
+// strings. Everything here is thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@ namespace Lantern
 
 enum class ERTTextKind : uint8_t
 {
-	OneLine, ///< '\n' and '\t' are escaped, so that a name cannot forge a line
-	Lines,   ///< both stay: for whole messages
+	OneLine, ///< escapes '\n' and '\t', so that a name cannot forge a line
+	Lines,   ///< keeps them: for whole messages
 };
 
 /// What stands in a message for the first character of a text.
@@ -23,8 +23,8 @@ struct FRTShownCharacter
 	uint32_t Taken = 0; ///< bytes of the text that it stands for, 1 to 4
 };
 
-/// Bytes of the UTF-8 character at the start of Text, 1 to 4, and its code point; 0 where there is no valid one:
-/// strays, overlong forms, surrogates, what lies beyond U+10FFFF or is cut off.
+/// Returns the bytes of the UTF-8 character at the start of Text, 1 to 4, and its code point. Returns 0 if there is no valid
+/// one: strays, overlong forms, surrogates, code points beyond U+10FFFF, and what is cut off.
 inline uint32_t DecodeCharacter(const char* Text, size_t Size, uint32_t& OutCode)
 {
 	constexpr uint32_t Least[] = {0, 0, 0x80, 0x800, 0x10000};
@@ -48,8 +48,8 @@ inline uint32_t DecodeCharacter(const char* Text, size_t Size, uint32_t& OutCode
 	return Code >= Least[Length] && Code <= 0x10FFFF && !bSurrogate ? Length : 0;
 }
 
-/// Whether a message may hold the character: no control, no other line break, nothing that turns the direction of
-/// writing, none of the usual invisible ones. The joiners U+200C and U+200D may stay, since scripts and emoji are written with them.
+/// Says whether a message may hold the character. Refused are controls, other line breaks, what turns the direction of writing,
+/// and the usual invisible ones. The joiners U+200C and U+200D may stay, since scripts and emoji are written with them.
 inline bool IsShowable(uint32_t Code)
 {
 	struct FRange
@@ -79,9 +79,9 @@ inline bool IsShowable(uint32_t Code)
 	return (Code & 0xFFFE) != 0xFFFE && Code <= 0x10FFFF;
 }
 
-/// The first character of Text as it is, or as \n, \r, \t, \xNN (a byte) or \u{NNNN} (a code point). Size > 0.
-/// A backslash stays one, or no path would be readable: an escape is for people, and cannot be told from the same text
-/// in the original. In return, what has been escaped does not change when it is escaped again.
+/// Shows the first character of Text as it is, or as \n, \r, \t, \xNN (a byte) or \u{NNNN} (a code point). Size > 0.
+/// A backslash stays one, or no path would be readable. An escape is for people: it looks like such text in the original.
+/// In return, what has been escaped does not change when it is escaped again.
 inline FRTShownCharacter ShowCharacter(const char* Text, size_t Size, ERTTextKind Kind)
 {
 	constexpr const char* Digits = "0123456789abcdef";
@@ -134,8 +134,8 @@ void ShowText(const char* Text, size_t Size, ERTTextKind Kind, F&& Take)
 	}
 }
 
-/// Into Out, at most Capacity - 1 bytes and a zero byte. What does not fit whole ends in Mark, between two characters.
-/// Capacity is greater than Mark. Returns the bytes before the zero byte.
+/// Writes to Out at most Capacity - 1 bytes and a zero byte. A text that does not fit is cut between two characters and ends
+/// in Mark. Capacity is greater than the size of Mark. Returns the bytes before the zero byte.
 inline size_t ShowText(char* Out, size_t Capacity, const char* Text, size_t Size, ERTTextKind Kind, const char* Mark)
 {
 	size_t MarkSize = 0, Used = 0, Fit = 0;
@@ -161,7 +161,7 @@ inline size_t ShowText(char* Out, size_t Capacity, const char* Text, size_t Size
 	return Used;
 }
 
-/// How many of the first Max bytes of Text can be kept without cutting a UTF-8 character in two.
+/// Returns how many of the first Max bytes of Text can be kept without cutting a UTF-8 character in two.
 inline size_t FitCharacters(const char* Text, size_t Size, size_t Max)
 {
 	if (Size <= Max) { return Size; }

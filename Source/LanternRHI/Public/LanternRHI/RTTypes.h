@@ -1,6 +1,6 @@
-// Plain types of the RHI: enums, capabilities, descriptions. C++17, no Vulkan, no standard containers, so that
-// an engine with its own allocator and ABI can include it. A description is read during the call that
-// takes it and never kept: pointers in it need not outlive the call.
+// Plain types of the RHI: enums, capabilities, descriptions. C++17, no Vulkan, no standard containers, so that an engine with
+// its own allocator and ABI can include it. A call reads the description that it takes and keeps none of its pointers: what
+// they point at need not outlive the call.
 #pragma once
 
 #include "LanternRHI/RTStatus.h"
@@ -36,7 +36,7 @@ enum class ERTFormat : uint8_t
 	D32_FLOAT,
 };
 
-/// Bytes of one texel.
+/// Returns the bytes of one texel.
 constexpr uint32_t BytesPerTexel(ERTFormat Format)
 {
 	switch (Format)
@@ -74,7 +74,7 @@ enum class ERTMemory : uint8_t
 	Readback, ///< mapped, read by the CPU, coherent, cached
 };
 
-/// What a buffer is used for (flags). Every buffer has a device address.
+/// Uses of a buffer (flags). Every buffer has a device address.
 enum class ERTBufferUsage : uint32_t
 {
 	None = 0,
@@ -84,10 +84,11 @@ enum class ERTBufferUsage : uint32_t
 	CopySource = 1 << 3,
 	CopyDest = 1 << 4,
 	GeometryInput = 1 << 5, ///< vertices, indices, AABBs or instances of an acceleration structure build
-	Scratch = 1 << 6,       ///< build scratch; aligned to FRTCapabilities::ScratchAlignment
+	Scratch = 1 << 6,       ///< scratch of builds; aligned to FRTCapabilities::ScratchAlignment
 	ShaderTable = 1 << 7,
 };
 
+/// Uses of a texture (flags).
 enum class ERTTextureUsage : uint32_t
 {
 	None = 0,
@@ -99,12 +100,11 @@ enum class ERTTextureUsage : uint32_t
 	CopyDest = 1 << 5,
 };
 
-/// How a resource is used between two barriers. A texture's layout follows from it.
-/// Combine reads with |; a write stands alone, but StorageWrite may be combined with ShaderRead on a
-/// storage texture or buffer (read-modify-write).
+/// Use of a resource between two barriers. A texture's layout follows from it. Reads may be combined with |. A write stands
+/// alone, but StorageWrite may be combined with ShaderRead on a storage texture or buffer (read-modify-write).
 enum class ERTAccess : uint32_t
 {
-	None = 0,              ///< contents undefined (textures: layout undefined)
+	None = 0,              ///< contents are undefined (textures: the layout too)
 	ShaderRead = 1 << 0,   ///< sampled texture, or buffer read by any shader stage
 	StorageRead = 1 << 1,  ///< imageLoad
 	StorageWrite = 1 << 2, ///< imageStore, buffer writes, atomics
@@ -115,7 +115,7 @@ enum class ERTAccess : uint32_t
 	CopyRead = 1 << 7,
 	CopyWrite = 1 << 8,
 	GeometryInput = 1 << 9, ///< read by an acceleration structure build
-	BuildRead = 1 << 10,    ///< a BLAS read by a TLAS build, an update's source
+	BuildRead = 1 << 10,    ///< a BLAS read by a TLAS build, or the source of an update
 	BuildWrite = 1 << 11,   ///< an acceleration structure or scratch written by a build
 	TraceRead = 1 << 12,    ///< an acceleration structure or shader table read by rays
 	HostRead = 1 << 13,
@@ -153,34 +153,29 @@ LANTERN_RT_FLAGS(ERTAccess)
 
 // ---------------------------------------------------------------------------------------------------- capabilities
 
-/// Rungs of the ladder; each includes those before it. Chosen once, when the device is created.
-///  None: no ray-traced feature runs (raster and compute only).
-///  RayQuery: inline rays in compute; no hit groups, so no reference path tracer and no RTPSO.
-///  Pipeline: ray-tracing pipelines (a device may have these without ray query: see bRayQuery).
-///  Reorder: + shader execution reordering. Below it: divergent hit shading is slower.
-///  Micromap: + opacity micromaps. Below it: alpha tests run in any-hit shaders.
+/// What a device can do, as rungs of a ladder: each includes those before it. Chosen once, when the device is created.
 enum class ERTRung : uint8_t
 {
-	None,
-	RayQuery,
-	Pipeline,
-	Reorder,
-	Micromap,
+	None,     ///< raster and compute only: no ray-traced feature runs
+	RayQuery, ///< inline rays in compute; no hit groups, so no reference path tracer and no RTPSO
+	Pipeline, ///< ray-tracing pipelines; a device may have these without ray query (see bRayQuery)
+	Reorder,  ///< shader execution reordering; below it, divergent hit shading is slower
+	Micromap, ///< opacity micromaps; below it, alpha tests run in any-hit shaders
 };
 
 struct FRTCapabilities
 {
 	char DeviceName[256] = {};
-	char DriverName[256] = {}; ///< name and version, as the driver gives them, in characters that may be shown
-	bool bIsCpu = false;       ///< absolute times are not to be reported
+	char DriverName[256] = {}; ///< name and version as the driver gives them, in characters that may be shown
+	bool bIsCpu = false;       ///< renders on the processor: report no absolute times
 	ERTRung Rung = ERTRung::None;
 	bool bRayQuery = false;
 	bool bRayTracingPipeline = false;
 	bool bPipelineLibraries = false;
-	/// A linked pipeline may take all of its groups from libraries. False where the driver needs ray generation and miss
-	/// groups among the link's own (FRTRayTracingPipelineDesc::Groups); hit groups may always come from libraries.
+	/// A linked pipeline may take all of its groups from libraries. If false, the driver needs ray generation and miss groups
+	/// among the link's own (FRTRayTracingPipelineDesc::Groups). Hit groups may always come from libraries.
 	bool bLibraryOnlyPipelines = false;
-	bool bDeferredOperations = false; ///< the extension is there (it may still never defer)
+	bool bDeferredOperations = false; ///< the extension is there; it may still never defer
 	bool bIndirectTrace = false;
 	bool bPositionFetch = false;
 	bool bReorder = false;
@@ -196,7 +191,7 @@ struct FRTCapabilities
 	uint64_t MaxPrimitiveCount = 0;
 	uint32_t MaxTextureDimension = 0;
 	uint32_t MaxPushConstantBytes = 128;
-	uint32_t MaxBindlessTextures = 0; ///< sampled and storage each
+	uint32_t MaxBindlessTextures = 0; ///< of sampled and of storage textures each
 	uint64_t DeviceMemoryBytes = 0;
 	double TimestampPeriodNs = 0.0;
 };
@@ -221,7 +216,7 @@ struct FRTTextureDesc
 {
 	uint32_t Width = 0, Height = 0;
 	uint32_t MipCount = 1;
-	uint32_t ArraySize = 1; ///< > 1: the sampled view is a 2D array
+	uint32_t ArraySize = 1; ///< if > 1, the sampled view is a 2D array
 	ERTFormat Format = ERTFormat::Unknown;
 	ERTTextureUsage Usage = ERTTextureUsage::None;
 	const char* Name = "";
@@ -247,7 +242,7 @@ struct FRTSamplerDesc
 	const char* Name = "";
 };
 
-/// SPIR-V of one stage; entry point "main".
+/// SPIR-V of one stage. Its entry point is "main".
 struct FRTShaderCode
 {
 	const uint32_t* Words = nullptr;
@@ -269,16 +264,16 @@ enum class ERTCull : uint8_t
 	Front
 };
 
-/// Raster pipelines pull their vertices from buffer addresses: there is no vertex input. Counter-clockwise is
-/// front; depth is reversed (1 near, 0 far), test is greater-or-equal.
-/// Clip space is Vulkan's: y down, z from 0 to 1; winding is as seen on the target.
+/// Raster pipelines pull their vertices from buffer addresses: there is no vertex input. Clip space is Vulkan's: y down, z from
+/// 0 to 1. Counter-clockwise is front, as seen on the target. Depth is reversed (1 near, 0 far); the test is
+/// greater-or-equal.
 struct FRTRasterPipelineDesc
 {
 	FRTShaderCode Vertex;
-	FRTShaderCode Fragment; ///< Words may be null: depth only
+	FRTShaderCode Fragment; ///< Words may be null for depth only
 	const ERTFormat* ColorFormats = nullptr;
 	uint32_t ColorCount = 0;
-	ERTFormat DepthFormat = ERTFormat::Unknown; ///< Unknown: no depth test
+	ERTFormat DepthFormat = ERTFormat::Unknown; ///< Unknown for no depth test
 	ERTCull Cull = ERTCull::Back;
 	bool bDepthWrite = true;
 	const char* Name = "";
@@ -293,7 +288,7 @@ enum class ERTGroupKind : uint8_t
 	Procedural, ///< AABBs with an intersection shader
 };
 
-/// Indices into FRTRayTracingPipelineDesc::Shaders.
+/// A group of shaders. Members are indices into FRTRayTracingPipelineDesc::Shaders, or NoShader.
 struct FRTShaderGroup
 {
 	ERTGroupKind Kind = ERTGroupKind::General;
@@ -303,19 +298,19 @@ struct FRTShaderGroup
 	uint32_t Intersection = NoShader;
 };
 
-/// Monolithic (no libraries), a library, or linked from libraries. Groups are numbered: its own first, then those of each
-/// library in order. With bPipelineLibraries only: bLibrary and Libraries.
+/// A monolithic pipeline (no libraries), a library, or a pipeline linked from libraries. Its own groups are numbered first, then
+/// those of each library in order. bLibrary and Libraries need FRTCapabilities::bPipelineLibraries.
 struct FRTRayTracingPipelineDesc
 {
-	const FRTShaderCode* Shaders = nullptr; ///< may be none where there are libraries
+	const FRTShaderCode* Shaders = nullptr; ///< may be null if there are libraries
 	uint32_t ShaderCount = 0;
 	const FRTShaderGroup* Groups = nullptr;
 	uint32_t GroupCount = 0;
-	/// Libraries (made with bLibrary, and with the same recursion, payload and attribute sizes) to link. They may be
+	/// Libraries to link, made with bLibrary and with the recursion, payload and attribute sizes of this description. They may be
 	/// released afterwards: the linked pipeline keeps what it needs.
 	IRTPipeline* const* Libraries = nullptr;
 	uint32_t LibraryCount = 0;
-	/// Makes a library: good for linking only, never for SetPipeline or a shader table. Has at least one shader.
+	/// Makes a library, which has at least one shader. It is good for linking only, never for SetPipeline or a shader table.
 	bool bLibrary = false;
 	uint32_t MaxRecursion = 1;
 	uint32_t MaxPayloadBytes = 32;
@@ -323,19 +318,19 @@ struct FRTRayTracingPipelineDesc
 	const char* Name = "";
 };
 
-/// One section of a geometry: triangles of float3 positions, or AABBs of six floats (min, max) where
-/// bProcedural. Only counts, strides, index type and flags matter for sizes; addresses are read at build.
+/// One section of a geometry: triangles of float3 positions, or, if bProcedural, AABBs of six floats (min, max). Sizes depend on
+/// counts, strides, index type and flags alone; addresses are read when the geometry is built.
 struct FRTGeometrySection
 {
-	IRTBuffer* Vertices = nullptr; ///< or AABBs
+	IRTBuffer* Vertices = nullptr; ///< or the AABBs
 	uint64_t VertexOffset = 0;     ///< bytes
-	uint32_t VertexStride = 12;    ///< bytes; AABBs: 24
-	uint32_t VertexCount = 0;      ///< AABBs: their number
+	uint32_t VertexStride = 12;    ///< bytes; 24 for AABBs
+	uint32_t VertexCount = 0;      ///< or the number of AABBs
 	IRTBuffer* Indices = nullptr;
 	uint64_t IndexOffset = 0; ///< bytes
 	uint32_t TriangleCount = 0;
 	ERTIndexType IndexType = ERTIndexType::UInt32;
-	bool bOpaque = true; ///< false: any-hit runs
+	bool bOpaque = true; ///< if false, any-hit shaders run
 	bool bProcedural = false;
 };
 
@@ -344,10 +339,10 @@ struct FRTGeometryDesc
 	const FRTGeometrySection* Sections = nullptr;
 	uint32_t SectionCount = 0; ///< > 0, each with at least one primitive
 	bool bAllowUpdate = false; ///< may be refitted
-	bool bFastBuild = false;   ///< prefer build speed to trace speed
+	bool bFastBuild = false;   ///< prefers build speed to trace speed
 	bool bAllowCompaction = false;
-	/// > 0: storage for a compacted copy (IRTCommandList::CompactGeometry), of this many bytes. Everything else as it was
-	/// for the geometry to be copied.
+	/// If > 0, makes storage of this many bytes for a compacted copy (IRTCommandList::CompactGeometry). All other members are
+	/// those of the geometry to be copied.
 	uint64_t CompactedBytes = 0;
 	const char* Name = "";
 };
@@ -361,18 +356,18 @@ struct FRTSceneDesc
 
 /// Bits of FRTInstance::Flags.
 inline constexpr uint8_t InstanceCullDisable = 1;
-/// A triangle's front is the side from which its vertices run counter-clockwise (right-handed, as glTF), decided in
-/// object space; this turns it around.
+/// Turns the front of triangles around. A triangle's front is the side from which its vertices run counter-clockwise in object
+/// space (right-handed, as in glTF).
 inline constexpr uint8_t InstanceFlipFacing = 2;
 inline constexpr uint8_t InstanceForceOpaque = 4;
 inline constexpr uint8_t InstanceForceNoOpaque = 8;
 
-/// As the GPU reads it; written by the CPU or a shader into a GeometryInput buffer.
+/// One instance as the GPU reads it. The CPU or a shader writes it to a GeometryInput buffer.
 struct FRTInstance
 {
 	float Transform[12];          ///< object to world, 3 rows of 4
-	uint32_t CustomIndexAndMask;  ///< index: low 24 bits; mask: high 8
-	uint32_t TableOffsetAndFlags; ///< first hit record: low 24 bits; Instance… flags: high 8
+	uint32_t CustomIndexAndMask;  ///< index in the low 24 bits, mask in the high 8
+	uint32_t TableOffsetAndFlags; ///< first hit record in the low 24 bits, Instance… flags in the high 8
 	uint64_t GeometryAddress;     ///< IRTGeometry::GetDeviceAddress()
 };
 static_assert(sizeof(FRTInstance) == 64, "layout of VkAccelerationStructureInstanceKHR");
@@ -389,12 +384,12 @@ struct FRTBuildSizes
 struct FRTGeometryBuild
 {
 	IRTGeometry* Geometry = nullptr;
-	/// Same counts, strides and flags as at creation.
+	/// Counts, strides and flags are those given at creation.
 	const FRTGeometrySection* Sections = nullptr;
 	uint32_t SectionCount = 0;
-	bool bUpdate = false; ///< refit in place; needs bAllowUpdate and an earlier build
+	bool bUpdate = false; ///< refits in place; needs bAllowUpdate and an earlier build
 	IRTBuffer* Scratch = nullptr;
-	uint64_t ScratchOffset = 0; ///< multiple of ScratchAlignment; builds of one call must not overlap
+	uint64_t ScratchOffset = 0; ///< bytes, a multiple of ScratchAlignment; builds of one call must not overlap
 };
 
 enum class ERTQuery : uint8_t
@@ -403,7 +398,7 @@ enum class ERTQuery : uint8_t
 	CompactedSize, ///< bytes that a built geometry needs once compacted
 };
 
-/// Bytes of record data beside the handle, at most.
+/// The most bytes of data that a record has beside its handle.
 inline constexpr uint32_t MaxRecordDataBytes = 32;
 
 struct FRTShaderTableDesc
@@ -414,8 +409,8 @@ struct FRTShaderTableDesc
 	uint32_t HitCount = 0;
 	uint32_t CallableCount = 0;
 	uint32_t RecordDataBytes = 0; ///< of hit records, ≤ MaxRecordDataBytes; the others carry none
-	/// Host copies made at creation (≥ 1): one for each frame in flight, and one to fill. More are made, never waited
-	/// for, where all are in use.
+	/// Host copies made at creation (≥ 1): one for each frame in flight, and one to fill. If all are in use, another is made;
+	/// nothing waits.
 	uint32_t Copies = 3;
 	const char* Name = "";
 };
@@ -430,7 +425,7 @@ enum class ERTRecordKind : uint8_t
 
 struct FRTBarrier
 {
-	IRTBuffer* Buffer = nullptr;   ///< at most one of Buffer and Texture; neither: a memory barrier
+	IRTBuffer* Buffer = nullptr;   ///< at most one of Buffer and Texture; without one, a memory barrier
 	IRTTexture* Texture = nullptr; ///< all mips and layers
 	ERTAccess Before = ERTAccess::None;
 	ERTAccess After = ERTAccess::None;
@@ -448,11 +443,11 @@ struct FRTRasterPassDesc
 	const FRTColorTarget* Colors = nullptr;
 	uint32_t ColorCount = 0;
 	IRTTexture* Depth = nullptr;
-	bool bClearDepth = true; ///< to 0, the far plane
+	bool bClearDepth = true; ///< clears to 0, the far plane
 	uint32_t Width = 0, Height = 0;
 };
 
-/// One of several copies between the same two buffers; bytes.
+/// One of several copies between two buffers. All members are in bytes.
 struct FRTBufferRegion
 {
 	uint64_t DestOffset = 0, SourceOffset = 0, Size = 0;
