@@ -1,3 +1,4 @@
+// Buffers: memory, copies and fills.
 #include "ContractFixture.h"
 
 namespace Lantern

@@ -1,3 +1,4 @@
+// Devices of the corpus, and what must be true when a test ends.
 #include "ContractFixture.h"
 
 #include "LanternRHIMock/MockDevice.h"

@@ -1,3 +1,4 @@
+// Pipelines made of the shaders of the corpus.
 #include "ContractShaders.h"
 
 #include "Shaders/BoxHit_rchit.h"

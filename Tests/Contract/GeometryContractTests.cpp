@@ -1,3 +1,4 @@
+// Geometries: sizes, builds and refits.
 #include "Support/ContractScene.h"
 
 namespace Lantern

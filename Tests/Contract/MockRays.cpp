@@ -1,3 +1,4 @@
+// Follows rays through the memory of the mock.
 #include "MockRays.h"
 
 #include <algorithm>

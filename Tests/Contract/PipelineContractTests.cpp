@@ -1,3 +1,4 @@
+// Creation and release of pipelines.
 #include "ContractShaders.h"
 
 namespace Lantern

@@ -1,3 +1,4 @@
+// Scenes: builds of top-level acceleration structures, and their geometries' lives.
 #include "Support/ContractScene.h"
 
 namespace Lantern

@@ -1,3 +1,4 @@
+// Shader tables: strides, updates, growth and the swap of the pipeline.
 #include "ContractShaders.h"
 
 namespace Lantern

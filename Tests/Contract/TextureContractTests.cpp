@@ -1,3 +1,4 @@
+// Textures: copies, mips, indices and samplers.
 #include "ContractFixture.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// FMockCommandList: recording, copies, raster and queries.
 #include "MockCommandList.h"
 
 #include <algorithm>

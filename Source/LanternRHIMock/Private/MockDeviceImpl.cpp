@@ -1,3 +1,4 @@
+// FMockDevice: capabilities, submission, fences and the end of the device.
 #include "MockDeviceImpl.h"
 
 #include "MockCommandList.h"

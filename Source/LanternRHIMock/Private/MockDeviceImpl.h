@@ -1,3 +1,4 @@
+// The mock device behind IRTDevice.
 #pragma once
 
 #include "MockObjects.h"

@@ -1,3 +1,4 @@
+// Resources of the mock: buffers, textures, samplers, geometries and query pools.
 #include "MockObjects.h"
 
 #include "MockTexels.h"

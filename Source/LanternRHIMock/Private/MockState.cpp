@@ -1,3 +1,4 @@
+// FMockState: call log, memory budget, submissions and released objects.
 #include "MockState.h"
 
 #include "MockCommandList.h"

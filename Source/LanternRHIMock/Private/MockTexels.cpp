@@ -1,3 +1,4 @@
+// Encoding and filtering of texels on the CPU.
 #include "MockTexels.h"
 
 #include <algorithm>

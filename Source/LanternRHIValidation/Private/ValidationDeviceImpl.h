@@ -1,3 +1,4 @@
+// The wrapper around a device.
 #pragma once
 
 #include "ValidationCommandList.h"

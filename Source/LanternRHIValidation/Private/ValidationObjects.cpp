@@ -1,3 +1,4 @@
+// Wrappers around buffers, textures, geometries and scenes: what they track.
 #include "ValidationObjects.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// FValidationState: messages, and which objects live or have died.
 #include "ValidationState.h"
 
 #include "ValidationObjects.h"

@@ -1,3 +1,4 @@
+// FValidationTracker: resource states, builds and shader tables across submissions.
 #include "ValidationTracker.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The mock device: resources, fences, faults and the call log.
 #include "Support/MockTestTools.h"
 
 #include <chrono>

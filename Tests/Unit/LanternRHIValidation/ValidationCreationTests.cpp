@@ -1,3 +1,4 @@
+// Rules for the creation, import and release of objects.
 #include "Support/TextCheck.h"
 #include "Support/ValidationTestTools.h"
 

@@ -1,3 +1,4 @@
+// FVulkanCommandList: recording, barriers, pipelines, raster passes and queries.
 #include "Commands/VulkanCommandList.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Command lists: a VkCommandBuffer of our own or of the engine, and the objects that it keeps.
 #pragma once
 
 #include "Commands/VulkanQueryPool.h"

@@ -1,3 +1,4 @@
+// FVulkanCommandList: copies, fills, clears and mips.
 #include "Commands/VulkanCommandList.h"
 
 #include <algorithm>

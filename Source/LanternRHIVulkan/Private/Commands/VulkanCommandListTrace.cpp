@@ -1,3 +1,4 @@
+// FVulkanCommandList: rays, shader tables and acceleration structures.
 #include "Commands/VulkanCommandList.h"
 
 #include <cassert>

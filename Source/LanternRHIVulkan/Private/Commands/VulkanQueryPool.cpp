@@ -1,3 +1,4 @@
+// FVulkanQueryPool: timestamps and compacted sizes.
 #include "Commands/VulkanQueryPool.h"
 
 #include "Device/VulkanQuirks.h"

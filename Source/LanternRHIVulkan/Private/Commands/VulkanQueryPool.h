@@ -1,3 +1,4 @@
+// Query pools, and what is known of their results on drivers that cannot be asked.
 #pragma once
 
 #include "Device/VulkanDeviceImpl.h"

@@ -1,3 +1,4 @@
+// Loads the Vulkan loader and fills the function tables.
 #include "Device/VulkanApi.h"
 
 #if defined(_WIN32)

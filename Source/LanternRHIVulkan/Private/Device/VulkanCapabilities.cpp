@@ -1,3 +1,4 @@
+// Probes a physical device: capabilities, features and extensions to enable, and what is missing.
 #include "Device/VulkanCapabilities.h"
 
 #include "Device/VulkanQuirks.h"

@@ -1,3 +1,4 @@
+// FVulkanDevice: lifetime, the timeline of its queue, and memory statistics.
 #include "Device/VulkanDeviceImpl.h"
 
 #include "Commands/VulkanCommandList.h"

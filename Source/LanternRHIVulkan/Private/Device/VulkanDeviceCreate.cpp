@@ -1,3 +1,4 @@
+// Creation and take-over of a device, and the choice among devices.
 #include "Device/VulkanDeviceImpl.h"
 
 #include "Device/VulkanRequirements.h"

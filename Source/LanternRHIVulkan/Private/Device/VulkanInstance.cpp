@@ -1,3 +1,4 @@
+// FVulkanInstance: creation, take-over, and messages of the validation layers.
 #include "Device/VulkanInstance.h"
 
 #include "Device/VulkanStatus.h"

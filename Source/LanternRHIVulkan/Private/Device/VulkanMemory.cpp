@@ -1,3 +1,4 @@
+// FVulkanMemory: suballocation of device memory by VMA.
 #include "Device/VulkanMemory.h"
 
 // All that VMA includes, before its own text goes into a namespace.

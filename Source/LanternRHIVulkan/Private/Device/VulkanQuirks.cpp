@@ -1,3 +1,4 @@
+// The table of known faults of drivers.
 #include "Device/VulkanQuirks.h"
 
 #include <cstdio>

@@ -1,3 +1,4 @@
+// What an engine's vkCreateDevice must enable, and how it joins the engine's feature chain.
 #include "Device/VulkanRequirements.h"
 
 #include "Device/VulkanStatus.h"

@@ -1,3 +1,4 @@
+// Implementation of IRTVulkanRequirements.
 #pragma once
 
 #include "Device/VulkanCapabilities.h"

@@ -1,3 +1,4 @@
+// Results of Vulkan as FRTStatus.
 #include "Device/VulkanStatus.h"
 
 #include <cstdio>

@@ -1,3 +1,4 @@
+// Results of Vulkan as FRTStatus.
 #pragma once
 
 #include <string>

@@ -1,3 +1,4 @@
+// Tables from the RHI's formats, usages and accesses to Vulkan's.
 #include "Device/VulkanTranslate.h"
 
 #include "LanternRHIVulkan/VulkanInterop.h"

@@ -1,3 +1,4 @@
+// FVulkanPipeline: compute and raster pipelines.
 #include "Pipelines/VulkanPipeline.h"
 
 #include "Pipelines/VulkanShaderModules.h"

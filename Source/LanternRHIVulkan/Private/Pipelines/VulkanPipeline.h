@@ -1,3 +1,4 @@
+// Pipelines of all kinds, and the handles of their shader groups.
 #pragma once
 
 #include "Device/VulkanDeviceImpl.h"

@@ -1,3 +1,4 @@
+// FVulkanPipelineCache: reads, checks and writes the file.
 #include "Pipelines/VulkanPipelineCache.h"
 
 #include "Device/VulkanStatus.h"

@@ -1,3 +1,4 @@
+// Shader modules while a pipeline is created.
 #pragma once
 
 #include "Device/VulkanDeviceImpl.h"

@@ -1,3 +1,4 @@
+// FVulkanGeometry and FVulkanScene: sizes, storage and creation of acceleration structures.
 #include "Resources/VulkanAccel.h"
 
 #include <cassert>

@@ -1,3 +1,4 @@
+// Acceleration structures: geometries (BLAS) and scenes (TLAS).
 #pragma once
 
 #include "Resources/VulkanBuffer.h"

@@ -1,3 +1,4 @@
+// FVulkanBindless: the one descriptor set and its indices.
 #include "Resources/VulkanBindless.h"
 
 namespace Lantern

@@ -1,3 +1,4 @@
+// FVulkanBlock and FVulkanBuffer: buffers with their memory.
 #include "Resources/VulkanBuffer.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Buffers with their memory and address.
 #pragma once
 
 #include "Device/VulkanDeviceImpl.h"

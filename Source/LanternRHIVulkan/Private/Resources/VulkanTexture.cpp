@@ -1,3 +1,4 @@
+// FVulkanTexture and FVulkanSampler: images, views and their bindless indices.
 #include "Resources/VulkanTexture.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Textures, our own or the engine's, and samplers.
 #pragma once
 
 #include "Device/VulkanDeviceImpl.h"

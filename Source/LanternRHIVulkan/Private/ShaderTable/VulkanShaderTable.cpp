@@ -1,3 +1,4 @@
+// FVulkanShaderTable: growth, staging, and what an update does on the GPU.
 #include "ShaderTable/VulkanShaderTable.h"
 
 #include <algorithm>

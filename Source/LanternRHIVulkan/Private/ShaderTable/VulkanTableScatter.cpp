@@ -1,3 +1,4 @@
+// FVulkanTableScatter: the compute pass that writes shader records.
 #include "ShaderTable/VulkanTableScatter.h"
 
 #include "Pipelines/VulkanShaderModules.h"
