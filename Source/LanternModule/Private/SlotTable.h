@@ -1,4 +1,4 @@
-// Things named by handles: a slot is used again, a handle is not.
+// Values named by handles. A slot is used again; a handle is not.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 namespace Lantern
 {
 
-/// THandle: an enum over uint64_t whose None is 0. The low half counts slots from 1, the high half the slot's uses.
+/// THandle: an enum over uint64_t whose None is 0. The low half is the slot, from 1; the high half counts the slot's uses.
 template <class T, class THandle>
 class TSlotTable
 {
@@ -26,17 +26,17 @@ public:
 		Slots[Index].Value = std::move(Value);
 		return static_cast<THandle>(uint64_t(Slots[Index].Generation) << 32 | (Index + 1));
 	}
-	/// Null: the handle is None, was removed, or never was. Valid until the next Add.
+	/// Returns null if the handle is None, was removed, or never was. The pointer is valid until the next Add.
 	T* Find(THandle Handle)
 	{
 		const uint64_t Bits = static_cast<uint64_t>(Handle);
-		const uint32_t Index = static_cast<uint32_t>(Bits) - 1; // of None: past any end
+		const uint32_t Index = static_cast<uint32_t>(Bits) - 1; // None becomes an index past any end
 		const bool bKnown = Index < Slots.size() && Slots[Index].Generation == Bits >> 32 && Slots[Index].Value;
 		return bKnown ? &*Slots[Index].Value : nullptr;
 	}
-	/// The slot that Handle, which Find finds or found, has or had.
+	/// Returns the slot of a handle that Find finds now or found once.
 	static uint32_t GetSlot(THandle Handle) { return static_cast<uint32_t>(static_cast<uint64_t>(Handle)) - 1; }
-	/// Handle: one that Find finds.
+	/// Handle: one that Find finds now.
 	void Remove(THandle Handle)
 	{
 		const uint32_t Index = GetSlot(Handle);

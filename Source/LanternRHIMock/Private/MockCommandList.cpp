@@ -31,7 +31,7 @@ void FMockCommandList::Log(ERTMockCall Kind, const std::string& Object, const FR
 {
 	if (!State->bRecordCalls)
 	{
-		(void)State->Log(Kind, Object); // for the faults
+		(void)State->Log(Kind, Object); // the call may be the one that loses the device
 		return;
 	}
 	FRTMockCall Call;

@@ -1,4 +1,4 @@
-// Records calls for inspection, and closures that run when the submission does.
+// Command lists of the mock: calls for inspection, and closures that run when the submission does.
 #pragma once
 
 #include "MockObjects.h"
@@ -72,7 +72,7 @@ private:
 	std::vector<uint8_t> Push;
 	FMockPipeline* Pipeline = nullptr;
 	uint64_t Native = 0;
-	FRTStatus Failed; ///< told by End
+	FRTStatus Failed; ///< what End returns
 	EStage Stage = EStage::Idle;
 	bool bInPass = false;
 };

@@ -1,4 +1,4 @@
-// Creation calls of the mock device.
+// FMockDevice: creation of everything but pipelines.
 
 #include "LanternRHI/RTText.h"
 #include "MockCommandList.h"

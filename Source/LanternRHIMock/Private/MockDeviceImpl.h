@@ -41,10 +41,10 @@ public:
 
 private:
 	void OnFinalRelease() override;
-	/// Logs, then checks the loss of the device.
+	/// Logs the call; returns DeviceLost if the device is lost.
 	FRTStatus Start(ERTMockCall Kind, const char* Name, const FRTMockNumbers& Numbers = {});
 	FRTStatus TakeIndices(const FRTTextureDesc& Desc, FMockTexture& Texture);
-	/// Sleeps and fails as told; under no lock.
+	/// Sleeps and fails as tests asked for. Call it under no lock.
 	FRTStatus Compile(const char* Name);
 	void CheckLibrary(const FMockPipeline& Link, const FMockPipeline& Library);
 	FRTStatus Enqueue(ERTMockCall Kind, IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence);

@@ -1,4 +1,4 @@
-// FRTMock: looking at, and breaking, a mock device.
+// FRTMock: inspection of a mock device, and injection of faults.
 
 #include "MockShaderTable.h"
 

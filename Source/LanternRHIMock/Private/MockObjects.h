@@ -29,7 +29,7 @@ class FMockBuffer final : public TMockObject<IRTBuffer>
 public:
 	FMockBuffer(std::shared_ptr<FMockState> InState, const FRTBufferDesc& InDesc);
 	~FMockBuffer() override;
-	/// False: the host has no memory for it.
+	/// False if the host has no memory for it.
 	bool HasBytes() const { return Bytes != nullptr; }
 
 	const FRTBufferDesc& GetDesc() const override { return Desc; }
@@ -55,7 +55,7 @@ public:
 
 	uint32_t GetWidth(uint32_t Mip) const { return Desc.Width >> Mip ? Desc.Width >> Mip : 1; }
 	uint32_t GetHeight(uint32_t Mip) const { return Desc.Height >> Mip ? Desc.Height >> Mip : 1; }
-	/// Allocated at first use: most textures of a test are never touched. Only while executing.
+	/// Allocates at first use, since most textures of a test are never touched. Call it only while executing.
 	std::vector<uint8_t>& GetTexels(uint32_t Mip, uint32_t Layer);
 	void Clear(const float Value[4]);
 	void GenerateMips();
@@ -87,7 +87,7 @@ struct FMockGroup
 	std::string General, ClosestHit, AnyHit, Intersection;
 	ERTShaderStage GeneralStage = ERTShaderStage::RayGen;
 };
-/// A pipeline's groups outlive it where records on the device still point at them.
+/// Groups of a pipeline. They outlive it if records on the device still point at them.
 using FMockGroups = std::shared_ptr<const std::vector<FMockGroup>>;
 
 enum class EMockPipeline : uint8_t
@@ -107,8 +107,8 @@ public:
 
 	EMockPipeline Kind = EMockPipeline::Compute;
 	uint64_t Id = 0;    ///< in the handles of its groups
-	FMockGroups Groups; ///< own ones first, then those of each library
-	/// Of its groups, as the device gives them out: ShaderGroupHandleSize bytes each.
+	FMockGroups Groups; ///< its own first, then those of each library
+	/// Handles of its groups as a device gives them out, ShaderGroupHandleSize bytes each.
 	std::vector<uint8_t> Handles;
 	bool bLibrary = false;
 	std::array<uint32_t, 3> Interface = {}; ///< recursion, payload and attribute bytes: a link's must be its libraries'
@@ -126,13 +126,13 @@ public:
 
 	static uint64_t CountPrimitives(const FRTGeometrySection* Sections, uint32_t Count);
 	static FRTBuildSizes ComputeSizes(const FRTGeometryDesc& Desc);
-	/// What the device says when asked. 60 %, about what drivers reach.
+	/// Returns what a query says: 60 % of the whole, about what drivers reach.
 	uint64_t GetCompactedSize() const { return CompactedBytes ? CompactedBytes : AlignUp(Sizes.StructureBytes * 6 / 10, 128); }
 
 	uint64_t Address = 0;
 	uint32_t SectionCount = 0;
 	bool bAllowUpdate = false, bAllowCompaction = false;
-	uint64_t CompactedBytes = 0; ///< > 0: made for a compacted copy
+	uint64_t CompactedBytes = 0; ///< if > 0, made for a compacted copy
 	FRTBuildSizes Sizes;
 	FRTMockGeometry Built; ///< guarded by FMockState::Mutex
 };
@@ -152,9 +152,9 @@ public:
 	FRTBuildSizes Sizes;
 	void Build(const uint8_t* Source, uint32_t Count);
 
-	// As of the last executed build; guarded by FMockState::Mutex.
+	// State of the last executed build; guarded by FMockState::Mutex.
 	std::vector<FRTInstance> Instances;
-	std::vector<uint8_t> bBuilt; ///< of each instance: its geometry had been built by then
+	std::vector<uint8_t> bBuilt; ///< for each instance, whether its geometry had been built by then
 };
 
 class FMockQueryPool final : public TMockObject<IRTQueryPool>
@@ -166,7 +166,7 @@ public:
 	bool GetResults(uint32_t First, uint32_t Count, uint64_t* OutValues) override;
 
 	ERTQuery Kind = ERTQuery::Timestamp;
-	std::vector<uint64_t> Values; ///< 0: not written; guarded by FMockState::Mutex
+	std::vector<uint64_t> Values; ///< 0 if not written; guarded by FMockState::Mutex
 };
 
 } // namespace Lantern

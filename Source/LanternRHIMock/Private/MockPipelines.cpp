@@ -1,4 +1,4 @@
-// Creation of pipelines, libraries and links.
+// FMockDevice: creation of pipelines, libraries and links.
 
 #include "LanternRHI/RTText.h"
 #include "MockDeviceImpl.h"
@@ -39,7 +39,7 @@ std::vector<FMockGroup> MakeOwnGroups(const FRTRayTracingPipelineDesc& Desc)
 	return Groups;
 }
 
-/// Rays through a link whose ray generation or miss groups come from a library see no push constants on such drivers.
+/// Says whether drivers without bLibraryOnlyPipelines need the group in the link: from a library, it would see no push constants.
 bool IsBoundToLink(const FMockGroup& Group)
 {
 	return Group.Kind == ERTGroupKind::General && Group.GeneralStage != ERTShaderStage::Callable;

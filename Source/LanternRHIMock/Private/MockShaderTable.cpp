@@ -1,4 +1,4 @@
-// Records, their layout and the host's side of an update.
+// FMockShaderTable: the host's side: records, growth and staging.
 
 #include "MockShaderTable.h"
 #include "LanternRHI/RTText.h"
@@ -111,7 +111,7 @@ FRTStatus FMockShaderTable::AddHostCopy(std::shared_ptr<FMockHostCopy>& Out, boo
 FRTStatus FMockShaderTable::AcquireHostCopy(std::shared_ptr<FMockHostCopy>& OutUse)
 {
 	const auto IsFree = [](const auto& Copy) { return Copy->Users.load(std::memory_order_acquire) == 0; };
-	// Too small since the table grew; those in use go once they are not.
+	// Copies from before a growth are too small. Those in use go later.
 	std::erase_if(Ring, [&](const auto& Copy) { return IsFree(Copy) && Copy->Size < GetSizeBytes(); });
 	const auto Found =
 	    std::find_if(Ring.begin(), Ring.end(), [&](const auto& Copy) { return IsFree(Copy) && Copy->Size >= GetSizeBytes(); });

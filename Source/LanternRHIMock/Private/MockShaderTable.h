@@ -9,7 +9,7 @@
 namespace Lantern
 {
 
-/// Memory of one copy; counts as the device's until its last owner lets go.
+/// Memory of one copy. It counts as the device's until its last owner lets go.
 class FMockTableMemory
 {
 public:
@@ -32,12 +32,12 @@ struct FMockHostCopy : FMockTableMemory
 	std::atomic<uint32_t> Users = 0; ///< staged, recorded or in flight
 };
 
-/// As executed; guarded by FMockShaderTable::DeviceMutex.
+/// The table on the device, as executed updates left it. Guarded by FMockShaderTable::DeviceMutex.
 struct FMockDeviceCopy : FMockTableMemory
 {
 	using FMockTableMemory::FMockTableMemory;
 	FTableLayout Layout;
-	uint64_t Pipeline = 0; ///< id of the one it was last updated for
+	uint64_t Pipeline = 0; ///< id of the pipeline of the last update
 	FMockGroups Groups;    ///< of that pipeline
 	bool bUpdated = false;
 };
@@ -46,7 +46,7 @@ class FMockShaderTable final : public TMockObject<IRTShaderTable>
 {
 public:
 	FMockShaderTable(std::shared_ptr<FMockState> InState, const FRTShaderTableDesc& InDesc);
-	/// The copies that a new table has.
+	/// Allocates the copies that a new table has.
 	FRTStatus Allocate();
 
 	const FRTShaderTableDesc& GetDesc() const override { return Desc; }
@@ -70,15 +70,15 @@ public:
 	{
 		std::shared_ptr<FMockHostCopy> Source; ///< in use until the last update with it is gone
 		std::vector<FRange> Ranges;
-		std::shared_ptr<FMockDeviceCopy> From; ///< null: nothing moves
+		std::shared_ptr<FMockDeviceCopy> From; ///< null if nothing moves
 		std::shared_ptr<FMockDeviceCopy> To;
 		TRTRef<FMockPipeline> Pipeline;
 		uint64_t Bytes = 0, MovedBytes = 0;
 	};
-	/// Stages what is not and takes it. On error nothing has changed.
+	/// Stages the rest and takes all that is staged. On error nothing has changed.
 	FRTStatus TakeUpdate(FUpdate& Out);
 	void Execute(const FUpdate& Update);
-	/// Empty where rays with the table's pipeline of that id may be traced with this copy.
+	/// Returns why rays with the pipeline of this id may not be traced with this copy; empty if they may.
 	std::string CheckTrace(const FMockDeviceCopy& Copy, uint64_t PipelineId) const;
 	const std::shared_ptr<FMockDeviceCopy>& GetDeviceCopy() const { return Current; }
 	FRTMockRecord Resolve(ERTRecordKind Kind, uint32_t Index) const;
@@ -91,7 +91,7 @@ private:
 	/// Moves the dirty records into Staged.
 	void Gather();
 	void MergeStaged();
-	/// What is staged is dirty again: its copy will not be recorded.
+	/// Makes what is staged dirty again: its copy will not be recorded.
 	void Unstage();
 	FRTStatus AcquireHostCopy(std::shared_ptr<FMockHostCopy>& OutUse);
 	FRTStatus AddHostCopy(std::shared_ptr<FMockHostCopy>& Out, bool bCount);
@@ -104,8 +104,8 @@ private:
 	std::vector<FRange> StagedRanges;
 	uint32_t CopiesMade = 0;
 
-	std::shared_ptr<FMockDeviceCopy> Current; ///< of what is recorded now
-	std::shared_ptr<FMockDeviceCopy> Next;    ///< after Reserve: of what is recorded from the next update on
+	std::shared_ptr<FMockDeviceCopy> Current; ///< for what is recorded now
+	std::shared_ptr<FMockDeviceCopy> Next;    ///< after Reserve, for what is recorded from the next update on
 
 	mutable std::mutex DeviceMutex; ///< of everything below and of the contents of device copies
 	std::shared_ptr<FMockDeviceCopy> Executed;

@@ -126,7 +126,7 @@ void FMockState::Retire(FMockObject* Object)
 
 void FMockState::Collect()
 {
-	// Destroying one object may release others, which land in Retired again: until nothing is ready.
+	// Destroying one object may release others, which land in Retired: repeat until nothing is ready.
 	for (;;)
 	{
 		FMockObject* Object = nullptr;

@@ -1,5 +1,5 @@
-// What device and objects of the mock share. Objects hold it by shared_ptr, so that one released after its
-// device (a leak, which a test reports) is no use after free.
+// What device and objects of the mock share. Objects hold it by shared_ptr, so that an object released after its device (a leak,
+// which a test reports) does no harm.
 #pragma once
 
 #include "LanternRHICommon/Arithmetic.h"
@@ -35,7 +35,7 @@ enum class EMockMemory : uint8_t
 	Scratch
 };
 
-/// Common part of all objects; the interface part is TMockObject's.
+/// The part of an object that does not depend on its interface; TMockObject has the rest.
 class FMockObject
 {
 public:
@@ -101,23 +101,23 @@ struct FMockState
 	std::optional<ERTMockCall> LoseAt;
 	bool bLost = false;
 
-	/// Records the call, then says whether the device is (now) lost.
+	/// Records the call, then returns DeviceLost if the device is lost by now.
 	FRTStatus Log(FRTMockCall Call);
 	FRTStatus Log(ERTMockCall Kind, const std::string& Name, const FRTMockNumbers& Numbers = {});
 	void AddError(std::string Message);
 	void AddErrorLocked(std::string Message);
 	void AddDeadGeometry(uint64_t Address, const std::string& Name);
-	/// "unbuilt Name", "destroyed Name" or "no geometry". Under Mutex.
+	/// Returns "unbuilt Name", "destroyed Name" or "no geometry". Mutex must be held.
 	std::string DescribeGeometry(uint64_t Address) const;
-	/// Injected failures, then the budget. bCount false: part of an allocation that has been counted.
+	/// Checks injected failures, then the budget. bCount is false for a part of an allocation that has been counted.
 	FRTStatus Allocate(EMockMemory Kind, uint64_t Bytes, const char* Name, bool bCount = true);
 	uint64_t TakeAddress(uint64_t Bytes);
 	void Add(FMockObject* Object);
-	/// Last reference dropped: destroyed once all that has been submitted so far has finished.
+	/// Takes an object without references. Destroys it once all that was submitted so far has finished.
 	void Retire(FMockObject* Object);
 	void Collect();
 	void Complete(FRTFence UpTo);
-	/// Gives the memory of a destroyed (or never finished) object back.
+	/// Gives back the memory of an object that was destroyed or never finished.
 	void FreeMemory(EMockMemory Kind, uint64_t Bytes);
 
 private:

@@ -1,4 +1,4 @@
-// The device's side of a shader table: executed updates, and what a ray reaches.
+// FMockShaderTable: the device's side: executed updates, and what a ray reaches.
 
 #include "MockShaderTable.h"
 #include "MockTableHandle.h"

@@ -1,4 +1,4 @@
-// What the mock gives out as the handle of a shader group.
+// The handle of a shader group as the mock gives it out.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct FMockHandle
 	uint64_t Magic = 0;
 	uint64_t Pipeline = 0;
 	uint32_t Group = 0;
-	uint32_t Check = 0; ///< so that record data read as a handle is not taken for one
+	uint32_t Check = 0; ///< tells a handle from record data
 
 private:
 	uint32_t ComputeCheck() const { return static_cast<uint32_t>(Pipeline * 2654435761u) ^ (Group * 40503u + 17u); }

@@ -1,4 +1,4 @@
-// Encoding of texels, so that clears and mips on the mock give what a device gives.
+// Encoding of texels. Clears and mips on the mock give what a device gives.
 #pragma once
 
 #include "LanternRHI/RTTypes.h"
@@ -12,10 +12,10 @@ struct FTexelPlane
 	uint32_t Width = 0, Height = 0;
 };
 
-/// sRGB formats decode to linear; missing channels are 0, alpha 1. Integers are converted.
+/// Decodes sRGB formats to linear. Missing channels are 0, alpha is 1. Integers are converted.
 void DecodeTexel(ERTFormat Format, const uint8_t* Texel, float OutValue[4]);
 void EncodeTexel(ERTFormat Format, const float Value[4], uint8_t* OutTexel);
-/// Mean of the texels of Source that each of Dest covers, weighted by area.
+/// Writes to each texel of Dest the mean of the texels of Source that it covers, weighted by area.
 void FilterBox(ERTFormat Format, const FTexelPlane& Source, const FTexelPlane& Dest);
 
 } // namespace Lantern

@@ -1,4 +1,4 @@
-// Rays, shader tables and acceleration structures on the mock's command list.
+// FMockCommandList: rays, shader tables and acceleration structures.
 
 #include "MockCommandList.h"
 #include "MockShaderTable.h"

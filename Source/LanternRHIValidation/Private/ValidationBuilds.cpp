@@ -1,4 +1,4 @@
-// Builds of acceleration structures.
+// FValidatedCommandList: builds of acceleration structures.
 #include "ValidationCommandList.h"
 
 #include <cstring>
@@ -200,7 +200,7 @@ bool FValidatedCommandList::CheckAddresses(const FValidatedScene& Scene, FValida
 	uint32_t Index = 0;
 	{
 		std::lock_guard Lock(State->Mutex);
-		uint64_t LastGood = 0; // 0: inactive
+		uint64_t LastGood = 0; // address 0 is an inactive instance
 		for (; Index < Count && Wrong.empty(); ++Index)
 		{
 			FRTInstance Instance;

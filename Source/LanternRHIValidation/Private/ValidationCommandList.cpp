@@ -1,4 +1,4 @@
-// Recording state, barriers and queries.
+// FValidatedCommandList: recording state, barriers and queries.
 #include "ValidationCommandList.h"
 
 namespace Lantern
@@ -190,7 +190,7 @@ void FValidatedCommandList::KeepAlive(IRTRefCounted* Object)
 		State->Require<FValidated>(Object, Where("KeepAlive") + ": Object");
 		return;
 	}
-	// What is no wrapper is the caller's own object, and kept as it is.
+	// An object that is no wrapper is the caller's own, and kept as it is.
 	FValidated* Known = State->FindAny(Object);
 	if (auto* Geometry = dynamic_cast<FValidatedGeometry*>(Known)) { KeptGeometries.emplace_back(Geometry->Track); }
 	Inner->KeepAlive(Known ? Known->GetInner() : Object);

@@ -1,4 +1,5 @@
-// Checks each call against what the list knows, and keeps the steps that only the submission can judge.
+// The wrapper around a command list. It checks each call against what the list knows, and keeps the steps that only the
+// submission can judge.
 #pragma once
 
 #include "ValidationObjects.h"
@@ -65,7 +66,7 @@ private:
 	std::string Where(const char* Call) const { return Label + ": " + Call; }
 	void Report(const char* Call, const std::string& Message) { State->Report(Where(Call) + ": " + Message); }
 	bool CanRecord(const char* Call);
-	/// As CanRecord, and not within a raster pass.
+	/// Like CanRecord; reports a raster pass around the call too.
 	bool CanRecordOutside(const char* Call);
 	bool CanDraw(const char* Call);
 	bool HasPipeline(const char* Call, EPipelineKind Kind);
@@ -85,7 +86,7 @@ private:
 	bool CheckTriangles(const std::string& Which, const FRTGeometrySection& Section, FRTGeometrySection& OutInner);
 	bool CheckScratch(const char* Call, const std::string& Which, IRTBuffer* Scratch, uint64_t Offset, uint64_t Bytes);
 	bool CheckInstances(FValidatedScene& Scene, IRTBuffer* Instances, uint64_t Offset, uint32_t Count);
-	/// Refuses, while recording, what the instances already say wrong: the driver must not see it.
+	/// Refuses instances that are wrong already while the list is recorded: the driver must not see them.
 	bool CheckAddresses(const FValidatedScene& Scene, FValidatedBuffer& Buffer, uint64_t Offset, uint32_t Count);
 	bool CheckCompaction(const FValidatedGeometry& Dest, const FValidatedGeometry& Source);
 	bool CheckTrace(FValidatedShaderTable& Table, uint32_t RayGen, uint32_t Width, uint32_t Height, uint32_t Depth);
@@ -102,15 +103,15 @@ private:
 	std::vector<FValidationStep> Steps;
 	std::vector<FGeometryHold> KeptGeometries;
 	std::vector<FScratchRange> ScratchRanges; ///< written since the last barrier on builds
-	bool bUnflushedGeometry = false;          ///< built or copied with no barrier since
-	bool bUnflushedBuild = false;             ///< the same, but built
+	bool bUnflushedGeometry = false;          ///< a geometry was built or copied, with no barrier since
+	bool bUnflushedBuild = false;             ///< a geometry was built, with no barrier since
 	bool bUnflushedScene = false;
 	bool bInPass = false;
 	std::vector<ERTFormat> PassColors;
 	ERTFormat PassDepth = ERTFormat::Unknown;
 	TRTRef<FValidatedPipeline> Pipeline;
-	uint64_t IndexBytes = 0; ///< after the offset of the set index buffer
-	uint32_t IndexSize = 0;  ///< 0: none set
+	uint64_t IndexBytes = 0; ///< behind the offset at which the index buffer was set
+	uint32_t IndexSize = 0;  ///< 0 if no index buffer is set
 	uint32_t Markers = 0;
 };
 

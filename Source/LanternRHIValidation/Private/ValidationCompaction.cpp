@@ -1,4 +1,4 @@
-// Compacted sizes and compacted copies of geometries.
+// FValidatedCommandList: compacted sizes and compacted copies of geometries.
 #include "ValidationCommandList.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Copies, fills, clears and mips.
+// FValidatedCommandList: copies, fills, clears and mips.
 #include "ValidationCommandList.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Creation of everything but pipelines.
+// FValidatedDevice: creation of everything but pipelines.
 #include "ValidationDeviceImpl.h"
 
 #include <algorithm>

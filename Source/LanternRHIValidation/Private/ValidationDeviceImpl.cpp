@@ -1,4 +1,4 @@
-// Submission, fences and the end of the device.
+// FValidatedDevice: submission, fences and the end of the device.
 #include "ValidationDeviceImpl.h"
 
 #include <algorithm>
@@ -80,7 +80,7 @@ FRTStatus FValidatedDevice::NotifyExternalSubmit(IRTCommandList* const* Lists, u
 	std::vector<FValidatedCommandList*> Mine;
 	FRTStatus Status = Collect(Lists, Count, true, Mine);
 	if (!Status) { return Status; }
-	// The engine has submitted: what is wrong can be told, but not refused.
+	// The engine has submitted already: faults can be reported, but nothing can be refused.
 	FValidationTracker Tracker(*State);
 	std::vector<IRTCommandList*> Inners;
 	{

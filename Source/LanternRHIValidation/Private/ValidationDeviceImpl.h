@@ -42,11 +42,11 @@ public:
 private:
 	/// Reports what was never released.
 	void OnFinalRelease() override;
-	/// Empty where the description is good.
+	// These return what is wrong, or nothing if the description is good.
 	std::string CheckTexture(const FRTTextureDesc& Desc) const;
 	std::string CheckSections(const FRTGeometryDesc& Desc) const;
 	std::vector<FRTGeometrySection> UnwrapSections(const FRTGeometryDesc& Desc) const;
-	/// Empty where the libraries are good. OutLibraries: the wrappers around them.
+	/// OutLibraries: the wrappers around the libraries.
 	std::string CheckLibraries(const FRTRayTracingPipelineDesc& Desc, std::vector<FValidatedPipeline*>& OutLibraries) const;
 	FRTStatus Collect(IRTCommandList* const* Lists, uint32_t Count, bool bImported, std::vector<FValidatedCommandList*>& OutLists);
 };

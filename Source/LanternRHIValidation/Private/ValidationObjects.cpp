@@ -42,7 +42,7 @@ FValidatedGeometry::FValidatedGeometry(std::shared_ptr<FValidationState> InState
 
 FValidatedGeometry::~FValidatedGeometry()
 {
-	// The entry stays, to name the dead one where an instance still points at it.
+	// The entry stays, so that a message can name it if an instance still points at it.
 	State->Bury(Track);
 }
 

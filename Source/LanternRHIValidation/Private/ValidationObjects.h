@@ -164,7 +164,7 @@ public:
 	TRTRef<FValidatedPipeline> Pipeline;
 	std::shared_ptr<FTableTrack> Track;
 
-	/// Reports where calls meet that exclude each other. Sets: one of the Set… calls, which may meet each other.
+	/// Reports calls that meet though they exclude each other. bSets: one of the Set… calls, which may meet each other.
 	class FUse
 	{
 	public:
@@ -180,12 +180,12 @@ public:
 
 private:
 	std::string Describe(const char* Call, ERTRecordKind Kind, uint32_t Index) const;
-	/// Reports and says false where the records do not exist or a group may not stand behind them.
+	/// Reports and returns false if the records do not exist, or if a group may not stand behind them.
 	bool CheckRecords(const char* Call, ERTRecordKind Kind, uint32_t First, uint32_t Count, const uint32_t* Groups) const;
 	void MarkSet(ERTRecordKind Kind, uint32_t First, uint32_t Count);
 	void ResizeTracks();
 
-	std::atomic<uint32_t> Users = 0; ///< Set… calls, and 65536 for each that excludes all others
+	std::atomic<uint32_t> Users = 0; ///< Set… calls, and 65536 for each call that excludes all others
 };
 
 } // namespace Lantern

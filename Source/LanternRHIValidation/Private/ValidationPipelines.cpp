@@ -1,4 +1,4 @@
-// Creation of pipelines.
+// FValidatedDevice: creation of pipelines.
 #include "ValidationDeviceImpl.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ std::string CheckShader(const FRTShaderCode& Shader, ERTShaderStage Stage)
 	       " shader";
 }
 
-/// One slot of a group: the shader at Index must be of Stage. Required: NoShader is wrong.
+/// Checks one member of a group: the shader at Index must be of Stage. If bRequired, NoShader is wrong.
 std::string CheckSlot(const FRTRayTracingPipelineDesc& Desc, uint32_t Index, ERTShaderStage Stage, bool bAllowed, bool bRequired)
 {
 	const std::string Name = StageNames[static_cast<size_t>(Stage)];
@@ -60,7 +60,7 @@ std::string CheckShaders(const FRTRayTracingPipelineDesc& Desc)
 	return {};
 }
 
-/// All but the libraries.
+/// Checks everything but the libraries.
 std::string CheckRayTracing(const FRTRayTracingPipelineDesc& Desc)
 {
 	if ((Desc.ShaderCount && !Desc.Shaders) || (Desc.GroupCount && !Desc.Groups) || (Desc.LibraryCount && !Desc.Libraries))
@@ -149,7 +149,7 @@ std::string FValidatedDevice::CheckLibraries(const FRTRayTracingPipelineDesc& De
 				return Library->Label + Print(" was made with %s %u, the link has %u", Name, Values.second, Values.first);
 			}
 		}
-		// Where there are no libraries at all, the device says so itself.
+		// A device without any libraries says so itself.
 		if (State->Inner->GetCapabilities().bPipelineLibraries && !State->Inner->GetCapabilities().bLibraryOnlyPipelines &&
 		    std::any_of(Library->Groups.begin(), Library->Groups.end(), IsRayGenOrMiss))
 		{

@@ -1,4 +1,4 @@
-// Pipelines, dispatches, rays, raster passes and draws.
+// FValidatedCommandList: pipelines, dispatches, rays, raster passes and draws.
 #include "ValidationCommandList.h"
 
 namespace Lantern

@@ -1,4 +1,4 @@
-// The wrapper around shader tables: records, groups, growth and the swap of the pipeline.
+// FValidatedShaderTable: records, groups, growth and the swap of the pipeline.
 #include "ValidationObjects.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace
 
 constexpr const char* KindNames[] = {"ray generation", "miss", "hit", "callable"};
 
-/// Empty where the group may stand behind a record of this kind.
+/// Returns why the group may not stand behind a record of this kind; empty if it may.
 std::string CheckGroupKind(ERTRecordKind Kind, const FValidatedGroup& Group)
 {
 	const bool bHit = Kind == ERTRecordKind::Hit;

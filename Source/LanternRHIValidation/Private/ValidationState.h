@@ -18,13 +18,13 @@
 namespace Lantern
 {
 
-/// State of a buffer or texture as of the last submission.
+/// State of a buffer or texture after the last submission.
 struct FAccessState
 {
 	ERTAccess Access = ERTAccess::None;
-	bool bKnown = true;     ///< false: an imported texture before its first barrier
+	bool bKnown = true;     ///< false for an imported texture before its first barrier
 	bool bImplicit = false; ///< from a use, not from a barrier
-	bool bMerged = false;   ///< from a memory barrier: a resource barrier need not repeat all of it
+	bool bMerged = false;   ///< from a memory barrier, all of which a resource barrier need not repeat
 };
 
 struct FResourceTrack
@@ -41,15 +41,15 @@ struct FGeometryTrack
 	uint64_t Address = 0;
 	std::vector<FRTGeometrySection> Sections; ///< as created; pointers in it are never used
 	bool bAllowUpdate = false, bFastBuild = false, bAllowCompaction = false;
-	uint64_t CompactedBytes = 0; ///< > 0: made for a compacted copy
-	uint64_t CompactedSize = 0;  ///< what a query said that it would need; 0: none was read
+	uint64_t CompactedBytes = 0; ///< if > 0, made for a compacted copy
+	uint64_t CompactedSize = 0;  ///< what a query said, or 0 if none was read
 	bool bBuilt = false;
 	bool bBuildRecorded = false; ///< by any list, submitted or not
 	bool bDead = false;
 	std::atomic<uint32_t> Holders = 0; ///< lists that keep it alive
 };
 
-/// Keeps a geometry alive as long as the list that has it is not submitted or begun anew.
+/// Keeps a geometry alive until the list that has it is submitted or begun anew.
 class FGeometryHold
 {
 public:
@@ -64,7 +64,7 @@ public:
 	std::shared_ptr<FGeometryTrack> Geometry;
 };
 
-/// Whose compacted sizes the queries of a pool hold; a null one where none was written.
+/// Which geometries' compacted sizes the queries of a pool hold; null if none was written.
 struct FQueryTrack
 {
 	struct FQuery
@@ -77,7 +77,7 @@ struct FQueryTrack
 	std::vector<FQuery> Queries;
 };
 
-/// What is known of a scene's instances; nothing where they were written by a shader.
+/// What is known of a scene's instances. Nothing is known if a shader wrote them.
 struct FSceneContent
 {
 	bool bBuilt = false;
@@ -101,12 +101,12 @@ enum class ERecordState : uint8_t
 	Updated
 };
 
-/// Of which pipeline each record's handle is: 0 none, 1 the first one, 2 the one after the first SetPipeline, ….
-/// Records are set without a lock, from several threads.
+/// The generation of each record's handle. 0 is no handle, 1 the first pipeline, 2 the one after the first SetPipeline, and so
+/// on. Records are set without a lock, from several threads.
 class FRecordTracks
 {
 public:
-	/// Under FValidationState::Mutex, as all that reads other records than it sets.
+	/// FValidationState::Mutex must be held, as for every call that reads records which others may set.
 	void Resize(uint32_t InCount);
 	uint32_t GetCount() const { return Count; }
 	uint32_t Get(uint32_t Index) const { return Generations[Index].load(std::memory_order_relaxed); }
@@ -124,7 +124,7 @@ struct FTableTrack
 	std::array<FRecordTracks, RecordKindCount> Records; ///< by ERTRecordKind
 	std::vector<ERecordState> RayGen;
 	std::atomic<uint32_t> Generation = 1; ///< of the pipeline that SetPipeline left
-	uint32_t UpdatedGeneration = 0;       ///< of the last update submitted; 0: there was none
+	uint32_t UpdatedGeneration = 0;       ///< of the last update submitted, or 0 if there was none
 };
 
 class FValidated;
@@ -157,16 +157,16 @@ struct FValidationState
 	void Add(const IRTRefCounted* Key, FValidated* Object);
 	void Remove(const IRTRefCounted* Key);
 	FValidated* FindAny(const IRTRefCounted* Key);
-	/// Its name stays known, for what still points at it.
+	/// Notes that the geometry is dead. Its name stays known, for messages about what still points at it.
 	void Bury(const std::shared_ptr<FGeometryTrack>& Geometry);
 	bool IsDead(const void* Key);
-	/// The wrapper behind Object; null where Object is null, released, or not of this device.
+	/// Returns the wrapper behind Object. Null if Object is null, released, or not of this device.
 	template <class W, class I>
 	W* Find(I* Object)
 	{
 		return Object ? dynamic_cast<W*>(FindAny(Object)) : nullptr;
 	}
-	/// As Find; reports where there is none. What: the call and the argument.
+	/// Like Find, but reports if there is none. What: the call and the argument.
 	template <class W, class I>
 	W* Require(I* Object, const std::string& What)
 	{
@@ -179,11 +179,11 @@ private:
 	void ReportNotFound(const void* Object, const std::string& What);
 };
 
-/// "ShaderRead|CopyRead"
+/// Returns for example "ShaderRead|CopyRead".
 std::string DescribeAccess(ERTAccess Access);
-/// "buffer 'Name'", whose name may be anything: what is shown of it is short and one line.
+/// Returns for example "buffer 'Name'". Name may be anything: what is shown of it is short and one line.
 std::string MakeLabel(const char* Type, const char* Name);
-/// printf-style.
+/// Formats as printf.
 std::string Print(const char* Format, ...) __attribute__((format(printf, 1, 2)));
 
 } // namespace Lantern

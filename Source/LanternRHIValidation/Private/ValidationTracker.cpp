@@ -9,7 +9,7 @@ namespace Lantern
 namespace
 {
 
-/// A broken submission repeats itself; the first few messages say it.
+/// A broken submission repeats itself: the first few messages are enough.
 constexpr size_t MaxMessages = 16;
 
 constexpr ERTAccess Writes =
@@ -147,7 +147,7 @@ void FValidationTracker::BuildScene(const FValidationStep& Step)
 	Content.bKnown = Step.Memory || Step.Count == 0;
 	const auto* Bytes = Step.Memory ? static_cast<const uint8_t*>(Step.Memory->GetMapped()) + Step.Offset : nullptr;
 	std::vector<uint64_t> Offsets;
-	uint64_t LastGood = 0; // 0: inactive, as Vulkan has it
+	uint64_t LastGood = 0; // address 0 is an inactive instance, as in Vulkan
 	for (uint32_t i = 0; Bytes && i < Step.Count; ++i)
 	{
 		FRTInstance Instance;
@@ -197,7 +197,7 @@ void FValidationTracker::TraceRays(const FValidationStep& Step)
 	{
 		Add(Step.What + ": " + Table.Label + " has got another pipeline, with no UpdateShaderTable since");
 	}
-	// Which scene the shaders trace is not seen; with a single one it is certain.
+	// Which scene the shaders trace is not seen. With a single scene it is certain.
 	FSceneContent Content;
 	const FSceneTrack* Only = FindOnlyScene(Content);
 	CheckPipelineOf(Step, Only ? &Content : nullptr);
@@ -247,7 +247,7 @@ void FValidationTracker::CheckHits(const FValidationStep& Step, const FSceneCont
 		}
 		return;
 	}
-	// What rays reach is not known; but where not one record was set again, they reach stale ones.
+	// What rays reach is not known. But if no record was set again, they reach stale ones.
 	uint32_t Stale = ~0u;
 	for (uint32_t i = 0; i < Hits.GetCount(); ++i)
 	{

@@ -14,7 +14,7 @@ struct FValidationStep
 {
 	enum class EKind : uint8_t
 	{
-		Barrier,      ///< Resource (null: memory barrier), Before, After
+		Barrier,      ///< Resource (null for a memory barrier), Before, After
 		Use,          ///< Resource, After: the access it needs
 		SetState,     ///< Resource, After: the state it is left in
 		CheckIndices, ///< Memory: Count indices of IndexType, each below Limit
@@ -35,7 +35,7 @@ struct FValidationStep
 	std::shared_ptr<FSceneTrack> Scene;
 	std::shared_ptr<FTableTrack> Table;
 	std::shared_ptr<FQueryTrack> Queries;
-	TRTRef<IRTBuffer> Memory; ///< of the wrapped device, mapped; null: contents unknown
+	TRTRef<IRTBuffer> Memory; ///< of the wrapped device, mapped; null if its contents are unknown
 	uint64_t Offset = 0;
 	uint32_t Count = 0, Limit = 0;
 	ERTIndexType IndexType = ERTIndexType::None;
@@ -51,9 +51,9 @@ public:
 	void Keep(const std::shared_ptr<FGeometryTrack>& Geometry) { Kept.insert(Geometry.get()); }
 	void Run(const FValidationStep& Step);
 	const std::vector<std::string>& GetMessages() const { return Messages; }
-	/// Fence: of what was submitted.
+	/// Fence: the fence of what was submitted.
 	void Commit(FRTFence Fence);
-	/// Empty where an instance may point there. Kept: geometries kept alive though released.
+	/// Returns why an instance may not point there; empty if it may. Kept: geometries kept alive though released.
 	std::string CheckAddress(uint64_t Address, bool bRecording) const;
 
 private:
@@ -65,7 +65,7 @@ private:
 	void TraceRays(const FValidationStep& Step);
 	void CheckPipelineOf(const FValidationStep& Step, const FSceneContent* Content);
 	void CheckHits(const FValidationStep& Step, const FSceneContent* Content);
-	/// The only scene there is and what it holds; null where there are others or its instances are unknown.
+	/// Returns the only scene and what it holds. Null if there are others, or if its instances are unknown.
 	const FSceneTrack* FindOnlyScene(FSceneContent& OutContent) const;
 	FAccessState& Get(const std::shared_ptr<FResourceTrack>& Resource);
 	bool IsBuilt(FGeometryTrack* Geometry) const { return Geometry->bBuilt || Built.contains(Geometry); }

@@ -1,7 +1,6 @@
-// An RHI without a GPU, for unit tests. It records every call, really executes copies, fills, clears and
-// shader-table updates in submission order, and can be told to fail: allocations, compiles, the device itself.
-// Handles of shader groups, compacted sizes and addresses are made up, but behave as those of a device.
-// Dispatches, draws and rays are recorded only.
+// An RHI without a GPU, for unit tests. It records every call, and really executes copies, fills, clears and shader-table
+// updates, in submission order. Dispatches, draws and rays are recorded only. Handles of shader groups, compacted sizes and
+// addresses are made up, but behave as those of a device. Tests can make allocations, compiles and the device itself fail.
 #pragma once
 
 #include "LanternRHI/RTInterfaces.h"
@@ -16,21 +15,21 @@ namespace Lantern
 
 struct FMockState;
 
-/// What the pretended device can do. The handle alignments of real devices: 32/32/64 (NVIDIA), 32/16/32 (lavapipe),
-/// 32/64/64 and 64/64/256 (nobody yet, but the specification allows them).
+/// What the pretended device can do. Real devices have handle size, handle alignment and base alignment 32/32/64 (NVIDIA) or
+/// 32/16/32 (lavapipe). The specification allows 32/64/64 and 64/64/256 too, which no device has yet.
 struct FRTMockDesc
 {
 	ERTRung Rung = ERTRung::Pipeline;
 	bool bRayQuery = true; ///< a device may have pipelines without ray query; ignored below the RayQuery rung
 	bool bPipelineLibraries = true;
-	bool bLibraryOnlyPipelines = true; ///< false: ray generation and miss groups must be the link's own
+	bool bLibraryOnlyPipelines = true; ///< if false, ray generation and miss groups must be the link's own
 	uint32_t HandleSize = 32;
 	uint32_t HandleAlignment = 32;
 	uint32_t BaseAlignment = 64;
 	uint32_t ScratchAlignment = 128;
 	uint32_t MaxTextureDimension = 16384;
 	uint32_t MaxPushConstantBytes = 128;
-	uint32_t MaxBindlessTextures = 4096; ///< sampled and storage each
+	uint32_t MaxBindlessTextures = 4096; ///< of sampled and of storage textures each
 	uint32_t MaxSamplers = 64;
 	uint32_t MaxScenes = 16;
 	uint64_t DeviceMemoryBytes = 8ull << 30; ///< allocations beyond it return OutOfDeviceMemory
@@ -55,11 +54,11 @@ enum class ERTMockCall : uint8_t
 	NotifyExternalSubmit, ///< Numbers: lists, fence
 	WaitFor,              ///< Numbers: fence, timeout
 	WaitIdle,
-	ReserveShaderTable, ///< one that grows; Numbers: ray generation, miss, hit, callable records
-	MakeHostCopy,       ///< of a shader table, beyond those it was created with; Numbers: bytes
-	StageShaderTable,   ///< one that had anything new; Numbers: bytes
+	ReserveShaderTable, ///< only if the table grows; Numbers: ray generation, miss, hit, callable records
+	MakeHostCopy,       ///< for a shader table, beyond those of its creation; Numbers: bytes
+	StageShaderTable,   ///< only if there was anything new; Numbers: bytes
 	SetTablePipeline,   ///< name: table
-	Destroy,            ///< the native object, not the last Release(): never while in flight
+	Destroy,            ///< of the native object, after the last Release() and never while in flight
 	Begin,
 	End,
 	Barrier,             ///< one per item; name of the resource or empty; Numbers: before, after
@@ -95,7 +94,7 @@ using FRTMockNumbers = std::array<uint64_t, 6>;
 struct FRTMockCall
 {
 	ERTMockCall Kind = ERTMockCall::CreateBuffer;
-	std::string Name; ///< the object acted on; draws, dispatches and rays: their pipeline
+	std::string Name; ///< the object acted on; for draws, dispatches and rays their pipeline
 	std::string List; ///< the list that recorded it; empty for calls of the device
 	FRTMockNumbers Numbers = {};
 	std::vector<uint8_t> Bytes;
@@ -105,8 +104,8 @@ struct FRTMockCall
 struct FRTMockRecord
 {
 	bool bInRange = false; ///< the record lies inside its region of the table
-	bool bNull = false;    ///< no handle: never set, or set but not yet updated on the device
-	/// The handle is of another pipeline than the one for which the device's copy was last updated, or of a destroyed one.
+	bool bNull = false;    ///< has no handle: never set, or set but not yet updated on the device
+	/// The handle's pipeline is not the one for which the device's copy was last updated, or it was destroyed.
 	bool bStale = false;
 	uint32_t Index = 0;
 	uint32_t Group = 0;
@@ -120,17 +119,17 @@ struct FRTMockRecord
 struct FRTMockInstance
 {
 	FRTInstance Instance = {};
-	IRTGeometry* Geometry = nullptr; ///< null: none lives at the address (now)
-	std::string GeometryName;        ///< also of a destroyed one; "?" where no geometry ever had the address
+	IRTGeometry* Geometry = nullptr; ///< null if none lives at the address now
+	std::string GeometryName;        ///< stays after destruction; "?" if no geometry ever had the address
 	bool bDangling = false;
-	bool bBuilt = false; ///< had been built when the scene was
+	bool bBuilt = false; ///< the geometry had been built when the scene was
 };
 
 struct FRTMockGeometry
 {
 	uint32_t BuildCount = 0;                  ///< executed full builds
 	uint32_t UpdateCount = 0;                 ///< executed refits
-	std::vector<FRTGeometrySection> Sections; ///< of the last one; its buffers may have been destroyed since
+	std::vector<FRTGeometrySection> Sections; ///< of the last build; its buffers may have been destroyed since
 	std::string CompactedFrom;                ///< what CompactGeometry copied into it
 	uint64_t CompactedSize = 0;               ///< bytes that it would need compacted, or needs
 
@@ -140,9 +139,9 @@ struct FRTMockGeometry
 /// A shader table's host copies and its moves.
 struct FRTMockTable
 {
-	uint32_t HostCopies = 0;      ///< there are now
+	uint32_t HostCopies = 0;      ///< that exist now
 	uint32_t HostCopiesInUse = 0; ///< staged, recorded, or read by what the device has not finished
-	uint32_t HostCopiesMade = 0;  ///< ever: more than FRTShaderTableDesc::Copies where all were in use, or it grew
+	uint32_t HostCopiesMade = 0;  ///< ever; more than FRTShaderTableDesc::Copies if all were in use or the table grew
 	uint64_t HostBytes = 0;       ///< of all host copies
 	uint32_t Moves = 0;           ///< executed moves into larger device memory
 };
@@ -173,33 +172,33 @@ public:
 	uint32_t CountCalls(ERTMockCall Kind) const;
 	uint32_t CountCalls(ERTMockCall Kind, const std::string& Name) const;
 	void ClearCalls();
-	/// false: calls are not recorded from now on (those recorded stay), so that memory stays bounded and calls are quick.
+	/// If false, calls are not recorded from now on, so that memory stays bounded and calls are quick. Those recorded stay.
 	/// Faults, errors and counts of waits work all the same. Default: true.
 	void SetCallRecording(bool bRecord);
-	/// Names of what was created since the last ClearCalls(), in order.
+	// Names of what was created since the last ClearCalls(), in order.
 	std::vector<std::string> GetCreatedBuffers() const;
 	std::vector<std::string> GetCreatedTextures() const;
 	std::vector<std::string> GetCreatedPipelines() const;
-	/// Native objects not yet destroyed, released ones still in flight included.
+	/// Counts the native objects that are not destroyed yet, including released ones still in flight.
 	uint32_t GetLiveObjectCount() const;
 	std::vector<std::string> GetLiveObjects() const; ///< "Buffer Name", sorted
-	/// What a GPU would have crashed on: scenes built from dangling or never built geometries, rays into a table
-	/// that was never updated, libraries used as pipelines, compaction of the wrong size. Empty is right. The first 1000.
+	/// Returns the first 1000 faults on which a GPU might have crashed; empty is right. Examples are scenes built from dangling or
+	/// never built geometries, rays into a table that was never updated, and libraries used as pipelines.
 	std::vector<std::string> GetErrors() const;
 
 	// ------------------------------------------------------------------------------------------ what is in memory
-	/// Memory of any buffer, Device ones included. Null: not a buffer of a mock.
+	/// Returns the memory of any buffer, Device buffers included. Null if it is not a buffer of a mock.
 	uint8_t* GetBytes(IRTBuffer* Buffer) const;
-	/// Tightly packed texels. Empty: not a texture of a mock.
+	/// Returns tightly packed texels. Empty if it is not a texture of a mock.
 	std::vector<uint8_t> GetTexels(IRTTexture* Texture, uint32_t Mip = 0, uint32_t Layer = 0) const;
-	/// The live buffer that holds the device address; null: none.
+	/// Returns the live buffer that holds the device address, or null.
 	IRTBuffer* FindBuffer(uint64_t DeviceAddress, uint64_t* OutOffset = nullptr) const;
-	/// Any record of the device's copy of the table, as executed submissions left it: what is in flight is not in it yet.
+	/// Returns a record of the device's copy of the table, as executed submissions left it. What is in flight is not in it yet.
 	FRTMockRecord ResolveRecord(IRTShaderTable* Table, ERTRecordKind Kind, uint32_t Index) const;
-	/// The hit record a ray reaches: TableOffset + GeometryIndex · RayMultiplier + RayType.
+	/// Returns the hit record that a ray reaches: TableOffset + GeometryIndex · RayMultiplier + RayType.
 	FRTMockRecord ResolveHit(
 	    IRTShaderTable* Table, const FRTInstance& Instance, uint32_t GeometryIndex, uint32_t RayType, uint32_t RayMultiplier) const;
-	/// Instances of the last executed BuildScene.
+	/// Returns the instances of the last executed BuildScene.
 	std::vector<FRTMockInstance> GetSceneInstances(IRTScene* Scene) const;
 	FRTMockGeometry GetGeometry(IRTGeometry* Geometry) const;
 	FRTMockTable GetTable(IRTShaderTable* Table) const;
@@ -207,34 +206,34 @@ public:
 	void ClearTraffic();
 
 	// ------------------------------------------------------------------------------------------ time
-	/// true: a submission executes and completes only by CompleteUpTo(), WaitIdle(), or WaitFor() without a time limit;
-	/// WaitFor() with one returns Timeout. So a buffer that the CPU overwrites too early is seen overwritten.
-	/// false (default): submissions execute within Submit(). Turning it off completes all.
+	/// If true, a submission executes and completes only by CompleteUpTo(), WaitIdle(), or WaitFor() without a time limit. WaitFor()
+	/// with one returns Timeout. So a buffer that the CPU overwrites too early is seen overwritten.
+	/// If false (default), submissions execute within Submit(). Turning it off completes all.
 	void SetManualFences(bool bManual);
 	void CompleteUpTo(FRTFence Fence);
 	FRTFence GetLastFence() const;     ///< of the last submission
 	uint32_t GetBlockingWaits() const; ///< WaitFor/WaitIdle calls that found work unfinished
 
 	// ------------------------------------------------------------------------------------------ faults
-	/// The N-th allocation from now (1: the next) returns OutOfDeviceMemory; 0: none. Allocations are buffers, textures,
-	/// geometries, scenes, shader tables (one, with its copies), their growth (ReserveShaderTable) and host copies made
-	/// later (MakeHostCopy).
+	/// Makes the N-th allocation from now return OutOfDeviceMemory; 1 is the next, 0 is none. Allocations are buffers, textures,
+	/// geometries, scenes, shader tables (one, with its copies), their growth (ReserveShaderTable) and host copies made later
+	/// (MakeHostCopy).
 	void FailAllocation(uint32_t N);
-	void FailEveryAllocation(uint32_t N); ///< every N-th from now; 0: none
-	/// Pipelines and libraries whose name contains Part take Milliseconds longer to create. Creating threads sleep side by
+	void FailEveryAllocation(uint32_t N); ///< every N-th from now; 0 is none
+	/// Makes pipelines and libraries whose name contains Part take Milliseconds longer to create. Creating threads sleep side by
 	/// side, and the device goes on meanwhile.
 	void SlowCompile(const std::string& Part, uint32_t Milliseconds);
-	/// Rays of a pipeline that is used for the first time take Milliseconds longer, by the device's timestamps. Nothing sleeps.
+	/// Makes the first rays of each pipeline take Milliseconds longer, by the device's timestamps. Nothing sleeps.
 	void SlowFirstUse(uint32_t Milliseconds);
-	/// Pipelines and libraries whose name contains Part stay in the driver until ClearCompileFaults(), which must come before
-	/// anything waits for the creating threads. The device goes on meanwhile.
+	/// Keeps pipelines and libraries whose name contains Part in the driver until ClearCompileFaults(). Call that before anything
+	/// waits for the creating threads. The device goes on meanwhile.
 	void HoldCompiles(const std::string& Part);
-	/// Threads that are in a slow compile or in a held one now.
+	/// Returns the number of threads that are in a slow or held compile now.
 	uint32_t GetCompilesInDriver() const;
-	/// Pipelines and libraries whose name contains Part fail with CompileFailed. A link has its own name.
+	/// Makes pipelines and libraries whose name contains Part fail with CompileFailed. A link has a name of its own.
 	void FailCompile(const std::string& Part);
-	void ClearCompileFaults(); ///< slow ones, held ones, failing ones
-	/// The device is lost at the next call of this kind.
+	void ClearCompileFaults(); ///< ends SlowCompile, HoldCompiles and FailCompile
+	/// Loses the device at the next call of this kind.
 	void LoseDeviceAt(ERTMockCall Kind);
 	void LoseDevice();
 
@@ -242,7 +241,7 @@ private:
 	FMockState& State;
 };
 
-/// Out receives one reference. Fails only where Desc cannot be a device (an alignment that is no power of two).
+/// Out receives one reference. Fails only if Desc cannot be a device: an alignment is no power of two, or handles are too small.
 FRTStatus CreateMockDevice(const FRTMockDesc& Desc, IRTDevice** Out);
 
 /// Device must come from CreateMockDevice, unwrapped; anything else is a bug (assert).

@@ -107,7 +107,7 @@ void FVulkanCommandList::Barrier(const FVulkanAccess& Before, const FVulkanAcces
 
 void FVulkanCommandList::Barriers(const FRTBarrier* Items, uint32_t Count)
 {
-	// Buffers by a global memory barrier: no driver makes a buffer's barrier finer than that.
+	// Buffers get a global memory barrier: no driver makes a buffer's barrier finer than that.
 	VkMemoryBarrier2 Memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
 	std::vector<VkImageMemoryBarrier2> Images;
 	for (uint32_t Index = 0; Index < Count; ++Index)

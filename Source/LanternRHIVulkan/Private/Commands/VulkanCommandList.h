@@ -16,7 +16,7 @@ class FVulkanCommandList final : public TVulkanObject<IRTCommandList>
 public:
 	using TVulkanObject::TVulkanObject;
 	FRTStatus Initialise(const char* InName);
-	/// The engine's command buffer, in the recording state.
+	/// Takes the engine's command buffer, which is in the recording state.
 	void InitialiseImported(VkCommandBuffer Buffer);
 
 	// VulkanCommandList.cpp
@@ -45,12 +45,12 @@ public:
 	void CopyTextureToBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTTexture* Source, uint32_t Mip, uint32_t Layer) override;
 	void FillBuffer(IRTBuffer* Dest, uint64_t Offset, uint64_t Size, uint32_t Value) override;
 	void ClearTexture(IRTTexture* Dest, const float Value[4]) override;
-	/// By linear blits: a box filter for even sizes. Of an odd size each texel takes two of the three that it covers.
+	/// Uses linear blits, a box filter for even sizes. For odd sizes, each texel takes two of the three that it covers.
 	void GenerateMips(IRTTexture* Texture) override;
 
 	// VulkanCommandListTrace.cpp
 	void TraceRays(IRTShaderTable* Table, uint32_t RayGen, uint32_t Width, uint32_t Height, uint32_t Depth) override;
-	/// The bytes are taken at once: lists that update one table are to be submitted in the order of these calls.
+	/// Takes the table's changes at once: submit lists that update one table in the order of these calls.
 	void UpdateShaderTable(IRTShaderTable* Table) override;
 	void BuildGeometries(const FRTGeometryBuild* Builds, uint32_t Count) override;
 	void WriteCompactedSize(IRTQueryPool* Queries, uint32_t Index, IRTGeometry* Geometry) override;
@@ -61,9 +61,9 @@ public:
 	// For the device.
 	VkCommandBuffer GetHandle() const { return Handle; }
 	bool IsImported() const { return bImported; }
-	/// What went wrong while recording; calls that return nothing leave it here.
+	/// Returns what went wrong while recording; calls that return nothing leave it here.
 	const FRTStatus& GetError() const { return Error; }
-	/// At submission: the references now belong to it.
+	/// Gives the list's references to the submission with this fence.
 	FVulkanKept TakeKept(FRTFence InFence);
 
 private:
@@ -85,7 +85,7 @@ private:
 	uint8_t Pushed[sizeof(FVulkanTableScatter::FPush)] = {}; ///< what a scatter writes over
 	uint32_t PushedBytes = 0;
 	std::vector<std::pair<FVulkanQueryPool*, uint32_t>> QueriesWritten;
-	uint32_t SetBoundPoints = 0; ///< bit per bind point that has the descriptor set
+	uint32_t SetBoundPoints = 0; ///< a bit for each bind point that has the descriptor set
 };
 
 } // namespace Lantern

@@ -17,7 +17,7 @@ namespace Lantern
 namespace
 {
 
-/// Never closed: drivers leave threads and at-exit handlers behind that must stay mapped.
+/// The loader is never closed: drivers leave threads and at-exit handlers behind that must stay mapped.
 PFN_vkGetInstanceProcAddr OpenLibrary(char* OutError, size_t ErrorSize)
 {
 	OutError[0] = 0;

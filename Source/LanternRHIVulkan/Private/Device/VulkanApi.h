@@ -1,5 +1,5 @@
-// Function tables of the Vulkan API: one per instance, one per device. Tables of our own rather than volk's
-// globals, because the plugin is linked into engines that may carry volk or link the loader themselves.
+// Function tables of the Vulkan API, one for each instance and one for each device. They are our own rather than volk's globals,
+// because the plugin is linked into engines that may carry volk or link the loader themselves.
 #pragma once
 
 #ifndef VK_NO_PROTOTYPES
@@ -26,7 +26,7 @@ namespace Lantern
 	X(CreateDevice)                                                                                                                        \
 	X(GetDeviceProcAddr)
 
-/// Absent without VK_EXT_debug_utils: checked before use.
+/// Null without VK_EXT_debug_utils: check before use.
 #define LANTERN_VK_DEBUG_FUNCTIONS(X)                                                                                                      \
 	X(CreateDebugUtilsMessengerEXT)                                                                                                        \
 	X(DestroyDebugUtilsMessengerEXT)                                                                                                       \
@@ -136,11 +136,11 @@ struct FVulkanDeviceApi
 	LANTERN_VK_PIPELINE_FUNCTIONS(LANTERN_VK_DECLARE)
 };
 
-/// Opens the system's Vulkan loader, once per process. Unsupported, with the system's message, without one.
+/// Opens the system's Vulkan loader, once in a process. Returns Unsupported, with the system's message, if there is none.
 FRTStatus OpenVulkanLoader(FVulkanLoader* Out);
-/// GetInstanceProcAddr: the loader's, or the engine's own. Unsupported when a core function is absent.
+/// GetInstanceProcAddr: the loader's, or the engine's own. Returns Unsupported if a core function is absent.
 FRTStatus LoadInstanceApi(PFN_vkGetInstanceProcAddr GetInstanceProcAddr, VkInstance Instance, FVulkanInstanceApi* Out);
-/// Unsupported when a function of the extensions asked for is absent, i.e. they were not enabled.
+/// Returns Unsupported if a function of an extension asked for is absent: it was not enabled.
 FRTStatus LoadDeviceApi(const FVulkanInstanceApi& Instance, VkDevice Device, bool bAccel, bool bPipeline, FVulkanDeviceApi* Out);
 
 } // namespace Lantern

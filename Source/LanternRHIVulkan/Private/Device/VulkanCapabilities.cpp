@@ -119,7 +119,7 @@ bool EnableBaseline(const FSupported& Supported, FVulkanProbe& Out)
 #undef LANTERN_VK_NEED
 #undef LANTERN_VK_WANT
 
-/// What the driver has, before the caller's wishes. Fills the lines of Missing.
+/// Finds what the driver has, before the caller's wishes. Fills the lines of Missing.
 struct FLadder
 {
 	bool bAccel = false, bQuery = false, bPipeline = false, bReorder = false, bMicromap = false;
@@ -149,7 +149,7 @@ FLadder FindLadder(const FSupported& Supported, std::string& Missing)
 	return Ladder;
 }
 
-/// A rung includes those below it: the caps of the caller cut from the top.
+/// A rung includes those below it: what the caller hides is cut from the top.
 void ApplyWishes(const FVulkanProbeDesc& Desc, FLadder& Ladder)
 {
 	Ladder.bQuery &= !Desc.bDisableRayQuery && Desc.MaxRung >= ERTRung::RayQuery;
@@ -349,7 +349,7 @@ void ProbeVulkanDevice(const FVulkanInstanceApi& Api, VkPhysicalDevice Physical,
 	Out->ApiVersion = Properties.apiVersion;
 	if (Properties.apiVersion < VK_API_VERSION_1_3)
 	{
-		// Structures of 1.2 and 1.3 must not be asked of it.
+		// Such a device must not be asked for structures of 1.2 and 1.3.
 		snprintf(Out->Capabilities.DeviceName, sizeof(Out->Capabilities.DeviceName), "%s", FRTShown(Properties.deviceName).Text);
 		Out->Type = Properties.deviceType;
 		Out->Capabilities.bIsCpu = Properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;

@@ -1,5 +1,5 @@
-// What a physical device can do, and what must be enabled for it: asked in one place for devices of our own, for
-// an engine's, and for the list of devices.
+// What a physical device can do, and what must be enabled for it. Devices of our own, an engine's, and the list of devices all
+// ask here.
 #pragma once
 
 #include "Device/VulkanApi.h"
@@ -10,7 +10,7 @@
 namespace Lantern
 {
 
-/// The feature structures in use, linked in one chain; those of absent extensions are left out of it.
+/// The feature structures in use, linked in one chain. Structures of absent extensions are left out.
 struct FVulkanFeatures
 {
 	VkPhysicalDeviceFeatures2 Core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
@@ -30,7 +30,7 @@ struct FVulkanFeatures
 	    VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_POSITION_FETCH_FEATURES_KHR};
 #endif
 
-	/// Rebuilds the pNext pointers for the extensions named; core structures are always in.
+	/// Rebuilds the pNext pointers for the extensions named. Core structures are always in the chain.
 	void Link(const std::vector<const char*>& Extensions);
 };
 
@@ -59,8 +59,8 @@ struct FVulkanProbe
 	uint32_t ApiVersion = 0;
 	uint8_t PipelineCacheUuid[VK_UUID_SIZE] = {};
 	uint32_t VendorId = 0, DeviceId = 0, DriverVersion = 0;
-	std::string Missing;                 ///< one line per thing and what it costs
-	std::string QuirkText;               ///< one line per quirk
+	std::string Missing;                 ///< one line for each thing, and what that costs
+	std::string QuirkText;               ///< one line for each quirk
 	std::vector<const char*> Extensions; ///< to enable; string literals
 	FVulkanFeatures Features;            ///< to enable; call Link after a copy
 };

@@ -22,7 +22,7 @@ FRTStatus SaveVulkanPipelineCache(IRTDevice* Device) { return static_cast<FVulka
 
 void FVulkanDevice::OnFinalRelease()
 {
-	// Submissions keep objects, and objects the device: with no one left to collect, that must end here.
+	// Submissions keep objects, and objects keep the device. No one is left to collect them later.
 	(void)WaitIdle();
 	CollectUpTo(IsLost() ? ~FRTFence(0) : LastCompleted.load());
 	DropOne();
@@ -32,7 +32,7 @@ void FVulkanDevice::DropOne()
 {
 	if (Children.fetch_sub(1) == 1)
 	{
-		// Objects deleted below release others: they must not come to this line again.
+		// Objects deleted below release others, which must not come to this line again.
 		Children.store(1u << 30);
 		delete this;
 	}
@@ -109,7 +109,7 @@ FRTStatus FVulkanDevice::SubmitLists(IRTCommandList* const* Lists, uint32_t Coun
 		FVulkanCommandList* List = static_cast<FVulkanCommandList*>(Lists[Index]);
 		assert(List->IsImported() == bExternal && "Submit takes lists of the device, NotifyExternalSubmit imported ones");
 		Recording = Recording ? List->GetError() : Recording;
-		// What an engine says that it has submitted runs, whatever is wrong with it: it must still be waited for.
+		// A list that the engine has submitted runs, whatever is wrong with it: the fence must still cover it.
 		if (!Recording && !bExternal) { return Recording; }
 		if (!bExternal)
 		{

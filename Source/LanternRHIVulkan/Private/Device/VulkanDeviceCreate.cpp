@@ -129,7 +129,7 @@ bool IsGoodEnough(const FVulkanProbe& Probe, const FRTVulkanDeviceDesc& Desc)
 	return Probe.bUsable && (Desc.bAllowNoRayTracing || Probe.Capabilities.Rung != ERTRung::None);
 }
 
-/// Larger is better; pipelines before the kind of device, CPUs always last.
+/// Rates a device; larger is better. Pipelines count before the kind of device, and CPUs are always last.
 int Score(const FVulkanProbe& Probe)
 {
 	int Points = static_cast<int>(Probe.Capabilities.Rung) + (Probe.Capabilities.bRayQuery ? 8 : 0);

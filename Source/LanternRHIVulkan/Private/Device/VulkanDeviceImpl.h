@@ -48,7 +48,7 @@ public:
 
 	/// Creates the VkDevice that the probe describes.
 	FRTStatus CreateNative();
-	/// Takes an engine's; the lock may be empty.
+	/// Takes an engine's device. The lock may be empty.
 	FRTStatus AdoptNative(VkDevice InDevice, VkQueue InQueue, uint32_t InFamily, const FQueueLock& InLock);
 
 	// IRTDevice
@@ -79,7 +79,7 @@ public:
 	uint64_t GetNative(ERTNative Kind) const override;
 
 	// For the objects.
-	/// Notes a lost device on its way.
+	/// Returns Result, and notes if the device is lost.
 	VkResult Check(VkResult Result);
 	bool IsLost() const { return bLost.load(std::memory_order_relaxed); }
 	FRTStatus LostStatus() const;
@@ -115,7 +115,7 @@ private:
 	void OnFinalRelease() override;
 
 	FRTStatus CreateShared();
-	/// SubmitMutex held.
+	/// SubmitMutex must be held.
 	VkResult SubmitBatch(const std::vector<VkCommandBufferSubmitInfo>& Buffers);
 	FRTStatus SubmitLists(IRTCommandList* const* Lists, uint32_t Count, bool bExternal, FRTFence* OutFence);
 	void CollectUpTo(FRTFence Done);

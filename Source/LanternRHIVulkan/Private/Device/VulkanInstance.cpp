@@ -24,7 +24,7 @@ FVulkanInstance::~FVulkanInstance()
 
 void FVulkanInstance::Report(ERTVulkanMessage Severity, const char* Text) const
 {
-	// Layers and drivers write them, with names of objects in them.
+	// Layers and drivers write these texts, with names of objects in them.
 	const std::string Shown = Show(Text, ERTTextKind::Lines);
 	if (Settings.Callback) { Settings.Callback(Settings.CallbackUser, Severity, Shown.c_str()); }
 	else if (Severity != ERTVulkanMessage::Info)

@@ -28,7 +28,7 @@ public:
 	};
 
 	FRTStatus Create(const FOptions& Options);
-	/// The instance stays the engine's. bValidation here: listen to its messages.
+	/// Takes the engine's instance, which stays the engine's. bValidation: listen to its messages.
 	FRTStatus Adopt(VkInstance Instance, PFN_vkGetInstanceProcAddr GetInstanceProcAddr, const FOptions& Options);
 
 	std::vector<VkPhysicalDevice> GetPhysicalDevices() const;
@@ -37,7 +37,7 @@ public:
 
 	VkInstance Handle = VK_NULL_HANDLE;
 	FVulkanInstanceApi Api;
-	/// VK_EXT_debug_utils is enabled: names and labels may be given.
+	/// VK_EXT_debug_utils is enabled, so that names and labels may be given.
 	bool bDebugUtils = false;
 
 private:

@@ -91,8 +91,8 @@ VkResult FVulkanMemory::CreateBuffer(
 	{
 	case ERTMemory::Device: Wish.usage = VMA_MEMORY_USAGE_AUTO_PREFER_DEVICE; break;
 	case ERTMemory::Upload:
-		// Never in the device's own memory, though a part of it may be mapped: where that mapping is not write-combined
-		// every store crosses the bus by itself (H200 in a virtual machine: 5 µs for the 64 bytes of an instance). What the
+		// The device's own memory is never used, though a part of it may be mapped. If that mapping is not write-combined,
+		// every store crosses the bus by itself: 5 µs for the 64 bytes of an instance (H200, virtual machine). What the
 		// GPU reads once is as well read from here, and what it reads often is copied.
 		Wish.usage = VMA_MEMORY_USAGE_AUTO_PREFER_HOST;
 		Wish.flags = VMA_ALLOCATION_CREATE_MAPPED_BIT | VMA_ALLOCATION_CREATE_HOST_ACCESS_SEQUENTIAL_WRITE_BIT;

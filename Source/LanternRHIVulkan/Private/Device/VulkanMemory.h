@@ -1,5 +1,5 @@
-// Device memory. The only files that see VMA: its code is compiled into a namespace of its own, so that an engine
-// may link another version.
+// Device memory. Only VulkanMemory.cpp sees VMA, whose code is compiled into a namespace of its own, so that an engine may link
+// another version.
 #pragma once
 
 #include "Device/VulkanApi.h"

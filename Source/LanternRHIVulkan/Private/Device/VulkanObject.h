@@ -12,7 +12,7 @@ namespace Lantern
 
 class FVulkanDevice;
 
-/// Implemented by the device (VulkanDevice.cpp); apart from it so that objects need not see the device's class.
+/// The device implements these two (VulkanDevice.cpp), so that objects need not see its class.
 void AddChild(FVulkanDevice& Device);
 /// Object must not be touched afterwards.
 void RetireChild(FVulkanDevice& Device, void* Object, void (*Delete)(void*));
@@ -35,7 +35,7 @@ private:
 	}
 };
 
-/// Takes the one reference of a new object.
+/// Makes an object. The result holds its only reference.
 template <class T, class... TArgs>
 TRTRef<T> MakeVulkanObject(TArgs&&... Args)
 {
@@ -45,7 +45,7 @@ TRTRef<T> MakeVulkanObject(TArgs&&... Args)
 	return Result;
 }
 
-/// Gives the reference to the caller of a creation function.
+/// Gives a reference to the caller of a creation function.
 template <class TInterface, class T>
 void HandOut(TRTRef<T>& Object, TInterface** Out)
 {

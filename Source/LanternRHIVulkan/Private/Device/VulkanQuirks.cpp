@@ -13,7 +13,7 @@ struct FQuirk
 {
 	VkDriverId Driver;
 	uint32_t FirstVersion; ///< as the driver packs it
-	uint32_t FixedVersion; ///< first without the fault; ~0u: none known
+	uint32_t FixedVersion; ///< first without the fault, or ~0u if none is known
 	EVulkanQuirk Flag;
 	const char* Reason;
 };

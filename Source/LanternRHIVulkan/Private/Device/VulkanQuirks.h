@@ -13,15 +13,15 @@ enum class EVulkanQuirk : uint32_t
 	LinkedPushConstantsLost = 1 << 0,
 	/// A ray-tracing pipeline must have a hit shader, even one that no record reaches.
 	CrashWithoutHitShaders = 1 << 1,
-	/// Whether a compacted size has been written must be known from fences.
+	/// Queries of compacted sizes are always available: fences must say whether a size has been written.
 	SizesAlwaysAvailable = 1 << 2,
-	/// Asking for a timestamp waits for the GPU: whether it has been written must be known from fences.
+	/// Asking for a timestamp waits for the GPU: fences must say whether it has been written.
 	TimestampsWait = 1 << 3,
 };
 
 constexpr bool HasQuirk(uint32_t Flags, EVulkanQuirk Flag) { return (Flags & static_cast<uint32_t>(Flag)) != 0; }
 
-/// Flags of EVulkanQuirk that hold for the driver. OutText: one line per quirk; may be null.
+/// Returns the flags of EVulkanQuirk that hold for the driver. OutText: one line for each quirk; may be null.
 uint32_t FindQuirks(VkDriverId Driver, uint32_t DriverVersion, char* OutText, size_t TextSize);
 
 } // namespace Lantern

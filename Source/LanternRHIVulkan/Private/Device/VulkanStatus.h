@@ -10,11 +10,11 @@
 namespace Lantern
 {
 
-/// "VK_ERROR_…", or the number of a result newer than these headers.
+/// Returns "VK_ERROR_…", or the number of a result that is newer than these headers.
 const char* ToString(VkResult Result);
-/// All of a text from outside as it may stand in a message; FRTShown is for names, which it cuts.
+/// Returns all of a text from outside as it may stand in a message. FRTShown is for names, which it cuts.
 std::string Show(std::string_view Text, ERTTextKind Kind = ERTTextKind::OneLine);
-/// An error that names what was tried, the object and the result. Ok for VK_SUCCESS.
+/// Returns an error that names what was tried, the object and the result. Ok for VK_SUCCESS.
 FRTStatus MakeStatus(VkResult Result, const char* What, const char* Name);
 
 } // namespace Lantern

@@ -49,7 +49,7 @@ VkImageLayout GetVulkanLayout(ERTAccess Access)
 	case ERTAccess::DepthWrite: return VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
 	case ERTAccess::CopyRead: return VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
 	case ERTAccess::CopyWrite: return VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
-	// Reads that no single layout serves, e.g. sampled and copied from.
+	// No single layout serves such reads, for example sampled and copied from.
 	default: return VK_IMAGE_LAYOUT_GENERAL;
 	}
 }
@@ -123,7 +123,7 @@ FVulkanAccess TraceReadOf(const FVulkanCapabilityBits& Bits)
 	if (Bits.bPipeline)
 	{
 		Result.Stages |= VK_PIPELINE_STAGE_2_RAY_TRACING_SHADER_BIT_KHR;
-		// Without maintenance1 the shader table is read as SHADER_READ.
+		// Without VK_KHR_ray_tracing_maintenance1, the shader table is read as SHADER_READ.
 		Result.Access |= VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR;
 		if (Bits.bMaintenance1) { Result.Access |= VK_ACCESS_2_SHADER_BINDING_TABLE_READ_BIT_KHR; }
 	}

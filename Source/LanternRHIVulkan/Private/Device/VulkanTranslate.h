@@ -24,10 +24,10 @@ VkImageAspectFlags AspectOf(ERTFormat Format);
 bool IsIntegerFormat(ERTFormat Format);
 VkImageUsageFlags ImageUsageOf(const FRTTextureDesc& Desc);
 VkBufferUsageFlags BufferUsageOf(ERTBufferUsage Usage, const FVulkanCapabilityBits& Bits);
-/// Stages that Device has not enabled are left out: naming them is an error.
+/// Leaves out stages that the device has not enabled: naming them is an error.
 FVulkanAccess AccessOf(ERTAccess Access, const FVulkanCapabilityBits& Bits);
 VkShaderStageFlagBits StageOf(ERTShaderStage Stage);
-/// All shader stages that a pipeline of the device may have.
+/// Returns all shader stages that a pipeline of the device may have.
 VkShaderStageFlags AllStages(const FVulkanCapabilityBits& Bits);
 
 } // namespace Lantern

@@ -81,7 +81,7 @@ FRTStatus FVulkanPipeline::Finish(VkResult Result, const char* What, const char*
 		FRTStatus Status = MakeStatus(Result, What, Name);
 		if (Status.Code == ERTResult::Unsupported)
 		{
-			Status.Code = ERTResult::CompileFailed; // unspecific results of a pipeline's creation
+			Status.Code = ERTResult::CompileFailed; // results that are not specific to the creation of pipelines
 		}
 		return Status;
 	}

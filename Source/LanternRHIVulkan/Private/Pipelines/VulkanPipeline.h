@@ -21,7 +21,7 @@ public:
 	uint64_t GetNative(ERTNative Kind) const override;
 
 	bool IsLibrary() const { return bLibrary; }
-	/// Of ShaderGroupHandleSize bytes each, GetGroupCount() of them; null for a library.
+	/// Returns GetGroupCount() handles of ShaderGroupHandleSize bytes each; null for a library.
 	const uint8_t* GetGroupHandles() const { return GroupHandles.empty() ? nullptr : GroupHandles.data(); }
 
 	VkPipeline Handle = VK_NULL_HANDLE;
@@ -30,7 +30,7 @@ public:
 private:
 	~FVulkanPipeline() override { Device.Api.DestroyPipeline(Device.Handle, Handle, nullptr); }
 	FRTStatus Finish(VkResult Result, const char* What, const char* Name);
-	/// NativeOwnCount: with the groups of our own that the caller knows nothing of, behind the OwnCount asked for.
+	/// NativeOwnCount: OwnCount, and the groups behind them that we added and the caller does not know.
 	FRTStatus ReadGroupHandles(uint32_t OwnCount, uint32_t NativeOwnCount, const char* Name);
 
 	uint32_t GroupCount = 0;

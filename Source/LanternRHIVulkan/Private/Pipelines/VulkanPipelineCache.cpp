@@ -16,7 +16,7 @@ namespace Lantern
 namespace
 {
 
-/// Before the driver's data, which some drivers do not check against damage.
+/// Stands before the driver's data, which some drivers do not check against damage.
 struct FHeader
 {
 	char Magic[8];
@@ -51,7 +51,7 @@ FHeader MakeHeader(const FVulkanProbe& Probe)
 	return Header;
 }
 
-/// Null, or why the file cannot be used.
+/// Returns why the file cannot be used, or null.
 const char* ReadCacheFile(FILE* Stream, const FHeader& Expected, std::vector<char>& OutData)
 {
 	FHeader Header{};
@@ -129,7 +129,7 @@ FRTStatus FVulkanPipelineCache::Save()
 	Header.DataBytes = Size;
 	Header.Checksum = HashBytes(Data);
 
-	// A name of one's own: other processes, and other devices of this one, may be writing the same file.
+	// The name is unique: other processes, and other devices of this one, may be writing the file too.
 	std::string Temporary = File + ".XXXXXX";
 	const int Descriptor = mkstemp(Temporary.data());
 	int Reason = errno;

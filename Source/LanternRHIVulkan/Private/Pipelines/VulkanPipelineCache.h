@@ -12,13 +12,13 @@ namespace Lantern
 class FVulkanPipelineCache
 {
 public:
-	/// File may be null: the cache then lives with the device only.
+	/// If File is null, the cache lives with the device only.
 	explicit FVulkanPipelineCache(const char* InFile) : File(InFile ? InFile : "") {}
 
-	/// OutMessage: why the file was discarded; empty when it was used or there was none.
+	/// OutMessage: why the file was discarded; empty if it was used or there was none.
 	VkResult Create(VkDevice InDevice, const FVulkanDeviceApi& InApi, const FVulkanProbe& Probe, char* OutMessage, size_t MessageSize);
 	void Destroy();
-	/// Written beside the file and renamed over it: a reader never sees half of it.
+	/// Writes beside the file and renames over it, so that a reader never sees half of it.
 	FRTStatus Save();
 
 	VkPipelineCache Handle = VK_NULL_HANDLE;

@@ -26,7 +26,7 @@ VkRayTracingShaderGroupTypeKHR GroupTypeOf(ERTGroupKind Kind)
 	return VK_RAY_TRACING_SHADER_GROUP_TYPE_GENERAL_KHR;
 }
 
-/// `void main() {}` as a closest-hit shader, by glslang.
+/// The closest-hit shader `void main() {}`, compiled by glslang.
 constexpr uint32_t EmptyClosestHit[] = {0x07230203, 0x00010500, 0x0008000b, 0x00000006, 0x00000000, 0x00020011, 0x0000117f, 0x0006000a,
     0x5f565053, 0x5f52484b, 0x5f796172, 0x63617274, 0x00676e69, 0x0006000b, 0x00000001, 0x4c534c47, 0x6474732e, 0x3035342e, 0x00000000,
     0x0003000e, 0x00000000, 0x00000001, 0x0005000f, 0x000014c4, 0x00000004, 0x6e69616d, 0x00000000, 0x00020013, 0x00000002, 0x00030021,
@@ -58,7 +58,7 @@ bool HasHitShader(const FGroups& Groups)
 	});
 }
 
-/// EVulkanQuirk::CrashWithoutHitShaders: a group behind those asked for, which no shader table knows of.
+/// Adds a group behind those asked for, which no shader table knows of (EVulkanQuirk::CrashWithoutHitShaders).
 FRTStatus AddUnusedHitShader(FVulkanModules& Modules, FGroups& Groups)
 {
 	VkRayTracingShaderGroupCreateInfoKHR Group{VK_STRUCTURE_TYPE_RAY_TRACING_SHADER_GROUP_CREATE_INFO_KHR};
@@ -94,7 +94,7 @@ FRTStatus CheckSupport(const FVulkanDevice& Device, const FRTRayTracingPipelineD
 	return {};
 }
 
-/// What a pipeline's creation points at; it points into itself.
+/// What the creation of a pipeline points at. It points into itself: do not copy it.
 struct FRayTracingState
 {
 	explicit FRayTracingState(const FRTRayTracingPipelineDesc& Desc)
@@ -136,7 +136,7 @@ FRTStatus FVulkanPipeline::InitialiseRayTracing(const FRTRayTracingPipelineDesc&
 	GroupCount = Desc.GroupCount;
 	for (uint32_t Index = 0; Index < Desc.LibraryCount; ++Index)
 	{
-		// Vulkan does not say that a library may go before what was linked from it.
+		// Vulkan does not say that a library may be destroyed before what was linked from it.
 		Libraries.emplace_back(static_cast<FVulkanPipeline*>(Desc.Libraries[Index]));
 		bHasHitShader = bHasHitShader || Libraries.back()->bHasHitShader;
 		GroupCount += Libraries.back()->GroupCount;

@@ -9,7 +9,7 @@
 namespace Lantern
 {
 
-/// Shader modules of one pipeline creation; they are needed no longer than that.
+/// Shader modules that one creation of a pipeline needs. Destroyed with this object.
 class FVulkanModules
 {
 public:

@@ -106,7 +106,7 @@ void FVulkanSections::Assign(const FRTGeometrySection* Sections, uint32_t Count)
 	for (uint32_t Index = 0; Index < Count; ++Index)
 	{
 		Geometries[Index] = MakeGeometry(Sections[Index]);
-		// Offsets are in the addresses.
+		// The addresses have the offsets in them.
 		Ranges[Index] = {};
 		Ranges[Index].primitiveCount = Sections[Index].bProcedural ? Sections[Index].VertexCount : Sections[Index].TriangleCount;
 	}

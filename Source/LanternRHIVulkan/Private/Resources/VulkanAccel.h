@@ -6,7 +6,7 @@
 namespace Lantern
 {
 
-/// The native form of a build's sections. Addresses are 0 where a section names no buffer (size queries).
+/// The native form of a build's sections. The address is 0 if a section names no buffer, as in size queries.
 struct FVulkanSections
 {
 	std::vector<VkAccelerationStructureGeometryKHR> Geometries;
@@ -15,7 +15,7 @@ struct FVulkanSections
 	void Assign(const FRTGeometrySection* Sections, uint32_t Count);
 };
 
-/// FRTBuildSizes of a geometry as Desc has it; Desc.CompactedBytes aside.
+/// Returns the sizes of a geometry as Desc has it. Desc.CompactedBytes is ignored.
 FRTBuildSizes QueryGeometrySizes(FVulkanDevice& Device, const FRTGeometryDesc& Desc);
 
 class FVulkanGeometry final : public TVulkanObject<IRTGeometry>
@@ -51,7 +51,7 @@ public:
 	FRTBuildSizes GetBuildSizes() const override { return Sizes; }
 	uint64_t GetNative(ERTNative Kind) const override;
 
-	/// The one geometry of a TLAS; Instances may be 0 for size queries and empty builds.
+	/// Returns the one geometry of a TLAS. Instances may be 0 for size queries and empty builds.
 	static VkAccelerationStructureGeometryKHR MakeInstances(VkDeviceAddress Instances);
 
 	VkAccelerationStructureKHR Handle = VK_NULL_HANDLE;

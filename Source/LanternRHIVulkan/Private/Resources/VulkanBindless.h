@@ -1,5 +1,5 @@
-// The one descriptor set, bindings as LanternRHI/RTInterfaces.h has them, and the allocators of its indices. An
-// object gives its index back in its destructor, i.e. when the GPU is done with it.
+// The one descriptor set, with bindings as in LanternRHI/RTInterfaces.h, and its indices. An object gives its index back in its
+// destructor, which runs when the GPU has finished with it.
 #pragma once
 
 #include "Device/VulkanTranslate.h"
@@ -24,12 +24,12 @@ public:
 		BindingCount,
 	};
 
-	/// Capacities: 0 leaves the binding out.
+	/// Capacities: descriptors of each binding; 0 leaves the binding out.
 	VkResult Create(
 	    VkDevice Device, const FVulkanDeviceApi& Api, const uint32_t (&Capacities)[BindingCount], const FVulkanCapabilityBits& Bits);
 	void Destroy();
 
-	/// NoBindlessIndex when full.
+	// These return NoBindlessIndex if all indices are in use.
 	uint32_t AddImage(EBinding Binding, VkImageView View);
 	uint32_t AddSampler(VkSampler Sampler);
 	uint32_t AddScene(VkAccelerationStructureKHR Scene);

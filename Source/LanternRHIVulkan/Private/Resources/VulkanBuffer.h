@@ -8,7 +8,7 @@
 namespace Lantern
 {
 
-/// A VkBuffer with its memory and address; what buffers, acceleration structures and shader tables are made of.
+/// A VkBuffer with its memory and address. Buffers, acceleration structures and shader tables are made of it.
 class FVulkanBlock
 {
 public:

@@ -83,7 +83,7 @@ FRTStatus FVulkanTexture::CreateImage()
 
 FRTStatus FVulkanTexture::CreateView(uint32_t MipCount, uint32_t LayerCount, VkImageUsageFlags Usage, VkImageView* Out)
 {
-	// Without this the view would claim all usages of the image, which e.g. an sRGB view cannot have.
+	// Without this, the view would claim all usages of the image, which an sRGB view, for example, cannot have.
 	VkImageViewUsageCreateInfo UsageInfo{VK_STRUCTURE_TYPE_IMAGE_VIEW_USAGE_CREATE_INFO};
 	UsageInfo.usage = Usage;
 	VkImageViewCreateInfo Info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO, &UsageInfo};

@@ -12,7 +12,7 @@ class FVulkanTexture final : public TVulkanObject<IRTTexture>
 {
 public:
 	using TVulkanObject::TVulkanObject;
-	/// Imported: an image that stays the engine's; null: one of our own.
+	/// Imported: an image that stays the engine's, or null to create one.
 	FRTStatus Initialise(const FRTTextureDesc& InDesc, VkImage Imported);
 
 	const FRTTextureDesc& GetDesc() const override { return Desc; }

@@ -1,5 +1,5 @@
-// Puts shader records where they belong: record r of Source goes to record Indices[r] of Dest. Or, with Gather, handles:
-// handle Indices[r] of Source goes to record r of Dest, whose data stay.
+// Puts shader records where they belong: record r of Source goes to record Indices[r] of Dest. With Gather, it puts handles:
+// handle Indices[r] of Source goes to record r of Dest, whose data stays.
 // Mirrored by FVulkanTableScatter::FPush.
 #version 460
 #extension GL_EXT_buffer_reference : require

@@ -12,11 +12,11 @@ namespace
 
 constexpr VkBufferUsageFlags HostUsage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
 constexpr uint64_t MinHostCopyBytes = 64 * 1024;
-/// More staged batches than this are gathered into one.
+/// If more batches are staged than this, they are gathered into one.
 constexpr size_t MaxBatches = 4;
-/// More runs than this of one kind are written by a compute pass rather than copied.
+/// If one kind has more runs than this, a compute pass writes them; otherwise they are copied.
 constexpr size_t MaxRegions = 16;
-/// A host copy that as many stagings passed by gives its memory back.
+/// A host copy gives its memory back if so many stagings did not use it.
 constexpr uint64_t IdleStagings = 64;
 
 } // namespace
@@ -70,7 +70,7 @@ FRTStatus FVulkanShaderTable::Reserve(const uint32_t Counts[4])
 	const FRecordCounts Before = Records.GetLayout().Counts;
 	const FRecordCounts Grown = GrowRecordCounts(Before, Counts);
 	if (Grown == Before) { return {}; }
-	// Where no update has gone into Next yet, Current is still what the contents come from.
+	// If no update has gone into Next yet, the contents still come from Current.
 	FRTStatus Status = MakeDeviceTable(Grown, bCurrentUsed ? Next : Current);
 	if (!Status) { return Status; }
 	Records.Grow(Grown);
@@ -152,7 +152,7 @@ FRTStatus FVulkanShaderTable::Stage()
 	Batches.push_back(std::move(Batch));
 	if (!Status)
 	{
-		ReturnBatches(); // nothing may count as staged that is not
+		ReturnBatches(); // what was not staged must stay dirty
 		return Status;
 	}
 	Fill(Batches.back());
@@ -181,7 +181,7 @@ FRTStatus FVulkanShaderTable::FindHostCopy(uint64_t Size, TRTRef<FVulkanTableBuf
 {
 	++StageCount;
 	DropIdleHostCopies();
-	// Of the free ones that are large enough the smallest; else the largest grows.
+	// Takes the smallest free host copy that is large enough; if there is none, the largest free one grows.
 	const auto Find = [&]() -> FHostCopy* {
 		FHostCopy* Best = nullptr;
 		for (FHostCopy& Copy : HostCopies)
@@ -280,7 +280,7 @@ FRTStatus FVulkanShaderTable::TakeUpdate(FUpdate& Out)
 	UpdatedBytes = 0;
 	for (FBatch& Batch : Batches)
 	{
-		// Handles first: a record that is also new as a whole gets its own again.
+		// Handles come first: a record that is also new as a whole then gets its own handle.
 		if (Batch.HitHandles.Count > 0)
 		{
 			FCopies& OfHandles = Out.Copies.emplace_back();

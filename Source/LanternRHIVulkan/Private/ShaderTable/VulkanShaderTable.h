@@ -8,7 +8,7 @@
 namespace Lantern
 {
 
-/// A block that lists keep, and that may go before the table does.
+/// A block that lists keep. The table may let go of it earlier.
 class FVulkanTableBuffer final : public TVulkanObject<IRTRefCounted>
 {
 public:
@@ -46,7 +46,7 @@ public:
 		uint64_t Offset = 0;
 		uint64_t Size = 0;
 	};
-	/// What the GPU has to do, in this order: zeros and what moves from the table before, then each of Copies.
+	/// What the GPU has to do, in this order: zeros, what moves from the old device table, then each of Copies.
 	struct FUpdate
 	{
 		FVulkanTableBuffer* Dest = nullptr;
@@ -56,11 +56,11 @@ public:
 
 		bool IsEmpty() const { return Zeros.empty() && !Moved.Source && Copies.empty(); }
 	};
-	/// Stages what is not; it counts as copied from here on. On error nothing has been taken.
+	/// Stages the rest and takes all that is staged, which counts as copied from here on. On error nothing has been taken.
 	FRTStatus TakeUpdate(FUpdate& Out);
-	/// As the last update left it.
+	/// Returns the device's copy as of the last update.
 	FVulkanTableBuffer* GetBuffer() const { return Current.Buffer.Get(); }
-	/// RayGen: the region of one record.
+	/// RayGen: index of the one record in the region, if Kind is ray generation.
 	VkStridedDeviceAddressRegionKHR GetRegion(ERTRecordKind Kind, uint32_t RayGen) const;
 
 private:
@@ -71,7 +71,7 @@ private:
 		TRTRef<FVulkanTableBuffer> Buffer;
 		FTableLayout Layout;
 	};
-	/// Records of one kind in a host copy, one after another; behind them their indices, where they are scattered.
+	/// Records of one kind in a host copy, one after another. If they are scattered, their indices stand behind them.
 	struct FPart
 	{
 		std::vector<FRun> Runs;
@@ -80,7 +80,7 @@ private:
 		uint64_t Offset = 0;
 		uint64_t IndexOffset = 0;
 	};
-	/// Hit records whose handles alone are new: numbers of handles in a host copy, and behind them the handles.
+	/// Hit records whose handles alone are new. A host copy has the numbers of the handles, and behind them the handles.
 	struct FHandlePart
 	{
 		std::vector<FRun> Runs;
@@ -88,7 +88,7 @@ private:
 		uint64_t SlotOffset = 0;
 		uint64_t HandleOffset = 0;
 	};
-	/// A host copy, filled.
+	/// A filled host copy.
 	struct FBatch
 	{
 		TRTRef<FVulkanTableBuffer> Source;
@@ -98,7 +98,7 @@ private:
 	struct FHostCopy
 	{
 		TRTRef<FVulkanTableBuffer> Buffer;
-		uint64_t LastUse = 0; ///< StageCount then
+		uint64_t LastUse = 0; ///< StageCount at that time
 	};
 
 	const FDeviceTable& Newest() const { return Next.Buffer ? Next : Current; }
@@ -106,7 +106,7 @@ private:
 	FRTStatus MakeBuffer(uint64_t Size, VkBufferUsageFlags Usage, ERTMemory Memory, const char* Suffix, TRTRef<FVulkanTableBuffer>& Out);
 	void Fill(const FBatch& Batch) const;
 	void ReturnBatches();
-	/// A free host copy of at least Size bytes; makes one where all are in use.
+	/// Finds a free host copy of at least Size bytes; makes one if all are in use.
 	FRTStatus FindHostCopy(uint64_t Size, TRTRef<FVulkanTableBuffer>& Out);
 	void DropIdleHostCopies();
 	void AddMove(FUpdate& Out);
@@ -120,7 +120,7 @@ private:
 	TRTRef<FVulkanPipeline> Pipeline;
 	FShaderTableRecords Records;
 	FDeviceTable Current;      ///< of the last update
-	FDeviceTable Next;         ///< of the next one, where it is another
+	FDeviceTable Next;         ///< of the next update, if the table has grown
 	bool bCurrentUsed = false; ///< an update has gone into Current
 	bool bContentLost = false; ///< everything is dirty: nothing need move or be filled with zeros
 	std::vector<FBatch> Batches;

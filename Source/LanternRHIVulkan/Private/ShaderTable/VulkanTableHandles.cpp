@@ -1,5 +1,4 @@
-// What a shader table does where handles alone are new: four bytes a record travel, and a compute pass looks the handles
-// up.
+// FVulkanShaderTable: records whose handles alone are new. Four bytes travel for each, and a compute pass looks the handles up.
 #include "ShaderTable/VulkanShaderTable.h"
 
 #include <cstring>

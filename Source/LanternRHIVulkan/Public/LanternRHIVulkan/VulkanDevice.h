@@ -1,9 +1,9 @@
-// Creation of the Vulkan peer of the RHI. Needs no Vulkan header; for taking over an engine's device see
-// LanternRHIVulkan/VulkanInterop.h.
+// Creation of the Vulkan peer of the RHI. This header needs none of Vulkan's. LanternRHIVulkan/VulkanInterop.h takes over an
+// engine's device.
 //
-// Needed of a device: Vulkan 1.3 with dynamic rendering, synchronization2, timeline semaphores, buffer device
-// addresses, bindless descriptors, 64-bit integers, scalar block layout, storage images without format. Ray
-// tracing decides the rung (ERTRung); every extension of the ladder is optional.
+// A device must have Vulkan 1.3 with these features. Commands: dynamic rendering, synchronization2, timeline semaphores.
+// Resources: buffer device addresses, bindless descriptors, storage images without format. Shaders: 64-bit integers, scalar
+// block layout. Ray tracing decides the rung (ERTRung); every extension of the ladder is optional.
 #pragma once
 
 #include "LanternRHI/RTInterfaces.h"
@@ -18,35 +18,35 @@ enum class ERTVulkanMessage : uint8_t
 	Error,
 };
 
-/// Called from any thread, also while a device call is under way: it must not call the device.
+/// Called from any thread, also during a call of the device. It must not call the device.
 using FRTVulkanMessageCallback = void (*)(void* User, ERTVulkanMessage Severity, const char* Text);
 
 struct FRTVulkanDeviceDesc
 {
-	/// As ListVulkanDevices counts them. -1: the best one (discrete with ray-tracing pipelines first, CPU last).
+	/// Index as in ListVulkanDevices. -1 chooses the best device: discrete with ray-tracing pipelines first, CPUs last.
 	int DeviceIndex = -1;
-	/// VK_LAYER_KHRONOS_validation; Unsupported when the layer is not installed.
+	/// Switches VK_LAYER_KHRONOS_validation on. Unsupported if the layer is not installed.
 	bool bValidation = false;
-	/// Also the layer's synchronization validation. Slow.
+	/// Adds the layer's synchronization validation, which is slow.
 	bool bSynchronizationValidation = false;
-	/// Highest rung to use. RayQuery hides ray-tracing pipelines, Pipeline hides reordering and micromaps, ….
+	/// Highest rung to use. RayQuery hides ray-tracing pipelines, Pipeline hides reordering and micromaps, and so on.
 	ERTRung MaxRung = ERTRung::Micromap;
 	bool bDisableRayQuery = false;
 	bool bDisablePipeline = false;
-	/// A device without any ray tracing is good enough (rung None).
+	/// Accepts a device without any ray tracing (rung None).
 	bool bAllowNoRayTracing = false;
-	/// Read at creation and written, atomically, when the device is destroyed. Null: not kept. A file that is
+	/// File that is read at creation and written, atomically, when the device is destroyed. Null keeps no cache. A file that is
 	/// damaged or another driver's is discarded with one message.
 	const char* PipelineCacheFile = nullptr;
-	/// Pipeline libraries, too, go through the pipeline cache. Without, they are compiled anew in each process (unless
-	/// the driver has a cache of its own), but threads that compile them share nothing.
+	/// Sends pipeline libraries through the pipeline cache too. If false, each process compiles them anew, unless the driver has
+	/// a cache of its own; but threads that compile them share nothing.
 	bool bCacheLibraries = true;
-	/// Null: standard error, warnings and errors only.
+	/// Null prints warnings and errors to standard error.
 	FRTVulkanMessageCallback MessageCallback = nullptr;
 	void* MessageUser = nullptr;
 };
 
-/// Unsupported, with what every device found lacks, when there is no loader, no device, or none good enough.
+/// Returns Unsupported if there is no loader, no device, or none good enough. The message says what each device lacks.
 FRTStatus CreateVulkanDevice(const FRTVulkanDeviceDesc& Desc, IRTDevice** Out);
 
 struct FRTVulkanDeviceInfo
@@ -59,15 +59,15 @@ struct FRTVulkanDeviceInfo
 	ERTRung Rung = ERTRung::None;
 	bool bRayQuery = false;
 	bool bRayTracingPipeline = false;
-	char Missing[1024] = {}; ///< one line per thing it lacks, and what that costs; empty: nothing
-	char Quirks[1024] = {};  ///< one line per known fault of this driver that Lantern works around
+	char Missing[1024] = {}; ///< one line for each thing it lacks, and what that costs; empty if it lacks nothing
+	char Quirks[1024] = {};  ///< one line for each known fault of this driver that Lantern works around
 };
 
-/// Fills at most Capacity entries of Out (may be null when 0); OutCount: the devices there are.
-/// Unsupported without a loader; no device is Ok with 0.
+/// Fills at most Capacity entries of Out, which may be null if Capacity is 0. OutCount: the number of devices, which may be 0.
+/// Returns Unsupported if there is no loader.
 FRTStatus ListVulkanDevices(FRTVulkanDeviceInfo* Out, uint32_t Capacity, uint32_t* OutCount);
 
-/// Writes the pipeline cache now rather than at destruction. Ok when none was asked for.
+/// Writes the pipeline cache now rather than at destruction. Ok if the device keeps none.
 FRTStatus SaveVulkanPipelineCache(IRTDevice* Device);
 
 } // namespace Lantern

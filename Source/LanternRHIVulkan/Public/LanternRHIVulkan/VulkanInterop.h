@@ -1,17 +1,15 @@
 // Take-over of an engine's Vulkan device.
 //
-// Order: GetVulkanRequirements for the engine's VkPhysicalDevice; enable what it lists in the engine's
-// vkCreateDevice; AdoptVulkanDevice. Lantern then allocates from the device and submits to the queue, and
-// destroys nothing that it did not create. All RHI objects, the device included, must be released before the
-// engine destroys its VkDevice.
+// Order: call GetVulkanRequirements for the engine's VkPhysicalDevice, enable what it lists in the engine's vkCreateDevice, and
+// call AdoptVulkanDevice. Lantern then allocates from the device and submits to the queue. It destroys nothing that it did not
+// create. All RHI objects, the device included, must be released before the engine destroys its VkDevice.
 //
-// Queue: Vulkan wants submissions to a VkQueue synchronised. Lantern takes LockQueue around every use of the
-// queue; without it the engine must not use the queue while a call of Submit, NotifyExternalSubmit or WaitIdle
-// is under way.
+// Queue: Vulkan wants submissions to a VkQueue synchronised. Lantern calls LockQueue before every use of the queue and
+// UnlockQueue after it. Without them, the engine must not use the queue during Submit, NotifyExternalSubmit and WaitIdle.
 //
-// Layouts: an imported texture's layout is that of the access named Before in its next barrier (GetVulkanLayout).
-// A texture in ShaderRead|StorageRead|StorageWrite combinations is in VK_IMAGE_LAYOUT_GENERAL and is to be read
-// through its storage index; its sampled descriptor expects ShaderRead alone.
+// Layouts: an imported texture's layout is that of the access named Before in its next barrier (GetVulkanLayout). A texture in
+// combinations of ShaderRead, StorageRead and StorageWrite is in VK_IMAGE_LAYOUT_GENERAL. Read it through its storage index
+// then: its sampled descriptor expects ShaderRead alone.
 #pragma once
 
 #include "LanternRHIVulkan/VulkanDevice.h"
@@ -21,19 +19,19 @@
 namespace Lantern
 {
 
-/// What vkCreateDevice must enable. Owns all it points to. Made for one physical device.
+/// What vkCreateDevice must enable on one physical device. The object owns all that it points to.
 class IRTVulkanRequirements : public IRTRefCounted
 {
 public:
 	virtual uint32_t GetExtensionCount() const = 0;
 	virtual const char* const* GetExtensions() const = 0;
-	/// Head of the chain for VkDeviceCreateInfo::pNext, for an engine without features of its own.
+	/// Returns the head of a chain for VkDeviceCreateInfo::pNext, for an engine without features of its own.
 	virtual const VkPhysicalDeviceFeatures2* GetFeatures() const = 0;
-	/// For an engine with its own chain: features of structures that are in it are switched on there, the others
-	/// appended at its end. The chain must use VkPhysicalDeviceVulkan11/12/13Features rather than the
-	/// structures promoted into them, and this object must live until vkCreateDevice returns.
+	/// Switches features on in the structures of an engine's own chain, and appends the structures that it lacks. The chain must
+	/// use VkPhysicalDeviceVulkan11/12/13Features rather than the structures promoted into them. This object must live until
+	/// vkCreateDevice returns.
 	virtual void MergeInto(VkPhysicalDeviceFeatures2* EngineChain) = 0;
-	/// What the device will be able to do.
+	/// Returns what the device will be able to do.
 	virtual const FRTCapabilities& GetCapabilities() const = 0;
 };
 
@@ -41,7 +39,7 @@ struct FRTVulkanRequirementsDesc
 {
 	VkInstance Instance = VK_NULL_HANDLE;
 	VkPhysicalDevice PhysicalDevice = VK_NULL_HANDLE;
-	/// Null: the system loader's.
+	/// Null means the system loader's.
 	PFN_vkGetInstanceProcAddr GetInstanceProcAddr = nullptr;
 	ERTRung MaxRung = ERTRung::Micromap;
 	bool bDisableRayQuery = false;
@@ -49,7 +47,7 @@ struct FRTVulkanRequirementsDesc
 	bool bAllowNoRayTracing = false;
 };
 
-/// Unsupported, naming what is missing, when Lantern cannot run on the device.
+/// Returns Unsupported, with a message that names what is missing, if Lantern cannot run on the device.
 FRTStatus GetVulkanRequirements(const FRTVulkanRequirementsDesc& Desc, IRTVulkanRequirements** Out);
 
 struct FRTVulkanExternalDesc
@@ -59,26 +57,26 @@ struct FRTVulkanExternalDesc
 	VkDevice Device = VK_NULL_HANDLE;
 	VkQueue Queue = VK_NULL_HANDLE; ///< graphics and compute
 	uint32_t QueueFamily = 0;
-	/// Null: the system loader's. Must be the one the instance was created through.
+	/// The one through which the instance was created. Null means the system loader's.
 	PFN_vkGetInstanceProcAddr GetInstanceProcAddr = nullptr;
-	/// All of it must have been enabled on Device.
+	/// Everything in it must have been enabled on Device.
 	const IRTVulkanRequirements* Requirements = nullptr;
 	void (*LockQueue)(void* User) = nullptr;
 	void (*UnlockQueue)(void* User) = nullptr;
 	void* QueueUser = nullptr;
-	/// Count (and print) the validation messages of the engine's instance; needs VK_EXT_debug_utils enabled on it.
+	/// Counts and prints the validation messages of the engine's instance, which needs VK_EXT_debug_utils enabled.
 	bool bCountValidation = false;
 	const char* PipelineCacheFile = nullptr; ///< as in FRTVulkanDeviceDesc
 	FRTVulkanMessageCallback MessageCallback = nullptr;
 	void* MessageUser = nullptr;
 };
 
-/// Unsupported when a function of a required extension is absent, i.e. it was not enabled.
+/// Returns Unsupported if a function of a required extension is absent: the extension was not enabled.
 FRTStatus AdoptVulkanDevice(const FRTVulkanExternalDesc& Desc, IRTDevice** Out);
 
-/// The layout a texture is in between barriers to and from Access.
+/// Returns the layout of a texture between barriers to and from Access.
 VkImageLayout GetVulkanLayout(ERTAccess Access);
-/// VK_FORMAT_UNDEFINED for Unknown.
+/// Returns VK_FORMAT_UNDEFINED for Unknown.
 VkFormat GetVulkanFormat(ERTFormat Format);
 
 } // namespace Lantern
