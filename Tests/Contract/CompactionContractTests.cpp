@@ -6,7 +6,7 @@ namespace Lantern
 namespace
 {
 
-/// What the tests with and without rays share.
+/// The fixture of the tests with and without rays.
 template <class TBase>
 class TCompaction : public TBase
 {
@@ -24,7 +24,7 @@ protected:
 		Pool.Reset();
 		TBase::TearDown();
 	}
-	/// As MakeSquares, of Grid triangles, that may be compacted.
+	/// Like MakeSquares, but of a grid of triangles, and allowed to be compacted.
 	FContractGeometry MakeSource(uint32_t Squares = 64, bool bUpdate = false, const char* Name = "Source")
 	{
 		FContractGeometry Out = this->MakeSquares(Squares, true, bUpdate, Name);
@@ -44,7 +44,7 @@ protected:
 		EXPECT_OK(this->Device().CreateGeometry(Desc, Out.ReleaseAndGetAddress()));
 		return Out;
 	}
-	/// Builds these and says how many bytes each needs.
+	/// Builds the geometries and returns how many bytes each needs.
 	std::vector<uint64_t> BuildAndMeasure(const std::vector<const FContractGeometry*>& Sources)
 	{
 		const auto List = this->Make.List("Measure");
@@ -59,7 +59,7 @@ protected:
 		EXPECT_TRUE(Pool->GetResults(0, static_cast<uint32_t>(Sizes.size()), Sizes.data()));
 		return Sizes;
 	}
-	/// With the barrier behind it.
+	/// Compacts, and puts the barrier behind it.
 	void Compact(IRTCommandList* List, IRTGeometry* Dest, IRTGeometry* Source)
 	{
 		List->CompactGeometry(Dest, Source);

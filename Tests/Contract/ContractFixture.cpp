@@ -28,7 +28,7 @@ void FContractFixture::SetUp()
 	if (IsVulkan())
 	{
 		FRTVulkanDeviceDesc Desc;
-		// For machines that have a driver and no layers.
+		// Some machines have a driver and no layers.
 		Desc.bValidation = std::getenv("LANTERN_TEST_WITHOUT_LAYERS") == nullptr;
 		Desc.MessageUser = this;
 		Desc.MessageCallback = [](void* User, ERTVulkanMessage Severity, const char* Text) {
@@ -57,7 +57,7 @@ void FContractFixture::TearDown()
 	}
 	Make.Device.Reset();
 	Inner.Reset();
-	// Destroying the device may have brought messages too: leaks.
+	// Destroying the device may have brought messages too, about leaks.
 	for (const std::string& Message : Messages) { ADD_FAILURE() << Message; }
 }
 

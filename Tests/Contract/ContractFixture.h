@@ -1,6 +1,6 @@
-// One corpus, every RHI. A test written with CONTRACT_TEST runs on the mock and on Vulkan, each alone and behind the
-// validation wrapper; one with CONTRACT_SHADER_TEST needs shaders to run and so stays with Vulkan. Whatever it does,
-// no validation may have said anything at the end, and nothing may be left over.
+// One corpus for every RHI. CONTRACT_TEST runs a test on the mock and on Vulkan, each alone and behind the validation wrapper.
+// CONTRACT_SHADER_TEST is for tests that need shaders to run, on Vulkan only. Whatever a test does, at its end no validation may
+// have said anything, and nothing may be left over.
 #pragma once
 
 #include "Support/RHIMaker.h"
@@ -31,11 +31,11 @@ protected:
 
 	IRTDevice& Device() { return *Make.Device; }
 	const FRTCapabilities& Caps() { return Make.Device->GetCapabilities(); }
-	/// The mock without the wrapper, whose memory and tables can be looked into.
+	/// Says whether this is the mock without the wrapper, whose memory and tables can be looked into.
 	bool IsMock() const { return GetParam() == EContractRHI::Mock; }
 	bool IsVulkan() const { return GetParam() >= EContractRHI::Vulkan; }
 	void Wait(FRTFence Fence) { EXPECT_OK(Device().WaitFor(Fence, WaitLimitNs)); }
-	/// Ends, submits and waits.
+	/// Ends the list, submits it and waits.
 	void Run(IRTCommandList* List) { Wait(Make.Submit(List)); }
 	static void Barrier(IRTCommandList* List, IRTBuffer* Buffer, ERTAccess Before, ERTAccess After)
 	{
@@ -47,7 +47,7 @@ protected:
 		const FRTBarrier Item = {nullptr, Texture, Before, After};
 		List->Barriers(&Item, 1);
 	}
-	/// Upload buffer with these bytes.
+	/// Makes an Upload buffer with these bytes.
 	TRTRef<IRTBuffer> Upload(const void* Bytes, uint64_t Size, const char* Name = "Upload")
 	{
 		auto Buffer = Make.Buffer(Size, ERTMemory::Upload, Name);
@@ -59,7 +59,7 @@ protected:
 	{
 		return Upload(Items.data(), Items.size() * sizeof(T), Name);
 	}
-	/// The bytes of one mip and layer; the texture is in Access and stays there.
+	/// Reads the bytes of one mip and layer. The texture is in Access and stays there.
 	std::vector<uint8_t> Read(IRTTexture* Texture, ERTAccess Access, uint32_t Mip = 0, uint32_t Layer = 0);
 
 	FRHIMaker Make;
@@ -75,7 +75,7 @@ private:
 class FContract : public FContractFixture
 {};
 
-/// Shaders run.
+/// Devices on which shaders run.
 class FContractShaders : public FContractFixture
 {};
 

@@ -15,11 +15,11 @@ struct FContractPush
 };
 static_assert(sizeof(FContractPush) == 48, "scalar layout of Push in Shaders/Common.glsl");
 
-/// Name: the file, e.g. "Trace.rgen".
+/// Name: the file, for example "Trace.rgen".
 FRTShaderCode GetContractShader(const char* Name);
 
 TRTRef<IRTPipeline> MakeComputePipeline(IRTDevice& Device, const char* Shader);
-/// Triangle.vert and Colour.frag. Color Unknown: depth only.
+/// Makes a pipeline of Triangle.vert and Colour.frag. If Color is Unknown, it writes depth only.
 TRTRef<IRTPipeline> MakeRasterPipeline(
     IRTDevice& Device, ERTFormat Color, ERTFormat Depth = ERTFormat::Unknown, ERTCull Cull = ERTCull::None, bool bDepthWrite = true);
 
@@ -31,7 +31,7 @@ enum ERayGroup : uint32_t
 	GroupMissOne, ///< payload MissOne
 	GroupMissTwo, ///< payload MissTwo
 	GroupHit,     ///< see Hit.rchit
-	GroupMasked,  ///< the same with an any-hit shader that ignores everything
+	GroupMasked,  ///< GroupHit with an any-hit shader that ignores every hit
 	GroupDisc,    ///< procedural
 	GroupDouble,  ///< callable
 	GroupSquare,  ///< callable
@@ -40,7 +40,7 @@ inline constexpr uint32_t MissOne = 0xf0000001u, MissTwo = 0xf0000002u;
 
 TRTRef<IRTPipeline> MakeRayPipeline(IRTDevice& Device);
 
-/// A shader group by the files of its shaders; null: none.
+/// A shader group by the files of its shaders; null for none.
 struct FRayGroup
 {
 	const char* General = nullptr;
@@ -48,7 +48,7 @@ struct FRayGroup
 	const char* AnyHit = nullptr;
 	const char* Intersection = nullptr;
 };
-/// Payload of 4 bytes, recursion 1. Monolithic, a library, or linked from Libraries.
+/// Makes a monolithic pipeline, a library, or a link of Libraries, with a payload of 4 bytes and recursion 1.
 FRTStatus CreateRays(IRTDevice& Device, const std::vector<FRayGroup>& Groups, bool bLibrary, const std::vector<IRTPipeline*>& Libraries,
     const char* Name, TRTRef<IRTPipeline>& Out);
 TRTRef<IRTPipeline> MakeRays(IRTDevice& Device, const std::vector<FRayGroup>& Groups, bool bLibrary = false,

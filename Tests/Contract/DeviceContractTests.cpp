@@ -76,7 +76,7 @@ CONTRACT_TEST(ListsOfOneSubmissionRunInOrder)
 {
 	const auto Readback = Make.Buffer(8, ERTMemory::Readback);
 	const auto A = Make.List("A"), B = Make.List("B");
-	// Recorded the other way round.
+	// The lists were recorded in the other order.
 	Barrier(B.Get(), Readback.Get(), ERTAccess::CopyWrite, ERTAccess::CopyWrite);
 	B->FillBuffer(Readback.Get(), 0, 4, 2);
 	Barrier(B.Get(), Readback.Get(), ERTAccess::CopyWrite, ERTAccess::HostRead);

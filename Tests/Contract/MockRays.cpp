@@ -26,10 +26,10 @@ float Determinant(const float* M)
 	return M[0] * (M[5] * M[10] - M[6] * M[9]) - M[1] * (M[4] * M[10] - M[6] * M[8]) + M[2] * (M[4] * M[9] - M[5] * M[8]);
 }
 
-/// Twice the signed area of the triangle's shadow on z = 0.
+/// Returns twice the signed area of the triangle's projection to z = 0.
 float Area(const FPoint& A, const FPoint& B, const FPoint& C) { return (B.X - A.X) * (C.Y - A.Y) - (B.Y - A.Y) * (C.X - A.X); }
 
-/// Where a ray meets a primitive; the rays look straight down from z = 1.
+/// Where a ray meets a primitive. The rays look straight down from z = 1.
 struct FMet
 {
 	float Distance = 0;
@@ -136,7 +136,7 @@ private:
 		const float A = Area(Eye, P[1], P[2]) / All, B = Area(P[0], Eye, P[2]) / All, C = 1.0f - A - B;
 		if (All == 0.0f || A < 0 || B < 0 || C < 0) { return false; }
 		Out.Distance = 1.0f - (A * P[0].Z + B * P[1].Z + C * P[2].Z);
-		// Winding counts in object space: a mirroring transform does not turn it.
+		// Winding is decided in object space: a mirroring transform does not change it.
 		const uint32_t Flags = Instance.TableOffsetAndFlags >> 24;
 		const bool bMirrored = Determinant(Instance.Transform) < 0;
 		const bool bFlipped = Flags & InstanceFlipFacing;
@@ -144,7 +144,7 @@ private:
 		const bool bCulled = Push.B & (Out.bBack ? RayCullBack : RayCullFront);
 		return !bCulled || (Flags & InstanceCullDisable);
 	}
-	/// Boxes are not turned, only moved. Disc.rint answers where the ray is near the box's middle, Slab.rint on its top.
+	/// Boxes are moved, never rotated. Disc.rint reports a hit if the ray is near the box's middle, Slab.rint on its top.
 	bool MeetBox(
 	    const FRTInstance& Instance, const FRTGeometrySection& Desc, uint32_t Primitive, const FRTMockRecord& Record, FMet& Out) const
 	{

@@ -1,5 +1,5 @@
-// Rays on the mock: followed through the geometry in its memory to the record of the table that a GPU would run, and
-// what that record's shaders (known by name) would have answered.
+// Rays on the mock. They are followed through the geometry in its memory to the record that a GPU would run. The record's
+// shaders, known by name, say what they would have answered.
 #pragma once
 
 #include "ContractShaders.h"
@@ -9,8 +9,8 @@
 namespace Lantern
 {
 
-/// What Trace.rgen (or Call.rgen) writes for each of Width pixels in a row. Records that a GPU would stumble over are
-/// test failures.
+/// Returns what Trace.rgen or Call.rgen writes for each of Width pixels in a row. Records that would be wrong on a GPU are test
+/// failures.
 std::vector<uint32_t> TraceOnMock(
     const FRTMock& Mock, IRTShaderTable* Table, IRTScene* Scene, const FContractPush& Push, uint32_t Width, uint32_t RayGen);
 

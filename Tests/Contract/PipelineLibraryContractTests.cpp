@@ -1,4 +1,4 @@
-// Pipelines linked from libraries answer as those made in one piece.
+// Pipelines linked from libraries: rays through them answer as through those made in one piece.
 #include "RayStageFixture.h"
 
 #include <thread>
@@ -8,7 +8,7 @@ namespace Lantern
 namespace
 {
 
-/// Creation alone: on every RHI.
+/// Tests of creation alone run on every RHI.
 class FLibraryContract : public FContract
 {
 protected:
@@ -68,7 +68,7 @@ TEST(PipelineLibraries, AreUnsupportedWhereTheDeviceHasNone)
 	EXPECT_TRUE(MakeRays(*Device, {StageTrace, StageMiss, StageHit}));
 }
 
-/// Rays through links.
+/// Tests that trace rays through links.
 class FLinkContract : public FRayStageFixture
 {
 protected:
@@ -79,7 +79,7 @@ protected:
 		if (!Caps().bPipelineLibraries) { GTEST_SKIP() << "the device has no pipeline libraries"; }
 		MakeStageScene();
 	}
-	/// Own groups, then a library for each of Split. The libraries are released before the link is used.
+	/// Links its own groups and a library for each of Split. The libraries are released before the link is used.
 	void UseLinked(const FGroups& Own, const std::vector<FGroups>& Split, const char* Name = "Linked")
 	{
 		std::vector<TRTRef<IRTPipeline>> Libraries;
@@ -145,7 +145,7 @@ TEST_P(FLinkContract, EveryGroupFromALibrary)
 	ExpectAllStages("nothing but libraries");
 }
 
-/// EVulkanQuirk::CrashWithoutHitShaders: rays that hit where no group of the link has a hit shader.
+/// Rays hit, but no group of the link has a hit shader (EVulkanQuirk::CrashWithoutHitShaders).
 TEST_P(FLinkContract, LinksWithoutHitShaders)
 {
 	const FRayGroup Empty = {};

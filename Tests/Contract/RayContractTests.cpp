@@ -204,7 +204,7 @@ TEST_P(FRecordContract, FaceCullingIsChosenPerDispatch)
 	MakeTable(1);
 	SetHit(0, 1);
 	const FContractGeometry Square = MakeSquares();
-	// Turned by half a turn about y: the rays see its back.
+	// Rotated by half a turn about y: the rays see its back.
 	FRTInstance Turned = Place(Square, 2, 1);
 	Turned.Transform[0] = Turned.Transform[10] = -1.0f;
 	FRTInstance Never = Turned;

@@ -1,4 +1,5 @@
-// Rays that run (on the mock: that are followed through its memory and table): pixel (x, y) looks down -z at the unit square over it and says what it hit.
+// Rays on every RHI: on Vulkan they run, on the mock they are followed through its memory and table. Pixel (x, y) looks down -z
+// at the unit square over it and says what it hit.
 #pragma once
 
 #include "MockRays.h"
@@ -7,7 +8,7 @@
 namespace Lantern
 {
 
-/// Where rays can be followed: the mock's memory is out of reach behind the wrapper.
+/// Devices on which rays can be followed. Behind the wrapper, the mock's memory is out of reach.
 inline constexpr EContractRHI RayRHIs[] = {EContractRHI::Mock, EContractRHI::Vulkan, EContractRHI::VulkanValidated};
 
 class FRayContract : public TSceneFixture<FContractShaders>
@@ -28,7 +29,8 @@ protected:
 		Table.Reset();
 		TSceneFixture::TearDown();
 	}
-	/// Ray generation: trace, call. Miss: one, two. Callable: double, square. Record data: 4 bytes.
+	/// Makes a table with ray generation records trace and call, miss records one and two, callable records double and square.
+	/// Hit records have 4 bytes of data.
 	void MakeTable(uint32_t HitCount)
 	{
 		FRTShaderTableDesc Desc;
@@ -58,7 +60,7 @@ protected:
 		Push.E = 1;
 		return Push;
 	}
-	/// Updates the table, traces Width rays in a row and says what each found. Ends, submits and waits for the list.
+	/// Updates the table and traces Width rays in a row; ends, submits and waits for the list. Returns what each ray found.
 	std::vector<uint32_t> Trace(IRTCommandList* List, uint32_t Width, FContractPush Push, uint32_t RayGen = 0)
 	{
 		const auto Output = Make.Buffer(Width * 4, ERTMemory::Readback, "Output");
@@ -73,7 +75,7 @@ protected:
 		const auto* Begin = static_cast<const uint32_t*>(Output->GetMapped());
 		return {Begin, Begin + Width};
 	}
-	/// A list of its own for rays into what is built.
+	/// Traces with a list of its own into what is built.
 	std::vector<uint32_t> Trace(uint32_t Width, const FContractPush& Push, uint32_t RayGen = 0)
 	{
 		const auto List = Make.List("Trace");

@@ -8,7 +8,7 @@
 namespace Lantern
 {
 
-/// Shaders named "Salt…" and Slab.rint answer with push constant G: a stage that does not get the constants is seen.
+/// Shaders named "Salt…" and Slab.rint answer with push constant G, so that a stage without the constants is seen.
 inline const FRayGroup StageTrace = {"Trace.rgen"}, StageCall = {"Call.rgen"}, StageMiss = {"SaltMiss.rmiss"}, StageSalt = {"Salt.rcall"},
                        StageHit = {nullptr, "SaltHit.rchit"}, StageParity = {nullptr, "SaltHit.rchit", "Parity.rahit"},
                        StageAnyOnly = {nullptr, nullptr, "Parity.rahit"}, StageBox = {nullptr, "BoxHit.rchit", nullptr, "Slab.rint"},
@@ -33,7 +33,7 @@ protected:
 		Boxes = OpenBoxes = {};
 		FRayContract::TearDown();
 	}
-	/// Order: the groups of InPipeline.
+	/// Order: names of the groups of InPipeline, in their order.
 	void Use(TRTRef<IRTPipeline> InPipeline, const FGroups& Order)
 	{
 		Pipeline = std::move(InPipeline);
@@ -47,7 +47,7 @@ protected:
 		EXPECT_NE(Found, Groups.end());
 		return static_cast<uint32_t>(Found - Groups.begin());
 	}
-	/// Hit record i: group i of GetHitGroups with value 10 + i. Ray generation: trace, call.
+	/// Sets hit record i to group i of GetHitGroups with value 10 + i, and ray generation records to trace and call.
 	void MakeStageTable()
 	{
 		FRTShaderTableDesc Desc;
@@ -69,8 +69,8 @@ protected:
 		const FGroups Hits = GetHitGroups();
 		for (uint32_t Index = 0; Index < HitRecords; ++Index) { SetHit(Index, 10 + Index, Find(Hits[Index])); }
 	}
-	/// Pixels 0 … 8: opaque squares with records 0, 1, 2 and 5; masked ones with 1 and 2; a box with 3; two masked boxes,
-	/// one beside the other, with 4. Pixel 9: nothing.
+	/// Places one primitive below each of pixels 0 … 8. First come opaque squares with records 0, 1, 2 and 5, then masked ones with
+	/// 1 and 2. A box with record 3 follows, then two masked boxes with record 4. Pixel 9 sees nothing.
 	void MakeStageScene()
 	{
 		Squares = MakeSquares();
@@ -88,7 +88,7 @@ protected:
 		Push.G = Salt;
 		return Push;
 	}
-	/// What MakeStageScene's pixels must answer, by hand.
+	/// Computes by hand what the pixels of MakeStageScene must answer.
 	static FWords GetExpected(uint32_t Salt)
 	{
 		const auto Plain = [&](uint32_t Record, uint32_t Custom) { return (10 + Record) << 16 | Salt << 8 | Custom; };

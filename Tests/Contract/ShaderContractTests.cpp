@@ -1,4 +1,4 @@
-// Compute and raster shaders really run.
+// Compute and raster shaders: they really run.
 #include "ContractShaders.h"
 
 namespace Lantern
@@ -99,7 +99,7 @@ CONTRACT_SHADER_TEST(SampledMipsByIndex)
 	for (uint32_t i = 0; i < 3; ++i) { EXPECT_EQ(static_cast<const uint32_t*>(Output->GetMapped())[i], 100 + i * 100); }
 }
 
-/// An 8×8 target and triangles over all of it.
+/// Tests with a target of 8×8 texels and triangles over all of it.
 class FRasterContract : public FContractShaders
 {
 protected:
@@ -130,7 +130,7 @@ protected:
 		Barrier(List, Depth.Get(), ERTAccess::None, ERTAccess::DepthWrite);
 		List->BeginRasterPass(Pass);
 	}
-	/// Covers the whole target; counter-clockwise where bFront.
+	/// A triangle that covers the whole target, counter-clockwise if bFront.
 	void Push(IRTCommandList* List, float Z, uint32_t Value, bool bFront = true)
 	{
 		const float X = bFront ? -3.0f : 3.0f;

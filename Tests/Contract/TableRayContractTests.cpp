@@ -31,7 +31,7 @@ protected:
 		Square = {};
 		FRayContract::TearDown();
 	}
-	/// Squares side by side; that of pixel i has the table offset Offsets[i] and the custom index i.
+	/// Builds squares side by side. That of pixel i has the table offset Offsets[i] and the custom index i.
 	void LoadSquares(const std::vector<uint32_t>& Offsets)
 	{
 		Square = MakeSquares();
@@ -51,7 +51,7 @@ protected:
 		if (IsMock()) { GetMock(&Device()).CompleteUpTo(Fence); }
 		Wait(Fence);
 	}
-	/// Offsets: of a scene that replaces the one loaded.
+	/// Offsets: those of a scene that replaces the one loaded; empty to keep it.
 	FFrame Begin(uint32_t Width, const std::vector<uint32_t>& Offsets = {})
 	{
 		FFrame Frame;
@@ -73,7 +73,7 @@ protected:
 		Frame.Fence = Make.Submit(List.Get());
 		return Frame;
 	}
-	/// In the order in which the frames were begun.
+	/// Call it in the order in which the frames were begun.
 	FWords Collect(const FFrame& Frame)
 	{
 		Finish(Frame.Fence);
@@ -105,7 +105,7 @@ TEST_P(FTableRays, RangesAndGroups)
 	Table->SetHitRecords(2, 10, Groups.data(), Data.data());
 	const auto Value = [](uint32_t Record, uint32_t Custom) { return HitValue(98 + Record, Custom, 0, 0); };
 	EXPECT_EQ(Collect(Begin(5)), (FWords{Value(2, 0), Value(5, 1), Value(9, 2), Value(11, 3), MissOne}));
-	// Handles alone, there and back: the data stays.
+	// Handles alone change and change back: the data stays.
 	const uint32_t Disc[] = {GroupMasked, GroupMasked}, Back[] = {GroupHit, GroupHit}, MissGroup = GroupMissTwo;
 	Table->SetGroups(ERTRecordKind::Hit, 8, 2, Disc);
 	Table->SetGroups(ERTRecordKind::Miss, 0, 1, &MissGroup);

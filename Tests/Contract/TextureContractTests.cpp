@@ -74,7 +74,7 @@ CONTRACT_TEST(ClearsAllMips)
 	}
 }
 
-/// Uploads Texels to mip 0, makes the mips, returns the last.
+/// Uploads Texels to mip 0, makes the mips and returns the last one.
 class FMipContract : public FContract
 {
 protected:

@@ -450,7 +450,7 @@ TEST_F(FVulkanSmokeDevice, AnEnginesDeviceIsTakenOverAndLeftAlive)
 	EXPECT_EQ(Adopted->GetValidationMessageCount(), 0u);
 	Adopted.Reset();
 
-	// Still the engine's, and alive.
+	// The device is still the engine's, and alive.
 	Engine.Get<PFN_vkDestroyCommandPool>("vkDestroyCommandPool")(Engine.Device, Engine.Pool, nullptr);
 	EXPECT_EQ(Engine.Get<PFN_vkDeviceWaitIdle>("vkDeviceWaitIdle")(Engine.Device), VK_SUCCESS);
 }

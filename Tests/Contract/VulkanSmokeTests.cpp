@@ -191,7 +191,7 @@ TEST_F(FVulkanSmokeBasics, TrianglesClockwiseOnTheTargetAreBackFaces)
 	Desc.ColorCount = 1;
 	TRTRef<IRTPipeline> Pipeline;
 	ASSERT_OK(Device->CreateRasterPipeline(Desc, Pipeline.ReleaseAndGetAddress()));
-	// Both cover the target. y is down: first clockwise, then counter-clockwise as seen.
+	// Two triangles that cover the target. y is down: the first is clockwise as seen, the second counter-clockwise.
 	const std::vector<float> Points = {-1, -1, 0, 3, -1, 0, -1, 3, 0, -1, -1, 0, -1, 3, 0, 3, -1, 0};
 	TRTRef<IRTBuffer> Positions = MakeUpload(Points, ERTBufferUsage::Storage, "Positions");
 	TRTRef<IRTBuffer> Back = MakeBuffer(Size * Size * 4, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Back");

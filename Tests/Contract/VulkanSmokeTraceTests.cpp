@@ -32,7 +32,7 @@ struct FRecord
 constexpr uint32_t HitFrontFacing = 0xFE, HitBackFacing = 0xFF;
 
 /// A geometry of two triangles that stand in z = 0 over x in [0, 1) and [1, 2): the first opaque, the second not.
-/// Four rays, at x = 0.25, 1.25, 2.25, …
+/// Four rays look at x = 0.25, 1.25, 2.25, …
 class FVulkanSmokeTrace : public FVulkanSmokeTest
 {
 protected:

@@ -86,9 +86,9 @@ struct FMockState
 	TFenceQueue<FMockSubmission> Pending;
 	TFenceQueue<FMockObject*> Retired;
 	FRTFence LastSubmitted = 0, Completed = 0;
-	uint64_t ClockNs = 1000; ///< guarded by ExecuteMutex
-	uint64_t FirstUseNs = 0; ///< guarded by ExecuteMutex, as is
-	std::set<uint64_t> UsedPipelines;
+	uint64_t ClockNs = 1000;          ///< guarded by ExecuteMutex
+	uint64_t FirstUseNs = 0;          ///< guarded by ExecuteMutex
+	std::set<uint64_t> UsedPipelines; ///< by id; guarded by ExecuteMutex
 	uint32_t BlockingWaits = 0;
 	FRTMockTraffic Traffic;
 	bool bManual = false;

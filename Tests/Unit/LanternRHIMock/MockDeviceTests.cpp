@@ -86,7 +86,7 @@ TEST_F(FMockTests, ReleasedObjectsLiveUntilTheirFence)
 	List->FillBuffer(Used.Get(), 0, 4, 1);
 	const FRTFence Fence = Make.Submit(List.Get());
 	auto Unrecorded = Make.Texture(4, 4, ERTFormat::R8_UNORM);
-	// Shaders may read a bindless texture that no list names: it too must wait.
+	// Shaders may read a bindless texture that no list names: it must wait too.
 	Unrecorded.Reset();
 	Used.Reset();
 	List.Reset();

@@ -238,7 +238,7 @@ TEST_F(FValidationTables, StagingMeetsSetting)
 	const auto Table = Make.Table(Pipeline.Get(), 4096);
 	const uint32_t Group = 2;
 	std::atomic<bool> bStop = false;
-	// Set… calls may meet; staging at the same time may not.
+	// Set… calls may meet each other; staging must not meet them.
 	std::thread Other([&] {
 		while (!bStop)
 		{
