@@ -69,8 +69,8 @@ protected:
 		const FGroups Hits = GetHitGroups();
 		for (uint32_t Index = 0; Index < HitRecords; ++Index) { SetHit(Index, 10 + Index, Find(Hits[Index])); }
 	}
-	/// Places one primitive below each of pixels 0 … 8. First come opaque squares with records 0, 1, 2 and 5, then masked ones with
-	/// 1 and 2. A box with record 3 follows, then two masked boxes with record 4. Pixel 9 sees nothing.
+	/// Pixels 0, 1 and 2 see opaque squares with records 0, 1 and 5. Pixels 3 and 4 see masked squares with records 1 and 2.
+	/// Pixels 5 and 6 see two boxes with record 3. Pixels 7 and 8 see two masked boxes with record 4. Pixel 9 sees nothing.
 	void MakeStageScene()
 	{
 		Squares = MakeSquares();

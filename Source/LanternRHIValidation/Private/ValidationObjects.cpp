@@ -1,4 +1,4 @@
-// Wrappers around buffers, textures, geometries and scenes: what they track.
+// Wrappers around buffers, textures, geometries, scenes and query pools: what they track.
 #include "ValidationObjects.h"
 
 #include <algorithm>
@@ -54,6 +54,40 @@ FValidatedScene::FValidatedScene(std::shared_ptr<FValidationState> InState, TRTR
 	std::lock_guard Lock(State->Mutex);
 	std::erase_if(State->Scenes, [](const std::weak_ptr<FSceneTrack>& Item) { return Item.expired(); });
 	State->Scenes.push_back(Track);
+}
+
+FValidatedQueryPool::FValidatedQueryPool(std::shared_ptr<FValidationState> InState, TRTRef<IRTQueryPool> InInner)
+    : TValidated(std::move(InState), Print("query pool of %u", InInner->GetCount()), InInner),
+      Track(std::make_shared<FQueryTrack>())
+{
+	Track->Label = Label;
+	Track->Queries.resize(GetCount());
+}
+
+bool FValidatedQueryPool::GetResults(uint32_t First, uint32_t Count, uint64_t* OutValues)
+{
+	if (!IsInside(First, Count, GetCount()) || !OutValues)
+	{
+		State->Report(Print("GetResults: queries %u + %u of %u", First, Count, GetCount()));
+		return false;
+	}
+	const bool bThere = Inner->GetResults(First, Count, OutValues);
+	if (!bThere || GetKind() != ERTQuery::CompactedSize) { return bThere; }
+	const FRTFence Completed = State->Inner->GetCompletedFence();
+	std::lock_guard Lock(State->Mutex);
+	for (uint32_t i = 0; i < Count; ++i)
+	{
+		const FQueryTrack::FQuery& Query = Track->Queries[First + i];
+		// Until the submission that writes it has finished, the pool may still hold the size of another geometry.
+		if (Query.Geometry && Query.Fence <= Completed) { Query.Geometry->CompactedSize = OutValues[i]; }
+	}
+	return true;
+}
+
+void FValidatedQueryPool::MarkReset(uint32_t First, uint32_t Count)
+{
+	std::lock_guard Lock(State->Mutex);
+	for (uint32_t i = First; i < First + Count; ++i) { Track->Queries[i].bReset = true; }
 }
 
 IRTRefCounted* GetUnwrapped(IRTRefCounted* Object)

@@ -19,7 +19,6 @@ public:
 	/// Takes the engine's command buffer, which is in the recording state.
 	void InitialiseImported(VkCommandBuffer Buffer);
 
-	// VulkanCommandList.cpp
 	FRTStatus Begin() override;
 	FRTStatus End() override;
 	void Barriers(const FRTBarrier* Items, uint32_t Count) override;
@@ -38,7 +37,6 @@ public:
 	void EndMarker() override;
 	uint64_t GetNative(ERTNative Kind) const override;
 
-	// VulkanCommandListCopy.cpp
 	void CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTBuffer* Source, uint64_t SourceOffset, uint64_t Size) override;
 	void CopyBufferRegions(IRTBuffer* Dest, IRTBuffer* Source, const FRTBufferRegion* Regions, uint32_t Count) override;
 	void CopyBufferToTexture(IRTTexture* Dest, uint32_t Mip, uint32_t Layer, IRTBuffer* Source, uint64_t SourceOffset) override;
@@ -48,7 +46,7 @@ public:
 	/// Uses linear blits, a box filter for even sizes. For odd sizes, each texel takes two of the three that it covers.
 	void GenerateMips(IRTTexture* Texture) override;
 
-	// VulkanCommandListTrace.cpp
+	// Rays and builds: VulkanCommandListTrace.cpp.
 	void TraceRays(IRTShaderTable* Table, uint32_t RayGen, uint32_t Width, uint32_t Height, uint32_t Depth) override;
 	/// Takes the table's changes at once: submit lists that update one table in the order of these calls.
 	void UpdateShaderTable(IRTShaderTable* Table) override;
