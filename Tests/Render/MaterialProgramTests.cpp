@@ -153,7 +153,7 @@ protected:
 				const FTracePush Push{Frame->Pass, Pass.GetTexture(Target)->GetStorageIndex()};
 				Pass.Commands().SetPipeline(Frame->RayPipeline->GetPipeline());
 				Pass.Commands().PushConstants(&Push, sizeof(Push));
-				Pass.Commands().TraceRays(Frame->RayBindings->GetTable(), RayGen, Width, Height, 1);
+				Pass.Commands().TraceRays(Frame->RayTable->GetTable(), RayGen, Width, Height, 1);
 			};
 		});
 		Graph.AddPass("ReadTrace", [&](FPassBuilder& Builder) -> FPassExecute {

@@ -21,9 +21,8 @@ const FAllowed& GetAllowed()
 	static const std::set<std::string> Peer = {"LanternRHI", "LanternRHICommon"};
 	static const std::set<std::string> Core = {"LanternRHI", "LanternCore"};
 	static const std::set<std::string> Scene = {"LanternRHI", "LanternCore", "LanternScene", "LanternSignals"};
-	static const std::set<std::string> Module = {
-	    "LanternRHI", "LanternRHICommon", "LanternCore", "LanternScene", "LanternRenderer", "LanternRHIVulkan", "LanternRHIValidation",
-	    "LanternSignals"};
+	static const std::set<std::string> Module = {"LanternRHI", "LanternRHICommon", "LanternCore", "LanternScene", "LanternRenderer",
+	    "LanternRHIVulkan", "LanternRHIValidation", "LanternSignals"};
 	static const std::set<std::string> Host = [] {
 		std::set<std::string> All = Module;
 		All.insert("LanternImage");

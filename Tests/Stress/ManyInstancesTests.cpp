@@ -30,7 +30,7 @@ TEST_F(FManyInstancesTest, AMillionObjectsOfOneTree)
 	IRTScene* const Structure = Unwrap(Scene.GetStructure());
 	EXPECT_EQ(Mock().GetSceneInstances(Structure).size(), Count + 2);
 	// One range of records serves them all.
-	EXPECT_LE(Engine->GetRenderer().GetBindings().GetTable()->GetDesc().HitCount, 1000u);
+	EXPECT_LE(Engine->GetRenderer().GetShaderTable().GetTable()->GetDesc().HitCount, 1000u);
 
 	Set("r.RT.Culling", "1");
 	ASSERT_NO_FATAL_FAILURE(Render());

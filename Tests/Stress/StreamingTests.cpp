@@ -48,7 +48,7 @@ protected:
 	}
 	FRTMockRecord ResolveIn(const FRTMockInstance& Instance, uint32_t Type)
 	{
-		IRTShaderTable* const Table = Unwrap(Engine->GetRenderer().GetBindings().GetTable());
+		IRTShaderTable* const Table = Unwrap(Engine->GetRenderer().GetShaderTable().GetTable());
 		return Mock().ResolveHit(Table, Instance.Instance, 0, Type, GetRTPSO()->GetRayTypeCount());
 	}
 };

@@ -217,7 +217,7 @@ protected:
 		const auto Instances = Mock().GetSceneInstances(Unwrap(Engine->GetScene().GetScene().GetStructure()));
 		EXPECT_LT(InstanceIndex, Instances.size());
 		if (InstanceIndex >= Instances.size()) { return {}; }
-		IRTShaderTable* const Table = Unwrap(Engine->GetRenderer().GetBindings().GetTable());
+		IRTShaderTable* const Table = Unwrap(Engine->GetRenderer().GetShaderTable().GetTable());
 		return Mock().ResolveHit(Table, Instances[InstanceIndex].Instance, 0, RayType, GetRTPSO()->GetRayTypeCount());
 	}
 

@@ -12,7 +12,7 @@
 #include "LanternScene/Pipelines/RTPSO.h"
 #include "LanternScene/Scene/Scene.h"
 #include "LanternScene/ShaderTable/SectionTable.h"
-#include "LanternScene/ShaderTable/ShaderBindings.h"
+#include "LanternScene/ShaderTable/ShaderTable.h"
 
 namespace Lantern
 {
@@ -47,7 +47,7 @@ struct FGeometryOptions
 /// Null members: the frame keeps no hit records.
 struct FTracing
 {
-	FShaderBindings* Bindings = nullptr;
+	FShaderTable* Bindings = nullptr;
 	const FRTPSO* Pipeline = nullptr;
 };
 

@@ -118,7 +118,7 @@ FRTStatus FHitchBench::Frame(FFrameTime& Out, bool bWait)
 				const FTracePush Push{OfFrame->Pass, Pass.GetTexture(Target)->GetStorageIndex()};
 				Pass.Commands().SetPipeline(OfFrame->RayPipeline->GetPipeline());
 				Pass.Commands().PushConstants(&Push, sizeof(Push));
-				Pass.Commands().TraceRays(OfFrame->RayBindings->GetTable(), RayGen, OfFrame->Width, OfFrame->Height, 1);
+				Pass.Commands().TraceRays(OfFrame->RayTable->GetTable(), RayGen, OfFrame->Width, OfFrame->Height, 1);
 			};
 		});
 	}

@@ -10,7 +10,7 @@
 #include "LanternCore/Shaders/ShaderCompiler.h"
 #include "LanternScene/Pipelines/RTPSO.h"
 #include "LanternScene/ShaderTable/SectionTable.h"
-#include "LanternScene/ShaderTable/ShaderBindings.h"
+#include "LanternScene/ShaderTable/ShaderTable.h"
 
 namespace Lantern
 {
@@ -63,7 +63,7 @@ private:
 	std::vector<uint32_t> MaterialPrograms;
 	FSectionContext Context{Materials, MaterialPrograms};
 	FSectionTable Sections{Context};
-	FShaderBindings Bindings;
+	FShaderTable Bindings;
 	struct FObject
 	{
 		FSectionRangeId Range = 0;

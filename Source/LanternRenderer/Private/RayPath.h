@@ -60,7 +60,7 @@ void TraceFrameRays(FPassContext& Pass, const FFrameContext& Frame, uint32_t Ray
 {
 	Pass.Commands().SetPipeline(Frame.RayPipeline->GetPipeline());
 	Pass.Commands().PushConstants(&Constants, sizeof(Constants));
-	Pass.Commands().TraceRays(Frame.RayBindings->GetTable(), RayGen, Width, Height, 1);
+	Pass.Commands().TraceRays(Frame.RayTable->GetTable(), RayGen, Width, Height, 1);
 }
 
 /// Runs a pass for each pixel of the frame, on either path. Compute shaders have groups of RAY_QUERY_GROUP_SIZE².

@@ -45,7 +45,7 @@ FRenderer::FRenderer(IRTDevice& InDevice, FRendererDesc Desc)
       Uploads(InDevice),
       GraphResources(InDevice),
       RefitQuality(std::make_unique<FRefitQuality>(InDevice)),
-      Bindings(InDevice),
+      ShaderTable(InDevice),
       AnyHits(std::make_unique<FAnyHitCounter>(InDevice)),
       RayCompiler(InDevice, Compiler, Programs),
       StandIns(std::make_unique<FStandInFeedback>(InDevice)),
@@ -130,7 +130,7 @@ FRTStatus FRenderer::PrepareRayPipeline(const FRayPrograms& Wanted, const FFrame
 	std::erase_if(Missing, [&](FHitProgram Program) { return !RayPipeline->IsMissing(Program); });
 	Context->Scene.SetMissingPrograms(std::move(Missing));
 	Context->RayPipeline = RayPipeline.get();
-	Context->RayBindings = &Bindings;
+	Context->RayTable = &ShaderTable;
 	// Until a variant for this frame's settings is ready, the one before serves.
 	for (size_t I = 0; I < Wanted.RayGens.size(); ++I)
 	{
@@ -264,7 +264,7 @@ void FRenderer::StartPrebind()
 	if (Prebind != EPrebind::Running) { return; }
 	PrebindTask.Run([this, Pipeline = RayPipeline, Sections = &Context->Scene.GetSections()] {
 		FTraceScope Trace("Prebind");
-		PrebindStatus = Bindings.Prepare(*Pipeline, *Sections);
+		PrebindStatus = ShaderTable.Prepare(*Pipeline, *Sections);
 	});
 }
 
@@ -273,7 +273,7 @@ FRTStatus FRenderer::FinishPrebind()
 	if (Prebind == EPrebind::InLine)
 	{
 		FTraceScope Trace("Shader records");
-		PrebindStatus = Bindings.Prepare(*RayPipeline, Context->Scene.GetSections());
+		PrebindStatus = ShaderTable.Prepare(*RayPipeline, Context->Scene.GetSections());
 	}
 	else if (Prebind == EPrebind::Running)
 	{
@@ -333,7 +333,7 @@ void FRenderer::AddRayPasses()
 			Builder.NeverCull();
 			return [=, this](FPassContext& Pass) {
 				FRTStatus Status = FinishPrebind();
-				if (Status) { Status = Bindings.Record(Pass.Commands()); }
+				if (Status) { Status = ShaderTable.Record(Pass.Commands()); }
 				if (!Status) { Frame->Fail(Status); }
 			};
 		});
@@ -433,7 +433,7 @@ void FRenderer::FrameSubmitted(FRTFence Fence)
 	Context.reset();
 	bFrameLost = Fence == 0;
 	if (!bFrameLost) { return; }
-	Bindings.Invalidate();
+	ShaderTable.Invalidate();
 	// The pool believes that its textures are in the layouts which the lost list would have left them in.
 	GraphResources.Trim(0);
 }

@@ -65,7 +65,7 @@ protected:
 		Desc.HandleAlignment = GetParam().HandleAlignment;
 		Desc.BaseAlignment = GetParam().BaseAlignment;
 		Open(Desc);
-		Bindings = std::make_unique<FShaderBindings>(*Device);
+		Bindings = std::make_unique<FShaderTable>(*Device);
 	}
 	void TearDown() override
 	{
@@ -131,7 +131,7 @@ protected:
 
 	FShaderCompiler Compiler{FShaderCompilerDesc{}};
 	std::map<std::pair<uint32_t, bool>, FRTPSO> Pipelines;
-	std::unique_ptr<FShaderBindings> Bindings;
+	std::unique_ptr<FShaderTable> Bindings;
 	const FRTPSO* Current = nullptr;
 	bool bAlphaTest = true;
 };

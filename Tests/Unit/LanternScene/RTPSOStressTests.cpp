@@ -7,7 +7,7 @@
 
 #include "LanternScene/Scene/Scene.h"
 #include "LanternScene/ShaderTable/SectionTable.h"
-#include "LanternScene/ShaderTable/ShaderBindings.h"
+#include "LanternScene/ShaderTable/ShaderTable.h"
 #include "RTPSOTestTools.h"
 
 namespace Lantern
@@ -23,7 +23,7 @@ protected:
 	{
 		FPipelineTest::SetUp();
 		Scene = std::make_unique<FRTScene>(*Device);
-		Bindings = std::make_unique<FShaderBindings>(*Device);
+		Bindings = std::make_unique<FShaderTable>(*Device);
 		ASSERT_NO_FATAL_FAILURE(CreateGeometry());
 	}
 	void TearDown() override
@@ -144,7 +144,7 @@ protected:
 	std::vector<uint32_t> MaterialPrograms;
 	FSectionContext Context{Materials, MaterialPrograms};
 	std::unique_ptr<FSectionTable> Sections = std::make_unique<FSectionTable>(Context);
-	std::unique_ptr<FShaderBindings> Bindings;
+	std::unique_ptr<FShaderTable> Bindings;
 	std::vector<std::pair<uint32_t, FHitProgram>> Expected; ///< by section
 	std::shared_ptr<const FRTPSO> Current;
 };

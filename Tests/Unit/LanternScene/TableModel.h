@@ -1,4 +1,4 @@
-// What a ray must reach, said without FSectionTable, FShaderBindings and FRTPSO: each object keeps its materials, and
+// What a ray must reach, said without FSectionTable, FShaderTable and FRTPSO: each object keeps its materials, and
 // each pipeline the names of what was put into it.
 #pragma once
 

@@ -9,7 +9,7 @@
 
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternRHIMock/MockDevice.h"
-#include "LanternScene/ShaderTable/ShaderBindings.h"
+#include "LanternScene/ShaderTable/ShaderTable.h"
 #include "TableModel.h"
 #include "TableWalkScene.h"
 
@@ -64,7 +64,7 @@ private:
 	FWalkSettings Settings;
 	TRTRef<IRTDevice> Device;
 	std::unique_ptr<FWalkScene> Scene;
-	std::unique_ptr<FShaderBindings> Bindings;
+	std::unique_ptr<FShaderTable> Bindings;
 	std::shared_ptr<FModelPipeline> Pipeline;
 	uint32_t PipelinesMade = 0;
 	std::vector<TRTRef<IRTCommandList>> Lists;
@@ -88,7 +88,7 @@ FWalker::FWalker(const FWalkSettings& InSettings) : Settings(InSettings)
 	Mock().SetCallRecording(false);
 	Mock().SetManualFences(true);
 	Scene = std::make_unique<FWalkScene>(*Device);
-	Bindings = std::make_unique<FShaderBindings>(*Device);
+	Bindings = std::make_unique<FShaderTable>(*Device);
 	Lists.resize(Settings.InFlight + 1);
 	for (TRTRef<IRTCommandList>& List : Lists) { (void)Device->CreateCommandList("Frame", List.ReleaseAndGetAddress()); }
 	Swap(1, 1);
@@ -182,7 +182,7 @@ void FWalker::DoFrame(const FWalkStep& Step)
 
 void FWalker::CheckQuiet()
 {
-	const FShaderBindingStats& Stats = Bindings->GetStats();
+	const FShaderTableStats& Stats = Bindings->GetStats();
 	if (bQuiet && Mode == 1 && (Stats.BytesCopied || Stats.RecordsWritten || Stats.HandlesWritten))
 	{
 		Fail("a frame in which nothing changed wrote " + std::to_string(Stats.RecordsWritten + Stats.HandlesWritten) +

@@ -1,4 +1,4 @@
-// FSectionTable and FShaderBindings over random walks, for devices of all alignments and all numbers of frames in
+// FSectionTable and FShaderTable over random walks, for devices of all alignments and all numbers of frames in
 // flight. A failure names its seed and prints the fewest steps that still fail.
 #include <algorithm>
 #include <ostream>

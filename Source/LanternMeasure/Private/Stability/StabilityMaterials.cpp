@@ -102,7 +102,7 @@ void FMaterialFrames::AddTrace(FFrameContext& Context, uint32_t RayGen, IRTBuffe
 			const FTracePush Push{OfFrame->Pass, Pass.GetTexture(Target)->GetStorageIndex()};
 			Pass.Commands().SetPipeline(OfFrame->RayPipeline->GetPipeline());
 			Pass.Commands().PushConstants(&Push, sizeof(Push));
-			Pass.Commands().TraceRays(OfFrame->RayBindings->GetTable(), RayGen, Width, Height, 1);
+			Pass.Commands().TraceRays(OfFrame->RayTable->GetTable(), RayGen, Width, Height, 1);
 		};
 	});
 	Graph.AddPass("ReadTrace", [&](FPassBuilder& Builder) -> FPassExecute {

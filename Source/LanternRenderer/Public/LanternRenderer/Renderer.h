@@ -13,7 +13,7 @@
 #include "LanternScene/Pipelines/ComputePipelines.h"
 #include "LanternScene/Pipelines/RTPSOCompiler.h"
 #include "LanternScene/Scene/Scene.h"
-#include "LanternScene/ShaderTable/ShaderBindings.h"
+#include "LanternScene/ShaderTable/ShaderTable.h"
 #include "LanternSignals/Signals.h"
 
 namespace Lantern
@@ -112,7 +112,7 @@ struct FFrameContext
 	uint32_t Width = 0, Height = 0;
 	/// Null where no pass of this frame traces through a pipeline.
 	const FRTPSO* RayPipeline = nullptr;
-	FShaderBindings* RayBindings = nullptr;
+	FShaderTable* RayTable = nullptr;
 	/// Ray generation shaders of RayPipeline by signal; that of ESignal::Frame is the reference path tracer. NoRayGen: the frame
 	/// does not have it, or it is still being compiled.
 	std::array<uint32_t, SignalCount> RayGens = [] {
@@ -188,7 +188,7 @@ public:
 	bool AreRayProgramsReady() { return bRaysReady || (RayPipeline && !RayCompiler.GetStats().bBusy); }
 	/// Returns what the compiler was last told of each program that is not ready, by program.
 	const std::vector<FProgramPriority>& GetProgramPriorities() const;
-	const FShaderBindings& GetBindings() const { return Bindings; }
+	const FShaderTable& GetShaderTable() const { return ShaderTable; }
 	const FAnyHitCounts& GetAnyHits() const;
 	/// Makes executed frames leave a text for DumpGraph. Off by default, because it takes longer than the graph itself.
 	void SetGraphDump(bool bEnabled) { bDumpGraph = bEnabled; }
@@ -216,7 +216,7 @@ private:
 	FFrameUploads Uploads;
 	FFrameGraphResources GraphResources;
 	std::unique_ptr<FRefitQuality> RefitQuality;
-	FShaderBindings Bindings;
+	FShaderTable ShaderTable;
 	std::unique_ptr<FAnyHitCounter> AnyHits;
 	FMaterialPrograms Programs;
 	FRTPSOCompiler RayCompiler;

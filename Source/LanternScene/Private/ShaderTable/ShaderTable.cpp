@@ -1,5 +1,5 @@
-// FShaderBindings: which records a frame writes, in batches and by tasks.
-#include "LanternScene/ShaderTable/ShaderBindings.h"
+// FShaderTable: which records a frame writes, in batches and by tasks.
+#include "LanternScene/ShaderTable/ShaderTable.h"
 
 #include <algorithm>
 #include <array>
@@ -76,7 +76,7 @@ private:
 uint32_t WithRoom(uint32_t Has, uint32_t Needed) { return Has >= Needed ? Has : Needed + Needed / 2; }
 } // namespace
 
-FRTStatus FShaderBindings::Prepare(const FRTPSO& Pipeline, FSectionTable& Sections)
+FRTStatus FShaderTable::Prepare(const FRTPSO& Pipeline, FSectionTable& Sections)
 {
 	Stats = {};
 	const bool bRewriteEachFrame = CVarMode.GetOnRenderThread() == 0;
@@ -113,7 +113,7 @@ FRTStatus FShaderBindings::Prepare(const FRTPSO& Pipeline, FSectionTable& Sectio
 	return Table->Stage();
 }
 
-FRTStatus FShaderBindings::Reserve(const FRTPSO& Pipeline, const FSectionTable& Sections)
+FRTStatus FShaderTable::Reserve(const FRTPSO& Pipeline, const FSectionTable& Sections)
 {
 	const uint32_t HitCount = std::max(1u, Sections.GetCapacity() * Pipeline.GetRayTypeCount());
 	// A table cannot lose its callable records, and this pipeline has nothing to write to them.
@@ -138,7 +138,7 @@ FRTStatus FShaderBindings::Reserve(const FRTPSO& Pipeline, const FSectionTable& 
 	return Table->Reserve(Counts);
 }
 
-void FShaderBindings::SetGeneralRecords(const FRTPSO& Pipeline)
+void FShaderTable::SetGeneralRecords(const FRTPSO& Pipeline)
 {
 	// Records behind the pipeline's last must not keep handles of an earlier pipeline that used them.
 	const auto SetAll = [&](ERTRecordKind Kind, uint32_t Count, uint32_t TableCount, auto GroupOf) {
@@ -154,7 +154,7 @@ void FShaderBindings::SetGeneralRecords(const FRTPSO& Pipeline)
 	    [&](uint32_t Index) { return Pipeline.CallableGroup(Index); });
 }
 
-void FShaderBindings::LookUpGroups(const FRTPSO& Pipeline, const FSectionTable& Sections)
+void FShaderTable::LookUpGroups(const FRTPSO& Pipeline, const FSectionTable& Sections)
 {
 	const FHitProgramIndex& Programs = Sections.GetHitProgramIndex();
 	if (GroupsRevision == Programs.GetIndicesRevision()) { return; }
@@ -166,7 +166,7 @@ void FShaderBindings::LookUpGroups(const FRTPSO& Pipeline, const FSectionTable& 
 	}
 }
 
-void FShaderBindings::WriteChanged(const FSectionTable& Sections, std::vector<uint32_t> Changed)
+void FShaderTable::WriteChanged(const FSectionTable& Sections, std::vector<uint32_t> Changed)
 {
 	std::sort(Changed.begin(), Changed.end());
 	ParallelFor(Changed.size(), SectionGrain, [&](size_t Begin, size_t End) {
@@ -177,7 +177,7 @@ void FShaderBindings::WriteChanged(const FSectionTable& Sections, std::vector<ui
 	Stats.RecordsWritten += static_cast<uint32_t>(Changed.size()) * RayTypes;
 }
 
-void FShaderBindings::WriteAll(const FSectionTable& Sections)
+void FShaderTable::WriteAll(const FSectionTable& Sections)
 {
 	ParallelFor(Sections.GetCapacity(), SectionGrain, [&](size_t Begin, size_t End) {
 		FRecordBatch Batch(*Table, Sections, Groups.data(), RayTypes);
@@ -187,7 +187,7 @@ void FShaderBindings::WriteAll(const FSectionTable& Sections)
 	Stats.RecordsWritten += Sections.GetCapacity() * RayTypes;
 }
 
-void FShaderBindings::WriteHandles(const FSectionTable& Sections)
+void FShaderTable::WriteHandles(const FSectionTable& Sections)
 {
 	const FHitProgramIndex& Programs = Sections.GetHitProgramIndex();
 	ParallelFor(Sections.GetCapacity(), SectionGrain, [&](size_t Begin, size_t End) {
@@ -207,7 +207,7 @@ void FShaderBindings::WriteHandles(const FSectionTable& Sections)
 	Stats.HandlesWritten += Sections.GetCapacity() * RayTypes;
 }
 
-void FShaderBindings::WriteHandlesBehind(const FSectionTable& Sections)
+void FShaderTable::WriteHandlesBehind(const FSectionTable& Sections)
 {
 	// Fewer ray types need fewer records. No ray reaches the others, but they must not keep handles of an old pipeline.
 	const uint32_t End = Sections.GetCapacity() * RayTypes;
@@ -220,7 +220,7 @@ void FShaderBindings::WriteHandlesBehind(const FSectionTable& Sections)
 	}
 }
 
-FRTStatus FShaderBindings::Record(IRTCommandList& List)
+FRTStatus FShaderTable::Record(IRTCommandList& List)
 {
 	if (!std::exchange(bPending, false)) { return FRTStatus::Success(); }
 	List.UpdateShaderTable(Table.Get());
@@ -228,13 +228,13 @@ FRTStatus FShaderBindings::Record(IRTCommandList& List)
 	return FRTStatus::Success();
 }
 
-FRTStatus FShaderBindings::Sync(IRTCommandList& List, const FRTPSO& Pipeline, FSectionTable& Sections)
+FRTStatus FShaderTable::Sync(IRTCommandList& List, const FRTPSO& Pipeline, FSectionTable& Sections)
 {
 	const FRTStatus Status = Prepare(Pipeline, Sections);
 	return Status ? Record(List) : Status;
 }
 
-void FShaderBindings::Invalidate()
+void FShaderTable::Invalidate()
 {
 	if (Table)
 	{

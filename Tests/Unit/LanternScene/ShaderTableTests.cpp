@@ -1,4 +1,4 @@
-// FShaderBindings: how much is written, copied, made and waited for.
+// FShaderTable: how much is written, copied, made and waited for.
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "Support/SceneTestTools.h"
 #include "TableModel.h"
@@ -17,7 +17,7 @@ protected:
 		FSceneTest::SetUp();
 		for (uint32_t I = 0; I < 2; ++I) { Pipelines.push_back(FModelPipeline::Make(*Device, I, 2, 5 + I)); }
 		Geometry = MakeGeometry("Tree", 1);
-		Bindings = std::make_unique<FShaderBindings>(*Device);
+		Bindings = std::make_unique<FShaderTable>(*Device);
 	}
 	void TearDown() override
 	{
@@ -52,7 +52,7 @@ protected:
 		EXPECT_TRUE(Device->Submit(Lists, 1, &Fence));
 		return Fence;
 	}
-	const FShaderBindingStats& Frame(uint32_t Pipeline = 0)
+	const FShaderTableStats& Frame(uint32_t Pipeline = 0)
 	{
 		Submit(Pipeline);
 		return Bindings->GetStats();
@@ -79,7 +79,7 @@ protected:
 	std::vector<uint32_t> Programs;
 	FSectionContext Context{Materials, Programs};
 	FSectionTable Table{Context};
-	std::unique_ptr<FShaderBindings> Bindings;
+	std::unique_ptr<FShaderTable> Bindings;
 };
 
 TEST_F(FTableBindingTest, StaticFrameWritesCopiesAndMakesNothing)
@@ -89,7 +89,7 @@ TEST_F(FTableBindingTest, StaticFrameWritesCopiesAndMakesNothing)
 	Mock().ClearCalls();
 	for (int I = 0; I < 10; ++I)
 	{
-		const FShaderBindingStats& Stats = Frame();
+		const FShaderTableStats& Stats = Frame();
 		EXPECT_EQ(Stats.RecordsWritten + Stats.HandlesWritten, 0u);
 		EXPECT_EQ(Stats.BytesCopied, 0u);
 	}
@@ -109,7 +109,7 @@ TEST_F(FTableBindingTest, FrameCopiesTheRecordsOfChangedSectionsAlone)
 		Materials.Set(Material, MakeMaterial(MATERIAL_DOUBLE_SIDED));
 		Table.MaterialChanged(Material);
 	}
-	const FShaderBindingStats& Stats = Frame();
+	const FShaderTableStats& Stats = Frame();
 	EXPECT_EQ(Stats.RecordsWritten, 8u);
 	EXPECT_EQ(Stats.BytesCopied, 8 * Stride());
 	ExpectAllRecords(0);
@@ -120,7 +120,7 @@ TEST_F(FTableBindingTest, SwapWritesHandlesAndNoData)
 	AddRanges(1000);
 	Frame();
 	Mock().ClearCalls();
-	const FShaderBindingStats& Stats = Frame(1);
+	const FShaderTableStats& Stats = Frame(1);
 	EXPECT_EQ(Stats.RecordsWritten, 0u);
 	EXPECT_EQ(Stats.HandlesWritten, 2000u);
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::CreateShaderTable), 0u) << "the table is kept";
@@ -175,7 +175,7 @@ TEST_F(FTableBindingTest, ModeOfThePaperWritesAndCopiesEverythingEachFrame)
 	SetMode(0);
 	for (int I = 0; I < 3; ++I)
 	{
-		const FShaderBindingStats& Stats = Frame();
+		const FShaderTableStats& Stats = Frame();
 		EXPECT_EQ(Stats.RecordsWritten, 2000u);
 		EXPECT_GE(Stats.BytesCopied, 2000 * Stride());
 	}
@@ -208,7 +208,7 @@ TEST_F(FTableBindingTest, StrideIsTheTightestThatTheDeviceAllows)
 		Desc.HandleAlignment = Case.Alignment;
 		Desc.BaseAlignment = Case.Base;
 		TRTRef<IRTDevice> Other = MakeMockDevice(Desc);
-		FShaderBindings OtherBindings(*Other);
+		FShaderTable OtherBindings(*Other);
 		const auto Pipeline = FModelPipeline::Make(*Other, 0, 2, 1);
 		ASSERT_TRUE(OtherBindings.Prepare(Pipeline->Pipeline, Table));
 		EXPECT_EQ(OtherBindings.GetTable()->GetRecordStride(ERTRecordKind::Hit), Case.Stride);
@@ -247,7 +247,7 @@ TEST_F(FTableBindingTest, AnotherTableAtTheSameAddressIsNotTakenForTheFirst)
 {
 	AddRanges(3);
 	alignas(FSectionTable) unsigned char Memory[sizeof(FSectionTable)];
-	FShaderBindings Other(*Device), Reader(*Device);
+	FShaderTable Other(*Device), Reader(*Device);
 	for (uint32_t Material = 0; Material < 2; ++Material)
 	{
 		auto* const Sections = new (Memory) FSectionTable(Context);

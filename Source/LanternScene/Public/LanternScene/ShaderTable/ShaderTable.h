@@ -20,19 +20,19 @@ class FRTPSO;
 class FSectionTable;
 
 /// Counters of the last Prepare and Record.
-struct FShaderBindingStats
+struct FShaderTableStats
 {
 	uint32_t RecordsWritten = 0; ///< hit records, handle and data
 	uint32_t HandlesWritten = 0; ///< hit records, the handle alone
 	uint64_t BytesCopied = 0;    ///< to the device
 };
 
-class FShaderBindings
+class FShaderTable
 {
 public:
-	explicit FShaderBindings(IRTDevice& InDevice) : Device(InDevice) {}
+	explicit FShaderTable(IRTDevice& InDevice) : Device(InDevice) {}
 
-	/// Does everything but recording (pre-binding). Takes the changes of Sections, so that only one FShaderBindings at a time
+	/// Does everything but recording (pre-binding). Takes the changes of Sections, so that only one FShaderTable at a time
 	/// can serve a table of sections. Any thread, also beside the recording of earlier passes. Sections must not change
 	/// meanwhile. After an error the next call does what is missing.
 	FRTStatus Prepare(const FRTPSO& Pipeline, FSectionTable& Sections);
@@ -44,7 +44,7 @@ public:
 	void Invalidate();
 	/// Null before the first Prepare, which makes the table. Later ones may make another: do not call this while one runs.
 	IRTShaderTable* GetTable() const { return Table.Get(); }
-	const FShaderBindingStats& GetStats() const { return Stats; }
+	const FShaderTableStats& GetStats() const { return Stats; }
 
 private:
 	FRTStatus Reserve(const FRTPSO& Pipeline, const FSectionTable& Sections);
@@ -65,7 +65,7 @@ private:
 	uint64_t GroupsRevision = ~0ull;
 	bool bRewrite = true;  // no record can be relied on
 	bool bPending = false; // something waits for Record
-	FShaderBindingStats Stats;
+	FShaderTableStats Stats;
 };
 
 } // namespace Lantern
