@@ -3,6 +3,7 @@
 #include "Support/RenderFixture.h"
 
 #include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternMeasure/MaterialWall.h"
 #include "Support/WaitTools.h"
 
 namespace Lantern
@@ -13,46 +14,10 @@ namespace
 constexpr uint32_t Columns = 8, Rows = 4, PixelsPerQuad = 8;
 constexpr uint32_t Width = Columns * PixelsPerQuad, Height = Rows * PixelsPerQuad;
 
-struct FTracePush
-{
-	FPassConstants Pass;
-	uint32_t Output;
-};
-
-/// Parallel rays along −z, one a pixel over a wall of unit quads; base colour and distance of what they hit.
 FShaderSource MakeTrace(bool bCallable)
 {
-	FShaderSource Source;
-	Source.Path = bCallable ? "Test/TraceCallable.rgen" : "Test/Trace.rgen";
-	Source.Text = R"(#version 460
-#extension GL_EXT_ray_tracing : require
-#include "Library/Bindings.glsl"
-#include "Rays/MaterialPayload.glsl"
-
-layout(set = 0, binding = 3) uniform accelerationStructureEXT Scenes[];
-layout(push_constant, scalar) uniform FPush { FPassConstants Pass; uint Output; };
-layout(location = 0) rayPayloadEXT FMaterialPayload Payload;
-#ifdef CALLABLE
-layout(location = 1) callableDataEXT vec3 Data;
-#endif
-
-void main()
-{
-	FSceneConstants Scene = FSceneRef(Pass.Scene).Data;
-	vec3 Origin = vec3((vec2(gl_LaunchIDEXT.xy) + 0.5) / PIXELS_PER_QUAD, 5.0);
-	traceRayEXT(Scenes[Scene.Tlas], 0u, MASK_VISIBLE, MATERIAL_RAY, RAY_TYPES, MATERIAL_MISS, Origin, 0.0, vec3(0.0, 0.0, -1.0), 1.0e30, 0);
-	vec4 Color = Payload.Distance < 0.0 ? vec4(0.0, 0.0, 0.0, -1.0) : vec4(UnpackHit(Payload).BaseColor, Payload.Distance);
-#ifdef CALLABLE
-	Data = Color.rgb;
-	executeCallableEXT(gl_LaunchIDEXT.x < gl_LaunchSizeEXT.x / 2 ? 0u : 1u, 1);
-	Color.rgb = Data;
-#endif
-	imageStore(Images[Output], ivec2(gl_LaunchIDEXT.xy), Color);
-}
-)";
-	Source.Defines.emplace_back("PIXELS_PER_QUAD", fmt::format("{:.1f}", float(PixelsPerQuad)));
-	if (bCallable) { Source.Defines.emplace_back("CALLABLE", "1"); }
-	return Source;
+	return MakeMaterialTrace(
+	    {.Path = bCallable ? "Test/TraceCallable.rgen" : "Test/Trace.rgen", .RaysPerMetre = PixelsPerQuad, .bCallables = bCallable});
 }
 
 FShaderSource MakeCallable(const char* Name, const char* Statement)
@@ -68,28 +33,13 @@ FShaderSource MakeCallable(const char* Name, const char* Statement)
 /// A quad for each material, in rows from the origin; each with the base colour (column / 8, row / 4, 0).
 FSceneDescription MakeWall(bool bMasked)
 {
-	FSceneDescription Scene;
-	Scene.Name = "Wall";
-	FHostMesh Quad;
-	Quad.Name = "Quad";
-	Quad.Positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-	Quad.Attributes.resize(4);
-	for (FVertexAttributes& Vertex : Quad.Attributes) { Vertex.Color = ~0u; }
-	for (uint32_t Corner = 0; Corner < 4; ++Corner) { Quad.Attributes[Corner].UV0 = glm::vec2(Quad.Positions[Corner]); }
-	Quad.Indices = {0, 1, 2, 0, 2, 3};
-	Quad.Sections = {{0, 6, 0}};
-	Quad.BoundsMax = {1, 1, 0};
-	Scene.Meshes.push_back(std::move(Quad));
+	FSceneDescription Scene = MakeMaterialWall({.Count = Columns * Rows, .Columns = Columns});
 	for (uint32_t Index = 0; Index < Columns * Rows; ++Index)
 	{
-		FHostMaterial& Material = Scene.Materials.emplace_back();
+		FHostMaterial& Material = Scene.Materials[Index];
 		Material.BaseColor = {float(Index % Columns) / Columns, float(Index / Columns) / Rows, 0.0f, 1.0f};
 		Material.bDoubleSided = true;
 		Material.AlphaMode = bMasked ? EAlphaMode::Mask : EAlphaMode::Opaque;
-		FHostNode& Node = Scene.Nodes.emplace_back();
-		Node.Mesh = 0;
-		Node.Materials = {int32_t(Index)};
-		Node.Translation = {double(Index % Columns), double(Index / Columns), 0.0};
 	}
 	return Scene;
 }
@@ -135,34 +85,11 @@ protected:
 		TRTRef<IRTBuffer> Buffer;
 		const FRTBufferDesc Desc{uint64_t(Width) * Height * 16, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Trace"};
 		ASSERT_OK(GetDevice().CreateBuffer(Desc, Buffer.ReleaseAndGetAddress()));
-		if (bTraced) { AddTrace(Context, RayGen, Buffer.Get()); }
+		if (bTraced) { AddMaterialTraceReadback(Context, RayGen, Width, Height, Buffer.Get()); }
 		ASSERT_OK(Renderer().EndFrame(nullptr));
 		ASSERT_OK(Renderer().WaitForAll());
 		const auto* const Texels = static_cast<const glm::vec4*>(Buffer->GetMapped());
 		Picture.assign(Texels, Texels + size_t(Width) * Height);
-	}
-	static void AddTrace(FFrameContext& Context, uint32_t RayGen, IRTBuffer* Buffer)
-	{
-		FFrameGraph& Graph = Context.Graph;
-		const FGraphTexture Target = Graph.CreateTexture({Width, Height, ERTFormat::RGBA32_FLOAT}, "Trace");
-		const FGraphBuffer Readback = Graph.ImportBuffer(Buffer, ERTAccess::None, ERTAccess::HostRead, "Trace");
-		const FFrameContext* const Frame = &Context;
-		Graph.AddPass("Trace", [&](FPassBuilder& Builder) -> FPassExecute {
-			Builder.Write(Target, ERTAccess::StorageWrite);
-			return [=](FPassContext& Pass) {
-				const FTracePush Push{Frame->Pass, Pass.GetTexture(Target)->GetStorageIndex()};
-				Pass.Commands().SetPipeline(Frame->RayPipeline->GetPipeline());
-				Pass.Commands().PushConstants(&Push, sizeof(Push));
-				Pass.Commands().TraceRays(Frame->RayTable->GetTable(), RayGen, Width, Height, 1);
-			};
-		});
-		Graph.AddPass("ReadTrace", [&](FPassBuilder& Builder) -> FPassExecute {
-			Builder.Read(Target, ERTAccess::CopyRead);
-			Builder.Write(Readback, ERTAccess::CopyWrite);
-			return [=](FPassContext& Pass) {
-				Pass.Commands().CopyTextureToBuffer(Pass.GetBuffer(Readback), 0, Pass.GetTexture(Target), 0, 0);
-			};
-		});
 	}
 	/// Frames that wait for nothing, until Condition holds: as many as the compiler needs, which depends on the machine.
 	/// Once it has been idle for some frames running, what is not there will never come.

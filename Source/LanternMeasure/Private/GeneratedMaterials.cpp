@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "LanternMeasure/MaterialWall.h"
+
 namespace Lantern
 {
 
@@ -79,31 +81,7 @@ FMaterialProgramDesc MakeBenchProgram(uint32_t Index, uint64_t Salt)
 	return Desc;
 }
 
-FShaderSource MakeBenchRayGen()
-{
-	FShaderSource Source;
-	Source.Path = "Bench/Trace.rgen";
-	Source.Text = R"(#version 460
-#extension GL_EXT_ray_tracing : require
-#include "Library/View.glsl"
-#include "Rays/MaterialPayload.glsl"
-
-layout(set = 0, binding = 3) uniform accelerationStructureEXT Scenes[];
-layout(push_constant, scalar) uniform FPush { FPassConstants Pass; uint Output; };
-layout(location = 0) rayPayloadEXT FMaterialPayload Payload;
-
-void main()
-{
-	FSceneConstants Scene = FSceneRef(Pass.Scene).Data;
-	FViewConstants View = FViewRef(Pass.View).Data;
-	vec3 Direction = normalize(CameraRay(View, vec2(gl_LaunchIDEXT.xy) + 0.5));
-	traceRayEXT(Scenes[Scene.Tlas], 0u, MASK_VISIBLE, MATERIAL_RAY, RAY_TYPES, MATERIAL_MISS, View.CameraPosition, 0.0, Direction, 1.0e30, 0);
-	vec3 Color = Payload.Distance < 0.0 ? vec3(0.0) : UnpackHit(Payload).BaseColor;
-	imageStore(Images[Output], ivec2(gl_LaunchIDEXT.xy), vec4(Color, 1.0));
-}
-)";
-	return Source;
-}
+FShaderSource MakeBenchRayGen() { return MakeMaterialTrace({.Path = "Bench/Trace.rgen"}); }
 
 FRTStatus CompileBenchShaders(FShaderCompiler& Compiler, uint32_t Count, uint32_t Threads, FBenchShaders& Out, double& OutMs)
 {

@@ -8,6 +8,7 @@
 
 #include "LanternCore/Text/Log.h"
 #include "LanternMeasure/GeneratedMaterials.h"
+#include "LanternMeasure/MaterialWall.h"
 #include "LanternMeasure/Stability/StabilityStage.h"
 #include "Stability/StabilityFigures.h"
 
@@ -18,37 +19,6 @@ namespace
 {
 constexpr uint32_t Columns = 20, Rows = 10, PixelsPerQuad = 4;
 constexpr uint32_t Width = Columns * PixelsPerQuad, Height = Rows * PixelsPerQuad;
-
-struct FTracePush
-{
-	FPassConstants Pass;
-	uint32_t Output;
-};
-
-/// Parallel rays along −z: base colour, and distance or −1.
-FShaderSource MakeTrace()
-{
-	FShaderSource Source;
-	Source.Path = "Stability/Trace.rgen";
-	Source.Text = R"(#version 460
-#extension GL_EXT_ray_tracing : require
-#include "Library/Bindings.glsl"
-#include "Rays/MaterialPayload.glsl"
-
-layout(set = 0, binding = 3) uniform accelerationStructureEXT Scenes[];
-layout(push_constant, scalar) uniform FPush { FPassConstants Pass; uint Output; };
-layout(location = 0) rayPayloadEXT FMaterialPayload Payload;
-
-void main()
-{
-	FSceneConstants Scene = FSceneRef(Pass.Scene).Data;
-	vec3 Origin = vec3((vec2(gl_LaunchIDEXT.xy) + 0.5) / 4.0, 5.0);
-	traceRayEXT(Scenes[Scene.Tlas], 0u, MASK_VISIBLE, MATERIAL_RAY, RAY_TYPES, MATERIAL_MISS, Origin, 0.0, vec3(0.0, 0.0, -1.0), 1.0e30, 0);
-	imageStore(Images[Output], ivec2(gl_LaunchIDEXT.xy), Payload.Distance < 0.0 ? vec4(0.0, 0.0, 0.0, -1.0) : vec4(UnpackHit(Payload).BaseColor, Payload.Distance));
-}
-)";
-	return Source;
-}
 
 /// Red and green are the material's, blue is the program's.
 FMaterialProgramDesc MakeProgram(uint32_t Index, uint64_t Salt)
@@ -74,8 +44,9 @@ public:
 	FRTStatus Frame(double& OutMs);
 	FRTScene& GetScene() { return Stage.GetScene().GetScene(); }
 	FRenderer& GetRenderer() { return Renderer; }
-	/// Of the last frame: colour and distance, of the middle of a quad; nothing where no pipeline was there yet.
+	/// Whether the last frame was traced. If not, there was no pipeline yet.
 	bool HasPicture() const { return !Picture.empty(); }
+	/// Colour and distance in the middle of a quad, in the last frame.
 	glm::vec4 At(uint32_t Quad) const
 	{
 		return Picture[size_t(Quad / Columns * PixelsPerQuad + 2) * Width + Quad % Columns * PixelsPerQuad + 2];
@@ -83,34 +54,10 @@ public:
 	FImage MakeImage() const;
 
 private:
-	void AddTrace(FFrameContext& Context, uint32_t RayGen, IRTBuffer* Buffer);
-
 	FStabilityStage& Stage;
 	FRenderer& Renderer;
 	std::vector<glm::vec4> Picture;
 };
-
-void FMaterialFrames::AddTrace(FFrameContext& Context, uint32_t RayGen, IRTBuffer* Buffer)
-{
-	FFrameGraph& Graph = Context.Graph;
-	const FGraphTexture Target = Graph.CreateTexture({Width, Height, ERTFormat::RGBA32_FLOAT}, "Trace");
-	const FGraphBuffer Readback = Graph.ImportBuffer(Buffer, ERTAccess::None, ERTAccess::HostRead, "Trace");
-	const FFrameContext* const OfFrame = &Context;
-	Graph.AddPass("Trace", [&](FPassBuilder& Builder) -> FPassExecute {
-		Builder.Write(Target, ERTAccess::StorageWrite);
-		return [=](FPassContext& Pass) {
-			const FTracePush Push{OfFrame->Pass, Pass.GetTexture(Target)->GetStorageIndex()};
-			Pass.Commands().SetPipeline(OfFrame->RayPipeline->GetPipeline());
-			Pass.Commands().PushConstants(&Push, sizeof(Push));
-			Pass.Commands().TraceRays(OfFrame->RayTable->GetTable(), RayGen, Width, Height, 1);
-		};
-	});
-	Graph.AddPass("ReadTrace", [&](FPassBuilder& Builder) -> FPassExecute {
-		Builder.Read(Target, ERTAccess::CopyRead);
-		Builder.Write(Readback, ERTAccess::CopyWrite);
-		return [=](FPassContext& Pass) { Pass.Commands().CopyTextureToBuffer(Pass.GetBuffer(Readback), 0, Pass.GetTexture(Target), 0, 0); };
-	});
-}
 
 FRTStatus FMaterialFrames::Frame(double& OutMs)
 {
@@ -120,12 +67,12 @@ FRTStatus FMaterialFrames::Frame(double& OutMs)
 	FFrameFeatures Features;
 	Features.bWaitForPipelines = false;
 	Features.bRays = true;
-	Features.RayGens = {MakeTrace()};
+	Features.RayGens = {MakeMaterialTrace({.Path = "Stability/Trace.rgen", .RaysPerMetre = PixelsPerQuad})};
 	const auto Start = std::chrono::steady_clock::now();
 	if (FRTStatus S = Renderer.BeginFrame(GetScene(), Stage.MakeView(), Features); !S) { return S; }
 	FFrameContext& Context = Renderer.GetContext();
 	const uint32_t RayGen = Context.RayPipeline ? Context.RayPipeline->FindRayGen(Features.RayGens[0]) : NoRayGen;
-	if (RayGen != NoRayGen) { AddTrace(Context, RayGen, Buffer.Get()); }
+	if (RayGen != NoRayGen) { AddMaterialTraceReadback(Context, RayGen, Width, Height, Buffer.Get()); }
 	if (FRTStatus S = Renderer.EndFrame(nullptr); !S) { return S; }
 	OutMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - Start).count();
 	if (FRTStatus S = Renderer.WaitForAll(); !S) { return S; }
