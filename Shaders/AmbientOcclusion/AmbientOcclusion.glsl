@@ -1,6 +1,6 @@
 // Ambient occlusion of a pixel; the ray-tracing pipeline and the ray-query path share it. The includer defines
 //   bool IsUnoccluded(vec3 Origin, vec3 Direction, float Length)   true: the ray hits nothing
-// ONE_SAMPLE: SamplesPerPixel is known to be 1. Without the loop, only the pixel's coordinates stay live across the trace.
+// ONE_SAMPLE: see SamplesPerPixel.glsl.
 #ifndef LANTERN_AMBIENT_OCCLUSION_PASS_GLSL
 #define LANTERN_AMBIENT_OCCLUSION_PASS_GLSL
 
@@ -13,11 +13,7 @@ layout(push_constant, scalar) uniform FPush { FAmbientOcclusionConstants Push; }
 
 bool IsUnoccluded(vec3 Origin, vec3 Direction, float Length);
 
-#ifdef ONE_SAMPLE
-const uint SamplesPerPixel = 1u;
-#else
-#define SamplesPerPixel Push.SamplesPerPixel
-#endif
+#include "../Rays/SamplesPerPixel.glsl"
 
 void TracePixel(uvec2 Pixel)
 {

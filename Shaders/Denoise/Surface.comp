@@ -2,6 +2,7 @@
 // reprojection.
 #version 460
 #include "../Shared/DenoiseTypes.h"
+#include "../Library/GBuffer.glsl"
 #include "../Library/History.glsl"
 
 layout(local_size_x = DENOISE_GROUP_SIZE, local_size_y = DENOISE_GROUP_SIZE) in;
@@ -11,8 +12,8 @@ void main()
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	ivec2 Pixel = ivec2(gl_GlobalInvocationID.xy);
-	if (any(greaterThanEqual(Pixel, ivec2(View.Width, View.Height)))) { return; }
-	float Depth = texelFetch(Textures[Push.Depth], Pixel, 0).x;
+	if (IsOutsideView(View, uvec2(Pixel))) { return; }
+	float Depth = LoadDepth(Push.Depth, Pixel);
 	vec2 Packed = vec2(0.0);
 	if (Depth > 0.0 && IsFinite(Depth))
 	{

@@ -2,7 +2,7 @@
 //   float TraceSunRay(vec3 Origin, vec3 Direction)   distance to a blocker; negative: the ray is unblocked
 //
 // WITH_PENUMBRA: also writes the width of the penumbra, for the denoiser.
-// ONE_SAMPLE: SamplesPerPixel is known to be 1. Without the loop, only the pixel's coordinates stay live across the trace.
+// ONE_SAMPLE: see SamplesPerPixel.glsl.
 #ifndef LANTERN_SUN_SHADOW_GLSL
 #define LANTERN_SUN_SHADOW_GLSL
 
@@ -15,11 +15,7 @@ layout(push_constant, scalar) uniform FPush { FSunShadowConstants Push; };
 
 float TraceSunRay(vec3 Origin, vec3 Direction);
 
-#ifdef ONE_SAMPLE
-const uint SamplesPerPixel = 1u;
-#else
-#define SamplesPerPixel Push.SamplesPerPixel
-#endif
+#include "../Rays/SamplesPerPixel.glsl"
 
 void StorePenumbra(uvec2 Pixel, float Penumbra)
 {
