@@ -13,8 +13,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-using FrameGraphTest = FFrameGraphTestBase;
-
 // --------------------------------------------------------------------------------------------------- errors
 
 TEST_F(FrameGraphTest, OutOfMemoryNamesTheResourceAndRecordsNothing)

@@ -156,4 +156,6 @@ protected:
 	std::vector<std::string> Ran;
 };
 
+using FrameGraphTest = FFrameGraphTestBase; ///< the suite's name
+
 } // namespace Lantern

@@ -13,8 +13,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-using FrameGraphTest = FFrameGraphTestBase;
-
 // -------------------------------------------------------------------------------------------------- culling
 
 // What GetDesc returns lies in a list that grows (the address sanitizer sees what is read from where it was).

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "FrameGraph/FrameGraphImpl.h"
+#include "FrameGraph/FrameGraphPoison.h"
 
 namespace Lantern
 {
@@ -57,6 +58,14 @@ FRTStatus FFrameGraph::FImpl::Validate() const
 		for (const FPassUse& Use : Pass.Uses) { Written[Use.Resource] = Written[Use.Resource] || Use.Write != ERTAccess::None; }
 	}
 	return FRTStatus::Success();
+}
+
+FRTStatus FFrameGraph::FImpl::AddPoison()
+{
+	FPoisonPass Poison(Resources);
+	const FRTStatus Status = Poison.Find(Shared.Poison);
+	if (Status && !Poison.IsEmpty()) { Passes.insert(Passes.begin(), Poison.Make()); }
+	return Status;
 }
 
 void FFrameGraph::FImpl::Cull()

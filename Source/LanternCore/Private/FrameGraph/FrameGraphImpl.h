@@ -139,8 +139,7 @@ struct FFrameGraph::FImpl
 	// FrameGraphCompile.cpp, in this order:
 	FRTStatus Validate() const;
 	FRTStatus ValidateUse(const FGraphPass& Pass, const FPassUse& Use, const std::vector<bool>& Written) const;
-	FRTStatus AddPoison(); // in FrameGraphPoison.cpp
-	FRTStatus FindPoisoned(std::vector<FGraphTexture>& OutTextures, std::vector<FGraphBuffer>& OutBuffers) const;
+	FRTStatus AddPoison();
 	void Cull();
 	void CullWhatNobodyReads(std::vector<bool> Needed);
 	void DropUnreadOutputs();

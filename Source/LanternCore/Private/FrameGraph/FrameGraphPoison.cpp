@@ -1,7 +1,7 @@
 // Overwrites histories with bits that are not-a-number, so that tests find the passes that let them through.
 #include <algorithm>
 
-#include "FrameGraph/FrameGraphImpl.h"
+#include "FrameGraph/FrameGraphPoison.h"
 
 namespace Lantern
 {
@@ -62,30 +62,26 @@ void PoisonTextures(FPassContext& Pass, FGraphBuffer Bits, const std::vector<FGr
 
 } // namespace
 
-FRTStatus FFrameGraph::FImpl::FindPoisoned(std::vector<FGraphTexture>& OutTextures, std::vector<FGraphBuffer>& OutBuffers) const
+FRTStatus FPoisonPass::Find(const std::vector<std::string>& NameParts)
 {
 	for (uint32_t Index = 0; Index < Resources.size(); ++Index)
 	{
 		const FGraphResource& Resource = Resources[Index];
 		const auto IsIn = [&](const std::string& Part) { return Resource.Name.find(Part) != std::string::npos; };
-		if (!Resource.bHistory || std::none_of(Shared.Poison.begin(), Shared.Poison.end(), IsIn)) { continue; }
+		if (!Resource.bHistory || std::none_of(NameParts.begin(), NameParts.end(), IsIn)) { continue; }
 		if (!CanBePoisoned(Resource))
 		{
 			return FRTStatus::Error(
 			    ERTResult::InvalidArgument, "Frame graph: %s cannot be poisoned: it has no usage CopyDest", Resource.Describe().c_str());
 		}
-		if (Resource.bTexture) { OutTextures.push_back({Index}); }
-		else { OutBuffers.push_back({Index}); }
+		if (Resource.bTexture) { Textures.push_back({Index}); }
+		else { Buffers.push_back({Index}); }
 	}
 	return FRTStatus::Success();
 }
 
-FRTStatus FFrameGraph::FImpl::AddPoison()
+FGraphPass FPoisonPass::Make()
 {
-	std::vector<FGraphTexture> Textures;
-	std::vector<FGraphBuffer> Buffers;
-	const FRTStatus Status = FindPoisoned(Textures, Buffers);
-	if (!Status || (Textures.empty() && Buffers.empty())) { return Status; }
 	FGraphPass Pass;
 	Pass.Name = "Poison";
 	Pass.bNeverCull = true;
@@ -111,12 +107,11 @@ FRTStatus FFrameGraph::FImpl::AddPoison()
 		Resource.BufferDesc = {(Bytes + 3) / 4 * 4, ERTBufferUsage::CopySource | ERTBufferUsage::CopyDest};
 		Write(Bits.Index, ERTAccess::StorageWrite);
 	}
-	Pass.Execute = [=](FPassContext& Context) {
+	Pass.Execute = [Filled, Bits, Poisoned = Textures](FPassContext& Context) {
 		for (const auto& [Buffer, Access] : Filled) { FillBuffer(Context, Buffer, Access); }
-		if (Bits.IsValid()) { PoisonTextures(Context, Bits, Textures); }
+		if (Bits.IsValid()) { PoisonTextures(Context, Bits, Poisoned); }
 	};
-	Passes.insert(Passes.begin(), std::move(Pass));
-	return FRTStatus::Success();
+	return Pass;
 }
 
 } // namespace Lantern
