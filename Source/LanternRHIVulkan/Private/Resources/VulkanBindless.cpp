@@ -71,58 +71,46 @@ void FVulkanBindless::Destroy()
 	Api = nullptr;
 }
 
-void FVulkanBindless::Write(EBinding Binding, uint32_t Index, VkWriteDescriptorSet& Info)
+uint32_t FVulkanBindless::Add(EBinding Binding, VkWriteDescriptorSet& Info)
 {
+	std::scoped_lock Lock(Mutex);
+	const uint32_t Index = Indices[Binding].Allocate();
+	if (Index == NoBindlessIndex) { return Index; }
+	Info.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
 	Info.dstSet = Set;
 	Info.dstBinding = Binding;
 	Info.dstArrayElement = Index;
 	Info.descriptorCount = 1;
 	Info.descriptorType = Types[Binding];
 	Api->UpdateDescriptorSets(Device, 1, &Info, 0, nullptr);
+	return Index;
 }
 
 uint32_t FVulkanBindless::AddImage(EBinding Binding, VkImageView View)
 {
-	std::scoped_lock Lock(Mutex);
-	const uint32_t Index = Indices[Binding].Allocate();
-	if (Index != NoBindlessIndex)
-	{
-		const VkDescriptorImageInfo Image = {
-		    VK_NULL_HANDLE, View, Binding == Storage ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-		VkWriteDescriptorSet Info{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-		Info.pImageInfo = &Image;
-		Write(Binding, Index, Info);
-	}
-	return Index;
+	const VkImageLayout Layout = Binding == Storage ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+	const VkDescriptorImageInfo Image = {VK_NULL_HANDLE, View, Layout};
+	VkWriteDescriptorSet Info{};
+	Info.pImageInfo = &Image;
+	return Add(Binding, Info);
 }
 
 uint32_t FVulkanBindless::AddSampler(VkSampler InSampler)
 {
-	std::scoped_lock Lock(Mutex);
-	const uint32_t Index = Indices[Sampler].Allocate();
-	if (Index != NoBindlessIndex)
-	{
-		const VkDescriptorImageInfo Image = {InSampler, VK_NULL_HANDLE, VK_IMAGE_LAYOUT_UNDEFINED};
-		VkWriteDescriptorSet Info{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-		Info.pImageInfo = &Image;
-		Write(Sampler, Index, Info);
-	}
-	return Index;
+	const VkDescriptorImageInfo Image = {InSampler, VK_NULL_HANDLE, VK_IMAGE_LAYOUT_UNDEFINED};
+	VkWriteDescriptorSet Info{};
+	Info.pImageInfo = &Image;
+	return Add(Sampler, Info);
 }
 
 uint32_t FVulkanBindless::AddScene(VkAccelerationStructureKHR InScene)
 {
-	std::scoped_lock Lock(Mutex);
-	const uint32_t Index = Indices[Scene].Allocate();
-	if (Index != NoBindlessIndex)
-	{
-		VkWriteDescriptorSetAccelerationStructureKHR Structures{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR};
-		Structures.accelerationStructureCount = 1;
-		Structures.pAccelerationStructures = &InScene;
-		VkWriteDescriptorSet Info{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, &Structures};
-		Write(Scene, Index, Info);
-	}
-	return Index;
+	VkWriteDescriptorSetAccelerationStructureKHR Structures{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR};
+	Structures.accelerationStructureCount = 1;
+	Structures.pAccelerationStructures = &InScene;
+	VkWriteDescriptorSet Info{};
+	Info.pNext = &Structures;
+	return Add(Scene, Info);
 }
 
 void FVulkanBindless::Remove(EBinding Binding, uint32_t Index)

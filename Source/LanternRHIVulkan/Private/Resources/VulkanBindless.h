@@ -40,7 +40,8 @@ public:
 	VkDescriptorSetLayout SetLayout = VK_NULL_HANDLE;
 
 private:
-	void Write(EBinding Binding, uint32_t Index, VkWriteDescriptorSet& Info);
+	/// Writes the descriptor of Info at a free index. Returns the index.
+	uint32_t Add(EBinding Binding, VkWriteDescriptorSet& Info);
 
 	VkDevice Device = VK_NULL_HANDLE;
 	const FVulkanDeviceApi* Api = nullptr;
