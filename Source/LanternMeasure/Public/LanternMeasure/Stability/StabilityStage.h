@@ -48,7 +48,6 @@ public:
 	FHostScene& GetScene() { return Engine.GetScene(); }
 	const FStabilitySettings& GetSettings() const { return Settings; }
 	ESignal GetSignal() const { return Signal; }
-	uint32_t GetSeed() const { return Seed; }
 	/// Whether something is broken, by console variables or by the case itself.
 	bool IsBroken() const { return Fault != nullptr; }
 	/// Whether the case itself must break something.
