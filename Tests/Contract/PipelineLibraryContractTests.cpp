@@ -180,14 +180,7 @@ TEST_P(FLinkContract, RelinkedWithOneMoreWhileTheFirstIsInFlight)
 	}
 	// Until it is there, a stand-in: record 5 is hit group 0.
 	Use(MakeRays(Device(), GetGeneralGroups(), false, Pointers, "Before"), Order);
-	FRTShaderTableDesc Desc;
-	Desc.Pipeline = Pipeline.Get();
-	Desc.RayGenCount = 2;
-	Desc.MissCount = Desc.CallableCount = 1;
-	Desc.HitCount = HitRecords;
-	Desc.RecordDataBytes = 4;
-	Desc.Name = "Table";
-	ASSERT_OK(Device().CreateShaderTable(Desc, Table.ReleaseAndGetAddress()));
+	ASSERT_NO_FATAL_FAILURE(CreateStageTable());
 	Groups.push_back(Late); // for SetStageRecords alone; the table never sees it in Before
 	const uint32_t StandIn = Find(StageHit);
 	Table->SetRecord(ERTRecordKind::RayGen, 0, Find(StageTrace), nullptr, 0);

@@ -47,8 +47,7 @@ protected:
 		EXPECT_NE(Found, Groups.end());
 		return static_cast<uint32_t>(Found - Groups.begin());
 	}
-	/// Sets hit record i to group i of GetHitGroups with value 10 + i, and ray generation records to trace and call.
-	void MakeStageTable()
+	void CreateStageTable()
 	{
 		FRTShaderTableDesc Desc;
 		Desc.Pipeline = Pipeline.Get();
@@ -58,6 +57,11 @@ protected:
 		Desc.RecordDataBytes = 4;
 		Desc.Name = "StageTable";
 		ASSERT_OK(Device().CreateShaderTable(Desc, Table.ReleaseAndGetAddress()));
+	}
+	/// Sets hit record i to group i of GetHitGroups with value 10 + i, and ray generation records to trace and call.
+	void MakeStageTable()
+	{
+		ASSERT_NO_FATAL_FAILURE(CreateStageTable());
 		SetStageRecords();
 	}
 	void SetStageRecords()

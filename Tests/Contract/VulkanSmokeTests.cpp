@@ -10,7 +10,48 @@
 namespace Lantern
 {
 
-using FVulkanSmokeBasics = FVulkanSmokeTest;
+class FVulkanSmokeBasics : public FVulkanSmokeTest
+{
+protected:
+	TRTRef<IRTTexture> MakeColorTarget(uint32_t Size)
+	{
+		FRTTextureDesc Desc;
+		Desc.Width = Desc.Height = Size;
+		Desc.Format = ERTFormat::RGBA8_UNORM;
+		Desc.Usage = ERTTextureUsage::RenderTarget | ERTTextureUsage::CopySource;
+		Desc.Name = "Color";
+		TRTRef<IRTTexture> Out;
+		const FRTStatus Status = Device->CreateTexture(Desc, Out.ReleaseAndGetAddress());
+		EXPECT_TRUE(Status.IsOk()) << Status.Message;
+		return Out;
+	}
+	/// Draws triangles of one colour. DepthFormat Unknown: without depth.
+	TRTRef<IRTPipeline> MakeTrianglePipeline(ERTFormat DepthFormat, ERTCull Cull)
+	{
+		const ERTFormat ColorFormat = ERTFormat::RGBA8_UNORM;
+		FRTRasterPipelineDesc Desc;
+		Desc.Vertex = MakeCode(Smoke_Triangle_vert, ERTShaderStage::Vertex, "Triangle.vert");
+		Desc.Fragment = MakeCode(Smoke_Triangle_frag, ERTShaderStage::Fragment, "Triangle.frag");
+		Desc.ColorFormats = &ColorFormat;
+		Desc.ColorCount = 1;
+		Desc.DepthFormat = DepthFormat;
+		Desc.Cull = Cull;
+		TRTRef<IRTPipeline> Out;
+		const FRTStatus Status = Device->CreateRasterPipeline(Desc, Out.ReleaseAndGetAddress());
+		EXPECT_TRUE(Status.IsOk()) << Status.Message;
+		return Out;
+	}
+	/// Draws in one colour from the positions at Address.
+	void PushTriangle(uint64_t Address, float Red, float Green)
+	{
+		const struct
+		{
+			uint64_t Positions;
+			float Color[4];
+		} Data = {Address, {Red, Green, 0, 1}};
+		List->PushConstants(&Data, sizeof(Data));
+	}
+};
 
 struct FFillPush
 {
@@ -118,22 +159,11 @@ TEST_F(FVulkanSmokeBasics, MipsAreAveragesOfTheFirst)
 TEST_F(FVulkanSmokeBasics, RasterTrianglesAreSortedByReversedDepth)
 {
 	constexpr uint32_t Size = 32;
-	TRTRef<IRTTexture> Color, Depth;
-	ASSERT_OK(Device->CreateTexture(
-	    {Size, Size, 1, 1, ERTFormat::RGBA8_UNORM, ERTTextureUsage::RenderTarget | ERTTextureUsage::CopySource, "Color"},
-	    Color.ReleaseAndGetAddress()));
+	const TRTRef<IRTTexture> Color = MakeColorTarget(Size);
+	TRTRef<IRTTexture> Depth;
 	ASSERT_OK(Device->CreateTexture({Size, Size, 1, 1, ERTFormat::D32_FLOAT, ERTTextureUsage::Depth | ERTTextureUsage::CopySource, "Depth"},
 	    Depth.ReleaseAndGetAddress()));
-	const ERTFormat Format = ERTFormat::RGBA8_UNORM;
-	FRTRasterPipelineDesc Desc;
-	Desc.Vertex = MakeCode(Smoke_Triangle_vert, ERTShaderStage::Vertex, "Triangle.vert");
-	Desc.Fragment = MakeCode(Smoke_Triangle_frag, ERTShaderStage::Fragment, "Triangle.frag");
-	Desc.ColorFormats = &Format;
-	Desc.ColorCount = 1;
-	Desc.DepthFormat = ERTFormat::D32_FLOAT;
-	Desc.Cull = ERTCull::None;
-	TRTRef<IRTPipeline> Pipeline;
-	ASSERT_OK(Device->CreateRasterPipeline(Desc, Pipeline.ReleaseAndGetAddress()));
+	const TRTRef<IRTPipeline> Pipeline = MakeTrianglePipeline(ERTFormat::D32_FLOAT, ERTCull::None);
 	// The left half near (0.75), then the whole target behind it (0.25).
 	const std::vector<float> Points = {-1, -3, 0.75f, 0, 0, 0.75f, -1, 3, 0.75f, // covers x < 0 near the centre
 	    -1, -1, 0.25f, 3, -1, 0.25f, -1, 3, 0.25f};
@@ -147,17 +177,9 @@ TEST_F(FVulkanSmokeBasics, RasterTrianglesAreSortedByReversedDepth)
 	const FRTColorTarget Target = {Color.Get(), true, {0, 0, 1, 1}};
 	List->BeginRasterPass({&Target, 1, Depth.Get(), true, Size, Size});
 	List->SetPipeline(Pipeline.Get());
-	const auto Push = [&](float Red, float Green) {
-		struct
-		{
-			uint64_t Positions;
-			float Color[4];
-		} Data = {Positions->GetDeviceAddress(), {Red, Green, 0, 1}};
-		List->PushConstants(&Data, sizeof(Data));
-	};
-	Push(1, 0);
+	PushTriangle(Positions->GetDeviceAddress(), 1, 0);
 	List->Draw(3, 1);
-	Push(0, 1);
+	PushTriangle(Positions->GetDeviceAddress(), 0, 1);
 	List->SetIndexBuffer(Indices.Get(), 0, ERTIndexType::UInt32);
 	List->DrawIndexed(3, 1, 0, 0);
 	List->EndRasterPass();
@@ -179,18 +201,8 @@ TEST_F(FVulkanSmokeBasics, RasterTrianglesAreSortedByReversedDepth)
 TEST_F(FVulkanSmokeBasics, TrianglesClockwiseOnTheTargetAreBackFaces)
 {
 	constexpr uint32_t Size = 8;
-	TRTRef<IRTTexture> Color;
-	ASSERT_OK(Device->CreateTexture(
-	    {Size, Size, 1, 1, ERTFormat::RGBA8_UNORM, ERTTextureUsage::RenderTarget | ERTTextureUsage::CopySource, "Color"},
-	    Color.ReleaseAndGetAddress()));
-	const ERTFormat Format = ERTFormat::RGBA8_UNORM;
-	FRTRasterPipelineDesc Desc;
-	Desc.Vertex = MakeCode(Smoke_Triangle_vert, ERTShaderStage::Vertex, "Triangle.vert");
-	Desc.Fragment = MakeCode(Smoke_Triangle_frag, ERTShaderStage::Fragment, "Triangle.frag");
-	Desc.ColorFormats = &Format;
-	Desc.ColorCount = 1;
-	TRTRef<IRTPipeline> Pipeline;
-	ASSERT_OK(Device->CreateRasterPipeline(Desc, Pipeline.ReleaseAndGetAddress()));
+	const TRTRef<IRTTexture> Color = MakeColorTarget(Size);
+	const TRTRef<IRTPipeline> Pipeline = MakeTrianglePipeline(ERTFormat::Unknown, ERTCull::Back);
 	// Two triangles that cover the target. y is down: the first is clockwise as seen, the second counter-clockwise.
 	const std::vector<float> Points = {-1, -1, 0, 3, -1, 0, -1, 3, 0, -1, -1, 0, -1, 3, 0, 3, -1, 0};
 	TRTRef<IRTBuffer> Positions = MakeUpload(Points, ERTBufferUsage::Storage, "Positions");
@@ -202,12 +214,7 @@ TEST_F(FVulkanSmokeBasics, TrianglesClockwiseOnTheTargetAreBackFaces)
 		const FRTColorTarget Target = {Color.Get(), true, {0, 0, 1, 1}};
 		List->BeginRasterPass({&Target, 1, nullptr, false, Size, Size});
 		List->SetPipeline(Pipeline.Get());
-		struct
-		{
-			uint64_t Positions;
-			float Color[4];
-		} Data = {Positions->GetDeviceAddress() + (bCounterClockwise ? 36 : 0), {1, 0, 0, 1}};
-		List->PushConstants(&Data, sizeof(Data));
+		PushTriangle(Positions->GetDeviceAddress() + (bCounterClockwise ? 36 : 0), 1, 0);
 		List->Draw(3, 1);
 		List->EndRasterPass();
 		Barrier(ERTAccess::RenderTarget, ERTAccess::CopyRead, Color.Get());

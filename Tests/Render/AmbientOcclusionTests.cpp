@@ -64,20 +64,7 @@ protected:
 	/// Mean over frames First … First + Count − 1; asked for, so that no sky is needed.
 	static FImage RenderOcclusion(const FView& View, uint32_t Count = 1, uint32_t First = 0)
 	{
-		FImage Sum(View.Width, View.Height, 1);
-		GetEngine().SetFrameIndex(First);
-		for (uint32_t I = 0; I < Count; ++I)
-		{
-			FCapturedFrame Frame;
-			FFrameCapture Capture;
-			Capture.Signals.Add(ESignal::AmbientOcclusion);
-			EXPECT_OK(GetEngine().RenderFrame(View, 0.0, Capture, &Frame));
-			const FImage& Image = Frame.Get(ESignal::AmbientOcclusion);
-			EXPECT_EQ(Image.Pixels.size(), Sum.Pixels.size()) << "the frame has no ambient occlusion";
-			if (Image.Pixels.size() != Sum.Pixels.size()) { return Sum; }
-			for (size_t P = 0; P < Sum.Pixels.size(); ++P) { Sum.Pixels[P] += Image.Pixels[P] / static_cast<float>(Count); }
-		}
-		return Sum;
+		return RenderSignal(ESignal::AmbientOcclusion, View, Count, First);
 	}
 
 	/// From above, Size metres of the floor across, x to the right and z down.

@@ -67,21 +67,9 @@ protected:
 		EXPECT_OK(GetDevice().CreateBuffer(
 		    {uint64_t(Push.Width) * Push.Height * sizeof(glm::vec2), ERTBufferUsage::Storage, ERTMemory::Readback, "Albedos"},
 		    Results.ReleaseAndGetAddress()));
-		TRTRef<IRTCommandList> List;
-		EXPECT_OK(GetDevice().CreateCommandList("Brdf", List.ReleaseAndGetAddress()));
-		if (!Pipeline || !Results || !List) { return {}; }
+		if (!Pipeline || !Results) { return {}; }
 		Push.Output = Results->GetDeviceAddress();
-		EXPECT_OK(List->Begin());
-		List->SetPipeline(Pipeline);
-		List->PushConstants(&Push, sizeof(Push));
-		List->Dispatch((Push.Width + 7) / 8, (Push.Height + 7) / 8, 1);
-		const FRTBarrier Back{Results.Get(), nullptr, ERTAccess::StorageWrite, ERTAccess::HostRead};
-		List->Barriers(&Back, 1);
-		EXPECT_OK(List->End());
-		IRTCommandList* const Lists[] = {List.Get()};
-		FRTFence Fence = 0;
-		EXPECT_OK(GetDevice().Submit(Lists, 1, &Fence));
-		EXPECT_OK(GetDevice().WaitFor(Fence, ~0ull));
+		Dispatch(Pipeline, &Push, sizeof(Push), (Push.Width + 7) / 8, (Push.Height + 7) / 8, Results.Get());
 		std::vector<FAlbedo> Out;
 		const auto* const Values = static_cast<const glm::vec2*>(Results->GetMapped());
 		for (uint32_t I = 0; I < Push.Width * Push.Height; ++I)

@@ -177,19 +177,7 @@ protected:
 		EXPECT_OK(GetDevice().CreateBuffer(
 		    {Groups * sizeof(FRefitQualitySum), ERTBufferUsage::Storage, ERTMemory::Readback, "Sums"}, Results.ReleaseAndGetAddress()));
 		C.Sums = Results->GetDeviceAddress();
-		TRTRef<IRTCommandList> List;
-		EXPECT_OK(GetDevice().CreateCommandList("Measure", List.ReleaseAndGetAddress()));
-		EXPECT_OK(List->Begin());
-		List->SetPipeline(Pipeline);
-		List->PushConstants(&C, sizeof(C));
-		List->Dispatch(Groups, 1, 1);
-		const FRTBarrier Back{Results.Get(), nullptr, ERTAccess::StorageWrite, ERTAccess::HostRead};
-		List->Barriers(&Back, 1);
-		EXPECT_OK(List->End());
-		IRTCommandList* const Lists[] = {List.Get()};
-		FRTFence Fence = 0;
-		EXPECT_OK(GetDevice().Submit(Lists, 1, &Fence));
-		EXPECT_OK(GetDevice().WaitFor(Fence, ~0ull));
+		Dispatch(Pipeline, &C, sizeof(C), Groups, 1, Results.Get());
 		FRefitQualitySum Sum{};
 		for (uint32_t Group = 0; Group < Groups; ++Group)
 		{

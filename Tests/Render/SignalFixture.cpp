@@ -1,3 +1,4 @@
+// Signals of frames and of the reference, their means, and the comparison of the two.
 #include "SignalFixture.h"
 
 #include <algorithm>
@@ -5,24 +6,6 @@
 
 namespace Lantern
 {
-
-FImage FSignalTest::RenderSignal(ESignal Signal, const FView& View, uint32_t Count, uint32_t First)
-{
-	FImage Sum(View.Width, View.Height, GetSignalInfo(Signal).Channels);
-	GetEngine().SetFrameIndex(First);
-	for (uint32_t I = 0; I < Count; ++I)
-	{
-		FFrameCapture Capture;
-		Capture.Signals.Add(Signal);
-		FCapturedFrame Frame;
-		EXPECT_OK(GetEngine().RenderFrame(View, 0.0, Capture, &Frame));
-		const FImage& Picture = Frame.Get(Signal);
-		EXPECT_EQ(Picture.Pixels.size(), Sum.Pixels.size()) << "no " << GetSignalInfo(Signal).Name;
-		if (Picture.Pixels.size() != Sum.Pixels.size()) { return Sum; }
-		for (size_t P = 0; P < Sum.Pixels.size(); ++P) { Sum.Pixels[P] += Picture.Pixels[P] / static_cast<float>(Count); }
-	}
-	return Sum;
-}
 
 bool FSignalTest::HasSignal(ESignal Signal, const FView& View)
 {
@@ -42,11 +25,7 @@ FImage FSignalTest::TraceSignal(ESignal Signal, FView View, uint32_t Samples, ui
 	Settings.Bounces = Bounces;
 	Settings.Signal = Signal;
 	Settings.bPixelCenters = true;
-	FReferenceResult Result;
-	EXPECT_OK(RenderReference(GetEngine(), Settings, Result));
-	FImage Black(View.Width, View.Height, GetSignalInfo(Signal).Channels);
-	EXPECT_EQ(Result.Radiance.Pixels.size(), Black.Pixels.size());
-	return Result.Radiance.Pixels.size() == Black.Pixels.size() ? std::move(Result.Radiance) : Black;
+	return TraceReference(Settings);
 }
 
 FEstimate FSignalTest::EstimateSignal(ESignal Signal, const FView& View, uint32_t Samples, uint32_t Bounces, uint32_t Batches)

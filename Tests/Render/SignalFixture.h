@@ -11,8 +11,6 @@ namespace Lantern
 class FSignalTest : public FRenderTest
 {
 protected:
-	/// Mean of a signal over Count frames from First; black where a frame does not have it, which is a failure.
-	FImage RenderSignal(ESignal Signal, const FView& View, uint32_t Count = 1, uint32_t First = 0);
 	/// Whether a frame has it.
 	bool HasSignal(ESignal Signal, const FView& View);
 	/// Through pixel centres.
@@ -20,7 +18,7 @@ protected:
 	/// Mean of the green channel, from Batches pictures of Samples with seeds of their own.
 	FEstimate EstimateSignal(
 	    ESignal Signal, const FView& View, uint32_t Samples, uint32_t Bounces = UnlimitedBounces, uint32_t Batches = 8);
-	/// The same of frames: batches of Count frames.
+	/// Mean of the green channel, from Batches means of Count frames with seeds of their own.
 	FEstimate EstimateFrames(ESignal Signal, const FView& View, uint32_t Count, uint32_t Batches = 8);
 	/// Holds frames against the reference of the same signal: their means agree within Tolerance and three times what
 	/// repetitions scatter, and so do means of blocks, at the median. All of it relative to the reference.

@@ -59,6 +59,24 @@ struct FMockMaker : FRHIMaker
 		EXPECT_OK(Device->CreateRayTracingPipeline(Desc, Out.ReleaseAndGetAddress()));
 		return Out;
 	}
+	/// Creates a library with one group, whose one shader has the library's name.
+	FRTStatus CreateLibrary(const char* Name, ERTShaderStage Stage, uint32_t PayloadBytes, TRTRef<IRTPipeline>& Out) const
+	{
+		const bool bHit = Stage == ERTShaderStage::ClosestHit;
+		const FRTShaderCode Shader = {DummyWords, std::size(DummyWords), Stage, Name};
+		FRTShaderGroup Group;
+		Group.Kind = bHit ? ERTGroupKind::Triangles : ERTGroupKind::General;
+		(bHit ? Group.ClosestHit : Group.General) = 0;
+		FRTRayTracingPipelineDesc Desc;
+		Desc.Shaders = &Shader;
+		Desc.ShaderCount = 1;
+		Desc.Groups = &Group;
+		Desc.GroupCount = 1;
+		Desc.bLibrary = true;
+		Desc.MaxPayloadBytes = PayloadBytes;
+		Desc.Name = Name;
+		return Device->CreateRayTracingPipeline(Desc, Out.ReleaseAndGetAddress());
+	}
 	TRTRef<IRTShaderTable> Table(IRTPipeline* Pipeline, uint32_t HitCount, uint32_t DataBytes = 0) const
 	{
 		FRTShaderTableDesc Desc;

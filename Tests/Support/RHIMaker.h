@@ -80,10 +80,18 @@ struct FRHIMaker
 	}
 	TRTRef<IRTGeometry> Geometry(const FRTGeometrySection& Item, const char* Name = "Geometry", bool bUpdate = false) const
 	{
+		return CompactableGeometry(Item, Name, 0, false, bUpdate);
+	}
+	/// Bytes: size of a compacted copy; 0: not for one.
+	TRTRef<IRTGeometry> CompactableGeometry(
+	    const FRTGeometrySection& Item, const char* Name, uint64_t Bytes = 0, bool bCompaction = true, bool bUpdate = false) const
+	{
 		FRTGeometryDesc Desc;
 		Desc.Sections = &Item;
 		Desc.SectionCount = 1;
 		Desc.bAllowUpdate = bUpdate;
+		Desc.bAllowCompaction = bCompaction;
+		Desc.CompactedBytes = Bytes;
 		Desc.Name = Name;
 		TRTRef<IRTGeometry> Out;
 		EXPECT_OK(Device->CreateGeometry(Desc, Out.ReleaseAndGetAddress()));

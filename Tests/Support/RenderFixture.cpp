@@ -1,3 +1,4 @@
+// The device and the engine of render tests, pictures of scenes, and figures from pictures.
 #include "RenderFixture.h"
 
 #include <cmath>
@@ -178,6 +179,24 @@ void FRenderTest::SetVariable(const char* Name, const std::string& Value)
 	EXPECT_FALSE(Fault.has_value()) << *Fault;
 }
 
+void FRenderTest::Dispatch(
+    IRTPipeline* Pipeline, const void* Push, uint32_t PushBytes, uint32_t GroupsX, uint32_t GroupsY, IRTBuffer* Results)
+{
+	TRTRef<IRTCommandList> List;
+	ASSERT_OK(GetDevice().CreateCommandList("Dispatch", List.ReleaseAndGetAddress()));
+	ASSERT_OK(List->Begin());
+	List->SetPipeline(Pipeline);
+	List->PushConstants(Push, PushBytes);
+	List->Dispatch(GroupsX, GroupsY, 1);
+	const FRTBarrier Back{Results, nullptr, ERTAccess::StorageWrite, ERTAccess::HostRead};
+	List->Barriers(&Back, 1);
+	ASSERT_OK(List->End());
+	IRTCommandList* const Lists[] = {List.Get()};
+	FRTFence Fence = 0;
+	ASSERT_OK(GetDevice().Submit(Lists, 1, &Fence));
+	ASSERT_OK(GetDevice().WaitFor(Fence, ~0ull));
+}
+
 namespace
 {
 /// After a failure tests go on with a black picture, rather than reading past the end of none.
@@ -202,22 +221,34 @@ FImage FRenderTest::RenderLightingFine(FView View, uint32_t Factor, double Time)
 
 FImage FRenderTest::RenderSunShadow(const FView& View, uint32_t Count, uint32_t First, double Time)
 {
-	FImage Sum(View.Width, View.Height, 1);
+	return RenderSignal(ESignal::SunShadow, View, Count, First, Time);
+}
+
+FImage FRenderTest::RenderSignal(ESignal Signal, const FView& View, uint32_t Count, uint32_t First, double Time)
+{
+	FImage Sum(View.Width, View.Height, GetSignalInfo(Signal).Channels);
 	GetEngine().SetFrameIndex(First);
 	for (uint32_t I = 0; I < Count; ++I)
 	{
-		FCapturedFrame Frame;
 		FFrameCapture Capture;
-		Capture.Signals.Add(ESignal::SunShadow);
+		Capture.Signals.Add(Signal);
+		FCapturedFrame Frame;
 		EXPECT_OK(GetEngine().RenderFrame(View, Time, Capture, &Frame));
-		EXPECT_EQ(Frame.Get(ESignal::SunShadow).Pixels.size(), Sum.Pixels.size()) << "the frame has no sun shadows";
-		if (Frame.Get(ESignal::SunShadow).Pixels.size() != Sum.Pixels.size()) { return Sum; }
-		for (size_t P = 0; P < Sum.Pixels.size(); ++P)
-		{
-			Sum.Pixels[P] += Frame.Get(ESignal::SunShadow).Pixels[P] / static_cast<float>(Count);
-		}
+		const FImage& Picture = Frame.Get(Signal);
+		EXPECT_EQ(Picture.Pixels.size(), Sum.Pixels.size()) << "the frame has no " << GetSignalInfo(Signal).Name;
+		if (Picture.Pixels.size() != Sum.Pixels.size()) { return Sum; }
+		for (size_t P = 0; P < Sum.Pixels.size(); ++P) { Sum.Pixels[P] += Picture.Pixels[P] / static_cast<float>(Count); }
 	}
 	return Sum;
+}
+
+FImage FRenderTest::TraceReference(const FReferenceSettings& Settings)
+{
+	FReferenceResult Result;
+	EXPECT_OK(RenderReference(GetEngine(), Settings, Result));
+	FImage Black(Settings.View.Width, Settings.View.Height, GetSignalInfo(Settings.Signal).Channels);
+	EXPECT_EQ(Result.Radiance.Pixels.size(), Black.Pixels.size());
+	return Result.Radiance.Pixels.size() == Black.Pixels.size() ? std::move(Result.Radiance) : Black;
 }
 
 FImage FRenderTest::TraceReference(const FView& View, uint32_t Samples, uint32_t Bounces, double Time)
@@ -227,9 +258,7 @@ FImage FRenderTest::TraceReference(const FView& View, uint32_t Samples, uint32_t
 	Settings.Time = Time;
 	Settings.Samples = Samples;
 	Settings.Bounces = Bounces;
-	FReferenceResult Result;
-	EXPECT_OK(RenderReference(GetEngine(), Settings, Result));
-	return HasSize(Result.Radiance, View) ? std::move(Result.Radiance) : FImage(View.Width, View.Height, 3);
+	return TraceReference(Settings);
 }
 
 FEstimate FRenderTest::EstimateMean(FView View, uint32_t Samples, uint32_t Bounces, uint32_t Batches)

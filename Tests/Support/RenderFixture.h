@@ -70,13 +70,20 @@ protected:
 	static void SetSky(glm::vec3 Radiance);
 	static void SetVariable(const char* Name, const std::string& Value);
 
+	/// Runs a compute shader and waits for it. Results: the buffer it writes, of which the host sees the result.
+	static void Dispatch(
+	    IRTPipeline* Pipeline, const void* Push, uint32_t PushBytes, uint32_t GroupsX, uint32_t GroupsY, IRTBuffer* Results);
+
 	static FView MakeView(uint32_t Width, uint32_t Height) { return GetScene().MakeDefaultView(Width, Height); }
 	/// Linear radiance of one frame.
 	FImage RenderLighting(const FView& View, double Time = 0.0);
-	/// The same, rendered Factor times finer each way and averaged: a pixel's mean, as the reference has it.
+	/// Renders Factor times finer in each direction and averages: the mean of a pixel, as the reference has it.
 	FImage RenderLightingFine(FView View, uint32_t Factor, double Time = 0.0);
-	/// Mean visibility of the sun over frames First … First + Count − 1.
+	/// Mean of a signal over frames First … First + Count − 1. If a frame does not have it, the test fails and the picture is black.
+	static FImage RenderSignal(ESignal Signal, const FView& View, uint32_t Count = 1, uint32_t First = 0, double Time = 0.0);
 	FImage RenderSunShadow(const FView& View, uint32_t Count = 1, uint32_t First = 0, double Time = 0.0);
+	/// Renders the reference. If that fails, the test fails and the picture is black.
+	static FImage TraceReference(const FReferenceSettings& Settings);
 	FImage TraceReference(const FView& View, uint32_t Samples, uint32_t Bounces = UnlimitedBounces, double Time = 0.0);
 	/// Mean of the green channel over the picture, from Batches pictures of Samples with seeds of their own.
 	FEstimate EstimateMean(FView View, uint32_t Samples, uint32_t Bounces = UnlimitedBounces, uint32_t Batches = 8);

@@ -106,6 +106,37 @@ protected:
 		Mesh.SectionCount = 1;
 		return AddMesh(Mesh);
 	}
+	/// A triangle named "Cloth" whose vertices may be updated.
+	ERTMeshHandle AddDeformableMesh()
+	{
+		FRTModuleMesh Mesh = DescribeTriangle();
+		Mesh.Name = "Cloth";
+		Mesh.bDeformable = true;
+		return AddMesh(Mesh);
+	}
+	/// A material with a base colour texture. The plugin holds the texture once the material is added and Texture is reset.
+	struct FTexturedMaterial
+	{
+		TRTRef<IRTSampler> Sampler;
+		TRTRef<IRTTexture> Texture;
+		FRTModuleMaterial Material;
+	};
+	FTexturedMaterial MakeTexturedMaterial(const char* TextureName)
+	{
+		FTexturedMaterial Out;
+		const FRTStatus Status = Device->CreateSampler({}, Out.Sampler.ReleaseAndGetAddress());
+		EXPECT_TRUE(Status.IsOk()) << Status.Message;
+		Out.Texture = MakeTexture(ERTFormat::RGBA8_SRGB, 4, ERTTextureUsage::Sampled, TextureName);
+		Out.Material.BaseColorTexture = Out.Texture.Get();
+		Out.Material.BaseColorSampler = Out.Sampler.Get();
+		return Out;
+	}
+	/// Objects of the name that were destroyed so far, after collecting garbage.
+	uint32_t CountDestroyed(const char* Name)
+	{
+		Device->CollectGarbage();
+		return Mock().CountCalls(ERTMockCall::Destroy, Name);
+	}
 	FRTStatus AddObject(ERTMeshHandle Mesh, ERTMaterialHandle Material)
 	{
 		FRTModuleObject Desc;
@@ -132,6 +163,11 @@ protected:
 		return Frame;
 	}
 	FRTStatus Render() { return Renderer->RenderFrame(DescribeFrame(), &Outputs); }
+	FRTStatus RenderWholeFrame()
+	{
+		const FRTStatus Status = Render();
+		return Status ? Renderer->EndFrame(nullptr) : Status;
+	}
 	/// Buffers of the name that were copied to in the calls so far.
 	uint32_t CountCopies(const char* Name) { return Mock().CountCalls(ERTMockCall::CopyBuffer, Name); }
 

@@ -28,20 +28,8 @@ protected:
 	TRTRef<IRTPipeline> Library(
 	    const char* Name, ERTShaderStage Stage = ERTShaderStage::ClosestHit, uint32_t Payload = 32, ERTResult Expected = ERTResult::Ok)
 	{
-		const FRTShaderCode Shader = {DummyWords, std::size(DummyWords), Stage, Name};
-		FRTShaderGroup Group;
-		Group.Kind = Stage == ERTShaderStage::ClosestHit ? ERTGroupKind::Triangles : ERTGroupKind::General;
-		(Stage == ERTShaderStage::ClosestHit ? Group.ClosestHit : Group.General) = 0;
-		FRTRayTracingPipelineDesc Desc;
-		Desc.Shaders = &Shader;
-		Desc.ShaderCount = 1;
-		Desc.Groups = &Group;
-		Desc.GroupCount = 1;
-		Desc.bLibrary = true;
-		Desc.MaxPayloadBytes = Payload;
-		Desc.Name = Name;
 		TRTRef<IRTPipeline> Out;
-		EXPECT_EQ(Make.Device->CreateRayTracingPipeline(Desc, Out.ReleaseAndGetAddress()).Code, Expected);
+		EXPECT_EQ(Make.CreateLibrary(Name, Stage, Payload, Out).Code, Expected);
 		return Out;
 	}
 	/// With a ray generation group of its own.
@@ -193,15 +181,7 @@ class FMockCompactionTests : public FMockLibraryTests
 protected:
 	TRTRef<IRTGeometry> Create(const char* Name, uint64_t CompactedBytes = 0, bool bCompaction = true)
 	{
-		FRTGeometryDesc Desc;
-		Desc.Sections = &Section;
-		Desc.SectionCount = 1;
-		Desc.bAllowCompaction = bCompaction;
-		Desc.CompactedBytes = CompactedBytes;
-		Desc.Name = Name;
-		TRTRef<IRTGeometry> Out;
-		EXPECT_OK(Make.Device->CreateGeometry(Desc, Out.ReleaseAndGetAddress()));
-		return Out;
+		return Make.CompactableGeometry(Section, Name, CompactedBytes, bCompaction);
 	}
 	void SetUp() override
 	{

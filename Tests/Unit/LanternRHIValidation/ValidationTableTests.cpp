@@ -16,20 +16,7 @@ protected:
 	/// One group: a hit group, or a ray generation one.
 	FRTStatus Library(const char* Name, TRTRef<IRTPipeline>& Out, uint32_t Payload = 32, bool bRayGen = false)
 	{
-		const FRTShaderCode Shader = {
-		    DummyWords, std::size(DummyWords), bRayGen ? ERTShaderStage::RayGen : ERTShaderStage::ClosestHit, Name};
-		FRTShaderGroup Group;
-		Group.Kind = bRayGen ? ERTGroupKind::General : ERTGroupKind::Triangles;
-		(bRayGen ? Group.General : Group.ClosestHit) = 0;
-		FRTRayTracingPipelineDesc Desc;
-		Desc.Shaders = &Shader;
-		Desc.ShaderCount = 1;
-		Desc.Groups = &Group;
-		Desc.GroupCount = 1;
-		Desc.bLibrary = true;
-		Desc.MaxPayloadBytes = Payload;
-		Desc.Name = Name;
-		return Make.Device->CreateRayTracingPipeline(Desc, Out.ReleaseAndGetAddress());
+		return Make.CreateLibrary(Name, bRayGen ? ERTShaderStage::RayGen : ERTShaderStage::ClosestHit, Payload, Out);
 	}
 	FRTStatus Link(std::initializer_list<IRTPipeline*> Libraries, TRTRef<IRTPipeline>& Out)
 	{
@@ -48,6 +35,19 @@ protected:
 		List->TraceRays(Table, 0, 1, 1, 1);
 		return List;
 	}
+	static void SetFirst(IRTShaderTable* Table, ERTRecordKind Kind, uint32_t Group) { Table->SetGroups(Kind, 0, 1, &Group); }
+	/// A table for three hit records, with ray generation, miss, and two of the hit records set.
+	TRTRef<IRTShaderTable> FilledTable(IRTPipeline* Pipeline)
+	{
+		const uint32_t Hits[] = {2, 3};
+		auto Table = Make.Table(Pipeline, 3);
+		SetFirst(Table.Get(), ERTRecordKind::RayGen, RayGenGroup);
+		SetFirst(Table.Get(), ERTRecordKind::Miss, MissGroup);
+		Table->SetHitRecords(0, 2, Hits, nullptr);
+		return Table;
+	}
+
+	static constexpr uint32_t RayGenGroup = 0, MissGroup = 1; ///< of FMockMaker::RayTracing
 };
 
 TEST_F(FValidationTables, LibrariesAreNoPipelines)
@@ -148,12 +148,7 @@ TEST_F(FValidationTables, RecordsAndGroupsInRange)
 TEST_F(FValidationTables, StaleHandlesAfterSetPipeline)
 {
 	const auto Old = Make.RayTracing("Old"), New = Make.RayTracing("New");
-	const auto Table = Make.Table(Old.Get(), 3);
-	const uint32_t RayGen = 0, Miss = 1, Hits[] = {2, 3};
-	const auto Set = [&](ERTRecordKind Kind, uint32_t Group) { Table->SetGroups(Kind, 0, 1, &Group); };
-	Set(ERTRecordKind::RayGen, RayGen);
-	Set(ERTRecordKind::Miss, Miss);
-	Table->SetHitRecords(0, 2, Hits, nullptr);
+	const auto Table = FilledTable(Old.Get());
 	Make.Submit(Trace(Table.Get(), Old.Get()).Get());
 	// What was recorded before the swap goes on with the old pipeline.
 	const auto Before = Trace(Table.Get(), Old.Get());
@@ -163,7 +158,7 @@ TEST_F(FValidationTables, StaleHandlesAfterSetPipeline)
 	List->SetPipeline(New.Get());
 	List->TraceRays(Table.Get(), 0, 1, 1, 1);
 	ExpectMessage({"TraceRays", "'Table'", "ray generation record 0 was not set again after SetPipeline"});
-	Set(ERTRecordKind::RayGen, RayGen);
+	SetFirst(Table.Get(), ERTRecordKind::RayGen, RayGenGroup);
 	ExpectRefused(Trace(Table.Get(), New.Get()).Get());
 	ExpectMessage({"TraceRays", "miss record 0 of shader table 'Table' was not set again after SetPipeline"});
 }
@@ -171,19 +166,14 @@ TEST_F(FValidationTables, StaleHandlesAfterSetPipeline)
 TEST_F(FValidationTables, StaleMissAndHitRecords)
 {
 	const auto Old = Make.RayTracing("Old"), New = Make.RayTracing("New");
-	const auto Table = Make.Table(Old.Get(), 3);
-	const uint32_t RayGen = 0, Miss = 1, Hits[] = {2, 3};
-	const auto Set = [&](ERTRecordKind Kind, uint32_t Group) { Table->SetGroups(Kind, 0, 1, &Group); };
-	Set(ERTRecordKind::RayGen, RayGen);
-	Set(ERTRecordKind::Miss, Miss);
-	Table->SetHitRecords(0, 2, Hits, nullptr);
+	const auto Table = FilledTable(Old.Get());
 	Table->SetPipeline(New.Get());
-	Set(ERTRecordKind::RayGen, RayGen);
-	Set(ERTRecordKind::Miss, Miss);
+	SetFirst(Table.Get(), ERTRecordKind::RayGen, RayGenGroup);
+	SetFirst(Table.Get(), ERTRecordKind::Miss, MissGroup);
 	ExpectRefused(Trace(Table.Get(), New.Get()).Get());
 	ExpectMessage({"TraceRays", "hit record 0 of shader table 'Table' was not set again after SetPipeline"});
 	// Which records rays reach is not known here, so that one set again is enough not to be certain.
-	Set(ERTRecordKind::Hit, 2);
+	SetFirst(Table.Get(), ERTRecordKind::Hit, 2);
 	Make.Submit(Trace(Table.Get(), New.Get()).Get());
 }
 
@@ -303,16 +293,7 @@ protected:
 	}
 	TRTRef<IRTGeometry> Create(const char* Name, bool bCompaction, uint64_t Bytes, bool bUpdate = false)
 	{
-		FRTGeometryDesc Desc;
-		Desc.Sections = &Section;
-		Desc.SectionCount = 1;
-		Desc.bAllowCompaction = bCompaction;
-		Desc.bAllowUpdate = bUpdate;
-		Desc.CompactedBytes = Bytes;
-		Desc.Name = Name;
-		TRTRef<IRTGeometry> Out;
-		EXPECT_OK(Make.Device->CreateGeometry(Desc, Out.ReleaseAndGetAddress()));
-		return Out;
+		return Make.CompactableGeometry(Section, Name, Bytes, bCompaction, bUpdate);
 	}
 	void BuildSource()
 	{
