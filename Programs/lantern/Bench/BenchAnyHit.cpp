@@ -209,17 +209,13 @@ std::vector<FBenchScene> ChooseScenes(const FBenchAnyHitOptions& Options)
 
 void FBenchAnyHitOptions::AddTo(CLI::App& App)
 {
-	Device.AddTo(App);
-	App.add_option("SCENE", Scenes, "Scenes; without any, black_forest of LANTERN_SCENES and the courtyard");
-	AddBenchSize(App, Size, "1280x720; on a CPU device 640x360");
+	AddSceneOptions(App, "Scenes; without any, black_forest of LANTERN_SCENES and the courtyard");
 	AddBenchJson(App, Json);
 }
 
 int RunBenchAnyHit(const FBenchAnyHitOptions& Options)
 {
 	FSceneBench Bench;
-	Bench.Device = Options.Device;
-	Bench.Json = Options.Json;
 	Bench.PrintHeader = [] {
 		fmt::print("{:<34} {:>14} {:>14} {:>7} {:>8} {:>12} {:>8} {:>8} {:>12} {:>8}\n", "case", "plain", "classified", "ratio", "opaque",
 		    "transparent", "mixed", "pieces", "difference", "differ");
@@ -228,7 +224,7 @@ int RunBenchAnyHit(const FBenchAnyHitOptions& Options)
 	Bench.Measure = [&](FSession& Session, const FBenchScene& Scene, nlohmann::json& Cases) {
 		return MeasureScene(Session, Scene, Options, Cases);
 	};
-	return RunSceneBench(Bench);
+	return RunSceneBench(Options, Bench);
 }
 
 } // namespace Lantern

@@ -1,25 +1,14 @@
 // lantern bench anyhit: alpha tests under rays, with classified triangles and without.
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include "Options.h"
-
-namespace CLI
-{
-class App;
-}
+#include "Bench/BenchRun.h"
 
 namespace Lantern
 {
 
-struct FBenchAnyHitOptions
+/// Scenes: without any, black_forest if it is found, and the courtyard.
+struct FBenchAnyHitOptions : FSceneBenchOptions
 {
-	FDeviceOptions Device;
-	std::vector<std::string> Scenes; ///< empty: black_forest if it is found, and the courtyard
-	std::string Size;                ///< WIDTHxHEIGHT; empty: 1280×720, on a CPU device 640×360
-	std::string Json;
 	void AddTo(CLI::App& App);
 };
 

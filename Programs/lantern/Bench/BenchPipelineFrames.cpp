@@ -6,54 +6,21 @@
 #include <ctime>
 #include <thread>
 
+#include "Bench/BenchTimes.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternMeasure/GeneratedMaterials.h"
+#include "LanternMeasure/MaterialWall.h"
 
 namespace Lantern
 {
 
 namespace
 {
-using FClock = std::chrono::steady_clock;
-double MsSince(FClock::time_point Start) { return std::chrono::duration<double, std::milli>(FClock::now() - Start).count(); }
-
 double GetProcessorMs()
 {
 	timespec Time{};
 	clock_gettime(CLOCK_THREAD_CPUTIME_ID, &Time);
 	return double(Time.tv_sec) * 1e3 + double(Time.tv_nsec) * 1e-6;
-}
-
-struct FTracePush
-{
-	FPassConstants Pass;
-	uint32_t Output;
-};
-
-/// A wall of quads, each with a material of its own.
-FSceneDescription MakeWall(uint32_t Materials)
-{
-	FSceneDescription Scene;
-	Scene.Name = "Wall";
-	FHostMesh Quad;
-	Quad.Name = "Quad";
-	Quad.Positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-	Quad.Attributes.resize(4);
-	Quad.Indices = {0, 1, 2, 0, 2, 3};
-	Quad.Sections = {{0, 6, 0}};
-	Quad.BoundsMin = {-1, -1, 0};
-	Quad.BoundsMax = {1, 1, 0};
-	Scene.Meshes.push_back(std::move(Quad));
-	const uint32_t Columns = static_cast<uint32_t>(std::ceil(std::sqrt(double(Materials))));
-	for (uint32_t Index = 0; Index < Materials; ++Index)
-	{
-		Scene.Materials.emplace_back();
-		FHostNode& Node = Scene.Nodes.emplace_back();
-		Node.Mesh = 0;
-		Node.Materials = {static_cast<int32_t>(Index)};
-		Node.Translation = {2.1 * (Index % Columns) - double(Columns), 2.1 * (Index / Columns) - double(Columns), 0.0};
-	}
-	return Scene;
 }
 
 class FHitchBench
@@ -79,9 +46,11 @@ private:
 
 FRTStatus FHitchBench::Load(uint32_t Materials)
 {
-	if (FRTStatus S = Engine.Load(MakeWall(Materials)); !S) { return S; }
+	const double Columns = std::ceil(std::sqrt(double(Materials)));
+	const FMaterialWall Wall{Materials, static_cast<uint32_t>(Columns), 2.0, 2.1, {-Columns - 1.0, -Columns - 1.0, 0.0}};
+	if (FRTStatus S = Engine.Load(MakeMaterialWall(Wall)); !S) { return S; }
 	const bool bIsCpu = Device.GetCapabilities().bIsCpu;
-	const double Size = 1.2 * std::ceil(std::sqrt(double(Materials)));
+	const double Size = 1.2 * Columns;
 	View = LookAt({0.0, 0.0, 2.0 * Size}, {0.0, 0.0, 0.0}, 1.0f, bIsCpu ? 64 : 1280, bIsCpu ? 36 : 720);
 	FRTTextureDesc Desc;
 	Desc.Width = View.Width;
@@ -96,7 +65,7 @@ FRTStatus FHitchBench::Load(uint32_t Materials)
 FRTStatus FHitchBench::Frame(FFrameTime& Out, bool bWait)
 {
 	FRenderer& Renderer = Engine.GetRenderer();
-	const auto Start = FClock::now();
+	const auto Start = FBenchClock::now();
 	const double StartProcessor = GetProcessorMs();
 	FFrameFeatures Features;
 	Features.bWaitForPipelines = bWait;
@@ -108,22 +77,9 @@ FRTStatus FHitchBench::Frame(FFrameTime& Out, bool bWait)
 	FFrameContext& Context = Renderer.GetContext();
 	const FGraphTexture Target = Context.Graph.ImportTexture(Output.Get(), ERTAccess::None, ERTAccess::StorageWrite, "BenchOutput");
 	const uint32_t RayGen = Context.RayPipeline ? Context.RayPipeline->FindRayGen(Features.RayGens[0]) : NoRayGen;
-	if (RayGen != NoRayGen)
-	{
-		FFrameContext* const OfFrame = &Context;
-		Context.Graph.AddPass("Trace", [&](FPassBuilder& Builder) -> FPassExecute {
-			Builder.NeverCull();
-			Builder.Write(Target, ERTAccess::StorageWrite);
-			return [=](FPassContext& Pass) {
-				const FTracePush Push{OfFrame->Pass, Pass.GetTexture(Target)->GetStorageIndex()};
-				Pass.Commands().SetPipeline(OfFrame->RayPipeline->GetPipeline());
-				Pass.Commands().PushConstants(&Push, sizeof(Push));
-				Pass.Commands().TraceRays(OfFrame->RayTable->GetTable(), RayGen, OfFrame->Width, OfFrame->Height, 1);
-			};
-		});
-	}
+	if (RayGen != NoRayGen) { AddMaterialTrace(Context, RayGen, Target); }
 	const FRTStatus Status = Renderer.EndFrame(nullptr);
-	Out = {MsSince(Start), GetProcessorMs() - StartProcessor};
+	Out = {GetMsSince(Start), GetProcessorMs() - StartProcessor};
 	if (Out.Ms < PaceMs) { std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(PaceMs - Out.Ms)); }
 	return Status;
 }
@@ -149,10 +105,10 @@ FRTStatus MeasureOnce(IRTDevice& Device, const FRendererDesc& Desc, uint32_t Mat
 	Status = Status ? Bench.Finish() : Status;
 	if (!Status) { return Status; }
 	Bench.RenewPrograms(Materials);
-	const auto Start = FClock::now();
+	const auto Start = FBenchClock::now();
 	Status = Bench.Frame(Time, true);
 	Status = Status ? Bench.Finish() : Status;
-	OutSeconds = 1e-3 * MsSince(Start);
+	OutSeconds = 1e-3 * GetMsSince(Start);
 	return Status;
 }
 } // namespace
@@ -176,7 +132,7 @@ FRTStatus MeasureHitches(IRTDevice& Device, const FRendererDesc& Desc, uint32_t 
 	}
 	const std::vector<FHitProgram> Programs = Bench.RenewPrograms(Materials);
 	const uint64_t Before = Bench.GetCompiler().GetStats().Links;
-	const auto Start = FClock::now();
+	const auto Start = FBenchClock::now();
 	while (Out.Ready < Materials)
 	{
 		if (FRTStatus S = Bench.Frame(Time); !S) { return S; }
@@ -191,7 +147,7 @@ FRTStatus MeasureHitches(IRTDevice& Device, const FRendererDesc& Desc, uint32_t 
 		for (const FHitProgram Program : Programs) { Out.Ready += Current && Current->GetState(Program) == ERTHitState::Ready ? 1 : 0; }
 	}
 	if (FRTStatus S = Bench.Finish(); !S) { return S; }
-	Out.ArrivedSeconds = 1e-3 * MsSince(Start);
+	Out.ArrivedSeconds = 1e-3 * GetMsSince(Start);
 	Out.Swaps = Bench.GetCompiler().GetStats().Links - Before;
 	return MeasureOnce(Device, Desc, Materials, Out.OnceSeconds);
 }

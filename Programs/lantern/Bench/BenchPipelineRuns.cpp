@@ -1,8 +1,8 @@
 // Pipelines made whole, from libraries, and by the RTPSO compiler, with the clock around them.
 #include "Bench/BenchPipelineRuns.h"
 
-#include <algorithm>
 #include <chrono>
+#include <thread>
 
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternScene/Pipelines/RTPSOCompiler.h"
@@ -12,9 +12,6 @@ namespace Lantern
 
 namespace
 {
-using FClock = std::chrono::steady_clock;
-double MsSince(FClock::time_point Start) { return std::chrono::duration<double, std::milli>(FClock::now() - Start).count(); }
-
 constexpr uint32_t PayloadBytes = 32;
 
 FRTRayTracingPipelineDesc MakeDesc(const std::vector<FRTShaderCode>& Codes, const std::vector<FRTShaderGroup>& Groups, const char* Name)
@@ -50,9 +47,9 @@ FRTStatus MakeMonolithic(IRTDevice& Device, const FBenchShaders& Shaders, double
 		Codes.push_back(Hit.GetCode());
 	}
 	TRTRef<IRTPipeline> Pipeline;
-	const auto Start = FClock::now();
+	const auto Start = FBenchClock::now();
 	const FRTStatus Status = Device.CreateRayTracingPipeline(MakeDesc(Codes, Groups, "Monolithic"), Pipeline.ReleaseAndGetAddress());
-	OutMs = MsSince(Start);
+	OutMs = GetMsSince(Start);
 	return Status;
 }
 
@@ -66,7 +63,7 @@ FRTStatus MakeFromLibraries(IRTDevice& Device, const FBenchShaders& Shaders, uin
 	const uint32_t Count = Hits + (bGeneralLibraries ? static_cast<uint32_t>(GeneralCodes.size()) : 0);
 	std::vector<TRTRef<IRTPipeline>> Libraries(Count);
 	std::vector<FRTStatus> Results(Count);
-	auto Start = FClock::now();
+	auto Start = FBenchClock::now();
 	RunOnThreads(Threads, Count, [&](uint32_t Index) {
 		FRTShaderGroup Group{Index < Hits ? ERTGroupKind::Triangles : ERTGroupKind::General};
 		(Index < Hits ? Group.ClosestHit : Group.General) = 0;
@@ -78,7 +75,7 @@ FRTStatus MakeFromLibraries(IRTDevice& Device, const FBenchShaders& Shaders, uin
 		Desc.bLibrary = true;
 		Results[Index] = Device.CreateRayTracingPipeline(Desc, Libraries[Index].ReleaseAndGetAddress());
 	});
-	OutLibrariesMs = MsSince(Start);
+	OutLibrariesMs = GetMsSince(Start);
 	for (const FRTStatus& Result : Results)
 	{
 		if (!Result) { return Result; }
@@ -89,9 +86,9 @@ FRTStatus MakeFromLibraries(IRTDevice& Device, const FBenchShaders& Shaders, uin
 	Desc.Libraries = Linked.data();
 	Desc.LibraryCount = static_cast<uint32_t>(Linked.size());
 	TRTRef<IRTPipeline> Pipeline;
-	Start = FClock::now();
+	Start = FBenchClock::now();
 	const FRTStatus Status = Device.CreateRayTracingPipeline(Desc, Pipeline.ReleaseAndGetAddress());
-	OutLinkMs = MsSince(Start);
+	OutLinkMs = GetMsSince(Start);
 	return Status;
 }
 
@@ -125,14 +122,6 @@ void SetThreads(uint32_t Threads)
 }
 } // namespace
 
-double MedianOf(std::vector<double> Values)
-{
-	if (Values.empty()) { return 0.0; }
-	std::sort(Values.begin(), Values.end());
-	const size_t Half = Values.size() / 2;
-	return Values.size() % 2 ? Values[Half] : 0.5 * (Values[Half - 1] + Values[Half]);
-}
-
 FRTStatus MeasurePipelineRun(IRTDevice& Device, FShaderCompiler& Compiler, uint32_t Groups, uint32_t Repetitions, FPipelineRun& Run)
 {
 	FBenchShaders Shaders;
@@ -149,8 +138,8 @@ FRTStatus MeasurePipelineRun(IRTDevice& Device, FShaderCompiler& Compiler, uint3
 			const FRTStatus Status =
 			    bMonolithic ? MakeMonolithic(Device, Shaders, Ms) : MakeFromLibraries(Device, Shaders, Run.Threads, Ms, LinkMs);
 			if (!Status) { return Status; }
-			(bMonolithic ? Run.MonolithicMs : Run.LibrariesMs).push_back(Ms);
-			if (!bMonolithic) { Run.LinkMs.push_back(LinkMs); }
+			(bMonolithic ? Run.MonolithicMs : Run.LibrariesMs).Add(Ms);
+			if (!bMonolithic) { Run.LinkMs.Add(LinkMs); }
 			Device.CollectGarbage();
 		}
 	}
@@ -160,9 +149,9 @@ FRTStatus MeasurePipelineRun(IRTDevice& Device, FShaderCompiler& Compiler, uint3
 	const uint64_t Salt = MakeSalt();
 	for (uint32_t Index = 0; Index < Groups; ++Index) { AddProgram(Programs, Desc, Index, Salt); }
 	FRTPSOCompiler Maker(Device, Compiler, Programs);
-	const auto Start = FClock::now();
+	const auto Start = FBenchClock::now();
 	const FRTStatus Status = Maker.Finish(Desc);
-	Run.FinishMs = MsSince(Start);
+	Run.FinishMs = GetMsSince(Start);
 	return Status;
 }
 
@@ -187,7 +176,7 @@ FRTStatus MeasureIncremental(IRTDevice& Device, FShaderCompiler& Compiler, uint3
 	for (uint32_t Index = 0; Index < Added; ++Index)
 	{
 		const FHitProgram Program{AddProgram(Programs, Desc, Groups + Index, Salt), ERTHitClass::Opaque};
-		const auto Start = FClock::now();
+		const auto Start = FBenchClock::now();
 		for (Maker.Update(Desc); Maker.GetCurrent()->GetState(Program) != ERTHitState::Ready; Maker.Update(Desc))
 		{
 			if (Maker.GetStats().Failed > 0)
@@ -196,9 +185,9 @@ FRTStatus MeasureIncremental(IRTDevice& Device, FShaderCompiler& Compiler, uint3
 			}
 			std::this_thread::sleep_for(std::chrono::microseconds(200));
 		}
-		Out.ReadyMs.push_back(MsSince(Start));
+		Out.ReadyMs.Add(GetMsSince(Start));
 		Settle();
-		Out.LinkMs.push_back(Maker.GetStats().LastLinkMs);
+		Out.LinkMs.Add(Maker.GetStats().LastLinkMs);
 	}
 	return FRTStatus::Success();
 }

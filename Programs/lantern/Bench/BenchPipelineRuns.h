@@ -1,23 +1,20 @@
 // The driver's part of `lantern bench rtpso`: one pipeline of many hit groups, made whole and from libraries.
 #pragma once
 
-#include <vector>
-
+#include "Bench/BenchTimes.h"
 #include "LanternMeasure/GeneratedMaterials.h"
 #include "LanternRHI/RTInterfaces.h"
 
 namespace Lantern
 {
 
-double MedianOf(std::vector<double> Values);
-
 struct FPipelineRun
 {
 	uint32_t Threads = 0;
-	std::vector<double> MonolithicMs, LibrariesMs, LinkMs;
+	FBenchTimes MonolithicMs, LibrariesMs, LinkMs;
 	double GlslangMs = 0.0; ///< all hit shaders, on as many threads
 	double FinishMs = 0.0;  ///< from text to RTPSO through the plugin's compiler, on as many threads
-	double GetRatio() const { return MedianOf(MonolithicMs) / (MedianOf(LibrariesMs) + MedianOf(LinkMs)); }
+	double GetRatio() const { return MonolithicMs.GetMedian() / (LibrariesMs.GetMedian() + LinkMs.GetMedian()); }
 };
 
 /// Measures a monolithic pipeline and one from libraries. They begin with equal SPIR-V, but for a constant that no driver has
@@ -26,7 +23,7 @@ FRTStatus MeasurePipelineRun(IRTDevice& Device, FShaderCompiler& Compiler, uint3
 
 struct FIncrementalRun
 {
-	std::vector<double> ReadyMs, LinkMs;
+	FBenchTimes ReadyMs, LinkMs;
 };
 /// One more material among Groups, Added times: until its pipeline is in use, and the link alone.
 FRTStatus MeasureIncremental(IRTDevice& Device, FShaderCompiler& Compiler, uint32_t Groups, uint32_t Added, FIncrementalRun& Out);

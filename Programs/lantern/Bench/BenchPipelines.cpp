@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <thread>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -10,11 +11,9 @@
 
 #include "Bench/BenchPipelineFrames.h"
 #include "Bench/BenchPipelineRuns.h"
+#include "Bench/BenchRun.h"
 #include "LanternCore/Text/Log.h"
-#include "LanternImage/AtomicFile.h"
 #include "LanternRHIMock/MockDevice.h"
-#include "Progress.h"
-#include "Session.h"
 
 namespace Lantern
 {
@@ -25,19 +24,11 @@ FRTStatus OpenDevice(const FBenchPipelinesOptions& Options, TRTRef<IRTDevice>& O
 {
 	if (Options.bMock)
 	{
-		FRTMockDesc Desc;
-		if (FRTStatus S = CreateMockDevice(Desc, Out.ReleaseAndGetAddress()); !S) { return S; }
-		GetMock(Out.Get()).SetCallRecording(false);
+		if (FRTStatus S = CreateBenchMock(Out); !S) { return S; }
 		GetMock(Out.Get()).SlowCompile("Bench", Options.MockCompileMs);
 		return FRTStatus::Success();
 	}
 	return OpenUncachedDevice(Options.Device, Out);
-}
-
-nlohmann::json MakeTimes(const std::vector<double>& Ms)
-{
-	if (Ms.empty()) { return nullptr; }
-	return {{"median", MedianOf(Ms)}, {"min", *std::min_element(Ms.begin(), Ms.end())}, {"max", *std::max_element(Ms.begin(), Ms.end())}};
 }
 
 FRTStatus MeasureRuns(IRTDevice& Device, FShaderCompiler& Compiler, const FBenchPipelinesOptions& Options, nlohmann::json& Json)
@@ -49,21 +40,22 @@ FRTStatus MeasureRuns(IRTDevice& Device, FShaderCompiler& Compiler, const FBench
 		FPipelineRun Run;
 		Run.Threads = Threads;
 		if (FRTStatus S = MeasurePipelineRun(Device, Compiler, Options.Groups, Options.Repetitions, Run); !S) { return S; }
-		fmt::print("{:>8} {:>14.1f} {:>13.1f} {:>9.2f} {:>7.2f} {:>11.1f} {:>11.1f}\n", Threads, MedianOf(Run.MonolithicMs),
-		    MedianOf(Run.LibrariesMs), MedianOf(Run.LinkMs), Run.GetRatio(), Run.GlslangMs, Run.FinishMs);
+		fmt::print("{:>8} {:>14.1f} {:>13.1f} {:>9.2f} {:>7.2f} {:>11.1f} {:>11.1f}\n", Threads, Run.MonolithicMs.GetMedian(),
+		    Run.LibrariesMs.GetMedian(), Run.LinkMs.GetMedian(), Run.GetRatio(), Run.GlslangMs, Run.FinishMs);
 		std::fflush(stdout);
-		Json["runs"].push_back({{"threads", Threads}, {"monolithic_ms", MedianOf(Run.MonolithicMs)},
-		    {"libraries_ms", MedianOf(Run.LibrariesMs)}, {"link_ms", MedianOf(Run.LinkMs)}, {"ratio", Run.GetRatio()},
+		Json["runs"].push_back({{"threads", Threads}, {"monolithic_ms", Run.MonolithicMs.GetMedian()},
+		    {"libraries_ms", Run.LibrariesMs.GetMedian()}, {"link_ms", Run.LinkMs.GetMedian()}, {"ratio", Run.GetRatio()},
 		    {"glslang_ms", Run.GlslangMs}, {"text_to_rtpso_ms", Run.FinishMs},
-		    {"times", {{"monolithic", MakeTimes(Run.MonolithicMs)}, {"libraries", MakeTimes(Run.LibrariesMs)},
-		                  {"link", MakeTimes(Run.LinkMs)}}}});
+		    {"times",
+		        {{"monolithic", Run.MonolithicMs.ToJson()}, {"libraries", Run.LibrariesMs.ToJson()}, {"link", Run.LinkMs.ToJson()}}}});
 	}
 	FIncrementalRun Incremental;
 	if (FRTStatus S = MeasureIncremental(Device, Compiler, Options.Groups, Options.Added, Incremental); !S) { return S; }
-	fmt::print("one more material: ready after {:.2f} ms, link {:.2f} ms (medians of {})\n", MedianOf(Incremental.ReadyMs),
-	    MedianOf(Incremental.LinkMs), Options.Added);
-	Json["incremental"] = {{"added", Options.Added}, {"ready_ms", MedianOf(Incremental.ReadyMs)}, {"link_ms", MedianOf(Incremental.LinkMs)},
-	    {"times", {{"ready", MakeTimes(Incremental.ReadyMs)}, {"link", MakeTimes(Incremental.LinkMs)}}}};
+	fmt::print("one more material: ready after {:.2f} ms, link {:.2f} ms (medians of {})\n", Incremental.ReadyMs.GetMedian(),
+	    Incremental.LinkMs.GetMedian(), Options.Added);
+	Json["incremental"] = {{"added", Options.Added}, {"ready_ms", Incremental.ReadyMs.GetMedian()},
+	    {"link_ms", Incremental.LinkMs.GetMedian()},
+	    {"times", {{"ready", Incremental.ReadyMs.ToJson()}, {"link", Incremental.LinkMs.ToJson()}}}};
 	return FRTStatus::Success();
 }
 
@@ -71,14 +63,14 @@ struct FFrameFigures
 {
 	explicit FFrameFigures(const std::vector<FFrameTime>& Frames)
 	{
-		std::vector<double> All;
+		FBenchTimes All;
 		for (size_t Index = 0; Index < Frames.size(); ++Index)
 		{
-			All.push_back(Frames[Index].Ms);
-			Worst = std::max(Worst, Frames[Index].Ms);
+			All.Add(Frames[Index].Ms);
 			WorstProcessor = std::max(WorstProcessor, Frames[Index].ProcessorMs);
 		}
-		Median = MedianOf(All);
+		Median = All.GetMedian();
+		Worst = All.GetMax();
 		std::vector<size_t> Order(Frames.size());
 		std::iota(Order.begin(), Order.end(), size_t(0));
 		std::sort(Order.begin(), Order.end(), [&](size_t A, size_t B) { return Frames[A].Ms > Frames[B].Ms; });
@@ -121,7 +113,8 @@ FRTStatus MeasureFrames(IRTDevice& Device, const std::string& Shaders, const FBe
 	return FRTStatus::Success();
 }
 
-int Measure(const FBenchPipelinesOptions& Options, nlohmann::json& Json)
+/// Figures stay null after an error.
+int Measure(const FBenchPipelinesOptions& Options, nlohmann::json& Figures)
 {
 	const FPluginFolders Folders = FindPluginFolders();
 	if (const int Status = LoadSettings(Folders.Config, Options.Device); Status != ExitDone) { return Status; }
@@ -134,8 +127,9 @@ int Measure(const FBenchPipelinesOptions& Options, nlohmann::json& Json)
 		LogError("bench rtpso: {} has no ray-tracing pipelines with libraries", Capabilities.DeviceName);
 		return ExitNoDevice;
 	}
-	Json = {{"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"cores", std::thread::hardware_concurrency()},
-	    {"hit_groups", Options.Groups}};
+	nlohmann::json Json = DescribeBenchDevice(Capabilities);
+	Json["cores"] = std::thread::hardware_concurrency();
+	Json["hit_groups"] = Options.Groups;
 	if (Capabilities.bIsCpu)
 	{
 		Json["note"] = "a CPU driver: it may compile machine code only at the first dispatch, which is in none of these times";
@@ -143,7 +137,9 @@ int Measure(const FBenchPipelinesOptions& Options, nlohmann::json& Json)
 	FShaderCompiler Compiler{FShaderCompilerDesc{.SearchFolders = {Folders.Shaders}}};
 	FRTStatus Status = Options.bMock || Options.bHitchOnly ? FRTStatus::Success() : MeasureRuns(*Device, Compiler, Options, Json);
 	if (Status) { Status = MeasureFrames(*Device, Folders.Shaders, Options, Json); }
-	return Status ? ExitDone : ReportStatus(Status, "bench rtpso");
+	if (!Status) { return ReportStatus(Status, "bench rtpso"); }
+	Figures = std::move(Json);
+	return ExitDone;
 }
 } // namespace
 
@@ -157,22 +153,12 @@ void FBenchPipelinesOptions::AddTo(CLI::App& App)
 	App.add_option("--repetitions", Repetitions, "Pipelines made each way")->check(CLI::Range(1, 1000));
 	App.add_option("--added", Added, "Materials added one after another")->check(CLI::Range(1, 10'000));
 	App.add_option("--mock-compile-ms", MockCompileMs, "How long the mock takes for each material")->check(CLI::Range(0, 60'000));
-	App.add_option("--json", Json, "Write the figures to this file");
+	AddBenchJson(App, Json);
 }
 
 int RunBenchPipelines(const FBenchPipelinesOptions& Options)
 {
-	if (!Options.Json.empty())
-	{
-		if (FRTStatus S = CheckOutputPath(Options.Json); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
-	}
-	nlohmann::json Json;
-	const int Exit = Measure(Options, Json);
-	if (Exit == ExitDone && !Options.Json.empty())
-	{
-		if (FRTStatus S = WriteFileAtomically(Options.Json, Json.dump(2) + "\n"); !S) { return ReportStatus(S, "--json"), ExitBadInput; }
-	}
-	return Exit;
+	return RunBench(Options.Json, [&](nlohmann::json& Figures) { return Measure(Options, Figures); });
 }
 
 } // namespace Lantern

@@ -36,8 +36,9 @@ FRTStatus FRawShadow::CreateComputePipeline()
 	if (FRTStatus S = CompileModule("RawShadow.comp", ERTShaderStage::Compute, Module); !S) { return S; }
 	VkComputePipelineCreateInfo Info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
 	Info.stage = MakeStage(VK_SHADER_STAGE_COMPUTE_BIT, Module);
-	Info.layout = Layout;
-	return Check(Vulkan.CreateComputePipelines(Vulkan.Device, VK_NULL_HANDLE, 1, &Info, nullptr, &Pipeline), "vkCreateComputePipelines");
+	Info.layout = Tables.GetLayout();
+	return CheckVulkan(
+	    Vulkan.CreateComputePipelines(Vulkan.Device, VK_NULL_HANDLE, 1, &Info, nullptr, &Pipeline), "vkCreateComputePipelines");
 }
 
 FRTStatus FRawShadow::CreateRayPipeline()
@@ -49,7 +50,7 @@ FRTStatus FRawShadow::CreateRayPipeline()
 	    MakeStage(VK_SHADER_STAGE_RAYGEN_BIT_KHR, RayGen), MakeStage(VK_SHADER_STAGE_MISS_BIT_KHR, Miss)};
 	std::vector<VkRayTracingShaderGroupCreateInfoKHR> Groups = {
 	    MakeGroup(false, 0), MakeGroup(false, 1), MakeGroup(true, VK_SHADER_UNUSED_KHR)};
-	if (bMasked)
+	if (Tables.HasMasked())
 	{
 		if (FRTStatus S = CompileModule("RawShadow.rahit", ERTShaderStage::AnyHit, AnyHit); !S) { return S; }
 		Stages.push_back(MakeStage(VK_SHADER_STAGE_ANY_HIT_BIT_KHR, AnyHit));
@@ -61,10 +62,10 @@ FRTStatus FRawShadow::CreateRayPipeline()
 	Info.groupCount = static_cast<uint32_t>(Groups.size());
 	Info.pGroups = Groups.data();
 	Info.maxPipelineRayRecursionDepth = 1;
-	Info.layout = Layout;
+	Info.layout = Tables.GetLayout();
 	const VkResult Result =
 	    Vulkan.CreateRayTracingPipelinesKHR(Vulkan.Device, VK_NULL_HANDLE, VK_NULL_HANDLE, 1, &Info, nullptr, &Pipeline);
-	if (FRTStatus S = Check(Result, "vkCreateRayTracingPipelinesKHR"); !S) { return S; }
+	if (FRTStatus S = CheckVulkan(Result, "vkCreateRayTracingPipelinesKHR"); !S) { return S; }
 	return CreateShaderTable();
 }
 
@@ -73,14 +74,15 @@ FRTStatus FRawShadow::CreateShaderTable()
 	const FRTCapabilities& Capabilities = Desc.Device->GetCapabilities();
 	const uint64_t Handle = Capabilities.ShaderGroupHandleSize, Base = Capabilities.ShaderGroupBaseAlignment;
 	std::vector<uint8_t> Handles(4 * Handle);
-	if (FRTStatus S =
-	        Check(Vulkan.GetRayTracingShaderGroupHandlesKHR(Vulkan.Device, Pipeline, 0, bMasked ? 4 : 3, Handles.size(), Handles.data()),
-	            "vkGetRayTracingShaderGroupHandlesKHR");
+	if (FRTStatus S = CheckVulkan(Vulkan.GetRayTracingShaderGroupHandlesKHR(
+	                                  Vulkan.Device, Pipeline, 0, Tables.HasMasked() ? 4 : 3, Handles.size(), Handles.data()),
+	        "vkGetRayTracingShaderGroupHandlesKHR");
 	    !S)
 	{
 		return S;
 	}
-	const uint64_t Stride = Align(Handle + sizeof(FSection), Capabilities.ShaderGroupHandleAlignment);
+	const std::vector<FRawSection>& Sections = Tables.GetSections();
+	const uint64_t Stride = Align(Handle + sizeof(FRawSection), Capabilities.ShaderGroupHandleAlignment);
 	const uint64_t MissOffset = Align(Handle, Base), HitOffset = 2 * MissOffset;
 	std::vector<uint8_t> Records(HitOffset + Sections.size() * Stride);
 	std::memcpy(Records.data(), Handles.data(), Handle);
@@ -88,22 +90,22 @@ FRTStatus FRawShadow::CreateShaderTable()
 	for (size_t Section = 0; Section < Sections.size(); ++Section)
 	{
 		uint8_t* const Record = Records.data() + HitOffset + Section * Stride;
-		std::memcpy(Record, Handles.data() + (SectionMasked[Section] ? 3 : 2) * Handle, Handle);
-		std::memcpy(Record + Handle, &Sections[Section], sizeof(FSection));
+		std::memcpy(Record, Handles.data() + (Tables.IsMasked(Section) ? 3 : 2) * Handle, Handle);
+		std::memcpy(Record + Handle, &Sections[Section], sizeof(FRawSection));
 	}
 	FUploader Uploader(*Desc.Device);
-	if (FRTStatus S = Uploader.CreateBuffer("RawShaderTable", ERTBufferUsage::ShaderTable, Records.data(), Records.size(), Table); !S)
+	if (FRTStatus S = Uploader.CreateBuffer("RawShaderTable", ERTBufferUsage::ShaderTable, Records.data(), Records.size(), ShaderTable); !S)
 	{
 		return S;
 	}
-	if (Table->GetDeviceAddress() % Base != 0)
+	if (ShaderTable->GetDeviceAddress() % Base != 0)
 	{
 		return FRTStatus::Error(
 		    ERTResult::Unsupported, "raw dispatch: the shader table's address is not a multiple of %u", static_cast<unsigned>(Base));
 	}
-	RayGenRegion = {Table->GetDeviceAddress(), MissOffset, MissOffset};
-	MissRegion = {Table->GetDeviceAddress() + MissOffset, MissOffset, MissOffset};
-	HitRegion = {Table->GetDeviceAddress() + HitOffset, Stride, Sections.size() * Stride};
+	RayGenRegion = {ShaderTable->GetDeviceAddress(), MissOffset, MissOffset};
+	MissRegion = {ShaderTable->GetDeviceAddress() + MissOffset, MissOffset, MissOffset};
+	HitRegion = {ShaderTable->GetDeviceAddress() + HitOffset, Stride, Sections.size() * Stride};
 	return Uploader.Flush();
 }
 

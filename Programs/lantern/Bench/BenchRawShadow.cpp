@@ -91,11 +91,6 @@ VkDependencyInfo MakeDependency(const VkImageMemoryBarrier2& Barrier)
 }
 } // namespace
 
-FRTStatus FRawShadow::Check(VkResult Result, const char* What) const
-{
-	return Result == VK_SUCCESS ? FRTStatus::Success() : MakeVulkanError(Result, What);
-}
-
 FRTStatus FRawShadow::Create(const FRawShadowDesc& Desc, std::unique_ptr<FRawShadow>& Out)
 {
 	std::unique_ptr<FRawShadow> Raw(new FRawShadow(Desc));
@@ -106,16 +101,12 @@ FRTStatus FRawShadow::Create(const FRawShadowDesc& Desc, std::unique_ptr<FRawSha
 
 FRTStatus FRawShadow::Initialise()
 {
-	bMasked = Desc.Scene->GetScene().GetFacts().bMasked;
-	using FStep = FRTStatus (FRawShadow::*)();
-	const FStep CreatePipeline = Desc.bPipeline ? &FRawShadow::CreateRayPipeline : &FRawShadow::CreateComputePipeline;
 	if (FRTStatus S = Vulkan.Load(*Desc.Device); !S) { return S; }
-	for (const FStep Step : {&FRawShadow::CreateOutput, &FRawShadow::CreateTextures, &FRawShadow::CreateSections, &FRawShadow::CreateLayout,
-	         &FRawShadow::CreateDescriptors, CreatePipeline, &FRawShadow::CreateCommands, &FRawShadow::Record})
-	{
-		if (FRTStatus S = (this->*Step)(); !S) { return S; }
-	}
-	return FRTStatus::Success();
+	if (FRTStatus S = CreateOutput(); !S) { return S; }
+	if (FRTStatus S = Tables.Create(OutputView); !S) { return S; }
+	if (FRTStatus S = Desc.bPipeline ? CreateRayPipeline() : CreateComputePipeline(); !S) { return S; }
+	if (FRTStatus S = CreateCommands(); !S) { return S; }
+	return Record();
 }
 
 FRawShadow::~FRawShadow()
@@ -126,11 +117,7 @@ FRawShadow::~FRawShadow()
 	Vulkan.DestroyQueryPool(Device, Queries, nullptr);
 	Vulkan.DestroyCommandPool(Device, CommandPool, nullptr);
 	Vulkan.DestroyPipeline(Device, Pipeline, nullptr);
-	Vulkan.DestroyPipelineLayout(Device, Layout, nullptr);
-	Vulkan.DestroyDescriptorPool(Device, DescriptorPool, nullptr);
-	Vulkan.DestroyDescriptorSetLayout(Device, SetLayout, nullptr);
 	Vulkan.DestroyImageView(Device, OutputView, nullptr);
-	for (const VkSampler Sampler : Samplers) { Vulkan.DestroySampler(Device, Sampler, nullptr); }
 	for (const VkShaderModule Module : Modules) { Vulkan.DestroyShaderModule(Device, Module, nullptr); }
 }
 
@@ -150,7 +137,7 @@ FRTStatus FRawShadow::CreateOutput()
 	View.viewType = VK_IMAGE_VIEW_TYPE_2D;
 	View.format = VK_FORMAT_R16_SFLOAT;
 	View.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-	return Check(Vulkan.CreateImageView(Vulkan.Device, &View, nullptr, &OutputView), "vkCreateImageView");
+	return CheckVulkan(Vulkan.CreateImageView(Vulkan.Device, &View, nullptr, &OutputView), "vkCreateImageView");
 }
 
 FRTStatus FRawShadow::CreateCommands()
@@ -169,7 +156,7 @@ FRTStatus FRawShadow::CreateCommands()
 	Result = Result ? Result : Vulkan.CreateQueryPool(Vulkan.Device, &Query, nullptr, &Queries);
 	const VkFenceCreateInfo FenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
 	Result = Result ? Result : Vulkan.CreateFence(Vulkan.Device, &FenceInfo, nullptr, &Fence);
-	return Check(Result, "creating command buffer, queries and fence");
+	return CheckVulkan(Result, "creating command buffer, queries and fence");
 }
 
 // Recorded once. What the timestamps enclose is what the frame graph's enclose for the plugin's pass: the barrier of
@@ -183,15 +170,15 @@ FRTStatus FRawShadow::Record()
 	const uint32_t Width = Desc.View.Width, Height = Desc.View.Height;
 
 	const VkCommandBufferBeginInfo Begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-	if (FRTStatus S = Check(Vulkan.BeginCommandBuffer(Commands, &Begin), "vkBeginCommandBuffer"); !S) { return S; }
+	if (FRTStatus S = CheckVulkan(Vulkan.BeginCommandBuffer(Commands, &Begin), "vkBeginCommandBuffer"); !S) { return S; }
 	Vulkan.CmdResetQueryPool(Commands, Queries, 0, 2);
 	Vulkan.CmdWriteTimestamp2(Commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, Queries, 0);
 	const auto ToWrite = MakeImageBarrier(Image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
 	const VkDependencyInfo BeforeDispatch = MakeDependency(ToWrite);
 	Vulkan.CmdPipelineBarrier2(Commands, &BeforeDispatch);
 	Vulkan.CmdBindPipeline(Commands, Point, Pipeline);
-	Vulkan.CmdBindDescriptorSets(Commands, Point, Layout, 0, 1, &Set, 0, nullptr);
-	Vulkan.CmdPushConstants(Commands, Layout, Stages, 0, sizeof(Push), &Push);
+	Vulkan.CmdBindDescriptorSets(Commands, Point, Tables.GetLayout(), 0, 1, &Tables.GetSet(), 0, nullptr);
+	Vulkan.CmdPushConstants(Commands, Tables.GetLayout(), Stages, 0, sizeof(Push), &Push);
 	if (Desc.bPipeline)
 	{
 		const VkStridedDeviceAddressRegionKHR None{};
@@ -216,7 +203,7 @@ FRTStatus FRawShadow::Record()
 	BeforeRead.memoryBarrierCount = 1;
 	BeforeRead.pMemoryBarriers = &ToHost;
 	Vulkan.CmdPipelineBarrier2(Commands, &BeforeRead);
-	return Check(Vulkan.EndCommandBuffer(Commands), "vkEndCommandBuffer");
+	return CheckVulkan(Vulkan.EndCommandBuffer(Commands), "vkEndCommandBuffer");
 }
 
 FRTStatus FRawShadow::Run(double& OutMs)
@@ -232,7 +219,7 @@ FRTStatus FRawShadow::Run(double& OutMs)
 	                : Vulkan.GetQueryPoolResults(Vulkan.Device, Queries, 0, 2, sizeof(Ticks), Ticks, sizeof(Ticks[0]),
 	                      VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
 	OutMs = static_cast<double>(Ticks[1] - Ticks[0]) * Desc.Device->GetCapabilities().TimestampPeriodNs * 1e-6;
-	return Check(Result, "the dispatch");
+	return CheckVulkan(Result, "the dispatch");
 }
 
 const uint16_t* FRawShadow::GetPicture() const
@@ -244,7 +231,7 @@ FRTStatus FRawShadow::CompileModule(const char* Path, ERTShaderStage Stage, VkSh
 {
 	FShaderSource Source{Path, Stage, {}, {}};
 	Source.Defines = {{"RAW_GROUP_X", std::to_string(GroupX)}, {"RAW_GROUP_Y", std::to_string(GroupY)}};
-	if (bMasked) { Source.Defines.emplace_back("HAS_MASKED", "1"); }
+	if (Tables.HasMasked()) { Source.Defines.emplace_back("HAS_MASKED", "1"); }
 	if (Desc.bCountRays) { Source.Defines.emplace_back("COUNT_RAYS", "1"); }
 	FShaderBinary Binary;
 	if (FRTStatus S = Desc.Compiler->Compile(Source, Binary); !S) { return S; }
@@ -253,7 +240,7 @@ FRTStatus FRawShadow::CompileModule(const char* Path, ERTShaderStage Stage, VkSh
 	Info.pCode = Binary.Words.data();
 	const VkResult Result = Vulkan.CreateShaderModule(Vulkan.Device, &Info, nullptr, &Out);
 	if (Result == VK_SUCCESS) { Modules.push_back(Out); }
-	return Check(Result, Path);
+	return CheckVulkan(Result, Path);
 }
 
 } // namespace Lantern

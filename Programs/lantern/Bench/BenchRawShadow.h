@@ -6,13 +6,10 @@
 #include <memory>
 #include <vector>
 
-#include "Bench/BenchVulkan.h"
-#include "LanternHost/HostScene.h"
+#include "Bench/BenchRawTables.h"
 
 namespace Lantern
 {
-
-inline constexpr uint32_t RawPushBytes = 116; ///< push constants of the hand-written shaders
 
 struct FRawShadowDesc
 {
@@ -45,45 +42,20 @@ private:
 	explicit FRawShadow(const FRawShadowDesc& InDesc) : Desc(InDesc) {}
 	FRTStatus Initialise();
 	FRTStatus CreateOutput();
-	FRTStatus CreateSections(); // BenchRawTables.cpp
-	FRTStatus CreateTextures(); // BenchRawTables.cpp
-	FRTStatus CreateSampler(const FHostTexture& Texture, VkSampler& Out);
-	FRTStatus CreateLayout();      // BenchRawTables.cpp
-	FRTStatus CreateDescriptors(); // BenchRawTables.cpp
 	FRTStatus CreateComputePipeline();
 	FRTStatus CreateRayPipeline();
 	FRTStatus CreateShaderTable();
 	FRTStatus CreateCommands();
 	FRTStatus CompileModule(const char* Path, ERTShaderStage Stage, VkShaderModule& Out);
 	FRTStatus Record();
-	FRTStatus Check(VkResult Result, const char* What) const;
-
-	/// As in Shaders/RawSections.glsl.
-	struct FSection
-	{
-		uint64_t Indices, Coverage;
-		uint32_t Texture;
-		float Cutoff;
-		uint32_t Pad[2];
-	};
-	static_assert(sizeof(FSection) == 32, "shared with shaders");
 
 	FRawShadowDesc Desc;
 	FBenchVulkan Vulkan;
-	bool bMasked = false;
-	std::vector<FSection> Sections;
-	std::vector<bool> SectionMasked;
-	std::vector<VkDescriptorImageInfo> Textures;
-	std::vector<uint32_t> MaterialTextures; ///< by material, into Textures
-	std::vector<VkSampler> Samplers;
+	FRawTables Tables{Vulkan, Desc};
 	std::vector<VkShaderModule> Modules;
-	TRTRef<IRTBuffer> SectionBuffer, Table, Readback;
+	TRTRef<IRTBuffer> ShaderTable, Readback;
 	TRTRef<IRTTexture> Output;
 	VkImageView OutputView = VK_NULL_HANDLE;
-	VkDescriptorSetLayout SetLayout = VK_NULL_HANDLE;
-	VkDescriptorPool DescriptorPool = VK_NULL_HANDLE;
-	VkDescriptorSet Set = VK_NULL_HANDLE;
-	VkPipelineLayout Layout = VK_NULL_HANDLE;
 	VkPipeline Pipeline = VK_NULL_HANDLE;
 	VkStridedDeviceAddressRegionKHR RayGenRegion{}, MissRegion{}, HitRegion{};
 	VkCommandPool CommandPool = VK_NULL_HANDLE;

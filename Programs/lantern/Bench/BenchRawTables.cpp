@@ -1,4 +1,6 @@
-// What the raw dispatch reads beside the G-buffer: its descriptors and the table of alpha-tested sections.
+// Descriptors of the raw dispatch, and the table of alpha-tested sections.
+#include "Bench/BenchRawTables.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <map>
@@ -9,7 +11,26 @@
 namespace Lantern
 {
 
-FRTStatus FRawShadow::CreateSampler(const FHostTexture& Texture, VkSampler& Out)
+FRTStatus FRawTables::Create(VkImageView Output)
+{
+	bMasked = Desc.Scene->GetScene().GetFacts().bMasked;
+	if (FRTStatus S = CreateTextures(); !S) { return S; }
+	if (FRTStatus S = CreateSections(); !S) { return S; }
+	if (FRTStatus S = CreateLayout(); !S) { return S; }
+	WriteDescriptors(Output);
+	return FRTStatus::Success();
+}
+
+FRawTables::~FRawTables()
+{
+	if (!Vulkan.Device) { return; }
+	Vulkan.DestroyPipelineLayout(Vulkan.Device, Layout, nullptr);
+	Vulkan.DestroyDescriptorPool(Vulkan.Device, DescriptorPool, nullptr);
+	Vulkan.DestroyDescriptorSetLayout(Vulkan.Device, SetLayout, nullptr);
+	for (const VkSampler Sampler : Samplers) { Vulkan.DestroySampler(Vulkan.Device, Sampler, nullptr); }
+}
+
+FRTStatus FRawTables::CreateSampler(const FHostTexture& Texture, VkSampler& Out)
 {
 	const auto Address = [](bool bRepeat, bool bMirror) {
 		return bMirror   ? VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT
@@ -22,11 +43,11 @@ FRTStatus FRawShadow::CreateSampler(const FHostTexture& Texture, VkSampler& Out)
 	Info.addressModeV = Address(Texture.bRepeatV, Texture.bMirrorV);
 	const VkResult Result = Vulkan.CreateSampler(Vulkan.Device, &Info, nullptr, &Out);
 	if (Result == VK_SUCCESS) { Samplers.push_back(Out); }
-	return Check(Result, "vkCreateSampler");
+	return CheckVulkan(Result, "vkCreateSampler");
 }
 
 /// One descriptor for each texture whose alpha some masked material tests.
-FRTStatus FRawShadow::CreateTextures()
+FRTStatus FRawTables::CreateTextures()
 {
 	const FSceneDescription& Scene = Desc.Scene->GetDescription();
 	std::map<int32_t, uint32_t> Known;
@@ -49,7 +70,7 @@ FRTStatus FRawShadow::CreateTextures()
 	return FRTStatus::Success();
 }
 
-FRTStatus FRawShadow::CreateSections()
+FRTStatus FRawTables::CreateSections()
 {
 	FSectionTable& Source = Desc.Scene->GetScene().GetSections();
 	const FSceneDescription& Scene = Desc.Scene->GetDescription();
@@ -58,7 +79,7 @@ FRTStatus FRawShadow::CreateSections()
 		const FSectionData& Data = Source.Get(Index);
 		const FHostMaterial& Material = Scene.Materials[Data.Material];
 		const FHostTextureSlot& Slot = Material.Slots[TEXTURE_BASE_COLOR];
-		FSection Section{};
+		FRawSection Section{};
 		Section.Indices = Data.Indices;
 		Section.Coverage = Data.Attributes + (Slot.UVSet == 0 ? offsetof(FVertexAttributes, UV0) : offsetof(FVertexAttributes, UV1));
 		Section.Texture = MaterialTextures[Data.Material];
@@ -70,7 +91,7 @@ FRTStatus FRawShadow::CreateSections()
 	}
 	FUploader Uploader(*Desc.Device);
 	if (FRTStatus S = Uploader.CreateBuffer(
-	        "RawSections", ERTBufferUsage::Storage, Sections.data(), Sections.size() * sizeof(FSection), SectionBuffer);
+	        "RawSections", ERTBufferUsage::Storage, Sections.data(), Sections.size() * sizeof(FRawSection), SectionBuffer);
 	    !S)
 	{
 		return S;
@@ -78,7 +99,7 @@ FRTStatus FRawShadow::CreateSections()
 	return Uploader.Flush();
 }
 
-FRTStatus FRawShadow::CreateLayout()
+FRTStatus FRawTables::CreateLayout()
 {
 	const VkShaderStageFlags Trace = Desc.bPipeline ? VK_SHADER_STAGE_RAYGEN_BIT_KHR : VK_SHADER_STAGE_COMPUTE_BIT;
 	const VkShaderStageFlags Hit = Desc.bPipeline ? VK_SHADER_STAGE_ANY_HIT_BIT_KHR : VK_SHADER_STAGE_COMPUTE_BIT;
@@ -115,10 +136,10 @@ FRTStatus FRawShadow::CreateLayout()
 	Allocate.descriptorSetCount = 1;
 	Allocate.pSetLayouts = &SetLayout;
 	Result = Result ? Result : Vulkan.AllocateDescriptorSets(Vulkan.Device, &Allocate, &Set);
-	return Check(Result, "creating the descriptor set");
+	return CheckVulkan(Result, "creating the descriptor set");
 }
 
-FRTStatus FRawShadow::CreateDescriptors()
+void FRawTables::WriteDescriptors(VkImageView Output) const
 {
 	const auto Tlas =
 	    reinterpret_cast<VkAccelerationStructureKHR>(Desc.Scene->GetScene().GetStructure()->GetNative(ERTNative::AccelerationStructure));
@@ -128,7 +149,7 @@ FRTStatus FRawShadow::CreateDescriptors()
 	const auto View = [](IRTTexture* Texture) { return reinterpret_cast<VkImageView>(Texture->GetNative(ERTNative::ImageView)); };
 	const VkDescriptorImageInfo Depth{VK_NULL_HANDLE, View(Desc.Depth), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 	const VkDescriptorImageInfo Normals{VK_NULL_HANDLE, View(Desc.Normals), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-	const VkDescriptorImageInfo Target{VK_NULL_HANDLE, OutputView, VK_IMAGE_LAYOUT_GENERAL};
+	const VkDescriptorImageInfo Target{VK_NULL_HANDLE, Output, VK_IMAGE_LAYOUT_GENERAL};
 	const VkDescriptorBufferInfo Buffer{reinterpret_cast<VkBuffer>(SectionBuffer->GetNative(ERTNative::Buffer)), 0, VK_WHOLE_SIZE};
 	std::vector<VkWriteDescriptorSet> Writes;
 	const auto Add = [&](uint32_t Binding, VkDescriptorType Type, const VkDescriptorImageInfo* Images, uint32_t Count) {
@@ -152,7 +173,6 @@ FRTStatus FRawShadow::CreateDescriptors()
 		Writes.back().pBufferInfo = &Buffer;
 	}
 	Vulkan.UpdateDescriptorSets(Vulkan.Device, static_cast<uint32_t>(Writes.size()), Writes.data(), 0, nullptr);
-	return FRTStatus::Success();
 }
 
 } // namespace Lantern

@@ -91,9 +91,7 @@ int MeasureScene(FSession& Session, const FBenchScene& Scene, const FBenchRaysOp
 
 void FBenchRaysOptions::AddTo(CLI::App& App)
 {
-	Device.AddTo(App);
-	App.add_option("SCENE", Scenes, "Scenes beside the courtyard; without any, Sponza and black_forest of LANTERN_SCENES");
-	AddBenchSize(App, Size, "1280x720; on a CPU device 640x360");
+	AddSceneOptions(App, "Scenes beside the courtyard; without any, Sponza and black_forest of LANTERN_SCENES");
 	App.add_option("--repetitions", Repetitions, "Measured dispatches of each")->check(CLI::Range(1, 100'000));
 	AddBenchJson(App, Json);
 }
@@ -101,8 +99,6 @@ void FBenchRaysOptions::AddTo(CLI::App& App)
 int RunBenchRays(const FBenchRaysOptions& Options)
 {
 	FSceneBench Bench;
-	Bench.Device = Options.Device;
-	Bench.Json = Options.Json;
 	Bench.PrintHeader = [] {
 		fmt::print("{:<22} {:>9} {:>8} {:>9} {:>12} {:>6}  {:>26} {:>26}  {}\n", "case", "size", "rays", "raw Mr/s", "plugin Mr/s", "ratio",
 		    "raw ms [min, max]", "plugin ms [min, max]", "same pixels");
@@ -111,7 +107,7 @@ int RunBenchRays(const FBenchRaysOptions& Options)
 	Bench.Measure = [&](FSession& Session, const FBenchScene& Scene, nlohmann::json& Cases) {
 		return MeasureScene(Session, Scene, Options, Cases);
 	};
-	return RunSceneBench(Bench);
+	return RunSceneBench(Options, Bench);
 }
 
 } // namespace Lantern

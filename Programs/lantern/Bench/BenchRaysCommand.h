@@ -1,25 +1,14 @@
 // lantern bench rays: the sun shadow pass against a hand-written dispatch.
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include "Options.h"
-
-namespace CLI
-{
-class App;
-}
+#include "Bench/BenchRun.h"
 
 namespace Lantern
 {
 
-struct FBenchRaysOptions
+/// Scenes: those beside the courtyard. Without any, Sponza and black_forest if they are found.
+struct FBenchRaysOptions : FSceneBenchOptions
 {
-	FDeviceOptions Device;
-	std::vector<std::string> Scenes; ///< files beside the courtyard; empty: Sponza and black_forest if they are found
-	std::string Size;                ///< WIDTHxHEIGHT; empty: 1280×720, on a CPU device 640×360
-	std::string Json;
 	uint32_t Repetitions = 21;
 	void AddTo(CLI::App& App);
 };

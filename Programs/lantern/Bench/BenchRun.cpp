@@ -66,10 +66,17 @@ bool HasRayPath(const FRTCapabilities& Capabilities, bool bPipeline, const FBenc
 	return false;
 }
 
-int RunSceneBench(const FSceneBench& Bench)
+void FSceneBenchOptions::AddSceneOptions(CLI::App& App, const char* ScenesHelp)
 {
-	return RunBench(Bench.Json, [&](nlohmann::json& Figures) {
-		return RunInBenchSession(Bench.Device, [&](FSession& Session) {
+	Device.AddTo(App);
+	App.add_option("SCENE", Scenes, ScenesHelp);
+	AddBenchSize(App, Size, "1280x720; on a CPU device 640x360");
+}
+
+int RunSceneBench(const FSceneBenchOptions& Options, const FSceneBench& Bench)
+{
+	return RunBench(Options.Json, [&](nlohmann::json& Figures) {
+		return RunInBenchSession(Options.Device, [&](FSession& Session) {
 			Figures = DescribeBenchDevice(Session.GetDevice().GetCapabilities());
 			nlohmann::json& Cases = Figures["cases"] = nlohmann::json::array();
 			Bench.PrintHeader();

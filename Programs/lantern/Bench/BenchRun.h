@@ -38,11 +38,20 @@ nlohmann::json DescribeBenchDevice(const FRTCapabilities& Capabilities);
 /// Whether the device traces rays by this path. If not, the log says so for the scene.
 bool HasRayPath(const FRTCapabilities& Capabilities, bool bPipeline, const FBenchScene& Scene);
 
+/// Options of a benchmark that measures scenes.
+struct FSceneBenchOptions
+{
+	FDeviceOptions Device;
+	std::vector<std::string> Scenes; ///< files; empty: the benchmark chooses
+	std::string Size;                ///< WIDTHxHEIGHT; empty: 1280×720, on a CPU device 640×360
+	std::string Json;
+	/// Adds all of them except --json. ScenesHelp: help text of the scenes.
+	void AddSceneOptions(CLI::App& App, const char* ScenesHelp);
+};
+
 /// A benchmark that measures scenes one after another.
 struct FSceneBench
 {
-	FDeviceOptions Device;
-	std::string Json;
 	std::function<void()> PrintHeader;
 	std::function<std::vector<FBenchScene>()> ChooseScenes;
 	/// Appends to Cases. Returns an exit status.
@@ -50,6 +59,6 @@ struct FSceneBench
 };
 
 /// Measures all scenes, also after one has failed. Returns the first exit status that is not ExitDone.
-int RunSceneBench(const FSceneBench& Bench);
+int RunSceneBench(const FSceneBenchOptions& Options, const FSceneBench& Bench);
 
 } // namespace Lantern

@@ -1,4 +1,4 @@
-// Median, smallest and largest of repeated measurements.
+// Elapsed time; median, smallest and largest of repeated measurements.
 #include "Bench/BenchTimes.h"
 
 #include <algorithm>
@@ -7,6 +7,8 @@
 
 namespace Lantern
 {
+
+double GetMsSince(FBenchClock::time_point Start) { return std::chrono::duration<double, std::milli>(FBenchClock::now() - Start).count(); }
 
 double FBenchTimes::GetMedian() const
 {

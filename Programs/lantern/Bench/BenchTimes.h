@@ -1,12 +1,16 @@
-// Repeated measurements of one thing.
+// The clock of benchmarks, and repeated measurements of one thing.
 #pragma once
 
+#include <chrono>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
 namespace Lantern
 {
+
+using FBenchClock = std::chrono::steady_clock;
+double GetMsSince(FBenchClock::time_point Start);
 
 /// Values are in the unit of whoever adds them. Every figure of no values is 0.
 class FBenchTimes

@@ -28,8 +28,9 @@ FRTStatus FBenchVulkan::Load(IRTDevice& Rhi)
 	return Missing ? FRTStatus::Error(ERTResult::Unsupported, "the device has no %s", Missing) : FRTStatus::Success();
 }
 
-FRTStatus MakeVulkanError(VkResult Result, const char* What)
+FRTStatus CheckVulkan(VkResult Result, const char* What)
 {
+	if (Result == VK_SUCCESS) { return FRTStatus::Success(); }
 	const ERTResult Code = Result == VK_ERROR_DEVICE_LOST            ? ERTResult::DeviceLost
 	                       : Result == VK_ERROR_OUT_OF_HOST_MEMORY   ? ERTResult::OutOfHostMemory
 	                       : Result == VK_ERROR_OUT_OF_DEVICE_MEMORY ? ERTResult::OutOfDeviceMemory

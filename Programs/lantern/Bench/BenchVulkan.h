@@ -72,7 +72,7 @@ struct FBenchVulkan
 	FRTStatus Load(IRTDevice& Rhi);
 };
 
-/// Describes a Vulkan call that failed.
-FRTStatus MakeVulkanError(VkResult Result, const char* What);
+/// Success for VK_SUCCESS; otherwise an error that names What, the Vulkan call.
+FRTStatus CheckVulkan(VkResult Result, const char* What);
 
 } // namespace Lantern
