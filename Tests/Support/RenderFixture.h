@@ -70,7 +70,7 @@ protected:
 	static void SetSky(glm::vec3 Radiance);
 	static void SetVariable(const char* Name, const std::string& Value);
 
-	/// Runs a compute shader and waits for it. Results: the buffer it writes, of which the host sees the result.
+	/// Runs a compute shader and waits for it. Results: the buffer that the shader writes and the host reads.
 	static void Dispatch(
 	    IRTPipeline* Pipeline, const void* Push, uint32_t PushBytes, uint32_t GroupsX, uint32_t GroupsY, IRTBuffer* Results);
 
