@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 #include <map>
 #include <memory>
 
@@ -77,13 +76,6 @@ const std::string Critical = "critical path";
 const std::string Busy = "  processor time";
 
 /// Processor time of the calling thread. Time taken by other programs is no part of it, nor is time spent waiting.
-double GetThreadMs()
-{
-	timespec Time{};
-	clock_gettime(CLOCK_THREAD_CPUTIME_ID, &Time);
-	return double(Time.tv_sec) * 1e3 + double(Time.tv_nsec) * 1e-6;
-}
-
 class FFrameBench
 {
 public:

@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <thread>
 
 #include "Bench/BenchTimes.h"
@@ -16,13 +15,6 @@ namespace Lantern
 
 namespace
 {
-double GetProcessorMs()
-{
-	timespec Time{};
-	clock_gettime(CLOCK_THREAD_CPUTIME_ID, &Time);
-	return double(Time.tv_sec) * 1e3 + double(Time.tv_nsec) * 1e-6;
-}
-
 class FHitchBench
 {
 public:
@@ -66,7 +58,7 @@ FRTStatus FHitchBench::Frame(FFrameTime& Out, bool bWait)
 {
 	FRenderer& Renderer = Engine.GetRenderer();
 	const auto Start = FBenchClock::now();
-	const double StartProcessor = GetProcessorMs();
+	const double StartProcessor = GetThreadMs();
 	FFrameFeatures Features;
 	Features.bWaitForPipelines = bWait;
 	Features.bRays = true;
@@ -79,7 +71,7 @@ FRTStatus FHitchBench::Frame(FFrameTime& Out, bool bWait)
 	const uint32_t RayGen = Context.RayPipeline ? Context.RayPipeline->FindRayGen(Features.RayGens[0]) : NoRayGen;
 	if (RayGen != NoRayGen) { AddMaterialTrace(Context, RayGen, Target); }
 	const FRTStatus Status = Renderer.EndFrame(nullptr);
-	Out = {GetMsSince(Start), GetProcessorMs() - StartProcessor};
+	Out = {GetMsSince(Start), GetThreadMs() - StartProcessor};
 	if (Out.Ms < PaceMs) { std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(PaceMs - Out.Ms)); }
 	return Status;
 }

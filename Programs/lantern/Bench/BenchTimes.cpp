@@ -2,6 +2,7 @@
 #include "Bench/BenchTimes.h"
 
 #include <algorithm>
+#include <ctime>
 
 #include <nlohmann/json.hpp>
 
@@ -9,6 +10,13 @@ namespace Lantern
 {
 
 double GetMsSince(FBenchClock::time_point Start) { return std::chrono::duration<double, std::milli>(FBenchClock::now() - Start).count(); }
+
+double GetThreadMs()
+{
+	timespec Time{};
+	clock_gettime(CLOCK_THREAD_CPUTIME_ID, &Time);
+	return double(Time.tv_sec) * 1e3 + double(Time.tv_nsec) * 1e-6;
+}
 
 double FBenchTimes::GetMedian() const
 {

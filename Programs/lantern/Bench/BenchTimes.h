@@ -11,6 +11,8 @@ namespace Lantern
 
 using FBenchClock = std::chrono::steady_clock;
 double GetMsSince(FBenchClock::time_point Start);
+/// Returns the processor time of the calling thread, in milliseconds.
+double GetThreadMs();
 
 /// Values are in the unit of whoever adds them. Every figure of no values is 0.
 class FBenchTimes
