@@ -26,8 +26,9 @@ FAccumulated Accumulate(FFrameEstimate Frame, FHistory History, ivec2 Size)
 	History.Past.Frames *= Unchanged;
 #if CHANNELS == 1
 	if (History.bResampled && Frame.bHasValue) { History.ResamplingVariance += GetEdgeVariance(Frame, History); }
-#endif
+#else
 	ClampHistory(Frame.Window, History.Past);
+#endif
 	return Frame.bHasValue ? Blend(Frame, History, Noise) : FillIn(Frame, History.Past, Noise);
 }
 
@@ -38,17 +39,19 @@ void main()
 	LoadTile(Size);
 	barrier();
 	MeasureOutliers();
+#if CHANNELS != 1
 	SumWindowRows();
+#endif
 	barrier();
 	if (any(greaterThanEqual(Pixel, Size))) { return; }
 	FSurface Surface = LoadSurface(Push.Surface, Pixel);
 	if (Surface.Distance <= 0.0) // the sky: the signal as it is
 	{
 		FSignal Value = GetSignal(texelFetch(Textures[Push.Signal], Pixel, 0));
-		Store(Pixel, FAccumulated(SanitizeSignal(Value, IsSignalFinite(Value)), 0.0, 0.0, 0.0), 0.0, 0.0);
+		Store(Pixel, FAccumulated(SanitizeSignal(Value, IsSignalFinite(Value)), 0.0, 0.0, 0.0), 0.0);
 		return;
 	}
 	FFrameEstimate Frame = EstimateFrame();
 	FHistory History = ReprojectHistory(View, uvec2(Pixel), Surface);
-	Store(Pixel, Accumulate(Frame, History, Size), Frame.Extent, Frame.NoiseVariance);
+	Store(Pixel, Accumulate(Frame, History, Size), Frame.Extent);
 }

@@ -40,11 +40,16 @@ FAccumulated Blend(FFrameEstimate Frame, FHistory History, float Noise)
 	return FAccumulated(mix(Past.Mean, Frame.Value, Alpha), sqrt(Noise), 1.0 / Alpha, NeighborhoodMean);
 }
 
-// For a pixel without a value: the history if there is one, else the window's mean.
+// For a pixel without a value: the history if there is one, else the mean of what is around it.
 FAccumulated FillIn(FFrameEstimate Frame, FAccumulated Past, float Noise)
 {
 	if (Past.Frames > 0.0) { return Past; }
-	return FAccumulated(Frame.Window.Mean, sqrt(Noise), 0.0, Frame.Neighborhood.Mean);
+#if CHANNELS == 1
+	FSignal Around = Frame.Neighborhood.Mean;
+#else
+	FSignal Around = Frame.Window.Mean;
+#endif
+	return FAccumulated(Around, sqrt(Noise), 0.0, Frame.Neighborhood.Mean);
 }
 
 #endif

@@ -55,7 +55,7 @@ float GetUnchangedShare(FFrameEstimate Frame, FHistory History, ivec2 Size)
 #endif
 	float Noise = GetExpectedVariance(Frame, History, Size);
 	float Variance = Noise / Frame.Neighborhood.Count * (1.0 + 1.0 / History.Past.Frames);
-	float StandardErrors = Difference * inversesqrt(Variance + 1.0e-6 * Past * Past + 1.0e-12);
+	float StandardErrors = Difference * inversesqrt(Variance + 1.0e-12);
 	return 1.0 - smoothstep(Push.ChangeSigma, FullChange * Push.ChangeSigma, StandardErrors);
 }
 

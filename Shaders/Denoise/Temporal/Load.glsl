@@ -9,7 +9,11 @@
 #include "../Signal.glsl"
 
 const int GroupSize = DENOISE_GROUP_SIZE;
+#if CHANNELS == 1 && !defined(WITH_EXTENT)
+const int WindowRadius = 2; // the neighbourhood's
+#else
 const int WindowRadius = DENOISE_WINDOW_RADIUS;
+#endif
 // Pixels that lie in the window of at least one of the group's pixels. The tile has one ring more: the neighbours of these.
 const int InnerSize = GroupSize + 2 * WindowRadius;
 const int TileSize = InnerSize + 2;

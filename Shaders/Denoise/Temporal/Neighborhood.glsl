@@ -71,7 +71,7 @@ FNeighborhood MeasureNeighborhood()
 			OutlierCount += 1.0;
 		}
 	}
-	return FNeighborhood(Sum / max(Count, 1.0), OutlierCount >= 3.0 ? OutlierSum / OutlierCount : -1.0, max(Count, 1.0));
+	return FNeighborhood(Sum / max(Count, 1.0), OutlierCount > 0.0 ? OutlierSum / OutlierCount : -1.0, max(Count, 1.0));
 }
 
 #endif

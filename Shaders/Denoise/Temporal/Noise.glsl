@@ -1,5 +1,5 @@
 // Step "noise" of the temporal filter: the variance that chance gives to one frame's value.
-//   Takes: neighbourhood, window and extents of this frame; the history.
+//   Takes: neighbourhood, extents and, for colours, the window of this frame; the history.
 //   Gives: FFrameEstimate with the noise of the frame alone, and EstimateNoise with what the history adds.
 //   Why: a signal without noise needs neither other frames nor a filter, however much structure it has. Hard shadows stay as
 //   they are. Visibility is a mean of rays that see or do not see: its variance is binomial and needs no estimate but p's.
@@ -45,22 +45,18 @@ float MeasureExtent()
 #endif
 }
 
-float GetFrameNoise(FNeighborhood Neighborhood, FWindow Window)
-{
-#if CHANNELS == 1
-	return GetVisibilityVariance(Neighborhood.Mean);
-#else
-	return Neighborhood.OutlierVariance >= 0.0 ? Neighborhood.OutlierVariance : Window.Variance;
-#endif
-}
-
 FFrameEstimate EstimateFrame()
 {
 	int Own = GetTileIndex(ivec2(0));
-	FWindow Window = MeasureWindow();
 	FNeighborhood Neighborhood = MeasureNeighborhood();
-	float Noise = GetFrameNoise(Neighborhood, Window);
+#if CHANNELS == 1
+	float Noise = GetVisibilityVariance(Neighborhood.Mean);
+	return FFrameEstimate(TileSignal[Own], TileInverseDepth[Own] > 0.0, Neighborhood, Noise, MeasureExtent());
+#else
+	FWindow Window = MeasureWindow();
+	float Noise = Neighborhood.OutlierVariance >= 0.0 ? Neighborhood.OutlierVariance : Window.Variance;
 	return FFrameEstimate(TileSignal[Own], TileInverseDepth[Own] > 0.0, Window, Neighborhood, Noise, MeasureExtent());
+#endif
 }
 
 // 0: the transition is an edge; 1: it is a soft penumbra.

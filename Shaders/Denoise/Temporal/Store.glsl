@@ -1,5 +1,5 @@
 // Step "store" of the temporal filter: writes the mean with its variance for the wavelet, and the history for the next frame.
-//   Takes: FAccumulated, the extent in pixels, and the variance of one frame's value by what is around the pixel.
+//   Takes: FAccumulated, and the extent in pixels.
 //   Gives: the images Push.Output, Push.OutHistory and Push.OutMoments.
 //   Why: the variance of few frames is known less well, and a start that is blurred is better than one that is wrong.
 #ifndef LANTERN_TEMPORAL_STORE_GLSL
@@ -7,20 +7,15 @@
 
 #include "Types.glsl"
 
-float GetOutputVariance(FAccumulated A, float FrameNoise)
+float GetOutputVariance(FAccumulated A)
 {
 	float Frames = max(A.Frames, 1.0);
-	float Variance = A.NoiseSigma * A.NoiseSigma / Frames * (1.0 + 1.0 / Frames);
-#if CHANNELS == 1 && !defined(WITH_EXTENT)
-	// If one ray in many is blocked, pixels that have met none know as little as those that have.
-	Variance = max(Variance, 0.5 * FrameNoise / Frames);
-#endif
-	return min(Variance, MaxHalf);
+	return min(A.NoiseSigma * A.NoiseSigma / Frames * (1.0 + 1.0 / Frames), MaxHalf);
 }
 
-void Store(ivec2 Pixel, FAccumulated A, float Extent, float FrameNoise)
+void Store(ivec2 Pixel, FAccumulated A, float Extent)
 {
-	vec4 Output = WithVariance(A.Mean, GetOutputVariance(A, FrameNoise));
+	vec4 Output = WithVariance(A.Mean, GetOutputVariance(A));
 	imageStore(Images[Push.Output], Pixel, Output + vec4(0.0, 0.0, CHANNELS == 1 ? Extent : 0.0, 0.0));
 	float NoiseSigma = min(A.NoiseSigma, MaxHalf), NeighborhoodMean = min(A.NeighborhoodMean, MaxHalf);
 #if CHANNELS == 1

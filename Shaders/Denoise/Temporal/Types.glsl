@@ -10,7 +10,9 @@ struct FFrameEstimate
 {
 	FSignal Value;
 	bool bHasValue; // false: the signal is not finite
+#if CHANNELS != 1
 	FWindow Window;
+#endif
 	FNeighborhood Neighborhood;
 	float NoiseVariance; // variance of one frame's value; for visibility as if every transition were soft
 	float Extent;        // width of the transition (penumbra), pixels; MaxHalf: as wide as can be

@@ -1,4 +1,4 @@
-// Step "window" of the temporal filter: mean and spread of the signal in 7×7 pixels, whatever surfaces they show.
+// Step "window" of the temporal filter, for colours: mean and spread of the signal in 7×7 pixels, whatever surfaces they show.
 //   Takes: the tile of Load.glsl.
 //   Gives: FWindow. SumWindowRows needs the tile complete; MeasureWindow needs the rows of the whole group complete.
 //   Why: the history is clamped to this range (Clamp.glsl). Sums of rows, then of columns, read 14 values instead of 49.
@@ -6,6 +6,8 @@
 #define LANTERN_TEMPORAL_WINDOW_GLSL
 
 #include "Load.glsl"
+
+#if CHANNELS != 1
 
 const int WindowWidth = 2 * WindowRadius + 1;
 
@@ -59,5 +61,6 @@ FWindow MeasureWindow()
 	Window.Variance = Sigma * Sigma;
 	return Window;
 }
+#endif
 
 #endif

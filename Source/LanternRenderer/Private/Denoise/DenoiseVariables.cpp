@@ -29,10 +29,6 @@ struct FDenoiseVariables::FVariables
 	          "Accumulates the signal over frames and smooths it along surfaces. If off, it is as noisy as its rays."),
 	      HistorySeconds(Prefix + ".HistorySeconds", Common.HistorySeconds,
 	          "Time constant of what " + Prefix + ".Denoise accumulates, in seconds. 0: nothing is accumulated.", {0.0, 60.0}),
-	      ClampSigma(Prefix + ".ClampSigma", Common.ClampSigma,
-	          "Accumulated values stay within the neighbourhood's mean of this frame, plus or minus this many standard deviations. 0: "
-	          "no limit.",
-	          {0.0, 100.0}),
 	      ChangeSigma(Prefix + ".ChangeSigma", Common.ChangeSigma,
 	          "Accumulation starts anew where the signal has changed by more than this many standard errors. 0: never.", {0.0, 100.0}),
 	      Resampling(Prefix + ".Resampling", Common.Resampling,
@@ -43,16 +39,24 @@ struct FDenoiseVariables::FVariables
 	      FilterSigma(Prefix + ".FilterSigma", Defaults.SigmaValue,
 	          "Differences below this many standard deviations are noise to the spatial filter.", {0.0, 100.0})
 	{
-		if (!Defaults.bExtent) { return; }
-		FilterReach.emplace(Prefix + ".FilterReach", Common.ReachExtent, "Reach of the spatial filter, in widths of the penumbra.",
-		    FRTCVarRange{0.001, 100.0});
+		if (Defaults.bExtent)
+		{
+			FilterReach.emplace(Prefix + ".FilterReach", Common.ReachExtent, "Reach of the spatial filter, in widths of the penumbra.",
+			    FRTCVarRange{0.001, 100.0});
+		}
+		if (Defaults.bColor)
+		{
+			ClampSigma.emplace(Prefix + ".ClampSigma", Common.ClampSigma,
+			    "Accumulated colours stay within the neighbourhood's mean, plus or minus this many standard deviations. 0: no limit.",
+			    FRTCVarRange{0.0, 100.0});
+		}
 	}
 
 	TNamedVariable<bool> Denoise;
-	TNamedVariable<float> HistorySeconds, ClampSigma, ChangeSigma, Resampling;
+	TNamedVariable<float> HistorySeconds, ChangeSigma, Resampling;
 	TNamedVariable<int32_t> FilterPasses;
 	TNamedVariable<float> FilterSigma;
-	std::optional<TNamedVariable<float>> FilterReach;
+	std::optional<TNamedVariable<float>> FilterReach, ClampSigma;
 };
 
 FDenoiseVariables::FDenoiseVariables(const char* Prefix, const FDenoiseDefaults& Defaults)
@@ -67,11 +71,11 @@ FDenoiseSettings FDenoiseVariables::Get() const
 {
 	FDenoiseSettings Settings;
 	Settings.HistorySeconds = Variables->HistorySeconds.GetOnRenderThread();
-	Settings.ClampSigma = Variables->ClampSigma.GetOnRenderThread();
 	Settings.ChangeSigma = Variables->ChangeSigma.GetOnRenderThread();
 	Settings.Resampling = Variables->Resampling.GetOnRenderThread();
 	Settings.Passes = static_cast<uint32_t>(Variables->FilterPasses.GetOnRenderThread());
 	Settings.SigmaValue = Variables->FilterSigma.GetOnRenderThread();
+	if (Variables->ClampSigma) { Settings.ClampSigma = Variables->ClampSigma->GetOnRenderThread(); }
 	if (Variables->FilterReach) { Settings.ReachExtent = Variables->FilterReach->GetOnRenderThread(); }
 	return Settings;
 }

@@ -11,7 +11,8 @@ namespace Lantern
 struct FDenoiseSettings
 {
 	float HistorySeconds = 0.5f; ///< time constant of the accumulation; ≥ 0, 0: none
-	float ClampSigma = 7.0f;     ///< history is kept within the neighbourhood's mean ± this many σ; 0: not clamped
+	/// For colours: history stays within the neighbourhood's mean ± this many standard deviations; 0: not clamped.
+	float ClampSigma = 7.0f;
 	/// Accumulation starts anew where the neighbourhood's mean differs from that over time by more than this many of its
 	/// standard errors; 0: never.
 	float ChangeSigma = 2.0f;
@@ -28,6 +29,7 @@ struct FDenoiseDefaults
 {
 	float SigmaValue = 4.0f;
 	bool bExtent = false; ///< the signal comes with extents: <Prefix>.FilterReach exists
+	bool bColor = false;  ///< the signal is a colour: <Prefix>.ClampSigma exists
 };
 
 /// Static storage; the variables register themselves. Reads are for the render thread.
