@@ -44,9 +44,6 @@ FRayType MakeMaterialRay()
 	return Type;
 }
 
-/// See FSignalRequests::bNothingElse.
-bool IsMade(ESignal Signal, const FSignalRequests& Requests) { return !Requests.bNothingElse || Requests.Wanted.Has(Signal); }
-
 /// Collects passes into one frame's programs.
 struct FCollector
 {

@@ -12,6 +12,7 @@
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/FrameGraph/History.h"
 #include "LanternCore/Tasks/TaskTrace.h"
+#include "LanternCore/Text/Log.h"
 #include "LanternRenderer/Frame.h"
 #include "RayPrograms.h"
 #include "SignalPasses.h"
@@ -75,12 +76,13 @@ FRTStatus FRenderer::WaitForAll()
 
 const FAnyHitCounts& FRenderer::GetAnyHits() const { return AnyHits->Get(); }
 
-FRTStatus FRenderer::WaitForSlot()
+FRTStatus FRenderer::WaitForFlight()
 {
-	Slot = (Slot + 1) % MaxInFlight;
-	if (FRTStatus S = Device.WaitFor(Fences[Slot], WaitNs); !S) { return S; }
-	if (Lists[Slot]) { return FRTStatus::Success(); }
-	return Device.CreateCommandList("Frame", Lists[Slot].ReleaseAndGetAddress());
+	static_assert(MaxInFlight == TReadbackRing<int>::FramesInFlight);
+	FlightIndex = (FlightIndex + 1) % MaxInFlight;
+	if (FRTStatus S = Device.WaitFor(Fences[FlightIndex], WaitNs); !S) { return S; }
+	if (Lists[FlightIndex]) { return FRTStatus::Success(); }
+	return Device.CreateCommandList("Frame", Lists[FlightIndex].ReleaseAndGetAddress());
 }
 
 namespace
@@ -90,6 +92,22 @@ FSignalSet AllSignals()
 	FSignalSet All;
 	for (const FSignalInfo& Info : SignalInfos) { All.Add(Info.Signal); }
 	return All;
+}
+
+FSignalSet GetReadySignals(const FFrameContext& Context)
+{
+	FSignalSet Ready;
+	ForEachSignalPass([&](const FSignalPass& Pass) {
+		if (Context.GetRayGen(Pass.Signal) != NoRayGen) { Ready.Add(Pass.Signal); }
+	});
+	return Ready;
+}
+
+/// What the host asks for, and what r.RT.Debug.View shows.
+FSignalRequests CompleteRequests(FSignalRequests Requests)
+{
+	if (!Requests.bNothingElse) { Requests.Wanted.Add(GetDebugView()); }
+	return Requests;
 }
 
 bool WaitsForPipelines(const FFrameFeatures& Features)
@@ -153,7 +171,7 @@ FRTPSODesc FRenderer::GetRayPrograms(FRTScene& Scene, const FFrameFeatures& Feat
 	Scene.SetAlphaTest(CVarAlphaTest.GetOnRenderThread());
 	Scene.SetMaterialOverride(static_cast<uint32_t>(CVarMaterialOverride.GetOnRenderThread()));
 	Scene.RefreshFacts();
-	return ChooseRayPrograms(Device.GetCapabilities(), Scene, Features, Features.Signals, AllSignals()).Desc;
+	return ChooseRayPrograms(Device.GetCapabilities(), Scene, Features, CompleteRequests(Features.Signals), AllSignals()).Desc;
 }
 
 FRTStatus FRenderer::Precache(FRTScene& Scene, const FFrameFeatures& Features, const std::function<void(float)>& Progress)
@@ -177,7 +195,7 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	FConsoleVariables::Get().BeginFrame();
 	FTaskTrace::BeginFrame(View.FrameIndex);
 	FTraceScope Trace("BeginFrame");
-	if (FRTStatus S = WaitForSlot(); !S) { return S; }
+	if (FRTStatus S = WaitForFlight(); !S) { return S; }
 	for (const FFrameTiming& Timing : GraphResources.TakeFrameTimings()) { RayCompiler.FrameDone(Timing.Frame, Timing.GpuMs); }
 	Scene.SetAlphaTest(CVarAlphaTest.GetOnRenderThread());
 	Scene.SetMaterialOverride(static_cast<uint32_t>(CVarMaterialOverride.GetOnRenderThread()));
@@ -193,32 +211,25 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	const bool bSameScene = LastScene == Scene.GetSections().GetIdentity() && LastSceneFrame == Scene.GetMotions().GetFrame();
 	Context->PreviousView = bSameScene && bSameSize && !View.bCut && !Features.bReference ? &LastView : nullptr;
 	Context->History = History.get();
-	Context->Signals = Features.Signals;
-	if (!Features.Signals.bNothingElse) { Context->Signals.Wanted.Add(GetDebugView()); }
+	Context->Signals = CompleteRequests(Features.Signals);
 	History->BeginFrame(*Graph, Context->PreviousView != nullptr);
 	const int32_t PoisonEvery = CVarPoisonHistory.GetOnRenderThread();
 	if (PoisonEvery > 0 && View.FrameIndex % static_cast<uint32_t>(PoisonEvery) == 0) { GraphResources.PoisonHistory(""); }
 	bUpdating = bRayPassesAdded = false;
+	BeginFeedback();
 	const FRayPrograms Wanted =
 	    ChooseRayPrograms(Device.GetCapabilities(), Scene, Features, Context->Signals, WaitsForPipelines(Features) ? AllSignals() : Ready);
 	FRTStatus Status = PrepareRayPipeline(Wanted, Features);
-	Ready = {};
-	ForEachSignalPass([&](const FSignalPass& Pass) {
-		if (Context->GetRayGen(Pass.Signal) != NoRayGen) { Ready.Add(Pass.Signal); }
-	});
+	Ready = GetReadySignals(*Context);
 	if (Status) { Status = StartUpdate(View, Wanted, Features); }
 	if (Status) { Status = AllocateConstants(); }
-	if (Status) { Status = AnyHits->BeginFrame(Slot); }
-	if (Status) { Status = StandIns->BeginFrame(Slot, Scene, View.Position, bStandIns); }
-	RefitQuality->BeginFrame(Slot, Scene.GetGeometries());
 	if (Status) { Status = AddSkinningPass(*Context, Uploads, Features.Skinning, FrameUse.bMotion); }
 	if (!Status)
 	{
 		DropFrame();
 		return Status;
 	}
-	AnyHits->GetCounters().AddClear(*Graph);
-	StandIns->GetCounters().AddClear(*Graph);
+	StartCounting();
 	AddTables();
 	if (Features.bRays && !Features.bLateRays) { AddRayPasses(); }
 	return FRTStatus::Success();
@@ -350,6 +361,24 @@ void FRenderer::KeepHistory(bool bSubmitted)
 	LastView = Context->View;
 }
 
+/// Before anything of the frame can fail: what the GPU has left is taken, and the next frame finds its place.
+void FRenderer::BeginFeedback()
+{
+	AnyHits->BeginFrame(FlightIndex);
+	StandIns->BeginFrame(FlightIndex, Context->Scene);
+	RefitQuality->BeginFrame(FlightIndex, Context->Scene.GetGeometries());
+}
+
+/// A counter without memory counts nothing; the frame goes on.
+void FRenderer::StartCounting()
+{
+	FRTStatus Status = AnyHits->Start();
+	if (Status && bStandIns) { Status = StandIns->Start(Context->Scene, Context->View.Position); }
+	if (!Status) { LogOnce(ERTLogLevel::Warning, std::string("rays are not counted: ") + Status.Message); }
+	AnyHits->GetCounters().AddClear(*Graph);
+	StandIns->GetCounters().AddClear(*Graph);
+}
+
 void FRenderer::EndFeedback(bool bSubmitted)
 {
 	AnyHits->GetCounters().EndFrame(bSubmitted);
@@ -397,7 +426,7 @@ FRTStatus FRenderer::Execute(IRTCommandList& List)
 
 FRTStatus FRenderer::EndFrame(FRTFence* OutFence)
 {
-	IRTCommandList& List = *Lists[Slot];
+	IRTCommandList& List = *Lists[FlightIndex];
 	FRTStatus Status = List.Begin();
 	if (Status)
 	{
@@ -424,7 +453,7 @@ void FRenderer::FrameSubmitted(FRTFence Fence)
 	// A frame that ended before anything of it was recorded still has them.
 	PrebindTask.Wait();
 	Graph.reset();
-	Fences[Slot] = Fence;
+	Fences[FlightIndex] = Fence;
 	if (Fence != 0) { RayCompiler.FrameSubmitted(GraphResources.GetFrame()); }
 	Uploads.EndFrame(Fence);
 	Context->Scene.EndFrame(Fence != 0, Fence);

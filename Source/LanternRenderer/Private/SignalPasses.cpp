@@ -33,6 +33,7 @@ const FSignalPass& GetSignalPass(ESignal Signal)
 
 FPassRays ChooseSignalRays(const FFrameContext& Context, ESignal Signal)
 {
+	if (!IsMade(Signal, Context.Signals)) { return {}; }
 	const FSignalPass& Pass = GetSignalPass(Signal);
 	const bool bReplaced = Pass.ReplacedBy != ESignal::Count && Context.GetRayGen(Pass.ReplacedBy) != NoRayGen;
 	return Pass.ChooseRays({Context.Device.GetCapabilities(), Context.Facts, Context.Signals, bReplaced});

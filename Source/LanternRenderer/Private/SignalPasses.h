@@ -25,7 +25,10 @@ struct FSignalPass
 /// Returns how Signal is made. Signal: neither Frame nor Count.
 const FSignalPass& GetSignalPass(ESignal Signal);
 
-/// Returns what Signal traces in this frame.
+/// Returns whether a frame makes Signal at all: see FSignalRequests::bNothingElse.
+inline bool IsMade(ESignal Signal, const FSignalRequests& Requests) { return !Requests.bNothingElse || Requests.Wanted.Has(Signal); }
+
+/// Returns what Signal traces in this frame. Path None: nothing.
 FPassRays ChooseSignalRays(const FFrameContext& Context, ESignal Signal);
 
 /// Calls Visit(const FSignalPass&) for all signals but Frame.

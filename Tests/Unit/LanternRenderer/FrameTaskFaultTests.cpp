@@ -36,6 +36,30 @@ TEST_F(FFrameTaskTest, FailedAllocationFailsItsFrameAndTheNextRecovers)
 	}
 }
 
+// A frame that fails, wherever it does, loses its own counts and no other's.
+TEST_F(FFrameTaskTest, FramesThatFailLoseNoCountsOfOthers)
+{
+	Set("r.RT.Opacity.Count", "1");
+	ASSERT_TRUE(Load(Everything));
+	const auto Frame = [&] { return RenderWith([](FFrameContext&) {}).IsOk(); };
+	uint32_t Submitted = 0, Failed = 0;
+	for (int I = 0; I < 2; ++I) { Submitted += Frame() ? 1 : 0; } // what counts has its memory
+	for (uint32_t N = 1; N < 12; ++N)
+	{
+		const FRTObjectInfo Object = GetScene().GetObject(Engine->GetScene().GetDraws()[1].Object);
+		for (int I = 0; I < 64 << std::min(N, 5u); ++I) { GetScene().AddObject(FRTObjectInfo(Object)); } // tables and structures grow
+		Mock().FailAllocation(N);
+		const bool bOk = Frame();
+		Mock().FailAllocation(0);
+		(bOk ? Submitted : Failed) += 1;
+		Submitted += Frame() ? 1 : 0;
+	}
+	ASSERT_TRUE(Engine->GetRenderer().WaitForAll());
+	EXPECT_GT(Failed, 0u);
+	EXPECT_EQ(Engine->GetRenderer().GetAnyHits().Frames, Submitted);
+	GBufferPass.reset();
+}
+
 TEST_F(FFrameTaskTest, FrameLostByAPassRecovers)
 {
 	for (int Combination = 0; Combination < Combinations; ++Combination)

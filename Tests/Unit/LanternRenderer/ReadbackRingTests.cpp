@@ -21,13 +21,13 @@ protected:
 	std::vector<int> Frame(int Value, bool bWrites = true, bool bSubmitted = true)
 	{
 		std::vector<int> Arrived;
-		Ring->BeginFrame(Index++, [&](const FRing::FSlot& Slot) { Arrived.push_back(Slot.Notes); });
+		Ring->BeginFrame(Index++, [&](const FRing::FEntry& Entry) { Arrived.push_back(Entry.Notes); });
 		if (bWrites)
 		{
 			FRTStatus Status;
-			FRing::FSlot* const Slot = Ring->Write(64, Status);
-			EXPECT_TRUE(Slot && Status);
-			if (Slot) { Slot->Notes = Value; }
+			FRing::FEntry* const Entry = Ring->Write(64, Status);
+			EXPECT_TRUE(Entry && Status);
+			if (Entry) { Entry->Notes = Value; }
 		}
 		Ring->EndFrame(bSubmitted);
 		return Arrived;
@@ -72,7 +72,7 @@ TEST_F(FReadbackRingTest, TakeAllGivesTheRestOldestFirstAndOnce)
 	Frame(1);
 	Frame(2);
 	FInts Rest;
-	const auto Take = [&](const FRing::FSlot& Slot) { Rest.push_back(Slot.Notes); };
+	const auto Take = [&](const FRing::FEntry& Entry) { Rest.push_back(Entry.Notes); };
 	Ring->TakeAll(Take);
 	EXPECT_EQ(Rest, (FInts{1, 2}));
 	Ring->TakeAll(Take);
@@ -83,7 +83,7 @@ TEST_F(FReadbackRingTest, TakeAllGivesTheRestOldestFirstAndOnce)
 TEST_F(FReadbackRingTest, BuffersGrowAndAreKept)
 {
 	Frame(1);
-	Ring->BeginFrame(0, [](const FRing::FSlot&) {});
+	Ring->BeginFrame(0, [](const FRing::FEntry&) {});
 	FRTStatus Status;
 	IRTBuffer* const Small = Ring->Write(64, Status)->Buffer.Get();
 	EXPECT_EQ(Ring->Write(32, Status)->Buffer.Get(), Small);

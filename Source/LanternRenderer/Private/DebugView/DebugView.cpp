@@ -12,7 +12,7 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<std::string> CVarView("r.RT.Debug.View", "frame",
-    "Shows one signal instead of the picture, by its name in Config/Methods.ini, such as ambient_occlusion. frame: the picture.");
+    "Shows one signal instead of the picture, by its name as lantern reference --help lists it. frame: the picture.");
 } // namespace
 
 ESignal GetDebugView()
@@ -27,7 +27,13 @@ FGraphTexture AddDebugView(FFrameContext& Context, const FFrameOutputs& Outputs)
 {
 	const ESignal Signal = GetDebugView();
 	const FGraphTexture Input = Outputs.Get(Signal);
-	if (Signal == ESignal::Frame || !Input.IsValid()) { return Outputs.Display; }
+	if (Signal == ESignal::Frame) { return Outputs.Display; }
+	if (!Input.IsValid())
+	{
+		LogOnce(ERTLogLevel::Info, std::string("r.RT.Debug.View shows the picture: there is no ") + GetSignalInfo(Signal).Name +
+		                               ". It is off, the scene has nothing for it, or its shaders are being compiled");
+		return Outputs.Display;
+	}
 	IRTPipeline* const Pipeline = RequireCompute(Context, "DebugView/DebugView.comp");
 	if (!Pipeline) { return Outputs.Display; }
 	const FGraphTexture Output = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA8_UNORM}, "DebugView");

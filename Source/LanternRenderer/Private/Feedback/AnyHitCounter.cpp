@@ -14,14 +14,15 @@ TRTConsoleVariable<bool> CVarCount(
 
 std::vector<std::pair<std::string, std::string>> FAnyHitCounter::GetDefines()
 {
-	if (!CVarCount.GetOnRenderThread()) { return {}; }
+	if (!IsWanted()) { return {}; }
 	return {{"COUNT_ANY_HITS", "1"}};
 }
 
-FRTStatus FAnyHitCounter::BeginFrame(uint32_t Slot)
+bool FAnyHitCounter::IsWanted() { return CVarCount.GetOnRenderThread(); }
+
+void FAnyHitCounter::BeginFrame(uint32_t FlightIndex)
 {
-	Counters.BeginFrame(Slot, [this](std::span<const uint32_t> Frame) { Take(Frame); });
-	return CVarCount.GetOnRenderThread() ? Counters.Start(1) : FRTStatus::Success();
+	Counters.BeginFrame(FlightIndex, [this](std::span<const uint32_t> Frame) { Take(Frame); });
 }
 
 void FAnyHitCounter::TakeAll()

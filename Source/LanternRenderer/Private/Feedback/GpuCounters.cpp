@@ -10,9 +10,9 @@ namespace
 {
 constexpr ERTAccess ShaderAccess = ERTAccess::ShaderRead | ERTAccess::StorageWrite;
 
-std::span<const uint32_t> GetCounts(const TReadbackRing<uint32_t>::FSlot& Slot)
+std::span<const uint32_t> GetCounts(const TReadbackRing<uint32_t>::FEntry& Entry)
 {
-	return {static_cast<const uint32_t*>(Slot.Buffer->GetMapped()), Slot.Notes};
+	return {static_cast<const uint32_t*>(Entry.Buffer->GetMapped()), Entry.Notes};
 }
 } // namespace
 
@@ -22,14 +22,14 @@ FGpuCounters::FGpuCounters(IRTDevice& InDevice, const char* InName)
       Ring(InDevice, InName, ERTBufferUsage::CopyDest)
 {}
 
-void FGpuCounters::BeginFrame(uint32_t Slot, const FTake& Take)
+void FGpuCounters::BeginFrame(uint32_t FlightIndex, const FTake& Take)
 {
-	Ring.BeginFrame(Slot, [&](const FRing::FSlot& Old) { Take(GetCounts(Old)); });
+	Ring.BeginFrame(FlightIndex, [&](const FRing::FEntry& Old) { Take(GetCounts(Old)); });
 }
 
 void FGpuCounters::TakeAll(const FTake& Take)
 {
-	Ring.TakeAll([&](const FRing::FSlot& Old) { Take(GetCounts(Old)); });
+	Ring.TakeAll([&](const FRing::FEntry& Old) { Take(GetCounts(Old)); });
 }
 
 FRTStatus FGpuCounters::Start(uint32_t Count)
@@ -45,9 +45,9 @@ FRTStatus FGpuCounters::Start(uint32_t Count)
 		}
 	}
 	FRTStatus Status;
-	FRing::FSlot* const Slot = Ring.Write(Counters->GetDesc().Size, Status);
-	if (!Slot) { return Status; }
-	Slot->Notes = Count;
+	FRing::FEntry* const Entry = Ring.Write(Counters->GetDesc().Size, Status);
+	if (!Entry) { return Status; }
+	Entry->Notes = Count;
 	bActive = true;
 	return FRTStatus::Success();
 }
@@ -73,8 +73,8 @@ void FGpuCounters::AddRead(FFrameGraph& Graph)
 	if (!bActive) { return; }
 	Graph.AddPass(("Read" + Name).c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.NeverCull();
-		const FRing::FSlot& Slot = *Ring.GetCurrent();
-		return [From = Counters, To = Slot.Buffer, Bytes = Slot.Notes * 4ull](FPassContext& Pass) {
+		const FRing::FEntry& Entry = *Ring.GetCurrent();
+		return [From = Counters, To = Entry.Buffer, Bytes = Entry.Notes * 4ull](FPassContext& Pass) {
 			const FRTBarrier Before[] = {
 			    {From.Get(), nullptr, ShaderAccess, ERTAccess::CopyRead}, {To.Get(), nullptr, ERTAccess::HostRead, ERTAccess::CopyWrite}};
 			const FRTBarrier After{To.Get(), nullptr, ERTAccess::CopyWrite, ERTAccess::HostRead};

@@ -22,8 +22,8 @@ public:
 	/// Name: of the buffer; passes are "Clear<Name>" and "Read<Name>".
 	FGpuCounters(IRTDevice& InDevice, const char* InName);
 
-	/// Slot: as in TReadbackRing::BeginFrame. Take gets the counts of the frame that had the slot before, if it counted.
-	void BeginFrame(uint32_t Slot, const FTake& Take);
+	/// FlightIndex: as in TReadbackRing::BeginFrame. Take gets the counts of the frame FramesInFlight before, if it counted.
+	void BeginFrame(uint32_t FlightIndex, const FTake& Take);
 	/// Gives Take what is left, oldest first, after all frames have ended on the GPU.
 	void TakeAll(const FTake& Take);
 	/// Counts in this frame, with Count counters. OutOfMemory: nothing is counted.

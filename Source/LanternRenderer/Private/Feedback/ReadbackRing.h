@@ -13,9 +13,9 @@ template <class T>
 class TReadbackRing
 {
 public:
-	static constexpr uint32_t FramesInFlight = 2; ///< as FRenderer has them
+	static constexpr uint32_t FramesInFlight = 2; ///< FRenderer::MaxInFlight
 
-	struct FSlot
+	struct FEntry
 	{
 		TRTRef<IRTBuffer> Buffer;
 		T Notes{};
@@ -25,55 +25,55 @@ public:
 	explicit TReadbackRing(IRTDevice& InDevice, const char* InName, ERTBufferUsage InUsage) : Device(InDevice), Name(InName), Usage(InUsage)
 	{}
 
-	/// Starts the frame of one of the renderer's FramesInFlight slots, after the frame that had the slot before has ended on the
-	/// GPU. Calls Take(const FSlot&) if that one left values.
+	/// Starts a frame. FlightIndex, below FramesInFlight, is that of the frame FramesInFlight before, which has ended on the GPU.
+	/// Calls Take(const FEntry&) if that frame left values.
 	template <class TTake>
-	void BeginFrame(uint32_t Slot, TTake&& Take)
+	void BeginFrame(uint32_t FlightIndex, TTake&& Take)
 	{
-		Current = Slot % FramesInFlight;
-		TakeSlot(Slots[Current], Take);
+		Current = FlightIndex % FramesInFlight;
+		TakeEntry(Entries[Current], Take);
 	}
 
 	/// Takes what is left, oldest first, after all frames have ended on the GPU.
 	template <class TTake>
 	void TakeAll(TTake&& Take)
 	{
-		for (uint32_t Step = 1; Step <= FramesInFlight; ++Step) { TakeSlot(Slots[(Current + Step) % FramesInFlight], Take); }
+		for (uint32_t Step = 1; Step <= FramesInFlight; ++Step) { TakeEntry(Entries[(Current + Step) % FramesInFlight], Take); }
 	}
 
-	/// Returns this frame's slot with a buffer of at least Bytes. Null, and an error in Status: no memory. The slot counts as
+	/// Returns this frame's entry with a buffer of at least Bytes. Null, and an error in Status: no memory. The entry counts as
 	/// written unless EndFrame says otherwise.
-	FSlot* Write(uint64_t Bytes, FRTStatus& Status)
+	FEntry* Write(uint64_t Bytes, FRTStatus& Status)
 	{
-		FSlot& Slot = Slots[Current];
-		if (!Slot.Buffer || Slot.Buffer->GetDesc().Size < Bytes)
+		FEntry& Entry = Entries[Current];
+		if (!Entry.Buffer || Entry.Buffer->GetDesc().Size < Bytes)
 		{
-			Status = Device.CreateBuffer({Bytes, Usage, ERTMemory::Readback, Name}, Slot.Buffer.ReleaseAndGetAddress());
+			Status = Device.CreateBuffer({Bytes, Usage, ERTMemory::Readback, Name}, Entry.Buffer.ReleaseAndGetAddress());
 			if (!Status) { return nullptr; }
 		}
-		Slot.bWritten = true;
-		return &Slot;
+		Entry.bWritten = true;
+		return &Entry;
 	}
 
-	/// Returns this frame's slot; null: nothing was written.
-	FSlot* GetCurrent() { return Slots[Current].bWritten ? &Slots[Current] : nullptr; }
+	/// Returns this frame's entry; null: nothing was written.
+	FEntry* GetCurrent() { return Entries[Current].bWritten ? &Entries[Current] : nullptr; }
 
 	/// bSubmitted: false if the frame never runs.
-	void EndFrame(bool bSubmitted) { Slots[Current].bWritten &= bSubmitted; }
+	void EndFrame(bool bSubmitted) { Entries[Current].bWritten &= bSubmitted; }
 
 private:
 	template <class TTake>
-	static void TakeSlot(FSlot& Slot, TTake&& Take)
+	static void TakeEntry(FEntry& Entry, TTake&& Take)
 	{
-		if (!Slot.bWritten) { return; }
-		Slot.bWritten = false;
-		Take(static_cast<const FSlot&>(Slot));
+		if (!Entry.bWritten) { return; }
+		Entry.bWritten = false;
+		Take(static_cast<const FEntry&>(Entry));
 	}
 
 	IRTDevice& Device;
 	const char* Name;
 	ERTBufferUsage Usage;
-	FSlot Slots[FramesInFlight];
+	FEntry Entries[FramesInFlight];
 	uint32_t Current = 0;
 };
 

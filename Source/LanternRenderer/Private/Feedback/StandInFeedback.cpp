@@ -18,10 +18,13 @@ FProgramPriority& FStandInFeedback::PriorityOf(uint32_t Program)
 	return Priorities[Program];
 }
 
-FRTStatus FStandInFeedback::BeginFrame(uint32_t Slot, const FRTScene& Scene, glm::dvec3 Camera, bool bMissing)
+void FStandInFeedback::BeginFrame(uint32_t FlightIndex, const FRTScene& Scene)
 {
-	Counters.BeginFrame(Slot, [&](std::span<const uint32_t> Hits) { Take(Scene, Hits); });
-	if (!bMissing) { return FRTStatus::Success(); }
+	Counters.BeginFrame(FlightIndex, [&](std::span<const uint32_t> Hits) { Take(Scene, Hits); });
+}
+
+FRTStatus FStandInFeedback::Start(const FRTScene& Scene, glm::dvec3 Camera)
+{
 	LookAtObjects(Scene, Camera);
 	const uint32_t Count = Scene.GetMaterials().Num();
 	return Count > 0 ? Counters.Start(Count) : FRTStatus::Success();

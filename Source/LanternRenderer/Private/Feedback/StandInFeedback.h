@@ -16,8 +16,11 @@ class FStandInFeedback
 public:
 	explicit FStandInFeedback(IRTDevice& InDevice) : Counters(InDevice, "StandInHits") {}
 
-	/// Slot: as in TReadbackRing::BeginFrame. bMissing: some hit program of the frame is not ready.
-	FRTStatus BeginFrame(uint32_t Slot, const FRTScene& Scene, glm::dvec3 Camera, bool bMissing);
+	/// FlightIndex: as in TReadbackRing::BeginFrame.
+	void BeginFrame(uint32_t FlightIndex, const FRTScene& Scene);
+	/// Counts in this frame, of which some hit program is not ready, and looks at a part of the scene. OutOfMemory: nothing is
+	/// counted.
+	FRTStatus Start(const FRTScene& Scene, glm::dvec3 Camera);
 	/// Has a count for each material of the scene.
 	FGpuCounters& GetCounters() { return Counters; }
 	/// By program, as of the newest counts.

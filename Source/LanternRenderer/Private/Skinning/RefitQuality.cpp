@@ -21,9 +21,9 @@ float FRefitQuality::ComputeLooseness(const FRefitQualitySum* Sums, uint32_t Cou
 	return Triangles > 0.0 ? static_cast<float>(Boxes / Triangles) : 0.0f;
 }
 
-void FRefitQuality::BeginFrame(uint32_t Slot, FGeometryStore& Store)
+void FRefitQuality::BeginFrame(uint32_t FlightIndex, FGeometryStore& Store)
 {
-	Ring.BeginFrame(Slot, [&](const FRing::FSlot& Old) {
+	Ring.BeginFrame(FlightIndex, [&](const FRing::FEntry& Old) {
 		const auto* const Sums = static_cast<const FRefitQualitySum*>(Old.Buffer->GetMapped());
 		for (const FItem& Item : Old.Notes) { Take(Store, Item, Sums + Item.First); }
 	});
@@ -74,21 +74,21 @@ FRefitQuality::FWork FRefitQuality::Prepare(FGeometryStore& Store, const std::ve
 	}
 	if (Sums == 0) { return {}; }
 	FRTStatus Status;
-	FRing::FSlot* const Slot = Ring.Write(std::max<uint64_t>(Sums * sizeof(FRefitQualitySum), 4096), Status);
-	if (!Slot) { return {}; }
-	for (FRefitQualityConstants& C : Work.Dispatches) { C.Sums = Slot->Buffer->GetDeviceAddress() + C.Sums * sizeof(FRefitQualitySum); }
-	Work.Results = Slot->Buffer;
-	Slot->Notes = std::move(Measured);
+	FRing::FEntry* const Entry = Ring.Write(std::max<uint64_t>(Sums * sizeof(FRefitQualitySum), 4096), Status);
+	if (!Entry) { return {}; }
+	for (FRefitQualityConstants& C : Work.Dispatches) { C.Sums = Entry->Buffer->GetDeviceAddress() + C.Sums * sizeof(FRefitQualitySum); }
+	Work.Results = Entry->Buffer;
+	Entry->Notes = std::move(Measured);
 	return Work;
 }
 
 void FRefitQuality::EndFrame(const FGeometryStore& Store, bool bSubmitted)
 {
 	Ring.EndFrame(bSubmitted);
-	FRing::FSlot* const Slot = Ring.GetCurrent();
-	if (!Slot) { return; }
+	FRing::FEntry* const Entry = Ring.GetCurrent();
+	if (!Entry) { return; }
 	// With this frame's builds in it: a geometry that was rebuilt in it has its new baseline.
-	for (FItem& Item : Slot->Notes) { Item.Builds = Store.GetBuildCount(Item.Slot); }
+	for (FItem& Item : Entry->Notes) { Item.Builds = Store.GetBuildCount(Item.Slot); }
 }
 
 } // namespace Lantern

@@ -34,8 +34,8 @@ public:
 	static constexpr size_t PerFrame = 16;
 
 	explicit FRefitQuality(IRTDevice& InDevice) : Ring(InDevice, "RefitQuality", ERTBufferUsage::Storage) {}
-	/// Slot: as in TReadbackRing::BeginFrame. Tells the store what the frame that had the slot before measured.
-	void BeginFrame(uint32_t Slot, FGeometryStore& Store);
+	/// FlightIndex: as in TReadbackRing::BeginFrame. Tells the store what the frame FramesInFlight before measured.
+	void BeginFrame(uint32_t FlightIndex, FGeometryStore& Store);
 	/// What is to be dispatched behind the skinning of Items in this frame, and the buffer for its results. Empty if the store
 	/// wants nothing measured, or if there is no memory for results.
 	struct FWork

@@ -206,8 +206,10 @@ private:
 	void WriteConstants();
 	void DropFrame();
 	void KeepHistory(bool bSubmitted);
+	void BeginFeedback();
+	void StartCounting();
 	void EndFeedback(bool bSubmitted);
-	FRTStatus WaitForSlot();
+	FRTStatus WaitForFlight();
 	FRTStatus Execute(IRTCommandList& List);
 
 	IRTDevice& Device;
@@ -236,7 +238,7 @@ private:
 	static constexpr uint32_t MaxInFlight = 2;
 	TRTRef<IRTCommandList> Lists[MaxInFlight];
 	FRTFence Fences[MaxInFlight] = {};
-	uint32_t Slot = 0; // of this frame, in Lists and Fences
+	uint32_t FlightIndex = 0; // of this frame, in Lists and Fences
 	std::unique_ptr<FHistoryResources> History;
 	FView LastView;              // of the newest frame that reached the GPU
 	uint64_t LastScene = 0;      // identity of its scene's sections, which outlives an address; 0: none
