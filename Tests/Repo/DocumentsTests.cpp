@@ -121,9 +121,18 @@ bool FileNameExists(const std::string& Name)
 	    [&](const FTextFile& File) { return std::regex_match(std::filesystem::path(File.Path).filename().string(), Pattern); });
 }
 
+std::string_view GetText(std::string_view Path)
+{
+	const auto File = std::find_if(GetFiles().begin(), GetFiles().end(), [&](const FTextFile& Other) { return Other.Path == Path; });
+	return File == GetFiles().end() ? std::string_view() : File->Text;
+}
+
 bool ConsoleVariableExists(const std::string& Name)
 {
-	return Name.find_first_of("<*") != std::string::npos || OccursInCode('"' + Name + '"') || OccursInCode(Name + "="); // an alias
+	// The generated list has those whose names are made at start-up, too.
+	static const std::string_view List = GetText("Docs/ConsoleVariables.md");
+	return Name.find_first_of("<*") != std::string::npos || List.find("| `" + Name + "` |") != std::string_view::npos ||
+	       OccursInCode(Name + "="); // an alias
 }
 
 bool AllWordsExist(const std::string& Text)

@@ -1,7 +1,5 @@
 // Sentences in public headers, help texts and documents keep the rules of CONTRIBUTING.md; and tests of the checker itself.
 #include <algorithm>
-#include <regex>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,14 +19,10 @@ namespace
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr const char* GeneratedDocument = "Docs/ConsoleVariables.md";
-
 bool IsPublicHeader(const FTextFile& File)
 {
 	return IsUnder(File, "Source") && HasExtension(File, {".h"}) && File.Path.find("/Public/") != std::string::npos;
 }
-
-bool IsProductCode(const FTextFile& File) { return HasExtension(File, {".cpp"}) && (IsUnder(File, "Source") || IsUnder(File, "Programs")); }
 
 bool IsDocument(const FTextFile& File)
 {
@@ -82,47 +76,15 @@ TEST(English, PublicHeaders)
 	EXPECT_GT(Sentences, 500u) << "the search for comments no longer finds them";
 }
 
-TEST(English, HelpTexts)
-{
-	size_t Sentences = 0;
-	for (const FTextFile& File : GetFiles())
-	{
-		for (const FHelpText& Help : IsProductCode(File) ? FindHelpTexts(File.Text) : std::vector<FHelpText>())
-		{
-			Sentences += CheckProse(File, Help.Prose);
-		}
-	}
-	EXPECT_GT(Sentences, 50u) << "the search for help texts no longer finds them";
-}
-
-// The generated document lists what is registered at run time: none of it may escape the search in the sources.
-TEST(English, HelpTextsOfAllVariablesAreFound)
-{
-	static const std::regex Row("^\\| `([^`]+)` \\|");
-	std::set<std::string> Found;
-	std::vector<std::string> Registered;
-	for (const FTextFile& File : GetFiles())
-	{
-		for (FHelpText& Help : IsProductCode(File) ? FindHelpTexts(File.Text) : std::vector<FHelpText>()) { Found.insert(Help.Name); }
-		for (const std::string_view Line : File.Path == GeneratedDocument ? File.Lines : std::vector<std::string_view>())
-		{
-			std::match_results<std::string_view::const_iterator> Match;
-			if (std::regex_search(Line.begin(), Line.end(), Match, Row)) { Registered.push_back(Match[1].str()); }
-		}
-	}
-	EXPECT_GT(Registered.size(), 50u) << "no longer finds the rows of " << GeneratedDocument;
-	for (const std::string& Name : Registered) { EXPECT_TRUE(Found.count(Name)) << Name; }
-}
-
 TEST(English, Documents)
 {
 	size_t Sentences = 0;
 	for (const FTextFile& File : GetFiles())
 	{
+		// The generated list of settings is among them: its cells are the help texts of the console variables.
 		for (const FProse& Prose : IsDocument(File) ? FindParagraphs(File.Lines) : std::vector<FProse>())
 		{
-			// The cells of the generated document are help texts, which have a test of their own.
-			if (File.Path != GeneratedDocument || !Prose.bTableCell) { Sentences += CheckProse(File, Prose); }
+			Sentences += CheckProse(File, Prose);
 		}
 	}
 	EXPECT_GT(Sentences, 300u) << "the search for sentences no longer finds them";
@@ -211,24 +173,6 @@ TEST(EnglishChecker, FindsParagraphs)
 	EXPECT_THAT(GetParagraphs("| a | `b|c` d |\n|---|---|\n| e\\|f | |"), ElementsAre("a", "`b|c` d", "---", "---", "e\\|f"));
 	EXPECT_TRUE(FindParagraphs(SplitLines("| a |"))[0].bTableCell);
 	EXPECT_EQ(FindParagraphs(SplitLines("One.\n\nTwo."))[1].Line, 2u);
-}
-
-TEST(EnglishChecker, FindsHelpTexts)
-{
-	const std::vector<FHelpText> Found =
-	    FindHelpTexts("#include \"x.h\"\n"
-	                  "TRTConsoleVariable<int> CVarA(\"r.A\", F(1, \")\"), \"One \"\n \"\\\"two\\\".\", {0, 1});\n"
-	                  "TRTConsoleVariable<std::string> CVarB(\n    \"r.B\", \"default\", \"Three.\");\n"
-	                  "template class TRTConsoleVariable<bool>;\n"
-	                  "void F(const TRTConsoleVariable<bool>& Variable);\n");
-	ASSERT_EQ(Found.size(), 2u);
-	EXPECT_EQ(Found[0].Name, "r.A");
-	EXPECT_EQ(Found[0].Prose.Text, "One \"two\".");
-	EXPECT_EQ(Found[0].Prose.Line, 1u);
-	EXPECT_EQ(Found[1].Name, "r.B");
-	EXPECT_EQ(Found[1].Prose.Text, "Three.");
-	EXPECT_THAT(FindHelpTexts("TRTConsoleVariable<"), IsEmpty());
-	EXPECT_THAT(FindHelpTexts("TRTConsoleVariable<int> CVarA(\"r.A\", 1, \"never closed"), IsEmpty());
 }
 
 } // namespace

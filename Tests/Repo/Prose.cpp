@@ -155,44 +155,6 @@ void AddMarkdownLine(FProseCollector& Out, size_t Line, std::string_view Text)
 	Out.Continue(Line, Text);
 }
 
-/// Reads the string literal whose opening quote is at Place. Place is then behind its closing quote.
-std::string ReadLiteral(std::string_view Text, size_t& Place)
-{
-	std::string Value;
-	for (++Place; Place < Text.size() && Text[Place] != '"'; ++Place)
-	{
-		if (Text[Place] == '\\' && Place + 1 < Text.size()) { ++Place; }
-		Value += Text[Place];
-	}
-	++Place;
-	return Value;
-}
-
-/// The string arguments of the call whose opening bracket is at Place; adjacent literals are one.
-std::vector<std::string> ReadStringArguments(std::string_view Text, size_t Place)
-{
-	std::vector<std::string> Strings;
-	bool bAdjacent = false;
-	size_t Depth = 0;
-	while (Place < Text.size())
-	{
-		const char C = Text[Place];
-		if (C == '"')
-		{
-			const std::string Value = ReadLiteral(Text, Place);
-			if (bAdjacent) { Strings.back() += Value; }
-			else { Strings.push_back(Value); }
-			bAdjacent = true;
-			continue;
-		}
-		if (C == '(' || C == '{' || C == '[') { ++Depth; }
-		if ((C == ')' || C == '}' || C == ']') && --Depth == 0) { return Strings; }
-		if (Blanks.find(C) == None && C != '\n') { bAdjacent = false; }
-		++Place;
-	}
-	return {};
-}
-
 } // namespace
 
 std::vector<FProse> FindComments(const std::vector<std::string_view>& Lines)
@@ -229,26 +191,6 @@ std::vector<FProse> FindParagraphs(const std::vector<std::string_view>& Lines)
 		else { AddMarkdownLine(Out, Line, Text); }
 	}
 	return Out.Take();
-}
-
-std::vector<FHelpText> FindHelpTexts(std::string_view Text)
-{
-	static constexpr std::string_view Type = "TRTConsoleVariable<";
-	std::vector<FHelpText> Found;
-	for (size_t At = Text.find(Type); At != None; At = Text.find(Type, At + 1))
-	{
-		// A definition: type, name, opening bracket.
-		size_t Place = std::min(Text.find('>', At), Text.size() - 1) + 1;
-		const size_t Name = std::min(Text.find_first_not_of(" \t\n", Place), Text.size());
-		Place = Name;
-		while (Place < Text.size() && IsWordCharacter(Text[Place])) { ++Place; }
-		if (Place == Name || Place == Text.size() || Text[Place] != '(') { continue; }
-		std::vector<std::string> Strings = ReadStringArguments(Text, Place);
-		if (Strings.size() < 2) { continue; }
-		const auto Line = static_cast<size_t>(std::count(Text.begin(), Text.begin() + static_cast<std::ptrdiff_t>(At), '\n'));
-		Found.push_back({std::move(Strings.front()), {Line, std::move(Strings.back()), false}});
-	}
-	return Found;
 }
 
 } // namespace Lantern::Repo

@@ -1,4 +1,4 @@
-// Finds prose in the repository's files: comments of C++, paragraphs of Markdown, help texts of console variables.
+// Finds prose in the repository's files: comments of C++, paragraphs of Markdown.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 namespace Lantern::Repo
 {
 
-/// Text that is read in one go: a block of comment lines, a paragraph, a list item, a table cell, a help text.
+/// Text that is read in one go: a block of comment lines, a paragraph, a list item, a table cell.
 struct FProse
 {
 	size_t Line = 0;  ///< index of its first line
@@ -22,15 +22,5 @@ std::vector<FProse> FindComments(const std::vector<std::string_view>& Lines);
 
 /// Returns paragraphs, headings, list items and table cells of Markdown. Fenced code is skipped.
 std::vector<FProse> FindParagraphs(const std::vector<std::string_view>& Lines);
-
-struct FHelpText
-{
-	std::string Name; ///< "r.RT.Shadow"
-	FProse Prose;
-};
-
-/// Returns the help texts of the definitions `TRTConsoleVariable<…> Variable("name", …, "help", …)`. The help is the last
-/// string among the arguments; adjacent string literals are one string.
-std::vector<FHelpText> FindHelpTexts(std::string_view Text);
 
 } // namespace Lantern::Repo
