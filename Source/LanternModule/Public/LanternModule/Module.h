@@ -19,7 +19,7 @@
 namespace Lantern
 {
 
-/// Incremented when anything in this header changes. The library refuses other versions. A new signal is no change: the arrays have
+/// Incremented when anything in this header or in LanternSignals/Signals.h changes that an engine was compiled with. The library refuses other versions. A new signal is no change: the arrays have
 /// room for MaxSignals.
 inline constexpr uint32_t ModuleVersion = 5;
 
