@@ -79,6 +79,7 @@ TEST(PassNames, StandInTheRegistryAndTheirOwnRoomsOnly)
 	for (const FTextFile& File : GetFiles())
 	{
 		if (!IsUnder(File, "Source") && !IsUnder(File, "Shaders") && !IsUnder(File, "Programs/lantern")) { continue; }
+		if (File.Path == "Programs/lantern/CMakeLists.txt") { continue; } // tests of single methods
 		++Seen;
 		for (const std::string& Place : FindForeignNames(File.Path, File.Lines)) { ADD_FAILURE() << Place; }
 	}

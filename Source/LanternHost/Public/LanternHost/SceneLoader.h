@@ -24,8 +24,8 @@ struct FLoadOptions
 	uint32_t MaxNodes = 16u << 20;                 ///< after expansion of instances
 };
 
-/// Either a scene or an error. An error is one line that names the file and the place in it
-/// ("a.gltf: meshes[2].primitives[0]: index 7 of 9 is 12, but there are 4 vertices").
+/// Either a scene or an error. An error is one line that names the file and the place in it. Example:
+///   a.gltf: meshes[2].primitives[0]: index 7 of 9 is 12, but there are 4 vertices
 struct FLoadResult
 {
 	std::optional<FSceneDescription> Scene;

@@ -55,10 +55,11 @@ private:
 struct FMeasureViews
 {
 	FView Home;
-	FView Cut;             ///< sees other things, or the same things from elsewhere
-	glm::dvec3 Focus{0};   ///< the point that Home looks at, at the median distance of what its middle sees
-	glm::dvec3 Travel{0};  ///< from Home to the beginning of the fast path; at most 0.4 of the distance to Focus, and at most half
-	                       ///< of the free way, so that no path passes through anything
+	FView Cut;           ///< sees other things, or the same things from elsewhere
+	glm::dvec3 Focus{0}; ///< the point that Home looks at, at the median distance of what its middle sees
+	/// From Home to the beginning of the fast path. It is at most 0.4 of the distance to Focus, and at most half of the free
+	/// way, so that no path passes through anything.
+	glm::dvec3 Travel{0};
 	double PanRadians = 0; ///< if there is no room to move, the view turns by this angle instead
 	/// Way: 0 is home, 1 the beginning of the fast path.
 	FView GetView(double Way) const;

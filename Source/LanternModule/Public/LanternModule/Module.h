@@ -143,9 +143,12 @@ struct FRTModuleFrame
 	/// RGBA16_SNORM: shading normal (xy) and geometric normal (zw), both octahedral (Cigolle et al. 2014) and turned
 	/// towards the camera.
 	IRTTexture* Normals = nullptr;
-	/// RGBA32_FLOAT. xy: from the pixel's centre to the position of its surface in the previous frame, in pixels, y down.
-	/// z: the distance of that position along Forward then, metres. w: a number > 0 for its object that stays equal over
-	/// frames, 0: unknown. Not read where depth is 0. Null: everything counts as static, and accumulated shadows lag behind
+	/// RGBA32_FLOAT motion vectors.
+	/// - xy: offset from the pixel's centre to the position of its surface in the previous frame, in pixels, y down.
+	/// - z: distance of that position along Forward then, in metres.
+	/// - w: a number > 0 for its object that stays equal over frames; 0: unknown.
+	///
+	/// Not read where depth is 0. Null: everything counts as static, and accumulated shadows lag behind
 	/// moving objects.
 	IRTTexture* Motion = nullptr;
 	IRTTexture* BaseColor = nullptr; ///< RGBA8_SRGB: rgb base colour, a metalness. May be null

@@ -14,8 +14,12 @@ struct FGBuffer
 	FGraphTexture BaseColor; ///< RGBA8_SRGB: base colour, a: metalness
 	FGraphTexture Material;  ///< RGBA8_UNORM: roughness, occlusion, sqrt(F0) of the dielectric, specular weight
 	FGraphTexture Emissive;  ///< any float format: nits
-	/// RGBA32_FLOAT. xy: offset from the pixel's centre to where its surface was in the frame before, in pixels. z: distance along
-	/// the view then, in metres. w: index of the object + 1; 0: unknown. A surface that was behind the camera points off the
+	/// RGBA32_FLOAT motion vectors.
+	/// - xy: offset from the pixel's centre to where its surface was in the frame before, in pixels.
+	/// - z: distance along the view then, in metres.
+	/// - w: index of the object + 1; 0: unknown.
+	///
+	/// A surface that was behind the camera points off the
 	/// screen, with z = 0. Pixels with depth 0 are not read. Invalid: the host has none, and moving objects count as still.
 	FGraphTexture Motion;
 };

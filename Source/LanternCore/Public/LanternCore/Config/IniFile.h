@@ -10,7 +10,7 @@
 //   ; comment              also after a value, if a blank stands before the ';'
 //
 // The parser is our own, since every bad line must be named while the rest still applies. Among the packaged libraries,
-// SimpleIni skips malformed lines silently and keeps no line numbers. inih reports only the first bad line of a file and cuts
+// SimpleIni skips malformed lines silently and keeps no line numbers. The library inih reports only the first bad line of a file and cuts
 // a line at a NUL byte.
 #pragma once
 

@@ -7,8 +7,8 @@
 //   … write Mean.Current, wholly …
 //
 // Writing a history does not keep a pass from being culled; if it is culled, the history ends. Some passes have no other
-// output, such as one that copies the G-buffer for the next frame. Such a pass runs if a pass that runs reads Current in this
-// frame or declares FPassBuilder::Keep(Current), that is, will read it in the next frame. Declare it from the first frame on.
+// output, such as one that copies the G-buffer for the next frame. Such a pass runs if another pass that runs reads Current in
+// this frame, or declares by FPassBuilder::Keep(Current) that it will in the next. Declare it from the first frame on.
 //
 // The calls of a frame are BeginFrame → Get… → (graph executed and submitted) → EndFrame. One object serves one view. Render
 // thread only.
@@ -24,8 +24,8 @@ namespace Lantern
 
 struct FHistoryTexture
 {
-	/// The previous frame's texture, in ShaderRead. Invalid if there is none: on first use, after a cut, with another size or
-	/// format, or after a frame that was lost or did not write Current.
+	/// The previous frame's texture, in ShaderRead. Invalid on first use, after a cut, and with another size or format. Also
+	/// invalid after a frame that was lost or did not write Current.
 	FGraphTexture Previous;
 	FGraphTexture Current; ///< one of the frame's passes must write all of it; later passes may read it
 };
