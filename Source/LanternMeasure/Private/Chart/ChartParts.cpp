@@ -129,7 +129,9 @@ nlohmann::json ListSignals(const std::vector<FChartPart>& Parts)
 	{
 		if (!Part.contains("signal")) { continue; }
 		const auto Signal = FindSignal(Part["signal"].value("name", std::string()));
-		ByOrder[Signal ? static_cast<size_t>(*Signal) : static_cast<size_t>(ESignal::Count)] = Part["signal"];
+		// The whole frame last, and behind it what another version has measured.
+		const size_t Order = !Signal ? SignalCount + 1 : *Signal == ESignal::Frame ? SignalCount : ToIndex(*Signal);
+		ByOrder[Order] = Part["signal"];
 	}
 	nlohmann::json Out = nlohmann::json::array();
 	for (auto& [Order, Signal] : ByOrder) { Out.push_back(std::move(Signal)); }
