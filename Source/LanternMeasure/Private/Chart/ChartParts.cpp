@@ -28,7 +28,7 @@ bool HasMembers(const FChartPart& Part)
 {
 	if (!Part.is_object() || Part.value("version", nlohmann::json()) != PartVersion) { return false; }
 	const auto Is = [&](const char* Name, nlohmann::json::value_t Type) { return Part.contains(Name) && Part[Name].type() == Type; };
-	using enum nlohmann::json::value_t;
+	using enum nlohmann::detail::value_t;
 	const bool bCommon = Is("key", string) && Is("order", array) && Is("device", string) && Is("driver", string) && Is("is_cpu", boolean) &&
 	                     Is("settings", object) && Is("scene", object);
 	const bool bKind = Is("facts", array) || (Is("signal", object) && (Is("point", object) || Is("skipped", object)));
