@@ -44,8 +44,9 @@ std::vector<std::string> MakeEnvironment(const FProgramOptions& Options)
 	}
 	for (const auto& [Name, Value] : Options.Environment)
 	{
-		std::erase_if(Strings, [&](const std::string& Text) { return Text.rfind(Name + "=", 0) == 0; });
-		Strings.push_back(Name + "=" + Value);
+		const std::string Start = Name + "=";
+		std::erase_if(Strings, [&](const std::string& Text) { return Text.rfind(Start, 0) == 0; });
+		Strings.push_back(Start + Value);
 	}
 	return Strings;
 }

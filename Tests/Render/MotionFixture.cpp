@@ -87,12 +87,12 @@ void FMotionTestBase::ExpectExact(const char* What, const FMotionSnapshot& Befor
 {
 	double Worst = 0.0, WorstDistance = 0.0, WorstOffset = 0.0, Longest = 0.0;
 	size_t Seen = 0, Outlines = 0;
-	const uint32_t Width = Now.View.Width, Height = Now.View.Height;
-	for (uint32_t Y = 0; Y < Height; ++Y)
+	const uint32_t Columns = Now.View.Width, Rows = Now.View.Height;
+	for (uint32_t Y = 0; Y < Rows; ++Y)
 	{
-		for (uint32_t X = 0; X < Width; ++X)
+		for (uint32_t X = 0; X < Columns; ++X)
 		{
-			const glm::vec4& Got = Motion[size_t(Y) * Width + X];
+			const glm::vec4& Got = Motion[size_t(Y) * Columns + X];
 			ASSERT_TRUE(std::isfinite(Got.x + Got.y + Got.z + Got.w));
 			const auto [Exact, bOutline] = FindSeen(Before, Now, GetScene().GetDescription(), Picture, X, Y);
 			Outlines += bOutline ? 1 : 0;
@@ -116,8 +116,8 @@ void FMotionTestBase::ExpectExact(const char* What, const FMotionSnapshot& Befor
 	EXPECT_LE(Worst, Promise) << What;
 	EXPECT_LE(WorstOffset, Promise) << What;
 	EXPECT_LE(WorstDistance, 1e-4) << What;
-	EXPECT_GT(Seen, size_t(Width) * Height / 10) << What << ": too little to see";
-	EXPECT_LE(Outlines, size_t(Width) * Height / 100) << What;
+	EXPECT_GT(Seen, size_t(Columns) * Rows / 10) << What << ": too little to see";
+	EXPECT_LE(Outlines, size_t(Columns) * Rows / 100) << What;
 }
 
 } // namespace Lantern

@@ -25,8 +25,7 @@ uint32_t TileSeed(uint32_t Seed, int X, int Z)
 } // namespace
 
 FStreamingWorld::FStreamingWorld(IRTDevice& InDevice, FRTScene& InScene, const FStreamingSettings& InSettings)
-    : Device(InDevice),
-      Scene(InScene),
+    : Scene(InScene),
       Settings(InSettings),
       Uploader(InDevice)
 {}

@@ -48,7 +48,6 @@ private:
 	double GetDistance(FTileKey Key, glm::dvec3 Camera) const; ///< of its centre, on the ground
 	FRTStatus CreateMesh(uint32_t Seed, FRTGeometryRef& Out);
 
-	IRTDevice& Device;
 	FRTScene& Scene;
 	FStreamingSettings Settings;
 	FUploader Uploader;

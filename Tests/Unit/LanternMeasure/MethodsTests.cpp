@@ -19,7 +19,7 @@ TRTConsoleVariable<int32_t> CVarRays("t.Methods.Rays", 1, "Of the test.", {1, 64
 TRTConsoleVariable<bool> CVarSoft("t.Methods.Soft", true, "Of the test.");
 
 /// Links the renderer, whose console variables shipped methods set.
-const volatile auto Linked = &PlayScript;
+[[maybe_unused]] const volatile auto Linked = &PlayScript;
 
 class Methods : public testing::Test
 {
