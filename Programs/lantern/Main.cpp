@@ -7,13 +7,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "Bench/BenchAnyHit.h"
-#include "Bench/BenchFrame.h"
-#include "Bench/BenchGather.h"
-#include "Bench/BenchPipelines.h"
-#include "Bench/BenchRaysCommand.h"
-#include "Bench/BenchShaders.h"
-#include "Bench/BenchTables.h"
+#ifdef LANTERN_WITH_BENCH
+#include "Bench/BenchCommands.h"
+#endif
 #include "Chart/ChartCommand.h"
 #include "Commands/CompareCommand.h"
 #include "Commands/InfoCommand.h"
@@ -48,7 +44,9 @@ public:
 		AddCompare();
 		AddInfo();
 		AddCvars();
-		AddBench();
+#ifdef LANTERN_WITH_BENCH
+		Bench.AddTo(App, Status);
+#endif
 		AddChart();
 		AddStability();
 	}
@@ -60,7 +58,6 @@ private:
 	void AddCompare();
 	void AddInfo();
 	void AddCvars();
-	void AddBench();
 	void AddChart();
 	void AddStability();
 
@@ -73,13 +70,9 @@ private:
 	std::string InfoJson, CvarsJson;
 	FDeviceOptions CvarsSettings;
 	bool bMarkdown = false;
-	FBenchRaysOptions BenchRays;
-	FBenchFrameOptions BenchFrame;
-	FBenchAnyHitOptions BenchAnyHit;
-	FBenchTablesOptions BenchTables;
-	FBenchGatherOptions BenchGather;
-	FBenchPipelinesOptions BenchPipelines;
-	FBenchShadersOptions BenchShaders;
+#ifdef LANTERN_WITH_BENCH
+	FBenchCommands Bench;
+#endif
 	FChartOptions Chart;
 	FStabilityOptions Stability;
 };
@@ -139,35 +132,6 @@ void FCommandLine::AddCvars()
 	Command->add_option("--json", CvarsJson, "Write them to this file");
 	CvarsSettings.AddSettingsTo(*Command);
 	Command->final_callback([this] { Status = RunCvars(CvarsSettings, bMarkdown, CvarsJson); });
-}
-
-void FCommandLine::AddBench()
-{
-	CLI::App* const Command = App.add_subcommand("bench", "Benchmarks");
-	Command->require_subcommand(1);
-	CLI::App* const Rays = Command->add_subcommand("rays", "The sun shadow pass against a minimal hand-written Vulkan dispatch");
-	BenchRays.AddTo(*Rays);
-	Rays->final_callback([this] { Status = RunBenchRays(BenchRays); });
-	CLI::App* const Frame = Command->add_subcommand("frame", "The render thread's time for a frame of an open world, stage by stage");
-	BenchFrame.AddTo(*Frame);
-	Frame->final_callback([this] { Status = RunBenchFrame(BenchFrame); });
-	CLI::App* const AnyHit = Command->add_subcommand("anyhit", "Alpha tests under rays, with classified triangles and without");
-	BenchAnyHit.AddTo(*AnyHit);
-	AnyHit->final_callback([this] { Status = RunBenchAnyHit(BenchAnyHit); });
-	CLI::App* const Tables =
-	    Command->add_subcommand("sbt", "Keeping the shader table: everything each frame, nothing changed, 1 % changed, another pipeline");
-	BenchTables.AddTo(*Tables);
-	Tables->final_callback([this] { Status = RunBenchTables(BenchTables); });
-	CLI::App* const Gather = Command->add_subcommand(
-	    "gather", "Which instances of a world 32 km across rays see: by buckets against a plain loop; needs no device");
-	BenchGather.AddTo(*Gather);
-	Gather->final_callback([this] { Status = RunBenchGather(BenchGather); });
-	CLI::App* const Pipelines = Command->add_subcommand("rtpso", "Pipelines made whole and from libraries, and what frames notice of it");
-	BenchPipelines.AddTo(*Pipelines);
-	Pipelines->final_callback([this] { Status = RunBenchPipelines(BenchPipelines); });
-	CLI::App* const Shaders = Command->add_subcommand("shaders", "What each shader costs to compile, dearest first; caches are off");
-	BenchShaders.AddTo(*Shaders);
-	Shaders->final_callback([this] { Status = RunBenchShaders(BenchShaders); });
 }
 
 void FCommandLine::AddStability()

@@ -21,7 +21,7 @@ namespace
 TRTConsoleVariable<bool> CVarValidate("r.RT.Debug.Denoise.Validate", true,
     "Planted fault. Off: the filter takes what was in a pixel's place before for its surface, whatever it was.");
 TRTConsoleVariable<bool> CVarAdapt("r.RT.Debug.Denoise.Adapt", true,
-    "Planted fault. Off: the filter neither clamps what it accumulated nor looks for changes or noise, whatever its client asks for.");
+    "Planted fault. If off, the filter looks neither for changes nor for noise, and clamps nothing, whatever its client asks for.");
 TRTConsoleVariable<bool> CVarGuard("r.RT.Debug.Denoise.Guard", true, "Planted fault. Off: the filter takes what is not a number for one.");
 constexpr uint32_t MaxPasses = 5;
 constexpr float NoiseSeconds = 0.08f; // over which the estimate of the noise is accumulated

@@ -1,6 +1,6 @@
 // One filter for all noisy signals. It accumulates over time where the surface was seen before, and estimates the variance that
-// is left. It then smooths by that variance along surfaces. History is clamped to the neighbourhood of this frame, so that it
-// follows shadows that move.
+// is left. It then smooths by that variance along surfaces. History is dropped where the signal has changed by more than noise
+// explains, so that it follows shadows that move. The history of colours is clamped to the neighbourhood as well.
 //
 // Schied et al. 2017, "Spatiotemporal Variance-Guided Filtering".
 // Dammertz et al. 2010, "Edge-Avoiding À-Trous Wavelet Transform".
