@@ -11,7 +11,7 @@ class F@NAME@Test : public FSignalTest
 
 TEST_F(F@NAME@Test, EqualsTheReferenceOnBothPaths)
 {
-	ASSERT_TRUE(Load("cornell"));
+	ASSERT_TRUE(Load("ggx"));
 	const FView View = MakeView(64, 36);
 	const FImage Reference = TraceSignal(ESignal::@NAME@, View, 4);
 	for (const char* Path : {"1", "2"})

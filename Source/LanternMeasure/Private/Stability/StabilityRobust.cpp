@@ -287,8 +287,7 @@ FRTStatus CountWrongPixels(FStabilityStage& Stage, uint32_t Width, uint32_t Heig
 /// frames. Then odd numbers of rays. The fault: columns beyond the last whole tile of 8 are not written.
 FRTStatus MeasureOddSizes(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out)
 {
-	const bool bShiny = Stage.GetSignal() != ESignal::Frame && GetSignalInfo(Stage.GetSignal()).bNeedsSurface;
-	if (FRTStatus S = Stage.Load(bShiny ? "stability-flat:1" : "stability-flat:0"); !S) { return S; }
+	if (FRTStatus S = Stage.Load(GetSignalInfo(Stage.GetSignal()).bSpecular ? "stability-flat:1" : "stability-flat:0"); !S) { return S; }
 	const std::pair<uint32_t, uint32_t> Sizes[] = {{1, 1}, {1, 37}, {53, 1}, {2, 3}, {7, 5}, {97, 61}, {64, 36}, {131, 73}};
 	uint64_t Wrong = 0;
 	for (const auto& [Width, Height] : Sizes)

@@ -83,17 +83,18 @@ struct FSignalInfo
 	bool bNeedsSun;     ///< the scene must have a sun
 	bool bLit;          ///< follows changes of light; if false, only geometry counts
 	bool bNeedsSurface; ///< reads base colour and material of the G-buffer
+	bool bSpecular;     ///< made of the specular lobe alone: a rough surface shows little of it
 	/// Console variables that its reference depends on beside the scene, separated by blanks.
 	const char* ReferenceVariables;
 };
 
 inline constexpr FSignalInfo SignalInfos[] = {
-    {ESignal::Frame, "frame", "Whole frame", "", ERTFormat::RGBA32_FLOAT, 3, true, false, true, true, ""},
-    {ESignal::SunShadow, "sun_shadow", "Sun shadow", "SunShadow", ERTFormat::R16_FLOAT, 1, false, true, true, false, ""},
+    {ESignal::Frame, "frame", "Whole frame", "", ERTFormat::RGBA32_FLOAT, 3, true, false, true, true, false, ""},
+    {ESignal::SunShadow, "sun_shadow", "Sun shadow", "SunShadow", ERTFormat::R16_FLOAT, 1, false, true, true, false, false, ""},
     {ESignal::AmbientOcclusion, "ambient_occlusion", "Ambient occlusion", "AmbientOcclusion", ERTFormat::R16_FLOAT, 1, false, false, false,
-        false, "r.RT.AO.Radius r.RT.AO.InstanceMask"},
-    {ESignal::DiffuseGI, "diffuse_gi", "Diffuse GI", "DiffuseGI", ERTFormat::RGBA16_FLOAT, 3, true, false, true, false, ""},
-    {ESignal::Reflections, "reflections", "Reflections", "Reflections", ERTFormat::RGBA16_FLOAT, 3, true, false, true, true, ""},
+        false, false, "r.RT.AO.Radius r.RT.AO.InstanceMask"},
+    {ESignal::DiffuseGI, "diffuse_gi", "Diffuse GI", "DiffuseGI", ERTFormat::RGBA16_FLOAT, 3, true, false, true, false, false, ""},
+    {ESignal::Reflections, "reflections", "Reflections", "Reflections", ERTFormat::RGBA16_FLOAT, 3, true, false, true, true, true, ""},
 };
 static_assert(sizeof(SignalInfos) / sizeof(SignalInfos[0]) == SignalCount, "each signal needs a row");
 static_assert(
