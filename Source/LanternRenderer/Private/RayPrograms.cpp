@@ -50,7 +50,7 @@ struct FCollector
 	FRayPrograms& Programs;
 	bool bShadesHits = false, bBlockers = false;
 
-	void Add(ESignal Signal, FPassRays Rays, std::string RayGenPath)
+	void Add(ESignal Signal, FPassRays Rays, const std::string& RayGenPath)
 	{
 		FShaderSource RayGen = Shader(RayGenPath.c_str());
 		RayGen.Defines = std::move(Rays.Defines);

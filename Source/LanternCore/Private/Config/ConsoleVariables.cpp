@@ -32,7 +32,7 @@ const char* ToString(ERTSetBy By)
 
 // The variable.
 
-FRTConsoleVariable::FRTConsoleVariable(const char* Name, FRTCVarValue Default, const char* Help, FRTCVarRange Range)
+FRTConsoleVariable::FRTConsoleVariable(const char* Name, const FRTCVarValue& Default, const char* Help, FRTCVarRange Range)
     : State(new FState{.Name = Name, .Help = Help, .Default = Default, .Range = Range, .Latest = Default, .Published = Default})
 {
 	assert(Range.Min <= Range.Max);

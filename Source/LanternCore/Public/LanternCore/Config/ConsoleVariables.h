@@ -44,7 +44,7 @@ struct FRTCVarRange
 class FRTConsoleVariable
 {
 public:
-	FRTConsoleVariable(const char* Name, FRTCVarValue Default, const char* Help, FRTCVarRange Range);
+	FRTConsoleVariable(const char* Name, const FRTCVarValue& Default, const char* Help, FRTCVarRange Range);
 	~FRTConsoleVariable();
 	FRTConsoleVariable(const FRTConsoleVariable&) = delete;
 	FRTConsoleVariable& operator=(const FRTConsoleVariable&) = delete;
