@@ -160,7 +160,7 @@ struct FIncludeResolver::FWalk
 	}
 };
 
-FIncludeResolver::FIncludeResolver(std::vector<std::string> InSearchFolders, FShaderFileCache& InFiles) : Files(InFiles)
+FIncludeResolver::FIncludeResolver(const std::vector<std::string>& InSearchFolders, FShaderFileCache& InFiles) : Files(InFiles)
 {
 	for (const std::string& Folder : InSearchFolders)
 	{

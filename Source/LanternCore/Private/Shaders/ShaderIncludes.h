@@ -83,7 +83,7 @@ struct FIncludeTree
 class FIncludeResolver
 {
 public:
-	FIncludeResolver(std::vector<std::string> InSearchFolders, FShaderFileCache& InFiles);
+	FIncludeResolver(const std::vector<std::string>& InSearchFolders, FShaderFileCache& InFiles);
 	FIncludeTree Resolve(const FShaderSource& Source);
 	const std::string& GetFoldersText() const { return FoldersText; }
 

@@ -43,7 +43,7 @@ std::string Quote(std::string_view Text)
 
 std::string EscapePath(std::string_view Path)
 {
-	const std::string Shown = EscapeText(Path);
+	std::string Shown = EscapeText(Path);
 	if (Shown.size() <= MaxPathBytes) { return Shown; }
 	constexpr size_t Half = (MaxPathBytes - Ellipsis.size()) / 2;
 	size_t Tail = Shown.size() - Half;
