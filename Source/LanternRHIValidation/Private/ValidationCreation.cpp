@@ -56,7 +56,7 @@ std::string CheckShaders(const FRTRayTracingPipelineDesc& Desc)
 	for (uint32_t i = 0; i < Desc.ShaderCount; ++i)
 	{
 		const FRTShaderCode& Shader = Desc.Shaders[i];
-		const std::string Wrong = CheckShader(Shader, Shader.Stage);
+		std::string Wrong = CheckShader(Shader, Shader.Stage);
 		if (!Wrong.empty()) { return Wrong; }
 		if (Shader.Stage < ERTShaderStage::RayGen) { return MakeLabel("shader", Shader.Name) + " is of no ray-tracing stage"; }
 	}
@@ -72,7 +72,7 @@ std::string CheckRayTracing(const FRTRayTracingPipelineDesc& Desc)
 	}
 	if (Desc.bLibrary && Desc.LibraryCount) { return "a library is not linked from libraries"; }
 	if (!Desc.LibraryCount && (!Desc.ShaderCount || !Desc.GroupCount)) { return "no shaders or no groups"; }
-	const std::string Wrong = CheckShaders(Desc);
+	std::string Wrong = CheckShaders(Desc);
 	if (!Wrong.empty()) { return Wrong; }
 	for (uint32_t i = 0; i < Desc.GroupCount; ++i)
 	{
@@ -145,7 +145,7 @@ FRTStatus FValidatedDevice::CreateTexture(const FRTTextureDesc& Desc, IRTTexture
 {
 	const std::string What = "CreateTexture: " + MakeLabel("texture", Desc.Name);
 	if (!Out) { return State->Fail(What + ": Out is null"); }
-	const std::string Wrong = CheckTexture(Desc);
+	std::string Wrong = CheckTexture(Desc);
 	if (!Wrong.empty()) { return State->Fail(What + ": " + Wrong); }
 	TRTRef<IRTTexture> Inner;
 	FRTStatus Status = State->Inner->CreateTexture(Desc, Inner.ReleaseAndGetAddress());
@@ -158,7 +158,7 @@ FRTStatus FValidatedDevice::ImportTexture(const FRTTextureDesc& Desc, uint64_t N
 	const std::string What = "ImportTexture: " + MakeLabel("texture", Desc.Name);
 	if (!Out) { return State->Fail(What + ": Out is null"); }
 	if (!NativeImage) { return State->Fail(What + ": NativeImage is 0"); }
-	const std::string Wrong = CheckTexture(Desc);
+	std::string Wrong = CheckTexture(Desc);
 	if (!Wrong.empty()) { return State->Fail(What + ": " + Wrong); }
 	TRTRef<IRTTexture> Inner;
 	FRTStatus Status = State->Inner->ImportTexture(Desc, NativeImage, Inner.ReleaseAndGetAddress());
@@ -224,7 +224,7 @@ std::vector<FRTGeometrySection> FValidatedDevice::UnwrapSections(const FRTGeomet
 
 FRTBuildSizes FValidatedDevice::GetGeometrySizes(const FRTGeometryDesc& Desc)
 {
-	const std::string Wrong = CheckSections(Desc);
+	std::string Wrong = CheckSections(Desc);
 	if (!Wrong.empty())
 	{
 		State->Report("GetGeometrySizes: " + MakeLabel("geometry", Desc.Name) + ": " + Wrong);
@@ -240,7 +240,7 @@ FRTStatus FValidatedDevice::CreateGeometry(const FRTGeometryDesc& Desc, IRTGeome
 {
 	const std::string What = "CreateGeometry: " + MakeLabel("geometry", Desc.Name);
 	if (!Out) { return State->Fail(What + ": Out is null"); }
-	const std::string Wrong = CheckSections(Desc);
+	std::string Wrong = CheckSections(Desc);
 	if (!Wrong.empty()) { return State->Fail(What + ": " + Wrong); }
 	std::vector<FRTGeometrySection> Sections = UnwrapSections(Desc);
 	FRTGeometryDesc Mine = Desc;

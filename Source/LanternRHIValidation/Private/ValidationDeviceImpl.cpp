@@ -60,6 +60,7 @@ FRTStatus FValidatedDevice::Submit(IRTCommandList* const* Lists, uint32_t Count,
 		return FRTStatus::Error(ERTResult::InvalidArgument, "Submit refused: %s", Tracker.GetMessages().front().c_str());
 	}
 	std::vector<IRTCommandList*> Inners;
+	Inners.reserve(Mine.size());
 	for (const FValidatedCommandList* List : Mine) { Inners.push_back(List->Inner.Get()); }
 	FRTFence Fence = 0;
 	Status = State->Inner->Submit(Inners.data(), Count, &Fence);
@@ -83,6 +84,7 @@ FRTStatus FValidatedDevice::NotifyExternalSubmit(IRTCommandList* const* Lists, u
 	// The engine has submitted already: faults can be reported, but nothing can be refused.
 	FValidationTracker Tracker(*State);
 	std::vector<IRTCommandList*> Inners;
+	Inners.reserve(Mine.size());
 	{
 		std::lock_guard Lock(State->Mutex);
 		for (const FValidatedCommandList* List : Mine)
