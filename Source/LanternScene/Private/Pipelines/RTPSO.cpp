@@ -50,7 +50,7 @@ FRTPSO::FRTPSO(TRTRef<IRTPipeline> InPipeline, FRTPSOLayout InLayout) : Pipeline
 		const std::vector<uint32_t>& StandIns = Layout.StandIns[Index % HitClassCount];
 		if (StandIns.empty()) { continue; }
 		States[Index] = ERTHitState::StandIn;
-		std::copy(StandIns.begin(), StandIns.end(), HitGroups.begin() + static_cast<ptrdiff_t>(Index * Types));
+		std::copy(StandIns.begin(), StandIns.end(), HitGroups.begin() + static_cast<ptrdiff_t>(Index) * Types);
 	}
 	for (const FRTPSOLayout::FHit& Hit : Layout.Hits)
 	{
@@ -58,7 +58,7 @@ FRTPSO::FRTPSO(TRTRef<IRTPipeline> InPipeline, FRTPSOLayout InLayout) : Pipeline
 		if (Hit.State == ERTHitState::Ready)
 		{
 			States[Index] = ERTHitState::Ready;
-			std::copy(Hit.Groups.begin(), Hit.Groups.end(), HitGroups.begin() + static_cast<ptrdiff_t>(Index * Types));
+			std::copy(Hit.Groups.begin(), Hit.Groups.end(), HitGroups.begin() + static_cast<ptrdiff_t>(Index) * Types);
 		}
 		else { MissingCount += Types; }
 	}

@@ -96,6 +96,7 @@ private:
 	std::vector<uint32_t> NumbersOf(const std::vector<FPipelineBuildRef>& Builds) const
 	{
 		std::vector<uint32_t> Out;
+		Out.reserve(Builds.size());
 		for (const FPipelineBuildRef& Build : Builds) { Out.push_back(Build ? Numbers.at(Build.get()) : EmptyGroup); }
 		return Out;
 	}

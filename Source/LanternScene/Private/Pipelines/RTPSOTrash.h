@@ -19,7 +19,7 @@ public:
 	void Discard(T&& Object)
 	{
 		static_assert(!std::is_lvalue_reference_v<T>);
-		Objects.push_back(std::make_shared<T>(std::move(Object)));
+		Objects.push_back(std::make_shared<T>(std::forward<T>(Object)));
 	}
 	bool IsEmpty() const { return Objects.empty(); }
 	/// All objects so far. The caller destroys them, without the lock.
