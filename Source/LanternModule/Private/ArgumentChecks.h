@@ -6,7 +6,6 @@
 namespace Lantern
 {
 
-FRTStatus CheckFrame(const FRTModuleFrame& Frame);
 FRTStatus CheckSun(const FRTModuleSun& Sun);
 FRTStatus CheckSky(const float Radiance[3]);
 FRTStatus CheckTransform(const double Transform[12]);

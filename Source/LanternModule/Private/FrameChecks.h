@@ -1,0 +1,12 @@
+// What an engine hands over for a frame, checked before anything is done with it.
+#pragma once
+
+#include "LanternModule/Module.h"
+
+namespace Lantern
+{
+
+/// Ok, or InvalidArgument, which names the argument that is wrong.
+FRTStatus CheckFrame(const FRTModuleFrame& Frame);
+
+} // namespace Lantern
