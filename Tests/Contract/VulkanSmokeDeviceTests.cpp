@@ -1,11 +1,9 @@
 // The Vulkan backend alone: how devices are found, made, taken over and let go.
 #include "VulkanSmokeFixture.h"
 
-#include "LanternRHIVulkan/VulkanInterop.h"
+#include "VulkanSmokeEngine.h"
 
 #include "VulkanSmokeShaders/Fill_comp.h"
-
-#include <dlfcn.h>
 
 #include <cstdio>
 #include <string>
@@ -15,8 +13,6 @@ namespace Lantern
 {
 
 using FVulkanSmokeDevice = FVulkanSmokeTest;
-
-const bool bValidation = !getenv("LANTERN_TEST_WITHOUT_LAYERS");
 
 TEST_F(FVulkanSmokeDevice, ListNamesTheDeviceThatIsCreated)
 {
@@ -266,127 +262,6 @@ TEST_F(FVulkanSmokeDevice, ManyMayShareAPipelineCacheFile)
 
 // ------------------------------------------------------------------------------------------------ take-over
 
-/// The engine's side: its own instance and device, made through the loader by hand.
-class FEngine
-{
-public:
-	~FEngine()
-	{
-		if (Device) { Get<PFN_vkDestroyDevice>("vkDestroyDevice")(Device, nullptr); }
-		if (Instance) { Get<PFN_vkDestroyInstance>("vkDestroyInstance")(Instance, nullptr); }
-	}
-
-	template <class T>
-	T Get(const char* Name)
-	{
-		return reinterpret_cast<T>(GetProc(Instance, Name));
-	}
-
-	bool CreateInstance()
-	{
-		void* Library = dlopen("libvulkan.so.1", RTLD_NOW);
-		GetProc = Library ? reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(Library, "vkGetInstanceProcAddr")) : nullptr;
-		if (!GetProc) { return false; }
-		VkApplicationInfo App{VK_STRUCTURE_TYPE_APPLICATION_INFO};
-		App.apiVersion = VK_API_VERSION_1_3;
-		const char* Layer = "VK_LAYER_KHRONOS_validation";
-		const char* Extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
-		VkInstanceCreateInfo Info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
-		Info.pApplicationInfo = &App;
-		Info.enabledLayerCount = bValidation ? 1 : 0;
-		Info.ppEnabledLayerNames = &Layer;
-		Info.enabledExtensionCount = bValidation ? 1 : 0;
-		Info.ppEnabledExtensionNames = &Extension;
-		return Get<PFN_vkCreateInstance>("vkCreateInstance")(&Info, nullptr, &Instance) == VK_SUCCESS;
-	}
-
-	/// The physical device of this name.
-	bool FindPhysical(const char* Name)
-	{
-		VkPhysicalDevice List[16];
-		uint32_t Count = 16;
-		Get<PFN_vkEnumeratePhysicalDevices>("vkEnumeratePhysicalDevices")(Instance, &Count, List);
-		for (uint32_t Index = 0; Index < Count; ++Index)
-		{
-			VkPhysicalDeviceProperties Properties;
-			Get<PFN_vkGetPhysicalDeviceProperties>("vkGetPhysicalDeviceProperties")(List[Index], &Properties);
-			Physical = strcmp(Properties.deviceName, Name) == 0 ? List[Index] : Physical;
-		}
-		return Physical != VK_NULL_HANDLE;
-	}
-
-	bool CreateDevice(const void* Features, uint32_t ExtensionCount, const char* const* Extensions)
-	{
-		const float Priority = 1;
-		VkDeviceQueueCreateInfo QueueInfo{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
-		QueueInfo.queueCount = 1;
-		QueueInfo.pQueuePriorities = &Priority;
-		VkDeviceCreateInfo Info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, Features};
-		Info.queueCreateInfoCount = 1;
-		Info.pQueueCreateInfos = &QueueInfo;
-		Info.enabledExtensionCount = ExtensionCount;
-		Info.ppEnabledExtensionNames = Extensions;
-		if (Get<PFN_vkCreateDevice>("vkCreateDevice")(Physical, &Info, nullptr, &Device) != VK_SUCCESS) { return false; }
-		Get<PFN_vkGetDeviceQueue>("vkGetDeviceQueue")(Device, 0, 0, &Queue);
-		return true;
-	}
-
-	FRTVulkanExternalDesc Describe(const IRTVulkanRequirements* Requirements)
-	{
-		FRTVulkanExternalDesc Desc;
-		Desc.Instance = Instance;
-		Desc.PhysicalDevice = Physical;
-		Desc.Device = Device;
-		Desc.Queue = Queue;
-		Desc.GetInstanceProcAddr = GetProc;
-		Desc.Requirements = Requirements;
-		Desc.bCountValidation = bValidation;
-		return Desc;
-	}
-
-	/// A command buffer that the engine is recording.
-	VkCommandBuffer BeginCommands()
-	{
-		VkCommandPoolCreateInfo PoolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
-		Get<PFN_vkCreateCommandPool>("vkCreateCommandPool")(Device, &PoolInfo, nullptr, &Pool);
-		VkCommandBufferAllocateInfo BufferInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-		BufferInfo.commandPool = Pool;
-		BufferInfo.commandBufferCount = 1;
-		VkCommandBuffer Commands = VK_NULL_HANDLE;
-		Get<PFN_vkAllocateCommandBuffers>("vkAllocateCommandBuffers")(Device, &BufferInfo, &Commands);
-		VkCommandBufferBeginInfo BeginInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-		Get<PFN_vkBeginCommandBuffer>("vkBeginCommandBuffer")(Commands, &BeginInfo);
-		return Commands;
-	}
-
-	void Submit(VkCommandBuffer Commands)
-	{
-		Get<PFN_vkEndCommandBuffer>("vkEndCommandBuffer")(Commands);
-		VkSubmitInfo Info{VK_STRUCTURE_TYPE_SUBMIT_INFO};
-		Info.commandBufferCount = 1;
-		Info.pCommandBuffers = &Commands;
-		Get<PFN_vkQueueSubmit>("vkQueueSubmit")(Queue, 1, &Info, VK_NULL_HANDLE);
-	}
-
-	PFN_vkGetInstanceProcAddr GetProc = nullptr;
-	VkCommandPool Pool = VK_NULL_HANDLE;
-	VkInstance Instance = VK_NULL_HANDLE;
-	VkPhysicalDevice Physical = VK_NULL_HANDLE;
-	VkDevice Device = VK_NULL_HANDLE;
-	VkQueue Queue = VK_NULL_HANDLE;
-};
-
-/// The engine has an instance and found the device, and knows what Lantern needs of it; its own device is still to come.
-void StartEngine(FEngine& Engine, const char* DeviceName, TRTRef<IRTVulkanRequirements>& OutRequirements)
-{
-	ASSERT_TRUE(Engine.CreateInstance());
-	ASSERT_TRUE(Engine.FindPhysical(DeviceName));
-	FRTVulkanRequirementsDesc Desc;
-	Desc.Instance = Engine.Instance;
-	Desc.PhysicalDevice = Engine.Physical;
-	ASSERT_OK(GetVulkanRequirements(Desc, OutRequirements.ReleaseAndGetAddress()));
-}
-
 /// The engine records, Lantern writes into its command buffer, the engine submits.
 void WriteThroughEngine(FEngine& Engine, IRTDevice& Adopted)
 {
@@ -424,16 +299,10 @@ void WriteThroughEngine(FEngine& Engine, IRTDevice& Adopted)
 TEST_F(FVulkanSmokeDevice, AnEnginesDeviceIsTakenOverAndLeftAlive)
 {
 	FEngine Engine;
+	ASSERT_NO_FATAL_FAILURE(StartEngine(Engine, Device->GetCapabilities().DeviceName));
 	TRTRef<IRTVulkanRequirements> Requirements;
-	ASSERT_NO_FATAL_FAILURE(StartEngine(Engine, Device->GetCapabilities().DeviceName, Requirements));
-	// The engine has features of its own, and one structure that Lantern needs too.
-	VkPhysicalDeviceVulkan12Features Vulkan12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-	Vulkan12.hostQueryReset = VK_TRUE;
-	VkPhysicalDeviceFeatures2 Chain{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &Vulkan12};
-	Requirements->MergeInto(&Chain);
-	EXPECT_TRUE(Vulkan12.timelineSemaphore);
-	EXPECT_TRUE(Vulkan12.hostQueryReset);
-	ASSERT_TRUE(Engine.CreateDevice(&Chain, Requirements->GetExtensionCount(), Requirements->GetExtensions()));
+	ASSERT_OK(GetVulkanRequirements(Engine.DescribeRequirements(), Requirements.ReleaseAndGetAddress()));
+	ASSERT_TRUE(Engine.CreateDevice(Requirements->MergeFeatures(), Requirements->GetExtensionCount(), Requirements->GetExtensions()));
 
 	FRTVulkanExternalDesc Desc = Engine.Describe(Requirements.Get());
 	int LockDepth = 0;
@@ -458,8 +327,9 @@ TEST_F(FVulkanSmokeDevice, AnEnginesDeviceIsTakenOverAndLeftAlive)
 TEST_F(FVulkanSmokeDevice, AnEnginesDeviceWithoutTheExtensionsIsRefused)
 {
 	FEngine Engine;
+	ASSERT_NO_FATAL_FAILURE(StartEngine(Engine, Device->GetCapabilities().DeviceName));
 	TRTRef<IRTVulkanRequirements> Requirements;
-	ASSERT_NO_FATAL_FAILURE(StartEngine(Engine, Device->GetCapabilities().DeviceName, Requirements));
+	ASSERT_OK(GetVulkanRequirements(Engine.DescribeRequirements(), Requirements.ReleaseAndGetAddress()));
 	ASSERT_TRUE(Engine.CreateDevice(nullptr, 0, nullptr));
 	TRTRef<IRTDevice> Adopted;
 	const FRTStatus Status = AdoptVulkanDevice(Engine.Describe(Requirements.Get()), Adopted.ReleaseAndGetAddress());

@@ -2,6 +2,7 @@
 #include "Example/ForkEngine.h"
 
 #include <cstdio>
+#include <iterator>
 #include <utility>
 
 namespace Fork
@@ -34,22 +35,26 @@ FForkEngine::~FForkEngine() { Plugin.ReleaseGBuffer(); }
 FError FForkEngine::CreateDevice()
 {
 	FError Reasons = "no Vulkan device";
+	FForkFeatures Own;
 	for (VkPhysicalDevice Physical : Instance.ListDevices())
 	{
 		FRTVulkanRequirementsDesc Desc;
 		Desc.Instance = Instance.Instance;
+		Desc.InstanceVersion = FForkInstance::Version;
 		Desc.PhysicalDevice = Physical;
+		Desc.Extensions = FForkFeatures::Extensions;
+		Desc.ExtensionCount = static_cast<uint32_t>(std::size(FForkFeatures::Extensions));
+		Desc.FeatureChain = &Own.Core;
 		const FRTStatus Status = Module.GetVulkan()->GetRequirements(Desc, Requirements.ReleaseAndGetAddress());
 		if (!Status.IsOk())
 		{
 			Reasons += std::string("; ") + Status.Message;
 			continue;
 		}
-		FDeviceWishes Wishes;
-		Wishes.Extensions.assign(Requirements->GetExtensions(), Requirements->GetExtensions() + Requirements->GetExtensionCount());
-		Wishes.MergeFeatures = [&](VkPhysicalDeviceFeatures2* Chain) { Requirements->MergeInto(Chain); };
+		const char* const* const Names = Requirements->GetExtensions();
+		const FForkDeviceLists Lists{{Names, Names + Requirements->GetExtensionCount()}, Requirements->MergeFeatures()};
 		std::printf("device: %s, %s\n", Requirements->GetCapabilities().DeviceName, Requirements->GetCapabilities().DriverName);
-		return Device.Create(Physical, Wishes);
+		return Device.Create(Physical, Lists);
 	}
 	return Reasons;
 }

@@ -72,7 +72,7 @@ FError FForkInstance::Create()
 	bValidation = IsLayerInstalled(ValidationLayer);
 	VkApplicationInfo Application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
 	Application.pApplicationName = "EngineFork";
-	Application.apiVersion = VK_API_VERSION_1_3;
+	Application.apiVersion = Version;
 	const VkDebugUtilsMessengerCreateInfoEXT MessengerInfo = DescribeMessenger(this);
 	const char* Extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
 	VkInstanceCreateInfo Info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
@@ -117,7 +117,16 @@ std::vector<VkPhysicalDevice> FForkInstance::ListDevices() const
 
 // ---------------------------------------------------------------------------------------------------- device
 
-FError FForkDevice::Create(VkPhysicalDevice InPhysical, const FDeviceWishes& Wishes)
+FForkFeatures::FForkFeatures()
+{
+	DepthClip.depthClipEnable = VK_TRUE;
+	Vulkan13.pNext = &DepthClip;
+	Vulkan13.dynamicRendering = VK_TRUE;
+	Vulkan13.synchronization2 = VK_TRUE;
+	Core.pNext = &Vulkan13;
+}
+
+FError FForkDevice::Create(VkPhysicalDevice InPhysical, const FForkDeviceLists& Lists)
 {
 	Physical = InPhysical;
 	QueueFamily = FindGraphicsFamily(Physical);
@@ -128,18 +137,11 @@ FError FForkDevice::Create(VkPhysicalDevice InPhysical, const FDeviceWishes& Wis
 	QueueInfo.queueCount = 1;
 	QueueInfo.pQueuePriorities = &Priority;
 
-	// The engine's own needs; the plugin's are merged into the same chain.
-	VkPhysicalDeviceVulkan13Features Features13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-	Features13.dynamicRendering = VK_TRUE;
-	Features13.synchronization2 = VK_TRUE;
-	VkPhysicalDeviceFeatures2 Features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &Features13};
-	Wishes.MergeFeatures(&Features);
-
-	VkDeviceCreateInfo Info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &Features};
+	VkDeviceCreateInfo Info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, Lists.Features};
 	Info.queueCreateInfoCount = 1;
 	Info.pQueueCreateInfos = &QueueInfo;
-	Info.enabledExtensionCount = static_cast<uint32_t>(Wishes.Extensions.size());
-	Info.ppEnabledExtensionNames = Wishes.Extensions.data();
+	Info.enabledExtensionCount = static_cast<uint32_t>(Lists.Extensions.size());
+	Info.ppEnabledExtensionNames = Lists.Extensions.data();
 	if (FError Error = Check(vkCreateDevice(Physical, &Info, nullptr, &Device), "vkCreateDevice"); !Error.empty()) { return Error; }
 	vkGetDeviceQueue(Device, QueueFamily, 0, &Queue);
 

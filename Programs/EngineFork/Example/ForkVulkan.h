@@ -1,9 +1,8 @@
 // The engine's Vulkan: its own instance, device, queue and objects. It is plain on purpose, like an engine that has never heard
-// of Lantern. Only FForkDevice::Create lets the plugin have a say.
+// of Lantern. The plugin has its say in FForkEngine::CreateDevice alone.
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include <vulkan/vulkan.h>
@@ -15,6 +14,7 @@ namespace Fork
 
 struct FForkInstance
 {
+	static constexpr uint32_t Version = VK_API_VERSION_1_3;
 	VkInstance Instance = VK_NULL_HANDLE;
 	VkDebugUtilsMessengerEXT Messenger = VK_NULL_HANDLE;
 	bool bValidation = false;        ///< the validation layer is installed and enabled
@@ -27,12 +27,22 @@ struct FForkInstance
 	std::vector<VkPhysicalDevice> ListDevices() const;
 };
 
-/// What the plugin needs from the device that the engine is about to create.
-struct FDeviceWishes
+/// What the engine itself needs from a device, as it did before it knew the plugin.
+struct FForkFeatures
+{
+	FForkFeatures();
+	FForkFeatures(const FForkFeatures&) = delete;
+	static constexpr const char* Extensions[] = {VK_EXT_DEPTH_CLIP_ENABLE_EXTENSION_NAME};
+	VkPhysicalDeviceDepthClipEnableFeaturesEXT DepthClip{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT};
+	VkPhysicalDeviceVulkan13Features Vulkan13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+	VkPhysicalDeviceFeatures2 Core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+};
+
+/// For vkCreateDevice.
+struct FForkDeviceLists
 {
 	std::vector<const char*> Extensions;
-	/// Adds the plugin's features to the engine's own chain.
-	std::function<void(VkPhysicalDeviceFeatures2*)> MergeFeatures;
+	const void* Features = nullptr; ///< VkDeviceCreateInfo::pNext
 };
 
 struct FForkDevice
@@ -48,7 +58,7 @@ struct FForkDevice
 	FForkDevice() = default;
 	FForkDevice(const FForkDevice&) = delete;
 	~FForkDevice();
-	FError Create(VkPhysicalDevice InPhysical, const FDeviceWishes& Wishes);
+	FError Create(VkPhysicalDevice InPhysical, const FForkDeviceLists& Lists);
 	FError BeginCommands();
 	FError Submit(); ///< ends and submits Commands
 	FError WaitForSubmit();

@@ -9,8 +9,8 @@
 // Units: metres, radians, nits and lux; linear Rec.709; right-handed, y up. World positions are double precision.
 // Threads: IRTModule may be called from any thread, a renderer from one thread at a time. Nothing throws. A handle is valid for
 // its renderer only.
-// Errors: every build checks what an engine passes, stale handles included. InvalidArgument says what is wrong; nothing has
-// changed then.
+// Errors: every build checks what an engine passes, handles that are stale or of another renderer included. InvalidArgument says
+// what is wrong; nothing has changed then. Arrays must be as long as their counts say, which nobody can check.
 #pragma once
 
 #include "LanternModule/ModuleFrame.h"
@@ -20,9 +20,9 @@
 namespace Lantern
 {
 
-/// Incremented when anything in this header or in LanternSignals/Signals.h changes that an engine was compiled with. The library refuses other versions. A new signal is no change: the arrays have
-/// room for MaxSignals.
-inline constexpr uint32_t ModuleVersion = 5;
+/// Incremented when anything changes that an engine was compiled with: in this header, ModuleVulkan.h, LanternSignals/Signals.h or
+/// the RHI. The library refuses other versions. A new signal is no change: the arrays have room for MaxSignals.
+inline constexpr uint32_t ModuleVersion = 6;
 
 class IRTModuleVulkan;
 
@@ -168,7 +168,8 @@ class IRTModule : public IRTRefCounted
 public:
 	virtual uint32_t GetVersion() const = 0;          ///< the library's ModuleVersion
 	virtual const char* GetVersionString() const = 0; ///< as in Plugin.json
-	/// Initialises the module. Call once, before all functions below. IoError names a folder that is missing.
+	/// Initialises the module. Call once, before all functions below. IoError names a folder that is missing; after an error the
+	/// call may be repeated.
 	virtual FRTStatus Initialize(const FRTModuleDesc& Desc) = 0;
 	/// Creates a device of Lantern's own on the best Vulkan device, for tools. An engine hands over its own device instead.
 	virtual FRTStatus CreateDevice(bool bValidation, IRTDevice** Out) = 0;
@@ -186,7 +187,8 @@ public:
 } // namespace Lantern
 
 /// The library's only exported function. RequestedVersion is the ModuleVersion that the engine was compiled with. Returns Ok
-/// (as a number), or Unsupported with *Out null if the library has another version. One module may exist at a time.
+/// (as a number), or Unsupported with *Out null if the library has another version. InvalidArgument: Out is null, or there is a
+/// module already; one may exist at a time.
 extern "C" int32_t LanternCreateModule(uint32_t RequestedVersion, Lantern::IRTModule** Out);
 
 namespace Lantern

@@ -1,7 +1,7 @@
 // Adopts an engine's VkDevice. It is separate, so that an engine on another API, or one that lets Lantern create
 // the device, needs no Vulkan header.
 //
-// The order of calls: GetRequirements for the VkPhysicalDevice, enable what it lists in vkCreateDevice, AdoptDevice.
+// The order of calls: GetRequirements for the VkPhysicalDevice with the engine's own lists, vkCreateDevice, AdoptDevice.
 // LanternRHIVulkan/VulkanInterop.h has the types and the rules.
 #pragma once
 

@@ -103,8 +103,8 @@ FRTStatus LoadDeviceApi(const FVulkanInstanceApi& Instance, VkDevice Device, boo
 	if (Absent)
 	{
 		return FRTStatus::Error(ERTResult::Unsupported,
-		    "The Vulkan device has no %s: its extension or version was not "
-		    "enabled when the device was created (see GetVulkanRequirements).",
+		    "The Vulkan device has no %s: its extension was not enabled when the device was created (see GetVulkanRequirements), or the "
+		    "instance was created for a Vulkan older than 1.3.",
 		    Absent);
 	}
 	return {};

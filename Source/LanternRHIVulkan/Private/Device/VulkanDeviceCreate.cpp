@@ -3,8 +3,8 @@
 
 #include "Device/VulkanRequirements.h"
 
-#include <cassert>
 #include <cstdio>
+#include <utility>
 
 namespace Lantern
 {
@@ -85,7 +85,11 @@ FRTStatus FVulkanDevice::CreateShared()
 	Instance->Api.GetPhysicalDeviceQueueFamilyProperties(Physical, &FamilyCount, nullptr);
 	std::vector<VkQueueFamilyProperties> Families(FamilyCount);
 	Instance->Api.GetPhysicalDeviceQueueFamilyProperties(Physical, &FamilyCount, Families.data());
-	assert(QueueFamily < FamilyCount);
+	if (QueueFamily >= FamilyCount)
+	{
+		return FRTStatus::Error(
+		    ERTResult::InvalidArgument, "FRTVulkanExternalDesc::QueueFamily is %u, and %s has %u", QueueFamily, Name, FamilyCount);
+	}
 	TimestampBits = Families[QueueFamily].timestampValidBits;
 	Probe.Capabilities.bTimestamps = TimestampBits > 0;
 
@@ -199,7 +203,12 @@ FRTStatus CreateVulkanDevice(const FRTVulkanDeviceDesc& Desc, IRTDevice** Out)
 FRTStatus AdoptVulkanDevice(const FRTVulkanExternalDesc& Desc, IRTDevice** Out)
 {
 	*Out = nullptr;
-	assert(Desc.Instance && Desc.PhysicalDevice && Desc.Device && Desc.Queue && Desc.Requirements);
+	const std::pair<const void*, const char*> Needed[] = {{Desc.Instance, "Instance"}, {Desc.PhysicalDevice, "PhysicalDevice"},
+	    {Desc.Device, "Device"}, {Desc.Queue, "Queue"}, {Desc.Requirements, "Requirements"}};
+	for (const auto& [Pointer, Name] : Needed)
+	{
+		if (Pointer == nullptr) { return FRTStatus::Error(ERTResult::InvalidArgument, "FRTVulkanExternalDesc::%s is null", Name); }
+	}
 	auto Instance = std::make_unique<FVulkanInstance>();
 	FRTStatus Status =
 	    Instance->Adopt(Desc.Instance, Desc.GetInstanceProcAddr, {Desc.bCountValidation, false, Desc.MessageCallback, Desc.MessageUser});

@@ -1,74 +1,40 @@
-// What an engine's vkCreateDevice must enable, and how it joins the engine's feature chain.
+// What an engine's vkCreateDevice must enable, with the engine's own lists in it.
 #include "Device/VulkanRequirements.h"
 
+#include "Device/VulkanFeatureChain.h"
 #include "Device/VulkanStatus.h"
 
-#include <cassert>
+#include <algorithm>
 
 namespace Lantern
 {
 
-namespace
+FVulkanRequirements::FVulkanRequirements(const FVulkanProbe& InProbe, const FRTVulkanRequirementsDesc& Desc)
+    : Probe(InProbe),
+      EngineChain(Desc.FeatureChain),
+      EngineFeatures(Desc.EnabledFeatures)
 {
-
-/// A feature structure is sType, pNext, and VkBool32s up to its end.
-template <class T>
-void MergeBools(void* Into, const void* From)
-{
-	constexpr size_t First = sizeof(VkBaseOutStructure);
-	static_assert((sizeof(T) - First) % sizeof(VkBool32) == 0);
-	VkBool32* Dest = reinterpret_cast<VkBool32*>(static_cast<char*>(Into) + First);
-	const VkBool32* Source = reinterpret_cast<const VkBool32*>(static_cast<const char*>(From) + First);
-	// Padding at the end of an odd number of flags is merged too, which does no harm.
-	for (size_t Index = 0; Index < (sizeof(T) - First) / sizeof(VkBool32); ++Index) { Dest[Index] |= Source[Index]; }
-}
-
-void MergeStructure(VkBaseOutStructure* Into, const VkBaseOutStructure* From)
-{
-	switch (From->sType)
+	Names.reserve(Desc.ExtensionCount + Probe.Extensions.size()); // strings must stay where they are
+	const auto Add = [&](const char* Name) {
+		if (std::find(Names.begin(), Names.end(), Name) == Names.end()) { Names.emplace_back(Name); }
+	};
+	for (uint32_t Index = 0; Index < Desc.ExtensionCount; ++Index)
 	{
-	case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES: return MergeBools<VkPhysicalDeviceVulkan11Features>(Into, From);
-	case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES: return MergeBools<VkPhysicalDeviceVulkan12Features>(Into, From);
-	case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES: return MergeBools<VkPhysicalDeviceVulkan13Features>(Into, From);
-	case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR:
-		return MergeBools<VkPhysicalDeviceAccelerationStructureFeaturesKHR>(Into, From);
-	case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR:
-		return MergeBools<VkPhysicalDeviceRayTracingPipelineFeaturesKHR>(Into, From);
-	case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_OPACITY_MICROMAP_FEATURES_EXT:
-		return MergeBools<VkPhysicalDeviceOpacityMicromapFeaturesEXT>(Into, From);
-	default: return MergeBools<VkPhysicalDeviceRayQueryFeaturesKHR>(Into, From); // those of one flag
+		Add(Desc.Extensions[Index]);
+		EnableFeaturesOfExtension(Desc.Extensions[Index], Probe.Features);
 	}
+	for (const char* Name : Probe.Extensions) { Add(Name); }
+	for (const std::string& Name : Names) { Extensions.push_back(Name.c_str()); }
 }
 
-VkBaseOutStructure* FindStructure(VkBaseOutStructure* Chain, VkStructureType Type)
+const void* FVulkanRequirements::MergeFeatures()
 {
-	while (Chain && Chain->sType != Type) { Chain = Chain->pNext; }
-	return Chain;
-}
-
-} // namespace
-
-void FVulkanRequirements::MergeInto(VkPhysicalDeviceFeatures2* EngineChain)
-{
-	assert(EngineChain && EngineChain != &Probe.Features.Core);
-	VkBaseOutStructure* Head = reinterpret_cast<VkBaseOutStructure*>(EngineChain);
-	VkBaseOutStructure* Tail = Head;
-	while (Tail->pNext) { Tail = Tail->pNext; }
-	MergeBools<VkPhysicalDeviceFeatures2>(EngineChain, &Probe.Features.Core);
-	VkBaseOutStructure* Next = static_cast<VkBaseOutStructure*>(Probe.Features.Core.pNext);
-	Probe.Features.Core.pNext = nullptr; // its structures now belong to the engine's chain
-	while (Next)
+	if (Head == nullptr)
 	{
-		VkBaseOutStructure* Ours = Next;
-		Next = Next->pNext;
-		Ours->pNext = nullptr;
-		if (VkBaseOutStructure* Theirs = FindStructure(Head, Ours->sType)) { MergeStructure(Theirs, Ours); }
-		else
-		{
-			Tail->pNext = Ours;
-			Tail = Ours;
-		}
+		Probe.Features.Link(Probe.Extensions);
+		Head = JoinFeatures(Probe.Features, EngineChain, EngineFeatures);
 	}
+	return Head;
 }
 
 std::string DescribeProbe(const FVulkanProbe& Probe)
@@ -83,9 +49,33 @@ std::string DescribeProbe(const FVulkanProbe& Probe)
 	return Text + (Missing.empty() ? "nothing, but ray tracing was switched off by request" : Missing);
 }
 
+namespace
+{
+
+FRTStatus CheckDesc(const FRTVulkanRequirementsDesc& Desc)
+{
+	if (!Desc.Instance || !Desc.PhysicalDevice)
+	{
+		return FRTStatus::Error(
+		    ERTResult::InvalidArgument, "FRTVulkanRequirementsDesc::%s is null", Desc.Instance ? "PhysicalDevice" : "Instance");
+	}
+	if (Desc.InstanceVersion < VK_API_VERSION_1_3)
+	{
+		const uint32_t Version = std::max(Desc.InstanceVersion, VK_API_VERSION_1_0); // 0 is 1.0 (VkApplicationInfo)
+		return FRTStatus::Error(ERTResult::Unsupported,
+		    "The Vulkan instance was created for Vulkan %u.%u (FRTVulkanRequirementsDesc::InstanceVersion); Lantern needs 1.3 of it, "
+		    "whatever the device can do.",
+		    VK_API_VERSION_MAJOR(Version), VK_API_VERSION_MINOR(Version));
+	}
+	return CheckEngineLists(Desc);
+}
+
+} // namespace
+
 FRTStatus GetVulkanRequirements(const FRTVulkanRequirementsDesc& Desc, IRTVulkanRequirements** Out)
 {
 	*Out = nullptr;
+	if (const FRTStatus Status = CheckDesc(Desc); !Status) { return Status; }
 	PFN_vkGetInstanceProcAddr GetInstanceProcAddr = Desc.GetInstanceProcAddr;
 	if (!GetInstanceProcAddr)
 	{
@@ -103,7 +93,7 @@ FRTStatus GetVulkanRequirements(const FRTVulkanRequirementsDesc& Desc, IRTVulkan
 	{
 		return FRTStatus::Error(ERTResult::Unsupported, "%s", DescribeProbe(Probe).c_str());
 	}
-	*Out = new FVulkanRequirements(Probe);
+	*Out = new FVulkanRequirements(Probe, Desc);
 	return {};
 }
 

@@ -11,18 +11,24 @@ namespace Lantern
 class FVulkanRequirements final : public TRefCounted<IRTVulkanRequirements>
 {
 public:
-	explicit FVulkanRequirements(const FVulkanProbe& InProbe) : Probe(InProbe) { Probe.Features.Link(Probe.Extensions); }
+	/// Desc: checked.
+	FVulkanRequirements(const FVulkanProbe& InProbe, const FRTVulkanRequirementsDesc& Desc);
 
-	uint32_t GetExtensionCount() const override { return static_cast<uint32_t>(Probe.Extensions.size()); }
-	const char* const* GetExtensions() const override { return Probe.Extensions.data(); }
-	const VkPhysicalDeviceFeatures2* GetFeatures() const override { return &Probe.Features.Core; }
-	void MergeInto(VkPhysicalDeviceFeatures2* EngineChain) override;
+	uint32_t GetExtensionCount() const override { return static_cast<uint32_t>(Extensions.size()); }
+	const char* const* GetExtensions() const override { return Extensions.data(); }
+	const void* MergeFeatures() override;
 	const FRTCapabilities& GetCapabilities() const override { return Probe.Capabilities; }
 
 	FVulkanProbe Probe;
 
 private:
 	~FVulkanRequirements() override = default;
+
+	std::vector<std::string> Names; ///< the engine's extensions, then ours
+	std::vector<const char*> Extensions;
+	void* EngineChain = nullptr;
+	VkPhysicalDeviceFeatures* EngineFeatures = nullptr;
+	const void* Head = nullptr; ///< null before MergeFeatures
 };
 
 /// "NAME (DRIVER) lacks A: …; B: …"

@@ -1,7 +1,7 @@
 // Take-over of an engine's Vulkan device.
 //
-// Order: call GetVulkanRequirements for the engine's VkPhysicalDevice, enable what it lists in the engine's vkCreateDevice, and
-// call AdoptVulkanDevice. Lantern then allocates from the device and submits to the queue. It destroys nothing that it did not
+// Order: call GetVulkanRequirements for the engine's VkPhysicalDevice with the engine's own extensions and features, give what
+// it returns to vkCreateDevice, and call AdoptVulkanDevice. Lantern then allocates from the device and submits to the queue. It destroys nothing that it did not
 // create. All RHI objects, the device included, must be released before the engine destroys its VkDevice.
 //
 // Queue: Vulkan wants submissions to a VkQueue synchronised. Lantern calls LockQueue before every use of the queue and
@@ -19,18 +19,17 @@
 namespace Lantern
 {
 
-/// What vkCreateDevice must enable on one physical device. The object owns all that it points to.
+/// What vkCreateDevice must enable on one physical device, the engine's own wishes included. The object owns all that it adds.
 class IRTVulkanRequirements : public IRTRefCounted
 {
 public:
+	/// Extensions for vkCreateDevice: the engine's in their order, then those that Lantern adds. No name comes twice.
 	virtual uint32_t GetExtensionCount() const = 0;
 	virtual const char* const* GetExtensions() const = 0;
-	/// Returns the head of a chain for VkDeviceCreateInfo::pNext, for an engine without features of its own.
-	virtual const VkPhysicalDeviceFeatures2* GetFeatures() const = 0;
-	/// Switches features on in the structures of an engine's own chain, and appends the structures that it lacks. The chain must
-	/// use VkPhysicalDeviceVulkan11/12/13Features rather than the structures promoted into them. This object must live until
-	/// vkCreateDevice returns.
-	virtual void MergeInto(VkPhysicalDeviceFeatures2* EngineChain) = 0;
+	/// Switches features on in FRTVulkanRequirementsDesc::FeatureChain and EnabledFeatures, and appends the structures that they
+	/// lack. Returns the head of the chain for VkDeviceCreateInfo::pNext. Call it for the device that is about to be created, and
+	/// for no other with the same chain. This object and the engine's lists must live until vkCreateDevice returns.
+	virtual const void* MergeFeatures() = 0;
 	/// Returns what the device will be able to do.
 	virtual const FRTCapabilities& GetCapabilities() const = 0;
 };
@@ -39,15 +38,26 @@ struct FRTVulkanRequirementsDesc
 {
 	VkInstance Instance = VK_NULL_HANDLE;
 	VkPhysicalDevice PhysicalDevice = VK_NULL_HANDLE;
+	/// VkApplicationInfo::apiVersion of Instance, which Vulkan does not tell. As there, 0 means Vulkan 1.0.
+	uint32_t InstanceVersion = 0;
 	/// Null means the system loader's.
 	PFN_vkGetInstanceProcAddr GetInstanceProcAddr = nullptr;
+	/// Extensions that the engine enables on the device by itself.
+	const char* const* Extensions = nullptr;
+	uint32_t ExtensionCount = 0;
+	/// The engine's VkDeviceCreateInfo::pNext, or null. It must not contain a structure that was promoted into
+	/// VkPhysicalDeviceVulkan11/12/13Features, because Vulkan allows no chain with both.
+	void* FeatureChain = nullptr;
+	/// The engine's VkDeviceCreateInfo::pEnabledFeatures, or null. With it, FeatureChain has no VkPhysicalDeviceFeatures2.
+	VkPhysicalDeviceFeatures* EnabledFeatures = nullptr;
 	ERTRung MaxRung = ERTRung::Micromap;
 	bool bDisableRayQuery = false;
 	bool bDisablePipeline = false;
 	bool bAllowNoRayTracing = false;
 };
 
-/// Returns Unsupported, with a message that names what is missing, if Lantern cannot run on the device.
+/// Changes none of the engine's lists. Unsupported names what instance or device lack. InvalidArgument names the part of the
+/// engine's lists that excludes what Lantern needs.
 FRTStatus GetVulkanRequirements(const FRTVulkanRequirementsDesc& Desc, IRTVulkanRequirements** Out);
 
 struct FRTVulkanExternalDesc
@@ -71,7 +81,8 @@ struct FRTVulkanExternalDesc
 	void* MessageUser = nullptr;
 };
 
-/// Returns Unsupported if a function of a required extension is absent: the extension was not enabled.
+/// Returns Unsupported if a function of a required extension is absent: the extension was not enabled. InvalidArgument names a
+/// handle that is null.
 FRTStatus AdoptVulkanDevice(const FRTVulkanExternalDesc& Desc, IRTDevice** Out);
 
 /// Returns the layout of a texture between barriers to and from Access.
