@@ -79,9 +79,14 @@ FRTStatus CheckMaterial(const FRTModuleMaterial& Material)
 	return FRTStatus::Success();
 }
 
+FRTStatus RefuseNull(const char* Function, const char* Argument)
+{
+	return FRTStatus::Error(ERTResult::InvalidArgument, "%s: %s is null", Function, Argument);
+}
+
 FRTStatus RefuseHandle(const char* Function, const char* Kind)
 {
-	return FRTStatus::Error(ERTResult::InvalidArgument, "%s: no such %s: never added, or removed", Function, Kind);
+	return FRTStatus::Error(ERTResult::InvalidArgument, "%s: no such %s: never added, removed, or of another renderer", Function, Kind);
 }
 
 } // namespace Lantern

@@ -11,6 +11,9 @@ FRTStatus CheckSky(const float Radiance[3]);
 FRTStatus CheckTransform(const double Transform[12]);
 FRTStatus CheckMaterial(const FRTModuleMaterial& Material);
 
+/// InvalidArgument: Function was given null for Argument.
+FRTStatus RefuseNull(const char* Function, const char* Argument);
+
 /// InvalidArgument: Function was given a handle of no Kind ("mesh").
 FRTStatus RefuseHandle(const char* Function, const char* Kind);
 

@@ -10,6 +10,7 @@
 
 #include <tbb/global_control.h>
 
+#include "ArgumentChecks.h"
 #include "LanternCore/Config/Config.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Shaders/ShaderCompiler.h"
@@ -34,9 +35,12 @@ class FModuleVulkan final : public IRTModuleVulkan
 public:
 	FRTStatus GetRequirements(const FRTVulkanRequirementsDesc& Desc, IRTVulkanRequirements** Out) override
 	{
-		return GetVulkanRequirements(Desc, Out);
+		return Out != nullptr ? GetVulkanRequirements(Desc, Out) : RefuseNull("GetRequirements", "Out");
 	}
-	FRTStatus AdoptDevice(const FRTVulkanExternalDesc& Desc, IRTDevice** Out) override { return AdoptVulkanDevice(Desc, Out); }
+	FRTStatus AdoptDevice(const FRTVulkanExternalDesc& Desc, IRTDevice** Out) override
+	{
+		return Out != nullptr ? AdoptVulkanDevice(Desc, Out) : RefuseNull("AdoptDevice", "Out");
+	}
 };
 
 ERTModuleLog ToModule(ERTLogLevel Level)
@@ -93,7 +97,14 @@ FModule::~FModule()
 
 FRTStatus FModule::Initialize(const FRTModuleDesc& Desc)
 {
-	if (Desc.ShaderFolder == nullptr) { return FRTStatus::Error(ERTResult::InvalidArgument, "FRTModuleDesc::ShaderFolder is needed"); }
+	if (!ShaderFolder.empty()) { return FRTStatus::Error(ERTResult::InvalidArgument, "Initialize was called before"); }
+	if (Desc.ShaderFolder == nullptr) { return RefuseNull("Initialize", "FRTModuleDesc::ShaderFolder"); }
+	if (const FRTStatus Status = CheckFolder("shader", Desc.ShaderFolder); !Status) { return Status; }
+	if (Desc.ConfigFolder != nullptr)
+	{
+		if (const FRTStatus Status = CheckFolder("config", Desc.ConfigFolder); !Status) { return Status; }
+		ConfigFolder = Desc.ConfigFolder;
+	}
 	if (Desc.LogCallback != nullptr)
 	{
 		SetLogSink([Callback = Desc.LogCallback, User = Desc.LogUser](
@@ -101,17 +112,14 @@ FRTStatus FModule::Initialize(const FRTModuleDesc& Desc)
 	}
 	ShaderFolder = Desc.ShaderFolder;
 	CacheFolder = Desc.CacheFolder != nullptr ? Desc.CacheFolder : "";
-	if (const FRTStatus Status = CheckFolder("shader", ShaderFolder); !Status) { return Status; }
-	if (Desc.ConfigFolder == nullptr) { return FRTStatus::Success(); }
-	ConfigFolder = Desc.ConfigFolder;
-	if (const FRTStatus Status = CheckFolder("config", ConfigFolder); !Status) { return Status; }
 	// A problem in a file is logged with its place and is no reason not to run.
-	LoadDefaults({ConfigFolder});
+	if (!ConfigFolder.empty()) { LoadDefaults({ConfigFolder}); }
 	return FRTStatus::Success();
 }
 
 FRTStatus FModule::CreateDevice(bool bValidation, IRTDevice** Out)
 {
+	if (Out == nullptr) { return RefuseNull("CreateDevice", "Out"); }
 	FRTVulkanDeviceDesc Desc;
 	Desc.bValidation = bValidation;
 	return CreateVulkanDevice(Desc, Out);
@@ -119,9 +127,10 @@ FRTStatus FModule::CreateDevice(bool bValidation, IRTDevice** Out)
 
 FRTStatus FModule::CreateRenderer(IRTDevice* Device, IRTModuleRenderer** Out)
 {
+	if (Out == nullptr) { return RefuseNull("CreateRenderer", "Out"); }
 	*Out = nullptr;
 	if (ShaderFolder.empty()) { return FRTStatus::Error(ERTResult::InvalidArgument, "IRTModule::Initialize was not called"); }
-	if (Device == nullptr) { return FRTStatus::Error(ERTResult::InvalidArgument, "CreateRenderer needs a device"); }
+	if (Device == nullptr) { return RefuseNull("CreateRenderer", "Device"); }
 	if (Device->GetVersion() != RHIVersion)
 	{
 		return FRTStatus::Error(ERTResult::Unsupported, "the device speaks RHI version %u, Lantern %u", Device->GetVersion(), RHIVersion);
@@ -145,6 +154,7 @@ FRTStatus FModule::SetQuality(const std::string& Group, const char* Value)
 
 FRTStatus FModule::SetConsoleVariable(const char* Name, const char* Value)
 {
+	if (Name == nullptr || Value == nullptr) { return RefuseNull("SetConsoleVariable", Name == nullptr ? "Name" : "Value"); }
 	const std::string Text = Name;
 	if (Text.rfind("sg.", 0) == 0) { return SetQuality(Text.substr(3), Value); }
 	const std::optional<std::string> Problem = FConsoleVariables::Get().Set(Text, Value, ERTSetBy::Console, "SetConsoleVariable");
@@ -153,6 +163,8 @@ FRTStatus FModule::SetConsoleVariable(const char* Name, const char* Value)
 
 FRTStatus FModule::GetConsoleVariable(const char* Name, char* Out, size_t Capacity)
 {
+	if (Name == nullptr || Out == nullptr) { return RefuseNull("GetConsoleVariable", Name == nullptr ? "Name" : "Out"); }
+	if (Capacity == 0) { return FRTStatus::Error(ERTResult::InvalidArgument, "GetConsoleVariable: Capacity is 0"); }
 	const FRTConsoleVariable* Variable = FConsoleVariables::Get().Find(Name);
 	if (Variable == nullptr)
 	{
@@ -169,6 +181,7 @@ FRTStatus FModule::GetConsoleVariable(const char* Name, char* Out, size_t Capaci
 extern "C" __attribute__((visibility("default"))) int32_t LanternCreateModule(uint32_t RequestedVersion, Lantern::IRTModule** Out)
 {
 	using namespace Lantern;
+	if (Out == nullptr) { return static_cast<int32_t>(ERTResult::InvalidArgument); }
 	*Out = nullptr;
 	if (RequestedVersion != ModuleVersion) { return static_cast<int32_t>(ERTResult::Unsupported); }
 	if (bModuleAlive.exchange(true)) { return static_cast<int32_t>(ERTResult::InvalidArgument); }

@@ -1,4 +1,5 @@
 // The module's frame, on top of FRenderer: from the engine's textures and view to the signals that it wants.
+#include "ArgumentChecks.h"
 #include "FrameChecks.h"
 #include "ModuleRenderer.h"
 
@@ -107,6 +108,7 @@ FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame)
 
 FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOutputs* Out)
 {
+	if (Out == nullptr) { return RefuseNull("RenderFrame", "Out"); }
 	*Out = {};
 	if (Recorded) { return FRTStatus::Error(ERTResult::InvalidArgument, "RenderFrame: EndFrame was not called after the last one"); }
 	if (const FRTStatus Status = CheckFrame(Frame); !Status) { return Status; }

@@ -35,6 +35,7 @@ void FModuleRenderer::StoreMaterial(FMaterial& Material, const FRTModuleMaterial
 
 FRTStatus FModuleRenderer::AddMaterial(const FRTModuleMaterial& Material, ERTMaterialHandle* Out)
 {
+	if (Out == nullptr) { return RefuseNull("AddMaterial", "Out"); }
 	*Out = ERTMaterialHandle::None;
 	if (const FRTStatus Status = CheckMaterial(Material); !Status) { return Status; }
 	FMaterial Added;

@@ -2,6 +2,7 @@
 #include "ModuleRenderer.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "ArgumentChecks.h"
 #include "LanternRHI/RTText.h"
@@ -34,6 +35,12 @@ FModuleRenderer::FModuleRenderer(IRTModule& InOwner, IRTDevice& InDevice, FRende
       VertexUploads(InDevice)
 {}
 
+uint32_t FModuleRenderer::MakeTag()
+{
+	static std::atomic<uint32_t> Count{0};
+	return Count++ % TSlotTable<FMesh, ERTMeshHandle>::MaxTag + 1;
+}
+
 FModuleRenderer::~FModuleRenderer()
 {
 	// Environment: a lost device can no longer be waited for, and has nothing in flight.
@@ -58,6 +65,7 @@ FRTStatus FModuleRenderer::UploadMesh(const FRTModuleMesh& Mesh, const std::vect
 
 FRTStatus FModuleRenderer::AddMesh(const FRTModuleMesh& Mesh, ERTMeshHandle* Out)
 {
+	if (Out == nullptr) { return RefuseNull("AddMesh", "Out"); }
 	*Out = ERTMeshHandle::None;
 	if (const FRTStatus Status = CheckMesh(Mesh); !Status) { return Status; }
 	FRTGeometryInfo Info;
@@ -119,6 +127,7 @@ FRTStatus FModuleRenderer::RefuseMesh(const char* Function, ERTMeshHandle Handle
 
 FRTStatus FModuleRenderer::AddObject(const FRTModuleObject& Object, ERTObjectHandle* Out)
 {
+	if (Out == nullptr) { return RefuseNull("AddObject", "Out"); }
 	*Out = ERTObjectHandle::None;
 	FMesh* const Mesh = Meshes.Find(Object.Mesh);
 	if (Mesh == nullptr) { return RefuseMesh("AddObject", Object.Mesh); }

@@ -70,6 +70,7 @@ private:
 		std::string Name;
 	};
 
+	static uint32_t MakeTag();
 	FRTStatus UploadMesh(const FRTModuleMesh& Mesh, const std::vector<FVertexAttributes>& Attributes, FRTGeometryInfo& Out);
 	/// For a geometry's sections: Ok and their indices, or InvalidArgument.
 	FRTStatus ResolveMaterials(
@@ -94,14 +95,15 @@ private:
 	FRenderer Renderer;
 	FUploader Uploader;
 	FFrameUploads VertexUploads;
-	TSlotTable<FMaterial, ERTMaterialHandle> Materials;
+	const uint32_t Tag = MakeTag(); ///< in all handles, by which those of another renderer are known
+	TSlotTable<FMaterial, ERTMaterialHandle> Materials{Tag};
 	std::vector<uint32_t> MaterialUsers; ///< sections of objects, by the material's index in the scene
 	/// Replaced since the last EndFrame: the list in the making may sample them, and a device that lets go of a bindless
 	/// index counts from the last submission.
 	std::vector<FMaterialTextures> ReplacedTextures;
-	TSlotTable<FMesh, ERTMeshHandle> Meshes;
+	TSlotTable<FMesh, ERTMeshHandle> Meshes{Tag};
 	std::vector<FRemovedMesh> RemovedMeshes; ///< by slot
-	TSlotTable<FObject, ERTObjectHandle> Objects;
+	TSlotTable<FObject, ERTObjectHandle> Objects{Tag};
 	TRTRef<IRTCommandList> Recorded;                     ///< between RenderFrame and EndFrame
 	std::array<TRTRef<IRTTexture>, SignalCount> Outputs; ///< of the last frame
 	uint32_t FrameIndex = 0;

@@ -9,11 +9,16 @@
 namespace Lantern
 {
 
-/// THandle: an enum over uint64_t whose None is 0. The low half is the slot, from 1; the high half counts the slot's uses.
+/// THandle: an enum over uint64_t whose None is 0. Bits 0 … 31 are the slot, from 1, the next 20 count the slot's uses, and the
+/// upper 12 are the owner's tag. A slot whose uses are counted out rests for ever, so that no handle ever names another value.
 template <class T, class THandle>
 class TSlotTable
 {
 public:
+	static constexpr uint32_t MaxTag = (1u << 12) - 1, MaxGeneration = (1u << 20) - 1;
+
+	/// Tag: at most MaxTag. Handles of tables with other tags are not found here.
+	explicit TSlotTable(uint32_t InTag) : Tag(InTag) {}
 	THandle Add(T Value)
 	{
 		if (Free.empty())
@@ -24,14 +29,14 @@ public:
 		const uint32_t Index = Free.back();
 		Free.pop_back();
 		Slots[Index].Value = std::move(Value);
-		return static_cast<THandle>(uint64_t(Slots[Index].Generation) << 32 | (Index + 1));
+		return static_cast<THandle>(GetUpper(Slots[Index]) << 32 | (Index + 1));
 	}
-	/// Returns null if the handle is None, was removed, or never was. The pointer is valid until the next Add.
+	/// Returns null if the handle is None, was removed, never was, or is another table's. The pointer is valid until the next Add.
 	T* Find(THandle Handle)
 	{
 		const uint64_t Bits = static_cast<uint64_t>(Handle);
 		const uint32_t Index = static_cast<uint32_t>(Bits) - 1; // None becomes an index past any end
-		const bool bKnown = Index < Slots.size() && Slots[Index].Generation == Bits >> 32 && Slots[Index].Value;
+		const bool bKnown = Index < Slots.size() && GetUpper(Slots[Index]) == Bits >> 32 && Slots[Index].Value;
 		return bKnown ? &*Slots[Index].Value : nullptr;
 	}
 	/// Returns the slot of a handle that Find finds now or found once.
@@ -41,8 +46,11 @@ public:
 	{
 		const uint32_t Index = GetSlot(Handle);
 		Slots[Index].Value.reset();
-		++Slots[Index].Generation;
-		Free.push_back(Index);
+		if (Slots[Index].Generation < MaxGeneration)
+		{
+			++Slots[Index].Generation;
+			Free.push_back(Index);
+		}
 	}
 	template <class TFunction>
 	void ForEach(TFunction&& Function)
@@ -59,6 +67,9 @@ private:
 		std::optional<T> Value;
 		uint32_t Generation = 0;
 	};
+	uint64_t GetUpper(const FSlot& Slot) const { return uint64_t(Tag) << 20 | Slot.Generation; }
+
+	uint32_t Tag;
 	std::vector<FSlot> Slots;
 	std::vector<uint32_t> Free;
 };

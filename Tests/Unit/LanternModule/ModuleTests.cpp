@@ -84,7 +84,7 @@ TEST_F(FModuleTest, HandleOfARemovedMeshIsRefusedWithItsName)
 	EXPECT_REFUSED(AddObject(Wall, Solid), "\"Wall\" was removed");
 	ASSERT_FINE(Renderer->RemoveMesh(Triangle));
 	EXPECT_REFUSED(AddObject(Triangle, Solid), "\"Triangle\" was removed");
-	EXPECT_REFUSED(AddObject(Wall, Solid), "no such mesh: never added, or removed");
+	EXPECT_REFUSED(AddObject(Wall, Solid), "no such mesh: never added, removed, or of another renderer");
 }
 
 TEST_F(FModuleTest, SunWithoutDirectionIsRefused)
