@@ -55,6 +55,8 @@ namespace Lantern
 	X(ResetQueryPool)                                                                                                                      \
 	X(GetQueryPoolResults)                                                                                                                 \
 	X(GetBufferDeviceAddress)                                                                                                              \
+	X(GetImageMemoryRequirements)                                                                                                          \
+	X(GetDeviceImageMemoryRequirements)                                                                                                    \
 	X(CreateImageView)                                                                                                                     \
 	X(DestroyImageView)                                                                                                                    \
 	X(CreateSampler)                                                                                                                       \

@@ -2,6 +2,7 @@
 #include "Device/VulkanDeviceImpl.h"
 
 #include "Commands/VulkanCommandList.h"
+#include "Resources/VulkanImport.h"
 
 #include <cassert>
 
@@ -251,7 +252,8 @@ FRTStatus FVulkanDevice::CreateTexture(const FRTTextureDesc& Desc, IRTTexture** 
 
 FRTStatus FVulkanDevice::ImportTexture(const FRTTextureDesc& Desc, uint64_t NativeImage, IRTTexture** Out)
 {
-	assert(NativeImage);
+	*Out = nullptr;
+	if (const FRTStatus Status = CheckImport(*this, Desc, (VkImage)NativeImage); !Status) { return Status; }
 	return CreateObject<FVulkanTexture>(*this, Out, [&](FVulkanTexture& It) { return It.Initialise(Desc, (VkImage)NativeImage); });
 }
 
@@ -307,7 +309,8 @@ FRTStatus FVulkanDevice::CreateCommandList(const char* Name, IRTCommandList** Ou
 
 FRTStatus FVulkanDevice::ImportCommandList(uint64_t NativeCommandBuffer, IRTCommandList** Out)
 {
-	assert(NativeCommandBuffer);
+	*Out = nullptr;
+	if (NativeCommandBuffer == 0) { return FRTStatus::Error(ERTResult::InvalidArgument, "ImportCommandList: NativeCommandBuffer is null"); }
 	return CreateObject<FVulkanCommandList>(*this, Out, [&](FVulkanCommandList& It) {
 		It.InitialiseImported((VkCommandBuffer)NativeCommandBuffer);
 		return FRTStatus();
