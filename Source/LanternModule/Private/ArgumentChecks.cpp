@@ -72,9 +72,10 @@ FRTStatus CheckMaterial(const FRTModuleMaterial& Material)
 	}
 	if (!std::isfinite(Material.AlphaCutoff)) { return Refuse("FRTModuleMaterial::AlphaCutoff is not finite"); }
 	if (Material.BaseColorTexture == nullptr) { return FRTStatus::Success(); }
-	if (Material.BaseColorSampler == nullptr || Material.BaseColorTexture->GetSampledIndex() == ~0u)
+	if (Material.BaseColorSampler == nullptr) { return Refuse("FRTModuleMaterial::BaseColorSampler is null beside a texture"); }
+	if (Material.BaseColorTexture->GetSampledIndex() == ~0u)
 	{
-		return Refuse("a material's texture needs a sampler, and to be Sampled");
+		return Refuse("FRTModuleMaterial::BaseColorTexture lacks ERTTextureUsage::Sampled");
 	}
 	return FRTStatus::Success();
 }

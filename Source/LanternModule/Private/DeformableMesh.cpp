@@ -24,7 +24,7 @@ FRTStatus FDeformableMesh::SetVertices(const float* InPositions, const float* No
 	Mesh.VertexCount = static_cast<uint32_t>(Positions.size());
 	Mesh.Indices = Indices.data();
 	Mesh.IndexCount = static_cast<uint32_t>(Indices.size());
-	const FRTStatus Status = CheckPositions(Mesh);
+	const FRTStatus Status = CheckVertices(Mesh);
 	if (Status)
 	{
 		std::memcpy(Positions.data(), InPositions, Positions.size() * sizeof(Positions[0]));

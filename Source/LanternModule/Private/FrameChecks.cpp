@@ -7,6 +7,8 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/constants.hpp>
 
+#include "ArgumentChecks.h"
+
 namespace Lantern
 {
 
@@ -99,10 +101,9 @@ FRTStatus CheckGBuffer(const FRTModuleFrame& Frame)
 
 FRTStatus CheckFrame(const FRTModuleFrame& Frame)
 {
-	if (Frame.Commands == nullptr || Frame.Depth == nullptr || Frame.Normals == nullptr)
-	{
-		return Refuse("a frame needs a command list, a depth and a normal texture");
-	}
+	if (Frame.Commands == nullptr) { return RefuseNull("RenderFrame", "FRTModuleFrame::Commands"); }
+	if (Frame.Depth == nullptr) { return RefuseNull("RenderFrame", "FRTModuleFrame::Depth"); }
+	if (Frame.Normals == nullptr) { return RefuseNull("RenderFrame", "FRTModuleFrame::Normals"); }
 	if (!(Frame.DeltaSeconds > 0.0f) || !std::isfinite(Frame.DeltaSeconds))
 	{
 		return FRTStatus::Error(

@@ -25,6 +25,19 @@ bool IsSectionSound(const FRTModuleSection& Section, uint32_t IndexCount)
 	       Section.IndexCount <= IndexCount - Section.FirstIndex;
 }
 
+/// Before anything is read: counts that can be, and arrays for them.
+FRTStatus CheckCounts(const FRTModuleMesh& Mesh)
+{
+	if (Mesh.Name == nullptr) { return FRTStatus::Error(ERTResult::InvalidArgument, "FRTModuleMesh::Name is null"); }
+	if (Mesh.VertexCount == 0 || Mesh.VertexCount > MaxMeshVertices) { return Refuse(Mesh, "VertexCount is 0, or above MaxMeshVertices"); }
+	if (Mesh.IndexCount == 0 || Mesh.IndexCount > MaxMeshIndices || Mesh.IndexCount % 3 != 0)
+	{
+		return Refuse(Mesh, "IndexCount is 0, above MaxMeshIndices, or no multiple of 3");
+	}
+	if (Mesh.SectionCount > Mesh.IndexCount / 3) { return Refuse(Mesh, "has more sections than triangles"); }
+	return Mesh.Indices != nullptr ? FRTStatus::Success() : Refuse(Mesh, "Indices is null");
+}
+
 /// Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", JCGT 2014.
 uint32_t PackOctahedral(glm::vec3 N)
 {
@@ -60,12 +73,8 @@ std::vector<glm::vec3> MakeNormals(const FRTModuleMesh& Mesh)
 
 FRTStatus CheckMesh(const FRTModuleMesh& Mesh)
 {
-	if (Mesh.Positions == nullptr || Mesh.Indices == nullptr || Mesh.VertexCount == 0 || Mesh.IndexCount == 0)
-	{
-		return Refuse(Mesh, "has no positions or no indices");
-	}
-	if (Mesh.IndexCount % 3 != 0) { return Refuse(Mesh, "the number of indices is not a multiple of 3"); }
-	if (const FRTStatus Status = CheckPositions(Mesh); !Status) { return Status; }
+	if (const FRTStatus Status = CheckCounts(Mesh); !Status) { return Status; }
+	if (const FRTStatus Status = CheckVertices(Mesh); !Status) { return Status; }
 	if (*std::max_element(Mesh.Indices, Mesh.Indices + Mesh.IndexCount) >= Mesh.VertexCount)
 	{
 		return Refuse(Mesh, "an index is out of range");
@@ -81,11 +90,16 @@ FRTStatus CheckMesh(const FRTModuleMesh& Mesh)
 	return FRTStatus::Success();
 }
 
-FRTStatus CheckPositions(const FRTModuleMesh& Mesh)
+FRTStatus CheckVertices(const FRTModuleMesh& Mesh)
 {
-	const bool bFinite = Mesh.Positions != nullptr && std::all_of(Mesh.Positions, Mesh.Positions + size_t(Mesh.VertexCount) * 3,
-	                                                      [](float Value) { return std::isfinite(Value); });
-	return bFinite ? FRTStatus::Success() : Refuse(Mesh, "a position is not finite, or there are none");
+	if (Mesh.Positions == nullptr) { return Refuse(Mesh, "Positions is null"); }
+	const auto IsFinite = [&](const float* Values, size_t Components) {
+		return Values == nullptr ||
+		       std::all_of(Values, Values + Mesh.VertexCount * Components, [](float Value) { return std::isfinite(Value); });
+	};
+	if (!IsFinite(Mesh.Positions, 3)) { return Refuse(Mesh, "a position is not finite"); }
+	if (!IsFinite(Mesh.Normals, 3)) { return Refuse(Mesh, "a normal is not finite"); }
+	return IsFinite(Mesh.UVs, 2) ? FRTStatus::Success() : Refuse(Mesh, "a texture coordinate is not finite");
 }
 
 void PackNormals(const FRTModuleMesh& Mesh, std::vector<FVertexAttributes>& Attributes)

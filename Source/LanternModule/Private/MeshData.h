@@ -12,7 +12,8 @@ namespace Lantern
 
 /// Ok, or InvalidArgument saying what of the mesh cannot be.
 FRTStatus CheckMesh(const FRTModuleMesh& Mesh);
-FRTStatus CheckPositions(const FRTModuleMesh& Mesh);
+/// Positions, normals and texture coordinates alone; VertexCount must be right.
+FRTStatus CheckVertices(const FRTModuleMesh& Mesh);
 
 /// Of a checked mesh: normals and texture coordinates as vertices carry them.
 std::vector<FVertexAttributes> PackAttributes(const FRTModuleMesh& Mesh);

@@ -45,8 +45,7 @@ TEST_F(FModuleArgumentTest, InitializeIsCalledOnceButMayBeRepeatedAfterAnError)
 	EXPECT_REFUSED(Module->Initialize({}), "FRTModuleDesc::ShaderFolder is null");
 	Desc.ConfigFolder = "/nowhere";
 	EXPECT_EQ(Module->Initialize(Desc).Code, ERTResult::IoError);
-	EXPECT_REFUSED(Module->CreateRenderer(Device.Get(), Renderer.ReleaseAndGetAddress()), "Initialize was not called")
-	    << "what failed has set nothing";
+	EXPECT_REFUSED(Module->CreateRenderer(Device.Get(), Renderer.ReleaseAndGetAddress()), "Initialize was not called");
 	Desc.ConfigFolder = nullptr;
 	ASSERT_FINE(Module->Initialize(Desc));
 	ASSERT_FINE(Module->CreateRenderer(Device.Get(), Renderer.ReleaseAndGetAddress()));
@@ -62,7 +61,7 @@ TEST_F(FModuleArgumentTest, NullPointersOfTheRendererAreNamed)
 	Added.MaterialCount = 1;
 	EXPECT_REFUSED(Renderer->AddObject(Added, nullptr), "AddObject: Out is null");
 	EXPECT_REFUSED(Renderer->RenderFrame(DescribeFrame(), nullptr), "RenderFrame: Out is null");
-	EXPECT_REFUSED(Renderer->EndFrame(nullptr), "RenderFrame recorded nothing") << "the refused frame was none";
+	EXPECT_REFUSED(Renderer->EndFrame(nullptr), "RenderFrame recorded nothing"); // the refused frame was none
 	ASSERT_FINE(RenderWholeFrame());
 }
 
@@ -100,7 +99,7 @@ TEST_F(FModuleArgumentTest, HandlesOfAnotherRendererAreRefused)
 	Desc.Mesh = Mesh;
 	EXPECT_REFUSED(Other->AddObject(Desc, &TheirObject), "of another renderer");
 	EXPECT_EQ(TheirObject, ERTObjectHandle::None);
-	ASSERT_FINE(Renderer->SetObjectTransform(Object, Transform)) << "nothing has happened to it";
+	ASSERT_FINE(Renderer->SetObjectTransform(Object, Transform)); // nothing has happened to it
 }
 
 } // namespace

@@ -99,7 +99,7 @@ TEST_F(FModuleTest, WrongGBufferIsRefused)
 {
 	FRTModuleFrame Frame = DescribeFrame();
 	Frame.Depth = nullptr;
-	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "a depth");
+	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "FRTModuleFrame::Depth is null");
 	const TRTRef<IRTTexture> Small = MakeTexture(ERTFormat::D32_FLOAT, 32);
 	Frame.Depth = Small.Get();
 	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "the normals texture is 64 x 64, depth is 32 x 32");

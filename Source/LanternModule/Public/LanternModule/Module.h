@@ -20,7 +20,7 @@
 namespace Lantern
 {
 
-/// Incremented when anything changes that an engine was compiled with: in this header, ModuleVulkan.h, LanternSignals/Signals.h or
+/// Incremented when anything changes that an engine was compiled with: in this folder, LanternSignals/Signals.h or
 /// the RHI. The library refuses other versions. A new signal is no change: the arrays have room for MaxSignals.
 inline constexpr uint32_t ModuleVersion = 6;
 
@@ -88,17 +88,20 @@ struct FRTModuleSection
 	bool bMayBeMasked = false;
 };
 
+inline constexpr uint32_t MaxMeshVertices = 1u << 28;             ///< their buffer has 4 GiB
+inline constexpr uint32_t MaxMeshIndices = ((1u << 29) - 1u) * 3; ///< as many triangles as every device can build
+
 /// A mesh. AddMesh reads the arrays and copies them to the GPU. Skinned meshes set bDeformable, and the engine skins their
 /// vertices on the CPU. Vertices that the GPU has skinned are not supported yet.
 struct FRTModuleMesh
 {
 	const char* Name = "";
-	const float* Positions = nullptr; ///< x, y, z of each vertex; finite
-	const float* Normals = nullptr;   ///< x, y, z, unit length; null: computed from the triangles
-	const float* UVs = nullptr;       ///< u, v; null: zeros
-	uint32_t VertexCount = 0;
-	const uint32_t* Indices = nullptr; ///< counter-clockwise is front; < VertexCount
-	uint32_t IndexCount = 0;
+	const float* Positions = nullptr;           ///< x, y, z of each vertex; finite
+	const float* Normals = nullptr;             ///< x, y, z, unit length; null: computed from the triangles
+	const float* UVs = nullptr;                 ///< u, v; finite; null: zeros
+	uint32_t VertexCount = 0;                   ///< 1 … MaxMeshVertices
+	const uint32_t* Indices = nullptr;          ///< counter-clockwise is front; < VertexCount
+	uint32_t IndexCount = 0;                    ///< a multiple of 3, 3 … MaxMeshIndices
 	const FRTModuleSection* Sections = nullptr; ///< null: one section of all indices, with bMayBeMasked
 	uint32_t SectionCount = 0;
 	/// Allows UpdateMeshVertices. Rays trace the mesh slightly more slowly, and a copy stays on the CPU.

@@ -1,0 +1,250 @@
+// The calls that a play knows, one row each. What a choice may not be is named as the error must name it.
+#include "ModulePlay.h"
+
+#include <array>
+
+namespace Lantern
+{
+
+namespace
+{
+
+constexpr float Positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+constexpr float Normals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+constexpr float UVs[] = {0, 0, 1, 0, 0, 1, 1, 1};
+
+FRTModuleMaterial MakeMaterial(FModulePlay& Play)
+{
+	FRTModuleMaterial Material;
+	for (float& Channel : Material.BaseColor) { Channel = Play.Float("BaseColor", 0.5f); }
+	for (float& Channel : Material.Emissive) { Channel = Play.Float("Emissive", 0.0f); }
+	Material.Metallic = Play.Float("Metallic", 0.0f);
+	Material.Roughness = Play.Float("Roughness", 1.0f);
+	Material.AlphaCutoff = Play.Float("AlphaCutoff", 0.5f);
+	Material.bMasked = Play.Bool(false);
+	Material.bDoubleSided = Play.Bool(false);
+	if (Play.Bool(true))
+	{
+		Material.BaseColorTexture = Play.SampledTexture("BaseColorTexture");
+		if (Material.BaseColorTexture != nullptr) { Material.BaseColorSampler = Play.Pointer("BaseColorSampler", Play.GetSampler()); }
+	}
+	return Material;
+}
+
+FRTStatus AddMaterial(FModulePlay& Play)
+{
+	ERTMaterialHandle Added = ERTMaterialHandle::None;
+	const FRTModuleMaterial Material = MakeMaterial(Play);
+	const FRTStatus Status = Play.GetRenderer().AddMaterial(Material, Play.Pointer("Out", &Added));
+	Play.Keep(Play.Materials, Added);
+	return Status;
+}
+
+FRTStatus SetMaterial(FModulePlay& Play)
+{
+	const ERTMaterialHandle Handle = Play.Handle("material", Play.Materials);
+	return Play.GetRenderer().SetMaterial(Handle, MakeMaterial(Play));
+}
+
+FRTStatus RemoveMaterial(FModulePlay& Play)
+{
+	const ERTMaterialHandle Handle = Play.Handle("material", Play.Materials);
+	const FRTStatus Status = Play.GetRenderer().RemoveMaterial(Handle);
+	if (Status) { Play.Forget(Play.Materials, Handle); }
+	return Status;
+}
+
+FRTStatus AddAnyMesh(FModulePlay& Play, bool bDeformable, TPlayHandles<ERTMeshHandle>& To)
+{
+	std::array<FRTModuleSection, 2> Sections = {FRTModuleSection{0, 3, true}, FRTModuleSection{3, 3, true}};
+	const std::array<uint32_t, 6> Indices = {0, 1, 2, 2, 1, Play.Index("index", 3)};
+	FRTModuleMesh Mesh;
+	Mesh.Name = Play.Pointer("Name", "Mesh");
+	Mesh.Positions = Play.Floats("osition", Positions, false);
+	Mesh.Normals = Play.Floats("normal", Normals, true);
+	Mesh.UVs = Play.Floats("texture coordinate", UVs, true);
+	Mesh.VertexCount = Play.Count("VertexCount", 4);
+	Mesh.Indices = Play.Pointer("Indices", Indices.data());
+	Mesh.IndexCount = Play.Count("IndexCount", 6);
+	if (Play.Bool(true))
+	{
+		Sections[0].FirstIndex = Play.Index("section", 0);
+		Sections[0].IndexCount = Play.Count("section", 3);
+		Sections[1].bMayBeMasked = Play.Bool(true);
+		Mesh.Sections = Sections.data();
+		Mesh.SectionCount = Play.Count("section", 2);
+	}
+	Mesh.bDeformable = bDeformable;
+	ERTMeshHandle Added = ERTMeshHandle::None;
+	const FRTStatus Status = Play.GetRenderer().AddMesh(Mesh, Play.Pointer("Out", &Added));
+	// Rows of objects give two materials.
+	if (Mesh.Sections != nullptr) { Play.Keep(To, Added); }
+	return Status;
+}
+
+FRTStatus AddMesh(FModulePlay& Play) { return AddAnyMesh(Play, false, Play.Meshes); }
+FRTStatus AddDeformableMesh(FModulePlay& Play) { return AddAnyMesh(Play, true, Play.Deformables); }
+
+FRTStatus UpdateMeshVertices(FModulePlay& Play)
+{
+	const ERTMeshHandle Handle = Play.Handle("mesh", Play.Deformables);
+	const float* const NewPositions = Play.Floats("osition", Positions, false);
+	return Play.GetRenderer().UpdateMeshVertices(Handle, NewPositions, Play.Floats("normal", Normals, true));
+}
+
+FRTStatus RemoveMesh(FModulePlay& Play)
+{
+	TPlayHandles<ERTMeshHandle>& Of = Play.Bool(false) ? Play.Deformables : Play.Meshes;
+	const ERTMeshHandle Handle = Play.Handle("mesh", Of);
+	const FRTStatus Status = Play.GetRenderer().RemoveMesh(Handle);
+	if (Status) { Play.Forget(Of, Handle); }
+	return Status;
+}
+
+void FillTransform(FModulePlay& Play, double Out[12])
+{
+	constexpr float Good[12] = {1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0};
+	for (int Index = 0; Index < 12; ++Index) { Out[Index] = Play.Double("transform", Good[Index]); }
+}
+
+FRTStatus AddObject(FModulePlay& Play)
+{
+	FRTModuleObject Object;
+	Object.Mesh = Play.Handle("mesh", Play.Bool(false) ? Play.Deformables : Play.Meshes);
+	const ERTMaterialHandle Materials[] = {Play.Handle("material", Play.Materials), Play.Handle("material", Play.Materials)};
+	Object.Materials = Play.Pointer("materials", Materials);
+	Object.MaterialCount = Play.Count("materials", 2);
+	FillTransform(Play, Object.Transform);
+	Object.bCastsShadow = Play.Bool(true);
+	ERTObjectHandle Added = ERTObjectHandle::None;
+	const FRTStatus Status = Play.GetRenderer().AddObject(Object, Play.Pointer("Out", &Added));
+	Play.Keep(Play.Objects, Added);
+	return Status;
+}
+
+FRTStatus SetObjectTransform(FModulePlay& Play)
+{
+	double Transform[12];
+	FillTransform(Play, Transform);
+	const ERTObjectHandle Handle = Play.Handle("object", Play.Objects);
+	return Play.GetRenderer().SetObjectTransform(Handle, Play.Pointer("transform", Transform));
+}
+
+FRTStatus SetObjectMaterials(FModulePlay& Play)
+{
+	const ERTMaterialHandle Materials[] = {Play.Handle("material", Play.Materials), Play.Handle("material", Play.Materials)};
+	const ERTObjectHandle Handle = Play.Handle("object", Play.Objects);
+	const ERTMaterialHandle* const Given = Play.Pointer("materials", Materials);
+	return Play.GetRenderer().SetObjectMaterials(Handle, Given, Play.Count("materials", 2));
+}
+
+FRTStatus SetObjectCastsShadow(FModulePlay& Play)
+{
+	const ERTObjectHandle Handle = Play.Handle("object", Play.Objects);
+	return Play.GetRenderer().SetObjectCastsShadow(Handle, Play.Bool(true));
+}
+
+FRTStatus RemoveObject(FModulePlay& Play)
+{
+	const ERTObjectHandle Handle = Play.Handle("object", Play.Objects);
+	const FRTStatus Status = Play.GetRenderer().RemoveObject(Handle);
+	if (Status) { Play.Forget(Play.Objects, Handle); }
+	return Status;
+}
+
+FRTStatus SetSun(FModulePlay& Play)
+{
+	FRTModuleSun Sun;
+	for (int Axis = 0; Axis < 3; ++Axis) { Sun.Direction[Axis] = Play.Double("Direction", Axis == 1 ? -1.0 : 0.0); }
+	for (float& Channel : Sun.Color) { Channel = Play.Float("Color", 1.0f); }
+	Sun.Irradiance = Play.Float("Irradiance", 1.0f);
+	Sun.AngularDiameter = Play.Float("AngularDiameter", 0.01f);
+	return Play.GetRenderer().SetSun(Sun);
+}
+
+FRTStatus SetSky(FModulePlay& Play)
+{
+	float Radiance[3];
+	for (float& Channel : Radiance) { Channel = Play.Float("radiance", 1.0f); }
+	return Play.GetRenderer().SetSky(Play.Pointer("radiance", Radiance));
+}
+
+FRTModuleView MakeView(FModulePlay& Play)
+{
+	FRTModuleView View;
+	for (double& Axis : View.Position) { Axis = Play.Double("Position", 1.0); }
+	for (int Axis = 0; Axis < 3; ++Axis)
+	{
+		View.Forward[Axis] = Play.Float("Forward", Axis == 2 ? -1.0f : 0.0f);
+		View.Up[Axis] = Play.Float("Up", Axis == 1 ? 1.0f : 0.0f);
+	}
+	View.FovY = Play.Float("FovY", 1.0f);
+	View.Near = Play.Float("Near", 0.1f);
+	return View;
+}
+
+FRTStatus RenderFrame(FModulePlay& Play)
+{
+	FRTModuleFrame Frame;
+	Frame.Commands = Play.Pointer("Commands", Play.MakeList());
+	Frame.View = MakeView(Play);
+	Frame.Depth = Play.Texture("epth", ERTFormat::D32_FLOAT, false);
+	Frame.Normals = Play.Texture("ormals", ERTFormat::RGBA16_SNORM, false);
+	Frame.Motion = Play.Texture("otion", ERTFormat::RGBA32_FLOAT, true);
+	Frame.BaseColor = Play.Texture("base colour", ERTFormat::RGBA8_SRGB, true);
+	Frame.Material = Play.Texture("aterial", ERTFormat::RGBA8_UNORM, true);
+	Frame.DeltaSeconds = Play.Float("DeltaSeconds", 0.016f);
+	Frame.bCut = Play.Bool(false);
+	if (Play.Bool(true)) { Frame.Wanted.Add(ESignal::AmbientOcclusion); }
+	FRTModuleOutputs Outputs;
+	return Play.GetRenderer().RenderFrame(Frame, Play.Pointer("Out", &Outputs));
+}
+
+FRTStatus EndFrame(FModulePlay& Play)
+{
+	FRTFence Fence = 0;
+	return Play.GetRenderer().EndFrame(Play.Bool(true) ? &Fence : nullptr);
+}
+
+FRTStatus SetConsoleVariable(FModulePlay& Play)
+{
+	constexpr const char* Names[] = {"r.RT.Shadow.Path", "r.RT.AO.Path", "r.RT.Shadow", "r.RT.Culling", "r.RT.Scene.Gather",
+	    "r.RT.SBT.Mode", "r.RT.Build.TrianglesPerFrame", "r.RT.Build.Compaction", "r.RT.Shadow.Soft", "r.RT.AlphaTest"};
+	constexpr const char* Values[] = {"1", "0", "2"};
+	const char* const Name = Play.Pointer("Name", Names[Play.Choose() % std::size(Names)]);
+	return Play.GetModule().SetConsoleVariable(Name, Play.Pointer("Value", Values[Play.Choose() % std::size(Values)]));
+}
+
+FRTStatus GetConsoleVariable(FModulePlay& Play)
+{
+	char Text[4];
+	const char* const Name = Play.Pointer("Name", "r.RT.Shadow");
+	return Play.GetModule().GetConsoleVariable(Name, Play.Pointer("Out", Text), Play.Bool(true) ? sizeof(Text) : 1);
+}
+
+constexpr FModuleCall Calls[] = {
+    {"RenderFrame", RenderFrame},
+    {"EndFrame", EndFrame, 0},
+    {"AddMaterial", AddMaterial},
+    {"SetMaterial", SetMaterial},
+    {"RemoveMaterial", RemoveMaterial},
+    {"AddMesh", AddMesh},
+    {"AddDeformableMesh", AddDeformableMesh},
+    {"UpdateMeshVertices", UpdateMeshVertices},
+    {"RemoveMesh", RemoveMesh},
+    {"AddObject", AddObject},
+    {"SetObjectTransform", SetObjectTransform},
+    {"SetObjectMaterials", SetObjectMaterials},
+    {"SetObjectCastsShadow", SetObjectCastsShadow},
+    {"RemoveObject", RemoveObject},
+    {"SetSun", SetSun},
+    {"SetSky", SetSky},
+    {"SetConsoleVariable", SetConsoleVariable},
+    {"GetConsoleVariable", GetConsoleVariable},
+};
+
+} // namespace
+
+std::span<const FModuleCall> GetModuleCalls() { return Calls; }
+
+} // namespace Lantern
