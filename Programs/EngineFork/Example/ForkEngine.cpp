@@ -62,6 +62,7 @@ FError FForkEngine::CreateDevice()
 FError FForkEngine::LoadScene(const FForkScene& Scene)
 {
 	FError Error = Plugin.Create(Module, Instance, Device, *Requirements);
+	if (Error.empty()) { Error = Skin.Create(Device); }
 	if (Error.empty()) { Error = Raster.Create(Device, FrameSize); }
 	if (Error.empty()) { Error = Readback.Create(Device, 2 * MaskBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT); }
 	if (Error.empty()) { Error = Plugin.AddScene(Scene); }
@@ -90,7 +91,8 @@ FError FForkEngine::RunFrame(const FForkScene& Scene, bool bCut, FFrameMasks& Ou
 {
 	FError Error = Device.BeginCommands();
 	if (!Error.empty()) { return Error; }
-	Raster.Draw(Device.Commands, Scene);
+	Skin.Run(Device.Commands, Scene.Reed);
+	Raster.Draw(Device.Commands, Scene, Skin);
 	FRTModuleOutputs Outputs;
 	Error = Plugin.Render(Device.Commands, Scene.Camera, bCut, Outputs);
 	if (Error.empty()) { Error = CopyOutputs(Outputs, Out); }

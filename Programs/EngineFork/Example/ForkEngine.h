@@ -2,7 +2,7 @@
 //
 // PluginLoader finds, loads and initializes the plugin. ForkEngine creates a VkDevice with what the plugin needs, and runs frames.
 // PluginScene hands scene, G-buffer and command buffer to the plugin. The rest is the engine itself: ForkVulkan (device, images),
-// ForkRaster (G-buffer) and ForkScene (boxes, camera). The code in Judge/ checks the pictures and is no part of the example.
+// ForkSkin (skinning), ForkRaster (G-buffer) and ForkScene (boxes, camera). The code in Judge/ checks the pictures and is no part of the example.
 #pragma once
 
 #include "Example/PluginScene.h"
@@ -44,6 +44,7 @@ private:
 	FForkDevice Device; // declared before what lives on it
 	Lantern::TRTRef<Lantern::IRTVulkanRequirements> Requirements;
 	FPluginScene Plugin;
+	FForkSkin Skin;
 	FForkRaster Raster;
 	FForkBuffer Readback; // both masks
 };

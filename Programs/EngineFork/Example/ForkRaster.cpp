@@ -124,7 +124,7 @@ FError FForkRaster::CreatePipeline()
 	return Result == VK_SUCCESS ? FError() : "vkCreateGraphicsPipelines failed with " + std::to_string(Result);
 }
 
-void FForkRaster::Draw(VkCommandBuffer Commands, const FForkScene& Scene) const
+void FForkRaster::Draw(VkCommandBuffer Commands, const FForkScene& Scene, const FForkSkin& Skin) const
 {
 	Transition(Commands, Depth.Image, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
 	Transition(Commands, Normals.Image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
@@ -147,6 +147,7 @@ void FForkRaster::Draw(VkCommandBuffer Commands, const FForkScene& Scene) const
 	Info.pDepthAttachment = &DepthTarget;
 	vkCmdBeginRendering(Commands, &Info);
 	DrawBoxes(Commands, Scene);
+	DrawReed(Commands, Scene, Skin);
 	vkCmdEndRendering(Commands);
 
 	Transition(Commands, Depth.Image, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
@@ -170,6 +171,19 @@ void FForkRaster::DrawBoxes(VkCommandBuffer Commands, const FForkScene& Scene) c
 		vkCmdPushConstants(Commands, Layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(Push), &Push);
 		vkCmdDrawIndexed(Commands, 36, 1, 0, 0, 0);
 	}
+}
+
+void FForkRaster::DrawReed(VkCommandBuffer Commands, const FForkScene& Scene, const FForkSkin& Skin) const
+{
+	const VkDeviceSize Start = 0;
+	vkCmdBindVertexBuffers(Commands, 0, 1, &Skin.Vertices.Buffer, &Start);
+	vkCmdBindIndexBuffer(Commands, Skin.Indices.Buffer, 0, VK_INDEX_TYPE_UINT32);
+	FPush Push;
+	Push.RelativeToClip = GetRelativeToClip(Scene.Camera, double(Size.width) / Size.height);
+	Push.Offset = glm::vec4(glm::vec3(Scene.Reed.Middle - Scene.Camera.Position), 0.0f);
+	Push.Scale = glm::vec4(1.0f);
+	vkCmdPushConstants(Commands, Layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(Push), &Push);
+	vkCmdDrawIndexed(Commands, Skin.IndexCount, 1, 0, 0, 0);
 }
 
 FForkRaster::~FForkRaster()

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Example/ForkScene.h"
+#include "Example/ForkSkin.h"
 #include "Example/ForkVulkan.h"
 
 namespace Fork
@@ -18,13 +19,14 @@ public:
 	~FForkRaster();
 	FError Create(const FForkDevice& InOwner, VkExtent2D InSize);
 	/// Leaves both images in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL.
-	void Draw(VkCommandBuffer Commands, const FForkScene& Scene) const;
+	void Draw(VkCommandBuffer Commands, const FForkScene& Scene, const FForkSkin& Skin) const;
 
 	FForkImage Depth, Normals;
 
 private:
 	FError CreatePipeline();
 	void DrawBoxes(VkCommandBuffer Commands, const FForkScene& Scene) const;
+	void DrawReed(VkCommandBuffer Commands, const FForkScene& Scene, const FForkSkin& Skin) const;
 
 	VkDevice Device = VK_NULL_HANDLE;
 	VkExtent2D Size{};

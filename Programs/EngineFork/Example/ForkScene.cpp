@@ -16,6 +16,7 @@ FForkScene MakeScene(glm::dvec3 Offset)
 	    {Offset + glm::dvec3(-5, 2, 3), {1, 0.2, 1}, false},
 	    {Offset + glm::dvec3(4.5, 1.2, 3), {0.6, 0.6, 0.6}, true, true},
 	};
+	Scene.Reed = {Offset + glm::dvec3(-6.5, 2, -3), 0.5};
 	Scene.SunDirection = normalize(glm::dvec3(0.6, -1.0, 0.35));
 	Scene.Camera.Position = Offset + glm::dvec3(2, 6, 11);
 	Scene.Camera.Forward = normalize(Offset + glm::dvec3(0.5, 0.5, 0) - Scene.Camera.Position);
@@ -40,6 +41,38 @@ FBoxMesh MakeBoxMesh(glm::vec3 HalfSize)
 		for (uint32_t Index = 0; Index < 6; ++Index) { Mesh.Indices[Face * 6 + Index] = Face * 4 + Quad[Index]; }
 	}
 	return Mesh;
+}
+
+FReedMesh MakeReedMesh()
+{
+	constexpr int Segments = 8;
+	constexpr float HalfHeight = 2.0f, HalfWidth = 0.3f;
+	FReedMesh Mesh;
+	constexpr std::array<glm::vec2, 4> Corners = {glm::vec2(1, 1), glm::vec2(1, -1), glm::vec2(-1, -1), glm::vec2(-1, 1)};
+	for (int Ring = 0; Ring <= Segments; ++Ring)
+	{
+		const float Y = HalfHeight * (2.0f * float(Ring) / Segments - 1.0f);
+		for (const glm::vec2 Corner : Corners)
+		{
+			Mesh.Vertices.push_back({{Corner.x * HalfWidth, Y, Corner.y * HalfWidth}, glm::clamp(Y + 0.5f, 0.0f, 1.0f)});
+		}
+	}
+	for (uint32_t Ring = 0; Ring < Segments; ++Ring)
+	{
+		for (uint32_t Corner = 0; Corner < 4; ++Corner)
+		{
+			const uint32_t A = Ring * 4 + Corner, B = Ring * 4 + (Corner + 1) % 4;
+			for (const uint32_t Index : {A, B, B + 4, A, B + 4, A + 4}) { Mesh.Indices.push_back(Index); }
+		}
+	}
+	return Mesh;
+}
+
+glm::dvec3 SkinVertex(const FSkinVertex& Vertex, double Bend)
+{
+	const glm::dvec3 P(Vertex.Position);
+	const double Sine = std::sin(Bend), Cosine = std::cos(Bend);
+	return mix(P, glm::dvec3(P.x * Cosine - P.y * Sine, P.x * Sine + P.y * Cosine, P.z), double(Vertex.Weight));
 }
 
 glm::mat4 GetRelativeToClip(const FCamera& Camera, double Aspect)

@@ -120,7 +120,10 @@ std::vector<VkPhysicalDevice> FForkInstance::ListDevices() const
 FForkFeatures::FForkFeatures()
 {
 	DepthClip.depthClipEnable = VK_TRUE;
-	Vulkan13.pNext = &DepthClip;
+	Vulkan12.pNext = &DepthClip;
+	Vulkan12.bufferDeviceAddress = VK_TRUE;
+	Vulkan12.scalarBlockLayout = VK_TRUE;
+	Vulkan13.pNext = &Vulkan12;
 	Vulkan13.dynamicRendering = VK_TRUE;
 	Vulkan13.synchronization2 = VK_TRUE;
 	Core.pNext = &Vulkan13;
@@ -248,11 +251,20 @@ FError FForkBuffer::Create(const FForkDevice& Owner, VkDeviceSize Size, VkBuffer
 	VkMemoryRequirements Needs;
 	vkGetBufferMemoryRequirements(Device, Buffer, &Needs);
 	constexpr VkMemoryPropertyFlags Visible = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+	VkMemoryAllocateFlagsInfo Flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
+	Flags.flags = Usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT ? VkMemoryAllocateFlags(VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT) : 0;
 	const VkMemoryAllocateInfo Allocation{
-	    VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, Needs.size, Owner.FindMemory(Needs.memoryTypeBits, Visible)};
+	    VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &Flags, Needs.size, Owner.FindMemory(Needs.memoryTypeBits, Visible)};
 	if (FError Error = Check(vkAllocateMemory(Device, &Allocation, nullptr, &Memory), "vkAllocateMemory"); !Error.empty()) { return Error; }
 	vkBindBufferMemory(Device, Buffer, Memory, 0);
 	return Check(vkMapMemory(Device, Memory, 0, VK_WHOLE_SIZE, 0, &Mapped), "vkMapMemory");
+}
+
+VkDeviceAddress FForkBuffer::GetAddress() const
+{
+	VkBufferDeviceAddressInfo Info{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO};
+	Info.buffer = Buffer;
+	return vkGetBufferDeviceAddress(Device, &Info);
 }
 
 FForkBuffer::~FForkBuffer()

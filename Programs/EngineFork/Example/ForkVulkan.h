@@ -34,6 +34,7 @@ struct FForkFeatures
 	FForkFeatures(const FForkFeatures&) = delete;
 	static constexpr const char* Extensions[] = {VK_EXT_DEPTH_CLIP_ENABLE_EXTENSION_NAME};
 	VkPhysicalDeviceDepthClipEnableFeaturesEXT DepthClip{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DEPTH_CLIP_ENABLE_FEATURES_EXT};
+	VkPhysicalDeviceVulkan12Features Vulkan12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
 	VkPhysicalDeviceVulkan13Features Vulkan13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
 	VkPhysicalDeviceFeatures2 Core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
 };
@@ -91,6 +92,8 @@ struct FForkBuffer
 	FForkBuffer(const FForkBuffer&) = delete;
 	~FForkBuffer();
 	FError Create(const FForkDevice& Owner, VkDeviceSize Size, VkBufferUsageFlags Usage);
+	/// Usage must have had VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT.
+	VkDeviceAddress GetAddress() const;
 };
 
 /// Moves one image from one layout to another. All commands before it finish first, which is simple and slow.

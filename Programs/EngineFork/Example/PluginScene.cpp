@@ -83,17 +83,55 @@ FError FPluginScene::AddMaterials()
 	return Error;
 }
 
-FError FPluginScene::AddBox(const FBox& Box)
+FError FPluginScene::AddBox(const FBox& Box, ERTMeshHandle OwnMesh)
 {
 	FRTModuleObject Object;
-	Object.Mesh = Box.bDeformable ? DeformableMesh : RigidMesh;
+	Object.Mesh = OwnMesh != ERTMeshHandle::None ? OwnMesh : Box.bDeformable ? DeformableMesh : RigidMesh;
 	Object.Materials = Box.bCutOut ? &CutOut : &Solid;
 	Object.MaterialCount = 1;
 	Object.bCastsShadow = Box.bCastsShadow;
 	const std::array<double, 12> Transform = GetTransform(Box);
 	std::copy(Transform.begin(), Transform.end(), Object.Transform);
-	Boxes.emplace_back();
-	return ToError(Renderer->AddObject(Object, &Boxes.back()), "AddObject");
+	Boxes.push_back({ERTObjectHandle::None, OwnMesh});
+	return ToError(Renderer->AddObject(Object, &Boxes.back().Object), "AddObject");
+}
+
+namespace
+{
+
+std::vector<glm::vec3> SkinReed(const FReedMesh& Mesh, double Bend)
+{
+	std::vector<glm::vec3> Positions;
+	for (const FSkinVertex& Vertex : Mesh.Vertices) { Positions.emplace_back(SkinVertex(Vertex, Bend)); }
+	return Positions;
+}
+
+} // namespace
+
+FError FPluginScene::AddReed(const FReed& At)
+{
+	const FReedMesh Source = MakeReedMesh();
+	const std::vector<glm::vec3> Positions = SkinReed(Source, At.Bend);
+	FRTModuleMesh Mesh;
+	Mesh.Name = "Reed";
+	Mesh.Positions = &Positions[0].x;
+	Mesh.VertexCount = static_cast<uint32_t>(Positions.size());
+	Mesh.Indices = Source.Indices.data();
+	Mesh.IndexCount = static_cast<uint32_t>(Source.Indices.size());
+	Mesh.bDeformable = true;
+	if (FError Error = ToError(Renderer->AddMesh(Mesh, &ReedMesh), "AddMesh(reed)"); !Error.empty()) { return Error; }
+	FRTModuleObject Object;
+	Object.Mesh = ReedMesh;
+	Object.Materials = &Solid;
+	Object.MaterialCount = 1;
+	for (int Axis = 0; Axis < 3; ++Axis) { Object.Transform[Axis * 4 + 3] = At.Middle[Axis]; }
+	return ToError(Renderer->AddObject(Object, &Reed), "AddObject(reed)");
+}
+
+FError FPluginScene::BendReed(const FReed& To)
+{
+	const std::vector<glm::vec3> Positions = SkinReed(MakeReedMesh(), To.Bend);
+	return ToError(Renderer->UpdateMeshVertices(ReedMesh, &Positions[0].x, nullptr), "UpdateMeshVertices(reed)");
 }
 
 FError FPluginScene::AddScene(const FForkScene& Scene)
@@ -102,6 +140,7 @@ FError FPluginScene::AddScene(const FForkScene& Scene)
 	if (Error.empty()) { Error = AddBoxMesh(true, DeformableMesh); }
 	if (Error.empty()) { Error = AddMaterials(); }
 	for (size_t Index = 0; Error.empty() && Index < Scene.Boxes.size(); ++Index) { Error = AddBox(Scene.Boxes[Index]); }
+	if (Error.empty()) { Error = AddReed(Scene.Reed); }
 	FRTModuleSun Sun;
 	Sun.Irradiance = 1.0f;
 	for (int Axis = 0; Axis < 3; ++Axis) { Sun.Direction[Axis] = Scene.SunDirection[Axis]; }
@@ -110,12 +149,21 @@ FError FPluginScene::AddScene(const FForkScene& Scene)
 
 FError FPluginScene::MoveBox(size_t Box, const FBox& To)
 {
-	return ToError(Renderer->SetObjectTransform(Boxes[Box], GetTransform(To).data()), "SetObjectTransform");
+	return ToError(Renderer->SetObjectTransform(Boxes[Box].Object, GetTransform(To).data()), "SetObjectTransform");
+}
+
+FError FPluginScene::StreamIn(const FBox& Box)
+{
+	ERTMeshHandle OwnMesh{};
+	const FError Error = AddBoxMesh(false, OwnMesh);
+	return Error.empty() ? AddBox(Box, OwnMesh) : Error;
 }
 
 FError FPluginScene::RemoveBox(size_t Box)
 {
-	const FError Error = ToError(Renderer->RemoveObject(Boxes[Box]), "RemoveObject");
+	FError Error = ToError(Renderer->RemoveObject(Boxes[Box].Object), "RemoveObject");
+	const ERTMeshHandle OwnMesh = Boxes[Box].OwnMesh;
+	if (Error.empty() && OwnMesh != ERTMeshHandle::None) { Error = ToError(Renderer->RemoveMesh(OwnMesh), "RemoveMesh"); }
 	Boxes.erase(Boxes.begin() + static_cast<std::ptrdiff_t>(Box));
 	return Error;
 }
@@ -128,8 +176,8 @@ FError FPluginScene::ScaleVertices(float Scale)
 
 FError FPluginScene::SetBox(size_t Box, const FBox& To)
 {
-	const FError Error = ToError(Renderer->SetObjectMaterials(Boxes[Box], To.bCutOut ? &CutOut : &Solid, 1), "SetObjectMaterials");
-	return Error.empty() ? ToError(Renderer->SetObjectCastsShadow(Boxes[Box], To.bCastsShadow), "SetObjectCastsShadow") : Error;
+	const FError Error = ToError(Renderer->SetObjectMaterials(Boxes[Box].Object, To.bCutOut ? &CutOut : &Solid, 1), "SetObjectMaterials");
+	return Error.empty() ? ToError(Renderer->SetObjectCastsShadow(Boxes[Box].Object, To.bCastsShadow), "SetObjectCastsShadow") : Error;
 }
 
 FError FPluginScene::ImportGBuffer(const FForkRaster& Raster, VkExtent2D Size)

@@ -21,12 +21,16 @@ public:
 	FError AddScene(const FForkScene& Scene);
 	/// Box is an index into FForkScene::Boxes.
 	FError MoveBox(size_t Box, const FBox& To);
-	/// The indices of later boxes become smaller by one.
+	/// Adds a box with a mesh of its own, behind the others, while frames go on.
+	FError StreamIn(const FBox& Box);
+	/// Removes a box, and its mesh if that is its own. The indices of later boxes become smaller by one.
 	FError RemoveBox(size_t Box);
 	/// Scales the vertices of the deformable boxes; their transforms stay.
 	FError ScaleVertices(float Scale);
 	/// Takes bCastsShadow and bCutOut over from To.
 	FError SetBox(size_t Box, const FBox& To);
+	/// Hands over the vertices of the reed.
+	FError BendReed(const FReed& Reed);
 	FError ImportGBuffer(const FForkRaster& Raster, VkExtent2D Size);
 	void ReleaseGBuffer(); ///< must be called before the images of the raster are destroyed
 	/// Records the plugin's work. Commands must be recording and must have drawn the G-buffer. bCut: this frame has nothing in common
@@ -38,15 +42,22 @@ public:
 	bool IsComplete() const { return bComplete; }
 
 private:
+	struct FPlacedBox
+	{
+		Lantern::ERTObjectHandle Object{};
+		Lantern::ERTMeshHandle OwnMesh{}; ///< None: it has one of the shared meshes
+	};
 	FError AddBoxMesh(bool bDeformable, Lantern::ERTMeshHandle& Out);
 	FError AddMaterials();
-	FError AddBox(const FBox& Box);
+	FError AddBox(const FBox& Box, Lantern::ERTMeshHandle OwnMesh = Lantern::ERTMeshHandle::None);
+	FError AddReed(const FReed& Reed);
 
 	Lantern::TRTRef<Lantern::IRTDevice> Device; // declared first, so that it is released last
 	Lantern::TRTRef<Lantern::IRTModuleRenderer> Renderer;
-	Lantern::ERTMeshHandle RigidMesh{}, DeformableMesh{};
+	Lantern::ERTMeshHandle RigidMesh{}, DeformableMesh{}, ReedMesh{};
+	Lantern::ERTObjectHandle Reed{};
 	Lantern::ERTMaterialHandle Solid{}, CutOut{};
-	std::vector<Lantern::ERTObjectHandle> Boxes;
+	std::vector<FPlacedBox> Boxes;
 	Lantern::TRTRef<Lantern::IRTTexture> Depth, Normals;
 	Lantern::TRTRef<Lantern::IRTCommandList> List;
 	std::chrono::steady_clock::time_point LastFrame{};

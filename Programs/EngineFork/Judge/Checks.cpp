@@ -2,6 +2,7 @@
 #include "Judge/Checks.h"
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <thread>
 
@@ -68,9 +69,35 @@ FError CheckChanged(FForkEngine& Engine, FForkScene& Scene)
 	FError Error = Engine.GetPlugin().ScaleVertices(Scale);
 	Scene.Boxes[2].bCastsShadow = true;
 	Scene.Boxes[3].bCutOut = false;
+	Scene.Reed.Bend = -0.8;
+	if (Error.empty()) { Error = Engine.GetPlugin().BendReed(Scene.Reed); }
 	for (size_t Box = 2; Error.empty() && Box <= 3; ++Box) { Error = Engine.GetPlugin().SetBox(Box, Scene.Boxes[Box]); }
 	FFrameMasks Masks;
-	return Error.empty() ? CheckScene(Engine, Scene, "pillar deformed, slab and cut-out cast shadows", Masks) : Error;
+	return Error.empty() ? CheckScene(Engine, Scene, "pillar deformed, reed bent, slab and cut-out cast shadows", Masks) : Error;
+}
+
+/// Boxes come and go with each frame, as around a camera that flies. Those that stay at last must be there, and no others.
+FError CheckStreamed(FForkEngine& Engine, FForkScene& Scene)
+{
+	constexpr int Frames = 60;
+	constexpr size_t MostBoxes = 6;
+	const size_t First = Scene.Boxes.size();
+	const glm::dvec3 Floor = Scene.Boxes[0].Centre + glm::dvec3(0, Scene.Boxes[0].HalfSize.y, 0);
+	FError Error;
+	FFrameMasks Masks;
+	for (int Frame = 0; Error.empty() && Frame < Frames; ++Frame)
+	{
+		const double Angle = Frame * 0.9;
+		Scene.Boxes.push_back({Floor + glm::dvec3(7.0 * std::cos(Angle), 0.6, 6.0 * std::sin(Angle)), glm::dvec3(0.3, 0.6, 0.5)});
+		Error = Engine.GetPlugin().StreamIn(Scene.Boxes.back());
+		if (Error.empty() && Scene.Boxes.size() > First + MostBoxes)
+		{
+			Scene.Boxes.erase(Scene.Boxes.begin() + static_cast<std::ptrdiff_t>(First));
+			Error = Engine.GetPlugin().RemoveBox(First);
+		}
+		if (Error.empty()) { Error = Engine.RunFrame(Scene, false, Masks); }
+	}
+	return Error.empty() ? CheckScene(Engine, Scene, "boxes streamed in and out", Masks) : Error;
 }
 
 } // namespace
@@ -81,7 +108,8 @@ FError CheckScenes(FForkEngine& Engine, FForkScene Scene, const std::string& Pic
 	FError Error = CheckScene(Engine, Scene, "as made", Masks);
 	if (Error.empty() && !Picture.empty()) { Error = WritePicture(Picture, Masks.SunShadow); }
 	if (Error.empty()) { Error = CheckMoved(Engine, Scene); }
-	return Error.empty() ? CheckChanged(Engine, Scene) : Error;
+	if (Error.empty()) { Error = CheckChanged(Engine, Scene); }
+	return Error.empty() ? CheckStreamed(Engine, Scene) : Error;
 }
 
 } // namespace Fork

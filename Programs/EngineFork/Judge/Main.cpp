@@ -1,5 +1,5 @@
 // EngineFork: runs the example engine (Example/ForkEngine.h) and judges its pictures. Every pixel of the shadow mask is compared with
-// the closed form, and ambient occlusion with what is plausible.
+// rays on the CPU, and ambient occlusion with what is plausible.
 //
 // Exit status: 0 done, 1 a check did not hold, 2 wrong usage, 3 no usable driver or device.
 #include <cstdio>

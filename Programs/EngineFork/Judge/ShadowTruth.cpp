@@ -1,93 +1,89 @@
-// The truth about the shadow of boxes: their intersections with rays in double precision.
+// The truth about shadows: the scene's triangles, and rays that find the nearest.
 #include "Judge/ShadowTruth.h"
 
 #include <cmath>
-#include <limits>
-#include <optional>
 
 namespace Fork
 {
 
-namespace
+FShadowTruth::FShadowTruth(const FForkScene& InScene) : Scene(InScene)
 {
-
-struct FHit
-{
-	double Distance = 0.0;
-	glm::dvec3 Normal{0};
-	size_t Box = 0;
-};
-
-/// Slab test; the first boundary in front of the origin.
-std::optional<FHit> Intersect(const FBox& Box, glm::dvec3 Origin, glm::dvec3 Direction)
-{
-	double Enter = -std::numeric_limits<double>::infinity(), Leave = std::numeric_limits<double>::infinity();
-	glm::dvec3 Normal{0};
-	for (int Axis = 0; Axis < 3; ++Axis)
+	const FBoxMesh Unit = MakeBoxMesh();
+	for (size_t Box = 0; Box < Scene.Boxes.size(); ++Box)
 	{
-		const double Middle = (Box.Centre[Axis] - Origin[Axis]) / Direction[Axis];
-		const double Half = Box.HalfSize[Axis] / std::abs(Direction[Axis]);
-		if (Middle - Half > Enter)
+		const FBox& Item = Scene.Boxes[Box];
+		for (size_t First = 0; First < Unit.Indices.size(); First += 3)
 		{
-			Enter = Middle - Half;
-			Normal = glm::dvec3(0);
-			Normal[Axis] = Direction[Axis] > 0.0 ? -1.0 : 1.0;
+			glm::dvec3 Corners[3];
+			for (size_t Corner = 0; Corner < 3; ++Corner)
+			{
+				Corners[Corner] = Item.Centre + Item.HalfSize * glm::dvec3(Unit.Vertices[Unit.Indices[First + Corner]].Position);
+			}
+			AddTriangle(Corners, Box, Item.bCastsShadow && !Item.bCutOut);
 		}
-		Leave = std::min(Leave, Middle + Half);
 	}
-	if (Enter > Leave || Enter <= 0.0) { return std::nullopt; }
-	return FHit{Enter, Normal, 0};
+	const FReedMesh Reed = MakeReedMesh();
+	for (size_t First = 0; First < Reed.Indices.size(); First += 3)
+	{
+		glm::dvec3 Corners[3];
+		for (size_t Corner = 0; Corner < 3; ++Corner)
+		{
+			Corners[Corner] = Scene.Reed.Middle + SkinVertex(Reed.Vertices[Reed.Indices[First + Corner]], Scene.Reed.Bend);
+		}
+		AddTriangle(Corners, Scene.Boxes.size(), true);
+	}
 }
 
-enum class ESeenBy
+void FShadowTruth::AddTriangle(const glm::dvec3 (&Corners)[3], size_t Thing, bool bCastsShadow)
 {
-	Camera,
-	Sun,
-};
+	const glm::dvec3 Edge1 = Corners[1] - Corners[0], Edge2 = Corners[2] - Corners[0];
+	Triangles.push_back({Corners[0], Edge1, Edge2, normalize(cross(Edge1, Edge2)), Thing, bCastsShadow});
+}
 
-std::optional<FHit> FindNearest(const FForkScene& Scene, glm::dvec3 Origin, glm::dvec3 Direction, ESeenBy SeenBy)
+/// Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997.
+std::optional<FShadowTruth::FHit> FShadowTruth::FindNearest(glm::dvec3 Origin, glm::dvec3 Direction, ESeenBy SeenBy) const
 {
 	std::optional<FHit> Nearest;
-	for (size_t Index = 0; Index < Scene.Boxes.size(); ++Index)
+	for (const FTriangle& Triangle : Triangles)
 	{
-		if (SeenBy == ESeenBy::Sun && (!Scene.Boxes[Index].bCastsShadow || Scene.Boxes[Index].bCutOut)) { continue; }
-		const std::optional<FHit> Hit = Intersect(Scene.Boxes[Index], Origin, Direction);
-		if (Hit && (!Nearest || Hit->Distance < Nearest->Distance))
-		{
-			Nearest = Hit;
-			Nearest->Box = Index;
-		}
+		if (SeenBy == ESeenBy::Sun ? !Triangle.bCastsShadow : dot(Triangle.Normal, Direction) >= 0.0) { continue; }
+		const glm::dvec3 P = cross(Direction, Triangle.Edge2);
+		const double Determinant = dot(Triangle.Edge1, P);
+		if (Determinant == 0.0) { continue; }
+		const glm::dvec3 To = Origin - Triangle.Corner, Q = cross(To, Triangle.Edge1);
+		const double U = dot(To, P) / Determinant, V = dot(Direction, Q) / Determinant, Distance = dot(Triangle.Edge2, Q) / Determinant;
+		if (U < 0.0 || V < 0.0 || U + V > 1.0 || Distance <= 0.0) { continue; }
+		if (!Nearest || Distance < Nearest->Distance) { Nearest = FHit{Distance, &Triangle}; }
 	}
 	return Nearest;
 }
 
-struct FSample
+FShadowTruth::FSample FShadowTruth::Sample(glm::dvec3 CameraRay, glm::dvec3 Shift) const
 {
-	EExpectation Expectation = EExpectation::Sky;
-	size_t Box = 0;
-	glm::dvec3 Normal{0};
-	bool operator==(const FSample&) const = default;
-};
-
-FSample Sample(const FForkScene& Scene, glm::dvec3 CameraRay, glm::dvec3 Shift)
-{
-	const std::optional<FHit> Hit = FindNearest(Scene, Scene.Camera.Position, CameraRay, ESeenBy::Camera);
+	const std::optional<FHit> Hit = FindNearest(Scene.Camera.Position, CameraRay, ESeenBy::Camera);
 	if (!Hit) { return {}; }
-	FSample Result{EExpectation::Shadowed, Hit->Box, Hit->Normal};
-	if (dot(Hit->Normal, -Scene.SunDirection) > 0.0)
+	const glm::dvec3 Normal = Hit->Triangle->Normal;
+	FSample Result{EExpectation::Shadowed, Hit->Triangle};
+	if (dot(Normal, -Scene.SunDirection) > 0.0)
 	{
 		// Away from the surface, so that it does not shadow itself; Shift stays within it.
-		const glm::dvec3 Sideways = Shift - Hit->Normal * dot(Hit->Normal, Shift);
-		const glm::dvec3 Origin = Scene.Camera.Position + CameraRay * Hit->Distance + Hit->Normal * 1e-6 + Sideways;
-		const bool bHidden = FindNearest(Scene, Origin, -Scene.SunDirection, ESeenBy::Sun).has_value();
+		const glm::dvec3 Sideways = Shift - Normal * dot(Normal, Shift);
+		const glm::dvec3 Origin = Scene.Camera.Position + CameraRay * Hit->Distance + Normal * 1e-6 + Sideways;
+		const bool bHidden = FindNearest(Origin, -Scene.SunDirection, ESeenBy::Sun).has_value();
 		Result.Expectation = bHidden ? EExpectation::Shadowed : EExpectation::Lit;
 	}
 	return Result;
 }
 
-} // namespace
+/// Whether two samples are of one face with one answer.
+bool FShadowTruth::AreAlike(const FSample& A, const FSample& B)
+{
+	if (A.Expectation != B.Expectation || !A.Triangle || !B.Triangle) { return A.Expectation == B.Expectation && A.Triangle == B.Triangle; }
+	constexpr double Parallel = 1.0 - 1e-12;
+	return A.Triangle->Thing == B.Triangle->Thing && dot(A.Triangle->Normal, B.Triangle->Normal) > Parallel;
+}
 
-EExpectation ExpectPixel(const FForkScene& Scene, uint32_t X, uint32_t Y, uint32_t Width, uint32_t Height)
+EExpectation FShadowTruth::ExpectPixel(uint32_t X, uint32_t Y, uint32_t Width, uint32_t Height) const
 {
 	constexpr double Margin = 0.02; // metres: far more than fp32 depth loses here
 	const FCamera& Camera = Scene.Camera;
@@ -95,11 +91,11 @@ EExpectation ExpectPixel(const FForkScene& Scene, uint32_t X, uint32_t Y, uint32
 	std::optional<FSample> First;
 	for (int Try = 0; Try < 5; ++Try)
 	{
-		const glm::dvec2 Jitter = Try == 0 ? glm::dvec2(0) : glm::dvec2(Try % 2 ? 0.6 : -0.6, Try > 2 ? 0.6 : -0.6);
-		const double NdcX = (X + 0.5 + Jitter.x) / Width * 2.0 - 1.0, NdcY = (Y + 0.5 + Jitter.y) / Height * 2.0 - 1.0;
+		const glm::dvec2 Shift = Try == 0 ? glm::dvec2(0) : glm::dvec2(Try % 2 ? 0.6 : -0.6, Try > 2 ? 0.6 : -0.6);
+		const double NdcX = (X + 0.5 + Shift.x) / Width * 2.0 - 1.0, NdcY = (Y + 0.5 + Shift.y) / Height * 2.0 - 1.0;
 		const glm::dvec3 Ray = normalize(Camera.Forward + Camera.Right * (NdcX * TanHalf * Aspect) - Camera.Up * (NdcY * TanHalf));
-		const FSample Found = Sample(Scene, Ray, glm::dvec3(Jitter.x, Jitter.x + Jitter.y, Jitter.y) * (Margin / 0.6));
-		if (First && !(*First == Found)) { return EExpectation::Unsure; }
+		const FSample Found = Sample(Ray, glm::dvec3(Shift.x, Shift.x + Shift.y, Shift.y) * (Margin / 0.6));
+		if (First && !AreAlike(*First, Found)) { return EExpectation::Unsure; }
 		First = Found;
 	}
 	return First->Expectation;

@@ -1,5 +1,8 @@
-// The right shadow of the example scene, in closed form.
+// The right shadow of the example scene: rays against its triangles in double precision.
 #pragma once
+
+#include <optional>
+#include <vector>
 
 #include "Example/ForkScene.h"
 
@@ -8,13 +11,50 @@ namespace Fork
 
 enum class EExpectation : uint8_t
 {
-	Unsure, ///< an edge of a box or of a shadow is near
+	Unsure, ///< an edge of a surface or of a shadow is near
 	Sky,
 	Lit,
 	Shadowed,
 };
 
-/// What the pixel must show. It intersects boxes with rays in double precision.
-EExpectation ExpectPixel(const FForkScene& Scene, uint32_t X, uint32_t Y, uint32_t Width, uint32_t Height);
+/// Knows nothing of the plugin, of depth buffers or of acceleration structures.
+class FShadowTruth
+{
+public:
+	explicit FShadowTruth(const FForkScene& InScene);
+	/// What the pixel must show.
+	EExpectation ExpectPixel(uint32_t X, uint32_t Y, uint32_t Width, uint32_t Height) const;
+
+private:
+	struct FTriangle
+	{
+		glm::dvec3 Corner, Edge1, Edge2, Normal; ///< of unit length, to where its corners are counter-clockwise
+		size_t Thing = 0;                        ///< box, or one past them for the reed
+		bool bCastsShadow = true;
+	};
+	struct FHit
+	{
+		double Distance = 0.0;
+		const FTriangle* Triangle = nullptr;
+	};
+	enum class ESeenBy
+	{
+		Camera, ///< front faces
+		Sun,    ///< all that cast shadows
+	};
+	struct FSample
+	{
+		EExpectation Expectation = EExpectation::Sky;
+		const FTriangle* Triangle = nullptr;
+	};
+
+	void AddTriangle(const glm::dvec3 (&Corners)[3], size_t Thing, bool bCastsShadow);
+	std::optional<FHit> FindNearest(glm::dvec3 Origin, glm::dvec3 Direction, ESeenBy SeenBy) const;
+	FSample Sample(glm::dvec3 CameraRay, glm::dvec3 Shift) const;
+	static bool AreAlike(const FSample& A, const FSample& B);
+
+	const FForkScene& Scene;
+	std::vector<FTriangle> Triangles;
+};
 
 } // namespace Fork

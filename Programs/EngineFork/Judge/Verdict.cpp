@@ -13,11 +13,12 @@ namespace Fork
 FVerdict JudgeShadow(const FForkScene& Scene, const uint16_t* Mask)
 {
 	FVerdict Verdict;
+	const FShadowTruth Truth(Scene);
 	for (uint32_t Y = 0; Y < FrameSize.height; ++Y)
 	{
 		for (uint32_t X = 0; X < FrameSize.width; ++X)
 		{
-			const EExpectation Expected = ExpectPixel(Scene, X, Y, FrameSize.width, FrameSize.height);
+			const EExpectation Expected = Truth.ExpectPixel(X, Y, FrameSize.width, FrameSize.height);
 			const float Found = glm::unpackHalf1x16(Mask[Y * FrameSize.width + X]);
 			const float Right = Expected == EExpectation::Shadowed ? 0.0f : 1.0f;
 			Verdict.Wrong += Expected != EExpectation::Unsure && Found != Right;

@@ -14,7 +14,7 @@ struct FVerdict
 	uint32_t Lit = 0, Shadowed = 0, Sky = 0, Unsure = 0, Wrong = 0;
 };
 
-/// Compares every pixel of Mask with the closed form.
+/// Compares every pixel of Mask with the truth.
 FVerdict JudgeShadow(const FForkScene& Scene, const uint16_t* Mask);
 
 /// Fails unless ambient occlusion is in range, and some pixels but not most are occluded. The filter's result has no closed form here;

@@ -1,5 +1,6 @@
 #version 460
 layout(location = 0) flat in vec3 InNormal;
+layout(location = 1) in vec3 InRelative;
 layout(location = 0) out vec4 OutNormals; // shading and geometric normal, the same in this engine
 
 vec2 EncodeOctahedral(vec3 N)
@@ -10,6 +11,13 @@ vec2 EncodeOctahedral(vec3 N)
 
 void main()
 {
-	vec2 Encoded = EncodeOctahedral(InNormal);
+	// Skinned meshes have no normals: that of the triangle serves.
+	vec3 Normal = InNormal;
+	if (InNormal == vec3(0.0))
+	{
+		Normal = normalize(cross(dFdx(InRelative), dFdy(InRelative)));
+		Normal = dot(Normal, InRelative) > 0.0 ? -Normal : Normal;
+	}
+	vec2 Encoded = EncodeOctahedral(Normal);
 	OutNormals = vec4(Encoded, Encoded);
 }

@@ -9,9 +9,11 @@ layout(push_constant) uniform FPush
 layout(location = 0) in vec3 InPosition;
 layout(location = 1) in vec3 InNormal;
 layout(location = 0) flat out vec3 OutNormal;
+layout(location = 1) out vec3 OutRelative; // to the camera
 
 void main()
 {
 	OutNormal = InNormal;
-	gl_Position = Push.RelativeToClip * vec4(InPosition * Push.Scale.xyz + Push.Offset.xyz, 1.0);
+	OutRelative = InPosition * Push.Scale.xyz + Push.Offset.xyz;
+	gl_Position = Push.RelativeToClip * vec4(OutRelative, 1.0);
 }

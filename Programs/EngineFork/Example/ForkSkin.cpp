@@ -1,0 +1,90 @@
+// The compute pass that bends the reed.
+#include "Example/ForkSkin.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "ForkSkinShader.h"
+
+namespace Fork
+{
+
+namespace
+{
+
+struct FPush
+{
+	VkDeviceAddress BindPose = 0, Vertices = 0;
+	float Sine = 0.0f, Cosine = 1.0f;
+	uint32_t Count = 0;
+};
+
+constexpr uint32_t GroupSize = 64; // Fork.comp
+
+} // namespace
+
+FError FForkSkin::Create(const FForkDevice& Owner)
+{
+	Device = Owner.Device;
+	const FReedMesh Mesh = MakeReedMesh();
+	VertexCount = static_cast<uint32_t>(Mesh.Vertices.size());
+	IndexCount = static_cast<uint32_t>(Mesh.Indices.size());
+	constexpr VkBufferUsageFlags Read = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+	// The plugin builds its acceleration structure from these vertices.
+	constexpr VkBufferUsageFlags Traced = Read | VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
+	FError Error = BindPose.Create(Owner, VertexCount * sizeof(FSkinVertex), Read);
+	if (Error.empty()) { Error = Vertices.Create(Owner, VertexCount * sizeof(FVertex), Traced | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT); }
+	if (Error.empty()) { Error = Indices.Create(Owner, IndexCount * sizeof(uint32_t), VK_BUFFER_USAGE_INDEX_BUFFER_BIT); }
+	if (!Error.empty()) { return Error; }
+	std::memcpy(BindPose.Mapped, Mesh.Vertices.data(), VertexCount * sizeof(FSkinVertex));
+	std::memcpy(Indices.Mapped, Mesh.Indices.data(), IndexCount * sizeof(uint32_t));
+	return CreatePipeline();
+}
+
+FError FForkSkin::CreatePipeline()
+{
+	const VkPushConstantRange Range{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(FPush)};
+	VkPipelineLayoutCreateInfo LayoutInfo{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+	LayoutInfo.pushConstantRangeCount = 1;
+	LayoutInfo.pPushConstantRanges = &Range;
+	vkCreatePipelineLayout(Device, &LayoutInfo, nullptr, &Layout);
+	VkShaderModuleCreateInfo ModuleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+	ModuleInfo.codeSize = sizeof(ForkSkinShader);
+	ModuleInfo.pCode = ForkSkinShader;
+	VkComputePipelineCreateInfo Info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+	Info.stage = {
+	    VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, VK_SHADER_STAGE_COMPUTE_BIT, VK_NULL_HANDLE, "main", nullptr};
+	vkCreateShaderModule(Device, &ModuleInfo, nullptr, &Info.stage.module);
+	Info.layout = Layout;
+	const VkResult Result = vkCreateComputePipelines(Device, VK_NULL_HANDLE, 1, &Info, nullptr, &Pipeline);
+	vkDestroyShaderModule(Device, Info.stage.module, nullptr);
+	return Result == VK_SUCCESS ? FError() : "vkCreateComputePipelines failed with " + std::to_string(Result);
+}
+
+void FForkSkin::Run(VkCommandBuffer Commands, const FReed& Reed) const
+{
+	const FPush Push{BindPose.GetAddress(), Vertices.GetAddress(), float(std::sin(Reed.Bend)), float(std::cos(Reed.Bend)), VertexCount};
+	vkCmdBindPipeline(Commands, VK_PIPELINE_BIND_POINT_COMPUTE, Pipeline);
+	vkCmdPushConstants(Commands, Layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(Push), &Push);
+	vkCmdDispatch(Commands, (VertexCount + GroupSize - 1) / GroupSize, 1, 1);
+	VkMemoryBarrier2 Barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+	Barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+	Barrier.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+	Barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+	Barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT;
+	VkDependencyInfo Info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+	Info.memoryBarrierCount = 1;
+	Info.pMemoryBarriers = &Barrier;
+	vkCmdPipelineBarrier2(Commands, &Info);
+}
+
+FForkSkin::~FForkSkin()
+{
+	if (Device != VK_NULL_HANDLE)
+	{
+		vkDestroyPipeline(Device, Pipeline, nullptr);
+		vkDestroyPipelineLayout(Device, Layout, nullptr);
+	}
+}
+
+} // namespace Fork

@@ -1,0 +1,35 @@
+#version 460
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+layout(local_size_x = 64) in;
+
+struct FSkinVertex
+{
+	vec3 Position;
+	float Weight;
+};
+struct FVertex
+{
+	vec3 Position, Normal;
+};
+layout(buffer_reference, scalar) readonly buffer FBindPose { FSkinVertex Items[]; };
+layout(buffer_reference, scalar) writeonly buffer FVertices { FVertex Items[]; };
+layout(push_constant, scalar) uniform FPush
+{
+	FBindPose BindPose;
+	FVertices Vertices;
+	float Sine, Cosine;
+	uint Count;
+} Push;
+
+// Linear blend of two bones: one rests, one turns about z.
+void main()
+{
+	uint Index = gl_GlobalInvocationID.x;
+	if (Index >= Push.Count) { return; }
+	FSkinVertex Vertex = Push.BindPose.Items[Index];
+	vec3 P = Vertex.Position;
+	vec3 Turned = vec3(P.x * Push.Cosine - P.y * Push.Sine, P.x * Push.Sine + P.y * Push.Cosine, P.z);
+	Push.Vertices.Items[Index] = FVertex(mix(P, Turned, Vertex.Weight), vec3(0));
+}
