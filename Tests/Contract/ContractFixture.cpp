@@ -36,7 +36,7 @@ void FContractFixture::SetUp()
 		};
 		ASSERT_OK(CreateVulkanDevice(Desc, Inner.ReleaseAndGetAddress()));
 	}
-	else { ASSERT_OK(CreateMockDevice({}, Inner.ReleaseAndGetAddress())); }
+	else { ASSERT_OK(CreateMockDevice({.bTransferQueue = true}, Inner.ReleaseAndGetAddress())); }
 	const bool bWrap = GetParam() == EContractRHI::MockValidated || GetParam() == EContractRHI::VulkanValidated;
 	const auto Callback = [](void* User, const char* Text) { static_cast<FContractFixture*>(User)->AddMessage(Text); };
 	if (bWrap) { ASSERT_OK(WrapWithValidation(Inner.Get(), Callback, this, Make.Device.ReleaseAndGetAddress())); }

@@ -16,6 +16,7 @@ protected:
 	{
 		FRTMockDesc Desc;
 		Desc.MaxPushConstantBytes = 128;
+		Desc.bTransferQueue = true;
 		ASSERT_OK(CreateMockDevice(Desc, Inner.ReleaseAndGetAddress()));
 		const auto Callback = [](void* User, const char* Message) { static_cast<FValidationFixture*>(User)->Messages.push_back(Message); };
 		ASSERT_OK(WrapWithValidation(Inner.Get(), Callback, this, Make.Device.ReleaseAndGetAddress()));

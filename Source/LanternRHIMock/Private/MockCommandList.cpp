@@ -19,9 +19,10 @@ constexpr uint64_t CommandNs = 1000;
 
 } // namespace
 
-FMockCommandList::FMockCommandList(std::shared_ptr<FMockState> InState, const char* InName, uint64_t InNative)
+FMockCommandList::FMockCommandList(std::shared_ptr<FMockState> InState, const char* InName, uint64_t InNative, ERTQueue InQueue)
     : TMockObject(std::move(InState), "CommandList", InName),
-      Native(InNative)
+      Native(InNative),
+      Queue(InQueue)
 {
 	// An imported command buffer is recording already.
 	if (Native) { Stage = EStage::Recording; }

@@ -11,7 +11,7 @@ namespace Lantern
 class FMockCommandList final : public TMockObject<IRTCommandList>
 {
 public:
-	FMockCommandList(std::shared_ptr<FMockState> InState, const char* InName, uint64_t InNative);
+	FMockCommandList(std::shared_ptr<FMockState> InState, const char* InName, uint64_t InNative, ERTQueue InQueue = ERTQueue::Graphics);
 
 	FRTStatus Begin() override;
 	FRTStatus End() override;
@@ -49,6 +49,7 @@ public:
 	void Execute();
 	bool IsEnded() const { return Stage == EStage::Ended; }
 	bool IsImported() const { return Native != 0; }
+	ERTQueue GetQueue() const { return Queue; }
 	void MarkSubmitted() { Stage = EStage::Submitted; }
 
 private:
@@ -72,6 +73,7 @@ private:
 	std::vector<uint8_t> Push;
 	FMockPipeline* Pipeline = nullptr;
 	uint64_t Native = 0;
+	ERTQueue Queue = ERTQueue::Graphics;
 	FRTStatus Failed; ///< what End returns
 	EStage Stage = EStage::Idle;
 	bool bInPass = false;

@@ -214,11 +214,13 @@ FRTStatus FMockDevice::CreateQueryPool(ERTQuery Kind, uint32_t Count, IRTQueryPo
 	return Finish(*State, std::move(Pool), EMockMemory::None, 0, Out);
 }
 
-FRTStatus FMockDevice::CreateCommandList(const char* Name, IRTCommandList** Out)
+FRTStatus FMockDevice::CreateCommandList(const char* Name, IRTCommandList** Out, ERTQueue Queue)
 {
-	FRTStatus Status = Start(ERTMockCall::CreateCommandList, Name);
+	FRTStatus Status = Start(ERTMockCall::CreateCommandList, Name, {uint64_t(Queue)});
 	if (!Status) { return Status; }
-	return Finish(*State, std::make_unique<FMockCommandList>(State, Name, 0), EMockMemory::None, 0, Out);
+	const bool bThere = Queue == ERTQueue::Graphics || (Queue == ERTQueue::Transfer && State->Desc.bTransferQueue);
+	if (!bThere) { return FRTStatus::Error(ERTResult::Unsupported, "the device has no such queue (mock)"); }
+	return Finish(*State, std::make_unique<FMockCommandList>(State, Name, 0, Queue), EMockMemory::None, 0, Out);
 }
 
 FRTStatus FMockDevice::ImportCommandList(uint64_t NativeCommandBuffer, IRTCommandList** Out)

@@ -28,6 +28,7 @@ FRTCapabilities MakeCapabilities(const FRTMockDesc& Desc)
 	Caps.bMicromap = Desc.Rung >= ERTRung::Micromap;
 	Caps.bPositionFetch = Desc.Rung != ERTRung::None;
 	Caps.bTimestamps = true;
+	Caps.bTransferQueue = Desc.bTransferQueue;
 	Caps.ShaderGroupHandleSize = Desc.HandleSize;
 	Caps.ShaderGroupHandleAlignment = Desc.HandleAlignment;
 	Caps.ShaderGroupBaseAlignment = Desc.BaseAlignment;
@@ -62,13 +63,15 @@ FRTStatus FMockDevice::Start(ERTMockCall Kind, const char* Name, const FRTMockNu
 FRTStatus FMockDevice::Enqueue(ERTMockCall Kind, IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence)
 {
 	FMockSubmission Submission;
+	const ERTQueue Queue = Count > 0 ? static_cast<FMockCommandList*>(Lists[0])->GetQueue() : ERTQueue::Graphics;
 	for (uint32_t i = 0; i < Count; ++i)
 	{
 		auto* List = static_cast<FMockCommandList*>(Lists[i]);
 		assert(Kind == ERTMockCall::NotifyExternalSubmit ? List->IsImported() : List->IsEnded());
+		assert(List->GetQueue() == Queue && "lists of two queues");
 		Submission.Lists.emplace_back(List);
 	}
-	const FRTStatus Status = Start(Kind, "", {Count, Mock.GetLastFence() + 1});
+	const FRTStatus Status = Start(Kind, "", {Count, Mock.GetLastFence() + 1, uint64_t(Queue)});
 	if (!Status) { return Status; }
 	for (TRTRef<FMockCommandList>& List : Submission.Lists) { List->MarkSubmitted(); }
 	FRTFence Fence = 0;
@@ -79,7 +82,7 @@ FRTStatus FMockDevice::Enqueue(ERTMockCall Kind, IRTCommandList* const* Lists, u
 		bManual = State->bManual;
 		State->Pending.Push(Fence, std::move(Submission));
 	}
-	if (OutFence) { *OutFence = Fence; }
+	if (OutFence) { *OutFence = MakeFence(Queue, Fence); }
 	if (bManual) { State->Collect(); }
 	else { State->Complete(Fence); }
 	return FRTStatus::Success();
@@ -95,30 +98,31 @@ FRTStatus FMockDevice::NotifyExternalSubmit(IRTCommandList* const* Lists, uint32
 	return Enqueue(ERTMockCall::NotifyExternalSubmit, Lists, Count, OutFence);
 }
 
-FRTFence FMockDevice::GetCompletedFence()
+FRTFence FMockDevice::GetCompletedFence(ERTQueue Queue)
 {
 	std::lock_guard Lock(State->Mutex);
-	return State->Completed;
+	return State->Completed > 0 ? MakeFence(Queue, State->Completed) : 0;
 }
 
 FRTStatus FMockDevice::WaitFor(FRTFence Fence, uint64_t TimeoutNs)
 {
 	FRTStatus Status = Start(ERTMockCall::WaitFor, "", {Fence, TimeoutNs});
 	if (!Status) { return Status; }
+	const uint64_t Value = GetFenceValue(Fence);
 	{
 		std::lock_guard Lock(State->Mutex);
-		assert(Fence <= State->LastSubmitted && "a fence that no submission returned");
-		if (Fence > State->Completed)
+		assert(Value <= State->LastSubmitted && "a fence that no submission returned");
+		if (Value > State->Completed)
 		{
 			++State->BlockingWaits;
 			if (State->bManual && TimeoutNs != ~0ull)
 			{
 				return FRTStatus::Error(
-				    ERTResult::Timeout, "fence %llu has not been reached (mock)", static_cast<unsigned long long>(Fence));
+				    ERTResult::Timeout, "fence %llu has not been reached (mock)", static_cast<unsigned long long>(Value));
 			}
 		}
 	}
-	State->Complete(Fence);
+	State->Complete(Value);
 	return FRTStatus::Success();
 }
 

@@ -25,11 +25,11 @@ public:
 	FRTStatus CreateScene(const FRTSceneDesc& Desc, IRTScene** Out) override;
 	FRTStatus CreateShaderTable(const FRTShaderTableDesc& Desc, IRTShaderTable** Out) override;
 	FRTStatus CreateQueryPool(ERTQuery Kind, uint32_t Count, IRTQueryPool** Out) override;
-	FRTStatus CreateCommandList(const char* Name, IRTCommandList** Out) override;
+	FRTStatus CreateCommandList(const char* Name, IRTCommandList** Out, ERTQueue Queue) override;
 	FRTStatus ImportCommandList(uint64_t NativeCommandBuffer, IRTCommandList** Out) override;
 	FRTStatus Submit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence) override;
 	FRTStatus NotifyExternalSubmit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence) override;
-	FRTFence GetCompletedFence() override;
+	FRTFence GetCompletedFence(ERTQueue Queue) override;
 	FRTStatus WaitFor(FRTFence Fence, uint64_t TimeoutNs) override;
 	FRTStatus WaitIdle() override;
 	void CollectGarbage() override { State->Collect(); }

@@ -121,6 +121,17 @@ std::vector<uint8_t> FRTMock::GetTexels(IRTTexture* Texture, uint32_t Mip, uint3
 	return Mine ? Mine->GetTexels(Mip, Layer) : std::vector<uint8_t>();
 }
 
+std::vector<IRTBuffer*> FRTMock::FindLiveBuffers(const std::string& Name) const
+{
+	std::lock_guard Lock(State.Mutex);
+	std::vector<IRTBuffer*> Out;
+	for (const auto& [Address, Buffer] : State.Buffers)
+	{
+		if (Buffer->Name == Name) { Out.push_back(Buffer); }
+	}
+	return Out;
+}
+
 IRTBuffer* FRTMock::FindBuffer(uint64_t DeviceAddress, uint64_t* OutOffset) const
 {
 	std::lock_guard Lock(State.Mutex);
@@ -202,7 +213,7 @@ void FRTMock::SetManualFences(bool bManual)
 	if (!bManual) { State.Complete(~0ull); }
 }
 
-void FRTMock::CompleteUpTo(FRTFence Fence) { State.Complete(Fence); }
+void FRTMock::CompleteUpTo(FRTFence Fence) { State.Complete(GetFenceValue(Fence)); }
 
 FRTFence FRTMock::GetLastFence() const
 {

@@ -2,6 +2,7 @@
 #include "ValidationCommandList.h"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 namespace Lantern
@@ -10,6 +11,8 @@ namespace
 {
 
 unsigned long long Wide(uint64_t Value) { return Value; }
+
+bool IsForTransfer(std::string_view Call) { return Call == "CopyBuffer" || Call == "CopyBufferRegions" || Call == "KeepAlive"; }
 
 bool HasSameShape(const FRTGeometrySection& A, const FRTGeometrySection& B)
 {
@@ -20,9 +23,10 @@ bool HasSameShape(const FRTGeometrySection& A, const FRTGeometrySection& B)
 } // namespace
 
 FValidatedCommandList::FValidatedCommandList(
-    std::shared_ptr<FValidationState> InState, TRTRef<IRTCommandList> InInner, const char* Name, bool bInImported)
+    std::shared_ptr<FValidationState> InState, TRTRef<IRTCommandList> InInner, const char* Name, bool bInImported, ERTQueue InQueue)
     : TValidated(std::move(InState), MakeLabel("list", Name), std::move(InInner)),
-      bImported(bInImported)
+      bImported(bInImported),
+      Queue(InQueue)
 {
 	if (bImported) { Stage = EStage::Recording; }
 }
@@ -31,7 +35,7 @@ FRTStatus FValidatedCommandList::Begin()
 {
 	if (bImported) { return State->Fail(Where("Begin") + ": an imported list is begun by the engine"); }
 	if (Stage == EStage::Recording) { return State->Fail(Where("Begin") + ": it is recording already"); }
-	if (Stage == EStage::Submitted && State->Inner->GetCompletedFence() < Fence)
+	if (Stage == EStage::Submitted && State->Inner->GetCompletedFence(Queue) < Fence)
 	{
 		return State->Fail(
 		    Where("Begin") + Print(": its submission (fence %llu) has not finished", static_cast<unsigned long long>(Fence)));
@@ -77,8 +81,9 @@ void FValidatedCommandList::MarkSubmitted(FRTFence InFence)
 
 bool FValidatedCommandList::CanRecord(const char* Call)
 {
-	if (Stage == EStage::Recording) { return true; }
-	Report(Call, "the list is not recording");
+	const bool bTakes = Queue != ERTQueue::Transfer || IsForTransfer(Call);
+	if (Stage == EStage::Recording && bTakes) { return true; }
+	Report(Call, bTakes ? "the list is not recording" : "a list of the transfer queue takes copies between buffers alone");
 	return false;
 }
 

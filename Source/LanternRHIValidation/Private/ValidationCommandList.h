@@ -11,7 +11,8 @@ namespace Lantern
 class FValidatedCommandList final : public TValidated<IRTCommandList>
 {
 public:
-	FValidatedCommandList(std::shared_ptr<FValidationState> InState, TRTRef<IRTCommandList> InInner, const char* Name, bool bInImported);
+	FValidatedCommandList(std::shared_ptr<FValidationState> InState, TRTRef<IRTCommandList> InInner, const char* Name, bool bInImported,
+	    ERTQueue InQueue = ERTQueue::Graphics);
 
 	FRTStatus Begin() override;
 	FRTStatus End() override;
@@ -47,6 +48,7 @@ public:
 
 	// For the device:
 	bool IsImported() const { return bImported; }
+	ERTQueue GetQueue() const { return Queue; }
 	bool IsEnded() const { return Stage == EStage::Ended; }
 	bool IsSubmitted() const { return Stage == EStage::Submitted; }
 	void Judge(FValidationTracker& Tracker) const;
@@ -99,6 +101,7 @@ private:
 
 	EStage Stage = EStage::Idle;
 	const bool bImported;
+	const ERTQueue Queue;
 	FRTFence Fence = 0;
 	std::vector<FValidationStep> Steps;
 	std::vector<FGeometryHold> KeptGeometries;

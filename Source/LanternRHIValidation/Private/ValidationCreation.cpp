@@ -295,12 +295,12 @@ FRTStatus FValidatedDevice::CreateQueryPool(ERTQuery Kind, uint32_t Count, IRTQu
 	return Status;
 }
 
-FRTStatus FValidatedDevice::CreateCommandList(const char* Name, IRTCommandList** Out)
+FRTStatus FValidatedDevice::CreateCommandList(const char* Name, IRTCommandList** Out, ERTQueue Queue)
 {
 	if (!Out) { return State->Fail("CreateCommandList: Out is null"); }
 	TRTRef<IRTCommandList> Inner;
-	FRTStatus Status = State->Inner->CreateCommandList(NameOf(Name), Inner.ReleaseAndGetAddress());
-	if (Status) { *Out = new FValidatedCommandList(State, std::move(Inner), Name, false); }
+	FRTStatus Status = State->Inner->CreateCommandList(NameOf(Name), Inner.ReleaseAndGetAddress(), Queue);
+	if (Status) { *Out = new FValidatedCommandList(State, std::move(Inner), Name, false, Queue); }
 	return Status;
 }
 

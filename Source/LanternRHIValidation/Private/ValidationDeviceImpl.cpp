@@ -36,6 +36,10 @@ FRTStatus FValidatedDevice::Collect(
 		{
 			return State->Fail(Call + ": " + List->Label + " is there twice");
 		}
+		if (!OutLists.empty() && List->GetQueue() != OutLists.front()->GetQueue())
+		{
+			return State->Fail(Call + ": " + List->Label + " is for another queue than the lists before it");
+		}
 		if (List->IsSubmitted()) { return State->Fail(Call + ": " + List->Label + " has been submitted already"); }
 		if (!bImported && !List->IsEnded()) { return State->Fail(Call + ": " + List->Label + " has not been ended"); }
 		OutLists.push_back(List);
@@ -49,7 +53,7 @@ FRTStatus FValidatedDevice::Submit(IRTCommandList* const* Lists, uint32_t Count,
 	std::vector<FValidatedCommandList*> Mine;
 	FRTStatus Status = Collect(Lists, Count, false, Mine);
 	if (!Status) { return Status; }
-	FValidationTracker Tracker(*State);
+	FValidationTracker Tracker(*State, Mine.empty() ? ERTQueue::Graphics : Mine.front()->GetQueue());
 	{
 		std::lock_guard Lock(State->Mutex);
 		for (const FValidatedCommandList* List : Mine) { List->Judge(Tracker); }
@@ -68,7 +72,7 @@ FRTStatus FValidatedDevice::Submit(IRTCommandList* const* Lists, uint32_t Count,
 	{
 		std::lock_guard Lock(State->Mutex);
 		Tracker.Commit(Fence);
-		State->LastFence = std::max(State->LastFence, Fence);
+		State->NoteFence(Fence);
 	}
 	for (FValidatedCommandList* List : Mine) { List->MarkSubmitted(Fence); }
 	if (OutFence) { *OutFence = Fence; }
@@ -82,7 +86,7 @@ FRTStatus FValidatedDevice::NotifyExternalSubmit(IRTCommandList* const* Lists, u
 	FRTStatus Status = Collect(Lists, Count, true, Mine);
 	if (!Status) { return Status; }
 	// The engine has submitted already: faults can be reported, but nothing can be refused.
-	FValidationTracker Tracker(*State);
+	FValidationTracker Tracker(*State, ERTQueue::Graphics);
 	std::vector<IRTCommandList*> Inners;
 	Inners.reserve(Mine.size());
 	{
@@ -103,7 +107,7 @@ FRTStatus FValidatedDevice::NotifyExternalSubmit(IRTCommandList* const* Lists, u
 	if (!Status) { return Status; }
 	{
 		std::lock_guard Lock(State->Mutex);
-		State->LastFence = std::max(State->LastFence, Fence);
+		State->NoteFence(Fence);
 	}
 	for (FValidatedCommandList* List : Mine) { List->MarkSubmitted(Fence); }
 	if (OutFence) { *OutFence = Fence; }
@@ -115,7 +119,8 @@ FRTStatus FValidatedDevice::WaitFor(FRTFence Fence, uint64_t TimeoutNs)
 	FRTFence Last = 0;
 	{
 		std::lock_guard Lock(State->Mutex);
-		Last = State->LastFence;
+		const auto Queue = static_cast<size_t>(GetFenceQueue(Fence));
+		Last = Queue < QueueCount ? State->LastFences[Queue] : 0;
 	}
 	if (Fence > Last)
 	{

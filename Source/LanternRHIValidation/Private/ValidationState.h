@@ -33,6 +33,7 @@ struct FResourceTrack
 	bool bTexture = false;
 	ERTMemory Memory = ERTMemory::Device;
 	FAccessState State;
+	FRTFence LastUses[QueueCount] = {}, LastWrites[QueueCount] = {}; ///< by ERTQueue
 };
 
 struct FGeometryTrack
@@ -150,7 +151,13 @@ struct FValidationState
 	std::deque<std::shared_ptr<FGeometryTrack>> DeadGeometries; ///< the oldest are forgotten
 	std::vector<std::weak_ptr<FSceneTrack>> Scenes;
 	std::vector<std::weak_ptr<FResourceTrack>> Buffers;
-	FRTFence LastFence = 0;
+	FRTFence LastFences[QueueCount] = {}; ///< by ERTQueue
+
+	void NoteFence(FRTFence Fence)
+	{
+		FRTFence& Last = LastFences[static_cast<size_t>(GetFenceQueue(Fence))];
+		Last = Fence > Last ? Fence : Last;
+	}
 
 	void Report(const std::string& Message);
 	FRTStatus Fail(const std::string& Message);

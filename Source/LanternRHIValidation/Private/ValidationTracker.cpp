@@ -30,6 +30,7 @@ FAccessState& FValidationTracker::Get(const std::shared_ptr<FResourceTrack>& Res
 void FValidationTracker::Run(const FValidationStep& Step)
 {
 	using EKind = FValidationStep::EKind;
+	if (Step.Resource) { CheckQueues(Step); }
 	switch (Step.Kind)
 	{
 	case EKind::Barrier: return Step.Resource ? Barrier(Step) : MemoryBarrier(Step);
@@ -48,6 +49,24 @@ void FValidationTracker::Run(const FValidationStep& Step)
 	case EKind::UpdateTable: Updated[Step.Table.get()] = Step.Count; return;
 	case EKind::TraceRays: return TraceRays(Step);
 	}
+}
+
+bool FValidationTracker::IsBusy(const FResourceTrack& Resource, bool bWrite) const
+{
+	for (uint32_t Other = 0; Other < QueueCount; ++Other)
+	{
+		const FRTFence Fence = bWrite ? Resource.LastUses[Other] : Resource.LastWrites[Other];
+		const auto OtherQueue = static_cast<ERTQueue>(Other);
+		if (OtherQueue != Queue && Fence != 0 && State.Inner->GetCompletedFence(OtherQueue) < Fence) { return true; }
+	}
+	return false;
+}
+
+void FValidationTracker::CheckQueues(const FValidationStep& Step)
+{
+	const bool bWrite = HasAny(Step.Before | Step.After, Writes);
+	if (IsBusy(*Step.Resource, bWrite)) { Add(Step.What + ": another queue has not finished with " + Step.Resource->Label); }
+	Touched[Step.Resource.get()] |= bWrite;
 }
 
 void FValidationTracker::Barrier(const FValidationStep& Step)
@@ -72,7 +91,7 @@ void FValidationTracker::MemoryBarrier(const FValidationStep& Step)
 	for (const std::weak_ptr<FResourceTrack>& Item : State.Buffers)
 	{
 		const std::shared_ptr<FResourceTrack> Resource = Item.lock();
-		if (!Resource) { continue; }
+		if (!Resource || IsBusy(*Resource, false)) { continue; }
 		FAccessState& Now = Get(Resource);
 		if (!HasAny(Now.Access, Step.Before)) { continue; }
 		Now.Access = Step.After;
@@ -260,6 +279,12 @@ void FValidationTracker::CheckHits(const FValidationStep& Step, const FSceneCont
 void FValidationTracker::Commit(FRTFence Fence)
 {
 	for (auto& [Resource, Access] : Accesses) { Resource->State = Access; }
+	for (const auto& [Resource, bWritten] : Touched)
+	{
+		const auto Index = static_cast<size_t>(Queue);
+		Resource->LastUses[Index] = Fence;
+		if (bWritten) { Resource->LastWrites[Index] = Fence; }
+	}
 	for (auto& [Scene, Content] : Scenes) { Scene->Content = Content; }
 	for (FGeometryTrack* Geometry : Built) { Geometry->bBuilt = true; }
 	for (auto& [Table, Generation] : Updated) { Table->UpdatedGeneration = Generation; }

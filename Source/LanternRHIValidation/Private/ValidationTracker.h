@@ -45,7 +45,7 @@ struct FValidationStep
 class FValidationTracker
 {
 public:
-	explicit FValidationTracker(FValidationState& InState) : State(InState) {}
+	FValidationTracker(FValidationState& InState, ERTQueue InQueue) : State(InState), Queue(InQueue) {}
 
 	/// Geometries that the lists keep alive though their owners released them.
 	void Keep(const std::shared_ptr<FGeometryTrack>& Geometry) { Kept.insert(Geometry.get()); }
@@ -57,6 +57,9 @@ public:
 	std::string CheckAddress(uint64_t Address, bool bRecording) const;
 
 private:
+	/// Reports what another queue may still do with the step's resource.
+	void CheckQueues(const FValidationStep& Step);
+	bool IsBusy(const FResourceTrack& Resource, bool bWrite) const;
 	void Barrier(const FValidationStep& Step);
 	void MemoryBarrier(const FValidationStep& Step);
 	void Use(const FValidationStep& Step);
@@ -72,6 +75,8 @@ private:
 	void Add(std::string Message);
 
 	FValidationState& State;
+	const ERTQueue Queue;
+	std::map<FResourceTrack*, bool> Touched; ///< and whether it was written
 	std::map<std::shared_ptr<FResourceTrack>, FAccessState> Accesses;
 	std::map<FSceneTrack*, FSceneContent> Scenes;
 	std::set<FGeometryTrack*> Built, Kept;

@@ -406,7 +406,7 @@ bool FValidatedCommandList::CheckInstances(FValidatedScene& Scene, IRTBuffer* In
 
 bool FValidatedCommandList::CheckAddresses(const FValidatedScene& Scene, FValidatedBuffer& Buffer, uint64_t Offset, uint32_t Count)
 {
-	const FValidationTracker Tracker(*State);
+	const FValidationTracker Tracker(*State, Queue);
 	const auto* Bytes = static_cast<const uint8_t*>(Buffer.GetMapped()) + Offset;
 	std::string Wrong;
 	uint32_t Index = 0;

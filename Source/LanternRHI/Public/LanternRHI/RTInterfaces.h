@@ -215,8 +215,13 @@ public:
 	virtual uint64_t GetNative(ERTNative Kind) const = 0; ///< 0 if the list has none of this kind
 };
 
-/// Value on the device's timeline; 0 is always complete.
+/// Value on the timeline of one queue, which its two highest bits name; 0 is always complete. Fences of one queue are ordered
+/// by time. Those of two queues must not be compared.
 using FRTFence = uint64_t;
+inline constexpr uint32_t FenceQueueShift = 62;
+constexpr ERTQueue GetFenceQueue(FRTFence Fence) { return static_cast<ERTQueue>(Fence >> FenceQueueShift); }
+constexpr uint64_t GetFenceValue(FRTFence Fence) { return Fence & ((1ull << FenceQueueShift) - 1); }
+constexpr FRTFence MakeFence(ERTQueue Queue, uint64_t Value) { return uint64_t(Queue) << FenceQueueShift | Value; }
 
 /// Creation calls write a new object with one reference to Out.
 class IRTDevice : public IRTRefCounted
@@ -241,12 +246,14 @@ public:
 	virtual FRTStatus CreateShaderTable(const FRTShaderTableDesc& Desc, IRTShaderTable** Out) = 0;
 	/// Unsupported: queries of compacted sizes, if the device lacks acceleration structures.
 	virtual FRTStatus CreateQueryPool(ERTQuery Kind, uint32_t Count, IRTQueryPool** Out) = 0;
-	virtual FRTStatus CreateCommandList(const char* Name, IRTCommandList** Out) = 0;
-	/// Runs the lists in order. OutFence is complete when they are; it may be null.
+	/// A list of ERTQueue::Transfer takes CopyBuffer, CopyBufferRegions and KeepAlive alone. Unsupported: the device lacks the queue.
+	virtual FRTStatus CreateCommandList(const char* Name, IRTCommandList** Out, ERTQueue Queue = ERTQueue::Graphics) = 0;
+	/// Runs the lists in order, on the one queue that all of them were created for. OutFence is complete when they are; it may be
+	/// null. Nothing orders queues: what a list needs of another queue must be known to be complete before this call.
 	virtual FRTStatus Submit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence) = 0;
 	/// Call it after the engine has submitted imported lists on the device's queue. OutFence: the fence of that work.
 	virtual FRTStatus NotifyExternalSubmit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence) = 0;
-	virtual FRTFence GetCompletedFence() = 0;
+	virtual FRTFence GetCompletedFence(ERTQueue Queue = ERTQueue::Graphics) = 0;
 	/// Returns Timeout if the fence is not complete after TimeoutNs.
 	virtual FRTStatus WaitFor(FRTFence Fence, uint64_t TimeoutNs) = 0;
 	/// Destroys what was released and is no longer used. Submit and WaitFor call it; more calls do no harm.

@@ -9,7 +9,7 @@ namespace Lantern
 {
 
 /// Changes with every change of an interface or a description of the RHI. The plugin refuses another version with a message.
-inline constexpr uint32_t RHIVersion = 3;
+inline constexpr uint32_t RHIVersion = 4;
 
 // ---------------------------------------------------------------------------------------------------- status
 

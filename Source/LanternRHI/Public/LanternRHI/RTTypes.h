@@ -141,6 +141,15 @@ enum class ERTShaderStage : uint8_t
 	Callable,
 };
 
+/// Queues of a device. Work on one queue runs in the order of its submission, work on two queues side by side.
+enum class ERTQueue : uint8_t
+{
+	Graphics,     ///< takes every command; each device has it
+	AsyncCompute, ///< no device has it yet
+	Transfer,     ///< copies between buffers; see FRTCapabilities::bTransferQueue
+};
+inline constexpr uint32_t QueueCount = 3;
+
 #define LANTERN_RT_FLAGS(E)                                                                                                                \
 	constexpr E operator|(E A, E B) { return static_cast<E>(static_cast<uint32_t>(A) | static_cast<uint32_t>(B)); }                        \
 	constexpr E operator&(E A, E B) { return static_cast<E>(static_cast<uint32_t>(A) & static_cast<uint32_t>(B)); }                        \
@@ -181,6 +190,7 @@ struct FRTCapabilities
 	bool bReorder = false;
 	bool bMicromap = false;
 	bool bTimestamps = false;
+	bool bTransferQueue = false; ///< has ERTQueue::Transfer
 	uint32_t ShaderGroupHandleSize = 0;
 	uint32_t ShaderGroupHandleAlignment = 0;
 	uint32_t ShaderGroupBaseAlignment = 0;

@@ -22,6 +22,7 @@ struct FRTMockDesc
 	ERTRung Rung = ERTRung::Pipeline;
 	bool bRayQuery = true; ///< a device may have pipelines without ray query; ignored below the RayQuery rung
 	bool bPipelineLibraries = true;
+	bool bTransferQueue = false;       ///< all queues share one timeline: what is submitted completes in that order
 	bool bLibraryOnlyPipelines = true; ///< if false, ray generation and miss groups must be the link's own
 	uint32_t HandleSize = 32;
 	uint32_t HandleAlignment = 32;
@@ -48,11 +49,11 @@ enum class ERTMockCall : uint8_t
 	CreateScene,              ///< Numbers: most instances
 	CreateShaderTable,        ///< Numbers: ray generation, miss, hit, callable records
 	CreateQueryPool,          ///< Numbers: queries, kind
-	CreateCommandList,
-	ImportCommandList,    ///< Numbers: native command buffer
-	Submit,               ///< Numbers: lists, fence
-	NotifyExternalSubmit, ///< Numbers: lists, fence
-	WaitFor,              ///< Numbers: fence, timeout
+	CreateCommandList,        ///< Numbers: queue
+	ImportCommandList,        ///< Numbers: native command buffer
+	Submit,                   ///< Numbers: lists, fence, queue
+	NotifyExternalSubmit,     ///< Numbers: lists, fence
+	WaitFor,                  ///< Numbers: fence, timeout
 	WaitIdle,
 	ReserveShaderTable, ///< only if the table grows; Numbers: ray generation, miss, hit, callable records
 	MakeHostCopy,       ///< for a shader table, beyond those of its creation; Numbers: bytes
@@ -191,6 +192,8 @@ public:
 	uint8_t* GetBytes(IRTBuffer* Buffer) const;
 	/// Returns tightly packed texels. Empty if it is not a texture of a mock.
 	std::vector<uint8_t> GetTexels(IRTTexture* Texture, uint32_t Mip = 0, uint32_t Layer = 0) const;
+	/// Returns the live buffers of this name, by address.
+	std::vector<IRTBuffer*> FindLiveBuffers(const std::string& Name) const;
 	/// Returns the live buffer that holds the device address, or null.
 	IRTBuffer* FindBuffer(uint64_t DeviceAddress, uint64_t* OutOffset = nullptr) const;
 	/// Returns a record of the device's copy of the table, as executed submissions left it. What is in flight is not in it yet.

@@ -27,12 +27,13 @@ VkBufferImageCopy RegionOf(const FRTTextureDesc& Desc, uint32_t Mip, uint32_t La
 
 // ------------------------------------------------------------------------------------------------ recording
 
-FRTStatus FVulkanCommandList::Initialise(const char* InName)
+FRTStatus FVulkanCommandList::Initialise(const char* InName, ERTQueue InQueue)
 {
+	Queue = InQueue;
 	Name = InName ? InName : "";
 	VkCommandPoolCreateInfo PoolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
 	PoolInfo.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
-	PoolInfo.queueFamilyIndex = Device.QueueFamily;
+	PoolInfo.queueFamilyIndex = Device.Queues[static_cast<size_t>(Queue)].Family;
 	VkResult Result = Device.Check(Device.Api.CreateCommandPool(Device.Handle, &PoolInfo, nullptr, &Pool));
 	if (Result != VK_SUCCESS)
 	{
@@ -87,7 +88,7 @@ FRTStatus FVulkanCommandList::Begin()
 {
 	assert(!bImported);
 	if (Device.IsLost()) { return Device.LostStatus(); }
-	assert(Fence <= Device.GetCompletedFence() && "Begin before the last submission has finished");
+	assert(Fence <= Device.GetCompletedFence(Queue) && "Begin before the last submission has finished");
 	ReleaseKept();
 	Error = {};
 	Bound = nullptr;

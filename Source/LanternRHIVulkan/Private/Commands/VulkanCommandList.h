@@ -15,7 +15,7 @@ class FVulkanCommandList final : public TVulkanObject<IRTCommandList>
 {
 public:
 	using TVulkanObject::TVulkanObject;
-	FRTStatus Initialise(const char* InName);
+	FRTStatus Initialise(const char* InName, ERTQueue InQueue);
 	/// Takes the engine's command buffer, which is in the recording state.
 	void InitialiseImported(VkCommandBuffer Buffer);
 
@@ -59,6 +59,7 @@ public:
 	// For the device.
 	VkCommandBuffer GetHandle() const { return Handle; }
 	bool IsImported() const { return bImported; }
+	ERTQueue GetQueue() const { return Queue; }
 	/// Returns what went wrong while recording; calls that return nothing leave it here.
 	const FRTStatus& GetError() const { return Error; }
 	/// Gives the list's references to the submission with this fence.
@@ -74,6 +75,7 @@ private:
 
 	std::string Name;
 	bool bImported = false;
+	ERTQueue Queue = ERTQueue::Graphics;
 	VkCommandPool Pool = VK_NULL_HANDLE;
 	VkCommandBuffer Handle = VK_NULL_HANDLE;
 	FRTFence Fence = 0;

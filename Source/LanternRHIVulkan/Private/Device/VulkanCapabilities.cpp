@@ -283,6 +283,11 @@ void FillQueueAndMemory(const FVulkanInstanceApi& Api, VkPhysicalDevice Physical
 			Out.Capabilities.bTimestamps = Families[Index].timestampValidBits > 0;
 		}
 	}
+	for (uint32_t Index = 0; Index < Count && Out.TransferFamily == FVulkanProbe::NoQueueFamily; ++Index)
+	{
+		const VkQueueFlags Flags = Families[Index].queueFlags & (Wanted | VK_QUEUE_TRANSFER_BIT);
+		if (Flags == VK_QUEUE_TRANSFER_BIT) { Out.TransferFamily = Index; }
+	}
 	VkPhysicalDeviceMemoryProperties Memory{};
 	Api.GetPhysicalDeviceMemoryProperties(Physical, &Memory);
 	for (uint32_t Heap = 0; Heap < Memory.memoryHeapCount; ++Heap)

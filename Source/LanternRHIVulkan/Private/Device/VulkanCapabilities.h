@@ -53,7 +53,8 @@ struct FVulkanProbe
 	float MaxAnisotropy = 1.0f;
 	uint32_t MaxBindlessSamplers = 0;
 	uint32_t MaxBindlessScenes = 0;
-	uint32_t QueueFamily = NoQueueFamily; ///< first with graphics and compute
+	uint32_t QueueFamily = NoQueueFamily;    ///< first with graphics and compute
+	uint32_t TransferFamily = NoQueueFamily; ///< first with copies and neither graphics nor compute
 	uint32_t Quirks = 0;
 	VkPhysicalDeviceType Type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
 	uint32_t ApiVersion = 0;

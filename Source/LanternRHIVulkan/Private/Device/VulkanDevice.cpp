@@ -4,6 +4,7 @@
 #include "Commands/VulkanCommandList.h"
 #include "Resources/VulkanImport.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace Lantern
@@ -41,7 +42,7 @@ void FVulkanDevice::OnFinalRelease()
 {
 	// Submissions keep objects, and objects keep the device. No one is left to collect them later.
 	(void)WaitIdle();
-	CollectUpTo(IsLost() ? ~FRTFence(0) : LastCompleted.load());
+	CollectUpTo(IsLost() ? ~uint64_t(0) : PollAll());
 	DropOne();
 }
 
@@ -58,10 +59,10 @@ void FVulkanDevice::DropOne()
 void FVulkanDevice::Retire(void* Object, void (*Delete)(void*))
 {
 	std::scoped_lock Lock(GarbageMutex);
-	Garbage.Push(LastSubmitted.load(), {Object, Delete});
+	Garbage.Push(LastNumber.load(), {Object, Delete});
 }
 
-void FVulkanDevice::CollectUpTo(FRTFence Done)
+void FVulkanDevice::CollectUpTo(uint64_t Done)
 {
 	for (;;)
 	{
@@ -82,7 +83,7 @@ void FVulkanDevice::CollectUpTo(FRTFence Done)
 	}
 }
 
-void FVulkanDevice::CollectGarbage() { CollectUpTo(IsLost() ? 0 : GetCompletedFence()); }
+void FVulkanDevice::CollectGarbage() { CollectUpTo(IsLost() ? 0 : PollAll()); }
 
 // ------------------------------------------------------------------------------------------------ timeline
 
@@ -97,21 +98,25 @@ FRTStatus FVulkanDevice::LostStatus() const
 	return FRTStatus::Error(ERTResult::DeviceLost, "The Vulkan device %s was lost.", Probe.Capabilities.DeviceName);
 }
 
-VkResult FVulkanDevice::SubmitBatch(const std::vector<VkCommandBufferSubmitInfo>& Buffers)
+VkResult FVulkanDevice::SubmitBatch(FVulkanQueue& Queue, const std::vector<VkCommandBufferSubmitInfo>& Buffers)
 {
 	VkSemaphoreSubmitInfo Signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
-	Signal.semaphore = Timeline;
-	Signal.value = LastSubmitted.load() + 1;
+	Signal.semaphore = Queue.Timeline;
+	Signal.value = LastNumber.load() + 1;
 	Signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
 	VkSubmitInfo2 Info{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
 	Info.commandBufferInfoCount = static_cast<uint32_t>(Buffers.size());
 	Info.pCommandBufferInfos = Buffers.data();
 	Info.signalSemaphoreInfoCount = 1;
 	Info.pSignalSemaphoreInfos = &Signal;
-	if (QueueLock.Lock) { QueueLock.Lock(QueueLock.User); }
-	const VkResult Result = Check(Api.QueueSubmit2(Queue, 1, &Info, VK_NULL_HANDLE));
-	if (QueueLock.Unlock) { QueueLock.Unlock(QueueLock.User); }
-	if (Result == VK_SUCCESS) { LastSubmitted.store(Signal.value); }
+	if (Queue.Lock.Lock) { Queue.Lock.Lock(Queue.Lock.User); }
+	const VkResult Result = Check(Api.QueueSubmit2(Queue.Handle, 1, &Info, VK_NULL_HANDLE));
+	if (Queue.Lock.Unlock) { Queue.Lock.Unlock(Queue.Lock.User); }
+	if (Result == VK_SUCCESS)
+	{
+		Queue.LastSubmitted.store(Signal.value);
+		LastNumber.store(Signal.value); // second: PollAll reads it first
+	}
 	return Result;
 }
 
@@ -121,9 +126,11 @@ FRTStatus FVulkanDevice::SubmitLists(IRTCommandList* const* Lists, uint32_t Coun
 	if (IsLost()) { return LostStatus(); }
 	FRTStatus Recording;
 	std::vector<VkCommandBufferSubmitInfo> Buffers;
+	const ERTQueue Queue = Count > 0 ? static_cast<FVulkanCommandList*>(Lists[0])->GetQueue() : ERTQueue::Graphics;
 	for (uint32_t Index = 0; Index < Count; ++Index)
 	{
 		FVulkanCommandList* List = static_cast<FVulkanCommandList*>(Lists[Index]);
+		assert(List->GetQueue() == Queue && "lists of two queues");
 		assert(List->IsImported() == bExternal && "Submit takes lists of the device, NotifyExternalSubmit imported ones");
 		Recording = Recording ? List->GetError() : Recording;
 		// A list that the engine has submitted runs, whatever is wrong with it: the fence must still cover it.
@@ -137,14 +144,15 @@ FRTStatus FVulkanDevice::SubmitLists(IRTCommandList* const* Lists, uint32_t Coun
 	}
 	{
 		std::scoped_lock Lock(SubmitMutex);
-		const VkResult Result = SubmitBatch(Buffers);
+		const VkResult Result = SubmitBatch(GetQueue(Queue), Buffers);
 		if (Result != VK_SUCCESS) { return MakeStatus(Result, "vkQueueSubmit2", Count ? "command lists" : "nothing"); }
-		const FRTFence Fence = LastSubmitted.load();
+		const uint64_t Number = LastNumber.load();
+		const FRTFence Fence = MakeFence(Queue, Number);
 		std::scoped_lock GarbageLock(GarbageMutex);
 		for (uint32_t Index = 0; Index < Count; ++Index)
 		{
 			FVulkanCommandList* List = static_cast<FVulkanCommandList*>(Lists[Index]);
-			Packets.Push(Fence, List->TakeKept(Fence));
+			Packets.Push(Number, List->TakeKept(Fence));
 		}
 		if (OutFence) { *OutFence = Fence; }
 	}
@@ -162,31 +170,61 @@ FRTStatus FVulkanDevice::NotifyExternalSubmit(IRTCommandList* const* Lists, uint
 	return SubmitLists(Lists, Count, true, OutFence);
 }
 
-FRTFence FVulkanDevice::GetCompletedFence()
+uint64_t FVulkanDevice::Poll(FVulkanQueue& Queue)
 {
 	uint64_t Value = 0;
-	if (!IsLost() && Check(Api.GetSemaphoreCounterValue(Handle, Timeline, &Value)) == VK_SUCCESS)
+	if (!IsLost() && Check(Api.GetSemaphoreCounterValue(Handle, Queue.Timeline, &Value)) == VK_SUCCESS)
 	{
-		FRTFence Known = LastCompleted.load();
-		while (Known < Value && !LastCompleted.compare_exchange_weak(Known, Value)) {}
+		uint64_t Known = Queue.LastCompleted.load();
+		while (Known < Value && !Queue.LastCompleted.compare_exchange_weak(Known, Value)) {}
 	}
-	return LastCompleted.load();
+	return Queue.LastCompleted.load();
+}
+
+uint64_t FVulkanDevice::PollAll()
+{
+	uint64_t Done = LastNumber.load();
+	for (FVulkanQueue& Queue : Queues)
+	{
+		if (!Queue.Timeline) { continue; }
+		const uint64_t Completed = Poll(Queue);
+		if (Completed < Queue.LastSubmitted.load()) { Done = std::min(Done, Completed); }
+	}
+	return Done;
+}
+
+FRTFence FVulkanDevice::GetCompletedFence(ERTQueue Queue)
+{
+	FVulkanQueue& Mine = GetQueue(Queue);
+	const uint64_t Completed = Mine.Timeline ? Poll(Mine) : 0;
+	return Completed > 0 ? MakeFence(Queue, Completed) : 0;
 }
 
 FRTStatus FVulkanDevice::WaitFor(FRTFence Fence, uint64_t TimeoutNs)
 {
 	if (IsLost()) { return LostStatus(); }
-	assert(Fence <= LastSubmitted.load() && "a fence that no submission returned");
+	const FVulkanQueue& Queue = GetQueue(GetFenceQueue(Fence));
+	const uint64_t Value = GetFenceValue(Fence);
+	assert(Value <= Queue.LastSubmitted.load() && "a fence that no submission returned");
 	VkSemaphoreWaitInfo Info{VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
 	Info.semaphoreCount = 1;
-	Info.pSemaphores = &Timeline;
-	Info.pValues = &Fence;
+	Info.pSemaphores = &Queue.Timeline;
+	Info.pValues = &Value;
 	const VkResult Result = Check(Api.WaitSemaphores(Handle, &Info, TimeoutNs));
 	if (Result == VK_SUCCESS) { CollectGarbage(); }
 	return MakeStatus(Result, "vkWaitSemaphores", "timeline");
 }
 
-FRTStatus FVulkanDevice::WaitIdle() { return WaitFor(LastSubmitted.load(), ~uint64_t(0)); }
+FRTStatus FVulkanDevice::WaitIdle()
+{
+	FRTStatus Status;
+	for (uint32_t Index = 0; Index < QueueCount && Status; ++Index)
+	{
+		const FVulkanQueue& Queue = Queues[Index];
+		if (Queue.Timeline) { Status = WaitFor(MakeFence(static_cast<ERTQueue>(Index), Queue.LastSubmitted.load()), ~uint64_t(0)); }
+	}
+	return Status;
+}
 
 // ------------------------------------------------------------------------------------------------ the rest
 
@@ -230,8 +268,8 @@ uint64_t FVulkanDevice::GetNative(ERTNative Kind) const
 	case ERTNative::Instance: return ToNative(Instance->Handle);
 	case ERTNative::PhysicalDevice: return ToNative(Physical);
 	case ERTNative::Device: return ToNative(Handle);
-	case ERTNative::Queue: return ToNative(Queue);
-	case ERTNative::QueueFamily: return QueueFamily;
+	case ERTNative::Queue: return ToNative(Queues[0].Handle);
+	case ERTNative::QueueFamily: return Queues[0].Family;
 	case ERTNative::DescriptorSet: return ToNative(Bindless.Set);
 	case ERTNative::PipelineLayout: return ToNative(Bindless.PipelineLayout);
 	default: return 0;
@@ -302,9 +340,11 @@ FRTStatus FVulkanDevice::CreateQueryPool(ERTQuery Kind, uint32_t Count, IRTQuery
 	return CreateObject<FVulkanQueryPool>(*this, Out, [&](FVulkanQueryPool& It) { return It.Initialise(Kind, Count); });
 }
 
-FRTStatus FVulkanDevice::CreateCommandList(const char* Name, IRTCommandList** Out)
+FRTStatus FVulkanDevice::CreateCommandList(const char* Name, IRTCommandList** Out, ERTQueue Queue)
 {
-	return CreateObject<FVulkanCommandList>(*this, Out, [&](FVulkanCommandList& It) { return It.Initialise(Name); });
+	*Out = nullptr;
+	if (!GetQueue(Queue).Handle) { return FRTStatus::Error(ERTResult::Unsupported, "The device has no queue of this kind."); }
+	return CreateObject<FVulkanCommandList>(*this, Out, [&](FVulkanCommandList& It) { return It.Initialise(Name, Queue); });
 }
 
 FRTStatus FVulkanDevice::ImportCommandList(uint64_t NativeCommandBuffer, IRTCommandList** Out)

@@ -3,6 +3,7 @@
 
 #include "Device/VulkanRequirements.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -18,18 +19,21 @@ FVulkanDevice::FVulkanDevice(
 {
 	Probe.Features.Link(Probe.Extensions);
 	Bits = {Probe.bAccel, Probe.Capabilities.bRayQuery, Probe.Capabilities.bRayTracingPipeline, Probe.bMaintenance1};
-	QueueFamily = Probe.QueueFamily;
+	Queues[0].Family = Probe.QueueFamily;
 }
 
 FVulkanDevice::~FVulkanDevice()
 {
 	if (!Handle) { return; }
-	if (Timeline)
+	if (Queues[0].Timeline)
 	{
 		(void)WaitIdle();
-		CollectUpTo(~FRTFence(0));
+		CollectUpTo(~uint64_t(0));
 		if (const FRTStatus Status = Cache.Save(); !Status) { Instance->Report(ERTVulkanMessage::Warning, Status.Message); }
-		Api.DestroySemaphore(Handle, Timeline, nullptr);
+	}
+	for (const FVulkanQueue& Queue : Queues)
+	{
+		if (Queue.Timeline) { Api.DestroySemaphore(Handle, Queue.Timeline, nullptr); }
 	}
 	Scatter.Destroy(*this);
 	Cache.Destroy();
@@ -46,13 +50,18 @@ FVulkanDevice::~FVulkanDevice()
 FRTStatus FVulkanDevice::CreateNative()
 {
 	const float Priority = 1.0f;
-	VkDeviceQueueCreateInfo QueueInfo{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
-	QueueInfo.queueFamilyIndex = QueueFamily;
-	QueueInfo.queueCount = 1;
-	QueueInfo.pQueuePriorities = &Priority;
+	VkDeviceQueueCreateInfo QueueInfos[2] = {{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO}, {VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO}};
+	for (VkDeviceQueueCreateInfo& QueueInfo : QueueInfos)
+	{
+		QueueInfo.queueCount = 1;
+		QueueInfo.pQueuePriorities = &Priority;
+	}
+	const bool bTransfer = Probe.TransferFamily != FVulkanProbe::NoQueueFamily;
+	QueueInfos[0].queueFamilyIndex = Probe.QueueFamily;
+	QueueInfos[1].queueFamilyIndex = Probe.TransferFamily;
 	VkDeviceCreateInfo Info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &Probe.Features.Core};
-	Info.queueCreateInfoCount = 1;
-	Info.pQueueCreateInfos = &QueueInfo;
+	Info.queueCreateInfoCount = bTransfer ? 2 : 1;
+	Info.pQueueCreateInfos = QueueInfos;
 	Info.enabledExtensionCount = static_cast<uint32_t>(Probe.Extensions.size());
 	Info.ppEnabledExtensionNames = Probe.Extensions.data();
 	const VkResult Result = Instance->Api.CreateDevice(Physical, &Info, nullptr, &Handle);
@@ -64,18 +73,45 @@ FRTStatus FVulkanDevice::CreateNative()
 	bOwned = true;
 	FRTStatus Status = LoadDeviceApi(Instance->Api, Handle, Bits.bAccel, Bits.bPipeline, &Api);
 	if (!Status) { return Status; }
-	Api.GetDeviceQueue(Handle, QueueFamily, 0, &Queue);
+	Api.GetDeviceQueue(Handle, Probe.QueueFamily, 0, &Queues[0].Handle);
+	if (bTransfer)
+	{
+		FVulkanQueue& Transfer = GetQueue(ERTQueue::Transfer);
+		Transfer.Family = Probe.TransferFamily;
+		Api.GetDeviceQueue(Handle, Transfer.Family, 0, &Transfer.Handle);
+	}
 	return CreateShared();
 }
 
-FRTStatus FVulkanDevice::AdoptNative(VkDevice InDevice, VkQueue InQueue, uint32_t InFamily, const FQueueLock& InLock)
+FRTStatus FVulkanDevice::AdoptNative(const FRTVulkanExternalDesc& Desc)
 {
-	Queue = InQueue;
-	QueueFamily = InFamily;
-	QueueLock = InLock;
-	Handle = InDevice;
+	Handle = Desc.Device;
+	Queues[0].Handle = Desc.Queue;
+	Queues[0].Family = Desc.QueueFamily;
+	Queues[0].Lock = {Desc.LockQueue, Desc.UnlockQueue, Desc.QueueUser};
+	FVulkanQueue& Transfer = GetQueue(ERTQueue::Transfer);
+	Transfer.Handle = Desc.TransferQueue;
+	Transfer.Family = Desc.TransferQueueFamily;
 	FRTStatus Status = LoadDeviceApi(Instance->Api, Handle, Bits.bAccel, Bits.bPipeline, &Api);
 	return Status ? CreateShared() : Status;
+}
+
+FRTStatus FVulkanDevice::CreateTimelines()
+{
+	VkSemaphoreTypeCreateInfo Type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
+	Type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
+	VkSemaphoreCreateInfo Info{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &Type};
+	VkResult Result = VK_SUCCESS;
+	for (FVulkanQueue& Queue : Queues)
+	{
+		if (!Queue.Handle || Result != VK_SUCCESS) { continue; }
+		Result = Api.CreateSemaphore(Handle, &Info, nullptr, &Queue.Timeline);
+		if (Result == VK_SUCCESS) { SetName(VK_OBJECT_TYPE_SEMAPHORE, ToNative(Queue.Timeline), "Lantern timeline"); }
+		const bool bKnown = std::find(QueueFamilies.begin(), QueueFamilies.end(), Queue.Family) != QueueFamilies.end();
+		if (!bKnown) { QueueFamilies.push_back(Queue.Family); }
+	}
+	Probe.Capabilities.bTransferQueue = GetQueue(ERTQueue::Transfer).Handle != VK_NULL_HANDLE;
+	return MakeStatus(Result, "vkCreateSemaphore", Probe.Capabilities.DeviceName);
 }
 
 FRTStatus FVulkanDevice::CreateShared()
@@ -85,12 +121,12 @@ FRTStatus FVulkanDevice::CreateShared()
 	Instance->Api.GetPhysicalDeviceQueueFamilyProperties(Physical, &FamilyCount, nullptr);
 	std::vector<VkQueueFamilyProperties> Families(FamilyCount);
 	Instance->Api.GetPhysicalDeviceQueueFamilyProperties(Physical, &FamilyCount, Families.data());
-	if (QueueFamily >= FamilyCount)
+	if (Queues[0].Family >= FamilyCount)
 	{
 		return FRTStatus::Error(
-		    ERTResult::InvalidArgument, "FRTVulkanExternalDesc::QueueFamily is %u, and %s has %u", QueueFamily, Name, FamilyCount);
+		    ERTResult::InvalidArgument, "FRTVulkanExternalDesc::QueueFamily is %u, and %s has %u", Queues[0].Family, Name, FamilyCount);
 	}
-	TimestampBits = Families[QueueFamily].timestampValidBits;
+	TimestampBits = Families[Queues[0].Family].timestampValidBits;
 	Probe.Capabilities.bTimestamps = TimestampBits > 0;
 
 	FRTStatus Status =
@@ -104,11 +140,7 @@ FRTStatus FVulkanDevice::CreateShared()
 	Status = MakeStatus(Cache.Create(Handle, Api, Probe, Message, sizeof(Message)), "vkCreatePipelineCache", Name);
 	if (Message[0]) { Instance->Report(ERTVulkanMessage::Warning, Message); }
 	if (!Status) { return Status; }
-	VkSemaphoreTypeCreateInfo Type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
-	Type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
-	VkSemaphoreCreateInfo Info{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &Type};
-	Status = MakeStatus(Api.CreateSemaphore(Handle, &Info, nullptr, &Timeline), "vkCreateSemaphore", Name);
-	SetName(VK_OBJECT_TYPE_SEMAPHORE, ToNative(Timeline), "Lantern timeline");
+	Status = CreateTimelines();
 	SetName(VK_OBJECT_TYPE_DESCRIPTOR_SET, ToNative(Bindless.Set), "Lantern bindless");
 	return Status;
 }
@@ -215,7 +247,7 @@ FRTStatus AdoptVulkanDevice(const FRTVulkanExternalDesc& Desc, IRTDevice** Out)
 	if (!Status) { return Status; }
 	const FVulkanProbe& Probe = static_cast<const FVulkanRequirements*>(Desc.Requirements)->Probe;
 	FVulkanDevice* Device = new FVulkanDevice(std::move(Instance), Desc.PhysicalDevice, Probe, Desc.PipelineCacheFile);
-	Status = Device->AdoptNative(Desc.Device, Desc.Queue, Desc.QueueFamily, {Desc.LockQueue, Desc.UnlockQueue, Desc.QueueUser});
+	Status = Device->AdoptNative(Desc);
 	if (!Status)
 	{
 		Device->DropOne();

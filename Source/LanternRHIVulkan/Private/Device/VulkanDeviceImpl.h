@@ -33,23 +33,33 @@ enum class EVulkanMemoryKind : uint32_t
 /// References that a submission holds until it has finished.
 using FVulkanKept = std::unordered_set<IRTRefCounted*>;
 
-class FVulkanDevice final : public TRefCounted<IRTDevice>
+/// A queue and its timeline. Values on it are numbers that the device gives to its submissions, on whichever queue.
+struct FVulkanQueue
 {
-public:
-	struct FQueueLock
+	struct FLock
 	{
 		void (*Lock)(void*) = nullptr;
 		void (*Unlock)(void*) = nullptr;
 		void* User = nullptr;
 	};
 
+	VkQueue Handle = VK_NULL_HANDLE; ///< null: the device has no such queue
+	uint32_t Family = 0;
+	FLock Lock; ///< may be empty
+	VkSemaphore Timeline = VK_NULL_HANDLE;
+	std::atomic<uint64_t> LastSubmitted{0}, LastCompleted{0};
+};
+
+class FVulkanDevice final : public TRefCounted<IRTDevice>
+{
+public:
 	FVulkanDevice(
 	    std::unique_ptr<FVulkanInstance> InInstance, VkPhysicalDevice InPhysical, const FVulkanProbe& InProbe, const char* CacheFile);
 
 	/// Creates the VkDevice that the probe describes.
 	FRTStatus CreateNative();
-	/// Takes an engine's device. The lock may be empty.
-	FRTStatus AdoptNative(VkDevice InDevice, VkQueue InQueue, uint32_t InFamily, const FQueueLock& InLock);
+	/// Takes an engine's device and queues.
+	FRTStatus AdoptNative(const FRTVulkanExternalDesc& Desc);
 
 	// IRTDevice
 	uint32_t GetVersion() const override { return RHIVersion; }
@@ -66,11 +76,11 @@ public:
 	FRTStatus CreateScene(const FRTSceneDesc& Desc, IRTScene** Out) override;
 	FRTStatus CreateShaderTable(const FRTShaderTableDesc& Desc, IRTShaderTable** Out) override;
 	FRTStatus CreateQueryPool(ERTQuery Kind, uint32_t Count, IRTQueryPool** Out) override;
-	FRTStatus CreateCommandList(const char* Name, IRTCommandList** Out) override;
+	FRTStatus CreateCommandList(const char* Name, IRTCommandList** Out, ERTQueue Queue) override;
 	FRTStatus ImportCommandList(uint64_t NativeCommandBuffer, IRTCommandList** Out) override;
 	FRTStatus Submit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence) override;
 	FRTStatus NotifyExternalSubmit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence) override;
-	FRTFence GetCompletedFence() override;
+	FRTFence GetCompletedFence(ERTQueue Queue) override;
 	FRTStatus WaitFor(FRTFence Fence, uint64_t TimeoutNs) override;
 	FRTStatus WaitIdle() override;
 	void CollectGarbage() override;
@@ -100,7 +110,8 @@ public:
 	FVulkanBindless Bindless;
 	FVulkanPipelineCache Cache;
 	FVulkanTableScatter Scatter;
-	uint32_t QueueFamily = 0;
+	FVulkanQueue Queues[QueueCount];     ///< by ERTQueue
+	std::vector<uint32_t> QueueFamilies; ///< each once; buffers are shared by all of them
 	uint32_t TimestampBits = 0;
 	bool bCacheLibraries = true;
 
@@ -115,18 +126,20 @@ private:
 	void OnFinalRelease() override;
 
 	FRTStatus CreateShared();
+	FRTStatus CreateTimelines();
+	FVulkanQueue& GetQueue(ERTQueue Queue) { return Queues[static_cast<size_t>(Queue)]; }
 	/// SubmitMutex must be held.
-	VkResult SubmitBatch(const std::vector<VkCommandBufferSubmitInfo>& Buffers);
+	VkResult SubmitBatch(FVulkanQueue& Queue, const std::vector<VkCommandBufferSubmitInfo>& Buffers);
+	/// Reads how far the queue has come.
+	uint64_t Poll(FVulkanQueue& Queue);
+	/// The submissions up to this number have finished, on whichever queue.
+	uint64_t PollAll();
 	FRTStatus SubmitLists(IRTCommandList* const* Lists, uint32_t Count, bool bExternal, FRTFence* OutFence);
-	void CollectUpTo(FRTFence Done);
+	void CollectUpTo(uint64_t Done);
 
 	bool bOwned = false;
-	VkQueue Queue = VK_NULL_HANDLE;
-	FQueueLock QueueLock;
-	VkSemaphore Timeline = VK_NULL_HANDLE;
 	std::mutex SubmitMutex;
-	std::atomic<FRTFence> LastSubmitted{0};
-	std::atomic<FRTFence> LastCompleted{0};
+	std::atomic<uint64_t> LastNumber{0}; ///< of the last submission on any queue
 	std::atomic<bool> bLost{false};
 
 	std::mutex GarbageMutex;

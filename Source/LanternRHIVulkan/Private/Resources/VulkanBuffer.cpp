@@ -17,6 +17,12 @@ FRTStatus FVulkanBlock::Create(FVulkanDevice& InDevice, uint64_t Size, VkBufferU
 	VkBufferCreateInfo Info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
 	Info.size = Size;
 	Info.usage = Usage | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+	if (InDevice.QueueFamilies.size() > 1)
+	{
+		Info.sharingMode = VK_SHARING_MODE_CONCURRENT;
+		Info.queueFamilyIndexCount = static_cast<uint32_t>(InDevice.QueueFamilies.size());
+		Info.pQueueFamilyIndices = InDevice.QueueFamilies.data();
+	}
 	VkResult Result = InDevice.Memory.CreateBuffer(Info, InMemory, Alignment, &Handle, &Allocation);
 	if (Result == VK_ERROR_OUT_OF_DEVICE_MEMORY)
 	{

@@ -67,6 +67,9 @@ struct FRTVulkanExternalDesc
 	VkDevice Device = VK_NULL_HANDLE;
 	VkQueue Queue = VK_NULL_HANDLE; ///< graphics and compute
 	uint32_t QueueFamily = 0;
+	/// For copies beside the frame; nobody else may submit to it. Null: copies run on Queue, within the engine's frame.
+	VkQueue TransferQueue = VK_NULL_HANDLE;
+	uint32_t TransferQueueFamily = 0;
 	/// The one through which the instance was created. Null means the system loader's.
 	PFN_vkGetInstanceProcAddr GetInstanceProcAddr = nullptr;
 	/// Everything in it must have been enabled on Device.
