@@ -23,10 +23,10 @@ struct FMaterialSurface
 
 #ifdef MATERIAL_IMPLICIT_LOD
 #define SampleMaterialTexture(Slot, UV)                                                                                \
-	texture(sampler2D(Textures[nonuniformEXT((Slot)&0xffffffu)], Samplers[nonuniformEXT((Slot) >> 24)]), UV)
+	texture(sampler2D(Textures[nonuniformEXT(SLOT_TEXTURE(Slot))], Samplers[nonuniformEXT(SLOT_SAMPLER(Slot))]), UV)
 #else
 #define SampleMaterialTexture(Slot, UV)                                                                                \
-	textureLod(sampler2D(Textures[nonuniformEXT((Slot)&0xffffffu)], Samplers[nonuniformEXT((Slot) >> 24)]), UV, 0.0)
+	textureLod(sampler2D(Textures[nonuniformEXT(SLOT_TEXTURE(Slot))], Samplers[nonuniformEXT(SLOT_SAMPLER(Slot))]), UV, 0.0)
 #endif
 
 // Slot: TEXTURE_….

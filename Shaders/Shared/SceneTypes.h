@@ -51,7 +51,11 @@ LANTERN_ASSERT_SIZE(FSectionData, 32);
 
 #define NO_TEXTURE 0xffffffffu
 
-// A texture slot holds a texture with its sampler: sampled index in the low 24 bits, sampler index in the high 8; or NO_TEXTURE.
+// A texture slot holds a texture with its sampler: sampled index in the low bits, sampler index in the high ones; or NO_TEXTURE.
+// The Vulkan peer has 65,536 textures and 1,024 samplers. MakeTextureSlot refuses what does not fit.
+#define TEXTURE_INDEX_BITS 22
+#define SLOT_TEXTURE(Slot) ((Slot) & ((1u << TEXTURE_INDEX_BITS) - 1u))
+#define SLOT_SAMPLER(Slot) ((Slot) >> TEXTURE_INDEX_BITS)
 // Bit i of UVSets is the texture coordinate set that slot i uses.
 #define TEXTURE_BASE_COLOR 0
 #define TEXTURE_METALLIC_ROUGHNESS 1

@@ -11,6 +11,7 @@
 #include "LanternCore/Text/Log.h"
 #include "LanternHost/HostScene.h"
 #include "LanternImage/ToneMap.h"
+#include "LanternScene/Scene/TextureSlot.h"
 
 namespace Lantern
 {
@@ -88,7 +89,6 @@ FRTStatus FHostScene::GetSampler(const FHostTexture& Texture, uint32_t& OutIndex
 	TRTRef<IRTSampler> Sampler;
 	if (FRTStatus S = Device.CreateSampler(Desc, Sampler.ReleaseAndGetAddress()); !S) { return S; }
 	OutIndex = Sampler->GetIndex();
-	if (OutIndex > 255) { return FRTStatus::Error(ERTResult::OutOfDescriptors, "more than 256 samplers"); }
 	Samplers.emplace_back(Key, std::move(Sampler));
 	return FRTStatus::Success();
 }
@@ -121,7 +121,10 @@ FRTStatus FHostScene::AddMaterials(FMaterialPrograms& Programs)
 			const FHostTexture& HostTexture = Description.Textures[Texture.Texture];
 			uint32_t Sampler = 0;
 			if (FRTStatus S = GetSampler(HostTexture, Sampler); !S) { return S; }
-			Data.Textures[Slot] = Images[HostTexture.Image]->GetSampledIndex() | (Sampler << 24);
+			if (!MakeTextureSlot(Images[HostTexture.Image]->GetSampledIndex(), Sampler, Data.Textures[Slot]))
+			{
+				return FRTStatus::Error(ERTResult::OutOfDescriptors, "more textures or samplers than a material can name");
+			}
 			if (Slot == TEXTURE_EMISSIVE) { MeanEmission *= ImageMeans[HostTexture.Image]; }
 		}
 		Data.EmissiveWeight = MakeEmissiveWeight(MeanEmission);

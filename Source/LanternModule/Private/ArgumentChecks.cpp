@@ -8,6 +8,8 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/constants.hpp>
 
+#include "LanternScene/Scene/TextureSlot.h"
+
 namespace Lantern
 {
 
@@ -76,6 +78,11 @@ FRTStatus CheckMaterial(const FRTModuleMaterial& Material)
 	if (Material.BaseColorTexture->GetSampledIndex() == ~0u)
 	{
 		return Refuse("FRTModuleMaterial::BaseColorTexture lacks ERTTextureUsage::Sampled");
+	}
+	uint32_t Slot = NO_TEXTURE;
+	if (!MakeTextureSlot(Material.BaseColorTexture->GetSampledIndex(), Material.BaseColorSampler->GetIndex(), Slot))
+	{
+		return Refuse("FRTModuleMaterial::BaseColorTexture or BaseColorSampler has an index that materials have no room for");
 	}
 	return FRTStatus::Success();
 }

@@ -1,8 +1,10 @@
 // FModuleRenderer's materials, and which objects use them.
 #include <algorithm>
+#include <cassert>
 
 #include "ArgumentChecks.h"
 #include "LanternRHI/RTText.h"
+#include "LanternScene/Scene/TextureSlot.h"
 #include "MeshData.h"
 #include "ModuleRenderer.h"
 
@@ -26,7 +28,9 @@ void FModuleRenderer::StoreMaterial(FMaterial& Material, const FRTModuleMaterial
 	FMaterialData Data = PackMaterial(From);
 	if (From.BaseColorTexture != nullptr)
 	{
-		Data.Textures[TEXTURE_BASE_COLOR] = From.BaseColorTexture->GetSampledIndex() | From.BaseColorSampler->GetIndex() << 24;
+		[[maybe_unused]] const bool bFits =
+		    MakeTextureSlot(From.BaseColorTexture->GetSampledIndex(), From.BaseColorSampler->GetIndex(), Data.Textures[TEXTURE_BASE_COLOR]);
+		assert(bFits && "CheckMaterial has seen to it");
 	}
 	ReplacedTextures.push_back(std::move(Material.Textures));
 	Material.Textures = {TRTRef(From.BaseColorTexture), TRTRef(From.BaseColorSampler)};

@@ -35,9 +35,10 @@ inline constexpr uint32_t TriangleIndices[] = {0, 1, 2};
 class FModuleTest : public ::testing::Test
 {
 protected:
-	void SetUp() override
+	void SetUp() override { Open({}); }
+	void Open(const FRTMockDesc& Mock)
 	{
-		ASSERT_FINE(CreateMockDevice({}, Inner.ReleaseAndGetAddress()));
+		ASSERT_FINE(CreateMockDevice(Mock, Inner.ReleaseAndGetAddress()));
 		const auto OnMessage = [](void* User, const char* Text) { static_cast<FModuleTest*>(User)->Messages.emplace_back(Text); };
 		ASSERT_FINE(WrapWithValidation(Inner.Get(), OnMessage, this, Device.ReleaseAndGetAddress()));
 		ASSERT_EQ(LanternCreateModule(ModuleVersion, Module.ReleaseAndGetAddress()), 0);
