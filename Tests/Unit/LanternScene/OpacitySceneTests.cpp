@@ -191,6 +191,23 @@ TEST_F(FOpacitySceneTest, ObjectsWithOtherMaterialsFallBack)
 	ExpectFallback(Solid);
 }
 
+// What was found out about a geometry says nothing about the one that has its slot now.
+TEST_F(FOpacitySceneTest, ReusedSlotKeepsItsClassification)
+{
+	FRTGeometryRef Gone = Create(MakeClassifiedInfo());
+	const uint32_t Slot = Gone->GetSlot();
+	FSectionTable& Sections = Scene->GetSections();
+	Sections.Release(Sections.Acquire(*Gone, {OtherIndex, SolidIndex}));
+	ASSERT_TRUE(Sections.HasRefutedGeometries());
+	Gone.reset();
+	const FRTGeometryRef Next = Create(MakeClassifiedInfo());
+	ASSERT_EQ(Next->GetSlot(), Slot);
+	Add(Next, {MaskedIndex, SolidIndex});
+	Settle();
+	EXPECT_TRUE(Next->IsClassified());
+	EXPECT_EQ(GetBuilt(Next), Classified);
+}
+
 TEST_F(FOpacitySceneTest, FallBackIsInTheSameFrame)
 {
 	const FRTGeometryRef Geometry = Create(MakeClassifiedInfo());

@@ -43,7 +43,10 @@ bool NeedsOpacityUpdate(const FSectionContext& Context, const FSectionTable& Sec
 
 void UpdateOpacityUse(const FSectionContext& Context, FSectionTable& Sections, FGeometryStore& Store)
 {
-	for (const uint32_t Slot : Sections.TakeRefutedGeometries()) { Store.RefuteOpacity(Slot); }
+	for (const std::weak_ptr<const FRTGeometry>& Refuted : Sections.TakeRefutedGeometries())
+	{
+		if (const std::shared_ptr<const FRTGeometry> Geometry = Refuted.lock()) { Store.RefuteOpacity(Geometry->GetSlot()); }
+	}
 	Store.SetOpacityUse(IsOpacityWanted(Context));
 }
 

@@ -250,7 +250,10 @@ void FSectionTable::UpdateFlags(FSectionRangeId Id)
 	const uint32_t Parts = static_cast<uint32_t>(Range.Geometry->GetParts().size());
 	for (uint32_t Part = 0; Part < Parts; ++Part) { bMasked |= (Table[Range.First + Part].Flags & SECTION_MASKED) != 0; }
 	SetFlags(Id, bMasked, bDoubleSided, bEmissive);
-	if (!HasClassifiedMaterials(Context, *Range.Geometry, Range.Materials)) { RefutedGeometries.push_back(Range.Geometry->GetSlot()); }
+	if (!HasClassifiedMaterials(Context, *Range.Geometry, Range.Materials))
+	{
+		RefutedGeometries.push_back(Range.Geometry->weak_from_this());
+	}
 }
 
 void FSectionTable::SetFlags(FSectionRangeId Id, bool bMasked, bool bDoubleSided, bool bEmissive)

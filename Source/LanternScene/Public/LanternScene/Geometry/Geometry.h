@@ -91,7 +91,7 @@ std::vector<FRTGeometrySection> MakeStructureSections(const FRTGeometry& Geometr
 struct FGeometryReleases;
 class FCoarserLevel;
 
-class FRTGeometry
+class FRTGeometry : public std::enable_shared_from_this<FRTGeometry>
 {
 public:
 	explicit FRTGeometry(FRTGeometryInfo InInfo);

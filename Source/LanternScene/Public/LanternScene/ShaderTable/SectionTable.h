@@ -5,6 +5,7 @@
 // A range has an entry for each part of its geometry. The first entries are the geometry's sections, in their order.
 #pragma once
 
+#include <memory>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -81,9 +82,9 @@ public:
 	/// Returns the sections written since the last call, each once, for the writer of hit records. Some may have been
 	/// released meanwhile.
 	std::vector<uint32_t> TakeChanged();
-	/// Returns the slots of geometries that objects use with another alpha test than that of their classification, since the
-	/// last call. Some may come twice, or have been released meanwhile.
-	std::vector<uint32_t> TakeRefutedGeometries() { return std::exchange(RefutedGeometries, {}); }
+	/// Returns the geometries that objects use with another alpha test than that of their classification, since the last call.
+	/// Some may come twice. Those that are gone meanwhile have expired, whoever has their slot now.
+	std::vector<std::weak_ptr<const FRTGeometry>> TakeRefutedGeometries() { return std::exchange(RefutedGeometries, {}); }
 	bool HasRefutedGeometries() const { return !RefutedGeometries.empty(); }
 	bool HasChanged() const { return !Changed.empty(); } ///< TakeChanged would return some
 
@@ -144,7 +145,7 @@ private:
 	std::vector<std::vector<FMaterialUse>> UsesOfMaterial;
 
 	std::vector<FSectionRangeId> ChangedRanges;
-	std::vector<uint32_t> RefutedGeometries;
+	std::vector<std::weak_ptr<const FRTGeometry>> RefutedGeometries;
 	std::vector<uint32_t> Changed;
 	std::vector<bool> IsChanged; // by section: if nobody takes changes for a long time, the list must not grow
 	FHitProgramIndex HitPrograms;
