@@ -25,23 +25,33 @@ void FRefitQuality::BeginFrame(uint32_t FlightIndex, FGeometryStore& Store)
 {
 	Ring.BeginFrame(FlightIndex, [&](const FRing::FEntry& Old) {
 		const auto* const Sums = static_cast<const FRefitQualitySum*>(Old.Buffer->GetMapped());
-		for (const FItem& Item : Old.Notes) { Take(Store, Item, Sums + Item.First); }
+		for (const FItem& Item : Old.Notes)
+		{
+			Waiting.push_back({Item.Geometry, Item.Builds, ComputeLooseness(Sums + Item.First, Item.Count)});
+		}
 	});
+	std::erase_if(Waiting, [&](const FMeasure& Measure) { return Deliver(Store, Measure); });
 }
 
-void FRefitQuality::Take(FGeometryStore& Store, const FItem& Item, const FRefitQualitySum* Sums)
+bool FRefitQuality::Deliver(FGeometryStore& Store, const FMeasure& Measure)
 {
-	const std::shared_ptr<FRTGeometry> Geometry = Item.Geometry.lock();
+	const std::shared_ptr<FRTGeometry> Geometry = Measure.Geometry.lock();
+	if (!Geometry) { return true; }
+	const uint32_t Slot = Geometry->GetSlot();
+	if (Store.Get(Slot) != Geometry.get()) { return false; }
 	// Measured before the last build: it says nothing of the structure that there is now.
-	if (!Geometry || Store.Get(Item.Slot) != Geometry.get() || Item.Builds == 0 || Item.Builds != Store.GetBuildCount(Item.Slot))
-	{
-		return;
-	}
-	const float Looseness = ComputeLooseness(Sums, Item.Count);
-	Baselines.resize(std::max<size_t>(Baselines.size(), Item.Slot + 1));
-	FBaseline& Baseline = Baselines[Item.Slot];
-	if (Baseline.Geometry.lock() != Geometry || Baseline.Builds != Item.Builds) { Baseline = {Geometry, Item.Builds, Looseness}; }
-	if (Baseline.Looseness > 0.0f) { Store.SetRefitQuality(Item.Slot, Looseness / Baseline.Looseness); }
+	if (Measure.Builds == 0 || Measure.Builds != Store.GetBuildCount(Slot)) { return true; }
+	if (Baselines.size() >= MostBaselines) { DropExpired(); }
+	FMeasure& Baseline = Baselines[Geometry.get()];
+	if (Baseline.Geometry.lock() != Geometry || Baseline.Builds != Measure.Builds) { Baseline = Measure; }
+	if (Baseline.Looseness > 0.0f) { Store.SetRefitQuality(Slot, Measure.Looseness / Baseline.Looseness); }
+	return true;
+}
+
+void FRefitQuality::DropExpired()
+{
+	std::erase_if(Baselines, [](const auto& Entry) { return Entry.second.Geometry.expired(); });
+	MostBaselines = std::max<size_t>(64, 2 * Baselines.size());
 }
 
 FRefitQuality::FWork FRefitQuality::Prepare(FGeometryStore& Store, const std::vector<FSkinningInputs>& Items)

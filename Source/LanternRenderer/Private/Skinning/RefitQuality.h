@@ -17,6 +17,7 @@
 #pragma once
 
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
 #include "Feedback/ReadbackRing.h"
@@ -34,7 +35,8 @@ public:
 	static constexpr size_t PerFrame = 16;
 
 	explicit FRefitQuality(IRTDevice& InDevice) : Ring(InDevice, "RefitQuality", ERTBufferUsage::Storage) {}
-	/// FlightIndex: as in TReadbackRing::BeginFrame. Tells the store what the frame FramesInFlight before measured.
+	/// FlightIndex: as in TReadbackRing::BeginFrame. Tells the store what the frame FramesInFlight before measured. If that frame
+	/// was of another scene, its results wait for the next frame of that scene.
 	void BeginFrame(uint32_t FlightIndex, FGeometryStore& Store);
 	/// What is to be dispatched behind the skinning of Items in this frame, and the buffer for its results. Empty if the store
 	/// wants nothing measured, or if there is no memory for results.
@@ -59,16 +61,21 @@ private:
 		uint32_t First = 0, Count = 0; // sums
 	};
 	using FRing = TReadbackRing<std::vector<FItem>>;
-	struct FBaseline
+	/// The looseness of a geometry after one of its builds.
+	struct FMeasure
 	{
 		std::weak_ptr<FRTGeometry> Geometry;
 		uint32_t Builds = 0; // 0: none
 		float Looseness = 0.0f;
 	};
-	void Take(FGeometryStore& Store, const FItem& Item, const FRefitQualitySum* Sums);
+	/// Returns false if the geometry is another store's.
+	bool Deliver(FGeometryStore& Store, const FMeasure& Measure);
+	void DropExpired();
 
 	FRing Ring;
-	std::vector<FBaseline> Baselines; // by slot
+	std::unordered_map<const FRTGeometry*, FMeasure> Baselines; // some may have expired
+	std::vector<FMeasure> Waiting;                              // for a frame of their scene
+	size_t MostBaselines = 64;                                  // before expired ones go
 	size_t Next = 0;
 };
 
