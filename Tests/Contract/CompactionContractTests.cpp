@@ -83,7 +83,9 @@ TEST_P(FCompactionContract, SizesAreKnownOnceWritten)
 	{
 		const std::vector<uint64_t> Found = BuildAndMeasure({&Large, &Small});
 		EXPECT_GT(Found[0], 0u);
-		EXPECT_LE(Found[0], Large.Geometry->GetBuildSizes().StructureBytes);
+		// lavapipe's structures are as small as they get. The mock's shrink, so that what comes of it can be tested.
+		const uint64_t Whole = Large.Geometry->GetBuildSizes().StructureBytes;
+		EXPECT_TRUE(IsVulkan() ? Found[0] <= Whole : Found[0] < Whole) << Found[0] << " of " << Whole;
 		EXPECT_GT(Found[0], Found[1]);
 		EXPECT_FALSE(Pool->GetResults(0, 4, Sizes)) << "two were never written";
 	}

@@ -62,5 +62,74 @@ CONTRACT_TEST(FencesOfQueuesAreApart)
 	EXPECT_OK(Device().WaitIdle());
 }
 
+/// There and back: each queue reads what the other has written, ordered by waits alone.
+CONTRACT_TEST(QueuesWaitForEachOtherOnTheDevice)
+{
+	TRTRef<IRTCommandList> Compute;
+	const FRTStatus Created = Device().CreateCommandList("Compute", Compute.ReleaseAndGetAddress(), ERTQueue::AsyncCompute);
+	if (!Caps().bAsyncComputeQueue)
+	{
+		EXPECT_EQ(Created.Code, ERTResult::Unsupported);
+		return;
+	}
+	ASSERT_OK(Created);
+	const std::vector<uint32_t> Values = {3, 1, 4, 1, 5, 9, 2, 6};
+	const auto Source = Upload(Values);
+	const auto A = Make.Buffer(32), B = Make.Buffer(32), Readback = Make.Buffer(32, ERTMemory::Readback);
+	const auto First = Make.List();
+	First->CopyBuffer(A.Get(), 0, Source.Get(), 0, 32);
+	const FRTFence Written = Make.Submit(First.Get());
+
+	ASSERT_OK(Compute->Begin());
+	const FRTBarrier Taken{A.Get(), nullptr, ERTAccess::CopyWrite, ERTAccess::CopyRead, true};
+	Compute->Barriers(&Taken, 1);
+	Compute->CopyBuffer(B.Get(), 0, A.Get(), 0, 32);
+	ASSERT_OK(Compute->End());
+	IRTCommandList* Raw = Compute.Get();
+	FRTFence Copied = 0;
+	ASSERT_OK(Device().Submit(&Raw, 1, &Copied, &Written, 1));
+	EXPECT_EQ(GetFenceQueue(Copied), ERTQueue::AsyncCompute);
+
+	const auto Last = Make.List();
+	const FRTBarrier Back{B.Get(), nullptr, ERTAccess::CopyWrite, ERTAccess::CopyRead, true};
+	Last->Barriers(&Back, 1);
+	Last->CopyBuffer(Readback.Get(), 0, B.Get(), 0, 32);
+	Barrier(Last.Get(), Readback.Get(), ERTAccess::CopyWrite, ERTAccess::HostRead);
+	ASSERT_OK(Last->End());
+	Raw = Last.Get();
+	FRTFence Done = 0;
+	ASSERT_OK(Device().Submit(&Raw, 1, &Done, &Copied, 1));
+	Wait(Done);
+	EXPECT_EQ(std::memcmp(Readback->GetMapped(), Values.data(), 32), 0);
+	EXPECT_GE(Device().GetCompletedFence(ERTQueue::AsyncCompute), Copied) << "the last list waited for it";
+}
+
+/// A texture that one queue stores to and the other reads back.
+CONTRACT_TEST(TexturesChangeQueues)
+{
+	if (!Caps().bAsyncComputeQueue) { return; }
+	const auto Texture = Make.Texture(4, 4, ERTFormat::R32_FLOAT, 1, ERTTextureUsage::CopySource | ERTTextureUsage::CopyDest);
+	TRTRef<IRTCommandList> Compute;
+	ASSERT_OK(Device().CreateCommandList("Compute", Compute.ReleaseAndGetAddress(), ERTQueue::AsyncCompute));
+	ASSERT_OK(Compute->Begin());
+	const std::vector<float> Values(16, 2.5f);
+	const auto Source = Upload(Values);
+	Barrier(Compute.Get(), Texture.Get(), ERTAccess::None, ERTAccess::CopyWrite);
+	Compute->CopyBufferToTexture(Texture.Get(), 0, 0, Source.Get(), 0);
+	const FRTFence Written = Make.Submit(Compute.Get());
+	const auto Readback = Make.Buffer(64, ERTMemory::Readback);
+	const auto List = Make.List();
+	const FRTBarrier Taken{nullptr, Texture.Get(), ERTAccess::CopyWrite, ERTAccess::CopyRead, true};
+	List->Barriers(&Taken, 1);
+	List->CopyTextureToBuffer(Readback.Get(), 0, Texture.Get(), 0, 0);
+	Barrier(List.Get(), Readback.Get(), ERTAccess::CopyWrite, ERTAccess::HostRead);
+	ASSERT_OK(List->End());
+	IRTCommandList* Raw = List.Get();
+	FRTFence Done = 0;
+	ASSERT_OK(Device().Submit(&Raw, 1, &Done, &Written, 1));
+	Wait(Done);
+	EXPECT_EQ(std::memcmp(Readback->GetMapped(), Values.data(), 64), 0);
+}
+
 } // namespace
 } // namespace Lantern

@@ -18,6 +18,35 @@ TEST_P(FRecordContract, HitAndMiss)
 	EXPECT_EQ(Trace(4, MakePush()), (FWords{HitValue(7, 3, 0, 0), MissOne, HitValue(7, 5, 0, 0), MissOne}));
 }
 
+/// As many rays as an earlier command of the same list has written: two of three that would hit.
+TEST_P(FRecordContract, IndirectTraceReadsItsSizeOnTheDevice)
+{
+	if (!Caps().bIndirectTrace) { GTEST_SKIP() << "no indirect traces"; }
+	MakeTable(1);
+	SetHit(0, 7);
+	const FContractGeometry Square = MakeSquares();
+	Load({&Square}, {Place(Square, 0, 3), Place(Square, 1, 5), Place(Square, 2, 6)});
+	const auto Size = Upload(std::vector<uint32_t>{99, 2, 1, 1});
+	const auto Arguments = Make.Buffer(16, ERTMemory::Device, "Arguments", ERTBufferUsage::Indirect | ERTBufferUsage::CopyDest);
+	const auto Output = Make.Buffer(12, ERTMemory::Readback, "Output");
+	FContractPush Push = MakePush();
+	Push.Output = Output->GetDeviceAddress();
+	const auto List = Make.List("Trace");
+	List->FillBuffer(Output.Get(), 0, 12, 0);
+	Barrier(List.Get(), Output.Get(), ERTAccess::CopyWrite, ERTAccess::StorageWrite);
+	List->CopyBuffer(Arguments.Get(), 0, Size.Get(), 0, 16);
+	Barrier(List.Get(), Arguments.Get(), ERTAccess::CopyWrite, ERTAccess::IndirectRead);
+	List->UpdateShaderTable(Table.Get());
+	List->SetPipeline(Pipeline.Get());
+	List->PushConstants(&Push, sizeof(Push));
+	List->TraceRaysIndirect(Table.Get(), 0, Arguments.Get(), 4);
+	Barrier(List.Get(), Output.Get(), ERTAccess::StorageWrite, ERTAccess::HostRead);
+	Run(List.Get());
+	if (!IsVulkan()) { return; } // the mock records rays and traces none
+	const auto* const Got = static_cast<const uint32_t*>(Output->GetMapped());
+	EXPECT_EQ((FWords{Got[0], Got[1], Got[2]}), (FWords{HitValue(7, 3, 0, 0), HitValue(7, 5, 0, 0), 0}));
+}
+
 TEST_P(FRecordContract, SecondMissShader)
 {
 	MakeTable(1);

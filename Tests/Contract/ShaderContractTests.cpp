@@ -24,6 +24,35 @@ CONTRACT_SHADER_TEST(ComputeWritesThroughAnAddress)
 	for (uint32_t i = 0; i < 100; ++i) { EXPECT_EQ(static_cast<const uint32_t*>(Output->GetMapped())[i], 5 + 3 * i); }
 }
 
+/// The number of groups is what an earlier command of the same list wrote.
+CONTRACT_SHADER_TEST(IndirectDispatchReadsItsGroupsOnTheDevice)
+{
+	const auto Pipeline = MakeComputePipeline(Device(), "WriteWords.comp");
+	const auto Output = Make.Buffer(64 * 4, ERTMemory::Readback);
+	const auto Groups = Upload(std::vector<uint32_t>{99, 3, 1, 1, 0, 1, 1});
+	const auto Arguments =
+	    Make.Buffer(28, ERTMemory::Device, "Arguments", ERTBufferUsage::Indirect | ERTBufferUsage::CopyDest | ERTBufferUsage::Storage);
+	FContractPush Push;
+	Push.Output = Output->GetDeviceAddress();
+	Push.A = 5;
+	Push.B = 3;
+	Push.C = 64;
+	const auto List = Make.List();
+	List->FillBuffer(Output.Get(), 0, 64 * 4, 7);
+	Barrier(List.Get(), Output.Get(), ERTAccess::CopyWrite, ERTAccess::StorageWrite);
+	List->CopyBuffer(Arguments.Get(), 0, Groups.Get(), 0, 28);
+	Barrier(List.Get(), Arguments.Get(), ERTAccess::CopyWrite, ERTAccess::IndirectRead);
+	List->SetPipeline(Pipeline.Get());
+	List->PushConstants(&Push, sizeof(Push));
+	List->DispatchIndirect(Arguments.Get(), 4); // 3 groups of 8
+	Push.A = 1000;
+	List->PushConstants(&Push, sizeof(Push));
+	List->DispatchIndirect(Arguments.Get(), 16); // none
+	Barrier(List.Get(), Output.Get(), ERTAccess::StorageWrite, ERTAccess::HostRead);
+	Run(List.Get());
+	for (uint32_t i = 0; i < 64; ++i) { EXPECT_EQ(static_cast<const uint32_t*>(Output->GetMapped())[i], i < 24 ? 5 + 3 * i : 7) << i; }
+}
+
 CONTRACT_SHADER_TEST(PushConstantsChangeBetweenDispatches)
 {
 	const auto Pipeline = MakeComputePipeline(Device(), "WriteWords.comp");

@@ -25,7 +25,11 @@ FMockCommandList::FMockCommandList(std::shared_ptr<FMockState> InState, const ch
       Queue(InQueue)
 {
 	// An imported command buffer is recording already.
-	if (Native) { Stage = EStage::Recording; }
+	if (Native)
+	{
+		Stage = EStage::Recording;
+		Recording = ++State->LastRecording;
+	}
 }
 
 void FMockCommandList::Log(ERTMockCall Kind, const std::string& Object, const FRTMockNumbers& Numbers, bool bWithPush)
@@ -39,6 +43,7 @@ void FMockCommandList::Log(ERTMockCall Kind, const std::string& Object, const FR
 	Call.Kind = Kind;
 	Call.Name = Object;
 	Call.List = Name;
+	Call.Recording = Recording;
 	Call.Numbers = Numbers;
 	if (bWithPush) { Call.Bytes = Push; }
 	(void)State->Log(std::move(Call)); // a lost device is seen at End() or Submit()
@@ -78,9 +83,11 @@ FRTStatus FMockCommandList::Begin()
 	Push.clear();
 	Pipeline = nullptr;
 	Failed = {};
+	Recording = ++State->LastRecording;
 	FRTMockCall Call;
 	Call.Kind = ERTMockCall::Begin;
 	Call.Name = Call.List = Name;
+	Call.Recording = Recording;
 	FRTStatus Status = State->Log(std::move(Call));
 	if (Status) { Stage = EStage::Recording; }
 	return Status;
@@ -93,6 +100,7 @@ FRTStatus FMockCommandList::End()
 	FRTMockCall Call;
 	Call.Kind = ERTMockCall::End;
 	Call.Name = Call.List = Name;
+	Call.Recording = Recording;
 	FRTStatus Status = State->Log(std::move(Call));
 	return Status ? Failed : Status;
 }
@@ -216,9 +224,18 @@ void FMockCommandList::Dispatch(uint32_t GroupsX, uint32_t GroupsY, uint32_t Gro
 	Then([] {});
 }
 
+void FMockCommandList::DispatchIndirect(IRTBuffer* Arguments, uint64_t Offset)
+{
+	assert(!bInPass && Pipeline && Pipeline->Kind == EMockPipeline::Compute);
+	assert(Offset % 4 == 0 && IsInside(Offset, 12, AsMock(Arguments)->Desc.Size));
+	Log(ERTMockCall::DispatchIndirect, GetPipelineName(), {Offset}, true);
+	Keep(Arguments);
+	Then([] {});
+}
+
 void FMockCommandList::BeginRasterPass(const FRTRasterPassDesc& Desc)
 {
-	assert(!bInPass);
+	assert(!bInPass && Queue == ERTQueue::Graphics);
 	bInPass = true;
 	std::string First = Desc.Depth ? AsMock(Desc.Depth)->Name : std::string();
 	if (Desc.ColorCount) { First = AsMock(Desc.Colors[0].Texture)->Name; }

@@ -15,6 +15,7 @@ public:
 
 	FRTStatus Begin() override;
 	FRTStatus End() override;
+	FRTStatus GetStatus() const override { return Failed; }
 	void Barriers(const FRTBarrier* Items, uint32_t Count) override;
 	void CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTBuffer* Source, uint64_t SourceOffset, uint64_t Size) override;
 	void CopyBufferRegions(IRTBuffer* Dest, IRTBuffer* Source, const FRTBufferRegion* Regions, uint32_t Count) override;
@@ -26,6 +27,8 @@ public:
 	void SetPipeline(IRTPipeline* Pipeline) override;
 	void PushConstants(const void* Data, uint32_t Size) override;
 	void Dispatch(uint32_t GroupsX, uint32_t GroupsY, uint32_t GroupsZ) override;
+	void DispatchIndirect(IRTBuffer* Arguments, uint64_t Offset) override;
+	void TraceRaysIndirect(IRTShaderTable* Table, uint32_t RayGen, IRTBuffer* Arguments, uint64_t Offset) override;
 	void TraceRays(IRTShaderTable* Table, uint32_t RayGen, uint32_t Width, uint32_t Height, uint32_t Depth) override;
 	void UpdateShaderTable(IRTShaderTable* Table) override;
 	void BeginRasterPass(const FRTRasterPassDesc& Desc) override;
@@ -51,6 +54,7 @@ public:
 	bool IsImported() const { return Native != 0; }
 	ERTQueue GetQueue() const { return Queue; }
 	void MarkSubmitted() { Stage = EStage::Submitted; }
+	uint64_t GetRecording() const { return Recording; }
 
 private:
 	enum class EStage : uint8_t
@@ -67,6 +71,7 @@ private:
 	void Then(std::function<void()> Work) { Commands.push_back(std::move(Work)); }
 	const std::string& GetPipelineName() const;
 	void BuildGeometry(const FRTGeometryBuild& Build);
+	void CheckTrace(IRTShaderTable* Table, uint32_t RayGen);
 
 	std::vector<std::function<void()>> Commands;
 	std::vector<TRTRef<IRTRefCounted>> Kept;
@@ -74,7 +79,8 @@ private:
 	FMockPipeline* Pipeline = nullptr;
 	uint64_t Native = 0;
 	ERTQueue Queue = ERTQueue::Graphics;
-	FRTStatus Failed; ///< what End returns
+	uint64_t Recording = 0; ///< see FRTMockCall::Recording
+	FRTStatus Failed;       ///< what End returns
 	EStage Stage = EStage::Idle;
 	bool bInPass = false;
 };

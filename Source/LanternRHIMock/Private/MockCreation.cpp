@@ -218,7 +218,8 @@ FRTStatus FMockDevice::CreateCommandList(const char* Name, IRTCommandList** Out,
 {
 	FRTStatus Status = Start(ERTMockCall::CreateCommandList, Name, {uint64_t(Queue)});
 	if (!Status) { return Status; }
-	const bool bThere = Queue == ERTQueue::Graphics || (Queue == ERTQueue::Transfer && State->Desc.bTransferQueue);
+	const bool bThere = Queue == ERTQueue::Graphics || (Queue == ERTQueue::Transfer && State->Desc.bTransferQueue) ||
+	                    (Queue == ERTQueue::AsyncCompute && State->Desc.bAsyncComputeQueue);
 	if (!bThere) { return FRTStatus::Error(ERTResult::Unsupported, "the device has no such queue (mock)"); }
 	return Finish(*State, std::make_unique<FMockCommandList>(State, Name, 0, Queue), EMockMemory::None, 0, Out);
 }

@@ -29,6 +29,8 @@ FRTCapabilities MakeCapabilities(const FRTMockDesc& Desc)
 	Caps.bPositionFetch = Desc.Rung != ERTRung::None;
 	Caps.bTimestamps = true;
 	Caps.bTransferQueue = Desc.bTransferQueue;
+	Caps.bAsyncComputeQueue = Desc.bAsyncComputeQueue;
+	Caps.bIndirectTrace = Caps.bRayTracingPipeline;
 	Caps.ShaderGroupHandleSize = Desc.HandleSize;
 	Caps.ShaderGroupHandleAlignment = Desc.HandleAlignment;
 	Caps.ShaderGroupBaseAlignment = Desc.BaseAlignment;
@@ -60,18 +62,34 @@ FRTStatus FMockDevice::Start(ERTMockCall Kind, const char* Name, const FRTMockNu
 	return State->Log(Kind, Name ? Name : "", Numbers);
 }
 
-FRTStatus FMockDevice::Enqueue(ERTMockCall Kind, IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence)
+FRTStatus FMockDevice::Enqueue(
+    ERTMockCall Kind, IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence, const FRTFence* Waits, uint32_t WaitCount)
 {
 	FMockSubmission Submission;
 	const ERTQueue Queue = Count > 0 ? static_cast<FMockCommandList*>(Lists[0])->GetQueue() : ERTQueue::Graphics;
+	FRTStatus Recording;
 	for (uint32_t i = 0; i < Count; ++i)
 	{
 		auto* List = static_cast<FMockCommandList*>(Lists[i]);
+		Recording = Recording ? List->GetStatus() : Recording;
 		assert(Kind == ERTMockCall::NotifyExternalSubmit ? List->IsImported() : List->IsEnded());
 		assert(List->GetQueue() == Queue && "lists of two queues");
 		Submission.Lists.emplace_back(List);
 	}
-	const FRTStatus Status = Start(Kind, "", {Count, Mock.GetLastFence() + 1, uint64_t(Queue)});
+	if (Count > 1)
+	{
+		std::vector<uint64_t> Recordings;
+		for (const TRTRef<FMockCommandList>& List : Submission.Lists) { Recordings.push_back(List->GetRecording()); }
+		State->OrderCalls(Recordings);
+	}
+	// A list that the engine has submitted runs, whatever is wrong with it.
+	if (!Recording && Kind != ERTMockCall::NotifyExternalSubmit) { return Recording; }
+	FRTMockCall Call;
+	Call.Kind = Kind;
+	Call.Numbers = {Count, Mock.GetLastFence() + 1, uint64_t(Queue)};
+	const auto* const WaitBytes = reinterpret_cast<const uint8_t*>(Waits);
+	Call.Bytes.assign(WaitBytes, WaitBytes + WaitCount * sizeof(FRTFence));
+	const FRTStatus Status = State->Log(std::move(Call));
 	if (!Status) { return Status; }
 	for (TRTRef<FMockCommandList>& List : Submission.Lists) { List->MarkSubmitted(); }
 	FRTFence Fence = 0;
@@ -85,17 +103,17 @@ FRTStatus FMockDevice::Enqueue(ERTMockCall Kind, IRTCommandList* const* Lists, u
 	if (OutFence) { *OutFence = MakeFence(Queue, Fence); }
 	if (bManual) { State->Collect(); }
 	else { State->Complete(Fence); }
-	return FRTStatus::Success();
+	return Recording;
 }
 
-FRTStatus FMockDevice::Submit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence)
+FRTStatus FMockDevice::Submit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence, const FRTFence* Waits, uint32_t WaitCount)
 {
-	return Enqueue(ERTMockCall::Submit, Lists, Count, OutFence);
+	return Enqueue(ERTMockCall::Submit, Lists, Count, OutFence, Waits, WaitCount);
 }
 
 FRTStatus FMockDevice::NotifyExternalSubmit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence)
 {
-	return Enqueue(ERTMockCall::NotifyExternalSubmit, Lists, Count, OutFence);
+	return Enqueue(ERTMockCall::NotifyExternalSubmit, Lists, Count, OutFence, nullptr, 0);
 }
 
 FRTFence FMockDevice::GetCompletedFence(ERTQueue Queue)

@@ -27,7 +27,7 @@ public:
 	FRTStatus CreateQueryPool(ERTQuery Kind, uint32_t Count, IRTQueryPool** Out) override;
 	FRTStatus CreateCommandList(const char* Name, IRTCommandList** Out, ERTQueue Queue) override;
 	FRTStatus ImportCommandList(uint64_t NativeCommandBuffer, IRTCommandList** Out) override;
-	FRTStatus Submit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence) override;
+	FRTStatus Submit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence, const FRTFence* Waits, uint32_t WaitCount) override;
 	FRTStatus NotifyExternalSubmit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence) override;
 	FRTFence GetCompletedFence(ERTQueue Queue) override;
 	FRTStatus WaitFor(FRTFence Fence, uint64_t TimeoutNs) override;
@@ -47,7 +47,8 @@ private:
 	/// Sleeps and fails as tests asked for. Call it under no lock.
 	FRTStatus Compile(const char* Name);
 	void CheckLibrary(const FMockPipeline& Link, const FMockPipeline& Library);
-	FRTStatus Enqueue(ERTMockCall Kind, IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence);
+	FRTStatus Enqueue(
+	    ERTMockCall Kind, IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence, const FRTFence* Waits, uint32_t WaitCount);
 
 	std::shared_ptr<FMockState> State;
 };

@@ -32,6 +32,15 @@ FRTStatus FMockState::Log(ERTMockCall Kind, const std::string& Name, const FRTMo
 	return Log(std::move(Call));
 }
 
+void FMockState::OrderCalls(const std::vector<uint64_t>& Recordings)
+{
+	std::lock_guard Lock(Mutex);
+	const auto GetPlace = [&](const FRTMockCall& Call) { return std::find(Recordings.begin(), Recordings.end(), Call.Recording); };
+	const auto IsOther = [&](const FRTMockCall& Call) { return GetPlace(Call) == Recordings.end(); };
+	const auto First = std::stable_partition(Calls.begin(), Calls.end(), IsOther);
+	std::stable_sort(First, Calls.end(), [&](const FRTMockCall& A, const FRTMockCall& B) { return GetPlace(A) < GetPlace(B); });
+}
+
 void FMockState::AddError(std::string Message)
 {
 	std::lock_guard Lock(Mutex);

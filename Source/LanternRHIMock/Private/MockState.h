@@ -70,6 +70,7 @@ struct FMockState
 
 	std::vector<FRTMockCall> Calls;
 	std::atomic<bool> bRecordCalls = true;
+	std::atomic<uint64_t> LastRecording = 0;
 	std::vector<std::string> Errors;
 	std::set<FMockObject*> Live;
 	std::map<uint64_t, FMockBuffer*> Buffers;                ///< by device address
@@ -104,6 +105,8 @@ struct FMockState
 	/// Records the call, then returns DeviceLost if the device is lost by now.
 	FRTStatus Log(FRTMockCall Call);
 	FRTStatus Log(ERTMockCall Kind, const std::string& Name, const FRTMockNumbers& Numbers = {});
+	/// Puts the calls of these recordings behind all others, in this order.
+	void OrderCalls(const std::vector<uint64_t>& Recordings);
 	void AddError(std::string Message);
 	void AddErrorLocked(std::string Message);
 	void AddDeadGeometry(uint64_t Address, const std::string& Name);

@@ -11,10 +11,23 @@ namespace Lantern
 
 void FMockCommandList::TraceRays(IRTShaderTable* Table, uint32_t RayGen, uint32_t Width, uint32_t Height, uint32_t Depth)
 {
+	Log(ERTMockCall::TraceRays, GetPipelineName(), {RayGen, Width, Height, Depth}, true);
+	CheckTrace(Table, RayGen);
+}
+
+void FMockCommandList::TraceRaysIndirect(IRTShaderTable* Table, uint32_t RayGen, IRTBuffer* Arguments, uint64_t Offset)
+{
+	assert(Offset % 4 == 0 && IsInside(Offset, 12, static_cast<FMockBuffer*>(Arguments)->Desc.Size));
+	Log(ERTMockCall::TraceRaysIndirect, GetPipelineName(), {RayGen, Offset}, true);
+	Keep(Arguments);
+	CheckTrace(Table, RayGen);
+}
+
+void FMockCommandList::CheckTrace(IRTShaderTable* Table, [[maybe_unused]] uint32_t RayGen)
+{
 	auto* Mine = static_cast<FMockShaderTable*>(Table);
 	assert(!bInPass && Pipeline && Pipeline->Kind == EMockPipeline::RayTracing && RayGen < Mine->Desc.RayGenCount);
 	assert(Pipeline->GetGroupCount() == Mine->Pipeline->GetGroupCount());
-	Log(ERTMockCall::TraceRays, GetPipelineName(), {RayGen, Width, Height, Depth}, true);
 	Keep(Table);
 	Then([Mine, State = State.get(), Copy = Mine->GetDeviceCopy(), Id = Mine->Pipeline->Id] {
 		State->ClockNs += State->UsedPipelines.insert(Id).second ? State->FirstUseNs : 0;

@@ -14,6 +14,8 @@ unsigned long long Wide(uint64_t Value) { return Value; }
 
 bool IsForTransfer(std::string_view Call) { return Call == "CopyBuffer" || Call == "CopyBufferRegions" || Call == "KeepAlive"; }
 
+bool IsForGraphics(std::string_view Call) { return Call == "BeginRasterPass" || Call == "GenerateMips"; }
+
 bool HasSameShape(const FRTGeometrySection& A, const FRTGeometrySection& B)
 {
 	return A.VertexCount == B.VertexCount && A.TriangleCount == B.TriangleCount && A.bProcedural == B.bProcedural &&
@@ -81,10 +83,22 @@ void FValidatedCommandList::MarkSubmitted(FRTFence InFence)
 
 bool FValidatedCommandList::CanRecord(const char* Call)
 {
-	const bool bTakes = Queue != ERTQueue::Transfer || IsForTransfer(Call);
-	if (Stage == EStage::Recording && bTakes) { return true; }
-	Report(Call, bTakes ? "the list is not recording" : "a list of the transfer queue takes copies between buffers alone");
-	return false;
+	if (Stage != EStage::Recording)
+	{
+		Report(Call, "the list is not recording");
+		return false;
+	}
+	if (Queue == ERTQueue::Transfer && !IsForTransfer(Call))
+	{
+		Report(Call, "a list of the transfer queue takes copies between buffers alone");
+		return false;
+	}
+	if (Queue == ERTQueue::AsyncCompute && IsForGraphics(Call))
+	{
+		Report(Call, "a list of the compute queue takes no raster");
+		return false;
+	}
+	return true;
 }
 
 bool FValidatedCommandList::CanRecordOutside(const char* Call)

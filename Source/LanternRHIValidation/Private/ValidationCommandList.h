@@ -16,6 +16,7 @@ public:
 
 	FRTStatus Begin() override;
 	FRTStatus End() override;
+	FRTStatus GetStatus() const override { return Inner->GetStatus(); }
 	void Barriers(const FRTBarrier* Items, uint32_t Count) override;
 	void CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTBuffer* Source, uint64_t SourceOffset, uint64_t Size) override;
 	void CopyBufferRegions(IRTBuffer* Dest, IRTBuffer* Source, const FRTBufferRegion* Regions, uint32_t Count) override;
@@ -27,6 +28,8 @@ public:
 	void SetPipeline(IRTPipeline* Pipeline) override;
 	void PushConstants(const void* Data, uint32_t Size) override;
 	void Dispatch(uint32_t GroupsX, uint32_t GroupsY, uint32_t GroupsZ) override;
+	void DispatchIndirect(IRTBuffer* Arguments, uint64_t Offset) override;
+	void TraceRaysIndirect(IRTShaderTable* Table, uint32_t RayGen, IRTBuffer* Arguments, uint64_t Offset) override;
 	void TraceRays(IRTShaderTable* Table, uint32_t RayGen, uint32_t Width, uint32_t Height, uint32_t Depth) override;
 	void UpdateShaderTable(IRTShaderTable* Table) override;
 	void BeginRasterPass(const FRTRasterPassDesc& Desc) override;
@@ -91,6 +94,8 @@ private:
 	/// Refuses instances that are wrong already while the list is recorded: the driver must not see them.
 	bool CheckAddresses(const FValidatedScene& Scene, FValidatedBuffer& Buffer, uint64_t Offset, uint32_t Count);
 	bool CheckCompaction(const FValidatedGeometry& Dest, const FValidatedGeometry& Source);
+	/// Returns the buffer of an indirect command's arguments. Null: it is wrong, and has been reported.
+	FValidatedBuffer* RequireArguments(const char* Call, IRTBuffer* Arguments, uint64_t Offset);
 	bool CheckTrace(FValidatedShaderTable& Table, uint32_t RayGen, uint32_t Width, uint32_t Height, uint32_t Depth);
 
 	struct FScratchRange

@@ -47,13 +47,32 @@ FRTStatus FValidatedDevice::Collect(
 	return FRTStatus::Success();
 }
 
-FRTStatus FValidatedDevice::Submit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence)
+FRTStatus FValidatedDevice::CheckWaits(ERTQueue Queue, const FRTFence* Waits, uint32_t WaitCount)
+{
+	if (WaitCount && !Waits) { return State->Fail("Submit: Waits is null"); }
+	for (uint32_t i = 0; i < WaitCount; ++i)
+	{
+		const auto Other = static_cast<size_t>(GetFenceQueue(Waits[i]));
+		if (Waits[i] != 0 && Other == static_cast<size_t>(Queue)) { return State->Fail(Print("Submit: wait %u is for its own queue", i)); }
+		std::lock_guard Lock(State->Mutex);
+		if (Other >= QueueCount || Waits[i] > State->LastFences[Other])
+		{
+			return State->Fail(Print("Submit: wait %u is for a fence that no submission has returned", i));
+		}
+	}
+	return FRTStatus::Success();
+}
+
+FRTStatus FValidatedDevice::Submit(
+    IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence, const FRTFence* Waits, uint32_t WaitCount)
 {
 	std::lock_guard Order(State->SubmitMutex);
 	std::vector<FValidatedCommandList*> Mine;
 	FRTStatus Status = Collect(Lists, Count, false, Mine);
+	const ERTQueue Queue = Mine.empty() ? ERTQueue::Graphics : Mine.front()->GetQueue();
+	if (Status) { Status = CheckWaits(Queue, Waits, WaitCount); }
 	if (!Status) { return Status; }
-	FValidationTracker Tracker(*State, Mine.empty() ? ERTQueue::Graphics : Mine.front()->GetQueue());
+	FValidationTracker Tracker(*State, Queue, Waits, WaitCount);
 	{
 		std::lock_guard Lock(State->Mutex);
 		for (const FValidatedCommandList* List : Mine) { List->Judge(Tracker); }
@@ -67,7 +86,7 @@ FRTStatus FValidatedDevice::Submit(IRTCommandList* const* Lists, uint32_t Count,
 	Inners.reserve(Mine.size());
 	for (const FValidatedCommandList* List : Mine) { Inners.push_back(List->Inner.Get()); }
 	FRTFence Fence = 0;
-	Status = State->Inner->Submit(Inners.data(), Count, &Fence);
+	Status = State->Inner->Submit(Inners.data(), Count, &Fence, Waits, WaitCount);
 	if (!Status) { return Status; }
 	{
 		std::lock_guard Lock(State->Mutex);
@@ -104,7 +123,8 @@ FRTStatus FValidatedDevice::NotifyExternalSubmit(IRTCommandList* const* Lists, u
 		std::lock_guard Lock(State->Mutex);
 		Tracker.Commit(Fence);
 	}
-	if (!Status) { return Status; }
+	if (!Status && Fence == 0) { return Status; }
+	// With a fence, the error is one of recording: the lists run all the same.
 	{
 		std::lock_guard Lock(State->Mutex);
 		State->NoteFence(Fence);

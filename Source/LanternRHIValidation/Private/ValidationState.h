@@ -152,6 +152,8 @@ struct FValidationState
 	std::vector<std::weak_ptr<FSceneTrack>> Scenes;
 	std::vector<std::weak_ptr<FResourceTrack>> Buffers;
 	FRTFence LastFences[QueueCount] = {}; ///< by ERTQueue
+	/// By queue, then by other queue: the newest fence of the other that the queue's submissions have waited for.
+	FRTFence Waited[QueueCount][QueueCount] = {};
 
 	void NoteFence(FRTFence Fence)
 	{

@@ -17,6 +17,18 @@ constexpr ERTAccess Writes =
 
 } // namespace
 
+FValidationTracker::FValidationTracker(FValidationState& InState, ERTQueue InQueue, const FRTFence* Waits, uint32_t WaitCount)
+    : State(InState),
+      Queue(InQueue)
+{
+	std::copy(std::begin(State.Waited[static_cast<size_t>(Queue)]), std::end(State.Waited[static_cast<size_t>(Queue)]), Waited);
+	for (uint32_t i = 0; i < WaitCount; ++i)
+	{
+		FRTFence& Newest = Waited[static_cast<size_t>(GetFenceQueue(Waits[i]))];
+		Newest = std::max(Newest, Waits[i]);
+	}
+}
+
 void FValidationTracker::Add(std::string Message)
 {
 	if (Messages.size() < MaxMessages) { Messages.push_back(std::move(Message)); }
@@ -57,7 +69,8 @@ bool FValidationTracker::IsBusy(const FResourceTrack& Resource, bool bWrite) con
 	{
 		const FRTFence Fence = bWrite ? Resource.LastUses[Other] : Resource.LastWrites[Other];
 		const auto OtherQueue = static_cast<ERTQueue>(Other);
-		if (OtherQueue != Queue && Fence != 0 && State.Inner->GetCompletedFence(OtherQueue) < Fence) { return true; }
+		if (OtherQueue == Queue || Fence == 0 || Fence <= Waited[Other]) { continue; }
+		if (State.Inner->GetCompletedFence(OtherQueue) < Fence) { return true; }
 	}
 	return false;
 }
@@ -278,6 +291,7 @@ void FValidationTracker::CheckHits(const FValidationStep& Step, const FSceneCont
 
 void FValidationTracker::Commit(FRTFence Fence)
 {
+	std::copy(std::begin(Waited), std::end(Waited), State.Waited[static_cast<size_t>(Queue)]);
 	for (auto& [Resource, Access] : Accesses) { Resource->State = Access; }
 	for (const auto& [Resource, bWritten] : Touched)
 	{

@@ -45,7 +45,8 @@ struct FValidationStep
 class FValidationTracker
 {
 public:
-	FValidationTracker(FValidationState& InState, ERTQueue InQueue) : State(InState), Queue(InQueue) {}
+	/// Waits: fences that the submission waits for.
+	FValidationTracker(FValidationState& InState, ERTQueue InQueue, const FRTFence* Waits = nullptr, uint32_t WaitCount = 0);
 
 	/// Geometries that the lists keep alive though their owners released them.
 	void Keep(const std::shared_ptr<FGeometryTrack>& Geometry) { Kept.insert(Geometry.get()); }
@@ -76,6 +77,7 @@ private:
 
 	FValidationState& State;
 	const ERTQueue Queue;
+	FRTFence Waited[QueueCount] = {};        ///< by other queue
 	std::map<FResourceTrack*, bool> Touched; ///< and whether it was written
 	std::map<std::shared_ptr<FResourceTrack>, FAccessState> Accesses;
 	std::map<FSceneTrack*, FSceneContent> Scenes;

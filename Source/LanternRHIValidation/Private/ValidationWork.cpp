@@ -55,6 +55,44 @@ void FValidatedCommandList::Dispatch(uint32_t GroupsX, uint32_t GroupsY, uint32_
 	Inner->Dispatch(GroupsX, GroupsY, GroupsZ);
 }
 
+FValidatedBuffer* FValidatedCommandList::RequireArguments(const char* Call, IRTBuffer* Arguments, uint64_t Offset)
+{
+	FValidatedBuffer* const Buffer = RequireBuffer(Call, "Arguments", Arguments, ERTBufferUsage::Indirect);
+	if (!Buffer || !CheckRange(Call, *Buffer, Offset, 3 * sizeof(uint32_t))) { return nullptr; }
+	if (Offset % 4 != 0)
+	{
+		Report(Call, Buffer->Label + Print(": offset %llu is no multiple of 4", static_cast<unsigned long long>(Offset)));
+		return nullptr;
+	}
+	AddUse(Call, Buffer->Track, ERTAccess::IndirectRead);
+	return Buffer;
+}
+
+void FValidatedCommandList::DispatchIndirect(IRTBuffer* Arguments, uint64_t Offset)
+{
+	const char* Call = "DispatchIndirect";
+	if (!CanRecordOutside(Call) || !HasPipeline(Call, EPipelineKind::Compute)) { return; }
+	if (FValidatedBuffer* const Buffer = RequireArguments(Call, Arguments, Offset))
+	{
+		Inner->DispatchIndirect(Buffer->Inner.Get(), Offset);
+	}
+}
+
+void FValidatedCommandList::TraceRaysIndirect(IRTShaderTable* Table, uint32_t RayGen, IRTBuffer* Arguments, uint64_t Offset)
+{
+	const char* Call = "TraceRaysIndirect";
+	if (!CanRecordOutside(Call) || !HasPipeline(Call, EPipelineKind::RayTracing)) { return; }
+	if (!State->Inner->GetCapabilities().bIndirectTrace) { return Report(Call, "the device has no bIndirectTrace"); }
+	auto* Mine = State->Require<FValidatedShaderTable>(Table, Where(Call) + ": Table");
+	if (!Mine || !CheckTrace(*Mine, RayGen, 1, 1, 1)) { return; }
+	FValidatedBuffer* const Buffer = RequireArguments(Call, Arguments, Offset);
+	if (!Buffer) { return; }
+	FValidationStep& Step = AddStep(EKind::TraceRays, Call);
+	Step.Table = Mine->Track;
+	Step.Count = Mine->Track->Generation;
+	Inner->TraceRaysIndirect(Mine->Inner.Get(), RayGen, Buffer->Inner.Get(), Offset);
+}
+
 bool FValidatedCommandList::CheckTrace(FValidatedShaderTable& Table, uint32_t RayGen, uint32_t Width, uint32_t Height, uint32_t Depth)
 {
 	const char* Call = "TraceRays";

@@ -304,6 +304,27 @@ TEST_F(FMockTests, ImportedListRunsWhenTheEngineHasSubmitted)
 	EXPECT_EQ(Mock->GetBytes(Buffer.Get())[0], 1);
 }
 
+TEST_F(FMockTests, ErrorsOnAnImportedListAreReportedAndItsWorkIsCovered)
+{
+	const auto Pipeline = Make.RayTracing();
+	const auto Table = Make.Table(Pipeline.Get(), 8, 16);
+	TRTRef<IRTCommandList> List;
+	ASSERT_OK(Device().ImportCommandList(0x1234, List.ReleaseAndGetAddress()));
+	for (uint32_t Update = 0; Update <= Table->GetDesc().Copies; ++Update) // one more than there are host copies
+	{
+		EXPECT_TRUE(List->GetStatus().IsOk()) << Update;
+		Table->SetRecord(ERTRecordKind::Hit, 7, 2, &Update, 4);
+		if (Update == Table->GetDesc().Copies) { Mock->FailAllocation(1); }
+		List->UpdateShaderTable(Table.Get());
+	}
+	EXPECT_EQ(List->GetStatus().Code, ERTResult::OutOfDeviceMemory);
+	IRTCommandList* Raw = List.Get();
+	FRTFence Fence = 0;
+	EXPECT_EQ(Device().NotifyExternalSubmit(&Raw, 1, &Fence).Code, ERTResult::OutOfDeviceMemory);
+	EXPECT_GT(Fence, 0u) << "the engine's list runs all the same";
+	EXPECT_EQ(Fence, Device().GetCompletedFence());
+}
+
 TEST_F(FMockTests, TimestampsRise)
 {
 	TRTRef<IRTQueryPool> Pool;

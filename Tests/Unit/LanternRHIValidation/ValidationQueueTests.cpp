@@ -101,5 +101,42 @@ TEST_F(FValidationQueue, FencesAreThoseOfTheirQueue)
 	ExpectMessage({"WaitFor"});
 }
 
+TEST_F(FValidationQueue, ComputeListsTakeNoRaster)
+{
+	TRTRef<IRTCommandList> List;
+	ASSERT_OK(Make.Device->CreateCommandList("Compute", List.ReleaseAndGetAddress(), ERTQueue::AsyncCompute));
+	ASSERT_OK(List->Begin());
+	List->BeginRasterPass({});
+	ExpectMessage({"BeginRasterPass", "takes no raster"});
+	List->FillBuffer(Middle.Get(), 0, 64, 0);
+	Make.Submit(List.Get());
+}
+
+TEST_F(FValidationQueue, WaitsOnTheDeviceOrderQueues)
+{
+	Mock->SetManualFences(true);
+	TRTRef<IRTCommandList> Compute;
+	ASSERT_OK(Make.Device->CreateCommandList("Compute", Compute.ReleaseAndGetAddress(), ERTQueue::AsyncCompute));
+	ASSERT_OK(Compute->Begin());
+	Compute->CopyBuffer(Middle.Get(), 0, Source.Get(), 0, 64);
+	FRTFence Written = Make.Submit(Compute.Get());
+	const auto Reader = MakeReader();
+	ASSERT_OK(Reader->End());
+	IRTCommandList* Raw = Reader.Get();
+	EXPECT_FALSE(Make.Device->Submit(&Raw, 1, nullptr));
+	ExpectMessage({"another queue has not finished with", "'Middle'"});
+	EXPECT_OK(Make.Device->Submit(&Raw, 1, nullptr, &Written, 1));
+	const auto Again = Make.List();
+	Again->CopyBuffer(Readback.Get(), 0, Middle.Get(), 0, 64);
+	ASSERT_OK(Again->End());
+	Raw = Again.Get();
+	const FRTFence Unknown = Written + 100;
+	EXPECT_FALSE(Make.Device->Submit(&Raw, 1, nullptr, &Unknown, 1));
+	ExpectMessage({"wait 0", "no submission has returned"});
+	// What the queue has waited for once is finished for all that follows.
+	EXPECT_OK(Make.Device->Submit(&Raw, 1, nullptr));
+	Mock->SetManualFences(false);
+}
+
 } // namespace
 } // namespace Lantern

@@ -93,6 +93,52 @@ TEST_F(FValidationRecording, ImportedLists)
 	EXPECT_EQ(Mock->GetBytes(Unwrap(Buffer.Get()))[0], 1);
 }
 
+// The error is the device's, not a wrong use. The list has run, so the fence of its work must be there.
+TEST_F(FValidationRecording, ErrorsOnImportedListsComeWithAFence)
+{
+	const auto Pipeline = Make.RayTracing();
+	const auto Table = Make.Table(Pipeline.Get(), 8, 16);
+	TRTRef<IRTCommandList> List;
+	ASSERT_OK(Make.Device->ImportCommandList(7, List.ReleaseAndGetAddress()));
+	for (uint32_t Update = 0; Update <= Table->GetDesc().Copies; ++Update) // one more than there are host copies
+	{
+		Table->SetRecord(ERTRecordKind::Hit, 7, 2, &Update, 4);
+		if (Update == Table->GetDesc().Copies) { Mock->FailAllocation(1); }
+		List->UpdateShaderTable(Table.Get());
+	}
+	EXPECT_EQ(List->GetStatus().Code, ERTResult::OutOfDeviceMemory);
+	IRTCommandList* Raw = List.Get();
+	FRTFence Fence = 0;
+	EXPECT_EQ(Make.Device->NotifyExternalSubmit(&Raw, 1, &Fence).Code, ERTResult::OutOfDeviceMemory);
+	EXPECT_GT(Fence, 0u);
+	EXPECT_OK(Make.Device->WaitFor(Fence, 0));
+	EXPECT_FALSE(Make.Device->NotifyExternalSubmit(&Raw, 1, nullptr));
+	ExpectMessage({"has been submitted already"});
+}
+
+TEST_F(FValidationRecording, IndirectArguments)
+{
+	const auto Pipeline = Make.Compute();
+	const auto Plain = Make.Buffer(16, ERTMemory::Device, "Plain");
+	const auto Arguments = Make.Buffer(16, ERTMemory::Device, "Arguments", ERTBufferUsage::Indirect | ERTBufferUsage::CopyDest);
+	const auto List = Make.List();
+	List->DispatchIndirect(Arguments.Get(), 0);
+	ExpectMessage({"DispatchIndirect"}); // no pipeline
+	List->SetPipeline(Pipeline.Get());
+	List->DispatchIndirect(Plain.Get(), 0);
+	ExpectMessage({"DispatchIndirect", "buffer 'Plain'", "without the usage Indirect"});
+	List->DispatchIndirect(Arguments.Get(), 8);
+	ExpectMessage({"DispatchIndirect", "buffer 'Arguments'", "12 bytes at 8 of 16"});
+	List->DispatchIndirect(Arguments.Get(), 2);
+	ExpectMessage({"DispatchIndirect", "no multiple of 4"});
+	List->FillBuffer(Arguments.Get(), 0, 16, 1);
+	List->DispatchIndirect(Arguments.Get(), 4);
+	EXPECT_OK(List->End());
+	IRTCommandList* Raw = List.Get();
+	EXPECT_FALSE(Make.Device->Submit(&Raw, 1, nullptr));
+	ExpectMessage({"DispatchIndirect", "buffer 'Arguments'", "the call needs"});
+}
+
 TEST_F(FValidationRecording, CopiesInRange)
 {
 	const auto A = Make.Buffer(16, ERTMemory::Device, "A"), B = Make.Buffer(16, ERTMemory::Device, "B");

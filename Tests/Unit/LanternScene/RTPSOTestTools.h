@@ -110,9 +110,15 @@ public:
 	FRTStatus CreateScene(const FRTSceneDesc& D, IRTScene** O) override { return Inner->CreateScene(D, O); }
 	FRTStatus CreateShaderTable(const FRTShaderTableDesc& D, IRTShaderTable** O) override { return Inner->CreateShaderTable(D, O); }
 	FRTStatus CreateQueryPool(ERTQuery K, uint32_t C, IRTQueryPool** O) override { return Inner->CreateQueryPool(K, C, O); }
-	FRTStatus CreateCommandList(const char* N, IRTCommandList** O, ERTQueue Q) override { return Inner->CreateCommandList(N, O, Q); }
+	FRTStatus CreateCommandList(const char* N, IRTCommandList** O, ERTQueue Q = ERTQueue::Graphics) override
+	{
+		return Inner->CreateCommandList(N, O, Q);
+	}
 	FRTStatus ImportCommandList(uint64_t N, IRTCommandList** O) override { return Inner->ImportCommandList(N, O); }
-	FRTStatus Submit(IRTCommandList* const* L, uint32_t C, FRTFence* O) override { return Inner->Submit(L, C, O); }
+	FRTStatus Submit(IRTCommandList* const* L, uint32_t C, FRTFence* O, const FRTFence* W = nullptr, uint32_t N = 0) override
+	{
+		return Inner->Submit(L, C, O, W, N);
+	}
 	FRTStatus NotifyExternalSubmit(IRTCommandList* const* L, uint32_t C, FRTFence* O) override
 	{
 		return Inner->NotifyExternalSubmit(L, C, O);

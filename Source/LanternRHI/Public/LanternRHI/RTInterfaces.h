@@ -166,6 +166,8 @@ public:
 	virtual FRTStatus Begin() = 0;
 	/// Returns what went wrong while the list was recorded.
 	virtual FRTStatus End() = 0;
+	/// Returns what has gone wrong so far while the list was recorded, as End will. For imported lists, which have no End.
+	virtual FRTStatus GetStatus() const = 0;
 	virtual void Barriers(const FRTBarrier* Items, uint32_t Count) = 0;
 	virtual void CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTBuffer* Source, uint64_t SourceOffset, uint64_t Size) = 0;
 	/// Copies many regions with one command of the driver. None may overlap another in Dest.
@@ -179,8 +181,14 @@ public:
 	virtual void SetPipeline(IRTPipeline* Pipeline) = 0;
 	virtual void PushConstants(const void* Data, uint32_t Size) = 0; ///< after SetPipeline; a multiple of 4
 	virtual void Dispatch(uint32_t GroupsX, uint32_t GroupsY, uint32_t GroupsZ) = 0;
+	/// Dispatches as many groups as the three uint32_t at Offset, a multiple of 4, say when the device comes to the command.
+	/// Arguments needs usage Indirect, and must be in IndirectRead. Numbers may be 0.
+	virtual void DispatchIndirect(IRTBuffer* Arguments, uint64_t Offset) = 0;
 	/// Needs the pipeline of Table, or one with the same groups. RayGen: index of the ray generation record.
 	virtual void TraceRays(IRTShaderTable* Table, uint32_t RayGen, uint32_t Width, uint32_t Height, uint32_t Depth) = 0;
+	/// Traces as TraceRays, with width, height and depth as DispatchIndirect has its groups. Needs
+	/// FRTCapabilities::bIndirectTrace.
+	virtual void TraceRaysIndirect(IRTShaderTable* Table, uint32_t RayGen, IRTBuffer* Arguments, uint64_t Offset) = 0;
 	virtual void UpdateShaderTable(IRTShaderTable* Table) = 0; ///< leaves it in TraceRead
 	/// Scratch must be in BuildWrite. Geometries are in BuildWrite afterwards: put a memory barrier behind the builds.
 	virtual void BuildGeometries(const FRTGeometryBuild* Builds, uint32_t Count) = 0;
@@ -249,9 +257,12 @@ public:
 	/// A list of ERTQueue::Transfer takes CopyBuffer, CopyBufferRegions and KeepAlive alone. Unsupported: the device lacks the queue.
 	virtual FRTStatus CreateCommandList(const char* Name, IRTCommandList** Out, ERTQueue Queue = ERTQueue::Graphics) = 0;
 	/// Runs the lists in order, on the one queue that all of them were created for. OutFence is complete when they are; it may be
-	/// null. Nothing orders queues: what a list needs of another queue must be known to be complete before this call.
-	virtual FRTStatus Submit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence) = 0;
-	/// Call it after the engine has submitted imported lists on the device's queue. OutFence: the fence of that work.
+	/// null. Waits: fences of other queues that the device waits for before it begins. Nothing else orders queues: what a list
+	/// needs of another queue must be among them, or be known to be complete before this call.
+	virtual FRTStatus Submit(
+	    IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence, const FRTFence* Waits = nullptr, uint32_t WaitCount = 0) = 0;
+	/// Call it after the engine has submitted imported lists on the device's queue. OutFence: the fence of that work. An error of
+	/// a list's GetStatus is returned, too; the fence is written all the same, because the list runs.
 	virtual FRTStatus NotifyExternalSubmit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence) = 0;
 	virtual FRTFence GetCompletedFence(ERTQueue Queue = ERTQueue::Graphics) = 0;
 	/// Returns Timeout if the fence is not complete after TimeoutNs.

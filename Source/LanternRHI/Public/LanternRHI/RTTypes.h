@@ -145,7 +145,7 @@ enum class ERTShaderStage : uint8_t
 enum class ERTQueue : uint8_t
 {
 	Graphics,     ///< takes every command; each device has it
-	AsyncCompute, ///< no device has it yet
+	AsyncCompute, ///< takes all but raster; see FRTCapabilities::bAsyncComputeQueue
 	Transfer,     ///< copies between buffers; see FRTCapabilities::bTransferQueue
 };
 inline constexpr uint32_t QueueCount = 3;
@@ -190,7 +190,8 @@ struct FRTCapabilities
 	bool bReorder = false;
 	bool bMicromap = false;
 	bool bTimestamps = false;
-	bool bTransferQueue = false; ///< has ERTQueue::Transfer
+	bool bTransferQueue = false;     ///< has ERTQueue::Transfer
+	bool bAsyncComputeQueue = false; ///< has ERTQueue::AsyncCompute
 	uint32_t ShaderGroupHandleSize = 0;
 	uint32_t ShaderGroupHandleAlignment = 0;
 	uint32_t ShaderGroupBaseAlignment = 0;
@@ -439,6 +440,9 @@ struct FRTBarrier
 	IRTTexture* Texture = nullptr; ///< all mips and layers
 	ERTAccess Before = ERTAccess::None;
 	ERTAccess After = ERTAccess::None;
+	/// Before was on another queue, whose fence is among the waits of the submission. The waits order the two, and the barrier
+	/// changes a texture's layout.
+	bool bOtherQueue = false;
 };
 
 struct FRTColorTarget

@@ -22,7 +22,8 @@ struct FRTMockDesc
 	ERTRung Rung = ERTRung::Pipeline;
 	bool bRayQuery = true; ///< a device may have pipelines without ray query; ignored below the RayQuery rung
 	bool bPipelineLibraries = true;
-	bool bTransferQueue = false;       ///< all queues share one timeline: what is submitted completes in that order
+	bool bTransferQueue = false; ///< all queues share one timeline: what is submitted completes in that order
+	bool bAsyncComputeQueue = true;
 	bool bLibraryOnlyPipelines = true; ///< if false, ray generation and miss groups must be the link's own
 	uint32_t HandleSize = 32;
 	uint32_t HandleAlignment = 32;
@@ -51,7 +52,7 @@ enum class ERTMockCall : uint8_t
 	CreateQueryPool,          ///< Numbers: queries, kind
 	CreateCommandList,        ///< Numbers: queue
 	ImportCommandList,        ///< Numbers: native command buffer
-	Submit,                   ///< Numbers: lists, fence, queue
+	Submit,                   ///< Numbers: lists, fence, queue; Bytes: FRTFence[], those that it waits for
 	NotifyExternalSubmit,     ///< Numbers: lists, fence
 	WaitFor,                  ///< Numbers: fence, timeout
 	WaitIdle,
@@ -72,7 +73,9 @@ enum class ERTMockCall : uint8_t
 	SetPipeline,
 	PushConstants,     ///< Bytes
 	Dispatch,          ///< name: pipeline; Numbers: groups; Bytes: push constants
+	DispatchIndirect,  ///< name: pipeline; Numbers: offset; Bytes: push constants
 	TraceRays,         ///< name: pipeline; Numbers: ray generation, width, height, depth; Bytes: push constants
+	TraceRaysIndirect, ///< name: pipeline; Numbers: ray generation, offset; Bytes: push constants
 	UpdateShaderTable, ///< Numbers: bytes copied, ranges, bytes moved within the device
 	BeginRasterPass,   ///< name: first target; Numbers: width, height, colours, has depth
 	EndRasterPass,
@@ -97,6 +100,9 @@ struct FRTMockCall
 	ERTMockCall Kind = ERTMockCall::CreateBuffer;
 	std::string Name; ///< the object acted on; for draws, dispatches and rays their pipeline
 	std::string List; ///< the list that recorded it; empty for calls of the device
+	/// A number of its own for each recording of a list; 0 for calls of the device. Calls of lists that are submitted together
+	/// come behind each other, in the order of the lists, whichever thread recorded first.
+	uint64_t Recording = 0;
 	FRTMockNumbers Numbers = {};
 	std::vector<uint8_t> Bytes;
 };

@@ -110,6 +110,12 @@ FRTStatus FVulkanCommandList::End()
 	return Error ? MakeStatus(Result, "Ending command list", Name.c_str()) : Error;
 }
 
+FVulkanAccess FVulkanCommandList::GetAccess(ERTAccess Access) const
+{
+	const FVulkanAccess All = AccessOf(Access, Device.Bits);
+	return Queue == ERTQueue::Graphics ? All : ForComputeQueue(All);
+}
+
 void FVulkanCommandList::Barrier(const FVulkanAccess& Before, const FVulkanAccess& After)
 {
 	VkMemoryBarrier2 Memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
@@ -132,8 +138,9 @@ void FVulkanCommandList::Barriers(const FRTBarrier* Items, uint32_t Count)
 	{
 		const FRTBarrier& Item = Items[Index];
 		assert(!(Item.Buffer && Item.Texture));
-		const FVulkanAccess Before = AccessOf(Item.Before, Device.Bits);
-		const FVulkanAccess After = AccessOf(Item.After, Device.Bits);
+		// What happened on another queue is ordered and visible by the semaphore; its stages may be unknown to this queue.
+		const FVulkanAccess Before = Item.bOtherQueue ? FVulkanAccess{VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0} : GetAccess(Item.Before);
+		const FVulkanAccess After = GetAccess(Item.After);
 		if (!Item.Texture)
 		{
 			Keep(Item.Buffer);
@@ -196,6 +203,13 @@ void FVulkanCommandList::Dispatch(uint32_t GroupsX, uint32_t GroupsY, uint32_t G
 {
 	assert(Bound && Bound->BindPoint == VK_PIPELINE_BIND_POINT_COMPUTE);
 	Device.Api.CmdDispatch(Handle, GroupsX, GroupsY, GroupsZ);
+}
+
+void FVulkanCommandList::DispatchIndirect(IRTBuffer* Arguments, uint64_t Offset)
+{
+	assert(Bound && Bound->BindPoint == VK_PIPELINE_BIND_POINT_COMPUTE && Offset % 4 == 0);
+	Keep(Arguments);
+	Device.Api.CmdDispatchIndirect(Handle, NativeOf(Arguments), Offset);
 }
 
 // ------------------------------------------------------------------------------------------------ raster

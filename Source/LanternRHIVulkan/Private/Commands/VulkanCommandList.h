@@ -21,10 +21,12 @@ public:
 
 	FRTStatus Begin() override;
 	FRTStatus End() override;
+	FRTStatus GetStatus() const override { return Error; }
 	void Barriers(const FRTBarrier* Items, uint32_t Count) override;
 	void SetPipeline(IRTPipeline* Pipeline) override;
 	void PushConstants(const void* Data, uint32_t Size) override;
 	void Dispatch(uint32_t GroupsX, uint32_t GroupsY, uint32_t GroupsZ) override;
+	void DispatchIndirect(IRTBuffer* Arguments, uint64_t Offset) override;
 	void BeginRasterPass(const FRTRasterPassDesc& Desc) override;
 	void EndRasterPass() override;
 	void SetIndexBuffer(IRTBuffer* Buffer, uint64_t Offset, ERTIndexType Type) override;
@@ -48,6 +50,7 @@ public:
 
 	// Rays and builds: VulkanCommandListTrace.cpp.
 	void TraceRays(IRTShaderTable* Table, uint32_t RayGen, uint32_t Width, uint32_t Height, uint32_t Depth) override;
+	void TraceRaysIndirect(IRTShaderTable* Table, uint32_t RayGen, IRTBuffer* Arguments, uint64_t Offset) override;
 	/// Takes the table's changes at once: submit lists that update one table in the order of these calls.
 	void UpdateShaderTable(IRTShaderTable* Table) override;
 	void BuildGeometries(const FRTGeometryBuild* Builds, uint32_t Count) override;
@@ -60,8 +63,6 @@ public:
 	VkCommandBuffer GetHandle() const { return Handle; }
 	bool IsImported() const { return bImported; }
 	ERTQueue GetQueue() const { return Queue; }
-	/// Returns what went wrong while recording; calls that return nothing leave it here.
-	const FRTStatus& GetError() const { return Error; }
 	/// Gives the list's references to the submission with this fence.
 	FVulkanKept TakeKept(FRTFence InFence);
 
@@ -69,7 +70,15 @@ private:
 	~FVulkanCommandList() override;
 	void Keep(IRTRefCounted* Object);
 	void ReleaseKept();
+	/// Returns stages and accesses as this list's queue has them.
+	FVulkanAccess GetAccess(ERTAccess Access) const;
 	void Barrier(const FVulkanAccess& Before, const FVulkanAccess& After);
+	/// Regions of a shader table, as a trace names them.
+	struct FTraceRegions
+	{
+		VkStridedDeviceAddressRegionKHR Generate, Miss, Hit, Callable;
+	};
+	FTraceRegions UseTable(IRTShaderTable* Table, uint32_t RayGen);
 	void CopyRecords(const FVulkanShaderTable::FCopies& Item, VkBuffer Dest);
 	void MipBarrier(const FVulkanTexture& Texture, uint32_t First, uint32_t Count, VkImageLayout Before, VkImageLayout After);
 
@@ -79,7 +88,7 @@ private:
 	VkCommandPool Pool = VK_NULL_HANDLE;
 	VkCommandBuffer Handle = VK_NULL_HANDLE;
 	FRTFence Fence = 0;
-	FRTStatus Error;
+	FRTStatus Error; ///< the first of recording; calls that return nothing leave it here
 	FVulkanKept Kept;
 	FVulkanPipeline* Bound = nullptr;
 	uint8_t Pushed[sizeof(FVulkanTableScatter::FPush)] = {}; ///< what a scatter writes over

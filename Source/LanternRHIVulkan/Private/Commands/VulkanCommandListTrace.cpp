@@ -13,13 +13,13 @@ void FVulkanCommandList::UpdateShaderTable(IRTShaderTable* Table)
 	FRTStatus Status = static_cast<FVulkanShaderTable*>(Table)->TakeUpdate(Update);
 	if (!Status)
 	{
-		Error = Status;
+		Error = Error ? Status : Error;
 		return;
 	}
 	if (Update.IsEmpty()) { return; }
 	// Rays of earlier frames may still read the table, and an earlier update may still write it.
-	const FVulkanAccess Trace = AccessOf(ERTAccess::TraceRead, Device.Bits);
-	FVulkanAccess Write = AccessOf(ERTAccess::CopyWrite | ERTAccess::CopyRead, Device.Bits);
+	const FVulkanAccess Trace = GetAccess(ERTAccess::TraceRead);
+	FVulkanAccess Write = GetAccess(ERTAccess::CopyWrite | ERTAccess::CopyRead);
 	Write.Stages |= VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 	Write.Access |= VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
 	Barrier({Trace.Stages | Write.Stages, Write.Access}, Write);
@@ -61,17 +61,29 @@ void FVulkanCommandList::CopyRecords(const FVulkanShaderTable::FCopies& Item, Vk
 	}
 }
 
-void FVulkanCommandList::TraceRays(IRTShaderTable* Table, uint32_t RayGen, uint32_t Width, uint32_t Height, uint32_t Depth)
+FVulkanCommandList::FTraceRegions FVulkanCommandList::UseTable(IRTShaderTable* Table, uint32_t RayGen)
 {
 	Keep(Table);
 	const FVulkanShaderTable* Native = static_cast<const FVulkanShaderTable*>(Table);
 	Keep(Native->GetBuffer());
 	assert(Bound && Bound->GetGroupCount() > 0 && "SetPipeline with a ray-tracing pipeline first");
-	const VkStridedDeviceAddressRegionKHR Generate = Native->GetRegion(ERTRecordKind::RayGen, RayGen);
-	const VkStridedDeviceAddressRegionKHR Miss = Native->GetRegion(ERTRecordKind::Miss, 0);
-	const VkStridedDeviceAddressRegionKHR Hit = Native->GetRegion(ERTRecordKind::Hit, 0);
-	const VkStridedDeviceAddressRegionKHR Callable = Native->GetRegion(ERTRecordKind::Callable, 0);
-	Device.Api.CmdTraceRaysKHR(Handle, &Generate, &Miss, &Hit, &Callable, Width, Height, Depth);
+	return {Native->GetRegion(ERTRecordKind::RayGen, RayGen), Native->GetRegion(ERTRecordKind::Miss, 0),
+	    Native->GetRegion(ERTRecordKind::Hit, 0), Native->GetRegion(ERTRecordKind::Callable, 0)};
+}
+
+void FVulkanCommandList::TraceRays(IRTShaderTable* Table, uint32_t RayGen, uint32_t Width, uint32_t Height, uint32_t Depth)
+{
+	const FTraceRegions Of = UseTable(Table, RayGen);
+	Device.Api.CmdTraceRaysKHR(Handle, &Of.Generate, &Of.Miss, &Of.Hit, &Of.Callable, Width, Height, Depth);
+}
+
+void FVulkanCommandList::TraceRaysIndirect(IRTShaderTable* Table, uint32_t RayGen, IRTBuffer* Arguments, uint64_t Offset)
+{
+	assert(Device.GetCapabilities().bIndirectTrace && Offset % 4 == 0);
+	Keep(Arguments);
+	const FTraceRegions Of = UseTable(Table, RayGen);
+	const VkDeviceAddress Address = Arguments->GetDeviceAddress() + Offset;
+	Device.Api.CmdTraceRaysIndirectKHR(Handle, &Of.Generate, &Of.Miss, &Of.Hit, &Of.Callable, Address);
 }
 
 void FVulkanCommandList::BuildGeometries(const FRTGeometryBuild* Builds, uint32_t Count)

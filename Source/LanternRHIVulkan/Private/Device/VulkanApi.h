@@ -88,6 +88,7 @@ namespace Lantern
 	X(CmdBindDescriptorSets)                                                                                                               \
 	X(CmdPushConstants)                                                                                                                    \
 	X(CmdDispatch)                                                                                                                         \
+	X(CmdDispatchIndirect)                                                                                                                 \
 	X(CmdBeginRendering)                                                                                                                   \
 	X(CmdEndRendering)                                                                                                                     \
 	X(CmdSetViewport)                                                                                                                      \
@@ -110,7 +111,8 @@ namespace Lantern
 #define LANTERN_VK_PIPELINE_FUNCTIONS(X)                                                                                                   \
 	X(CreateRayTracingPipelinesKHR)                                                                                                        \
 	X(GetRayTracingShaderGroupHandlesKHR)                                                                                                  \
-	X(CmdTraceRaysKHR)
+	X(CmdTraceRaysKHR)                                                                                                                     \
+	X(CmdTraceRaysIndirectKHR)
 
 #define LANTERN_VK_DECLARE(Name) PFN_vk##Name Name = nullptr;
 

@@ -288,6 +288,12 @@ void FillQueueAndMemory(const FVulkanInstanceApi& Api, VkPhysicalDevice Physical
 		const VkQueueFlags Flags = Families[Index].queueFlags & (Wanted | VK_QUEUE_TRANSFER_BIT);
 		if (Flags == VK_QUEUE_TRANSFER_BIT) { Out.TransferFamily = Index; }
 	}
+	for (uint32_t Index = 0; Index < Count && Out.ComputeFamily == FVulkanProbe::NoQueueFamily; ++Index)
+	{
+		if ((Families[Index].queueFlags & Wanted) == VK_QUEUE_COMPUTE_BIT) { Out.ComputeFamily = Index; }
+	}
+	const bool bSecond = Out.QueueFamily != FVulkanProbe::NoQueueFamily && Families[Out.QueueFamily].queueCount > 1;
+	if (Out.ComputeFamily == FVulkanProbe::NoQueueFamily && bSecond) { Out.ComputeFamily = Out.QueueFamily; }
 	VkPhysicalDeviceMemoryProperties Memory{};
 	Api.GetPhysicalDeviceMemoryProperties(Physical, &Memory);
 	for (uint32_t Heap = 0; Heap < Memory.memoryHeapCount; ++Heap)

@@ -55,6 +55,8 @@ struct FVulkanProbe
 	uint32_t MaxBindlessScenes = 0;
 	uint32_t QueueFamily = NoQueueFamily;    ///< first with graphics and compute
 	uint32_t TransferFamily = NoQueueFamily; ///< first with copies and neither graphics nor compute
+	/// First with compute and no graphics. Else QueueFamily, if it has a second queue.
+	uint32_t ComputeFamily = NoQueueFamily;
 	uint32_t Quirks = 0;
 	VkPhysicalDeviceType Type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
 	uint32_t ApiVersion = 0;

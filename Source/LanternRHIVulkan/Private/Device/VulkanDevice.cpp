@@ -98,7 +98,8 @@ FRTStatus FVulkanDevice::LostStatus() const
 	return FRTStatus::Error(ERTResult::DeviceLost, "The Vulkan device %s was lost.", Probe.Capabilities.DeviceName);
 }
 
-VkResult FVulkanDevice::SubmitBatch(FVulkanQueue& Queue, const std::vector<VkCommandBufferSubmitInfo>& Buffers)
+VkResult FVulkanDevice::SubmitBatch(
+    FVulkanQueue& Queue, const std::vector<VkCommandBufferSubmitInfo>& Buffers, const std::vector<VkSemaphoreSubmitInfo>& Waits)
 {
 	VkSemaphoreSubmitInfo Signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
 	Signal.semaphore = Queue.Timeline;
@@ -107,6 +108,8 @@ VkResult FVulkanDevice::SubmitBatch(FVulkanQueue& Queue, const std::vector<VkCom
 	VkSubmitInfo2 Info{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
 	Info.commandBufferInfoCount = static_cast<uint32_t>(Buffers.size());
 	Info.pCommandBufferInfos = Buffers.data();
+	Info.waitSemaphoreInfoCount = static_cast<uint32_t>(Waits.size());
+	Info.pWaitSemaphoreInfos = Waits.data();
 	Info.signalSemaphoreInfoCount = 1;
 	Info.pSignalSemaphoreInfos = &Signal;
 	if (Queue.Lock.Lock) { Queue.Lock.Lock(Queue.Lock.User); }
@@ -120,7 +123,8 @@ VkResult FVulkanDevice::SubmitBatch(FVulkanQueue& Queue, const std::vector<VkCom
 	return Result;
 }
 
-FRTStatus FVulkanDevice::SubmitLists(IRTCommandList* const* Lists, uint32_t Count, bool bExternal, FRTFence* OutFence)
+FRTStatus FVulkanDevice::SubmitLists(
+    IRTCommandList* const* Lists, uint32_t Count, bool bExternal, FRTFence* OutFence, const std::vector<VkSemaphoreSubmitInfo>& Waits)
 {
 	if (OutFence) { *OutFence = 0; }
 	if (IsLost()) { return LostStatus(); }
@@ -132,7 +136,7 @@ FRTStatus FVulkanDevice::SubmitLists(IRTCommandList* const* Lists, uint32_t Coun
 		FVulkanCommandList* List = static_cast<FVulkanCommandList*>(Lists[Index]);
 		assert(List->GetQueue() == Queue && "lists of two queues");
 		assert(List->IsImported() == bExternal && "Submit takes lists of the device, NotifyExternalSubmit imported ones");
-		Recording = Recording ? List->GetError() : Recording;
+		Recording = Recording ? List->GetStatus() : Recording;
 		// A list that the engine has submitted runs, whatever is wrong with it: the fence must still cover it.
 		if (!Recording && !bExternal) { return Recording; }
 		if (!bExternal)
@@ -144,7 +148,7 @@ FRTStatus FVulkanDevice::SubmitLists(IRTCommandList* const* Lists, uint32_t Coun
 	}
 	{
 		std::scoped_lock Lock(SubmitMutex);
-		const VkResult Result = SubmitBatch(GetQueue(Queue), Buffers);
+		const VkResult Result = SubmitBatch(GetQueue(Queue), Buffers, Waits);
 		if (Result != VK_SUCCESS) { return MakeStatus(Result, "vkQueueSubmit2", Count ? "command lists" : "nothing"); }
 		const uint64_t Number = LastNumber.load();
 		const FRTFence Fence = MakeFence(Queue, Number);
@@ -160,14 +164,23 @@ FRTStatus FVulkanDevice::SubmitLists(IRTCommandList* const* Lists, uint32_t Coun
 	return Recording;
 }
 
-FRTStatus FVulkanDevice::Submit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence)
+FRTStatus FVulkanDevice::Submit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence, const FRTFence* Waits, uint32_t WaitCount)
 {
-	return SubmitLists(Lists, Count, false, OutFence);
+	std::vector<VkSemaphoreSubmitInfo> Semaphores;
+	for (uint32_t Index = 0; Index < WaitCount; ++Index)
+	{
+		if (Waits[Index] == 0) { continue; }
+		VkSemaphoreSubmitInfo& Wait = Semaphores.emplace_back(VkSemaphoreSubmitInfo{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO});
+		Wait.semaphore = GetQueue(GetFenceQueue(Waits[Index])).Timeline;
+		Wait.value = GetFenceValue(Waits[Index]);
+		Wait.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+	}
+	return SubmitLists(Lists, Count, false, OutFence, Semaphores);
 }
 
 FRTStatus FVulkanDevice::NotifyExternalSubmit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence)
 {
-	return SubmitLists(Lists, Count, true, OutFence);
+	return SubmitLists(Lists, Count, true, OutFence, {});
 }
 
 uint64_t FVulkanDevice::Poll(FVulkanQueue& Queue)

@@ -49,19 +49,25 @@ FVulkanDevice::~FVulkanDevice()
 
 FRTStatus FVulkanDevice::CreateNative()
 {
-	const float Priority = 1.0f;
-	VkDeviceQueueCreateInfo QueueInfos[2] = {{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO}, {VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO}};
-	for (VkDeviceQueueCreateInfo& QueueInfo : QueueInfos)
-	{
-		QueueInfo.queueCount = 1;
-		QueueInfo.pQueuePriorities = &Priority;
-	}
-	const bool bTransfer = Probe.TransferFamily != FVulkanProbe::NoQueueFamily;
-	QueueInfos[0].queueFamilyIndex = Probe.QueueFamily;
-	QueueInfos[1].queueFamilyIndex = Probe.TransferFamily;
+	const float Priorities[] = {1.0f, 1.0f};
+	std::vector<VkDeviceQueueCreateInfo> QueueInfos;
+	const auto AddQueue = [&](FVulkanQueue& Queue, uint32_t Family) {
+		const auto IsSame = [=](const VkDeviceQueueCreateInfo& Item) { return Item.queueFamilyIndex == Family; };
+		auto Found = std::find_if(QueueInfos.begin(), QueueInfos.end(), IsSame);
+		if (Found == QueueInfos.end()) { Found = QueueInfos.insert(Found, {VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO}); }
+		Found->queueFamilyIndex = Family;
+		Found->pQueuePriorities = Priorities;
+		Queue.Family = Family;
+		return Found->queueCount++;
+	};
+	constexpr uint32_t None = FVulkanProbe::NoQueueFamily;
+	FVulkanQueue &Compute = GetQueue(ERTQueue::AsyncCompute), &Transfer = GetQueue(ERTQueue::Transfer);
+	const uint32_t GraphicsIndex = AddQueue(Queues[0], Probe.QueueFamily);
+	const uint32_t ComputeIndex = Probe.ComputeFamily != None ? AddQueue(Compute, Probe.ComputeFamily) : 0;
+	const uint32_t TransferIndex = Probe.TransferFamily != None ? AddQueue(Transfer, Probe.TransferFamily) : 0;
 	VkDeviceCreateInfo Info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &Probe.Features.Core};
-	Info.queueCreateInfoCount = bTransfer ? 2 : 1;
-	Info.pQueueCreateInfos = QueueInfos;
+	Info.queueCreateInfoCount = static_cast<uint32_t>(QueueInfos.size());
+	Info.pQueueCreateInfos = QueueInfos.data();
 	Info.enabledExtensionCount = static_cast<uint32_t>(Probe.Extensions.size());
 	Info.ppEnabledExtensionNames = Probe.Extensions.data();
 	const VkResult Result = Instance->Api.CreateDevice(Physical, &Info, nullptr, &Handle);
@@ -73,13 +79,9 @@ FRTStatus FVulkanDevice::CreateNative()
 	bOwned = true;
 	FRTStatus Status = LoadDeviceApi(Instance->Api, Handle, Bits.bAccel, Bits.bPipeline, &Api);
 	if (!Status) { return Status; }
-	Api.GetDeviceQueue(Handle, Probe.QueueFamily, 0, &Queues[0].Handle);
-	if (bTransfer)
-	{
-		FVulkanQueue& Transfer = GetQueue(ERTQueue::Transfer);
-		Transfer.Family = Probe.TransferFamily;
-		Api.GetDeviceQueue(Handle, Transfer.Family, 0, &Transfer.Handle);
-	}
+	Api.GetDeviceQueue(Handle, Queues[0].Family, GraphicsIndex, &Queues[0].Handle);
+	if (Probe.ComputeFamily != None) { Api.GetDeviceQueue(Handle, Compute.Family, ComputeIndex, &Compute.Handle); }
+	if (Probe.TransferFamily != None) { Api.GetDeviceQueue(Handle, Transfer.Family, TransferIndex, &Transfer.Handle); }
 	return CreateShared();
 }
 
@@ -92,12 +94,18 @@ FRTStatus FVulkanDevice::AdoptNative(const FRTVulkanExternalDesc& Desc)
 	FVulkanQueue& Transfer = GetQueue(ERTQueue::Transfer);
 	Transfer.Handle = Desc.TransferQueue;
 	Transfer.Family = Desc.TransferQueueFamily;
+	FVulkanQueue& Compute = GetQueue(ERTQueue::AsyncCompute);
+	Compute.Handle = Desc.ComputeQueue;
+	Compute.Family = Desc.ComputeQueueFamily;
 	FRTStatus Status = LoadDeviceApi(Instance->Api, Handle, Bits.bAccel, Bits.bPipeline, &Api);
 	return Status ? CreateShared() : Status;
 }
 
 FRTStatus FVulkanDevice::CreateTimelines()
 {
+	const auto AddFamily = [](std::vector<uint32_t>& Families, uint32_t Family) {
+		if (std::find(Families.begin(), Families.end(), Family) == Families.end()) { Families.push_back(Family); }
+	};
 	VkSemaphoreTypeCreateInfo Type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
 	Type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
 	VkSemaphoreCreateInfo Info{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &Type};
@@ -107,9 +115,10 @@ FRTStatus FVulkanDevice::CreateTimelines()
 		if (!Queue.Handle || Result != VK_SUCCESS) { continue; }
 		Result = Api.CreateSemaphore(Handle, &Info, nullptr, &Queue.Timeline);
 		if (Result == VK_SUCCESS) { SetName(VK_OBJECT_TYPE_SEMAPHORE, ToNative(Queue.Timeline), "Lantern timeline"); }
-		const bool bKnown = std::find(QueueFamilies.begin(), QueueFamilies.end(), Queue.Family) != QueueFamilies.end();
-		if (!bKnown) { QueueFamilies.push_back(Queue.Family); }
+		AddFamily(QueueFamilies, Queue.Family);
+		if (&Queue != &GetQueue(ERTQueue::Transfer)) { AddFamily(TextureFamilies, Queue.Family); }
 	}
+	Probe.Capabilities.bAsyncComputeQueue = GetQueue(ERTQueue::AsyncCompute).Handle != VK_NULL_HANDLE;
 	Probe.Capabilities.bTransferQueue = GetQueue(ERTQueue::Transfer).Handle != VK_NULL_HANDLE;
 	return MakeStatus(Result, "vkCreateSemaphore", Probe.Capabilities.DeviceName);
 }

@@ -78,7 +78,7 @@ public:
 	FRTStatus CreateQueryPool(ERTQuery Kind, uint32_t Count, IRTQueryPool** Out) override;
 	FRTStatus CreateCommandList(const char* Name, IRTCommandList** Out, ERTQueue Queue) override;
 	FRTStatus ImportCommandList(uint64_t NativeCommandBuffer, IRTCommandList** Out) override;
-	FRTStatus Submit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence) override;
+	FRTStatus Submit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence, const FRTFence* Waits, uint32_t WaitCount) override;
 	FRTStatus NotifyExternalSubmit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence) override;
 	FRTFence GetCompletedFence(ERTQueue Queue) override;
 	FRTStatus WaitFor(FRTFence Fence, uint64_t TimeoutNs) override;
@@ -110,8 +110,9 @@ public:
 	FVulkanBindless Bindless;
 	FVulkanPipelineCache Cache;
 	FVulkanTableScatter Scatter;
-	FVulkanQueue Queues[QueueCount];     ///< by ERTQueue
-	std::vector<uint32_t> QueueFamilies; ///< each once; buffers are shared by all of them
+	FVulkanQueue Queues[QueueCount];       ///< by ERTQueue
+	std::vector<uint32_t> QueueFamilies;   ///< each once; buffers are shared by all of them
+	std::vector<uint32_t> TextureFamilies; ///< each once; textures are shared by those that take shaders
 	uint32_t TimestampBits = 0;
 	bool bCacheLibraries = true;
 
@@ -129,12 +130,14 @@ private:
 	FRTStatus CreateTimelines();
 	FVulkanQueue& GetQueue(ERTQueue Queue) { return Queues[static_cast<size_t>(Queue)]; }
 	/// SubmitMutex must be held.
-	VkResult SubmitBatch(FVulkanQueue& Queue, const std::vector<VkCommandBufferSubmitInfo>& Buffers);
+	VkResult SubmitBatch(
+	    FVulkanQueue& Queue, const std::vector<VkCommandBufferSubmitInfo>& Buffers, const std::vector<VkSemaphoreSubmitInfo>& Waits);
 	/// Reads how far the queue has come.
 	uint64_t Poll(FVulkanQueue& Queue);
 	/// The submissions up to this number have finished, on whichever queue.
 	uint64_t PollAll();
-	FRTStatus SubmitLists(IRTCommandList* const* Lists, uint32_t Count, bool bExternal, FRTFence* OutFence);
+	FRTStatus SubmitLists(
+	    IRTCommandList* const* Lists, uint32_t Count, bool bExternal, FRTFence* OutFence, const std::vector<VkSemaphoreSubmitInfo>& Waits);
 	void CollectUpTo(uint64_t Done);
 
 	bool bOwned = false;

@@ -187,6 +187,18 @@ FVulkanAccess AccessOf(ERTAccess Access, const FVulkanCapabilityBits& Bits)
 	return Result;
 }
 
+FVulkanAccess ForComputeQueue(FVulkanAccess Access)
+{
+	constexpr VkPipelineStageFlags2 Stages =
+	    VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_RAY_TRACING_SHADER_BIT_KHR |
+	    VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR | VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_COPY_BIT_KHR |
+	    VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_2_HOST_BIT;
+	constexpr VkAccessFlags2 Raster = VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
+	                                  VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
+	                                  VK_ACCESS_2_INDEX_READ_BIT;
+	return {Access.Stages & Stages, Access.Access & ~Raster};
+}
+
 VkShaderStageFlagBits StageOf(ERTShaderStage Stage)
 {
 	switch (Stage)

@@ -26,6 +26,8 @@ VkImageUsageFlags ImageUsageOf(const FRTTextureDesc& Desc);
 VkBufferUsageFlags BufferUsageOf(ERTBufferUsage Usage, const FVulkanCapabilityBits& Bits);
 /// Leaves out stages that the device has not enabled: naming them is an error.
 FVulkanAccess AccessOf(ERTAccess Access, const FVulkanCapabilityBits& Bits);
+/// Leaves out stages that a queue without graphics has not, and what only they do.
+FVulkanAccess ForComputeQueue(FVulkanAccess Access);
 VkShaderStageFlagBits StageOf(ERTShaderStage Stage);
 /// Returns all shader stages that a pipeline of the device may have.
 VkShaderStageFlags AllStages(const FVulkanCapabilityBits& Bits);

@@ -48,6 +48,12 @@ FRTStatus FVulkanTexture::CreateImage()
 	Info.tiling = VK_IMAGE_TILING_OPTIMAL;
 	Info.usage = ImageUsageOf(Desc);
 	Info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+	if (Device.TextureFamilies.size() > 1)
+	{
+		Info.sharingMode = VK_SHARING_MODE_CONCURRENT;
+		Info.queueFamilyIndexCount = static_cast<uint32_t>(Device.TextureFamilies.size());
+		Info.pQueueFamilyIndices = Device.TextureFamilies.data();
+	}
 	Info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
 	VkImageFormatProperties Limits{};
 	VkResult Result = Device.Instance->Api.GetPhysicalDeviceImageFormatProperties(

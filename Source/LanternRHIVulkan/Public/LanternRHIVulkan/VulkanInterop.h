@@ -70,6 +70,10 @@ struct FRTVulkanExternalDesc
 	/// For copies beside the frame; nobody else may submit to it. Null: copies run on Queue, within the engine's frame.
 	VkQueue TransferQueue = VK_NULL_HANDLE;
 	uint32_t TransferQueueFamily = 0;
+	/// For compute beside the frame (ERTQueue::AsyncCompute), with compute and copies; nobody else may submit to it. Null: one
+	/// queue does all. Textures that the engine imports are used on Queue alone.
+	VkQueue ComputeQueue = VK_NULL_HANDLE;
+	uint32_t ComputeQueueFamily = 0;
 	/// The one through which the instance was created. Null means the system loader's.
 	PFN_vkGetInstanceProcAddr GetInstanceProcAddr = nullptr;
 	/// Everything in it must have been enabled on Device.
