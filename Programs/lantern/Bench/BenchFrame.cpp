@@ -31,11 +31,12 @@ struct FStage
 
 const std::vector<FStage>& GetStages()
 {
-	static const std::vector<FStage> Stages = {{"baseline", {{"r.RT.Culling", "0"}, {"r.RT.Scene.Gather", "0"}, {"r.RT.SBT.Mode", "0"},
-	                                                            {"r.RT.Scene.Hoist", "0"}, {"r.RT.SBT.Prebind", "0"}}},
+	static const std::vector<FStage> Stages = {
+	    {"baseline", {{"r.RT.Culling", "0"}, {"r.RT.Scene.Gather", "0"}, {"r.RT.SBT.Mode", "0"}, {"r.RT.Scene.Hoist", "0"},
+	                     {"r.RT.SBT.Prebind", "0"}, {"r.RT.FrameGraph.Tasks", "0"}}},
 	    {"cull_and_global_table", {{"r.RT.Culling", "1"}, {"r.RT.SBT.Mode", "1"}}},
 	    {"hoisted_gather_and_prebuild", {{"r.RT.Scene.Gather", "1"}, {"r.RT.Scene.Hoist", "1"}}},
-	    {"prebound_sbt", {{"r.RT.SBT.Prebind", "1"}}}};
+	    {"prebound_sbt", {{"r.RT.SBT.Prebind", "1"}}}, {"recorded_on_tasks", {{"r.RT.FrameGraph.Tasks", "1"}}}};
 	return Stages;
 }
 

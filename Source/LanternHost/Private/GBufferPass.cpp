@@ -168,6 +168,8 @@ FGBuffer FGBufferPass::Add(FFrameContext& Context, FHostScene& Scene)
 		for (uint32_t I = 0; I < CountColors(false); ++I) { Builder.Write(Targets[I], ERTAccess::RenderTarget); }
 		if (bMayMove) { Builder.WriteIfRead(Out.Motion, ERTAccess::RenderTarget); }
 		Builder.Write(Out.Depth, ERTAccess::DepthWrite);
+		Builder.RecordOnTask();
+		for (const FGraphToken Unused : {Context.Tokens.Structures, Context.Tokens.Records}) { Builder.Without(Unused); }
 		return [=, this, &Scene](FPassContext& Pass) {
 			bMotionNow = bMayMove && Pass.GetTexture(Out.Motion);
 			const uint32_t ColorCount = CountColors(bMotionNow);

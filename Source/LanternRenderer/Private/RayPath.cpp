@@ -1,6 +1,8 @@
 // The choice between ray-tracing pipeline and ray queries, the same for all passes.
 #include "RayPath.h"
 
+#include <algorithm>
+
 #include "Feedback/AnyHitCounter.h"
 #include "LanternCore/Text/Log.h"
 
@@ -40,6 +42,11 @@ ERayPath ChooseShadingRayPath(const FPassQuery& Query, const TRTConsoleVariable<
 	return ERayPath::None;
 }
 
+bool FRayDispatch::Has(const char* Define) const
+{
+	return std::any_of(Defines.begin(), Defines.end(), [=](const auto& Entry) { return Entry.first == Define; });
+}
+
 std::optional<FRayDispatch> RequireRayDispatch(const FFrameContext& Context, ESignal Signal, const FPassRays& Rays)
 {
 	FRayDispatch Dispatch;
@@ -48,16 +55,17 @@ std::optional<FRayDispatch> RequireRayDispatch(const FFrameContext& Context, ESi
 	{
 		Dispatch.RayGen = Context.GetRayGen(Signal);
 		if (Dispatch.RayGen == NoRayGen) { return std::nullopt; } // still being compiled
+		Dispatch.Defines = Context.RayPipeline->GetRayGen(Dispatch.RayGen).Defines;
 	}
 	else
 	{
-		FShaderDefines Defines = Rays.Defines;
+		Dispatch.Defines = Rays.Defines;
 		if (Context.Facts.bMasked)
 		{
-			Defines.emplace_back("HAS_MASKED", "1");
-			for (auto& Define : FAnyHitCounter::GetDefines()) { Defines.push_back(std::move(Define)); }
+			Dispatch.Defines.emplace_back("HAS_MASKED", "1");
+			for (auto& Define : FAnyHitCounter::GetDefines()) { Dispatch.Defines.push_back(std::move(Define)); }
 		}
-		Dispatch.Compute = RequireCompute(Context, MakeShaderPath(Signal, ".comp").c_str(), std::move(Defines));
+		Dispatch.Compute = RequireCompute(Context, MakeShaderPath(Signal, ".comp").c_str(), Dispatch.Defines);
 		if (!Dispatch.Compute) { return std::nullopt; }
 	}
 	Context.RequireRays();

@@ -48,6 +48,9 @@ struct FRayDispatch
 {
 	IRTPipeline* Compute = nullptr; ///< null: through the frame's RTPSO
 	uint32_t RayGen = NoRayGen;     ///< of the frame's RTPSO
+	/// Defines of the shader that runs. While another variant is compiled, they are those of the variant that serves.
+	FShaderDefines Defines;
+	bool Has(const char* Define) const;
 };
 
 /// Finds the pipeline by which Signal is traced in this frame, and requires the frame's acceleration structures. nullopt: Rays.Path

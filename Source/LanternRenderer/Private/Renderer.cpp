@@ -80,9 +80,7 @@ FRTStatus FRenderer::WaitForFlight()
 {
 	static_assert(MaxInFlight == TReadbackRing<int>::FramesInFlight);
 	FlightIndex = (FlightIndex + 1) % MaxInFlight;
-	if (FRTStatus S = Device.WaitFor(Fences[FlightIndex], WaitNs); !S) { return S; }
-	if (Lists[FlightIndex]) { return FRTStatus::Success(); }
-	return Device.CreateCommandList("Frame", Lists[FlightIndex].ReleaseAndGetAddress());
+	return Device.WaitFor(Fences[FlightIndex], WaitNs);
 }
 
 namespace
@@ -207,6 +205,8 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	Context->Height = View.Height;
 	Context->Status = &FrameStatus;
 	Context->Owner = this;
+	Context->Tokens = {
+	    Graph->CreateToken("Tables"), Graph->CreateToken("Vertices"), Graph->CreateToken("Structures"), Graph->CreateToken("Records")};
 	const bool bSameSize = LastView.Width == View.Width && LastView.Height == View.Height;
 	const bool bSameScene = LastScene == Scene.GetSections().GetIdentity() && LastSceneFrame == Scene.GetMotions().GetFrame();
 	Context->PreviousView = bSameScene && bSameSize && !View.bCut && !Features.bReference ? &LastView : nullptr;
@@ -313,46 +313,6 @@ void FRenderer::WriteConstants()
 	std::memcpy(ViewConstants.Data, &OfView, sizeof(OfView));
 }
 
-void FRenderer::AddTables()
-{
-	if (!bUpdating || !Context->Scene.NeedsTables()) { return; }
-	FFrameContext* const Frame = Context.get();
-	Graph->AddPass("SceneUpdate", [&](FPassBuilder& Builder) -> FPassExecute {
-		Builder.NeverCull();
-		return [=, this](FPassContext& Pass) {
-			if (FRTStatus S = Frame->Scene.RecordTables(Pass.Commands(), Uploads); !S) { Frame->Fail(S); }
-		};
-	});
-}
-
-void FRenderer::AddRayPasses()
-{
-	if (std::exchange(bRayPassesAdded, true)) { return; }
-	FFrameContext* const Frame = Context.get();
-	if (bUpdating && Frame->Scene.NeedsStructures())
-	{
-		Graph->AddPass("Structures", [&](FPassBuilder& Builder) -> FPassExecute {
-			Builder.NeverCull();
-			return [=, this](FPassContext& Pass) {
-				if (FRTStatus S = Frame->Scene.RecordStructures(Pass.Commands(), Uploads); !S) { Frame->Fail(S); }
-			};
-		});
-	}
-	if (Frame->RayPipeline)
-	{
-		Graph->AddPass("ShaderTable", [&](FPassBuilder& Builder) -> FPassExecute {
-			Builder.NeverCull();
-			return [=, this](FPassContext& Pass) {
-				FRTStatus Status = FinishPrebind();
-				if (Status) { Status = ShaderTable.Record(Pass.Commands()); }
-				if (!Status) { Frame->Fail(Status); }
-			};
-		});
-	}
-}
-
-void FFrameContext::RequireRays() const { Owner->AddRayPasses(); }
-
 void FRenderer::KeepHistory(bool bSubmitted)
 {
 	History->EndFrame(bSubmitted);
@@ -403,50 +363,6 @@ FFrameContext& FRenderer::GetContext()
 	assert(Context && "only between BeginFrame and EndFrame");
 	return *Context;
 }
-
-FRTStatus FRenderer::Execute(IRTCommandList& List)
-{
-	assert(Graph);
-	AddRayPasses(); // also where nobody asked: what was begun is recorded, so that the next frame finds it done
-	AnyHits->GetCounters().AddRead(*Graph);
-	StandIns->GetCounters().AddRead(*Graph);
-	FRTStatus Status = FrameStatus;
-	if (Status)
-	{
-		FTraceScope Trace("Record passes");
-		Status = Graph->Execute(List, &FrameStatus);
-	}
-	// A graph that failed may not have come to the pass that waits.
-	PrebindTask.Wait();
-	if (Status) { WriteConstants(); }
-	if (Status && bDumpGraph) { LastDump = Graph->Dump(); }
-	Graph.reset();
-	return Status;
-}
-
-FRTStatus FRenderer::EndFrame(FRTFence* OutFence)
-{
-	IRTCommandList& List = *Lists[FlightIndex];
-	FRTStatus Status = List.Begin();
-	if (Status)
-	{
-		Status = Execute(List);
-		const FRTStatus Ended = List.End();
-		if (Status) { Status = Ended; }
-	}
-	FRTFence Fence = 0;
-	if (Status)
-	{
-		FTraceScope Trace("Submit");
-		IRTCommandList* const Submitted[] = {&List};
-		Status = Device.Submit(Submitted, 1, &Fence);
-	}
-	FrameSubmitted(Fence);
-	if (OutFence) { *OutFence = Fence; }
-	return Status;
-}
-
-FRTStatus FRenderer::EndFrame(IRTCommandList& List) { return Execute(List); }
 
 void FRenderer::FrameSubmitted(FRTFence Fence)
 {

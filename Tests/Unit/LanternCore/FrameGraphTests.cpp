@@ -1,4 +1,7 @@
 // The frame graph on the mock device: what runs, which barriers, which memory.
+#include <algorithm>
+#include <numeric>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -293,6 +296,33 @@ TEST_F(FrameGraphTest, TrimFreesWhatWasNotUsedForAWhile)
 	EXPECT_EQ(Resources->GetPooledBytes(), 4u * 32 * 32);
 	Resources->Trim(0);
 	EXPECT_EQ(Resources->GetPooledBytes(), 0u);
+}
+
+// Nobody calls Trim. What the device still uses stays until it is done.
+TEST_F(FrameGraphTest, ThePoolHoldsWhatTheLastFramesUsed)
+{
+	constexpr uint32_t KeepFrames = 8; // r.RT.FrameGraph.KeepFrames
+	const auto Frame = [&](uint32_t Size) {
+		FFrameGraph Graph(*Resources);
+		const FGraphTexture A = MakeTexture(Graph, "A", Size);
+		const FGraphBuffer Out = ImportBuffer(Graph, "Out", ERTAccess::None, ERTAccess::None);
+		AddPass(Graph, "1", {}, {{A, Storage}});
+		AddPass(Graph, "2", {{A, Sampled}}, {{Out, Storage}});
+		Run(Graph);
+	};
+	Mock().SetManualFences(true);
+	std::vector<uint64_t> Used;
+	for (uint32_t Size = 1; Size <= 40; ++Size)
+	{
+		Frame(Size);
+		Used.push_back(4ull * Size * Size);
+		const auto Oldest = Used.end() - std::min<ptrdiff_t>(KeepFrames, Used.end() - Used.begin());
+		EXPECT_EQ(Resources->GetPooledBytes(), std::accumulate(Oldest, Used.end(), uint64_t(0))) << Size;
+	}
+	EXPECT_EQ(Mock().CountCalls(ERTMockCall::Destroy, "A"), 0u) << "in flight";
+	Mock().SetManualFences(false);
+	Device->CollectGarbage();
+	EXPECT_EQ(Mock().CountCalls(ERTMockCall::Destroy, "A"), 40u - KeepFrames);
 }
 
 TEST_F(FrameGraphTest, TwoGraphsCompiledAtOnceDoNotShare)

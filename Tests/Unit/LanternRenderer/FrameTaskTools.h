@@ -78,6 +78,7 @@ protected:
 		Set("r.RT.SBT.Prebind", Combination & 2 ? "1" : "0");
 	}
 	static constexpr int Combinations = 4;
+	static void SetRecordingTasks(bool bTasks) { Set("r.RT.FrameGraph.Tasks", bTasks ? "1" : "0"); }
 
 	/// What a frame's rays would find: transforms, and the shaders and data of every record.
 	std::string DescribeRays()
@@ -94,7 +95,7 @@ protected:
 		}
 		return Text;
 	}
-	/// Recorded calls without what follows from addresses.
+	/// Recorded calls without what follows from addresses, or from which thread first asked for memory of the frame.
 	std::vector<std::string> DescribeCalls()
 	{
 		std::vector<std::string> Lines;
@@ -102,7 +103,9 @@ protected:
 		{
 			if (Call.List.empty()) { continue; }
 			std::string Line = std::to_string(static_cast<int>(Call.Kind)) + ' ' + Call.Name;
-			for (const uint64_t Number : Call.Numbers) { Line += ' ' + std::to_string(Number); }
+			FRTMockNumbers Numbers = Call.Numbers;
+			if (Call.Kind == ERTMockCall::CopyBuffer) { Numbers[1] = 0; } // source offset
+			for (const uint64_t Number : Numbers) { Line += ' ' + std::to_string(Number); }
 			Lines.push_back(Line + ' ' + std::to_string(Call.Bytes.size()));
 		}
 		return Lines;

@@ -1,6 +1,9 @@
 // Console variables flipped between frames: the next frame is right, and only what it needs runs.
 #include <random>
 
+#include "DenoiseTypes.h"
+#include "LanternCore/FrameGraph/History.h"
+#include "PassTools.h"
 #include "SunShadowTypes.h"
 #include "Support/RendererTestTools.h"
 #include "Support/WaitTools.h"
@@ -246,21 +249,114 @@ TEST_F(FRendererToggleTest, AmbientOcclusionStaysUntilDiffuseGIRuns)
 	}
 }
 
-TEST_F(FRendererToggleTest, SizeOfThePictureMayChangeEveryFrame)
+/// Until the shader that measures penumbrae is compiled, the one without serves. The filter must not read what nobody writes.
+TEST_F(FRendererToggleTest, FilterReadsOnlyPenumbraeThatAreWritten)
 {
+	Set("r.RT.Shadow.Path", "1");
+	Set("r.RT.Shadow.Denoise", "0");
 	LoadAndRender({});
-	for (const uint32_t Size : {1u, 33u, 8u, 200u, 1u})
+	Engine->bRealTime = true;
+	Set("r.RT.Shadow.Denoise", "1");
+	bool bWritten = false, bRead = false;
+	const auto Frame = [&] {
+		ASSERT_NO_FATAL_FAILURE(Render());
+		const std::vector<FRTMockCall> Traces = Mock().FindCalls(ERTMockCall::TraceRays);
+		ASSERT_EQ(Traces.size(), 1u);
+		EXPECT_THAT(GetRTPSO()->GetRayGen(static_cast<uint32_t>(Traces[0].Numbers[0])).Path, HasSubstr("SunShadow"));
+		const FShaderDefines& Defines = GetRTPSO()->GetRayGen(static_cast<uint32_t>(Traces[0].Numbers[0])).Defines;
+		bWritten = std::count(Defines.begin(), Defines.end(), std::pair<std::string, std::string>("WITH_PENUMBRA", "1")) > 0;
+		bRead = false;
+		for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::Dispatch))
+		{
+			if (Call.Name.rfind("Denoise/Temporal.comp", 0) != 0) { continue; }
+			FTemporalConstants Constants{};
+			ASSERT_EQ(Call.Bytes.size(), sizeof(Constants));
+			std::memcpy(&Constants, Call.Bytes.data(), sizeof(Constants));
+			bRead |= Constants.Extent != NO_TEXTURE;
+		}
+		EXPECT_TRUE(bWritten || !bRead);
+		GiveWay();
+	};
+	const auto LetGo = [&] { Mock().ClearCompileFaults(); };
+	Mock().HoldCompiles("SunShadow");
+	{
+		const FHangGuard Guard("frames while the shadow shader is compiled", LetGo);
+		ASSERT_TRUE(WaitUntil(
+		    "its compile in the driver", [&] { return Mock().GetCompilesInDriver() > 0; }, Frame));
+		for (int I = 0; I < 5; ++I)
+		{
+			ASSERT_NO_FATAL_FAILURE(Frame());
+			EXPECT_FALSE(bWritten) << "before it was compiled";
+		}
+	}
+	LetGo();
+	ASSERT_TRUE(WaitUntil(
+	    "a measured penumbra", [&] { return bWritten && bRead; }, Frame));
+}
+
+/// What frames use and what the device holds, while the picture changes its size.
+class FRendererSizeTest : public FRendererTest
+{
+protected:
+	void Draw(uint32_t Width, uint32_t Height)
 	{
 		FFrameCapture Capture;
 		Capture.bDisplay = true;
-		const FRTStatus Status = Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, Size, 2 * Size), 0.0, Capture, &Captured);
+		const FRTStatus Status = Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, Width, Height), 0.0, Capture, &Captured);
 		ASSERT_TRUE(Status) << Status.Message;
-		EXPECT_EQ(Captured.Display.Width, Size);
-		EXPECT_EQ(Captured.Display.Height, 2 * Size);
+		EXPECT_EQ(Captured.Display.Width, Width);
+		EXPECT_EQ(Captured.Display.Height, Height);
+	}
+	/// As many frames as resources live without use.
+	void DrawUntilOldSizesAreGone(uint32_t Width, uint32_t Height)
+	{
+		for (uint32_t I = 0; I <= FHistoryResources::KeepFrames; ++I) { ASSERT_NO_FATAL_FAILURE(Draw(Width, Height)); }
+		Device->CollectGarbage();
+	}
+	uint64_t GetPooled() { return Engine->GetRenderer().GetGraphResources().GetPooledBytes(); }
+	/// Bytes of the pool after each frame. Widths: 64, 65 … 256, and seven of them again.
+	std::vector<uint64_t> Resize(const char* KeepFrames)
+	{
+		Set("r.RT.FrameGraph.KeepFrames", KeepFrames);
+		std::vector<uint64_t> Bytes;
+		for (uint32_t Frame = 0; Frame < 200; ++Frame)
+		{
+			Draw(64 + Frame % 193, 36);
+			Bytes.push_back(GetPooled());
+		}
+		return Bytes;
+	}
+};
+
+TEST_F(FRendererSizeTest, PoolHoldsNoMoreThanTheLastFramesUsed)
+{
+	constexpr size_t KeepFrames = 8;
+	LoadAndRender({.bSky = true});
+	const std::vector<uint64_t> Used = Resize("1"); // what each frame uses by itself
+	const std::vector<uint64_t> Held = Resize("8");
+	for (size_t Frame = 0; Frame < Held.size(); ++Frame)
+	{
+		uint64_t Most = 0;
+		for (size_t Back = 0; Back < std::min(KeepFrames, Frame + 1); ++Back) { Most += Used[Frame - Back]; }
+		ASSERT_GT(Used[Frame], 0u);
+		ASSERT_LE(Held[Frame], Most + (Frame < KeepFrames ? Used.back() : 0)) << "frame " << Frame;
 	}
 }
 
-TEST_F(FRendererToggleTest, ManyFramesNeitherLeakNorWait)
+TEST_F(FRendererSizeTest, SizeOfThePictureMayChangeEveryFrame)
+{
+	LoadAndRender({});
+	ASSERT_NO_FATAL_FAILURE(DrawUntilOldSizesAreGone(1, 2));
+	const uint64_t Bytes = Device->GetMemoryStats().Total;
+	const uint32_t Objects = Mock().GetLiveObjectCount();
+	for (const uint32_t Size : {1u, 33u, 8u, 200u, 1u}) { ASSERT_NO_FATAL_FAILURE(Draw(Size, 2 * Size)); }
+	EXPECT_GT(Device->GetMemoryStats().Total, Bytes);
+	ASSERT_NO_FATAL_FAILURE(DrawUntilOldSizesAreGone(1, 2));
+	EXPECT_EQ(Device->GetMemoryStats().Total, Bytes);
+	EXPECT_EQ(Mock().GetLiveObjectCount(), Objects);
+}
+
+TEST_F(FRendererToggleTest, ManyFramesDoNotLeak)
 {
 	LoadAndRender({.bMasked = true, .bSkinned = true, .bSky = true});
 	for (int I = 0; I < 5; ++I) { Render(I * 0.1); }
@@ -269,6 +365,51 @@ TEST_F(FRendererToggleTest, ManyFramesNeitherLeakNorWait)
 	for (int I = 0; I < 100; ++I) { Render(I * 0.1); }
 	EXPECT_EQ(Mock().GetLiveObjectCount(), Objects);
 	EXPECT_EQ(Device->GetMemoryStats().Total, Bytes);
+}
+
+/// The device is always one frame behind: a frame that waited for the one before would find it unfinished.
+TEST_F(FRendererToggleTest, FramesWaitForNoFrameInFlight)
+{
+	LoadAndRender({.bMasked = true, .bSkinned = true, .bSky = true});
+	Engine->bPresent = Engine->bRealTime = true;
+	Mock().SetManualFences(true);
+	const uint32_t Waits = Mock().GetBlockingWaits();
+	FRTFence Before = Mock().GetLastFence();
+	for (int I = 0; I < 50; ++I)
+	{
+		const FRTStatus Status = Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), I * 0.1, {}, nullptr);
+		ASSERT_TRUE(Status) << Status.Message;
+		ASSERT_GT(Mock().GetLastFence(), Before) << "something was submitted";
+		ASSERT_EQ(Mock().GetBlockingWaits(), Waits) << "frame " << I;
+		Mock().CompleteUpTo(std::exchange(Before, Mock().GetLastFence()));
+	}
+	Mock().SetManualFences(false);
+}
+
+/// Whatever runs on the compute queue: the wrapper refuses lists that use what the other queue has not finished with.
+TEST_F(FRendererToggleTest, PassesMayRunOnTheComputeQueue)
+{
+	Set("r.RT.Shadow.Path", "1");
+	LoadAndRender({.bMasked = true, .bSkinned = true, .bLights = true, .bSky = true});
+	Engine->bPresent = Engine->bRealTime = true;
+	Mock().SetManualFences(true);
+	FRTFence Before = Mock().GetLastFence();
+	for (const char* const Async : {"*", "Skinning", "Structures,AmbientOcclusion", "ShaderTable SceneUpdate", ""})
+	{
+		Set("r.RT.Async", Async);
+		for (int I = 0; I < 6; ++I)
+		{
+			Mock().ClearCalls();
+			const FRTStatus Status = Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), I * 0.1, {}, nullptr);
+			ASSERT_TRUE(Status) << Async << ": " << Status.Message;
+			ASSERT_EQ(Messages, std::vector<std::string>()) << Async;
+			bool bCompute = false;
+			for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::Submit)) { bCompute |= Call.Numbers[2] == 1; }
+			EXPECT_EQ(bCompute, *Async != 0) << Async << ", frame " << I;
+			Mock().CompleteUpTo(std::exchange(Before, Mock().GetLastFence()));
+		}
+	}
+	Mock().SetManualFences(false);
 }
 
 } // namespace

@@ -63,8 +63,9 @@ protected:
 		FRTStatus Status = Device->CreateCommandList("Frame", List.ReleaseAndGetAddress());
 		if (Status) { Status = List->Begin(); }
 		if (!Status) { return Status; }
+		const uint32_t Parts = Builder->Plan(1);
 		Builder->RecordStaging(*List);
-		Builder->RecordBuilds(*List);
+		for (uint32_t Part = 0; Part < Parts; ++Part) { Builder->RecordPart(*List, Part); }
 		Compactor->RecordCopies(*List);
 		Status = Compactor->RecordQueries(*List);
 		const FRTStatus Ended = List->End();

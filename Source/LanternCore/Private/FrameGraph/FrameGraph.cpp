@@ -1,4 +1,4 @@
-// The interface of the frame graph: declaring resources and passes, and executing what was compiled.
+// The interface of the frame graph: declaring resources and passes.
 #include "LanternCore/FrameGraph/FrameGraph.h"
 
 #include <algorithm>
@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "FrameGraph/FrameGraphImpl.h"
-#include "LanternCore/Tasks/TaskTrace.h"
 
 namespace Lantern
 {
@@ -29,6 +28,10 @@ public:
 		Use.Write |= Access;
 		Use.bIfRead = true;
 	}
+	void RecordOnTask() override { Pass.bOnTask = true; }
+	void AllowAsync() override { Pass.bAllowAsync = true; }
+	void Write(FGraphToken Token) override { Pass.TokenWrites.push_back(Token.Index); }
+	void Without(FGraphToken Token) override { Pass.TokensUnused.push_back(Token.Index); }
 	void NeverCull() override { Pass.bNeverCull = true; }
 	void Keep(FGraphTexture Texture) override { AddKeep(Texture.Index, true); }
 	void Keep(FGraphBuffer Buffer) override { AddKeep(Buffer.Index, false); }
@@ -58,41 +61,6 @@ private:
 	FGraphPass& Pass;
 	const std::vector<FGraphResource>& Resources;
 	FPassUse Ignored;
-};
-
-class FContext final : public FPassContext
-{
-public:
-	FContext(IRTCommandList& InCommands, IRTDevice& InDevice, const FGraphPass& InPass, const std::vector<FGraphResource>& InResources)
-	    : List(InCommands),
-	      DeviceUsed(InDevice),
-	      Pass(InPass),
-	      Resources(InResources)
-	{}
-	IRTCommandList& Commands() override { return List; }
-	IRTDevice& Device() override { return DeviceUsed; }
-	IRTTexture* GetTexture(FGraphTexture Texture) override
-	{
-		return IsDeclared(Texture.Index) ? Resources[Texture.Index].GetTexture() : nullptr;
-	}
-	IRTBuffer* GetBuffer(FGraphBuffer Buffer) override { return IsDeclared(Buffer.Index) ? Resources[Buffer.Index].GetBuffer() : nullptr; }
-	void CountRays(uint64_t More) override { Rays += More; }
-
-	uint64_t Rays = 0;
-
-private:
-	bool IsDeclared(uint32_t Index) const
-	{
-		const bool bDropped = std::find(Pass.Dropped.begin(), Pass.Dropped.end(), Index) != Pass.Dropped.end();
-		const bool bDeclared = Index < Resources.size() && (Pass.Find(Index) || bDropped);
-		assert(bDeclared && "a pass may use only what it declared in its setup");
-		return bDeclared;
-	}
-
-	IRTCommandList& List;
-	IRTDevice& DeviceUsed;
-	const FGraphPass& Pass;
-	const std::vector<FGraphResource>& Resources;
 };
 
 } // namespace
@@ -208,6 +176,10 @@ FGraphBuffer FFrameGraph::ImportBuffer(IRTBuffer* Buffer, ERTAccess Current, ERT
 	return {It->second};
 }
 
+FGraphToken FFrameGraph::CreateToken(const char*) { return {Impl->TokenCount++}; }
+
+const std::vector<FGraphSubmission>& FFrameGraph::GetSubmissions() const { return Impl->Submissions; }
+
 void FFrameGraph::MarkHistory(FGraphTexture Texture)
 {
 	assert(Impl->Resources[Texture.Index].bImported);
@@ -273,73 +245,16 @@ FRTStatus FFrameGraph::Compile()
 	if (Impl->CompileStatus)
 	{
 		Impl->Cull();
+		Impl->AssignQueues();
 		Impl->FindLifetimes();
 		Impl->CompileStatus = Impl->Allocate();
 	}
-	if (Impl->CompileStatus) { Impl->PlaceBarriers(); }
+	if (Impl->CompileStatus)
+	{
+		Impl->PlaceBarriers();
+		Impl->OrderTokens();
+	}
 	return Impl->CompileStatus;
-}
-
-FRTStatus FFrameGraph::Execute(IRTCommandList& Commands, const FRTStatus* Failure)
-{
-	assert(!Impl->bExecuted && "a graph is executed once");
-	const FRTStatus Status = Compile();
-	if (Status)
-	{
-		Impl->bExecuted = true;
-		Impl->Record(Commands, Failure);
-	}
-	return Status && Failure ? *Failure : Status;
-}
-
-void FFrameGraph::FImpl::RecordBarriers(IRTCommandList& Commands, const std::vector<FGraphBarrier>& Barriers) const
-{
-	std::vector<FRTBarrier> Items;
-	for (const FGraphBarrier& Barrier : Barriers)
-	{
-		const FGraphResource& Resource = Resources[Barrier.Resource];
-		FRTBarrier& Item = Items.emplace_back();
-		Item.Texture = Resource.bTexture ? Resource.GetTexture() : nullptr;
-		Item.Buffer = Resource.bTexture ? nullptr : Resource.GetBuffer();
-		Item.Before = Barrier.Before;
-		Item.After = Barrier.After;
-	}
-	if (!Items.empty()) { Commands.Barriers(Items.data(), static_cast<uint32_t>(Items.size())); }
-}
-
-void FFrameGraph::FImpl::Record(IRTCommandList& Commands, const FRTStatus* Failure)
-{
-	const auto IsAlive = [](const FGraphPass& Pass) { return !Pass.bCulled; };
-	const uint32_t AliveCount = static_cast<uint32_t>(std::count_if(Passes.begin(), Passes.end(), IsAlive));
-	++Shared.FrameCounter;
-	Shared.Poison.clear();
-	FTimedFrame& Frame = Shared.BeginTiming(AliveCount);
-	IRTQueryPool* Queries = AliveCount > 0 ? Frame.Pool.Get() : nullptr;
-	if (Queries) { Commands.ResetQueries(Queries, 0, 2 * AliveCount); }
-	for (const FGraphPass& Pass : Passes)
-	{
-		if (Pass.bCulled) { continue; }
-		FTraceScope Trace("Pass", Pass.Name);
-		const auto Start = std::chrono::steady_clock::now();
-		const uint32_t Query = static_cast<uint32_t>(2 * Frame.Passes.size());
-		Commands.BeginMarker(Pass.Name.c_str());
-		if (Queries) { Commands.WriteTimestamp(Queries, Query); }
-		RecordBarriers(Commands, Pass.Barriers);
-		FContext Context(Commands, Shared.Device, Pass, Resources);
-		if (Pass.Execute) { Pass.Execute(Context); }
-		if (Queries) { Commands.WriteTimestamp(Queries, Query + 1); }
-		Commands.EndMarker();
-		const std::chrono::duration<double, std::milli> Time = std::chrono::steady_clock::now() - Start;
-		Frame.Passes.push_back({Pass.Name, -1.0, Time.count(), Context.Rays});
-		if (Failure && !*Failure) { return; }
-	}
-	RecordBarriers(Commands, FinalBarriers);
-	Frame.bPending = true;
-	for (const auto& [Pooled, Access] : PooledAccess)
-	{
-		Pooled->LastAccess = Access;
-		Pooled->LastFrame = Shared.FrameCounter;
-	}
 }
 
 uint32_t FFrameGraph::GetPassCount() const { return static_cast<uint32_t>(Impl->Passes.size()); }

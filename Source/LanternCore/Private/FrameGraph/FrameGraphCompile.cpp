@@ -218,6 +218,8 @@ void FFrameGraph::FImpl::PlaceBarriersOf(uint32_t Index, const std::vector<std::
 
 	// The old content of a pooled resource is discarded, but the work of its previous user must have finished.
 	ERTAccess State = Resource.Current;
+	FStateUsers OwnUsers;
+	FStateUsers& Users = Resource.Pooled ? PooledUsers[Resource.Pooled.get()] : OwnUsers;
 	if (Resource.Pooled)
 	{
 		const auto Known = PooledAccess.try_emplace(Resource.Pooled.get(), Resource.Pooled->LastAccess);
@@ -236,17 +238,19 @@ void FFrameGraph::FImpl::PlaceBarriersOf(uint32_t Index, const std::vector<std::
 		const bool bFresh = State == ERTAccess::None && !Resource.bTexture;
 		if (!bCovered)
 		{
-			if (!bFresh) { Passes[Uses[Begin].first].Barriers.push_back({Index, State, Access}); }
+			const bool bOtherQueue = EnterState(Users, Uses[Begin].first);
+			if (!bFresh) { Passes[Uses[Begin].first].Barriers.push_back({Index, State, Access, bOtherQueue}); }
 			State = Access;
 		}
-		Begin = End;
+		for (; Begin < End; ++Begin) { UseState(Users, Uses[Begin].first); }
 	}
 	if (Resource.Pooled) { PooledAccess[Resource.Pooled.get()] = State; }
 	// Leaves exactly After, even if the current state includes it: the engine's next barrier names After alone.
 	const bool bNothingToWaitFor = State == ERTAccess::None && !Resource.bTexture;
 	if (Resource.bImported && Resource.After != ERTAccess::None && Resource.After != State && !bNothingToWaitFor)
 	{
-		FinalBarriers.push_back({Index, State, Resource.After});
+		const auto IsAsync = [&](uint32_t Pass) { return Passes[Pass].Queue != ERTQueue::Graphics; };
+		FinalBarriers.push_back({Index, State, Resource.After, std::any_of(Users.Passes.begin(), Users.Passes.end(), IsAsync)});
 	}
 }
 

@@ -1,7 +1,7 @@
 // Internals of the frame graph, shared by the files FrameGraph*.cpp.
 #pragma once
 
-#include <chrono>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -43,13 +43,24 @@ struct FPooledResource
 	bool bBusy = false;          ///< within that graph: between first and last use of the present tenant
 };
 
+/// Queues that passes run on: graphics, then compute beside it. Others have no passes.
+inline constexpr uint32_t PassQueueCount = 2;
+
+/// Timestamps of the passes of one queue.
+struct FQueueQueries
+{
+	TRTRef<IRTQueryPool> Pool; ///< null: none are taken
+	uint32_t PassCount = 0;
+	uint64_t LastFirstNs = 0; ///< first timestamp read before: the same again means not yet written anew
+};
+
 /// Timestamps and numbers of one executed graph.
 struct FTimedFrame
 {
-	TRTRef<IRTQueryPool> Pool;
+	FQueueQueries Queues[PassQueueCount];
 	std::vector<FPassTiming> Passes;
+	std::vector<uint32_t> Places; ///< by pass that runs: its place among those of its queue
 	uint64_t Serial = 0;
-	uint64_t LastFirstNs = 0; ///< first timestamp read before: the same again means not yet written anew
 	bool bPending = false;
 };
 
@@ -63,10 +74,13 @@ struct FFrameGraphResources::FImpl
 	FRTStatus Create(const FPoolKey& Key, const std::string& Name, std::shared_ptr<FPooledResource>& Out);
 	/// Returns bytes freed.
 	uint64_t Trim(uint32_t Frames);
+	void TrimByAge(); ///< by r.RT.FrameGraph.KeepFrames
 
-	/// Returns a frame to record into. It has a query pool for PassCount passes if the device has timestamps.
-	FTimedFrame& BeginTiming(uint32_t PassCount);
+	/// Returns a frame to record into. It has query pools for PassCounts passes, by queue, if the device has timestamps.
+	FTimedFrame& BeginTiming(const uint32_t (&PassCounts)[PassQueueCount]);
 	void PollTimings();
+	/// Reads a queue's timestamps. False: they are not there yet.
+	static bool ReadTimes(FTimedFrame& Frame, uint32_t Queue, uint64_t& OutFirst, uint64_t& OutLast);
 
 	IRTDevice& Device;
 	std::map<FPoolKey, std::vector<std::shared_ptr<FPooledResource>>> Pool;
@@ -114,6 +128,7 @@ struct FGraphBarrier
 {
 	uint32_t Resource = 0;
 	ERTAccess Before = ERTAccess::None, After = ERTAccess::None;
+	bool bOtherQueue = false; ///< see FRTBarrier
 };
 
 struct FGraphPass
@@ -125,6 +140,11 @@ struct FGraphPass
 	std::vector<FGraphBarrier> Barriers; ///< before the pass
 	FPassExecute Execute;
 	bool bNeverCull = false;
+	bool bOnTask = false;     ///< see FPassBuilder::RecordOnTask
+	bool bAllowAsync = false; ///< see FPassBuilder::AllowAsync
+	ERTQueue Queue = ERTQueue::Graphics;
+	std::vector<uint32_t> TokenWrites, TokensUnused;
+	std::vector<uint32_t> Needs; ///< earlier passes of another queue that must have finished
 	bool bCulled = false;
 	std::string BadUse; ///< first wrong declaration, reported by Compile
 
@@ -149,16 +169,53 @@ struct FFrameGraph::FImpl
 	void PlaceBarriers();
 	void PlaceBarriersOf(uint32_t Resource, const std::vector<std::pair<uint32_t, ERTAccess>>& Uses);
 
-	void Record(IRTCommandList& Commands, const FRTStatus* Failure);
+	// FrameGraphQueues.cpp:
+	/// Those that use a resource in its present state.
+	struct FStateUsers
+	{
+		std::vector<uint32_t> Passes;
+		uint32_t Entered = NoPass; ///< the pass that brought it there
+	};
+	void AssignQueues();
+	bool IsOnOtherQueue(uint32_t Pass, uint32_t Than) const { return Passes[Pass].Queue != Passes[Than].Queue; }
+	/// Pass enters another state: it needs all users of the old one. Returns whether one of them was on another queue, or perhaps
+	/// an earlier graph.
+	bool EnterState(FStateUsers& Users, uint32_t Pass);
+	/// Pass uses the state in which the resource is.
+	void UseState(FStateUsers& Users, uint32_t Pass);
+	void OrderTokens();
+
+	// FrameGraphRecord.cpp:
+	using FGetFailure = std::function<FRTStatus()>;
+	/// Consecutive passes that one thread records into one list.
+	struct FSegment
+	{
+		IRTCommandList* List = nullptr;
+		std::vector<uint32_t> Passes;
+		bool bOnTask = false;
+	};
+	/// Puts passes into submissions, and these into segments. Fills Submissions.
+	std::vector<FSegment> MakeSegments(bool bTasks);
+	FRTStatus Record(const std::vector<FSegment>& Segments, const FGetFailure& GetFailure);
+	/// Resets the queries of each queue in its first list. OutIndices: by pass, its place among those that run.
+	FTimedFrame& BeginTiming(const std::vector<FSegment>& Segments, std::vector<uint32_t>& OutIndices);
+	void RecordSegment(
+	    const FSegment& Segment, FTimedFrame& Frame, const std::vector<uint32_t>& Indices, const FGetFailure& GetFailure) const;
+	void RecordPass(IRTCommandList& Commands, const FGraphPass& Pass, FPassTiming& Timing, IRTQueryPool* Queries, uint32_t Query) const;
 	void RecordBarriers(IRTCommandList& Commands, const std::vector<FGraphBarrier>& Barriers) const;
 
 	FFrameGraphResources::FImpl& Shared;
 	std::vector<FGraphResource> Resources;
 	std::vector<FGraphPass> Passes;
 	std::vector<FGraphBarrier> FinalBarriers;
+	std::vector<FGraphSubmission> Submissions;
+	uint32_t TokenCount = 0;
+	bool bAsync = false;                                ///< passes may run on another queue
+	bool bAnyAsync = false;                             ///< some do
 	std::unordered_map<const void*, uint32_t> Imported; ///< native object to resource
 	/// Access of every pooled resource after the passes compiled so far.
 	std::unordered_map<FPooledResource*, ERTAccess> PooledAccess;
+	std::unordered_map<FPooledResource*, FStateUsers> PooledUsers;
 	bool bCompiled = false;
 	bool bExecuted = false;
 	FRTStatus CompileStatus;

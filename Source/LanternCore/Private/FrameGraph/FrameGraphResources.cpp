@@ -3,10 +3,18 @@
 #include <utility>
 
 #include "FrameGraph/FrameGraphImpl.h"
+#include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Text/Log.h"
 
 namespace Lantern
 {
+
+namespace
+{
+// As many as histories live without use (FHistoryResources::KeepFrames): resolutions that alternate find their memory again.
+TRTConsoleVariable<int32_t> CVarKeepFrames("r.RT.FrameGraph.KeepFrames", 8,
+    "Memory of transient resources is freed after this many frames without use. 1: a frame keeps only what it used itself.", {1, 1000});
+} // namespace
 
 uint64_t FPoolKey::GetBytes() const
 {
@@ -93,7 +101,9 @@ uint64_t FFrameGraphResources::FImpl::Trim(uint32_t FrameCount)
 	return Freed;
 }
 
-FTimedFrame& FFrameGraphResources::FImpl::BeginTiming(uint32_t PassCount)
+void FFrameGraphResources::FImpl::TrimByAge() { Trim(static_cast<uint32_t>(CVarKeepFrames.GetOnRenderThread())); }
+
+FTimedFrame& FFrameGraphResources::FImpl::BeginTiming(const uint32_t (&PassCounts)[PassQueueCount])
 {
 	constexpr size_t MaxFrames = 8; // more than any engine keeps in flight
 	PollTimings();
@@ -107,21 +117,45 @@ FTimedFrame& FFrameGraphResources::FImpl::BeginTiming(uint32_t PassCount)
 	FTimedFrame& Frame = **It;
 	Frame.Serial = FrameCounter;
 	Frame.Passes.clear();
-	const uint32_t Needed = 2 * PassCount;
-	const bool bTooSmall = !Frame.Pool || Frame.Pool->GetCount() < Needed;
-	if (Device.GetCapabilities().bTimestamps && Needed > 0 && bTooSmall)
+	for (uint32_t Queue = 0; Queue < PassQueueCount; ++Queue)
 	{
+		FQueueQueries& Queries = Frame.Queues[Queue];
+		Queries.PassCount = PassCounts[Queue];
+		const uint32_t Needed = 2 * PassCounts[Queue];
+		const bool bTooSmall = !Queries.Pool || Queries.Pool->GetCount() < Needed;
+		if (!Device.GetCapabilities().bTimestamps || Needed == 0 || !bTooSmall) { continue; }
 		uint32_t Count = 64;
 		while (Count < Needed) { Count *= 2; }
-		Frame.LastFirstNs = 0;
-		const FRTStatus Status = Device.CreateQueryPool(ERTQuery::Timestamp, Count, Frame.Pool.ReleaseAndGetAddress());
+		Queries.LastFirstNs = 0;
+		const FRTStatus Status = Device.CreateQueryPool(ERTQuery::Timestamp, Count, Queries.Pool.ReleaseAndGetAddress());
 		if (!Status)
 		{
-			Frame.Pool.Reset();
+			Queries.Pool.Reset();
 			LogOnce(ERTLogLevel::Warning, fmt::format("No GPU times of passes: {}", Status.Message));
 		}
 	}
 	return Frame;
+}
+
+bool FFrameGraphResources::FImpl::ReadTimes(FTimedFrame& Frame, uint32_t Queue, uint64_t& OutFirst, uint64_t& OutLast)
+{
+	FQueueQueries& Queries = Frame.Queues[Queue];
+	if (!Queries.Pool || Queries.PassCount == 0) { return true; }
+	std::vector<uint64_t> Times(size_t(2) * Queries.PassCount);
+	// The pool still holds its earlier times until the GPU reaches the reset.
+	const bool bThere = Queries.Pool->GetResults(0, 2 * Queries.PassCount, Times.data()) && Times[0] != Queries.LastFirstNs;
+	if (!bThere) { return false; }
+	for (size_t I = 0; I < Frame.Passes.size(); ++I)
+	{
+		FPassTiming& Pass = Frame.Passes[I];
+		if (static_cast<uint32_t>(Pass.Queue) != Queue) { continue; }
+		const uint64_t Begin = Times[2 * Frame.Places[I]], End = Times[2 * Frame.Places[I] + 1];
+		Pass.GpuMs = End > Begin ? static_cast<double>(End - Begin) * 1e-6 : 0.0;
+		Pass.BeginMs = Begin > Times[0] ? static_cast<double>(Begin - Times[0]) * 1e-6 : 0.0;
+	}
+	OutFirst = Times.front();
+	OutLast = Times.back();
+	return true;
 }
 
 void FFrameGraphResources::FImpl::PollTimings()
@@ -132,26 +166,20 @@ void FFrameGraphResources::FImpl::PollTimings()
 		if (Frame->bPending) { Pending.push_back(Frame.get()); }
 	}
 	std::sort(Pending.begin(), Pending.end(), [](auto* A, auto* B) { return A->Serial < B->Serial; });
-	std::vector<uint64_t> Times;
 	for (FTimedFrame* Frame : Pending)
 	{
-		const uint32_t Count = static_cast<uint32_t>(2 * Frame->Passes.size());
-		Times.resize(Count);
-		if (Frame->Pool && Count > 0)
+		uint64_t First[PassQueueCount] = {}, Last[PassQueueCount] = {};
+		bool bThere = true;
+		for (uint32_t Queue = 0; Queue < PassQueueCount; ++Queue) { bThere &= ReadTimes(*Frame, Queue, First[Queue], Last[Queue]); }
+		if (!bThere) { continue; }
+		for (uint32_t Queue = 0; Queue < PassQueueCount; ++Queue)
 		{
-			// The pool still holds its earlier times until the GPU reaches the reset.
-			if (!Frame->Pool->GetResults(0, Count, Times.data()) || Times[0] == Frame->LastFirstNs) { continue; }
-			Frame->LastFirstNs = Times[0];
-			for (uint32_t I = 0; I < Frame->Passes.size(); ++I)
-			{
-				const uint64_t Begin = Times[2 * I], End = Times[2 * I + 1];
-				Frame->Passes[I].GpuMs = End > Begin ? static_cast<double>(End - Begin) * 1e-6 : 0.0;
-			}
-			constexpr size_t MostDone = 64; // where nobody takes them
-			if (Done.size() < MostDone && Times.back() > Times.front())
-			{
-				Done.push_back({Frame->Serial, static_cast<double>(Times.back() - Times.front()) * 1e-6});
-			}
+			if (First[Queue] != 0) { Frame->Queues[Queue].LastFirstNs = First[Queue]; }
+		}
+		constexpr size_t MostDone = 64; // where nobody takes them
+		if (Done.size() < MostDone && Last[0] > First[0])
+		{
+			Done.push_back({Frame->Serial, static_cast<double>(Last[0] - First[0]) * 1e-6});
 		}
 		Newest = Frame->Passes;
 		Frame->bPending = false;

@@ -42,6 +42,7 @@ FGraphTexture AddTracePass(FFrameContext& Context, const FGBuffer& GBuffer, cons
 		Builder.Read(GBuffer.Depth, ERTAccess::ShaderRead);
 		Builder.Read(GBuffer.Normals, ERTAccess::ShaderRead);
 		Builder.Write(Output, ERTAccess::StorageWrite);
+		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
 			FAmbientOcclusionConstants Constants = MakeConstants(*Frame);
 			Constants.Depth = GetSampledIndex(Pass, GBuffer.Depth);

@@ -36,6 +36,7 @@ FGraphTexture AddBruteForcePass(const FBruteForcePass& Settings, FFrameContext& 
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
 		Builder.Write(Output, ERTAccess::StorageWrite);
+		Builder.AllowAsync();
 		return [=, &Settings](FPassContext& Pass) {
 			const uint32_t Bounces = static_cast<uint32_t>(Settings.Bounces.GetOnRenderThread());
 			FBruteForceConstants C{};

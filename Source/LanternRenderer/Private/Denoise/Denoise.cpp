@@ -84,6 +84,7 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 		Builder.Write(History.Current, ERTAccess::StorageWrite);
 		if (bColor) { Builder.Write(Moments.Current, ERTAccess::StorageWrite); }
 		Builder.Write(Output, ERTAccess::StorageWrite);
+		Builder.AllowAsync();
 		FTemporalConstants C{};
 		C.Pass = Context.Pass;
 		C.MinAlpha = GetMinAlpha(Settings.HistorySeconds, Context.View.DeltaSeconds);
@@ -117,6 +118,7 @@ FGraphTexture FDenoiser::AddFilterPass(FGraphTexture Input, FGraphTexture Output
 		Builder.Read(Input, ERTAccess::ShaderRead);
 		Builder.Read(Surface, ERTAccess::ShaderRead);
 		Builder.Write(Output, ERTAccess::StorageWrite);
+		Builder.AllowAsync();
 		FFilterConstants C{};
 		C.Pass = Context.Pass;
 		C.Step = 1u << Index;

@@ -115,6 +115,13 @@ FRTStatus AddSkinningPass(FFrameContext& Context, FFrameUploads& Uploads, const 
 	}
 	Context.Graph.AddPass("Skinning", [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.NeverCull();
+		Builder.RecordOnTask();
+		Builder.AllowAsync();
+		Builder.Write(Context.Tokens.Vertices);
+		for (const FGraphToken Unused : {Context.Tokens.Tables, Context.Tokens.Structures, Context.Tokens.Records})
+		{
+			Builder.Without(Unused);
+		}
 		return [=, Dispatches = MakeDispatches(Items), Before = std::move(Before), After = std::move(After)](FPassContext& Pass) {
 			Pass.Commands().Barriers(Before.data(), static_cast<uint32_t>(Before.size()));
 			Pass.Commands().SetPipeline(Pipeline);

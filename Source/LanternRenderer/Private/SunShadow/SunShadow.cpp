@@ -55,6 +55,7 @@ FGraphTexture AddTracePass(FFrameContext& Context, const FGBuffer& GBuffer, cons
 		Builder.Read(GBuffer.Depth, ERTAccess::ShaderRead);
 		Builder.Read(GBuffer.Normals, ERTAccess::ShaderRead);
 		Builder.Write(Visibility, ERTAccess::StorageWrite);
+		Builder.AllowAsync();
 		if (Penumbra.IsValid()) { Builder.WriteIfRead(Penumbra, ERTAccess::StorageWrite); }
 		return [=](FPassContext& Pass) {
 			FSunShadowConstants Constants = MakeConstants(*Frame, bSoft);
@@ -90,7 +91,7 @@ FGraphTexture AddSunShadowPass(FFrameContext& Context, const FGBuffer& GBuffer)
 	    RequireRayDispatch(Context, ESignal::SunShadow, ChooseSignalRays(Context, ESignal::SunShadow));
 	if (!Dispatch) { return {}; }
 	FGraphTexture Penumbra;
-	if (MeasuresPenumbra())
+	if (MeasuresPenumbra() && Dispatch->Has("WITH_PENUMBRA")) // a variant without it may still serve, and writes none
 	{
 		Penumbra = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::R16_FLOAT}, "SunShadowPenumbra");
 	}

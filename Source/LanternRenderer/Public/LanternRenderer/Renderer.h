@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -99,6 +101,16 @@ struct FSurfaceTextures
 	FGraphTexture Motion;   ///< as in FGBuffer; invalid where Previous is
 };
 
+/// The scene's data, which passes reach without the graph. Passes count as readers of all; those that are not say so
+/// (FPassBuilder::Without), and may then run beside what writes it.
+struct FSceneTokens
+{
+	FGraphToken Tables;     ///< objects, materials, sections, lights
+	FGraphToken Vertices;   ///< of deformed geometry
+	FGraphToken Structures; ///< acceleration structures
+	FGraphToken Records;    ///< of the shader table
+};
+
 /// The frame as passes see it.
 struct FFrameContext
 {
@@ -127,13 +139,12 @@ struct FFrameContext
 	/// Textures that passes keep from frame to frame.
 	FHistoryResources* History = nullptr;
 	FSurfaceTextures Surface;
+	FSceneTokens Tokens;
 	FSignalRequests Signals;
-	/// First error that a pass met; the frame is then not submitted.
+	/// First error that a pass met; the frame is then not submitted. Not while passes are recorded.
 	FRTStatus* Status = nullptr;
-	void Fail(const FRTStatus& Error) const
-	{
-		if (Status->IsOk()) { *Status = Error; }
-	}
+	/// Sets Status, unless it has an error already. From any thread.
+	void Fail(const FRTStatus& Error) const;
 	FRenderer* Owner = nullptr;
 	/// Passes that trace rays call this before they add themselves. The first call adds the passes that record acceleration
 	/// structures and shader records. Tasks prepare these meanwhile, so a late first call waits less.
@@ -202,6 +213,7 @@ private:
 	FRTStatus FinishPrebind();
 	void AddTables();
 	void AddRayPasses();
+	void AddBuildPasses();
 	FRTStatus AllocateConstants();
 	void WriteConstants();
 	void DropFrame();
@@ -210,7 +222,12 @@ private:
 	void StartCounting();
 	void EndFeedback(bool bSubmitted);
 	FRTStatus WaitForFlight();
-	FRTStatus Execute(IRTCommandList& List);
+	FRTStatus BeginList(ERTQueue Queue, IRTCommandList*& Out);
+	FRTStatus SubmitGraph(FRTFence& OutFence);
+	void Fail(const FRTStatus& Error);
+	FRTStatus GetFailure();
+	/// Run: executes the graph.
+	FRTStatus Execute(const std::function<FRTStatus()>& Run);
 
 	IRTDevice& Device;
 	FShaderCompiler Compiler;
@@ -230,13 +247,18 @@ private:
 	std::unique_ptr<FFrameGraph> Graph;
 	std::unique_ptr<FFrameContext> Context;
 	FRTStatus FrameStatus;
+	std::mutex FailureMutex; // of FrameStatus, while passes are recorded
 	FSceneUse FrameUse;
 	FUploadSlice SceneConstants, ViewConstants;
 	bool bUpdating = false; // the scene has something to record in this frame
 	bool bRayPassesAdded = false;
 	bool bFrameLost = false;
 	static constexpr uint32_t MaxInFlight = 2;
-	TRTRef<IRTCommandList> Lists[MaxInFlight];
+	std::vector<TRTRef<IRTCommandList>> Lists[MaxInFlight][QueueCount];
+	uint32_t ListsUsed[QueueCount] = {};   // of Lists, in this frame
+	std::vector<IRTCommandList*> Recorded; // of this frame, in order
+	std::vector<FGraphSubmission> Submissions;
+	FRTFence LastGraph = 0; // what the last frame of this renderer ended with
 	FRTFence Fences[MaxInFlight] = {};
 	uint32_t FlightIndex = 0; // of this frame, in Lists and Fences
 	std::unique_ptr<FHistoryResources> History;

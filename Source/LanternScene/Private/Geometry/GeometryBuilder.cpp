@@ -72,7 +72,7 @@ FRTStatus FGeometryBuilder::GrowForBatches()
 	return Status.Code == ERTResult::OutOfDeviceMemory ? FRTStatus::Success() : Status;
 }
 
-void FGeometryBuilder::RecordStaging(IRTCommandList& List)
+void FGeometryBuilder::RecordStaging(IRTCommandList& List) const
 {
 	for (const FGeometrySlotRef Ref : Builds)
 	{
@@ -87,40 +87,52 @@ void FGeometryBuilder::RecordStaging(IRTCommandList& List)
 	}
 }
 
-size_t FGeometryBuilder::RecordBatch(IRTCommandList& List, size_t Next)
+uint32_t FGeometryBuilder::Plan(uint32_t MostParts)
 {
 	const uint64_t Alignment = GetScratchAlignment(Context.Device);
-	IRTBuffer* const Scratch = Context.Scratch.Get();
+	PlannedScratch = TRTRef<IRTBuffer>(Context.Scratch.Get());
+	ScratchOffsets.assign(Builds.size(), 0);
+	Parts.clear();
+	const size_t PerPart = std::max<size_t>(FewestPerPart, (Builds.size() + MostParts - 1) / std::max(1u, MostParts));
+	uint64_t Used = 0;
+	for (size_t Index = 0; Index < Builds.size(); ++Index)
+	{
+		const uint64_t Bytes = GetScratchBytes(Context.Slots[Builds[Index].Slot]);
+		const bool bNewBatch = Index > 0 && Used + Bytes > PlannedScratch->GetDesc().Size;
+		if (bNewBatch)
+		{
+			Parts.back().bEndsBatch = true;
+			Used = 0;
+		}
+		if (Parts.empty() || bNewBatch || Parts.back().End - Parts.back().First == PerPart) { Parts.push_back({Index, Index}); }
+		Parts.back().End = Index + 1;
+		ScratchOffsets[Index] = Used;
+		Used = AlignUp(Used + Bytes, Alignment);
+	}
+	if (!Parts.empty()) { Parts.back().bEndsBatch = true; }
+	return static_cast<uint32_t>(Parts.size());
+}
+
+void FGeometryBuilder::RecordPart(IRTCommandList& List, uint32_t PartIndex) const
+{
+	const FPart& Part = Parts[PartIndex];
 	std::vector<std::vector<FRTGeometrySection>> Sections;
 	std::vector<FRTGeometryBuild> Batch;
-	uint64_t Used = 0;
-	for (; Next < Builds.size(); ++Next)
+	for (size_t Index = Part.First; Index < Part.End; ++Index)
 	{
-		const FGeometryEntry& Entry = Context.Slots[Builds[Next].Slot];
-		const uint64_t Bytes = GetScratchBytes(Entry);
-		if (!Batch.empty() && Used + Bytes > Scratch->GetDesc().Size) { break; }
+		const FGeometryEntry& Entry = Context.Slots[Builds[Index].Slot];
 		FRTGeometryBuild& Build = Batch.emplace_back();
 		Sections.push_back(MakeStructureSections(*Entry.Geometry));
 		Build.Geometry = Entry.Geometry->GetStructure();
 		Build.Sections = Sections.back().data(); // moving the outer vector moves no sections
 		Build.SectionCount = static_cast<uint32_t>(Sections.back().size());
 		Build.bUpdate = Entry.bUpdate;
-		Build.Scratch = Scratch;
-		Build.ScratchOffset = Used;
-		Used = AlignUp(Used + Bytes, Alignment);
+		Build.Scratch = PlannedScratch.Get();
+		Build.ScratchOffset = ScratchOffsets[Index];
 	}
 	List.BuildGeometries(Batch.data(), static_cast<uint32_t>(Batch.size()));
-	return Next;
-}
-
-void FGeometryBuilder::RecordBuilds(IRTCommandList& List)
-{
 	const FRTBarrier Behind{nullptr, nullptr, ERTAccess::BuildWrite, ERTAccess::BuildWrite | ERTAccess::BuildRead};
-	for (size_t Next = 0; Next < Builds.size();)
-	{
-		Next = RecordBatch(List, Next);
-		List.Barriers(&Behind, 1);
-	}
+	if (Part.bEndsBatch) { List.Barriers(&Behind, 1); }
 }
 
 void FGeometryBuilder::Submitted()
@@ -139,6 +151,7 @@ void FGeometryBuilder::Submitted()
 		}
 	}
 	Builds.clear();
+	PlannedScratch = nullptr;
 }
 
 void FGeometryBuilder::Lost()
@@ -159,6 +172,7 @@ void FGeometryBuilder::Lost()
 		Refits.Add(Entry);
 	}
 	Builds.clear();
+	PlannedScratch = nullptr;
 }
 
 } // namespace Lantern

@@ -16,6 +16,12 @@
 namespace Lantern
 {
 
+namespace
+{
+constexpr FRTBarrier BeforeBuilds{
+    nullptr, nullptr, ERTAccess::TraceRead | ERTAccess::BuildRead | ERTAccess::BuildWrite, ERTAccess::BuildWrite | ERTAccess::BuildRead};
+}
+
 struct FGeometryStore::FImpl
 {
 	FImpl(IRTDevice& Device, std::vector<uint64_t>& Addresses) : Context(Device, Addresses) {}
@@ -37,6 +43,7 @@ struct FGeometryStore::FImpl
 	FGeometryBuilder Builder{Context, Compactor, Refits};
 	FGeometryAdmission Admission{Context, Builder, Compactor, Coarsener, Refusals};
 	uint64_t Frame = 0;
+	uint32_t PartCount = 0; // of this frame's builds; 0: Record does them
 	bool bUseOpacity = true;
 };
 
@@ -154,6 +161,7 @@ FRTStatus FGeometryStore::BeginFrame(bool bBuildAll)
 	FGeometryContext& Context = Impl->Context;
 	if (Impl->Builder.HasBuilds() || Impl->Compactor.HasCopies()) { Impl->Lost(); } // EndFrame was not called
 	Context.Memory.BeginFrame(++Impl->Frame);
+	Impl->PartCount = 0;
 	FGeometryStoreStats& Stats = Context.Stats;
 	Stats.TrianglesBuilt = 0;
 	Stats.Built = Stats.Refitted = Stats.Rebuilt = Stats.Compacted = Stats.WaitingForMemory = 0;
@@ -194,15 +202,34 @@ FRTStatus FGeometryStore::FImpl::ChooseBuilds(bool bBuildAll)
 	});
 }
 
+uint32_t FGeometryStore::Plan(uint32_t MostParts)
+{
+	Impl->PartCount = MostParts > 1 ? Impl->Builder.Plan(MostParts) : 0;
+	Impl->PartCount = Impl->PartCount > 1 ? Impl->PartCount : 0;
+	return Impl->PartCount;
+}
+
+void FGeometryStore::RecordPart(IRTCommandList& List, uint32_t Part) const
+{
+	if (Part == 0)
+	{
+		Impl->Builder.RecordStaging(List);
+		List.Barriers(&BeforeBuilds, 1);
+	}
+	Impl->Builder.RecordPart(List, Part);
+}
+
 FRTStatus FGeometryStore::Record(IRTCommandList& List)
 {
 	FImpl& I = *Impl;
 	if (!I.Builder.HasBuilds() && !I.Compactor.HasCommands()) { return FRTStatus::Success(); }
-	I.Builder.RecordStaging(List);
-	const FRTBarrier Before{nullptr, nullptr, ERTAccess::TraceRead | ERTAccess::BuildRead | ERTAccess::BuildWrite,
-	    ERTAccess::BuildWrite | ERTAccess::BuildRead};
-	List.Barriers(&Before, 1);
-	I.Builder.RecordBuilds(List);
+	if (I.PartCount == 0)
+	{
+		const uint32_t Parts = I.Builder.Plan(1);
+		I.Builder.RecordStaging(List);
+		List.Barriers(&BeforeBuilds, 1);
+		for (uint32_t Part = 0; Part < Parts; ++Part) { I.Builder.RecordPart(List, Part); }
+	}
 	I.Compactor.RecordCopies(List);
 	const FRTStatus Status = I.Compactor.RecordQueries(List);
 	const FRTBarrier After{nullptr, nullptr, ERTAccess::BuildWrite, ERTAccess::BuildWrite | ERTAccess::BuildRead | ERTAccess::TraceRead};

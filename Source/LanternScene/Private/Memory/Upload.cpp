@@ -121,6 +121,7 @@ void FFrameUploads::Collect()
 
 FRTStatus FFrameUploads::Allocate(uint64_t Size, FUploadSlice& Out)
 {
+	const std::lock_guard Lock(Mutex);
 	if (Current.empty() || Used + Size > Current.back().Size)
 	{
 		Collect();

@@ -46,6 +46,8 @@ bool FRTScene::NeedsUpdate(const FGatherView& View, const FSceneUse& Use) const 
 glm::dvec3 FRTScene::GetOrigin() const { return Frame->GetOrigin(); }
 
 FRTStatus FRTScene::BeginUpdate(const FGatherView& View, const FSceneUse& Use) { return Frame->Begin(View, Use); }
+uint32_t FRTScene::PlanBuilds(uint32_t MostParts) { return Geometries.Plan(MostParts); }
+void FRTScene::RecordBuilds(IRTCommandList& List, uint32_t Part) const { Geometries.RecordPart(List, Part); }
 bool FRTScene::NeedsTables() const { return Frame->AreTablesDirty(); }
 bool FRTScene::NeedsStructures() const { return Frame->NeedsStructures(); }
 FRTStatus FRTScene::RecordTables(IRTCommandList& List, FFrameUploads& Uploads) { return Frame->RecordTables(List, Uploads); }

@@ -37,6 +37,14 @@ struct FGraphBuffer
 	bool IsValid() const { return Index != ~0u; }
 };
 
+/// Stands for data that the graph does not hold, such as the scene's tables. It has no memory and no barriers: passes record those
+/// themselves. It orders queues.
+struct FGraphToken
+{
+	uint32_t Index = ~0u;
+	bool IsValid() const { return Index != ~0u; }
+};
+
 struct FGraphTextureDesc
 {
 	uint32_t Width = 0, Height = 0;
@@ -82,6 +90,17 @@ public:
 	virtual void Write(FGraphBuffer Buffer, ERTAccess Access) = 0;
 	/// Declares an optional output. If no pass that runs reads it, it is not created, and GetTexture returns null.
 	virtual void WriteIfRead(FGraphTexture Texture, ERTAccess Access) = 0;
+	/// Lets a task record the pass, into a command list of its own, while other passes are recorded (FGraphRecorder). Its function
+	/// must touch nothing that the functions of other passes write.
+	virtual void RecordOnTask() = 0;
+	/// Lets the pass run on ERTQueue::AsyncCompute, beside others, if r.RT.Async names it. It must not raster. What it declares to
+	/// read and write orders it against passes of the other queue.
+	virtual void AllowAsync() = 0;
+	/// Says that the pass changes what Token stands for. All other passes count as readers, and wait for it if they run on another
+	/// queue.
+	virtual void Write(FGraphToken Token) = 0;
+	/// Says that the pass does not touch what Token stands for.
+	virtual void Without(FGraphToken Token) = 0;
 	/// Makes the pass run even if nobody reads its outputs. Readback and writes to imported resources imply this.
 	virtual void NeverCull() = 0;
 	/// Says that this pass will read the resource in the next frame. The passes that write it, earlier or later, then run if
@@ -97,11 +116,14 @@ struct FPassTiming
 {
 	std::string Name;
 	double GpuMs = 0.0; ///< < 0: no timestamps on this device
-	double CpuMs = 0.0; ///< time to record, on the render thread
+	double CpuMs = 0.0; ///< time to record, on the render thread or on a task's
 	uint64_t Rays = 0;
+	ERTQueue Queue = ERTQueue::Graphics;
+	/// When the device began with it, since the first pass of its queue began in this frame; < 0: no timestamps.
+	double BeginMs = -1.0;
 };
 
-/// GPU time of a frame, from the begin of its first pass to the end of its last.
+/// GPU time of a frame, from the begin of its first pass to the end of its last, on the graphics queue.
 struct FFrameTiming
 {
 	uint64_t Frame = 0; ///< FFrameGraphResources::GetFrame
@@ -121,8 +143,8 @@ public:
 	/// Returns the frames that the GPU has finished since the last call, oldest first. Frames that were not submitted are left
 	/// out, and so are all frames on a device without timestamps.
 	std::vector<FFrameTiming> TakeFrameTimings();
-	/// Frees pooled resources that the last Frames executed graphs did not use; 0: all that are idle. Should be called about
-	/// once a frame, since otherwise only a shortage of memory shrinks the pool.
+	/// Frees pooled resources that the last Frames executed graphs did not use; 0: all that are idle. Each executed graph does
+	/// so by r.RT.FrameGraph.KeepFrames. What the GPU still uses is freed once it is done.
 	void Trim(uint32_t Frames);
 	uint64_t GetPooledBytes() const;
 	/// Overwrites histories with not-a-number, for debugging. It affects the resources of the next executed graph that are
@@ -135,6 +157,27 @@ private:
 	friend class FFrameGraph;
 	struct FImpl;
 	std::unique_ptr<FImpl> Impl;
+};
+
+/// Where a graph gets its command lists from, and whether it should go on.
+struct FGraphRecorder
+{
+	/// Returns the next command list of a queue, begun. The graph asks for them in the order of FFrameGraph::GetSubmissions. Render
+	/// thread.
+	std::function<FRTStatus(ERTQueue Queue, IRTCommandList*& Out)> NextList;
+	/// Returns the first error that a pass met; later passes are then not recorded. From any thread; may be empty.
+	std::function<FRTStatus()> GetFailure;
+	bool bAsync = false; ///< lists of ERTQueue::AsyncCompute may be asked for
+};
+
+/// Lists of one queue that are submitted together.
+struct FGraphSubmission
+{
+	ERTQueue Queue = ERTQueue::Graphics;
+	uint32_t ListCount = 0;
+	std::vector<uint32_t> Waits; ///< earlier submissions, of other queues, whose fences it waits for
+	/// The fence of the graph before is among those that it waits for.
+	bool bWaitsForLastGraph = false;
 };
 
 class FFrameGraph
@@ -151,6 +194,7 @@ public:
 	/// pass that writes to an imported resource is not culled. Importing an object twice returns the same handle.
 	FGraphTexture ImportTexture(IRTTexture* Texture, ERTAccess Current, ERTAccess After, const char* Name);
 	FGraphBuffer ImportBuffer(IRTBuffer* Buffer, ERTAccess Current, ERTAccess After, const char* Name);
+	FGraphToken CreateToken(const char* Name);
 	/// Marks an imported resource whose content comes from earlier frames: see FFrameGraphResources::PoisonHistory.
 	void MarkHistory(FGraphTexture Texture);
 	void MarkHistory(FGraphBuffer Buffer);
@@ -173,6 +217,12 @@ public:
 	/// must be submitted in the order of their Execute, on one queue, since pooled resources carry their state over.
 	/// Failure (may be null): if a pass sets it to an error, later passes are not recorded, and Execute returns it.
 	FRTStatus Execute(IRTCommandList& Commands, const FRTStatus* Failure = nullptr);
+	/// Executes into several lists. A task records each pass of FPassBuilder::RecordOnTask into a list of its own, and this thread
+	/// records the others meanwhile. All must be submitted as GetSubmissions says. If r.RT.FrameGraph.Tasks is off and no pass
+	/// runs on another queue, one list takes all passes.
+	FRTStatus Execute(const FGraphRecorder& Recorder);
+	/// Returns what to submit after Execute, in this order. The last one is of ERTQueue::Graphics, and complete when all are.
+	const std::vector<FGraphSubmission>& GetSubmissions() const;
 
 	/// Lists passes (culled ones are marked), resources with size and lifetime, and barriers. After Execute or Compile.
 	std::string Dump() const;

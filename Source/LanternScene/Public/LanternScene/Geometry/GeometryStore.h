@@ -75,7 +75,12 @@ public:
 	/// bBuildAll: builds all that is pending and ignores r.RT.Build.TrianglesPerFrame. What does not fit into memory is made
 	/// coarser at once. On error nothing is to be recorded.
 	FRTStatus BeginFrame(bool bBuildAll);
-	/// Records builds, refits, compaction and queries of sizes. Ends with a barrier.
+	/// Divides this frame's builds and refits into at most about MostParts parts, for RecordPart. Returns how many there are; 0:
+	/// too few to divide, and Record does them.
+	uint32_t Plan(uint32_t MostParts);
+	/// Records a part. Tasks may record several at once, into lists that run in the order of parts, before that of Record.
+	void RecordPart(IRTCommandList& List, uint32_t Part) const;
+	/// Records builds and refits, unless Plan has divided them, compaction and queries of sizes. Ends with a barrier.
 	FRTStatus Record(IRTCommandList& List);
 	/// bSubmitted: false if what was recorded never runs. All of it is then recorded again.
 	void EndFrame(bool bSubmitted);

@@ -1,9 +1,11 @@
 // Two ways to get bytes to the GPU. FUploader is for loading: it submits and waits by itself. FFrameUploads gives memory
-// within a frame, which lives until the GPU has finished that frame. Each belongs to one thread.
+// within a frame, which lives until the GPU has finished that frame. Each belongs to one thread; only memory within a frame may be
+// asked for by several at once.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "LanternRHI/RTInterfaces.h"
@@ -49,7 +51,7 @@ class FFrameUploads
 {
 public:
 	explicit FFrameUploads(IRTDevice& Device);
-	/// Returns mapped memory for the current frame, aligned to 256 bytes. Size > 0.
+	/// Returns mapped memory for the current frame, aligned to 256 bytes. Size > 0. From any thread.
 	FRTStatus Allocate(uint64_t Size, FUploadSlice& Out);
 	/// Allocates memory and copies Data to it.
 	FRTStatus Push(const void* Data, uint64_t Size, FUploadSlice& Out);
@@ -66,6 +68,7 @@ private:
 	};
 	void Collect();
 	IRTDevice& Device;
+	std::mutex Mutex; // of Allocate
 	std::vector<FPage> Free, Current, InFlight;
 	uint64_t Used = 0; // bytes of Current.back()
 };

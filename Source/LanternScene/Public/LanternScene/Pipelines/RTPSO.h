@@ -90,6 +90,8 @@ public:
 	uint32_t FindRayGen(const FShaderSource& Source) const;
 	/// Finds the record of a ray generation shader as FindRayGen does, or else one with the same path and other defines.
 	uint32_t FindRayGenVariant(const FShaderSource& Source) const;
+	/// The shader of a ray generation record, as FRTPSODesc has it.
+	const FShaderSource& GetRayGen(uint32_t Index) const { return Layout.RayGens[Index]; }
 	uint32_t RayGenGroup(uint32_t Index) const { return Layout.RayGenGroups[Index]; }
 	uint32_t MissGroup(uint32_t RayType) const { return Layout.MissGroups[RayType]; }
 	uint32_t CallableGroup(uint32_t Index) const { return Layout.CallableGroups[Index]; }

@@ -138,6 +138,10 @@ public:
 	/// Records the second half of RecordUpdate, after RecordTables: acceleration structures, which only rays need. With
 	/// FSceneUse::bRays both halves must be recorded.
 	FRTStatus RecordStructures(IRTCommandList& List, FFrameUploads& Uploads);
+	/// Divides this frame's builds and refits, as FGeometryStore::Plan. After BeginUpdate, before RecordStructures.
+	uint32_t PlanBuilds(uint32_t MostParts);
+	/// Records a part of PlanBuilds, as FGeometryStore::RecordPart. From any thread.
+	void RecordBuilds(IRTCommandList& List, uint32_t Part) const;
 	/// Tells, after BeginUpdate, whether RecordTables would record anything.
 	bool NeedsTables() const;
 	/// Tells, after BeginUpdate, whether RecordStructures may find anything to record. Waits for nothing.
