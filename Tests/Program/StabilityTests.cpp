@@ -99,17 +99,27 @@ TEST_F(FStabilityTest, NothingIsShownOfWhatHolds)
 
 TEST_F(FStabilityTest, KnownShortfallsMayFailAndMust)
 {
-	Folder.Write("known.txt", "# a comment\n25 | sun shadow, query | pixels on the wrong side | culled by hand\n");
+	const std::string Line = "25 | sun shadow, query | pixels on the wrong side | ";
 	std::vector<std::string> Arguments = MakeBroken();
 	Arguments.insert(Arguments.end(), {"--known", At("known.txt")});
+	Folder.Write("known.txt", "# a comment\n" + Line + "0.5 +- 0.5 | culled by hand\n");
 	EXPECT_EQ(Run(Arguments).Status, 0);
 	EXPECT_EQ(Rows[0]["known"], true);
 	EXPECT_EQ(Rows[0]["holds"], false) << "known, not hidden";
+	const double Figure = Rows[0]["figure"];
+	// A change in either direction is no longer what is known.
+	for (const double Known : {Figure + 0.1, Figure - 0.1})
+	{
+		Folder.Write("known.txt", Line + std::to_string(Known) + " +- 0.05 | culled by hand\n");
+		const FProgramRun Other = Run(Arguments);
+		EXPECT_EQ(Other.Status, 1) << Known;
+		EXPECT_THAT(Other.Out, HasSubstr("is no longer the known"));
+	}
+	Folder.Write("known.txt", Line + std::to_string(Figure) + " +- 0.05 | culled by hand\n");
+	EXPECT_EQ(Run(Arguments).Status, 0);
 	const FProgramRun Again = Run({"--case", "25", "--method", "SunShadowQuery", "--known", At("known.txt")});
 	EXPECT_EQ(Again.Status, 1);
 	EXPECT_THAT(Again.Out, HasSubstr("take it off the list"));
-	Folder.Write("known.txt", "~25 | sun shadow, query | pixels on the wrong side | chance decides\n");
-	EXPECT_EQ(Run({"--case", "25", "--method", "SunShadowQuery", "--known", At("known.txt")}).Status, 0);
 }
 
 TEST_F(FStabilityTest, WrongUseIsNamed)
@@ -120,10 +130,15 @@ TEST_F(FStabilityTest, WrongUseIsNamed)
 	const FProgramRun Method = RunProgram({"stability", "--method", "magic"});
 	EXPECT_EQ(Method.Status, 2);
 	EXPECT_THAT(Method.Err, HasSubstr("SunShadowQuery"));
-	Folder.Write("known.txt", "\n25 | sun shadow, query\n");
-	const FProgramRun Known = RunProgram({"stability", "--known", At("known.txt")});
-	EXPECT_EQ(Known.Status, 4);
-	EXPECT_THAT(Known.Err, HasSubstr("known.txt:2"));
+	for (const char* const Wrong :
+	    {"25 | sun shadow, query", "25 | sun shadow, query | pixels | chance decides", "25 | sun shadow, query | pixels | 0.5 | no band",
+	        "25 | sun shadow, query | pixels | 0.5 +- 0 | no band", "~25 | sun shadow, query | pixels | 0.5 +- 0.1 | may or may not"})
+	{
+		Folder.Write("known.txt", std::string("\n") + Wrong + "\n");
+		const FProgramRun Known = RunProgram({"stability", "--known", At("known.txt")});
+		EXPECT_EQ(Known.Status, 4) << Wrong;
+		EXPECT_THAT(Known.Err, HasSubstr("known.txt:2"));
+	}
 	EXPECT_EQ(RunProgram({"stability", "--known", At("nowhere.txt")}).Status, 4);
 	EXPECT_EQ(RunProgram({"stability", "--json", At("no/such/folder.json")}).Status, 4);
 }

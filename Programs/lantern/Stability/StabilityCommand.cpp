@@ -43,7 +43,7 @@ void FStabilityOptions::AddTo(CLI::App& App)
 	App.add_flag("--list", bList, "List the cases");
 	App.add_option("-o,--output", Output, "Folder for strips of what fails: frames, and what they should be below them");
 	App.add_option("--json", Json, "Write the figures to this file");
-	App.add_option("--known", Known, "File of known shortfalls: they may fail, and must");
+	App.add_option("--known", Known, "File of known shortfalls: they may fail, and must, with the figures that it states");
 }
 
 namespace

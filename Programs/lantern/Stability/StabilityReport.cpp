@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -53,14 +54,18 @@ FRTStatus FKnownShortfalls::Load(const std::string& Path)
 			Fields.push_back(Trim(Line.substr(Begin, End - Begin)));
 			Begin = End + 1;
 		}
-		const bool bMust = !Line.starts_with('~');
-		const int Case = std::atoi(Fields[0].c_str() + (bMust ? 0 : 1));
-		if (Fields.size() != 4 || Case < 1 || Fields[3].empty())
+		const int Case = std::atoi(Fields[0].c_str());
+		FBand Band;
+		int Read = 0;
+		const bool bForm = Fields.size() == 5 && Case > 0 && !Fields[4].empty() &&
+		                   std::sscanf(Fields[3].c_str(), "%lf +- %lf%n", &Band.Figure, &Band.Width, &Read) == 2 &&
+		                   Fields[3].size() == static_cast<size_t>(Read) && Band.Width > 0.0;
+		if (!bForm)
 		{
-			return MakeFileError(
-			    ERTResult::InvalidArgument, Path + ":" + std::to_string(Number), "is not of the form case | method | part | reason");
+			return MakeFileError(ERTResult::InvalidArgument, Path + ":" + std::to_string(Number),
+			    "is not of the form case | method | part | figure +- band | reason");
 		}
-		Known[{Case, Fields[1], Fields[2]}] = bMust;
+		Known[{Case, Fields[1], Fields[2]}] = Band;
 	}
 	return FRTStatus::Success();
 }
@@ -77,7 +82,12 @@ std::vector<std::string> FKnownShortfalls::Check(const std::vector<FStabilityRow
 		const std::string Name = fmt::format("{} {} | {} | {}", Row.Number, Row.Name, Row.Method, Row.Part);
 		const std::string What = Row.bBroken ? Row.Status : Row.Holds && !*Row.Holds ? "does not hold" : "the planted fault goes unnoticed";
 		if (Row.IsBad() && !bKnown) { Bad.push_back(Name + ": " + What); }
-		if (bKnown && Found->second && !Row.IsBad()) { Bad.push_back(Name + ": a known shortfall holds now; take it off the list"); }
+		if (bKnown && !Row.IsBad()) { Bad.push_back(Name + ": a known shortfall holds now; take it off the list"); }
+		else if (bKnown && Row.Figure && !(std::abs(*Row.Figure - Found->second.Figure) <= Found->second.Width))
+		{
+			Bad.push_back(fmt::format(
+			    "{}: {:.4g} is no longer the known {:.4g} +- {:.4g}", Name, *Row.Figure, Found->second.Figure, Found->second.Width));
+		}
 	}
 	return Bad;
 }

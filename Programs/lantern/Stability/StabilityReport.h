@@ -34,19 +34,24 @@ struct FStabilityRow
 	bool IsBad() const { return bBroken || (Holds && !*Holds) || (FaultFails && !*FaultFails); }
 };
 
-/// Known shortfalls: lines "case | method | part | reason"; # begins a comment. A ~ before the number of the case means that the figure is
-/// near its limit and chance decides: it may fail, and need not.
+/// Known shortfalls: lines "case | method | part | figure +- band | reason"; # begins a comment. The figure must miss its limit, and lie
+/// within the band: a change for the better fails as one for the worse does.
 class FKnownShortfalls
 {
 public:
 	/// Errors name file and line.
 	FRTStatus Load(const std::string& Path);
 	bool Has(const FStabilityRow& Row) const;
-	/// Lists what is bad: rows that fail and are not known, and known ones that hold again. Cases that did not run are left out.
+	/// Lists what is bad: rows that fail and are not known, known ones that hold again, and known ones with another figure. Cases that
+	/// did not run are left out.
 	std::vector<std::string> Check(const std::vector<FStabilityRow>& Rows) const;
 
 private:
-	std::map<std::tuple<int, std::string, std::string>, bool> Known; // whether it must fail
+	struct FBand
+	{
+		double Figure = 0.0, Width = 0.0;
+	};
+	std::map<std::tuple<int, std::string, std::string>, FBand> Known;
 };
 
 void PrintStabilityHeader();
