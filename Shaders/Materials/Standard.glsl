@@ -70,11 +70,13 @@ bool IsStandardHitCutAway(FMaterialRef Materials, FSectionData Section, uint Pri
 	uvec3 Triangle = FetchTriangle(Section, Primitive);
 	vec2 UV = FetchOpacityUV(Section, Triangle, Barycentrics);
 	float Opacity = Material.BaseColor.a;
+#ifndef PLAIN_OPACITY
 	if ((Section.Flags & SECTION_PLAIN_OPACITY) == 0u)
 	{
 		UV = TransformUV(Material, UV, TEXTURE_BASE_COLOR);
 		Opacity *= FetchVertexAlpha(Section, Triangle, Barycentrics);
 	}
+#endif
 	if (HasTexture(Material, TEXTURE_BASE_COLOR)) { Opacity *= SampleMaterialTexture(Material.Textures[TEXTURE_BASE_COLOR], UV).a; }
 	return Opacity < Material.AlphaCutoff;
 }

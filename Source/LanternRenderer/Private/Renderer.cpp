@@ -12,6 +12,7 @@
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/FrameGraph/History.h"
 #include "LanternCore/Tasks/TaskTrace.h"
+#include "LanternCore/Tasks/WaitAwake.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternRenderer/Frame.h"
 #include "RayPrograms.h"
@@ -23,6 +24,10 @@ namespace Lantern
 
 namespace
 {
+TRTConsoleVariable<float> CVarAwakeMs("r.RT.Pipeline.AwakeMs", 20.0f,
+    "Longest time, in milliseconds, for which a frame waits for the GPU without sleep while pipelines compile. A thread that sleeps "
+    "beside compiling threads can be woken milliseconds late. 0: the frame sleeps. CPU devices always sleep.",
+    {0, 1000});
 TRTConsoleVariable<bool> CVarAlphaTest(
     "r.RT.AlphaTest", true, "Alpha tests of masked materials, in raster and under rays. Off: masked surfaces are solid.");
 TRTConsoleVariable<int32_t> CVarMaterialOverride("r.RT.Material.Override", 0,

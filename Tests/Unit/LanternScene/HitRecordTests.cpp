@@ -24,7 +24,11 @@ FRTPSODesc MakePrograms(uint32_t RayTypes, bool bMasked)
 {
 	FRTPSODesc Desc;
 	Desc.HitPrograms.push_back({StandardProgram, ERTHitClass::Opaque});
-	if (bMasked) { Desc.HitPrograms.push_back({StandardProgram, ERTHitClass::Masked}); }
+	if (bMasked)
+	{
+		Desc.HitPrograms.push_back({StandardProgram, ERTHitClass::Masked});
+		Desc.HitPrograms.push_back({StandardProgram, ERTHitClass::MaskedPlain});
+	}
 	Desc.RayGens = {MakeShader("Generate")};
 	for (uint32_t Type = 0; Type < RayTypes; ++Type)
 	{

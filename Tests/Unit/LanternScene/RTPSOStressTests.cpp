@@ -88,7 +88,7 @@ protected:
 				Instance.TableOffsetAndFlags = Section * Current->GetRayTypeCount();
 				const FRTMockRecord Record = Device->Mock().ResolveHit(Bindings->GetTable(), Instance, 0, Type, Current->GetRayTypeCount());
 				ASSERT_TRUE(Record.IsGood()) << Record.Error;
-				const bool bAnyHit = Hit.Class == ERTHitClass::Masked && !Current->IsMissing(Hit);
+				const bool bAnyHit = IsMasked(Hit.Class) && !Current->IsMissing(Hit);
 				ASSERT_EQ(!Record.AnyHit.empty(), bAnyHit);
 			}
 		}
@@ -112,7 +112,7 @@ protected:
 				const FRTMockRecord Record = Device->Mock().ResolveHit(Bindings->GetTable(), Instance, 0, Type, Current->GetRayTypeCount());
 				ASSERT_TRUE(Record.IsGood()) << Record.Error;
 				const bool bRuns = !Current->IsMissing(Hit);
-				const bool bMasked = Hit.Class == ERTHitClass::Masked;
+				const bool bMasked = IsMasked(Hit.Class);
 				ASSERT_EQ(Record.ClosestHit, bRuns && Type == 1 ? "MATERIAL.hit" + NameOf(Hit, Record.ClosestHit) : "");
 				ASSERT_EQ(Record.AnyHit, bRuns && bMasked ? (Type == 1 ? "MATERIAL.any" : "SHADOW.any") + NameOf(Hit, Record.AnyHit) : "");
 			}

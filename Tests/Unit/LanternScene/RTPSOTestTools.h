@@ -296,7 +296,7 @@ protected:
 		ASSERT_TRUE(Current);
 		EXPECT_EQ(Current->GetState(Program), ERTHitState::Ready) << Name;
 		const std::string Suffix = Program.Program == StandardProgram ? "" : " (" + Name + ")";
-		const bool bMasked = Program.Class == ERTHitClass::Masked;
+		const bool bMasked = IsMasked(Program.Class);
 		EXPECT_EQ(ResolveHit(*Current, 1, Program).ClosestHit, "MATERIAL.hit" + Suffix);
 		EXPECT_EQ(ResolveHit(*Current, 1, Program).AnyHit, bMasked ? "MATERIAL.any" + Suffix : "");
 		EXPECT_EQ(ResolveHit(*Current, 0, Program).ClosestHit, "");
@@ -307,7 +307,7 @@ protected:
 		const auto Current = Maker->GetCurrent();
 		ASSERT_TRUE(Current);
 		EXPECT_EQ(Current->GetState(Program), ERTHitState::StandIn);
-		const bool bMasked = Program.Class == ERTHitClass::Masked;
+		const bool bMasked = IsMasked(Program.Class);
 		EXPECT_EQ(ResolveHit(*Current, 1, Program).ClosestHit, "MATERIAL.hit (StandIn)");
 		EXPECT_EQ(ResolveHit(*Current, 1, Program).AnyHit, bMasked ? "MATERIAL.any (StandIn)" : "");
 		EXPECT_EQ(ResolveHit(*Current, 0, Program).AnyHit, bMasked ? "SHADOW.any (StandIn)" : "");

@@ -195,6 +195,36 @@ TEST_F(FSectionTableTest, AlphaTestsOffMakeEverythingOpaque)
 	}
 }
 
+/// A plain section has the shorter any-hit shader; whatever that shader leaves out takes the section to the general one.
+TEST_F(FSectionTableTest, PlainAlphaTestHasAHitGroupOfItsOwn)
+{
+	FGeometryOptions Options;
+	Options.bOpaque = false;
+	Options.bOpaqueVertices = true;
+	const auto GetClass = [&](FSectionRangeId Id) { return Table.GetHitProgram(FirstOf(Id)).Class; };
+	FMaterialData Plain = MakeMaterial(MATERIAL_MASKED);
+	Plain.UVTransform[TEXTURE_BASE_COLOR] = glm::vec4(1, 0, 0, 1);
+	Edit(0, Plain);
+	const FRTGeometryRef Leaf = MakeGeometry("Leaf", 1, Options);
+	const FSectionRangeId Id = Acquire(Leaf, {0});
+	EXPECT_EQ(GetClass(Id), ERTHitClass::MaskedPlain);
+	EXPECT_NE(Table.Get(FirstOf(Id)).Flags & SECTION_MASKED, 0u);
+	EXPECT_TRUE(Table.GetRange(Id).bMasked);
+	FMaterialData Moved = Plain;
+	Moved.UVOffset[TEXTURE_BASE_COLOR] = {0.5f, 0};
+	Edit(0, Moved);
+	EXPECT_EQ(GetClass(Id), ERTHitClass::Masked) << "the texture is moved";
+	Programs.assign(10, 3);
+	Edit(0, Plain);
+	EXPECT_EQ(Table.GetHitProgram(FirstOf(Id)), (FHitProgram{3, ERTHitClass::Masked})) << "another program";
+	Programs.assign(10, StandardProgram);
+	Edit(0, MakeMaterial());
+	EXPECT_EQ(GetClass(Id), ERTHitClass::Opaque);
+	Edit(0, Plain);
+	Options.bOpaqueVertices = false;
+	EXPECT_EQ(GetClass(Acquire(MakeGeometry("Fading leaf", 1, Options), {0})), ERTHitClass::Masked) << "alpha of vertices";
+}
+
 TEST_F(FSectionTableTest, ClassifiedSectionHasARecordForItsOpaqueTriangles)
 {
 	FGeometryOptions Options;

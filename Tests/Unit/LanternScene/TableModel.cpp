@@ -13,7 +13,7 @@ namespace
 FGroupNames MakeNames(const std::string& Stem, ERTHitClass Class, uint32_t RayType)
 {
 	const std::string Name = Stem + ".t" + std::to_string(RayType);
-	return {Name + ".hit", Class == ERTHitClass::Masked ? Name + ".any" : "", Class == ERTHitClass::Procedural ? Name + ".int" : ""};
+	return {Name + ".hit", IsMasked(Class) ? Name + ".any" : "", Class == ERTHitClass::Procedural ? Name + ".int" : ""};
 }
 
 std::string StemOf(FHitProgram Program)

@@ -83,13 +83,18 @@ FPipelineUnit MakeHitUnit(const FRTPSODesc& Desc, uint32_t RayType, FHitProgram 
 		return Unit;
 	}
 	Unit.Key = "hit " + std::to_string(Program.Program) + (Program.Class == ERTHitClass::Procedural ? " procedural:" : ":");
-	constexpr const char* Classes[HitClassCount] = {" opaque", " masked", " procedural"};
+	constexpr const char* Classes[HitClassCount] = {" opaque", " masked", " procedural", " plainly masked"};
 	Unit.Name = Programs.Get(Program.Program).Name + ' ' + Type.Name + Classes[static_cast<uint32_t>(Program.Class)];
 	Unit.Version = Programs.GetRevision(Program.Program);
 	Unit.Program = Programs.Share(Program.Program);
 	Unit.Kind = Program.Class == ERTHitClass::Procedural ? ERTGroupKind::Procedural : ERTGroupKind::Triangles;
 	if (Type.ClosestHit) { AddShader(Unit, *Type.ClosestHit, ERTShaderStage::ClosestHit); }
-	if (Program.Class == ERTHitClass::Masked) { AddShader(Unit, Type.MaskedAnyHit, ERTShaderStage::AnyHit); }
+	if (IsMasked(Program.Class))
+	{
+		FShaderSource Source = Type.MaskedAnyHit;
+		if (Program.Class == ERTHitClass::MaskedPlain) { Source.Defines.emplace_back("PLAIN_OPACITY", "1"); }
+		AddShader(Unit, std::move(Source), ERTShaderStage::AnyHit);
+	}
 	if (Program.Class == ERTHitClass::Procedural)
 	{
 		FShaderSource Source;

@@ -23,6 +23,11 @@ void AddTriangles(const FRTGeometry& Geometry, const FRTGeometryPart& Part, FSec
 	Data.Flags |= Indices & 2 ? SECTION_INDEX_ODD : 0u;
 }
 
+bool MayBePieces(const FRTGeometry& Geometry, const FRTGeometryPart& Part)
+{
+	return Part.bPieces || Geometry.GetInfo().Sections[Part.Section].PieceCount > 0;
+}
+
 /// Tells whether the alpha test needs neither a transform of texture coordinates nor the alpha of vertices.
 bool HasPlainOpacity(const FRTGeometryInfo& Info, const FMaterialData& Material)
 {
@@ -31,18 +36,22 @@ bool HasPlainOpacity(const FRTGeometryInfo& Info, const FMaterialData& Material)
 }
 } // namespace
 
-ERTHitClass GetHitClass(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part, uint32_t Material)
+FHitProgram ChooseHitProgram(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part, uint32_t Material)
 {
-	if (Geometry.GetInfo().Sections[Part.Section].bProcedural) { return ERTHitClass::Procedural; }
+	const uint32_t Program = Material < Context.Programs.size() ? Context.Programs[Material] : StandardProgram;
+	if (Geometry.GetInfo().Sections[Part.Section].bProcedural) { return {Program, ERTHitClass::Procedural}; }
 	const bool bAlphaTest = Context.bAlphaTest && Context.Override != 2;
-	return bAlphaTest && !Part.bOpaque && (Context.Materials[Material].Flags & MATERIAL_MASKED) ? ERTHitClass::Masked : ERTHitClass::Opaque;
+	const FMaterialData& Data = Context.Materials[Material];
+	if (!bAlphaTest || Part.bOpaque || (Data.Flags & MATERIAL_MASKED) == 0) { return {Program, ERTHitClass::Opaque}; }
+	const bool bPlain = Program == StandardProgram && HasPlainOpacity(Geometry.GetInfo(), Data) && !MayBePieces(Geometry, Part);
+	return {Program, bPlain ? ERTHitClass::MaskedPlain : ERTHitClass::Masked};
 }
 
 FSectionData MakeSection(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part, uint32_t MaterialIndex)
 {
 	const FRTGeometryInfo& Info = Geometry.GetInfo();
 	const FMaterialData& Material = Context.Materials[MaterialIndex];
-	const ERTHitClass Class = GetHitClass(Context, Geometry, Part, MaterialIndex);
+	const ERTHitClass Class = ChooseHitProgram(Context, Geometry, Part, MaterialIndex).Class;
 	FSectionData Data{};
 	if (Class == ERTHitClass::Procedural)
 	{
@@ -50,7 +59,7 @@ FSectionData MakeSection(const FSectionContext& Context, const FRTGeometry& Geom
 	}
 	else { AddTriangles(Geometry, Part, Data); }
 	Data.Material = MaterialIndex;
-	Data.Flags |= Class == ERTHitClass::Masked ? SECTION_MASKED : 0u;
+	Data.Flags |= IsMasked(Class) ? SECTION_MASKED : 0u;
 	Data.Flags |= Info.Sections[Part.Section].PieceCount > 0 ? SECTION_PIECES : 0u;
 	Data.Flags |= Part.bPieces ? SECTION_IS_PIECES : 0u;
 	Data.Flags |= Material.UVSets & (1u << TEXTURE_BASE_COLOR) ? SECTION_OPACITY_UV1 : 0u;

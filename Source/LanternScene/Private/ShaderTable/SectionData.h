@@ -6,8 +6,9 @@
 namespace Lantern
 {
 
-/// Returns Masked only if any-hit shaders can run: not for parts that the geometry states as opaque.
-ERTHitClass GetHitClass(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part, uint32_t Material);
+/// Returns the program of Material, and the class of hit group that the part needs of it. The class is masked only if any-hit
+/// shaders can run: not for parts that the geometry states as opaque.
+FHitProgram ChooseHitProgram(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part, uint32_t Material);
 /// Material is that of the part's section.
 FSectionData MakeSection(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part, uint32_t Material);
 

@@ -229,9 +229,7 @@ void FSectionTable::FillPart(FSectionRangeId Id, uint32_t Part)
 	const FSectionRange& Range = Ranges[Id];
 	const FRTGeometryPart& Where = Range.Geometry->GetParts()[Part];
 	const uint32_t Material = Range.Materials[Where.Section];
-	FHitProgram Program;
-	Program.Program = Material < Context.Programs.size() ? Context.Programs[Material] : StandardProgram;
-	Program.Class = GetHitClass(Context, *Range.Geometry, Where, Material);
+	const FHitProgram Program = ChooseHitProgram(Context, *Range.Geometry, Where, Material);
 	if (Write(Range.First + Part, MakeSection(Context, *Range.Geometry, Where, Material), Program))
 	{
 		MarkRange(Id); // the new program's shaders may be missing
