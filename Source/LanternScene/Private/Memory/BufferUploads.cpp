@@ -16,7 +16,8 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<int32_t> CVarStaging("r.RT.Upload.StagingMB", 64,
-    "Staging memory for new meshes, MiB. Meshes that find no room in it wait on the CPU. Renderers that are created later use it.",
+    "Limits the staging memory for new meshes, MiB. Meshes that find no room in it wait on the CPU. Renderers that are created later use "
+    "it.",
     {1, 4096});
 TRTConsoleVariable<int32_t> CVarPerFrame("r.RT.Upload.MBPerFrame", 16,
     "Limits the data of new meshes that a frame copies to the GPU, MiB; at least one piece is copied.", {1, 4096});
@@ -28,13 +29,15 @@ constexpr uint64_t MostChunkBytes = 1 << 20;
 constexpr uint64_t LeastChunkBytes = 64 << 10;
 constexpr size_t MostChunksPerFrame = 512;
 constexpr uint64_t RingAlignment = 16;
+constexpr uint64_t FirstRingBytes = 1 << 20;
+constexpr uint64_t RingGrowth = 4;
 
 uint64_t Align(uint64_t Value) { return (Value + RingAlignment - 1) & ~(RingAlignment - 1); }
 } // namespace
 
 FBufferUploads::FBufferUploads(IRTDevice& InDevice)
     : Device(InDevice),
-      RingSize(static_cast<uint64_t>(std::get<int32_t>(CVarStaging.GetValue())) << 20)
+      LargestRing(static_cast<uint64_t>(std::get<int32_t>(CVarStaging.GetValue())) << 20)
 {}
 
 FBufferUploads::~FBufferUploads()
@@ -49,12 +52,31 @@ FBufferUploads::~FBufferUploads()
 
 // ---------------------------------------------------------------------------------------------------- any thread
 
+FRTStatus FBufferUploads::SetRing(uint64_t Size)
+{
+	TRTRef<IRTBuffer> New;
+	const FRTBufferDesc Desc{Size, ERTBufferUsage::CopySource, ERTMemory::Upload, "Staging"};
+	if (FRTStatus Status = Device.CreateBuffer(Desc, New.ReleaseAndGetAddress()); !Status) { return Status; }
+	std::lock_guard Lock(Mutex);
+	Ring = std::move(New);
+	RingSize = Size;
+	Head = Used = 0;
+	return FRTStatus::Success();
+}
+
 FRTStatus FBufferUploads::MakeRing()
 {
 	std::lock_guard Turn(StageMutex);
-	if (Ring) { return FRTStatus::Success(); }
-	const FRTBufferDesc Desc{RingSize, ERTBufferUsage::CopySource, ERTMemory::Upload, "Staging"};
-	return Device.CreateBuffer(Desc, Ring.ReleaseAndGetAddress());
+	if (bRing.load(std::memory_order_relaxed)) { return FRTStatus::Success(); }
+	const FRTStatus Status = SetRing(std::min(FirstRingBytes, LargestRing));
+	bRing.store(Status.IsOk(), std::memory_order_release);
+	return Status;
+}
+
+bool FBufferUploads::Grow()
+{
+	// Chunks keep the ring that they lie in.
+	return RingSize < LargestRing && SetRing(std::min(RingSize * RingGrowth, LargestRing)).IsOk();
 }
 
 FRTStatus FBufferUploads::Add(const FBufferUploadRef& Upload)
@@ -62,7 +84,6 @@ FRTStatus FBufferUploads::Add(const FBufferUploadRef& Upload)
 	if (!bRing.load(std::memory_order_acquire))
 	{
 		if (FRTStatus Status = MakeRing(); !Status) { return Status; }
-		bRing.store(true, std::memory_order_release);
 	}
 	{
 		std::lock_guard Lock(Mutex);
@@ -101,22 +122,36 @@ void FBufferUploads::Stage()
 	for (;;)
 	{
 		FChunk Chunk;
+		if (!NextChunk(Chunk))
 		{
-			std::lock_guard Lock(Mutex);
-			if (Waiting.empty() || bStop) { return; }
-			FWaiting& First = Waiting.front();
-			if (!TakeRoom(First.Upload->Bytes - First.Done, Chunk)) { return; }
-			Chunk.Upload = First.Upload;
-			Chunk.DestOffset = First.Done;
-			First.Done += Chunk.Size;
-			Chunk.bLast = First.Done == First.Upload->Bytes;
-			if (Chunk.bLast) { Waiting.pop_front(); }
+			bool bFull = false;
+			{
+				std::lock_guard Lock(Mutex);
+				bFull = !Waiting.empty() && !bStop;
+			}
+			if (!bFull || !Grow()) { return; }
+			continue;
 		}
-		Chunk.Upload->Copy(Chunk.DestOffset, Chunk.Size, static_cast<uint8_t*>(Ring->GetMapped()) + Chunk.RingOffset);
+		Chunk.Upload->Copy(Chunk.DestOffset, Chunk.Size, static_cast<uint8_t*>(Chunk.Ring->GetMapped()) + Chunk.RingOffset);
 		if (Chunk.bLast) { Chunk.Upload->Copy = nullptr; }
 		std::lock_guard Lock(Mutex);
 		Staged.push_back(std::move(Chunk));
 	}
+}
+
+bool FBufferUploads::NextChunk(FChunk& Out)
+{
+	std::lock_guard Lock(Mutex);
+	if (Waiting.empty() || bStop) { return false; }
+	FWaiting& First = Waiting.front();
+	if (!TakeRoom(First.Upload->Bytes - First.Done, Out)) { return false; }
+	Out.Ring = Ring;
+	Out.Upload = First.Upload;
+	Out.DestOffset = First.Done;
+	First.Done += Out.Size;
+	Out.bLast = First.Done == First.Upload->Bytes;
+	if (Out.bLast) { Waiting.pop_front(); }
+	return true;
 }
 
 void FBufferUploads::RunStager()
@@ -161,7 +196,7 @@ void FBufferUploads::ReleaseRoom(const std::vector<FChunk>& Chunks)
 	bool bMore = false;
 	{
 		std::lock_guard Lock(Mutex);
-		for (const FChunk& Chunk : Chunks) { Used -= Chunk.RingBytes; }
+		for (const FChunk& Chunk : Chunks) { Used -= Chunk.Ring == Ring ? Chunk.RingBytes : 0; }
 		bWake |= !Waiting.empty();
 		bMore = bWake;
 	}
@@ -191,7 +226,7 @@ void FBufferUploads::RecordCopies(IRTCommandList& List, const std::vector<FChunk
 {
 	for (const FChunk& Chunk : Chunks)
 	{
-		List.CopyBuffer(Chunk.Upload->Buffer.Get(), Chunk.DestOffset, Ring.Get(), Chunk.RingOffset, Chunk.Size);
+		List.CopyBuffer(Chunk.Upload->Buffer.Get(), Chunk.DestOffset, Chunk.Ring.Get(), Chunk.RingOffset, Chunk.Size);
 	}
 }
 

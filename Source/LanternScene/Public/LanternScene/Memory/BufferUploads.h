@@ -59,6 +59,7 @@ private:
 	struct FChunk
 	{
 		FBufferUploadRef Upload;
+		TRTRef<IRTBuffer> Ring; ///< the one of its time
 		uint64_t DestOffset = 0, RingOffset = 0, Size = 0;
 		uint64_t RingBytes = 0; ///< taken of the ring, with what was left over at its end
 		bool bLast = false;     ///< of its buffer
@@ -71,11 +72,17 @@ private:
 		TRTRef<IRTCommandList> List; ///< of the queue for copies; null: the frame's
 	};
 
+	/// Makes the first ring.
 	FRTStatus MakeRing();
+	/// Takes a larger ring from now on. StageMutex must be held. False: there is none.
+	bool Grow();
+	FRTStatus SetRing(uint64_t Size);
 	/// Mutex must be held. False: there is no room.
 	bool TakeRoom(uint64_t Wanted, FChunk& Out);
 	/// Fills the ring until nothing waits or there is no room. One thread at a time; others leave it to that one.
 	void Stage();
+	/// False: nothing waits, or there is no room.
+	bool NextChunk(FChunk& Out);
 	void RunStager();
 	std::vector<FChunk> TakeStaged();
 	void ReleaseRoom(const std::vector<FChunk>& Chunks);
@@ -86,14 +93,15 @@ private:
 	void RecordCopies(IRTCommandList& List, const std::vector<FChunk>& Chunks);
 
 	IRTDevice& Device;
-	std::mutex StageMutex; ///< of whoever copies into the ring
-	TRTRef<IRTBuffer> Ring;
+	std::mutex StageMutex;           ///< of whoever copies into the ring
 	std::atomic<bool> bRing = false; ///< Ring is there
-	const uint64_t RingSize;
+	const uint64_t LargestRing;
 
 	std::mutex Mutex; ///< of the next members; held for moments only
 	std::deque<FWaiting> Waiting;
 	std::deque<FChunk> Staged;
+	TRTRef<IRTBuffer> Ring;
+	uint64_t RingSize = 0;
 	uint64_t Head = 0, Used = 0; ///< of the ring: where the next chunk begins, and bytes taken before it
 	bool bStop = false, bWake = false;
 	std::condition_variable Wake;
