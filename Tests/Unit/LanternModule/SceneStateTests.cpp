@@ -1,4 +1,7 @@
 // FSceneCalls and FSceneState without a module around them: what a frame looks at follows what changed, not what there is.
+#include <atomic>
+#include <thread>
+
 #include <gtest/gtest.h>
 
 #include "LanternRHIMock/MockDevice.h"
@@ -75,6 +78,37 @@ TEST_F(FSceneStateTest, AFrameVisitsTheMeshesThatChanged)
 	EXPECT_EQ(State->GetVisitedMeshes(), 3u);
 	EXPECT_EQ(Frame(), 0u);
 	EXPECT_EQ(State->GetVisitedMeshes(), 0u);
+}
+
+TEST_F(FSceneStateTest, ThreadsCallWhileFramesRun)
+{
+	std::atomic<uint32_t> Running = 3;
+	const auto Stream = [&] {
+		for (int Round = 0; Round < 100; ++Round)
+		{
+			const ERTMeshHandle Mesh = AddMesh();
+			FRTModuleObject Object;
+			Object.Mesh = Mesh;
+			Object.Materials = &Material;
+			Object.MaterialCount = 1;
+			ERTObjectHandle Handle = ERTObjectHandle::None;
+			EXPECT_TRUE(Calls->AddObjects(&Object, 1, &Handle));
+			EXPECT_TRUE(Calls->UpdateMeshVertices(Mesh, Positions, nullptr));
+			EXPECT_TRUE(Calls->SetObjectCastsShadow(Handle, Round % 2 == 0));
+			EXPECT_TRUE(Calls->RemoveObject(Handle));
+			EXPECT_TRUE(Calls->RemoveMesh(Mesh));
+		}
+		--Running;
+	};
+	std::vector<std::thread> Threads;
+	for (uint32_t Thread = 0; Thread < 3; ++Thread) { Threads.emplace_back(Stream); }
+	do {
+		Frame();
+	}
+	while (Running > 0);
+	for (std::thread& Thread : Threads) { Thread.join(); }
+	Frame();
+	EXPECT_EQ(Scene->RefreshFacts().Objects, 0u);
 }
 
 TEST_F(FSceneStateTest, AMaterialThatBecomesMaskedIsOneCommand)
