@@ -110,14 +110,17 @@ public:
 	FRTStatus CreateScene(const FRTSceneDesc& D, IRTScene** O) override { return Inner->CreateScene(D, O); }
 	FRTStatus CreateShaderTable(const FRTShaderTableDesc& D, IRTShaderTable** O) override { return Inner->CreateShaderTable(D, O); }
 	FRTStatus CreateQueryPool(ERTQuery K, uint32_t C, IRTQueryPool** O) override { return Inner->CreateQueryPool(K, C, O); }
-	FRTStatus CreateCommandList(const char* N, IRTCommandList** O, ERTQueue Q) override { return Inner->CreateCommandList(N, O, Q); }
+	FRTStatus CreateCommandList(const char* N, IRTCommandList** O, ERTQueue Q = ERTQueue::Graphics) override
+	{
+		return Inner->CreateCommandList(N, O, Q);
+	}
 	FRTStatus ImportCommandList(uint64_t N, IRTCommandList** O) override { return Inner->ImportCommandList(N, O); }
 	FRTStatus Submit(IRTCommandList* const* L, uint32_t C, FRTFence* O) override { return Inner->Submit(L, C, O); }
 	FRTStatus NotifyExternalSubmit(IRTCommandList* const* L, uint32_t C, FRTFence* O) override
 	{
 		return Inner->NotifyExternalSubmit(L, C, O);
 	}
-	FRTFence GetCompletedFence(ERTQueue Q) override { return Inner->GetCompletedFence(Q); }
+	FRTFence GetCompletedFence(ERTQueue Q = ERTQueue::Graphics) override { return Inner->GetCompletedFence(Q); }
 	FRTStatus WaitFor(FRTFence F, uint64_t T) override { return Inner->WaitFor(F, T); }
 	FRTStatus WaitIdle() override { return Inner->WaitIdle(); }
 	void CollectGarbage() override { Inner->CollectGarbage(); }
