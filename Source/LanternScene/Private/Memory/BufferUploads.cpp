@@ -273,17 +273,26 @@ FRTStatus FBufferUploads::Record(IRTCommandList& List, std::vector<FBufferUpload
 		Chunks.clear();
 	}
 	CollectBatches();
-	RecordCopies(List, Chunks);
 	// Named one by one: a barrier of memory as such would move what others hold in the same state.
-	std::vector<FRTBarrier> Barriers;
-	const auto Acquire = [&](const FBufferUploadRef& Upload) {
-		Barriers.push_back({Upload->Buffer.Get(), nullptr, ERTAccess::CopyWrite, UploadedAccess});
-		OutFilled.push_back(Upload);
-	};
-	for (const FBufferUploadRef& Upload : Copied) { Acquire(Upload); }
+	std::vector<FRTBarrier> Before, Barriers;
+	const IRTBuffer* Last = nullptr; // pieces of a buffer lie together
 	for (const FChunk& Chunk : Chunks)
 	{
-		if (Chunk.bLast) { Acquire(Chunk.Upload); }
+		IRTBuffer* const Buffer = Chunk.Upload->Buffer.Get();
+		if (std::exchange(Last, Buffer) == Buffer) { continue; }
+		if (Chunk.DestOffset > 0) { Before.push_back({Buffer, nullptr, UploadedAccess, ERTAccess::CopyWrite}); }
+		Barriers.push_back({Buffer, nullptr, ERTAccess::CopyWrite, UploadedAccess});
+	}
+	if (!Before.empty()) { List.Barriers(Before.data(), static_cast<uint32_t>(Before.size())); }
+	RecordCopies(List, Chunks);
+	for (const FBufferUploadRef& Upload : Copied)
+	{
+		Barriers.push_back({Upload->Buffer.Get(), nullptr, ERTAccess::CopyWrite, UploadedAccess});
+		OutFilled.push_back(Upload);
+	}
+	for (const FChunk& Chunk : Chunks)
+	{
+		if (Chunk.bLast) { OutFilled.push_back(Chunk.Upload); }
 	}
 	if (!Barriers.empty()) { List.Barriers(Barriers.data(), static_cast<uint32_t>(Barriers.size())); }
 	Acquired = std::exchange(Copied, {});
