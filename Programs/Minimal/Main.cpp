@@ -114,8 +114,9 @@ int main(int Count, char** Arguments)
 	TRTRef<IRTModule> Module;
 	Require(Create != nullptr && Create(ModuleVersion, Module.ReleaseAndGetAddress()) == 0, "the library has another version");
 	Check(Module->Initialize({ConfigFolder.c_str(), ShaderFolder.c_str()}));
-	Check(Module->SetConsoleVariable("r.RT.Pipeline.Fallback", "2")); // a frame waits for its shaders
-	TRTRef<IRTDevice> Device;                                         // or AdoptDevice, for an engine's VkDevice
+	Check(Module->SetConsoleVariable("r.RT.Pipeline.Fallback", "2"));    // a frame waits for its shaders
+	Check(Module->SetConsoleVariable("r.RT.Upload.TransferQueue", "0")); // and finds its meshes
+	TRTRef<IRTDevice> Device;                                            // or AdoptDevice, for an engine's VkDevice
 	Check(Module->CreateDevice(bValidate, Device.ReleaseAndGetAddress()));
 	TRTRef<IRTModuleRenderer> Renderer;
 	Check(Module->CreateRenderer(Device.Get(), Renderer.ReleaseAndGetAddress()));

@@ -34,7 +34,7 @@ TEST_F(BenchProgram, FiguresNameTheDeviceAndTheTimes)
 TEST_F(BenchProgram, FileThatCannotBeWrittenEndsItBeforeAnyWork)
 {
 	const std::vector<std::vector<std::string>> Benches = {
-	    {"rays"}, {"anyhit"}, {"sbt", "--mock"}, {"frame", "--mock"}, {"gather"}, {"shaders"}};
+	    {"rays"}, {"anyhit"}, {"sbt", "--mock"}, {"frame", "--mock"}, {"gather"}, {"shaders"}, {"uploads", "--mock"}};
 	for (const std::vector<std::string>& Bench : Benches)
 	{
 		std::vector<std::string> Arguments = {"bench"};

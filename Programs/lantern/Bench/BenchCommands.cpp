@@ -10,6 +10,7 @@
 #include "Bench/BenchRaysCommand.h"
 #include "Bench/BenchShaders.h"
 #include "Bench/BenchTables.h"
+#include "Bench/BenchUploads.h"
 
 namespace Lantern
 {
@@ -23,6 +24,7 @@ struct FBenchCommands::FOptions
 	FBenchGatherOptions BenchGather;
 	FBenchPipelinesOptions BenchPipelines;
 	FBenchShadersOptions BenchShaders;
+	FBenchUploadsOptions BenchUploads;
 };
 
 FBenchCommands::FBenchCommands() : Options(std::make_unique<FOptions>()) {}
@@ -56,6 +58,9 @@ void FBenchCommands::AddTo(CLI::App& App, int& Status)
 	CLI::App* const Shaders = Command->add_subcommand("shaders", "What each shader costs to compile, dearest first; caches are off");
 	Options->BenchShaders.AddTo(*Shaders);
 	Shaders->final_callback([&Options = Options->BenchShaders, &Status] { Status = RunBenchShaders(Options); });
+	CLI::App* const Uploads = Command->add_subcommand("uploads", "What the render thread notices of meshes that a thread streams in");
+	Options->BenchUploads.AddTo(*Uploads);
+	Uploads->final_callback([&Options = Options->BenchUploads, &Status] { Status = RunBenchUploads(Options); });
 }
 
 } // namespace Lantern

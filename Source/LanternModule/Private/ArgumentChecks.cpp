@@ -24,6 +24,21 @@ bool AreFinite(const T* Values, size_t Count)
 
 FRTStatus Refuse(const char* Reason) { return FRTStatus::Error(ERTResult::InvalidArgument, "%s", Reason); }
 
+FRTStatus CheckMap(const FRTModuleMap& Map, const char* Name)
+{
+	constexpr uint32_t MostSamplers = 256; // a texture slot has 8 bits for them
+	const auto Fail = [&](const char* Reason) {
+		return FRTStatus::Error(ERTResult::InvalidArgument, "FRTModuleMaterial::%s %s", Name, Reason);
+	};
+	if (Map.Texture == nullptr) { return FRTStatus::Success(); }
+	if (Map.Texture->GetSampledIndex() == ~0u) { return Fail("has a texture that was created without Sampled"); }
+	if (Map.Sampler == nullptr) { return Fail("needs a sampler"); }
+	if (Map.Sampler->GetIndex() >= MostSamplers) { return Fail("has a sampler that is not one of the device's first 256"); }
+	if (Map.UVSet > 1) { return Fail("has another UVSet than 0 and 1"); }
+	const bool bFinite = AreFinite(Map.UVMatrix, 4) && AreFinite(Map.UVOffset, 2);
+	return bFinite ? FRTStatus::Success() : Fail("has a UVMatrix or UVOffset that is not finite");
+}
+
 } // namespace
 
 FRTStatus CheckSky(const float Radiance[3])
@@ -51,9 +66,34 @@ FRTStatus CheckSun(const FRTModuleSun& Sun)
 	return FRTStatus::Success();
 }
 
+FRTStatus CheckLight(const FRTModuleLight& Light)
+{
+	const bool bDirected = Light.Type != ERTModuleLight::Point;
+	const float Length = length(glm::vec3(Light.Direction[0], Light.Direction[1], Light.Direction[2]));
+	if (Light.Type > ERTModuleLight::Directional) { return Refuse("FRTModuleLight::Type is none"); }
+	if (Light.Type != ERTModuleLight::Directional && !AreFinite(Light.Position, 3))
+	{
+		return Refuse("FRTModuleLight::Position is not finite");
+	}
+	if (bDirected && (!(Length > 0.0f) || !std::isfinite(Length))) { return Refuse("FRTModuleLight::Direction is zero or not finite"); }
+	if (!std::all_of(Light.Color, Light.Color + 3, [](float C) { return std::isfinite(C) && C >= 0.0f; }))
+	{
+		return Refuse("FRTModuleLight::Color must be finite and not negative");
+	}
+	if (!(Light.Range >= 0.0f) || !std::isfinite(Light.Range)) { return Refuse("FRTModuleLight::Range must be finite and not negative"); }
+	const bool bCones = Light.InnerCone >= 0.0f && Light.InnerCone < Light.OuterCone && Light.OuterCone <= glm::half_pi<float>();
+	if (Light.Type == ERTModuleLight::Spot && !bCones) { return Refuse("FRTModuleLight: 0 ≤ InnerCone < OuterCone ≤ pi/2 does not hold"); }
+	return FRTStatus::Success();
+}
+
 FRTStatus CheckTransform(const double Transform[12])
 {
 	return Transform != nullptr && AreFinite(Transform, 12) ? FRTStatus::Success() : Refuse("an object's transform is null or not finite");
+}
+
+std::array<const FRTModuleMap*, MaterialMapCount> GetMaps(const FRTModuleMaterial& Material)
+{
+	return {&Material.BaseColorMap, &Material.MetallicRoughnessMap, &Material.NormalMap, &Material.OcclusionMap, &Material.EmissiveMap};
 }
 
 FRTStatus CheckMaterial(const FRTModuleMaterial& Material)
@@ -64,7 +104,9 @@ FRTStatus CheckMaterial(const FRTModuleMaterial& Material)
 	{
 		return Refuse("FRTModuleMaterial::BaseColor and Emissive must be finite and not negative");
 	}
-	for (const auto& [Value, Name] : {std::pair(Material.Metallic, "Metallic"), std::pair(Material.Roughness, "Roughness")})
+	const std::pair<float, const char*> Shares[] = {{Material.Metallic, "Metallic"}, {Material.Roughness, "Roughness"},
+	    {Material.OcclusionStrength, "OcclusionStrength"}, {Material.Specular, "Specular"}, {Material.Transmission, "Transmission"}};
+	for (const auto& [Value, Name] : Shares)
 	{
 		if (!(Value >= 0.0f && Value <= 1.0f))
 		{
@@ -73,11 +115,11 @@ FRTStatus CheckMaterial(const FRTModuleMaterial& Material)
 		}
 	}
 	if (!std::isfinite(Material.AlphaCutoff)) { return Refuse("FRTModuleMaterial::AlphaCutoff is not finite"); }
-	if (Material.BaseColorTexture == nullptr) { return FRTStatus::Success(); }
-	if (Material.BaseColorSampler == nullptr) { return Refuse("FRTModuleMaterial::BaseColorSampler is null beside a texture"); }
-	if (Material.BaseColorTexture->GetSampledIndex() == ~0u)
+	if (!std::isfinite(Material.NormalScale)) { return Refuse("FRTModuleMaterial::NormalScale is not finite"); }
+	if (!(Material.Ior >= 1.0f) || !std::isfinite(Material.Ior)) { return Refuse("FRTModuleMaterial::Ior must be finite and at least 1"); }
+	if (!std::all_of(Material.EmissiveMapMean, Material.EmissiveMapMean + 3, IsLight))
 	{
-		return Refuse("FRTModuleMaterial::BaseColorTexture lacks ERTTextureUsage::Sampled");
+		return Refuse("FRTModuleMaterial::EmissiveMapMean must be finite and not negative");
 	}
 	uint32_t Slot = NO_TEXTURE;
 	if (!MakeTextureSlot(Material.BaseColorTexture->GetSampledIndex(), Material.BaseColorSampler->GetIndex(), Slot))

@@ -1,6 +1,8 @@
 // What an engine hands over, checked before anything is done with it. Each: Ok, or InvalidArgument saying what is wrong.
 #pragma once
 
+#include <array>
+
 #include "LanternModule/Module.h"
 
 namespace Lantern
@@ -8,8 +10,13 @@ namespace Lantern
 
 FRTStatus CheckSun(const FRTModuleSun& Sun);
 FRTStatus CheckSky(const float Radiance[3]);
+FRTStatus CheckLight(const FRTModuleLight& Light);
 FRTStatus CheckTransform(const double Transform[12]);
 FRTStatus CheckMaterial(const FRTModuleMaterial& Material);
+
+inline constexpr size_t MaterialMapCount = 5;
+/// In the order of TEXTURE_… in SceneTypes.h.
+std::array<const FRTModuleMap*, MaterialMapCount> GetMaps(const FRTModuleMaterial& Material);
 
 /// InvalidArgument: Function was given null for Argument.
 FRTStatus RefuseNull(const char* Function, const char* Argument);

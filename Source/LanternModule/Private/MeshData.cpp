@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include <glm/gtc/packing.hpp>
 
+#include "ArgumentChecks.h"
 #include "LanternRHI/RTText.h"
 
 namespace Lantern
@@ -25,6 +27,12 @@ bool IsSectionSound(const FRTModuleSection& Section, uint32_t IndexCount)
 	       Section.IndexCount <= IndexCount - Section.FirstIndex;
 }
 
+/// Null is finite.
+bool AreFinite(const float* Values, size_t Count)
+{
+	return Values == nullptr || std::all_of(Values, Values + Count, [](float Value) { return std::isfinite(Value); });
+}
+
 /// Before anything is read: counts that can be, and arrays for them.
 FRTStatus CheckCounts(const FRTModuleMesh& Mesh)
 {
@@ -35,7 +43,14 @@ FRTStatus CheckCounts(const FRTModuleMesh& Mesh)
 		return Refuse(Mesh, "IndexCount is 0, above MaxMeshIndices, or no multiple of 3");
 	}
 	if (Mesh.SectionCount > Mesh.IndexCount / 3) { return Refuse(Mesh, "has more sections than triangles"); }
-	return Mesh.Indices != nullptr ? FRTStatus::Success() : Refuse(Mesh, "Indices is null");
+	const bool bIndices = (Mesh.Indices != nullptr) != (Mesh.Indices16 != nullptr);
+	return bIndices ? FRTStatus::Success() : Refuse(Mesh, "Indices is null, or Indices16 is there beside it");
+}
+
+FRTStatus CheckBounds(const FRTModuleMesh& Mesh)
+{
+	const bool bCenter = std::all_of(Mesh.BoundsCenter, Mesh.BoundsCenter + 3, [](float Value) { return std::isfinite(Value); });
+	return bCenter && std::isfinite(Mesh.BoundsRadius) ? FRTStatus::Success() : Refuse(Mesh, "BoundsCenter or BoundsRadius is not finite");
 }
 
 /// Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", JCGT 2014.
@@ -54,61 +69,69 @@ uint32_t PackOctahedral(glm::vec3 N)
 glm::vec3 ReadVector(const float* Data, uint32_t Index) { return {Data[Index * 3], Data[Index * 3 + 1], Data[Index * 3 + 2]}; }
 
 /// Sum of the normals of the triangles around each vertex, weighted by area.
-std::vector<glm::vec3> MakeNormals(const FRTModuleMesh& Mesh)
+std::vector<glm::vec3> MakeNormals(const FMeshShape& Shape, const glm::vec3* Positions)
 {
-	std::vector<glm::vec3> Normals(Mesh.VertexCount, glm::vec3(0));
-	for (uint32_t First = 0; First + 2 < Mesh.IndexCount; First += 3)
+	std::vector<glm::vec3> Normals(Shape.Positions.size(), glm::vec3(0));
+	for (size_t First = 0; First + 2 < Shape.Indices.size(); First += 3)
 	{
-		const uint32_t* Corner = Mesh.Indices + First;
-		const glm::vec3 A = ReadVector(Mesh.Positions, Corner[0]);
-		const glm::vec3 B = ReadVector(Mesh.Positions, Corner[1]);
-		const glm::vec3 C = ReadVector(Mesh.Positions, Corner[2]);
-		const glm::vec3 Area = cross(B - A, C - A);
+		const uint32_t* const Corner = &Shape.Indices[First];
+		const glm::vec3 A = Positions[Corner[0]];
+		const glm::vec3 Area = cross(Positions[Corner[1]] - A, Positions[Corner[2]] - A);
 		for (uint32_t I = 0; I < 3; ++I) { Normals[Corner[I]] += Area; }
 	}
 	return Normals;
 }
 
-} // namespace
+uint32_t GetIndex(const FRTModuleMesh& Mesh, uint32_t At) { return Mesh.Indices16 != nullptr ? Mesh.Indices16[At] : Mesh.Indices[At]; }
 
-FRTStatus CheckMesh(const FRTModuleMesh& Mesh)
+/// The sections of a mesh that has some, else all indices as one.
+std::vector<FRTModuleSection> GetSections(const FRTModuleMesh& Mesh)
 {
-	if (const FRTStatus Status = CheckCounts(Mesh); !Status) { return Status; }
-	if (const FRTStatus Status = CheckVertices(Mesh); !Status) { return Status; }
-	if (*std::max_element(Mesh.Indices, Mesh.Indices + Mesh.IndexCount) >= Mesh.VertexCount)
-	{
-		return Refuse(Mesh, "an index is out of range");
-	}
-	if (Mesh.Sections != nullptr && Mesh.SectionCount == 0) { return Refuse(Mesh, "has no section"); }
-	for (uint32_t Section = 0; Mesh.Sections != nullptr && Section < Mesh.SectionCount; ++Section)
-	{
-		if (!IsSectionSound(Mesh.Sections[Section], Mesh.IndexCount))
-		{
-			return Refuse(Mesh, "a section is empty or reaches past the indices");
-		}
-	}
-	return FRTStatus::Success();
+	if (Mesh.Sections != nullptr) { return {Mesh.Sections, Mesh.Sections + Mesh.SectionCount}; }
+	FRTModuleSection Whole;
+	Whole.IndexCount = Mesh.IndexCount;
+	Whole.bMayBeMasked = true; // free: instances without a masked material are forced opaque
+	return {Whole};
 }
 
-FRTStatus CheckVertices(const FRTModuleMesh& Mesh)
+bool HasIndexBase(const FRTModuleMesh& Mesh)
 {
-	if (Mesh.Positions == nullptr) { return Refuse(Mesh, "Positions is null"); }
-	const auto IsFinite = [&](const float* Values, size_t Components) {
-		return Values == nullptr ||
-		       std::all_of(Values, Values + Mesh.VertexCount * Components, [](float Value) { return std::isfinite(Value); });
+	const auto HasBase = [](const FRTModuleSection& Section) { return Section.FirstVertex > 0; };
+	return Mesh.Sections != nullptr && std::any_of(Mesh.Sections, Mesh.Sections + Mesh.SectionCount, HasBase);
+}
+
+bool AreIndicesSound(const FRTModuleMesh& Mesh)
+{
+	const auto IsSound = [&](uint32_t First, uint32_t Count, uint64_t Base) {
+		uint32_t Largest = 0;
+		for (uint32_t I = 0; I < Count; ++I) { Largest = std::max(Largest, GetIndex(Mesh, First + I)); }
+		return Base + Largest < Mesh.VertexCount;
 	};
-	if (!IsFinite(Mesh.Positions, 3)) { return Refuse(Mesh, "a position is not finite"); }
-	if (!IsFinite(Mesh.Normals, 3)) { return Refuse(Mesh, "a normal is not finite"); }
-	return IsFinite(Mesh.UVs, 2) ? FRTStatus::Success() : Refuse(Mesh, "a texture coordinate is not finite");
+	if (!HasIndexBase(Mesh)) { return IsSound(0, Mesh.IndexCount, 0); }
+	return std::all_of(Mesh.Sections, Mesh.Sections + Mesh.SectionCount,
+	    [&](const FRTModuleSection& Section) { return IsSound(Section.FirstIndex, Section.IndexCount, Section.FirstVertex); });
 }
 
-void PackNormals(const FRTModuleMesh& Mesh, std::vector<FVertexAttributes>& Attributes)
+/// Indices into all vertices. With an index base they are those of the sections, one behind the other.
+std::vector<uint32_t> MakeIndices(const FRTModuleMesh& Mesh)
 {
-	const std::vector<glm::vec3> Made = Mesh.Normals == nullptr ? MakeNormals(Mesh) : std::vector<glm::vec3>();
-	for (uint32_t Vertex = 0; Vertex < Mesh.VertexCount; ++Vertex)
+	std::vector<uint32_t> Out;
+	const auto Append = [&](uint32_t First, uint32_t Count, uint32_t Base) {
+		for (uint32_t I = 0; I < Count; ++I) { Out.push_back(Base + GetIndex(Mesh, First + I)); }
+	};
+	if (!HasIndexBase(Mesh)) { Append(0, Mesh.IndexCount, 0); }
+	else
 	{
-		Attributes[Vertex].Normal = PackOctahedral(Mesh.Normals != nullptr ? ReadVector(Mesh.Normals, Vertex) : Made[Vertex]);
+		for (const FRTModuleSection& Section : GetSections(Mesh)) { Append(Section.FirstIndex, Section.IndexCount, Section.FirstVertex); }
 	}
+	return Out;
+}
+
+uint32_t PackTangent(const float* Tangent)
+{
+	constexpr uint32_t SignBit = 1u << 16;
+	const uint32_t Packed = PackOctahedral({Tangent[0], Tangent[1], Tangent[2]}) & ~SignBit;
+	return Tangent[3] < 0.0f ? Packed | SignBit : Packed;
 }
 
 std::vector<FVertexAttributes> PackAttributes(const FRTModuleMesh& Mesh)
@@ -119,27 +142,156 @@ std::vector<FVertexAttributes> PackAttributes(const FRTModuleMesh& Mesh)
 		FVertexAttributes& Out = Attributes[Vertex];
 		Out = {};
 		Out.Color = ~0u;
-		if (Mesh.UVs != nullptr) { Out.UV0 = {Mesh.UVs[Vertex * 2], Mesh.UVs[Vertex * 2 + 1]}; }
+		if (Mesh.Tangents != nullptr) { Out.Tangent = PackTangent(Mesh.Tangents + size_t(Vertex) * 4); }
+		if (Mesh.UVs != nullptr) { Out.UV0 = {Mesh.UVs[size_t(Vertex) * 2], Mesh.UVs[size_t(Vertex) * 2 + 1]}; }
+		if (Mesh.UVs1 != nullptr) { Out.UV1 = {Mesh.UVs1[size_t(Vertex) * 2], Mesh.UVs1[size_t(Vertex) * 2 + 1]}; }
+		if (Mesh.Colors != nullptr) { std::memcpy(&Out.Color, Mesh.Colors + size_t(Vertex) * 4, sizeof(Out.Color)); }
 	}
-	PackNormals(Mesh, Attributes);
 	return Attributes;
+}
+
+bool HasOpaqueVertices(const FRTModuleMesh& Mesh)
+{
+	for (uint32_t Vertex = 0; Mesh.Colors != nullptr && Vertex < Mesh.VertexCount; ++Vertex)
+	{
+		if (Mesh.Colors[size_t(Vertex) * 4 + 3] != 255) { return false; }
+	}
+	return true;
 }
 
 std::vector<FRTSectionInfo> MakeSections(const FRTModuleMesh& Mesh)
 {
-	if (Mesh.Sections == nullptr)
-	{
-		// Alpha-testable: instances without a masked material are forced opaque, so it is free.
-		return {FRTSectionInfo{0, Mesh.IndexCount, false}};
-	}
 	std::vector<FRTSectionInfo> Sections;
-	for (uint32_t Section = 0; Section < Mesh.SectionCount; ++Section)
+	const bool bBase = HasIndexBase(Mesh);
+	uint32_t First = 0;
+	for (const FRTModuleSection& From : GetSections(Mesh))
 	{
-		const FRTModuleSection& From = Mesh.Sections[Section];
-		Sections.push_back({From.FirstIndex, From.IndexCount, !From.bMayBeMasked});
+		Sections.push_back({bBase ? First : From.FirstIndex, From.IndexCount, !From.bMayBeMasked});
+		First += From.IndexCount;
 	}
 	return Sections;
 }
+
+FRTStatus CheckSections(const FRTModuleMesh& Mesh)
+{
+	if (Mesh.Sections == nullptr) { return FRTStatus::Success(); }
+	if (Mesh.SectionCount == 0) { return Refuse(Mesh, "has no section"); }
+	uint64_t Indices = 0;
+	for (uint32_t Section = 0; Section < Mesh.SectionCount; ++Section)
+	{
+		if (!IsSectionSound(Mesh.Sections[Section], Mesh.IndexCount))
+		{
+			return Refuse(Mesh, "a section is empty or reaches past the indices");
+		}
+		Indices += Mesh.Sections[Section].IndexCount;
+	}
+	return Indices <= ~0u ? FRTStatus::Success() : Refuse(Mesh, "the sections have more indices than 32 bits can count");
+}
+
+} // namespace
+
+FRTStatus CheckMesh(const FRTModuleMesh& Mesh)
+{
+	if (const FRTStatus Status = CheckCounts(Mesh); !Status) { return Status; }
+	FRTStatus Status = CheckVertices(Mesh.Name, Mesh.Positions, Mesh.Normals, Mesh.VertexCount);
+	const auto Check = [&](const float* Values, size_t Components, const char* Reason) {
+		if (Status && !AreFinite(Values, Mesh.VertexCount * Components)) { Status = Refuse(Mesh, Reason); }
+	};
+	Check(Mesh.Tangents, 4, "a tangent is not finite");
+	Check(Mesh.UVs, 2, "a texture coordinate is not finite");
+	Check(Mesh.UVs1, 2, "a texture coordinate is not finite");
+	Status = Status ? CheckSections(Mesh) : Status;
+	if (!Status) { return Status; }
+	return AreIndicesSound(Mesh) ? CheckBounds(Mesh) : Refuse(Mesh, "an index is out of range");
+}
+
+FRTStatus CheckVertices(const char* Mesh, const float* Positions, const float* Normals, uint32_t VertexCount)
+{
+	const auto Fail = [&](const char* Reason) {
+		return FRTStatus::Error(ERTResult::InvalidArgument, "mesh \"%s\": %s", FRTShown(Mesh).Text, Reason);
+	};
+	if (Positions == nullptr) { return Fail("Positions is null"); }
+	if (!AreFinite(Positions, size_t(VertexCount) * 3)) { return Fail("a position is not finite"); }
+	return AreFinite(Normals, size_t(VertexCount) * 3) ? FRTStatus::Success() : Fail("a normal is not finite");
+}
+
+void PackNormals(const FMeshShape& Shape, const glm::vec3* Positions, const float* Normals, std::vector<FVertexAttributes>& Attributes)
+{
+	const std::vector<glm::vec3> Made = Normals == nullptr ? MakeNormals(Shape, Positions) : std::vector<glm::vec3>();
+	for (uint32_t Vertex = 0; Vertex < Attributes.size(); ++Vertex)
+	{
+		Attributes[Vertex].Normal = PackOctahedral(Normals != nullptr ? ReadVector(Normals, Vertex) : Made[Vertex]);
+	}
+}
+
+void FMeshData::Copy(uint64_t Offset, uint64_t Size, uint8_t* Out) const
+{
+	const struct
+	{
+		uint64_t Begin, End;
+		const void* Data;
+	} Parts[] = {{0, GetAttributesOffset(), Shape->Positions.data()}, {GetAttributesOffset(), GetIndicesOffset(), Attributes.data()},
+	    {GetIndicesOffset(), GetBytes(), Indices16.empty() ? static_cast<const void*>(Shape->Indices.data()) : Indices16.data()}};
+	for (const auto& Part : Parts)
+	{
+		const uint64_t Begin = std::max(Offset, Part.Begin), End = std::min(Offset + Size, Part.End);
+		if (Begin >= End) { continue; }
+		std::memcpy(Out + (Begin - Offset), static_cast<const uint8_t*>(Part.Data) + (Begin - Part.Begin), End - Begin);
+	}
+}
+
+std::shared_ptr<FMeshData> PackMesh(const FRTModuleMesh& Mesh)
+{
+	static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+	const auto Shape = std::make_shared<FMeshShape>();
+	Shape->Positions.resize(Mesh.VertexCount);
+	std::memcpy(Shape->Positions.data(), Mesh.Positions, size_t(Mesh.VertexCount) * sizeof(glm::vec3));
+	Shape->Indices = MakeIndices(Mesh);
+	const auto Data = std::make_shared<FMeshData>();
+	Data->Attributes = PackAttributes(Mesh);
+	PackNormals(*Shape, Shape->Positions.data(), Mesh.Normals, Data->Attributes);
+	if (Mesh.Indices16 != nullptr && Mesh.VertexCount <= 1u << 16) { Data->Indices16.assign(Shape->Indices.begin(), Shape->Indices.end()); }
+	if (Data->Indices16.size() % 2 != 0) { Data->Indices16.push_back(0); } // shaders read whole words
+	Data->Shape = Shape;
+	return Data;
+}
+
+FRTGeometryInfo DescribeGeometry(const FRTModuleMesh& Mesh, const FMeshData& Data)
+{
+	FRTGeometryInfo Out;
+	Out.Name = Mesh.Name;
+	Out.VertexCount = Mesh.VertexCount;
+	Out.Sections = MakeSections(Mesh);
+	Out.IndexType = Data.Indices16.empty() ? ERTIndexType::UInt32 : ERTIndexType::UInt16;
+	Out.bHasTangents = Mesh.Tangents != nullptr;
+	Out.bOpaqueVertices = HasOpaqueVertices(Mesh);
+	Out.bDynamic = Mesh.bDeformable;
+	Out.bWaitsForData = true;
+	const FBoundingSphere Given{ReadVector(Mesh.BoundsCenter, 0), Mesh.BoundsRadius};
+	const FBoundingSphere Bounds =
+	    Given.Radius < 0.0f ? FindBoundingSphere(Data.Shape->Positions.data(), Data.Shape->Positions.size()) : Given;
+	Out.BoundsCenter = Bounds.Center;
+	Out.BoundsRadius = Bounds.Radius;
+	if (!Mesh.bKeepOnCpu || Mesh.bDeformable) { return Out; }
+	Out.CpuPositions = Data.Shape->Positions.data();
+	Out.CpuIndices = Data.Shape->Indices.data();
+	Out.CpuOwner = Data.Shape;
+	return Out;
+}
+
+namespace
+{
+
+/// Rounds to fp16, as payloads do: light sampling and its density must agree wherever they are computed.
+float MakeEmissiveWeight(glm::vec3 Emission)
+{
+	constexpr float Scale = 1.0f / 64.0f; // so that bright lights stay in the range of fp16
+	constexpr float Least = 6.2e-5f, Most = 65504.0f;
+	const float Luminance = dot(Emission, glm::vec3(0.2126f, 0.7152f, 0.0722f)) * Scale;
+	return Luminance > 0.0f ? glm::unpackHalf1x16(glm::packHalf1x16(glm::clamp(Luminance, Least, Most))) : 0.0f;
+}
+
+} // namespace
 
 FMaterialData PackMaterial(const FRTModuleMaterial& Material)
 {
@@ -148,17 +300,26 @@ FMaterialData PackMaterial(const FRTModuleMaterial& Material)
 	Data.Emissive = ReadVector(Material.Emissive, 0);
 	Data.Metallic = Material.Metallic;
 	Data.Roughness = Material.Roughness;
-	Data.NormalScale = 1.0f;
-	Data.OcclusionStrength = 1.0f;
+	Data.NormalScale = Material.NormalScale;
+	Data.OcclusionStrength = Material.OcclusionStrength;
 	Data.AlphaCutoff = Material.AlphaCutoff;
-	Data.Ior = 1.5f;
-	Data.Specular = 1.0f;
+	Data.Ior = Material.Ior;
+	Data.Specular = Material.Specular;
+	Data.Transmission = Material.Transmission;
 	Data.Flags = (Material.bMasked ? MATERIAL_MASKED : 0u) | (Material.bDoubleSided ? MATERIAL_DOUBLE_SIDED : 0u);
-	std::fill(std::begin(Data.Textures), std::end(Data.Textures), NO_TEXTURE);
-	std::fill(std::begin(Data.UVTransform), std::end(Data.UVTransform), glm::vec4(1, 0, 0, 1));
-	// Light sampling and its density must agree: the weight is what half precision makes of it.
-	const float Luminance = dot(Data.Emissive, glm::vec3(0.2126f, 0.7152f, 0.0722f));
-	Data.EmissiveWeight = glm::unpackHalf1x16(glm::packHalf1x16(std::min(Luminance, 65504.0f)));
+	const std::array<const FRTModuleMap*, MaterialMapCount> Maps = GetMaps(Material);
+	static_assert(MaterialMapCount == TEXTURE_SLOTS);
+	for (uint32_t Slot = 0; Slot < TEXTURE_SLOTS; ++Slot)
+	{
+		const FRTModuleMap& Map = *Maps[Slot];
+		Data.UVTransform[Slot] = {Map.UVMatrix[0], Map.UVMatrix[1], Map.UVMatrix[2], Map.UVMatrix[3]};
+		Data.UVOffset[Slot] = {Map.UVOffset[0], Map.UVOffset[1]};
+		Data.UVSets |= Map.UVSet << Slot;
+		Data.Textures[Slot] = NO_TEXTURE;
+		if (Map.Texture != nullptr) { Data.Textures[Slot] = Map.Texture->GetSampledIndex() | Map.Sampler->GetIndex() << 24; }
+	}
+	const glm::vec3 Mean = Material.EmissiveMap.Texture != nullptr ? ReadVector(Material.EmissiveMapMean, 0) : glm::vec3(1);
+	Data.EmissiveWeight = MakeEmissiveWeight(Data.Emissive * Mean);
 	return Data;
 }
 

@@ -1,6 +1,8 @@
 // An engine's mesh checked and packed for the scene.
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "LanternModule/Module.h"
@@ -12,17 +14,38 @@ namespace Lantern
 
 /// Ok, or InvalidArgument saying what of the mesh cannot be.
 FRTStatus CheckMesh(const FRTModuleMesh& Mesh);
-/// Positions, normals and texture coordinates alone; VertexCount must be right.
-FRTStatus CheckVertices(const FRTModuleMesh& Mesh);
+/// Positions and normals alone. Mesh: its name. Normals may be null.
+FRTStatus CheckVertices(const char* Mesh, const float* Positions, const float* Normals, uint32_t VertexCount);
 
-/// Of a checked mesh: normals and texture coordinates as vertices carry them.
-std::vector<FVertexAttributes> PackAttributes(const FRTModuleMesh& Mesh);
-/// The normals alone, into attributes as PackAttributes made them.
-void PackNormals(const FRTModuleMesh& Mesh, std::vector<FVertexAttributes>& Attributes);
+/// A mesh's positions and indices on the CPU.
+struct FMeshShape
+{
+	std::vector<glm::vec3> Positions;
+	std::vector<uint32_t> Indices;
+};
 
-std::vector<FRTSectionInfo> MakeSections(const FRTModuleMesh& Mesh);
+/// A mesh as its one buffer on the GPU has it: positions, attributes, indices.
+struct FMeshData
+{
+	std::shared_ptr<const FMeshShape> Shape;
+	std::vector<FVertexAttributes> Attributes;
+	std::vector<uint16_t> Indices16; ///< take the place of the shape's on the GPU, if there are any
 
-/// Without textures: what shaders know of the material.
+	uint64_t GetAttributesOffset() const { return Shape->Positions.size() * sizeof(glm::vec3); }
+	uint64_t GetIndicesOffset() const { return GetAttributesOffset() + Attributes.size() * sizeof(FVertexAttributes); }
+	uint64_t GetBytes() const { return GetIndicesOffset() + (Indices16.empty() ? Shape->Indices.size() * 4 : Indices16.size() * 2); }
+	/// Copies Size bytes from Offset on to Out.
+	void Copy(uint64_t Offset, uint64_t Size, uint8_t* Out) const;
+};
+
+// Of a checked mesh.
+std::shared_ptr<FMeshData> PackMesh(const FRTModuleMesh& Mesh);
+/// Writes the normals alone. Normals: null for those of the triangles between Positions.
+void PackNormals(const FMeshShape& Shape, const glm::vec3* Positions, const float* Normals, std::vector<FVertexAttributes>& Attributes);
+/// Describes the mesh without its buffers. It waits for its data.
+FRTGeometryInfo DescribeGeometry(const FRTModuleMesh& Mesh, const FMeshData& Data);
+
+/// What shaders know of the material. It must have been checked.
 FMaterialData PackMaterial(const FRTModuleMaterial& Material);
 
 } // namespace Lantern

@@ -1,6 +1,7 @@
 // The module's frame, on top of FRenderer: from the engine's textures and view to the signals that it wants.
 #include "ArgumentChecks.h"
 #include "FrameChecks.h"
+#include "LanternCore/Config/ConsoleVariables.h"
 #include "ModuleRenderer.h"
 
 namespace Lantern
@@ -85,7 +86,7 @@ void FModuleRenderer::ReleaseOutputs() { Outputs.fill(nullptr); }
 FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame)
 {
 	// Before BeginFrame, which asks the scene whether anything in it has changed.
-	if (const FRTStatus Status = RecordVertices(*Frame.Commands); !Status) { return Status; }
+	if (const FRTStatus Status = State.Record(*Frame.Commands); !Status) { return Status; }
 	FFrameFeatures Features;
 	Features.bBuildAll = Features.bWaitForPipelines = false;
 	Features.bMotion = false; // the engine draws: nothing of the plugin's reads how its objects moved
@@ -113,17 +114,20 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 	if (Recorded) { return FRTStatus::Error(ERTResult::InvalidArgument, "RenderFrame: EndFrame was not called after the last one"); }
 	if (const FRTStatus Status = CheckFrame(Frame); !Status) { return Status; }
 	ReleaseOutputs();
+	FConsoleVariables::Get().BeginFrame(); // what is taken over follows them, too
+	bArrivalsLeft = Calls.Take(FRTScene::GetMostArrivals(), Commands);
+	State.Apply(Commands);
 	const FRTStatus Status = RecordFrame(Frame);
 	if (!Status)
 	{
 		ReleaseOutputs();
-		FinishVertices(0);
+		State.EndFrame(0);
 		return Status;
 	}
 	Recorded = TRTRef<IRTCommandList>(Frame.Commands);
 	for (size_t I = 0; I < SignalCount; ++I) { Out->Signals[I] = Outputs[I].Get(); }
 	Out->bShadersReady = Renderer.AreRayProgramsReady();
-	Out->bComplete = Out->bShadersReady && Scene.GetGeometries().GetStats().Pending == 0;
+	Out->bComplete = Out->bShadersReady && !bArrivalsLeft && Scene.GetGeometries().GetStats().Pending == 0;
 	return Status;
 }
 
@@ -134,8 +138,7 @@ FRTStatus FModuleRenderer::EndFrame(FRTFence* OutFence)
 	FRTFence Fence = 0;
 	const FRTStatus Status = Device->NotifyExternalSubmit(&List, 1, &Fence);
 	Renderer.FrameSubmitted(Fence);
-	FinishVertices(Fence);
-	ReplacedTextures.clear();
+	State.EndFrame(Fence);
 	Recorded = nullptr;
 	if (OutFence != nullptr) { *OutFence = Fence; }
 	return Status;

@@ -52,14 +52,6 @@ public:
 			Free.push_back(Index);
 		}
 	}
-	template <class TFunction>
-	void ForEach(TFunction&& Function)
-	{
-		for (FSlot& Slot : Slots)
-		{
-			if (Slot.Value) { Function(*Slot.Value); }
-		}
-	}
 
 private:
 	struct FSlot

@@ -119,6 +119,11 @@ void FValidationTracker::Use(const FValidationStep& Step)
 	FAccessState& Now = Get(Step.Resource);
 	const bool bWrite = HasAny(Step.After, Writes);
 	if (!Now.bKnown || HasAny(Now.Access, Step.After)) { return; }
+	if (!Resource.bTexture && Queue == ERTQueue::Transfer)
+	{
+		Now = {Step.After, true, true}; // no barriers there: all other work on it has finished, as CheckQueues found
+		return;
+	}
 	if (!Resource.bTexture)
 	{
 		const bool bFree =

@@ -11,7 +11,21 @@ namespace
 
 constexpr float Positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
 constexpr float Normals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+constexpr float Tangents[] = {1, 0, 0, 1, 1, 0, 0, -1, 1, 0, 0, 1, 1, 0, 0, 1};
 constexpr float UVs[] = {0, 0, 1, 0, 0, 1, 1, 1};
+
+FRTModuleMap MakeMap(FModulePlay& Play, const char* Name)
+{
+	FRTModuleMap Map;
+	if (!Play.Bool(true)) { return Map; }
+	Map.Texture = Play.SampledTexture(Name);
+	if (Map.Texture == nullptr) { return Map; }
+	Map.Sampler = Play.Pointer(Name, Play.GetSampler());
+	Map.UVSet = Play.Index(Name, 1);
+	Map.UVMatrix[0] = Play.Float(Name, 2.0f);
+	Map.UVOffset[1] = Play.Float(Name, 0.5f);
+	return Map;
+}
 
 FRTModuleMaterial MakeMaterial(FModulePlay& Play)
 {
@@ -23,11 +37,17 @@ FRTModuleMaterial MakeMaterial(FModulePlay& Play)
 	Material.AlphaCutoff = Play.Float("AlphaCutoff", 0.5f);
 	Material.bMasked = Play.Bool(false);
 	Material.bDoubleSided = Play.Bool(false);
-	if (Play.Bool(true))
-	{
-		Material.BaseColorTexture = Play.SampledTexture("BaseColorTexture");
-		if (Material.BaseColorTexture != nullptr) { Material.BaseColorSampler = Play.Pointer("BaseColorSampler", Play.GetSampler()); }
-	}
+	Material.NormalScale = Play.Float("NormalScale", 1.0f);
+	Material.OcclusionStrength = Play.Float("OcclusionStrength", 1.0f);
+	Material.Ior = Play.Float("Ior", 1.5f);
+	Material.Specular = Play.Float("Specular", 1.0f);
+	Material.Transmission = Play.Float("Transmission", 0.0f);
+	for (float& Channel : Material.EmissiveMapMean) { Channel = Play.Float("EmissiveMapMean", 1.0f); }
+	Material.BaseColorMap = MakeMap(Play, "BaseColorMap");
+	Material.MetallicRoughnessMap = MakeMap(Play, "MetallicRoughnessMap");
+	Material.NormalMap = MakeMap(Play, "NormalMap");
+	Material.OcclusionMap = MakeMap(Play, "OcclusionMap");
+	Material.EmissiveMap = MakeMap(Play, "EmissiveMap");
 	return Material;
 }
 
@@ -63,6 +83,8 @@ FRTStatus AddAnyMesh(FModulePlay& Play, bool bDeformable, TPlayHandles<ERTMeshHa
 	Mesh.Positions = Play.Floats("osition", Positions, false);
 	Mesh.Normals = Play.Floats("normal", Normals, true);
 	Mesh.UVs = Play.Floats("texture coordinate", UVs, true);
+	Mesh.UVs1 = Play.Floats("texture coordinate", UVs, true);
+	Mesh.Tangents = Play.Floats("tangent", Tangents, true);
 	Mesh.VertexCount = Play.Count("VertexCount", 4);
 	Mesh.Indices = Play.Pointer("Indices", Indices.data());
 	Mesh.IndexCount = Play.Count("IndexCount", 6);
@@ -75,6 +97,9 @@ FRTStatus AddAnyMesh(FModulePlay& Play, bool bDeformable, TPlayHandles<ERTMeshHa
 		Mesh.SectionCount = Play.Count("section", 2);
 	}
 	Mesh.bDeformable = bDeformable;
+	for (float& Axis : Mesh.BoundsCenter) { Axis = Play.Float("BoundsCenter", 0.0f); }
+	Mesh.BoundsRadius = Play.Float("BoundsRadius", 4.0f);
+	Mesh.bKeepOnCpu = Play.Bool(true);
 	ERTMeshHandle Added = ERTMeshHandle::None;
 	const FRTStatus Status = Play.GetRenderer().AddMesh(Mesh, Play.Pointer("Out", &Added));
 	// Rows of objects give two materials.
@@ -91,6 +116,15 @@ FRTStatus UpdateMeshVertices(FModulePlay& Play)
 	const float* const NewPositions = Play.Floats("osition", Positions, false);
 	return Play.GetRenderer().UpdateMeshVertices(Handle, NewPositions, Play.Floats("normal", Normals, true));
 }
+
+FRTStatus GetMeshBuffer(FModulePlay& Play)
+{
+	const ERTMeshHandle Handle = Play.Handle("mesh", Play.Deformables);
+	FRTModuleMeshBuffer Buffer;
+	return Play.GetRenderer().GetMeshBuffer(Handle, Play.Pointer("Out", &Buffer));
+}
+
+FRTStatus MarkMeshDeformed(FModulePlay& Play) { return Play.GetRenderer().MarkMeshDeformed(Play.Handle("mesh", Play.Deformables)); }
 
 FRTStatus RemoveMesh(FModulePlay& Play)
 {
@@ -142,6 +176,69 @@ FRTStatus SetObjectCastsShadow(FModulePlay& Play)
 {
 	const ERTObjectHandle Handle = Play.Handle("object", Play.Objects);
 	return Play.GetRenderer().SetObjectCastsShadow(Handle, Play.Bool(true));
+}
+
+FRTStatus SetObjectVisible(FModulePlay& Play)
+{
+	const ERTObjectHandle Handle = Play.Handle("object", Play.Objects);
+	return Play.GetRenderer().SetObjectVisible(Handle, Play.Bool(true));
+}
+
+FRTStatus AddObjects(FModulePlay& Play)
+{
+	const ERTMaterialHandle Materials[] = {Play.Handle("material", Play.Materials), Play.Handle("material", Play.Materials)};
+	FRTModuleObject Objects[2];
+	for (FRTModuleObject& Object : Objects)
+	{
+		Object.Mesh = Play.Handle("mesh", Play.Meshes);
+		Object.Materials = Play.Pointer("materials", Materials);
+		Object.MaterialCount = Play.Count("materials", 2);
+		FillTransform(Play, Object.Transform);
+	}
+	ERTObjectHandle Added[2] = {};
+	const FRTModuleObject* const Given = Play.Pointer("Objects", Objects);
+	const FRTStatus Status = Play.GetRenderer().AddObjects(Given, 2, Play.Pointer("Out", Added));
+	for (const ERTObjectHandle Handle : Added) { Play.Keep(Play.Objects, Handle); }
+	return Status;
+}
+
+FRTModuleLight MakeLight(FModulePlay& Play)
+{
+	FRTModuleLight Light;
+	Light.Type = static_cast<ERTModuleLight>(Play.Choose() % 2 == 0 ? 1 : 0);
+	for (double& Axis : Light.Position) { Axis = Play.Double("Position", 2.0); }
+	if (Light.Type == ERTModuleLight::Spot)
+	{
+		for (int Axis = 0; Axis < 3; ++Axis) { Light.Direction[Axis] = Play.Float("Direction", Axis == 1 ? -1.0f : 0.0f); }
+		Light.InnerCone = Play.Float("InnerCone", 0.1f);
+		Light.OuterCone = Play.Float("OuterCone", 0.5f);
+	}
+	for (float& Channel : Light.Color) { Channel = Play.Float("Color", 3.0f); }
+	Light.Range = Play.Float("Range", 0.0f);
+	return Light;
+}
+
+FRTStatus AddLight(FModulePlay& Play)
+{
+	ERTLightHandle Added = ERTLightHandle::None;
+	const FRTModuleLight Light = MakeLight(Play);
+	const FRTStatus Status = Play.GetRenderer().AddLight(Light, Play.Pointer("Out", &Added));
+	Play.Keep(Play.Lights, Added);
+	return Status;
+}
+
+FRTStatus SetLight(FModulePlay& Play)
+{
+	const ERTLightHandle Handle = Play.Handle("light", Play.Lights);
+	return Play.GetRenderer().SetLight(Handle, MakeLight(Play));
+}
+
+FRTStatus RemoveLight(FModulePlay& Play)
+{
+	const ERTLightHandle Handle = Play.Handle("light", Play.Lights);
+	const FRTStatus Status = Play.GetRenderer().RemoveLight(Handle);
+	if (Status) { Play.Forget(Play.Lights, Handle); }
+	return Status;
 }
 
 FRTStatus RemoveObject(FModulePlay& Play)
@@ -231,12 +328,19 @@ constexpr FModuleCall Calls[] = {
     {"AddMesh", AddMesh},
     {"AddDeformableMesh", AddDeformableMesh},
     {"UpdateMeshVertices", UpdateMeshVertices},
+    {"GetMeshBuffer", GetMeshBuffer},
+    {"MarkMeshDeformed", MarkMeshDeformed},
     {"RemoveMesh", RemoveMesh},
     {"AddObject", AddObject},
+    {"AddObjects", AddObjects},
     {"SetObjectTransform", SetObjectTransform},
     {"SetObjectMaterials", SetObjectMaterials},
     {"SetObjectCastsShadow", SetObjectCastsShadow},
+    {"SetObjectVisible", SetObjectVisible},
     {"RemoveObject", RemoveObject},
+    {"AddLight", AddLight},
+    {"SetLight", SetLight},
+    {"RemoveLight", RemoveLight},
     {"SetSun", SetSun},
     {"SetSky", SetSky},
     {"SetConsoleVariable", SetConsoleVariable},

@@ -60,16 +60,16 @@ void FModulePlay::MakeWorld()
 	// Twice, so that each renderer has handles whose slots the other uses, too. What is foreign stays alive there.
 	for (int Side = 0; Side < 2; ++Side)
 	{
-		for (const char* Name :
-		    {"AddMaterial", "AddMaterial", "AddMesh", "AddMesh", "AddDeformableMesh", "AddObject", "AddObject", "AddObject", "RemoveObject",
-		        "AddMesh", "RemoveMesh", "AddDeformableMesh", "AddMesh", "AddMaterial", "RemoveMaterial", "AddMaterial"})
+		for (const char* Name : {"AddMaterial", "AddMaterial", "AddMesh", "AddMesh", "AddDeformableMesh", "AddObject", "AddObject",
+		         "AddObject", "RemoveObject", "AddMesh", "RemoveMesh", "AddDeformableMesh", "AddMesh", "AddMaterial", "RemoveMaterial",
+		         "AddMaterial", "AddLight", "AddLight", "RemoveLight", "AddLight"})
 		{
 			PlayGood(Name);
 		}
 		const auto Turn = [](auto& Of) { Of = {Of.Foreign, {}, Of.Live}; };
 		if (Side == 0)
 		{
-			Turn(Materials), Turn(Meshes), Turn(Deformables), Turn(Objects);
+			Turn(Materials), Turn(Meshes), Turn(Deformables), Turn(Objects), Turn(Lights);
 			std::swap(Renderers[0], Renderers[1]);
 		}
 	}

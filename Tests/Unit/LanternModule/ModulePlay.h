@@ -78,6 +78,7 @@ public:
 	TPlayHandles<ERTMaterialHandle> Materials;
 	TPlayHandles<ERTMeshHandle> Meshes, Deformables;
 	TPlayHandles<ERTObjectHandle> Objects;
+	TPlayHandles<ERTLightHandle> Lights;
 
 private:
 	template <class T>

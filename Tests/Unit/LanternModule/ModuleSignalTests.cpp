@@ -32,16 +32,7 @@ protected:
 	void TearDown() override
 	{
 		for (TRTRef<IRTTexture>* Texture : {&Motion, &BaseColor, &Material}) { Texture->Reset(); }
-		for (const auto& [Name, Value] : Changed) { ASSERT_FINE(Module->SetConsoleVariable(Name.c_str(), Value.c_str())); }
 		FModuleTest::TearDown();
-	}
-	/// Until the end of the test.
-	void Set(const char* Name, const char* Value)
-	{
-		char Before[64];
-		ASSERT_FINE(Module->GetConsoleVariable(Name, Before, sizeof(Before)));
-		Changed.insert(Changed.begin(), {Name, Before});
-		ASSERT_FINE(Module->SetConsoleVariable(Name, Value));
 	}
 	FRTModuleFrame DescribeAll()
 	{
@@ -79,15 +70,14 @@ protected:
 	}
 
 	TRTRef<IRTTexture> Motion, BaseColor, Material;
-	std::vector<std::pair<std::string, std::string>> Changed;
 };
 
 TEST_F(FModuleSignalTest, EverySignalOfTheRegistryIsAnOutput)
 {
 	const float Sky[3] = {1, 1, 1};
 	ASSERT_FINE(Renderer->SetSky(Sky));
-	Set("r.RT.GI", "1");
-	Set("r.RT.Reflections", "1");
+	SetVariable("r.RT.GI", "1");
+	SetVariable("r.RT.Reflections", "1");
 	for (const FSignalInfo& Info : SignalInfos)
 	{
 		if (Info.Signal == ESignal::Frame) { continue; }
@@ -135,7 +125,7 @@ TEST_F(FModuleSignalTest, AmbientOcclusionAloneNeedsNoSunAndNoSky)
 {
 	for (const char* Path : {"1", "2"})
 	{
-		Set("r.RT.AO.Path", Path);
+		SetVariable("r.RT.AO.Path", Path);
 		ASSERT_FINE(SetSun(-1.0, 0.0f));
 		FRTModuleFrame Frame = DescribeFrame();
 		Frame.Wanted = {ESignal::SunShadow, ESignal::AmbientOcclusion};
@@ -148,7 +138,7 @@ TEST_F(FModuleSignalTest, AmbientOcclusionAloneNeedsNoSunAndNoSky)
 		EXPECT_THAT(GetPasses(), Contains("AmbientOcclusion"));
 		EXPECT_THAT(GetPasses(), Not(Contains("SunShadow")));
 	}
-	Set("r.RT.AO", "0");
+	SetVariable("r.RT.AO", "0");
 	FRTModuleFrame Frame = DescribeFrame();
 	Frame.Wanted.Add(ESignal::AmbientOcclusion);
 	RenderAndEnd(Frame);
@@ -164,8 +154,8 @@ TEST_F(FModuleSignalTest, IndirectLightIsGivenWhereItIsAskedForAndOn)
 	EXPECT_EQ(Outputs.Get(ESignal::DiffuseGI), nullptr) << "off by default";
 	EXPECT_EQ(Outputs.Get(ESignal::Reflections), nullptr);
 	EXPECT_NE(Outputs.Get(ESignal::AmbientOcclusion), nullptr);
-	Set("r.RT.GI", "1");
-	Set("r.RT.Reflections", "1");
+	SetVariable("r.RT.GI", "1");
+	SetVariable("r.RT.Reflections", "1");
 	RenderUntilComplete(DescribeAll());
 	ASSERT_TRUE(Outputs.Get(ESignal::DiffuseGI) && Outputs.Get(ESignal::Reflections));
 	for (IRTTexture* const Texture : {Outputs.Get(ESignal::DiffuseGI), Outputs.Get(ESignal::Reflections)})

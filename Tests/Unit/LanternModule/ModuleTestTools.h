@@ -1,6 +1,7 @@
 // For the tests of the module: its library on a mock device behind the validation wrapper, with a triangle to add.
 #pragma once
 
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "LanternModule/Module.h"
 #include "LanternRHIMock/MockDevice.h"
 #include "LanternRHIValidation/ValidationDevice.h"
+#include "SceneTypes.h"
 #include "Support/WaitTools.h"
 
 namespace Lantern
@@ -56,6 +58,7 @@ protected:
 	}
 	void TearDown() override
 	{
+		for (const auto& [Name, Value] : ChangedVariables) { ASSERT_FINE(Module->SetConsoleVariable(Name.c_str(), Value.c_str())); }
 		Mock().ClearCompileFaults(); // the renderer waits for compiles that a failed test has left in the driver
 		Renderer.Reset();
 		Module.Reset();
@@ -66,6 +69,15 @@ protected:
 		EXPECT_EQ(Messages, std::vector<std::string>());
 		EXPECT_EQ(GetMock(Inner.Get()).GetErrors(), std::vector<std::string>());
 	}
+	/// Sets a console variable until the end of the test.
+	void SetVariable(const char* Name, const char* Value)
+	{
+		char Before[64];
+		ASSERT_FINE(Module->GetConsoleVariable(Name, Before, sizeof(Before)));
+		ChangedVariables.insert(ChangedVariables.begin(), {Name, Before});
+		ASSERT_FINE(Module->SetConsoleVariable(Name, Value));
+	}
+	virtual FRTMockDesc DescribeMock() const { return {}; }
 	FRTMock& Mock() { return GetMock(Inner.Get()); }
 	TRTRef<IRTTexture> MakeTexture(
 	    ERTFormat Format, uint32_t Size, ERTTextureUsage Usage = ERTTextureUsage::Sampled, const char* Name = "Test")
@@ -128,8 +140,8 @@ protected:
 		const FRTStatus Status = Device->CreateSampler({}, Out.Sampler.ReleaseAndGetAddress());
 		EXPECT_TRUE(Status.IsOk()) << Status.Message;
 		Out.Texture = MakeTexture(ERTFormat::RGBA8_SRGB, 4, ERTTextureUsage::Sampled, TextureName);
-		Out.Material.BaseColorTexture = Out.Texture.Get();
-		Out.Material.BaseColorSampler = Out.Sampler.Get();
+		Out.Material.BaseColorMap.Texture = Out.Texture.Get();
+		Out.Material.BaseColorMap.Sampler = Out.Sampler.Get();
 		return Out;
 	}
 	/// Objects of the name that were destroyed so far, after collecting garbage.
@@ -169,6 +181,50 @@ protected:
 		const FRTStatus Status = Render();
 		return Status ? Renderer->EndFrame(nullptr) : Status;
 	}
+	/// Renders until some pass traces, and returns the scene as its shaders see it.
+	FSceneConstants ReadConstants(const FRTModuleFrame& From)
+	{
+		FSceneConstants Out{};
+		const auto Find = [&] {
+			for (const ERTMockCall Kind : {ERTMockCall::TraceRays, ERTMockCall::Dispatch})
+			{
+				for (const FRTMockCall& Call : Mock().FindCalls(Kind))
+				{
+					FPassConstants Pushed{};
+					if (Call.Bytes.size() < sizeof(Pushed)) { continue; }
+					std::memcpy(&Pushed, Call.Bytes.data(), sizeof(Pushed));
+					uint64_t Offset = 0;
+					IRTBuffer* const Buffer = Mock().FindBuffer(Pushed.Scene, &Offset);
+					if (Buffer == nullptr) { continue; }
+					std::memcpy(&Out, Mock().GetBytes(Buffer) + Offset, sizeof(Out));
+					return true;
+				}
+			}
+			return false;
+		};
+		FRTModuleFrame Frame = From;
+		const auto Step = [&] {
+			Frame.Commands = DescribeFrame().Commands;
+			Mock().ClearCalls();
+			ASSERT_FINE(Renderer->RenderFrame(Frame, &Outputs));
+			ASSERT_FINE(Renderer->EndFrame(nullptr));
+			GiveWay();
+		};
+		Mock().ClearCalls();
+		EXPECT_TRUE(WaitUntil("a pass that traces", Find, Step));
+		return Out;
+	}
+	/// Reads entry Index of an array of the scene.
+	template <class T>
+	T ReadEntry(uint64_t Address, uint32_t Index)
+	{
+		T Out{};
+		uint64_t Offset = 0;
+		IRTBuffer* const Buffer = Mock().FindBuffer(Address + Index * sizeof(T), &Offset);
+		EXPECT_NE(Buffer, nullptr);
+		if (Buffer != nullptr) { std::memcpy(&Out, Mock().GetBytes(Buffer) + Offset, sizeof(T)); }
+		return Out;
+	}
 	/// Buffers of the name that were copied to in the calls so far.
 	uint32_t CountCopies(const char* Name) { return Mock().CountCalls(ERTMockCall::CopyBuffer, Name); }
 
@@ -181,6 +237,7 @@ protected:
 	ERTObjectHandle Object = ERTObjectHandle::None;
 	FRTModuleOutputs Outputs;
 	std::vector<std::string> Messages;
+	std::vector<std::pair<std::string, std::string>> ChangedVariables;
 	uint64_t LastNative = 0;
 };
 

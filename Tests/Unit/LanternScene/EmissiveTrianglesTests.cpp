@@ -49,6 +49,36 @@ TEST_F(FEmissiveTrianglesTest, TrianglesFollowTheirObject)
 	EXPECT_EQ(Emissive.GetTable()[0].P0, glm::vec3(7, 0, 0)) << "relative to the centre of the object's cell";
 }
 
+TEST_F(FEmissiveTrianglesTest, AMovedObjectCostsItsOwnTriangles)
+{
+	const uint32_t Bright = Materials.Add(MakeMaterial(0, 1.0f));
+	const FRTGeometryRef Panel = CreatePanel();
+	std::vector<FRTObjectId> Ids;
+	for (int I = 0; I < 100; ++I) { Ids.push_back(Place(Panel, {Bright}, {I, 0, 0})); }
+	UpdateEmissive();
+	EXPECT_EQ(Emissive.GetVisited(), 200u);
+	const float Share = Emissive.GetTable()[61].CumulativePower;
+	glm::dmat4 Turned = MoveTo({0, 50, 0});
+	Turned[0] = glm::dvec4(0.6, 0.8, 0, 0);
+	Turned[1] = glm::dvec4(-0.8, 0.6, 0, 0);
+	Objects.SetTransform(Ids[30], Turned);
+	Objects.SetTransform(Ids[30], MoveTo({0, 60, 0}));
+	Objects.SetTransform(Ids[7], Turned);
+	UpdateEmissive();
+	EXPECT_EQ(Emissive.GetVisited(), 4u);
+	EXPECT_EQ(Emissive.GetTable()[60].P0, glm::vec3(0, 60, 0));
+	EXPECT_EQ(Emissive.GetTable()[14].P0, glm::vec3(0, 50, 0));
+	EXPECT_EQ(Emissive.GetTable()[61].CumulativePower, Share);
+	EXPECT_FALSE(Emissive.NeedsUpdate());
+
+	glm::dmat4 Larger = MoveTo({0, 0, 0});
+	Larger[0][0] = 3.0;
+	Objects.SetTransform(Ids[30], Larger);
+	UpdateEmissive();
+	EXPECT_GT(Emissive.GetVisited(), 199u) << "shares of the power change";
+	EXPECT_FLOAT_EQ(Emissive.GetPower(), 102.0f);
+}
+
 TEST_F(FEmissiveTrianglesTest, WhatDoesNotEmitMarksNothing)
 {
 	const FRTObjectId Id = Place(CreatePanel(), {Materials.Add(MakeMaterial())});

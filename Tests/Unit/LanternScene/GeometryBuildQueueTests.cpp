@@ -36,14 +36,20 @@ protected:
 	{
 		FRTGeometryInfo Info;
 		Info.Sections = {{0, 3}};
-		Owners.push_back(std::make_shared<FRTGeometry>(std::move(Info)));
-		FGeometryEntry& Entry = Slots.Add(Owners.back());
+		Owners.push_back(Slots.Create(std::move(Info)));
+		FGeometryEntry& Entry = Slots[Owners.back()->GetSlot()];
 		Queue.ResetPriority(Slots.GetSlot(Entry));
 		Entry.Triangles = Triangles;
 		Entry.QueuedFrame = Frame;
 		if (ScreenSize > 0.0f) { Queue.RaisePriority(Slots.GetSlot(Entry), ScreenSize); }
 		Queue.Add(Entry);
 		return Entry;
+	}
+	/// The entry's frame was lost: it waits again.
+	void Lose(FGeometryEntry& Entry)
+	{
+		Entry.bLost = true;
+		Queue.Add(Entry);
 	}
 	/// Starts all that the queue offers. Returns their slots as digits.
 	std::string Run(bool bAll = false, bool bSmallestFirst = false)
@@ -99,6 +105,21 @@ TEST_F(FGeometryBuildQueueTest, SizeOnScreenIsRememberedUntilItIsSeenAnew)
 	EXPECT_EQ(Slots[2].ScreenSize, 0.1f);
 }
 
+TEST_F(FGeometryBuildQueueTest, ARoundVisitsWhatChangedAndWhatItBuilds)
+{
+	SetLimit(100);
+	for (int I = 0; I < 1000; ++I) { Add(100, 0.001f * static_cast<float>(I)); }
+	EXPECT_EQ(Run(), "999");
+	EXPECT_EQ(Run(), "998");
+	EXPECT_EQ(Queue.GetVisited(), 1u) << "the others wait unseen";
+	Queue.RaisePriority(5, 0.5f);
+	Queue.RaisePriority(6, 3.0f);
+	Queue.RaisePriority(7, 0.00701f); // about as large as it was
+	EXPECT_EQ(Run(), "6");
+	EXPECT_EQ(Queue.GetVisited(), 3u);
+	EXPECT_EQ(Queue.GetCount(), 997u);
+}
+
 TEST_F(FGeometryBuildQueueTest, SmallestFirstGoesByBytes)
 {
 	Add(100, 9.0f).Sizes.StructureBytes = 3000;
@@ -111,7 +132,7 @@ TEST_F(FGeometryBuildQueueTest, LostBuildsComeFirstInAnyOrder)
 {
 	Add(100, 5.0f).Sizes.StructureBytes = 1;
 	Add().Sizes.StructureBytes = 100;
-	Slots[1].bLost = true;
+	Lose(Slots[1]);
 	EXPECT_EQ(Run(), "10");
 	Queue.Add(Slots[0]);
 	Queue.Add(Slots[1]);
@@ -160,7 +181,7 @@ TEST_F(FGeometryBuildQueueTest, FirstBuildOfAFrameMayExceedTheLimit)
 TEST_F(FGeometryBuildQueueTest, LostBuildsAndFullRoundsIgnoreTheLimit)
 {
 	SetLimit(100);
-	for (int I = 0; I < 3; ++I) { Add(100).bLost = true; }
+	for (int I = 0; I < 3; ++I) { Lose(Add(100)); }
 	Add(100);
 	EXPECT_EQ(Run(), "012");
 	Add(100);

@@ -40,8 +40,8 @@ protected:
 	}
 	FRTGeometryRef Add(FRTGeometryInfo Info)
 	{
-		auto Geometry = std::make_shared<FRTGeometry>(std::move(Info));
-		FGeometryEntry& Entry = Context->Slots.Add(Geometry);
+		FRTGeometryRef Geometry = Context->Slots.Create(std::move(Info));
+		FGeometryEntry& Entry = Context->Slots[Geometry->GetSlot()];
 		Context->Queue.ResetPriority(Geometry->GetSlot());
 		Entry.UpdateSizes(*Device);
 		return Geometry;

@@ -1,6 +1,8 @@
 // FGeometrySlots: slots, generations, changes. No device.
 #include "Geometry/GeometrySlots.h"
 
+#include <thread>
+
 #include <gtest/gtest.h>
 
 namespace Lantern
@@ -11,18 +13,13 @@ namespace
 class FGeometrySlotsTest : public ::testing::Test
 {
 protected:
-	static FRTGeometryRef MakeGeometry(bool bDynamic = false)
+	FRTGeometryRef Add(bool bDynamic = false, std::shared_ptr<const void> CpuOwner = nullptr)
 	{
 		FRTGeometryInfo Info;
 		Info.Sections = {{0, 3}};
 		Info.bDynamic = bDynamic;
-		return std::make_shared<FRTGeometry>(std::move(Info));
-	}
-	FRTGeometryRef Add(bool bDynamic = false)
-	{
-		FRTGeometryRef Geometry = MakeGeometry(bDynamic);
-		Slots.Add(Geometry);
-		return Geometry;
+		Info.CpuOwner = std::move(CpuOwner);
+		return Slots.Create(std::move(Info));
 	}
 	FGeometrySlotRef MakeRef(const FRTGeometryRef& Geometry) { return Slots.MakeRef(Slots[Geometry->GetSlot()]); }
 	uint32_t FreeReleased()
@@ -47,6 +44,39 @@ TEST_F(FGeometrySlotsTest, GeometriesGetSlotsInOrder)
 	EXPECT_EQ(Slots.GetGeometry(2), nullptr) << "there is no such slot";
 	EXPECT_LT(Slots[0].Age, Slots[1].Age);
 	EXPECT_EQ(Slots.Resolve(MakeRef(B)), &Slots[1]);
+}
+
+TEST_F(FGeometrySlotsTest, WhatTheStoreMayReadStaysUntilItTakesItBack)
+{
+	auto Data = std::make_shared<int>(1);
+	const std::weak_ptr<int> Watch = Data;
+	FRTGeometryRef A = Add(false, std::move(Data));
+	const FRTGeometry* const Geometry = Slots.GetGeometry(0);
+	std::thread([&A] { A.reset(); }).join(); // the last owner
+	EXPECT_FALSE(Watch.expired());
+	EXPECT_EQ(Geometry->GetSlot(), 0u) << "the store may have been about to read it";
+	EXPECT_EQ(Slots.GetGeometry(0), nullptr);
+	EXPECT_EQ(FreeReleased(), 1u);
+	EXPECT_TRUE(Watch.expired());
+}
+
+TEST_F(FGeometrySlotsTest, GeometriesMayOutliveTheStore)
+{
+	auto Data = std::make_shared<int>(1);
+	const std::weak_ptr<int> Watch = Data;
+	FRTGeometryRef Late, Early;
+	{
+		FGeometrySlots Others{Addresses};
+		FRTGeometryInfo Info;
+		Info.Sections = {{0, 3}};
+		Early = Others.Create(Info);
+		Info.CpuOwner = std::move(Data);
+		Late = Others.Create(std::move(Info));
+		Early.reset();
+	}
+	EXPECT_FALSE(Watch.expired());
+	Late.reset();
+	EXPECT_TRUE(Watch.expired());
 }
 
 TEST_F(FGeometrySlotsTest, ReferencesDoNotSurviveTheGeometry)

@@ -78,6 +78,23 @@ protected:
 	FRTGeometryRef Tree;
 };
 
+TEST_F(FObjectMotionTest, WhoSeesAnObjectIsNoMotionAndEndsNone)
+{
+	const FRTObjectId Id = Add(Tree, {Material});
+	Rest();
+	Move(Id, {3, 0, 0});
+	Scene->SetMask(Id, MaskVisible);
+	Show();
+	ASSERT_TRUE(HasMotion(Id)) << "its past went with its mask";
+	EXPECT_EQ(GetPreviousPlace(ReadMotion(Id)), glm::dvec3(0));
+	const std::vector<FRTMockInstance> Instances = Mock().GetSceneInstances(Scene->GetStructure());
+	ASSERT_EQ(Instances.size(), 1u);
+	EXPECT_EQ(Instances[0].Instance.CustomIndexAndMask >> 24, uint32_t(MaskVisible));
+	Scene->SetMask(Id, MaskAll);
+	Show();
+	EXPECT_FALSE(HasMotion(Id)) << "it stands still";
+}
+
 TEST_F(FObjectMotionTest, StillObjectsHaveNoTable)
 {
 	const FRTObjectId Id = Add(Tree, {Material}, {1, 2, 3});

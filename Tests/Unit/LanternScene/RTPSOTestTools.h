@@ -123,7 +123,7 @@ public:
 	{
 		return Inner->NotifyExternalSubmit(L, C, O);
 	}
-	FRTFence GetCompletedFence(ERTQueue Q) override { return Inner->GetCompletedFence(Q); }
+	FRTFence GetCompletedFence(ERTQueue Q = ERTQueue::Graphics) override { return Inner->GetCompletedFence(Q); }
 	FRTStatus WaitFor(FRTFence F, uint64_t T) override { return Inner->WaitFor(F, T); }
 	FRTStatus WaitIdle() override { return Inner->WaitIdle(); }
 	void CollectGarbage() override { Inner->CollectGarbage(); }

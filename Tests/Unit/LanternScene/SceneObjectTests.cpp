@@ -52,6 +52,26 @@ TEST_F(FSceneObjectTest, MaterialThatChangesItsColourOnlyTravelsAlone)
 	EXPECT_EQ(Read<FMaterialData>(Scene->GetConstants().Materials, Material).BaseColor, Red.BaseColor);
 }
 
+TEST_F(FSceneObjectTest, BoundsOfDynamicGeometryReachAllItsObjects)
+{
+	const uint32_t Material = Scene->AddMaterial(MakeMaterial());
+	const FRTGeometryRef Body = MakeGeometry("Body", 1, {.bDynamic = true});
+	const FRTObjectId First = Add(Body, {Material}), Second = Add(Body, {Material}, {5, 0, 0}), Third = Add(Body, {Material});
+	Scene->SetBounds(Body, {glm::vec3(1, 2, 3), 4.0f});
+	const auto GetRecord = [&](FRTObjectId Id) { return Scene->GetInstances().GetRecord(Id.Index); };
+	EXPECT_EQ(GetRecord(First).Center, glm::dvec3(1, 2, 3));
+	EXPECT_EQ(GetRecord(Second).Center, glm::dvec3(6, 2, 3));
+	EXPECT_EQ(GetRecord(Third).Radius, 4.0);
+	Scene->RemoveObject(First); // another one takes its place in the list
+	Scene->SetBounds(Body, {glm::vec3(0), 2.0f});
+	EXPECT_EQ(GetRecord(Second).Radius, 2.0);
+	EXPECT_EQ(GetRecord(Third).Radius, 2.0);
+	Scene->RemoveObject(Second);
+	Scene->RemoveObject(Third);
+	Scene->SetBounds(Body, {glm::vec3(0), 1.0f});
+	EXPECT_EQ(GetRecord(Add(Body, {Material})).Radius, 1.0);
+}
+
 TEST_F(FSceneObjectTest, WithoutRaysThereAreNoAccelerationStructures)
 {
 	const uint32_t Material = Scene->AddMaterial(MakeMaterial());

@@ -7,8 +7,9 @@
 //   → Release everything, the device and the module last → unload the library
 //
 // Units: metres, radians, nits and lux; linear Rec.709; right-handed, y up. World positions are double precision.
-// Threads: IRTModule may be called from any thread, a renderer from one thread at a time. Nothing throws. A handle is valid for
-// its renderer only.
+// Threads: IRTModule may be called from any thread, and so may the calls of a renderer that change its scene (Add…, Set…,
+// Remove…, Update…). RenderFrame and EndFrame belong to one thread at a time. Nothing throws. A handle is valid for its renderer
+// only.
 // Errors: every build checks what an engine passes, handles that are stale or of another renderer included. InvalidArgument says
 // what is wrong; nothing has changed then. Arrays must be as long as their counts say, which nobody can check.
 #pragma once
@@ -59,22 +60,47 @@ enum class ERTObjectHandle : uint64_t
 {
 	None = 0
 };
+enum class ERTLightHandle : uint64_t
+{
+	None = 0
+};
 
-/// A material of glTF 2.0 metallic-roughness, with one texture. All values must be finite, and colours not negative.
+/// A map of a material: a texture, how it is sampled, and where its texels lie on the surface.
+struct FRTModuleMap
+{
+	/// Null: no map. It must be created on or imported into the renderer's device with ERTTextureUsage::Sampled, and be in
+	/// ShaderRead whenever a frame runs. The renderer holds a reference. The engine must keep the image of an imported texture
+	/// alive while frames may read it. After SetMaterial with another texture or RemoveMaterial, that is until the fence of the
+	/// EndFrame behind the next RenderFrame has passed. After the renderer's last frame, it is until the renderer is released.
+	IRTTexture* Texture = nullptr;
+	IRTSampler* Sampler = nullptr; ///< required with a texture; one of the first 256 of the device
+	uint32_t UVSet = 0;            ///< 0: FRTModuleMesh::UVs, 1: FRTModuleMesh::UVs1
+	/// KHR_texture_transform as a matrix: (u, v) becomes (M0 u + M1 v + Offset0, M2 u + M3 v + Offset1).
+	float UVMatrix[4] = {1, 0, 0, 1};
+	float UVOffset[2] = {0, 0};
+};
+
+/// A material of glTF 2.0 metallic-roughness, with its maps and the extensions ior, specular and transmission. All values must
+/// be finite, and colours not negative. Maps multiply the values beside them.
 struct FRTModuleMaterial
 {
 	float BaseColor[4] = {1, 1, 1, 1}; ///< linear; a: opacity
 	float Emissive[3] = {0, 0, 0};     ///< nits
 	float Metallic = 0.0f;             ///< 0–1
 	float Roughness = 1.0f;            ///< perceptual, 0–1
-	/// Multiplies BaseColor; the alpha test reads its alpha. Null: none. It must be created on or imported into the renderer's
-	/// device with ERTTextureUsage::Sampled, and be in ShaderRead whenever a frame runs. The renderer holds a reference.
-	/// The engine must keep the image of an imported texture alive while frames may read it. After SetMaterial with another
-	/// texture or RemoveMaterial, that is until the fence of the next EndFrame has passed. After the renderer's last frame, it
-	/// is until the renderer is released.
-	IRTTexture* BaseColorTexture = nullptr;
-	IRTSampler* BaseColorSampler = nullptr; ///< required with a texture
-	bool bMasked = false;                   ///< alpha-tested: texels below AlphaCutoff let rays pass
+	float NormalScale = 1.0f;          ///< of the normal map's x and y
+	float OcclusionStrength = 1.0f;    ///< of the occlusion map, 0–1
+	float Ior = 1.5f;                  ///< of a dielectric, ≥ 1
+	float Specular = 1.0f;             ///< KHR_materials_specular: specularFactor, 0–1
+	float Transmission = 0.0f;         ///< 0–1
+	FRTModuleMap BaseColorMap;         ///< sRGB format; the alpha test reads its alpha
+	FRTModuleMap MetallicRoughnessMap; ///< g: roughness, b: metalness
+	FRTModuleMap NormalMap;            ///< tangent space, from 0–1 to −1–1; only on meshes with tangents
+	FRTModuleMap OcclusionMap;         ///< r
+	FRTModuleMap EmissiveMap;          ///< sRGB format
+	/// Mean of EmissiveMap, linear. Light sampling chooses triangles by it; a wrong one costs noise alone.
+	float EmissiveMapMean[3] = {1, 1, 1};
+	bool bMasked = false; ///< alpha-tested: texels below AlphaCutoff let rays pass
 	float AlphaCutoff = 0.5f;
 	bool bDoubleSided = false;
 };
@@ -86,26 +112,38 @@ struct FRTModuleSection
 	/// Allows objects to give this section a masked material; otherwise that is InvalidArgument. True costs nothing until an
 	/// object has a masked material. Alpha tests are then set up for all such sections of that object.
 	bool bMayBeMasked = false;
+	uint32_t FirstVertex = 0; ///< is added to each of the section's indices
 };
 
-inline constexpr uint32_t MaxMeshVertices = 1u << 28;             ///< their buffer has 4 GiB
+inline constexpr uint32_t MaxMeshVertices = 1u << 28;             ///< with their attributes they have 10 GiB
 inline constexpr uint32_t MaxMeshIndices = ((1u << 29) - 1u) * 3; ///< as many triangles as every device can build
 
-/// A mesh. AddMesh reads the arrays and copies them to the GPU. Skinned meshes set bDeformable, and the engine skins their
-/// vertices on the CPU. Vertices that the GPU has skinned are not supported yet.
+/// A mesh. AddMesh reads the arrays and copies them to the GPU. Skinned meshes set bDeformable. Their vertices come from the CPU
+/// (UpdateMeshVertices) or from the engine's own work on the GPU (GetMeshBuffer, MarkMeshDeformed).
 struct FRTModuleMesh
 {
 	const char* Name = "";
 	const float* Positions = nullptr;           ///< x, y, z of each vertex; finite
 	const float* Normals = nullptr;             ///< x, y, z, unit length; null: computed from the triangles
+	const float* Tangents = nullptr;            ///< x, y, z, unit length, and the sign of the bitangent; null: none, and no normal maps
 	const float* UVs = nullptr;                 ///< u, v; finite; null: zeros
+	const float* UVs1 = nullptr;                ///< second set, u, v; finite; null: zeros
+	const uint8_t* Colors = nullptr;            ///< r, g, b, a, linear, 255 being 1; multiply the base colour; null: all 1
 	uint32_t VertexCount = 0;                   ///< 1 … MaxMeshVertices
-	const uint32_t* Indices = nullptr;          ///< counter-clockwise is front; < VertexCount
+	const uint32_t* Indices = nullptr;          ///< counter-clockwise is front; < VertexCount, with FirstVertex added
+	const uint16_t* Indices16 = nullptr;        ///< instead of Indices: the same in 16 bits
 	uint32_t IndexCount = 0;                    ///< a multiple of 3, 3 … MaxMeshIndices
 	const FRTModuleSection* Sections = nullptr; ///< null: one section of all indices, with bMayBeMasked
 	uint32_t SectionCount = 0;
 	/// Allows UpdateMeshVertices. Rays trace the mesh slightly more slowly, and a copy stays on the CPU.
 	bool bDeformable = false;
+	/// Sphere around all that the mesh can become, in its own space. Culling, the order of builds and the offset of rays follow
+	/// it. A negative radius is computed from the positions, and from new ones with each UpdateMeshVertices.
+	float BoundsCenter[3] = {0, 0, 0};
+	float BoundsRadius = -1.0f;
+	/// Keeps positions and indices on the CPU: 12 bytes for each vertex and 4 for each index. Without them, the mesh has no
+	/// coarser levels if memory is short. Its emissive triangles are then found by chance alone.
+	bool bKeepOnCpu = true;
 };
 
 struct FRTModuleObject
@@ -116,6 +154,35 @@ struct FRTModuleObject
 	/// Object to world: 3 rows of 4, the last column being the translation.
 	double Transform[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 	bool bCastsShadow = true;
+	bool bVisible = true; ///< seen by all rays but those of shadows: reflections, diffuse light, occlusion
+};
+
+/// Where a mesh lies on the GPU, for an engine that writes its vertices there.
+struct FRTModuleMeshBuffer
+{
+	/// Holds VertexCount positions of three floats from PositionsOffset on. The renderer owns it; it is valid until RemoveMesh.
+	/// Null: the mesh is still on its way, and what is written would be written over.
+	IRTBuffer* Buffer = nullptr;
+	uint64_t PositionsOffset = 0; ///< bytes
+};
+
+enum class ERTModuleLight : uint8_t
+{
+	Point,
+	Spot,
+	Directional,
+};
+
+/// A light of KHR_lights_punctual. Paths of diffuse light and reflections see it; it has no shadow signal of its own yet.
+struct FRTModuleLight
+{
+	ERTModuleLight Type = ERTModuleLight::Point;
+	double Position[3] = {0, 0, 0};  ///< not of a directional light
+	float Direction[3] = {0, -1, 0}; ///< in which the light travels, any length > 0; not of a point light
+	float Color[3] = {0, 0, 0};      ///< with intensity: candela, or lux if directional
+	float Range = 0.0f;              ///< metres; 0: unlimited
+	float InnerCone = 0.0f;          ///< of a spot: angle from its axis at which it begins to fade, radians
+	float OuterCone = 0.7853982f;    ///< and ends, radians, > InnerCone, at most π/2
 };
 
 struct FRTModuleSun
@@ -127,6 +194,11 @@ struct FRTModuleSun
 };
 
 /// A scene and the passes that render it.
+///
+/// Calls that change the scene check their arguments and give handles at once, from any thread. They wait for no GPU, no
+/// compiler and no frame. The next RenderFrame takes them over, in the order of each thread. Things that come or go may take some
+/// frames if there are many (r.RT.Scene.ArrivalsPerFrame); what is said of them meanwhile comes with them. Arrays are read during
+/// the call. Errors about handles hold at the time of the call: a thread that removes what another one uses is told.
 class IRTModuleRenderer : public IRTRefCounted
 {
 public:
@@ -135,32 +207,49 @@ public:
 	/// without FRTModuleSection::bMayBeMasked.
 	virtual FRTStatus SetMaterial(ERTMaterialHandle Handle, const FRTModuleMaterial& Material) = 0;
 	/// Removes a material; InvalidArgument while objects use it. May be called while frames that use it are in flight. Its
-	/// texture is released as FRTModuleMaterial::BaseColorTexture says of a replaced one. The handle becomes invalid.
+	/// maps are released as FRTModuleMap::Texture says of replaced ones. The handle becomes invalid.
 	virtual FRTStatus RemoveMaterial(ERTMaterialHandle Handle) = 0;
-	/// Adds a mesh: copies the data and waits for the copy. One of the next calls of RenderFrame builds the acceleration
-	/// structure, within r.RT.Build.TrianglesPerFrame, near and large meshes first. Rays do not see its objects until then.
+	/// Adds a mesh: copies the arrays on the CPU. Frames copy them on to the GPU, within r.RT.Upload.MBPerFrame, on the device's
+	/// queue for copies if it has one. A later frame builds the acceleration structure, within r.RT.Build.TrianglesPerFrame, near
+	/// and large meshes first. Rays do not see its objects until then.
 	virtual FRTStatus AddMesh(const FRTModuleMesh& Mesh, ERTMeshHandle* Out) = 0;
 	/// Replaces the vertices of a mesh with bDeformable, for all its objects, from the next RenderFrame on. The arrays are as in
 	/// FRTModuleMesh, as long as in AddMesh, and read during the call. Costs a copy and a refit, and a rebuild every
 	/// r.RT.Skinning.RebuildInterval such frames. Several calls before one RenderFrame cost as much as one.
 	virtual FRTStatus UpdateMeshVertices(ERTMeshHandle Handle, const float* Positions, const float* Normals) = 0;
+	/// Returns where the vertices of a mesh with bDeformable lie, for an engine whose GPU writes them. InvalidArgument if the mesh has
+	/// no bDeformable, or no BoundsRadius that holds all that the engine will write.
+	virtual FRTStatus GetMeshBuffer(ERTMeshHandle Handle, FRTModuleMeshBuffer* Out) = 0;
+	/// Says that the engine's GPU has written new positions of the mesh. The work must come before the next RenderFrame's commands,
+	/// on one queue, with a barrier to shader reads and acceleration structure builds between. The same barrier must come before
+	/// the next writing. Normals stay as they were.
+	virtual FRTStatus MarkMeshDeformed(ERTMeshHandle Handle) = 0;
 	/// Removes a mesh; InvalidArgument, with its name, while objects use it. The handle becomes invalid. The error of a later
 	/// use names the removed mesh.
 	virtual FRTStatus RemoveMesh(ERTMeshHandle Handle) = 0;
 	/// Adds an object. InvalidArgument, naming mesh and section, for a masked material on a section without bMayBeMasked.
 	/// Unsupported if there are 2^24 objects, which is the limit of instance indices.
 	virtual FRTStatus AddObject(const FRTModuleObject& Object, ERTObjectHandle* Out) = 0;
+	/// Adds many objects: all of them or, on an error, which names the first wrong one, none. Out: one handle for each.
+	virtual FRTStatus AddObjects(const FRTModuleObject* Objects, uint32_t Count, ERTObjectHandle* Out) = 0;
 	virtual FRTStatus SetObjectTransform(ERTObjectHandle Handle, const double Transform[12]) = 0;
 	/// Replaces the materials; the errors are those of AddObject.
 	virtual FRTStatus SetObjectMaterials(ERTObjectHandle Handle, const ERTMaterialHandle* Materials, uint32_t Count) = 0;
 	virtual FRTStatus SetObjectCastsShadow(ERTObjectHandle Handle, bool bCastsShadow) = 0;
+	virtual FRTStatus SetObjectVisible(ERTObjectHandle Handle, bool bVisible) = 0;
 	/// Removes an object. May be called while frames that show it are in flight.
 	virtual FRTStatus RemoveObject(ERTObjectHandle Handle) = 0;
+	virtual FRTStatus AddLight(const FRTModuleLight& Light, ERTLightHandle* Out) = 0;
+	virtual FRTStatus SetLight(ERTLightHandle Handle, const FRTModuleLight& Light) = 0;
+	virtual FRTStatus RemoveLight(ERTLightHandle Handle) = 0;
 	virtual FRTStatus SetSun(const FRTModuleSun& Sun) = 0;
 	/// Sets the radiance of a uniform sky: nits, linear Rec.709, finite, ≥ 0. 0 (default): no sky.
 	virtual FRTStatus SetSky(const float Radiance[3]) = 0;
 
 	/// Records the frame into Frame.Commands. On an error the command list must not be submitted.
+	/// Changes what the command buffer has bound. Pipelines and descriptor sets of the compute and ray-tracing bind points are then
+	/// Lantern's or none, and push constants of all stages are undefined. The pipeline and sets of the graphics bind point, vertex
+	/// and index buffers and dynamic state stay. No render pass, query or label is left open.
 	virtual FRTStatus RenderFrame(const FRTModuleFrame& Frame, FRTModuleOutputs* Out) = 0;
 	/// Ends the frame. Call after submitting the commands of RenderFrame, before the next RenderFrame. OutFence may be null.
 	virtual FRTStatus EndFrame(FRTFence* OutFence) = 0;

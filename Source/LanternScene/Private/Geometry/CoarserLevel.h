@@ -23,6 +23,8 @@ public:
 
 	bool IsDone() const { return bDone.load(std::memory_order_acquire); }
 	void Wait() { Task.Wait(); }
+	/// Ends the task with its current section.
+	void Cancel() { bCancel = true; }
 
 	// Valid once the level is done.
 	/// Empty: there was no memory for the level.

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "Geometry/CoarserLevel.h"
-#include "Geometry/GeometryReleases.h"
 
 namespace Lantern
 {
@@ -33,6 +32,26 @@ std::vector<FRTGeometryPart> MakeGeometryParts(const FRTGeometryInfo& Info, bool
 	return Parts;
 }
 
+FBoundingSphere FindBoundingSphere(const glm::vec3* Points, size_t Count)
+{
+	if (Count == 0) { return {}; }
+	glm::vec3 Low = Points[0], High = Low;
+	for (size_t Point = 1; Point < Count; ++Point)
+	{
+		Low = glm::min(Low, Points[Point]);
+		High = glm::max(High, Points[Point]);
+	}
+	const glm::vec3 Center = 0.5f * Low + 0.5f * High;
+	float SquaredRadius = 0.0f;
+	for (size_t Point = 0; Point < Count; ++Point)
+	{
+		const glm::vec3 Away = Points[Point] - Center;
+		SquaredRadius = glm::max(SquaredRadius, glm::dot(Away, Away));
+	}
+	if (!std::isfinite(SquaredRadius)) { return {}; }
+	return {Center, std::sqrt(SquaredRadius) * (1.0f + 1e-5f)}; // rounding must leave no vertex outside
+}
+
 void FillBounds(FRTGeometryInfo& Info)
 {
 	if (Info.BoundsRadius >= 0.0f || Info.bDynamic || !Info.CpuPositions || Info.VertexCount == 0) { return; }
@@ -40,22 +59,9 @@ void FillBounds(FRTGeometryInfo& Info)
 	{
 		if (Section.bProcedural) { return; } // boxes may lie anywhere
 	}
-	glm::vec3 Low = Info.CpuPositions[0], High = Low;
-	for (uint32_t Vertex = 1; Vertex < Info.VertexCount; ++Vertex)
-	{
-		Low = glm::min(Low, Info.CpuPositions[Vertex]);
-		High = glm::max(High, Info.CpuPositions[Vertex]);
-	}
-	const glm::vec3 Center = 0.5f * Low + 0.5f * High;
-	float SquaredRadius = 0.0f;
-	for (uint32_t Vertex = 0; Vertex < Info.VertexCount; ++Vertex)
-	{
-		const glm::vec3 Away = Info.CpuPositions[Vertex] - Center;
-		SquaredRadius = glm::max(SquaredRadius, glm::dot(Away, Away));
-	}
-	if (!std::isfinite(SquaredRadius)) { return; }
-	Info.BoundsCenter = Center;
-	Info.BoundsRadius = std::sqrt(SquaredRadius) * (1.0f + 1e-5f); // rounding must leave no vertex outside
+	const FBoundingSphere Bounds = FindBoundingSphere(Info.CpuPositions, Info.VertexCount);
+	Info.BoundsCenter = Bounds.Center;
+	Info.BoundsRadius = Bounds.Radius;
 }
 
 std::vector<FRTGeometrySection> MakeStructureSections(const FRTGeometry& Geometry)
@@ -112,11 +118,7 @@ FRTGeometry::FRTGeometry(FRTGeometryInfo InInfo)
 	for (const FRTSectionInfo& Section : Info.Sections) { PartCapacity += Section.IsClassified() ? 1 : 0; }
 }
 
-FRTGeometry::~FRTGeometry()
-{
-	Coarser.reset(); // it reads the CPU's data, which may go with this
-	if (Releases) { Releases->Add(Slot, Info.bDynamic, std::move(Structure), std::move(Indices)); }
-}
+FRTGeometry::~FRTGeometry() = default;
 
 uint64_t FRTGeometry::GetPrimitiveCount() const
 {

@@ -2,6 +2,7 @@
 #include "Geometry/GeometryBuildQueue.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -24,58 +25,116 @@ constexpr float AgingPerFrame = 0.005f;
 
 FGeometryBuildQueue::FGeometryBuildQueue(FGeometrySlots& InSlots, const FGeometryStoreStats& InStats) : Slots(InSlots), Stats(InStats) {}
 
+FGeometryBuildQueue::FPlace& FGeometryBuildQueue::GetPlace(uint32_t Slot)
+{
+	if (Slot >= Places.size()) { Places.resize(Slot + 1); }
+	return Places[Slot];
+}
+
+FGeometryBuildQueue::FKey FGeometryBuildQueue::MakeKey(const FGeometryEntry& Entry, bool bSmallestFirst) const
+{
+	double Score = double(Entry.ScreenSize) - double(AgingPerFrame) * static_cast<double>(Entry.QueuedFrame);
+	if (bSmallestFirst) { Score = -static_cast<double>(Entry.Sizes.StructureBytes); }
+	if (Entry.bLost) { Score = std::numeric_limits<double>::max(); }
+	return {Score, Entry.Age, Slots.MakeRef(Entry)};
+}
+
+void FGeometryBuildQueue::Insert(FGeometryEntry& Entry, bool bSmallestFirst)
+{
+	++Visited;
+	FPlace& Place = GetPlace(Slots.GetSlot(Entry));
+	Erase(Place);
+	Place = {MakeKey(Entry, bSmallestFirst), true, Entry.ScreenSize};
+	Order.insert(Place.Key);
+}
+
+void FGeometryBuildQueue::Erase(FPlace& Place)
+{
+	if (Place.bQueued) { Order.erase(Place.Key); }
+	Place.bQueued = false;
+}
+
 void FGeometryBuildQueue::Add(FGeometryEntry& Entry)
 {
 	Entry.State = EGeometryState::Pending;
-	Pending.push_back(Slots.MakeRef(Entry));
+	if (bRunning) { Added.push_back(Slots.MakeRef(Entry)); }
+	else { Insert(Entry, false); }
 }
 
 void FGeometryBuildQueue::Remove(uint32_t Slot)
 {
-	std::erase_if(Pending, [=](FGeometrySlotRef Ref) { return Ref.Slot == Slot; });
+	Erase(GetPlace(Slot));
+	std::erase_if(Added, [=](FGeometrySlotRef Ref) { return Ref.Slot == Slot; });
 }
 
-void FGeometryBuildQueue::Order(const FRound& Round)
+void FGeometryBuildQueue::TakeRaised()
 {
-	std::erase_if(Pending, [&](FGeometrySlotRef Ref) {
-		const FGeometryEntry* const Entry = Slots.Resolve(Ref);
-		return !Entry || Entry->State != EGeometryState::Pending;
-	});
-	std::vector<std::pair<float, FGeometrySlotRef>> Scored;
-	Scored.reserve(Pending.size());
-	for (const FGeometrySlotRef Ref : Pending)
+	// Smaller changes are not worth another place.
+	constexpr float LeastChange = 0.1f;
+	for (const uint32_t Slot : Priorities.TakeRaised())
 	{
-		FGeometryEntry& Entry = Slots[Ref.Slot];
-		if (const float Size = Priorities.Take(Ref.Slot); Size > 0.0f) { Entry.ScreenSize = Size; }
-		float Score = Entry.ScreenSize + AgingPerFrame * static_cast<float>(Round.Frame - Entry.QueuedFrame);
-		if (Round.bSmallestFirst) { Score = -static_cast<float>(Entry.Sizes.StructureBytes); }
-		if (Entry.bLost) { Score = std::numeric_limits<float>::max(); }
-		Scored.push_back({Score, Ref});
+		const float Size = Priorities.Take(Slot);
+		if (!(Size > 0.0f) || Slot >= Slots.GetCount()) { continue; }
+		FGeometryEntry& Entry = Slots[Slot];
+		Entry.ScreenSize = Size;
+		const FPlace& Place = GetPlace(Slot);
+		if (Place.bQueued && std::abs(Size - Place.KeyedSize) > LeastChange * Place.KeyedSize) { Insert(Entry, false); }
 	}
-	std::sort(Scored.begin(), Scored.end(), [&](const auto& A, const auto& B) {
-		return A.first != B.first ? A.first > B.first : Slots[A.second.Slot].Age < Slots[B.second.Slot].Age;
-	});
-	for (size_t I = 0; I < Scored.size(); ++I) { Pending[I] = Scored[I].second; }
+}
+
+void FGeometryBuildQueue::InsertAdded()
+{
+	for (const FGeometrySlotRef Ref : std::exchange(Added, {}))
+	{
+		FGeometryEntry* const Entry = Slots.Resolve(Ref);
+		if (Entry && Entry->State == EGeometryState::Pending) { Insert(*Entry, false); }
+	}
+}
+
+void FGeometryBuildQueue::OrderAll(bool bSmallestFirst)
+{
+	std::vector<FGeometrySlotRef> All;
+	for (const FKey& Key : Order) { All.push_back(Key.Ref); }
+	for (const FGeometrySlotRef Ref : All) { Insert(Slots[Ref.Slot], bSmallestFirst); }
+}
+
+FRTStatus FGeometryBuildQueue::RunInOrder(const FRound& Round, const FStart& Start)
+{
+	const uint64_t Limit = static_cast<uint64_t>(CVarTriangles.GetOnRenderThread());
+	bool bStop = false;
+	FRTStatus Status = FRTStatus::Success();
+	while (!Order.empty() && !bStop && Status)
+	{
+		const FGeometrySlotRef Ref = Order.begin()->Ref;
+		FGeometryEntry* const Entry = Slots.Resolve(Ref);
+		if (!Entry || Entry->State != EGeometryState::Pending)
+		{
+			Erase(GetPlace(Ref.Slot));
+			continue;
+		}
+		const bool bSpent = Limit > 0 && Stats.Built > 0 && !Entry->bLost; // what was in the picture stays there
+		if (!Round.bAll && bSpent && Stats.TrianglesBuilt + Entry->Triangles > Limit) { break; }
+		++Visited;
+		const size_t Left = Order.size();
+		Erase(GetPlace(Ref.Slot));
+		Status = Start(*Entry, Left, bStop);
+		const bool bAddedAlready = std::any_of(Added.begin(), Added.end(), [=](FGeometrySlotRef Each) { return Each.Slot == Ref.Slot; });
+		if (Entry->State == EGeometryState::Pending && !bAddedAlready) { Added.push_back(Ref); }
+	}
+	return Status;
 }
 
 FRTStatus FGeometryBuildQueue::Run(const FRound& Round, const FStart& Start)
 {
-	if (Pending.empty()) { return FRTStatus::Success(); }
-	Order(Round);
-	const uint64_t Limit = static_cast<uint64_t>(CVarTriangles.GetOnRenderThread());
-	const std::vector<FGeometrySlotRef> Waiting = std::exchange(Pending, {});
-	bool bStop = false;
-	size_t Next = 0;
-	FRTStatus Status = FRTStatus::Success();
-	for (; Next < Waiting.size() && !bStop && Status; ++Next)
-	{
-		FGeometryEntry& Entry = Slots[Waiting[Next].Slot];
-		const bool bSpent = Limit > 0 && Stats.Built > 0 && !Entry.bLost; // what was in the picture stays there
-		if (!Round.bAll && bSpent && Stats.TrianglesBuilt + Entry.Triangles > Limit) { break; }
-		Status = Start(Entry, Waiting.size() - Next, bStop);
-		if (Entry.State == EGeometryState::Pending) { Pending.push_back(Waiting[Next]); }
-	}
-	Pending.insert(Pending.end(), Waiting.begin() + static_cast<ptrdiff_t>(Next), Waiting.end());
+	Visited = 0;
+	TakeRaised();
+	if (Order.empty()) { return FRTStatus::Success(); }
+	if (Round.bSmallestFirst) { OrderAll(true); }
+	bRunning = true;
+	const FRTStatus Status = RunInOrder(Round, Start);
+	bRunning = false;
+	InsertAdded();
+	if (Round.bSmallestFirst) { OrderAll(false); }
 	return Status;
 }
 

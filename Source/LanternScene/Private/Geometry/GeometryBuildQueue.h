@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <set>
 #include <vector>
 
 #include "Geometry/BuildPriorities.h"
@@ -28,8 +29,10 @@ public:
 	/// Queues the entry, which becomes Pending.
 	void Add(FGeometryEntry& Entry);
 	void Remove(uint32_t Slot);
-	bool IsEmpty() const { return Pending.empty(); }
-	uint32_t GetCount() const { return static_cast<uint32_t>(Pending.size()); }
+	bool IsEmpty() const { return GetCount() == 0; }
+	uint32_t GetCount() const { return static_cast<uint32_t>(Order.size() + Added.size()); }
+	/// Number of entries that the last round placed anew or looked at, for tests: costs follow what changed and what is built.
+	uint32_t GetVisited() const { return Visited; }
 
 	struct FRound
 	{
@@ -46,12 +49,37 @@ public:
 	FRTStatus Run(const FRound& Round, const FStart& Start);
 
 private:
-	void Order(const FRound& Round);
+	/// Place of an entry in the order. Entries gain equally while they wait, so that the time of queueing tells them apart.
+	struct FKey
+	{
+		double Score = 0.0; ///< the highest first
+		uint64_t Age = 0;
+		FGeometrySlotRef Ref;
+		bool operator<(const FKey& Other) const { return Score != Other.Score ? Score > Other.Score : Age < Other.Age; }
+	};
+	struct FPlace
+	{
+		FKey Key;
+		bool bQueued = false;
+		float KeyedSize = 0.0f; ///< on the screen
+	};
+	FPlace& GetPlace(uint32_t Slot);
+	FKey MakeKey(const FGeometryEntry& Entry, bool bSmallestFirst) const;
+	void Insert(FGeometryEntry& Entry, bool bSmallestFirst);
+	void Erase(FPlace& Place);
+	void TakeRaised();
+	void InsertAdded();
+	void OrderAll(bool bSmallestFirst);
+	FRTStatus RunInOrder(const FRound& Round, const FStart& Start);
 
 	FGeometrySlots& Slots;
 	const FGeometryStoreStats& Stats;
 	FBuildPriorities Priorities;
-	std::vector<FGeometrySlotRef> Pending;
+	std::set<FKey> Order;
+	std::vector<FPlace> Places;          ///< by slot
+	std::vector<FGeometrySlotRef> Added; ///< during a round
+	bool bRunning = false;
+	uint32_t Visited = 0;
 };
 
 } // namespace Lantern

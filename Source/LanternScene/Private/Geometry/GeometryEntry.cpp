@@ -5,15 +5,13 @@
 
 #include "Geometry/CoarserLevel.h"
 #include "Geometry/GeometryCompactor.h"
-#include "Geometry/GeometryReleases.h"
 
 namespace Lantern
 {
 
-void FGeometryEntry::Bind(const std::shared_ptr<FRTGeometry>& NewGeometry, uint32_t Slot, std::shared_ptr<FGeometryReleases> InReleases)
+void FGeometryEntry::Bind(const std::shared_ptr<FRTGeometry>& NewGeometry, uint32_t Slot)
 {
 	NewGeometry->Slot = Slot;
-	NewGeometry->Releases = std::move(InReleases);
 	Owner = NewGeometry;
 	Geometry = NewGeometry.get();
 }
@@ -21,6 +19,8 @@ void FGeometryEntry::Bind(const std::shared_ptr<FRTGeometry>& NewGeometry, uint3
 void FGeometryEntry::SetStructure(TRTRef<IRTGeometry> Structure) { Geometry->Structure = std::move(Structure); }
 
 void FGeometryEntry::SetBuilt(bool bBuilt) { Geometry->bBuilt = bBuilt; }
+
+void FGeometryEntry::SetFilled() { Geometry->Info.bWaitsForData = false; }
 
 void FGeometryEntry::SetClassified(bool bClassified)
 {

@@ -13,6 +13,7 @@ namespace Lantern
 enum class EGeometryState : uint8_t
 {
 	Free,       ///< The slot has no geometry.
+	Filling,    ///< The geometry waits for its data.
 	Pending,    ///< The geometry waits for its build.
 	Coarsening, ///< The geometry waits for a coarser level.
 	Building,   ///< This frame builds the geometry.
@@ -40,7 +41,7 @@ struct FGeometrySlotRef
 struct FGeometryEntry
 {
 	std::weak_ptr<FRTGeometry> Owner;
-	FRTGeometry* Geometry = nullptr; ///< valid while Owner is; null: the slot is free
+	FRTGeometry* Geometry = nullptr; ///< valid until FGeometrySlots::FreeReleased; null: the slot is free
 	EGeometryState State = EGeometryState::Free;
 	EGeometryCompaction Compaction = EGeometryCompaction::None;
 	bool bDeformed = false;    ///< waits for a refit
@@ -67,11 +68,13 @@ struct FGeometryEntry
 	TRTRef<IRTGeometry> Compacted;
 	TRTRef<IRTBuffer> Staging; ///< a coarser level's indices, to be copied before the build
 
-	/// Binds a new geometry to this entry. InReleases is told when the geometry's last owner lets go.
-	void Bind(const std::shared_ptr<FRTGeometry>& NewGeometry, uint32_t Slot, std::shared_ptr<FGeometryReleases> InReleases);
+	/// Binds a new geometry to this entry.
+	void Bind(const std::shared_ptr<FRTGeometry>& NewGeometry, uint32_t Slot);
 	/// Null drops the structure. The GPU may still use the old one: the device frees it after that.
 	void SetStructure(TRTRef<IRTGeometry> Structure);
 	void SetBuilt(bool bBuilt);
+	/// Ends FRTGeometryInfo::bWaitsForData.
+	void SetFilled();
 	/// Makes the parts follow the sections' opacity classification, or ignore it.
 	void SetClassified(bool bClassified);
 	/// Null: no coarser level is being made.

@@ -1,32 +1,28 @@
-// What geometries leave behind when their last owner lets go, on any thread and perhaps after the store is gone.
+// Geometries without owners, on their way back to the store. The last owner may let go on any thread, while the store reads the
+// geometry, and perhaps after the store is gone.
 #pragma once
 
+#include <memory>
 #include <mutex>
 #include <utility>
 #include <vector>
 
-#include "LanternRHI/RTInterfaces.h"
+#include "LanternScene/Geometry/Geometry.h"
 
 namespace Lantern
 {
 
 /// Threads: any.
-struct FGeometryReleases
+class FGeometryReleases
 {
-	struct FItem
-	{
-		uint32_t Slot = 0;
-		bool bDynamic = false;
-		TRTRef<IRTGeometry> Structure;
-		TRTRef<IRTBuffer> Indices;
-	};
-
-	void Add(uint32_t Slot, bool bDynamic, TRTRef<IRTGeometry> Structure, TRTRef<IRTBuffer> Indices)
+public:
+	/// Keeps the geometry until the store takes it, or destroys it if there is no store any more.
+	void Add(std::unique_ptr<FRTGeometry> Geometry)
 	{
 		std::lock_guard Lock(Mutex);
-		Items.push_back({Slot, bDynamic, std::move(Structure), std::move(Indices)});
+		if (!bClosed) { Items.push_back(std::move(Geometry)); }
 	}
-	std::vector<FItem> Take()
+	std::vector<std::unique_ptr<FRTGeometry>> Take()
 	{
 		std::lock_guard Lock(Mutex);
 		return std::exchange(Items, {});
@@ -36,10 +32,18 @@ struct FGeometryReleases
 		std::lock_guard Lock(Mutex);
 		return Items.empty();
 	}
+	/// The store goes.
+	void Close()
+	{
+		const std::vector<std::unique_ptr<FRTGeometry>> Rest = Take(); // destroyed without the lock
+		std::lock_guard Lock(Mutex);
+		bClosed = true;
+	}
 
 private:
 	mutable std::mutex Mutex;
-	std::vector<FItem> Items;
+	std::vector<std::unique_ptr<FRTGeometry>> Items;
+	bool bClosed = false;
 };
 
 } // namespace Lantern

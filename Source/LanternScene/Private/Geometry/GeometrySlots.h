@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -10,20 +11,23 @@
 namespace Lantern
 {
 
-/// Threads: render thread. Only a geometry's last owner may let go on any thread.
+class FGeometryReleases;
+
+/// Threads: render thread. Only a geometry's last owner may let go on any thread: the geometry then stays until FreeReleased.
 class FGeometrySlots
 {
 public:
 	/// Addresses gets one element for each slot, 0 if the slot has no structure to trace. It must outlive this.
 	explicit FGeometrySlots(std::vector<uint64_t>& Addresses);
+	~FGeometrySlots();
 	FGeometrySlots(const FGeometrySlots&) = delete;
 	FGeometrySlots& operator=(const FGeometrySlots&) = delete;
 
-	/// Gives Geometry a slot, a free one first. References to entries end here; slots do not move.
-	FGeometryEntry& Add(const std::shared_ptr<FRTGeometry>& Geometry);
+	/// Makes a geometry in a slot, a free one first. References to entries end here; slots do not move.
+	FRTGeometryRef Create(FRTGeometryInfo Info);
 	/// Frees the slots of geometries whose last owner has let go since the last call. Returns how many there were.
-	/// OutCoarse: how many of them were coarser levels.
-	uint32_t FreeReleased(uint32_t& OutCoarse);
+	/// OutCoarse: how many of them were coarser levels. Freed: is called with each slot.
+	uint32_t FreeReleased(uint32_t& OutCoarse, const std::function<void(uint32_t)>& Freed = {});
 	bool HasReleased() const;
 
 	FGeometryEntry& operator[](uint32_t Slot) { return Entries[Slot]; }
@@ -39,6 +43,11 @@ public:
 	/// Number of dynamic geometries.
 	uint32_t GetDynamicCount() const { return DynamicCount; }
 
+	/// Number of geometries that wait for their data.
+	uint32_t GetFillingCount() const { return FillingCount; }
+	/// The entry's geometry has its data. Marks the slot as changed.
+	void NoteFilled(FGeometryEntry& Entry);
+
 	/// A different address marks the slot as changed.
 	void SetAddress(FGeometryEntry& Entry, uint64_t Address);
 	void MarkChanged(FGeometryEntry& Entry);
@@ -50,13 +59,22 @@ public:
 	void DropHeld() { Held.clear(); }
 
 private:
+	/// A geometry without owners whose coarser level is still in the making.
+	struct FDying
+	{
+		std::unique_ptr<FRTGeometry> Geometry;
+		FCoarserLevel* Level = nullptr;
+	};
+	void Bury(std::unique_ptr<FRTGeometry> Geometry, FCoarserLevel* Level);
+
 	std::shared_ptr<FGeometryReleases> Releases;
+	std::vector<FDying> Dying;
 	std::vector<FGeometryEntry> Entries;
 	std::vector<uint64_t>& Addresses;
 	std::vector<uint32_t> FreeSlots, Changed;
 	std::vector<FRTGeometryRef> Held;
 	uint64_t NextAge = 0;
-	uint32_t DynamicCount = 0;
+	uint32_t DynamicCount = 0, FillingCount = 0;
 };
 
 } // namespace Lantern

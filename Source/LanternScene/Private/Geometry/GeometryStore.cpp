@@ -55,25 +55,49 @@ FGeometryStore::~FGeometryStore() = default;
 FRTStatus FGeometryStore::Create(FRTGeometryInfo Info, FRTGeometryRef& Out)
 {
 	FGeometryContext& Context = Impl->Context;
-	if (FRTStatus S = CheckGeometry(Info, Context.Device.GetCapabilities().MaxPrimitiveCount); !S) { return S; }
+	if (FRTStatus S = Check(Info, Context.Device.GetCapabilities()); !S) { return S; }
 	Impl->FreeReleased();
-	auto Geometry = std::make_shared<FRTGeometry>(std::move(Info));
-	FGeometryEntry& Entry = Context.Slots.Add(Geometry);
+	FRTGeometryRef Geometry = Context.Slots.Create(std::move(Info));
+	FGeometryEntry& Entry = Context.Slots[Geometry->GetSlot()];
 	Entry.QueuedFrame = Impl->Frame;
 	Context.Queue.ResetPriority(Geometry->GetSlot());
 	Impl->ApplyOpacity(Entry);
 	Entry.UpdateSizes(Context.Device);
-	Context.Queue.Add(Entry);
+	if (Geometry->GetInfo().bWaitsForData) { Entry.State = EGeometryState::Filling; }
+	else { Context.Queue.Add(Entry); }
 	Out = std::move(Geometry);
 	return FRTStatus::Success();
+}
+
+FRTStatus FGeometryStore::Check(const FRTGeometryInfo& Info, const FRTCapabilities& Capabilities)
+{
+	return CheckGeometry(Info, Capabilities.MaxPrimitiveCount);
+}
+
+void FGeometryStore::MarkFilled(const FRTGeometryRef& Geometry)
+{
+	FGeometryContext& Context = Impl->Context;
+	FGeometryEntry& Entry = Context.Slots[Geometry->GetSlot()];
+	assert(Entry.State == EGeometryState::Filling);
+	Context.Slots.NoteFilled(Entry);
+	Entry.QueuedFrame = Impl->Frame;
+	Context.Queue.Add(Entry);
 }
 
 void FGeometryStore::FImpl::FreeReleased()
 {
 	uint32_t Coarse = 0;
-	if (Context.Slots.FreeReleased(Coarse) > 0) { Context.Memory.NoteRelease(); }
+	const auto Leave = [this](uint32_t Slot) { Context.Queue.Remove(Slot); };
+	if (Context.Slots.FreeReleased(Coarse, Leave) > 0) { Context.Memory.NoteRelease(); }
 	Context.Stats.Coarse -= Coarse;
 }
+
+void FGeometryStore::FreeReleased()
+{
+	if (HasReleased()) { Impl->FreeReleased(); }
+}
+
+bool FGeometryStore::HasReleased() const { return Impl->Context.Slots.HasReleased(); }
 
 void FGeometryStore::MarkDeformed(const FRTGeometryRef& Geometry)
 {
@@ -262,7 +286,7 @@ void FGeometryStore::FImpl::Lost()
 void FGeometryStore::FImpl::UpdateStats()
 {
 	Context.Memory.UpdateStats();
-	Context.Stats.Pending = Context.Queue.GetCount() + Coarsener.GetCount();
+	Context.Stats.Pending = Context.Queue.GetCount() + Coarsener.GetCount() + Context.Slots.GetFillingCount();
 	Context.Stats.Refused = Refusals.GetCount();
 }
 

@@ -1,6 +1,8 @@
 // FEmissiveTriangles: the list is made on the CPU, from the positions that geometry keeps there.
 #include "LanternScene/Scene/EmissiveTriangles.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -56,11 +58,57 @@ void FEmissiveTriangles::AddTriangles(uint32_t Index, const FSceneObjects& Objec
 	}
 }
 
+void FEmissiveTriangles::MarkMoved(uint32_t Object)
+{
+	// Where no light is sampled, nobody takes them.
+	constexpr size_t Most = 4096;
+	if (bStale) { return; }
+	if (Moved.size() < Most) { return Moved.push_back(Object); }
+	Moved.clear();
+	bStale = true;
+}
+
+bool FEmissiveTriangles::UpdateMoved(const FSceneObjects& Objects, const FSceneMaterials& Materials)
+{
+	constexpr double LeastChange = 1e-5; // of the power: a rotation rounds areas
+	std::sort(Moved.begin(), Moved.end());
+	Moved.erase(std::unique(Moved.begin(), Moved.end()), Moved.end());
+	for (const uint32_t Object : Moved)
+	{
+		const auto Found = std::lower_bound(
+		    Sources.begin(), Sources.end(), Object, [](const FSource& Source, uint32_t Key) { return Source.Object < Key; });
+		if (Found == Sources.end() || Found->Object != Object) { continue; }
+		FList List;
+		AddTriangles(Object, Objects, Materials, List);
+		Visited += static_cast<uint32_t>(List.Triangles.size());
+		const bool bSamePower = std::abs(List.Power - Found->Power) <= LeastChange * Found->Power;
+		if (List.Triangles.size() != Found->Count || !bSamePower) { return false; }
+		for (uint32_t I = 0; I < Found->Count; ++I)
+		{
+			List.Triangles[I].CumulativePower = Table[Found->First + I].CumulativePower;
+			Table.Set(Found->First + I, List.Triangles[I]);
+		}
+	}
+	return true;
+}
+
 void FEmissiveTriangles::Update(const FSceneObjects& Objects, const FSceneMaterials& Materials)
 {
+	Visited = 0;
+	const bool bDone = !bStale && UpdateMoved(Objects, Materials);
+	Moved.clear();
+	if (bDone) { return; }
 	if (bObjectsStale) { ListObjects(Objects, Materials); }
 	FList List;
-	for (const uint32_t Object : EmissiveObjects) { AddTriangles(Object, Objects, Materials, List); }
+	Sources.clear();
+	for (const uint32_t Object : EmissiveObjects)
+	{
+		const auto First = static_cast<uint32_t>(List.Triangles.size());
+		const double Before = List.Power;
+		AddTriangles(Object, Objects, Materials, List);
+		Sources.push_back({Object, First, static_cast<uint32_t>(List.Triangles.size()) - First, List.Power - Before});
+	}
+	Visited += static_cast<uint32_t>(List.Triangles.size());
 	Power = static_cast<float>(List.Power);
 	for (size_t I = 0; I < List.Triangles.size(); ++I)
 	{

@@ -3,16 +3,34 @@
 
 #include <utility>
 
+#include "LanternCore/Config/ConsoleVariables.h"
 #include "Scene/SceneUpdate.h"
 
 namespace Lantern
 {
+
+namespace
+{
+TRTConsoleVariable<int32_t> CVarArrivals("r.RT.Scene.ArrivalsPerFrame", 500,
+    "Limits how many materials, meshes and objects of an engine a frame adds to the scene or removes from it. The rest waits for the "
+    "next frames. 0: no limit.",
+    {0, 1'000'000});
+} // namespace
+
+uint32_t FRTScene::GetMostArrivals() { return static_cast<uint32_t>(CVarArrivals.GetOnRenderThread()); }
 
 FRTScene::FRTScene(IRTDevice& Device)
     : Geometries(Device),
       Frame(std::make_unique<FSceneUpdate>(FSceneParts{Device, Geometries, Materials, Objects, Lights, Emissive}))
 {}
 FRTScene::~FRTScene() = default;
+
+void FRTScene::MarkFilled(const FRTGeometryRef& Geometry)
+{
+	Geometries.MarkFilled(Geometry);
+	// Light sampling lists no triangle whose vertices are missing.
+	if (Materials.GetSections().GetEmissiveRangeCount() > 0) { Emissive.MarkTriangles(); }
+}
 
 void FRTScene::MarkDeformed(const FRTGeometryRef& Geometry)
 {

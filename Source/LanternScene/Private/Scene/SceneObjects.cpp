@@ -103,6 +103,7 @@ FRTObjectId FSceneObjects::Add(FRTObjectInfo Info)
 	Object.bAlive = true;
 	Object.Range = Sections.Acquire(*Object.Info.Geometry, Object.Info.Materials);
 	Motions.Add(Slot, *Object.Info.Geometry);
+	JoinGeometry(Slot);
 	Write(Slot);
 	MarkEmissive(Object.Range);
 	return {Slot, Object.Generation};
@@ -115,6 +116,7 @@ void FSceneObjects::Remove(FRTObjectId Id)
 	Instances.Remove(Id.Index);
 	Motions.Remove(Id.Index);
 	Pivots.Remove(Id.Index);
+	LeaveGeometry(Id.Index);
 	Sections.Release(Object.Range);
 	Retired.push_back(std::move(Object.Info.Geometry));
 	FreeSlot(Id.Index);
@@ -126,7 +128,7 @@ void FSceneObjects::SetTransform(FRTObjectId Id, const glm::dmat4& Transform)
 	Motions.BeforeMove(Id.Index);
 	Object.Info.Transform = Transform;
 	Write(Id.Index);
-	if (Sections.GetRange(Object.Range).bEmissive) { Emissive.MarkTriangles(); }
+	if (Sections.GetRange(Object.Range).bEmissive) { Emissive.MarkMoved(Id.Index); }
 }
 
 void FSceneObjects::SetMaterials(FRTObjectId Id, std::vector<uint32_t> SectionMaterials)
@@ -140,12 +142,50 @@ void FSceneObjects::SetMaterials(FRTObjectId Id, std::vector<uint32_t> SectionMa
 	Write(Id.Index);
 }
 
+void FSceneObjects::SetMask(FRTObjectId Id, uint8_t Mask)
+{
+	Resolve(Id).Info.Mask = Mask;
+	Place(Id.Index);
+}
+
+void FSceneObjects::SetBounds(const FRTGeometryRef& Geometry, const FBoundingSphere& Bounds)
+{
+	assert(Geometry->GetInfo().bDynamic);
+	Geometry->Info.BoundsCenter = Bounds.Center;
+	Geometry->Info.BoundsRadius = Bounds.Radius;
+	const auto Found = DynamicUsers.find(Geometry.get());
+	if (Found == DynamicUsers.end()) { return; }
+	for (const uint32_t Slot : Found->second) { Place(Slot); }
+}
+
+void FSceneObjects::JoinGeometry(uint32_t Slot)
+{
+	FObject& Object = Objects[Slot];
+	if (!Object.Info.Geometry->GetInfo().bDynamic) { return; }
+	std::vector<uint32_t>& Users = DynamicUsers[Object.Info.Geometry.get()];
+	Object.Member = static_cast<uint32_t>(Users.size());
+	Users.push_back(Slot);
+}
+
+void FSceneObjects::LeaveGeometry(uint32_t Slot)
+{
+	const FObject& Object = Objects[Slot];
+	if (!Object.Info.Geometry->GetInfo().bDynamic) { return; }
+	const auto Found = DynamicUsers.find(Object.Info.Geometry.get());
+	std::vector<uint32_t>& Users = Found->second;
+	Objects[Users.back()].Member = Object.Member;
+	Users[Object.Member] = Users.back();
+	Users.pop_back();
+	if (Users.empty()) { DynamicUsers.erase(Found); }
+}
+
 void FSceneObjects::MarkEmissive(FSectionRangeId Range)
 {
 	if (Sections.GetRange(Range).bEmissive) { Emissive.MarkObjects(); }
 }
 
-void FSceneObjects::Write(uint32_t Slot)
+/// Writes what gathering and the reach of rays know of the object.
+void FSceneObjects::Place(uint32_t Slot)
 {
 	const FObject& Object = Objects[Slot];
 	const glm::dmat4& Transform = Object.Info.Transform;
@@ -162,7 +202,13 @@ void FSceneObjects::Write(uint32_t Slot)
 	Placement.Group = Object.Info.Group;
 	Placement.Mask = Object.Info.Mask;
 	Instances.Set(Slot, Placement);
+}
 
+void FSceneObjects::Write(uint32_t Slot)
+{
+	Place(Slot);
+	const FObject& Object = Objects[Slot];
+	const glm::dmat4& Transform = Object.Info.Transform;
 	FObjectData Data{};
 	std::memcpy(Data.ObjectToWorld, Instances.GetTransform(Slot), sizeof(Data.ObjectToWorld));
 	Data.FirstSection = Sections.GetRange(Object.Range).First;

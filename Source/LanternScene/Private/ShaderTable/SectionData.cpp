@@ -67,7 +67,7 @@ FSectionData MakeSection(const FSectionContext& Context, const FRTGeometry& Geom
 	Data.Flags |= Material.Flags & MATERIAL_DOUBLE_SIDED ? SECTION_DOUBLE_SIDED : 0u;
 	Data.Flags |= Info.bHasTangents ? SECTION_TANGENTS : 0u;
 	// Emissive triangles are listed on the CPU, and of the finest level of detail only.
-	const bool bListed = !Info.bDynamic && Info.CpuPositions && !Geometry.IsCoarse();
+	const bool bListed = !Info.bDynamic && Info.CpuPositions && !Geometry.IsCoarse() && !Info.bWaitsForData;
 	Data.Flags |= Material.EmissiveWeight > 0.0f && bListed ? SECTION_LIGHT : 0u;
 	return Data;
 }

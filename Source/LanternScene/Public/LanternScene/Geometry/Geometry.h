@@ -54,14 +54,18 @@ struct FRTGeometryInfo
 	bool bHasTangents = false;
 	/// Alpha is 1 in every vertex colour: alpha tests then do not read it. False is always right.
 	bool bOpaqueVertices = false;
+	/// The buffers are still being filled: the geometry is built after FRTScene::MarkFilled.
+	bool bWaitsForData = false;
 	/// Vertices change after creation (skinning). Call FRTScene::MarkDeformed each time.
 	bool bDynamic = false;
-	/// A copy of the positions and indices on the CPU, which must live as long as the geometry. Ignored for dynamic geometry.
+	/// A copy of the positions and indices on the CPU. Without CpuOwner it must live until the store has begun a frame after the
+	/// geometry's last owner let go, or is gone. Ignored for dynamic geometry.
 	/// Null: light sampling does not know its emissive triangles, which are then found by chance alone. The geometry has
 	/// no coarser levels of detail.
 	const glm::vec3* CpuPositions = nullptr;
 	const uint32_t* CpuIndices = nullptr;
-	glm::vec3 BoundsCenter{0}; ///< object space
+	std::shared_ptr<const void> CpuOwner; ///< held as long as the geometry lives; null: CpuPositions and CpuIndices live by other means
+	glm::vec3 BoundsCenter{0};            ///< object space
 	/// Radius of a sphere around everything that the geometry can become. A negative radius is computed from CpuPositions if
 	/// there are any and the geometry is static. Otherwise it is unknown, and the geometry's objects are never culled.
 	float BoundsRadius = -1.0f;
@@ -80,6 +84,14 @@ struct FRTGeometryPart
 	friend bool operator==(const FRTGeometryPart&, const FRTGeometryPart&) = default;
 };
 
+struct FBoundingSphere
+{
+	glm::vec3 Center{0};
+	float Radius = -1.0f; ///< < 0: unknown
+};
+/// Returns a sphere that holds all points; an unknown one if there are none, or if one is not finite. O(Count).
+FBoundingSphere FindBoundingSphere(const glm::vec3* Points, size_t Count);
+
 /// bClassified: false ignores the classification of sections.
 std::vector<FRTGeometryPart> MakeGeometryParts(const FRTGeometryInfo& Info, bool bClassified = true);
 /// Sets the bounds from the positions if Info does not state them (see FRTGeometryInfo::BoundsRadius).
@@ -88,7 +100,6 @@ class FRTGeometry;
 /// Describes the parts as the RHI takes them. Pointers are valid as long as the geometry lives.
 std::vector<FRTGeometrySection> MakeStructureSections(const FRTGeometry& Geometry);
 
-struct FGeometryReleases;
 class FCoarserLevel;
 
 class FRTGeometry : public std::enable_shared_from_this<FRTGeometry>
@@ -124,6 +135,7 @@ public:
 
 private:
 	friend class FObjectMotions;
+	friend class FSceneObjects; // bounds
 	friend struct FGeometryEntry;
 	friend struct FGeometryTestAccess;
 	FRTGeometryInfo Info;
@@ -139,8 +151,7 @@ private:
 	bool bBuilt = false;
 	bool bMotionMarked = false; // is in FObjectMotions' list of this frame
 	bool bWasDeformed = false;
-	std::shared_ptr<FGeometryReleases> Releases; // is told when the geometry goes; null without a store
-	std::unique_ptr<FCoarserLevel> Coarser;      // is being made
+	std::unique_ptr<FCoarserLevel> Coarser; // is being made; last: it reads the others
 };
 
 using FRTGeometryRef = std::shared_ptr<FRTGeometry>;

@@ -29,7 +29,7 @@ struct FGeometryStoreStats
 	uint64_t ScratchBytes = 0;
 	uint64_t PeakBytes = 0;            ///< structures, structures over instances and scratch, since the store was made
 	uint64_t CompactionSavedBytes = 0; ///< since the store was made
-	uint32_t Pending = 0;              ///< geometries that wait for a build or for a coarser level
+	uint32_t Pending = 0;              ///< geometries that wait for their data, for a build or for a coarser level
 	uint32_t Coarse = 0;               ///< geometries that are a coarser level of detail
 	uint32_t Refused = 0;              ///< geometries that are left out because they do not fit into memory
 	// In the last frame.
@@ -50,6 +50,10 @@ public:
 	/// InvalidArgument, with the name and the section: a section has no triangles, or one of its buffers is missing.
 	/// Unsupported, with the name: the geometry has more triangles than the device allows. On error nothing has changed.
 	FRTStatus Create(FRTGeometryInfo Info, FRTGeometryRef& Out);
+	/// Returns the error that Create would return. Any thread.
+	static FRTStatus Check(const FRTGeometryInfo& Info, const FRTCapabilities& Capabilities);
+	/// Says that the buffers of a geometry with FRTGeometryInfo::bWaitsForData are filled, as seen by commands that Record records.
+	void MarkFilled(const FRTGeometryRef& Geometry);
 	/// Says that a dynamic geometry's vertices are new in this frame.
 	void MarkDeformed(const FRTGeometryRef& Geometry);
 	/// Says whether parts follow the opacity classification of their sections. They do at first. If that changes, parts
@@ -67,6 +71,9 @@ public:
 	/// Number of builds of Slot's structure so far; after EndFrame this includes the frame's own. It tells which build a
 	/// measurement belongs to.
 	uint32_t GetBuildCount(uint32_t Slot) const;
+	/// Frees what owners have let go; BeginFrame does so, too. Returns at once if there is nothing.
+	void FreeReleased();
+	bool HasReleased() const;
 	/// BeginFrame and Record would do something.
 	bool NeedsUpdate() const;
 
@@ -88,7 +95,7 @@ public:
 	/// Device address of Slot's structure. 0: it is not there (yet), and its objects are left out.
 	uint64_t GetAddress(uint32_t Slot) const { return Slot < Addresses.size() ? Addresses[Slot] : 0; }
 	/// Makes larger geometries be built sooner. ScreenSize: the size of the geometry's largest object, in heights of the
-	/// picture. Lock-free; any thread, also during BeginFrame.
+	/// picture. Any thread, also during BeginFrame.
 	void RaisePriority(uint32_t Slot, float ScreenSize);
 	/// Slots whose address, parts or index buffer changed since the last call, each once.
 	std::vector<uint32_t> TakeChanged();

@@ -80,9 +80,18 @@ public:
 	/// geometry's objects. Errors are those of FGeometryStore::Create.
 	FRTStatus CreateGeometry(FRTGeometryInfo Info, FRTGeometryRef& Out) { return Geometries.Create(std::move(Info), Out); }
 	FGeometryStore& GetGeometries() { return Geometries; }
+	/// Tells that the buffers of a geometry with FRTGeometryInfo::bWaitsForData are filled. The lists that later updates record into
+	/// must find the data.
+	void MarkFilled(const FRTGeometryRef& Geometry);
 	/// Tells that a dynamic geometry's vertices are new in this frame. The geometry is refitted, or rebuilt every
 	/// r.RT.Skinning.RebuildInterval frames.
 	void MarkDeformed(const FRTGeometryRef& Geometry);
+	/// Replaces the bounds of a dynamic geometry: see FRTGeometryInfo::BoundsRadius. O(objects that have it).
+	void SetBounds(const FRTGeometryRef& Geometry, const FBoundingSphere& Bounds) { Objects.SetBounds(Geometry, Bounds); }
+
+	/// Returns how many materials, geometries and objects a host that streams should add or remove before a frame; 0: any number.
+	/// Render thread.
+	static uint32_t GetMostArrivals();
 
 	/// Returns the material's index. Program is an index of FMaterialPrograms.
 	uint32_t AddMaterial(const FMaterialData& Material, uint32_t Program = StandardProgram) { return Materials.Add(Material, Program); }
@@ -99,6 +108,8 @@ public:
 	void RemoveObject(FRTObjectId Id) { Objects.Remove(Id); }
 	void SetTransform(FRTObjectId Id, const glm::dmat4& Transform) { Objects.SetTransform(Id, Transform); }
 	void SetMaterials(FRTObjectId Id, std::vector<uint32_t> SectionMaterials) { Objects.SetMaterials(Id, std::move(SectionMaterials)); }
+	/// Replaces FRTObjectInfo::Mask. The object's motion stays.
+	void SetMask(FRTObjectId Id, uint8_t Mask) { Objects.SetMask(Id, Mask); }
 	const FRTObjectInfo& GetObject(FRTObjectId Id) const { return Objects.Get(Id); }
 	/// Returns the number of slots to visit in a walk over all objects. FindObject returns null for the free ones.
 	uint32_t GetObjectSlotCount() const { return Objects.GetSlotCount(); }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -37,6 +38,10 @@ public:
 	void SetTransform(FRTObjectId Id, const glm::dmat4& Transform);
 	/// SectionMaterials holds one material for each section of the geometry.
 	void SetMaterials(FRTObjectId Id, std::vector<uint32_t> SectionMaterials);
+	/// Changes nothing but who sees the object: its motion stays.
+	void SetMask(FRTObjectId Id, uint8_t Mask);
+	/// See FRTScene::SetBounds.
+	void SetBounds(const FRTGeometryRef& Geometry, const FBoundingSphere& Bounds);
 	const FRTObjectInfo& Get(FRTObjectId Id) const { return Resolve(Id).Info; }
 	/// Returns the index of the object's first section in FSectionData[].
 	uint32_t GetFirstSection(FRTObjectId Id) const { return Sections.GetRange(Resolve(Id).Range).First; }
@@ -67,13 +72,17 @@ private:
 		FRTObjectInfo Info;
 		uint32_t Generation = 0;
 		FSectionRangeId Range = 0;
+		uint32_t Member = 0; // place in DynamicUsers
 		bool bAlive = false;
 	};
 	FObject& Resolve(FRTObjectId Id);
 	const FObject& Resolve(FRTObjectId Id) const { return const_cast<FSceneObjects*>(this)->Resolve(Id); }
 	uint32_t TakeSlot();
 	void FreeSlot(uint32_t Slot);
+	void Place(uint32_t Slot);
 	void Write(uint32_t Slot);
+	void JoinGeometry(uint32_t Slot);
+	void LeaveGeometry(uint32_t Slot);
 	void MarkEmissive(FSectionRangeId Range);
 
 	FSectionTable& Sections;
@@ -82,6 +91,7 @@ private:
 	std::vector<uint32_t> FreeSlots;                    // a heap, the lowest first, so that the end of the table falls free
 	uint32_t GenerationFloor = 0;                       // of slots that the table never had, or has lost
 	std::vector<FRTGeometryRef> Retired, RetiredBefore; // of objects removed since the last submitted frame, and before it
+	std::unordered_map<const FRTGeometry*, std::vector<uint32_t>> DynamicUsers; // objects of dynamic geometries
 	TGpuTable<FObjectData> Table{"Objects"};
 	FObjectMotions Motions{Table};
 	FObjectPivots Pivots;

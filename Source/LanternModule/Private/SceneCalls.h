@@ -1,0 +1,128 @@
+// The calls of IRTModuleRenderer that change the scene, from any thread. Arguments are checked and handles given at once. What
+// follows for the scene is a command, which a frame takes over.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "LanternModule/Module.h"
+#include "SceneCommands.h"
+#include "SlotTable.h"
+
+namespace Lantern
+{
+
+/// Threads: any.
+class FSceneCalls
+{
+public:
+	/// Uploads takes the meshes. It outlives this.
+	FSceneCalls(IRTDevice& InDevice, FBufferUploads& InUploads);
+	FSceneCalls(const FSceneCalls&) = delete;
+	FSceneCalls& operator=(const FSceneCalls&) = delete;
+
+	// As in IRTModuleRenderer.
+	FRTStatus AddMaterial(const FRTModuleMaterial& Material, ERTMaterialHandle* Out);
+	FRTStatus SetMaterial(ERTMaterialHandle Handle, const FRTModuleMaterial& Material);
+	FRTStatus RemoveMaterial(ERTMaterialHandle Handle);
+	FRTStatus AddMesh(const FRTModuleMesh& Mesh, ERTMeshHandle* Out);
+	FRTStatus UpdateMeshVertices(ERTMeshHandle Handle, const float* Positions, const float* Normals);
+	FRTStatus GetMeshBuffer(ERTMeshHandle Handle, FRTModuleMeshBuffer* Out);
+	FRTStatus MarkMeshDeformed(ERTMeshHandle Handle);
+	FRTStatus RemoveMesh(ERTMeshHandle Handle);
+	FRTStatus AddObjects(const FRTModuleObject* Added, uint32_t Count, ERTObjectHandle* Out);
+	FRTStatus SetObjectTransform(ERTObjectHandle Handle, const double Transform[12]);
+	FRTStatus SetObjectMaterials(ERTObjectHandle Handle, const ERTMaterialHandle* Handles, uint32_t Count);
+	FRTStatus SetObjectCastsShadow(ERTObjectHandle Handle, bool bCastsShadow);
+	FRTStatus SetObjectVisible(ERTObjectHandle Handle, bool bVisible);
+	FRTStatus RemoveObject(ERTObjectHandle Handle);
+	FRTStatus AddLight(const FRTModuleLight& Light, ERTLightHandle* Out);
+	FRTStatus SetLight(ERTLightHandle Handle, const FRTModuleLight& Light);
+	FRTStatus RemoveLight(ERTLightHandle Handle);
+	FRTStatus SetSun(const FRTModuleSun& Sun);
+	FRTStatus SetSky(const float Radiance[3]);
+
+	/// Moves the commands that a frame takes over to the end of Out, in order. Updates of what the scene has come all, arrivals
+	/// and departures as many as MostArrivals says; 0: all of them. Returns whether some are left.
+	bool Take(uint32_t MostArrivals, std::vector<FSceneCommand>& Out);
+
+private:
+	/// Number of the last arrival or departure that concerns a thing. Before the scene has it, updates of the thing wait, too.
+	using FTicket = uint64_t;
+	struct FMaterial
+	{
+		FMaterialTextures Textures;
+		bool bMasked = false;
+		uint32_t Users = 0; ///< sections of objects
+		/// Users among these whose section cannot be alpha-tested, by mesh and section.
+		std::map<std::pair<ERTMeshHandle, uint32_t>, uint32_t> OpaqueUsers;
+		FTicket Ticket = 0;
+	};
+	struct FMesh
+	{
+		std::string Name;
+		std::vector<bool> IsOpaque;    ///< by section: cannot be alpha-tested
+		FDeformableMeshRef Deformable; ///< null: the mesh is rigid
+		FBufferUploadRef Upload;
+		bool bHasBounds = false; ///< the engine gave some
+		uint32_t Users = 0;      ///< objects
+		FTicket Ticket = 0;
+	};
+	struct FObject
+	{
+		ERTMeshHandle Mesh = ERTMeshHandle::None;
+		std::vector<ERTMaterialHandle> Materials;
+		bool bVisible = true, bCastsShadow = true;
+		FTicket Ticket = 0;
+		uint8_t GetMask() const
+		{
+			return static_cast<uint8_t>((bVisible ? MaskAll & ~MaskCastsShadow : 0) | (bCastsShadow ? MaskCastsShadow : 0));
+		}
+	};
+	struct FLight
+	{
+		FTicket Ticket = 0;
+	};
+	/// The last mesh that was removed from a slot: who still has its handle is told the name.
+	struct FRemovedMesh
+	{
+		ERTMeshHandle Handle = ERTMeshHandle::None;
+		std::string Name;
+	};
+
+	// All of these need Mutex.
+	FRTStatus CheckObject(const FRTModuleObject& Object);
+	ERTObjectHandle AddOne(const FRTModuleObject& Object);
+	FRTStatus SetMask(const char* Function, ERTObjectHandle Handle, bool FObject::*Member, bool bValue);
+	FRTStatus CheckDeformable(const char* Function, ERTMeshHandle Handle);
+	FRTStatus CheckMaterials(const FMesh& Mesh, const ERTMaterialHandle* Handles, uint32_t Count);
+	void AddUsers(const FObject& Object);
+	void RemoveUsers(const FObject& Object);
+	FRTStatus CheckUsers(const FMaterial& Material);
+	FRTStatus RefuseMesh(const char* Function, ERTMeshHandle Handle) const;
+	std::vector<uint32_t> GetSlots(const std::vector<ERTMaterialHandle>& Handles) const;
+	FTicket AddArrival(FSceneCommand Command);
+	/// Needs: ticket of whatever the command names.
+	void AddUpdate(FSceneCommand Command, FTicket Needs, FTicket& InOutTicket);
+
+	IRTDevice& Device;
+	FBufferUploads& Uploads;
+	const uint32_t Tag; ///< in all handles, by which those of another renderer are known
+	std::mutex Mutex;   ///< of everything below
+	TSlotTable<FMaterial, ERTMaterialHandle> Materials{Tag};
+	TSlotTable<FMesh, ERTMeshHandle> Meshes{Tag};
+	std::vector<FRemovedMesh> RemovedMeshes; ///< by slot
+	TSlotTable<FObject, ERTObjectHandle> Objects{Tag};
+	TSlotTable<FLight, ERTLightHandle> Lights{Tag};
+	uint32_t ObjectCount = 0;
+	std::deque<FSceneCommand> Arrivals; ///< and departures, and updates that wait for them
+	std::vector<FSceneCommand> Updates;
+	FTicket LastArrival = 0, LastTaken = 0; ///< counts Arrivals: added and taken so far
+};
+
+} // namespace Lantern

@@ -1,0 +1,97 @@
+// What engines ask of a scene, on its way from the calling thread to the frame that takes it over.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "DeformableMesh.h"
+#include "LanternScene/Memory/BufferUploads.h"
+#include "LanternScene/Scene/Object.h"
+#include "LanternScene/Scene/SceneLights.h"
+#include "SceneTypes.h"
+
+namespace Lantern
+{
+
+/// What a material refers to, kept while it does.
+struct FMaterialTextures
+{
+	std::vector<TRTRef<IRTTexture>> Textures;
+	std::vector<TRTRef<IRTSampler>> Samplers;
+};
+
+// Materials, meshes and objects are named by their slots (TSlotTable).
+
+/// Adds the material, or changes it. Old: what it no longer refers to.
+struct FMaterialCommand
+{
+	uint32_t Slot = 0;
+	std::unique_ptr<FMaterialData> Data; ///< null: removes the material
+	FMaterialTextures Old;
+};
+struct FAddMeshCommand
+{
+	uint32_t Slot = 0;
+	std::unique_ptr<FRTGeometryInfo> Info;
+	FBufferUploadRef Upload;
+	FDeformableMeshRef Deformable; ///< null: the mesh is rigid
+};
+struct FRemoveMeshCommand
+{
+	uint32_t Slot = 0;
+};
+struct FAddObjectCommand
+{
+	uint32_t Slot = 0, Mesh = 0;
+	uint8_t Mask = MaskAll;
+	std::vector<uint32_t> Materials;
+	glm::dmat4 Transform{1.0};
+};
+struct FRemoveObjectCommand
+{
+	uint32_t Slot = 0;
+};
+struct FTransformCommand
+{
+	uint32_t Slot = 0;
+	glm::dmat4 Transform{1.0};
+};
+struct FMaskCommand
+{
+	uint32_t Slot = 0;
+	uint8_t Mask = MaskAll;
+};
+struct FObjectMaterialsCommand
+{
+	uint32_t Slot = 0;
+	std::vector<uint32_t> Materials;
+};
+/// The mesh has new vertices.
+struct FVerticesCommand
+{
+	uint32_t Slot = 0;
+};
+struct FSkyCommand
+{
+	glm::vec3 Radiance{0};
+};
+
+/// The engine's GPU has written new positions.
+struct FDeformedCommand
+{
+	uint32_t Slot = 0;
+};
+/// Adds the light, or changes it.
+struct FLightCommand
+{
+	uint32_t Slot = 0;
+	std::optional<FSceneLight> Light; ///< none: removes the light
+};
+
+using FSceneCommand = std::variant<FMaterialCommand, FAddMeshCommand, FRemoveMeshCommand, FAddObjectCommand, FRemoveObjectCommand,
+    FTransformCommand, FMaskCommand, FObjectMaterialsCommand, FVerticesCommand, FDeformedCommand, FLightCommand, FSunLight, FSkyCommand>;
+
+} // namespace Lantern

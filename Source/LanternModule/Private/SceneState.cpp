@@ -1,0 +1,195 @@
+// FSceneState: commands are carried out one by one, in order.
+#include "SceneState.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "LanternCore/Text/Log.h"
+#include "LanternCore/Text/Quote.h"
+
+namespace Lantern
+{
+
+namespace
+{
+/// Slots come in order, and each is used again when it is free.
+template <class T>
+T& GetSlot(std::vector<T>& Values, uint32_t Slot)
+{
+	if (Slot >= Values.size()) { Values.resize(Slot + 1); }
+	return Values[Slot];
+}
+} // namespace
+
+void FSceneState::Apply(std::vector<FSceneCommand>& Commands)
+{
+	for (FSceneCommand& Command : Commands)
+	{
+		std::visit([this](auto& Each) { Do(Each); }, Command);
+	}
+	Commands.clear();
+	if (!std::exchange(bLightsChanged, false)) { return; }
+	std::vector<FSceneLight> All;
+	for (const std::optional<FSceneLight>& Light : Lights)
+	{
+		if (Light) { All.push_back(*Light); }
+	}
+	Scene.SetLights(std::move(All));
+}
+
+// ---------------------------------------------------------------------------------------------------- commands
+
+void FSceneState::Do(FMaterialCommand& Command)
+{
+	constexpr uint32_t None = ~0u;
+	const bool bKnown = Command.Slot < Materials.size() && Materials[Command.Slot] != None;
+	if (!Command.Data) { Scene.RemoveMaterial(std::exchange(Materials[Command.Slot], None)); }
+	else if (bKnown) { Scene.SetMaterial(Materials[Command.Slot], *Command.Data); }
+	else
+	{
+		if (Command.Slot >= Materials.size()) { Materials.resize(Command.Slot + 1, None); }
+		Materials[Command.Slot] = Scene.AddMaterial(*Command.Data);
+	}
+	if (!Command.Old.Textures.empty()) { ReplacedTextures.push_back(std::move(Command.Old)); }
+}
+
+void FSceneState::Do(FAddMeshCommand& Command)
+{
+	FMesh& Mesh = GetSlot(Meshes, Command.Slot);
+	Mesh = {};
+	Command.Info->bWaitsForData = !Command.Upload->bFilled;
+	const std::string Name = Command.Info->Name;
+	if (const FRTStatus Status = Scene.CreateGeometry(std::move(*Command.Info), Mesh.Geometry); !Status)
+	{
+		LogError("Module: mesh \"{}\" is left out: {}", EscapeText(Name, MaxQuotedBytes), Status.Message);
+		return;
+	}
+	Mesh.Upload = std::move(Command.Upload);
+	Mesh.Upload->Geometry = Mesh.Geometry;
+	Mesh.Deformable = std::move(Command.Deformable);
+}
+
+void FSceneState::Do(FRemoveMeshCommand& Command)
+{
+	FMesh& Mesh = Meshes[Command.Slot];
+	if (Mesh.bDeformed) { std::erase(Deformed, Command.Slot); }
+	if (Mesh.Upload) { Mesh.Upload->Geometry = nullptr; } // it may still be on its way
+	Mesh = {};
+}
+
+void FSceneState::Do(FAddObjectCommand& Command)
+{
+	FRTObjectId& Id = GetSlot(Objects, Command.Slot);
+	Id = {};
+	FRTObjectInfo Info;
+	Info.Geometry = Meshes[Command.Mesh].Geometry;
+	if (!Info.Geometry) { return; }
+	Info.Materials = GetMaterials(Command.Materials);
+	Info.Transform = Command.Transform;
+	Info.Mask = Command.Mask;
+	Id = Scene.AddObject(std::move(Info));
+}
+
+void FSceneState::Do(FRemoveObjectCommand& Command)
+{
+	const FRTObjectId Id = std::exchange(Objects[Command.Slot], {});
+	if (Id.IsValid()) { Scene.RemoveObject(Id); }
+}
+
+void FSceneState::Do(FTransformCommand& Command)
+{
+	const FRTObjectId Id = Objects[Command.Slot];
+	if (Id.IsValid()) { Scene.SetTransform(Id, Command.Transform); }
+}
+
+void FSceneState::Do(FMaskCommand& Command)
+{
+	const FRTObjectId Id = Objects[Command.Slot];
+	if (Id.IsValid()) { Scene.SetMask(Id, Command.Mask); }
+}
+
+void FSceneState::Do(FObjectMaterialsCommand& Command)
+{
+	const FRTObjectId Id = Objects[Command.Slot];
+	if (Id.IsValid()) { Scene.SetMaterials(Id, GetMaterials(Command.Materials)); }
+}
+
+void FSceneState::Do(FVerticesCommand& Command)
+{
+	if (Meshes[Command.Slot].Geometry) { MarkDeformed(Command.Slot); }
+}
+
+void FSceneState::Do(FDeformedCommand& Command)
+{
+	if (Meshes[Command.Slot].Geometry) { Scene.MarkDeformed(Meshes[Command.Slot].Geometry); }
+}
+
+void FSceneState::Do(FLightCommand& Command)
+{
+	GetSlot(Lights, Command.Slot) = Command.Light;
+	bLightsChanged = true;
+}
+
+std::vector<uint32_t> FSceneState::GetMaterials(const std::vector<uint32_t>& Slots) const
+{
+	std::vector<uint32_t> Out;
+	Out.reserve(Slots.size());
+	for (const uint32_t Slot : Slots) { Out.push_back(Materials[Slot]); }
+	return Out;
+}
+
+// ---------------------------------------------------------------------------------------------------- a frame
+
+void FSceneState::MarkDeformed(uint32_t Slot)
+{
+	if (!std::exchange(Meshes[Slot].bDeformed, true)) { Deformed.push_back(Slot); }
+}
+
+FRTStatus FSceneState::RecordVertices(IRTCommandList& List)
+{
+	const std::vector<uint32_t> Slots = std::exchange(Deformed, {});
+	FRTStatus Status;
+	for (const uint32_t Slot : Slots)
+	{
+		++VisitedMeshes;
+		FMesh& Mesh = Meshes[Slot];
+		Mesh.bDeformed = false;
+		// What is not filled yet would be written over.
+		if (!Status || (Mesh.Upload && !Mesh.Upload->bFilled))
+		{
+			MarkDeformed(Slot);
+			continue;
+		}
+		RecordedVertices.push_back(Slot);
+		Status = Mesh.Deformable->Record(List, VertexUploads, Mesh.Geometry->GetInfo());
+		Scene.MarkDeformed(Mesh.Geometry);
+		if (const auto Bounds = Mesh.Deformable->FindNewBounds(*Mesh.Geometry)) { Scene.SetBounds(Mesh.Geometry, *Bounds); }
+	}
+	return Status;
+}
+
+FRTStatus FSceneState::Record(IRTCommandList& List)
+{
+	VisitedMeshes = 0;
+	Filled.clear();
+	if (FRTStatus Status = Uploads.Record(List, Filled); !Status) { return Status; }
+	for (const FBufferUploadRef& Upload : Filled)
+	{
+		if (Upload->bFilled.exchange(true) || !Upload->Geometry) { continue; }
+		Scene.MarkFilled(Upload->Geometry);
+	}
+	return RecordVertices(List);
+}
+
+void FSceneState::EndFrame(FRTFence Fence)
+{
+	Uploads.EndFrame(Fence);
+	VertexUploads.EndFrame(Fence);
+	for (const uint32_t Slot : std::exchange(RecordedVertices, {}))
+	{
+		if (Meshes[Slot].Deformable && Meshes[Slot].Deformable->EndFrame(Fence != 0)) { MarkDeformed(Slot); }
+	}
+	ReplacedTextures.clear();
+}
+
+} // namespace Lantern
