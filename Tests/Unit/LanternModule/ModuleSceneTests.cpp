@@ -154,11 +154,14 @@ TEST_F(FModuleSceneTest, VerticesCarryTangentsBothCoordinatesAndColours)
 TEST_F(FModuleSceneTest, SectionsMayHaveAnIndexBase)
 {
 	const float Positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 0, 0, 6, 0, 0, 5, 1, 0};
-	const FRTModuleSection Sections[] = {{0, 3, 0, false}, {0, 3, 3, false}};
+	const uint32_t Local[] = {0, 1, 2, 0, 1, 2};
+	const FRTModuleSection Sections[] = {{0, 3, false, 0}, {3, 3, false, 3}};
 	FRTModuleMesh Mesh = DescribeTriangle();
 	Mesh.Name = "Based";
 	Mesh.Positions = Positions;
 	Mesh.VertexCount = 6;
+	Mesh.Indices = Local;
+	Mesh.IndexCount = 6;
 	Mesh.Sections = Sections;
 	Mesh.SectionCount = 2;
 	const ERTMeshHandle Handle = AddMesh(Mesh);
@@ -173,7 +176,7 @@ TEST_F(FModuleSceneTest, SectionsMayHaveAnIndexBase)
 	ASSERT_EQ(Bytes.size(), 6 * (12 + sizeof(FVertexAttributes)) + sizeof(Indices));
 	std::memcpy(Indices, Bytes.data() + Bytes.size() - sizeof(Indices), sizeof(Indices));
 	EXPECT_THAT(Indices, ::testing::ElementsAre(0, 1, 2, 3, 4, 5));
-	FRTModuleSection Past[] = {{0, 3, 4, false}};
+	FRTModuleSection Past[] = {{0, 3, false, 4}};
 	Mesh.Sections = Past;
 	Mesh.SectionCount = 1;
 	ERTMeshHandle None = ERTMeshHandle::None;

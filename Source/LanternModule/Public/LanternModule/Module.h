@@ -108,11 +108,11 @@ struct FRTModuleMaterial
 struct FRTModuleSection
 {
 	uint32_t FirstIndex = 0;
-	uint32_t IndexCount = 0;  ///< > 0, a multiple of 3
-	uint32_t FirstVertex = 0; ///< is added to each of the section's indices
+	uint32_t IndexCount = 0; ///< > 0, a multiple of 3
 	/// Allows objects to give this section a masked material; otherwise that is InvalidArgument. True costs nothing until an
 	/// object has a masked material. Alpha tests are then set up for all such sections of that object.
 	bool bMayBeMasked = false;
+	uint32_t FirstVertex = 0; ///< is added to each of the section's indices
 };
 
 inline constexpr uint32_t MaxMeshVertices = 1u << 28;             ///< with their attributes they have 10 GiB

@@ -85,6 +85,13 @@ void FGeometryStore::FImpl::FreeReleased()
 	Context.Stats.Coarse -= Coarse;
 }
 
+void FGeometryStore::FreeReleased()
+{
+	if (HasReleased()) { Impl->FreeReleased(); }
+}
+
+bool FGeometryStore::HasReleased() const { return Impl->Context.Slots.HasReleased(); }
+
 void FGeometryStore::MarkDeformed(const FRTGeometryRef& Geometry)
 {
 	assert(Geometry->GetInfo().bDynamic);

@@ -70,8 +70,8 @@ bool FSceneUpdate::NeedsUpdate(const FGatherView& View, const FSceneUse& InUse) 
 	const glm::dvec3 NewOrigin = SnapOrigin(View.Position);
 	const bool bGeometry = Parts.Geometries.NeedsUpdate() || NeedsOpacityUpdate(Parts.Materials.GetContext(), Sections, Parts.Geometries);
 	const bool bGather = Bindings.NeedsUpdate(Sections) || bGeometry || Structure.NeedsGather(View, InUse.bCull, NewOrigin);
-	return Parts.Lights.NeedsUpdate() || Parts.Objects.GetMotions().NeedsUpdate(InUse.bMotion) || (InUse.bRays && bGather) ||
-	       (InUse.bLightSampling && Parts.Emissive.NeedsUpdate()) || AreTablesDirty() || NewOrigin != Origin;
+	return Parts.Geometries.HasReleased() || Parts.Lights.NeedsUpdate() || Parts.Objects.GetMotions().NeedsUpdate(InUse.bMotion) ||
+	       (InUse.bRays && bGather) || (InUse.bLightSampling && Parts.Emissive.NeedsUpdate()) || AreTablesDirty() || NewOrigin != Origin;
 }
 
 glm::dvec3 FSceneUpdate::SnapOrigin(glm::dvec3 Camera) const
@@ -113,6 +113,7 @@ FRTStatus FSceneUpdate::Begin(const FGatherView& View, const FSceneUse& InUse)
 	Stats = {};
 	Use = InUse;
 	MoveOrigin(View.Position);
+	Parts.Geometries.FreeReleased();
 	Parts.Objects.GetPivots().Update(Origin);
 	UpdateOpacity();
 	bGeometryWork = Use.bRays && Parts.Geometries.NeedsUpdate();

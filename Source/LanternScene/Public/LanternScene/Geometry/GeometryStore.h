@@ -71,6 +71,9 @@ public:
 	/// Number of builds of Slot's structure so far; after EndFrame this includes the frame's own. It tells which build a
 	/// measurement belongs to.
 	uint32_t GetBuildCount(uint32_t Slot) const;
+	/// Frees what owners have let go; BeginFrame does so, too. Returns at once if there is nothing.
+	void FreeReleased();
+	bool HasReleased() const;
 	/// BeginFrame and Record would do something.
 	bool NeedsUpdate() const;
 
