@@ -247,9 +247,9 @@ public:
 	virtual FRTStatus SetSky(const float Radiance[3]) = 0;
 
 	/// Records the frame into Frame.Commands. On an error the command list must not be submitted.
-	/// Bound in the command buffer afterwards: at the compute and ray-tracing bind points, pipelines and descriptor sets are
-	/// Lantern's or none, and push constants of all stages are undefined. The graphics bind point's pipeline and sets, vertex and
-	/// index buffers and dynamic state are as before. No render pass, query or label is left open.
+	/// Changes what the command buffer has bound. Pipelines and descriptor sets of the compute and ray-tracing bind points are then
+	/// Lantern's or none, and push constants of all stages are undefined. The pipeline and sets of the graphics bind point, vertex
+	/// and index buffers and dynamic state stay. No render pass, query or label is left open.
 	virtual FRTStatus RenderFrame(const FRTModuleFrame& Frame, FRTModuleOutputs* Out) = 0;
 	/// Ends the frame. Call after submitting the commands of RenderFrame, before the next RenderFrame. OutFence may be null.
 	virtual FRTStatus EndFrame(FRTFence* OutFence) = 0;
