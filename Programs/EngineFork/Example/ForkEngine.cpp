@@ -87,17 +87,32 @@ FError FForkEngine::CopyOutputs(const FRTModuleOutputs& Outputs, FFrameMasks& Ou
 	return {};
 }
 
+/// The skinned vertices go to the engine's own buffer, and to that of the plugin as soon as the plugin has one.
+FError FForkEngine::SkinReed(const FReed& Reed)
+{
+	VkDeviceAddress Traced = 0;
+	FError Error = Plugin.FindReedPositions(Traced);
+	if (!Error.empty()) { return Error; }
+	Skin.Run(Device.Commands, Reed, Traced);
+	return Traced != 0 ? Plugin.MarkReedSkinned() : Error;
+}
+
 FError FForkEngine::RunFrame(const FForkScene& Scene, bool bCut, FFrameMasks& Out)
 {
 	FError Error = Device.BeginCommands();
 	if (!Error.empty()) { return Error; }
-	Skin.Run(Device.Commands, Scene.Reed);
+	Error = SkinReed(Scene.Reed);
+	if (!Error.empty()) { return Error; }
 	Raster.Draw(Device.Commands, Scene, Skin);
 	FRTModuleOutputs Outputs;
 	Error = Plugin.Render(Device.Commands, Scene.Camera, bCut, Outputs);
 	if (Error.empty()) { Error = CopyOutputs(Outputs, Out); }
-	if (Error.empty()) { Error = Device.Submit(); }
-	if (Error.empty()) { Error = Plugin.FinishFrame(); }
+	if (!Error.empty()) { return Error; }
+	const auto SubmitAndEnd = [this] {
+		const FError Submitted = Device.Submit();
+		return Submitted.empty() ? Plugin.FinishFrame() : Submitted;
+	};
+	Error = RhiThread.Post(SubmitAndEnd).get();
 	return Error.empty() ? Device.WaitForSubmit() : Error;
 }
 

@@ -5,6 +5,7 @@
 // ForkSkin (skinning), ForkRaster (G-buffer) and ForkScene (boxes, camera). The code in Judge/ checks the pictures and is no part of the example.
 #pragma once
 
+#include "Example/ForkThread.h"
 #include "Example/PluginScene.h"
 
 namespace Fork
@@ -31,12 +32,14 @@ public:
 	FError CreateDevice();
 	/// Creates the plugin's renderer, the G-buffer and the objects of Scene.
 	FError LoadScene(const FForkScene& Scene);
-	/// Draws the G-buffer, lets the plugin add its signals, and waits for the GPU. Masks of Out are null if the plugin gave none.
+	/// Draws the G-buffer and lets the plugin add its signals, on the calling thread: the render thread. The engine's thread for its
+	/// RHI submits. Returns when the GPU is done. Masks of Out are null if the plugin gave none.
 	FError RunFrame(const FForkScene& Scene, bool bCut, FFrameMasks& Out);
-	/// Tells the plugin what changes in the scene.
+	/// Tells the plugin what changes in the scene, from any thread: the game's.
 	FPluginScene& GetPlugin() { return Plugin; }
 
 private:
+	FError SkinReed(const FReed& Reed);
 	FError CopyOutputs(const Lantern::FRTModuleOutputs& Outputs, FFrameMasks& Out) const;
 
 	Lantern::IRTModule& Module;
@@ -47,6 +50,7 @@ private:
 	FForkSkin Skin;
 	FForkRaster Raster;
 	FForkBuffer Readback; // both masks
+	FForkThread RhiThread;
 };
 
 } // namespace Fork

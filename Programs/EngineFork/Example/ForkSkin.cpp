@@ -14,12 +14,26 @@ namespace
 
 struct FPush
 {
-	VkDeviceAddress BindPose = 0, Vertices = 0;
+	VkDeviceAddress BindPose = 0, Vertices = 0, Traced = 0;
 	float Sine = 0.0f, Cosine = 1.0f;
 	uint32_t Count = 0;
 };
 
 constexpr uint32_t GroupSize = 64; // Fork.comp
+
+/// All memory, which is simple and slow.
+void Barrier(VkCommandBuffer Commands, VkPipelineStageFlags2 From, VkPipelineStageFlags2 To)
+{
+	VkMemoryBarrier2 Item{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+	Item.srcStageMask = From;
+	Item.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+	Item.dstStageMask = To;
+	Item.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+	VkDependencyInfo Info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+	Info.memoryBarrierCount = 1;
+	Info.pMemoryBarriers = &Item;
+	vkCmdPipelineBarrier2(Commands, &Info);
+}
 
 } // namespace
 
@@ -30,10 +44,8 @@ FError FForkSkin::Create(const FForkDevice& Owner)
 	VertexCount = static_cast<uint32_t>(Mesh.Vertices.size());
 	IndexCount = static_cast<uint32_t>(Mesh.Indices.size());
 	constexpr VkBufferUsageFlags Read = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-	// The plugin builds its acceleration structure from these vertices.
-	constexpr VkBufferUsageFlags Traced = Read | VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
 	FError Error = BindPose.Create(Owner, VertexCount * sizeof(FSkinVertex), Read);
-	if (Error.empty()) { Error = Vertices.Create(Owner, VertexCount * sizeof(FVertex), Traced | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT); }
+	if (Error.empty()) { Error = Vertices.Create(Owner, VertexCount * sizeof(FVertex), Read | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT); }
 	if (Error.empty()) { Error = Indices.Create(Owner, IndexCount * sizeof(uint32_t), VK_BUFFER_USAGE_INDEX_BUFFER_BIT); }
 	if (!Error.empty()) { return Error; }
 	std::memcpy(BindPose.Mapped, Mesh.Vertices.data(), VertexCount * sizeof(FSkinVertex));
@@ -61,21 +73,16 @@ FError FForkSkin::CreatePipeline()
 	return Result == VK_SUCCESS ? FError() : "vkCreateComputePipelines failed with " + std::to_string(Result);
 }
 
-void FForkSkin::Run(VkCommandBuffer Commands, const FReed& Reed) const
+void FForkSkin::Run(VkCommandBuffer Commands, const FReed& Reed, VkDeviceAddress Traced) const
 {
-	const FPush Push{BindPose.GetAddress(), Vertices.GetAddress(), float(std::sin(Reed.Bend)), float(std::cos(Reed.Bend)), VertexCount};
+	// The frame before may still read what is written here.
+	Barrier(Commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
+	const FPush Push{
+	    BindPose.GetAddress(), Vertices.GetAddress(), Traced, float(std::sin(Reed.Bend)), float(std::cos(Reed.Bend)), VertexCount};
 	vkCmdBindPipeline(Commands, VK_PIPELINE_BIND_POINT_COMPUTE, Pipeline);
 	vkCmdPushConstants(Commands, Layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(Push), &Push);
 	vkCmdDispatch(Commands, (VertexCount + GroupSize - 1) / GroupSize, 1, 1);
-	VkMemoryBarrier2 Barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-	Barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-	Barrier.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-	Barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-	Barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT;
-	VkDependencyInfo Info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-	Info.memoryBarrierCount = 1;
-	Info.pMemoryBarriers = &Barrier;
-	vkCmdPipelineBarrier2(Commands, &Info);
+	Barrier(Commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT);
 }
 
 FForkSkin::~FForkSkin()

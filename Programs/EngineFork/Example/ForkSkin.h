@@ -1,4 +1,4 @@
-// The engine's skinning: a compute pass that bends the reed, in plain Vulkan. What it writes is drawn, and handed to the plugin.
+// The engine's skinning: a compute pass that bends the reed, in plain Vulkan. It writes what is drawn, and what the plugin traces.
 #pragma once
 
 #include "Example/ForkScene.h"
@@ -14,8 +14,9 @@ public:
 	FForkSkin(const FForkSkin&) = delete;
 	~FForkSkin();
 	FError Create(const FForkDevice& Owner);
-	/// Writes Vertices for the bend of Reed. They can be drawn and read afterwards.
-	void Run(VkCommandBuffer Commands, const FReed& Reed) const;
+	/// Writes Vertices for the bend of Reed. They can be drawn and read afterwards. Traced: address of the plugin's positions of the
+	/// reed, three floats each; 0: it has none yet.
+	void Run(VkCommandBuffer Commands, const FReed& Reed, VkDeviceAddress Traced) const;
 
 	FForkBuffer Vertices; ///< FVertex each, without normals
 	FForkBuffer Indices;

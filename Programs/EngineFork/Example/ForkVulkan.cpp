@@ -181,6 +181,7 @@ FError FForkDevice::Submit()
 	VkSubmitInfo Info{VK_STRUCTURE_TYPE_SUBMIT_INFO};
 	Info.commandBufferCount = 1;
 	Info.pCommandBuffers = &Commands;
+	std::lock_guard Lock(QueueMutex);
 	return Check(vkQueueSubmit(Queue, 1, &Info, Fence), "vkQueueSubmit");
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <mutex>
 #include <vector>
 
 #include <vulkan/vulkan.h>
@@ -51,6 +52,7 @@ struct FForkDevice
 	VkPhysicalDevice Physical = VK_NULL_HANDLE;
 	VkDevice Device = VK_NULL_HANDLE;
 	VkQueue Queue = VK_NULL_HANDLE;
+	mutable std::mutex QueueMutex; ///< of Queue
 	uint32_t QueueFamily = 0;
 	VkCommandPool Pool = VK_NULL_HANDLE;
 	VkCommandBuffer Commands = VK_NULL_HANDLE;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <mutex>
 #include <utility>
 
 namespace Fork
@@ -20,6 +21,10 @@ FError FPluginScene::Create(
 	Desc.Queue = Owner.Queue;
 	Desc.QueueFamily = Owner.QueueFamily;
 	Desc.Requirements = &Requirements;
+	// The render thread and that of the RHI submit.
+	Desc.LockQueue = [](void* User) { static_cast<std::mutex*>(User)->lock(); };
+	Desc.UnlockQueue = [](void* User) { static_cast<std::mutex*>(User)->unlock(); };
+	Desc.QueueUser = &Owner.QueueMutex;
 	FError Error = ToError(Module.GetVulkan()->AdoptDevice(Desc, Device.ReleaseAndGetAddress()), "AdoptDevice");
 	if (Error.empty()) { Error = ToError(Module.CreateRenderer(Device.Get(), Renderer.ReleaseAndGetAddress()), "CreateRenderer"); }
 	return Error;
@@ -119,6 +124,7 @@ FError FPluginScene::AddReed(const FReed& At)
 	Mesh.Indices = Source.Indices.data();
 	Mesh.IndexCount = static_cast<uint32_t>(Source.Indices.size());
 	Mesh.bDeformable = true;
+	Mesh.BoundsRadius = 2.2f; // however it bends
 	if (FError Error = ToError(Renderer->AddMesh(Mesh, &ReedMesh), "AddMesh(reed)"); !Error.empty()) { return Error; }
 	FRTModuleObject Object;
 	Object.Mesh = ReedMesh;
@@ -128,11 +134,15 @@ FError FPluginScene::AddReed(const FReed& At)
 	return ToError(Renderer->AddObject(Object, &Reed), "AddObject(reed)");
 }
 
-FError FPluginScene::BendReed(const FReed& To)
+FError FPluginScene::FindReedPositions(VkDeviceAddress& Out)
 {
-	const std::vector<glm::vec3> Positions = SkinReed(MakeReedMesh(), To.Bend);
-	return ToError(Renderer->UpdateMeshVertices(ReedMesh, &Positions[0].x, nullptr), "UpdateMeshVertices(reed)");
+	FRTModuleMeshBuffer Buffer;
+	const FError Error = ToError(Renderer->GetMeshBuffer(ReedMesh, &Buffer), "GetMeshBuffer(reed)");
+	Out = Error.empty() && Buffer.Buffer != nullptr ? Buffer.Buffer->GetDeviceAddress() + Buffer.PositionsOffset : 0;
+	return Error;
 }
+
+FError FPluginScene::MarkReedSkinned() { return ToError(Renderer->MarkMeshDeformed(ReedMesh), "MarkMeshDeformed(reed)"); }
 
 FError FPluginScene::AddScene(const FForkScene& Scene)
 {

@@ -29,8 +29,10 @@ public:
 	FError ScaleVertices(float Scale);
 	/// Takes bCastsShadow and bCutOut over from To.
 	FError SetBox(size_t Box, const FBox& To);
-	/// Hands over the vertices of the reed.
-	FError BendReed(const FReed& Reed);
+	/// Where the engine's GPU writes the reed's positions for the plugin; 0 while the reed is on its way there.
+	FError FindReedPositions(VkDeviceAddress& Out);
+	/// The frame's commands have written them.
+	FError MarkReedSkinned();
 	FError ImportGBuffer(const FForkRaster& Raster, VkExtent2D Size);
 	void ReleaseGBuffer(); ///< must be called before the images of the raster are destroyed
 	/// Records the plugin's work. Commands must be recording and must have drawn the G-buffer. bCut: this frame has nothing in common

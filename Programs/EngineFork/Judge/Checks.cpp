@@ -4,7 +4,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <future>
 #include <thread>
+#include <utility>
 
 #include "Judge/Verdict.h"
 
@@ -70,24 +72,22 @@ FError CheckChanged(FForkEngine& Engine, FForkScene& Scene)
 	Scene.Boxes[2].bCastsShadow = true;
 	Scene.Boxes[3].bCutOut = false;
 	Scene.Reed.Bend = -0.8;
-	if (Error.empty()) { Error = Engine.GetPlugin().BendReed(Scene.Reed); }
 	for (size_t Box = 2; Error.empty() && Box <= 3; ++Box) { Error = Engine.GetPlugin().SetBox(Box, Scene.Boxes[Box]); }
 	FFrameMasks Masks;
 	return Error.empty() ? CheckScene(Engine, Scene, "pillar deformed, reed bent, slab and cut-out cast shadows", Masks) : Error;
 }
 
-/// Boxes come and go with each frame, as around a camera that flies. Those that stay at last must be there, and no others.
-FError CheckStreamed(FForkEngine& Engine, FForkScene& Scene)
+/// The game: boxes come and go, as around a camera that flies, without regard to frames.
+FError StreamBoxes(FForkEngine& Engine, FForkScene& Scene)
 {
-	constexpr int Frames = 60;
+	constexpr int Steps = 60;
 	constexpr size_t MostBoxes = 6;
 	const size_t First = Scene.Boxes.size();
 	const glm::dvec3 Floor = Scene.Boxes[0].Centre + glm::dvec3(0, Scene.Boxes[0].HalfSize.y, 0);
 	FError Error;
-	FFrameMasks Masks;
-	for (int Frame = 0; Error.empty() && Frame < Frames; ++Frame)
+	for (int Step = 0; Error.empty() && Step < Steps; ++Step)
 	{
-		const double Angle = Frame * 0.9;
+		const double Angle = Step * 0.9;
 		Scene.Boxes.push_back({Floor + glm::dvec3(7.0 * std::cos(Angle), 0.6, 6.0 * std::sin(Angle)), glm::dvec3(0.3, 0.6, 0.5)});
 		Error = Engine.GetPlugin().StreamIn(Scene.Boxes.back());
 		if (Error.empty() && Scene.Boxes.size() > First + MostBoxes)
@@ -95,8 +95,26 @@ FError CheckStreamed(FForkEngine& Engine, FForkScene& Scene)
 			Scene.Boxes.erase(Scene.Boxes.begin() + static_cast<std::ptrdiff_t>(First));
 			Error = Engine.GetPlugin().RemoveBox(First);
 		}
-		if (Error.empty()) { Error = Engine.RunFrame(Scene, false, Masks); }
+		std::this_thread::sleep_for(std::chrono::milliseconds(1));
 	}
+	return Error;
+}
+
+/// The game thread streams while the render thread draws. What stays at last must be there, and nothing else.
+FError CheckStreamed(FForkEngine& Engine, FForkScene& Scene)
+{
+	FForkScene Game = Scene;
+	FFrameMasks Masks;
+	std::future<FError> Streamed = std::async(std::launch::async, [&] { return StreamBoxes(Engine, Game); });
+	FError Error;
+	do {
+		const FError Frame = Engine.RunFrame(Scene, false, Masks);
+		Error = Error.empty() ? Frame : Error;
+	}
+	while (Streamed.wait_for(std::chrono::seconds(0)) != std::future_status::ready);
+	const FError OfGame = Streamed.get();
+	Scene = std::move(Game);
+	Error = Error.empty() ? OfGame : Error;
 	return Error.empty() ? CheckScene(Engine, Scene, "boxes streamed in and out", Masks) : Error;
 }
 

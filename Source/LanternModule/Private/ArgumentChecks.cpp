@@ -134,6 +134,14 @@ FRTStatus RefuseNull(const char* Function, const char* Argument)
 	return FRTStatus::Error(ERTResult::InvalidArgument, "%s: %s is null", Function, Argument);
 }
 
+FRTStatus CheckDevice(const char* Function, IRTDevice* Device)
+{
+	if (Device == nullptr) { return RefuseNull(Function, "Device"); }
+	if (Device->GetVersion() == RHIVersion) { return FRTStatus::Success(); }
+	return FRTStatus::Error(
+	    ERTResult::Unsupported, "%s: the device speaks RHI version %u, Lantern %u", Function, Device->GetVersion(), RHIVersion);
+}
+
 FRTStatus RefuseHandle(const char* Function, const char* Kind)
 {
 	return FRTStatus::Error(ERTResult::InvalidArgument, "%s: no such %s: never added, removed, or of another renderer", Function, Kind);

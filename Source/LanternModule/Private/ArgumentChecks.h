@@ -21,6 +21,9 @@ std::array<const FRTModuleMap*, MaterialMapCount> GetMaps(const FRTModuleMateria
 /// InvalidArgument: Function was given null for Argument.
 FRTStatus RefuseNull(const char* Function, const char* Argument);
 
+/// InvalidArgument: Device is null. Unsupported: it has another RHIVersion.
+FRTStatus CheckDevice(const char* Function, IRTDevice* Device);
+
 /// InvalidArgument: Function was given a handle of no Kind ("mesh").
 FRTStatus RefuseHandle(const char* Function, const char* Kind);
 

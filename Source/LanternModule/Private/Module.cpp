@@ -130,11 +130,7 @@ FRTStatus FModule::CreateRenderer(IRTDevice* Device, IRTModuleRenderer** Out)
 	if (Out == nullptr) { return RefuseNull("CreateRenderer", "Out"); }
 	*Out = nullptr;
 	if (ShaderFolder.empty()) { return FRTStatus::Error(ERTResult::InvalidArgument, "IRTModule::Initialize was not called"); }
-	if (Device == nullptr) { return RefuseNull("CreateRenderer", "Device"); }
-	if (Device->GetVersion() != RHIVersion)
-	{
-		return FRTStatus::Error(ERTResult::Unsupported, "the device speaks RHI version %u, Lantern %u", Device->GetVersion(), RHIVersion);
-	}
+	if (const FRTStatus Status = CheckDevice("CreateRenderer", Device); !Status) { return Status; }
 	if (!ConfigFolder.empty()) { LoadDeviceProfile({ConfigFolder}, Device->GetCapabilities().DeviceName); }
 	*Out = new FModuleRenderer(*this, *Device, {{ShaderFolder}, CacheFolder});
 	return FRTStatus::Success();

@@ -46,7 +46,7 @@ FGBuffer ImportGBuffer(FFrameGraph& Graph, const FRTModuleFrame& Frame)
 
 void FModuleRenderer::AddPasses(const FRTModuleFrame& Frame)
 {
-	FFrameContext& Context = Renderer.GetContext();
+	FFrameContext& Context = On->Renderer.GetContext();
 	const FGBuffer GBuffer = ImportGBuffer(Context.Graph, Frame);
 	FFrameOutputs Made;
 	for (const FSignalInfo& Info : SignalInfos)
@@ -70,7 +70,7 @@ void FModuleRenderer::HandToEngine(const FFrameOutputs& Made)
 		if (Made.Signals[I].IsValid()) { Handed.push_back({Made.Signals[I], &Outputs[I]}); }
 	}
 	if (Handed.empty()) { return; }
-	FFrameGraph& Graph = Renderer.GetContext().Graph;
+	FFrameGraph& Graph = On->Renderer.GetContext().Graph;
 	for (const auto& [Texture, Held] : Handed) { Graph.AddUsage(Texture, ERTTextureUsage::CopySource); }
 	Graph.AddPass("HandToEngine", [&](FPassBuilder& Builder) -> FPassExecute {
 		for (const auto& [Texture, Held] : Handed) { Builder.Read(Texture, ERTAccess::ShaderRead); }
@@ -86,7 +86,7 @@ void FModuleRenderer::ReleaseOutputs() { Outputs.fill(nullptr); }
 FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame)
 {
 	// Before BeginFrame, which asks the scene whether anything in it has changed.
-	if (const FRTStatus Status = State.Record(*Frame.Commands); !Status) { return Status; }
+	if (const FRTStatus Status = On->State.Record(*Frame.Commands); !Status) { return Status; }
 	FFrameFeatures Features;
 	Features.bBuildAll = Features.bWaitForPipelines = false;
 	Features.bMotion = false; // the engine draws: nothing of the plugin's reads how its objects moved
@@ -97,12 +97,12 @@ FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame)
 		const bool bMakes = Info.Signal != ESignal::Frame && (bSurface || !Info.bNeedsSurface);
 		if (bMakes && Frame.Wanted.Has(Info.Signal)) { Features.Signals.Wanted.Add(Info.Signal); }
 	}
-	if (const FRTStatus Status = Renderer.BeginFrame(Scene, ToView(Frame, FrameIndex++), Features); !Status) { return Status; }
+	if (const FRTStatus Status = On->Renderer.BeginFrame(On->Scene, ToView(Frame, FrameIndex++), Features); !Status) { return Status; }
 	AddPasses(Frame);
-	const FRTStatus Status = Renderer.EndFrame(*Frame.Commands);
+	const FRTStatus Status = On->Renderer.EndFrame(*Frame.Commands);
 	if (!Status)
 	{
-		Renderer.FrameSubmitted(0); // it never will be
+		On->Renderer.FrameSubmitted(0); // it never will be
 	}
 	return Status;
 }
@@ -111,34 +111,42 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 {
 	if (Out == nullptr) { return RefuseNull("RenderFrame", "Out"); }
 	*Out = {};
+	std::unique_lock<std::mutex> Lock;
+	if (const FRTStatus Status = Enter("RenderFrame", Lock); !Status) { return Status; }
 	if (Recorded) { return FRTStatus::Error(ERTResult::InvalidArgument, "RenderFrame: EndFrame was not called after the last one"); }
 	if (const FRTStatus Status = CheckFrame(Frame); !Status) { return Status; }
+	if (bLost)
+	{
+		return FRTStatus::Error(ERTResult::DeviceLost, "RenderFrame: the device is lost; Recreate takes the scene to another one");
+	}
 	ReleaseOutputs();
 	FConsoleVariables::Get().BeginFrame(); // what is taken over follows them, too
 	bArrivalsLeft = Calls.Take(FRTScene::GetMostArrivals(), Commands);
-	State.Apply(Commands);
-	const FRTStatus Status = RecordFrame(Frame);
+	On->State.Apply(Commands);
+	const FRTStatus Status = Watch(RecordFrame(Frame));
 	if (!Status)
 	{
 		ReleaseOutputs();
-		State.EndFrame(0);
+		On->State.EndFrame(0);
 		return Status;
 	}
 	Recorded = TRTRef<IRTCommandList>(Frame.Commands);
 	for (size_t I = 0; I < SignalCount; ++I) { Out->Signals[I] = Outputs[I].Get(); }
-	Out->bShadersReady = Renderer.AreRayProgramsReady();
-	Out->bComplete = Out->bShadersReady && !bArrivalsLeft && Scene.GetGeometries().GetStats().Pending == 0;
+	Out->bShadersReady = On->Renderer.AreRayProgramsReady();
+	Out->bComplete = Out->bShadersReady && !bArrivalsLeft && On->Scene.GetGeometries().GetStats().Pending == 0;
 	return Status;
 }
 
 FRTStatus FModuleRenderer::EndFrame(FRTFence* OutFence)
 {
+	std::unique_lock<std::mutex> Lock;
+	if (const FRTStatus Status = Enter("EndFrame", Lock); !Status) { return Status; }
 	if (!Recorded) { return FRTStatus::Error(ERTResult::InvalidArgument, "EndFrame: RenderFrame recorded nothing"); }
 	IRTCommandList* List = Recorded.Get();
 	FRTFence Fence = 0;
-	const FRTStatus Status = Device->NotifyExternalSubmit(&List, 1, &Fence);
-	Renderer.FrameSubmitted(Fence);
-	State.EndFrame(Fence);
+	const FRTStatus Status = Watch(On->Device->NotifyExternalSubmit(&List, 1, &Fence));
+	On->Renderer.FrameSubmitted(Fence);
+	On->State.EndFrame(Fence);
 	Recorded = nullptr;
 	if (OutFence != nullptr) { *OutFence = Fence; }
 	return Status;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "ArgumentChecks.h"
@@ -66,6 +68,7 @@ public:
 	FRTStatus SetSky(const float Radiance[3]) override { return Calls.SetSky(Radiance); }
 	FRTStatus RenderFrame(const FRTModuleFrame& Frame, FRTModuleOutputs* Out) override;
 	FRTStatus EndFrame(FRTFence* OutFence) override;
+	FRTStatus Recreate(IRTDevice* NewDevice, const FRTModuleMeshSource& Source) override;
 
 private:
 	FRTStatus RecordFrame(const FRTModuleFrame& Frame);
@@ -74,12 +77,28 @@ private:
 	void ReleaseOutputs();
 
 	TRTRef<IRTModule> Owner;
-	TRTRef<IRTDevice> Device;
-	FRTScene Scene;
-	FRenderer Renderer;
-	FBufferUploads Uploads;
+	/// All that goes when its device is lost.
+	struct FOnDevice
+	{
+		FOnDevice(IRTDevice& InDevice, FRendererDesc Desc);
+		~FOnDevice();
+		TRTRef<IRTDevice> Device;
+		FRTScene Scene;
+		FRenderer Renderer;
+		FBufferUploads Uploads;
+		FSceneState State;
+	};
+	/// Notes a loss of the device, and says it once.
+	FRTStatus Watch(FRTStatus Status);
+
+	/// Fails if another thread is in a frame or in Recreate.
+	FRTStatus Enter(const char* Function, std::unique_lock<std::mutex>& Out);
+
+	std::mutex FrameMutex; ///< held in RenderFrame, EndFrame and Recreate, and never waited for
+	const FRendererDesc Desc;
+	std::unique_ptr<FOnDevice> On;
 	FSceneCalls Calls;
-	FSceneState State;
+	bool bLost = false;                                  ///< nothing is done until Recreate
 	std::vector<FSceneCommand> Commands;                 ///< taken over by this frame
 	bool bArrivalsLeft = false;                          ///< for later frames
 	TRTRef<IRTCommandList> Recorded;                     ///< between RenderFrame and EndFrame

@@ -66,7 +66,7 @@ uint32_t MakeTag()
 
 } // namespace
 
-FSceneCalls::FSceneCalls(IRTDevice& InDevice, FBufferUploads& InUploads) : Device(InDevice), Uploads(InUploads), Tag(MakeTag()) {}
+FSceneCalls::FSceneCalls(IRTDevice& InDevice, FBufferUploads& InUploads) : Device(&InDevice), Uploads(&InUploads), Tag(MakeTag()) {}
 
 // ---------------------------------------------------------------------------------------------------- commands
 
@@ -98,35 +98,41 @@ bool FSceneCalls::Take(uint32_t MostArrivals, std::vector<FSceneCommand>& Out)
 
 // ---------------------------------------------------------------------------------------------------- meshes
 
+FRTStatus FSceneCalls::MakeMesh(IRTDevice& On, FBufferUploads& By, const FRTModuleMesh& Mesh, FMesh& Out, FAddMeshCommand& OutCommand)
+{
+	if (const FRTStatus Status = CheckMesh(Mesh); !Status) { return Status; }
+	const std::shared_ptr<FMeshData> Data = PackMesh(Mesh);
+	OutCommand.Info = std::make_unique<FRTGeometryInfo>(DescribeGeometry(Mesh, *Data));
+	FRTStatus Status = CreateMeshBuffer(On, Mesh, *Data, *OutCommand.Info);
+	if (Status) { Status = FGeometryStore::Check(*OutCommand.Info, On.GetCapabilities()); }
+	if (!Status) { return Status; }
+	Out.Name = Mesh.Name;
+	for (const FRTSectionInfo& Section : OutCommand.Info->Sections) { Out.IsOpaque.push_back(Section.bOpaque); }
+	if (Mesh.bDeformable) { Out.Deformable = std::make_shared<FDeformableMesh>(Mesh, *Data); }
+	Out.bHasBounds = Mesh.BoundsRadius >= 0.0f;
+	OutCommand.Deformable = Out.Deformable;
+	OutCommand.Upload = Out.Upload = std::make_shared<FBufferUpload>();
+	OutCommand.Upload->Bytes = Data->GetBytes();
+	OutCommand.Upload->Buffer = OutCommand.Info->Positions;
+	OutCommand.Upload->Copy = [Data](uint64_t Offset, uint64_t Size, uint8_t* To) { Data->Copy(Offset, Size, To); };
+	return By.Add(OutCommand.Upload);
+}
+
 FRTStatus FSceneCalls::AddMesh(const FRTModuleMesh& Mesh, ERTMeshHandle* Out)
 {
 	if (Out == nullptr) { return RefuseNull("AddMesh", "Out"); }
 	*Out = ERTMeshHandle::None;
-	if (const FRTStatus Status = CheckMesh(Mesh); !Status) { return Status; }
-	const std::shared_ptr<FMeshData> Data = PackMesh(Mesh);
-	FAddMeshCommand Command;
-	Command.Info = std::make_unique<FRTGeometryInfo>(DescribeGeometry(Mesh, *Data));
-	FRTStatus Status = CreateMeshBuffer(Device, Mesh, *Data, *Command.Info);
-	if (Status) { Status = FGeometryStore::Check(*Command.Info, Device.GetCapabilities()); }
-	if (!Status) { return Status; }
 	FMesh Added;
-	Added.Name = Mesh.Name;
-	for (const FRTSectionInfo& Section : Command.Info->Sections) { Added.IsOpaque.push_back(Section.bOpaque); }
-	if (Mesh.bDeformable) { Added.Deformable = std::make_shared<FDeformableMesh>(Mesh, *Data); }
-	Added.bHasBounds = Mesh.BoundsRadius >= 0.0f;
-	Command.Deformable = Added.Deformable;
-	Command.Upload = Added.Upload = std::make_shared<FBufferUpload>();
-	Command.Upload->Bytes = Data->GetBytes();
-	Command.Upload->Buffer = Command.Info->Positions;
-	Command.Upload->Copy = [Data](uint64_t Offset, uint64_t Size, uint8_t* To) { Data->Copy(Offset, Size, To); };
-	if (Status = Uploads.Add(Command.Upload); !Status) { return Status; }
+	FAddMeshCommand Command;
+	std::shared_lock DeviceLock(DeviceMutex);
+	if (const FRTStatus Status = MakeMesh(*Device, *Uploads, Mesh, Added, Command); !Status) { return Status; }
 
 	std::lock_guard Lock(Mutex);
 	*Out = Meshes.Add(std::move(Added));
 	Command.Slot = Meshes.GetSlot(*Out);
 	const FTicket Ticket = AddArrival(std::move(Command));
 	Meshes.Find(*Out)->Ticket = Ticket;
-	return Status;
+	return FRTStatus::Success();
 }
 
 FRTStatus FSceneCalls::CheckDeformable(const char* Function, ERTMeshHandle Handle)
@@ -167,7 +173,7 @@ FRTStatus FSceneCalls::GetMeshBuffer(ERTMeshHandle Handle, FRTModuleMeshBuffer* 
 		return FRTStatus::Error(
 		    ERTResult::InvalidArgument, "GetMeshBuffer: mesh \"%s\" was added without BoundsRadius", FRTShown(Mesh.Name.c_str()).Text);
 	}
-	if (Mesh.Upload->bFilled) { Out->Buffer = Mesh.Upload->Buffer.Get(); }
+	if (Mesh.Upload && Mesh.Upload->bFilled) { Out->Buffer = Mesh.Upload->Buffer.Get(); }
 	return FRTStatus::Success();
 }
 

@@ -6,12 +6,14 @@
 #include <deque>
 #include <map>
 #include <mutex>
+#include <shared_mutex>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "LanternModule/Module.h"
 #include "SceneCommands.h"
+#include "SceneValues.h"
 #include "SlotTable.h"
 
 namespace Lantern
@@ -50,6 +52,9 @@ public:
 	/// Moves the commands that a frame takes over to the end of Out, in order. Updates of what the scene has come all, arrivals
 	/// and departures as many as MostArrivals says; 0: all of them. Returns whether some are left.
 	bool Take(uint32_t MostArrivals, std::vector<FSceneCommand>& Out);
+	/// Leaves the old device. All that lives arrives anew: meshes as Source gives them, the rest as the handles, Values and the
+	/// commands that no frame has taken say. On an error nothing has changed.
+	FRTStatus TakeOver(IRTDevice& NewDevice, FBufferUploads& NewUploads, const FRTModuleMeshSource& Source, FSceneValues Values);
 
 private:
 	/// Number of the last arrival or departure that concerns a thing. Before the scene has it, updates of the thing wait, too.
@@ -110,8 +115,15 @@ private:
 	/// Needs: ticket of whatever the command names.
 	void AddUpdate(FSceneCommand Command, FTicket Needs, FTicket& InOutTicket);
 
-	IRTDevice& Device;
-	FBufferUploads& Uploads;
+	/// Makes a mesh on the device. Needs DeviceMutex.
+	FRTStatus MakeMesh(IRTDevice& On, FBufferUploads& By, const FRTModuleMesh& Mesh, FMesh& Out, FAddMeshCommand& OutCommand);
+	FRTStatus MakeAgain(
+	    IRTDevice& On, FBufferUploads& By, const FRTModuleMesh& Given, const FMesh& Old, FMesh& Out, FAddMeshCommand& OutCommand);
+	void AddAll(const FSceneValues& Values);
+
+	std::shared_mutex DeviceMutex; ///< of the next two; shared while a mesh is made. Locked before Mutex
+	IRTDevice* Device;
+	FBufferUploads* Uploads;
 	const uint32_t Tag; ///< in all handles, by which those of another renderer are known
 	std::mutex Mutex;   ///< of everything below
 	TSlotTable<FMaterial, ERTMaterialHandle> Materials{Tag};

@@ -35,7 +35,7 @@ struct FMaterialCommand
 struct FAddMeshCommand
 {
 	uint32_t Slot = 0;
-	std::unique_ptr<FRTGeometryInfo> Info;
+	std::unique_ptr<FRTGeometryInfo> Info; ///< null: there is nothing of it on this device
 	FBufferUploadRef Upload;
 	FDeformableMeshRef Deformable; ///< null: the mesh is rigid
 };

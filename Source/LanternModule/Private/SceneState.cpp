@@ -37,6 +37,25 @@ void FSceneState::Apply(std::vector<FSceneCommand>& Commands)
 	Scene.SetLights(std::move(All));
 }
 
+FSceneValues FSceneState::Describe() const
+{
+	FSceneValues Out;
+	Out.Materials.resize(Materials.size());
+	for (size_t Slot = 0; Slot < Materials.size(); ++Slot)
+	{
+		if (Materials[Slot] != ~0u) { Out.Materials[Slot] = Scene.GetMaterials()[Materials[Slot]]; }
+	}
+	Out.Transforms.resize(Objects.size());
+	for (size_t Slot = 0; Slot < Objects.size(); ++Slot)
+	{
+		if (Objects[Slot].IsValid()) { Out.Transforms[Slot] = Scene.GetObject(Objects[Slot]).Transform; }
+	}
+	Out.Lights = Lights;
+	Out.Sun = Scene.GetSun();
+	Out.Sky = Scene.GetSky();
+	return Out;
+}
+
 // ---------------------------------------------------------------------------------------------------- commands
 
 void FSceneState::Do(FMaterialCommand& Command)
@@ -57,6 +76,7 @@ void FSceneState::Do(FAddMeshCommand& Command)
 {
 	FMesh& Mesh = GetSlot(Meshes, Command.Slot);
 	Mesh = {};
+	if (!Command.Info) { return; }
 	Command.Info->bWaitsForData = !Command.Upload->bFilled;
 	const std::string Name = Command.Info->Name;
 	if (const FRTStatus Status = Scene.CreateGeometry(std::move(*Command.Info), Mesh.Geometry); !Status)
@@ -82,7 +102,7 @@ void FSceneState::Do(FAddObjectCommand& Command)
 	FRTObjectId& Id = GetSlot(Objects, Command.Slot);
 	Id = {};
 	FRTObjectInfo Info;
-	Info.Geometry = Meshes[Command.Mesh].Geometry;
+	Info.Geometry = Command.Mesh < Meshes.size() ? Meshes[Command.Mesh].Geometry : FRTGeometryRef();
 	if (!Info.Geometry) { return; }
 	Info.Materials = GetMaterials(Command.Materials);
 	Info.Transform = Command.Transform;

@@ -9,6 +9,7 @@
 #include "LanternScene/Memory/Upload.h"
 #include "LanternScene/Scene/Scene.h"
 #include "SceneCommands.h"
+#include "SceneValues.h"
 
 namespace Lantern
 {
@@ -29,6 +30,8 @@ public:
 	FRTStatus Record(IRTCommandList& List);
 	/// Fence: that of the list; 0: it never runs, and all of it is recorded again.
 	void EndFrame(FRTFence Fence);
+	/// Describes what commands have made so far.
+	FSceneValues Describe() const;
 	/// Meshes that the last Record looked at for new vertices.
 	uint32_t GetVisitedMeshes() const { return VisitedMeshes; }
 

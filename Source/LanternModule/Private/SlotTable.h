@@ -29,7 +29,7 @@ public:
 		const uint32_t Index = Free.back();
 		Free.pop_back();
 		Slots[Index].Value = std::move(Value);
-		return static_cast<THandle>(GetUpper(Slots[Index]) << 32 | (Index + 1));
+		return GetHandle(Index);
 	}
 	/// Returns null if the handle is None, was removed, never was, or is another table's. The pointer is valid until the next Add.
 	T* Find(THandle Handle)
@@ -52,6 +52,15 @@ public:
 			Free.push_back(Index);
 		}
 	}
+	/// Function: (THandle, T&), in the order of slots.
+	template <class TFunction>
+	void ForEach(TFunction&& Function)
+	{
+		for (uint32_t Index = 0; Index < Slots.size(); ++Index)
+		{
+			if (Slots[Index].Value) { Function(GetHandle(Index), *Slots[Index].Value); }
+		}
+	}
 
 private:
 	struct FSlot
@@ -59,6 +68,7 @@ private:
 		std::optional<T> Value;
 		uint32_t Generation = 0;
 	};
+	THandle GetHandle(uint32_t Index) const { return static_cast<THandle>(GetUpper(Slots[Index]) << 32 | (Index + 1)); }
 	uint64_t GetUpper(const FSlot& Slot) const { return uint64_t(Tag) << 20 | Slot.Generation; }
 
 	uint32_t Tag;

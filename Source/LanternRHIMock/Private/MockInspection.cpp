@@ -132,6 +132,26 @@ std::vector<IRTBuffer*> FRTMock::FindLiveBuffers(const std::string& Name) const
 	return Out;
 }
 
+namespace
+{
+
+template <class TInterface, class TObject>
+std::vector<TInterface*> FindLive(FMockState& State)
+{
+	std::lock_guard Lock(State.Mutex);
+	std::vector<TInterface*> Out;
+	for (FMockObject* const Object : State.Live)
+	{
+		if (auto* const Mine = dynamic_cast<TObject*>(Object)) { Out.push_back(Mine); }
+	}
+	return Out;
+}
+
+} // namespace
+
+std::vector<IRTScene*> FRTMock::FindLiveScenes() const { return FindLive<IRTScene, FMockScene>(State); }
+std::vector<IRTShaderTable*> FRTMock::FindLiveTables() const { return FindLive<IRTShaderTable, FMockShaderTable>(State); }
+
 IRTBuffer* FRTMock::FindBuffer(uint64_t DeviceAddress, uint64_t* OutOffset) const
 {
 	std::lock_guard Lock(State.Mutex);

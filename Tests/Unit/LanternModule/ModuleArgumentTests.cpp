@@ -1,5 +1,8 @@
 // What the module does with bad input: an error that names the argument, and nothing has changed.
+#include <atomic>
 #include <limits>
+#include <mutex>
+#include <thread>
 
 #include "ModuleTestTools.h"
 
@@ -100,6 +103,64 @@ TEST_F(FModuleArgumentTest, HandlesOfAnotherRendererAreRefused)
 	EXPECT_REFUSED(Other->AddObject(Desc, &TheirObject), "of another renderer");
 	EXPECT_EQ(TheirObject, ERTObjectHandle::None);
 	ASSERT_FINE(Renderer->SetObjectTransform(Object, Transform)); // nothing has happened to it
+}
+
+TEST_F(FModuleArgumentTest, WrongCallsFromSeveralThreadsAreRefusedWhileFramesGoOn)
+{
+	ASSERT_FINE(AddObject(AddMesh(DescribeTriangle()), Solid));
+	ASSERT_FINE(SetSun(-1.0));
+	std::atomic<uint32_t> Wrong = 0, Done = 0;
+	const auto Misuse = [&] {
+		const double Transform[12] = {std::numeric_limits<double>::quiet_NaN()};
+		const auto Refused = [&](const FRTStatus& Status) { Wrong += Status.Code != ERTResult::InvalidArgument || Status.Message[0] == 0; };
+		for (uint64_t Round = 0; Round < 500; ++Round)
+		{
+			const uint64_t Bits = Round * 0x9E3779B97F4A7C15 | 1ull << 63; // no renderer of this test has such a tag
+			Refused(Renderer->AddMesh({}, nullptr));
+			Refused(Renderer->RemoveMesh(static_cast<ERTMeshHandle>(Bits)));
+			Refused(Renderer->SetMaterial(static_cast<ERTMaterialHandle>(Bits), {}));
+			Refused(Renderer->SetObjectTransform(Object, Transform));
+			Refused(Renderer->RemoveObject(static_cast<ERTObjectHandle>(Bits)));
+			Refused(Renderer->SetObjectMaterials(Object, nullptr, ~0u));
+		}
+		++Done;
+	};
+	std::vector<std::thread> Threads;
+	for (int Thread = 0; Thread < 3; ++Thread) { Threads.emplace_back(Misuse); }
+	while (Done < Threads.size()) { EXPECT_TRUE(RenderWholeFrame().IsOk()); }
+	for (std::thread& Thread : Threads) { Thread.join(); }
+	EXPECT_EQ(Wrong, 0u);
+	ASSERT_FINE(RenderWholeFrame());
+}
+
+TEST_F(FModuleArgumentTest, FramesOfTwoThreadsAtOnceAreRefused)
+{
+	ASSERT_FINE(AddObject(AddMesh(DescribeTriangle()), Solid));
+	ASSERT_FINE(SetSun(-1.0));
+	std::atomic<uint32_t> Bad = 0;
+	std::mutex ImportMutex;
+	const auto Run = [&] {
+		for (int Frame = 0; Frame < 200; ++Frame)
+		{
+			FRTModuleFrame Desc;
+			TRTRef<IRTCommandList> Mine;
+			{
+				std::lock_guard Lock(ImportMutex);
+				Desc = DescribeFrame();
+				Mine = List;
+			}
+			FRTModuleOutputs Made;
+			const ERTResult Rendered = Renderer->RenderFrame(Desc, &Made).Code;
+			const ERTResult Ended = Renderer->EndFrame(nullptr).Code;
+			for (const ERTResult Code : {Rendered, Ended}) { Bad += Code != ERTResult::Ok && Code != ERTResult::InvalidArgument; }
+		}
+	};
+	std::thread Second(Run);
+	Run();
+	Second.join();
+	EXPECT_EQ(Bad, 0u);
+	(void)Renderer->EndFrame(nullptr); // a last frame that the other thread could not end
+	ASSERT_FINE(RenderWholeFrame());
 }
 
 } // namespace

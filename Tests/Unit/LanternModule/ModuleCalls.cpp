@@ -102,6 +102,7 @@ FRTStatus AddAnyMesh(FModulePlay& Play, bool bDeformable, TPlayHandles<ERTMeshHa
 	Mesh.bKeepOnCpu = Play.Bool(true);
 	ERTMeshHandle Added = ERTMeshHandle::None;
 	const FRTStatus Status = Play.GetRenderer().AddMesh(Mesh, Play.Pointer("Out", &Added));
+	if (Status) { Play.Assets[Added] = {Mesh.Sections != nullptr, Sections[1].bMayBeMasked, bDeformable}; }
 	// Rows of objects give two materials.
 	if (Mesh.Sections != nullptr) { Play.Keep(To, Added); }
 	return Status;
@@ -303,6 +304,31 @@ FRTStatus EndFrame(FModulePlay& Play)
 	return Play.GetRenderer().EndFrame(Play.Bool(true) ? &Fence : nullptr);
 }
 
+bool GiveAgain(void* User, ERTMeshHandle Handle, FRTModuleMesh* Out)
+{
+	static constexpr uint32_t Indices[] = {0, 1, 2, 2, 1, 3};
+	static constexpr FRTModuleSection Sections[2][2] = {{{0, 3, true}, {3, 3, false}}, {{0, 3, true}, {3, 3, true}}};
+	const auto& Play = *static_cast<const FModulePlay*>(User);
+	const FModulePlay::FAsset& Asset = Play.Assets.at(Handle);
+	Out->Name = "Again";
+	Out->Positions = Positions;
+	Out->VertexCount = 4;
+	Out->Indices = Indices;
+	Out->IndexCount = 6;
+	Out->Sections = Asset.bSections ? Sections[Asset.bMayBeMasked ? 1 : 0] : nullptr;
+	Out->SectionCount = Asset.bSections ? 2 : 0;
+	Out->bDeformable = Asset.bDeformable;
+	return true;
+}
+
+/// To the device that it has: what stands on it is made anew.
+FRTStatus Recreate(FModulePlay& Play)
+{
+	FRTModuleMeshSource Source{GiveAgain, &Play};
+	if (!Play.Bool(true)) { Source.Get = nullptr; }
+	return Play.GetRenderer().Recreate(Play.Pointer("Device", Play.GetDevice()), Source);
+}
+
 FRTStatus SetConsoleVariable(FModulePlay& Play)
 {
 	constexpr const char* Names[] = {"r.RT.Shadow.Path", "r.RT.AO.Path", "r.RT.Shadow", "r.RT.Culling", "r.RT.Scene.Gather",
@@ -343,6 +369,7 @@ constexpr FModuleCall Calls[] = {
     {"RemoveLight", RemoveLight},
     {"SetSun", SetSun},
     {"SetSky", SetSky},
+    {"Recreate", Recreate},
     {"SetConsoleVariable", SetConsoleVariable},
     {"GetConsoleVariable", GetConsoleVariable},
 };

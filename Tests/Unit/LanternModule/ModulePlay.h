@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -73,12 +74,19 @@ public:
 
 	IRTModuleRenderer& GetRenderer() const { return *Renderers[0]; }
 	IRTModule& GetModule() const { return Module; }
+	IRTDevice* GetDevice() const { return Device.Get(); }
 	FRTMock& GetMock() const { return Lantern::GetMock(Inner.Get()); }
 
 	TPlayHandles<ERTMaterialHandle> Materials;
 	TPlayHandles<ERTMeshHandle> Meshes, Deformables;
 	TPlayHandles<ERTObjectHandle> Objects;
 	TPlayHandles<ERTLightHandle> Lights;
+	/// What meshes were given that another device must be given again.
+	struct FAsset
+	{
+		bool bSections = false, bMayBeMasked = false, bDeformable = false;
+	};
+	std::map<ERTMeshHandle, FAsset> Assets;
 
 private:
 	template <class T>

@@ -15,10 +15,12 @@ struct FVertex
 };
 layout(buffer_reference, scalar) readonly buffer FBindPose { FSkinVertex Items[]; };
 layout(buffer_reference, scalar) writeonly buffer FVertices { FVertex Items[]; };
+layout(buffer_reference, scalar) writeonly buffer FPositions { vec3 Items[]; };
 layout(push_constant, scalar) uniform FPush
 {
 	FBindPose BindPose;
 	FVertices Vertices;
+	FPositions Traced; // 0: none
 	float Sine, Cosine;
 	uint Count;
 } Push;
@@ -31,5 +33,7 @@ void main()
 	FSkinVertex Vertex = Push.BindPose.Items[Index];
 	vec3 P = Vertex.Position;
 	vec3 Turned = vec3(P.x * Push.Cosine - P.y * Push.Sine, P.x * Push.Sine + P.y * Push.Cosine, P.z);
-	Push.Vertices.Items[Index] = FVertex(mix(P, Turned, Vertex.Weight), vec3(0));
+	vec3 Skinned = mix(P, Turned, Vertex.Weight);
+	Push.Vertices.Items[Index] = FVertex(Skinned, vec3(0));
+	if (uint64_t(Push.Traced) != 0) { Push.Traced.Items[Index] = Skinned; }
 }

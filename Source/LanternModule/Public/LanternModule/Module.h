@@ -8,7 +8,8 @@
 //
 // Units: metres, radians, nits and lux; linear Rec.709; right-handed, y up. World positions are double precision.
 // Threads: IRTModule may be called from any thread, and so may the calls of a renderer that change its scene (Add…, Set…,
-// Remove…, Update…). RenderFrame and EndFrame belong to one thread at a time. Nothing throws. A handle is valid for its renderer
+// Remove…, Update…). RenderFrame, EndFrame and Recreate belong to one thread at a time; InvalidArgument
+// refuses a second one. Nothing throws. A handle is valid for its renderer
 // only.
 // Errors: every build checks what an engine passes, handles that are stale or of another renderer included. InvalidArgument says
 // what is wrong; nothing has changed then. Arrays must be as long as their counts say, which nobody can check.
@@ -193,6 +194,15 @@ struct FRTModuleSun
 	float AngularDiameter = 0.0f; ///< radians, 0 to π; 0: hard shadows
 };
 
+/// Gives meshes again to IRTModuleRenderer::Recreate. Get returns whether the engine still has the mesh. Out must be what AddMesh
+/// had: as many sections, each with its bMayBeMasked, and bDeformable; vertices may be newer. Its arrays are read before the next
+/// call of Get. Get runs on the thread that called Recreate and must not call the renderer.
+struct FRTModuleMeshSource
+{
+	bool (*Get)(void* User, ERTMeshHandle Mesh, FRTModuleMesh* Out) = nullptr;
+	void* User = nullptr;
+};
+
 /// A scene and the passes that render it.
 ///
 /// Calls that change the scene check their arguments and give handles at once, from any thread. They wait for no GPU, no
@@ -253,6 +263,13 @@ public:
 	virtual FRTStatus RenderFrame(const FRTModuleFrame& Frame, FRTModuleOutputs* Out) = 0;
 	/// Ends the frame. Call after submitting the commands of RenderFrame, before the next RenderFrame. OutFence may be null.
 	virtual FRTStatus EndFrame(FRTFence* OutFence) = 0;
+
+	/// Takes the scene over to another device after ERTResult::DeviceLost, or at will. Handles, objects, lights, sun, sky and
+	/// materials stay, without their maps: the engine gives maps again by SetMaterial. Source gives the meshes; objects of a mesh
+	/// that it does not give are not seen. The textures, lists and mesh buffers of the old device are void. A frame that was not
+	/// ended is none. Uploads and structures follow the budgets of frames, as after AddMesh. InvalidArgument names a mesh that Source
+	/// gives otherwise than it was; on an error nothing has changed, and the call may be repeated. Render thread.
+	virtual FRTStatus Recreate(IRTDevice* Device, const FRTModuleMeshSource& Source) = 0;
 };
 
 class IRTModule : public IRTRefCounted

@@ -200,6 +200,8 @@ public:
 	std::vector<uint8_t> GetTexels(IRTTexture* Texture, uint32_t Mip = 0, uint32_t Layer = 0) const;
 	/// Returns the live buffers of this name, by address.
 	std::vector<IRTBuffer*> FindLiveBuffers(const std::string& Name) const;
+	std::vector<IRTScene*> FindLiveScenes() const;
+	std::vector<IRTShaderTable*> FindLiveTables() const;
 	/// Returns the live buffer that holds the device address, or null.
 	IRTBuffer* FindBuffer(uint64_t DeviceAddress, uint64_t* OutOffset = nullptr) const;
 	/// Returns a record of the device's copy of the table, as executed submissions left it. What is in flight is not in it yet.
