@@ -5,6 +5,7 @@
 #include "Device/VulkanInstance.h"
 #include "Device/VulkanMemory.h"
 #include "Device/VulkanObject.h"
+#include "Device/VulkanReaper.h"
 #include "Device/VulkanStatus.h"
 #include "Device/VulkanTranslate.h"
 #include "LanternRHICommon/FenceQueue.h"
@@ -48,6 +49,7 @@ public:
 
 	/// Creates the VkDevice that the probe describes.
 	FRTStatus CreateNative();
+	FRTStatus CreateCompileDevice(const FRTVulkanDeviceDesc& Desc);
 	/// Takes an engine's device. The lock may be empty.
 	FRTStatus AdoptNative(VkDevice InDevice, VkQueue InQueue, uint32_t InFamily, const FQueueLock& InLock);
 
@@ -87,7 +89,7 @@ public:
 	void SetName(VkObjectType Type, uint64_t Handle, const char* Name) const;
 	void AddOne() { Children.fetch_add(1); }
 	void DropOne();
-	void Retire(void* Object, void (*Delete)(void*));
+	void Retire(const FVulkanGarbage& Item);
 	FRTStatus SaveCache() { return Cache.Save(); }
 
 	std::unique_ptr<FVulkanInstance> Instance;
@@ -103,14 +105,10 @@ public:
 	uint32_t QueueFamily = 0;
 	uint32_t TimestampBits = 0;
 	bool bCacheLibraries = true;
+	FRTVulkanCallSink CallSink;
+	FVulkanDevice* CompileDevice = nullptr; ///< FRTVulkanDeviceDesc::bCompileDevice; owned
 
 private:
-	struct FGarbage
-	{
-		void* Object = nullptr;
-		void (*Delete)(void*) = nullptr;
-	};
-
 	~FVulkanDevice() override;
 	void OnFinalRelease() override;
 
@@ -119,6 +117,7 @@ private:
 	VkResult SubmitBatch(const std::vector<VkCommandBufferSubmitInfo>& Buffers);
 	FRTStatus SubmitLists(IRTCommandList* const* Lists, uint32_t Count, bool bExternal, FRTFence* OutFence);
 	void CollectUpTo(FRTFence Done);
+	void CollectAll();
 
 	bool bOwned = false;
 	VkQueue Queue = VK_NULL_HANDLE;
@@ -130,7 +129,8 @@ private:
 	std::atomic<bool> bLost{false};
 
 	std::mutex GarbageMutex;
-	TFenceQueue<FGarbage> Garbage;
+	TFenceQueue<FVulkanGarbage> Garbage;
+	FVulkanReaper Reaper;
 	TFenceQueue<FVulkanKept> Packets;
 
 	/// The objects that are alive, plus one while the user holds a reference to the device.
