@@ -12,6 +12,7 @@
 #include "LanternScene/Memory/GpuTable.h"
 #include "LanternScene/Pipelines/MaterialPrograms.h"
 #include "LanternScene/Scene/Object.h"
+#include "LanternScene/ShaderTable/ChangeJournal.h"
 #include "LanternScene/ShaderTable/HitProgramIndex.h"
 #include "LanternScene/ShaderTable/SectionAllocator.h"
 #include "SceneTypes.h"
@@ -78,14 +79,14 @@ public:
 	/// Some may have been released meanwhile.
 	std::vector<FSectionRangeId> TakeChangedRanges();
 	bool HasChangedRanges() const { return !ChangedRanges.empty(); }
-	/// Returns the sections written since the last call, each once, for the writer of hit records. Some may have been
-	/// released meanwhile.
-	std::vector<uint32_t> TakeChanged();
+	/// Returns the sections written since Seen, each once, for a writer of hit records, and moves Seen. Each writer has a cursor of
+	/// its own. Some sections may have been released meanwhile.
+	std::vector<uint32_t> TakeChanged(FChangeCursor& Seen) const { return Changes.Take(Seen); }
 	/// Returns the slots of geometries that objects use with another alpha test than that of their classification, since the
 	/// last call. Some may come twice, or have been released meanwhile.
 	std::vector<uint32_t> TakeRefutedGeometries() { return std::exchange(RefutedGeometries, {}); }
 	bool HasRefutedGeometries() const { return !RefutedGeometries.empty(); }
-	bool HasChanged() const { return !Changed.empty(); } ///< TakeChanged would return some
+	bool HasChanged(FChangeCursor Seen) const { return Changes.HasChangedSince(Seen); } ///< TakeChanged would return some
 
 	const FSectionData& Get(uint32_t Section) const { return Table[Section]; }
 	uint32_t GetCapacity() const { return Table.Num(); } ///< one past the greatest section that was ever in use
@@ -145,8 +146,7 @@ private:
 
 	std::vector<FSectionRangeId> ChangedRanges;
 	std::vector<uint32_t> RefutedGeometries;
-	std::vector<uint32_t> Changed;
-	std::vector<bool> IsChanged; // by section: if nobody takes changes for a long time, the list must not grow
+	FChangeJournal Changes; // of sections
 	FHitProgramIndex HitPrograms;
 };
 
