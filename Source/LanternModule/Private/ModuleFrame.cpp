@@ -82,10 +82,8 @@ void FModuleRenderer::HandToEngine(const FFrameOutputs& Made)
 
 void FModuleRenderer::ReleaseOutputs() { Outputs.fill(nullptr); }
 
-FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame)
+FFrameFeatures FModuleRenderer::MakeFeatures(const FRTModuleFrame& Frame)
 {
-	// Before BeginFrame, which asks the scene whether anything in it has changed.
-	if (const FRTStatus Status = RecordVertices(*Frame.Commands); !Status) { return Status; }
 	FFrameFeatures Features;
 	Features.bBuildAll = Features.bWaitForPipelines = false;
 	Features.bMotion = false; // the engine draws: nothing of the plugin's reads how its objects moved
@@ -96,6 +94,22 @@ FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame)
 		const bool bMakes = Info.Signal != ESignal::Frame && (bSurface || !Info.bNeedsSurface);
 		if (bMakes && Frame.Wanted.Has(Info.Signal)) { Features.Signals.Wanted.Add(Info.Signal); }
 	}
+	Features.bCameraMotion = Frame.Motion == nullptr;
+	return Features;
+}
+
+FRTStatus FModuleRenderer::Precache(const FRTModuleFrame& Frame, FRTModuleProgress Progress, void* User)
+{
+	if (Recorded) { return FRTStatus::Error(ERTResult::InvalidArgument, "Precache: EndFrame was not called after RenderFrame"); }
+	const auto Report = [=](float Done) { Progress(User, Done); };
+	return Renderer.Precache(Scene, MakeFeatures(Frame), Progress != nullptr ? std::function<void(float)>(Report) : nullptr);
+}
+
+FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame)
+{
+	// Before BeginFrame, which asks the scene whether anything in it has changed.
+	if (const FRTStatus Status = RecordVertices(*Frame.Commands); !Status) { return Status; }
+	const FFrameFeatures Features = MakeFeatures(Frame);
 	if (const FRTStatus Status = Renderer.BeginFrame(Scene, ToView(Frame, FrameIndex++), Features); !Status) { return Status; }
 	AddPasses(Frame);
 	const FRTStatus Status = Renderer.EndFrame(*Frame.Commands);
@@ -122,7 +136,7 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 	}
 	Recorded = TRTRef<IRTCommandList>(Frame.Commands);
 	for (size_t I = 0; I < SignalCount; ++I) { Out->Signals[I] = Outputs[I].Get(); }
-	Out->bShadersReady = Renderer.AreRayProgramsReady();
+	Out->bShadersReady = Renderer.AreShadersReady();
 	Out->bComplete = Out->bShadersReady && Scene.GetGeometries().GetStats().Pending == 0;
 	return Status;
 }

@@ -37,6 +37,7 @@ public:
 	FRTStatus RemoveObject(ERTObjectHandle Handle) override;
 	FRTStatus SetSun(const FRTModuleSun& Sun) override;
 	FRTStatus SetSky(const float Radiance[3]) override;
+	FRTStatus Precache(const FRTModuleFrame& Frame, FRTModuleProgress Progress, void* User) override;
 	FRTStatus RenderFrame(const FRTModuleFrame& Frame, FRTModuleOutputs* Out) override;
 	FRTStatus EndFrame(FRTFence* OutFence) override;
 
@@ -82,6 +83,7 @@ private:
 	FRTStatus RefuseMesh(const char* Function, ERTMeshHandle Handle) const;
 	void StoreMaterial(FMaterial& Material, const FRTModuleMaterial& From);
 	FRTStatus RecordVertices(IRTCommandList& List);
+	static FFrameFeatures MakeFeatures(const FRTModuleFrame& Frame);
 	FRTStatus RecordFrame(const FRTModuleFrame& Frame);
 	/// Fence: 0 when the list will never run.
 	void FinishVertices(FRTFence Fence);

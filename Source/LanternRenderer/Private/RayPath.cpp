@@ -7,6 +7,25 @@
 namespace Lantern
 {
 
+namespace
+{
+TRTConsoleVariable<bool> CVarReorder("r.RT.Reorder", false,
+    "Sorts threads by what their rays hit before material shaders run (shader execution reordering), in the reference, diffuse global "
+    "illumination and reflections. Needs a device that can.");
+} // namespace
+
+void AddReorderDefine(const FRTCapabilities& Capabilities, FShaderDefines& Defines)
+{
+	if (!CVarReorder.GetOnRenderThread()) { return; }
+	if (Capabilities.bReorder)
+	{
+		Defines.emplace_back("REORDER", "1");
+		return;
+	}
+	LogOnce(ERTLogLevel::Warning,
+	    CVarReorder.GetName() + "=1: this device has no shader execution reordering; hits are shaded in the order of pixels");
+}
+
 ERayPath ChooseRayPath(const FPassQuery& Query, const TRTConsoleVariable<int32_t>& Wanted, const char* What)
 {
 	const bool bPipeline = Query.Capabilities.bRayTracingPipeline, bQuery = Query.Capabilities.bRayQuery;
@@ -40,6 +59,17 @@ ERayPath ChooseShadingRayPath(const FPassQuery& Query, const TRTConsoleVariable<
 	return ERayPath::None;
 }
 
+FShaderSource MakeQuerySource(const FSceneFacts& Facts, ESignal Signal, const FPassRays& Rays)
+{
+	FShaderDefines Defines = Rays.Defines;
+	if (Facts.bMasked)
+	{
+		Defines.emplace_back("HAS_MASKED", "1");
+		for (auto& Define : FAnyHitCounter::GetDefines()) { Defines.push_back(std::move(Define)); }
+	}
+	return MakeComputeSource(MakeShaderPath(Signal, ".comp"), std::move(Defines));
+}
+
 std::optional<FRayDispatch> RequireRayDispatch(const FFrameContext& Context, ESignal Signal, const FPassRays& Rays)
 {
 	FRayDispatch Dispatch;
@@ -51,13 +81,7 @@ std::optional<FRayDispatch> RequireRayDispatch(const FFrameContext& Context, ESi
 	}
 	else
 	{
-		FShaderDefines Defines = Rays.Defines;
-		if (Context.Facts.bMasked)
-		{
-			Defines.emplace_back("HAS_MASKED", "1");
-			for (auto& Define : FAnyHitCounter::GetDefines()) { Defines.push_back(std::move(Define)); }
-		}
-		Dispatch.Compute = RequireCompute(Context, MakeShaderPath(Signal, ".comp").c_str(), std::move(Defines));
+		Dispatch.Compute = RequireCompute(Context, MakeQuerySource(Context.Facts, Signal, Rays));
 		if (!Dispatch.Compute) { return std::nullopt; }
 	}
 	Context.RequireRays();

@@ -126,6 +126,9 @@ struct FRTModuleSun
 	float AngularDiameter = 0.0f; ///< radians, 0 to π; 0: hard shadows
 };
 
+/// Gets User and the share that is done, 0 to 1.
+using FRTModuleProgress = void (*)(void* User, float Done);
+
 /// A scene and the passes that render it.
 class IRTModuleRenderer : public IRTRefCounted
 {
@@ -160,6 +163,11 @@ public:
 	/// Sets the radiance of a uniform sky: nits, linear Rec.709, finite, ≥ 0. 0 (default): no sky.
 	virtual FRTStatus SetSky(const float Radiance[3]) = 0;
 
+	/// Compiles what frames like Frame will run in the scene as it is, and waits for it. For load time, between frames: the first
+	/// frames then have their outputs. Reads Wanted, and which textures are null; Commands may be null. Progress is called with 0
+	/// to 1 during the call, and may be null. CompileFailed if a shader does not compile; frames go on
+	/// without it.
+	virtual FRTStatus Precache(const FRTModuleFrame& Frame, FRTModuleProgress Progress, void* User) = 0;
 	/// Records the frame into Frame.Commands. On an error the command list must not be submitted.
 	virtual FRTStatus RenderFrame(const FRTModuleFrame& Frame, FRTModuleOutputs* Out) = 0;
 	/// Ends the frame. Call after submitting the commands of RenderFrame, before the next RenderFrame. OutFence may be null.
