@@ -113,6 +113,7 @@ void FDeviceOptions::AddTo(CLI::App& App)
 		return bIndex ? std::string() : Quote(Text) + " is not the number of a device";
 	});
 	App.add_flag("--validate", bValidate, "Vulkan validation layers on; any message is an error");
+	App.add_flag("--trace-calls", bTraceCalls, "Records a trace (r.RT.Trace) that shows each call of Vulkan as well");
 	AddSettingsTo(App);
 }
 

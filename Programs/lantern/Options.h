@@ -37,6 +37,7 @@ struct FDeviceOptions
 {
 	int Device = -1;
 	bool bValidate = false;
+	bool bTraceCalls = false; ///< each call of Vulkan is an event of the trace
 	std::string Quality;
 	std::vector<std::string> Sets;
 	std::vector<std::string> Configs;

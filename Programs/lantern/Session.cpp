@@ -1,6 +1,7 @@
 // Finds the plugin's folders, opens the device and loads scenes for the commands.
 #include "Session.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -47,12 +48,20 @@ void OnVulkanMessage(void*, ERTVulkanMessage Severity, const char* Text)
 	    Text);
 }
 
+void RecordVulkanCall(void*, const char* Name, uint64_t Nanoseconds)
+{
+	if (!FTaskTrace::IsOn()) { return; }
+	const uint64_t End = FTaskTrace::GetNow();
+	FTaskTrace::Record(Name, End - std::min(End, Nanoseconds), End, FTaskTrace::GetFrame());
+}
+
 FRTVulkanDeviceDesc MakeDeviceDesc(const FDeviceOptions& Options)
 {
 	FRTVulkanDeviceDesc Desc;
 	Desc.DeviceIndex = Options.Device;
 	if (const char* Index = std::getenv("LANTERN_DEVICE"); Index && Options.Device < 0) { Desc.DeviceIndex = std::atoi(Index); }
 	Desc.bValidation = Options.bValidate;
+	if (Options.bTraceCalls) { Desc.CallSink.Call = RecordVulkanCall; }
 	return Desc;
 }
 } // namespace
@@ -107,6 +116,7 @@ int LoadSettings(const std::string& ConfigFolder, const FDeviceOptions& Options)
 		}
 		LoadFile(Config, Path);
 	}
+	if (Options.bTraceCalls) { FConsoleVariables::Get().Set("r.RT.Trace", "1", ERTSetBy::CommandLine, "--trace-calls"); }
 	if (const auto Quality = ParseQuality(Options.Quality)) { LoadScalability(Config, *Quality); }
 	for (const std::string& Set : Options.Sets)
 	{
@@ -116,13 +126,14 @@ int LoadSettings(const std::string& ConfigFolder, const FDeviceOptions& Options)
 	return ExitDone;
 }
 
-FRTStatus OpenUncachedDevice(const FDeviceOptions& Options, TRTRef<IRTDevice>& Out)
+FRTStatus OpenUncachedDevice(const FDeviceOptions& Options, bool bCompileDevice, TRTRef<IRTDevice>& Out)
 {
 	// Caches of the drivers themselves, on disk; neither has a call for it.
 	::setenv("__GL_SHADER_DISK_CACHE", "0", 1);
 	::setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
 	FRTVulkanDeviceDesc Desc = MakeDeviceDesc(Options);
 	Desc.bCacheLibraries = false;
+	Desc.bCompileDevice = bCompileDevice;
 	Desc.MessageCallback = OnVulkanMessage;
 	return CreateVulkanDevice(Desc, Out.ReleaseAndGetAddress());
 }

@@ -24,7 +24,15 @@ const float RouletteThreshold = 0.25; // throughput below which Russian roulette
 
 FMaterialHit TraceMaterial(FSceneConstants Scene, uint Mask, vec3 Origin, vec3 Direction, float MaxDistance)
 {
+#ifdef REORDER
+	// Threads that hit alike run the hit's shader together.
+	hitObjectNV Hit;
+	hitObjectTraceRayNV(Hit, Scenes[Scene.Tlas], 0u, Mask, MATERIAL_RAY, RAY_TYPES, MATERIAL_MISS, Origin, 0.0, Direction, MaxDistance, 0);
+	reorderThreadNV(Hit);
+	hitObjectExecuteShaderNV(Hit, 0);
+#else
 	traceRayEXT(Scenes[Scene.Tlas], 0u, Mask, MATERIAL_RAY, RAY_TYPES, MATERIAL_MISS, Origin, 0.0, Direction, MaxDistance, 0);
+#endif
 	return UnpackHit(MaterialPayload);
 }
 

@@ -5,9 +5,17 @@
 
 #include "VulkanSmokeShaders/Fill_comp.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace Lantern
 {
@@ -57,6 +65,77 @@ TEST_F(FVulkanSmokeDevice, TheLadderCanBeCut)
 	TRTRef<IRTScene> Scene;
 	EXPECT_EQ(Lower->CreateScene({1, false, "Refused"}, Scene.ReleaseAndGetAddress()).Code, ERTResult::Unsupported);
 	EXPECT_EQ(Lower->GetValidationMessageCount(), 0u);
+}
+
+TEST_F(FVulkanSmokeDevice, EachCallIsTimedOnDemand)
+{
+	std::map<std::string, uint32_t> Calls;
+	FRTVulkanDeviceDesc Desc;
+	Desc.bValidation = bValidation;
+	Desc.CallSink.User = &Calls;
+	Desc.CallSink.Call = [](void* User, const char* Name, uint64_t) { ++(*static_cast<std::map<std::string, uint32_t>*>(User))[Name]; };
+	TRTRef<IRTDevice> Timed;
+	ASSERT_OK(CreateVulkanDevice(Desc, Timed.ReleaseAndGetAddress()));
+	TRTRef<IRTBuffer> Buffer;
+	ASSERT_OK(Timed->CreateBuffer({64, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Timed"}, Buffer.ReleaseAndGetAddress()));
+	TRTRef<IRTCommandList> Filling;
+	ASSERT_OK(Timed->CreateCommandList("Filling", Filling.ReleaseAndGetAddress()));
+	ASSERT_OK(Filling->Begin());
+	Filling->FillBuffer(Buffer.Get(), 0, 64, 7);
+	ASSERT_OK(Filling->End());
+	IRTCommandList* Lists[] = {Filling.Get()};
+	Calls.clear();
+	ASSERT_OK(Timed->Submit(Lists, 1, nullptr));
+	EXPECT_EQ(Calls["vkQueueSubmit2"], 1u);
+	ASSERT_OK(Timed->WaitIdle());
+	EXPECT_EQ(*static_cast<uint32_t*>(Buffer->GetMapped()), 7u);
+	TRTRef<IRTBuffer> Large;
+	Calls.clear();
+	ASSERT_OK(Timed->CreateBuffer({300u << 20, ERTBufferUsage::Storage, ERTMemory::Device, "Large"}, Large.ReleaseAndGetAddress()));
+	EXPECT_GE(Calls["vkAllocateMemory"], 1u) << "the allocator's calls, too";
+	EXPECT_EQ(Timed->GetValidationMessageCount(), 0u);
+	for (TRTRef<IRTBuffer>* Made : {&Large, &Buffer}) { Made->Reset(); }
+	Filling.Reset();
+	Timed.Reset();
+	// A device without a sink is left alone.
+	Calls.clear();
+	ASSERT_OK(Device->WaitIdle());
+	TRTRef<IRTBuffer> Untimed;
+	ASSERT_OK(Device->CreateBuffer({64, ERTBufferUsage::Storage, ERTMemory::Device, "Untimed"}, Untimed.ReleaseAndGetAddress()));
+	EXPECT_TRUE(Calls.empty());
+}
+
+TEST_F(FVulkanSmokeDevice, FramesDestroyNoPipeline)
+{
+	struct FDestroyed
+	{
+		std::mutex Mutex;
+		std::vector<std::thread::id> Threads;
+	} Destroyed;
+	FRTVulkanDeviceDesc Desc;
+	Desc.bValidation = bValidation;
+	Desc.CallSink.User = &Destroyed;
+	Desc.CallSink.Call = [](void* User, const char* Name, uint64_t) {
+		if (strcmp(Name, "vkDestroyPipeline") != 0) { return; }
+		auto& Out = *static_cast<FDestroyed*>(User);
+		const std::scoped_lock Lock(Out.Mutex);
+		Out.Threads.push_back(std::this_thread::get_id());
+	};
+	TRTRef<IRTDevice> Timed;
+	ASSERT_OK(CreateVulkanDevice(Desc, Timed.ReleaseAndGetAddress()));
+	for (int I = 0; I < 3; ++I)
+	{
+		TRTRef<IRTPipeline> Pipeline;
+		ASSERT_OK(Timed->CreateComputePipeline(
+		    {MakeCode(Smoke_Fill_comp, ERTShaderStage::Compute, "Fill"), "Fill"}, Pipeline.ReleaseAndGetAddress()));
+		Pipeline.Reset();
+		ASSERT_OK(Timed->Submit(nullptr, 0, nullptr));
+		ASSERT_OK(Timed->WaitIdle());
+	}
+	EXPECT_EQ(Timed->GetValidationMessageCount(), 0u);
+	Timed.Reset(); // waits for all of them
+	EXPECT_EQ(Destroyed.Threads.size(), 3u);
+	EXPECT_EQ(std::count(Destroyed.Threads.begin(), Destroyed.Threads.end(), std::this_thread::get_id()), 0);
 }
 
 TEST_F(FVulkanSmokeDevice, AWrongIndexIsNamed)
@@ -220,9 +299,20 @@ TEST_F(FVulkanSmokeDevice, PipelineCacheIsKeptAndADamagedOneDiscarded)
 	ASSERT_NO_FATAL_FAILURE(MakeOnce());
 	EXPECT_NE(Messages.find("damaged"), std::string::npos) << Messages;
 	Messages.clear();
+	namespace fs = std::filesystem;
+	const auto Leave = [&](const char* Suffix, int Hours) {
+		std::ofstream(File + Suffix) << "half";
+		fs::last_write_time(File + Suffix, fs::file_time_type::clock::now() - std::chrono::hours(Hours));
+	};
+	Leave(".aB3dEf", 30);
+	Leave(".gH4iJk", 1);
+	Leave(".notes", 30);
 	ASSERT_NO_FATAL_FAILURE(MakeOnce()); // written anew
 	EXPECT_EQ(Messages, "");
-	remove(File.c_str());
+	EXPECT_FALSE(fs::exists(File + ".aB3dEf")) << "left by a process that was killed";
+	EXPECT_TRUE(fs::exists(File + ".gH4iJk")) << "another process may be writing it";
+	EXPECT_TRUE(fs::exists(File + ".notes"));
+	for (const char* Suffix : {"", ".gH4iJk", ".notes"}) { fs::remove(File + Suffix); }
 }
 
 TEST_F(FVulkanSmokeDevice, ManyMayShareAPipelineCacheFile)

@@ -31,6 +31,22 @@ TEST_F(BenchProgram, FiguresNameTheDeviceAndTheTimes)
 	}
 }
 
+TEST_F(BenchProgram, LongestFramesOfRtpsoShowWhatTheirThreadsDid)
+{
+	const FProgramRun Run = RunProgram({"bench", "rtpso", "--mock", "--groups", "4", "--mock-compile-ms", "5", "--trace-calls", "--set",
+	    "r.RT.Trace.File=" + At("trace.json"), "--json", At("rtpso.json")});
+	ASSERT_EQ(Run.Status, 0) << Run.Err;
+	EXPECT_THAT(Run.Out, HasSubstr("ms  BeginFrame"));
+	const nlohmann::json Frames = ReadJson(At("rtpso.json"))["hitch"]["worst_calls"];
+	ASSERT_FALSE(Frames.empty());
+	for (const nlohmann::json& Frame : Frames)
+	{
+		EXPECT_GT(Frame["ms"].get<double>(), 0.0);
+		ASSERT_FALSE(Frame["events"].empty());
+	}
+	EXPECT_FALSE(ReadJson(At("trace.json"))["traceEvents"].empty());
+}
+
 TEST_F(BenchProgram, FileThatCannotBeWrittenEndsItBeforeAnyWork)
 {
 	const std::vector<std::vector<std::string>> Benches = {

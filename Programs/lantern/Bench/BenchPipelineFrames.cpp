@@ -127,7 +127,9 @@ FRTStatus MeasureHitches(IRTDevice& Device, const FRendererDesc& Desc, uint32_t 
 	const auto Start = FBenchClock::now();
 	while (Out.Ready < Materials)
 	{
+		Out.Worst.Begin();
 		if (FRTStatus S = Bench.Frame(Time); !S) { return S; }
+		Out.Worst.End(Out.Compiling.size(), Time.Ms);
 		Out.Compiling.push_back(Time);
 		const auto Current = Bench.GetCompiler().GetCurrent();
 		const FRTPSOCompilerStats Stats = Bench.GetCompiler().GetStats();
@@ -139,6 +141,7 @@ FRTStatus MeasureHitches(IRTDevice& Device, const FRendererDesc& Desc, uint32_t 
 		for (const FHitProgram Program : Programs) { Out.Ready += Current && Current->GetState(Program) == ERTHitState::Ready ? 1 : 0; }
 	}
 	if (FRTStatus S = Bench.Finish(); !S) { return S; }
+	Out.Worst.AddOthers();
 	Out.ArrivedSeconds = 1e-3 * GetMsSince(Start);
 	Out.Swaps = Bench.GetCompiler().GetStats().Links - Before;
 	return MeasureOnce(Device, Desc, Materials, Out.OnceSeconds);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "Bench/BenchWorstFrames.h"
 #include "LanternHost/SampleEngine.h"
 
 namespace Lantern
@@ -25,6 +26,7 @@ struct FHitchRun
 	/// Duration of one frame that waits until all materials are compiled, to its end on the GPU. They differ in one constant
 	/// from those of Compiling.
 	double OnceSeconds = 0.0;
+	FWorstFrames Worst; ///< of Compiling, if a trace is recorded
 };
 
 /// Threads: of the compiler; 0: its own choice. Frames begin PaceMs apart, or as soon as the one before is done.

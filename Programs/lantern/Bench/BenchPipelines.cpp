@@ -28,7 +28,7 @@ FRTStatus OpenDevice(const FBenchPipelinesOptions& Options, TRTRef<IRTDevice>& O
 		GetMock(Out.Get()).SlowCompile("Bench", Options.MockCompileMs);
 		return FRTStatus::Success();
 	}
-	return OpenUncachedDevice(Options.Device, Out);
+	return OpenUncachedDevice(Options.Device, Options.bCompileDevice, Out);
 }
 
 FRTStatus MeasureRuns(IRTDevice& Device, FShaderCompiler& Compiler, const FBenchPipelinesOptions& Options, nlohmann::json& Json)
@@ -104,12 +104,14 @@ FRTStatus MeasureFrames(IRTDevice& Device, const std::string& Shaders, const FBe
 	    Options.Groups, Compiling.Median, Compiling.Worst, Run.Compiling.size(), Idle.Median, Idle.Worst);
 	fmt::print("processor time of the render thread in these: worst {:.3f} ms (before: {:.3f} ms)\n", Compiling.WorstProcessor,
 	    Idle.WorstProcessor);
+	Run.Worst.Print();
 	fmt::print("all in use after {:.2f} s and {} swaps; in a frame that waits for them: {:.2f} s (ratio {:.2f})\n", Run.ArrivedSeconds,
 	    Run.Swaps, Run.OnceSeconds, Run.ArrivedSeconds / Run.OnceSeconds);
 	Json["arrival"] = {{"seconds", Run.ArrivedSeconds}, {"swaps", Run.Swaps}, {"once_seconds", Run.OnceSeconds}};
 	Json["hitch"] = {{"median_frame_ms", Compiling.Median}, {"worst_frame_ms", Compiling.Worst}, {"frames", Run.Compiling.size()},
 	    {"worst_frame_processor_ms", Compiling.WorstProcessor}, {"idle_median_frame_ms", Idle.Median}, {"idle_worst_frame_ms", Idle.Worst},
-	    {"idle_worst_frame_processor_ms", Idle.WorstProcessor}, {"idle_frames", Run.Idle.size()}, {"longest_frames", Compiling.Longest}};
+	    {"idle_worst_frame_processor_ms", Idle.WorstProcessor}, {"idle_frames", Run.Idle.size()}, {"longest_frames", Compiling.Longest},
+	    {"worst_calls", Run.Worst.ToJson()}};
 	return FRTStatus::Success();
 }
 
@@ -148,6 +150,8 @@ void FBenchPipelinesOptions::AddTo(CLI::App& App)
 	Device.AddTo(App);
 	App.add_flag("--mock", bMock, "On the mock device, whose compiles take half a second each: only the frames are measured");
 	App.add_flag("--hitch-only", bHitchOnly, "Only the frames");
+	App.add_flag(
+	    "--compile-device", bCompileDevice, "Compile on a second VkDevice, from whose cache the device of the frames takes libraries");
 	App.add_option("--groups", Groups, "Hit groups, each with a material program of its own")->check(CLI::Range(1, 65536));
 	App.add_option("--threads", Threads, "Numbers of threads")->check(CLI::Range(1, 256));
 	App.add_option("--repetitions", Repetitions, "Pipelines made each way")->check(CLI::Range(1, 1000));

@@ -23,8 +23,8 @@ FRTStatus FHostScene::Create(
 	if (FRTStatus S = Host->UploadTextures(Uploader, Progress); !S) { return S; }
 	if (FRTStatus S = Host->AddMaterials(Renderer.GetPrograms()); !S) { return S; }
 	if (FRTStatus S = Host->UploadMeshes(Uploader); !S) { return S; }
+	if (FRTStatus S = Host->CreateObjects(Uploader); !S) { return S; }
 	if (FRTStatus S = Uploader.Flush(); !S) { return S; }
-	if (FRTStatus S = Host->CreateObjects(); !S) { return S; }
 	Host->UpdateLights();
 	if (Progress) { Progress(1.0f); }
 	Out = std::move(Host);
@@ -98,25 +98,27 @@ FRTGeometryInfo FHostScene::MakeGeometryInfo(uint32_t Mesh) const
 	return Info;
 }
 
-FRTStatus FHostScene::CreateSkinnedGeometry(uint32_t Mesh, FRTGeometryRef& Out)
+FRTStatus FHostScene::CreateSkinnedGeometry(FUploader& Uploader, uint32_t Mesh, FRTGeometryRef& Out)
 {
+	const FHostMesh& Source = Description.Meshes[Mesh];
 	FRTGeometryInfo Info = MakeGeometryInfo(Mesh);
 	Info.bDynamic = true;
-	const auto CreateOutput = [&](IRTBuffer& Source, TRTRef<IRTBuffer>& Buffer) {
-		const FRTBufferDesc Desc{
-		    Source.GetDesc().Size, ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput, ERTMemory::Device, Info.Name.c_str()};
-		return Device.CreateBuffer(Desc, Buffer.ReleaseAndGetAddress());
+	constexpr ERTBufferUsage Usage = ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput;
+	// In the bind pose, which shows while the skinning shader is compiled.
+	const auto Upload = [&](const auto& Values, TRTRef<IRTBuffer>& Buffer) {
+		return Uploader.CreateBuffer(Info.Name.c_str(), Usage, Values.data(), Values.size() * sizeof(Values[0]), Buffer);
 	};
 	TRTRef<IRTBuffer> Positions, Attributes;
-	if (FRTStatus S = CreateOutput(*Info.Positions, Positions); !S) { return S; }
-	if (FRTStatus S = CreateOutput(*Info.Positions, Info.PreviousPositions); !S) { return S; }
-	if (FRTStatus S = CreateOutput(*Info.Attributes, Attributes); !S) { return S; }
+	if (FRTStatus S = Upload(Source.Positions, Positions); !S) { return S; }
+	const FRTBufferDesc Previous{Positions->GetDesc().Size, Usage, ERTMemory::Device, Info.Name.c_str()};
+	if (FRTStatus S = Device.CreateBuffer(Previous, Info.PreviousPositions.ReleaseAndGetAddress()); !S) { return S; }
+	if (FRTStatus S = Upload(Source.Attributes, Attributes); !S) { return S; }
 	Info.Positions = Positions;
 	Info.Attributes = Attributes;
 	return Scene.CreateGeometry(std::move(Info), Out);
 }
 
-FRTStatus FHostScene::CreateObjects()
+FRTStatus FHostScene::CreateObjects(FUploader& Uploader)
 {
 	for (uint32_t Node = 0; Node < Description.Nodes.size(); ++Node)
 	{
@@ -128,7 +130,7 @@ FRTStatus FHostScene::CreateObjects()
 		Info.Geometry = Meshes[Mesh].Geometry;
 		if (!Description.Meshes[Mesh].Skin.empty())
 		{
-			if (FRTStatus S = CreateSkinnedGeometry(static_cast<uint32_t>(Mesh), Instance.Skinned); !S) { return S; }
+			if (FRTStatus S = CreateSkinnedGeometry(Uploader, static_cast<uint32_t>(Mesh), Instance.Skinned); !S) { return S; }
 			Info.Geometry = Instance.Skinned;
 		}
 		const std::vector<int32_t>& Own = Description.Nodes[Node].Materials;

@@ -122,8 +122,8 @@ void FSampleEngine::DecodeReadbacks(const FReadbacks& Readbacks, const FFrameCap
 
 void FSampleEngine::SeekTo(double Time)
 {
-	// The skinning of a lost frame never ran and must be repeated.
-	if (LastTime == Time && !Renderer.IsFrameLost()) { return; }
+	// The skinning of a lost frame never ran and must be repeated, as must one that was left out.
+	if (LastTime == Time && !Renderer.IsFrameLost() && !Renderer.WasSkinningLeftOut()) { return; }
 	LastTime = Time;
 	Skinning = Scene->SetTime(Time);
 }

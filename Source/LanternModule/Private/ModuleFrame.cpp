@@ -83,7 +83,7 @@ void FModuleRenderer::HandToEngine(const FFrameOutputs& Made)
 
 void FModuleRenderer::ReleaseOutputs() { Outputs.fill(nullptr); }
 
-FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame)
+FFrameFeatures FModuleRenderer::MakeFeatures(const FRTModuleFrame& Frame)
 {
 	// Before BeginFrame, which asks the scene whether anything in it has changed.
 	if (const FRTStatus Status = On->State.Record(*Frame.Commands); !Status) { return Status; }

@@ -243,6 +243,7 @@ FRTStatus FMockDevice::Compile(const char* Name)
 	std::unique_lock Lock(State->Mutex);
 	for (const auto& [Part, Delay] : State->Slow) { Milliseconds += IsPart(Part) ? Delay : 0; }
 	const bool bFail = std::any_of(State->Failing.begin(), State->Failing.end(), IsPart);
+	const bool bStarved = std::any_of(State->Starved.begin(), State->Starved.end(), IsPart);
 	const auto IsHeld = [&] { return std::any_of(State->Held.begin(), State->Held.end(), IsPart); };
 	if (Milliseconds || IsHeld())
 	{
@@ -255,6 +256,7 @@ FRTStatus FMockDevice::Compile(const char* Name)
 	}
 	Lock.unlock();
 	if (bFail) { return FRTStatus::Error(ERTResult::CompileFailed, "%s: compile failed (mock, injected)", Whole.c_str()); }
+	if (bStarved) { return FRTStatus::Error(ERTResult::OutOfDeviceMemory, "%s: no device memory (mock, injected)", Whole.c_str()); }
 	return FRTStatus::Success();
 }
 

@@ -290,6 +290,12 @@ void FRTMock::FailCompile(const std::string& Part)
 	State.Failing.push_back(Part);
 }
 
+void FRTMock::StarveCompiles(const std::string& Part)
+{
+	std::lock_guard Lock(State.Mutex);
+	State.Starved.push_back(Part);
+}
+
 void FRTMock::ClearCompileFaults()
 {
 	{
@@ -297,6 +303,7 @@ void FRTMock::ClearCompileFaults()
 		State.Slow.clear();
 		State.Held.clear();
 		State.Failing.clear();
+		State.Starved.clear();
 	}
 	State.HoldEnded.notify_all();
 }

@@ -96,7 +96,7 @@ struct FMockState
 
 	uint32_t FailIn = 0, FailEvery = 0, SinceFail = 0;
 	std::vector<std::pair<std::string, uint32_t>> Slow;
-	std::vector<std::string> Held, Failing;
+	std::vector<std::string> Held, Failing, Starved;
 	std::condition_variable HoldEnded;
 	uint32_t CompilesInDriver = 0; ///< slow and held ones
 	std::optional<ERTMockCall> LoseAt;

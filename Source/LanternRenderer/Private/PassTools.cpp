@@ -1,6 +1,8 @@
 // What passes share.
 #include "PassTools.h"
 
+#include "LanternCore/Text/Log.h"
+
 namespace Lantern
 {
 
@@ -11,19 +13,29 @@ TRTConsoleVariable<bool> CVarEnable("r.RT.Enable", true, "All of the plugin's ra
 
 bool IsRayTracingEnabled() { return CVarEnable.GetOnRenderThread(); }
 
-IRTPipeline* RequireCompute(const FFrameContext& Context, const char* Path, FShaderDefines Defines)
+FShaderSource MakeComputeSource(std::string Path, FShaderDefines Defines)
 {
 	FShaderSource Source;
-	Source.Path = Path;
+	Source.Path = std::move(Path);
 	Source.Stage = ERTShaderStage::Compute;
 	Source.Defines = std::move(Defines);
+	return Source;
+}
+
+IRTPipeline* RequireCompute(const FFrameContext& Context, const FShaderSource& Source)
+{
 	IRTPipeline* Pipeline = nullptr;
-	if (FRTStatus S = Context.Pipelines.GetCompute(Source, Pipeline); !S)
+	const bool bWait = Context.bWaitForPipelines;
+	const FRTStatus Status = bWait ? Context.Pipelines.GetCompute(Source, Pipeline) : Context.Pipelines.Find(Source, Pipeline);
+	if (Status) { return Pipeline; }
+	if (bWait || Status.Code == ERTResult::DeviceLost) { Context.Fail(Status); }
+	else
 	{
-		Context.Fail(S);
-		return nullptr;
+		// Other passes go on, as they do without a ray-tracing shader that does not compile.
+		const auto Level = Status.Code == ERTResult::CompileFailed ? ERTLogLevel::Error : ERTLogLevel::Warning;
+		LogOnce(Level, Source.Path + " is left out of frames:\n" + Status.Message);
 	}
-	return Pipeline;
+	return nullptr;
 }
 
 std::string MakeShaderPath(ESignal Signal, const char* Suffix)

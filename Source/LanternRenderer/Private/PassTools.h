@@ -14,8 +14,15 @@ using FShaderDefines = std::vector<std::pair<std::string, std::string>>;
 
 constexpr uint32_t DivideUp(uint32_t Value, uint32_t By) { return (Value + By - 1) / By; }
 
-/// Returns the compute pipeline of a shader. Null: an error, which the context then has, and the pass is not added.
-IRTPipeline* RequireCompute(const FFrameContext& Context, const char* Path, FShaderDefines Defines = {});
+FShaderSource MakeComputeSource(std::string Path, FShaderDefines Defines = {});
+
+/// Returns the compute pipeline of a shader. Null: the pass is left out, because the shader is being compiled or cannot be. A
+/// frame that waits for its pipelines (FFrameContext::bWaitForPipelines) then has the error.
+IRTPipeline* RequireCompute(const FFrameContext& Context, const FShaderSource& Source);
+inline IRTPipeline* RequireCompute(const FFrameContext& Context, const char* Path, FShaderDefines Defines = {})
+{
+	return RequireCompute(Context, MakeComputeSource(Path, std::move(Defines)));
+}
 
 /// Names a signal's shader: "<Pass>/<Pass>" + Suffix.
 std::string MakeShaderPath(ESignal Signal, const char* Suffix);
@@ -48,7 +55,11 @@ bool HasAnyLight(const FSceneFacts& Facts);
 /// first. Paths that leave the scene cast fewer.
 uint64_t GetMaxPathRays(const FSceneFacts& Facts, uint32_t Bounces);
 
-/// Adds nothing if Items is empty.
+/// Lists the compute shaders that skinning uses in a scene.
+void ListSkinningShaders(FRTScene& Scene, std::vector<FShaderSource>& Out);
+/// Whether skinning can run in this frame. False: its shader is being compiled, or an error, which the context then has.
+bool IsSkinningReady(const FFrameContext& Context);
+/// Adds nothing if Items is empty. After IsSkinningReady.
 FRTStatus AddSkinningPass(FFrameContext& Context, FFrameUploads& Uploads, const std::vector<FSkinningInputs>& Items, bool bMotion);
 
 } // namespace Lantern

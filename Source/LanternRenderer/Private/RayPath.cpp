@@ -9,6 +9,25 @@
 namespace Lantern
 {
 
+namespace
+{
+TRTConsoleVariable<bool> CVarReorder("r.RT.Reorder", false,
+    "Sorts threads by what their rays hit before material shaders run (shader execution reordering), in the reference, diffuse global "
+    "illumination and reflections. Needs a device that can.");
+} // namespace
+
+void AddReorderDefine(const FRTCapabilities& Capabilities, FShaderDefines& Defines)
+{
+	if (!CVarReorder.GetOnRenderThread()) { return; }
+	if (Capabilities.bReorder)
+	{
+		Defines.emplace_back("REORDER", "1");
+		return;
+	}
+	LogOnce(ERTLogLevel::Warning,
+	    CVarReorder.GetName() + "=1: this device has no shader execution reordering; hits are shaded in the order of pixels");
+}
+
 ERayPath ChooseRayPath(const FPassQuery& Query, const TRTConsoleVariable<int32_t>& Wanted, const char* What)
 {
 	const bool bPipeline = Query.Capabilities.bRayTracingPipeline, bQuery = Query.Capabilities.bRayQuery;

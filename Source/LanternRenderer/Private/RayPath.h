@@ -43,6 +43,10 @@ ERayPath ChooseRayPath(const FPassQuery& Query, const TRTConsoleVariable<int32_t
 /// Chooses for passes whose rays shade hits, which ray queries cannot. Variable switches the pass, and is named in the message.
 ERayPath ChooseShadingRayPath(const FPassQuery& Query, const TRTConsoleVariable<bool>& Variable);
 
+/// Adds the define REORDER for ray generation shaders whose rays run material shaders, if r.RT.Reorder is on and the device can. Logs
+/// once if it cannot.
+void AddReorderDefine(const FRTCapabilities& Capabilities, FShaderDefines& Defines);
+
 /// One pass's pipeline in this frame.
 struct FRayDispatch
 {
@@ -52,6 +56,9 @@ struct FRayDispatch
 	FShaderDefines Defines;
 	bool Has(const char* Define) const;
 };
+
+/// Makes the source of the compute shader that traces Signal by ray queries.
+FShaderSource MakeQuerySource(const FSceneFacts& Facts, ESignal Signal, const FPassRays& Rays);
 
 /// Finds the pipeline by which Signal is traced in this frame, and requires the frame's acceleration structures. nullopt: Rays.Path
 /// is None, or shaders are still being compiled, or an error, which the context then has.

@@ -3,6 +3,7 @@
 
 #include "Feedback/AnyHitCounter.h"
 #include "LanternScene/ShaderTable/SectionTable.h"
+#include "Motion/CameraMotion.h"
 #include "Reference/Reference.h"
 #include "SignalPasses.h"
 
@@ -48,7 +49,7 @@ FRayType MakeMaterialRay()
 struct FCollector
 {
 	FRayPrograms& Programs;
-	bool bShadesHits = false, bBlockers = false;
+	bool bShadesHits = false, bBlockers = false, bFilters = false;
 
 	void Add(ESignal Signal, FPassRays Rays, const std::string& RayGenPath)
 	{
@@ -64,8 +65,9 @@ struct FCollector
 
 /// Also on devices without pipelines: passes that need them say so.
 void CollectSignals(
-    FCollector& Collector, const FRTCapabilities& Capabilities, const FSceneFacts& Facts, const FSignalRequests& Requests, FSignalSet Ready)
+    FCollector& Collector, const FRTCapabilities& Capabilities, FRTScene& Scene, const FSignalRequests& Requests, FSignalSet Ready)
 {
+	const FSceneFacts& Facts = Scene.GetFacts();
 	std::array<FPassRays, SignalCount> Chosen;
 	ForEachSignalPass([&](const FSignalPass& Pass) {
 		const bool bMayBeReplaced = Pass.ReplacedBy != ESignal::Count && Ready.Has(Pass.ReplacedBy);
@@ -75,7 +77,19 @@ void CollectSignals(
 	});
 	ForEachSignalPass([&](const FSignalPass& Pass) {
 		FPassRays& Rays = Chosen[ToIndex(Pass.Signal)];
-		Collector.Programs.bQueries |= Rays.Path == ERayPath::Query;
+		if (Rays.Path == ERayPath::None) { return; }
+		std::vector<FShaderSource>& Compute = Collector.Programs.Compute;
+		if (Rays.Path == ERayPath::Query)
+		{
+			Collector.Programs.bQueries = true;
+			Compute.push_back(MakeQuerySource(Facts, Pass.Signal, Rays));
+		}
+		if (Pass.ListFilters)
+		{
+			const size_t Before = Compute.size();
+			Pass.ListFilters(Scene, Compute);
+			Collector.bFilters |= Compute.size() > Before;
+		}
 		if (Rays.Path == ERayPath::Pipeline) { Collector.Add(Pass.Signal, std::move(Rays), MakeShaderPath(Pass.Signal, ".rgen")); }
 	});
 }
@@ -89,10 +103,13 @@ FRayPrograms ChooseRayPrograms(
 	FCollector Collector{Programs, !Features.RayGens.empty()};
 	if (Features.bReference)
 	{
-		Collector.Add(ESignal::Frame, ChooseReferenceRays(Scene.GetFacts(), Features.ReferenceSignal, Features.bReferenceFromGBuffer),
+		Collector.Add(ESignal::Frame,
+		    ChooseReferenceRays(Capabilities, Scene.GetFacts(), Features.ReferenceSignal, Features.bReferenceFromGBuffer),
 		    GetReferencePath(Features.ReferenceSignal));
 	}
-	else { CollectSignals(Collector, Capabilities, Scene.GetFacts(), Requests, Ready); }
+	else { CollectSignals(Collector, Capabilities, Scene, Requests, Ready); }
+	if (Features.bCameraMotion && Collector.bFilters) { Programs.Compute.push_back(MakeCameraMotionSource()); }
+	if (!Features.Skinning.empty()) { ListSkinningShaders(Scene, Programs.Compute); }
 	Desc.RayGens.insert(Desc.RayGens.end(), Features.RayGens.begin(), Features.RayGens.end());
 	if (Desc.RayGens.empty() || !Capabilities.bRayTracingPipeline)
 	{

@@ -1,4 +1,4 @@
-// Which ray generation shaders and ray types a frame needs.
+// Which ray generation shaders, ray types and compute shaders a frame needs.
 #pragma once
 
 #include <array>
@@ -14,6 +14,8 @@ struct FRayPrograms
 	FRTPSODesc Desc; ///< without ray generation shaders: no pipeline is needed
 	/// Members of Desc.RayGens by signal. That of ESignal::Frame is the reference path tracer.
 	std::array<std::optional<FShaderSource>, SignalCount> RayGens;
+	/// Compute shaders of the signals' passes, most important first.
+	std::vector<FShaderSource> Compute;
 	bool bQueries = false;       ///< some pass traces by ray queries
 	bool bLightSampling = false; ///< some pass samples emissive triangles
 };

@@ -6,9 +6,9 @@
 #include <cstring>
 #include <utility>
 
-#include "DebugView/DebugView.h"
 #include "Feedback/AnyHitCounter.h"
 #include "Feedback/StandInFeedback.h"
+#include "FrameChoices.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/FrameGraph/History.h"
 #include "LanternCore/Tasks/TaskTrace.h"
@@ -90,13 +90,6 @@ FRTStatus FRenderer::WaitForFlight()
 
 namespace
 {
-FSignalSet AllSignals()
-{
-	FSignalSet All;
-	for (const FSignalInfo& Info : SignalInfos) { All.Add(Info.Signal); }
-	return All;
-}
-
 FSignalSet GetReadySignals(const FFrameContext& Context)
 {
 	FSignalSet Ready;
@@ -106,20 +99,9 @@ FSignalSet GetReadySignals(const FFrameContext& Context)
 	return Ready;
 }
 
-/// What the host asks for, and what r.RT.Debug.View shows.
-FSignalRequests CompleteRequests(FSignalRequests Requests)
-{
-	if (!Requests.bNothingElse) { Requests.Wanted.Add(GetDebugView()); }
-	return Requests;
-}
-
-bool WaitsForPipelines(const FFrameFeatures& Features)
-{
-	return Features.bWaitForPipelines || Features.bReference || GetPipelineFallback() == ERTFallback::Wait;
-}
 } // namespace
 
-FRTStatus FRenderer::PrepareRayPipeline(const FRayPrograms& Wanted, const FFrameFeatures& Features)
+FRTStatus FRenderer::PrepareRayPipeline(const FRayPrograms& Wanted)
 {
 	Context->RayPipeline = nullptr;
 	bStandIns = false;
@@ -130,7 +112,7 @@ FRTStatus FRenderer::PrepareRayPipeline(const FRayPrograms& Wanted, const FFrame
 		Context->Scene.SetMissingPrograms({}); // ray queries run none
 		return FRTStatus::Success();
 	}
-	if (WaitsForPipelines(Features))
+	if (Context->bWaitForPipelines)
 	{
 		if (FRTStatus S = RayCompiler.Finish(Wanted.Desc); !S) { return S; }
 	}
@@ -167,30 +149,6 @@ FRTStatus FRenderer::PrepareRayPipeline(const FRayPrograms& Wanted, const FFrame
 
 const std::vector<FProgramPriority>& FRenderer::GetProgramPriorities() const { return StandIns->GetPriorities(); }
 
-FRTPSODesc FRenderer::GetRayPrograms(FRTScene& Scene, const FFrameFeatures& Features)
-{
-	assert(!Graph && "between frames");
-	FConsoleVariables::Get().BeginFrame();
-	Scene.SetAlphaTest(CVarAlphaTest.GetOnRenderThread());
-	Scene.SetMaterialOverride(static_cast<uint32_t>(CVarMaterialOverride.GetOnRenderThread()));
-	Scene.RefreshFacts();
-	return ChooseRayPrograms(Device.GetCapabilities(), Scene, Features, CompleteRequests(Features.Signals), AllSignals()).Desc;
-}
-
-FRTStatus FRenderer::Precache(FRTScene& Scene, const FFrameFeatures& Features, const std::function<void(float)>& Progress)
-{
-	const FRTPSODesc Wanted = GetRayPrograms(Scene, Features);
-	return Wanted.RayGens.empty() ? FRTStatus::Success() : RayCompiler.Finish(Wanted, Progress);
-}
-
-std::string FRenderer::GetRayShaderKey(FRTScene& Scene, const FFrameFeatures& Features)
-{
-	const std::vector<FShaderSource> Sources = ListShaders(GetRayPrograms(Scene, Features), Programs);
-	std::string Key;
-	for (const FShaderSource& Source : Sources) { Key += Compiler.GetKey(Source) + "/"; }
-	return Key;
-}
-
 FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrameFeatures& Features)
 {
 	assert(!Context && "EndFrame, or FrameSubmitted behind it, was not called");
@@ -200,8 +158,7 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	FTraceScope Trace("BeginFrame");
 	if (FRTStatus S = WaitForFlight(); !S) { return S; }
 	for (const FFrameTiming& Timing : GraphResources.TakeFrameTimings()) { RayCompiler.FrameDone(Timing.Frame, Timing.GpuMs); }
-	Scene.SetAlphaTest(CVarAlphaTest.GetOnRenderThread());
-	Scene.SetMaterialOverride(static_cast<uint32_t>(CVarMaterialOverride.GetOnRenderThread()));
+	ApplySceneVariables(Scene);
 	FrameStatus = FRTStatus::Success();
 	Graph = std::make_unique<FFrameGraph>(GraphResources);
 	Context.reset(new FFrameContext{Device, *Graph, Scene, Pipelines, Scene.RefreshFacts()});
@@ -213,7 +170,8 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	Context->Tokens = {
 	    Graph->CreateToken("Tables"), Graph->CreateToken("Vertices"), Graph->CreateToken("Structures"), Graph->CreateToken("Records")};
 	const bool bSameSize = LastView.Width == View.Width && LastView.Height == View.Height;
-	const bool bSameScene = LastScene == Scene.GetSections().GetIdentity() && LastSceneFrame == Scene.GetMotions().GetFrame();
+	// Another renderer's frame may have taken what moved since the last one here.
+	const bool bSameScene = LastScene == Scene.GetSections().GetIdentity() && !Scene.GetMotions().HasMovedSince(LastSceneFrame);
 	Context->PreviousView = bSameScene && bSameSize && !View.bCut && !Features.bReference ? &LastView : nullptr;
 	Context->History = History.get();
 	Context->Signals = CompleteRequests(Features.Signals);
@@ -223,12 +181,15 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	bUpdating = bRayPassesAdded = false;
 	BeginFeedback();
 	const FRayPrograms Wanted =
-	    ChooseRayPrograms(Device.GetCapabilities(), Scene, Features, Context->Signals, WaitsForPipelines(Features) ? AllSignals() : Ready);
-	FRTStatus Status = PrepareRayPipeline(Wanted, Features);
+	    ChooseRayPrograms(Device.GetCapabilities(), Scene, Features, Context->Signals, Context->bWaitForPipelines ? AllSignals() : Ready);
+	if (!Context->bWaitForPipelines) { Pipelines.Want(Wanted.Compute); } // all at once, not one when its pass is added
+	FRTStatus Status = PrepareRayPipeline(Wanted);
 	Ready = GetReadySignals(*Context);
+	bSkinningLeftOut = !Features.Skinning.empty() && !IsSkinningReady(*Context);
+	if (Status) { Status = FrameStatus; }
 	if (Status) { Status = StartUpdate(View, Wanted, Features); }
 	if (Status) { Status = AllocateConstants(); }
-	if (Status) { Status = AddSkinningPass(*Context, Uploads, Features.Skinning, FrameUse.bMotion); }
+	if (Status && !bSkinningLeftOut) { Status = AddSkinningPass(*Context, Uploads, Features.Skinning, FrameUse.bMotion); }
 	if (!Status)
 	{
 		DropFrame();
@@ -256,7 +217,10 @@ bool IsMotionWanted(const FFrameContext& Context)
 FRTStatus FRenderer::StartUpdate(const FView& View, const FRayPrograms& Wanted, const FFrameFeatures& Features)
 {
 	FRTScene& Scene = Context->Scene;
-	for (const FSkinningInputs& Item : Features.Skinning) { Scene.MarkDeformed(Item.Geometry); }
+	if (!bSkinningLeftOut)
+	{
+		for (const FSkinningInputs& Item : Features.Skinning) { Scene.MarkDeformed(Item.Geometry); }
+	}
 	FrameUse = {};
 	// Structures are built while the shaders that trace them are compiled.
 	FrameUse.bRays = Features.bRays || Wanted.bQueries || !Wanted.Desc.RayGens.empty();

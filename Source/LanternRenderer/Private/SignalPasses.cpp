@@ -14,9 +14,9 @@ namespace Lantern
 namespace
 {
 constexpr FSignalPass Passes[] = {
-    {ESignal::SunShadow, ChooseSunShadowRays, AddSunShadowPass, IsSunShadowFiltered},
-    {ESignal::AmbientOcclusion, ChooseAmbientOcclusionRays, AddAmbientOcclusionPass, IsAmbientOcclusionFiltered, ESignal::DiffuseGI,
-        SetAmbientOcclusionReference},
+    {ESignal::SunShadow, ChooseSunShadowRays, AddSunShadowPass, IsSunShadowFiltered, ListSunShadowFilters},
+    {ESignal::AmbientOcclusion, ChooseAmbientOcclusionRays, AddAmbientOcclusionPass, IsAmbientOcclusionFiltered,
+        ListAmbientOcclusionFilters, ESignal::DiffuseGI, SetAmbientOcclusionReference},
     {ESignal::DiffuseGI, ChooseDiffuseGIRays, AddDiffuseGIPass},
     {ESignal::Reflections, ChooseReflectionsRays, AddReflectionsPass},
 };

@@ -3,8 +3,12 @@
 #include <chrono>
 #include <thread>
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <gmock/gmock.h>
 
+#include "LanternCore/Config/ConsoleVariables.h"
 #include "ShaderCompilerTestBase.h"
 
 using namespace Lantern;
@@ -154,6 +158,117 @@ TEST_F(ShaderCacheTest, NothingButWholeFilesStandsInTheCacheFolder)
 	ASSERT_EQ(CacheFiles().size(), 1u);
 	EXPECT_EQ(CacheFiles()[0].filename().string(),
 	    Compiler.GetKey({"A", ERTShaderStage::Compute, {}, Compute("Values[0] = 1.0;")}) + ".spv.cache");
+}
+
+// -------------------------------------------------------------------------------------------------- pruning
+
+class ShaderCachePruneTest : public ShaderCacheTest
+{
+protected:
+	using FClock = fs::file_time_type::clock;
+	static FShaderSource MakeSource(int Number)
+	{
+		return {"A", ERTShaderStage::Compute, {{"N", std::to_string(Number)}}, Compute("Values[0] = N;")};
+	}
+	fs::path WriteFile(const std::string& Name, size_t Bytes, std::chrono::hours Age)
+	{
+		const fs::path Path = Root / "Cache" / Name;
+		fs::create_directories(Path.parent_path());
+		std::ofstream(Path, std::ios::binary) << std::string(Bytes, 'x');
+		fs::last_write_time(Path, FClock::now() - Age);
+		return Path;
+	}
+	/// The name of an entry that nothing has the key of.
+	static std::string MakeEntryName(int Number) { return fmt::format("{:032x}.spv.cache", Number); }
+	/// A process that has ended.
+	static int MakeDeadProcess()
+	{
+		const pid_t Child = fork();
+		if (Child == 0) { _exit(0); }
+		waitpid(Child, nullptr, 0);
+		return static_cast<int>(Child);
+	}
+	void CompileAndClose(int Number, bool bFromCache)
+	{
+		FShaderCompiler Compiler(MakeDesc());
+		FShaderBinary Binary;
+		ASSERT_TRUE(Compiler.Compile(MakeSource(Number), Binary).IsOk());
+		EXPECT_EQ(Binary.bFromCache, bFromCache);
+	}
+};
+
+TEST_F(ShaderCachePruneTest, AnEntryThatNobodyUsesGoesAndAUsedOneStays)
+{
+	CompileAndClose(1, false);
+	CompileAndClose(2, false);
+	for (const fs::path& File : CacheFiles()) { fs::last_write_time(File, FClock::now() - std::chrono::hours(24 * 61)); }
+	CompileAndClose(1, true);
+	EXPECT_EQ(CacheFiles().size(), 1u);
+	CompileAndClose(1, true);
+	CompileAndClose(2, false);
+}
+
+TEST_F(ShaderCachePruneTest, TheOldestGoIfThereAreTooManyBytes)
+{
+	FConsoleVariables::Get().Set("r.RT.ShaderCache.MB", "1", ERTSetBy::Console, "test");
+	std::vector<fs::path> Files;
+	for (int I = 0; I < 8; ++I) { Files.push_back(WriteFile(MakeEntryName(I), 256 * 1024, std::chrono::hours(1 + I))); }
+	CompileAndClose(1, false);
+	FConsoleVariables::Get().ResetAll();
+	for (int I = 0; I < 8; ++I) { EXPECT_EQ(fs::exists(Files[I]), I < 3) << "hours old: " << 1 + I; }
+	CompileAndClose(1, true);
+}
+
+TEST_F(ShaderCachePruneTest, TemporaryFilesOfDeadProcessesGoAndOtherFilesStay)
+{
+	const std::string Entry = MakeEntryName(7), Dead = std::to_string(MakeDeadProcess()), Own = std::to_string(getpid());
+	constexpr std::chrono::hours Hour{1}, Days{50};
+	const fs::path Left = WriteFile(Entry + "." + Dead + ".3.tmp", 10, Hour);
+	const fs::path Fresh = WriteFile(Entry + "." + Dead + ".4.tmp", 10, std::chrono::hours(0));
+	const fs::path Written = WriteFile(Entry + "." + Own + ".3.tmp", 10, Hour);
+	const fs::path Forgotten = WriteFile(Entry + "." + Own + ".4.tmp", 10, Days);
+	const fs::path Others[] = {WriteFile("notes.txt", 10, 2 * Days), WriteFile("x." + Dead + ".3.tmp", 10, 2 * Days),
+	    WriteFile(Entry + ".old", 10, 2 * Days), WriteFile(Entry + "." + Dead + ".3.tmp.gz", 10, 2 * Days)};
+	CompileAndClose(1, false);
+	EXPECT_FALSE(fs::exists(Left));
+	EXPECT_TRUE(fs::exists(Fresh)) << "a process of another machine may be writing it";
+	EXPECT_TRUE(fs::exists(Written)) << "this process may be writing it";
+	EXPECT_FALSE(fs::exists(Forgotten)) << "no write takes a day";
+	for (const fs::path& Other : Others) { EXPECT_TRUE(fs::exists(Other)) << Other; }
+}
+
+TEST_F(ShaderCachePruneTest, CompilersThatPruneOneFolderAtOnceDisturbNoResult)
+{
+	constexpr int Variants = 4, Threads = 4, Rounds = 6;
+	std::vector<FShaderBinary> Right(Variants);
+	FShaderCompiler Alone(MakeDesc(false));
+	for (int I = 0; I < Variants; ++I) { ASSERT_TRUE(Alone.Compile(MakeSource(I), Right[I]).IsOk()); }
+	std::atomic<int> Bad{0};
+	std::vector<std::thread> Workers;
+	for (int T = 0; T < Threads; ++T)
+	{
+		Workers.emplace_back([&] {
+			for (int Round = 0; Round < Rounds; ++Round)
+			{
+				FShaderCompiler Compiler(MakeDesc());
+				for (int I = 0; I < Variants; ++I)
+				{
+					FShaderBinary Binary;
+					Bad += Compiler.Compile(MakeSource(I), Binary).IsOk() && Binary.Words == Right[I].Words ? 0 : 1;
+					// All of them are old at once, as if months had gone by.
+					std::error_code Ignored;
+					for (const auto& File : fs::directory_iterator(Root / "Cache", Ignored))
+					{
+						if (File.path().extension() != ".cache") { continue; }
+						fs::last_write_time(File.path(), FClock::now() - std::chrono::hours(24 * 100), Ignored);
+					}
+				}
+			}
+		});
+	}
+	for (std::thread& Worker : Workers) { Worker.join(); }
+	EXPECT_EQ(Bad, 0);
+	EXPECT_EQ(Warnings, std::vector<std::string>());
 }
 
 // -------------------------------------------------------------------------------------------------- threads

@@ -46,6 +46,7 @@ protected:
 	/// Calls are those of this frame.
 	void RenderAndEnd(const FRTModuleFrame& Frame)
 	{
+		Precache(Frame);
 		Mock().ClearCalls();
 		ASSERT_FINE(Renderer->RenderFrame(Frame, &Outputs));
 		ASSERT_FINE(Renderer->EndFrame(nullptr));

@@ -175,7 +175,19 @@ protected:
 		Frame.Normals = Normals.Get();
 		return Frame;
 	}
-	FRTStatus Render() { return Renderer->RenderFrame(DescribeFrame(), &Outputs); }
+	/// A frame whose shaders are there, unless bPrecache is off.
+	FRTStatus Render()
+	{
+		const FRTModuleFrame Frame = DescribeFrame();
+		Precache(Frame);
+		return Renderer->RenderFrame(Frame, &Outputs);
+	}
+	void Precache(const FRTModuleFrame& Frame)
+	{
+		if (!bPrecache) { return; }
+		const FRTStatus Status = Renderer->Precache(Frame, nullptr, nullptr);
+		EXPECT_TRUE(Status.IsOk()) << Status.Message;
+	}
 	FRTStatus RenderWholeFrame()
 	{
 		const FRTStatus Status = Render();
@@ -239,6 +251,7 @@ protected:
 	std::vector<std::string> Messages;
 	std::vector<std::pair<std::string, std::string>> ChangedVariables;
 	uint64_t LastNative = 0;
+	bool bPrecache = true; ///< off: shaders compile beside the frames
 };
 
 } // namespace Lantern

@@ -140,7 +140,7 @@ TEST_F(FModuleTest, FramesOutOfOrderAreRefused)
 	EXPECT_REFUSED(Renderer->EndFrame(nullptr), "RenderFrame recorded nothing");
 	ASSERT_FINE(Render());
 	const TRTRef<IRTCommandList> First = List;
-	EXPECT_REFUSED(Render(), "EndFrame was not called");
+	EXPECT_REFUSED(Renderer->RenderFrame(DescribeFrame(), &Outputs), "EndFrame was not called");
 	EXPECT_TRUE(Renderer->EndFrame(nullptr).IsOk());
 }
 
@@ -224,20 +224,40 @@ TEST_F(FModuleTest, RemovedMaterialsTextureStaysUntilTheFrameInTheMakingHasRun)
 	EXPECT_EQ(CountDestroyed("Bark"), 1u);
 }
 
-TEST_F(FModuleTest, FramesWaitForNoPipeline)
+/// The path of sun shadows: the ray-tracing pipeline, or ray queries in a compute shader.
+class FModuleCompileTest : public FModuleTest, public ::testing::WithParamInterface<const char*>
 {
-	ASSERT_FINE(Module->SetConsoleVariable("r.RT.Shadow.Path", "1"));
-	ASSERT_FINE(AddObject(AddOpaqueMesh(), Solid));
-	ASSERT_FINE(SetSun(-1.0));
-	const auto LetGo = [&] { Mock().ClearCompileFaults(); };
-	const auto RenderAndEnd = [&] {
+protected:
+	void SetUp() override
+	{
+		FModuleTest::SetUp();
+		bPrecache = false;
+		ASSERT_FINE(Module->SetConsoleVariable("r.RT.Shadow.Path", GetParam()));
+		ASSERT_FINE(AddObject(AddOpaqueMesh(), Solid));
+		FRTModuleSun Sun;
+		Sun.Direction[1] = -1.0;
+		Sun.Irradiance = 1.0f;
+		Sun.AngularDiameter = 0.01f; // soft shadows are filtered
+		ASSERT_FINE(Renderer->SetSun(Sun));
+	}
+	void TearDown() override
+	{
+		for (const char* Name : {"r.RT.Shadow.Path", "r.RT.Shadow.Denoise"})
+		{
+			ASSERT_FINE(Module->SetConsoleVariable(Name, Name == std::string("r.RT.Shadow.Path") ? "0" : "1"));
+		}
+		FModuleTest::TearDown();
+	}
+	void LetGo() { Mock().ClearCompileFaults(); }
+	void RenderAndEnd()
+	{
+		Mock().ClearCalls();
 		ASSERT_FINE(Render());
-		EXPECT_TRUE(Outputs.Get(ESignal::SunShadow) != nullptr || !Outputs.bComplete);
 		ASSERT_FINE(Renderer->EndFrame(nullptr));
 		GiveWay();
-	};
-	const auto IsComplete = [&] { return Outputs.bComplete; };
-	Mock().HoldCompiles(""); // a frame that waited would wait for ever
+	}
+	/// A frame while the driver holds Part; a frame that waited would wait for ever.
+	void RenderWhile(const char* Part)
 	{
 		const FHangGuard Guard("frames while everything is compiled", LetGo);
 		for (int Frame = 0; Frame < 5; ++Frame) { ASSERT_NO_FATAL_FAILURE(RenderAndEnd()); }
@@ -245,16 +265,29 @@ TEST_F(FModuleTest, FramesWaitForNoPipeline)
 		    "a compile in the driver", [&] { return Mock().GetCompilesInDriver() > 0; }, RenderAndEnd));
 		for (int Frame = 0; Frame < 5; ++Frame) { ASSERT_NO_FATAL_FAILURE(RenderAndEnd()); }
 	}
+	void RenderUntilComplete()
+	{
+		const auto Step = [&] {
+			RenderAndEnd();
+			EXPECT_TRUE(Outputs.Get(ESignal::SunShadow) != nullptr || !Outputs.bComplete);
+		};
+		ASSERT_TRUE(WaitUntil(
+		    "shadows", [&] { return Outputs.bComplete; }, Step));
+	}
+};
+
+TEST_P(FModuleCompileTest, FramesWaitForNoPipeline)
+{
+	ASSERT_NO_FATAL_FAILURE(RenderWhile(""));
 	EXPECT_EQ(Outputs.Get(ESignal::SunShadow), nullptr);
 	EXPECT_FALSE(Outputs.bShadersReady);
 	EXPECT_FALSE(Outputs.bComplete);
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::BuildGeometry), 1u) << "structures are built meanwhile";
 	LetGo();
-	ASSERT_TRUE(WaitUntil("shadows", IsComplete, RenderAndEnd));
+	ASSERT_NO_FATAL_FAILURE(RenderUntilComplete());
 	EXPECT_TRUE(Outputs.bShadersReady && Outputs.Get(ESignal::SunShadow) != nullptr);
 
-	// A material that must be told apart from solid ones: shadows stay, and it is said that its own are not there.
-	Mock().HoldCompiles("RTPSO");
+	// A material that must be told apart from solid ones: it is said that its shaders are not there.
 	ASSERT_FINE(AddObject(AddMesh(DescribeTriangle()), Masked));
 	{
 		const FHangGuard Guard("frames while the alpha test is linked", LetGo);
@@ -265,15 +298,50 @@ TEST_F(FModuleTest, FramesWaitForNoPipeline)
 	}
 	EXPECT_NE(Outputs.Get(ESignal::SunShadow), nullptr);
 	EXPECT_FALSE(Outputs.bShadersReady);
+	if (*GetParam() == '1') { EXPECT_NE(Outputs.Get(ESignal::SunShadow), nullptr) << "the pipeline before serves"; }
 	LetGo();
-	ASSERT_TRUE(WaitUntil("shadows of the alpha test", IsComplete, RenderAndEnd));
+	ASSERT_NO_FATAL_FAILURE(RenderUntilComplete());
 	ASSERT_FINE(SetSun(-1.0, 0.0f));
-	ASSERT_FINE(Render());
+	ASSERT_NO_FATAL_FAILURE(RenderAndEnd());
 	EXPECT_TRUE(Outputs.bComplete) << "without a sun nothing is missing";
 	EXPECT_EQ(Outputs.Get(ESignal::SunShadow), nullptr);
-	ASSERT_FINE(Renderer->EndFrame(nullptr));
-	ASSERT_FINE(Module->SetConsoleVariable("r.RT.Shadow.Path", "0"));
 }
+
+TEST_P(FModuleCompileTest, ShadowsAreThereWithoutTheirFilter)
+{
+	ASSERT_NO_FATAL_FAILURE(RenderWhile("Denoise/"));
+	const auto HasShadows = [&] { return Outputs.Get(ESignal::SunShadow) != nullptr; };
+	ASSERT_TRUE(WaitUntil("shadows without a filter", HasShadows, [&] { RenderAndEnd(); }));
+	EXPECT_FALSE(Outputs.bShadersReady);
+	const auto HasFilter = [&] { return Mock().CountCalls(ERTMockCall::BeginMarker, "SunShadowTemporal") > 0; };
+	EXPECT_FALSE(HasFilter());
+	LetGo();
+	ASSERT_NO_FATAL_FAILURE(RenderUntilComplete());
+	EXPECT_TRUE(HasFilter());
+}
+
+TEST_P(FModuleCompileTest, PrecacheMakesTheFirstFrameComplete)
+{
+	std::vector<float> Progress;
+	const auto Report = [](void* User, float Done) { static_cast<std::vector<float>*>(User)->push_back(Done); };
+	ASSERT_FINE(Renderer->Precache(DescribeFrame(), Report, &Progress));
+	ASSERT_FALSE(Progress.empty());
+	EXPECT_TRUE(std::is_sorted(Progress.begin(), Progress.end()));
+	EXPECT_FLOAT_EQ(Progress.back(), 1.0f);
+	for (int Frame = 0; Frame < 3; ++Frame)
+	{
+		ASSERT_NO_FATAL_FAILURE(RenderWhile(""));
+		EXPECT_NE(Outputs.Get(ESignal::SunShadow), nullptr);
+		EXPECT_TRUE(Outputs.bShadersReady);
+		EXPECT_EQ(Mock().GetCreatedPipelines(), std::vector<std::string>());
+	}
+	ASSERT_FINE(Render());
+	EXPECT_REFUSED(Renderer->Precache(DescribeFrame(), nullptr, nullptr), "EndFrame was not called");
+	ASSERT_FINE(Renderer->EndFrame(nullptr));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Paths, FModuleCompileTest, ::testing::Values("1", "2"), [](const auto& Info) { return *Info.param == '1' ? "Pipeline" : "Query"; });
 
 TEST_F(FModuleTest, DeformedVerticesAreCopiedOnceAndRefitted)
 {

@@ -204,6 +204,13 @@ TEST_F(FMockTests, CompilesSlowlyOrNotAtAllOnDemand)
 	EXPECT_NE(std::string(Status.Message).find("ABrokenOne"), std::string::npos);
 	Mock->ClearCompileFaults();
 	EXPECT_OK(Device().CreateComputePipeline(Desc, Pipeline.ReleaseAndGetAddress()));
+	Mock->StarveCompiles("Broken");
+	const FRTStatus Starved = Device().CreateComputePipeline(Desc, Pipeline.ReleaseAndGetAddress());
+	EXPECT_EQ(Starved.Code, ERTResult::OutOfDeviceMemory);
+	EXPECT_NE(std::string(Starved.Message).find("ABrokenOne"), std::string::npos);
+	Make.Compute("Other");
+	Mock->ClearCompileFaults();
+	EXPECT_OK(Device().CreateComputePipeline(Desc, Pipeline.ReleaseAndGetAddress()));
 }
 
 TEST_F(FMockTests, DeviceLossStays)

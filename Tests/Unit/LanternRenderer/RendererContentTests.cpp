@@ -214,7 +214,7 @@ TEST_F(FRendererContentTest, PassesThatNobodyReadsAreCulled)
 }
 
 // The scene knows how objects moved since whoever showed it last: to another renderer that is not the frame before.
-TEST_F(FRendererContentTest, AnothersFrameOfTheSceneEndsWhatIsCarriedOver)
+TEST_F(FRendererContentTest, WhatMovedInAnothersFrameEndsWhatIsCarriedOver)
 {
 	LoadAndRender({});
 	bool bHasPrevious = false;
@@ -234,11 +234,23 @@ TEST_F(FRendererContentTest, AnothersFrameOfTheSceneEndsWhatIsCarriedOver)
 		ASSERT_TRUE(Other.EndFrame(nullptr));
 		ASSERT_TRUE(Other.WaitForAll());
 	};
+	const auto Move = [&] {
+		const glm::dmat4 Transform = Engine->GetScene().GetScene().FindObject(0)->Transform;
+		Engine->GetScene().SetTransform(0, glm::translate(Transform, glm::dvec3(0.1, 0.0, 0.0)));
+	};
+	ShowByOther(true);
+	Render();
+	EXPECT_TRUE(bHasPrevious) << "nothing moved in the frame between";
+	Move();
+	Render();
+	EXPECT_TRUE(bHasPrevious) << "what moves in its own frames does no harm";
+	Move();
 	ShowByOther(true);
 	Render();
 	EXPECT_FALSE(bHasPrevious);
 	Render();
 	EXPECT_TRUE(bHasPrevious) << "its own again";
+	Move();
 	ShowByOther(false);
 	Render();
 	EXPECT_TRUE(bHasPrevious) << "a lost frame has shown nothing";

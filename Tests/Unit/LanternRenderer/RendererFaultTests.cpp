@@ -225,6 +225,35 @@ TEST_F(FRendererFaultTest, PipelineThatDoesNotCompileIsNamed)
 	}
 }
 
+TEST_F(FRendererFaultTest, PipelineWithoutMemoryIsNamedAndComesOnceThereIsMemory)
+{
+	Set("r.RT.Shadow.Path", "1");
+	LoadAndRender(Everything);
+	std::vector<std::string> Names;
+	for (const std::string& Name : Mock().GetCreatedPipelines()) { Names.push_back(Name); }
+	ASSERT_THAT(Names, ::testing::IsSupersetOf({"RTPSO", "GBuffer", "GBufferMasked", "Skinning/Skin.comp", "ToneMap/ToneMap.comp"}));
+	std::sort(Names.begin(), Names.end());
+	Names.erase(std::unique(Names.begin(), Names.end()), Names.end());
+	for (const std::string& Name : Names)
+	{
+		SCOPED_TRACE(Name);
+		Open();
+		ASSERT_TRUE(Load(Everything));
+		Mock().StarveCompiles(Name);
+		for (int I = 0; I < 3; ++I)
+		{
+			const FRTStatus Status = RenderFrame();
+			EXPECT_EQ(Status.Code, ERTResult::OutOfDeviceMemory);
+			EXPECT_THAT(std::string(Status.Message), HasSubstr(Name));
+		}
+		Mock().ClearCompileFaults();
+		ASSERT_NO_FATAL_FAILURE(Render());
+		EXPECT_TRUE(HasPass("SunShadow"));
+		EXPECT_TRUE(HasPass("ToneMap"));
+		ExpectSceneOnDevice();
+	}
+}
+
 TEST_F(FRendererFaultTest, FeatureWhosePipelineFailsCanBeSwitchedOff)
 {
 	Mock().FailCompile("RTPSO");

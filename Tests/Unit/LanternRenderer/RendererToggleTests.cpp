@@ -5,6 +5,7 @@
 #include "LanternCore/FrameGraph/History.h"
 #include "PassTools.h"
 #include "SunShadowTypes.h"
+#include "Support/CoreTestTools.h"
 #include "Support/RendererTestTools.h"
 #include "Support/WaitTools.h"
 

@@ -200,7 +200,7 @@ TEST_F(FPipelineCompilerTest, LibrariesComeBackUsedAgain)
 	EXPECT_THAT(Device->GetAsked(), ElementsAre("RTPSO")) << "one link for Few; the rest was kept";
 }
 
-TEST_F(FPipelineCompilerTest, ShortageOfMemoryPassesAndACompileErrorDoesNot)
+TEST_F(FPipelineCompilerTest, ACompileErrorStaysUntilAnEdit)
 {
 	FLogCapture Log;
 	Device->Mock().FailCompile("Standard MATERIAL");

@@ -79,6 +79,22 @@ TEST_P(FPipelinePathTest, ThatFinishIsOverTheNextOneCostsNothing)
 	EXPECT_THAT(Device->GetAsked(), ElementsAre());
 }
 
+TEST_P(FPipelinePathTest, FinishWithStandInsLeavesNothingToUpdate)
+{
+	AddProgram("Rust");
+	const FRTStatus Status = Maker->Finish(Wanted, {}, true);
+	ASSERT_TRUE(Status) << Status.Message;
+	Device->ForgetAsked();
+	const auto Before = Maker->GetCurrent();
+	UntilIdle();
+	EXPECT_EQ(Maker->GetCurrent(), Before);
+	EXPECT_THAT(Device->GetAsked(), ElementsAre());
+	const uint32_t Moss = AddProgram("Moss");
+	Maker->Update(Wanted);
+	ExpectStandIn(Opaque(Moss));
+	UntilIdle();
+}
+
 TEST_P(FPipelinePathTest, ProgramsArriveByAndByAndStandInsServeUntilThen)
 {
 	Maker->Update(Wanted);

@@ -257,6 +257,32 @@ TEST_F(FRTPSOSchedulerTest, WhatIsHeldBackComesWhenItsTimeIsOver)
 	EXPECT_TRUE(IsLinkAsked());
 }
 
+TEST_F(FRTPSOSchedulerTest, SwapsForMaterialsAreAtLeastSoManyFramesApart)
+{
+	ASSERT_NO_FATAL_FAILURE(Settle());
+	Settings.SwapFrames = 10;
+	AddProgram("Rust");
+	int Waited = 0;
+	for (; Waited < 100 && !IsLinkAsked(); ++Waited)
+	{
+		Frame();
+		CompileAll();
+	}
+	EXPECT_EQ(Waited, 10) << "since the swap that Settle ended with";
+	ASSERT_NO_FATAL_FAILURE(Link());
+	Frame(); // takes it over
+	AddProgram("Moss");
+	Frame();
+	CompileAll();
+	Frames(3);
+	EXPECT_FALSE(IsLinkAsked());
+	EXPECT_TRUE(Count().bBusy) << "it is still to come";
+	Wanted.RayGens.push_back(MakeShader("Second"));
+	Frame();
+	CompileAll();
+	EXPECT_TRUE(IsLinkAsked()) << "a setting does not wait";
+}
+
 TEST_F(FRTPSOSchedulerTest, FinishNeedsNoStandInsAndTheNextOneHasNothingToDo)
 {
 	AddProgram("Rust");

@@ -18,6 +18,7 @@ protected:
 	}
 	FHitProgram GetProgram(FSectionRangeId Range) { return Sections().GetHitProgram(Sections().GetRange(Range).First); }
 	FRTGeometryRef Geometry;
+	FChangeCursor Seen = 0;
 };
 
 TEST_F(FSceneMaterialsTest, IndexOfARemovedMaterialIsUsedAgain)
@@ -36,14 +37,14 @@ TEST_F(FSceneMaterialsTest, OnlyWhatSectionsDependOnReachesThem)
 {
 	const uint32_t Material = Materials.Add(MakeMaterial());
 	const FSectionRangeId Range = Acquire(Material);
-	Sections().TakeChanged();
+	Sections().TakeChanged(Seen);
 	FMaterialData Rough = MakeMaterial();
 	Rough.Roughness = 0.5f;
 	Materials.Set(Material, Rough);
 	EXPECT_EQ(Materials.GetTable()[Material].Roughness, 0.5f);
-	EXPECT_FALSE(Sections().HasChanged());
+	EXPECT_FALSE(Sections().HasChanged(Seen));
 	Materials.Set(Material, MakeMaterial(MATERIAL_DOUBLE_SIDED));
-	EXPECT_TRUE(Sections().HasChanged());
+	EXPECT_TRUE(Sections().HasChanged(Seen));
 	EXPECT_TRUE(Sections().GetRange(Range).bDoubleSided);
 }
 
@@ -55,9 +56,9 @@ TEST_F(FSceneMaterialsTest, ProgramOfAMaterialIsThatOfItsSections)
 	Materials.SetProgram(Material, 7);
 	EXPECT_EQ(Materials.GetProgram(Material), 7u);
 	EXPECT_EQ(GetProgram(Range).Program, 7u);
-	Sections().TakeChanged();
+	Sections().TakeChanged(Seen);
 	Materials.SetProgram(Material, 7);
-	EXPECT_FALSE(Sections().HasChanged()) << "the program did not change";
+	EXPECT_FALSE(Sections().HasChanged(Seen)) << "the program did not change";
 }
 
 TEST_F(FSceneMaterialsTest, AlphaTestsCanBeSwitchedOffForAll)

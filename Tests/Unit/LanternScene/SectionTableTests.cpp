@@ -37,7 +37,7 @@ protected:
 	}
 	std::vector<uint32_t> TakeSorted()
 	{
-		std::vector<uint32_t> Changed = Table.TakeChanged();
+		std::vector<uint32_t> Changed = Table.TakeChanged(Seen);
 		std::sort(Changed.begin(), Changed.end());
 		return Changed;
 	}
@@ -46,6 +46,7 @@ protected:
 	std::vector<uint32_t> Programs;
 	FSectionContext Context{Materials, Programs};
 	FSectionTable Table{Context};
+	FChangeCursor Seen = 0;
 };
 
 TEST_F(FSectionTableTest, SameGeometryAndMaterialsShareARange)
@@ -55,7 +56,7 @@ TEST_F(FSectionTableTest, SameGeometryAndMaterialsShareARange)
 	for (int I = 0; I < 100'000; ++I) { ASSERT_EQ(Acquire(Tree, {1, 2, 3}), Id); }
 	EXPECT_EQ(Table.GetCapacity(), 3u);
 	EXPECT_EQ(Table.GetRangeCount(), 1u);
-	EXPECT_EQ(Table.TakeChanged().size(), 3u) << "100,000 instances of one tree have the records of one";
+	EXPECT_EQ(Table.TakeChanged(Seen).size(), 3u) << "100,000 instances of one tree have the records of one";
 	EXPECT_EQ(Table.GetRange(Id).References, 100'001u);
 	EXPECT_NE(Acquire(Tree, {1, 2, 4}), Id);
 	EXPECT_NE(Acquire(Tree, {2, 1, 3}), Id) << "the order of materials matters";
@@ -101,15 +102,15 @@ TEST_F(FSectionTableTest, ChangesAreReportedOnceAndOnlyOnce)
 	Acquire(Tree, {0, 1});
 	EXPECT_EQ(TakeSorted(), (std::vector<uint32_t>{0, 1}));
 	EXPECT_EQ(Table.TakeChangedRanges(), (std::vector<FSectionRangeId>{Id}));
-	EXPECT_FALSE(Table.HasChanged());
-	EXPECT_TRUE(Table.TakeChanged().empty());
+	EXPECT_FALSE(Table.HasChanged(Seen));
+	EXPECT_TRUE(Table.TakeChanged(Seen).empty());
 	EXPECT_TRUE(Table.TakeChangedRanges().empty());
 	Edit(0, MakeMaterial());
 	Table.RefillAll();
-	EXPECT_FALSE(Table.HasChanged()) << "nothing was different";
+	EXPECT_FALSE(Table.HasChanged(Seen)) << "nothing was different";
 	// Nobody takes the changes for a long time: the list must not grow with every write.
 	for (uint32_t I = 0; I < 1001; ++I) { Edit(1, MakeMaterial(I % 2 ? 0 : MATERIAL_MASKED)); }
-	EXPECT_EQ(Table.TakeChanged(), (std::vector<uint32_t>{1}));
+	EXPECT_EQ(Table.TakeChanged(Seen), (std::vector<uint32_t>{1}));
 	EXPECT_EQ(Table.TakeChangedRanges(), (std::vector<FSectionRangeId>{Id}));
 	EXPECT_TRUE(Table.GetRange(Id).bMasked);
 }
@@ -117,20 +118,20 @@ TEST_F(FSectionTableTest, ChangesAreReportedOnceAndOnlyOnce)
 TEST_F(FSectionTableTest, RangeThatComesBackIsWrittenAgain)
 {
 	const FRTGeometryRef Tree = MakeTree("Tree", 1);
-	Table.TakeChanged();
+	Table.TakeChanged(Seen);
 	const FSectionRangeId Id = Acquire(Tree, {0});
-	Table.TakeChanged();
+	Table.TakeChanged(Seen);
 	Table.Release(Id);
 	// Whoever keeps records may have pointed the free one elsewhere.
 	Acquire(Tree, {0});
-	EXPECT_EQ(Table.TakeChanged(), (std::vector<uint32_t>{0}));
+	EXPECT_EQ(Table.TakeChanged(Seen), (std::vector<uint32_t>{0}));
 }
 
 TEST_F(FSectionTableTest, MaterialReachesOnlyTheSectionsThatUseIt)
 {
 	const FRTGeometryRef Tree = MakeTree("Tree", 2), Bush = MakeTree("Bush", 3);
 	const FSectionRangeId First = Acquire(Tree, {0, 1}), Second = Acquire(Bush, {2, 1, 1}), Third = Acquire(Tree, {3, 3});
-	Table.TakeChanged();
+	Table.TakeChanged(Seen);
 	Table.TakeChangedRanges();
 	Edit(1, MakeMaterial(MATERIAL_MASKED));
 	EXPECT_EQ(TakeSorted(), (std::vector<uint32_t>{FirstOf(First) + 1, FirstOf(Second) + 1, FirstOf(Second) + 2}));
@@ -246,7 +247,7 @@ TEST_F(FSectionTableTest, ClassifiedSectionHasARecordForItsOpaqueTriangles)
 	EXPECT_EQ(Table.Get(First + 2).Indices, Table.Get(First).Indices + 3 * 4);
 	EXPECT_EQ(Table.Get(First + 2).Flags & SECTION_MASKED, 0u);
 	EXPECT_EQ(Table.Get(First + 2).Material, 0u);
-	Table.TakeChanged();
+	Table.TakeChanged(Seen);
 	Edit(0, MakeMaterial(MATERIAL_DOUBLE_SIDED));
 	EXPECT_EQ(TakeSorted(), (std::vector<uint32_t>{First, First + 1, First + 2})) << "all parts of the material's sections";
 }

@@ -4,6 +4,9 @@
 #if defined(_WIN32)
 #include <process.h>
 #else
+#include <cerrno>
+#include <csignal>
+
 #include <unistd.h>
 #endif
 
@@ -16,6 +19,16 @@ int GetProcessId()
 	return _getpid();
 #else
 	return static_cast<int>(getpid());
+#endif
+}
+
+bool IsProcessAlive(int Id)
+{
+#if defined(_WIN32)
+	(void)Id;
+	return true;
+#else
+	return Id > 0 && (kill(Id, 0) == 0 || errno != ESRCH);
 #endif
 }
 

@@ -5,5 +5,7 @@ namespace Lantern
 {
 
 int GetProcessId();
+/// Whether a process of this machine has the id now. True where the system does not say.
+bool IsProcessAlive(int Id);
 
 } // namespace Lantern

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <chrono>
 
+#include "LanternCore/Tasks/TaskTrace.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
 #include "Shaders/GlslangCompile.h"
@@ -118,6 +119,7 @@ void FShaderCompiler::FreeSharedMemory() { FinalizeGlslang(); }
 
 FRTStatus FShaderCompiler::Compile(const FShaderSource& Source, FShaderBinary& Out)
 {
+	FTraceScope Trace("SPIR-V", Source.Path);
 	Out = {};
 	Out.Name = Source.Name.empty() ? Source.Path : Source.Name;
 	Out.Stage = Source.Stage;

@@ -1,14 +1,17 @@
 // The disk cache of compiled shaders: one checked file for each key.
 #include "Shaders/ShaderDiskCache.h"
 
+#include <chrono>
 #include <cstring>
 #include <fstream>
 
 #include <xxhash.h>
 
+#include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
 #include "Process/ProcessId.h"
+#include "Shaders/ShaderCachePrune.h"
 
 namespace Lantern
 {
@@ -17,6 +20,12 @@ namespace fs = std::filesystem;
 
 namespace
 {
+
+TRTConsoleVariable<int32_t> CVarMegabytes("r.RT.ShaderCache.MB", 256,
+    "Largest size of the disk cache of compiled shaders, in MiB. Those that were not used for longest go first. 0: no limit.",
+    {0, 1'000'000});
+TRTConsoleVariable<int32_t> CVarDays("r.RT.ShaderCache.Days", 60,
+    "Number of days for which the disk cache keeps a compiled shader after its last use. 0: for ever.", {0, 36'500});
 
 constexpr uint32_t CacheMagic = 0x3156534c; // "LSV1"
 constexpr uint32_t SpirvMagic = 0x07230203;
@@ -53,9 +62,33 @@ const char* Parse(std::ifstream& File, uint64_t FileBytes, const FHash128& Key, 
 	return OutWords[0] == SpirvMagic ? nullptr : "not SPIR-V";
 }
 
+/// The age of a file tells when it was last used. A day's precision spares most writes.
+void MarkUsed(const fs::path& Path)
+{
+	std::error_code Ignored; // a folder that may only be read has no need for it
+	const auto Now = fs::file_time_type::clock::now();
+	const auto Written = fs::last_write_time(Path, Ignored);
+	if (!Ignored && Now - Written > std::chrono::hours(24)) { fs::last_write_time(Path, Now, Ignored); }
+}
+
 } // namespace
 
 std::string FShaderDiskCache::ToHex(const FHash128& Key) { return fmt::format("{:016x}{:016x}", Key.High, Key.Low); }
+
+FShaderDiskCache::~FShaderDiskCache()
+{
+	if (bUsed) { Prune(); }
+}
+
+void FShaderDiskCache::Prune()
+{
+	if (bPruning.test_and_set()) { return; } // another thread is at it
+	FShaderCacheLimits Limits;
+	Limits.Bytes = static_cast<uint64_t>(CVarMegabytes.Get()) << 20;
+	Limits.Age = std::chrono::hours(24) * CVarDays.Get();
+	PruneShaderCache(Folder, Limits, fs::file_time_type::clock::now());
+	bPruning.clear();
+}
 
 bool FShaderDiskCache::Load(const FHash128& Key, std::vector<uint32_t>& OutWords)
 {
@@ -68,7 +101,12 @@ bool FShaderDiskCache::Load(const FHash128& Key, std::vector<uint32_t>& OutWords
 	if (!Code) { File.open(Path, std::ios::binary); }
 	if (Code || !File) { return false; }
 	const char* Wrong = Parse(File, Bytes, Key, OutWords);
-	if (!Wrong) { return true; }
+	if (!Wrong)
+	{
+		bUsed = true;
+		MarkUsed(Path);
+		return true;
+	}
 	File.close();
 	OutWords.clear();
 	LogWarning("Shader cache: {} is corrupt ({}) and is made anew", EscapePath(Path.string()), Wrong);
@@ -95,7 +133,11 @@ void FShaderDiskCache::Store(const FHash128& Key, const std::vector<uint32_t>& W
 		return;
 	}
 	const fs::path Path = PathOf(Key);
-	const fs::path Temporary = fmt::format("{}.{}.{}.tmp", Path.string(), GetProcessId(), Counter.fetch_add(1));
+	static std::atomic<uint64_t> NextNumber{0}; // of the process: several caches may share a folder
+	const uint64_t Number = NextNumber.fetch_add(1);
+	bUsed = true;
+	if (Writes.fetch_add(1) % PruneInterval == 0) { Prune(); }
+	const fs::path Temporary = fmt::format("{}.{}.{}.tmp", Path.string(), GetProcessId(), Number);
 	FCacheHeader Header;
 	Header.HeaderBytes = sizeof(Header);
 	Header.WordCount = Words.size();

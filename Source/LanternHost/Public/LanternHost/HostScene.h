@@ -96,8 +96,8 @@ private:
 	FRTStatus UploadTextures(FUploader& Uploader, const std::function<void(float)>& Progress);
 	FRTStatus UploadMeshes(FUploader& Uploader);
 	FRTStatus UploadMesh(FUploader& Uploader, uint32_t Mesh);
-	FRTStatus CreateObjects();
-	FRTStatus CreateSkinnedGeometry(uint32_t Mesh, FRTGeometryRef& Out);
+	FRTStatus CreateObjects(FUploader& Uploader);
+	FRTStatus CreateSkinnedGeometry(FUploader& Uploader, uint32_t Mesh, FRTGeometryRef& Out);
 	FRTGeometryInfo MakeGeometryInfo(uint32_t Mesh) const;
 	FRTStatus GetSampler(const FHostTexture& Texture, uint32_t& OutIndex);
 	FRTStatus AddMaterials(FMaterialPrograms& Programs);

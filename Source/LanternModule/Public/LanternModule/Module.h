@@ -256,6 +256,11 @@ public:
 	/// Sets the radiance of a uniform sky: nits, linear Rec.709, finite, ≥ 0. 0 (default): no sky.
 	virtual FRTStatus SetSky(const float Radiance[3]) = 0;
 
+	/// Compiles what frames like Frame will run in the scene as it is, and waits for it. For load time, between frames: the first
+	/// frames then have their outputs. Reads Wanted, and which textures are null; Commands may be null. Progress is called with 0
+	/// to 1 during the call, and may be null. CompileFailed if a shader does not compile; frames go on
+	/// without it.
+	virtual FRTStatus Precache(const FRTModuleFrame& Frame, FRTModuleProgress Progress, void* User) = 0;
 	/// Records the frame into Frame.Commands. On an error the command list must not be submitted.
 	/// Changes what the command buffer has bound. Pipelines and descriptor sets of the compute and ray-tracing bind points are then
 	/// Lantern's or none, and push constants of all stages are undefined. The pipeline and sets of the graphics bind point, vertex

@@ -63,11 +63,11 @@ struct FRTModuleOutputs
 	/// Textures by ESignal, which says what each holds. SignalInfos has their formats.
 	IRTTexture* Signals[MaxSignals] = {};
 	IRTTexture* Get(ESignal Signal) const { return Signals[ToIndex(Signal)]; }
-	/// Whether all ray-tracing shaders of the scene are compiled. They compile in the background; RenderFrame never waits for
-	/// them. An output is null until its first shaders are ready. Objects whose own shaders are missing then have the shadow
-	/// of a stand-in, or none (r.RT.Pipeline.Fallback, which can also make frames wait). A shader that does not compile is
-	/// logged, keeps its stand-in and counts as ready. If shadows use ray queries, the first frame compiles their one compute
-	/// shader itself.
+	/// Whether all shaders of the frame are compiled. They compile in the background; RenderFrame never waits for them
+	/// (IRTModuleRenderer::Precache does, at load). An output is null until its first shaders are ready, and is not filtered
+	/// until those of its filter are. Objects whose own shaders are missing then have the shadow of a stand-in, or none
+	/// (r.RT.Pipeline.Fallback, which can also make frames wait). A shader that does not compile is logged, keeps its stand-in
+	/// and counts as ready.
 	bool bShadersReady = false;
 	/// Whether the frame is complete. False: shaders are missing, or some acceleration structures are not built yet
 	/// (r.RT.Build.TrianglesPerFrame, r.RT.Build.MemoryMB), so that rays do not see their objects.

@@ -243,7 +243,9 @@ public:
 	uint32_t GetCompilesInDriver() const;
 	/// Makes pipelines and libraries whose name contains Part fail with CompileFailed. A link has a name of its own.
 	void FailCompile(const std::string& Part);
-	void ClearCompileFaults(); ///< ends SlowCompile, HoldCompiles and FailCompile
+	/// Makes pipelines and libraries whose name contains Part fail with OutOfDeviceMemory.
+	void StarveCompiles(const std::string& Part);
+	void ClearCompileFaults(); ///< ends SlowCompile, HoldCompiles, FailCompile and StarveCompiles
 	/// Loses the device at the next call of this kind.
 	void LoseDeviceAt(ERTMockCall Kind);
 	void LoseDevice();

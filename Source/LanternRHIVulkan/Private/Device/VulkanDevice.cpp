@@ -28,9 +28,9 @@ FRTStatus CreateObject(FVulkanDevice& Device, TInterface** Out, TInitialise Init
 
 void AddChild(FVulkanDevice& Device) { Device.AddOne(); }
 
-void RetireChild(FVulkanDevice& Device, void* Object, void (*Delete)(void*))
+void RetireChild(FVulkanDevice& Device, void* Object, void (*Delete)(void*), bool bSlow)
 {
-	Device.Retire(Object, Delete);
+	Device.Retire({Object, Delete, bSlow});
 	Device.DropOne();
 }
 
@@ -56,7 +56,7 @@ void FVulkanDevice::DropOne()
 	}
 }
 
-void FVulkanDevice::Retire(void* Object, void (*Delete)(void*))
+void FVulkanDevice::Retire(const FVulkanGarbage& Item)
 {
 	std::scoped_lock Lock(GarbageMutex);
 	Garbage.Push(LastNumber.load(), {Object, Delete});
@@ -66,12 +66,12 @@ void FVulkanDevice::CollectUpTo(uint64_t Done)
 {
 	for (;;)
 	{
-		std::vector<FGarbage> Dead;
+		std::vector<FVulkanGarbage> Dead;
 		std::vector<FVulkanKept> Finished;
 		{
 			std::scoped_lock Lock(GarbageMutex);
 			while (std::optional<FVulkanKept> Kept = Packets.Pop(Done)) { Finished.push_back(std::move(*Kept)); }
-			while (const std::optional<FGarbage> Item = Garbage.Pop(Done)) { Dead.push_back(*Item); }
+			while (const std::optional<FVulkanGarbage> Item = Garbage.Pop(Done)) { Dead.push_back(*Item); }
 		}
 		if (Dead.empty() && Finished.empty()) { return; }
 		// Outside the lock: these calls release further objects.
@@ -79,7 +79,12 @@ void FVulkanDevice::CollectUpTo(uint64_t Done)
 		{
 			for (IRTRefCounted* Object : Kept) { Object->Release(); }
 		}
-		for (const FGarbage& Item : Dead) { Item.Delete(Item.Object); }
+		for (const FVulkanGarbage& Item : Dead)
+		{
+			// The caller may be a frame.
+			if (Item.bSlow) { Reaper.Add(Item); }
+			else { Item.Delete(Item.Object); }
+		}
 	}
 }
 

@@ -1,6 +1,7 @@
 // Creation and take-over of a device, and the choice among devices.
 #include "Device/VulkanDeviceImpl.h"
 
+#include "Device/VulkanCallTrace.h"
 #include "Device/VulkanRequirements.h"
 
 #include <algorithm>
@@ -24,6 +25,7 @@ FVulkanDevice::FVulkanDevice(
 
 FVulkanDevice::~FVulkanDevice()
 {
+	if (CompileDevice) { CompileDevice->Release(); }
 	if (!Handle) { return; }
 	if (Queues[0].Timeline)
 	{
@@ -44,6 +46,30 @@ FVulkanDevice::~FVulkanDevice()
 		// The table may be incomplete when creation failed half-way.
 		const auto DestroyDevice = reinterpret_cast<PFN_vkDestroyDevice>(Instance->Api.GetDeviceProcAddr(Handle, "vkDestroyDevice"));
 		DestroyDevice(Handle, nullptr);
+	}
+}
+
+FRTStatus FVulkanDevice::CreateCompileDevice(const FRTVulkanDeviceDesc& Desc)
+{
+	FRTVulkanDeviceDesc Like = Desc;
+	Like.PipelineCacheFile = nullptr;
+	Like.bCompileDevice = false;
+	Like.CallSink = {};
+	IRTDevice* Made = nullptr;
+	const FRTStatus Status = CreateVulkanDevice(Like, &Made);
+	CompileDevice = static_cast<FVulkanDevice*>(Made);
+	return Status;
+}
+
+/// Nothing is in flight, and nobody holds an object.
+void FVulkanDevice::CollectAll()
+{
+	for (bool bMore = true; bMore;)
+	{
+		CollectUpTo(~FRTFence(0));
+		Reaper.Drain();
+		const std::scoped_lock Lock(GarbageMutex);
+		bMore = !Garbage.IsEmpty() || !Packets.IsEmpty(); // what a pipeline held
 	}
 }
 
@@ -138,8 +164,9 @@ FRTStatus FVulkanDevice::CreateShared()
 	TimestampBits = Families[Queues[0].Family].timestampValidBits;
 	Probe.Capabilities.bTimestamps = TimestampBits > 0;
 
+	const PFN_vkGetDeviceProcAddr GetProcAddr = CallSink.Call ? &GetTracedDeviceProcAddr : Instance->Api.GetDeviceProcAddr;
 	FRTStatus Status =
-	    MakeStatus(Memory.Create(Instance->Handle, Physical, Handle, Instance->Api), "Creating the memory allocator of", Name);
+	    MakeStatus(Memory.Create(Instance->Handle, Physical, Handle, Instance->Api, GetProcAddr), "Creating the memory allocator of", Name);
 	if (!Status) { return Status; }
 	const uint32_t Textures = Probe.Capabilities.MaxBindlessTextures;
 	Status = MakeStatus(Bindless.Create(Handle, Api, {Textures, Textures, Probe.MaxBindlessSamplers, Probe.MaxBindlessScenes}, Bits),
@@ -231,7 +258,9 @@ FRTStatus CreateVulkanDevice(const FRTVulkanDeviceDesc& Desc, IRTDevice** Out)
 	if (!Status) { return Status; }
 	FVulkanDevice* Device = new FVulkanDevice(std::move(Instance), Physical, Probe, Desc.PipelineCacheFile);
 	Device->bCacheLibraries = Desc.bCacheLibraries;
+	Device->CallSink = Desc.CallSink;
 	Status = Device->CreateNative();
+	if (Status && Desc.bCompileDevice) { Status = Device->CreateCompileDevice(Desc); }
 	if (!Status)
 	{
 		Device->DropOne();

@@ -5,6 +5,7 @@
 #include "Device/VulkanInstance.h"
 #include "Device/VulkanMemory.h"
 #include "Device/VulkanObject.h"
+#include "Device/VulkanReaper.h"
 #include "Device/VulkanStatus.h"
 #include "Device/VulkanTranslate.h"
 #include "LanternRHICommon/FenceQueue.h"
@@ -97,7 +98,7 @@ public:
 	void SetName(VkObjectType Type, uint64_t Handle, const char* Name) const;
 	void AddOne() { Children.fetch_add(1); }
 	void DropOne();
-	void Retire(void* Object, void (*Delete)(void*));
+	void Retire(const FVulkanGarbage& Item);
 	FRTStatus SaveCache() { return Cache.Save(); }
 
 	std::unique_ptr<FVulkanInstance> Instance;
@@ -115,14 +116,10 @@ public:
 	std::vector<uint32_t> TextureFamilies; ///< each once; textures are shared by those that take shaders
 	uint32_t TimestampBits = 0;
 	bool bCacheLibraries = true;
+	FRTVulkanCallSink CallSink;
+	FVulkanDevice* CompileDevice = nullptr; ///< FRTVulkanDeviceDesc::bCompileDevice; owned
 
 private:
-	struct FGarbage
-	{
-		void* Object = nullptr;
-		void (*Delete)(void*) = nullptr;
-	};
-
 	~FVulkanDevice() override;
 	void OnFinalRelease() override;
 
@@ -146,7 +143,8 @@ private:
 	std::atomic<bool> bLost{false};
 
 	std::mutex GarbageMutex;
-	TFenceQueue<FGarbage> Garbage;
+	TFenceQueue<FVulkanGarbage> Garbage;
+	FVulkanReaper Reaper;
 	TFenceQueue<FVulkanKept> Packets;
 
 	/// The objects that are alive, plus one while the user holds a reference to the device.

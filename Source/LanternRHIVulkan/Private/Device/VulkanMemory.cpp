@@ -55,11 +55,12 @@ VmaAllocation AsBlock(const FVulkanAllocation& Allocation) { return static_cast<
 
 FVulkanMemory::~FVulkanMemory() { Destroy(); }
 
-VkResult FVulkanMemory::Create(VkInstance Instance, VkPhysicalDevice Physical, VkDevice Device, const FVulkanInstanceApi& Api)
+VkResult FVulkanMemory::Create(VkInstance Instance, VkPhysicalDevice Physical, VkDevice Device, const FVulkanInstanceApi& Api,
+    PFN_vkGetDeviceProcAddr GetDeviceProcAddr)
 {
 	VmaVulkanFunctions Functions{};
 	Functions.vkGetInstanceProcAddr = Api.GetInstanceProcAddr;
-	Functions.vkGetDeviceProcAddr = Api.GetDeviceProcAddr;
+	Functions.vkGetDeviceProcAddr = GetDeviceProcAddr;
 	VmaAllocatorCreateInfo Info{};
 	Info.flags = VMA_ALLOCATOR_CREATE_BUFFER_DEVICE_ADDRESS_BIT;
 	Info.instance = Instance;

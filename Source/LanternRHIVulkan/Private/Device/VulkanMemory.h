@@ -22,7 +22,8 @@ public:
 	FVulkanMemory& operator=(const FVulkanMemory&) = delete;
 	~FVulkanMemory();
 
-	VkResult Create(VkInstance Instance, VkPhysicalDevice Physical, VkDevice Device, const FVulkanInstanceApi& Api);
+	VkResult Create(VkInstance Instance, VkPhysicalDevice Physical, VkDevice Device, const FVulkanInstanceApi& Api,
+	    PFN_vkGetDeviceProcAddr GetDeviceProcAddr);
 	void Destroy();
 	VkResult CreateBuffer(const VkBufferCreateInfo& Info, ERTMemory Kind, uint64_t Alignment, VkBuffer* OutBuffer, FVulkanAllocation* Out);
 	VkResult CreateImage(const VkImageCreateInfo& Info, VkImage* OutImage, FVulkanAllocation* Out);

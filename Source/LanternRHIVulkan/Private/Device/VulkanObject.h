@@ -5,6 +5,7 @@
 #include "LanternRHI/RTInterfaces.h"
 #include "LanternRHICommon/RefCounted.h"
 
+#include <type_traits>
 #include <utility>
 
 namespace Lantern
@@ -14,8 +15,8 @@ class FVulkanDevice;
 
 /// The device implements these two (VulkanDevice.cpp), so that objects need not see its class.
 void AddChild(FVulkanDevice& Device);
-/// Object must not be touched afterwards.
-void RetireChild(FVulkanDevice& Device, void* Object, void (*Delete)(void*));
+/// Object must not be touched afterwards. bSlow: see FVulkanGarbage.
+void RetireChild(FVulkanDevice& Device, void* Object, void (*Delete)(void*), bool bSlow);
 
 template <class TInterface>
 class TVulkanObject : public TRefCounted<TInterface>
@@ -31,7 +32,9 @@ protected:
 private:
 	void OnFinalRelease() final
 	{
-		RetireChild(Device, this, [](void* Object) { delete static_cast<TVulkanObject*>(Object); });
+		constexpr bool bSlow = std::is_same_v<TInterface, IRTPipeline>;
+		RetireChild(
+		    Device, this, [](void* Object) { delete static_cast<TVulkanObject*>(Object); }, bSlow);
 	}
 };
 

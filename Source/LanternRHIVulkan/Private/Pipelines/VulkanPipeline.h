@@ -15,7 +15,8 @@ public:
 	using TVulkanObject::TVulkanObject;
 	FRTStatus InitialiseCompute(const FRTComputePipelineDesc& Desc);
 	FRTStatus InitialiseRaster(const FRTRasterPipelineDesc& Desc);
-	FRTStatus InitialiseRayTracing(const FRTRayTracingPipelineDesc& Desc);
+	/// Cache: null for the device's own, or none, as FRTVulkanDeviceDesc says.
+	FRTStatus InitialiseRayTracing(const FRTRayTracingPipelineDesc& Desc, VkPipelineCache Cache = VK_NULL_HANDLE);
 
 	uint32_t GetGroupCount() const override { return GroupCount; }
 	uint64_t GetNative(ERTNative Kind) const override;

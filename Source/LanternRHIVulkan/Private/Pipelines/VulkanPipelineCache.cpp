@@ -4,9 +4,12 @@
 #include "Device/VulkanStatus.h"
 
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 
 #include <unistd.h>
 
@@ -75,6 +78,26 @@ const char* ReadCacheFile(FILE* Stream, const FHeader& Expected, std::vector<cha
 	return nullptr;
 }
 
+constexpr char TemporarySuffix[] = ".XXXXXX"; // as mkstemp wants it
+
+/// A process that was killed while it wrote has left a file behind. No write takes a day.
+void RemoveLeftOvers(const std::string& File)
+{
+	namespace fs = std::filesystem;
+	const fs::path Path(File);
+	const std::string Prefix = Path.filename().string() + '.';
+	std::error_code Code;
+	for (fs::directory_iterator It(Path.has_parent_path() ? Path.parent_path() : ".", Code), End; !Code && It != End; It.increment(Code))
+	{
+		const std::string Name = It->path().filename().string();
+		const bool bTemporary = Name.size() == Prefix.size() + strlen(TemporarySuffix) - 1 && Name.compare(0, Prefix.size(), Prefix) == 0;
+		std::error_code Gone;
+		const fs::file_time_type Written = bTemporary ? It->last_write_time(Gone) : fs::file_time_type();
+		const bool bOld = fs::file_time_type::clock::now() - Written > std::chrono::hours(24);
+		if (bTemporary && !Gone && bOld) { fs::remove(It->path(), Gone); }
+	}
+}
+
 } // namespace
 
 VkResult FVulkanPipelineCache::Create(
@@ -130,7 +153,7 @@ FRTStatus FVulkanPipelineCache::Save()
 	Header.Checksum = HashBytes(Data);
 
 	// The name is unique: other processes, and other devices of this one, may be writing the file too.
-	std::string Temporary = File + ".XXXXXX";
+	std::string Temporary = File + TemporarySuffix;
 	const int Descriptor = mkstemp(Temporary.data());
 	int Reason = errno;
 	if (Descriptor < 0)
@@ -155,6 +178,7 @@ FRTStatus FVulkanPipelineCache::Save()
 		remove(Temporary.c_str());
 		return FRTStatus::Error(ERTResult::IoError, "pipeline cache %s was not written: %s", Show(File).c_str(), strerror(Reason));
 	}
+	RemoveLeftOvers(File);
 	return {};
 }
 

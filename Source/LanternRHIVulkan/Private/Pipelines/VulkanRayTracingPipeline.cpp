@@ -1,6 +1,8 @@
 // Ray-tracing pipelines: monolithic, libraries, and linked from libraries.
 #include "Pipelines/VulkanPipeline.h"
 
+#include "Pipelines/VulkanCompileAhead.h"
+
 #include "Device/VulkanQuirks.h"
 #include "Pipelines/VulkanShaderModules.h"
 
@@ -125,7 +127,7 @@ struct FRayTracingState
 
 } // namespace
 
-FRTStatus FVulkanPipeline::InitialiseRayTracing(const FRTRayTracingPipelineDesc& Desc)
+FRTStatus FVulkanPipeline::InitialiseRayTracing(const FRTRayTracingPipelineDesc& Desc, VkPipelineCache Cache)
 {
 	FRTStatus Status = CheckSupport(Device, Desc);
 	FVulkanModules Modules(Device);
@@ -154,10 +156,22 @@ FRTStatus FVulkanPipeline::InitialiseRayTracing(const FRTRayTracingPipelineDesc&
 	State.Info.groupCount = static_cast<uint32_t>(Groups.size());
 	State.Info.pGroups = Groups.data();
 	State.Info.layout = Device.Bindless.PipelineLayout;
-	const VkPipelineCache Cache = bLibrary && !Device.bCacheLibraries ? VK_NULL_HANDLE : Device.Cache.Handle;
+	FVulkanOwnCache Ahead(Device);
+	if (bLibrary && Device.CompileDevice)
+	{
+		std::vector<char> Data;
+		Status = CompileAhead(*Device.CompileDevice, Desc, Data);
+		Status = Status ? MakeStatus(Ahead.Create(Data), "Filling the pipeline cache of", Desc.Name) : Status;
+		if (!Status) { return Status; }
+		Cache = Ahead.Handle;
+	}
+	if (!Cache && (!bLibrary || Device.bCacheLibraries)) { Cache = Device.Cache.Handle; }
 	Status = Finish(Device.Api.CreateRayTracingPipelinesKHR(Device.Handle, VK_NULL_HANDLE, Cache, 1, &State.Info, nullptr, &Handle),
 	    "Creating ray-tracing pipeline", Desc.Name);
-	return Status && !bLibrary ? ReadGroupHandles(Desc.GroupCount, static_cast<uint32_t>(Groups.size()), Desc.Name) : Status;
+	if (!Status || bLibrary) { return Status; }
+	// A table for this pipeline needs it, and is made by a frame, which must not compile.
+	Status = Device.Scatter.Prepare(Device);
+	return Status ? ReadGroupHandles(Desc.GroupCount, static_cast<uint32_t>(Groups.size()), Desc.Name) : Status;
 }
 
 FRTStatus FVulkanPipeline::ReadGroupHandles(uint32_t OwnCount, uint32_t NativeOwnCount, const char* Name)

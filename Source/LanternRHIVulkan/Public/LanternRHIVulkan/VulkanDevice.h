@@ -21,6 +21,14 @@ enum class ERTVulkanMessage : uint8_t
 /// Called from any thread, also during a call of the device. It must not call the device.
 using FRTVulkanMessageCallback = void (*)(void* User, ERTVulkanMessage Severity, const char* Text);
 
+/// Gets each call of Vulkan that a device makes, from the thread that made it, right after it.
+struct FRTVulkanCallSink
+{
+	/// Name: "vkQueueSubmit2", static. Null: calls are not timed, and cost nothing more.
+	void (*Call)(void* User, const char* Name, uint64_t Nanoseconds) = nullptr;
+	void* User = nullptr;
+};
+
 struct FRTVulkanDeviceDesc
 {
 	/// Index as in ListVulkanDevices. -1 chooses the best device: discrete with ray-tracing pipelines first, CPUs last.
@@ -44,6 +52,11 @@ struct FRTVulkanDeviceDesc
 	/// Null prints warnings and errors to standard error.
 	FRTVulkanMessageCallback MessageCallback = nullptr;
 	void* MessageUser = nullptr;
+	/// Compiles pipeline libraries on a second device of the same kind first. The device itself then finds them in a cache, and
+	/// holds whatever the driver locks for a shorter time. Takes the memory of a device, and longer for each library.
+	bool bCompileDevice = false;
+	/// For tools that look for the call that a frame waits in. The newest sink serves all devices of the process that have one.
+	FRTVulkanCallSink CallSink;
 };
 
 /// Returns Unsupported if there is no loader, no device, or none good enough. The message says what each device lacks.

@@ -76,6 +76,11 @@ FPassRays ChooseAmbientOcclusionRays(const FPassQuery& Query)
 
 bool IsAmbientOcclusionFiltered(const FRTScene&) { return Denoise.IsEnabled(); }
 
+void ListAmbientOcclusionFilters(const FRTScene&, std::vector<FShaderSource>& Out)
+{
+	if (Denoise.IsEnabled()) { ListDenoiseShaders(false, false, Denoise.Get(), Out); }
+}
+
 FGraphTexture AddAmbientOcclusionPass(FFrameContext& Context, const FGBuffer& GBuffer)
 {
 	const std::optional<FRayDispatch> Dispatch =

@@ -14,6 +14,7 @@ FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery
 	if (Query.Facts.Objects == 0 || !HasAnyLight(Query.Facts)) { return Rays; }
 	Rays.Path = ChooseShadingRayPath(Query, Settings.Enable);
 	Rays.Defines = MakePathDefines(Query.Facts);
+	AddReorderDefine(Query.Capabilities, Rays.Defines);
 	Rays.bShadesHits = true;
 	return Rays;
 }

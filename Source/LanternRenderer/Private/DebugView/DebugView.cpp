@@ -4,7 +4,6 @@
 #include "DebugViewTypes.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
-#include "PassTools.h"
 
 namespace Lantern
 {
@@ -34,7 +33,7 @@ FGraphTexture AddDebugView(FFrameContext& Context, const FFrameOutputs& Outputs)
 		                               ". It is off, the scene has nothing for it, or its shaders are being compiled");
 		return Outputs.Display;
 	}
-	IRTPipeline* const Pipeline = RequireCompute(Context, "DebugView/DebugView.comp");
+	IRTPipeline* const Pipeline = RequireCompute(Context, MakeDebugViewSource());
 	if (!Pipeline) { return Outputs.Display; }
 	const FGraphTexture Output = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA8_UNORM}, "DebugView");
 	const FFrameContext* const Frame = &Context;

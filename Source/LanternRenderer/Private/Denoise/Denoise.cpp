@@ -60,6 +60,13 @@ std::vector<std::pair<std::string, std::string>> MakeDefines(bool bColor, bool b
 	return Defines;
 }
 
+FShaderSource MakeTemporalSource(bool bColor, bool bExtent)
+{
+	return MakeComputeSource("Denoise/Temporal.comp", MakeDefines(bColor, bExtent));
+}
+
+FShaderSource MakeFilterSource(bool bColor, bool bExtent) { return MakeComputeSource("Denoise/Filter.comp", MakeDefines(bColor, bExtent)); }
+
 FGraphTexture FDenoiser::CreateImage(bool bLast, uint32_t Index) const
 {
 	if (bLast) { return Context.Graph.CreateTexture(Context.Graph.GetDesc(Inputs.Signal), (Name + " denoised").c_str()); }
@@ -137,6 +144,13 @@ FGraphTexture FDenoiser::AddFilterPass(FGraphTexture Input, FGraphTexture Output
 }
 } // namespace
 
+void ListDenoiseShaders(bool bColor, bool bExtent, const FDenoiseSettings& Settings, std::vector<FShaderSource>& Out)
+{
+	Out.push_back(MakeTemporalSource(bColor, bExtent));
+	if (Settings.Passes > 0) { Out.push_back(MakeFilterSource(bColor, bExtent)); }
+	ListSurfaceShaders(Out);
+}
+
 FGraphTexture AddDenoise(FFrameContext& Context, const FGBuffer& GBuffer, const FDenoiseInputs& Inputs, const FDenoiseSettings& Settings)
 {
 	const ERTFormat Format = Context.Graph.GetDesc(Inputs.Signal).Format;
@@ -146,8 +160,8 @@ FGraphTexture AddDenoise(FFrameContext& Context, const FGBuffer& GBuffer, const 
 	FDenoiser Denoiser{Context, Inputs, Settings, Inputs.Name, bColor,
 	    bColor || Inputs.Extent.IsValid() ? ERTFormat::RGBA16_FLOAT : ERTFormat::RG16_FLOAT};
 	const uint32_t Passes = std::min(Settings.Passes, MaxPasses);
-	Denoiser.Temporal = RequireCompute(Context, "Denoise/Temporal.comp", MakeDefines(bColor, Inputs.Extent.IsValid()));
-	Denoiser.Filter = Passes > 0 ? RequireCompute(Context, "Denoise/Filter.comp", MakeDefines(bColor, Inputs.Extent.IsValid())) : nullptr;
+	Denoiser.Temporal = RequireCompute(Context, MakeTemporalSource(bColor, Inputs.Extent.IsValid()));
+	Denoiser.Filter = Passes > 0 ? RequireCompute(Context, MakeFilterSource(bColor, Inputs.Extent.IsValid())) : nullptr;
 	if (!Denoiser.Temporal || (Passes > 0 && !Denoiser.Filter)) { return Inputs.Signal; }
 	if (!RequireSurface(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion})) { return Inputs.Signal; }
 	const auto Require = [&](const char* Suffix, ERTFormat Kept, FHistoryTexture& Out) {

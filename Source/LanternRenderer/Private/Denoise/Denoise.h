@@ -28,9 +28,13 @@ struct FDenoiseInputs
 	FGraphTexture Extent;
 };
 
+/// Lists the compute shaders of the filter. bColor: three channels. bExtent: FDenoiseInputs::Extent is valid.
+void ListDenoiseShaders(bool bColor, bool bExtent, const FDenoiseSettings& Settings, std::vector<FShaderSource>& Out);
+
 /// Returns the filtered signal, of Signal's description. Pixels without a surface keep their value. Passes are named
 /// "<Name>Temporal" and "<Name>Filter<I>". Signals share the passes "Surface" and, if the host gives no motion,
-/// "CameraMotion". On an error, which the context then has, it returns Signal.
+/// "CameraMotion". Returns Signal while shaders are being compiled, and on an error, which the context then has. Histories then
+/// start anew.
 FGraphTexture AddDenoise(FFrameContext& Context, const FGBuffer& GBuffer, const FDenoiseInputs& Inputs, const FDenoiseSettings& Settings);
 /// Filters by a signal's console variables.
 inline FGraphTexture AddDenoise(

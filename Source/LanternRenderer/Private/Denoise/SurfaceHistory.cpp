@@ -3,6 +3,7 @@
 
 #include "DenoiseTypes.h"
 #include "LanternCore/FrameGraph/History.h"
+#include "Motion/CameraMotion.h"
 #include "PassTools.h"
 
 namespace Lantern
@@ -10,6 +11,8 @@ namespace Lantern
 
 namespace
 {
+FShaderSource MakeSurfaceSource() { return MakeComputeSource("Denoise/Surface.comp"); }
+
 void AddSurfacePass(FFrameContext& Context, const FSurfaceInputs& Inputs, IRTPipeline* Pipeline, FGraphTexture Output)
 {
 	const FPassConstants PassConstants = Context.Pass;
@@ -32,11 +35,15 @@ void AddSurfacePass(FFrameContext& Context, const FSurfaceInputs& Inputs, IRTPip
 }
 } // namespace
 
+void ListSurfaceShaders(std::vector<FShaderSource>& Out) { Out.push_back(MakeSurfaceSource()); }
+
 bool RequireSurface(FFrameContext& Context, const FSurfaceInputs& Inputs)
 {
 	if (Context.Surface.Current.IsValid()) { return true; }
-	IRTPipeline* const Pipeline = RequireCompute(Context, "Denoise/Surface.comp");
-	if (!Pipeline) { return false; }
+	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSurfaceSource());
+	// Asked for in the first frame, which has nothing to reproject: the second one does.
+	const bool bMotion = Inputs.Motion.IsValid() || RequireCompute(Context, MakeCameraMotionSource());
+	if (!Pipeline || !bMotion) { return false; }
 	FHistoryTexture Surface;
 	if (FRTStatus S = Context.History->GetTexture("Surface", {Context.Width, Context.Height, ERTFormat::RG32_FLOAT}, Surface); !S)
 	{

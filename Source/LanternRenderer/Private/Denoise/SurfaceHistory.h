@@ -12,7 +12,11 @@ struct FSurfaceInputs
 	FGraphTexture Depth, Normals, Motion; ///< as in FGBuffer; Motion may be invalid: then that of a world that stands still
 };
 
-/// Context.Surface, made where nobody has asked for it in this frame. False: an error that the context has; nothing is there.
+/// Lists the compute shaders of RequireSurface, but for that of the camera's motion.
+void ListSurfaceShaders(std::vector<FShaderSource>& Out);
+
+/// Context.Surface, made where nobody has asked for it in this frame. False: nothing is there, because shaders are being compiled, or
+/// an error, which the context then has.
 bool RequireSurface(FFrameContext& Context, const FSurfaceInputs& Inputs);
 
 } // namespace Lantern

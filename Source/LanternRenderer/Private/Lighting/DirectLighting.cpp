@@ -16,13 +16,17 @@ TRTConsoleVariable<bool> CVarSkyAmbient("r.RT.SkyAmbient", true, "Ambient light 
 
 bool HasSkyAmbient(const FSceneFacts& Facts) { return Facts.bSky && CVarSkyAmbient.GetOnRenderThread(); }
 
-FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightingInputs& Inputs)
+FShaderSource MakeLightingSource(FSceneFacts Facts)
 {
-	FSceneFacts Facts = Context.Facts;
 	Facts.Lights = CVarLocalLights.GetOnRenderThread() ? Facts.Lights : 0;
 	Facts.bSky &= CVarSkyAmbient.GetOnRenderThread();
 	Facts.bMasked = false; // nothing of it reaches lighting
-	IRTPipeline* const Pipeline = RequireCompute(Context, "Lighting/DirectLighting.comp", MakeFactDefines(Facts));
+	return MakeComputeSource("Lighting/DirectLighting.comp", MakeFactDefines(Facts));
+}
+
+FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightingInputs& Inputs)
+{
+	IRTPipeline* const Pipeline = RequireCompute(Context, MakeLightingSource(Context.Facts));
 	if (!Pipeline) { return {}; }
 	const FGraphTexture Output = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA32_FLOAT}, "Lighting");
 	const FPassConstants PassConstants = Context.Pass;

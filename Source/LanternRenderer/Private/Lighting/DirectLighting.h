@@ -9,6 +9,9 @@ namespace Lantern
 /// Returns whether the composite has ambient light of the sky (r.RT.SkyAmbient), which ambient occlusion darkens.
 bool HasSkyAmbient(const FSceneFacts& Facts);
 
+/// Makes the source of the composite's shader.
+FShaderSource MakeLightingSource(FSceneFacts Facts);
+
 /// The composite's inputs by what they mean for light, whichever pass made them.
 struct FDirectLightingInputs
 {
@@ -18,7 +21,8 @@ struct FDirectLightingInputs
 	FGraphTexture IndirectDiffuse;  ///< invalid: the sky's ambient light stands in
 	FGraphTexture IndirectSpecular; ///< invalid: the sky's ambient light stands in
 };
-/// Adds direct light, emission and indirect light. Returns linear radiance, RGBA32_FLOAT.
+/// Adds direct light, emission and indirect light. Returns linear radiance, RGBA32_FLOAT. Invalid: its shader is
+/// being compiled, or an error, which the context then has.
 FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightingInputs& Inputs);
 
 } // namespace Lantern

@@ -1,14 +1,14 @@
 // Motion vectors of a world that stands still, from depth and two cameras.
+#include "Motion/CameraMotion.h"
+
 #include "CameraMotionTypes.h"
-#include "LanternRenderer/Frame.h"
-#include "PassTools.h"
 
 namespace Lantern
 {
 
 FGraphTexture AddCameraMotionPass(FFrameContext& Context, FGraphTexture Depth)
 {
-	IRTPipeline* const Pipeline = Depth.IsValid() ? RequireCompute(Context, "Motion/CameraMotion.comp") : nullptr;
+	IRTPipeline* const Pipeline = Depth.IsValid() ? RequireCompute(Context, MakeCameraMotionSource()) : nullptr;
 	if (!Pipeline) { return {}; }
 	const uint32_t Width = Context.Width, Height = Context.Height;
 	const FGraphTexture Output = Context.Graph.CreateTexture({Width, Height, ERTFormat::RGBA32_FLOAT}, "CameraMotion");

@@ -9,7 +9,7 @@
 namespace Lantern
 {
 
-FPassRays ChooseReferenceRays(const FSceneFacts& Facts, ESignal Signal, bool bFromGBuffer)
+FPassRays ChooseReferenceRays(const FRTCapabilities& Capabilities, const FSceneFacts& Facts, ESignal Signal, bool bFromGBuffer)
 {
 	assert(!bFromGBuffer || Signal != ESignal::Frame);
 	FPassRays Rays;
@@ -17,6 +17,7 @@ FPassRays ChooseReferenceRays(const FSceneFacts& Facts, ESignal Signal, bool bFr
 	Rays.Defines = MakePathDefines(Facts);
 	if (Signal != ESignal::Frame) { Rays.Defines.emplace_back("SIGNAL", "1"); }
 	if (bFromGBuffer) { Rays.Defines.emplace_back("FROM_GBUFFER", "1"); }
+	AddReorderDefine(Capabilities, Rays.Defines);
 	Rays.bShadesHits = true;
 	return Rays;
 }

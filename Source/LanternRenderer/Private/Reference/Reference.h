@@ -7,7 +7,7 @@ namespace Lantern
 {
 
 /// bFromGBuffer: at the surfaces that the raster saw; not for ESignal::Frame.
-FPassRays ChooseReferenceRays(const FSceneFacts& Facts, ESignal Signal, bool bFromGBuffer);
+FPassRays ChooseReferenceRays(const FRTCapabilities& Capabilities, const FSceneFacts& Facts, ESignal Signal, bool bFromGBuffer);
 /// Names the ray generation shader: a signal's lies in its own folder, <Pass>/<Pass>Reference.rgen.
 std::string GetReferencePath(ESignal Signal);
 

@@ -1,5 +1,6 @@
 // Linear blend skinning into the geometries' own buffers, and the measure of refit quality behind it.
 #include <algorithm>
+#include <cassert>
 
 #include "PassTools.h"
 #include "Skinning/RefitQuality.h"
@@ -11,6 +12,9 @@ namespace Lantern
 namespace
 {
 constexpr uint32_t MaxGroups = 65535; // in one dimension, on any device
+
+FShaderSource MakeSkinSource() { return MakeComputeSource("Skinning/Skin.comp"); }
+FShaderSource MakeRefitQualitySource() { return MakeComputeSource("Skinning/RefitQuality.comp"); }
 
 void Dispatch(IRTCommandList& List, uint32_t Groups, uint32_t Layers = 1)
 {
@@ -87,14 +91,23 @@ std::vector<FSkinDispatch> MakeDispatches(const std::vector<FSkinItem>& Items)
 }
 } // namespace
 
+void ListSkinningShaders(FRTScene& Scene, std::vector<FShaderSource>& Out)
+{
+	Out.push_back(MakeSkinSource());
+	if (Scene.GetGeometries().WantsRefitQuality()) { Out.push_back(MakeRefitQualitySource()); }
+}
+
+bool IsSkinningReady(const FFrameContext& Context) { return RequireCompute(Context, MakeSkinSource()) != nullptr; }
+
 FRTStatus AddSkinningPass(FFrameContext& Context, FFrameUploads& Uploads, const std::vector<FSkinningInputs>& Inputs, bool bMotion)
 {
 	if (Inputs.empty()) { return FRTStatus::Success(); }
-	IRTPipeline* const Pipeline = RequireCompute(Context, "Skinning/Skin.comp");
-	if (!Pipeline) { return *Context.Status; }
-	FRefitQuality::FWork Quality = Context.Owner->GetRefitQuality().Prepare(Context.Scene.GetGeometries(), Inputs);
-	IRTPipeline* const Measure = Quality.Dispatches.empty() ? nullptr : RequireCompute(Context, "Skinning/RefitQuality.comp");
-	if (!Quality.Dispatches.empty() && !Measure) { return *Context.Status; }
+	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSkinSource());
+	FGeometryStore& Store = Context.Scene.GetGeometries();
+	IRTPipeline* const Measure = Store.WantsRefitQuality() ? RequireCompute(Context, MakeRefitQualitySource()) : nullptr;
+	if (!*Context.Status) { return *Context.Status; }
+	assert(Pipeline && "IsSkinningReady was false");
+	FRefitQuality::FWork Quality = Measure ? Context.Owner->GetRefitQuality().Prepare(Store, Inputs) : FRefitQuality::FWork{};
 	std::vector<FSkinItem> Items;
 	FAddress ItemsAddress = 0;
 	if (FRTStatus S = UploadItems(Uploads, Inputs, bMotion, Items, ItemsAddress); !S) { return S; }
@@ -132,7 +145,7 @@ FRTStatus AddSkinningPass(FFrameContext& Context, FFrameUploads& Uploads, const 
 				Dispatch(Pass.Commands(), D.Groups, D.Count);
 			}
 			Pass.Commands().Barriers(After.data(), static_cast<uint32_t>(After.size()));
-			if (Measure) { RecordRefitQuality(Pass.Commands(), Measure, Quality); }
+			if (!Quality.Dispatches.empty()) { RecordRefitQuality(Pass.Commands(), Measure, Quality); }
 		};
 	});
 	return FRTStatus::Success();

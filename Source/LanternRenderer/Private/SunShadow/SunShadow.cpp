@@ -85,6 +85,11 @@ FPassRays ChooseSunShadowRays(const FPassQuery& Query)
 
 bool IsSunShadowFiltered(const FRTScene& Scene) { return Denoise.IsEnabled() && IsSoft(Scene); }
 
+void ListSunShadowFilters(const FRTScene& Scene, std::vector<FShaderSource>& Out)
+{
+	if (IsSunShadowFiltered(Scene)) { ListDenoiseShaders(false, MeasuresPenumbra(), Denoise.Get(), Out); }
+}
+
 FGraphTexture AddSunShadowPass(FFrameContext& Context, const FGBuffer& GBuffer)
 {
 	const std::optional<FRayDispatch> Dispatch =

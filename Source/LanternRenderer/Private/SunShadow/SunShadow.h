@@ -11,5 +11,6 @@ FPassRays ChooseSunShadowRays(const FPassQuery& Query);
 FGraphTexture AddSunShadowPass(FFrameContext& Context, const FGBuffer& GBuffer);
 /// Returns whether the scene's sun shadows, if there are any, are filtered over frames.
 bool IsSunShadowFiltered(const FRTScene& Scene);
+void ListSunShadowFilters(const FRTScene& Scene, std::vector<FShaderSource>& Out);
 
 } // namespace Lantern

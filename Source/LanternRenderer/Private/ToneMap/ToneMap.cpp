@@ -1,6 +1,6 @@
 // The display transform: exposure, filmic curve, sRGB.
-#include "LanternRenderer/Frame.h"
-#include "PassTools.h"
+#include "ToneMap/ToneMap.h"
+
 #include "ToneMapTypes.h"
 
 namespace Lantern
@@ -8,7 +8,7 @@ namespace Lantern
 
 FGraphTexture AddToneMapPass(FFrameContext& Context, FGraphTexture Radiance)
 {
-	IRTPipeline* const Pipeline = RequireCompute(Context, "ToneMap/ToneMap.comp");
+	IRTPipeline* const Pipeline = RequireCompute(Context, MakeToneMapSource());
 	if (!Pipeline || !Radiance.IsValid()) { return {}; }
 	const FGraphTexture Output = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA8_UNORM}, "Display");
 	const FPassConstants PassConstants = Context.Pass;

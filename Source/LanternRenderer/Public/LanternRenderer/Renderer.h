@@ -61,7 +61,7 @@ struct FFrameFeatures
 	/// Records acceleration structures where the host calls FFrameContext::RequireRays instead.
 	bool bLateRays = false;
 	/// The frame waits until all of its shaders are compiled, so that each picture is complete. If false, it uses what is
-	/// ready (FRTPSOCompiler). The reference always waits.
+	/// ready (FRTPSOCompiler, FComputePipelines) and leaves out passes whose shaders are missing. The reference always waits.
 	bool bWaitForPipelines = true;
 	/// Ray generation shaders of the host's own passes. They trace all ray types through the frame's RTPSO
 	/// (FFrameContext::RayPipeline, FRTPSO::FindRayGen). Their push constants begin with FPassConstants.
@@ -70,7 +70,10 @@ struct FFrameFeatures
 	/// Builds all acceleration structures that wait, so that each picture is complete. If false, r.RT.Build.TrianglesPerFrame
 	/// limits a frame's builds, and rays do not see objects whose geometry waits. The reference builds all.
 	bool bBuildAll = true;
+	/// Left out as a whole while its shader is compiled (FRenderer::WasSkinningLeftOut). Geometries then stay as they are.
 	std::vector<FSkinningInputs> Skinning;
+	/// The host has no motion vectors, so that filters follow the camera alone. Decides only what is compiled ahead.
+	bool bCameraMotion = false;
 	/// The host makes its motion vectors from FSceneConstants::ObjectMotions. These are recorded if a filter follows motion, or if
 	/// FSignalRequests::bMotion asks. An engine with motion vectors of its own saves 72 bytes a frame for each moving object.
 	bool bMotion = true;
@@ -134,7 +137,7 @@ struct FFrameContext
 	}();
 	uint32_t GetRayGen(ESignal Signal) const { return RayGens[ToIndex(Signal)]; }
 	/// The view of the frame before. Null if nothing may be carried over from it: there was none, a cut, another size, or a lost
-	/// frame. Null as well if another renderer has made a frame of the scene since.
+	/// frame. Null as well if something has moved in another renderer's frame of the scene since.
 	const FView* PreviousView = nullptr;
 	/// Textures that passes keep from frame to frame.
 	FHistoryResources* History = nullptr;
@@ -157,9 +160,9 @@ public:
 	FRenderer(IRTDevice& Device, FRendererDesc Desc);
 	~FRenderer();
 
-	/// Compiles what frames of the scene with these features will trace with, and waits for it. For load time, between frames.
-	/// Progress gets 0 to 1 and may be empty. Shaders that do not compile are logged; the result is an error only if frames
-	/// cannot do without them.
+	/// Compiles what frames of the scene with these features will run, ray tracing and compute, and waits for it. For load time,
+	/// between frames. Progress gets 0 to 1 and may be empty. Hit shaders that do not compile are logged. The result is an error
+	/// only if a picture would not be complete without the shader.
 	FRTStatus Precache(FRTScene& Scene, const FFrameFeatures& Features, const std::function<void(float)>& Progress);
 	/// Returns what such frames trace with; without ray generation shaders if they need no pipeline. Between frames.
 	FRTPSODesc GetRayPrograms(FRTScene& Scene, const FFrameFeatures& Features);
@@ -195,8 +198,10 @@ public:
 	/// Returns the RTPSO of the last frame; null if it had none.
 	const FRTPSO* GetRayPipeline() const { return RayPipeline.get(); }
 	FRTPSOCompiler& GetRayCompiler() { return RayCompiler; }
-	/// Returns whether all shaders that the last frame wanted to trace with are compiled, or cannot be.
-	bool AreRayProgramsReady() { return bRaysReady || (RayPipeline && !RayCompiler.GetStats().bBusy); }
+	/// Returns whether all shaders that the last frame wanted are compiled, or cannot be.
+	bool AreShadersReady() { return (bRaysReady || (RayPipeline && !RayCompiler.GetStats().bBusy)) && !Pipelines.IsAnyToCome(); }
+	/// Returns whether the last frame left out FFrameFeatures::Skinning. The host then asks for it again.
+	bool WasSkinningLeftOut() const { return bSkinningLeftOut; }
 	/// Returns what the compiler was last told of each program that is not ready, by program.
 	const std::vector<FProgramPriority>& GetProgramPriorities() const;
 	const FShaderTable& GetShaderTable() const { return ShaderTable; }
@@ -207,7 +212,8 @@ public:
 
 private:
 	friend struct FFrameContext;
-	FRTStatus PrepareRayPipeline(const FRayPrograms& Wanted, const FFrameFeatures& Features);
+	FRayPrograms ChoosePrograms(FRTScene& Scene, const FFrameFeatures& Features);
+	FRTStatus PrepareRayPipeline(const FRayPrograms& Wanted);
 	FRTStatus StartUpdate(const FView& View, const FRayPrograms& Wanted, const FFrameFeatures& Features);
 	void StartPrebind();
 	FRTStatus FinishPrebind();
@@ -242,6 +248,7 @@ private:
 	std::unique_ptr<FStandInFeedback> StandIns;
 	bool bStandIns = false; // some hit program of the frame is not ready
 	bool bRaysReady = true;
+	bool bSkinningLeftOut = false;
 	FSignalSet Ready; // signals whose ray generation shaders the last frame had
 	std::shared_ptr<const FRTPSO> RayPipeline;
 	std::unique_ptr<FFrameGraph> Graph;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "LanternCore/Config/ConsoleVariables.h"
+#include "Pipelines/PipelineVariables.h"
 #include "Pipelines/RTPSOThreads.h"
 
 namespace Lantern
@@ -15,20 +16,18 @@ namespace
 {
 TRTConsoleVariable<bool> CVarLibraries("r.RT.Pipeline.Libraries", true,
     "Compiles each shader group to a pipeline library, if the device supports them. 0: each link compiles everything anew.");
-TRTConsoleVariable<int32_t> CVarThreads("r.RT.Pipeline.Threads", 0,
-    "Number of threads that compile pipelines. 0: one less than the machine has cores, at least one.", {0, 256});
 TRTConsoleVariable<int32_t> CVarRoundMs(
     "r.RT.Pipeline.RoundMs", 100, "Longest time, in milliseconds, that compiled shaders wait for others before they are linked.", {1, 1e6});
 TRTConsoleVariable<int32_t> CVarFallback("r.RT.Pipeline.Fallback", 1,
     "Treatment of objects whose shaders are not compiled yet. 0: they are left out. 1: they are drawn with the standard material. "
     "2: the frame waits.",
     {0, 2});
-TRTConsoleVariable<int32_t> CVarKeepFrames(
-    "r.RT.Pipeline.KeepFrames", 1000, "Number of frames for which compiled shaders are kept after their last use.", {1, 1e6});
 TRTConsoleVariable<float> CVarSwapShare("r.RT.Pipeline.SwapShare", 0.2f,
     "Largest share of the time that first uses of new pipelines may take. Materials that are ready wait, if the driver compiles "
     "a pipeline at its first use. 1: they never wait.",
     {FSwapPacer::LeastShare, 1});
+TRTConsoleVariable<int32_t> CVarSwapFrames("r.RT.Pipeline.SwapFrames", 1,
+    "Fewest frames from one pipeline with more materials to the next. Shaders that a setting asks for do not wait.", {1, 10'000});
 TRTConsoleVariable<float> CVarReloadSeconds("r.RT.Pipeline.ReloadSeconds", 0.0f,
     "Seconds between searches for edited shader files. Pipelines of edited files are compiled anew. 0: no search.", {0, 3600});
 
@@ -37,18 +36,12 @@ FRTPSOSettings GetSettings()
 	FRTPSOSettings Settings;
 	Settings.bLibraries = CVarLibraries.GetOnRenderThread();
 	Settings.RoundLength = std::chrono::milliseconds(CVarRoundMs.GetOnRenderThread());
-	Settings.KeepFrames = static_cast<uint64_t>(CVarKeepFrames.GetOnRenderThread());
+	Settings.KeepFrames = GetPipelineKeepFrames();
 	Settings.Fallback = GetPipelineFallback();
 	Settings.SwapShare = CVarSwapShare.GetOnRenderThread();
+	Settings.SwapFrames = static_cast<uint64_t>(CVarSwapFrames.GetOnRenderThread());
 	Settings.ReloadSeconds = CVarReloadSeconds.GetOnRenderThread();
 	return Settings;
-}
-
-uint32_t GetThreadCount()
-{
-	const int32_t Asked = CVarThreads.GetOnRenderThread();
-	const uint32_t Cores = std::max(1u, std::thread::hardware_concurrency());
-	return Asked > 0 ? static_cast<uint32_t>(Asked) : std::max(1u, Cores - 1);
 }
 } // namespace
 
@@ -114,7 +107,7 @@ void FRTPSOCompiler::FImpl::Begin(const FRTPSODesc& Desc, bool bFinish)
 {
 	TellPacer();
 	if (NewPriorities) { Scheduler.SetPriorities(std::exchange(NewPriorities, std::nullopt).value()); }
-	Threads.SetCount(GetThreadCount());
+	Threads.SetCount(GetPipelineThreadCount());
 	Scheduler.BeginFrame(Desc, GetSettings(), bFinish);
 	Taken = Scheduler.GetCurrent();
 }
@@ -174,11 +167,11 @@ void FRTPSOCompiler::Update(const FRTPSODesc& Wanted)
 	Impl->Scheduler.Advance();
 }
 
-FRTStatus FRTPSOCompiler::Finish(const FRTPSODesc& Wanted, const std::function<void(float)>& Progress)
+FRTStatus FRTPSOCompiler::Finish(const FRTPSODesc& Wanted, const std::function<void(float)>& Progress, bool bStandIns)
 {
 	std::unique_lock Lock(Impl->Mutex);
 	if (Impl->Scheduler.IsLost()) { return Impl->Scheduler.FindFatalError(); }
-	Impl->Begin(Wanted, true);
+	Impl->Begin(Wanted, !bStandIns);
 	// The usual frame: nothing is new.
 	if (Impl->Scheduler.BeginFinish()) { return FRTStatus::Success(); }
 	const FRTStatus Status = Impl->FinishAll(Lock, Wanted, Progress);
@@ -202,7 +195,7 @@ void FRTPSOCompiler::SetPriorities(std::vector<FProgramPriority> ByProgram) { Im
 void FRTPSOCompiler::Reload()
 {
 	const std::lock_guard Lock(Impl->Mutex);
-	Impl->Threads.SetCount(GetThreadCount());
+	Impl->Threads.SetCount(GetPipelineThreadCount());
 	Impl->Scheduler.AskForEdits();
 }
 

@@ -54,6 +54,7 @@ void FRTPSOScheduler::TakeOverLink()
 	bDirty = true; // more may have become ready since
 	if (!Links.Take(Frame)) { return; }
 	++Stats.Links;
+	LastSwap = Frame;
 	Pacer.Swapped();
 }
 
@@ -65,7 +66,7 @@ void FRTPSOScheduler::Advance()
 		StartRound(false);
 		StartLink(false);
 	}
-	else if (bHeld && Pacer.MayLink(Time(), HeldSwap)) { StartLink(false); }
+	else if (bHeld && MayLink()) { StartLink(false); }
 	if (Settings.ReloadSeconds > 0.0f && Time() > NextFindEdits)
 	{
 		NextFindEdits = Time() + std::chrono::milliseconds(static_cast<int64_t>(Settings.ReloadSeconds * 1000.0f));
@@ -115,6 +116,9 @@ void FRTPSOScheduler::StartLink(bool bExact)
 	if (Links.Ask(std::move(Plan), bExact)) { OnWork(); }
 }
 
+/// Whether the time has come for HeldSwap.
+bool FRTPSOScheduler::MayLink() const { return Frame - LastSwap >= Settings.SwapFrames && Pacer.MayLink(Time(), HeldSwap); }
+
 /// Whether Plan, which has more than the current pipeline, is to wait.
 bool FRTPSOScheduler::HoldBack(const FLinkPlan& Plan)
 {
@@ -125,7 +129,7 @@ bool FRTPSOScheduler::HoldBack(const FLinkPlan& Plan)
 	HeldSwap.InUse = static_cast<size_t>(std::count_if(Current.Plan.Hits.begin(), Current.Plan.Hits.end(), IsReady));
 	HeldSwap.New = CountNewPrograms(Current.Plan, Plan);
 	HeldSwap.bMore = Units.IsAnyToCome(Frame);
-	bHeld = !Pacer.MayLink(Time(), HeldSwap);
+	bHeld = !MayLink();
 	if (!bHeld) { Pacer.LinkStarted(); }
 	return bHeld;
 }
@@ -135,6 +139,7 @@ bool FRTPSOScheduler::BeginFinish()
 	bHeld = false;
 	if (!bDirty && bFinished) { return true; }
 	Units.ForgetShortages();
+	if (IsShortage(Links.GetStatus())) { Links.ForgetFailure(); }
 	bNoDeadline = true;
 	return false;
 }
@@ -142,7 +147,8 @@ bool FRTPSOScheduler::BeginFinish()
 bool FRTPSOScheduler::AdvanceUnits()
 {
 	StartRound(true);
-	return Units.CountSettled() == Units.GetWanted().All.size() || !FindFatalError();
+	// What is neither settled nor to come has met a shortage of memory.
+	return !Units.IsAnyToCome(Frame) || !FindFatalError();
 }
 
 bool FRTPSOScheduler::AddStandIns(const FRTPSODesc& Desc)
@@ -176,7 +182,8 @@ std::optional<FRTStatus> FRTPSOScheduler::AdvanceLink()
 void FRTPSOScheduler::EndFinish(const FRTStatus& Status)
 {
 	bNoDeadline = false;
-	bFinished = Status.IsOk();
+	// The next Finish tries again what had no memory, though an older version serves.
+	bFinished = Status && Units.CountSettled() == Units.GetWanted().All.size();
 	bDirty = !Status;
 }
 

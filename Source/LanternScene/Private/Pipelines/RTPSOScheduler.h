@@ -21,6 +21,7 @@ struct FRTPSOSettings
 	uint64_t KeepFrames = 1000;                 ///< r.RT.Pipeline.KeepFrames
 	ERTFallback Fallback = ERTFallback::StandIn;
 	float SwapShare = 0.2f;     ///< r.RT.Pipeline.SwapShare
+	uint64_t SwapFrames = 1;    ///< r.RT.Pipeline.SwapFrames
 	float ReloadSeconds = 0.0f; ///< r.RT.Pipeline.ReloadSeconds
 };
 
@@ -49,7 +50,7 @@ public:
 	    const FRTCapabilities& Capabilities, const FMaterialPrograms& Programs, FPipelineTimeSource InTime, std::function<void()> InOnWork);
 
 	// ---- The render thread
-	/// Takes over a link that has ended, and wants Desc. bFinish: FRTPSOCompiler::Finish, which wants no stand-ins at first.
+	/// Takes over a link that has ended, and wants Desc. bFinish: for a complete picture, which wants no stand-ins at first.
 	void BeginFrame(const FRTPSODesc& Desc, const FRTPSOSettings& InSettings, bool bFinish);
 	/// Starts what is missing. After BeginFrame.
 	void Advance();
@@ -61,7 +62,8 @@ public:
 	// ---- The render thread, in FRTPSOCompiler::Finish
 	/// True: an earlier Finish has compiled and linked everything that BeginFrame wants. False: the work begins.
 	bool BeginFinish();
-	/// Compiles what is missing, without a deadline. True: all wanted units are settled, or there is a fatal error.
+	/// Compiles what is missing, without a deadline. True: all wanted units are settled or have met a shortage of memory, or there
+	/// is a fatal error.
 	bool AdvanceUnits();
 	/// Wants stand-ins, if a hit program has failed and may have one. True: units are to be compiled again.
 	bool AddStandIns(const FRTPSODesc& Desc);
@@ -99,6 +101,7 @@ private:
 	void CloseRoundIfOver();
 	void StartLink(bool bExact);
 	bool HoldBack(const FLinkPlan& Plan);
+	bool MayLink() const;
 	void StoreFailure(const FUnitTask& Task, const FRTStatus& Status);
 	void LoseDevice(const FRTStatus& Error);
 	void DropOld();
@@ -115,6 +118,7 @@ private:
 	FRTPSOFailureLog Failures;
 	FRTPSOCompilerStats Stats;
 	uint64_t Frame = 0;
+	uint64_t LastSwap = 0; ///< frame
 	uint64_t NextBuild = 1;
 	uint64_t Results = 0;
 	uint64_t RetryFrame = 0;  ///< when to try again what failed for want of memory; 0: nothing did

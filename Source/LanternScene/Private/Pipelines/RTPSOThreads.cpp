@@ -5,29 +5,12 @@
 #include <chrono>
 #include <string>
 
-#ifdef __linux__
-#include <sys/resource.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-#endif
-
 #include "LanternCore/Tasks/TaskTrace.h"
+#include "Pipelines/GiveWay.h"
 #include "Pipelines/RTPSOLink.h"
 
 namespace Lantern
 {
-
-namespace
-{
-/// Lets frames go first on a machine with fewer cores than threads. Linux gives each thread a nice value of its own.
-void GiveWayToFrames()
-{
-#ifdef __linux__
-	constexpr int Nice = 10;
-	(void)setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), Nice);
-#endif
-}
-} // namespace
 
 FRTPSOThreads::FRTPSOThreads(std::mutex& InMutex, FRTPSOScheduler& InScheduler, const FUnitCompiler& InCompiler, IRTDevice& InDevice)
     : Mutex(InMutex),

@@ -187,6 +187,7 @@ void FObjectMotions::Update(bool bWanted)
 
 void FObjectMotions::EndFrame(bool bSubmitted)
 {
+	const bool bMoved = !Moves.empty() || !Deformed.empty();
 	for (const FRTGeometryRef& Geometry : Deformed)
 	{
 		Geometry->bMotionMarked = false;
@@ -195,6 +196,7 @@ void FObjectMotions::EndFrame(bool bSubmitted)
 	Deformed.clear();
 	if (!bSubmitted) { return; }
 	++Frame;
+	if (bMoved) { LastMoved = Frame; }
 	for (const FMove& Move : Moves) { States[Move.Object].Move = None; }
 	const bool bTooLarge = Moves.capacity() > LargeTable && Moves.size() < Moves.capacity() / 16;
 	Moves.clear();

@@ -57,7 +57,6 @@ FSectionRangeId FSectionTable::Acquire(const FRTGeometry& Geometry, const std::v
 	{
 		Table.Set(Allocator.GetCapacity() - 1, FSectionData{});
 		HitPrograms.Resize(Table.Num());
-		IsChanged.resize(Table.Num(), false);
 	}
 	Links[Id].Hash = Hash;
 	LinkHash(Id);
@@ -277,11 +276,7 @@ bool FSectionTable::Write(uint32_t Section, const FSectionData& Data, FHitProgra
 	if (bOtherData) { Table.Set(Section, Data); }
 	const bool bOtherProgram = HitPrograms.Set(Section, Program);
 	if (!bOtherData && !bOtherProgram) { return false; }
-	if (!IsChanged[Section])
-	{
-		Changed.push_back(Section);
-		IsChanged[Section] = true;
-	}
+	Changes.Add(Section);
 	return bOtherProgram;
 }
 
@@ -289,12 +284,6 @@ std::vector<FSectionRangeId> FSectionTable::TakeChangedRanges()
 {
 	for (const FSectionRangeId Id : ChangedRanges) { Links[Id].bChanged = false; }
 	return std::exchange(ChangedRanges, {});
-}
-
-std::vector<uint32_t> FSectionTable::TakeChanged()
-{
-	for (const uint32_t Section : Changed) { IsChanged[Section] = false; }
-	return std::exchange(Changed, {});
 }
 
 } // namespace Lantern

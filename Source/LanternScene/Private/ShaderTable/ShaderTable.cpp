@@ -76,13 +76,13 @@ private:
 uint32_t WithRoom(uint32_t Has, uint32_t Needed) { return Has >= Needed ? Has : Needed + Needed / 2; }
 } // namespace
 
-FRTStatus FShaderTable::Prepare(const FRTPSO& Pipeline, FSectionTable& Sections)
+FRTStatus FShaderTable::Prepare(const FRTPSO& Pipeline, const FSectionTable& Sections)
 {
 	Stats = {};
 	const bool bRewriteEachFrame = CVarMode.GetOnRenderThread() == 0;
 	const bool bSameSections = BoundSections == Sections.GetIdentity() && RayTypes == Pipeline.GetRayTypeCount() && !bRewrite;
 	const bool bSamePipeline = BoundPipeline == Pipeline.GetPipeline() && Table;
-	if (bSameSections && bSamePipeline && !Sections.HasChanged() && !bRewriteEachFrame)
+	if (bSameSections && bSamePipeline && !Sections.HasChanged(Seen) && !bRewriteEachFrame)
 	{
 		return bPending ? Table->Stage() : FRTStatus::Success();
 	}
@@ -101,7 +101,7 @@ FRTStatus FShaderTable::Prepare(const FRTPSO& Pipeline, FSectionTable& Sections)
 		SetGeneralRecords(Pipeline);
 		GroupsRevision = ~0ull;
 	}
-	std::vector<uint32_t> Changed = Sections.TakeChanged();
+	std::vector<uint32_t> Changed = Sections.TakeChanged(Seen);
 	LookUpGroups(Pipeline, Sections);
 	if (bRewrite) { WriteAll(Sections); }
 	else if (!bSamePipeline) { WriteHandles(Sections); }
@@ -228,7 +228,7 @@ FRTStatus FShaderTable::Record(IRTCommandList& List)
 	return FRTStatus::Success();
 }
 
-FRTStatus FShaderTable::Sync(IRTCommandList& List, const FRTPSO& Pipeline, FSectionTable& Sections)
+FRTStatus FShaderTable::Sync(IRTCommandList& List, const FRTPSO& Pipeline, const FSectionTable& Sections)
 {
 	const FRTStatus Status = Prepare(Pipeline, Sections);
 	return Status ? Record(List) : Status;

@@ -77,8 +77,10 @@ public:
 	void Update(const FRTPSODesc& Wanted);
 	/// Waits until everything in Wanted is compiled or has failed, and links it: for loading, and for complete pictures.
 	/// Progress (0 to 1) may be empty. Returns an error if there is no pipeline of Wanted: a miss shader, the standard material,
-	/// or the link has failed. A failure of other hit programs or ray generation shaders is no error: see Update.
-	FRTStatus Finish(const FRTPSODesc& Wanted, const std::function<void(float)>& Progress = {});
+	/// or the link has failed. A failure of other hit programs or ray generation shaders is no error: see Update. Without memory for
+	/// a shader it is an error, unless an older version serves. The next call tries again.
+	/// bStandIns: makes stand-ins as well, as Update does, so that an Update behind it finds nothing to do.
+	FRTStatus Finish(const FRTPSODesc& Wanted, const std::function<void(float)>& Progress = {}, bool bStandIns = false);
 	/// The RTPSO of this frame; null before the first link. Changes only in Update and Finish.
 	std::shared_ptr<const FRTPSO> GetCurrent() const;
 

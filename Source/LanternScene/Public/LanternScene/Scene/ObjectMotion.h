@@ -46,6 +46,9 @@ public:
 	void EndFrame(bool bSubmitted);
 	/// Counts the frames that any renderer submitted. The motions lead back to the newest of them.
 	uint32_t GetFrame() const { return Frame; }
+	/// Whether a frame after number Since was the first that showed something move. Whoever showed the scene at Since, and not since
+	/// then, would take the motion of this frame for that since its own.
+	bool HasMovedSince(uint32_t Since) const { return LastMoved > Since; }
 
 	TGpuTable<FObjectMotion>& GetTable() { return Table; }
 	const TGpuTable<FObjectMotion>& GetTable() const { return Table; }
@@ -93,6 +96,7 @@ private:
 	std::unordered_map<const FRTGeometry*, FDeformable> Deformables;
 	std::vector<FRTGeometryRef> Deformed; // in this frame, each once
 	uint32_t Frame = 1;                   // counts submitted ones
+	uint32_t LastMoved = 0;               // number of the last frame in which something moved
 	uint32_t UpdateNumber = 0;
 	uint32_t MostEntries = 0; // since the table was empty
 };

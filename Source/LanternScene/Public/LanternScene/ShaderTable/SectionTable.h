@@ -13,6 +13,7 @@
 #include "LanternScene/Memory/GpuTable.h"
 #include "LanternScene/Pipelines/MaterialPrograms.h"
 #include "LanternScene/Scene/Object.h"
+#include "LanternScene/ShaderTable/ChangeJournal.h"
 #include "LanternScene/ShaderTable/HitProgramIndex.h"
 #include "LanternScene/ShaderTable/SectionAllocator.h"
 #include "SceneTypes.h"
@@ -86,7 +87,7 @@ public:
 	/// Some may come twice. Those that are gone meanwhile have expired, whoever has their slot now.
 	std::vector<std::weak_ptr<const FRTGeometry>> TakeRefutedGeometries() { return std::exchange(RefutedGeometries, {}); }
 	bool HasRefutedGeometries() const { return !RefutedGeometries.empty(); }
-	bool HasChanged() const { return !Changed.empty(); } ///< TakeChanged would return some
+	bool HasChanged(FChangeCursor Seen) const { return Changes.HasChangedSince(Seen); } ///< TakeChanged would return some
 
 	const FSectionData& Get(uint32_t Section) const { return Table[Section]; }
 	uint32_t GetCapacity() const { return Table.Num(); } ///< one past the greatest section that was ever in use

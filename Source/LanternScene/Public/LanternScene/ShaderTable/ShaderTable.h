@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "LanternRHI/RTInterfaces.h"
+#include "LanternScene/ShaderTable/ChangeJournal.h"
 #include "SceneTypes.h"
 
 namespace Lantern
@@ -32,14 +33,14 @@ class FShaderTable
 public:
 	explicit FShaderTable(IRTDevice& InDevice) : Device(InDevice) {}
 
-	/// Does everything but recording (pre-binding). Takes the changes of Sections, so that only one FShaderTable at a time
-	/// can serve a table of sections. Any thread, also beside the recording of earlier passes. Sections must not change
-	/// meanwhile. After an error the next call does what is missing.
-	FRTStatus Prepare(const FRTPSO& Pipeline, FSectionTable& Sections);
+	/// Does everything but recording (pre-binding). Reads the changes of Sections since the last call: several FShaderTables can
+	/// serve one table of sections, such as those of two renderers. Any thread, also beside the recording of earlier passes.
+	/// Sections must not change meanwhile. After an error the next call does what is missing.
+	FRTStatus Prepare(const FRTPSO& Pipeline, const FSectionTable& Sections);
 	/// Records the copy of what Prepare staged, if anything. Runs on the thread that records List.
 	FRTStatus Record(IRTCommandList& List);
 	/// Calls Prepare, then Record.
-	FRTStatus Sync(IRTCommandList& List, const FRTPSO& Pipeline, FSectionTable& Sections);
+	FRTStatus Sync(IRTCommandList& List, const FRTPSO& Pipeline, const FSectionTable& Sections);
 	/// Makes the next Record copy everything again: what was recorded last was never submitted.
 	void Invalidate();
 	/// Null before the first Prepare, which makes the table. Later ones may make another: do not call this while one runs.
@@ -59,6 +60,7 @@ private:
 	TRTRef<IRTShaderTable> Table;
 	const IRTPipeline* BoundPipeline = nullptr; // identity only; the table keeps it
 	uint64_t BoundSections = 0;                 // FSectionTable::GetIdentity
+	FChangeCursor Seen = 0;                     // changes of BoundSections whose records are written
 	uint32_t RayTypes = 0;
 	uint32_t RecordsUsed = 0;     // hit records that were ever written
 	std::vector<uint32_t> Groups; // by number of the hit program (FHitProgramIndex) and ray type

@@ -1,0 +1,61 @@
+// FRenderer between frames: which shaders frames will run, and all of them compiled at load.
+#include <cassert>
+
+#include "DebugView/DebugView.h"
+#include "FrameChoices.h"
+#include "LanternCore/Config/ConsoleVariables.h"
+#include "Lighting/DirectLighting.h"
+#include "RayPrograms.h"
+#include "ToneMap/ToneMap.h"
+
+namespace Lantern
+{
+
+namespace
+{
+/// What AddFramePasses adds beside the signals.
+void ListCompositeShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& Out)
+{
+	Out.push_back(MakeLightingSource(Facts));
+	Out.push_back(MakeToneMapSource());
+	if (GetDebugView() != ESignal::Frame) { Out.push_back(MakeDebugViewSource()); }
+}
+} // namespace
+
+FRayPrograms FRenderer::ChoosePrograms(FRTScene& Scene, const FFrameFeatures& Features)
+{
+	assert(!Graph && "between frames");
+	FConsoleVariables::Get().BeginFrame();
+	ApplySceneVariables(Scene);
+	Scene.RefreshFacts();
+	return ChooseRayPrograms(Device.GetCapabilities(), Scene, Features, CompleteRequests(Features.Signals), AllSignals());
+}
+
+FRTPSODesc FRenderer::GetRayPrograms(FRTScene& Scene, const FFrameFeatures& Features) { return ChoosePrograms(Scene, Features).Desc; }
+
+FRTStatus FRenderer::Precache(FRTScene& Scene, const FFrameFeatures& Features, const std::function<void(float)>& Progress)
+{
+	FRayPrograms Wanted = ChoosePrograms(Scene, Features);
+	if (!Features.bReference && !Features.Signals.bNothingElse) { ListCompositeShaders(Scene.GetFacts(), Wanted.Compute); }
+	Pipelines.Want(Wanted.Compute); // beside the ray-tracing pipeline
+	const FRTPSODesc& Rays = Wanted.Desc;
+	const size_t RayCount = Rays.RayGens.size() + Rays.RayTypes.size() * (1 + Rays.HitPrograms.size());
+	const float RayShare = RayCount == 0 ? 0.0f : float(RayCount) / float(RayCount + Wanted.Compute.size());
+	const auto Report = [&](float Begin, float Share) {
+		return Progress ? std::function<void(float)>([=, &Progress](float Done) { Progress(Begin + Share * Done); }) : nullptr;
+	};
+	FRTStatus Status;
+	if (!Rays.RayGens.empty()) { Status = RayCompiler.Finish(Rays, Report(0.0f, RayShare), !WaitsForPipelines(Features)); }
+	const FRTStatus Compute = Pipelines.Finish(Wanted.Compute, Report(RayShare, 1.0f - RayShare));
+	return Status ? Compute : Status;
+}
+
+std::string FRenderer::GetRayShaderKey(FRTScene& Scene, const FFrameFeatures& Features)
+{
+	const std::vector<FShaderSource> Sources = ListShaders(GetRayPrograms(Scene, Features), Programs);
+	std::string Key;
+	for (const FShaderSource& Source : Sources) { Key += Compiler.GetKey(Source) + "/"; }
+	return Key;
+}
+
+} // namespace Lantern
