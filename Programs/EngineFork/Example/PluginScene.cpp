@@ -21,7 +21,7 @@ FError FPluginScene::Create(
 	Desc.QueueFamily = Owner.QueueFamily;
 	Desc.Requirements = &Requirements;
 	FError Error = ToError(Module.GetVulkan()->AdoptDevice(Desc, Device.ReleaseAndGetAddress()), "AdoptDevice");
-	if (Error.empty()) { Error = ToError(Module.CreateRenderer(Device.Get(), Renderer.ReleaseAndGetAddress()), "CreateRenderer"); }
+	if (Error.empty()) { Error = ToError(Module.CreateRenderer(Device.Get(), {}, Renderer.ReleaseAndGetAddress()), "CreateRenderer"); }
 	return Error;
 }
 
@@ -223,8 +223,9 @@ FError FPluginScene::Render(VkCommandBuffer Commands, const FCamera& Camera, boo
 		Frame.View.Forward[Axis] = static_cast<float>(Camera.Forward[Axis]);
 		Frame.View.Up[Axis] = static_cast<float>(Camera.Up[Axis]);
 	}
-	Frame.View.FovY = static_cast<float>(Camera.FovY);
-	Frame.View.Near = static_cast<float>(Camera.Near);
+	const FRTTextureDesc& Size = Depth->GetDesc();
+	const float Aspect = static_cast<float>(Size.Width) / static_cast<float>(Size.Height);
+	Frame.View.Projection = MakeProjection(static_cast<float>(Camera.FovY), Aspect, static_cast<float>(Camera.Near));
 	const auto Now = std::chrono::steady_clock::now();
 	const std::chrono::duration<float> Since = Now - std::exchange(LastFrame, Now);
 	Frame.DeltaSeconds = std::clamp(Since.count(), 1e-4f, 1.0f); // the first frame has none before it

@@ -11,24 +11,10 @@
 namespace Lantern
 {
 
-namespace
-{
-
-glm::dmat4 ToMatrix(const double Rows[12])
-{
-	glm::dmat4 Matrix(1.0);
-	for (int Row = 0; Row < 3; ++Row)
-	{
-		for (int Column = 0; Column < 4; ++Column) { Matrix[Column][Row] = Rows[Row * 4 + Column]; }
-	}
-	return Matrix;
-}
-
-} // namespace
-
-FModuleRenderer::FModuleRenderer(IRTModule& InOwner, IRTDevice& InDevice, FRendererDesc Desc)
+FModuleRenderer::FModuleRenderer(IRTModule& InOwner, IRTDevice& InDevice, const FModuleWorld& InWorld, FRendererDesc Desc)
     : Owner(&InOwner),
       Device(&InDevice),
+      World(InWorld),
       Scene(InDevice),
       Renderer(InDevice, std::move(Desc)),
       Uploader(InDevice),
@@ -137,7 +123,7 @@ FRTStatus FModuleRenderer::AddObject(const FRTModuleObject& Object, ERTObjectHan
 	if (Status) { Status = ResolveMaterials(Info.Geometry->GetInfo(), Object.Materials, Object.MaterialCount, Info.Materials); }
 	if (Status)
 	{
-		Info.Transform = ToMatrix(Object.Transform);
+		Info.Transform = World.ToTransform(Object.Transform);
 		Info.Mask = Object.bCastsShadow ? MaskAll : MaskVisible;
 		const std::vector<uint32_t> Used = Info.Materials;
 		const FRTObjectId Id = Scene.AddObject(std::move(Info));
@@ -156,7 +142,7 @@ FRTStatus FModuleRenderer::SetObjectTransform(ERTObjectHandle Handle, const doub
 {
 	const FObject* const Object = Objects.Find(Handle);
 	const FRTStatus Status = Object != nullptr ? CheckTransform(Transform) : RefuseHandle("SetObjectTransform", "object");
-	if (Status) { Scene.SetTransform(Object->Id, ToMatrix(Transform)); }
+	if (Status) { Scene.SetTransform(Object->Id, World.ToTransform(Transform)); }
 	return Status;
 }
 
@@ -188,7 +174,7 @@ FRTStatus FModuleRenderer::SetSun(const FRTModuleSun& Sun)
 {
 	if (const FRTStatus Status = CheckSun(Sun); !Status) { return Status; }
 	FSunLight Light;
-	Light.Direction = {Sun.Direction[0], Sun.Direction[1], Sun.Direction[2]};
+	Light.Direction = World.ToDirection(Sun.Direction);
 	Light.Color = {Sun.Color[0], Sun.Color[1], Sun.Color[2]};
 	Light.Irradiance = Sun.Irradiance;
 	Light.AngularDiameter = Sun.AngularDiameter;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,10 @@
 #include "LanternModule/Module.h"
 #include "LanternRHICommon/RefCounted.h"
 #include "LanternRenderer/Frame.h"
+#include "LanternRenderer/HostProjection.h"
 #include "LanternScene/Memory/Upload.h"
 #include "LanternScene/Scene/Scene.h"
+#include "ModuleWorld.h"
 #include "SlotTable.h"
 
 namespace Lantern
@@ -21,7 +24,7 @@ class FModuleRenderer final : public TRefCounted<IRTModuleRenderer>
 {
 public:
 	/// Owner outlives the renderer: the library must not go while it is in use.
-	FModuleRenderer(IRTModule& InOwner, IRTDevice& InDevice, FRendererDesc Desc);
+	FModuleRenderer(IRTModule& InOwner, IRTDevice& InDevice, const FModuleWorld& InWorld, FRendererDesc Desc);
 	~FModuleRenderer() override;
 
 	FRTStatus AddMaterial(const FRTModuleMaterial& Material, ERTMaterialHandle* Out) override;
@@ -70,6 +73,14 @@ private:
 		std::string Name;
 	};
 
+	/// What a frame's views are to the renderer.
+	struct FFrameViews
+	{
+		FView View;
+		std::optional<FView> Previous;
+		FHostDepth Depth;
+	};
+
 	static uint32_t MakeTag();
 	FRTStatus UploadMesh(const FRTModuleMesh& Mesh, const std::vector<FVertexAttributes>& Attributes, FRTGeometryInfo& Out);
 	/// For a geometry's sections: Ok and their indices, or InvalidArgument.
@@ -82,15 +93,17 @@ private:
 	FRTStatus RefuseMesh(const char* Function, ERTMeshHandle Handle) const;
 	void StoreMaterial(FMaterial& Material, const FRTModuleMaterial& From);
 	FRTStatus RecordVertices(IRTCommandList& List);
-	FRTStatus RecordFrame(const FRTModuleFrame& Frame);
+	FRTStatus ReadViews(const FRTModuleFrame& Frame, FFrameViews& Out) const;
+	FRTStatus RecordFrame(const FRTModuleFrame& Frame, const FFrameViews& Views);
 	/// Fence: 0 when the list will never run.
 	void FinishVertices(FRTFence Fence);
-	void AddPasses(const FRTModuleFrame& Frame);
+	void AddPasses(const FRTModuleFrame& Frame, const FFrameViews& Views);
 	void HandToEngine(const FFrameOutputs& Made);
 	void ReleaseOutputs();
 
 	TRTRef<IRTModule> Owner;
 	TRTRef<IRTDevice> Device;
+	FModuleWorld World;
 	FRTScene Scene;
 	FRenderer Renderer;
 	FUploader Uploader;

@@ -6,7 +6,8 @@
 //   → each frame: RenderFrame into the engine's command buffer, submit it, EndFrame
 //   → Release everything, the device and the module last → unload the library
 //
-// Units: metres, radians, nits and lux; linear Rec.709; right-handed, y up. World positions are double precision.
+// Units: metres, radians, nits and lux; linear Rec.709; right-handed, y up. World positions are double precision. An engine with
+// other axes or another unit says so once, in FRTModuleRendererDesc, and hands over everything in its own world.
 // Threads: IRTModule may be called from any thread, a renderer from one thread at a time. Nothing throws. A handle is valid for
 // its renderer only.
 // Errors: every build checks what an engine passes, handles that are stale or of another renderer included. InvalidArgument says
@@ -126,6 +127,18 @@ struct FRTModuleSun
 	float AngularDiameter = 0.0f; ///< radians, 0 to π; 0: hard shadows
 };
 
+/// The engine's world: directions of its axes in a right-handed world with y up, and its unit. All that crosses the interface is
+/// in it: transforms, positions, directions, views and motion. Object space is the engine's, too. The default is Lantern's.
+struct FRTModuleRendererDesc
+{
+	/// Unit length, perpendicular to each other. A left-handed engine's are mirrored, which is fine.
+	float AxisX[3] = {1, 0, 0}, AxisY[3] = {0, 1, 0}, AxisZ[3] = {0, 0, 1};
+	float MetersPerUnit = 1.0f; ///< 0.01 for centimetres; > 0. It holds for the world; radiometric units are as above
+};
+
+/// Returns the world of Unreal Engine: centimetres, left-handed, x forward, y right, z up.
+inline FRTModuleRendererDesc MakeUnrealWorld() { return {{0, 0, -1}, {1, 0, 0}, {0, 1, 0}, 0.01f}; }
+
 /// A scene and the passes that render it.
 class IRTModuleRenderer : public IRTRefCounted
 {
@@ -179,7 +192,7 @@ public:
 	/// Returns the interface that adopts an engine's VkDevice; see ModuleVulkan.h. It lives as long as the module. Do not release.
 	virtual IRTModuleVulkan* GetVulkan() = 0;
 	/// Creates a renderer. Device comes from CreateDevice or IRTModuleVulkan::AdoptDevice, or is the engine's own IRTDevice.
-	virtual FRTStatus CreateRenderer(IRTDevice* Device, IRTModuleRenderer** Out) = 0;
+	virtual FRTStatus CreateRenderer(IRTDevice* Device, const FRTModuleRendererDesc& Desc, IRTModuleRenderer** Out) = 0;
 	/// Sets a console variable by name or alias, from text. Takes effect with the next frame. InvalidArgument names the nearest
 	/// known name.
 	virtual FRTStatus SetConsoleVariable(const char* Name, const char* Value) = 0;
