@@ -91,7 +91,7 @@ struct FEngineFrame
 	void Barriers(std::initializer_list<FRTBarrier> Items) { List->Barriers(Items.begin(), uint32_t(Items.size())); }
 
 	IRTDevice& Device;
-	FRTModuleView View = {{0, CameraHeight, 0}, {0, -1, 0}, {0, 0, -1}, FovY, Near}; // straight down
+	FRTModuleView View = {{0, CameraHeight, 0}, {0, -1, 0}, {0, 0, -1}, MakeProjection(FovY, 1.0f, Near)}; // straight down
 	TRTRef<IRTCommandList> List, Commands;
 	TRTRef<IRTTexture> Depth, Normals;
 	TRTRef<IRTBuffer> Readback;
@@ -119,7 +119,7 @@ int main(int Count, char** Arguments)
 	TRTRef<IRTDevice> Device;                                            // or AdoptDevice, for an engine's VkDevice
 	Check(Module->CreateDevice(bValidate, Device.ReleaseAndGetAddress()));
 	TRTRef<IRTModuleRenderer> Renderer;
-	Check(Module->CreateRenderer(Device.Get(), Renderer.ReleaseAndGetAddress()));
+	Check(Module->CreateRenderer(Device.Get(), {}, Renderer.ReleaseAndGetAddress()));
 	ERTMaterialHandle White = ERTMaterialHandle::None;
 	ERTMeshHandle Cube = ERTMeshHandle::None;
 	ERTObjectHandle Floor, Box; // by which an engine moves them

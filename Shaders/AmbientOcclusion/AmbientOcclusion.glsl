@@ -35,7 +35,7 @@ void TracePixel(uvec2 Pixel)
 		uint Index = View.FrameIndex * SamplesPerPixel + Sample;
 		vec3 Direction = SampleOcclusionDirection(Point.N, SobolOwen2(Index, Seed));
 		float Length = SampleOcclusionLength(SobolOwen2(Index, LengthSeed).x, Push.Radius);
-		if (dot(Point.Ng, Direction) > 0.0 && IsUnoccluded(Origin, Direction, Length)) { VisibleSamples += 1.0; }
+		if (LeavesSurface(View, Point.Ng, Direction) && IsUnoccluded(Origin, Direction, Length)) { VisibleSamples += 1.0; }
 	}
 	imageStore(Images[Push.Output], ivec2(Pixel), vec4(VisibleSamples / float(SamplesPerPixel)));
 }

@@ -13,7 +13,7 @@ const float Kernel[3] = float[3](0.25, 0.5, 0.25);
 
 float GetKernel(int Tap) { return Kernel[Tap % 3] * Kernel[Tap / 3]; }
 
-vec3 GetPosition(FViewConstants View, ivec2 Pixel, float Distance) { return CameraRay(View, vec2(Pixel) + 0.5) * Distance; }
+vec3 GetPosition(FViewConstants View, ivec2 Pixel, float Distance) { return RelativePosition(View, vec2(Pixel) + 0.5, Distance); }
 
 vec4 Filter(FViewConstants View, ivec2 Pixel, FSurface Surface)
 {
@@ -28,8 +28,8 @@ vec4 Filter(FViewConstants View, ivec2 Pixel, FSurface Surface)
 		if (Tap != Center) { Values[Tap] = texelFetch(Textures[Push.Input], clamp(P, ivec2(0), Size - 1), 0); }
 	}
 	vec3 Position = GetPosition(View, Pixel, Surface.Distance);
-	float Cosine = max(abs(dot(Surface.Normal, normalize(Position))), 0.05);
-	float Reach = Push.SigmaDepth * PixelAngle(View) * Surface.Distance * float(Push.Step) / sqrt(Cosine);
+	float Cosine = max(abs(dot(Surface.Normal, ViewDirection(View, Position))), 0.05);
+	float Reach = Push.SigmaDepth * PixelHeight(View, Surface.Distance) * float(Push.Step) / sqrt(Cosine);
 	float CenterValue = GetBrightness(GetSignal(Values[Center]));
 	float Narrow = 0.0;
 #ifdef WITH_EXTENT

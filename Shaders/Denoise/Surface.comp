@@ -19,7 +19,7 @@ void main()
 	{
 		vec3 Normal = OctDecode(texelFetch(Textures[Push.Normals], Pixel, 0).zw);
 		float Identity = Push.Motion == NO_TEXTURE ? 0.0 : MakeIdentity(texelFetch(Textures[Push.Motion], Pixel, 0).w);
-		Packed = PackSurface(FSurface(View.Near / Depth, Normal, Identity));
+		Packed = PackSurface(FSurface(DistanceFromDepth(View, Depth), Normal, Identity));
 	}
 	imageStore(Images[Push.Output], Pixel, vec4(Packed, 0.0, 0.0));
 }

@@ -19,9 +19,10 @@ layout(push_constant, scalar) uniform FPush { FTemporalConstants Push; };
 #include "Temporal/Blend.glsl"
 #include "Temporal/Store.glsl"
 
-FAccumulated Accumulate(FFrameEstimate Frame, FHistory History, ivec2 Size)
+// PreviousSize: of the history, pixels.
+FAccumulated Accumulate(FFrameEstimate Frame, FHistory History, ivec2 PreviousSize)
 {
-	float Unchanged = GetUnchangedShare(Frame, History, Size);
+	float Unchanged = GetUnchangedShare(Frame, History, PreviousSize);
 	float Noise = EstimateNoise(Frame, History.Past, Unchanged);
 	History.Past.Frames *= Unchanged;
 #if CHANNELS == 1
@@ -53,5 +54,5 @@ void main()
 	}
 	FFrameEstimate Frame = EstimateFrame();
 	FHistory History = ReprojectHistory(View, uvec2(Pixel), Surface);
-	Store(Pixel, Accumulate(Frame, History, Size), Frame.Extent);
+	Store(Pixel, Accumulate(Frame, History, ivec2(View.PreviousWidth, View.PreviousHeight)), Frame.Extent);
 }

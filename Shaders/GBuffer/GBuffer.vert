@@ -67,6 +67,7 @@ void main()
 	OutUV = vec4(Inputs.UV0, Inputs.UV1);
 	OutColor = Inputs.Color;
 	gl_Position = View.RelativeToClip * vec4(OutRelative, 1.0);
+	gl_Position.xy += View.ClipJitter * gl_Position.w;
 #ifdef MOTION
 	OutPreviousRelative = PreviousCameraRelativePosition(Scene, View, Object, Position, OutRelative);
 #endif

@@ -24,7 +24,7 @@ FGBufferPoint LoadGBufferPoint(FViewConstants View, uint Normals, ivec2 Pixel, f
 	vec4 OctNormals = texelFetch(Textures[Normals], Pixel, 0);
 	FGBufferPoint Point;
 	Point.Relative = RelativePositionFromDepth(View, uvec2(Pixel), Depth);
-	Point.V = -normalize(Point.Relative);
+	Point.V = -ViewDirection(View, Point.Relative);
 	Point.N = OctDecode(OctNormals.xy);
 	Point.BentN = BendNormal(Point.N, Point.V);
 	Point.Ng = OctDecode(OctNormals.zw);

@@ -79,21 +79,26 @@ FReprojection Reproject(FViewConstants View, uint PreviousSurface, uvec2 Pixel, 
 {
 	FReprojection R = FReprojection(ivec2(0), vec4(0.0), 0.0, vec2(0.0), Motion.z, 0.0);
 	if (!AreFinite(Motion) || Motion.z <= 0.0 || Now.Distance <= 0.0) { return R; }
-	vec2 Position = vec2(Pixel) + Motion.xy;
+	vec2 Position = vec2(Pixel) + Motion.xy, Size = vec2(View.PreviousWidth, View.PreviousHeight);
+	// The pixel's centre counts where the resolution has changed. The test keeps rounding away where it has not.
+	if (View.PreviousWidth != View.Width || View.PreviousHeight != View.Height)
+	{
+		Position = (Position + 0.5) * Size / vec2(View.Width, View.Height) - 0.5;
+	}
 #ifdef NO_VALIDATION
-	Position = clamp(Position, vec2(0.0), vec2(View.Width, View.Height) - 1.0);
+	Position = clamp(Position, vec2(0.0), Size - 1.0);
 #endif
-	if (any(lessThan(Position, vec2(-1.0))) || any(greaterThan(Position, vec2(View.Width, View.Height)))) { return R; }
+	if (any(lessThan(Position, vec2(-1.0))) || any(greaterThan(Position, Size))) { return R; }
 	vec2 Corner = floor(Position), F = Position - Corner;
 	R.Base = ivec2(Corner);
 	float Cosine = max(abs(dot(Now.Normal, ToCamera)), 0.03);
 	R.Fraction = F;
-	R.DistanceSlope = Motion.z * PixelAngle(View) * sqrt(1.0 - min(Cosine * Cosine, 1.0)) / Cosine;
+	R.DistanceSlope = PixelHeight(View, Motion.z) * sqrt(1.0 - min(Cosine * Cosine, 1.0)) / Cosine;
 	vec4 Bilinear = vec4((1.0 - F.x) * (1.0 - F.y), F.x * (1.0 - F.y), (1.0 - F.x) * F.y, F.x * F.y);
 	for (int Tap = 0; Tap < 4; ++Tap)
 	{
 		ivec2 P = GetTap(R, Tap);
-		bool bInside = all(greaterThanEqual(P, ivec2(0))) && all(lessThan(P, ivec2(View.Width, View.Height)));
+		bool bInside = all(greaterThanEqual(P, ivec2(0))) && all(lessThan(P, ivec2(Size)));
 		if (bInside && IsSameSurface(Now, LoadSurface(PreviousSurface, P), Motion.z, R.DistanceSlope)) { R.Weights[Tap] = Bilinear[Tap]; }
 	}
 	R.Coverage = dot(R.Weights, vec4(1.0));

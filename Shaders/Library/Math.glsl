@@ -70,10 +70,10 @@ vec3 OffsetRayOrigin(vec3 P, vec3 Ng, float ObjectReach, float TraceDistance)
 
 // Offsets a point that was reconstructed from rasterised depth. The rasteriser snaps vertices to a grid of 1/256 of a pixel
 // (VkPhysicalDeviceLimits::subPixelPrecisionBits), by up to half a step. The surface's depth moves with them.
-// PixelWidth: width of a pixel at the point, metres.
-vec3 OffsetRasterPoint(vec3 P, vec3 Ng, float ObjectReach, float PixelWidth)
+// PixelWidth: width of a pixel at the point, metres. DepthError: of the point along Ng, by its depth's precision, metres.
+vec3 OffsetRasterPoint(vec3 P, vec3 Ng, float ObjectReach, float PixelWidth, float DepthError)
 {
-	return P + Ng * (PositionError(P, ObjectReach, 0.0) + PixelWidth * (1.0 / 256.0));
+	return P + Ng * (PositionError(P, ObjectReach, 0.0) + PixelWidth * (1.0 / 256.0) + DepthError);
 }
 
 #endif

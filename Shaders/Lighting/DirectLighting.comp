@@ -92,6 +92,6 @@ void main()
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
 	vec3 Radiance = Depth > 0.0 ? ShadeSurface(Scene, View, ivec2(Pixel), Depth)
-	                            : ShadeSky(Scene, normalize(CameraRay(View, vec2(Pixel) + 0.5)));
+	                            : ShadeSky(Scene, CameraRay(View, vec2(Pixel) + 0.5));
 	imageStore(Images[Push.Output], ivec2(Pixel), vec4(Radiance, 1.0));
 }

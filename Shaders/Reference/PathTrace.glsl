@@ -87,8 +87,9 @@ void TracePixel()
 #else
 		vec2 SubPixel = NextRandom4(Random).xy;
 		if (Push.bPixelCenters != 0u) { SubPixel = vec2(0.5); }
-		vec3 Direction = normalize(CameraRay(View, vec2(Pixel) + SubPixel));
-		Sum += vec4(TraceSample(Scene, View.CameraPosition, Direction, Random), 1.0);
+		vec2 Point = vec2(Pixel) + SubPixel;
+		vec3 Origin = View.CameraPosition + CameraRayStart(View, Point);
+		Sum += vec4(TraceSample(Scene, Origin, CameraRay(View, Point), Random), 1.0);
 #endif
 	}
 	SumBuffer.Data[Index] = Sum;

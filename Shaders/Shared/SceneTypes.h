@@ -180,22 +180,31 @@ struct FSceneConstants
 };
 LANTERN_ASSERT_SIZE(FSceneConstants, 160);
 
-// A camera. Positions are relative to the scene's origin.
+// A camera, as passes see it whatever the host's conventions are: FView has them, HostProjection.h makes it of a matrix.
+// Positions are relative to the scene's origin.
 struct FViewConstants
 {
-	mat4 RelativeToClip; // clip space from positions relative to the camera; reversed, infinite depth
+	mat4 RelativeToClip; // clip space from positions relative to the camera, without jitter; depth is reversed and infinite
 	vec3 CameraPosition;
-	float TanHalfFovY;
+	float PixelSize; // height of a pixel at distance 1; orthographic: at any distance, metres
 	vec3 CameraRight;
-	float Aspect;
-	vec3 CameraUp;
 	float Near;
+	vec3 CameraUp;
+	uint bOrthographic;
 	vec3 CameraForward;
 	uint FrameIndex;
+	// Coordinates along CameraRight and CameraUp at distance 1 (orthographic: metres) of a point of the picture, jitter included:
+	// point · scale + offset, the point in pixels.
+	vec2 RayScale;
+	vec2 RayOffset;
+	vec2 ClipJitter; // what a raster adds to xy of clip space, times w
 	uint Width;
 	uint Height;
 	uint Seed;
 	float Exposure; // factor, not stops
+	// Error of a distance along the view that its depth texel has: x + y · distance + z · distance², metres.
+	vec3 DepthError;
+	float NormalError; // sine of the angle by which geometric normals may be off; 0: they are exact
 	// The previous frame, for reprojection. A point's position relative to the previous camera is its position relative to this
 	// camera plus CameraMotion.
 	mat4 PreviousRelativeToClip;
@@ -203,9 +212,11 @@ struct FViewConstants
 	float PreviousNear;
 	vec3 PreviousForward; // unit length
 	float DeltaSeconds; // since the previous frame
-	uint bHistory; // 0: there is no usable previous frame (first frame, cut, another size); the members above are this frame's
+	uint PreviousWidth;
+	uint PreviousHeight;
+	uint bHistory; // 0: there is no usable previous frame (first frame, cut); the members above are this frame's
 };
-LANTERN_ASSERT_SIZE(FViewConstants, 244);
+LANTERN_ASSERT_SIZE(FViewConstants, 292);
 
 // The first push constants of every pass. Those of the pass itself follow.
 struct FPassConstants

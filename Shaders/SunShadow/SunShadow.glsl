@@ -44,7 +44,7 @@ void TracePixel(uvec2 Pixel)
 	{
 		vec3 Direction = -Scene.SunDirection;
 		if (Push.bSoft != 0u) { Direction = SampleSunDirection(Scene, SobolOwen2(Sequence.Index * SamplesPerPixel + Sample, Sequence.Seed)); }
-		if (dot(Point.Ng, Direction) <= 0.0) { continue; }
+		if (!LeavesSurface(View, Point.Ng, Direction)) { continue; }
 		float BlockerDistance = TraceSunRay(Origin, Direction);
 		VisibleSamples += BlockerDistance < 0.0 ? 1.0 : 0.0;
 		BlockedSamples += BlockerDistance < 0.0 ? 0.0 : 1.0;
@@ -57,8 +57,8 @@ void TracePixel(uvec2 Pixel)
 	float Penumbra = VisibleSamples < float(SamplesPerPixel) ? 1.0e-3 : 0.0;
 	if (BlockedSamples > 0.0)
 	{
-		float Foreshortening = abs(dot(Point.Ng, normalize(Point.Relative)));
-		Penumbra = Diameter * BlockerDistanceSum / BlockedSamples * Foreshortening / (PixelAngle(View) * (View.Near / Depth));
+		float Foreshortening = abs(dot(Point.Ng, Point.V));
+		Penumbra = Diameter * BlockerDistanceSum / BlockedSamples * Foreshortening / PixelHeight(View, DistanceFromDepth(View, Depth));
 	}
 	StorePenumbra(Pixel, Penumbra);
 }

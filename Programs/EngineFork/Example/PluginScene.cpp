@@ -26,7 +26,7 @@ FError FPluginScene::Create(
 	Desc.UnlockQueue = [](void* User) { static_cast<std::mutex*>(User)->unlock(); };
 	Desc.QueueUser = &Owner.QueueMutex;
 	FError Error = ToError(Module.GetVulkan()->AdoptDevice(Desc, Device.ReleaseAndGetAddress()), "AdoptDevice");
-	if (Error.empty()) { Error = ToError(Module.CreateRenderer(Device.Get(), Renderer.ReleaseAndGetAddress()), "CreateRenderer"); }
+	if (Error.empty()) { Error = ToError(Module.CreateRenderer(Device.Get(), {}, Renderer.ReleaseAndGetAddress()), "CreateRenderer"); }
 	return Error;
 }
 

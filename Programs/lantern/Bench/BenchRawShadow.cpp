@@ -45,13 +45,12 @@ FRawPush MakePush(const FRawShadowDesc& Desc)
 	const FViewConstants View = MakeViewConstants(Desc.View, Desc.Scene->GetScene().GetOrigin());
 	const FSceneConstants Scene = Desc.Scene->GetScene().GetConstants();
 	FRawPush Push{};
-	const glm::vec3 HalfX = View.CameraRight * (View.TanHalfFovY * View.Aspect * View.Near);
-	const glm::vec3 HalfY = View.CameraUp * (-View.TanHalfFovY * View.Near);
 	Push.Camera = View.CameraPosition;
 	Push.Near = View.Near;
-	Push.StepX = HalfX * (2.0f / static_cast<float>(View.Width));
-	Push.StepY = HalfY * (2.0f / static_cast<float>(View.Height));
-	Push.FirstRay = View.CameraForward * View.Near - HalfX - HalfY + 0.5f * (Push.StepX + Push.StepY);
+	Push.StepX = View.CameraRight * (View.RayScale.x * View.Near);
+	Push.StepY = View.CameraUp * (View.RayScale.y * View.Near);
+	Push.FirstRay = (View.CameraForward + View.CameraRight * View.RayOffset.x + View.CameraUp * View.RayOffset.y) * View.Near +
+	                0.5f * (Push.StepX + Push.StepY);
 	Push.FrameIndex = View.FrameIndex;
 	Push.Seed = HashPcg(View.Seed);
 	Push.Size = View.Width | (View.Height << 16);

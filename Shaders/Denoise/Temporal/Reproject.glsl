@@ -29,7 +29,7 @@ FAccumulated LoadAccumulated(ivec2 Texel)
 FHistory ReprojectHistory(FViewConstants View, uvec2 Pixel, FSurface Surface)
 {
 	if (Push.History == NO_TEXTURE) { return NoHistory; }
-	vec3 ToCamera = -normalize(CameraRay(View, vec2(Pixel) + 0.5));
+	vec3 ToCamera = -CameraRay(View, vec2(Pixel) + 0.5);
 	vec4 Motion = texelFetch(Textures[Push.Motion], ivec2(Pixel), 0);
 	FReprojection R = Reproject(View, Push.PreviousSurface, Pixel, Surface, Motion, ToCamera);
 	FAccumulated Sum = NothingAccumulated; // Frames: sum of their inverses

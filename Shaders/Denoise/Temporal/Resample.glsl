@@ -32,7 +32,7 @@ void ResampleCubic(FViewConstants View, FReprojection R, FSurface Surface, FSign
 	FSignal Sum = FSignal(0.0);
 	[[dont_unroll]] for (int Tap = 0; Tap < 16; ++Tap)
 	{
-		ivec2 P = clamp(R.Base + ivec2(Tap & 3, Tap >> 2) - 1, ivec2(0), ivec2(View.Width, View.Height) - 1);
+		ivec2 P = clamp(R.Base + ivec2(Tap & 3, Tap >> 2) - 1, ivec2(0), ivec2(View.PreviousWidth, View.PreviousHeight) - 1);
 		vec4 H = texelFetch(Textures[Push.History], P, 0);
 		bool bSame = AreFinite(H) && IsSameSurface(Surface, LoadSurface(Push.PreviousSurface, P), R.ExpectedDistance, 2.0 * R.DistanceSlope);
 		Sum += (bSame ? GetSignal(H) : History.Past.Mean) * (X[Tap & 3] * Y[Tap >> 2]);

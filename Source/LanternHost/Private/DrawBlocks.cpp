@@ -37,24 +37,31 @@ uint64_t GetPlaceKey(const FDrawSphere& Sphere, const glm::dvec3& Min, double Sc
 struct FDrawBlocks::FFrustum
 {
 	glm::dvec3 Eye;
-	glm::vec3 Right, Up, Forward;
-	float Near, CosX, SinX, CosY, SinY;
+	glm::vec3 AxisX, AxisY, Forward;
+	float Near, ScaleX, SlopeX, HalfX, ScaleY, SlopeY, HalfY;
 	float SizePerDistance2 = 0.0f; // of a radius squared, by distance squared: smaller is too small
+	float LeastSize2 = 0.0f;       // of a radius squared, at any distance
 
-	FFrustum(const FView& View, float MinPixels) : Eye(View.Position), Near(View.Near)
+	FFrustum(const FView& View, float MinPixels) : FFrustum(FViewFrustum(View))
 	{
-		Forward = glm::normalize(View.Forward);
-		Right = glm::normalize(glm::cross(Forward, View.Up));
-		Up = glm::cross(Right, Forward);
-		const double HalfY = 0.5 * double(View.FovY);
-		const double HalfX = std::atan(std::tan(HalfY) * double(View.Width) / double(View.Height));
-		CosX = float(std::cos(HalfX));
-		SinX = float(std::sin(HalfX));
-		CosY = float(std::cos(HalfY));
-		SinY = float(std::sin(HalfY));
-		const double RadiusPerDistance = double(MinPixels) * std::tan(HalfY) / double(View.Height);
-		SizePerDistance2 = float(RadiusPerDistance * RadiusPerDistance);
+		const double RadiusPerDistance = 0.5 * double(MinPixels) * View.GetPixelSize();
+		(View.GetWindow().bOrthographic ? LeastSize2 : SizePerDistance2) = float(RadiusPerDistance * RadiusPerDistance);
 	}
+
+private:
+	explicit FFrustum(const FViewFrustum& From)
+	    : Eye(From.Eye),
+	      AxisX(From.X.Axis),
+	      AxisY(From.Y.Axis),
+	      Forward(From.Forward),
+	      Near(float(From.Near)),
+	      ScaleX(float(From.X.Scale)),
+	      SlopeX(float(From.X.Slope)),
+	      HalfX(float(From.X.Half)),
+	      ScaleY(float(From.Y.Scale)),
+	      SlopeY(float(From.Y.Slope)),
+	      HalfY(float(From.Y.Half))
+	{}
 };
 
 void FDrawBlocks::Build(const std::vector<FItem>& Items, const std::vector<FDrawSphere>& Spheres)
@@ -125,8 +132,8 @@ bool FDrawBlocks::MaySeeBlock(const FFrustum& F, const FBounds& Block)
 	const glm::vec3 D(Block.Center - F.Eye);
 	const float Reach = Block.Radius * 1.00001f + 1e-5f * (std::abs(D.x) + std::abs(D.y) + std::abs(D.z));
 	const float Z = glm::dot(D, F.Forward);
-	return Z + Reach >= F.Near && std::abs(glm::dot(D, F.Right)) * F.CosX - Z * F.SinX <= Reach &&
-	       std::abs(glm::dot(D, F.Up)) * F.CosY - Z * F.SinY <= Reach;
+	return Z + Reach >= F.Near && std::abs(glm::dot(D, F.AxisX)) * F.ScaleX - Z * F.SlopeX - F.HalfX <= Reach &&
+	       std::abs(glm::dot(D, F.AxisY)) * F.ScaleY - Z * F.SlopeY - F.HalfY <= Reach;
 }
 
 uint64_t FDrawBlocks::CullItems(const FFrustum& F, const FBlock& Block)
@@ -139,11 +146,12 @@ uint64_t FDrawBlocks::CullItems(const FFrustum& F, const FBlock& Block)
 	{
 		const float X = D.x + Block.X[I], Y = D.y + Block.Y[I], Z = D.z + Block.Z[I], R = Block.R[I] + Slack;
 		const float Ahead = X * F.Forward.x + Y * F.Forward.y + Z * F.Forward.z;
-		const float Aside = std::abs(X * F.Right.x + Y * F.Right.y + Z * F.Right.z);
-		const float Above = std::abs(X * F.Up.x + Y * F.Up.y + Z * F.Up.z);
+		const float Aside = std::abs(X * F.AxisX.x + Y * F.AxisX.y + Z * F.AxisX.z);
+		const float Above = std::abs(X * F.AxisY.x + Y * F.AxisY.y + Z * F.AxisY.z);
 		const float Distance2 = X * X + Y * Y + Z * Z;
-		bSeen[I] = uint8_t(int(Ahead + R >= F.Near) & int(Aside * F.CosX - Ahead * F.SinX <= R) &
-		                   int(Above * F.CosY - Ahead * F.SinY <= R) & int(R * R >= F.SizePerDistance2 * Distance2));
+		bSeen[I] =
+		    uint8_t(int(Ahead + R >= F.Near) & int(Aside * F.ScaleX - Ahead * F.SlopeX - F.HalfX <= R) &
+		            int(Above * F.ScaleY - Ahead * F.SlopeY - F.HalfY <= R) & int(R * R >= F.SizePerDistance2 * Distance2 + F.LeastSize2));
 	}
 	uint64_t Mask = 0;
 	for (uint32_t I = 0; I < Block.Count; ++I) { Mask |= uint64_t(bSeen[I]) << I; }

@@ -97,7 +97,12 @@ void AddView(FContentHasher& Hash, const FView& View)
 	AddVector(Hash, View.Position);
 	AddVector(Hash, View.Forward);
 	AddVector(Hash, View.Up);
-	Hash.Add(View.FovY);
+	const FViewWindow Window = View.GetWindow();
+	for (const double Edge : {Window.Left, Window.Right, Window.Bottom, Window.Top}) { Hash.Add(Edge); }
+	Hash.Add(Window.bOrthographic);
+	AddVector(Hash, glm::vec3(View.Jitter, 0.0f));
+	AddVector(Hash, View.DepthError);
+	Hash.Add(View.NormalError);
 	Hash.Add(View.Near);
 	Hash.Add(View.Width);
 	Hash.Add(View.Height);

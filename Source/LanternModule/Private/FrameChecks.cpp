@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <iterator>
 
 #include <glm/glm.hpp>
-#include <glm/gtc/constants.hpp>
 
 #include "ArgumentChecks.h"
 
@@ -17,9 +18,9 @@ namespace
 
 FRTStatus Refuse(const char* Reason) { return FRTStatus::Error(ERTResult::InvalidArgument, "%s", Reason); }
 
-bool AreFinite(const auto(&Values)[3])
+bool AreFinite(const auto& Values)
 {
-	return std::all_of(Values, Values + 3, [](auto Value) { return std::isfinite(Value); });
+	return std::all_of(std::begin(Values), std::end(Values), [](auto Value) { return std::isfinite(Value); });
 }
 
 FRTStatus CheckView(const FRTModuleView& View)
@@ -38,26 +39,25 @@ FRTStatus CheckView(const FRTModuleView& View)
 	{
 		return Refuse("FRTModuleView::Up is zero, not finite, or parallel to Forward");
 	}
-	if (!(View.FovY > 0.0f && View.FovY < glm::pi<float>()))
+	for (const float Jitter : View.Jitter)
 	{
-		return FRTStatus::Error(
-		    ERTResult::InvalidArgument, "FRTModuleView::FovY must lie between 0 and pi (radians), is %g", double(View.FovY));
-	}
-	if (!(View.Near > 0.0f) || !std::isfinite(View.Near))
-	{
-		return FRTStatus::Error(ERTResult::InvalidArgument, "FRTModuleView::Near must be positive, is %g", double(View.Near));
+		if (!(std::abs(Jitter) <= 64.0f))
+		{
+			return FRTStatus::Error(
+			    ERTResult::InvalidArgument, "FRTModuleView::Jitter must lie between -64 and 64 pixels, is %g", double(Jitter));
+		}
 	}
 	return FRTStatus::Success();
 }
 
-/// A texture of the G-buffer, which goes with depth and has one format.
+/// A texture of the G-buffer, which goes with depth and has one of several formats.
 struct FGBufferTexture
 {
 	const IRTTexture* Texture;
 	ERTAccess Access;
-	ERTFormat Format;
+	std::initializer_list<ERTFormat> Formats;
 	const char* Name;
-	const char* FormatName;
+	const char* FormatNames;
 	const char* AccessName;
 };
 
@@ -73,28 +73,145 @@ FRTStatus CheckTexture(const FGBufferTexture& Item, const FRTTextureDesc& Depth)
 		return FRTStatus::Error(ERTResult::InvalidArgument, "the %s texture is %u x %u, depth is %u x %u", Item.Name, Desc.Width,
 		    Desc.Height, Depth.Width, Depth.Height);
 	}
-	if (Desc.Format != Item.Format) { return Fail("must be", Item.FormatName); }
+	if (std::find(Item.Formats.begin(), Item.Formats.end(), Desc.Format) == Item.Formats.end())
+	{
+		return Fail("must be", Item.FormatNames);
+	}
 	if (!HasAny(Desc.Usage, ERTTextureUsage::Sampled)) { return Fail("needs", "ERTTextureUsage::Sampled"); }
 	return Item.Access != ERTAccess::None ? FRTStatus::Success()
 	                                      : Fail("would be discarded by None: how it was used must be said by", Item.AccessName);
 }
 
+FRTStatus CheckDepth(const FRTModuleFrame& Frame)
+{
+	using enum ERTFormat;
+	return CheckTexture({Frame.Depth, Frame.DepthAccess, {D32_FLOAT, R32_FLOAT, D32_FLOAT_S8_UINT, D24_UNORM_S8_UINT, D16_UNORM}, "depth",
+	                        "D32_FLOAT, D32_FLOAT_S8_UINT, D24_UNORM_S8_UINT, D16_UNORM or R32_FLOAT", "DepthAccess"},
+	    Frame.Depth->GetDesc());
+}
+
+FRTStatus CheckNormals(const FRTModuleFrame& Frame, const IRTTexture* Texture, ERTAccess Access, const char* Name, const char* AccessName)
+{
+	using enum ERTFormat;
+	const FRTModuleGBufferLayout& Layout = Frame.Layout;
+	const FRTTextureDesc& Depth = Frame.Depth->GetDesc();
+	if (Layout.Normals == ERTModuleNormals::Xyz)
+	{
+		return CheckTexture(
+		    {Texture, Access,
+		        {RGBA8_UNORM, RGBA8_SNORM, BGRA8_UNORM, RGB10A2_UNORM, R11G11B10_FLOAT, RGBA16_UNORM, RGBA16_SNORM, RGBA16_FLOAT,
+		            RGBA32_FLOAT},
+		        Name, "of a UNORM, SNORM or float format with three channels or more, since Layout.Normals is Xyz", AccessName},
+		    Depth);
+	}
+	if (Layout.bGeometricInZw)
+	{
+		return CheckTexture(
+		    {Texture, Access, {RGBA16_SNORM, RGBA16_UNORM, RGBA16_FLOAT, RGBA8_UNORM, RGBA8_SNORM, RGBA32_FLOAT}, Name,
+		        "RGBA16_SNORM, or another UNORM, SNORM or float format with four channels, since Layout.bGeometricInZw is true",
+		        AccessName},
+		    Depth);
+	}
+	return CheckTexture(
+	    {Texture, Access,
+	        {RG8_UNORM, RG16_UNORM, RG16_SNORM, RG16_FLOAT, RG32_FLOAT, RGBA8_UNORM, RGBA8_SNORM, RGB10A2_UNORM, RGBA16_UNORM, RGBA16_SNORM,
+	            RGBA16_FLOAT, RGBA32_FLOAT},
+	        Name, "of a UNORM, SNORM or float format with two channels or more, since Layout.Normals is Octahedral", AccessName},
+	    Depth);
+}
+
+FRTStatus CheckMotion(const FRTModuleFrame& Frame)
+{
+	using enum ERTFormat;
+	const FRTTextureDesc& Depth = Frame.Depth->GetDesc();
+	if (Frame.Layout.Motion == ERTModuleMotion::Native)
+	{
+		return CheckTexture(
+		    {Frame.Motion, Frame.MotionAccess, {RGBA32_FLOAT}, "motion", "RGBA32_FLOAT, since Layout.Motion is Native", "MotionAccess"},
+		    Depth);
+	}
+	if (Frame.Layout.bMotionDistance)
+	{
+		return CheckTexture({Frame.Motion, Frame.MotionAccess, {RGBA16_FLOAT, RGBA32_FLOAT}, "motion",
+		                        "RGBA16_FLOAT or RGBA32_FLOAT, since Layout.bMotionDistance is true", "MotionAccess"},
+		    Depth);
+	}
+	return CheckTexture({Frame.Motion, Frame.MotionAccess,
+	                        {RG16_FLOAT, RG16_UNORM, RG16_SNORM, RG32_FLOAT, RGBA16_FLOAT, RGBA16_UNORM, RGBA16_SNORM, RGBA32_FLOAT},
+	                        "motion", "of a UNORM, SNORM or float format with two channels of 16 bits or more", "MotionAccess"},
+	    Depth);
+}
+
+FRTStatus CheckMaterialTextures(const FRTModuleFrame& Frame)
+{
+	using enum ERTFormat;
+	const FRTTextureDesc& Depth = Frame.Depth->GetDesc();
+	const bool bUnreal = Frame.Layout.Material == ERTModuleMaterialLayout::Unreal;
+	const FGBufferTexture Native[] = {
+	    {Frame.BaseColor, Frame.BaseColorAccess, {RGBA8_SRGB, BGRA8_SRGB}, "base colour", "RGBA8_SRGB or BGRA8_SRGB", "BaseColorAccess"},
+	    {Frame.Material, Frame.MaterialAccess, {RGBA8_UNORM, BGRA8_UNORM}, "material", "RGBA8_UNORM or BGRA8_UNORM", "MaterialAccess"}};
+	const FGBufferTexture Unreal[] = {
+	    {Frame.BaseColor, Frame.BaseColorAccess, {RGBA8_SRGB, BGRA8_SRGB, RGBA8_UNORM, BGRA8_UNORM, RGBA16_FLOAT}, "base colour",
+	        "RGBA8_SRGB, BGRA8_SRGB, RGBA8_UNORM, BGRA8_UNORM or RGBA16_FLOAT", "BaseColorAccess"},
+	    {Frame.Material, Frame.MaterialAccess, {RGBA8_UNORM, BGRA8_UNORM, RGBA16_FLOAT}, "material",
+	        "RGBA8_UNORM, BGRA8_UNORM or RGBA16_FLOAT", "MaterialAccess"}};
+	FRTStatus Status;
+	for (const FGBufferTexture& Texture : bUnreal ? Unreal : Native) { Status = Status ? CheckTexture(Texture, Depth) : Status; }
+	return Status;
+}
+
+FRTStatus CheckLayout(const FRTModuleGBufferLayout& Layout)
+{
+	const auto IsPast = [](auto Value, auto Last) { return static_cast<uint32_t>(Value) > static_cast<uint32_t>(Last); };
+	const char* Wrong = nullptr;
+	if (IsPast(Layout.Depth, ERTModuleDepth::Linear)) { Wrong = "Depth"; }
+	if (IsPast(Layout.Normals, ERTModuleNormals::Xyz)) { Wrong = "Normals"; }
+	if (IsPast(Layout.NormalRange, ERTModuleRange::Unsigned)) { Wrong = "NormalRange"; }
+	if (IsPast(Layout.Motion, ERTModuleMotion::UV)) { Wrong = "Motion"; }
+	if (IsPast(Layout.Material, ERTModuleMaterialLayout::Unreal)) { Wrong = "Material"; }
+	if (Wrong != nullptr)
+	{
+		return FRTStatus::Error(ERTResult::InvalidArgument, "FRTModuleGBufferLayout::%s is none of its values", Wrong);
+	}
+	if (!AreFinite(Layout.MotionScale) || !AreFinite(Layout.MotionOffset))
+	{
+		return Refuse("FRTModuleGBufferLayout::MotionScale or MotionOffset is not finite");
+	}
+	return FRTStatus::Success();
+}
+
+/// The view's part of the textures.
+FRTStatus CheckPart(const FRTModuleFrame& Frame)
+{
+	constexpr uint32_t Most = 1u << 16;
+	const FRTTextureDesc& Whole = Frame.Depth->GetDesc();
+	const auto Check = [](uint32_t Offset, uint32_t Size, uint32_t All, const char* OffsetName, const char* SizeName) {
+		if (Offset >= All || Offset >= Most)
+		{
+			return FRTStatus::Error(
+			    ERTResult::InvalidArgument, "FRTModuleFrame::%s is %u, the textures have %u pixels", OffsetName, Offset, All);
+		}
+		return Size <= All - Offset
+		           ? FRTStatus::Success()
+		           : FRTStatus::Error(ERTResult::InvalidArgument, "FRTModuleFrame::%s is %u, the textures have %u pixels from %s on",
+		                 SizeName, Size, All - Offset, OffsetName);
+	};
+	const FRTStatus Status = Check(Frame.OffsetX, Frame.Width, Whole.Width, "OffsetX", "Width");
+	return Status ? Check(Frame.OffsetY, Frame.Height, Whole.Height, "OffsetY", "Height") : Status;
+}
+
 FRTStatus CheckGBuffer(const FRTModuleFrame& Frame)
 {
-	const FRTTextureDesc& Depth = Frame.Depth->GetDesc();
-	if (Depth.Format != ERTFormat::D32_FLOAT && Depth.Format != ERTFormat::R32_FLOAT)
+	FRTStatus Status = CheckLayout(Frame.Layout);
+	if (Status) { Status = CheckDepth(Frame); }
+	if (Status) { Status = CheckPart(Frame); }
+	if (Status) { Status = CheckNormals(Frame, Frame.Normals, Frame.NormalsAccess, "normals", "NormalsAccess"); }
+	if (Status)
 	{
-		return Refuse("the depth texture must be D32_FLOAT or R32_FLOAT");
+		Status = CheckNormals(Frame, Frame.GeometricNormals, Frame.GeometricNormalsAccess, "geometric normals", "GeometricNormalsAccess");
 	}
-	using enum ERTFormat;
-	const FGBufferTexture Textures[] = {{Frame.Depth, Frame.DepthAccess, Depth.Format, "depth", "", "DepthAccess"},
-	    {Frame.Normals, Frame.NormalsAccess, RGBA16_SNORM, "normals", "RGBA16_SNORM", "NormalsAccess"},
-	    {Frame.Motion, Frame.MotionAccess, RGBA32_FLOAT, "motion", "RGBA32_FLOAT", "MotionAccess"},
-	    {Frame.BaseColor, Frame.BaseColorAccess, RGBA8_SRGB, "base colour", "RGBA8_SRGB", "BaseColorAccess"},
-	    {Frame.Material, Frame.MaterialAccess, RGBA8_UNORM, "material", "RGBA8_UNORM", "MaterialAccess"}};
-	FRTStatus Status;
-	for (const FGBufferTexture& Texture : Textures) { Status = Status ? CheckTexture(Texture, Depth) : Status; }
-	return Status;
+	if (Status) { Status = CheckMotion(Frame); }
+	return Status ? CheckMaterialTextures(Frame) : Status;
 }
 
 } // namespace
@@ -109,8 +226,11 @@ FRTStatus CheckFrame(const FRTModuleFrame& Frame)
 		return FRTStatus::Error(
 		    ERTResult::InvalidArgument, "FRTModuleFrame::DeltaSeconds must be positive, is %g", double(Frame.DeltaSeconds));
 	}
-	const FRTStatus Status = CheckGBuffer(Frame);
-	return Status.IsOk() ? CheckView(Frame.View) : Status;
+	FRTStatus Status = CheckGBuffer(Frame);
+	if (Status) { Status = CheckView(Frame.View); }
+	if (!Status || Frame.PreviousView == nullptr) { return Status; }
+	Status = CheckView(*Frame.PreviousView);
+	return Status ? Status : FRTStatus::Error(Status.Code, "FRTModuleFrame::PreviousView: %s", Status.Message);
 }
 
 } // namespace Lantern

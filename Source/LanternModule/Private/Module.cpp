@@ -72,7 +72,7 @@ public:
 	FRTStatus Initialize(const FRTModuleDesc& Desc) override;
 	FRTStatus CreateDevice(bool bValidation, IRTDevice** Out) override;
 	IRTModuleVulkan* GetVulkan() override { return &Vulkan; }
-	FRTStatus CreateRenderer(IRTDevice* Device, IRTModuleRenderer** Out) override;
+	FRTStatus CreateRenderer(IRTDevice* Device, const FRTModuleRendererDesc& Desc, IRTModuleRenderer** Out) override;
 	FRTStatus SetConsoleVariable(const char* Name, const char* Value) override;
 	FRTStatus GetConsoleVariable(const char* Name, char* Out, size_t Capacity) override;
 
@@ -125,14 +125,14 @@ FRTStatus FModule::CreateDevice(bool bValidation, IRTDevice** Out)
 	return CreateVulkanDevice(Desc, Out);
 }
 
-FRTStatus FModule::CreateRenderer(IRTDevice* Device, IRTModuleRenderer** Out)
+FRTStatus FModule::CreateRenderer(IRTDevice* Device, const FRTModuleRendererDesc& Desc, IRTModuleRenderer** Out)
 {
 	if (Out == nullptr) { return RefuseNull("CreateRenderer", "Out"); }
 	*Out = nullptr;
 	if (ShaderFolder.empty()) { return FRTStatus::Error(ERTResult::InvalidArgument, "IRTModule::Initialize was not called"); }
 	if (const FRTStatus Status = CheckDevice("CreateRenderer", Device); !Status) { return Status; }
 	if (!ConfigFolder.empty()) { LoadDeviceProfile({ConfigFolder}, Device->GetCapabilities().DeviceName); }
-	*Out = new FModuleRenderer(*this, *Device, {{ShaderFolder}, CacheFolder});
+	*Out = new FModuleRenderer(*this, *Device, FModuleWorld(Desc), {{ShaderFolder}, CacheFolder});
 	return FRTStatus::Success();
 }
 

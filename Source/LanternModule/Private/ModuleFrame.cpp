@@ -1,4 +1,7 @@
 // The module's frame, on top of FRenderer: from the engine's textures and view to the signals that it wants.
+#include <algorithm>
+#include <iterator>
+
 #include "ArgumentChecks.h"
 #include "FrameChecks.h"
 #include "LanternCore/Config/ConsoleVariables.h"
@@ -10,17 +13,29 @@ namespace Lantern
 namespace
 {
 
-FView ToView(const FRTModuleFrame& Frame, uint32_t FrameIndex)
+/// Places a view in Lantern's world. Width and Height of Out are set.
+FRTStatus ToView(const FRTModuleView& From, const FModuleWorld& World, FView& Out, FHostDepth& OutDepth)
 {
-	const FRTModuleView& From = Frame.View;
+	Out.Position = World.ToPosition(From.Position);
+	Out.Forward = glm::vec3(World.ToDirection(From.Forward));
+	Out.Up = glm::vec3(World.ToDirection(From.Up));
+	Out.Jitter = {From.Jitter[0], From.Jitter[1]};
+	FHostProjection Projection;
+	std::copy(std::begin(From.Projection.ViewToClip), std::end(From.Projection.ViewToClip), Projection.ViewToClip);
+	Projection.bViewYDown = From.Projection.bViewYDown;
+	Projection.bViewZForward = From.Projection.bViewZForward;
+	Projection.bClipYUp = From.Projection.bClipYUp;
+	Projection.MetersPerUnit = World.GetMetersPerUnit();
+	const FRTStatus Status = ReadProjection(Projection, Out, OutDepth);
+	return Status ? Status : FRTStatus::Error(Status.Code, "FRTModuleView::Projection: %s", Status.Message);
+}
+
+FView MakeFrameView(const FRTModuleFrame& Frame, uint32_t FrameIndex)
+{
 	FView View;
-	View.Position = {From.Position[0], From.Position[1], From.Position[2]};
-	View.Forward = {From.Forward[0], From.Forward[1], From.Forward[2]};
-	View.Up = {From.Up[0], From.Up[1], From.Up[2]};
-	View.FovY = From.FovY;
-	View.Near = From.Near;
-	View.Width = Frame.Depth->GetDesc().Width;
-	View.Height = Frame.Depth->GetDesc().Height;
+	const FRTTextureDesc& Whole = Frame.Depth->GetDesc();
+	View.Width = Frame.Width != 0 ? Frame.Width : Whole.Width - Frame.OffsetX;
+	View.Height = Frame.Height != 0 ? Frame.Height : Whole.Height - Frame.OffsetY;
 	View.FrameIndex = FrameIndex;
 	View.Seed = Frame.Seed;
 	View.DeltaSeconds = Frame.DeltaSeconds;
@@ -28,23 +43,79 @@ FView ToView(const FRTModuleFrame& Frame, uint32_t FrameIndex)
 	return View;
 }
 
-FGBuffer ImportGBuffer(FFrameGraph& Graph, const FRTModuleFrame& Frame)
+/// Columns: axes of the space that the engine's normals are in, in Lantern's world.
+glm::mat3 MakeNormalAxes(const FRTModuleFrame& Frame, const FModuleWorld& World, const FView& View)
+{
+	if (!Frame.Layout.bViewSpaceNormals) { return glm::mat3(World.GetAxes()); }
+	const FRTModuleProjection& Projection = Frame.View.Projection;
+	const float W = Projection.ViewToClip[14]; // of z: which way a perspective looks
+	const bool bZForward = W != 0.0f ? W > 0.0f : Projection.bViewZForward;
+	const glm::vec3 Forward = glm::normalize(View.Forward), Right = glm::normalize(glm::cross(Forward, View.Up));
+	const glm::vec3 Up = glm::cross(Right, Forward);
+	return {Right, Projection.bViewYDown ? -Up : Up, bZForward ? Forward : -Forward};
+}
+
+bool IsUnsigned(const FRTModuleFrame& Frame)
+{
+	if (Frame.Layout.NormalRange != ERTModuleRange::ByFormat) { return Frame.Layout.NormalRange == ERTModuleRange::Unsigned; }
+	switch (Frame.Normals->GetDesc().Format)
+	{
+	case ERTFormat::RG8_UNORM:
+	case ERTFormat::RGBA8_UNORM:
+	case ERTFormat::BGRA8_UNORM:
+	case ERTFormat::RGB10A2_UNORM:
+	case ERTFormat::RG16_UNORM:
+	case ERTFormat::RGBA16_UNORM: return true;
+	default: return false;
+	}
+}
+
+/// What the textures mean; they are not imported yet.
+FHostSurface DescribeSurface(const FRTModuleFrame& Frame, const FModuleWorld& World, const FView& View, FHostDepth Depth)
+{
+	const FRTModuleGBufferLayout& Layout = Frame.Layout;
+	if (Layout.Depth == ERTModuleDepth::Linear)
+	{
+		const double Unit = World.GetMetersPerUnit();
+		Depth = {Unit, View.Far > 0.0 ? View.Far / Unit : 1e30, Depth.bOrthographic, true, Depth.bReversed};
+	}
+	FHostSurface Out;
+	Out.DepthMeaning = Depth;
+	Out.bOctahedral = Layout.Normals == ERTModuleNormals::Octahedral;
+	Out.bUnsigned = IsUnsigned(Frame);
+	Out.bGeometricInZw = Out.bOctahedral && Layout.bGeometricInZw;
+	Out.NormalAxes = MakeNormalAxes(Frame, World, View);
+	Out.bNativeMotion = Layout.Motion == ERTModuleMotion::Native;
+	Out.bMotionInUV = Layout.Motion == ERTModuleMotion::UV;
+	Out.bMotionDistance = Layout.bMotionDistance;
+	Out.bMotionPartial = Layout.bMotionPartial;
+	Out.MotionScale = {Layout.MotionScale[0], Layout.MotionScale[1]};
+	Out.MotionOffset = {Layout.MotionOffset[0], Layout.MotionOffset[1]};
+	Out.bUnrealMaterial = Layout.Material == ERTModuleMaterialLayout::Unreal;
+	Out.Offset = {Frame.OffsetX, Frame.OffsetY};
+	return Out;
+}
+
+void ImportTextures(FFrameGraph& Graph, const FRTModuleFrame& Frame, FHostSurface& Out)
 {
 	const auto Import = [&](IRTTexture* Texture, ERTAccess Access, const char* Name) {
-		return Texture != nullptr ? Graph.ImportTexture(Texture, Access, ERTAccess::ShaderRead, Name) : FGraphTexture();
+		const ERTAccess After = Access == ERTAccess::External ? ERTAccess::External : ERTAccess::ShaderRead;
+		return Texture != nullptr ? Graph.ImportTexture(Texture, Access, After, Name) : FGraphTexture();
 	};
-	FGBuffer Out;
 	Out.Depth = Import(Frame.Depth, Frame.DepthAccess, "EngineDepth");
 	Out.Normals = Import(Frame.Normals, Frame.NormalsAccess, "EngineNormals");
+	if (!Out.bGeometricInZw)
+	{
+		Out.GeometricNormals = Import(Frame.GeometricNormals, Frame.GeometricNormalsAccess, "EngineGeometricNormals");
+	}
 	Out.Motion = Import(Frame.Motion, Frame.MotionAccess, "EngineMotion");
 	Out.BaseColor = Import(Frame.BaseColor, Frame.BaseColorAccess, "EngineBaseColor");
 	Out.Material = Import(Frame.Material, Frame.MaterialAccess, "EngineMaterial");
-	return Out;
 }
 
 } // namespace
 
-void FModuleRenderer::AddPasses(const FRTModuleFrame& Frame)
+void FModuleRenderer::AddPasses(const FRTModuleFrame& Frame, const FFrameViews& Views)
 {
 	FFrameContext& Context = On->Renderer.GetContext();
 	const FGBuffer GBuffer = ImportGBuffer(Context.Graph, Frame);
@@ -91,6 +162,8 @@ FFrameFeatures FModuleRenderer::MakeFeatures(const FRTModuleFrame& Frame)
 	Features.bBuildAll = Features.bWaitForPipelines = false;
 	Features.bMotion = false; // the engine draws: nothing of the plugin's reads how its objects moved
 	Features.Signals.bNothingElse = true;
+	Features.PreviousView = Views.Previous;
+	Features.ViewIndex = Frame.ViewIndex;
 	const bool bSurface = Frame.BaseColor != nullptr && Frame.Material != nullptr;
 	for (const FSignalInfo& Info : SignalInfos)
 	{

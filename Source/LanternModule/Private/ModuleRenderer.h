@@ -22,7 +22,7 @@ class FModuleRenderer final : public TRefCounted<IRTModuleRenderer>
 {
 public:
 	/// Owner outlives the renderer: the library must not go while it is in use.
-	FModuleRenderer(IRTModule& InOwner, IRTDevice& InDevice, FRendererDesc Desc);
+	FModuleRenderer(IRTModule& InOwner, IRTDevice& InDevice, const FModuleWorld& InWorld, FRendererDesc Desc);
 	~FModuleRenderer() override;
 
 	FRTStatus AddMaterial(const FRTModuleMaterial& Material, ERTMaterialHandle* Out) override { return Calls.AddMaterial(Material, Out); }

@@ -51,7 +51,16 @@ uint64_t FMockTexture::GetSizeBytes(const FRTTextureDesc& Desc)
 	{
 		Sum += std::max<uint64_t>(1, Desc.Width >> Mip) * std::max<uint64_t>(1, Desc.Height >> Mip);
 	}
-	return Sum * Desc.ArraySize * BytesPerTexel(Desc.Format);
+	const uint64_t Block = BytesPerBlock(Desc.Format);
+	return Block != 0 ? (Sum * Desc.ArraySize * Block + 15) / 16 : Sum * Desc.ArraySize * BytesPerTexel(Desc.Format);
+}
+
+FRTStatus FMockTexture::SetExternalState(const FRTExternalState& From, const FRTExternalState& To)
+{
+	if (NativeImage == 0) { return FRTStatus::Error(ERTResult::InvalidArgument, "SetExternalState: it was not imported"); }
+	// Without an API of its own, the mock knows of layouts that 0 is none.
+	if (From.Layout == 0 || To.Layout == 0) { return FRTStatus::Error(ERTResult::InvalidArgument, "SetExternalState: Layout is 0"); }
+	return FRTStatus::Success();
 }
 
 std::vector<uint8_t>& FMockTexture::GetTexels(uint32_t Mip, uint32_t Layer)

@@ -17,6 +17,8 @@ float LinearToSrgb(float V) { return V <= 0.0031308f ? V * 12.92f : 1.055f * std
 enum class EChannel : uint8_t
 {
 	Unorm8,
+	Snorm8,
+	Unorm24,
 	Srgb8,
 	Unorm16,
 	Snorm16,
@@ -40,7 +42,11 @@ FLayout GetLayout(ERTFormat Format)
 	case ERTFormat::R8_UNORM: return {EChannel::Unorm8, 1};
 	case ERTFormat::RG8_UNORM: return {EChannel::Unorm8, 2};
 	case ERTFormat::RGBA8_UNORM: return {EChannel::Unorm8, 4};
+	case ERTFormat::BGRA8_UNORM: return {EChannel::Unorm8, 4};
+	case ERTFormat::RGBA8_SNORM: return {EChannel::Snorm8, 4};
+	case ERTFormat::BGRA8_SRGB:
 	case ERTFormat::RGBA8_SRGB: return {EChannel::Srgb8, 4};
+	case ERTFormat::D16_UNORM: return {EChannel::Unorm16, 1};
 	case ERTFormat::R16_FLOAT: return {EChannel::Half, 1};
 	case ERTFormat::RG16_FLOAT: return {EChannel::Half, 2};
 	case ERTFormat::RGBA16_FLOAT: return {EChannel::Half, 4};
@@ -53,12 +59,14 @@ FLayout GetLayout(ERTFormat Format)
 	case ERTFormat::RG32_UINT: return {EChannel::UInt32, 2};
 	case ERTFormat::RGBA32_UINT: return {EChannel::UInt32, 4};
 	case ERTFormat::R32_FLOAT:
+	case ERTFormat::D32_FLOAT_S8_UINT:
 	case ERTFormat::D32_FLOAT: return {EChannel::Float, 1};
 	case ERTFormat::RG32_FLOAT: return {EChannel::Float, 2};
 	case ERTFormat::RGBA32_FLOAT: return {EChannel::Float, 4};
 	case ERTFormat::RGB10A2_UNORM:
 	case ERTFormat::R11G11B10_FLOAT: return {EChannel::Packed, 4};
-	case ERTFormat::Unknown: break;
+	case ERTFormat::D24_UNORM_S8_UINT: return {EChannel::Unorm24, 1};
+	default: break; // no texels of their own: blocks
 	}
 	return {EChannel::Packed, 0};
 }
@@ -100,6 +108,8 @@ float DecodeChannel(EChannel Channel, const uint8_t* Texel, uint32_t i)
 	{
 	case EChannel::Unorm8: return Texel[i] / 255.0f;
 	case EChannel::Srgb8: return i < 3 ? SrgbToLinear(Texel[i] / 255.0f) : Texel[i] / 255.0f;
+	case EChannel::Snorm8: return std::max(-1.0f, static_cast<int8_t>(Texel[i]) / 127.0f);
+	case EChannel::Unorm24: return static_cast<float>((Load<uint32_t>(Texel, i) & 0xffffffu) / 16777215.0);
 	case EChannel::Unorm16: return Load<uint16_t>(Texel, i) / 65535.0f;
 	case EChannel::Snorm16: return std::max(-1.0f, Load<int16_t>(Texel, i) / 32767.0f);
 	case EChannel::Half: return glm::unpackHalf1x16(Load<uint16_t>(Texel, i));
@@ -117,6 +127,8 @@ void EncodeChannel(EChannel Channel, float Value, uint8_t* Texel, uint32_t i)
 	{
 	case EChannel::Unorm8: Texel[i] = static_cast<uint8_t>(Quantise(Value, 255.0f)); break;
 	case EChannel::Srgb8: Texel[i] = static_cast<uint8_t>(Quantise(i < 3 ? LinearToSrgb(std::max(Value, 0.0f)) : Value, 255.0f)); break;
+	case EChannel::Snorm8: Texel[i] = static_cast<uint8_t>(std::lround(std::clamp(Value, -1.0f, 1.0f) * 127.0f)); break;
+	case EChannel::Unorm24: Store(Texel, i, static_cast<uint32_t>(std::clamp(double(Value), 0.0, 1.0) * 16777215.0 + 0.5)); break;
 	case EChannel::Unorm16: Store(Texel, i, static_cast<uint16_t>(Quantise(Value, 65535.0f))); break;
 	case EChannel::Snorm16: Store(Texel, i, static_cast<int16_t>(std::lround(std::clamp(Value, -1.0f, 1.0f) * 32767.0f))); break;
 	case EChannel::Half: Store(Texel, i, glm::packHalf1x16(Value)); break;

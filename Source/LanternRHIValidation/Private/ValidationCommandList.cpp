@@ -370,7 +370,7 @@ void FValidatedCommandList::ClearTexture(IRTTexture* Dest, const float Value[4])
 	FValidatedTexture* To = RequireTexture(Call, "Dest", Dest, ERTTextureUsage::CopyDest);
 	if (!To) { return; }
 	if (!Value) { return Report(Call, "Value is null"); }
-	if (To->GetDesc().Format == ERTFormat::D32_FLOAT) { return Report(Call, To->Label + " is a depth texture"); }
+	if (IsDepth(To->GetDesc().Format)) { return Report(Call, To->Label + " is a depth texture"); }
 	AddUse(Call, To->Track, ERTAccess::CopyWrite);
 	Inner->ClearTexture(To->Inner.Get(), Value);
 }
@@ -381,13 +381,13 @@ void FValidatedCommandList::GenerateMips(IRTTexture* Texture)
 	if (!CanRecordOutside(Call)) { return; }
 	FValidatedTexture* To = RequireTexture(Call, "Texture", Texture, ERTTextureUsage::CopyDest);
 	if (!To) { return; }
+	if (IsDepth(To->GetDesc().Format)) { return Report(Call, To->Label + ": its format cannot be filtered"); }
 	switch (To->GetDesc().Format)
 	{
 	case ERTFormat::R16_UINT:
 	case ERTFormat::R32_UINT:
 	case ERTFormat::RG32_UINT:
-	case ERTFormat::RGBA32_UINT:
-	case ERTFormat::D32_FLOAT: return Report(Call, To->Label + ": its format cannot be filtered");
+	case ERTFormat::RGBA32_UINT: return Report(Call, To->Label + ": its format cannot be filtered");
 	default: break;
 	}
 	AddUse(Call, To->Track, ERTAccess::CopyWrite);

@@ -98,9 +98,12 @@ std::string CheckRaster(const FRTRasterPipelineDesc& Desc)
 	for (uint32_t i = 0; i < Desc.ColorCount; ++i)
 	{
 		const ERTFormat Format = Desc.ColorFormats[i];
-		if (Format == ERTFormat::Unknown || Format == ERTFormat::D32_FLOAT) { return Print("colour target %u has no colour format", i); }
+		if (Format == ERTFormat::Unknown || IsDepth(Format) || IsCompressed(Format))
+		{
+			return Print("colour target %u has no colour format", i);
+		}
 	}
-	if (Desc.DepthFormat != ERTFormat::Unknown && Desc.DepthFormat != ERTFormat::D32_FLOAT) { return "DepthFormat is no depth format"; }
+	if (Desc.DepthFormat != ERTFormat::Unknown && !IsDepth(Desc.DepthFormat)) { return "DepthFormat is no depth format"; }
 	return Desc.ColorCount || Desc.DepthFormat != ERTFormat::Unknown ? "" : "neither colour nor depth targets";
 }
 
@@ -128,16 +131,14 @@ std::string FValidatedDevice::CheckTexture(const FRTTextureDesc& Desc) const
 	if (Desc.Usage == ERTTextureUsage::None) { return "it has no usage"; }
 	const uint32_t Most = std::bit_width(std::max(Desc.Width, Desc.Height));
 	if (Desc.MipCount > Most) { return Print("%u mips, at most %u", Desc.MipCount, Most); }
-	const bool bDepth = Desc.Format == ERTFormat::D32_FLOAT;
+	const bool bDepth = IsDepth(Desc.Format);
 	if (HasAny(Desc.Usage, ERTTextureUsage::Depth) && !bDepth) { return "usage Depth, but not a depth format"; }
 	if (bDepth && HasAny(Desc.Usage, ERTTextureUsage::RenderTarget | ERTTextureUsage::Storage))
 	{
 		return "a depth format cannot have the usage RenderTarget or Storage";
 	}
-	if (Desc.Format == ERTFormat::RGBA8_SRGB && HasAny(Desc.Usage, ERTTextureUsage::Storage))
-	{
-		return "an sRGB format cannot have the usage Storage";
-	}
+	if (IsSrgb(Desc.Format) && HasAny(Desc.Usage, ERTTextureUsage::Storage)) { return "an sRGB format cannot have the usage Storage"; }
+	if (IsCompressed(Desc.Format) && Desc.Usage != ERTTextureUsage::Sampled) { return "a format of blocks has no usage but Sampled"; }
 	return {};
 }
 
@@ -145,7 +146,7 @@ FRTStatus FValidatedDevice::CreateTexture(const FRTTextureDesc& Desc, IRTTexture
 {
 	const std::string What = "CreateTexture: " + MakeLabel("texture", Desc.Name);
 	if (!Out) { return State->Fail(What + ": Out is null"); }
-	std::string Wrong = CheckTexture(Desc);
+	std::string Wrong = Desc.NativeView != 0 ? "NativeView is for imported textures" : CheckTexture(Desc);
 	if (!Wrong.empty()) { return State->Fail(What + ": " + Wrong); }
 	TRTRef<IRTTexture> Inner;
 	FRTStatus Status = State->Inner->CreateTexture(Desc, Inner.ReleaseAndGetAddress());

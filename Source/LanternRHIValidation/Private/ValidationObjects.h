@@ -65,6 +65,10 @@ public:
 	uint32_t GetSampledIndex() const override { return Inner->GetSampledIndex(); }
 	uint32_t GetStorageIndex() const override { return Inner->GetStorageIndex(); }
 	uint64_t GetNative(ERTNative Kind) const override { return Inner->GetNative(Kind); }
+	FRTStatus SetExternalState(const FRTExternalState& From, const FRTExternalState& To) override
+	{
+		return Inner->SetExternalState(From, To);
+	}
 	bool Has(ERTTextureUsage Usage) const { return HasAny(GetDesc().Usage, Usage); }
 
 	std::shared_ptr<FResourceTrack> Track;

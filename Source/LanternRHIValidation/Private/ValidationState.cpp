@@ -30,7 +30,7 @@ std::string MakeLabel(const char* Type, const char* Name)
 std::string DescribeAccess(ERTAccess Access)
 {
 	static constexpr const char* Names[] = {"ShaderRead", "StorageRead", "StorageWrite", "RenderTarget", "DepthWrite", "IndexRead",
-	    "IndirectRead", "CopyRead", "CopyWrite", "GeometryInput", "BuildRead", "BuildWrite", "TraceRead", "HostRead"};
+	    "IndirectRead", "CopyRead", "CopyWrite", "GeometryInput", "BuildRead", "BuildWrite", "TraceRead", "HostRead", "External"};
 	std::string Text;
 	for (uint32_t Bit = 0; Bit < std::size(Names); ++Bit)
 	{

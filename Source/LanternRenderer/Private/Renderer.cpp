@@ -54,8 +54,7 @@ FRenderer::FRenderer(IRTDevice& InDevice, FRendererDesc Desc)
       ShaderTable(InDevice),
       AnyHits(std::make_unique<FAnyHitCounter>(InDevice)),
       RayCompiler(InDevice, Compiler, Programs),
-      StandIns(std::make_unique<FStandInFeedback>(InDevice)),
-      History(std::make_unique<FHistoryResources>(InDevice))
+      StandIns(std::make_unique<FStandInFeedback>(InDevice))
 {
 	if (!FTaskTrace::HasFolder()) { FTaskTrace::SetFolder(Desc.CacheFolder); }
 	FTaskTrace::StartIfWanted();
@@ -175,7 +174,7 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	Context->PreviousView = bSameScene && bSameSize && !View.bCut && !Features.bReference ? &LastView : nullptr;
 	Context->History = History.get();
 	Context->Signals = CompleteRequests(Features.Signals);
-	History->BeginFrame(*Graph, Context->PreviousView != nullptr);
+	State->History->BeginFrame(*Graph, Context->PreviousView != nullptr);
 	const int32_t PoisonEvery = CVarPoisonHistory.GetOnRenderThread();
 	if (PoisonEvery > 0 && View.FrameIndex % static_cast<uint32_t>(PoisonEvery) == 0) { GraphResources.PoisonHistory(""); }
 	bUpdating = bRayPassesAdded = false;
@@ -228,7 +227,7 @@ FRTStatus FRenderer::StartUpdate(const FView& View, const FRayPrograms& Wanted, 
 	FrameUse.bCull = !Features.bReference;
 	FrameUse.bMotion = Features.bMotion && !Features.bReference && IsMotionWanted(*Context);
 	FrameUse.bBuildAll = Features.bBuildAll || Features.bReference;
-	const FGatherView Gather(View.Position, View.Forward, View.FovY, View.Height);
+	const FGatherView Gather = MakeGatherView(View);
 	bUpdating = Scene.NeedsUpdate(Gather, FrameUse);
 	if (bUpdating)
 	{
@@ -284,10 +283,35 @@ void FRenderer::WriteConstants()
 
 void FRenderer::KeepHistory(bool bSubmitted)
 {
-	History->EndFrame(bSubmitted);
-	LastScene = bSubmitted ? Context->Scene.GetSections().GetIdentity() : 0;
-	LastSceneFrame = Context->Scene.GetMotions().GetFrame();
-	LastView = Context->View;
+	State->History->EndFrame(bSubmitted);
+	State->LastScene = bSubmitted ? Context->Scene.GetSections().GetIdentity() : 0;
+	State->LastSceneFrame = Context->Scene.GetMotions().GetFrame();
+	State->LastView = Context->View;
+	for (auto& [Index, Other] : Views) { Other.IdleFrames = &Other == State ? 0 : Other.IdleFrames + 1; }
+	std::erase_if(Views, [](const auto& Entry) { return Entry.second.IdleFrames >= KeptIdleFrames; });
+	State = nullptr;
+}
+
+FRenderer::FViewState& FRenderer::GetView(uint32_t Index)
+{
+	FViewState& View = Views[Index];
+	if (!View.History) { View.History = std::make_unique<FHistoryResources>(Device); }
+	return View;
+}
+
+/// Where the motion of objects is followed, the frame before must be the scene's own last one: that of another renderer or another
+/// view says how objects have moved since then. A host with motion vectors of its own knows by itself.
+void FRenderer::FindPreviousView(FRTScene& Scene, const FFrameFeatures& Features)
+{
+	State = &GetView(Features.ViewIndex);
+	const bool bSameScene = State->LastScene == Scene.GetSections().GetIdentity() &&
+	                        (!Features.bMotion || State->LastSceneFrame == Scene.GetMotions().GetFrame());
+	PreviousView = Features.PreviousView.value_or(State->LastView);
+	PreviousView.Width = State->LastView.Width;
+	PreviousView.Height = State->LastView.Height;
+	const bool bUsable = bSameScene && State->LastView.Width > 0 && !Context->View.bCut && !Features.bReference;
+	Context->PreviousView = bUsable ? &PreviousView : nullptr;
+	Context->History = State->History.get();
 }
 
 /// Before anything of the frame can fail: what the GPU has left is taken, and the next frame finds its place.

@@ -49,12 +49,15 @@ TEST_F(FHistoryTest, NamesAreApart)
 	EXPECT_EQ(ReadNewest<float>(3), 1.0f);
 }
 
-TEST_F(FHistoryTest, AnotherSizeOrFormatStartsAnew)
+TEST_F(FHistoryTest, AnotherFormatStartsAnewAndAnotherSizeDoesNot)
 {
+	uint32_t SizeBefore = 0;
 	const auto Write = [&](uint32_t Size, ERTFormat Format) {
 		Frame([&](FFrameGraph& Graph) {
 			const FHistoryTexture Mean = Get("Mean", Size, Format);
 			bHadPrevious = Mean.Previous.IsValid();
+			if (bHadPrevious) { EXPECT_EQ(Graph.GetDesc(Mean.Previous).Width, SizeBefore); }
+			SizeBefore = Size;
 			EXPECT_EQ(Graph.GetDesc(Mean.Current).Width, Size);
 			EXPECT_EQ(Graph.GetDesc(Mean.Current).Format, Format);
 			AddWriter(Graph, Mean.Current, 1.0f);
@@ -64,7 +67,7 @@ TEST_F(FHistoryTest, AnotherSizeOrFormatStartsAnew)
 	};
 	EXPECT_FALSE(Write(4, ERTFormat::R32_FLOAT));
 	EXPECT_TRUE(Write(4, ERTFormat::R32_FLOAT));
-	EXPECT_FALSE(Write(8, ERTFormat::R32_FLOAT));
+	EXPECT_TRUE(Write(8, ERTFormat::R32_FLOAT)) << "at its own resolution";
 	EXPECT_TRUE(Write(8, ERTFormat::R32_FLOAT));
 	EXPECT_FALSE(Write(8, ERTFormat::R16_FLOAT));
 	EXPECT_EQ(History->GetBytes(), 2u * 8 * 8 * 2) << "what it was before is gone";
@@ -120,8 +123,8 @@ TEST_F(FHistoryTest, WhatIsFreedInFlightLivesUntilItHasRun)
 {
 	Mock().SetManualFences(true);
 	WriteAndReadBefore(1.0f);
-	Frame([&](FFrameGraph& Graph) { // another size: the old pair goes
-		const FHistoryTexture Mean = Get("Mean", 16);
+	Frame([&](FFrameGraph& Graph) { // another format: the old pair goes
+		const FHistoryTexture Mean = Get("Mean", 4, ERTFormat::R16_FLOAT);
 		AddWriter(Graph, Mean.Current, 1.0f);
 		AddReader(Graph, Mean.Current);
 	});

@@ -26,8 +26,8 @@ TEST_F(FModuleArgumentTest, NullPointersOfTheModuleAreNamed)
 {
 	EXPECT_EQ(LanternCreateModule(ModuleVersion, nullptr), static_cast<int32_t>(ERTResult::InvalidArgument));
 	EXPECT_REFUSED(Module->CreateDevice(false, nullptr), "CreateDevice: Out is null");
-	EXPECT_REFUSED(Module->CreateRenderer(Device.Get(), nullptr), "CreateRenderer: Out is null");
-	EXPECT_REFUSED(Module->CreateRenderer(nullptr, Other.ReleaseAndGetAddress()), "CreateRenderer: Device is null");
+	EXPECT_REFUSED(Module->CreateRenderer(Device.Get(), {}, nullptr), "CreateRenderer: Out is null");
+	EXPECT_REFUSED(Module->CreateRenderer(nullptr, {}, Other.ReleaseAndGetAddress()), "CreateRenderer: Device is null");
 	EXPECT_REFUSED(Module->SetConsoleVariable(nullptr, "1"), "SetConsoleVariable: Name is null");
 	EXPECT_REFUSED(Module->SetConsoleVariable("r.RT.Shadow", nullptr), "SetConsoleVariable: Value is null");
 	char Text[8] = "kept";
@@ -48,10 +48,10 @@ TEST_F(FModuleArgumentTest, InitializeIsCalledOnceButMayBeRepeatedAfterAnError)
 	EXPECT_REFUSED(Module->Initialize({}), "FRTModuleDesc::ShaderFolder is null");
 	Desc.ConfigFolder = "/nowhere";
 	EXPECT_EQ(Module->Initialize(Desc).Code, ERTResult::IoError);
-	EXPECT_REFUSED(Module->CreateRenderer(Device.Get(), Renderer.ReleaseAndGetAddress()), "Initialize was not called");
+	EXPECT_REFUSED(Module->CreateRenderer(Device.Get(), {}, Renderer.ReleaseAndGetAddress()), "Initialize was not called");
 	Desc.ConfigFolder = nullptr;
 	ASSERT_FINE(Module->Initialize(Desc));
-	ASSERT_FINE(Module->CreateRenderer(Device.Get(), Renderer.ReleaseAndGetAddress()));
+	ASSERT_FINE(Module->CreateRenderer(Device.Get(), {}, Renderer.ReleaseAndGetAddress()));
 }
 
 TEST_F(FModuleArgumentTest, NullPointersOfTheRendererAreNamed)
@@ -70,7 +70,7 @@ TEST_F(FModuleArgumentTest, NullPointersOfTheRendererAreNamed)
 
 TEST_F(FModuleArgumentTest, HandlesOfAnotherRendererAreRefused)
 {
-	ASSERT_FINE(Module->CreateRenderer(Device.Get(), Other.ReleaseAndGetAddress()));
+	ASSERT_FINE(Module->CreateRenderer(Device.Get(), {}, Other.ReleaseAndGetAddress()));
 	// In each slot of Other there is something, so that slot and use alone would find it.
 	ERTMaterialHandle Theirs = ERTMaterialHandle::None;
 	for (int Count = 0; Count < 2; ++Count) { ASSERT_FINE(Other->AddMaterial({}, &Theirs)); }

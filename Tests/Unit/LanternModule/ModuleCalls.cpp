@@ -276,8 +276,9 @@ FRTModuleView MakeView(FModulePlay& Play)
 		View.Forward[Axis] = Play.Float("Forward", Axis == 2 ? -1.0f : 0.0f);
 		View.Up[Axis] = Play.Float("Up", Axis == 1 ? 1.0f : 0.0f);
 	}
-	View.FovY = Play.Float("FovY", 1.0f);
-	View.Near = Play.Float("Near", 0.1f);
+	View.Projection = MakeProjection(1.0f, 1.0f, 0.1f);
+	for (float& Element : View.Projection.ViewToClip) { Element = Play.Float("Projection", Element); }
+	for (float& Axis : View.Jitter) { Axis = Play.Float("Jitter", 0.25f); }
 	return View;
 }
 
@@ -287,10 +288,21 @@ FRTStatus RenderFrame(FModulePlay& Play)
 	Frame.Commands = Play.Pointer("Commands", Play.MakeList());
 	Frame.View = MakeView(Play);
 	Frame.Depth = Play.Texture("epth", ERTFormat::D32_FLOAT, false);
-	Frame.Normals = Play.Texture("ormals", ERTFormat::RGBA16_SNORM, false);
+	Frame.Normals = Play.Texture("ormals", ERTFormat::RGBA16_SNORM, false, {ERTFormat::RGBA32_FLOAT, ERTFormat::RGBA8_UNORM});
 	Frame.Motion = Play.Texture("otion", ERTFormat::RGBA32_FLOAT, true);
 	Frame.BaseColor = Play.Texture("base colour", ERTFormat::RGBA8_SRGB, true);
 	Frame.Material = Play.Texture("aterial", ERTFormat::RGBA8_UNORM, true);
+	Frame.Layout.Depth = static_cast<ERTModuleDepth>(Play.Index("Depth", 0));
+	Frame.Layout.Normals = static_cast<ERTModuleNormals>(Play.Index("Normals", 0));
+	Frame.Layout.NormalRange = static_cast<ERTModuleRange>(Play.Index("NormalRange", 0));
+	Frame.Layout.Motion = static_cast<ERTModuleMotion>(Play.Index("Motion", 0));
+	Frame.Layout.Material = static_cast<ERTModuleMaterialLayout>(Play.Index("Material", 0));
+	Frame.Layout.MotionScale[0] = Play.Float("MotionScale", 1.0f);
+	Frame.OffsetX = Play.Index("OffsetX", 0);
+	Frame.OffsetY = Play.Index("OffsetY", 0);
+	Frame.Width = Play.Index("Width", 0);
+	Frame.Height = Play.Index("Height", 0);
+	Frame.ViewIndex = Play.Choose() % 3;
 	Frame.DeltaSeconds = Play.Float("DeltaSeconds", 0.016f);
 	Frame.bCut = Play.Bool(false);
 	if (Play.Bool(true)) { Frame.Wanted.Add(ESignal::AmbientOcclusion); }

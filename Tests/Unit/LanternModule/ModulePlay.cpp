@@ -1,6 +1,7 @@
 // The world of a play, its choices, and what must hold after each call.
 #include "ModulePlay.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "LanternRHIValidation/ValidationDevice.h"
@@ -42,7 +43,10 @@ FModulePlay::FModulePlay(IRTModule& InModule) : Module(InModule)
 	for (const ERTFormat Format : TextureFormats) { Import(Format, FrameSize, ERTTextureUsage::Sampled); }
 	Import(ERTFormat::D32_FLOAT, FrameSize / 2, ERTTextureUsage::Sampled);
 	Import(ERTFormat::RGBA16_SNORM, FrameSize, ERTTextureUsage::RenderTarget);
-	for (TRTRef<IRTModuleRenderer>& Renderer : Renderers) { (void)Module.CreateRenderer(Device.Get(), Renderer.ReleaseAndGetAddress()); }
+	for (TRTRef<IRTModuleRenderer>& Renderer : Renderers)
+	{
+		(void)Module.CreateRenderer(Device.Get(), {}, Renderer.ReleaseAndGetAddress());
+	}
 	MakeWorld();
 }
 
@@ -131,7 +135,7 @@ IRTTexture* FModulePlay::SampledTexture(const char* Name)
 	return Byte == 1 ? Textures.back().Get() : Byte == 2 ? nullptr : Textures.front().Get();
 }
 
-IRTTexture* FModulePlay::Texture(const char* Name, ERTFormat Good, bool bMayBeNull)
+IRTTexture* FModulePlay::Texture(const char* Name, ERTFormat Good, bool bMayBeNull, std::initializer_list<ERTFormat> Others)
 {
 	const uint8_t Byte = Choose();
 	if (Byte == 1) { return bMayBeNull ? nullptr : Refuse<IRTTexture>(Name); }
@@ -139,7 +143,8 @@ IRTTexture* FModulePlay::Texture(const char* Name, ERTFormat Good, bool bMayBeNu
 	for (const TRTRef<IRTTexture>& Texture : Textures) { Fit = Fit == nullptr && Texture->GetDesc().Format == Good ? Texture.Get() : Fit; }
 	if (Byte == 0) { return Fit; }
 	IRTTexture* const Other = Textures[Byte % Textures.size()].Get();
-	if (Other != Fit) { Wrong.emplace_back(Name); }
+	const bool bAsGood = std::find(Others.begin(), Others.end(), Other->GetDesc().Format) != Others.end();
+	if (Other != Fit && !bAsGood) { Wrong.emplace_back(Name); }
 	return Other;
 }
 

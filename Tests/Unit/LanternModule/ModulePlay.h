@@ -66,7 +66,8 @@ public:
 	template <class THandle>
 	void Forget(TPlayHandles<THandle>& Of, THandle Handle);
 	uint32_t Index(const char* Name, uint32_t Good);
-	IRTTexture* Texture(const char* Name, ERTFormat Good, bool bMayBeNull);
+	/// Others: formats that do as well.
+	IRTTexture* Texture(const char* Name, ERTFormat Good, bool bMayBeNull, std::initializer_list<ERTFormat> Others = {});
 	/// Of any format, as materials take them.
 	IRTTexture* SampledTexture(const char* Name);
 	IRTSampler* GetSampler() const { return Sampler.Get(); }

@@ -48,7 +48,7 @@ protected:
 		Desc.ShaderFolder = LANTERN_SOURCE_DIR "/Shaders";
 		Desc.CacheFolder = LANTERN_TEST_CACHE;
 		ASSERT_FINE(Module->Initialize(Desc));
-		ASSERT_FINE(Module->CreateRenderer(Device.Get(), Renderer.ReleaseAndGetAddress()));
+		ASSERT_FINE(Module->CreateRenderer(Device.Get(), {}, Renderer.ReleaseAndGetAddress()));
 		ASSERT_FINE(Renderer->AddMaterial({}, &Solid));
 		FRTModuleMaterial Material;
 		Material.bMasked = true;
@@ -165,6 +165,12 @@ protected:
 		Sun.Irradiance = Irradiance;
 		return Renderer->SetSun(Sun);
 	}
+	static FRTModuleView MakeView()
+	{
+		FRTModuleView View;
+		View.Projection = MakeProjection(1.0f, 1.0f, 0.1f);
+		return View;
+	}
 	FRTModuleFrame DescribeFrame()
 	{
 		const FRTStatus Status = Device->ImportCommandList(++LastNative, List.ReleaseAndGetAddress());
@@ -173,6 +179,7 @@ protected:
 		Frame.Commands = List.Get();
 		Frame.Depth = Depth.Get();
 		Frame.Normals = Normals.Get();
+		Frame.View = MakeView();
 		return Frame;
 	}
 	/// A frame whose shaders are there, unless bPrecache is off.

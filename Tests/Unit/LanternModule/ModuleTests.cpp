@@ -115,26 +115,6 @@ TEST_F(FModuleTest, WrongGBufferIsRefused)
 	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "DepthAccess");
 }
 
-TEST_F(FModuleTest, ImpossibleViewIsRefused)
-{
-	FRTModuleFrame Frame = DescribeFrame();
-	Frame.View.Near = 0.0f;
-	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "Near");
-	Frame.View = {};
-	Frame.View.FovY = 3.2f;
-	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "FovY");
-	Frame.View = {};
-	Frame.View.Forward[2] = -2.0f;
-	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "Forward");
-	Frame.View = {};
-	Frame.View.Up[1] = 0.0f;
-	Frame.View.Up[2] = 5.0f;
-	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "parallel");
-	Frame.View = {};
-	Frame.View.Position[0] = std::numeric_limits<double>::infinity();
-	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "Position");
-}
-
 TEST_F(FModuleTest, FramesOutOfOrderAreRefused)
 {
 	EXPECT_REFUSED(Renderer->EndFrame(nullptr), "RenderFrame recorded nothing");

@@ -256,6 +256,36 @@ TEST_F(FRendererContentTest, WhatMovedInAnothersFrameEndsWhatIsCarriedOver)
 	EXPECT_TRUE(bHasPrevious) << "a lost frame has shown nothing";
 }
 
+// Each view over a scene has the frame before of its own, also if the other views' frames lie in between.
+TEST_F(FRendererContentTest, ViewsTakeTurnsAndKeepWhatIsTheirs)
+{
+	LoadAndRender({});
+	FRendererDesc Desc;
+	Desc.ShaderFolders = {GetShaderFolder()};
+	Desc.CacheFolder = LANTERN_TEST_CACHE;
+	FRenderer Host(*Device, Desc);
+	const auto Show = [&](uint32_t ViewIndex, double X, std::optional<FView> Previous = {}) {
+		FFrameFeatures Features;
+		Features.bMotion = false;
+		Features.ViewIndex = ViewIndex;
+		Features.PreviousView = Previous;
+		const FRTStatus Status = Host.BeginFrame(Engine->GetScene().GetScene(), LookAt({X, 0, 9}, {X, 0, 0}, 1.0f, 40, 24), Features);
+		EXPECT_TRUE(Status) << Status.Message;
+		const FView* const Before = Host.GetContext().PreviousView;
+		const double Found = Before ? Before->Position.x : -1.0;
+		EXPECT_TRUE(Host.EndFrame(nullptr));
+		return Found;
+	};
+	EXPECT_EQ(Show(0, 1.0), -1.0);
+	EXPECT_EQ(Show(7, 2.0), -1.0) << "the other view's";
+	EXPECT_EQ(Show(0, 3.0), 1.0);
+	EXPECT_EQ(Show(7, 4.0), 2.0);
+	EXPECT_EQ(Show(7, 5.0, LookAt({40, 0, 9}, {40, 0, 0}, 1.0f, 40, 24)), 40.0) << "the host's own word";
+	for (int Frame = 0; Frame < 70; ++Frame) { (void)Show(7, 6.0); }
+	EXPECT_EQ(Show(0, 8.0), -1.0) << "too long ago";
+	EXPECT_TRUE(Host.WaitForAll());
+}
+
 TEST_F(FRendererContentTest, ReferenceKeepsEmittersAndFactsOfItsScene)
 {
 	LoadAndRender({.bEmissive = true});

@@ -65,7 +65,7 @@ float PixelVisibility(uvec2 Pixel)
 	return 1.0;
 #else
 	vec3 Relative = (Push.FirstRay + Push.StepX * float(Pixel.x) + Push.StepY * float(Pixel.y)) / Z;
-	return TraceSun(OffsetRasterPoint(Push.Camera + Relative, Ng, Push.ObjectReach, length(Relative) * length(Push.StepY) / Push.Near), Direction) ? 1.0 : 0.0;
+	return TraceSun(OffsetRasterPoint(Push.Camera + Relative, Ng, Push.ObjectReach, length(Relative) * length(Push.StepY) / Push.Near, 0.0), Direction) ? 1.0 : 0.0;
 #endif
 }
 

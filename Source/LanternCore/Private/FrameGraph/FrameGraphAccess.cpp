@@ -39,7 +39,7 @@ ERTBufferUsage GetBufferUsage(ERTAccess Access)
 std::string ToString(ERTAccess Access)
 {
 	static constexpr const char* Names[] = {"ShaderRead", "StorageRead", "StorageWrite", "RenderTarget", "DepthWrite", "IndexRead",
-	    "IndirectRead", "CopyRead", "CopyWrite", "GeometryInput", "BuildRead", "BuildWrite", "TraceRead", "HostRead"};
+	    "IndirectRead", "CopyRead", "CopyWrite", "GeometryInput", "BuildRead", "BuildWrite", "TraceRead", "HostRead", "External"};
 	std::string Text;
 	for (uint32_t Bit = 0; Bit < sizeof(Names) / sizeof(Names[0]); ++Bit)
 	{
@@ -74,6 +74,23 @@ const char* ToString(ERTFormat Format)
 	case ERTFormat::RG32_FLOAT: return "RG32_FLOAT";
 	case ERTFormat::RGBA32_FLOAT: return "RGBA32_FLOAT";
 	case ERTFormat::D32_FLOAT: return "D32_FLOAT";
+	case ERTFormat::RGBA8_SNORM: return "RGBA8_SNORM";
+	case ERTFormat::BGRA8_UNORM: return "BGRA8_UNORM";
+	case ERTFormat::BGRA8_SRGB: return "BGRA8_SRGB";
+	case ERTFormat::D16_UNORM: return "D16_UNORM";
+	case ERTFormat::D24_UNORM_S8_UINT: return "D24_UNORM_S8_UINT";
+	case ERTFormat::D32_FLOAT_S8_UINT: return "D32_FLOAT_S8_UINT";
+	case ERTFormat::BC1_UNORM: return "BC1_UNORM";
+	case ERTFormat::BC1_SRGB: return "BC1_SRGB";
+	case ERTFormat::BC3_UNORM: return "BC3_UNORM";
+	case ERTFormat::BC3_SRGB: return "BC3_SRGB";
+	case ERTFormat::BC4_UNORM: return "BC4_UNORM";
+	case ERTFormat::BC5_UNORM: return "BC5_UNORM";
+	case ERTFormat::BC6H_FLOAT: return "BC6H_FLOAT";
+	case ERTFormat::BC7_UNORM: return "BC7_UNORM";
+	case ERTFormat::BC7_SRGB: return "BC7_SRGB";
+	case ERTFormat::ASTC4x4_UNORM: return "ASTC4x4_UNORM";
+	case ERTFormat::ASTC4x4_SRGB: return "ASTC4x4_SRGB";
 	}
 	return "?";
 }

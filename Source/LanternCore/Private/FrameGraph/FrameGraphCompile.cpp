@@ -247,7 +247,8 @@ void FFrameGraph::FImpl::PlaceBarriersOf(uint32_t Index, const std::vector<std::
 	if (Resource.Pooled) { PooledAccess[Resource.Pooled.get()] = State; }
 	// Leaves exactly After, even if the current state includes it: the engine's next barrier names After alone.
 	const bool bNothingToWaitFor = State == ERTAccess::None && !Resource.bTexture;
-	if (Resource.bImported && Resource.After != ERTAccess::None && Resource.After != State && !bNothingToWaitFor)
+	if (Resource.bImported && Resource.After != ERTAccess::None && (Resource.After != State || State == ERTAccess::External) &&
+	    !bNothingToWaitFor)
 	{
 		const auto IsAsync = [&](uint32_t Pass) { return Passes[Pass].Queue != ERTQueue::Graphics; };
 		FinalBarriers.push_back({Index, State, Resource.After, std::any_of(Users.Passes.begin(), Users.Passes.end(), IsAsync)});

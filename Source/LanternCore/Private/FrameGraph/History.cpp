@@ -28,7 +28,7 @@ struct FKept
 
 struct FTexturePair : FKept
 {
-	FGraphTextureDesc Desc;
+	FGraphTextureDesc Desc; ///< of what is written next
 	TRTRef<IRTTexture> Textures[2];
 	bool bRests[2] = {}; ///< was in a submitted frame, which left it in RestingAccess
 	int Newest = 0;      ///< where bValid: what the frame before wrote
@@ -41,9 +41,20 @@ struct FKeptBuffer : FKept
 	bool bRests = false;
 };
 
+/// Whether content of one texture can be that of the other, if at another resolution.
+bool IsSameKind(const FGraphTextureDesc& A, const FGraphTextureDesc& B)
+{
+	return A.Format == B.Format && A.ExtraUsage == B.ExtraUsage && A.MipCount == B.MipCount;
+}
+
 bool IsSame(const FGraphTextureDesc& A, const FGraphTextureDesc& B)
 {
-	return A.Width == B.Width && A.Height == B.Height && A.Format == B.Format && A.ExtraUsage == B.ExtraUsage && A.MipCount == B.MipCount;
+	return A.Width == B.Width && A.Height == B.Height && IsSameKind(A, B);
+}
+
+bool HasSize(const IRTTexture* Texture, const FGraphTextureDesc& Desc)
+{
+	return Texture != nullptr && Texture->GetDesc().Width == Desc.Width && Texture->GetDesc().Height == Desc.Height;
 }
 
 bool IsSame(const FGraphBufferDesc& A, const FGraphBufferDesc& B) { return A.Size == B.Size && A.ExtraUsage == B.ExtraUsage; }
@@ -93,8 +104,12 @@ FRTStatus FHistoryResources::FImpl::Create(const char* Name, FTexturePair& Pair)
 	Desc.Format = Pair.Desc.Format;
 	Desc.Usage = ERTTextureUsage::Sampled | ERTTextureUsage::Storage | ERTTextureUsage::CopyDest | Pair.Desc.ExtraUsage;
 	Desc.Name = Name;
-	for (TRTRef<IRTTexture>& Texture : Pair.Textures)
+	for (int I = 0; I < 2; ++I)
 	{
+		TRTRef<IRTTexture>& Texture = Pair.Textures[I];
+		// The newest content stays at its own resolution until it has been read.
+		if (HasSize(Texture.Get(), Pair.Desc) || (Pair.bValid && I == Pair.Newest)) { continue; }
+		Pair.bRests[I] = false;
 		const auto Make = [&] { return Device.CreateTexture(Desc, Texture.ReleaseAndGetAddress()); };
 		if (FRTStatus S = CreateOrCollect(Make); !S) { return S; }
 	}
@@ -147,6 +162,17 @@ FRTStatus FHistoryResources::GetTexture(const char* Name, const FGraphTextureDes
 {
 	assert(Impl->Graph && "between BeginFrame and EndFrame");
 	Out = {};
+	const auto Old = Impl->Textures.find(Name);
+	if (Old != Impl->Textures.end() && Old->second.bValid && IsSameKind(Old->second.Desc, Desc))
+	{
+		FTexturePair& Kept = Old->second;
+		Kept.Desc = Desc;
+		if (const FRTStatus Status = Impl->Create(Name, Kept); !Status)
+		{
+			Impl->Textures.erase(Old);
+			return Status;
+		}
+	}
 	FTexturePair* Pair = nullptr;
 	const auto Create = [&](FTexturePair& Made) { return Impl->Create(Name, Made); };
 	if (FRTStatus S = Use(Impl->Textures, Name, Desc, Create, Pair); !S) { return S; }

@@ -290,7 +290,7 @@ public:
 	/// Returns the interface that adopts an engine's VkDevice; see ModuleVulkan.h. It lives as long as the module. Do not release.
 	virtual IRTModuleVulkan* GetVulkan() = 0;
 	/// Creates a renderer. Device comes from CreateDevice or IRTModuleVulkan::AdoptDevice, or is the engine's own IRTDevice.
-	virtual FRTStatus CreateRenderer(IRTDevice* Device, IRTModuleRenderer** Out) = 0;
+	virtual FRTStatus CreateRenderer(IRTDevice* Device, const FRTModuleRendererDesc& Desc, IRTModuleRenderer** Out) = 0;
 	/// Sets a console variable by name or alias, from text. Takes effect with the next frame. InvalidArgument names the nearest
 	/// known name.
 	virtual FRTStatus SetConsoleVariable(const char* Name, const char* Value) = 0;

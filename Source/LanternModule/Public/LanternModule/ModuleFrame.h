@@ -1,61 +1,188 @@
 // What an engine hands to IRTModuleRenderer::RenderFrame, and what it gets back. Module.h has the units and the rules.
 #pragma once
 
+#include <cmath>
+
 #include "LanternRHI/RTInterfaces.h"
 #include "LanternSignals/Signals.h"
 
 namespace Lantern
 {
 
+/// A projection as the engine has it: any that is reversed or not, with or without a far plane, off-centre, orthographic or
+/// mirrored. MakeProjection makes a simple one. Refused are: what mixes x with y, oblique near planes, and shifts of the eye.
+struct FRTModuleProjection
+{
+	/// View space to clip space, without jitter: clip = ViewToClip · view, four rows of four. Depth is z / w, from 0 to 1. Engines
+	/// with row vectors hand over the transposed matrix. View space has x to the right, and the engine's unit.
+	/// Precision: the very numbers that the raster used.
+	float ViewToClip[16] = {};
+	bool bViewYDown = false;    ///< view space has y downwards; else upwards
+	bool bViewZForward = false; ///< view space has z forwards; else backwards. A perspective says so itself, by its w
+	/// y of clip space points upwards on the picture, as in Direct3D, or with a Vulkan viewport of negative height. If false, it
+	/// points downwards, as Vulkan has it.
+	bool bClipYUp = false;
+};
+
+/// Returns the perspective of Vulkan with reversed depth: y down, near plane at 1, no far plane. FovY: vertical, radians, between 0
+/// and π. Aspect: width / height. Near: > 0.
+inline FRTModuleProjection MakeProjection(float FovY, float Aspect, float Near)
+{
+	const float Scale = 1.0f / std::tan(0.5f * FovY);
+	return {{Scale / Aspect, 0, 0, 0, 0, -Scale, 0, 0, 0, 0, 0, Near, 0, 0, -1, 0}};
+}
+
+/// All in the engine's own world (FRTModuleRendererDesc).
 struct FRTModuleView
 {
 	double Position[3] = {0, 0, 0};
 	float Forward[3] = {0, 0, -1}; ///< unit length
-	float Up[3] = {0, 1, 0};       ///< need not be perpendicular to Forward, must not be parallel to it
-	float FovY = 1.0f;             ///< vertical, radians, between 0 and π
-	float Near = 0.1f;             ///< > 0
+	float Up[3] = {0, 1, 0};       ///< need not be perpendicular to Forward, must not be parallel to it; towards the picture's top
+	FRTModuleProjection Projection;
+	/// Offset of the picture that temporal antialiasing has added to the projection, pixels, right and down, at most 64. Surfaces are then found
+	/// where they are, and accumulation does not take the jitter for motion.
+	float Jitter[2] = {0, 0};
 };
 
+enum class ERTModuleDepth : uint8_t
+{
+	Projected, ///< as View.Projection made it: z / w
+	Linear,    ///< distance along the view in the engine's unit; sky: 0 or less, and from the far plane of View.Projection on
+};
+
+enum class ERTModuleNormals : uint8_t
+{
+	Octahedral, ///< two channels (Cigolle et al. 2014)
+	Xyz,        ///< three channels; of any length
+};
+
+enum class ERTModuleRange : uint8_t
+{
+	ByFormat, ///< UNORM formats from 0 to 1, all others from −1 to 1
+	Signed,   ///< from −1 to 1
+	Unsigned, ///< from 0 to 1, which stand for −1 to 1
+};
+
+enum class ERTModuleMotion : uint8_t
+{
+	/// RGBA32_FLOAT, see FRTModuleFrame::Motion.
+	Native,
+	/// xy · MotionScale + MotionOffset is the offset from the pixel's centre to where its surface was in the previous frame. Neither
+	/// frame's jitter is in it. Pixels: in pixels, y down. UV: in parts of the picture, y down.
+	Pixels,
+	UV,
+};
+
+enum class ERTModuleMaterialLayout : uint8_t
+{
+	Native, ///< see FRTModuleFrame::BaseColor and Material
+	/// Unreal Engine 4.26. Material: metallic, specular, roughness (GBufferB). BaseColor: base colour, occlusion (GBufferC).
+	Unreal,
+};
+
+/// How the textures of a G-buffer are to be read. Defaults: as the members of FRTModuleFrame say, at no cost. Anything else costs a
+/// pass over the pixels.
+struct FRTModuleGBufferLayout
+{
+	ERTModuleDepth Depth = ERTModuleDepth::Projected;
+	ERTModuleNormals Normals = ERTModuleNormals::Octahedral;
+	ERTModuleRange NormalRange = ERTModuleRange::ByFormat;
+	/// Normals are in view space: x right, y and z as FRTModuleProjection says of the view. Else in the engine's world.
+	bool bViewSpaceNormals = false;
+	/// Channels z and w of octahedral normals hold the geometric normal. If not, it comes from FRTModuleFrame::GeometricNormals, or,
+	/// if that is null, from depth.
+	bool bGeometricInZw = true;
+	ERTModuleMotion Motion = ERTModuleMotion::Native;
+	/// z and w of a Motion that is not native are as in a native one. If not, surfaces count as standing still along the view.
+	bool bMotionDistance = false;
+	/// Texels of Motion whose x and y are 0 were not written: their surface moves with the camera alone.
+	bool bMotionPartial = false;
+	float MotionScale[2] = {1, 1}, MotionOffset[2] = {0, 0};
+	ERTModuleMaterialLayout Material = ERTModuleMaterialLayout::Native;
+};
+
+/// Returns the layout of Unreal Engine 4.26. Normals is GBufferA of any r.GBufferFormat, Material GBufferB, BaseColor GBufferC,
+/// Depth the scene depth, and Motion the velocity texture.
+inline FRTModuleGBufferLayout MakeUnrealGBuffer()
+{
+	FRTModuleGBufferLayout Layout;
+	Layout.Normals = ERTModuleNormals::Xyz;
+	Layout.NormalRange = ERTModuleRange::Unsigned;
+	Layout.bGeometricInZw = false;
+	// Velocity is a difference of clip-space positions, y up, this frame's minus the previous one's, times 0.499 · 0.5, plus
+	// 32767 / 65535. 0 was not written.
+	Layout.Motion = ERTModuleMotion::UV;
+	Layout.bMotionPartial = true;
+	constexpr float Scale = 1.0f / (0.499f * 0.5f), Middle = 32767.0f / 65535.0f;
+	Layout.MotionScale[0] = -0.5f * Scale;
+	Layout.MotionScale[1] = 0.5f * Scale;
+	for (int Axis = 0; Axis < 2; ++Axis) { Layout.MotionOffset[Axis] = -Layout.MotionScale[Axis] * Middle; }
+	Layout.Material = ERTModuleMaterialLayout::Unreal;
+	return Layout;
+}
+
 /// A frame with the engine's G-buffer. All textures have one size and Sampled usage, and are imported with
-/// IRTDevice::ImportTexture. The access of each is how the engine used it last, not None. All are left in ShaderRead.
+/// IRTDevice::ImportTexture. The access of each is how the engine used it last, not None. All are left in ShaderRead, except those
+/// whose access is External: they are left as IRTTexture::SetExternalState says.
 struct FRTModuleFrame
 {
 	/// From IRTDevice::ImportCommandList; it must be recording, outside of a render pass.
 	IRTCommandList* Commands = nullptr;
 	FRTModuleView View;
-	/// D32_FLOAT or R32_FLOAT. Reversed depth without a far plane: near / distance along Forward; 0 is the sky.
+	/// D32_FLOAT, D32_FLOAT_S8_UINT, D24_UNORM_S8_UINT, D16_UNORM or R32_FLOAT, as Layout.Depth says. The sky has the depth of the
+	/// far plane. Native is reversed depth without a far plane in D32_FLOAT or R32_FLOAT: near / distance along Forward.
 	IRTTexture* Depth = nullptr;
-	/// RGBA16_SNORM: shading normal (xy) and geometric normal (zw), both octahedral (Cigolle et al. 2014) and turned
-	/// towards the camera.
+	/// Normals as Layout.Normals says, in any UNORM, SNORM or float format. Shading normals face whichever side the material has.
+	/// Native is RGBA16_SNORM: shading normal (xy) and geometric normal (zw), both octahedral, in world space, the geometric one
+	/// turned towards the camera.
 	IRTTexture* Normals = nullptr;
-	/// RGBA32_FLOAT motion vectors.
-	/// - xy: offset from the pixel's centre to the position of its surface in the previous frame, in pixels, y down.
+	/// Motion vectors as Layout.Motion says. Native is RGBA32_FLOAT:
+	/// - xy: offset from the pixel's centre to the position of its surface in the previous frame, in pixels, y down. Jitter is no
+	///   motion.
 	/// - z: distance of that position along Forward then, in metres.
 	/// - w: a number > 0 for its object that stays equal over frames; 0: unknown.
 	///
-	/// Not read where depth is 0. Null: everything counts as static, and accumulated shadows lag behind
+	/// Not read where depth is the sky's. Null: everything counts as static, and accumulated shadows lag behind
 	/// moving objects.
 	IRTTexture* Motion = nullptr;
-	IRTTexture* BaseColor = nullptr; ///< RGBA8_SRGB: rgb base colour, a metalness. May be null
-	IRTTexture* Material = nullptr;  ///< RGBA8_UNORM: roughness, occlusion, sqrt(F0) of the dielectric, specular weight. May be null
+	IRTTexture* BaseColor = nullptr; ///< RGBA8_SRGB: rgb base colour, a metalness; or as Layout.Material says. May be null
+	/// RGBA8_UNORM: roughness, occlusion, sqrt(F0) of the dielectric, specular weight; or as Layout.Material says. May be null
+	IRTTexture* Material = nullptr;
 	ERTAccess DepthAccess = ERTAccess::ShaderRead;
 	ERTAccess NormalsAccess = ERTAccess::ShaderRead;
 	ERTAccess MotionAccess = ERTAccess::ShaderRead;
 	ERTAccess BaseColorAccess = ERTAccess::ShaderRead;
 	ERTAccess MaterialAccess = ERTAccess::ShaderRead;
+	/// Geometric normals, coded as Normals are. May be null, see Layout.bGeometricInZw.
+	IRTTexture* GeometricNormals = nullptr;
+	ERTAccess GeometricNormalsAccess = ERTAccess::ShaderRead;
+	FRTModuleGBufferLayout Layout;
+	/// The view's part of all textures, pixels: dynamic resolution, split screen. Width and Height 0: to the textures' end.
+	/// Outputs have the size of this part, and start at 0.
+	uint32_t OffsetX = 0, OffsetY = 0, Width = 0, Height = 0;
+	/// Which of several views over the scene this is, any number: split screen, eyes, a mirror's picture. Each accumulates by itself.
+	/// Views of one engine frame are frames of their own, with command lists, submissions and EndFrame of their own. A view that 64
+	/// frames of others have passed by starts anew.
+	uint32_t ViewIndex = 0;
 	/// Signals that the engine reads; ESignal::Frame is none. Others are not traced, allocate nothing and compile nothing. A wanted
 	/// signal also needs its console variable to be on (r.RT.Shadow, r.RT.AO, …). If FSignalInfo::bNeedsSurface says so, it
 	/// needs BaseColor and Material.
 	FSignalSet Wanted = {ESignal::SunShadow};
 	/// Time since the previous frame, seconds, finite, > 0. Accumulation lasts for a time in seconds, at any frame rate.
 	float DeltaSeconds = 1.0f / 60.0f;
-	/// Discards all history (a camera cut, another world). A change of size does so without it.
+	/// The previous frame's view as this frame's world has it, for an engine whose world got another origin. Null: as RenderFrame was
+	/// given it then.
+	const FRTModuleView* PreviousView = nullptr;
+	/// Discards the view's history (a camera cut, another world). A change of size does not.
 	bool bCut = false;
 	uint32_t Seed = 0; ///< equal seed, frame number and scene give equal images
 };
 
 /// Outputs of a frame. The renderer owns the textures; they are valid until its next RenderFrame. They are in ShaderRead. The
 /// engine may copy from them if it puts them back in ShaderRead.
+/// To read them, fetch the texel of the view's own pixel: the engine's pixel minus FRTModuleFrame::OffsetX and OffsetY. Or sample
+/// with UVs of the view's part. A null texture means that the engine lights as if there were no such pass: with visibility 1, and
+/// with its own ambient light.
 /// A texture is null if it was not wanted, is off, or if the scene has nothing for it (no sun, …). It is also null if the
 /// device cannot make it, an input is missing, or shaders are not ready.
 struct FRTModuleOutputs

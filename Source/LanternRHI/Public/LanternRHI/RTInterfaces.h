@@ -62,6 +62,9 @@ public:
 
 	// Called by hosts.
 	virtual uint64_t GetNative(ERTNative Kind) const = 0; ///< 0 if the texture has none of this kind
+	/// Says what ERTAccess::External is, in barriers recorded from now on: From before them, To after them. Only for textures of
+	/// IRTDevice::ImportTexture. InvalidArgument for other textures, and for layouts that no image can be left in.
+	virtual FRTStatus SetExternalState(const FRTExternalState& From, const FRTExternalState& To) = 0;
 };
 
 class IRTSampler : public IRTRefCounted

@@ -3,69 +3,13 @@
 // they point at need not outlive the call.
 #pragma once
 
+#include "LanternRHI/RTFormat.h"
 #include "LanternRHI/RTStatus.h"
 
 namespace Lantern
 {
 
 // ---------------------------------------------------------------------------------------------------- enums
-
-enum class ERTFormat : uint8_t
-{
-	Unknown,
-	R8_UNORM,
-	RG8_UNORM,
-	RGBA8_UNORM,
-	RGBA8_SRGB,
-	RGB10A2_UNORM,
-	R11G11B10_FLOAT,
-	R16_FLOAT,
-	RG16_FLOAT,
-	RGBA16_FLOAT,
-	RG16_UNORM,
-	RGBA16_UNORM,
-	RG16_SNORM,
-	RGBA16_SNORM,
-	R16_UINT,
-	R32_UINT,
-	RG32_UINT,
-	RGBA32_UINT,
-	R32_FLOAT,
-	RG32_FLOAT,
-	RGBA32_FLOAT,
-	D32_FLOAT,
-};
-
-/// Returns the bytes of one texel.
-constexpr uint32_t BytesPerTexel(ERTFormat Format)
-{
-	switch (Format)
-	{
-	case ERTFormat::Unknown: return 0;
-	case ERTFormat::R8_UNORM: return 1;
-	case ERTFormat::RG8_UNORM:
-	case ERTFormat::R16_FLOAT:
-	case ERTFormat::R16_UINT: return 2;
-	case ERTFormat::RGBA8_UNORM:
-	case ERTFormat::RGBA8_SRGB:
-	case ERTFormat::RGB10A2_UNORM:
-	case ERTFormat::R11G11B10_FLOAT:
-	case ERTFormat::RG16_FLOAT:
-	case ERTFormat::RG16_UNORM:
-	case ERTFormat::RG16_SNORM:
-	case ERTFormat::R32_UINT:
-	case ERTFormat::R32_FLOAT:
-	case ERTFormat::D32_FLOAT: return 4;
-	case ERTFormat::RGBA16_FLOAT:
-	case ERTFormat::RGBA16_UNORM:
-	case ERTFormat::RGBA16_SNORM:
-	case ERTFormat::RG32_UINT:
-	case ERTFormat::RG32_FLOAT: return 8;
-	case ERTFormat::RGBA32_UINT:
-	case ERTFormat::RGBA32_FLOAT: return 16;
-	}
-	return 0;
-}
 
 enum class ERTMemory : uint8_t
 {
@@ -119,6 +63,8 @@ enum class ERTAccess : uint32_t
 	BuildWrite = 1 << 11,   ///< an acceleration structure or scratch written by a build
 	TraceRead = 1 << 12,    ///< an acceleration structure or shader table read by rays
 	HostRead = 1 << 13,
+	/// An imported texture as its engine has it: IRTTexture::SetExternalState says how. Before or After of a barrier, alone.
+	External = 1 << 14,
 };
 
 enum class ERTIndexType : uint8_t
@@ -126,6 +72,17 @@ enum class ERTIndexType : uint8_t
 	None, ///< vertices in order
 	UInt16,
 	UInt32,
+};
+
+/// How an engine leaves an imported texture, or wants it back, in terms of the peer's API. Vulkan: VkImageLayout,
+/// VkPipelineStageFlags2, VkAccessFlags2.
+struct FRTExternalState
+{
+	uint32_t Layout = 0;
+	/// Before Lantern: stages and accesses since the last write, that write included, and what the engine's own barriers after it
+	/// lead to. After Lantern: those of the engine's next use.
+	uint64_t Stages = 0;
+	uint64_t Accesses = 0;
 };
 
 enum class ERTShaderStage : uint8_t
@@ -231,6 +188,9 @@ struct FRTTextureDesc
 	ERTFormat Format = ERTFormat::Unknown;
 	ERTTextureUsage Usage = ERTTextureUsage::None;
 	const char* Name = "";
+	/// IRTDevice::ImportTexture only. The engine's view of the image, which shaders then sample (Vulkan: a 2D VkImageView of one
+	/// aspect). It must outlive the texture. 0: a view of the whole image in Format is made.
+	uint64_t NativeView = 0;
 };
 
 enum class ERTFilter : uint8_t
@@ -251,6 +211,9 @@ struct FRTSamplerDesc
 	ERTAddress U = ERTAddress::Repeat, V = ERTAddress::Repeat;
 	float MaxAnisotropy = 1.0f;
 	const char* Name = "";
+	/// An engine's own sampler (Vulkan: VkSampler), which must outlive this one. All other members but Name are then ignored.
+	/// 0: one is made. Implementations that import nothing return Unsupported.
+	uint64_t NativeSampler = 0;
 };
 
 /// SPIR-V of one stage. Its entry point is "main".
@@ -277,7 +240,7 @@ enum class ERTCull : uint8_t
 
 /// Raster pipelines pull their vertices from buffer addresses: there is no vertex input. Clip space is Vulkan's: y down, z from
 /// 0 to 1. Counter-clockwise is front, as seen on the target. Depth is reversed (1 near, 0 far); the test is
-/// greater-or-equal.
+/// greater-or-equal, unless bReversedDepth says otherwise.
 struct FRTRasterPipelineDesc
 {
 	FRTShaderCode Vertex;
@@ -287,6 +250,7 @@ struct FRTRasterPipelineDesc
 	ERTFormat DepthFormat = ERTFormat::Unknown; ///< Unknown for no depth test
 	ERTCull Cull = ERTCull::Back;
 	bool bDepthWrite = true;
+	bool bReversedDepth = true; ///< if false, 0 is near and the test is less-or-equal
 	const char* Name = "";
 };
 
@@ -457,7 +421,8 @@ struct FRTRasterPassDesc
 	const FRTColorTarget* Colors = nullptr;
 	uint32_t ColorCount = 0;
 	IRTTexture* Depth = nullptr;
-	bool bClearDepth = true; ///< clears to 0, the far plane
+	bool bClearDepth = true;
+	float ClearDepth = 0.0f; ///< 0 is the far plane of reversed depth
 	uint32_t Width = 0, Height = 0;
 };
 

@@ -160,10 +160,18 @@ void FVulkanCommandList::Barriers(const FRTBarrier* Items, uint32_t Count)
 		Image.dstAccessMask = After.Access;
 		Image.oldLayout = GetVulkanLayout(Item.Before);
 		Image.newLayout = GetVulkanLayout(Item.After);
+		if (Item.Before == ERTAccess::External)
+		{
+			Texture->GetExternalState(0).ApplyTo(Image.srcStageMask, Image.srcAccessMask, Image.oldLayout);
+		}
+		if (Item.After == ERTAccess::External)
+		{
+			Texture->GetExternalState(1).ApplyTo(Image.dstStageMask, Image.dstAccessMask, Image.newLayout);
+		}
 		Image.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
 		Image.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
 		Image.image = Texture->GetImage();
-		Image.subresourceRange = {AspectOf(Texture->GetDesc().Format), 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
+		Image.subresourceRange = {AllAspectsOf(Texture->GetDesc().Format), 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
 		Images.push_back(Image);
 	}
 	VkDependencyInfo Info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
@@ -244,7 +252,7 @@ void FVulkanCommandList::BeginRasterPass(const FRTRasterPassDesc& Desc)
 		Depth.imageLayout = GetVulkanLayout(ERTAccess::DepthWrite);
 		Depth.loadOp = Desc.bClearDepth ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
 		Depth.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-		Depth.clearValue.depthStencil = {0.0f, 0};
+		Depth.clearValue.depthStencil = {Desc.ClearDepth, 0};
 	}
 	VkRenderingInfo Info{VK_STRUCTURE_TYPE_RENDERING_INFO};
 	Info.renderArea.extent = {Desc.Width, Desc.Height};

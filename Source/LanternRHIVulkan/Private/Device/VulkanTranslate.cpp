@@ -34,6 +34,23 @@ VkFormat GetVulkanFormat(ERTFormat Format)
 	case ERTFormat::RG32_FLOAT: return VK_FORMAT_R32G32_SFLOAT;
 	case ERTFormat::RGBA32_FLOAT: return VK_FORMAT_R32G32B32A32_SFLOAT;
 	case ERTFormat::D32_FLOAT: return VK_FORMAT_D32_SFLOAT;
+	case ERTFormat::RGBA8_SNORM: return VK_FORMAT_R8G8B8A8_SNORM;
+	case ERTFormat::BGRA8_UNORM: return VK_FORMAT_B8G8R8A8_UNORM;
+	case ERTFormat::BGRA8_SRGB: return VK_FORMAT_B8G8R8A8_SRGB;
+	case ERTFormat::D16_UNORM: return VK_FORMAT_D16_UNORM;
+	case ERTFormat::D24_UNORM_S8_UINT: return VK_FORMAT_D24_UNORM_S8_UINT;
+	case ERTFormat::D32_FLOAT_S8_UINT: return VK_FORMAT_D32_SFLOAT_S8_UINT;
+	case ERTFormat::BC1_UNORM: return VK_FORMAT_BC1_RGBA_UNORM_BLOCK;
+	case ERTFormat::BC1_SRGB: return VK_FORMAT_BC1_RGBA_SRGB_BLOCK;
+	case ERTFormat::BC3_UNORM: return VK_FORMAT_BC3_UNORM_BLOCK;
+	case ERTFormat::BC3_SRGB: return VK_FORMAT_BC3_SRGB_BLOCK;
+	case ERTFormat::BC4_UNORM: return VK_FORMAT_BC4_UNORM_BLOCK;
+	case ERTFormat::BC5_UNORM: return VK_FORMAT_BC5_UNORM_BLOCK;
+	case ERTFormat::BC6H_FLOAT: return VK_FORMAT_BC6H_UFLOAT_BLOCK;
+	case ERTFormat::BC7_UNORM: return VK_FORMAT_BC7_UNORM_BLOCK;
+	case ERTFormat::BC7_SRGB: return VK_FORMAT_BC7_SRGB_BLOCK;
+	case ERTFormat::ASTC4x4_UNORM: return VK_FORMAT_ASTC_4x4_UNORM_BLOCK;
+	case ERTFormat::ASTC4x4_SRGB: return VK_FORMAT_ASTC_4x4_SRGB_BLOCK;
 	}
 	return VK_FORMAT_UNDEFINED;
 }
@@ -54,9 +71,11 @@ VkImageLayout GetVulkanLayout(ERTAccess Access)
 	}
 }
 
-VkImageAspectFlags AspectOf(ERTFormat Format)
+VkImageAspectFlags AspectOf(ERTFormat Format) { return IsDepth(Format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT; }
+
+VkImageAspectFlags AllAspectsOf(ERTFormat Format)
 {
-	return Format == ERTFormat::D32_FLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+	return AspectOf(Format) | (HasStencil(Format) ? VkImageAspectFlags(VK_IMAGE_ASPECT_STENCIL_BIT) : 0u);
 }
 
 bool IsIntegerFormat(ERTFormat Format)

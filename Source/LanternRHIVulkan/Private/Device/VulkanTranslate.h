@@ -20,7 +20,10 @@ struct FVulkanAccess
 	VkAccessFlags2 Access = 0;
 };
 
+/// Returns what shaders and copies see of a format.
 VkImageAspectFlags AspectOf(ERTFormat Format);
+/// Returns what barriers and attachments take.
+VkImageAspectFlags AllAspectsOf(ERTFormat Format);
 bool IsIntegerFormat(ERTFormat Format);
 VkImageUsageFlags ImageUsageOf(const FRTTextureDesc& Desc);
 VkBufferUsageFlags BufferUsageOf(ERTBufferUsage Usage, const FVulkanCapabilityBits& Bits);

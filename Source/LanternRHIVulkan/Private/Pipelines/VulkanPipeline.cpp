@@ -39,7 +39,7 @@ struct FRasterState
 		const bool bDepth = Desc.DepthFormat != ERTFormat::Unknown;
 		Depth.depthTestEnable = bDepth;
 		Depth.depthWriteEnable = bDepth && Desc.bDepthWrite;
-		Depth.depthCompareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
+		Depth.depthCompareOp = Desc.bReversedDepth ? VK_COMPARE_OP_GREATER_OR_EQUAL : VK_COMPARE_OP_LESS_OR_EQUAL;
 		for (uint32_t Index = 0; Index < Desc.ColorCount; ++Index)
 		{
 			Attachments[Index].colorWriteMask =

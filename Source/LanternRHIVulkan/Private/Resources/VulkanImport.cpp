@@ -95,7 +95,8 @@ FRTStatus CheckImport(FVulkanDevice& Device, const FRTTextureDesc& Desc, VkImage
 	if (Desc.ArraySize == 0 || Desc.ArraySize > MostLayers) { return Refuse("FRTTextureDesc::ArraySize is 0 or above 2048"); }
 	VkMemoryRequirements Needs{};
 	Device.Api.GetImageMemoryRequirements(Device.Handle, Image, &Needs);
-	const VkDeviceSize Least = VkDeviceSize(Desc.Width) * Desc.Height * Desc.ArraySize * BytesPerTexel(Desc.Format);
+	const VkDeviceSize Texels = VkDeviceSize(Desc.Width) * Desc.Height * Desc.ArraySize;
+	const VkDeviceSize Least = IsCompressed(Desc.Format) ? Texels * BytesPerBlock(Desc.Format) / 16 : Texels * BytesPerTexel(Desc.Format);
 	if (Needs.size < Least)
 	{
 		return FRTStatus::Error(ERTResult::InvalidArgument,

@@ -14,6 +14,7 @@ FRTStatus FVulkanTexture::Initialise(const FRTTextureDesc& InDesc, VkImage Impor
 	Desc = InDesc;
 	Name = InDesc.Name ? InDesc.Name : "";
 	Desc.Name = Name.c_str();
+	assert(Imported || Desc.NativeView == 0);
 	assert(Desc.Width > 0 && Desc.Height > 0 && Desc.MipCount > 0 && Desc.ArraySize > 0);
 	Image = Imported;
 	if (!Imported)
@@ -28,7 +29,8 @@ FVulkanTexture::~FVulkanTexture()
 {
 	Device.Bindless.Remove(FVulkanBindless::Sampled, SampledIndex);
 	Device.Bindless.Remove(FVulkanBindless::Storage, StorageIndex);
-	for (VkImageView View : {SampledView, StorageView, AttachmentView}) { Device.Api.DestroyImageView(Device.Handle, View, nullptr); }
+	for (VkImageView View : {StorageView, AttachmentView}) { Device.Api.DestroyImageView(Device.Handle, View, nullptr); }
+	if (Desc.NativeView == 0) { Device.Api.DestroyImageView(Device.Handle, SampledView, nullptr); }
 	if (bOwned)
 	{
 		Device.Memory.DestroyImage(Image, Allocation);
@@ -96,7 +98,8 @@ FRTStatus FVulkanTexture::CreateView(uint32_t MipCount, uint32_t LayerCount, VkI
 	Info.image = Image;
 	Info.viewType = LayerCount > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
 	Info.format = GetVulkanFormat(Desc.Format);
-	Info.subresourceRange = {AspectOf(Desc.Format), 0, MipCount, 0, LayerCount};
+	const bool bAttachment = (Usage & VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT) != 0;
+	Info.subresourceRange = {bAttachment ? AllAspectsOf(Desc.Format) : AspectOf(Desc.Format), 0, MipCount, 0, LayerCount};
 	const VkResult Result = Device.Check(Device.Api.CreateImageView(Device.Handle, &Info, nullptr, Out));
 	if (Result == VK_SUCCESS) { Device.SetName(VK_OBJECT_TYPE_IMAGE_VIEW, ToNative(*Out), Desc.Name); }
 	return MakeStatus(Result, "Creating a view of texture", Desc.Name);
@@ -111,7 +114,8 @@ FRTStatus FVulkanTexture::CreateViews()
 	};
 	if (HasAny(Desc.Usage, ERTTextureUsage::Sampled))
 	{
-		Status = CreateView(Desc.MipCount, Desc.ArraySize, VK_IMAGE_USAGE_SAMPLED_BIT, &SampledView);
+		if (Desc.NativeView != 0) { SampledView = (VkImageView)Desc.NativeView; }
+		else { Status = CreateView(Desc.MipCount, Desc.ArraySize, VK_IMAGE_USAGE_SAMPLED_BIT, &SampledView); }
 		if (!Status) { return Status; }
 		SampledIndex = Device.Bindless.AddImage(FVulkanBindless::Sampled, SampledView);
 		if (SampledIndex == NoBindlessIndex) { return NoIndex("sampled"); }
@@ -142,6 +146,26 @@ uint64_t FVulkanTexture::GetNative(ERTNative Kind) const
 	}
 }
 
+FRTStatus FVulkanTexture::SetExternalState(const FRTExternalState& From, const FRTExternalState& To)
+{
+	const auto Refuse = [&](const char* Why) {
+		return FRTStatus::Error(ERTResult::InvalidArgument, "SetExternalState: texture '%s': %s", FRTShown(Desc.Name).Text, Why);
+	};
+	if (bOwned) { return Refuse("it was not imported"); }
+	if (From.Layout == VK_IMAGE_LAYOUT_UNDEFINED || From.Layout == VK_IMAGE_LAYOUT_PREINITIALIZED)
+	{
+		return Refuse("From.Layout is one without content");
+	}
+	if (To.Layout == VK_IMAGE_LAYOUT_UNDEFINED || To.Layout == VK_IMAGE_LAYOUT_PREINITIALIZED)
+	{
+		return Refuse("To.Layout is one that no barrier can leave an image in");
+	}
+	if (From.Stages == 0 || To.Stages == 0) { return Refuse("Stages is 0"); }
+	External[0] = {static_cast<VkImageLayout>(From.Layout), From.Stages, From.Accesses};
+	External[1] = {static_cast<VkImageLayout>(To.Layout), To.Stages, To.Accesses};
+	return {};
+}
+
 // ------------------------------------------------------------------------------------------------ sampler
 
 namespace
@@ -163,6 +187,12 @@ VkSamplerAddressMode AddressOf(ERTAddress Address)
 FRTStatus FVulkanSampler::Initialise(const FRTSamplerDesc& Desc)
 {
 	const char* Name = Desc.Name ? Desc.Name : "";
+	bOwned = Desc.NativeSampler == 0;
+	if (!bOwned)
+	{
+		Handle = (VkSampler)Desc.NativeSampler;
+		return AddToHeap(Name);
+	}
 	VkSamplerCreateInfo Info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
 	Info.minFilter = Desc.Min == ERTFilter::Linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
 	Info.magFilter = Desc.Mag == ERTFilter::Linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
@@ -180,6 +210,11 @@ FRTStatus FVulkanSampler::Initialise(const FRTSamplerDesc& Desc)
 		return MakeStatus(Result, "Creating sampler", Name);
 	}
 	Device.SetName(VK_OBJECT_TYPE_SAMPLER, ToNative(Handle), Name);
+	return AddToHeap(Name);
+}
+
+FRTStatus FVulkanSampler::AddToHeap(const char* Name)
+{
 	Index = Device.Bindless.AddSampler(Handle);
 	if (Index == NoBindlessIndex)
 	{
@@ -192,7 +227,7 @@ FRTStatus FVulkanSampler::Initialise(const FRTSamplerDesc& Desc)
 FVulkanSampler::~FVulkanSampler()
 {
 	Device.Bindless.Remove(FVulkanBindless::Sampler, Index);
-	Device.Api.DestroySampler(Device.Handle, Handle, nullptr);
+	if (bOwned) { Device.Api.DestroySampler(Device.Handle, Handle, nullptr); }
 }
 
 } // namespace Lantern

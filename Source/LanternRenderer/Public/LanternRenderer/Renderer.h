@@ -4,8 +4,10 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -78,6 +80,10 @@ struct FFrameFeatures
 	/// FSignalRequests::bMotion asks. An engine with motion vectors of its own saves 72 bytes a frame for each moving object.
 	bool bMotion = true;
 	FSignalRequests Signals;
+	/// The view of the frame before as this frame's world has it. Empty: as it was given then.
+	std::optional<FView> PreviousView;
+	/// Which of several views over the scene this is: each has histories of its own, and the frame before is its own.
+	uint32_t ViewIndex = 0;
 };
 
 /// Counts of alpha tests under rays, with r.RT.Opacity.Count. A frame's count arrives two frames later, or with WaitForAll.
@@ -193,7 +199,7 @@ public:
 	FComputePipelines& GetPipelines() { return Pipelines; }
 	FRefitQuality& GetRefitQuality() { return *RefitQuality; }
 	FFrameUploads& GetUploads() { return Uploads; }
-	FHistoryResources& GetHistory() { return *History; }
+	FHistoryResources& GetHistory(uint32_t ViewIndex = 0) { return *GetView(ViewIndex).History; }
 	FFrameGraphResources& GetGraphResources() { return GraphResources; }
 	/// Returns the RTPSO of the last frame; null if it had none.
 	const FRTPSO* GetRayPipeline() const { return RayPipeline.get(); }
@@ -224,6 +230,7 @@ private:
 	void WriteConstants();
 	void DropFrame();
 	void KeepHistory(bool bSubmitted);
+	void FindPreviousView(FRTScene& Scene, const FFrameFeatures& Features);
 	void BeginFeedback();
 	void StartCounting();
 	void EndFeedback(bool bSubmitted);
@@ -265,13 +272,23 @@ private:
 	uint32_t ListsUsed[QueueCount] = {};   // of Lists, in this frame
 	std::vector<IRTCommandList*> Recorded; // of this frame, in order
 	std::vector<FGraphSubmission> Submissions;
-	FRTFence LastGraph = 0; // what the last frame of this renderer ended with
+	FRTFence LastGraph = 0;                        // what the last frame of this renderer ended with
+	static constexpr uint32_t KeptIdleFrames = 64; // of other views, after which a view's histories go
 	FRTFence Fences[MaxInFlight] = {};
 	uint32_t FlightIndex = 0; // of this frame, in Lists and Fences
-	std::unique_ptr<FHistoryResources> History;
-	FView LastView;              // of the newest frame that reached the GPU
-	uint64_t LastScene = 0;      // identity of its scene's sections, which outlives an address; 0: none
-	uint32_t LastSceneFrame = 0; // what the scene counted it as: another renderer's frame may have followed
+	/// What a view keeps from frame to frame.
+	struct FViewState
+	{
+		std::unique_ptr<FHistoryResources> History;
+		FView LastView;              // of the newest frame that reached the GPU
+		uint64_t LastScene = 0;      // identity of its scene's sections, which outlives an address; 0: none
+		uint32_t LastSceneFrame = 0; // what the scene counted it as: another renderer's frame may have followed
+		uint32_t IdleFrames = 0;     // of other views since its own last one
+	};
+	FViewState& GetView(uint32_t Index);
+	std::map<uint32_t, FViewState> Views;
+	FViewState* State = nullptr; // of this frame's view
+	FView PreviousView;          // of this frame, see FFrameContext::PreviousView
 	std::string LastDump;
 	bool bDumpGraph = false;
 	enum class EPrebind : uint8_t

@@ -48,22 +48,32 @@ FCullingSettings FCullingSettings::FromConsole()
 	return Settings;
 }
 
+FGatherView::FGatherView(const glm::dvec3& InPosition, const glm::vec3& InForward, float FovY, uint32_t InHeight)
+    : Position(InPosition),
+      Forward(InForward),
+      PixelSize(InHeight > 0 ? static_cast<float>(2.0 * std::tan(0.5 * double(FovY)) / InHeight) : 0.0f),
+      Height(InHeight)
+{}
+
 FCullingRule::FCullingRule(const FGatherView& View, const FCullingSettings& Settings)
     : bCull(Settings.bEnabled),
       Eye(View.Position),
-      Forward(glm::normalize(glm::dvec3(View.Forward))),
-      Radius{Settings.Radius, Settings.RadiusBehind},
-      InverseSine{InvertSine(Settings.Angle), InvertSine(Settings.AngleBehind)}
+      Forward(View.bOrthographic ? glm::dvec3(0) : glm::normalize(glm::dvec3(View.Forward))),
+      Radius{Settings.Radius + View.Reach, Settings.RadiusBehind + View.Reach},
+      InverseSine{InvertSine(Settings.Angle), InvertSine(Settings.AngleBehind)},
+      bOrthographic(View.bOrthographic)
 {
-	PixelsPerSlope = View.Height / std::tan(0.5 * double(View.FovY));
-	bVisibleLimit = Settings.VisibleMinPixels > 0.0f && View.Height > 0;
-	bShadowLimit = Settings.ShadowMinPixels > 0.0f && View.Height > 0;
+	PixelsPerSlope = View.PixelSize > 0.0f ? 2.0 / double(View.PixelSize) : 0.0;
+	const bool bLimits = View.PixelSize > 0.0f && !View.bOrthographic;
+	bVisibleLimit = Settings.VisibleMinPixels > 0.0f && bLimits;
+	bShadowLimit = Settings.ShadowMinPixels > 0.0f && bLimits;
 	if (bVisibleLimit) { VisibleScale = PixelsPerSlope / Settings.VisibleMinPixels; }
 	if (bShadowLimit) { ShadowScale = PixelsPerSlope / Settings.ShadowMinPixels; }
 }
 
 float FCullingRule::ScreenSize(const glm::dvec3& Center, double SphereRadius) const
 {
+	if (bOrthographic) { return static_cast<float>(SphereRadius * PixelsPerSlope); }
 	// The distance is at least the radius: a sphere around the camera fills the screen.
 	const double Distance = std::max(glm::distance(Center, Eye), std::max(SphereRadius, 1e-6));
 	return static_cast<float>(SphereRadius / Distance * PixelsPerSlope);

@@ -24,7 +24,8 @@ namespace Lantern
 
 struct FHistoryTexture
 {
-	/// The previous frame's texture, in ShaderRead. Invalid on first use, after a cut, and with another size or format. Also
+	/// The previous frame's texture, in ShaderRead, at the resolution that frame had. Invalid on first use, after a cut, and with
+	/// another format. Also
 	/// invalid after a frame that was lost or did not write Current.
 	FGraphTexture Previous;
 	FGraphTexture Current; ///< one of the frame's passes must write all of it; later passes may read it
@@ -47,7 +48,7 @@ public:
 
 	/// bKeep: false invalidates the content of all histories but keeps their memory (a cut).
 	void BeginFrame(FFrameGraph& Graph, bool bKeep);
-	/// Returns the history of this name, once a frame. Another size or format starts anew. Fails if there is no memory; the
+	/// Returns the history of this name, once a frame. Another format starts anew. Fails if there is no memory; the
 	/// pass must then be left out. The textures may be sampled, stored to and copied to; ExtraUsage adds to that. Takes the
 	/// memory of two textures.
 	FRTStatus GetTexture(const char* Name, const FGraphTextureDesc& Desc, FHistoryTexture& Out);

@@ -15,17 +15,19 @@ struct FGatherView
 {
 	FGatherView() = default;
 	FGatherView(const glm::dvec3& InPosition) : Position(InPosition) {}
-	FGatherView(const glm::dvec3& InPosition, const glm::vec3& InForward, float InFovY, uint32_t InHeight)
-	    : Position(InPosition),
-	      Forward(InForward),
-	      FovY(InFovY),
-	      Height(InHeight)
-	{}
+	FGatherView(const glm::dvec3& InPosition, const glm::vec3& InForward) : Position(InPosition), Forward(InForward) {}
+	/// FovY: radians. Height: pixels.
+	FGatherView(const glm::dvec3& InPosition, const glm::vec3& InForward, float FovY, uint32_t Height);
 
-	glm::dvec3 Position{0}; ///< in the world, metres
+	glm::dvec3 Position{0}; ///< in the world, metres; orthographic: the middle of what is seen
 	glm::vec3 Forward{0, 0, -1};
-	float FovY = 1.0f;   ///< radians
-	uint32_t Height = 0; ///< pixels, for minimum screen sizes; 0: those do not apply
+	/// Height of a pixel at distance 1, or in metres if orthographic, for minimum screen sizes. 0: those do not apply.
+	float PixelSize = 0.0f;
+	uint32_t Height = 0; ///< of the picture, pixels: what is built first is what takes most of it
+	/// What is seen has no point that it is seen from. Distances count from a sphere of radius Reach around it, in metres, nothing
+	/// lies behind, and minimum screen sizes do not apply.
+	bool bOrthographic = false;
+	double Reach = 0.0;
 	friend bool operator==(const FGatherView&, const FGatherView&) = default;
 };
 
@@ -85,6 +87,7 @@ struct FCullingRule
 
 private:
 	double PixelsPerSlope = 0.0;
+	bool bOrthographic = false;
 };
 
 } // namespace Lantern
