@@ -6,6 +6,7 @@
 #include "Bench/BenchAnyHit.h"
 #include "Bench/BenchFrame.h"
 #include "Bench/BenchGather.h"
+#include "Bench/BenchGrowth.h"
 #include "Bench/BenchPipelines.h"
 #include "Bench/BenchRaysCommand.h"
 #include "Bench/BenchShaders.h"
@@ -23,6 +24,7 @@ struct FBenchCommands::FOptions
 	FBenchGatherOptions BenchGather;
 	FBenchPipelinesOptions BenchPipelines;
 	FBenchShadersOptions BenchShaders;
+	FBenchGrowthOptions BenchGrowth;
 };
 
 FBenchCommands::FBenchCommands() : Options(std::make_unique<FOptions>()) {}
@@ -53,9 +55,13 @@ void FBenchCommands::AddTo(CLI::App& App, int& Status)
 	CLI::App* const Pipelines = Command->add_subcommand("rtpso", "Pipelines made whole and from libraries, and what frames notice of it");
 	Options->BenchPipelines.AddTo(*Pipelines);
 	Pipelines->final_callback([&Options = Options->BenchPipelines, &Status] { Status = RunBenchPipelines(Options); });
-	CLI::App* const Shaders = Command->add_subcommand("shaders", "What each shader costs to compile, dearest first; caches are off");
+	CLI::App* const Shaders = Command->add_subcommand("shaders", "What each shader costs to compile; caches are off");
 	Options->BenchShaders.AddTo(*Shaders);
 	Shaders->final_callback([&Options = Options->BenchShaders, &Status] { Status = RunBenchShaders(Options); });
+	CLI::App* const Growth =
+	    Command->add_subcommand("growth", "A frame's time against objects, triangles, materials and pixels, with the exponent of each");
+	Options->BenchGrowth.AddTo(*Growth);
+	Growth->final_callback([&Options = Options->BenchGrowth, &Status] { Status = RunBenchGrowth(Options); });
 }
 
 } // namespace Lantern
