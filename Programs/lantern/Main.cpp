@@ -82,7 +82,11 @@ void FCommandLine::AddRender()
 	CLI::App* const Command = App.add_subcommand("render", "Render a scene through the plugin");
 	Render.Device.AddTo(*Command);
 	Render.Picture.AddTo(*Command);
-	Command->add_option("--frames", Render.Frames, "Frames to render; the picture is the last one's")->check(CLI::Range(1, 1'000'000));
+	Command
+	    ->add_option("--frames", Render.Frames,
+	        "Frames to render; the picture is the last one's. "
+	        "Without it: until what accumulates over frames has settled, 64 at most")
+	    ->check(CLI::Range(1, 1'000'000));
 	Command->add_flag("--list", bList, "List the built-in scenes");
 	Command->add_flag("--dump-graph", Render.bDumpGraph, "Print the last frame's passes, resources and barriers");
 	Command->final_callback([this] { Status = bList ? RunListScenes() : RunRender(Render); });

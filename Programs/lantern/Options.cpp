@@ -5,9 +5,13 @@
 #include <cmath>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "LanternCore/Config/Config.h"
+#include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
+#include "LanternHost/BuiltinScenes.h"
 #include "LanternImage/Image.h"
 
 namespace Lantern
@@ -15,9 +19,6 @@ namespace Lantern
 
 namespace
 {
-// Beyond it, squares overflow in fp32.
-constexpr double MaxNumber = 1e15;
-
 std::optional<double> ParseNumber(std::string_view Text)
 {
 	double Value = 0.0;
@@ -30,42 +31,34 @@ std::vector<double> RequireNumbers(const char* Option, const std::string& Text, 
 {
 	const auto Numbers = ParseNumbers(Text, Count);
 	if (!Numbers) { throw CLI::ValidationError(Option, Quote(Text) + " is not of the form " + Form); }
-	for (const double Number : *Numbers)
-	{
-		if (std::abs(Number) > MaxNumber) { throw CLI::ValidationError(Option, Quote(Text) + " holds a number beyond 1e15"); }
-	}
 	return *Numbers;
+}
+
+void RequireNone(const char* Option, const std::string& Text, const std::string& Complaint)
+{
+	if (!Complaint.empty()) { throw CLI::ValidationError(Option, Quote(Text) + ": " + Complaint); }
 }
 
 void ParseCamera(const std::string& Text, FPictureOptions& Options)
 {
 	const auto N = RequireNumbers("--camera", Text, 7, "px,py,pz,tx,ty,tz,fovY");
-	const FCameraOption Camera{{N[0], N[1], N[2]}, {N[3], N[4], N[5]}, N[6]};
-	if (Camera.Position == Camera.Target) { throw CLI::ValidationError("--camera", "position and target are the same point"); }
-	if (!(Camera.FovY > 0.0 && Camera.FovY < 180.0))
-	{
-		throw CLI::ValidationError("--camera", "the field of view must lie between 0 and 180 degrees");
-	}
+	const FViewCamera Camera{{N[0], N[1], N[2]}, {N[3], N[4], N[5]}, N[6]};
+	RequireNone("--camera", Text, CheckViewCamera(Camera));
 	Options.Camera = Camera;
 }
 
 void ParseSun(const std::string& Text, FPictureOptions& Options)
 {
 	const auto N = RequireNumbers("--sun", Text, 5, "E,dx,dy,dz,diameter");
-	const FSunOption Sun{N[0], {N[1], N[2], N[3]}, N[4]};
-	if (Sun.Irradiance < 0.0) { throw CLI::ValidationError("--sun", "the irradiance must not be negative"); }
-	if (glm::length(Sun.Direction) < 1e-12) { throw CLI::ValidationError("--sun", "the direction has no length"); }
-	if (!(Sun.Diameter >= 0.0 && Sun.Diameter <= 180.0))
-	{
-		throw CLI::ValidationError("--sun", "the diameter must lie between 0 and 180 degrees");
-	}
+	const FViewSun Sun{N[0], {N[1], N[2], N[3]}, N[4]};
+	RequireNone("--sun", Text, CheckViewSun(Sun));
 	Options.Sun = Sun;
 }
 
 void ParseSky(const std::string& Text, FPictureOptions& Options)
 {
 	const auto N = RequireNumbers("--sky", Text, 3, "r,g,b");
-	if (N[0] < 0 || N[1] < 0 || N[2] < 0) { throw CLI::ValidationError("--sky", "radiance must not be negative"); }
+	RequireNone("--sky", Text, CheckViewSky({N[0], N[1], N[2]}));
 	Options.Sky = glm::vec3(N[0], N[1], N[2]);
 }
 } // namespace
@@ -133,6 +126,48 @@ void FDeviceOptions::AddSettingsTo(CLI::App& App)
 	App.add_option("--config", Configs, "An ini file; repeatable")->expected(1)->take_all()->allow_extra_args(false);
 }
 
+void AddViewOption(CLI::App& App, std::string& View)
+{
+	App.add_option("--view", View,
+	       "NAME: camera and light from the views.json in the scene's folder or the one above it. Other options come after it. "
+	       "Without a camera or a view: the view main if there is one")
+	    ->check([](const std::string& Text) { return Text.empty() ? std::string("a view has a name") : std::string(); });
+}
+
+int ResolveView(FPictureOptions& Options)
+{
+	const bool bNamed = !Options.View.empty();
+	if (!bNamed && Options.Camera) { return ExitDone; }
+	const FSceneViews Views = IsBuiltinScene(Options.Scene) ? FSceneViews() : LoadSceneViews(Options.Scene);
+	if (!Views.Error.empty()) { return LogError("{}", Views.Error), ExitBadInput; }
+	for (const std::string& Warning : Views.Warnings) { LogWarning("{}", Warning); }
+	const FSceneView* const View = Views.Find(bNamed ? Options.View : "main");
+	if (bNamed && !View)
+	{
+		const std::string Known = Views.File.empty() ? "no views.json in its folder or the one above lists it"
+		                                             : fmt::format("{} has {}", EscapePath(Views.File), Views.ListNames());
+		return LogError("--view {}: {} has no such view; {}", Quote(Options.View), EscapePath(Options.Scene), Known), ExitUsage;
+	}
+	if (!View) { return ExitDone; }
+	Options.View = View->Name;
+	if (!Options.Camera) { Options.Camera = View->Camera; }
+	if (!Options.Sun) { Options.Sun = View->Sun; }
+	if (!Options.Sky && View->Sky) { Options.Sky = glm::vec3(*View->Sky); }
+	Options.bNoSceneLights |= !View->bSceneLights;
+	return ExitDone;
+}
+
+int ResolveSceneView(FPictureOptions& Options)
+{
+	if (IsBuiltinScene(Options.Scene)) { Options.View.clear(); }
+	return ResolveView(Options);
+}
+
+nlohmann::json DescribeView(const FPictureOptions& Options)
+{
+	return Options.View.empty() ? nlohmann::json(nullptr) : nlohmann::json(EscapeText(Options.View));
+}
+
 void FPictureOptions::AddTo(CLI::App& App)
 {
 	App.add_option("SCENE", Scene, "A .gltf or .glb, or the name of a built-in scene");
@@ -140,6 +175,7 @@ void FPictureOptions::AddTo(CLI::App& App)
 	App.add_option("--json", Json, "Write the figures to this file");
 	App.add_option_function<std::string>(
 	    "--size", [this](const std::string& Text) { ParseSize(Text, *this); }, "WIDTHxHEIGHT, pixels");
+	AddViewOption(App, View);
 	App.add_option_function<std::string>(
 	    "--camera", [this](const std::string& Text) { ParseCamera(Text, *this); }, "px,py,pz,tx,ty,tz,fovY: metres, vertical degrees");
 	App.add_option_function<std::string>(

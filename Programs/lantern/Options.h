@@ -7,6 +7,9 @@
 #include <vector>
 
 #include <glm/glm.hpp>
+#include <nlohmann/json_fwd.hpp>
+
+#include "LanternHost/SceneViews.h"
 
 namespace CLI
 {
@@ -18,19 +21,6 @@ namespace Lantern
 
 /// Exit statuses.
 inline constexpr int ExitDone = 0, ExitCheckFailed = 1, ExitUsage = 2, ExitNoDevice = 3, ExitBadInput = 4;
-
-struct FCameraOption
-{
-	glm::dvec3 Position, Target;
-	double FovY; ///< degrees
-};
-
-struct FSunOption
-{
-	double Irradiance;
-	glm::dvec3 Direction;
-	double Diameter; ///< degrees
-};
 
 /// Which device, and which console variables.
 struct FDeviceOptions
@@ -52,14 +42,26 @@ struct FPictureOptions
 	std::string Output;
 	std::string Json;
 	uint32_t Width = 1280, Height = 720;
-	std::optional<FCameraOption> Camera;
-	std::optional<FSunOption> Sun;
+	/// A name in the views.json of the scene. ResolveView replaces it by the name of the view in use, or by nothing.
+	std::string View;
+	std::optional<FViewCamera> Camera;
+	std::optional<FViewSun> Sun;
 	std::optional<glm::vec3> Sky;
 	bool bNoSceneLights = false;
 	double Time = 0.0;
 	uint32_t Seed = 0;
 	void AddTo(CLI::App& App);
 };
+
+/// --view.
+void AddViewOption(CLI::App& App, std::string& View);
+/// Takes what the options leave open from the view that they name, or from the view `main` if they name neither view nor camera. Returns
+/// an exit status, after saying what is wrong. Call it once, before the device is opened.
+int ResolveView(FPictureOptions& Options);
+/// For commands that take several scenes: View says nothing of built-in scenes.
+int ResolveSceneView(FPictureOptions& Options);
+/// Returns the name of the view for JSON, or null without one. Call after ResolveView.
+nlohmann::json DescribeView(const FPictureOptions& Options);
 
 /// --size: WIDTHxHEIGHT. Throws CLI::ValidationError.
 void ParseSize(const std::string& Text, FPictureOptions& Options);

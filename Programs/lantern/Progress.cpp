@@ -26,6 +26,11 @@ FProgressLine::FProgressLine() : Start(std::chrono::steady_clock::now()), Last(S
 void FProgressLine::Show(std::string_view What, double Fraction, std::string_view Detail)
 {
 	if (SecondsSince(Start) < 0.5 || SecondsSince(Last) < (bTerminal ? 0.1 : 5.0)) { return; }
+	Announce(What, Fraction, Detail);
+}
+
+void FProgressLine::Announce(std::string_view What, double Fraction, std::string_view Detail)
+{
 	Last = std::chrono::steady_clock::now();
 	// Names of scenes and methods are in it; a line break would leave the line that is overwritten.
 	const std::string Line = EscapeText(fmt::format("{}: {:3.0f} %  {}", What, 100.0 * Fraction, Detail));

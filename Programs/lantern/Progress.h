@@ -15,6 +15,8 @@ public:
 	~FProgressLine() { Clear(); }
 	/// Fraction 0 … 1; Detail follows it. Shown only if the work has taken a moment, and not more than ten times a second.
 	void Show(std::string_view What, double Fraction, std::string_view Detail = {});
+	/// As Show, but at once.
+	void Announce(std::string_view What, double Fraction, std::string_view Detail);
 	void Clear();
 
 private:

@@ -54,21 +54,36 @@ float SpecularOcclusion(float NdotV, float Visibility, float Roughness)
 	return clamp(pow(NdotV + Visibility, exp2(-16.0 * Roughness - 1.0)) - 1.0 + Visibility, 0.0, 1.0);
 }
 
+#ifdef HAS_SKY
+// Stands in for the light that comes from where the sky is hidden. Without rays of its own it can only be guessed: from surfaces
+// as open to sky and sun as this one is. Closed places are dark.
+vec3 GuessSurroundings(FSceneConstants Scene, float Visibility)
+{
+	vec3 Light = Scene.SkyRadiance;
+#ifdef HAS_SUN
+	Light += Scene.SunColor * (Scene.SunIrradiance / Pi);
+#endif
+	return Light * (Push.Surroundings * Visibility);
+}
+#endif
+
 // Material: texel of the G-buffer; y: the material's own occlusion.
 vec3 ShadeIndirect(FSceneConstants Scene, ivec2 Pixel, FBrdf Brdf, float NdotV, vec4 Material)
 {
-	vec3 Ambient = vec3(0.0);
+	vec3 Ambient = vec3(0.0), Surroundings = vec3(0.0);
 	float Visibility = 1.0;
 #ifdef HAS_SKY
 	Ambient = Scene.SkyRadiance * Material.y;
 	if (Push.SkyVisibility != NO_TEXTURE) { Visibility = texelFetch(Textures[Push.SkyVisibility], Pixel, 0).x; }
+	Surroundings = GuessSurroundings(Scene, Visibility) * Material.y;
 #endif
-	vec3 Diffuse = Ambient * Visibility;
+	vec3 Diffuse = mix(Surroundings, Ambient, Visibility);
 	if (Push.IndirectDiffuse != NO_TEXTURE) { Diffuse = texelFetch(Textures[Push.IndirectDiffuse], Pixel, 0).rgb; }
 	vec4 Specular = Push.IndirectSpecular != NO_TEXTURE ? texelFetch(Textures[Push.IndirectSpecular], Pixel, 0) : vec4(0.0);
 	if (Specular.a <= 0.0)
 	{
-		Specular.rgb = Ambient * SpecularReflectance(Brdf, NdotV, Material.x) * SpecularOcclusion(NdotV, Visibility, Material.x);
+		vec3 Incident = mix(Surroundings, Ambient, SpecularOcclusion(NdotV, Visibility, Material.x));
+		Specular.rgb = Incident * SpecularReflectance(Brdf, NdotV, Material.x);
 	}
 	return DiffuseReflectance(Brdf, NdotV) * Diffuse + Specular.rgb;
 }

@@ -16,8 +16,10 @@ struct FLightingConstants
 	uint SkyVisibility;                                 // sampled index, or NO_TEXTURE: unoccluded
 	uint IndirectDiffuse, IndirectSpecular;             // sampled indices, or NO_TEXTURE: the sky's ambient light stands in
 	uint Output;                                        // storage index
+	float Surroundings; // share of light that they reflect, where they stand in for indirect light
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FLightingConstants, 56);
+LANTERN_ASSERT_SIZE(FLightingConstants, 64);
 
 LANTERN_SHARED_END
 

@@ -1,4 +1,7 @@
 // What benchmarks share: the file of figures, the mock device, and options that are refused before any work. No figure is judged.
+#include <algorithm>
+#include <cmath>
+
 #include "ProgramTools.h"
 
 namespace Lantern
@@ -7,6 +10,7 @@ namespace
 {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 struct BenchProgram : public ::testing::Test
 {
@@ -69,6 +73,61 @@ TEST_F(BenchProgram, BenchmarkThatFailsLeavesNoFile)
 	EXPECT_EQ(Run.Status, 4);
 	EXPECT_THAT(Run.Err, HasSubstr("missing.ini"));
 	EXPECT_EQ(ListFolder(Folder.GetPath()), std::vector<std::string>());
+}
+
+TEST_F(BenchProgram, StepsGoToStandardErrorAndRowsToStandardOutput)
+{
+	const std::vector<std::vector<std::string>> Benches = {{"sbt", "--mock", "--quick", "--objects", "200", "300"},
+	    {"gather", "--quick", "--instances", "2000", "--frames", "8"},
+	    {"frame", "--mock", "--quick", "--objects", "1000", "--skinned", "2"}, {"growth", "--mock", "--quick", "--line", "materials"}};
+	for (const std::vector<std::string>& Bench : Benches)
+	{
+		std::vector<std::string> Arguments = {"bench"};
+		Arguments.insert(Arguments.end(), Bench.begin(), Bench.end());
+		const FProgramRun Run = RunProgram(Arguments);
+		ASSERT_EQ(Run.Status, 0) << Bench[0] << ": " << Run.Err;
+		const std::string Step = "bench " + Bench[0] + ": ";
+		size_t Steps = 0;
+		for (size_t At = Run.Err.find(Step); At != std::string::npos; At = Run.Err.find(Step, At + 1)) { ++Steps; }
+		EXPECT_GE(Steps, 2u) << Bench[0] << ": " << Run.Err;
+		EXPECT_THAT(Run.Err, HasSubstr(" left")) << Bench[0];
+		EXPECT_THAT(Run.Out, Not(HasSubstr(Step))) << Bench[0];
+		EXPECT_GE(std::count(Run.Out.begin(), Run.Out.end(), '\n'), 2) << Bench[0] << ": a head and rows";
+	}
+}
+
+TEST_F(BenchProgram, QuickLeavesWhatIsNamed)
+{
+	const FProgramRun Run = RunProgram({"bench", "gather", "--instances", "3000", "--quick", "--frames", "8", "--json", At("gather.json")});
+	ASSERT_EQ(Run.Status, 0) << Run.Err;
+	const nlohmann::json Sizes = ReadJson(At("gather.json"))["sizes"];
+	ASSERT_EQ(Sizes.size(), 1u);
+	EXPECT_EQ(Sizes[0]["instances"], 3000);
+}
+
+TEST_F(BenchProgram, GrowthHasAnExponentForEachLineAndAPage)
+{
+	const FProgramRun Run = RunProgram({"bench", "growth", "--mock", "--quick", "--json", At("growth.json"), "-o", At("growth.html")});
+	ASSERT_EQ(Run.Status, 0) << Run.Err;
+	const nlohmann::json Lines = ReadJson(At("growth.json"))["lines"];
+	std::vector<std::string> Names;
+	for (const nlohmann::json& Line : Lines)
+	{
+		Names.push_back(Line["name"]);
+		ASSERT_EQ(Line["points"].size(), 2u) << Names.back();
+		const double X[] = {Line["points"][0]["value"], Line["points"][1]["value"]};
+		const double Y[] = {Line["points"][0]["cpu_ms"], Line["points"][1]["cpu_ms"]};
+		EXPECT_NEAR(Line["cpu_exponent"].get<double>(), std::log(Y[1] / Y[0]) / std::log(X[1] / X[0]), 1e-9) << Names.back();
+		EXPECT_TRUE(Line["gpu_exponent"].is_null()) << "the mock has no clock";
+	}
+	EXPECT_EQ(Names, (std::vector<std::string>{"objects", "triangles", "materials", "pixels"}));
+	const std::string Page = ReadFile(At("growth.html"));
+	EXPECT_THAT(Page, HasSubstr("\"cpu_exponent\""));
+	EXPECT_THAT(Page, HasSubstr("Chart.js"));
+	EXPECT_THAT(Page, Not(HasSubstr("{{")));
+	const FProgramRun Wrong = RunProgram({"bench", "growth", "--line", "lights"});
+	EXPECT_EQ(Wrong.Status, 2);
+	EXPECT_THAT(Wrong.Err, HasSubstr("objects, triangles, materials"));
 }
 
 TEST_F(BenchProgram, WrongSizeIsWrongUsage)

@@ -103,6 +103,7 @@ TEST_F(Chart, DataIsWhatTheContractSays)
 	EXPECT_EQ(Scene["name"], "stability-lid");
 	EXPECT_EQ(Scene["width"], 48);
 	EXPECT_EQ(Scene["height"], 27);
+	EXPECT_TRUE(Scene.contains("view") && Scene["view"].is_null()) << "a built-in scene has none";
 	EXPECT_THAT(Scene["skipped"], IsEmpty());
 	ASSERT_EQ(Scene["points"].size(), 16u); // 4 presets on 4 paths
 	for (const nlohmann::json& Point : Scene["points"]) { ExpectPoint(Point); }

@@ -80,6 +80,62 @@ TEST_F(FOutputTest, RenderWritesWhatTheContractNames)
 	EXPECT_EQ(ListFolder(Folder.GetPath()), (std::vector<std::string>{"a.json", Picture})) << "no temporary file stays";
 }
 
+/// A triangle without light of its own.
+constexpr const char* Triangle = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+	"meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+	"accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [-1, -1, 0], "max": [1, 1, 0]}],
+	"bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36,
+	"uri": "data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA"}]})";
+
+TEST_F(FOutputTest, ViewIsTakenBeforeTheOtherOptions)
+{
+	Folder.Write("a.gltf", Triangle);
+	Folder.Write("views.json", R"({"a.gltf": [{"name": "main", "camera": [0, 0, 3, 0, 0, 0, 50], "sun": [2, 0, 0, -1, 0]},
+		{"name": "near", "camera": [0, 0, 1, 0, 0, 0, 50], "sun": [2, 0, 0, -1, 0], "sky": [0.25, 0.5, 1]}]})");
+	const auto Render = [&](const std::vector<std::string>& View) {
+		std::vector<std::string> Arguments = {"render", At("a.gltf"), "--size", "24x16", "-o", At("a.pfm"), "--json", At("a.json")};
+		Arguments.insert(Arguments.end(), View.begin(), View.end());
+		RunCleanly(Arguments);
+		FImage Image;
+		EXPECT_TRUE(LoadImageFile(At("a.pfm"), Image));
+		Json = ReadJson(At("a.json"));
+		return Image.Pixels;
+	};
+	const std::string Main = "0,0,3,0,0,0,50", Near = "0,0,1,0,0,0,50", Sun = "2,0,0,-1,0";
+	const auto ByCamera = Render({"--camera", Main, "--sun", Sun});
+	EXPECT_TRUE(Json["view"].is_null());
+	EXPECT_EQ(Render({}), ByCamera) << "main, since nothing is named";
+	EXPECT_EQ(Json["view"], "main");
+	EXPECT_EQ(Render({"--view", "near"}), Render({"--camera", Near, "--sun", Sun, "--sky", "0.25,0.5,1"}));
+	EXPECT_EQ(Render({"--view", "near", "--sky", "0,0,0"}), Render({"--camera", Near, "--sun", Sun}));
+	EXPECT_EQ(Render({"--view", "near", "--camera", Main, "--sky", "0,0,0"}), ByCamera);
+	EXPECT_EQ(Json["view"], "near");
+	RunCleanly({"reference", At("a.gltf"), "--size", "8x8", "--spp", "1", "--view", "near", "--json", At("r.json")});
+	EXPECT_EQ(ReadJson(At("r.json"))["view"], "near");
+}
+
+TEST_F(FOutputTest, RenderSettlesUnlessTheNumberOfFramesIsGiven)
+{
+	const auto Render = [&](std::vector<std::string> Arguments) {
+		Arguments.insert(Arguments.begin(), "render");
+		Arguments.insert(Arguments.end(), {"--size", "64x48", "--json", At("a.json")});
+		const FProgramRun Run = RunCleanly(Arguments);
+		Json = ReadJson(At("a.json"));
+		return Run.Out;
+	};
+	EXPECT_THAT(Render({"furnace", "--set", "r.RT.AO=0"}), HasSubstr("frames: 1, settled"));
+	EXPECT_EQ(Json["frames"], 1) << "nothing accumulates";
+	const std::string Noisy = Render({"planes", "--sky", "1,1,1"});
+	const uint32_t Frames = Json["frames"];
+	EXPECT_GT(Frames, 8u) << "rays are few, and their noise takes frames to average";
+	EXPECT_LT(Frames, 64u);
+	EXPECT_EQ(Json["settled"], true);
+	EXPECT_THAT(Noisy, HasSubstr("frames: " + std::to_string(Frames) + ", settled"));
+	EXPECT_THAT(Render({"planes", "--sky", "1,1,1", "--frames", "1"}), HasSubstr("frames: 1\n"));
+	EXPECT_EQ(Json["frames"], 1);
+	EXPECT_TRUE(Json["settled"].is_null());
+}
+
 TEST_F(FOutputTest, PassesThatTheSceneDoesNotNeedAreAbsent)
 {
 	EXPECT_THAT(RenderPasses({"planes"}), Contains("SunShadow"));

@@ -32,6 +32,7 @@ TEST_P(FUsageTest, GetsOneClearMessage)
 	Folder.Write("truncated.gltf", R"({"asset":{"version":"2.0"},"meshes":[{"primitives":[{"attrib)");
 	Folder.Write("empty.glb", "");
 	Folder.Write("text.png", "not a picture");
+	Folder.Write("views.json", R"({"a.gltf": [{"name": "main"}, {"name": "night"}], "b.gltf": [{"name": "main", "camera": [1]}]})");
 	const std::vector<std::string> Before = ListFolder(Folder.GetPath());
 	FProgramOptions Options;
 	Options.Folder = Folder.GetPath();
@@ -96,6 +97,14 @@ const FUsage Usages[] = {
     {"CvarsOutput", {"cvars", "--json", "nowhere/a.json"}, 4, {"nowhere/a.json"}},
     {"ConfigMissing", {"render", "furnace", "--config", "none.ini"}, 4, {"none.ini"}},
     {"ConfigFolder", {"render", "furnace", "--config", "."}, 4, {"--config"}},
+    {"ViewUnknown", {"render", "a.gltf", "--view", "dusk"}, 2, {"--view 'dusk'", "a.gltf", "views.json has main, night"}},
+    {"ViewOfReference", {"reference", "a.gltf", "--view", "dusk"}, 2, {"--view 'dusk'", "main, night"}},
+    {"ViewOfChart", {"chart", "a.gltf", "--view", "dusk", "-o", "a.html"}, 2, {"--view 'dusk'", "main, night"}},
+    {"ViewNowhere", {"render", "c.gltf", "--view", "main"}, 2, {"--view 'main'", "c.gltf", "no views.json"}},
+    {"ViewOfBuiltinScene", {"render", "courtyard", "--view", "main"}, 2, {"--view 'main'", "courtyard"}},
+    {"ViewWithoutName", {"render", "--view", ""}, 2, {"--view"}},
+    {"ViewsBroken", {"render", "b.gltf"}, 4, {"views.json: b.gltf[0].camera: expected 7 numbers, found 1"}},
+    {"ViewsBrokenChart", {"chart", "b.gltf", "-o", "a.html"}, 4, {"views.json: b.gltf[0].camera"}},
     {"CompareOne", {"compare", "a.exr"}, 2, {"B is required"}},
     {"CompareMissing", {"compare", "a.exr", "b.exr"}, 4, {"a.exr"}},
     {"CompareNoPicture", {"compare", "text.png", "text.png"}, 4, {"text.png"}},

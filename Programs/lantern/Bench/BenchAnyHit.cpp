@@ -19,6 +19,8 @@ namespace
 {
 constexpr uint32_t SoftSamples = 16;
 constexpr uint32_t ReferenceSamples = 1, ReferenceBounces = 4;
+// Of steps, roughly in seconds on two cores.
+constexpr double LoadWork = 6, HardWork = 2, SoftWork = 8, ReferenceWork = 8;
 constexpr uint32_t CountedFrame = 7; // whichever: random numbers follow it, so that both pictures draw the same
 
 // Paths of the reference: where two triangles of a mesh lie in the same place, either may be the nearest, and the edges of
@@ -162,15 +164,22 @@ int ReportCase(const FAnyHitCase& Case, const FSceneOpacity& Opacity, nlohmann::
 	return ExitCheckFailed;
 }
 
-int MeasureScene(FSession& Session, const FBenchScene& Scene, const FBenchAnyHitOptions& Options, nlohmann::json& Cases)
+int MeasureScene(
+    FSession& Session, const FBenchScene& Scene, const FBenchAnyHitOptions& Options, FBenchProgress& Progress, nlohmann::json& Cases)
 {
+	Progress.Begin(Scene.Name + ": load", LoadWork);
 	const FRTCapabilities& Capabilities = Session.GetDevice().GetCapabilities();
-	const FPictureOptions Picture = MakeBenchPicture(Scene, Options.Size, Capabilities.bIsCpu);
+	FPictureOptions Picture;
+	if (const int Status = MakeBenchPicture(Scene, Options.View, Options.Size, Capabilities.bIsCpu, Picture); Status != ExitDone)
+	{
+		return Status;
+	}
 	if (const int Status = Session.LoadScene(Picture); Status != ExitDone) { return Status; }
 	FAnyHitBench Bench(Session, Scene, Picture);
 	const FSceneOpacity& Opacity = Session.GetEngine().GetScene().GetOpacity();
 	int Exit = ExitDone;
 	const auto Add = [&](const FRTStatus& Status, const FAnyHitCase& Case) {
+		Progress.Clear();
 		const int Result = Status ? ReportCase(Case, Opacity, Cases) : ReportStatus(Status, Case.Name.c_str());
 		Exit = Exit == ExitDone ? Result : Exit;
 	};
@@ -179,6 +188,8 @@ int MeasureScene(FSession& Session, const FBenchScene& Scene, const FBenchAnyHit
 		if (!HasRayPath(Capabilities, bPipeline, Scene)) { continue; }
 		for (const bool bSoft : {false, true})
 		{
+			Progress.Begin(fmt::format("{}, {}, {}", Scene.Name, bPipeline ? "pipeline" : "query", bSoft ? "soft" : "hard"),
+			    bSoft ? SoftWork : HardWork);
 			FAnyHitCase Case;
 			const FRTStatus Status = Bench.RunShadow(bPipeline, bSoft, Case);
 			Add(Status, Case);
@@ -186,6 +197,7 @@ int MeasureScene(FSession& Session, const FBenchScene& Scene, const FBenchAnyHit
 	}
 	if (Capabilities.bRayTracingPipeline)
 	{
+		Progress.Begin(Scene.Name + ", reference", ReferenceWork);
 		FAnyHitCase Case;
 		const FRTStatus Status = Bench.RunReference(Case);
 		Add(Status, Case);
@@ -198,6 +210,7 @@ std::vector<FBenchScene> ChooseScenes(const FBenchAnyHitOptions& Options)
 	std::vector<FBenchScene> Scenes;
 	for (const std::string& File : Options.Scenes) { Scenes.push_back(MakeBenchScene(File)); }
 	if (!Options.Scenes.empty()) { return Scenes; }
+	if (Options.bQuick) { return {MakeBenchScene("courtyard")}; }
 	if (const std::optional<FBenchScene> Forest = FindBenchScene("black_forest/black_forest.gltf", "bench anyhit"))
 	{
 		Scenes.push_back(*Forest);
@@ -209,6 +222,10 @@ std::vector<FBenchScene> ChooseScenes(const FBenchAnyHitOptions& Options)
 
 void FBenchAnyHitOptions::AddTo(CLI::App& App)
 {
+	AddBenchQuick(App, [this] {
+		Size = "160x90";
+		bQuick = true;
+	});
 	AddSceneOptions(App, "Scenes; without any, black_forest of LANTERN_SCENES and the courtyard");
 	AddBenchJson(App, Json);
 }
@@ -216,13 +233,15 @@ void FBenchAnyHitOptions::AddTo(CLI::App& App)
 int RunBenchAnyHit(const FBenchAnyHitOptions& Options)
 {
 	FSceneBench Bench;
+	Bench.Name = "anyhit";
+	Bench.SceneWork = LoadWork + 2.0 * (HardWork + SoftWork) + ReferenceWork;
 	Bench.PrintHeader = [] {
 		fmt::print("{:<34} {:>14} {:>14} {:>7} {:>8} {:>12} {:>8} {:>8} {:>12} {:>8}\n", "case", "plain", "classified", "ratio", "opaque",
 		    "transparent", "mixed", "pieces", "difference", "differ");
 	};
 	Bench.ChooseScenes = [&] { return ChooseScenes(Options); };
-	Bench.Measure = [&](FSession& Session, const FBenchScene& Scene, nlohmann::json& Cases) {
-		return MeasureScene(Session, Scene, Options, Cases);
+	Bench.Measure = [&](FSession& Session, const FBenchScene& Scene, FBenchProgress& Progress, nlohmann::json& Cases) {
+		return MeasureScene(Session, Scene, Options, Progress, Cases);
 	};
 	return RunSceneBench(Options, Bench);
 }

@@ -6,6 +6,7 @@
 #include "Bench/BenchAnyHit.h"
 #include "Bench/BenchFrame.h"
 #include "Bench/BenchGather.h"
+#include "Bench/BenchGrowth.h"
 #include "Bench/BenchPipelines.h"
 #include "Bench/BenchRaysCommand.h"
 #include "Bench/BenchShaders.h"
@@ -55,7 +56,7 @@ void FBenchCommands::AddTo(CLI::App& App, int& Status)
 	CLI::App* const Pipelines = Command->add_subcommand("rtpso", "Pipelines made whole and from libraries, and what frames notice of it");
 	Options->BenchPipelines.AddTo(*Pipelines);
 	Pipelines->final_callback([&Options = Options->BenchPipelines, &Status] { Status = RunBenchPipelines(Options); });
-	CLI::App* const Shaders = Command->add_subcommand("shaders", "What each shader costs to compile, dearest first; caches are off");
+	CLI::App* const Shaders = Command->add_subcommand("shaders", "What each shader costs to compile; caches are off");
 	Options->BenchShaders.AddTo(*Shaders);
 	Shaders->final_callback([&Options = Options->BenchShaders, &Status] { Status = RunBenchShaders(Options); });
 	CLI::App* const Uploads = Command->add_subcommand("uploads", "What the render thread notices of meshes that a thread streams in");

@@ -16,7 +16,6 @@
 #include "LanternCore/Tasks/Tasks.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternRHIMock/MockDevice.h"
-#include "Progress.h"
 
 namespace Lantern
 {
@@ -73,6 +72,7 @@ private:
 	std::map<std::string, FBenchTimes> Parts;
 };
 
+constexpr double FirstRoundWork = 4.0; // it builds everything; in rounds
 const std::string Critical = "critical path";
 const std::string Busy = "  processor time";
 
@@ -225,10 +225,12 @@ FRTStatus FFrameBench::RenderFrame(FStageTimes* OutTimes)
 
 FRTStatus FFrameBench::Measure()
 {
-	FProgressLine Progress;
+	FBenchProgress Progress("frame", FirstRoundWork + Options.Rounds);
 	const size_t StageCount = GetStages().size();
 	for (uint32_t Round = 0; Round <= Options.Rounds; ++Round)
 	{
+		Progress.Begin(
+		    Round == 0 ? "first frames" : fmt::format("round {} of {}", Round, Options.Rounds), Round == 0 ? FirstRoundWork : 1.0);
 		for (size_t Stage = 0; Stage < StageCount; ++Stage)
 		{
 			SetStage(Stage);
@@ -239,7 +241,6 @@ FRTStatus FFrameBench::Measure()
 				if (FRTStatus S = RenderFrame(bTimed ? &Times[Stage] : nullptr); !S) { return S; }
 				Instances[Stage] = Host->GetScene().GetStats().InstancesWritten;
 			}
-			Progress.Show("frames", double(Round * StageCount + Stage + 1) / double((Options.Rounds + 1) * StageCount));
 		}
 	}
 	return WaitForDevice();
@@ -316,6 +317,13 @@ int RunInSession(FSession& Session, const FBenchFrameOptions& Options, nlohmann:
 void FBenchFrameOptions::AddTo(CLI::App& App)
 {
 	Device.AddTo(App);
+	AddBenchQuick(App, [this] {
+		World.Objects = 5000;
+		World.Characters = 25;
+		World.Movers = 50;
+		World.Repainted = 10;
+		Rounds = 2;
+	});
 	App.add_option("--objects", World.Objects, "Objects of the world")->check(CLI::Range(1'000, 4'000'000));
 	App.add_option("--skinned", World.Characters, "Characters among them that deform each frame")->check(CLI::Range(0, 900));
 	App.add_option("--moved", World.Movers, "Objects among them that move each frame")->check(CLI::Range(0, 4'000'000));

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <numeric>
 #include <random>
 
 #include <glm/gtc/constants.hpp>
@@ -230,12 +231,17 @@ int MeasureSizes(const FBenchGatherOptions& Options, nlohmann::json& Json)
 	fmt::print("{:>9} {:>8} {:>8} {:>17} {:>17} {:>6} {:>17} {:>19} {:>19}\n", "objects", "buckets", "kept", "naive", "gather", "ratio",
 	    "1 % moves", "naive, all kept", "gather, all kept");
 	int Exit = ExitDone;
+	FBenchProgress Progress("gather", 3.0 * std::accumulate(Options.Sizes.begin(), Options.Sizes.end(), 0.0));
 	for (const uint32_t Instances : Options.Sizes)
 	{
+		Progress.Begin(fmt::format("{} objects: the world", Instances), Instances);
 		FWorld World(Instances);
 		FResult R;
+		Progress.Begin(fmt::format("{} objects: the camera moves", Instances), Instances);
 		MeasureMoving(World, Options.Frames, R);
+		Progress.Begin(fmt::format("{} objects: other cases", Instances), Instances);
 		MeasureOthers(World, Options.Frames, R);
+		Progress.Clear();
 		const auto Text = [](const FBenchTimes& T) { return fmt::format("{:.3f} [{:.3f}]", T.GetMedian(), T.GetMin()); };
 		fmt::print("{:>9} {:>8} {:>8} {:>17} {:>17} {:>6.1f} {:>17} {:>19} {:>19}\n", Instances, World.Store.GetBucketCount(), R.Kept,
 		    Text(R.Naive), Text(R.Fast), R.Naive.GetMedian() / R.Fast.GetMedian(), Text(R.Moving), Text(R.NaiveAll), Text(R.All));
@@ -253,6 +259,10 @@ int MeasureSizes(const FBenchGatherOptions& Options, nlohmann::json& Json)
 
 void FBenchGatherOptions::AddTo(CLI::App& App)
 {
+	AddBenchQuick(App, [this] {
+		Sizes = {10'000, 100'000};
+		Frames = 80;
+	});
 	App.add_option("--instances", Sizes, "Objects in the world; may be given several times")->check(CLI::Range(1, 16'000'000));
 	App.add_option("--frames", Frames, "Frames of each measurement")->check(CLI::Range(8, 1'000'000));
 	AddBenchJson(App, Json);

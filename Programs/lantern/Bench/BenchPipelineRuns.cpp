@@ -1,8 +1,11 @@
 // Pipelines made whole, from libraries, and by the RTPSO compiler, with the clock around them.
 #include "Bench/BenchPipelineRuns.h"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
+
+#include <fmt/format.h>
 
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternScene/Pipelines/RTPSOCompiler.h"
@@ -13,6 +16,12 @@ namespace Lantern
 namespace
 {
 constexpr uint32_t PayloadBytes = 32;
+constexpr double GlslangWork = 0.3; // of a group, in what the driver takes for it
+
+double GetThreadedWork(uint32_t Threads, uint32_t Groups)
+{
+	return double(Groups) / std::min(Threads, std::max(1u, std::thread::hardware_concurrency()));
+}
 
 FRTRayTracingPipelineDesc MakeDesc(const std::vector<FRTShaderCode>& Codes, const std::vector<FRTShaderGroup>& Groups, const char* Name)
 {
@@ -122,9 +131,20 @@ void SetThreads(uint32_t Threads)
 }
 } // namespace
 
-FRTStatus MeasurePipelineRun(IRTDevice& Device, FShaderCompiler& Compiler, uint32_t Groups, uint32_t Repetitions, FPipelineRun& Run)
+double GetPipelineRunWork(uint32_t Threads, uint32_t Groups, uint32_t Repetitions)
 {
+	return Repetitions * double(Groups) + (GlslangWork + Repetitions + 1.0) * GetThreadedWork(Threads, Groups);
+}
+
+FRTStatus MeasurePipelineRun(
+    IRTDevice& Device, FShaderCompiler& Compiler, uint32_t Groups, uint32_t Repetitions, FBenchProgress& Progress, FPipelineRun& Run)
+{
+	const double Threaded = GetThreadedWork(Run.Threads, Groups);
+	const auto Begin = [&](const std::string& What, double Work) {
+		Progress.Begin(fmt::format("{} threads: {}", Run.Threads, What), Work);
+	};
 	FBenchShaders Shaders;
+	Begin("glslang", GlslangWork * Threaded);
 	if (FRTStatus S = CompileBenchShaders(Compiler, Groups, Run.Threads, Shaders, Run.GlslangMs); !S) { return S; }
 	for (uint32_t Repetition = 0; Repetition < Repetitions; ++Repetition)
 	{
@@ -135,6 +155,8 @@ FRTStatus MeasurePipelineRun(IRTDevice& Device, FShaderCompiler& Compiler, uint3
 				return FRTStatus::Error(ERTResult::InvalidArgument, "a shader has lost the constant that makes it new");
 			}
 			double Ms = 0.0, LinkMs = 0.0;
+			Begin(fmt::format("{}, {} of {}", bMonolithic ? "whole" : "libraries", Repetition + 1, Repetitions),
+			    bMonolithic ? double(Groups) : Threaded);
 			const FRTStatus Status =
 			    bMonolithic ? MakeMonolithic(Device, Shaders, Ms) : MakeFromLibraries(Device, Shaders, Run.Threads, Ms, LinkMs);
 			if (!Status) { return Status; }
@@ -144,6 +166,7 @@ FRTStatus MeasurePipelineRun(IRTDevice& Device, FShaderCompiler& Compiler, uint3
 		}
 	}
 	SetThreads(Run.Threads);
+	Begin("from text to RTPSO", Threaded);
 	FMaterialPrograms Programs;
 	FRTPSODesc Desc = MakeCompilerDesc();
 	const uint64_t Salt = MakeSalt();

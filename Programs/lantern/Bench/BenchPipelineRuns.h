@@ -1,6 +1,7 @@
 // The driver's part of `lantern bench rtpso`: one pipeline of many hit groups, made whole and from libraries.
 #pragma once
 
+#include "Bench/BenchProgress.h"
 #include "Bench/BenchTimes.h"
 #include "LanternMeasure/GeneratedMaterials.h"
 #include "LanternRHI/RTInterfaces.h"
@@ -18,8 +19,11 @@ struct FPipelineRun
 };
 
 /// Measures a monolithic pipeline and one from libraries. They begin with equal SPIR-V, but for a constant that no driver has
-/// seen before. Which of the two goes first alternates.
-FRTStatus MeasurePipelineRun(IRTDevice& Device, FShaderCompiler& Compiler, uint32_t Groups, uint32_t Repetitions, FPipelineRun& Run);
+/// seen before. Which of the two goes first alternates. The steps have GetPipelineRunWork together.
+FRTStatus MeasurePipelineRun(
+    IRTDevice& Device, FShaderCompiler& Compiler, uint32_t Groups, uint32_t Repetitions, FBenchProgress& Progress, FPipelineRun& Run);
+/// In groups that one thread compiles.
+double GetPipelineRunWork(uint32_t Threads, uint32_t Groups, uint32_t Repetitions);
 
 struct FIncrementalRun
 {

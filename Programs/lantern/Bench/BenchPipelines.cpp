@@ -31,7 +31,20 @@ FRTStatus OpenDevice(const FBenchPipelinesOptions& Options, TRTRef<IRTDevice>& O
 	return OpenUncachedDevice(Options.Device, Options.bCompileDevice, Out);
 }
 
-FRTStatus MeasureRuns(IRTDevice& Device, FShaderCompiler& Compiler, const FBenchPipelinesOptions& Options, nlohmann::json& Json)
+/// Groups that one thread compiles: see GetPipelineRunWork.
+double GetIncrementalWork(const FBenchPipelinesOptions& Options)
+{
+	return Options.Added + double(Options.Groups) / std::max(1u, std::thread::hardware_concurrency());
+}
+
+/// All groups twice: while frames go on, and in one frame that waits.
+double GetFramesWork(const FBenchPipelinesOptions& Options)
+{
+	return 2.0 * double(Options.Groups) / std::max(1u, std::thread::hardware_concurrency());
+}
+
+FRTStatus MeasureRuns(
+    IRTDevice& Device, FShaderCompiler& Compiler, const FBenchPipelinesOptions& Options, FBenchProgress& Progress, nlohmann::json& Json)
 {
 	fmt::print("{:>8} {:>14} {:>13} {:>9} {:>7} {:>11} {:>11}\n", "threads", "monolithic ms", "libraries ms", "link ms", "ratio",
 	    "glslang ms", "text-RTPSO");
@@ -39,7 +52,8 @@ FRTStatus MeasureRuns(IRTDevice& Device, FShaderCompiler& Compiler, const FBench
 	{
 		FPipelineRun Run;
 		Run.Threads = Threads;
-		if (FRTStatus S = MeasurePipelineRun(Device, Compiler, Options.Groups, Options.Repetitions, Run); !S) { return S; }
+		if (FRTStatus S = MeasurePipelineRun(Device, Compiler, Options.Groups, Options.Repetitions, Progress, Run); !S) { return S; }
+		Progress.Clear();
 		fmt::print("{:>8} {:>14.1f} {:>13.1f} {:>9.2f} {:>7.2f} {:>11.1f} {:>11.1f}\n", Threads, Run.MonolithicMs.GetMedian(),
 		    Run.LibrariesMs.GetMedian(), Run.LinkMs.GetMedian(), Run.GetRatio(), Run.GlslangMs, Run.FinishMs);
 		std::fflush(stdout);
@@ -49,8 +63,10 @@ FRTStatus MeasureRuns(IRTDevice& Device, FShaderCompiler& Compiler, const FBench
 		    {"times",
 		        {{"monolithic", Run.MonolithicMs.ToJson()}, {"libraries", Run.LibrariesMs.ToJson()}, {"link", Run.LinkMs.ToJson()}}}});
 	}
+	Progress.Begin(fmt::format("{} materials one by one", Options.Added), GetIncrementalWork(Options));
 	FIncrementalRun Incremental;
 	if (FRTStatus S = MeasureIncremental(Device, Compiler, Options.Groups, Options.Added, Incremental); !S) { return S; }
+	Progress.Clear();
 	fmt::print("one more material: ready after {:.2f} ms, link {:.2f} ms (medians of {})\n", Incremental.ReadyMs.GetMedian(),
 	    Incremental.LinkMs.GetMedian(), Options.Added);
 	Json["incremental"] = {{"added", Options.Added}, {"ready_ms", Incremental.ReadyMs.GetMedian()},
@@ -85,8 +101,10 @@ struct FFrameFigures
 	nlohmann::json Longest;
 };
 
-FRTStatus MeasureFrames(IRTDevice& Device, const std::string& Shaders, const FBenchPipelinesOptions& Options, nlohmann::json& Json)
+FRTStatus MeasureFrames(
+    IRTDevice& Device, const std::string& Shaders, const FBenchPipelinesOptions& Options, FBenchProgress& Progress, nlohmann::json& Json)
 {
+	Progress.Begin(fmt::format("frames while {} materials compile", Options.Groups), GetFramesWork(Options));
 	FHitchRun Run;
 	const FRendererDesc Desc{{Shaders}, {}};
 	// The mock draws nothing: its frames are given the length of real ones. Its compiles sleep, so that more of them than
@@ -98,6 +116,7 @@ FRTStatus MeasureFrames(IRTDevice& Device, const std::string& Shaders, const FBe
 	{
 		return S;
 	}
+	Progress.Clear();
 	const FFrameFigures Idle(Run.Idle), Compiling(Run.Compiling);
 	fmt::print("frames while {} materials compile: median {:.3f} ms, worst {:.3f} ms, of {} (before: median {:.3f} ms, "
 	           "worst {:.3f} ms)\n",
@@ -137,8 +156,15 @@ int Measure(const FBenchPipelinesOptions& Options, nlohmann::json& Figures)
 		Json["note"] = "a CPU driver: it may compile machine code only at the first dispatch, which is in none of these times";
 	}
 	FShaderCompiler Compiler{FShaderCompilerDesc{.SearchFolders = {Folders.Shaders}}};
-	FRTStatus Status = Options.bMock || Options.bHitchOnly ? FRTStatus::Success() : MeasureRuns(*Device, Compiler, Options, Json);
-	if (Status) { Status = MeasureFrames(*Device, Folders.Shaders, Options, Json); }
+	const bool bRuns = !Options.bMock && !Options.bHitchOnly;
+	double Work = GetFramesWork(Options);
+	for (const uint32_t Threads : bRuns ? Options.Threads : std::vector<uint32_t>())
+	{
+		Work += GetPipelineRunWork(Threads, Options.Groups, Options.Repetitions);
+	}
+	FBenchProgress Progress("rtpso", Work + (bRuns ? GetIncrementalWork(Options) : 0.0));
+	FRTStatus Status = bRuns ? MeasureRuns(*Device, Compiler, Options, Progress, Json) : FRTStatus::Success();
+	if (Status) { Status = MeasureFrames(*Device, Folders.Shaders, Options, Progress, Json); }
 	if (!Status) { return ReportStatus(Status, "bench rtpso"); }
 	Figures = std::move(Json);
 	return ExitDone;
@@ -148,6 +174,13 @@ int Measure(const FBenchPipelinesOptions& Options, nlohmann::json& Figures)
 void FBenchPipelinesOptions::AddTo(CLI::App& App)
 {
 	Device.AddTo(App);
+	AddBenchQuick(App, [this] {
+		Groups = 8;
+		Threads = {1, 2};
+		Repetitions = 1;
+		Added = 2;
+		MockCompileMs = 20;
+	});
 	App.add_flag("--mock", bMock, "On the mock device, whose compiles take half a second each: only the frames are measured");
 	App.add_flag("--hitch-only", bHitchOnly, "Only the frames");
 	App.add_flag(

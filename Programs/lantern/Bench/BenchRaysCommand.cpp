@@ -26,7 +26,7 @@ std::vector<FBenchScene> ChooseScenes(const FBenchRaysOptions& Options)
 	{
 		if (File != Scenes.front().File) { Scenes.push_back(MakeBenchScene(File)); }
 	}
-	if (!Options.Scenes.empty()) { return Scenes; }
+	if (!Options.Scenes.empty() || Options.bQuick) { return Scenes; }
 	for (const char* Path : {"sponza/Sponza.gltf", "black_forest/black_forest.gltf"})
 	{
 		if (const std::optional<FBenchScene> Scene = FindBenchScene(Path, "bench rays")) { Scenes.push_back(*Scene); }
@@ -55,10 +55,16 @@ void PrintCase(const FRayCase& Case, bool bIsCpu)
 	std::fflush(stdout);
 }
 
-int MeasureScene(FSession& Session, const FBenchScene& Scene, const FBenchRaysOptions& Options, nlohmann::json& Cases)
+int MeasureScene(
+    FSession& Session, const FBenchScene& Scene, const FBenchRaysOptions& Options, FBenchProgress& Progress, nlohmann::json& Cases)
 {
+	Progress.Begin(Scene.Name + ": load", 1.0);
 	const FRTCapabilities& Capabilities = Session.GetDevice().GetCapabilities();
-	const FPictureOptions Picture = MakeBenchPicture(Scene, Options.Size, Capabilities.bIsCpu);
+	FPictureOptions Picture;
+	if (const int Status = MakeBenchPicture(Scene, Options.View, Options.Size, Capabilities.bIsCpu, Picture); Status != ExitDone)
+	{
+		return Status;
+	}
 	// The hand-written dispatch takes hits as the driver gives them.
 	FConsoleVariables::Get().Set("r.RT.Opacity.Pieces", "0", ERTSetBy::CommandLine, "bench rays");
 	if (const int Status = Session.LoadScene(Picture); Status != ExitDone) { return Status; }
@@ -75,7 +81,9 @@ int MeasureScene(FSession& Session, const FBenchScene& Scene, const FBenchRaysOp
 		if (!HasRayPath(Capabilities, bPipeline, Scene)) { continue; }
 		FRayCase Case;
 		Case.Name = Scene.Name + (bPipeline ? "/pipeline" : "/query");
+		Progress.Begin(Case.Name, 1.0);
 		if (FRTStatus S = Bench.Measure(bPipeline, Case); !S) { return ReportStatus(S, Case.Name.c_str()); }
+		Progress.Clear();
 		PrintCase(Case, Capabilities.bIsCpu);
 		Cases.push_back(MakeJson(Case, Capabilities.bIsCpu));
 		if (Case.Agreement < LeastAgreement)
@@ -91,6 +99,11 @@ int MeasureScene(FSession& Session, const FBenchScene& Scene, const FBenchRaysOp
 
 void FBenchRaysOptions::AddTo(CLI::App& App)
 {
+	AddBenchQuick(App, [this] {
+		Size = "160x90";
+		Repetitions = 3;
+		bQuick = true;
+	});
 	AddSceneOptions(App, "Scenes beside the courtyard; without any, Sponza and black_forest of LANTERN_SCENES");
 	App.add_option("--repetitions", Repetitions, "Measured dispatches of each")->check(CLI::Range(1, 100'000));
 	AddBenchJson(App, Json);
@@ -99,13 +112,15 @@ void FBenchRaysOptions::AddTo(CLI::App& App)
 int RunBenchRays(const FBenchRaysOptions& Options)
 {
 	FSceneBench Bench;
+	Bench.Name = "rays";
+	Bench.SceneWork = 3.0; // load and two paths
 	Bench.PrintHeader = [] {
 		fmt::print("{:<22} {:>9} {:>8} {:>9} {:>12} {:>6}  {:>26} {:>26}  {}\n", "case", "size", "rays", "raw Mr/s", "plugin Mr/s", "ratio",
 		    "raw ms [min, max]", "plugin ms [min, max]", "same pixels");
 	};
 	Bench.ChooseScenes = [&] { return ChooseScenes(Options); };
-	Bench.Measure = [&](FSession& Session, const FBenchScene& Scene, nlohmann::json& Cases) {
-		return MeasureScene(Session, Scene, Options, Cases);
+	Bench.Measure = [&](FSession& Session, const FBenchScene& Scene, FBenchProgress& Progress, nlohmann::json& Cases) {
+		return MeasureScene(Session, Scene, Options, Progress, Cases);
 	};
 	return RunSceneBench(Options, Bench);
 }

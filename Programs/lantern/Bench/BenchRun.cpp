@@ -11,6 +11,11 @@
 namespace Lantern
 {
 
+void AddBenchQuick(CLI::App& App, const std::function<void()>& SetQuick)
+{
+	App.add_flag_callback("--quick", SetQuick, "Less of everything, to see whether it runs: seconds instead of minutes");
+}
+
 void AddBenchJson(CLI::App& App, std::string& Json) { App.add_option("--json", Json, "Write the figures to this file"); }
 
 void AddBenchSize(CLI::App& App, std::string& Text, const char* Defaults)
@@ -70,6 +75,7 @@ void FSceneBenchOptions::AddSceneOptions(CLI::App& App, const char* ScenesHelp)
 {
 	Device.AddTo(App);
 	App.add_option("SCENE", Scenes, ScenesHelp);
+	AddViewOption(App, View);
 	AddBenchSize(App, Size, "1280x720; on a CPU device 640x360");
 }
 
@@ -81,9 +87,11 @@ int RunSceneBench(const FSceneBenchOptions& Options, const FSceneBench& Bench)
 			nlohmann::json& Cases = Figures["cases"] = nlohmann::json::array();
 			Bench.PrintHeader();
 			int Exit = ExitDone;
-			for (const FBenchScene& Scene : Bench.ChooseScenes())
+			const std::vector<FBenchScene> Scenes = Bench.ChooseScenes();
+			FBenchProgress Progress(Bench.Name, Bench.SceneWork * double(Scenes.size()));
+			for (const FBenchScene& Scene : Scenes)
 			{
-				const int Status = Bench.Measure(Session, Scene, Cases);
+				const int Status = Bench.Measure(Session, Scene, Progress, Cases);
 				Exit = Exit == ExitDone ? Status : Exit;
 			}
 			return Exit;

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "Bench/BenchProgress.h"
 #include "Bench/BenchScenes.h"
 #include "LanternRHI/RTInterfaces.h"
 #include "Options.h"
@@ -15,6 +16,8 @@
 namespace Lantern
 {
 
+/// --quick, which calls SetQuick. Add it before the options that SetQuick changes, so that those which are given win.
+void AddBenchQuick(CLI::App& App, const std::function<void()>& SetQuick);
 void AddBenchJson(CLI::App& App, std::string& Json); ///< --json
 /// --size. Text stays empty if the option is absent; Defaults says in the help what holds then.
 void AddBenchSize(CLI::App& App, std::string& Text, const char* Defaults);
@@ -43,8 +46,10 @@ struct FSceneBenchOptions
 {
 	FDeviceOptions Device;
 	std::vector<std::string> Scenes; ///< files; empty: the benchmark chooses
+	std::string View;                ///< empty: the view main of scenes that have one
 	std::string Size;                ///< WIDTHxHEIGHT; empty: 1280×720, on a CPU device 640×360
 	std::string Json;
+	bool bQuick = false; ///< a benchmark that chooses its scenes takes few
 	/// Adds all of them except --json. ScenesHelp: help text of the scenes.
 	void AddSceneOptions(CLI::App& App, const char* ScenesHelp);
 };
@@ -54,8 +59,10 @@ struct FSceneBench
 {
 	std::function<void()> PrintHeader;
 	std::function<std::vector<FBenchScene>()> ChooseScenes;
-	/// Appends to Cases. Returns an exit status.
-	std::function<int(FSession&, const FBenchScene&, nlohmann::json& Cases)> Measure;
+	/// Appends to Cases. Returns an exit status. Its steps have SceneWork together.
+	std::function<int(FSession&, const FBenchScene&, FBenchProgress&, nlohmann::json& Cases)> Measure;
+	std::string Name;
+	double SceneWork = 1.0;
 };
 
 /// Measures all scenes, also after one has failed. Returns the first exit status that is not ExitDone.

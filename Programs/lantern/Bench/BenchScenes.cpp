@@ -6,6 +6,7 @@
 
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
+#include "LanternHost/BuiltinScenes.h"
 #include "Session.h"
 
 namespace Lantern
@@ -19,12 +20,6 @@ FBenchScene MakeBenchScene(const std::string& File)
 	Scene.File = File;
 	const fs::path Path(File);
 	Scene.Name = EscapeText(Path.has_parent_path() ? Path.parent_path().filename().string() : Path.stem().string());
-	if (Scene.Name == "sponza") { Scene.Camera = FCameraOption{{-9, 1.6, -0.4}, {10, 3.2, -1.2}, 60}; }
-	else if (Scene.Name == "black_forest")
-	{
-		Scene.Camera = FCameraOption{{541, 20, -200}, {300, 0, -300}, 60};
-		Scene.bNoSceneLights = true;
-	}
 	return Scene;
 }
 
@@ -38,17 +33,18 @@ std::optional<FBenchScene> FindBenchScene(const char* Path, const char* Bench)
 	return std::nullopt;
 }
 
-FPictureOptions MakeBenchPicture(const FBenchScene& Scene, const std::string& Size, bool bIsCpu)
+int MakeBenchPicture(const FBenchScene& Scene, const std::string& View, const std::string& Size, bool bIsCpu, FPictureOptions& Out)
 {
-	FPictureOptions Picture;
-	Picture.Scene = Scene.File;
-	Picture.Camera = Scene.Camera;
-	Picture.bNoSceneLights = Scene.bNoSceneLights;
-	Picture.Sun = FSunOption{4, {0.25, -1, 0.35}, 0.53};
-	Picture.Width = bIsCpu ? 640 : 1280;
-	Picture.Height = bIsCpu ? 360 : 720;
-	if (!Size.empty()) { ParseSize(Size, Picture); }
-	return Picture;
+	Out = {};
+	Out.Scene = Scene.File;
+	Out.View = View;
+	Out.Width = bIsCpu ? 640 : 1280;
+	Out.Height = bIsCpu ? 360 : 720;
+	if (!Size.empty()) { ParseSize(Size, Out); }
+	if (const int Status = ResolveSceneView(Out); Status != ExitDone) { return Status; }
+	// A benchmark of shadows needs a sun, also in a scene that has only other lights.
+	if (!Out.Sun && !IsBuiltinScene(Out.Scene)) { Out.Sun = FViewSun{4, {0.25, -1, 0.35}, 0.53}; }
+	return ExitDone;
 }
 
 } // namespace Lantern

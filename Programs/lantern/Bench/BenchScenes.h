@@ -1,4 +1,4 @@
-// Scenes of the benchmarks, with the views and the sun of the project's other figures.
+// Scenes of the benchmarks, and their views.
 #pragma once
 
 #include <optional>
@@ -13,16 +13,15 @@ namespace Lantern
 struct FBenchScene
 {
 	std::string Name, File;
-	std::optional<FCameraOption> Camera;
-	bool bNoSceneLights = false;
 };
 
-/// Describes a scene. The name of its folder decides the camera and the lights.
+/// Names a scene after its folder.
 FBenchScene MakeBenchScene(const std::string& File);
 /// Looks for Path under the folder that LANTERN_SCENES names, otherwise under shared/scenes beside the repository. Nothing, with a warning
 /// in the log, if it is not there.
 std::optional<FBenchScene> FindBenchScene(const char* Path, const char* Bench);
-/// Size is WIDTHxHEIGHT. If it is empty, the picture has 1280×720 pixels, on a CPU device 640×360.
-FPictureOptions MakeBenchPicture(const FBenchScene& Scene, const std::string& Size, bool bIsCpu);
+/// Makes the picture of a scene with the view of that name. If View is empty, it is the view main, if there is one. Size is WIDTHxHEIGHT;
+/// if it is empty, the picture has 1280×720 pixels, on a CPU device 640×360. Returns an exit status.
+int MakeBenchPicture(const FBenchScene& Scene, const std::string& View, const std::string& Size, bool bIsCpu, FPictureOptions& Out);
 
 } // namespace Lantern

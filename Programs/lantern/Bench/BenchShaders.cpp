@@ -10,12 +10,12 @@
 #include <nlohmann/json.hpp>
 
 #include "Bench/BenchPipelineWhole.h"
+#include "Bench/BenchProgress.h"
 #include "Bench/BenchRun.h"
 #include "Bench/BenchShaderList.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternHost/SceneLoader.h"
 #include "LanternMeasure/Methods.h"
-#include "Progress.h"
 
 namespace Lantern
 {
@@ -164,18 +164,28 @@ FRTStatus ListAll(const FBenchShadersOptions& Options, const FPluginFolders& Fol
 
 using FMeasured = std::pair<const FPipelineShaders*, FShaderCosts>;
 
-void Print(const std::vector<FMeasured>& All)
+void PrintHeader()
 {
 	fmt::print("{:>9} {:>10} {:>9} {:>12} {:>9} {:>9}  {}\n", "text KB", "SPIR-V KB", "glslang s", "pipeline s", "1st use s", "driver s",
 	    "pipeline");
+}
+
+void PrintRow(const FPipelineShaders& Pipeline, const FShaderCosts& Costs)
+{
+	fmt::print("{:>9.1f} {:>10.1f} {:>9.3f} {:>12.3f} {:>9.3f} {:>9.3f}  {}\n", 1e-3 * double(Costs.TextBytes),
+	    1e-3 * double(Costs.SpirvBytes), Costs.GlslangSeconds, Costs.CreateSeconds, Costs.FirstUseSeconds, Costs.GetDriverSeconds(),
+	    Pipeline.Name);
+	std::fflush(stdout);
+}
+
+/// All: dearest first.
+void PrintSummary(const std::vector<FMeasured>& All)
+{
+	constexpr size_t Shown = 5;
+	fmt::print("dearest:\n");
+	for (size_t I = 0; I < std::min(Shown, All.size()); ++I) { PrintRow(*All[I].first, All[I].second); }
 	double Sum = 0.0;
-	for (const auto& [Pipeline, Costs] : All)
-	{
-		fmt::print("{:>9.1f} {:>10.1f} {:>9.3f} {:>12.3f} {:>9.3f} {:>9.3f}  {}\n", 1e-3 * double(Costs.TextBytes),
-		    1e-3 * double(Costs.SpirvBytes), Costs.GlslangSeconds, Costs.CreateSeconds, Costs.FirstUseSeconds, Costs.GetDriverSeconds(),
-		    Pipeline->Name);
-		Sum += Costs.GetDriverSeconds();
-	}
+	for (const auto& [Pipeline, Costs] : All) { Sum += Costs.GetDriverSeconds(); }
 	fmt::print("{} pipelines, {:.1f} s of the driver\n", All.size(), Sum);
 }
 
@@ -206,19 +216,21 @@ int MeasureAll(const FBenchShadersOptions& Options, nlohmann::json& Figures)
 	const FRTCapabilities& Capabilities = Device->GetCapabilities();
 	FShaderBench Bench(*Device, Folders.Shaders);
 	std::vector<FMeasured> All;
-	FProgressLine Progress;
+	FBenchProgress Progress("shaders", double(Pipelines.size()));
+	PrintHeader();
 	for (const FPipelineShaders& Pipeline : Pipelines)
 	{
+		Progress.Begin(Pipeline.Name, 1.0);
 		if (Pipeline.IsRays() && !Capabilities.bRayTracingPipeline) { continue; }
 		FShaderCosts Costs;
 		if (FRTStatus S = Bench.Measure(Pipeline, Costs); !S) { return ReportStatus(S, Pipeline.Name.c_str()); }
 		All.emplace_back(&Pipeline, Costs);
-		Progress.Show("pipelines", double(All.size()) / double(Pipelines.size()));
+		Progress.Clear();
+		PrintRow(Pipeline, Costs);
 	}
-	Progress.Clear();
 	std::stable_sort(All.begin(), All.end(),
 	    [](const FMeasured& A, const FMeasured& B) { return A.second.GetDriverSeconds() > B.second.GetDriverSeconds(); });
-	Print(All);
+	PrintSummary(All);
 	Figures = DescribeBenchDevice(Capabilities);
 	Figures["pipelines"] = MakeJson(All);
 	if (const uint32_t Messages = Device->GetValidationMessageCount(); Messages > 0)
@@ -234,6 +246,7 @@ int MeasureAll(const FBenchShadersOptions& Options, nlohmann::json& Figures)
 void FBenchShadersOptions::AddTo(CLI::App& App)
 {
 	Device.AddTo(App);
+	AddBenchQuick(App, [this] { Scenes = {"planes"}; });
 	App.add_option("SCENE", Scenes, "Scenes whose shaders are measured (the built-in courtyard)");
 	App.add_option("--match", Match, "Only pipelines with this in their name");
 	App.add_option("--max-seconds", MaxSeconds, "Exit 1 where the driver takes longer for one pipeline (0: no limit)")

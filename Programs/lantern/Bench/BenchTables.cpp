@@ -2,6 +2,7 @@
 #include "Bench/BenchTables.h"
 
 #include <cstdio>
+#include <numeric>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -64,16 +65,19 @@ int MeasureAll(IRTDevice& Device, const FBenchTablesOptions& Options, nlohmann::
 	if (FRTStatus S = Programs.Create(Device, Compiler); !S) { return ReportStatus(S, "bench sbt"); }
 	int Exit = ExitDone;
 	PrintHeader();
+	FBenchProgress Progress("sbt", 2.0 * std::accumulate(Options.Objects.begin(), Options.Objects.end(), 0.0));
 	for (const bool bShared : {false, true})
 	{
 		nlohmann::json& Cases = Json[bShared ? "shared_sizes" : "sizes"] = nlohmann::json::array();
 		for (const uint32_t Objects : Options.Objects)
 		{
+			Progress.Begin(fmt::format("{} objects, {} sets", Objects, bShared ? "shared" : "own"), Objects);
 			FTableCaseResult Result;
 			if (FRTStatus S = FTableCase(Device, Programs, Objects, bShared).Measure(Options.Repetitions, Result); !S)
 			{
 				return ReportStatus(S, "bench sbt");
 			}
+			Progress.Clear();
 			PrintCase(Result, bShared);
 			Cases.push_back(MakeJson(Result));
 			if (Result.BytesStatic > 0)
@@ -104,6 +108,10 @@ int MeasureOn(IRTDevice& Device, const FBenchTablesOptions& Options, nlohmann::j
 void FBenchTablesOptions::AddTo(CLI::App& App)
 {
 	Device.AddTo(App);
+	AddBenchQuick(App, [this] {
+		Objects = {1000, 10'000};
+		Repetitions = 5;
+	});
 	App.add_flag("--mock", bMock, "On the mock device instead of a driver");
 	App.add_option("--objects", Objects, "Numbers of objects")->check(CLI::Range(100, 4'000'000));
 	App.add_option("--repetitions", Repetitions, "Measured frames of each kind")->check(CLI::Range(1, 100'000));

@@ -144,13 +144,25 @@ int LoadRegistry(const FChartOptions& Options, FMethods& Out)
 	return ExitDone;
 }
 
-FChartSweepDesc MakeSweep(
-    const FChartOptions& Options, FSession& Session, const FChartSelection& Selection, std::chrono::steady_clock::time_point Start)
+/// One for each scene, with its view.
+int MakePictures(const FChartOptions& Options, std::vector<FPictureOptions>& Out)
+{
+	for (const std::string& Scene : Options.Scenes.empty() ? std::vector<std::string>{"courtyard", "stability-poles"} : Options.Scenes)
+	{
+		FPictureOptions Picture = Options.Picture;
+		Picture.Scene = Scene;
+		if (const int Status = ResolveSceneView(Picture); Status != ExitDone) { return Status; }
+		Out.push_back(std::move(Picture));
+	}
+	return ExitDone;
+}
+
+FChartSweepDesc MakeSweep(const FChartOptions& Options, std::vector<FPictureOptions> Pictures, FSession& Session,
+    const FChartSelection& Selection, std::chrono::steady_clock::time_point Start)
 {
 	const FPluginFolders Folders = FindPluginFolders();
 	FChartSweepDesc Desc;
-	Desc.Scenes = Options.Scenes;
-	if (Desc.Scenes.empty()) { Desc.Scenes = {"courtyard", "stability-poles"}; }
+	Desc.Pictures = std::move(Pictures);
 	Desc.Settings = {Options.Picture.Width, Options.Picture.Height, Options.ReferenceSamples, Options.Frames, Options.WarmUp,
 	    Options.Picture.Seed, DescribeVariables()};
 	Desc.Selection = Selection;
@@ -174,6 +186,7 @@ void FChartOptions::AddTo(CLI::App& App)
 	App.add_option("--json", Json, "Write the data to this file instead");
 	App.add_option_function<std::string>(
 	    "--size", [this](const std::string& Text) { ParseSize(Text, Picture); }, "WIDTHxHEIGHT, pixels; 320x180");
+	AddViewOption(App, Picture.View);
 	App.add_option("--frames", Frames, "Frames that are timed; 20")->check(CLI::Range(5, 100'000));
 	App.add_option("--warm-up", WarmUp, "Frames before them; 16")->check(CLI::Range(1, 100'000));
 	App.add_option("--spp", ReferenceSamples, "Samples of references; 256")->check(CLI::Range(4, 1 << 20));
@@ -202,10 +215,12 @@ int RunChart(const FChartOptions& Options)
 	if (const int Status = LoadRegistry(Options, Methods); Status != ExitDone) { return Status; }
 	FChartSelection Selection;
 	if (!ParseSelection(Options, Methods, Selection)) { return ExitUsage; }
+	std::vector<FPictureOptions> Pictures;
+	if (const int Status = MakePictures(Options, Pictures); Status != ExitDone) { return Status; }
 	if (ListChartItems(Methods, Selection).size() < 2) { return LogError("no method fits --signals and --methods"), ExitUsage; }
 	FSession Session;
 	if (const int Status = Session.OpenDevice(Options.Device); Status != ExitDone) { return Session.Close(Status); }
-	const FChartSweepDesc Desc = MakeSweep(Options, Session, Selection, Start);
+	const FChartSweepDesc Desc = MakeSweep(Options, std::move(Pictures), Session, Selection, Start);
 	std::error_code Error;
 	fs::create_directories(Desc.PartsFolder, Error);
 	if (Error)

@@ -13,7 +13,7 @@ namespace Lantern
 struct FChartOptions
 {
 	FDeviceOptions Device;
-	FPictureOptions Picture; ///< size and seed
+	FPictureOptions Picture; ///< size, seed and view
 	std::vector<std::string> Scenes;
 	std::string Output, Json;
 	uint32_t Frames = 20, WarmUp = 16, ReferenceSamples = 256;

@@ -25,12 +25,9 @@ std::string MakeScriptSafe(std::string_view Json)
 	return Safe;
 }
 
-} // namespace
-
-std::string MakeChartPage(const nlohmann::json& DataWithImages)
+std::string FillTemplate(std::string_view Template, const nlohmann::json& Json)
 {
-	const std::string Data = MakeScriptSafe(DataWithImages.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
-	const std::string_view Template = GetChartFile("Page.html");
+	const std::string Data = MakeScriptSafe(Json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 	std::string Page;
 	Page.reserve(Template.size() + Data.size() + (size_t{1} << 18));
 	for (size_t At = 0; At < Template.size();)
@@ -51,5 +48,11 @@ std::string MakeChartPage(const nlohmann::json& DataWithImages)
 	}
 	return Page;
 }
+
+} // namespace
+
+std::string MakeChartPage(const nlohmann::json& DataWithImages) { return FillTemplate(GetChartFile("Page.html"), DataWithImages); }
+
+std::string MakeGrowthPage(const nlohmann::json& Figures) { return FillTemplate(GetChartFile("Growth.html"), Figures); }
 
 } // namespace Lantern

@@ -1,4 +1,4 @@
-// The page that `lantern chart` writes beside its JSON.
+// The pages that `lantern chart` and `lantern bench growth` write beside their JSON.
 #pragma once
 
 #include <string>
@@ -13,5 +13,8 @@ namespace Lantern
 /// points name as "picture" and "heatmap". Members that are missing or null are shown as figures that do not apply. Bytes that are no
 /// UTF-8 are replaced. No text of the data can end the element that holds it.
 std::string MakeChartPage(const nlohmann::json& DataWithImages);
+
+/// Makes the page of `lantern bench growth` in the same way. Figures is the object written as JSON ("lines", "device", …).
+std::string MakeGrowthPage(const nlohmann::json& Figures);
 
 } // namespace Lantern

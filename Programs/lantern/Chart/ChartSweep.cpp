@@ -36,6 +36,14 @@ nlohmann::json ReadSamples(const std::string& File)
 	return Json.is_object() ? Json : nlohmann::json::object();
 }
 
+/// What a view may change beside the light.
+std::string DescribeCamera(const FPictureOptions& Picture)
+{
+	if (!Picture.Camera) { return "own camera"; }
+	const auto& [P, T, FovY] = *Picture.Camera;
+	return fmt::format("camera {} {} {} {} {} {} {}", P.x, P.y, P.z, T.x, T.y, T.z, FovY);
+}
+
 FChartItem WithIndex(FChartItem Item, size_t Index)
 {
 	Item.Index = Index;
@@ -43,17 +51,18 @@ FChartItem WithIndex(FChartItem Item, size_t Index)
 }
 } // namespace
 
-std::vector<std::string> NameScenes(const std::vector<std::string>& Scenes)
+std::vector<std::string> NameScenes(const std::vector<FPictureOptions>& Pictures)
 {
 	const auto GetShort = [](const std::string& Scene) {
 		return IsBuiltinScene(Scene) ? Scene : std::filesystem::path(Scene).stem().string();
 	};
 	std::vector<std::string> Out;
-	for (const std::string& Scene : Scenes)
+	for (const FPictureOptions& Picture : Pictures)
 	{
-		const auto IsSame = [&](const std::string& Other) { return GetShort(Other) == GetShort(Scene); };
+		const auto IsSame = [&](const FPictureOptions& Other) { return GetShort(Other.Scene) == GetShort(Picture.Scene); };
+		const bool bUnique = std::count_if(Pictures.begin(), Pictures.end(), IsSame) == 1;
 		// Escaped: JSON and pages hold no broken UTF-8.
-		Out.push_back(EscapeText(std::count_if(Scenes.begin(), Scenes.end(), IsSame) > 1 ? Scene : GetShort(Scene)));
+		Out.push_back(EscapeText(bUnique ? GetShort(Picture.Scene) : Picture.Scene));
 	}
 	return Out;
 }
@@ -62,10 +71,10 @@ FChartSweep::FChartSweep(FSession& InSession, const FMethods& InMethods, FChartS
     : Session(InSession),
       Methods(InMethods),
       Desc(std::move(InDesc)),
-      Names(NameScenes(Desc.Scenes)),
+      Names(NameScenes(Desc.Pictures)),
       Items(ListChartItems(Methods, Desc.Selection))
 {
-	for (size_t Scene = 0; Scene < Desc.Scenes.size(); ++Scene)
+	for (size_t Scene = 0; Scene < Desc.Pictures.size(); ++Scene)
 	{
 		for (size_t I = 0; I < Items.size(); ++I) { WorkLeft += Desc.Shard.Has(Scene * Items.size() + I) ? GuessWork(Items[I]) : 0.0; }
 	}
@@ -93,7 +102,7 @@ void FChartSweep::ShowProgress(const FScene& Scene, const std::string& What)
 
 int FChartSweep::Run()
 {
-	for (size_t Scene = 0; Scene < Desc.Scenes.size(); ++Scene)
+	for (size_t Scene = 0; Scene < Desc.Pictures.size(); ++Scene)
 	{
 		if (const int Status = RunScene(Scene); Status != ExitDone)
 		{
@@ -113,7 +122,7 @@ int FChartSweep::RunScene(size_t Index)
 	if (Desc.BudgetSeconds > 0.0)
 	{
 		const double Now = GetSeconds();
-		Scene.Deadline = Now + (Desc.BudgetSeconds - Now) / double(Desc.Scenes.size() - Index);
+		Scene.Deadline = Now + (Desc.BudgetSeconds - Now) / double(Desc.Pictures.size() - Index);
 	}
 	std::vector<FChartItem> Own;
 	if (const int Status = LoadScene(Scene, Own); Status != ExitDone) { return Status; }
@@ -131,19 +140,15 @@ int FChartSweep::RunScene(size_t Index)
 
 int FChartSweep::LoadScene(FScene& Scene, std::vector<FChartItem>& OutOwn)
 {
-	FPictureOptions Picture;
-	Picture.Scene = Desc.Scenes[Scene.Index];
-	Picture.Width = Desc.Settings.Width;
-	Picture.Height = Desc.Settings.Height;
-	Picture.Seed = Desc.Settings.Seed;
+	const FPictureOptions& Picture = Desc.Pictures[Scene.Index];
 	if (const int Status = Session.LoadScene(Picture); Status != ExitDone) { return Status; }
 	FHostScene& Host = Session.GetEngine().GetScene();
 	const FRTCapabilities& Device = Session.GetDevice().GetCapabilities();
 	const FSunLight& Sun = Host.GetScene().GetSun();
 	const glm::vec3 Sky = Host.GetScene().GetSky();
 	Scene.Key = {Desc.Program, Device.DeviceName, Device.DriverName,
-	    fmt::format("{} sun {} {} {} {} {} sky {} {} {}", Host.GetContentHash().ToHex(), Sun.Irradiance, Sun.Direction.x, Sun.Direction.y,
-	        Sun.Direction.z, Sun.AngularDiameter, Sky.x, Sky.y, Sky.z),
+	    fmt::format("{} sun {} {} {} {} {} sky {} {} {} scene lights {} {}", Host.GetContentHash().ToHex(), Sun.Irradiance, Sun.Direction.x,
+	        Sun.Direction.y, Sun.Direction.z, Sun.AngularDiameter, Sky.x, Sky.y, Sky.z, !Picture.bNoSceneLights, DescribeCamera(Picture)),
 	    Desc.Settings};
 	for (size_t I = 0; I < Items.size(); ++I)
 	{

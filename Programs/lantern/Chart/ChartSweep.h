@@ -18,7 +18,7 @@ namespace Lantern
 
 struct FChartSweepDesc
 {
-	std::vector<std::string> Scenes;
+	std::vector<FPictureOptions> Pictures; ///< one for each scene, with its view
 	FChartSettings Settings;
 	FChartSelection Selection;
 	FShard Shard;
@@ -31,7 +31,7 @@ struct FChartSweepDesc
 
 /// The name of each scene in the chart: that of its file without ending, or that of a built-in scene. Scenes whose names would be equal are
 /// called as they were given.
-std::vector<std::string> NameScenes(const std::vector<std::string>& Scenes);
+std::vector<std::string> NameScenes(const std::vector<FPictureOptions>& Pictures);
 
 class FChartSweep
 {

@@ -43,7 +43,8 @@ FChartPart FChartSweep::MakePart(const FScene& Scene, const FChartItem& Item) co
 	Part["driver"] = Device.DriverName;
 	Part["is_cpu"] = Device.bIsCpu;
 	Part["settings"] = Desc.Settings.ToJson();
-	Part["scene"] = {{"name", Scene.Name}, {"width", Desc.Settings.Width}, {"height", Desc.Settings.Height}};
+	Part["scene"] = {{"name", Scene.Name}, {"width", Desc.Settings.Width}, {"height", Desc.Settings.Height},
+	    {"view", DescribeView(Desc.Pictures[Scene.Index])}};
 	if (Item.bFacts) { return Part; }
 	const FSignalInfo& Signal = GetSignalInfo(Methods.Methods[Item.Method].Signal);
 	Part["signal"] = {{"name", Signal.Name}, {"title", Signal.Title}};

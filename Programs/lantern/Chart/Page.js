@@ -306,7 +306,7 @@ function fillControls() {
   const paths = unique([...PATH_ORDER.filter((name) => inScene.includes(name)), ...inScene]).map((name) => ({ name }));
   state.path = keepOrFirst(state.path, paths);
   fillSelect("signal", signals, state.signal, (value) => (state.signal = value));
-  fillSelect("scene", scenes.map(({ name }) => ({ name })), state.scene, (value) => (state.scene = value));
+  fillSelect("scene", scenes.map(({ name, view }) => ({ name, title: view ? `${name}, view ${view}` : name })), state.scene, (value) => (state.scene = value));
   fillSelect("path", paths, state.path, (value) => (state.path = value));
   fillSelect("metric", ERRORS.map(({ key, title }) => ({ name: key, title })), state.error, (value) => (state.error = value));
 }

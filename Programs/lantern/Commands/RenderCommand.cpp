@@ -5,16 +5,19 @@
 #include <chrono>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
 #include "JsonFile.h"
 #include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternCore/FrameGraph/History.h"
 #include "LanternCore/Tasks/TaskTrace.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternHost/ReferenceRenderer.h"
 #include "LanternImage/ImageIO.h"
 #include "LanternImage/ToneMap.h"
+#include "LanternMeasure/Settling.h"
 #include "Progress.h"
 #include "Session.h"
 
@@ -67,7 +70,8 @@ private:
 	std::map<std::string, FPassFigures> Passes;
 };
 
-nlohmann::json MakeJson(FSession& Session, const FRenderOptions& Options, const FFigures& Figures)
+/// Settled: whether the frames did, if they were asked to.
+nlohmann::json MakeJson(FSession& Session, const FRenderOptions& Options, const FFigures& Figures, std::optional<bool> Settled)
 {
 	const FRTCapabilities& Capabilities = Session.GetDevice().GetCapabilities();
 	const FRTMemoryStats Memory = Session.GetDevice().GetMemoryStats();
@@ -77,7 +81,9 @@ nlohmann::json MakeJson(FSession& Session, const FRenderOptions& Options, const 
 	Json["driver"] = Capabilities.DriverName;
 	Json["width"] = Options.Picture.Width;
 	Json["height"] = Options.Picture.Height;
+	Json["view"] = DescribeView(Options.Picture);
 	Json["frames"] = Options.Frames;
+	Json["settled"] = Settled ? nlohmann::json(*Settled) : nlohmann::json(nullptr);
 	Json["passes"] = Figures.ToJson();
 	double Gpu = 0.0, Cpu = 0.0;
 	uint64_t Rays = 0;
@@ -112,18 +118,22 @@ void PrintTable(const nlohmann::json& Json)
 	}
 	fmt::print("{:<16} {:>10.3f} {:>10.3f} {:>12}\n", "frame", Json["frame_gpu_ms"].get<double>(), Json["frame_cpu_ms"].get<double>(),
 	    Json["rays"].get<uint64_t>());
+	const nlohmann::json& Settled = Json["settled"];
+	const char* const End = Settled.is_null() ? "" : Settled.get<bool>() ? ", settled" : ", not settled yet";
+	fmt::print("frames: {}{}\n", Json["frames"].get<uint32_t>(), End);
 }
 
 bool IsDisplayOutput(const std::string& Path) { return Path.size() > 4 && Path.compare(Path.size() - 4, 4, ".png") == 0; }
 
-/// Before any work: can what was asked for be written?
-int CheckOutputs(const FPictureOptions& Picture)
+/// Before any work: can what was asked for be written, and is the view there?
+int PreparePicture(FPictureOptions& Picture)
 {
 	if (!Picture.Output.empty())
 	{
 		if (FRTStatus S = CheckImageOutput(Picture.Output); !S) { return ReportStatus(S, "-o"), ExitBadInput; }
 	}
-	return CheckJsonFile(Picture.Json);
+	if (const int Status = CheckJsonFile(Picture.Json); Status != ExitDone) { return Status; }
+	return ResolveView(Picture);
 }
 
 int WriteOutputs(const FPictureOptions& Picture, const FImage& Image, const nlohmann::json& Json)
@@ -135,40 +145,79 @@ int WriteOutputs(const FPictureOptions& Picture, const FImage& Image, const nloh
 	return WriteJsonFile(Picture.Json, Json.dump(2) + "\n");
 }
 
-int RenderFrames(FSession& Session, const FRenderOptions& Options, FCapturedFrame& Frame, FFigures& Figures)
+/// Renders frames of one view, a given number of them or until they have settled.
+class FFrameLoop
 {
-	const FView View = Session.MakeView(Options.Picture);
-	FProgressLine Progress;
-	FFrameCapture Capture;
-	for (uint32_t I = 0; I < Options.Frames; ++I)
+public:
+	FFrameLoop(FSession& InSession, const FRenderOptions& InOptions)
+	    : Session(InSession),
+	      Options(InOptions),
+	      View(InSession.MakeView(InOptions.Picture)),
+	      Most(InOptions.Frames > 0 ? InOptions.Frames : MostFramesToSettle)
+	{}
+
+	int Run()
 	{
-		const bool bLast = I + 1 == Options.Frames;
-		Capture.bDisplay = bLast && IsDisplayOutput(Options.Picture.Output);
-		Capture.bLighting = bLast && !Capture.bDisplay;
-		if (FRTStatus S = Session.GetEngine().RenderFrame(View, Options.Picture.Time, Capture, bLast ? &Frame : nullptr); !S)
+		FProgressLine Progress;
+		while (Done < Most && !Settled.value_or(false))
 		{
-			return ReportStatus(S, "frame");
+			if (FRTStatus S = RenderOne(); !S) { return ReportStatus(S, "frame"); }
+			Progress.Show("frames", double(Done) / Most);
+		}
+		return ExitDone;
+	}
+	uint32_t GetFrameCount() const { return Done; }
+	std::optional<bool> IsSettled() const { return Settled; }
+	const FSettling& GetSettling() const { return Settling; }
+	const FFigures& GetFigures() const { return Figures; }
+	const FImage& GetPicture() const { return Frame.Display.IsEmpty() ? Frame.Lighting : Frame.Display; }
+
+private:
+	static constexpr uint32_t MostFramesToSettle = 64;
+
+	FRTStatus RenderOne()
+	{
+		const bool bSettle = Options.Frames == 0; // any frame may then be the last
+		const bool bPicture = bSettle || Done + 1 == Most;
+		FFrameCapture Capture;
+		Capture.bDisplay = bPicture && IsDisplayOutput(Options.Picture.Output);
+		Capture.bLighting = bSettle || (bPicture && !Capture.bDisplay);
+		FSampleEngine& Engine = Session.GetEngine();
+		if (FRTStatus S = Engine.RenderFrame(View, Options.Picture.Time, Capture, bPicture ? &Frame : nullptr); !S) { return S; }
+		if (bSettle)
+		{
+			const bool bAccumulates = Engine.GetRenderer().GetHistory().GetBytes() > 0;
+			Settled = Settling.Add(Frame.Lighting) || !bAccumulates;
 		}
 		// The first frame of several builds and compiles: it is not what a frame costs.
-		if (I > 0 || Options.Frames == 1) { Figures.Add(Session.GetEngine().GetRenderer().GetGraphResources().GetTimings()); }
-		Progress.Show("frames", double(I + 1) / Options.Frames);
+		if (Done == 1) { Figures = {}; }
+		Figures.Add(Engine.GetRenderer().GetGraphResources().GetTimings());
+		++Done;
+		return FRTStatus::Success();
 	}
-	return ExitDone;
-}
+
+	FSession& Session;
+	const FRenderOptions& Options;
+	const FView View;
+	const uint32_t Most;
+	uint32_t Done = 0;
+	FCapturedFrame Frame; // the newest that is captured
+	FFigures Figures;
+	FSettling Settling;
+	std::optional<bool> Settled; // absent: nobody asked
+};
 } // namespace
 
-int RunRender(const FRenderOptions& Options)
+int RunRender(FRenderOptions Options)
 {
 	const auto Start = std::chrono::steady_clock::now();
-	if (const int Status = CheckOutputs(Options.Picture); Status != ExitDone) { return Status; }
+	if (const int Status = PreparePicture(Options.Picture); Status != ExitDone) { return Status; }
 	FTaskTrace::SetFolder(std::filesystem::path(Options.Picture.Output).parent_path().string());
 	FSession Session;
 	if (const int Status = Session.OpenDevice(Options.Device); Status != ExitDone) { return Session.Close(Status); }
 	if (const int Status = Session.LoadScene(Options.Picture); Status != ExitDone) { return Session.Close(Status); }
 	Session.GetEngine().GetRenderer().SetGraphDump(Options.bDumpGraph);
 	Session.GetEngine().bPresent = true; // what accumulates over frames needs them all, and their times are what is reported
-	FCapturedFrame Frame;
-	FFigures Figures;
 	FProgressLine Compiling;
 	const auto ShowProgress = [&](float Fraction) { Compiling.Show("shaders", Fraction); };
 	if (FRTStatus S = Session.GetEngine().GetRenderer().Precache(Session.GetEngine().GetScene().GetScene(), {}, ShowProgress); !S)
@@ -176,22 +225,24 @@ int RunRender(const FRenderOptions& Options)
 		return Session.Close(ReportStatus(S, "shaders"));
 	}
 	Compiling.Clear();
-	int Status = RenderFrames(Session, Options, Frame, Figures);
+	FFrameLoop Loop(Session, Options);
+	int Status = Loop.Run();
 	if (Status == ExitDone)
 	{
-		const nlohmann::json Json = MakeJson(Session, Options, Figures);
+		Options.Frames = Loop.GetFrameCount();
+		const nlohmann::json Json = MakeJson(Session, Options, Loop.GetFigures(), Loop.IsSettled());
 		PrintTable(Json);
 		if (Options.bDumpGraph) { fmt::print("{}", Session.GetEngine().GetRenderer().DumpGraph()); }
-		Status = WriteOutputs(Options.Picture, Frame.Display.IsEmpty() ? Frame.Lighting : Frame.Display, Json);
+		Status = WriteOutputs(Options.Picture, Loop.GetPicture(), Json);
 		const double Seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - Start).count();
 		LogInfo("loaded in {:.2f} s, {:.2f} s in all", Session.GetLoadSeconds(), Seconds);
 	}
 	return Session.Close(Status);
 }
 
-int RunReference(const FReferenceOptions& Options)
+int RunReference(FReferenceOptions Options)
 {
-	if (const int Status = CheckOutputs(Options.Picture); Status != ExitDone) { return Status; }
+	if (const int Status = PreparePicture(Options.Picture); Status != ExitDone) { return Status; }
 	if (Options.bResume && Options.Picture.Output.empty())
 	{
 		LogError("--resume needs -o: the state is kept beside the picture");
@@ -223,8 +274,8 @@ int RunReference(const FReferenceOptions& Options)
 	fmt::print("{} samples ({} resumed) in {:.1f} s, {:.2f} Mpaths/s\n", Result.Samples, Result.ResumedSamples, Result.Seconds, MPaths);
 	const FRTCapabilities& Capabilities = Session.GetDevice().GetCapabilities();
 	const nlohmann::json Json = {{"device", Capabilities.DeviceName}, {"driver", Capabilities.DriverName}, {"width", Options.Picture.Width},
-	    {"height", Options.Picture.Height}, {"spp", Result.Samples}, {"resumed_spp", Result.ResumedSamples}, {"bounces", Options.Bounces},
-	    {"seconds", Result.Seconds}, {"paths", Result.Paths}};
+	    {"height", Options.Picture.Height}, {"view", DescribeView(Options.Picture)}, {"spp", Result.Samples},
+	    {"resumed_spp", Result.ResumedSamples}, {"bounces", Options.Bounces}, {"seconds", Result.Seconds}, {"paths", Result.Paths}};
 	const bool bDisplay = IsDisplayOutput(Options.Picture.Output);
 	return Session.Close(
 	    WriteOutputs(Options.Picture, bDisplay ? ToneMapImage(Result.Radiance, Settings.View.Exposure) : Result.Radiance, Json));

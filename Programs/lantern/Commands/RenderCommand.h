@@ -10,10 +10,11 @@ struct FRenderOptions
 {
 	FDeviceOptions Device;
 	FPictureOptions Picture;
-	uint32_t Frames = 1;
+	/// 0: until what accumulates has settled. RunRender replaces it by the number of frames that it took.
+	uint32_t Frames = 0;
 	bool bDumpGraph = false;
 };
-int RunRender(const FRenderOptions& Options);
+int RunRender(FRenderOptions Options);
 
 struct FReferenceOptions
 {
@@ -26,6 +27,6 @@ struct FReferenceOptions
 	bool bResume = false;
 	double SaveSeconds = 20.0;
 };
-int RunReference(const FReferenceOptions& Options);
+int RunReference(FReferenceOptions Options);
 
 } // namespace Lantern

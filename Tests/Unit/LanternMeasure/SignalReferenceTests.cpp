@@ -187,6 +187,7 @@ TEST_F(FSignalReferenceTest, VariablesOfASignalCountForItAlone)
 		Desc.Signal = Signal;
 		return GetSignalReferenceFile(*Engine, Desc);
 	};
+	Set("r.RT.AO.Radius", "2");
 	const std::string Frame = GetFile(ESignal::Frame), Occlusion = GetFile(ESignal::AmbientOcclusion);
 	Set("r.RT.AO.Radius", "3");
 	EXPECT_EQ(GetFile(ESignal::Frame), Frame);

@@ -16,8 +16,11 @@ TRTConsoleVariable<bool> CVarEnable("r.RT.AO", true,
     "Traces ambient occlusion of the sky's ambient light. It costs nothing without a sky (r.RT.SkyAmbient), or if diffuse global "
     "illumination takes its place.");
 TRTConsoleVariable<int32_t> CVarSamples("r.RT.AO.Samples", 1, "Number of ambient occlusion rays per pixel.", {1, 16});
-TRTConsoleVariable<float> CVarRadius("r.RT.AO.Radius", 2.0f,
-    "Distance in metres beyond which nothing occludes. What is nearer occludes by 1 - (distance / radius)^2.", {0.001, 1e6});
+// Docs/Performance.md, "The sky's ambient light", has the measurements behind the default.
+TRTConsoleVariable<float> CVarRadius("r.RT.AO.Radius", 20.0f,
+    "Distance in metres beyond which nothing occludes. What is nearer occludes by 1 - (distance / radius)^2. The default shades the "
+    "sky's ambient light, which would otherwise light every interior. Contact shadows alone need 1 to 3.",
+    {0.001, 1e6});
 TRTConsoleVariable<int32_t> CVarPath(
     "r.RT.AO.Path", 0, "How ambient occlusion is traced. 0: as the device does best. 1: ray-tracing pipeline. 2: ray query.", {0, 2});
 TRTConsoleVariable<int32_t> CVarMask(

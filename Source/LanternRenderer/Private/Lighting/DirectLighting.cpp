@@ -12,6 +12,10 @@ namespace
 {
 TRTConsoleVariable<bool> CVarLocalLights("r.RT.LocalLights", true, "Direct light of the scene's point, spot and directional lights.");
 TRTConsoleVariable<bool> CVarSkyAmbient("r.RT.SkyAmbient", true, "Ambient light of the sky, where indirect light is not traced.");
+TRTConsoleVariable<float> CVarSurroundings("r.RT.SkyAmbient.Surroundings", 0.15f,
+    "Share of light that surroundings reflect, where they stand in for global illumination and reflections that are not traced. What hides "
+    "the sky from a surface is taken to be as open to sky and sun as the surface is. 0: it is black.",
+    {0, 1});
 } // namespace
 
 bool HasSkyAmbient(const FSceneFacts& Facts) { return Facts.bSky && CVarSkyAmbient.GetOnRenderThread(); }
@@ -30,6 +34,7 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 	if (!Pipeline) { return {}; }
 	const FGraphTexture Output = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA32_FLOAT}, "Lighting");
 	const FPassConstants PassConstants = Context.Pass;
+	const float Surroundings = CVarSurroundings.GetOnRenderThread();
 	const uint32_t Width = Context.Width, Height = Context.Height;
 	Context.Graph.AddPass("DirectLighting", [&](FPassBuilder& Builder) -> FPassExecute {
 		const FGBuffer& G = Inputs.GBuffer;
@@ -55,6 +60,7 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 			C.SkyVisibility = Sampled(Inputs.SkyVisibility);
 			C.IndirectDiffuse = Sampled(Inputs.IndirectDiffuse);
 			C.IndirectSpecular = Sampled(Inputs.IndirectSpecular);
+			C.Surroundings = Surroundings;
 			C.Output = Pass.GetTexture(Output)->GetStorageIndex();
 			Dispatch2D(Pass, Pipeline, C, Width, Height, LIGHTING_GROUP_SIZE);
 		};
