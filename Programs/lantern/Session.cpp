@@ -126,14 +126,13 @@ int LoadSettings(const std::string& ConfigFolder, const FDeviceOptions& Options)
 	return ExitDone;
 }
 
-FRTStatus OpenUncachedDevice(const FDeviceOptions& Options, bool bCompileDevice, TRTRef<IRTDevice>& Out)
+FRTStatus OpenUncachedDevice(const FDeviceOptions& Options, TRTRef<IRTDevice>& Out)
 {
 	// Caches of the drivers themselves, on disk; neither has a call for it.
 	::setenv("__GL_SHADER_DISK_CACHE", "0", 1);
 	::setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
 	FRTVulkanDeviceDesc Desc = MakeDeviceDesc(Options);
 	Desc.bCacheLibraries = false;
-	Desc.bCompileDevice = bCompileDevice;
 	Desc.MessageCallback = OnVulkanMessage;
 	return CreateVulkanDevice(Desc, Out.ReleaseAndGetAddress());
 }

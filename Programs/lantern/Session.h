@@ -49,7 +49,7 @@ private:
 };
 
 /// A bare device for measuring how long it compiles: the driver's own caches are off, ours too. LANTERN_DEVICE as above.
-FRTStatus OpenUncachedDevice(const FDeviceOptions& Options, bool bCompileDevice, TRTRef<IRTDevice>& Out);
+FRTStatus OpenUncachedDevice(const FDeviceOptions& Options, TRTRef<IRTDevice>& Out);
 
 /// Sets console variables: the folder's defaults, --config, --quality, --set. An exit status.
 int LoadSettings(const std::string& ConfigFolder, const FDeviceOptions& Options);

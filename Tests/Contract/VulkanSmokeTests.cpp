@@ -175,7 +175,7 @@ TEST_F(FVulkanSmokeBasics, RasterTrianglesAreSortedByReversedDepth)
 	Barrier(ERTAccess::None, ERTAccess::RenderTarget, Color.Get());
 	Barrier(ERTAccess::None, ERTAccess::DepthWrite, Depth.Get());
 	const FRTColorTarget Target = {Color.Get(), true, {0, 0, 1, 1}};
-	List->BeginRasterPass({&Target, 1, Depth.Get(), true, Size, Size});
+	List->BeginRasterPass({&Target, 1, Depth.Get(), true, 0.0f, Size, Size});
 	List->SetPipeline(Pipeline.Get());
 	PushTriangle(Positions->GetDeviceAddress(), 1, 0);
 	List->Draw(3, 1);
@@ -212,7 +212,7 @@ TEST_F(FVulkanSmokeBasics, TrianglesClockwiseOnTheTargetAreBackFaces)
 		ASSERT_OK(List->Begin());
 		Barrier(ERTAccess::None, ERTAccess::RenderTarget, Color.Get());
 		const FRTColorTarget Target = {Color.Get(), true, {0, 0, 1, 1}};
-		List->BeginRasterPass({&Target, 1, nullptr, false, Size, Size});
+		List->BeginRasterPass({&Target, 1, nullptr, false, 0.0f, Size, Size});
 		List->SetPipeline(Pipeline.Get());
 		PushTriangle(Positions->GetDeviceAddress() + (bCounterClockwise ? 36 : 0), 1, 0);
 		List->Draw(3, 1);

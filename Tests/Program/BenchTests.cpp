@@ -54,7 +54,7 @@ TEST_F(BenchProgram, LongestFramesOfRtpsoShowWhatTheirThreadsDid)
 TEST_F(BenchProgram, FileThatCannotBeWrittenEndsItBeforeAnyWork)
 {
 	const std::vector<std::vector<std::string>> Benches = {
-	    {"rays"}, {"anyhit"}, {"sbt", "--mock"}, {"frame", "--mock"}, {"gather"}, {"shaders"}, {"uploads", "--mock"}};
+	    {"rays"}, {"anyhit"}, {"sbt", "--mock"}, {"frame", "--mock"}, {"gather"}, {"shaders"}, {"uploads", "--mock"}, {"growth", "--mock"}};
 	for (const std::vector<std::string>& Bench : Benches)
 	{
 		std::vector<std::string> Arguments = {"bench"};

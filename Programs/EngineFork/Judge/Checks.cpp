@@ -1,7 +1,6 @@
 // The judge's script: frames of the scene in three states, each compared with the truth.
 #include "Judge/Checks.h"
 
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -21,27 +20,12 @@ constexpr int FrameCount = 3;                    // frames in which everything i
 constexpr int MostFramesUntilComplete = 600'000; // each takes a millisecond at least: ends what would never end
 constexpr int FramesPerLine = 5'000;
 
-using FMasks = std::array<FFrameMasks, ViewCount>;
-
-/// Temporal antialiasing: each frame's picture is a fraction of a pixel elsewhere (Halton, 1960).
-void Jitter(FForkScene& Scene, int Frame)
-{
-	const auto Halton = [](int Index, int Base) {
-		double Value = 0.0, Digit = 1.0;
-		for (; Index > 0; Index /= Base) { Value += (Digit /= Base) * (Index % Base); }
-		return Value;
-	};
-	const int Index = Frame % 8 + 1;
-	for (FCamera& Camera : Scene.Cameras) { Camera.Jitter = glm::dvec2(Halton(Index, 2), Halton(Index, 3)) - 0.5; }
-}
-
 /// Runs frames until the plugin has all that it needs, then a few more. The plugin never waits: its first frames may lack shadows.
-FError RunUntilComplete(FForkEngine& Engine, FForkScene& Scene, FMasks& Out)
+FError RunUntilComplete(FForkEngine& Engine, const FForkScene& Scene, FFrameMasks& Out)
 {
 	FError Error;
 	for (int Frame = 0; Error.empty() && Frame < MostFramesUntilComplete; ++Frame)
 	{
-		Jitter(Scene, Frame);
 		Error = Engine.RunFrame(Scene, Frame == 0, Out); // boxes have jumped since the scene before
 		if (Engine.GetPlugin().IsComplete()) { break; }
 		if (Frame % FramesPerLine == FramesPerLine - 1)
@@ -50,33 +34,23 @@ FError RunUntilComplete(FForkEngine& Engine, FForkScene& Scene, FMasks& Out)
 		}
 		std::this_thread::sleep_for(std::chrono::milliseconds(1));
 	}
-	for (int Frame = 0; Error.empty() && Frame < FrameCount; ++Frame)
-	{
-		Jitter(Scene, Frame);
-		Error = Engine.RunFrame(Scene, false, Out);
-	}
-	bool bHasMasks = true;
-	for (const FFrameMasks& Masks : Out) { bHasMasks = bHasMasks && Masks.SunShadow != nullptr && Masks.AmbientOcclusion != nullptr; }
+	for (int Frame = 0; Error.empty() && Frame < FrameCount; ++Frame) { Error = Engine.RunFrame(Scene, false, Out); }
+	const bool bHasMasks = Out.SunShadow != nullptr && Out.AmbientOcclusion != nullptr;
 	return Error.empty() && !bHasMasks ? "the plugin gave no shadow mask, or no ambient occlusion" : Error;
 }
 
-/// Compares every pixel of a view's last mask with the truth.
-FError CheckView(const FForkScene& Scene, size_t View, const char* What, const FFrameMasks& Masks)
+/// Compares every pixel of the last mask with the truth.
+FError CheckScene(FForkEngine& Engine, const FForkScene& Scene, const char* What, FFrameMasks& Out)
 {
-	if (FError Error = JudgeOcclusion(Masks.AmbientOcclusion); !Error.empty()) { return Error; }
-	const FVerdict Verdict = JudgeShadow(Scene, Scene.Cameras[View], Masks.SunShadow);
-	std::printf("%s, view %zu: %u lit, %u shadowed, %u sky, %u near an edge; wrong: %u\n", What, View, Verdict.Lit, Verdict.Shadowed,
-	    Verdict.Sky, Verdict.Unsure, Verdict.Wrong);
+	FError Error = RunUntilComplete(Engine, Scene, Out);
+	if (Error.empty()) { Error = JudgeOcclusion(Out.AmbientOcclusion); }
+	if (!Error.empty()) { return Error; }
+	const FVerdict Verdict = JudgeShadow(Scene, Out.SunShadow);
+	std::printf("%s: %u lit, %u shadowed, %u sky, %u near an edge; wrong: %u\n", What, Verdict.Lit, Verdict.Shadowed, Verdict.Sky,
+	    Verdict.Unsure, Verdict.Wrong);
 	// Enough of each that agreeing means something.
 	const bool bMeaningful = Verdict.Lit > 5000 && Verdict.Shadowed > 1000 && Verdict.Sky > 2000;
 	return Verdict.Wrong == 0 && bMeaningful ? FError() : std::string(What) + ": the shadows are not where they must be";
-}
-
-FError CheckScene(FForkEngine& Engine, FForkScene& Scene, const char* What, FMasks& Out)
-{
-	FError Error = RunUntilComplete(Engine, Scene, Out);
-	for (size_t View = 0; Error.empty() && View < ViewCount; ++View) { Error = CheckView(Scene, View, What, Out[View]); }
-	return Error;
 }
 
 FError CheckMoved(FForkEngine& Engine, FForkScene& Scene)
@@ -85,7 +59,7 @@ FError CheckMoved(FForkEngine& Engine, FForkScene& Scene)
 	FError Error = Engine.GetPlugin().MoveBox(2, Scene.Boxes[2]);
 	Scene.Boxes.erase(Scene.Boxes.begin() + 1);
 	if (Error.empty()) { Error = Engine.GetPlugin().RemoveBox(1); }
-	FMasks Masks;
+	FFrameMasks Masks;
 	return Error.empty() ? CheckScene(Engine, Scene, "pillar moved, cube gone", Masks) : Error;
 }
 
@@ -99,7 +73,7 @@ FError CheckChanged(FForkEngine& Engine, FForkScene& Scene)
 	Scene.Boxes[3].bCutOut = false;
 	Scene.Reed.Bend = -0.8;
 	for (size_t Box = 2; Error.empty() && Box <= 3; ++Box) { Error = Engine.GetPlugin().SetBox(Box, Scene.Boxes[Box]); }
-	FMasks Masks;
+	FFrameMasks Masks;
 	return Error.empty() ? CheckScene(Engine, Scene, "pillar deformed, reed bent, slab and cut-out cast shadows", Masks) : Error;
 }
 
@@ -130,7 +104,7 @@ FError StreamBoxes(FForkEngine& Engine, FForkScene& Scene)
 FError CheckStreamed(FForkEngine& Engine, FForkScene& Scene)
 {
 	FForkScene Game = Scene;
-	FMasks Masks;
+	FFrameMasks Masks;
 	std::future<FError> Streamed = std::async(std::launch::async, [&] { return StreamBoxes(Engine, Game); });
 	FError Error;
 	do {
@@ -148,9 +122,9 @@ FError CheckStreamed(FForkEngine& Engine, FForkScene& Scene)
 
 FError CheckScenes(FForkEngine& Engine, FForkScene Scene, const std::string& Picture)
 {
-	FMasks Masks;
+	FFrameMasks Masks;
 	FError Error = CheckScene(Engine, Scene, "as made", Masks);
-	if (Error.empty() && !Picture.empty()) { Error = WritePicture(Picture, Masks[0].SunShadow); }
+	if (Error.empty() && !Picture.empty()) { Error = WritePicture(Picture, Masks.SunShadow); }
 	if (Error.empty()) { Error = CheckMoved(Engine, Scene); }
 	if (Error.empty()) { Error = CheckChanged(Engine, Scene); }
 	return Error.empty() ? CheckStreamed(Engine, Scene) : Error;

@@ -10,10 +10,10 @@
 namespace Fork
 {
 
-FVerdict JudgeShadow(const FForkScene& Scene, const FCamera& Camera, const uint16_t* Mask)
+FVerdict JudgeShadow(const FForkScene& Scene, const uint16_t* Mask)
 {
 	FVerdict Verdict;
-	const FShadowTruth Truth(Scene, Camera);
+	const FShadowTruth Truth(Scene);
 	for (uint32_t Y = 0; Y < FrameSize.height; ++Y)
 	{
 		for (uint32_t X = 0; X < FrameSize.width; ++X)

@@ -15,7 +15,7 @@ struct FVerdict
 };
 
 /// Compares every pixel of Mask with the truth.
-FVerdict JudgeShadow(const FForkScene& Scene, const FCamera& Camera, const uint16_t* Mask);
+FVerdict JudgeShadow(const FForkScene& Scene, const uint16_t* Mask);
 
 /// Fails unless ambient occlusion is in range, and some pixels but not most are occluded. The filter's result has no closed form here;
 /// Lantern's own tests check it.

@@ -26,6 +26,7 @@ struct FBenchCommands::FOptions
 	FBenchPipelinesOptions BenchPipelines;
 	FBenchShadersOptions BenchShaders;
 	FBenchUploadsOptions BenchUploads;
+	FBenchGrowthOptions BenchGrowth;
 };
 
 FBenchCommands::FBenchCommands() : Options(std::make_unique<FOptions>()) {}
@@ -62,6 +63,10 @@ void FBenchCommands::AddTo(CLI::App& App, int& Status)
 	CLI::App* const Uploads = Command->add_subcommand("uploads", "What the render thread notices of meshes that a thread streams in");
 	Options->BenchUploads.AddTo(*Uploads);
 	Uploads->final_callback([&Options = Options->BenchUploads, &Status] { Status = RunBenchUploads(Options); });
+	CLI::App* const Growth =
+	    Command->add_subcommand("growth", "A frame's time against objects, triangles, materials and pixels, with the exponent of each");
+	Options->BenchGrowth.AddTo(*Growth);
+	Growth->final_callback([&Options = Options->BenchGrowth, &Status] { Status = RunBenchGrowth(Options); });
 }
 
 } // namespace Lantern

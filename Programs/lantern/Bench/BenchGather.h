@@ -2,6 +2,7 @@
 // yardstick. It needs no device.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 

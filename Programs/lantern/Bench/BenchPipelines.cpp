@@ -28,7 +28,7 @@ FRTStatus OpenDevice(const FBenchPipelinesOptions& Options, TRTRef<IRTDevice>& O
 		GetMock(Out.Get()).SlowCompile("Bench", Options.MockCompileMs);
 		return FRTStatus::Success();
 	}
-	return OpenUncachedDevice(Options.Device, Options.bCompileDevice, Out);
+	return OpenUncachedDevice(Options.Device, Out);
 }
 
 /// Groups that one thread compiles: see GetPipelineRunWork.
@@ -183,8 +183,6 @@ void FBenchPipelinesOptions::AddTo(CLI::App& App)
 	});
 	App.add_flag("--mock", bMock, "On the mock device, whose compiles take half a second each: only the frames are measured");
 	App.add_flag("--hitch-only", bHitchOnly, "Only the frames");
-	App.add_flag(
-	    "--compile-device", bCompileDevice, "Compile on a second VkDevice, from whose cache the device of the frames takes libraries");
 	App.add_option("--groups", Groups, "Hit groups, each with a material program of its own")->check(CLI::Range(1, 65536));
 	App.add_option("--threads", Threads, "Numbers of threads")->check(CLI::Range(1, 256));
 	App.add_option("--repetitions", Repetitions, "Pipelines made each way")->check(CLI::Range(1, 1000));

@@ -24,7 +24,6 @@ struct FBenchPipelinesOptions
 	uint32_t Added = 9; ///< materials added one after another
 	uint32_t MockCompileMs = 500;
 	bool bHitchOnly = false;
-	bool bCompileDevice = false;
 	std::string Json;
 	void AddTo(CLI::App& App);
 };

@@ -208,7 +208,7 @@ int MeasureAll(const FBenchShadersOptions& Options, nlohmann::json& Figures)
 	std::vector<FPipelineShaders> Pipelines;
 	if (FRTStatus S = ListAll(Options, Folders, Pipelines); !S) { return ReportStatus(S, "bench shaders"); }
 	TRTRef<IRTDevice> Device;
-	if (FRTStatus S = OpenUncachedDevice(Options.Device, false, Device); !S)
+	if (FRTStatus S = OpenUncachedDevice(Options.Device, Device); !S)
 	{
 		LogError("{}", S.Message);
 		return ExitNoDevice;

@@ -74,7 +74,7 @@ FRTStatus FBenchUploadEngine::Open(IRTDevice* Mock, bool bValidate, const std::v
 	if (Status && bMock) { Device = TRTRef<IRTDevice>(Mock); }
 	else if (Status) { Status = Module->CreateDevice(bValidate, Device.ReleaseAndGetAddress()); }
 	if (Status) { Status = MakeTextures(); }
-	return Status ? Module->CreateRenderer(Device.Get(), Renderer.ReleaseAndGetAddress()) : Status;
+	return Status ? Module->CreateRenderer(Device.Get(), {}, Renderer.ReleaseAndGetAddress()) : Status;
 }
 
 FRTStatus FBenchUploadEngine::FillTextures(IRTCommandList& List)
@@ -112,6 +112,7 @@ FRTStatus FBenchUploadEngine::Frame(FFrameTime& Out)
 	Frame.Commands = Commands.Get();
 	Frame.Depth = Depth.Get();
 	Frame.Normals = Normals.Get();
+	Frame.View.Projection = MakeProjection(1.0f, 1.0f, 0.1f);
 	FRTModuleOutputs Outputs;
 	const auto Start = FBenchClock::now();
 	const double ProcessorStart = GetThreadMs();

@@ -26,14 +26,17 @@ FRTStatus Refuse(const char* Reason) { return FRTStatus::Error(ERTResult::Invali
 
 FRTStatus CheckMap(const FRTModuleMap& Map, const char* Name)
 {
-	constexpr uint32_t MostSamplers = 256; // a texture slot has 8 bits for them
+	uint32_t Slot = NO_TEXTURE;
 	const auto Fail = [&](const char* Reason) {
 		return FRTStatus::Error(ERTResult::InvalidArgument, "FRTModuleMaterial::%s %s", Name, Reason);
 	};
 	if (Map.Texture == nullptr) { return FRTStatus::Success(); }
 	if (Map.Texture->GetSampledIndex() == ~0u) { return Fail("has a texture that was created without Sampled"); }
 	if (Map.Sampler == nullptr) { return Fail("needs a sampler"); }
-	if (Map.Sampler->GetIndex() >= MostSamplers) { return Fail("has a sampler that is not one of the device's first 256"); }
+	if (!MakeTextureSlot(Map.Texture->GetSampledIndex(), Map.Sampler->GetIndex(), Slot))
+	{
+		return Fail("has a texture or a sampler with an index that materials have no room for");
+	}
 	if (Map.UVSet > 1) { return Fail("has another UVSet than 0 and 1"); }
 	const bool bFinite = AreFinite(Map.UVMatrix, 4) && AreFinite(Map.UVOffset, 2);
 	return bFinite ? FRTStatus::Success() : Fail("has a UVMatrix or UVOffset that is not finite");
@@ -121,12 +124,11 @@ FRTStatus CheckMaterial(const FRTModuleMaterial& Material)
 	{
 		return Refuse("FRTModuleMaterial::EmissiveMapMean must be finite and not negative");
 	}
-	uint32_t Slot = NO_TEXTURE;
-	if (!MakeTextureSlot(Material.BaseColorTexture->GetSampledIndex(), Material.BaseColorSampler->GetIndex(), Slot))
-	{
-		return Refuse("FRTModuleMaterial::BaseColorTexture or BaseColorSampler has an index that materials have no room for");
-	}
-	return FRTStatus::Success();
+	FRTStatus Status;
+	const char* const Names[] = {"BaseColorMap", "MetallicRoughnessMap", "NormalMap", "OcclusionMap", "EmissiveMap"};
+	const std::array<const FRTModuleMap*, MaterialMapCount> Maps = GetMaps(Material);
+	for (size_t Map = 0; Map < Maps.size() && Status; ++Map) { Status = CheckMap(*Maps[Map], Names[Map]); }
+	return Status;
 }
 
 FRTStatus RefuseNull(const char* Function, const char* Argument)

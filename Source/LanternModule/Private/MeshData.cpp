@@ -2,6 +2,7 @@
 #include "MeshData.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 
@@ -9,6 +10,7 @@
 
 #include "ArgumentChecks.h"
 #include "LanternRHI/RTText.h"
+#include "LanternScene/Scene/TextureSlot.h"
 
 namespace Lantern
 {
@@ -316,7 +318,9 @@ FMaterialData PackMaterial(const FRTModuleMaterial& Material)
 		Data.UVOffset[Slot] = {Map.UVOffset[0], Map.UVOffset[1]};
 		Data.UVSets |= Map.UVSet << Slot;
 		Data.Textures[Slot] = NO_TEXTURE;
-		if (Map.Texture != nullptr) { Data.Textures[Slot] = Map.Texture->GetSampledIndex() | Map.Sampler->GetIndex() << 24; }
+		if (Map.Texture == nullptr) { continue; }
+		[[maybe_unused]] const bool bFits = MakeTextureSlot(Map.Texture->GetSampledIndex(), Map.Sampler->GetIndex(), Data.Textures[Slot]);
+		assert(bFits && "CheckMaterial has seen to it");
 	}
 	const glm::vec3 Mean = Material.EmissiveMap.Texture != nullptr ? ReadVector(Material.EmissiveMapMean, 0) : glm::vec3(1);
 	Data.EmissiveWeight = MakeEmissiveWeight(Data.Emissive * Mean);

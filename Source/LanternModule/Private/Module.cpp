@@ -131,6 +131,7 @@ FRTStatus FModule::CreateRenderer(IRTDevice* Device, const FRTModuleRendererDesc
 	*Out = nullptr;
 	if (ShaderFolder.empty()) { return FRTStatus::Error(ERTResult::InvalidArgument, "IRTModule::Initialize was not called"); }
 	if (const FRTStatus Status = CheckDevice("CreateRenderer", Device); !Status) { return Status; }
+	if (const FRTStatus Status = CheckWorld(Desc); !Status) { return Status; }
 	if (!ConfigFolder.empty()) { LoadDeviceProfile({ConfigFolder}, Device->GetCapabilities().DeviceName); }
 	*Out = new FModuleRenderer(*this, *Device, FModuleWorld(Desc), {{ShaderFolder}, CacheFolder});
 	return FRTStatus::Success();

@@ -5,6 +5,7 @@
 #include "ArgumentChecks.h"
 #include "FrameChecks.h"
 #include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternRenderer/HostSurface.h"
 #include "ModuleRenderer.h"
 
 namespace Lantern
@@ -96,6 +97,15 @@ FHostSurface DescribeSurface(const FRTModuleFrame& Frame, const FModuleWorld& Wo
 	return Out;
 }
 
+/// Whether the G-buffer must be converted. A frame to be precached may lack what tells; then it may have to be.
+bool HasForeignSurface(const FRTModuleFrame& Frame, const FModuleWorld& World)
+{
+	if (Frame.Depth == nullptr || Frame.Normals == nullptr) { return true; }
+	FView View = MakeFrameView(Frame, 0);
+	FHostDepth Depth;
+	return !ToView(Frame.View, World, View, Depth) || NeedsHostSurfacePass(DescribeSurface(Frame, World, View, Depth));
+}
+
 void ImportTextures(FFrameGraph& Graph, const FRTModuleFrame& Frame, FHostSurface& Out)
 {
 	const auto Import = [&](IRTTexture* Texture, ERTAccess Access, const char* Name) {
@@ -118,7 +128,10 @@ void ImportTextures(FFrameGraph& Graph, const FRTModuleFrame& Frame, FHostSurfac
 void FModuleRenderer::AddPasses(const FRTModuleFrame& Frame, const FFrameViews& Views)
 {
 	FFrameContext& Context = On->Renderer.GetContext();
-	const FGBuffer GBuffer = ImportGBuffer(Context.Graph, Frame);
+	FHostSurface Surface = DescribeSurface(Frame, World, Views.View, Views.Depth);
+	ImportTextures(Context.Graph, Frame, Surface);
+	const FGBuffer GBuffer = AddHostSurfacePass(Context, Surface);
+	if (!GBuffer.Depth.IsValid()) { return; } // shaders are missing: there is nothing to trace from
 	FFrameOutputs Made;
 	for (const FSignalInfo& Info : SignalInfos)
 	{
@@ -154,15 +167,22 @@ void FModuleRenderer::HandToEngine(const FFrameOutputs& Made)
 
 void FModuleRenderer::ReleaseOutputs() { Outputs.fill(nullptr); }
 
-FFrameFeatures FModuleRenderer::MakeFeatures(const FRTModuleFrame& Frame)
+FRTStatus FModuleRenderer::ReadViews(const FRTModuleFrame& Frame, FFrameViews& Out) const
 {
-	// Before BeginFrame, which asks the scene whether anything in it has changed.
-	if (const FRTStatus Status = On->State.Record(*Frame.Commands); !Status) { return Status; }
+	Out.View = MakeFrameView(Frame, FrameIndex);
+	if (const FRTStatus Status = ToView(Frame.View, World, Out.View, Out.Depth); !Status) { return Status; }
+	if (Frame.PreviousView == nullptr) { return FRTStatus::Success(); }
+	FHostDepth Ignored;
+	const FRTStatus Status = ToView(*Frame.PreviousView, World, Out.Previous.emplace(Out.View), Ignored);
+	return Status ? Status : FRTStatus::Error(Status.Code, "FRTModuleFrame::PreviousView: %s", Status.Message);
+}
+
+FFrameFeatures FModuleRenderer::MakeFeatures(const FRTModuleFrame& Frame) const
+{
 	FFrameFeatures Features;
 	Features.bBuildAll = Features.bWaitForPipelines = false;
 	Features.bMotion = false; // the engine draws: nothing of the plugin's reads how its objects moved
 	Features.Signals.bNothingElse = true;
-	Features.PreviousView = Views.Previous;
 	Features.ViewIndex = Frame.ViewIndex;
 	const bool bSurface = Frame.BaseColor != nullptr && Frame.Material != nullptr;
 	for (const FSignalInfo& Info : SignalInfos)
@@ -170,8 +190,32 @@ FFrameFeatures FModuleRenderer::MakeFeatures(const FRTModuleFrame& Frame)
 		const bool bMakes = Info.Signal != ESignal::Frame && (bSurface || !Info.bNeedsSurface);
 		if (bMakes && Frame.Wanted.Has(Info.Signal)) { Features.Signals.Wanted.Add(Info.Signal); }
 	}
-	if (const FRTStatus Status = On->Renderer.BeginFrame(On->Scene, ToView(Frame, FrameIndex++), Features); !Status) { return Status; }
-	AddPasses(Frame);
+	Features.bHostSurface = HasForeignSurface(Frame, World);
+	Features.bCameraMotion = Frame.Motion == nullptr;
+	return Features;
+}
+
+FRTStatus FModuleRenderer::Precache(const FRTModuleFrame& Frame, FRTModuleProgress Progress, void* User)
+{
+	std::unique_lock<std::mutex> Lock;
+	if (const FRTStatus Status = Enter("Precache", Lock); !Status) { return Status; }
+	if (Recorded) { return FRTStatus::Error(ERTResult::InvalidArgument, "Precache: EndFrame was not called after RenderFrame"); }
+	FConsoleVariables::Get().BeginFrame();
+	bArrivalsLeft = Calls.Take(0, Commands); // the scene is what the engine has called for so far
+	On->State.Apply(Commands);
+	const auto Report = [=](float Done) { Progress(User, Done); };
+	return On->Renderer.Precache(On->Scene, MakeFeatures(Frame), Progress != nullptr ? std::function<void(float)>(Report) : nullptr);
+}
+
+FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame, const FFrameViews& Views)
+{
+	// Before BeginFrame, which asks the scene whether anything in it has changed.
+	if (const FRTStatus Status = On->State.Record(*Frame.Commands); !Status) { return Status; }
+	FFrameFeatures Features = MakeFeatures(Frame);
+	Features.PreviousView = Views.Previous;
+	++FrameIndex;
+	if (const FRTStatus Status = On->Renderer.BeginFrame(On->Scene, Views.View, Features); !Status) { return Status; }
+	AddPasses(Frame, Views);
 	const FRTStatus Status = On->Renderer.EndFrame(*Frame.Commands);
 	if (!Status)
 	{
@@ -188,6 +232,8 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 	if (const FRTStatus Status = Enter("RenderFrame", Lock); !Status) { return Status; }
 	if (Recorded) { return FRTStatus::Error(ERTResult::InvalidArgument, "RenderFrame: EndFrame was not called after the last one"); }
 	if (const FRTStatus Status = CheckFrame(Frame); !Status) { return Status; }
+	FFrameViews Views;
+	if (const FRTStatus Status = ReadViews(Frame, Views); !Status) { return Status; }
 	if (bLost)
 	{
 		return FRTStatus::Error(ERTResult::DeviceLost, "RenderFrame: the device is lost; Recreate takes the scene to another one");
@@ -196,7 +242,7 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 	FConsoleVariables::Get().BeginFrame(); // what is taken over follows them, too
 	bArrivalsLeft = Calls.Take(FRTScene::GetMostArrivals(), Commands);
 	On->State.Apply(Commands);
-	const FRTStatus Status = Watch(RecordFrame(Frame));
+	const FRTStatus Status = Watch(RecordFrame(Frame, Views));
 	if (!Status)
 	{
 		ReleaseOutputs();
@@ -205,7 +251,7 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 	}
 	Recorded = TRTRef<IRTCommandList>(Frame.Commands);
 	for (size_t I = 0; I < SignalCount; ++I) { Out->Signals[I] = Outputs[I].Get(); }
-	Out->bShadersReady = On->Renderer.AreRayProgramsReady();
+	Out->bShadersReady = On->Renderer.AreShadersReady();
 	Out->bComplete = Out->bShadersReady && !bArrivalsLeft && On->Scene.GetGeometries().GetStats().Pending == 0;
 	return Status;
 }

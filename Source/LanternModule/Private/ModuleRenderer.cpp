@@ -23,11 +23,12 @@ FModuleRenderer::FOnDevice::~FOnDevice()
 	(void)Renderer.WaitForAll();
 }
 
-FModuleRenderer::FModuleRenderer(IRTModule& InOwner, IRTDevice& InDevice, FRendererDesc InDesc)
+FModuleRenderer::FModuleRenderer(IRTModule& InOwner, IRTDevice& InDevice, const FModuleWorld& InWorld, FRendererDesc InDesc)
     : Owner(&InOwner),
+      World(InWorld),
       Desc(std::move(InDesc)),
       On(std::make_unique<FOnDevice>(InDevice, Desc)),
-      Calls(InDevice, On->Uploads)
+      Calls(InDevice, World, On->Uploads)
 {}
 
 FModuleRenderer::~FModuleRenderer() = default;

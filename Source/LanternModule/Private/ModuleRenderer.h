@@ -4,14 +4,17 @@
 #include <array>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "ArgumentChecks.h"
 #include "LanternModule/Module.h"
 #include "LanternRHICommon/RefCounted.h"
 #include "LanternRenderer/Frame.h"
+#include "LanternRenderer/HostProjection.h"
 #include "LanternScene/Memory/BufferUploads.h"
 #include "LanternScene/Scene/Scene.h"
+#include "ModuleWorld.h"
 #include "SceneCalls.h"
 #include "SceneState.h"
 
@@ -66,13 +69,24 @@ public:
 	FRTStatus RemoveObject(ERTObjectHandle Handle) override { return Calls.RemoveObject(Handle); }
 	FRTStatus SetSun(const FRTModuleSun& Sun) override { return Calls.SetSun(Sun); }
 	FRTStatus SetSky(const float Radiance[3]) override { return Calls.SetSky(Radiance); }
+	FRTStatus Precache(const FRTModuleFrame& Frame, FRTModuleProgress Progress, void* User) override;
 	FRTStatus RenderFrame(const FRTModuleFrame& Frame, FRTModuleOutputs* Out) override;
 	FRTStatus EndFrame(FRTFence* OutFence) override;
 	FRTStatus Recreate(IRTDevice* NewDevice, const FRTModuleMeshSource& Source) override;
 
 private:
-	FRTStatus RecordFrame(const FRTModuleFrame& Frame);
-	void AddPasses(const FRTModuleFrame& Frame);
+	/// What a frame's views are to the renderer.
+	struct FFrameViews
+	{
+		FView View;
+		std::optional<FView> Previous;
+		FHostDepth Depth;
+	};
+
+	FFrameFeatures MakeFeatures(const FRTModuleFrame& Frame) const;
+	FRTStatus ReadViews(const FRTModuleFrame& Frame, FFrameViews& Out) const;
+	FRTStatus RecordFrame(const FRTModuleFrame& Frame, const FFrameViews& Views);
+	void AddPasses(const FRTModuleFrame& Frame, const FFrameViews& Views);
 	void HandToEngine(const FFrameOutputs& Made);
 	void ReleaseOutputs();
 
@@ -95,6 +109,7 @@ private:
 	FRTStatus Enter(const char* Function, std::unique_lock<std::mutex>& Out);
 
 	std::mutex FrameMutex; ///< held in RenderFrame, EndFrame and Recreate, and never waited for
+	const FModuleWorld World;
 	const FRendererDesc Desc;
 	std::unique_ptr<FOnDevice> On;
 	FSceneCalls Calls;

@@ -17,26 +17,15 @@ namespace Lantern
 namespace
 {
 
-glm::dmat4 ToMatrix(const double Rows[12])
-{
-	glm::dmat4 Matrix(1.0);
-	for (int Row = 0; Row < 3; ++Row)
-	{
-		for (int Column = 0; Column < 4; ++Column) { Matrix[Column][Row] = Rows[Row * 4 + Column]; }
-	}
-	return Matrix;
-}
-
-FSceneLight ToSceneLight(const FRTModuleLight& From)
+FSceneLight ToSceneLight(const FModuleWorld& World, const FRTModuleLight& From)
 {
 	static_assert(uint32_t(ERTModuleLight::Point) == LIGHT_POINT && uint32_t(ERTModuleLight::Spot) == LIGHT_SPOT);
 	static_assert(uint32_t(ERTModuleLight::Directional) == LIGHT_DIRECTIONAL);
-	const glm::vec3 Direction(From.Direction[0], From.Direction[1], From.Direction[2]);
 	FSceneLight Light{};
-	Light.WorldPosition = {From.Position[0], From.Position[1], From.Position[2]};
+	Light.WorldPosition = World.ToPosition(From.Position);
 	Light.Data.Type = static_cast<uint32_t>(From.Type);
-	if (From.Type != ERTModuleLight::Point) { Light.Data.Direction = normalize(Direction); }
-	Light.Data.Range = From.Range;
+	if (From.Type != ERTModuleLight::Point) { Light.Data.Direction = glm::vec3(normalize(World.ToDirection(From.Direction))); }
+	Light.Data.Range = static_cast<float>(World.ToMeters(double(From.Range)));
 	Light.Data.Color = {From.Color[0], From.Color[1], From.Color[2]};
 	// As KHR_lights_punctual says.
 	const float CosOuter = std::cos(From.OuterCone);
@@ -66,7 +55,12 @@ uint32_t MakeTag()
 
 } // namespace
 
-FSceneCalls::FSceneCalls(IRTDevice& InDevice, FBufferUploads& InUploads) : Device(&InDevice), Uploads(&InUploads), Tag(MakeTag()) {}
+FSceneCalls::FSceneCalls(IRTDevice& InDevice, const FModuleWorld& InWorld, FBufferUploads& InUploads)
+    : World(InWorld),
+      Device(&InDevice),
+      Uploads(&InUploads),
+      Tag(MakeTag())
+{}
 
 // ---------------------------------------------------------------------------------------------------- commands
 
@@ -238,7 +232,7 @@ ERTObjectHandle FSceneCalls::AddOne(const FRTModuleObject& Object)
 	Command.Mesh = Meshes.GetSlot(Object.Mesh);
 	Command.Materials = GetSlots(Added.Materials);
 	Command.Mask = Added.GetMask();
-	Command.Transform = ToMatrix(Object.Transform);
+	Command.Transform = World.ToTransform(Object.Transform);
 	const ERTObjectHandle Handle = Objects.Add(std::move(Added));
 	Command.Slot = Objects.GetSlot(Handle);
 	const FTicket Ticket = AddArrival(std::move(Command));
@@ -272,7 +266,7 @@ FRTStatus FSceneCalls::SetObjectTransform(ERTObjectHandle Handle, const double T
 	std::lock_guard Lock(Mutex);
 	FObject* const Object = Objects.Find(Handle);
 	if (Object == nullptr) { return RefuseHandle("SetObjectTransform", "object"); }
-	if (Status) { AddUpdate(FTransformCommand{Objects.GetSlot(Handle), ToMatrix(Transform)}, 0, Object->Ticket); }
+	if (Status) { AddUpdate(FTransformCommand{Objects.GetSlot(Handle), World.ToTransform(Transform)}, 0, Object->Ticket); }
 	return Status;
 }
 
@@ -318,7 +312,7 @@ FRTStatus FSceneCalls::AddLight(const FRTModuleLight& Light, ERTLightHandle* Out
 	if (const FRTStatus Status = CheckLight(Light); !Status) { return Status; }
 	std::lock_guard Lock(Mutex);
 	*Out = Lights.Add({});
-	const FTicket Ticket = AddArrival(FLightCommand{Lights.GetSlot(*Out), ToSceneLight(Light)});
+	const FTicket Ticket = AddArrival(FLightCommand{Lights.GetSlot(*Out), ToSceneLight(World, Light)});
 	Lights.Find(*Out)->Ticket = Ticket;
 	return FRTStatus::Success();
 }
@@ -329,7 +323,7 @@ FRTStatus FSceneCalls::SetLight(ERTLightHandle Handle, const FRTModuleLight& Lig
 	std::lock_guard Lock(Mutex);
 	FLight* const Mine = Lights.Find(Handle);
 	if (Mine == nullptr) { return RefuseHandle("SetLight", "light"); }
-	if (Status) { AddUpdate(FLightCommand{Lights.GetSlot(Handle), ToSceneLight(Light)}, 0, Mine->Ticket); }
+	if (Status) { AddUpdate(FLightCommand{Lights.GetSlot(Handle), ToSceneLight(World, Light)}, 0, Mine->Ticket); }
 	return Status;
 }
 
@@ -346,7 +340,7 @@ FRTStatus FSceneCalls::SetSun(const FRTModuleSun& Sun)
 {
 	if (const FRTStatus Status = CheckSun(Sun); !Status) { return Status; }
 	FSunLight Light;
-	Light.Direction = {Sun.Direction[0], Sun.Direction[1], Sun.Direction[2]};
+	Light.Direction = World.ToDirection(Sun.Direction);
 	Light.Color = {Sun.Color[0], Sun.Color[1], Sun.Color[2]};
 	Light.Irradiance = Sun.Irradiance;
 	Light.AngularDiameter = Sun.AngularDiameter;

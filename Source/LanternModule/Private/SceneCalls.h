@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "LanternModule/Module.h"
+#include "ModuleWorld.h"
 #include "SceneCommands.h"
 #include "SceneValues.h"
 #include "SlotTable.h"
@@ -24,7 +25,7 @@ class FSceneCalls
 {
 public:
 	/// Uploads takes the meshes. It outlives this.
-	FSceneCalls(IRTDevice& InDevice, FBufferUploads& InUploads);
+	FSceneCalls(IRTDevice& InDevice, const FModuleWorld& InWorld, FBufferUploads& InUploads);
 	FSceneCalls(const FSceneCalls&) = delete;
 	FSceneCalls& operator=(const FSceneCalls&) = delete;
 
@@ -121,6 +122,7 @@ private:
 	    IRTDevice& On, FBufferUploads& By, const FRTModuleMesh& Given, const FMesh& Old, FMesh& Out, FAddMeshCommand& OutCommand);
 	void AddAll(const FSceneValues& Values);
 
+	const FModuleWorld World;
 	std::shared_mutex DeviceMutex; ///< of the next two; shared while a mesh is made. Locked before Mutex
 	IRTDevice* Device;
 	FBufferUploads* Uploads;

@@ -61,6 +61,17 @@ ERayPath ChooseShadingRayPath(const FPassQuery& Query, const TRTConsoleVariable<
 	return ERayPath::None;
 }
 
+FShaderSource MakeQuerySource(const FSceneFacts& Facts, ESignal Signal, const FPassRays& Rays)
+{
+	FShaderDefines Defines = Rays.Defines;
+	if (Facts.bMasked)
+	{
+		Defines.emplace_back("HAS_MASKED", "1");
+		for (auto& Define : FAnyHitCounter::GetDefines()) { Defines.push_back(std::move(Define)); }
+	}
+	return MakeComputeSource(MakeShaderPath(Signal, ".comp"), std::move(Defines));
+}
+
 bool FRayDispatch::Has(const char* Define) const
 {
 	return std::any_of(Defines.begin(), Defines.end(), [=](const auto& Entry) { return Entry.first == Define; });
@@ -78,13 +89,9 @@ std::optional<FRayDispatch> RequireRayDispatch(const FFrameContext& Context, ESi
 	}
 	else
 	{
-		Dispatch.Defines = Rays.Defines;
-		if (Context.Facts.bMasked)
-		{
-			Dispatch.Defines.emplace_back("HAS_MASKED", "1");
-			for (auto& Define : FAnyHitCounter::GetDefines()) { Dispatch.Defines.push_back(std::move(Define)); }
-		}
-		Dispatch.Compute = RequireCompute(Context, MakeShaderPath(Signal, ".comp").c_str(), Dispatch.Defines);
+		FShaderSource Source = MakeQuerySource(Context.Facts, Signal, Rays);
+		Dispatch.Defines = Source.Defines;
+		Dispatch.Compute = RequireCompute(Context, std::move(Source));
 		if (!Dispatch.Compute) { return std::nullopt; }
 	}
 	Context.RequireRays();

@@ -2,6 +2,7 @@
 #include "RayPrograms.h"
 
 #include "Feedback/AnyHitCounter.h"
+#include "LanternRenderer/HostSurface.h"
 #include "LanternScene/ShaderTable/SectionTable.h"
 #include "Motion/CameraMotion.h"
 #include "Reference/Reference.h"
@@ -108,6 +109,7 @@ FRayPrograms ChooseRayPrograms(
 		    GetReferencePath(Features.ReferenceSignal));
 	}
 	else { CollectSignals(Collector, Capabilities, Scene, Requests, Ready); }
+	if (Features.bHostSurface) { Programs.Compute.push_back(MakeHostSurfaceSource()); }
 	if (Features.bCameraMotion && Collector.bFilters) { Programs.Compute.push_back(MakeCameraMotionSource()); }
 	if (!Features.Skinning.empty()) { ListSkinningShaders(Scene, Programs.Compute); }
 	Desc.RayGens.insert(Desc.RayGens.end(), Features.RayGens.begin(), Features.RayGens.end());

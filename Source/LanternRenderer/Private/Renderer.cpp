@@ -28,12 +28,6 @@ TRTConsoleVariable<float> CVarAwakeMs("r.RT.Pipeline.AwakeMs", 20.0f,
     "Longest time, in milliseconds, for which a frame waits for the GPU without sleep while pipelines compile. A thread that sleeps "
     "beside compiling threads can be woken milliseconds late. 0: the frame sleeps. CPU devices always sleep.",
     {0, 1000});
-TRTConsoleVariable<bool> CVarAlphaTest(
-    "r.RT.AlphaTest", true, "Alpha tests of masked materials, in raster and under rays. Off: masked surfaces are solid.");
-TRTConsoleVariable<int32_t> CVarMaterialOverride("r.RT.Material.Override", 0,
-    "0: the scene's materials. 1: each a Lambert of its base colour, alpha test kept. 2: each a "
-    "Lambert of 0.5.",
-    {0, 2});
 TRTConsoleVariable<bool> CVarPrebind("r.RT.SBT.Prebind", true,
     "Shader records are written by a task beside the frame. Off: on the render thread, where the table is recorded.");
 TRTConsoleVariable<int32_t> CVarPoisonHistory("r.RT.Debug.PoisonHistory", 0,
@@ -84,7 +78,12 @@ FRTStatus FRenderer::WaitForFlight()
 {
 	static_assert(MaxInFlight == TReadbackRing<int>::FramesInFlight);
 	FlightIndex = (FlightIndex + 1) % MaxInFlight;
-	return Device.WaitFor(Fences[FlightIndex], WaitNs);
+	const FRTFence Fence = Fences[FlightIndex];
+	if (RayCompiler.GetStats().bBusy && !Device.GetCapabilities().bIsCpu)
+	{
+		WaitAwake([&] { return Device.GetCompletedFence(GetFenceQueue(Fence)) >= Fence; }, CVarAwakeMs.GetOnRenderThread());
+	}
+	return Device.WaitFor(Fence, WaitNs);
 }
 
 namespace
@@ -168,11 +167,9 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	Context->Owner = this;
 	Context->Tokens = {
 	    Graph->CreateToken("Tables"), Graph->CreateToken("Vertices"), Graph->CreateToken("Structures"), Graph->CreateToken("Records")};
-	const bool bSameSize = LastView.Width == View.Width && LastView.Height == View.Height;
-	// Another renderer's frame may have taken what moved since the last one here.
-	const bool bSameScene = LastScene == Scene.GetSections().GetIdentity() && !Scene.GetMotions().HasMovedSince(LastSceneFrame);
-	Context->PreviousView = bSameScene && bSameSize && !View.bCut && !Features.bReference ? &LastView : nullptr;
-	Context->History = History.get();
+	Context->bWaitForPipelines = WaitsForPipelines(Features);
+	Pipelines.BeginFrame();
+	FindPreviousView(Scene, Features);
 	Context->Signals = CompleteRequests(Features.Signals);
 	State->History->BeginFrame(*Graph, Context->PreviousView != nullptr);
 	const int32_t PoisonEvery = CVarPoisonHistory.GetOnRenderThread();
@@ -304,8 +301,9 @@ FRenderer::FViewState& FRenderer::GetView(uint32_t Index)
 void FRenderer::FindPreviousView(FRTScene& Scene, const FFrameFeatures& Features)
 {
 	State = &GetView(Features.ViewIndex);
+	// Another frame may have taken what moved since the last one of this view.
 	const bool bSameScene = State->LastScene == Scene.GetSections().GetIdentity() &&
-	                        (!Features.bMotion || State->LastSceneFrame == Scene.GetMotions().GetFrame());
+	                        (!Features.bMotion || !Scene.GetMotions().HasMovedSince(State->LastSceneFrame));
 	PreviousView = Features.PreviousView.value_or(State->LastView);
 	PreviousView.Width = State->LastView.Width;
 	PreviousView.Height = State->LastView.Height;

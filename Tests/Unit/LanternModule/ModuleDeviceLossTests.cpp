@@ -119,6 +119,7 @@ protected:
 		Frame.Commands = Side.List.Get();
 		Frame.Depth = Side.Depth.Get();
 		Frame.Normals = Side.Normals.Get();
+		Frame.View = MakeView();
 		const FRTStatus Status = Renderer->RenderFrame(Frame, &Outputs);
 		return Status ? Renderer->EndFrame(nullptr) : Status;
 	}
@@ -239,7 +240,7 @@ TEST_F(FModuleDeviceLossTest, WhatWasSaidMeanwhileCounts)
 	FSide Third;
 	MakeSide(Third);
 	TRTRef<IRTModuleRenderer> Fresh;
-	ASSERT_FINE(Module->CreateRenderer(Third.Device.Get(), Fresh.ReleaseAndGetAddress()));
+	ASSERT_FINE(Module->CreateRenderer(Third.Device.Get(), {}, Fresh.ReleaseAndGetAddress()));
 	std::swap(Fresh, Renderer);
 	ERTMaterialHandle White = ERTMaterialHandle::None;
 	ASSERT_FINE(Renderer->AddMaterial({}, &White));

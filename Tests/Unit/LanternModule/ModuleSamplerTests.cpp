@@ -24,11 +24,11 @@ TEST_F(FModuleSamplerTest, SamplersThatMaterialsCannotNameAreRefused)
 	const auto UseSampler = [&](uint32_t Index) {
 		const auto Is = [=](const TRTRef<IRTSampler>& Sampler) { return Sampler->GetIndex() == Index; };
 		const auto Found = std::find_if(Samplers.begin(), Samplers.end(), Is);
-		Tree.Material.BaseColorSampler = Found != Samplers.end() ? Found->Get() : nullptr;
+		Tree.Material.BaseColorMap.Sampler = Found != Samplers.end() ? Found->Get() : nullptr;
 		return Renderer->AddMaterial(Tree.Material, &Handle);
 	};
 	EXPECT_TRUE(UseSampler(300).IsOk()) << "beyond eight bits";
-	EXPECT_REFUSED(UseSampler(1050), "BaseColorSampler");
+	EXPECT_REFUSED(UseSampler(1050), "BaseColorMap");
 	EXPECT_EQ(Handle, ERTMaterialHandle::None);
 }
 

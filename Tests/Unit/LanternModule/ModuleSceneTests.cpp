@@ -77,7 +77,8 @@ TEST_F(FModuleSceneTest, EveryMapOfAMaterialReachesTheShaders)
 	const auto Data = ReadEntry<FMaterialData>(Constants.Materials, 2); // behind those of the fixture
 	for (uint32_t Slot = 0; Slot < 5; ++Slot)
 	{
-		EXPECT_EQ(Data.Textures[Slot], Maps[Slot]->Texture->GetSampledIndex() | Maps[Slot]->Sampler->GetIndex() << 24) << Slot;
+		EXPECT_EQ(Data.Textures[Slot], Maps[Slot]->Texture->GetSampledIndex() | Maps[Slot]->Sampler->GetIndex() << TEXTURE_INDEX_BITS)
+		    << Slot;
 		EXPECT_EQ(Data.UVTransform[Slot], glm::vec4(float(Slot + 1), 0.5f, 0, 1)) << Slot;
 		EXPECT_EQ(Data.UVOffset[Slot], glm::vec2(0, -float(Slot + 1))) << Slot;
 	}

@@ -37,7 +37,7 @@ inline constexpr uint32_t TriangleIndices[] = {0, 1, 2};
 class FModuleTest : public ::testing::Test
 {
 protected:
-	void SetUp() override { Open({}); }
+	void SetUp() override { Open(DescribeMock()); }
 	void Open(const FRTMockDesc& Mock)
 	{
 		ASSERT_FINE(CreateMockDevice(Mock, Inner.ReleaseAndGetAddress()));

@@ -239,10 +239,16 @@ protected:
 	/// A frame while the driver holds Part; a frame that waited would wait for ever.
 	void RenderWhile(const char* Part)
 	{
-		const FHangGuard Guard("frames while everything is compiled", LetGo);
-		for (int Frame = 0; Frame < 5; ++Frame) { ASSERT_NO_FATAL_FAILURE(RenderAndEnd()); }
+		Mock().HoldCompiles(Part);
+		const FHangGuard Guard(std::string("a frame while the driver holds ") + Part, [&] { LetGo(); });
+		ASSERT_NO_FATAL_FAILURE(RenderAndEnd());
+	}
+	/// After RenderWhile.
+	void RenderUntilOneIsInTheDriver()
+	{
+		const FHangGuard Guard("frames while something is compiled", [&] { LetGo(); });
 		ASSERT_TRUE(WaitUntil(
-		    "a compile in the driver", [&] { return Mock().GetCompilesInDriver() > 0; }, RenderAndEnd));
+		    "a compile in the driver", [&] { return Mock().GetCompilesInDriver() > 0; }, [&] { RenderAndEnd(); }));
 		for (int Frame = 0; Frame < 5; ++Frame) { ASSERT_NO_FATAL_FAILURE(RenderAndEnd()); }
 	}
 	void RenderUntilComplete()
@@ -263,20 +269,16 @@ TEST_P(FModuleCompileTest, FramesWaitForNoPipeline)
 	EXPECT_FALSE(Outputs.bShadersReady);
 	EXPECT_FALSE(Outputs.bComplete);
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::BuildGeometry), 1u) << "structures are built meanwhile";
+	ASSERT_NO_FATAL_FAILURE(RenderUntilOneIsInTheDriver());
+	EXPECT_EQ(Outputs.Get(ESignal::SunShadow), nullptr);
 	LetGo();
 	ASSERT_NO_FATAL_FAILURE(RenderUntilComplete());
 	EXPECT_TRUE(Outputs.bShadersReady && Outputs.Get(ESignal::SunShadow) != nullptr);
 
 	// A material that must be told apart from solid ones: it is said that its shaders are not there.
 	ASSERT_FINE(AddObject(AddMesh(DescribeTriangle()), Masked));
-	{
-		const FHangGuard Guard("frames while the alpha test is linked", LetGo);
-		ASSERT_NO_FATAL_FAILURE(RenderAndEnd());
-		ASSERT_TRUE(WaitUntil(
-		    "a link in the driver", [&] { return Mock().GetCompilesInDriver() > 0; }, RenderAndEnd));
-		for (int Frame = 0; Frame < 5; ++Frame) { ASSERT_NO_FATAL_FAILURE(RenderAndEnd()); }
-	}
-	EXPECT_NE(Outputs.Get(ESignal::SunShadow), nullptr);
+	ASSERT_NO_FATAL_FAILURE(RenderWhile(""));
+	ASSERT_NO_FATAL_FAILURE(RenderUntilOneIsInTheDriver());
 	EXPECT_FALSE(Outputs.bShadersReady);
 	if (*GetParam() == '1') { EXPECT_NE(Outputs.Get(ESignal::SunShadow), nullptr) << "the pipeline before serves"; }
 	LetGo();

@@ -90,6 +90,7 @@ TEST_F(FModuleThreadTest, AFrameTakesOverSoManyArrivals)
 	for (int Frame = 0; Frame < 2; ++Frame) { ASSERT_FINE(RenderWholeFrame()); }
 	SetVariable("r.RT.Scene.ArrivalsPerFrame", "2");
 	ASSERT_FINE(RenderWholeFrame()); // takes over the variable's value
+	bPrecache = false;               // it would take over all
 	const ERTObjectHandle Early = Object;
 	const ERTMeshHandle Mesh = AddMesh(DescribeTriangle());
 	std::vector<ERTObjectHandle> Added;

@@ -43,7 +43,7 @@ protected:
 	void Restart()
 	{
 		Renderer.Reset();
-		ASSERT_FINE(Module->CreateRenderer(Device.Get(), Renderer.ReleaseAndGetAddress()));
+		ASSERT_FINE(Module->CreateRenderer(Device.Get(), {}, Renderer.ReleaseAndGetAddress()));
 		ASSERT_FINE(Renderer->AddMaterial({}, &Solid));
 		ASSERT_FINE(SetSun(-1.0));
 	}

@@ -24,7 +24,7 @@ protected:
 		ASSERT_TRUE(CreateMockDevice({}, Device.ReleaseAndGetAddress()));
 		Scene = std::make_unique<FRTScene>(*Device);
 		Uploads = std::make_unique<FBufferUploads>(*Device);
-		Calls = std::make_unique<FSceneCalls>(*Device, *Uploads);
+		Calls = std::make_unique<FSceneCalls>(*Device, FModuleWorld(), *Uploads);
 		State = std::make_unique<FSceneState>(*Device, *Scene, *Uploads);
 		ASSERT_TRUE(Calls->AddMaterial({}, &Material));
 	}

@@ -250,6 +250,33 @@ TEST_F(FRendererToggleTest, AmbientOcclusionStaysUntilDiffuseGIRuns)
 	}
 }
 
+TEST_F(FRendererToggleTest, ReorderingIsForMaterialShadersOfDevicesThatCan)
+{
+	for (const bool bCan : {true, false})
+	{
+		FRTMockDesc Desc;
+		Desc.Rung = bCan ? ERTRung::Reorder : ERTRung::Pipeline;
+		Open(Desc);
+		FLogCapture Log;
+		Set("r.RT.GI", "1");
+		Set("r.RT.Shadow.Path", "1");
+		Set("r.RT.Reorder", "1");
+		LoadAndRender({.bSky = true});
+		std::vector<std::pair<std::string, std::string>> Defines = {{"HAS_SUN", "1"}, {"HAS_SKY", "1"}};
+		if (bCan) { Defines.emplace_back("REORDER", "1"); }
+		EXPECT_NE(GetRTPSO()->FindRayGen({"DiffuseGI/DiffuseGI.rgen", ERTShaderStage::RayGen, Defines, {}}), NoRayGen) << bCan;
+		EXPECT_NE(
+		    GetRTPSO()->FindRayGen({"SunShadow/SunShadow.rgen", ERTShaderStage::RayGen, {{"ONE_SAMPLE", "1"}, {"WITH_PENUMBRA", "1"}}, {}}),
+		    NoRayGen)
+		    << "shadow rays run no material shader";
+		EXPECT_EQ(Log.Count(ERTLogLevel::Warning), bCan ? 0u : 1u) << "once";
+		Set("r.RT.Reorder", "0");
+		Render();
+		EXPECT_NE(GetRTPSO()->FindRayGen({"DiffuseGI/DiffuseGI.rgen", ERTShaderStage::RayGen, {{"HAS_SUN", "1"}, {"HAS_SKY", "1"}}, {}}),
+		    NoRayGen);
+	}
+}
+
 /// Until the shader that measures penumbrae is compiled, the one without serves. The filter must not read what nobody writes.
 TEST_F(FRendererToggleTest, FilterReadsOnlyPenumbraeThatAreWritten)
 {

@@ -13,7 +13,7 @@ namespace Lantern
 
 namespace
 {
-TRTConsoleVariable<bool> CVarTasks("r.RT.FrameGraph.Tasks", true,
+TRTConsoleVariable<bool> CVarTasks("r.RT.FrameGraph.Tasks", false,
     "Tasks beside the render thread record refits, copies, skinning and the sample engine's raster, into command lists of their own. "
     "Off: the render thread records all. An engine that hands over a command list gets all in that list, by one thread.");
 

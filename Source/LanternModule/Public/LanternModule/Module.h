@@ -6,7 +6,8 @@
 //   → each frame: RenderFrame into the engine's command buffer, submit it, EndFrame
 //   → Release everything, the device and the module last → unload the library
 //
-// Units: metres, radians, nits and lux; linear Rec.709; right-handed, y up. World positions are double precision.
+// Units: metres, radians, nits and lux; linear Rec.709; right-handed, y up. World positions are double precision. An engine with
+// other axes or another unit says so once, in FRTModuleRendererDesc, and hands over everything in its own world.
 // Threads: IRTModule may be called from any thread, and so may the calls of a renderer that change its scene (Add…, Set…,
 // Remove…, Update…). RenderFrame, EndFrame and Recreate belong to one thread at a time; InvalidArgument
 // refuses a second one. Nothing throws. A handle is valid for its renderer
@@ -74,7 +75,7 @@ struct FRTModuleMap
 	/// alive while frames may read it. After SetMaterial with another texture or RemoveMaterial, that is until the fence of the
 	/// EndFrame behind the next RenderFrame has passed. After the renderer's last frame, it is until the renderer is released.
 	IRTTexture* Texture = nullptr;
-	IRTSampler* Sampler = nullptr; ///< required with a texture; one of the first 256 of the device
+	IRTSampler* Sampler = nullptr; ///< required with a texture; one of the first 1,024 of the device
 	uint32_t UVSet = 0;            ///< 0: FRTModuleMesh::UVs, 1: FRTModuleMesh::UVs1
 	/// KHR_texture_transform as a matrix: (u, v) becomes (M0 u + M1 v + Offset0, M2 u + M3 v + Offset1).
 	float UVMatrix[4] = {1, 0, 0, 1};
@@ -181,7 +182,7 @@ struct FRTModuleLight
 	double Position[3] = {0, 0, 0};  ///< not of a directional light
 	float Direction[3] = {0, -1, 0}; ///< in which the light travels, any length > 0; not of a point light
 	float Color[3] = {0, 0, 0};      ///< with intensity: candela, or lux if directional
-	float Range = 0.0f;              ///< metres; 0: unlimited
+	float Range = 0.0f;              ///< in the unit of the engine's world; 0: unlimited
 	float InnerCone = 0.0f;          ///< of a spot: angle from its axis at which it begins to fade, radians
 	float OuterCone = 0.7853982f;    ///< and ends, radians, > InnerCone, at most π/2
 };
@@ -193,6 +194,20 @@ struct FRTModuleSun
 	float Irradiance = 0.0f;      ///< of a plane that faces the sun, lux; 0: no sun and no shadow pass
 	float AngularDiameter = 0.0f; ///< radians, 0 to π; 0: hard shadows
 };
+
+/// Gets User and the share that is done, 0 to 1.
+using FRTModuleProgress = void (*)(void* User, float Done);
+/// The engine's world: directions of its axes in a right-handed world with y up, and its unit. All that crosses the interface is
+/// in it: transforms, positions, directions, views and motion. Object space is the engine's, too. The default is Lantern's.
+struct FRTModuleRendererDesc
+{
+	/// Unit length, perpendicular to each other. A left-handed engine's are mirrored, which is fine.
+	float AxisX[3] = {1, 0, 0}, AxisY[3] = {0, 1, 0}, AxisZ[3] = {0, 0, 1};
+	float MetersPerUnit = 1.0f; ///< 0.01 for centimetres; > 0. It holds for the world; radiometric units are as above
+};
+
+/// Returns the world of Unreal Engine: centimetres, left-handed, x forward, y right, z up.
+inline FRTModuleRendererDesc MakeUnrealWorld() { return {{0, 0, -1}, {1, 0, 0}, {0, 1, 0}, 0.01f}; }
 
 /// Gives meshes again to IRTModuleRenderer::Recreate. Get returns whether the engine still has the mesh. Out must be what AddMesh
 /// had: as many sections, each with its bMayBeMasked, and bDeformable; vertices may be newer. Its arrays are read before the next
@@ -231,8 +246,8 @@ public:
 	/// no bDeformable, or no BoundsRadius that holds all that the engine will write.
 	virtual FRTStatus GetMeshBuffer(ERTMeshHandle Handle, FRTModuleMeshBuffer* Out) = 0;
 	/// Says that the engine's GPU has written new positions of the mesh. The work must come before the next RenderFrame's commands,
-	/// on one queue, with a barrier to shader reads and acceleration structure builds between. The same barrier must come before
-	/// the next writing. Normals stay as they were.
+	/// on one queue, with a barrier to shader reads and acceleration structure builds between. Writing again needs that barrier, too.
+	/// Normals stay as they were.
 	virtual FRTStatus MarkMeshDeformed(ERTMeshHandle Handle) = 0;
 	/// Removes a mesh; InvalidArgument, with its name, while objects use it. The handle becomes invalid. The error of a later
 	/// use names the removed mesh.
@@ -257,11 +272,12 @@ public:
 	virtual FRTStatus SetSky(const float Radiance[3]) = 0;
 
 	/// Compiles what frames like Frame will run in the scene as it is, and waits for it. For load time, between frames: the first
-	/// frames then have their outputs. Reads Wanted, and which textures are null; Commands may be null. Progress is called with 0
+	/// frames then have their outputs. Reads Wanted, View, Layout and the textures; Commands may be null. Progress is called with 0
 	/// to 1 during the call, and may be null. CompileFailed if a shader does not compile; frames go on
 	/// without it.
 	virtual FRTStatus Precache(const FRTModuleFrame& Frame, FRTModuleProgress Progress, void* User) = 0;
-	/// Records the frame into Frame.Commands. On an error the command list must not be submitted.
+	/// Records the frame into Frame.Commands. On an error the command list must not be submitted. DeviceLost: every frame is
+	/// refused until Recreate; the log says so once.
 	/// Changes what the command buffer has bound. Pipelines and descriptor sets of the compute and ray-tracing bind points are then
 	/// Lantern's or none, and push constants of all stages are undefined. The pipeline and sets of the graphics bind point, vertex
 	/// and index buffers and dynamic state stay. No render pass, query or label is left open.

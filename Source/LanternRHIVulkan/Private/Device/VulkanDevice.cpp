@@ -43,6 +43,7 @@ void FVulkanDevice::OnFinalRelease()
 	// Submissions keep objects, and objects keep the device. No one is left to collect them later.
 	(void)WaitIdle();
 	CollectUpTo(IsLost() ? ~uint64_t(0) : PollAll());
+	Reaper.Drain(); // or the last object would be released on the reaper's own thread
 	DropOne();
 }
 
@@ -59,7 +60,7 @@ void FVulkanDevice::DropOne()
 void FVulkanDevice::Retire(const FVulkanGarbage& Item)
 {
 	std::scoped_lock Lock(GarbageMutex);
-	Garbage.Push(LastNumber.load(), {Object, Delete});
+	Garbage.Push(LastNumber.load(), Item);
 }
 
 void FVulkanDevice::CollectUpTo(uint64_t Done)

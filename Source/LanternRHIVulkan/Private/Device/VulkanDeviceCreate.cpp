@@ -25,12 +25,11 @@ FVulkanDevice::FVulkanDevice(
 
 FVulkanDevice::~FVulkanDevice()
 {
-	if (CompileDevice) { CompileDevice->Release(); }
 	if (!Handle) { return; }
 	if (Queues[0].Timeline)
 	{
 		(void)WaitIdle();
-		CollectUpTo(~uint64_t(0));
+		CollectAll();
 		if (const FRTStatus Status = Cache.Save(); !Status) { Instance->Report(ERTVulkanMessage::Warning, Status.Message); }
 	}
 	for (const FVulkanQueue& Queue : Queues)
@@ -49,24 +48,12 @@ FVulkanDevice::~FVulkanDevice()
 	}
 }
 
-FRTStatus FVulkanDevice::CreateCompileDevice(const FRTVulkanDeviceDesc& Desc)
-{
-	FRTVulkanDeviceDesc Like = Desc;
-	Like.PipelineCacheFile = nullptr;
-	Like.bCompileDevice = false;
-	Like.CallSink = {};
-	IRTDevice* Made = nullptr;
-	const FRTStatus Status = CreateVulkanDevice(Like, &Made);
-	CompileDevice = static_cast<FVulkanDevice*>(Made);
-	return Status;
-}
-
 /// Nothing is in flight, and nobody holds an object.
 void FVulkanDevice::CollectAll()
 {
 	for (bool bMore = true; bMore;)
 	{
-		CollectUpTo(~FRTFence(0));
+		CollectUpTo(~uint64_t(0));
 		Reaper.Drain();
 		const std::scoped_lock Lock(GarbageMutex);
 		bMore = !Garbage.IsEmpty() || !Packets.IsEmpty(); // what a pipeline held
@@ -105,6 +92,7 @@ FRTStatus FVulkanDevice::CreateNative()
 	bOwned = true;
 	FRTStatus Status = LoadDeviceApi(Instance->Api, Handle, Bits.bAccel, Bits.bPipeline, &Api);
 	if (!Status) { return Status; }
+	if (CallSink.Call) { TraceVulkanCalls(Instance->Api, Instance->Handle, CallSink, Api); }
 	Api.GetDeviceQueue(Handle, Queues[0].Family, GraphicsIndex, &Queues[0].Handle);
 	if (Probe.ComputeFamily != None) { Api.GetDeviceQueue(Handle, Compute.Family, ComputeIndex, &Compute.Handle); }
 	if (Probe.TransferFamily != None) { Api.GetDeviceQueue(Handle, Transfer.Family, TransferIndex, &Transfer.Handle); }
@@ -260,7 +248,6 @@ FRTStatus CreateVulkanDevice(const FRTVulkanDeviceDesc& Desc, IRTDevice** Out)
 	Device->bCacheLibraries = Desc.bCacheLibraries;
 	Device->CallSink = Desc.CallSink;
 	Status = Device->CreateNative();
-	if (Status && Desc.bCompileDevice) { Status = Device->CreateCompileDevice(Desc); }
 	if (!Status)
 	{
 		Device->DropOne();

@@ -117,7 +117,6 @@ public:
 	uint32_t TimestampBits = 0;
 	bool bCacheLibraries = true;
 	FRTVulkanCallSink CallSink;
-	FVulkanDevice* CompileDevice = nullptr; ///< FRTVulkanDeviceDesc::bCompileDevice; owned
 
 private:
 	~FVulkanDevice() override;
@@ -136,6 +135,7 @@ private:
 	FRTStatus SubmitLists(
 	    IRTCommandList* const* Lists, uint32_t Count, bool bExternal, FRTFence* OutFence, const std::vector<VkSemaphoreSubmitInfo>& Waits);
 	void CollectUpTo(uint64_t Done);
+	void CollectAll();
 
 	bool bOwned = false;
 	std::mutex SubmitMutex;

@@ -16,7 +16,7 @@ public:
 	FRTStatus InitialiseCompute(const FRTComputePipelineDesc& Desc);
 	FRTStatus InitialiseRaster(const FRTRasterPipelineDesc& Desc);
 	/// Cache: null for the device's own, or none, as FRTVulkanDeviceDesc says.
-	FRTStatus InitialiseRayTracing(const FRTRayTracingPipelineDesc& Desc, VkPipelineCache Cache = VK_NULL_HANDLE);
+	FRTStatus InitialiseRayTracing(const FRTRayTracingPipelineDesc& Desc);
 
 	uint32_t GetGroupCount() const override { return GroupCount; }
 	uint64_t GetNative(ERTNative Kind) const override;

@@ -1,8 +1,6 @@
 // Ray-tracing pipelines: monolithic, libraries, and linked from libraries.
 #include "Pipelines/VulkanPipeline.h"
 
-#include "Pipelines/VulkanCompileAhead.h"
-
 #include "Device/VulkanQuirks.h"
 #include "Pipelines/VulkanShaderModules.h"
 
@@ -127,7 +125,7 @@ struct FRayTracingState
 
 } // namespace
 
-FRTStatus FVulkanPipeline::InitialiseRayTracing(const FRTRayTracingPipelineDesc& Desc, VkPipelineCache Cache)
+FRTStatus FVulkanPipeline::InitialiseRayTracing(const FRTRayTracingPipelineDesc& Desc)
 {
 	FRTStatus Status = CheckSupport(Device, Desc);
 	FVulkanModules Modules(Device);
@@ -156,16 +154,7 @@ FRTStatus FVulkanPipeline::InitialiseRayTracing(const FRTRayTracingPipelineDesc&
 	State.Info.groupCount = static_cast<uint32_t>(Groups.size());
 	State.Info.pGroups = Groups.data();
 	State.Info.layout = Device.Bindless.PipelineLayout;
-	FVulkanOwnCache Ahead(Device);
-	if (bLibrary && Device.CompileDevice)
-	{
-		std::vector<char> Data;
-		Status = CompileAhead(*Device.CompileDevice, Desc, Data);
-		Status = Status ? MakeStatus(Ahead.Create(Data), "Filling the pipeline cache of", Desc.Name) : Status;
-		if (!Status) { return Status; }
-		Cache = Ahead.Handle;
-	}
-	if (!Cache && (!bLibrary || Device.bCacheLibraries)) { Cache = Device.Cache.Handle; }
+	const VkPipelineCache Cache = bLibrary && !Device.bCacheLibraries ? VK_NULL_HANDLE : Device.Cache.Handle;
 	Status = Finish(Device.Api.CreateRayTracingPipelinesKHR(Device.Handle, VK_NULL_HANDLE, Cache, 1, &State.Info, nullptr, &Handle),
 	    "Creating ray-tracing pipeline", Desc.Name);
 	if (!Status || bLibrary) { return Status; }

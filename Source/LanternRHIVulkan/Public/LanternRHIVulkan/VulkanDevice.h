@@ -52,9 +52,6 @@ struct FRTVulkanDeviceDesc
 	/// Null prints warnings and errors to standard error.
 	FRTVulkanMessageCallback MessageCallback = nullptr;
 	void* MessageUser = nullptr;
-	/// Compiles pipeline libraries on a second device of the same kind first. The device itself then finds them in a cache, and
-	/// holds whatever the driver locks for a shorter time. Takes the memory of a device, and longer for each library.
-	bool bCompileDevice = false;
 	/// For tools that look for the call that a frame waits in. The newest sink serves all devices of the process that have one.
 	FRTVulkanCallSink CallSink;
 };

@@ -112,6 +112,14 @@ void AddPass(FFrameContext& Context, const FHostSurface& Host, IRTPipeline* Pipe
 }
 } // namespace
 
+bool NeedsHostSurfacePass(const FHostSurface& Host)
+{
+	return !Host.DepthMeaning.IsNative() || !AreNormalsNative(Host) || !Host.bNativeMotion || Host.bUnrealMaterial ||
+	       Host.Offset != glm::uvec2(0);
+}
+
+FShaderSource MakeHostSurfaceSource() { return MakeComputeSource("HostSurface/HostSurface.comp"); }
+
 FGBuffer AddHostSurfacePass(FFrameContext& Context, const FHostSurface& Host)
 {
 	SetErrors(Context, Host);
@@ -132,7 +140,7 @@ FGBuffer AddHostSurfacePass(FFrameContext& Context, const FHostSurface& Host)
 	}
 	const bool bAny =
 	    Converted.Depth.IsValid() || Converted.Normals.IsValid() || Converted.Motion.IsValid() || Converted.BaseColor.IsValid();
-	IRTPipeline* const Pipeline = bAny ? RequireCompute(Context, "HostSurface/HostSurface.comp") : nullptr;
+	IRTPipeline* const Pipeline = bAny ? RequireCompute(Context, MakeHostSurfaceSource()) : nullptr;
 	if (bAny && Pipeline == nullptr) { return {}; }
 	if (bAny) { AddPass(Context, Host, Pipeline, Converted); }
 	return Out;

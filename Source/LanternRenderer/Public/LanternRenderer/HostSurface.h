@@ -31,6 +31,10 @@ struct FHostSurface
 	glm::uvec2 Offset{0};         ///< of the view in all textures, pixels, below 65,536
 };
 
+/// Returns whether AddHostSurfacePass has textures to convert. Which textures are there does not count.
+bool NeedsHostSurfacePass(const FHostSurface& Host);
+FShaderSource MakeHostSurfaceSource();
+
 /// Returns the G-buffer as passes read it, and sets the errors of Context.View. Adds a pass over the pixels for those textures that
 /// are not native. r.RT.DepthBias scales the error of depth.
 FGBuffer AddHostSurfacePass(FFrameContext& Context, const FHostSurface& Host);

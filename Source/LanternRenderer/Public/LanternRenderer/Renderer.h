@@ -76,6 +76,8 @@ struct FFrameFeatures
 	std::vector<FSkinningInputs> Skinning;
 	/// The host has no motion vectors, so that filters follow the camera alone. Decides only what is compiled ahead.
 	bool bCameraMotion = false;
+	/// The host's G-buffer goes through AddHostSurfacePass, which has something to convert (NeedsHostSurfacePass).
+	bool bHostSurface = false;
 	/// The host makes its motion vectors from FSceneConstants::ObjectMotions. These are recorded if a filter follows motion, or if
 	/// FSignalRequests::bMotion asks. An engine with motion vectors of its own saves 72 bytes a frame for each moving object.
 	bool bMotion = true;
@@ -152,6 +154,7 @@ struct FFrameContext
 	FSignalRequests Signals;
 	/// First error that a pass met; the frame is then not submitted. Not while passes are recorded.
 	FRTStatus* Status = nullptr;
+	bool bWaitForPipelines = true; ///< FFrameFeatures::bWaitForPipelines, or a reason to wait all the same
 	/// Sets Status, unless it has an error already. From any thread.
 	void Fail(const FRTStatus& Error) const;
 	FRenderer* Owner = nullptr;
@@ -268,12 +271,12 @@ private:
 	bool bRayPassesAdded = false;
 	bool bFrameLost = false;
 	static constexpr uint32_t MaxInFlight = 2;
+	static constexpr uint32_t KeptIdleFrames = 64; // of other views, after which a view's histories go
 	std::vector<TRTRef<IRTCommandList>> Lists[MaxInFlight][QueueCount];
 	uint32_t ListsUsed[QueueCount] = {};   // of Lists, in this frame
 	std::vector<IRTCommandList*> Recorded; // of this frame, in order
 	std::vector<FGraphSubmission> Submissions;
-	FRTFence LastGraph = 0;                        // what the last frame of this renderer ended with
-	static constexpr uint32_t KeptIdleFrames = 64; // of other views, after which a view's histories go
+	FRTFence LastGraph = 0; // what the last frame of this renderer ended with
 	FRTFence Fences[MaxInFlight] = {};
 	uint32_t FlightIndex = 0; // of this frame, in Lists and Fences
 	/// What a view keeps from frame to frame.

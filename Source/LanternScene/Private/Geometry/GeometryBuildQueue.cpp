@@ -57,8 +57,9 @@ void FGeometryBuildQueue::Erase(FPlace& Place)
 void FGeometryBuildQueue::Add(FGeometryEntry& Entry)
 {
 	Entry.State = EGeometryState::Pending;
-	if (bRunning) { Added.push_back(Slots.MakeRef(Entry)); }
-	else { Insert(Entry, false); }
+	if (!bRunning) { return Insert(Entry, false); }
+	Erase(GetPlace(Slots.GetSlot(Entry))); // it may still have its place from before it was refused
+	Added.push_back(Slots.MakeRef(Entry));
 }
 
 void FGeometryBuildQueue::Remove(uint32_t Slot)

@@ -7,7 +7,6 @@
 #include <utility>
 #include <variant>
 
-#include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternScene/Memory/Upload.h"
 
 namespace Lantern
@@ -15,15 +14,6 @@ namespace Lantern
 
 namespace
 {
-TRTConsoleVariable<int32_t> CVarStaging("r.RT.Upload.StagingMB", 64,
-    "Limits the staging memory for new meshes, MiB. Meshes that find no room in it wait on the CPU. Renderers that are created later use "
-    "it.",
-    {1, 4096});
-TRTConsoleVariable<int32_t> CVarPerFrame("r.RT.Upload.MBPerFrame", 16,
-    "Limits the data of new meshes that a frame copies to the GPU, MiB; at least one piece is copied.", {1, 4096});
-TRTConsoleVariable<bool> CVarTransfer(
-    "r.RT.Upload.TransferQueue", true, "Copies new meshes on a queue of their own, if the device has one. Off: within the frame.");
-
 /// Pieces: small enough for a thread to give way, large enough for a copy to be worth a command.
 constexpr uint64_t MostChunkBytes = 1 << 20;
 constexpr uint64_t LeastChunkBytes = 64 << 10;
@@ -35,10 +25,7 @@ constexpr uint64_t RingGrowth = 4;
 uint64_t Align(uint64_t Value) { return (Value + RingAlignment - 1) & ~(RingAlignment - 1); }
 } // namespace
 
-FBufferUploads::FBufferUploads(IRTDevice& InDevice)
-    : Device(InDevice),
-      LargestRing(static_cast<uint64_t>(std::get<int32_t>(CVarStaging.GetValue())) << 20)
-{}
+FBufferUploads::FBufferUploads(IRTDevice& InDevice) : Device(InDevice), LargestRing(GetMostStagingBytes()) {}
 
 FBufferUploads::~FBufferUploads()
 {
@@ -172,7 +159,7 @@ void FBufferUploads::RunStager()
 
 std::vector<FBufferUploads::FChunk> FBufferUploads::TakeStaged()
 {
-	const uint64_t Most = static_cast<uint64_t>(CVarPerFrame.GetOnRenderThread()) << 20;
+	const uint64_t Most = GetUploadBytesPerFrame();
 	std::vector<FChunk> Out;
 	uint64_t Bytes = 0;
 	std::lock_guard Lock(Mutex);
@@ -265,7 +252,7 @@ FRTStatus FBufferUploads::Submit(std::vector<FChunk> Chunks)
 
 FRTStatus FBufferUploads::Record(IRTCommandList& List, std::vector<FBufferUploadRef>& OutFilled)
 {
-	const bool bTransfer = Device.GetCapabilities().bTransferQueue && CVarTransfer.GetOnRenderThread();
+	const bool bTransfer = Device.GetCapabilities().bTransferQueue && IsTransferQueueWanted();
 	std::vector<FChunk> Chunks = TakeStaged();
 	if (!Chunks.empty() && bTransfer)
 	{

@@ -5,11 +5,22 @@
 #include <cassert>
 #include <cstring>
 
+#include "LanternCore/Config/ConsoleVariables.h"
+
 namespace Lantern
 {
 
 namespace
 {
+TRTConsoleVariable<int32_t> CVarStaging("r.RT.Upload.StagingMB", 64,
+    "Limits the staging memory for new meshes, MiB. Meshes that find no room in it wait on the CPU. Renderers that are created later use "
+    "it.",
+    {1, 4096});
+TRTConsoleVariable<int32_t> CVarPerFrame("r.RT.Upload.MBPerFrame", 16,
+    "Limits the data of new meshes that a frame copies to the GPU, MiB; at least one piece is copied.", {1, 4096});
+TRTConsoleVariable<bool> CVarTransfer(
+    "r.RT.Upload.TransferQueue", true, "Copies new meshes on a queue of their own, if the device has one. Off: within the frame.");
+
 constexpr uint64_t StagingBytes = 32ull << 20;
 constexpr uint64_t PageBytes = 1ull << 20;
 constexpr uint64_t Alignment = 256;
@@ -18,6 +29,10 @@ constexpr uint64_t WaitNs = 60'000'000'000ull;
 
 uint64_t Align(uint64_t Value) { return (Value + Alignment - 1) & ~(Alignment - 1); }
 } // namespace
+
+uint64_t GetMostStagingBytes() { return static_cast<uint64_t>(std::get<int32_t>(CVarStaging.GetValue())) << 20; }
+uint64_t GetUploadBytesPerFrame() { return static_cast<uint64_t>(CVarPerFrame.GetOnRenderThread()) << 20; }
+bool IsTransferQueueWanted() { return CVarTransfer.GetOnRenderThread(); }
 
 FUploader::FUploader(IRTDevice& InDevice) : Device(InDevice) {}
 

@@ -71,9 +71,8 @@ FRTStatus FSceneStructure::Gather(const FGatherKey& Key, const FGatherKey& Befor
 	FTraceScope Scope("Gather instances");
 	const FInstanceStore& Instances = Objects.GetInstances();
 	const FCullingRule Rule(Key.View, Key.Culling);
-	const FMissingGeometrySink Missing = [this, &Key](uint32_t Slot, float Pixels) {
-		Geometries.RaisePriority(Slot, Pixels / static_cast<float>(std::max(1u, Key.View.Height)));
-	};
+	const FMissingGeometrySink Missing = [this, &Key](
+	                                         uint32_t Slot, float Pixels) { Geometries.RaisePriority(Slot, Pixels * Key.View.PixelSize); };
 	uint32_t Count = Instances.GetCount();
 	if (Key.Mode != 0)
 	{

@@ -94,8 +94,8 @@ public:
 
 	/// Device address of Slot's structure. 0: it is not there (yet), and its objects are left out.
 	uint64_t GetAddress(uint32_t Slot) const { return Slot < Addresses.size() ? Addresses[Slot] : 0; }
-	/// Makes larger geometries be built sooner. ScreenSize: the size of the geometry's largest object, in heights of the
-	/// picture. Any thread, also during BeginFrame.
+	/// Makes larger geometries be built sooner. ScreenSize: how large the largest object of the geometry looks, its diameter over its
+	/// distance. Any thread, also during BeginFrame.
 	void RaisePriority(uint32_t Slot, float ScreenSize);
 	/// Slots whose address, parts or index buffer changed since the last call, each once.
 	std::vector<uint32_t> TakeChanged();

@@ -16,6 +16,13 @@ namespace Lantern
 /// Accesses that may follow an upload.
 inline constexpr ERTAccess UploadedAccess = ERTAccess::ShaderRead | ERTAccess::IndexRead | ERTAccess::GeometryInput;
 
+/// Value of r.RT.Upload.StagingMB, bytes. Any thread.
+uint64_t GetMostStagingBytes();
+/// Value of r.RT.Upload.MBPerFrame, bytes. Render thread.
+uint64_t GetUploadBytesPerFrame();
+/// Value of r.RT.Upload.TransferQueue. Render thread.
+bool IsTransferQueueWanted();
+
 class FUploader
 {
 public:

@@ -80,9 +80,9 @@ public:
 	/// Some may have been released meanwhile.
 	std::vector<FSectionRangeId> TakeChangedRanges();
 	bool HasChangedRanges() const { return !ChangedRanges.empty(); }
-	/// Returns the sections written since the last call, each once, for the writer of hit records. Some may have been
-	/// released meanwhile.
-	std::vector<uint32_t> TakeChanged();
+	/// Returns the sections written since Seen, each once, for a writer of hit records, and moves Seen. Each writer has a cursor of
+	/// its own. Some sections may have been released meanwhile.
+	std::vector<uint32_t> TakeChanged(FChangeCursor& Seen) const { return Changes.Take(Seen); }
 	/// Returns the geometries that objects use with another alpha test than that of their classification, since the last call.
 	/// Some may come twice. Those that are gone meanwhile have expired, whoever has their slot now.
 	std::vector<std::weak_ptr<const FRTGeometry>> TakeRefutedGeometries() { return std::exchange(RefutedGeometries, {}); }
@@ -147,8 +147,7 @@ private:
 
 	std::vector<FSectionRangeId> ChangedRanges;
 	std::vector<std::weak_ptr<const FRTGeometry>> RefutedGeometries;
-	std::vector<uint32_t> Changed;
-	std::vector<bool> IsChanged; // by section: if nobody takes changes for a long time, the list must not grow
+	FChangeJournal Changes; // of sections
 	FHitProgramIndex HitPrograms;
 };
 
