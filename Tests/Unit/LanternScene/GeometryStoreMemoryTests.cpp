@@ -72,6 +72,8 @@ TEST_F(FGeometryMemoryTest, CompactionSwapsTheAddressAndFreesMemory)
 	ASSERT_TRUE(Frame());
 	const uint64_t Before = Device->GetMemoryStats().Geometry, Address = GetAddress(Geometry);
 	EXPECT_EQ(Store->TakeChanged(), std::vector<uint32_t>{Geometry->GetSlot()});
+	ASSERT_TRUE(Frame()); // the size is asked for
+	EXPECT_EQ(Stats().Compacted, 0u);
 	ASSERT_TRUE(Frame()); // the size is known: the copy is recorded
 	EXPECT_EQ(Stats().Compacted, 1u);
 	EXPECT_EQ(GetAddress(Geometry), Address) << "not before the copy was submitted";
@@ -97,7 +99,7 @@ TEST_F(FGeometryMemoryTest, CompactionWaitsForNothing)
 	EXPECT_EQ(GetAddress(Geometry), Address);
 	EXPECT_FALSE(Store->NeedsUpdate()) << "there is nothing to do before sizes are known";
 	Gone.reset(); // while its size is being asked for
-	Mock().CompleteUpTo(1);
+	Mock().CompleteUpTo(2);
 	EXPECT_TRUE(Store->NeedsUpdate());
 	Frames(2);
 	EXPECT_NE(GetAddress(Geometry), Address);
@@ -111,7 +113,7 @@ TEST_F(FGeometryMemoryTest, CompactionWaitsForNothing)
 TEST_F(FGeometryMemoryTest, LostCompactionIsRecordedAgain)
 {
 	const FRTGeometryRef Geometry = Make("Rock", 1000);
-	ASSERT_TRUE(Frame());
+	Frames(2); // a build, a query
 	const uint64_t Address = GetAddress(Geometry);
 	ASSERT_TRUE(Frame(false, false));
 	EXPECT_EQ(Stats().Compacted, 1u);

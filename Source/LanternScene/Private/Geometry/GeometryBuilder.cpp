@@ -44,7 +44,6 @@ FRTStatus FGeometryBuilder::AddBuild(FGeometryEntry& Entry)
 		Entry.SetStructure(std::move(Structure));
 	}
 	AddRefit(Entry);
-	if (Entry.bCompactable) { Compactor.Want(Entry); }
 	Entry.State = EGeometryState::Building;
 	Entry.bUpdate = Entry.bLost = Entry.bDeformed = false;
 	Entry.Misfits = Entry.Waits = 0;
@@ -140,6 +139,8 @@ void FGeometryBuilder::Submitted()
 	for (const FGeometrySlotRef Ref : Builds)
 	{
 		FGeometryEntry& Entry = Context.Slots[Ref.Slot];
+		// The next frame asks for the size: a query in this one could be recorded before the tasks have recorded the build.
+		if (Entry.State == EGeometryState::Building && Entry.bCompactable) { Compactor.Want(Entry); }
 		Entry.State = EGeometryState::Built;
 		Entry.Staging = nullptr;
 		Entry.bRebuild = false;

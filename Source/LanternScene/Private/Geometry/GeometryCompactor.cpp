@@ -192,7 +192,6 @@ void FGeometryCompactor::Lost()
 		}
 	}
 	std::erase_if(Batches, [](const FSizeBatch& Batch) { return !Batch.bSubmitted; });
-	DropUnwanted(); // builds that were lost have no size
 }
 
 bool FGeometryCompactor::NeedsUpdate() const

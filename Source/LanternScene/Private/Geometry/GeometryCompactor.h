@@ -18,7 +18,7 @@ public:
 	explicit FGeometryCompactor(FGeometryContext& Context);
 
 	static bool IsOn(); ///< r.RT.Build.Compaction
-	/// This frame builds the entry, with a structure that allows compaction.
+	/// The entry's build was submitted, with a structure that allows compaction: the next frame asks for its size.
 	void Want(FGeometryEntry& Entry);
 	/// The entry's structure is gone: sizes that were queried for it no longer count.
 	void Forget(FGeometryEntry& Entry);
@@ -35,11 +35,11 @@ public:
 	bool HasCommands() const { return !Copying.empty() || !Wanted.empty(); }
 	/// The caller puts a barrier for BuildRead and BuildWrite before and behind.
 	void RecordCopies(IRTCommandList& List);
-	/// Queries the sizes of what was built. Its builds must come before, with a barrier. Out of memory is no error.
+	/// Queries the sizes of what earlier frames have built. Out of memory is no error.
 	FRTStatus RecordQueries(IRTCommandList& List);
 	/// The frame was submitted.
 	void Submitted();
-	/// The frame never runs: copies and queries are recorded again, except those of lost builds.
+	/// The frame never runs: copies and queries are recorded again.
 	void Lost();
 
 	/// A frame has something to do here.
