@@ -5,7 +5,6 @@
 #include "ArgumentChecks.h"
 #include "FrameChecks.h"
 #include "LanternCore/Config/ConsoleVariables.h"
-#include "LanternRenderer/HostSurface.h"
 #include "ModuleRenderer.h"
 
 namespace Lantern
@@ -97,15 +96,6 @@ FHostSurface DescribeSurface(const FRTModuleFrame& Frame, const FModuleWorld& Wo
 	return Out;
 }
 
-/// Whether the G-buffer must be converted. A frame to be precached may lack what tells; then it may have to be.
-bool HasForeignSurface(const FRTModuleFrame& Frame, const FModuleWorld& World)
-{
-	if (Frame.Depth == nullptr || Frame.Normals == nullptr) { return true; }
-	FView View = MakeFrameView(Frame, 0);
-	FHostDepth Depth;
-	return !ToView(Frame.View, World, View, Depth) || NeedsHostSurfacePass(DescribeSurface(Frame, World, View, Depth));
-}
-
 void ImportTextures(FFrameGraph& Graph, const FRTModuleFrame& Frame, FHostSurface& Out)
 {
 	const auto Import = [&](IRTTexture* Texture, ERTAccess Access, const char* Name) {
@@ -125,19 +115,25 @@ void ImportTextures(FFrameGraph& Graph, const FRTModuleFrame& Frame, FHostSurfac
 
 } // namespace
 
-void FModuleRenderer::AddPasses(const FRTModuleFrame& Frame, const FFrameViews& Views)
+/// Begins the frame and adds its passes.
+FRTStatus FModuleRenderer::AddPasses(const FRTModuleFrame& Frame, const FFrameViews& Views)
 {
+	FFrameFeatures Features = MakeFeatures(Frame, NeedsHostSurfacePass(Views.Surface));
+	Features.PreviousView = Views.Previous;
+	++FrameIndex;
+	if (const FRTStatus Status = On->Renderer.BeginFrame(On->Scene, Views.View, Features); !Status) { return Status; }
 	FFrameContext& Context = On->Renderer.GetContext();
-	FHostSurface Surface = DescribeSurface(Frame, World, Views.View, Views.Depth);
+	FHostSurface Surface = Views.Surface;
 	ImportTextures(Context.Graph, Frame, Surface);
 	const FGBuffer GBuffer = AddHostSurfacePass(Context, Surface);
-	if (!GBuffer.Depth.IsValid()) { return; } // shaders are missing: there is nothing to trace from
+	if (!GBuffer.Depth.IsValid()) { return FRTStatus::Success(); } // shaders are missing: there is nothing to trace from
 	FFrameOutputs Made;
 	for (const FSignalInfo& Info : SignalInfos)
 	{
 		if (Context.Signals.Wanted.Has(Info.Signal)) { Made.Get(Info.Signal) = AddSignalPass(Context, Info.Signal, GBuffer); }
 	}
 	HandToEngine(Made);
+	return FRTStatus::Success();
 }
 
 /// The engine reads them after the graph has ended: the last pass leaves them readable and holds on to them.
@@ -170,14 +166,16 @@ void FModuleRenderer::ReleaseOutputs() { Outputs.fill(nullptr); }
 FRTStatus FModuleRenderer::ReadViews(const FRTModuleFrame& Frame, FFrameViews& Out) const
 {
 	Out.View = MakeFrameView(Frame, FrameIndex);
-	if (const FRTStatus Status = ToView(Frame.View, World, Out.View, Out.Depth); !Status) { return Status; }
+	FHostDepth Depth;
+	if (const FRTStatus Status = ToView(Frame.View, World, Out.View, Depth); !Status) { return Status; }
+	Out.Surface = DescribeSurface(Frame, World, Out.View, Depth);
 	if (Frame.PreviousView == nullptr) { return FRTStatus::Success(); }
 	FHostDepth Ignored;
 	const FRTStatus Status = ToView(*Frame.PreviousView, World, Out.Previous.emplace(Out.View), Ignored);
 	return Status ? Status : FRTStatus::Error(Status.Code, "FRTModuleFrame::PreviousView: %s", Status.Message);
 }
 
-FFrameFeatures FModuleRenderer::MakeFeatures(const FRTModuleFrame& Frame) const
+FFrameFeatures FModuleRenderer::MakeFeatures(const FRTModuleFrame& Frame, bool bHostSurface) const
 {
 	FFrameFeatures Features;
 	Features.bBuildAll = Features.bWaitForPipelines = false;
@@ -190,7 +188,7 @@ FFrameFeatures FModuleRenderer::MakeFeatures(const FRTModuleFrame& Frame) const
 		const bool bMakes = Info.Signal != ESignal::Frame && (bSurface || !Info.bNeedsSurface);
 		if (bMakes && Frame.Wanted.Has(Info.Signal)) { Features.Signals.Wanted.Add(Info.Signal); }
 	}
-	Features.bHostSurface = HasForeignSurface(Frame, World);
+	Features.bHostSurface = bHostSurface;
 	Features.bCameraMotion = Frame.Motion == nullptr;
 	return Features;
 }
@@ -204,24 +202,50 @@ FRTStatus FModuleRenderer::Precache(const FRTModuleFrame& Frame, FRTModuleProgre
 	bArrivalsLeft = Calls.Take(0, Commands); // the scene is what the engine has called for so far
 	On->State.Apply(Commands);
 	const auto Report = [=](float Done) { Progress(User, Done); };
-	return On->Renderer.Precache(On->Scene, MakeFeatures(Frame), Progress != nullptr ? std::function<void(float)>(Report) : nullptr);
+	// A frame to be precached may lack what tells whether its G-buffer must be converted; then it may have to be.
+	FFrameViews Views;
+	const bool bKnown = Frame.Depth != nullptr && Frame.Normals != nullptr && ReadViews(Frame, Views);
+	const FFrameFeatures Features = MakeFeatures(Frame, !bKnown || NeedsHostSurfacePass(Views.Surface));
+	return On->Renderer.Precache(On->Scene, Features, Progress != nullptr ? std::function<void(float)>(Report) : nullptr);
 }
 
-FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame, const FFrameViews& Views)
+FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame, const FFrameViews& Views, FRTFence& OutAhead)
 {
+	if (Frame.bSubmitAhead) { return RecordAhead(Frame, Views, OutAhead); }
 	// Before BeginFrame, which asks the scene whether anything in it has changed.
 	if (const FRTStatus Status = On->State.Record(*Frame.Commands); !Status) { return Status; }
-	FFrameFeatures Features = MakeFeatures(Frame);
-	Features.PreviousView = Views.Previous;
-	++FrameIndex;
-	if (const FRTStatus Status = On->Renderer.BeginFrame(On->Scene, Views.View, Features); !Status) { return Status; }
-	AddPasses(Frame, Views);
+	if (const FRTStatus Status = AddPasses(Frame, Views); !Status) { return Status; }
 	const FRTStatus Status = On->Renderer.EndFrame(*Frame.Commands);
 	if (!Status)
 	{
 		On->Renderer.FrameSubmitted(0); // it never will be
 	}
 	return Status;
+}
+
+FRTStatus FModuleRenderer::RecordAhead(const FRTModuleFrame& Frame, const FFrameViews& Views, FRTFence& OutAhead)
+{
+	IRTCommandList* Arrivals = nullptr;
+	if (const FRTStatus Status = On->AheadLists.Begin(FindAheadQueue(*On->Device), Arrivals); !Status) { return Status; }
+	FRTStatus Status = On->State.Record(*Arrivals);
+	const FRTStatus Ended = Arrivals->End();
+	if (Status) { Status = Ended; }
+	// Vertices that the engine's GPU writes are on its own queue.
+	FRTFence Written = 0;
+	const bool bOtherQueue = FindAheadQueue(*On->Device) != ERTQueue::Graphics;
+	if (Status && bOtherQueue && On->State.HasEngineVertices()) { Status = On->Device->NotifyExternalSubmit(nullptr, 0, &Written); }
+	if (Status) { Status = AddPasses(Frame, Views); }
+	if (!Status) { return Status; }
+	Status = On->Renderer.EndFrame(*Frame.Commands, Arrivals, Written, OutAhead);
+	if (!Status) { On->Renderer.FrameSubmitted(0); }
+	else { On->AheadLists.Submitted(OutAhead); }
+	return Status;
+}
+
+FRTModuleWait FModuleRenderer::MakeWait() const
+{
+	if (Ahead == 0) { return {}; }
+	return {On->Device->GetNative(ERTNative::ComputeTimeline), GetFenceValue(Ahead)};
 }
 
 FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOutputs* Out)
@@ -242,7 +266,8 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 	FConsoleVariables::Get().BeginFrame(); // what is taken over follows them, too
 	bArrivalsLeft = Calls.Take(FRTScene::GetMostArrivals(), Commands);
 	On->State.Apply(Commands);
-	const FRTStatus Status = Watch(RecordFrame(Frame, Views));
+	Ahead = 0;
+	const FRTStatus Status = Watch(RecordFrame(Frame, Views, Ahead));
 	if (!Status)
 	{
 		ReleaseOutputs();
@@ -251,6 +276,8 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 	}
 	Recorded = TRTRef<IRTCommandList>(Frame.Commands);
 	for (size_t I = 0; I < SignalCount; ++I) { Out->Signals[I] = Outputs[I].Get(); }
+	if (GetFenceQueue(Ahead) == ERTQueue::Graphics) { Ahead = 0; } // one queue runs in order
+	Out->Wait = MakeWait();
 	Out->bShadersReady = On->Renderer.AreShadersReady();
 	Out->bComplete = Out->bShadersReady && !bArrivalsLeft && On->Scene.GetGeometries().GetStats().Pending == 0;
 	return Status;
@@ -263,7 +290,7 @@ FRTStatus FModuleRenderer::EndFrame(FRTFence* OutFence)
 	if (!Recorded) { return FRTStatus::Error(ERTResult::InvalidArgument, "EndFrame: RenderFrame recorded nothing"); }
 	IRTCommandList* List = Recorded.Get();
 	FRTFence Fence = 0;
-	const FRTStatus Status = Watch(On->Device->NotifyExternalSubmit(&List, 1, &Fence));
+	const FRTStatus Status = Watch(On->Device->NotifyExternalSubmit(&List, 1, &Fence, &Ahead, Ahead != 0 ? 1 : 0));
 	On->Renderer.FrameSubmitted(Fence);
 	On->State.EndFrame(Fence);
 	Recorded = nullptr;

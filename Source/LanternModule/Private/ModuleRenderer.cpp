@@ -14,7 +14,8 @@ FModuleRenderer::FOnDevice::FOnDevice(IRTDevice& InDevice, FRendererDesc Desc)
       Scene(InDevice),
       Renderer(InDevice, std::move(Desc)),
       Uploads(InDevice),
-      State(InDevice, Scene, Uploads)
+      State(InDevice, Scene, Uploads),
+      AheadLists(InDevice)
 {}
 
 FModuleRenderer::FOnDevice::~FOnDevice()

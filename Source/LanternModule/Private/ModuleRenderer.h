@@ -7,11 +7,13 @@
 #include <optional>
 #include <vector>
 
+#include "AheadLists.h"
 #include "ArgumentChecks.h"
 #include "LanternModule/Module.h"
 #include "LanternRHICommon/RefCounted.h"
 #include "LanternRenderer/Frame.h"
 #include "LanternRenderer/HostProjection.h"
+#include "LanternRenderer/HostSurface.h"
 #include "LanternScene/Memory/BufferUploads.h"
 #include "LanternScene/Scene/Scene.h"
 #include "ModuleWorld.h"
@@ -80,13 +82,16 @@ private:
 	{
 		FView View;
 		std::optional<FView> Previous;
-		FHostDepth Depth;
+		FHostSurface Surface; ///< its textures are not imported yet
 	};
 
-	FFrameFeatures MakeFeatures(const FRTModuleFrame& Frame) const;
+	FFrameFeatures MakeFeatures(const FRTModuleFrame& Frame, bool bHostSurface) const;
 	FRTStatus ReadViews(const FRTModuleFrame& Frame, FFrameViews& Out) const;
-	FRTStatus RecordFrame(const FRTModuleFrame& Frame, const FFrameViews& Views);
-	void AddPasses(const FRTModuleFrame& Frame, const FFrameViews& Views);
+	/// OutAhead: the fence of what was submitted ahead of Frame.Commands, or 0.
+	FRTStatus RecordFrame(const FRTModuleFrame& Frame, const FFrameViews& Views, FRTFence& OutAhead);
+	FRTStatus RecordAhead(const FRTModuleFrame& Frame, const FFrameViews& Views, FRTFence& OutAhead);
+	FRTStatus AddPasses(const FRTModuleFrame& Frame, const FFrameViews& Views);
+	FRTModuleWait MakeWait() const;
 	void HandToEngine(const FFrameOutputs& Made);
 	void ReleaseOutputs();
 
@@ -101,6 +106,7 @@ private:
 		FRenderer Renderer;
 		FBufferUploads Uploads;
 		FSceneState State;
+		FAheadLists AheadLists;
 	};
 	/// Notes a loss of the device, and says it once.
 	FRTStatus Watch(FRTStatus Status);
@@ -118,6 +124,7 @@ private:
 	bool bArrivalsLeft = false;                          ///< for later frames
 	TRTRef<IRTCommandList> Recorded;                     ///< between RenderFrame and EndFrame
 	std::array<TRTRef<IRTTexture>, SignalCount> Outputs; ///< of the last frame
+	FRTFence Ahead = 0;                                  ///< what the recorded frame's submission waits for
 	uint32_t FrameIndex = 0;
 };
 

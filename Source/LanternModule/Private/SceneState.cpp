@@ -141,7 +141,9 @@ void FSceneState::Do(FVerticesCommand& Command)
 
 void FSceneState::Do(FDeformedCommand& Command)
 {
-	if (Meshes[Command.Slot].Geometry) { Scene.MarkDeformed(Meshes[Command.Slot].Geometry); }
+	if (!Meshes[Command.Slot].Geometry) { return; }
+	Scene.MarkDeformed(Meshes[Command.Slot].Geometry);
+	bEngineVertices = true;
 }
 
 void FSceneState::Do(FLightCommand& Command)
@@ -210,6 +212,7 @@ void FSceneState::EndFrame(FRTFence Fence)
 		if (Meshes[Slot].Deformable && Meshes[Slot].Deformable->EndFrame(Fence != 0)) { MarkDeformed(Slot); }
 	}
 	ReplacedTextures.clear();
+	bEngineVertices &= Fence == 0;
 }
 
 } // namespace Lantern

@@ -28,6 +28,8 @@ public:
 	void Apply(std::vector<FSceneCommand>& Commands);
 	/// Records copies of new meshes and vertices. On an error List must not be submitted.
 	FRTStatus Record(IRTCommandList& List);
+	/// Returns whether the engine's GPU has written vertices for this frame.
+	bool HasEngineVertices() const { return bEngineVertices; }
 	/// Fence: that of the list; 0: it never runs, and all of it is recorded again.
 	void EndFrame(FRTFence Fence);
 	/// Describes what commands have made so far.
@@ -69,6 +71,7 @@ private:
 	std::vector<FRTObjectId> Objects; ///< invalid: its mesh has no geometry
 	std::vector<std::optional<FSceneLight>> Lights;
 	bool bLightsChanged = false;
+	bool bEngineVertices = false;
 	std::vector<uint32_t> Deformed, RecordedVertices; ///< slots of meshes with new vertices; of those in this frame
 	std::vector<FBufferUploadRef> Filled;
 	/// Replaced since the last EndFrame: the list in the making may sample them, and a device that lets go of a bindless

@@ -111,9 +111,10 @@ FRTStatus FMockDevice::Submit(IRTCommandList* const* Lists, uint32_t Count, FRTF
 	return Enqueue(ERTMockCall::Submit, Lists, Count, OutFence, Waits, WaitCount);
 }
 
-FRTStatus FMockDevice::NotifyExternalSubmit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence)
+FRTStatus FMockDevice::NotifyExternalSubmit(
+    IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence, const FRTFence* Waits, uint32_t WaitCount)
 {
-	return Enqueue(ERTMockCall::NotifyExternalSubmit, Lists, Count, OutFence, nullptr, 0);
+	return Enqueue(ERTMockCall::NotifyExternalSubmit, Lists, Count, OutFence, Waits, WaitCount);
 }
 
 FRTFence FMockDevice::GetCompletedFence(ERTQueue Queue)

@@ -28,7 +28,8 @@ public:
 	FRTStatus CreateCommandList(const char* Name, IRTCommandList** Out, ERTQueue Queue) override;
 	FRTStatus ImportCommandList(uint64_t NativeCommandBuffer, IRTCommandList** Out) override;
 	FRTStatus Submit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence, const FRTFence* Waits, uint32_t WaitCount) override;
-	FRTStatus NotifyExternalSubmit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence) override;
+	FRTStatus NotifyExternalSubmit(
+	    IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence, const FRTFence* Waits, uint32_t WaitCount) override;
 	FRTFence GetCompletedFence(ERTQueue Queue) override;
 	FRTStatus WaitFor(FRTFence Fence, uint64_t TimeoutNs) override;
 	FRTStatus WaitIdle() override;

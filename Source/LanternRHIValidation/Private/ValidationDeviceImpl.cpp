@@ -47,17 +47,20 @@ FRTStatus FValidatedDevice::Collect(
 	return FRTStatus::Success();
 }
 
-FRTStatus FValidatedDevice::CheckWaits(ERTQueue Queue, const FRTFence* Waits, uint32_t WaitCount)
+FRTStatus FValidatedDevice::CheckWaits(const char* Call, ERTQueue Queue, const FRTFence* Waits, uint32_t WaitCount)
 {
-	if (WaitCount && !Waits) { return State->Fail("Submit: Waits is null"); }
+	if (WaitCount && !Waits) { return State->Fail(Print("%s: Waits is null", Call)); }
 	for (uint32_t i = 0; i < WaitCount; ++i)
 	{
 		const auto Other = static_cast<size_t>(GetFenceQueue(Waits[i]));
-		if (Waits[i] != 0 && Other == static_cast<size_t>(Queue)) { return State->Fail(Print("Submit: wait %u is for its own queue", i)); }
+		if (Waits[i] != 0 && Other == static_cast<size_t>(Queue))
+		{
+			return State->Fail(Print("%s: wait %u is for its own queue", Call, i));
+		}
 		std::lock_guard Lock(State->Mutex);
 		if (Other >= QueueCount || Waits[i] > State->LastFences[Other])
 		{
-			return State->Fail(Print("Submit: wait %u is for a fence that no submission has returned", i));
+			return State->Fail(Print("%s: wait %u is for a fence that no submission has returned", Call, i));
 		}
 	}
 	return FRTStatus::Success();
@@ -70,7 +73,7 @@ FRTStatus FValidatedDevice::Submit(
 	std::vector<FValidatedCommandList*> Mine;
 	FRTStatus Status = Collect(Lists, Count, false, Mine);
 	const ERTQueue Queue = Mine.empty() ? ERTQueue::Graphics : Mine.front()->GetQueue();
-	if (Status) { Status = CheckWaits(Queue, Waits, WaitCount); }
+	if (Status) { Status = CheckWaits("Submit", Queue, Waits, WaitCount); }
 	if (!Status) { return Status; }
 	FValidationTracker Tracker(*State, Queue, Waits, WaitCount);
 	{
@@ -98,14 +101,16 @@ FRTStatus FValidatedDevice::Submit(
 	return Status;
 }
 
-FRTStatus FValidatedDevice::NotifyExternalSubmit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence)
+FRTStatus FValidatedDevice::NotifyExternalSubmit(
+    IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence, const FRTFence* Waits, uint32_t WaitCount)
 {
 	std::lock_guard Order(State->SubmitMutex);
 	std::vector<FValidatedCommandList*> Mine;
 	FRTStatus Status = Collect(Lists, Count, true, Mine);
+	if (Status) { Status = CheckWaits("NotifyExternalSubmit", ERTQueue::Graphics, Waits, WaitCount); }
 	if (!Status) { return Status; }
 	// The engine has submitted already: faults can be reported, but nothing can be refused.
-	FValidationTracker Tracker(*State, ERTQueue::Graphics);
+	FValidationTracker Tracker(*State, ERTQueue::Graphics, Waits, WaitCount);
 	std::vector<IRTCommandList*> Inners;
 	Inners.reserve(Mine.size());
 	{
@@ -118,7 +123,7 @@ FRTStatus FValidatedDevice::NotifyExternalSubmit(IRTCommandList* const* Lists, u
 	}
 	for (const std::string& Message : Tracker.GetMessages()) { State->Report(Message); }
 	FRTFence Fence = 0;
-	Status = State->Inner->NotifyExternalSubmit(Inners.data(), Count, &Fence);
+	Status = State->Inner->NotifyExternalSubmit(Inners.data(), Count, &Fence, Waits, WaitCount);
 	{
 		std::lock_guard Lock(State->Mutex);
 		Tracker.Commit(Fence);

@@ -30,7 +30,8 @@ public:
 	FRTStatus CreateCommandList(const char* Name, IRTCommandList** Out, ERTQueue Queue) override;
 	FRTStatus ImportCommandList(uint64_t NativeCommandBuffer, IRTCommandList** Out) override;
 	FRTStatus Submit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence, const FRTFence* Waits, uint32_t WaitCount) override;
-	FRTStatus NotifyExternalSubmit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence) override;
+	FRTStatus NotifyExternalSubmit(
+	    IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence, const FRTFence* Waits, uint32_t WaitCount) override;
 	FRTFence GetCompletedFence(ERTQueue Queue) override { return State->Inner->GetCompletedFence(Queue); }
 	FRTStatus WaitFor(FRTFence Fence, uint64_t TimeoutNs) override;
 	FRTStatus WaitIdle() override { return State->Inner->WaitIdle(); }
@@ -40,7 +41,7 @@ public:
 	uint64_t GetNative(ERTNative Kind) const override { return State->Inner->GetNative(Kind); }
 
 private:
-	FRTStatus CheckWaits(ERTQueue Queue, const FRTFence* Waits, uint32_t WaitCount);
+	FRTStatus CheckWaits(const char* Call, ERTQueue Queue, const FRTFence* Waits, uint32_t WaitCount);
 	/// Reports what was never released.
 	void OnFinalRelease() override;
 	// These return what is wrong, or nothing if the description is good.

@@ -361,6 +361,7 @@ void FRenderer::FrameSubmitted(FRTFence Fence)
 	PrebindTask.Wait();
 	Graph.reset();
 	Fences[FlightIndex] = Fence;
+	if (Fence != 0) { LastGraph = Fence; }
 	if (Fence != 0) { RayCompiler.FrameSubmitted(GraphResources.GetFrame()); }
 	Uploads.EndFrame(Fence);
 	Context->Scene.EndFrame(Fence != 0, Fence);

@@ -86,27 +86,38 @@ FRTStatus FRenderer::SubmitGraph(FRTFence& OutFence)
 		Next += Submission.ListCount;
 		Done.push_back(Fence);
 	}
-	LastGraph = OutFence = Done.back();
+	OutFence = Done.back();
 	return FRTStatus::Success();
 }
 
-FRTStatus FRenderer::EndFrame(FRTFence* OutFence)
+void FRenderer::StartRecording()
 {
 	Recorded.clear();
 	Submissions.clear();
 	std::fill(std::begin(ListsUsed), std::end(ListsUsed), 0u);
-	const FGraphRecorder Recorder{[this](ERTQueue Queue, IRTCommandList*& Out) { return BeginList(Queue, Out); },
-	    [this] { return GetFailure(); }, Device.GetCapabilities().bAsyncComputeQueue};
-	FRTStatus Status = Execute([&] {
-		const FRTStatus Executed = Graph->Execute(Recorder);
-		Submissions = Graph->GetSubmissions();
-		return Executed;
-	});
+}
+
+/// Ends the lists of this frame. Status: whether they were recorded.
+FRTStatus FRenderer::EndLists(FRTStatus Status)
+{
 	for (IRTCommandList* const List : Recorded)
 	{
 		const FRTStatus Ended = List->End();
 		if (Status) { Status = Ended; }
 	}
+	return Status;
+}
+
+FRTStatus FRenderer::EndFrame(FRTFence* OutFence)
+{
+	StartRecording();
+	const FGraphRecorder Recorder{[this](ERTQueue Queue, IRTCommandList*& Out) { return BeginList(Queue, Out); },
+	    [this] { return GetFailure(); }, Device.GetCapabilities().bAsyncComputeQueue};
+	FRTStatus Status = EndLists(Execute([&] {
+		const FRTStatus Executed = Graph->Execute(Recorder);
+		Submissions = Graph->GetSubmissions();
+		return Executed;
+	}));
 	FRTFence Fence = 0;
 	if (Status) { Status = SubmitGraph(Fence); }
 	FrameSubmitted(Fence);
@@ -120,6 +131,30 @@ FRTStatus FRenderer::EndFrame(IRTCommandList& List)
 		const FRTStatus Status = Graph->Execute(List, &FrameStatus);
 		return Status ? List.GetStatus() : Status; // an engine's list has no End that would say so
 	});
+}
+
+FRTStatus FRenderer::EndFrame(IRTCommandList& List, IRTCommandList* First, FRTFence WaitFor, FRTFence& OutAhead)
+{
+	OutAhead = 0;
+	StartRecording();
+	FGraphRecorder Recorder{
+	    [this](ERTQueue Queue, IRTCommandList*& Out) { return BeginList(Queue, Out); }, [this] { return GetFailure(); }};
+	Recorder.Engine = &List;
+	const ERTQueue Queue = FindAheadQueue(Device);
+	FRTStatus Status = EndLists(Execute([&] {
+		const FRTStatus Executed = Graph->Execute(Recorder);
+		return Executed ? List.GetStatus() : Executed;
+	}));
+	std::vector<IRTCommandList*> Ahead(Recorded);
+	if (First != nullptr) { Ahead.insert(Ahead.begin(), First); }
+	if (!Status || Ahead.empty()) { return Status; }
+	std::vector<FRTFence> Waits;
+	for (const FRTFence Fence : {LastGraph, WaitFor})
+	{
+		if (Fence != 0 && Queue != GetFenceQueue(Fence)) { Waits.push_back(Fence); }
+	}
+	FTraceScope Trace("Submit ahead");
+	return Device.Submit(Ahead.data(), static_cast<uint32_t>(Ahead.size()), &OutAhead, Waits.data(), static_cast<uint32_t>(Waits.size()));
 }
 
 } // namespace Lantern

@@ -305,6 +305,7 @@ FRTStatus RenderFrame(FModulePlay& Play)
 	Frame.ViewIndex = Play.Choose() % 3;
 	Frame.DeltaSeconds = Play.Float("DeltaSeconds", 0.016f);
 	Frame.bCut = Play.Bool(false);
+	Frame.bSubmitAhead = Play.Bool(false);
 	if (Play.Bool(true)) { Frame.Wanted.Add(ESignal::AmbientOcclusion); }
 	FRTModuleOutputs Outputs;
 	return Play.GetRenderer().RenderFrame(Frame, Play.Pointer("Out", &Outputs));

@@ -119,9 +119,9 @@ public:
 	{
 		return Inner->Submit(L, C, O, W, N);
 	}
-	FRTStatus NotifyExternalSubmit(IRTCommandList* const* L, uint32_t C, FRTFence* O) override
+	FRTStatus NotifyExternalSubmit(IRTCommandList* const* L, uint32_t C, FRTFence* O, const FRTFence* W, uint32_t N) override
 	{
-		return Inner->NotifyExternalSubmit(L, C, O);
+		return Inner->NotifyExternalSubmit(L, C, O, W, N);
 	}
 	FRTFence GetCompletedFence(ERTQueue Q = ERTQueue::Graphics) override { return Inner->GetCompletedFence(Q); }
 	FRTStatus WaitFor(FRTFence F, uint64_t T) override { return Inner->WaitFor(F, T); }

@@ -64,7 +64,9 @@ FRTStatus FFrameGraph::FImpl::AddPoison()
 {
 	FPoisonPass Poison(Resources);
 	const FRTStatus Status = Poison.Find(Shared.Poison);
-	if (Status && !Poison.IsEmpty()) { Passes.insert(Passes.begin(), Poison.Make()); }
+	if (!Status || Poison.IsEmpty()) { return Status; }
+	FGraphPass& Pass = *Passes.insert(Passes.begin(), Poison.Make());
+	for (uint32_t Token = 0; Token < TokenCount; ++Token) { Pass.TokensUnused.push_back(Token); }
 	return Status;
 }
 

@@ -142,6 +142,7 @@ struct FGraphPass
 	bool bNeverCull = false;
 	bool bOnTask = false;     ///< see FPassBuilder::RecordOnTask
 	bool bAllowAsync = false; ///< see FPassBuilder::AllowAsync
+	bool bAhead = false;      ///< see FGraphRecorder::Engine
 	ERTQueue Queue = ERTQueue::Graphics;
 	std::vector<uint32_t> TokenWrites, TokensUnused;
 	std::vector<uint32_t> Needs; ///< earlier passes of another queue that must have finished
@@ -177,6 +178,8 @@ struct FFrameGraph::FImpl
 		uint32_t Entered = NoPass; ///< the pass that brought it there
 	};
 	void AssignQueues();
+	/// Moves the passes that run ahead of an engine's list to the front.
+	void ChooseAhead();
 	bool IsOnOtherQueue(uint32_t Pass, uint32_t Than) const { return Passes[Pass].Queue != Passes[Than].Queue; }
 	/// Pass enters another state: it needs all users of the old one. Returns whether one of them was on another queue, or perhaps
 	/// an earlier graph.
@@ -211,6 +214,8 @@ struct FFrameGraph::FImpl
 	std::vector<FGraphSubmission> Submissions;
 	uint32_t TokenCount = 0;
 	bool bAsync = false;                                ///< passes may run on another queue
+	bool bAhead = false;                                ///< see FGraphRecorder::Engine
+	uint32_t AheadCount = 0;                            ///< the first passes, which run ahead of the engine's list
 	bool bAnyAsync = false;                             ///< some do
 	std::unordered_map<const void*, uint32_t> Imported; ///< native object to resource
 	/// Access of every pooled resource after the passes compiled so far.

@@ -14,6 +14,11 @@ TRTConsoleVariable<std::string> CVarAsync("r.RT.Async", "",
     "Passes that run on the device's compute queue beside the others, by name, with commas between. *: all that can. Empty: none. "
     "A device without such a queue runs all on one.");
 
+bool HasToken(const std::vector<uint32_t>& Tokens, uint32_t Token)
+{
+	return std::find(Tokens.begin(), Tokens.end(), Token) != Tokens.end();
+}
+
 bool IsNamed(const std::string& List, const std::string& Name)
 {
 	for (size_t Begin = 0; Begin < List.size();)
@@ -25,10 +30,51 @@ bool IsNamed(const std::string& List, const std::string& Name)
 	}
 	return false;
 }
+/// Whether the later pass must stay behind the earlier one.
+bool AreOrderedByTokens(const FGraphPass& Earlier, const FGraphPass& Later)
+{
+	const auto Touches = [](const FGraphPass& Pass, uint32_t Token) {
+		return HasToken(Pass.TokenWrites, Token) || !HasToken(Pass.TokensUnused, Token);
+	};
+	const auto WritesUsed = [&](const FGraphPass& Writer, const FGraphPass& User) {
+		return std::any_of(Writer.TokenWrites.begin(), Writer.TokenWrites.end(), [&](uint32_t Token) { return Touches(User, Token); });
+	};
+	return WritesUsed(Earlier, Later) || WritesUsed(Later, Earlier);
+}
 } // namespace
+
+ERTQueue FindAheadQueue(const IRTDevice& Device)
+{
+	const bool bAsync = Device.GetCapabilities().bAsyncComputeQueue && !CVarAsync.GetOnRenderThread().empty();
+	return bAsync ? ERTQueue::AsyncCompute : ERTQueue::Graphics;
+}
+
+void FFrameGraph::FImpl::ChooseAhead()
+{
+	const ERTQueue Queue = FindAheadQueue(Shared.Device);
+	const std::string& Wanted = CVarAsync.GetOnRenderThread();
+	std::vector<const FGraphPass*> Behind;
+	for (FGraphPass& Pass : Passes)
+	{
+		if (Pass.bCulled) { continue; }
+		const bool bMay = Pass.bAllowAsync && Pass.Uses.empty() && (Queue == ERTQueue::Graphics || IsNamed(Wanted, Pass.Name));
+		Pass.bAhead =
+		    bMay && std::none_of(Behind.begin(), Behind.end(), [&](const FGraphPass* Other) { return AreOrderedByTokens(*Other, Pass); });
+		if (!Pass.bAhead)
+		{
+			Behind.push_back(&Pass);
+			continue;
+		}
+		Pass.Queue = Queue;
+		bAnyAsync |= Queue != ERTQueue::Graphics;
+		++AheadCount;
+	}
+	std::stable_partition(Passes.begin(), Passes.end(), [](const FGraphPass& Pass) { return Pass.bAhead; });
+}
 
 void FFrameGraph::FImpl::AssignQueues()
 {
+	if (bAhead) { return ChooseAhead(); }
 	const std::string& Wanted = CVarAsync.GetOnRenderThread();
 	if (!bAsync || Wanted.empty()) { return; }
 	for (FGraphPass& Pass : Passes)
@@ -63,17 +109,14 @@ void FFrameGraph::FImpl::UseState(FStateUsers& Users, uint32_t Pass)
 void FFrameGraph::FImpl::OrderTokens()
 {
 	if (!bAnyAsync) { return; }
-	const auto Has = [](const std::vector<uint32_t>& Tokens, uint32_t Token) {
-		return std::find(Tokens.begin(), Tokens.end(), Token) != Tokens.end();
-	};
 	for (uint32_t Token = 0; Token < TokenCount; ++Token)
 	{
 		FStateUsers Users;
 		for (uint32_t Index = 0; Index < Passes.size(); ++Index)
 		{
 			const FGraphPass& Pass = Passes[Index];
-			const bool bWrites = Has(Pass.TokenWrites, Token);
-			if (Pass.bCulled || (!bWrites && Has(Pass.TokensUnused, Token))) { continue; }
+			const bool bWrites = HasToken(Pass.TokenWrites, Token);
+			if (Pass.bCulled || (!bWrites && HasToken(Pass.TokensUnused, Token))) { continue; }
 			if (bWrites) { (void)EnterState(Users, Index); }
 			UseState(Users, Index);
 		}
@@ -94,10 +137,11 @@ std::vector<FFrameGraph::FImpl::FSegment> FFrameGraph::FImpl::MakeSegments(bool 
 	for (uint32_t Index = 0; Index < Passes.size(); ++Index)
 	{
 		const FGraphPass& Pass = Passes[Index];
+		if (Index == AheadCount) { Open.fill(NoPass); }
 		if (Pass.bCulled) { continue; }
 		uint32_t& Mine = Open[static_cast<size_t>(Pass.Queue)];
-		// A submission waits before it begins, and is waited for when it ends.
-		if (Mine == NoPass || !Pass.Needs.empty()) { Begin(Pass.Queue); }
+		// A submission waits before it begins, and is waited for when it ends. An engine's list is one submission.
+		if (Mine == NoPass || (!Pass.Needs.empty() && !bAhead)) { Begin(Pass.Queue); }
 		for (const uint32_t Need : Pass.Needs)
 		{
 			const uint32_t Other = SubmissionOf[Need];
@@ -107,7 +151,7 @@ std::vector<FFrameGraph::FImpl::FSegment> FFrameGraph::FImpl::MakeSegments(bool 
 			if (std::find(Waits.begin(), Waits.end(), Other) == Waits.end()) { Waits.push_back(Other); }
 		}
 		SubmissionOf[Index] = Mine;
-		const bool bOnTask = bTasks && Pass.bOnTask;
+		const bool bOnTask = bTasks && Pass.bOnTask && (!bAhead || Pass.bAhead); // an engine's list is one
 		std::vector<FSegment>& Lists = Segments[Mine];
 		if (Lists.empty() || bOnTask || Lists.back().bOnTask) { Lists.push_back({nullptr, {}, bOnTask}); }
 		Lists.back().Passes.push_back(Index);
@@ -118,7 +162,9 @@ std::vector<FFrameGraph::FImpl::FSegment> FFrameGraph::FImpl::MakeSegments(bool 
 	{
 		if (Submissions[Index].Queue != ERTQueue::Graphics) { LastAsync = Index; }
 	}
-	const bool bGraphicsLast = !Submissions.empty() && Submissions.back().Queue == ERTQueue::Graphics;
+	const bool bNothingBehind =
+	    bAhead && std::all_of(Passes.begin() + AheadCount, Passes.end(), [](const FGraphPass& Pass) { return Pass.bCulled; });
+	const bool bGraphicsLast = !Submissions.empty() && Submissions.back().Queue == ERTQueue::Graphics && !bNothingBehind;
 	const bool bWaits = bGraphicsLast && std::count(Submissions.back().Waits.begin(), Submissions.back().Waits.end(), LastAsync) > 0;
 	if (!bGraphicsLast || (LastAsync != NoPass && !bWaits)) { Begin(ERTQueue::Graphics); }
 	if (LastAsync != NoPass && !bWaits) { Submissions.back().Waits.push_back(LastAsync); }

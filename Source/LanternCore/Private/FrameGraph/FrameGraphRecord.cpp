@@ -13,9 +13,9 @@ namespace Lantern
 
 namespace
 {
-TRTConsoleVariable<bool> CVarTasks("r.RT.FrameGraph.Tasks", false,
+TRTConsoleVariable<bool> CVarTasks("r.RT.FrameGraph.Tasks", true,
     "Tasks beside the render thread record refits, copies, skinning and the sample engine's raster, into command lists of their own. "
-    "Off: the render thread records all. An engine that hands over a command list gets all in that list, by one thread.");
+    "Off: the render thread records all. An engine's command list is always one thread's; see FRTModuleFrame::bSubmitAhead.");
 
 class FContext final : public FPassContext
 {
@@ -66,6 +66,7 @@ FRTStatus FFrameGraph::Execute(const FGraphRecorder& Recorder)
 {
 	assert(!Impl->bExecuted && "a graph is executed once");
 	Impl->bAsync = Recorder.bAsync;
+	Impl->bAhead = Recorder.Engine != nullptr;
 	if (FRTStatus Status = Compile(); !Status) { return Status; }
 	std::vector<FImpl::FSegment> Segments = Impl->MakeSegments(CVarTasks.GetOnRenderThread());
 	auto Segment = Segments.begin();
@@ -73,7 +74,8 @@ FRTStatus FFrameGraph::Execute(const FGraphRecorder& Recorder)
 	{
 		for (uint32_t List = 0; List < Submission.ListCount; ++List, ++Segment)
 		{
-			if (FRTStatus Status = Recorder.NextList(Submission.Queue, Segment->List); !Status) { return Status; }
+			if (Recorder.Engine != nullptr && &Submission == &Impl->Submissions.back()) { Segment->List = Recorder.Engine; }
+			else if (FRTStatus Status = Recorder.NextList(Submission.Queue, Segment->List); !Status) { return Status; }
 		}
 	}
 	return Impl->Record(

@@ -168,6 +168,13 @@ struct FRTModuleFrame
 	/// signal also needs its console variable to be on (r.RT.Shadow, r.RT.AO, …). If FSignalInfo::bNeedsSurface says so, it
 	/// needs BaseColor and Material.
 	FSignalSet Wanted = {ESignal::SunShadow};
+	/// RenderFrame submits the scene's own work (copies, skinning, acceleration structures, records) by itself before it returns.
+	/// Tasks record it. Commands gets the passes over pixels alone, and is submitted later than that. The work runs on the device's
+	/// compute queue, beside the engine's G-buffer, if r.RT.Async names passes of it and there is such a queue: then
+	/// FRTModuleOutputs::Wait is to be waited for. Else it runs on the device's queue, through LockQueue.
+	/// Vertices that the engine's GPU writes (IRTModuleRenderer::GetMeshBuffer) must be submitted before RenderFrame.
+	/// If false, all goes into Commands, recorded by one thread.
+	bool bSubmitAhead = false;
 	/// Time since the previous frame, seconds, finite, > 0. Accumulation lasts for a time in seconds, at any frame rate.
 	float DeltaSeconds = 1.0f / 60.0f;
 	/// The previous frame's view as this frame's world has it, for an engine whose world got another origin. Null: as RenderFrame was
@@ -176,6 +183,13 @@ struct FRTModuleFrame
 	/// Discards the view's history (a camera cut, another world). A change of size does not.
 	bool bCut = false;
 	uint32_t Seed = 0; ///< equal seed, frame number and scene give equal images
+};
+
+/// What the engine's submission of FRTModuleFrame::Commands waits for, before all of its commands.
+struct FRTModuleWait
+{
+	uint64_t Semaphore = 0; ///< ERTNative::ComputeTimeline; 0: there is nothing to wait for
+	uint64_t Value = 0;     ///< of that semaphore
 };
 
 /// Outputs of a frame. The renderer owns the textures; they are valid until its next RenderFrame. They are in ShaderRead. The
@@ -190,6 +204,7 @@ struct FRTModuleOutputs
 	/// Textures by ESignal, which says what each holds. SignalInfos has their formats.
 	IRTTexture* Signals[MaxSignals] = {};
 	IRTTexture* Get(ESignal Signal) const { return Signals[ToIndex(Signal)]; }
+	FRTModuleWait Wait; ///< see FRTModuleFrame::bSubmitAhead
 	/// Whether all shaders of the frame are compiled. They compile in the background; RenderFrame never waits for them
 	/// (IRTModuleRenderer::Precache does, at load). An output is null until its first shaders are ready, and is not filtered
 	/// until those of its filter are. Objects whose own shaders are missing then have the shadow of a stand-in, or none

@@ -37,6 +37,7 @@ enum class ERTNative : uint8_t
 	AccelerationStructure,
 	DescriptorSet,
 	PipelineLayout,
+	ComputeTimeline, ///< semaphore that counts the fences of ERTQueue::AsyncCompute (Vulkan: a timeline VkSemaphore)
 };
 
 class IRTBuffer : public IRTRefCounted
@@ -266,7 +267,9 @@ public:
 	    IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence, const FRTFence* Waits = nullptr, uint32_t WaitCount = 0) = 0;
 	/// Call it after the engine has submitted imported lists on the device's queue. OutFence: the fence of that work. An error of
 	/// a list's GetStatus is returned, too; the fence is written all the same, because the list runs.
-	virtual FRTStatus NotifyExternalSubmit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence) = 0;
+	/// Waits: fences of other queues that the engine's submission has waited for.
+	virtual FRTStatus NotifyExternalSubmit(
+	    IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence, const FRTFence* Waits = nullptr, uint32_t WaitCount = 0) = 0;
 	virtual FRTFence GetCompletedFence(ERTQueue Queue = ERTQueue::Graphics) = 0;
 	/// Returns Timeout if the fence is not complete after TimeoutNs.
 	virtual FRTStatus WaitFor(FRTFence Fence, uint64_t TimeoutNs) = 0;

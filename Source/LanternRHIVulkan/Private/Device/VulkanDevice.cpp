@@ -170,23 +170,30 @@ FRTStatus FVulkanDevice::SubmitLists(
 	return Recording;
 }
 
-FRTStatus FVulkanDevice::Submit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence, const FRTFence* Waits, uint32_t WaitCount)
+std::vector<VkSemaphoreSubmitInfo> FVulkanDevice::MakeWaits(const FRTFence* Waits, uint32_t WaitCount) const
 {
 	std::vector<VkSemaphoreSubmitInfo> Semaphores;
 	for (uint32_t Index = 0; Index < WaitCount; ++Index)
 	{
 		if (Waits[Index] == 0) { continue; }
 		VkSemaphoreSubmitInfo& Wait = Semaphores.emplace_back(VkSemaphoreSubmitInfo{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO});
-		Wait.semaphore = GetQueue(GetFenceQueue(Waits[Index])).Timeline;
+		Wait.semaphore = Queues[static_cast<size_t>(GetFenceQueue(Waits[Index]))].Timeline;
 		Wait.value = GetFenceValue(Waits[Index]);
 		Wait.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
 	}
-	return SubmitLists(Lists, Count, false, OutFence, Semaphores);
+	return Semaphores;
 }
 
-FRTStatus FVulkanDevice::NotifyExternalSubmit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence)
+FRTStatus FVulkanDevice::Submit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence, const FRTFence* Waits, uint32_t WaitCount)
 {
-	return SubmitLists(Lists, Count, true, OutFence, {});
+	return SubmitLists(Lists, Count, false, OutFence, MakeWaits(Waits, WaitCount));
+}
+
+FRTStatus FVulkanDevice::NotifyExternalSubmit(
+    IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence, const FRTFence* Waits, uint32_t WaitCount)
+{
+	// The fence's own batch waits, too: it stands for all of the frame, even if the engine has forgotten to.
+	return SubmitLists(Lists, Count, true, OutFence, MakeWaits(Waits, WaitCount));
 }
 
 uint64_t FVulkanDevice::Poll(FVulkanQueue& Queue)
@@ -291,6 +298,7 @@ uint64_t FVulkanDevice::GetNative(ERTNative Kind) const
 	case ERTNative::QueueFamily: return Queues[0].Family;
 	case ERTNative::DescriptorSet: return ToNative(Bindless.Set);
 	case ERTNative::PipelineLayout: return ToNative(Bindless.PipelineLayout);
+	case ERTNative::ComputeTimeline: return ToNative(Queues[static_cast<size_t>(ERTQueue::AsyncCompute)].Timeline);
 	default: return 0;
 	}
 }

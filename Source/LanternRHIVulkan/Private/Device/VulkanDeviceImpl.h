@@ -80,7 +80,8 @@ public:
 	FRTStatus CreateCommandList(const char* Name, IRTCommandList** Out, ERTQueue Queue) override;
 	FRTStatus ImportCommandList(uint64_t NativeCommandBuffer, IRTCommandList** Out) override;
 	FRTStatus Submit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence, const FRTFence* Waits, uint32_t WaitCount) override;
-	FRTStatus NotifyExternalSubmit(IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence) override;
+	FRTStatus NotifyExternalSubmit(
+	    IRTCommandList* const* Lists, uint32_t Count, FRTFence* OutFence, const FRTFence* Waits, uint32_t WaitCount) override;
 	FRTFence GetCompletedFence(ERTQueue Queue) override;
 	FRTStatus WaitFor(FRTFence Fence, uint64_t TimeoutNs) override;
 	FRTStatus WaitIdle() override;
@@ -132,6 +133,7 @@ private:
 	uint64_t Poll(FVulkanQueue& Queue);
 	/// The submissions up to this number have finished, on whichever queue.
 	uint64_t PollAll();
+	std::vector<VkSemaphoreSubmitInfo> MakeWaits(const FRTFence* Waits, uint32_t WaitCount) const;
 	FRTStatus SubmitLists(
 	    IRTCommandList* const* Lists, uint32_t Count, bool bExternal, FRTFence* OutFence, const std::vector<VkSemaphoreSubmitInfo>& Waits);
 	void CollectUpTo(uint64_t Done);

@@ -92,6 +92,7 @@ void AddPass(FFrameContext& Context, const FHostSurface& Host, IRTPipeline* Pipe
 		{
 			if (Texture.IsValid()) { Builder.WriteIfRead(Texture, ERTAccess::StorageWrite); }
 		}
+		Frame->Tokens.LeaveAlone(Builder);
 		return [=](FPassContext& Pass) {
 			FHostSurfaceConstants C = MakeConstants(Host);
 			C.Pass = Frame->Pass;

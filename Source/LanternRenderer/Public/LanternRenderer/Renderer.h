@@ -120,6 +120,11 @@ struct FSceneTokens
 	FGraphToken Vertices;   ///< of deformed geometry
 	FGraphToken Structures; ///< acceleration structures
 	FGraphToken Records;    ///< of the shader table
+	/// Says that the pass reads nothing of the scene.
+	void LeaveAlone(FPassBuilder& Builder) const
+	{
+		for (const FGraphToken Token : {Tables, Vertices, Structures, Records}) { Builder.Without(Token); }
+	}
 };
 
 /// The frame as passes see it.
@@ -188,6 +193,10 @@ public:
 	/// Records the frame into the engine's command list. The engine submits it and then calls FrameSubmitted with its fence.
 	/// Objects that move in between count as moved before the frame: their motion vectors do not say so.
 	FRTStatus EndFrame(IRTCommandList& List);
+	/// Records the scene's own work into lists of its own and submits them at once, ahead of the engine's list, which gets the rest.
+	/// First: an ended list of the queue that FindAheadQueue returns, which runs before them, or null. WaitFor: a fence that they wait
+	/// for if they run on another queue, or 0. OutAhead: their fence; 0: nothing was submitted.
+	FRTStatus EndFrame(IRTCommandList& List, IRTCommandList* First, FRTFence WaitFor, FRTFence& OutAhead);
 	/// Ends a frame that an engine submits. Fence 0: it never will be submitted, because EndFrame failed, or because the engine
 	/// drops its list or gives the frame up before EndFrame.
 	void FrameSubmitted(FRTFence Fence);
@@ -240,6 +249,8 @@ private:
 	FRTStatus WaitForFlight();
 	FRTStatus BeginList(ERTQueue Queue, IRTCommandList*& Out);
 	FRTStatus SubmitGraph(FRTFence& OutFence);
+	void StartRecording();
+	FRTStatus EndLists(FRTStatus Status);
 	void Fail(const FRTStatus& Error);
 	FRTStatus GetFailure();
 	/// Run: executes the graph.

@@ -168,7 +168,15 @@ struct FGraphRecorder
 	/// Returns the first error that a pass met; later passes are then not recorded. From any thread; may be empty.
 	std::function<FRTStatus()> GetFailure;
 	bool bAsync = false; ///< lists of ERTQueue::AsyncCompute may be asked for
+	/// An engine's list, begun, of ERTQueue::Graphics. It becomes the last submission by itself. One submission may lie ahead of it,
+	/// on the queue that FindAheadQueue returns. It has the passes that allow AllowAsync, use no texture and no buffer of the graph,
+	/// and share no token with earlier passes behind it. Null: all lists come from NextList.
+	IRTCommandList* Engine = nullptr;
 };
+
+/// Returns the queue of what an engine's frame submits ahead of the engine's list: that for compute beside the frame if the device
+/// has it and r.RT.Async names passes, else graphics. Render thread.
+ERTQueue FindAheadQueue(const IRTDevice& Device);
 
 /// Lists of one queue that are submitted together.
 struct FGraphSubmission
