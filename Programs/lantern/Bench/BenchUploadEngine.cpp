@@ -6,6 +6,7 @@
 #include <dlfcn.h>
 
 #include "Bench/BenchTimes.h"
+#include "LanternRHIMock/MockDevice.h"
 #include "Session.h"
 
 namespace Lantern
@@ -23,6 +24,7 @@ FRTStatus Fail(const std::string& Reason) { return FRTStatus::Error(ERTResult::I
 FBenchUploadEngine::~FBenchUploadEngine()
 {
 	if (Device) { (void)Device->WaitIdle(); }
+	if (Device && bMock) { GetMock(Device.Get()).SetManualFences(false); }
 	for (FSlot& Slot : Slots) { Slot.List.Reset(); }
 	Depth.Reset();
 	Normals.Reset();
@@ -71,7 +73,11 @@ FRTStatus FBenchUploadEngine::Open(IRTDevice* Mock, bool bValidate, const std::v
 {
 	bMock = Mock != nullptr;
 	FRTStatus Status = Load(Settings);
-	if (Status && bMock) { Device = TRTRef<IRTDevice>(Mock); }
+	if (Status && bMock)
+	{
+		Device = TRTRef<IRTDevice>(Mock);
+		GetMock(Mock).SetManualFences(true); // submissions hand over, as with a GPU, and do not execute within the measured time
+	}
 	else if (Status) { Status = Module->CreateDevice(bValidate, Device.ReleaseAndGetAddress()); }
 	if (Status) { Status = MakeTextures(); }
 	return Status ? Module->CreateRenderer(Device.Get(), {}, Renderer.ReleaseAndGetAddress()) : Status;
@@ -94,6 +100,8 @@ FRTStatus FBenchUploadEngine::FillTextures(IRTCommandList& List)
 
 FRTStatus FBenchUploadEngine::BeginList(FSlot& Slot)
 {
+	// All but the last frame, as the renderer wants it.
+	if (bMock) { GetMock(Device.Get()).CompleteUpTo(Slots[(FrameIndex + 1) % FramesInFlight].Fence); }
 	FRTStatus Status = Device->WaitFor(Slot.Fence, WaitNs);
 	if (Status && !Slot.List) { Status = Device->CreateCommandList("Engine", Slot.List.ReleaseAndGetAddress()); }
 	Status = Status ? Slot.List->Begin() : Status;

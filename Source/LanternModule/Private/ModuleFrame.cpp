@@ -5,6 +5,7 @@
 #include "ArgumentChecks.h"
 #include "FrameChecks.h"
 #include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternCore/Tasks/TaskTrace.h"
 #include "ModuleRenderer.h"
 
 namespace Lantern
@@ -209,6 +210,14 @@ FRTStatus FModuleRenderer::Precache(const FRTModuleFrame& Frame, FRTModuleProgre
 	return On->Renderer.Precache(On->Scene, Features, Progress != nullptr ? std::function<void(float)>(Report) : nullptr);
 }
 
+/// Changes the scene as the engine's calls since the last frame say.
+void FModuleRenderer::TakeOver()
+{
+	FTraceScope Trace("Take over calls");
+	bArrivalsLeft = Calls.Take(FRTScene::GetMostArrivals(), Commands);
+	On->State.Apply(Commands);
+}
+
 FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame, const FFrameViews& Views, FRTFence& OutAhead)
 {
 	if (Frame.bSubmitAhead) { return RecordAhead(Frame, Views, OutAhead); }
@@ -264,8 +273,7 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 	}
 	ReleaseOutputs();
 	FConsoleVariables::Get().BeginFrame(); // what is taken over follows them, too
-	bArrivalsLeft = Calls.Take(FRTScene::GetMostArrivals(), Commands);
-	On->State.Apply(Commands);
+	TakeOver();
 	Ahead = 0;
 	const FRTStatus Status = Watch(RecordFrame(Frame, Views, Ahead));
 	if (!Status)
@@ -290,6 +298,7 @@ FRTStatus FModuleRenderer::EndFrame(FRTFence* OutFence)
 	if (!Recorded) { return FRTStatus::Error(ERTResult::InvalidArgument, "EndFrame: RenderFrame recorded nothing"); }
 	IRTCommandList* List = Recorded.Get();
 	FRTFence Fence = 0;
+	FTraceScope Trace("EndFrame");
 	const FRTStatus Status = Watch(On->Device->NotifyExternalSubmit(&List, 1, &Fence, &Ahead, Ahead != 0 ? 1 : 0));
 	On->Renderer.FrameSubmitted(Fence);
 	On->State.EndFrame(Fence);

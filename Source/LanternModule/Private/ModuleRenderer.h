@@ -92,6 +92,7 @@ private:
 	FRTStatus RecordAhead(const FRTModuleFrame& Frame, const FFrameViews& Views, FRTFence& OutAhead);
 	FRTStatus AddPasses(const FRTModuleFrame& Frame, const FFrameViews& Views);
 	FRTModuleWait MakeWait() const;
+	void TakeOver();
 	void HandToEngine(const FFrameOutputs& Made);
 	void ReleaseOutputs();
 

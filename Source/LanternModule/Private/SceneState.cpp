@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "LanternCore/Tasks/TaskTrace.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
 
@@ -13,8 +14,7 @@ namespace Lantern
 namespace
 {
 /// Slots come in order, and each is used again when it is free.
-template <class T>
-T& GetSlot(std::vector<T>& Values, uint32_t Slot)
+auto& GetSlot(auto& Values, uint32_t Slot)
 {
 	if (Slot >= Values.size()) { Values.resize(Slot + 1); }
 	return Values[Slot];
@@ -192,6 +192,7 @@ FRTStatus FSceneState::RecordVertices(IRTCommandList& List)
 
 FRTStatus FSceneState::Record(IRTCommandList& List)
 {
+	FTraceScope Trace("Record arrivals");
 	VisitedMeshes = 0;
 	Filled.clear();
 	if (FRTStatus Status = Uploads.Record(List, Filled); !Status) { return Status; }

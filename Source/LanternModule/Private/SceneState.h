@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -66,8 +67,8 @@ private:
 	FBufferUploads& Uploads;
 	FFrameUploads VertexUploads;
 	// By slot.
-	std::vector<uint32_t> Materials; ///< index in the scene
-	std::vector<FMesh> Meshes;
+	std::vector<uint32_t> Materials;  ///< index in the scene
+	std::deque<FMesh> Meshes;         ///< which grows without moving what is there
 	std::vector<FRTObjectId> Objects; ///< invalid: its mesh has no geometry
 	std::vector<std::optional<FSceneLight>> Lights;
 	bool bLightsChanged = false;

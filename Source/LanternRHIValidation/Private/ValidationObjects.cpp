@@ -73,13 +73,18 @@ bool FValidatedQueryPool::GetResults(uint32_t First, uint32_t Count, uint64_t* O
 	}
 	const bool bThere = Inner->GetResults(First, Count, OutValues);
 	if (!bThere || GetKind() != ERTQuery::CompactedSize) { return bThere; }
-	const FRTFence Completed = State->Inner->GetCompletedFence();
+	FRTFence Completed[QueueCount];
+	for (uint32_t Queue = 0; Queue < QueueCount; ++Queue)
+	{
+		Completed[Queue] = State->Inner->GetCompletedFence(static_cast<ERTQueue>(Queue));
+	}
 	std::lock_guard Lock(State->Mutex);
 	for (uint32_t i = 0; i < Count; ++i)
 	{
 		const FQueryTrack::FQuery& Query = Track->Queries[First + i];
 		// Until the submission that writes it has finished, the pool may still hold the size of another geometry.
-		if (Query.Geometry && Query.Fence <= Completed) { Query.Geometry->CompactedSize = OutValues[i]; }
+		const bool bDone = Query.Fence <= Completed[static_cast<size_t>(GetFenceQueue(Query.Fence))];
+		if (Query.Geometry && bDone) { Query.Geometry->CompactedSize = OutValues[i]; }
 	}
 	return true;
 }

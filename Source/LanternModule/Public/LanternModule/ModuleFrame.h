@@ -170,8 +170,8 @@ struct FRTModuleFrame
 	FSignalSet Wanted = {ESignal::SunShadow};
 	/// RenderFrame submits the scene's own work (copies, skinning, acceleration structures, records) by itself before it returns.
 	/// Tasks record it. Commands gets the passes over pixels alone, and is submitted later than that. The work runs on the device's
-	/// compute queue, beside the engine's G-buffer, if r.RT.Async names passes of it and there is such a queue: then
-	/// FRTModuleOutputs::Wait is to be waited for. Else it runs on the device's queue, through LockQueue.
+	/// compute queue, beside the engine's G-buffer, if there is one and r.RT.Async names passes of it. The engine's submission then
+	/// waits for FRTModuleOutputs::Wait. Else the work runs on the device's queue, through LockQueue.
 	/// Vertices that the engine's GPU writes (IRTModuleRenderer::GetMeshBuffer) must be submitted before RenderFrame.
 	/// If false, all goes into Commands, recorded by one thread.
 	bool bSubmitAhead = false;

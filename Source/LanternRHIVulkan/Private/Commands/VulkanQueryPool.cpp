@@ -60,8 +60,10 @@ bool FVulkanQueryPool::GetResults(uint32_t First, uint32_t InCount, uint64_t* Ou
 {
 	assert(First + InCount <= Count);
 	if (Device.IsLost() || (Kind == ERTQuery::Timestamp && !Device.GetCapabilities().bTimestamps)) { return false; }
-	const FRTFence Completed = WrittenBy.empty() ? 0 : Device.GetCompletedFence(ERTQueue::Graphics);
-	const auto IsWritten = [&](const std::atomic<FRTFence>& Fence) { return Fence.load() <= Completed; };
+	const auto IsWritten = [&](const std::atomic<FRTFence>& Written) {
+		const FRTFence Fence = Written.load();
+		return Fence != NeverWritten && Fence <= Device.GetCompletedFence(GetFenceQueue(Fence));
+	};
 	if (!WrittenBy.empty() && !std::all_of(WrittenBy.begin() + First, WrittenBy.begin() + First + InCount, IsWritten)) { return false; }
 	struct FResult
 	{

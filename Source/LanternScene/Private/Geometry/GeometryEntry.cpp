@@ -9,9 +9,9 @@
 namespace Lantern
 {
 
-void FGeometryEntry::Bind(const std::shared_ptr<FRTGeometry>& NewGeometry, uint32_t Slot)
+void FGeometryEntry::Bind(const std::shared_ptr<FRTGeometry>& NewGeometry, uint32_t NewSlot)
 {
-	NewGeometry->Slot = Slot;
+	NewGeometry->Slot = Slot = NewSlot;
 	Owner = NewGeometry;
 	Geometry = NewGeometry.get();
 }

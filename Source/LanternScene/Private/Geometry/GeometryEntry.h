@@ -53,6 +53,7 @@ struct FGeometryEntry
 	bool bChanged = false;     ///< is in the list of changed slots
 	bool bCompactable = false; ///< the structure allows compaction
 	bool bCoarse = false;      ///< a coarser level takes its place
+	uint32_t Slot = 0;
 	uint32_t Generation = 0;
 	uint32_t Misfits = 0; ///< frames in which only its size kept it from being built
 	uint32_t Waits = 0;   ///< frames in which others waited for it
@@ -69,7 +70,7 @@ struct FGeometryEntry
 	TRTRef<IRTBuffer> Staging; ///< a coarser level's indices, to be copied before the build
 
 	/// Binds a new geometry to this entry.
-	void Bind(const std::shared_ptr<FRTGeometry>& NewGeometry, uint32_t Slot);
+	void Bind(const std::shared_ptr<FRTGeometry>& NewGeometry, uint32_t NewSlot);
 	/// Null drops the structure. The GPU may still use the old one: the device frees it after that.
 	void SetStructure(TRTRef<IRTGeometry> Structure);
 	void SetBuilt(bool bBuilt);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -23,7 +24,7 @@ public:
 	FGeometrySlots(const FGeometrySlots&) = delete;
 	FGeometrySlots& operator=(const FGeometrySlots&) = delete;
 
-	/// Makes a geometry in a slot, a free one first. References to entries end here; slots do not move.
+	/// Makes a geometry in a slot, a free one first. Slots and references to entries stay.
 	FRTGeometryRef Create(FRTGeometryInfo Info);
 	/// Frees the slots of geometries whose last owner has let go since the last call. Returns how many there were.
 	/// OutCoarse: how many of them were coarser levels. Freed: is called with each slot.
@@ -36,7 +37,7 @@ public:
 	FGeometryEntry* Resolve(FGeometrySlotRef Ref);
 	const FGeometryEntry* Resolve(FGeometrySlotRef Ref) const;
 	FGeometrySlotRef MakeRef(const FGeometryEntry& Entry) const;
-	uint32_t GetSlot(const FGeometryEntry& Entry) const { return static_cast<uint32_t>(&Entry - Entries.data()); }
+	static uint32_t GetSlot(const FGeometryEntry& Entry) { return Entry.Slot; }
 	uint32_t GetCount() const { return static_cast<uint32_t>(Entries.size()); }
 	/// Null: the slot is free.
 	const FRTGeometry* GetGeometry(uint32_t Slot) const;
@@ -69,7 +70,7 @@ private:
 
 	std::shared_ptr<FGeometryReleases> Releases;
 	std::vector<FDying> Dying;
-	std::vector<FGeometryEntry> Entries;
+	std::deque<FGeometryEntry> Entries; // grows without moving what is there
 	std::vector<uint64_t>& Addresses;
 	std::vector<uint32_t> FreeSlots, Changed;
 	std::vector<FRTGeometryRef> Held;

@@ -25,9 +25,14 @@ void FObjectPivots::Set(uint32_t Object, const glm::dvec3& Pivot, const glm::dve
 {
 	const double Farthest = MaxNorm(Center - Pivot) + Radius;
 	if (Radius < 0.0 || !(Farthest > LeastReach) || !std::isfinite(Farthest)) { return Remove(Object); }
-	const auto [Found, bNew] = Places.try_emplace(Object, static_cast<uint32_t>(Pivots.size()));
-	if (bNew) { Pivots.emplace_back(); }
-	FPivot& Entry = Pivots[Found->second];
+	if (Object >= Places.size()) { Places.resize(Object + 1, NoPlace); }
+	const bool bNew = Places[Object] == NoPlace;
+	if (bNew)
+	{
+		Places[Object] = static_cast<uint32_t>(Pivots.size());
+		Pivots.emplace_back();
+	}
+	FPivot& Entry = Pivots[Places[Object]];
 	const double Before = bNew ? 0.0 : Measure(Entry);
 	Entry = {Pivot, Center, Radius, Farthest, Object};
 	const double Now = Measure(Entry);
@@ -37,11 +42,9 @@ void FObjectPivots::Set(uint32_t Object, const glm::dvec3& Pivot, const glm::dve
 
 void FObjectPivots::Remove(uint32_t Object)
 {
-	const auto Found = Places.find(Object);
-	if (Found == Places.end()) { return; }
-	const uint32_t Place = Found->second;
+	const uint32_t Place = Object < Places.size() ? std::exchange(Places[Object], NoPlace) : NoPlace;
+	if (Place == NoPlace) { return; }
 	bStale |= Measure(Pivots[Place]) >= Reach;
-	Places.erase(Found);
 	if (Place + 1 < Pivots.size())
 	{
 		Pivots[Place] = Pivots.back();

@@ -78,7 +78,6 @@ void FSceneObjects::FreeSlot(uint32_t Slot)
 	}
 	Table.Truncate(GetSlotCount());
 	Motions.Truncate(GetSlotCount());
-	if (Objects.capacity() / 4 > Objects.size() + 64) { Objects.shrink_to_fit(); }
 }
 
 FSceneObjects::FObject& FSceneObjects::Resolve(FRTObjectId Id)

@@ -135,7 +135,9 @@ void FSectionTable::LinkUses(FSectionRangeId Id)
 {
 	const FSectionRange& Range = Ranges[Id];
 	FRangeLinks& Link = Links[Id];
-	std::vector<FSectionRangeId>& OfGeometry = RangesOfGeometry[Range.Geometry];
+	const uint32_t Slot = Range.Geometry->GetSlot();
+	if (Slot >= RangesOfGeometry.size()) { RangesOfGeometry.resize(Slot + 1); }
+	std::vector<FSectionRangeId>& OfGeometry = RangesOfGeometry[Slot];
 	Link.GeometryPlace = static_cast<uint32_t>(OfGeometry.size());
 	OfGeometry.push_back(Id);
 	Link.MaterialPlaces.resize(Range.Materials.size());
@@ -153,12 +155,11 @@ void FSectionTable::UnlinkUses(FSectionRangeId Id)
 {
 	const FSectionRange& Range = Ranges[Id];
 	const FRangeLinks& Link = Links[Id];
-	const auto OfGeometry = RangesOfGeometry.find(Range.Geometry);
-	const FSectionRangeId Last = OfGeometry->second.back();
-	OfGeometry->second[Link.GeometryPlace] = Last;
+	std::vector<FSectionRangeId>& OfGeometry = RangesOfGeometry[Range.Geometry->GetSlot()];
+	const FSectionRangeId Last = OfGeometry.back();
+	OfGeometry[Link.GeometryPlace] = Last;
 	Links[Last].GeometryPlace = Link.GeometryPlace;
-	OfGeometry->second.pop_back();
-	if (OfGeometry->second.empty()) { RangesOfGeometry.erase(OfGeometry); }
+	OfGeometry.pop_back();
 	for (uint32_t Section = 0; Section < Range.Materials.size(); ++Section)
 	{
 		std::vector<FMaterialUse>& Uses = UsesOfMaterial[Range.Materials[Section]];
@@ -196,9 +197,8 @@ void FSectionTable::MaterialChanged(uint32_t Material)
 
 void FSectionTable::GeometryChanged(const FRTGeometry& Geometry)
 {
-	const auto Found = RangesOfGeometry.find(&Geometry);
-	if (Found == RangesOfGeometry.end()) { return; }
-	for (const FSectionRangeId Id : Found->second)
+	if (Geometry.GetSlot() >= RangesOfGeometry.size()) { return; }
+	for (const FSectionRangeId Id : RangesOfGeometry[Geometry.GetSlot()])
 	{
 		FillRange(Id);
 		MarkRange(Id);

@@ -174,8 +174,8 @@ struct FGraphRecorder
 	IRTCommandList* Engine = nullptr;
 };
 
-/// Returns the queue of what an engine's frame submits ahead of the engine's list: that for compute beside the frame if the device
-/// has it and r.RT.Async names passes, else graphics. Render thread.
+/// Returns the queue of what an engine's frame submits ahead of the engine's list. It is ERTQueue::AsyncCompute if the device has it
+/// and r.RT.Async names passes, else graphics. Render thread.
 ERTQueue FindAheadQueue(const IRTDevice& Device);
 
 /// Lists of one queue that are submitted together.

@@ -8,7 +8,7 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_map>
+#include <deque>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -38,10 +38,11 @@ private:
 		double Farthest = 0.0; // distance of a point of the object from the pivot
 		uint32_t Object = 0;
 	};
+	static constexpr uint32_t NoPlace = ~0u;
 	double Measure(const FPivot& Pivot) const;
 
 	std::vector<FPivot> Pivots;
-	std::unordered_map<uint32_t, uint32_t> Places; // by object
+	std::deque<uint32_t> Places; // in Pivots, by object, or NoPlace
 	glm::dvec3 Origin{0};
 	double Reach = LeastReach;
 	bool bStale = false;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <unordered_map>
 #include <vector>
 
@@ -87,7 +88,7 @@ private:
 
 	FSectionTable& Sections;
 	FEmissiveTriangles& Emissive;
-	std::vector<FObject> Objects;
+	std::deque<FObject> Objects;                        // which grows without moving what is there: 16,384 of them moved take milliseconds
 	std::vector<uint32_t> FreeSlots;                    // a heap, the lowest first, so that the end of the table falls free
 	uint32_t GenerationFloor = 0;                       // of slots that the table never had, or has lost
 	std::vector<FRTGeometryRef> Retired, RetiredBefore; // of objects removed since the last submitted frame, and before it

@@ -5,8 +5,8 @@
 // A range has an entry for each part of its geometry. The first entries are the geometry's sections, in their order.
 #pragma once
 
+#include <deque>
 #include <memory>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -142,7 +142,7 @@ private:
 	std::vector<FSectionRangeId> FreeIds;
 	std::vector<FSectionRangeId> Buckets; // a power of two
 	uint32_t RangeCount = 0, MaskedRangeCount = 0, EmissiveRangeCount = 0;
-	std::unordered_map<const FRTGeometry*, std::vector<FSectionRangeId>> RangesOfGeometry;
+	std::deque<std::vector<FSectionRangeId>> RangesOfGeometry; // by its slot
 	std::vector<std::vector<FMaterialUse>> UsesOfMaterial;
 
 	std::vector<FSectionRangeId> ChangedRanges;
