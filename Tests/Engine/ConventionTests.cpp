@@ -112,6 +112,7 @@ protected:
 		Placed.Mesh = Handle;
 		Placed.Materials = &White;
 		Placed.MaterialCount = 1;
+		Placed.bCastsShadow = bCastsShadow;
 		PlaceInWorld(World, Placed.Transform);
 		ASSERT_FINE(Renderer->AddObject(Placed, &Object));
 		FRTModuleSun Sun;
@@ -148,7 +149,7 @@ protected:
 			const FTriangleTruth::FPlanePoint Point = Truth->MeetPlane(Triangle, Origin, Direction);
 			// The raster's grid has let the pixel show a triangle beside its own.
 			if (!Point.bInside) { continue; }
-			const bool bLit = glm::dot(Point.Normal, ToSun) > 0.0 && !Truth->IsBlocked(Point.Point, ToSun, Triangle);
+			const bool bLit = glm::dot(Point.Normal, ToSun) > 0.0 && !(bCastsShadow && Truth->IsBlocked(Point.Point, ToSun, Triangle));
 			const bool bShownLit = Visibility[Pixel] > 0.5f;
 			++Out.Pixels;
 			Out.Lit += bLit ? 1 : 0;
@@ -207,7 +208,7 @@ protected:
 		}
 	}
 
-	bool bCountsMessages = true;
+	bool bCountsMessages = true, bCastsShadow = true;
 	TRTRef<IRTModule> Module;
 	TRTRef<IRTDevice> Device;
 	TRTRef<IRTModuleRenderer> Renderer;
@@ -321,6 +322,28 @@ TEST_F(FBoxesTest, EveryProjectionAndDepthFormat)
 		EXPECT_LE(Verdict.GetDarkShare(), 0.0005) << Row.Name;
 		// The price of 16 bits: what lies nearer to its blocker than depth can tell is lit.
 		EXPECT_LE(Verdict.GetLitShare(), Row.DepthFormat == D16_UNORM ? 0.1 : 0.01) << Row.Name;
+	}
+}
+
+// No ray of such a surface meets the surface itself, so that only its normal can say that it turns away from the sun.
+TEST_F(FBoxesTest, SurfacesThatCastNoShadowTurnAwayFromTheSun)
+{
+	bCastsShadow = false;
+	ASSERT_NO_FATAL_FAILURE(Open());
+	for (const bool bViewNormals : {false, true})
+	{
+		const FVerdict Verdict = RenderAndJudge({.Name = bViewNormals ? "no shadows, geometric normals from depth" : "no shadows",
+		    .DepthFormat = ERTFormat::D32_FLOAT_S8_UINT,
+		    .bReversed = false,
+		    .Near = 0.1,
+		    .Far = 1024,
+		    .Jitter = {0.3f, -0.2f},
+		    .bViewNormals = bViewNormals});
+		EXPECT_GE(Verdict.Lit, 20000u);
+		EXPECT_GE(Verdict.Pixels - Verdict.Lit, 1000u) << "the test could not fail";
+		EXPECT_LE(Verdict.GetDarkShare(), 0.0005);
+		// A strip that is one pixel wide has no neighbours that confirm its normal, so its rays are traced.
+		EXPECT_LE(Verdict.GetLitShare(), bViewNormals ? 0.01 : 0.0005);
 	}
 }
 

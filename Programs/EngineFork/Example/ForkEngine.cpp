@@ -63,16 +63,16 @@ FError FForkEngine::LoadScene(const FForkScene& Scene)
 {
 	FError Error = Plugin.Create(Module, Instance, Device, *Requirements);
 	if (Error.empty()) { Error = Skin.Create(Device); }
-	if (Error.empty()) { Error = Raster.Create(Device, FrameSize); }
-	if (Error.empty()) { Error = Readback.Create(Device, 2 * MaskBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT); }
+	for (FForkRaster& Raster : Rasters) { Error = Error.empty() ? Raster.Create(Device, FrameSize) : Error; }
+	if (Error.empty()) { Error = Readback.Create(Device, ViewCount * 2 * MaskBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT); }
 	if (Error.empty()) { Error = Plugin.AddScene(Scene); }
-	return Error.empty() ? Plugin.ImportGBuffer(Raster, FrameSize) : Error;
+	for (FForkRaster& Raster : Rasters) { Error = Error.empty() ? Plugin.ImportGBuffer(Raster, FrameSize) : Error; }
+	return Error;
 }
 
-FError FForkEngine::CopyOutputs(const FRTModuleOutputs& Outputs, FFrameMasks& Out) const
+FError FForkEngine::CopyOutputs(const FRTModuleOutputs& Outputs, VkDeviceSize Offset, FFrameMasks& Out) const
 {
 	Out = {};
-	VkDeviceSize Offset = 0;
 	for (const auto& [Mask, Memory] : {std::pair(Outputs.Get(ESignal::SunShadow), &Out.SunShadow),
 	         std::pair(Outputs.Get(ESignal::AmbientOcclusion), &Out.AmbientOcclusion)})
 	{
@@ -97,16 +97,15 @@ FError FForkEngine::SkinReed(const FReed& Reed)
 	return Traced != 0 ? Plugin.MarkReedSkinned() : Error;
 }
 
-FError FForkEngine::RunFrame(const FForkScene& Scene, bool bCut, FFrameMasks& Out)
+FError FForkEngine::RunView(const FForkScene& Scene, size_t View, bool bCut, FFrameMasks& Out)
 {
 	FError Error = Device.BeginCommands();
+	if (Error.empty() && View == 0) { Error = SkinReed(Scene.Reed); }
 	if (!Error.empty()) { return Error; }
-	Error = SkinReed(Scene.Reed);
-	if (!Error.empty()) { return Error; }
-	Raster.Draw(Device.Commands, Scene, Skin);
+	Rasters[View].Draw(Device.Commands, Scene, Scene.Cameras[View], Skin);
 	FRTModuleOutputs Outputs;
-	Error = Plugin.Render(Device.Commands, Scene.Camera, bCut, Outputs);
-	if (Error.empty()) { Error = CopyOutputs(Outputs, Out); }
+	Error = Plugin.Render(Device.Commands, Scene.Cameras[View], static_cast<uint32_t>(View), bCut, Outputs);
+	if (Error.empty()) { Error = CopyOutputs(Outputs, View * 2 * MaskBytes, Out); }
 	if (!Error.empty()) { return Error; }
 	const auto SubmitAndEnd = [this] {
 		const FError Submitted = Device.Submit();
@@ -114,6 +113,13 @@ FError FForkEngine::RunFrame(const FForkScene& Scene, bool bCut, FFrameMasks& Ou
 	};
 	Error = RhiThread.Post(SubmitAndEnd).get();
 	return Error.empty() ? Device.WaitForSubmit() : Error;
+}
+
+FError FForkEngine::RunFrame(const FForkScene& Scene, bool bCut, std::array<FFrameMasks, ViewCount>& Out)
+{
+	FError Error;
+	for (size_t View = 0; Error.empty() && View < ViewCount; ++View) { Error = RunView(Scene, View, bCut, Out[View]); }
+	return Error;
 }
 
 } // namespace Fork

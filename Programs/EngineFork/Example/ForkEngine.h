@@ -5,6 +5,9 @@
 // ForkSkin (skinning), ForkRaster (G-buffer) and ForkScene (boxes, camera). The code in Judge/ checks the pictures and is no part of the example.
 #pragma once
 
+#include <array>
+#include <tuple>
+
 #include "Example/ForkThread.h"
 #include "Example/PluginScene.h"
 
@@ -14,7 +17,9 @@ namespace Fork
 inline constexpr VkExtent2D FrameSize{320, 180};
 inline constexpr uint32_t PixelCount = FrameSize.width * FrameSize.height;
 
-/// Outputs of a frame as the CPU reads them: PixelCount halves each, rows from the top. They are valid until the next frame.
+inline constexpr size_t ViewCount = std::tuple_size_v<decltype(FForkScene::Cameras)>;
+
+/// Outputs of a view as the CPU reads them: PixelCount halves each, rows from the top. They are valid until the next frame.
 struct FFrameMasks
 {
 	const uint16_t* SunShadow = nullptr;
@@ -32,15 +37,16 @@ public:
 	FError CreateDevice();
 	/// Creates the plugin's renderer, the G-buffer and the objects of Scene.
 	FError LoadScene(const FForkScene& Scene);
-	/// Draws the G-buffer and lets the plugin add its signals, on the calling thread: the render thread. The engine's thread for its
-	/// RHI submits. Returns when the GPU is done. Masks of Out are null if the plugin gave none.
-	FError RunFrame(const FForkScene& Scene, bool bCut, FFrameMasks& Out);
+	/// Draws each view's G-buffer and lets the plugin add its signals, on the calling thread: the render thread. The engine's thread
+	/// for its RHI submits. Returns when the GPU is done. Masks of Out are null if the plugin gave none.
+	FError RunFrame(const FForkScene& Scene, bool bCut, std::array<FFrameMasks, ViewCount>& Out);
 	/// Tells the plugin what changes in the scene, from any thread: the game's.
 	FPluginScene& GetPlugin() { return Plugin; }
 
 private:
 	FError SkinReed(const FReed& Reed);
-	FError CopyOutputs(const Lantern::FRTModuleOutputs& Outputs, FFrameMasks& Out) const;
+	FError RunView(const FForkScene& Scene, size_t View, bool bCut, FFrameMasks& Out);
+	FError CopyOutputs(const Lantern::FRTModuleOutputs& Outputs, VkDeviceSize Offset, FFrameMasks& Out) const;
 
 	Lantern::IRTModule& Module;
 	const FForkInstance& Instance;
@@ -48,8 +54,8 @@ private:
 	Lantern::TRTRef<Lantern::IRTVulkanRequirements> Requirements;
 	FPluginScene Plugin;
 	FForkSkin Skin;
-	FForkRaster Raster;
-	FForkBuffer Readback; // both masks
+	std::array<FForkRaster, ViewCount> Rasters;
+	FForkBuffer Readback; // both masks of each view
 	FForkThread RhiThread;
 };
 

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstring>
 
+#include <glm/gtc/quaternion.hpp>
+
 #include "ForkFragmentShader.h"
 #include "ForkVertexShader.h"
 
@@ -16,10 +18,24 @@ namespace
 
 struct FPush
 {
-	glm::mat4 RelativeToClip;
+	glm::mat4 ViewToClip;
+	glm::vec4 WorldToView; ///< quaternion
 	glm::vec4 Offset, Scale;
 };
-static_assert(sizeof(FPush) == 96, "Fork.vert");
+static_assert(sizeof(FPush) == 112, "Fork.vert");
+
+/// Jitter moves the whole picture, so it is added to clip space.
+FPush MakePush(const FCamera& Camera, VkExtent2D Size)
+{
+	FPush Push{};
+	glm::mat4 Jitter(1.0f);
+	Jitter[3][0] = static_cast<float>(2.0 * Camera.Jitter.x / Size.width);
+	Jitter[3][1] = static_cast<float>(2.0 * Camera.Jitter.y / Size.height);
+	Push.ViewToClip = Jitter * GetViewToClip(Camera, double(Size.width) / Size.height);
+	const glm::dquat Rotation = glm::quat_cast(GetWorldToView(Camera));
+	Push.WorldToView = glm::vec4(Rotation.x, Rotation.y, Rotation.z, Rotation.w);
+	return Push;
+}
 
 VkShaderModule CreateShader(VkDevice Device, const uint32_t* Words, size_t Bytes)
 {
@@ -54,7 +70,8 @@ FError FForkRaster::Create(const FForkDevice& InOwner, VkExtent2D InSize)
 	Device = InOwner.Device;
 	Size = InSize;
 	constexpr VkImageUsageFlags Usage = VK_IMAGE_USAGE_SAMPLED_BIT;
-	FError Error = Depth.Create(InOwner, Size, DepthFormat, Usage | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_ASPECT_DEPTH_BIT);
+	FError Error = Depth.Create(InOwner, Size, DepthFormat, Usage | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+	    VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT);
 	if (Error.empty())
 	{
 		Error = Normals.Create(InOwner, Size, NormalsFormat, Usage | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
@@ -97,7 +114,7 @@ FError FForkRaster::CreatePipeline()
 	Multisample.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
 	VkPipelineDepthStencilStateCreateInfo DepthState{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
 	DepthState.depthTestEnable = DepthState.depthWriteEnable = VK_TRUE;
-	DepthState.depthCompareOp = VK_COMPARE_OP_GREATER;
+	DepthState.depthCompareOp = VK_COMPARE_OP_LESS;
 	VkPipelineColorBlendAttachmentState Target{};
 	Target.colorWriteMask = 0xf;
 	VkPipelineColorBlendStateCreateInfo Blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
@@ -124,9 +141,10 @@ FError FForkRaster::CreatePipeline()
 	return Result == VK_SUCCESS ? FError() : "vkCreateGraphicsPipelines failed with " + std::to_string(Result);
 }
 
-void FForkRaster::Draw(VkCommandBuffer Commands, const FForkScene& Scene, const FForkSkin& Skin) const
+void FForkRaster::Draw(VkCommandBuffer Commands, const FForkScene& Scene, const FCamera& Camera, const FForkSkin& Skin) const
 {
-	Transition(Commands, Depth.Image, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+	constexpr VkImageAspectFlags Both = VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
+	Transition(Commands, Depth.Image, Both, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
 	Transition(Commands, Normals.Image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
 
 	VkRenderingAttachmentInfo Color{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
@@ -136,8 +154,9 @@ void FForkRaster::Draw(VkCommandBuffer Commands, const FForkScene& Scene, const 
 	Color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
 	VkRenderingAttachmentInfo DepthTarget{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
 	DepthTarget.imageView = Depth.View;
-	DepthTarget.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
-	DepthTarget.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR; // to 0, the far end
+	DepthTarget.imageLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+	DepthTarget.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+	DepthTarget.clearValue.depthStencil = {1.0f, 0}; // the far plane
 	DepthTarget.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
 	VkRenderingInfo Info{VK_STRUCTURE_TYPE_RENDERING_INFO};
 	Info.renderArea = {{0, 0}, Size};
@@ -146,41 +165,38 @@ void FForkRaster::Draw(VkCommandBuffer Commands, const FForkScene& Scene, const 
 	Info.pColorAttachments = &Color;
 	Info.pDepthAttachment = &DepthTarget;
 	vkCmdBeginRendering(Commands, &Info);
-	DrawBoxes(Commands, Scene);
-	DrawReed(Commands, Scene, Skin);
+	DrawBoxes(Commands, Scene, Camera);
+	DrawReed(Commands, Scene, Camera, Skin);
 	vkCmdEndRendering(Commands);
 
-	Transition(Commands, Depth.Image, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-	    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+	Transition(Commands, Depth.Image, Both, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, DepthLayout);
 	Transition(Commands, Normals.Image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
 	    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
-void FForkRaster::DrawBoxes(VkCommandBuffer Commands, const FForkScene& Scene) const
+void FForkRaster::DrawBoxes(VkCommandBuffer Commands, const FForkScene& Scene, const FCamera& Camera) const
 {
 	vkCmdBindPipeline(Commands, VK_PIPELINE_BIND_POINT_GRAPHICS, Pipeline);
 	const VkDeviceSize Start = 0;
 	vkCmdBindVertexBuffers(Commands, 0, 1, &Mesh.Buffer, &Start);
 	vkCmdBindIndexBuffer(Commands, Mesh.Buffer, offsetof(FBoxMesh, Indices), VK_INDEX_TYPE_UINT32);
-	FPush Push;
-	Push.RelativeToClip = GetRelativeToClip(Scene.Camera, double(Size.width) / Size.height);
+	FPush Push = MakePush(Camera, Size);
 	for (const FBox& Box : Scene.Boxes)
 	{
-		Push.Offset = glm::vec4(glm::vec3(Box.Centre - Scene.Camera.Position), 0.0f);
+		Push.Offset = glm::vec4(glm::vec3(Box.Centre - Camera.Position), 0.0f);
 		Push.Scale = glm::vec4(glm::vec3(Box.HalfSize), 0.0f);
 		vkCmdPushConstants(Commands, Layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(Push), &Push);
 		vkCmdDrawIndexed(Commands, 36, 1, 0, 0, 0);
 	}
 }
 
-void FForkRaster::DrawReed(VkCommandBuffer Commands, const FForkScene& Scene, const FForkSkin& Skin) const
+void FForkRaster::DrawReed(VkCommandBuffer Commands, const FForkScene& Scene, const FCamera& Camera, const FForkSkin& Skin) const
 {
 	const VkDeviceSize Start = 0;
 	vkCmdBindVertexBuffers(Commands, 0, 1, &Skin.Vertices.Buffer, &Start);
 	vkCmdBindIndexBuffer(Commands, Skin.Indices.Buffer, 0, VK_INDEX_TYPE_UINT32);
-	FPush Push;
-	Push.RelativeToClip = GetRelativeToClip(Scene.Camera, double(Size.width) / Size.height);
-	Push.Offset = glm::vec4(glm::vec3(Scene.Reed.Middle - Scene.Camera.Position), 0.0f);
+	FPush Push = MakePush(Camera, Size);
+	Push.Offset = glm::vec4(glm::vec3(Scene.Reed.Middle - Camera.Position), 0.0f);
 	Push.Scale = glm::vec4(1.0f);
 	vkCmdPushConstants(Commands, Layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(Push), &Push);
 	vkCmdDrawIndexed(Commands, Skin.IndexCount, 1, 0, 0, 0);

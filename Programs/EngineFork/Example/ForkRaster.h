@@ -11,22 +11,24 @@ namespace Fork
 class FForkRaster
 {
 public:
-	static constexpr VkFormat DepthFormat = VK_FORMAT_D32_SFLOAT;
-	static constexpr VkFormat NormalsFormat = VK_FORMAT_R16G16B16A16_SNORM;
+	static constexpr VkFormat DepthFormat = VK_FORMAT_D32_SFLOAT_S8_UINT;
+	static constexpr VkFormat NormalsFormat = VK_FORMAT_R8G8B8A8_UNORM;
 
 	FForkRaster() = default;
 	FForkRaster(const FForkRaster&) = delete;
 	~FForkRaster();
 	FError Create(const FForkDevice& InOwner, VkExtent2D InSize);
-	/// Leaves both images in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL.
-	void Draw(VkCommandBuffer Commands, const FForkScene& Scene, const FForkSkin& Skin) const;
+	/// Leaves the normals in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL and the depth in DepthLayout.
+	void Draw(VkCommandBuffer Commands, const FForkScene& Scene, const FCamera& Camera, const FForkSkin& Skin) const;
+	/// The engine tests against its depth in later passes, and reads it in shaders.
+	static constexpr VkImageLayout DepthLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
 
 	FForkImage Depth, Normals;
 
 private:
 	FError CreatePipeline();
-	void DrawBoxes(VkCommandBuffer Commands, const FForkScene& Scene) const;
-	void DrawReed(VkCommandBuffer Commands, const FForkScene& Scene, const FForkSkin& Skin) const;
+	void DrawBoxes(VkCommandBuffer Commands, const FForkScene& Scene, const FCamera& Camera) const;
+	void DrawReed(VkCommandBuffer Commands, const FForkScene& Scene, const FCamera& Camera, const FForkSkin& Skin) const;
 
 	VkDevice Device = VK_NULL_HANDLE;
 	VkExtent2D Size{};

@@ -18,10 +18,14 @@ FForkScene MakeScene(glm::dvec3 Offset)
 	};
 	Scene.Reed = {Offset + glm::dvec3(-6.5, 2, -3), 0.5};
 	Scene.SunDirection = normalize(glm::dvec3(0.6, -1.0, 0.35));
-	Scene.Camera.Position = Offset + glm::dvec3(2, 6, 11);
-	Scene.Camera.Forward = normalize(Offset + glm::dvec3(0.5, 0.5, 0) - Scene.Camera.Position);
-	Scene.Camera.Right = normalize(cross(Scene.Camera.Forward, glm::dvec3(0, 1, 0)));
-	Scene.Camera.Up = cross(Scene.Camera.Right, Scene.Camera.Forward);
+	const auto LookAt = [](FCamera& Camera, glm::dvec3 From, glm::dvec3 To) {
+		Camera.Position = From;
+		Camera.Forward = normalize(To - From);
+		Camera.Right = normalize(cross(Camera.Forward, glm::dvec3(0, 1, 0)));
+		Camera.Up = cross(Camera.Right, Camera.Forward);
+	};
+	LookAt(Scene.Cameras[0], Offset + glm::dvec3(2, 6, 11), Offset + glm::dvec3(0.5, 0.5, 0));
+	LookAt(Scene.Cameras[1], Offset + glm::dvec3(10, 5, -5), Offset + glm::dvec3(0, 1, 0));
 	return Scene;
 }
 
@@ -75,16 +79,18 @@ glm::dvec3 SkinVertex(const FSkinVertex& Vertex, double Bend)
 	return mix(P, glm::dvec3(P.x * Cosine - P.y * Sine, P.x * Sine + P.y * Cosine, P.z), double(Vertex.Weight));
 }
 
-glm::mat4 GetRelativeToClip(const FCamera& Camera, double Aspect)
+glm::mat4 GetViewToClip(const FCamera& Camera, double Aspect)
 {
-	const double Scale = 1.0 / std::tan(Camera.FovY * 0.5);
-	const glm::dvec3 X = Camera.Right * (Scale / Aspect), Y = Camera.Up * -Scale;
-	glm::dmat4 Rows(0.0); // each column here is a row of the result
-	Rows[0] = glm::dvec4(X, 0.0);
-	Rows[1] = glm::dvec4(Y, 0.0);
-	Rows[2] = glm::dvec4(0.0, 0.0, 0.0, Camera.Near);
-	Rows[3] = glm::dvec4(Camera.Forward, 0.0);
-	return glm::mat4(transpose(Rows));
+	const double Scale = 1.0 / std::tan(Camera.FovY * 0.5), Depth = Camera.Far - Camera.Near;
+	glm::dmat4 Matrix(0.0);
+	Matrix[0][0] = Scale / Aspect;
+	Matrix[1][1] = -Scale;
+	Matrix[2][2] = -Camera.Far / Depth;
+	Matrix[3][2] = -Camera.Far * Camera.Near / Depth;
+	Matrix[2][3] = -1.0;
+	return glm::mat4(Matrix);
 }
+
+glm::dmat3 GetWorldToView(const FCamera& Camera) { return transpose(glm::dmat3(Camera.Right, Camera.Up, -Camera.Forward)); }
 
 } // namespace Fork

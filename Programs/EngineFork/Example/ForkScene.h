@@ -31,7 +31,8 @@ struct FCamera
 	glm::dvec3 Position{0};
 	glm::dvec3 Forward{0, 0, -1}, Right{1, 0, 0}, Up{0, 1, 0}; ///< orthonormal
 	double FovY = 1.0;                                         ///< vertical, radians
-	double Near = 0.1;                                         ///< metres
+	double Near = 0.5, Far = 1024.0;                           ///< metres
+	glm::dvec2 Jitter{0};                                      ///< of the picture, pixels, right and down
 };
 
 struct FForkScene
@@ -39,7 +40,7 @@ struct FForkScene
 	std::vector<FBox> Boxes;
 	FReed Reed;
 	glm::dvec3 SunDirection{0, -1, 0}; ///< direction in which the light travels, unit length
-	FCamera Camera;
+	std::array<FCamera, 2> Cameras;    ///< two views of one scene, as of two players
 };
 
 /// A floor, a floating cube, a deformable pillar, a slab that casts no shadow, a cut-out cube, and a reed. Offset moves all of them.
@@ -76,7 +77,9 @@ FReedMesh MakeReedMesh();
 /// Linear blend of two bones, as Fork.comp does it.
 glm::dvec3 SkinVertex(const FSkinVertex& Vertex, double Bend);
 
-/// Projects positions relative to the camera to Vulkan's clip space, with reversed depth and no far plane.
-glm::mat4 GetRelativeToClip(const FCamera& Camera, double Aspect);
+/// Projects view space (x right, y up, z backwards) to Vulkan's clip space: 0 at the near plane, 1 at the far plane, no jitter.
+glm::mat4 GetViewToClip(const FCamera& Camera, double Aspect);
+/// Rotates the world to view space.
+glm::dmat3 GetWorldToView(const FCamera& Camera);
 
 } // namespace Fork

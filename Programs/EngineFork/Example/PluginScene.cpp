@@ -192,57 +192,82 @@ FError FPluginScene::SetBox(size_t Box, const FBox& To)
 
 FError FPluginScene::ImportGBuffer(const FForkRaster& Raster, VkExtent2D Size)
 {
+	FGBuffer& To = GBuffers.emplace_back();
 	FRTTextureDesc Desc;
 	Desc.Width = Size.width;
 	Desc.Height = Size.height;
-	Desc.Format = ERTFormat::D32_FLOAT;
+	Desc.Format = ERTFormat::D32_FLOAT_S8_UINT;
 	Desc.Usage = ERTTextureUsage::Sampled;
 	Desc.Name = "ForkDepth";
 	const auto ToNative = [](VkImage Image) { return reinterpret_cast<uint64_t>(Image); };
-	FError Error = ToError(Device->ImportTexture(Desc, ToNative(Raster.Depth.Image), Depth.ReleaseAndGetAddress()), "ImportTexture(depth)");
-	if (Error.empty())
-	{
-		Desc.Format = ERTFormat::RGBA16_SNORM;
-		Desc.Name = "ForkNormals";
-		Error =
-		    ToError(Device->ImportTexture(Desc, ToNative(Raster.Normals.Image), Normals.ReleaseAndGetAddress()), "ImportTexture(normals)");
-	}
-	return Error;
+	FError Error =
+	    ToError(Device->ImportTexture(Desc, ToNative(Raster.Depth.Image), To.Depth.ReleaseAndGetAddress()), "ImportTexture(depth)");
+	if (!Error.empty()) { return Error; }
+	// The raster's barrier has already waited for the depth. The next frame's raster begins with a barrier of its own.
+	const FRTExternalState State{FForkRaster::DepthLayout, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT};
+	Error = ToError(To.Depth->SetExternalState(State, State), "SetExternalState(depth)");
+	if (!Error.empty()) { return Error; }
+	Desc.Format = ERTFormat::RGBA8_UNORM;
+	Desc.Name = "ForkNormals";
+	return ToError(
+	    Device->ImportTexture(Desc, ToNative(Raster.Normals.Image), To.Normals.ReleaseAndGetAddress()), "ImportTexture(normals)");
 }
 
 void FPluginScene::ReleaseGBuffer()
 {
-	Depth.Reset();
-	Normals.Reset();
+	GBuffers.clear();
 	if (Device) { Device->CollectGarbage(); } // destroys the plugin's views of the images now, not some time later
 }
 
-FError FPluginScene::Render(VkCommandBuffer Commands, const FCamera& Camera, bool bCut, FRTModuleOutputs& Out)
+namespace
+{
+
+FRTModuleView MakeView(const FCamera& Camera, const FRTTextureDesc& Size)
+{
+	FRTModuleView View;
+	for (int Axis = 0; Axis < 3; ++Axis)
+	{
+		View.Position[Axis] = Camera.Position[Axis];
+		View.Forward[Axis] = static_cast<float>(Camera.Forward[Axis]);
+		View.Up[Axis] = static_cast<float>(Camera.Up[Axis]);
+	}
+	const glm::mat4 Rows = transpose(GetViewToClip(Camera, double(Size.Width) / Size.Height));
+	std::copy_n(&Rows[0][0], 16, View.Projection.ViewToClip);
+	for (int Axis = 0; Axis < 2; ++Axis) { View.Jitter[Axis] = static_cast<float>(Camera.Jitter[Axis]); }
+	return View;
+}
+
+} // namespace
+
+FError FPluginScene::Render(VkCommandBuffer Commands, const FCamera& Camera, uint32_t View, bool bCut, FRTModuleOutputs& Out)
 {
 	Out = {};
 	const uint64_t Native = reinterpret_cast<uint64_t>(Commands);
 	FError Error = ToError(Device->ImportCommandList(Native, List.ReleaseAndGetAddress()), "ImportCommandList");
 	if (!Error.empty()) { return Error; }
+	const FGBuffer& GBuffer = GBuffers[View];
 	FRTModuleFrame Frame;
 	Frame.Commands = List.Get();
-	Frame.Depth = Depth.Get();
-	Frame.Normals = Normals.Get();
-	for (int Axis = 0; Axis < 3; ++Axis)
-	{
-		Frame.View.Position[Axis] = Camera.Position[Axis];
-		Frame.View.Forward[Axis] = static_cast<float>(Camera.Forward[Axis]);
-		Frame.View.Up[Axis] = static_cast<float>(Camera.Up[Axis]);
-	}
-	const FRTTextureDesc& Size = Depth->GetDesc();
-	const float Aspect = static_cast<float>(Size.Width) / static_cast<float>(Size.Height);
-	Frame.View.Projection = MakeProjection(static_cast<float>(Camera.FovY), Aspect, static_cast<float>(Camera.Near));
+	Frame.View = MakeView(Camera, GBuffer.Depth->GetDesc());
+	Frame.ViewIndex = View;
+	Frame.Depth = GBuffer.Depth.Get();
+	Frame.DepthAccess = ERTAccess::External;
+	Frame.Normals = GBuffer.Normals.Get();
+	Frame.Layout.Normals = ERTModuleNormals::Xyz;
+	Frame.Layout.bViewSpaceNormals = true;
+	Frame.Layout.bGeometricInZw = false; // this engine has none: depth says where surfaces face
 	const auto Now = std::chrono::steady_clock::now();
-	const std::chrono::duration<float> Since = Now - std::exchange(LastFrame, Now);
-	Frame.DeltaSeconds = std::clamp(Since.count(), 1e-4f, 1.0f); // the first frame has none before it
+	if (View == 0)
+	{
+		const std::chrono::duration<float> Since = Now - std::exchange(LastFrame, Now);
+		DeltaSeconds = std::clamp(Since.count(), 1e-4f, 1.0f); // the first frame has none before it
+		bComplete = true;
+	}
+	Frame.DeltaSeconds = DeltaSeconds;
 	Frame.bCut = bCut;
 	Frame.Wanted.Add(ESignal::AmbientOcclusion);
 	Error = ToError(Renderer->RenderFrame(Frame, &Out), "RenderFrame");
-	bComplete = Out.bComplete;
+	bComplete = bComplete && Out.bComplete;
 	return Error;
 }
 

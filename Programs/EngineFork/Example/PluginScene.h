@@ -33,11 +33,12 @@ public:
 	FError FindReedPositions(VkDeviceAddress& Out);
 	/// The frame's commands have written them.
 	FError MarkReedSkinned();
+	/// For the next view.
 	FError ImportGBuffer(const FForkRaster& Raster, VkExtent2D Size);
 	void ReleaseGBuffer(); ///< must be called before the images of the raster are destroyed
 	/// Records the plugin's work. Commands must be recording and must have drawn the G-buffer. bCut: this frame has nothing in common
 	/// with the frame before. A texture of Out is null while the plugin has nothing to show in it.
-	FError Render(VkCommandBuffer Commands, const FCamera& Camera, bool bCut, Lantern::FRTModuleOutputs& Out);
+	FError Render(VkCommandBuffer Commands, const FCamera& Camera, uint32_t View, bool bCut, Lantern::FRTModuleOutputs& Out);
 	/// Must be called after Commands were submitted.
 	FError FinishFrame();
 	/// True if the last frame had all its shaders and acceleration structures.
@@ -60,9 +61,14 @@ private:
 	Lantern::ERTObjectHandle Reed{};
 	Lantern::ERTMaterialHandle Solid{}, CutOut{};
 	std::vector<FPlacedBox> Boxes;
-	Lantern::TRTRef<Lantern::IRTTexture> Depth, Normals;
+	struct FGBuffer
+	{
+		Lantern::TRTRef<Lantern::IRTTexture> Depth, Normals;
+	};
+	std::vector<FGBuffer> GBuffers; ///< by view
 	Lantern::TRTRef<Lantern::IRTCommandList> List;
 	std::chrono::steady_clock::time_point LastFrame{};
+	float DeltaSeconds = 0.0f; ///< of the frame, for all its views
 	bool bComplete = false;
 };
 

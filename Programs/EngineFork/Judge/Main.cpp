@@ -25,7 +25,7 @@ enum EExit
 
 struct FOptions
 {
-	std::string Plugin = "Plugin.json", LibraryFolder = ".", Picture;
+	std::string Plugin = "Plugin.json", LibraryFolder = ".", Pictures;
 	FSettings Settings;
 	glm::dvec3 Offset{0};
 	int Rounds = 1;
@@ -42,7 +42,7 @@ bool ParseOption(const std::string& Name, const std::string& Value, FOptions& Ou
 	const size_t Equals = Value.find('=');
 	if (Name == "--plugin") { Out.Plugin = Value; }
 	else if (Name == "--library-folder") { Out.LibraryFolder = Value; }
-	else if (Name == "-o") { Out.Picture = Value; }
+	else if (Name == "-o") { Out.Pictures = Value; }
 	else if (Name == "--rounds") { Out.Rounds = std::atoi(Value.c_str()); }
 	else if (Name == "--set" && Equals != std::string::npos)
 	{
@@ -60,7 +60,7 @@ int RunOnInstance(IRTModule& Module, const FForkInstance& Instance, const FOptio
 	FForkEngine Engine(Module, Instance);
 	if (const FError Error = Engine.CreateDevice(); !Error.empty()) { return Complain(NoDevice, Error); }
 	FError Error = Engine.LoadScene(Scene);
-	if (Error.empty()) { Error = CheckScenes(Engine, Scene, Options.Picture); }
+	if (Error.empty()) { Error = CheckScenes(Engine, Scene, Options.Pictures); }
 	return Error.empty() ? Done : Complain(CheckFailed, Error);
 }
 
@@ -108,7 +108,7 @@ int main(int Count, char** Arguments)
 		if (Index + 1 == Count || !ParseOption(Arguments[Index], Arguments[Index + 1], Options))
 		{
 			return Complain(WrongUsage, "usage: EngineFork [--plugin Plugin.json] [--library-folder FOLDER] [--set NAME=VALUE]"
-			                            " [--offset X,Y,Z] [--rounds N] [-o MASK.pgm]");
+			                            " [--offset X,Y,Z] [--rounds N] [-o MASKS]");
 		}
 	}
 	FPluginManifest Manifest;

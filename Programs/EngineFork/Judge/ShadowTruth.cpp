@@ -6,7 +6,7 @@
 namespace Fork
 {
 
-FShadowTruth::FShadowTruth(const FForkScene& InScene) : Scene(InScene)
+FShadowTruth::FShadowTruth(const FForkScene& InScene, const FCamera& InCamera) : Scene(InScene), Camera(InCamera)
 {
 	const FBoxMesh Unit = MakeBoxMesh();
 	for (size_t Box = 0; Box < Scene.Boxes.size(); ++Box)
@@ -60,7 +60,7 @@ std::optional<FShadowTruth::FHit> FShadowTruth::FindNearest(glm::dvec3 Origin, g
 
 FShadowTruth::FSample FShadowTruth::Sample(glm::dvec3 CameraRay, glm::dvec3 Shift) const
 {
-	const std::optional<FHit> Hit = FindNearest(Scene.Camera.Position, CameraRay, ESeenBy::Camera);
+	const std::optional<FHit> Hit = FindNearest(Camera.Position, CameraRay, ESeenBy::Camera);
 	if (!Hit) { return {}; }
 	const glm::dvec3 Normal = Hit->Triangle->Normal;
 	FSample Result{EExpectation::Shadowed, Hit->Triangle};
@@ -68,7 +68,7 @@ FShadowTruth::FSample FShadowTruth::Sample(glm::dvec3 CameraRay, glm::dvec3 Shif
 	{
 		// Away from the surface, so that it does not shadow itself; Shift stays within it.
 		const glm::dvec3 Sideways = Shift - Normal * dot(Normal, Shift);
-		const glm::dvec3 Origin = Scene.Camera.Position + CameraRay * Hit->Distance + Normal * 1e-6 + Sideways;
+		const glm::dvec3 Origin = Camera.Position + CameraRay * Hit->Distance + Normal * 1e-6 + Sideways;
 		const bool bHidden = FindNearest(Origin, -Scene.SunDirection, ESeenBy::Sun).has_value();
 		Result.Expectation = bHidden ? EExpectation::Shadowed : EExpectation::Lit;
 	}
@@ -86,13 +86,14 @@ bool FShadowTruth::AreAlike(const FSample& A, const FSample& B)
 EExpectation FShadowTruth::ExpectPixel(uint32_t X, uint32_t Y, uint32_t Width, uint32_t Height) const
 {
 	constexpr double Margin = 0.02; // metres: far more than fp32 depth loses here
-	const FCamera& Camera = Scene.Camera;
 	const double TanHalf = std::tan(Camera.FovY * 0.5), Aspect = double(Width) / Height;
 	std::optional<FSample> First;
 	for (int Try = 0; Try < 5; ++Try)
 	{
 		const glm::dvec2 Shift = Try == 0 ? glm::dvec2(0) : glm::dvec2(Try % 2 ? 0.6 : -0.6, Try > 2 ? 0.6 : -0.6);
-		const double NdcX = (X + 0.5 + Shift.x) / Width * 2.0 - 1.0, NdcY = (Y + 0.5 + Shift.y) / Height * 2.0 - 1.0;
+		// Jitter has moved the picture, so a pixel shows what lies to its other side.
+		const glm::dvec2 At = glm::dvec2(X, Y) + 0.5 + Shift - Camera.Jitter;
+		const double NdcX = At.x / Width * 2.0 - 1.0, NdcY = At.y / Height * 2.0 - 1.0;
 		const glm::dvec3 Ray = normalize(Camera.Forward + Camera.Right * (NdcX * TanHalf * Aspect) - Camera.Up * (NdcY * TanHalf));
 		const FSample Found = Sample(Ray, glm::dvec3(Shift.x, Shift.x + Shift.y, Shift.y) * (Margin / 0.6));
 		if (First && !AreAlike(*First, Found)) { return EExpectation::Unsure; }

@@ -21,7 +21,7 @@ enum class EExpectation : uint8_t
 class FShadowTruth
 {
 public:
-	explicit FShadowTruth(const FForkScene& InScene);
+	FShadowTruth(const FForkScene& InScene, const FCamera& InCamera);
 	/// What the pixel must show.
 	EExpectation ExpectPixel(uint32_t X, uint32_t Y, uint32_t Width, uint32_t Height) const;
 
@@ -54,6 +54,7 @@ private:
 	static bool AreAlike(const FSample& A, const FSample& B);
 
 	const FForkScene& Scene;
+	const FCamera& Camera;
 	std::vector<FTriangle> Triangles;
 };
 
