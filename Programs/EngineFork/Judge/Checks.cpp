@@ -14,6 +14,8 @@
 namespace Fork
 {
 
+using namespace Lantern;
+
 namespace
 {
 
@@ -63,18 +65,24 @@ FError RunUntilComplete(FJudge& Judge, FMasks& Out)
 		Jitter(Judge.Scene, Frame);
 		Error = Judge.Engine.RunFrame(Judge.Scene, false, Out);
 	}
-	bool bHasMasks = true;
-	for (const FFrameMasks& Masks : Out) { bHasMasks = bHasMasks && Masks.SunShadow != nullptr && Masks.AmbientOcclusion != nullptr; }
-	return Error.empty() && !bHasMasks ? "the plugin gave no shadow mask, or no ambient occlusion" : Error;
+	for (const FFrameMasks& Masks : Out)
+	{
+		const FSignalSet Wanted = Judge.Engine.GetPlugin().Wanted;
+		const bool bShadow = Masks.SunShadow != nullptr, bOcclusion = Masks.AmbientOcclusion != nullptr;
+		const bool bAsWanted = Wanted.Has(ESignal::SunShadow) == bShadow && Wanted.Has(ESignal::AmbientOcclusion) == bOcclusion;
+		if (Error.empty() && !bAsWanted) { return "the plugin gave less than was wanted, or more"; }
+	}
+	return Error;
 }
 
 /// Compares every pixel of a view's last mask with the truth.
-FError CheckView(const FJudge& Judge, size_t View, const char* What, const FFrameMasks& Masks)
+FError CheckView(const FJudge& Judge, uint32_t View, const char* What, const FFrameMasks& Masks)
 {
 	if (FError Error = JudgeOcclusion(Masks.AmbientOcclusion); !Error.empty()) { return Error; }
 	const FShadowPicture Expected = ExpectShadow(Judge.Scene, Judge.Scene.Cameras[View]);
+	if (FError Error = JudgeLight(Expected, Masks); !Error.empty()) { return std::string(What) + ": " + Error; }
 	const FVerdict Verdict = JudgeShadow(Expected, Masks.SunShadow);
-	std::printf("%s, view %zu: %u lit, %u shadowed, %u sky, %u near an edge; wrong: %u\n", What, View, Verdict.Lit, Verdict.Shadowed,
+	std::printf("%s, view %u: %u lit, %u shadowed, %u sky, %u near an edge; wrong: %u\n", What, View, Verdict.Lit, Verdict.Shadowed,
 	    Verdict.Sky, Verdict.Unsure, Verdict.Wrong);
 	if (!Judge.Pictures.empty())
 	{
@@ -90,15 +98,70 @@ FError CheckScene(FJudge& Judge, const char* What)
 {
 	FMasks Masks;
 	FError Error = RunUntilComplete(Judge, Masks);
-	for (size_t View = 0; Error.empty() && View < ViewCount; ++View) { Error = CheckView(Judge, View, What, Masks[View]); }
+	for (uint32_t View = 0; Error.empty() && View < ViewCount; ++View) { Error = CheckView(Judge, View, What, Masks[View]); }
 	++Judge.Checks;
 	return Error;
+}
+
+/// Without the plugin's outputs the engine lights as if there were no plugin.
+FError CheckUnwanted(FJudge& Judge)
+{
+	const FSignalSet Wanted = std::exchange(Judge.Engine.GetPlugin().Wanted, FSignalSet{});
+	FMasks Masks;
+	FError Error = RunUntilComplete(Judge, Masks);
+	for (uint32_t View = 0; Error.empty() && View < ViewCount; ++View)
+	{
+		Error = JudgeLight(ExpectShadow(Judge.Scene, Judge.Scene.Cameras[View]), Masks[View]);
+	}
+	Judge.Engine.GetPlugin().Wanted = Wanted;
+	return Error.empty() ? Error : "without outputs: " + Error;
+}
+
+/// Mean light with the lamp at an intensity.
+FError MeasureLamp(FJudge& Judge, double Intensity, double& Out)
+{
+	Judge.Scene.LampIntensity = Intensity;
+	FMasks Masks;
+	FError Error = Judge.Engine.GetPlugin().SetLamp(Judge.Scene);
+	if (Error.empty()) { Error = RunUntilComplete(Judge, Masks); }
+	constexpr int Frames = 8; // the noise of one path for each pixel is then below a percent of the mean
+	Out = 0.0;
+	for (int Frame = 0; Error.empty() && Frame < Frames; ++Frame)
+	{
+		Error = Judge.Engine.RunFrame(Judge.Scene, false, Masks);
+		Out += GetMeanLight(Masks[0]) / Frames;
+	}
+	return Error;
+}
+
+/// Diffuse light: what surfaces reflect of the lamp is proportional to its intensity, and ends with it.
+FError CheckLamp(FJudge& Judge)
+{
+	FSignalSet& Wanted = Judge.Engine.GetPlugin().Wanted;
+	Wanted.Add(ESignal::DiffuseGI);
+	constexpr double Intensities[] = {200.0, 400.0, 0.0}; // candela
+	double Light[3] = {};
+	FError Error;
+	for (int Index = 0; Error.empty() && Index < 3; ++Index) { Error = MeasureLamp(Judge, Intensities[Index], Light[Index]); }
+	Wanted.Remove(ESignal::DiffuseGI);
+	if (!Error.empty()) { return Error; }
+	const double Once = Light[0] - Light[2], Twice = Light[1] - Light[2];
+	std::printf("lamp: mean light %.4f without, %.4f and %.4f with it\n", Light[2], Light[0], Light[1]);
+	const bool bProportional = Once > 0.05 * Light[2] && std::abs(Twice / Once - 2.0) < 0.1;
+	return bProportional ? FError() : "diffuse light does not follow the lamp";
+}
+
+/// As after a lost device. All that changed so far must be there on the new one.
+FError CheckOtherDevice(FJudge& Judge)
+{
+	const FError Error = Judge.Engine.ChangeDevice();
+	return Error.empty() ? CheckScene(Judge, "on another device") : Error;
 }
 
 FError CheckMoved(FJudge& Judge)
 {
 	std::vector<FBox>& Boxes = Judge.Scene.Boxes;
-	Boxes[2].Centre += glm::dvec3(-3.0, 0.0, 4.0);
+	Boxes[2].Centre += At(-3.0, 0.0, 4.0);
 	FError Error = Judge.Engine.GetPlugin().MoveBox(2, Boxes[2]);
 	Boxes.erase(Boxes.begin() + 1);
 	if (Error.empty()) { Error = Judge.Engine.GetPlugin().RemoveBox(1); }
@@ -125,12 +188,12 @@ FError StreamBoxes(FForkEngine& Engine, FForkScene& Scene)
 	constexpr int Steps = 60;
 	constexpr size_t MostBoxes = 6;
 	const size_t First = Scene.Boxes.size();
-	const glm::dvec3 Floor = Scene.Boxes[0].Centre + glm::dvec3(0, Scene.Boxes[0].HalfSize.y, 0);
+	const glm::dvec3 Floor = Scene.Boxes[0].Centre + glm::dvec3(0, 0, Scene.Boxes[0].HalfSize.z);
 	FError Error;
 	for (int Step = 0; Error.empty() && Step < Steps; ++Step)
 	{
 		const double Angle = Step * 0.9;
-		Scene.Boxes.push_back({Floor + glm::dvec3(7.0 * std::cos(Angle), 0.6, 6.0 * std::sin(Angle)), glm::dvec3(0.3, 0.6, 0.5)});
+		Scene.Boxes.push_back({Floor + At(7.0 * std::cos(Angle), 0.6, 6.0 * std::sin(Angle)), At(0.3, 0.6, 0.5)});
 		Error = Engine.GetPlugin().StreamIn(Scene.Boxes.back());
 		if (Error.empty() && Scene.Boxes.size() > First + MostBoxes)
 		{
@@ -166,9 +229,12 @@ FError CheckScenes(FForkEngine& Engine, FForkScene Scene, const std::string& Pic
 {
 	FJudge Judge{Engine, std::move(Scene), Pictures};
 	FError Error = CheckScene(Judge, "as made");
-	if (Error.empty()) { Error = CheckMoved(Judge); }
-	if (Error.empty()) { Error = CheckChanged(Judge); }
-	return Error.empty() ? CheckStreamed(Judge) : Error;
+	for (FError (*const Check)(FJudge&) :
+	    {CheckUnwanted, CheckMoved, CheckOtherDevice, CheckLamp, CheckChanged, CheckStreamed, CheckOtherDevice})
+	{
+		if (Error.empty()) { Error = Check(Judge); }
+	}
+	return Error;
 }
 
 } // namespace Fork

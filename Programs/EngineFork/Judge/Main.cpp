@@ -26,7 +26,7 @@ enum EExit
 struct FOptions
 {
 	std::string Plugin = "Plugin.json", LibraryFolder = ".", Pictures;
-	FSettings Settings;
+	FSettings Settings = {{"r.RT.GI", "1"}}; // for those frames that want it
 	glm::dvec3 Offset{0};
 	int Rounds = 1;
 };
@@ -56,7 +56,7 @@ bool ParseOption(const std::string& Name, const std::string& Value, FOptions& Ou
 /// The device and all that lives on it are gone when this returns.
 int RunOnInstance(IRTModule& Module, const FForkInstance& Instance, const FOptions& Options)
 {
-	const FForkScene Scene = MakeScene(Options.Offset);
+	const FForkScene Scene = MakeScene(At(Options.Offset.x, Options.Offset.y, Options.Offset.z));
 	FForkEngine Engine(Module, Instance);
 	if (const FError Error = Engine.CreateDevice(); !Error.empty()) { return Complain(NoDevice, Error); }
 	FError Error = Engine.LoadScene(Scene);

@@ -17,12 +17,19 @@ struct FVerdict
 };
 
 /// What each pixel must show: PixelCount, rows from the top.
-using FShadowPicture = std::vector<EExpectation>;
+using FShadowPicture = std::vector<FExpectedPixel>;
 
 /// The truth of a view.
 FShadowPicture ExpectShadow(const FForkScene& Scene, const FCamera& Camera);
 /// Compares every pixel of Mask with the truth.
 FVerdict JudgeShadow(const FShadowPicture& Expectations, const uint16_t* Mask);
+
+/// Fails unless the engine's light is what its G-buffer and the plugin's outputs make of it: without an output, as if there were no
+/// such pass.
+FError JudgeLight(const FShadowPicture& Expectations, const FFrameMasks& Masks);
+
+/// Returns the mean of the engine's light over a view's surfaces.
+double GetMeanLight(const FFrameMasks& Masks);
 
 /// Fails unless ambient occlusion is in range, and some pixels but not most are occluded. The filter's result has no closed form here;
 /// Lantern's own tests check it.

@@ -1,22 +1,26 @@
 #version 460
-layout(push_constant) uniform FPush
-{
-	mat4 ViewToClip;
-	vec4 WorldToView; // quaternion
-	vec4 Offset;      // xyz: position of the box relative to the camera
-	vec4 Scale;
-} Push;
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_scalar_block_layout : require
+#include "ForkDraw.glsl"
 
 layout(location = 0) in vec3 InPosition;
 layout(location = 1) in vec3 InNormal;
+layout(location = 2) in vec3 InPrevious;
+layout(location = 3) in vec2 InUV;
 layout(location = 0) flat out vec3 OutNormal; // in view space, as all of this engine's G-buffer
 layout(location = 1) out vec3 OutPosition;
-
-vec3 ToView(vec3 V) { return V + 2.0 * cross(Push.WorldToView.xyz, cross(Push.WorldToView.xyz, V) + Push.WorldToView.w * V); }
+layout(location = 2) out vec4 OutClip; // without jitter
+layout(location = 3) out vec4 OutPreviousClip;
+layout(location = 4) out vec2 OutUV;
 
 void main()
 {
-	OutNormal = ToView(InNormal);
-	OutPosition = ToView(InPosition * Push.Scale.xyz + Push.Offset.xyz);
-	gl_Position = Push.ViewToClip * vec4(OutPosition, 1.0);
+	vec4 Relative = vec4(InPosition * Push.Scale + Push.Offset, 1.0);
+	OutNormal = mat3(Push.View.WorldToView) * InNormal;
+	OutPosition = mat3(Push.View.WorldToView) * Relative.xyz;
+	OutClip = Push.View.RelativeToClip * Relative;
+	OutPreviousClip = Push.View.PreviousRelativeToClip * vec4(InPrevious * Push.PreviousScale + Push.PreviousOffset, 1.0);
+	OutUV = InUV;
+	gl_Position = Push.View.JitteredViewToClip * vec4(OutPosition, 1.0);
 }
