@@ -26,7 +26,7 @@ void TracePixel(uvec2 Pixel)
 		return;
 	}
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), Depth);
-	vec3 Origin = RasterRayOrigin(FSceneRef(Push.Pass.Scene).Data, View, Point.Relative, Point.Ng);
+	vec3 Origin = RasterRayOrigin(FSceneRef(Push.Pass.Scene).Data, View, Point);
 	float VisibleSamples = 0.0;
 	// The seed differs from the sun shadow's, and the length has a seed of its own: the direction takes both Sobol dimensions.
 	uint Seed = HashPcg(HashPcg(Pixel.x + HashPcg(Pixel.y + HashPcg(View.Seed))) + 1u), LengthSeed = HashPcg(Seed);
@@ -35,7 +35,7 @@ void TracePixel(uvec2 Pixel)
 		uint Index = View.FrameIndex * SamplesPerPixel + Sample;
 		vec3 Direction = SampleOcclusionDirection(Point.N, SobolOwen2(Index, Seed));
 		float Length = SampleOcclusionLength(SobolOwen2(Index, LengthSeed).x, Push.Radius);
-		if (LeavesSurface(View, Point.Ng, Direction) && IsUnoccluded(Origin, Direction, Length)) { VisibleSamples += 1.0; }
+		if (LeavesSurface(View, Point, Direction) && IsUnoccluded(Origin, Direction, Length)) { VisibleSamples += 1.0; }
 	}
 	imageStore(Images[Push.Output], ivec2(Pixel), vec4(VisibleSamples / float(SamplesPerPixel)));
 }

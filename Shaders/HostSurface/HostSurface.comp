@@ -1,8 +1,8 @@
 // Reads the G-buffer of a host, whatever its conventions are, and writes it as passes read it: FGBuffer says how.
 #version 460
 #include "../Shared/HostSurfaceTypes.h"
+#include "../Library/GBuffer.glsl"
 #include "../Library/Motion.glsl"
-#include "../Library/View.glsl"
 
 layout(local_size_x = HOST_SURFACE_GROUP_SIZE, local_size_y = HOST_SURFACE_GROUP_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FHostSurfaceConstants Push; };
@@ -35,12 +35,13 @@ float DistanceError(FViewConstants View, float Distance)
 }
 
 // A step along one axis of the picture, on the surface of the pixel: to that side whose depth goes on more evenly. The depth of a
-// plane is even as 1 / distance, or as distance in orthographic views. Length 0: neither side shows the surface.
-vec3 FindStep(FViewConstants View, ivec2 Pixel, ivec2 Axis, float Distance, vec3 Position)
+// plane is even as 1 / distance, or as distance in orthographic views. A neighbour in the plane of the shading normal N is on the
+// surface, too, whatever lies behind it, but an even side is better. Length 0: neither side shows the surface.
+vec3 FindStep(FViewConstants View, ivec2 Pixel, ivec2 Axis, float Distance, vec3 Position, vec3 N)
 {
 	vec3 Step = vec3(0.0);
 	// A bend by more than the pixel's own size, or than rounding makes, is an edge.
-	float Limit = max(4.0 * DistanceError(View, Distance), 0.5 * PixelHeight(View, Distance));
+	float EdgeBend = max(4.0 * DistanceError(View, Distance), 0.5 * PixelHeight(View, Distance)), Limit = EdgeBend;
 	for (int Sign = -1; Sign <= 1; Sign += 2)
 	{
 		ivec2 P1 = Pixel + Axis * Sign, P2 = Pixel + Axis * (2 * Sign);
@@ -50,12 +51,13 @@ vec3 FindStep(FViewConstants View, ivec2 Pixel, ivec2 Axis, float Distance, vec3
 		if (D1 <= 0.0) { continue; }
 		float D2 = any(lessThan(P2, ivec2(0))) || any(greaterThan(P2, Last)) ? 0.0 : LoadDistance(P2);
 		bool bOrthographic = View.bOrthographic != 0u;
-		// Without a second neighbour the first stands for both, but any other side is better.
 		float Expected = bOrthographic ? 2.0 * D1 - D2 : 1.0 / max(2.0 / D1 - 1.0 / D2, 1.0e-12);
-		float Bend = D2 > 0.0 ? abs(Expected - Distance) : Limit * 0.999;
+		float Bend = D2 > 0.0 ? abs(Expected - Distance) : EdgeBend;
+		vec3 Found = (RelativePosition(View, vec2(P1) + 0.5, D1) - Position) * float(Sign);
+		if (Bend >= EdgeBend && abs(dot(Found, N)) < 0.03 * length(Found)) { Bend = EdgeBend * 0.999; }
 		if (Bend >= Limit) { continue; }
 		Limit = Bend;
-		Step = (RelativePosition(View, vec2(P1) + 0.5, D1) - Position) * float(Sign);
+		Step = Found;
 	}
 	return Step;
 }
@@ -70,15 +72,20 @@ vec3 ShadingTowardsCamera(vec3 N, vec3 ViewDirection)
 }
 
 // The normal of the surface around a pixel, towards the camera. N: the shading normal, for where depth does not tell.
-vec3 DeriveNormal(FViewConstants View, ivec2 Pixel, float Distance, vec3 Position, vec3 N)
+vec3 DeriveNormal(FViewConstants View, ivec2 Pixel, float Distance, vec3 Position, vec3 N, out bool bSure)
 {
+	bSure = false;
 	vec3 Fallback = ShadingTowardsCamera(N, ViewDirection(View, Position));
 	// Steps in depth that are large against the pixel turn the normal by as much.
 	if (DistanceError(View, Distance) > 0.1 * PixelHeight(View, Distance)) { return Fallback; }
-	vec3 X = FindStep(View, Pixel, ivec2(1, 0), Distance, Position), Y = FindStep(View, Pixel, ivec2(0, 1), Distance, Position);
-	vec3 Derived = TowardsCamera(NormalizeOr(cross(X, Y), Fallback), ViewDirection(View, Position));
-	// Shading normals lean from the geometric ones, but hardly by this much: the neighbours were of another surface.
-	return abs(dot(Derived, N)) > 0.25 ? Derived : Fallback;
+	vec3 X = FindStep(View, Pixel, ivec2(1, 0), Distance, Position, N);
+	vec3 Y = FindStep(View, Pixel, ivec2(0, 1), Distance, Position, N);
+	vec3 Derived = TowardsCamera(NormalizeOr(cross(X, Y), vec3(0.0)), ViewDirection(View, Position));
+	// Shading normals lean from the geometric ones, but hardly by this much: the neighbours were of another surface. Only if both agree
+	// is the normal sure.
+	float Agreement = dot(Derived, Fallback);
+	bSure = Agreement > 0.98;
+	return Agreement > 0.25 ? Derived : Fallback;
 }
 
 void StoreNormals(FViewConstants View, ivec2 Pixel, float Distance, vec3 Position)
@@ -88,11 +95,13 @@ void StoreNormals(FViewConstants View, ivec2 Pixel, float Distance, vec3 Positio
 	vec3 N = DecodeNormal(Texel);
 	if (N == vec3(0.0)) { N = -Forward; }
 	vec3 Ng;
+	bool bSure = true;
 	if (Has(HOST_GEOMETRIC_IN_ZW)) { Ng = DecodeNormal(Texel.zwzw); }
 	else if (Push.GeometricNormals != NO_TEXTURE) { Ng = DecodeNormal(Fetch(Push.GeometricNormals, Pixel)); }
-	else { Ng = DeriveNormal(View, Pixel, Distance, Position, N); }
+	else { Ng = DeriveNormal(View, Pixel, Distance, Position, N, bSure); }
 	if (Ng == vec3(0.0)) { Ng = -Forward; }
-	imageStore(Images[Push.OutNormals], Pixel, vec4(OctEncode(N), OctEncode(TowardsCamera(Ng, Forward))));
+	vec2 Geometric = OctEncode(TowardsCamera(Ng, Forward));
+	imageStore(Images[Push.OutNormals], Pixel, vec4(OctEncode(N), View.bDerivedNormals != 0u ? MarkSure(Geometric, bSure) : Geometric));
 }
 
 void StoreMotion(FViewConstants View, ivec2 Pixel, vec3 Position)

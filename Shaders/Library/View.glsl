@@ -38,22 +38,4 @@ vec3 ViewDirection(FViewConstants View, vec3 Relative) { return View.bOrthograph
 // Returns the height of a pixel, metres. Distance: of what it shows.
 float PixelHeight(FViewConstants View, float Distance) { return View.PixelSize * (View.bOrthographic != 0u ? 1.0 : Distance); }
 
-// Returns the origin of rays that leave the surface of a pixel. Relative: position relative to the camera.
-vec3 RasterRayOrigin(FSceneConstants Scene, FViewConstants View, vec3 Relative, vec3 Ng)
-{
-	float Distance = dot(View.CameraForward, Relative), Length = length(Relative);
-	// The depth's error moves the point along the camera ray; the part along the normal is what can bury it.
-	float DepthError = View.DepthError.x + Distance * (View.DepthError.y + Distance * View.DepthError.z);
-	float Facing = min(abs(dot(Ng, ViewDirection(View, Relative))) + View.NormalError, 1.0);
-	float Along = DepthError * Facing * (View.bOrthographic != 0u ? 1.0 : Length / Distance);
-	// A normal that may be any could lead to the surface's other side. The way to the camera is free.
-	vec3 ToCamera = -ViewDirection(View, Relative);
-	vec3 Away = View.NormalError < 0.5 ? Ng : ToCamera / max(dot(Ng, ToCamera), 0.1);
-	return OffsetRasterPoint(View.CameraPosition + Relative, Away, Scene.ObjectReach, PixelHeight(View, Length), Along);
-}
-
-// Whether a ray along Direction leaves the surface to the side of Ng. With normals that are not exact, rays that may do so count:
-// those that do not meet the surface itself.
-bool LeavesSurface(FViewConstants View, vec3 Ng, vec3 Direction) { return dot(Ng, Direction) > -View.NormalError; }
-
 #endif

@@ -16,7 +16,7 @@ vec3 ClampToFinite(vec3 L) { return mix(clamp(L, vec3(0.0), vec3(MaxHalf)), vec3
 vec3 AverageIndirectSamples(FSceneConstants Scene, FViewConstants View, uvec2 Pixel, FGBufferPoint Point, FBrdf Lobe, uint Samples,
                             uint MaxBounces, uint Salt)
 {
-	vec3 P = RasterRayOrigin(Scene, View, Point.Relative, Point.Ng);
+	vec3 P = RasterRayOrigin(Scene, View, Point);
 	mat3 Basis = MakeBasis(Point.BentN);
 	vec3 V = Point.V * Basis;
 	uint StreamSeed = HashPcg(View.Seed + Salt);

@@ -53,7 +53,7 @@ vec3 TraceRasterSurface(FSceneConstants Scene, FViewConstants View, ivec2 Pixel,
 	Hit.Emissive = vec3(0.0);
 	Hit.EmissiveWeight = 0.0;
 	Hit.Flags = 0u;
-	return TraceSignal(Scene, Hit, RasterRayOrigin(Scene, View, Point.Relative, Point.Ng), Point.V, Random);
+	return TraceSignal(Scene, Hit, RasterRayOrigin(Scene, View, Point), Point.V, Random);
 }
 #endif
 

@@ -204,7 +204,7 @@ struct FViewConstants
 	float Exposure; // factor, not stops
 	// Error of a distance along the view that its depth texel has: x + y · distance + z · distance², metres.
 	vec3 DepthError;
-	float NormalError; // sine of the angle by which geometric normals may be off; 0: they are exact
+	float NormalError; // sine of the angle by which the host's normals may be off; 0: they are exact
 	// The previous frame, for reprojection. A point's position relative to the previous camera is its position relative to this
 	// camera plus CameraMotion.
 	mat4 PreviousRelativeToClip;
@@ -215,8 +215,9 @@ struct FViewConstants
 	uint PreviousWidth;
 	uint PreviousHeight;
 	uint bHistory; // 0: there is no usable previous frame (first frame, cut); the members above are this frame's
+	uint bDerivedNormals; // geometric normals come from depth, and each says whether it is sure: see IsSure
 };
-LANTERN_ASSERT_SIZE(FViewConstants, 292);
+LANTERN_ASSERT_SIZE(FViewConstants, 296);
 
 // The first push constants of every pass. Those of the pass itself follow.
 struct FPassConstants

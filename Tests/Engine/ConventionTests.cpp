@@ -1,15 +1,11 @@
 // Shadows in frames of engines with conventions of their own, against rays of double precision from the exact surfaces.
-#include <cmath>
 #include <filesystem>
 #include <mutex>
 #include <type_traits>
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <vulkan/vulkan_core.h>
 
-#include "EngineRaster.h"
-#include "LanternHost/SceneLoader.h"
+#include "EngineFixture.h"
 #include "LanternRHIVulkan/VulkanDevice.h"
 #include "Support/SharedFiles.h"
 
@@ -17,205 +13,6 @@ namespace Lantern
 {
 namespace
 {
-
-#define ASSERT_FINE(Expression)                                                                                                            \
-	do {                                                                                                                                   \
-		const FRTStatus Fine = (Expression);                                                                                               \
-		ASSERT_TRUE(Fine.IsOk()) << Fine.Message;                                                                                          \
-	}                                                                                                                                      \
-	while (false)
-
-/// What the truth says of the pixels of a frame.
-struct FVerdict
-{
-	size_t Pixels = 0; ///< that show a surface of which the truth is certain
-	size_t Lit = 0, FalselyDark = 0, FalselyLit = 0;
-	double GetDarkShare() const { return Lit > 0 ? double(FalselyDark) / double(Lit) : 1.0; }
-	double GetLitShare() const { return Pixels > Lit ? double(FalselyLit) / double(Pixels - Lit) : 0.0; }
-};
-
-class FConventionTest : public testing::Test
-{
-protected:
-	static constexpr glm::uvec2 Size{480, 270};
-	const glm::dvec3 ToSun = glm::normalize(glm::dvec3(-0.25, 1.0, -0.35));
-
-	void SetUp() override
-	{
-		ASSERT_EQ(LanternCreateModule(ModuleVersion, Module.ReleaseAndGetAddress()), 0);
-		FRTModuleDesc Desc;
-		Desc.ShaderFolder = LANTERN_SOURCE_DIR "/Shaders";
-		Desc.CacheFolder = LANTERN_TEST_CACHE;
-		ASSERT_FINE(Module->Initialize(Desc));
-		ASSERT_FINE(Module->SetConsoleVariable("r.RT.Pipeline.Fallback", "2"));
-		ASSERT_FINE(Module->SetConsoleVariable("r.RT.Build.TrianglesPerFrame", "100000000"));
-		ASSERT_FINE(Module->SetConsoleVariable("r.RT.Shadow.Soft", "0"));
-		ASSERT_FINE(Module->SetConsoleVariable("r.RT.Culling", "0"));
-		ASSERT_FINE(OpenDevice());
-	}
-	virtual FRTStatus OpenDevice() { return Module->CreateDevice(true, Device.ReleaseAndGetAddress()); }
-	void TearDown() override
-	{
-		Raster.reset();
-		Renderer.Reset();
-		if (Device)
-		{
-			EXPECT_TRUE(Device->WaitIdle().IsOk());
-			if (bCountsMessages) { EXPECT_EQ(Device->GetValidationMessageCount(), 0u); }
-		}
-		Device.Reset();
-		Module.Reset();
-	}
-	void LoadSoup(const std::string& Name)
-	{
-		FLoadResult Result = LoadScene(Name);
-		ASSERT_TRUE(Result.Scene.has_value()) << Result.Error;
-		Soup = MakeSoup(*Result.Scene);
-		SetCamera(*Result.Scene);
-	}
-	void SetCamera(const FSceneDescription& Scene)
-	{
-		const FScenePose Pose = EvaluatePose(Scene, 0.0);
-		for (size_t Node = 0; Node < Scene.Nodes.size(); ++Node)
-		{
-			if (Scene.Nodes[Node].Camera < 0) { continue; }
-			Camera.Position = glm::dvec3(Pose.World[Node][3]);
-			Camera.Forward = -glm::normalize(glm::dvec3(Pose.World[Node][2]));
-			Camera.Up = glm::normalize(glm::dvec3(Pose.World[Node][1]));
-			Camera.FovY = Scene.Cameras[static_cast<size_t>(Scene.Nodes[Node].Camera)].FovY;
-			return;
-		}
-	}
-	/// Gives the triangles to the plugin and to the raster. World: of the engine, in which it then has them.
-	void Open(const FRTModuleRendererDesc& World = {})
-	{
-		ASSERT_FINE(Module->CreateRenderer(Device.Get(), World, Renderer.ReleaseAndGetAddress()));
-		Raster = std::make_unique<FEngineRaster>(*Device);
-		ASSERT_FINE(Raster->SetScene(Soup));
-		Truth = std::make_unique<FTriangleTruth>(Soup);
-		std::vector<uint32_t> Indices(Soup.Positions.size());
-		for (uint32_t I = 0; I < Indices.size(); ++I) { Indices[I] = I; }
-		FRTModuleMesh Mesh;
-		Mesh.Name = "Soup";
-		Mesh.Positions = &Soup.Positions[0].x;
-		Mesh.VertexCount = static_cast<uint32_t>(Soup.Positions.size());
-		Mesh.Indices = Indices.data();
-		Mesh.IndexCount = static_cast<uint32_t>(Indices.size());
-		ERTMeshHandle Handle = ERTMeshHandle::None;
-		ERTMaterialHandle White = ERTMaterialHandle::None;
-		ERTObjectHandle Object = ERTObjectHandle::None;
-		FRTModuleMaterial Material;
-		Material.bDoubleSided = true;
-		ASSERT_FINE(Renderer->AddMaterial(Material, &White));
-		ASSERT_FINE(Renderer->AddMesh(Mesh, &Handle));
-		FRTModuleObject Placed;
-		Placed.Mesh = Handle;
-		Placed.Materials = &White;
-		Placed.MaterialCount = 1;
-		PlaceInWorld(World, Placed.Transform);
-		ASSERT_FINE(Renderer->AddObject(Placed, &Object));
-		FRTModuleSun Sun;
-		const glm::dvec3 Travel = ToEngine(World, -ToSun);
-		for (int Axis = 0; Axis < 3; ++Axis) { Sun.Direction[Axis] = Travel[Axis]; }
-		Sun.Irradiance = 1.0f;
-		ASSERT_FINE(Renderer->SetSun(Sun));
-	}
-	/// A direction of Lantern's world in the engine's.
-	static glm::dvec3 ToEngine(const FRTModuleRendererDesc& World, const glm::dvec3& V)
-	{
-		const auto Dot = [&](const float A[3]) { return A[0] * V.x + A[1] * V.y + A[2] * V.z; };
-		return {Dot(World.AxisX), Dot(World.AxisY), Dot(World.AxisZ)};
-	}
-	static void PlaceInWorld(const FRTModuleRendererDesc& World, double Transform[12])
-	{
-		for (int Column = 0; Column < 3; ++Column)
-		{
-			glm::dvec3 Axis(0);
-			Axis[Column] = 1.0 / double(World.MetersPerUnit);
-			const glm::dvec3 Placed = ToEngine(World, Axis);
-			for (int Row = 0; Row < 3; ++Row) { Transform[Row * 4 + Column] = Placed[Row]; }
-		}
-	}
-	FVerdict Judge(const FEngineConventions& As, const std::vector<float>& Visibility, const std::vector<uint32_t>& Triangles) const
-	{
-		FVerdict Out;
-		for (size_t Pixel = 0; Pixel < Triangles.size(); ++Pixel)
-		{
-			if (Triangles[Pixel] == 0) { continue; }
-			glm::dvec3 Origin, Direction;
-			FEngineRaster::MakeRay(Camera, As, Size, {double(Pixel % Size.x) + 0.5, double(Pixel / Size.x) + 0.5}, Origin, Direction);
-			const uint32_t Triangle = Triangles[Pixel] - 1;
-			const FTriangleTruth::FPlanePoint Point = Truth->MeetPlane(Triangle, Origin, Direction);
-			// The raster's grid has let the pixel show a triangle beside its own.
-			if (!Point.bInside) { continue; }
-			const bool bLit = glm::dot(Point.Normal, ToSun) > 0.0 && !Truth->IsBlocked(Point.Point, ToSun, Triangle);
-			const bool bShownLit = Visibility[Pixel] > 0.5f;
-			++Out.Pixels;
-			Out.Lit += bLit ? 1 : 0;
-			Out.FalselyDark += bLit && !bShownLit ? 1 : 0;
-			Out.FalselyLit += !bLit && bShownLit ? 1 : 0;
-		}
-		return Out;
-	}
-	FVerdict RenderAndJudge(const FEngineConventions& As)
-	{
-		std::vector<float> Visibility;
-		std::vector<uint32_t> Triangles;
-		for (int Frame = 0; Frame < 8; ++Frame)
-		{
-			const FRTStatus Status = Raster->Render(*Renderer, Camera, As, Size, Visibility, Triangles);
-			EXPECT_TRUE(Status.IsOk()) << As.Name << ": " << Status.Message;
-			if (!Status || Raster->IsComplete()) { break; }
-		}
-		EXPECT_TRUE(Raster->IsComplete()) << As.Name;
-		const FVerdict Verdict = Judge(As, Visibility, Triangles);
-		std::printf("[  figure  ] %s\n",
-		    fmt::format("{}: {} pixels, {} lit; falsely dark {:.4f} % ({}), falsely lit {:.4f} % ({})", As.Name, Verdict.Pixels,
-		        Verdict.Lit, 100 * Verdict.GetDarkShare(), Verdict.FalselyDark, 100 * Verdict.GetLitShare(), Verdict.FalselyLit)
-		        .c_str());
-		return Verdict;
-	}
-	/// The table of what ordinary engines have.
-	void CheckTable(size_t LeastLit)
-	{
-		const FEngineConventions Rows[] = {{}, {.Name = "jitter of 0.45 pixels", .Jitter = {0.45f, -0.45f}},
-		    {.Name = "finite D32S8, near 0.5, far 1024",
-		        .DepthFormat = ERTFormat::D32_FLOAT_S8_UINT,
-		        .bReversed = false,
-		        .Near = 0.5,
-		        .Far = 1024},
-		    {.Name = "finite D32S8, near 0.1, far 1024",
-		        .DepthFormat = ERTFormat::D32_FLOAT_S8_UINT,
-		        .bReversed = false,
-		        .Near = 0.1,
-		        .Far = 1024},
-		    {.Name = "one view-space UNORM8 normal", .bViewNormals = true},
-		    {.Name = "all of it",
-		        .DepthFormat = ERTFormat::D32_FLOAT_S8_UINT,
-		        .bReversed = false,
-		        .Near = 0.1,
-		        .Far = 1024,
-		        .Jitter = {-0.45f, 0.45f},
-		        .bViewNormals = true}};
-		for (const FEngineConventions& Row : Rows)
-		{
-			const FVerdict Verdict = RenderAndJudge(Row);
-			EXPECT_GE(Verdict.Lit, LeastLit) << Row.Name;
-			EXPECT_LE(Verdict.GetDarkShare(), 0.0005) << Row.Name;
-			// Without a geometric normal, rays that graze the back of a leaf may pass it.
-			EXPECT_LE(Verdict.GetLitShare(), Row.bViewNormals ? 0.005 : 0.0005) << Row.Name;
-		}
-	}
-
-	bool bCountsMessages = true;
-	TRTRef<IRTModule> Module;
-	TRTRef<IRTDevice> Device;
-	TRTRef<IRTModuleRenderer> Renderer;
-	FTriangleSoup Soup;
-	FEngineCamera Camera;
-	std::unique_ptr<FTriangleTruth> Truth;
-	std::unique_ptr<FEngineRaster> Raster;
-};
 
 TEST_F(FConventionTest, CourtyardIsLitWhereTheSunReachesIt)
 {
@@ -234,64 +31,6 @@ TEST_F(FConventionTest, SponzaIsLitWhereTheSunReachesIt)
 	CheckTable(10000);
 }
 
-/// Boxes over a floor: a few triangles.
-FTriangleSoup MakeBoxes()
-{
-	FTriangleSoup Soup;
-	const auto AddBox = [&](const glm::vec3& Center, const glm::vec3& Half) {
-		for (int Face = 0; Face < 6; ++Face)
-		{
-			const int Axis = Face / 2;
-			glm::vec3 N(0), U(0), V(0);
-			N[Axis] = Face % 2 ? 1.0f : -1.0f;
-			U[(Axis + 1) % 3] = 1.0f;
-			V = glm::cross(N, U);
-			const auto Corner = [&](float A, float B) { return Center + (N + U * A + V * B) * Half; };
-			for (const glm::vec2 At : {glm::vec2(-1, -1), {1, -1}, {1, 1}, {-1, -1}, {1, 1}, {-1, 1}})
-			{
-				Soup.Positions.push_back(Corner(At.x, At.y));
-				Soup.Normals.push_back(N);
-			}
-		}
-	};
-	AddBox({0, -0.5f, 0}, {40, 0.5f, 40});
-	for (int I = 0; I < 30; ++I)
-	{
-		const float X = float(I * 7 % 11) * 1.7f - 9.0f, Z = float(I * 5 % 13) * 1.6f - 11.0f, Height = 0.2f + 0.13f * float(I % 9);
-		AddBox({X, Height, Z}, {0.15f + 0.05f * float(I % 5), Height, 0.4f});
-	}
-	return Soup;
-}
-
-class FBoxesTest : public FConventionTest
-{
-protected:
-	void SetUp() override
-	{
-		FConventionTest::SetUp();
-		Soup = MakeBoxes();
-		Camera = {{3, 4, 12}, glm::normalize(glm::dvec3(-0.3, -0.35, -1)), {0, 1, 0}, 1.0};
-	}
-	std::vector<float> RenderPicture(const FEngineConventions& As)
-	{
-		std::vector<float> Visibility;
-		std::vector<uint32_t> Triangles;
-		for (int Frame = 0; Frame < 4; ++Frame)
-		{
-			const FRTStatus Status = Raster->Render(*Renderer, Camera, As, Size, Visibility, Triangles);
-			EXPECT_TRUE(Status.IsOk()) << Status.Message;
-		}
-		return Visibility;
-	}
-	static double CountDifferent(const std::vector<float>& A, const std::vector<float>& B)
-	{
-		EXPECT_EQ(A.size(), B.size());
-		size_t Different = 0;
-		for (size_t I = 0; I < std::min(A.size(), B.size()); ++I) { Different += A[I] != B[I] ? 1 : 0; }
-		return double(Different) / double(A.size());
-	}
-};
-
 TEST_F(FBoxesTest, EveryProjectionAndDepthFormat)
 {
 	ASSERT_NO_FATAL_FAILURE(Open());
@@ -306,7 +45,7 @@ TEST_F(FBoxesTest, EveryProjectionAndDepthFormat)
 	        .bReversed = false,
 	        .Near = 1,
 	        .Far = 100,
-	        .bViewNormals = true},
+	        .Normals = EEngineNormals::View},
 	    {.Name = "orthographic, D32S8", .DepthFormat = D32_FLOAT_S8_UINT, .bReversed = false, .Near = -5, .Far = 60, .bOrthographic = true},
 	    {.Name = "orthographic, reversed, y up, jitter",
 	        .Near = 1,
@@ -324,11 +63,33 @@ TEST_F(FBoxesTest, EveryProjectionAndDepthFormat)
 	}
 }
 
+// No ray of such a surface meets the surface itself, so that only its normal can say that it turns away from the sun.
+TEST_F(FBoxesTest, SurfacesThatCastNoShadowTurnAwayFromTheSun)
+{
+	bCastsShadow = false;
+	ASSERT_NO_FATAL_FAILURE(Open());
+	for (const bool bViewNormals : {false, true})
+	{
+		const FVerdict Verdict = RenderAndJudge({.Name = bViewNormals ? "no shadows, geometric normals from depth" : "no shadows",
+		    .DepthFormat = ERTFormat::D32_FLOAT_S8_UINT,
+		    .bReversed = false,
+		    .Near = 0.1,
+		    .Far = 1024,
+		    .Jitter = {0.3f, -0.2f},
+		    .Normals = bViewNormals ? EEngineNormals::View : EEngineNormals::Native});
+		EXPECT_GE(Verdict.Lit, 20000u);
+		EXPECT_GE(Verdict.Pixels - Verdict.Lit, 1000u) << "the test could not fail";
+		EXPECT_LE(Verdict.GetDarkShare(), 0.0005);
+		// A strip that is one pixel wide has no neighbours that confirm its normal, so its rays are traced.
+		EXPECT_LE(Verdict.GetLitShare(), bViewNormals ? 0.01 : 0.0005);
+	}
+}
+
 // Directions, positions, transforms and the sun of an engine with other axes, mirrored, in centimetres.
 TEST_F(FBoxesTest, UnrealsWorldIsTheSame)
 {
 	FEngineConventions As;
-	As.bViewNormals = true;
+	As.Normals = EEngineNormals::View;
 	ASSERT_NO_FATAL_FAILURE(Open());
 	const std::vector<float> Own = RenderPicture(As);
 	Renderer.Reset();
@@ -361,7 +122,7 @@ TEST_F(FBoxesTest, PartOfLargerTexturesIsTheSame)
 	As.Offset = {37, 22};
 	EXPECT_LE(CountDifferent(RenderPicture(As), Whole), 0.001) << "the raster's grid and rounding";
 	As.DepthFormat = ERTFormat::D32_FLOAT_S8_UINT;
-	As.bViewNormals = true;
+	As.Normals = EEngineNormals::View;
 	EXPECT_LE(CountDifferent(RenderPicture(As), Whole), 0.002);
 	Raster->Change = [](FRTModuleFrame& Frame) { Frame.OffsetX += 9; };
 	EXPECT_GT(CountDifferent(RenderPicture(As), Whole), 0.01) << "the test could not fail";
@@ -414,7 +175,7 @@ TEST_F(FSynchronizationTest, TexturesInTheEnginesOwnLayouts)
 	As.bExternal = true;
 	EXPECT_EQ(CountDifferent(RenderPicture(As), Plain), 0.0);
 	As.DepthFormat = ERTFormat::D32_FLOAT_S8_UINT;
-	As.bViewNormals = true;
+	As.Normals = EEngineNormals::View;
 	As.Offset = {8, 8};
 	EXPECT_LE(CountDifferent(RenderPicture(As), Plain), 0.002);
 	ASSERT_FINE(Module->SetConsoleVariable("r.RT.Shadow.Soft", "1"));

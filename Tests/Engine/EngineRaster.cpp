@@ -15,21 +15,34 @@ namespace Lantern
 
 namespace
 {
-struct FPush
+/// Shared with the shaders below.
+struct FFrameData
 {
-	glm::mat4 RelativeToClip;
+	glm::mat4 RelativeToClip;                   ///< to the textures, with jitter
+	glm::mat4 ViewToPicture, PreviousToPicture; ///< to the view's clip space, from positions relative to each camera, without jitter
+	glm::vec4 Motion;                           ///< what is stored: xy · Motion.xy + Motion.zw, in pixels
 	uint64_t Positions, Normals;
-	glm::vec3 Eye, Right, Up;
-	uint32_t bOrthographic;
+	glm::vec3 Eye, Right, Up, PreviousEye, PreviousForward, Moved;
+	glm::vec2 Size;
+	uint32_t bOrthographic, Normal, bUnreal;
 };
-static_assert(sizeof(FPush) == 120, "shared with the shaders below");
+static_assert(sizeof(FFrameData) == 320);
 
 constexpr const char* Declarations = R"(#version 460
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FVectors { vec3 Data[]; };
-layout(push_constant, scalar) uniform FPush { mat4 RelativeToClip; FVectors Positions, Normals; vec3 Eye, Right, Up; uint bOrthographic; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FFrameData
+{
+	mat4 RelativeToClip, ViewToPicture, PreviousToPicture;
+	vec4 Motion;
+	FVectors Positions, Normals;
+	vec3 Eye, Right, Up, PreviousEye, PreviousForward, Moved;
+	vec2 Size;
+	uint bOrthographic, Normal, bUnreal;
+};
+layout(push_constant, scalar) uniform FPush { FFrameData Frame; };
 )";
 
 constexpr const char* VertexText = R"(
@@ -40,12 +53,12 @@ layout(location = 3) flat out uint OutTriangle;
 void main()
 {
 	int First = gl_VertexIndex / 3 * 3;
-	vec3 A = Positions.Data[First];
-	OutGeometric = normalize(cross(Positions.Data[First + 1] - A, Positions.Data[First + 2] - A));
+	vec3 A = Frame.Positions.Data[First];
+	OutGeometric = normalize(cross(Frame.Positions.Data[First + 1] - A, Frame.Positions.Data[First + 2] - A));
 	OutTriangle = uint(gl_VertexIndex / 3) + 1u;
-	OutNormal = Normals.Data[gl_VertexIndex];
-	OutRelative = Positions.Data[gl_VertexIndex] - Eye;
-	gl_Position = RelativeToClip * vec4(OutRelative, 1.0);
+	OutNormal = Frame.Normals.Data[gl_VertexIndex];
+	OutRelative = Frame.Positions.Data[gl_VertexIndex] - Frame.Eye;
+	gl_Position = Frame.RelativeToClip * vec4(OutRelative, 1.0);
 }
 )";
 
@@ -57,6 +70,26 @@ layout(location = 3) flat in uint InTriangle;
 layout(location = 0) out vec4 OutViewNormal;
 layout(location = 1) out vec4 OutNormals;
 layout(location = 2) out uint OutTriangle;
+layout(location = 3) out float OutDistance;
+layout(location = 4) out vec4 OutMotion;
+layout(location = 5) out vec4 OutBaseColor;
+layout(location = 6) out vec4 OutMaterial;
+// xy: offset to where the surface was, pixels; z: its distance then.
+vec3 FindMotion()
+{
+	vec3 Before = InRelative + Frame.Eye - Frame.Moved - Frame.PreviousEye;
+	vec4 From = Frame.PreviousToPicture * vec4(Before, 1.0), To = Frame.ViewToPicture * vec4(InRelative, 1.0);
+	return vec3((From.xy / From.w - To.xy / To.w) * 0.5 * Frame.Size, dot(Before, Frame.PreviousForward));
+}
+void StoreMaterial()
+{
+	float Kind = float(InTriangle / 12u);
+	float Metal = mod(Kind, 2.0), Roughness = 0.25 + 0.125 * mod(Kind, 5.0);
+	vec3 Color = vec3(0.8, 0.4 + 0.1 * mod(Kind, 4.0), 0.3);
+	// Unreal's specular of 0.5 is F0 = 0.04, whose root is 0.2.
+	OutBaseColor = vec4(Color, Frame.bUnreal != 0u ? 1.0 : Metal);
+	OutMaterial = Frame.bUnreal != 0u ? vec4(Metal, 0.5, Roughness, 0.0) : vec4(Roughness, 1.0, 0.2, 1.0);
+}
 vec2 OctEncode(vec3 V)
 {
 	V /= abs(V.x) + abs(V.y) + abs(V.z);
@@ -65,13 +98,18 @@ vec2 OctEncode(vec3 V)
 }
 void main()
 {
-	vec3 Forward = cross(Up, Right);
-	vec3 Ng = dot(InGeometric, bOrthographic != 0u ? Forward : InRelative) > 0.0 ? -InGeometric : InGeometric;
+	vec3 Forward = cross(Frame.Up, Frame.Right);
+	vec3 Ng = dot(InGeometric, Frame.bOrthographic != 0u ? Forward : InRelative) > 0.0 ? -InGeometric : InGeometric;
 	vec3 N = normalize(InNormal);
 	N = dot(N, Ng) < 0.0 ? -N : N;
-	OutViewNormal = vec4(vec3(dot(N, Right), dot(N, Up), -dot(N, Forward)) * 0.5 + 0.5, 1.0);
+	vec3 Stored = Frame.Normal == 2u ? N : vec3(dot(N, Frame.Right), dot(N, Frame.Up), -dot(N, Forward));
+	OutViewNormal = vec4(Stored * 0.5 + 0.5, 1.0);
 	OutNormals = vec4(OctEncode(N), OctEncode(Ng));
 	OutTriangle = InTriangle;
+	OutDistance = dot(InRelative, Forward);
+	vec3 Motion = FindMotion();
+	OutMotion = vec4(Motion.xy * Frame.Motion.xy + Frame.Motion.zw, Motion.z, 1.0);
+	StoreMaterial();
 }
 )";
 
@@ -90,6 +128,38 @@ glm::dvec2 GetHalfSize(const FEngineCamera& Camera, const FEngineConventions& As
 {
 	const double HalfY = As.bOrthographic ? 0.5 * As.OrthographicHeight : std::tan(0.5 * Camera.FovY);
 	return {HalfY * Size.x / Size.y, HalfY};
+}
+
+enum ETarget : size_t
+{
+	EngineNormalsTarget,
+	NormalsTarget,
+	TrianglesTarget,
+	DistanceTarget,
+	MotionTarget,
+	BaseColorTarget,
+	MaterialTarget,
+};
+
+std::array<ERTFormat, FEngineRaster::ColorCount> GetColorFormats(const FEngineConventions& As)
+{
+	const ERTFormat MotionFormat = As.MotionFormat == ERTFormat::Unknown ? ERTFormat::RG16_FLOAT : As.MotionFormat;
+	const ERTFormat NormalFormat = As.Normals == EEngineNormals::World ? ERTFormat::RGB10A2_UNORM : ERTFormat::RGBA8_UNORM;
+	return {NormalFormat, ERTFormat::RGBA16_SNORM, ERTFormat::R32_UINT, ERTFormat::R32_FLOAT, MotionFormat, ERTFormat::RGBA8_SRGB,
+	    ERTFormat::RGBA8_UNORM};
+}
+
+/// Inverts what As.Layout says of stored motion.
+glm::vec4 GetStoredMotion(const FEngineConventions& As, glm::uvec2 Size)
+{
+	glm::vec4 Out(1, 1, 0, 0);
+	for (int Axis = 0; Axis < 2; ++Axis)
+	{
+		const float Unit = As.Layout.Motion == ERTModuleMotion::UV ? float(Size[Axis]) : 1.0f;
+		Out[Axis] = 1.0f / (Unit * As.Layout.MotionScale[Axis]);
+		Out[Axis + 2] = -As.Layout.MotionOffset[Axis] / As.Layout.MotionScale[Axis];
+	}
+	return Out;
 }
 
 glm::uvec2 GetTextureSize(const FEngineConventions& As, glm::uvec2 Size)
@@ -176,12 +246,12 @@ FRTStatus FEngineRaster::CreatePipeline(const FEngineConventions& As, TRTRef<IRT
 	if (const FRTStatus Status = Compiler.Compile(Source, Vertex); !Status) { return Status; }
 	Source = {"Engine.frag", ERTShaderStage::Fragment, {}, std::string(Declarations) + FragmentText};
 	if (const FRTStatus Status = Compiler.Compile(Source, Fragment); !Status) { return Status; }
-	constexpr ERTFormat Formats[] = {ERTFormat::RGBA8_UNORM, ERTFormat::RGBA16_SNORM, ERTFormat::R32_UINT};
+	const std::array<ERTFormat, ColorCount> Formats = GetColorFormats(As);
 	FRTRasterPipelineDesc Desc;
 	Desc.Vertex = Vertex.GetCode();
 	Desc.Fragment = Fragment.GetCode();
-	Desc.ColorFormats = Formats;
-	Desc.ColorCount = 3;
+	Desc.ColorFormats = Formats.data();
+	Desc.ColorCount = ColorCount;
 	Desc.DepthFormat = As.DepthFormat;
 	Desc.Cull = ERTCull::None;
 	Desc.bReversedDepth = As.bReversed;
@@ -196,48 +266,68 @@ FRTStatus FEngineRaster::CreateTargets(const FEngineConventions& As, glm::uvec2 
 		return Device.CreateTexture({Whole.x, Whole.y, 1, 1, Format, Usage, Name}, Texture.ReleaseAndGetAddress());
 	};
 	constexpr ERTTextureUsage Color = ERTTextureUsage::Sampled | ERTTextureUsage::RenderTarget;
+	const std::array<ERTFormat, ColorCount> Formats = GetColorFormats(As);
 	FRTStatus Status = Create(As.DepthFormat, ERTTextureUsage::Sampled | ERTTextureUsage::Depth, "Depth", Out.Depth);
-	if (Status) { Status = Create(ERTFormat::RGBA8_UNORM, Color, "ViewNormals", Out.ViewNormals); }
-	if (Status) { Status = Create(ERTFormat::RGBA16_SNORM, Color, "Normals", Out.Normals); }
-	if (Status) { Status = Create(ERTFormat::R32_UINT, Color | ERTTextureUsage::CopySource, "Triangles", Out.Triangles); }
+	for (size_t I = 0; Status && I < ColorCount; ++I)
+	{
+		constexpr const char* Names[] = {"EngineNormals", "Normals", "Triangles", "Distance", "Motion", "BaseColor", "Material"};
+		const ERTTextureUsage Usage = I == TrianglesTarget ? Color | ERTTextureUsage::CopySource : Color;
+		Status = Create(Formats[I], Usage, Names[I], Out.Colors[I]);
+	}
 	return Status;
 }
 
-void FEngineRaster::Draw(IRTCommandList& List, IRTPipeline* Pipeline, const FTargets& Targets, const FEngineCamera& Camera,
-    const FEngineConventions& As, glm::uvec2 Size)
+/// Constants of the frame. Nothing has moved in the first one.
+FRTStatus FEngineRaster::WriteFrame(const FEngineCamera& Camera, const FEngineConventions& As, glm::uvec2 Size, FTargets& Targets) const
+{
+	const FEngineCamera& Before = Previous ? *Previous : Camera;
+	FEngineConventions Alone = As; // the view by itself
+	Alone.Offset = {0, 0};
+	Alone.Jitter = {0, 0};
+	const FAxes Axes(Camera);
+	FFrameData Data{MakeRasterMatrix(Camera, As, Size), MakeRasterMatrix(Camera, Alone, Size), MakeRasterMatrix(Before, Alone, Size),
+	    GetStoredMotion(As, Size), Positions->GetDeviceAddress(), Normals->GetDeviceAddress(), glm::vec3(Camera.Position - Shift),
+	    glm::vec3(Axes.Right), glm::vec3(Axes.Up), glm::vec3(Before.Position - Shift), glm::vec3(FAxes(Before).Forward),
+	    glm::vec3(Shift - PreviousShift), glm::vec2(Size), As.bOrthographic ? 1u : 0u, static_cast<uint32_t>(As.Normals),
+	    As.bUnrealMaterial ? 1u : 0u};
+	const FRTStatus Status =
+	    Device.CreateBuffer({sizeof(Data), ERTBufferUsage::Storage, ERTMemory::Upload, "Frame"}, Targets.Frame.ReleaseAndGetAddress());
+	if (Status) { std::memcpy(Targets.Frame->GetMapped(), &Data, sizeof(Data)); }
+	return Status;
+}
+
+void FEngineRaster::Draw(
+    IRTCommandList& List, IRTPipeline* Pipeline, const FTargets& Targets, const FEngineConventions& As, glm::uvec2 Size)
 {
 	using enum ERTAccess;
-	IRTTexture* const Colors[] = {Targets.ViewNormals.Get(), Targets.Normals.Get(), Targets.Triangles.Get()};
-	FRTBarrier Barriers[4] = {{nullptr, Targets.Depth.Get(), None, DepthWrite}};
-	FRTColorTarget ColorTargets[3];
-	for (int I = 0; I < 3; ++I)
+	FRTBarrier Barriers[ColorCount + 1] = {{nullptr, Targets.Depth.Get(), None, DepthWrite}};
+	FRTColorTarget ColorTargets[ColorCount];
+	for (size_t I = 0; I < ColorCount; ++I)
 	{
-		Barriers[I + 1] = {nullptr, Colors[I], None, RenderTarget};
-		ColorTargets[I].Texture = Colors[I];
+		Barriers[I + 1] = {nullptr, Targets.Colors[I].Get(), None, RenderTarget};
+		ColorTargets[I].Texture = Targets.Colors[I].Get();
 	}
-	List.Barriers(Barriers, 4);
+	List.Barriers(Barriers, ColorCount + 1);
 	const glm::uvec2 Whole = GetTextureSize(As, Size);
 	FRTRasterPassDesc Pass;
 	Pass.Colors = ColorTargets;
-	Pass.ColorCount = 3;
+	Pass.ColorCount = ColorCount;
 	Pass.Depth = Targets.Depth.Get();
 	Pass.ClearDepth = As.bReversed ? 0.0f : 1.0f;
 	Pass.Width = Whole.x;
 	Pass.Height = Whole.y;
 	List.BeginRasterPass(Pass);
 	List.SetPipeline(Pipeline);
-	const FAxes Axes(Camera);
-	const FPush Push{MakeRasterMatrix(Camera, As, Size), Positions->GetDeviceAddress(), Normals->GetDeviceAddress(),
-	    glm::vec3(Camera.Position), glm::vec3(Axes.Right), glm::vec3(Axes.Up), As.bOrthographic ? 1u : 0u};
-	List.PushConstants(&Push, sizeof(Push));
+	const uint64_t Frame = Targets.Frame->GetDeviceAddress();
+	List.PushConstants(&Frame, sizeof(Frame));
 	List.Draw(VertexCount, 1);
 	List.EndRasterPass();
 	for (FRTBarrier& Barrier : Barriers)
 	{
 		Barrier.Before = Barrier.After;
-		Barrier.After = Barrier.Texture == Targets.Triangles.Get() ? CopyRead : ShaderRead;
+		Barrier.After = Barrier.Texture == Targets.Colors[TrianglesTarget].Get() ? CopyRead : ShaderRead;
 	}
-	List.Barriers(Barriers, 4);
+	List.Barriers(Barriers, ColorCount + 1);
 }
 
 FRTStatus FEngineRaster::MoveToOwnLayouts(IRTCommandList& List, FTargets& Targets, FRTModuleFrame& Frame)
@@ -289,14 +379,23 @@ FRTModuleFrame FEngineRaster::DescribeFrame(
 	Frame.View.Projection = MakeProjection(Camera, As, Size);
 	Frame.View.Jitter[0] = As.Jitter.x;
 	Frame.View.Jitter[1] = As.Jitter.y;
-	Frame.Depth = Targets.Depth.Get();
-	Frame.Normals = As.bViewNormals ? Targets.ViewNormals.Get() : Targets.Normals.Get();
-	if (As.bViewNormals)
+	Frame.Depth = As.bLinearDepth ? Targets.Colors[DistanceTarget].Get() : Targets.Depth.Get();
+	Frame.Layout = As.Layout;
+	if (As.bLinearDepth) { Frame.Layout.Depth = ERTModuleDepth::Linear; }
+	Frame.Normals = Targets.Colors[As.Normals == EEngineNormals::Native ? NormalsTarget : EngineNormalsTarget].Get();
+	if (As.Normals != EEngineNormals::Native)
 	{
 		Frame.Layout.Normals = ERTModuleNormals::Xyz;
-		Frame.Layout.bViewSpaceNormals = true;
+		Frame.Layout.bViewSpaceNormals = As.Normals == EEngineNormals::View;
 		Frame.Layout.bGeometricInZw = false;
 	}
+	if (As.MotionFormat != ERTFormat::Unknown) { Frame.Motion = Targets.Colors[MotionTarget].Get(); }
+	if (As.bMaterials)
+	{
+		Frame.BaseColor = Targets.Colors[BaseColorTarget].Get();
+		Frame.Material = Targets.Colors[MaterialTarget].Get();
+	}
+	Frame.Wanted = {As.Signal};
 	Frame.OffsetX = As.Offset.x;
 	Frame.OffsetY = As.Offset.y;
 	Frame.Width = Size.x;
@@ -306,7 +405,8 @@ FRTModuleFrame FEngineRaster::DescribeFrame(
 
 namespace
 {
-void Decode(const FEngineConventions& As, glm::uvec2 Size, IRTBuffer* ShadowTexels, IRTBuffer* TriangleTexels,
+/// Channels: of the signal, halves. Colours become the sum of red, green and blue.
+void Decode(const FEngineConventions& As, glm::uvec2 Size, IRTBuffer* ShadowTexels, uint32_t Channels, IRTBuffer* TriangleTexels,
     std::vector<float>& OutVisibility, std::vector<uint32_t>& OutTriangles)
 {
 	const glm::uvec2 Whole = GetTextureSize(As, Size);
@@ -319,7 +419,12 @@ void Decode(const FEngineConventions& As, glm::uvec2 Size, IRTBuffer* ShadowTexe
 			const size_t Pixel = size_t(Y) * Size.x + X, Texel = size_t(Y + As.Offset.y) * Whole.x + X + As.Offset.x;
 			OutTriangles[Pixel] = static_cast<const uint32_t*>(TriangleTexels->GetMapped())[Texel];
 			if (!ShadowTexels) { continue; }
-			OutVisibility[Pixel] = glm::unpackHalf1x16(static_cast<const uint16_t*>(ShadowTexels->GetMapped())[Pixel]);
+			const auto* const Halves = static_cast<const uint16_t*>(ShadowTexels->GetMapped()) + Pixel * Channels;
+			OutVisibility[Pixel] = 0.0f;
+			for (uint32_t Channel = 0; Channel < std::min(Channels, 3u); ++Channel)
+			{
+				OutVisibility[Pixel] += glm::unpackHalf1x16(Halves[Channel]);
+			}
 		}
 	}
 }
@@ -333,11 +438,12 @@ FRTStatus FEngineRaster::Render(IRTModuleRenderer& Renderer, const FEngineCamera
 	TRTRef<IRTCommandList> List, Commands;
 	FRTStatus Status = CreatePipeline(As, Pipeline);
 	if (Status) { Status = CreateTargets(As, Size, Targets); }
+	if (Status) { Status = WriteFrame(Camera, As, Size, Targets); }
 	if (Status) { Status = Device.CreateCommandList("Engine", List.ReleaseAndGetAddress()); }
 	if (Status) { Status = List->Begin(); }
 	if (Status) { Status = Device.ImportCommandList(List->GetNative(ERTNative::CommandBuffer), Commands.ReleaseAndGetAddress()); }
 	if (!Status) { return Status; }
-	Draw(*List, Pipeline.Get(), Targets, Camera, As, Size);
+	Draw(*List, Pipeline.Get(), Targets, As, Size);
 	FRTModuleFrame Frame = DescribeFrame(Targets, Camera, As, Size);
 	Frame.Commands = Commands.Get();
 	if (Change) { Change(Frame); }
@@ -352,14 +458,15 @@ FRTStatus FEngineRaster::Render(IRTModuleRenderer& Renderer, const FEngineCamera
 		if (Imported) { List->Barriers(&Barrier, 1); } // they are back in the engine's layouts
 	}
 	bComplete = Outputs.bComplete;
-	IRTTexture* const Shadow = Outputs.Get(ESignal::SunShadow);
+	IRTTexture* const Shadow = Outputs.Get(As.Signal);
+	const uint32_t Channels = GetSignalInfo(As.Signal).Channels == 1 ? 1 : 4;
 	TRTRef<IRTBuffer> ShadowTexels, TriangleTexels;
-	Status = ReadBack(*List, Targets.Triangles.Get(), 4, TriangleTexels);
+	Status = ReadBack(*List, Targets.Colors[TrianglesTarget].Get(), 4, TriangleTexels);
 	if (Status && Shadow != nullptr)
 	{
 		FRTBarrier Barrier{nullptr, Shadow, ERTAccess::ShaderRead, ERTAccess::CopyRead};
 		List->Barriers(&Barrier, 1);
-		Status = ReadBack(*List, Shadow, 2, ShadowTexels);
+		Status = ReadBack(*List, Shadow, 2 * Channels, ShadowTexels);
 		std::swap(Barrier.Before, Barrier.After);
 		List->Barriers(&Barrier, 1);
 	}
@@ -371,7 +478,7 @@ FRTStatus FEngineRaster::Render(IRTModuleRenderer& Renderer, const FEngineCamera
 	if (Status) { Status = Renderer.EndFrame(nullptr); }
 	if (Status) { Status = Device.WaitFor(Fence, ~0ull); }
 	if (!Status) { return Status; }
-	Decode(As, Size, ShadowTexels.Get(), TriangleTexels.Get(), OutVisibility, OutTriangles);
+	Decode(As, Size, ShadowTexels.Get(), Channels, TriangleTexels.Get(), OutVisibility, OutTriangles);
 	return Status;
 }
 

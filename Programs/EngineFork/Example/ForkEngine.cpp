@@ -14,25 +14,24 @@ namespace
 {
 
 constexpr VkDeviceSize MaskBytes = PixelCount * 2; // of each mask, in halves
+constexpr VkDeviceSize LitBytes = PixelCount * 8;
+constexpr VkDeviceSize ViewBytes = 2 * MaskBytes + LitBytes;
 
-/// The plugin leaves its outputs readable by shaders. The engine copies an output and restores its layout.
-void CopyMask(VkCommandBuffer Commands, IRTTexture& Mask, const FForkBuffer& Readback, VkDeviceSize Offset)
+void CopyImage(VkCommandBuffer Commands, VkImage Image, VkImageLayout Layout, VkOffset2D From, const FForkBuffer& To, VkDeviceSize Offset)
 {
-	const auto Image = reinterpret_cast<VkImage>(Mask.GetNative(ERTNative::Image));
-	Transition(Commands, Image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+	Transition(Commands, Image, VK_IMAGE_ASPECT_COLOR_BIT, Layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
 	VkBufferImageCopy Region{};
 	Region.bufferOffset = Offset;
 	Region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-	Region.imageExtent = {FrameSize.width, FrameSize.height, 1};
-	vkCmdCopyImageToBuffer(Commands, Image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, Readback.Buffer, 1, &Region);
-	Transition(Commands, Image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+	Region.imageOffset = {From.x, From.y, 0};
+	Region.imageExtent = {ViewSize.width, ViewSize.height, 1};
+	vkCmdCopyImageToBuffer(Commands, Image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, To.Buffer, 1, &Region);
+	Transition(Commands, Image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, Layout);
 }
 
 } // namespace
 
-FForkEngine::~FForkEngine() { Plugin.ReleaseGBuffer(); }
-
-FError FForkEngine::CreateDevice()
+FError FForkEngine::CreateOnDevice(FOnDevice& Out) const
 {
 	FError Reasons = "no Vulkan device";
 	FForkFeatures Own;
@@ -45,45 +44,77 @@ FError FForkEngine::CreateDevice()
 		Desc.Extensions = FForkFeatures::Extensions;
 		Desc.ExtensionCount = static_cast<uint32_t>(std::size(FForkFeatures::Extensions));
 		Desc.FeatureChain = &Own.Core;
-		const FRTStatus Status = Module.GetVulkan()->GetRequirements(Desc, Requirements.ReleaseAndGetAddress());
+		const FRTStatus Status = Module.GetVulkan()->GetRequirements(Desc, Out.Requirements.ReleaseAndGetAddress());
 		if (!Status.IsOk())
 		{
 			Reasons += std::string("; ") + Status.Message;
 			continue;
 		}
-		const char* const* const Names = Requirements->GetExtensions();
-		const FForkDeviceLists Lists{{Names, Names + Requirements->GetExtensionCount()}, Requirements->MergeFeatures()};
-		std::printf("device: %s, %s\n", Requirements->GetCapabilities().DeviceName, Requirements->GetCapabilities().DriverName);
-		return Device.Create(Physical, Lists);
+		const char* const* const Names = Out.Requirements->GetExtensions();
+		const FForkDeviceLists Lists{{Names, Names + Out.Requirements->GetExtensionCount()}, Out.Requirements->MergeFeatures()};
+		const FRTCapabilities& Capabilities = Out.Requirements->GetCapabilities();
+		std::printf("device: %s, %s\n", Capabilities.DeviceName, Capabilities.DriverName);
+		return Out.Device.Create(Physical, Lists);
 	}
 	return Reasons;
 }
 
-FError FForkEngine::LoadScene(const FForkScene& Scene)
+FError FForkEngine::CreateDevice()
 {
-	FError Error = Plugin.Create(Module, Instance, Device, *Requirements);
-	if (Error.empty()) { Error = Skin.Create(Device); }
-	if (Error.empty()) { Error = Raster.Create(Device, FrameSize); }
-	if (Error.empty()) { Error = Readback.Create(Device, 2 * MaskBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT); }
-	if (Error.empty()) { Error = Plugin.AddScene(Scene); }
-	return Error.empty() ? Plugin.ImportGBuffer(Raster, FrameSize) : Error;
+	On = std::make_unique<FOnDevice>();
+	return CreateOnDevice(*On);
 }
 
-FError FForkEngine::CopyOutputs(const FRTModuleOutputs& Outputs, FFrameMasks& Out) const
+FError FForkEngine::FOnDevice::CreateThings()
+{
+	FError Error = Skin.Create(Device);
+	if (Error.empty()) { Error = Raster.Create(Device); }
+	if (Error.empty()) { Error = Light.Create(Device); }
+	return Error.empty() ? Readback.Create(Device, ViewCount * ViewBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT) : Error;
+}
+
+FError FForkEngine::LoadScene(const FForkScene& Scene)
+{
+	FError Error = On->CreateThings();
+	if (Error.empty()) { Error = On->Plugin.Adopt(Module, Instance, On->Device, *On->Requirements); }
+	if (Error.empty()) { Error = On->Plugin.ImportGBuffer(On->Raster); }
+	return Error.empty() ? Plugin.Create(Module, On->Plugin, Scene) : Error;
+}
+
+FError FForkEngine::ChangeDevice()
+{
+	auto New = std::make_unique<FOnDevice>();
+	FError Error = CreateOnDevice(*New);
+	if (Error.empty()) { Error = New->CreateThings(); }
+	if (Error.empty()) { Error = New->Plugin.Adopt(Module, Instance, New->Device, *New->Requirements); }
+	if (Error.empty()) { Error = New->Plugin.ImportGBuffer(New->Raster); }
+	if (Error.empty()) { Error = Plugin.Recreate(New->Plugin); }
+	if (!Error.empty()) { return Error; }
+	std::swap(On, New);
+	Before.reset();
+	return Error;
+}
+
+FError FForkEngine::CopyOutputs(const FRTModuleOutputs& Outputs, uint32_t View, FFrameMasks& Out) const
 {
 	Out = {};
-	VkDeviceSize Offset = 0;
-	for (const auto& [Mask, Memory] : {std::pair(Outputs.Get(ESignal::SunShadow), &Out.SunShadow),
-	         std::pair(Outputs.Get(ESignal::AmbientOcclusion), &Out.AmbientOcclusion)})
+	VkDeviceSize Offset = View * ViewBytes;
+	const auto* const Start = static_cast<const uint16_t*>(On->Readback.Mapped);
+	for (const auto& [Signal, Memory] :
+	    {std::pair(ESignal::SunShadow, &Out.SunShadow), std::pair(ESignal::AmbientOcclusion, &Out.AmbientOcclusion)})
 	{
-		if (Mask != nullptr)
+		if (IRTTexture* const Mask = Outputs.Get(Signal))
 		{
 			if (Mask->GetDesc().Format != ERTFormat::R16_FLOAT) { return "an output has another format than this engine reads"; }
-			CopyMask(Device.Commands, *Mask, Readback, Offset);
-			*Memory = static_cast<const uint16_t*>(Readback.Mapped) + Offset / sizeof(uint16_t);
+			// Outputs are readable by shaders, and have the size of the view.
+			CopyImage(On->Device.Commands, reinterpret_cast<VkImage>(Mask->GetNative(ERTNative::Image)),
+			    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, {}, On->Readback, Offset);
+			*Memory = Start + Offset / sizeof(uint16_t);
 		}
 		Offset += MaskBytes;
 	}
+	CopyImage(On->Device.Commands, On->Light.Lit.Image, VK_IMAGE_LAYOUT_GENERAL, GetViewOffset(View), On->Readback, Offset);
+	Out.Lit = Start + Offset / sizeof(uint16_t);
 	return {};
 }
 
@@ -93,27 +124,37 @@ FError FForkEngine::SkinReed(const FReed& Reed)
 	VkDeviceAddress Traced = 0;
 	FError Error = Plugin.FindReedPositions(Traced);
 	if (!Error.empty()) { return Error; }
-	Skin.Run(Device.Commands, Reed, Traced);
+	On->Skin.Run(On->Device.Commands, Reed, Traced);
 	return Traced != 0 ? Plugin.MarkReedSkinned() : Error;
 }
 
-FError FForkEngine::RunFrame(const FForkScene& Scene, bool bCut, FFrameMasks& Out)
+FError FForkEngine::RunView(const FForkFrame& Frame, bool bCut, FFrameMasks& Out)
 {
-	FError Error = Device.BeginCommands();
+	FError Error = On->Device.BeginCommands();
+	if (Error.empty() && Frame.View == 0) { Error = SkinReed(Frame.Scene.Reed); }
 	if (!Error.empty()) { return Error; }
-	Error = SkinReed(Scene.Reed);
-	if (!Error.empty()) { return Error; }
-	Raster.Draw(Device.Commands, Scene, Skin);
+	On->Raster.Draw(On->Device.Commands, Frame, On->Skin);
 	FRTModuleOutputs Outputs;
-	Error = Plugin.Render(Device.Commands, Scene.Camera, bCut, Outputs);
-	if (Error.empty()) { Error = CopyOutputs(Outputs, Out); }
+	Error = Plugin.Render(On->Device.Commands, Frame, bCut, Outputs);
+	if (!Error.empty()) { return Error; }
+	On->Light.Run(On->Device.Commands, Frame, On->Raster, Outputs);
+	Error = CopyOutputs(Outputs, Frame.View, Out);
 	if (!Error.empty()) { return Error; }
 	const auto SubmitAndEnd = [this] {
-		const FError Submitted = Device.Submit();
+		const FError Submitted = On->Device.Submit();
 		return Submitted.empty() ? Plugin.FinishFrame() : Submitted;
 	};
 	Error = RhiThread.Post(SubmitAndEnd).get();
-	return Error.empty() ? Device.WaitForSubmit() : Error;
+	return Error.empty() ? On->Device.WaitForSubmit() : Error;
+}
+
+FError FForkEngine::RunFrame(const FForkScene& Scene, bool bCut, std::array<FFrameMasks, ViewCount>& Out)
+{
+	if (bCut || !Before) { Before = Scene; }
+	FError Error;
+	for (uint32_t View = 0; Error.empty() && View < ViewCount; ++View) { Error = RunView({Scene, *Before, View}, bCut, Out[View]); }
+	Before = Scene;
+	return Error;
 }
 
 } // namespace Fork

@@ -10,18 +10,23 @@ FForkScene MakeScene(glm::dvec3 Offset)
 {
 	FForkScene Scene;
 	Scene.Boxes = {
-	    {Offset + glm::dvec3(0, -0.5, 0), {10, 0.5, 10}},
-	    {Offset + glm::dvec3(-1, 2.5, 0), {1, 1, 1}},
-	    {Offset + glm::dvec3(3, 2, -2), {0.4, 2, 0.4}, true, false, true},
-	    {Offset + glm::dvec3(-5, 2, 3), {1, 0.2, 1}, false},
-	    {Offset + glm::dvec3(4.5, 1.2, 3), {0.6, 0.6, 0.6}, true, true},
+	    {Offset + At(0, -0.5, 0), At(10, 0.5, 10)},
+	    {Offset + At(-1, 2.5, 0), At(1, 1, 1)},
+	    {Offset + At(3, 2, -2), At(0.4, 2, 0.4), true, false, true},
+	    {Offset + At(-5, 2, 3), At(1, 0.2, 1), false},
+	    {Offset + At(4.5, 1.2, 3), At(0.6, 0.6, 0.6), true, true},
 	};
-	Scene.Reed = {Offset + glm::dvec3(-6.5, 2, -3), 0.5};
-	Scene.SunDirection = normalize(glm::dvec3(0.6, -1.0, 0.35));
-	Scene.Camera.Position = Offset + glm::dvec3(2, 6, 11);
-	Scene.Camera.Forward = normalize(Offset + glm::dvec3(0.5, 0.5, 0) - Scene.Camera.Position);
-	Scene.Camera.Right = normalize(cross(Scene.Camera.Forward, glm::dvec3(0, 1, 0)));
-	Scene.Camera.Up = cross(Scene.Camera.Right, Scene.Camera.Forward);
+	Scene.Reed = {Offset + At(-6.5, 2, -3), 0.5};
+	Scene.SunDirection = normalize(At(0.6, -1.0, 0.35));
+	Scene.Lamp = Offset + At(-3, 3, 2);
+	const auto LookAt = [](FCamera& Camera, glm::dvec3 From, glm::dvec3 To) {
+		Camera.Position = From;
+		Camera.Forward = normalize(To - From);
+		Camera.Right = normalize(cross(glm::dvec3(0, 0, 1), Camera.Forward)); // left-handed
+		Camera.Up = cross(Camera.Forward, Camera.Right);
+	};
+	LookAt(Scene.Cameras[0], Offset + At(2, 6, 11), Offset + At(0.5, 0.5, 0));
+	LookAt(Scene.Cameras[1], Offset + At(10, 5, -5), Offset + At(0, 1, 0));
 	return Scene;
 }
 
@@ -36,25 +41,43 @@ FBoxMesh MakeBoxMesh(glm::vec3 HalfSize)
 		U[static_cast<int>((Axis + 1) % 3)] = 1.0f;
 		const glm::vec3 V = cross(Normal, U);
 		const std::array<glm::vec3, 4> Corners = {Normal - U - V, Normal + U - V, Normal + U + V, Normal - U + V};
-		for (uint32_t Corner = 0; Corner < 4; ++Corner) { Mesh.Vertices[Face * 4 + Corner] = {Corners[Corner] * HalfSize, Normal}; }
+		constexpr std::array<glm::vec2, 4> UVs = {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(1, 1), glm::vec2(0, 1)};
+		for (uint32_t Corner = 0; Corner < 4; ++Corner)
+		{
+			const glm::vec3 Position = Corners[Corner] * HalfSize;
+			Mesh.Vertices[Face * 4 + Corner] = {Position, Normal, Position, UVs[Corner]};
+		}
 		constexpr std::array<uint32_t, 6> Quad = {0, 1, 2, 0, 2, 3};
 		for (uint32_t Index = 0; Index < 6; ++Index) { Mesh.Indices[Face * 6 + Index] = Face * 4 + Quad[Index]; }
 	}
 	return Mesh;
 }
 
+bool IsCutOut(glm::dvec2 UV) { return UV.x > 0.25 && UV.x < 0.75 && UV.y > 0.25 && UV.y < 0.75; }
+
+std::array<uint32_t, CutOutMapSize * CutOutMapSize> MakeCutOutMap()
+{
+	std::array<uint32_t, CutOutMapSize * CutOutMapSize> Texels{};
+	for (uint32_t Texel = 0; Texel < Texels.size(); ++Texel)
+	{
+		const glm::dvec2 Centre = (glm::dvec2(Texel % CutOutMapSize, Texel / CutOutMapSize) + 0.5) / double(CutOutMapSize);
+		Texels[Texel] = IsCutOut(Centre) ? 0x00c0c0c0u : 0xffc0c0c0u;
+	}
+	return Texels;
+}
+
 FReedMesh MakeReedMesh()
 {
 	constexpr int Segments = 8;
-	constexpr float HalfHeight = 2.0f, HalfWidth = 0.3f;
+	constexpr float HalfHeight = 2.0f * float(Metre), HalfWidth = 0.3f * float(Metre);
 	FReedMesh Mesh;
-	constexpr std::array<glm::vec2, 4> Corners = {glm::vec2(1, 1), glm::vec2(1, -1), glm::vec2(-1, -1), glm::vec2(-1, 1)};
+	constexpr std::array<glm::vec2, 4> Corners = {glm::vec2(1, 1), glm::vec2(-1, 1), glm::vec2(-1, -1), glm::vec2(1, -1)};
 	for (int Ring = 0; Ring <= Segments; ++Ring)
 	{
-		const float Y = HalfHeight * (2.0f * float(Ring) / Segments - 1.0f);
+		const float Z = HalfHeight * (2.0f * float(Ring) / Segments - 1.0f);
 		for (const glm::vec2 Corner : Corners)
 		{
-			Mesh.Vertices.push_back({{Corner.x * HalfWidth, Y, Corner.y * HalfWidth}, glm::clamp(Y + 0.5f, 0.0f, 1.0f)});
+			Mesh.Vertices.push_back({{Corner.x * HalfWidth, Corner.y * HalfWidth, Z}, glm::clamp(Z / float(Metre) + 0.5f, 0.0f, 1.0f)});
 		}
 	}
 	for (uint32_t Ring = 0; Ring < Segments; ++Ring)
@@ -72,19 +95,21 @@ glm::dvec3 SkinVertex(const FSkinVertex& Vertex, double Bend)
 {
 	const glm::dvec3 P(Vertex.Position);
 	const double Sine = std::sin(Bend), Cosine = std::cos(Bend);
-	return mix(P, glm::dvec3(P.x * Cosine - P.y * Sine, P.x * Sine + P.y * Cosine, P.z), double(Vertex.Weight));
+	return mix(P, glm::dvec3(P.x * Cosine - P.z * Sine, P.y, P.x * Sine + P.z * Cosine), double(Vertex.Weight));
 }
 
-glm::mat4 GetRelativeToClip(const FCamera& Camera, double Aspect)
+glm::mat4 GetViewToClip(const FCamera& Camera, double Aspect)
 {
-	const double Scale = 1.0 / std::tan(Camera.FovY * 0.5);
-	const glm::dvec3 X = Camera.Right * (Scale / Aspect), Y = Camera.Up * -Scale;
-	glm::dmat4 Rows(0.0); // each column here is a row of the result
-	Rows[0] = glm::dvec4(X, 0.0);
-	Rows[1] = glm::dvec4(Y, 0.0);
-	Rows[2] = glm::dvec4(0.0, 0.0, 0.0, Camera.Near);
-	Rows[3] = glm::dvec4(Camera.Forward, 0.0);
-	return glm::mat4(transpose(Rows));
+	const double Scale = 1.0 / std::tan(Camera.FovY * 0.5), Depth = Camera.Far - Camera.Near;
+	glm::dmat4 Matrix(0.0);
+	Matrix[0][0] = Scale / Aspect;
+	Matrix[1][1] = -Scale;
+	Matrix[2][2] = -Camera.Far / Depth;
+	Matrix[3][2] = -Camera.Far * Camera.Near / Depth;
+	Matrix[2][3] = -1.0;
+	return glm::mat4(Matrix);
 }
+
+glm::dmat3 GetWorldToView(const FCamera& Camera) { return transpose(glm::dmat3(Camera.Right, Camera.Up, -Camera.Forward)); }
 
 } // namespace Fork

@@ -49,6 +49,7 @@ FError FForkSkin::Create(const FForkDevice& Owner)
 	if (Error.empty()) { Error = Indices.Create(Owner, IndexCount * sizeof(uint32_t), VK_BUFFER_USAGE_INDEX_BUFFER_BIT); }
 	if (!Error.empty()) { return Error; }
 	std::memcpy(BindPose.Mapped, Mesh.Vertices.data(), VertexCount * sizeof(FSkinVertex));
+	std::memset(Vertices.Mapped, 0, VertexCount * sizeof(FVertex)); // the frame before the first one
 	std::memcpy(Indices.Mapped, Mesh.Indices.data(), IndexCount * sizeof(uint32_t));
 	return CreatePipeline();
 }
@@ -60,17 +61,7 @@ FError FForkSkin::CreatePipeline()
 	LayoutInfo.pushConstantRangeCount = 1;
 	LayoutInfo.pPushConstantRanges = &Range;
 	vkCreatePipelineLayout(Device, &LayoutInfo, nullptr, &Layout);
-	VkShaderModuleCreateInfo ModuleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-	ModuleInfo.codeSize = sizeof(ForkSkinShader);
-	ModuleInfo.pCode = ForkSkinShader;
-	VkComputePipelineCreateInfo Info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-	Info.stage = {
-	    VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, VK_SHADER_STAGE_COMPUTE_BIT, VK_NULL_HANDLE, "main", nullptr};
-	vkCreateShaderModule(Device, &ModuleInfo, nullptr, &Info.stage.module);
-	Info.layout = Layout;
-	const VkResult Result = vkCreateComputePipelines(Device, VK_NULL_HANDLE, 1, &Info, nullptr, &Pipeline);
-	vkDestroyShaderModule(Device, Info.stage.module, nullptr);
-	return Result == VK_SUCCESS ? FError() : "vkCreateComputePipelines failed with " + std::to_string(Result);
+	return CreateComputePipeline(Device, {ForkSkinShader, sizeof(ForkSkinShader)}, Layout, Pipeline);
 }
 
 void FForkSkin::Run(VkCommandBuffer Commands, const FReed& Reed, VkDeviceAddress Traced) const

@@ -18,7 +18,7 @@ public:
 	/// reed, three floats each; 0: it has none yet.
 	void Run(VkCommandBuffer Commands, const FReed& Reed, VkDeviceAddress Traced) const;
 
-	FForkBuffer Vertices; ///< FVertex each, without normals
+	FForkBuffer Vertices; ///< FVertex each, without normals and UVs
 	FForkBuffer Indices;
 	uint32_t VertexCount = 0, IndexCount = 0;
 

@@ -277,6 +277,21 @@ FForkBuffer::~FForkBuffer()
 	}
 }
 
+FError CreateComputePipeline(VkDevice Device, const FForkShader& Shader, VkPipelineLayout Layout, VkPipeline& Out)
+{
+	VkShaderModuleCreateInfo ModuleInfo{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+	ModuleInfo.codeSize = Shader.Bytes;
+	ModuleInfo.pCode = Shader.Words;
+	VkComputePipelineCreateInfo Info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+	Info.stage = {
+	    VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, VK_SHADER_STAGE_COMPUTE_BIT, VK_NULL_HANDLE, "main", nullptr};
+	vkCreateShaderModule(Device, &ModuleInfo, nullptr, &Info.stage.module);
+	Info.layout = Layout;
+	const VkResult Result = vkCreateComputePipelines(Device, VK_NULL_HANDLE, 1, &Info, nullptr, &Out);
+	vkDestroyShaderModule(Device, Info.stage.module, nullptr);
+	return Check(Result, "vkCreateComputePipelines");
+}
+
 void Transition(VkCommandBuffer Commands, VkImage Image, VkImageAspectFlags Aspect, VkImageLayout From, VkImageLayout To)
 {
 	VkImageMemoryBarrier2 Barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};

@@ -98,6 +98,14 @@ struct FForkBuffer
 	VkDeviceAddress GetAddress() const;
 };
 
+struct FForkShader
+{
+	const uint32_t* Words = nullptr;
+	size_t Bytes = 0;
+};
+
+FError CreateComputePipeline(VkDevice Device, const FForkShader& Shader, VkPipelineLayout Layout, VkPipeline& Out);
+
 /// Moves one image from one layout to another. All commands before it finish first, which is simple and slow.
 void Transition(VkCommandBuffer Commands, VkImage Image, VkImageAspectFlags Aspect, VkImageLayout From, VkImageLayout To);
 

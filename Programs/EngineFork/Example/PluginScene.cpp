@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <mutex>
 #include <utility>
 
 namespace Fork
@@ -11,23 +10,32 @@ namespace Fork
 
 using namespace Lantern;
 
-FError FPluginScene::Create(
-    IRTModule& Module, const FForkInstance& Instance, const FForkDevice& Owner, const IRTVulkanRequirements& Requirements)
+FError FPluginScene::Create(IRTModule& Module, const FPluginDevice& InOn, const FForkScene& Scene)
 {
-	FRTVulkanExternalDesc Desc;
-	Desc.Instance = Instance.Instance;
-	Desc.PhysicalDevice = Owner.Physical;
-	Desc.Device = Owner.Device;
-	Desc.Queue = Owner.Queue;
-	Desc.QueueFamily = Owner.QueueFamily;
-	Desc.Requirements = &Requirements;
-	// The render thread and that of the RHI submit.
-	Desc.LockQueue = [](void* User) { static_cast<std::mutex*>(User)->lock(); };
-	Desc.UnlockQueue = [](void* User) { static_cast<std::mutex*>(User)->unlock(); };
-	Desc.QueueUser = &Owner.QueueMutex;
-	FError Error = ToError(Module.GetVulkan()->AdoptDevice(Desc, Device.ReleaseAndGetAddress()), "AdoptDevice");
-	if (Error.empty()) { Error = ToError(Module.CreateRenderer(Device.Get(), {}, Renderer.ReleaseAndGetAddress()), "CreateRenderer"); }
-	return Error;
+	On = &InOn;
+	// The axes of the engine's world in Lantern's, which is in metres with x right, y up, z towards the viewer.
+	const FRTModuleRendererDesc World{{1, 0, 0}, {0, 0, 1}, {0, 1, 0}, float(1.0 / Metre)};
+	FError Error = ToError(Module.CreateRenderer(On->Device.Get(), World, Renderer.ReleaseAndGetAddress()), "CreateRenderer");
+	if (Error.empty()) { Error = AddBoxMesh(false, RigidMesh); }
+	if (Error.empty()) { Error = AddBoxMesh(true, DeformableMesh); }
+	if (Error.empty()) { Error = AddMaterials(); }
+	for (size_t Index = 0; Error.empty() && Index < Scene.Boxes.size(); ++Index) { Error = AddBox(Scene.Boxes[Index]); }
+	if (Error.empty()) { Error = AddReed(Scene.Reed); }
+	FRTModuleSun Sun;
+	Sun.Irradiance = 1.0f;
+	for (int Axis = 0; Axis < 3; ++Axis) { Sun.Direction[Axis] = Scene.SunDirection[Axis]; }
+	return Error.empty() ? ToError(Renderer->SetSun(Sun), "SetSun") : Error;
+}
+
+FError FPluginScene::Recreate(const FPluginDevice& InOn)
+{
+	List.Reset();
+	const FRTModuleMeshSource Source{
+	    [](void* User, ERTMeshHandle Mesh, FRTModuleMesh* Out) { return static_cast<FPluginScene*>(User)->GiveMesh(Mesh, Out); }, this};
+	FError Error = ToError(Renderer->Recreate(InOn.Device.Get(), Source), "Recreate");
+	if (!Error.empty()) { return Error; }
+	On = &InOn;
+	return ToError(Renderer->SetMaterial(CutOut, MakeCutOut()), "SetMaterial(cut out)"); // maps were on the old device
 }
 
 namespace
@@ -44,48 +52,40 @@ std::array<double, 12> GetTransform(const FBox& Box)
 	return Rows;
 }
 
-/// The plugin reads positions and normals from an array each.
-struct FBoxArrays
-{
-	explicit FBoxArrays(const FBoxMesh& Box)
-	{
-		for (const FVertex& Vertex : Box.Vertices)
-		{
-			Positions.push_back(Vertex.Position);
-			Normals.push_back(Vertex.Normal);
-		}
-	}
-	std::vector<glm::vec3> Positions, Normals;
-};
-
 } // namespace
 
 FError FPluginScene::AddBoxMesh(bool bDeformable, ERTMeshHandle& Out)
 {
-	const FBoxMesh Box = MakeBoxMesh();
-	const FBoxArrays Arrays(Box);
-	FRTModuleMesh Mesh;
-	Mesh.Name = bDeformable ? "DeformableBox" : "Box";
-	Mesh.Positions = &Arrays.Positions[0].x;
-	Mesh.Normals = &Arrays.Normals[0].x;
-	Mesh.VertexCount = static_cast<uint32_t>(Arrays.Positions.size());
-	Mesh.Indices = Box.Indices.data();
-	Mesh.IndexCount = static_cast<uint32_t>(Box.Indices.size());
-	Mesh.bDeformable = bDeformable;
-	return ToError(Renderer->AddMesh(Mesh, &Out), "AddMesh");
+	const FMeshArrays Box(MakeBoxMesh());
+	return ToError(Renderer->AddMesh(Box.Describe(bDeformable ? "DeformableBox" : "Box", bDeformable), &Out), "AddMesh");
+}
+
+/// Meshes are made, so they can be made again. Other engines keep them, or read their files.
+bool FPluginScene::GiveMesh(ERTMeshHandle Mesh, FRTModuleMesh* Out)
+{
+	static const FMeshArrays Box(MakeBoxMesh()), Stem(MakeReedMesh());
+	if (Mesh == DeformableMesh)
+	{
+		Deformed = std::make_unique<FMeshArrays>(MakeBoxMesh(glm::vec3(VertexScale)));
+		*Out = Deformed->Describe("DeformableBox", true);
+	}
+	else { *Out = Mesh == ReedMesh ? DescribeReed(Stem) : Box.Describe("Box", false); }
+	return true;
+}
+
+FRTModuleMaterial FPluginScene::MakeCutOut() const
+{
+	FRTModuleMaterial Material;
+	Material.BaseColorMap.Texture = On->CutOutMap.Get();
+	Material.BaseColorMap.Sampler = On->CutOutSampler.Get();
+	Material.bMasked = true;
+	return Material;
 }
 
 FError FPluginScene::AddMaterials()
 {
-	FError Error = ToError(Renderer->AddMaterial({}, &Solid), "AddMaterial(solid)");
-	if (Error.empty())
-	{
-		FRTModuleMaterial Material;
-		Material.BaseColor[3] = 0.0f; // below the cutoff everywhere
-		Material.bMasked = true;
-		Error = ToError(Renderer->AddMaterial(Material, &CutOut), "AddMaterial(cut out)");
-	}
-	return Error;
+	const FError Error = ToError(Renderer->AddMaterial({}, &Solid), "AddMaterial(solid)");
+	return Error.empty() ? ToError(Renderer->AddMaterial(MakeCutOut(), &CutOut), "AddMaterial(cut out)") : Error;
 }
 
 FError FPluginScene::AddBox(const FBox& Box, ERTMeshHandle OwnMesh)
@@ -101,31 +101,10 @@ FError FPluginScene::AddBox(const FBox& Box, ERTMeshHandle OwnMesh)
 	return ToError(Renderer->AddObject(Object, &Boxes.back().Object), "AddObject");
 }
 
-namespace
-{
-
-std::vector<glm::vec3> SkinReed(const FReedMesh& Mesh, double Bend)
-{
-	std::vector<glm::vec3> Positions;
-	for (const FSkinVertex& Vertex : Mesh.Vertices) { Positions.emplace_back(SkinVertex(Vertex, Bend)); }
-	return Positions;
-}
-
-} // namespace
-
 FError FPluginScene::AddReed(const FReed& At)
 {
-	const FReedMesh Source = MakeReedMesh();
-	const std::vector<glm::vec3> Positions = SkinReed(Source, At.Bend);
-	FRTModuleMesh Mesh;
-	Mesh.Name = "Reed";
-	Mesh.Positions = &Positions[0].x;
-	Mesh.VertexCount = static_cast<uint32_t>(Positions.size());
-	Mesh.Indices = Source.Indices.data();
-	Mesh.IndexCount = static_cast<uint32_t>(Source.Indices.size());
-	Mesh.bDeformable = true;
-	Mesh.BoundsRadius = 2.2f; // however it bends
-	if (FError Error = ToError(Renderer->AddMesh(Mesh, &ReedMesh), "AddMesh(reed)"); !Error.empty()) { return Error; }
+	const FMeshArrays Stem(MakeReedMesh());
+	if (FError Error = ToError(Renderer->AddMesh(DescribeReed(Stem), &ReedMesh), "AddMesh(reed)"); !Error.empty()) { return Error; }
 	FRTModuleObject Object;
 	Object.Mesh = ReedMesh;
 	Object.Materials = &Solid;
@@ -143,19 +122,6 @@ FError FPluginScene::FindReedPositions(VkDeviceAddress& Out)
 }
 
 FError FPluginScene::MarkReedSkinned() { return ToError(Renderer->MarkMeshDeformed(ReedMesh), "MarkMeshDeformed(reed)"); }
-
-FError FPluginScene::AddScene(const FForkScene& Scene)
-{
-	FError Error = AddBoxMesh(false, RigidMesh);
-	if (Error.empty()) { Error = AddBoxMesh(true, DeformableMesh); }
-	if (Error.empty()) { Error = AddMaterials(); }
-	for (size_t Index = 0; Error.empty() && Index < Scene.Boxes.size(); ++Index) { Error = AddBox(Scene.Boxes[Index]); }
-	if (Error.empty()) { Error = AddReed(Scene.Reed); }
-	FRTModuleSun Sun;
-	Sun.Irradiance = 1.0f;
-	for (int Axis = 0; Axis < 3; ++Axis) { Sun.Direction[Axis] = Scene.SunDirection[Axis]; }
-	return Error.empty() ? ToError(Renderer->SetSun(Sun), "SetSun") : Error;
-}
 
 FError FPluginScene::MoveBox(size_t Box, const FBox& To)
 {
@@ -180,8 +146,9 @@ FError FPluginScene::RemoveBox(size_t Box)
 
 FError FPluginScene::ScaleVertices(float Scale)
 {
-	const FBoxArrays Arrays(MakeBoxMesh(glm::vec3(Scale)));
-	return ToError(Renderer->UpdateMeshVertices(DeformableMesh, &Arrays.Positions[0].x, &Arrays.Normals[0].x), "UpdateMeshVertices");
+	VertexScale = Scale;
+	const FMeshArrays Box(MakeBoxMesh(glm::vec3(Scale)));
+	return ToError(Renderer->UpdateMeshVertices(DeformableMesh, &Box.Positions[0].x, &Box.Normals[0].x), "UpdateMeshVertices");
 }
 
 FError FPluginScene::SetBox(size_t Box, const FBox& To)
@@ -190,59 +157,72 @@ FError FPluginScene::SetBox(size_t Box, const FBox& To)
 	return Error.empty() ? ToError(Renderer->SetObjectCastsShadow(Boxes[Box].Object, To.bCastsShadow), "SetObjectCastsShadow") : Error;
 }
 
-FError FPluginScene::ImportGBuffer(const FForkRaster& Raster, VkExtent2D Size)
+FError FPluginScene::SetLamp(const FForkScene& Scene)
 {
-	FRTTextureDesc Desc;
-	Desc.Width = Size.width;
-	Desc.Height = Size.height;
-	Desc.Format = ERTFormat::D32_FLOAT;
-	Desc.Usage = ERTTextureUsage::Sampled;
-	Desc.Name = "ForkDepth";
-	const auto ToNative = [](VkImage Image) { return reinterpret_cast<uint64_t>(Image); };
-	FError Error = ToError(Device->ImportTexture(Desc, ToNative(Raster.Depth.Image), Depth.ReleaseAndGetAddress()), "ImportTexture(depth)");
-	if (Error.empty())
+	if (Scene.LampIntensity <= 0.0) { return ToError(Renderer->RemoveLight(std::exchange(Lamp, ERTLightHandle::None)), "RemoveLight"); }
+	FRTModuleLight Light;
+	for (int Axis = 0; Axis < 3; ++Axis)
 	{
-		Desc.Format = ERTFormat::RGBA16_SNORM;
-		Desc.Name = "ForkNormals";
-		Error =
-		    ToError(Device->ImportTexture(Desc, ToNative(Raster.Normals.Image), Normals.ReleaseAndGetAddress()), "ImportTexture(normals)");
+		Light.Position[Axis] = Scene.Lamp[Axis];
+		Light.Color[Axis] = static_cast<float>(Scene.LampIntensity);
 	}
-	return Error;
+	return ToError(Lamp == ERTLightHandle::None ? Renderer->AddLight(Light, &Lamp) : Renderer->SetLight(Lamp, Light), "AddLight");
 }
 
-void FPluginScene::ReleaseGBuffer()
+namespace
 {
-	Depth.Reset();
-	Normals.Reset();
-	if (Device) { Device->CollectGarbage(); } // destroys the plugin's views of the images now, not some time later
+
+FRTModuleView MakeView(const FCamera& Camera)
+{
+	FRTModuleView View;
+	for (int Axis = 0; Axis < 3; ++Axis)
+	{
+		View.Position[Axis] = Camera.Position[Axis];
+		View.Forward[Axis] = static_cast<float>(Camera.Forward[Axis]);
+		View.Up[Axis] = static_cast<float>(Camera.Up[Axis]);
+	}
+	const glm::mat4 Rows = transpose(GetViewToClip(Camera, double(ViewSize.width) / ViewSize.height));
+	std::copy_n(&Rows[0][0], 16, View.Projection.ViewToClip);
+	for (int Axis = 0; Axis < 2; ++Axis) { View.Jitter[Axis] = static_cast<float>(Camera.Jitter[Axis]); }
+	return View;
 }
 
-FError FPluginScene::Render(VkCommandBuffer Commands, const FCamera& Camera, bool bCut, FRTModuleOutputs& Out)
+} // namespace
+
+FError FPluginScene::Render(VkCommandBuffer Commands, const FForkFrame& From, bool bCut, FRTModuleOutputs& Out)
 {
 	Out = {};
 	const uint64_t Native = reinterpret_cast<uint64_t>(Commands);
-	FError Error = ToError(Device->ImportCommandList(Native, List.ReleaseAndGetAddress()), "ImportCommandList");
+	FError Error = ToError(On->Device->ImportCommandList(Native, List.ReleaseAndGetAddress()), "ImportCommandList");
 	if (!Error.empty()) { return Error; }
 	FRTModuleFrame Frame;
 	Frame.Commands = List.Get();
-	Frame.Depth = Depth.Get();
-	Frame.Normals = Normals.Get();
-	for (int Axis = 0; Axis < 3; ++Axis)
-	{
-		Frame.View.Position[Axis] = Camera.Position[Axis];
-		Frame.View.Forward[Axis] = static_cast<float>(Camera.Forward[Axis]);
-		Frame.View.Up[Axis] = static_cast<float>(Camera.Up[Axis]);
-	}
-	const FRTTextureDesc& Size = Depth->GetDesc();
-	const float Aspect = static_cast<float>(Size.Width) / static_cast<float>(Size.Height);
-	Frame.View.Projection = MakeProjection(static_cast<float>(Camera.FovY), Aspect, static_cast<float>(Camera.Near));
+	Frame.View = MakeView(From.Scene.Cameras[From.View]);
+	Frame.ViewIndex = From.View;
+	Frame.OffsetX = static_cast<uint32_t>(GetViewOffset(From.View).x);
+	Frame.Width = ViewSize.width;
+	Frame.Height = ViewSize.height;
+	Frame.Depth = On->Depth.Get();
+	Frame.DepthAccess = ERTAccess::External;
+	Frame.Normals = On->Normals.Get();
+	Frame.Layout.Normals = ERTModuleNormals::Xyz;
+	Frame.Layout.bViewSpaceNormals = true;
+	Frame.Layout.bGeometricInZw = false; // this engine has none: depth says where surfaces face
+	Frame.Motion = On->Motion.Get();
+	Frame.Layout.Motion = ERTModuleMotion::UV;
+	Frame.Layout.MotionScale[0] = Frame.Layout.MotionScale[1] = -1.0f; // this engine's leads to this frame, not to the one before
 	const auto Now = std::chrono::steady_clock::now();
-	const std::chrono::duration<float> Since = Now - std::exchange(LastFrame, Now);
-	Frame.DeltaSeconds = std::clamp(Since.count(), 1e-4f, 1.0f); // the first frame has none before it
+	if (From.View == 0)
+	{
+		const std::chrono::duration<float> Since = Now - std::exchange(LastFrame, Now);
+		DeltaSeconds = std::clamp(Since.count(), 1e-4f, 1.0f); // the first frame has none before it
+		bComplete = true;
+	}
+	Frame.DeltaSeconds = DeltaSeconds;
 	Frame.bCut = bCut;
-	Frame.Wanted.Add(ESignal::AmbientOcclusion);
+	Frame.Wanted = Wanted;
 	Error = ToError(Renderer->RenderFrame(Frame, &Out), "RenderFrame");
-	bComplete = Out.bComplete;
+	bComplete = bComplete && Out.bComplete;
 	return Error;
 }
 

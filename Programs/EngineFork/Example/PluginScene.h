@@ -1,13 +1,12 @@
-// The plugin at work in the engine: its device, its renderer, the engine's boxes in it, one frame after another.
+// The plugin at work in the engine: its renderer, the engine's boxes in it, one frame after another.
 #pragma once
 
 #include <chrono>
+#include <memory>
 #include <vector>
 
-#include "Example/ForkRaster.h"
-#include "Example/ForkScene.h"
-#include "Example/ForkVulkan.h"
-#include "LanternModule/ModuleVulkan.h"
+#include "Example/PluginDevice.h"
+#include "Example/PluginMeshes.h"
 
 namespace Fork
 {
@@ -15,10 +14,10 @@ namespace Fork
 class FPluginScene
 {
 public:
-	/// Owner must have been created with Requirements, which come from IRTModuleVulkan::GetRequirements.
-	FError Create(Lantern::IRTModule& Module, const FForkInstance& Instance, const FForkDevice& Owner,
-	    const Lantern::IRTVulkanRequirements& Requirements);
-	FError AddScene(const FForkScene& Scene);
+	/// Creates the renderer on a device and adds all of Scene.
+	FError Create(Lantern::IRTModule& Module, const FPluginDevice& InOn, const FForkScene& Scene);
+	/// Goes on with all of the scene on another device. Between frames.
+	FError Recreate(const FPluginDevice& InOn);
 	/// Box is an index into FForkScene::Boxes.
 	FError MoveBox(size_t Box, const FBox& To);
 	/// Adds a box with a mesh of its own, behind the others, while frames go on.
@@ -29,19 +28,21 @@ public:
 	FError ScaleVertices(float Scale);
 	/// Takes bCastsShadow and bCutOut over from To.
 	FError SetBox(size_t Box, const FBox& To);
+	/// Takes Lamp and LampIntensity over.
+	FError SetLamp(const FForkScene& Scene);
 	/// Where the engine's GPU writes the reed's positions for the plugin; 0 while the reed is on its way there.
 	FError FindReedPositions(VkDeviceAddress& Out);
 	/// The frame's commands have written them.
 	FError MarkReedSkinned();
-	FError ImportGBuffer(const FForkRaster& Raster, VkExtent2D Size);
-	void ReleaseGBuffer(); ///< must be called before the images of the raster are destroyed
 	/// Records the plugin's work. Commands must be recording and must have drawn the G-buffer. bCut: this frame has nothing in common
 	/// with the frame before. A texture of Out is null while the plugin has nothing to show in it.
-	FError Render(VkCommandBuffer Commands, const FCamera& Camera, bool bCut, Lantern::FRTModuleOutputs& Out);
+	FError Render(VkCommandBuffer Commands, const FForkFrame& Frame, bool bCut, Lantern::FRTModuleOutputs& Out);
 	/// Must be called after Commands were submitted.
 	FError FinishFrame();
 	/// True if the last frame had all its shaders and acceleration structures.
 	bool IsComplete() const { return bComplete; }
+
+	Lantern::FSignalSet Wanted{Lantern::ESignal::SunShadow, Lantern::ESignal::AmbientOcclusion}; ///< of the next frames
 
 private:
 	struct FPlacedBox
@@ -51,18 +52,23 @@ private:
 	};
 	FError AddBoxMesh(bool bDeformable, Lantern::ERTMeshHandle& Out);
 	FError AddMaterials();
+	Lantern::FRTModuleMaterial MakeCutOut() const;
 	FError AddBox(const FBox& Box, Lantern::ERTMeshHandle OwnMesh = Lantern::ERTMeshHandle::None);
 	FError AddReed(const FReed& Reed);
+	bool GiveMesh(Lantern::ERTMeshHandle Mesh, Lantern::FRTModuleMesh* Out);
 
-	Lantern::TRTRef<Lantern::IRTDevice> Device; // declared first, so that it is released last
+	const FPluginDevice* On = nullptr;
 	Lantern::TRTRef<Lantern::IRTModuleRenderer> Renderer;
 	Lantern::ERTMeshHandle RigidMesh{}, DeformableMesh{}, ReedMesh{};
 	Lantern::ERTObjectHandle Reed{};
 	Lantern::ERTMaterialHandle Solid{}, CutOut{};
+	Lantern::ERTLightHandle Lamp{};
 	std::vector<FPlacedBox> Boxes;
-	Lantern::TRTRef<Lantern::IRTTexture> Depth, Normals;
 	Lantern::TRTRef<Lantern::IRTCommandList> List;
 	std::chrono::steady_clock::time_point LastFrame{};
+	float VertexScale = 1.0f;              ///< of the deformable boxes
+	std::unique_ptr<FMeshArrays> Deformed; ///< given to Recreate
+	float DeltaSeconds = 0.0f;             ///< of the frame, for all its views
 	bool bComplete = false;
 };
 

@@ -1,6 +1,7 @@
 // The judge's script: frames of the scene in three states, each compared with the truth.
 #include "Judge/Checks.h"
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -13,6 +14,8 @@
 namespace Fork
 {
 
+using namespace Lantern;
+
 namespace
 {
 
@@ -20,61 +23,163 @@ constexpr int FrameCount = 3;                    // frames in which everything i
 constexpr int MostFramesUntilComplete = 600'000; // each takes a millisecond at least: ends what would never end
 constexpr int FramesPerLine = 5'000;
 
+using FMasks = std::array<FFrameMasks, ViewCount>;
+
+struct FJudge
+{
+	FForkEngine& Engine;
+	FForkScene Scene;
+	std::string Pictures; ///< begin of their paths; empty: none
+	int Checks = 0;
+};
+
+/// Temporal antialiasing: each frame's picture is a fraction of a pixel elsewhere (Halton, 1960).
+void Jitter(FForkScene& Scene, int Frame)
+{
+	const auto Halton = [](int Index, int Base) {
+		double Value = 0.0, Digit = 1.0;
+		for (; Index > 0; Index /= Base) { Value += (Digit /= Base) * (Index % Base); }
+		return Value;
+	};
+	const int Index = Frame % 8 + 1;
+	for (FCamera& Camera : Scene.Cameras) { Camera.Jitter = glm::dvec2(Halton(Index, 2), Halton(Index, 3)) - 0.5; }
+}
+
 /// Runs frames until the plugin has all that it needs, then a few more. The plugin never waits: its first frames may lack shadows.
-FError RunUntilComplete(FForkEngine& Engine, const FForkScene& Scene, FFrameMasks& Out)
+FError RunUntilComplete(FJudge& Judge, FMasks& Out)
 {
 	FError Error;
 	for (int Frame = 0; Error.empty() && Frame < MostFramesUntilComplete; ++Frame)
 	{
-		Error = Engine.RunFrame(Scene, Frame == 0, Out); // boxes have jumped since the scene before
-		if (Engine.GetPlugin().IsComplete()) { break; }
+		Jitter(Judge.Scene, Frame);
+		Error = Judge.Engine.RunFrame(Judge.Scene, Frame == 0, Out); // boxes have jumped since the scene before
+		if (Judge.Engine.GetPlugin().IsComplete()) { break; }
 		if (Frame % FramesPerLine == FramesPerLine - 1)
 		{
 			std::fprintf(stderr, "EngineFork: frame %d, and the plugin still compiles\n", Frame + 1);
 		}
 		std::this_thread::sleep_for(std::chrono::milliseconds(1));
 	}
-	for (int Frame = 0; Error.empty() && Frame < FrameCount; ++Frame) { Error = Engine.RunFrame(Scene, false, Out); }
-	const bool bHasMasks = Out.SunShadow != nullptr && Out.AmbientOcclusion != nullptr;
-	return Error.empty() && !bHasMasks ? "the plugin gave no shadow mask, or no ambient occlusion" : Error;
+	for (int Frame = 0; Error.empty() && Frame < FrameCount; ++Frame)
+	{
+		Jitter(Judge.Scene, Frame);
+		Error = Judge.Engine.RunFrame(Judge.Scene, false, Out);
+	}
+	for (const FFrameMasks& Masks : Out)
+	{
+		const FSignalSet Wanted = Judge.Engine.GetPlugin().Wanted;
+		const bool bShadow = Masks.SunShadow != nullptr, bOcclusion = Masks.AmbientOcclusion != nullptr;
+		const bool bAsWanted = Wanted.Has(ESignal::SunShadow) == bShadow && Wanted.Has(ESignal::AmbientOcclusion) == bOcclusion;
+		if (Error.empty() && !bAsWanted) { return "the plugin gave less than was wanted, or more"; }
+	}
+	return Error;
 }
 
-/// Compares every pixel of the last mask with the truth.
-FError CheckScene(FForkEngine& Engine, const FForkScene& Scene, const char* What, FFrameMasks& Out)
+/// Compares every pixel of a view's last mask with the truth.
+FError CheckView(const FJudge& Judge, uint32_t View, const char* What, const FFrameMasks& Masks)
 {
-	FError Error = RunUntilComplete(Engine, Scene, Out);
-	if (Error.empty()) { Error = JudgeOcclusion(Out.AmbientOcclusion); }
-	if (!Error.empty()) { return Error; }
-	const FVerdict Verdict = JudgeShadow(Scene, Out.SunShadow);
-	std::printf("%s: %u lit, %u shadowed, %u sky, %u near an edge; wrong: %u\n", What, Verdict.Lit, Verdict.Shadowed, Verdict.Sky,
-	    Verdict.Unsure, Verdict.Wrong);
+	if (FError Error = JudgeOcclusion(Masks.AmbientOcclusion); !Error.empty()) { return Error; }
+	const FShadowPicture Expected = ExpectShadow(Judge.Scene, Judge.Scene.Cameras[View]);
+	if (FError Error = JudgeLight(Expected, Masks); !Error.empty()) { return std::string(What) + ": " + Error; }
+	const FVerdict Verdict = JudgeShadow(Expected, Masks.SunShadow);
+	std::printf("%s, view %u: %u lit, %u shadowed, %u sky, %u near an edge; wrong: %u\n", What, View, Verdict.Lit, Verdict.Shadowed,
+	    Verdict.Sky, Verdict.Unsure, Verdict.Wrong);
+	if (!Judge.Pictures.empty())
+	{
+		const std::string Path = Judge.Pictures + std::to_string(Judge.Checks) + "-" + std::to_string(View) + ".ppm";
+		if (FError Error = WritePicture(Path, Expected, Masks.SunShadow); !Error.empty()) { return Error; }
+	}
 	// Enough of each that agreeing means something.
 	const bool bMeaningful = Verdict.Lit > 5000 && Verdict.Shadowed > 1000 && Verdict.Sky > 2000;
 	return Verdict.Wrong == 0 && bMeaningful ? FError() : std::string(What) + ": the shadows are not where they must be";
 }
 
-FError CheckMoved(FForkEngine& Engine, FForkScene& Scene)
+FError CheckScene(FJudge& Judge, const char* What)
 {
-	Scene.Boxes[2].Centre += glm::dvec3(-3.0, 0.0, 4.0);
-	FError Error = Engine.GetPlugin().MoveBox(2, Scene.Boxes[2]);
-	Scene.Boxes.erase(Scene.Boxes.begin() + 1);
-	if (Error.empty()) { Error = Engine.GetPlugin().RemoveBox(1); }
-	FFrameMasks Masks;
-	return Error.empty() ? CheckScene(Engine, Scene, "pillar moved, cube gone", Masks) : Error;
+	FMasks Masks;
+	FError Error = RunUntilComplete(Judge, Masks);
+	for (uint32_t View = 0; Error.empty() && View < ViewCount; ++View) { Error = CheckView(Judge, View, What, Masks[View]); }
+	++Judge.Checks;
+	return Error;
+}
+
+/// Without the plugin's outputs the engine lights as if there were no plugin.
+FError CheckUnwanted(FJudge& Judge)
+{
+	const FSignalSet Wanted = std::exchange(Judge.Engine.GetPlugin().Wanted, FSignalSet{});
+	FMasks Masks;
+	FError Error = RunUntilComplete(Judge, Masks);
+	for (uint32_t View = 0; Error.empty() && View < ViewCount; ++View)
+	{
+		Error = JudgeLight(ExpectShadow(Judge.Scene, Judge.Scene.Cameras[View]), Masks[View]);
+	}
+	Judge.Engine.GetPlugin().Wanted = Wanted;
+	return Error.empty() ? Error : "without outputs: " + Error;
+}
+
+/// Mean light with the lamp at an intensity.
+FError MeasureLamp(FJudge& Judge, double Intensity, double& Out)
+{
+	Judge.Scene.LampIntensity = Intensity;
+	FMasks Masks;
+	FError Error = Judge.Engine.GetPlugin().SetLamp(Judge.Scene);
+	if (Error.empty()) { Error = RunUntilComplete(Judge, Masks); }
+	constexpr int Frames = 8; // the noise of one path for each pixel is then below a percent of the mean
+	Out = 0.0;
+	for (int Frame = 0; Error.empty() && Frame < Frames; ++Frame)
+	{
+		Error = Judge.Engine.RunFrame(Judge.Scene, false, Masks);
+		Out += GetMeanLight(Masks[0]) / Frames;
+	}
+	return Error;
+}
+
+/// Diffuse light: what surfaces reflect of the lamp is proportional to its intensity, and ends with it.
+FError CheckLamp(FJudge& Judge)
+{
+	FSignalSet& Wanted = Judge.Engine.GetPlugin().Wanted;
+	Wanted.Add(ESignal::DiffuseGI);
+	constexpr double Intensities[] = {200.0, 400.0, 0.0}; // candela
+	double Light[3] = {};
+	FError Error;
+	for (int Index = 0; Error.empty() && Index < 3; ++Index) { Error = MeasureLamp(Judge, Intensities[Index], Light[Index]); }
+	Wanted.Remove(ESignal::DiffuseGI);
+	if (!Error.empty()) { return Error; }
+	const double Once = Light[0] - Light[2], Twice = Light[1] - Light[2];
+	std::printf("lamp: mean light %.4f without, %.4f and %.4f with it\n", Light[2], Light[0], Light[1]);
+	const bool bProportional = Once > 0.05 * Light[2] && std::abs(Twice / Once - 2.0) < 0.1;
+	return bProportional ? FError() : "diffuse light does not follow the lamp";
+}
+
+/// As after a lost device. All that changed so far must be there on the new one.
+FError CheckOtherDevice(FJudge& Judge)
+{
+	const FError Error = Judge.Engine.ChangeDevice();
+	return Error.empty() ? CheckScene(Judge, "on another device") : Error;
+}
+
+FError CheckMoved(FJudge& Judge)
+{
+	std::vector<FBox>& Boxes = Judge.Scene.Boxes;
+	Boxes[2].Centre += At(-3.0, 0.0, 4.0);
+	FError Error = Judge.Engine.GetPlugin().MoveBox(2, Boxes[2]);
+	Boxes.erase(Boxes.begin() + 1);
+	if (Error.empty()) { Error = Judge.Engine.GetPlugin().RemoveBox(1); }
+	return Error.empty() ? CheckScene(Judge, "pillar moved, cube gone") : Error;
 }
 
 /// The boxes are as CheckMoved left them: floor, pillar, slab, cut-out.
-FError CheckChanged(FForkEngine& Engine, FForkScene& Scene)
+FError CheckChanged(FJudge& Judge)
 {
 	constexpr float Scale = 0.75f;
-	Scene.Boxes[1].HalfSize *= Scale;
-	FError Error = Engine.GetPlugin().ScaleVertices(Scale);
-	Scene.Boxes[2].bCastsShadow = true;
-	Scene.Boxes[3].bCutOut = false;
-	Scene.Reed.Bend = -0.8;
-	for (size_t Box = 2; Error.empty() && Box <= 3; ++Box) { Error = Engine.GetPlugin().SetBox(Box, Scene.Boxes[Box]); }
-	FFrameMasks Masks;
-	return Error.empty() ? CheckScene(Engine, Scene, "pillar deformed, reed bent, slab and cut-out cast shadows", Masks) : Error;
+	std::vector<FBox>& Boxes = Judge.Scene.Boxes;
+	Boxes[1].HalfSize *= Scale;
+	FError Error = Judge.Engine.GetPlugin().ScaleVertices(Scale);
+	Boxes[2].bCastsShadow = true;
+	Boxes[3].bCutOut = false;
+	Judge.Scene.Reed.Bend = -0.8;
+	for (size_t Box = 2; Error.empty() && Box <= 3; ++Box) { Error = Judge.Engine.GetPlugin().SetBox(Box, Boxes[Box]); }
+	return Error.empty() ? CheckScene(Judge, "pillar deformed, reed bent, slab and cut-out cast shadows") : Error;
 }
 
 /// The game: boxes come and go, as around a camera that flies, without regard to frames.
@@ -83,12 +188,12 @@ FError StreamBoxes(FForkEngine& Engine, FForkScene& Scene)
 	constexpr int Steps = 60;
 	constexpr size_t MostBoxes = 6;
 	const size_t First = Scene.Boxes.size();
-	const glm::dvec3 Floor = Scene.Boxes[0].Centre + glm::dvec3(0, Scene.Boxes[0].HalfSize.y, 0);
+	const glm::dvec3 Floor = Scene.Boxes[0].Centre + glm::dvec3(0, 0, Scene.Boxes[0].HalfSize.z);
 	FError Error;
 	for (int Step = 0; Error.empty() && Step < Steps; ++Step)
 	{
 		const double Angle = Step * 0.9;
-		Scene.Boxes.push_back({Floor + glm::dvec3(7.0 * std::cos(Angle), 0.6, 6.0 * std::sin(Angle)), glm::dvec3(0.3, 0.6, 0.5)});
+		Scene.Boxes.push_back({Floor + At(7.0 * std::cos(Angle), 0.6, 6.0 * std::sin(Angle)), At(0.3, 0.6, 0.5)});
 		Error = Engine.GetPlugin().StreamIn(Scene.Boxes.back());
 		if (Error.empty() && Scene.Boxes.size() > First + MostBoxes)
 		{
@@ -101,33 +206,35 @@ FError StreamBoxes(FForkEngine& Engine, FForkScene& Scene)
 }
 
 /// The game thread streams while the render thread draws. What stays at last must be there, and nothing else.
-FError CheckStreamed(FForkEngine& Engine, FForkScene& Scene)
+FError CheckStreamed(FJudge& Judge)
 {
-	FForkScene Game = Scene;
-	FFrameMasks Masks;
-	std::future<FError> Streamed = std::async(std::launch::async, [&] { return StreamBoxes(Engine, Game); });
+	FForkScene Game = Judge.Scene;
+	FMasks Masks;
+	std::future<FError> Streamed = std::async(std::launch::async, [&] { return StreamBoxes(Judge.Engine, Game); });
 	FError Error;
 	do {
-		const FError Frame = Engine.RunFrame(Scene, false, Masks);
+		const FError Frame = Judge.Engine.RunFrame(Judge.Scene, false, Masks);
 		Error = Error.empty() ? Frame : Error;
 	}
 	while (Streamed.wait_for(std::chrono::seconds(0)) != std::future_status::ready);
 	const FError OfGame = Streamed.get();
-	Scene = std::move(Game);
+	Judge.Scene = std::move(Game);
 	Error = Error.empty() ? OfGame : Error;
-	return Error.empty() ? CheckScene(Engine, Scene, "boxes streamed in and out", Masks) : Error;
+	return Error.empty() ? CheckScene(Judge, "boxes streamed in and out") : Error;
 }
 
 } // namespace
 
-FError CheckScenes(FForkEngine& Engine, FForkScene Scene, const std::string& Picture)
+FError CheckScenes(FForkEngine& Engine, FForkScene Scene, const std::string& Pictures)
 {
-	FFrameMasks Masks;
-	FError Error = CheckScene(Engine, Scene, "as made", Masks);
-	if (Error.empty() && !Picture.empty()) { Error = WritePicture(Picture, Masks.SunShadow); }
-	if (Error.empty()) { Error = CheckMoved(Engine, Scene); }
-	if (Error.empty()) { Error = CheckChanged(Engine, Scene); }
-	return Error.empty() ? CheckStreamed(Engine, Scene) : Error;
+	FJudge Judge{Engine, std::move(Scene), Pictures};
+	FError Error = CheckScene(Judge, "as made");
+	for (FError (*const Check)(FJudge&) :
+	    {CheckUnwanted, CheckMoved, CheckOtherDevice, CheckLamp, CheckChanged, CheckStreamed, CheckOtherDevice})
+	{
+		if (Error.empty()) { Error = Check(Judge); }
+	}
+	return Error;
 }
 
 } // namespace Fork

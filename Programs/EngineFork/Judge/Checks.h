@@ -8,8 +8,8 @@
 namespace Fork
 {
 
-/// Runs frames of Scene and of changed versions of it until each is complete, and judges each. Picture: file for the first shadow mask;
-/// empty for none.
-FError CheckScenes(FForkEngine& Engine, FForkScene Scene, const std::string& Picture);
+/// Runs frames of Scene and of changed versions of it until each is complete, and judges each. Pictures: how the paths of the masks'
+/// pictures begin; empty for none. WritePicture says what they show.
+FError CheckScenes(FForkEngine& Engine, FForkScene Scene, const std::string& Pictures);
 
 } // namespace Fork

@@ -25,8 +25,8 @@ enum EExit
 
 struct FOptions
 {
-	std::string Plugin = "Plugin.json", LibraryFolder = ".", Picture;
-	FSettings Settings;
+	std::string Plugin = "Plugin.json", LibraryFolder = ".", Pictures;
+	FSettings Settings = {{"r.RT.GI", "1"}}; // for those frames that want it
 	glm::dvec3 Offset{0};
 	int Rounds = 1;
 };
@@ -42,7 +42,7 @@ bool ParseOption(const std::string& Name, const std::string& Value, FOptions& Ou
 	const size_t Equals = Value.find('=');
 	if (Name == "--plugin") { Out.Plugin = Value; }
 	else if (Name == "--library-folder") { Out.LibraryFolder = Value; }
-	else if (Name == "-o") { Out.Picture = Value; }
+	else if (Name == "-o") { Out.Pictures = Value; }
 	else if (Name == "--rounds") { Out.Rounds = std::atoi(Value.c_str()); }
 	else if (Name == "--set" && Equals != std::string::npos)
 	{
@@ -56,11 +56,11 @@ bool ParseOption(const std::string& Name, const std::string& Value, FOptions& Ou
 /// The device and all that lives on it are gone when this returns.
 int RunOnInstance(IRTModule& Module, const FForkInstance& Instance, const FOptions& Options)
 {
-	const FForkScene Scene = MakeScene(Options.Offset);
+	const FForkScene Scene = MakeScene(At(Options.Offset.x, Options.Offset.y, Options.Offset.z));
 	FForkEngine Engine(Module, Instance);
 	if (const FError Error = Engine.CreateDevice(); !Error.empty()) { return Complain(NoDevice, Error); }
 	FError Error = Engine.LoadScene(Scene);
-	if (Error.empty()) { Error = CheckScenes(Engine, Scene, Options.Picture); }
+	if (Error.empty()) { Error = CheckScenes(Engine, Scene, Options.Pictures); }
 	return Error.empty() ? Done : Complain(CheckFailed, Error);
 }
 
@@ -108,7 +108,7 @@ int main(int Count, char** Arguments)
 		if (Index + 1 == Count || !ParseOption(Arguments[Index], Arguments[Index + 1], Options))
 		{
 			return Complain(WrongUsage, "usage: EngineFork [--plugin Plugin.json] [--library-folder FOLDER] [--set NAME=VALUE]"
-			                            " [--offset X,Y,Z] [--rounds N] [-o MASK.pgm]");
+			                            " [--offset X,Y,Z] [--rounds N] [-o MASKS]");
 		}
 	}
 	FPluginManifest Manifest;

@@ -1,12 +1,13 @@
 // The truth about shadows: the scene's triangles, and rays that find the nearest.
 #include "Judge/ShadowTruth.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace Fork
 {
 
-FShadowTruth::FShadowTruth(const FForkScene& InScene) : Scene(InScene)
+FShadowTruth::FShadowTruth(const FForkScene& InScene, const FCamera& InCamera) : Scene(InScene), Camera(InCamera)
 {
 	const FBoxMesh Unit = MakeBoxMesh();
 	for (size_t Box = 0; Box < Scene.Boxes.size(); ++Box)
@@ -15,11 +16,17 @@ FShadowTruth::FShadowTruth(const FForkScene& InScene) : Scene(InScene)
 		for (size_t First = 0; First < Unit.Indices.size(); First += 3)
 		{
 			glm::dvec3 Corners[3];
+			std::array<glm::dvec2, 3> UVs;
 			for (size_t Corner = 0; Corner < 3; ++Corner)
 			{
-				Corners[Corner] = Item.Centre + Item.HalfSize * glm::dvec3(Unit.Vertices[Unit.Indices[First + Corner]].Position);
+				const FVertex& Vertex = Unit.Vertices[Unit.Indices[First + Corner]];
+				Corners[Corner] = Item.Centre + Item.HalfSize * glm::dvec3(Vertex.Position);
+				UVs[Corner] = Vertex.UV;
 			}
-			AddTriangle(Corners, Box, Item.bCastsShadow && !Item.bCutOut);
+			FTriangle& Triangle = AddTriangle(Corners, Box);
+			Triangle.UVs = UVs;
+			Triangle.bCutOut = Item.bCutOut;
+			Triangle.bCastsShadow = Item.bCastsShadow;
 		}
 	}
 	const FReedMesh Reed = MakeReedMesh();
@@ -30,14 +37,14 @@ FShadowTruth::FShadowTruth(const FForkScene& InScene) : Scene(InScene)
 		{
 			Corners[Corner] = Scene.Reed.Middle + SkinVertex(Reed.Vertices[Reed.Indices[First + Corner]], Scene.Reed.Bend);
 		}
-		AddTriangle(Corners, Scene.Boxes.size(), true);
+		AddTriangle(Corners, Scene.Boxes.size());
 	}
 }
 
-void FShadowTruth::AddTriangle(const glm::dvec3 (&Corners)[3], size_t Thing, bool bCastsShadow)
+FShadowTruth::FTriangle& FShadowTruth::AddTriangle(const glm::dvec3 (&Corners)[3], size_t Thing)
 {
 	const glm::dvec3 Edge1 = Corners[1] - Corners[0], Edge2 = Corners[2] - Corners[0];
-	Triangles.push_back({Corners[0], Edge1, Edge2, normalize(cross(Edge1, Edge2)), Thing, bCastsShadow});
+	return Triangles.emplace_back(FTriangle{Corners[0], Edge1, Edge2, normalize(cross(Edge1, Edge2)), {}, false, Thing});
 }
 
 /// Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997.
@@ -53,6 +60,7 @@ std::optional<FShadowTruth::FHit> FShadowTruth::FindNearest(glm::dvec3 Origin, g
 		const glm::dvec3 To = Origin - Triangle.Corner, Q = cross(To, Triangle.Edge1);
 		const double U = dot(To, P) / Determinant, V = dot(Direction, Q) / Determinant, Distance = dot(Triangle.Edge2, Q) / Determinant;
 		if (U < 0.0 || V < 0.0 || U + V > 1.0 || Distance <= 0.0) { continue; }
+		if (Triangle.bCutOut && IsCutOut(Triangle.UVs[0] * (1.0 - U - V) + Triangle.UVs[1] * U + Triangle.UVs[2] * V)) { continue; }
 		if (!Nearest || Distance < Nearest->Distance) { Nearest = FHit{Distance, &Triangle}; }
 	}
 	return Nearest;
@@ -60,7 +68,7 @@ std::optional<FShadowTruth::FHit> FShadowTruth::FindNearest(glm::dvec3 Origin, g
 
 FShadowTruth::FSample FShadowTruth::Sample(glm::dvec3 CameraRay, glm::dvec3 Shift) const
 {
-	const std::optional<FHit> Hit = FindNearest(Scene.Camera.Position, CameraRay, ESeenBy::Camera);
+	const std::optional<FHit> Hit = FindNearest(Camera.Position, CameraRay, ESeenBy::Camera);
 	if (!Hit) { return {}; }
 	const glm::dvec3 Normal = Hit->Triangle->Normal;
 	FSample Result{EExpectation::Shadowed, Hit->Triangle};
@@ -68,7 +76,7 @@ FShadowTruth::FSample FShadowTruth::Sample(glm::dvec3 CameraRay, glm::dvec3 Shif
 	{
 		// Away from the surface, so that it does not shadow itself; Shift stays within it.
 		const glm::dvec3 Sideways = Shift - Normal * dot(Normal, Shift);
-		const glm::dvec3 Origin = Scene.Camera.Position + CameraRay * Hit->Distance + Normal * 1e-6 + Sideways;
+		const glm::dvec3 Origin = Camera.Position + CameraRay * Hit->Distance + Normal * (1e-6 * Metre) + Sideways;
 		const bool bHidden = FindNearest(Origin, -Scene.SunDirection, ESeenBy::Sun).has_value();
 		Result.Expectation = bHidden ? EExpectation::Shadowed : EExpectation::Lit;
 	}
@@ -83,22 +91,24 @@ bool FShadowTruth::AreAlike(const FSample& A, const FSample& B)
 	return A.Triangle->Thing == B.Triangle->Thing && dot(A.Triangle->Normal, B.Triangle->Normal) > Parallel;
 }
 
-EExpectation FShadowTruth::ExpectPixel(uint32_t X, uint32_t Y, uint32_t Width, uint32_t Height) const
+FExpectedPixel FShadowTruth::ExpectPixel(uint32_t X, uint32_t Y, uint32_t Width, uint32_t Height) const
 {
-	constexpr double Margin = 0.02; // metres: far more than fp32 depth loses here
-	const FCamera& Camera = Scene.Camera;
+	constexpr double Margin = 0.02 * Metre; // far more than fp32 depth loses here
 	const double TanHalf = std::tan(Camera.FovY * 0.5), Aspect = double(Width) / Height;
 	std::optional<FSample> First;
 	for (int Try = 0; Try < 5; ++Try)
 	{
 		const glm::dvec2 Shift = Try == 0 ? glm::dvec2(0) : glm::dvec2(Try % 2 ? 0.6 : -0.6, Try > 2 ? 0.6 : -0.6);
-		const double NdcX = (X + 0.5 + Shift.x) / Width * 2.0 - 1.0, NdcY = (Y + 0.5 + Shift.y) / Height * 2.0 - 1.0;
+		// Jitter has moved the picture, so a pixel shows what lies to its other side.
+		const glm::dvec2 At = glm::dvec2(X, Y) + 0.5 + Shift - Camera.Jitter;
+		const double NdcX = At.x / Width * 2.0 - 1.0, NdcY = At.y / Height * 2.0 - 1.0;
 		const glm::dvec3 Ray = normalize(Camera.Forward + Camera.Right * (NdcX * TanHalf * Aspect) - Camera.Up * (NdcY * TanHalf));
 		const FSample Found = Sample(Ray, glm::dvec3(Shift.x, Shift.x + Shift.y, Shift.y) * (Margin / 0.6));
-		if (First && !AreAlike(*First, Found)) { return EExpectation::Unsure; }
+		if (First && !AreAlike(*First, Found)) { return {EExpectation::Unsure}; }
 		First = Found;
 	}
-	return First->Expectation;
+	const double Facing = First->Triangle ? dot(First->Triangle->Normal, -Scene.SunDirection) : 0.0;
+	return {First->Expectation, std::max(Facing, 0.0)};
 }
 
 } // namespace Fork

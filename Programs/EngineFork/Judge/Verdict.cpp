@@ -1,34 +1,78 @@
 // Compares shadow mask and ambient occlusion with what they must be.
 #include "Judge/Verdict.h"
 
+#include <cmath>
 #include <cstdio>
 
 #include <glm/gtc/packing.hpp>
 
-#include "Judge/ShadowTruth.h"
-
 namespace Fork
 {
 
-FVerdict JudgeShadow(const FForkScene& Scene, const uint16_t* Mask)
+namespace
+{
+
+float GetRight(EExpectation Expected) { return Expected == EExpectation::Shadowed ? 0.0f : 1.0f; }
+bool IsWrong(EExpectation Expected, float Found) { return Expected != EExpectation::Unsure && Found != GetRight(Expected); }
+
+} // namespace
+
+FShadowPicture ExpectShadow(const FForkScene& Scene, const FCamera& Camera)
+{
+	FShadowPicture Picture;
+	const FShadowTruth Truth(Scene, Camera);
+	for (uint32_t Y = 0; Y < ViewSize.height; ++Y)
+	{
+		for (uint32_t X = 0; X < ViewSize.width; ++X) { Picture.push_back(Truth.ExpectPixel(X, Y, ViewSize.width, ViewSize.height)); }
+	}
+	return Picture;
+}
+
+FVerdict JudgeShadow(const FShadowPicture& Expectations, const uint16_t* Mask)
 {
 	FVerdict Verdict;
-	const FShadowTruth Truth(Scene);
-	for (uint32_t Y = 0; Y < FrameSize.height; ++Y)
+	for (uint32_t Pixel = 0; Pixel < PixelCount; ++Pixel)
 	{
-		for (uint32_t X = 0; X < FrameSize.width; ++X)
-		{
-			const EExpectation Expected = Truth.ExpectPixel(X, Y, FrameSize.width, FrameSize.height);
-			const float Found = glm::unpackHalf1x16(Mask[Y * FrameSize.width + X]);
-			const float Right = Expected == EExpectation::Shadowed ? 0.0f : 1.0f;
-			Verdict.Wrong += Expected != EExpectation::Unsure && Found != Right;
-			Verdict.Unsure += Expected == EExpectation::Unsure;
-			Verdict.Sky += Expected == EExpectation::Sky;
-			Verdict.Lit += Expected == EExpectation::Lit;
-			Verdict.Shadowed += Expected == EExpectation::Shadowed;
-		}
+		const EExpectation Expected = Expectations[Pixel].Shadow;
+		Verdict.Wrong += IsWrong(Expected, glm::unpackHalf1x16(Mask[Pixel]));
+		Verdict.Unsure += Expected == EExpectation::Unsure;
+		Verdict.Sky += Expected == EExpectation::Sky;
+		Verdict.Lit += Expected == EExpectation::Lit;
+		Verdict.Shadowed += Expected == EExpectation::Shadowed;
 	}
 	return Verdict;
+}
+
+FError JudgeLight(const FShadowPicture& Expectations, const FFrameMasks& Masks)
+{
+	constexpr double Grey = 0.5, Step = 0.008; // of all surfaces; of the 8 bits of each of the normal's coordinates and of the colour
+	for (uint32_t Pixel = 0; Pixel < PixelCount; ++Pixel)
+	{
+		const FExpectedPixel& Expected = Expectations[Pixel];
+		if (Expected.Shadow == EExpectation::Unsure) { continue; }
+		const auto Read = [&](const uint16_t* Mask) { return Mask != nullptr ? double(glm::unpackHalf1x16(Mask[Pixel])) : 1.0; };
+		const double Light = FForkLight::Sun * Expected.Facing * Read(Masks.SunShadow) + FForkLight::Ambient * Read(Masks.AmbientOcclusion);
+		const double Right = Expected.Shadow == EExpectation::Sky ? 0.0 : Grey * Light;
+		const double Found = glm::unpackHalf1x16(Masks.Lit[Pixel * 4]);
+		if (!(std::abs(Found - Right) < Step))
+		{
+			return "pixel " + std::to_string(Pixel % ViewSize.width) + ", " + std::to_string(Pixel / ViewSize.width) + " is lit by " +
+			       std::to_string(Found) + ", not by " + std::to_string(Right);
+		}
+	}
+	return {};
+}
+
+double GetMeanLight(const FFrameMasks& Masks)
+{
+	double Sum = 0.0, Count = 0.0;
+	for (uint32_t Pixel = 0; Pixel < PixelCount; ++Pixel)
+	{
+		if (glm::unpackHalf1x16(Masks.Lit[Pixel * 4 + 3]) < 0.5f) { continue; }
+		Sum += glm::unpackHalf1x16(Masks.Lit[Pixel * 4]);
+		Count += 1.0;
+	}
+	return Sum / Count;
 }
 
 FError JudgeOcclusion(const uint16_t* Visibility)
@@ -45,14 +89,20 @@ FError JudgeOcclusion(const uint16_t* Visibility)
 	return Open > PixelCount / 2 && Occluded > PixelCount / 500 ? FError() : "ambient occlusion is not where it must be";
 }
 
-FError WritePicture(const std::string& Path, const uint16_t* Mask)
+FError WritePicture(const std::string& Path, const FShadowPicture& Expectations, const uint16_t* Mask)
 {
 	std::FILE* File = std::fopen(Path.c_str(), "wb");
 	if (File == nullptr) { return Path + " cannot be written"; }
-	std::fprintf(File, "P5\n%u %u\n255\n", FrameSize.width, FrameSize.height);
+	std::fprintf(File, "P6\n%u %u\n255\n", ViewSize.width, ViewSize.height);
 	for (uint32_t Pixel = 0; Pixel < PixelCount; ++Pixel)
 	{
-		std::fputc(static_cast<int>(glm::unpackHalf1x16(Mask[Pixel]) * 255.0f + 0.5f), File);
+		const float Found = glm::unpackHalf1x16(Mask[Pixel]);
+		const EExpectation Expected = Expectations[Pixel].Shadow;
+		const int Grey = static_cast<int>(Found * 160.0f + 0.5f);
+		const bool bWrong = IsWrong(Expected, Found);
+		std::fputc(bWrong && GetRight(Expected) > 0.5f ? 255 : Grey, File);
+		std::fputc(bWrong && GetRight(Expected) < 0.5f ? 255 : Grey, File);
+		std::fputc(Expected == EExpectation::Unsure ? Grey + 80 : Grey, File);
 	}
 	return std::fclose(File) == 0 ? FError() : Path + " cannot be written";
 }

@@ -19,9 +19,13 @@ struct FRayCase
 	FBenchTimes Raw, Plugin; ///< milliseconds
 	/// Processor time of the same runs, in milliseconds. On a CPU driver its ratio holds where other programs disturb the times above.
 	FBenchTimes RawProcessor, PluginProcessor;
+	/// The pass that reads an engine's G-buffer with a far plane and without geometric normals, and the shadow pass behind it;
+	/// milliseconds.
+	FBenchTimes Surface, SurfaceShadow;
 	double GetRawMrays() const; ///< by the median time
 	double GetPluginMrays() const;
 	double GetRatio() const { return GetPluginMrays() / GetRawMrays(); }
+	double GetSurfaceShare() const { return Surface.GetMedian() / SurfaceShadow.GetMedian(); }
 };
 
 struct FRayBenchSettings
@@ -46,7 +50,8 @@ public:
 private:
 	FRTStatus CreateTargets();
 	void AddCopies(FFrameContext& Context, const FGBuffer& GBuffer);
-	FRTStatus RunPlugin(double& OutMs);
+	FRTStatus RunPlugin(double& OutMs, double* OutSurfaceMs = nullptr);
+	FRTStatus RunSurface(FRayCase& Out);
 	FRTStatus CreateRaw(bool bPipeline, bool bCountRays, std::unique_ptr<FRawShadow>& Out);
 	FRTStatus RunInTurn(FRawShadow& Raw, FRayCase& Out);
 

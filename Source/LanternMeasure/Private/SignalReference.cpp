@@ -103,6 +103,7 @@ void AddView(FContentHasher& Hash, const FView& View)
 	AddVector(Hash, glm::vec3(View.Jitter, 0.0f));
 	AddVector(Hash, View.DepthError);
 	Hash.Add(View.NormalError);
+	Hash.Add(View.bDerivedNormals);
 	Hash.Add(View.Near);
 	Hash.Add(View.Width);
 	Hash.Add(View.Height);

@@ -80,6 +80,7 @@ FViewConstants MakeViewConstants(const FView& View, glm::dvec3 Origin, const FVi
 	C.Exposure = std::exp2(View.Exposure);
 	C.DepthError = View.DepthError;
 	C.NormalError = View.NormalError;
+	C.bDerivedNormals = View.bDerivedNormals ? 1u : 0u;
 	const FView& Before = Previous ? *Previous : View;
 	C.PreviousRelativeToClip = MakeRelativeToClip(Before);
 	C.CameraMotion = glm::vec3(View.Position - Before.Position);

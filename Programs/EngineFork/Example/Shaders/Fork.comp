@@ -11,10 +11,11 @@ struct FSkinVertex
 };
 struct FVertex
 {
-	vec3 Position, Normal;
+	vec3 Position, Normal, Previous;
+	vec2 UV;
 };
 layout(buffer_reference, scalar) readonly buffer FBindPose { FSkinVertex Items[]; };
-layout(buffer_reference, scalar) writeonly buffer FVertices { FVertex Items[]; };
+layout(buffer_reference, scalar) buffer FVertices { FVertex Items[]; };
 layout(buffer_reference, scalar) writeonly buffer FPositions { vec3 Items[]; };
 layout(push_constant, scalar) uniform FPush
 {
@@ -25,15 +26,15 @@ layout(push_constant, scalar) uniform FPush
 	uint Count;
 } Push;
 
-// Linear blend of two bones: one rests, one turns about z.
+// Linear blend of two bones: one rests, one turns about y.
 void main()
 {
 	uint Index = gl_GlobalInvocationID.x;
 	if (Index >= Push.Count) { return; }
 	FSkinVertex Vertex = Push.BindPose.Items[Index];
 	vec3 P = Vertex.Position;
-	vec3 Turned = vec3(P.x * Push.Cosine - P.y * Push.Sine, P.x * Push.Sine + P.y * Push.Cosine, P.z);
+	vec3 Turned = vec3(P.x * Push.Cosine - P.z * Push.Sine, P.y, P.x * Push.Sine + P.z * Push.Cosine);
 	vec3 Skinned = mix(P, Turned, Vertex.Weight);
-	Push.Vertices.Items[Index] = FVertex(Skinned, vec3(0));
+	Push.Vertices.Items[Index] = FVertex(Skinned, vec3(0), Push.Vertices.Items[Index].Position, vec2(0));
 	if (uint64_t(Push.Traced) != 0) { Push.Traced.Items[Index] = Skinned; }
 }

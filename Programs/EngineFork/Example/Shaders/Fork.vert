@@ -1,19 +1,26 @@
 #version 460
-layout(push_constant) uniform FPush
-{
-	mat4 RelativeToClip;
-	vec4 Offset; // xyz: position of the box relative to the camera
-	vec4 Scale;
-} Push;
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_scalar_block_layout : require
+#include "ForkDraw.glsl"
 
 layout(location = 0) in vec3 InPosition;
 layout(location = 1) in vec3 InNormal;
-layout(location = 0) flat out vec3 OutNormal;
-layout(location = 1) out vec3 OutRelative; // to the camera
+layout(location = 2) in vec3 InPrevious;
+layout(location = 3) in vec2 InUV;
+layout(location = 0) flat out vec3 OutNormal; // in view space, as all of this engine's G-buffer
+layout(location = 1) out vec3 OutPosition;
+layout(location = 2) out vec4 OutClip; // without jitter
+layout(location = 3) out vec4 OutPreviousClip;
+layout(location = 4) out vec2 OutUV;
 
 void main()
 {
-	OutNormal = InNormal;
-	OutRelative = InPosition * Push.Scale.xyz + Push.Offset.xyz;
-	gl_Position = Push.RelativeToClip * vec4(OutRelative, 1.0);
+	vec4 Relative = vec4(InPosition * Push.Scale + Push.Offset, 1.0);
+	OutNormal = mat3(Push.View.WorldToView) * InNormal;
+	OutPosition = mat3(Push.View.WorldToView) * Relative.xyz;
+	OutClip = Push.View.RelativeToClip * Relative;
+	OutPreviousClip = Push.View.PreviousRelativeToClip * vec4(InPrevious * Push.PreviousScale + Push.PreviousOffset, 1.0);
+	OutUV = InUV;
+	gl_Position = Push.View.JitteredViewToClip * vec4(OutPosition, 1.0);
 }

@@ -41,10 +41,9 @@ void SetErrors(FFrameContext& Context, const FHostSurface& Host)
 {
 	const auto GetFormat = [&](FGraphTexture Texture) { return Context.Graph.GetDesc(Texture).Format; };
 	Context.View.DepthError = GetDepthError(GetFormat(Host.Depth), Host.DepthMeaning) * CVarDepthBias.GetOnRenderThread();
-	const bool bDerived = !Host.bGeometricInZw && !Host.GeometricNormals.IsValid();
+	Context.View.bDerivedNormals = !Host.bGeometricInZw && !Host.GeometricNormals.IsValid();
 	const FGraphTexture Geometric = Host.GeometricNormals.IsValid() ? Host.GeometricNormals : Host.Normals;
-	// A derived normal may be any: its neighbours may be of another surface. A ray that should not leave ends at its own surface.
-	Context.View.NormalError = bDerived ? 1.0f : GetNormalError(GetFormat(Geometric));
+	Context.View.NormalError = GetNormalError(GetFormat(Geometric));
 }
 
 uint32_t MakeFlags(const FHostSurface& Host)

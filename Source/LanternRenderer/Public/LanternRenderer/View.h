@@ -31,9 +31,10 @@ struct FView
 	std::optional<FViewWindow> Window;
 	/// Offset of the picture by jitter, pixels, right and down: without it, all would be seen at a position less by this.
 	glm::vec2 Jitter{0};
-	/// Error that texels of depth have, and the sine of the angle by which geometric normals may be off: see FViewConstants.
+	/// Error that texels of depth have, and the sine of the angle by which normals may be off: see FViewConstants.
 	glm::vec3 DepthError{0};
 	float NormalError = 0.0f;
+	bool bDerivedNormals = false; ///< geometric normals come from depth
 	/// Orthographic: how far the view sees, metres; culling keeps what is within.
 	double Far = 0.0;
 	uint32_t Width = 0, Height = 0;

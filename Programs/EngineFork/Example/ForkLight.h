@@ -1,0 +1,37 @@
+// The engine's lighting: a compute pass that reads the G-buffer and the plugin's outputs.
+#pragma once
+
+#include "Example/ForkRaster.h"
+#include "LanternModule/Module.h"
+
+namespace Fork
+{
+
+class FForkLight
+{
+public:
+	static constexpr VkFormat Format = VK_FORMAT_R16G16B16A16_SFLOAT;
+	static constexpr double Sun = 1.0, Ambient = 0.25; ///< on a surface that faces it, and from everywhere
+
+	FForkLight() = default;
+	FForkLight(const FForkLight&) = delete;
+	~FForkLight();
+	FError Create(const FForkDevice& Owner);
+	/// Lights a view. The GPU must have finished the view's frame before. Leaves Lit in VK_IMAGE_LAYOUT_GENERAL.
+	void Run(VkCommandBuffer Commands, const FForkFrame& Frame, const FForkRaster& Raster, const Lantern::FRTModuleOutputs& Outputs);
+
+	FForkImage Lit; ///< radiance, of all views side by side; a: 1 where there is a surface
+
+private:
+	FError CreatePipeline();
+	FError CreateSets();
+
+	VkDevice Device = VK_NULL_HANDLE;
+	VkDescriptorSetLayout SetLayout = VK_NULL_HANDLE;
+	VkDescriptorPool Pool = VK_NULL_HANDLE;
+	VkDescriptorSet Sets[ViewCount] = {};
+	VkPipelineLayout Layout = VK_NULL_HANDLE;
+	VkPipeline Pipeline = VK_NULL_HANDLE;
+};
+
+} // namespace Fork
