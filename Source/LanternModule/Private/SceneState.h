@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -51,11 +52,21 @@ private:
 	void Do(FTransformCommand& Command);
 	void Do(FMaskCommand& Command);
 	void Do(FObjectMaterialsCommand& Command);
+	void Do(FObjectMeshCommand& Command);
 	void Do(FVerticesCommand& Command);
 	void Do(FDeformedCommand& Command);
 	void Do(FLightCommand& Command);
 	void Do(FSunLight& Command) { Scene.SetSun(Command); }
 	void Do(FSkyCommand& Command) { Scene.SetSky(Command.Radiance); }
+	void Do(FSkyMapCommand& Command);
+	/// A change of mesh that waits until rays can see the new one.
+	struct FMeshChange
+	{
+		FRTGeometryRef Geometry;
+		std::vector<uint32_t> Materials; ///< indices in the scene
+	};
+	/// Makes the changes that can be seen now, and those of objects that show Material, which goes. ~0: none does.
+	void ChangeMeshes(uint32_t Material);
 	std::vector<uint32_t> GetMaterials(const std::vector<uint32_t>& Slots) const;
 	void MarkDeformed(uint32_t Slot);
 	FRTStatus RecordVertices(IRTCommandList& List);
@@ -66,7 +77,8 @@ private:
 	// By slot.
 	std::vector<uint32_t> Materials; ///< index in the scene
 	std::vector<FMesh> Meshes;
-	std::vector<FRTObjectId> Objects; ///< invalid: its mesh has no geometry
+	std::vector<FRTObjectId> Objects;            ///< invalid: its mesh has no geometry
+	std::map<uint32_t, FMeshChange> MeshChanges; ///< by slot of the object
 	std::vector<std::optional<FSceneLight>> Lights;
 	bool bLightsChanged = false;
 	std::vector<uint32_t> Deformed, RecordedVertices; ///< slots of meshes with new vertices; of those in this frame

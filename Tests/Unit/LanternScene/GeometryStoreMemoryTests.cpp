@@ -355,7 +355,7 @@ TEST_F(FGeometryMemoryTest, GeometryMayGoWhileItIsMadeCoarser)
 		FRTGeometryRef Terrain = MakeCpu("Brief", 150);
 		Frames(9 + I);
 		Terrain.reset();
-		Frames(1); // without CpuOwner the data must outlive the next frame's beginning
+		Frames(1);            // without CpuOwner the data must outlive the next frame's beginning
 		CpuPositions.clear(); // the sanitizer would see a task that still reads them
 		CpuIndices.clear();
 	}
