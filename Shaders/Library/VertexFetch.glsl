@@ -4,6 +4,7 @@
 
 #include "Bindings.glsl"
 #include "Math.glsl"
+#include "VertexStreams.glsl"
 
 // Input of EvaluateMaterial, in world space relative to the scene's origin.
 struct FMaterialInputs
@@ -41,15 +42,31 @@ FMaterialInputs UnpackVertex(FVertexAttributes V, uint SectionFlags)
 	return Inputs;
 }
 
+// Object space.
+FMaterialInputs LoadVertex(FSectionData Section, uint Vertex)
+{
+	return UnpackVertex(FAttributeRef(Section.Attributes).Data[Vertex], Section.Flags);
+}
+
+FVertexStreams LoadStreams(FSectionData Section) { return FStreamsRef(Section.Attributes).Data; }
+
 // Interpolates only what textures need: coordinates and colour. Normal and Tangent are zero.
 FMaterialInputs FetchTextureInputs(FSectionData Section, uint Primitive, vec2 Barycentrics)
 {
 	uvec3 Triangle = FetchTriangle(Section, Primitive);
-	FAttributeRef Vertices = FAttributeRef(Section.Attributes);
 	vec3 Weights = vec3(1.0 - Barycentrics.x - Barycentrics.y, Barycentrics);
 	FMaterialInputs Inputs;
 	Inputs.Normal = vec3(0.0);
 	Inputs.Tangent = vec4(0.0);
+	if ((Section.Flags & SECTION_STREAMS) != 0u)
+	{
+		FVertexStreams Streams = LoadStreams(Section);
+		Inputs.UV0 = InterpolateStream(Streams.UV0, Triangle, Weights, vec4(0.0)).xy;
+		Inputs.UV1 = InterpolateStream(Streams.UV1, Triangle, Weights, vec4(0.0)).xy;
+		Inputs.Color = InterpolateStream(Streams.Colors, Triangle, Weights, vec4(1.0));
+		return Inputs;
+	}
+	FAttributeRef Vertices = FAttributeRef(Section.Attributes);
 	Inputs.UV0 = Weights.x * Vertices.Data[Triangle.x].UV0 + Weights.y * Vertices.Data[Triangle.y].UV0 +
 	             Weights.z * Vertices.Data[Triangle.z].UV0;
 	Inputs.UV1 = Weights.x * Vertices.Data[Triangle.x].UV1 + Weights.y * Vertices.Data[Triangle.y].UV1 +
@@ -72,45 +89,98 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FVe
 // wait for the material.
 vec2 FetchOpacityUV(FSectionData Section, uvec3 Triangle, vec2 Barycentrics)
 {
-	uint Offset = (Section.Flags & SECTION_OPACITY_UV1) != 0u ? 16u : 8u; // bytes to FVertexAttributes::UV1 or UV0
-	FVertexUVRef V = FVertexUVRef(Section.Attributes + Offset);
-	return (1.0 - Barycentrics.x - Barycentrics.y) * V.Data[Triangle.x].UV + Barycentrics.x * V.Data[Triangle.y].UV +
-	       Barycentrics.y * V.Data[Triangle.z].UV;
+	bool bUV1 = (Section.Flags & SECTION_OPACITY_UV1) != 0u;
+	vec3 Weights = vec3(1.0 - Barycentrics.x - Barycentrics.y, Barycentrics);
+	if ((Section.Flags & SECTION_STREAMS) != 0u)
+	{
+		FStreamsRef Streams = FStreamsRef(Section.Attributes);
+		if (bUV1) { return InterpolateStream(Streams.Data.UV1, Triangle, Weights, vec4(0.0)).xy; }
+		return InterpolateStream(Streams.Data.UV0, Triangle, Weights, vec4(0.0)).xy;
+	}
+	FVertexUVRef V = FVertexUVRef(Section.Attributes + (bUV1 ? 16u : 8u)); // bytes to FVertexAttributes::UV1 or UV0
+	return Weights.x * V.Data[Triangle.x].UV + Barycentrics.x * V.Data[Triangle.y].UV + Barycentrics.y * V.Data[Triangle.z].UV;
 }
 
 float FetchVertexAlpha(FSectionData Section, uvec3 Triangle, vec2 Barycentrics)
 {
+	vec3 Weights = vec3(1.0 - Barycentrics.x - Barycentrics.y, Barycentrics);
+	if ((Section.Flags & SECTION_STREAMS) != 0u)
+	{
+		return InterpolateStream(FStreamsRef(Section.Attributes).Data.Colors, Triangle, Weights, vec4(1.0)).a;
+	}
 	FAttributeRef Vertices = FAttributeRef(Section.Attributes);
 	vec3 Alpha = vec3(Vertices.Data[Triangle.x].Color >> 24u, Vertices.Data[Triangle.y].Color >> 24u, Vertices.Data[Triangle.z].Color >> 24u);
-	return dot(vec3(1.0 - Barycentrics.x - Barycentrics.y, Barycentrics), Alpha) * (1.0 / 255.0);
+	return dot(Weights, Alpha) * (1.0 / 255.0);
+}
+
+void FetchPositions(FSectionData Section, uint Primitive, out vec3 P0, out vec3 P1, out vec3 P2)
+{
+	uvec3 Triangle = FetchTriangle(Section, Primitive);
+	if ((Section.Flags & SECTION_STREAMS) != 0u)
+	{
+		FVertexStream Stream = FStreamsRef(Section.Attributes).Data.Positions;
+		P0 = LoadStream(Stream, Triangle.x).xyz;
+		P1 = LoadStream(Stream, Triangle.y).xyz;
+		P2 = LoadStream(Stream, Triangle.z).xyz;
+		return;
+	}
+	FPositionRef Positions = FPositionRef(Section.Positions);
+	P0 = Positions.Data[Triangle.x];
+	P1 = Positions.Data[Triangle.y];
+	P2 = Positions.Data[Triangle.z];
+}
+
+// Object space. A host may have no normals: then each triangle has its own, of any length.
+FMaterialInputs LoadStreamVertex(FVertexStreams Streams, uint Vertex)
+{
+	FMaterialInputs Inputs;
+	vec4 Normal = LoadDirection(Streams.Normals, Vertex), Tangent = LoadDirection(Streams.Tangents, Vertex);
+	float Sign = (Streams.Flags & STREAMS_SIGN_IN_NORMAL) != 0u ? Normal.w : Tangent.w;
+	Inputs.Normal = Normal.xyz;
+	Inputs.Tangent = vec4(Tangent.xyz, Streams.Tangents.Address == 0ul ? 0.0 : (Sign < 0.0 ? -1.0 : 1.0));
+	Inputs.UV0 = LoadStream(Streams.UV0, Vertex, vec4(0.0)).xy;
+	Inputs.UV1 = LoadStream(Streams.UV1, Vertex, vec4(0.0)).xy;
+	Inputs.Color = LoadStream(Streams.Colors, Vertex, vec4(1.0));
+	return Inputs;
+}
+
+vec3 FetchTriangleNormal(FSectionData Section, uint Primitive)
+{
+	vec3 P0, P1, P2;
+	FetchPositions(Section, Primitive, P0, P1, P2);
+	return cross(P1 - P0, P2 - P0);
 }
 
 // Interpolates all attributes, in object space.
 FMaterialInputs FetchMaterialInputs(FSectionData Section, uint Primitive, vec2 Barycentrics)
 {
 	uvec3 Triangle = FetchTriangle(Section, Primitive);
-	FAttributeRef Vertices = FAttributeRef(Section.Attributes);
-	FMaterialInputs Inputs0 = UnpackVertex(Vertices.Data[Triangle.x], Section.Flags);
-	FMaterialInputs Inputs1 = UnpackVertex(Vertices.Data[Triangle.y], Section.Flags);
-	FMaterialInputs Inputs2 = UnpackVertex(Vertices.Data[Triangle.z], Section.Flags);
+	FMaterialInputs Inputs0, Inputs1, Inputs2;
+	bool bOwnNormals = true;
+	if ((Section.Flags & SECTION_STREAMS) != 0u)
+	{
+		FVertexStreams Streams = LoadStreams(Section);
+		Inputs0 = LoadStreamVertex(Streams, Triangle.x);
+		Inputs1 = LoadStreamVertex(Streams, Triangle.y);
+		Inputs2 = LoadStreamVertex(Streams, Triangle.z);
+		bOwnNormals = Streams.Normals.Address != 0ul;
+	}
+	else
+	{
+		Inputs0 = LoadVertex(Section, Triangle.x);
+		Inputs1 = LoadVertex(Section, Triangle.y);
+		Inputs2 = LoadVertex(Section, Triangle.z);
+	}
 	vec3 Weights = vec3(1.0 - Barycentrics.x - Barycentrics.y, Barycentrics);
 	FMaterialInputs Inputs;
-	Inputs.Normal = Weights.x * Inputs0.Normal + Weights.y * Inputs1.Normal + Weights.z * Inputs2.Normal;
+	Inputs.Normal = bOwnNormals ? Weights.x * Inputs0.Normal + Weights.y * Inputs1.Normal + Weights.z * Inputs2.Normal
+	                            : FetchTriangleNormal(Section, Primitive);
 	Inputs.Tangent = vec4(Weights.x * Inputs0.Tangent.xyz + Weights.y * Inputs1.Tangent.xyz + Weights.z * Inputs2.Tangent.xyz,
 	                      Inputs0.Tangent.w);
 	Inputs.UV0 = Weights.x * Inputs0.UV0 + Weights.y * Inputs1.UV0 + Weights.z * Inputs2.UV0;
 	Inputs.UV1 = Weights.x * Inputs0.UV1 + Weights.y * Inputs1.UV1 + Weights.z * Inputs2.UV1;
 	Inputs.Color = Weights.x * Inputs0.Color + Weights.y * Inputs1.Color + Weights.z * Inputs2.Color;
 	return Inputs;
-}
-
-void FetchPositions(FSectionData Section, uint Primitive, out vec3 P0, out vec3 P1, out vec3 P2)
-{
-	uvec3 Triangle = FetchTriangle(Section, Primitive);
-	FPositionRef Positions = FPositionRef(Section.Positions);
-	P0 = Positions.Data[Triangle.x];
-	P1 = Positions.Data[Triangle.y];
-	P2 = Positions.Data[Triangle.z];
 }
 
 // Intersects a ray with the plane of a triangle, in object space (Möller and Trumbore 1997). The result's x is the

@@ -5,6 +5,7 @@
 #include "../Shared/LightingTypes.h"
 #include "../Library/GBuffer.glsl"
 #include "../Library/Lights.glsl"
+#include "../Library/SkyLight.glsl"
 #include "../Library/Sun.glsl"
 
 layout(local_size_x = LIGHTING_GROUP_SIZE, local_size_y = LIGHTING_GROUP_SIZE) in;
@@ -12,7 +13,7 @@ layout(push_constant, scalar) uniform FPush { FLightingConstants Push; };
 
 vec3 ShadeSky(FSceneConstants Scene, vec3 Direction)
 {
-	vec3 L = Scene.SkyRadiance;
+	vec3 L = SampleSkyRadiance(Scene, Direction);
 #ifdef HAS_SUN
 	if (Scene.SunOneMinusCos > 0.0 && IsInSunDisk(Scene, Direction)) { L += SunRadiance(Scene); }
 #endif
@@ -57,9 +58,9 @@ float SpecularOcclusion(float NdotV, float Visibility, float Roughness)
 #ifdef HAS_SKY
 // Stands in for the light that comes from where the sky is hidden. Without rays of its own it can only be guessed: from surfaces
 // as open to sky and sun as this one is. Closed places are dark.
-vec3 GuessSurroundings(FSceneConstants Scene, float Visibility)
+vec3 GuessSurroundings(FSceneConstants Scene, vec3 SkyLight, float Visibility)
 {
-	vec3 Light = Scene.SkyRadiance;
+	vec3 Light = SkyLight;
 #ifdef HAS_SUN
 	Light += Scene.SunColor * (Scene.SunIrradiance / Pi);
 #endif
@@ -68,21 +69,22 @@ vec3 GuessSurroundings(FSceneConstants Scene, float Visibility)
 #endif
 
 // Material: texel of the G-buffer; y: the material's own occlusion.
-vec3 ShadeIndirect(FSceneConstants Scene, ivec2 Pixel, FBrdf Brdf, float NdotV, vec4 Material)
+vec3 ShadeIndirect(FSceneConstants Scene, ivec2 Pixel, FBrdf Brdf, FGBufferPoint Point, float NdotV, vec4 Material)
 {
-	vec3 Ambient = vec3(0.0), Surroundings = vec3(0.0);
+	vec3 Ambient = vec3(0.0), Mirrored = vec3(0.0), Surroundings = vec3(0.0);
 	float Visibility = 1.0;
 #ifdef HAS_SKY
-	Ambient = Scene.SkyRadiance * Material.y;
+	Ambient = SkyAmbient(Scene, Push.SkyLight, Point.BentN) * Material.y;
+	Mirrored = SkyAmbient(Scene, Push.SkyLight, reflect(-Point.V, Point.BentN)) * Material.y;
 	if (Push.SkyVisibility != NO_TEXTURE) { Visibility = texelFetch(Textures[Push.SkyVisibility], Pixel, 0).x; }
-	Surroundings = GuessSurroundings(Scene, Visibility) * Material.y;
+	Surroundings = GuessSurroundings(Scene, SkyAmbient(Scene, Push.SkyLight, Point.BentN), Visibility) * Material.y;
 #endif
 	vec3 Diffuse = mix(Surroundings, Ambient, Visibility);
 	if (Push.IndirectDiffuse != NO_TEXTURE) { Diffuse = texelFetch(Textures[Push.IndirectDiffuse], Pixel, 0).rgb; }
 	vec4 Specular = Push.IndirectSpecular != NO_TEXTURE ? texelFetch(Textures[Push.IndirectSpecular], Pixel, 0) : vec4(0.0);
 	if (Specular.a <= 0.0)
 	{
-		vec3 Incident = mix(Surroundings, Ambient, SpecularOcclusion(NdotV, Visibility, Material.x));
+		vec3 Incident = mix(Surroundings, Mirrored, SpecularOcclusion(NdotV, Visibility, Material.x));
 		Specular.rgb = Incident * SpecularReflectance(Brdf, NdotV, Material.x);
 	}
 	return DiffuseReflectance(Brdf, NdotV) * Diffuse + Specular.rgb;
@@ -96,7 +98,7 @@ vec3 ShadeSurface(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, float
 	mat3 Basis = MakeBasis(Point.BentN);
 	vec3 LocalV = Point.V * Basis;
 	return texelFetch(Textures[Push.Emissive], Pixel, 0).rgb + ShadeDirect(Scene, View, Pixel, Point, Brdf, Basis, LocalV) +
-	       ShadeIndirect(Scene, Pixel, Brdf, LocalV.z, Material);
+	       ShadeIndirect(Scene, Pixel, Brdf, Point, LocalV.z, Material);
 }
 
 void main()

@@ -38,7 +38,7 @@ vec3 SampleSky(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, ve
 	vec3 BrdfCos = EvaluateBrdfCos(Brdf, V, LocalToLight);
 	if (MaxComponent(BrdfCos) <= 0.0 || !IsVisible(Scene, P, ToLight, 1.0e30)) { return vec3(0.0); }
 	float Pdf = LocalToLight.z / Pi;
-	return BrdfCos * Scene.SkyRadiance * (PowerHeuristic(Pdf, BrdfPdf(Brdf, V, LocalToLight)) / Pdf);
+	return BrdfCos * SampleSkyRadiance(Scene, ToLight) * (PowerHeuristic(Pdf, BrdfPdf(Brdf, V, LocalToLight)) / Pdf);
 }
 #endif
 

@@ -8,6 +8,7 @@
 #include "../Library/BrdfSample.glsl"
 #include "../Library/Lights.glsl"
 #include "../Library/Random.glsl"
+#include "../Library/SkyMap.glsl"
 #include "../Library/Sun.glsl"
 #include "../Materials/Standard.glsl"
 #include "MaterialPayload.glsl"
@@ -47,7 +48,7 @@ vec3 ShadeMiss(FSceneConstants Scene, vec3 Direction, float Pdf, float NdotL)
 {
 	vec3 L = vec3(0.0);
 #ifdef HAS_SKY
-	L += Scene.SkyRadiance * PowerHeuristic(Pdf, NdotL / Pi);
+	L += SampleSkyRadiance(Scene, Direction) * PowerHeuristic(Pdf, NdotL / Pi);
 #endif
 #ifdef HAS_SUN
 	if (Scene.SunOneMinusCos > 0.0 && IsInSunDisk(Scene, Direction))
@@ -128,7 +129,7 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 // Returns the indirect light that one lobe reflects at the first vertex of a path. It excludes the sun's disk and punctual
 // lights that shine there directly; the lighting pass adds those. It includes the sky and emissive triangles.
 // Lobe: MakeWhiteLambert or MakeSpecularLobe. U: chooses the direction. Other parameters: see PathLights.glsl.
-// Only the lobe samples the sky. The sky is uniform, so that light sampling would not reduce the noise.
+// Only the lobe samples the sky. Light sampling would reduce no noise of a uniform sky, and it knows no bright spots of a map.
 vec3 GatherIndirect(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, vec3 Ng, vec2 U, uint MaxBounces, inout FRandom Random)
 {
 	vec3 Radiance = vec3(0.0);
@@ -146,7 +147,7 @@ vec3 GatherIndirect(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 
 	if (Hit.Distance < 0.0)
 	{
 #ifdef HAS_SKY
-		Radiance += Sample.Weight * Scene.SkyRadiance;
+		Radiance += Sample.Weight * SampleSkyRadiance(Scene, Direction);
 #endif
 		return Radiance;
 	}

@@ -17,7 +17,7 @@ struct FLightingConstants
 	uint IndirectDiffuse, IndirectSpecular;             // sampled indices, or NO_TEXTURE: the sky's ambient light stands in
 	uint Output;                                        // storage index
 	float Surroundings; // share of light that they reflect, where they stand in for indirect light
-	uint Pad;
+	uint SkyLight;      // sampled index, see SkyAmbient in SkyLight.glsl
 };
 LANTERN_ASSERT_SIZE(FLightingConstants, 64);
 

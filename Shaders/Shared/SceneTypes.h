@@ -17,6 +17,41 @@ struct FVertexAttributes
 };
 LANTERN_ASSERT_SIZE(FVertexAttributes, 28);
 
+// How a vertex of a stream is coded. The values are those of ERTModuleVertex (ModuleMesh.h), which says more.
+#define VERTEX_FLOAT2 0u
+#define VERTEX_FLOAT3 1u
+#define VERTEX_FLOAT4 2u
+#define VERTEX_HALF2 3u
+#define VERTEX_HALF4 4u
+#define VERTEX_UNORM16X2 5u
+#define VERTEX_SNORM16X2 6u
+#define VERTEX_SNORM16X4 7u
+#define VERTEX_UNORM8X4 8u
+#define VERTEX_SNORM8X4 9u
+#define VERTEX_BGRA8 10u
+#define VERTEX_UNORM10X3 11u
+#define VERTEX_SNORM10X3 12u
+#define VERTEX_OCTAHEDRAL16 13u
+
+// One attribute of vertices that lie in a host's own buffers.
+struct FVertexStream
+{
+	FAddress Address; // of the section's vertex 0, a multiple of 4; 0: there is none
+	uint Stride;      // bytes, a multiple of 4
+	uint Format;      // VERTEX_…
+};
+
+#define STREAMS_SIGN_IN_NORMAL 1u // w of normals, not of tangents, is the sign of the bitangent
+
+// The vertices of a section with SECTION_STREAMS, in place of FVertexAttributes.
+struct FVertexStreams
+{
+	FVertexStream Positions, Normals, Tangents, UV0, UV1, Colors;
+	uint Flags; // STREAMS_…
+	uint Pad;
+};
+LANTERN_ASSERT_SIZE(FVertexStreams, 104);
+
 // FSectionData::Flags
 #define SECTION_INDEX_16 1u      // indices are 16 bits wide (else 32)
 #define SECTION_MASKED 2u        // alpha-tested
@@ -32,13 +67,15 @@ LANTERN_ASSERT_SIZE(FVertexAttributes, 28);
 #define SECTION_PIECES 256u
 // The section consists of such pieces. They extend slightly beyond their triangles; hits there are ignored.
 #define SECTION_IS_PIECES 512u
+// The vertices lie in a host's own buffers: Attributes is the address of an FVertexStreams.
+#define SECTION_STREAMS 1024u
 
 // One section of an object: its triangles and its material. It is the local data of a hit record, and an entry of the section
 // table that inline ray queries read.
 struct FSectionData
 {
 	FAddress Positions;  // float3[]
-	FAddress Attributes; // FVertexAttributes[]
+	FAddress Attributes; // FVertexAttributes[]; or see SECTION_STREAMS
 	FAddress Indices;    // 16 or 32 bits each, see SECTION_INDEX_…
 	uint Material; // index into FMaterialData[]
 	uint Flags;
@@ -152,6 +189,9 @@ struct FEmissiveTriangle
 };
 LANTERN_ASSERT_SIZE(FEmissiveTriangle, 64);
 
+#define SKY_MAP_CUBE 0u
+#define SKY_MAP_OCTAHEDRAL 1u
+
 // Constants of the scene, one block a frame.
 struct FSceneConstants
 {
@@ -168,17 +208,19 @@ struct FSceneConstants
 	float SunIrradiance; // on a plane that faces it, lux
 	vec3 SunColor;       // multiplies SunIrradiance
 	float SunOneMinusCos; // 1 − cosine of its angular radius; 0: a point
-	vec3 SkyRadiance;      // uniform, nits
+	vec3 SkyRadiance;      // nits; times the texels of the sky's map if there is one
 	uint MaterialOverride; // r.RT.Material.Override
 	ivec3 OriginCell;      // cell that the scene's origin lies in
 	float ObjectReach;     // see OffsetRayOrigin in Math.glsl, metres
 	vec3 OriginInCell;     // scene's origin relative to the centre of its cell, metres
-	uint Pad0;
+	uint SkyMap;           // slot of a texture as in FMaterialData; NO_TEXTURE: the sky is uniform
+	vec3 SkyMapAxes[3];    // rows: directions in the world to directions in the map
+	uint SkyMapKind;       // SKY_MAP_…
 	FAddress AnyHitCounter; // uint: counts alpha tests of rays, if r.RT.Opacity.Count is on
 	FAddress StandInHits;   // uint[], by material: rays that hit a stand-in of its shader; 0: not counted
 	FAddress ObjectMotions; // FObjectMotion[]; 0: nothing moved
 };
-LANTERN_ASSERT_SIZE(FSceneConstants, 160);
+LANTERN_ASSERT_SIZE(FSceneConstants, 200);
 
 // A camera, as passes see it whatever the host's conventions are: FView has them, HostProjection.h makes it of a matrix.
 // Positions are relative to the scene's origin.

@@ -35,6 +35,35 @@ CONTRACT_TEST(ReferencesAreCounted)
 	EXPECT_EQ(Moved, Buffer);
 }
 
+CONTRACT_TEST(ImportedMemoryIsReleasedOnceAndLate)
+{
+	const auto Owner = Make.Buffer(1024, ERTMemory::Upload);
+	int Released = 0;
+	FRTNativeBuffer Native;
+	Native.Handle = Owner->GetNative(ERTNative::Buffer);
+	Native.Address = Owner->GetDeviceAddress() / 16 * 16;
+	Native.Released = [](void* User) { ++*static_cast<int*>(User); };
+	Native.User = &Released;
+	TRTRef<IRTBuffer> Imported;
+	ASSERT_OK(
+	    Make.Device->ImportBuffer({1000, ERTBufferUsage::Storage, ERTMemory::Upload, "Theirs"}, Native, Imported.ReleaseAndGetAddress()));
+	EXPECT_STREQ(Imported->GetDesc().Name, "Theirs");
+	EXPECT_EQ(Imported->GetDesc().Size, 1000u);
+	EXPECT_EQ(Imported->GetMapped(), nullptr) << "it is the host that may write to it";
+	EXPECT_NE(Imported->GetDeviceAddress(), 0u);
+	const auto List = Make.List();
+	List->KeepAlive(Imported.Get());
+	Imported.Reset();
+	Make.Device->CollectGarbage();
+	EXPECT_EQ(Released, 0) << "the list may still run";
+	Run(List.Get());
+	ASSERT_OK(List->Begin()); // lets go of what it held
+	ASSERT_OK(List->End());
+	ASSERT_OK(Make.Device->WaitIdle());
+	Make.Device->CollectGarbage();
+	EXPECT_EQ(Released, 1);
+}
+
 CONTRACT_TEST(CopiesThroughDeviceMemory)
 {
 	std::vector<uint32_t> Values(256);

@@ -290,4 +290,34 @@ TEST_F(FVulkanSmokeBasics, AnImportedTextureIsTheSameImageAndSurvivesItsWrapper)
 	EXPECT_EQ(static_cast<float*>(Back->GetMapped())[3], 0.5f);
 }
 
+TEST_F(FVulkanSmokeBasics, AnImportedBufferIsTheSameMemory)
+{
+	constexpr ERTBufferUsage Usage = ERTBufferUsage::CopySource | ERTBufferUsage::Storage;
+	const FRTBufferDesc Desc{64, Usage, ERTMemory::Device, "Theirs"};
+	TRTRef<IRTBuffer> Original = MakeBuffer(64, Usage, ERTMemory::Upload, "Original"), ByHandle, ByAddress;
+	FRTNativeBuffer Native;
+	Native.Handle = Original->GetNative(ERTNative::Buffer);
+	ASSERT_OK(Device->ImportBuffer(Desc, Native, ByHandle.ReleaseAndGetAddress()));
+	EXPECT_EQ(ByHandle->GetDeviceAddress(), Original->GetDeviceAddress());
+	EXPECT_EQ(ByHandle->GetNative(ERTNative::Buffer), Native.Handle);
+	ASSERT_OK(Device->ImportBuffer(Desc, {0, Original->GetDeviceAddress()}, ByAddress.ReleaseAndGetAddress()));
+	EXPECT_EQ(ByAddress->GetDeviceAddress(), Original->GetDeviceAddress());
+	static_cast<uint32_t*>(Original->GetMapped())[3] = 77;
+	TRTRef<IRTBuffer> Back = MakeBuffer(64, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Back");
+	ASSERT_OK(List->Begin());
+	List->CopyBuffer(Back.Get(), 0, ByHandle.Get(), 0, 64);
+	Barrier(ERTAccess::CopyWrite, ERTAccess::HostRead);
+	ASSERT_NO_FATAL_FAILURE(Run());
+	EXPECT_EQ(static_cast<uint32_t*>(Back->GetMapped())[3], 77u);
+	const auto ExpectRefused = [&](const FRTBufferDesc& Wrong, const FRTNativeBuffer& From, const char* Part) {
+		const FRTStatus Status = Device->ImportBuffer(Wrong, From, ByHandle.ReleaseAndGetAddress());
+		EXPECT_EQ(Status.Code, ERTResult::InvalidArgument);
+		EXPECT_NE(strstr(Status.Message, Part), nullptr) << Status.Message;
+	};
+	ExpectRefused({1 << 20, Usage, ERTMemory::Device, "Theirs"}, Native, "Size is 1048576 bytes");
+	ExpectRefused({0, Usage, ERTMemory::Device, "Theirs"}, Native, "Size is 0");
+	ExpectRefused(Desc, {}, "Handle and Address are 0");
+	ExpectRefused(Desc, {0, Original->GetDeviceAddress() + 4}, "Address is not a multiple of 16");
+}
+
 } // namespace Lantern

@@ -51,6 +51,41 @@ FRTStatus CheckSky(const float Radiance[3])
 	return bGood ? FRTStatus::Success() : Refuse("the sky's radiance must be finite and not negative");
 }
 
+FRTStatus CheckSkyMap(const FRTModuleSkyMap& Map)
+{
+	uint32_t Slot = NO_TEXTURE;
+	if (Map.Texture == nullptr) { return Refuse("FRTModuleSkyMap::Texture is null"); }
+	if (Map.Texture->GetSampledIndex() == ~0u) { return Refuse("FRTModuleSkyMap::Texture was created without Sampled"); }
+	if (Map.Sampler == nullptr) { return Refuse("FRTModuleSkyMap::Sampler is null"); }
+	if (!MakeTextureSlot(Map.Texture->GetSampledIndex(), Map.Sampler->GetIndex(), Slot))
+	{
+		return Refuse("FRTModuleSkyMap::Texture or Sampler has an index that there is no room for");
+	}
+	if (Map.Kind > ERTModuleSkyMap::Octahedral) { return Refuse("FRTModuleSkyMap::Kind is none"); }
+	const FRTTextureDesc& Desc = Map.Texture->GetDesc();
+	if (Desc.bCube != (Map.Kind == ERTModuleSkyMap::Cube)) { return Refuse("FRTModuleSkyMap::Kind does not fit FRTTextureDesc::bCube"); }
+	if (Desc.Width != Desc.Height || (!Desc.bCube && Desc.ArraySize != 1))
+	{
+		return Refuse("FRTModuleSkyMap::Texture is not square, or is an array");
+	}
+	if (!(Map.Intensity >= 0.0f) || !std::isfinite(Map.Intensity)) { return Refuse("FRTModuleSkyMap::Intensity must be finite, ≥ 0"); }
+	constexpr float Tolerance = 1e-3f;
+	for (int Row = 0; Row < 3; ++Row)
+	{
+		for (int Other = Row; Other < 3; ++Other)
+		{
+			const float* const A = Map.WorldToMap + 3 * Row;
+			const float* const B = Map.WorldToMap + 3 * Other;
+			const float Dot = A[0] * B[0] + A[1] * B[1] + A[2] * B[2];
+			if (!(std::abs(Dot - (Row == Other ? 1.0f : 0.0f)) < Tolerance))
+			{
+				return Refuse("FRTModuleSkyMap::WorldToMap is no rotation");
+			}
+		}
+	}
+	return FRTStatus::Success();
+}
+
 FRTStatus CheckSun(const FRTModuleSun& Sun)
 {
 	const double Length = length(glm::dvec3(Sun.Direction[0], Sun.Direction[1], Sun.Direction[2]));

@@ -10,6 +10,7 @@ namespace Lantern
 
 FRTStatus CheckSun(const FRTModuleSun& Sun);
 FRTStatus CheckSky(const float Radiance[3]);
+FRTStatus CheckSkyMap(const FRTModuleSkyMap& Map);
 FRTStatus CheckLight(const FRTModuleLight& Light);
 FRTStatus CheckTransform(const double Transform[12]);
 FRTStatus CheckMaterial(const FRTModuleMaterial& Material);

@@ -216,6 +216,13 @@ FRTStatus CheckGBuffer(const FRTModuleFrame& Frame)
 
 } // namespace
 
+FRTStatus CheckPrecache(const FRTModuleFrame& Frame)
+{
+	if (Frame.Depth == nullptr || Frame.Normals == nullptr) { return CheckLayout(Frame.Layout); }
+	const FRTStatus Status = CheckGBuffer(Frame);
+	return Status ? CheckView(Frame.View) : Status;
+}
+
 FRTStatus CheckFrame(const FRTModuleFrame& Frame)
 {
 	if (Frame.Commands == nullptr) { return RefuseNull("RenderFrame", "FRTModuleFrame::Commands"); }

@@ -8,5 +8,7 @@ namespace Lantern
 
 /// Ok, or InvalidArgument, which names the argument that is wrong.
 FRTStatus CheckFrame(const FRTModuleFrame& Frame);
+/// What Precache reads, as far as it is there.
+FRTStatus CheckPrecache(const FRTModuleFrame& Frame);
 
 } // namespace Lantern

@@ -18,11 +18,6 @@ namespace Lantern
 namespace
 {
 
-FRTStatus Refuse(const FRTModuleMesh& Mesh, const char* Reason)
-{
-	return FRTStatus::Error(ERTResult::InvalidArgument, "mesh \"%s\": %s", FRTShown(Mesh.Name).Text, Reason);
-}
-
 bool IsSectionSound(const FRTModuleSection& Section, uint32_t IndexCount)
 {
 	return Section.IndexCount > 0 && Section.IndexCount % 3 == 0 && Section.FirstIndex <= IndexCount &&
@@ -35,24 +30,26 @@ bool AreFinite(const float* Values, size_t Count)
 	return Values == nullptr || std::all_of(Values, Values + Count, [](float Value) { return std::isfinite(Value); });
 }
 
-/// Before anything is read: counts that can be, and arrays for them.
+/// Before anything is read: counts that can be.
 FRTStatus CheckCounts(const FRTModuleMesh& Mesh)
 {
 	if (Mesh.Name == nullptr) { return FRTStatus::Error(ERTResult::InvalidArgument, "FRTModuleMesh::Name is null"); }
-	if (Mesh.VertexCount == 0 || Mesh.VertexCount > MaxMeshVertices) { return Refuse(Mesh, "VertexCount is 0, or above MaxMeshVertices"); }
+	if (Mesh.VertexCount == 0 || Mesh.VertexCount > MaxMeshVertices)
+	{
+		return RefuseMesh(Mesh, "VertexCount is 0, or above MaxMeshVertices");
+	}
 	if (Mesh.IndexCount == 0 || Mesh.IndexCount > MaxMeshIndices || Mesh.IndexCount % 3 != 0)
 	{
-		return Refuse(Mesh, "IndexCount is 0, above MaxMeshIndices, or no multiple of 3");
+		return RefuseMesh(Mesh, "IndexCount is 0, above MaxMeshIndices, or no multiple of 3");
 	}
-	if (Mesh.SectionCount > Mesh.IndexCount / 3) { return Refuse(Mesh, "has more sections than triangles"); }
-	const bool bIndices = (Mesh.Indices != nullptr) != (Mesh.Indices16 != nullptr);
-	return bIndices ? FRTStatus::Success() : Refuse(Mesh, "Indices is null, or Indices16 is there beside it");
+	return Mesh.SectionCount > Mesh.IndexCount / 3 ? RefuseMesh(Mesh, "has more sections than triangles") : FRTStatus::Success();
 }
 
 FRTStatus CheckBounds(const FRTModuleMesh& Mesh)
 {
 	const bool bCenter = std::all_of(Mesh.BoundsCenter, Mesh.BoundsCenter + 3, [](float Value) { return std::isfinite(Value); });
-	return bCenter && std::isfinite(Mesh.BoundsRadius) ? FRTStatus::Success() : Refuse(Mesh, "BoundsCenter or BoundsRadius is not finite");
+	return bCenter && std::isfinite(Mesh.BoundsRadius) ? FRTStatus::Success()
+	                                                   : RefuseMesh(Mesh, "BoundsCenter or BoundsRadius is not finite");
 }
 
 /// Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", JCGT 2014.
@@ -85,16 +82,6 @@ std::vector<glm::vec3> MakeNormals(const FMeshShape& Shape, const glm::vec3* Pos
 }
 
 uint32_t GetIndex(const FRTModuleMesh& Mesh, uint32_t At) { return Mesh.Indices16 != nullptr ? Mesh.Indices16[At] : Mesh.Indices[At]; }
-
-/// The sections of a mesh that has some, else all indices as one.
-std::vector<FRTModuleSection> GetSections(const FRTModuleMesh& Mesh)
-{
-	if (Mesh.Sections != nullptr) { return {Mesh.Sections, Mesh.Sections + Mesh.SectionCount}; }
-	FRTModuleSection Whole;
-	Whole.IndexCount = Mesh.IndexCount;
-	Whole.bMayBeMasked = true; // free: instances without a masked material are forced opaque
-	return {Whole};
-}
 
 bool HasIndexBase(const FRTModuleMesh& Mesh)
 {
@@ -177,34 +164,56 @@ std::vector<FRTSectionInfo> MakeSections(const FRTModuleMesh& Mesh)
 FRTStatus CheckSections(const FRTModuleMesh& Mesh)
 {
 	if (Mesh.Sections == nullptr) { return FRTStatus::Success(); }
-	if (Mesh.SectionCount == 0) { return Refuse(Mesh, "has no section"); }
+	if (Mesh.SectionCount == 0) { return RefuseMesh(Mesh, "has no section"); }
 	uint64_t Indices = 0;
 	for (uint32_t Section = 0; Section < Mesh.SectionCount; ++Section)
 	{
 		if (!IsSectionSound(Mesh.Sections[Section], Mesh.IndexCount))
 		{
-			return Refuse(Mesh, "a section is empty or reaches past the indices");
+			return RefuseMesh(Mesh, "a section is empty or reaches past the indices");
 		}
 		Indices += Mesh.Sections[Section].IndexCount;
 	}
-	return Indices <= ~0u ? FRTStatus::Success() : Refuse(Mesh, "the sections have more indices than 32 bits can count");
+	return Indices <= ~0u ? FRTStatus::Success() : RefuseMesh(Mesh, "the sections have more indices than 32 bits can count");
 }
 
 } // namespace
 
+FRTStatus RefuseMesh(const FRTModuleMesh& Mesh, const char* Reason)
+{
+	return FRTStatus::Error(ERTResult::InvalidArgument, "mesh \"%s\": %s", FRTShown(Mesh.Name).Text, Reason);
+}
+
+std::vector<FRTModuleSection> GetSections(const FRTModuleMesh& Mesh)
+{
+	if (Mesh.Sections != nullptr) { return {Mesh.Sections, Mesh.Sections + Mesh.SectionCount}; }
+	FRTModuleSection Whole;
+	Whole.IndexCount = Mesh.IndexCount;
+	Whole.bMayBeMasked = true; // free: instances without a masked material are forced opaque
+	return {Whole};
+}
+
+FRTStatus CheckShape(const FRTModuleMesh& Mesh)
+{
+	FRTStatus Status = CheckCounts(Mesh);
+	Status = Status ? CheckSections(Mesh) : Status;
+	return Status ? CheckBounds(Mesh) : Status;
+}
+
 FRTStatus CheckMesh(const FRTModuleMesh& Mesh)
 {
-	if (const FRTStatus Status = CheckCounts(Mesh); !Status) { return Status; }
+	if (const FRTStatus Status = CheckShape(Mesh); !Status) { return Status; }
+	const bool bIndices = (Mesh.Indices != nullptr) != (Mesh.Indices16 != nullptr);
+	if (!bIndices) { return RefuseMesh(Mesh, "Indices is null, or Indices16 is there beside it"); }
 	FRTStatus Status = CheckVertices(Mesh.Name, Mesh.Positions, Mesh.Normals, Mesh.VertexCount);
 	const auto Check = [&](const float* Values, size_t Components, const char* Reason) {
-		if (Status && !AreFinite(Values, Mesh.VertexCount * Components)) { Status = Refuse(Mesh, Reason); }
+		if (Status && !AreFinite(Values, Mesh.VertexCount * Components)) { Status = RefuseMesh(Mesh, Reason); }
 	};
 	Check(Mesh.Tangents, 4, "a tangent is not finite");
 	Check(Mesh.UVs, 2, "a texture coordinate is not finite");
 	Check(Mesh.UVs1, 2, "a texture coordinate is not finite");
-	Status = Status ? CheckSections(Mesh) : Status;
 	if (!Status) { return Status; }
-	return AreIndicesSound(Mesh) ? CheckBounds(Mesh) : Refuse(Mesh, "an index is out of range");
+	return AreIndicesSound(Mesh) ? FRTStatus::Success() : RefuseMesh(Mesh, "an index is out of range");
 }
 
 FRTStatus CheckVertices(const char* Mesh, const float* Positions, const float* Normals, uint32_t VertexCount)

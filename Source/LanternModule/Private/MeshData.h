@@ -14,6 +14,12 @@ namespace Lantern
 
 /// Ok, or InvalidArgument saying what of the mesh cannot be.
 FRTStatus CheckMesh(const FRTModuleMesh& Mesh);
+/// Name, counts, sections and bounds alone.
+FRTStatus CheckShape(const FRTModuleMesh& Mesh);
+/// InvalidArgument with the mesh's name.
+FRTStatus RefuseMesh(const FRTModuleMesh& Mesh, const char* Reason);
+/// Returns the sections of a mesh that has some, else all indices as one.
+std::vector<FRTModuleSection> GetSections(const FRTModuleMesh& Mesh);
 /// Positions and normals alone. Mesh: its name. Normals may be null.
 FRTStatus CheckVertices(const char* Mesh, const float* Positions, const float* Normals, uint32_t VertexCount);
 

@@ -199,6 +199,12 @@ FRTStatus FModuleRenderer::Precache(const FRTModuleFrame& Frame, FRTModuleProgre
 	std::unique_lock<std::mutex> Lock;
 	if (const FRTStatus Status = Enter("Precache", Lock); !Status) { return Status; }
 	if (Recorded) { return FRTStatus::Error(ERTResult::InvalidArgument, "Precache: EndFrame was not called after RenderFrame"); }
+	if (const FRTStatus Status = CheckPrecache(Frame); !Status) { return Status; }
+	if (Frame.Depth != nullptr && Frame.Normals != nullptr)
+	{
+		FFrameViews Views;
+		if (const FRTStatus Status = ReadViews(Frame, Views); !Status) { return Status; }
+	}
 	FConsoleVariables::Get().BeginFrame();
 	bArrivalsLeft = Calls.Take(0, Commands); // the scene is what the engine has called for so far
 	On->State.Apply(Commands);

@@ -37,6 +37,11 @@ public:
 	}
 	FRTStatus RemoveMaterial(ERTMaterialHandle Handle) override { return Calls.RemoveMaterial(Handle); }
 	FRTStatus AddMesh(const FRTModuleMesh& Mesh, ERTMeshHandle* Out) override { return Calls.AddMesh(Mesh, Out); }
+	FRTStatus AddLandscape(const FRTModuleLandscape& Patch, ERTMeshHandle* Out) override { return Calls.AddLandscape(Patch, Out); }
+	FRTStatus SetLandscapeHeights(ERTMeshHandle Handle, const FRTModuleHeights& Heights) override
+	{
+		return Calls.SetLandscapeHeights(Handle, Heights);
+	}
 	FRTStatus UpdateMeshVertices(ERTMeshHandle Handle, const float* Positions, const float* Normals) override
 	{
 		return Calls.UpdateMeshVertices(Handle, Positions, Normals);
@@ -60,6 +65,10 @@ public:
 	{
 		return Calls.SetObjectMaterials(Handle, Handles, Count);
 	}
+	FRTStatus SetObjectMesh(ERTObjectHandle Handle, ERTMeshHandle Mesh, const ERTMaterialHandle* Handles, uint32_t Count) override
+	{
+		return Calls.SetObjectMesh(Handle, Mesh, Handles, Count);
+	}
 	FRTStatus SetObjectCastsShadow(ERTObjectHandle Handle, bool bCastsShadow) override
 	{
 		return Calls.SetObjectCastsShadow(Handle, bCastsShadow);
@@ -71,6 +80,7 @@ public:
 	FRTStatus RemoveObject(ERTObjectHandle Handle) override { return Calls.RemoveObject(Handle); }
 	FRTStatus SetSun(const FRTModuleSun& Sun) override { return Calls.SetSun(Sun); }
 	FRTStatus SetSky(const float Radiance[3]) override { return Calls.SetSky(Radiance); }
+	FRTStatus SetSkyMap(const FRTModuleSkyMap* Map) override { return Calls.SetSkyMap(Map); }
 	FRTStatus Precache(const FRTModuleFrame& Frame, FRTModuleProgress Progress, void* User) override;
 	FRTStatus RenderFrame(const FRTModuleFrame& Frame, FRTModuleOutputs* Out) override;
 	FRTStatus EndFrame(FRTFence* OutFence) override;

@@ -1,7 +1,10 @@
 // The engine's axes and unit.
 #include "ModuleWorld.h"
 
+#include <cassert>
 #include <cmath>
+
+#include "LanternScene/Scene/TextureSlot.h"
 
 namespace Lantern
 {
@@ -33,6 +36,23 @@ glm::dmat4 FModuleWorld::ToTransform(const double Rows[12]) const
 glm::dvec3 FModuleWorld::ToPosition(const double Position[3]) const
 {
 	return Axes * (glm::dvec3(Position[0], Position[1], Position[2]) * MetersPerUnit);
+}
+
+FSkyMap FModuleWorld::ToSkyMap(const FRTModuleSkyMap& Map) const
+{
+	FSkyMap Out;
+	[[maybe_unused]] const bool bFits = MakeTextureSlot(Map.Texture->GetSampledIndex(), Map.Sampler->GetIndex(), Out.Slot);
+	assert(bFits && "CheckSkyMap has seen to it");
+	static_assert(uint32_t(ERTModuleSkyMap::Cube) == SKY_MAP_CUBE && uint32_t(ERTModuleSkyMap::Octahedral) == SKY_MAP_OCTAHEDRAL);
+	Out.Kind = static_cast<uint32_t>(Map.Kind);
+	Out.Intensity = Map.Intensity;
+	glm::dmat3 EngineToMap;
+	for (int Row = 0; Row < 3; ++Row)
+	{
+		for (int Column = 0; Column < 3; ++Column) { EngineToMap[Column][Row] = double(Map.WorldToMap[3 * Row + Column]); }
+	}
+	Out.WorldToMap = glm::mat3(EngineToMap * glm::transpose(Axes)); // the axes' inverse: they are perpendicular
+	return Out;
 }
 
 FRTStatus CheckWorld(const FRTModuleRendererDesc& Desc)

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 
 #include "LanternModule/Module.h"
+#include "LanternScene/Scene/SceneLights.h"
 
 namespace Lantern
 {
@@ -21,6 +22,8 @@ public:
 	/// The length stays.
 	glm::dvec3 ToDirection(const double Direction[3]) const { return Axes * glm::dvec3(Direction[0], Direction[1], Direction[2]); }
 	glm::dvec3 ToDirection(const float Direction[3]) const { return Axes * glm::dvec3(Direction[0], Direction[1], Direction[2]); }
+	/// Map: checked.
+	FSkyMap ToSkyMap(const FRTModuleSkyMap& Map) const;
 	double ToMeters(double Length) const { return Length * MetersPerUnit; }
 	double GetMetersPerUnit() const { return MetersPerUnit; }
 	/// Columns: the engine's axes.

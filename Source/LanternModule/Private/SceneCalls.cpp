@@ -1,4 +1,4 @@
-// FSceneCalls: meshes, objects and lights. Materials are in SceneCallsMaterials.cpp.
+// FSceneCalls: objects, lights and sky. SceneCallsMeshes.cpp has meshes, SceneCallsMaterials.cpp materials.
 #include "SceneCalls.h"
 
 #include <algorithm>
@@ -9,7 +9,6 @@
 
 #include "ArgumentChecks.h"
 #include "LanternRHI/RTText.h"
-#include "LanternScene/Geometry/GeometryStore.h"
 
 namespace Lantern
 {
@@ -32,19 +31,6 @@ FSceneLight ToSceneLight(const FModuleWorld& World, const FRTModuleLight& From)
 	Light.Data.SpotScale = 1.0f / std::max(0.001f, std::cos(From.InnerCone) - CosOuter);
 	Light.Data.SpotOffset = -CosOuter * Light.Data.SpotScale;
 	return Light;
-}
-
-/// Buffer: its name is the mesh's.
-FRTStatus CreateMeshBuffer(IRTDevice& Device, const FRTModuleMesh& Mesh, const FMeshData& Data, FRTGeometryInfo& Out)
-{
-	constexpr ERTBufferUsage Usage =
-	    ERTBufferUsage::GeometryInput | ERTBufferUsage::Storage | ERTBufferUsage::Index | ERTBufferUsage::CopyDest;
-	const FRTBufferDesc Desc{Data.GetBytes(), Usage, ERTMemory::Device, Mesh.Name};
-	const FRTStatus Status = Device.CreateBuffer(Desc, Out.Positions.ReleaseAndGetAddress());
-	Out.Attributes = Out.Indices = Out.Positions;
-	Out.AttributesOffset = Data.GetAttributesOffset();
-	Out.IndicesOffset = Data.GetIndicesOffset();
-	return Status;
 }
 
 uint32_t MakeTag()
@@ -90,130 +76,16 @@ bool FSceneCalls::Take(uint32_t MostArrivals, std::vector<FSceneCommand>& Out)
 	return !Arrivals.empty();
 }
 
-// ---------------------------------------------------------------------------------------------------- meshes
-
-FRTStatus FSceneCalls::MakeMesh(IRTDevice& On, FBufferUploads& By, const FRTModuleMesh& Mesh, FMesh& Out, FAddMeshCommand& OutCommand)
-{
-	if (const FRTStatus Status = CheckMesh(Mesh); !Status) { return Status; }
-	const std::shared_ptr<FMeshData> Data = PackMesh(Mesh);
-	OutCommand.Info = std::make_unique<FRTGeometryInfo>(DescribeGeometry(Mesh, *Data));
-	FRTStatus Status = CreateMeshBuffer(On, Mesh, *Data, *OutCommand.Info);
-	if (Status) { Status = FGeometryStore::Check(*OutCommand.Info, On.GetCapabilities()); }
-	if (!Status) { return Status; }
-	Out.Name = Mesh.Name;
-	for (const FRTSectionInfo& Section : OutCommand.Info->Sections) { Out.IsOpaque.push_back(Section.bOpaque); }
-	if (Mesh.bDeformable) { Out.Deformable = std::make_shared<FDeformableMesh>(Mesh, *Data); }
-	Out.bHasBounds = Mesh.BoundsRadius >= 0.0f;
-	OutCommand.Deformable = Out.Deformable;
-	OutCommand.Upload = Out.Upload = std::make_shared<FBufferUpload>();
-	OutCommand.Upload->Bytes = Data->GetBytes();
-	OutCommand.Upload->Buffer = OutCommand.Info->Positions;
-	OutCommand.Upload->Copy = [Data](uint64_t Offset, uint64_t Size, uint8_t* To) { Data->Copy(Offset, Size, To); };
-	return By.Add(OutCommand.Upload);
-}
-
-FRTStatus FSceneCalls::AddMesh(const FRTModuleMesh& Mesh, ERTMeshHandle* Out)
-{
-	if (Out == nullptr) { return RefuseNull("AddMesh", "Out"); }
-	*Out = ERTMeshHandle::None;
-	FMesh Added;
-	FAddMeshCommand Command;
-	std::shared_lock DeviceLock(DeviceMutex);
-	if (const FRTStatus Status = MakeMesh(*Device, *Uploads, Mesh, Added, Command); !Status) { return Status; }
-
-	std::lock_guard Lock(Mutex);
-	*Out = Meshes.Add(std::move(Added));
-	Command.Slot = Meshes.GetSlot(*Out);
-	const FTicket Ticket = AddArrival(std::move(Command));
-	Meshes.Find(*Out)->Ticket = Ticket;
-	return FRTStatus::Success();
-}
-
-FRTStatus FSceneCalls::CheckDeformable(const char* Function, ERTMeshHandle Handle)
-{
-	const FMesh* const Mesh = Meshes.Find(Handle);
-	if (Mesh == nullptr) { return RefuseMesh(Function, Handle); }
-	if (Mesh->Deformable) { return FRTStatus::Success(); }
-	return FRTStatus::Error(
-	    ERTResult::InvalidArgument, "%s: mesh \"%s\" was added without bDeformable", Function, FRTShown(Mesh->Name.c_str()).Text);
-}
-
-FRTStatus FSceneCalls::UpdateMeshVertices(ERTMeshHandle Handle, const float* Positions, const float* Normals)
-{
-	FDeformableMeshRef Deformable;
-	{
-		std::lock_guard Lock(Mutex);
-		if (const FRTStatus Status = CheckDeformable("UpdateMeshVertices", Handle); !Status) { return Status; }
-		Deformable = Meshes.Find(Handle)->Deformable;
-	}
-	bool bNew = false;
-	const FRTStatus Status = Deformable->SetVertices(Positions, Normals, bNew);
-	if (!Status || !bNew) { return Status; }
-	std::lock_guard Lock(Mutex);
-	FMesh* const Mesh = Meshes.Find(Handle);
-	if (Mesh != nullptr) { AddUpdate(FVerticesCommand{Meshes.GetSlot(Handle)}, 0, Mesh->Ticket); }
-	return Status; // without an effect if another thread has removed the mesh meanwhile
-}
-
-FRTStatus FSceneCalls::GetMeshBuffer(ERTMeshHandle Handle, FRTModuleMeshBuffer* Out)
-{
-	if (Out == nullptr) { return RefuseNull("GetMeshBuffer", "Out"); }
-	*Out = {};
-	std::lock_guard Lock(Mutex);
-	if (const FRTStatus Status = CheckDeformable("GetMeshBuffer", Handle); !Status) { return Status; }
-	const FMesh& Mesh = *Meshes.Find(Handle);
-	if (!Mesh.bHasBounds)
-	{
-		return FRTStatus::Error(
-		    ERTResult::InvalidArgument, "GetMeshBuffer: mesh \"%s\" was added without BoundsRadius", FRTShown(Mesh.Name.c_str()).Text);
-	}
-	if (Mesh.Upload && Mesh.Upload->bFilled) { Out->Buffer = Mesh.Upload->Buffer.Get(); }
-	return FRTStatus::Success();
-}
-
-FRTStatus FSceneCalls::MarkMeshDeformed(ERTMeshHandle Handle)
-{
-	std::lock_guard Lock(Mutex);
-	const FRTStatus Status = CheckDeformable("MarkMeshDeformed", Handle);
-	if (Status) { AddUpdate(FDeformedCommand{Meshes.GetSlot(Handle)}, 0, Meshes.Find(Handle)->Ticket); }
-	return Status;
-}
-
-FRTStatus FSceneCalls::RemoveMesh(ERTMeshHandle Handle)
-{
-	std::lock_guard Lock(Mutex);
-	FMesh* const Mesh = Meshes.Find(Handle);
-	if (Mesh == nullptr) { return RefuseMesh("RemoveMesh", Handle); }
-	if (Mesh->Users > 0)
-	{
-		return FRTStatus::Error(
-		    ERTResult::InvalidArgument, "RemoveMesh: %u objects still use mesh \"%s\"", Mesh->Users, FRTShown(Mesh->Name.c_str()).Text);
-	}
-	const uint32_t Slot = Meshes.GetSlot(Handle);
-	RemovedMeshes.resize(std::max<size_t>(RemovedMeshes.size(), Slot + 1));
-	RemovedMeshes[Slot] = {Handle, std::move(Mesh->Name)};
-	Meshes.Remove(Handle);
-	AddArrival(FRemoveMeshCommand{Slot});
-	return FRTStatus::Success();
-}
-
-FRTStatus FSceneCalls::RefuseMesh(const char* Function, ERTMeshHandle Handle) const
-{
-	const uint32_t Slot = Meshes.GetSlot(Handle);
-	if (Slot >= RemovedMeshes.size() || RemovedMeshes[Slot].Handle != Handle || Handle == ERTMeshHandle::None)
-	{
-		return RefuseHandle(Function, "mesh");
-	}
-	return FRTStatus::Error(
-	    ERTResult::InvalidArgument, "%s: no such mesh: \"%s\" was removed", Function, FRTShown(RemovedMeshes[Slot].Name.c_str()).Text);
-}
-
 // ---------------------------------------------------------------------------------------------------- objects
 
 FRTStatus FSceneCalls::CheckObject(const FRTModuleObject& Object)
 {
 	const FMesh* const Mesh = Meshes.Find(Object.Mesh);
 	if (Mesh == nullptr) { return RefuseMesh("AddObject", Object.Mesh); }
+	if (Object.Mobility > ERTModuleMobility::Movable)
+	{
+		return FRTStatus::Error(ERTResult::InvalidArgument, "FRTModuleObject::Mobility is none");
+	}
 	const FRTStatus Status = CheckTransform(Object.Transform);
 	return Status ? CheckMaterials(*Mesh, Object.Materials, Object.MaterialCount) : Status;
 }
@@ -225,6 +97,7 @@ ERTObjectHandle FSceneCalls::AddOne(const FRTModuleObject& Object)
 	Added.Materials.assign(Object.Materials, Object.Materials + Object.MaterialCount);
 	Added.bVisible = Object.bVisible;
 	Added.bCastsShadow = Object.bCastsShadow;
+	Added.Mobility = Object.Mobility;
 	AddUsers(Added);
 	++Meshes.Find(Object.Mesh)->Users;
 	++ObjectCount;
@@ -266,6 +139,10 @@ FRTStatus FSceneCalls::SetObjectTransform(ERTObjectHandle Handle, const double T
 	std::lock_guard Lock(Mutex);
 	FObject* const Object = Objects.Find(Handle);
 	if (Object == nullptr) { return RefuseHandle("SetObjectTransform", "object"); }
+	if (Object->Mobility != ERTModuleMobility::Movable)
+	{
+		return FRTStatus::Error(ERTResult::InvalidArgument, "SetObjectTransform: the object's Mobility is not Movable");
+	}
 	if (Status) { AddUpdate(FTransformCommand{Objects.GetSlot(Handle), World.ToTransform(Transform)}, 0, Object->Ticket); }
 	return Status;
 }
@@ -277,6 +154,26 @@ FRTStatus FSceneCalls::SetMask(const char* Function, ERTObjectHandle Handle, boo
 	if (Object == nullptr) { return RefuseHandle(Function, "object"); }
 	Object->*Member = bValue;
 	AddUpdate(FMaskCommand{Objects.GetSlot(Handle), Object->GetMask()}, 0, Object->Ticket);
+	return FRTStatus::Success();
+}
+
+FRTStatus FSceneCalls::SetObjectMesh(ERTObjectHandle Handle, ERTMeshHandle Mesh, const ERTMaterialHandle* Handles, uint32_t Count)
+{
+	std::lock_guard Lock(Mutex);
+	FObject* const Object = Objects.Find(Handle);
+	if (Object == nullptr) { return RefuseHandle("SetObjectMesh", "object"); }
+	FMesh* const New = Meshes.Find(Mesh);
+	if (New == nullptr) { return RefuseMesh("SetObjectMesh", Mesh); }
+	if (const FRTStatus Status = CheckMaterials(*New, Handles, Count); !Status) { return Status; }
+	RemoveUsers(*Object);
+	--Meshes.Find(Object->Mesh)->Users;
+	++New->Users;
+	Object->Mesh = Mesh;
+	Object->Materials.assign(Handles, Handles + Count);
+	AddUsers(*Object);
+	FTicket Needs = New->Ticket;
+	for (uint32_t Section = 0; Section < Count; ++Section) { Needs = std::max(Needs, Materials.Find(Handles[Section])->Ticket); }
+	AddUpdate(FObjectMeshCommand{Objects.GetSlot(Handle), Meshes.GetSlot(Mesh), GetSlots(Object->Materials)}, Needs, Object->Ticket);
 	return FRTStatus::Success();
 }
 
@@ -346,6 +243,23 @@ FRTStatus FSceneCalls::SetSun(const FRTModuleSun& Sun)
 	Light.AngularDiameter = Sun.AngularDiameter;
 	std::lock_guard Lock(Mutex);
 	Updates.emplace_back(Light);
+	return FRTStatus::Success();
+}
+
+FRTStatus FSceneCalls::SetSkyMap(const FRTModuleSkyMap* Map)
+{
+	FSkyMapCommand Command;
+	FMaterialTextures New;
+	if (Map != nullptr)
+	{
+		if (const FRTStatus Status = CheckSkyMap(*Map); !Status) { return Status; }
+		Command.Map = World.ToSkyMap(*Map);
+		New.Textures.emplace_back(Map->Texture);
+		New.Samplers.emplace_back(Map->Sampler);
+	}
+	std::lock_guard Lock(Mutex);
+	Command.Old = std::exchange(SkyTextures, std::move(New));
+	Updates.emplace_back(std::move(Command));
 	return FRTStatus::Success();
 }
 

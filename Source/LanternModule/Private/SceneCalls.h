@@ -20,6 +20,8 @@
 namespace Lantern
 {
 
+class FLandscapePatch;
+
 /// Threads: any.
 class FSceneCalls
 {
@@ -34,6 +36,8 @@ public:
 	FRTStatus SetMaterial(ERTMaterialHandle Handle, const FRTModuleMaterial& Material);
 	FRTStatus RemoveMaterial(ERTMaterialHandle Handle);
 	FRTStatus AddMesh(const FRTModuleMesh& Mesh, ERTMeshHandle* Out);
+	FRTStatus AddLandscape(const FRTModuleLandscape& Patch, ERTMeshHandle* Out);
+	FRTStatus SetLandscapeHeights(ERTMeshHandle Handle, const FRTModuleHeights& Heights);
 	FRTStatus UpdateMeshVertices(ERTMeshHandle Handle, const float* Positions, const float* Normals);
 	FRTStatus GetMeshBuffer(ERTMeshHandle Handle, FRTModuleMeshBuffer* Out);
 	FRTStatus MarkMeshDeformed(ERTMeshHandle Handle);
@@ -41,6 +45,7 @@ public:
 	FRTStatus AddObjects(const FRTModuleObject* Added, uint32_t Count, ERTObjectHandle* Out);
 	FRTStatus SetObjectTransform(ERTObjectHandle Handle, const double Transform[12]);
 	FRTStatus SetObjectMaterials(ERTObjectHandle Handle, const ERTMaterialHandle* Handles, uint32_t Count);
+	FRTStatus SetObjectMesh(ERTObjectHandle Handle, ERTMeshHandle Mesh, const ERTMaterialHandle* Handles, uint32_t Count);
 	FRTStatus SetObjectCastsShadow(ERTObjectHandle Handle, bool bCastsShadow);
 	FRTStatus SetObjectVisible(ERTObjectHandle Handle, bool bVisible);
 	FRTStatus RemoveObject(ERTObjectHandle Handle);
@@ -49,6 +54,7 @@ public:
 	FRTStatus RemoveLight(ERTLightHandle Handle);
 	FRTStatus SetSun(const FRTModuleSun& Sun);
 	FRTStatus SetSky(const float Radiance[3]);
+	FRTStatus SetSkyMap(const FRTModuleSkyMap* Map);
 
 	/// Moves the commands that a frame takes over to the end of Out, in order. Updates of what the scene has come all, arrivals
 	/// and departures as many as MostArrivals says; 0: all of them. Returns whether some are left.
@@ -72,8 +78,11 @@ private:
 	struct FMesh
 	{
 		std::string Name;
-		std::vector<bool> IsOpaque;    ///< by section: cannot be alpha-tested
-		FDeformableMeshRef Deformable; ///< null: the mesh is rigid
+		std::vector<bool> IsOpaque;                 ///< by section: cannot be alpha-tested
+		FDeformableMeshRef Deformable;              ///< null: the mesh is rigid, or its vertices are the engine's own
+		std::shared_ptr<FLandscapePatch> Landscape; ///< null: the mesh is not made of heights
+		bool bDeformable = false;
+		bool bStreamed = false; ///< the vertices are the engine's own
 		FBufferUploadRef Upload;
 		bool bHasBounds = false; ///< the engine gave some
 		uint32_t Users = 0;      ///< objects
@@ -84,6 +93,7 @@ private:
 		ERTMeshHandle Mesh = ERTMeshHandle::None;
 		std::vector<ERTMaterialHandle> Materials;
 		bool bVisible = true, bCastsShadow = true;
+		ERTModuleMobility Mobility = ERTModuleMobility::Movable;
 		FTicket Ticket = 0;
 		uint8_t GetMask() const
 		{
@@ -106,6 +116,7 @@ private:
 	ERTObjectHandle AddOne(const FRTModuleObject& Object);
 	FRTStatus SetMask(const char* Function, ERTObjectHandle Handle, bool FObject::*Member, bool bValue);
 	FRTStatus CheckDeformable(const char* Function, ERTMeshHandle Handle);
+	FRTStatus CheckOwnVertices(const char* Function, ERTMeshHandle Handle);
 	FRTStatus CheckMaterials(const FMesh& Mesh, const ERTMaterialHandle* Handles, uint32_t Count);
 	void AddUsers(const FObject& Object);
 	void RemoveUsers(const FObject& Object);
@@ -118,6 +129,10 @@ private:
 
 	/// Makes a mesh on the device. Needs DeviceMutex.
 	FRTStatus MakeMesh(IRTDevice& On, FBufferUploads& By, const FRTModuleMesh& Mesh, FMesh& Out, FAddMeshCommand& OutCommand);
+	FRTStatus MakeCopiedMesh(IRTDevice& On, const FRTModuleMesh& Mesh, FMesh& Out, FAddMeshCommand& OutCommand);
+	static FRTStatus MakeStreamedMesh(IRTDevice& On, const FRTModuleMesh& Mesh, FAddMeshCommand& OutCommand);
+	ERTMeshHandle AddOne(FMesh Added, FAddMeshCommand Command);
+	FRTStatus SetVertices(ERTMeshHandle Handle, FDeformableMesh& Deformable, const float* Positions, const float* Normals);
 	FRTStatus MakeAgain(
 	    IRTDevice& On, FBufferUploads& By, const FRTModuleMesh& Given, const FMesh& Old, FMesh& Out, FAddMeshCommand& OutCommand);
 	void AddAll(const FSceneValues& Values);
@@ -133,6 +148,7 @@ private:
 	std::vector<FRemovedMesh> RemovedMeshes; ///< by slot
 	TSlotTable<FObject, ERTObjectHandle> Objects{Tag};
 	TSlotTable<FLight, ERTLightHandle> Lights{Tag};
+	FMaterialTextures SkyTextures; ///< of the map that was set last
 	uint32_t ObjectCount = 0;
 	std::deque<FSceneCommand> Arrivals; ///< and departures, and updates that wait for them
 	std::vector<FSceneCommand> Updates;

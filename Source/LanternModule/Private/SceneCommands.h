@@ -69,6 +69,12 @@ struct FObjectMaterialsCommand
 	uint32_t Slot = 0;
 	std::vector<uint32_t> Materials;
 };
+/// The object has another mesh, once that can be seen.
+struct FObjectMeshCommand
+{
+	uint32_t Slot = 0, Mesh = 0;
+	std::vector<uint32_t> Materials;
+};
 /// The mesh has new vertices.
 struct FVerticesCommand
 {
@@ -77,6 +83,12 @@ struct FVerticesCommand
 struct FSkyCommand
 {
 	glm::vec3 Radiance{0};
+};
+
+struct FSkyMapCommand
+{
+	FSkyMap Map;
+	FMaterialTextures Old; ///< what the sky no longer refers to
 };
 
 /// The engine's GPU has written new positions.
@@ -92,6 +104,7 @@ struct FLightCommand
 };
 
 using FSceneCommand = std::variant<FMaterialCommand, FAddMeshCommand, FRemoveMeshCommand, FAddObjectCommand, FRemoveObjectCommand,
-    FTransformCommand, FMaskCommand, FObjectMaterialsCommand, FVerticesCommand, FDeformedCommand, FLightCommand, FSunLight, FSkyCommand>;
+    FTransformCommand, FMaskCommand, FObjectMaterialsCommand, FObjectMeshCommand, FVerticesCommand, FDeformedCommand, FLightCommand,
+    FSunLight, FSkyCommand, FSkyMapCommand>;
 
 } // namespace Lantern

@@ -28,6 +28,7 @@ void FSceneState::Apply(std::vector<FSceneCommand>& Commands)
 		std::visit([this](auto& Each) { Do(Each); }, Command);
 	}
 	Commands.clear();
+	ChangeMeshes(~0u);
 	if (!std::exchange(bLightsChanged, false)) { return; }
 	std::vector<FSceneLight> All;
 	for (const std::optional<FSceneLight>& Light : Lights)
@@ -62,7 +63,12 @@ void FSceneState::Do(FMaterialCommand& Command)
 {
 	constexpr uint32_t None = ~0u;
 	const bool bKnown = Command.Slot < Materials.size() && Materials[Command.Slot] != None;
-	if (!Command.Data) { Scene.RemoveMaterial(std::exchange(Materials[Command.Slot], None)); }
+	if (!Command.Data)
+	{
+		const uint32_t Material = std::exchange(Materials[Command.Slot], None);
+		ChangeMeshes(Material);
+		Scene.RemoveMaterial(Material);
+	}
 	else if (bKnown) { Scene.SetMaterial(Materials[Command.Slot], *Command.Data); }
 	else
 	{
@@ -112,6 +118,7 @@ void FSceneState::Do(FAddObjectCommand& Command)
 
 void FSceneState::Do(FRemoveObjectCommand& Command)
 {
+	MeshChanges.erase(Command.Slot);
 	const FRTObjectId Id = std::exchange(Objects[Command.Slot], {});
 	if (Id.IsValid()) { Scene.RemoveObject(Id); }
 }
@@ -130,8 +137,35 @@ void FSceneState::Do(FMaskCommand& Command)
 
 void FSceneState::Do(FObjectMaterialsCommand& Command)
 {
+	const auto Waiting = MeshChanges.find(Command.Slot);
 	const FRTObjectId Id = Objects[Command.Slot];
-	if (Id.IsValid()) { Scene.SetMaterials(Id, GetMaterials(Command.Materials)); }
+	if (Waiting != MeshChanges.end()) { Waiting->second.Materials = GetMaterials(Command.Materials); }
+	else if (Id.IsValid()) { Scene.SetMaterials(Id, GetMaterials(Command.Materials)); }
+}
+
+void FSceneState::Do(FObjectMeshCommand& Command)
+{
+	MeshChanges.erase(Command.Slot);
+	const FRTGeometryRef Geometry = Meshes[Command.Mesh].Geometry;
+	if (Geometry && Objects[Command.Slot].IsValid()) { MeshChanges[Command.Slot] = {Geometry, GetMaterials(Command.Materials)}; }
+}
+
+void FSceneState::Do(FSkyMapCommand& Command)
+{
+	Scene.SetSkyMap(Command.Map);
+	if (!Command.Old.Textures.empty()) { ReplacedTextures.push_back(std::move(Command.Old)); }
+}
+
+void FSceneState::ChangeMeshes(uint32_t Material)
+{
+	std::erase_if(MeshChanges, [&](auto& Item) {
+		auto& [Slot, Change] = Item;
+		const std::vector<uint32_t>& Shown = Scene.GetObject(Objects[Slot]).Materials;
+		const bool bGoes = std::find(Shown.begin(), Shown.end(), Material) != Shown.end();
+		if (!Change.Geometry->IsBuilt() && !bGoes) { return false; }
+		Scene.SetGeometry(Objects[Slot], std::move(Change.Geometry), std::move(Change.Materials));
+		return true;
+	});
 }
 
 void FSceneState::Do(FVerticesCommand& Command)

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -54,11 +55,21 @@ private:
 	void Do(FTransformCommand& Command);
 	void Do(FMaskCommand& Command);
 	void Do(FObjectMaterialsCommand& Command);
+	void Do(FObjectMeshCommand& Command);
 	void Do(FVerticesCommand& Command);
 	void Do(FDeformedCommand& Command);
 	void Do(FLightCommand& Command);
 	void Do(FSunLight& Command) { Scene.SetSun(Command); }
 	void Do(FSkyCommand& Command) { Scene.SetSky(Command.Radiance); }
+	void Do(FSkyMapCommand& Command);
+	/// A change of mesh that waits until rays can see the new one.
+	struct FMeshChange
+	{
+		FRTGeometryRef Geometry;
+		std::vector<uint32_t> Materials; ///< indices in the scene
+	};
+	/// Makes the changes that can be seen now, and those of objects that show Material, which goes. ~0: none does.
+	void ChangeMeshes(uint32_t Material);
 	std::vector<uint32_t> GetMaterials(const std::vector<uint32_t>& Slots) const;
 	void MarkDeformed(uint32_t Slot);
 	FRTStatus RecordVertices(IRTCommandList& List);
@@ -67,9 +78,10 @@ private:
 	FBufferUploads& Uploads;
 	FFrameUploads VertexUploads;
 	// By slot.
-	std::vector<uint32_t> Materials;  ///< index in the scene
-	std::deque<FMesh> Meshes;         ///< which grows without moving what is there
-	std::vector<FRTObjectId> Objects; ///< invalid: its mesh has no geometry
+	std::vector<uint32_t> Materials;             ///< index in the scene
+	std::deque<FMesh> Meshes;                    ///< which grows without moving what is there
+	std::vector<FRTObjectId> Objects;            ///< invalid: its mesh has no geometry
+	std::map<uint32_t, FMeshChange> MeshChanges; ///< by slot of the object
 	std::vector<std::optional<FSceneLight>> Lights;
 	bool bLightsChanged = false;
 	bool bEngineVertices = false;

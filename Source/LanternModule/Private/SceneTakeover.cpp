@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "LandscapePatch.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
 #include "LanternRHI/RTText.h"
@@ -48,6 +49,8 @@ struct FFollower
 	void operator()(const FLightCommand& Command) { GetSlot(Values.Lights, Command.Slot) = Command.Light; }
 	void operator()(const FSunLight& Command) { Values.Sun = Command; }
 	void operator()(const FSkyCommand& Command) { Values.Sky = Command.Radiance; }
+	void operator()(const FObjectMeshCommand&) {}
+	void operator()(const FSkyMapCommand&) {} // its texture goes with the old device
 	template <class T>
 	requires HasNoValue<T>
 	void operator()(const T&) {}
@@ -61,7 +64,7 @@ FRTStatus FSceneCalls::MakeAgain(
     IRTDevice& On, FBufferUploads& By, const FRTModuleMesh& Given, const FMesh& Old, FMesh& Out, FAddMeshCommand& OutCommand)
 {
 	if (const FRTStatus Status = MakeMesh(On, By, Given, Out, OutCommand); !Status) { return Status; }
-	if (Out.IsOpaque == Old.IsOpaque && (Out.Deformable == nullptr) == (Old.Deformable == nullptr)) { return FRTStatus::Success(); }
+	if (Out.IsOpaque == Old.IsOpaque && Out.bDeformable == Old.bDeformable) { return FRTStatus::Success(); }
 	return FRTStatus::Error(ERTResult::InvalidArgument, "Recreate: mesh \"%s\" was given with other sections or another bDeformable",
 	    FRTShown(Old.Name.c_str()).Text);
 }
@@ -84,6 +87,12 @@ FRTStatus FSceneCalls::TakeOver(IRTDevice& NewDevice, FBufferUploads& NewUploads
 		FAgain& Item = Again.emplace_back();
 		Item.Old = &Mesh;
 		Item.Command.Slot = Meshes.GetSlot(Handle);
+		if (Mesh.Landscape)
+		{
+			Item.New.Landscape = Mesh.Landscape;
+			Status = MakeAgain(NewDevice, NewUploads, Mesh.Landscape->MakeMesh(), Mesh, Item.New, Item.Command);
+			return;
+		}
 		if (Source.Get != nullptr && Source.Get(Source.User, Handle, &Given))
 		{
 			Status = MakeAgain(NewDevice, NewUploads, Given, Mesh, Item.New, Item.Command);
@@ -108,6 +117,7 @@ FRTStatus FSceneCalls::TakeOver(IRTDevice& NewDevice, FBufferUploads& NewUploads
 		{
 			Item.Old->Deformable = std::move(Item.New.Deformable);
 			Item.Old->bHasBounds = Item.New.bHasBounds;
+			Item.Old->bStreamed = Item.New.bStreamed;
 		}
 		Item.Old->Ticket = AddArrival(std::move(Item.Command));
 	}
@@ -141,6 +151,7 @@ void FSceneCalls::AddAll(const FSceneValues& Values)
 	});
 	Updates.emplace_back(Values.Sun);
 	Updates.emplace_back(FSkyCommand{Values.Sky});
+	SkyTextures = {};
 }
 
 } // namespace Lantern

@@ -79,6 +79,16 @@ FRTStatus FMockDevice::CreateBuffer(const FRTBufferDesc& Desc, IRTBuffer** Out)
 	return Finish(*State, std::move(Buffer), Memory, Desc.Size, Out);
 }
 
+FRTStatus FMockDevice::ImportBuffer(const FRTBufferDesc& Desc, const FRTNativeBuffer& Native, IRTBuffer** Out)
+{
+	const FRTStatus Status = Start(ERTMockCall::ImportBuffer, Desc.Name, {Desc.Size, Native.Handle, Native.Address});
+	if (!Status) { return Status; }
+	auto Buffer = std::make_unique<FMockBuffer>(State, Desc);
+	Buffer->Desc.Memory = ERTMemory::Device;
+	Buffer->Native = Native;
+	return Finish(*State, std::move(Buffer), EMockMemory::None, 0, Out);
+}
+
 FRTStatus FMockDevice::TakeIndices(const FRTTextureDesc& Desc, FMockTexture& Texture)
 {
 	std::lock_guard Lock(State->Mutex);

@@ -14,6 +14,7 @@ public:
 	uint32_t GetVersion() const override { return RHIVersion; }
 	const FRTCapabilities& GetCapabilities() const override { return State->Capabilities; }
 	FRTStatus CreateBuffer(const FRTBufferDesc& Desc, IRTBuffer** Out) override;
+	FRTStatus ImportBuffer(const FRTBufferDesc& Desc, const FRTNativeBuffer& Native, IRTBuffer** Out) override;
 	FRTStatus CreateTexture(const FRTTextureDesc& Desc, IRTTexture** Out) override;
 	FRTStatus ImportTexture(const FRTTextureDesc& Desc, uint64_t NativeImage, IRTTexture** Out) override;
 	FRTStatus CreateSampler(const FRTSamplerDesc& Desc, IRTSampler** Out) override;

@@ -25,8 +25,11 @@ FMockBuffer::FMockBuffer(std::shared_ptr<FMockState> InState, const FRTBufferDes
 FMockBuffer::~FMockBuffer()
 {
 	std::free(Bytes);
-	std::lock_guard Lock(State->Mutex);
-	State->Buffers.erase(Address);
+	{
+		std::lock_guard Lock(State->Mutex);
+		State->Buffers.erase(Address);
+	}
+	if (Native.Released != nullptr) { Native.Released(Native.User); }
 }
 
 FMockTexture::FMockTexture(std::shared_ptr<FMockState> InState, const FRTTextureDesc& InDesc)

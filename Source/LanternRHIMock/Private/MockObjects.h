@@ -35,9 +35,10 @@ public:
 	const FRTBufferDesc& GetDesc() const override { return Desc; }
 	uint64_t GetDeviceAddress() const override { return Address; }
 	void* GetMapped() override { return Desc.Memory == ERTMemory::Device ? nullptr : Bytes; }
-	uint64_t GetNative(ERTNative) const override { return 0; }
+	uint64_t GetNative(ERTNative Kind) const override { return Kind == ERTNative::Buffer ? Native.Handle : 0; }
 
 	FRTBufferDesc Desc;
+	FRTNativeBuffer Native; ///< of an imported one; its bytes are the mock's own all the same
 	uint64_t Address = 0;
 	uint8_t* Bytes = nullptr;
 };

@@ -19,7 +19,7 @@ bool IsForGraphics(std::string_view Call) { return Call == "BeginRasterPass" || 
 bool HasSameShape(const FRTGeometrySection& A, const FRTGeometrySection& B)
 {
 	return A.VertexCount == B.VertexCount && A.TriangleCount == B.TriangleCount && A.bProcedural == B.bProcedural &&
-	       A.bOpaque == B.bOpaque && A.IndexType == B.IndexType;
+	       A.bOpaque == B.bOpaque && A.IndexType == B.IndexType && A.VertexFormat == B.VertexFormat;
 }
 
 } // namespace

@@ -121,6 +121,20 @@ FRTStatus FValidatedDevice::CreateBuffer(const FRTBufferDesc& Desc, IRTBuffer** 
 	return Status;
 }
 
+FRTStatus FValidatedDevice::ImportBuffer(const FRTBufferDesc& Desc, const FRTNativeBuffer& Native, IRTBuffer** Out)
+{
+	const std::string What = "ImportBuffer: " + MakeLabel("buffer", Desc.Name);
+	if (!Out) { return State->Fail(What + ": Out is null"); }
+	if (!Desc.Size) { return State->Fail(What + ": its size is 0"); }
+	if (Desc.Usage == ERTBufferUsage::None) { return State->Fail(What + ": it has no usage"); }
+	if (!Native.Handle && !Native.Address) { return State->Fail(What + ": Handle and Address are 0"); }
+	if (Native.Address % 16) { return State->Fail(What + ": Address is not a multiple of 16"); }
+	TRTRef<IRTBuffer> Inner;
+	FRTStatus Status = State->Inner->ImportBuffer(Desc, Native, Inner.ReleaseAndGetAddress());
+	if (Status) { *Out = new FValidatedBuffer(State, std::move(Inner)); }
+	return Status;
+}
+
 std::string FValidatedDevice::CheckTexture(const FRTTextureDesc& Desc) const
 {
 	if (!Desc.Width || !Desc.Height || !Desc.ArraySize || !Desc.MipCount)
@@ -131,6 +145,7 @@ std::string FValidatedDevice::CheckTexture(const FRTTextureDesc& Desc) const
 	if (Desc.Usage == ERTTextureUsage::None) { return "it has no usage"; }
 	const uint32_t Most = std::bit_width(std::max(Desc.Width, Desc.Height));
 	if (Desc.MipCount > Most) { return Print("%u mips, at most %u", Desc.MipCount, Most); }
+	if (Desc.bCube && (Desc.ArraySize != 6 || Desc.Width != Desc.Height)) { return "a cube has six layers, as wide as high"; }
 	const bool bDepth = IsDepth(Desc.Format);
 	if (HasAny(Desc.Usage, ERTTextureUsage::Depth) && !bDepth) { return "usage Depth, but not a depth format"; }
 	if (bDepth && HasAny(Desc.Usage, ERTTextureUsage::RenderTarget | ERTTextureUsage::Storage))
@@ -197,9 +212,10 @@ std::string FValidatedDevice::CheckSections(const FRTGeometryDesc& Desc) const
 		}
 		if (!Section.TriangleCount) { return Which + "has no triangles"; }
 		if (!Section.VertexCount) { return Which + "has no vertices"; }
-		if (Section.VertexStride < 12 || Section.VertexStride % 4)
+		const uint32_t Least = GetPositionBytes(Section.VertexFormat);
+		if (Section.VertexStride < Least || Section.VertexStride % 4)
 		{
-			return Which + Print("has a vertex stride of %u, not a multiple of 4 from 12", Section.VertexStride);
+			return Which + Print("has a vertex stride of %u, not a multiple of 4 from %u", Section.VertexStride, Least);
 		}
 		if (Section.IndexType == ERTIndexType::None && Section.TriangleCount * 3ull > Section.VertexCount)
 		{

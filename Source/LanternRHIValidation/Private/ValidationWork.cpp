@@ -8,7 +8,7 @@ namespace Lantern
 namespace
 {
 
-constexpr uint64_t PositionBytes = 12, BoxBytes = 24;
+constexpr uint64_t BoxBytes = 24;
 
 unsigned long long Wide(uint64_t Value) { return Value; }
 
@@ -333,15 +333,15 @@ bool FValidatedCommandList::CheckSection(
 	const std::string Which = Geometry.Label + Print(", section %u", Index);
 	OutInner = Section;
 	if (Section.VertexCount != Made.VertexCount || Section.VertexStride != Made.VertexStride || Section.bOpaque != Made.bOpaque ||
-	    Section.bProcedural != Made.bProcedural ||
+	    Section.bProcedural != Made.bProcedural || Section.VertexFormat != Made.VertexFormat ||
 	    (!Section.bProcedural && (Section.TriangleCount != Made.TriangleCount || Section.IndexType != Made.IndexType)))
 	{
-		Report(Call, Which + ": counts, stride, index type or flags are not those of its creation");
+		Report(Call, Which + ": counts, stride, formats or flags are not those of its creation");
 		return false;
 	}
 	FValidatedBuffer* Vertices = RequireBuffer(Call, "Vertices", Section.Vertices, ERTBufferUsage::GeometryInput);
 	if (!Vertices) { return false; }
-	const uint64_t Last = Section.bProcedural ? BoxBytes : PositionBytes;
+	const uint64_t Last = Section.bProcedural ? BoxBytes : GetPositionBytes(Section.VertexFormat);
 	const uint64_t Bytes = (Section.VertexCount - 1ull) * Section.VertexStride + Last;
 	if (!CheckRange(Call, *Vertices, Section.VertexOffset, Bytes)) { return false; }
 	const uint32_t Alignment = Section.bProcedural ? 8 : 4;

@@ -6,6 +6,7 @@
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "Lighting/DirectLighting.h"
 #include "RayPrograms.h"
+#include "Sky/SkyLight.h"
 #include "ToneMap/ToneMap.h"
 
 namespace Lantern
@@ -18,6 +19,7 @@ void ListCompositeShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& 
 {
 	Out.push_back(MakeLightingSource(Facts));
 	Out.push_back(MakeToneMapSource());
+	if (Facts.bSkyMap && HasSkyAmbient(Facts)) { Out.push_back(MakeSkyLightSource()); }
 	if (GetDebugView() != ESignal::Frame) { Out.push_back(MakeDebugViewSource()); }
 }
 } // namespace

@@ -1,7 +1,8 @@
 // The calls that a play knows, one row each. What a choice may not be is named as the error must name it.
-#include "ModulePlay.h"
-
 #include <array>
+
+#include "ModuleCallsAssets.h"
+#include "ModulePlay.h"
 
 namespace Lantern
 {
@@ -151,6 +152,7 @@ FRTStatus AddObject(FModulePlay& Play)
 	Object.MaterialCount = Play.Count("materials", 2);
 	FillTransform(Play, Object.Transform);
 	Object.bCastsShadow = Play.Bool(true);
+	Object.Mobility = Play.Bool(true) ? ERTModuleMobility::Movable : static_cast<ERTModuleMobility>(Play.Index("Mobility", 0));
 	ERTObjectHandle Added = ERTObjectHandle::None;
 	const FRTStatus Status = Play.GetRenderer().AddObject(Object, Play.Pointer("Out", &Added));
 	Play.Keep(Play.Objects, Added);
@@ -282,33 +284,53 @@ FRTModuleView MakeView(FModulePlay& Play)
 	return View;
 }
 
-FRTStatus RenderFrame(FModulePlay& Play)
+void MakeLayout(FModulePlay& Play, FRTModuleGBufferLayout& Out)
+{
+	Out.Depth = static_cast<ERTModuleDepth>(Play.Index("Depth", 0));
+	Out.Normals = static_cast<ERTModuleNormals>(Play.Index("Normals", 0));
+	Out.NormalRange = static_cast<ERTModuleRange>(Play.Index("NormalRange", 0));
+	Out.Motion = static_cast<ERTModuleMotion>(Play.Index("Motion", 0));
+	Out.Material = static_cast<ERTModuleMaterialLayout>(Play.Index("Material", 0));
+	Out.MotionScale[0] = Play.Float("MotionScale", 1.0f);
+}
+
+/// What all calls that take a frame read of it. bMayLack: depth and normals may be null, and nothing else is read then.
+FRTModuleFrame MakeFrame(FModulePlay& Play, bool bMayLack)
 {
 	FRTModuleFrame Frame;
-	Frame.Commands = Play.Pointer("Commands", Play.MakeList());
 	Frame.View = MakeView(Play);
-	Frame.Depth = Play.Texture("epth", ERTFormat::D32_FLOAT, false);
-	Frame.Normals = Play.Texture("ormals", ERTFormat::RGBA16_SNORM, false, {ERTFormat::RGBA32_FLOAT, ERTFormat::RGBA8_UNORM});
+	Frame.Depth = Play.Texture("epth", ERTFormat::D32_FLOAT, bMayLack);
+	Frame.Normals = Play.Texture("ormals", ERTFormat::RGBA16_SNORM, bMayLack, {ERTFormat::RGBA32_FLOAT, ERTFormat::RGBA8_UNORM});
 	Frame.Motion = Play.Texture("otion", ERTFormat::RGBA32_FLOAT, true);
 	Frame.BaseColor = Play.Texture("base colour", ERTFormat::RGBA8_SRGB, true);
 	Frame.Material = Play.Texture("aterial", ERTFormat::RGBA8_UNORM, true);
-	Frame.Layout.Depth = static_cast<ERTModuleDepth>(Play.Index("Depth", 0));
-	Frame.Layout.Normals = static_cast<ERTModuleNormals>(Play.Index("Normals", 0));
-	Frame.Layout.NormalRange = static_cast<ERTModuleRange>(Play.Index("NormalRange", 0));
-	Frame.Layout.Motion = static_cast<ERTModuleMotion>(Play.Index("Motion", 0));
-	Frame.Layout.Material = static_cast<ERTModuleMaterialLayout>(Play.Index("Material", 0));
-	Frame.Layout.MotionScale[0] = Play.Float("MotionScale", 1.0f);
 	Frame.OffsetX = Play.Index("OffsetX", 0);
 	Frame.OffsetY = Play.Index("OffsetY", 0);
 	Frame.Width = Play.Index("Width", 0);
 	Frame.Height = Play.Index("Height", 0);
+	if (bMayLack && (Frame.Depth == nullptr || Frame.Normals == nullptr)) { Play.ExpectNothing(); }
+	MakeLayout(Play, Frame.Layout);
+	if (Play.Bool(true)) { Frame.Wanted.Add(ESignal::AmbientOcclusion); }
+	return Frame;
+}
+
+FRTStatus RenderFrame(FModulePlay& Play)
+{
+	FRTModuleFrame Frame = MakeFrame(Play, false);
+	Frame.Commands = Play.Pointer("Commands", Play.MakeList());
 	Frame.ViewIndex = Play.Choose() % 3;
 	Frame.DeltaSeconds = Play.Float("DeltaSeconds", 0.016f);
 	Frame.bCut = Play.Bool(false);
 	Frame.bSubmitAhead = Play.Bool(false);
-	if (Play.Bool(true)) { Frame.Wanted.Add(ESignal::AmbientOcclusion); }
 	FRTModuleOutputs Outputs;
 	return Play.GetRenderer().RenderFrame(Frame, Play.Pointer("Out", &Outputs));
+}
+
+FRTStatus Precache(FModulePlay& Play)
+{
+	const FRTModuleProgress Progress = [](void*, float) {};
+	const FRTModuleFrame Frame = MakeFrame(Play, true);
+	return Play.GetRenderer().Precache(Frame, Play.Bool(true) ? Progress : nullptr, nullptr);
 }
 
 FRTStatus EndFrame(FModulePlay& Play)
@@ -385,6 +407,12 @@ constexpr FModuleCall Calls[] = {
     {"Recreate", Recreate},
     {"SetConsoleVariable", SetConsoleVariable},
     {"GetConsoleVariable", GetConsoleVariable},
+    {"AddStreamedMesh", AddStreamedMesh},
+    {"AddLandscape", AddLandscape},
+    {"SetLandscapeHeights", SetLandscapeHeights},
+    {"SetObjectMesh", SetObjectMesh},
+    {"SetSkyMap", SetSkyMap},
+    {"Precache", Precache},
 };
 
 } // namespace

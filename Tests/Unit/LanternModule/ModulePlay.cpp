@@ -43,6 +43,18 @@ FModulePlay::FModulePlay(IRTModule& InModule) : Module(InModule)
 	for (const ERTFormat Format : TextureFormats) { Import(Format, FrameSize, ERTTextureUsage::Sampled); }
 	Import(ERTFormat::D32_FLOAT, FrameSize / 2, ERTTextureUsage::Sampled);
 	Import(ERTFormat::RGBA16_SNORM, FrameSize, ERTTextureUsage::RenderTarget);
+	FRTTextureDesc Cube{8, 8, 1, 6, ERTFormat::RGBA16_FLOAT, ERTTextureUsage::Sampled, "Sky"};
+	Cube.bCube = true;
+	(void)Device->ImportTexture(Cube, ++LastNative, Sky.ReleaseAndGetAddress());
+	constexpr ERTBufferUsage Usage = ERTBufferUsage::GeometryInput | ERTBufferUsage::Storage;
+	const FRTBufferDesc Descs[] = {{4096, Usage, ERTMemory::Device, "Vertices"},
+	    {4096, ERTBufferUsage::CopyDest, ERTMemory::Device, "Other"}, {16, Usage, ERTMemory::Device, "Small"}};
+	for (int I = 0; I < 3; ++I)
+	{
+		FRTNativeBuffer Native;
+		Native.Handle = ++LastNative;
+		(void)Device->ImportBuffer(Descs[I], Native, Buffers[I].ReleaseAndGetAddress());
+	}
 	for (TRTRef<IRTModuleRenderer>& Renderer : Renderers)
 	{
 		(void)Module.CreateRenderer(Device.Get(), {}, Renderer.ReleaseAndGetAddress());
@@ -64,16 +76,17 @@ void FModulePlay::MakeWorld()
 	// Twice, so that each renderer has handles whose slots the other uses, too. What is foreign stays alive there.
 	for (int Side = 0; Side < 2; ++Side)
 	{
-		for (const char* Name : {"AddMaterial", "AddMaterial", "AddMesh", "AddMesh", "AddDeformableMesh", "AddObject", "AddObject",
-		         "AddObject", "RemoveObject", "AddMesh", "RemoveMesh", "AddDeformableMesh", "AddMesh", "AddMaterial", "RemoveMaterial",
-		         "AddMaterial", "AddLight", "AddLight", "RemoveLight", "AddLight"})
+		for (const char* Name :
+		    {"AddMaterial", "AddMaterial", "AddMesh", "AddMesh", "AddDeformableMesh", "AddObject", "AddObject", "AddObject", "RemoveObject",
+		        "AddMesh", "RemoveMesh", "AddDeformableMesh", "AddMesh", "AddMaterial", "RemoveMaterial", "AddMaterial", "AddLight",
+		        "AddLight", "RemoveLight", "AddLight", "AddStreamedMesh", "AddMesh", "AddLandscape", "AddLandscape"})
 		{
 			PlayGood(Name);
 		}
 		const auto Turn = [](auto& Of) { Of = {Of.Foreign, {}, Of.Live}; };
 		if (Side == 0)
 		{
-			Turn(Materials), Turn(Meshes), Turn(Deformables), Turn(Objects), Turn(Lights);
+			Turn(Materials), Turn(Meshes), Turn(Deformables), Turn(Objects), Turn(Lights), Turn(Landscapes);
 			std::swap(Renderers[0], Renderers[1]);
 		}
 	}
@@ -126,6 +139,14 @@ uint32_t FModulePlay::Index(const char* Name, uint32_t Good)
 	if (Choose() % 4 != 1) { return Good; }
 	Wrong.emplace_back(Name);
 	return ~0u;
+}
+
+IRTBuffer* FModulePlay::Buffer(const char* Name, bool bMayBeNull)
+{
+	const uint8_t Byte = Choose() % 4;
+	if (Byte == 1) { return bMayBeNull ? nullptr : Refuse<IRTBuffer>(Name); }
+	if (Byte != 0) { Wrong.emplace_back(Name); }
+	return Buffers[Byte == 0 ? 0 : Byte - 1].Get();
 }
 
 IRTTexture* FModulePlay::SampledTexture(const char* Name)
@@ -232,6 +253,8 @@ std::string FModulePlay::Finish()
 	List.Reset();
 	Sampler.Reset();
 	Textures.clear();
+	Sky.Reset();
+	for (TRTRef<IRTBuffer>& Each : Buffers) { Each.Reset(); }
 	Device.Reset();
 	std::string Problem = Messages;
 	if (Inner)

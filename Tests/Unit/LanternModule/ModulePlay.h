@@ -61,6 +61,8 @@ public:
 	}
 	template <class THandle>
 	THandle Handle(const char* Name, const TPlayHandles<THandle>& Of);
+	/// What was chosen so far is not looked at.
+	void ExpectNothing() { Wrong.clear(); }
 	/// Takes up a handle that a call gave.
 	template <class THandle>
 	void Keep(TPlayHandles<THandle>& Of, THandle Handle);
@@ -71,6 +73,9 @@ public:
 	IRTTexture* Texture(const char* Name, ERTFormat Good, bool bMayBeNull, std::initializer_list<ERTFormat> Others = {});
 	/// Of any format, as materials take them.
 	IRTTexture* SampledTexture(const char* Name);
+	/// A buffer of the engine's, large enough for anything.
+	IRTBuffer* Buffer(const char* Name, bool bMayBeNull);
+	IRTTexture* GetSky() const { return Sky.Get(); }
 	IRTSampler* GetSampler() const { return Sampler.Get(); }
 	IRTCommandList* MakeList();
 
@@ -80,7 +85,7 @@ public:
 	FRTMock& GetMock() const { return Lantern::GetMock(Inner.Get()); }
 
 	TPlayHandles<ERTMaterialHandle> Materials;
-	TPlayHandles<ERTMeshHandle> Meshes, Deformables;
+	TPlayHandles<ERTMeshHandle> Meshes, Deformables, Landscapes;
 	TPlayHandles<ERTObjectHandle> Objects;
 	TPlayHandles<ERTLightHandle> Lights;
 	/// What meshes were given that another device must be given again.
@@ -106,6 +111,8 @@ private:
 	TRTRef<IRTModuleRenderer> Renderers[2];
 	TRTRef<IRTSampler> Sampler;
 	std::vector<TRTRef<IRTTexture>> Textures;
+	TRTRef<IRTTexture> Sky;
+	TRTRef<IRTBuffer> Buffers[3]; ///< good, without the usages, too small
 	TRTRef<IRTCommandList> List;
 	uint64_t LastNative = 0;
 	std::span<const uint8_t> Data;

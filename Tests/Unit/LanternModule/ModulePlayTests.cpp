@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <random>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -60,6 +61,25 @@ TEST_P(FModuleSweepTest, EveryWrongArgumentIsRefusedByNameAndChangesNothing)
 
 INSTANTIATE_TEST_SUITE_P(Calls, FModuleSweepTest, ::testing::Range(size_t(0), GetModuleCalls().size()),
     [](const auto& Info) { return GetModuleCalls()[Info.param].Name; });
+
+/// What a fuzzer without memory plays: careful calls mostly, and a wrong one now and then.
+TEST_F(FModulePlayTest, RandomSequences)
+{
+	constexpr uint32_t Sequences = 64, Length = 600;
+	std::mt19937 Random(7);
+	for (uint32_t Sequence = 0; Sequence < Sequences; ++Sequence)
+	{
+		std::vector<uint8_t> Bytes(Length);
+		for (uint8_t& Byte : Bytes)
+		{
+			const uint32_t Kind = Random() % 8;
+			Byte = static_cast<uint8_t>(Kind == 0 ? Random() : Kind == 1 ? 5 + Random() % 250 : 0);
+		}
+		FModulePlay Play(*Module);
+		EXPECT_EQ(Play.Play(Bytes), "") << Sequence;
+		EXPECT_EQ(Play.Finish(), "") << Sequence;
+	}
+}
 
 TEST_F(FModulePlayTest, WhatTheFuzzerFound)
 {

@@ -76,6 +76,27 @@ TEST_F(FValidationCreation, Textures)
 	ExpectMessage({"ImportTexture", "NativeImage is 0"});
 }
 
+TEST_F(FValidationCreation, ImportedBuffersMustBeThere)
+{
+	TRTRef<IRTBuffer> Out;
+	const FRTBufferDesc Good{256, ERTBufferUsage::Storage, ERTMemory::Device, "Theirs"};
+	const auto Refuses = [&](const FRTBufferDesc& Desc, const FRTNativeBuffer& Native, const char* Part) {
+		EXPECT_EQ(Device().ImportBuffer(Desc, Native, Out.ReleaseAndGetAddress()).Code, ERTResult::InvalidArgument);
+		ExpectMessage({"ImportBuffer", Part});
+	};
+	Refuses({0, ERTBufferUsage::Storage, ERTMemory::Device, "Theirs"}, {1, 0}, "size is 0");
+	Refuses({256, ERTBufferUsage::None, ERTMemory::Device, "Theirs"}, {1, 0}, "no usage");
+	Refuses(Good, {}, "Handle and Address are 0");
+	Refuses(Good, {1, 8}, "multiple of 16");
+	EXPECT_EQ(Reached(ERTMockCall::ImportBuffer), 0u);
+	EXPECT_OK(Device().ImportBuffer(Good, {1, 0}, Out.ReleaseAndGetAddress()));
+	FRTTextureDesc Cube{8, 8, 1, 4, ERTFormat::RGBA8_UNORM, ERTTextureUsage::Sampled, "Cube"};
+	Cube.bCube = true;
+	TRTRef<IRTTexture> Texture;
+	EXPECT_EQ(Device().CreateTexture(Cube, Texture.ReleaseAndGetAddress()).Code, ERTResult::InvalidArgument);
+	ExpectMessage({"CreateTexture", "six layers"});
+}
+
 TEST_F(FValidationCreation, EnvironmentErrorsPassWithoutMessage)
 {
 	FRTTextureDesc Desc;

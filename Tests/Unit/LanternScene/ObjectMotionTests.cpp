@@ -95,6 +95,34 @@ TEST_F(FObjectMotionTest, WhoSeesAnObjectIsNoMotionAndEndsNone)
 	EXPECT_FALSE(HasMotion(Id)) << "it stands still";
 }
 
+TEST_F(FObjectMotionTest, AnotherGeometryIsNoMotionAndEndsNone)
+{
+	const FRTGeometryRef Bush = MakeGeometry("Bush", 1), Cloth = MakeDeformable("Cloth");
+	const FRTObjectId Id = Add(Tree, {Material}), Other = Add(Bush, {Material}), Waving = Add(Cloth, {Material});
+	Rest();
+	Scene->SetGeometry(Other, Tree, {Material});
+	Move(Id, {3, 0, 0});
+	Scene->SetGeometry(Id, Bush, {Material});
+	Show();
+	EXPECT_FALSE(HasMotion(Other)) << "it stands still";
+	ASSERT_TRUE(HasMotion(Id)) << "its past went with its geometry";
+	EXPECT_EQ(GetPreviousPlace(ReadMotion(Id)), glm::dvec3(0));
+	Rest();
+	// What was deformed belongs to the geometry: objects follow the one that they have.
+	Scene->MarkDeformed(Cloth);
+	Show();
+	Scene->SetGeometry(Waving, Tree, {Material});
+	Scene->SetGeometry(Other, Cloth, {Material});
+	Scene->MarkDeformed(Cloth);
+	Show();
+	EXPECT_FALSE(HasMotion(Waving));
+	ASSERT_TRUE(HasMotion(Other));
+	EXPECT_EQ(ReadMotion(Other).PreviousPositions, PreviousPositionsOf(Cloth));
+	Scene->RemoveObject(Waving);
+	Scene->RemoveObject(Other);
+	Show();
+}
+
 TEST_F(FObjectMotionTest, StillObjectsHaveNoTable)
 {
 	const FRTObjectId Id = Add(Tree, {Material}, {1, 2, 3});

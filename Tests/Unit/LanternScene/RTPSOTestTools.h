@@ -98,6 +98,10 @@ public:
 	const FRTCapabilities& GetCapabilities() const override { return Inner->GetCapabilities(); }
 	FRTStatus CreateBuffer(const FRTBufferDesc& D, IRTBuffer** O) override { return Inner->CreateBuffer(D, O); }
 	FRTStatus CreateTexture(const FRTTextureDesc& D, IRTTexture** O) override { return Inner->CreateTexture(D, O); }
+	FRTStatus ImportBuffer(const FRTBufferDesc& D, const FRTNativeBuffer& N, IRTBuffer** O) override
+	{
+		return Inner->ImportBuffer(D, N, O);
+	}
 	FRTStatus ImportTexture(const FRTTextureDesc& D, uint64_t N, IRTTexture** O) override { return Inner->ImportTexture(D, N, O); }
 	FRTStatus CreateSampler(const FRTSamplerDesc& D, IRTSampler** O) override { return Inner->CreateSampler(D, O); }
 	FRTStatus CreateComputePipeline(const FRTComputePipelineDesc& D, IRTPipeline** O) override

@@ -17,6 +17,7 @@
 #pragma once
 
 #include "LanternModule/ModuleFrame.h"
+#include "LanternModule/ModuleMesh.h"
 #include "LanternRHI/RTInterfaces.h"
 #include "LanternSignals/Signals.h"
 
@@ -51,10 +52,6 @@ struct FRTModuleDesc
 };
 
 enum class ERTMaterialHandle : uint64_t
-{
-	None = 0
-};
-enum class ERTMeshHandle : uint64_t
 {
 	None = 0
 };
@@ -107,45 +104,12 @@ struct FRTModuleMaterial
 	bool bDoubleSided = false;
 };
 
-struct FRTModuleSection
+/// What an engine knows of an object's future.
+enum class ERTModuleMobility : uint8_t
 {
-	uint32_t FirstIndex = 0;
-	uint32_t IndexCount = 0; ///< > 0, a multiple of 3
-	/// Allows objects to give this section a masked material; otherwise that is InvalidArgument. True costs nothing until an
-	/// object has a masked material. Alpha tests are then set up for all such sections of that object.
-	bool bMayBeMasked = false;
-	uint32_t FirstVertex = 0; ///< is added to each of the section's indices
-};
-
-inline constexpr uint32_t MaxMeshVertices = 1u << 28;             ///< with their attributes they have 10 GiB
-inline constexpr uint32_t MaxMeshIndices = ((1u << 29) - 1u) * 3; ///< as many triangles as every device can build
-
-/// A mesh. AddMesh reads the arrays and copies them to the GPU. Skinned meshes set bDeformable. Their vertices come from the CPU
-/// (UpdateMeshVertices) or from the engine's own work on the GPU (GetMeshBuffer, MarkMeshDeformed).
-struct FRTModuleMesh
-{
-	const char* Name = "";
-	const float* Positions = nullptr;           ///< x, y, z of each vertex; finite
-	const float* Normals = nullptr;             ///< x, y, z, unit length; null: computed from the triangles
-	const float* Tangents = nullptr;            ///< x, y, z, unit length, and the sign of the bitangent; null: none, and no normal maps
-	const float* UVs = nullptr;                 ///< u, v; finite; null: zeros
-	const float* UVs1 = nullptr;                ///< second set, u, v; finite; null: zeros
-	const uint8_t* Colors = nullptr;            ///< r, g, b, a, linear, 255 being 1; multiply the base colour; null: all 1
-	uint32_t VertexCount = 0;                   ///< 1 … MaxMeshVertices
-	const uint32_t* Indices = nullptr;          ///< counter-clockwise is front; < VertexCount, with FirstVertex added
-	const uint16_t* Indices16 = nullptr;        ///< instead of Indices: the same in 16 bits
-	uint32_t IndexCount = 0;                    ///< a multiple of 3, 3 … MaxMeshIndices
-	const FRTModuleSection* Sections = nullptr; ///< null: one section of all indices, with bMayBeMasked
-	uint32_t SectionCount = 0;
-	/// Allows UpdateMeshVertices. Rays trace the mesh slightly more slowly, and a copy stays on the CPU.
-	bool bDeformable = false;
-	/// Sphere around all that the mesh can become, in its own space. Culling, the order of builds and the offset of rays follow
-	/// it. A negative radius is computed from the positions, and from new ones with each UpdateMeshVertices.
-	float BoundsCenter[3] = {0, 0, 0};
-	float BoundsRadius = -1.0f;
-	/// Keeps positions and indices on the CPU: 12 bytes for each vertex and 4 for each index. Without them, the mesh has no
-	/// coarser levels if memory is short. Its emissive triangles are then found by chance alone.
-	bool bKeepOnCpu = true;
+	Static,     ///< never moves: SetObjectTransform refuses it
+	Stationary, ///< does not move, but its light may change. No pass makes a difference yet between this and Static
+	Movable,
 };
 
 struct FRTModuleObject
@@ -157,15 +121,7 @@ struct FRTModuleObject
 	double Transform[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 	bool bCastsShadow = true;
 	bool bVisible = true; ///< seen by all rays but those of shadows: reflections, diffuse light, occlusion
-};
-
-/// Where a mesh lies on the GPU, for an engine that writes its vertices there.
-struct FRTModuleMeshBuffer
-{
-	/// Holds VertexCount positions of three floats from PositionsOffset on. The renderer owns it; it is valid until RemoveMesh.
-	/// Null: the mesh is still on its way, and what is written would be written over.
-	IRTBuffer* Buffer = nullptr;
-	uint64_t PositionsOffset = 0; ///< bytes
+	ERTModuleMobility Mobility = ERTModuleMobility::Movable;
 };
 
 enum class ERTModuleLight : uint8_t
@@ -193,6 +149,24 @@ struct FRTModuleSun
 	float Color[3] = {1, 1, 1};
 	float Irradiance = 0.0f;      ///< of a plane that faces the sun, lux; 0: no sun and no shadow pass
 	float AngularDiameter = 0.0f; ///< radians, 0 to π; 0: hard shadows
+};
+
+enum class ERTModuleSkyMap : uint8_t
+{
+	Cube,       ///< a texture with FRTTextureDesc::bCube; faces as Vulkan and Direct3D order and orient them
+	Octahedral, ///< a square 2D texture (Cigolle et al. 2014): the upper half z ≥ 0 inside, the lower half folded out to the corners
+};
+
+/// Radiance of the sky by direction, without the sun's disk: that is FRTModuleSun's. Light sampling does not know bright spots in
+/// it, so these cost noise.
+struct FRTModuleSkyMap
+{
+	IRTTexture* Texture = nullptr; ///< not null; its rules are those of FRTModuleMap::Texture, with SetSkyMap for SetMaterial
+	IRTSampler* Sampler = nullptr; ///< not null; linear and clamped is right. Octahedral maps have a seam of half a texel
+	ERTModuleSkyMap Kind = ERTModuleSkyMap::Cube;
+	float Intensity = 1.0f; ///< nits of a texel of 1; finite, ≥ 0
+	/// Three rows: from directions in the engine's world to those in the map. A rotation, mirrored or not.
+	float WorldToMap[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 };
 
 /// Gets User and the share that is done, 0 to 1.
@@ -238,12 +212,18 @@ public:
 	/// queue for copies if it has one. A later frame builds the acceleration structure, within r.RT.Build.TrianglesPerFrame, near
 	/// and large meshes first. Rays do not see its objects until then.
 	virtual FRTStatus AddMesh(const FRTModuleMesh& Mesh, ERTMeshHandle* Out) = 0;
+	/// Adds a patch of a landscape as a mesh, as AddMesh. The renderer keeps the heights; Recreate does not ask for them.
+	virtual FRTStatus AddLandscape(const FRTModuleLandscape& Patch, ERTMeshHandle* Out) = 0;
+	/// Changes heights of a patch, from the next RenderFrame on; holes stay. Costs what the patch costs, whatever the landscape's size.
+	/// InvalidArgument if the mesh did not come from AddLandscape.
+	virtual FRTStatus SetLandscapeHeights(ERTMeshHandle Handle, const FRTModuleHeights& Heights) = 0;
 	/// Replaces the vertices of a mesh with bDeformable, for all its objects, from the next RenderFrame on. The arrays are as in
 	/// FRTModuleMesh, as long as in AddMesh, and read during the call. Costs a copy and a refit, and a rebuild every
-	/// r.RT.Skinning.RebuildInterval such frames. Several calls before one RenderFrame cost as much as one.
+	/// r.RT.Skinning.RebuildInterval such frames. Several calls before one RenderFrame cost as much as one. InvalidArgument for
+	/// meshes with Streams and for landscapes, which have calls of their own.
 	virtual FRTStatus UpdateMeshVertices(ERTMeshHandle Handle, const float* Positions, const float* Normals) = 0;
 	/// Returns where the vertices of a mesh with bDeformable lie, for an engine whose GPU writes them. InvalidArgument if the mesh has
-	/// no bDeformable, or no BoundsRadius that holds all that the engine will write.
+	/// no bDeformable, or no BoundsRadius that holds all that the engine will write; and for meshes with Streams and landscapes.
 	virtual FRTStatus GetMeshBuffer(ERTMeshHandle Handle, FRTModuleMeshBuffer* Out) = 0;
 	/// Says that the engine's GPU has written new positions of the mesh. The work must come before the next RenderFrame's commands,
 	/// on one queue, with a barrier to shader reads and acceleration structure builds between. Writing again needs that barrier, too.
@@ -260,6 +240,10 @@ public:
 	virtual FRTStatus SetObjectTransform(ERTObjectHandle Handle, const double Transform[12]) = 0;
 	/// Replaces the materials; the errors are those of AddObject.
 	virtual FRTStatus SetObjectMaterials(ERTObjectHandle Handle, const ERTMaterialHandle* Materials, uint32_t Count) = 0;
+	/// Shows another mesh as the object: a level of detail that the engine chose, or a change of model. The object keeps its
+	/// place, its motion and what is accumulated on it. Until the new mesh has its acceleration structure, rays see the old one. The
+	/// level stays until the next call, also while the engine does not draw the object. The errors are those of AddObject.
+	virtual FRTStatus SetObjectMesh(ERTObjectHandle Handle, ERTMeshHandle Mesh, const ERTMaterialHandle* Materials, uint32_t Count) = 0;
 	virtual FRTStatus SetObjectCastsShadow(ERTObjectHandle Handle, bool bCastsShadow) = 0;
 	virtual FRTStatus SetObjectVisible(ERTObjectHandle Handle, bool bVisible) = 0;
 	/// Removes an object. May be called while frames that show it are in flight.
@@ -270,11 +254,15 @@ public:
 	virtual FRTStatus SetSun(const FRTModuleSun& Sun) = 0;
 	/// Sets the radiance of a uniform sky: nits, linear Rec.709, finite, ≥ 0. 0 (default): no sky.
 	virtual FRTStatus SetSky(const float Radiance[3]) = 0;
+	/// Makes a map the sky, from the next RenderFrame on, in place of SetSky's radiance. Null: SetSky's radiance again. A change of
+	/// sky waits for nothing and compiles nothing, so that it may come with each frame. New texels of the texture may, too. A sky where
+	/// there was none (radiance or Intensity 0) needs other shaders, which compile beside the frames.
+	virtual FRTStatus SetSkyMap(const FRTModuleSkyMap* Map) = 0;
 
 	/// Compiles what frames like Frame will run in the scene as it is, and waits for it. For load time, between frames: the first
-	/// frames then have their outputs. Reads Wanted, View, Layout and the textures; Commands may be null. Progress is called with 0
-	/// to 1 during the call, and may be null. CompileFailed if a shader does not compile; frames go on
-	/// without it.
+	/// frames then have their outputs. Reads Wanted, View, Layout and the textures; Commands may be null. Without Depth or Normals it
+	/// reads Wanted and Layout alone. Progress is called with 0 to 1 during the call, and may be null. CompileFailed if a shader does
+	/// not compile; frames go on without it.
 	virtual FRTStatus Precache(const FRTModuleFrame& Frame, FRTModuleProgress Progress, void* User) = 0;
 	/// Records the frame into Frame.Commands. On an error the command list must not be submitted. DeviceLost: every frame is
 	/// refused until Recreate; the log says so once.
@@ -286,10 +274,11 @@ public:
 	virtual FRTStatus EndFrame(FRTFence* OutFence) = 0;
 
 	/// Takes the scene over to another device after ERTResult::DeviceLost, or at will. Handles, objects, lights, sun, sky and
-	/// materials stay, without their maps: the engine gives maps again by SetMaterial. Source gives the meshes; objects of a mesh
-	/// that it does not give are not seen. The textures, lists and mesh buffers of the old device are void. A frame that was not
-	/// ended is none. Uploads and structures follow the budgets of frames, as after AddMesh. InvalidArgument names a mesh that Source
-	/// gives otherwise than it was; on an error nothing has changed, and the call may be repeated. Render thread.
+	/// materials stay, without their maps: the engine gives maps again by SetMaterial and SetSkyMap. Source gives the meshes, but for
+	/// landscapes; objects of a mesh that it does not give are not seen. All textures, lists and buffers of the old device are void.
+	/// A frame that was not ended is none. Uploads and structures follow the budgets of frames, as after AddMesh. InvalidArgument
+	/// names a mesh that Source gives otherwise than it was; on an error nothing has changed, and the call may be repeated. Render
+	/// thread.
 	virtual FRTStatus Recreate(IRTDevice* Device, const FRTModuleMeshSource& Source) = 0;
 };
 

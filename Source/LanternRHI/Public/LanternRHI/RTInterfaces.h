@@ -3,7 +3,7 @@
 //
 // Binding model, common to all shaders: one bindless descriptor set (set 0), and at most
 // FRTCapabilities::MaxPushConstantBytes of push constants. Shaders reach buffers by device address.
-//   Binding 0 is texture2D[], indexed by IRTTexture::GetSampledIndex.
+//   Binding 0 is texture2D[], indexed by IRTTexture::GetSampledIndex; and textureCube[] if FRTTextureDesc::bCube.
 //   Binding 1 is image2D[], indexed by IRTTexture::GetStorageIndex.
 //   Binding 2 is sampler[], indexed by IRTSampler::GetIndex.
 //   Binding 3 is accelerationStructureEXT[], indexed by IRTScene::GetIndex.
@@ -278,6 +278,11 @@ public:
 	virtual FRTMemoryStats GetMemoryStats() const = 0;
 
 	// Called by hosts.
+	/// Wraps memory of the engine's, which must stay until Native.Released. Nothing is copied. Desc.Usage is what the engine
+	/// created it with; Desc.Memory is ignored. Without Native.Handle, copies and barriers that name the buffer are not possible.
+	/// InvalidArgument names what of Native or Desc cannot be; Released is not called then. Unsupported: the implementation imports
+	/// nothing.
+	virtual FRTStatus ImportBuffer(const FRTBufferDesc& Desc, const FRTNativeBuffer& Native, IRTBuffer** Out) = 0;
 	/// Wraps the engine's texture (Vulkan: a VkImage), which must outlive the wrapper. Its access stays what it is now.
 	/// Unsupported: as CreateTexture, or the implementation imports nothing.
 	virtual FRTStatus ImportTexture(const FRTTextureDesc& Desc, uint64_t NativeImage, IRTTexture** Out) = 0;

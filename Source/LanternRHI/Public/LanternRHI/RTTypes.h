@@ -180,6 +180,18 @@ struct FRTBufferDesc
 	const char* Name = ""; ///< reaches debugger and profiler
 };
 
+/// Memory that the engine owns, for IRTDevice::ImportBuffer.
+struct FRTNativeBuffer
+{
+	uint64_t Handle = 0; ///< Vulkan: a VkBuffer with SHADER_DEVICE_ADDRESS usage; 0: only Address is known
+	/// Device address of the first byte, a multiple of 16. 0: asked of Handle.
+	uint64_t Address = 0;
+	/// Called once, from any thread, when neither Lantern nor work that the GPU still has can reach the memory. It must not call
+	/// the device. May be null.
+	void (*Released)(void* User) = nullptr;
+	void* User = nullptr;
+};
+
 struct FRTTextureDesc
 {
 	uint32_t Width = 0, Height = 0;
@@ -191,6 +203,8 @@ struct FRTTextureDesc
 	/// IRTDevice::ImportTexture only. The engine's view of the image, which shaders then sample (Vulkan: a 2D VkImageView of one
 	/// aspect). It must outlive the texture. 0: a view of the whole image in Format is made.
 	uint64_t NativeView = 0;
+	/// The sampled view is a cube of the layers +x, −x, +y, −y, +z, −z. ArraySize is 6, and width equals height.
+	bool bCube = false;
 };
 
 enum class ERTFilter : uint8_t
@@ -293,13 +307,22 @@ struct FRTRayTracingPipelineDesc
 	const char* Name = "";
 };
 
-/// One section of a geometry: triangles of float3 positions, or, if bProcedural, AABBs of six floats (min, max). Sizes depend on
-/// counts, strides, index type and flags alone; addresses are read when the geometry is built.
+/// What every device can build from. Normalised numbers are from −1 to 1.
+enum class ERTVertexFormat : uint8_t
+{
+	Float3,
+	Half4,    ///< the fourth is not read
+	Snorm16x4 ///< the fourth is not read
+};
+constexpr uint32_t GetPositionBytes(ERTVertexFormat Format) { return Format == ERTVertexFormat::Float3 ? 12 : 8; }
+
+/// One section of a geometry: triangles, or, if bProcedural, AABBs of six floats (min, max). Sizes depend on counts, strides,
+/// formats and flags alone; addresses are read when the geometry is built.
 struct FRTGeometrySection
 {
 	IRTBuffer* Vertices = nullptr; ///< or the AABBs
 	uint64_t VertexOffset = 0;     ///< bytes
-	uint32_t VertexStride = 12;    ///< bytes; 24 for AABBs
+	uint32_t VertexStride = 12;    ///< bytes, a multiple of 4; 24 for AABBs
 	uint32_t VertexCount = 0;      ///< or the number of AABBs
 	IRTBuffer* Indices = nullptr;
 	uint64_t IndexOffset = 0; ///< bytes
@@ -307,6 +330,7 @@ struct FRTGeometrySection
 	ERTIndexType IndexType = ERTIndexType::UInt32;
 	bool bOpaque = true; ///< if false, any-hit shaders run
 	bool bProcedural = false;
+	ERTVertexFormat VertexFormat = ERTVertexFormat::Float3; ///< of triangles
 };
 
 struct FRTGeometryDesc

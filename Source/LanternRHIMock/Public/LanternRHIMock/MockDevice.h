@@ -41,6 +41,7 @@ enum class ERTMockCall : uint8_t
 {
 	CreateBuffer,  ///< Numbers: size, usage, memory
 	CreateTexture, ///< Numbers: width, height, mips, format
+	ImportBuffer,  ///< Numbers: size, native handle, native address
 	ImportTexture, ///< Numbers: width, height, mips, native image
 	CreateSampler,
 	CreateComputePipeline,    ///< Numbers: shader words

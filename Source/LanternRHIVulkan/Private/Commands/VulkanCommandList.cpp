@@ -10,7 +10,7 @@ namespace Lantern
 namespace
 {
 
-VkBuffer NativeOf(IRTBuffer* Buffer) { return static_cast<FVulkanBuffer*>(Buffer)->Block.Handle; }
+VkBuffer NativeOf(IRTBuffer* Buffer) { return static_cast<FVulkanBuffer*>(Buffer)->GetHandle(); }
 
 /// One mip of one layer, rows tightly packed.
 VkBufferImageCopy RegionOf(const FRTTextureDesc& Desc, uint32_t Mip, uint32_t Layer, uint64_t Offset)
@@ -272,8 +272,8 @@ void FVulkanCommandList::SetIndexBuffer(IRTBuffer* Buffer, uint64_t Offset, ERTI
 {
 	assert(Type != ERTIndexType::None);
 	Keep(Buffer);
-	Device.Api.CmdBindIndexBuffer(Handle, static_cast<FVulkanBuffer*>(Buffer)->Block.Handle, Offset,
-	    Type == ERTIndexType::UInt16 ? VK_INDEX_TYPE_UINT16 : VK_INDEX_TYPE_UINT32);
+	Device.Api.CmdBindIndexBuffer(
+	    Handle, NativeOf(Buffer), Offset, Type == ERTIndexType::UInt16 ? VK_INDEX_TYPE_UINT16 : VK_INDEX_TYPE_UINT32);
 }
 
 void FVulkanCommandList::Draw(uint32_t VertexCount, uint32_t InstanceCount)

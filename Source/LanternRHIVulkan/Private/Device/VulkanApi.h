@@ -55,6 +55,7 @@ namespace Lantern
 	X(ResetQueryPool)                                                                                                                      \
 	X(GetQueryPoolResults)                                                                                                                 \
 	X(GetBufferDeviceAddress)                                                                                                              \
+	X(GetBufferMemoryRequirements)                                                                                                         \
 	X(GetImageMemoryRequirements)                                                                                                          \
 	X(GetDeviceImageMemoryRequirements)                                                                                                    \
 	X(CreateImageView)                                                                                                                     \

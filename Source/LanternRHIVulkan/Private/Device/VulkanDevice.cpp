@@ -310,6 +310,13 @@ FRTStatus FVulkanDevice::CreateBuffer(const FRTBufferDesc& Desc, IRTBuffer** Out
 	return CreateObject<FVulkanBuffer>(*this, Out, [&](FVulkanBuffer& It) { return It.Initialise(Desc); });
 }
 
+FRTStatus FVulkanDevice::ImportBuffer(const FRTBufferDesc& Desc, const FRTNativeBuffer& Native, IRTBuffer** Out)
+{
+	*Out = nullptr;
+	if (const FRTStatus Status = CheckImport(*this, Desc, Native); !Status) { return Status; }
+	return CreateObject<FVulkanBuffer>(*this, Out, [&](FVulkanBuffer& It) { return It.Import(Desc, Native); });
+}
+
 FRTStatus FVulkanDevice::CreateTexture(const FRTTextureDesc& Desc, IRTTexture** Out)
 {
 	return CreateObject<FVulkanTexture>(*this, Out, [&](FVulkanTexture& It) { return It.Initialise(Desc, VK_NULL_HANDLE); });

@@ -67,6 +67,7 @@ public:
 	const FRTCapabilities& GetCapabilities() const override { return Probe.Capabilities; }
 	FRTStatus CreateBuffer(const FRTBufferDesc& Desc, IRTBuffer** Out) override;
 	FRTStatus CreateTexture(const FRTTextureDesc& Desc, IRTTexture** Out) override;
+	FRTStatus ImportBuffer(const FRTBufferDesc& Desc, const FRTNativeBuffer& Native, IRTBuffer** Out) override;
 	FRTStatus ImportTexture(const FRTTextureDesc& Desc, uint64_t NativeImage, IRTTexture** Out) override;
 	FRTStatus CreateSampler(const FRTSamplerDesc& Desc, IRTSampler** Out) override;
 	FRTStatus CreateComputePipeline(const FRTComputePipelineDesc& Desc, IRTPipeline** Out) override;

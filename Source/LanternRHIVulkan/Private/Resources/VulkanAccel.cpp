@@ -22,6 +22,17 @@ VkIndexType IndexTypeOf(ERTIndexType Type)
 	return VK_INDEX_TYPE_NONE_KHR;
 }
 
+VkFormat FormatOf(ERTVertexFormat Format)
+{
+	switch (Format)
+	{
+	case ERTVertexFormat::Float3: return VK_FORMAT_R32G32B32_SFLOAT;
+	case ERTVertexFormat::Half4: return VK_FORMAT_R16G16B16A16_SFLOAT;
+	case ERTVertexFormat::Snorm16x4: return VK_FORMAT_R16G16B16A16_SNORM;
+	}
+	return VK_FORMAT_UNDEFINED;
+}
+
 VkDeviceAddress AddressIn(IRTBuffer* Buffer, uint64_t Offset) { return Buffer ? Buffer->GetDeviceAddress() + Offset : 0; }
 
 VkAccelerationStructureGeometryKHR MakeGeometry(const FRTGeometrySection& Section)
@@ -40,7 +51,7 @@ VkAccelerationStructureGeometryKHR MakeGeometry(const FRTGeometrySection& Sectio
 	Geometry.geometryType = VK_GEOMETRY_TYPE_TRIANGLES_KHR;
 	auto& Triangles = Geometry.geometry.triangles;
 	Triangles = {VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_TRIANGLES_DATA_KHR};
-	Triangles.vertexFormat = VK_FORMAT_R32G32B32_SFLOAT;
+	Triangles.vertexFormat = FormatOf(Section.VertexFormat);
 	Triangles.vertexData.deviceAddress = AddressIn(Section.Vertices, Section.VertexOffset);
 	Triangles.vertexStride = Section.VertexStride;
 	Triangles.maxVertex = Section.VertexCount - 1;

@@ -57,11 +57,33 @@ void FVulkanBlock::Destroy()
 	}
 }
 
-FRTStatus FVulkanBuffer::Initialise(const FRTBufferDesc& InDesc)
+FVulkanBuffer::~FVulkanBuffer()
+{
+	if (Imported.Released != nullptr) { Imported.Released(Imported.User); }
+}
+
+void FVulkanBuffer::SetDesc(const FRTBufferDesc& InDesc)
 {
 	Desc = InDesc;
 	Name = InDesc.Name ? InDesc.Name : "";
 	Desc.Name = Name.c_str();
+}
+
+FRTStatus FVulkanBuffer::Import(const FRTBufferDesc& InDesc, const FRTNativeBuffer& Native)
+{
+	SetDesc(InDesc);
+	Desc.Memory = ERTMemory::Device;
+	Imported = Native;
+	if (Imported.Address != 0) { return {}; }
+	VkBufferDeviceAddressInfo Info{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO};
+	Info.buffer = (VkBuffer)Native.Handle;
+	Imported.Address = Device.Api.GetBufferDeviceAddress(Device.Handle, &Info);
+	return {};
+}
+
+FRTStatus FVulkanBuffer::Initialise(const FRTBufferDesc& InDesc)
+{
+	SetDesc(InDesc);
 	const FRTCapabilities& Caps = Device.GetCapabilities();
 	const bool bScratch = HasAny(Desc.Usage, ERTBufferUsage::Scratch);
 	// An acceleration structure build reads addresses that are multiples of 16 at most; shader tables and scratch say
@@ -72,7 +94,5 @@ FRTStatus FVulkanBuffer::Initialise(const FRTBufferDesc& InDesc)
 	return Block.Create(Device, Desc.Size, BufferUsageOf(Desc.Usage, Device.Bits), Desc.Memory, Alignment,
 	    bScratch ? EVulkanMemoryKind::Scratch : EVulkanMemoryKind::Buffer, Desc.Name);
 }
-
-uint64_t FVulkanBuffer::GetNative(ERTNative Kind) const { return Kind == ERTNative::Buffer ? ToNative(Block.Handle) : 0; }
 
 } // namespace Lantern

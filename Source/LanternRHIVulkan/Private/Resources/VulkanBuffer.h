@@ -34,16 +34,22 @@ class FVulkanBuffer final : public TVulkanObject<IRTBuffer>
 {
 public:
 	using TVulkanObject::TVulkanObject;
+	~FVulkanBuffer() override;
 	FRTStatus Initialise(const FRTBufferDesc& InDesc);
+	/// Arguments: checked.
+	FRTStatus Import(const FRTBufferDesc& InDesc, const FRTNativeBuffer& Native);
 
 	const FRTBufferDesc& GetDesc() const override { return Desc; }
-	uint64_t GetDeviceAddress() const override { return Block.Address; }
+	uint64_t GetDeviceAddress() const override { return Imported.Address != 0 ? Imported.Address : Block.Address; }
 	void* GetMapped() override { return Desc.Memory == ERTMemory::Device ? nullptr : Block.Allocation.Mapped; }
-	uint64_t GetNative(ERTNative Kind) const override;
-
-	FVulkanBlock Block;
+	uint64_t GetNative(ERTNative Kind) const override { return Kind == ERTNative::Buffer ? ToNative(GetHandle()) : 0; }
+	VkBuffer GetHandle() const { return Imported.Handle != 0 ? (VkBuffer)Imported.Handle : Block.Handle; }
 
 private:
+	void SetDesc(const FRTBufferDesc& InDesc);
+
+	FVulkanBlock Block;
+	FRTNativeBuffer Imported; ///< the engine's memory, in place of Block
 	FRTBufferDesc Desc;
 	std::string Name;
 };

@@ -93,6 +93,8 @@ FRTStatus CheckImport(FVulkanDevice& Device, const FRTTextureDesc& Desc, VkImage
 	// The least that Vulkan grants for layers is 256; none of ours are near it.
 	constexpr uint32_t MostLayers = 2048;
 	if (Desc.ArraySize == 0 || Desc.ArraySize > MostLayers) { return Refuse("FRTTextureDesc::ArraySize is 0 or above 2048"); }
+	if (Desc.bCube && Desc.ArraySize != 6) { return Refuse("FRTTextureDesc::bCube needs an ArraySize of 6"); }
+	if (Desc.bCube && Desc.Width != Desc.Height) { return Refuse("FRTTextureDesc::bCube needs equal Width and Height"); }
 	VkMemoryRequirements Needs{};
 	Device.Api.GetImageMemoryRequirements(Device.Handle, Image, &Needs);
 	const VkDeviceSize Texels = VkDeviceSize(Desc.Width) * Desc.Height * Desc.ArraySize;
@@ -104,6 +106,23 @@ FRTStatus CheckImport(FVulkanDevice& Device, const FRTTextureDesc& Desc, VkImage
 		    Desc.Height, static_cast<unsigned long long>(Least), static_cast<unsigned long long>(Needs.size));
 	}
 	return CheckDepth(Device, Desc, Needs.size);
+}
+
+FRTStatus CheckImport(FVulkanDevice& Device, const FRTBufferDesc& Desc, const FRTNativeBuffer& Native)
+{
+	const FRTShown Name(Desc.Name ? Desc.Name : "");
+	const auto Refuse = [&](const char* Argument) {
+		return FRTStatus::Error(ERTResult::InvalidArgument, "Buffer '%s': %s", Name.Text, Argument);
+	};
+	if (Desc.Size == 0) { return Refuse("FRTBufferDesc::Size is 0"); }
+	if (Native.Handle == 0 && Native.Address == 0) { return Refuse("FRTNativeBuffer::Handle and Address are 0"); }
+	if (Native.Address % 16 != 0) { return Refuse("FRTNativeBuffer::Address is not a multiple of 16"); }
+	if (Native.Handle == 0) { return {}; }
+	VkMemoryRequirements Needs{};
+	Device.Api.GetBufferMemoryRequirements(Device.Handle, (VkBuffer)Native.Handle, &Needs);
+	if (Needs.size >= Desc.Size) { return {}; }
+	return FRTStatus::Error(ERTResult::InvalidArgument, "Buffer '%s': FRTBufferDesc::Size is %llu bytes; the buffer has %llu", Name.Text,
+	    static_cast<unsigned long long>(Desc.Size), static_cast<unsigned long long>(Needs.size));
 }
 
 } // namespace Lantern

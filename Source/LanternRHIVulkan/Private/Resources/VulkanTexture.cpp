@@ -41,6 +41,7 @@ FVulkanTexture::~FVulkanTexture()
 FRTStatus FVulkanTexture::CreateImage()
 {
 	VkImageCreateInfo Info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
+	Info.flags = Desc.bCube ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
 	Info.imageType = VK_IMAGE_TYPE_2D;
 	Info.format = GetVulkanFormat(Desc.Format);
 	Info.extent = {Desc.Width, Desc.Height, 1};
@@ -59,7 +60,7 @@ FRTStatus FVulkanTexture::CreateImage()
 	Info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
 	VkImageFormatProperties Limits{};
 	VkResult Result = Device.Instance->Api.GetPhysicalDeviceImageFormatProperties(
-	    Device.Physical, Info.format, Info.imageType, Info.tiling, Info.usage, 0, &Limits);
+	    Device.Physical, Info.format, Info.imageType, Info.tiling, Info.usage, Info.flags, &Limits);
 	if (Result != VK_SUCCESS)
 	{
 		return FRTStatus::Error(ERTResult::Unsupported, "Texture '%s': the device has no format %d with the usages %#x asked for (%s)",
@@ -97,6 +98,7 @@ FRTStatus FVulkanTexture::CreateView(uint32_t MipCount, uint32_t LayerCount, VkI
 	VkImageViewCreateInfo Info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO, &UsageInfo};
 	Info.image = Image;
 	Info.viewType = LayerCount > 1 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+	if (Desc.bCube && Usage == VK_IMAGE_USAGE_SAMPLED_BIT) { Info.viewType = VK_IMAGE_VIEW_TYPE_CUBE; }
 	Info.format = GetVulkanFormat(Desc.Format);
 	const bool bAttachment = (Usage & VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT) != 0;
 	Info.subresourceRange = {bAttachment ? AllAspectsOf(Desc.Format) : AspectOf(Desc.Format), 0, MipCount, 0, LayerCount};

@@ -4,6 +4,7 @@
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LightingTypes.h"
 #include "PassTools.h"
+#include "Sky/SkyLight.h"
 
 namespace Lantern
 {
@@ -32,6 +33,7 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 {
 	IRTPipeline* const Pipeline = RequireCompute(Context, MakeLightingSource(Context.Facts));
 	if (!Pipeline) { return {}; }
+	const FGraphTexture SkyLight = HasSkyAmbient(Context.Facts) ? AddSkyLightPass(Context) : FGraphTexture();
 	const FGraphTexture Output = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA32_FLOAT}, "Lighting");
 	const FPassConstants PassConstants = Context.Pass;
 	const float Surroundings = CVarSurroundings.GetOnRenderThread();
@@ -42,7 +44,8 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 		{
 			Builder.Read(Texture, ERTAccess::ShaderRead);
 		}
-		for (const FGraphTexture Texture : {Inputs.SunVisibility, Inputs.SkyVisibility, Inputs.IndirectDiffuse, Inputs.IndirectSpecular})
+		for (const FGraphTexture Texture :
+		    {Inputs.SunVisibility, Inputs.SkyVisibility, Inputs.IndirectDiffuse, Inputs.IndirectSpecular, SkyLight})
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
@@ -60,6 +63,7 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 			C.SkyVisibility = Sampled(Inputs.SkyVisibility);
 			C.IndirectDiffuse = Sampled(Inputs.IndirectDiffuse);
 			C.IndirectSpecular = Sampled(Inputs.IndirectSpecular);
+			C.SkyLight = Sampled(SkyLight);
 			C.Surroundings = Surroundings;
 			C.Output = Pass.GetTexture(Output)->GetStorageIndex();
 			Dispatch2D(Pass, Pipeline, C, Width, Height, LIGHTING_GROUP_SIZE);

@@ -94,8 +94,11 @@ std::vector<FRTGeometrySection> MakeStructureSections(const FRTGeometry& Geometr
 		else
 		{
 			Out.Vertices = Info.Positions.Get();
-			Out.VertexOffset = Info.PositionsOffset;
-			Out.VertexCount = Info.VertexCount;
+			const uint32_t FirstVertex = Info.Sections[Part.Section].FirstVertex;
+			Out.VertexOffset = Info.PositionsOffset + uint64_t(FirstVertex) * Info.PositionStride;
+			Out.VertexStride = Info.PositionStride;
+			Out.VertexFormat = Info.PositionFormat;
+			Out.VertexCount = Info.VertexCount - FirstVertex;
 			Out.Indices = Geometry.GetIndices();
 			Out.IndexOffset = Geometry.GetIndicesOffset() + uint64_t(Part.FirstIndex) * IndexBytes;
 			Out.TriangleCount = Part.IndexCount / 3;

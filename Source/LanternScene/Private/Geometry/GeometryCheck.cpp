@@ -19,6 +19,11 @@ const char* FindFault(const FRTGeometryInfo& Info, const FRTSectionInfo& Section
 	if (Section.IndexCount < 3) { return "no triangles"; }
 	if (Section.IndexCount % 3 != 0) { return "the number of indices is not a multiple of 3"; }
 	if (!Info.Positions || !Info.Attributes || !Info.Indices) { return "a buffer is missing"; }
+	const bool bBase = Section.FirstVertex > 0;
+	if (bBase && (!Info.bStreams || Section.FirstVertex >= Info.VertexCount))
+	{
+		return "FirstVertex without streams, or behind all vertices";
+	}
 	const uint64_t Classified = uint64_t(Section.OpaqueIndexCount) + Section.TransparentIndexCount;
 	return Classified > Section.IndexCount ? "more classified triangles than triangles" : nullptr;
 }

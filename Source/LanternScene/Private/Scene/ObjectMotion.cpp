@@ -32,7 +32,19 @@ void FObjectMotions::Add(uint32_t Object, const FRTGeometry& Geometry)
 	FState& State = States[Object];
 	assert(State.Entry == NO_MOTION && State.Move == None && !State.Deformable);
 	State.Born = Frame;
+	JoinDeformable(Object, Geometry);
+}
+
+void FObjectMotions::SetGeometry(uint32_t Object, const FRTGeometry& Geometry)
+{
+	LeaveDeformable(Object);
+	JoinDeformable(Object, Geometry);
+}
+
+void FObjectMotions::JoinDeformable(uint32_t Object, const FRTGeometry& Geometry)
+{
 	if (!Geometry.GetInfo().PreviousPositions) { return; }
+	FState& State = States[Object];
 	FDeformable& Deformable = Deformables[&Geometry];
 	Deformable.Geometry = &Geometry;
 	State.Deformable = &Deformable;

@@ -56,6 +56,12 @@ void FRTScene::SetSky(glm::vec3 Radiance)
 	Frame->RefreshLightFacts();
 }
 
+void FRTScene::SetSkyMap(const FSkyMap& Map)
+{
+	Lights.SetSkyMap(Map);
+	Frame->RefreshLightFacts();
+}
+
 void FRTScene::SetMissingPrograms(std::vector<FHitProgram> Programs) { Frame->GetBindings().SetMissingPrograms(std::move(Programs)); }
 void FRTScene::SetRayTypes(uint32_t Count) { Frame->GetBindings().SetRayTypes(Count); }
 const FSceneFacts& FRTScene::RefreshFacts() { return Frame->RefreshFacts(); }

@@ -42,7 +42,11 @@ void FSceneLights::FillConstants(FSceneConstants& Out) const
 	// 1 − cos r = 2 sin²(r/2): the difference itself would lose all digits for a disk as small as the sun's.
 	const double HalfSin = std::sin(0.25 * double(Sun.AngularDiameter));
 	Out.SunOneMinusCos = static_cast<float>(2.0 * HalfSin * HalfSin);
-	Out.SkyRadiance = Sky;
+	Out.SkyRadiance = HasSkyMap() ? glm::vec3(SkyMap.Intensity) : Sky;
+	Out.SkyMap = SkyMap.Slot;
+	Out.SkyMapKind = SkyMap.Kind;
+	const glm::mat3 Rows = glm::transpose(SkyMap.WorldToMap);
+	for (int Row = 0; Row < 3; ++Row) { Out.SkyMapAxes[Row] = Rows[Row]; }
 }
 
 } // namespace Lantern

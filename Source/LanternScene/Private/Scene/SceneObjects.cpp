@@ -141,6 +141,22 @@ void FSceneObjects::SetMaterials(FRTObjectId Id, std::vector<uint32_t> SectionMa
 	Write(Id.Index);
 }
 
+void FSceneObjects::SetGeometry(FRTObjectId Id, FRTGeometryRef Geometry, std::vector<uint32_t> SectionMaterials)
+{
+	assert(Geometry && SectionMaterials.size() == Geometry->GetSectionCount());
+	FObject& Object = Resolve(Id);
+	const FSectionRangeId Range = Sections.Acquire(*Geometry, SectionMaterials);
+	MarkEmissive(Object.Range);
+	MarkEmissive(Range);
+	LeaveGeometry(Id.Index);
+	Sections.Release(std::exchange(Object.Range, Range));
+	Retired.push_back(std::exchange(Object.Info.Geometry, std::move(Geometry)));
+	Object.Info.Materials = std::move(SectionMaterials);
+	Motions.SetGeometry(Id.Index, *Object.Info.Geometry);
+	JoinGeometry(Id.Index);
+	Write(Id.Index);
+}
+
 void FSceneObjects::SetMask(FRTObjectId Id, uint8_t Mask)
 {
 	Resolve(Id).Info.Mask = Mask;

@@ -62,6 +62,7 @@ void FSceneUpdate::RefreshLightFacts()
 	Facts.Lights = static_cast<uint32_t>(Parts.Lights.GetLights().size());
 	Facts.bSun = Parts.Lights.HasSun();
 	Facts.bSky = Parts.Lights.HasSky();
+	Facts.bSkyMap = Facts.bSky && Parts.Lights.HasSkyMap();
 }
 
 bool FSceneUpdate::NeedsUpdate(const FGatherView& View, const FSceneUse& InUse) const

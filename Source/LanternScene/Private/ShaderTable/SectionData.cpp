@@ -18,6 +18,11 @@ void AddTriangles(const FRTGeometry& Geometry, const FRTGeometryPart& Part, FSec
 	const uint64_t Indices = First + uint64_t(Part.FirstIndex) * (bShort ? 2 : 4);
 	Data.Positions = Info.Positions->GetDeviceAddress() + Info.PositionsOffset;
 	Data.Attributes = Info.Attributes->GetDeviceAddress() + Info.AttributesOffset;
+	if (Info.bStreams)
+	{
+		Data.Attributes += Part.Section * sizeof(FVertexStreams);
+		Data.Flags |= SECTION_STREAMS;
+	}
 	Data.Indices = Indices & ~uint64_t(3); // shaders read whole words
 	Data.Flags |= bShort ? SECTION_INDEX_16 : 0u;
 	Data.Flags |= Indices & 2 ? SECTION_INDEX_ODD : 0u;

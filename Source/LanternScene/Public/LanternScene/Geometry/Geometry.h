@@ -28,6 +28,7 @@ struct FRTSectionInfo
 	/// Pieces that take the place of the mixed triangles and cover what is not transparent of them (OpacityPieces.h).
 	/// 0: none.
 	uint32_t FirstPiece = 0, PieceCount = 0;
+	uint32_t FirstVertex = 0; ///< is added to its indices; only with FRTGeometryInfo::bStreams
 	bool IsClassified() const { return OpaqueIndexCount + TransparentIndexCount + PieceCount > 0; }
 };
 
@@ -35,12 +36,18 @@ struct FRTSectionInfo
 struct FRTGeometryInfo
 {
 	std::string Name;
-	TRTRef<IRTBuffer> Positions;  ///< float3
+	TRTRef<IRTBuffer> Positions;  ///< float3; or see bStreams
 	uint64_t PositionsOffset = 0; ///< bytes, a multiple of 4
+	/// The vertices lie in a host's own buffers: Attributes holds an FVertexStreams for each section, and positions have the
+	/// stride and format below. Shaders read positions from the streams.
+	bool bStreams = false;
+	std::vector<TRTRef<IRTBuffer>> StreamBuffers; ///< what else the streams name: held as long as the geometry lives
+	uint32_t PositionStride = 12;                 ///< bytes, a multiple of 4
+	ERTVertexFormat PositionFormat = ERTVertexFormat::Float3;
 	/// Positions before the last deformation: float3, from the start of the buffer. Whoever deforms them writes it, as the
 	/// skinning pass does. Null: deformation has no motion vectors. Dynamic geometry only.
 	TRTRef<IRTBuffer> PreviousPositions;
-	TRTRef<IRTBuffer> Attributes; ///< FVertexAttributes
+	TRTRef<IRTBuffer> Attributes; ///< FVertexAttributes, or FVertexStreams
 	uint64_t AttributesOffset = 0;
 	TRTRef<IRTBuffer> Indices;
 	uint64_t IndicesOffset = 0; ///< bytes, a multiple of 4

@@ -29,6 +29,8 @@ public:
 	/// Adds an object. It has no motion until a submitted frame has shown it.
 	void Add(uint32_t Object, const FRTGeometry& Geometry);
 	void Remove(uint32_t Object);
+	/// Tells that the object has another geometry from now on. Its own motion stays.
+	void SetGeometry(uint32_t Object, const FRTGeometry& Geometry);
 	/// Call this before the object's transform changes. The motion leads to where the last submitted frame showed it.
 	void BeforeMove(uint32_t Object);
 	/// Tells that the geometry's vertices are new in this frame. Has no effect without FRTGeometryInfo::PreviousPositions.
@@ -77,6 +79,7 @@ private:
 	static FObjectMotion MakeMotion(const FObjectData& Data);
 	static uint64_t FindPreviousPositions(const FState& State);
 	bool HasPast(const FState& State) const { return State.Born != Frame; }
+	void JoinDeformable(uint32_t Object, const FRTGeometry& Geometry);
 	void LeaveDeformable(uint32_t Object);
 	void ForgetMove(uint32_t Object);
 	void Write(uint32_t Object, FObjectMotion Motion);

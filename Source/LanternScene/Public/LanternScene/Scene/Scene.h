@@ -46,6 +46,7 @@ struct FSceneFacts
 	bool bEmissive = false;
 	bool bSun = false;
 	bool bSky = false;
+	bool bSkyMap = false; ///< it is a texture
 	friend bool operator==(const FSceneFacts&, const FSceneFacts&) = default;
 };
 
@@ -108,6 +109,12 @@ public:
 	void RemoveObject(FRTObjectId Id) { Objects.Remove(Id); }
 	void SetTransform(FRTObjectId Id, const glm::dmat4& Transform) { Objects.SetTransform(Id, Transform); }
 	void SetMaterials(FRTObjectId Id, std::vector<uint32_t> SectionMaterials) { Objects.SetMaterials(Id, std::move(SectionMaterials)); }
+	/// Replaces geometry and materials, one for each section. The object's motion stays; its shape jumps. Rays see the object once the
+	/// geometry is built.
+	void SetGeometry(FRTObjectId Id, FRTGeometryRef Geometry, std::vector<uint32_t> SectionMaterials)
+	{
+		Objects.SetGeometry(Id, std::move(Geometry), std::move(SectionMaterials));
+	}
 	/// Replaces FRTObjectInfo::Mask. The object's motion stays.
 	void SetMask(FRTObjectId Id, uint8_t Mask) { Objects.SetMask(Id, Mask); }
 	const FRTObjectInfo& GetObject(FRTObjectId Id) const { return Objects.Get(Id); }
@@ -123,6 +130,8 @@ public:
 	const FSunLight& GetSun() const { return Lights.GetSun(); }
 	void SetSky(glm::vec3 Radiance);
 	glm::vec3 GetSky() const { return Lights.GetSky(); }
+	/// Makes a texture the sky in place of SetSky's radiance, or not any more. Whoever gives it keeps it while frames may read it.
+	void SetSkyMap(const FSkyMap& Map);
 	/// 0: the scene's materials; 1: each a Lambert of its base colour; 2: each a Lambert of 0.5, alpha tests off.
 	void SetMaterialOverride(uint32_t Override) { Materials.SetOverride(Override); }
 	void SetAlphaTest(bool bEnabled) { Materials.SetAlphaTest(bEnabled); }

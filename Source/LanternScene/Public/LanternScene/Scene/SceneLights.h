@@ -20,6 +20,15 @@ struct FSunLight
 	float AngularDiameter = 0.0f; ///< radians; 0: hard shadows
 };
 
+/// Radiance of the sky by direction, as a texture.
+struct FSkyMap
+{
+	uint32_t Slot = NO_TEXTURE; ///< as in FMaterialData::Textures; NO_TEXTURE: the sky is uniform
+	uint32_t Kind = SKY_MAP_CUBE;
+	float Intensity = 1.0f; ///< nits of a texel of 1
+	glm::mat3 WorldToMap{1.0f};
+};
+
 /// A punctual light in the world.
 struct FSceneLight
 {
@@ -38,7 +47,11 @@ public:
 	bool HasSun() const { return Sun.Irradiance > 0.0f; }
 	void SetSky(glm::vec3 Radiance) { Sky = Radiance; }
 	glm::vec3 GetSky() const { return Sky; }
-	bool HasSky() const { return glm::any(glm::greaterThan(Sky, glm::vec3(0))); }
+	/// Takes the place of the radiance of SetSky while it has a texture.
+	void SetSkyMap(const FSkyMap& Map) { SkyMap = Map; }
+	const FSkyMap& GetSkyMap() const { return SkyMap; }
+	bool HasSkyMap() const { return SkyMap.Slot != NO_TEXTURE; }
+	bool HasSky() const { return HasSkyMap() ? SkyMap.Intensity > 0.0f : glm::any(glm::greaterThan(Sky, glm::vec3(0))); }
 
 	/// Marks the table as out of date. The lights' positions in it are relative to the scene's origin.
 	void OnOriginMoved() { bStale = true; }
@@ -55,6 +68,7 @@ private:
 	TGpuTable<FLightData> Table{"Lights"};
 	FSunLight Sun;
 	glm::vec3 Sky{0};
+	FSkyMap SkyMap;
 	bool bStale = true;
 };
 

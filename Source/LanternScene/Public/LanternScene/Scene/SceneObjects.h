@@ -39,6 +39,8 @@ public:
 	void SetTransform(FRTObjectId Id, const glm::dmat4& Transform);
 	/// SectionMaterials holds one material for each section of the geometry.
 	void SetMaterials(FRTObjectId Id, std::vector<uint32_t> SectionMaterials);
+	/// See FRTScene::SetGeometry.
+	void SetGeometry(FRTObjectId Id, FRTGeometryRef Geometry, std::vector<uint32_t> SectionMaterials);
 	/// Changes nothing but who sees the object: its motion stays.
 	void SetMask(FRTObjectId Id, uint8_t Mask);
 	/// See FRTScene::SetBounds.

@@ -1,0 +1,69 @@
+// An engine that draws nothing but a floor, so that its G-buffer is constant: for pictures of what rays alone see.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+#include <gtest/gtest.h>
+
+#include "LanternModule/Module.h"
+
+#ifndef ASSERT_FINE
+#define ASSERT_FINE(Expression)                                                                                                            \
+	do {                                                                                                                                   \
+		const FRTStatus Fine = (Expression);                                                                                               \
+		ASSERT_TRUE(Fine.IsOk()) << Fine.Message;                                                                                          \
+	}                                                                                                                                      \
+	while (false)
+#endif
+
+namespace Lantern
+{
+
+/// Signals of one frame, as the engine reads them.
+struct FSignalPicture
+{
+	std::map<ESignal, std::vector<float>> Signals; ///< rgb or one channel, row by row
+	/// Largest difference of any value, and the mean difference over the mean value.
+	double GetLargestDifference(const FSignalPicture& Other) const;
+	double GetMeanDifference(const FSignalPicture& Other) const;
+	double GetMean(ESignal Signal) const;
+};
+
+/// The floor is y = 0, seen from CameraHeight above the origin; a picture is 4 m wide.
+class FFlatEngineTest : public testing::Test
+{
+protected:
+	static constexpr uint32_t Size = 48;
+	static constexpr double CameraHeight = 2.0;
+
+	void SetUp() override;
+	void TearDown() override;
+	/// Makes a renderer, fills its scene by Fill, and returns the sixth frame. All of the scene must be there by then.
+	FSignalPicture Render(const std::function<void(IRTModuleRenderer&)>& Fill, const FSignalSet& Wanted);
+	/// Called before frame Index of each picture; may be empty.
+	std::function<void(IRTModuleRenderer& Renderer, int Index)> BeforeFrame;
+	/// A buffer with Bytes in it, imported as an engine's.
+	TRTRef<IRTBuffer> ImportBytes(const std::vector<uint8_t>& Bytes, const char* Name);
+	/// A texture with these texels, in ShaderRead.
+	TRTRef<IRTTexture> MakeTexture(const FRTTextureDesc& Desc, const void* Texels);
+	void SetVariable(const char* Name, const char* Value) { ASSERT_FINE(Module->SetConsoleVariable(Name, Value)); }
+	/// Adds an object of the mesh with the material.
+	static ERTObjectHandle Place(IRTModuleRenderer& Renderer, ERTMeshHandle Mesh, ERTMaterialHandle Material, glm::dvec3 At, double Scale);
+
+	TRTRef<IRTModule> Module;
+	TRTRef<IRTDevice> Device;
+	TRTRef<IRTTexture> Depth, Normals, BaseColor, Material;
+	std::vector<TRTRef<IRTBuffer>> Owned; ///< the engine's memory behind imported buffers
+
+private:
+	FRTModuleFrame DescribeFrame() const;
+	void RenderFrame(IRTModuleRenderer& Renderer, FRTModuleFrame Frame, FSignalPicture* Out);
+	void Read(IRTCommandList& List, const FRTModuleOutputs& Outputs, const FSignalSet& Wanted);
+	std::map<ESignal, TRTRef<IRTBuffer>> Readbacks;
+};
+
+} // namespace Lantern
