@@ -12,6 +12,8 @@ namespace Fork
 {
 
 inline constexpr double Metre = 100.0;
+/// The game advances by this with each frame, however long the frame takes: pictures do not depend on the machine.
+inline constexpr float FrameSeconds = 1.0f / 60.0f;
 
 /// From metres, given as right, up and towards the camera.
 inline glm::dvec3 At(double Right, double Up, double Towards) { return glm::dvec3(Right, Towards, Up) * Metre; }
@@ -93,7 +95,8 @@ FReedMesh MakeReedMesh();
 /// Linear blend of two bones, as Fork.comp does it.
 glm::dvec3 SkinVertex(const FSkinVertex& Vertex, double Bend);
 
-/// Projects view space (centimetres, x right, y up, z backwards) to Vulkan's clip space: 0 at the near plane, 1 at the far plane, no jitter.
+/// Projects view space (centimetres, x right, y up, z backwards) to Vulkan's clip space: 0 at the near plane, 1 at the far plane. No
+/// jitter.
 glm::mat4 GetViewToClip(const FCamera& Camera, double Aspect);
 /// Rotates the world to view space.
 glm::dmat3 GetWorldToView(const FCamera& Camera);

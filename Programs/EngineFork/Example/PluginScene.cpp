@@ -211,14 +211,8 @@ FError FPluginScene::Render(VkCommandBuffer Commands, const FForkFrame& From, bo
 	Frame.Motion = On->Motion.Get();
 	Frame.Layout.Motion = ERTModuleMotion::UV;
 	Frame.Layout.MotionScale[0] = Frame.Layout.MotionScale[1] = -1.0f; // this engine's leads to this frame, not to the one before
-	const auto Now = std::chrono::steady_clock::now();
-	if (From.View == 0)
-	{
-		const std::chrono::duration<float> Since = Now - std::exchange(LastFrame, Now);
-		DeltaSeconds = std::clamp(Since.count(), 1e-4f, 1.0f); // the first frame has none before it
-		bComplete = true;
-	}
-	Frame.DeltaSeconds = DeltaSeconds;
+	if (From.View == 0) { bComplete = true; }
+	Frame.DeltaSeconds = FrameSeconds;
 	Frame.bCut = bCut;
 	Frame.Wanted = Wanted;
 	Error = ToError(Renderer->RenderFrame(Frame, &Out), "RenderFrame");

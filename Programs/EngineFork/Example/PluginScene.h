@@ -1,7 +1,6 @@
 // The plugin at work in the engine: its renderer, the engine's boxes in it, one frame after another.
 #pragma once
 
-#include <chrono>
 #include <memory>
 #include <vector>
 
@@ -65,10 +64,8 @@ private:
 	Lantern::ERTLightHandle Lamp{};
 	std::vector<FPlacedBox> Boxes;
 	Lantern::TRTRef<Lantern::IRTCommandList> List;
-	std::chrono::steady_clock::time_point LastFrame{};
 	float VertexScale = 1.0f;              ///< of the deformable boxes
 	std::unique_ptr<FMeshArrays> Deformed; ///< given to Recreate
-	float DeltaSeconds = 0.0f;             ///< of the frame, for all its views
 	bool bComplete = false;
 };
 

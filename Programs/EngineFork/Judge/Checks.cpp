@@ -151,6 +151,40 @@ FError CheckLamp(FJudge& Judge)
 	return bProportional ? FError() : "diffuse light does not follow the lamp";
 }
 
+/// Frames after a cut, the first camera moving by Step before each. The last frame's jitter is the same for every Count. Out: ambient
+/// occlusion of the first view.
+FError RunFrames(FJudge& Judge, int Count, bool bCut, glm::dvec3 Step, std::vector<float>& Out)
+{
+	FMasks Masks;
+	FError Error;
+	for (int Frame = 0; Error.empty() && Frame < Count; ++Frame)
+	{
+		Judge.Scene.Cameras[0].Position += Step;
+		Jitter(Judge.Scene, Count - 1 - Frame);
+		Error = Judge.Engine.RunFrame(Judge.Scene, bCut && Frame == 0, Masks);
+	}
+	if (Error.empty()) { Out = ReadMask(Masks[0].AmbientOcclusion); }
+	return Error;
+}
+
+/// Motion vectors: what accumulated before the camera moved is still worth something behind it.
+FError CheckMotion(FJudge& Judge)
+{
+	constexpr int StillFrames = 32, MovingFrames = 8;
+	const glm::dvec3 Step = At(0.15, 0.03, -0.1), Rest(0); // some pixels for each frame
+	const FCamera Start = Judge.Scene.Cameras[0];
+	std::vector<float> Before, Moved, Settled, Fresh;
+	FError Error = RunFrames(Judge, StillFrames, true, Rest, Before);
+	if (Error.empty()) { Error = RunFrames(Judge, MovingFrames, false, Step, Moved); }
+	if (Error.empty()) { Error = RunFrames(Judge, StillFrames, true, Rest, Settled); }
+	if (Error.empty()) { Error = RunFrames(Judge, 1, true, Rest, Fresh); }
+	Judge.Scene.Cameras[0] = Start;
+	if (!Error.empty()) { return Error; }
+	const double AfterMotion = Compare(Moved, Settled), AfterCut = Compare(Fresh, Settled);
+	std::printf("motion: occlusion is off by %.5f behind a moving camera, by %.5f after a cut\n", AfterMotion, AfterCut);
+	return AfterMotion < 0.6 * AfterCut ? FError() : "what was accumulated does not follow motion";
+}
+
 /// As after a lost device. All that changed so far must be there on the new one.
 FError CheckOtherDevice(FJudge& Judge)
 {
@@ -230,7 +264,7 @@ FError CheckScenes(FForkEngine& Engine, FForkScene Scene, const std::string& Pic
 	FJudge Judge{Engine, std::move(Scene), Pictures};
 	FError Error = CheckScene(Judge, "as made");
 	for (FError (*const Check)(FJudge&) :
-	    {CheckUnwanted, CheckMoved, CheckOtherDevice, CheckLamp, CheckChanged, CheckStreamed, CheckOtherDevice})
+	    {CheckUnwanted, CheckMotion, CheckMoved, CheckOtherDevice, CheckLamp, CheckChanged, CheckStreamed, CheckOtherDevice})
 	{
 		if (Error.empty()) { Error = Check(Judge); }
 	}

@@ -63,6 +63,20 @@ FError JudgeLight(const FShadowPicture& Expectations, const FFrameMasks& Masks)
 	return {};
 }
 
+std::vector<float> ReadMask(const uint16_t* Mask)
+{
+	std::vector<float> Values;
+	for (uint32_t Pixel = 0; Pixel < PixelCount; ++Pixel) { Values.push_back(glm::unpackHalf1x16(Mask[Pixel])); }
+	return Values;
+}
+
+double Compare(const std::vector<float>& A, const std::vector<float>& B)
+{
+	double Sum = 0.0;
+	for (size_t Index = 0; Index < A.size(); ++Index) { Sum += std::abs(double(A[Index]) - double(B[Index])); }
+	return Sum / double(A.size());
+}
+
 double GetMeanLight(const FFrameMasks& Masks)
 {
 	double Sum = 0.0, Count = 0.0;

@@ -28,6 +28,11 @@ FVerdict JudgeShadow(const FShadowPicture& Expectations, const uint16_t* Mask);
 /// such pass.
 FError JudgeLight(const FShadowPicture& Expectations, const FFrameMasks& Masks);
 
+/// Returns the values of a mask.
+std::vector<float> ReadMask(const uint16_t* Mask);
+/// Returns the mean difference of two masks.
+double Compare(const std::vector<float>& A, const std::vector<float>& B);
+
 /// Returns the mean of the engine's light over a view's surfaces.
 double GetMeanLight(const FFrameMasks& Masks);
 
