@@ -214,6 +214,8 @@ FError FPluginScene::Render(VkCommandBuffer Commands, const FForkFrame& From, bo
 	if (From.View == 0) { bComplete = true; }
 	Frame.DeltaSeconds = FrameSeconds;
 	Frame.bCut = bCut;
+	// The first view's commands have the reed's skinning, and are not submitted yet.
+	Frame.bSubmitAhead = From.View != 0;
 	Frame.Wanted = Wanted;
 	Error = ToError(Renderer->RenderFrame(Frame, &Out), "RenderFrame");
 	bComplete = bComplete && Out.bComplete;
