@@ -468,10 +468,6 @@ void FValidatedCommandList::CompactGeometry(IRTGeometry* Dest, IRTGeometry* Sour
 	AddStep(EKind::BuildGeometry, Call).Geometry = To->Track;
 	KeptGeometries.emplace_back(From->Track);
 	KeptGeometries.emplace_back(To->Track);
-	{
-		std::lock_guard Lock(State->Mutex);
-		To->Track->bBuildRecorded = true;
-	}
 	bUnflushedGeometry = true;
 	Inner->CompactGeometry(To->Inner.Get(), From->Inner.Get());
 }

@@ -45,7 +45,6 @@ struct FGeometryTrack
 	uint64_t CompactedBytes = 0; ///< if > 0, made for a compacted copy
 	uint64_t CompactedSize = 0;  ///< what a query said, or 0 if none was read
 	bool bBuilt = false;
-	bool bBuildRecorded = false; ///< by any list, submitted or not
 	bool bDead = false;
 	std::atomic<uint32_t> Holders = 0; ///< lists that keep it alive
 };

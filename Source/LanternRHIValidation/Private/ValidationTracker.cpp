@@ -170,10 +170,8 @@ std::string FValidationTracker::CheckAddress(uint64_t Address, bool bRecording) 
 	FGeometryTrack* Geometry = Found->second.get();
 	const bool bKept = bRecording ? Geometry->Holders > 0 : Kept.contains(Geometry);
 	if (Geometry->bDead && !bKept) { return "points at the released " + Geometry->Label; }
-	if (!IsBuilt(Geometry) && !(bRecording && Geometry->bBuildRecorded))
-	{
-		return "points at " + Geometry->Label + ", which was never built";
-	}
+	// A list may be recorded before the one that builds, which is submitted before it.
+	if (!bRecording && !IsBuilt(Geometry)) { return "points at " + Geometry->Label + ", which was never built"; }
 	return {};
 }
 

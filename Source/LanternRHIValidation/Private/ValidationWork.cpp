@@ -393,8 +393,6 @@ bool FValidatedCommandList::CheckBuild(
 	Step.Geometry = Geometry->Track;
 	// What the list builds lives as long as the list's submission.
 	KeptGeometries.emplace_back(Geometry->Track);
-	std::lock_guard Lock(State->Mutex);
-	Geometry->Track->bBuildRecorded = true;
 	return true;
 }
 
