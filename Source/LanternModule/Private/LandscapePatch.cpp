@@ -158,7 +158,6 @@ void FLandscapePatch::MakeIndices(const uint8_t* Holes, uint32_t HolesPitch)
 
 FRTModuleMesh FLandscapePatch::MakeMesh()
 {
-	std::lock_guard Lock(Mutex);
 	MakeVertices();
 	FRTModuleMesh Mesh;
 	Mesh.Name = Name.c_str();

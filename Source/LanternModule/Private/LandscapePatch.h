@@ -21,7 +21,7 @@ public:
 	/// Patch: checked.
 	explicit FLandscapePatch(const FRTModuleLandscape& Patch);
 
-	/// The mesh that the heights make, with arrays that last until the next call. One thread at a time.
+	/// The mesh that the heights make, with arrays that last until the next call. No other call may run meanwhile.
 	FRTModuleMesh MakeMesh();
 	/// Takes new heights over, and calls Then with all positions and normals. InvalidArgument names the member. Any thread.
 	template <class FThen>

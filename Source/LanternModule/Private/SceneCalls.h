@@ -138,7 +138,7 @@ private:
 	void AddAll(const FSceneValues& Values);
 
 	const FModuleWorld World;
-	std::shared_mutex DeviceMutex; ///< of the next two; shared while a mesh is made. Locked before Mutex
+	std::shared_mutex DeviceMutex; ///< of the next two; shared while a mesh is made or gets vertices. Locked before Mutex
 	IRTDevice* Device;
 	FBufferUploads* Uploads;
 	const uint32_t Tag; ///< in all handles, by which those of another renderer are known

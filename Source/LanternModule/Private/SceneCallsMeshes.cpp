@@ -161,6 +161,7 @@ FRTStatus FSceneCalls::SetVertices(ERTMeshHandle Handle, FDeformableMesh& Deform
 
 FRTStatus FSceneCalls::SetLandscapeHeights(ERTMeshHandle Handle, const FRTModuleHeights& Heights)
 {
+	std::shared_lock DeviceLock(DeviceMutex); // TakeOver reads the patch's arrays, and replaces Deformable
 	std::shared_ptr<FLandscapePatch> Landscape;
 	FDeformableMeshRef Deformable;
 	{
@@ -181,6 +182,7 @@ FRTStatus FSceneCalls::SetLandscapeHeights(ERTMeshHandle Handle, const FRTModule
 
 FRTStatus FSceneCalls::UpdateMeshVertices(ERTMeshHandle Handle, const float* Positions, const float* Normals)
 {
+	std::shared_lock DeviceLock(DeviceMutex); // what TakeOver replaces would get vertices that nobody sees
 	FDeformableMeshRef Deformable;
 	{
 		std::lock_guard Lock(Mutex);

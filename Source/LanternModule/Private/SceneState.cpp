@@ -84,6 +84,7 @@ void FSceneState::Do(FAddMeshCommand& Command)
 	Mesh = {};
 	if (!Command.Info) { return; }
 	Command.Info->bWaitsForData = !Command.Upload->bFilled;
+	bEngineVertices |= Command.Info->bStreams;
 	const std::string Name = Command.Info->Name;
 	if (const FRTStatus Status = Scene.CreateGeometry(std::move(*Command.Info), Mesh.Geometry); !Status)
 	{

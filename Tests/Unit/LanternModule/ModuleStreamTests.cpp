@@ -81,6 +81,27 @@ protected:
 	int Released = 0;
 };
 
+/// The compute queue builds from what the engine has just written on its own.
+TEST_F(FModuleStreamTest, WorkAheadWaitsForWhatTheEngineHasWritten)
+{
+	SetVariable("r.RT.Async", "*");
+	ASSERT_FINE(SetSun(-1.0));
+	const auto CountWaits = [&] {
+		FRTModuleFrame Frame = DescribeFrame();
+		Frame.bSubmitAhead = true;
+		Mock().ClearCalls();
+		const FRTStatus Status = Renderer->RenderFrame(Frame, &Outputs);
+		EXPECT_TRUE(Status.IsOk()) << Status.Message;
+		const uint32_t Count = Mock().CountCalls(ERTMockCall::NotifyExternalSubmit);
+		EXPECT_TRUE(Renderer->EndFrame(nullptr).IsOk());
+		return Count;
+	};
+	EXPECT_EQ(CountWaits(), 0u);
+	ASSERT_FINE(AddObject(AddMesh(Describe()), Solid));
+	EXPECT_EQ(CountWaits(), 1u);
+	EXPECT_EQ(CountWaits(), 0u);
+}
+
 TEST_F(FModuleStreamTest, TheDeviceReadsTheEnginesBuffers)
 {
 	ASSERT_FINE(AddObject(AddMesh(Describe()), Solid));

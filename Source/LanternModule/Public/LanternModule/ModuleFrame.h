@@ -172,7 +172,8 @@ struct FRTModuleFrame
 	/// Tasks record it. Commands gets the passes over pixels alone, and is submitted later than that. The work runs on the device's
 	/// compute queue, beside the engine's G-buffer, if there is one and r.RT.Async names passes of it. The engine's submission then
 	/// waits for FRTModuleOutputs::Wait. Else the work runs on the device's queue, through LockQueue.
-	/// Vertices that the engine's GPU writes (IRTModuleRenderer::GetMeshBuffer) must be submitted before RenderFrame.
+	/// What writes vertices on the engine's GPU (IRTModuleRenderer::GetMeshBuffer, FRTModuleStreams) must be submitted before
+	/// RenderFrame.
 	/// If false, all goes into Commands, recorded by one thread.
 	bool bSubmitAhead = false;
 	/// Time since the previous frame, seconds, finite, > 0. Accumulation lasts for a time in seconds, at any frame rate.

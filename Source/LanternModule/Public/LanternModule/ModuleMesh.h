@@ -57,7 +57,8 @@ struct FRTModuleStream
 /// Lifetime: the renderer holds references. The memory must stay as it is until FRTNativeBuffer::Released, which comes some frames
 /// after RemoveMesh, or with the renderer's end.
 /// Synchronisation: the engine writes the data before the commands of the next RenderFrame, on the device's queue. It puts a
-/// barrier to shader reads and acceleration structure builds between. Without bDeformable, the data must not change afterwards.
+/// barrier to shader reads and acceleration structure builds between. With FRTModuleFrame::bSubmitAhead, it submits the work before
+/// RenderFrame; the compute queue must be able to use the buffer if r.RT.Async names passes of the scene. Without bDeformable, the data must not change afterwards.
 /// Nobody can check what is on the GPU: indices must be < VertexCount, with FirstVertex added, and positions finite.
 struct FRTModuleStreams
 {
