@@ -6,6 +6,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "FlatEngine.h"
+#include "Support/OctahedralTexels.h"
 
 namespace Lantern
 {
@@ -69,16 +70,7 @@ protected:
 	template <class FGet>
 	IRTTexture* MakeOctahedral(FGet GetRadiance)
 	{
-		std::vector<glm::vec4> Texels;
-		for (uint32_t Texel = 0; Texel < OctahedralSize * OctahedralSize; ++Texel)
-		{
-			const glm::vec2 E = (glm::vec2(Texel % OctahedralSize, Texel / OctahedralSize) + 0.5f) * (2.0f / OctahedralSize) - 1.0f;
-			glm::vec3 V(E, 1.0f - std::abs(E.x) - std::abs(E.y));
-			const float Fold = std::max(-V.z, 0.0f);
-			V.x += V.x >= 0.0f ? -Fold : Fold;
-			V.y += V.y >= 0.0f ? -Fold : Fold;
-			Texels.emplace_back(GetRadiance(glm::normalize(V)), 1.0f);
-		}
+		const std::vector<glm::vec4> Texels = MakeOctahedralTexels(OctahedralSize, GetRadiance);
 		const FRTTextureDesc Desc{OctahedralSize, OctahedralSize, 1, 1, ERTFormat::RGBA32_FLOAT, ERTTextureUsage::Sampled, "SkyMap"};
 		return Maps.emplace_back(MakeTexture(Desc, Texels.data())).Get();
 	}

@@ -3,6 +3,7 @@
 
 #include "LanternScene/Memory/Upload.h"
 #include "LanternScene/Scene/TextureSlot.h"
+#include "Support/OctahedralTexels.h"
 #include "Support/RenderFixture.h"
 #include "Support/TestScene.h"
 
@@ -30,16 +31,7 @@ protected:
 	template <class FGet>
 	void SetMap(FGet GetRadiance)
 	{
-		std::vector<glm::vec4> Texels;
-		for (uint32_t Texel = 0; Texel < MapSize * MapSize; ++Texel)
-		{
-			const glm::vec2 E = (glm::vec2(Texel % MapSize, Texel / MapSize) + 0.5f) * (2.0f / MapSize) - 1.0f;
-			glm::vec3 V(E, 1.0f - std::abs(E.x) - std::abs(E.y));
-			const float Fold = std::max(-V.z, 0.0f);
-			V.x += V.x >= 0.0f ? -Fold : Fold;
-			V.y += V.y >= 0.0f ? -Fold : Fold;
-			Texels.emplace_back(glm::vec3(GetRadiance(glm::normalize(V))), 1.0f);
-		}
+		const std::vector<glm::vec4> Texels = MakeOctahedralTexels(MapSize, GetRadiance);
 		FUploader Uploader(GetDevice());
 		const FRTTextureDesc Desc{
 		    MapSize, MapSize, 1, 1, ERTFormat::RGBA32_FLOAT, ERTTextureUsage::Sampled | ERTTextureUsage::CopyDest, "SkyMap"};

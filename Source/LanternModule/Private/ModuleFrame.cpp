@@ -240,15 +240,18 @@ FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame, const FFrame
 
 FRTStatus FModuleRenderer::RecordAhead(const FRTModuleFrame& Frame, const FFrameViews& Views, FRTFence& OutAhead)
 {
+	const ERTQueue Queue = FindAheadQueue(*On->Device);
 	IRTCommandList* Arrivals = nullptr;
-	if (const FRTStatus Status = On->AheadLists.Begin(FindAheadQueue(*On->Device), Arrivals); !Status) { return Status; }
+	if (const FRTStatus Status = On->AheadLists.Begin(Queue, Arrivals); !Status) { return Status; }
 	FRTStatus Status = On->State.Record(*Arrivals);
 	const FRTStatus Ended = Arrivals->End();
 	if (Status) { Status = Ended; }
 	// Vertices that the engine's GPU writes are on its own queue.
 	FRTFence Written = 0;
-	const bool bOtherQueue = FindAheadQueue(*On->Device) != ERTQueue::Graphics;
-	if (Status && bOtherQueue && On->State.HasEngineVertices()) { Status = On->Device->NotifyExternalSubmit(nullptr, 0, &Written); }
+	if (Status && Queue != ERTQueue::Graphics && On->State.HasEngineVertices())
+	{
+		Status = On->Device->NotifyExternalSubmit(nullptr, 0, &Written);
+	}
 	if (Status) { Status = AddPasses(Frame, Views); }
 	if (!Status) { return Status; }
 	Status = On->Renderer.EndFrame(*Frame.Commands, Arrivals, Written, OutAhead);

@@ -38,6 +38,15 @@ protected:
 		Out.Mesh.IndexCount = Count * 3;
 		return Out;
 	}
+	/// Adds an object of the mesh, and renders a frame that is lost and one that is not.
+	void AddInALostFrame(const FMany& Many)
+	{
+		ASSERT_FINE(AddObject(AddMesh(Many.Mesh), Solid));
+		Mock().FailEveryAllocation(1);
+		EXPECT_FALSE(Render().IsOk());
+		Mock().FailEveryAllocation(0);
+		ASSERT_FINE(RenderWholeFrame());
+	}
 	static uint64_t GetBytes(const FMany& Many) { return Many.Mesh.VertexCount * (12ull + 28ull) + Many.Mesh.IndexCount * 4ull; }
 	/// Replaces the renderer by one that is made under the present variables.
 	void Restart()
@@ -159,11 +168,7 @@ TEST_F(FModuleUploadTest, StagingIsNotWrittenOverWhileTheGpuReadsIt)
 TEST_F(FModuleUploadTest, MeshesOfALostFrameAreCopiedAgain)
 {
 	const FMany Many = MakeMany("Many", 10);
-	ASSERT_FINE(AddObject(AddMesh(Many.Mesh), Solid));
-	Mock().FailEveryAllocation(1);
-	EXPECT_FALSE(Render().IsOk());
-	Mock().FailEveryAllocation(0);
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_NO_FATAL_FAILURE(AddInALostFrame(Many));
 	EXPECT_EQ(CountCopies("Many"), 2u);
 	EXPECT_TRUE(IsBuilt("Many"));
 	ExpectArrived(Many);
@@ -260,11 +265,7 @@ TEST_F(FModuleTransferTest, WhatIsStillBeingCopiedIsNotBuilt)
 TEST_F(FModuleTransferTest, ALostFrameTakesTheMeshOverOnceMore)
 {
 	const FMany Many = MakeMany("Many", 10);
-	ASSERT_FINE(AddObject(AddMesh(Many.Mesh), Solid));
-	Mock().FailEveryAllocation(1);
-	EXPECT_FALSE(Render().IsOk());
-	Mock().FailEveryAllocation(0);
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_NO_FATAL_FAILURE(AddInALostFrame(Many));
 	EXPECT_EQ(CountCopies("Many"), 1u) << "the copy itself was not lost";
 	EXPECT_TRUE(IsBuilt("Many"));
 }
