@@ -8,16 +8,10 @@
 
 #include "EngineRaster.h"
 #include "LanternHost/SceneLoader.h"
+#include "Support/StatusChecks.h"
 
 namespace Lantern
 {
-
-#define ASSERT_FINE(Expression)                                                                                                            \
-	do {                                                                                                                                   \
-		const FRTStatus Fine = (Expression);                                                                                               \
-		ASSERT_TRUE(Fine.IsOk()) << Fine.Message;                                                                                          \
-	}                                                                                                                                      \
-	while (false)
 
 /// What the truth says of the pixels of a frame.
 struct FVerdict

@@ -10,15 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "LanternModule/Module.h"
-
-#ifndef ASSERT_FINE
-#define ASSERT_FINE(Expression)                                                                                                            \
-	do {                                                                                                                                   \
-		const FRTStatus Fine = (Expression);                                                                                               \
-		ASSERT_TRUE(Fine.IsOk()) << Fine.Message;                                                                                          \
-	}                                                                                                                                      \
-	while (false)
-#endif
+#include "Support/StatusChecks.h"
 
 namespace Lantern
 {

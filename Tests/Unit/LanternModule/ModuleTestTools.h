@@ -12,6 +12,7 @@
 #include "LanternRHIMock/MockDevice.h"
 #include "LanternRHIValidation/ValidationDevice.h"
 #include "SceneTypes.h"
+#include "Support/StatusChecks.h"
 #include "Support/WaitTools.h"
 
 namespace Lantern
@@ -24,13 +25,6 @@ namespace Lantern
 		EXPECT_THAT(Refused.Message, ::testing::HasSubstr(Part));                                                                          \
 	}                                                                                                                                      \
 	while (false)
-#define ASSERT_FINE(Expression)                                                                                                            \
-	do {                                                                                                                                   \
-		const FRTStatus Fine = (Expression);                                                                                               \
-		ASSERT_TRUE(Fine.IsOk()) << Fine.Message;                                                                                          \
-	}                                                                                                                                      \
-	while (false)
-
 inline constexpr float TrianglePositions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 inline constexpr uint32_t TriangleIndices[] = {0, 1, 2};
 
