@@ -96,30 +96,14 @@ protected:
 			}
 		}
 	}
-	bool bOneThread = false; ///< records all of a frame
-
-	FRTStatus RenderReferenceOnce()
-	{
-		FReferenceSettings Settings;
-		Settings.View = LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 16, 8);
-		Settings.Samples = 1;
-		FReferenceResult Result;
-		return RenderReference(*Engine, Settings, Result);
-	}
-};
-
-TEST_F(FRendererFaultTest, EveryAllocationMayFailOnce)
-{
-	// Tasks that record allocate in no fixed order, so that another run would fail another allocation.
-	bOneThread = true;
-	for (const char* const Path : {"1", "2"})
+	/// Fails the first allocation, the second and so on, each in an engine of its own with Variables set.
+	void FailEachAllocation(const std::vector<std::pair<const char*, const char*>>& Variables)
 	{
 		uint32_t Failed = 0;
 		for (uint32_t N = 1;; ++N)
 		{
 			Open();
-			Set("r.RT.Shadow.Path", Path);
-			Set("r.RT.FrameGraph.Tasks", "0");
+			for (const auto& [Name, Value] : Variables) { Set(Name, Value); }
 			Mock().FailAllocation(N);
 			uint32_t Failures = 0, FailAt = N;
 			ASSERT_NO_FATAL_FAILURE(Insist([&] { return Load(Everything); }, Failures, FailAt)) << "allocation " << N;
@@ -135,6 +119,32 @@ TEST_F(FRendererFaultTest, EveryAllocationMayFailOnce)
 		}
 		EXPECT_GT(Failed, 30u);
 	}
+	bool bOneThread = false; ///< makes and records all of a frame
+
+	FRTStatus RenderReferenceOnce()
+	{
+		FReferenceSettings Settings;
+		Settings.View = LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 16, 8);
+		Settings.Samples = 1;
+		FReferenceResult Result;
+		return RenderReference(*Engine, Settings, Result);
+	}
+};
+
+TEST_F(FRendererFaultTest, EveryAllocationMayFailOnce)
+{
+	// Tasks allocate in no fixed order, so that another run would fail another allocation.
+	bOneThread = true;
+	for (const char* const Path : {"1", "2"})
+	{
+		EXPECT_NO_FATAL_FAILURE(FailEachAllocation(
+		    {{"r.RT.Shadow.Path", Path}, {"r.RT.FrameGraph.Tasks", "0"}, {"r.RT.Scene.Hoist", "0"}, {"r.RT.SBT.Prebind", "0"}}));
+	}
+}
+
+TEST_F(FRendererFaultTest, AllocationsOfTasksMayFail)
+{
+	EXPECT_NO_FATAL_FAILURE(FailEachAllocation({{"r.RT.Shadow.Path", "2"}, {"r.RT.Scene.Hoist", "1"}, {"r.RT.SBT.Prebind", "1"}}));
 }
 
 TEST_F(FRendererFaultTest, SkinningOfALostFrameIsDoneAgain)
