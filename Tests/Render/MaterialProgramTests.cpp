@@ -78,6 +78,7 @@ protected:
 		Features.bRays = true;
 		Features.RayGens = {MakeTrace(!Callables.empty())};
 		Features.Callables = Callables;
+		FConsoleVariables::Get().BeginFrame();
 		ASSERT_OK(Renderer().BeginFrame(World(), View, Features));
 		FFrameContext& Context = Renderer().GetContext();
 		const uint32_t RayGen = Context.RayPipeline ? Context.RayPipeline->FindRayGen(Features.RayGens[0]) : NoRayGen;

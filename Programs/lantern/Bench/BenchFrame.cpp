@@ -187,6 +187,7 @@ FRTStatus FFrameBench::RenderFrame(FStageTimes* OutTimes)
 	using FClock = std::chrono::steady_clock;
 	const double StartBusy = GetThreadMs();
 	const auto Start = FClock::now();
+	FConsoleVariables::Get().BeginFrame();
 	FFrameFeatures Features;
 	Features.bWaitForPipelines = Frame == 1;
 	for (size_t I = 0; I < World.Movers.size(); ++I) { Host->SetTransform(World.Movers[I], Changes.Movers[I]); }

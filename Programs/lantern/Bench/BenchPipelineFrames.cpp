@@ -59,6 +59,7 @@ FRTStatus FHitchBench::Frame(FFrameTime& Out, bool bWait)
 	FRenderer& Renderer = Engine.GetRenderer();
 	const auto Start = FBenchClock::now();
 	const double StartProcessor = GetThreadMs();
+	FConsoleVariables::Get().BeginFrame();
 	FFrameFeatures Features;
 	Features.bWaitForPipelines = bWait;
 	Features.bRays = true;

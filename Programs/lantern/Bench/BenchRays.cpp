@@ -107,6 +107,7 @@ FRTStatus FRayBench::CaptureGBuffer(const FView& InView)
 /// OutSurfaceMs: the G-buffer is read as if it had a far plane and no geometric normals, which this pass took. Null: as it is.
 FRTStatus FRayBench::RunPlugin(double& OutMs, double* OutSurfaceMs)
 {
+	FConsoleVariables::Get().BeginFrame();
 	FRenderer& Renderer = Engine.GetRenderer();
 	FFrameFeatures Features;
 	Features.bHostSurface = OutSurfaceMs != nullptr;

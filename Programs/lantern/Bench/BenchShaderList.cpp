@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Text/Quote.h"
 #include "LanternMeasure/Methods.h"
 
@@ -86,6 +87,7 @@ private:
 	/// As frames have it: one pipeline for all ray generation shaders. Each of them alone, to say which is dear.
 	void AddRays(const FFrameFeatures& Features)
 	{
+		FConsoleVariables::Get().BeginFrame();
 		const FRTPSODesc All = Engine.GetRenderer().GetRayPrograms(Engine.GetScene().GetScene(), Features);
 		std::string Name;
 		for (const FShaderSource& RayGen : All.RayGens)

@@ -218,6 +218,7 @@ int RunRender(FRenderOptions Options)
 	if (const int Status = Session.LoadScene(Options.Picture); Status != ExitDone) { return Session.Close(Status); }
 	Session.GetEngine().GetRenderer().SetGraphDump(Options.bDumpGraph);
 	Session.GetEngine().bPresent = true; // what accumulates over frames needs them all, and their times are what is reported
+	FConsoleVariables::Get().BeginFrame();
 	FProgressLine Compiling;
 	const auto ShowProgress = [&](float Fraction) { Compiling.Show("shaders", Fraction); };
 	if (FRTStatus S = Session.GetEngine().GetRenderer().Precache(Session.GetEngine().GetScene().GetScene(), {}, ShowProgress); !S)

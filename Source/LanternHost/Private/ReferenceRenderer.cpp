@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternImage/AtomicFile.h"
 
@@ -148,6 +149,7 @@ FRTStatus FReferenceJob::Copy(IRTBuffer& Dest, IRTBuffer& Source)
 
 FRTStatus FReferenceJob::Trace(uint32_t FirstSample, uint32_t SampleCount, uint32_t FirstRow, uint32_t RowCount)
 {
+	FConsoleVariables::Get().BeginFrame();
 	FRenderer& Renderer = Engine.GetRenderer();
 	FFrameFeatures Features;
 	Features.bReference = true;

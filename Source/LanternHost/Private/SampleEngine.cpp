@@ -7,6 +7,8 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "LanternCore/Config/ConsoleVariables.h"
+
 namespace Lantern
 {
 
@@ -137,6 +139,7 @@ std::vector<FSkinningInputs> FSampleEngine::MoveTo(double Time)
 FRTStatus FSampleEngine::RenderFrame(const FView& InView, double Time, const FFrameCapture& Capture, FCapturedFrame* Out)
 {
 	assert(Scene);
+	FConsoleVariables::Get().BeginFrame();
 	if (Out) { *Out = {}; } // what this frame does not have is not that of the one before
 	FFrameFeatures Features;
 	Features.Skinning = MoveTo(Time);

@@ -117,6 +117,7 @@ FContentHash MakeKey(FSampleEngine& Engine, const FSignalReferenceDesc& Desc)
 	Features.bReference = true;
 	Features.ReferenceSignal = Desc.Signal;
 	Features.bReferenceFromGBuffer = Desc.bRasterSurfaces && Desc.Signal != ESignal::Frame;
+	FConsoleVariables::Get().BeginFrame();
 	FContentHasher Hash;
 	Hash.Add(Generation);
 	const FContentHash& Content = Engine.GetScene().GetContentHash();

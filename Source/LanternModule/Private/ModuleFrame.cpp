@@ -240,21 +240,20 @@ FRTStatus FModuleRenderer::RecordFrame(const FRTModuleFrame& Frame, const FFrame
 
 FRTStatus FModuleRenderer::RecordAhead(const FRTModuleFrame& Frame, const FFrameViews& Views, FRTFence& OutAhead)
 {
-	const ERTQueue Queue = FindAheadQueue(*On->Device);
-	IRTCommandList* Arrivals = nullptr;
-	if (const FRTStatus Status = On->AheadLists.Begin(Queue, Arrivals); !Status) { return Status; }
-	FRTStatus Status = On->State.Record(*Arrivals);
-	const FRTStatus Ended = Arrivals->End();
+	FAheadWork Work;
+	Work.Queue = FindAheadQueue(*On->Device);
+	if (const FRTStatus Status = On->AheadLists.Begin(Work.Queue, Work.First); !Status) { return Status; }
+	FRTStatus Status = On->State.Record(*Work.First);
+	const FRTStatus Ended = Work.First->End();
 	if (Status) { Status = Ended; }
 	// Vertices that the engine's GPU writes are on its own queue.
-	FRTFence Written = 0;
-	if (Status && Queue != ERTQueue::Graphics && On->State.HasEngineVertices())
+	if (Status && Work.Queue != ERTQueue::Graphics && On->State.HasEngineVertices())
 	{
-		Status = On->Device->NotifyExternalSubmit(nullptr, 0, &Written);
+		Status = On->Device->NotifyExternalSubmit(nullptr, 0, &Work.WaitFor);
 	}
 	if (Status) { Status = AddPasses(Frame, Views); }
 	if (!Status) { return Status; }
-	Status = On->Renderer.EndFrame(*Frame.Commands, Arrivals, Written, OutAhead);
+	Status = On->Renderer.EndFrame(*Frame.Commands, Work, OutAhead);
 	if (!Status) { On->Renderer.FrameSubmitted(0); }
 	else { On->AheadLists.Submitted(OutAhead); }
 	return Status;

@@ -151,7 +151,6 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 {
 	assert(!Context && "EndFrame, or FrameSubmitted behind it, was not called");
 	bFrameLost = true;
-	FConsoleVariables::Get().BeginFrame();
 	FTaskTrace::BeginFrame(View.FrameIndex);
 	FTraceScope Trace("BeginFrame");
 	if (FRTStatus S = WaitForFlight(); !S) { return S; }

@@ -27,7 +27,6 @@ void ListCompositeShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& 
 FRayPrograms FRenderer::ChoosePrograms(FRTScene& Scene, const FFrameFeatures& Features)
 {
 	assert(!Graph && "between frames");
-	FConsoleVariables::Get().BeginFrame();
 	ApplySceneVariables(Scene);
 	Scene.RefreshFacts();
 	return ChooseRayPrograms(Device.GetCapabilities(), Scene, Features, CompleteRequests(Features.Signals), AllSignals());

@@ -133,28 +133,29 @@ FRTStatus FRenderer::EndFrame(IRTCommandList& List)
 	});
 }
 
-FRTStatus FRenderer::EndFrame(IRTCommandList& List, IRTCommandList* First, FRTFence WaitFor, FRTFence& OutAhead)
+FRTStatus FRenderer::EndFrame(IRTCommandList& List, const FAheadWork& Ahead, FRTFence& OutAhead)
 {
 	OutAhead = 0;
 	StartRecording();
 	FGraphRecorder Recorder{
 	    [this](ERTQueue Queue, IRTCommandList*& Out) { return BeginList(Queue, Out); }, [this] { return GetFailure(); }};
 	Recorder.Engine = &List;
-	const ERTQueue Queue = FindAheadQueue(Device);
+	Recorder.AheadQueue = Ahead.Queue;
 	FRTStatus Status = EndLists(Execute([&] {
 		const FRTStatus Executed = Graph->Execute(Recorder);
 		return Executed ? List.GetStatus() : Executed;
 	}));
-	std::vector<IRTCommandList*> Ahead(Recorded);
-	if (First != nullptr) { Ahead.insert(Ahead.begin(), First); }
-	if (!Status || Ahead.empty()) { return Status; }
+	std::vector<IRTCommandList*> Submitted(Recorded);
+	if (Ahead.First != nullptr) { Submitted.insert(Submitted.begin(), Ahead.First); }
+	if (!Status || Submitted.empty()) { return Status; }
 	std::vector<FRTFence> Waits;
-	for (const FRTFence Fence : {LastGraph, WaitFor})
+	for (const FRTFence Fence : {LastGraph, Ahead.WaitFor})
 	{
-		if (Fence != 0 && Queue != GetFenceQueue(Fence)) { Waits.push_back(Fence); }
+		if (Fence != 0 && Ahead.Queue != GetFenceQueue(Fence)) { Waits.push_back(Fence); }
 	}
 	FTraceScope Trace("Submit ahead");
-	return Device.Submit(Ahead.data(), static_cast<uint32_t>(Ahead.size()), &OutAhead, Waits.data(), static_cast<uint32_t>(Waits.size()));
+	return Device.Submit(
+	    Submitted.data(), static_cast<uint32_t>(Submitted.size()), &OutAhead, Waits.data(), static_cast<uint32_t>(Waits.size()));
 }
 
 } // namespace Lantern

@@ -93,6 +93,7 @@ protected:
 			return Status ? Out->Begin() : Status;
 		}};
 		Recorder.Engine = Engine.Get();
+		Recorder.AheadQueue = FindAheadQueue(*Device);
 		const FRTStatus Status = Graph->Execute(Recorder);
 		ASSERT_TRUE(Status.IsOk()) << Status.Message;
 		for (const TRTRef<IRTCommandList>& Item : Lists) { EXPECT_TRUE(Item->End().IsOk()); }

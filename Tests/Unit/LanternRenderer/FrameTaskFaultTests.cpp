@@ -93,6 +93,7 @@ TEST_F(FFrameTaskTest, RendererGoesWhileItsTasksRun)
 			Desc.ShaderFolders = {GetShaderFolder()};
 			Desc.CacheFolder = LANTERN_TEST_CACHE;
 			SetToggles(Combination);
+			FConsoleVariables::Get().BeginFrame();
 			auto Renderer = std::make_unique<FRenderer>(*Inner, Desc);
 			std::unique_ptr<FHostScene> Host;
 			ASSERT_TRUE(FHostScene::Create(*Renderer, MakeDescription(Everything), {}, Host));
@@ -115,6 +116,7 @@ TEST_F(FFrameTaskTest, FrameThatIsGivenUpLeavesNoTaskBehind)
 	FBlockedWorkers Blocked;
 	ASSERT_TRUE(Blocked.AreAllBlocked());
 	FRenderer& Renderer = Engine->GetRenderer();
+	FConsoleVariables::Get().BeginFrame();
 	ASSERT_TRUE(Renderer.BeginFrame(GetScene(), LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), {}));
 	EXPECT_EQ(CountEvents("Prebind"), 0u);
 	Renderer.FrameSubmitted(0);

@@ -153,6 +153,7 @@ TEST_F(FFrameTaskTest, HostThatTracesMayAskForStructuresEarlyOrLate)
 		FRenderer& Renderer = Engine->GetRenderer();
 		ChangeScene(bLate ? 1 : 3);
 		Mock().ClearCalls();
+		FConsoleVariables::Get().BeginFrame();
 		ASSERT_TRUE(Renderer.BeginFrame(GetScene(), LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), Features));
 		AddPass(Renderer.GetContext(), "Host", [] {});
 		if (bLate)
@@ -173,6 +174,7 @@ TEST_F(FFrameTaskTest, FrameWhosePassesNeverTraceStillRecordsWhatItBegan)
 {
 	ASSERT_TRUE(Load({.bMasked = true}));
 	FRenderer& Renderer = Engine->GetRenderer();
+	FConsoleVariables::Get().BeginFrame();
 	ASSERT_TRUE(Renderer.BeginFrame(GetScene(), LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), {}));
 	ASSERT_TRUE(Renderer.EndFrame(nullptr));
 	DescribeRays();

@@ -133,6 +133,7 @@ protected:
 		FRenderer& Renderer = Engine->GetRenderer();
 		FView View = LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24);
 		View.FrameIndex = FrameIndex++;
+		FConsoleVariables::Get().BeginFrame();
 		if (FRTStatus S = Renderer.BeginFrame(GetScene(), View, {}); !S) { return S; }
 		FFrameContext& Context = Renderer.GetContext();
 		if (!GBufferPass) { GBufferPass = std::make_unique<FGBufferPass>(Renderer); }

@@ -1,6 +1,7 @@
 // Frames of an engine while shaders compile: no call waits for a compiler or compiles by itself, passes whose shaders are missing
 // are left out, and histories start anew behind them.
 #include "DenoiseTypes.h"
+#include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Tasks/TaskTrace.h"
 #include "LanternRenderer/Frame.h"
 #include "Support/CoreTestTools.h"
@@ -63,6 +64,7 @@ protected:
 		Mock().ClearCalls();
 		FView View = LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, Width, Height);
 		View.FrameIndex = FrameIndex++;
+		FConsoleVariables::Get().BeginFrame();
 		const FRTStatus Begun = Renderer().BeginFrame(Engine->GetScene().GetScene(), View, MakeFeatures());
 		ASSERT_TRUE(Begun) << Begun.Message;
 		FFrameContext& Context = Renderer().GetContext();
@@ -231,6 +233,7 @@ TEST_F(FRendererCompileTest, PrecacheLeavesNothingToFrames)
 	{
 		SCOPED_TRACE(std::string(Case.Name) + " = " + Case.Value);
 		Set(Case.Name, Case.Value);
+		FConsoleVariables::Get().BeginFrame();
 		std::vector<float> Progress;
 		const FRTStatus Status =
 		    Renderer().Precache(Engine->GetScene().GetScene(), MakeFeatures(), [&](float Done) { Progress.push_back(Done); });

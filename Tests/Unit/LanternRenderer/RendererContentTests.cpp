@@ -228,6 +228,7 @@ TEST_F(FRendererContentTest, WhatMovedInAnothersFrameEndsWhatIsCarriedOver)
 	Desc.CacheFolder = LANTERN_TEST_CACHE;
 	FRenderer Other(*Device, Desc);
 	const auto ShowByOther = [&](bool bSubmit) {
+		FConsoleVariables::Get().BeginFrame();
 		const FRTStatus Status = Other.BeginFrame(Engine->GetScene().GetScene(), LookAt({0, 0, 9}, {0, 0, 0}, 1.0f, 40, 24), {});
 		ASSERT_TRUE(Status) << Status.Message;
 		if (!bSubmit) { return Other.FrameSubmitted(0); }
@@ -269,6 +270,7 @@ TEST_F(FRendererContentTest, ViewsTakeTurnsAndKeepWhatIsTheirs)
 		Features.bMotion = false;
 		Features.ViewIndex = ViewIndex;
 		Features.PreviousView = Previous;
+		FConsoleVariables::Get().BeginFrame();
 		const FRTStatus Status = Host.BeginFrame(Engine->GetScene().GetScene(), LookAt({X, 0, 9}, {X, 0, 0}, 1.0f, 40, 24), Features);
 		EXPECT_TRUE(Status) << Status.Message;
 		const FView* const Before = Host.GetContext().PreviousView;

@@ -39,6 +39,7 @@ protected:
 		FRenderer& Renderer = GetRenderer(Index);
 		FFrameFeatures Features;
 		Features.bRays = true;
+		FConsoleVariables::Get().BeginFrame();
 		const FRTStatus Begun = Renderer.BeginFrame(Scene(), LookAt({0, 0, 9}, {0, 0, 0}, 1.0f, 40, 24), Features);
 		ASSERT_TRUE(Begun) << Begun.Message;
 		if (!bSubmit) { return Renderer.FrameSubmitted(0); }

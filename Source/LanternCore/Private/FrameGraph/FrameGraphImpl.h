@@ -215,6 +215,7 @@ struct FFrameGraph::FImpl
 	uint32_t TokenCount = 0;
 	bool bAsync = false;                                ///< passes may run on another queue
 	bool bAhead = false;                                ///< see FGraphRecorder::Engine
+	ERTQueue AheadQueue = ERTQueue::Graphics;           ///< if bAhead
 	uint32_t AheadCount = 0;                            ///< the first passes, which run ahead of the engine's list
 	bool bAnyAsync = false;                             ///< some do
 	std::unordered_map<const void*, uint32_t> Imported; ///< native object to resource

@@ -51,13 +51,12 @@ ERTQueue FindAheadQueue(const IRTDevice& Device)
 
 void FFrameGraph::FImpl::ChooseAhead()
 {
-	const ERTQueue Queue = FindAheadQueue(Shared.Device);
 	const std::string& Wanted = CVarAsync.GetOnRenderThread();
 	std::vector<const FGraphPass*> Behind;
 	for (FGraphPass& Pass : Passes)
 	{
 		if (Pass.bCulled) { continue; }
-		const bool bMay = Pass.bAllowAsync && Pass.Uses.empty() && (Queue == ERTQueue::Graphics || IsNamed(Wanted, Pass.Name));
+		const bool bMay = Pass.bAllowAsync && Pass.Uses.empty() && (AheadQueue == ERTQueue::Graphics || IsNamed(Wanted, Pass.Name));
 		Pass.bAhead =
 		    bMay && std::none_of(Behind.begin(), Behind.end(), [&](const FGraphPass* Other) { return AreOrderedByTokens(*Other, Pass); });
 		if (!Pass.bAhead)
@@ -65,8 +64,8 @@ void FFrameGraph::FImpl::ChooseAhead()
 			Behind.push_back(&Pass);
 			continue;
 		}
-		Pass.Queue = Queue;
-		bAnyAsync |= Queue != ERTQueue::Graphics;
+		Pass.Queue = AheadQueue;
+		bAnyAsync |= AheadQueue != ERTQueue::Graphics;
 		++AheadCount;
 	}
 	std::stable_partition(Passes.begin(), Passes.end(), [](const FGraphPass& Pass) { return Pass.bAhead; });

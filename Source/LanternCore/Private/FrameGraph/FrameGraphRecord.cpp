@@ -67,6 +67,7 @@ FRTStatus FFrameGraph::Execute(const FGraphRecorder& Recorder)
 	assert(!Impl->bExecuted && "a graph is executed once");
 	Impl->bAsync = Recorder.bAsync;
 	Impl->bAhead = Recorder.Engine != nullptr;
+	Impl->AheadQueue = Recorder.AheadQueue;
 	if (FRTStatus Status = Compile(); !Status) { return Status; }
 	std::vector<FImpl::FSegment> Segments = Impl->MakeSegments(CVarTasks.GetOnRenderThread());
 	auto Segment = Segments.begin();

@@ -168,6 +168,14 @@ struct FFrameContext
 	void RequireRays() const;
 };
 
+/// What an engine's frame submits ahead of the engine's list.
+struct FAheadWork
+{
+	ERTQueue Queue = ERTQueue::Graphics; ///< from FindAheadQueue, asked once in the frame
+	IRTCommandList* First = nullptr;     ///< an ended list of Queue that runs before the scene's own; may be null
+	FRTFence WaitFor = 0;                ///< waited for if it is of another queue; 0: none
+};
+
 class FRenderer
 {
 public:
@@ -183,9 +191,9 @@ public:
 	/// Returns a name for the texts of all shaders that such frames trace with, their includes and the compiler. Another text has
 	/// another name.
 	std::string GetRayShaderKey(FRTScene& Scene, const FFrameFeatures& Features);
-	/// Starts a frame. It waits until at most one earlier frame is in flight, and publishes console variables. Tasks begin to gather
-	/// instances and to write shader records; the scene's tables are the first pass. The scene must live, and must not change,
-	/// until EndFrame.
+	/// Starts a frame. It waits until at most one earlier frame is in flight. Tasks begin to gather instances and to write shader
+	/// records; the scene's tables are the first pass. The scene must live, and must not change, until EndFrame. Console variables
+	/// are as the caller last published them, which it does once, before it changes the scene.
 	FRTStatus BeginFrame(FRTScene& Scene, const FView& View, const FFrameFeatures& Features);
 	FFrameContext& GetContext(); ///< between BeginFrame and EndFrame
 	/// Executes the graph and submits. OutFence may be null.
@@ -194,9 +202,8 @@ public:
 	/// Objects that move in between count as moved before the frame: their motion vectors do not say so.
 	FRTStatus EndFrame(IRTCommandList& List);
 	/// Records the scene's own work into lists of its own and submits them at once, ahead of the engine's list, which gets the rest.
-	/// First: an ended list of the queue that FindAheadQueue returns, which runs before them, or null. WaitFor: a fence that they wait
-	/// for if they run on another queue, or 0. OutAhead: their fence; 0: nothing was submitted.
-	FRTStatus EndFrame(IRTCommandList& List, IRTCommandList* First, FRTFence WaitFor, FRTFence& OutAhead);
+	/// OutAhead: their fence; 0: nothing was submitted.
+	FRTStatus EndFrame(IRTCommandList& List, const FAheadWork& Ahead, FRTFence& OutAhead);
 	/// Ends a frame that an engine submits. Fence 0: it never will be submitted, because EndFrame failed, or because the engine
 	/// drops its list or gives the frame up before EndFrame.
 	void FrameSubmitted(FRTFence Fence);

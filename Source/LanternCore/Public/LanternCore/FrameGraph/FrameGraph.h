@@ -169,9 +169,10 @@ struct FGraphRecorder
 	std::function<FRTStatus()> GetFailure;
 	bool bAsync = false; ///< lists of ERTQueue::AsyncCompute may be asked for
 	/// An engine's list, begun, of ERTQueue::Graphics. It becomes the last submission by itself. One submission may lie ahead of it,
-	/// on the queue that FindAheadQueue returns. It has the passes that allow AllowAsync, use no texture and no buffer of the graph,
-	/// and share no token with earlier passes behind it. Null: all lists come from NextList.
+	/// on AheadQueue. It has the passes that allow AllowAsync, use no texture and no buffer of the graph, and share no token with
+	/// earlier passes behind it. Null: all lists come from NextList.
 	IRTCommandList* Engine = nullptr;
+	ERTQueue AheadQueue = ERTQueue::Graphics; ///< from FindAheadQueue
 };
 
 /// Returns the queue of what an engine's frame submits ahead of the engine's list. It is ERTQueue::AsyncCompute if the device has it
