@@ -50,6 +50,7 @@ FRenderer::FRenderer(IRTDevice& InDevice, FRendererDesc Desc)
       RayCompiler(InDevice, Compiler, Programs),
       StandIns(std::make_unique<FStandInFeedback>(InDevice))
 {
+	StartWorkers(); // not in the first frame
 	if (!FTaskTrace::HasFolder()) { FTaskTrace::SetFolder(Desc.CacheFolder); }
 	FTaskTrace::StartIfWanted();
 }
