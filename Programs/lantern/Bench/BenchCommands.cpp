@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "Bench/BenchAnyHit.h"
+#include "Bench/BenchFirstFrame.h"
 #include "Bench/BenchFrame.h"
 #include "Bench/BenchGather.h"
 #include "Bench/BenchGrowth.h"
@@ -26,6 +27,7 @@ struct FBenchCommands::FOptions
 	FBenchPipelinesOptions BenchPipelines;
 	FBenchShadersOptions BenchShaders;
 	FBenchUploadsOptions BenchUploads;
+	FBenchFirstFrameOptions BenchFirstFrame;
 	FBenchGrowthOptions BenchGrowth;
 };
 
@@ -63,6 +65,9 @@ void FBenchCommands::AddTo(CLI::App& App, int& Status)
 	CLI::App* const Uploads = Command->add_subcommand("uploads", "What the render thread notices of meshes that a thread streams in");
 	Options->BenchUploads.AddTo(*Uploads);
 	Uploads->final_callback([&Options = Options->BenchUploads, &Status] { Status = RunBenchUploads(Options); });
+	CLI::App* const First = Command->add_subcommand("first", "The render thread's time for the first frame of a renderer of the module");
+	Options->BenchFirstFrame.AddTo(*First);
+	First->final_callback([&Options = Options->BenchFirstFrame, &Status] { Status = RunBenchFirstFrame(Options); });
 	CLI::App* const Growth =
 	    Command->add_subcommand("growth", "A frame's time against objects, triangles, materials and pixels, with the exponent of each");
 	Options->BenchGrowth.AddTo(*Growth);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstdio>
 #include <thread>
 
@@ -11,9 +10,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "Bench/BenchGrid.h"
+#include "Bench/BenchModuleEngine.h"
 #include "Bench/BenchRun.h"
 #include "Bench/BenchTimes.h"
-#include "Bench/BenchUploadEngine.h"
 #include "LanternRHIMock/MockDevice.h"
 
 namespace Lantern
@@ -25,53 +25,10 @@ constexpr uint32_t QuickMeshes = 1'000;
 constexpr int IdleFrames = 300;
 constexpr int MostFrames = 200'000;
 
-/// A square of triangles.
-struct FGrid
-{
-	explicit FGrid(uint32_t Triangles)
-	{
-		const auto Side = static_cast<uint32_t>(std::max(1.0, std::sqrt(Triangles / 2.0)));
-		for (uint32_t Vertex = 0; Vertex < (Side + 1) * (Side + 1); ++Vertex)
-		{
-			Positions.insert(Positions.end(), {float(Vertex % (Side + 1)), 0.0f, float(Vertex / (Side + 1))});
-		}
-		for (uint32_t Quad = 0; Quad < Side * Side; ++Quad)
-		{
-			const uint32_t A = Quad / Side * (Side + 1) + Quad % Side, B = A + Side + 1;
-			Indices.insert(Indices.end(), {A, B, A + 1, A + 1, B, B + 1});
-		}
-	}
-	FRTModuleMesh Describe() const
-	{
-		FRTModuleMesh Mesh;
-		Mesh.Name = "Streamed";
-		Mesh.Positions = Positions.data();
-		Mesh.VertexCount = static_cast<uint32_t>(Positions.size() / 3);
-		Mesh.Indices = Indices.data();
-		Mesh.IndexCount = static_cast<uint32_t>(Indices.size());
-		return Mesh;
-	}
-	std::vector<float> Positions;
-	std::vector<uint32_t> Indices;
-};
-
-FRTStatus AddOne(IRTModuleRenderer& Renderer, const FGrid& Grid, ERTMaterialHandle Material, uint32_t Number)
-{
-	FRTModuleObject Object;
-	if (FRTStatus Status = Renderer.AddMesh(Grid.Describe(), &Object.Mesh); !Status) { return Status; }
-	Object.Materials = &Material;
-	Object.MaterialCount = 1;
-	Object.Transform[3] = 20.0 * (Number % 100);
-	Object.Transform[7] = -5.0;
-	Object.Transform[11] = -20.0 * (Number / 100);
-	ERTObjectHandle Handle = ERTObjectHandle::None;
-	return Renderer.AddObject(Object, &Handle);
-}
-
 struct FTimes
 {
 	std::vector<double> Wall, Processor;
-	void Add(const FBenchUploadEngine::FFrameTime& Time)
+	void Add(const FBenchModuleEngine::FFrameTime& Time)
 	{
 		Wall.push_back(Time.Milliseconds);
 		Processor.push_back(Time.ProcessorMilliseconds);
@@ -102,12 +59,12 @@ void Print(const char* Clock, const nlohmann::json& Json)
 }
 
 /// Frames until all that was added is there.
-FRTStatus Settle(FBenchUploadEngine& Engine, FTimes* Out)
+FRTStatus Settle(FBenchModuleEngine& Engine, FTimes* Out)
 {
 	FRTStatus Status;
 	for (int Frame = 0; Frame < MostFrames && Status; ++Frame)
 	{
-		FBenchUploadEngine::FFrameTime Time;
+		FBenchModuleEngine::FFrameTime Time;
 		Status = Engine.Frame(Time);
 		if (Out != nullptr) { Out->Add(Time); }
 		if (Time.bComplete) { break; }
@@ -116,7 +73,8 @@ FRTStatus Settle(FBenchUploadEngine& Engine, FTimes* Out)
 	return Status;
 }
 
-FRTStatus Stream(FBenchUploadEngine& Engine, const FGrid& Grid, uint32_t Meshes, ERTMaterialHandle Material, FTimes& Out, double& OutMs)
+FRTStatus Stream(
+    FBenchModuleEngine& Engine, const FBenchGrid& Grid, uint32_t Meshes, ERTMaterialHandle Material, FTimes& Out, double& OutMs)
 {
 	std::atomic<bool> bRunning = true;
 	FRTStatus StreamStatus;
@@ -124,7 +82,7 @@ FRTStatus Stream(FBenchUploadEngine& Engine, const FGrid& Grid, uint32_t Meshes,
 	std::thread Streaming([&] {
 		for (uint32_t Mesh = 1; Mesh <= Meshes && StreamStatus; ++Mesh)
 		{
-			StreamStatus = AddOne(Engine.GetRenderer(), Grid, Material, Mesh);
+			StreamStatus = AddBenchGrid(Engine.GetRenderer(), Grid, Material, Mesh);
 		}
 		OutMs = GetMsSince(Start);
 		bRunning = false;
@@ -132,7 +90,7 @@ FRTStatus Stream(FBenchUploadEngine& Engine, const FGrid& Grid, uint32_t Meshes,
 	FRTStatus Status;
 	while (bRunning && Status)
 	{
-		FBenchUploadEngine::FFrameTime Time;
+		FBenchModuleEngine::FFrameTime Time;
 		Status = Engine.Frame(Time);
 		Out.Add(Time);
 	}
@@ -141,12 +99,12 @@ FRTStatus Stream(FBenchUploadEngine& Engine, const FGrid& Grid, uint32_t Meshes,
 	return Status ? StreamStatus : Status;
 }
 
-FRTStatus Measure(FBenchUploadEngine& Engine, const FBenchUploadsOptions& Options, uint32_t Meshes, nlohmann::json& Json)
+FRTStatus Measure(FBenchModuleEngine& Engine, const FBenchUploadsOptions& Options, uint32_t Meshes, nlohmann::json& Json)
 {
-	const FGrid Grid(Options.Triangles);
+	const FBenchGrid Grid(Options.Triangles);
 	ERTMaterialHandle Material = ERTMaterialHandle::None;
 	FRTStatus Status = Engine.GetRenderer().AddMaterial({}, &Material);
-	Status = Status ? AddOne(Engine.GetRenderer(), Grid, Material, 0) : Status;
+	Status = Status ? AddBenchGrid(Engine.GetRenderer(), Grid, Material, 0) : Status;
 	FRTModuleSun Sun;
 	Sun.Irradiance = 1.0f;
 	Status = Status ? Engine.GetRenderer().SetSun(Sun) : Status;
@@ -154,7 +112,7 @@ FRTStatus Measure(FBenchUploadEngine& Engine, const FBenchUploadsOptions& Option
 	Status = Status ? Settle(Engine, &First) : Status;
 	for (int Frame = 0; Frame < IdleFrames && Status; ++Frame)
 	{
-		FBenchUploadEngine::FFrameTime Time;
+		FBenchModuleEngine::FFrameTime Time;
 		Status = Engine.Frame(Time);
 		Idle.Add(Time);
 	}
@@ -163,11 +121,11 @@ FRTStatus Measure(FBenchUploadEngine& Engine, const FBenchUploadsOptions& Option
 	if (!Status) { return Status; }
 	const FRTCapabilities& Capabilities = Engine.GetDevice().GetCapabilities();
 	Json = DescribeBenchDevice(Capabilities);
-	Json.update({{"meshes", Meshes}, {"triangles", Grid.Indices.size() / 3}, {"transfer_queue", Capabilities.bTransferQueue},
+	Json.update({{"meshes", Meshes}, {"triangles", Grid.GetIndexCount() / 3}, {"transfer_queue", Capabilities.bTransferQueue},
 	    {"frames", Busy.Wall.size()}, {"add_us", 1e3 * StreamMs / Meshes}, {"first_frame_ms", First.Wall.front()},
 	    {"wall", MakeJson(Idle.Wall, Busy.Wall)}, {"processor", MakeJson(Idle.Processor, Busy.Processor)}});
 	fmt::print("{} meshes of {} triangles, {}; {:.1f} us for each on the thread that adds them; {} frames until all are there\n", Meshes,
-	    Grid.Indices.size() / 3, Capabilities.bTransferQueue ? "queue for copies" : "copies within frames", Json["add_us"].get<double>(),
+	    Grid.GetIndexCount() / 3, Capabilities.bTransferQueue ? "queue for copies" : "copies within frames", Json["add_us"].get<double>(),
 	    Busy.Wall.size());
 	fmt::print("the first frame took {:.1f} ms. Render thread, ms:\n", First.Wall.front());
 	fmt::print("{:>10} {:>9} {:>9} {:>9} {:>12} {:>9} {:>9}\n", "", "idle", "99 %", "worst", "added: half", "99 %", "worst");
@@ -193,8 +151,8 @@ int RunBenchUploads(const FBenchUploadsOptions& Options)
 	return RunBench(Options.Json, [&](nlohmann::json& Figures) {
 		TRTRef<IRTDevice> Mock;
 		FRTStatus Status = Options.bMock ? CreateBenchMock(Mock) : FRTStatus::Success();
-		FBenchUploadEngine Engine;
-		Status = Status ? Engine.Open(Mock.Get(), Options.bValidate, Options.Settings) : Status;
+		FBenchModuleEngine Engine;
+		Status = Status ? Engine.Open({.Mock = Mock.Get(), .bValidate = Options.bValidate, .Settings = Options.Settings}) : Status;
 		const uint32_t Meshes = Options.bQuick ? std::min(Options.Meshes, QuickMeshes) : Options.Meshes;
 		Status = Status ? Measure(Engine, Options, Meshes, Figures) : Status;
 		if (!Status) { return ReportStatus(Status, "bench uploads"); }

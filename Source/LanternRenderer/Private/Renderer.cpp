@@ -2,6 +2,7 @@
 #include "LanternRenderer/Renderer.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cstring>
 #include <utility>
@@ -50,6 +51,7 @@ FRenderer::FRenderer(IRTDevice& InDevice, FRendererDesc Desc)
       RayCompiler(InDevice, Compiler, Programs),
       StandIns(std::make_unique<FStandInFeedback>(InDevice))
 {
+	StartWorkers(); // not in the first frame
 	if (!FTaskTrace::HasFolder()) { FTaskTrace::SetFolder(Desc.CacheFolder); }
 	FTaskTrace::StartIfWanted();
 }
@@ -281,7 +283,6 @@ void FRenderer::KeepHistory(bool bSubmitted)
 {
 	State->History->EndFrame(bSubmitted);
 	State->LastScene = bSubmitted ? Context->Scene.GetSections().GetIdentity() : 0;
-	State->LastSceneFrame = Context->Scene.GetMotions().GetFrame();
 	State->LastView = Context->View;
 	for (auto& [Index, Other] : Views) { Other.IdleFrames = &Other == State ? 0 : Other.IdleFrames + 1; }
 	std::erase_if(Views, [](const auto& Entry) { return Entry.second.IdleFrames >= KeptIdleFrames; });
@@ -291,18 +292,22 @@ void FRenderer::KeepHistory(bool bSubmitted)
 FRenderer::FViewState& FRenderer::GetView(uint32_t Index)
 {
 	FViewState& View = Views[Index];
-	if (!View.History) { View.History = std::make_unique<FHistoryResources>(Device); }
+	if (!View.History)
+	{
+		static std::atomic<uint64_t> LastViewer = 0; // 0 is nobody's
+		View.History = std::make_unique<FHistoryResources>(Device);
+		View.Viewer = ++LastViewer;
+	}
 	return View;
 }
 
-/// Where the motion of objects is followed, the frame before must be the scene's own last one: that of another renderer or another
-/// view says how objects have moved since then. A host with motion vectors of its own knows by itself.
+/// Where the motion of objects is followed, motions must lead back to this view's own last frame. A host with motion vectors of its
+/// own knows by itself.
 void FRenderer::FindPreviousView(FRTScene& Scene, const FFrameFeatures& Features)
 {
 	State = &GetView(Features.ViewIndex);
-	// Another frame may have taken what moved since the last one of this view.
-	const bool bSameScene = State->LastScene == Scene.GetSections().GetIdentity() &&
-	                        (!Features.bMotion || !Scene.GetMotions().HasMovedSince(State->LastSceneFrame));
+	const bool bFollowed = Scene.SetViewer(State->Viewer);
+	const bool bSameScene = State->LastScene == Scene.GetSections().GetIdentity() && (bFollowed || !Features.bMotion);
 	PreviousView = Features.PreviousView.value_or(State->LastView);
 	PreviousView.Width = State->LastView.Width;
 	PreviousView.Height = State->LastView.Height;

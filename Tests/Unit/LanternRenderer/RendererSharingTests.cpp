@@ -4,6 +4,8 @@
 #include <memory>
 #include <random>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "Support/RendererTestTools.h"
 
 namespace Lantern
@@ -38,10 +40,11 @@ protected:
 		if (Index == 0) { return Render(); }
 		FRenderer& Renderer = GetRenderer(Index);
 		FFrameFeatures Features;
-		Features.bRays = true;
+		Features.bRays = Features.Signals.bMotion = true;
 		FConsoleVariables::Get().BeginFrame();
 		const FRTStatus Begun = Renderer.BeginFrame(Scene(), LookAt({0, 0, 9}, {0, 0, 0}, 1.0f, 40, 24), Features);
 		ASSERT_TRUE(Begun) << Begun.Message;
+		bHasPrevious = Renderer.GetContext().PreviousView != nullptr;
 		if (!bSubmit) { return Renderer.FrameSubmitted(0); }
 		const FRTStatus Ended = Renderer.EndFrame(nullptr);
 		ASSERT_TRUE(Ended) << Ended.Message;
@@ -79,6 +82,25 @@ protected:
 		Data.Flags ^= Flag;
 		Scene().SetMaterial(Material, Data);
 	}
+	template <class T>
+	T ReadEntry(uint64_t Address, uint32_t Index)
+	{
+		T Out{};
+		uint64_t Offset = 0;
+		IRTBuffer* const Buffer = Mock().FindBuffer(Address + Index * sizeof(T), &Offset);
+		EXPECT_NE(Buffer, nullptr);
+		if (Buffer) { std::memcpy(&Out, Mock().GetBytes(Buffer) + Offset, sizeof(T)); }
+		return Out;
+	}
+	/// Where the newest frame's motion has the object in the frame before: x.
+	double ReadPreviousX(FRTObjectId Id)
+	{
+		const FSceneConstants Constants = Scene().GetConstants();
+		const uint32_t Entry = ReadEntry<FObjectData>(Constants.Objects, Id.Index).Motion;
+		if (Entry == NO_MOTION) { return -1.0; }
+		const auto Motion = ReadEntry<FObjectMotion>(Constants.ObjectMotions, Entry);
+		return CellCenter(Motion.PreviousCell).x + Motion.PreviousObjectToWorld[0].w;
+	}
 	/// An object beside the others, with the geometry of an old one.
 	void Add(std::mt19937& Random)
 	{
@@ -99,7 +121,35 @@ protected:
 
 	std::array<std::unique_ptr<FRenderer>, 2> Others;
 	std::vector<FRTObjectId> Added;
+	bool bHasPrevious = false; ///< the last Show of another renderer than the engine's
 };
+
+TEST_F(FRendererSharingTest, EachFollowsMotionFromItsOwnLastFrame)
+{
+	std::mt19937 Random(5);
+	ASSERT_NO_FATAL_FAILURE(Add(Random));
+	const FRTObjectId Id = Added.front();
+	double Place = 0.0, Shown[3] = {};
+	const auto Move = [&] { Scene().SetTransform(Id, glm::translate(glm::dmat4(1.0), {Place += 0.25, 0.0, 0.0})); };
+	for (const size_t Index : {1u, 2u}) { ASSERT_NO_FATAL_FAILURE(Show(Index)); }
+	Shown[1] = Shown[2] = Scene().GetObject(Id).Transform[3].x;
+	for (const size_t Index : {1u, 2u, 1u, 2u, 2u, 1u, 1u})
+	{
+		Move();
+		ASSERT_NO_FATAL_FAILURE(Show(Index));
+		EXPECT_TRUE(bHasPrevious) << "renderer " << Index << " lost its history";
+		EXPECT_EQ(ReadPreviousX(Id), Shown[Index]) << "renderer " << Index;
+		Shown[Index] = Place;
+	}
+	// A lost frame has shown nothing.
+	Move();
+	ASSERT_NO_FATAL_FAILURE(Show(2, false));
+	Move();
+	ASSERT_NO_FATAL_FAILURE(Show(1));
+	EXPECT_EQ(ReadPreviousX(Id), Shown[1]);
+	ASSERT_NO_FATAL_FAILURE(Show(2));
+	EXPECT_EQ(ReadPreviousX(Id), Shown[2]);
+}
 
 TEST_F(FRendererSharingTest, ARendererSeesWhatChangedInAnothersFrame)
 {

@@ -1,82 +1,14 @@
 // Where objects were in the frame before: which have an entry, what it holds on the device, and what it costs.
 #include <map>
 #include <random>
+#include <set>
 
-#include <glm/gtc/matrix_transform.hpp>
-
-#include "Support/SceneTestTools.h"
+#include "ObjectMotionTestTools.h"
 
 namespace Lantern
 {
 namespace
 {
-
-class FObjectMotionTest : public FSceneTest
-{
-protected:
-	static FSceneUse MakeUse(bool bMotion = true)
-	{
-		FSceneUse Use;
-		Use.bMotion = bMotion;
-		return Use;
-	}
-	void SetUp() override
-	{
-		FSceneTest::SetUp();
-		Material = Scene->AddMaterial(MakeMaterial());
-		Tree = MakeGeometry("Tree", 1);
-	}
-	void Show(glm::dvec3 Camera = {}) { Frame(Camera, MakeUse()); }
-	void Rest()
-	{
-		Show();
-		Settle({}, MakeUse());
-	}
-	/// Recorded, and never run.
-	void Lose(bool bMotion = true)
-	{
-		TRTRef<IRTCommandList> List;
-		EXPECT_TRUE(Device->CreateCommandList("Lost", List.ReleaseAndGetAddress()));
-		EXPECT_TRUE(List->Begin());
-		Scene->RefreshFacts();
-		if (Scene->NeedsUpdate(glm::dvec3(0), MakeUse(bMotion)))
-		{
-			EXPECT_TRUE(Scene->Update(*List, *Uploads, glm::dvec3(0), MakeUse(bMotion)));
-		}
-		EXPECT_TRUE(List->End());
-		Uploads->EndFrame(0);
-		Scene->EndFrame(false);
-	}
-	FObjectData ReadObject(FRTObjectId Id) { return Read<FObjectData>(Scene->GetConstants().Objects, Id.Index); }
-	bool HasMotion(FRTObjectId Id) { return ReadObject(Id).Motion != NO_MOTION; }
-	FObjectMotion ReadMotion(FRTObjectId Id)
-	{
-		const uint32_t Entry = ReadObject(Id).Motion;
-		EXPECT_LT(Entry, Scene->GetMotions().GetTable().Num());
-		return Read<FObjectMotion>(Scene->GetConstants().ObjectMotions, Entry);
-	}
-	static glm::dvec3 GetPreviousPlace(const FObjectMotion& Motion)
-	{
-		const glm::dvec3 InCell(Motion.PreviousObjectToWorld[0].w, Motion.PreviousObjectToWorld[1].w, Motion.PreviousObjectToWorld[2].w);
-		return InCell + CellCenter(Motion.PreviousCell);
-	}
-	void Move(FRTObjectId Id, glm::dvec3 Place) { Scene->SetTransform(Id, glm::translate(glm::dmat4(1.0), Place)); }
-	FRTGeometryRef MakeDeformable(const std::string& Name)
-	{
-		FRTGeometryInfo Info = MakeInfo(Name, 1, {.bDynamic = true});
-		Info.PreviousPositions = MakeBuffer(Name + " before", Info.VertexCount * 12);
-		FRTGeometryRef Geometry;
-		EXPECT_TRUE(Scene->CreateGeometry(std::move(Info), Geometry));
-		return Geometry;
-	}
-	static FAddress PreviousPositionsOf(const FRTGeometryRef& Geometry)
-	{
-		return Geometry->GetInfo().PreviousPositions->GetDeviceAddress();
-	}
-
-	uint32_t Material = 0;
-	FRTGeometryRef Tree;
-};
 
 TEST_F(FObjectMotionTest, WhoSeesAnObjectIsNoMotionAndEndsNone)
 {
@@ -380,7 +312,6 @@ protected:
 		if (What <= 2)
 		{
 			Scene->RemoveObject(Known[Index].Id);
-			Shown.erase({Known[Index].Id.Index, Known[Index].Id.Generation});
 			Known.erase(Known.begin() + static_cast<std::ptrdiff_t>(Index));
 		}
 		else if (What < 4)
@@ -391,8 +322,15 @@ protected:
 		}
 		else { Move(Known[Index].Id, Known[Index].Place = MakePlace()); }
 	}
+	/// Says whose frame the next one is.
+	void Choose(uint64_t InViewer)
+	{
+		Viewer = InViewer;
+		ASSERT_EQ(Scene->SetViewer(Viewer), ShownTo.contains(Viewer) && !Outdated.contains(Viewer)) << "viewer " << Viewer;
+	}
 	void Check()
 	{
+		const std::map<std::pair<uint32_t, uint32_t>, glm::dvec3>& Shown = ShownTo[Viewer];
 		size_t Moving = 0;
 		for (const FKnown& Object : Known)
 		{
@@ -410,7 +348,11 @@ protected:
 	}
 	void Keep()
 	{
+		auto& Shown = ShownTo[Viewer];
+		Shown.clear();
 		for (const FKnown& Object : Known) { Shown[{Object.Id.Index, Object.Id.Generation}] = Object.Place; }
+		if (!Marked.empty()) { Outdated = {0, 1, 2}; }
+		Outdated.erase(Viewer);
 		Deformed.insert(Marked.begin(), Marked.end());
 		Marked.clear();
 	}
@@ -418,7 +360,9 @@ protected:
 	std::mt19937 Random{7};
 	std::vector<FRTGeometryRef> Bodies;
 	std::vector<FKnown> Known;
-	std::map<std::pair<uint32_t, uint32_t>, glm::dvec3> Shown; // by index and generation
+	uint64_t Viewer = 0;
+	std::map<uint64_t, std::map<std::pair<uint32_t, uint32_t>, glm::dvec3>> ShownTo; // by viewer; by index and generation
+	std::set<uint64_t> Outdated;                                                     // viewers; others deformed something since
 	std::map<const FRTGeometry*, bool> Marked, Deformed;
 };
 
@@ -431,6 +375,7 @@ TEST_F(FObjectMotionWalk, AgreesWithAPlainRecord)
 		const int Changes = Pick(3) == 0 ? 0 : Pick(12);
 		for (int I = 0; I < Changes; ++I) { Change(); }
 		Most = std::max(Most, Known.size());
+		Choose(Random() % 3);
 		if (Pick(8) == 0)
 		{
 			Lose();

@@ -2,6 +2,8 @@
 #include "Pipelines/RTPSOThreads.h"
 
 #include <atomic>
+#include <filesystem>
+#include <iterator>
 
 #include "RTPSOTestTools.h"
 
@@ -84,6 +86,23 @@ TEST_F(FRTPSOThreadsTest, TheMutexIsFreeWhileTheDriverCompilesOrLinks)
 	EXPECT_TRUE(IsMutexFree());
 	Device->Open();
 	ASSERT_NO_FATAL_FAILURE(FramesUntilLinked());
+}
+
+size_t CountThreadsOfProcess()
+{
+	const std::filesystem::directory_iterator Tasks("/proc/self/task");
+	return static_cast<size_t>(std::distance(begin(Tasks), end(Tasks)));
+}
+
+TEST_F(FRTPSOThreadsTest, AFrameStartsNoThread)
+{
+	const size_t Before = CountThreadsOfProcess();
+	{
+		const std::lock_guard Lock(Mutex); // nobody else can start one
+		Threads->SetCount(4);
+		EXPECT_EQ(CountThreadsOfProcess(), Before);
+	}
+	EXPECT_TRUE(WaitUntil("the threads", [&] { return CountThreadsOfProcess() >= Before + 4; }));
 }
 
 TEST_F(FRTPSOThreadsTest, AsManyCompileAsTheCountSays)

@@ -78,4 +78,13 @@ void FTaskGroup::Wait()
 
 size_t GetWorkerCount() { return static_cast<size_t>(std::max(1, tbb::this_task_arena::max_concurrency())); }
 
+void StartWorkers()
+{
+	FTaskGroup Tasks;
+	for (size_t Worker = GetWorkerCount(); Worker > 0; --Worker)
+	{
+		Tasks.Run([] {});
+	}
+}
+
 } // namespace Lantern

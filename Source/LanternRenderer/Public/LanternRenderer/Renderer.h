@@ -150,7 +150,7 @@ struct FFrameContext
 	}();
 	uint32_t GetRayGen(ESignal Signal) const { return RayGens[ToIndex(Signal)]; }
 	/// The view of the frame before. Null if nothing may be carried over from it: there was none, a cut, another size, or a lost
-	/// frame. Null as well if something has moved in another renderer's frame of the scene since.
+	/// frame. Null as well if a geometry was deformed in another renderer's or view's frame of the scene since.
 	const FView* PreviousView = nullptr;
 	/// Textures that passes keep from frame to frame.
 	FHistoryResources* History = nullptr;
@@ -301,10 +301,10 @@ private:
 	struct FViewState
 	{
 		std::unique_ptr<FHistoryResources> History;
-		FView LastView;              // of the newest frame that reached the GPU
-		uint64_t LastScene = 0;      // identity of its scene's sections, which outlives an address; 0: none
-		uint32_t LastSceneFrame = 0; // what the scene counted it as: another renderer's frame may have followed
-		uint32_t IdleFrames = 0;     // of other views since its own last one
+		FView LastView;          // of the newest frame that reached the GPU
+		uint64_t LastScene = 0;  // identity of its scene's sections, which outlives an address; 0: none
+		uint64_t Viewer = 0;     // who it is to scenes
+		uint32_t IdleFrames = 0; // of other views since its own last one
 	};
 	FViewState& GetView(uint32_t Index);
 	std::map<uint32_t, FViewState> Views;

@@ -10,6 +10,12 @@
 namespace Lantern
 {
 
+FComputeThreads::FComputeThreads(IRTDevice& InDevice, FShaderCompiler& InCompiler) : Device(InDevice), Compiler(InCompiler)
+{
+	const std::lock_guard Lock(Mutex);
+	Threads.emplace_back([this] { Run(0); });
+}
+
 FComputeThreads::~FComputeThreads()
 {
 	{
@@ -23,7 +29,7 @@ FComputeThreads::~FComputeThreads()
 void FComputeThreads::Add(FComputeJobRef Job, uint32_t MostThreads)
 {
 	NewJobs.push_back(std::move(Job));
-	Most = MostThreads;
+	NewMost = MostThreads;
 }
 
 void FComputeThreads::HandOver(bool bWait)
@@ -34,15 +40,10 @@ void FComputeThreads::HandOver(bool bWait)
 	else if (!Lock.try_lock()) { return; }
 	Queue.insert(Queue.end(), NewJobs.begin(), NewJobs.end());
 	Doomed.insert(Doomed.end(), NewDoomed.begin(), NewDoomed.end());
-	const size_t Needed = std::min<size_t>(Most, std::max<size_t>(1, Queue.size() + Working));
+	Most = NewMost;
 	Lock.unlock();
 	NewJobs.clear();
 	NewDoomed.clear();
-	while (Threads.size() < Needed)
-	{
-		const auto Index = static_cast<uint32_t>(Threads.size());
-		Threads.emplace_back([this, Index] { Run(Index); });
-	}
 	WorkAdded.notify_all();
 }
 
@@ -53,6 +54,14 @@ void FComputeThreads::Wait(const FComputeJob& Job)
 	const auto Place = std::find_if(Queue.begin(), Queue.end(), [&](const FComputeJobRef& Other) { return Other.get() == &Job; });
 	if (Place != Queue.end()) { std::rotate(Queue.begin(), Place, Place + 1); }
 	JobDone.wait(Lock, [&] { return Job.IsDone(); });
+}
+
+/// Starts one thread if more could work, and one that waits for what is to come. The caller holds Mutex.
+void FComputeThreads::StartNext()
+{
+	if (Threads.size() >= std::min<size_t>(Most, Working + std::max<size_t>(1, Queue.size()))) { return; }
+	const auto Index = static_cast<uint32_t>(Threads.size());
+	Threads.emplace_back([this, Index] { Run(Index); });
 }
 
 void FComputeThreads::Run(uint32_t Index)
@@ -71,6 +80,7 @@ void FComputeThreads::Run(uint32_t Index)
 			Job = std::move(Queue.front());
 			Queue.pop_front();
 			++Working;
+			StartNext();
 		}
 		Lock.unlock();
 		Old.clear();

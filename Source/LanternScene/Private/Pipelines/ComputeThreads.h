@@ -34,14 +34,14 @@ using FComputeJobRef = std::shared_ptr<FComputeJob>;
 class FComputeThreads
 {
 public:
-	/// The references must outlive it.
-	FComputeThreads(IRTDevice& InDevice, FShaderCompiler& InCompiler) : Device(InDevice), Compiler(InCompiler) {}
+	/// Starts the first thread, which starts others as they are needed: a frame starts none. The references must outlive it.
+	FComputeThreads(IRTDevice& InDevice, FShaderCompiler& InCompiler);
 	/// Waits for what is in the driver. What has not been started is forgotten.
 	~FComputeThreads();
 	FComputeThreads(const FComputeThreads&) = delete;
 	FComputeThreads& operator=(const FComputeThreads&) = delete;
 
-	/// Has a thread compile Job, after HandOver. MostThreads: that may be started; those that run stay.
+	/// Has a thread compile Job, after HandOver. MostThreads: that there may be; those that run stay.
 	void Add(FComputeJobRef Job, uint32_t MostThreads);
 	/// Has a thread destroy Job, which calls the driver, after HandOver.
 	void Discard(FComputeJobRef Job) { NewDoomed.push_back(std::move(Job)); }
@@ -53,19 +53,21 @@ public:
 
 private:
 	void Run(uint32_t Index);
+	void StartNext();
 	void Compile(FComputeJob& Job) const;
 
 	IRTDevice& Device;
 	FShaderCompiler& Compiler;
 	std::vector<FComputeJobRef> NewJobs, NewDoomed; ///< the render thread's, not handed over yet
-	uint32_t Most = 1;
-	std::mutex Mutex; ///< never held during a call of the driver, of glslang, or of the file system
+	uint32_t NewMost = 1;                           ///< the render thread's, as are they
+	std::mutex Mutex;                               ///< never held during a call of the driver, of glslang, or of the file system
 	std::condition_variable WorkAdded, JobDone;
 	std::deque<FComputeJobRef> Queue;   ///< guarded by Mutex
 	std::vector<FComputeJobRef> Doomed; ///< guarded by Mutex
+	uint32_t Most = 1;                  ///< guarded by Mutex
 	uint32_t Working = 0;               ///< guarded by Mutex
 	bool bStop = false;                 ///< guarded by Mutex
-	std::vector<std::thread> Threads;   ///< the render thread's
+	std::vector<std::thread> Threads;   ///< guarded by Mutex until bStop
 };
 
 } // namespace Lantern

@@ -17,7 +17,10 @@ FRTPSOThreads::FRTPSOThreads(std::mutex& InMutex, FRTPSOScheduler& InScheduler, 
       Scheduler(InScheduler),
       Compiler(InCompiler),
       Device(InDevice)
-{}
+{
+	const std::lock_guard Lock(Mutex);
+	Threads.emplace_back([this] { RunBackground(); });
+}
 
 FRTPSOThreads::~FRTPSOThreads()
 {
@@ -37,15 +40,13 @@ void FRTPSOThreads::SetCount(uint32_t InCount)
 		Count = Wanted;
 		WorkAdded.notify_all();
 	}
-	if (Threads.empty())
-	{
-		Threads.emplace_back([this] { RunBackground(); });
-	}
-	while (Threads.size() < size_t(Count) + 1)
-	{
-		const uint32_t Index = static_cast<uint32_t>(Threads.size() - 1);
-		Threads.emplace_back([this, Index] { RunCompiler(Index); });
-	}
+}
+
+/// Starts one compile thread. The caller holds Mutex.
+void FRTPSOThreads::StartNext()
+{
+	const auto Index = static_cast<uint32_t>(Threads.size() - 1);
+	Threads.emplace_back([this, Index] { RunCompiler(Index); });
 }
 
 void FRTPSOThreads::RunCompiler(uint32_t Index)
@@ -55,9 +56,10 @@ void FRTPSOThreads::RunCompiler(uint32_t Index)
 	std::unique_lock Lock(Mutex);
 	for (;;)
 	{
-		WorkAdded.wait(Lock, [&] { return bStop || (Index < Count && Scheduler.HasUnit()); });
+		WorkAdded.wait(Lock, [&] { return bStop || IsCompilerMissing() || (Index < Count && Scheduler.HasUnit()); });
 		if (bStop) { return; }
-		CompileNext(Lock);
+		if (IsCompilerMissing()) { StartNext(); }
+		else { CompileNext(Lock); }
 	}
 }
 
@@ -67,8 +69,13 @@ void FRTPSOThreads::RunBackground()
 	std::unique_lock Lock(Mutex);
 	for (;;)
 	{
-		WorkAdded.wait(Lock, [&] { return bStop || Scheduler.GetBackgroundWork() != EBackgroundWork::None; });
+		WorkAdded.wait(Lock, [&] { return bStop || IsCompilerMissing() || Scheduler.GetBackgroundWork() != EBackgroundWork::None; });
 		if (bStop) { return; }
+		if (IsCompilerMissing())
+		{
+			StartNext();
+			continue;
+		}
 		switch (Scheduler.GetBackgroundWork())
 		{
 		case EBackgroundWork::Link: LinkNext(Lock); break;

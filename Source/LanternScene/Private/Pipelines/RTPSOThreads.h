@@ -19,14 +19,15 @@ namespace Lantern
 class FRTPSOThreads
 {
 public:
-	/// Mutex guards Scheduler. All references must outlive it.
+	/// Starts the background thread, which starts the others: a frame starts none. Mutex guards Scheduler. All references must
+	/// outlive it.
 	FRTPSOThreads(std::mutex& InMutex, FRTPSOScheduler& InScheduler, const FUnitCompiler& InCompiler, IRTDevice& InDevice);
 	/// Waits for what is in the driver. What has not been started is forgotten. The caller does not hold the mutex.
 	~FRTPSOThreads();
 	FRTPSOThreads(const FRTPSOThreads&) = delete;
 	FRTPSOThreads& operator=(const FRTPSOThreads&) = delete;
 
-	/// The number of compile threads that may work, at least 1. Threads are started when needed; surplus ones sleep.
+	/// The number of compile threads that may work, at least 1. Missing ones are started beside the caller; surplus ones sleep.
 	void SetCount(uint32_t InCount);
 	/// The scheduler has something new to do.
 	void Wake() { WorkAdded.notify_all(); }
@@ -36,6 +37,8 @@ public:
 private:
 	void RunCompiler(uint32_t Index);
 	void RunBackground();
+	bool IsCompilerMissing() const { return Threads.size() < size_t(Count) + 1; }
+	void StartNext();
 	void CompileNext(std::unique_lock<std::mutex>& Lock);
 	void LinkNext(std::unique_lock<std::mutex>& Lock);
 	void FindEdits(std::unique_lock<std::mutex>& Lock);
@@ -48,7 +51,7 @@ private:
 	std::condition_variable WorkAdded, ResultStored;
 	bool bStop = false;               ///< guarded by Mutex
 	uint32_t Count = 0;               ///< guarded by Mutex
-	std::vector<std::thread> Threads; ///< the render thread's; the first is the background thread
+	std::vector<std::thread> Threads; ///< guarded by Mutex until bStop; the first is the background thread
 };
 
 } // namespace Lantern

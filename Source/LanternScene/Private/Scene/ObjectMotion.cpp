@@ -30,7 +30,7 @@ void FObjectMotions::Add(uint32_t Object, const FRTGeometry& Geometry)
 {
 	if (Object >= States.size()) { States.resize(Object + 1); }
 	FState& State = States[Object];
-	assert(State.Entry == NO_MOTION && State.Move == None && !State.Deformable);
+	assert(State.Entry == NO_MOTION && !State.Deformable);
 	State.Born = Frame;
 	JoinDeformable(Object, Geometry);
 }
@@ -64,18 +64,9 @@ void FObjectMotions::LeaveDeformable(uint32_t Object)
 	if (Deformable->Objects.empty()) { Deformables.erase(Geometry); }
 }
 
-void FObjectMotions::ForgetMove(uint32_t Object)
-{
-	const uint32_t Place = std::exchange(States[Object].Move, None);
-	if (Place == None) { return; }
-	// The last one moves here, unless it is this one.
-	if (Place + 1 < Moves.size()) { States[Moves.back().Object].Move = Place; }
-	SwapRemove(Moves, Place);
-}
-
 void FObjectMotions::Remove(uint32_t Object)
 {
-	ForgetMove(Object);
+	for (FViewer& Viewer : Viewers) { Viewer.Forget(Object); }
 	LeaveDeformable(Object);
 	if (States[Object].Entry != NO_MOTION) { RemoveEntry(States[Object].Entry); }
 	States[Object] = {};
@@ -85,7 +76,43 @@ void FObjectMotions::Truncate(uint32_t Count)
 {
 	if (Count >= States.size()) { return; }
 	States.resize(Count);
+	for (FViewer& Viewer : Viewers) { Viewer.Places.resize(std::min<size_t>(Count, Viewer.Places.size())); }
 	if (States.capacity() / 4 > States.size() + 64) { States.shrink_to_fit(); }
+}
+
+// ---------------------------------------------------------------------------------------------------- viewers
+
+void FObjectMotions::FViewer::Add(uint32_t Object, const FObjectMotion& Before)
+{
+	if (Object >= Places.size()) { Places.resize(Object + 1, None); }
+	Places[Object] = static_cast<uint32_t>(Moves.size());
+	Moves.push_back({Object, Before});
+}
+
+void FObjectMotions::FViewer::Forget(uint32_t Object)
+{
+	const uint32_t Place = FindPlace(Object);
+	if (Place == None) { return; }
+	Places[Moves.back().Object] = Place;
+	Places[Object] = None;
+	SwapRemove(Moves, Place);
+}
+
+void FObjectMotions::FViewer::Clear()
+{
+	for (const FMove& Move : Moves) { Places[Move.Object] = None; }
+	const bool bTooLarge = Moves.capacity() > LargeTable && Moves.size() < Moves.capacity() / 16;
+	Moves.clear();
+	if (bTooLarge) { Moves.shrink_to_fit(); }
+}
+
+bool FObjectMotions::SetViewer(uint64_t Id)
+{
+	const auto Found = std::find_if(Viewers.begin(), Viewers.end(), [&](const FViewer& Viewer) { return Viewer.Id == Id; });
+	Current = static_cast<size_t>(Found - Viewers.begin());
+	if (Found == Viewers.end()) { Viewers.emplace_back().Id = Id; }
+	const FViewer& Viewer = GetViewer();
+	return Viewer.LastFrame != 0 && LastDeformed <= Viewer.LastFrame;
 }
 
 // ---------------------------------------------------------------------------------------------------- changes
@@ -102,10 +129,10 @@ FObjectMotion FObjectMotions::MakeMotion(const FObjectData& Data)
 
 void FObjectMotions::BeforeMove(uint32_t Object)
 {
-	FState& State = States[Object];
-	if (State.Move != None || !HasPast(State)) { return; }
-	State.Move = static_cast<uint32_t>(Moves.size());
-	Moves.push_back({Object, MakeMotion(Objects[Object])});
+	for (FViewer& Viewer : Viewers)
+	{
+		if (Viewer.FindPlace(Object) == None && HasPast(States[Object], Viewer)) { Viewer.Add(Object, MakeMotion(Objects[Object])); }
+	}
 }
 
 void FObjectMotions::MarkDeformed(const FRTGeometryRef& Geometry)
@@ -167,7 +194,7 @@ void FObjectMotions::Update(bool bWanted)
 	++UpdateNumber;
 	if (bWanted)
 	{
-		for (const FMove& Move : Moves)
+		for (const FMove& Move : GetMoves())
 		{
 			// An object that came back, or was set to where it is, did not move.
 			if (!IsEqual(MakeMotion(Objects[Move.Object]), Move.Before)) { Write(Move.Object, Move.Before); }
@@ -180,7 +207,7 @@ void FObjectMotions::Update(bool bWanted)
 			{
 				const FState& State = States[Object];
 				const bool bWritten = State.Entry != NO_MOTION && Owners[State.Entry].Update == UpdateNumber;
-				if (!bWritten && HasPast(State)) { Write(Object, MakeMotion(Objects[Object])); }
+				if (!bWritten && HasPast(State, GetViewer())) { Write(Object, MakeMotion(Objects[Object])); }
 			}
 		}
 	}
@@ -199,7 +226,7 @@ void FObjectMotions::Update(bool bWanted)
 
 void FObjectMotions::EndFrame(bool bSubmitted)
 {
-	const bool bMoved = !Moves.empty() || !Deformed.empty();
+	const bool bDeformed = !Deformed.empty();
 	for (const FRTGeometryRef& Geometry : Deformed)
 	{
 		Geometry->bMotionMarked = false;
@@ -208,11 +235,13 @@ void FObjectMotions::EndFrame(bool bSubmitted)
 	Deformed.clear();
 	if (!bSubmitted) { return; }
 	++Frame;
-	if (bMoved) { LastMoved = Frame; }
-	for (const FMove& Move : Moves) { States[Move.Object].Move = None; }
-	const bool bTooLarge = Moves.capacity() > LargeTable && Moves.size() < Moves.capacity() / 16;
-	Moves.clear();
-	if (bTooLarge) { Moves.shrink_to_fit(); }
+	if (bDeformed) { LastDeformed = Frame; }
+	const uint64_t Id = GetViewer().Id;
+	GetViewer().LastFrame = Frame;
+	GetViewer().Clear();
+	for (FViewer& Viewer : Viewers) { Viewer.IdleFrames = Viewer.Id == Id ? 0 : Viewer.IdleFrames + 1; }
+	std::erase_if(Viewers, [](const FViewer& Viewer) { return Viewer.IdleFrames >= KeptFrames || Viewer.LastFrame == 0; });
+	(void)SetViewer(Id);
 }
 
 } // namespace Lantern

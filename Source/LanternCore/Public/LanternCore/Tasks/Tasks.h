@@ -31,4 +31,8 @@ private:
 
 size_t GetWorkerCount();
 
+/// Starts the workers and makes the calling thread known to them. The first task of a thread does so otherwise, which takes
+/// milliseconds on the main thread of a process. Any thread.
+void StartWorkers();
+
 } // namespace Lantern

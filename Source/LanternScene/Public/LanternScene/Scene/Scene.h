@@ -142,6 +142,8 @@ public:
 	/// Brings the facts up to date with all changes so far. BeginUpdate does so too.
 	const FSceneFacts& RefreshFacts();
 	const FSceneFacts& GetFacts() const; ///< as of the last RefreshFacts
+	/// Says whose frame the next one is: FObjectMotions::SetViewer.
+	bool SetViewer(uint64_t Viewer) { return Objects.GetMotions().SetViewer(Viewer); }
 	/// Tells, before BeginUpdate, whether BeginUpdate and RecordUpdate would do anything. False if neither scene nor view changed.
 	bool NeedsUpdate(const FGatherView& View, const FSceneUse& Use) const;
 	glm::dvec3 GetOrigin() const;

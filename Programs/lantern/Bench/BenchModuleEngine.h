@@ -10,12 +10,20 @@
 namespace Lantern
 {
 
-class FBenchUploadEngine
+class FBenchModuleEngine
 {
 public:
-	~FBenchUploadEngine();
-	/// Loads the library that lies beside the program. Mock: null for a device of the library's own.
-	FRTStatus Open(IRTDevice* Mock, bool bValidate, const std::vector<std::string>& Settings);
+	~FBenchModuleEngine();
+	struct FOptions
+	{
+		IRTDevice* Mock = nullptr; ///< null: a device of the library's own
+		bool bValidate = false;
+		bool bCache = true; ///< compiled shaders are kept between runs
+		std::vector<std::string> Settings = {};
+		FSignalSet Wanted = {ESignal::SunShadow};
+	};
+	/// Loads the library that lies beside the program.
+	FRTStatus Open(const FOptions& InOptions);
 	IRTModuleRenderer& GetRenderer() { return *Renderer; }
 	IRTDevice& GetDevice() { return *Device; }
 
@@ -35,7 +43,7 @@ private:
 		TRTRef<IRTCommandList> List;
 		FRTFence Fence = 0;
 	};
-	FRTStatus Load(const std::vector<std::string>& Settings);
+	FRTStatus Load();
 	FRTStatus MakeTextures();
 	FRTStatus BeginList(FSlot& Slot);
 	FRTStatus FillTextures(IRTCommandList& List);
@@ -44,10 +52,10 @@ private:
 	TRTRef<IRTModule> Module;
 	TRTRef<IRTDevice> Device;
 	TRTRef<IRTModuleRenderer> Renderer;
-	TRTRef<IRTTexture> Depth, Normals;
+	TRTRef<IRTTexture> Depth, Normals, BaseColor, Material;
+	FOptions Options;
 	std::array<FSlot, FramesInFlight> Slots;
 	uint64_t FrameIndex = 0;
-	bool bMock = false;
 };
 
 } // namespace Lantern

@@ -1,5 +1,5 @@
-// FBenchUploadEngine: the library is loaded as an engine would load it, and its frames are timed.
-#include "Bench/BenchUploadEngine.h"
+// FBenchModuleEngine: the library is loaded as an engine would load it, and its frames are timed.
+#include "Bench/BenchModuleEngine.h"
 
 #include <filesystem>
 
@@ -21,20 +21,22 @@ constexpr uint64_t MockCommandBuffer = 1; // any number names one there
 FRTStatus Fail(const std::string& Reason) { return FRTStatus::Error(ERTResult::IoError, "%s", Reason.c_str()); }
 } // namespace
 
-FBenchUploadEngine::~FBenchUploadEngine()
+FBenchModuleEngine::~FBenchModuleEngine()
 {
 	if (Device) { (void)Device->WaitIdle(); }
-	if (Device && bMock) { GetMock(Device.Get()).SetManualFences(false); }
+	if (Device && Options.Mock != nullptr) { GetMock(Device.Get()).SetManualFences(false); }
 	for (FSlot& Slot : Slots) { Slot.List.Reset(); }
 	Depth.Reset();
 	Normals.Reset();
+	BaseColor.Reset();
+	Material.Reset();
 	Renderer.Reset();
 	Device.Reset();
 	Module.Reset();
 	if (Library != nullptr) { dlclose(Library); }
 }
 
-FRTStatus FBenchUploadEngine::Load(const std::vector<std::string>& Settings)
+FRTStatus FBenchModuleEngine::Load()
 {
 	std::error_code Error;
 	const auto Path = std::filesystem::read_symlink("/proc/self/exe", Error).parent_path() / "libLantern.so";
@@ -46,13 +48,13 @@ FRTStatus FBenchUploadEngine::Load(const std::vector<std::string>& Settings)
 		return Fail("libLantern.so has another version");
 	}
 	const FPluginFolders Folders = FindPluginFolders();
-	const std::string Cache = Folders.GetShaderCache();
+	const std::string Cache = Options.bCache ? Folders.GetShaderCache() : std::string();
 	FRTModuleDesc Desc;
 	Desc.ConfigFolder = Folders.Config.c_str();
 	Desc.ShaderFolder = Folders.Shaders.c_str();
 	Desc.CacheFolder = Cache.empty() ? nullptr : Cache.c_str();
 	FRTStatus Status = Module->Initialize(Desc);
-	for (const std::string& Setting : Settings)
+	for (const std::string& Setting : Options.Settings)
 	{
 		const size_t Equals = Setting.find('=');
 		if (Equals == std::string::npos) { return FRTStatus::Error(ERTResult::InvalidArgument, "--set NAME=VALUE"); }
@@ -61,31 +63,35 @@ FRTStatus FBenchUploadEngine::Load(const std::vector<std::string>& Settings)
 	return Status;
 }
 
-FRTStatus FBenchUploadEngine::MakeTextures()
+FRTStatus FBenchModuleEngine::MakeTextures()
 {
 	constexpr ERTTextureUsage Usage = ERTTextureUsage::Sampled | ERTTextureUsage::CopyDest;
-	FRTStatus Status = Device->CreateTexture({Size, Size, 1, 1, ERTFormat::R32_FLOAT, Usage, "Depth"}, Depth.ReleaseAndGetAddress());
-	return Status ? Device->CreateTexture({Size, Size, 1, 1, ERTFormat::RGBA16_SNORM, Usage, "Normals"}, Normals.ReleaseAndGetAddress())
-	              : Status;
+	const auto Make = [&](ERTFormat Format, const char* Name, TRTRef<IRTTexture>& Out) {
+		return Device->CreateTexture({Size, Size, 1, 1, Format, Usage, Name}, Out.ReleaseAndGetAddress());
+	};
+	FRTStatus Status = Make(ERTFormat::R32_FLOAT, "Depth", Depth);
+	Status = Status ? Make(ERTFormat::RGBA16_SNORM, "Normals", Normals) : Status;
+	Status = Status ? Make(ERTFormat::RGBA8_SRGB, "BaseColor", BaseColor) : Status;
+	return Status ? Make(ERTFormat::RGBA8_UNORM, "Material", Material) : Status;
 }
 
-FRTStatus FBenchUploadEngine::Open(IRTDevice* Mock, bool bValidate, const std::vector<std::string>& Settings)
+FRTStatus FBenchModuleEngine::Open(const FOptions& InOptions)
 {
-	bMock = Mock != nullptr;
-	FRTStatus Status = Load(Settings);
-	if (Status && bMock)
+	Options = InOptions;
+	FRTStatus Status = Load();
+	if (Status && Options.Mock != nullptr)
 	{
-		Device = TRTRef<IRTDevice>(Mock);
-		GetMock(Mock).SetManualFences(true); // submissions hand over, as with a GPU, and do not execute within the measured time
+		Device = TRTRef<IRTDevice>(Options.Mock);
+		GetMock(Options.Mock).SetManualFences(true); // submissions hand over, as with a GPU, and do not execute within the measured time
 	}
-	else if (Status) { Status = Module->CreateDevice(bValidate, Device.ReleaseAndGetAddress()); }
+	else if (Status) { Status = Module->CreateDevice(Options.bValidate, Device.ReleaseAndGetAddress()); }
 	if (Status) { Status = MakeTextures(); }
 	return Status ? Module->CreateRenderer(Device.Get(), {}, Renderer.ReleaseAndGetAddress()) : Status;
 }
 
-FRTStatus FBenchUploadEngine::FillTextures(IRTCommandList& List)
+FRTStatus FBenchModuleEngine::FillTextures(IRTCommandList& List)
 {
-	constexpr float Far[] = {1.0f / 50.0f, 0, 0, 0}, Up[] = {0, 1, 0, 1};
+	constexpr float Far[] = {1.0f / 50.0f, 0, 0, 0}, Up[] = {0, 1, 0, 1}, Grey[] = {0.5f, 0.5f, 0.5f, 0};
 	const auto Fill = [&](IRTTexture* Texture, const float* Value) {
 		const FRTBarrier ToCopy{nullptr, Texture, ERTAccess::None, ERTAccess::CopyWrite};
 		const FRTBarrier ToRead{nullptr, Texture, ERTAccess::CopyWrite, ERTAccess::ShaderRead};
@@ -95,31 +101,36 @@ FRTStatus FBenchUploadEngine::FillTextures(IRTCommandList& List)
 	};
 	Fill(Depth.Get(), Far);
 	Fill(Normals.Get(), Up);
+	Fill(BaseColor.Get(), Grey);
+	Fill(Material.Get(), Grey);
 	return FRTStatus::Success();
 }
 
-FRTStatus FBenchUploadEngine::BeginList(FSlot& Slot)
+FRTStatus FBenchModuleEngine::BeginList(FSlot& Slot)
 {
 	// All but the last frame, as the renderer wants it.
-	if (bMock) { GetMock(Device.Get()).CompleteUpTo(Slots[(FrameIndex + 1) % FramesInFlight].Fence); }
+	if (Options.Mock != nullptr) { GetMock(Device.Get()).CompleteUpTo(Slots[(FrameIndex + 1) % FramesInFlight].Fence); }
 	FRTStatus Status = Device->WaitFor(Slot.Fence, WaitNs);
 	if (Status && !Slot.List) { Status = Device->CreateCommandList("Engine", Slot.List.ReleaseAndGetAddress()); }
 	Status = Status ? Slot.List->Begin() : Status;
 	return Status && FrameIndex == 0 ? FillTextures(*Slot.List) : Status;
 }
 
-FRTStatus FBenchUploadEngine::Frame(FFrameTime& Out)
+FRTStatus FBenchModuleEngine::Frame(FFrameTime& Out)
 {
 	FSlot& Slot = Slots[FrameIndex % FramesInFlight];
 	if (FRTStatus Status = BeginList(Slot); !Status) { return Status; }
 	TRTRef<IRTCommandList> Commands;
-	const uint64_t Native = bMock ? MockCommandBuffer : Slot.List->GetNative(ERTNative::CommandBuffer);
+	const uint64_t Native = Options.Mock != nullptr ? MockCommandBuffer : Slot.List->GetNative(ERTNative::CommandBuffer);
 	FRTStatus Status = Device->ImportCommandList(Native, Commands.ReleaseAndGetAddress());
 	if (!Status) { return Status; }
 	FRTModuleFrame Frame;
 	Frame.Commands = Commands.Get();
 	Frame.Depth = Depth.Get();
 	Frame.Normals = Normals.Get();
+	Frame.BaseColor = BaseColor.Get();
+	Frame.Material = Material.Get();
+	Frame.Wanted = Options.Wanted;
 	Frame.View.Projection = MakeProjection(1.0f, 1.0f, 0.1f);
 	FRTModuleOutputs Outputs;
 	const auto Start = FBenchClock::now();
