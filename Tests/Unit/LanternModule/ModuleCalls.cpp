@@ -156,7 +156,8 @@ FRTStatus AddObject(FModulePlay& Play)
 	FRTModuleObject Object;
 	uint32_t Sections = 0;
 	Object.Mesh = Play.Handle("mesh", Play.AnyMeshes(Sections));
-	const ERTMaterialHandle Materials[] = {Play.Handle("material", Play.Materials), Play.Handle("material", Play.Materials)};
+	ERTMaterialHandle Materials[2] = {};
+	for (uint32_t Section = 0; Section < Sections; ++Section) { Materials[Section] = Play.Handle("material", Play.Materials); }
 	Object.Materials = Play.Pointer("materials", Materials);
 	Object.MaterialCount = Play.Count("materials", Sections);
 	FillTransform(Play, Object.Transform);

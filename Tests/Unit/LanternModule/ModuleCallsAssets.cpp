@@ -93,10 +93,11 @@ FRTStatus SetLandscapeHeights(FModulePlay& Play)
 
 FRTStatus SetObjectMesh(FModulePlay& Play)
 {
-	const ERTMaterialHandle Materials[] = {Play.Handle("material", Play.Materials), Play.Handle("material", Play.Materials)};
 	const ERTObjectHandle Handle = Play.Handle("object", Play.Objects);
 	uint32_t Sections = 0;
 	const ERTMeshHandle Mesh = Play.Handle("mesh", Play.AnyMeshes(Sections));
+	ERTMaterialHandle Materials[2] = {};
+	for (uint32_t Section = 0; Section < Sections; ++Section) { Materials[Section] = Play.Handle("material", Play.Materials); }
 	const ERTMaterialHandle* const Given = Play.Pointer("materials", Materials);
 	return Play.GetRenderer().SetObjectMesh(Handle, Mesh, Given, Play.Count("materials", Sections));
 }
