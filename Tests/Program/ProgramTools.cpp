@@ -26,7 +26,7 @@ constexpr uid_t Nobody = 65534;
 	const bool bFiles = dup2(InFile, 0) >= 0 && dup2(OutFile, 1) >= 0 && dup2(ErrFile, 2) >= 0;
 	const bool bFolder = Options.Folder.empty() || chdir(Options.Folder.c_str()) == 0;
 	const bool bUser = !Options.bUnprivileged || geteuid() != 0 || (setgid(Nobody) == 0 && setuid(Nobody) == 0);
-	if (bFiles && bFolder && bUser) { execve(LANTERN_PROGRAM, Arguments.data(), Environment.data()); }
+	if (bFiles && bFolder && bUser) { execve(Arguments.front(), Arguments.data(), Environment.data()); }
 	_exit(127);
 }
 
@@ -80,7 +80,7 @@ std::vector<std::string> FProgramRun::GetMessages() const
 FProgramProcess::FProgramProcess(const std::vector<std::string>& Arguments, const FProgramOptions& Options)
     : Name(Arguments.empty() ? std::string() : Arguments.front())
 {
-	std::vector<std::string> Strings = {LANTERN_PROGRAM};
+	std::vector<std::string> Strings = {Options.Program.empty() ? LANTERN_PROGRAM : Options.Program};
 	Strings.insert(Strings.end(), Arguments.begin(), Arguments.end());
 	std::vector<std::string> Environment = MakeEnvironment(Options);
 	std::vector<char*> ArgumentPointers = MakePointers(Strings), EnvironmentPointers = MakePointers(Environment);

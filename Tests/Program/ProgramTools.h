@@ -30,6 +30,7 @@ struct FProgramOptions
 	/// As a user whom file permissions stop (root is stopped by none).
 	bool bUnprivileged = false;
 	std::string StandardOutput; ///< file; empty: kept in FProgramRun::Out
+	std::string Program;        ///< path; empty: lantern
 };
 
 FProgramRun RunProgram(const std::vector<std::string>& Arguments, const FProgramOptions& Options = {});

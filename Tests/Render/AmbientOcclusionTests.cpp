@@ -170,6 +170,27 @@ TEST_F(FAmbientOcclusionTest, UnderACeiling)
 	}
 }
 
+// One ray of each pixel in ten sees. Neighbourhoods in which none does are chance, and no change of the light: a filter that drops
+// its history by them is noisy, and darker than what it filters.
+TEST_F(FAmbientOcclusionTest, FilterKeepsWhatLittleSkyIsSeen)
+{
+	ASSERT_TRUE(Load(MakeCeiling(0.5f)));
+	SetVariable("r.RT.AO.Samples", "1");
+	SetVariable("r.RT.AO.Denoise", "1");
+	for (const double Radius : {2.0, 3.5})
+	{
+		SetVariable("r.RT.AO.Radius", std::to_string(Radius));
+		const double Exact = UnderCeiling(0.5 / Radius);
+		const FImage Image = RenderOcclusion(MakeViewUnder({0, 0, 0}, 0.2, 64), 16);
+		size_t Dots = 0;
+		for (const float Value : Image.Pixels) { Dots += std::abs(Value - Exact) > 0.5 * Exact ? 1 : 0; }
+		const double Share = double(Dots) / double(Image.Pixels.size());
+		PrintFigure(fmt::format("filtered, {:.4f} expected: mean {:.4f}, off by half {:.4f}", Exact, MeanGreen(Image), Share));
+		EXPECT_NEAR(MeanGreen(Image), Exact, 0.1 * Exact) << Radius;
+		EXPECT_LT(Share, 0.02) << Radius;
+	}
+}
+
 // A shading normal at an angle to the surface: what it has below the surface is blocked. Of the whole hemisphere's cosine,
 // (1 + cos) / 2 is above.
 TEST_F(FAmbientOcclusionTest, BelowTheSurfaceIsBlocked)

@@ -38,7 +38,8 @@ float GetExpectedVariance(FFrameEstimate Frame, FHistory History, ivec2 Size)
 {
 #if CHANNELS == 1
 	// Where a shadow has moved, the history is blurred and sees noise everywhere. What is sharp in this frame is no noise.
-	float NoiseNow = max(Frame.Neighborhood.OutlierVariance, 0.3 * Frame.NoiseVariance);
+	float Binomial = GetVisibilityVariance(GetProbability(Frame.Neighborhood, 2.0));
+	float NoiseNow = max(Frame.Neighborhood.OutlierVariance, 0.3 * Binomial);
 	return min(GetPastNoise(History.Texel, Size, History.Past.Frames), NoiseNow);
 #else
 	return max(max(Frame.NoiseVariance, History.Past.NoiseSigma * History.Past.NoiseSigma), 0.25 * Frame.Window.Variance);

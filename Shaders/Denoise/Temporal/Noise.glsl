@@ -45,6 +45,19 @@ float MeasureExtent()
 #endif
 }
 
+// Chance that a ray sees, from a neighbourhood's rays and Doubt more of either kind. Few rays that agree prove no certainty: where
+// one ray in 20 sees, a quarter of all neighbourhoods of 25 are black (Agresti & Coull 1998). If rays know the distance of their
+// blockers, the extent says that no transition is near, and nothing is added.
+float GetProbability(FNeighborhood Neighborhood, float Doubt)
+{
+#ifdef WITH_EXTENT
+	return Neighborhood.Mean;
+#else
+	float Rays = Neighborhood.Count * Push.RaysPerPixel;
+	return (Neighborhood.Mean * Rays + Doubt) / (Rays + 2.0 * Doubt);
+#endif
+}
+
 FFrameEstimate EstimateFrame()
 {
 	int Own = GetTileIndex(ivec2(0));
@@ -67,7 +80,7 @@ float EstimateNoise(FFrameEstimate Frame, FAccumulated Past, float Unchanged)
 {
 #if CHANNELS == 1
 	float Frames = Past.Frames * Unchanged;
-	float P = mix(Frame.Neighborhood.Mean, Past.Mean, Frames / (Frames + TrustedHistoryFrames));
+	float P = mix(GetProbability(Frame.Neighborhood, 0.5), Past.Mean, Frames / (Frames + TrustedHistoryFrames));
 	return GetVisibilityVariance(P) * max(GetSoftness(Frame.Extent), EdgeNoise);
 #else
 	if (Past.Frames <= 0.0) { return Frame.NoiseVariance; }

@@ -1,4 +1,5 @@
 // The calls that a play knows, one row each. What a choice may not be is named as the error must name it.
+#include <algorithm>
 #include <array>
 
 #include "ModuleCallsAssets.h"
@@ -13,6 +14,7 @@ namespace
 constexpr float Positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
 constexpr float Normals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
 constexpr float Tangents[] = {1, 0, 0, 1, 1, 0, 0, -1, 1, 0, 0, 1, 1, 0, 0, 1};
+constexpr uint8_t Colors[] = {255, 0, 0, 255, 0, 255, 0, 128, 0, 0, 255, 0, 9, 9, 9, 9};
 constexpr float UVs[] = {0, 0, 1, 0, 0, 1, 1, 1};
 
 FRTModuleMap MakeMap(FModulePlay& Play, const char* Name)
@@ -87,7 +89,12 @@ FRTStatus AddAnyMesh(FModulePlay& Play, bool bDeformable, TPlayHandles<ERTMeshHa
 	Mesh.UVs1 = Play.Floats("texture coordinate", UVs, true);
 	Mesh.Tangents = Play.Floats("tangent", Tangents, true);
 	Mesh.VertexCount = Play.Count("VertexCount", 4);
-	Mesh.Indices = Play.Pointer("Indices", Indices.data());
+	const bool bIndices16 = Play.Bool(false);
+	std::array<uint16_t, 6> Indices16{};
+	std::transform(Indices.begin(), Indices.end(), Indices16.begin(), [](uint32_t Index) { return static_cast<uint16_t>(Index); });
+	if (bIndices16) { Mesh.Indices16 = Play.Pointer("Indices", Indices16.data()); }
+	else { Mesh.Indices = Play.Pointer("Indices", Indices.data()); }
+	Mesh.Colors = Play.Bool(false) ? Colors : nullptr;
 	Mesh.IndexCount = Play.Count("IndexCount", 6);
 	if (Play.Bool(true))
 	{
@@ -130,7 +137,8 @@ FRTStatus MarkMeshDeformed(FModulePlay& Play) { return Play.GetRenderer().MarkMe
 
 FRTStatus RemoveMesh(FModulePlay& Play)
 {
-	TPlayHandles<ERTMeshHandle>& Of = Play.Bool(false) ? Play.Deformables : Play.Meshes;
+	const uint8_t Kind = Play.Choose() % 4;
+	TPlayHandles<ERTMeshHandle>& Of = Kind == 1 ? Play.Deformables : Kind == 2 ? Play.Landscapes : Play.Meshes;
 	const ERTMeshHandle Handle = Play.Handle("mesh", Of);
 	const FRTStatus Status = Play.GetRenderer().RemoveMesh(Handle);
 	if (Status) { Play.Forget(Of, Handle); }
@@ -146,10 +154,12 @@ void FillTransform(FModulePlay& Play, double Out[12])
 FRTStatus AddObject(FModulePlay& Play)
 {
 	FRTModuleObject Object;
-	Object.Mesh = Play.Handle("mesh", Play.Bool(false) ? Play.Deformables : Play.Meshes);
-	const ERTMaterialHandle Materials[] = {Play.Handle("material", Play.Materials), Play.Handle("material", Play.Materials)};
+	uint32_t Sections = 0;
+	Object.Mesh = Play.Handle("mesh", Play.AnyMeshes(Sections));
+	ERTMaterialHandle Materials[2] = {};
+	for (uint32_t Section = 0; Section < Sections; ++Section) { Materials[Section] = Play.Handle("material", Play.Materials); }
 	Object.Materials = Play.Pointer("materials", Materials);
-	Object.MaterialCount = Play.Count("materials", 2);
+	Object.MaterialCount = Play.Count("materials", Sections);
 	FillTransform(Play, Object.Transform);
 	Object.bCastsShadow = Play.Bool(true);
 	Object.Mobility = Play.Bool(true) ? ERTModuleMobility::Movable : static_cast<ERTModuleMobility>(Play.Index("Mobility", 0));
@@ -208,8 +218,12 @@ FRTStatus AddObjects(FModulePlay& Play)
 FRTModuleLight MakeLight(FModulePlay& Play)
 {
 	FRTModuleLight Light;
-	Light.Type = static_cast<ERTModuleLight>(Play.Choose() % 2 == 0 ? 1 : 0);
-	for (double& Axis : Light.Position) { Axis = Play.Double("Position", 2.0); }
+	constexpr ERTModuleLight Types[] = {ERTModuleLight::Spot, ERTModuleLight::Point, ERTModuleLight::Directional};
+	Light.Type = Types[Play.Choose() % std::size(Types)];
+	if (Light.Type != ERTModuleLight::Directional)
+	{
+		for (double& Axis : Light.Position) { Axis = Play.Double("Position", 2.0); }
+	}
 	if (Light.Type == ERTModuleLight::Spot)
 	{
 		for (int Axis = 0; Axis < 3; ++Axis) { Light.Direction[Axis] = Play.Float("Direction", Axis == 1 ? -1.0f : 0.0f); }
@@ -301,6 +315,7 @@ FRTModuleFrame MakeFrame(FModulePlay& Play, bool bMayLack)
 	Frame.View = MakeView(Play);
 	Frame.Depth = Play.Texture("epth", ERTFormat::D32_FLOAT, bMayLack);
 	Frame.Normals = Play.Texture("ormals", ERTFormat::RGBA16_SNORM, bMayLack, {ERTFormat::RGBA32_FLOAT, ERTFormat::RGBA8_UNORM});
+	Frame.GeometricNormals = Play.Texture("ormals", ERTFormat::RGBA16_SNORM, true, {ERTFormat::RGBA32_FLOAT, ERTFormat::RGBA8_UNORM});
 	Frame.Motion = Play.Texture("otion", ERTFormat::RGBA32_FLOAT, true);
 	Frame.BaseColor = Play.Texture("base colour", ERTFormat::RGBA8_SRGB, true);
 	Frame.Material = Play.Texture("aterial", ERTFormat::RGBA8_UNORM, true);
@@ -322,6 +337,9 @@ FRTStatus RenderFrame(FModulePlay& Play)
 	Frame.DeltaSeconds = Play.Float("DeltaSeconds", 0.016f);
 	Frame.bCut = Play.Bool(false);
 	Frame.bSubmitAhead = Play.Bool(false);
+	Frame.DepthAccess = Play.Number("DepthAccess", 1, 0) == 0 ? ERTAccess::None : ERTAccess::ShaderRead;
+	FRTModuleView Previous;
+	if (Play.Bool(false)) { Frame.PreviousView = &(Previous = MakeView(Play)); }
 	FRTModuleOutputs Outputs;
 	return Play.GetRenderer().RenderFrame(Frame, Play.Pointer("Out", &Outputs));
 }
@@ -367,7 +385,10 @@ FRTStatus Recreate(FModulePlay& Play)
 FRTStatus SetConsoleVariable(FModulePlay& Play)
 {
 	constexpr const char* Names[] = {"r.RT.Shadow.Path", "r.RT.AO.Path", "r.RT.Shadow", "r.RT.Culling", "r.RT.Scene.Gather",
-	    "r.RT.SBT.Mode", "r.RT.Build.TrianglesPerFrame", "r.RT.Build.Compaction", "r.RT.Shadow.Soft", "r.RT.AlphaTest"};
+	    "r.RT.SBT.Mode", "r.RT.Build.TrianglesPerFrame", "r.RT.Build.Compaction", "r.RT.Shadow.Soft", "r.RT.AlphaTest", "r.RT.GI",
+	    "r.RT.Reflections", "r.RT.Scene.ArrivalsPerFrame", "r.RT.Upload.MBPerFrame", "r.RT.Upload.TransferQueue",
+	    "r.RT.FrameGraph.KeepFrames", "r.RT.FrameGraph.Tasks", "r.RT.Build.MemoryMB", "r.RT.Build.CoarserLevels", "r.RT.Opacity.Pieces",
+	    "r.RT.SkyAmbient", "r.RT.Enable", "r.RT.Reorder"};
 	constexpr const char* Values[] = {"1", "0", "2"};
 	const char* const Name = Play.Pointer("Name", Names[Play.Choose() % std::size(Names)]);
 	return Play.GetModule().SetConsoleVariable(Name, Play.Pointer("Value", Values[Play.Choose() % std::size(Values)]));

@@ -33,6 +33,8 @@ FRTStatus AddStreamedMesh(FModulePlay& Play)
 	Streams.UVs1 = MakeStream(Play, "UVs1", 28, ERTModuleVertex::Float2, true);
 	Streams.Colors = MakeStream(Play, "Colors", 36, ERTModuleVertex::Bgra8, true);
 	Streams.Indices = Play.Buffer("Indices", false);
+	Streams.bIndices16 = Play.Bool(false);
+	Streams.bSignInNormals = Play.Bool(false);
 	Streams.IndicesOffset = Play.Index("IndicesOffset", 512);
 	std::array<FRTModuleSection, 2> Sections = {FRTModuleSection{0, 3, true, 0}, FRTModuleSection{3, 3, true, 1}};
 	Sections[1].FirstVertex = Play.Index("FirstVertex", 1);
@@ -55,8 +57,8 @@ FRTStatus AddStreamedMesh(FModulePlay& Play)
 
 FRTStatus AddLandscape(FModulePlay& Play)
 {
-	static constexpr uint16_t Heights[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
-	static constexpr uint8_t Holes[] = {0, 1, 0, 0, 0, 0};
+	static constexpr uint16_t Heights[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14};
+	static constexpr uint8_t Holes[] = {0, 1, 0, 0, 0, 0, 0, 0};
 	FRTModuleLandscape Patch;
 	Patch.Name = Play.Pointer("Name", "Patch");
 	Patch.Heights = Play.Pointer("Heights", Heights);
@@ -67,6 +69,8 @@ FRTStatus AddLandscape(FModulePlay& Play)
 	Patch.HeightScale = Play.Float("HeightScale", 0.5f);
 	Patch.HeightOffset = Play.Float("HeightOffset", -1.0f);
 	Patch.Holes = Play.Bool(true) ? Holes : nullptr;
+	Patch.RowPitch = Play.Number("RowPitch", 5, 3);
+	Patch.HolesPitch = Play.Number("HolesPitch", 4, 2);
 	ERTMeshHandle Added = ERTMeshHandle::None;
 	const FRTStatus Status = Play.GetRenderer().AddLandscape(Patch, Play.Pointer("Out", &Added));
 	Play.Keep(Play.Landscapes, Added);
@@ -75,7 +79,7 @@ FRTStatus AddLandscape(FModulePlay& Play)
 
 FRTStatus SetLandscapeHeights(FModulePlay& Play)
 {
-	static constexpr uint16_t Heights[] = {100, 200, 300, 400};
+	static constexpr uint16_t Heights[] = {100, 200, 300, 400, 500, 600};
 	const ERTMeshHandle Handle = Play.Handle("mesh", Play.Landscapes);
 	FRTModuleHeights New;
 	New.Heights = Play.Pointer("Heights", Heights);
@@ -83,16 +87,19 @@ FRTStatus SetLandscapeHeights(FModulePlay& Play)
 	New.FirstRow = Play.Index("FirstRow", 1);
 	New.Columns = Play.Count("Columns", 2);
 	New.Rows = Play.Count("Rows", 2);
+	New.RowPitch = Play.Number("RowPitch", 3, 1);
 	return Play.GetRenderer().SetLandscapeHeights(Handle, New);
 }
 
 FRTStatus SetObjectMesh(FModulePlay& Play)
 {
-	const ERTMaterialHandle Materials[] = {Play.Handle("material", Play.Materials), Play.Handle("material", Play.Materials)};
 	const ERTObjectHandle Handle = Play.Handle("object", Play.Objects);
-	const ERTMeshHandle Mesh = Play.Handle("mesh", Play.Bool(false) ? Play.Deformables : Play.Meshes);
+	uint32_t Sections = 0;
+	const ERTMeshHandle Mesh = Play.Handle("mesh", Play.AnyMeshes(Sections));
+	ERTMaterialHandle Materials[2] = {};
+	for (uint32_t Section = 0; Section < Sections; ++Section) { Materials[Section] = Play.Handle("material", Play.Materials); }
 	const ERTMaterialHandle* const Given = Play.Pointer("materials", Materials);
-	return Play.GetRenderer().SetObjectMesh(Handle, Mesh, Given, Play.Count("materials", 2));
+	return Play.GetRenderer().SetObjectMesh(Handle, Mesh, Given, Play.Count("materials", Sections));
 }
 
 FRTStatus SetSkyMap(FModulePlay& Play)

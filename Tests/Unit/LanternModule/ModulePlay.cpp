@@ -141,6 +141,20 @@ uint32_t FModulePlay::Index(const char* Name, uint32_t Good)
 	return ~0u;
 }
 
+uint32_t FModulePlay::Number(const char* Name, uint32_t Good, uint32_t Bad)
+{
+	if (Choose() % 4 != 1) { return Good; }
+	Wrong.emplace_back(Name);
+	return Bad;
+}
+
+const TPlayHandles<ERTMeshHandle>& FModulePlay::AnyMeshes(uint32_t& OutSections)
+{
+	const uint8_t Byte = Choose() % 4;
+	OutSections = Byte == 2 ? 1 : 2;
+	return Byte == 1 ? Deformables : Byte == 2 ? Landscapes : Meshes;
+}
+
 IRTBuffer* FModulePlay::Buffer(const char* Name, bool bMayBeNull)
 {
 	const uint8_t Byte = Choose() % 4;

@@ -69,6 +69,10 @@ public:
 	template <class THandle>
 	void Forget(TPlayHandles<THandle>& Of, THandle Handle);
 	uint32_t Index(const char* Name, uint32_t Good);
+	/// Bad: what the call must refuse, where ~0 would be fine or could not be seen.
+	uint32_t Number(const char* Name, uint32_t Good, uint32_t Bad);
+	/// Meshes of any kind for an object. OutSections: how many materials they need.
+	const TPlayHandles<ERTMeshHandle>& AnyMeshes(uint32_t& OutSections);
 	/// Others: formats that do as well.
 	IRTTexture* Texture(const char* Name, ERTFormat Good, bool bMayBeNull, std::initializer_list<ERTFormat> Others = {});
 	/// Of any format, as materials take them.
