@@ -114,7 +114,8 @@ TEST_F(FSignalReferenceFileTest, ManyWriteAtOnce)
 			for (int I = 0; I < 25; ++I) { Failures += WriteReferenceFile(Path, {1, 2}, MakeReference(float(Writer))) ? 0 : 1; }
 		});
 		Threads.emplace_back([&] {
-			for (int I = 0; I < 100; ++I)
+			// Readers may run before the first writer does.
+			for (int I = 0; I < 100 || (Reads == 0 && Failures == 0); ++I)
 			{
 				FSignalReference Back;
 				const bool bThere = fs::exists(Path);
