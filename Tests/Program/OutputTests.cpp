@@ -125,7 +125,7 @@ TEST_F(FOutputTest, RenderSettlesUnlessTheNumberOfFramesIsGiven)
 	};
 	EXPECT_THAT(Render({"furnace", "--set", "r.RT.AO=0"}), HasSubstr("frames: 1, settled"));
 	EXPECT_EQ(Json["frames"], 1) << "nothing accumulates";
-	const std::string Noisy = Render({"planes", "--sky", "1,1,1"});
+	const std::string Noisy = Render({"courtyard"});
 	const uint32_t Frames = Json["frames"];
 	EXPECT_GT(Frames, 8u) << "rays are few, and their noise takes frames to average";
 	EXPECT_LT(Frames, 64u);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternMeasure/GeneratedMaterials.h"
 #include "LanternMeasure/MaterialWall.h"
@@ -69,6 +70,7 @@ FRTStatus FMaterialFrames::Frame(double& OutMs)
 	Features.bRays = true;
 	Features.RayGens = {MakeMaterialTrace({.Path = "Stability/Trace.rgen", .RaysPerMetre = PixelsPerQuad})};
 	const auto Start = std::chrono::steady_clock::now();
+	FConsoleVariables::Get().BeginFrame();
 	if (FRTStatus S = Renderer.BeginFrame(GetScene(), Stage.MakeView(), Features); !S) { return S; }
 	FFrameContext& Context = Renderer.GetContext();
 	const uint32_t RayGen = Context.RayPipeline ? Context.RayPipeline->FindRayGen(Features.RayGens[0]) : NoRayGen;
