@@ -30,11 +30,7 @@ protected:
 		FModuleTest::SetUp();
 		bPrecache = false;
 		ASSERT_FINE(AddObject(AddOpaqueMesh(), Solid));
-		FRTModuleSun Sun;
-		Sun.Direction[1] = -1.0;
-		Sun.Irradiance = 1.0f;
-		Sun.AngularDiameter = 0.01f; // soft shadows are filtered
-		ASSERT_FINE(Renderer->SetSun(Sun));
+		SetSoftSun();
 		const float Sky[] = {0.4f, 0.6f, 1.0f};
 		ASSERT_FINE(Renderer->SetSky(Sky));
 	}

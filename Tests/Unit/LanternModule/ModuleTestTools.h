@@ -12,6 +12,7 @@
 #include "LanternRHIMock/MockDevice.h"
 #include "LanternRHIValidation/ValidationDevice.h"
 #include "SceneTypes.h"
+#include "Support/MockReads.h"
 #include "Support/StatusChecks.h"
 #include "Support/WaitTools.h"
 
@@ -231,12 +232,16 @@ protected:
 	template <class T>
 	T ReadEntry(uint64_t Address, uint32_t Index)
 	{
-		T Out{};
-		uint64_t Offset = 0;
-		IRTBuffer* const Buffer = Mock().FindBuffer(Address + Index * sizeof(T), &Offset);
-		EXPECT_NE(Buffer, nullptr);
-		if (Buffer != nullptr) { std::memcpy(&Out, Mock().GetBytes(Buffer) + Offset, sizeof(T)); }
-		return Out;
+		return ReadMockEntry<T>(Mock(), Address, Index);
+	}
+	/// A sun overhead, whose soft shadows are filtered.
+	void SetSoftSun()
+	{
+		FRTModuleSun Sun;
+		Sun.Direction[1] = -1.0;
+		Sun.Irradiance = 1.0f;
+		Sun.AngularDiameter = 0.01f;
+		ASSERT_FINE(Renderer->SetSun(Sun));
 	}
 	/// Buffers of the name that were copied to in the calls so far.
 	uint32_t CountCopies(const char* Name) { return Mock().CountCalls(ERTMockCall::CopyBuffer, Name); }

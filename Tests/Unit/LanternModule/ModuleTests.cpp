@@ -214,11 +214,7 @@ protected:
 		bPrecache = false;
 		ASSERT_FINE(Module->SetConsoleVariable("r.RT.Shadow.Path", GetParam()));
 		ASSERT_FINE(AddObject(AddOpaqueMesh(), Solid));
-		FRTModuleSun Sun;
-		Sun.Direction[1] = -1.0;
-		Sun.Irradiance = 1.0f;
-		Sun.AngularDiameter = 0.01f; // soft shadows are filtered
-		ASSERT_FINE(Renderer->SetSun(Sun));
+		SetSoftSun();
 	}
 	void TearDown() override
 	{

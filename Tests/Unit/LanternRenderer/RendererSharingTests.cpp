@@ -6,6 +6,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "Support/MockReads.h"
 #include "Support/RendererTestTools.h"
 
 namespace Lantern
@@ -82,23 +83,13 @@ protected:
 		Data.Flags ^= Flag;
 		Scene().SetMaterial(Material, Data);
 	}
-	template <class T>
-	T ReadEntry(uint64_t Address, uint32_t Index)
-	{
-		T Out{};
-		uint64_t Offset = 0;
-		IRTBuffer* const Buffer = Mock().FindBuffer(Address + Index * sizeof(T), &Offset);
-		EXPECT_NE(Buffer, nullptr);
-		if (Buffer) { std::memcpy(&Out, Mock().GetBytes(Buffer) + Offset, sizeof(T)); }
-		return Out;
-	}
 	/// Where the newest frame's motion has the object in the frame before: x.
 	double ReadPreviousX(FRTObjectId Id)
 	{
 		const FSceneConstants Constants = Scene().GetConstants();
-		const uint32_t Entry = ReadEntry<FObjectData>(Constants.Objects, Id.Index).Motion;
+		const uint32_t Entry = ReadMockEntry<FObjectData>(Mock(), Constants.Objects, Id.Index).Motion;
 		if (Entry == NO_MOTION) { return -1.0; }
-		const auto Motion = ReadEntry<FObjectMotion>(Constants.ObjectMotions, Entry);
+		const auto Motion = ReadMockEntry<FObjectMotion>(Mock(), Constants.ObjectMotions, Entry);
 		return CellCenter(Motion.PreviousCell).x + Motion.PreviousObjectToWorld[0].w;
 	}
 	/// An object beside the others, with the geometry of an old one.
