@@ -48,20 +48,13 @@ void OnVulkanMessage(void*, ERTVulkanMessage Severity, const char* Text)
 	    Text);
 }
 
-void RecordVulkanCall(void*, const char* Name, uint64_t Nanoseconds)
-{
-	if (!FTaskTrace::IsOn()) { return; }
-	const uint64_t End = FTaskTrace::GetNow();
-	FTaskTrace::Record(Name, End - std::min(End, Nanoseconds), End, FTaskTrace::GetFrame());
-}
-
 FRTVulkanDeviceDesc MakeDeviceDesc(const FDeviceOptions& Options)
 {
 	FRTVulkanDeviceDesc Desc;
 	Desc.DeviceIndex = Options.Device;
 	if (const char* Index = std::getenv("LANTERN_DEVICE"); Index && Options.Device < 0) { Desc.DeviceIndex = std::atoi(Index); }
 	Desc.bValidation = Options.bValidate;
-	if (Options.bTraceCalls) { Desc.CallSink.Call = RecordVulkanCall; }
+	if (FTaskTrace::WantsCalls()) { Desc.CallSink.Call = FTaskTrace::RecordCall; }
 	return Desc;
 }
 } // namespace
@@ -116,7 +109,11 @@ int LoadSettings(const std::string& ConfigFolder, const FDeviceOptions& Options)
 		}
 		LoadFile(Config, Path);
 	}
-	if (Options.bTraceCalls) { FConsoleVariables::Get().Set("r.RT.Trace", "1", ERTSetBy::CommandLine, "--trace-calls"); }
+	if (Options.bTraceCalls)
+	{
+		FConsoleVariables::Get().Set("r.RT.Trace", "1", ERTSetBy::CommandLine, "--trace-calls");
+		FConsoleVariables::Get().Set("r.RT.Trace.Calls", "1", ERTSetBy::CommandLine, "--trace-calls");
+	}
 	if (const auto Quality = ParseQuality(Options.Quality)) { LoadScalability(Config, *Quality); }
 	for (const std::string& Set : Options.Sets)
 	{

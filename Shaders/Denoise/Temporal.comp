@@ -1,7 +1,6 @@
 // Accumulation over time: where the pixel's surface was seen before, this frame's value joins the mean of those before it.
 // main() lists the steps. Each is a file of the folder Temporal/ that says what it takes, what it gives, why, and its source.
 #version 460
-#extension GL_EXT_control_flow_attributes : require
 #include "../Shared/DenoiseTypes.h"
 #include "../Library/View.glsl"
 

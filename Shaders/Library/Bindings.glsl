@@ -3,6 +3,7 @@
 #define LANTERN_BINDINGS_GLSL
 
 #extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_nonuniform_qualifier : require
 #extension GL_EXT_samplerless_texture_functions : require

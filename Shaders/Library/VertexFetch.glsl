@@ -48,8 +48,6 @@ FMaterialInputs LoadVertex(FSectionData Section, uint Vertex)
 	return UnpackVertex(FAttributeRef(Section.Attributes).Data[Vertex], Section.Flags);
 }
 
-FVertexStreams LoadStreams(FSectionData Section) { return FStreamsRef(Section.Attributes).Data; }
-
 // Interpolates only what textures need: coordinates and colour. Normal and Tangent are zero.
 FMaterialInputs FetchTextureInputs(FSectionData Section, uint Primitive, vec2 Barycentrics)
 {
@@ -60,10 +58,11 @@ FMaterialInputs FetchTextureInputs(FSectionData Section, uint Primitive, vec2 Ba
 	Inputs.Tangent = vec4(0.0);
 	if ((Section.Flags & SECTION_STREAMS) != 0u)
 	{
-		FVertexStreams Streams = LoadStreams(Section);
-		Inputs.UV0 = InterpolateStream(Streams.UV0, Triangle, Weights, vec4(0.0)).xy;
-		Inputs.UV1 = InterpolateStream(Streams.UV1, Triangle, Weights, vec4(0.0)).xy;
-		Inputs.Color = InterpolateStream(Streams.Colors, Triangle, Weights, vec4(1.0));
+		vec4 Values[STREAM_COLORS + 1u];
+		InterpolateStreams(Section, STREAM_UV0, Triangle, Weights, Values);
+		Inputs.UV0 = Values[STREAM_UV0].xy;
+		Inputs.UV1 = Values[STREAM_UV1].xy;
+		Inputs.Color = Values[STREAM_COLORS];
 		return Inputs;
 	}
 	FAttributeRef Vertices = FAttributeRef(Section.Attributes);
@@ -91,12 +90,12 @@ vec2 FetchOpacityUV(FSectionData Section, uvec3 Triangle, vec2 Barycentrics)
 {
 	bool bUV1 = (Section.Flags & SECTION_OPACITY_UV1) != 0u;
 	vec3 Weights = vec3(1.0 - Barycentrics.x - Barycentrics.y, Barycentrics);
+#ifndef PLAIN_OPACITY
 	if ((Section.Flags & SECTION_STREAMS) != 0u)
 	{
-		FStreamsRef Streams = FStreamsRef(Section.Attributes);
-		if (bUV1) { return InterpolateStream(Streams.Data.UV1, Triangle, Weights, vec4(0.0)).xy; }
-		return InterpolateStream(Streams.Data.UV0, Triangle, Weights, vec4(0.0)).xy;
+		return InterpolateStream(Section, bUV1 ? STREAM_UV1 : STREAM_UV0, Triangle, Weights, vec4(0.0)).xy;
 	}
+#endif
 	FVertexUVRef V = FVertexUVRef(Section.Attributes + (bUV1 ? 16u : 8u)); // bytes to FVertexAttributes::UV1 or UV0
 	return Weights.x * V.Data[Triangle.x].UV + Barycentrics.x * V.Data[Triangle.y].UV + Barycentrics.y * V.Data[Triangle.z].UV;
 }
@@ -106,7 +105,7 @@ float FetchVertexAlpha(FSectionData Section, uvec3 Triangle, vec2 Barycentrics)
 	vec3 Weights = vec3(1.0 - Barycentrics.x - Barycentrics.y, Barycentrics);
 	if ((Section.Flags & SECTION_STREAMS) != 0u)
 	{
-		return InterpolateStream(FStreamsRef(Section.Attributes).Data.Colors, Triangle, Weights, vec4(1.0)).a;
+		return InterpolateStream(Section, STREAM_COLORS, Triangle, Weights, vec4(1.0)).a;
 	}
 	FAttributeRef Vertices = FAttributeRef(Section.Attributes);
 	vec3 Alpha = vec3(Vertices.Data[Triangle.x].Color >> 24u, Vertices.Data[Triangle.y].Color >> 24u, Vertices.Data[Triangle.z].Color >> 24u);
@@ -118,30 +117,18 @@ void FetchPositions(FSectionData Section, uint Primitive, out vec3 P0, out vec3 
 	uvec3 Triangle = FetchTriangle(Section, Primitive);
 	if ((Section.Flags & SECTION_STREAMS) != 0u)
 	{
-		FVertexStream Stream = FStreamsRef(Section.Attributes).Data.Positions;
-		P0 = LoadStream(Stream, Triangle.x).xyz;
-		P1 = LoadStream(Stream, Triangle.y).xyz;
-		P2 = LoadStream(Stream, Triangle.z).xyz;
+		FVertexStream Stream = FStreamArrayRef(Section.Attributes).Data[STREAM_POSITIONS];
+		vec3 Corners[3];
+		[[dont_unroll]] for (uint Corner = 0u; Corner < 3u; ++Corner) { Corners[Corner] = LoadStream(Stream, Triangle[Corner]).xyz; }
+		P0 = Corners[0];
+		P1 = Corners[1];
+		P2 = Corners[2];
 		return;
 	}
 	FPositionRef Positions = FPositionRef(Section.Positions);
 	P0 = Positions.Data[Triangle.x];
 	P1 = Positions.Data[Triangle.y];
 	P2 = Positions.Data[Triangle.z];
-}
-
-// Object space. A host may have no normals: then each triangle has its own, of any length.
-FMaterialInputs LoadStreamVertex(FVertexStreams Streams, uint Vertex)
-{
-	FMaterialInputs Inputs;
-	vec4 Normal = LoadDirection(Streams.Normals, Vertex), Tangent = LoadDirection(Streams.Tangents, Vertex);
-	float Sign = (Streams.Flags & STREAMS_SIGN_IN_NORMAL) != 0u ? Normal.w : Tangent.w;
-	Inputs.Normal = Normal.xyz;
-	Inputs.Tangent = vec4(Tangent.xyz, Streams.Tangents.Address == 0ul ? 0.0 : (Sign < 0.0 ? -1.0 : 1.0));
-	Inputs.UV0 = LoadStream(Streams.UV0, Vertex, vec4(0.0)).xy;
-	Inputs.UV1 = LoadStream(Streams.UV1, Vertex, vec4(0.0)).xy;
-	Inputs.Color = LoadStream(Streams.Colors, Vertex, vec4(1.0));
-	return Inputs;
 }
 
 vec3 FetchTriangleNormal(FSectionData Section, uint Primitive)
@@ -151,30 +138,34 @@ vec3 FetchTriangleNormal(FSectionData Section, uint Primitive)
 	return cross(P1 - P0, P2 - P0);
 }
 
-// Interpolates all attributes, in object space.
-FMaterialInputs FetchMaterialInputs(FSectionData Section, uint Primitive, vec2 Barycentrics)
+// TriangleNormal: of any length, for a host that has no normals.
+FMaterialInputs FetchStreamInputs(FSectionData Section, uvec3 Triangle, vec3 Weights, vec3 TriangleNormal)
+{
+	vec4 Values[STREAM_COLORS + 1u];
+	InterpolateStreams(Section, STREAM_NORMALS, Triangle, Weights, Values);
+	FVertexStreams Streams = FStreamsRef(Section.Attributes).Data;
+	vec4 Normal = DecodeDirection(Streams.Normals, Values[STREAM_NORMALS]), Tangent = DecodeDirection(Streams.Tangents, Values[STREAM_TANGENTS]);
+	float Sign = (Streams.Flags & STREAMS_SIGN_IN_NORMAL) != 0u ? Normal.w : Tangent.w;
+	FMaterialInputs Inputs;
+	Inputs.Normal = Streams.Normals.Address != 0ul ? Normal.xyz : TriangleNormal;
+	Inputs.Tangent = vec4(Tangent.xyz, Streams.Tangents.Address == 0ul ? 0.0 : (Sign < 0.0 ? -1.0 : 1.0));
+	Inputs.UV0 = Values[STREAM_UV0].xy;
+	Inputs.UV1 = Values[STREAM_UV1].xy;
+	Inputs.Color = Values[STREAM_COLORS];
+	return Inputs;
+}
+
+// Interpolates all attributes, in object space. TriangleNormal: of any length.
+FMaterialInputs FetchMaterialInputs(FSectionData Section, uint Primitive, vec2 Barycentrics, vec3 TriangleNormal)
 {
 	uvec3 Triangle = FetchTriangle(Section, Primitive);
-	FMaterialInputs Inputs0, Inputs1, Inputs2;
-	bool bOwnNormals = true;
-	if ((Section.Flags & SECTION_STREAMS) != 0u)
-	{
-		FVertexStreams Streams = LoadStreams(Section);
-		Inputs0 = LoadStreamVertex(Streams, Triangle.x);
-		Inputs1 = LoadStreamVertex(Streams, Triangle.y);
-		Inputs2 = LoadStreamVertex(Streams, Triangle.z);
-		bOwnNormals = Streams.Normals.Address != 0ul;
-	}
-	else
-	{
-		Inputs0 = LoadVertex(Section, Triangle.x);
-		Inputs1 = LoadVertex(Section, Triangle.y);
-		Inputs2 = LoadVertex(Section, Triangle.z);
-	}
 	vec3 Weights = vec3(1.0 - Barycentrics.x - Barycentrics.y, Barycentrics);
+	if ((Section.Flags & SECTION_STREAMS) != 0u) { return FetchStreamInputs(Section, Triangle, Weights, TriangleNormal); }
+	FMaterialInputs Inputs0 = LoadVertex(Section, Triangle.x);
+	FMaterialInputs Inputs1 = LoadVertex(Section, Triangle.y);
+	FMaterialInputs Inputs2 = LoadVertex(Section, Triangle.z);
 	FMaterialInputs Inputs;
-	Inputs.Normal = bOwnNormals ? Weights.x * Inputs0.Normal + Weights.y * Inputs1.Normal + Weights.z * Inputs2.Normal
-	                            : FetchTriangleNormal(Section, Primitive);
+	Inputs.Normal = Weights.x * Inputs0.Normal + Weights.y * Inputs1.Normal + Weights.z * Inputs2.Normal;
 	Inputs.Tangent = vec4(Weights.x * Inputs0.Tangent.xyz + Weights.y * Inputs1.Tangent.xyz + Weights.z * Inputs2.Tangent.xyz,
 	                      Inputs0.Tangent.w);
 	Inputs.UV0 = Weights.x * Inputs0.UV0 + Weights.y * Inputs1.UV0 + Weights.z * Inputs2.UV0;
@@ -183,15 +174,27 @@ FMaterialInputs FetchMaterialInputs(FSectionData Section, uint Primitive, vec2 B
 	return Inputs;
 }
 
+FMaterialInputs FetchMaterialInputs(FSectionData Section, uint Primitive, vec2 Barycentrics)
+{
+	vec3 TriangleNormal = vec3(0.0);
+	if ((Section.Flags & SECTION_STREAMS) != 0u) { TriangleNormal = FetchTriangleNormal(Section, Primitive); }
+	return FetchMaterialInputs(Section, Primitive, Barycentrics, TriangleNormal);
+}
+
 // Intersects a ray with the plane of a triangle, in object space (Möller and Trumbore 1997). The result's x is the
 // distance along the ray, yz are the barycentrics of the second and third corner.
+vec3 IntersectTriangle(vec3 P0, vec3 P1, vec3 P2, vec3 Origin, vec3 Direction)
+{
+	vec3 Edge1 = P1 - P0, Edge2 = P2 - P0, FromP0 = Origin - P0;
+	vec3 H = cross(Direction, Edge2), Q = cross(FromP0, Edge1);
+	return vec3(dot(Edge2, Q), dot(FromP0, H), dot(Direction, Q)) / dot(Edge1, H);
+}
+
 vec3 IntersectTriangle(FSectionData Section, uint Primitive, vec3 Origin, vec3 Direction)
 {
 	vec3 P0, P1, P2;
 	FetchPositions(Section, Primitive, P0, P1, P2);
-	vec3 Edge1 = P1 - P0, Edge2 = P2 - P0, FromP0 = Origin - P0;
-	vec3 H = cross(Direction, Edge2), Q = cross(FromP0, Edge1);
-	return vec3(dot(Edge2, Q), dot(FromP0, H), dot(Direction, Q)) / dot(Edge1, H);
+	return IntersectTriangle(P0, P1, P2, Origin, Direction);
 }
 
 // Returns whether a hit lies on a piece but outside of the whole triangle (see SECTION_IS_PIECES). TriangleHit: from

@@ -45,25 +45,34 @@ vec4 LoadStream(FVertexStream Stream, uint Vertex)
 	return vec4(0.0);
 }
 
-// Default: where there is no stream.
-vec4 LoadStream(FVertexStream Stream, uint Vertex, vec4 Default)
+// FVertexStreams by number.
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FStreamArrayRef { FVertexStream Data[]; };
+
+// Interpolates one attribute; Default: where the host has none. Formats of 0 to 1 are as they are, see DecodeDirection. Loops stay
+// loops, because unrolled decoders made material shaders take five times as long to compile.
+vec4 InterpolateStream(FSectionData Section, uint Stream, uvec3 Triangle, vec3 Weights, vec4 Default)
 {
-	if (Stream.Address == 0ul) { return Default; }
-	return LoadStream(Stream, Vertex);
+	FVertexStream Source = FStreamArrayRef(Section.Attributes).Data[Stream];
+	if (Source.Address == 0ul) { return Default; }
+	vec4 Sum = vec4(0.0);
+	[[dont_unroll]] for (uint Corner = 0u; Corner < 3u; ++Corner) { Sum += Weights[Corner] * LoadStream(Source, Triangle[Corner]); }
+	return Sum;
+}
+
+// Attributes First to STREAM_COLORS, each at its number.
+void InterpolateStreams(FSectionData Section, uint First, uvec3 Triangle, vec3 Weights, inout vec4 Out[STREAM_COLORS + 1u])
+{
+	[[dont_unroll]] for (uint Stream = First; Stream <= STREAM_COLORS; ++Stream)
+	{
+		Out[Stream] = InterpolateStream(Section, Stream, Triangle, Weights, vec4(Stream == STREAM_COLORS ? 1.0 : 0.0));
+	}
 }
 
 // Formats of 0 to 1 stand for −1 to 1. Zero where there is no stream.
-vec4 LoadDirection(FVertexStream Stream, uint Vertex)
+vec4 DecodeDirection(FVertexStream Stream, vec4 Value)
 {
-	vec4 Direction = LoadStream(Stream, Vertex, vec4(0.0));
 	bool bUnsigned = Stream.Format == VERTEX_UNORM8X4 || Stream.Format == VERTEX_UNORM10X3;
-	return bUnsigned ? 2.0 * Direction - 1.0 : Direction;
-}
-
-vec4 InterpolateStream(FVertexStream Stream, uvec3 Triangle, vec3 Weights, vec4 Default)
-{
-	if (Stream.Address == 0ul) { return Default; }
-	return Weights.x * LoadStream(Stream, Triangle.x) + Weights.y * LoadStream(Stream, Triangle.y) + Weights.z * LoadStream(Stream, Triangle.z);
+	return bUnsigned && Stream.Address != 0ul ? 2.0 * Value - 1.0 : Value;
 }
 
 #endif

@@ -26,15 +26,14 @@ void main()
 	vec3 ObjectNormal = OctDecode(NormalAttribute);
 	FMaterialInputs Inputs = FMaterialInputs(ObjectNormal, vec4(0.0), vec2(0.0), vec2(0.0), vec4(1.0));
 #else
-	vec3 TriangleHit = vec3(gl_HitTEXT, Barycentrics);
+	vec3 TriangleHit = vec3(gl_HitTEXT, Barycentrics), P0, P1, P2;
+	FetchPositions(Section, gl_PrimitiveID, P0, P1, P2); // once: it is much code
+	vec3 ObjectNormal = cross(P1 - P0, P2 - P0);         // any length
 	if ((Section.Flags & SECTION_PIECES) != 0u)
 	{
-		TriangleHit = IntersectTriangle(Section, gl_PrimitiveID, gl_ObjectRayOriginEXT, gl_ObjectRayDirectionEXT);
+		TriangleHit = IntersectTriangle(P0, P1, P2, gl_ObjectRayOriginEXT, gl_ObjectRayDirectionEXT);
 	}
-	FMaterialInputs Inputs = FetchMaterialInputs(Section, gl_PrimitiveID, TriangleHit.yz);
-	vec3 P0, P1, P2;
-	FetchPositions(Section, gl_PrimitiveID, P0, P1, P2);
-	vec3 ObjectNormal = cross(P1 - P0, P2 - P0); // any length
+	FMaterialInputs Inputs = FetchMaterialInputs(Section, gl_PrimitiveID, TriangleHit.yz, ObjectNormal);
 #endif
 	Inputs.Normal = (Inputs.Normal * gl_WorldToObjectEXT).xyz;
 	mat3 ObjectToWorld = mat3(gl_ObjectToWorldEXT);

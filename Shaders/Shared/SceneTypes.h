@@ -41,12 +41,19 @@ struct FVertexStream
 	uint Format;      // VERTEX_…
 };
 
+#define STREAM_POSITIONS 0u
+#define STREAM_NORMALS 1u
+#define STREAM_TANGENTS 2u
+#define STREAM_UV0 3u
+#define STREAM_UV1 4u
+#define STREAM_COLORS 5u
+
 #define STREAMS_SIGN_IN_NORMAL 1u // w of normals, not of tangents, is the sign of the bitangent
 
 // The vertices of a section with SECTION_STREAMS, in place of FVertexAttributes.
 struct FVertexStreams
 {
-	FVertexStream Positions, Normals, Tangents, UV0, UV1, Colors;
+	FVertexStream Positions, Normals, Tangents, UV0, UV1, Colors; // in the order of STREAM_…
 	uint Flags; // STREAMS_…
 	uint Pad;
 };

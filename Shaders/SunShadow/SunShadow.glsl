@@ -37,7 +37,6 @@ void TracePixel(uvec2 Pixel)
 	}
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), Depth);
-	vec3 Origin = RasterRayOrigin(Scene, View, Point);
 	float VisibleSamples = 0.0, BlockerDistanceSum = 0.0, BlockedSamples = 0.0;
 	FTileSequence Sequence = MakeTileSequence(Pixel, View.FrameIndex, HashPcg(View.Seed));
 	for (uint Sample = 0; Sample < SamplesPerPixel; ++Sample)
@@ -45,7 +44,7 @@ void TracePixel(uvec2 Pixel)
 		vec3 Direction = -Scene.SunDirection;
 		if (Push.bSoft != 0u) { Direction = SampleSunDirection(Scene, SobolOwen2(Sequence.Index * SamplesPerPixel + Sample, Sequence.Seed)); }
 		if (!LeavesSurface(View, Point, Direction)) { continue; }
-		float BlockerDistance = TraceSunRay(Origin, Direction);
+		float BlockerDistance = TraceSunRay(RasterRayOrigin(Scene, View, Point), Direction);
 		VisibleSamples += BlockerDistance < 0.0 ? 1.0 : 0.0;
 		BlockedSamples += BlockerDistance < 0.0 ? 0.0 : 1.0;
 		BlockerDistanceSum += max(BlockerDistance, 0.0);

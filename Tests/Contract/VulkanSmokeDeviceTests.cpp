@@ -133,9 +133,14 @@ TEST_F(FVulkanSmokeDevice, FramesDestroyNoPipeline)
 		ASSERT_OK(Timed->WaitIdle());
 	}
 	EXPECT_EQ(Timed->GetValidationMessageCount(), 0u);
-	Timed.Reset(); // waits for all of them
-	EXPECT_EQ(Destroyed.Threads.size(), 3u);
-	EXPECT_EQ(std::count(Destroyed.Threads.begin(), Destroyed.Threads.end(), std::this_thread::get_id()), 0);
+	const auto CountHere = [&] {
+		const std::scoped_lock Lock(Destroyed.Mutex);
+		return std::count(Destroyed.Threads.begin(), Destroyed.Threads.end(), std::this_thread::get_id());
+	};
+	EXPECT_EQ(CountHere(), 0);
+	Timed.Reset(); // waits for all of them, and destroys the one of its own
+	EXPECT_EQ(CountHere(), 1);
+	EXPECT_EQ(Destroyed.Threads.size(), 4u);
 }
 
 TEST_F(FVulkanSmokeDevice, AWrongIndexIsNamed)
@@ -156,6 +161,41 @@ TEST_F(FVulkanSmokeDevice, ErrorsCarryTheObjectsName)
 	EXPECT_EQ(Status.Code, ERTResult::Unsupported);
 	EXPECT_NE(strstr(Status.Message, "Too wide"), nullptr) << Status.Message;
 	EXPECT_FALSE(Texture);
+}
+
+/// The layers of newer releases would have a message for each.
+TEST_F(FVulkanSmokeDevice, WhatIsBeyondTheLimitsIsRefusedBeforeVulkanSeesIt)
+{
+	const auto Expect = [](const FRTStatus& Status, const char* Limit) {
+		EXPECT_EQ(Status.Code, ERTResult::Unsupported);
+		EXPECT_NE(strstr(Status.Message, "Too large"), nullptr) << Status.Message;
+		EXPECT_NE(strstr(Status.Message, Limit), nullptr) << Status.Message;
+	};
+	TRTRef<IRTBuffer> Buffer;
+	Expect(Device->CreateBuffer({1ull << 60, ERTBufferUsage::Storage, ERTMemory::Device, "Too large"}, Buffer.ReleaseAndGetAddress()),
+	    "the device's limit is");
+	const uint64_t Most = Device->GetCapabilities().MaxPrimitiveCount;
+	if (Most == 0 || Most >= ~0u) { GTEST_SKIP() << "no number of triangles is too large"; }
+	TRTRef<IRTBuffer> Vertices;
+	ASSERT_OK(Device->CreateBuffer(
+	    {36, ERTBufferUsage::Storage | ERTBufferUsage::GeometryInput, ERTMemory::Device, "Vertices"}, Vertices.ReleaseAndGetAddress()));
+	FRTGeometrySection Section;
+	Section.Vertices = Vertices.Get();
+	Section.VertexCount = 3;
+	Section.VertexStride = 12;
+	Section.TriangleCount = static_cast<uint32_t>(Most + 1);
+	FRTGeometryDesc Desc;
+	Desc.Sections = &Section;
+	Desc.SectionCount = 1;
+	Desc.Name = "Too large";
+	EXPECT_EQ(Device->GetGeometrySizes(Desc).StructureBytes, 0u);
+	TRTRef<IRTGeometry> Geometry;
+	Expect(Device->CreateGeometry(Desc, Geometry.ReleaseAndGetAddress()), "the limit is");
+	FRTSceneDesc Scene;
+	Scene.MaxInstances = static_cast<uint32_t>(std::min<uint64_t>(Device->GetCapabilities().MaxInstanceCount + 1, ~0u));
+	Scene.Name = "Too large";
+	TRTRef<IRTScene> NoScene;
+	Expect(Device->CreateScene(Scene, NoScene.ReleaseAndGetAddress()), "the device's limit is");
 }
 
 /// Without this the zero that every other test asserts would prove nothing.
@@ -389,10 +429,8 @@ void WriteThroughEngine(FEngine& Engine, IRTDevice& Adopted)
 TEST_F(FVulkanSmokeDevice, AnEnginesDeviceIsTakenOverAndLeftAlive)
 {
 	FEngine Engine;
-	ASSERT_NO_FATAL_FAILURE(StartEngine(Engine, Device->GetCapabilities().DeviceName));
 	TRTRef<IRTVulkanRequirements> Requirements;
-	ASSERT_OK(GetVulkanRequirements(Engine.DescribeRequirements(), Requirements.ReleaseAndGetAddress()));
-	ASSERT_TRUE(Engine.CreateDevice(Requirements->MergeFeatures(), Requirements->GetExtensionCount(), Requirements->GetExtensions()));
+	ASSERT_NO_FATAL_FAILURE(StartEngine(Engine, Device->GetCapabilities().DeviceName, Requirements));
 
 	FRTVulkanExternalDesc Desc = Engine.Describe(Requirements.Get());
 	int LockDepth = 0;

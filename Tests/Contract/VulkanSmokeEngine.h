@@ -158,4 +158,13 @@ inline void StartEngine(FEngine& Engine, const char* DeviceName)
 	ASSERT_TRUE(Engine.FindPhysical(DeviceName));
 }
 
+/// As above, and makes the engine's device as the plugin requires it.
+inline void StartEngine(FEngine& Engine, const char* DeviceName, TRTRef<IRTVulkanRequirements>& OutRequirements)
+{
+	ASSERT_NO_FATAL_FAILURE(StartEngine(Engine, DeviceName));
+	ASSERT_OK(GetVulkanRequirements(Engine.DescribeRequirements(), OutRequirements.ReleaseAndGetAddress()));
+	ASSERT_TRUE(
+	    Engine.CreateDevice(OutRequirements->MergeFeatures(), OutRequirements->GetExtensionCount(), OutRequirements->GetExtensions()));
+}
+
 } // namespace Lantern

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "LanternRHIVulkan/VulkanDevice.h"
+#include "Support/StatusChecks.h"
 #include "Support/WaitTools.h"
 
 #include <gtest/gtest.h>
@@ -16,13 +17,6 @@
 
 namespace Lantern
 {
-
-#define ASSERT_OK(Expression)                                                                                                              \
-	do {                                                                                                                                   \
-		const FRTStatus Status_ = (Expression);                                                                                            \
-		ASSERT_TRUE(Status_.IsOk()) << Status_.Message;                                                                                    \
-	}                                                                                                                                      \
-	while (false)
 
 template <size_t Count>
 FRTShaderCode MakeCode(const uint32_t (&Words)[Count], ERTShaderStage Stage, const char* Name)

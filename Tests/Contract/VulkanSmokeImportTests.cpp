@@ -17,9 +17,7 @@ protected:
 	{
 		FVulkanSmokeTest::SetUp();
 		if (IsSkipped() || HasFatalFailure()) { return; }
-		ASSERT_NO_FATAL_FAILURE(StartEngine(Engine, Device->GetCapabilities().DeviceName));
-		ASSERT_OK(GetVulkanRequirements(Engine.DescribeRequirements(), Requirements.ReleaseAndGetAddress()));
-		ASSERT_TRUE(Engine.CreateDevice(Requirements->MergeFeatures(), Requirements->GetExtensionCount(), Requirements->GetExtensions()));
+		ASSERT_NO_FATAL_FAILURE(StartEngine(Engine, Device->GetCapabilities().DeviceName, Requirements));
 		ASSERT_OK(AdoptVulkanDevice(Engine.Describe(Requirements.Get()), Adopted.ReleaseAndGetAddress()));
 	}
 	void TearDown() override

@@ -167,12 +167,12 @@ TEST_F(FSynchronizationTest, TexturesInTheEnginesOwnLayouts)
 	As.Normals = EEngineNormals::View;
 	As.Offset = {8, 8};
 	EXPECT_LE(CountDifferent(RenderPicture(As), Plain), 0.002);
-	ASSERT_FINE(Module->SetConsoleVariable("r.RT.Shadow.Soft", "1"));
+	ASSERT_OK(Module->SetConsoleVariable("r.RT.Shadow.Soft", "1"));
 	FRTModuleSun Soft;
 	Soft.Direction[0] = 0.3;
 	Soft.Irradiance = 1.0f;
 	Soft.AngularDiameter = 0.1f;
-	ASSERT_FINE(Renderer->SetSun(Soft)); // filtered, with histories
+	ASSERT_OK(Renderer->SetSun(Soft)); // filtered, with histories
 	(void)RenderPicture(As);
 }
 
@@ -180,8 +180,8 @@ TEST_F(FSynchronizationTest, ImpossibleStatesAreRefused)
 {
 	TRTRef<IRTTexture> Own, Imported;
 	const FRTTextureDesc Desc{8, 8, 1, 1, ERTFormat::R32_FLOAT, ERTTextureUsage::Sampled, "Mine"};
-	ASSERT_FINE(Device->CreateTexture(Desc, Own.ReleaseAndGetAddress()));
-	ASSERT_FINE(Device->ImportTexture(Desc, Own->GetNative(ERTNative::Image), Imported.ReleaseAndGetAddress()));
+	ASSERT_OK(Device->CreateTexture(Desc, Own.ReleaseAndGetAddress()));
+	ASSERT_OK(Device->ImportTexture(Desc, Own->GetNative(ERTNative::Image), Imported.ReleaseAndGetAddress()));
 	const FRTExternalState Good{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT};
 	const auto Expect = [&](IRTTexture& Texture, FRTExternalState From, FRTExternalState To, const char* Why) {
 		const FRTStatus Status = Texture.SetExternalState(From, To);

@@ -34,12 +34,12 @@ protected:
 		FRTModuleDesc Desc;
 		Desc.ShaderFolder = LANTERN_SOURCE_DIR "/Shaders";
 		Desc.CacheFolder = LANTERN_TEST_CACHE;
-		ASSERT_FINE(Module->Initialize(Desc));
-		ASSERT_FINE(Module->SetConsoleVariable("r.RT.Pipeline.Fallback", "2"));
-		ASSERT_FINE(Module->SetConsoleVariable("r.RT.Build.TrianglesPerFrame", "100000000"));
-		ASSERT_FINE(Module->SetConsoleVariable("r.RT.Shadow.Soft", "0"));
-		ASSERT_FINE(Module->SetConsoleVariable("r.RT.Culling", "0"));
-		ASSERT_FINE(OpenDevice());
+		ASSERT_OK(Module->Initialize(Desc));
+		ASSERT_OK(Module->SetConsoleVariable("r.RT.Pipeline.Fallback", "2"));
+		ASSERT_OK(Module->SetConsoleVariable("r.RT.Build.TrianglesPerFrame", "100000000"));
+		ASSERT_OK(Module->SetConsoleVariable("r.RT.Shadow.Soft", "0"));
+		ASSERT_OK(Module->SetConsoleVariable("r.RT.Culling", "0"));
+		ASSERT_OK(OpenDevice());
 	}
 	virtual FRTStatus OpenDevice() { return Module->CreateDevice(true, Device.ReleaseAndGetAddress()); }
 	void TearDown() override
@@ -77,9 +77,9 @@ protected:
 	/// Gives the triangles to the plugin and to the raster. World: of the engine, in which it then has them.
 	void Open(const FRTModuleRendererDesc& World = {})
 	{
-		ASSERT_FINE(Module->CreateRenderer(Device.Get(), World, Renderer.ReleaseAndGetAddress()));
+		ASSERT_OK(Module->CreateRenderer(Device.Get(), World, Renderer.ReleaseAndGetAddress()));
 		Raster = std::make_unique<FEngineRaster>(*Device);
-		ASSERT_FINE(Raster->SetScene(Soup));
+		ASSERT_OK(Raster->SetScene(Soup));
 		Truth = std::make_unique<FTriangleTruth>(Soup);
 		std::vector<uint32_t> Indices(Soup.Positions.size());
 		for (uint32_t I = 0; I < Indices.size(); ++I) { Indices[I] = I; }
@@ -93,20 +93,20 @@ protected:
 		ERTMaterialHandle White = ERTMaterialHandle::None;
 		FRTModuleMaterial Material;
 		Material.bDoubleSided = true;
-		ASSERT_FINE(Renderer->AddMaterial(Material, &White));
-		ASSERT_FINE(Renderer->AddMesh(Mesh, &Handle));
+		ASSERT_OK(Renderer->AddMaterial(Material, &White));
+		ASSERT_OK(Renderer->AddMesh(Mesh, &Handle));
 		FRTModuleObject Placed;
 		Placed.Mesh = Handle;
 		Placed.Materials = &White;
 		Placed.MaterialCount = 1;
 		Placed.bCastsShadow = bCastsShadow;
 		PlaceInWorld(World, Placed.Transform);
-		ASSERT_FINE(Renderer->AddObject(Placed, &Object));
+		ASSERT_OK(Renderer->AddObject(Placed, &Object));
 		FRTModuleSun Sun;
 		const glm::dvec3 Travel = ToEngine(World, -ToSun);
 		for (int Axis = 0; Axis < 3; ++Axis) { Sun.Direction[Axis] = Travel[Axis]; }
 		Sun.Irradiance = 1.0f;
-		ASSERT_FINE(Renderer->SetSun(Sun));
+		ASSERT_OK(Renderer->SetSun(Sun));
 	}
 	/// A direction of Lantern's world in the engine's.
 	static glm::dvec3 ToEngine(const FRTModuleRendererDesc& World, const glm::dvec3& V)

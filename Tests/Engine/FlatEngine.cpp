@@ -52,13 +52,13 @@ void FFlatEngineTest::SetUp()
 	FRTModuleDesc Desc;
 	Desc.ShaderFolder = LANTERN_SOURCE_DIR "/Shaders";
 	Desc.CacheFolder = LANTERN_TEST_CACHE;
-	ASSERT_FINE(Module->Initialize(Desc));
+	ASSERT_OK(Module->Initialize(Desc));
 	for (const char* const Name : {"r.RT.GI", "r.RT.Reflections"}) { SetVariable(Name, "1"); }
 	SetVariable("r.RT.Pipeline.Fallback", "2");
 	SetVariable("r.RT.Build.TrianglesPerFrame", "100000000");
 	SetVariable("r.RT.Shadow.Soft", "0");
 	SetVariable("r.RT.Culling", "0");
-	ASSERT_FINE(Module->CreateDevice(true, Device.ReleaseAndGetAddress()));
+	ASSERT_OK(Module->CreateDevice(true, Device.ReleaseAndGetAddress()));
 	const auto Constant = [&](ERTFormat Format, auto Texel, const char* Name) {
 		const std::vector<decltype(Texel)> Texels(size_t(Size) * Size, Texel);
 		return MakeTexture({Size, Size, 1, 1, Format, ERTTextureUsage::Sampled, Name}, Texels.data());
@@ -177,8 +177,7 @@ void FFlatEngineTest::Read(IRTCommandList& List, const FRTModuleOutputs& Outputs
 		ASSERT_NE(Texture, nullptr) << Info.Name;
 		TRTRef<IRTBuffer>& Buffer = Readbacks[Info.Signal];
 		const uint64_t Bytes = uint64_t(Size) * Size * BytesPerTexel(Info.Format);
-		ASSERT_FINE(
-		    Device->CreateBuffer({Bytes, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Readback"}, Buffer.ReleaseAndGetAddress()));
+		ASSERT_OK(Device->CreateBuffer({Bytes, ERTBufferUsage::CopyDest, ERTMemory::Readback, "Readback"}, Buffer.ReleaseAndGetAddress()));
 		const FRTBarrier Before{nullptr, Texture, ERTAccess::ShaderRead, ERTAccess::CopyRead};
 		const FRTBarrier After[] = {{nullptr, Texture, ERTAccess::CopyRead, ERTAccess::ShaderRead},
 		    {Buffer.Get(), nullptr, ERTAccess::CopyWrite, ERTAccess::HostRead}};
@@ -191,22 +190,22 @@ void FFlatEngineTest::Read(IRTCommandList& List, const FRTModuleOutputs& Outputs
 void FFlatEngineTest::RenderFrame(IRTModuleRenderer& Renderer, FRTModuleFrame Frame, FSignalPicture* Out)
 {
 	TRTRef<IRTCommandList> List, Imported;
-	ASSERT_FINE(Device->CreateCommandList("Engine", List.ReleaseAndGetAddress()));
-	ASSERT_FINE(List->Begin());
-	ASSERT_FINE(Device->ImportCommandList(List->GetNative(ERTNative::CommandBuffer), Imported.ReleaseAndGetAddress()));
+	ASSERT_OK(Device->CreateCommandList("Engine", List.ReleaseAndGetAddress()));
+	ASSERT_OK(List->Begin());
+	ASSERT_OK(Device->ImportCommandList(List->GetNative(ERTNative::CommandBuffer), Imported.ReleaseAndGetAddress()));
 	Frame.Commands = Imported.Get();
 	FRTModuleOutputs Outputs;
-	ASSERT_FINE(Renderer.RenderFrame(Frame, &Outputs));
+	ASSERT_OK(Renderer.RenderFrame(Frame, &Outputs));
 	if (Out != nullptr)
 	{
 		EXPECT_TRUE(Outputs.bComplete);
 		Read(*List, Outputs, Frame.Wanted);
 	}
-	ASSERT_FINE(List->End());
+	ASSERT_OK(List->End());
 	IRTCommandList* const Lists[] = {List.Get()};
-	ASSERT_FINE(Device->Submit(Lists, 1, nullptr));
-	ASSERT_FINE(Renderer.EndFrame(nullptr));
-	ASSERT_FINE(Device->WaitIdle());
+	ASSERT_OK(Device->Submit(Lists, 1, nullptr));
+	ASSERT_OK(Renderer.EndFrame(nullptr));
+	ASSERT_OK(Device->WaitIdle());
 	if (Out == nullptr) { return; }
 	for (const auto& [Signal, Buffer] : Readbacks)
 	{

@@ -42,7 +42,7 @@ protected:
 	TRTRef<IRTBuffer> ImportBytes(const std::vector<uint8_t>& Bytes, const char* Name);
 	/// A texture with these texels, in ShaderRead.
 	TRTRef<IRTTexture> MakeTexture(const FRTTextureDesc& Desc, const void* Texels);
-	void SetVariable(const char* Name, const char* Value) { ASSERT_FINE(Module->SetConsoleVariable(Name, Value)); }
+	void SetVariable(const char* Name, const char* Value) { ASSERT_OK(Module->SetConsoleVariable(Name, Value)); }
 	/// Adds an object of the mesh with the material.
 	static ERTObjectHandle Place(IRTModuleRenderer& Renderer, ERTMeshHandle Mesh, ERTMaterialHandle Material, glm::dvec3 At, double Scale);
 

@@ -25,8 +25,8 @@ protected:
 		for (int Axis = 0; Axis < 3; ++Axis) { Sun.Direction[Axis] = -ToSun[Axis]; }
 		Sun.Irradiance = 1.0f;
 		Sun.AngularDiameter = 0.12f;
-		ASSERT_FINE(Module->SetConsoleVariable("r.RT.Shadow.Soft", "1"));
-		ASSERT_FINE(Renderer->SetSun(Sun));
+		ASSERT_OK(Module->SetConsoleVariable("r.RT.Shadow.Soft", "1"));
+		ASSERT_OK(Renderer->SetSun(Sun));
 	}
 	/// One picture after warming up. The scene, or the camera, moves by Step each frame.
 	std::vector<float> RenderMoving(const FEngineConventions& As, bool bCameraMoves)
@@ -119,7 +119,7 @@ TEST_F(FGBufferLayoutTest, LinearDepthEndsAtTheFarPlane)
 	std::vector<float> Near;
 	std::vector<uint32_t> Triangles;
 	Raster->Change = [&](FRTModuleFrame& Frame) { Frame.View.Projection = FEngineRaster::MakeProjection(Camera, Told, Size); };
-	ASSERT_FINE(Raster->Render(*Renderer, Camera, As, Size, Near, Triangles));
+	ASSERT_OK(Raster->Render(*Renderer, Camera, As, Size, Near, Triangles));
 	size_t Dark[2] = {}, Wrong = 0;
 	for (size_t Pixel = 0; Pixel < Near.size(); ++Pixel)
 	{
@@ -221,7 +221,7 @@ TEST_F(FUnrealGBufferTest, VelocityIsMotion)
 
 TEST_F(FUnrealGBufferTest, MaterialsAreThoseOfTheNativeLayout)
 {
-	ASSERT_FINE(Module->SetConsoleVariable("r.RT.Reflections", "1"));
+	ASSERT_OK(Module->SetConsoleVariable("r.RT.Reflections", "1"));
 	FEngineConventions Unreal = MakeUnreal(), Plain = MakeUnreal();
 	Unreal.Signal = Plain.Signal = ESignal::Reflections;
 	Plain.bUnrealMaterial = false;

@@ -33,7 +33,7 @@ protected:
 		const double Transform[12] = {1, 0, 0, First + X, 0, 0, 1, 0, 0, -1, 0, -First - Y};
 		std::copy(std::begin(Transform), std::end(Transform), Object.Transform);
 		ERTObjectHandle Out = ERTObjectHandle::None;
-		ASSERT_FINE(Renderer.AddObject(Object, &Out));
+		ASSERT_OK(Renderer.AddObject(Object, &Out));
 	}
 	static void AddLight(IRTModuleRenderer& Renderer, double SunX)
 	{
@@ -41,8 +41,8 @@ protected:
 		Sun.Direction[0] = SunX;
 		Sun.Irradiance = 3.0f;
 		const float Sky[3] = {0.5f, 0.7f, 1.0f};
-		ASSERT_FINE(Renderer.SetSun(Sun));
-		ASSERT_FINE(Renderer.SetSky(Sky));
+		ASSERT_OK(Renderer.SetSun(Sun));
+		ASSERT_OK(Renderer.SetSky(Sky));
 	}
 	static ERTMaterialHandle AddGround(IRTModuleRenderer& Renderer)
 	{
@@ -75,7 +75,7 @@ protected:
 				Patch.HeightOffset = Offset;
 				Patch.Holes = Index == 0 ? Holes : nullptr;
 				ERTMeshHandle Mesh = ERTMeshHandle::None;
-				ASSERT_FINE(Renderer.AddLandscape(Patch, &Mesh));
+				ASSERT_OK(Renderer.AddLandscape(Patch, &Mesh));
 				PlaceUpright(Renderer, Mesh, Ground, X * Quads * double(Spacing), Y * Quads * double(Spacing));
 			}
 		    },
@@ -115,7 +115,7 @@ protected:
 			ERTMeshHandle Handle = ERTMeshHandle::None;
 			const ERTMaterialHandle Ground = AddGround(Renderer);
 			AddLight(Renderer, SunX);
-			ASSERT_FINE(Renderer.AddMesh(Mesh, &Handle));
+			ASSERT_OK(Renderer.AddMesh(Mesh, &Handle));
 			PlaceUpright(Renderer, Handle, Ground, 0, 0);
 		    },
 		    Wanted);

@@ -31,7 +31,7 @@ protected:
 		SetVariable("r.RT.GI.Samples", "16");
 		FRTSamplerDesc Desc;
 		Desc.U = Desc.V = ERTAddress::Clamp;
-		ASSERT_FINE(Device->CreateSampler(Desc, Sampler.ReleaseAndGetAddress()));
+		ASSERT_OK(Device->CreateSampler(Desc, Sampler.ReleaseAndGetAddress()));
 	}
 	void TearDown() override
 	{
@@ -97,8 +97,8 @@ protected:
 		Desc.bDoubleSided = true;
 		ERTMaterialHandle White = ERTMaterialHandle::None;
 		ERTMeshHandle Handle = ERTMeshHandle::None;
-		ASSERT_FINE(Renderer.AddMaterial(Desc, &White));
-		ASSERT_FINE(Renderer.AddMesh(Mesh, &Handle));
+		ASSERT_OK(Renderer.AddMaterial(Desc, &White));
+		ASSERT_OK(Renderer.AddMesh(Mesh, &Handle));
 		Place(Renderer, Handle, White, {-1.0, 0.5, 0.5}, 0.7);
 	}
 	FSignalPicture RenderSky(const FRTModuleSkyMap* Map, glm::vec3 Radiance = glm::vec3(0))
@@ -106,8 +106,8 @@ protected:
 		return Render(
 		    [&](IRTModuleRenderer& Renderer) {
 			FillWorld(Renderer);
-			ASSERT_FINE(Renderer.SetSky(&Radiance.x));
-			ASSERT_FINE(Renderer.SetSkyMap(Map));
+			ASSERT_OK(Renderer.SetSky(&Radiance.x));
+			ASSERT_OK(Renderer.SetSkyMap(Map));
 		    },
 		    Wanted);
 	}
@@ -165,13 +165,13 @@ TEST_F(FSkyMapTest, ASkyMayChangeEachFrame)
 	const FSignalPicture Steady = RenderSky(&Cube);
 	BeforeFrame = [&](IRTModuleRenderer& Renderer, int Index) {
 		const FRTModuleSkyMap* const Turns[] = {&Octahedral, nullptr, &Cube};
-		ASSERT_FINE(Renderer.SetSkyMap(Turns[Index % 3]));
+		ASSERT_OK(Renderer.SetSkyMap(Turns[Index % 3]));
 	};
 	const FSignalPicture Changed = RenderSky(nullptr, Uniform);
 	EXPECT_EQ(Steady.GetMeanDifference(Changed), 0.0) << "the sixth frame has the cube";
 	BeforeFrame = nullptr;
 	const FSignalPicture Plain = RenderSky(nullptr, Uniform);
-	BeforeFrame = [&](IRTModuleRenderer& Renderer, int Index) { ASSERT_FINE(Renderer.SetSkyMap(Index < 5 ? &Cube : nullptr)); };
+	BeforeFrame = [&](IRTModuleRenderer& Renderer, int Index) { ASSERT_OK(Renderer.SetSkyMap(Index < 5 ? &Cube : nullptr)); };
 	EXPECT_EQ(Plain.GetMeanDifference(RenderSky(nullptr, Uniform)), 0.0) << "null: the radiance again";
 }
 

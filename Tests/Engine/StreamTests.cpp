@@ -114,7 +114,7 @@ protected:
 	void SetUp() override
 	{
 		FFlatEngineTest::SetUp();
-		ASSERT_FINE(Device->CreateSampler({}, Sampler.ReleaseAndGetAddress()));
+		ASSERT_OK(Device->CreateSampler({}, Sampler.ReleaseAndGetAddress()));
 		// Left half opaque and blue at the top, right half transparent at the bottom; normals that lean.
 		constexpr uint32_t Colors[4] = {0xff2040ffu, 0xff40ff20u, 0xffff4020u, 0x00ffffffu};
 		constexpr uint32_t Leaning[4] = {0xffff8080u, 0xffff80a0u, 0xffff9080u, 0xffff60a0u};
@@ -140,7 +140,7 @@ protected:
 			Desc.bMasked = Desc.bDoubleSided = true;
 			Desc.Emissive[0] = 0.2f;
 			ERTMaterialHandle Foliage = ERTMaterialHandle::None;
-			ASSERT_FINE(Renderer.AddMaterial(Desc, &Foliage));
+			ASSERT_OK(Renderer.AddMaterial(Desc, &Foliage));
 			const ERTMeshHandle Mesh = AddMesh(Renderer);
 			for (const glm::dvec3 At : {glm::dvec3(-1, 0.6, 0), {0.8, 0.8, -0.7}, {0.5, 0.5, 0.9}})
 			{
@@ -149,9 +149,9 @@ protected:
 			FRTModuleSun Sun;
 			Sun.Direction[0] = 0.4;
 			Sun.Irradiance = 3.0f;
-			ASSERT_FINE(Renderer.SetSun(Sun));
+			ASSERT_OK(Renderer.SetSun(Sun));
 			const float Sky[3] = {0.5f, 0.7f, 1.0f};
-			ASSERT_FINE(Renderer.SetSky(Sky));
+			ASSERT_OK(Renderer.SetSky(Sky));
 		    },
 		    Wanted);
 	}

@@ -51,6 +51,17 @@ TEST_F(BenchProgram, LongestFramesOfRtpsoShowWhatTheirThreadsDid)
 	EXPECT_FALSE(ReadJson(At("trace.json"))["traceEvents"].empty());
 }
 
+TEST_F(BenchProgram, FrameHasNoTimesOfADeviceWithoutAClock)
+{
+	const FProgramRun Run = RunProgram(
+	    {"bench", "frame", "--mock", "--quick", "--objects", "1000", "--skinned", "2", "--rounds", "1", "--json", At("frame.json")});
+	ASSERT_EQ(Run.Status, 0) << Run.Err;
+	EXPECT_THAT(Run.Out, Not(HasSubstr("GPU ms")));
+	const nlohmann::json Last = ReadJson(At("frame.json"))["stages"].back();
+	EXPECT_EQ(Last["gpu_ms"], nlohmann::json::object());
+	EXPECT_TRUE(Last["breakdown_ms"].contains("  SceneUpdate"));
+}
+
 TEST_F(BenchProgram, FileThatCannotBeWrittenEndsItBeforeAnyWork)
 {
 	const std::vector<std::vector<std::string>> Benches = {

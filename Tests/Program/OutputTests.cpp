@@ -210,6 +210,19 @@ TEST_F(FOutputTest, InfoTellsWhatRunsAndWhyNot)
 	EXPECT_THAT(Chosen.Err, HasSubstr(Devices[0]["device"].get<std::string>()));
 }
 
+TEST_F(FOutputTest, FrameBenchmarkTimesEachPassOnTheDevice)
+{
+	const FProgramRun Run = RunProgram(
+	    {"bench", "frame", "--quick", "--objects", "1000", "--skinned", "2", "--rounds", "1", "--validate", "--json", At("frame.json")});
+	if (Run.Status == 3) { GTEST_SKIP() << "no ray-tracing pipelines"; }
+	ASSERT_EQ(Run.Status, 0) << Run.Err;
+	EXPECT_THAT(Run.Out, HasSubstr("GPU ms"));
+	for (const nlohmann::json& Stage : ReadJson(At("frame.json"))["stages"])
+	{
+		EXPECT_THAT(GetKeys(Stage["gpu_ms"]), IsSupersetOf({"  SceneUpdate", "  SunShadow"})) << Stage["name"];
+	}
+}
+
 TEST_F(FOutputTest, CompareWritesTheFigures)
 {
 	RunCleanly({"render", "furnace:0.5", "--size", "32x32", "-o", At("a.pfm")});

@@ -62,7 +62,7 @@ protected:
 	{
 		IRTPipeline* Pipeline = nullptr;
 		const FShaderSource Source{"BrdfTest.comp", ERTShaderStage::Compute, {}, Shader};
-		EXPECT_OK(GetEngine().GetRenderer().GetPipelines().GetCompute(Source, Pipeline));
+		EXPECT_OK(GetEngine().GetRenderer().GetPipelines().Get(Source, Pipeline));
 		TRTRef<IRTBuffer> Results;
 		EXPECT_OK(GetDevice().CreateBuffer(
 		    {uint64_t(Push.Width) * Push.Height * sizeof(glm::vec2), ERTBufferUsage::Storage, ERTMemory::Readback, "Albedos"},

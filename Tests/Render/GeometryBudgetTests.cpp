@@ -170,8 +170,7 @@ protected:
 	static FRefitQualitySum Measure(FRefitQualityConstants C)
 	{
 		IRTPipeline* Pipeline = nullptr;
-		EXPECT_OK(
-		    GetEngine().GetRenderer().GetPipelines().GetCompute({"Skinning/RefitQuality.comp", ERTShaderStage::Compute, {}, {}}, Pipeline));
+		EXPECT_OK(GetEngine().GetRenderer().GetPipelines().Get({"Skinning/RefitQuality.comp", ERTShaderStage::Compute, {}, {}}, Pipeline));
 		const uint32_t Groups = FRefitQuality::CountGroups(C.TriangleCount);
 		TRTRef<IRTBuffer> Results;
 		EXPECT_OK(GetDevice().CreateBuffer(

@@ -15,12 +15,13 @@ protected:
 	{
 		FRenderTest::SetUp();
 		SetVariable("r.RT.Opacity.Count", "1");
+		SetVariable("r.RT.Opacity.Pieces", "3");
 	}
 	void TearDown() override
 	{
 		SetVariable("r.RT.Opacity.Count", "0");
 		SetVariable("r.RT.Opacity.Classify", "1");
-		SetVariable("r.RT.Opacity.Pieces", "3");
+		SetVariable("r.RT.Opacity.Pieces", "0");
 		FRenderTest::TearDown();
 	}
 	/// The frame before builds.

@@ -1,5 +1,6 @@
 // Sizes, and words that must not be published.
 #include <cstdio>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -79,6 +80,25 @@ TEST(Hygiene, SourceFilesOpenWithWhatLivesThere)
 		EXPECT_TRUE(bComment) << File.Path << ": the first line must be a comment that says what lives in the file";
 	}
 	EXPECT_GT(Seen, 100u) << "found no files to check";
+}
+
+/// Tests include each other's headers in any order, and one name must then be one check.
+TEST(Hygiene, AMacroOfTestHeadersIsDefinedOnce)
+{
+	std::map<std::string_view, std::string> Places;
+	for (const FTextFile& File : GetFiles())
+	{
+		if (!IsUnder(File, "Tests") || !HasExtension(File, {".h"})) { continue; }
+		for (size_t Line = 0; Line < File.Lines.size(); ++Line)
+		{
+			constexpr std::string_view Define = "#define ";
+			if (!StartsWith(File.Lines[Line], Define)) { continue; }
+			const std::string_view Rest = File.Lines[Line].substr(Define.size());
+			const auto [Known, bNew] = Places.emplace(Rest.substr(0, Rest.find_first_of(" (")), At(File, Line));
+			EXPECT_TRUE(bNew) << At(File, Line) << ": " << Known->first << " is defined at " << Known->second;
+		}
+	}
+	EXPECT_GT(Places.size(), 3u) << "found no macros to check";
 }
 
 TEST(Hygiene, FunctionsStayShort)

@@ -2,25 +2,13 @@
 #pragma once
 
 #include "LanternRHI/RTInterfaces.h"
+#include "Support/StatusChecks.h"
 
 #include <cstring>
 #include <gtest/gtest.h>
 
 namespace Lantern
 {
-
-#define ASSERT_OK(Call)                                                                                                                    \
-	do {                                                                                                                                   \
-		const FRTStatus StatusOfCall = (Call);                                                                                             \
-		ASSERT_TRUE(StatusOfCall.IsOk()) << StatusOfCall.Message;                                                                          \
-	}                                                                                                                                      \
-	while (false)
-#define EXPECT_OK(Call)                                                                                                                    \
-	do {                                                                                                                                   \
-		const FRTStatus StatusOfCall = (Call);                                                                                             \
-		EXPECT_TRUE(StatusOfCall.IsOk()) << StatusOfCall.Message;                                                                          \
-	}                                                                                                                                      \
-	while (false)
 
 inline constexpr ERTBufferUsage AnyUsage =
     ERTBufferUsage::Storage | ERTBufferUsage::Index | ERTBufferUsage::CopySource | ERTBufferUsage::CopyDest | ERTBufferUsage::GeometryInput;

@@ -11,20 +11,7 @@
 
 #include "LanternHost/ReferenceRenderer.h"
 #include "LanternHost/SampleEngine.h"
-
-#define ASSERT_OK(Expression)                                                                                                              \
-	do {                                                                                                                                   \
-		const ::Lantern::FRTStatus Status_ = (Expression);                                                                                 \
-		ASSERT_TRUE(Status_.IsOk()) << Status_.Message;                                                                                    \
-	}                                                                                                                                      \
-	while (false)
-
-#define EXPECT_OK(Expression)                                                                                                              \
-	do {                                                                                                                                   \
-		const ::Lantern::FRTStatus Status_ = (Expression);                                                                                 \
-		EXPECT_TRUE(Status_.IsOk()) << Status_.Message;                                                                                    \
-	}                                                                                                                                      \
-	while (false)
+#include "Support/StatusChecks.h"
 
 /// Real scenes lie beside the project, or where LANTERN_SCENES or LANTERN_SHARED says; without them a test is skipped.
 #define REQUIRE_SCENE(Variable, Name)                                                                                                      \

@@ -40,6 +40,7 @@ struct FGeometryOptions
 	bool bTangents = false;
 	bool bCpuData = false; ///< emissive triangles need it
 	bool bOpaqueVertices = false;
+	bool bStreams = false; ///< of a host's own vertices
 	ERTIndexType IndexType = ERTIndexType::UInt32;
 	uint32_t TrianglesPerSection = 1;
 };
@@ -93,6 +94,7 @@ protected:
 		Info.bHasTangents = Options.bTangents;
 		Info.bDynamic = Options.bDynamic;
 		Info.bOpaqueVertices = Options.bOpaqueVertices;
+		Info.bStreams = Options.bStreams;
 		for (uint32_t Section = 0; Section < SectionCount; ++Section)
 		{
 			Info.Sections.push_back({3 * Section * Options.TrianglesPerSection, 3 * Options.TrianglesPerSection, Options.bOpaque});

@@ -66,6 +66,8 @@ public:
 		return Found != Parts.end() ? Found->second : FBenchTimes();
 	}
 	const std::vector<std::string>& GetParts() const { return Order; }
+	/// Of the device. Has no parts where the device has no clock.
+	std::map<std::string, FBenchTimes> Gpu;
 
 private:
 	std::vector<std::string> Order;
@@ -220,7 +222,11 @@ FRTStatus FFrameBench::RenderFrame(FStageTimes* OutTimes)
 	OutTimes->Add("add passes", Ms(Begun, Added));
 	OutTimes->Add("record and submit", Ms(Added, Ended));
 	if (FRTStatus S = WaitForDevice(); !S) { return S; }
-	for (const FPassTiming& Pass : Renderer.GetGraphResources().GetTimings()) { OutTimes->Add("  " + Pass.Name, Pass.CpuMs); }
+	for (const FPassTiming& Pass : Renderer.GetGraphResources().GetTimings())
+	{
+		OutTimes->Add("  " + Pass.Name, Pass.CpuMs);
+		if (Pass.GpuMs >= 0.0 && !Options.bMock) { OutTimes->Gpu["  " + Pass.Name].Add(Pass.GpuMs); }
+	}
 	return FRTStatus::Success();
 }
 
@@ -256,11 +262,12 @@ nlohmann::json FFrameBench::ToJson() const
 	    {"stages", nlohmann::json::array()}});
 	for (const auto& [Stage, Of] : Times)
 	{
-		nlohmann::json Parts = nlohmann::json::object();
+		nlohmann::json Parts = nlohmann::json::object(), Gpu = nlohmann::json::object();
 		for (const std::string& Part : Of.GetParts()) { Parts[Part] = Of.Get(Part).GetMedian(); }
+		for (const auto& [Part, Ms] : Of.Gpu) { Gpu[Part] = Ms.GetMedian(); }
 		Json["stages"].push_back({{"name", GetStages()[Stage].Name}, {"cpu_critical_ms", Of.Get(Critical).GetMedian()},
 		    {"processor_ms", Of.Get(Busy).GetMedian()}, {"min_ms", Of.Get(Critical).GetMin()}, {"max_ms", Of.Get(Critical).GetMax()},
-		    {"instances", Instances.at(Stage)}, {"breakdown_ms", Parts}});
+		    {"instances", Instances.at(Stage)}, {"breakdown_ms", Parts}, {"gpu_ms", Gpu}});
 	}
 	Json["ratio_processor_time"] = Times.at(0).Get(Busy).GetMedian() / Times.rbegin()->second.Get(Busy).GetMedian();
 	Json["ratio"] = Times.at(0).Get(Critical).GetMedian() / Times.rbegin()->second.Get(Critical).GetMedian();
@@ -271,6 +278,8 @@ void FFrameBench::Print() const
 {
 	fmt::print("{:<20}", "render thread, ms");
 	for (const FStage& Stage : GetStages()) { fmt::print(" {:>28}", Stage.Name); }
+	const std::map<std::string, FBenchTimes>& Gpu = Times.rbegin()->second.Gpu;
+	if (!Gpu.empty()) { fmt::print(" {:>10}", "GPU ms"); } // of the last stage
 	std::vector<std::string> Rows = {Critical};
 	for (const auto& [Stage, Of] : Times)
 	{
@@ -288,6 +297,7 @@ void FFrameBench::Print() const
 			    Row == Critical || Row == Busy ? fmt::format(" [{:.2f}, {:.2f}]", Of.Get(Row).GetMin(), Of.Get(Row).GetMax()) : "";
 			fmt::print(" {:>28}", fmt::format("{:.3f}{}", Of.Get(Row).GetMedian(), Range));
 		}
+		if (const auto Found = Gpu.find(Row); Found != Gpu.end()) { fmt::print(" {:>10.3f}", Found->second.GetMedian()); }
 	}
 	fmt::print("\n{:<20}", "instances");
 	for (const auto& [Stage, Count] : Instances) { fmt::print(" {:>28}", Count); }

@@ -71,15 +71,16 @@ public:
 	/// 1 % of the objects, others in each step, go to and fro by up to a metre.
 	void MoveSome(uint32_t Step);
 	FInstanceStore Store;
-	std::vector<FObjectData> Table;
+	TPagedArray<FObjectData> Table;
 
 private:
 	void Set(uint32_t Object, const FInstancePlacement& Placement);
 	std::vector<FInstancePlacement> Placements;
 };
 
-FWorld::FWorld(uint32_t Count) : Table(Count), Placements(Count)
+FWorld::FWorld(uint32_t Count) : Placements(Count)
 {
+	Table.Resize(Count);
 	std::mt19937_64 Random(20'260'101);
 	const auto Uniform = [&](double Low, double High) { return std::uniform_real_distribution<double>(Low, High)(Random); };
 	for (uint32_t Kind = 0; Kind < Kinds; ++Kind) { Store.SetBinding(Kind, {0x10'000ull * (Kind + 1), Kind * 4, Kind}); }
@@ -178,7 +179,7 @@ void MeasureMoving(FWorld& World, uint32_t Frames, FResult& Out)
 		Out.Kept = Gather.GetCount();
 		if (Frame % 8 != 0) { continue; }
 		uint32_t Kept = 0;
-		Out.Naive.Add(Measure([&] { Kept = GatherStraightforward(World.Store, World.Table.data(), Rule, Origin, Plain.Get()); }));
+		Out.Naive.Add(Measure([&] { Kept = GatherStraightforward(World.Store, World.Table, Rule, Origin, Plain.Get()); }));
 		if (Frame % 80 == 0) { Out.bSame &= Kept == Out.Kept && IsSameSet(Target, Plain.Get(), Kept); }
 	}
 }
@@ -197,7 +198,7 @@ void MeasureOthers(FWorld& World, uint32_t Frames, FResult& Out)
 			Gather.Count(World.Store, All);
 			Gather.Write(World.Store, Origin, Target.Get());
 		}));
-		Out.NaiveAll.Add(Measure([&] { GatherStraightforward(World.Store, World.Table.data(), All, Origin, Target.Get()); }));
+		Out.NaiveAll.Add(Measure([&] { GatherStraightforward(World.Store, World.Table, All, Origin, Target.Get()); }));
 	}
 	FBenchTimes Times;
 	for (uint32_t Frame = 0; Frame < Frames; ++Frame)

@@ -62,19 +62,16 @@ public:
 	void AddRaster(const std::string& Scene)
 	{
 		FPipelineShaders All;
-		const std::vector<FGBufferPass::FProgram> Programs = Engine.GetGBufferPass().GetPrograms();
-		for (const FGBufferPass::FProgram& Program : Programs)
-		{
-			All.Shaders.insert(All.Shaders.end(), {Program.Vertex, Program.Fragment});
-		}
-		All.Name = "GBuffer of " + EscapeText(Scene) + ", " + std::to_string(Programs.size()) + " pipelines";
+		const std::vector<FRasterSource> Pipelines = Engine.GetRenderer().GetPipelines().GetRasterSources();
+		for (const FRasterSource& Pipeline : Pipelines) { All.Shaders.insert(All.Shaders.end(), {Pipeline.Vertex, Pipeline.Fragment}); }
+		All.Name = "GBuffer of " + EscapeText(Scene) + ", " + std::to_string(Pipelines.size()) + " pipelines";
 		All.RasterScene = Scene;
 		Add(std::move(All));
 	}
 
 	void AddCompute()
 	{
-		for (FShaderSource& Source : Engine.GetRenderer().GetPipelines().GetSources())
+		for (FShaderSource& Source : Engine.GetRenderer().GetPipelines().GetComputeSources())
 		{
 			FPipelineShaders Pipeline;
 			Pipeline.Shaders = {std::move(Source)};

@@ -221,10 +221,7 @@ int RunRender(FRenderOptions Options)
 	FConsoleVariables::Get().BeginFrame();
 	FProgressLine Compiling;
 	const auto ShowProgress = [&](float Fraction) { Compiling.Show("shaders", Fraction); };
-	if (FRTStatus S = Session.GetEngine().GetRenderer().Precache(Session.GetEngine().GetScene().GetScene(), {}, ShowProgress); !S)
-	{
-		return Session.Close(ReportStatus(S, "shaders"));
-	}
+	if (FRTStatus S = Session.GetEngine().Precache({}, ShowProgress); !S) { return Session.Close(ReportStatus(S, "shaders")); }
 	Compiling.Clear();
 	FFrameLoop Loop(Session, Options);
 	int Status = Loop.Run();

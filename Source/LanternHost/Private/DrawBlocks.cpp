@@ -82,6 +82,7 @@ void FDrawBlocks::Build(const std::vector<FItem>& Items, const std::vector<FDraw
 	Bounds.clear();
 	NextStale = 0;
 	Stale.clear();
+	bMirrored = false;
 	for (size_t First = 0; First < Order.size();)
 	{
 		FBlock& Block = Blocks.emplace_back();
@@ -110,6 +111,7 @@ void FDrawBlocks::Move(uint32_t Draw, const FDrawSphere& Sphere)
 	Block.R[Item] = float(Sphere.Radius);
 	Block.Mirrored = (Block.Mirrored & ~(1ull << Item)) | (uint64_t(Sphere.bMirrored) << Item);
 	FBounds& Of = Bounds[Index];
+	bMirrored |= Sphere.bMirrored;
 	Of.Radius = std::max(Of.Radius, glm::length(Relative) + Block.R[Item]);
 	if (!std::exchange(Of.bStale, true)) { Stale.push_back(Index); }
 }

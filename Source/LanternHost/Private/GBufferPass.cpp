@@ -1,12 +1,16 @@
 // Records the raster G-buffer: its pipelines, culled batches and draws.
+#include "LanternHost/GBufferPass.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "GBufferTypes.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Text/Log.h"
-#include "LanternHost/HostScene.h"
 
 namespace Lantern
 {
@@ -24,67 +28,151 @@ constexpr uint32_t CountColors(bool bMotion) { return bMotion ? 5 : 4; }
 
 } // namespace
 
-FGBufferPass::FProgram FGBufferPass::MakeProgram(const FPipelineKey& Key) const
+FRasterSource FGBufferPass::MakeSource(const FPipelineKey& Key) const
 {
-	FProgram Program{{"GBuffer/GBuffer.vert", ERTShaderStage::Vertex, {}, {}}, {"GBuffer/GBuffer.frag", ERTShaderStage::Fragment, {}, {}}};
-	if (Key.bMasked) { Program.Fragment.Defines.emplace_back("MASKED", "1"); }
+	const FMaterialPrograms& Programs = Renderer.GetPrograms();
+	FRasterSource Source;
+	Source.Key = fmt::format("GBuffer {}{}{}{}", Key.Program, Key.bMasked ? " masked" : "", Key.bMotion ? " motion" : "",
+	    Key.Cull == ERTCull::Back    ? ""
+	    : Key.Cull == ERTCull::Front ? " front"
+	                                 : " both");
+	Source.Revision = Programs.GetRevision(Key.Program);
+	Source.Name = Key.bMasked ? "GBufferMasked" : "GBuffer";
+	if (Key.Program != StandardProgram) { Source.Name += ' ' + Programs.Get(Key.Program).Name; }
+	Source.Vertex = {"GBuffer/GBuffer.vert", ERTShaderStage::Vertex, {}, {}};
+	Source.Fragment = {"GBuffer/GBuffer.frag", ERTShaderStage::Fragment, {}, {}};
+	if (Key.bMasked) { Source.Fragment.Defines.emplace_back("MASKED", "1"); }
 	if (Key.bMotion)
 	{
-		Program.Vertex.Defines.emplace_back("MOTION", "1");
-		Program.Fragment.Defines.emplace_back("MOTION", "1");
+		Source.Vertex.Defines.emplace_back("MOTION", "1");
+		Source.Fragment.Defines.emplace_back("MOTION", "1");
 	}
-	Program.Fragment = Renderer.GetPrograms().MakeSource(std::move(Program.Fragment), Key.Program);
-	return Program;
+	Source.Fragment = Programs.MakeSource(std::move(Source.Fragment), Key.Program);
+	Source.ColorFormats.assign(ColorFormats.begin(), ColorFormats.begin() + CountColors(Key.bMotion));
+	Source.DepthFormat = ERTFormat::D32_FLOAT;
+	Source.Cull = Key.Cull;
+	return Source;
 }
 
-std::vector<FGBufferPass::FProgram> FGBufferPass::GetPrograms() const
+const FRasterSource& FGBufferPass::GetSource(const FPipelineKey& Key)
 {
-	std::vector<FProgram> Programs;
-	for (const auto& [Key, Entry] : Pipelines) { Programs.push_back(MakeProgram(Key)); }
-	return Programs;
+	FRasterSource& Source = Sources[Key];
+	if (Source.Key.empty() || Source.Revision != Renderer.GetPrograms().GetRevision(Key.Program)) { Source = MakeSource(Key); }
+	return Source;
 }
 
-FRTStatus FGBufferPass::CreatePipeline(const FPipelineKey& Key, TRTRef<IRTPipeline>& Out)
+/// Of all that the scene may draw, in view or not: what comes into view is then there.
+std::vector<FGBufferPass::FPipelineKey> FGBufferPass::ListKeys(const FHostScene& Scene, bool bAlphaTest, bool bWithMotion)
 {
-	const FProgram Program = MakeProgram(Key);
-	FShaderBinary VertexBinary, FragmentBinary;
-	if (FRTStatus S = Renderer.GetCompiler().Compile(Program.Vertex, VertexBinary); !S) { return S; }
-	if (FRTStatus S = Renderer.GetCompiler().Compile(Program.Fragment, FragmentBinary); !S) { return S; }
-	std::string Name = Key.bMasked ? "GBufferMasked" : "GBuffer";
-	if (Key.Program != StandardProgram) { Name += ' ' + Renderer.GetPrograms().Get(Key.Program).Name; }
-	FRTRasterPipelineDesc Desc;
-	Desc.Vertex = VertexBinary.GetCode();
-	Desc.Fragment = FragmentBinary.GetCode();
-	Desc.ColorFormats = ColorFormats.data();
-	Desc.ColorCount = CountColors(Key.bMotion);
-	Desc.DepthFormat = ERTFormat::D32_FLOAT;
-	Desc.Cull = Key.Cull;
-	Desc.Name = Name.c_str();
-	TRTRef<IRTPipeline> Made;
-	if (FRTStatus S = Renderer.GetDevice().CreateRasterPipeline(Desc, Made.ReleaseAndGetAddress()); !S) { return S; }
-	Out = std::move(Made);
+	std::vector<FPipelineKey> Keys;
+	for (const FHostScene::FDrawKind& Kind : Scene.GetDrawKinds())
+	{
+		const FPipelineKey Key{Kind.Program, Kind.bMasked && bAlphaTest, Kind.bDoubleSided ? ERTCull::None : ERTCull::Back, bWithMotion};
+		Keys.push_back(Key);
+		if (Kind.bDoubleSided || !Scene.GetDrawBlocks().HasMirrored()) { continue; }
+		Keys.push_back(Key);
+		Keys.back().Cull = ERTCull::Front;
+	}
+	return Keys;
+}
+
+bool FGBufferPass::MayMove(bool bFollowed) const { return bFollowed && bMotion && CVarMotion.GetOnRenderThread(); }
+
+void FGBufferPass::Want(const std::vector<FPipelineKey>& Keys)
+{
+	for (const FPipelineKey& Key : Keys)
+	{
+		IRTPipeline* Unused = nullptr;
+		(void)Renderer.GetPipelines().Find(GetSource(Key), Unused);
+	}
+}
+
+std::vector<FGBufferPass::FPipelineKey> FGBufferPass::ListKeys(FHostScene& Scene, const FFrameFeatures& Features) const
+{
+	const bool bFollowed = Renderer.FollowsMotion(Scene.GetScene(), Features); // brings the facts up to date
+	return ListKeys(Scene, Scene.GetScene().GetFacts().bMasked, MayMove(bFollowed));
+}
+
+namespace
+{
+/// Whether a picture would not be complete. A program that does not compile has a stand-in.
+bool IsFatal(uint32_t Program, const FRTStatus& Status) { return Program == StandardProgram || Status.Code != ERTResult::CompileFailed; }
+
+void LogFailure(const FRTStatus& Status)
+{
+	const auto Level = Status.Code == ERTResult::CompileFailed ? ERTLogLevel::Error : ERTLogLevel::Warning;
+	LogOnce(Level, std::string("raster: ") + Status.Message);
+}
+} // namespace
+
+FRTStatus FGBufferPass::Precache(FHostScene& Scene, const FFrameFeatures& Features, const std::function<void(float)>& Progress)
+{
+	const std::vector<FPipelineKey> Keys = ListKeys(Scene, Features);
+	Want(Keys); // side by side
+	for (size_t I = 0; I < Keys.size(); ++I)
+	{
+		IRTPipeline* Unused = nullptr;
+		FRTStatus Status = Renderer.GetPipelines().Get(GetSource(Keys[I]), Unused);
+		if (!Status && !IsFatal(Keys[I].Program, Status))
+		{
+			LogFailure(Status);
+			FPipelineKey StandIn = Keys[I];
+			StandIn.Program = StandardProgram;
+			Status = Renderer.GetPipelines().Get(GetSource(StandIn), Unused);
+		}
+		if (!Status) { return Status; }
+		if (Progress) { Progress(static_cast<float>(I + 1) / static_cast<float>(Keys.size())); }
+	}
+	if (Progress && Keys.empty()) { Progress(1.0f); }
 	return FRTStatus::Success();
 }
 
-IRTPipeline* FGBufferPass::GetPipeline(const FFrameContext& Context, const FPipelineKey& Key)
+IRTPipeline* FGBufferPass::Ask(const FFrameContext& Context, const FPipelineKey& Key)
 {
-	FPipelineEntry& Entry = Pipelines[Key];
-	const uint32_t Revision = Renderer.GetPrograms().GetRevision(Key.Program);
-	if (!Entry.Pipeline || Entry.Revision != Revision)
+	IRTPipeline* Pipeline = nullptr;
+	const FRasterSource& Source = GetSource(Key);
+	const bool bWait = Context.bWaitForPipelines;
+	const FRTStatus Status = bWait ? Context.Pipelines.Get(Source, Pipeline) : Context.Pipelines.Find(Source, Pipeline);
+	if (Status) { return Pipeline; }
+	if (Status.Code == ERTResult::DeviceLost || (bWait && IsFatal(Key.Program, Status))) { Context.Fail(Status); }
+	else { LogFailure(Status); }
+	return Pipeline;
+}
+
+/// Returns whether there is something to draw everything with.
+bool FGBufferPass::FindPipelines(const FFrameContext& Context, const FHostScene& Scene, bool bWithMotion)
+{
+	const std::vector<FPipelineKey> Keys = ListKeys(Scene, Context.Facts.bMasked, bWithMotion);
+	if (Context.bWaitForPipelines) { Want(Keys); } // side by side
+	const bool bStandIns = GetPipelineFallback() != ERTFallback::Skip;
+	bool bComplete = true;
+	Pipelines.clear();
+	for (const FPipelineKey& Key : Keys)
 	{
-		const bool bTried = Entry.Revision == Revision && Key.Program != StandardProgram;
-		const FRTStatus Status = bTried ? FRTStatus::Success() : CreatePipeline(Key, Entry.Pipeline);
-		// Errors in the shader's code are permanent; a shortage of memory may pass.
-		if (Status || Status.Code == ERTResult::CompileFailed) { Entry.Revision = Revision; }
-		if (!Status && (Key.Program == StandardProgram || Status.Code != ERTResult::CompileFailed))
+		IRTPipeline* Pipeline = Ask(Context, Key);
+		if (!Pipeline && bStandIns && Key.Program != StandardProgram)
 		{
-			Context.Fail(Status);
-			return Entry.Pipeline.Get();
+			Pipeline = Ask(Context, {StandardProgram, Key.bMasked, Key.Cull, Key.bMotion});
 		}
-		if (!Status) { LogError("raster, material program {}: {}", Renderer.GetPrograms().Get(Key.Program).Name, Status.Message); }
+		Pipelines[Key] = Pipeline;
+		bComplete &= Pipeline != nullptr;
 	}
-	if (Entry.Pipeline || Key.Program == StandardProgram) { return Entry.Pipeline.Get(); }
-	return GetPipeline(Context, {StandardProgram, Key.bMasked, Key.Cull, Key.bMotion});
+	return bComplete;
+}
+
+/// Finds the frame's pipelines. Returns whether they write motion vectors.
+bool FGBufferPass::ChooseMotion(const FFrameContext& Context, const FHostScene& Scene)
+{
+	const bool bWanted = MayMove(Context.bMotion);
+	if (FindPipelines(Context, Scene, bWanted))
+	{
+		CompleteMotion = bWanted;
+		return bWanted;
+	}
+	if (CompleteMotion != std::optional(!bWanted)) { return bWanted; }
+	if (FindPipelines(Context, Scene, !bWanted)) { return !bWanted; }
+	FindPipelines(Context, Scene, bWanted);
+	return bWanted;
 }
 
 /// Lists the objects of each batch in its places, near before far, and orders the batches by their nearest objects.
@@ -115,7 +203,7 @@ void FGBufferPass::ListObjects(FHostScene& Scene, uint32_t* Objects)
 	std::stable_partition(Order.begin(), Order.end(), [&](uint32_t Batch) { return !Batches[Batch].bMasked; });
 }
 
-void FGBufferPass::RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHostScene& Scene)
+void FGBufferPass::RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHostScene& Scene, bool bWithMotion)
 {
 	Scene.GetDrawBlocks().Collect(Frame.View, MinPixels, Seen);
 	if (Seen.empty()) { return; }
@@ -135,8 +223,8 @@ void FGBufferPass::RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHost
 			const uint32_t Count = bMirrored ? Uses[Index].Mirrored : Uses[Index].Plain;
 			if (Count == 0) { continue; }
 			const ERTCull Cull = Batch.bDoubleSided ? ERTCull::None : bMirrored ? ERTCull::Front : ERTCull::Back;
-			IRTPipeline* const Pipeline = GetPipeline(Frame, {Batch.Program, Batch.bMasked && Frame.Facts.bMasked, Cull, bMotionNow});
-			if (!Pipeline) { return; }
+			IRTPipeline* const Pipeline = Pipelines.at({Batch.Program, Batch.bMasked && Frame.Facts.bMasked, Cull, bWithMotion});
+			if (!Pipeline) { continue; }
 			if (Pipeline != Bound) { List.SetPipeline(Bound = Pipeline); }
 			if (Batch.Indices != BoundIndices) { List.SetIndexBuffer(BoundIndices = Batch.Indices, 0, ERTIndexType::UInt32); }
 			const uint32_t First = Batch.FirstPlace + (bMirrored ? Batch.Places - Count : 0);
@@ -155,9 +243,10 @@ FGBuffer FGBufferPass::Add(FFrameContext& Context, FHostScene& Scene)
 	};
 	FGBuffer Out;
 	Out.Depth = Create(ERTFormat::D32_FLOAT, "GBufferDepth");
-	const bool bMayMove = bMotion && CVarMotion.GetOnRenderThread();
+	const bool bWithMotion = ChooseMotion(Context, Scene);
+	const uint32_t ColorCount = CountColors(bWithMotion);
 	std::array<FGraphTexture, ColorFormats.size()> Targets;
-	for (uint32_t I = 0; I < CountColors(bMayMove); ++I) { Targets[I] = Create(ColorFormats[I], ColorNames[I]); }
+	for (uint32_t I = 0; I < ColorCount; ++I) { Targets[I] = Create(ColorFormats[I], ColorNames[I]); }
 	Out.Normals = Targets[0];
 	Out.BaseColor = Targets[1];
 	Out.Material = Targets[2];
@@ -165,14 +254,11 @@ FGBuffer FGBufferPass::Add(FFrameContext& Context, FHostScene& Scene)
 	Out.Motion = Targets[4];
 	FFrameContext* const Frame = &Context;
 	Graph.AddPass("GBuffer", [&](FPassBuilder& Builder) -> FPassExecute {
-		for (uint32_t I = 0; I < CountColors(false); ++I) { Builder.Write(Targets[I], ERTAccess::RenderTarget); }
-		if (bMayMove) { Builder.WriteIfRead(Out.Motion, ERTAccess::RenderTarget); }
+		for (uint32_t I = 0; I < ColorCount; ++I) { Builder.Write(Targets[I], ERTAccess::RenderTarget); }
 		Builder.Write(Out.Depth, ERTAccess::DepthWrite);
 		Builder.RecordOnTask();
 		for (const FGraphToken Unused : {Context.Tokens.Structures, Context.Tokens.Records}) { Builder.Without(Unused); }
 		return [=, this, &Scene](FPassContext& Pass) {
-			bMotionNow = bMayMove && Pass.GetTexture(Out.Motion);
-			const uint32_t ColorCount = CountColors(bMotionNow);
 			std::array<FRTColorTarget, ColorFormats.size()> Colors;
 			for (uint32_t I = 0; I < ColorCount; ++I) { Colors[I].Texture = Pass.GetTexture(Targets[I]); }
 			FRTRasterPassDesc Desc;
@@ -182,7 +268,7 @@ FGBuffer FGBufferPass::Add(FFrameContext& Context, FHostScene& Scene)
 			Desc.Width = Frame->Width;
 			Desc.Height = Frame->Height;
 			Pass.Commands().BeginRasterPass(Desc);
-			RecordDraws(*Frame, Pass.Commands(), Scene);
+			RecordDraws(*Frame, Pass.Commands(), Scene, bWithMotion);
 			Pass.Commands().EndRasterPass();
 		};
 	});

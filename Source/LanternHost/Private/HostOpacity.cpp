@@ -14,10 +14,11 @@ namespace Lantern
 
 namespace
 {
-TRTConsoleVariable<float> CVarPieces("r.RT.Opacity.Pieces", 3.0f,
+TRTConsoleVariable<float> CVarPieces("r.RT.Opacity.Pieces", 0.0f,
     "Cuts alpha-tested triangles that are partly transparent into pieces without the "
     "transparent parts. Adds at most so many pieces for each such triangle on average, "
-    "where they save most. 0: none. Read when a scene is loaded.",
+    "where they save most: it halves the alpha tests and enlarges the structures. "
+    "0: none. Read when a scene is loaded.",
     {0.0, 64.0});
 
 struct FMaskedSection

@@ -178,6 +178,7 @@ uint32_t FHostScene::FindBatches(uint32_t Mesh, const std::vector<uint32_t>& Mat
 		List.push_back(static_cast<uint32_t>(Batches.size()));
 		OfMesh.push_back(List.back());
 		Batches.push_back(Batch);
+		DrawKinds.insert({Batch.Program, Batch.bMasked, Batch.bDoubleSided});
 	}
 	// Most sets of materials give equal batches. They share one list, which then stays in the CPU cache.
 	const auto [First, bNewList] = BatchLists.try_emplace(List, static_cast<uint32_t>(BatchIndices.size()));

@@ -57,6 +57,29 @@ FRTStatus FSampleEngine::Load(FSceneDescription Description, const std::function
 	return FHostScene::Create(Renderer, std::move(Description), Progress, Scene);
 }
 
+FFrameFeatures FSampleEngine::MakeFeatures(const FFrameCapture& Capture) const
+{
+	FFrameFeatures Features;
+	Features.bWaitForPipelines = Features.bBuildAll = !bRealTime;
+	Features.Signals = Signals;
+	Features.Signals.Wanted |= Capture.Signals;
+	return Features;
+}
+
+FRTStatus FSampleEngine::Precache(const FFrameCapture& Capture, const std::function<void(float)>& Progress)
+{
+	assert(Scene);
+	constexpr float RasterShare = 0.1f; // of the time: ray-tracing pipelines take most of it
+	const auto Report = [&](float Begin, float Share) {
+		return Progress ? std::function<void(float)>([=, &Progress](float Done) { Progress(Begin + Share * Done); }) : nullptr;
+	};
+	FFrameFeatures Features = MakeFeatures(Capture);
+	Features.Skinning = Scene->SetTime(LastTime.value_or(0.0));
+	GBufferPass.Want(*Scene, Features); // beside the others
+	if (FRTStatus S = Renderer.Precache(Scene->GetScene(), Features, Report(0.0f, 1.0f - RasterShare)); !S) { return S; }
+	return GBufferPass.Precache(*Scene, Features, Report(1.0f - RasterShare, RasterShare));
+}
+
 FRTStatus FSampleEngine::AddReadback(FFrameContext& Context, FGraphTexture Texture, FReadback& Out)
 {
 	Out.Texture = Texture;
@@ -141,11 +164,8 @@ FRTStatus FSampleEngine::RenderFrame(const FView& InView, double Time, const FFr
 	assert(Scene);
 	FConsoleVariables::Get().BeginFrame();
 	if (Out) { *Out = {}; } // what this frame does not have is not that of the one before
-	FFrameFeatures Features;
+	FFrameFeatures Features = MakeFeatures(Capture);
 	Features.Skinning = MoveTo(Time);
-	Features.bWaitForPipelines = Features.bBuildAll = !bRealTime;
-	Features.Signals = Signals;
-	Features.Signals.Wanted |= Capture.Signals;
 	FView View = InView;
 	View.FrameIndex = FrameIndex++;
 	if (FRTStatus S = Renderer.BeginFrame(Scene->GetScene(), View, Features); !S) { return S; }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <iterator>
+#include <utility>
 
 #include <glm/glm.hpp>
 
@@ -214,6 +215,24 @@ FRTStatus CheckGBuffer(const FRTModuleFrame& Frame)
 	return Status ? CheckMaterialTextures(Frame) : Status;
 }
 
+/// What does not say whose it is passes.
+FRTStatus CheckOwners(const FRTModuleFrame& Frame, const IRTDevice& Device)
+{
+	const uint64_t Mine = Device.GetNative(ERTNative::Device);
+	const auto Check = [&](const auto* Item, const char* Name) {
+		const uint64_t Owner = Item != nullptr ? Item->GetNative(ERTNative::Device) : 0;
+		return Owner == 0 || Mine == 0 || Owner == Mine
+		           ? FRTStatus::Success()
+		           : FRTStatus::Error(ERTResult::InvalidArgument, "FRTModuleFrame::%s is of another device than the renderer", Name);
+	};
+	FRTStatus Status = Check(Frame.Commands, "Commands");
+	const std::pair<const IRTTexture*, const char*> Textures[] = {{Frame.Depth, "Depth"}, {Frame.Normals, "Normals"},
+	    {Frame.GeometricNormals, "GeometricNormals"}, {Frame.Motion, "Motion"}, {Frame.BaseColor, "BaseColor"},
+	    {Frame.Material, "Material"}};
+	for (const auto& [Texture, Name] : Textures) { Status = Status ? Check(Texture, Name) : Status; }
+	return Status;
+}
+
 } // namespace
 
 FRTStatus CheckPrecache(const FRTModuleFrame& Frame)
@@ -223,7 +242,7 @@ FRTStatus CheckPrecache(const FRTModuleFrame& Frame)
 	return Status ? CheckView(Frame.View) : Status;
 }
 
-FRTStatus CheckFrame(const FRTModuleFrame& Frame)
+FRTStatus CheckFrame(const FRTModuleFrame& Frame, const IRTDevice& Device)
 {
 	if (Frame.Commands == nullptr) { return RefuseNull("RenderFrame", "FRTModuleFrame::Commands"); }
 	if (Frame.Depth == nullptr) { return RefuseNull("RenderFrame", "FRTModuleFrame::Depth"); }
@@ -233,7 +252,8 @@ FRTStatus CheckFrame(const FRTModuleFrame& Frame)
 		return FRTStatus::Error(
 		    ERTResult::InvalidArgument, "FRTModuleFrame::DeltaSeconds must be positive, is %g", double(Frame.DeltaSeconds));
 	}
-	FRTStatus Status = CheckGBuffer(Frame);
+	FRTStatus Status = CheckOwners(Frame, Device);
+	if (Status) { Status = CheckGBuffer(Frame); }
 	if (Status) { Status = CheckView(Frame.View); }
 	if (!Status || Frame.PreviousView == nullptr) { return Status; }
 	Status = CheckView(*Frame.PreviousView);

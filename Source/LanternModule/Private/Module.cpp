@@ -14,6 +14,7 @@
 #include "LanternCore/Config/Config.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Shaders/ShaderCompiler.h"
+#include "LanternCore/Tasks/TaskTrace.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
 #include "LanternModule/ModuleVulkan.h"
@@ -122,6 +123,7 @@ FRTStatus FModule::CreateDevice(bool bValidation, IRTDevice** Out)
 	if (Out == nullptr) { return RefuseNull("CreateDevice", "Out"); }
 	FRTVulkanDeviceDesc Desc;
 	Desc.bValidation = bValidation;
+	if (FTaskTrace::WantsCalls()) { Desc.CallSink.Call = FTaskTrace::RecordCall; }
 	return CreateVulkanDevice(Desc, Out);
 }
 

@@ -272,7 +272,7 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 	std::unique_lock<std::mutex> Lock;
 	if (const FRTStatus Status = Enter("RenderFrame", Lock); !Status) { return Status; }
 	if (Recorded) { return FRTStatus::Error(ERTResult::InvalidArgument, "RenderFrame: EndFrame was not called after the last one"); }
-	if (const FRTStatus Status = CheckFrame(Frame); !Status) { return Status; }
+	if (const FRTStatus Status = CheckFrame(Frame, *On->Device); !Status) { return Status; }
 	FFrameViews Views;
 	if (const FRTStatus Status = ReadViews(Frame, Views); !Status) { return Status; }
 	if (bLost)
@@ -295,6 +295,7 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 	if (GetFenceQueue(Ahead) == ERTQueue::Graphics) { Ahead = 0; } // one queue runs in order
 	Out->Wait = MakeWait();
 	Out->bShadersReady = On->Renderer.AreShadersReady();
+	Out->bCallsTaken = !bArrivalsLeft;
 	Out->bComplete = Out->bShadersReady && !bArrivalsLeft && On->Scene.GetGeometries().GetStats().Pending == 0;
 	return Status;
 }

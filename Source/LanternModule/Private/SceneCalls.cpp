@@ -62,13 +62,26 @@ void FSceneCalls::AddUpdate(FSceneCommand Command, FTicket Needs, FTicket& InOut
 	else { InOutTicket = AddArrival(std::move(Command)); }
 }
 
+size_t FSceneCalls::CountArrivals(uint32_t Most) const
+{
+	constexpr uint32_t MeshWeight = 4; // the store takes a mesh in, which takes several times as long as placing an object
+	uint32_t Weight = 0;
+	size_t Count = 0;
+	for (; Count < Arrivals.size(); ++Count)
+	{
+		Weight += std::holds_alternative<FAddMeshCommand>(Arrivals[Count]) ? MeshWeight : 1;
+		if (Weight > Most && Count > 0) { break; }
+	}
+	return Count;
+}
+
 bool FSceneCalls::Take(uint32_t MostArrivals, std::vector<FSceneCommand>& Out)
 {
 	std::lock_guard Lock(Mutex);
 	// Updates concern what the scene has already, so that arrivals cannot be what they wait for.
 	std::move(Updates.begin(), Updates.end(), std::back_inserter(Out));
 	Updates.clear();
-	const size_t Count = MostArrivals > 0 ? std::min<size_t>(MostArrivals, Arrivals.size()) : Arrivals.size();
+	const size_t Count = MostArrivals > 0 ? CountArrivals(MostArrivals) : Arrivals.size();
 	const auto End = Arrivals.begin() + static_cast<ptrdiff_t>(Count);
 	std::move(Arrivals.begin(), End, std::back_inserter(Out));
 	Arrivals.erase(Arrivals.begin(), End);

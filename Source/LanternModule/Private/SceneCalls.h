@@ -57,7 +57,7 @@ public:
 	FRTStatus SetSkyMap(const FRTModuleSkyMap* Map);
 
 	/// Moves the commands that a frame takes over to the end of Out, in order. Updates of what the scene has come all, arrivals
-	/// and departures as many as MostArrivals says; 0: all of them. Returns whether some are left.
+	/// and departures as many as MostArrivals says; 0: all of them. A new mesh counts as several. Returns whether some are left.
 	bool Take(uint32_t MostArrivals, std::vector<FSceneCommand>& Out);
 	/// Leaves the old device. All that lives arrives anew: meshes as Source gives them, the rest as the handles, Values and the
 	/// commands that no frame has taken say. On an error nothing has changed.
@@ -124,6 +124,8 @@ private:
 	FRTStatus RefuseMesh(const char* Function, ERTMeshHandle Handle) const;
 	std::vector<uint32_t> GetSlots(const std::vector<ERTMaterialHandle>& Handles) const;
 	FTicket AddArrival(FSceneCommand Command);
+	/// Returns how many arrivals fit into Most, and at least one.
+	size_t CountArrivals(uint32_t Most) const;
 	/// Needs: ticket of whatever the command names.
 	void AddUpdate(FSceneCommand Command, FTicket Needs, FTicket& InOutTicket);
 

@@ -46,7 +46,10 @@ public:
 	void ResetQueries(IRTQueryPool* Pool, uint32_t First, uint32_t Count) override;
 	void BeginMarker(const char* Name) override;
 	void EndMarker() override;
-	uint64_t GetNative(ERTNative Kind) const override { return Kind == ERTNative::CommandBuffer ? Native : 0; }
+	uint64_t GetNative(ERTNative Kind) const override
+	{
+		return Kind == ERTNative::CommandBuffer ? Native : Kind == ERTNative::Device ? State->GetNativeDevice() : 0;
+	}
 
 	/// Runs what was recorded and lets go of it. Under FMockState::ExecuteMutex.
 	void Execute();

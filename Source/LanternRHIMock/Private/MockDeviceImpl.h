@@ -37,7 +37,7 @@ public:
 	void CollectGarbage() override { State->Collect(); }
 	FRTMemoryStats GetMemoryStats() const override;
 	uint32_t GetValidationMessageCount() const override { return 0; }
-	uint64_t GetNative(ERTNative) const override { return 0; }
+	uint64_t GetNative(ERTNative Kind) const override { return Kind == ERTNative::Device ? State->GetNativeDevice() : 0; }
 
 	FRTMock Mock;
 

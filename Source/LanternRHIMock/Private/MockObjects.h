@@ -52,7 +52,10 @@ public:
 	const FRTTextureDesc& GetDesc() const override { return Desc; }
 	uint32_t GetSampledIndex() const override { return Sampled; }
 	uint32_t GetStorageIndex() const override { return Storage; }
-	uint64_t GetNative(ERTNative Kind) const override { return Kind == ERTNative::Image ? NativeImage : 0; }
+	uint64_t GetNative(ERTNative Kind) const override
+	{
+		return Kind == ERTNative::Image ? NativeImage : Kind == ERTNative::Device ? State->GetNativeDevice() : 0;
+	}
 	FRTStatus SetExternalState(const FRTExternalState& From, const FRTExternalState& To) override;
 
 	uint32_t GetWidth(uint32_t Mip) const { return Desc.Width >> Mip ? Desc.Width >> Mip : 1; }

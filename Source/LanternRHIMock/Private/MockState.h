@@ -102,6 +102,8 @@ struct FMockState
 	std::optional<ERTMockCall> LoseAt;
 	bool bLost = false;
 
+	/// What stands for ERTNative::Device.
+	uint64_t GetNativeDevice() const { return reinterpret_cast<uintptr_t>(this); }
 	/// Records the call, then returns DeviceLost if the device is lost by now.
 	FRTStatus Log(FRTMockCall Call);
 	FRTStatus Log(ERTMockCall Kind, const std::string& Name, const FRTMockNumbers& Numbers = {});

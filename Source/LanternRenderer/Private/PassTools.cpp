@@ -26,7 +26,7 @@ IRTPipeline* RequireCompute(const FFrameContext& Context, const FShaderSource& S
 {
 	IRTPipeline* Pipeline = nullptr;
 	const bool bWait = Context.bWaitForPipelines;
-	const FRTStatus Status = bWait ? Context.Pipelines.GetCompute(Source, Pipeline) : Context.Pipelines.Find(Source, Pipeline);
+	const FRTStatus Status = bWait ? Context.Pipelines.Get(Source, Pipeline) : Context.Pipelines.Find(Source, Pipeline);
 	if (Status) { return Pipeline; }
 	if (bWait || Status.Code == ERTResult::DeviceLost) { Context.Fail(Status); }
 	else

@@ -79,6 +79,7 @@ void CollectSignals(
 	ForEachSignalPass([&](const FSignalPass& Pass) {
 		FPassRays& Rays = Chosen[ToIndex(Pass.Signal)];
 		if (Rays.Path == ERayPath::None) { return; }
+		Collector.Programs.bMotion |= Pass.WantsMotion && Pass.WantsMotion(Scene);
 		std::vector<FShaderSource>& Compute = Collector.Programs.Compute;
 		if (Rays.Path == ERayPath::Query)
 		{
@@ -108,7 +109,12 @@ FRayPrograms ChooseRayPrograms(
 		    ChooseReferenceRays(Capabilities, Scene.GetFacts(), Features.ReferenceSignal, Features.bReferenceFromGBuffer),
 		    GetReferencePath(Features.ReferenceSignal));
 	}
-	else { CollectSignals(Collector, Capabilities, Scene, Requests, Ready); }
+	else
+	{
+		Programs.bMotion = Requests.bMotion;
+		CollectSignals(Collector, Capabilities, Scene, Requests, Ready);
+		Programs.bMotion &= Features.bMotion;
+	}
 	if (Features.bHostSurface) { Programs.Compute.push_back(MakeHostSurfaceSource()); }
 	if (Features.bCameraMotion && Collector.bFilters) { Programs.Compute.push_back(MakeCameraMotionSource()); }
 	if (!Features.Skinning.empty()) { ListSkinningShaders(Scene, Programs.Compute); }

@@ -18,6 +18,7 @@ struct FRayPrograms
 	std::vector<FShaderSource> Compute;
 	bool bQueries = false;       ///< some pass traces by ray queries
 	bool bLightSampling = false; ///< some pass samples emissive triangles
+	bool bMotion = false;        ///< some pass follows how objects moved, or the host asks
 };
 
 /// Scene: its facts are up to date. Ready: signals whose shaders were there in the last frame, or are waited for. Until then the

@@ -198,18 +198,6 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	return FRTStatus::Success();
 }
 
-namespace
-{
-bool IsMotionWanted(const FFrameContext& Context)
-{
-	bool bWanted = Context.Signals.bMotion;
-	ForEachSignalPass([&](const FSignalPass& Pass) {
-		bWanted |= Pass.WantsMotion && Pass.WantsMotion(Context.Scene) && ChooseSignalRays(Context, Pass.Signal).Path != ERayPath::None;
-	});
-	return bWanted;
-}
-} // namespace
-
 /// As early as can be: what it starts has the rest of the frame's making to be done in.
 FRTStatus FRenderer::StartUpdate(const FView& View, const FRayPrograms& Wanted, const FFrameFeatures& Features)
 {
@@ -223,7 +211,7 @@ FRTStatus FRenderer::StartUpdate(const FView& View, const FRayPrograms& Wanted, 
 	FrameUse.bRays = Features.bRays || Wanted.bQueries || !Wanted.Desc.RayGens.empty();
 	FrameUse.bLightSampling = Wanted.bLightSampling;
 	FrameUse.bCull = !Features.bReference;
-	FrameUse.bMotion = Features.bMotion && !Features.bReference && IsMotionWanted(*Context);
+	FrameUse.bMotion = Context->bMotion = Wanted.bMotion;
 	FrameUse.bBuildAll = Features.bBuildAll || Features.bReference;
 	const FGatherView Gather = MakeGatherView(View);
 	bUpdating = Scene.NeedsUpdate(Gather, FrameUse);
@@ -284,6 +272,7 @@ void FRenderer::KeepHistory(bool bSubmitted)
 	State->History->EndFrame(bSubmitted);
 	State->LastScene = bSubmitted ? Context->Scene.GetSections().GetIdentity() : 0;
 	State->LastView = Context->View;
+	if (bSubmitted) { State->Published = FConsoleVariables::Get().GetPublishCount(); }
 	for (auto& [Index, Other] : Views) { Other.IdleFrames = &Other == State ? 0 : Other.IdleFrames + 1; }
 	std::erase_if(Views, [](const auto& Entry) { return Entry.second.IdleFrames >= KeptIdleFrames; });
 	State = nullptr;
@@ -306,6 +295,9 @@ FRenderer::FViewState& FRenderer::GetView(uint32_t Index)
 void FRenderer::FindPreviousView(FRTScene& Scene, const FFrameFeatures& Features)
 {
 	State = &GetView(Features.ViewIndex);
+	[[maybe_unused]] const FConsoleVariables& Variables = FConsoleVariables::Get();
+	assert((Variables.GetPublishCount() != State->Published || !Variables.HasUnpublished()) &&
+	       "FConsoleVariables::BeginFrame was not called since the view's last frame");
 	const bool bFollowed = Scene.SetViewer(State->Viewer);
 	const bool bSameScene = State->LastScene == Scene.GetSections().GetIdentity() && (bFollowed || !Features.bMotion);
 	PreviousView = Features.PreviousView.value_or(State->LastView);

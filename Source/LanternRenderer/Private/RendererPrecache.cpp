@@ -34,6 +34,8 @@ FRayPrograms FRenderer::ChoosePrograms(FRTScene& Scene, const FFrameFeatures& Fe
 
 FRTPSODesc FRenderer::GetRayPrograms(FRTScene& Scene, const FFrameFeatures& Features) { return ChoosePrograms(Scene, Features).Desc; }
 
+bool FRenderer::FollowsMotion(FRTScene& Scene, const FFrameFeatures& Features) { return ChoosePrograms(Scene, Features).bMotion; }
+
 FRTStatus FRenderer::Precache(FRTScene& Scene, const FFrameFeatures& Features, const std::function<void(float)>& Progress)
 {
 	FRayPrograms Wanted = ChoosePrograms(Scene, Features);

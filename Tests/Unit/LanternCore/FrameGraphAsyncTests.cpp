@@ -1,5 +1,6 @@
 // Passes on two queues: hazards between queues are ordered by waits, nothing else waits, and results are those of one queue.
 #include <algorithm>
+#include <map>
 #include <random>
 #include <set>
 
@@ -7,6 +8,7 @@
 
 #include "FrameGraphTestBase.h"
 #include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternCore/Tasks/TaskTrace.h"
 #include "LanternRHIValidation/ValidationDevice.h"
 
 namespace Lantern
@@ -242,6 +244,36 @@ TEST_F(FFrameGraphAsyncTest, WhatIsIndependentDoesNotWait)
 	EXPECT_THAT(Submissions[1].Waits, IsEmpty()) << "the raster runs beside the refits";
 	EXPECT_THAT(Submissions[2].Waits, ElementsAre(0u)) << "the rays need both";
 	EXPECT_TRUE(SubmitAll(Submissions).IsOk());
+}
+
+TEST_F(FFrameGraphAsyncTest, TraceShowsWhichQueueRanWhat)
+{
+	FTaskTrace::Start();
+	FFrameGraph Graph(*Resources);
+	const FGraphBuffer A = MakeBuffer(Graph, "A"), One = Keep(Graph, "One");
+	AddCopy(Graph, "Make", false, {}, {A}, 1);
+	AddCopy(Graph, "Beside", true, {A}, {One}, 0);
+	ASSERT_TRUE(Record(Graph).IsOk());
+	EXPECT_TRUE(SubmitAll(Graph.GetSubmissions()).IsOk());
+	(void)Resources->GetTimings();
+	std::map<std::string, std::string> Lanes;
+	const auto Read = [&] {
+		const std::vector<std::string> Names = FTaskTrace::GetThreadNames();
+		for (const FTraceEvent& Event : FTaskTrace::GetEvents())
+		{
+			if (Event.bDevice) { Lanes[Event.Name] = Names[Event.Thread]; }
+		}
+	};
+	Read();
+	EXPECT_THAT(Lanes, IsEmpty()) << "the device has not run it yet";
+	GetInner().CompleteUpTo(LastGraph);
+	(void)Resources->GetTimings();
+	(void)Resources->GetTimings(); // each frame once
+	Read();
+	FTaskTrace::Stop();
+	EXPECT_THAT(Lanes, ElementsAre(testing::Pair("Beside", "GPU, compute queue"), testing::Pair("Make", "GPU, graphics queue")));
+	EXPECT_EQ(std::ranges::count_if(FTaskTrace::GetEvents(), &FTraceEvent::bDevice), 2);
+	FTaskTrace::Clear();
 }
 
 TEST_F(FFrameGraphAsyncTest, ReadersOfTwoQueuesRunBesideEachOther)

@@ -117,6 +117,39 @@ TEST_F(FTraceTest, JsonHasNamesTimesFramesAndNesting)
 	EXPECT_TRUE(bNamed);
 }
 
+TEST_F(FTraceTest, QueuesOfADeviceLieBesideTheThreads)
+{
+	FTaskTrace::Start();
+	constexpr uint64_t First = 1'000'000'000; // by the device's clock, which has nothing to do with the CPU's
+	FTaskTrace::AlignDevice(First, 5'000);
+	FTaskTrace::RecordOnDevice("Queue", "Pass", First + 100, First + 300, 4);
+	FTaskTrace::AlignDevice(First + 10'000, 17'000); // recorded later than the first frame allows: so all is later
+	FTaskTrace::AlignDevice(First + 90'000, 80'000); // waited long for the device, and says nothing
+	FTaskTrace::RecordOnDevice("Queue", "Next", First + 10'000, First + 10'500, 5);
+	const json Trace = json::parse(FTaskTrace::ToJson());
+	const json Pass = Find(Trace, "Pass"), Next = Find(Trace, "Next");
+	EXPECT_NEAR(Pass.at("ts").get<double>(), 7.1, 1e-9) << "microseconds";
+	EXPECT_NEAR(Pass.at("dur").get<double>(), 0.2, 1e-9);
+	EXPECT_NEAR(Next.at("ts").get<double>(), 17.0, 1e-9);
+	EXPECT_EQ(Pass.at("args").at("frame"), 4);
+	EXPECT_EQ(Pass.at("tid"), Next.at("tid"));
+	EXPECT_EQ(FTaskTrace::GetThreadNames().at(Pass.at("tid").get<size_t>()), "Queue");
+}
+
+TEST_F(FTraceTest, CallsAreRecordedWithTheirTime)
+{
+	FTaskTrace::RecordCall(nullptr, "Unseen", 1);
+	EXPECT_FALSE(FTaskTrace::WantsCalls());
+	Set("r.RT.Trace.Calls", "1");
+	EXPECT_TRUE(FTaskTrace::WantsCalls());
+	FTaskTrace::Start();
+	FTaskTrace::RecordCall(nullptr, "vkCall", ~uint64_t(0)); // longer than the trace: begins with it
+	const std::vector<FTraceEvent> Events = FTaskTrace::GetEvents();
+	ASSERT_THAT(Events, SizeIs(1));
+	EXPECT_EQ(std::string_view(Events[0].Name), "vkCall");
+	EXPECT_EQ(Events[0].BeginNs, 0u);
+}
+
 TEST_F(FTraceTest, LongNamesAreCutBetweenCharacters)
 {
 	FTaskTrace::Start();

@@ -15,8 +15,8 @@ protected:
 	{
 		FModuleTest::SetUp();
 		Mesh = AddDeformableMesh();
-		ASSERT_FINE(AddObject(Mesh, Solid));
-		ASSERT_FINE(SetSun(-1.0));
+		ASSERT_OK(AddObject(Mesh, Solid));
+		ASSERT_OK(SetSun(-1.0));
 	}
 	/// Calls of the kind that came before the engine's submission, or in all.
 	uint32_t CountBeforeNotice(ERTMockCall Kind)
@@ -36,9 +36,9 @@ protected:
 		Frame.Layout = Layout;
 		Precache(Frame);
 		Mock().ClearCalls();
-		ASSERT_FINE(Renderer->RenderFrame(Frame, &Outputs));
+		ASSERT_OK(Renderer->RenderFrame(Frame, &Outputs));
 		Submits = CountBeforeNotice(ERTMockCall::Submit);
-		ASSERT_FINE(Renderer->EndFrame(nullptr));
+		ASSERT_OK(Renderer->EndFrame(nullptr));
 	}
 	/// Whether the list that traces is the one that builds the structures it traces.
 	bool IsBuiltInTheEnginesList()
@@ -61,7 +61,7 @@ protected:
 	void Deform()
 	{
 		const float Positions[] = {0, 0, 0, 1, 0, 0, 0, 1, float(++Deformed)};
-		ASSERT_FINE(Renderer->UpdateMeshVertices(Mesh, Positions, nullptr));
+		ASSERT_OK(Renderer->UpdateMeshVertices(Mesh, Positions, nullptr));
 	}
 
 	ERTMeshHandle Mesh = ERTMeshHandle::None;
@@ -149,12 +149,12 @@ TEST_F(FModuleAheadTest, VerticesOfTheEnginesGpuAreWaitedFor)
 	Described.bDeformable = true;
 	Described.BoundsRadius = 4.0f;
 	Mesh = AddMesh(Described);
-	ASSERT_FINE(AddObject(Mesh, Solid));
+	ASSERT_OK(AddObject(Mesh, Solid));
 	SetVariable("r.RT.Async", "*");
 	Settle();
 	RenderAhead();
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::NotifyExternalSubmit), 1u);
-	ASSERT_FINE(Renderer->MarkMeshDeformed(Mesh));
+	ASSERT_OK(Renderer->MarkMeshDeformed(Mesh));
 	RenderAhead();
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::NotifyExternalSubmit), 2u) << "one stands for the engine's work before RenderFrame";
 	ASSERT_EQ(Mock().FindCalls(ERTMockCall::Submit).size(), 1u);
@@ -192,7 +192,7 @@ TEST_F(FModuleAheadTest, FailuresSubmitNothingAndTheNextFrameGoesOn)
 		Mock().FailAllocation(N);
 		const FRTStatus Status = Renderer->RenderFrame(Frame, &Outputs);
 		Mock().FailAllocation(0);
-		if (Status) { ASSERT_FINE(Renderer->EndFrame(nullptr)); }
+		if (Status) { ASSERT_OK(Renderer->EndFrame(nullptr)); }
 		else
 		{
 			++Failures;

@@ -50,8 +50,8 @@ TEST_F(FModuleArgumentTest, InitializeIsCalledOnceButMayBeRepeatedAfterAnError)
 	EXPECT_EQ(Module->Initialize(Desc).Code, ERTResult::IoError);
 	EXPECT_REFUSED(Module->CreateRenderer(Device.Get(), {}, Renderer.ReleaseAndGetAddress()), "Initialize was not called");
 	Desc.ConfigFolder = nullptr;
-	ASSERT_FINE(Module->Initialize(Desc));
-	ASSERT_FINE(Module->CreateRenderer(Device.Get(), {}, Renderer.ReleaseAndGetAddress()));
+	ASSERT_OK(Module->Initialize(Desc));
+	ASSERT_OK(Module->CreateRenderer(Device.Get(), {}, Renderer.ReleaseAndGetAddress()));
 }
 
 TEST_F(FModuleArgumentTest, NullPointersOfTheRendererAreNamed)
@@ -65,28 +65,28 @@ TEST_F(FModuleArgumentTest, NullPointersOfTheRendererAreNamed)
 	EXPECT_REFUSED(Renderer->AddObject(Added, nullptr), "AddObject: Out is null");
 	EXPECT_REFUSED(Renderer->RenderFrame(DescribeFrame(), nullptr), "RenderFrame: Out is null");
 	EXPECT_REFUSED(Renderer->EndFrame(nullptr), "RenderFrame recorded nothing"); // the refused frame was none
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(RenderWholeFrame());
 }
 
 TEST_F(FModuleArgumentTest, HandlesOfAnotherRendererAreRefused)
 {
-	ASSERT_FINE(Module->CreateRenderer(Device.Get(), {}, Other.ReleaseAndGetAddress()));
+	ASSERT_OK(Module->CreateRenderer(Device.Get(), {}, Other.ReleaseAndGetAddress()));
 	// In each slot of Other there is something, so that slot and use alone would find it.
 	ERTMaterialHandle Theirs = ERTMaterialHandle::None;
-	for (int Count = 0; Count < 2; ++Count) { ASSERT_FINE(Other->AddMaterial({}, &Theirs)); }
+	for (int Count = 0; Count < 2; ++Count) { ASSERT_OK(Other->AddMaterial({}, &Theirs)); }
 	ERTMeshHandle TheirMesh = ERTMeshHandle::None;
 	FRTModuleMesh Cloth = DescribeTriangle();
 	Cloth.bDeformable = true;
-	ASSERT_FINE(Other->AddMesh(Cloth, &TheirMesh));
+	ASSERT_OK(Other->AddMesh(Cloth, &TheirMesh));
 	FRTModuleObject Desc;
 	Desc.Mesh = TheirMesh;
 	Desc.Materials = &Theirs;
 	Desc.MaterialCount = 1;
 	ERTObjectHandle TheirObject = ERTObjectHandle::None;
-	ASSERT_FINE(Other->AddObject(Desc, &TheirObject));
+	ASSERT_OK(Other->AddObject(Desc, &TheirObject));
 
 	const ERTMeshHandle Mesh = AddDeformableMesh();
-	ASSERT_FINE(AddObject(Mesh, Solid));
+	ASSERT_OK(AddObject(Mesh, Solid));
 	EXPECT_NE(Mesh, TheirMesh);
 	EXPECT_NE(Object, TheirObject);
 	const double Transform[12] = {1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0};
@@ -102,13 +102,13 @@ TEST_F(FModuleArgumentTest, HandlesOfAnotherRendererAreRefused)
 	Desc.Mesh = Mesh;
 	EXPECT_REFUSED(Other->AddObject(Desc, &TheirObject), "of another renderer");
 	EXPECT_EQ(TheirObject, ERTObjectHandle::None);
-	ASSERT_FINE(Renderer->SetObjectTransform(Object, Transform)); // nothing has happened to it
+	ASSERT_OK(Renderer->SetObjectTransform(Object, Transform)); // nothing has happened to it
 }
 
 TEST_F(FModuleArgumentTest, WrongCallsFromSeveralThreadsAreRefusedWhileFramesGoOn)
 {
-	ASSERT_FINE(AddObject(AddMesh(DescribeTriangle()), Solid));
-	ASSERT_FINE(SetSun(-1.0));
+	ASSERT_OK(AddObject(AddMesh(DescribeTriangle()), Solid));
+	ASSERT_OK(SetSun(-1.0));
 	std::atomic<uint32_t> Wrong = 0, Done = 0;
 	const auto Misuse = [&] {
 		const double Transform[12] = {std::numeric_limits<double>::quiet_NaN()};
@@ -130,13 +130,13 @@ TEST_F(FModuleArgumentTest, WrongCallsFromSeveralThreadsAreRefusedWhileFramesGoO
 	while (Done < Threads.size()) { EXPECT_TRUE(RenderWholeFrame().IsOk()); }
 	for (std::thread& Thread : Threads) { Thread.join(); }
 	EXPECT_EQ(Wrong, 0u);
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(RenderWholeFrame());
 }
 
 TEST_F(FModuleArgumentTest, FramesOfTwoThreadsAtOnceAreRefused)
 {
-	ASSERT_FINE(AddObject(AddMesh(DescribeTriangle()), Solid));
-	ASSERT_FINE(SetSun(-1.0));
+	ASSERT_OK(AddObject(AddMesh(DescribeTriangle()), Solid));
+	ASSERT_OK(SetSun(-1.0));
 	std::atomic<uint32_t> Bad = 0;
 	std::mutex ImportMutex;
 	const auto Run = [&] {
@@ -160,7 +160,7 @@ TEST_F(FModuleArgumentTest, FramesOfTwoThreadsAtOnceAreRefused)
 	Second.join();
 	EXPECT_EQ(Bad, 0u);
 	(void)Renderer->EndFrame(nullptr); // a last frame that the other thread could not end
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(RenderWholeFrame());
 }
 
 } // namespace

@@ -17,8 +17,8 @@ protected:
 	void SetUp() override
 	{
 		FModuleTest::SetUp();
-		ASSERT_FINE(SetSun(-1.0));
-		ASSERT_FINE(AddObject(AddOpaqueMesh(), Solid)); // at the camera
+		ASSERT_OK(SetSun(-1.0));
+		ASSERT_OK(AddObject(AddOpaqueMesh(), Solid)); // at the camera
 	}
 	/// A square of Size metres at Offset from its pivot, in Count × Count quads.
 	struct FSheet
@@ -53,7 +53,7 @@ protected:
 	void PlaceAt(double X)
 	{
 		const double Transform[12] = {1, 0, 0, X, 0, 1, 0, 0, 0, 0, 1, 0};
-		ASSERT_FINE(Renderer->SetObjectTransform(Object, Transform));
+		ASSERT_OK(Renderer->SetObjectTransform(Object, Transform));
 	}
 	/// Instances of the last frame's structure.
 	uint64_t CountInstances() { return Mock().FindCalls(ERTMockCall::BuildScene).back().Numbers[0]; }
@@ -69,14 +69,14 @@ TEST_F(FModuleBoundsTest, WhatIsFarAwayAndSmallIsNoInstance)
 {
 	SetVariable("r.RT.Culling.Radius", "50");
 	SetVariable("r.RT.Culling.RadiusBehind", "50");
-	ASSERT_FINE(AddObject(AddOpaqueMesh(), Solid));
+	ASSERT_OK(AddObject(AddOpaqueMesh(), Solid));
 	PlaceAt(Far);
 	const ERTObjectHandle Away = Object;
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(CountInstances(), 1u);
 	Object = Away;
 	PlaceAt(10.0);
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(CountInstances(), 2u);
 }
 
@@ -86,12 +86,12 @@ TEST_F(FModuleBoundsTest, BoundsThatAnEngineGivesCount)
 	FRTModuleMesh Mesh = DescribeTriangle();
 	Mesh.BoundsCenter[0] = -float(Far);
 	Mesh.BoundsRadius = 2.0f;
-	ASSERT_FINE(AddObject(AddMesh(Mesh), Solid));
+	ASSERT_OK(AddObject(AddMesh(Mesh), Solid));
 	PlaceAt(Far); // its bounds are at the camera
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(CountInstances(), 2u);
 	PlaceAt(0.0); // its vertices are at the camera
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(CountInstances(), 1u);
 	Mesh.BoundsRadius = std::numeric_limits<float>::quiet_NaN();
 	ERTMeshHandle Handle = ERTMeshHandle::None;
@@ -106,16 +106,16 @@ TEST_F(FModuleBoundsTest, BoundsFollowVertices)
 	SetVariable("r.RT.Culling.Radius", "50");
 	SetVariable("r.RT.Culling.RadiusBehind", "50");
 	const ERTMeshHandle Cloth = AddDeformableMesh();
-	ASSERT_FINE(AddObject(Cloth, Solid));
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(AddObject(Cloth, Solid));
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(CountInstances(), 2u);
 	const float X = float(Far);
 	const float Away[] = {X, 0, 0, X + 1, 0, 0, X, 1, 0};
-	ASSERT_FINE(Renderer->UpdateMeshVertices(Cloth, Away, nullptr));
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(Renderer->UpdateMeshVertices(Cloth, Away, nullptr));
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(CountInstances(), 1u) << "it was left out with its new vertices";
-	ASSERT_FINE(Renderer->UpdateMeshVertices(Cloth, TrianglePositions, nullptr));
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(Renderer->UpdateMeshVertices(Cloth, TrianglePositions, nullptr));
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(CountInstances(), 2u);
 }
 
@@ -127,11 +127,11 @@ TEST_F(FModuleBoundsTest, NearAndLargeMeshesAreBuiltFirst)
 	for (int I = 0; I < 3; ++I)
 	{
 		const FSheet Sheet = MakeSheet(Names[I], 1, I == 2 ? 8.0f : 1.0f);
-		ASSERT_FINE(AddObject(AddMesh(Sheet.Mesh), Solid));
+		ASSERT_OK(AddObject(AddMesh(Sheet.Mesh), Solid));
 		PlaceAt(Places[I]);
 	}
 	// The first frame has seen nothing yet: it takes what came first.
-	for (int Frame = 0; Frame < 4; ++Frame) { ASSERT_FINE(RenderWholeFrame()); }
+	for (int Frame = 0; Frame < 4; ++Frame) { ASSERT_OK(RenderWholeFrame()); }
 	EXPECT_EQ(GetBuilt(), (std::vector<std::string>{"Wall", "Large", "Small", "Distant"}));
 }
 
@@ -139,7 +139,7 @@ TEST_F(FModuleBoundsTest, RaysKnowHowFarPivotsAre)
 {
 	EXPECT_FLOAT_EQ(ReadConstants(DescribeFrame()).ObjectReach, 8.0f) << "what small objects have";
 	const FSheet Terrain = MakeSheet("Terrain", 4, 2000.0f, -1000.0f);
-	ASSERT_FINE(AddObject(AddMesh(Terrain.Mesh), Solid));
+	ASSERT_OK(AddObject(AddMesh(Terrain.Mesh), Solid));
 	PlaceAt(600.0);
 	const float Reach = ReadConstants(DescribeFrame()).ObjectReach;
 	EXPECT_GT(Reach, 500.0f) << "rays into its space lose the precision of its pivot's distance";
@@ -151,10 +151,10 @@ TEST_F(FModuleBoundsTest, WhatDoesNotFitIsMadeCoarser)
 	SetVariable("r.RT.Build.MemoryMB", "2");
 	const FSheet Dense = MakeSheet("Dense", 180, 10.0f);
 	const uint64_t Triangles = Dense.Mesh.IndexCount / 3;
-	ASSERT_FINE(AddObject(AddMesh(Dense.Mesh), Solid));
+	ASSERT_OK(AddObject(AddMesh(Dense.Mesh), Solid));
 	const auto IsBuilt = [&] { return Mock().CountCalls(ERTMockCall::BuildGeometry, "Dense") > 0; };
 	const auto Step = [&] {
-		ASSERT_FINE(RenderWholeFrame());
+		ASSERT_OK(RenderWholeFrame());
 		GiveWay();
 	};
 	ASSERT_TRUE(WaitUntil(
@@ -166,8 +166,8 @@ TEST_F(FModuleBoundsTest, WhatDoesNotFitIsMadeCoarser)
 	FRTModuleMesh Bare = Dense.Mesh;
 	Bare.Name = "Bare";
 	Bare.bKeepOnCpu = false;
-	ASSERT_FINE(AddObject(AddMesh(Bare), Solid));
-	for (int Frame = 0; Frame < 10; ++Frame) { ASSERT_FINE(RenderWholeFrame()); }
+	ASSERT_OK(AddObject(AddMesh(Bare), Solid));
+	for (int Frame = 0; Frame < 10; ++Frame) { ASSERT_OK(RenderWholeFrame()); }
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::BuildGeometry, "Bare"), 0u);
 }
 
@@ -177,8 +177,8 @@ TEST_F(FModuleBoundsTest, EmissiveMeshesAreLights)
 	FRTModuleMaterial Glow;
 	Glow.Emissive[1] = 5.0f;
 	ERTMaterialHandle Lamp = ERTMaterialHandle::None;
-	ASSERT_FINE(Renderer->AddMaterial(Glow, &Lamp));
-	ASSERT_FINE(AddObject(AddOpaqueMesh(), Lamp));
+	ASSERT_OK(Renderer->AddMaterial(Glow, &Lamp));
+	ASSERT_OK(AddObject(AddOpaqueMesh(), Lamp));
 	const TRTRef<IRTTexture> BaseColor = MakeTexture(ERTFormat::RGBA8_SRGB, 64), Material = MakeTexture(ERTFormat::RGBA8_UNORM, 64);
 	FRTModuleFrame Frame = DescribeFrame();
 	Frame.BaseColor = BaseColor.Get();

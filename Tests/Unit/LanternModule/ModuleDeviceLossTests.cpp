@@ -53,16 +53,16 @@ protected:
 			Mesh.Name = Name.c_str();
 			Names[AddMesh(Mesh)] = Name;
 		}
-		ASSERT_FINE(SetSun(-1.0));
+		ASSERT_OK(SetSun(-1.0));
 		Place("Wall", Solid, 1.0);
 		Place("Cloth", Solid, 2.0);
 		Place("Leaf", Masked, 3.0);
-		ASSERT_FINE(Renderer->SetObjectCastsShadow(Objects[1], false));
+		ASSERT_OK(Renderer->SetObjectCastsShadow(Objects[1], false));
 		First.Inner = Inner;
 		First.Device = Device;
 		First.Depth = Depth;
 		First.Normals = Normals;
-		ASSERT_FINE(First.Device->ImportCommandList(++LastNative, First.Spare.ReleaseAndGetAddress()));
+		ASSERT_OK(First.Device->ImportCommandList(++LastNative, First.Spare.ReleaseAndGetAddress()));
 		MakeSide(Second);
 	}
 	void TearDown() override
@@ -78,16 +78,16 @@ protected:
 	}
 	void MakeSide(FSide& Side)
 	{
-		ASSERT_FINE(CreateMockDevice(DescribeMock(), Side.Inner.ReleaseAndGetAddress()));
+		ASSERT_OK(CreateMockDevice(DescribeMock(), Side.Inner.ReleaseAndGetAddress()));
 		const auto OnMessage = [](void* User, const char* Text) { static_cast<FModuleDeviceLossTest*>(User)->Messages.emplace_back(Text); };
-		ASSERT_FINE(WrapWithValidation(Side.Inner.Get(), OnMessage, this, Side.Device.ReleaseAndGetAddress()));
-		ASSERT_FINE(Side.Device->ImportCommandList(++LastNative, Side.Spare.ReleaseAndGetAddress()));
+		ASSERT_OK(WrapWithValidation(Side.Inner.Get(), OnMessage, this, Side.Device.ReleaseAndGetAddress()));
+		ASSERT_OK(Side.Device->ImportCommandList(++LastNative, Side.Spare.ReleaseAndGetAddress()));
 		const auto Import = [&](ERTFormat Format, TRTRef<IRTTexture>& Out) {
 			FRTTextureDesc Desc;
 			Desc.Width = Desc.Height = 64;
 			Desc.Format = Format;
 			Desc.Usage = ERTTextureUsage::Sampled;
-			ASSERT_FINE(Side.Device->ImportTexture(Desc, ++LastNative, Out.ReleaseAndGetAddress()));
+			ASSERT_OK(Side.Device->ImportTexture(Desc, ++LastNative, Out.ReleaseAndGetAddress()));
 		};
 		Import(ERTFormat::D32_FLOAT, Side.Depth);
 		Import(ERTFormat::RGBA16_SNORM, Side.Normals);
@@ -100,7 +100,7 @@ protected:
 		Desc.MaterialCount = 1;
 		Desc.Transform[3] = X;
 		Objects.emplace_back();
-		ASSERT_FINE(Renderer->AddObject(Desc, &Objects.back()));
+		ASSERT_OK(Renderer->AddObject(Desc, &Objects.back()));
 	}
 	ERTMeshHandle Find(const std::string& Name)
 	{
@@ -129,7 +129,7 @@ protected:
 		ASSERT_TRUE(WaitUntil(
 		    "a complete frame", [&] { return Outputs.bComplete; },
 		    [&] {
-			ASSERT_FINE(RenderOn(Side));
+			ASSERT_OK(RenderOn(Side));
 			GiveWay();
 		    }));
 		ASSERT_NE(Outputs.Get(ESignal::SunShadow), nullptr);
@@ -185,17 +185,17 @@ TEST_F(FModuleDeviceLossTest, TheSceneGoesOnOnAnotherDevice)
 	ASSERT_EQ(Before.size(), 3u);
 	Lose();
 	EXPECT_EQ(RenderOn(First).Code, ERTResult::DeviceLost);
-	ASSERT_FINE(Renderer->Recreate(Second.Device.Get(), GetSource()));
+	ASSERT_OK(Renderer->Recreate(Second.Device.Get(), GetSource()));
 	EXPECT_EQ(AskedFor, 3u);
 	RenderUntilComplete(Second);
 	EXPECT_EQ(Describe(Second), Before);
 	// Handles are what they were.
 	const double Far[12] = {1, 0, 0, 9, 0, 1, 0, 0, 0, 0, 1, 0};
-	ASSERT_FINE(Renderer->SetObjectTransform(Objects[0], Far));
-	ASSERT_FINE(Renderer->UpdateMeshVertices(Find("Cloth"), TrianglePositions, nullptr));
-	ASSERT_FINE(Renderer->RemoveObject(Objects[2]));
-	ASSERT_FINE(Renderer->RemoveMesh(Find("Leaf")));
-	ASSERT_FINE(Renderer->RemoveMaterial(Masked));
+	ASSERT_OK(Renderer->SetObjectTransform(Objects[0], Far));
+	ASSERT_OK(Renderer->UpdateMeshVertices(Find("Cloth"), TrianglePositions, nullptr));
+	ASSERT_OK(Renderer->RemoveObject(Objects[2]));
+	ASSERT_OK(Renderer->RemoveMesh(Find("Leaf")));
+	ASSERT_OK(Renderer->RemoveMaterial(Masked));
 	RenderUntilComplete(Second);
 	EXPECT_EQ(Describe(Second).size(), 2u);
 }
@@ -217,7 +217,7 @@ TEST_F(FModuleDeviceLossTest, TheLossIsSaidOnce)
 	for (std::string Line; std::getline(Lines, Line);) { Said += Line.find("lost") != std::string::npos; }
 	EXPECT_EQ(Said, 1u) << Log;
 	EXPECT_THAT(Log, HasSubstr("IRTModuleRenderer::Recreate"));
-	ASSERT_FINE(Renderer->Recreate(Second.Device.Get(), GetSource()));
+	ASSERT_OK(Renderer->Recreate(Second.Device.Get(), GetSource()));
 	RenderUntilComplete(Second);
 }
 
@@ -227,30 +227,30 @@ TEST_F(FModuleDeviceLossTest, WhatWasSaidMeanwhileCounts)
 	Lose();
 	EXPECT_EQ(RenderOn(First).Code, ERTResult::DeviceLost);
 	const double Far[12] = {1, 0, 0, 9, 0, 1, 0, 0, 0, 0, 1, 0};
-	ASSERT_FINE(Renderer->SetObjectTransform(Objects[0], Far));
-	ASSERT_FINE(Renderer->RemoveObject(Objects[1]));
+	ASSERT_OK(Renderer->SetObjectTransform(Objects[0], Far));
+	ASSERT_OK(Renderer->RemoveObject(Objects[1]));
 	Place("Leaf", Solid, 4.0);
-	ASSERT_FINE(Renderer->SetObjectMaterials(Objects[2], &Solid, 1));
-	ASSERT_FINE(Renderer->SetObjectCastsShadow(Objects[2], false));
-	ASSERT_FINE(Renderer->Recreate(Second.Device.Get(), GetSource()));
-	ASSERT_FINE(Renderer->SetObjectTransform(Objects[3], Far));
+	ASSERT_OK(Renderer->SetObjectMaterials(Objects[2], &Solid, 1));
+	ASSERT_OK(Renderer->SetObjectCastsShadow(Objects[2], false));
+	ASSERT_OK(Renderer->Recreate(Second.Device.Get(), GetSource()));
+	ASSERT_OK(Renderer->SetObjectTransform(Objects[3], Far));
 	RenderUntilComplete(Second);
 	// As a renderer that never lost anything has it.
 	const std::multiset<std::string> Moved = Describe(Second);
 	FSide Third;
 	MakeSide(Third);
 	TRTRef<IRTModuleRenderer> Fresh;
-	ASSERT_FINE(Module->CreateRenderer(Third.Device.Get(), {}, Fresh.ReleaseAndGetAddress()));
+	ASSERT_OK(Module->CreateRenderer(Third.Device.Get(), {}, Fresh.ReleaseAndGetAddress()));
 	std::swap(Fresh, Renderer);
 	ERTMaterialHandle White = ERTMaterialHandle::None;
-	ASSERT_FINE(Renderer->AddMaterial({}, &White));
+	ASSERT_OK(Renderer->AddMaterial({}, &White));
 	Names.clear();
 	for (const char* Name : {"Wall", "Leaf"}) { Names[AddMesh(Meshes[Name])] = Name; }
-	ASSERT_FINE(SetSun(-1.0));
+	ASSERT_OK(SetSun(-1.0));
 	Objects.clear();
 	Place("Wall", White, 9.0);
 	Place("Leaf", White, 3.0);
-	ASSERT_FINE(Renderer->SetObjectCastsShadow(Objects.back(), false));
+	ASSERT_OK(Renderer->SetObjectCastsShadow(Objects.back(), false));
 	Place("Leaf", White, 9.0);
 	RenderUntilComplete(Third);
 	EXPECT_EQ(Moved, Describe(Third));
@@ -269,19 +269,19 @@ TEST_F(FModuleDeviceLossTest, AFrameMayLoseItsDeviceAnywhere)
 	{
 		GetMock(Side->Inner.Get()).LoseDeviceAt(At);
 		const double Far[12] = {1, 0, 0, 1000.0 + static_cast<int>(At), 0, 1, 0, 0, 0, 0, 1, 0};
-		ASSERT_FINE(Renderer->SetObjectTransform(Objects[0], Far)); // there is something to do
+		ASSERT_OK(Renderer->SetObjectTransform(Objects[0], Far)); // there is something to do
 		Meshes["New"] = DescribeTriangle();
 		Meshes["New"].Name = "New";
 		ERTMeshHandle New = ERTMeshHandle::None;
 		if (Renderer->AddMesh(Meshes["New"], &New)) { Names[New] = "New"; }
 		for (int Frame = 0; Frame < 10 && RenderOn(*Side); ++Frame) {}
 		const double Near[12] = {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0};
-		ASSERT_FINE(Renderer->SetObjectTransform(Objects[0], Near));
+		ASSERT_OK(Renderer->SetObjectTransform(Objects[0], Near));
 		FSide& Next = Sides.emplace_back();
 		MakeSide(Next);
-		ASSERT_FINE(Renderer->Recreate(Next.Device.Get(), GetSource()));
+		ASSERT_OK(Renderer->Recreate(Next.Device.Get(), GetSource()));
 		Side = &Next;
-		if (New != ERTMeshHandle::None) { ASSERT_FINE(Renderer->RemoveMesh(New)); }
+		if (New != ERTMeshHandle::None) { ASSERT_OK(Renderer->RemoveMesh(New)); }
 		RenderUntilComplete(*Side);
 		EXPECT_EQ(Describe(*Side), Before) << static_cast<int>(At);
 	}
@@ -294,14 +294,14 @@ TEST_F(FModuleDeviceLossTest, MeshesThatAreNotGivenAreLeftOutByName)
 	Lose();
 	Meshes.erase("Leaf");
 	testing::internal::CaptureStderr();
-	ASSERT_FINE(Renderer->Recreate(Second.Device.Get(), GetSource()));
+	ASSERT_OK(Renderer->Recreate(Second.Device.Get(), GetSource()));
 	EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("mesh \"Leaf\" was not given again"));
 	RenderUntilComplete(Second);
 	EXPECT_EQ(Describe(Second).size(), 2u);
 	const double Far[12] = {1, 0, 0, 9, 0, 1, 0, 0, 0, 0, 1, 0};
-	ASSERT_FINE(Renderer->SetObjectTransform(Objects[2], Far));
-	ASSERT_FINE(Renderer->RemoveObject(Objects[2]));
-	ASSERT_FINE(Renderer->RemoveMesh(Find("Leaf")));
+	ASSERT_OK(Renderer->SetObjectTransform(Objects[2], Far));
+	ASSERT_OK(Renderer->RemoveObject(Objects[2]));
+	ASSERT_OK(Renderer->RemoveMesh(Find("Leaf")));
 	RenderUntilComplete(Second);
 }
 
@@ -316,7 +316,7 @@ TEST_F(FModuleDeviceLossTest, AnotherMeshThanBeforeIsRefusedAndNothingHasChanged
 	EXPECT_REFUSED(Renderer->Recreate(Second.Device.Get(), GetSource()), "mesh \"Cloth\" was given with other sections");
 	EXPECT_EQ(RenderOn(First).Code, ERTResult::DeviceLost);
 	Meshes["Cloth"].bDeformable = true;
-	ASSERT_FINE(Renderer->Recreate(Second.Device.Get(), GetSource()));
+	ASSERT_OK(Renderer->Recreate(Second.Device.Get(), GetSource()));
 	RenderUntilComplete(Second);
 	EXPECT_EQ(Describe(Second), Before);
 }
@@ -324,18 +324,18 @@ TEST_F(FModuleDeviceLossTest, AnotherMeshThanBeforeIsRefusedAndNothingHasChanged
 TEST_F(FModuleDeviceLossTest, MapsOfMaterialsAreLetGoAndGivenAgain)
 {
 	FTexturedMaterial Bark = MakeTexturedMaterial("Bark");
-	ASSERT_FINE(Renderer->SetMaterial(Masked, Bark.Material));
+	ASSERT_OK(Renderer->SetMaterial(Masked, Bark.Material));
 	RenderUntilComplete(First);
 	Bark.Texture.Reset();
 	Lose();
 	EXPECT_EQ(RenderOn(First).Code, ERTResult::DeviceLost);
-	ASSERT_FINE(Renderer->Recreate(Second.Device.Get(), GetSource()));
+	ASSERT_OK(Renderer->Recreate(Second.Device.Get(), GetSource()));
 	EXPECT_EQ(CountDestroyed("Bark"), 1u) << "the lost device's texture is held";
 	RenderUntilComplete(Second);
 	std::swap(Device, Second.Device); // of which MakeTexturedMaterial makes it
 	FTexturedMaterial New = MakeTexturedMaterial("Bark");
 	std::swap(Device, Second.Device);
-	ASSERT_FINE(Renderer->SetMaterial(Masked, New.Material));
+	ASSERT_OK(Renderer->SetMaterial(Masked, New.Material));
 	RenderUntilComplete(Second);
 	EXPECT_EQ(Describe(Second).size(), 3u);
 }
@@ -358,7 +358,7 @@ TEST_F(FModuleDeviceLossTest, OtherThreadsGoOnMeanwhile)
 		}
 	});
 	EXPECT_EQ(RenderOn(First).Code, ERTResult::DeviceLost);
-	ASSERT_FINE(Renderer->Recreate(Second.Device.Get(), GetSource()));
+	ASSERT_OK(Renderer->Recreate(Second.Device.Get(), GetSource()));
 	for (int Frame = 0; Frame < 20; ++Frame) { EXPECT_TRUE(RenderOn(Second).IsOk()); }
 	bStop = true;
 	Game.join();

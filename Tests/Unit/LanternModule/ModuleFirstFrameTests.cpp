@@ -29,10 +29,10 @@ protected:
 	{
 		FModuleTest::SetUp();
 		bPrecache = false;
-		ASSERT_FINE(AddObject(AddOpaqueMesh(), Solid));
+		ASSERT_OK(AddObject(AddOpaqueMesh(), Solid));
 		SetSoftSun();
 		const float Sky[] = {0.4f, 0.6f, 1.0f};
-		ASSERT_FINE(Renderer->SetSky(Sky));
+		ASSERT_OK(Renderer->SetSky(Sky));
 	}
 	FRTModuleFrame DescribeWhole()
 	{
@@ -51,9 +51,9 @@ TEST_F(FModuleFirstFrameTest, TheFirstFrameReadsNoFile)
 	const uint64_t Before = CountReads();
 	const FRTStatus Status = Renderer->RenderFrame(Frame, &Outputs);
 	EXPECT_EQ(CountReads() - Before - OfCounting, 0u);
-	ASSERT_FINE(Status);
+	ASSERT_OK(Status);
 	EXPECT_FALSE(Outputs.bShadersReady) << "the first frame asked for shaders";
-	ASSERT_FINE(Renderer->EndFrame(nullptr));
+	ASSERT_OK(Renderer->EndFrame(nullptr));
 }
 
 } // namespace

@@ -55,7 +55,7 @@ protected:
 		Desc.MaterialCount = 1;
 		Desc.Transform[3] = X * GetExtent();
 		Desc.Transform[7] = Y * GetExtent();
-		ASSERT_FINE(Renderer->AddObject(Desc, &Object));
+		ASSERT_OK(Renderer->AddObject(Desc, &Object));
 	}
 	static double GetExtent() { return double(Samples - 1) * double(Spacing); }
 	void RenderUntilComplete()
@@ -63,7 +63,7 @@ protected:
 		EXPECT_TRUE(WaitUntil(
 		    "a complete frame", [&] { return Outputs.bComplete; },
 		    [&] {
-			ASSERT_FINE(RenderWholeFrame());
+			ASSERT_OK(RenderWholeFrame());
 			GiveWay();
 		    }));
 	}
@@ -95,8 +95,8 @@ TEST_F(FModuleLandscapeTest, SamplesBecomeVertices)
 	Patch.HeightScale = 0.5f;
 	Patch.HeightOffset = -1.0f;
 	Patch.Holes = Holes;
-	ASSERT_FINE(AddObject(Add(Patch), Solid));
-	ASSERT_FINE(SetSun(-1.0));
+	ASSERT_OK(AddObject(Add(Patch), Solid));
+	ASSERT_OK(SetSun(-1.0));
 	RenderUntilComplete();
 	const std::vector<glm::vec3> Positions = ReadPositions("Small", 6);
 	constexpr float Over = 4.0f / (1 << 18); // of the extent, at borders
@@ -116,7 +116,7 @@ TEST_F(FModuleLandscapeTest, SamplesBecomeVertices)
 TEST_F(FModuleLandscapeTest, BordersOfNeighboursReachOverEachOther)
 {
 	for (const uint32_t X : {0u, 1u}) { Place(Add(Describe(X, 0)), X, 0); }
-	ASSERT_FINE(SetSun(-1.0));
+	ASSERT_OK(SetSun(-1.0));
 	RenderUntilComplete();
 	const std::vector<glm::vec3> Left = ReadPositions("Patch 0 0"), Right = ReadPositions("Patch 1 0");
 	for (uint32_t Row = 0; Row < Samples; ++Row)
@@ -137,7 +137,7 @@ TEST_F(FModuleLandscapeTest, AnEditCostsItsPatchAlone)
 		Patches.push_back(Add(Describe(Index % Side, Index / Side)));
 		Place(Patches.back(), Index % Side, Index / Side);
 	}
-	ASSERT_FINE(SetSun(-1.0));
+	ASSERT_OK(SetSun(-1.0));
 	RenderUntilComplete();
 	const std::vector<glm::vec3> Other = ReadPositions("Patch 4 3");
 	const uint16_t Raised[] = {60000, 60001, 0, 60002, 60003, 0};
@@ -147,10 +147,10 @@ TEST_F(FModuleLandscapeTest, AnEditCostsItsPatchAlone)
 	Edit.FirstRow = 7;
 	Edit.Columns = Edit.Rows = 2;
 	Edit.RowPitch = 3;
-	ASSERT_FINE(Renderer->SetLandscapeHeights(Patches[3 * Side + 3], Edit));
+	ASSERT_OK(Renderer->SetLandscapeHeights(Patches[3 * Side + 3], Edit));
 	Mock().ClearCalls();
 	Mock().ClearTraffic();
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::BuildGeometry), 1u);
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::BuildGeometry, "Patch 3 3"), 1u);
 	EXPECT_EQ(CountCopies("Patch 3 3"), 1u);
@@ -169,7 +169,7 @@ TEST_F(FModuleLandscapeTest, AnEditCostsItsPatchAlone)
 	}
 	EXPECT_EQ(ReadPositions("Patch 4 3"), Other);
 	Mock().ClearCalls();
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::BuildGeometry), 0u);
 }
 
@@ -177,22 +177,22 @@ TEST_F(FModuleLandscapeTest, ADeviceIsFollowedWithoutAskingForHeights)
 {
 	const ERTMeshHandle Patch = Add(Describe(0, 0));
 	Place(Patch, 0, 0);
-	ASSERT_FINE(SetSun(-1.0));
+	ASSERT_OK(SetSun(-1.0));
 	RenderUntilComplete();
 	const uint16_t Peak = 65535;
 	FRTModuleHeights Edit;
 	Edit.Heights = &Peak;
 	Edit.FirstColumn = Edit.FirstRow = 3;
 	Edit.Columns = Edit.Rows = 1;
-	ASSERT_FINE(Renderer->SetLandscapeHeights(Patch, Edit));
-	ASSERT_FINE(RenderWholeFrame());
-	ASSERT_FINE(Renderer->Recreate(Device.Get(), {}));
+	ASSERT_OK(Renderer->SetLandscapeHeights(Patch, Edit));
+	ASSERT_OK(RenderWholeFrame());
+	ASSERT_OK(Renderer->Recreate(Device.Get(), {}));
 	Outputs = {};
 	RenderUntilComplete();
 	Device->CollectGarbage();
 	EXPECT_FLOAT_EQ(ReadPositions("Patch 0 0")[3 * Samples + 3].z, -200.0f + 65535.0f / 128);
-	ASSERT_FINE(Renderer->SetLandscapeHeights(Patch, Edit));
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(Renderer->SetLandscapeHeights(Patch, Edit));
+	ASSERT_OK(RenderWholeFrame());
 }
 
 TEST_F(FModuleLandscapeTest, WhatCannotBeIsNamed)
@@ -216,7 +216,7 @@ TEST_F(FModuleLandscapeTest, WhatCannotBeIsNamed)
 	EXPECT_REFUSED(Renderer->UpdateMeshVertices(Patch, TrianglePositions, nullptr), "is a landscape");
 	FRTModuleMeshBuffer Buffer;
 	EXPECT_REFUSED(Renderer->GetMeshBuffer(Patch, &Buffer), "is a landscape");
-	ASSERT_FINE(Renderer->RemoveMesh(Patch));
+	ASSERT_OK(Renderer->RemoveMesh(Patch));
 	EXPECT_REFUSED(Renderer->SetLandscapeHeights(Patch, Edit), "was removed");
 }
 

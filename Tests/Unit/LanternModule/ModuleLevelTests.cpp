@@ -22,7 +22,7 @@ protected:
 		EXPECT_TRUE(WaitUntil(
 		    "a complete frame", [&] { return Outputs.bComplete; },
 		    [&] {
-			ASSERT_FINE(RenderWholeFrame());
+			ASSERT_OK(RenderWholeFrame());
 			GiveWay();
 		    }));
 	}
@@ -42,42 +42,42 @@ protected:
 TEST_F(FModuleLevelTest, AnObjectChangesItsLevelAndNothingElse)
 {
 	const ERTMeshHandle Near = AddNamed("Fine"), Coarse = AddNamed("Coarse");
-	ASSERT_FINE(AddObject(Near, Solid));
-	ASSERT_FINE(SetSun(-1.0));
+	ASSERT_OK(AddObject(Near, Solid));
+	ASSERT_OK(SetSun(-1.0));
 	RenderUntilComplete();
 	EXPECT_EQ(FindShown(), FNames{"Fine"});
 	const FObjectData Before = ReadEntry<FObjectData>(ReadConstants(DescribeFrame()).Objects, 0);
-	ASSERT_FINE(Renderer->SetObjectMesh(Object, Coarse, &Solid, 1));
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(Renderer->SetObjectMesh(Object, Coarse, &Solid, 1));
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(FindShown(), FNames{"Coarse"}) << "it is built already";
 	const FObjectData After = ReadEntry<FObjectData>(ReadConstants(DescribeFrame()).Objects, 0);
 	EXPECT_EQ(std::memcmp(Before.ObjectToWorld, After.ObjectToWorld, sizeof(Before.ObjectToWorld)), 0);
 	EXPECT_EQ(After.Motion, NO_MOTION);
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(FindShown(), FNames{"Coarse"}) << "the level stays while the engine says nothing";
 	EXPECT_REFUSED(Renderer->RemoveMesh(Coarse), "1 objects still use");
-	ASSERT_FINE(Renderer->RemoveMesh(Near));
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(Renderer->RemoveMesh(Near));
+	ASSERT_OK(RenderWholeFrame());
 }
 
 TEST_F(FModuleLevelTest, RaysSeeTheOldLevelUntilTheNewOneIsBuilt)
 {
 	const ERTMeshHandle Near = AddNamed("Fine");
-	ASSERT_FINE(AddObject(Near, Solid));
+	ASSERT_OK(AddObject(Near, Solid));
 	const ERTObjectHandle Mine = Object;
-	ASSERT_FINE(SetSun(-1.0));
+	ASSERT_OK(SetSun(-1.0));
 	RenderUntilComplete();
 	// Others are built first, one in each frame: no object shows the new level yet.
 	SetVariable("r.RT.Build.TrianglesPerFrame", "1");
-	for (int Other = 0; Other < 4; ++Other) { ASSERT_FINE(AddObject(AddNamed("Other"), Solid)); }
+	for (int Other = 0; Other < 4; ++Other) { ASSERT_OK(AddObject(AddNamed("Other"), Solid)); }
 	const ERTMeshHandle Coarse = AddNamed("Coarse");
-	ASSERT_FINE(Renderer->SetObjectMesh(Mine, Coarse, &Solid, 1));
-	ASSERT_FINE(Renderer->RemoveMesh(Near)); // no object has it any more
+	ASSERT_OK(Renderer->SetObjectMesh(Mine, Coarse, &Solid, 1));
+	ASSERT_OK(Renderer->RemoveMesh(Near)); // no object has it any more
 	int Old = 0, New = 0;
 	EXPECT_TRUE(WaitUntil(
 	    "the new level", [&] { return New > 0; },
 	    [&] {
-		ASSERT_FINE(RenderWholeFrame());
+		ASSERT_OK(RenderWholeFrame());
 		const FNames Shown = FindShown();
 		Old = static_cast<int>(std::count(Shown.begin(), Shown.end(), "Fine"));
 		New = static_cast<int>(std::count(Shown.begin(), Shown.end(), "Coarse"));
@@ -89,30 +89,30 @@ TEST_F(FModuleLevelTest, RaysSeeTheOldLevelUntilTheNewOneIsBuilt)
 TEST_F(FModuleLevelTest, WhatTheOldLevelNeededMayGo)
 {
 	ERTMaterialHandle Old = ERTMaterialHandle::None;
-	ASSERT_FINE(Renderer->AddMaterial({}, &Old));
-	ASSERT_FINE(AddObject(AddNamed("Fine"), Old));
-	ASSERT_FINE(SetSun(-1.0));
+	ASSERT_OK(Renderer->AddMaterial({}, &Old));
+	ASSERT_OK(AddObject(AddNamed("Fine"), Old));
+	ASSERT_OK(SetSun(-1.0));
 	RenderUntilComplete();
 	SetVariable("r.RT.Build.TrianglesPerFrame", "1");
-	ASSERT_FINE(Renderer->SetObjectMesh(Object, AddNamed("Coarse"), &Solid, 1));
-	ASSERT_FINE(Renderer->SetObjectMaterials(Object, &Masked, 1));
-	ASSERT_FINE(Renderer->RemoveMaterial(Old));
-	for (int Frame = 0; Frame < 4; ++Frame) { ASSERT_FINE(RenderWholeFrame()); }
+	ASSERT_OK(Renderer->SetObjectMesh(Object, AddNamed("Coarse"), &Solid, 1));
+	ASSERT_OK(Renderer->SetObjectMaterials(Object, &Masked, 1));
+	ASSERT_OK(Renderer->RemoveMaterial(Old));
+	for (int Frame = 0; Frame < 4; ++Frame) { ASSERT_OK(RenderWholeFrame()); }
 	RenderUntilComplete();
 	EXPECT_EQ(FindShown(), FNames{"Coarse"});
-	ASSERT_FINE(Renderer->RemoveObject(Object));
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(Renderer->RemoveObject(Object));
+	ASSERT_OK(RenderWholeFrame());
 }
 
 TEST_F(FModuleLevelTest, AnObjectMayGoWhileItsLevelIsOnItsWay)
 {
-	ASSERT_FINE(AddObject(AddNamed("Fine"), Solid));
-	ASSERT_FINE(SetSun(-1.0));
+	ASSERT_OK(AddObject(AddNamed("Fine"), Solid));
+	ASSERT_OK(SetSun(-1.0));
 	RenderUntilComplete();
-	ASSERT_FINE(Renderer->SetObjectMesh(Object, AddNamed("Coarse"), &Solid, 1));
-	ASSERT_FINE(RenderWholeFrame());
-	ASSERT_FINE(Renderer->RemoveObject(Object));
-	for (int Frame = 0; Frame < 4; ++Frame) { ASSERT_FINE(RenderWholeFrame()); }
+	ASSERT_OK(Renderer->SetObjectMesh(Object, AddNamed("Coarse"), &Solid, 1));
+	ASSERT_OK(RenderWholeFrame());
+	ASSERT_OK(Renderer->RemoveObject(Object));
+	for (int Frame = 0; Frame < 4; ++Frame) { ASSERT_OK(RenderWholeFrame()); }
 	EXPECT_EQ(FindShown(), FNames{});
 }
 
@@ -125,9 +125,9 @@ TEST_F(FModuleLevelTest, WhatIsSaidToStandStillIsNotMoved)
 	for (const ERTModuleMobility Mobility : {ERTModuleMobility::Static, ERTModuleMobility::Stationary, ERTModuleMobility::Movable})
 	{
 		Desc.Mobility = Mobility;
-		ASSERT_FINE(Renderer->AddObject(Desc, &Object));
+		ASSERT_OK(Renderer->AddObject(Desc, &Object));
 		const double Moved[12] = {1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0};
-		if (Mobility == ERTModuleMobility::Movable) { ASSERT_FINE(Renderer->SetObjectTransform(Object, Moved)); }
+		if (Mobility == ERTModuleMobility::Movable) { ASSERT_OK(Renderer->SetObjectTransform(Object, Moved)); }
 		else { EXPECT_REFUSED(Renderer->SetObjectTransform(Object, Moved), "Mobility is not Movable"); }
 	}
 	Desc.Mobility = static_cast<ERTModuleMobility>(3);

@@ -18,7 +18,7 @@ protected:
 TEST_F(FModuleSamplerTest, SamplersThatMaterialsCannotNameAreRefused)
 {
 	std::vector<TRTRef<IRTSampler>> Samplers(1100);
-	for (TRTRef<IRTSampler>& Sampler : Samplers) { ASSERT_FINE(Device->CreateSampler({}, Sampler.ReleaseAndGetAddress())); }
+	for (TRTRef<IRTSampler>& Sampler : Samplers) { ASSERT_OK(Device->CreateSampler({}, Sampler.ReleaseAndGetAddress())); }
 	FTexturedMaterial Tree = MakeTexturedMaterial("Bark");
 	ERTMaterialHandle Handle = ERTMaterialHandle::None;
 	const auto UseSampler = [&](uint32_t Index) {

@@ -16,7 +16,7 @@ protected:
 	void SetUp() override
 	{
 		FModuleTest::SetUp();
-		ASSERT_FINE(SetSun(-1.0));
+		ASSERT_OK(SetSun(-1.0));
 	}
 	void TearDown() override
 	{
@@ -71,8 +71,8 @@ TEST_F(FModuleSceneTest, EveryMapOfAMaterialReachesTheShaders)
 	    &Material.BaseColorMap, &Material.MetallicRoughnessMap, &Material.NormalMap, &Material.OcclusionMap, &Material.EmissiveMap};
 	for (uint32_t Slot = 0; Slot < 5; ++Slot) { *Maps[Slot] = MakeMap(Slot % 2); }
 	ERTMaterialHandle Handle = ERTMaterialHandle::None;
-	ASSERT_FINE(Renderer->AddMaterial(Material, &Handle));
-	ASSERT_FINE(AddObject(AddOpaqueMesh(), Handle));
+	ASSERT_OK(Renderer->AddMaterial(Material, &Handle));
+	ASSERT_OK(AddObject(AddOpaqueMesh(), Handle));
 	const FSceneConstants Constants = ReadConstants(DescribeFrame());
 	const auto Data = ReadEntry<FMaterialData>(Constants.Materials, 2); // behind those of the fixture
 	for (uint32_t Slot = 0; Slot < 5; ++Slot)
@@ -96,13 +96,13 @@ TEST_F(FModuleSceneTest, MapsOfAReplacedMaterialAreLetGo)
 	FRTModuleMaterial Material;
 	Material.NormalMap = MakeMap(0);
 	Material.EmissiveMap = MakeMap(0);
-	ASSERT_FINE(Renderer->SetMaterial(Solid, Material));
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(Renderer->SetMaterial(Solid, Material));
+	ASSERT_OK(RenderWholeFrame());
 	Samplers.clear();
 	Textures.clear();
 	EXPECT_EQ(CountDestroyed("Test"), 0u);
-	ASSERT_FINE(Renderer->SetMaterial(Solid, {}));
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(Renderer->SetMaterial(Solid, {}));
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(CountDestroyed("Test"), 2u);
 }
 
@@ -171,7 +171,7 @@ TEST_F(FModuleSceneTest, SectionsMayHaveAnIndexBase)
 	Desc.Mesh = Handle;
 	Desc.Materials = Materials;
 	Desc.MaterialCount = 2;
-	ASSERT_FINE(Renderer->AddObject(Desc, &Object));
+	ASSERT_OK(Renderer->AddObject(Desc, &Object));
 	const std::vector<uint8_t> Bytes = ReadMesh("Based");
 	uint32_t Indices[6] = {};
 	ASSERT_EQ(Bytes.size(), 6 * (12 + sizeof(FVertexAttributes)) + sizeof(Indices));
@@ -193,7 +193,7 @@ TEST_F(FModuleSceneTest, IndicesOf16BitsStaySo)
 	Mesh.Name = "Short";
 	Mesh.Indices = nullptr;
 	Mesh.Indices16 = Indices;
-	ASSERT_FINE(AddObject(AddMesh(Mesh), Solid));
+	ASSERT_OK(AddObject(AddMesh(Mesh), Solid));
 	const std::vector<uint8_t> Bytes = ReadMesh("Short");
 	ASSERT_EQ(Bytes.size(), 36 + 3 * sizeof(FVertexAttributes) + 8) << "padded to whole words";
 	EXPECT_EQ(std::memcmp(Bytes.data() + Bytes.size() - 8, Indices, sizeof(Indices)), 0);
@@ -219,51 +219,51 @@ TEST_F(FModuleSceneTest, ManyObjectsComeInOneCallOrNone)
 	Descs[70].Materials = &Masked;
 	EXPECT_REFUSED(Renderer->AddObjects(Descs.data(), 100, Handles.data()), "object 70: mesh \"Wall\": section 0");
 	for (const ERTObjectHandle Handle : Handles) { EXPECT_EQ(Handle, ERTObjectHandle::None); }
-	ASSERT_FINE(Renderer->RemoveMesh(Mesh)); // nothing uses it
+	ASSERT_OK(Renderer->RemoveMesh(Mesh)); // nothing uses it
 	const ERTMeshHandle Other = AddOpaqueMesh();
 	for (FRTModuleObject& Desc : Descs)
 	{
 		Desc.Mesh = Other;
 		Desc.Materials = &Solid;
 	}
-	ASSERT_FINE(Renderer->AddObjects(Descs.data(), 100, Handles.data()));
-	ASSERT_FINE(Renderer->AddObjects(nullptr, 0, nullptr));
+	ASSERT_OK(Renderer->AddObjects(Descs.data(), 100, Handles.data()));
+	ASSERT_OK(Renderer->AddObjects(nullptr, 0, nullptr));
 	EXPECT_REFUSED(Renderer->AddObjects(nullptr, 1, Handles.data()), "Objects is null");
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(CountInstances(), 100u);
-	for (const ERTObjectHandle Handle : Handles) { ASSERT_FINE(Renderer->RemoveObject(Handle)); }
+	for (const ERTObjectHandle Handle : Handles) { ASSERT_OK(Renderer->RemoveObject(Handle)); }
 }
 
 TEST_F(FModuleSceneTest, WhoSeesAnObjectIsForTheEngineToSay)
 {
 	const ERTMeshHandle Mesh = AddOpaqueMesh();
-	ASSERT_FINE(AddObject(Mesh, Solid));
-	ASSERT_FINE(AddObject(Mesh, Solid));
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(AddObject(Mesh, Solid));
+	ASSERT_OK(AddObject(Mesh, Solid));
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(CountInstances(), 2u);
-	ASSERT_FINE(Renderer->SetObjectCastsShadow(Object, false));
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(Renderer->SetObjectCastsShadow(Object, false));
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(CountInstances(), 2u) << "others see it";
-	ASSERT_FINE(Renderer->SetObjectVisible(Object, false));
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(Renderer->SetObjectVisible(Object, false));
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(CountInstances(), 1u) << "nobody does";
-	ASSERT_FINE(Renderer->SetObjectCastsShadow(Object, true));
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(Renderer->SetObjectCastsShadow(Object, true));
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(CountInstances(), 2u);
 	EXPECT_REFUSED(Renderer->SetObjectVisible(ERTObjectHandle::None, true), "SetObjectVisible: no such object");
 }
 
 TEST_F(FModuleSceneTest, LightsComeChangeAndGo)
 {
-	ASSERT_FINE(AddObject(AddOpaqueMesh(), Solid));
+	ASSERT_OK(AddObject(AddOpaqueMesh(), Solid));
 	FRTModuleLight Lamp;
 	Lamp.Color[1] = 40.0f;
 	Lamp.Position[0] = 3.0;
 	ERTLightHandle First = ERTLightHandle::None, Second = ERTLightHandle::None;
-	ASSERT_FINE(Renderer->AddLight(Lamp, &First));
+	ASSERT_OK(Renderer->AddLight(Lamp, &First));
 	Lamp.Type = ERTModuleLight::Spot;
 	Lamp.Direction[1] = -2.0f;
-	ASSERT_FINE(Renderer->AddLight(Lamp, &Second));
+	ASSERT_OK(Renderer->AddLight(Lamp, &Second));
 	FSceneConstants Constants = ReadConstants(DescribeFrame());
 	ASSERT_EQ(Constants.LightCount, 2u);
 	auto Light = ReadEntry<FLightData>(Constants.Lights, 0);
@@ -275,9 +275,9 @@ TEST_F(FModuleSceneTest, LightsComeChangeAndGo)
 	EXPECT_EQ(Light.Direction, glm::vec3(0, -1, 0));
 	EXPECT_NEAR(Light.SpotScale * std::cos(0.7853982f) + Light.SpotOffset, 0.0f, 1e-5f) << "dark at the outer cone";
 	EXPECT_NEAR(Light.SpotScale + Light.SpotOffset, 1.0f, 1e-5f) << "bright on the axis";
-	ASSERT_FINE(Renderer->RemoveLight(First));
+	ASSERT_OK(Renderer->RemoveLight(First));
 	Lamp.Color[1] = 10.0f;
-	ASSERT_FINE(Renderer->SetLight(Second, Lamp));
+	ASSERT_OK(Renderer->SetLight(Second, Lamp));
 	Constants = ReadConstants(DescribeFrame());
 	ASSERT_EQ(Constants.LightCount, 1u);
 	EXPECT_EQ(ReadEntry<FLightData>(Constants.Lights, 0).Color, glm::vec3(0, 10, 0));
@@ -300,29 +300,29 @@ TEST_F(FModuleSceneTest, TheEnginesGpuMayWriteVertices)
 	Mesh.bDeformable = true;
 	Mesh.BoundsRadius = 5.0f;
 	const ERTMeshHandle Skin = AddMesh(Mesh);
-	ASSERT_FINE(AddObject(Skin, Solid));
-	ASSERT_FINE(Renderer->GetMeshBuffer(Skin, &Where));
+	ASSERT_OK(AddObject(Skin, Solid));
+	ASSERT_OK(Renderer->GetMeshBuffer(Skin, &Where));
 	EXPECT_EQ(Where.Buffer, nullptr) << "it is still on its way";
-	ASSERT_FINE(RenderWholeFrame());
-	ASSERT_FINE(Renderer->GetMeshBuffer(Skin, &Where));
+	ASSERT_OK(RenderWholeFrame());
+	ASSERT_OK(Renderer->GetMeshBuffer(Skin, &Where));
 	ASSERT_NE(Where.Buffer, nullptr);
 	EXPECT_GE(Where.Buffer->GetDesc().Size, Where.PositionsOffset + 36);
 	Mock().ClearCalls();
-	ASSERT_FINE(Renderer->MarkMeshDeformed(Skin));
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(Renderer->MarkMeshDeformed(Skin));
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(CountCopies("Skin"), 0u);
 	const std::vector<FRTMockCall> Builds = Mock().FindCalls(ERTMockCall::BuildGeometry, "Skin");
 	ASSERT_EQ(Builds.size(), 1u);
 	EXPECT_EQ(Builds[0].Numbers[1], 1u) << "a refit";
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::BuildGeometry, "Skin"), 1u);
 }
 
 TEST_F(FModuleSceneTest, FramesLeaveTheGraphicsStateAlone)
 {
-	ASSERT_FINE(AddObject(AddOpaqueMesh(), Solid));
+	ASSERT_OK(AddObject(AddOpaqueMesh(), Solid));
 	const auto Step = [&] {
-		ASSERT_FINE(RenderWholeFrame());
+		ASSERT_OK(RenderWholeFrame());
 		GiveWay();
 	};
 	Outputs = {};

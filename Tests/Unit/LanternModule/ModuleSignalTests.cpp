@@ -23,8 +23,8 @@ protected:
 	void SetUp() override
 	{
 		FModuleTest::SetUp();
-		ASSERT_FINE(AddObject(AddOpaqueMesh(), Solid));
-		ASSERT_FINE(SetSun(-1.0));
+		ASSERT_OK(AddObject(AddOpaqueMesh(), Solid));
+		ASSERT_OK(SetSun(-1.0));
 		Motion = MakeTexture(ERTFormat::RGBA32_FLOAT, 64);
 		BaseColor = MakeTexture(ERTFormat::RGBA8_SRGB, 64);
 		Material = MakeTexture(ERTFormat::RGBA8_UNORM, 64);
@@ -48,8 +48,8 @@ protected:
 	{
 		Precache(Frame);
 		Mock().ClearCalls();
-		ASSERT_FINE(Renderer->RenderFrame(Frame, &Outputs));
-		ASSERT_FINE(Renderer->EndFrame(nullptr));
+		ASSERT_OK(Renderer->RenderFrame(Frame, &Outputs));
+		ASSERT_OK(Renderer->EndFrame(nullptr));
 	}
 	/// Frames until all that Frame asks for is there.
 	void RenderUntilComplete(FRTModuleFrame Frame)
@@ -76,7 +76,7 @@ protected:
 TEST_F(FModuleSignalTest, EverySignalOfTheRegistryIsAnOutput)
 {
 	const float Sky[3] = {1, 1, 1};
-	ASSERT_FINE(Renderer->SetSky(Sky));
+	ASSERT_OK(Renderer->SetSky(Sky));
 	SetVariable("r.RT.GI", "1");
 	SetVariable("r.RT.Reflections", "1");
 	for (const FSignalInfo& Info : SignalInfos)
@@ -97,7 +97,7 @@ TEST_F(FModuleSignalTest, EverySignalOfTheRegistryIsAnOutput)
 TEST_F(FModuleSignalTest, ByDefaultThereAreSunShadowsOnly)
 {
 	const float Sky[3] = {1, 1, 1};
-	ASSERT_FINE(Renderer->SetSky(Sky));
+	ASSERT_OK(Renderer->SetSky(Sky));
 	RenderAndEnd(DescribeFrame());
 	EXPECT_NE(Outputs.Get(ESignal::SunShadow), nullptr);
 	EXPECT_EQ(Outputs.Get(ESignal::AmbientOcclusion), nullptr);
@@ -127,7 +127,7 @@ TEST_F(FModuleSignalTest, AmbientOcclusionAloneNeedsNoSunAndNoSky)
 	for (const char* Path : {"1", "2"})
 	{
 		SetVariable("r.RT.AO.Path", Path);
-		ASSERT_FINE(SetSun(-1.0, 0.0f));
+		ASSERT_OK(SetSun(-1.0, 0.0f));
 		FRTModuleFrame Frame = DescribeFrame();
 		Frame.Wanted = {ESignal::SunShadow, ESignal::AmbientOcclusion};
 		RenderUntilComplete(Frame);
@@ -150,7 +150,7 @@ TEST_F(FModuleSignalTest, AmbientOcclusionAloneNeedsNoSunAndNoSky)
 TEST_F(FModuleSignalTest, IndirectLightIsGivenWhereItIsAskedForAndOn)
 {
 	const float Sky[3] = {1, 1, 1};
-	ASSERT_FINE(Renderer->SetSky(Sky));
+	ASSERT_OK(Renderer->SetSky(Sky));
 	RenderUntilComplete(DescribeAll());
 	EXPECT_EQ(Outputs.Get(ESignal::DiffuseGI), nullptr) << "off by default";
 	EXPECT_EQ(Outputs.Get(ESignal::Reflections), nullptr);
@@ -193,7 +193,7 @@ TEST_F(FModuleSignalTest, MotionOfObjectsIsLeftToTheEngine)
 {
 	RenderAndEnd(DescribeFrame());
 	double Moved[12] = {1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0};
-	ASSERT_FINE(Renderer->SetObjectTransform(Object, Moved));
+	ASSERT_OK(Renderer->SetObjectTransform(Object, Moved));
 	RenderAndEnd(DescribeAll());
 	EXPECT_THAT(Mock().GetCreatedBuffers(), Not(Contains(HasSubstr("Motion"))));
 }

@@ -62,7 +62,7 @@ protected:
 		EXPECT_TRUE(WaitUntil(
 		    "a complete frame", [&] { return Outputs.bComplete; },
 		    [&] {
-			ASSERT_FINE(RenderWholeFrame());
+			ASSERT_OK(RenderWholeFrame());
 			GiveWay();
 		    }));
 		for (IRTScene* const Scene : Mock().FindLiveScenes())
@@ -85,7 +85,7 @@ protected:
 TEST_F(FModuleStreamTest, WorkAheadWaitsForWhatTheEngineHasWritten)
 {
 	SetVariable("r.RT.Async", "*");
-	ASSERT_FINE(SetSun(-1.0));
+	ASSERT_OK(SetSun(-1.0));
 	const auto CountWaits = [&] {
 		FRTModuleFrame Frame = DescribeFrame();
 		Frame.bSubmitAhead = true;
@@ -97,15 +97,15 @@ TEST_F(FModuleStreamTest, WorkAheadWaitsForWhatTheEngineHasWritten)
 		return Count;
 	};
 	EXPECT_EQ(CountWaits(), 0u);
-	ASSERT_FINE(AddObject(AddMesh(Describe()), Solid));
+	ASSERT_OK(AddObject(AddMesh(Describe()), Solid));
 	EXPECT_EQ(CountWaits(), 1u);
 	EXPECT_EQ(CountWaits(), 0u);
 }
 
 TEST_F(FModuleStreamTest, TheDeviceReadsTheEnginesBuffers)
 {
-	ASSERT_FINE(AddObject(AddMesh(Describe()), Solid));
-	ASSERT_FINE(SetSun(-1.0));
+	ASSERT_OK(AddObject(AddMesh(Describe()), Solid));
+	ASSERT_OK(SetSun(-1.0));
 	const std::vector<FRTGeometrySection> Built = FindBuilt();
 	const FSceneConstants Scene = ReadConstants(DescribeFrame());
 	ASSERT_EQ(Built.size(), 1u);
@@ -146,8 +146,8 @@ TEST_F(FModuleStreamTest, SectionsMayBeginAtAnyVertex)
 	Desc.Mesh = AddMesh(Mesh);
 	Desc.Materials = Materials;
 	Desc.MaterialCount = 2;
-	ASSERT_FINE(Renderer->AddObject(Desc, &Object));
-	ASSERT_FINE(SetSun(-1.0));
+	ASSERT_OK(Renderer->AddObject(Desc, &Object));
+	ASSERT_OK(SetSun(-1.0));
 	const std::vector<FRTGeometrySection> Built = FindBuilt();
 	const FSceneConstants Scene = ReadConstants(DescribeFrame());
 	ASSERT_EQ(Built.size(), 2u);
@@ -160,23 +160,23 @@ TEST_F(FModuleStreamTest, SectionsMayBeginAtAnyVertex)
 TEST_F(FModuleStreamTest, MemoryIsHeldUntilTheDeviceIsDoneWithIt)
 {
 	const ERTMeshHandle Mesh = AddMesh(Describe());
-	ASSERT_FINE(AddObject(Mesh, Solid));
-	ASSERT_FINE(SetSun(-1.0));
+	ASSERT_OK(AddObject(Mesh, Solid));
+	ASSERT_OK(SetSun(-1.0));
 	Vertices.Reset();
 	Indices.Reset();
-	for (int Frame = 0; Frame < 6; ++Frame) { ASSERT_FINE(RenderWholeFrame()); }
+	for (int Frame = 0; Frame < 6; ++Frame) { ASSERT_OK(RenderWholeFrame()); }
 	Device->CollectGarbage();
 	EXPECT_EQ(Released, 0) << "the mesh is there";
-	ASSERT_FINE(Renderer->RemoveObject(Object));
-	ASSERT_FINE(Renderer->RemoveMesh(Mesh));
+	ASSERT_OK(Renderer->RemoveObject(Object));
+	ASSERT_OK(Renderer->RemoveMesh(Mesh));
 	EXPECT_TRUE(WaitUntil(
 	    "both buffers are released", [&] { return Released == 2; },
 	    [&] {
-		ASSERT_FINE(RenderWholeFrame());
+		ASSERT_OK(RenderWholeFrame());
 		Device->CollectGarbage();
 		GiveWay();
 	    }));
-	for (int Frame = 0; Frame < 4; ++Frame) { ASSERT_FINE(RenderWholeFrame()); }
+	for (int Frame = 0; Frame < 4; ++Frame) { ASSERT_OK(RenderWholeFrame()); }
 	EXPECT_EQ(Released, 2) << "each once";
 }
 
@@ -185,17 +185,17 @@ TEST_F(FModuleStreamTest, TheEnginesGpuMayDeformThem)
 	FRTModuleMesh Desc = Describe();
 	Desc.bDeformable = true;
 	const ERTMeshHandle Mesh = AddMesh(Desc);
-	ASSERT_FINE(AddObject(Mesh, Solid));
-	ASSERT_FINE(SetSun(-1.0));
+	ASSERT_OK(AddObject(Mesh, Solid));
+	ASSERT_OK(SetSun(-1.0));
 	EXPECT_EQ(FindBuilt().size(), 1u);
 	FRTModuleMeshBuffer Buffer;
 	EXPECT_REFUSED(Renderer->GetMeshBuffer(Mesh, &Buffer), "the engine's own buffers");
 	EXPECT_REFUSED(Renderer->UpdateMeshVertices(Mesh, TrianglePositions, nullptr), "the engine's own buffers");
 	Mock().ClearCalls();
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::BuildGeometry), 0u);
-	ASSERT_FINE(Renderer->MarkMeshDeformed(Mesh));
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(Renderer->MarkMeshDeformed(Mesh));
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::BuildGeometry), 1u) << "a refit from the engine's buffer";
 	EXPECT_EQ(CountCopies("EngineVertices"), 0u);
 }

@@ -35,25 +35,25 @@ protected:
 	void SetUp() override { Open(DescribeMock()); }
 	void Open(const FRTMockDesc& Mock)
 	{
-		ASSERT_FINE(CreateMockDevice(Mock, Inner.ReleaseAndGetAddress()));
+		ASSERT_OK(CreateMockDevice(Mock, Inner.ReleaseAndGetAddress()));
 		const auto OnMessage = [](void* User, const char* Text) { static_cast<FModuleTest*>(User)->Messages.emplace_back(Text); };
-		ASSERT_FINE(WrapWithValidation(Inner.Get(), OnMessage, this, Device.ReleaseAndGetAddress()));
+		ASSERT_OK(WrapWithValidation(Inner.Get(), OnMessage, this, Device.ReleaseAndGetAddress()));
 		ASSERT_EQ(LanternCreateModule(ModuleVersion, Module.ReleaseAndGetAddress()), 0);
 		FRTModuleDesc Desc;
 		Desc.ShaderFolder = LANTERN_SOURCE_DIR "/Shaders";
 		Desc.CacheFolder = LANTERN_TEST_CACHE;
-		ASSERT_FINE(Module->Initialize(Desc));
-		ASSERT_FINE(Module->CreateRenderer(Device.Get(), {}, Renderer.ReleaseAndGetAddress()));
-		ASSERT_FINE(Renderer->AddMaterial({}, &Solid));
+		ASSERT_OK(Module->Initialize(Desc));
+		ASSERT_OK(Module->CreateRenderer(Device.Get(), {}, Renderer.ReleaseAndGetAddress()));
+		ASSERT_OK(Renderer->AddMaterial({}, &Solid));
 		FRTModuleMaterial Material;
 		Material.bMasked = true;
-		ASSERT_FINE(Renderer->AddMaterial(Material, &Masked));
+		ASSERT_OK(Renderer->AddMaterial(Material, &Masked));
 		Depth = MakeTexture(ERTFormat::D32_FLOAT, 64);
 		Normals = MakeTexture(ERTFormat::RGBA16_SNORM, 64);
 	}
 	void TearDown() override
 	{
-		for (const auto& [Name, Value] : ChangedVariables) { ASSERT_FINE(Module->SetConsoleVariable(Name.c_str(), Value.c_str())); }
+		for (const auto& [Name, Value] : ChangedVariables) { ASSERT_OK(Module->SetConsoleVariable(Name.c_str(), Value.c_str())); }
 		Mock().ClearCompileFaults(); // the renderer waits for compiles that a failed test has left in the driver
 		Renderer.Reset();
 		Module.Reset();
@@ -68,9 +68,9 @@ protected:
 	void SetVariable(const char* Name, const char* Value)
 	{
 		char Before[64];
-		ASSERT_FINE(Module->GetConsoleVariable(Name, Before, sizeof(Before)));
+		ASSERT_OK(Module->GetConsoleVariable(Name, Before, sizeof(Before)));
 		ChangedVariables.insert(ChangedVariables.begin(), {Name, Before});
-		ASSERT_FINE(Module->SetConsoleVariable(Name, Value));
+		ASSERT_OK(Module->SetConsoleVariable(Name, Value));
 	}
 	virtual FRTMockDesc DescribeMock() const { return {}; }
 	FRTMock& Mock() { return GetMock(Inner.Get()); }
@@ -220,8 +220,8 @@ protected:
 		const auto Step = [&] {
 			Frame.Commands = DescribeFrame().Commands;
 			Mock().ClearCalls();
-			ASSERT_FINE(Renderer->RenderFrame(Frame, &Outputs));
-			ASSERT_FINE(Renderer->EndFrame(nullptr));
+			ASSERT_OK(Renderer->RenderFrame(Frame, &Outputs));
+			ASSERT_OK(Renderer->EndFrame(nullptr));
 			GiveWay();
 		};
 		Mock().ClearCalls();
@@ -241,7 +241,7 @@ protected:
 		Sun.Direction[1] = -1.0;
 		Sun.Irradiance = 1.0f;
 		Sun.AngularDiameter = 0.01f;
-		ASSERT_FINE(Renderer->SetSun(Sun));
+		ASSERT_OK(Renderer->SetSun(Sun));
 	}
 	/// Buffers of the name that were copied to in the calls so far.
 	uint32_t CountCopies(const char* Name) { return Mock().CountCalls(ERTMockCall::CopyBuffer, Name); }

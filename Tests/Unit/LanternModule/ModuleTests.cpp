@@ -12,12 +12,12 @@ TEST_F(FModuleTest, MaskedMaterialOnAnOpaqueSectionIsRefusedByName)
 {
 	const ERTMeshHandle Wall = AddOpaqueMesh();
 	EXPECT_REFUSED(AddObject(Wall, Masked), "mesh \"Wall\": section 0");
-	ASSERT_FINE(AddObject(Wall, Solid));
+	ASSERT_OK(AddObject(Wall, Solid));
 	EXPECT_REFUSED(Renderer->SetObjectMaterials(Object, &Masked, 1), "mesh \"Wall\": section 0");
 	FRTModuleMaterial Material;
 	Material.bMasked = true;
 	EXPECT_REFUSED(Renderer->SetMaterial(Solid, Material), "mesh \"Wall\": section 0");
-	ASSERT_FINE(Renderer->RemoveObject(Object));
+	ASSERT_OK(Renderer->RemoveObject(Object));
 	EXPECT_TRUE(Renderer->SetMaterial(Solid, Material).IsOk()) << "nothing uses it any more";
 }
 
@@ -37,17 +37,17 @@ TEST_F(FModuleTest, StaleAndForeignHandlesAreRefused)
 	EXPECT_REFUSED(AddObject(Mesh, ERTMaterialHandle::None), "no such material");
 	EXPECT_REFUSED(Renderer->SetMaterial(ERTMaterialHandle::None, {}), "no such material");
 	EXPECT_REFUSED(Renderer->SetObjectCastsShadow(ERTObjectHandle::None, true), "no such object");
-	ASSERT_FINE(AddObject(Mesh, Solid));
-	ASSERT_FINE(Renderer->RemoveObject(Object));
+	ASSERT_OK(AddObject(Mesh, Solid));
+	ASSERT_OK(Renderer->RemoveObject(Object));
 	EXPECT_REFUSED(Renderer->RemoveObject(Object), "no such object");
-	ASSERT_FINE(Renderer->RemoveMesh(Mesh));
+	ASSERT_OK(Renderer->RemoveMesh(Mesh));
 	EXPECT_REFUSED(Renderer->RemoveMesh(Mesh), "no such mesh");
 }
 
 TEST_F(FModuleTest, RemovedMeshesSlotIsUsedAgainAndItsHandleIsNot)
 {
 	const ERTMeshHandle First = AddMesh(DescribeTriangle());
-	ASSERT_FINE(Renderer->RemoveMesh(First));
+	ASSERT_OK(Renderer->RemoveMesh(First));
 	const ERTMeshHandle Second = AddMesh(DescribeTriangle());
 	EXPECT_NE(First, Second);
 	EXPECT_EQ(static_cast<uint32_t>(First), static_cast<uint32_t>(Second));
@@ -58,31 +58,31 @@ TEST_F(FModuleTest, RemovedMeshesSlotIsUsedAgainAndItsHandleIsNot)
 TEST_F(FModuleTest, MeshInUseCannotBeRemoved)
 {
 	const ERTMeshHandle Wall = AddOpaqueMesh();
-	ASSERT_FINE(AddObject(Wall, Solid));
+	ASSERT_OK(AddObject(Wall, Solid));
 	const ERTObjectHandle First = Object;
-	ASSERT_FINE(AddObject(Wall, Solid));
+	ASSERT_OK(AddObject(Wall, Solid));
 	EXPECT_REFUSED(Renderer->RemoveMesh(Wall), "2 objects still use mesh \"Wall\"");
-	ASSERT_FINE(Renderer->SetObjectCastsShadow(First, false));
-	ASSERT_FINE(Renderer->RemoveObject(First));
+	ASSERT_OK(Renderer->SetObjectCastsShadow(First, false));
+	ASSERT_OK(Renderer->RemoveObject(First));
 	EXPECT_REFUSED(Renderer->RemoveMesh(Wall), "1 objects still use mesh \"Wall\"");
-	ASSERT_FINE(SetSun(-1.0));
-	ASSERT_FINE(RenderWholeFrame());
-	ASSERT_FINE(Renderer->RemoveObject(Object));
-	ASSERT_FINE(Renderer->RemoveMesh(Wall));
-	for (int Frame = 0; Frame < 3; ++Frame) { ASSERT_FINE(RenderWholeFrame()); }
+	ASSERT_OK(SetSun(-1.0));
+	ASSERT_OK(RenderWholeFrame());
+	ASSERT_OK(Renderer->RemoveObject(Object));
+	ASSERT_OK(Renderer->RemoveMesh(Wall));
+	for (int Frame = 0; Frame < 3; ++Frame) { ASSERT_OK(RenderWholeFrame()); }
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::Destroy, "Wall") > 0, true) << "its memory was kept";
 }
 
 TEST_F(FModuleTest, HandleOfARemovedMeshIsRefusedWithItsName)
 {
 	const ERTMeshHandle Wall = AddOpaqueMesh();
-	ASSERT_FINE(Renderer->RemoveMesh(Wall));
+	ASSERT_OK(Renderer->RemoveMesh(Wall));
 	EXPECT_REFUSED(Renderer->RemoveMesh(Wall), "no such mesh: \"Wall\" was removed");
 	EXPECT_REFUSED(AddObject(Wall, Solid), "AddObject: no such mesh: \"Wall\" was removed");
 	EXPECT_REFUSED(Renderer->UpdateMeshVertices(Wall, TrianglePositions, nullptr), "\"Wall\" was removed");
 	const ERTMeshHandle Triangle = AddMesh(DescribeTriangle()); // in the same slot
 	EXPECT_REFUSED(AddObject(Wall, Solid), "\"Wall\" was removed");
-	ASSERT_FINE(Renderer->RemoveMesh(Triangle));
+	ASSERT_OK(Renderer->RemoveMesh(Triangle));
 	EXPECT_REFUSED(AddObject(Triangle, Solid), "\"Triangle\" was removed");
 	EXPECT_REFUSED(AddObject(Wall, Solid), "no such mesh: never added, removed, or of another renderer");
 }
@@ -118,7 +118,7 @@ TEST_F(FModuleTest, WrongGBufferIsRefused)
 TEST_F(FModuleTest, FramesOutOfOrderAreRefused)
 {
 	EXPECT_REFUSED(Renderer->EndFrame(nullptr), "RenderFrame recorded nothing");
-	ASSERT_FINE(Render());
+	ASSERT_OK(Render());
 	const TRTRef<IRTCommandList> First = List;
 	EXPECT_REFUSED(Renderer->RenderFrame(DescribeFrame(), &Outputs), "EndFrame was not called");
 	EXPECT_TRUE(Renderer->EndFrame(nullptr).IsOk());
@@ -127,15 +127,15 @@ TEST_F(FModuleTest, FramesOutOfOrderAreRefused)
 TEST_F(FModuleTest, ReplacedTextureStaysUntilTheFrameInTheMakingHasRun)
 {
 	FTexturedMaterial Leaf = MakeTexturedMaterial("Leaf");
-	ASSERT_FINE(Renderer->SetMaterial(Solid, Leaf.Material));
+	ASSERT_OK(Renderer->SetMaterial(Solid, Leaf.Material));
 	Leaf.Texture.Reset();
 	Mock().SetManualFences(true);
-	ASSERT_FINE(Render());
-	ASSERT_FINE(Renderer->SetMaterial(Solid, {}));
+	ASSERT_OK(Render());
+	ASSERT_OK(Renderer->SetMaterial(Solid, {}));
 	EXPECT_EQ(CountDestroyed("Leaf"), 0u) << "the recorded list may sample it";
 	FRTFence Fence = 0;
-	ASSERT_FINE(Renderer->EndFrame(&Fence));
-	ASSERT_FINE(RenderWholeFrame()); // takes the change over
+	ASSERT_OK(Renderer->EndFrame(&Fence));
+	ASSERT_OK(RenderWholeFrame()); // takes the change over
 	EXPECT_EQ(CountDestroyed("Leaf"), 0u) << "the frame is in flight";
 	Mock().SetManualFences(false);
 	EXPECT_EQ(CountDestroyed("Leaf"), 1u);
@@ -143,62 +143,62 @@ TEST_F(FModuleTest, ReplacedTextureStaysUntilTheFrameInTheMakingHasRun)
 
 TEST_F(FModuleTest, StructuresAreBuiltWithinTheBudget)
 {
-	ASSERT_FINE(Module->SetConsoleVariable("r.RT.Build.TrianglesPerFrame", "1"));
-	for (int Mesh = 0; Mesh < 3; ++Mesh) { ASSERT_FINE(AddObject(AddOpaqueMesh(), Solid)); }
-	ASSERT_FINE(SetSun(-1.0));
+	ASSERT_OK(Module->SetConsoleVariable("r.RT.Build.TrianglesPerFrame", "1"));
+	for (int Mesh = 0; Mesh < 3; ++Mesh) { ASSERT_OK(AddObject(AddOpaqueMesh(), Solid)); }
+	ASSERT_OK(SetSun(-1.0));
 	for (uint32_t Frame = 1; Frame <= 3; ++Frame)
 	{
-		ASSERT_FINE(Render());
+		ASSERT_OK(Render());
 		EXPECT_EQ(Outputs.bComplete, Frame == 3);
 		EXPECT_NE(Outputs.Get(ESignal::SunShadow), nullptr);
-		ASSERT_FINE(Renderer->EndFrame(nullptr));
+		ASSERT_OK(Renderer->EndFrame(nullptr));
 		EXPECT_EQ(Mock().CountCalls(ERTMockCall::BuildGeometry), Frame);
 	}
-	ASSERT_FINE(Module->SetConsoleVariable("r.RT.Build.TrianglesPerFrame", "500000"));
+	ASSERT_OK(Module->SetConsoleVariable("r.RT.Build.TrianglesPerFrame", "500000"));
 }
 
 TEST_F(FModuleTest, RemovedMaterialsHandleIsVoidAndItsPlaceIsUsedAgain)
 {
 	const ERTMeshHandle Mesh = AddMesh(DescribeTriangle());
 	ERTMaterialHandle Moss = ERTMaterialHandle::None, Stone = ERTMaterialHandle::None;
-	ASSERT_FINE(Renderer->AddMaterial({}, &Moss));
-	ASSERT_FINE(AddObject(Mesh, Moss));
+	ASSERT_OK(Renderer->AddMaterial({}, &Moss));
+	ASSERT_OK(AddObject(Mesh, Moss));
 	const ERTObjectHandle First = Object;
-	ASSERT_FINE(AddObject(Mesh, Solid));
-	ASSERT_FINE(Renderer->SetObjectMaterials(Object, &Moss, 1));
+	ASSERT_OK(AddObject(Mesh, Solid));
+	ASSERT_OK(Renderer->SetObjectMaterials(Object, &Moss, 1));
 	EXPECT_REFUSED(Renderer->RemoveMaterial(Moss), "2 sections of objects still use it");
-	ASSERT_FINE(Renderer->SetObjectCastsShadow(First, false));
-	ASSERT_FINE(Renderer->RemoveObject(First));
+	ASSERT_OK(Renderer->SetObjectCastsShadow(First, false));
+	ASSERT_OK(Renderer->RemoveObject(First));
 	EXPECT_REFUSED(Renderer->RemoveMaterial(Moss), "1 sections of objects still use it");
-	ASSERT_FINE(SetSun(-1.0));
-	ASSERT_FINE(Render());
-	ASSERT_FINE(Renderer->SetObjectMaterials(Object, &Solid, 1)); // while the frame that has it is in the making
-	ASSERT_FINE(Renderer->RemoveMaterial(Moss));
-	ASSERT_FINE(Renderer->EndFrame(nullptr));
+	ASSERT_OK(SetSun(-1.0));
+	ASSERT_OK(Render());
+	ASSERT_OK(Renderer->SetObjectMaterials(Object, &Solid, 1)); // while the frame that has it is in the making
+	ASSERT_OK(Renderer->RemoveMaterial(Moss));
+	ASSERT_OK(Renderer->EndFrame(nullptr));
 	EXPECT_REFUSED(Renderer->RemoveMaterial(Moss), "no such material");
 	EXPECT_REFUSED(Renderer->SetMaterial(Moss, {}), "no such material");
 	EXPECT_REFUSED(Renderer->SetObjectMaterials(Object, &Moss, 1), "no such material");
 	EXPECT_REFUSED(Renderer->RemoveMaterial(ERTMaterialHandle::None), "no such material");
-	ASSERT_FINE(Renderer->AddMaterial({}, &Stone));
+	ASSERT_OK(Renderer->AddMaterial({}, &Stone));
 	EXPECT_EQ(static_cast<uint32_t>(Stone), static_cast<uint32_t>(Moss)) << "its place is lost";
 	EXPECT_NE(Stone, Moss);
 	EXPECT_REFUSED(AddObject(Mesh, Moss), "no such material");
-	ASSERT_FINE(AddObject(Mesh, Stone));
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(AddObject(Mesh, Stone));
+	ASSERT_OK(RenderWholeFrame());
 }
 
 TEST_F(FModuleTest, RemovedMaterialsTextureStaysUntilTheFrameInTheMakingHasRun)
 {
 	FTexturedMaterial Bark = MakeTexturedMaterial("Bark");
 	ERTMaterialHandle Tree = ERTMaterialHandle::None;
-	ASSERT_FINE(Renderer->AddMaterial(Bark.Material, &Tree));
+	ASSERT_OK(Renderer->AddMaterial(Bark.Material, &Tree));
 	Bark.Texture.Reset();
 	Mock().SetManualFences(true);
-	ASSERT_FINE(Render());
-	ASSERT_FINE(Renderer->RemoveMaterial(Tree));
+	ASSERT_OK(Render());
+	ASSERT_OK(Renderer->RemoveMaterial(Tree));
 	EXPECT_EQ(CountDestroyed("Bark"), 0u) << "the recorded list may sample it";
-	ASSERT_FINE(Renderer->EndFrame(nullptr));
-	ASSERT_FINE(RenderWholeFrame()); // takes the change over
+	ASSERT_OK(Renderer->EndFrame(nullptr));
+	ASSERT_OK(RenderWholeFrame()); // takes the change over
 	EXPECT_EQ(CountDestroyed("Bark"), 0u) << "the frame is in flight";
 	Mock().SetManualFences(false);
 	EXPECT_EQ(CountDestroyed("Bark"), 1u);
@@ -212,15 +212,15 @@ protected:
 	{
 		FModuleTest::SetUp();
 		bPrecache = false;
-		ASSERT_FINE(Module->SetConsoleVariable("r.RT.Shadow.Path", GetParam()));
-		ASSERT_FINE(AddObject(AddOpaqueMesh(), Solid));
+		ASSERT_OK(Module->SetConsoleVariable("r.RT.Shadow.Path", GetParam()));
+		ASSERT_OK(AddObject(AddOpaqueMesh(), Solid));
 		SetSoftSun();
 	}
 	void TearDown() override
 	{
 		for (const char* Name : {"r.RT.Shadow.Path", "r.RT.Shadow.Denoise"})
 		{
-			ASSERT_FINE(Module->SetConsoleVariable(Name, Name == std::string("r.RT.Shadow.Path") ? "0" : "1"));
+			ASSERT_OK(Module->SetConsoleVariable(Name, Name == std::string("r.RT.Shadow.Path") ? "0" : "1"));
 		}
 		FModuleTest::TearDown();
 	}
@@ -228,8 +228,8 @@ protected:
 	void RenderAndEnd()
 	{
 		Mock().ClearCalls();
-		ASSERT_FINE(Render());
-		ASSERT_FINE(Renderer->EndFrame(nullptr));
+		ASSERT_OK(Render());
+		ASSERT_OK(Renderer->EndFrame(nullptr));
 		GiveWay();
 	}
 	/// A frame while the driver holds Part; a frame that waited would wait for ever.
@@ -272,14 +272,14 @@ TEST_P(FModuleCompileTest, FramesWaitForNoPipeline)
 	EXPECT_TRUE(Outputs.bShadersReady && Outputs.Get(ESignal::SunShadow) != nullptr);
 
 	// A material that must be told apart from solid ones: it is said that its shaders are not there.
-	ASSERT_FINE(AddObject(AddMesh(DescribeTriangle()), Masked));
+	ASSERT_OK(AddObject(AddMesh(DescribeTriangle()), Masked));
 	ASSERT_NO_FATAL_FAILURE(RenderWhile(""));
 	ASSERT_NO_FATAL_FAILURE(RenderUntilOneIsInTheDriver());
 	EXPECT_FALSE(Outputs.bShadersReady);
 	if (*GetParam() == '1') { EXPECT_NE(Outputs.Get(ESignal::SunShadow), nullptr) << "the pipeline before serves"; }
 	LetGo();
 	ASSERT_NO_FATAL_FAILURE(RenderUntilComplete());
-	ASSERT_FINE(SetSun(-1.0, 0.0f));
+	ASSERT_OK(SetSun(-1.0, 0.0f));
 	ASSERT_NO_FATAL_FAILURE(RenderAndEnd());
 	EXPECT_TRUE(Outputs.bComplete) << "without a sun nothing is missing";
 	EXPECT_EQ(Outputs.Get(ESignal::SunShadow), nullptr);
@@ -302,7 +302,7 @@ TEST_P(FModuleCompileTest, PrecacheMakesTheFirstFrameComplete)
 {
 	std::vector<float> Progress;
 	const auto Report = [](void* User, float Done) { static_cast<std::vector<float>*>(User)->push_back(Done); };
-	ASSERT_FINE(Renderer->Precache(DescribeFrame(), Report, &Progress));
+	ASSERT_OK(Renderer->Precache(DescribeFrame(), Report, &Progress));
 	ASSERT_FALSE(Progress.empty());
 	EXPECT_TRUE(std::is_sorted(Progress.begin(), Progress.end()));
 	EXPECT_FLOAT_EQ(Progress.back(), 1.0f);
@@ -313,9 +313,9 @@ TEST_P(FModuleCompileTest, PrecacheMakesTheFirstFrameComplete)
 		EXPECT_TRUE(Outputs.bShadersReady);
 		EXPECT_EQ(Mock().GetCreatedPipelines(), std::vector<std::string>());
 	}
-	ASSERT_FINE(Render());
+	ASSERT_OK(Render());
 	EXPECT_REFUSED(Renderer->Precache(DescribeFrame(), nullptr, nullptr), "EndFrame was not called");
-	ASSERT_FINE(Renderer->EndFrame(nullptr));
+	ASSERT_OK(Renderer->EndFrame(nullptr));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -326,24 +326,24 @@ TEST_F(FModuleTest, DeformedVerticesAreCopiedOnceAndRefitted)
 	const ERTMeshHandle Rigid = AddMesh(DescribeTriangle());
 	EXPECT_REFUSED(Renderer->UpdateMeshVertices(Rigid, TrianglePositions, nullptr), "without bDeformable");
 	const ERTMeshHandle Cloth = AddDeformableMesh();
-	ASSERT_FINE(AddObject(Cloth, Solid));
-	ASSERT_FINE(SetSun(-1.0));
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(AddObject(Cloth, Solid));
+	ASSERT_OK(SetSun(-1.0));
+	ASSERT_OK(RenderWholeFrame());
 
 	Mock().ClearCalls();
 	const float Moved[] = {0, 0, 1, 2, 0, 0, 0, 3, 0};
 	const float Broken[] = {0, 0, std::numeric_limits<float>::infinity(), 2, 0, 0, 0, 3, 0};
 	EXPECT_REFUSED(Renderer->UpdateMeshVertices(Cloth, Broken, nullptr), "not finite");
-	ASSERT_FINE(Renderer->UpdateMeshVertices(Cloth, TrianglePositions, nullptr));
-	ASSERT_FINE(Renderer->UpdateMeshVertices(Cloth, Moved, nullptr));
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(Renderer->UpdateMeshVertices(Cloth, TrianglePositions, nullptr));
+	ASSERT_OK(Renderer->UpdateMeshVertices(Cloth, Moved, nullptr));
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(CountCopies("Cloth"), 1u) << "positions and attributes at once, of the last call only";
 	const std::vector<FRTMockCall> Builds = Mock().FindCalls(ERTMockCall::BuildGeometry, "Cloth");
 	ASSERT_EQ(Builds.size(), 1u);
 	EXPECT_EQ(Builds[0].Numbers[1], 1u) << "a refit";
 
 	Mock().ClearCalls();
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(CountCopies("Cloth"), 0u) << "nothing is new";
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::BuildGeometry), 0u);
 }
@@ -351,17 +351,86 @@ TEST_F(FModuleTest, DeformedVerticesAreCopiedOnceAndRefitted)
 TEST_F(FModuleTest, VerticesOfALostFrameAreCopiedAgain)
 {
 	const ERTMeshHandle Cloth = AddDeformableMesh();
-	ASSERT_FINE(AddObject(Cloth, Solid));
-	ASSERT_FINE(SetSun(-1.0));
-	ASSERT_FINE(Renderer->UpdateMeshVertices(Cloth, TrianglePositions, nullptr));
+	ASSERT_OK(AddObject(Cloth, Solid));
+	ASSERT_OK(SetSun(-1.0));
+	ASSERT_OK(Renderer->UpdateMeshVertices(Cloth, TrianglePositions, nullptr));
 	Mock().FailEveryAllocation(1);
 	EXPECT_FALSE(Render().IsOk());
 	Mock().FailEveryAllocation(0);
 	Mock().ClearCalls();
-	ASSERT_FINE(Render());
+	ASSERT_OK(Render());
 	EXPECT_NE(Outputs.Get(ESignal::SunShadow), nullptr);
-	ASSERT_FINE(Renderer->EndFrame(nullptr));
+	ASSERT_OK(Renderer->EndFrame(nullptr));
 	EXPECT_EQ(CountCopies("Cloth"), 2u) << "the mesh, and its new vertices";
+}
+
+TEST_F(FModuleTest, AMapIsHeldUntilAFrameHasTakenAllCalls)
+{
+	SetVariable("r.RT.Scene.ArrivalsPerFrame", "1");
+	bPrecache = false; // it would take all calls at once
+	FTexturedMaterial First = MakeTexturedMaterial("First"), Second = MakeTexturedMaterial("Second");
+	ERTMaterialHandle Handle = ERTMaterialHandle::None;
+	const auto TakeAll = [&](uint32_t Frames) {
+		for (uint32_t Frame = 1; Frame <= Frames; ++Frame)
+		{
+			ASSERT_OK(Render());
+			EXPECT_EQ(Outputs.bCallsTaken, Frame == Frames);
+			EXPECT_EQ(CountDestroyed("First") + CountDestroyed("Second"), 0u) << "this frame or another may read it";
+			ASSERT_OK(Renderer->EndFrame(nullptr));
+		}
+	};
+	ASSERT_NO_FATAL_FAILURE(TakeAll(2)); // the fixture's materials
+	Mock().ClearCalls();
+	for (int I = 0; I < 3; ++I) { AddMesh(DescribeTriangle()); }
+	ASSERT_OK(Renderer->AddMaterial(First.Material, &Handle));
+	ASSERT_OK(Renderer->SetMaterial(Handle, Second.Material));
+	First.Texture.Reset();
+	ASSERT_NO_FATAL_FAILURE(TakeAll(5));
+	EXPECT_EQ(CountDestroyed("First"), 1u);
+	Mock().ClearCalls();
+	for (int I = 0; I < 3; ++I) { AddMesh(DescribeTriangle()); }
+	ASSERT_OK(Renderer->RemoveMaterial(Handle));
+	Second.Texture.Reset();
+	ASSERT_NO_FATAL_FAILURE(TakeAll(4));
+	EXPECT_EQ(CountDestroyed("Second"), 1u);
+}
+
+TEST_F(FModuleTest, ThingsOfAnotherDeviceAreRefused)
+{
+	TRTRef<IRTDevice> Other;
+	ASSERT_OK(CreateMockDevice({}, Other.ReleaseAndGetAddress()));
+	const auto MakeOther = [&](ERTFormat Format) {
+		FRTTextureDesc Desc = Depth->GetDesc();
+		Desc.Format = Format;
+		TRTRef<IRTTexture> Out;
+		EXPECT_OK(Other->ImportTexture(Desc, ++LastNative, Out.ReleaseAndGetAddress()));
+		return Out;
+	};
+	ASSERT_OK(SetSun(-1.0));
+	struct FCase
+	{
+		IRTTexture* FRTModuleFrame::*Member;
+		ERTFormat Format;
+		const char* Name;
+	};
+	for (const FCase& Case : {FCase{&FRTModuleFrame::Depth, ERTFormat::D32_FLOAT, "FRTModuleFrame::Depth"},
+	         FCase{&FRTModuleFrame::Normals, ERTFormat::RGBA16_SNORM, "FRTModuleFrame::Normals"},
+	         FCase{&FRTModuleFrame::GeometricNormals, ERTFormat::RGBA16_SNORM, "FRTModuleFrame::GeometricNormals"},
+	         FCase{&FRTModuleFrame::Motion, ERTFormat::RGBA32_FLOAT, "FRTModuleFrame::Motion"},
+	         FCase{&FRTModuleFrame::BaseColor, ERTFormat::RGBA8_SRGB, "FRTModuleFrame::BaseColor"},
+	         FCase{&FRTModuleFrame::Material, ERTFormat::RGBA8_UNORM, "FRTModuleFrame::Material"}})
+	{
+		FRTModuleFrame Frame = DescribeFrame();
+		const TRTRef<IRTTexture> Wrong = MakeOther(Case.Format);
+		Frame.*Case.Member = Wrong.Get();
+		EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), Case.Name);
+	}
+	TRTRef<IRTCommandList> Commands;
+	ASSERT_OK(Other->ImportCommandList(++LastNative, Commands.ReleaseAndGetAddress()));
+	FRTModuleFrame Frame = DescribeFrame();
+	Frame.Commands = Commands.Get();
+	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "FRTModuleFrame::Commands");
+	EXPECT_OK(RenderWholeFrame());
 }
 
 } // namespace

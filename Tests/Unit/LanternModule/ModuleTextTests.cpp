@@ -25,12 +25,12 @@ TEST_F(FModuleTest, NamesOfMeshesAreShownAsEscapes)
 	Mesh.Name = Worse.c_str();
 	const ERTMeshHandle Handle = AddMesh(Mesh);
 	EXPECT_REFUSED_CLEANLY(AddObject(Handle, static_cast<ERTMaterialHandle>(77)), WorseShown);
-	ASSERT_FINE(AddObject(Handle, Solid));
+	ASSERT_OK(AddObject(Handle, Solid));
 	EXPECT_REFUSED_CLEANLY(Renderer->SetObjectMaterials(Object, nullptr, 0), WorseShown);
 	EXPECT_REFUSED_CLEANLY(Renderer->UpdateMeshVertices(Handle, TrianglePositions, nullptr), WorseShown);
 	EXPECT_REFUSED_CLEANLY(Renderer->RemoveMesh(Handle), WorseShown);
-	ASSERT_FINE(Renderer->RemoveObject(Object));
-	ASSERT_FINE(Renderer->RemoveMesh(Handle));
+	ASSERT_OK(Renderer->RemoveObject(Object));
+	ASSERT_OK(Renderer->RemoveMesh(Handle));
 	EXPECT_REFUSED_CLEANLY(Renderer->RemoveMesh(Handle), WorseShown);
 	ERTMeshHandle None = ERTMeshHandle::None;
 	Mesh.IndexCount = 2;

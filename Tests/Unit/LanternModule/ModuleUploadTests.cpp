@@ -14,7 +14,7 @@ protected:
 	void SetUp() override
 	{
 		FModuleTest::SetUp();
-		ASSERT_FINE(SetSun(-1.0));
+		ASSERT_OK(SetSun(-1.0));
 	}
 	/// A mesh of Count triangles whose coordinates tell them apart.
 	struct FMany
@@ -41,20 +41,20 @@ protected:
 	/// Adds an object of the mesh, and renders a frame that is lost and one that is not.
 	void AddInALostFrame(const FMany& Many)
 	{
-		ASSERT_FINE(AddObject(AddMesh(Many.Mesh), Solid));
+		ASSERT_OK(AddObject(AddMesh(Many.Mesh), Solid));
 		Mock().FailEveryAllocation(1);
 		EXPECT_FALSE(Render().IsOk());
 		Mock().FailEveryAllocation(0);
-		ASSERT_FINE(RenderWholeFrame());
+		ASSERT_OK(RenderWholeFrame());
 	}
 	static uint64_t GetBytes(const FMany& Many) { return Many.Mesh.VertexCount * (12ull + 28ull) + Many.Mesh.IndexCount * 4ull; }
 	/// Replaces the renderer by one that is made under the present variables.
 	void Restart()
 	{
 		Renderer.Reset();
-		ASSERT_FINE(Module->CreateRenderer(Device.Get(), {}, Renderer.ReleaseAndGetAddress()));
-		ASSERT_FINE(Renderer->AddMaterial({}, &Solid));
-		ASSERT_FINE(SetSun(-1.0));
+		ASSERT_OK(Module->CreateRenderer(Device.Get(), {}, Renderer.ReleaseAndGetAddress()));
+		ASSERT_OK(Renderer->AddMaterial({}, &Solid));
+		ASSERT_OK(SetSun(-1.0));
 	}
 	uint64_t CountCopiedBytes()
 	{
@@ -66,7 +66,7 @@ protected:
 	void RenderUntilBuilt(const char* Name)
 	{
 		const auto Step = [&] {
-			ASSERT_FINE(RenderWholeFrame());
+			ASSERT_OK(RenderWholeFrame());
 			GiveWay();
 		};
 		ASSERT_TRUE(WaitUntil(
@@ -102,9 +102,9 @@ TEST_F(FModuleUploadTest, AddingMeshesWaitsForNothing)
 	for (int Round = 0; Round < 10; ++Round)
 	{
 		const uint32_t Waits = Mock().CountCalls(ERTMockCall::WaitFor);
-		for (int I = 0; I < 10; ++I) { ASSERT_FINE(AddObject(AddMesh(DescribeTriangle()), Solid)); }
+		for (int I = 0; I < 10; ++I) { ASSERT_OK(AddObject(AddMesh(DescribeTriangle()), Solid)); }
 		EXPECT_EQ(Mock().CountCalls(ERTMockCall::WaitFor), Waits);
-		ASSERT_FINE(RenderBehind());
+		ASSERT_OK(RenderBehind());
 	}
 	ExpectNoWaits();
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::Submit), 0u) << "copies run within the engine's frames";
@@ -117,16 +117,16 @@ TEST_F(FModuleUploadTest, AFrameCopiesSoMuchAndNoMore)
 {
 	SetVariable("r.RT.Upload.MBPerFrame", "1");
 	const FMany Many = MakeMany("Many", 60'000); // 9.6 MB
-	ASSERT_FINE(AddObject(AddMesh(Many.Mesh), Solid));
-	ASSERT_FINE(RenderWholeFrame()); // takes over the variable's value
+	ASSERT_OK(AddObject(AddMesh(Many.Mesh), Solid));
+	ASSERT_OK(RenderWholeFrame()); // takes over the variable's value
 	Mock().ClearCalls();
 	uint64_t Copied = CountCopiedBytes();
 	for (int Frame = 0; Frame < 20 && !IsBuilt("Many"); ++Frame)
 	{
-		ASSERT_FINE(Render());
+		ASSERT_OK(Render());
 		EXPECT_LE(CountCopiedBytes() - Copied, 1u << 20);
 		if (!IsBuilt("Many")) { EXPECT_FALSE(Outputs.bComplete); }
-		ASSERT_FINE(Renderer->EndFrame(nullptr));
+		ASSERT_OK(Renderer->EndFrame(nullptr));
 		Copied = CountCopiedBytes();
 	}
 	ExpectArrived(Many);
@@ -138,8 +138,8 @@ TEST_F(FModuleUploadTest, WhatIsLargerThanTheRingComesInPieces)
 	SetVariable("r.RT.Upload.StagingMB", "1");
 	ASSERT_NO_FATAL_FAILURE(Restart());
 	const FMany Many = MakeMany("Many", 30'000), Other = MakeMany("Other", 20'000);
-	ASSERT_FINE(AddObject(AddMesh(Many.Mesh), Solid));
-	ASSERT_FINE(AddObject(AddMesh(Other.Mesh), Solid));
+	ASSERT_OK(AddObject(AddMesh(Many.Mesh), Solid));
+	ASSERT_OK(AddObject(AddMesh(Other.Mesh), Solid));
 	ASSERT_NO_FATAL_FAILURE(RenderUntilBuilt("Many"));
 	ASSERT_NO_FATAL_FAILURE(RenderUntilBuilt("Other"));
 	ExpectArrived(Many);
@@ -153,9 +153,9 @@ TEST_F(FModuleUploadTest, StagingIsNotWrittenOverWhileTheGpuReadsIt)
 	ASSERT_NO_FATAL_FAILURE(Restart());
 	Mock().SetManualFences(true); // copies run late: they find what the ring holds then
 	const FMany Many = MakeMany("Many", 30'000);
-	ASSERT_FINE(AddObject(AddMesh(Many.Mesh), Solid));
+	ASSERT_OK(AddObject(AddMesh(Many.Mesh), Solid));
 	const auto Step = [&] {
-		ASSERT_FINE(RenderBehind());
+		ASSERT_OK(RenderBehind());
 		GiveWay();
 	};
 	ASSERT_TRUE(WaitUntil(
@@ -177,28 +177,28 @@ TEST_F(FModuleUploadTest, MeshesOfALostFrameAreCopiedAgain)
 TEST_F(FModuleUploadTest, MeshesMayGoWhileTheyAreOnTheirWay)
 {
 	SetVariable("r.RT.Upload.MBPerFrame", "1");
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(RenderWholeFrame());
 	const FMany Many = MakeMany("Many", 30'000);
 	const ERTMeshHandle Mesh = AddMesh(Many.Mesh);
-	ASSERT_FINE(AddObject(Mesh, Solid));
-	ASSERT_FINE(RenderWholeFrame());
-	ASSERT_FINE(Renderer->RemoveObject(Object));
-	ASSERT_FINE(Renderer->RemoveMesh(Mesh));
-	for (int Frame = 0; Frame < 12; ++Frame) { ASSERT_FINE(RenderWholeFrame()); }
+	ASSERT_OK(AddObject(Mesh, Solid));
+	ASSERT_OK(RenderWholeFrame());
+	ASSERT_OK(Renderer->RemoveObject(Object));
+	ASSERT_OK(Renderer->RemoveMesh(Mesh));
+	for (int Frame = 0; Frame < 12; ++Frame) { ASSERT_OK(RenderWholeFrame()); }
 	EXPECT_FALSE(IsBuilt("Many"));
 	EXPECT_EQ(CountDestroyed("Many"), 1u) << "its memory was kept";
-	ASSERT_FINE(Render());
+	ASSERT_OK(Render());
 	EXPECT_TRUE(WaitUntil(
 	    "shaders",
 	    [&] {
 		return Outputs.bComplete;
 	    },
 	    [&] {
-		ASSERT_FINE(Renderer->EndFrame(nullptr));
+		ASSERT_OK(Renderer->EndFrame(nullptr));
 		GiveWay();
-		ASSERT_FINE(Render());
+		ASSERT_OK(Render());
 	})) << "something still waits for it";
-	ASSERT_FINE(Renderer->EndFrame(nullptr));
+	ASSERT_OK(Renderer->EndFrame(nullptr));
 }
 
 TEST_F(FModuleUploadTest, WithoutMemoryForItAMeshIsRefused)
@@ -210,8 +210,8 @@ TEST_F(FModuleUploadTest, WithoutMemoryForItAMeshIsRefused)
 		EXPECT_EQ(Renderer->AddMesh(DescribeTriangle(), &Mesh).Code, ERTResult::OutOfDeviceMemory);
 		EXPECT_EQ(Mesh, ERTMeshHandle::None);
 	}
-	ASSERT_FINE(AddObject(AddMesh(DescribeTriangle()), Solid));
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(AddObject(AddMesh(DescribeTriangle()), Solid));
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_TRUE(IsBuilt("Triangle"));
 }
 
@@ -236,13 +236,13 @@ protected:
 TEST_F(FModuleTransferTest, MeshesAreCopiedBesideTheFrame)
 {
 	const FMany Many = MakeMany("Many", 100);
-	ASSERT_FINE(AddObject(AddMesh(Many.Mesh), Solid));
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(AddObject(AddMesh(Many.Mesh), Solid));
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(CountTransfers(), 1u);
 	for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::CopyBuffer, "Many")) { EXPECT_EQ(Call.List, "Uploads"); }
 	EXPECT_TRUE(IsBuilt("Many"));
 	ExpectArrived(Many);
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(CountTransfers(), 1u) << "nothing is new";
 	ExpectNoWaits();
 }
@@ -251,12 +251,12 @@ TEST_F(FModuleTransferTest, WhatIsStillBeingCopiedIsNotBuilt)
 {
 	Mock().SetManualFences(true);
 	const FMany Many = MakeMany("Many", 100);
-	ASSERT_FINE(AddObject(AddMesh(Many.Mesh), Solid));
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(AddObject(AddMesh(Many.Mesh), Solid));
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_FALSE(IsBuilt("Many"));
 	ExpectNoWaits();
 	Mock().CompleteUpTo(Mock().GetLastFence());
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_TRUE(IsBuilt("Many"));
 	Mock().SetManualFences(false);
 	ExpectArrived(Many);
@@ -274,13 +274,13 @@ TEST_F(FModuleTransferTest, VerticesThatComeBeforeTheMeshIsThereWait)
 {
 	Mock().SetManualFences(true);
 	const ERTMeshHandle Cloth = AddDeformableMesh();
-	ASSERT_FINE(AddObject(Cloth, Solid));
+	ASSERT_OK(AddObject(Cloth, Solid));
 	const float Moved[] = {0, 0, 1, 2, 0, 0, 0, 3, 0};
-	ASSERT_FINE(Renderer->UpdateMeshVertices(Cloth, Moved, nullptr));
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(Renderer->UpdateMeshVertices(Cloth, Moved, nullptr));
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(CountCopies("Cloth"), 1u) << "the new vertices would be written over";
 	Mock().CompleteUpTo(Mock().GetLastFence());
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(CountCopies("Cloth"), 2u);
 	Mock().SetManualFences(false);
 	const auto Buffers = Mock().FindLiveBuffers("Cloth");
@@ -291,9 +291,9 @@ TEST_F(FModuleTransferTest, VerticesThatComeBeforeTheMeshIsThereWait)
 TEST_F(FModuleTransferTest, TheQueueCanBeLeftAlone)
 {
 	SetVariable("r.RT.Upload.TransferQueue", "0");
-	ASSERT_FINE(RenderWholeFrame());
-	ASSERT_FINE(AddObject(AddMesh(DescribeTriangle()), Solid));
-	ASSERT_FINE(RenderWholeFrame());
+	ASSERT_OK(RenderWholeFrame());
+	ASSERT_OK(AddObject(AddMesh(DescribeTriangle()), Solid));
+	ASSERT_OK(RenderWholeFrame());
 	EXPECT_EQ(CountTransfers(), 0u);
 	EXPECT_TRUE(IsBuilt("Triangle"));
 }

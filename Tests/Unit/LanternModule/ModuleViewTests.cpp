@@ -66,16 +66,16 @@ TEST_F(FModuleLayoutTest, OrdinaryGBuffersAreTaken)
 	using enum ERTFormat;
 	for (const ERTFormat Format : {D32_FLOAT, D32_FLOAT_S8_UINT, D24_UNORM_S8_UINT, D16_UNORM, R32_FLOAT})
 	{
-		ASSERT_FINE(RenderWith([&](FRTModuleFrame& Frame) { Frame.Depth = Make(Format); }));
+		ASSERT_OK(RenderWith([&](FRTModuleFrame& Frame) { Frame.Depth = Make(Format); }));
 	}
 	for (const ERTFormat Format : {RGBA8_UNORM, RGBA8_SNORM, RGB10A2_UNORM, RGBA16_FLOAT, RGBA32_FLOAT})
 	{
-		ASSERT_FINE(RenderWith([&](FRTModuleFrame& Frame) {
+		ASSERT_OK(RenderWith([&](FRTModuleFrame& Frame) {
 			Frame.Normals = Make(Format);
 			Frame.Layout.Normals = ERTModuleNormals::Xyz;
 		}));
 	}
-	ASSERT_FINE(RenderWith([&](FRTModuleFrame& Frame) {
+	ASSERT_OK(RenderWith([&](FRTModuleFrame& Frame) {
 		Frame.Layout = MakeUnrealGBuffer();
 		Frame.Depth = Make(D32_FLOAT_S8_UINT);
 		Frame.Normals = Make(RGB10A2_UNORM);
@@ -83,7 +83,7 @@ TEST_F(FModuleLayoutTest, OrdinaryGBuffersAreTaken)
 		Frame.BaseColor = Make(BGRA8_SRGB);
 		Frame.Material = Make(BGRA8_UNORM);
 	}));
-	ASSERT_FINE(RenderWith([&](FRTModuleFrame& Frame) {
+	ASSERT_OK(RenderWith([&](FRTModuleFrame& Frame) {
 		Frame.Layout.Motion = ERTModuleMotion::Pixels;
 		Frame.Motion = Make(RG16_FLOAT);
 		Frame.Layout.bGeometricInZw = false;
@@ -97,10 +97,10 @@ TEST_F(FModuleLayoutTest, OrdinaryGBuffersAreTaken)
 // A pass over the pixels is for what is not native, and for nothing else.
 TEST_F(FModuleLayoutTest, NativeGBuffersCostNoPass)
 {
-	ASSERT_FINE(Module->SetConsoleVariable("r.RT.Shadow.Path", "2"));
-	ASSERT_FINE(Module->SetConsoleVariable("r.RT.Pipeline.Fallback", "2")); // frames wait for their shaders
-	ASSERT_FINE(AddObject(AddMesh(DescribeTriangle()), Solid));
-	ASSERT_FINE(SetSun(-1.0));
+	ASSERT_OK(Module->SetConsoleVariable("r.RT.Shadow.Path", "2"));
+	ASSERT_OK(Module->SetConsoleVariable("r.RT.Pipeline.Fallback", "2")); // frames wait for their shaders
+	ASSERT_OK(AddObject(AddMesh(DescribeTriangle()), Solid));
+	ASSERT_OK(SetSun(-1.0));
 	ASSERT_TRUE(WaitUntil(
 	    "a complete frame", [&] { return Outputs.bComplete; }, [&] { EXPECT_TRUE(RenderWholeFrame().IsOk()); }));
 	const auto Count = [&](const auto& Change) {

@@ -59,11 +59,13 @@ protected:
 		FAIL() << "does not recover";
 	}
 	template <class T>
-	void ExpectOnDevice(FAddress Address, const std::vector<T>& Values, const char* What)
+	void ExpectOnDevice(FAddress Address, const TPagedArray<T>& Table, const char* What)
 	{
-		if (Values.empty()) { return; }
+		if (Table.IsEmpty()) { return; }
 		IRTBuffer* const Buffer = Mock().FindBuffer(Address);
 		ASSERT_TRUE(Buffer) << What;
+		std::vector<T> Values(Table.Num());
+		Table.CopyTo(Values.data(), 0, Values.size());
 		EXPECT_EQ(std::memcmp(Mock().GetBytes(Buffer), Values.data(), Values.size() * sizeof(T)), 0) << What;
 	}
 	/// The device holds what the scene says, whatever failed on the way.

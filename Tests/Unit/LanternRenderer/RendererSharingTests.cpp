@@ -184,5 +184,33 @@ TEST_F(FRendererSharingTest, AnyOrderOfChangesAndFramesGivesRightRecords)
 	}
 }
 
+/// Who renders publishes variables once for all views and renderers of a frame.
+TEST_F(FRendererSharingTest, AViewsNextFrameNeedsThatSetVariablesArePublished)
+{
+	GTEST_FLAG_SET(death_test_style, "threadsafe");
+	const auto Begin = [&](size_t Index, uint32_t View) {
+		FFrameFeatures Features;
+		Features.ViewIndex = View;
+		const FRTStatus Begun = GetRenderer(Index).BeginFrame(Scene(), LookAt({0, 0, 9}, {0, 0, 0}, 1.0f, 40, 24), Features);
+		ASSERT_TRUE(Begun) << Begun.Message;
+	};
+	const auto Draw = [&](size_t Index, uint32_t View) {
+		ASSERT_NO_FATAL_FAILURE(Begin(Index, View));
+		ASSERT_TRUE(GetRenderer(Index).EndFrame(nullptr));
+	};
+	FConsoleVariables::Get().BeginFrame();
+	ASSERT_NO_FATAL_FAILURE(Draw(1, 0));
+	Set("r.RT.Shadow", "0"); // another thread's, for the next frame
+	EXPECT_TRUE(FConsoleVariables::Get().HasUnpublished());
+	ASSERT_NO_FATAL_FAILURE(Draw(1, 1));
+	ASSERT_NO_FATAL_FAILURE(Draw(2, 0));
+	EXPECT_DEATH(Begin(1, 0), "FConsoleVariables::BeginFrame was not called");
+	EXPECT_DEATH(Begin(2, 0), "FConsoleVariables::BeginFrame was not called");
+	FConsoleVariables::Get().BeginFrame();
+	EXPECT_FALSE(FConsoleVariables::Get().HasUnpublished());
+	ASSERT_NO_FATAL_FAILURE(Draw(1, 0));
+	ASSERT_NO_FATAL_FAILURE(Draw(1, 0)); // nothing was set
+}
+
 } // namespace
 } // namespace Lantern

@@ -379,8 +379,10 @@ TEST_F(FGatherSceneTest, TogglingEveryVariableEveryFrameChangesNothingButWhatItS
 		Settings.bEnabled &= Use.bCull;
 		const FCullingRule Rule(View, Settings);
 		size_t Kept = 0;
-		for (const FInstanceRecord& Record : Scene->GetInstances().GetRecords())
+		const TPagedArray<FInstanceRecord>& Records = Scene->GetInstances().GetRecords();
+		for (size_t Object = 0; Object < Records.Num(); ++Object)
 		{
+			const FInstanceRecord& Record = Records[Object];
 			Kept += Rule.Test(Record.Center, Record.Radius) != 0 ? 1 : 0;
 		}
 		ASSERT_EQ(GetInstances().size(), Kept) << "step " << Step;

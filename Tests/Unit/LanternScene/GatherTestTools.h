@@ -42,7 +42,7 @@ public:
 	void Set(uint32_t Object, const FInstancePlacement& Placement)
 	{
 		Store.Set(Object, Placement);
-		if (Object >= Table.size()) { Table.resize(Object + 1); }
+		if (Object >= Table.Num()) { Table.Resize(Object + 1); }
 		FObjectData& Data = Table[Object];
 		// Its own arithmetic, not the store's.
 		Data.Cell = FindCell(glm::dvec3(Placement.Transform[3]));
@@ -60,7 +60,7 @@ public:
 		const uint32_t Count = Gather.Count(Store, Rule);
 		FInstanceArray Fast(Count), Plain(Store.GetCount());
 		Gather.Write(Store, Origin, Fast.Get());
-		const uint32_t PlainCount = GatherStraightforward(Store, Table.data(), Rule, Origin, Plain.Get());
+		const uint32_t PlainCount = GatherStraightforward(Store, Table, Rule, Origin, Plain.Get());
 		ASSERT_EQ(Count, PlainCount);
 		Last = SortByObject(Fast.Get(), Count);
 		const std::vector<FRTInstance> Expected = SortByObject(Plain.Get(), PlainCount);
@@ -74,7 +74,7 @@ public:
 
 	FInstanceStore Store;
 	FInstanceGather Gather;
-	std::vector<FObjectData> Table;
+	TPagedArray<FObjectData> Table;
 	std::vector<FRTInstance> Last; ///< of the last ExpectSame, by object
 };
 

@@ -1,4 +1,4 @@
-// FGeometryBuildQueue: the order of builds and the limit of triangles. No device.
+// FGeometryBuildQueue: the order of builds and their limits. No device.
 #include "Geometry/GeometryBuildQueue.h"
 
 #include <string>
@@ -25,12 +25,12 @@ protected:
 		FConsoleVariables::Get().ResetAll();
 		FConsoleVariables::Get().BeginFrame();
 	}
-	static void SetLimit(uint32_t Triangles)
+	static void SetVariable(const char* Name, uint32_t Value)
 	{
-		const std::string Text = std::to_string(Triangles);
-		EXPECT_EQ(FConsoleVariables::Get().Set("r.RT.Build.TrianglesPerFrame", Text, ERTSetBy::Console, "test"), std::nullopt);
+		EXPECT_EQ(FConsoleVariables::Get().Set(Name, std::to_string(Value), ERTSetBy::Console, "test"), std::nullopt);
 		FConsoleVariables::Get().BeginFrame();
 	}
+	static void SetLimit(uint32_t Triangles) { SetVariable("r.RT.Build.TrianglesPerFrame", Triangles); }
 	/// Queues a geometry. Its slot is the number of those before it. The result is valid until the next call.
 	FGeometryEntry& Add(uint64_t Triangles = 100, float ScreenSize = 0.0f)
 	{
@@ -186,6 +186,22 @@ TEST_F(FGeometryBuildQueueTest, LostBuildsAndFullRoundsIgnoreTheLimit)
 	EXPECT_EQ(Run(), "012");
 	Add(100);
 	EXPECT_EQ(Run(true), "34");
+}
+
+TEST_F(FGeometryBuildQueueTest, AFrameBuildsSoManyHoweverSmall)
+{
+	SetVariable("r.RT.Build.StructuresPerFrame", 2);
+	for (int I = 0; I < 5; ++I) { Add(1); }
+	EXPECT_EQ(Run(), "01");
+	Lose(Slots[0]);
+	Lose(Slots[1]);
+	Add(1);
+	EXPECT_EQ(Run(), "01") << "what was in the picture counts";
+	Lose(Slots[0]);
+	Lose(Slots[1]);
+	Lose(Add(1)); // the seventh
+	EXPECT_EQ(Run(), "016") << "and does not wait";
+	EXPECT_EQ(Run(true), "2345") << "a picture that waits for all has no limit";
 }
 
 TEST_F(FGeometryBuildQueueTest, StopAndErrorKeepTheRestInOrder)

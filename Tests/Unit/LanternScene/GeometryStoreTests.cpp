@@ -307,6 +307,7 @@ TEST_F(FGeometryStoreTest, GeometryMayGoInTheMiddleOfAFrame)
 TEST_F(FGeometryStoreTest, RebuildsOfManyAreSpreadOverFrames)
 {
 	Set("r.RT.Skinning.RebuildInterval", "8");
+	Set("r.RT.Build.StructuresPerFrame", "0"); // all are there after a frame
 	std::vector<FRTGeometryRef> Bodies;
 	for (int I = 0; I < 50; ++I) { Bodies.push_back(Make("Body", 10, true)); }
 	ASSERT_TRUE(Frame());

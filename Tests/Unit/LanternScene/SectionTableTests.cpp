@@ -224,6 +224,9 @@ TEST_F(FSectionTableTest, PlainAlphaTestHasAHitGroupOfItsOwn)
 	Edit(0, Plain);
 	Options.bOpaqueVertices = false;
 	EXPECT_EQ(GetClass(Acquire(MakeGeometry("Fading leaf", 1, Options), {0})), ERTHitClass::Masked) << "alpha of vertices";
+	Options.bOpaqueVertices = true;
+	Options.bStreams = true;
+	EXPECT_EQ(GetClass(Acquire(MakeGeometry("Host's leaf", 1, Options), {0})), ERTHitClass::Masked) << "vertices of a host";
 }
 
 TEST_F(FSectionTableTest, ClassifiedSectionHasARecordForItsOpaqueTriangles)

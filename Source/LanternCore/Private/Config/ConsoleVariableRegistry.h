@@ -40,6 +40,7 @@ struct FConsoleVariables::FImpl
 	std::map<std::string, FAlias> Aliases;
 	/// Variables that were set since the last BeginFrame.
 	std::vector<FRTConsoleVariable*> Dirty;
+	uint64_t PublishCount = 0; ///< guarded by Mutex
 
 	void Register(FRTConsoleVariable& Variable);
 	void Unregister(FRTConsoleVariable& Variable);

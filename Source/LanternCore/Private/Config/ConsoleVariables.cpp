@@ -217,9 +217,23 @@ void FConsoleVariables::BeginFrame()
 			if (State.Callback) Callbacks.emplace_back(State.Callback, Variable);
 		}
 		Impl->Dirty.clear();
+		++Impl->PublishCount;
 	}
 	// After the lock: a callback may read or set variables; what it sets is published by the next frame.
 	for (const auto& [Callback, Variable] : Callbacks) Callback(*Variable);
+}
+
+uint64_t FConsoleVariables::GetPublishCount() const
+{
+	std::shared_lock Lock(Impl->Mutex);
+	return Impl->PublishCount;
+}
+
+bool FConsoleVariables::HasUnpublished() const
+{
+	std::shared_lock Lock(Impl->Mutex);
+	const auto IsNew = [](const FRTConsoleVariable* Variable) { return Variable->State->Published != Variable->State->Latest; };
+	return std::any_of(Impl->Dirty.begin(), Impl->Dirty.end(), IsNew);
 }
 
 void FConsoleVariables::Restore(const FRTConsoleVariable& Variable, FRTCVarValue Value, ERTSetBy By)

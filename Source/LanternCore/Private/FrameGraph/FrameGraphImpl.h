@@ -61,6 +61,8 @@ struct FTimedFrame
 	std::vector<FPassTiming> Passes;
 	std::vector<uint32_t> Places; ///< by pass that runs: its place among those of its queue
 	uint64_t Serial = 0;
+	uint64_t RecordedNs = 0; ///< by FTaskTrace::GetNow; 0: the trace was off
+	int64_t TraceFrame = 0;
 	bool bPending = false;
 };
 

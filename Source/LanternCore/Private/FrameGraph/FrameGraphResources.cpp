@@ -4,6 +4,7 @@
 
 #include "FrameGraph/FrameGraphImpl.h"
 #include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternCore/Tasks/TaskTrace.h"
 #include "LanternCore/Text/Log.h"
 
 namespace Lantern
@@ -116,6 +117,8 @@ FTimedFrame& FFrameGraphResources::FImpl::BeginTiming(const uint32_t (&PassCount
 	}
 	FTimedFrame& Frame = **It;
 	Frame.Serial = FrameCounter;
+	Frame.RecordedNs = FTaskTrace::IsOn() ? FTaskTrace::GetNow() : 0;
+	Frame.TraceFrame = FTaskTrace::GetFrame();
 	Frame.Passes.clear();
 	for (uint32_t Queue = 0; Queue < PassQueueCount; ++Queue)
 	{
@@ -158,6 +161,24 @@ bool FFrameGraphResources::FImpl::ReadTimes(FTimedFrame& Frame, uint32_t Queue, 
 	return true;
 }
 
+/// Adds a frame's passes to the trace, each on the lane of its queue. FirstNs: by queue, 0 where nothing ran.
+static void TraceFrame(const FTimedFrame& Frame, const uint64_t (&FirstNs)[PassQueueCount])
+{
+	if (Frame.RecordedNs == 0 || !FTaskTrace::IsOn()) { return; }
+	constexpr const char* Lanes[PassQueueCount] = {"GPU, graphics queue", "GPU, compute queue"};
+	for (const uint64_t First : FirstNs)
+	{
+		if (First != 0) { FTaskTrace::AlignDevice(First, Frame.RecordedNs); }
+	}
+	for (const FPassTiming& Pass : Frame.Passes)
+	{
+		const auto Queue = static_cast<uint32_t>(Pass.Queue);
+		if (FirstNs[Queue] == 0 || Pass.GpuMs < 0.0) { continue; }
+		const uint64_t Begin = FirstNs[Queue] + static_cast<uint64_t>(Pass.BeginMs * 1e6);
+		FTaskTrace::RecordOnDevice(Lanes[Queue], Pass.Name, Begin, Begin + static_cast<uint64_t>(Pass.GpuMs * 1e6), Frame.TraceFrame);
+	}
+}
+
 void FFrameGraphResources::FImpl::PollTimings()
 {
 	std::vector<FTimedFrame*> Pending;
@@ -181,6 +202,7 @@ void FFrameGraphResources::FImpl::PollTimings()
 		{
 			Done.push_back({Frame->Serial, static_cast<double>(Last[0] - First[0]) * 1e-6});
 		}
+		TraceFrame(*Frame, First);
 		Newest = Frame->Passes;
 		Frame->bPending = false;
 	}

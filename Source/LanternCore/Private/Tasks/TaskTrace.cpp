@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <mutex>
 
@@ -32,6 +33,9 @@ TRTConsoleVariable<int32_t> CVarTraceFrames("r.RT.Trace.Frames", 0,
     "Writes the file of r.RT.Trace every so many frames, each time with these "
     "frames alone, which costs some milliseconds. 0: only at the end.",
     {0, 1'000'000});
+TRTConsoleVariable<bool> CVarTraceCalls("r.RT.Trace.Calls", false,
+    "Shows each call of Vulkan in the trace as well. Read when a device is made; each call then costs the time of two readings "
+    "of the clock.");
 
 /// The events of one thread, a ring once it is full. If there are MaxBuffers already, further threads share the last one.
 struct FBuffer
@@ -47,6 +51,8 @@ constexpr size_t MaxThreadNames = 4096;
 
 uint64_t ReadClock() { return static_cast<uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count()); }
 
+constexpr int64_t NoOffset = std::numeric_limits<int64_t>::min();
+
 /// Never destroyed, as the log: threads may still end their scopes while the program ends.
 struct FRecorder
 {
@@ -58,6 +64,7 @@ struct FRecorder
 	std::atomic<bool> bUnwritten{false};
 	std::atomic<uint64_t> StartNs{ReadClock()};
 	std::atomic<size_t> EventCount{0};
+	int64_t DeviceOffsetNs = NoOffset; // from a device's clock to GetNow
 };
 
 FRecorder& GetRecorder()
@@ -100,6 +107,52 @@ std::string ToJsonText(std::string_view Text)
 	return nlohmann::json(std::string(Text)).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+FTraceEvent MakeEvent(std::string_view Name, uint64_t BeginNs, uint64_t EndNs, int64_t Frame)
+{
+	FTraceEvent Event;
+	CopyName(Event.Name, FTraceEvent::MaxName, Name);
+	Event.BeginNs = BeginNs;
+	Event.EndNs = std::max(BeginNs, EndNs);
+	Event.Frame = Frame;
+	return Event;
+}
+
+void Store(const FTraceEvent& Event)
+{
+	FBuffer& Buffer = *GetThread().Buffer;
+	FRecorder& Recorder = GetRecorder();
+	std::lock_guard Lock(Buffer.Mutex);
+	if (Buffer.Events.size() < FTaskTrace::MaxEventsPerThread &&
+	    Recorder.EventCount.load(std::memory_order_relaxed) < FTaskTrace::MaxEvents)
+	{
+		if (Buffer.Oldest != 0) // a ring that grows again must be in order first
+		{
+			std::rotate(Buffer.Events.begin(), Buffer.Events.begin() + static_cast<ptrdiff_t>(Buffer.Oldest), Buffer.Events.end());
+			Buffer.Oldest = 0;
+		}
+		Buffer.Events.push_back(Event);
+		++Recorder.EventCount;
+		return;
+	}
+	++Buffer.Forgotten;
+	if (!Buffer.Events.empty())
+	{
+		Buffer.Events[Buffer.Oldest] = Event;
+		Buffer.Oldest = (Buffer.Oldest + 1) % Buffer.Events.size();
+	}
+}
+
+/// Finds a queue among the names, which it joins if it is new.
+uint32_t FindQueue(std::string_view Name)
+{
+	FRecorder& Recorder = GetRecorder();
+	std::lock_guard Lock(Recorder.Mutex);
+	const auto It = std::find(Recorder.Names.begin(), Recorder.Names.end(), Name);
+	const auto Index = static_cast<uint32_t>(It - Recorder.Names.begin());
+	if (Index == Recorder.Names.size()) { Recorder.Names.emplace_back(Name); }
+	return Index;
+}
+
 std::string MakeFilePath()
 {
 	FRecorder& Recorder = GetRecorder();
@@ -116,7 +169,12 @@ std::atomic<int64_t> FTaskTrace::CurrentFrame{FTraceEvent::NoFrame};
 void FTaskTrace::Start()
 {
 	Clear();
-	GetRecorder().StartNs = ReadClock();
+	FRecorder& Recorder = GetRecorder();
+	{
+		std::lock_guard Lock(Recorder.Mutex);
+		Recorder.DeviceOffsetNs = NoOffset;
+	}
+	Recorder.StartNs = ReadClock();
 	bOn = true;
 }
 
@@ -144,34 +202,34 @@ uint64_t FTaskTrace::GetNow()
 
 void FTaskTrace::Record(std::string_view Name, uint64_t BeginNs, uint64_t EndNs, int64_t Frame)
 {
-	FTraceEvent Event;
-	CopyName(Event.Name, FTraceEvent::MaxName, Name);
-	Event.BeginNs = BeginNs;
-	Event.EndNs = std::max(BeginNs, EndNs);
-	Event.Frame = Frame;
-	const FThread& Thread = GetThread();
-	Event.Thread = Thread.Index;
-	FBuffer& Buffer = *Thread.Buffer;
-	FRecorder& Recorder = GetRecorder();
-	std::lock_guard Lock(Buffer.Mutex);
-	if (Buffer.Events.size() < MaxEventsPerThread && Recorder.EventCount.load(std::memory_order_relaxed) < MaxEvents)
-	{
-		if (Buffer.Oldest != 0) // a ring that grows again must be in order first
-		{
-			std::rotate(Buffer.Events.begin(), Buffer.Events.begin() + static_cast<ptrdiff_t>(Buffer.Oldest), Buffer.Events.end());
-			Buffer.Oldest = 0;
-		}
-		Buffer.Events.push_back(Event);
-		++Recorder.EventCount;
-		return;
-	}
-	++Buffer.Forgotten;
-	if (!Buffer.Events.empty())
-	{
-		Buffer.Events[Buffer.Oldest] = Event;
-		Buffer.Oldest = (Buffer.Oldest + 1) % Buffer.Events.size();
-	}
+	FTraceEvent Event = MakeEvent(Name, BeginNs, EndNs, Frame);
+	Event.Thread = GetThread().Index;
+	Store(Event);
 }
+
+void FTaskTrace::RecordOnDevice(std::string_view Queue, std::string_view Name, uint64_t BeginNs, uint64_t EndNs, int64_t Frame)
+{
+	FTraceEvent Event = MakeEvent(Name, BeginNs, EndNs, Frame);
+	Event.Thread = FindQueue(Queue);
+	Event.bDevice = true;
+	Store(Event);
+}
+
+void FTaskTrace::AlignDevice(uint64_t DeviceNs, uint64_t NotBeforeNs)
+{
+	FRecorder& Recorder = GetRecorder();
+	std::lock_guard Lock(Recorder.Mutex);
+	Recorder.DeviceOffsetNs = std::max(Recorder.DeviceOffsetNs, static_cast<int64_t>(NotBeforeNs - DeviceNs));
+}
+
+void FTaskTrace::RecordCall(void*, const char* Name, uint64_t Nanoseconds)
+{
+	if (!IsOn()) { return; }
+	const uint64_t End = GetNow();
+	Record(Name, End - std::min(End, Nanoseconds), End, GetFrame());
+}
+
+bool FTaskTrace::WantsCalls() { return CVarTraceCalls.Get(); }
 
 void FTaskTrace::NameThread(std::string_view Name)
 {
@@ -190,6 +248,12 @@ std::vector<FTraceEvent> FTaskTrace::GetEvents()
 	{
 		std::lock_guard BufferLock(Buffer->Mutex);
 		Events.insert(Events.end(), Buffer->Events.begin(), Buffer->Events.end());
+	}
+	for (FTraceEvent& Event : Events)
+	{
+		if (!Event.bDevice || Recorder.DeviceOffsetNs == NoOffset) { continue; }
+		Event.BeginNs += static_cast<uint64_t>(Recorder.DeviceOffsetNs);
+		Event.EndNs += static_cast<uint64_t>(Recorder.DeviceOffsetNs);
 	}
 	return Events;
 }

@@ -54,6 +54,8 @@ public:
 	/// Takes some hundredths of a millisecond for each 100,000 objects and core.
 	void Collect(const FView& View, float MinPixels, std::vector<FSeen>& Out);
 	const FBlock& GetBlock(uint32_t Index) const { return Blocks[Index]; }
+	/// Returns whether some draw is mirrored, or was since Build.
+	bool HasMirrored() const { return bMirrored; }
 
 private:
 	struct FFrustum;
@@ -73,6 +75,7 @@ private:
 	std::vector<FBounds> Bounds;  // of Blocks
 	std::vector<uint32_t> Stale;  // a queue, from NextStale on
 	size_t NextStale = 0;
+	bool bMirrored = false;
 };
 
 } // namespace Lantern

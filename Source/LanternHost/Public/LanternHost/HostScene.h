@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -55,6 +56,13 @@ public:
 		uint32_t FirstPlace = 0, Places = 0; ///< range in a list of all objects by batch
 		friend bool operator==(const FDrawBatch&, const FDrawBatch&) = default;
 	};
+	/// What the pipelines of batches differ in, beside what a frame decides.
+	struct FDrawKind
+	{
+		uint32_t Program = StandardProgram;
+		bool bMasked = false, bDoubleSided = false;
+		friend auto operator<=>(const FDrawKind&, const FDrawKind&) = default;
+	};
 	/// An object as the raster sees it. Its index is that of the instance.
 	struct FDraw
 	{
@@ -63,7 +71,9 @@ public:
 	};
 	const std::vector<FDraw>& GetDraws() const { return Draws; }
 	FDrawBlocks& GetDrawBlocks() { return DrawBlocks; }
+	const FDrawBlocks& GetDrawBlocks() const { return DrawBlocks; }
 	const std::vector<FDrawBatch>& GetBatches() const { return Batches; }
+	const std::set<FDrawKind>& GetDrawKinds() const { return DrawKinds; } ///< those of all batches
 	const std::vector<uint32_t>& GetBatchIndices() const { return BatchIndices; }
 	uint32_t GetPlaceCount() const { return PlaceCount; } ///< over all batches
 
@@ -123,70 +133,13 @@ private:
 	std::vector<FDraw> Draws;
 	FDrawBlocks DrawBlocks;
 	std::vector<FDrawBatch> Batches;
+	std::set<FDrawKind> DrawKinds;
 	std::vector<uint32_t> BatchIndices;
 	uint32_t PlaceCount = 0;
 	std::map<std::pair<uint32_t, std::vector<uint32_t>>, uint32_t> BatchesOf; // mesh and materials to first index
 	std::map<uint32_t, std::vector<uint32_t>> BatchesOfMesh;
 	std::map<std::vector<uint32_t>, uint32_t> BatchLists; // to first index
 	bool bSceneLights = true;
-};
-
-/// Raster of the scene into the G-buffer that Frame.h describes.
-class FGBufferPass
-{
-public:
-	explicit FGBufferPass(FRenderer& InRenderer) : Renderer(InRenderer) {}
-	/// Adds the raster pass. Context and Scene must live until the frame's EndFrame.
-	FGBuffer Add(FFrameContext& Context, FHostScene& Scene);
-	/// Culls objects smaller than so many pixels across on the screen. 0, the default, draws all.
-	void SetMinPixels(float Pixels) { MinPixels = Pixels; }
-	/// Enables FGBuffer::Motion; on by default. It costs 16 bytes a pixel, one more transform a vertex and two a pixel. Frames
-	/// without denoisers or temporal passes do not need it.
-	void SetMotion(bool bEnabled) { bMotion = bEnabled; }
-
-	/// Shaders of one of the pass's pipelines.
-	struct FProgram
-	{
-		FShaderSource Vertex, Fragment;
-	};
-	/// Returns the shaders of all pipelines used so far.
-	std::vector<FProgram> GetPrograms() const;
-
-private:
-	struct FBatchUse
-	{
-		uint32_t Plain = 0;    ///< objects at the front of the batch's places
-		uint32_t Mirrored = 0; ///< and at their back
-	};
-	/// A program's pipeline is made, and waited for, when it is first drawn or was edited. One that does not compile keeps
-	/// its older version, or is drawn with the standard program.
-	struct FPipelineKey
-	{
-		uint32_t Program = StandardProgram;
-		bool bMasked = false;
-		ERTCull Cull = ERTCull::Back;
-		bool bMotion = false;
-		friend auto operator<=>(const FPipelineKey&, const FPipelineKey&) = default;
-	};
-	struct FPipelineEntry
-	{
-		TRTRef<IRTPipeline> Pipeline;
-		uint32_t Revision = ~0u; ///< of the program when it was last tried
-	};
-	IRTPipeline* GetPipeline(const FFrameContext& Context, const FPipelineKey& Key);
-	FProgram MakeProgram(const FPipelineKey& Key) const;
-	FRTStatus CreatePipeline(const FPipelineKey& Key, TRTRef<IRTPipeline>& Out);
-	void ListObjects(FHostScene& Scene, uint32_t* Objects);
-	void RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHostScene& Scene);
-
-	FRenderer& Renderer;
-	std::map<FPipelineKey, FPipelineEntry> Pipelines;
-	float MinPixels = 0.0f;
-	bool bMotion = true, bMotionNow = true; // …Now: in the frame that is being made
-	// Kept for their memory.
-	std::vector<FDrawBlocks::FSeen> Seen;
-	std::vector<FBatchUse> Uses;
-	std::vector<uint32_t> Order; // batches in use
 };
 
 } // namespace Lantern

@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "LanternHost/HostScene.h"
+#include "LanternHost/GBufferPass.h"
 #include "LanternImage/Image.h"
 #include "LanternSignals/Signals.h"
 
@@ -38,6 +38,9 @@ public:
 	FSampleEngine(IRTDevice& Device, FRendererDesc Desc);
 	/// Replaces the scene. Progress may be empty.
 	FRTStatus Load(FSceneDescription Description, const std::function<void(float)>& Progress = {});
+	/// Compiles the shaders of all later frames with Capture, unless settings change, and waits for it. Progress gets 0 to 1 and may
+	/// be empty. The result is an error only if a picture would not be complete.
+	FRTStatus Precache(const FFrameCapture& Capture, const std::function<void(float)>& Progress);
 	FHostScene& GetScene() { return *Scene; }
 	FRenderer& GetRenderer() { return Renderer; }
 
@@ -52,7 +55,6 @@ public:
 	FRTStatus RenderFrame(const FView& View, double Time, const FFrameCapture& Capture, FCapturedFrame* Out);
 	/// Adds the raster to a frame that the caller began with this engine's renderer and scene.
 	FGBuffer AddGBuffer(FFrameContext& Context) { return GBufferPass.Add(Context, *Scene); }
-	const FGBufferPass& GetGBufferPass() const { return GBufferPass; }
 	/// Adds passes of a test or benchmark; called after the plugin's own passes.
 	std::function<void(FFrameContext&, const FGBuffer&, const FFrameOutputs&)> ExtraPasses;
 	/// On: frames do not wait for pipelines, and builds keep to their budget, as in a game. Off: every frame is complete.
@@ -79,6 +81,7 @@ private:
 		FReadback Lighting, Display;
 		std::array<FReadback, SignalCount> Signals;
 	};
+	FFrameFeatures MakeFeatures(const FFrameCapture& Capture) const;
 	FRTStatus AddReadback(FFrameContext& Context, FGraphTexture Texture, FReadback& Out);
 	void KeepSignals(const FFrameOutputs& Frame);
 	FRTStatus AddReadbacks(const FFrameOutputs& Frame, const FFrameCapture& Capture, FReadbacks& Out);

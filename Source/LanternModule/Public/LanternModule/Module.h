@@ -69,8 +69,9 @@ struct FRTModuleMap
 {
 	/// Null: no map. It must be created on or imported into the renderer's device with ERTTextureUsage::Sampled, and be in
 	/// ShaderRead whenever a frame runs. The renderer holds a reference. The engine must keep the image of an imported texture
-	/// alive while frames may read it. After SetMaterial with another texture or RemoveMaterial, that is until the fence of the
-	/// EndFrame behind the next RenderFrame has passed. After the renderer's last frame, it is until the renderer is released.
+	/// alive while frames may read it. After SetMaterial with another texture or RemoveMaterial, that is until the fence of the first
+	/// frame with FRTModuleOutputs::bCallsTaken has passed. Calls may wait in line for some frames. After the renderer's last
+	/// frame, it is until the renderer is released.
 	IRTTexture* Texture = nullptr;
 	IRTSampler* Sampler = nullptr; ///< required with a texture; one of the first 1,024 of the device
 	uint32_t UVSet = 0;            ///< 0: FRTModuleMesh::UVs, 1: FRTModuleMesh::UVs1

@@ -215,6 +215,9 @@ struct FRTModuleOutputs
 	/// Whether the frame is complete. False: shaders are missing, or some acceleration structures are not built yet
 	/// (r.RT.Build.TrianglesPerFrame, r.RT.Build.MemoryMB), so that rays do not see their objects.
 	bool bComplete = false;
+	/// Whether this frame and those before it have taken over all calls that were made before it. False: some wait for later frames
+	/// (r.RT.Scene.ArrivalsPerFrame).
+	bool bCallsTaken = false;
 };
 
 } // namespace Lantern

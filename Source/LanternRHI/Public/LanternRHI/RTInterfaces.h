@@ -174,7 +174,7 @@ public:
 	virtual FRTStatus GetStatus() const = 0;
 	virtual void Barriers(const FRTBarrier* Items, uint32_t Count) = 0;
 	virtual void CopyBuffer(IRTBuffer* Dest, uint64_t DestOffset, IRTBuffer* Source, uint64_t SourceOffset, uint64_t Size) = 0;
-	/// Copies many regions with one command of the driver. None may overlap another in Dest.
+	/// Copies many regions at once. None may overlap another in Dest.
 	virtual void CopyBufferRegions(IRTBuffer* Dest, IRTBuffer* Source, const FRTBufferRegion* Regions, uint32_t Count) = 0;
 	/// Rows in Source are tightly packed.
 	virtual void CopyBufferToTexture(IRTTexture* Dest, uint32_t Mip, uint32_t Layer, IRTBuffer* Source, uint64_t SourceOffset) = 0;

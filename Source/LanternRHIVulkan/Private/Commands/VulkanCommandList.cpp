@@ -79,6 +79,7 @@ FVulkanKept FVulkanCommandList::TakeKept(FRTFence InFence)
 	Fence = InFence;
 	for (const auto& [Queries, Index] : QueriesWritten) { Queries->NoteWrite(Index, InFence); }
 	QueriesWritten.clear();
+	if (bImported) { ListMemory.Release(); } // nothing says when it begins again
 	FVulkanKept Result;
 	Result.swap(Kept);
 	return Result;
@@ -95,6 +96,7 @@ FRTStatus FVulkanCommandList::Begin()
 	SetBoundPoints = 0;
 	PushedBytes = 0;
 	QueriesWritten.clear();
+	ListMemory.Begin();
 	VkResult Result = Device.Check(Device.Api.ResetCommandPool(Device.Handle, Pool, 0));
 	VkCommandBufferBeginInfo Info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
 	Info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
@@ -322,7 +324,15 @@ void FVulkanCommandList::EndMarker()
 	if (Device.Instance->bDebugUtils) { Device.Instance->Api.CmdEndDebugUtilsLabelEXT(Handle); }
 }
 
-uint64_t FVulkanCommandList::GetNative(ERTNative Kind) const { return Kind == ERTNative::CommandBuffer ? ToNative(Handle) : 0; }
+uint64_t FVulkanCommandList::GetNative(ERTNative Kind) const
+{
+	switch (Kind)
+	{
+	case ERTNative::CommandBuffer: return ToNative(Handle);
+	case ERTNative::Device: return ToNative(Device.Handle);
+	default: return 0;
+	}
+}
 
 // ------------------------------------------------------------------------------------------------ copies
 
@@ -336,16 +346,59 @@ void FVulkanCommandList::CopyBufferRegions(IRTBuffer* Dest, IRTBuffer* Source, c
 {
 	Keep(Dest);
 	Keep(Source);
-	std::vector<VkBufferCopy> Copies;
-	Copies.reserve(Count);
-	for (uint32_t Index = 0; Index < Count; ++Index)
+	const uint64_t Addresses = Dest->GetDeviceAddress() | Source->GetDeviceAddress();
+	const bool bHasAddresses = Dest->GetDeviceAddress() != 0 && Source->GetDeviceAddress() != 0 && Addresses % 4 == 0;
+	FVulkanRegions Parts(Regions, Count, Queue != ERTQueue::Transfer && bHasAddresses);
+	FVulkanListMemory::FSlice Items;
+	if (Parts.GetMostItems() > 0 && !ListMemory.Allocate(Device, sizeof(FVulkanScatter::FRegion) * Parts.GetMostItems(), Items))
 	{
-		const FRTBufferRegion& Region = Regions[Index];
-		if (Region.Size > 0) { Copies.push_back({Region.SourceOffset, Region.DestOffset, Region.Size}); }
+		Parts = FVulkanRegions(Regions, Count, false); // slower, and needs no memory
 	}
+	// To the caller a scatter is a copy: what it waits for, and what waits for it, waits for copies.
+	const bool bScatter = Parts.GetMostItems() > 0;
+	const FVulkanAccess Copy = GetAccess(ERTAccess::CopyRead | ERTAccess::CopyWrite);
+	if (bScatter) { Barrier(Copy, ScatterAccess); }
+	const std::vector<VkBufferCopy>& Copies = Parts.GetCopies();
 	if (!Copies.empty())
 	{
 		Device.Api.CmdCopyBuffer(Handle, NativeOf(Source), NativeOf(Dest), static_cast<uint32_t>(Copies.size()), Copies.data());
+	}
+	if (bScatter)
+	{
+		ScatterItems(Dest, Source, Parts, Items);
+		Barrier(ScatterAccess, Copy);
+	}
+}
+
+void FVulkanCommandList::ScatterItems(
+    IRTBuffer* Dest, IRTBuffer* Source, const FVulkanRegions& Regions, const FVulkanListMemory::FSlice& Items)
+{
+	Keep(ListMemory.GetBlock());
+	FVulkanScatter::FPush Push;
+	Push.Dest = Dest->GetDeviceAddress();
+	Push.Source = Source->GetDeviceAddress();
+	Push.WordsPerItem = Regions.GetWordsPerItem();
+	Push.Kind = FVulkanScatter::EKind::Regions;
+	const uint32_t Count = Regions.WriteItems(static_cast<FVulkanScatter::FRegion*>(Items.Data));
+	const uint32_t MostAtOnce = FVulkanScatter::MostThreads / Push.WordsPerItem;
+	for (uint32_t First = 0; First < Count; First += Push.Count)
+	{
+		Push.Items = Items.Address + sizeof(FVulkanScatter::FRegion) * First;
+		Push.Count = std::min(Count - First, MostAtOnce);
+		Device.Scatter.Record(Device, Handle, Push);
+	}
+	RestoreAfterScatter();
+}
+
+void FVulkanCommandList::RestoreAfterScatter()
+{
+	if (Bound && Bound->BindPoint == VK_PIPELINE_BIND_POINT_COMPUTE)
+	{
+		Device.Api.CmdBindPipeline(Handle, Bound->BindPoint, Bound->Handle);
+	}
+	if (PushedBytes > 0)
+	{
+		Device.Api.CmdPushConstants(Handle, Device.Bindless.PipelineLayout, AllStages(Device.Bits), 0, PushedBytes, Pushed);
 	}
 }
 

@@ -1,7 +1,9 @@
 // Command lists: a VkCommandBuffer of our own or of the engine, and the objects that it keeps.
 #pragma once
 
+#include "Commands/VulkanListMemory.h"
 #include "Commands/VulkanQueryPool.h"
+#include "Commands/VulkanRegions.h"
 #include "Pipelines/VulkanPipeline.h"
 #include "Resources/VulkanAccel.h"
 #include "Resources/VulkanBuffer.h"
@@ -10,6 +12,10 @@
 
 namespace Lantern
 {
+
+/// What a scatter does, whatever it copies.
+inline constexpr FVulkanAccess ScatterAccess{
+    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
 
 class FVulkanCommandList final : public TVulkanObject<IRTCommandList>
 {
@@ -80,6 +86,10 @@ private:
 	};
 	FTraceRegions UseTable(IRTShaderTable* Table, uint32_t RayGen);
 	void CopyRecords(const FVulkanShaderTable::FCopies& Item, VkBuffer Dest);
+	/// Copies the items of Regions, which lie in Items.
+	void ScatterItems(IRTBuffer* Dest, IRTBuffer* Source, const FVulkanRegions& Regions, const FVulkanListMemory::FSlice& Items);
+	/// What the caller has set stays set.
+	void RestoreAfterScatter();
 	void MipBarrier(const FVulkanTexture& Texture, uint32_t First, uint32_t Count, VkImageLayout Before, VkImageLayout After);
 
 	std::string Name;
@@ -90,8 +100,9 @@ private:
 	FRTFence Fence = 0;
 	FRTStatus Error; ///< the first of recording; calls that return nothing leave it here
 	FVulkanKept Kept;
+	FVulkanListMemory ListMemory;
 	FVulkanPipeline* Bound = nullptr;
-	uint8_t Pushed[sizeof(FVulkanTableScatter::FPush)] = {}; ///< what a scatter writes over
+	uint8_t Pushed[sizeof(FVulkanScatter::FPush)] = {}; ///< what a scatter writes over
 	uint32_t PushedBytes = 0;
 	std::vector<std::pair<FVulkanQueryPool*, uint32_t>> QueriesWritten;
 	uint32_t SetBoundPoints = 0; ///< a bit for each bind point that has the descriptor set

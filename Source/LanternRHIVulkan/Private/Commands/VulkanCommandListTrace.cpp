@@ -20,8 +20,8 @@ void FVulkanCommandList::UpdateShaderTable(IRTShaderTable* Table)
 	// Rays of earlier frames may still read the table, and an earlier update may still write it.
 	const FVulkanAccess Trace = GetAccess(ERTAccess::TraceRead);
 	FVulkanAccess Write = GetAccess(ERTAccess::CopyWrite | ERTAccess::CopyRead);
-	Write.Stages |= VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-	Write.Access |= VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+	Write.Stages |= ScatterAccess.Stages;
+	Write.Access |= ScatterAccess.Access;
 	Barrier({Trace.Stages | Write.Stages, Write.Access}, Write);
 	Keep(Update.Dest);
 	for (const FVulkanShaderTable::FFill& Zeros : Update.Zeros)
@@ -49,16 +49,8 @@ void FVulkanCommandList::CopyRecords(const FVulkanShaderTable::FCopies& Item, Vk
 	{
 		Device.Api.CmdCopyBuffer(Handle, Item.Source->Block.Handle, Dest, static_cast<uint32_t>(Item.Regions.size()), Item.Regions.data());
 	}
-	for (const FVulkanTableScatter::FPush& Scatter : Item.Scatters) { Device.Scatter.Record(Device, Handle, Scatter); }
-	// What the caller has set stays set.
-	if (!Item.Scatters.empty() && Bound && Bound->BindPoint == VK_PIPELINE_BIND_POINT_COMPUTE)
-	{
-		Device.Api.CmdBindPipeline(Handle, Bound->BindPoint, Bound->Handle);
-	}
-	if (!Item.Scatters.empty() && PushedBytes > 0)
-	{
-		Device.Api.CmdPushConstants(Handle, Device.Bindless.PipelineLayout, AllStages(Device.Bits), 0, PushedBytes, Pushed);
-	}
+	for (const FVulkanScatter::FPush& Scatter : Item.Scatters) { Device.Scatter.Record(Device, Handle, Scatter); }
+	if (!Item.Scatters.empty()) { RestoreAfterScatter(); }
 }
 
 FVulkanCommandList::FTraceRegions FVulkanCommandList::UseTable(IRTShaderTable* Table, uint32_t RayGen)

@@ -31,6 +31,7 @@ struct FSupported
 	FVulkanFeatures Features;
 	VkPhysicalDeviceProperties2 Core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
 	VkPhysicalDeviceVulkan12Properties Vulkan12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES};
+	VkPhysicalDeviceMaintenance4Properties Maintenance4{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES};
 	VkPhysicalDeviceAccelerationStructurePropertiesKHR Accel{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
 	VkPhysicalDeviceRayTracingPipelinePropertiesKHR Pipeline{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR};
 
@@ -55,7 +56,8 @@ void QuerySupported(const FVulkanInstanceApi& Api, VkPhysicalDevice Physical, FS
 	Api.GetPhysicalDeviceFeatures2(Physical, &Out.Features.Core);
 
 	Out.Core.pNext = &Out.Vulkan12;
-	void** Tail = &Out.Vulkan12.pNext;
+	Out.Vulkan12.pNext = &Out.Maintenance4;
+	void** Tail = &Out.Maintenance4.pNext;
 	if (Out.Has(VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME))
 	{
 		*Tail = &Out.Accel;
@@ -253,6 +255,7 @@ void FillLimits(const FSupported& Supported, FVulkanProbe& Out)
 	FRTCapabilities& Caps = Out.Capabilities;
 	const VkPhysicalDeviceVulkan12Properties& Limits = Supported.Vulkan12;
 	Caps.MaxTextureDimension = Supported.Core.properties.limits.maxImageDimension2D;
+	Out.MaxBufferBytes = Supported.Maintenance4.maxBufferSize;
 	Caps.TimestampPeriodNs = Supported.Core.properties.limits.timestampPeriod;
 	Out.bAnisotropy = Supported.Features.Core.features.samplerAnisotropy;
 	Out.MaxAnisotropy = Out.bAnisotropy ? Supported.Core.properties.limits.maxSamplerAnisotropy : 1.0f;

@@ -51,6 +51,7 @@ struct FVulkanProbe
 	bool bMaintenance1 = false;
 	bool bAnisotropy = false;
 	float MaxAnisotropy = 1.0f;
+	uint64_t MaxBufferBytes = 0;
 	uint32_t MaxBindlessSamplers = 0;
 	uint32_t MaxBindlessScenes = 0;
 	uint32_t QueueFamily = NoQueueFamily;    ///< first with graphics and compute

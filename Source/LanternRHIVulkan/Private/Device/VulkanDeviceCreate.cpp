@@ -166,7 +166,8 @@ FRTStatus FVulkanDevice::CreateShared()
 	if (!Status) { return Status; }
 	Status = CreateTimelines();
 	SetName(VK_OBJECT_TYPE_DESCRIPTOR_SET, ToNative(Bindless.Set), "Lantern bindless");
-	return Status;
+	// Here, so that no list that is recorded waits for a compiler.
+	return Status ? Scatter.Create(*this) : Status;
 }
 
 namespace
@@ -232,6 +233,29 @@ FRTStatus ChooseDevice(
 	return bFound ? FRTStatus() : FRTStatus::Error(ERTResult::Unsupported, "No Vulkan device can run Lantern:%s", Reasons.c_str());
 }
 
+/// Submits an empty list to each queue beside the first. NVIDIA's driver takes 3 ms for a queue's first submission, which would
+/// be a frame's.
+FRTStatus WarmQueues(IRTDevice& Device)
+{
+	const FRTCapabilities& Capabilities = Device.GetCapabilities();
+	const std::pair<ERTQueue, bool> Queues[] = {
+	    {ERTQueue::Transfer, Capabilities.bTransferQueue}, {ERTQueue::AsyncCompute, Capabilities.bAsyncComputeQueue}};
+	for (const auto& [Queue, bThere] : Queues)
+	{
+		if (!bThere) { continue; }
+		TRTRef<IRTCommandList> List;
+		FRTFence Fence = 0;
+		FRTStatus Status = Device.CreateCommandList("Warm", List.ReleaseAndGetAddress(), Queue);
+		Status = Status ? List->Begin() : Status;
+		Status = Status ? List->End() : Status;
+		IRTCommandList* const Lists[] = {List.Get()};
+		Status = Status ? Device.Submit(Lists, 1, &Fence) : Status;
+		Status = Status ? Device.WaitFor(Fence, 1'000'000'000) : Status;
+		if (!Status) { return Status; }
+	}
+	return FRTStatus::Success();
+}
+
 } // namespace
 
 FRTStatus CreateVulkanDevice(const FRTVulkanDeviceDesc& Desc, IRTDevice** Out)
@@ -248,6 +272,7 @@ FRTStatus CreateVulkanDevice(const FRTVulkanDeviceDesc& Desc, IRTDevice** Out)
 	Device->bCacheLibraries = Desc.bCacheLibraries;
 	Device->CallSink = Desc.CallSink;
 	Status = Device->CreateNative();
+	Status = Status ? WarmQueues(*Device) : Status;
 	if (!Status)
 	{
 		Device->DropOne();
@@ -273,6 +298,7 @@ FRTStatus AdoptVulkanDevice(const FRTVulkanExternalDesc& Desc, IRTDevice** Out)
 	const FVulkanProbe& Probe = static_cast<const FVulkanRequirements*>(Desc.Requirements)->Probe;
 	FVulkanDevice* Device = new FVulkanDevice(std::move(Instance), Desc.PhysicalDevice, Probe, Desc.PipelineCacheFile);
 	Status = Device->AdoptNative(Desc);
+	Status = Status ? WarmQueues(*Device) : Status;
 	if (!Status)
 	{
 		Device->DropOne();

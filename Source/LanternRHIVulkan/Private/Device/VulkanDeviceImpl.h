@@ -1,6 +1,7 @@
 // The device: what the objects share, the queue's timeline, and the garbage that waits for it.
 #pragma once
 
+#include "Commands/VulkanScatter.h"
 #include "Device/VulkanCapabilities.h"
 #include "Device/VulkanInstance.h"
 #include "Device/VulkanMemory.h"
@@ -12,7 +13,6 @@
 #include "LanternRHIVulkan/VulkanInterop.h"
 #include "Pipelines/VulkanPipelineCache.h"
 #include "Resources/VulkanBindless.h"
-#include "ShaderTable/VulkanTableScatter.h"
 
 #include <memory>
 #include <unordered_set>
@@ -112,7 +112,7 @@ public:
 	FVulkanMemory Memory;
 	FVulkanBindless Bindless;
 	FVulkanPipelineCache Cache;
-	FVulkanTableScatter Scatter;
+	FVulkanScatter Scatter;
 	FVulkanQueue Queues[QueueCount];       ///< by ERTQueue
 	std::vector<uint32_t> QueueFamilies;   ///< each once; buffers are shared by all of them
 	std::vector<uint32_t> TextureFamilies; ///< each once; textures are shared by those that take shaders

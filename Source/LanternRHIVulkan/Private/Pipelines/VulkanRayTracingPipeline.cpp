@@ -158,9 +158,7 @@ FRTStatus FVulkanPipeline::InitialiseRayTracing(const FRTRayTracingPipelineDesc&
 	Status = Finish(Device.Api.CreateRayTracingPipelinesKHR(Device.Handle, VK_NULL_HANDLE, Cache, 1, &State.Info, nullptr, &Handle),
 	    "Creating ray-tracing pipeline", Desc.Name);
 	if (!Status || bLibrary) { return Status; }
-	// A table for this pipeline needs it, and is made by a frame, which must not compile.
-	Status = Device.Scatter.Prepare(Device);
-	return Status ? ReadGroupHandles(Desc.GroupCount, static_cast<uint32_t>(Groups.size()), Desc.Name) : Status;
+	return ReadGroupHandles(Desc.GroupCount, static_cast<uint32_t>(Groups.size()), Desc.Name);
 }
 
 FRTStatus FVulkanPipeline::ReadGroupHandles(uint32_t OwnCount, uint32_t NativeOwnCount, const char* Name)

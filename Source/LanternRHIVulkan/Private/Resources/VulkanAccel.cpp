@@ -99,6 +99,16 @@ FRTStatus NoRayTracing(const char* Name)
 	return FRTStatus::Error(ERTResult::Unsupported, "'%s': the device has no acceleration structures", FRTShown(Name).Text);
 }
 
+uint64_t CountPrimitives(const FRTGeometryDesc& Desc)
+{
+	uint64_t Total = 0;
+	for (uint32_t Index = 0; Index < Desc.SectionCount; ++Index)
+	{
+		Total += Desc.Sections[Index].bProcedural ? Desc.Sections[Index].VertexCount : Desc.Sections[Index].TriangleCount;
+	}
+	return Total;
+}
+
 VkBuildAccelerationStructureFlagsKHR FlagsOf(const FRTGeometryDesc& Desc)
 {
 	VkBuildAccelerationStructureFlagsKHR Flags = Desc.bFastBuild ? VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_BUILD_BIT_KHR
@@ -125,6 +135,7 @@ void FVulkanSections::Assign(const FRTGeometrySection* Sections, uint32_t Count)
 
 FRTBuildSizes QueryGeometrySizes(FVulkanDevice& Device, const FRTGeometryDesc& Desc)
 {
+	if (CountPrimitives(Desc) > Device.GetCapabilities().MaxPrimitiveCount) { return {}; } // CreateGeometry says so
 	FVulkanSections Sections;
 	Sections.Assign(Desc.Sections, Desc.SectionCount);
 	std::vector<uint32_t> Counts;
@@ -143,11 +154,7 @@ FRTStatus FVulkanGeometry::Initialise(const FRTGeometryDesc& Desc)
 	assert(Desc.SectionCount > 0);
 	SectionCount = Desc.SectionCount;
 	Flags = FlagsOf(Desc);
-	uint64_t Total = 0;
-	for (uint32_t Index = 0; Index < SectionCount; ++Index)
-	{
-		Total += Desc.Sections[Index].bProcedural ? Desc.Sections[Index].VertexCount : Desc.Sections[Index].TriangleCount;
-	}
+	const uint64_t Total = CountPrimitives(Desc);
 	if (Total > Device.GetCapabilities().MaxPrimitiveCount)
 	{
 		return FRTStatus::Error(ERTResult::Unsupported, "Geometry '%s' has %llu primitives; the limit is %llu", FRTShown(Desc.Name).Text,

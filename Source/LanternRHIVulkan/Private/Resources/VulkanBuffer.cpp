@@ -14,6 +14,11 @@ FRTStatus FVulkanBlock::Create(FVulkanDevice& InDevice, uint64_t Size, VkBufferU
 {
 	assert(!Handle && Size > 0);
 	Kind = InKind;
+	if (Size > InDevice.Probe.MaxBufferBytes)
+	{
+		return FRTStatus::Error(ERTResult::Unsupported, "Buffer '%s' of %llu bytes; the device's limit is %llu", FRTShown(Name).Text,
+		    static_cast<unsigned long long>(Size), static_cast<unsigned long long>(InDevice.Probe.MaxBufferBytes));
+	}
 	VkBufferCreateInfo Info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
 	Info.size = Size;
 	Info.usage = Usage | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;

@@ -30,6 +30,15 @@ private:
 	EVulkanMemoryKind Kind = EVulkanMemoryKind::Buffer;
 };
 
+/// A block that lists keep. Whoever made it may let go of it earlier.
+class FVulkanKeptBlock final : public TVulkanObject<IRTRefCounted>
+{
+public:
+	using TVulkanObject::TVulkanObject;
+	FVulkanBlock Block;
+	uint64_t Size = 0;
+};
+
 class FVulkanBuffer final : public TVulkanObject<IRTBuffer>
 {
 public:

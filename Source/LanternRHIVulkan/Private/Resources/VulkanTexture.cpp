@@ -142,6 +142,7 @@ uint64_t FVulkanTexture::GetNative(ERTNative Kind) const
 {
 	switch (Kind)
 	{
+	case ERTNative::Device: return ToNative(Device.Handle);
 	case ERTNative::Image: return ToNative(Image);
 	case ERTNative::ImageView: return ToNative(SampledView ? SampledView : AttachmentView);
 	default: return 0;

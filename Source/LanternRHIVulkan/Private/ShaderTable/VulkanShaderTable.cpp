@@ -14,8 +14,6 @@ constexpr VkBufferUsageFlags HostUsage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_B
 constexpr uint64_t MinHostCopyBytes = 64 * 1024;
 /// If more batches are staged than this, they are gathered into one.
 constexpr size_t MaxBatches = 4;
-/// If one kind has more runs than this, a compute pass writes them; otherwise they are copied.
-constexpr size_t MaxRegions = 16;
 /// A host copy gives its memory back if so many stagings did not use it.
 constexpr uint64_t IdleStagings = 64;
 
@@ -31,8 +29,7 @@ FRTStatus FVulkanShaderTable::Initialise(const FRTShaderTableDesc& InDesc)
 	assert(Desc.Pipeline && Desc.RecordDataBytes <= MaxRecordDataBytes && Desc.Copies >= 1);
 	Records.Initialise(Device.GetCapabilities(), Desc, EHandleUpdates::Apart);
 	SetPipeline(Desc.Pipeline);
-	FRTStatus Status = Device.Scatter.Prepare(Device);
-	Status = Status ? MakeDeviceTable(GetRecordCounts(Desc), Current) : Status;
+	FRTStatus Status = MakeDeviceTable(GetRecordCounts(Desc), Current);
 	for (uint32_t Copy = 0; Status && Copy < Desc.Copies; ++Copy)
 	{
 		FHostCopy Made;
@@ -43,9 +40,9 @@ FRTStatus FVulkanShaderTable::Initialise(const FRTShaderTableDesc& InDesc)
 }
 
 FRTStatus FVulkanShaderTable::MakeBuffer(
-    uint64_t Size, VkBufferUsageFlags Usage, ERTMemory Memory, const char* Suffix, TRTRef<FVulkanTableBuffer>& Out)
+    uint64_t Size, VkBufferUsageFlags Usage, ERTMemory Memory, const char* Suffix, TRTRef<FVulkanKeptBlock>& Out)
 {
-	TRTRef<FVulkanTableBuffer> Made = MakeVulkanObject<FVulkanTableBuffer>(Device);
+	TRTRef<FVulkanKeptBlock> Made = MakeVulkanObject<FVulkanKeptBlock>(Device);
 	Made->Size = Size;
 	const uint64_t Alignment = Memory == ERTMemory::Device ? Device.GetCapabilities().ShaderGroupBaseAlignment : 16;
 	FRTStatus Status = Made->Block.Create(Device, Size, Usage, Memory, Alignment, EVulkanMemoryKind::ShaderTable, (Name + Suffix).c_str());
@@ -144,7 +141,7 @@ FRTStatus FVulkanShaderTable::Stage()
 		Part.Count = static_cast<uint32_t>(FTableRecords::CountRecords(Part.Runs));
 		Part.Offset = Bytes;
 		Bytes += Records[Kind].GetStride() * Part.Count;
-		Part.bScatter = Part.Runs.size() > MaxRegions;
+		Part.bScatter = Part.Runs.size() > FVulkanScatter::MostCopies;
 		Part.IndexOffset = Bytes;
 		Bytes += Part.bScatter ? sizeof(uint32_t) * Part.Count : 0;
 	}
@@ -177,7 +174,7 @@ void FVulkanShaderTable::Fill(const FBatch& Batch) const
 	}
 }
 
-FRTStatus FVulkanShaderTable::FindHostCopy(uint64_t Size, TRTRef<FVulkanTableBuffer>& Out)
+FRTStatus FVulkanShaderTable::FindHostCopy(uint64_t Size, TRTRef<FVulkanKeptBlock>& Out)
 {
 	++StageCount;
 	DropIdleHostCopies();
@@ -202,7 +199,7 @@ FRTStatus FVulkanShaderTable::FindHostCopy(uint64_t Size, TRTRef<FVulkanTableBuf
 	}
 	if (!Copy || Copy->Buffer->Size < Size)
 	{
-		TRTRef<FVulkanTableBuffer> Made;
+		TRTRef<FVulkanKeptBlock> Made;
 		const uint64_t Bytes = std::max(Size + Size / 4, std::min(MinHostCopyBytes, Newest().Buffer->Size));
 		FRTStatus Status = MakeBuffer(Bytes, HostUsage, ERTMemory::Upload, " (host)", Made);
 		if (!Status) { return Status; }
@@ -255,7 +252,8 @@ void FVulkanShaderTable::AddPart(const FBatch& Batch, uint32_t Kind, FCopies& Ou
 		const VkDeviceAddress From = Batch.Source->Block.Address;
 		assert(Stride % sizeof(uint32_t) == 0);
 		Out.Scatters.push_back({Current.Buffer->Block.Address + Current.Layout.Offsets[Kind], From + Part.Offset, From + Part.IndexOffset,
-		    static_cast<uint32_t>(Stride / sizeof(uint32_t)), Part.Count, static_cast<uint32_t>(Stride / sizeof(uint32_t)), false});
+		    static_cast<uint32_t>(Stride / sizeof(uint32_t)), Part.Count, static_cast<uint32_t>(Stride / sizeof(uint32_t)),
+		    FVulkanScatter::EKind::Records});
 		return;
 	}
 	uint64_t Offset = Part.Offset;

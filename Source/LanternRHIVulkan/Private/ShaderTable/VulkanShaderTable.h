@@ -1,21 +1,13 @@
 // The shader binding table: records on the CPU, host copies of what is new, and the table on the GPU.
 #pragma once
 
+#include "Commands/VulkanScatter.h"
 #include "LanternRHICommon/ShaderTableRecords.h"
 #include "Pipelines/VulkanPipeline.h"
 #include "Resources/VulkanBuffer.h"
 
 namespace Lantern
 {
-
-/// A block that lists keep. The table may let go of it earlier.
-class FVulkanTableBuffer final : public TVulkanObject<IRTRefCounted>
-{
-public:
-	using TVulkanObject::TVulkanObject;
-	FVulkanBlock Block;
-	uint64_t Size = 0;
-};
 
 class FVulkanShaderTable final : public TVulkanObject<IRTShaderTable>
 {
@@ -37,9 +29,9 @@ public:
 
 	struct FCopies
 	{
-		TRTRef<FVulkanTableBuffer> Source;
+		TRTRef<FVulkanKeptBlock> Source;
 		std::vector<VkBufferCopy> Regions;
-		std::vector<FVulkanTableScatter::FPush> Scatters;
+		std::vector<FVulkanScatter::FPush> Scatters;
 	};
 	struct FFill
 	{
@@ -49,7 +41,7 @@ public:
 	/// What the GPU has to do, in this order: zeros, what moves from the old device table, then each of Copies.
 	struct FUpdate
 	{
-		FVulkanTableBuffer* Dest = nullptr;
+		FVulkanKeptBlock* Dest = nullptr;
 		std::vector<FFill> Zeros;
 		FCopies Moved;
 		std::vector<FCopies> Copies;
@@ -59,7 +51,7 @@ public:
 	/// Stages the rest and takes all that is staged, which counts as copied from here on. On error nothing has been taken.
 	FRTStatus TakeUpdate(FUpdate& Out);
 	/// Returns the device's copy as of the last update.
-	FVulkanTableBuffer* GetBuffer() const { return Current.Buffer.Get(); }
+	FVulkanKeptBlock* GetBuffer() const { return Current.Buffer.Get(); }
 	/// RayGen: index of the one record in the region, if Kind is ray generation.
 	VkStridedDeviceAddressRegionKHR GetRegion(ERTRecordKind Kind, uint32_t RayGen) const;
 
@@ -68,7 +60,7 @@ private:
 
 	struct FDeviceTable
 	{
-		TRTRef<FVulkanTableBuffer> Buffer;
+		TRTRef<FVulkanKeptBlock> Buffer;
 		FTableLayout Layout;
 	};
 	/// Records of one kind in a host copy, one after another. If they are scattered, their indices stand behind them.
@@ -91,23 +83,23 @@ private:
 	/// A filled host copy.
 	struct FBatch
 	{
-		TRTRef<FVulkanTableBuffer> Source;
+		TRTRef<FVulkanKeptBlock> Source;
 		FPart Parts[RecordKindCount];
 		FHandlePart HitHandles;
 	};
 	struct FHostCopy
 	{
-		TRTRef<FVulkanTableBuffer> Buffer;
+		TRTRef<FVulkanKeptBlock> Buffer;
 		uint64_t LastUse = 0; ///< StageCount at that time
 	};
 
 	const FDeviceTable& Newest() const { return Next.Buffer ? Next : Current; }
 	FRTStatus MakeDeviceTable(const FRecordCounts& Counts, FDeviceTable& Out);
-	FRTStatus MakeBuffer(uint64_t Size, VkBufferUsageFlags Usage, ERTMemory Memory, const char* Suffix, TRTRef<FVulkanTableBuffer>& Out);
+	FRTStatus MakeBuffer(uint64_t Size, VkBufferUsageFlags Usage, ERTMemory Memory, const char* Suffix, TRTRef<FVulkanKeptBlock>& Out);
 	void Fill(const FBatch& Batch) const;
 	void ReturnBatches();
 	/// Finds a free host copy of at least Size bytes; makes one if all are in use.
-	FRTStatus FindHostCopy(uint64_t Size, TRTRef<FVulkanTableBuffer>& Out);
+	FRTStatus FindHostCopy(uint64_t Size, TRTRef<FVulkanKeptBlock>& Out);
 	void DropIdleHostCopies();
 	void AddMove(FUpdate& Out);
 	void AddPart(const FBatch& Batch, uint32_t Kind, FCopies& Out);

@@ -55,7 +55,7 @@ void FVulkanShaderTable::AddHandles(const FBatch& Batch, FCopies& Out)
 	for (const FRun& Run : Part.Runs)
 	{
 		Out.Scatters.push_back({To + Stride * Run.First, From + Part.HandleOffset, Slots, HandleSize / uint32_t(sizeof(uint32_t)),
-		    Run.Count, static_cast<uint32_t>(Stride / sizeof(uint32_t)), true});
+		    Run.Count, static_cast<uint32_t>(Stride / sizeof(uint32_t)), FVulkanScatter::EKind::Handles});
 		Slots += sizeof(uint32_t) * Run.Count;
 	}
 	UpdatedBytes += sizeof(uint32_t) * uint64_t(Part.Count) + Records.GetHandles().GetSizeBytes();

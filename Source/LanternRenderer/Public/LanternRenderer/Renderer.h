@@ -14,7 +14,7 @@
 #include "LanternCore/FrameGraph/FrameGraph.h"
 #include "LanternCore/Tasks/Tasks.h"
 #include "LanternRenderer/View.h"
-#include "LanternScene/Pipelines/ComputePipelines.h"
+#include "LanternScene/Pipelines/PlainPipelines.h"
 #include "LanternScene/Pipelines/RTPSOCompiler.h"
 #include "LanternScene/Scene/Scene.h"
 #include "LanternScene/ShaderTable/ShaderTable.h"
@@ -63,7 +63,7 @@ struct FFrameFeatures
 	/// Records acceleration structures where the host calls FFrameContext::RequireRays instead.
 	bool bLateRays = false;
 	/// The frame waits until all of its shaders are compiled, so that each picture is complete. If false, it uses what is
-	/// ready (FRTPSOCompiler, FComputePipelines) and leaves out passes whose shaders are missing. The reference always waits.
+	/// ready (FRTPSOCompiler, FPlainPipelines) and leaves out passes whose shaders are missing. The reference always waits.
 	bool bWaitForPipelines = true;
 	/// Ray generation shaders of the host's own passes. They trace all ray types through the frame's RTPSO
 	/// (FFrameContext::RayPipeline, FRTPSO::FindRayGen). Their push constants begin with FPassConstants.
@@ -133,7 +133,7 @@ struct FFrameContext
 	IRTDevice& Device;
 	FFrameGraph& Graph;
 	FRTScene& Scene;
-	FComputePipelines& Pipelines;
+	FPlainPipelines& Pipelines;
 	FSceneFacts Facts;
 	FPassConstants Pass; ///< addresses of this frame's constants
 	FView View{};
@@ -160,6 +160,7 @@ struct FFrameContext
 	/// First error that a pass met; the frame is then not submitted. Not while passes are recorded.
 	FRTStatus* Status = nullptr;
 	bool bWaitForPipelines = true; ///< FFrameFeatures::bWaitForPipelines, or a reason to wait all the same
+	bool bMotion = false;          ///< FSceneConstants::ObjectMotions are recorded, because some pass follows them
 	/// Sets Status, unless it has an error already. From any thread.
 	void Fail(const FRTStatus& Error) const;
 	FRenderer* Owner = nullptr;
@@ -186,6 +187,8 @@ public:
 	/// between frames. Progress gets 0 to 1 and may be empty. Hit shaders that do not compile are logged. The result is an error
 	/// only if a picture would not be complete without the shader.
 	FRTStatus Precache(FRTScene& Scene, const FFrameFeatures& Features, const std::function<void(float)>& Progress);
+	/// Returns FFrameContext::bMotion of such frames. Between frames.
+	bool FollowsMotion(FRTScene& Scene, const FFrameFeatures& Features);
 	/// Returns what such frames trace with; without ray generation shaders if they need no pipeline. Between frames.
 	FRTPSODesc GetRayPrograms(FRTScene& Scene, const FFrameFeatures& Features);
 	/// Returns a name for the texts of all shaders that such frames trace with, their includes and the compiler. Another text has
@@ -193,7 +196,8 @@ public:
 	std::string GetRayShaderKey(FRTScene& Scene, const FFrameFeatures& Features);
 	/// Starts a frame. It waits until at most one earlier frame is in flight. Tasks begin to gather instances and to write shader
 	/// records; the scene's tables are the first pass. The scene must live, and must not change, until EndFrame. Console variables
-	/// are as the caller last published them, which it does once, before it changes the scene.
+	/// are as the caller last published them, which it does once, before it changes the scene. Several views and renderers may share
+	/// one publication. A view's next frame without another one asserts if values were set since.
 	FRTStatus BeginFrame(FRTScene& Scene, const FView& View, const FFrameFeatures& Features);
 	FFrameContext& GetContext(); ///< between BeginFrame and EndFrame
 	/// Executes the graph and submits. OutFence may be null.
@@ -215,7 +219,7 @@ public:
 	IRTDevice& GetDevice() { return Device; }
 	FShaderCompiler& GetCompiler() { return Compiler; }
 	FMaterialPrograms& GetPrograms() { return Programs; }
-	FComputePipelines& GetPipelines() { return Pipelines; }
+	FPlainPipelines& GetPipelines() { return Pipelines; }
 	FRefitQuality& GetRefitQuality() { return *RefitQuality; }
 	FFrameUploads& GetUploads() { return Uploads; }
 	FHistoryResources& GetHistory(uint32_t ViewIndex = 0) { return *GetView(ViewIndex).History; }
@@ -265,7 +269,7 @@ private:
 
 	IRTDevice& Device;
 	FShaderCompiler Compiler;
-	FComputePipelines Pipelines;
+	FPlainPipelines Pipelines;
 	FFrameUploads Uploads;
 	FFrameGraphResources GraphResources;
 	std::unique_ptr<FRefitQuality> RefitQuality;
@@ -304,6 +308,7 @@ private:
 		FView LastView;          // of the newest frame that reached the GPU
 		uint64_t LastScene = 0;  // identity of its scene's sections, which outlives an address; 0: none
 		uint64_t Viewer = 0;     // who it is to scenes
+		uint64_t Published = 0;  // FConsoleVariables::GetPublishCount of the newest frame that reached the GPU
 		uint32_t IdleFrames = 0; // of other views since its own last one
 	};
 	FViewState& GetView(uint32_t Index);

@@ -17,6 +17,10 @@ TRTConsoleVariable<int32_t> CVarTriangles("r.RT.Build.TrianglesPerFrame", 500000
     "Limits the triangles of acceleration structures that a frame builds. Near and large geometries come first; at least one "
     "is built. 0: no limit. Offline pictures ignore the limit.",
     {0, 2'000'000'000});
+TRTConsoleVariable<int32_t> CVarStructures("r.RT.Build.StructuresPerFrame", 16,
+    "Limits the new acceleration structures that a frame builds. Each costs the render thread the same, however small it is. "
+    "At least one is built. 0: no limit. Offline pictures ignore the limit.",
+    {0, 1'000'000});
 
 // Heights of the picture that a geometry gains on newer ones in each frame in which it waits. After 200 frames only older
 // geometries are ahead of it, so that none starves.
@@ -102,6 +106,7 @@ void FGeometryBuildQueue::OrderAll(bool bSmallestFirst)
 FRTStatus FGeometryBuildQueue::RunInOrder(const FRound& Round, const FStart& Start)
 {
 	const uint64_t Limit = static_cast<uint64_t>(CVarTriangles.GetOnRenderThread());
+	const auto MostBuilt = static_cast<uint32_t>(CVarStructures.GetOnRenderThread());
 	bool bStop = false;
 	FRTStatus Status = FRTStatus::Success();
 	while (!Order.empty() && !bStop && Status)
@@ -113,8 +118,9 @@ FRTStatus FGeometryBuildQueue::RunInOrder(const FRound& Round, const FStart& Sta
 			Erase(GetPlace(Ref.Slot));
 			continue;
 		}
-		const bool bSpent = Limit > 0 && Stats.Built > 0 && !Entry->bLost; // what was in the picture stays there
-		if (!Round.bAll && bSpent && Stats.TrianglesBuilt + Entry->Triangles > Limit) { break; }
+		const bool bMayWait = !Round.bAll && Stats.Built > 0 && !Entry->bLost; // what was in the picture stays there
+		const bool bTooMany = MostBuilt > 0 && Stats.Built >= MostBuilt;
+		if (bMayWait && (bTooMany || (Limit > 0 && Stats.TrianglesBuilt + Entry->Triangles > Limit))) { break; }
 		++Visited;
 		const size_t Left = Order.size();
 		Erase(GetPlace(Ref.Slot));

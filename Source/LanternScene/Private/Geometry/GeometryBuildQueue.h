@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <set>
 #include <vector>
@@ -76,7 +77,7 @@ private:
 	const FGeometryStoreStats& Stats;
 	FBuildPriorities Priorities;
 	std::set<FKey> Order;
-	std::vector<FPlace> Places;          ///< by slot
+	std::deque<FPlace> Places;           ///< by slot; grows without moving what is there
 	std::vector<FGeometrySlotRef> Added; ///< during a round
 	bool bRunning = false;
 	uint32_t Visited = 0;

@@ -97,7 +97,7 @@ const float* FInstanceStore::GetTransform(uint32_t Object) const
 void FInstanceStore::Set(uint32_t Object, const FInstancePlacement& Placement)
 {
 	++Revision;
-	if (Object >= Records.size()) { Records.resize(Object + 1); }
+	if (Object >= Records.Num()) { Records.Resize(size_t(Object) + 1); }
 	FInstanceRecord& Record = Records[Object];
 	FInstanceRecord New = Record;
 	New.Cell = FindCell(glm::dvec3(Placement.Transform[3]));
@@ -164,8 +164,7 @@ void FInstanceStore::Remove(uint32_t Object)
 {
 	++Revision;
 	Detach(Object);
-	while (!Records.empty() && !Records.back().bAlive) { Records.pop_back(); }
-	if (Records.capacity() / 4 > Records.size() + 64) { Records.shrink_to_fit(); }
+	while (!Records.IsEmpty() && !Records.Last().bAlive) { Records.Resize(Records.Num() - 1); }
 }
 
 void FInstanceStore::SetRange(uint32_t Object, uint32_t Range)

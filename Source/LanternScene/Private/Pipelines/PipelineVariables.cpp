@@ -1,4 +1,4 @@
-// Console variables of the RTPSO compiler and of compute pipelines.
+// Console variables of the RTPSO compiler and of plain pipelines.
 #include "Pipelines/PipelineVariables.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace
 TRTConsoleVariable<int32_t> CVarThreads("r.RT.Pipeline.Threads", 0,
     "Number of threads that compile pipelines. 0: one less than the machine has cores, at least one.", {0, 256});
 TRTConsoleVariable<int32_t> CVarKeepFrames("r.RT.Pipeline.KeepFrames", 1000,
-    "Number of frames for which compiled shaders and compute pipelines are kept after their last use.", {1, 1e6});
+    "Number of frames for which compiled shaders, compute and raster pipelines are kept after their last use.", {1, 1e6});
 
 const uint32_t Cores = std::max(1u, std::thread::hardware_concurrency()); // asked once: it reads a file
 } // namespace

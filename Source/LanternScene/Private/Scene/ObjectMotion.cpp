@@ -77,7 +77,6 @@ void FObjectMotions::Truncate(uint32_t Count)
 	if (Count >= States.size()) { return; }
 	States.resize(Count);
 	for (FViewer& Viewer : Viewers) { Viewer.Places.resize(std::min<size_t>(Count, Viewer.Places.size())); }
-	if (States.capacity() / 4 > States.size() + 64) { States.shrink_to_fit(); }
 }
 
 // ---------------------------------------------------------------------------------------------------- viewers

@@ -11,9 +11,9 @@ namespace Lantern
 
 namespace
 {
-TRTConsoleVariable<int32_t> CVarArrivals("r.RT.Scene.ArrivalsPerFrame", 500,
-    "Limits how many materials, meshes and objects of an engine a frame adds to the scene or removes from it. The rest waits for the "
-    "next frames. 0: no limit.",
+TRTConsoleVariable<int32_t> CVarArrivals("r.RT.Scene.ArrivalsPerFrame", 250,
+    "Limits how many materials, meshes and objects of an engine a frame adds to the scene or removes from it. A new mesh counts as "
+    "four. The rest waits for the next frames. 0: no limit.",
     {0, 1'000'000});
 } // namespace
 

@@ -84,7 +84,7 @@ FRTStatus FSceneStructure::Gather(const FGatherKey& Key, const FGatherKey& Befor
 	IRTBuffer* Buffer = nullptr;
 	if (FRTStatus S = Uploads.Reserve(Count, Buffer); !S) { return S; }
 	auto* const Out = static_cast<FRTInstance*>(Buffer->GetMapped());
-	if (Key.Mode == 0) { Count = GatherStraightforward(Instances, Objects.GetTable().All().data(), Rule, Key.Origin, Out, Missing); }
+	if (Key.Mode == 0) { Count = GatherStraightforward(Instances, Objects.GetTable().All(), Rule, Key.Origin, Out, Missing); }
 	else { InstanceGather.Write(Instances, Key.Origin, Out); }
 	GatheredCount = Count;
 	bInstancesStale = false;

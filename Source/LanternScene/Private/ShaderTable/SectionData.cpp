@@ -48,7 +48,8 @@ FHitProgram ChooseHitProgram(const FSectionContext& Context, const FRTGeometry& 
 	const bool bAlphaTest = Context.bAlphaTest && Context.Override != 2;
 	const FMaterialData& Data = Context.Materials[Material];
 	if (!bAlphaTest || Part.bOpaque || (Data.Flags & MATERIAL_MASKED) == 0) { return {Program, ERTHitClass::Opaque}; }
-	const bool bPlain = Program == StandardProgram && HasPlainOpacity(Geometry.GetInfo(), Data) && !MayBePieces(Geometry, Part);
+	const FRTGeometryInfo& Info = Geometry.GetInfo();
+	const bool bPlain = Program == StandardProgram && HasPlainOpacity(Info, Data) && !Info.bStreams && !MayBePieces(Geometry, Part);
 	return {Program, bPlain ? ERTHitClass::MaskedPlain : ERTHitClass::Masked};
 }
 

@@ -95,6 +95,9 @@ public:
 
 	/// Publishes values to the render thread and runs the callbacks of those that changed.
 	void BeginFrame();
+	uint64_t GetPublishCount() const; ///< calls of BeginFrame so far; any thread
+	/// Returns whether some value was set that BeginFrame has not published. Any thread.
+	bool HasUnpublished() const;
 	/// Restores an earlier GetValue() and GetSetBy() of a variable, whoever set it since. Value must have the variable's type.
 	void Restore(const FRTConsoleVariable& Variable, FRTCVarValue Value, ERTSetBy By);
 	/// Resets all variables to their defaults and ERTSetBy::Code. For tests.

@@ -26,9 +26,10 @@ struct FTraceEvent
 	static constexpr int64_t NoFrame = -1;
 
 	char Name[MaxName + 1] = {};
-	uint64_t BeginNs = 0, EndNs = 0; ///< since the trace was switched on
+	uint64_t BeginNs = 0, EndNs = 0; ///< since the trace was switched on; of a device: by its clock, until GetEvents
 	int64_t Frame = NoFrame;         ///< frame in which it began; NoFrame: before the first
-	uint32_t Thread = 0;             ///< index into FTaskTrace::GetThreadNames
+	uint32_t Thread = 0;             ///< index into FTaskTrace::GetThreadNames, which names queues of devices as well
+	bool bDevice = false;            ///< ran on a queue
 };
 
 /// The recorder. Its memory is bounded: beyond MaxEventsPerThread, or MaxEvents over all threads, a new event replaces the
@@ -48,6 +49,16 @@ public:
 
 	/// BeginNs, EndNs: from GetNow().
 	static void Record(std::string_view Name, uint64_t BeginNs, uint64_t EndNs, int64_t Frame);
+	/// Records what a device's queue ran. Times are the device's own, in nanoseconds; AlignDevice places them on the CPU's clock.
+	/// There is one such clock. Passes of several devices are right in themselves, and not beside each other.
+	static void RecordOnDevice(std::string_view Queue, std::string_view Name, uint64_t BeginNs, uint64_t EndNs, int64_t Frame);
+	/// Says that the device's time DeviceNs was not before NotBeforeNs of GetNow(). The latest such time decides. A frame thus
+	/// never begins on the device before it was recorded. It begins too early by the shortest way to the device at most.
+	static void AlignDevice(uint64_t DeviceNs, uint64_t NotBeforeNs);
+	/// Records a call that has just ended on this thread. Made for FRTVulkanCallSink::Call.
+	static void RecordCall(void* User, const char* Name, uint64_t Nanoseconds);
+	/// Whether a new device is to be given RecordCall (r.RT.Trace.Calls).
+	static bool WantsCalls();
 	static uint64_t GetNow(); ///< nanoseconds since Start
 	static int64_t GetFrame() { return CurrentFrame.load(std::memory_order_relaxed); }
 	/// Names the calling thread; the default is "Worker n". The newest name wins.

@@ -10,7 +10,7 @@ namespace Lantern
 
 /// Writes to Out the instances that FInstanceGather writes, in the order of objects, and returns their number. Reads the
 /// records of the store and the objects' entries of the GPU table, not the buckets. Out needs room for all objects.
-uint32_t GatherStraightforward(const FInstanceStore& Store, const FObjectData* Objects, const FCullingRule& Rule, const glm::dvec3& Origin,
-    FRTInstance* Out, const FMissingGeometrySink& Missing = {});
+uint32_t GatherStraightforward(const FInstanceStore& Store, const TPagedArray<FObjectData>& Objects, const FCullingRule& Rule,
+    const glm::dvec3& Origin, FRTInstance* Out, const FMissingGeometrySink& Missing = {});
 
 } // namespace Lantern

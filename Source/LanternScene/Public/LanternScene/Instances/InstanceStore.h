@@ -17,6 +17,7 @@
 #include <glm/glm.hpp>
 
 #include "LanternScene/Instances/Culling.h"
+#include "LanternScene/Memory/PagedArray.h"
 
 namespace Lantern
 {
@@ -123,7 +124,7 @@ public:
 	void SetBinding(uint32_t Range, const FInstanceBinding& Binding);
 
 	const FInstanceRecord& GetRecord(uint32_t Object) const { return Records[Object]; }
-	const std::vector<FInstanceRecord>& GetRecords() const { return Records; }
+	const TPagedArray<FInstanceRecord>& GetRecords() const { return Records; }
 	/// Returns 12 floats: the rows of the object's transform, relative to its cell.
 	const float* GetTransform(uint32_t Object) const;
 	uint32_t GetCount() const { return Count; } ///< objects in the store
@@ -188,7 +189,7 @@ private:
 	void MergeWithSibling(uint32_t Bucket);
 	void Collapse(uint32_t Parent, uint32_t Kept, uint32_t Dropped);
 
-	std::vector<FInstanceRecord> Records;
+	TPagedArray<FInstanceRecord> Records;
 	std::vector<std::unique_ptr<FInstanceBucket>> Buckets;
 	std::vector<uint32_t> FreeBuckets, DirtyBuckets;
 	FBucketBounds Bounds;

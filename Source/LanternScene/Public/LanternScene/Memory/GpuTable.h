@@ -6,6 +6,7 @@
 #include <cstring>
 #include <vector>
 
+#include "LanternScene/Memory/PagedArray.h"
 #include "LanternScene/Memory/Upload.h"
 
 namespace Lantern
@@ -19,10 +20,16 @@ public:
 	static constexpr uint32_t ChunkEntries = 8;
 
 	uint64_t GetAddress() const { return Buffer ? Buffer->GetDeviceAddress() : 0; }
+	/// Where a flush reads entries: Copy writes Count of them, from First on, to Out.
+	struct FSource
+	{
+		const void* Table = nullptr;
+		void (*Copy)(const void* Table, uint64_t First, uint64_t Count, void* Out) = nullptr;
+		uint64_t EntryBytes = 0, EntryCount = 0;
+	};
 	/// Records the copy of what changed. The buffer grows by doubling, and shrinks if it was four times too large for many
-	/// flushes. Its address then changes.
-	FRTStatus Flush(IRTDevice& Device, IRTCommandList& List, FFrameUploads& Uploads, const void* Data, uint64_t EntryBytes,
-	    uint64_t EntryCount, const char* Name);
+	/// flushes. Its address then changes, and the device copies what the old one holds.
+	FRTStatus Flush(IRTDevice& Device, IRTCommandList& List, FFrameUploads& Uploads, const FSource& Source, const char* Name);
 	bool IsDirty() const { return bDirty; }
 	uint64_t GetCopiedBytes() const { return CopiedBytes; } ///< by the last flush
 
@@ -31,8 +38,11 @@ protected:
 	void MarkAll(uint64_t Count);
 
 private:
-	FRTStatus Resize(IRTDevice& Device, uint64_t Needed, const char* Name, bool& OutNew);
-	FRTStatus CopyRuns(IRTCommandList& List, FFrameUploads& Uploads, const uint8_t* Data, uint64_t ChunkBytes, uint64_t Bytes);
+	/// OutOld: what the buffer was before; null if it still is.
+	FRTStatus Resize(IRTDevice& Device, uint64_t Needed, const char* Name, TRTRef<IRTBuffer>& OutOld);
+	FRTStatus CopyAll(IRTCommandList& List, FFrameUploads& Uploads, const FSource& Source);
+	FRTStatus CopyRuns(IRTCommandList& List, FFrameUploads& Uploads, const FSource& Source);
+	uint64_t HeldBytes = 0; // of the buffer, that are as the last flush left them
 	TRTRef<IRTBuffer> Buffer;
 	std::vector<bool> IsChunkDirty;
 	std::vector<uint32_t> DirtyChunks; // each once; not used while bAllDirty
@@ -47,42 +57,46 @@ class TGpuTable : public FGpuTableBase
 {
 public:
 	explicit TGpuTable(const char* InName) : Name(InName) {}
-	uint32_t Num() const { return static_cast<uint32_t>(Entries.size()); }
+	uint32_t Num() const { return static_cast<uint32_t>(Entries.Num()); }
 	const T& operator[](uint32_t Index) const { return Entries[Index]; }
-	const std::vector<T>& All() const { return Entries; }
+	const TPagedArray<T>& All() const { return Entries; }
 	uint32_t Add(const T& Value)
 	{
-		Entries.push_back(Value);
-		Mark(Entries.size() - 1);
+		Entries.Add(Value);
+		Mark(Entries.Num() - 1);
 		return Num() - 1;
 	}
 	void Set(uint32_t Index, const T& Value)
 	{
-		if (Index >= Entries.size()) { Entries.resize(Index + 1); }
+		for (uint64_t New = Entries.Num(); New < Index; ++New) { Mark(New); }
+		if (Index >= Entries.Num()) { Entries.Resize(size_t(Index) + 1); }
 		Entries[Index] = Value;
 		Mark(Index);
 	}
 	/// Marks all entries: the last flush was recorded, but never submitted.
-	void Invalidate() { MarkAll(Entries.size()); }
-	void Assign(std::vector<T> Values)
+	void Invalidate() { MarkAll(Entries.Num()); }
+	void Assign(const std::vector<T>& Values)
 	{
-		Entries = std::move(Values);
-		MarkAll(Entries.size());
+		Entries.Resize(Values.size());
+		for (size_t Index = 0; Index < Values.size(); ++Index) { Entries[Index] = Values[Index]; }
+		MarkAll(Entries.Num());
 	}
 	/// Forgets the entries from Count on.
 	void Truncate(uint32_t Count)
 	{
-		if (Count >= Entries.size()) { return; }
-		Entries.resize(Count);
-		if (Entries.capacity() / 4 > Entries.size() + ChunkEntries) { Entries.shrink_to_fit(); }
+		if (Count >= Entries.Num()) { return; }
+		Entries.Resize(Count);
 	}
 	FRTStatus Flush(IRTDevice& Device, IRTCommandList& List, FFrameUploads& Uploads)
 	{
-		return FGpuTableBase::Flush(Device, List, Uploads, Entries.data(), sizeof(T), Entries.size(), Name);
+		const auto Copy = [](const void* Table, uint64_t First, uint64_t Count, void* Out) {
+			static_cast<const TPagedArray<T>*>(Table)->CopyTo(static_cast<T*>(Out), First, Count);
+		};
+		return FGpuTableBase::Flush(Device, List, Uploads, {&Entries, Copy, sizeof(T), Entries.Num()}, Name);
 	}
 
 private:
-	std::vector<T> Entries;
+	TPagedArray<T> Entries;
 	const char* Name;
 };
 

@@ -42,8 +42,8 @@ enum class ERTHitClass : uint8_t
 	Opaque,
 	Masked,     ///< with an any-hit shader for the alpha test
 	Procedural, ///< AABBs with the program's intersection shader
-	/// Masked, by the alpha of the base colour's texture and of the material alone: the standard program, no pieces, and
-	/// SECTION_PLAIN_OPACITY. Its any-hit shader is shorter, and alpha tests are most of what shadow rays of foliage cost.
+	/// Masked, by the alpha of the base colour's texture and of the material alone: the standard program, no pieces, vertices of
+	/// ours, and SECTION_PLAIN_OPACITY. Its any-hit shader is shorter, and alpha tests are most of what shadow rays of foliage cost.
 	MaskedPlain,
 };
 inline constexpr uint32_t HitClassCount = 4;

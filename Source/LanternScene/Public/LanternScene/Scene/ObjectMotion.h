@@ -10,6 +10,7 @@
 // Threads: one at a time.
 #pragma once
 
+#include <deque>
 #include <unordered_map>
 #include <vector>
 
@@ -107,7 +108,7 @@ private:
 		uint32_t Update = 0; // in which the entry was last wanted
 	};
 	std::vector<FOwner> Owners; // of the entries
-	std::vector<FState> States; // by object
+	std::deque<FState> States;  // by object; grows without moving what is there
 	std::vector<FViewer> Viewers = std::vector<FViewer>(1);
 	size_t Current = 0; // of Viewers
 	std::unordered_map<const FRTGeometry*, FDeformable> Deformables;

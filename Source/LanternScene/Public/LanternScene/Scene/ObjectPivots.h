@@ -41,7 +41,7 @@ private:
 	static constexpr uint32_t NoPlace = ~0u;
 	double Measure(const FPivot& Pivot) const;
 
-	std::vector<FPivot> Pivots;
+	std::deque<FPivot> Pivots;   // grow without moving what is there
 	std::deque<uint32_t> Places; // in Pivots, by object, or NoPlace
 	glm::dvec3 Origin{0};
 	double Reach = LeastReach;

@@ -137,8 +137,8 @@ private:
 	const uint64_t Identity;
 	FSectionAllocator Allocator;
 	TGpuTable<FSectionData> Table{"Sections"};
-	std::vector<FSectionRange> Ranges;
-	std::vector<FRangeLinks> Links;
+	std::deque<FSectionRange> Ranges; // grow without moving what is there
+	std::deque<FRangeLinks> Links;
 	std::vector<FSectionRangeId> FreeIds;
 	std::vector<FSectionRangeId> Buckets; // a power of two
 	uint32_t RangeCount = 0, MaskedRangeCount = 0, EmissiveRangeCount = 0;

@@ -1,5 +1,5 @@
-// What the threads that compile compute pipelines do.
-#include "Pipelines/ComputeThreads.h"
+// What the threads that compile plain pipelines do.
+#include "Pipelines/PlainPipelineThreads.h"
 
 #include <algorithm>
 #include <utility>
@@ -10,13 +10,13 @@
 namespace Lantern
 {
 
-FComputeThreads::FComputeThreads(IRTDevice& InDevice, FShaderCompiler& InCompiler) : Device(InDevice), Compiler(InCompiler)
+FPlainPipelineThreads::FPlainPipelineThreads(IRTDevice& InDevice, FShaderCompiler& InCompiler) : Device(InDevice), Compiler(InCompiler)
 {
 	const std::lock_guard Lock(Mutex);
 	Threads.emplace_back([this] { Run(0); });
 }
 
-FComputeThreads::~FComputeThreads()
+FPlainPipelineThreads::~FPlainPipelineThreads()
 {
 	{
 		const std::lock_guard Lock(Mutex);
@@ -26,13 +26,13 @@ FComputeThreads::~FComputeThreads()
 	for (std::thread& Thread : Threads) { Thread.join(); }
 }
 
-void FComputeThreads::Add(FComputeJobRef Job, uint32_t MostThreads)
+void FPlainPipelineThreads::Add(FPlainJobRef Job, uint32_t MostThreads)
 {
 	NewJobs.push_back(std::move(Job));
 	NewMost = MostThreads;
 }
 
-void FComputeThreads::HandOver(bool bWait)
+void FPlainPipelineThreads::HandOver(bool bWait)
 {
 	if (NewJobs.empty() && NewDoomed.empty()) { return; }
 	std::unique_lock Lock(Mutex, std::defer_lock);
@@ -47,34 +47,34 @@ void FComputeThreads::HandOver(bool bWait)
 	WorkAdded.notify_all();
 }
 
-void FComputeThreads::Wait(const FComputeJob& Job)
+void FPlainPipelineThreads::Wait(const FPlainJob& Job)
 {
 	std::unique_lock Lock(Mutex);
 	// It goes before what frames have asked for and nobody waits for.
-	const auto Place = std::find_if(Queue.begin(), Queue.end(), [&](const FComputeJobRef& Other) { return Other.get() == &Job; });
+	const auto Place = std::find_if(Queue.begin(), Queue.end(), [&](const FPlainJobRef& Other) { return Other.get() == &Job; });
 	if (Place != Queue.end()) { std::rotate(Queue.begin(), Place, Place + 1); }
 	JobDone.wait(Lock, [&] { return Job.IsDone(); });
 }
 
 /// Starts one thread if more could work, and one that waits for what is to come. The caller holds Mutex.
-void FComputeThreads::StartNext()
+void FPlainPipelineThreads::StartNext()
 {
 	if (Threads.size() >= std::min<size_t>(Most, Working + std::max<size_t>(1, Queue.size()))) { return; }
 	const auto Index = static_cast<uint32_t>(Threads.size());
 	Threads.emplace_back([this, Index] { Run(Index); });
 }
 
-void FComputeThreads::Run(uint32_t Index)
+void FPlainPipelineThreads::Run(uint32_t Index)
 {
 	GiveWayToFrames();
-	FTaskTrace::NameThread("Compute compiler " + std::to_string(Index));
+	FTaskTrace::NameThread("Plain compiler " + std::to_string(Index));
 	std::unique_lock Lock(Mutex);
 	for (;;)
 	{
 		WorkAdded.wait(Lock, [&] { return bStop || !Queue.empty() || !Doomed.empty(); });
 		if (bStop) { return; }
-		std::vector<FComputeJobRef> Old = std::exchange(Doomed, {});
-		FComputeJobRef Job;
+		std::vector<FPlainJobRef> Old = std::exchange(Doomed, {});
+		FPlainJobRef Job;
 		if (!Queue.empty())
 		{
 			Job = std::move(Queue.front());
@@ -90,19 +90,40 @@ void FComputeThreads::Run(uint32_t Index)
 		--Working;
 		Job->bDone.store(true, std::memory_order_release);
 		JobDone.notify_all();
+		Doomed.push_back(std::move(Job)); // may be the last reference, which Mutex must not be held for
 	}
 }
 
-void FComputeThreads::Compile(FComputeJob& Job) const
+void FPlainPipelineThreads::Compile(FPlainJob& Job) const
 {
 	FTraceScope Trace("Compile", Job.Name);
+	Job.Status = std::visit([&](const auto& Source) { return Make(Source, Job); }, Job.Source);
+}
+
+FRTStatus FPlainPipelineThreads::Make(const FShaderSource& Source, FPlainJob& Job) const
+{
 	FShaderBinary Binary;
-	Job.Status = Compiler.Compile(Job.Source, Binary);
-	if (!Job.Status) { return; }
+	if (FRTStatus S = Compiler.Compile(Source, Binary); !S) { return S; }
 	FRTComputePipelineDesc Desc;
 	Desc.Shader = Binary.GetCode();
 	Desc.Name = Job.Name.c_str();
-	Job.Status = Device.CreateComputePipeline(Desc, Job.Pipeline.ReleaseAndGetAddress());
+	return Device.CreateComputePipeline(Desc, Job.Pipeline.ReleaseAndGetAddress());
+}
+
+FRTStatus FPlainPipelineThreads::Make(const FRasterSource& Source, FPlainJob& Job) const
+{
+	FShaderBinary Vertex, Fragment;
+	if (FRTStatus S = Compiler.Compile(Source.Vertex, Vertex); !S) { return S; }
+	if (FRTStatus S = Compiler.Compile(Source.Fragment, Fragment); !S) { return S; }
+	FRTRasterPipelineDesc Desc;
+	Desc.Vertex = Vertex.GetCode();
+	Desc.Fragment = Fragment.GetCode();
+	Desc.ColorFormats = Source.ColorFormats.data();
+	Desc.ColorCount = static_cast<uint32_t>(Source.ColorFormats.size());
+	Desc.DepthFormat = Source.DepthFormat;
+	Desc.Cull = Source.Cull;
+	Desc.Name = Job.Name.c_str();
+	return Device.CreateRasterPipeline(Desc, Job.Pipeline.ReleaseAndGetAddress());
 }
 
 } // namespace Lantern

@@ -1,9 +1,9 @@
-// FVulkanTableScatter: the compute pass that writes shader records.
-#include "ShaderTable/VulkanTableScatter.h"
+// FVulkanScatter: the compute pass that copies words all over a buffer.
+#include "Commands/VulkanScatter.h"
 
 #include "Pipelines/VulkanShaderModules.h"
 
-#include "Shaders/ScatterRecords_comp.h"
+#include "Shaders/Scatter_comp.h"
 
 #include <algorithm>
 #include <iterator>
@@ -11,12 +11,10 @@
 namespace Lantern
 {
 
-FRTStatus FVulkanTableScatter::Prepare(FVulkanDevice& Device)
+FRTStatus FVulkanScatter::Create(FVulkanDevice& Device)
 {
-	std::scoped_lock Lock(Mutex);
-	if (Pipeline) { return {}; }
 	FVulkanModules Modules(Device);
-	FRTStatus Status = Modules.Add({ScatterRecords_comp, std::size(ScatterRecords_comp), ERTShaderStage::Compute, "ScatterRecords.comp"});
+	FRTStatus Status = Modules.Add({Scatter_comp, std::size(Scatter_comp), ERTShaderStage::Compute, "Scatter.comp"});
 	if (!Status) { return Status; }
 	VkComputePipelineCreateInfo Info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
 	Info.stage = Modules.Stages[0];
@@ -24,11 +22,11 @@ FRTStatus FVulkanTableScatter::Prepare(FVulkanDevice& Device)
 	const VkResult Result =
 	    Device.Check(Device.Api.CreateComputePipelines(Device.Handle, Device.Cache.Handle, 1, &Info, nullptr, &Pipeline));
 	Pipeline = Result == VK_SUCCESS ? Pipeline : VK_NULL_HANDLE;
-	Device.SetName(VK_OBJECT_TYPE_PIPELINE, ToNative(Pipeline), "ScatterRecords");
-	return MakeStatus(Result, "Creating compute pipeline", "ScatterRecords");
+	Device.SetName(VK_OBJECT_TYPE_PIPELINE, ToNative(Pipeline), "Scatter");
+	return MakeStatus(Result, "Creating compute pipeline", "Scatter");
 }
 
-void FVulkanTableScatter::Destroy(FVulkanDevice& Device)
+void FVulkanScatter::Destroy(FVulkanDevice& Device)
 {
 	if (Pipeline)
 	{
@@ -37,10 +35,10 @@ void FVulkanTableScatter::Destroy(FVulkanDevice& Device)
 	}
 }
 
-void FVulkanTableScatter::Record(FVulkanDevice& Device, VkCommandBuffer List, const FPush& Push) const
+void FVulkanScatter::Record(FVulkanDevice& Device, VkCommandBuffer List, const FPush& Push) const
 {
 	constexpr uint32_t GroupSize = 64, MaxGroups = 65535;
-	const uint64_t Words = uint64_t(Push.WordsPerRecord) * Push.Count;
+	const uint64_t Words = uint64_t(Push.WordsPerItem) * Push.Count;
 	const uint32_t Groups = static_cast<uint32_t>(std::min<uint64_t>((Words + GroupSize - 1) / GroupSize, MaxGroups));
 	Device.Api.CmdBindPipeline(List, VK_PIPELINE_BIND_POINT_COMPUTE, Pipeline);
 	Device.Api.CmdPushConstants(List, Device.Bindless.PipelineLayout, AllStages(Device.Bits), 0, sizeof(Push), &Push);
