@@ -7,7 +7,7 @@
 #include "FrameGraphTestBase.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Tasks/Tasks.h"
-#include "Support/WaitTools.h"
+#include "Support/WakeWorkers.h"
 
 namespace Lantern
 {
@@ -115,9 +115,10 @@ TEST_F(FFrameGraphTaskTest, PassesAreRecordedAtOnce)
 	FFrameGraph Graph(*Resources);
 	std::atomic<bool> bStarted = false;
 	bool bSeen = false;
+	FWakeWorkers Wake;
 	Graph.AddPass("Waits", [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.NeverCull();
-		return [&](FPassContext&) { bSeen = WaitUntil("the task's pass", [&] { return bStarted.load(); }); };
+		return [&](FPassContext&) { bSeen = WaitUntil("the task's pass", [&] { return bStarted.load(); }, std::ref(Wake)); };
 	});
 	AddTaskPass(Graph, "Starts", {}, {}, [&] { bStarted = true; });
 	ASSERT_TRUE(ExecuteOnTasks(Graph).IsOk());

@@ -6,7 +6,7 @@
 
 #include "LanternCore/Tasks/TaskTrace.h"
 #include "Support/RendererTestTools.h"
-#include "Support/WaitTools.h"
+#include "Support/WakeWorkers.h"
 
 namespace Lantern
 {
@@ -34,7 +34,7 @@ public:
 		};
 		const auto Describe = [&] { return std::to_string(CountBlocked()) + " of " + std::to_string(Workers); };
 		bAllBlocked = WaitUntil(
-		    "workers to be kept busy", [&] { return CountBlocked() == Workers; }, {}, Describe);
+		    "workers to be kept busy", [&] { return CountBlocked() == Workers; }, std::ref(Wake), Describe);
 	}
 	~FBlockedWorkers() { Open(); }
 	bool AreAllBlocked() const { return bAllBlocked; }
@@ -53,6 +53,7 @@ private:
 	std::condition_variable Changed;
 	size_t Blocked = 0;
 	bool bOpen = false, bAllBlocked = false;
+	FWakeWorkers Wake;
 	FTaskGroup Group;
 };
 
@@ -168,9 +169,9 @@ protected:
 		ADD_FAILURE() << "no event " << Name;
 		return {};
 	}
-	static bool WaitForEvent(const std::string& Name)
+	bool WaitForEvent(const std::string& Name)
 	{
-		return WaitUntil("the task " + Name, [&] { return CountEvents(Name) > 0; });
+		return WaitUntil("the task " + Name, [&] { return CountEvents(Name) > 0; }, std::ref(Wake));
 	}
 	void StartTrace()
 	{
@@ -178,6 +179,7 @@ protected:
 		Set("r.RT.Trace", "1");
 	}
 
+	FWakeWorkers Wake;
 	FRTObjectId Added;
 	std::unique_ptr<FGBufferPass> GBufferPass;
 	uint32_t FrameIndex = 0;
