@@ -1,35 +1,121 @@
-// Punctual lights, KHR_lights_punctual.
+// Lights other than sun and sky: what a surface receives of each. Point, spot and directional lights are those of
+// KHR_lights_punctual. HAS_AREA_LIGHTS: defined if some light has an extent; each is then sampled at one point.
 #ifndef LANTERN_LIGHTS_GLSL
 #define LANTERN_LIGHTS_GLSL
 
 #include "Bindings.glsl"
 #include "Math.glsl"
+#ifdef HAS_AREA_LIGHTS
+#include "LightShapes.glsl"
+#endif
 
-// Returns the irradiance of a plane at P that faces the light. ToLight: unit length; Distance: metres, 1e30 if directional.
-vec3 PunctualIrradiance(FLightData Light, vec3 P, out vec3 ToLight, out float Distance)
+uint LightType(FLightData Light) { return Light.Flags & LIGHT_TYPE_MASK; }
+
+// Returns the position relative to the scene's origin. Integers wrap around, and so do the positions.
+vec3 LightPosition(FSceneConstants Scene, FLightData Light)
 {
-	if (Light.Type == LIGHT_DIRECTIONAL)
-	{
-		ToLight = -Light.Direction;
-		Distance = 1.0e30;
-		return Light.Color;
-	}
-	ToLight = Light.Position - P;
-	float DistanceSquared = max(dot(ToLight, ToLight), 1.0e-12);
-	Distance = sqrt(DistanceSquared);
-	ToLight /= Distance;
-	float Attenuation = 1.0 / DistanceSquared;
+	ivec3 Origin = Scene.OriginCell * int(CELL_SIZE * LIGHT_POSITION_STEPS) + ivec3(Scene.OriginInCell * LIGHT_POSITION_STEPS);
+	return vec3(Light.Position - Origin) * (1.0 / LIGHT_POSITION_STEPS);
+}
+
+// Returns the share of the light that its range and its cone let through. ToCenter: from the surface, metres.
+float LightAttenuation(FLightData Light, vec3 ToCenter)
+{
+	float DistanceSquared = max(dot(ToCenter, ToCenter), 1.0e-12);
+	float Attenuation = 1.0;
 	if (Light.Range > 0.0)
 	{
 		float Ratio = DistanceSquared / (Light.Range * Light.Range);
-		Attenuation *= clamp(1.0 - Ratio * Ratio, 0.0, 1.0);
+		Attenuation = clamp(1.0 - Ratio * Ratio, 0.0, 1.0);
 	}
-	if (Light.Type == LIGHT_SPOT)
+	if ((Light.Flags & LIGHT_HAS_CONE) != 0u)
 	{
-		float Angular = clamp(-dot(Light.Direction, ToLight) * Light.SpotScale + Light.SpotOffset, 0.0, 1.0);
+		float Cosine = -dot(UnpackOct(Light.Direction), ToCenter) * inversesqrt(DistanceSquared);
+		float Angular = clamp(Cosine * Light.SpotScale + Light.SpotOffset, 0.0, 1.0);
 		Attenuation *= Angular * Angular;
 	}
-	return Light.Color * Attenuation;
+	return Attenuation;
+}
+
+// A point of a light, as a surface sees it.
+struct FLightSample
+{
+	vec3 Direction; // towards the point, unit length
+	float Distance; // metres; 1e30: directional
+	vec3 Irradiance; // of a plane that faces the point if all of the light shone from it, so that BRDF · cosine · Irradiance has
+	                 // the right mean; 0: the point does not shine here
+};
+
+const float LightInfinity = 1.0e30;
+
+// Returns the point of a light without extent.
+FLightSample SamplePointLight(FLightData Light, vec3 ToCenter)
+{
+	if (LightType(Light) == LIGHT_DIRECTIONAL) { return FLightSample(-UnpackOct(Light.Direction), LightInfinity, Light.Color); }
+	float DistanceSquared = max(dot(ToCenter, ToCenter), 1.0e-12);
+	float Distance = sqrt(DistanceSquared);
+	return FLightSample(ToCenter / Distance, Distance, Light.Color * (LightAttenuation(Light, ToCenter) / DistanceSquared));
+}
+
+// Samples a point of a light as seen from P, in coordinates relative to the scene's origin. U in [0, 1).
+FLightSample SampleLight(FSceneConstants Scene, FLightData Light, vec3 P, vec2 U)
+{
+	vec3 ToCenter = LightPosition(Scene, Light) - P;
+#ifdef HAS_AREA_LIGHTS
+	uint Type = LightType(Light);
+	vec3 Normal = UnpackOct(Light.Direction);
+	if (Type == LIGHT_DIRECTIONAL && Light.Size.x > 0.0)
+	{
+		// A plane that faces a disk of angular radius r receives π sin²r times its radiance, over 2π (1 − cos r) of solid angle.
+		return FLightSample(MakeBasis(-Normal) * SampleCone(U, Light.Size.x), LightInfinity, Light.Color * (2.0 / (2.0 - Light.Size.x)));
+	}
+	if (Type >= LIGHT_RECTANGLE)
+	{
+		FLightSample Sample;
+		float SolidAngle;
+		bool bTwoSided = (Light.Flags & LIGHT_TWO_SIDED) != 0u;
+		if (Type == LIGHT_RECTANGLE)
+		{
+			vec3 Tangent = UnpackOct(Light.Tangent);
+			SolidAngle = SampleRectangle(ToCenter, Tangent, Normal, Light.Size, bTwoSided, U, Sample.Direction, Sample.Distance);
+		}
+		else if (Type == LIGHT_DISK) { SolidAngle = SampleDiskLight(ToCenter, Normal, Light.Size.x, bTwoSided, U, Sample.Direction, Sample.Distance); }
+		else if (Type == LIGHT_SPHERE) { SolidAngle = SampleSphere(ToCenter, Light.Size.x, U, Sample.Direction, Sample.Distance); }
+		else { SolidAngle = SampleTube(ToCenter, UnpackOct(Light.Tangent), Light.Size.x, Light.Size.y, U, Sample.Direction, Sample.Distance); }
+#ifdef HALF_LIGHT_AREA // r.RT.Debug.Lights.Area
+		SolidAngle *= 0.5;
+#endif
+		Sample.Irradiance = Light.Color * (SolidAngle * LightAttenuation(Light, ToCenter));
+		return Sample;
+	}
+#endif
+	return SamplePointLight(Light, ToCenter);
+}
+
+// Returns the luminance of what a plane at P that faces the light receives. It is exact for lights without extent, and a guess for
+// others. It is 0 only where the light brings nothing to a surface of normal Ng.
+float EstimateLight(FSceneConstants Scene, FLightData Light, vec3 P, vec3 Ng)
+{
+	vec3 ToCenter = LightPosition(Scene, Light) - P;
+	uint Type = LightType(Light);
+#ifdef HAS_AREA_LIGHTS
+	if (Type >= LIGHT_RECTANGLE)
+	{
+		float Reach = LightReach(Type, Light.Size);
+		if (dot(ToCenter, Ng) + Reach <= 0.0) { return 0.0; }
+		float Area = LightProjectedArea(Type, Light.Size, ToCenter, UnpackOct(Light.Direction), (Light.Flags & LIGHT_TWO_SIDED) != 0u);
+		// No light covers more than a hemisphere, which brings π times the radiance.
+		float Form = min(Area / max(dot(ToCenter, ToCenter), 1.0e-12), Pi);
+		return Luminance(Light.Color) * Form * LightAttenuation(Light, ToCenter);
+	}
+#endif
+	if (Type == LIGHT_NONE) { return 0.0; }
+	FLightSample Sample = SamplePointLight(Light, ToCenter);
+	float Below = 0.0; // sine of the angle by which a light may stand below the horizon
+#ifdef HAS_AREA_LIGHTS
+	if (Type == LIGHT_DIRECTIONAL) { Below = sqrt(max(Light.Size.x * (2.0 - Light.Size.x), 0.0)); }
+#endif
+	return dot(Sample.Direction, Ng) + Below > 0.0 ? Luminance(Sample.Irradiance) : 0.0;
 }
 
 #endif

@@ -1,10 +1,11 @@
-// Composites the frame: direct light of the sun and of punctual lights, indirect light, emission, and the sky itself.
-// HAS_SUN, HAS_LIGHTS, HAS_SKY: defined if the scene has such; other code is not compiled. HAS_SKY is for the ambient light of
+// Composites the frame: direct light of the sun and of local lights, indirect light, emission, and the sky itself.
+// HAS_SUN, HAS_LIGHTS, HAS_AREA_LIGHTS, HAS_SKY: defined if the scene has such; other code is not compiled. HAS_SKY is for the ambient light of
 // the sky, which replaces indirect light that was not traced.
 #version 460
 #include "../Shared/LightingTypes.h"
 #include "../Library/GBuffer.glsl"
 #include "../Library/Lights.glsl"
+#include "../Library/Random.glsl"
 #include "../Library/SkyLight.glsl"
 #include "../Library/Sun.glsl"
 
@@ -33,15 +34,19 @@ vec3 ShadeDirect(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, FGBuff
 #endif
 #ifdef HAS_LIGHTS
 	vec3 P = View.CameraPosition + Point.Relative;
+	FRandom Random = MakeRandom(uvec2(Pixel), View.FrameIndex, View.Seed);
 	FLightRef Lights = FLightRef(Scene.Lights);
 	for (uint I = 0; I < Scene.LightCount; ++I)
 	{
-		vec3 ToLight;
-		float Distance;
-		vec3 Irradiance = PunctualIrradiance(Lights.Data[I], P, ToLight, Distance);
-		if (MaxComponent(Irradiance) > 0.0 && dot(Point.Ng, ToLight) > 0.0)
+		if (EstimateLight(Scene, Lights.Data[I], P, Point.Ng) <= 0.0) { continue; }
+#ifdef HAS_AREA_LIGHTS
+		FLightSample Sample = SampleLight(Scene, Lights.Data[I], P, NextRandom4(Random).xy);
+#else
+		FLightSample Sample = SampleLight(Scene, Lights.Data[I], P, vec2(0.0));
+#endif
+		if (dot(Point.Ng, Sample.Direction) > 0.0)
 		{
-			Radiance += EvaluateBrdfCos(Brdf, LocalV, ToLight * Basis) * Irradiance;
+			Radiance += EvaluateBrdfCos(Brdf, LocalV, Sample.Direction * Basis) * Sample.Irradiance;
 		}
 	}
 #endif

@@ -43,36 +43,37 @@ vec3 SampleSky(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, ve
 #endif
 
 #ifdef HAS_LIGHTS
-// Samples one light with a probability proportional to its unshadowed irradiance, by weighted reservoir sampling over all.
-vec3 SamplePunctual(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, float U)
+// Samples one light with a probability proportional to EstimateLight, by weighted reservoir sampling over all.
+// U: chooses the light; PointU: the point on one with an extent.
+vec3 SampleLocalLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, float U, vec2 PointU)
 {
 	FLightRef Lights = FLightRef(Scene.Lights);
-	float TotalWeight = 0.0, ChosenWeight = 0.0, ChosenDistance = 0.0;
-	vec3 ChosenIrradiance = vec3(0.0), ChosenToLight = vec3(0.0);
+	float TotalWeight = 0.0, ChosenWeight = 0.0;
+	uint Chosen = 0u;
 	for (uint I = 0; I < Scene.LightCount; ++I)
 	{
-		vec3 ToLight;
-		float Distance;
-		vec3 Irradiance = PunctualIrradiance(Lights.Data[I], P, ToLight, Distance);
-		float Weight = Luminance(Irradiance);
-		if (Weight <= 0.0 || dot(ToLight, Ng) <= 0.0) { continue; }
+		float Weight = EstimateLight(Scene, Lights.Data[I], P, Ng);
+		if (Weight <= 0.0) { continue; }
 		TotalWeight += Weight;
 		float Probability = Weight / TotalWeight;
 		if (U < Probability)
 		{
 			U /= Probability;
 			ChosenWeight = Weight;
-			ChosenIrradiance = Irradiance;
-			ChosenToLight = ToLight;
-			ChosenDistance = Distance;
+			Chosen = I;
 		}
 		else { U = (U - Probability) / (1.0 - Probability); }
 		U = min(U, 0.99999994);
 	}
 	if (ChosenWeight <= 0.0) { return vec3(0.0); }
-	vec3 BrdfCos = EvaluateBrdfCos(Brdf, V, ChosenToLight * Basis);
-	if (MaxComponent(BrdfCos) <= 0.0 || !IsVisible(Scene, P, ChosenToLight, ChosenDistance)) { return vec3(0.0); }
-	return BrdfCos * ChosenIrradiance * (TotalWeight / ChosenWeight);
+	FLightData Light = Lights.Data[Chosen];
+	FLightSample Sample = SampleLight(Scene, Light, P, PointU);
+	if (MaxComponent(Sample.Irradiance) <= 0.0 || dot(Sample.Direction, Ng) <= 0.0) { return vec3(0.0); }
+	vec3 BrdfCos = EvaluateBrdfCos(Brdf, V, Sample.Direction * Basis);
+	if (MaxComponent(BrdfCos) <= 0.0) { return vec3(0.0); }
+	bool bCastsShadow = (Light.Flags & LIGHT_CASTS_SHADOW) != 0u;
+	if (bCastsShadow && !IsVisible(Scene, P, Sample.Direction, Sample.Distance)) { return vec3(0.0); }
+	return BrdfCos * Sample.Irradiance * (TotalWeight / ChosenWeight);
 }
 #endif
 
@@ -125,7 +126,7 @@ vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 
 }
 #endif
 
-// Sums one sample of each kind of light. Takes eight random numbers, whatever kinds there are.
+// Sums one sample of each kind of light. Takes eight random numbers, and four more where lights have an extent.
 vec3 SampleLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, inout FRandom Random)
 {
 	vec3 L = vec3(0.0);
@@ -139,7 +140,11 @@ vec3 SampleLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P,
 	L += SampleSky(Scene, Brdf, Basis, V, P, Ng, U0.zw);
 #endif
 #ifdef HAS_LIGHTS
-	L += SamplePunctual(Scene, Brdf, Basis, V, P, Ng, U1.w);
+	vec2 PointU = vec2(0.0);
+#ifdef HAS_AREA_LIGHTS
+	PointU = NextRandom4(Random).xy;
+#endif
+	L += SampleLocalLights(Scene, Brdf, Basis, V, P, Ng, U1.w, PointU);
 #endif
 #ifdef HAS_EMISSIVE
 	L += SampleEmissive(Scene, Brdf, Basis, V, P, Ng, U1.xyz);

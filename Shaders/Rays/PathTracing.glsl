@@ -1,6 +1,6 @@
 // Path tracing for ray generation shaders: the reference and the brute-force passes. Combines next-event estimation for each
 // kind of light with BRDF sampling by multiple importance sampling (Veach 1997), and ends paths by Russian roulette.
-// HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_EMISSIVE, HAS_MASKED: defined if the scene has such.
+// HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_AREA_LIGHTS, HAS_EMISSIVE, HAS_MASKED: defined if the scene has such.
 #ifndef LANTERN_PATH_TRACING_GLSL
 #define LANTERN_PATH_TRACING_GLSL
 
@@ -126,7 +126,7 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 	}
 }
 
-// Returns the indirect light that one lobe reflects at the first vertex of a path. It excludes the sun's disk and punctual
+// Returns the indirect light that one lobe reflects at the first vertex of a path. It excludes the sun's disk and local
 // lights that shine there directly; the lighting pass adds those. It includes the sky and emissive triangles.
 // Lobe: MakeWhiteLambert or MakeSpecularLobe. U: chooses the direction. Other parameters: see PathLights.glsl.
 // Only the lobe samples the sky. Light sampling would reduce no noise of a uniform sky, and it knows no bright spots of a map.

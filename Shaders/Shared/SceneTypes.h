@@ -2,6 +2,7 @@
 #ifndef LANTERN_SCENE_TYPES_H
 #define LANTERN_SCENE_TYPES_H
 
+#include "LightTypes.h"
 #include "SharedTypes.h"
 
 LANTERN_SHARED_BEGIN
@@ -163,23 +164,6 @@ LANTERN_ASSERT_SIZE(FObjectMotion, 72);
 
 #define OBJECT_MIRRORED 1u // negative determinant: front faces appear clockwise
 
-#define LIGHT_POINT 0u
-#define LIGHT_SPOT 1u
-#define LIGHT_DIRECTIONAL 2u
-
-// A punctual light, KHR_lights_punctual.
-struct FLightData
-{
-	vec3 Position; // relative to the scene's origin
-	uint Type;
-	vec3 Direction; // in which the light travels
-	float Range;    // metres; 0: unlimited
-	vec3 Color;     // intensity included: cd, or lux where directional
-	float SpotScale; // angular attenuation: saturate(cos · scale + offset)²
-	float SpotOffset;
-};
-LANTERN_ASSERT_SIZE(FLightData, 52);
-
 // An emissive triangle, for next-event estimation. Its corners are relative to the centre of the object's cell, so that they
 // stay valid when the scene's origin moves.
 struct FEmissiveTriangle
@@ -207,7 +191,7 @@ struct FSceneConstants
 	FAddress Materials; // FMaterialData[]
 	FAddress Lights;    // FLightData[]
 	FAddress EmissiveTriangles; // FEmissiveTriangle[]
-	uint LightCount;
+	uint LightCount;    // slots, free ones included; 0: no light
 	uint EmissiveTriangleCount;
 	float EmissivePower; // sum of EmissiveWeight · area over all emissive triangles
 	uint Tlas;           // index in the bindless heap

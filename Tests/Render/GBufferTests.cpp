@@ -113,7 +113,6 @@ TEST_F(FGBufferTest, PunctualLights)
 	Point.Color = {5, 10, 30};
 	Lights.AddLight(Point, glm::translate(glm::dmat4(1), {2.0, 1.5, 0.5}));
 	FHostLight Spot;
-	Spot.Type = LIGHT_SPOT;
 	Spot.Color = {40, 40, 40};
 	Spot.InnerCone = 0.2f;
 	Spot.OuterCone = 0.5f;
@@ -146,12 +145,13 @@ TEST_F(FGBufferTest, LightsByFormula)
 	SetSun(0.0, 0.0f);
 	// KHR_lights_punctual; the light is 2 m above the floor.
 	FSceneLight Light{};
-	Light.WorldPosition = {0, 2, 0};
-	Light.Data.Color = glm::vec3(30);
+	Light.Position = {0, 2, 0};
+	Light.Color = glm::vec3(30);
+	const FLightId Id = GetScene().GetScene().AddLight(Light);
 	for (const double Range : {0.0, 3.0})
 	{
-		Light.Data.Range = static_cast<float>(Range);
-		GetScene().GetScene().SetLights({Light});
+		Light.Range = static_cast<float>(Range);
+		GetScene().GetScene().SetLight(Id, Light);
 		for (const double X : {0.0, 1.5, 2.5})
 		{
 			const double Distance2 = X * X + 4.0;
@@ -159,13 +159,12 @@ TEST_F(FGBufferTest, LightsByFormula)
 			ExpectRadiance("point", X, 30.0 * Window / Distance2 * 2.0 / std::sqrt(Distance2));
 		}
 	}
-	Light.Data.Type = LIGHT_SPOT;
-	Light.Data.Range = 0.0f;
-	Light.Data.Direction = {0, -1, 0};
+	Light.Range = 0.0f;
+	Light.Direction = {0, -1, 0};
 	const double Inner = 0.3, Outer = 0.7;
-	Light.Data.SpotScale = static_cast<float>(1.0 / (std::cos(Inner) - std::cos(Outer)));
-	Light.Data.SpotOffset = static_cast<float>(-std::cos(Outer)) * Light.Data.SpotScale;
-	GetScene().GetScene().SetLights({Light});
+	Light.InnerCone = static_cast<float>(Inner);
+	Light.OuterCone = static_cast<float>(Outer);
+	GetScene().GetScene().SetLight(Id, Light);
 	for (const double Angle : {0.0, 0.25, 0.4, 0.6, 0.75})
 	{
 		const double X = 2.0 * std::tan(Angle), Distance2 = X * X + 4.0;

@@ -237,11 +237,11 @@ TEST_F(FSceneChangeTest, LightChangesAtOnce)
 	EXPECT_NEAR(MeanGreen(RenderLighting(View)), 0.5, 0.01);
 	SetSky({0, 0, 0});
 	FSceneLight Light{};
-	Light.WorldPosition = {0, 2, 0};
-	Light.Data.Color = glm::vec3(10);
-	GetScene().GetScene().SetLights({Light});
+	Light.Position = {0, 2, 0};
+	Light.Color = glm::vec3(10);
+	const FLightId Id = GetScene().GetScene().AddLight(Light);
 	EXPECT_GT(MeanGreen(RenderLighting(View)), 0.1);
-	GetScene().GetScene().SetLights({});
+	GetScene().GetScene().RemoveLight(Id);
 	EXPECT_EQ(MeanGreen(RenderLighting(View)), 0.0);
 }
 

@@ -8,6 +8,7 @@
 #include "Bench/BenchFrame.h"
 #include "Bench/BenchGather.h"
 #include "Bench/BenchGrowth.h"
+#include "Bench/BenchLights.h"
 #include "Bench/BenchPipelines.h"
 #include "Bench/BenchRaysCommand.h"
 #include "Bench/BenchShaders.h"
@@ -24,6 +25,7 @@ struct FBenchCommands::FOptions
 	FBenchAnyHitOptions BenchAnyHit;
 	FBenchTablesOptions BenchTables;
 	FBenchGatherOptions BenchGather;
+	FBenchLightsOptions BenchLights;
 	FBenchPipelinesOptions BenchPipelines;
 	FBenchShadersOptions BenchShaders;
 	FBenchUploadsOptions BenchUploads;
@@ -56,6 +58,9 @@ void FBenchCommands::AddTo(CLI::App& App, int& Status)
 	    "gather", "Which instances of a world 32 km across rays see: by buckets against a plain loop; needs no device");
 	Options->BenchGather.AddTo(*Gather);
 	Gather->final_callback([&Options = Options->BenchGather, &Status] { Status = RunBenchGather(Options); });
+	CLI::App* const Lights = Command->add_subcommand("lights", "The render thread's time for lights that come, move and go");
+	Options->BenchLights.AddTo(*Lights);
+	Lights->final_callback([&Options = Options->BenchLights, &Status] { Status = RunBenchLights(Options); });
 	CLI::App* const Pipelines = Command->add_subcommand("rtpso", "Pipelines made whole and from libraries, and what frames notice of it");
 	Options->BenchPipelines.AddTo(*Pipelines);
 	Pipelines->final_callback([&Options = Options->BenchPipelines, &Status] { Status = RunBenchPipelines(Options); });

@@ -328,31 +328,39 @@ FView FHostScene::MakeDefaultView(uint32_t Width, uint32_t Height) const
 	return View;
 }
 
+/// Places the light of a node. glTF lights shine along −z of it; scales do not change them.
+FSceneLight FHostScene::MakeLight(uint32_t Node) const
+{
+	const FHostLight& Source = Description.Lights[Description.Nodes[Node].Light];
+	const glm::dmat4& World = Pose.World[Node];
+	FSceneLight Light = Source;
+	Light.Position = glm::dvec3(World[3]);
+	const glm::dvec3 Axis = -glm::dvec3(World[2]), Side(World[0]);
+	const bool bFlat = !(glm::length(glm::cross(Axis, Side)) > 0.0); // scaled to nothing
+	Light.Direction = bFlat ? glm::vec3(0, -1, 0) : glm::vec3(glm::normalize(Axis));
+	Light.Tangent = bFlat ? glm::vec3(1, 0, 0) : glm::vec3(glm::normalize(Side));
+	// A light that is off keeps its slot, since methods may remember lights by it.
+	if (!IsLightOn(Source, LightTime)) { Light.Color = glm::vec3(0); }
+	return Light;
+}
+
 void FHostScene::UpdateLights()
 {
-	std::vector<FSceneLight> Lights;
 	const int32_t OwnSun = FindOwnSun();
-	for (uint32_t Node = 0; bSceneLights && Node < Description.Nodes.size(); ++Node)
+	LightIds.resize(Description.Nodes.size());
+	for (uint32_t Node = 0; Node < Description.Nodes.size(); ++Node)
 	{
-		if (Description.Nodes[Node].Light < 0 || static_cast<int32_t>(Node) == OwnSun) { continue; }
-		const FHostLight& Source = Description.Lights[Description.Nodes[Node].Light];
-		const glm::dmat4& World = Pose.World[Node];
-		FSceneLight Light{};
-		Light.WorldPosition = glm::dvec3(World[3]);
-		Light.Data.Type = Source.Type;
-		// glTF lights shine along −z of their node.
-		const glm::dvec3 Axis = -glm::dvec3(World[2]);
-		Light.Data.Direction = glm::length(Axis) > 0.0 ? glm::vec3(glm::normalize(Axis)) : glm::vec3(0, -1, 0);
-		// A light that is off keeps its index, since methods may remember lights by index.
-		Light.Data.Color = IsLightOn(Source, LightTime) ? Source.Color : glm::vec3(0);
-		Light.Data.Range = Source.Range;
-		// KHR_lights_punctual, "Inner and Outer Cone Angles".
-		const float CosOuter = std::cos(Source.OuterCone);
-		Light.Data.SpotScale = 1.0f / std::max(0.001f, std::cos(Source.InnerCone) - CosOuter);
-		Light.Data.SpotOffset = -CosOuter * Light.Data.SpotScale;
-		Lights.push_back(Light);
+		if (Description.Nodes[Node].Light < 0) { continue; }
+		FLightId& Id = LightIds[Node];
+		if (!bSceneLights || static_cast<int32_t>(Node) == OwnSun)
+		{
+			if (Id.IsValid()) { Scene.RemoveLight(std::exchange(Id, {})); }
+			continue;
+		}
+		const FSceneLight Light = MakeLight(Node);
+		if (!Id.IsValid()) { Id = Scene.AddLight(Light); }
+		else if (Scene.GetLights().Get(Id) != Light) { Scene.SetLight(Id, Light); }
 	}
-	Scene.SetLights(std::move(Lights));
 }
 
 } // namespace Lantern

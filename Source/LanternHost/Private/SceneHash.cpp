@@ -156,7 +156,8 @@ public:
 	{
 		Hash.Add(V.Type);
 		AddFloats(V.Color);
-		AddAll(V.Range, V.InnerCone, V.OuterCone);
+		AddAll(V.Range, V.InnerCone, V.OuterCone, V.bCastsShadow, V.bTwoSided);
+		AddFloats(V.Size);
 		if (V.FlickerHz > 0.0f) { AddAll(V.FlickerHz, V.FlickerDuty, V.FlickerPhase); }
 	}
 

@@ -93,7 +93,7 @@ FLightSwitch::FLightSwitch(FHostScene& Scene)
 {
 	Before = After = Scene.GetScene().GetSun();
 	bSun = Before.Irradiance > 0.0f;
-	bLights = !bSun && Scene.HasSceneLights() && !Scene.GetScene().GetLights().empty();
+	bLights = !bSun && Scene.HasSceneLights() && Scene.GetScene().GetLights().GetCount() > 0;
 	if (!bSun) { return; }
 	const glm::dvec3 Direction = glm::normalize(Before.Direction);
 	const glm::dvec3 Level(Direction.x, 0.0, Direction.z);

@@ -40,13 +40,11 @@ void AddLights(FContentHasher& Hash, const FRTScene& Scene)
 	Hash.Add(Sun.Irradiance);
 	Hash.Add(Sun.AngularDiameter);
 	AddVector(Hash, Scene.GetSky());
-	Hash.Add(static_cast<uint64_t>(Scene.GetLights().size()));
-	for (const FSceneLight& Light : Scene.GetLights())
+	for (uint32_t Slot = 0; Slot < Scene.GetLights().GetSlotCount(); ++Slot)
 	{
-		FLightData Data = Light.Data;
-		Data.Position = {}; // depends on where the scene's origin is
+		const FLightData& Data = Scene.GetLights().GetTable()[Slot]; // which does not depend on the scene's origin
+		static_assert(sizeof(FLightData) == 56, "hashed as bytes: no padding");
 		Hash.AddBytes(&Data, sizeof(Data));
-		AddVector(Hash, Light.WorldPosition);
 	}
 }
 

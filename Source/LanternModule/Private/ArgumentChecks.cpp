@@ -104,24 +104,81 @@ FRTStatus CheckSun(const FRTModuleSun& Sun)
 	return FRTStatus::Success();
 }
 
+bool HasCone(const FRTModuleLight& Light)
+{
+	return Light.Type == ERTModuleLight::Spot || (Light.Type >= ERTModuleLight::Rectangle && Light.bCone);
+}
+
+bool NeedsDirection(const FRTModuleLight& Light)
+{
+	return Light.Type == ERTModuleLight::Directional || Light.Type == ERTModuleLight::Rectangle || Light.Type == ERTModuleLight::Disk ||
+	       HasCone(Light);
+}
+
+bool NeedsTangent(const FRTModuleLight& Light) { return Light.Type == ERTModuleLight::Rectangle || Light.Type == ERTModuleLight::Tube; }
+
+namespace
+{
+FRTStatus CheckLightAxes(const FRTModuleLight& Light)
+{
+	const glm::dvec3 Direction(Light.Direction[0], Light.Direction[1], Light.Direction[2]);
+	const glm::dvec3 Tangent(Light.Tangent[0], Light.Tangent[1], Light.Tangent[2]);
+	const auto IsAxis = [](const glm::dvec3& Axis) { return length(Axis) > 0.0 && std::isfinite(length(Axis)); };
+	if (NeedsDirection(Light) && !IsAxis(Direction)) { return Refuse("FRTModuleLight::Direction is zero or not finite"); }
+	if (!NeedsTangent(Light)) { return FRTStatus::Success(); }
+	if (!IsAxis(Tangent)) { return Refuse("FRTModuleLight::Tangent is zero or not finite"); }
+	const bool bAlong = Light.Type == ERTModuleLight::Rectangle && length(cross(normalize(Direction), normalize(Tangent))) < 1e-3;
+	return bAlong ? Refuse("FRTModuleLight::Tangent is along Direction") : FRTStatus::Success();
+}
+
+FRTStatus CheckLightSize(const FRTModuleLight& Light)
+{
+	struct FMember
+	{
+		const char* Name;
+		float Value;
+		bool bCounts;
+	};
+	constexpr float MostLength = 1e9f; // its square and the next ones are numbers
+	const bool bRectangle = Light.Type == ERTModuleLight::Rectangle;
+	const FMember Members[] = {{"Width", Light.Width, bRectangle}, {"Height", Light.Height, bRectangle},
+	    {"Radius", Light.Radius, Light.Type > ERTModuleLight::Rectangle}};
+	for (const FMember& Member : Members)
+	{
+		if (!Member.bCounts || (Member.Value > 0.0f && Member.Value <= MostLength)) { continue; }
+		return FRTStatus::Error(
+		    ERTResult::InvalidArgument, "FRTModuleLight::%s must be above 0 and at most 1e9, is %g", Member.Name, double(Member.Value));
+	}
+	if (Light.Type == ERTModuleLight::Tube && !(Light.Length >= 0.0f && Light.Length <= MostLength))
+	{
+		return Refuse("FRTModuleLight::Length must lie between 0 and 1e9");
+	}
+	const bool bAngle = Light.AngularDiameter >= 0.0f && Light.AngularDiameter <= glm::pi<float>();
+	if (Light.Type == ERTModuleLight::Directional && !bAngle)
+	{
+		return Refuse("FRTModuleLight::AngularDiameter must lie between 0 and pi (radians)");
+	}
+	return FRTStatus::Success();
+}
+} // namespace
+
 FRTStatus CheckLight(const FRTModuleLight& Light)
 {
-	const bool bDirected = Light.Type != ERTModuleLight::Point;
-	const float Length = length(glm::vec3(Light.Direction[0], Light.Direction[1], Light.Direction[2]));
-	if (Light.Type > ERTModuleLight::Directional) { return Refuse("FRTModuleLight::Type is none"); }
+	constexpr float MostColor = 1e20f; // divided by the square of the least distance, and reflected: still a number
+	if (Light.Type > ERTModuleLight::Tube) { return Refuse("FRTModuleLight::Type is none"); }
 	if (Light.Type != ERTModuleLight::Directional && !AreFinite(Light.Position, 3))
 	{
 		return Refuse("FRTModuleLight::Position is not finite");
 	}
-	if (bDirected && (!(Length > 0.0f) || !std::isfinite(Length))) { return Refuse("FRTModuleLight::Direction is zero or not finite"); }
-	if (!std::all_of(Light.Color, Light.Color + 3, [](float C) { return std::isfinite(C) && C >= 0.0f; }))
+	if (!std::all_of(Light.Color, Light.Color + 3, [](float C) { return C >= 0.0f && C <= MostColor; }))
 	{
-		return Refuse("FRTModuleLight::Color must be finite and not negative");
+		return Refuse("FRTModuleLight::Color must lie between 0 and 1e20");
 	}
 	if (!(Light.Range >= 0.0f) || !std::isfinite(Light.Range)) { return Refuse("FRTModuleLight::Range must be finite and not negative"); }
 	const bool bCones = Light.InnerCone >= 0.0f && Light.InnerCone < Light.OuterCone && Light.OuterCone <= glm::half_pi<float>();
-	if (Light.Type == ERTModuleLight::Spot && !bCones) { return Refuse("FRTModuleLight: 0 ≤ InnerCone < OuterCone ≤ pi/2 does not hold"); }
-	return FRTStatus::Success();
+	if (HasCone(Light) && !bCones) { return Refuse("FRTModuleLight: 0 ≤ InnerCone < OuterCone ≤ pi/2 does not hold"); }
+	if (const FRTStatus Status = CheckLightAxes(Light); !Status) { return Status; }
+	return CheckLightSize(Light);
 }
 
 FRTStatus CheckTransform(const double Transform[12])

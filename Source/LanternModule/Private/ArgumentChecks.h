@@ -12,6 +12,10 @@ FRTStatus CheckSun(const FRTModuleSun& Sun);
 FRTStatus CheckSky(const float Radiance[3]);
 FRTStatus CheckSkyMap(const FRTModuleSkyMap& Map);
 FRTStatus CheckLight(const FRTModuleLight& Light);
+/// What of a light counts, by its type.
+bool HasCone(const FRTModuleLight& Light);
+bool NeedsDirection(const FRTModuleLight& Light);
+bool NeedsTangent(const FRTModuleLight& Light);
 FRTStatus CheckTransform(const double Transform[12]);
 FRTStatus CheckMaterial(const FRTModuleMaterial& Material);
 

@@ -16,20 +16,53 @@ namespace Lantern
 namespace
 {
 
+uint32_t ToLightType(ERTModuleLight Type)
+{
+	switch (Type)
+	{
+	case ERTModuleLight::Point:
+	case ERTModuleLight::Spot: return LIGHT_POINT;
+	case ERTModuleLight::Directional: return LIGHT_DIRECTIONAL;
+	case ERTModuleLight::Rectangle: return LIGHT_RECTANGLE;
+	case ERTModuleLight::Disk: return LIGHT_DISK;
+	case ERTModuleLight::Sphere: return LIGHT_SPHERE;
+	case ERTModuleLight::Tube: return LIGHT_TUBE;
+	}
+	return LIGHT_NONE;
+}
+
+glm::vec2 ToLightSize(const FModuleWorld& World, const FRTModuleLight& From)
+{
+	const auto Metres = [&World](float Length) { return static_cast<float>(World.ToMeters(double(Length))); };
+	switch (From.Type)
+	{
+	case ERTModuleLight::Directional: return {From.AngularDiameter, 0.0f};
+	case ERTModuleLight::Rectangle: return {Metres(From.Width), Metres(From.Height)};
+	case ERTModuleLight::Disk:
+	case ERTModuleLight::Sphere: return {Metres(From.Radius), 0.0f};
+	case ERTModuleLight::Tube: return {Metres(From.Radius), Metres(From.Length)};
+	default: return glm::vec2(0);
+	}
+}
+
+/// From: checked.
 FSceneLight ToSceneLight(const FModuleWorld& World, const FRTModuleLight& From)
 {
-	static_assert(uint32_t(ERTModuleLight::Point) == LIGHT_POINT && uint32_t(ERTModuleLight::Spot) == LIGHT_SPOT);
-	static_assert(uint32_t(ERTModuleLight::Directional) == LIGHT_DIRECTIONAL);
-	FSceneLight Light{};
-	Light.WorldPosition = World.ToPosition(From.Position);
-	Light.Data.Type = static_cast<uint32_t>(From.Type);
-	if (From.Type != ERTModuleLight::Point) { Light.Data.Direction = glm::vec3(normalize(World.ToDirection(From.Direction))); }
-	Light.Data.Range = static_cast<float>(World.ToMeters(double(From.Range)));
-	Light.Data.Color = {From.Color[0], From.Color[1], From.Color[2]};
-	// As KHR_lights_punctual says.
-	const float CosOuter = std::cos(From.OuterCone);
-	Light.Data.SpotScale = 1.0f / std::max(0.001f, std::cos(From.InnerCone) - CosOuter);
-	Light.Data.SpotOffset = -CosOuter * Light.Data.SpotScale;
+	FSceneLight Light;
+	Light.Type = ToLightType(From.Type);
+	Light.Position = World.ToPosition(From.Position);
+	if (NeedsDirection(From)) { Light.Direction = glm::vec3(normalize(World.ToDirection(From.Direction))); }
+	if (NeedsTangent(From)) { Light.Tangent = glm::vec3(normalize(World.ToDirection(From.Tangent))); }
+	Light.Color = {From.Color[0], From.Color[1], From.Color[2]};
+	Light.Range = static_cast<float>(World.ToMeters(double(From.Range)));
+	if (HasCone(From))
+	{
+		Light.InnerCone = From.InnerCone;
+		Light.OuterCone = From.OuterCone;
+	}
+	Light.Size = ToLightSize(World, From);
+	Light.bCastsShadow = From.bCastsShadow;
+	Light.bTwoSided = From.bTwoSided;
 	return Light;
 }
 
@@ -221,6 +254,11 @@ FRTStatus FSceneCalls::AddLight(const FRTModuleLight& Light, ERTLightHandle* Out
 	*Out = ERTLightHandle::None;
 	if (const FRTStatus Status = CheckLight(Light); !Status) { return Status; }
 	std::lock_guard Lock(Mutex);
+	if (LightCount == FLightStore::MaxLights)
+	{
+		return FRTStatus::Error(ERTResult::Unsupported, "AddLight: there are 2^24 lights, and no more have an index");
+	}
+	++LightCount;
 	*Out = Lights.Add({});
 	const FTicket Ticket = AddArrival(FLightCommand{Lights.GetSlot(*Out), ToSceneLight(World, Light)});
 	Lights.Find(*Out)->Ticket = Ticket;
@@ -242,6 +280,7 @@ FRTStatus FSceneCalls::RemoveLight(ERTLightHandle Handle)
 	std::lock_guard Lock(Mutex);
 	if (Lights.Find(Handle) == nullptr) { return RefuseHandle("RemoveLight", "light"); }
 	Lights.Remove(Handle);
+	--LightCount;
 	AddArrival(FLightCommand{Lights.GetSlot(Handle), std::nullopt});
 	return FRTStatus::Success();
 }

@@ -151,7 +151,7 @@ private:
 	TSlotTable<FObject, ERTObjectHandle> Objects{Tag};
 	TSlotTable<FLight, ERTLightHandle> Lights{Tag};
 	FMaterialTextures SkyTextures; ///< of the map that was set last
-	uint32_t ObjectCount = 0;
+	uint32_t ObjectCount = 0, LightCount = 0;
 	std::deque<FSceneCommand> Arrivals; ///< and departures, and updates that wait for them
 	std::vector<FSceneCommand> Updates;
 	FTicket LastArrival = 0, LastTaken = 0; ///< counts Arrivals: added and taken so far

@@ -29,13 +29,6 @@ void FSceneState::Apply(std::vector<FSceneCommand>& Commands)
 	}
 	Commands.clear();
 	ChangeMeshes(~0u);
-	if (!std::exchange(bLightsChanged, false)) { return; }
-	std::vector<FSceneLight> All;
-	for (const std::optional<FSceneLight>& Light : Lights)
-	{
-		if (Light) { All.push_back(*Light); }
-	}
-	Scene.SetLights(std::move(All));
 }
 
 FSceneValues FSceneState::Describe() const
@@ -51,7 +44,11 @@ FSceneValues FSceneState::Describe() const
 	{
 		if (Objects[Slot].IsValid()) { Out.Transforms[Slot] = Scene.GetObject(Objects[Slot]).Transform; }
 	}
-	Out.Lights = Lights;
+	Out.Lights.resize(Lights.size());
+	for (size_t Slot = 0; Slot < Lights.size(); ++Slot)
+	{
+		if (Lights[Slot].IsValid()) { Out.Lights[Slot] = Scene.GetLights().Get(Lights[Slot]); }
+	}
 	Out.Sun = Scene.GetSun();
 	Out.Sky = Scene.GetSky();
 	return Out;
@@ -183,8 +180,10 @@ void FSceneState::Do(FDeformedCommand& Command)
 
 void FSceneState::Do(FLightCommand& Command)
 {
-	GetSlot(Lights, Command.Slot) = Command.Light;
-	bLightsChanged = true;
+	FLightId& Id = GetSlot(Lights, Command.Slot);
+	if (!Command.Light) { Scene.RemoveLight(std::exchange(Id, {})); }
+	else if (Id.IsValid()) { Scene.SetLight(Id, *Command.Light); }
+	else { Id = Scene.AddLight(*Command.Light); }
 }
 
 std::vector<uint32_t> FSceneState::GetMaterials(const std::vector<uint32_t>& Slots) const

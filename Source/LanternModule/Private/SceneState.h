@@ -82,8 +82,7 @@ private:
 	std::deque<FMesh> Meshes;                    ///< which grows without moving what is there
 	std::vector<FRTObjectId> Objects;            ///< invalid: its mesh has no geometry
 	std::map<uint32_t, FMeshChange> MeshChanges; ///< by slot of the object
-	std::vector<std::optional<FSceneLight>> Lights;
-	bool bLightsChanged = false;
+	std::vector<FLightId> Lights;
 	bool bEngineVertices = false;
 	std::vector<uint32_t> Deformed, RecordedVertices; ///< slots of meshes with new vertices; of those in this frame
 	std::vector<FBufferUploadRef> Filled;

@@ -9,7 +9,9 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<bool> CVarEnable("r.RT.Enable", true, "All of the plugin's ray-traced features.");
-}
+TRTConsoleVariable<bool> CVarLightArea(
+    "r.RT.Debug.Lights.Area", true, "Planted fault. Off: lights with an extent have half of it in their density.");
+} // namespace
 
 bool IsRayTracingEnabled() { return CVarEnable.GetOnRenderThread(); }
 
@@ -64,6 +66,8 @@ FShaderDefines MakeFactDefines(const FSceneFacts& Facts)
 	Add(Facts.bSun, "HAS_SUN");
 	Add(Facts.bSky, "HAS_SKY");
 	Add(Facts.Lights > 0, "HAS_LIGHTS");
+	Add(Facts.bAreaLights, "HAS_AREA_LIGHTS");
+	Add(Facts.bAreaLights && !CVarLightArea.GetOnRenderThread(), "HALF_LIGHT_AREA");
 	Add(Facts.bMasked, "HAS_MASKED");
 	return Defines;
 }

@@ -118,7 +118,10 @@ TEST_F(FFrameGraphTaskTest, PassesAreRecordedAtOnce)
 	FWakeWorkers Wake;
 	Graph.AddPass("Waits", [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.NeverCull();
-		return [&](FPassContext&) { bSeen = WaitUntil("the task's pass", [&] { return bStarted.load(); }, std::ref(Wake)); };
+		return [&](FPassContext&) {
+			bSeen = WaitUntil(
+			    "the task's pass", [&] { return bStarted.load(); }, std::ref(Wake));
+		};
 	});
 	AddTaskPass(Graph, "Starts", {}, {}, [&] { bStarted = true; });
 	ASSERT_TRUE(ExecuteOnTasks(Graph).IsOk());

@@ -218,7 +218,8 @@ FRTStatus AddObjects(FModulePlay& Play)
 FRTModuleLight MakeLight(FModulePlay& Play)
 {
 	FRTModuleLight Light;
-	constexpr ERTModuleLight Types[] = {ERTModuleLight::Spot, ERTModuleLight::Point, ERTModuleLight::Directional};
+	constexpr ERTModuleLight Types[] = {ERTModuleLight::Spot, ERTModuleLight::Point, ERTModuleLight::Directional, ERTModuleLight::Rectangle,
+	    ERTModuleLight::Disk, ERTModuleLight::Sphere, ERTModuleLight::Tube};
 	Light.Type = Types[Play.Choose() % std::size(Types)];
 	if (Light.Type != ERTModuleLight::Directional)
 	{
@@ -230,6 +231,14 @@ FRTModuleLight MakeLight(FModulePlay& Play)
 		Light.InnerCone = Play.Float("InnerCone", 0.1f);
 		Light.OuterCone = Play.Float("OuterCone", 0.5f);
 	}
+	if (Light.Type == ERTModuleLight::Rectangle)
+	{
+		for (int Axis = 0; Axis < 3; ++Axis) { Light.Tangent[Axis] = Play.Float("Tangent", Axis == 0 ? 1.0f : 0.0f); }
+		Light.Width = Play.Float("Width", 0.5f);
+		Light.Height = Play.Float("Height", 0.25f);
+	}
+	else if (Light.Type > ERTModuleLight::Rectangle) { Light.Radius = Play.Float("Radius", 0.1f); }
+	if (Light.Type == ERTModuleLight::Tube) { Light.Length = Play.Float("Length", 1.0f); }
 	for (float& Channel : Light.Color) { Channel = Play.Float("Color", 3.0f); }
 	Light.Range = Play.Float("Range", 0.0f);
 	return Light;

@@ -253,43 +253,6 @@ TEST_F(FModuleSceneTest, WhoSeesAnObjectIsForTheEngineToSay)
 	EXPECT_REFUSED(Renderer->SetObjectVisible(ERTObjectHandle::None, true), "SetObjectVisible: no such object");
 }
 
-TEST_F(FModuleSceneTest, LightsComeChangeAndGo)
-{
-	ASSERT_OK(AddObject(AddOpaqueMesh(), Solid));
-	FRTModuleLight Lamp;
-	Lamp.Color[1] = 40.0f;
-	Lamp.Position[0] = 3.0;
-	ERTLightHandle First = ERTLightHandle::None, Second = ERTLightHandle::None;
-	ASSERT_OK(Renderer->AddLight(Lamp, &First));
-	Lamp.Type = ERTModuleLight::Spot;
-	Lamp.Direction[1] = -2.0f;
-	ASSERT_OK(Renderer->AddLight(Lamp, &Second));
-	FSceneConstants Constants = ReadConstants(DescribeFrame());
-	ASSERT_EQ(Constants.LightCount, 2u);
-	auto Light = ReadEntry<FLightData>(Constants.Lights, 0);
-	EXPECT_EQ(Light.Type, LIGHT_POINT);
-	EXPECT_EQ(Light.Position, glm::vec3(3, 0, 0));
-	EXPECT_EQ(Light.Color, glm::vec3(0, 40, 0));
-	Light = ReadEntry<FLightData>(Constants.Lights, 1);
-	EXPECT_EQ(Light.Type, LIGHT_SPOT);
-	EXPECT_EQ(Light.Direction, glm::vec3(0, -1, 0));
-	EXPECT_NEAR(Light.SpotScale * std::cos(0.7853982f) + Light.SpotOffset, 0.0f, 1e-5f) << "dark at the outer cone";
-	EXPECT_NEAR(Light.SpotScale + Light.SpotOffset, 1.0f, 1e-5f) << "bright on the axis";
-	ASSERT_OK(Renderer->RemoveLight(First));
-	Lamp.Color[1] = 10.0f;
-	ASSERT_OK(Renderer->SetLight(Second, Lamp));
-	Constants = ReadConstants(DescribeFrame());
-	ASSERT_EQ(Constants.LightCount, 1u);
-	EXPECT_EQ(ReadEntry<FLightData>(Constants.Lights, 0).Color, glm::vec3(0, 10, 0));
-	EXPECT_REFUSED(Renderer->SetLight(First, Lamp), "no such light");
-	EXPECT_REFUSED(Renderer->RemoveLight(First), "no such light");
-	Lamp.OuterCone = 2.0f;
-	EXPECT_REFUSED(Renderer->SetLight(Second, Lamp), "OuterCone");
-	Lamp.OuterCone = 0.5f;
-	Lamp.Color[0] = -1.0f;
-	EXPECT_REFUSED(Renderer->SetLight(Second, Lamp), "Color");
-}
-
 TEST_F(FModuleSceneTest, TheEnginesGpuMayWriteVertices)
 {
 	FRTModuleMeshBuffer Where;

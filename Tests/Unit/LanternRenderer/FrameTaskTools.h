@@ -171,7 +171,8 @@ protected:
 	}
 	bool WaitForEvent(const std::string& Name)
 	{
-		return WaitUntil("the task " + Name, [&] { return CountEvents(Name) > 0; }, std::ref(Wake));
+		return WaitUntil(
+		    "the task " + Name, [&] { return CountEvents(Name) > 0; }, std::ref(Wake));
 	}
 	void StartTrace()
 	{

@@ -21,7 +21,7 @@ TEST_F(FSceneObjectTest, StaticSecondFrameDoesNothing)
 	const uint32_t Material = Scene->AddMaterial(MakeMaterial());
 	const FRTGeometryRef Tree = MakeGeometry("Tree", 1);
 	for (int I = 0; I < 100; ++I) { Add(Tree, {Material}, {I, 0, 0}); }
-	Scene->SetLights(std::vector<FSceneLight>(3));
+	for (int I = 0; I < 3; ++I) { Scene->AddLight({}); }
 	Frame();
 	EXPECT_EQ(Scene->GetStats().GeometriesBuilt, 1u);
 	EXPECT_EQ(Scene->GetStats().InstancesWritten, 100u);
@@ -323,19 +323,19 @@ TEST_F(FSceneObjectTest, SceneGrowsAndEmpties)
 	EXPECT_EQ(Scene->GetSections().GetRangeCount(), 0u);
 }
 
-TEST_F(FSceneObjectTest, LightsMoveWithTheOrigin)
+TEST_F(FSceneObjectTest, LightsStayWhenTheOriginMoves)
 {
-	FSceneLight Light{};
-	Light.WorldPosition = {16'001.5, 2, 3};
-	Scene->SetLights({Light, Light});
+	FSceneLight Light;
+	Light.Position = {16'001.5, 2, 3};
+	const FLightId Ids[] = {Scene->AddLight(Light), Scene->AddLight(Light)};
 	Frame({16'000, 0, 0});
 	const FSceneConstants Constants = Scene->GetConstants();
 	EXPECT_EQ(Constants.LightCount, 2u);
-	EXPECT_NEAR(Read<FLightData>(Constants.Lights, 1).Position.x + Scene->GetOrigin().x, 16'001.5, 1e-4);
+	EXPECT_EQ(Read<FLightData>(Constants.Lights, 1).Position.x, static_cast<int32_t>(16'001.5 * LIGHT_POSITION_STEPS));
 	Frame({0, 0, 0});
 	EXPECT_EQ(Scene->GetOrigin(), glm::dvec3(0));
-	EXPECT_NEAR(Read<FLightData>(Constants.Lights, 1).Position.x, 16'001.5, 2e-3);
-	Scene->SetLights({});
+	EXPECT_EQ(Scene->GetStats().BytesCopied, 0u);
+	for (const FLightId Id : Ids) { Scene->RemoveLight(Id); }
 	Frame();
 	EXPECT_EQ(Scene->GetConstants().LightCount, 0u);
 	EXPECT_EQ(Scene->GetFacts().Lights, 0u);
@@ -422,7 +422,7 @@ TEST_F(FSceneObjectTest, LostFrameIsRecordedAgain)
 	const uint32_t Material = Scene->AddMaterial(MakeMaterial(0, 1.0f));
 	const FRTGeometryRef Body = MakeGeometry("Body", 1, {.bDynamic = true});
 	const FRTObjectId Id = Add(Body, {Material});
-	Scene->SetLights(std::vector<FSceneLight>(2));
+	for (int I = 0; I < 2; ++I) { Scene->AddLight({}); }
 	const auto LoseOne = [&] {
 		TRTRef<IRTCommandList> List;
 		ASSERT_TRUE(Device->CreateCommandList("Lost", List.ReleaseAndGetAddress()));

@@ -42,7 +42,7 @@ void FJson::RequireObject() const
 	if (!Value->is_object()) { Fail(fmt::format("expected an object, found {}", Value->type_name())); }
 }
 
-FJson FJson::Member(const char* MemberKey) const
+FJson FJson::Member(const char* MemberKey) const&
 {
 	if (Value == nullptr) { return FJson(nullptr, this, MemberKey, 0); }
 	RequireObject();
@@ -50,7 +50,7 @@ FJson FJson::Member(const char* MemberKey) const
 	return FJson(Found == Value->end() ? nullptr : &*Found, this, MemberKey, 0);
 }
 
-FJson FJson::Extension(const char* Name) const
+FJson FJson::Extension(const char* Name) const&
 {
 	if (Value == nullptr) { return {}; }
 	RequireObject();
@@ -69,7 +69,7 @@ size_t FJson::Count() const
 	return Value->size();
 }
 
-FJson FJson::Element(size_t ElementIndex) const { return FJson(&(*Value)[ElementIndex], this, nullptr, ElementIndex); }
+FJson FJson::Element(size_t ElementIndex) const& { return FJson(&(*Value)[ElementIndex], this, nullptr, ElementIndex); }
 
 std::string FJson::Dump() const { return Value != nullptr ? Value->dump() : std::string(); }
 

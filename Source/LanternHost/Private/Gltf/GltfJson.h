@@ -32,10 +32,13 @@ public:
 	std::string GetPath() const;
 
 	/// Absent members are values that do not Exist(). It is an error if the value is no object or no array.
-	FJson Member(const char* Key) const;
-	FJson Extension(const char* Name) const;
+	FJson Member(const char* Key) const&;
+	FJson Extension(const char* Name) const&;
 	size_t Count() const; ///< 0 if absent
-	FJson Element(size_t Index) const;
+	FJson Element(size_t Index) const&;
+	FJson Member(const char* Key) const&& = delete; // the parent would be gone
+	FJson Extension(const char* Name) const&& = delete;
+	FJson Element(size_t Index) const&& = delete;
 	std::string Dump() const; ///< text that is equal for equal values
 
 	/// The value itself, which must exist and have the type.

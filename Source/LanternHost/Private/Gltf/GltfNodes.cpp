@@ -133,23 +133,72 @@ void ReadCameras(FDocument& Document, std::vector<int32_t>& OutRemap)
 	}
 }
 
+float ReadLength(const FJson& Json, const char* Name)
+{
+	constexpr float Most = 1e6f;
+	const float Length = Json.GetFloat(Name, 0.0f);
+	if (!(Length > 0.0f && Length <= Most)) { Json.Fail(fmt::format("its {} is not above 0 and at most 1e6 m", Name)); }
+	return Length;
+}
+
+/// Reads the shape of a light: extras.lantern of a light of KHR_lights_punctual. Loaders that do not know it see the light without
+/// extent. Candela are those along the axis, or across a tube.
+void ReadLightShape(const FJson& Json, FHostLight& Light)
+{
+	constexpr float Pi = 3.14159265f;
+	const FJson Extras = Json.Member("extras");
+	const FJson Shape = Extras.Member("lantern");
+	if (!Shape.Exists()) { return; }
+	Light.bCastsShadow = Shape.GetBool("castsShadow", true);
+	Light.bTwoSided = Shape.GetBool("twoSided", false);
+	if (Light.Type == LIGHT_DIRECTIONAL)
+	{
+		Light.Size.x = glm::clamp(Shape.GetFloat("angularDiameter", 0.0f), 0.0f, Pi);
+		return;
+	}
+	const std::string Name = Shape.GetString("shape", "");
+	float Area = 1.0f; // as seen from where the candela are given
+	if (Name == "rectangle")
+	{
+		Light.Type = LIGHT_RECTANGLE;
+		Light.Size = {ReadLength(Shape, "width"), ReadLength(Shape, "height")};
+		Area = Light.Size.x * Light.Size.y;
+	}
+	else if (Name == "disk" || Name == "sphere")
+	{
+		Light.Type = Name == "disk" ? LIGHT_DISK : LIGHT_SPHERE;
+		Light.Size.x = ReadLength(Shape, "radius");
+		Area = Pi * Light.Size.x * Light.Size.x;
+	}
+	else if (Name == "tube")
+	{
+		Light.Type = LIGHT_TUBE;
+		Light.Size = {ReadLength(Shape, "radius"), ReadLength(Shape, "length")};
+		Area = 2.0f * Light.Size.x * Light.Size.y + Pi * Light.Size.x * Light.Size.x;
+	}
+	else if (!Name.empty()) { Shape.Fail(fmt::format("{} is no shape of a light", Quote(Name))); }
+	Light.Color /= Area;
+	if (!glm::all(glm::lessThan(Light.Color, glm::vec3(1e30f)))) { Shape.Fail("the light is brighter than a float holds"); }
+}
+
 FHostLight ReadLight(const FJson& Json)
 {
 	FHostLight Light;
 	Light.Name = Json.GetString("name", "");
 	const std::string Type = Json.GetString("type", "");
 	if (Type != "point" && Type != "spot" && Type != "directional") { Json.Fail(fmt::format("{} is no type of light", Quote(Type))); }
-	Light.Type = Type == "point" ? LIGHT_POINT : Type == "spot" ? LIGHT_SPOT : LIGHT_DIRECTIONAL;
+	Light.Type = Type == "directional" ? LIGHT_DIRECTIONAL : LIGHT_POINT;
 	Light.Color = glm::max(Json.GetVec3("color", glm::vec3(1)), glm::vec3(0)) * std::max(Json.GetFloat("intensity", 1.0f), 0.0f);
 	if (!glm::all(glm::lessThan(Light.Color, glm::vec3(1e30f)))) { Json.Fail("its intensity is beyond what a float holds"); }
 	Light.Range = std::max(Json.GetFloat("range", 0.0f), 0.0f);
-	if (Light.Type == LIGHT_SPOT)
+	if (Type == "spot")
 	{
 		const FJson Spot = Json.Member("spot");
 		constexpr float QuarterTurn = 1.5707963268f;
 		Light.OuterCone = glm::clamp(Spot.GetFloat("outerConeAngle", 0.7853981634f), 1e-4f, QuarterTurn);
 		Light.InnerCone = glm::clamp(Spot.GetFloat("innerConeAngle", 0.0f), 0.0f, Light.OuterCone);
 	}
+	ReadLightShape(Json, Light);
 	return Light;
 }
 

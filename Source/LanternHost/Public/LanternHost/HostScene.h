@@ -116,6 +116,7 @@ private:
 	FDrawSphere MakeDrawSphere(size_t Instance) const;
 	void BuildDrawBlocks();
 	void UpdateLights();
+	FSceneLight MakeLight(uint32_t Node) const;
 	int32_t FindOwnSun() const; // node, or -1
 
 	IRTDevice& Device;
@@ -140,6 +141,7 @@ private:
 	std::map<uint32_t, std::vector<uint32_t>> BatchesOfMesh;
 	std::map<std::vector<uint32_t>, uint32_t> BatchLists; // to first index
 	bool bSceneLights = true;
+	std::vector<FLightId> LightIds; // by node; none while they are off
 };
 
 } // namespace Lantern

@@ -11,6 +11,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "LanternScene/Lights/Light.h"
 #include "SceneTypes.h"
 
 namespace Lantern
@@ -136,13 +137,11 @@ struct FHostAnimation
 	float Duration = 0.0f;
 };
 
-struct FHostLight
+/// A light whose position, direction (−z) and tangent (x) are those of its node.
+struct FHostLight : FSceneLight
 {
+	FHostLight() { Color = glm::vec3(1); }
 	std::string Name;
-	uint32_t Type = LIGHT_POINT;
-	glm::vec3 Color{1};                                ///< intensity included: cd, or lux where directional
-	float Range = 0.0f;                                ///< 0: unlimited
-	float InnerCone = 0.0f, OuterCone = 0.7853981634f; ///< radians
 	/// A square wave for lights that flicker or are switched: on for FlickerDuty of each period, off for the rest. A period
 	/// begins FlickerPhase periods before time 0. Not for directional lights, which shine as the sun.
 	float FlickerHz = 0.0f; ///< 0: always on

@@ -130,18 +130,34 @@ enum class ERTModuleLight : uint8_t
 	Point,
 	Spot,
 	Directional,
+	Rectangle,
+	Disk,
+	Sphere,
+	Tube, ///< a cylinder with rounded ends
 };
 
-/// A light of KHR_lights_punctual. Paths of diffuse light and reflections see it; it has no shadow signal of its own yet.
+/// A light other than the sun. Point, spot and directional lights are those of KHR_lights_punctual. The others have an area, soft
+/// shadows and nits. Rays that meet a light do not see it: give it a mesh where it should be seen. A point light of I candela with a
+/// source radius r (metres) is a sphere of I / (π r²) nits. A spot is such a sphere with bCone. All numbers must be finite.
 struct FRTModuleLight
 {
 	ERTModuleLight Type = ERTModuleLight::Point;
-	double Position[3] = {0, 0, 0};  ///< not of a directional light
-	float Direction[3] = {0, -1, 0}; ///< in which the light travels, any length > 0; not of a point light
-	float Color[3] = {0, 0, 0};      ///< with intensity: candela, or lux if directional
-	float Range = 0.0f;              ///< in the unit of the engine's world; 0: unlimited
-	float InnerCone = 0.0f;          ///< of a spot: angle from its axis at which it begins to fade, radians
-	float OuterCone = 0.7853982f;    ///< and ends, radians, > InnerCone, at most π/2
+	double Position[3] = {0, 0, 0};  ///< of its centre; not of a directional light
+	float Direction[3] = {0, -1, 0}; ///< in which the light travels, any length > 0: of spots, directional, rectangles, disks and cones
+	float Tangent[3] = {1, 0, 0};    ///< direction of a rectangle's width, or of a tube's axis; any length > 0, not along Direction
+	/// With intensity: candela of points and spots, lux of directional lights, nits of the others. 0 to 1e20.
+	float Color[3] = {0, 0, 0};
+	float Range = 0.0f;           ///< at which it has faded out, in the unit of the engine's world; 0: unlimited
+	float InnerCone = 0.0f;       ///< of a spot: angle from its axis at which it begins to fade, radians
+	float OuterCone = 0.7853982f; ///< and ends, radians, > InnerCone, at most π/2
+	float Width = 0.0f;           ///< of a rectangle, in the unit of the engine's world, > 0, at most 1e9
+	float Height = 0.0f;          ///< of a rectangle, as Width
+	float Radius = 0.0f;          ///< of a disk, sphere or tube, as Width
+	float Length = 0.0f;          ///< of a tube's straight part, 0 to 1e9
+	float AngularDiameter = 0.0f; ///< of a directional light, radians, 0 to π
+	bool bCone = false;           ///< a rectangle, disk, sphere or tube has the cones of a spot as well
+	bool bTwoSided = false;       ///< a rectangle or disk shines to its back, too
+	bool bCastsShadow = true;     ///< false: it shines through everything (fill light)
 };
 
 struct FRTModuleSun
@@ -249,6 +265,8 @@ public:
 	virtual FRTStatus SetObjectVisible(ERTObjectHandle Handle, bool bVisible) = 0;
 	/// Removes an object. May be called while frames that show it are in flight.
 	virtual FRTStatus RemoveObject(ERTObjectHandle Handle) = 0;
+	/// Adds a light. Costs what changed, whatever the number of lights; so do SetLight and RemoveLight. InvalidArgument names the
+	/// member that is wrong. Unsupported if there are 2^24 lights.
 	virtual FRTStatus AddLight(const FRTModuleLight& Light, ERTLightHandle* Out) = 0;
 	virtual FRTStatus SetLight(ERTLightHandle Handle, const FRTModuleLight& Light) = 0;
 	virtual FRTStatus RemoveLight(ERTLightHandle Handle) = 0;

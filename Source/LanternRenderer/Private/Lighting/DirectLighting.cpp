@@ -11,7 +11,8 @@ namespace Lantern
 
 namespace
 {
-TRTConsoleVariable<bool> CVarLocalLights("r.RT.LocalLights", true, "Direct light of the scene's point, spot and directional lights.");
+TRTConsoleVariable<bool> CVarLocalLights(
+    "r.RT.LocalLights", true, "Direct light of the scene's lights other than the sun, without shadows.");
 TRTConsoleVariable<bool> CVarSkyAmbient("r.RT.SkyAmbient", true, "Ambient light of the sky, where indirect light is not traced.");
 TRTConsoleVariable<float> CVarSurroundings("r.RT.SkyAmbient.Surroundings", 0.15f,
     "Share of light that surroundings reflect, where they stand in for global illumination and reflections that are not traced. What hides "
@@ -23,7 +24,9 @@ bool HasSkyAmbient(const FSceneFacts& Facts) { return Facts.bSky && CVarSkyAmbie
 
 FShaderSource MakeLightingSource(FSceneFacts Facts)
 {
-	Facts.Lights = CVarLocalLights.GetOnRenderThread() ? Facts.Lights : 0;
+	const bool bLights = CVarLocalLights.GetOnRenderThread();
+	Facts.Lights = bLights ? Facts.Lights : 0;
+	Facts.bAreaLights &= bLights;
 	Facts.bSky &= CVarSkyAmbient.GetOnRenderThread();
 	Facts.bMasked = false; // nothing of it reaches lighting
 	return MakeComputeSource("Lighting/DirectLighting.comp", MakeFactDefines(Facts));

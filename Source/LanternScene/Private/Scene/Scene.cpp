@@ -38,9 +38,22 @@ void FRTScene::MarkDeformed(const FRTGeometryRef& Geometry)
 	Objects.GetMotions().MarkDeformed(Geometry);
 }
 
-void FRTScene::SetLights(std::vector<FSceneLight> InLights)
+FLightId FRTScene::AddLight(const FSceneLight& Light)
 {
-	Lights.SetLights(std::move(InLights));
+	const FLightId Id = Lights.GetStore().Add(Light);
+	Frame->RefreshLightFacts();
+	return Id;
+}
+
+void FRTScene::SetLight(FLightId Id, const FSceneLight& Light)
+{
+	Lights.GetStore().Set(Id, Light);
+	Frame->RefreshLightFacts();
+}
+
+void FRTScene::RemoveLight(FLightId Id)
+{
+	Lights.GetStore().Remove(Id);
 	Frame->RefreshLightFacts();
 }
 

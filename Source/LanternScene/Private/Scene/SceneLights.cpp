@@ -1,18 +1,11 @@
-// FSceneLights: punctual lights relative to the origin, and the constants of sun and sky.
+// FSceneLights: the constants of lights, sun and sky.
 #include "LanternScene/Scene/SceneLights.h"
 
 #include <cassert>
 #include <cmath>
-#include <utility>
 
 namespace Lantern
 {
-
-void FSceneLights::SetLights(std::vector<FSceneLight> InLights)
-{
-	Lights = std::move(InLights);
-	bStale = true;
-}
 
 void FSceneLights::SetSun(const FSunLight& InSun)
 {
@@ -20,22 +13,10 @@ void FSceneLights::SetSun(const FSunLight& InSun)
 	assert(Sun.Irradiance <= 0.0f || glm::length(Sun.Direction) > 0.0);
 }
 
-void FSceneLights::Update(const glm::dvec3& Origin)
-{
-	if (!std::exchange(bStale, false)) { return; }
-	std::vector<FLightData> Data;
-	for (const FSceneLight& Light : Lights)
-	{
-		Data.push_back(Light.Data);
-		Data.back().Position = glm::vec3(Light.WorldPosition - Origin);
-	}
-	Table.Assign(std::move(Data));
-}
-
 void FSceneLights::FillConstants(FSceneConstants& Out) const
 {
-	Out.Lights = Table.GetAddress();
-	Out.LightCount = Table.Num();
+	Out.Lights = Store.GetTable().GetAddress();
+	Out.LightCount = Store.GetSlotCount();
 	Out.SunDirection = glm::vec3(glm::normalize(Sun.Direction));
 	Out.SunIrradiance = Sun.Irradiance;
 	Out.SunColor = Sun.Color;

@@ -5,7 +5,6 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <utility>
 
 #include "LanternCore/Text/Log.h"
@@ -45,44 +44,9 @@ double GetStretch(const glm::dmat4& Transform)
 }
 } // namespace
 
-// ---------------------------------------------------------------------------------------------------- handle table
-
-/// Returns ~0 if none is left.
-uint32_t FSceneObjects::TakeSlot()
-{
-	if (!FreeSlots.empty() && FreeSlots.front() < Objects.size())
-	{
-		std::pop_heap(FreeSlots.begin(), FreeSlots.end(), std::greater());
-		const uint32_t Slot = FreeSlots.back();
-		FreeSlots.pop_back();
-		return Slot;
-	}
-	FreeSlots.clear(); // all of them are behind the end
-	const uint32_t Slot = GetSlotCount();
-	if (Slot > MaxInstanceIndex) { return ~0u; }
-	Objects.emplace_back().Generation = GenerationFloor;
-	return Slot;
-}
-
-void FSceneObjects::FreeSlot(uint32_t Slot)
-{
-	Objects[Slot].Info = {};
-	Objects[Slot].bAlive = false;
-	++Objects[Slot].Generation;
-	FreeSlots.push_back(Slot);
-	std::push_heap(FreeSlots.begin(), FreeSlots.end(), std::greater());
-	while (!Objects.empty() && !Objects.back().bAlive)
-	{
-		GenerationFloor = std::max(GenerationFloor, Objects.back().Generation);
-		Objects.pop_back();
-	}
-	Table.Truncate(GetSlotCount());
-	Motions.Truncate(GetSlotCount());
-}
-
 FSceneObjects::FObject& FSceneObjects::Resolve(FRTObjectId Id)
 {
-	assert(Id.Index < Objects.size() && Objects[Id.Index].bAlive && Objects[Id.Index].Generation == Id.Generation);
+	assert(Objects.IsCurrent(Id.Index, Id.Generation));
 	return Objects[Id.Index];
 }
 
@@ -91,21 +55,20 @@ FSceneObjects::FObject& FSceneObjects::Resolve(FRTObjectId Id)
 FRTObjectId FSceneObjects::Add(FRTObjectInfo Info)
 {
 	assert(Info.Geometry && Info.Materials.size() == Info.Geometry->GetSectionCount());
-	const uint32_t Slot = TakeSlot();
-	if (Slot == ~0u)
+	const uint32_t Slot = Objects.Take(MaxInstanceIndex + 1);
+	if (Slot == TSlots<FObject>::None)
 	{
 		LogOnce(ERTLogLevel::Error, "the scene has 2^24 objects; an instance cannot name more, and further ones are left out");
 		return {};
 	}
 	FObject& Object = Objects[Slot];
 	Object.Info = std::move(Info);
-	Object.bAlive = true;
 	Object.Range = Sections.Acquire(*Object.Info.Geometry, Object.Info.Materials);
 	Motions.Add(Slot, *Object.Info.Geometry);
 	JoinGeometry(Slot);
 	Write(Slot);
 	MarkEmissive(Object.Range);
-	return {Slot, Object.Generation};
+	return {Slot, Objects.GetGeneration(Slot)};
 }
 
 void FSceneObjects::Remove(FRTObjectId Id)
@@ -118,7 +81,9 @@ void FSceneObjects::Remove(FRTObjectId Id)
 	LeaveGeometry(Id.Index);
 	Sections.Release(Object.Range);
 	Retired.push_back(std::move(Object.Info.Geometry));
-	FreeSlot(Id.Index);
+	Objects.Free(Id.Index);
+	Table.Truncate(GetSlotCount());
+	Motions.Truncate(GetSlotCount());
 }
 
 void FSceneObjects::SetTransform(FRTObjectId Id, const glm::dmat4& Transform)

@@ -59,7 +59,9 @@ const FSceneFacts& FSceneUpdate::RefreshFacts()
 
 void FSceneUpdate::RefreshLightFacts()
 {
-	Facts.Lights = static_cast<uint32_t>(Parts.Lights.GetLights().size());
+	const FLightStore& Lights = Parts.Lights.GetStore();
+	Facts.Lights = Lights.GetCount();
+	Facts.bAreaLights = Lights.GetExtendedCount() > 0;
 	Facts.bSun = Parts.Lights.HasSun();
 	Facts.bSky = Parts.Lights.HasSky();
 	Facts.bSkyMap = Facts.bSky && Parts.Lights.HasSkyMap();
@@ -71,8 +73,8 @@ bool FSceneUpdate::NeedsUpdate(const FGatherView& View, const FSceneUse& InUse) 
 	const glm::dvec3 NewOrigin = SnapOrigin(View.Position);
 	const bool bGeometry = Parts.Geometries.NeedsUpdate() || NeedsOpacityUpdate(Parts.Materials.GetContext(), Sections, Parts.Geometries);
 	const bool bGather = Bindings.NeedsUpdate(Sections) || bGeometry || Structure.NeedsGather(View, InUse.bCull, NewOrigin);
-	return Parts.Geometries.HasReleased() || Parts.Lights.NeedsUpdate() || Parts.Objects.GetMotions().NeedsUpdate(InUse.bMotion) ||
-	       (InUse.bRays && bGather) || (InUse.bLightSampling && Parts.Emissive.NeedsUpdate()) || AreTablesDirty() || NewOrigin != Origin;
+	return Parts.Geometries.HasReleased() || Parts.Objects.GetMotions().NeedsUpdate(InUse.bMotion) || (InUse.bRays && bGather) ||
+	       (InUse.bLightSampling && Parts.Emissive.NeedsUpdate()) || AreTablesDirty() || NewOrigin != Origin;
 }
 
 glm::dvec3 FSceneUpdate::SnapOrigin(glm::dvec3 Camera) const
@@ -87,7 +89,6 @@ void FSceneUpdate::MoveOrigin(glm::dvec3 Camera)
 	const glm::dvec3 Snapped = SnapOrigin(Camera);
 	if (Snapped == Origin) { return; }
 	Origin = Snapped;
-	Parts.Lights.OnOriginMoved();
 }
 
 void FSceneUpdate::TakeGeometryChanges()
@@ -130,7 +131,6 @@ FRTStatus FSceneUpdate::Begin(const FGatherView& View, const FSceneUse& InUse)
 	Bindings.Update(Sections, Parts.Geometries, Instances);
 	Instances.Refresh();
 	Parts.Objects.GetMotions().Update(Use.bMotion);
-	Parts.Lights.Update(Origin);
 	if (Use.bLightSampling && Parts.Emissive.NeedsUpdate()) { Parts.Emissive.Update(Parts.Objects, Parts.Materials); }
 	RefreshFacts();
 	if (!Use.bRays) { return FRTStatus::Success(); }
@@ -151,7 +151,7 @@ void FSceneUpdate::VisitTables(FVisit Visit) const
 {
 	Visit(Parts.Materials.GetTable());
 	Visit(Parts.Objects.GetTable());
-	Visit(Parts.Lights.GetTable());
+	Visit(Parts.Lights.GetStore().GetTable());
 	Visit(Parts.Emissive.GetTable());
 	Visit(Parts.Materials.GetSections().GetTable());
 	Visit(Parts.Objects.GetMotions().GetTable());

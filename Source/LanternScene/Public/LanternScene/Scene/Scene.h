@@ -2,7 +2,7 @@
 //
 // World positions are double precision. The GPU sees positions relative to an origin that follows the camera in steps of
 // OriginStep. Within a kilometre of the camera, the error of fp32 is then ≤ 0.1 mm. Objects are stored relative to their own cell of
-// the world: when the origin moves, only the table of punctual lights is rewritten.
+// the world, and lights in steps of the whole world. No table is rewritten when the origin moves.
 //
 // Costs follow changes. An update in which neither scene nor view changed does nothing. One object that changes costs no
 // more in a scene of a million.
@@ -38,7 +38,8 @@ struct FSceneFacts
 {
 	uint32_t Objects = 0;
 	uint32_t DynamicGeometries = 0;
-	uint32_t Lights = 0;
+	uint32_t Lights = 0;      ///< without sun and emissive triangles
+	bool bAreaLights = false; ///< some of them have an extent: see HasExtent
 	uint32_t EmissiveTriangles = 0;
 	bool bMasked = false; ///< some object has an alpha-tested material (and r.RT.AlphaTest is on)
 	/// Only its material program knows the shape of some surface: it is a box, or its alpha test is not the standard one.
@@ -124,8 +125,11 @@ public:
 	/// Returns the index of the object's first section in FSectionData[]. The object's own data is at Id.Index in FObjectData[].
 	uint32_t GetFirstSection(FRTObjectId Id) const { return Objects.GetFirstSection(Id); }
 
-	void SetLights(std::vector<FSceneLight> InLights);
-	const std::vector<FSceneLight>& GetLights() const { return Lights.GetLights(); }
+	/// Returns an invalid id, and logs that once, if the scene has FLightStore::MaxLights already. O(1), as SetLight and RemoveLight.
+	FLightId AddLight(const FSceneLight& Light);
+	void SetLight(FLightId Id, const FSceneLight& Light);
+	void RemoveLight(FLightId Id);
+	const FLightStore& GetLights() const { return Lights.GetStore(); }
 	void SetSun(const FSunLight& Sun);
 	const FSunLight& GetSun() const { return Lights.GetSun(); }
 	void SetSky(glm::vec3 Radiance);

@@ -1,11 +1,9 @@
-// FSceneLights keeps the sun, the sky and the punctual lights of a scene. Emissive triangles are in EmissiveTriangles.h.
+// FSceneLights keeps the sun, the sky and the other lights of a scene. Emissive triangles are in EmissiveTriangles.h.
 #pragma once
-
-#include <vector>
 
 #include <glm/glm.hpp>
 
-#include "LanternScene/Memory/GpuTable.h"
+#include "LanternScene/Lights/LightStore.h"
 #include "SceneTypes.h"
 
 namespace Lantern
@@ -29,19 +27,12 @@ struct FSkyMap
 	glm::mat3 WorldToMap{1.0f};
 };
 
-/// A punctual light in the world.
-struct FSceneLight
-{
-	FLightData Data; ///< Position is filled in from WorldPosition
-	glm::dvec3 WorldPosition{0};
-};
-
 /// Threads: one at a time.
 class FSceneLights
 {
 public:
-	void SetLights(std::vector<FSceneLight> InLights);
-	const std::vector<FSceneLight>& GetLights() const { return Lights; }
+	FLightStore& GetStore() { return Store; }
+	const FLightStore& GetStore() const { return Store; }
 	void SetSun(const FSunLight& InSun);
 	const FSunLight& GetSun() const { return Sun; }
 	bool HasSun() const { return Sun.Irradiance > 0.0f; }
@@ -53,23 +44,14 @@ public:
 	bool HasSkyMap() const { return SkyMap.Slot != NO_TEXTURE; }
 	bool HasSky() const { return HasSkyMap() ? SkyMap.Intensity > 0.0f : glm::any(glm::greaterThan(Sky, glm::vec3(0))); }
 
-	/// Marks the table as out of date. The lights' positions in it are relative to the scene's origin.
-	void OnOriginMoved() { bStale = true; }
-	/// Tells whether Update would write the table.
-	bool NeedsUpdate() const { return bStale; }
-	/// Writes the table if a light or the origin changed since the last call.
-	void Update(const glm::dvec3& Origin);
 	/// Fills the members of Out that describe lights. The table must have been flushed.
 	void FillConstants(FSceneConstants& Out) const;
-	TGpuTable<FLightData>& GetTable() { return Table; }
 
 private:
-	std::vector<FSceneLight> Lights;
-	TGpuTable<FLightData> Table{"Lights"};
+	FLightStore Store;
 	FSunLight Sun;
 	glm::vec3 Sky{0};
 	FSkyMap SkyMap;
-	bool bStale = true;
 };
 
 } // namespace Lantern

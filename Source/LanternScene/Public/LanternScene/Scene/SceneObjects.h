@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <unordered_map>
 #include <vector>
 
@@ -11,6 +10,7 @@
 
 #include "LanternScene/Instances/InstanceStore.h"
 #include "LanternScene/Memory/GpuTable.h"
+#include "LanternScene/Memory/Slots.h"
 #include "LanternScene/Scene/Object.h"
 #include "LanternScene/Scene/ObjectMotion.h"
 #include "LanternScene/Scene/ObjectPivots.h"
@@ -50,9 +50,9 @@ public:
 	uint32_t GetFirstSection(FRTObjectId Id) const { return Sections.GetRange(Resolve(Id).Range).First; }
 
 	/// Slots of the handle table. FRTObjectId::Index is one of them.
-	uint32_t GetSlotCount() const { return static_cast<uint32_t>(Objects.size()); }
+	uint32_t GetSlotCount() const { return Objects.Num(); }
 	/// Returns null if the slot is free. Slot < GetSlotCount().
-	const FRTObjectInfo* Find(uint32_t Slot) const { return Objects[Slot].bAlive ? &Objects[Slot].Info : nullptr; }
+	const FRTObjectInfo* Find(uint32_t Slot) const { return Objects.IsAlive(Slot) ? &Objects[Slot].Info : nullptr; }
 	/// Returns the section range of the object in the slot, which must not be free.
 	FSectionRangeId GetRange(uint32_t Slot) const { return Objects[Slot].Range; }
 
@@ -73,15 +73,11 @@ private:
 	struct FObject
 	{
 		FRTObjectInfo Info;
-		uint32_t Generation = 0;
 		FSectionRangeId Range = 0;
 		uint32_t Member = 0; // place in DynamicUsers
-		bool bAlive = false;
 	};
 	FObject& Resolve(FRTObjectId Id);
 	const FObject& Resolve(FRTObjectId Id) const { return const_cast<FSceneObjects*>(this)->Resolve(Id); }
-	uint32_t TakeSlot();
-	void FreeSlot(uint32_t Slot);
 	void Place(uint32_t Slot);
 	void Write(uint32_t Slot);
 	void JoinGeometry(uint32_t Slot);
@@ -90,9 +86,7 @@ private:
 
 	FSectionTable& Sections;
 	FEmissiveTriangles& Emissive;
-	std::deque<FObject> Objects;                        // which grows without moving what is there: 16,384 of them moved take milliseconds
-	std::vector<uint32_t> FreeSlots;                    // a heap, the lowest first, so that the end of the table falls free
-	uint32_t GenerationFloor = 0;                       // of slots that the table never had, or has lost
+	TSlots<FObject> Objects;
 	std::vector<FRTGeometryRef> Retired, RetiredBefore; // of objects removed since the last submitted frame, and before it
 	std::unordered_map<const FRTGeometry*, std::vector<uint32_t>> DynamicUsers; // objects of dynamic geometries
 	TGpuTable<FObjectData> Table{"Objects"};

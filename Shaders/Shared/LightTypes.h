@@ -1,0 +1,46 @@
+// Lights as shaders see them: structures that C++ and GLSL share.
+#ifndef LANTERN_LIGHT_TYPES_H
+#define LANTERN_LIGHT_TYPES_H
+
+#include "SharedTypes.h"
+
+LANTERN_SHARED_BEGIN
+
+// FLightData::Flags
+#define LIGHT_TYPE_MASK 15u
+#define LIGHT_NONE 0u // the slot is free
+#define LIGHT_POINT 1u
+#define LIGHT_DIRECTIONAL 2u
+#define LIGHT_RECTANGLE 3u
+#define LIGHT_DISK 4u
+#define LIGHT_SPHERE 5u
+#define LIGHT_TUBE 6u // the surface of a capsule
+#define LIGHT_CASTS_SHADOW 16u
+#define LIGHT_TWO_SIDED 32u // rectangle, disk: it shines to its back as well
+#define LIGHT_HAS_CONE 64u
+
+// Lights have positions in the whole world, in steps of 1/LIGHT_POSITION_STEPS m modulo 2^32. The difference from the scene's
+// origin is exact up to 262 km, and nothing is rewritten if the origin moves.
+#define LIGHT_POSITION_STEPS 8192.0f
+
+#define LIGHT_INDEX_BITS 24
+
+// A light. Those without extent are of KHR_lights_punctual.
+struct FLightData
+{
+	ivec3 Position; // steps
+	uint Flags;     // LIGHT_…
+	vec3 Color;     // point: cd; directional: lux; others: nits
+	float Range;    // metres; 0: unlimited
+	uint Direction; // octahedral, 2 × snorm16, in which the light travels; rectangle, disk: normal
+	uint Tangent;   // octahedral: width of a rectangle, axis of a tube
+	vec2 Size;      // metres; rectangle: half width, half height; disk, sphere: radius; tube: radius, half length; directional: 1 − cosine
+	                // of its angular radius
+	float SpotScale; // angular attenuation: saturate(cos · scale + offset)²
+	float SpotOffset;
+};
+LANTERN_ASSERT_SIZE(FLightData, 56);
+
+LANTERN_SHARED_END
+
+#endif

@@ -1,0 +1,87 @@
+// Lights as shaders see them.
+#include "LanternScene/Lights/Light.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include <glm/gtc/packing.hpp>
+
+namespace Lantern
+{
+
+namespace
+{
+/// Octahedral, 2 × snorm16 (Cigolle et al. 2014); as UnpackOct in Math.glsl reads it.
+uint32_t PackOct(glm::dvec3 V)
+{
+	V /= std::abs(V.x) + std::abs(V.y) + std::abs(V.z);
+	const auto Sign = [](double X) { return X >= 0.0 ? 1.0 : -1.0; };
+	const glm::vec2 Upper(V.x, V.y);
+	const glm::vec2 Lower((1.0 - std::abs(V.y)) * Sign(V.x), (1.0 - std::abs(V.x)) * Sign(V.y));
+	return glm::packSnorm2x16(V.z >= 0.0 ? Upper : Lower);
+}
+
+/// Steps of a coordinate, modulo 2³²: differences of lights and origin are right wherever both are.
+int32_t PackCoordinate(double Metres)
+{
+	const double Steps = std::remainder(std::round(Metres * double(LIGHT_POSITION_STEPS)), 4294967296.0); // −2³¹ to 2³¹
+	return static_cast<int32_t>(static_cast<uint32_t>(static_cast<int64_t>(Steps)));
+}
+
+/// KHR_lights_punctual, "Inner and Outer Cone Angles".
+void PackCone(const FSceneLight& Light, FLightData& Out)
+{
+	const float CosOuter = std::cos(Light.OuterCone);
+	Out.SpotScale = 1.0f / std::max(0.001f, std::cos(Light.InnerCone) - CosOuter);
+	Out.SpotOffset = -CosOuter * Out.SpotScale;
+	Out.Flags |= LIGHT_HAS_CONE;
+}
+
+glm::vec2 PackSize(const FSceneLight& Light)
+{
+	switch (Light.Type)
+	{
+	case LIGHT_RECTANGLE: return 0.5f * Light.Size;
+	case LIGHT_TUBE: return {Light.Size.x, 0.5f * Light.Size.y};
+	case LIGHT_DIRECTIONAL:
+	{
+		// 1 − cos r = 2 sin²(r/2): the difference itself would lose all digits for a small disk.
+		const double HalfSin = std::sin(0.25 * double(Light.Size.x));
+		return {static_cast<float>(2.0 * HalfSin * HalfSin), 0.0f};
+	}
+	default: return {Light.Size.x, 0.0f};
+	}
+}
+
+/// The tangent at a right angle to the direction. Tubes have none that counts.
+glm::dvec3 MakeTangent(const FSceneLight& Light)
+{
+	const glm::dvec3 Tangent(Light.Tangent);
+	if (Light.Type != LIGHT_RECTANGLE) { return Tangent; }
+	const glm::dvec3 Normal = glm::normalize(glm::dvec3(Light.Direction));
+	return Tangent - glm::dot(Tangent, Normal) * Normal;
+}
+} // namespace
+
+bool HasExtent(const FSceneLight& Light) { return Light.Type != LIGHT_POINT && (Light.Type != LIGHT_DIRECTIONAL || Light.Size.x > 0.0f); }
+
+FLightData PackLight(const FSceneLight& Light)
+{
+	assert(Light.Type != LIGHT_NONE && Light.Type <= LIGHT_TUBE);
+	FLightData Out{};
+	Out.Flags = Light.Type;
+	Out.Flags |= Light.bCastsShadow ? LIGHT_CASTS_SHADOW : 0u;
+	Out.Flags |= Light.bTwoSided ? LIGHT_TWO_SIDED : 0u;
+	for (int Axis = 0; Axis < 3; ++Axis) { Out.Position[Axis] = PackCoordinate(Light.Position[Axis]); }
+	Out.Color = Light.Color;
+	Out.Range = Light.Range;
+	assert(glm::length(Light.Direction) > 0.0f && glm::length(MakeTangent(Light)) > 0.0);
+	Out.Direction = PackOct(glm::dvec3(Light.Direction));
+	Out.Tangent = PackOct(MakeTangent(Light));
+	Out.Size = PackSize(Light);
+	if (Light.OuterCone > 0.0f && Light.Type != LIGHT_DIRECTIONAL) { PackCone(Light, Out); }
+	return Out;
+}
+
+} // namespace Lantern

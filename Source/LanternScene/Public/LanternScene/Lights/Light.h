@@ -1,0 +1,49 @@
+// A light as the scene takes it, in plain units, and its form on the GPU.
+#pragma once
+
+#include <cstdint>
+
+#include <glm/glm.hpp>
+
+#include "LightTypes.h"
+
+namespace Lantern
+{
+
+/// Names a light of a scene. It is stale after RemoveLight; using it then is an assert.
+struct FLightId
+{
+	uint32_t Index = ~0u;
+	uint32_t Generation = 0;
+	bool IsValid() const { return Index != ~0u; }
+	friend bool operator==(FLightId, FLightId) = default;
+};
+
+/// A light of the scene. All numbers are finite. Area lights are seen by what they light, and not by rays that meet them.
+struct FSceneLight
+{
+	uint32_t Type = LIGHT_POINT;   ///< LIGHT_…, not LIGHT_NONE
+	glm::dvec3 Position{0};        ///< of its centre, metres; not of a directional light
+	glm::vec3 Direction{0, -1, 0}; ///< in which it shines, length > 0: of directional lights, rectangles, disks and cones
+	/// Rectangle: direction of its width; tube: its axis. Length > 0 and not along Direction where that counts.
+	glm::vec3 Tangent{1, 0, 0};
+	/// Point: candela. Directional: lux of a plane that faces it. Others: nits. Not negative.
+	glm::vec3 Color{0};
+	float Range = 0.0f; ///< metres, at which it fades out (KHR_lights_punctual); 0: unlimited
+	/// Angles from Direction at which the light begins to fade, and is dark. 0 ≤ InnerCone < OuterCone ≤ π; OuterCone 0: no cone.
+	float InnerCone = 0.0f, OuterCone = 0.0f;
+	/// Rectangle: width and height. Disk, sphere: radius, unused. Tube: radius, length of its axis without the rounded ends.
+	/// Metres, > 0. Directional: angular diameter, radians, 0 to π. Not of point lights.
+	glm::vec2 Size{0};
+	bool bCastsShadow = true;
+	bool bTwoSided = false; ///< rectangle, disk: it shines to its back as well
+	friend bool operator==(const FSceneLight&, const FSceneLight&) = default;
+};
+
+/// Tells whether shaders sample points of the light: it has an extent.
+bool HasExtent(const FSceneLight& Light);
+
+/// Returns the light as shaders see it.
+FLightData PackLight(const FSceneLight& Light);
+
+} // namespace Lantern

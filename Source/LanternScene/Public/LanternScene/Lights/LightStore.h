@@ -1,0 +1,38 @@
+// FLightStore keeps the lights of a scene in slots. A light keeps its slot while it lives, so that histories may name it.
+#pragma once
+
+#include "LanternScene/Lights/Light.h"
+#include "LanternScene/Memory/GpuTable.h"
+#include "LanternScene/Memory/Slots.h"
+
+namespace Lantern
+{
+
+/// Threads: one at a time. A change costs one entry of the table, whatever the number of lights. Positions in the table do not
+/// depend on the scene's origin.
+class FLightStore
+{
+public:
+	static constexpr uint32_t MaxLights = 1u << LIGHT_INDEX_BITS;
+
+	/// Returns an invalid id, and logs that once, if there are MaxLights.
+	FLightId Add(const FSceneLight& Light);
+	void Set(FLightId Id, const FSceneLight& Light);
+	void Remove(FLightId Id);
+	const FSceneLight& Get(FLightId Id) const;
+	/// Slots to visit in a walk over all lights. Find returns null for the free ones.
+	uint32_t GetSlotCount() const { return Slots.Num(); }
+	const FSceneLight* Find(uint32_t Slot) const { return Slots.IsAlive(Slot) ? &Slots[Slot] : nullptr; }
+	uint32_t GetCount() const { return Slots.GetAliveCount(); }
+	/// Lights with an extent: see HasExtent.
+	uint32_t GetExtendedCount() const { return Extended; }
+	TGpuTable<FLightData>& GetTable() { return Table; }
+	const TGpuTable<FLightData>& GetTable() const { return Table; }
+
+private:
+	TSlots<FSceneLight> Slots;
+	uint32_t Extended = 0;
+	TGpuTable<FLightData> Table{"Lights"};
+};
+
+} // namespace Lantern
