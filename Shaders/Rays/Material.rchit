@@ -62,6 +62,7 @@ void main()
 	Hit.Specular = Surface.Specular;
 	Hit.Emissive = bCulledSide ? vec3(0.0) : Surface.Emissive;
 	Hit.EmissiveWeight = (Section.Flags & SECTION_LIGHT) != 0u ? Material.EmissiveWeight : 0.0;
-	Hit.Flags = bCulledSide ? HIT_CULLED_SIDE : 0u;
+	uint ObjectFlags = FObjectRef(Scene.Objects).Data[gl_InstanceCustomIndexEXT].Flags;
+	Hit.Flags = (bCulledSide ? HIT_CULLED_SIDE : 0u) | ((ObjectFlags & OBJECT_CHARACTER) != 0u ? HIT_CHARACTER : 0u);
 	Payload = PackHit(Hit);
 }

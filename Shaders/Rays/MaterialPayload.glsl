@@ -22,6 +22,7 @@ const float EmissionScale = 1.0 / 64.0;
 const float MaxEmission = 65504.0 / EmissionScale; // nits
 
 #define HIT_CULLED_SIDE 1u // the back of a single-sided surface: camera rays do not see it
+#define HIT_CHARACTER 2u   // characters do not shadow the surface
 
 struct FMaterialHit
 {

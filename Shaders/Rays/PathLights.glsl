@@ -3,26 +3,29 @@
 //   Basis  local frame whose z is the shading normal; Direction * Basis is local, Basis * Direction is world
 //   V      towards the viewer, local;  P  ray origin, already offset from the surface
 //   Ng     geometric normal, towards the viewer;  U  random numbers in [0, 1)
+//   bCharacter  see Casters.glsl
 #ifndef LANTERN_PATH_LIGHTS_GLSL
 #define LANTERN_PATH_LIGHTS_GLSL
 
-bool IsVisible(FSceneConstants Scene, vec3 Origin, vec3 Direction, float Distance)
+#include "../Library/Casters.glsl"
+
+bool IsVisible(FSceneConstants Scene, uint Casters, vec3 Origin, vec3 Direction, float Distance)
 {
 	ShadowPayload.BlockerDistance = BlockedAtUnknownDistance;
-	traceRayEXT(Scenes[Scene.Tlas], gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT, MASK_CASTS_SHADOW, SHADOW_RAY,
+	traceRayEXT(Scenes[Scene.Tlas], gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT, Casters, SHADOW_RAY,
 	            RAY_TYPES, SHADOW_MISS, Origin, 0.0, Direction, Distance, 1);
 	return IsVisible(ShadowPayload);
 }
 
 #ifdef HAS_SUN
-vec3 SampleSun(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, vec2 U)
+vec3 SampleSun(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, vec2 U)
 {
 	bool bPointSun = Scene.SunOneMinusCos <= 0.0;
 	vec3 ToLight = bPointSun ? -Scene.SunDirection : SampleSunDirection(Scene, U);
 	if (dot(ToLight, Ng) <= 0.0) { return vec3(0.0); }
 	vec3 LocalToLight = ToLight * Basis;
 	vec3 BrdfCos = EvaluateBrdfCos(Brdf, V, LocalToLight);
-	if (MaxComponent(BrdfCos) <= 0.0 || !IsVisible(Scene, P, ToLight, 1.0e30)) { return vec3(0.0); }
+	if (MaxComponent(BrdfCos) <= 0.0 || !IsVisible(Scene, SunCasters(bCharacter), P, ToLight, 1.0e30)) { return vec3(0.0); }
 	if (bPointSun) { return BrdfCos * Scene.SunColor * Scene.SunIrradiance; }
 	float Pdf = SunPdf(Scene);
 	return BrdfCos * SunRadiance(Scene) * (PowerHeuristic(Pdf, BrdfPdf(Brdf, V, LocalToLight)) / Pdf);
@@ -30,13 +33,13 @@ vec3 SampleSun(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, ve
 #endif
 
 #ifdef HAS_SKY
-vec3 SampleSky(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, vec2 U)
+vec3 SampleSky(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, vec2 U)
 {
 	vec3 LocalToLight = SampleCosineHemisphere(U);
 	vec3 ToLight = Basis * LocalToLight;
 	if (LocalToLight.z <= 0.0 || dot(ToLight, Ng) <= 0.0) { return vec3(0.0); }
 	vec3 BrdfCos = EvaluateBrdfCos(Brdf, V, LocalToLight);
-	if (MaxComponent(BrdfCos) <= 0.0 || !IsVisible(Scene, P, ToLight, 1.0e30)) { return vec3(0.0); }
+	if (MaxComponent(BrdfCos) <= 0.0 || !IsVisible(Scene, SunCasters(bCharacter), P, ToLight, 1.0e30)) { return vec3(0.0); }
 	float Pdf = LocalToLight.z / Pi;
 	return BrdfCos * SampleSkyRadiance(Scene, ToLight) * (PowerHeuristic(Pdf, BrdfPdf(Brdf, V, LocalToLight)) / Pdf);
 }
@@ -45,7 +48,7 @@ vec3 SampleSky(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, ve
 #ifdef HAS_LIGHTS
 // Samples one light with a probability proportional to EstimateLight, by weighted reservoir sampling over all.
 // U: chooses the light; PointU: the point on one with an extent.
-vec3 SampleLocalLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, float U, vec2 PointU)
+vec3 SampleLocalLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, float U, vec2 PointU)
 {
 	FLightRef Lights = FLightRef(Scene.Lights);
 	float TotalWeight = 0.0, ChosenWeight = 0.0;
@@ -72,7 +75,7 @@ vec3 SampleLocalLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, ve
 	vec3 BrdfCos = EvaluateBrdfCos(Brdf, V, Sample.Direction * Basis);
 	if (MaxComponent(BrdfCos) <= 0.0) { return vec3(0.0); }
 	bool bCastsShadow = (Light.Flags & LIGHT_CASTS_SHADOW) != 0u;
-	if (bCastsShadow && !IsVisible(Scene, P, Sample.Direction, Sample.Distance)) { return vec3(0.0); }
+	if (bCastsShadow && !IsVisible(Scene, LocalCasters(bCharacter), P, Sample.Direction, Sample.Distance)) { return vec3(0.0); }
 	return BrdfCos * Sample.Irradiance * (TotalWeight / ChosenWeight);
 }
 #endif
@@ -92,7 +95,7 @@ uint FindEmissiveTriangle(FSceneConstants Scene, float U)
 	return First;
 }
 
-vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, vec3 U)
+vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, vec3 U)
 {
 	if (Scene.EmissiveTriangleCount == 0u) { return vec3(0.0); } // emitters exist, but deformed ones are not in the list
 	FEmissiveTriangle Triangle = FEmissiveRef(Scene.EmissiveTriangles).Data[FindEmissiveTriangle(Scene, U.z)];
@@ -120,34 +123,34 @@ vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 
 #endif
 	// The shadow ray stops short of the emitter, the more so the more grazing it arrives.
 	float Margin = PositionError(Point, Scene.ObjectReach, Distance) / max(CosAtLight, 0.1);
-	if (MaxComponent(Emission) <= 0.0 || !IsVisible(Scene, P, ToLight, max(Distance - Margin, 0.0))) { return vec3(0.0); }
+	if (MaxComponent(Emission) <= 0.0 || !IsVisible(Scene, LocalCasters(bCharacter), P, ToLight, max(Distance - Margin, 0.0))) { return vec3(0.0); }
 	float Pdf = Material.EmissiveWeight / Scene.EmissivePower * DistanceSquared / CosAtLight;
 	return BrdfCos * Emission * (PowerHeuristic(Pdf, BrdfPdf(Brdf, V, ToLight * Basis)) / Pdf);
 }
 #endif
 
 // Sums one sample of each kind of light. Takes eight random numbers, and four more where lights have an extent.
-vec3 SampleLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, inout FRandom Random)
+vec3 SampleLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, inout FRandom Random)
 {
 	vec3 L = vec3(0.0);
 	if (IsMirror(Brdf) && SpecularProbability(Brdf, V) >= 1.0) { return L; }
 	vec4 U0 = NextRandom4(Random);
 	vec4 U1 = NextRandom4(Random);
 #ifdef HAS_SUN
-	L += SampleSun(Scene, Brdf, Basis, V, P, Ng, U0.xy);
+	L += SampleSun(Scene, Brdf, Basis, V, P, Ng, bCharacter, U0.xy);
 #endif
 #ifdef HAS_SKY
-	L += SampleSky(Scene, Brdf, Basis, V, P, Ng, U0.zw);
+	L += SampleSky(Scene, Brdf, Basis, V, P, Ng, bCharacter, U0.zw);
 #endif
 #ifdef HAS_LIGHTS
 	vec2 PointU = vec2(0.0);
 #ifdef HAS_AREA_LIGHTS
 	PointU = NextRandom4(Random).xy;
 #endif
-	L += SampleLocalLights(Scene, Brdf, Basis, V, P, Ng, U1.w, PointU);
+	L += SampleLocalLights(Scene, Brdf, Basis, V, P, Ng, bCharacter, U1.w, PointU);
 #endif
 #ifdef HAS_EMISSIVE
-	L += SampleEmissive(Scene, Brdf, Basis, V, P, Ng, U1.xyz);
+	L += SampleEmissive(Scene, Brdf, Basis, V, P, Ng, bCharacter, U1.xyz);
 #endif
 	return L;
 }

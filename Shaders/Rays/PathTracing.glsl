@@ -103,7 +103,7 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 		mat3 Basis = MakeBasis(BendNormal(Hit.Normal, V));
 		FBrdf Brdf = MakeBrdf(Hit);
 		vec3 LocalV = V * Basis;
-		Radiance += Throughput * SampleLights(Scene, Brdf, Basis, LocalV, P, Hit.GeometricNormal, Random);
+		Radiance += Throughput * SampleLights(Scene, Brdf, Basis, LocalV, P, Hit.GeometricNormal, (Hit.Flags & HIT_CHARACTER) != 0u, Random);
 
 		FBrdfSample Sample = SampleBrdf(Brdf, LocalV, NextRandom4(Random).xyz);
 		if (Sample.Direction.z <= 0.0) { return Radiance; }
@@ -130,7 +130,8 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 // lights that shine there directly; the lighting pass adds those. It includes the sky and emissive triangles.
 // Lobe: MakeWhiteLambert or MakeSpecularLobe. U: chooses the direction. Other parameters: see PathLights.glsl.
 // Only the lobe samples the sky. Light sampling would reduce no noise of a uniform sky, and it knows no bright spots of a map.
-vec3 GatherIndirect(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, vec3 Ng, vec2 U, uint MaxBounces, inout FRandom Random)
+vec3 GatherIndirect(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, vec2 U, uint MaxBounces,
+                    inout FRandom Random)
 {
 	vec3 Radiance = vec3(0.0);
 	if (MaxBounces == 0u) { return Radiance; }
@@ -138,7 +139,7 @@ vec3 GatherIndirect(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 
 	if (Specular <= 0.0 && Lobe.Diffuse <= 0.0) { return Radiance; }
 #ifdef HAS_EMISSIVE
 	vec3 LightSample = NextRandom4(Random).xyz;
-	if (Specular <= 0.0 || !IsMirror(Lobe)) { Radiance += SampleEmissive(Scene, Lobe, Basis, V, P, Ng, LightSample); }
+	if (Specular <= 0.0 || !IsMirror(Lobe)) { Radiance += SampleEmissive(Scene, Lobe, Basis, V, P, Ng, bCharacter, LightSample); }
 #endif
 	FBrdfSample Sample = SampleBrdf(Lobe, V, vec3(U, 0.5));
 	vec3 Direction = Basis * Sample.Direction;

@@ -159,10 +159,19 @@ struct FObjectMotion
 LANTERN_ASSERT_SIZE(FObjectMotion, 72);
 
 // Bits of an object's instance mask, by convention. A ray meets an object if their masks share a bit.
-#define MASK_VISIBLE 1u      // camera, reflection and GI rays
-#define MASK_CASTS_SHADOW 2u // shadow rays
+#define MASK_VISIBLE 1u    // camera, reflection and GI rays
+#define MASK_SUN 2u        // casts from the sun and the sky, and stands still
+#define MASK_SUN_MOVING 4u // casts from the sun and the sky, and moves
+#define MASK_CHARACTER 8u  // casts on everything but characters, from all lights
+#define MASK_LOCAL 16u     // casts from local lights
+// Rays for shadows. Whose mask has none of these casts none.
+#define MASK_CASTERS (MASK_SUN | MASK_SUN_MOVING | MASK_CHARACTER | MASK_LOCAL)
+// Rays from a surface to a light: SunCasters and LocalCasters in Casters.glsl say what surface they leave.
+#define MASK_SUN_CASTERS (MASK_SUN | MASK_SUN_MOVING | MASK_CHARACTER)
+#define MASK_LOCAL_CASTERS (MASK_LOCAL | MASK_CHARACTER)
 
-#define OBJECT_MIRRORED 1u // negative determinant: front faces appear clockwise
+#define OBJECT_MIRRORED 1u  // negative determinant: front faces appear clockwise
+#define OBJECT_CHARACTER 2u // characters do not shadow it
 
 // An emissive triangle, for next-event estimation. Its corners are relative to the centre of the object's cell, so that they
 // stay valid when the scene's origin moves.

@@ -292,14 +292,15 @@ TEST_F(FSunShadowTest, InstanceMask)
 	for (const char* Path : {"1", "2"})
 	{
 		SetVariable("r.RT.Shadow.Path", Path);
-		SetVariable("r.RT.Shadow.InstanceMask", "2");
+		SetVariable("r.RT.Shadow.InstanceMask", "14");
 		EXPECT_EQ(MeanGreen(RenderSunShadow(View)), 1.0);
-		const std::pair<uint8_t, double> Cases[] = {{MaskAll, 0.0}, {MaskCastsShadow, 0.0}, {MaskVisible, 1.0}, {0x80, 1.0}};
+		const std::pair<uint8_t, double> Cases[] = {{MaskDefault, 0.0}, {MASK_SUN, 0.0}, {MASK_SUN_MOVING, 0.0}, {MASK_CHARACTER, 0.0},
+		    {MASK_LOCAL, 1.0}, {MaskVisible, 1.0}, {0x80, 1.0}};
 		for (const auto& [Mask, Expected] : Cases)
 		{
 			Roof.Mask = Mask;
 			const FRTObjectId Object = Scene.AddObject(Roof);
-			SetVariable("r.RT.Shadow.InstanceMask", "2");
+			SetVariable("r.RT.Shadow.InstanceMask", "14");
 			EXPECT_EQ(MeanGreen(RenderSunShadow(View)), Expected) << "mask " << int(Mask) << " path " << Path;
 			SetVariable("r.RT.Shadow.InstanceMask", "0");
 			EXPECT_EQ(MeanGreen(RenderSunShadow(View)), 1.0) << "rays that see nothing, path " << Path;

@@ -118,8 +118,25 @@ FRTStatus FHostScene::CreateSkinnedGeometry(FUploader& Uploader, uint32_t Mesh, 
 	return Scene.CreateGeometry(std::move(Info), Out);
 }
 
+/// By node: some animation moves it, or one of its parents.
+static std::vector<bool> FindAnimatedNodes(const FSceneDescription& Scene)
+{
+	std::vector<bool> Out(Scene.Nodes.size(), false);
+	for (const FHostAnimation& Animation : Scene.Animations)
+	{
+		for (const FHostChannel& Channel : Animation.Channels) { Out[static_cast<size_t>(Channel.Node)] = true; }
+	}
+	for (size_t Node = 0; Node < Out.size(); ++Node)
+	{
+		const int32_t Parent = Scene.Nodes[Node].Parent; // parents come first
+		if (Parent >= 0 && Out[static_cast<size_t>(Parent)]) { Out[Node] = true; }
+	}
+	return Out;
+}
+
 FRTStatus FHostScene::CreateObjects(FUploader& Uploader)
 {
+	const std::vector<bool> IsNodeAnimated = FindAnimatedNodes(Description);
 	for (uint32_t Node = 0; Node < Description.Nodes.size(); ++Node)
 	{
 		const int32_t Mesh = Description.Nodes[Node].Mesh;
@@ -140,6 +157,10 @@ FRTStatus FHostScene::CreateObjects(FUploader& Uploader)
 			    static_cast<uint32_t>(Own.empty() ? Description.Meshes[Mesh].Sections[Section].Material : Own[Section]));
 		}
 		Info.Transform = Pose.World[Node];
+		FRTObjectTraits Traits = Description.Nodes[Node].Traits;
+		Traits.bMoves = Instance.Skinned || IsNodeAnimated[Node];
+		Info.Mask = MakeObjectMask(Traits);
+		Info.bCharacter = Traits.bCharacter;
 		Instance.Object = Scene.AddObject(Info);
 		AddDraw(Instance, Info);
 		Instances.push_back(std::move(Instance));

@@ -134,6 +134,7 @@ public:
 		AddFloats(V.Scale);
 		AddOptional(V.Matrix);
 		AddAll(V.Mesh, V.Skin, V.Light, V.Camera);
+		if (V.Traits != FRTObjectTraits()) { Hash.Add(MakeObjectMask(V.Traits) | (V.Traits.bCharacter ? 256u : 0u)); }
 		AddPlain(V.Materials);
 	}
 	void Add(const FHostSkin& V)

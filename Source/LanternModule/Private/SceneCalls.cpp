@@ -141,8 +141,8 @@ ERTObjectHandle FSceneCalls::AddOne(const FRTModuleObject& Object)
 	FObject Added;
 	Added.Mesh = Object.Mesh;
 	Added.Materials.assign(Object.Materials, Object.Materials + Object.MaterialCount);
-	Added.bVisible = Object.bVisible;
-	Added.bCastsShadow = Object.bCastsShadow;
+	Added.Traits = {
+	    Object.bVisible, Object.bCastsShadow, Object.bCastsLocalShadow, Object.Mobility == ERTModuleMobility::Movable, Object.bCharacter};
 	Added.Mobility = Object.Mobility;
 	AddUsers(Added);
 	++Meshes.Find(Object.Mesh)->Users;
@@ -150,7 +150,8 @@ ERTObjectHandle FSceneCalls::AddOne(const FRTModuleObject& Object)
 	FAddObjectCommand Command;
 	Command.Mesh = Meshes.GetSlot(Object.Mesh);
 	Command.Materials = GetSlots(Added.Materials);
-	Command.Mask = Added.GetMask();
+	Command.Mask = MakeObjectMask(Added.Traits);
+	Command.bCharacter = Added.Traits.bCharacter;
 	Command.Transform = World.ToTransform(Object.Transform);
 	const ERTObjectHandle Handle = Objects.Add(std::move(Added));
 	Command.Slot = Objects.GetSlot(Handle);
@@ -193,13 +194,13 @@ FRTStatus FSceneCalls::SetObjectTransform(ERTObjectHandle Handle, const double T
 	return Status;
 }
 
-FRTStatus FSceneCalls::SetMask(const char* Function, ERTObjectHandle Handle, bool FObject::*Member, bool bValue)
+FRTStatus FSceneCalls::SetMask(const char* Function, ERTObjectHandle Handle, bool FRTObjectTraits::*Member, bool bValue)
 {
 	std::lock_guard Lock(Mutex);
 	FObject* const Object = Objects.Find(Handle);
 	if (Object == nullptr) { return RefuseHandle(Function, "object"); }
-	Object->*Member = bValue;
-	AddUpdate(FMaskCommand{Objects.GetSlot(Handle), Object->GetMask()}, 0, Object->Ticket);
+	Object->Traits.*Member = bValue;
+	AddUpdate(FMaskCommand{Objects.GetSlot(Handle), MakeObjectMask(Object->Traits)}, 0, Object->Ticket);
 	return FRTStatus::Success();
 }
 
@@ -225,12 +226,12 @@ FRTStatus FSceneCalls::SetObjectMesh(ERTObjectHandle Handle, ERTMeshHandle Mesh,
 
 FRTStatus FSceneCalls::SetObjectCastsShadow(ERTObjectHandle Handle, bool bCastsShadow)
 {
-	return SetMask("SetObjectCastsShadow", Handle, &FObject::bCastsShadow, bCastsShadow);
+	return SetMask("SetObjectCastsShadow", Handle, &FRTObjectTraits::bCastsShadow, bCastsShadow);
 }
 
 FRTStatus FSceneCalls::SetObjectVisible(ERTObjectHandle Handle, bool bVisible)
 {
-	return SetMask("SetObjectVisible", Handle, &FObject::bVisible, bVisible);
+	return SetMask("SetObjectVisible", Handle, &FRTObjectTraits::bVisible, bVisible);
 }
 
 FRTStatus FSceneCalls::RemoveObject(ERTObjectHandle Handle)

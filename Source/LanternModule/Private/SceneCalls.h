@@ -92,13 +92,9 @@ private:
 	{
 		ERTMeshHandle Mesh = ERTMeshHandle::None;
 		std::vector<ERTMaterialHandle> Materials;
-		bool bVisible = true, bCastsShadow = true;
+		FRTObjectTraits Traits;
 		ERTModuleMobility Mobility = ERTModuleMobility::Movable;
 		FTicket Ticket = 0;
-		uint8_t GetMask() const
-		{
-			return static_cast<uint8_t>((bVisible ? MaskAll & ~MaskCastsShadow : 0) | (bCastsShadow ? MaskCastsShadow : 0));
-		}
 	};
 	struct FLight
 	{
@@ -114,7 +110,7 @@ private:
 	// All of these need Mutex.
 	FRTStatus CheckObject(const FRTModuleObject& Object);
 	ERTObjectHandle AddOne(const FRTModuleObject& Object);
-	FRTStatus SetMask(const char* Function, ERTObjectHandle Handle, bool FObject::*Member, bool bValue);
+	FRTStatus SetMask(const char* Function, ERTObjectHandle Handle, bool FRTObjectTraits::*Member, bool bValue);
 	FRTStatus CheckDeformable(const char* Function, ERTMeshHandle Handle);
 	FRTStatus CheckOwnVertices(const char* Function, ERTMeshHandle Handle);
 	FRTStatus CheckMaterials(const FMesh& Mesh, const ERTMaterialHandle* Handles, uint32_t Count);

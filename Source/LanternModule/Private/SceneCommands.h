@@ -46,7 +46,8 @@ struct FRemoveMeshCommand
 struct FAddObjectCommand
 {
 	uint32_t Slot = 0, Mesh = 0;
-	uint8_t Mask = MaskAll;
+	uint8_t Mask = MaskDefault;
+	bool bCharacter = false;
 	std::vector<uint32_t> Materials;
 	glm::dmat4 Transform{1.0};
 };
@@ -62,7 +63,7 @@ struct FTransformCommand
 struct FMaskCommand
 {
 	uint32_t Slot = 0;
-	uint8_t Mask = MaskAll;
+	uint8_t Mask = MaskDefault;
 };
 struct FObjectMaterialsCommand
 {

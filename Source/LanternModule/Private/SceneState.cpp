@@ -111,6 +111,7 @@ void FSceneState::Do(FAddObjectCommand& Command)
 	Info.Materials = GetMaterials(Command.Materials);
 	Info.Transform = Command.Transform;
 	Info.Mask = Command.Mask;
+	Info.bCharacter = Command.bCharacter;
 	Id = Scene.AddObject(std::move(Info));
 }
 

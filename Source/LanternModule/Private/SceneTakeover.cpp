@@ -139,7 +139,8 @@ void FSceneCalls::AddAll(const FSceneValues& Values)
 		FAddObjectCommand Command;
 		Command.Slot = Objects.GetSlot(Handle);
 		Command.Materials = GetSlots(Object.Materials);
-		Command.Mask = Object.GetMask();
+		Command.Mask = MakeObjectMask(Object.Traits);
+		Command.bCharacter = Object.Traits.bCharacter;
 		// An object whose mesh could not be made was never placed, and stays unseen.
 		const std::optional<glm::dmat4> Transform = FindSlot(Values.Transforms, Command.Slot);
 		Command.Mesh = Transform ? Meshes.GetSlot(Object.Mesh) : ~0u;

@@ -1,4 +1,4 @@
-// Shapes that glTF files give to lights.
+// What glTF files say of lights and shadows beyond the extensions: extras.lantern.
 #include "Support/GltfTestTools.h"
 
 namespace Lantern
@@ -38,6 +38,18 @@ TEST(GltfLights, ExtrasGiveLightsAShape)
 	EXPECT_NE(LoadLight("point", {{"shape", "blob"}}).Error.find("no shape of a light"), std::string::npos);
 	EXPECT_NE(LoadLight("point", {{"shape", "disk"}}).Error.find("radius"), std::string::npos);
 	EXPECT_NE(LoadLight("point", {{"shape", "disk"}, {"radius", -1}}).Error.find("radius"), std::string::npos);
+}
+
+TEST(GltfNodes, ExtrasSayWhatANodeShadows)
+{
+	FGltfMaker Maker;
+	Maker.AddTriangle();
+	Maker.Json["nodes"][0]["extras"]["lantern"] = {{"character", true}, {"castsLocalShadow", false}};
+	Maker.Json["nodes"].push_back({{"name", "plain"}});
+	const FLoadResult Result = Maker.Load();
+	ASSERT_TRUE(Result.Scene) << Result.Error;
+	EXPECT_EQ(Result.Scene->Nodes[0].Traits, (FRTObjectTraits{.bCastsLocalShadow = false, .bCharacter = true}));
+	EXPECT_EQ(Result.Scene->Nodes[1].Traits, FRTObjectTraits());
 }
 
 } // namespace

@@ -166,7 +166,7 @@ TEST_F(FSignalReferenceTest, EveryPartOfTheStateCounts)
 	const FRTObjectId Id = Scene.AddObject(Extra);
 	ExpectNew("another object");
 	Scene.RemoveObject(Id);
-	Extra.Mask = MaskCastsShadow;
+	Extra.Mask = MaskCasters;
 	Scene.AddObject(Extra);
 	ExpectNew("its mask");
 	Set("r.RT.AlphaTest", "0");

@@ -136,21 +136,21 @@ TEST_F(FGatherSceneTest, SmallObjectsLoseMaskBitsAndGoWithTheLast)
 	const FRTObjectId Id = Add(Pebble, {Material}, {0, 0, -20}); // 6.6 pixels across
 	const FGatherView View({0, 0, 0}, {0, 0, -1}, 1.0f, 720);
 	FRTObjectInfo Info = Scene->GetObject(Id);
-	Info.Mask = MaskCastsShadow;
+	Info.Mask = MASK_SUN;
 	const FRTObjectId ShadowOnly = Scene->AddObject(Info);
 	ViewFrame(View);
-	EXPECT_EQ(MaskOf(Id), uint32_t(MaskAll));
-	EXPECT_EQ(MaskOf(ShadowOnly), uint32_t(MaskCastsShadow));
+	EXPECT_EQ(MaskOf(Id), uint32_t(MaskDefault));
+	EXPECT_EQ(MaskOf(ShadowOnly), uint32_t(MASK_SUN));
 	SetVariable("r.RT.Culling.Shadow.MinPixels", "24");
 	ViewFrame(View);
-	EXPECT_EQ(MaskOf(Id), uint32_t(MaskAll & ~MaskCastsShadow));
+	EXPECT_EQ(MaskOf(Id), uint32_t(MaskDefault & ~MaskCasters));
 	EXPECT_EQ(ByObject().count(ShadowOnly.Index), 0u);
 	SetVariable("r.RT.Culling.Visible.MinPixels", "24");
 	ViewFrame(View);
 	EXPECT_EQ(ByObject().size(), 0u);
 	SetVariable("r.RT.Culling.Shadow.MinPixels", "2");
 	ViewFrame(View);
-	EXPECT_EQ(MaskOf(Id), uint32_t(MaskCastsShadow));
+	EXPECT_EQ(MaskOf(Id), uint32_t(MaskDefault & MaskCasters));
 }
 
 TEST_F(FGatherSceneTest, StillFramesDoNothingAndMovingOnesOnlyWhereTheSetChanges)

@@ -301,13 +301,13 @@ TEST(GatherCulling, SidesGroupsAndSizesDecideAsTheySay)
 	// Diameter 2r at distance d covers 1000 · r / (d · tan ½) pixels.
 	const double R = 0.5, PerPixel = 1000.0 * R / std::tan(0.5);
 	EXPECT_EQ(Pixels.Test({0, 0, -PerPixel / 24.1}, R), 0xff);
-	EXPECT_EQ(Pixels.Test({0, 0, -PerPixel / 23.9}, R), 0xff & ~MASK_CASTS_SHADOW);
+	EXPECT_EQ(Pixels.Test({0, 0, -PerPixel / 23.9}, R), 0xff & ~MASK_CASTERS);
 	EXPECT_NEAR(Pixels.ScreenSize({0, 0, -50}, R), PerPixel / 50, 0.01);
 	Settings = {};
 	Settings.Radius = 1e6f;
 	Settings.VisibleMinPixels = 4;
 	const FCullingRule Visible(FGatherView({0, 0, 0}, {0, 0, -1}, 1.0f, 1000), Settings);
-	EXPECT_EQ(Visible.Test({0, 0, -PerPixel / 3.9}, R), MASK_CASTS_SHADOW);
+	EXPECT_EQ(Visible.Test({0, 0, -PerPixel / 3.9}, R), MASK_CASTERS);
 }
 
 } // namespace

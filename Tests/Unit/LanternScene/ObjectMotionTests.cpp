@@ -22,7 +22,7 @@ TEST_F(FObjectMotionTest, WhoSeesAnObjectIsNoMotionAndEndsNone)
 	const std::vector<FRTMockInstance> Instances = Mock().GetSceneInstances(Scene->GetStructure());
 	ASSERT_EQ(Instances.size(), 1u);
 	EXPECT_EQ(Instances[0].Instance.CustomIndexAndMask >> 24, uint32_t(MaskVisible));
-	Scene->SetMask(Id, MaskAll);
+	Scene->SetMask(Id, MaskDefault);
 	Show();
 	EXPECT_FALSE(HasMotion(Id)) << "it stands still";
 }

@@ -213,11 +213,24 @@ void ReadLights(FDocument& Document)
 	}
 }
 
+/// Reads extras.lantern of a node: who sees its mesh, and what it casts shadows on.
+void ReadTraits(const FJson& Json, FRTObjectTraits& Traits)
+{
+	const FJson Extras = Json.Member("extras");
+	const FJson Given = Extras.Member("lantern");
+	if (!Given.Exists()) { return; }
+	Traits.bVisible = Given.GetBool("visible", true);
+	Traits.bCastsShadow = Given.GetBool("castsShadow", true);
+	Traits.bCastsLocalShadow = Given.GetBool("castsLocalShadow", true);
+	Traits.bCharacter = Given.GetBool("character", false);
+}
+
 FHostNode ReadNode(FDocument& Document, const FJson& Json, bool bShown, const std::vector<int32_t>& CameraRemap)
 {
 	FHostNode Node;
 	Node.Name = Json.GetString("name", "");
 	ReadTransform(Json, Node);
+	ReadTraits(Json, Node.Traits);
 	const int32_t Mesh = Json.GetIndex("mesh", Document.MeshRemap.size(), "mesh");
 	const int32_t Camera = Json.GetIndex("camera", CameraRemap.size(), "camera");
 	const FJson LightJson = Json.Extension("KHR_lights_punctual");

@@ -12,6 +12,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "LanternScene/Lights/Light.h"
+#include "LanternScene/Scene/Object.h"
 #include "SceneTypes.h"
 
 namespace Lantern
@@ -100,6 +101,7 @@ struct FHostNode
 	std::optional<glm::dmat4> Matrix; ///< replaces the three members above
 	int32_t Mesh = -1, Skin = -1, Light = -1, Camera = -1;
 	std::vector<int32_t> Materials; ///< by section, replacing the mesh's; empty: the mesh's. Masked only where the mesh's material is
+	FRTObjectTraits Traits;         ///< of the node's mesh; bMoves is left to FHostScene
 };
 
 struct FHostSkin

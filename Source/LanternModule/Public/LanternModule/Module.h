@@ -110,7 +110,7 @@ enum class ERTModuleMobility : uint8_t
 {
 	Static,     ///< never moves: SetObjectTransform refuses it
 	Stationary, ///< does not move, but its light may change. No pass makes a difference yet between this and Static
-	Movable,
+	Movable,    ///< moves or deforms; a host's shadow map may leave it to rays
 };
 
 struct FRTModuleObject
@@ -121,7 +121,11 @@ struct FRTModuleObject
 	/// Object to world: 3 rows of 4, the last column being the translation.
 	double Transform[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 	bool bCastsShadow = true;
-	bool bVisible = true; ///< seen by all rays but those of shadows: reflections, diffuse light, occlusion
+	bool bCastsLocalShadow = true; ///< false: only from the sun and the sky, as of trees that lamps should shine through
+	/// A character shadows all but characters, itself included: faces have no self-shadow. Paths of diffuse light and reflections
+	/// obey. The sun's shadow does not know yet which pixels show a character, and shadows them as anything else.
+	bool bCharacter = false;
+	bool bVisible = true; ///< seen by all rays but those of shadows: reflections and diffuse light
 	ERTModuleMobility Mobility = ERTModuleMobility::Movable;
 };
 

@@ -24,7 +24,7 @@ TRTConsoleVariable<float> CVarRadius("r.RT.AO.Radius", 20.0f,
 TRTConsoleVariable<int32_t> CVarPath(
     "r.RT.AO.Path", 0, "How ambient occlusion is traced. 0: as the device does best. 1: ray-tracing pipeline. 2: ray query.", {0, 2});
 TRTConsoleVariable<int32_t> CVarMask(
-    "r.RT.AO.InstanceMask", MaskCastsShadow, "Only objects that share a bit with this mask occlude.", {0, 255});
+    "r.RT.AO.InstanceMask", MaskCasters, "Only objects that share a bit with this mask occlude.", {0, 255});
 const FDenoiseVariables Denoise("r.RT.AO", FDenoiseDefaults{.SigmaValue = 1.2f});
 
 FAmbientOcclusionConstants MakeConstants(const FFrameContext& Context)

@@ -22,7 +22,7 @@ TRTConsoleVariable<bool> CVarCullFront("r.RT.Shadow.CullFrontFaces", false,
     "Sun shadow rays ignore faces turned towards the sun, as shadow maps drawn with front-face culling do. An object casts all the "
     "same if all of its materials are double-sided.");
 TRTConsoleVariable<int32_t> CVarMask(
-    "r.RT.Shadow.InstanceMask", MaskCastsShadow, "Only objects that share a bit with this mask cast sun shadows.", {0, 255});
+    "r.RT.Shadow.InstanceMask", MaskSunCasters, "Only objects that share a bit with this mask cast sun shadows.", {0, 255});
 const FDenoiseVariables Denoise("r.RT.Shadow", FDenoiseDefaults{.SigmaValue = 2.0f, .bExtent = true});
 
 // A ray towards the sun sees the backs of faces that are turned towards it. gl_RayFlagsCullBackFacingTrianglesEXT

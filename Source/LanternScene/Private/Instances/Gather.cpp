@@ -71,7 +71,7 @@ inline void WriteInstance(
 
 inline uint32_t MaskBits(bool bOthers, bool bShadow)
 {
-	return 0xffffffu | (bOthers ? uint32_t(0xff & ~MASK_CASTS_SHADOW) << 24 : 0u) | (bShadow ? uint32_t(MASK_CASTS_SHADOW) << 24 : 0u);
+	return 0xffffffu | (bOthers ? uint32_t(0xff & ~MASK_CASTERS) << 24 : 0u) | (bShadow ? uint32_t(MASK_CASTERS) << 24 : 0u);
 }
 } // namespace
 
@@ -93,8 +93,8 @@ FInstanceGather::FKept FInstanceGather::CullBucket(const FPass& Pass, size_t Ind
 	else if (Bucket.Group > 0)
 	{
 		const uint8_t Bits = GroupBits[Bucket.Group];
-		Out.Others = (Bits & ~MASK_CASTS_SHADOW) ? Used : 0;
-		Out.Shadow = (Bits & MASK_CASTS_SHADOW) ? Used : 0;
+		Out.Others = (Bits & ~MASK_CASTERS) ? Used : 0;
+		Out.Shadow = (Bits & MASK_CASTERS) ? Used : 0;
 	}
 	else if ((Class & (BucketAllOthers | BucketNoOthers)) && (Class & (BucketAllShadow | BucketNoShadow)))
 	{
@@ -115,8 +115,8 @@ FInstanceGather::FKept FInstanceGather::CullBucket(const FPass& Pass, size_t Ind
 		{
 			const FInstanceRecord& Record = Pass.Store.GetRecord(Bucket.Object(static_cast<uint32_t>(std::countr_zero(Left))));
 			const uint8_t Bits = Pass.Rule.Test(Record.Center, Record.Radius);
-			Out.Others |= (Bits & ~MASK_CASTS_SHADOW) ? Left & (~Left + 1) : 0;
-			Out.Shadow |= (Bits & MASK_CASTS_SHADOW) ? Left & (~Left + 1) : 0;
+			Out.Others |= (Bits & ~MASK_CASTERS) ? Left & (~Left + 1) : 0;
+			Out.Shadow |= (Bits & MASK_CASTERS) ? Left & (~Left + 1) : 0;
 		}
 	}
 	Out.Written = (Out.Others & Bucket.SeenByOthers) | (Out.Shadow & Bucket.SeenByShadow);

@@ -207,8 +207,8 @@ void FInstanceStore::WriteLane(FInstanceBucket& Bucket, uint32_t Lane, uint32_t 
 	Bucket.IndexAndMask[Lane] = Object | (uint32_t(Record.Mask) << 24);
 	Bucket.Range[Lane] = Record.Range;
 	const uint64_t Bit = 1ull << Lane;
-	Bucket.SeenByShadow = (Bucket.SeenByShadow & ~Bit) | ((Record.Mask & MASK_CASTS_SHADOW) ? Bit : 0);
-	Bucket.SeenByOthers = (Bucket.SeenByOthers & ~Bit) | ((Record.Mask & ~MASK_CASTS_SHADOW) ? Bit : 0);
+	Bucket.SeenByShadow = (Bucket.SeenByShadow & ~Bit) | ((Record.Mask & MASK_CASTERS) ? Bit : 0);
+	Bucket.SeenByOthers = (Bucket.SeenByOthers & ~Bit) | ((Record.Mask & ~MASK_CASTERS) ? Bit : 0);
 }
 
 void FInstanceStore::Place(uint32_t Object, uint32_t Bucket, const float* Rows, const glm::vec3& Place)

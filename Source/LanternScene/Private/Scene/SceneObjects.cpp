@@ -63,6 +63,7 @@ FRTObjectId FSceneObjects::Add(FRTObjectInfo Info)
 	}
 	FObject& Object = Objects[Slot];
 	Object.Info = std::move(Info);
+	Characters += Object.Info.bCharacter ? 1 : 0;
 	Object.Range = Sections.Acquire(*Object.Info.Geometry, Object.Info.Materials);
 	Motions.Add(Slot, *Object.Info.Geometry);
 	JoinGeometry(Slot);
@@ -75,6 +76,7 @@ void FSceneObjects::Remove(FRTObjectId Id)
 {
 	FObject& Object = Resolve(Id);
 	MarkEmissive(Object.Range);
+	Characters -= Object.Info.bCharacter ? 1 : 0;
 	Instances.Remove(Id.Index);
 	Motions.Remove(Id.Index);
 	Pivots.Remove(Id.Index);
@@ -193,7 +195,8 @@ void FSceneObjects::Write(uint32_t Slot)
 	std::memcpy(Data.ObjectToWorld, Instances.GetTransform(Slot), sizeof(Data.ObjectToWorld));
 	Data.FirstSection = Sections.GetRange(Object.Range).First;
 	Data.Cell = Instances.GetRecord(Slot).Cell;
-	Data.Flags = (glm::determinant(glm::dmat3(Transform)) < 0.0 ? OBJECT_MIRRORED : 0u) | PackTranslationRest(Transform, Data);
+	Data.Flags = (glm::determinant(glm::dmat3(Transform)) < 0.0 ? OBJECT_MIRRORED : 0u) | (Object.Info.bCharacter ? OBJECT_CHARACTER : 0u) |
+	             PackTranslationRest(Transform, Data);
 	Data.Motion = Motions.GetEntry(Slot);
 	Table.Set(Slot, Data);
 }

@@ -49,6 +49,7 @@ const FSceneFacts& FSceneUpdate::RefreshFacts()
 	UpdateOpacity(); // which hit programs there are depends on it
 	Facts.Objects = Parts.Objects.GetInstances().GetCount();
 	Facts.DynamicGeometries = Parts.Geometries.GetDynamicCount();
+	Facts.bCharacters = Parts.Objects.GetCharacterCount() > 0;
 	Facts.EmissiveTriangles = Parts.Emissive.GetTable().Num();
 	Facts.bMasked = Sections.GetMaskedRangeCount() > 0;
 	Facts.bOwnShapes = std::any_of(Sections.GetHitPrograms().begin(), Sections.GetHitPrograms().end(), HasOwnShape);

@@ -65,8 +65,8 @@ struct FCullingRule
 	double VisibleScale = 0, ShadowScale = 0;
 	bool bVisibleLimit = false, bShadowLimit = false;
 
-	/// Returns the bits of an instance mask that a sphere keeps; 0: it is left out. The shadow bit is MASK_CASTS_SHADOW; all
-	/// other bits are kept or dropped together.
+	/// Returns the bits of an instance mask that a sphere keeps; 0: it is left out. MASK_CASTERS are kept or dropped
+	/// together, and so are all others.
 	uint8_t Test(const glm::dvec3& Center, double SphereRadius) const
 	{
 		if (!bCull) { return 0xff; }
@@ -78,8 +78,8 @@ struct FCullingRule
 		if (!(Distance2 <= Limit * Limit)) { return 0; }
 		const double Visible = SphereRadius * VisibleScale, Shadow = SphereRadius * ShadowScale;
 		uint8_t Bits = 0;
-		if (!bVisibleLimit || Distance2 <= Visible * Visible) { Bits |= 0xff & ~MASK_CASTS_SHADOW; }
-		if (!bShadowLimit || Distance2 <= Shadow * Shadow) { Bits |= MASK_CASTS_SHADOW; }
+		if (!bVisibleLimit || Distance2 <= Visible * Visible) { Bits |= 0xff & ~MASK_CASTERS; }
+		if (!bShadowLimit || Distance2 <= Shadow * Shadow) { Bits |= MASK_CASTERS; }
 		return Bits;
 	}
 	/// Returns the size of a sphere on the screen: pixels across.

@@ -21,17 +21,39 @@ struct FRTObjectId
 	friend bool operator==(FRTObjectId, FRTObjectId) = default;
 };
 
-/// Bits of FRTObjectInfo::Mask by convention. Rays of a pass name those that they see.
-inline constexpr uint8_t MaskVisible = MASK_VISIBLE;          ///< seen by camera, reflection and GI rays
-inline constexpr uint8_t MaskCastsShadow = MASK_CASTS_SHADOW; ///< seen by shadow rays
-inline constexpr uint8_t MaskAll = 0xff;
+/// Who sees an object and what it casts shadows on, as a host says it.
+struct FRTObjectTraits
+{
+	bool bVisible = true;          ///< to camera, reflection and GI rays
+	bool bCastsShadow = true;      ///< from any light
+	bool bCastsLocalShadow = true; ///< from local lights too; not of trees whose lamps should shine through them
+	bool bMoves = false;           ///< moves or deforms
+	/// A character shadows everything but characters, itself included: seen from the sun or a lamp, faces have no self-shadow.
+	bool bCharacter = false;
+	friend bool operator==(const FRTObjectTraits&, const FRTObjectTraits&) = default;
+};
+
+/// Returns the bits of FRTObjectInfo::Mask, MASK_…, that say so. Rays of a pass name those that they see.
+constexpr uint8_t MakeObjectMask(const FRTObjectTraits& Traits)
+{
+	uint32_t Mask = Traits.bVisible ? 0xffu & ~MASK_CASTERS : 0u;
+	if (Traits.bCastsShadow && Traits.bCharacter) { return static_cast<uint8_t>(Mask | MASK_CHARACTER); }
+	if (Traits.bCastsShadow) { Mask |= Traits.bMoves ? MASK_SUN_MOVING : MASK_SUN; }
+	if (Traits.bCastsShadow && Traits.bCastsLocalShadow) { Mask |= MASK_LOCAL; }
+	return static_cast<uint8_t>(Mask);
+}
+inline constexpr uint8_t MaskDefault = MakeObjectMask({});
+inline constexpr uint8_t MaskVisible = MASK_VISIBLE;
+inline constexpr uint8_t MaskSunCasters = MASK_SUN_CASTERS; ///< rays to the sun
+inline constexpr uint8_t MaskCasters = MASK_CASTERS;        ///< rays to any light
 
 struct FRTObjectInfo
 {
 	FRTGeometryRef Geometry;
 	std::vector<uint32_t> Materials; ///< per section, indices of the scene's materials
 	glm::dmat4 Transform{1.0};       ///< object to world, affine, metres
-	uint8_t Mask = MaskAll;
+	uint8_t Mask = MaskDefault;
+	bool bCharacter = false; ///< characters do not shadow it: FRTObjectTraits
 	/// > 0: the object is culled together with all objects of this group, by the bounds of the whole group.
 	uint32_t Group = 0;
 };

@@ -47,7 +47,8 @@ struct FSceneFacts
 	bool bEmissive = false;
 	bool bSun = false;
 	bool bSky = false;
-	bool bSkyMap = false; ///< it is a texture
+	bool bSkyMap = false;     ///< it is a texture
+	bool bCharacters = false; ///< some objects are not shadowed by characters: FRTObjectTraits
 	friend bool operator==(const FSceneFacts&, const FSceneFacts&) = default;
 };
 

@@ -49,6 +49,8 @@ public:
 	/// Returns the index of the object's first section in FSectionData[].
 	uint32_t GetFirstSection(FRTObjectId Id) const { return Sections.GetRange(Resolve(Id).Range).First; }
 
+	/// Objects with FRTObjectInfo::bCharacter.
+	uint32_t GetCharacterCount() const { return Characters; }
 	/// Slots of the handle table. FRTObjectId::Index is one of them.
 	uint32_t GetSlotCount() const { return Objects.Num(); }
 	/// Returns null if the slot is free. Slot < GetSlotCount().
@@ -87,6 +89,7 @@ private:
 	FSectionTable& Sections;
 	FEmissiveTriangles& Emissive;
 	TSlots<FObject> Objects;
+	uint32_t Characters = 0;
 	std::vector<FRTGeometryRef> Retired, RetiredBefore; // of objects removed since the last submitted frame, and before it
 	std::unordered_map<const FRTGeometry*, std::vector<uint32_t>> DynamicUsers; // objects of dynamic geometries
 	TGpuTable<FObjectData> Table{"Objects"};

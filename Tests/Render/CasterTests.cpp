@@ -1,0 +1,119 @@
+// Who casts shadows on whom: characters, and objects that shadow from the sun alone. By the reference, against light by formula.
+#include <cmath>
+#include <numbers>
+
+#include "Support/RenderFixture.h"
+#include "Support/TestScene.h"
+
+namespace Lantern
+{
+
+namespace
+{
+constexpr float Albedo = 0.5f;
+constexpr double Lux = 4.0, Candela = 30.0;
+constexpr double LampHeight = 2.5;
+
+class FCasterTest : public FRenderTest
+{
+protected:
+	/// A floor, two plates of one mesh at heights of 1 and 2 m, and a roof at 3 m over x > 0.
+	void LoadPlates(const FRTObjectTraits& Plates)
+	{
+		FTestScene Out("casters");
+		const int32_t Grey = Out.AddLambert(glm::vec3(Albedo), glm::vec3(0), true);
+		Out.AddNode(Out.AddMesh({FTestScene::MakeFloor(Grey, 8.0f)}));
+		const int32_t Doll = Out.AddNode(Out.AddMesh({FTestScene::MakeFloor(Grey, 1.0f, 1.0f), FTestScene::MakeFloor(Grey, 1.0f, 2.0f)}));
+		Out.Scene.Nodes[static_cast<size_t>(Doll)].Traits = Plates;
+		Out.AddNode(Out.AddMesh({FTestScene::MakeFloor(Grey, 1.0f, 3.0f, {1, 0})}));
+		ASSERT_TRUE(Load(std::move(Out.Scene)));
+		SetSky({});
+	}
+	/// Radiance of the upper side of what is at this height, at z = 0, by one light of its own.
+	double Trace(double X, double Height)
+	{
+		return MeanGreen(TraceReference(LookAt({X, Height + 0.3, 3.0}, {X, Height, 0}, 0.0005f, 8, 8), 1, 1));
+	}
+	void UseSun()
+	{
+		SetSun(0.0, static_cast<float>(Lux), {0, -1, 0});
+		if (Lamp.IsValid()) { GetScene().GetScene().RemoveLight(std::exchange(Lamp, {})); }
+	}
+	void UseLamp(double X)
+	{
+		SetSun(0.0, 0.0f);
+		FSceneLight Light;
+		Light.Position = {X, LampHeight, 0};
+		Light.Color = glm::vec3(Candela);
+		if (Lamp.IsValid()) { GetScene().GetScene().SetLight(Lamp, Light); }
+		else { Lamp = GetScene().GetScene().AddLight(Light); }
+	}
+	static double LitBySun() { return Lux * Albedo / std::numbers::pi; }
+	static double LitByLamp(double Height) { return Candela / std::pow(LampHeight - Height, 2.0) * Albedo / std::numbers::pi; }
+
+	FLightId Lamp;
+};
+
+TEST_F(FCasterTest, ThingsShadowAllBelowThem)
+{
+	LoadPlates({});
+	UseSun();
+	EXPECT_NEAR(Trace(-0.5, 2.0), LitBySun(), 1e-3);
+	EXPECT_EQ(Trace(-0.5, 1.0), 0.0);
+	EXPECT_EQ(Trace(-0.5, 0.0), 0.0);
+	UseLamp(-0.5);
+	EXPECT_EQ(Trace(-0.5, 1.0), 0.0);
+}
+
+// Faces have no self-shadow; the floor has theirs, and they have that of the roof.
+TEST_F(FCasterTest, CharactersShadowAllButCharacters)
+{
+	LoadPlates({.bCharacter = true});
+	UseSun();
+	EXPECT_NEAR(Trace(-0.5, 2.0), LitBySun(), 1e-3);
+	EXPECT_NEAR(Trace(-0.5, 1.0), LitBySun(), 1e-3) << "no self-shadow";
+	EXPECT_EQ(Trace(-0.5, 0.0), 0.0) << "casts on the floor";
+	EXPECT_EQ(Trace(0.5, 1.0), 0.0) << "receives from the roof";
+	UseLamp(-0.5);
+	EXPECT_NEAR(Trace(-0.5, 1.0), LitByLamp(1.0), 2e-3 * LitByLamp(1.0));
+	EXPECT_EQ(Trace(-0.5, 0.0), 0.0);
+	// Without a shadow, it still has none of its own kind.
+	LoadPlates({.bCastsShadow = false, .bCharacter = true});
+	Lamp = {};
+	UseSun();
+	EXPECT_NEAR(Trace(-0.5, 0.0), LitBySun(), 1e-3);
+}
+
+TEST_F(FCasterTest, TreesMayShadowFromTheSunAlone)
+{
+	LoadPlates({.bCastsLocalShadow = false});
+	UseSun();
+	EXPECT_EQ(Trace(-0.5, 0.0), 0.0);
+	UseLamp(-0.5);
+	EXPECT_NEAR(Trace(-0.5, 0.0), LitByLamp(0.0), 2e-3 * LitByLamp(0.0));
+	UseLamp(0.5);
+	EXPECT_NEAR(Trace(0.5, 1.0), LitByLamp(1.0), 2e-3 * LitByLamp(1.0)) << "below the roof";
+}
+
+TEST_F(FCasterTest, HiddenThingsCastShadows)
+{
+	LoadPlates({.bVisible = false});
+	UseSun();
+	EXPECT_EQ(Trace(-0.5, 0.0), 0.0);
+	EXPECT_EQ(Trace(-0.5, 1.0), 0.0) << "the floor behind it is seen, and is dark";
+}
+
+TEST(FRTObjectTraitsTest, MasksSayWhoCastsOnWhom)
+{
+	EXPECT_EQ(MakeObjectMask({}) & MASK_CASTERS, MASK_SUN | MASK_LOCAL);
+	EXPECT_EQ(MakeObjectMask({.bMoves = true}) & MASK_CASTERS, MASK_SUN_MOVING | MASK_LOCAL);
+	EXPECT_EQ(MakeObjectMask({.bCastsLocalShadow = false, .bMoves = true}) & MASK_CASTERS, MASK_SUN_MOVING);
+	EXPECT_EQ(MakeObjectMask({.bMoves = true, .bCharacter = true}) & MASK_CASTERS, MASK_CHARACTER);
+	EXPECT_EQ(MakeObjectMask({.bCastsShadow = false, .bCharacter = true}) & MASK_CASTERS, 0u);
+	EXPECT_EQ(MakeObjectMask({.bVisible = false}), MASK_SUN | MASK_LOCAL);
+	EXPECT_EQ(MakeObjectMask({.bVisible = false, .bCastsShadow = false}), 0u);
+	EXPECT_NE(MakeObjectMask({.bCastsShadow = false}) & MASK_VISIBLE, 0u);
+}
+
+} // namespace
+} // namespace Lantern
