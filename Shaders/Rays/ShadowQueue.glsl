@@ -50,8 +50,9 @@ void TraceSun(uint Index)
 
 void TraceRequest(uint Number)
 {
+	FRayQueueCounters Counters = FRayQueueCountersRef(Push.Counters).Data;
 	// Launches are rounded up, or made for a full queue.
-	if (Number >= min(FRayQueueCountersRef(Push.Counters).Data.Wanted, Push.Capacity)) { return; }
+	if (Number >= (Counters.Wanted <= Push.Capacity ? Counters.Wanted : Counters.Kept)) { return; }
 	FRayRequest Request = FRayRequestRef(Push.Requests).Data[Number];
 	switch (RayKind(Request))
 	{

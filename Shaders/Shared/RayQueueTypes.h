@@ -28,7 +28,7 @@ struct FRayQueueCounters
 	uint Groups[3]; // of the ray-query path
 	uint Launch[3]; // width, height and depth of the ray-tracing pipeline's launch
 	uint Wanted;    // requests that were made, those without room included
-	uint Pad;
+	uint Kept;      // requests in the queue after ShareQueue.comp; read if Wanted exceeds the capacity
 };
 LANTERN_ASSERT_SIZE(FRayQueueCounters, 32);
 
@@ -47,8 +47,8 @@ struct FShadowQueueConstants
 	// < 0: no ray met anything. Written for pixels that ask for rays, with WITH_PENUMBRA.
 	FAddress SunWidths;
 	uint Capacity;
-	uint Depth;   // sampled index
-	uint Normals; // sampled index: shading and geometric normal, both octahedral
+	uint Depth;           // sampled index
+	uint Normals;         // sampled index: shading and geometric normal, both octahedral
 	uint SamplesPerPixel; // of the sun, 1 to 64
 	float MaxDistance;    // of sun rays, metres
 	uint RayFlags;        // of sun rays: gl_RayFlags… to add to those that the pass needs

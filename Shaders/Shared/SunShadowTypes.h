@@ -12,14 +12,16 @@ struct FSunShadowConstants
 	FAddress Tiles;   // FTile[]
 	FAddress Answers; // uint[pixels]
 	FAddress Widths;  // as in FShadowQueueConstants; 0 without OutPenumbra
-	uint Depth;   // sampled index
-	uint Normals; // sampled index: shading and geometric normal, both octahedral
-	uint Output;  // storage index
+	uint Depth;       // sampled index
+	uint Normals;     // sampled index: shading and geometric normal, both octahedral
+	uint Output;      // storage index
 	uint SamplesPerPixel;
 	uint OutPenumbra; // storage index, or NO_TEXTURE
+	uint Kept;        // sampled index: visibility of the frame before, for pixels whose rays had no room; NO_TEXTURE: those are lit
+	uint OutKept;     // storage index: Kept of the next frame; NO_TEXTURE: all rays have room
 	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FSunShadowConstants, 64);
+LANTERN_ASSERT_SIZE(FSunShadowConstants, 72);
 
 LANTERN_SHARED_END
 

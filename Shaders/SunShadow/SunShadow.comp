@@ -19,20 +19,30 @@ float MeasurePenumbra(FViewConstants View, uvec2 Pixel, uint Index)
 	return Width * abs(dot(Point.Ng, Point.V)) / PixelHeight(View, DistanceFromDepth(View, Depth));
 }
 
+// Returns the visibility of a pixel whose rays had no room in the queue.
+float KeepVisibility(uvec2 Pixel)
+{
+	if (Push.Kept == NO_TEXTURE) { return 1.0; }
+	float Kept = texelFetch(Textures[Push.Kept], ivec2(Pixel), 0).x;
+	return Kept >= 0.0 && Kept <= 1.0 ? Kept : 1.0; // not a number is neither
+}
+
 void main()
 {
 	uint Place = gl_LocalInvocationIndex;
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	uvec2 Pixel = TilePixel(gl_WorkGroupID.xy, Place);
 	if (IsOutsideView(View, Pixel)) { return; }
-	uint Index = Pixel.y * View.Width + Pixel.x;
-	uint Answer = FAnswerRef(Push.Answers).Data[Index];
-	imageStore(Images[Push.Output], ivec2(Pixel), vec4(float(SunSeen(Answer)) / float(Push.SamplesPerPixel)));
+	uint Index = Pixel.y * View.Width + Pixel.x, Answer = FAnswerRef(Push.Answers).Data[Index];
+	bool bAnswered = SunSeen(Answer) + SunUnseen(Answer) > 0u;
+	float Visibility = bAnswered ? float(SunSeen(Answer)) / float(Push.SamplesPerPixel) : KeepVisibility(Pixel);
+	imageStore(Images[Push.Output], ivec2(Pixel), vec4(Visibility));
+	if (Push.OutKept != NO_TEXTURE) { imageStore(Images[Push.OutKept], ivec2(Pixel), vec4(Visibility)); }
 	if (Push.OutPenumbra == NO_TEXTURE) { return; }
 	// Without a blocker, the width is 0. A surface that turns away from the sun gives no blocker distance; its width is set to 1e-3.
-	float Penumbra = SunUnseen(Answer) > 0u ? -1.0 : 0.0;
+	float Penumbra = Visibility < 1.0 ? -1.0 : 0.0;
 	FTile Tile = FTileRef(Push.Tiles).Data[TileIndex(View, gl_WorkGroupID.xy)];
 	bool bTraced = (Tile.SunRays[Place >> 5u] & (1u << (Place & 31u))) != 0u;
-	if (bTraced && Penumbra < 0.0) { Penumbra = MeasurePenumbra(View, Pixel, Index); }
+	if (bTraced && bAnswered && Penumbra < 0.0) { Penumbra = MeasurePenumbra(View, Pixel, Index); }
 	imageStore(Images[Push.OutPenumbra], ivec2(Pixel), vec4(min(Penumbra < 0.0 ? 1.0e-3 : Penumbra, 65504.0)));
 }

@@ -7,6 +7,7 @@
 
 #include "LanternCore/Text/Log.h"
 #include "RayQueueTypes.h"
+#include "Rays/RayQueueDemand.h"
 
 namespace Lantern
 {
@@ -14,7 +15,9 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<float> CVarQueuePerPixel("r.RT.Rays.QueuePerPixel", 2.0f,
-    "Room in the queue of shadow rays: requests per pixel, 4 bytes each. No more is allocated than can be asked for.", {0.0001, 64});
+    "Room in the queue of shadow rays: requests per pixel, 4 bytes each. No more is allocated than can be asked for. If rays find no room, "
+    "their pixels keep the shadow of the frame before, and later queues are larger.",
+    {0.0001, 64});
 
 FShadowQueueConstants MakeConstants(FPassContext& Pass, const FFrameContext& Frame, const FRayQueue& Queue, const FSunRays& Sun)
 {
@@ -53,13 +56,16 @@ bool CanQueueRays(uint32_t Width, uint32_t Height)
 	return false;
 }
 
+bool MayQueuesOverflow() { return CVarQueuePerPixel.GetOnRenderThread() < 1.0f; }
+
 FRayQueue CreateRayQueue(FFrameContext& Context, ESignal Signal)
 {
 	const uint64_t Pixels = uint64_t(Context.Width) * Context.Height;
-	const double Room = std::ceil(double(CVarQueuePerPixel.GetOnRenderThread()) * double(Pixels));
+	const double Room = std::ceil(Context.QueueDemand->GetRoom(CVarQueuePerPixel.GetOnRenderThread()) * double(Pixels));
 	FRayQueue Queue;
 	Queue.Name = GetSignalInfo(Signal).Pass;
 	Queue.Capacity = static_cast<uint32_t>(std::min(Room, double(Pixels)));
+	Queue.bMayOverflow = Queue.Capacity < Pixels;
 	Queue.Requests = Context.Graph.CreateBuffer({Queue.Capacity * sizeof(FRayRequest)}, "RayRequests");
 	Queue.Counters = Context.Graph.CreateBuffer({sizeof(FRayQueueCounters), ERTBufferUsage::CopyDest}, "RayQueueCounters");
 	Queue.Answers = Context.Graph.CreateBuffer({Pixels * sizeof(uint32_t)}, "RayAnswers");
@@ -73,6 +79,12 @@ void AddShadowRaysPass(
 	// another frame, and a frame that asks for more rays would lose some.
 	const bool bIndirect = Dispatch.Compute || Context.Device.GetCapabilities().bIndirectTrace;
 	const FFrameContext* const Frame = &Context;
+	FGraphBuffer Demand;
+	if (Queue.bMayOverflow)
+	{
+		const FRayQueueDemand::FQueue Asked{Queue.Counters, Queue.Capacity, uint64_t(Context.Width) * Context.Height};
+		Demand = Context.QueueDemand->AddRead(Context.Graph, (Queue.Name + "Demand").c_str(), Asked);
+	}
 	Context.Graph.AddPass((Queue.Name + "Rays").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Read(GBuffer.Depth, ERTAccess::ShaderRead);
 		Builder.Read(GBuffer.Normals, ERTAccess::ShaderRead);
@@ -82,6 +94,7 @@ void AddShadowRaysPass(
 		Builder.Read(Queue.Answers, ERTAccess::StorageRead);
 		Builder.Write(Queue.Answers, ERTAccess::StorageWrite);
 		if (Queue.SunWidths.IsValid()) { Builder.Write(Queue.SunWidths, ERTAccess::StorageWrite); }
+		if (Demand.IsValid()) { Builder.Keep(Demand); }
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
 			FShadowQueueConstants Constants = MakeConstants(Pass, *Frame, Queue, Sun);

@@ -19,6 +19,8 @@ struct FRayQueue
 	/// float[Width · Height], see FShadowQueueConstants. Invalid: nobody asks.
 	FGraphBuffer SunWidths;
 	uint32_t Capacity = 0; ///< requests
+	/// More rays can be asked for than have room. Those left out have no answer, and a later queue is larger.
+	bool bMayOverflow = false;
 };
 
 /// Rays towards the sun.
@@ -34,7 +36,11 @@ struct FSunRays
 /// Returns whether the pixels of a picture have an index in requests. Logs once if they have not.
 bool CanQueueRays(uint32_t Width, uint32_t Height);
 
-/// Name: of the signal's passes. The queue has room for what r.RT.Rays.QueuePerPixel says, and for one request of each pixel at most.
+/// Returns whether queues of this frame's settings may lack room, so that shaders for it are needed.
+bool MayQueuesOverflow();
+
+/// Signal: whose passes trace it. The queue has room for what r.RT.Rays.QueuePerPixel says, or for what earlier frames asked for. It has
+/// room for one request of each pixel at most, since no more can be asked for.
 FRayQueue CreateRayQueue(FFrameContext& Context, ESignal Signal);
 
 /// Adds the pass that traces what is in the queue. Dispatch: of Shaders/Rays/ShadowQueue.

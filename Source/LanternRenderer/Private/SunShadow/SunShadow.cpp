@@ -2,6 +2,7 @@
 #include "SunShadow/SunShadow.h"
 
 #include "Denoise/Denoise.h"
+#include "LanternCore/FrameGraph/History.h"
 #include "SignalPasses.h"
 #include "SunShadowTypes.h"
 #include "Tiles/Tiles.h"
@@ -54,6 +55,7 @@ struct FResolveInputs
 	FGraphBuffer Tiles;
 	uint32_t SamplesPerPixel = 1;
 	FGraphTexture Penumbra; ///< the penumbra's width in pixels is written here as well; may be invalid
+	FHistoryTexture Kept;   ///< visibility, for pixels whose rays have no room; Current is invalid if all have
 };
 
 /// Makes visibility of the answers.
@@ -69,6 +71,12 @@ FGraphTexture AddResolvePass(FFrameContext& Context, IRTPipeline* Pipeline, cons
 		for (const FGraphBuffer Buffer : {Inputs.Tiles, Queue.Answers}) { Builder.Read(Buffer, ERTAccess::ShaderRead); }
 		if (Queue.SunWidths.IsValid()) { Builder.Read(Queue.SunWidths, ERTAccess::ShaderRead); }
 		Builder.Write(Visibility, ERTAccess::StorageWrite);
+		if (Inputs.Kept.Previous.IsValid()) { Builder.Read(Inputs.Kept.Previous, ERTAccess::ShaderRead); }
+		if (Inputs.Kept.Current.IsValid())
+		{
+			Builder.Write(Inputs.Kept.Current, ERTAccess::StorageWrite);
+			Builder.Keep(Inputs.Kept.Current);
+		}
 		if (Inputs.Penumbra.IsValid()) { Builder.WriteIfRead(Inputs.Penumbra, ERTAccess::StorageWrite); }
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
@@ -82,10 +90,27 @@ FGraphTexture AddResolvePass(FFrameContext& Context, IRTPipeline* Pipeline, cons
 			C.Output = GetStorageIndex(Pass, Visibility);
 			C.SamplesPerPixel = Inputs.SamplesPerPixel;
 			C.OutPenumbra = GetStorageIndex(Pass, Inputs.Penumbra);
+			C.Kept = GetSampledIndex(Pass, Inputs.Kept.Previous);
+			C.OutKept = GetStorageIndex(Pass, Inputs.Kept.Current);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
 	return Visibility;
+}
+
+/// Finds the visibility of the frame before for a queue that may overflow. False: an error, which the context has.
+bool FindKept(FFrameContext& Context, FHistoryTexture& Out)
+{
+	const FRTStatus Status = Context.History->GetTexture("SunShadowKept", {Context.Width, Context.Height, ERTFormat::R16_FLOAT}, Out);
+	if (!Status)
+	{
+		Context.Fail(Status);
+		return false;
+	}
+	if (!Out.Previous.IsValid()) { return true; }
+	const FGraphTextureDesc& Before = Context.Graph.GetDesc(Out.Previous);
+	if (Before.Width != Context.Width || Before.Height != Context.Height) { Out.Previous = {}; }
+	return true;
 }
 
 /// Traces the rays through the queue. Invalid: there are none, or shaders are being compiled.
@@ -97,6 +122,7 @@ FGraphTexture AddVisibility(FFrameContext& Context, const FGBuffer& GBuffer, FGr
 	const std::optional<FRayDispatch> Dispatch = RequireRayDispatch(Context, ESignal::SunShadow, Chosen);
 	if (!Resolve || !Dispatch) { return {}; }
 	FResolveInputs Inputs{GBuffer, CreateRayQueue(Context, ESignal::SunShadow)};
+	if (Inputs.Queue.bMayOverflow && !FindKept(Context, Inputs.Kept)) { return {}; }
 	if (MeasuresPenumbra() && Dispatch->Has("WITH_PENUMBRA")) // a variant without it may still serve, and writes none
 	{
 		const uint64_t Pixels = uint64_t(Context.Width) * Context.Height;
@@ -124,6 +150,7 @@ FPassRays ChooseSunShadowRays(const FPassQuery& Query)
 	Rays.bBlockers = MeasuresPenumbra();
 	Rays.Shaders = ShadowQueueShaders;
 	Rays.Compute = {MakeTilesSource(), MakeResolveSource()};
+	if (MayQueuesOverflow()) { Rays.Compute.push_back(MakeShareSource()); }
 	return Rays;
 }
 

@@ -17,44 +17,87 @@ void ClearCounters(FPassContext& Pass, IRTBuffer* Counters)
 	Pass.Commands().FillBuffer(Counters, 0, sizeof(FRayQueueCounters), 0);
 	Pass.Commands().Barriers(&After, 1);
 }
-} // namespace
 
-FShaderSource MakeTilesSource() { return MakeComputeSource("Tiles/Tiles.comp"); }
-
-FGraphBuffer AddTilesPass(FFrameContext& Context, const FGBuffer& GBuffer, const FRayQueue& Queue, const FSunRays& Sun)
+struct FTilesPass
 {
-	IRTPipeline* const Pipeline = RequireCompute(Context, MakeTilesSource());
-	if (!Pipeline) { return {}; }
-	const uint32_t Width = Context.Width, Height = Context.Height;
-	const uint64_t TileCount = uint64_t(DivideUp(Width, TILE_SIZE)) * DivideUp(Height, TILE_SIZE);
-	const FGraphBuffer Tiles = Context.Graph.CreateBuffer({TileCount * sizeof(FTile)}, "Tiles");
-	const FPassConstants PassConstants = Context.Pass;
+	FGBuffer GBuffer;
+	FRayQueue Queue;
+	FGraphBuffer Tiles;
+	FSunRays Sun;
+	uint64_t TileCount = 0;
+};
+
+FTilesConstants MakeConstants(FPassContext& Pass, const FFrameContext& Frame, const FTilesPass& Inputs)
+{
+	const auto AddressOf = [&](FGraphBuffer Buffer) { return Pass.GetBuffer(Buffer)->GetDeviceAddress(); };
+	FTilesConstants C{};
+	C.Pass = Frame.Pass;
+	C.Tiles = AddressOf(Inputs.Tiles);
+	C.Requests = AddressOf(Inputs.Queue.Requests);
+	C.Counters = AddressOf(Inputs.Queue.Counters);
+	C.Capacity = Inputs.Queue.Capacity;
+	return C;
+}
+
+void AddSortPass(FFrameContext& Context, IRTPipeline* Pipeline, const FTilesPass& Inputs)
+{
+	const FFrameContext* const Frame = &Context;
+	const FRayQueue& Queue = Inputs.Queue;
 	Context.Graph.AddPass((Queue.Name + "Tiles").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
-		Builder.Read(GBuffer.Depth, ERTAccess::ShaderRead);
-		Builder.Read(GBuffer.Normals, ERTAccess::ShaderRead);
-		for (const FGraphBuffer Buffer : {Tiles, Queue.Requests, Queue.Counters, Queue.Answers})
+		Builder.Read(Inputs.GBuffer.Depth, ERTAccess::ShaderRead);
+		Builder.Read(Inputs.GBuffer.Normals, ERTAccess::ShaderRead);
+		for (const FGraphBuffer Buffer : {Inputs.Tiles, Queue.Requests, Queue.Counters, Queue.Answers})
 		{
 			Builder.Write(Buffer, ERTAccess::StorageWrite);
 		}
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
-			IRTBuffer* const Counters = Pass.GetBuffer(Queue.Counters);
-			ClearCounters(Pass, Counters);
-			FTilesConstants C{};
-			C.Pass = PassConstants;
-			C.Tiles = Pass.GetBuffer(Tiles)->GetDeviceAddress();
-			C.Requests = Pass.GetBuffer(Queue.Requests)->GetDeviceAddress();
-			C.Counters = Counters->GetDeviceAddress();
-			C.Answers = Pass.GetBuffer(Queue.Answers)->GetDeviceAddress();
-			C.Capacity = Queue.Capacity;
-			C.Depth = GetSampledIndex(Pass, GBuffer.Depth);
-			C.Normals = GetSampledIndex(Pass, GBuffer.Normals);
-			C.SunSamples = Sun.SamplesPerPixel;
-			C.bSoftSun = Sun.bSoft ? 1u : 0u;
-			Dispatch2D(Pass, Pipeline, C, Width, Height, TILE_SIZE);
+			ClearCounters(Pass, Pass.GetBuffer(Inputs.Queue.Counters));
+			FTilesConstants C = MakeConstants(Pass, *Frame, Inputs);
+			C.Answers = Pass.GetBuffer(Inputs.Queue.Answers)->GetDeviceAddress();
+			C.Depth = GetSampledIndex(Pass, Inputs.GBuffer.Depth);
+			C.Normals = GetSampledIndex(Pass, Inputs.GBuffer.Normals);
+			C.SunSamples = Inputs.Sun.SamplesPerPixel;
+			C.bSoftSun = Inputs.Sun.bSoft ? 1u : 0u;
+			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
-	return Tiles;
+}
+
+void AddSharePass(FFrameContext& Context, IRTPipeline* Pipeline, const FTilesPass& Inputs)
+{
+	const FFrameContext* const Frame = &Context;
+	Context.Graph.AddPass((Inputs.Queue.Name + "Share").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
+		Builder.Read(Inputs.Tiles, ERTAccess::ShaderRead);
+		for (const FGraphBuffer Buffer : {Inputs.Queue.Requests, Inputs.Queue.Counters})
+		{
+			Builder.Read(Buffer, ERTAccess::StorageRead);
+			Builder.Write(Buffer, ERTAccess::StorageWrite);
+		}
+		Builder.AllowAsync();
+		return [=](FPassContext& Pass) {
+			const auto Tiles = static_cast<uint32_t>(Inputs.TileCount);
+			Dispatch2D(Pass, Pipeline, MakeConstants(Pass, *Frame, Inputs), Tiles, 1, TILE_PIXELS);
+		};
+	});
+}
+} // namespace
+
+FShaderSource MakeTilesSource() { return MakeComputeSource("Tiles/Tiles.comp"); }
+
+FShaderSource MakeShareSource() { return MakeComputeSource("Tiles/ShareQueue.comp"); }
+
+FGraphBuffer AddTilesPass(FFrameContext& Context, const FGBuffer& GBuffer, const FRayQueue& Queue, const FSunRays& Sun)
+{
+	IRTPipeline* const Sort = RequireCompute(Context, MakeTilesSource());
+	IRTPipeline* const Share = Queue.bMayOverflow ? RequireCompute(Context, MakeShareSource()) : nullptr;
+	if (!Sort || (Queue.bMayOverflow && !Share)) { return {}; }
+	FTilesPass Inputs{GBuffer, Queue, {}, Sun};
+	Inputs.TileCount = uint64_t(DivideUp(Context.Width, TILE_SIZE)) * DivideUp(Context.Height, TILE_SIZE);
+	Inputs.Tiles = Context.Graph.CreateBuffer({Inputs.TileCount * sizeof(FTile)}, "Tiles");
+	AddSortPass(Context, Sort, Inputs);
+	if (Share) { AddSharePass(Context, Share, Inputs); }
+	return Inputs.Tiles;
 }
 
 } // namespace Lantern
