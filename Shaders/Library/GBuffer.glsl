@@ -58,11 +58,12 @@ vec3 RasterRayOrigin(FSceneConstants Scene, FViewConstants View, FGBufferPoint P
 }
 
 // Whether a ray along Direction leaves the surface to the side of Ng. With normals that are not exact, rays that may do so count. Those
-// that do not meet the surface itself, if it is among what they can meet.
-bool LeavesSurface(FViewConstants View, FGBufferPoint Point, vec3 Direction)
+// that do not meet the surface itself, if it is among what they can meet. Spread: counts a ray along any unit vector that is no farther from
+// Direction.
+bool LeavesSurface(FViewConstants View, FGBufferPoint Point, vec3 Direction, float Spread)
 {
 	if (!Point.bSure) { return true; }
-	float Facing = dot(Point.Ng, Direction), Error = View.NormalError;
+	float Facing = dot(Point.Ng, Direction), Error = View.NormalError + Spread;
 	if (View.bDerivedNormals != 0u)
 	{
 		// Where depth and shading say different things, the surface may face anywhere between them, and as far beyond.
@@ -71,6 +72,7 @@ bool LeavesSurface(FViewConstants View, FGBufferPoint Point, vec3 Direction)
 	}
 	return Facing > -Error;
 }
+bool LeavesSurface(FViewConstants View, FGBufferPoint Point, vec3 Direction) { return LeavesSurface(View, Point, Direction, 0.0); }
 
 FBrdf MakeGBufferBrdf(vec4 BaseColor, vec4 Material)
 {

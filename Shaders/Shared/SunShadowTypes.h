@@ -2,25 +2,26 @@
 #ifndef LANTERN_SUN_SHADOW_TYPES_H
 #define LANTERN_SUN_SHADOW_TYPES_H
 
-#include "SceneTypes.h"
+#include "TileTypes.h"
 
 LANTERN_SHARED_BEGIN
 
 struct FSunShadowConstants
 {
 	FPassConstants Pass;
-	uint Depth;   // sampled index
-	uint Normals; // sampled index: shading and geometric normal, both octahedral
-	uint Output;  // storage index
+	FAddress Tiles;   // FTile[]
+	FAddress Answers; // uint[pixels]
+	FAddress Widths;  // as in FShadowQueueConstants; 0 without OutPenumbra
+	uint Depth;       // sampled index
+	uint Normals;     // sampled index: shading and geometric normal, both octahedral
+	uint Output;      // storage index
 	uint SamplesPerPixel;
-	float MaxDistance; // metres
-	uint RayFlags;     // gl_RayFlags… to add to those that the pass needs
-	uint InstanceMask;
-	uint bSoft; // 0: hard shadows, from the centre of the sun's disk
-	uint OutPenumbra; // storage index, or NO_TEXTURE; WITH_PENUMBRA only
+	uint OutPenumbra; // storage index, or NO_TEXTURE
+	uint Kept;        // sampled index: visibility of the frame before, for pixels whose rays had no room; NO_TEXTURE: those are lit
+	uint OutKept;     // storage index: Kept of the next frame; NO_TEXTURE: all rays have room
 	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FSunShadowConstants, 56);
+LANTERN_ASSERT_SIZE(FSunShadowConstants, 72);
 
 LANTERN_SHARED_END
 

@@ -105,7 +105,7 @@ FRTStatus FRayBench::CaptureGBuffer(const FView& InView)
 }
 
 /// OutSurfaceMs: the G-buffer is read as if it had a far plane and no geometric normals, which this pass took. Null: as it is.
-FRTStatus FRayBench::RunPlugin(double& OutMs, double* OutSurfaceMs)
+FRTStatus FRayBench::RunPlugin(FPluginMs& Out, double* OutSurfaceMs)
 {
 	FConsoleVariables::Get().BeginFrame();
 	FRenderer& Renderer = Engine.GetRenderer();
@@ -140,15 +140,16 @@ FRTStatus FRayBench::RunPlugin(double& OutMs, double* OutSurfaceMs)
 	}
 	FRTStatus Status = Renderer.EndFrame(nullptr);
 	if (Status) { Status = Renderer.WaitForAll(); }
-	OutMs = -1.0;
+	Out = {};
 	for (const FPassTiming& Timing : Renderer.GetGraphResources().GetTimings())
 	{
-		OutMs = Timing.Name == "SunShadow" ? Timing.GpuMs : OutMs;
+		if (Timing.Name.starts_with("SunShadow")) { Out.All += Timing.GpuMs; }
+		if (Timing.Name == "SunShadowRays") { Out.Rays = Timing.GpuMs; }
 		if (OutSurfaceMs != nullptr && Timing.Name == "HostSurface") { *OutSurfaceMs = Timing.GpuMs; }
 	}
-	if (Status && OutMs < 0.0)
+	if (Status && Out.Rays <= 0.0)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "no time of the sun shadow pass: it did not run, or the device has no timestamps");
+		return FRTStatus::Error(ERTResult::Unsupported, "no time of the sun's rays: they were not traced, or the device has no timestamps");
 	}
 	return Status;
 }
@@ -176,14 +177,13 @@ FRTStatus FRayBench::RunInTurn(FRawShadow& Raw, FRayCase& Out)
 		// Who goes first alternates too: whatever the machine does meanwhile hits both.
 		for (const bool bRaw : {I % 2 == 0, I % 2 != 0})
 		{
-			double Ms = 0.0;
+			FPluginMs Ms;
 			const double Start = GetProcessorMs();
-			if (FRTStatus S = bRaw ? Raw.Run(Ms) : RunPlugin(Ms); !S) { return S; }
-			if (I >= Settings.WarmUp)
-			{
-				(bRaw ? Out.Raw : Out.Plugin).Add(Ms);
-				(bRaw ? Out.RawProcessor : Out.PluginProcessor).Add(GetProcessorMs() - Start);
-			}
+			if (FRTStatus S = bRaw ? Raw.Run(Ms.All) : RunPlugin(Ms); !S) { return S; }
+			if (I < Settings.WarmUp) { continue; }
+			(bRaw ? Out.Raw : Out.Plugin).Add(Ms.All);
+			(bRaw ? Out.RawProcessor : Out.PluginProcessor).Add(GetProcessorMs() - Start);
+			if (!bRaw) { Out.Queue.Add(Ms.Rays); }
 		}
 	}
 	return FRTStatus::Success();
@@ -193,11 +193,12 @@ FRTStatus FRayBench::RunSurface(FRayCase& Out)
 {
 	for (uint32_t I = 0; I < Settings.WarmUp + Settings.Repetitions; ++I)
 	{
-		double ShadowMs = 0.0, SurfaceMs = 0.0;
-		if (FRTStatus S = RunPlugin(ShadowMs, &SurfaceMs); !S) { return S; }
+		FPluginMs Shadow;
+		double SurfaceMs = 0.0;
+		if (FRTStatus S = RunPlugin(Shadow, &SurfaceMs); !S) { return S; }
 		if (I < Settings.WarmUp) { continue; }
 		Out.Surface.Add(SurfaceMs);
-		Out.SurfaceShadow.Add(ShadowMs);
+		Out.SurfaceShadow.Add(Shadow.All);
 	}
 	return FRTStatus::Success();
 }
@@ -209,14 +210,14 @@ FRTStatus FRayBench::Measure(bool bPipeline, FRayCase& Out)
 	Set("r.RT.Shadow.CullFrontFaces", "0");
 	Set("r.RT.Shadow.Denoise", "0");
 	Set("r.RT.Shadow.Path", bPipeline ? "1" : "2");
-	double Ms = 0.0;
+	FPluginMs Ms;
 	// The scene's hit records are those of this path only once a frame has taken it.
 	FRTStatus Status = RunPlugin(Ms);
 	std::unique_ptr<FRawShadow> Raw, Counter;
 	Status = Status ? CreateRaw(bPipeline, false, Raw) : Status;
 	Status = Status ? CreateRaw(bPipeline, true, Counter) : Status;
 	Status = Status ? RunInTurn(*Raw, Out) : Status;
-	Status = Status ? Counter->Run(Ms) : Status;
+	Status = Status ? Counter->Run(Ms.All) : Status;
 	if (!Status) { return Status; }
 	Out.Width = View.Width;
 	Out.Height = View.Height;

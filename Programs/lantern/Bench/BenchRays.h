@@ -1,4 +1,4 @@
-// One scene of `lantern bench rays`: the plugin's sun shadow pass and the raw dispatch, in turn, over one G-buffer.
+// One scene of `lantern bench rays`: the plugin's sun shadows and the raw dispatch, in turn, over one G-buffer.
 #pragma once
 
 #include <string>
@@ -16,7 +16,8 @@ struct FRayCase
 	uint32_t Width = 0, Height = 0;
 	uint64_t Rays = 0;       ///< number of pixels that trace a ray: no sky, no surface turned away from the sun
 	double Agreement = 0;    ///< fraction of pixels on which the two agree
-	FBenchTimes Raw, Plugin; ///< milliseconds
+	FBenchTimes Raw, Plugin; ///< milliseconds; the plugin's are those of all passes that make the shadow
+	FBenchTimes Queue;       ///< milliseconds: the part of Plugin that traces the queue
 	/// Processor time of the same runs, in milliseconds. On a CPU driver its ratio holds where other programs disturb the times above.
 	FBenchTimes RawProcessor, PluginProcessor;
 	/// The pass that reads an engine's G-buffer with a far plane and without geometric normals, and the shadow pass behind it;
@@ -25,6 +26,7 @@ struct FRayCase
 	double GetRawMrays() const; ///< by the median time
 	double GetPluginMrays() const;
 	double GetRatio() const { return GetPluginMrays() / GetRawMrays(); }
+	double GetQueueRatio() const { return Raw.GetMedian() / Queue.GetMedian(); }
 	double GetSurfaceShare() const { return Surface.GetMedian() / SurfaceShadow.GetMedian(); }
 };
 
@@ -50,7 +52,11 @@ public:
 private:
 	FRTStatus CreateTargets();
 	void AddCopies(FFrameContext& Context, const FGBuffer& GBuffer);
-	FRTStatus RunPlugin(double& OutMs, double* OutSurfaceMs = nullptr);
+	struct FPluginMs
+	{
+		double All = 0.0, Rays = 0.0;
+	};
+	FRTStatus RunPlugin(FPluginMs& Out, double* OutSurfaceMs = nullptr);
 	FRTStatus RunSurface(FRayCase& Out);
 	FRTStatus CreateRaw(bool bPipeline, bool bCountRays, std::unique_ptr<FRawShadow>& Out);
 	FRTStatus RunInTurn(FRawShadow& Raw, FRayCase& Out);

@@ -39,9 +39,10 @@ double GetProcessorRatio(const FRayCase& Case) { return Case.RawProcessor.GetMed
 nlohmann::json MakeJson(const FRayCase& Case, bool bIsCpu)
 {
 	nlohmann::json Json = {{"name", Case.Name}, {"width", Case.Width}, {"height", Case.Height}, {"raw_mrays", Case.GetRawMrays()},
-	    {"plugin_mrays", Case.GetPluginMrays()}, {"ratio", Case.GetRatio()}, {"rays", Case.Rays}, {"agreement", Case.Agreement},
-	    {"surface_ms", Case.Surface.ToJson()}, {"surface_share", Case.GetSurfaceShare()}, {"raw_ms", Case.Raw.ToJson()},
-	    {"plugin_ms", Case.Plugin.ToJson()}, {"repetitions", Case.Raw.GetCount()}};
+	    {"plugin_mrays", Case.GetPluginMrays()}, {"ratio", Case.GetRatio()}, {"queue_ratio", Case.GetQueueRatio()}, {"rays", Case.Rays},
+	    {"agreement", Case.Agreement}, {"surface_ms", Case.Surface.ToJson()}, {"surface_share", Case.GetSurfaceShare()},
+	    {"raw_ms", Case.Raw.ToJson()}, {"plugin_ms", Case.Plugin.ToJson()}, {"queue_ms", Case.Queue.ToJson()},
+	    {"repetitions", Case.Raw.GetCount()}};
 	if (bIsCpu) { Json["ratio_processor_time"] = GetProcessorRatio(Case); }
 	return Json;
 }
@@ -49,9 +50,9 @@ nlohmann::json MakeJson(const FRayCase& Case, bool bIsCpu)
 void PrintCase(const FRayCase& Case, bool bIsCpu)
 {
 	const auto Times = [](const FBenchTimes& T) { return fmt::format("{:.2f} [{:.2f}, {:.2f}]", T.GetMedian(), T.GetMin(), T.GetMax()); };
-	fmt::print("{:<22} {:>9} {:>8} {:>9.3f} {:>12.3f} {:>6.3f}  {:>26} {:>26}  {:>13.3f}  {:.4f} %{}\n", Case.Name,
+	fmt::print("{:<22} {:>9} {:>8} {:>9.3f} {:>12.3f} {:>6.3f} {:>6.3f}  {:>26} {:>26}  {:>13.3f}  {:.4f} %{}\n", Case.Name,
 	    fmt::format("{}x{}", Case.Width, Case.Height), Case.Rays, Case.GetRawMrays(), Case.GetPluginMrays(), Case.GetRatio(),
-	    Times(Case.Raw), Times(Case.Plugin), Case.GetSurfaceShare(), 100.0 * Case.Agreement,
+	    Case.GetQueueRatio(), Times(Case.Raw), Times(Case.Plugin), Case.GetSurfaceShare(), 100.0 * Case.Agreement,
 	    bIsCpu ? fmt::format("  {:.3f} by processor time", GetProcessorRatio(Case)) : "");
 	std::fflush(stdout);
 }
@@ -116,8 +117,8 @@ int RunBenchRays(const FBenchRaysOptions& Options)
 	Bench.Name = "rays";
 	Bench.SceneWork = 3.0; // load and two paths
 	Bench.PrintHeader = [] {
-		fmt::print("{:<22} {:>9} {:>8} {:>9} {:>12} {:>6}  {:>26} {:>26}  {:>13}  {}\n", "case", "size", "rays", "raw Mr/s", "plugin Mr/s",
-		    "ratio", "raw ms [min, max]", "plugin ms [min, max]", "surface share", "same pixels");
+		fmt::print("{:<22} {:>9} {:>8} {:>9} {:>12} {:>6} {:>6}  {:>26} {:>26}  {:>13}  {}\n", "case", "size", "rays", "raw Mr/s",
+		    "plugin Mr/s", "ratio", "queue", "raw ms [min, max]", "plugin ms [min, max]", "surface share", "same pixels");
 	};
 	Bench.ChooseScenes = [&] { return ChooseScenes(Options); };
 	Bench.Measure = [&](FSession& Session, const FBenchScene& Scene, FBenchProgress& Progress, nlohmann::json& Cases) {

@@ -30,7 +30,7 @@ FRTCapabilities MakeCapabilities(const FRTMockDesc& Desc)
 	Caps.bTimestamps = true;
 	Caps.bTransferQueue = Desc.bTransferQueue;
 	Caps.bAsyncComputeQueue = Desc.bAsyncComputeQueue;
-	Caps.bIndirectTrace = Caps.bRayTracingPipeline;
+	Caps.bIndirectTrace = Desc.bIndirectTrace && Caps.bRayTracingPipeline;
 	Caps.ShaderGroupHandleSize = Desc.HandleSize;
 	Caps.ShaderGroupHandleAlignment = Desc.HandleAlignment;
 	Caps.ShaderGroupBaseAlignment = Desc.BaseAlignment;

@@ -61,6 +61,11 @@ ERayPath ChooseShadingRayPath(const FPassQuery& Query, const TRTConsoleVariable<
 	return ERayPath::None;
 }
 
+std::string GetRayShaderPath(ESignal Signal, const FPassRays& Rays, const char* Suffix)
+{
+	return Rays.Shaders.empty() ? MakeShaderPath(Signal, Suffix) : Rays.Shaders + Suffix;
+}
+
 FShaderSource MakeQuerySource(const FSceneFacts& Facts, ESignal Signal, const FPassRays& Rays)
 {
 	FShaderDefines Defines = Rays.Defines;
@@ -69,7 +74,7 @@ FShaderSource MakeQuerySource(const FSceneFacts& Facts, ESignal Signal, const FP
 		Defines.emplace_back("HAS_MASKED", "1");
 		for (auto& Define : FAnyHitCounter::GetDefines()) { Defines.push_back(std::move(Define)); }
 	}
-	return MakeComputeSource(MakeShaderPath(Signal, ".comp"), std::move(Defines));
+	return MakeComputeSource(GetRayShaderPath(Signal, Rays, ".comp"), std::move(Defines));
 }
 
 bool FRayDispatch::Has(const char* Define) const

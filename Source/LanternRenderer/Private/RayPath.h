@@ -1,7 +1,7 @@
 // How a pass traces: through the frame's ray-tracing pipeline, or by ray queries in a compute shader.
 //
 // A signal's shaders lie in Shaders/<Pass>/: <Pass>.rgen for the pipeline, <Pass>.comp for ray queries. They trace the same
-// rays and share push constants.
+// rays and share push constants. A signal whose rays go through a queue names the queue's shaders instead (FPassRays::Shaders).
 #pragma once
 
 #include "PassTools.h"
@@ -35,7 +35,14 @@ struct FPassRays
 	/// false, it casts shadow rays only, and the RTPSO needs no closest-hit shader for it.
 	bool bShadesHits = false;
 	bool bBlockers = false; ///< its shadow rays report the distance of the blocker
+	/// Path of the shaders that trace, without suffix. Empty: the signal's own.
+	std::string Shaders;
+	/// Compute shaders of the passes before and behind the rays. Filters have a list of their own (FSignalPass::ListFilters).
+	std::vector<FShaderSource> Compute;
 };
+
+/// Returns the path of the shader that traces Signal. Suffix: ".rgen" or ".comp".
+std::string GetRayShaderPath(ESignal Signal, const FPassRays& Rays, const char* Suffix);
 
 /// Chooses the path. Wanted is a console variable: 0 for the faster one, 1 for the pipeline, 2 for ray queries. Logs once if
 /// the device lacks what was asked for. What names the pass in messages: "sun shadows are".

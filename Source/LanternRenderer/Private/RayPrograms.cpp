@@ -86,13 +86,18 @@ void CollectSignals(
 			Collector.Programs.bQueries = true;
 			Compute.push_back(MakeQuerySource(Facts, Pass.Signal, Rays));
 		}
+		Compute.insert(Compute.end(), Rays.Compute.begin(), Rays.Compute.end());
 		if (Pass.ListFilters)
 		{
 			const size_t Before = Compute.size();
 			Pass.ListFilters(Scene, Compute);
 			Collector.bFilters |= Compute.size() > Before;
 		}
-		if (Rays.Path == ERayPath::Pipeline) { Collector.Add(Pass.Signal, std::move(Rays), MakeShaderPath(Pass.Signal, ".rgen")); }
+		if (Rays.Path == ERayPath::Pipeline)
+		{
+			const std::string RayGen = GetRayShaderPath(Pass.Signal, Rays, ".rgen");
+			Collector.Add(Pass.Signal, std::move(Rays), RayGen);
+		}
 	});
 }
 } // namespace

@@ -17,6 +17,7 @@
 #include "LanternCore/Text/Log.h"
 #include "LanternRenderer/Frame.h"
 #include "RayPrograms.h"
+#include "Rays/RayQueueDemand.h"
 #include "SignalPasses.h"
 #include "Skinning/RefitQuality.h"
 
@@ -49,7 +50,8 @@ FRenderer::FRenderer(IRTDevice& InDevice, FRendererDesc Desc)
       ShaderTable(InDevice),
       AnyHits(std::make_unique<FAnyHitCounter>(InDevice)),
       RayCompiler(InDevice, Compiler, Programs),
-      StandIns(std::make_unique<FStandInFeedback>(InDevice))
+      StandIns(std::make_unique<FStandInFeedback>(InDevice)),
+      QueueDemand(std::make_unique<FRayQueueDemand>(InDevice))
 {
 	StartWorkers(); // not in the first frame
 	if (!FTaskTrace::HasFolder()) { FTaskTrace::SetFolder(Desc.CacheFolder); }
@@ -166,6 +168,7 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	Context->Height = View.Height;
 	Context->Status = &FrameStatus;
 	Context->Owner = this;
+	Context->QueueDemand = QueueDemand.get();
 	Context->Tokens = {
 	    Graph->CreateToken("Tables"), Graph->CreateToken("Vertices"), Graph->CreateToken("Structures"), Graph->CreateToken("Records")};
 	Context->bWaitForPipelines = WaitsForPipelines(Features);
@@ -313,6 +316,7 @@ void FRenderer::BeginFeedback()
 {
 	AnyHits->BeginFrame(FlightIndex);
 	StandIns->BeginFrame(FlightIndex, Context->Scene);
+	QueueDemand->BeginFrame(FlightIndex);
 	RefitQuality->BeginFrame(FlightIndex, Context->Scene.GetGeometries());
 }
 
@@ -330,6 +334,7 @@ void FRenderer::EndFeedback(bool bSubmitted)
 {
 	AnyHits->GetCounters().EndFrame(bSubmitted);
 	StandIns->GetCounters().EndFrame(bSubmitted);
+	QueueDemand->EndFrame(bSubmitted);
 	RefitQuality->EndFrame(Context->Scene.GetGeometries(), bSubmitted);
 }
 

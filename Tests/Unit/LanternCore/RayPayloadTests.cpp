@@ -91,7 +91,7 @@ using FSizes = std::multiset<uint32_t>;
 
 TEST(RayPayload, ShadowRayIsFourBytes)
 {
-	EXPECT_EQ(MeasurePayloads("SunShadow/SunShadow.rgen"), FSizes{4});
+	EXPECT_EQ(MeasurePayloads("Rays/ShadowQueue.rgen"), FSizes{4});
 	EXPECT_EQ(MeasurePayloads("Rays/Shadow.rmiss"), FSizes{4});
 }
 

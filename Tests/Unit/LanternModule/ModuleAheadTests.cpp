@@ -44,8 +44,8 @@ protected:
 	bool IsBuiltInTheEnginesList()
 	{
 		const std::vector<FRTMockCall> Builds = Mock().FindCalls(ERTMockCall::BuildGeometry);
-		std::vector<FRTMockCall> Rays = Mock().FindCalls(ERTMockCall::Dispatch);
-		const std::vector<FRTMockCall> Traces = Mock().FindCalls(ERTMockCall::TraceRays);
+		std::vector<FRTMockCall> Rays = Mock().FindCalls(ERTMockCall::DispatchIndirect);
+		const std::vector<FRTMockCall> Traces = Mock().FindCalls(ERTMockCall::TraceRaysIndirect);
 		Rays.insert(Rays.end(), Traces.begin(), Traces.end());
 		EXPECT_EQ(Builds.size(), 1u);
 		EXPECT_FALSE(Rays.empty());
@@ -105,7 +105,8 @@ TEST_F(FModuleAheadTest, FramesWithAndWithoutShowTheSame)
 		for (const FRTMockCall& Call : Mock().GetCalls())
 		{
 			const bool bWork = Call.Kind == ERTMockCall::BuildGeometry || Call.Kind == ERTMockCall::Dispatch ||
-			                   Call.Kind == ERTMockCall::TraceRays || Call.Kind == ERTMockCall::BuildScene;
+			                   Call.Kind == ERTMockCall::TraceRays || Call.Kind == ERTMockCall::BuildScene ||
+			                   Call.Kind == ERTMockCall::DispatchIndirect || Call.Kind == ERTMockCall::TraceRaysIndirect;
 			if (bWork) { Names.push_back(std::to_string(static_cast<int>(Call.Kind)) + Call.Name); }
 		}
 		std::sort(Names.begin(), Names.end());

@@ -1,4 +1,4 @@
-// Lights of the module: what shaders see of them, and what is refused.
+// Lights and casters of the module: what shaders and rays see of them, and what is refused.
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -170,6 +170,36 @@ TEST_F(FModuleLightTest, WrongLightsAreRefusedByName)
 		L.Direction[1] = 0.0f;
 		L.OuterCone = NaN;
 	}));
+}
+
+TEST_F(FModuleLightTest, ObjectsSayWhatTheyShadow)
+{
+	ASSERT_OK(SetSun(4.0));
+	const ERTMeshHandle Mesh = AddOpaqueMesh();
+	const auto FindMask = [&](const std::function<void(FRTModuleObject&)>& Change) {
+		FRTModuleObject Object;
+		Object.Mesh = Mesh;
+		Object.Materials = &Solid;
+		Object.MaterialCount = 1;
+		Change(Object);
+		ERTObjectHandle Handle = ERTObjectHandle::None;
+		EXPECT_OK(Renderer->AddObject(Object, &Handle));
+		EXPECT_TRUE(WaitUntil(
+		    "a complete frame", [&] { return Outputs.bComplete; }, [&] { ASSERT_OK(RenderWholeFrame()); }));
+		uint32_t Mask = 0;
+		for (IRTScene* const Scene : Mock().FindLiveScenes())
+		{
+			for (const FRTMockInstance& Item : Mock().GetSceneInstances(Scene)) { Mask = Item.Instance.CustomIndexAndMask >> 24; }
+		}
+		EXPECT_OK(Renderer->RemoveObject(Handle));
+		EXPECT_OK(RenderWholeFrame());
+		return Mask & MASK_CASTERS;
+	};
+	EXPECT_EQ(FindMask([](auto&) {}), MASK_SUN_MOVING | MASK_LOCAL);
+	EXPECT_EQ(FindMask([](auto& O) { O.Mobility = ERTModuleMobility::Static; }), MASK_SUN | MASK_LOCAL);
+	EXPECT_EQ(FindMask([](auto& O) { O.bCastsLocalShadow = false; }), MASK_SUN_MOVING);
+	EXPECT_EQ(FindMask([](auto& O) { O.bCharacter = true; }), MASK_CHARACTER);
+	EXPECT_EQ(FindMask([](auto& O) { O.bCastsShadow = false; }), 0u);
 }
 
 } // namespace

@@ -294,7 +294,8 @@ TEST_F(FRendererCompileTest, AShaderThatDoesNotCompileIsLeftOutAndToldOnce)
 
 TEST_F(FRendererCompileTest, WithoutMemoryForAPipelineFramesGoOnUntilThereIsSome)
 {
-	for (const char* Name : {"Lighting/", "Denoise/", "SunShadow/", "Skinning/Skin", "Skinning/RefitQuality", "ToneMap/", "RTPSO"})
+	for (const char* Name : {"Lighting/", "Denoise/", "Tiles/", "Rays/ShadowQueue", "SunShadow/", "Skinning/Skin", "Skinning/RefitQuality",
+	         "ToneMap/", "RTPSO"})
 	{
 		SCOPED_TRACE(Name);
 		Textures.clear();

@@ -24,7 +24,10 @@ protected:
 	std::vector<std::string> GetDispatched()
 	{
 		std::vector<std::string> Names;
-		for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::Dispatch)) { Names.push_back(Call.Name); }
+		for (const FRTMockCall& Call : Mock().GetCalls())
+		{
+			if (Call.Kind == ERTMockCall::Dispatch || Call.Kind == ERTMockCall::DispatchIndirect) { Names.push_back(Call.Name); }
+		}
 		return Names;
 	}
 	FRTStatus RenderReferenceOnce(uint32_t Samples = 1)
@@ -43,14 +46,15 @@ protected:
 TEST_F(FRendererContentTest, EverythingAtOnce)
 {
 	LoadAndRender({.bMasked = true, .bSkinned = true, .bLights = true, .bTexture = true, .bEmissive = true, .bSky = true});
-	EXPECT_THAT(GetPasses(), ElementsAre("Skinning", "SceneUpdate", "GBuffer", "Structures", "SunShadow", "Surface", "SunShadowTemporal",
-	                             "SunShadowFilter0", "SunShadowFilter1", "SunShadowFilter2", "SunShadowFilter3", "AmbientOcclusion",
-	                             "AmbientOcclusionTemporal", "AmbientOcclusionFilter0", "AmbientOcclusionFilter1",
-	                             "AmbientOcclusionFilter2", "AmbientOcclusionFilter3", "DirectLighting", "ToneMap"));
+	EXPECT_THAT(
+	    GetPasses(), ElementsAre("Skinning", "SceneUpdate", "GBuffer", "Structures", "SunShadowTiles", "SunShadowRays", "SunShadow",
+	                     "Surface", "SunShadowTemporal", "SunShadowFilter0", "SunShadowFilter1", "SunShadowFilter2", "SunShadowFilter3",
+	                     "AmbientOcclusion", "AmbientOcclusionTemporal", "AmbientOcclusionFilter0", "AmbientOcclusionFilter1",
+	                     "AmbientOcclusionFilter2", "AmbientOcclusionFilter3", "DirectLighting", "ToneMap"));
 	std::vector<std::string> Dispatched = GetDispatched();
 	std::erase_if(Dispatched, [](const std::string& Name) { return Name.rfind("Denoise/", 0) == 0; });
-	EXPECT_THAT(Dispatched, ElementsAre("Skinning/Skin.comp", "Skinning/RefitQuality.comp",
-	                            AllOf(StartsWith("SunShadow/SunShadow.comp"), HasSubstr("HAS_MASKED")),
+	EXPECT_THAT(Dispatched, ElementsAre("Skinning/Skin.comp", "Skinning/RefitQuality.comp", "Tiles/Tiles.comp",
+	                            AllOf(StartsWith("Rays/ShadowQueue.comp"), HasSubstr("HAS_MASKED")), "SunShadow/SunShadow.comp",
 	                            AllOf(StartsWith("AmbientOcclusion/AmbientOcclusion.comp"), HasSubstr("HAS_MASKED")),
 	                            "Lighting/DirectLighting.comp HAS_SUN HAS_SKY HAS_LIGHTS", "ToneMap/ToneMap.comp"));
 	EXPECT_EQ(Count(ERTMockCall::DrawIndexed), 4u);
@@ -62,7 +66,8 @@ TEST_F(FRendererContentTest, SecondFrameOfAStaticSceneCopiesAndBuildsNothing)
 {
 	LoadAndRender({.bMasked = true, .bSkinned = true, .bLights = true, .bSky = true});
 	for (int Frame = 0; Frame < 8; ++Frame) { Render(); } // what was built is compacted
-	EXPECT_THAT(GetPassesWithoutFilters(), ElementsAre("GBuffer", "SunShadow", "AmbientOcclusion", "DirectLighting", "ToneMap"));
+	EXPECT_THAT(GetPassesWithoutFilters(),
+	    ElementsAre("GBuffer", "SunShadowTiles", "SunShadowRays", "SunShadow", "AmbientOcclusion", "DirectLighting", "ToneMap"));
 	for (const ERTMockCall Kind : {ERTMockCall::CopyBuffer, ERTMockCall::BuildGeometry, ERTMockCall::BuildScene, ERTMockCall::CreateTexture,
 	         ERTMockCall::CreateComputePipeline})
 	{
@@ -85,7 +90,7 @@ TEST_F(FRendererContentTest, WithoutAlphaTestsThereIsNoAnyHit)
 	EXPECT_THAT(Mock().GetCreatedPipelines(), Not(Contains("GBufferMasked")));
 	Set("r.RT.Shadow.Path", "2");
 	Render();
-	EXPECT_THAT(GetDispatched(), Contains(StartsWith("SunShadow/SunShadow.comp")));
+	EXPECT_THAT(GetDispatched(), Contains(StartsWith("Rays/ShadowQueue.comp")));
 	EXPECT_THAT(GetDispatched(), Not(Contains(HasSubstr("HAS_MASKED"))));
 
 	Set("r.RT.Shadow.Path", "1");
@@ -158,9 +163,10 @@ TEST_F(FRendererContentTest, WithoutASunNoRayIsTraced)
 	EXPECT_THAT(Mock().GetCreatedTextures(), Not(Contains("SunShadowVisibility")));
 	ApplySky({.bSun = true, .bSky = true});
 	Render();
-	EXPECT_THAT(GetPassesWithoutFilters(), ElementsAre("GBuffer", "Structures", "ShaderTable", "SunShadow", "DirectLighting", "ToneMap"));
+	EXPECT_THAT(GetPassesWithoutFilters(),
+	    ElementsAre("GBuffer", "Structures", "ShaderTable", "SunShadowTiles", "SunShadowRays", "SunShadow", "DirectLighting", "ToneMap"));
 	EXPECT_EQ(Count(ERTMockCall::BuildGeometry), 2u);
-	EXPECT_EQ(Count(ERTMockCall::TraceRays), 1u);
+	EXPECT_EQ(Count(ERTMockCall::TraceRaysIndirect), 1u);
 }
 
 TEST_F(FRendererContentTest, WithoutASkyItIsNotEvaluated)
@@ -208,8 +214,8 @@ TEST_F(FRendererContentTest, PassesThatNobodyReadsAreCulled)
 	Capture.Signals.Add(ESignal::SunShadow);
 	Mock().ClearCalls();
 	ASSERT_TRUE(Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, Capture, &Captured));
-	EXPECT_THAT(GetPasses(), ElementsAre("GBuffer", "SunShadow", "Surface", "SunShadowTemporal", "SunShadowFilter0", "SunShadowFilter1",
-	                             "SunShadowFilter2", "SunShadowFilter3"))
+	EXPECT_THAT(GetPasses(), ElementsAre("GBuffer", "SunShadowTiles", "SunShadowRays", "SunShadow", "Surface", "SunShadowTemporal",
+	                             "SunShadowFilter0", "SunShadowFilter1", "SunShadowFilter2", "SunShadowFilter3"))
 	    << "a host that lights by itself";
 }
 
@@ -332,7 +338,8 @@ TEST_F(FRendererContentTest, LadderChoosesThePathAndTheLastRungGoesWithout)
 			LoadAndRender({.bMasked = true});
 			EXPECT_EQ(HasPass("SunShadow"), Case.Passes > 0);
 			const bool bWanted = Path[0] == '1' && Case.Rung >= ERTRung::Pipeline;
-			EXPECT_EQ(Count(ERTMockCall::TraceRays), bWanted ? 1u : Case.Traces);
+			EXPECT_EQ(Count(ERTMockCall::TraceRaysIndirect), bWanted ? 1u : Case.Traces);
+			EXPECT_EQ(Count(ERTMockCall::TraceRaysIndirect) + Count(ERTMockCall::DispatchIndirect), Case.Passes);
 		}
 	}
 }

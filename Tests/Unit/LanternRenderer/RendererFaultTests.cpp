@@ -269,7 +269,7 @@ TEST_F(FRendererFaultTest, PipelineWithoutMemoryIsNamedAndComesOnceThereIsMemory
 TEST_F(FRendererFaultTest, FeatureWhosePipelineFailsCanBeSwitchedOff)
 {
 	Mock().FailCompile("RTPSO");
-	Mock().FailCompile("SunShadow/SunShadow.comp");
+	Mock().FailCompile("Rays/ShadowQueue.comp");
 	ASSERT_TRUE(Load(Everything));
 	for (const char* Path : {"1", "2"})
 	{
@@ -294,8 +294,8 @@ TEST_F(FRendererFaultTest, FeatureWhosePipelineFailsCanBeSwitchedOff)
 
 TEST_F(FRendererFaultTest, MissingShaderFileIsNamed)
 {
-	for (const char* Missing :
-	    {"Lighting/DirectLighting.comp", "SunShadow/SunShadow.rgen", "Rays/Shadow.rmiss", "GBuffer/GBuffer.frag", "Library/Brdf.glsl"})
+	for (const char* Missing : {"Lighting/DirectLighting.comp", "Tiles/Tiles.comp", "SunShadow/SunShadow.comp", "Rays/ShadowQueue.rgen",
+	         "Rays/Shadow.rmiss", "GBuffer/GBuffer.frag", "Library/Brdf.glsl"})
 	{
 		const FTemporaryFolder Folder;
 		std::filesystem::copy(GetShaderFolder(), Folder.GetPath(), std::filesystem::copy_options::recursive);

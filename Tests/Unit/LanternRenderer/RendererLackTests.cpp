@@ -70,7 +70,12 @@ protected:
 		for (const std::string& Name : Mock().GetCreatedTextures()) { Names.insert("texture " + Name); }
 		for (const std::string& Name : Mock().GetCreatedPipelines()) { Names.insert("pipeline " + Name); }
 		for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::BeginMarker)) { Names.insert("pass " + Call.Name); }
-		for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::Dispatch)) { Names.insert("dispatch " + Call.Name); }
+		for (const FRTMockCall& Call : Mock().GetCalls())
+		{
+			const bool bIndirect = Call.Kind == ERTMockCall::DispatchIndirect || Call.Kind == ERTMockCall::TraceRaysIndirect;
+			if (bIndirect) { Names.insert("indirect " + Call.Name); }
+			if (Call.Kind == ERTMockCall::Dispatch) { Names.insert("dispatch " + Call.Name); }
+		}
 		for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::CreateScene)) { Names.insert("scene structure" + Call.Name); }
 		return Names;
 	}
@@ -131,7 +136,8 @@ TEST_F(FRendererLackTest, NoSun)
 	Stage.Content.bSun = false;
 	ExpectAbsent("no sun", Stage,
 	    {"pass SunShadow", "texture SunShadow", "SunShadowTemporal", "SunShadowFilter", "SunShadowHistory", "SunShadow/SunShadow",
-	        "HAS_SUN"});
+	        "HAS_SUN", "indirect ", "dispatch Tiles/", "pipeline Tiles/", "buffer Tiles", "buffer RayRequests", "buffer RayQueueCounters",
+	        "buffer RayAnswers", "buffer SunWidths"});
 }
 
 TEST_F(FRendererLackTest, NoSky)
@@ -214,8 +220,8 @@ TEST_F(FRendererLackTest, NoFilterNoHistoryAndNoMotion)
 {
 	FStage Stage;
 	Stage.Settings = {{"r.RT.Shadow.Denoise", "0"}, {"r.RT.AO.Denoise", "0"}};
-	ExpectAbsent(
-	    "no filter", Stage, {"Denoise", "Temporal", "Filter", "Surface", "History", "GBufferMotion", "ObjectMotions", "SunShadowPenumbra"});
+	ExpectAbsent("no filter", Stage,
+	    {"Denoise", "Temporal", "Filter", "Surface", "History", "GBufferMotion", "ObjectMotions", "SunShadowPenumbra", "SunWidths"});
 	const std::vector<std::pair<const char*, const char*>> Pipeline = {{"r.RT.Shadow.Path", "1"}};
 	EXPECT_TRUE(HasPart(Make({}, Pipeline), "Shadow.rchit"));
 	EXPECT_FALSE(HasPart(Make(Stage, Pipeline), "Shadow.rchit")) << "shadow rays run nothing where they hit";
@@ -229,7 +235,7 @@ TEST_F(FRendererLackTest, HardShadowsNeedNoFilter)
 {
 	FStage Stage;
 	Stage.Settings = {{"r.RT.Shadow.Soft", "0"}};
-	ExpectAbsent("hard shadows", Stage, {"SunShadowTemporal", "SunShadowFilter", "SunShadowHistory", "SunShadowPenumbra"});
+	ExpectAbsent("hard shadows", Stage, {"SunShadowTemporal", "SunShadowFilter", "SunShadowHistory", "SunShadowPenumbra", "SunWidths"});
 }
 
 TEST_F(FRendererLackTest, DiffuseGITakesThePlaceOfAmbientOcclusion)

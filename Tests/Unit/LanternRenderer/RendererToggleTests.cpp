@@ -4,7 +4,7 @@
 #include "DenoiseTypes.h"
 #include "LanternCore/FrameGraph/History.h"
 #include "PassTools.h"
-#include "SunShadowTypes.h"
+#include "RayQueueTypes.h"
 #include "Support/CoreTestTools.h"
 #include "Support/RendererTestTools.h"
 #include "Support/WaitTools.h"
@@ -29,14 +29,14 @@ protected:
 		}
 		return "none";
 	}
-	/// Push constants of the sun shadow pass.
-	FSunShadowConstants GetShadowConstants()
+	/// Push constants of the pass that traces the queue of shadow rays.
+	FShadowQueueConstants GetShadowConstants()
 	{
-		FSunShadowConstants Constants{};
+		FShadowQueueConstants Constants{};
 		for (const FRTMockCall& Call : Mock().GetCalls())
 		{
-			const bool bTrace = Call.Kind == ERTMockCall::TraceRays;
-			const bool bQuery = Call.Kind == ERTMockCall::Dispatch && Call.Name.rfind("SunShadow/", 0) == 0;
+			const bool bTrace = Call.Kind == ERTMockCall::TraceRaysIndirect;
+			const bool bQuery = Call.Kind == ERTMockCall::DispatchIndirect;
 			if (!bTrace && !bQuery) { continue; }
 			EXPECT_EQ(Call.Bytes.size(), sizeof(Constants));
 			std::memcpy(&Constants, Call.Bytes.data(), std::min(sizeof(Constants), Call.Bytes.size()));
@@ -114,10 +114,11 @@ TEST_F(FRendererToggleTest, ShadowOffTracesNothingAndKeepsNoPipeline)
 	Render();
 	EXPECT_FALSE(GetRTPSO());
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::TraceRays), 0u);
+	EXPECT_EQ(Mock().CountCalls(ERTMockCall::TraceRaysIndirect), 0u);
 	EXPECT_FALSE(HasPass("ShaderTable"));
 	Set("r.RT.Shadow", "1");
 	Render();
-	EXPECT_EQ(Mock().CountCalls(ERTMockCall::TraceRays), 1u);
+	EXPECT_EQ(Mock().CountCalls(ERTMockCall::TraceRaysIndirect), 1u);
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::CreateRayTracingPipeline), 0u) << "the pipeline of before is used again";
 	EXPECT_TRUE(Resolve(0, 0).IsGood()) << Resolve(0, 0).Error;
 }
@@ -266,7 +267,7 @@ TEST_F(FRendererToggleTest, ReorderingIsForMaterialShadersOfDevicesThatCan)
 		if (bCan) { Defines.emplace_back("REORDER", "1"); }
 		EXPECT_NE(GetRTPSO()->FindRayGen({"DiffuseGI/DiffuseGI.rgen", ERTShaderStage::RayGen, Defines, {}}), NoRayGen) << bCan;
 		EXPECT_NE(
-		    GetRTPSO()->FindRayGen({"SunShadow/SunShadow.rgen", ERTShaderStage::RayGen, {{"ONE_SAMPLE", "1"}, {"WITH_PENUMBRA", "1"}}, {}}),
+		    GetRTPSO()->FindRayGen({"Rays/ShadowQueue.rgen", ERTShaderStage::RayGen, {{"ONE_SAMPLE", "1"}, {"WITH_PENUMBRA", "1"}}, {}}),
 		    NoRayGen)
 		    << "shadow rays run no material shader";
 		EXPECT_EQ(Log.Count(ERTLogLevel::Warning), bCan ? 0u : 1u) << "once";
@@ -288,9 +289,9 @@ TEST_F(FRendererToggleTest, FilterReadsOnlyPenumbraeThatAreWritten)
 	bool bWritten = false, bRead = false;
 	const auto Frame = [&] {
 		ASSERT_NO_FATAL_FAILURE(Render());
-		const std::vector<FRTMockCall> Traces = Mock().FindCalls(ERTMockCall::TraceRays);
+		const std::vector<FRTMockCall> Traces = Mock().FindCalls(ERTMockCall::TraceRaysIndirect);
 		ASSERT_EQ(Traces.size(), 1u);
-		EXPECT_THAT(GetRTPSO()->GetRayGen(static_cast<uint32_t>(Traces[0].Numbers[0])).Path, HasSubstr("SunShadow"));
+		EXPECT_THAT(GetRTPSO()->GetRayGen(static_cast<uint32_t>(Traces[0].Numbers[0])).Path, HasSubstr("ShadowQueue"));
 		const FShaderDefines& Defines = GetRTPSO()->GetRayGen(static_cast<uint32_t>(Traces[0].Numbers[0])).Defines;
 		bWritten = std::count(Defines.begin(), Defines.end(), std::pair<std::string, std::string>("WITH_PENUMBRA", "1")) > 0;
 		bRead = false;
@@ -306,7 +307,7 @@ TEST_F(FRendererToggleTest, FilterReadsOnlyPenumbraeThatAreWritten)
 		GiveWay();
 	};
 	const auto LetGo = [&] { Mock().ClearCompileFaults(); };
-	Mock().HoldCompiles("SunShadow");
+	Mock().HoldCompiles("ShadowQueue");
 	{
 		const FHangGuard Guard("frames while the shadow shader is compiled", LetGo);
 		ASSERT_TRUE(WaitUntil(

@@ -115,7 +115,8 @@ TEST_F(FSignalCaptureTest, AmbientOcclusionBringsNoHitGroupsOfItsOwn)
 	LoadAndRender({.bMasked = true});
 	const uint32_t Types = GetRTPSO()->GetRayTypeCount(), Groups = GetRTPSO()->GetHitGroupCount();
 	Capture({ESignal::AmbientOcclusion, ESignal::SunShadow});
-	EXPECT_EQ(Mock().FindCalls(ERTMockCall::TraceRays).size(), 2u);
+	EXPECT_EQ(Mock().FindCalls(ERTMockCall::TraceRays).size(), 1u);
+	EXPECT_EQ(Mock().FindCalls(ERTMockCall::TraceRaysIndirect).size(), 1u);
 	EXPECT_EQ(GetRTPSO()->GetRayTypeCount(), Types);
 	EXPECT_EQ(GetRTPSO()->GetHitGroupCount(), Groups);
 }

@@ -22,6 +22,7 @@ struct FRTMockDesc
 	ERTRung Rung = ERTRung::Pipeline;
 	bool bRayQuery = true; ///< a device may have pipelines without ray query; ignored below the RayQuery rung
 	bool bPipelineLibraries = true;
+	bool bIndirectTrace = true;  ///< ignored below the Pipeline rung
 	bool bTransferQueue = false; ///< all queues share one timeline: what is submitted completes in that order
 	bool bAsyncComputeQueue = true;
 	bool bLibraryOnlyPipelines = true; ///< if false, ray generation and miss groups must be the link's own

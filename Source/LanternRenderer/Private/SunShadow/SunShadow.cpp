@@ -2,8 +2,10 @@
 #include "SunShadow/SunShadow.h"
 
 #include "Denoise/Denoise.h"
+#include "LanternCore/FrameGraph/History.h"
 #include "SignalPasses.h"
 #include "SunShadowTypes.h"
+#include "Tiles/Tiles.h"
 
 namespace Lantern
 {
@@ -32,42 +34,108 @@ bool IsSoft(const FRTScene& Scene) { return CVarSoft.GetOnRenderThread() && Scen
 // Whatever the sun's size: the shaders stay as they are while it changes.
 bool MeasuresPenumbra() { return CVarSoft.GetOnRenderThread() && Denoise.IsEnabled(); }
 
-FSunShadowConstants MakeConstants(const FFrameContext& Context, bool bSoft)
+FShaderSource MakeResolveSource() { return MakeComputeSource(MakeShaderPath(ESignal::SunShadow, ".comp")); }
+
+FSunRays MakeSunRays(const FRTScene& Scene, const FRayDispatch& Dispatch)
 {
-	FSunShadowConstants C{};
-	C.Pass = Context.Pass;
-	C.SamplesPerPixel = bSoft ? static_cast<uint32_t>(CVarSamples.GetOnRenderThread()) : 1u;
-	C.MaxDistance = CVarMaxDistance.GetOnRenderThread();
-	C.RayFlags = CVarCullFront.GetOnRenderThread() ? RayFlagCullTowardsSun : 0u;
-	C.InstanceMask = static_cast<uint32_t>(CVarMask.GetOnRenderThread());
-	C.bSoft = bSoft ? 1u : 0u;
-	return C;
+	FSunRays Rays;
+	Rays.bSoft = IsSoft(Scene);
+	// Of the shader that runs, which may be the one before the setting changed.
+	if (Rays.bSoft && !Dispatch.Has("ONE_SAMPLE")) { Rays.SamplesPerPixel = static_cast<uint32_t>(CVarSamples.GetOnRenderThread()); }
+	Rays.MaxDistance = CVarMaxDistance.GetOnRenderThread();
+	Rays.RayFlags = CVarCullFront.GetOnRenderThread() ? RayFlagCullTowardsSun : 0u;
+	Rays.InstanceMask = static_cast<uint32_t>(CVarMask.GetOnRenderThread());
+	return Rays;
 }
 
-/// Penumbra: its width in pixels is written here as well; may be invalid.
-FGraphTexture AddTracePass(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, FGraphTexture Penumbra)
+struct FResolveInputs
+{
+	FGBuffer GBuffer;
+	FRayQueue Queue;
+	FGraphBuffer Tiles;
+	uint32_t SamplesPerPixel = 1;
+	FGraphTexture Penumbra; ///< the penumbra's width in pixels is written here as well; may be invalid
+	FHistoryTexture Kept;   ///< visibility, for pixels whose rays have no room; Current is invalid if all have
+};
+
+/// Makes visibility of the answers.
+FGraphTexture AddResolvePass(FFrameContext& Context, IRTPipeline* Pipeline, const FResolveInputs& Inputs)
 {
 	const FGraphTexture Visibility = Context.Graph.CreateTexture(
 	    {Context.Width, Context.Height, ERTFormat::R16_FLOAT, ERTTextureUsage::CopySource}, "SunShadowVisibility"); // engines copy it
-	const bool bSoft = IsSoft(Context.Scene);
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass("SunShadow", [&](FPassBuilder& Builder) -> FPassExecute {
-		Builder.Read(GBuffer.Depth, ERTAccess::ShaderRead);
-		Builder.Read(GBuffer.Normals, ERTAccess::ShaderRead);
+		const FRayQueue& Queue = Inputs.Queue;
+		Builder.Read(Inputs.GBuffer.Depth, ERTAccess::ShaderRead);
+		Builder.Read(Inputs.GBuffer.Normals, ERTAccess::ShaderRead);
+		for (const FGraphBuffer Buffer : {Inputs.Tiles, Queue.Answers}) { Builder.Read(Buffer, ERTAccess::ShaderRead); }
+		if (Queue.SunWidths.IsValid()) { Builder.Read(Queue.SunWidths, ERTAccess::ShaderRead); }
 		Builder.Write(Visibility, ERTAccess::StorageWrite);
+		if (Inputs.Kept.Previous.IsValid()) { Builder.Read(Inputs.Kept.Previous, ERTAccess::ShaderRead); }
+		if (Inputs.Kept.Current.IsValid())
+		{
+			Builder.Write(Inputs.Kept.Current, ERTAccess::StorageWrite);
+			Builder.Keep(Inputs.Kept.Current);
+		}
+		if (Inputs.Penumbra.IsValid()) { Builder.WriteIfRead(Inputs.Penumbra, ERTAccess::StorageWrite); }
 		Builder.AllowAsync();
-		if (Penumbra.IsValid()) { Builder.WriteIfRead(Penumbra, ERTAccess::StorageWrite); }
 		return [=](FPassContext& Pass) {
-			FSunShadowConstants Constants = MakeConstants(*Frame, bSoft);
-			Constants.Depth = GetSampledIndex(Pass, GBuffer.Depth);
-			Constants.Normals = GetSampledIndex(Pass, GBuffer.Normals);
-			Constants.Output = GetStorageIndex(Pass, Visibility);
-			Constants.OutPenumbra = GetStorageIndex(Pass, Penumbra);
-			Pass.CountRays(uint64_t(Frame->Width) * Frame->Height * Constants.SamplesPerPixel);
-			DispatchRays(Pass, *Frame, Dispatch, Constants);
+			FSunShadowConstants C{};
+			C.Pass = Frame->Pass;
+			C.Tiles = Pass.GetBuffer(Inputs.Tiles)->GetDeviceAddress();
+			C.Answers = Pass.GetBuffer(Inputs.Queue.Answers)->GetDeviceAddress();
+			C.Widths = Inputs.Queue.SunWidths.IsValid() ? Pass.GetBuffer(Inputs.Queue.SunWidths)->GetDeviceAddress() : 0;
+			C.Depth = GetSampledIndex(Pass, Inputs.GBuffer.Depth);
+			C.Normals = GetSampledIndex(Pass, Inputs.GBuffer.Normals);
+			C.Output = GetStorageIndex(Pass, Visibility);
+			C.SamplesPerPixel = Inputs.SamplesPerPixel;
+			C.OutPenumbra = GetStorageIndex(Pass, Inputs.Penumbra);
+			C.Kept = GetSampledIndex(Pass, Inputs.Kept.Previous);
+			C.OutKept = GetStorageIndex(Pass, Inputs.Kept.Current);
+			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
 	return Visibility;
+}
+
+/// Finds the visibility of the frame before for a queue that may overflow. False: an error, which the context has.
+bool FindKept(FFrameContext& Context, FHistoryTexture& Out)
+{
+	const FRTStatus Status = Context.History->GetTexture("SunShadowKept", {Context.Width, Context.Height, ERTFormat::R16_FLOAT}, Out);
+	if (!Status)
+	{
+		Context.Fail(Status);
+		return false;
+	}
+	if (!Out.Previous.IsValid()) { return true; }
+	const FGraphTextureDesc& Before = Context.Graph.GetDesc(Out.Previous);
+	if (Before.Width != Context.Width || Before.Height != Context.Height) { Out.Previous = {}; }
+	return true;
+}
+
+/// Traces the rays through the queue. Invalid: there are none, or shaders are being compiled.
+FGraphTexture AddVisibility(FFrameContext& Context, const FGBuffer& GBuffer, FGraphTexture& OutPenumbra)
+{
+	const FPassRays Chosen = ChooseSignalRays(Context, ESignal::SunShadow);
+	if (Chosen.Path == ERayPath::None || !CanQueueRays(Context.Width, Context.Height)) { return {}; }
+	IRTPipeline* const Resolve = RequireCompute(Context, MakeResolveSource());
+	const std::optional<FRayDispatch> Dispatch = RequireRayDispatch(Context, ESignal::SunShadow, Chosen);
+	if (!Resolve || !Dispatch) { return {}; }
+	FResolveInputs Inputs{GBuffer, CreateRayQueue(Context, ESignal::SunShadow)};
+	if (Inputs.Queue.bMayOverflow && !FindKept(Context, Inputs.Kept)) { return {}; }
+	if (MeasuresPenumbra() && Dispatch->Has("WITH_PENUMBRA")) // a variant without it may still serve, and writes none
+	{
+		const uint64_t Pixels = uint64_t(Context.Width) * Context.Height;
+		Inputs.Queue.SunWidths = Context.Graph.CreateBuffer({Pixels * sizeof(float)}, "SunWidths");
+		Inputs.Penumbra = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::R16_FLOAT}, "SunShadowPenumbra");
+	}
+	const FSunRays Rays = MakeSunRays(Context.Scene, *Dispatch);
+	Inputs.SamplesPerPixel = Rays.SamplesPerPixel;
+	Inputs.Tiles = AddTilesPass(Context, GBuffer, Inputs.Queue, Rays);
+	if (!Inputs.Tiles.IsValid()) { return {}; }
+	AddShadowRaysPass(Context, GBuffer, *Dispatch, Inputs.Queue, Rays);
+	OutPenumbra = Inputs.Penumbra;
+	return AddResolvePass(Context, Resolve, Inputs);
 }
 } // namespace
 
@@ -80,6 +148,9 @@ FPassRays ChooseSunShadowRays(const FPassQuery& Query)
 	if (CVarSamples.GetOnRenderThread() == 1 || !CVarSoft.GetOnRenderThread()) { Rays.Defines.emplace_back("ONE_SAMPLE", "1"); }
 	if (MeasuresPenumbra()) { Rays.Defines.emplace_back("WITH_PENUMBRA", "1"); }
 	Rays.bBlockers = MeasuresPenumbra();
+	Rays.Shaders = ShadowQueueShaders;
+	Rays.Compute = {MakeTilesSource(), MakeResolveSource()};
+	if (MayQueuesOverflow()) { Rays.Compute.push_back(MakeShareSource()); }
 	return Rays;
 }
 
@@ -92,15 +163,9 @@ void ListSunShadowFilters(const FRTScene& Scene, std::vector<FShaderSource>& Out
 
 FGraphTexture AddSunShadowPass(FFrameContext& Context, const FGBuffer& GBuffer)
 {
-	const std::optional<FRayDispatch> Dispatch =
-	    RequireRayDispatch(Context, ESignal::SunShadow, ChooseSignalRays(Context, ESignal::SunShadow));
-	if (!Dispatch) { return {}; }
 	FGraphTexture Penumbra;
-	if (MeasuresPenumbra() && Dispatch->Has("WITH_PENUMBRA")) // a variant without it may still serve, and writes none
-	{
-		Penumbra = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::R16_FLOAT}, "SunShadowPenumbra");
-	}
-	const FGraphTexture Visibility = AddTracePass(Context, GBuffer, *Dispatch, Penumbra);
+	const FGraphTexture Visibility = AddVisibility(Context, GBuffer, Penumbra);
+	if (!Visibility.IsValid()) { return {}; }
 	if (!IsSunShadowFiltered(Context.Scene)) { return Visibility; }
 	FDenoiseInputs Inputs;
 	Inputs.Name = "SunShadow";

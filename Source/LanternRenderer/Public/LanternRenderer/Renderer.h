@@ -98,6 +98,7 @@ struct FAnyHitCounts
 
 class FAnyHitCounter;
 class FHistoryResources;
+class FRayQueueDemand;
 class FRefitQuality;
 class FRenderer;
 class FStandInFeedback;
@@ -154,6 +155,7 @@ struct FFrameContext
 	const FView* PreviousView = nullptr;
 	/// Textures that passes keep from frame to frame.
 	FHistoryResources* History = nullptr;
+	FRayQueueDemand* QueueDemand = nullptr; ///< what earlier frames asked of the queue of shadow rays
 	FSurfaceTextures Surface;
 	FSceneTokens Tokens;
 	FSignalRequests Signals;
@@ -278,6 +280,7 @@ private:
 	FMaterialPrograms Programs;
 	FRTPSOCompiler RayCompiler;
 	std::unique_ptr<FStandInFeedback> StandIns;
+	std::unique_ptr<FRayQueueDemand> QueueDemand;
 	bool bStandIns = false; // some hit program of the frame is not ready
 	bool bRaysReady = true;
 	bool bSkinningLeftOut = false;

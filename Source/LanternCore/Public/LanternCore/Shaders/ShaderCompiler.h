@@ -23,7 +23,7 @@ struct FShaderHeader
 
 struct FShaderSource
 {
-	std::string Path; ///< one line, relative to one of the search folders, e.g. "SunShadow/SunShadow.rgen"
+	std::string Path; ///< one line, relative to one of the search folders, e.g. "Rays/ShadowQueue.rgen"
 	ERTShaderStage Stage = ERTShaderStage::Compute;
 	/// Names and values; part of the key.
 	std::vector<std::pair<std::string, std::string>> Defines;

@@ -1,0 +1,24 @@
+// Requests for shadow rays and their answers.
+#ifndef LANTERN_RAY_QUEUE_GLSL
+#define LANTERN_RAY_QUEUE_GLSL
+
+#include "../Shared/RayQueueTypes.h"
+#include "../Library/Bindings.glsl"
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FRayRequestRef { FRayRequest Data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FRayQueueCountersRef { FRayQueueCounters Data; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FAnswerRef { uint Data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FWidthRef { float Data[]; };
+
+FRayRequest MakeRayRequest(uint Kind, uint Slot, uint Index)
+{
+	return FRayRequest(Index | (Slot << RAY_INDEX_BITS) | (Kind << (RAY_INDEX_BITS + RAY_SLOT_BITS)));
+}
+uint RayKind(FRayRequest Request) { return Request.Packed >> (RAY_INDEX_BITS + RAY_SLOT_BITS); }
+uint RayIndex(FRayRequest Request) { return Request.Packed & ((1u << RAY_INDEX_BITS) - 1u); }
+
+uint PackSunAnswer(uint Seen, uint Unseen) { return (Seen << ANSWER_SUN_SEEN) | (Unseen << ANSWER_SUN_UNSEEN); }
+uint SunSeen(uint Answer) { return (Answer >> ANSWER_SUN_SEEN) & ANSWER_SUN_MASK; }
+uint SunUnseen(uint Answer) { return (Answer >> ANSWER_SUN_UNSEEN) & ANSWER_SUN_MASK; }
+
+#endif

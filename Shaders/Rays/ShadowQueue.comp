@@ -1,0 +1,14 @@
+// The queue of shadow rays by inline ray query.
+#version 460
+#extension GL_EXT_ray_query : require
+#include "ShadowQueue.glsl"
+#include "QueryShadow.glsl"
+
+layout(local_size_x = RAY_QUEUE_GROUP_SIZE) in;
+
+float TraceShadowRay(vec3 Origin, vec3 Direction, float Length, uint Flags, uint Mask)
+{
+	return QueryBlockerDistance(FSceneRef(Push.Pass.Scene).Data, Flags, Mask, Origin, Direction, Length);
+}
+
+void main() { TraceRequest(gl_GlobalInvocationID.y * (RAY_QUEUE_GROUP_SIZE * RAY_QUEUE_ROW_GROUPS) + gl_GlobalInvocationID.x); }

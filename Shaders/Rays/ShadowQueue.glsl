@@ -1,0 +1,63 @@
+// Traces the queue of shadow rays; the ray-tracing pipeline and the ray-query path share it. A request's kind and index give origin,
+// direction, length, mask and flags. The includer defines
+//   float TraceShadowRay(vec3 Origin, vec3 Direction, float Length, uint Flags, uint Mask)
+//     distance to a blocker; negative: the ray is unblocked
+//
+// WITH_PENUMBRA: also writes the width of the sun's penumbra, for the filter.
+// ONE_SAMPLE: see SamplesPerPixel.glsl.
+#ifndef LANTERN_SHADOW_QUEUE_GLSL
+#define LANTERN_SHADOW_QUEUE_GLSL
+
+#include "../Shared/RayQueueTypes.h"
+#include "../Library/GBuffer.glsl"
+#include "../Library/Random.glsl"
+#include "../Library/Sun.glsl"
+#include "RayQueue.glsl"
+
+layout(push_constant, scalar) uniform FPush { FShadowQueueConstants Push; };
+
+float TraceShadowRay(vec3 Origin, vec3 Direction, float Length, uint Flags, uint Mask);
+
+#include "SamplesPerPixel.glsl"
+
+// RAY_KIND_SUN.
+void TraceSun(uint Index)
+{
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
+	uvec2 Pixel = uvec2(Index % View.Width, Index / View.Width);
+	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), LoadDepth(Push.Depth, ivec2(Pixel)));
+	float BlockerDistanceSum = 0.0;
+	uint Seen = 0u, Blocked = 0u;
+	FTileSequence Sequence = MakeTileSequence(Pixel, View.FrameIndex, HashPcg(View.Seed));
+	for (uint Sample = 0; Sample < SamplesPerPixel; ++Sample)
+	{
+		vec3 Direction = -Scene.SunDirection;
+		if (Push.bSoft != 0u) { Direction = SampleSunDirection(Scene, SobolOwen2(Sequence.Index * SamplesPerPixel + Sample, Sequence.Seed)); }
+		if (!LeavesSurface(View, Point, Direction)) { continue; }
+		float BlockerDistance =
+			TraceShadowRay(RasterRayOrigin(Scene, View, Point), Direction, Push.MaxDistance, Push.RayFlags, Push.InstanceMask);
+		Seen += BlockerDistance < 0.0 ? 1u : 0u;
+		Blocked += BlockerDistance < 0.0 ? 0u : 1u;
+		BlockerDistanceSum += max(BlockerDistance, 0.0);
+	}
+	atomicOr(FAnswerRef(Push.Answers).Data[Index], PackSunAnswer(Seen, SamplesPerPixel - Seen));
+#ifdef WITH_PENUMBRA
+	float Diameter = 2.0 * sqrt(2.0 * Scene.SunOneMinusCos);
+	FWidthRef(Push.SunWidths).Data[Index] = Blocked > 0u ? Diameter * BlockerDistanceSum / float(Blocked) : -1.0;
+#endif
+}
+
+void TraceRequest(uint Number)
+{
+	FRayQueueCounters Counters = FRayQueueCountersRef(Push.Counters).Data;
+	// Launches are rounded up, or made for a full queue.
+	if (Number >= (Counters.Wanted <= Push.Capacity ? Counters.Wanted : Counters.Kept)) { return; }
+	FRayRequest Request = FRayRequestRef(Push.Requests).Data[Number];
+	switch (RayKind(Request))
+	{
+	case RAY_KIND_SUN: TraceSun(RayIndex(Request)); break;
+	}
+}
+
+#endif

@@ -1,0 +1,62 @@
+// The queue of shadow rays, shared by C++ and GLSL: who asks for a ray writes a request, one shader traces all of them, and the
+// answers lie in a word for each pixel.
+#ifndef LANTERN_RAY_QUEUE_TYPES_H
+#define LANTERN_RAY_QUEUE_TYPES_H
+
+#include "SceneTypes.h"
+
+LANTERN_SHARED_BEGIN
+
+#define RAY_QUEUE_GROUP_SIZE 64 // rays of a work group of the ray-query path
+#define RAY_QUEUE_ROW_GROUPS 64 // work groups in x; y grows, since a device need not dispatch more than 65,535 in one direction
+
+// Kinds of rays. An index names what a ray belongs to; a slot tells several rays of one index apart.
+#define RAY_KIND_SUN 0u // index: pixel, row by row; slot 0: all samples of the pixel
+
+#define RAY_INDEX_BITS 26u
+#define RAY_SLOT_BITS 3u
+
+struct FRayRequest
+{
+	uint Packed; // index, slot and kind, from the lowest bit on
+};
+LANTERN_ASSERT_SIZE(FRayRequest, 4);
+
+// Zeroed in each frame before requests are written. The first two are arguments of indirect commands.
+struct FRayQueueCounters
+{
+	uint Groups[3]; // of the ray-query path
+	uint Launch[3]; // width, height and depth of the ray-tracing pipeline's launch
+	uint Wanted;    // requests that were made, those without room included
+	uint Kept;      // requests in the queue after ShareQueue.comp; read if Wanted exceeds the capacity
+};
+LANTERN_ASSERT_SIZE(FRayQueueCounters, 32);
+
+// A pixel's answers. Each kind has bits of its own, which start as 0 and are combined by or: the order of rays never shows.
+#define ANSWER_SUN_SEEN 18u   // lowest of 7 bits: samples that see the sun
+#define ANSWER_SUN_UNSEEN 25u // lowest of 7 bits: samples that do not; without an answer, either number is 0
+#define ANSWER_SUN_MASK 0x7fu
+
+struct FShadowQueueConstants
+{
+	FPassConstants Pass;
+	FAddress Requests; // FRayRequest[Capacity]
+	FAddress Counters; // FRayQueueCounters
+	FAddress Answers;  // uint[pixels]
+	// float[pixels]: width of the penumbra across the sun's direction, by the mean distance of what blocks the pixel's rays, metres.
+	// < 0: no ray met anything. Written for pixels that ask for rays, with WITH_PENUMBRA.
+	FAddress SunWidths;
+	uint Capacity;
+	uint Depth;           // sampled index
+	uint Normals;         // sampled index: shading and geometric normal, both octahedral
+	uint SamplesPerPixel; // of the sun, 1 to 64
+	float MaxDistance;    // of sun rays, metres
+	uint RayFlags;        // of sun rays: gl_RayFlags… to add to those that the pass needs
+	uint InstanceMask;    // of sun rays
+	uint bSoft;           // 0: hard shadows, from the centre of the sun's disk
+};
+LANTERN_ASSERT_SIZE(FShadowQueueConstants, 80);
+
+LANTERN_SHARED_END
+
+#endif

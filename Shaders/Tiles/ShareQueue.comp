@@ -1,0 +1,34 @@
+// Writes the queue anew if not all rays had room: each tile then keeps an equal share of its rays. Which requests had found room depended
+// on the order of tiles; what is kept here does not.
+#version 460
+#include "../Shared/TileTypes.h"
+#include "../Rays/RayQueue.glsl"
+#include "Tile.glsl"
+
+layout(local_size_x = TILE_PIXELS) in;
+layout(push_constant, scalar) uniform FPush { FTilesConstants Push; };
+
+void main()
+{
+	FRayQueueCountersRef Counters = FRayQueueCountersRef(Push.Counters);
+	uint Wanted = Counters.Data.Wanted;
+	if (Wanted <= Push.Capacity) { return; }
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	uint Columns = TileIndex(View, uvec2(0u, 1u)), Rows = (View.Height + TILE_SIZE - 1u) / TILE_SIZE;
+	uint Index = gl_WorkGroupID.x * TILE_PIXELS + gl_LocalInvocationIndex;
+	if (Index >= Columns * Rows) { return; }
+	FTile Tile = FTileRef(Push.Tiles).Data[Index];
+	uint Count = bitCount(Tile.SunRays[0]) + bitCount(Tile.SunRays[1]);
+	// Rounded down, and a little more: all shares together fit.
+	uint Kept = uint(float(Count) * (float(Push.Capacity) / float(Wanted)) * (1.0 - 1.0e-6));
+	if (Kept == 0u) { return; }
+	uint Number = atomicAdd(Counters.Data.Kept, Kept);
+	uint Turn = View.FrameIndex * Kept; // other pixels in each frame
+	[[dont_unroll]] for (uint Place = 0u; Place < TILE_PIXELS; ++Place)
+	{
+		if ((Tile.SunRays[Place >> 5u] & (1u << (Place & 31u))) == 0u) { continue; }
+		if (Turn++ % Count >= Kept) { continue; }
+		uvec2 Pixel = TilePixel(uvec2(Index % Columns, Index / Columns), Place);
+		FRayRequestRef(Push.Requests).Data[Number++] = MakeRayRequest(RAY_KIND_SUN, 0u, Pixel.y * View.Width + Pixel.x);
+	}
+}

@@ -1,0 +1,20 @@
+// Where the tiles of a view lie, and the pixels of a tile.
+#ifndef LANTERN_TILE_GLSL
+#define LANTERN_TILE_GLSL
+
+#include "../Shared/TileTypes.h"
+#include "../Library/Bindings.glsl"
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FTileRef { FTile Data[]; };
+
+uint TileIndex(FViewConstants View, uvec2 Tile) { return Tile.y * ((View.Width + TILE_SIZE - 1u) / TILE_SIZE) + Tile.x; }
+
+// Returns the pixel at Place, 0 to 63, of a tile. Places are in Z order: rays that are traced together then start close to each other.
+uvec2 TilePixel(uvec2 Tile, uint Place)
+{
+	uvec2 P = uvec2(Place, Place >> 1u) & 0x15u;
+	P = (P | (P >> 1u)) & 0x33u;
+	return Tile * TILE_SIZE + ((P | (P >> 2u)) & 7u);
+}
+
+#endif

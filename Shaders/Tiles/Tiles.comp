@@ -1,0 +1,79 @@
+// Sorts the screen into tiles, answers what needs no ray, and queues the rays of the rest.
+#version 460
+#include "../Shared/TileTypes.h"
+#include "../Library/GBuffer.glsl"
+#include "../Rays/RayQueue.glsl"
+#include "Tile.glsl"
+
+layout(local_size_x = TILE_PIXELS) in;
+layout(push_constant, scalar) uniform FPush { FTilesConstants Push; };
+
+shared uint Classes, SunRays[2], FirstRequest;
+
+// Returns the class of a pixel by the sun.
+uint ClassifySun(FViewConstants View, uvec2 Pixel)
+{
+	float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
+	if (Depth <= 0.0) { return TILE_SKY; }
+	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
+	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), Depth);
+	// No direction to the disk is farther from that to its centre than this chord, and rounding.
+	float Spread = Push.bSoftSun != 0u ? sqrt(2.0 * Scene.SunOneMinusCos) + 1.0e-6 : 0.0;
+	return LeavesSurface(View, Point, -Scene.SunDirection, Spread) ? TILE_SUN_TRACED : TILE_SUN_BEHIND;
+}
+
+// An answer is whole without a ray, or starts as none.
+void StartAnswer(uint Index, uint Class)
+{
+	uint Answer = 0u;
+	if (Class == TILE_SKY) { Answer = PackSunAnswer(Push.SunSamples, 0u); }
+	if (Class == TILE_SUN_BEHIND) { Answer = PackSunAnswer(0u, Push.SunSamples); }
+	FAnswerRef(Push.Answers).Data[Index] = Answer;
+}
+
+// Reserves room for all rays of the tile at once.
+void Reserve(uint Count)
+{
+	FRayQueueCountersRef Counters = FRayQueueCountersRef(Push.Counters);
+	if (Count > 0u)
+	{
+		FirstRequest = atomicAdd(Counters.Data.Wanted, Count);
+		uint End = min(FirstRequest + Count, Push.Capacity);
+		const uint RowRays = RAY_QUEUE_GROUP_SIZE * RAY_QUEUE_ROW_GROUPS;
+		atomicMax(Counters.Data.Groups[1], (End + RowRays - 1u) / RowRays);
+		atomicMax(Counters.Data.Launch[0], End);
+	}
+	if (gl_WorkGroupID.xy != uvec2(0u)) { return; }
+	Counters.Data.Groups[0] = RAY_QUEUE_ROW_GROUPS;
+	Counters.Data.Groups[2] = Counters.Data.Launch[1] = Counters.Data.Launch[2] = 1u;
+}
+
+void main()
+{
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	uint Place = gl_LocalInvocationIndex, Word = Place >> 5u, Bit = 1u << (Place & 31u);
+	uvec2 Pixel = TilePixel(gl_WorkGroupID.xy, Place);
+	uint Index = Pixel.y * View.Width + Pixel.x;
+	if (Place == 0u) { Classes = SunRays[0] = SunRays[1] = 0u; }
+	barrier();
+	bool bTraced = false;
+	if (!IsOutsideView(View, Pixel))
+	{
+		uint Class = ClassifySun(View, Pixel);
+		bTraced = Class == TILE_SUN_TRACED;
+		StartAnswer(Index, Class);
+		atomicOr(Classes, Class);
+		if (bTraced) { atomicOr(SunRays[Word], Bit); }
+	}
+	barrier();
+	if (Place == 0u)
+	{
+		Reserve(bitCount(SunRays[0]) + bitCount(SunRays[1]));
+		FTileRef(Push.Tiles).Data[TileIndex(View, gl_WorkGroupID.xy)] = FTile(Classes, uint[2](SunRays[0], SunRays[1]));
+	}
+	barrier();
+	if (!bTraced) { return; }
+	uint Before = bitCount(SunRays[Word] & (Bit - 1u)) + (Word > 0u ? bitCount(SunRays[0]) : 0u);
+	uint Number = FirstRequest + Before;
+	if (Number < Push.Capacity) { FRayRequestRef(Push.Requests).Data[Number] = MakeRayRequest(RAY_KIND_SUN, 0u, Index); }
+}

@@ -1,0 +1,63 @@
+// What the queue of shadow rays should have had room for.
+#include "Rays/RayQueueDemand.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "LanternCore/Text/Log.h"
+#include "RayQueueTypes.h"
+
+namespace Lantern
+{
+
+namespace
+{
+/// A view that turns asks for a little more in each frame.
+constexpr double Headroom = 1.25;
+} // namespace
+
+void FRayQueueDemand::BeginFrame(uint32_t FlightIndex)
+{
+	bWritten = false;
+	Ring.BeginFrame(FlightIndex, [this](const TReadbackRing<FNotes>::FEntry& Entry) {
+		const uint32_t Wanted = *static_cast<const uint32_t*>(Entry.Buffer->GetMapped());
+		if (Wanted <= Entry.Notes.Capacity) { return; }
+		Room = std::max(Room, Headroom * double(Wanted) / double(Entry.Notes.Pixels));
+		LogOnce(ERTLogLevel::Warning,
+		    "r.RT.Rays.QueuePerPixel: shadow rays found no room in their queue. Some pixels keep the shadow of the frame before, and the "
+		    "next queues are larger.");
+	});
+}
+
+double FRayQueueDemand::GetRoom(double PerPixel)
+{
+	if (PerPixel != Set) { Room = 0.0; }
+	Set = PerPixel;
+	return std::max(PerPixel, Room);
+}
+
+FGraphBuffer FRayQueueDemand::AddRead(FFrameGraph& Graph, const char* PassName, const FQueue& Queue)
+{
+	FRTStatus Status;
+	auto* const Entry = Ring.Write(sizeof(uint32_t), Status);
+	if (!Entry)
+	{
+		LogOnce(ERTLogLevel::Warning, std::string("shadow rays are not counted: ") + Status.Message);
+		return {};
+	}
+	Entry->Notes = {Queue.Capacity, Queue.Pixels};
+	const FGraphBuffer Out = Graph.ImportBuffer(Entry->Buffer.Get(), ERTAccess::HostRead, ERTAccess::HostRead, "RayQueueDemand");
+	Graph.MarkForLater(Out, &bWritten);
+	Graph.AddPass(PassName, [&](FPassBuilder& Builder) -> FPassExecute {
+		Builder.Read(Queue.Counters, ERTAccess::CopyRead);
+		Builder.Write(Out, ERTAccess::CopyWrite);
+		Builder.AllowAsync();
+		return [=, Counters = Queue.Counters](FPassContext& Pass) {
+			Pass.Commands().CopyBuffer(
+			    Pass.GetBuffer(Out), 0, Pass.GetBuffer(Counters), offsetof(FRayQueueCounters, Wanted), sizeof(uint32_t));
+		};
+	});
+	return Out;
+}
+
+} // namespace Lantern
