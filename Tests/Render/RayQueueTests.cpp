@@ -61,6 +61,24 @@ TEST_F(FRayQueueTest, OddSizes)
 	}
 }
 
+// The disk's centre is on the horizon. A tile that asked about the centre alone would call the floor dark.
+TEST_F(FRayQueueTest, HalfOfTheDiskIsSeen)
+{
+	FTestScene Flat("flat");
+	const int32_t Lambert = Flat.AddLambert(glm::vec3(0.5f));
+	Flat.AddNode(Flat.AddMesh({FTestScene::MakeFloor(Lambert, 4.0f)}));
+	ASSERT_TRUE(Load(std::move(Flat.Scene)));
+	SetSun(20.0, 4.0f, {1, 0, 0});
+	SetVariable("r.RT.Shadow.Samples", "16");
+	for (const char* Path : {"1", "2"})
+	{
+		SetVariable("r.RT.Shadow.Path", Path);
+		EXPECT_NEAR(MeanGreen(RenderSunShadow(LookAtFloor(64, 64))), 0.5, 0.01) << "path " << Path;
+	}
+	SetSun(20.0, 4.0f, {1, 1, 0});
+	EXPECT_EQ(MeanGreen(RenderSunShadow(LookAtFloor(64, 64))), 0.0) << "all of it is behind the floor";
+}
+
 // Room for 1 % of the rays: nothing is traced in two frames, then the queue is as large as it must be.
 TEST_F(FRayQueueTest, QueueWithoutRoomRecovers)
 {
@@ -94,6 +112,11 @@ TEST_F(FRayQueueTest, WhatHasNoRoomRepeats)
 	}
 	// Other pixels have their turn in the second frame, and those of the first keep what they had.
 	EXPECT_LT(FractionDiffering(First[1], Right[0], 0.0), Wrong);
+	for (size_t Pixel = 0; Pixel < First[0].Pixels.size(); ++Pixel)
+	{
+		if (First[0].Pixels[Pixel] != Right[0].Pixels[Pixel]) { continue; }
+		ASSERT_EQ(First[1].Pixels[Pixel], Right[0].Pixels[Pixel]) << Pixel;
+	}
 	EXPECT_EQ(First[2].Pixels, Right[2].Pixels);
 }
 } // namespace
