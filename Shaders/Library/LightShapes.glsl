@@ -102,7 +102,7 @@ float SampleRectangle(vec3 ToCenter, vec3 Tangent, vec3 Normal, vec2 Half, bool 
 	float AcrossSquared = X * X + Z * Z;
 	float First = Low.y * inversesqrt(AcrossSquared + Low.y * Low.y), Last = High.y * inversesqrt(AcrossSquared + High.y * High.y);
 	float Sine = First + U.y * (Last - First);
-	float Y = Sine * Sine < 0.999999 ? clamp(Sine * sqrt(AcrossSquared) * inversesqrt(1.0 - Sine * Sine), Low.y, High.y) : High.y;
+	float Y = Sine * Sine < 0.999999 ? clamp(Sine * sqrt(AcrossSquared) * inversesqrt(1.0 - Sine * Sine), Low.y, High.y) : (Sine < 0.0 ? Low.y : High.y);
 	vec3 Point = Tangent * X + Bitangent * Y + Normal * (Height < 0.0 ? Z : -Z);
 	Distance = length(Point);
 	Direction = Point / Distance;

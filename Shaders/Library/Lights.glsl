@@ -44,6 +44,7 @@ struct FLightSample
 	float Distance; // metres; 1e30: directional
 	vec3 Irradiance; // of a plane that faces the point if all of the light shone from it, so that BRDF · cosine · Irradiance has
 	                 // the right mean; 0: the point does not shine here
+	float Cosine;   // at the light's surface, at least 0.1; 1 without extent
 };
 
 const float LightInfinity = 1.0e30;
@@ -51,10 +52,10 @@ const float LightInfinity = 1.0e30;
 // Returns the point of a light without extent.
 FLightSample SamplePointLight(FLightData Light, vec3 ToCenter)
 {
-	if (LightType(Light) == LIGHT_DIRECTIONAL) { return FLightSample(-UnpackOct(Light.Direction), LightInfinity, Light.Color); }
+	if (LightType(Light) == LIGHT_DIRECTIONAL) { return FLightSample(-UnpackOct(Light.Direction), LightInfinity, Light.Color, 1.0); }
 	float DistanceSquared = max(dot(ToCenter, ToCenter), 1.0e-12);
 	float Distance = sqrt(DistanceSquared);
-	return FLightSample(ToCenter / Distance, Distance, Light.Color * (LightAttenuation(Light, ToCenter) / DistanceSquared));
+	return FLightSample(ToCenter / Distance, Distance, Light.Color * (LightAttenuation(Light, ToCenter) / DistanceSquared), 1.0);
 }
 
 // Samples a point of a light as seen from P, in coordinates relative to the scene's origin. U in [0, 1).
@@ -67,7 +68,7 @@ FLightSample SampleLight(FSceneConstants Scene, FLightData Light, vec3 P, vec2 U
 	if (Type == LIGHT_DIRECTIONAL && Light.Size.x > 0.0)
 	{
 		// A plane that faces a disk of angular radius r receives π sin²r times its radiance, over 2π (1 − cos r) of solid angle.
-		return FLightSample(MakeBasis(-Normal) * SampleCone(U, Light.Size.x), LightInfinity, Light.Color * (2.0 / (2.0 - Light.Size.x)));
+		return FLightSample(MakeBasis(-Normal) * SampleCone(U, Light.Size.x), LightInfinity, Light.Color * (2.0 / (2.0 - Light.Size.x)), 1.0);
 	}
 	if (Type >= LIGHT_RECTANGLE)
 	{
@@ -82,14 +83,28 @@ FLightSample SampleLight(FSceneConstants Scene, FLightData Light, vec3 P, vec2 U
 		else if (Type == LIGHT_DISK) { SolidAngle = SampleDiskLight(ToCenter, Normal, Light.Size.x, bTwoSided, U, Sample.Direction, Sample.Distance); }
 		else if (Type == LIGHT_SPHERE) { SolidAngle = SampleSphere(ToCenter, Light.Size.x, U, Sample.Direction, Sample.Distance); }
 		else { SolidAngle = SampleTube(ToCenter, UnpackOct(Light.Tangent), Light.Size.x, Light.Size.y, U, Sample.Direction, Sample.Distance); }
+		bool bFlat = Type == LIGHT_RECTANGLE || Type == LIGHT_DISK;
+		Sample.Cosine = max(bFlat ? abs(dot(Normal, Sample.Direction)) : 0.3, 0.1); // round lights are seen at all angles
 #ifdef HALF_LIGHT_AREA // r.RT.Debug.Lights.Area
 		SolidAngle *= 0.5;
 #endif
 		Sample.Irradiance = Light.Color * (SolidAngle * LightAttenuation(Light, ToCenter));
 		return Sample;
 	}
+#else
+	if (LightType(Light) >= LIGHT_RECTANGLE) { return FLightSample(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 1.0); } // until its shader is there
 #endif
 	return SamplePointLight(Light, ToCenter);
+}
+
+// Returns the length of a shadow ray to the point. It stops short of a surface that stands for the light, the more so the more grazing
+// it arrives. ObjectReach: see OffsetRayOrigin.
+float LightRayLength(FLightSample Sample, vec3 P, float ObjectReach)
+{
+	if (Sample.Distance >= LightInfinity) { return LightInfinity; }
+	float Step = 1.0 / LIGHT_POSITION_STEPS;
+	float Margin = (PositionError(P + Sample.Direction * Sample.Distance, ObjectReach, Sample.Distance) + Step) / Sample.Cosine;
+	return max(Sample.Distance - Margin, 0.0);
 }
 
 // Returns the luminance of what a plane at P that faces the light receives. It is exact for lights without extent, and a guess for
@@ -108,6 +123,9 @@ float EstimateLight(FSceneConstants Scene, FLightData Light, vec3 P, vec3 Ng)
 		float Form = min(Area / max(dot(ToCenter, ToCenter), 1.0e-12), Pi);
 		return Luminance(Light.Color) * Form * LightAttenuation(Light, ToCenter);
 	}
+#endif
+#ifndef HAS_AREA_LIGHTS
+	if (Type >= LIGHT_RECTANGLE) { return 0.0; } // dark until its shader is there, which the frame may have to wait for
 #endif
 	if (Type == LIGHT_NONE) { return 0.0; }
 	FLightSample Sample = SamplePointLight(Light, ToCenter);

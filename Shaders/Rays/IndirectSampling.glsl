@@ -26,7 +26,7 @@ vec3 AverageIndirectSamples(FSceneConstants Scene, FViewConstants View, uvec2 Pi
 	{
 		uint Index = View.FrameIndex * Samples + Sample;
 		FRandom Random = MakeRandom(Pixel, Index, StreamSeed);
-		vec3 L = GatherIndirect(Scene, Lobe, Basis, V, P, Point.Ng, false, SobolOwen2(Index, Seed), MaxBounces, Random);
+		vec3 L = GatherIndirect(Scene, Lobe, Basis, V, P, Point.Ng, SobolOwen2(Index, Seed), MaxBounces, Random);
 		Sum += mix(L, vec3(0.0), isnan(L));
 	}
 	return ClampToFinite(Sum / float(Samples));

@@ -17,6 +17,10 @@ bool IsVisible(FSceneConstants Scene, uint Casters, vec3 Origin, vec3 Direction,
 	return IsVisible(ShadowPayload);
 }
 
+// Returns the density with which the BRDF's sampling finds what light sampling has found. Its rays see characters, which cast nothing on
+// a character's surface: light sampling alone counts there, and FollowPath leaves out what the rays find.
+float OtherPdf(FBrdf Brdf, vec3 V, vec3 L, bool bCharacter) { return bCharacter ? 0.0 : BrdfPdf(Brdf, V, L); }
+
 #ifdef HAS_SUN
 vec3 SampleSun(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, vec2 U)
 {
@@ -28,7 +32,7 @@ vec3 SampleSun(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, ve
 	if (MaxComponent(BrdfCos) <= 0.0 || !IsVisible(Scene, SunCasters(bCharacter), P, ToLight, 1.0e30)) { return vec3(0.0); }
 	if (bPointSun) { return BrdfCos * Scene.SunColor * Scene.SunIrradiance; }
 	float Pdf = SunPdf(Scene);
-	return BrdfCos * SunRadiance(Scene) * (PowerHeuristic(Pdf, BrdfPdf(Brdf, V, LocalToLight)) / Pdf);
+	return BrdfCos * SunRadiance(Scene) * (PowerHeuristic(Pdf, OtherPdf(Brdf, V, LocalToLight, bCharacter)) / Pdf);
 }
 #endif
 
@@ -41,7 +45,7 @@ vec3 SampleSky(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, ve
 	vec3 BrdfCos = EvaluateBrdfCos(Brdf, V, LocalToLight);
 	if (MaxComponent(BrdfCos) <= 0.0 || !IsVisible(Scene, SunCasters(bCharacter), P, ToLight, 1.0e30)) { return vec3(0.0); }
 	float Pdf = LocalToLight.z / Pi;
-	return BrdfCos * SampleSkyRadiance(Scene, ToLight) * (PowerHeuristic(Pdf, BrdfPdf(Brdf, V, LocalToLight)) / Pdf);
+	return BrdfCos * SampleSkyRadiance(Scene, ToLight) * (PowerHeuristic(Pdf, OtherPdf(Brdf, V, LocalToLight, bCharacter)) / Pdf);
 }
 #endif
 
@@ -75,7 +79,7 @@ vec3 SampleLocalLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, ve
 	vec3 BrdfCos = EvaluateBrdfCos(Brdf, V, Sample.Direction * Basis);
 	if (MaxComponent(BrdfCos) <= 0.0) { return vec3(0.0); }
 	bool bCastsShadow = (Light.Flags & LIGHT_CASTS_SHADOW) != 0u;
-	if (bCastsShadow && !IsVisible(Scene, LocalCasters(bCharacter), P, Sample.Direction, Sample.Distance)) { return vec3(0.0); }
+	if (bCastsShadow && !IsVisible(Scene, LocalCasters(bCharacter), P, Sample.Direction, LightRayLength(Sample, P, Scene.ObjectReach))) { return vec3(0.0); }
 	return BrdfCos * Sample.Irradiance * (TotalWeight / ChosenWeight);
 }
 #endif
@@ -125,7 +129,7 @@ vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 
 	float Margin = PositionError(Point, Scene.ObjectReach, Distance) / max(CosAtLight, 0.1);
 	if (MaxComponent(Emission) <= 0.0 || !IsVisible(Scene, LocalCasters(bCharacter), P, ToLight, max(Distance - Margin, 0.0))) { return vec3(0.0); }
 	float Pdf = Material.EmissiveWeight / Scene.EmissivePower * DistanceSquared / CosAtLight;
-	return BrdfCos * Emission * (PowerHeuristic(Pdf, BrdfPdf(Brdf, V, ToLight * Basis)) / Pdf);
+	return BrdfCos * Emission * (PowerHeuristic(Pdf, OtherPdf(Brdf, V, ToLight * Basis, bCharacter)) / Pdf);
 }
 #endif
 

@@ -1,6 +1,7 @@
 // Path tracing for ray generation shaders: the reference and the brute-force passes. Combines next-event estimation for each
 // kind of light with BRDF sampling by multiple importance sampling (Veach 1997), and ends paths by Russian roulette.
-// HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_AREA_LIGHTS, HAS_EMISSIVE, HAS_MASKED: defined if the scene has such.
+// HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_AREA_LIGHTS, HAS_EMISSIVE, HAS_MASKED, HAS_CHARACTERS: defined
+// if the scene has such.
 #ifndef LANTERN_PATH_TRACING_GLSL
 #define LANTERN_PATH_TRACING_GLSL
 
@@ -71,7 +72,7 @@ vec3 ShadeEmission(FSceneConstants Scene, FMaterialHit Hit, vec3 Direction, floa
 		LightPdf = Hit.EmissiveWeight / Scene.EmissivePower * Hit.Distance * Hit.Distance / max(CosAtLight, 1.0e-8);
 	}
 #endif
-	return Hit.Emissive * PowerHeuristic(Pdf, LightPdf);
+	return LightPdf > 0.0 ? Hit.Emissive * PowerHeuristic(Pdf, LightPdf) : Hit.Emissive;
 }
 
 FBrdf MakeBrdf(FMaterialHit Hit)
@@ -103,14 +104,19 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 		mat3 Basis = MakeBasis(BendNormal(Hit.Normal, V));
 		FBrdf Brdf = MakeBrdf(Hit);
 		vec3 LocalV = V * Basis;
-		Radiance += Throughput * SampleLights(Scene, Brdf, Basis, LocalV, P, Hit.GeometricNormal, (Hit.Flags & HIT_CHARACTER) != 0u, Random);
+#ifdef HAS_CHARACTERS
+		bool bCharacter = (Hit.Flags & HIT_CHARACTER) != 0u;
+#else
+		const bool bCharacter = false;
+#endif
+		Radiance += Throughput * SampleLights(Scene, Brdf, Basis, LocalV, P, Hit.GeometricNormal, bCharacter, Random);
 
 		FBrdfSample Sample = SampleBrdf(Brdf, LocalV, NextRandom4(Random).xyz);
 		if (Sample.Direction.z <= 0.0) { return Radiance; }
 		Throughput *= Sample.Weight;
 		Direction = Basis * Sample.Direction;
 		if (dot(Direction, Hit.GeometricNormal) <= 0.0) { return Radiance; }
-		Pdf = Sample.Pdf;
+		Pdf = bCharacter && !isinf(Sample.Pdf) ? 0.0 : Sample.Pdf; // see OtherPdf
 		NdotL = Sample.Direction.z;
 
 		if (Bounce >= 3u)
@@ -129,9 +135,9 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 // Returns the indirect light that one lobe reflects at the first vertex of a path. It excludes the sun's disk and local
 // lights that shine there directly; the lighting pass adds those. It includes the sky and emissive triangles.
 // Lobe: MakeWhiteLambert or MakeSpecularLobe. U: chooses the direction. Other parameters: see PathLights.glsl.
+// G-buffers do not say which pixels show a character, so the first vertex counts as none.
 // Only the lobe samples the sky. Light sampling would reduce no noise of a uniform sky, and it knows no bright spots of a map.
-vec3 GatherIndirect(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, vec2 U, uint MaxBounces,
-                    inout FRandom Random)
+vec3 GatherIndirect(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, vec3 Ng, vec2 U, uint MaxBounces, inout FRandom Random)
 {
 	vec3 Radiance = vec3(0.0);
 	if (MaxBounces == 0u) { return Radiance; }
@@ -139,7 +145,7 @@ vec3 GatherIndirect(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 
 	if (Specular <= 0.0 && Lobe.Diffuse <= 0.0) { return Radiance; }
 #ifdef HAS_EMISSIVE
 	vec3 LightSample = NextRandom4(Random).xyz;
-	if (Specular <= 0.0 || !IsMirror(Lobe)) { Radiance += SampleEmissive(Scene, Lobe, Basis, V, P, Ng, bCharacter, LightSample); }
+	if (Specular <= 0.0 || !IsMirror(Lobe)) { Radiance += SampleEmissive(Scene, Lobe, Basis, V, P, Ng, false, LightSample); }
 #endif
 	FBrdfSample Sample = SampleBrdf(Lobe, V, vec3(U, 0.5));
 	vec3 Direction = Basis * Sample.Direction;

@@ -5,9 +5,8 @@
 vec3 GatherSignal(FSceneConstants Scene, FBrdf Lobe, FMaterialHit Hit, vec3 P, vec3 V, inout FRandom Random)
 {
 	mat3 Basis = MakeBasis(BendNormal(Hit.Normal, V));
-	bool bCharacter = (Hit.Flags & HIT_CHARACTER) != 0u;
 	vec2 U = NextRandom4(Random).xy;
-	return GatherIndirect(Scene, Lobe, Basis, V * Basis, P, Hit.GeometricNormal, bCharacter, U, Push.MaxBounces, Random);
+	return GatherIndirect(Scene, Lobe, Basis, V * Basis, P, Hit.GeometricNormal, U, Push.MaxBounces, Random);
 }
 
 #endif

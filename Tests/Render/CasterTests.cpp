@@ -18,14 +18,14 @@ class FCasterTest : public FRenderTest
 {
 protected:
 	/// A floor, two plates of one mesh at heights of 1 and 2 m, and a roof at 3 m over x > 0.
-	void LoadPlates(const FRTObjectTraits& Plates)
+	void LoadPlates(const FRTObjectTraits& Plates, bool bRoof = true)
 	{
 		FTestScene Out("casters");
 		const int32_t Grey = Out.AddLambert(glm::vec3(Albedo), glm::vec3(0), true);
 		Out.AddNode(Out.AddMesh({FTestScene::MakeFloor(Grey, 8.0f)}));
 		const int32_t Doll = Out.AddNode(Out.AddMesh({FTestScene::MakeFloor(Grey, 1.0f, 1.0f), FTestScene::MakeFloor(Grey, 1.0f, 2.0f)}));
 		Out.Scene.Nodes[static_cast<size_t>(Doll)].Traits = Plates;
-		Out.AddNode(Out.AddMesh({FTestScene::MakeFloor(Grey, 1.0f, 3.0f, {1, 0})}));
+		if (bRoof) { Out.AddNode(Out.AddMesh({FTestScene::MakeFloor(Grey, 1.0f, 3.0f, {1, 0})})); }
 		ASSERT_TRUE(Load(std::move(Out.Scene)));
 		SetSky({});
 	}
@@ -84,6 +84,20 @@ TEST_F(FCasterTest, CharactersShadowAllButCharacters)
 	EXPECT_NEAR(Trace(-0.5, 0.0), LitBySun(), 1e-3);
 }
 
+// Rays that look for the sky by the BRDF meet a character's other parts, which cast nothing on it: light sampling alone counts.
+TEST_F(FCasterTest, CharactersSeeTheWholeSky)
+{
+	LoadPlates({.bCharacter = true}, false);
+	SetSun(0.0, 0.0f);
+	SetSky(glm::vec3(1));
+	const FEstimate Lower = EstimateMean(LookAt({-0.5, 1.3, 3.0}, {-0.5, 1, 0}, 0.0005f, 32, 32), 16, 1);
+	ExpectClosedForm("a character's lower plate under the sky", Lower, double(Albedo), 0.005);
+	LoadPlates({}, false);
+	SetSun(0.0, 0.0f);
+	SetSky(glm::vec3(1));
+	EXPECT_LT(EstimateMean(LookAt({-0.5, 1.3, 3.0}, {-0.5, 1, 0}, 0.0005f, 32, 32), 16, 1).Mean, 0.6 * double(Albedo));
+}
+
 TEST_F(FCasterTest, TreesMayShadowFromTheSunAlone)
 {
 	LoadPlates({.bCastsLocalShadow = false});
@@ -110,6 +124,7 @@ TEST(FRTObjectTraitsTest, MasksSayWhoCastsOnWhom)
 	EXPECT_EQ(MakeObjectMask({.bCastsLocalShadow = false, .bMoves = true}) & MASK_CASTERS, MASK_SUN_MOVING);
 	EXPECT_EQ(MakeObjectMask({.bMoves = true, .bCharacter = true}) & MASK_CASTERS, MASK_CHARACTER);
 	EXPECT_EQ(MakeObjectMask({.bCastsShadow = false, .bCharacter = true}) & MASK_CASTERS, 0u);
+	EXPECT_EQ(MakeObjectMask({.bCastsLocalShadow = false, .bCharacter = true}) & MASK_CASTERS, MASK_CHARACTER) << "from all lights";
 	EXPECT_EQ(MakeObjectMask({.bVisible = false}), MASK_SUN | MASK_LOCAL);
 	EXPECT_EQ(MakeObjectMask({.bVisible = false, .bCastsShadow = false}), 0u);
 	EXPECT_NE(MakeObjectMask({.bCastsShadow = false}) & MASK_VISIBLE, 0u);

@@ -251,6 +251,25 @@ TEST_F(FLightsTest, ShadowsAreThoseOfSurfacesThatEmit)
 	EXPECT_NEAR(Metrics.MeanRatio[1], 1.0, Tolerance) << "direct lighting has no shadows";
 }
 
+// A mesh at the surface of a light, which makes it visible, does not shadow it.
+TEST_F(FLightsTest, MeshesAtTheSurfaceOfALightCastNothing)
+{
+	FTestScene Lamp("lamp");
+	const int32_t Grey = Lamp.AddLambert(glm::vec3(Albedo), glm::vec3(0), true);
+	Lamp.AddNode(Lamp.AddMesh({FTestScene::MakeFloor(Grey, 20.0f)}));
+	Lamp.AddNode(Lamp.AddMesh({FTestScene::MakeFloor(Grey, 0.5f, 1.00003f)})); // between two steps of a light's position
+	ASSERT_TRUE(Load(std::move(Lamp.Scene)));
+	SetSky({});
+	(void)Add(MakeSquare(1.00003));
+	for (const double X : {0.5, 3.0})
+	{
+		FEstimate Estimate = EstimateMean(LookAt({X, 0.5, 3.0}, {X, 0, 0}, 0.0002f, 32, 32), 16, 1);
+		Estimate.Mean *= Pi / double(Albedo);
+		Estimate.StandardError *= Pi / double(Albedo);
+		ExpectClosedForm(fmt::format("square with a mesh, x = {}", X).c_str(), Estimate, X == 0.5 ? 0.566645 : 0.010575, Tolerance);
+	}
+}
+
 // A surface inside a light, lights of no size to speak of, and the brightest that there may be: numbers, and finite ones.
 TEST_F(FLightsTest, ExtremeLightsAreFinite)
 {

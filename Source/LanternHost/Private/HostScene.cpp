@@ -313,7 +313,7 @@ std::optional<FSunLight> FHostScene::GetOwnSun() const
 	Sun.Direction = glm::normalize(Axis);
 	Sun.Irradiance = std::max({Light.Color.x, Light.Color.y, Light.Color.z});
 	Sun.Color = Sun.Irradiance > 0.0f ? Light.Color / Sun.Irradiance : glm::vec3(1);
-	Sun.AngularDiameter = glm::radians(Description.DefaultSunDiameter);
+	Sun.AngularDiameter = Light.Size.x > 0.0f ? Light.Size.x : glm::radians(Description.DefaultSunDiameter);
 	return Sun;
 }
 
@@ -357,9 +357,12 @@ FSceneLight FHostScene::MakeLight(uint32_t Node) const
 	FSceneLight Light = Source;
 	Light.Position = glm::dvec3(World[3]);
 	const glm::dvec3 Axis = -glm::dvec3(World[2]), Side(World[0]);
-	const bool bFlat = !(glm::length(glm::cross(Axis, Side)) > 0.0); // scaled to nothing
-	Light.Direction = bFlat ? glm::vec3(0, -1, 0) : glm::vec3(glm::normalize(Axis));
-	Light.Tangent = bFlat ? glm::vec3(1, 0, 0) : glm::vec3(glm::normalize(Side));
+	// A node may be scaled to nothing along some of its axes.
+	const glm::dvec3 Along = glm::length(Axis) > 0.0 ? glm::normalize(Axis) : glm::dvec3(0, -1, 0);
+	const bool bFlat = !(glm::length(glm::cross(Along, Side)) > 0.0);
+	const glm::dvec3 Across = glm::cross(Along, std::abs(Along.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0));
+	Light.Direction = glm::vec3(Along);
+	Light.Tangent = glm::vec3(glm::normalize(bFlat ? Across : Side));
 	// A light that is off keeps its slot, since methods may remember lights by it.
 	if (!IsLightOn(Source, LightTime)) { Light.Color = glm::vec3(0); }
 	return Light;

@@ -76,6 +76,7 @@ FShaderDefines MakePathDefines(const FSceneFacts& Facts)
 {
 	FShaderDefines Defines = MakeFactDefines(Facts);
 	if (Facts.bEmissive) { Defines.emplace_back("HAS_EMISSIVE", "1"); }
+	if (Facts.bCharacters) { Defines.emplace_back("HAS_CHARACTERS", "1"); }
 	return Defines;
 }
 

@@ -149,6 +149,7 @@ TEST_F(FModuleLightTest, WrongLightsAreRefusedByName)
 		EXPECT_REFUSED(Try([&](auto& L) { L.Color[1] = Bad; }), "FRTModuleLight::Color");
 		EXPECT_REFUSED(Try([&](auto& L) { L.Position[1] = Bad * Infinity; }), "FRTModuleLight::Position");
 	}
+	EXPECT_REFUSED(Try([](auto& L) { L.Position[0] = 1e300; }), "FRTModuleLight::Position");
 	EXPECT_REFUSED(Try([](auto& L) { L.Color[2] = 1e21f; }), "FRTModuleLight::Color");
 	EXPECT_REFUSED(Try([](auto& L) { L.Direction[1] = 0.0f; }), "FRTModuleLight::Direction");
 	EXPECT_REFUSED(Try([](auto& L) { L.Tangent[0] = NaN; }), "FRTModuleLight::Tangent is zero");
@@ -184,22 +185,27 @@ TEST_F(FModuleLightTest, ObjectsSayWhatTheyShadow)
 		Change(Object);
 		ERTObjectHandle Handle = ERTObjectHandle::None;
 		EXPECT_OK(Renderer->AddObject(Object, &Handle));
-		EXPECT_TRUE(WaitUntil(
-		    "a complete frame", [&] { return Outputs.bComplete; }, [&] { ASSERT_OK(RenderWholeFrame()); }));
-		uint32_t Mask = 0;
-		for (IRTScene* const Scene : Mock().FindLiveScenes())
-		{
-			for (const FRTMockInstance& Item : Mock().GetSceneInstances(Scene)) { Mask = Item.Instance.CustomIndexAndMask >> 24; }
-		}
+		std::vector<uint32_t> Masks;
+		const auto Step = [&] {
+			ASSERT_OK(RenderWholeFrame());
+			Masks.clear();
+			for (IRTScene* const Scene : Mock().FindLiveScenes())
+			{
+				for (const FRTMockInstance& Item : Mock().GetSceneInstances(Scene)) { Masks.push_back(Item.Instance.CustomIndexAndMask >> 24); }
+			}
+			GiveWay();
+		};
+		EXPECT_TRUE(WaitUntil("the object", [&] { return Masks.size() == 1; }, Step));
 		EXPECT_OK(Renderer->RemoveObject(Handle));
-		EXPECT_OK(RenderWholeFrame());
-		return Mask & MASK_CASTERS;
+		const uint32_t Mask = Masks.empty() ? 0 : Masks[0];
+		EXPECT_TRUE(WaitUntil("no object", [&] { return Masks.empty(); }, Step));
+		return Mask & (MASK_CASTERS | MASK_VISIBLE);
 	};
-	EXPECT_EQ(FindMask([](auto&) {}), MASK_SUN_MOVING | MASK_LOCAL);
-	EXPECT_EQ(FindMask([](auto& O) { O.Mobility = ERTModuleMobility::Static; }), MASK_SUN | MASK_LOCAL);
-	EXPECT_EQ(FindMask([](auto& O) { O.bCastsLocalShadow = false; }), MASK_SUN_MOVING);
-	EXPECT_EQ(FindMask([](auto& O) { O.bCharacter = true; }), MASK_CHARACTER);
-	EXPECT_EQ(FindMask([](auto& O) { O.bCastsShadow = false; }), 0u);
+	EXPECT_EQ(FindMask([](auto&) {}), MASK_VISIBLE | MASK_SUN_MOVING | MASK_LOCAL);
+	EXPECT_EQ(FindMask([](auto& O) { O.Mobility = ERTModuleMobility::Static; }), MASK_VISIBLE | MASK_SUN | MASK_LOCAL);
+	EXPECT_EQ(FindMask([](auto& O) { O.bCastsLocalShadow = false; }), MASK_VISIBLE | MASK_SUN_MOVING);
+	EXPECT_EQ(FindMask([](auto& O) { O.bCharacter = true; }), MASK_VISIBLE | MASK_CHARACTER);
+	EXPECT_EQ(FindMask([](auto& O) { O.bCastsShadow = false; }), MASK_VISIBLE);
 }
 
 } // namespace

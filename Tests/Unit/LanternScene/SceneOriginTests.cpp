@@ -77,7 +77,7 @@ TEST_F(FSceneOriginTest, ToAndFroAcrossABorderMovesItOnce)
 }
 
 // A flight at 200 m/s moves it three times a second: tables of objects and of emissive triangles stay as they are.
-TEST_F(FSceneOriginTest, MovingItRewritesNothingButLights)
+TEST_F(FSceneOriginTest, MovingItRewritesNoTable)
 {
 	const FRTGeometryRef Panel = MakeGeometry("Panel", 1, {.bCpuData = true, .TrianglesPerSection = 50});
 	const FRTObjectId Id = Add(Panel, {Scene->AddMaterial(MakeMaterial(0, 1.0f))}, {700.25, 0, 3});

@@ -62,6 +62,15 @@ FJson FJson::Extension(const char* Name) const&
 	return Found == Extensions->end() ? FJson() : FJson(&*Found, this, Name, 0);
 }
 
+FJson FJson::Extra(const char* Name) const&
+{
+	if (Value == nullptr || !Value->is_object()) { return {}; }
+	const auto Extras = Value->find("extras");
+	if (Extras == Value->end() || !Extras->is_object()) { return {}; }
+	const auto Found = Extras->find(Name);
+	return Found == Extras->end() ? FJson() : FJson(&*Found, this, Name, 0); // named without "extras", as extensions are
+}
+
 size_t FJson::Count() const
 {
 	if (Value == nullptr) { return 0; }

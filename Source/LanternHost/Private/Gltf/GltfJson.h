@@ -34,10 +34,13 @@ public:
 	/// Absent members are values that do not Exist(). It is an error if the value is no object or no array.
 	FJson Member(const char* Key) const&;
 	FJson Extension(const char* Name) const&;
+	/// A member of "extras", which may be anything.
+	FJson Extra(const char* Name) const&;
 	size_t Count() const; ///< 0 if absent
 	FJson Element(size_t Index) const&;
 	FJson Member(const char* Key) const&& = delete; // the parent would be gone
 	FJson Extension(const char* Name) const&& = delete;
+	FJson Extra(const char* Name) const&& = delete;
 	FJson Element(size_t Index) const&& = delete;
 	std::string Dump() const; ///< text that is equal for equal values
 

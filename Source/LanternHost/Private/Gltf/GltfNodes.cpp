@@ -146,8 +146,7 @@ float ReadLength(const FJson& Json, const char* Name)
 void ReadLightShape(const FJson& Json, FHostLight& Light)
 {
 	constexpr float Pi = 3.14159265f;
-	const FJson Extras = Json.Member("extras");
-	const FJson Shape = Extras.Member("lantern");
+	const FJson Shape = Json.Extra("lantern");
 	if (!Shape.Exists()) { return; }
 	Light.bCastsShadow = Shape.GetBool("castsShadow", true);
 	Light.bTwoSided = Shape.GetBool("twoSided", false);
@@ -216,8 +215,7 @@ void ReadLights(FDocument& Document)
 /// Reads extras.lantern of a node: who sees its mesh, and what it casts shadows on.
 void ReadTraits(const FJson& Json, FRTObjectTraits& Traits)
 {
-	const FJson Extras = Json.Member("extras");
-	const FJson Given = Extras.Member("lantern");
+	const FJson Given = Json.Extra("lantern");
 	if (!Given.Exists()) { return; }
 	Traits.bVisible = Given.GetBool("visible", true);
 	Traits.bCastsShadow = Given.GetBool("castsShadow", true);

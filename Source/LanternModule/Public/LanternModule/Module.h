@@ -121,9 +121,10 @@ struct FRTModuleObject
 	/// Object to world: 3 rows of 4, the last column being the translation.
 	double Transform[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 	bool bCastsShadow = true;
-	bool bCastsLocalShadow = true; ///< false: only from the sun and the sky, as of trees that lamps should shine through
-	/// A character shadows all but characters, itself included: faces have no self-shadow. Paths of diffuse light and reflections
-	/// obey. The sun's shadow does not know yet which pixels show a character, and shadows them as anything else.
+	/// False: only from the sun and the sky, as of trees that lamps should shine through. A character casts from all lights.
+	bool bCastsLocalShadow = true;
+	/// A character casts no shadow on characters or on itself, so that faces have no self-shadow. Signals do not know yet which pixels
+	/// show a character, and shadow them as anything else. Surfaces that their paths meet behind these are right.
 	bool bCharacter = false;
 	bool bVisible = true; ///< seen by all rays but those of shadows: reflections and diffuse light
 	ERTModuleMobility Mobility = ERTModuleMobility::Movable;
@@ -141,12 +142,15 @@ enum class ERTModuleLight : uint8_t
 };
 
 /// A light other than the sun. Point, spot and directional lights are those of KHR_lights_punctual. The others have an area, soft
-/// shadows and nits. Rays that meet a light do not see it: give it a mesh where it should be seen. A point light of I candela with a
+/// shadows and nits. Rays that meet a light do not see it: give it a mesh where it should be
+/// seen. Shadow rays stop short of a mesh at its surface; a mesh around it must not cast shadows. A mesh that emits adds its own light.
+/// A point light of I candela with a
 /// source radius r (metres) is a sphere of I / (π r²) nits. A spot is such a sphere with bCone. All numbers must be finite.
 struct FRTModuleLight
 {
 	ERTModuleLight Type = ERTModuleLight::Point;
-	double Position[3] = {0, 0, 0};  ///< of its centre; not of a directional light
+	/// Of its centre; not of a directional light. Up to 1e12. A light farther than 262 km from the camera may shine from elsewhere.
+	double Position[3] = {0, 0, 0};
 	float Direction[3] = {0, -1, 0}; ///< in which the light travels, any length > 0: of spots, directional, rectangles, disks and cones
 	float Tangent[3] = {1, 0, 0};    ///< direction of a rectangle's width, or of a tube's axis; any length > 0, not along Direction
 	/// With intensity: candela of points and spots, lux of directional lights, nits of the others. 0 to 1e20.
