@@ -178,27 +178,32 @@ TEST_F(FModuleLightTest, ObjectsSayWhatTheyShadow)
 	ASSERT_OK(SetSun(4.0));
 	const ERTMeshHandle Mesh = AddOpaqueMesh();
 	const auto FindMask = [&](const std::function<void(FRTModuleObject&)>& Change) {
-		FRTModuleObject Object;
-		Object.Mesh = Mesh;
-		Object.Materials = &Solid;
-		Object.MaterialCount = 1;
-		Change(Object);
+		FRTModuleObject Added;
+		Added.Mesh = Mesh;
+		Added.Materials = &Solid;
+		Added.MaterialCount = 1;
+		Change(Added);
 		ERTObjectHandle Handle = ERTObjectHandle::None;
-		EXPECT_OK(Renderer->AddObject(Object, &Handle));
+		EXPECT_OK(Renderer->AddObject(Added, &Handle));
 		std::vector<uint32_t> Masks;
 		const auto Step = [&] {
 			ASSERT_OK(RenderWholeFrame());
 			Masks.clear();
 			for (IRTScene* const Scene : Mock().FindLiveScenes())
 			{
-				for (const FRTMockInstance& Item : Mock().GetSceneInstances(Scene)) { Masks.push_back(Item.Instance.CustomIndexAndMask >> 24); }
+				for (const FRTMockInstance& Item : Mock().GetSceneInstances(Scene))
+				{
+					Masks.push_back(Item.Instance.CustomIndexAndMask >> 24);
+				}
 			}
 			GiveWay();
 		};
-		EXPECT_TRUE(WaitUntil("the object", [&] { return Masks.size() == 1; }, Step));
+		EXPECT_TRUE(WaitUntil(
+		    "the object", [&] { return Masks.size() == 1; }, Step));
 		EXPECT_OK(Renderer->RemoveObject(Handle));
 		const uint32_t Mask = Masks.empty() ? 0 : Masks[0];
-		EXPECT_TRUE(WaitUntil("no object", [&] { return Masks.empty(); }, Step));
+		EXPECT_TRUE(WaitUntil(
+		    "no object", [&] { return Masks.empty(); }, Step));
 		return Mask & (MASK_CASTERS | MASK_VISIBLE);
 	};
 	EXPECT_EQ(FindMask([](auto&) {}), MASK_VISIBLE | MASK_SUN_MOVING | MASK_LOCAL);

@@ -142,14 +142,14 @@ enum class ERTModuleLight : uint8_t
 };
 
 /// A light other than the sun. Point, spot and directional lights are those of KHR_lights_punctual. The others have an area, soft
-/// shadows and nits. Rays that meet a light do not see it: give it a mesh where it should be
-/// seen. Shadow rays stop short of a mesh at its surface; a mesh around it must not cast shadows. A mesh that emits adds its own light.
-/// A point light of I candela with a
-/// source radius r (metres) is a sphere of I / (π r²) nits. A spot is such a sphere with bCone. All numbers must be finite.
+/// shadows and nits. All numbers must be finite. A point light of I candela with a source radius r (metres) is a sphere of I / (π r²)
+/// nits. A spot is such a sphere with bCone.
+/// Rays that meet a light do not see it: give it a mesh where it should be seen. Shadow rays stop short of a mesh at its surface. A
+/// mesh around it must not cast shadows. A mesh that emits adds its own light.
 struct FRTModuleLight
 {
 	ERTModuleLight Type = ERTModuleLight::Point;
-	/// Of its centre; not of a directional light. Up to 1e12. A light farther than 262 km from the camera may shine from elsewhere.
+	/// The centre; not of a directional light. Up to 1e12. A light farther than 262 km from the camera may shine from elsewhere.
 	double Position[3] = {0, 0, 0};
 	float Direction[3] = {0, -1, 0}; ///< in which the light travels, any length > 0: of spots, directional, rectangles, disks and cones
 	float Tangent[3] = {1, 0, 0};    ///< direction of a rectangle's width, or of a tube's axis; any length > 0, not along Direction
