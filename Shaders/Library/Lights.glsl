@@ -26,7 +26,8 @@ float LightAttenuation(FLightData Light, vec3 ToCenter)
 	if (Light.Range > 0.0)
 	{
 		float Ratio = DistanceSquared / (Light.Range * Light.Range);
-		Attenuation = clamp(1.0 - Ratio * Ratio, 0.0, 1.0);
+		if (Ratio >= 1.0) { return 0.0; } // most lights, in a scene of many
+		Attenuation = 1.0 - Ratio * Ratio;
 	}
 	if ((Light.Flags & LIGHT_HAS_CONE) != 0u)
 	{

@@ -38,13 +38,13 @@ vec3 ShadeDirect(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, FGBuff
 	FLightRef Lights = FLightRef(Scene.Lights);
 	for (uint I = 0; I < Scene.LightCount; ++I)
 	{
-		if (EstimateLight(Scene, Lights.Data[I], P, Point.Ng) <= 0.0) { continue; }
 #ifdef HAS_AREA_LIGHTS
+		if (EstimateLight(Scene, Lights.Data[I], P, Point.Ng) <= 0.0) { continue; }
 		FLightSample Sample = SampleLight(Scene, Lights.Data[I], P, NextRandom4(Random).xy);
 #else
 		FLightSample Sample = SampleLight(Scene, Lights.Data[I], P, vec2(0.0));
 #endif
-		if (dot(Point.Ng, Sample.Direction) > 0.0)
+		if (MaxComponent(Sample.Irradiance) > 0.0 && dot(Point.Ng, Sample.Direction) > 0.0)
 		{
 			Radiance += EvaluateBrdfCos(Brdf, LocalV, Sample.Direction * Basis) * Sample.Irradiance;
 		}
