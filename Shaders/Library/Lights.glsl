@@ -124,9 +124,8 @@ float EstimateLight(FSceneConstants Scene, FLightData Light, vec3 P, vec3 Ng)
 		float Form = min(Area / max(dot(ToCenter, ToCenter), 1.0e-12), Pi);
 		return Luminance(Light.Color) * Form * LightAttenuation(Light, ToCenter);
 	}
-#endif
-#ifndef HAS_AREA_LIGHTS
-	if (Type >= LIGHT_RECTANGLE) { return 0.0; } // dark until its shader is there, which the frame may have to wait for
+#else
+	if (Type >= LIGHT_RECTANGLE) { return 0.0; } // dark until its shader is there
 #endif
 	if (Type == LIGHT_NONE) { return 0.0; }
 	FLightSample Sample = SamplePointLight(Light, ToCenter);

@@ -10,6 +10,7 @@
 #include "LanternImage/ImageStatistics.h"
 #include "LanternImage/Metrics.h"
 #include "Support/RenderFixture.h"
+#include "Support/Srgb.h"
 #include "Support/TestScene.h"
 
 namespace Lantern
@@ -17,9 +18,6 @@ namespace Lantern
 
 namespace
 {
-
-/// A linear value that an sRGB texel of 8 bits holds exactly.
-float MakeSrgb(int Step) { return std::pow((static_cast<float>(Step) / 255.0f + 0.055f) / 1.055f, 2.4f); }
 
 class FGBufferTest : public FRenderTest
 {

@@ -8,6 +8,7 @@
 #include "LanternImage/ImageStatistics.h"
 #include "LanternImage/Metrics.h"
 #include "Support/RenderFixture.h"
+#include "Support/Srgb.h"
 #include "Support/TestScene.h"
 
 namespace Lantern
@@ -19,8 +20,7 @@ constexpr double Pi = std::numbers::pi;
 constexpr double Tolerance = 0.005;
 constexpr uint32_t Batches = 8;
 
-/// A linear value that an sRGB texel of 8 bits holds exactly.
-const float Albedo = std::pow((190.0f / 255.0f + 0.055f) / 1.055f, 2.4f);
+const float Albedo = MakeSrgb(190);
 
 FSceneLight MakeLight(uint32_t Type, glm::dvec3 Position, glm::vec2 Size)
 {

@@ -10,6 +10,7 @@
 
 #include "ArgumentChecks.h"
 #include "LanternRHI/RTText.h"
+#include "LanternScene/Geometry/Octahedral.h"
 #include "LanternScene/Scene/TextureSlot.h"
 
 namespace Lantern
@@ -50,19 +51,6 @@ FRTStatus CheckBounds(const FRTModuleMesh& Mesh)
 	const bool bCenter = std::all_of(Mesh.BoundsCenter, Mesh.BoundsCenter + 3, [](float Value) { return std::isfinite(Value); });
 	return bCenter && std::isfinite(Mesh.BoundsRadius) ? FRTStatus::Success()
 	                                                   : RefuseMesh(Mesh, "BoundsCenter or BoundsRadius is not finite");
-}
-
-/// Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", JCGT 2014.
-uint32_t PackOctahedral(glm::vec3 N)
-{
-	const float Sum = std::abs(N.x) + std::abs(N.y) + std::abs(N.z);
-	glm::vec2 P = Sum > 0.0f ? glm::vec2(N) / Sum : glm::vec2(0);
-	if (N.z < 0.0f)
-	{
-		const glm::vec2 Sign(P.x >= 0.0f ? 1.0f : -1.0f, P.y >= 0.0f ? 1.0f : -1.0f);
-		P = (1.0f - glm::abs(glm::vec2(P.y, P.x))) * Sign;
-	}
-	return glm::packSnorm2x16(P);
 }
 
 glm::vec3 ReadVector(const float* Data, uint32_t Index) { return {Data[Index * 3], Data[Index * 3 + 1], Data[Index * 3 + 2]}; }

@@ -5,22 +5,14 @@
 #include <cassert>
 #include <cmath>
 
-#include <glm/gtc/packing.hpp>
+#include "LanternScene/Geometry/Octahedral.h"
 
 namespace Lantern
 {
 
 namespace
 {
-/// Octahedral, 2 × snorm16 (Cigolle et al. 2014); as UnpackOct in Math.glsl reads it.
-uint32_t PackOct(glm::dvec3 V)
-{
-	V /= std::abs(V.x) + std::abs(V.y) + std::abs(V.z);
-	const auto Sign = [](double X) { return X >= 0.0 ? 1.0 : -1.0; };
-	const glm::vec2 Upper(V.x, V.y);
-	const glm::vec2 Lower((1.0 - std::abs(V.y)) * Sign(V.x), (1.0 - std::abs(V.x)) * Sign(V.y));
-	return glm::packSnorm2x16(V.z >= 0.0 ? Upper : Lower);
-}
+uint32_t PackDirection(const glm::dvec3& V) { return PackOctahedral(glm::vec3(glm::normalize(V))); }
 
 /// Steps of a coordinate, modulo 2³²: differences of lights and origin are right wherever both are.
 int32_t PackCoordinate(double Metres)
@@ -77,8 +69,8 @@ FLightData PackLight(const FSceneLight& Light)
 	Out.Color = Light.Color;
 	Out.Range = Light.Range;
 	assert(glm::length(Light.Direction) > 0.0f && glm::length(MakeTangent(Light)) > 0.0);
-	Out.Direction = PackOct(glm::dvec3(Light.Direction));
-	Out.Tangent = PackOct(MakeTangent(Light));
+	Out.Direction = PackDirection(glm::dvec3(Light.Direction));
+	Out.Tangent = PackDirection(MakeTangent(Light));
 	Out.Size = PackSize(Light);
 	if (Light.OuterCone > 0.0f && Light.Type != LIGHT_DIRECTIONAL) { PackCone(Light, Out); }
 	return Out;
