@@ -122,6 +122,9 @@ bool ChooseLight(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, 
 	}
 	if (Chosen <= 0.0) { return false; }
 	Choice.Weight = Total / Chosen;
+#ifdef NO_CHOICE_WEIGHT // r.RT.Debug.Lights.Weight
+	Choice.Weight = 1.0;
+#endif
 	return (Lights.Data[Choice.Light].Flags & LIGHT_CASTS_SHADOW) != 0u;
 }
 #endif

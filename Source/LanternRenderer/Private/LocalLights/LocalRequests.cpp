@@ -8,9 +8,14 @@ namespace Lantern
 
 namespace
 {
+TRTConsoleVariable<bool> CVarWeight("r.RT.Debug.Lights.Weight", true,
+    "Planted fault. If off, a light that a pixel chose of many counts once, and not for all that it was chosen from.");
+
 FShaderSource MakeRequestsSource(const FSceneFacts& Facts, uint32_t Exact)
 {
-	return MakeComputeSource("LocalLights/Requests.comp", MakeLocalDefines(Facts, Exact));
+	FShaderDefines Defines = MakeLocalDefines(Facts, Exact);
+	if (!CVarWeight.GetOnRenderThread()) { Defines.emplace_back("NO_CHOICE_WEIGHT", "1"); }
+	return MakeComputeSource("LocalLights/Requests.comp", std::move(Defines));
 }
 
 FShaderSource MakeShareSource() { return MakeComputeSource("LocalLights/ShareRequests.comp"); }
