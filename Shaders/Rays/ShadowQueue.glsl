@@ -10,6 +10,7 @@
 #define LANTERN_SHADOW_QUEUE_GLSL
 
 #include "../Shared/RayQueueTypes.h"
+#include "../Library/Casters.glsl"
 #include "../Library/GBuffer.glsl"
 #include "../Library/Random.glsl"
 #include "../Library/Sun.glsl"
@@ -21,6 +22,16 @@ float TraceShadowRay(vec3 Origin, vec3 Direction, float Length, uint Flags, uint
 
 #include "SamplesPerPixel.glsl"
 
+// Characters cast on everything but characters.
+bool ShowsCharacter(FSceneConstants Scene, uvec2 Pixel)
+{
+#ifdef HAS_CHARACTERS
+	return IsCharacterPixel(Scene, Push.Classes, Push.ClassesOffset, Push.Motion, ivec2(Pixel));
+#else
+	return false;
+#endif
+}
+
 #ifdef SUN_RAYS
 void TraceSun(uint Index)
 {
@@ -28,6 +39,7 @@ void TraceSun(uint Index)
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	uvec2 Pixel = uvec2(Index % View.Width, Index / View.Width);
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), LoadDepth(Push.Depth, ivec2(Pixel)));
+	uint Mask = ShowsCharacter(Scene, Pixel) ? Push.InstanceMask & ~MASK_CHARACTER : Push.InstanceMask;
 	float BlockerDistanceSum = 0.0;
 	uint Seen = 0u, Blocked = 0u;
 	FTileSequence Sequence = MakeTileSequence(Pixel, View.FrameIndex, HashPcg(View.Seed));
@@ -37,7 +49,7 @@ void TraceSun(uint Index)
 		if (Push.bSoft != 0u) { Direction = SampleSunDirection(Scene, SobolOwen2(Sequence.Index * SamplesPerPixel + Sample, Sequence.Seed)); }
 		if (!LeavesSurface(View, Point, Direction)) { continue; }
 		float BlockerDistance =
-			TraceShadowRay(RasterRayOrigin(Scene, View, Point), Direction, Push.MaxDistance, Push.RayFlags, Push.InstanceMask);
+			TraceShadowRay(RasterRayOrigin(Scene, View, Point), Direction, Push.MaxDistance, Push.RayFlags, Mask);
 		Seen += BlockerDistance < 0.0 ? 1u : 0u;
 		Blocked += BlockerDistance < 0.0 ? 0u : 1u;
 		BlockerDistanceSum += max(BlockerDistance, 0.0);

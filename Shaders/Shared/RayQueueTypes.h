@@ -72,8 +72,12 @@ struct FShadowQueueConstants
 	uint RayFlags;        // of sun rays: gl_RayFlags… to add to those that the pass needs
 	uint InstanceMask;    // of sun rays
 	uint bSoft;           // 0: hard shadows, from the centre of the sun's disk
+	uint Motion;          // sampled index, or NO_TEXTURE: FGBuffer::Motion, for HAS_CHARACTERS
+	uint Classes;         // sampled index, or NO_TEXTURE: FGBuffer::Classes, for HAS_CHARACTERS
+	uint ClassesOffset;   // of the view in Classes, pixels: x | y << 16
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FShadowQueueConstants, 96);
+LANTERN_ASSERT_SIZE(FShadowQueueConstants, 112);
 
 LANTERN_SHARED_END
 
