@@ -69,7 +69,7 @@ struct FShadowQueueConstants
 	uint Normals;         // sampled index: shading and geometric normal, both octahedral
 	uint SamplesPerPixel; // of the sun, 1 to 64
 	float MaxDistance;    // of sun rays, metres
-	uint RayFlags;        // of sun rays: gl_RayFlags… to add to those that the pass needs
+	uint RayFlags;        // of all rays: gl_RayFlags… to add to those that the pass needs
 	uint InstanceMask;    // of sun rays
 	uint bSoft;           // 0: hard shadows, from the centre of the sun's disk
 	uint Motion;          // sampled index, or NO_TEXTURE: FGBuffer::Motion, for HAS_CHARACTERS

@@ -207,7 +207,7 @@ FRTStatus FRayBench::Measure(bool bPipeline, FRayCase& Out)
 {
 	// What the raw dispatch is written for, whatever the settings say.
 	for (const char* Name : {"r.RT.Enable", "r.RT.Shadow", "r.RT.Shadow.Soft", "r.RT.Shadow.Samples"}) { Set(Name, "1"); }
-	Set("r.RT.Shadow.CullFrontFaces", "0");
+	Set("r.RT.Shadow.CasterFaces", "0");
 	Set("r.RT.Shadow.Denoise", "0");
 	Set("r.RT.Shadow.Path", bPipeline ? "1" : "2");
 	FPluginMs Ms;

@@ -149,7 +149,7 @@ TEST_F(FRendererToggleTest, ShadowSettingsReachTheShader)
 	EXPECT_EQ(GetShadowConstants().SamplesPerPixel, 1u);
 	Set("r.RT.Shadow.Samples", "16");
 	Set("r.RT.Shadow.MaxDistance", "50");
-	Set("r.RT.Shadow.CullFrontFaces", "1");
+	Set("r.RT.Shadow.CasterFaces", "2");
 	Set("r.RT.Shadow.InstanceMask", "4");
 	for (const char* Path : {"1", "2"})
 	{

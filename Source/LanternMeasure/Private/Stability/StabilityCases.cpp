@@ -95,7 +95,7 @@ FStabilityFault MakeUnguardedFault(const FMethod& Method)
 	return MakeFault(bFiltered ? Unguarded : std::vector<FMethodSetting>(), "one pixel is overwritten");
 }
 
-FStabilityFault MakePlanesFault(const FMethod&) { return MakeFault(KnownSettings({{"r.RT.Shadow.CullFrontFaces", "1"}}), ""); }
+FStabilityFault MakePlanesFault(const FMethod&) { return MakeFault(KnownSettings({{"r.RT.Shadow.CasterFaces", "2"}}), ""); }
 } // namespace
 
 std::span<const FStabilityCase> GetStabilityCases()

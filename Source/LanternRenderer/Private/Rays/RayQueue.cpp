@@ -24,6 +24,20 @@ TRTConsoleVariable<bool> CVarReceivers(
 TRTConsoleVariable<int32_t> CVarPath(
     "r.RT.Shadow.Path", 0, "How shadow rays are traced. 0: as the device does best. 1: ray-tracing pipeline. 2: ray query.", {0, 2});
 
+TRTConsoleVariable<int32_t> CVarCasterFaces("r.RT.Shadow.CasterFaces", 0,
+    "Which faces cast shadows of single-sided planes. 0: either. 1: those turned to the light, as in shadow maps that cull back faces. "
+    "2: those turned away from it, as in shadow maps that cull front faces. An object casts all the same if all of its materials are "
+    "double-sided.",
+    {0, 2});
+
+/// A ray towards a light sees the backs of faces that are turned to it.
+uint32_t GetCasterRayFlags()
+{
+	constexpr uint32_t CullBackFacing = 0x10, CullFrontFacing = 0x20; // gl_RayFlagsCullBackFacingTrianglesEXT, …Front…
+	const int32_t Faces = CVarCasterFaces.GetOnRenderThread();
+	return Faces == 1 ? CullFrontFacing : Faces == 2 ? CullBackFacing : 0u;
+}
+
 FShadowQueueConstants MakeConstants(FPassContext& Pass, const FFrameContext& Frame, const FRayQueue& Queue, const FQueuedRays& Rays)
 {
 	const FSunRays& Sun = Rays.Sun;
@@ -39,7 +53,7 @@ FShadowQueueConstants MakeConstants(FPassContext& Pass, const FFrameContext& Fra
 	C.Capacity = Queue.Capacity;
 	C.SamplesPerPixel = Sun.SamplesPerPixel;
 	C.MaxDistance = Sun.MaxDistance;
-	C.RayFlags = Sun.RayFlags;
+	C.RayFlags = GetCasterRayFlags();
 	C.InstanceMask = Sun.InstanceMask;
 	C.bSoft = Sun.bSoft ? 1u : 0u;
 	return C;

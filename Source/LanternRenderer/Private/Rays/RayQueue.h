@@ -29,7 +29,6 @@ struct FSunRays
 {
 	uint32_t SamplesPerPixel = 0; ///< 1 to 64; 0: nobody asks
 	float MaxDistance = 0.0f;     ///< metres
-	uint32_t RayFlags = 0;        ///< gl_RayFlags…
 	uint32_t InstanceMask = 0;
 	bool bSoft = false; ///< towards all of the disk; if false, to its centre
 };

@@ -18,15 +18,9 @@ TRTConsoleVariable<int32_t> CVarSamples(
 TRTConsoleVariable<float> CVarMaxDistance("r.RT.Shadow.MaxDistance", 100000.0f, "Length of sun shadow rays, in metres.", {0.01, 1e9});
 TRTConsoleVariable<bool> CVarSoft(
     "r.RT.Shadow.Soft", true, "Traces penumbrae of the sun's disk. If off, shadows are hard, from the disk's centre.");
-TRTConsoleVariable<bool> CVarCullFront("r.RT.Shadow.CullFrontFaces", false,
-    "Sun shadow rays ignore faces turned towards the sun, as shadow maps drawn with front-face culling do. An object casts all the "
-    "same if all of its materials are double-sided.");
 TRTConsoleVariable<int32_t> CVarMask(
     "r.RT.Shadow.InstanceMask", MaskSunCasters, "Only objects that share a bit with this mask cast sun shadows.", {0, 255});
 const FDenoiseVariables Denoise("r.RT.Shadow", FDenoiseDefaults{.SigmaValue = 2.0f, .bExtent = true});
-
-// A ray towards the sun sees the backs of faces that are turned towards it. gl_RayFlagsCullBackFacingTrianglesEXT
-constexpr uint32_t RayFlagCullTowardsSun = 0x10;
 
 bool IsSoft(const FRTScene& Scene) { return CVarSoft.GetOnRenderThread() && Scene.GetSun().AngularDiameter > 0.0f; }
 // Whatever the sun's size: the shaders stay as they are while it changes.
@@ -42,7 +36,6 @@ FSunRays MakeSunRays(const FRTScene& Scene, const FRayDispatch& Dispatch)
 	// Of the shader that runs, which may be the one before the setting changed.
 	if (Rays.bSoft && !Dispatch.Has("ONE_SAMPLE")) { Rays.SamplesPerPixel = static_cast<uint32_t>(CVarSamples.GetOnRenderThread()); }
 	Rays.MaxDistance = CVarMaxDistance.GetOnRenderThread();
-	Rays.RayFlags = CVarCullFront.GetOnRenderThread() ? RayFlagCullTowardsSun : 0u;
 	Rays.InstanceMask = static_cast<uint32_t>(CVarMask.GetOnRenderThread());
 	return Rays;
 }
