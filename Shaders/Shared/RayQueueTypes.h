@@ -53,7 +53,7 @@ struct FShadowQueueConstants
 	float MaxDistance;    // of sun rays, metres
 	uint RayFlags;        // of sun rays: gl_RayFlags… to add to those that the pass needs
 	uint InstanceMask;    // of sun rays
-	uint bSoft;           // 0: hard shadows, from the centre of the sun's disk
+	float SunOneMinusCos; // of the disk that sun rays go to, see FSceneConstants; 0: hard shadows, from its centre
 };
 LANTERN_ASSERT_SIZE(FShadowQueueConstants, 80);
 

@@ -19,7 +19,7 @@ struct FSunShadowConstants
 	uint OutPenumbra; // storage index, or NO_TEXTURE
 	uint Kept;        // sampled index: visibility of the frame before, for pixels whose rays had no room; NO_TEXTURE: those are lit
 	uint OutKept;     // storage index: Kept of the next frame; NO_TEXTURE: all rays have room
-	uint Pad;
+	uint Settled;     // ADAPTIVE only, storage index: see FSettledConstants::Current
 };
 LANTERN_ASSERT_SIZE(FSunShadowConstants, 72);
 

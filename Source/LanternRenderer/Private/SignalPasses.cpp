@@ -7,6 +7,7 @@
 #include "DiffuseGI/DiffuseGI.h"
 #include "Reflections/Reflections.h"
 #include "SunShadow/SunShadow.h"
+#include "Tiles/TileView.h"
 
 namespace Lantern
 {
@@ -14,7 +15,8 @@ namespace Lantern
 namespace
 {
 constexpr FSignalPass Passes[] = {
-    {ESignal::SunShadow, ChooseSunShadowRays, AddSunShadowPass, IsSunShadowFiltered, ListSunShadowFilters},
+    {ESignal::SunShadow, ChooseSunShadowRays, AddSunShadowPass, IsSunShadowFiltered, ListSunShadowFilters, ESignal::Count, nullptr,
+        TilePictures},
     {ESignal::AmbientOcclusion, ChooseAmbientOcclusionRays, AddAmbientOcclusionPass, IsAmbientOcclusionFiltered,
         ListAmbientOcclusionFilters, ESignal::DiffuseGI, SetAmbientOcclusionReference},
     {ESignal::DiffuseGI, ChooseDiffuseGIRays, AddDiffuseGIPass},

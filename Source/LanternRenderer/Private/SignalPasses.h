@@ -22,6 +22,8 @@ struct FSignalPass
 	ESignal ReplacedBy = ESignal::Count;
 	/// Fills what the signal's reference reads of the constants beside the rest. Null: nothing.
 	void (*SetReferenceConstants)(FReferenceConstants& Constants) = nullptr;
+	/// Names of pictures that the pass draws of how it works, for r.RT.Debug.View, with a null behind the last one. Null: none.
+	const char* const* Pictures = nullptr;
 };
 
 /// Returns how Signal is made. Signal: neither Frame nor Count.

@@ -7,6 +7,7 @@
 
 #include "LanternCore/Text/Log.h"
 #include "RayQueueTypes.h"
+#include "Rays/RayQueueCounter.h"
 #include "Rays/RayQueueDemand.h"
 
 namespace Lantern
@@ -32,7 +33,7 @@ FShadowQueueConstants MakeConstants(FPassContext& Pass, const FFrameContext& Fra
 	C.MaxDistance = Sun.MaxDistance;
 	C.RayFlags = Sun.RayFlags;
 	C.InstanceMask = Sun.InstanceMask;
-	C.bSoft = Sun.bSoft ? 1u : 0u;
+	C.SunOneMinusCos = GetSunOneMinusCos(Sun);
 	return C;
 }
 
@@ -48,6 +49,12 @@ void TraceQueue(FPassContext& Pass, const FFrameContext& Frame, const FRayDispat
 	Commands.TraceRaysIndirect(Frame.RayTable->GetTable(), Dispatch.RayGen, Arguments, offsetof(FRayQueueCounters, Launch));
 }
 } // namespace
+
+float GetSunOneMinusCos(const FSunRays& Rays)
+{
+	const double HalfSin = std::sin(0.25 * double(Rays.Diameter));
+	return static_cast<float>(2.0 * HalfSin * HalfSin);
+}
 
 bool CanQueueRays(uint32_t Width, uint32_t Height)
 {
@@ -72,6 +79,16 @@ FRayQueue CreateRayQueue(FFrameContext& Context, ESignal Signal)
 	return Queue;
 }
 
+void ClearQueueCounters(FPassContext& Pass, const FRayQueue& Queue)
+{
+	constexpr ERTAccess Declared = ERTAccess::StorageWrite;
+	IRTBuffer* const Counters = Pass.GetBuffer(Queue.Counters);
+	const FRTBarrier Before{Counters, nullptr, Declared, ERTAccess::CopyWrite}, After{Counters, nullptr, ERTAccess::CopyWrite, Declared};
+	Pass.Commands().Barriers(&Before, 1);
+	Pass.Commands().FillBuffer(Counters, 0, sizeof(FRayQueueCounters), 0);
+	Pass.Commands().Barriers(&After, 1);
+}
+
 void AddShadowRaysPass(
     FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue, const FSunRays& Sun)
 {
@@ -79,11 +96,16 @@ void AddShadowRaysPass(
 	// another frame, and a frame that asks for more rays would lose some.
 	const bool bIndirect = Dispatch.Compute || Context.Device.GetCapabilities().bIndirectTrace;
 	const FFrameContext* const Frame = &Context;
-	FGraphBuffer Demand;
+	FGraphBuffer Demand, Count;
 	if (Queue.bMayOverflow)
 	{
 		const FRayQueueDemand::FQueue Asked{Queue.Counters, Queue.Capacity, uint64_t(Context.Width) * Context.Height};
 		Demand = Context.QueueDemand->AddRead(Context.Graph, (Queue.Name + "Demand").c_str(), Asked);
+	}
+	if (FRayQueueCounter::IsWanted())
+	{
+		const FRayQueueCounter::FQueue Asked{Queue.Counters, Queue.Capacity, Sun.SamplesPerPixel};
+		Count = Context.RayCounter->AddRead(Context.Graph, (Queue.Name + "Count").c_str(), Asked);
 	}
 	Context.Graph.AddPass((Queue.Name + "Rays").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Read(GBuffer.Depth, ERTAccess::ShaderRead);
@@ -94,7 +116,10 @@ void AddShadowRaysPass(
 		Builder.Read(Queue.Answers, ERTAccess::StorageRead);
 		Builder.Write(Queue.Answers, ERTAccess::StorageWrite);
 		if (Queue.SunWidths.IsValid()) { Builder.Write(Queue.SunWidths, ERTAccess::StorageWrite); }
-		if (Demand.IsValid()) { Builder.Keep(Demand); }
+		for (const FGraphBuffer Read : {Demand, Count})
+		{
+			if (Read.IsValid()) { Builder.Keep(Read); }
+		}
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
 			FShadowQueueConstants Constants = MakeConstants(Pass, *Frame, Queue, Sun);

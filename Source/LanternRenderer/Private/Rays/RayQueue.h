@@ -30,8 +30,12 @@ struct FSunRays
 	float MaxDistance = 0.0f;     ///< metres
 	uint32_t RayFlags = 0;        ///< gl_RayFlags…
 	uint32_t InstanceMask = 0;
-	bool bSoft = false; ///< towards all of the disk; if false, to its centre
+	float Diameter = 0.0f; ///< of the disk that they go to, radians; 0: they go to its centre
+	friend bool operator==(const FSunRays&, const FSunRays&) = default;
 };
+
+/// Returns 1 − cosine of the disk's angular radius.
+float GetSunOneMinusCos(const FSunRays& Rays);
 
 /// Returns whether the pixels of a picture have an index in requests. Logs once if they have not.
 bool CanQueueRays(uint32_t Width, uint32_t Height);
@@ -42,6 +46,9 @@ bool MayQueuesOverflow();
 /// Signal: whose passes trace it. The queue has room for what r.RT.Rays.QueuePerPixel says, or for what earlier frames asked for. It has
 /// room for one request of each pixel at most, since no more can be asked for.
 FRayQueue CreateRayQueue(FFrameContext& Context, ESignal Signal);
+
+/// Zeroes the counters, in a pass that declared to write them as storage.
+void ClearQueueCounters(FPassContext& Pass, const FRayQueue& Queue);
 
 /// Adds the pass that traces what is in the queue. Dispatch: of Shaders/Rays/ShadowQueue.
 void AddShadowRaysPass(

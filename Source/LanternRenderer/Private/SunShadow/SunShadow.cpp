@@ -5,6 +5,7 @@
 #include "LanternCore/FrameGraph/History.h"
 #include "SignalPasses.h"
 #include "SunShadowTypes.h"
+#include "Tiles/TileView.h"
 #include "Tiles/Tiles.h"
 
 namespace Lantern
@@ -20,6 +21,8 @@ TRTConsoleVariable<int32_t> CVarPath(
 TRTConsoleVariable<float> CVarMaxDistance("r.RT.Shadow.MaxDistance", 100000.0f, "Length of sun shadow rays, in metres.", {0.01, 1e9});
 TRTConsoleVariable<bool> CVarSoft(
     "r.RT.Shadow.Soft", true, "Traces penumbrae of the sun's disk. If off, shadows are hard, from the disk's centre.");
+TRTConsoleVariable<float> CVarSourceScale("r.RT.Shadow.SourceScale", 1.0f,
+    "Scales the diameter of the sun's disk for shadows. Narrower penumbrae need fewer rays to look smooth. 0: shadows are hard.", {0, 16});
 TRTConsoleVariable<bool> CVarCullFront("r.RT.Shadow.CullFrontFaces", false,
     "Sun shadow rays ignore faces turned towards the sun, as shadow maps drawn with front-face culling do. An object casts all the "
     "same if all of its materials are double-sided.");
@@ -30,18 +33,26 @@ const FDenoiseVariables Denoise("r.RT.Shadow", FDenoiseDefaults{.SigmaValue = 2.
 // A ray towards the sun sees the backs of faces that are turned towards it. gl_RayFlagsCullBackFacingTrianglesEXT
 constexpr uint32_t RayFlagCullTowardsSun = 0x10;
 
-bool IsSoft(const FRTScene& Scene) { return CVarSoft.GetOnRenderThread() && Scene.GetSun().AngularDiameter > 0.0f; }
+/// Radians; 0: hard shadows.
+float GetDiameter(const FRTScene& Scene)
+{
+	return CVarSoft.GetOnRenderThread() ? Scene.GetSun().AngularDiameter * CVarSourceScale.GetOnRenderThread() : 0.0f;
+}
+bool IsSoft(const FRTScene& Scene) { return GetDiameter(Scene) > 0.0f; }
 // Whatever the sun's size: the shaders stay as they are while it changes.
 bool MeasuresPenumbra() { return CVarSoft.GetOnRenderThread() && Denoise.IsEnabled(); }
 
-FShaderSource MakeResolveSource() { return MakeComputeSource(MakeShaderPath(ESignal::SunShadow, ".comp")); }
+FShaderSource MakeResolveSource(const FSunRates& Rates)
+{
+	return MakeComputeSource(MakeShaderPath(ESignal::SunShadow, ".comp"), MakeSettledDefines(Rates));
+}
 
 FSunRays MakeSunRays(const FRTScene& Scene, const FRayDispatch& Dispatch)
 {
 	FSunRays Rays;
-	Rays.bSoft = IsSoft(Scene);
+	Rays.Diameter = GetDiameter(Scene);
 	// Of the shader that runs, which may be the one before the setting changed.
-	if (Rays.bSoft && !Dispatch.Has("ONE_SAMPLE")) { Rays.SamplesPerPixel = static_cast<uint32_t>(CVarSamples.GetOnRenderThread()); }
+	if (Rays.Diameter > 0.0f && !Dispatch.Has("ONE_SAMPLE")) { Rays.SamplesPerPixel = static_cast<uint32_t>(CVarSamples.GetOnRenderThread()); }
 	Rays.MaxDistance = CVarMaxDistance.GetOnRenderThread();
 	Rays.RayFlags = CVarCullFront.GetOnRenderThread() ? RayFlagCullTowardsSun : 0u;
 	Rays.InstanceMask = static_cast<uint32_t>(CVarMask.GetOnRenderThread());
@@ -56,6 +67,7 @@ struct FResolveInputs
 	uint32_t SamplesPerPixel = 1;
 	FGraphTexture Penumbra; ///< the penumbra's width in pixels is written here as well; may be invalid
 	FHistoryTexture Kept;   ///< visibility, for pixels whose rays have no room; Current is invalid if all have
+	FSettledTiles Settled;
 };
 
 /// Makes visibility of the answers.
@@ -77,6 +89,11 @@ FGraphTexture AddResolvePass(FFrameContext& Context, IRTPipeline* Pipeline, cons
 			Builder.Write(Inputs.Kept.Current, ERTAccess::StorageWrite);
 			Builder.Keep(Inputs.Kept.Current);
 		}
+		if (Inputs.Settled.Known.Current.IsValid())
+		{
+			Builder.Read(Inputs.Settled.Known.Current, ERTAccess::StorageRead);
+			Builder.Write(Inputs.Settled.Known.Current, ERTAccess::StorageWrite);
+		}
 		if (Inputs.Penumbra.IsValid()) { Builder.WriteIfRead(Inputs.Penumbra, ERTAccess::StorageWrite); }
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
@@ -92,6 +109,7 @@ FGraphTexture AddResolvePass(FFrameContext& Context, IRTPipeline* Pipeline, cons
 			C.OutPenumbra = GetStorageIndex(Pass, Inputs.Penumbra);
 			C.Kept = GetSampledIndex(Pass, Inputs.Kept.Previous);
 			C.OutKept = GetStorageIndex(Pass, Inputs.Kept.Current);
+			C.Settled = GetStorageIndex(Pass, Inputs.Settled.Known.Current);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
@@ -118,7 +136,7 @@ FGraphTexture AddVisibility(FFrameContext& Context, const FGBuffer& GBuffer, FGr
 {
 	const FPassRays Chosen = ChooseSignalRays(Context, ESignal::SunShadow);
 	if (Chosen.Path == ERayPath::None || !CanQueueRays(Context.Width, Context.Height)) { return {}; }
-	IRTPipeline* const Resolve = RequireCompute(Context, MakeResolveSource());
+	IRTPipeline* const Resolve = RequireCompute(Context, MakeResolveSource(GetSunRates(MeasuresPenumbra())));
 	const std::optional<FRayDispatch> Dispatch = RequireRayDispatch(Context, ESignal::SunShadow, Chosen);
 	if (!Resolve || !Dispatch) { return {}; }
 	FResolveInputs Inputs{GBuffer, CreateRayQueue(Context, ESignal::SunShadow)};
@@ -131,9 +149,13 @@ FGraphTexture AddVisibility(FFrameContext& Context, const FGBuffer& GBuffer, FGr
 	}
 	const FSunRays Rays = MakeSunRays(Context.Scene, *Dispatch);
 	Inputs.SamplesPerPixel = Rays.SamplesPerPixel;
-	Inputs.Tiles = AddTilesPass(Context, GBuffer, Inputs.Queue, Rays);
+	Inputs.Settled =
+	    FindSettledTiles(Context, GBuffer, Rays, GetSunRates(MeasuresPenumbra()), IsSunShadowFiltered(Context.Scene));
+	Inputs.Tiles = AddTilesPass(Context, GBuffer, Inputs.Queue, Rays, Inputs.Settled);
 	if (!Inputs.Tiles.IsValid()) { return {}; }
 	AddShadowRaysPass(Context, GBuffer, *Dispatch, Inputs.Queue, Rays);
+	if (Inputs.Settled.Known.Current.IsValid()) { AddSettledRays(Context, GBuffer, *Dispatch, Inputs.Queue, Rays, Inputs.Tiles); }
+	AddTileView(Context, Inputs.Tiles);
 	OutPenumbra = Inputs.Penumbra;
 	return AddResolvePass(Context, Resolve, Inputs);
 }
@@ -149,7 +171,10 @@ FPassRays ChooseSunShadowRays(const FPassQuery& Query)
 	if (MeasuresPenumbra()) { Rays.Defines.emplace_back("WITH_PENUMBRA", "1"); }
 	Rays.bBlockers = MeasuresPenumbra();
 	Rays.Shaders = ShadowQueueShaders;
-	Rays.Compute = {MakeTilesSource(), MakeResolveSource()};
+	const FSunRates Rates = GetSunRates(MeasuresPenumbra());
+	Rays.Compute = {MakeTilesSource(Rates), MakeResolveSource(Rates)};
+	if (Rates.bAdaptive) { ListSettledShaders(Rays.Compute); }
+	ListTileViewShaders(Rays.Compute);
 	if (MayQueuesOverflow()) { Rays.Compute.push_back(MakeShareSource()); }
 	return Rays;
 }

@@ -1,0 +1,92 @@
+// Counts of traced rays, read back.
+#include "Rays/RayQueueCounter.h"
+
+#include <cstddef>
+
+#include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternCore/Text/Log.h"
+#include "RayQueueTypes.h"
+
+namespace Lantern
+{
+
+namespace
+{
+TRTConsoleVariable<bool> CVarCount(
+    "r.RT.Rays.Count", false, "Counts the shadow rays that are really traced, for tests and measurements. The count is read two frames later.");
+
+constexpr uint64_t First = offsetof(FRayQueueCounters, Wanted);
+constexpr uint64_t Bytes = sizeof(FRayQueueCounters) - First;
+static_assert(offsetof(FRayQueueCounters, Kept) == First + sizeof(uint32_t));
+} // namespace
+
+bool FRayQueueCounter::IsWanted() { return CVarCount.GetOnRenderThread(); }
+
+void FRayQueueCounter::Take(const FRing::FEntry& Entry, uint64_t& Sum)
+{
+	const auto* const Values = static_cast<const uint32_t*>(Entry.Buffer->GetMapped());
+	const uint32_t Wanted = Values[0], Kept = Values[1];
+	Sum += uint64_t(Wanted <= Entry.Notes.Capacity ? Wanted : Kept) * Entry.Notes.RaysPerRequest;
+}
+
+void FRayQueueCounter::BeginFrame(uint32_t FlightIndex)
+{
+	Used = 0;
+	Flight = FlightIndex;
+	bool bAny = false;
+	uint64_t Sum = 0;
+	for (const auto& Place : Places)
+	{
+		Place->bWritten = false;
+		Place->Ring->BeginFrame(FlightIndex, [&](const FRing::FEntry& Entry) {
+			bAny = true;
+			Take(Entry, Sum);
+		});
+	}
+	if (!bAny) { return; }
+	Counts.LastFrame = Sum;
+	Counts.Total += Sum;
+	++Counts.Frames;
+}
+
+void FRayQueueCounter::TakeAll()
+{
+	for (uint32_t Step = 1; Step <= FRing::FramesInFlight; ++Step) { BeginFrame((Flight + 1) % FRing::FramesInFlight); }
+}
+
+FGraphBuffer FRayQueueCounter::AddRead(FFrameGraph& Graph, const char* PassName, const FQueue& Queue)
+{
+	if (Used == Places.size())
+	{
+		Places.push_back(std::make_unique<FPlace>(
+		    FPlace{std::make_unique<FRing>(Device, "RayQueueCounts", ERTBufferUsage::CopyDest), false}));
+		Places.back()->Ring->BeginFrame(Flight, [](const FRing::FEntry&) {});
+	}
+	FPlace& Place = *Places[Used++];
+	FRTStatus Status;
+	FRing::FEntry* const Entry = Place.Ring->Write(Bytes, Status);
+	if (!Entry)
+	{
+		LogOnce(ERTLogLevel::Warning, std::string("shadow rays are not counted: ") + Status.Message);
+		return {};
+	}
+	Entry->Notes = Queue;
+	const FGraphBuffer Out = Graph.ImportBuffer(Entry->Buffer.Get(), ERTAccess::HostRead, ERTAccess::HostRead, "RayQueueCounts");
+	Graph.MarkForLater(Out, &Place.bWritten);
+	Graph.AddPass(PassName, [&](FPassBuilder& Builder) -> FPassExecute {
+		Builder.Read(Queue.Counters, ERTAccess::CopyRead);
+		Builder.Write(Out, ERTAccess::CopyWrite);
+		Builder.AllowAsync();
+		return [=, Counters = Queue.Counters](FPassContext& Pass) {
+			Pass.Commands().CopyBuffer(Pass.GetBuffer(Out), 0, Pass.GetBuffer(Counters), First, Bytes);
+		};
+	});
+	return Out;
+}
+
+void FRayQueueCounter::EndFrame(bool bSubmitted)
+{
+	for (const auto& Place : Places) { Place->Ring->EndFrame(bSubmitted && Place->bWritten); }
+}
+
+} // namespace Lantern
