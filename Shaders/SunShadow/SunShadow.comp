@@ -8,15 +8,17 @@
 #include "../Tiles/Fill.glsl"
 #include "../Tiles/Settle.glsl"
 #endif
+#ifdef CONTACT
+#include "../Tiles/Contact.glsl"
+#endif
 
 layout(local_size_x = TILE_PIXELS) in;
 layout(push_constant, scalar) uniform FPush { FSunShadowConstants Push; };
 
-// Returns the width of the penumbra in pixels: the diameter of the sun's disk, projected past the mean blocker onto the surface.
-// Negative: no ray met anything.
-float MeasurePenumbra(FViewConstants View, uvec2 Pixel, uint Index)
+// Returns a penumbra's width in pixels: the diameter of the sun's disk, projected past the mean blocker onto the surface. Width: across the
+// sun's direction, metres; negative: no ray met anything.
+float MeasurePenumbra(FViewConstants View, uvec2 Pixel, float Width)
 {
-	float Width = FWidthRef(Push.Widths).Data[Index];
 	if (Width < 0.0) { return Width; }
 	float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), Depth);
@@ -30,6 +32,14 @@ float KeepVisibility(uvec2 Pixel)
 	float Kept = texelFetch(Textures[Push.Kept], ivec2(Pixel), 0).x;
 	return Kept >= 0.0 && Kept <= 1.0 ? Kept : 1.0; // not a number is neither
 }
+
+#ifdef CONTACT
+float FindContact(FViewConstants View, uvec2 Pixel)
+{
+	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), LoadDepth(Push.Depth, ivec2(Pixel)));
+	return FindContact(Push.Contact, FSceneRef(Push.Pass.Scene).Data, View, Push.Depth, Pixel, Point);
+}
+#endif
 
 #ifdef ADAPTIVE
 // Fills a pixel whose tile left it out because it is far away: from the traced ones of its plane, else from what is known of it, else from
@@ -70,13 +80,20 @@ void main()
 #endif
 	if (!bInside) { return; }
 	if (Visibility < 0.0) { Visibility = KeepVisibility(Pixel); }
+	bool bLeftOut = !bAsked && (!bAnswered || IsMarked(Tile.SunRest, Place));
+	float Contact = -1.0; // distance of what is in the way, metres
+#ifdef CONTACT
+	bool bFacing = bAsked || bLeftOut;
+	if (bFacing && Visibility > 0.0) { Contact = FindContact(View, Pixel); }
+	if (Contact >= 0.0) { Visibility = 0.0; }
+#endif
 	imageStore(Images[Push.Output], ivec2(Pixel), vec4(Visibility));
 	if (Push.OutKept != NO_TEXTURE) { imageStore(Images[Push.OutKept], ivec2(Pixel), vec4(Visibility)); }
 	if (Push.OutPenumbra == NO_TEXTURE) { return; }
 	// The width is 0 without a blocker, and where a pixel without rays of its own knows of none. It is set to 1e-3 if a surface turns away
 	// from the sun, or if its rays had no room: these give no blocker distance.
-	bool bLeftOut = !bAsked && (!bAnswered || IsMarked(Tile.SunRest, Place));
 	float Penumbra = Visibility < 1.0 && !bLeftOut ? -1.0 : 0.0;
-	if (bTraced && Penumbra < 0.0) { Penumbra = MeasurePenumbra(View, Pixel, Index); }
+	if (bTraced && Penumbra < 0.0) { Penumbra = MeasurePenumbra(View, Pixel, FWidthRef(Push.Widths).Data[Index]); }
+	if (Contact >= 0.0) { Penumbra = MeasurePenumbra(View, Pixel, 2.0 * sqrt(2.0 * Push.SunOneMinusCos) * Contact); }
 	imageStore(Images[Push.OutPenumbra], ivec2(Pixel), vec4(min(Penumbra < 0.0 ? 1.0e-3 : Penumbra, 65504.0)));
 }

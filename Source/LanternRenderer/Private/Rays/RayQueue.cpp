@@ -104,7 +104,7 @@ void AddShadowRaysPass(
 	}
 	if (FRayQueueCounter::IsWanted())
 	{
-		const FRayQueueCounter::FQueue Asked{Queue.Counters, Queue.Capacity, Sun.SamplesPerPixel};
+		const FRayQueueCounter::FQueue Asked{Queue.Name + "Rays", Queue.Counters, Queue.Capacity, Sun.SamplesPerPixel};
 		Count = Context.RayCounter->AddRead(Context.Graph, (Queue.Name + "Count").c_str(), Asked);
 	}
 	Context.Graph.AddPass((Queue.Name + "Rays").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
@@ -125,7 +125,8 @@ void AddShadowRaysPass(
 			FShadowQueueConstants Constants = MakeConstants(Pass, *Frame, Queue, Sun);
 			Constants.Depth = GetSampledIndex(Pass, GBuffer.Depth);
 			Constants.Normals = GetSampledIndex(Pass, GBuffer.Normals);
-			Pass.CountRays(uint64_t(Queue.Capacity) * Sun.SamplesPerPixel); // at most: the device alone knows how many
+			// At most: the device alone knows how many. Those of the rest are among the first queue's.
+			Pass.CountRays(Queue.bRest ? 0 : uint64_t(Queue.Capacity) * Sun.SamplesPerPixel);
 			TraceQueue(Pass, *Frame, Dispatch, Queue, Constants, bIndirect);
 		};
 	});

@@ -21,6 +21,7 @@ struct FRayQueue
 	uint32_t Capacity = 0; ///< requests
 	/// More rays can be asked for than have room. Those left out have no answer, and a later queue is larger.
 	bool bMayOverflow = false;
+	bool bRest = false; ///< holds rays that another queue of this frame has left out
 };
 
 /// Rays towards the sun.

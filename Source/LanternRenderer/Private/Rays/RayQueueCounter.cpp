@@ -2,6 +2,7 @@
 #include "Rays/RayQueueCounter.h"
 
 #include <cstddef>
+#include <utility>
 
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Text/Log.h"
@@ -12,8 +13,8 @@ namespace Lantern
 
 namespace
 {
-TRTConsoleVariable<bool> CVarCount(
-    "r.RT.Rays.Count", false, "Counts the shadow rays that are really traced, for tests and measurements. The count is read two frames later.");
+TRTConsoleVariable<bool> CVarCount("r.RT.Rays.Count", false,
+    "Counts the shadow rays that are really traced, for tests and measurements. The count is read two frames later.");
 
 constexpr uint64_t First = offsetof(FRayQueueCounters, Wanted);
 constexpr uint64_t Bytes = sizeof(FRayQueueCounters) - First;
@@ -22,31 +23,30 @@ static_assert(offsetof(FRayQueueCounters, Kept) == First + sizeof(uint32_t));
 
 bool FRayQueueCounter::IsWanted() { return CVarCount.GetOnRenderThread(); }
 
-void FRayQueueCounter::Take(const FRing::FEntry& Entry, uint64_t& Sum)
+uint64_t FRayQueueCounter::GetRays(const FRing::FEntry& Entry)
 {
 	const auto* const Values = static_cast<const uint32_t*>(Entry.Buffer->GetMapped());
 	const uint32_t Wanted = Values[0], Kept = Values[1];
-	Sum += uint64_t(Wanted <= Entry.Notes.Capacity ? Wanted : Kept) * Entry.Notes.RaysPerRequest;
+	return uint64_t(Wanted <= Entry.Notes.Capacity ? Wanted : Kept) * Entry.Notes.RaysPerRequest;
 }
 
 void FRayQueueCounter::BeginFrame(uint32_t FlightIndex)
 {
 	Used = 0;
 	Flight = FlightIndex;
-	bool bAny = false;
-	uint64_t Sum = 0;
+	FRayCounts Frame;
 	for (const auto& Place : Places)
 	{
 		Place->bWritten = false;
 		Place->Ring->BeginFrame(FlightIndex, [&](const FRing::FEntry& Entry) {
-			bAny = true;
-			Take(Entry, Sum);
+			Frame.Passes.emplace_back(Entry.Notes.Pass, GetRays(Entry));
+			Frame.LastFrame += Frame.Passes.back().second;
 		});
 	}
-	if (!bAny) { return; }
-	Counts.LastFrame = Sum;
-	Counts.Total += Sum;
-	++Counts.Frames;
+	if (Frame.Passes.empty()) { return; }
+	Frame.Total = Counts.Total + Frame.LastFrame;
+	Frame.Frames = Counts.Frames + 1;
+	Counts = std::move(Frame);
 }
 
 void FRayQueueCounter::TakeAll()
@@ -58,8 +58,8 @@ FGraphBuffer FRayQueueCounter::AddRead(FFrameGraph& Graph, const char* PassName,
 {
 	if (Used == Places.size())
 	{
-		Places.push_back(std::make_unique<FPlace>(
-		    FPlace{std::make_unique<FRing>(Device, "RayQueueCounts", ERTBufferUsage::CopyDest), false}));
+		Places.push_back(
+		    std::make_unique<FPlace>(FPlace{std::make_unique<FRing>(Device, "RayQueueCounts", ERTBufferUsage::CopyDest), false}));
 		Places.back()->Ring->BeginFrame(Flight, [](const FRing::FEntry&) {});
 	}
 	FPlace& Place = *Places[Used++];
@@ -77,9 +77,8 @@ FGraphBuffer FRayQueueCounter::AddRead(FFrameGraph& Graph, const char* PassName,
 		Builder.Read(Queue.Counters, ERTAccess::CopyRead);
 		Builder.Write(Out, ERTAccess::CopyWrite);
 		Builder.AllowAsync();
-		return [=, Counters = Queue.Counters](FPassContext& Pass) {
-			Pass.Commands().CopyBuffer(Pass.GetBuffer(Out), 0, Pass.GetBuffer(Counters), First, Bytes);
-		};
+		return [=, Counters = Queue.Counters](
+		           FPassContext& Pass) { Pass.Commands().CopyBuffer(Pass.GetBuffer(Out), 0, Pass.GetBuffer(Counters), First, Bytes); };
 	});
 	return Out;
 }

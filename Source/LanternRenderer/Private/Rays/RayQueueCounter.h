@@ -25,6 +25,7 @@ public:
 	void TakeAll();
 	struct FQueue
 	{
+		std::string Pass;      ///< that traces it
 		FGraphBuffer Counters; ///< FRayQueueCounters
 		uint32_t Capacity = 0; ///< requests
 		uint32_t RaysPerRequest = 1;
@@ -43,7 +44,7 @@ private:
 		std::unique_ptr<FRing> Ring;
 		bool bWritten = false; ///< in this frame, by a pass that was not culled
 	};
-	void Take(const FRing::FEntry& Entry, uint64_t& Sum);
+	static uint64_t GetRays(const FRing::FEntry& Entry);
 
 	IRTDevice& Device;
 	std::vector<std::unique_ptr<FPlace>> Places; // by order of the queues in a frame

@@ -5,6 +5,7 @@
 #include "LanternCore/FrameGraph/History.h"
 #include "SignalPasses.h"
 #include "SunShadowTypes.h"
+#include "Tiles/Contact.h"
 #include "Tiles/TileView.h"
 #include "Tiles/Tiles.h"
 
@@ -42,9 +43,15 @@ bool IsSoft(const FRTScene& Scene) { return GetDiameter(Scene) > 0.0f; }
 // Whatever the sun's size: the shaders stay as they are while it changes.
 bool MeasuresPenumbra() { return CVarSoft.GetOnRenderThread() && Denoise.IsEnabled(); }
 
+FShaderDefines JoinDefines(FShaderDefines Defines, const FShaderDefines& Others)
+{
+	Defines.insert(Defines.end(), Others.begin(), Others.end());
+	return Defines;
+}
+
 FShaderSource MakeResolveSource(const FSunRates& Rates)
 {
-	return MakeComputeSource(MakeShaderPath(ESignal::SunShadow, ".comp"), MakeSettledDefines(Rates));
+	return MakeComputeSource(MakeShaderPath(ESignal::SunShadow, ".comp"), JoinDefines(MakeSettledDefines(Rates), MakeContactDefines()));
 }
 
 FSunRays MakeSunRays(const FRTScene& Scene, const FRayDispatch& Dispatch)
@@ -52,7 +59,10 @@ FSunRays MakeSunRays(const FRTScene& Scene, const FRayDispatch& Dispatch)
 	FSunRays Rays;
 	Rays.Diameter = GetDiameter(Scene);
 	// Of the shader that runs, which may be the one before the setting changed.
-	if (Rays.Diameter > 0.0f && !Dispatch.Has("ONE_SAMPLE")) { Rays.SamplesPerPixel = static_cast<uint32_t>(CVarSamples.GetOnRenderThread()); }
+	if (Rays.Diameter > 0.0f && !Dispatch.Has("ONE_SAMPLE"))
+	{
+		Rays.SamplesPerPixel = static_cast<uint32_t>(CVarSamples.GetOnRenderThread());
+	}
 	Rays.MaxDistance = CVarMaxDistance.GetOnRenderThread();
 	Rays.RayFlags = CVarCullFront.GetOnRenderThread() ? RayFlagCullTowardsSun : 0u;
 	Rays.InstanceMask = static_cast<uint32_t>(CVarMask.GetOnRenderThread());
@@ -64,7 +74,7 @@ struct FResolveInputs
 	FGBuffer GBuffer;
 	FRayQueue Queue;
 	FGraphBuffer Tiles;
-	uint32_t SamplesPerPixel = 1;
+	FSunRays Rays;
 	FGraphTexture Penumbra; ///< the penumbra's width in pixels is written here as well; may be invalid
 	FHistoryTexture Kept;   ///< visibility, for pixels whose rays have no room; Current is invalid if all have
 	FSettledTiles Settled;
@@ -89,6 +99,7 @@ FGraphTexture AddResolvePass(FFrameContext& Context, IRTPipeline* Pipeline, cons
 			Builder.Write(Inputs.Kept.Current, ERTAccess::StorageWrite);
 			Builder.Keep(Inputs.Kept.Current);
 		}
+		DeclareContact(Builder, Inputs.GBuffer);
 		if (Inputs.Settled.Known.Current.IsValid())
 		{
 			Builder.Read(Inputs.Settled.Known.Current, ERTAccess::StorageRead);
@@ -105,11 +116,13 @@ FGraphTexture AddResolvePass(FFrameContext& Context, IRTPipeline* Pipeline, cons
 			C.Depth = GetSampledIndex(Pass, Inputs.GBuffer.Depth);
 			C.Normals = GetSampledIndex(Pass, Inputs.GBuffer.Normals);
 			C.Output = GetStorageIndex(Pass, Visibility);
-			C.SamplesPerPixel = Inputs.SamplesPerPixel;
+			C.SamplesPerPixel = Inputs.Rays.SamplesPerPixel;
 			C.OutPenumbra = GetStorageIndex(Pass, Inputs.Penumbra);
 			C.Kept = GetSampledIndex(Pass, Inputs.Kept.Previous);
 			C.OutKept = GetStorageIndex(Pass, Inputs.Kept.Current);
 			C.Settled = GetStorageIndex(Pass, Inputs.Settled.Known.Current);
+			C.Contact = MakeContactConstants(Pass, *Frame, Inputs.GBuffer);
+			C.SunOneMinusCos = GetSunOneMinusCos(Inputs.Rays);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
@@ -148,9 +161,8 @@ FGraphTexture AddVisibility(FFrameContext& Context, const FGBuffer& GBuffer, FGr
 		Inputs.Penumbra = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::R16_FLOAT}, "SunShadowPenumbra");
 	}
 	const FSunRays Rays = MakeSunRays(Context.Scene, *Dispatch);
-	Inputs.SamplesPerPixel = Rays.SamplesPerPixel;
-	Inputs.Settled =
-	    FindSettledTiles(Context, GBuffer, Rays, GetSunRates(MeasuresPenumbra()), IsSunShadowFiltered(Context.Scene));
+	Inputs.Rays = Rays;
+	Inputs.Settled = FindSettledTiles(Context, GBuffer, Rays, GetSunRates(MeasuresPenumbra()), IsSunShadowFiltered(Context.Scene));
 	Inputs.Tiles = AddTilesPass(Context, GBuffer, Inputs.Queue, Rays, Inputs.Settled);
 	if (!Inputs.Tiles.IsValid()) { return {}; }
 	AddShadowRaysPass(Context, GBuffer, *Dispatch, Inputs.Queue, Rays);

@@ -11,8 +11,8 @@ namespace Lantern
 
 namespace
 {
-TRTConsoleVariable<bool> CVarCapsules("r.RT.Debug.Shadow.Capsules", true,
-    "Planted fault. Off: r.RT.Shadow.Adaptive is not told which casters moved.");
+TRTConsoleVariable<bool> CVarCapsules(
+    "r.RT.Debug.Shadow.Capsules", true, "Planted fault. Off: r.RT.Shadow.Adaptive is not told which casters moved.");
 static_assert(SETTLED_MOST_CASTERS >= FCasterChanges::MostKept);
 
 /// Share of the sun's diameter by which it may move in a frame without a new start. The disk's visible share changes by at most
@@ -42,8 +42,7 @@ FMovedCasters::FFound FMovedCasters::Find(const FRTScene& Scene, const FSunRays&
 	Found.bAnywhere = !Changes.Find(Last.Changes, Moved);
 	for (const FCasterChange& Change : Moved)
 	{
-		Found.Casters.push_back(
-		    {Scene.ToRelative(Change.From), static_cast<float>(Change.Radius), Scene.ToRelative(Change.To), 0});
+		Found.Casters.push_back({Scene.ToRelative(Change.From), static_cast<float>(Change.Radius), Scene.ToRelative(Change.To), 0});
 	}
 	return Found;
 }

@@ -14,7 +14,8 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<bool> CVarAdaptive("r.RT.Shadow.Adaptive", false,
-    "Traces a quarter of the sun's rays where they all had one answer for 16 frames and no caster moved. If one of them disagrees, the rest "
+    "Traces a quarter of the sun's rays where they all had one answer for 16 frames and no caster moved. If one of them disagrees, the "
+    "rest "
     "follows in the same frame. It needs r.RT.Shadow.Denoise.");
 
 TRTConsoleVariable<float> CVarRateDistance("r.RT.Shadow.RateDistance", 0.0f,
@@ -80,20 +81,13 @@ void AddCheckPass(FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue
 }
 } // namespace
 
-FSunRates GetSunRates(bool bMayFilter)
-{
-	return {bMayFilter && CVarAdaptive.GetOnRenderThread(), CVarRateDistance.GetOnRenderThread()};
-}
+FSunRates GetSunRates(bool bMayFilter) { return {bMayFilter && CVarAdaptive.GetOnRenderThread(), CVarRateDistance.GetOnRenderThread()}; }
 
-FShaderDefines MakeSettledDefines(const FSunRates& Rates)
-{
-	return Rates.IsAny() ? FShaderDefines{{"ADAPTIVE", "1"}} : FShaderDefines{};
-}
+FShaderDefines MakeSettledDefines(const FSunRates& Rates) { return Rates.IsAny() ? FShaderDefines{{"ADAPTIVE", "1"}} : FShaderDefines{}; }
 
 void ListSettledShaders(std::vector<FShaderSource>& Out) { Out.push_back(MakeCheckSource()); }
 
-FSettledTiles FindSettledTiles(
-    FFrameContext& Context, const FGBuffer& GBuffer, const FSunRays& Sun, const FSunRates& Rates, bool bFiltered)
+FSettledTiles FindSettledTiles(FFrameContext& Context, const FGBuffer& GBuffer, const FSunRays& Sun, const FSunRates& Rates, bool bFiltered)
 {
 	FSettledTiles Settled{.Rates = Rates};
 	const bool bAdaptive = Rates.bAdaptive && bFiltered;
@@ -148,6 +142,7 @@ void AddSettledRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayD
 	if (!Check) { return; } // FindSettledTiles had it
 	FRayQueue Second = Queue;
 	Second.Name += "Rest";
+	Second.bRest = true;
 	// The first queue's rays are traced by then: the second takes their place.
 	Second.Counters = Context.Graph.CreateBuffer({sizeof(FRayQueueCounters), ERTBufferUsage::CopyDest}, "RayRestCounters");
 	AddCheckPass(Context, Check, Second, Tiles);

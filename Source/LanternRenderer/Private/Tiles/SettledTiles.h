@@ -22,7 +22,7 @@ struct FSunRates
 /// Of one frame.
 struct FSettledTiles
 {
-	FSunRates Rates; ///< shaders have MakeSettledDefines of them
+	FSunRates Rates;       ///< shaders have MakeSettledDefines of them
 	FHistoryTexture Known; ///< R8_UNORM, see SettledTypes.h. Current is invalid: nothing is known of any pixel
 	FUploadSlice Constants;
 	FSettledConstants Values{};

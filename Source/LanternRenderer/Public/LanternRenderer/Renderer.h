@@ -9,6 +9,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "LanternCore/FrameGraph/FrameGraph.h"
@@ -100,9 +101,10 @@ struct FAnyHitCounts
 /// WaitForAll.
 struct FRayCounts
 {
-	uint64_t LastFrame = 0; ///< count of the newest frame that has arrived
-	uint64_t Total = 0;     ///< sum over all frames that have arrived
-	uint32_t Frames = 0;    ///< number of frames that have arrived
+	uint64_t LastFrame = 0;                               ///< count of the newest frame that has arrived
+	std::vector<std::pair<std::string, uint64_t>> Passes; ///< its parts, by the names of the passes that traced
+	uint64_t Total = 0;                                   ///< sum over all frames that have arrived
+	uint32_t Frames = 0;                                  ///< number of frames that have arrived
 };
 
 class FAnyHitCounter;

@@ -136,6 +136,7 @@ void FSceneObjects::SetMask(FRTObjectId Id, uint8_t Mask)
 	if (std::exchange(Resolve(Id).Info.Mask, Mask) == Mask) { return; }
 	const FInstanceRecord Before = Instances.GetRecord(Id.Index);
 	Place(Id.Index);
+	WriteCasterRadius(Id.Index);
 	NoteCaster(Before, Instances.GetRecord(Id.Index));
 }
 
@@ -150,6 +151,7 @@ void FSceneObjects::SetBounds(const FRTGeometryRef& Geometry, const FBoundingSph
 	{
 		const FInstanceRecord Before = Instances.GetRecord(Slot);
 		Place(Slot);
+		WriteCasterRadius(Slot);
 		NoteCaster(Before, Instances.GetRecord(Slot));
 	}
 }
@@ -218,6 +220,20 @@ void FSceneObjects::Place(uint32_t Slot)
 	Instances.Set(Slot, Placement);
 }
 
+float FSceneObjects::GetCasterRadius(uint32_t Slot) const
+{
+	const FInstanceRecord& Record = Instances.GetRecord(Slot);
+	return static_cast<float>((Record.Mask & MASK_SUN_CASTERS) != 0 ? Record.Radius : UnboundedRadius);
+}
+
+/// After a change of mask or bounds alone.
+void FSceneObjects::WriteCasterRadius(uint32_t Slot)
+{
+	FObjectData Data = Table[Slot];
+	const float Radius = GetCasterRadius(Slot);
+	if (std::exchange(Data.CasterRadius, Radius) != Radius) { Table.Set(Slot, Data); }
+}
+
 void FSceneObjects::Write(uint32_t Slot)
 {
 	Place(Slot);
@@ -230,6 +246,7 @@ void FSceneObjects::Write(uint32_t Slot)
 	Data.Flags = (glm::determinant(glm::dmat3(Transform)) < 0.0 ? OBJECT_MIRRORED : 0u) | (Object.Info.bCharacter ? OBJECT_CHARACTER : 0u) |
 	             PackTranslationRest(Transform, Data);
 	Data.Motion = Motions.GetEntry(Slot);
+	Data.CasterRadius = GetCasterRadius(Slot);
 	Table.Set(Slot, Data);
 }
 

@@ -88,6 +88,8 @@ private:
 	const FObject& Resolve(FRTObjectId Id) const { return const_cast<FSceneObjects*>(this)->Resolve(Id); }
 	void Place(uint32_t Slot);
 	void Write(uint32_t Slot);
+	void WriteCasterRadius(uint32_t Slot);
+	float GetCasterRadius(uint32_t Slot) const;
 	void JoinGeometry(uint32_t Slot);
 	void LeaveGeometry(uint32_t Slot);
 	void MarkEmissive(FSectionRangeId Range);
