@@ -48,7 +48,7 @@ struct FCheckSettledConstants
 	FAddress Counters; // FRayQueueCounters of the second queue
 	FAddress Answers;  // uint[pixels]
 	uint Capacity;
-	uint Pad;
+	uint Settled; // storage index: see FSettledConstants::Current
 };
 LANTERN_ASSERT_SIZE(FCheckSettledConstants, 56);
 

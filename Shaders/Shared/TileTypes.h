@@ -13,16 +13,16 @@ LANTERN_SHARED_BEGIN
 #define TILE_SKY 1u
 #define TILE_SUN_BEHIND 2u // its surface has its back to the sun, and is dark without a ray
 #define TILE_SUN_TRACED 4u // asks for a sun ray
-// Known without all of its rays, see Tiles/Settled.glsl. Of the whole tile:
-#define TILE_SUN_LIT 8u        // all pixels that ask for rays have long seen the sun
-#define TILE_SUN_DARK 16u      // none of them has
-#define TILE_SUN_DISAGREES 32u // the rays of this frame say otherwise, and all pixels were traced
+// Known without a ray, see Tiles/Settled.glsl.
+#define TILE_SUN_LIT 8u        // has long seen the sun, as have its neighbours
+#define TILE_SUN_DARK 16u      // has not, nor have they
+#define TILE_SUN_DISAGREES 32u // a ray of this frame says otherwise: all pixels of the tile are traced
 
 struct FTile
 {
 	uint Classes;    // TILE_…
 	uint SunRays[2]; // a bit for each pixel that asks for a sun ray, in Z order
-	uint SunRest[2]; // pixels of a settled tile that ask for one only if those of SunRays say something new
+	uint SunRest[2]; // pixels that ask for one only if those of SunRays say something new
 };
 LANTERN_ASSERT_SIZE(FTile, 20);
 

@@ -1,7 +1,8 @@
-// Asks for the rest of a settled tile's rays, in this very frame, if one of those that were traced has another answer than was known.
+// Asks for the rest of a tile's rays, in this very frame, if a settled pixel that was traced has another answer than was known.
 #version 460
 #include "../Shared/SettledTypes.h"
 #include "../Rays/RayQueue.glsl"
+#include "Settle.glsl"
 #include "Tile.glsl"
 
 layout(local_size_x = TILE_PIXELS) in;
@@ -24,9 +25,9 @@ void main()
 	uint Index = Pixel.y * View.Width + Pixel.x;
 	if (Count > 0u && (Tile.SunRays[Word] & Bit) != 0u)
 	{
-		uint Answer = FAnswerRef(Push.Answers).Data[Index];
-		uint Other = (Tile.Classes & TILE_SUN_LIT) != 0u ? SunUnseen(Answer) : SunSeen(Answer);
-		if (Other > 0u) { bDisagrees = 1u; }
+		uint Answer = FAnswerRef(Push.Answers).Data[Index], Known = LoadKnown(Push.Settled, ivec2(Pixel));
+		uint Other = (Known & SETTLED_LIT) != 0u ? SunUnseen(Answer) : SunSeen(Answer);
+		if ((Known & (SETTLED_LIT - 1u)) >= SETTLED_FRAMES && Other > 0u) { bDisagrees = 1u; }
 	}
 	barrier();
 	if (bDisagrees == 0u) { return; }

@@ -1,4 +1,5 @@
-// Which tiles need few sun rays, because their pixels have been all lit or all dark for a while, and nothing says that this has changed.
+// Which pixels need few sun rays, because they and those around them have been all lit or all dark for a while, and nothing says that this
+// has changed.
 // Tiles.comp includes this with ADAPTIVE.
 #ifndef LANTERN_SETTLED_GLSL
 #define LANTERN_SETTLED_GLSL
@@ -11,10 +12,11 @@
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FSettledRef { FSettledConstants Data; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FMovedCasterRef { FMovedCaster Data[]; };
 
-// What a tile's pixels that ask for rays have known before.
+// What a pixel that asks for rays has known before; 0: it asks for none.
 const uint KnownLit = 1u, KnownDark = 2u, NotSettled = 4u;
 
-shared uint Knowledge, bTouched;
+shared uint Knowledge[TILE_PIXELS]; // row by row
+shared uint bTouched;
 shared uint NearestBits, FarthestBits; // distances of the pixels that ask for rays, as bits: of positive floats they have the order
 
 uint LoadSettled(uint Texture, ivec2 Pixel) { return uint(texelFetch(Textures[Texture], Pixel, 0).x * 255.0 + 0.5); }
@@ -34,13 +36,15 @@ bool MovedItself(FViewConstants View, FSurface Surface, uvec2 Pixel, vec4 Motion
 	return any(greaterThan(abs(Motion.xy - Still.xy), vec2(0.25))) || abs(Motion.z - Still.z) > 0.01 * Still.z;
 }
 
-// What is known of a pixel: the texel that carries on the history of its surface. Also notes it for the tile.
-uint Recall(FViewConstants View, FSettledConstants Settled, uvec2 Pixel)
+// What is known of a pixel: the texel that carries on the history of its surface. OutClass: KnownLit, KnownDark or anything else. Also notes
+// the distance for the tile.
+uint Recall(FViewConstants View, FSettledConstants Settled, uvec2 Pixel, out uint OutClass)
 {
 	FSurface Surface = LoadSurface(Settled.Surface, ivec2(Pixel));
 	atomicMin(NearestBits, floatBitsToUint(Surface.Distance));
 	atomicMax(FarthestBits, floatBitsToUint(Surface.Distance));
-	uint Class = NotSettled, Carried = 0u;
+	OutClass = NotSettled;
+	uint Carried = 0u;
 	if (Settled.Previous != NO_TEXTURE)
 	{
 		vec4 Motion = texelFetch(Textures[Settled.Motion], ivec2(Pixel), 0);
@@ -56,9 +60,8 @@ uint Recall(FViewConstants View, FSettledConstants Settled, uvec2 Pixel)
 			Best = R.Weights[Tap];
 			Carried = Texel;
 		}
-		if (Classes != 0u && !MovedItself(View, Surface, Pixel, Motion)) { Class = Classes; }
+		if (Classes != 0u && !MovedItself(View, Surface, Pixel, Motion)) { OutClass = Classes; }
 	}
-	atomicOr(Knowledge, Class);
 	return Carried;
 }
 
@@ -120,28 +123,44 @@ bool IsTracedFarAway(FViewConstants View, uint Place, uvec2 Pixel)
 	return HasTurn(Place, Settled.Turn, clamp(Settled.RateDistance / Distance, 0.25, 1.0));
 }
 
-// Returns the known class of the tile's pixels that ask for rays, TILE_SUN_LIT or TILE_SUN_DARK; 0: rays must tell. Called by all threads.
+// Whether the pixels of the tile around a pixel know the same. In a penumbra some know otherwise, or nothing: a pixel alone may see the sun by
+// chance for 16 frames if it sees 97 % of the disk, but nine of them do not.
+bool AgreesWithNeighbors(uint Place, uint Class)
+{
+	ivec2 At = ivec2(TilePixel(uvec2(0u), Place));
+	for (int Neighbor = 0; Neighbor < 9; ++Neighbor)
+	{
+		ivec2 P = At + ivec2(Neighbor % 3, Neighbor / 3) - 1;
+		if (any(lessThan(P, ivec2(0))) || any(greaterThanEqual(P, ivec2(TILE_SIZE)))) { continue; }
+		uint Other = Knowledge[P.y * TILE_SIZE + P.x];
+		if (Other != 0u && Other != Class) { return false; }
+	}
+	return true;
+}
+
+// Returns the known class of a pixel that asks for rays, TILE_SUN_LIT or TILE_SUN_DARK; 0: rays must tell. Called by all threads.
 uint FindSettled(FViewConstants View, uint Place, uvec2 Pixel, bool bTraced)
 {
 	FSettledConstants Settled = FSettledRef(Push.Settled).Data;
+	if (Settled.Current == NO_TEXTURE) { return 0u; }
 	if (Place == 0u)
 	{
-		Knowledge = 0u;
 		bTouched = Settled.bAnywhere;
 		NearestBits = 0x7f7fffffu;
 		FarthestBits = 0u;
 	}
 	barrier();
-	if (Settled.Current == NO_TEXTURE) { return 0u; }
-	uint Known = bTraced ? Recall(View, Settled, Pixel) : 0u;
+	uint Class = 0u, Known = bTraced ? Recall(View, Settled, Pixel, Class) : 0u;
+	uvec2 At = TilePixel(uvec2(0u), Place);
+	Knowledge[At.y * TILE_SIZE + At.x] = Class;
 	barrier();
 	FindMovedCasters(View, Settled, gl_WorkGroupID.xy);
 	barrier();
 	bool bTraceAll = bTouched != 0u;
 	if (bTraceAll) { Known = (Known & SETTLED_LIT) | min(SettledFrames(Known), SETTLED_FRAMES - SETTLED_FRAMES_AFTER); }
 	if (!IsOutsideView(View, Pixel)) { imageStore(Images[Settled.Current], ivec2(Pixel), vec4(float(Known) / 255.0)); }
-	if (bTraceAll) { return 0u; }
-	return Knowledge == KnownLit ? TILE_SUN_LIT : Knowledge == KnownDark ? TILE_SUN_DARK : 0u;
+	if (bTraceAll || (Class != KnownLit && Class != KnownDark) || !AgreesWithNeighbors(Place, Class)) { return 0u; }
+	return Class == KnownLit ? TILE_SUN_LIT : TILE_SUN_DARK;
 }
 
 #endif

@@ -10,9 +10,12 @@ layout(push_constant, scalar) uniform FPush { FTileViewConstants Push; };
 vec3 ClassColor(FTile Tile)
 {
 	if ((Tile.Classes & TILE_SUN_DISAGREES) != 0u) { return vec3(1.0, 0.85, 0.1); }
-	if ((Tile.Classes & TILE_SUN_LIT) != 0u) { return vec3(0.4, 0.85, 0.4); }
-	if ((Tile.Classes & TILE_SUN_DARK) != 0u) { return vec3(0.05, 0.3, 0.1); }
-	if ((Tile.Classes & TILE_SUN_TRACED) != 0u) { return vec3(0.85, 0.2, 0.15); }
+	if ((Tile.Classes & TILE_SUN_TRACED) != 0u)
+	{
+		// The more pixels are known, the greener.
+		vec3 Known = (Tile.Classes & TILE_SUN_LIT) != 0u ? vec3(0.4, 0.85, 0.4) : vec3(0.05, 0.3, 0.1);
+		return mix(vec3(0.85, 0.2, 0.15), Known, float(bitCount(Tile.SunRest[0]) + bitCount(Tile.SunRest[1])) / 48.0);
+	}
 	return (Tile.Classes & TILE_SUN_BEHIND) != 0u ? vec3(0.1) : vec3(0.1, 0.15, 0.35);
 }
 

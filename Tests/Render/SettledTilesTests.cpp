@@ -132,6 +132,7 @@ TEST_F(FSettledTilesTest, MovingCameraTracesMore)
 // Whatever changes shadows shows in its own frame, and bit for bit as if all rays were traced: the floor is lit all over before.
 TEST_F(FSettledTilesTest, ChangesShowAtOnce)
 {
+	ASSERT_NO_FATAL_FAILURE(LoadSwarm());
 	struct FCase
 	{
 		const char* What;
@@ -171,7 +172,6 @@ TEST_F(FSettledTilesTest, ChangesShowAtOnce)
 		SetSwarm(Frame >= Settling ? SwarmPlace : Away);
 	     }},
 	    };
-	ASSERT_NO_FATAL_FAILURE(LoadSwarm());
 	for (const FCase& Case : Cases)
 	{
 		FSequence Sequence;

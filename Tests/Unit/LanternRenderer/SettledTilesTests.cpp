@@ -170,7 +170,6 @@ TEST_F(FSettledTilesTest, CountsRaysOnDemand)
 	EXPECT_THAT(GetPasses(), IsSupersetOf({"SunShadowCount", "SunShadowRestCount"}));
 	Render();
 	Render();
-	EXPECT_EQ(Engine->GetRenderer().GetRayCounts().Frames, 1u) << "two frames later";
 	ASSERT_TRUE(Engine->GetRenderer().WaitForAll());
 	EXPECT_EQ(Engine->GetRenderer().GetRayCounts().Frames, 3u);
 }

@@ -107,7 +107,8 @@ TEST_F(FCasterChangesSceneTest, TellsWhatComesAndGoes)
 	FGeometryOptions Options;
 	Options.bCpuData = true;
 	Add(MakeGeometry("stone", 1, Options), {Material});
-	EXPECT_EQ(Count(), Anywhere) << "its geometry is built in this frame; others may wait for it, too";
+	EXPECT_EQ(Count(), 1);
+	EXPECT_EQ(Count(), Anywhere) << "its geometry is there now, and others may have waited for it, too";
 	FRTObjectInfo Unbounded;
 	Unbounded.Geometry = MakeGeometry("unbounded", 1);
 	Unbounded.Materials = {Material};

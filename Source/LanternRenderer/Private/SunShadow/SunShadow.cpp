@@ -166,7 +166,10 @@ FGraphTexture AddVisibility(FFrameContext& Context, const FGBuffer& GBuffer, FGr
 	Inputs.Tiles = AddTilesPass(Context, GBuffer, Inputs.Queue, Rays, Inputs.Settled);
 	if (!Inputs.Tiles.IsValid()) { return {}; }
 	AddShadowRaysPass(Context, GBuffer, *Dispatch, Inputs.Queue, Rays);
-	if (Inputs.Settled.Known.Current.IsValid()) { AddSettledRays(Context, GBuffer, *Dispatch, Inputs.Queue, Rays, Inputs.Tiles); }
+	if (Inputs.Settled.Known.Current.IsValid())
+	{
+		AddSettledRays(Context, GBuffer, *Dispatch, Inputs.Queue, Rays, Inputs.Tiles, Inputs.Settled);
+	}
 	AddTileView(Context, Inputs.Tiles);
 	OutPenumbra = Inputs.Penumbra;
 	return AddResolvePass(Context, Resolve, Inputs);

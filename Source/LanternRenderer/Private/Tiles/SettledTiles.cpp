@@ -54,7 +54,7 @@ bool RequireKnown(FFrameContext& Context, const FGBuffer& GBuffer, const FMovedC
 	return true;
 }
 
-void AddCheckPass(FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue& Second, FGraphBuffer Tiles)
+void AddCheckPass(FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue& Second, FGraphBuffer Tiles, FGraphTexture Known)
 {
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass((Second.Name + "Check").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
@@ -63,6 +63,7 @@ void AddCheckPass(FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue
 			Builder.Read(Buffer, ERTAccess::StorageRead);
 			Builder.Write(Buffer, ERTAccess::StorageWrite);
 		}
+		Builder.Read(Known, ERTAccess::StorageRead);
 		for (const FGraphBuffer Buffer : {Second.Requests, Second.Counters}) { Builder.Write(Buffer, ERTAccess::StorageWrite); }
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
@@ -75,6 +76,7 @@ void AddCheckPass(FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue
 			C.Counters = AddressOf(Second.Counters);
 			C.Answers = AddressOf(Second.Answers);
 			C.Capacity = Second.Capacity;
+			C.Settled = GetStorageIndex(Pass, Known);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
@@ -136,7 +138,7 @@ FAddress WriteSettled(FPassContext& Pass, const FFrameContext& Context, const FS
 }
 
 void AddSettledRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue,
-    const FSunRays& Sun, FGraphBuffer Tiles)
+    const FSunRays& Sun, FGraphBuffer Tiles, const FSettledTiles& Settled)
 {
 	IRTPipeline* const Check = RequireCompute(Context, MakeCheckSource());
 	if (!Check) { return; } // FindSettledTiles had it
@@ -145,7 +147,7 @@ void AddSettledRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayD
 	Second.bRest = true;
 	// The first queue's rays are traced by then: the second takes their place.
 	Second.Counters = Context.Graph.CreateBuffer({sizeof(FRayQueueCounters), ERTBufferUsage::CopyDest}, "RayRestCounters");
-	AddCheckPass(Context, Check, Second, Tiles);
+	AddCheckPass(Context, Check, Second, Tiles, Settled.Known.Current);
 	// What has no room makes its tile unsettled: the next frame asks the first queue, which then grows.
 	if (std::exchange(Second.bMayOverflow, false)) { AddShareQueuePass(Context, Second, Tiles, true); }
 	AddShadowRaysPass(Context, GBuffer, Dispatch, Second, Sun);

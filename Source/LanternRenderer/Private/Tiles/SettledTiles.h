@@ -1,5 +1,4 @@
-// Fewer sun rays where they tell nothing new. Tiles whose pixels have had one answer for SETTLED_FRAMES frames trace a quarter of their
-// rays, in turn. One that disagrees sends the rest of its tile to a second queue of the same frame.
+// Fewer sun rays where they tell nothing new. Of pixels that had one answer for SETTLED_FRAMES frames, a quarter is traced, in turn. One that disagrees sends the rest of its tile to a second queue of the same frame.
 #pragma once
 
 #include "Denoise/SurfaceHistory.h"
@@ -45,6 +44,6 @@ void DeclareSettled(FPassBuilder& Builder, const FFrameContext& Context, const F
 FAddress WriteSettled(FPassContext& Pass, const FFrameContext& Context, const FSettledTiles& Settled);
 /// Adds the passes that trace the rest of tiles in which a ray of the first queue disagrees. Behind the pass that traces Queue.
 void AddSettledRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue,
-    const FSunRays& Sun, FGraphBuffer Tiles);
+    const FSunRays& Sun, FGraphBuffer Tiles, const FSettledTiles& Settled);
 
 } // namespace Lantern
