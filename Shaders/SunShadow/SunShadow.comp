@@ -80,7 +80,7 @@ void main()
 #endif
 	if (!bInside) { return; }
 	if (Visibility < 0.0) { Visibility = KeepVisibility(Pixel); }
-	bool bLeftOut = !bAsked && (!bAnswered || IsMarked(Tile.SunRest, Place));
+	bool bFilled = !bAsked && !bAnswered, bLeftOut = bFilled || (!bAsked && IsMarked(Tile.SunRest, Place));
 	float Contact = -1.0; // distance of what is in the way, metres
 #ifdef CONTACT
 	bool bFacing = bAsked || bLeftOut;
@@ -91,9 +91,10 @@ void main()
 	if (Push.OutKept != NO_TEXTURE) { imageStore(Images[Push.OutKept], ivec2(Pixel), vec4(Visibility)); }
 	if (Push.OutPenumbra == NO_TEXTURE) { return; }
 	// The width is 0 without a blocker, and where a pixel without rays of its own knows of none. It is set to 1e-3 if a surface turns away
-	// from the sun, or if its rays had no room: these give no blocker distance.
+	// from the sun, or if its rays had no room: these give no blocker distance. A pixel that was filled has -1.
 	float Penumbra = Visibility < 1.0 && !bLeftOut ? -1.0 : 0.0;
 	if (bTraced && Penumbra < 0.0) { Penumbra = MeasurePenumbra(View, Pixel, FWidthRef(Push.Widths).Data[Index]); }
 	if (Contact >= 0.0) { Penumbra = MeasurePenumbra(View, Pixel, 2.0 * sqrt(2.0 * Push.SunOneMinusCos) * Contact); }
-	imageStore(Images[Push.OutPenumbra], ivec2(Pixel), vec4(min(Penumbra < 0.0 ? 1.0e-3 : Penumbra, 65504.0)));
+	Penumbra = min(Penumbra < 0.0 ? 1.0e-3 : Penumbra, 65504.0);
+	imageStore(Images[Push.OutPenumbra], ivec2(Pixel), vec4(bFilled ? -1.0 : Penumbra));
 }

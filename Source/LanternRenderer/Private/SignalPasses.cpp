@@ -15,7 +15,7 @@ namespace Lantern
 namespace
 {
 constexpr FSignalPass Passes[] = {
-    {ESignal::SunShadow, ChooseSunShadowRays, AddSunShadowPass, IsSunShadowFiltered, ListSunShadowFilters, ESignal::Count, nullptr,
+    {ESignal::SunShadow, ChooseSunShadowRays, AddSunShadowPass, FollowsSunShadowMotion, ListSunShadowFilters, ESignal::Count, nullptr,
         TilePictures},
     {ESignal::AmbientOcclusion, ChooseAmbientOcclusionRays, AddAmbientOcclusionPass, IsAmbientOcclusionFiltered,
         ListAmbientOcclusionFilters, ESignal::DiffuseGI, SetAmbientOcclusionReference},

@@ -194,6 +194,8 @@ FPassRays ChooseSunShadowRays(const FPassQuery& Query)
 	return Rays;
 }
 
+bool FollowsSunShadowMotion(const FRTScene& Scene) { return IsSunShadowFiltered(Scene) || !MakeContactDefines().empty(); }
+
 bool IsSunShadowFiltered(const FRTScene& Scene) { return Denoise.IsEnabled() && IsSoft(Scene); }
 
 void ListSunShadowFilters(const FRTScene& Scene, std::vector<FShaderSource>& Out)
