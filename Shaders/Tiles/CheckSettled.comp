@@ -17,7 +17,6 @@ void main()
 	FTileRef Tiles = FTileRef(Push.Tiles);
 	uint TileAt = TileIndex(View, gl_WorkGroupID.xy);
 	FTile Tile = Tiles.Data[TileAt];
-	if (gl_WorkGroupID.xy == uvec2(0u) && Place == 0u) { StartRequests(Push.Counters); }
 	uint Count = bitCount(Tile.SunRest[0]) + bitCount(Tile.SunRest[1]);
 	if (Place == 0u) { bDisagrees = 0u; }
 	barrier();
@@ -33,13 +32,13 @@ void main()
 	if (bDisagrees == 0u) { return; }
 	if (Place == 0u)
 	{
-		FirstRequest = ReserveRequests(Push.Counters, Push.Capacity, Count);
+		FirstRequest = ReserveSunRequests(Push.Counters, Push.Capacity, Count);
 		Tiles.Data[TileAt].Classes = Tile.Classes | TILE_SUN_DISAGREES;
 		for (uint I = 0u; I < 2u; ++I) { Tiles.Data[TileAt].SunRays[I] = Tile.SunRays[I] | Tile.SunRest[I]; }
 	}
 	barrier();
 	if ((Tile.SunRest[Word] & Bit) == 0u) { return; }
-	FAnswerRef(Push.Answers).Data[Index] = 0u; // what was known is void; answers are combined by or
+	FAnswerRef(Push.Answers).Data[Index] &= (1u << ANSWER_SUN_SEEN) - 1u; // what was known is void; answers are combined by or
 	uint Number = FirstRequest + bitCount(Tile.SunRest[Word] & (Bit - 1u)) + (Word > 0u ? bitCount(Tile.SunRest[0]) : 0u);
 	if (Number < Push.Capacity) { FRayRequestRef(Push.Requests).Data[Number] = MakeRayRequest(RAY_KIND_SUN, 0u, Index); }
 }

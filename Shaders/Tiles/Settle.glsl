@@ -11,9 +11,9 @@ uint LoadKnown(uint Image, ivec2 Pixel) { return uint(imageLoad(Images[Image], P
 void Settle(uint Image, ivec2 Pixel, uint Answer)
 {
 	uint Before = LoadKnown(Image, Pixel);
-	bool bLit = SunUnseen(Answer) == 0u;
+	bool bSeen = SunSeen(Answer) > 0u, bUnseen = SunUnseen(Answer) > 0u, bLit = bSeen && !bUnseen;
 	uint Frames = 0u;
-	if (Answer != 0u && (bLit || SunSeen(Answer) == 0u))
+	if (bSeen != bUnseen)
 	{
 		bool bAsBefore = bLit == ((Before & SETTLED_LIT) != 0u);
 		Frames = bAsBefore ? min((Before & (SETTLED_LIT - 1u)) + 1u, SETTLED_FRAMES) : 1u;

@@ -69,9 +69,8 @@ void main()
 	barrier();
 	if (Place == 0u)
 	{
-		if (gl_WorkGroupID.xy == uvec2(0u)) { StartRequests(Push.Counters); }
 		uint Count = bitCount(SunRays[0]) + bitCount(SunRays[1]);
-		FirstRequest = Count > 0u ? ReserveRequests(Push.Counters, Push.Capacity, Count) : 0u;
+		FirstRequest = Count > 0u ? ReserveSunRequests(Push.Counters, Push.Capacity, Count) : 0u;
 		FTile Tile = FTile(Classes, uint[2](SunRays[0], SunRays[1]), uint[2](SunRest[0], SunRest[1]));
 		FTileRef(Push.Tiles).Data[TileIndex(View, gl_WorkGroupID.xy)] = Tile;
 	}

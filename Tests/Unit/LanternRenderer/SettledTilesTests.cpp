@@ -16,7 +16,7 @@ using ::testing::Not;
 class FSettledTilesTest : public FRendererTest
 {
 protected:
-	static constexpr const char* RestPasses[] = {"SunShadowRestCheck", "SunShadowRestRays"};
+	static constexpr const char* RestPasses[] = {"ShadowRestCheck", "ShadowRestRays"};
 
 	bool HasRestPasses()
 	{
@@ -84,12 +84,12 @@ TEST_F(FSettledTilesTest, TilesAskTwice)
 		const ERTMockCall Trace = Path[0] == '1' ? ERTMockCall::TraceRaysIndirect : ERTMockCall::DispatchIndirect;
 		EXPECT_EQ(Mock().CountCalls(Trace), 2u) << Path;
 		EXPECT_TRUE(HasRestPasses());
-		EXPECT_FALSE(HasPass("SunShadowRestShare")) << "there is room for all";
+		EXPECT_FALSE(HasPass("ShadowRestShare")) << "there is room for all";
 	}
 	Set("r.RT.Rays.QueuePerPixel", "0.125");
 	Render();
-	EXPECT_THAT(GetPasses(), IsSupersetOf({"SunShadowShare", "SunShadowDemand", "SunShadowRestShare"}));
-	EXPECT_FALSE(HasPass("SunShadowRestDemand")) << "what had no room asks the first queue in the next frame";
+	EXPECT_THAT(GetPasses(), IsSupersetOf({"ShadowShare", "ShadowDemand", "ShadowRestShare"}));
+	EXPECT_FALSE(HasPass("ShadowRestDemand")) << "what had no room asks the first queue in the next frame";
 }
 
 TEST_F(FSettledTilesTest, IsToldWhatMoved)
@@ -163,11 +163,11 @@ TEST_F(FSettledTilesTest, FarTilesTraceFewerWithoutAHistory)
 TEST_F(FSettledTilesTest, CountsRaysOnDemand)
 {
 	LoadAndRender({});
-	EXPECT_FALSE(HasPass("SunShadowCount"));
+	EXPECT_FALSE(HasPass("ShadowCount"));
 	Set("r.RT.Rays.Count", "1");
 	Set("r.RT.Shadow.Adaptive", "1");
 	Render();
-	EXPECT_THAT(GetPasses(), IsSupersetOf({"SunShadowCount", "SunShadowRestCount"}));
+	EXPECT_THAT(GetPasses(), IsSupersetOf({"ShadowCount", "ShadowRestCount"}));
 	Render();
 	Render();
 	ASSERT_TRUE(Engine->GetRenderer().WaitForAll());

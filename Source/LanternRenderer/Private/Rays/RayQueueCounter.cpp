@@ -16,18 +16,23 @@ namespace
 TRTConsoleVariable<bool> CVarCount("r.RT.Rays.Count", false,
     "Counts the shadow rays that are really traced, for tests and measurements. The count is read two frames later.");
 
-constexpr uint64_t First = offsetof(FRayQueueCounters, Wanted);
-constexpr uint64_t Bytes = sizeof(FRayQueueCounters) - First;
-static_assert(offsetof(FRayQueueCounters, Kept) == First + sizeof(uint32_t));
+constexpr uint64_t First = offsetof(FRayQueueCounters, Segments), Bytes = sizeof(FRayQueueCounters::Segments);
 } // namespace
 
 bool FRayQueueCounter::IsWanted() { return CVarCount.GetOnRenderThread(); }
 
 uint64_t FRayQueueCounter::GetRays(const FRing::FEntry& Entry)
 {
-	const auto* const Values = static_cast<const uint32_t*>(Entry.Buffer->GetMapped());
-	const uint32_t Wanted = Values[0], Kept = Values[1];
-	return uint64_t(Wanted <= Entry.Notes.Capacity ? Wanted : Kept) * Entry.Notes.RaysPerRequest;
+	// As SegmentEnd in RayQueue.glsl.
+	const auto* const Segments = static_cast<const FRaySegment*>(Entry.Buffer->GetMapped());
+	uint64_t End = 0, Rays = 0;
+	for (uint32_t I = 0; I < RAY_SEGMENTS; ++I)
+	{
+		const uint64_t Requests = Segments[I].Wanted <= Entry.Notes.Capacity - End ? Segments[I].Wanted : Segments[I].Kept;
+		Rays += Requests * (I == RAY_SEGMENT_SUN ? Entry.Notes.RaysPerSunRequest : 1);
+		End += Requests;
+	}
+	return Rays;
 }
 
 void FRayQueueCounter::BeginFrame(uint32_t FlightIndex)

@@ -17,8 +17,6 @@ namespace
 TRTConsoleVariable<bool> CVarShadow("r.RT.Shadow", true, "Traces sun shadows. If off, the sun is unshadowed unless the host shadows it.");
 TRTConsoleVariable<int32_t> CVarSamples(
     "r.RT.Shadow.Samples", 1, "Number of sun shadow rays per pixel. Hard shadows need only one.", {1, 64});
-TRTConsoleVariable<int32_t> CVarPath(
-    "r.RT.Shadow.Path", 0, "How sun shadows are traced. 0: as the device does best. 1: ray-tracing pipeline. 2: ray query.", {0, 2});
 TRTConsoleVariable<float> CVarMaxDistance("r.RT.Shadow.MaxDistance", 100000.0f, "Length of sun shadow rays, in metres.", {0.01, 1e9});
 TRTConsoleVariable<bool> CVarSoft(
     "r.RT.Shadow.Soft", true, "Traces penumbrae of the sun's disk. If off, shadows are hard, from the disk's centre.");
@@ -58,6 +56,7 @@ FSunRays MakeSunRays(const FRTScene& Scene, const FRayDispatch& Dispatch)
 {
 	FSunRays Rays;
 	Rays.Diameter = GetDiameter(Scene);
+	Rays.SamplesPerPixel = 1;
 	// Of the shader that runs, which may be the one before the setting changed.
 	if (Rays.Diameter > 0.0f && !Dispatch.Has("ONE_SAMPLE"))
 	{
@@ -75,9 +74,9 @@ struct FResolveInputs
 	FRayQueue Queue;
 	FGraphBuffer Tiles;
 	FSunRays Rays;
+	FSettledTiles Settled;
 	FGraphTexture Penumbra; ///< the penumbra's width in pixels is written here as well; may be invalid
 	FHistoryTexture Kept;   ///< visibility, for pixels whose rays have no room; Current is invalid if all have
-	FSettledTiles Settled;
 };
 
 /// Makes visibility of the answers.
@@ -144,34 +143,21 @@ bool FindKept(FFrameContext& Context, FHistoryTexture& Out)
 	return true;
 }
 
-/// Traces the rays through the queue. Invalid: there are none, or shaders are being compiled.
+/// Invalid: there are no rays, or shaders are being compiled.
 FGraphTexture AddVisibility(FFrameContext& Context, const FGBuffer& GBuffer, FGraphTexture& OutPenumbra)
 {
-	const FPassRays Chosen = ChooseSignalRays(Context, ESignal::SunShadow);
-	if (Chosen.Path == ERayPath::None || !CanQueueRays(Context.Width, Context.Height)) { return {}; }
-	IRTPipeline* const Resolve = RequireCompute(Context, MakeResolveSource(GetSunRates(MeasuresPenumbra())));
-	const std::optional<FRayDispatch> Dispatch = RequireRayDispatch(Context, ESignal::SunShadow, Chosen);
-	if (!Resolve || !Dispatch) { return {}; }
-	FResolveInputs Inputs{GBuffer, CreateRayQueue(Context, ESignal::SunShadow)};
-	if (Inputs.Queue.bMayOverflow && !FindKept(Context, Inputs.Kept)) { return {}; }
-	if (MeasuresPenumbra() && Dispatch->Has("WITH_PENUMBRA")) // a variant without it may still serve, and writes none
+	const FShadowRays* const Rays = RequireShadowRays(Context, GBuffer);
+	if (!Rays || Rays->Sun.SamplesPerPixel == 0) { return {}; }
+	IRTPipeline* const Resolve = RequireCompute(Context, MakeResolveSource(Rays->Settled.Rates));
+	if (!Resolve) { return {}; }
+	FResolveInputs Inputs{GBuffer, Rays->Queue, Rays->Tiles, Rays->Sun, Rays->Settled};
+	if (MayLackSunRays(Context, Inputs.Queue) && !FindKept(Context, Inputs.Kept)) { return {}; }
+	if (Inputs.Queue.SunWidths.IsValid())
 	{
-		const uint64_t Pixels = uint64_t(Context.Width) * Context.Height;
-		Inputs.Queue.SunWidths = Context.Graph.CreateBuffer({Pixels * sizeof(float)}, "SunWidths");
-		Inputs.Penumbra = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::R16_FLOAT}, "SunShadowPenumbra");
-	}
-	const FSunRays Rays = MakeSunRays(Context.Scene, *Dispatch);
-	Inputs.Rays = Rays;
-	Inputs.Settled = FindSettledTiles(Context, GBuffer, Rays, GetSunRates(MeasuresPenumbra()), IsSunShadowFiltered(Context.Scene));
-	Inputs.Tiles = AddTilesPass(Context, GBuffer, Inputs.Queue, Rays, Inputs.Settled);
-	if (!Inputs.Tiles.IsValid()) { return {}; }
-	AddShadowRaysPass(Context, GBuffer, *Dispatch, Inputs.Queue, Rays);
-	if (Inputs.Settled.Known.Current.IsValid())
-	{
-		AddSettledRays(Context, GBuffer, *Dispatch, Inputs.Queue, Rays, Inputs.Tiles, Inputs.Settled);
+		OutPenumbra = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::R16_FLOAT}, "SunShadowPenumbra");
+		Inputs.Penumbra = OutPenumbra;
 	}
 	AddTileView(Context, Inputs.Tiles);
-	OutPenumbra = Inputs.Penumbra;
 	return AddResolvePass(Context, Resolve, Inputs);
 }
 } // namespace
@@ -180,7 +166,8 @@ FPassRays ChooseSunShadowRays(const FPassQuery& Query)
 {
 	FPassRays Rays;
 	if (!Query.Facts.bSun || !IsRayTracingEnabled() || !CVarShadow.GetOnRenderThread()) { return Rays; }
-	Rays.Path = ChooseRayPath(Query, CVarPath, "sun shadows are");
+	Rays.Path = ChooseQueuePath(Query, "sun shadows are");
+	Rays.Defines.emplace_back("SUN_RAYS", "1");
 	// Without a loop nothing but the pixel lives across the trace.
 	if (CVarSamples.GetOnRenderThread() == 1 || !CVarSoft.GetOnRenderThread()) { Rays.Defines.emplace_back("ONE_SAMPLE", "1"); }
 	if (MeasuresPenumbra()) { Rays.Defines.emplace_back("WITH_PENUMBRA", "1"); }
@@ -190,8 +177,19 @@ FPassRays ChooseSunShadowRays(const FPassQuery& Query)
 	Rays.Compute = {MakeTilesSource(Rates), MakeResolveSource(Rates)};
 	if (Rates.bAdaptive) { ListSettledShaders(Rays.Compute); }
 	ListTileViewShaders(Rays.Compute);
-	if (MayQueuesOverflow()) { Rays.Compute.push_back(MakeShareSource()); }
+	if (MayQueuesOverflow(1)) { Rays.Compute.push_back(MakeShareSource()); }
 	return Rays;
+}
+
+bool AskSunShadowRays(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowRayWishes& InOut)
+{
+	const FSunRates Rates = GetSunRates(MeasuresPenumbra());
+	if (!Dispatch.Has("SUN_RAYS") || !RequireCompute(Context, MakeResolveSource(Rates))) { return false; }
+	InOut.Sun = MakeSunRays(Context.Scene, Dispatch);
+	InOut.SunRates = Rates;
+	InOut.bSunFiltered = IsSunShadowFiltered(Context.Scene);
+	InOut.bSunWidths = MeasuresPenumbra() && Dispatch.Has("WITH_PENUMBRA"); // a variant without it may still serve, and writes none
+	return true;
 }
 
 bool FollowsSunShadowMotion(const FRTScene& Scene) { return IsSunShadowFiltered(Scene) || !MakeContactDefines().empty(); }
@@ -205,6 +203,7 @@ void ListSunShadowFilters(const FRTScene& Scene, std::vector<FShaderSource>& Out
 
 FGraphTexture AddSunShadowPass(FFrameContext& Context, const FGBuffer& GBuffer)
 {
+	if (ChooseSignalRays(Context, ESignal::SunShadow).Path == ERayPath::None) { return {}; }
 	FGraphTexture Penumbra;
 	const FGraphTexture Visibility = AddVisibility(Context, GBuffer, Penumbra);
 	if (!Visibility.IsValid()) { return {}; }

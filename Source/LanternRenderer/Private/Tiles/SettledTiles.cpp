@@ -68,7 +68,7 @@ void AddCheckPass(FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
 			const auto AddressOf = [&](FGraphBuffer Buffer) { return Pass.GetBuffer(Buffer)->GetDeviceAddress(); };
-			ClearQueueCounters(Pass, Second);
+			StartQueue(Pass, Second);
 			FCheckSettledConstants C{};
 			C.Pass = Frame->Pass;
 			C.Tiles = AddressOf(Tiles);
@@ -138,7 +138,7 @@ FAddress WriteSettled(FPassContext& Pass, const FFrameContext& Context, const FS
 }
 
 void AddSettledRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue,
-    const FSunRays& Sun, FGraphBuffer Tiles, const FSettledTiles& Settled)
+    const FQueuedRays& Rays, FGraphBuffer Tiles, const FSettledTiles& Settled)
 {
 	IRTPipeline* const Check = RequireCompute(Context, MakeCheckSource());
 	if (!Check) { return; } // FindSettledTiles had it
@@ -149,8 +149,9 @@ void AddSettledRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayD
 	Second.Counters = Context.Graph.CreateBuffer({sizeof(FRayQueueCounters), ERTBufferUsage::CopyDest}, "RayRestCounters");
 	AddCheckPass(Context, Check, Second, Tiles, Settled.Known.Current);
 	// What has no room makes its tile unsettled: the next frame asks the first queue, which then grows.
-	if (std::exchange(Second.bMayOverflow, false)) { AddShareQueuePass(Context, Second, Tiles, true); }
-	AddShadowRaysPass(Context, GBuffer, Dispatch, Second, Sun);
+	if (MayLackSunRays(Context, Second)) { AddShareQueuePass(Context, Second, Tiles, true); }
+	Second.bMayOverflow = false;
+	AddShadowRaysPass(Context, GBuffer, Dispatch, Second, Rays);
 }
 
 } // namespace Lantern

@@ -44,6 +44,6 @@ void DeclareSettled(FPassBuilder& Builder, const FFrameContext& Context, const F
 FAddress WriteSettled(FPassContext& Pass, const FFrameContext& Context, const FSettledTiles& Settled);
 /// Adds the passes that trace the rest of tiles in which a ray of the first queue disagrees. Behind the pass that traces Queue.
 void AddSettledRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue,
-    const FSunRays& Sun, FGraphBuffer Tiles, const FSettledTiles& Settled);
+    const FQueuedRays& Rays, FGraphBuffer Tiles, const FSettledTiles& Settled);
 
 } // namespace Lantern

@@ -43,7 +43,7 @@ void AddSortPass(FFrameContext& Context, IRTPipeline* Pipeline, const FTilesPass
 		DeclareSettled(Builder, *Frame, Inputs.Settled);
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
-			ClearQueueCounters(Pass, Inputs.Queue);
+			StartQueue(Pass, Inputs.Queue);
 			FTilesConstants C = MakeConstants(Pass, *Frame, Inputs);
 			C.Answers = Pass.GetBuffer(Inputs.Queue.Answers)->GetDeviceAddress();
 			C.Depth = GetSampledIndex(Pass, Inputs.GBuffer.Depth);
@@ -58,6 +58,11 @@ void AddSortPass(FFrameContext& Context, IRTPipeline* Pipeline, const FTilesPass
 
 uint32_t CountTiles(const FFrameContext& Context) { return DivideUp(Context.Width, TILE_SIZE) * DivideUp(Context.Height, TILE_SIZE); }
 } // namespace
+
+bool MayLackSunRays(const FFrameContext& Context, const FRayQueue& Queue)
+{
+	return Queue.bMayOverflow && Queue.Capacity < uint64_t(Context.Width) * Context.Height;
+}
 
 FShaderSource MakeTilesSource(const FSunRates& Rates) { return MakeComputeSource("Tiles/Tiles.comp", MakeSettledDefines(Rates)); }
 
@@ -89,11 +94,13 @@ FGraphBuffer AddTilesPass(
     FFrameContext& Context, const FGBuffer& GBuffer, const FRayQueue& Queue, const FSunRays& Sun, const FSettledTiles& Settled)
 {
 	IRTPipeline* const Sort = RequireCompute(Context, MakeTilesSource(Settled.Rates));
-	if (!Sort || (Queue.bMayOverflow && !RequireCompute(Context, MakeShareSource()))) { return {}; }
+	// Sun rays come first in the queue: they find room unless it is smaller than the picture.
+	const bool bShare = MayLackSunRays(Context, Queue) && Sun.SamplesPerPixel > 0;
+	if (!Sort || (bShare && !RequireCompute(Context, MakeShareSource()))) { return {}; }
 	FTilesPass Inputs{GBuffer, Queue, {}, Sun, Settled};
 	Inputs.Tiles = Context.Graph.CreateBuffer({uint64_t(CountTiles(Context)) * sizeof(FTile)}, "Tiles");
 	AddSortPass(Context, Sort, Inputs);
-	if (Queue.bMayOverflow) { AddShareQueuePass(Context, Queue, Inputs.Tiles, false); }
+	if (bShare) { AddShareQueuePass(Context, Queue, Inputs.Tiles, false); }
 	return Inputs.Tiles;
 }
 

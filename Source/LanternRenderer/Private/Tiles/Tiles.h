@@ -16,6 +16,9 @@ FShaderSource MakeShareSource();
 /// of the G-buffer. Returns FTile[] (TileTypes.h), row by row. Invalid: shaders are being compiled.
 FGraphBuffer AddTilesPass(
     FFrameContext& Context, const FGBuffer& GBuffer, const FRayQueue& Queue, const FSunRays& Sun, const FSettledTiles& Settled);
+/// Returns whether the queue, in which sun rays come first, may lack room for them.
+bool MayLackSunRays(const FFrameContext& Context, const FRayQueue& Queue);
+
 /// Adds the pass that shares out a queue which overflowed. bRest: it holds the rays of FTile::SunRest.
 void AddShareQueuePass(FFrameContext& Context, const FRayQueue& Queue, FGraphBuffer Tiles, bool bRest);
 
