@@ -104,7 +104,7 @@ FPassRays ChooseLocalLightRays(const FPassQuery& Query)
 	Rays.Defines = MakeLocalDefines(Query.Facts, GetExact());
 	Rays.Defines.emplace_back("LOCAL_RAYS", "1");
 	Rays.Shaders = ShadowQueueShaders;
-	Rays.Compute = {MakeTilesSource(), MakeShadeSource(Query.Facts, GetExact())};
+	Rays.Compute = {MakeShadeSource(Query.Facts, GetExact())};
 	ListLocalRequestShaders(Query.Facts, GetExact(), Rays.Compute);
 	return Rays;
 }
