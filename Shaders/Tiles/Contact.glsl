@@ -23,8 +23,8 @@ bool CastsNoRays(FContactConstants Contact, FSceneConstants Scene, ivec2 Pixel, 
 // Marches through depth towards the sun. Returns the distance of what is in the way, metres; negative: nothing is.
 float FindContact(FContactConstants Contact, FSceneConstants Scene, FViewConstants View, uint Depths, uvec2 Pixel, FGBufferPoint Point)
 {
-	float Distance = dot(View.CameraForward, Point.Relative), Bias = 2.0 * PixelHeight(View, Distance);
-	vec3 Start = Point.Relative + Point.Ng * Bias;
+	float Distance = dot(View.CameraForward, Point.Relative), Bias = 0.5 * PixelHeight(View, Distance);
+	vec3 Start = Point.Relative + Point.Ng * (2.0 * Bias);
 	float Jitter = float(HashPcg(Pixel.x + 8191u * Pixel.y + 131071u * View.FrameIndex) >> 8u) / 16777216.0;
 	[[dont_unroll]] for (uint Step = 0u; Step < ContactSteps; ++Step)
 	{

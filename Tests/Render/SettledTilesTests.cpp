@@ -318,13 +318,21 @@ TEST_F(FSettledTilesTest, ContactShadowsOfWhatIsCulled)
 	FTestScene Scene("pebbles");
 	const int32_t Lambert = Scene.AddLambert(glm::vec3(0.5f), glm::vec3(0), true);
 	Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Lambert, 20.0f)}));
-	// Walls of 10 cm that face the sun.
-	const int32_t Wall = Scene.AddMesh({{Lambert, {{0, 0, -0.1f}, {0, 0, 0.1f}, {0, 0.1f, 0.1f}, {0, 0.1f, -0.1f}}}});
+	// Cubes of 10 cm: a top and four sides.
+	std::vector<FTestScene::FQuad> Quads = {FTestScene::MakeFloor(Lambert, 0.05f, 0.1f)};
+	for (const glm::vec2 Side : {glm::vec2(1, 0), glm::vec2(0, 1), glm::vec2(-1, 0), glm::vec2(0, -1)})
+	{
+		const auto Corner = [&](float Y, float Along) {
+			return glm::vec3(0.05f * (Side.x - Along * Side.y), Y, 0.05f * (Side.y + Along * Side.x));
+		};
+		Quads.push_back({Lambert, {Corner(0, -1), Corner(0, 1), Corner(0.1f, 1), Corner(0.1f, -1)}});
+	}
+	const int32_t Cube = Scene.AddMesh(Quads);
 	for (int I = 0; I < 9; ++I)
 	{
 		glm::dmat4 Transform(1.0);
 		Transform[3] = {0.4 * (I % 3 - 1), 0, 0.4 * (I / 3 - 1), 1};
-		Scene.AddNode(Wall, Transform);
+		Scene.AddNode(Cube, Transform);
 	}
 	ASSERT_TRUE(Load(std::move(Scene.Scene)));
 	SetSun(0.1, 4.0f, {1, -1, 0.2});
@@ -345,9 +353,9 @@ TEST_F(FSettledTilesTest, ContactShadowsOfWhatIsCulled)
 		Wrong += Rays.Pixels[I] > 0.5f && Contact.Pixels[I] < 0.5f ? 1 : 0;
 	}
 	PrintFigure(fmt::format("contacts: {} pixels lack their shadow, {} have it back, {} have one they should not", Shadowed, Found, Wrong));
-	EXPECT_GT(Shadowed, 500u);
+	EXPECT_GT(Shadowed, 200u);
 	EXPECT_GT(Found, Shadowed / 2);
-	EXPECT_LT(Wrong, Shadowed / 10);
+	EXPECT_LT(Wrong, Shadowed / 5) << "depth knows no thickness: a tenth of the shadow lies where the cube's back is not";
 }
 } // namespace
 } // namespace Lantern

@@ -12,9 +12,8 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<std::string> CVarView("r.RT.Debug.View", "frame",
-    "Shows one signal instead of the picture, by its name as lantern reference --help lists it. frame: the picture. sun_tiles: what is "
-    "known "
-    "of each tile of the sun's shadows. sun_rays: pixels that traced sun rays.");
+    "Shows one signal instead of the picture, by its name as lantern reference --help lists it. The value frame shows the picture. The "
+    "value sun_tiles shows what is known of each tile of the sun's shadows, and sun_rays the pixels that traced sun rays.");
 
 /// Calls Visit(signal, name of a picture) for all pictures.
 template <class TVisit>
