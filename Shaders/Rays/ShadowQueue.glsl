@@ -37,6 +37,7 @@ void TraceSun(uint Index)
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
+	Scene.SunOneMinusCos = Push.SunOneMinusCos;
 	uvec2 Pixel = uvec2(Index % View.Width, Index / View.Width);
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), LoadDepth(Push.Depth, ivec2(Pixel)));
 	uint Mask = ShowsCharacter(Scene, Pixel) ? Push.InstanceMask & ~MASK_CHARACTER : Push.InstanceMask;
@@ -46,7 +47,7 @@ void TraceSun(uint Index)
 	for (uint Sample = 0; Sample < SamplesPerPixel; ++Sample)
 	{
 		vec3 Direction = -Scene.SunDirection;
-		if (Push.bSoft != 0u) { Direction = SampleSunDirection(Scene, SobolOwen2(Sequence.Index * SamplesPerPixel + Sample, Sequence.Seed)); }
+		if (Push.SunOneMinusCos > 0.0) { Direction = SampleSunDirection(Scene, SobolOwen2(Sequence.Index * SamplesPerPixel + Sample, Sequence.Seed)); }
 		if (!LeavesSurface(View, Point, Direction)) { continue; }
 		float BlockerDistance =
 			TraceShadowRay(RasterRayOrigin(Scene, View, Point), Direction, Push.MaxDistance, Push.RayFlags, Mask);

@@ -71,7 +71,7 @@ struct FShadowQueueConstants
 	float MaxDistance;    // of sun rays, metres
 	uint RayFlags;        // of all rays: gl_RayFlags… to add to those that the pass needs
 	uint InstanceMask;    // of sun rays
-	uint bSoft;           // 0: hard shadows, from the centre of the sun's disk
+	float SunOneMinusCos; // of the disk that sun rays go to, see FSceneConstants; 0: hard shadows, from its centre
 	uint Motion;          // sampled index, or NO_TEXTURE: FGBuffer::Motion, for HAS_CHARACTERS
 	uint Classes;         // sampled index, or NO_TEXTURE: FGBuffer::Classes, for HAS_CHARACTERS
 	uint ClassesOffset;   // of the view in Classes, pixels: x | y << 16

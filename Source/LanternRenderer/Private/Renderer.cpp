@@ -17,9 +17,11 @@
 #include "LanternCore/Text/Log.h"
 #include "LanternRenderer/Frame.h"
 #include "RayPrograms.h"
+#include "Rays/RayQueueCounter.h"
 #include "Rays/RayQueueDemand.h"
 #include "SignalPasses.h"
 #include "Skinning/RefitQuality.h"
+#include "Tiles/MovedCasters.h"
 
 namespace Lantern
 {
@@ -51,7 +53,8 @@ FRenderer::FRenderer(IRTDevice& InDevice, FRendererDesc Desc)
       AnyHits(std::make_unique<FAnyHitCounter>(InDevice)),
       RayCompiler(InDevice, Compiler, Programs),
       StandIns(std::make_unique<FStandInFeedback>(InDevice)),
-      QueueDemand(std::make_unique<FRayQueueDemand>(InDevice))
+      QueueDemand(std::make_unique<FRayQueueDemand>(InDevice)),
+      RayCounter(std::make_unique<FRayQueueCounter>(InDevice))
 {
 	StartWorkers(); // not in the first frame
 	if (!FTaskTrace::HasFolder()) { FTaskTrace::SetFolder(Desc.CacheFolder); }
@@ -73,10 +76,12 @@ FRTStatus FRenderer::WaitForAll()
 		if (FRTStatus S = Device.WaitFor(Fence, WaitNs); !S) { return S; }
 	}
 	AnyHits->TakeAll();
+	RayCounter->TakeAll();
 	return FRTStatus::Success();
 }
 
 const FAnyHitCounts& FRenderer::GetAnyHits() const { return AnyHits->Get(); }
+const FRayCounts& FRenderer::GetRayCounts() const { return RayCounter->Get(); }
 
 FRTStatus FRenderer::WaitForFlight()
 {
@@ -169,6 +174,7 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	Context->Status = &FrameStatus;
 	Context->Owner = this;
 	Context->QueueDemand = QueueDemand.get();
+	Context->RayCounter = RayCounter.get();
 	Context->Tokens = {
 	    Graph->CreateToken("Tables"), Graph->CreateToken("Vertices"), Graph->CreateToken("Structures"), Graph->CreateToken("Records")};
 	Context->bWaitForPipelines = WaitsForPipelines(Features);
@@ -273,6 +279,7 @@ void FRenderer::WriteConstants()
 void FRenderer::KeepHistory(bool bSubmitted)
 {
 	State->History->EndFrame(bSubmitted);
+	State->Casters->EndFrame(bSubmitted);
 	State->LastScene = bSubmitted ? Context->Scene.GetSections().GetIdentity() : 0;
 	State->LastView = Context->View;
 	if (bSubmitted) { State->Published = FConsoleVariables::Get().GetPublishCount(); }
@@ -288,6 +295,7 @@ FRenderer::FViewState& FRenderer::GetView(uint32_t Index)
 	{
 		static std::atomic<uint64_t> LastViewer = 0; // 0 is nobody's
 		View.History = std::make_unique<FHistoryResources>(Device);
+		View.Casters = std::make_unique<FMovedCasters>();
 		View.Viewer = ++LastViewer;
 	}
 	return View;
@@ -309,6 +317,7 @@ void FRenderer::FindPreviousView(FRTScene& Scene, const FFrameFeatures& Features
 	const bool bUsable = bSameScene && State->LastView.Width > 0 && !Context->View.bCut && !Features.bReference;
 	Context->PreviousView = bUsable ? &PreviousView : nullptr;
 	Context->History = State->History.get();
+	Context->MovedCasters = State->Casters.get();
 }
 
 /// Before anything of the frame can fail: what the GPU has left is taken, and the next frame finds its place.
@@ -317,6 +326,7 @@ void FRenderer::BeginFeedback()
 	AnyHits->BeginFrame(FlightIndex);
 	StandIns->BeginFrame(FlightIndex, Context->Scene);
 	QueueDemand->BeginFrame(FlightIndex);
+	RayCounter->BeginFrame(FlightIndex);
 	RefitQuality->BeginFrame(FlightIndex, Context->Scene.GetGeometries());
 }
 
@@ -335,6 +345,7 @@ void FRenderer::EndFeedback(bool bSubmitted)
 	AnyHits->GetCounters().EndFrame(bSubmitted);
 	StandIns->GetCounters().EndFrame(bSubmitted);
 	QueueDemand->EndFrame(bSubmitted);
+	RayCounter->EndFrame(bSubmitted);
 	RefitQuality->EndFrame(Context->Scene.GetGeometries(), bSubmitted);
 }
 

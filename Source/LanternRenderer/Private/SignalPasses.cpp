@@ -9,6 +9,7 @@
 #include "LocalLights/LocalLights.h"
 #include "Reflections/Reflections.h"
 #include "SunShadow/SunShadow.h"
+#include "Tiles/TileView.h"
 
 namespace Lantern
 {
@@ -19,9 +20,10 @@ constexpr FSignalPass Passes[] = {
     {.Signal = ESignal::SunShadow,
         .ChooseRays = ChooseSunShadowRays,
         .Add = AddSunShadowPass,
-        .WantsMotion = IsSunShadowFiltered,
+        .WantsMotion = FollowsSunShadowMotion,
         .ListFilters = ListSunShadowFilters,
-        .AskShadowRays = AskSunShadowRays},
+        .AskShadowRays = AskSunShadowRays,
+        .Pictures = TilePictures},
     {.Signal = ESignal::AmbientOcclusion,
         .ChooseRays = ChooseAmbientOcclusionRays,
         .Add = AddAmbientOcclusionPass,

@@ -25,6 +25,8 @@ struct FSignalPass
 	bool (*AskShadowRays)(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowRayWishes& InOut) = nullptr;
 	/// Fills what the signal's reference reads of the constants beside the rest. Null: nothing.
 	void (*SetReferenceConstants)(FReferenceConstants& Constants) = nullptr;
+	/// Names of pictures that the pass draws of how it works, for r.RT.Debug.View, with a null behind the last one. Null: none.
+	const char* const* Pictures = nullptr;
 };
 
 /// Returns how Signal is made. Signal: neither Frame nor Count.

@@ -159,12 +159,12 @@ TEST_F(FRendererToggleTest, ShadowSettingsReachTheShader)
 		EXPECT_EQ(GetShadowConstants().MaxDistance, 50.0f);
 		EXPECT_EQ(GetShadowConstants().RayFlags, 0x10u);
 		EXPECT_EQ(GetShadowConstants().InstanceMask, 4u);
-		EXPECT_EQ(GetShadowConstants().bSoft, 1u);
+		EXPECT_GT(GetShadowConstants().SunOneMinusCos, 0.0f);
 	}
 	Set("r.RT.Shadow.Soft", "0");
 	Render();
 	EXPECT_EQ(GetShadowConstants().SamplesPerPixel, 1u) << "hard shadows need one ray";
-	EXPECT_EQ(GetShadowConstants().bSoft, 0u);
+	EXPECT_EQ(GetShadowConstants().SunOneMinusCos, 0.0f);
 }
 
 TEST_F(FRendererToggleTest, ValueSetInTheMiddleOfAFrameWaitsForTheNext)

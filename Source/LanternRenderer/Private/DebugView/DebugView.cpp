@@ -4,6 +4,7 @@
 #include "DebugViewTypes.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
+#include "SignalPasses.h"
 
 namespace Lantern
 {
@@ -11,14 +12,31 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<std::string> CVarView("r.RT.Debug.View", "frame",
-    "Shows one signal instead of the picture, by its name as lantern reference --help lists it. frame: the picture.");
+    "Shows one signal instead of the picture, by its name as lantern reference --help lists it. The value frame shows the picture. The "
+    "value sun_tiles shows what is known of each tile of the sun's shadows, and sun_rays the pixels that traced sun rays.");
+
+/// Calls Visit(signal, name of a picture) for all pictures.
+template <class TVisit>
+void ForEachPicture(TVisit&& Visit)
+{
+	ForEachSignalPass([&](const FSignalPass& Pass) {
+		for (const char* const* Name = Pass.Pictures; Name && *Name; ++Name) { Visit(Pass.Signal, *Name); }
+	});
+}
 } // namespace
+
+bool IsDebugPicture(const char* Name) { return CVarView.GetOnRenderThread() == Name; }
 
 ESignal GetDebugView()
 {
 	const std::string& Name = CVarView.GetOnRenderThread();
-	const std::optional<ESignal> Signal = FindSignal(Name);
-	if (!Signal) { LogOnce(ERTLogLevel::Warning, "r.RT.Debug.View: " + Quote(Name) + " is none of " + ListSignalNames()); }
+	std::optional<ESignal> Signal = FindSignal(Name);
+	std::string Pictures;
+	ForEachPicture([&](ESignal Of, const char* Picture) {
+		if (Name == Picture) { Signal = Of; }
+		Pictures += std::string(", ") + Picture;
+	});
+	if (!Signal) { LogOnce(ERTLogLevel::Warning, "r.RT.Debug.View: " + Quote(Name) + " is none of " + ListSignalNames() + Pictures); }
 	return Signal.value_or(ESignal::Frame);
 }
 
@@ -27,9 +45,10 @@ FGraphTexture AddDebugView(FFrameContext& Context, const FFrameOutputs& Outputs)
 	const ESignal Signal = GetDebugView();
 	const FGraphTexture Input = Outputs.Get(Signal);
 	if (Signal == ESignal::Frame) { return Outputs.Display; }
-	if (!Input.IsValid())
+	if (Context.DebugPicture.IsValid()) { return Context.DebugPicture; }
+	if (!Input.IsValid() || !FindSignal(CVarView.GetOnRenderThread()))
 	{
-		LogOnce(ERTLogLevel::Info, std::string("r.RT.Debug.View shows the picture: there is no ") + GetSignalInfo(Signal).Name +
+		LogOnce(ERTLogLevel::Info, "r.RT.Debug.View shows the picture: there is no " + CVarView.GetOnRenderThread() +
 		                               ". It is off, the scene has nothing for it, or its shaders are being compiled");
 		return Outputs.Display;
 	}

@@ -6,12 +6,16 @@
 namespace Lantern
 {
 
-/// Returns the signal that is shown; Frame: the picture. Render thread. Logs once if the variable names no signal.
+/// Returns the signal that is shown, or the one whose pass draws what is shown; Frame: the picture. Render thread. Logs once if the
+/// variable names nothing.
 ESignal GetDebugView();
+
+/// Returns whether the variable names this picture (FSignalPass::Pictures). Its pass then draws FFrameContext::DebugPicture.
+bool IsDebugPicture(const char* Name);
 
 inline FShaderSource MakeDebugViewSource() { return MakeComputeSource("DebugView/DebugView.comp"); }
 
-/// Returns what to show: Outputs.Display, or the signal of GetDebugView. A visibility is grey, a radiance tone-mapped.
+/// Returns what to show: Outputs.Display, FFrameContext::DebugPicture, or the signal of GetDebugView. A visibility is grey, a radiance tone-mapped.
 FGraphTexture AddDebugView(FFrameContext& Context, const FFrameOutputs& Outputs);
 
 } // namespace Lantern

@@ -7,6 +7,7 @@
 
 #include "LanternCore/Text/Log.h"
 #include "RayQueueTypes.h"
+#include "Rays/RayQueueCounter.h"
 #include "Rays/RayQueueDemand.h"
 
 namespace Lantern
@@ -30,14 +31,6 @@ TRTConsoleVariable<int32_t> CVarCasterFaces("r.RT.Shadow.CasterFaces", 0,
     "double-sided.",
     {0, 2});
 
-/// A ray towards a light sees the backs of faces that are turned to it.
-uint32_t GetCasterRayFlags()
-{
-	constexpr uint32_t CullBackFacing = 0x10, CullFrontFacing = 0x20; // gl_RayFlagsCullBackFacingTrianglesEXT, …Front…
-	const int32_t Faces = CVarCasterFaces.GetOnRenderThread();
-	return Faces == 1 ? CullFrontFacing : Faces == 2 ? CullBackFacing : 0u;
-}
-
 FShadowQueueConstants MakeConstants(FPassContext& Pass, const FFrameContext& Frame, const FRayQueue& Queue, const FQueuedRays& Rays)
 {
 	const FSunRays& Sun = Rays.Sun;
@@ -55,7 +48,7 @@ FShadowQueueConstants MakeConstants(FPassContext& Pass, const FFrameContext& Fra
 	C.MaxDistance = Sun.MaxDistance;
 	C.RayFlags = GetCasterRayFlags();
 	C.InstanceMask = Sun.InstanceMask;
-	C.bSoft = Sun.bSoft ? 1u : 0u;
+	C.SunOneMinusCos = GetSunOneMinusCos(Sun);
 	return C;
 }
 
@@ -75,11 +68,25 @@ void TraceQueue(FPassContext& Pass, const FFrameContext& Frame, const FRayDispat
 }
 } // namespace
 
+/// A ray towards a light sees the backs of faces that are turned to it.
+uint32_t GetCasterRayFlags()
+{
+	constexpr uint32_t CullBackFacing = 0x10, CullFrontFacing = 0x20; // gl_RayFlagsCullBackFacingTrianglesEXT, …Front…
+	const int32_t Faces = CVarCasterFaces.GetOnRenderThread();
+	return Faces == 1 ? CullFrontFacing : Faces == 2 ? CullBackFacing : 0u;
+}
+
 void AddReceiverDefines(const FSceneFacts& Facts, FShaderDefines& Defines)
 {
 	if (!Facts.bCharacters) { return; }
 	Defines.emplace_back("HAS_CHARACTERS", "1");
 	if (!CVarReceivers.GetOnRenderThread()) { Defines.emplace_back("ONE_RECEIVER", "1"); }
+}
+
+float GetSunOneMinusCos(const FSunRays& Rays)
+{
+	const double HalfSin = std::sin(0.25 * double(Rays.Diameter));
+	return static_cast<float>(2.0 * HalfSin * HalfSin);
 }
 
 bool CanQueueRays(uint32_t Width, uint32_t Height)
@@ -137,11 +144,16 @@ void AddShadowRaysPass(
 	const bool bClasses = Dispatch.Has("HAS_CHARACTERS");
 	const FGraphTexture Classes = bClasses ? GBuffer.Classes : FGraphTexture();
 	const FGraphTexture Motion = bClasses && !Classes.IsValid() ? GBuffer.Motion : FGraphTexture();
-	FGraphBuffer Demand;
+	FGraphBuffer Demand, Count;
 	if (Queue.bMayOverflow)
 	{
 		const FRayQueueDemand::FQueue Asked{Queue.Counters, Queue.Capacity, uint64_t(Context.Width) * Context.Height};
 		Demand = Context.QueueDemand->AddRead(Context.Graph, (Queue.Name + "Demand").c_str(), Asked);
+	}
+	if (FRayQueueCounter::IsWanted())
+	{
+		const FRayQueueCounter::FQueue Asked{Queue.Name + "Rays", Queue.Counters, Queue.Capacity, Rays.Sun.SamplesPerPixel};
+		Count = Context.RayCounter->AddRead(Context.Graph, (Queue.Name + "Count").c_str(), Asked);
 	}
 	Context.Graph.AddPass((Queue.Name + "Rays").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Read(GBuffer.Depth, ERTAccess::ShaderRead);
@@ -160,7 +172,10 @@ void AddShadowRaysPass(
 		{
 			if (Buffer.IsValid()) { Builder.Read(Buffer, ERTAccess::ShaderRead); }
 		}
-		if (Demand.IsValid()) { Builder.Keep(Demand); }
+		for (const FGraphBuffer Read : {Demand, Count})
+		{
+			if (Read.IsValid()) { Builder.Keep(Read); }
+		}
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
 			FShadowQueueConstants Constants = MakeConstants(Pass, *Frame, Queue, Rays);
@@ -169,9 +184,10 @@ void AddShadowRaysPass(
 			Constants.Motion = GetSampledIndex(Pass, Motion);
 			Constants.Classes = GetSampledIndex(Pass, Classes);
 			Constants.ClassesOffset = GBuffer.ClassesOffset.x | (GBuffer.ClassesOffset.y << 16);
-			// At most: the device alone knows how many.
+			// At most: the device alone knows how many. Those of the rest are among the first queue's.
 			const uint64_t Pixels = uint64_t(Frame->Width) * Frame->Height;
-			Pass.CountRays(std::min<uint64_t>(Pixels, Queue.Capacity) * Rays.Sun.SamplesPerPixel + Pixels * Rays.LocalPerPixel);
+			const uint64_t Most = std::min<uint64_t>(Pixels, Queue.Capacity) * Rays.Sun.SamplesPerPixel + Pixels * Rays.LocalPerPixel;
+			Pass.CountRays(Queue.bRest ? 0 : Most);
 			TraceQueue(Pass, *Frame, Dispatch, Queue, Constants, bIndirect);
 		};
 	});

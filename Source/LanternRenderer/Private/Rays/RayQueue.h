@@ -22,6 +22,7 @@ struct FRayQueue
 	uint64_t MostWanted = 0; ///< requests that a frame can make
 	/// More rays can be asked for than have room. Those left out have no answer, and a later queue is larger.
 	bool bMayOverflow = false;
+	bool bRest = false; ///< holds rays that another queue of this frame has left out
 };
 
 /// Rays towards the sun.
@@ -30,11 +31,18 @@ struct FSunRays
 	uint32_t SamplesPerPixel = 0; ///< 1 to 64; 0: nobody asks
 	float MaxDistance = 0.0f;     ///< metres
 	uint32_t InstanceMask = 0;
-	bool bSoft = false; ///< towards all of the disk; if false, to its centre
+	uint32_t RayFlags = 0; ///< GetCasterRayFlags
+	float Diameter = 0.0f; ///< of the disk that they go to, radians; 0: they go to its centre
+	friend bool operator==(const FSunRays&, const FSunRays&) = default;
 };
 
 /// Adds what the queue's shaders need to know who casts on what a pixel shows.
 void AddReceiverDefines(const FSceneFacts& Facts, FShaderDefines& Defines);
+/// Returns gl_RayFlags… of all shadow rays, by r.RT.Shadow.CasterFaces.
+uint32_t GetCasterRayFlags();
+
+/// Returns 1 − cosine of the disk's angular radius.
+float GetSunOneMinusCos(const FSunRays& Rays);
 
 /// Returns whether the pixels of a picture have an index in requests. Logs once if they have not.
 bool CanQueueRays(uint32_t Width, uint32_t Height);

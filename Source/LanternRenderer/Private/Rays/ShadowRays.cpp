@@ -51,11 +51,16 @@ std::shared_ptr<const FShadowRays> AddShadowRays(FFrameContext& Context, const F
 	}
 	if (Rays.Sun.SamplesPerPixel > 0)
 	{
-		Rays.Tiles = AddTilesPass(Context, GBuffer, Rays.Queue, Rays.Sun);
+		Rays.Settled = FindSettledTiles(Context, GBuffer, Rays.Sun, Asked->Wishes.SunRates, Asked->Wishes.bSunFiltered);
+		Rays.Tiles = AddTilesPass(Context, GBuffer, Rays.Queue, Rays.Sun, Rays.Settled);
 		if (!Rays.Tiles.IsValid()) { return nullptr; }
 	}
 	if (Asked->Wishes.Local) { AddLocalRequests(Context, GBuffer, Rays, *Asked->Wishes.Local); }
 	AddShadowRaysPass(Context, GBuffer, Asked->Dispatch, Rays.Queue, Rays.Traced);
+	if (Rays.Settled.Known.Current.IsValid())
+	{
+		AddSettledRays(Context, GBuffer, Asked->Dispatch, Rays.Queue, Rays.Traced, Rays.Tiles, Rays.Settled);
+	}
 	return std::make_shared<const FShadowRays>(std::move(Rays));
 }
 } // namespace

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "Rays/RayQueue.h"
+#include "Tiles/SettledTiles.h"
 
 namespace Lantern
 {
@@ -21,6 +21,8 @@ struct FShadowRayWishes
 {
 	FSunRays Sun;
 	bool bSunWidths = false; ///< FRayQueue::SunWidths
+	FSunRates SunRates;
+	bool bSunFiltered = false; ///< what becomes of the sun's rays is accumulated over frames
 	std::optional<FLocalRays> Local;
 };
 
@@ -30,6 +32,7 @@ struct FShadowRays
 	FRayQueue Queue;
 	FGraphBuffer Tiles; ///< FTile[]; invalid: nobody asks for the sun
 	FSunRays Sun;
+	FSettledTiles Settled;
 	FQueuedRays Traced;
 };
 

@@ -5,6 +5,8 @@
 #include "LanternCore/FrameGraph/History.h"
 #include "SignalPasses.h"
 #include "SunShadowTypes.h"
+#include "Tiles/Contact.h"
+#include "Tiles/TileView.h"
 #include "Tiles/Tiles.h"
 
 namespace Lantern
@@ -18,25 +20,45 @@ TRTConsoleVariable<int32_t> CVarSamples(
 TRTConsoleVariable<float> CVarMaxDistance("r.RT.Shadow.MaxDistance", 100000.0f, "Length of sun shadow rays, in metres.", {0.01, 1e9});
 TRTConsoleVariable<bool> CVarSoft(
     "r.RT.Shadow.Soft", true, "Traces penumbrae of the sun's disk. If off, shadows are hard, from the disk's centre.");
+TRTConsoleVariable<float> CVarSourceScale("r.RT.Shadow.SourceScale", 1.0f,
+    "Scales the diameter of the sun's disk for shadows. Narrower penumbrae need fewer rays to look smooth. 0: shadows are hard.", {0, 16});
 TRTConsoleVariable<int32_t> CVarMask(
     "r.RT.Shadow.InstanceMask", MaskSunCasters, "Only objects that share a bit with this mask cast sun shadows.", {0, 255});
 const FDenoiseVariables Denoise("r.RT.Shadow", FDenoiseDefaults{.SigmaValue = 2.0f, .bExtent = true});
 
-bool IsSoft(const FRTScene& Scene) { return CVarSoft.GetOnRenderThread() && Scene.GetSun().AngularDiameter > 0.0f; }
+/// Radians; 0: hard shadows.
+float GetDiameter(const FRTScene& Scene)
+{
+	return CVarSoft.GetOnRenderThread() ? Scene.GetSun().AngularDiameter * CVarSourceScale.GetOnRenderThread() : 0.0f;
+}
+bool IsSoft(const FRTScene& Scene) { return GetDiameter(Scene) > 0.0f; }
 // Whatever the sun's size: the shaders stay as they are while it changes.
 bool MeasuresPenumbra() { return CVarSoft.GetOnRenderThread() && Denoise.IsEnabled(); }
 
-FShaderSource MakeResolveSource() { return MakeComputeSource(MakeShaderPath(ESignal::SunShadow, ".comp")); }
+FShaderDefines JoinDefines(FShaderDefines Defines, const FShaderDefines& Others)
+{
+	Defines.insert(Defines.end(), Others.begin(), Others.end());
+	return Defines;
+}
+
+FShaderSource MakeResolveSource(const FSunRates& Rates)
+{
+	return MakeComputeSource(MakeShaderPath(ESignal::SunShadow, ".comp"), JoinDefines(MakeSettledDefines(Rates), MakeContactDefines()));
+}
 
 FSunRays MakeSunRays(const FRTScene& Scene, const FRayDispatch& Dispatch)
 {
 	FSunRays Rays;
-	Rays.bSoft = IsSoft(Scene);
+	Rays.Diameter = GetDiameter(Scene);
 	Rays.SamplesPerPixel = 1;
 	// Of the shader that runs, which may be the one before the setting changed.
-	if (Rays.bSoft && !Dispatch.Has("ONE_SAMPLE")) { Rays.SamplesPerPixel = static_cast<uint32_t>(CVarSamples.GetOnRenderThread()); }
+	if (Rays.Diameter > 0.0f && !Dispatch.Has("ONE_SAMPLE"))
+	{
+		Rays.SamplesPerPixel = static_cast<uint32_t>(CVarSamples.GetOnRenderThread());
+	}
 	Rays.MaxDistance = CVarMaxDistance.GetOnRenderThread();
 	Rays.InstanceMask = static_cast<uint32_t>(CVarMask.GetOnRenderThread());
+	Rays.RayFlags = GetCasterRayFlags();
 	return Rays;
 }
 
@@ -45,7 +67,8 @@ struct FResolveInputs
 	FGBuffer GBuffer;
 	FRayQueue Queue;
 	FGraphBuffer Tiles;
-	uint32_t SamplesPerPixel = 1;
+	FSunRays Rays;
+	FSettledTiles Settled;
 	FGraphTexture Penumbra; ///< the penumbra's width in pixels is written here as well; may be invalid
 	FHistoryTexture Kept;   ///< visibility, for pixels whose rays have no room; Current is invalid if all have
 };
@@ -69,6 +92,12 @@ FGraphTexture AddResolvePass(FFrameContext& Context, IRTPipeline* Pipeline, cons
 			Builder.Write(Inputs.Kept.Current, ERTAccess::StorageWrite);
 			Builder.Keep(Inputs.Kept.Current);
 		}
+		DeclareContact(Builder, Inputs.GBuffer);
+		if (Inputs.Settled.Known.Current.IsValid())
+		{
+			Builder.Read(Inputs.Settled.Known.Current, ERTAccess::StorageRead);
+			Builder.Write(Inputs.Settled.Known.Current, ERTAccess::StorageWrite);
+		}
 		if (Inputs.Penumbra.IsValid()) { Builder.WriteIfRead(Inputs.Penumbra, ERTAccess::StorageWrite); }
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
@@ -80,20 +109,17 @@ FGraphTexture AddResolvePass(FFrameContext& Context, IRTPipeline* Pipeline, cons
 			C.Depth = GetSampledIndex(Pass, Inputs.GBuffer.Depth);
 			C.Normals = GetSampledIndex(Pass, Inputs.GBuffer.Normals);
 			C.Output = GetStorageIndex(Pass, Visibility);
-			C.SamplesPerPixel = Inputs.SamplesPerPixel;
+			C.SamplesPerPixel = Inputs.Rays.SamplesPerPixel;
 			C.OutPenumbra = GetStorageIndex(Pass, Inputs.Penumbra);
 			C.Kept = GetSampledIndex(Pass, Inputs.Kept.Previous);
 			C.OutKept = GetStorageIndex(Pass, Inputs.Kept.Current);
+			C.Settled = GetStorageIndex(Pass, Inputs.Settled.Known.Current);
+			C.Contact = MakeContactConstants(Pass, *Frame, Inputs.GBuffer);
+			C.SunOneMinusCos = GetSunOneMinusCos(Inputs.Rays);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
 	return Visibility;
-}
-
-/// Sun rays come first in the queue.
-bool MayLackSunRays(const FFrameContext& Context, const FRayQueue& Queue)
-{
-	return Queue.bMayOverflow && Queue.Capacity < uint64_t(Context.Width) * Context.Height;
 }
 
 /// Finds the visibility of the frame before for a queue that may overflow. False: an error, which the context has.
@@ -116,15 +142,16 @@ FGraphTexture AddVisibility(FFrameContext& Context, const FGBuffer& GBuffer, FGr
 {
 	const FShadowRays* const Rays = RequireShadowRays(Context, GBuffer);
 	if (!Rays || Rays->Sun.SamplesPerPixel == 0) { return {}; }
-	IRTPipeline* const Resolve = RequireCompute(Context, MakeResolveSource());
+	IRTPipeline* const Resolve = RequireCompute(Context, MakeResolveSource(Rays->Settled.Rates));
 	if (!Resolve) { return {}; }
-	FResolveInputs Inputs{GBuffer, Rays->Queue, Rays->Tiles, Rays->Sun.SamplesPerPixel};
+	FResolveInputs Inputs{GBuffer, Rays->Queue, Rays->Tiles, Rays->Sun, Rays->Settled};
 	if (MayLackSunRays(Context, Inputs.Queue) && !FindKept(Context, Inputs.Kept)) { return {}; }
 	if (Inputs.Queue.SunWidths.IsValid())
 	{
 		OutPenumbra = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::R16_FLOAT}, "SunShadowPenumbra");
 		Inputs.Penumbra = OutPenumbra;
 	}
+	AddTileView(Context, Inputs.Tiles);
 	return AddResolvePass(Context, Resolve, Inputs);
 }
 } // namespace
@@ -141,18 +168,26 @@ FPassRays ChooseSunShadowRays(const FPassQuery& Query)
 	if (MeasuresPenumbra()) { Rays.Defines.emplace_back("WITH_PENUMBRA", "1"); }
 	Rays.bBlockers = MeasuresPenumbra();
 	Rays.Shaders = ShadowQueueShaders;
-	Rays.Compute = {MakeTilesSource(), MakeResolveSource()};
+	const FSunRates Rates = GetSunRates(MeasuresPenumbra());
+	Rays.Compute = {MakeTilesSource(Rates), MakeResolveSource(Rates)};
+	if (Rates.bAdaptive) { ListSettledShaders(Rays.Compute); }
+	ListTileViewShaders(Rays.Compute);
 	if (MayQueuesOverflow(1)) { Rays.Compute.push_back(MakeShareSource()); }
 	return Rays;
 }
 
 bool AskSunShadowRays(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowRayWishes& InOut)
 {
-	if (!Dispatch.Has("SUN_RAYS") || !RequireCompute(Context, MakeResolveSource())) { return false; }
+	const FSunRates Rates = GetSunRates(MeasuresPenumbra());
+	if (!Dispatch.Has("SUN_RAYS") || !RequireCompute(Context, MakeResolveSource(Rates))) { return false; }
 	InOut.Sun = MakeSunRays(Context.Scene, Dispatch);
+	InOut.SunRates = Rates;
+	InOut.bSunFiltered = IsSunShadowFiltered(Context.Scene);
 	InOut.bSunWidths = MeasuresPenumbra() && Dispatch.Has("WITH_PENUMBRA"); // a variant without it may still serve, and writes none
 	return true;
 }
+
+bool FollowsSunShadowMotion(const FRTScene& Scene) { return IsSunShadowFiltered(Scene) || !MakeContactDefines().empty(); }
 
 bool IsSunShadowFiltered(const FRTScene& Scene) { return Denoise.IsEnabled() && IsSoft(Scene); }
 
