@@ -15,6 +15,7 @@ FRayRequest MakeRayRequest(uint Kind, uint Slot, uint Index)
 	return FRayRequest(Index | (Slot << RAY_INDEX_BITS) | (Kind << (RAY_INDEX_BITS + RAY_SLOT_BITS)));
 }
 uint RayKind(FRayRequest Request) { return Request.Packed >> (RAY_INDEX_BITS + RAY_SLOT_BITS); }
+uint RaySlot(FRayRequest Request) { return (Request.Packed >> RAY_INDEX_BITS) & ((1u << RAY_SLOT_BITS) - 1u); }
 uint RayIndex(FRayRequest Request) { return Request.Packed & ((1u << RAY_INDEX_BITS) - 1u); }
 
 uint PackSunAnswer(uint Seen, uint Unseen) { return (Seen << ANSWER_SUN_SEEN) | (Unseen << ANSWER_SUN_UNSEEN); }

@@ -21,7 +21,7 @@ float TraceShadowRay(vec3 Origin, vec3 Direction, float Length, uint Flags, uint
 #include "SamplesPerPixel.glsl"
 
 // RAY_KIND_SUN.
-void TraceSun(uint Index)
+void TraceSun(uint Index, uint Mask)
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
@@ -36,7 +36,7 @@ void TraceSun(uint Index)
 		if (Push.bSoft != 0u) { Direction = SampleSunDirection(Scene, SobolOwen2(Sequence.Index * SamplesPerPixel + Sample, Sequence.Seed)); }
 		if (!LeavesSurface(View, Point, Direction)) { continue; }
 		float BlockerDistance =
-			TraceShadowRay(RasterRayOrigin(Scene, View, Point), Direction, Push.MaxDistance, Push.RayFlags, Push.InstanceMask);
+			TraceShadowRay(RasterRayOrigin(Scene, View, Point), Direction, Push.MaxDistance, Push.RayFlags, Mask);
 		Seen += BlockerDistance < 0.0 ? 1u : 0u;
 		Blocked += BlockerDistance < 0.0 ? 0u : 1u;
 		BlockerDistanceSum += max(BlockerDistance, 0.0);
@@ -56,7 +56,7 @@ void TraceRequest(uint Number)
 	FRayRequest Request = FRayRequestRef(Push.Requests).Data[Number];
 	switch (RayKind(Request))
 	{
-	case RAY_KIND_SUN: TraceSun(RayIndex(Request)); break;
+	case RAY_KIND_SUN: TraceSun(RayIndex(Request), RaySlot(Request) == RAY_SLOT_SUN_LIT ? Push.LitMask : Push.InstanceMask); break;
 	}
 }
 

@@ -11,7 +11,8 @@ LANTERN_SHARED_BEGIN
 #define RAY_QUEUE_ROW_GROUPS 64 // work groups in x; y grows, since a device need not dispatch more than 65,535 in one direction
 
 // Kinds of rays. An index names what a ray belongs to; a slot tells several rays of one index apart.
-#define RAY_KIND_SUN 0u // index: pixel, row by row; slot 0: all samples of the pixel
+#define RAY_KIND_SUN 0u // index: pixel, row by row; a request is for all samples of the pixel
+#define RAY_SLOT_SUN_LIT 1u // the pixel is lit by the host's shadow map: rays look for other casters
 
 #define RAY_INDEX_BITS 26u
 #define RAY_SLOT_BITS 3u
@@ -53,9 +54,11 @@ struct FShadowQueueConstants
 	float MaxDistance;    // of sun rays, metres
 	uint RayFlags;        // of sun rays: gl_RayFlags… to add to those that the pass needs
 	uint InstanceMask;    // of sun rays
+	uint LitMask;         // of sun rays with RAY_SLOT_SUN_LIT
 	uint bSoft;           // 0: hard shadows, from the centre of the sun's disk
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FShadowQueueConstants, 80);
+LANTERN_ASSERT_SIZE(FShadowQueueConstants, 88);
 
 LANTERN_SHARED_END
 

@@ -20,8 +20,9 @@ struct FSunShadowConstants
 	uint Kept;        // sampled index: visibility of the frame before, for pixels whose rays had no room; NO_TEXTURE: those are lit
 	uint OutKept;     // storage index: Kept of the next frame; NO_TEXTURE: all rays have room
 	uint Pad;
+	FAddress HostShadow; // as in FTilesConstants
 };
-LANTERN_ASSERT_SIZE(FSunShadowConstants, 72);
+LANTERN_ASSERT_SIZE(FSunShadowConstants, 80);
 
 LANTERN_SHARED_END
 

@@ -4,6 +4,7 @@
 
 #include "ArgumentChecks.h"
 #include "FrameChecks.h"
+#include "HostShadowFrame.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Tasks/TaskTrace.h"
 #include "ModuleRenderer.h"
@@ -127,6 +128,7 @@ FRTStatus FModuleRenderer::AddPasses(const FRTModuleFrame& Frame, const FFrameVi
 	FHostSurface Surface = Views.Surface;
 	ImportTextures(Context.Graph, Frame, Surface);
 	const FGBuffer GBuffer = AddHostSurfacePass(Context, Surface);
+	if (Frame.HostShadow != nullptr) { Context.HostShadow = ImportHostShadow(Context.Graph, *Frame.HostShadow, World); }
 	if (!GBuffer.Depth.IsValid()) { return FRTStatus::Success(); } // shaders are missing: there is nothing to trace from
 	FFrameOutputs Made;
 	for (const FSignalInfo& Info : SignalInfos)
@@ -191,6 +193,7 @@ FFrameFeatures FModuleRenderer::MakeFeatures(const FRTModuleFrame& Frame, bool b
 	}
 	Features.bHostSurface = bHostSurface;
 	Features.bCameraMotion = Frame.Motion == nullptr;
+	Features.bHostShadow = Frame.HostShadow != nullptr;
 	return Features;
 }
 
@@ -200,6 +203,7 @@ FRTStatus FModuleRenderer::Precache(const FRTModuleFrame& Frame, FRTModuleProgre
 	if (const FRTStatus Status = Enter("Precache", Lock); !Status) { return Status; }
 	if (Recorded) { return FRTStatus::Error(ERTResult::InvalidArgument, "Precache: EndFrame was not called after RenderFrame"); }
 	if (const FRTStatus Status = CheckPrecache(Frame); !Status) { return Status; }
+	if (const FRTStatus Status = CheckHostShadow(Frame, *On->Device, !Desc.ShaderHeaders.empty()); !Status) { return Status; }
 	if (Frame.Depth != nullptr && Frame.Normals != nullptr)
 	{
 		FFrameViews Views;
@@ -273,6 +277,7 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 	if (const FRTStatus Status = Enter("RenderFrame", Lock); !Status) { return Status; }
 	if (Recorded) { return FRTStatus::Error(ERTResult::InvalidArgument, "RenderFrame: EndFrame was not called after the last one"); }
 	if (const FRTStatus Status = CheckFrame(Frame, *On->Device); !Status) { return Status; }
+	if (const FRTStatus Status = CheckHostShadow(Frame, *On->Device, !Desc.ShaderHeaders.empty()); !Status) { return Status; }
 	FFrameViews Views;
 	if (const FRTStatus Status = ReadViews(Frame, Views); !Status) { return Status; }
 	if (bLost)

@@ -32,6 +32,7 @@ FShadowQueueConstants MakeConstants(FPassContext& Pass, const FFrameContext& Fra
 	C.MaxDistance = Sun.MaxDistance;
 	C.RayFlags = Sun.RayFlags;
 	C.InstanceMask = Sun.InstanceMask;
+	C.LitMask = Sun.LitMask;
 	C.bSoft = Sun.bSoft ? 1u : 0u;
 	return C;
 }

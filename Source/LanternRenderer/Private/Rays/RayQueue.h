@@ -30,6 +30,7 @@ struct FSunRays
 	float MaxDistance = 0.0f;     ///< metres
 	uint32_t RayFlags = 0;        ///< gl_RayFlags…
 	uint32_t InstanceMask = 0;
+	uint32_t LitMask = 0; ///< of rays with RAY_SLOT_SUN_LIT; 0: these are not traced
 	bool bSoft = false; ///< towards all of the disk; if false, to its centre
 };
 

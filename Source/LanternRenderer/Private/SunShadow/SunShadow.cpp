@@ -34,7 +34,10 @@ bool IsSoft(const FRTScene& Scene) { return CVarSoft.GetOnRenderThread() && Scen
 // Whatever the sun's size: the shaders stay as they are while it changes.
 bool MeasuresPenumbra() { return CVarSoft.GetOnRenderThread() && Denoise.IsEnabled(); }
 
-FShaderSource MakeResolveSource() { return MakeComputeSource(MakeShaderPath(ESignal::SunShadow, ".comp")); }
+FShaderSource MakeResolveSource(const FSceneFacts& Facts)
+{
+	return MakeComputeSource(MakeShaderPath(ESignal::SunShadow, ".comp"), MakeHostShadowDefines(Facts));
+}
 
 FSunRays MakeSunRays(const FRTScene& Scene, const FRayDispatch& Dispatch)
 {
@@ -55,6 +58,7 @@ struct FResolveInputs
 	FGraphBuffer Tiles;
 	uint32_t SamplesPerPixel = 1;
 	FGraphTexture Penumbra; ///< the penumbra's width in pixels is written here as well; may be invalid
+	FHostShadowMap Map;     ///< it shadows where rays do not take its place
 	FHistoryTexture Kept;   ///< visibility, for pixels whose rays have no room; Current is invalid if all have
 };
 
@@ -70,6 +74,7 @@ FGraphTexture AddResolvePass(FFrameContext& Context, IRTPipeline* Pipeline, cons
 		Builder.Read(Inputs.GBuffer.Normals, ERTAccess::ShaderRead);
 		for (const FGraphBuffer Buffer : {Inputs.Tiles, Queue.Answers}) { Builder.Read(Buffer, ERTAccess::ShaderRead); }
 		if (Queue.SunWidths.IsValid()) { Builder.Read(Queue.SunWidths, ERTAccess::ShaderRead); }
+		Inputs.Map.Read(Builder);
 		Builder.Write(Visibility, ERTAccess::StorageWrite);
 		if (Inputs.Kept.Previous.IsValid()) { Builder.Read(Inputs.Kept.Previous, ERTAccess::ShaderRead); }
 		if (Inputs.Kept.Current.IsValid())
@@ -92,6 +97,7 @@ FGraphTexture AddResolvePass(FFrameContext& Context, IRTPipeline* Pipeline, cons
 			C.OutPenumbra = GetStorageIndex(Pass, Inputs.Penumbra);
 			C.Kept = GetSampledIndex(Pass, Inputs.Kept.Previous);
 			C.OutKept = GetStorageIndex(Pass, Inputs.Kept.Current);
+			C.HostShadow = Inputs.Map.Push(Pass, *Frame);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
@@ -118,7 +124,7 @@ FGraphTexture AddVisibility(FFrameContext& Context, const FGBuffer& GBuffer, FGr
 {
 	const FPassRays Chosen = ChooseSignalRays(Context, ESignal::SunShadow);
 	if (Chosen.Path == ERayPath::None || !CanQueueRays(Context.Width, Context.Height)) { return {}; }
-	IRTPipeline* const Resolve = RequireCompute(Context, MakeResolveSource());
+	IRTPipeline* const Resolve = RequireCompute(Context, MakeResolveSource(Context.Facts));
 	const std::optional<FRayDispatch> Dispatch = RequireRayDispatch(Context, ESignal::SunShadow, Chosen);
 	if (!Resolve || !Dispatch) { return {}; }
 	FResolveInputs Inputs{GBuffer, CreateRayQueue(Context, ESignal::SunShadow)};
@@ -129,9 +135,10 @@ FGraphTexture AddVisibility(FFrameContext& Context, const FGBuffer& GBuffer, FGr
 		Inputs.Queue.SunWidths = Context.Graph.CreateBuffer({Pixels * sizeof(float)}, "SunWidths");
 		Inputs.Penumbra = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::R16_FLOAT}, "SunShadowPenumbra");
 	}
-	const FSunRays Rays = MakeSunRays(Context.Scene, *Dispatch);
+	FSunRays Rays = MakeSunRays(Context.Scene, *Dispatch);
+	Inputs.Map = AddHostShadowPass(Context, Rays);
 	Inputs.SamplesPerPixel = Rays.SamplesPerPixel;
-	Inputs.Tiles = AddTilesPass(Context, GBuffer, Inputs.Queue, Rays);
+	Inputs.Tiles = AddTilesPass(Context, GBuffer, Inputs.Queue, Rays, Inputs.Map);
 	if (!Inputs.Tiles.IsValid()) { return {}; }
 	AddShadowRaysPass(Context, GBuffer, *Dispatch, Inputs.Queue, Rays);
 	OutPenumbra = Inputs.Penumbra;
@@ -149,7 +156,8 @@ FPassRays ChooseSunShadowRays(const FPassQuery& Query)
 	if (MeasuresPenumbra()) { Rays.Defines.emplace_back("WITH_PENUMBRA", "1"); }
 	Rays.bBlockers = MeasuresPenumbra();
 	Rays.Shaders = ShadowQueueShaders;
-	Rays.Compute = {MakeTilesSource(), MakeResolveSource()};
+	Rays.Compute = {MakeTilesSource(Query.Facts), MakeResolveSource(Query.Facts)};
+	if (Query.Facts.bHostShadow) { Rays.Compute.push_back(MakePyramidSource()); }
 	if (MayQueuesOverflow()) { Rays.Compute.push_back(MakeShareSource()); }
 	return Rays;
 }

@@ -24,6 +24,7 @@ struct FTilesPass
 	FRayQueue Queue;
 	FGraphBuffer Tiles;
 	FSunRays Sun;
+	FHostShadowMap Map;
 	uint64_t TileCount = 0;
 };
 
@@ -50,6 +51,9 @@ void AddSortPass(FFrameContext& Context, IRTPipeline* Pipeline, const FTilesPass
 		{
 			Builder.Write(Buffer, ERTAccess::StorageWrite);
 		}
+		Inputs.Map.Read(Builder);
+		const bool bWidths = Inputs.Map.IsValid() && Queue.SunWidths.IsValid();
+		if (bWidths) { Builder.Write(Queue.SunWidths, ERTAccess::StorageWrite); }
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
 			ClearCounters(Pass, Pass.GetBuffer(Inputs.Queue.Counters));
@@ -59,6 +63,10 @@ void AddSortPass(FFrameContext& Context, IRTPipeline* Pipeline, const FTilesPass
 			C.Normals = GetSampledIndex(Pass, Inputs.GBuffer.Normals);
 			C.SunSamples = Inputs.Sun.SamplesPerPixel;
 			C.bSoftSun = Inputs.Sun.bSoft ? 1u : 0u;
+			C.SunMask = Inputs.Sun.InstanceMask;
+			C.LitMask = Inputs.Sun.LitMask;
+			C.HostShadow = Inputs.Map.Push(Pass, *Frame);
+			C.SunWidths = bWidths ? Pass.GetBuffer(Inputs.Queue.SunWidths)->GetDeviceAddress() : 0;
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
@@ -83,16 +91,16 @@ void AddSharePass(FFrameContext& Context, IRTPipeline* Pipeline, const FTilesPas
 }
 } // namespace
 
-FShaderSource MakeTilesSource() { return MakeComputeSource("Tiles/Tiles.comp"); }
+FShaderSource MakeTilesSource(const FSceneFacts& Facts) { return MakeComputeSource("Tiles/Tiles.comp", MakeHostShadowDefines(Facts)); }
 
 FShaderSource MakeShareSource() { return MakeComputeSource("Tiles/ShareQueue.comp"); }
 
-FGraphBuffer AddTilesPass(FFrameContext& Context, const FGBuffer& GBuffer, const FRayQueue& Queue, const FSunRays& Sun)
+FGraphBuffer AddTilesPass(FFrameContext& Context, const FGBuffer& GBuffer, const FRayQueue& Queue, const FSunRays& Sun, const FHostShadowMap& Map)
 {
-	IRTPipeline* const Sort = RequireCompute(Context, MakeTilesSource());
+	IRTPipeline* const Sort = RequireCompute(Context, MakeTilesSource(Context.Facts));
 	IRTPipeline* const Share = Queue.bMayOverflow ? RequireCompute(Context, MakeShareSource()) : nullptr;
 	if (!Sort || (Queue.bMayOverflow && !Share)) { return {}; }
-	FTilesPass Inputs{GBuffer, Queue, {}, Sun};
+	FTilesPass Inputs{GBuffer, Queue, {}, Sun, Map};
 	Inputs.TileCount = uint64_t(DivideUp(Context.Width, TILE_SIZE)) * DivideUp(Context.Height, TILE_SIZE);
 	Inputs.Tiles = Context.Graph.CreateBuffer({Inputs.TileCount * sizeof(FTile)}, "Tiles");
 	AddSortPass(Context, Sort, Inputs);

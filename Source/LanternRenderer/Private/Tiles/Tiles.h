@@ -2,18 +2,20 @@
 #pragma once
 
 #include "Rays/RayQueue.h"
+#include "Tiles/HostShadow.h"
 
 namespace Lantern
 {
 
-FShaderSource MakeTilesSource();
+FShaderSource MakeTilesSource(const FSceneFacts& Facts);
 
 /// Of the pass that shares out a queue which may overflow.
 FShaderSource MakeShareSource();
 
-/// Adds the pass that sorts the screen into tiles. It answers what needs no ray, and queues the rays of the rest. If the queue may
+/// Adds the pass that sorts the screen into tiles. It answers what needs no ray, by the host's shadow map if there is one, and queues the
+/// rays of the rest. If the queue may
 /// overflow, a second pass sees to it that the same rays have room in each run. Reads Depth and Normals
 /// of the G-buffer. Returns FTile[] (TileTypes.h), row by row. Invalid: shaders are being compiled.
-FGraphBuffer AddTilesPass(FFrameContext& Context, const FGBuffer& GBuffer, const FRayQueue& Queue, const FSunRays& Sun);
+FGraphBuffer AddTilesPass(FFrameContext& Context, const FGBuffer& GBuffer, const FRayQueue& Queue, const FSunRays& Sun, const FHostShadowMap& Map);
 
 } // namespace Lantern

@@ -13,6 +13,7 @@
 
 #include "LanternCore/FrameGraph/FrameGraph.h"
 #include "LanternCore/Tasks/Tasks.h"
+#include "LanternRenderer/HostShadow.h"
 #include "LanternRenderer/View.h"
 #include "LanternScene/Pipelines/PlainPipelines.h"
 #include "LanternScene/Pipelines/RTPSOCompiler.h"
@@ -27,6 +28,8 @@ struct FRendererDesc
 {
 	std::vector<std::string> ShaderFolders; ///< searched in order; the plugin's Shaders first
 	std::string CacheFolder;                ///< keeps compiled shaders between runs; empty: they are not kept
+	/// Replace files of the plugin that are made to be replaced, as Tiles/HostShadow.glsl.
+	std::vector<FShaderHeader> ShaderHeaders = {};
 };
 
 /// One geometry to be deformed by linear blend skinning, from source vertices into the geometry's own buffers.
@@ -60,6 +63,8 @@ struct FFrameFeatures
 	/// The host traces rays in passes of its own. Acceleration structures are then kept even if no pass of the plugin needs
 	/// them. They are recorded at the start of the frame.
 	bool bRays = false;
+	/// The host has a shadow map of the sun (FFrameContext::HostShadow).
+	bool bHostShadow = false;
 	/// Records acceleration structures where the host calls FFrameContext::RequireRays instead.
 	bool bLateRays = false;
 	/// The frame waits until all of its shaders are compiled, so that each picture is complete. If false, it uses what is
@@ -155,6 +160,8 @@ struct FFrameContext
 	const FView* PreviousView = nullptr;
 	/// Textures that passes keep from frame to frame.
 	FHistoryResources* History = nullptr;
+	/// What the host hands over beside its G-buffer, before it adds passes. Frames without FFrameFeatures::bHostShadow do not read it.
+	FHostShadow HostShadow;
 	FRayQueueDemand* QueueDemand = nullptr; ///< what earlier frames asked of the queue of shadow rays
 	FSurfaceTextures Surface;
 	FSceneTokens Tokens;
