@@ -12,20 +12,20 @@ const vec2 Nothing = vec2(1.0e30, -1.0e30);
 vec2 Join(vec2 A, vec2 B) { return vec2(min(A.x, B.x), max(A.y, B.y)); }
 
 // The texels of one cell of the first level.
-vec2 JoinTexels(FCascadeRef Cascade, uvec2 Cell)
+vec2 JoinTexels(FAddress Cascade, uvec2 Cell)
 {
 	const uint Edge = 1u << HOST_SHADOW_FIRST_LEVEL;
 	vec2 Joined = Nothing;
 	[[dont_unroll]] for (uint I = 0u; I < Edge * Edge; ++I)
 	{
 		uvec2 Texel = Cell * Edge + uvec2(I % Edge, I / Edge);
-		if (any(greaterThanEqual(Texel, uvec2(Cascade.Data.Width, Cascade.Data.Height)))) { continue; }
+		if (any(greaterThanEqual(Texel, uvec2(FCascadeRef(Cascade).Data.Width, FCascadeRef(Cascade).Data.Height)))) { continue; }
 		Joined = Join(Joined, vec2(LoadMapDepth(Cascade, ivec2(Texel))));
 	}
 	return Joined;
 }
 
-vec2 JoinCells(FCascadeRef Cascade, uvec2 Cell)
+vec2 JoinCells(FAddress Cascade, uvec2 Cell)
 {
 	uvec2 Size = LevelSize(Cascade, Push.InputLevel);
 	vec2 Joined = Nothing;
@@ -37,16 +37,16 @@ vec2 JoinCells(FCascadeRef Cascade, uvec2 Cell)
 	return Joined;
 }
 
-void Store(FCascadeRef Cascade, uint Level, uvec2 Cell, vec2 Value)
+void Store(FAddress Cascade, uint Level, uvec2 Cell, vec2 Value)
 {
-	if (Level > Cascade.Data.TopLevel) { return; }
+	if (Level > FCascadeRef(Cascade).Data.TopLevel) { return; }
 	uvec2 Size = LevelSize(Cascade, Level);
-	if (all(lessThan(Cell, Size))) { FCellRef(Cascade.Data.Pyramid).Data[Cascade.Data.Levels[Level] + Cell.y * Size.x + Cell.x] = Value; }
+	if (all(lessThan(Cell, Size))) { FCellRef(FCascadeRef(Cascade).Data.Pyramid).Data[FCascadeRef(Cascade).Data.Levels[Level] + Cell.y * Size.x + Cell.x] = Value; }
 }
 
 void main()
 {
-	FCascadeRef Cascade = GetCascade(FHostShadowRef(Push.HostShadow), gl_WorkGroupID.z);
+	FAddress Cascade = GetCascade(Push.HostShadow, gl_WorkGroupID.z);
 	uint Level = Push.InputLevel == 0u ? uint(HOST_SHADOW_FIRST_LEVEL) : Push.InputLevel + 1u;
 	uvec2 Cell = gl_GlobalInvocationID.xy, Local = gl_LocalInvocationID.xy;
 	vec2 Value = Push.InputLevel == 0u ? JoinTexels(Cascade, Cell) : JoinCells(Cascade, Cell);

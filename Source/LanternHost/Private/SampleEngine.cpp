@@ -80,6 +80,7 @@ FRTStatus FSampleEngine::Precache(const FFrameCapture& Capture, const std::funct
 	Features.Skinning = Scene->SetTime(LastTime.value_or(0.0));
 	GBufferPass.Want(*Scene, Features); // beside the others
 	if (FRTStatus S = Renderer.Precache(Scene->GetScene(), Features, Report(0.0f, 1.0f - RasterShare)); !S) { return S; }
+	if (FRTStatus S = ShadowMapPass.Precache(*Scene); !S) { return S; }
 	return GBufferPass.Precache(*Scene, Features, Report(1.0f - RasterShare, RasterShare));
 }
 

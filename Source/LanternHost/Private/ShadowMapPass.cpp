@@ -98,16 +98,39 @@ IRTPipeline* FShadowMapPass::Ask(const FFrameContext& Context, uint32_t Program,
 	return Pipeline;
 }
 
-/// Returns whether there is something to draw everything with. Solid surfaces need no material program.
+/// Program and alpha test of all pipelines. Solid surfaces need no material program.
+std::set<FShadowMapPass::FPipelineKey> FShadowMapPass::ListKeys(const FHostScene& Scene, bool bAlphaTest)
+{
+	std::set<FPipelineKey> Keys;
+	for (const FHostScene::FDrawKind& Kind : Scene.GetDrawKinds())
+	{
+		const bool bMasked = Kind.bMasked && bAlphaTest;
+		Keys.insert({bMasked ? Kind.Program : StandardProgram, bMasked});
+	}
+	return Keys;
+}
+
+FRTStatus FShadowMapPass::Precache(FHostScene& Scene)
+{
+	if (!IsOn() || !Scene.GetScene().RefreshFacts().bSun) { return FRTStatus::Success(); }
+	FRTStatus Status;
+	for (const auto& [Program, bMasked] : ListKeys(Scene, Scene.GetScene().GetFacts().bMasked))
+	{
+		IRTPipeline* Unused = nullptr;
+		const FRTStatus Made = Renderer.GetPipelines().Get(MakeSource(Renderer.GetPrograms(), Program, bMasked), Unused);
+		if (Status) { Status = Made; }
+	}
+	return Status;
+}
+
+/// Returns whether there is something to draw everything with.
 bool FShadowMapPass::FindPipelines(const FFrameContext& Context, const FHostScene& Scene)
 {
 	bool bComplete = true;
 	Pipelines.clear();
-	for (const FHostScene::FDrawKind& Kind : Scene.GetDrawKinds())
+	for (const FPipelineKey& Key : ListKeys(Scene, Context.Facts.bMasked))
 	{
-		const bool bMasked = Kind.bMasked && Context.Facts.bMasked;
-		const std::pair<uint32_t, bool> Key(bMasked ? Kind.Program : StandardProgram, bMasked);
-		if (!Pipelines.contains(Key)) { Pipelines[Key] = Ask(Context, Key.first, bMasked); }
+		Pipelines[Key] = Ask(Context, Key.first, Key.second);
 		bComplete &= Pipelines[Key] != nullptr;
 	}
 	return bComplete;
@@ -130,12 +153,13 @@ FShadowMapPass::FCascade FShadowMapPass::PlaceCascade(
 	const double Texel = 2.0 * Out.Radius / Resolution;
 	const glm::dvec3 Center = (View.Position + glm::normalize(glm::dvec3(View.Forward)) * Middle) * Out.Axes;
 	Out.Center = glm::floor(glm::dvec2(Center) / Texel) * Texel;
-	glm::dvec3 Min(0), Max(0);
-	if (!GetSceneBounds(Scene.GetDescription(), Scene.GetPose(), Min, Max)) { Min = Max = View.Position; }
-	const glm::dvec3 Half = 0.5 * (Max - Min);
-	const double Along = glm::dot(0.5 * (Min + Max), Light), Reach = glm::dot(Half, glm::abs(Light));
-	Out.Near = std::floor(Along - Reach) - 1.0; // nothing lies on the near plane, which would count as clamped
-	Out.Far = std::ceil(Along + Reach) + 1.0;
+	// What is skinned has no bounds: some metres around the camera are for it. Nothing lies on the near plane, which would count as clamped.
+	constexpr double Around = 10.0;
+	Out.Near = glm::dot(View.Position, Light) - Around;
+	Out.Far = Out.Near + 2.0 * Around;
+	Scene.GetDrawBlocks().AddExtent(Light, Out.Near, Out.Far);
+	Out.Near = std::floor(Out.Near) - 1.0;
+	Out.Far = std::ceil(Out.Far) + 1.0;
 	return Out;
 }
 

@@ -4,7 +4,7 @@
 
 #include "ArgumentChecks.h"
 #include "FrameChecks.h"
-#include "HostShadowFrame.h"
+#include "HostShadowChecks.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Tasks/TaskTrace.h"
 #include "ModuleRenderer.h"
@@ -113,6 +113,44 @@ void ImportTextures(FFrameGraph& Graph, const FRTModuleFrame& Frame, FHostSurfac
 	Out.Motion = Import(Frame.Motion, Frame.MotionAccess, "EngineMotion");
 	Out.BaseColor = Import(Frame.BaseColor, Frame.BaseColorAccess, "EngineBaseColor");
 	Out.Material = Import(Frame.Material, Frame.MaterialAccess, "EngineMaterial");
+}
+
+uint32_t ToMask(ERTModuleCasters Held)
+{
+	uint32_t Mask = 0;
+	if (HasAny(Held, ERTModuleCasters::Still)) { Mask |= MASK_SUN; }
+	if (HasAny(Held, ERTModuleCasters::Moving)) { Mask |= MASK_SUN_MOVING; }
+	if (HasAny(Held, ERTModuleCasters::Characters)) { Mask |= MASK_CHARACTER; }
+	if (HasAny(Held, ERTModuleCasters::Others)) { Mask |= HOST_SHADOW_OTHERS; }
+	return Mask;
+}
+/// Imports the textures of the map, and places it in Lantern's world.
+FHostShadow ImportHostShadow(FFrameGraph& Graph, const FRTModuleHostShadow& Shadow, const FModuleWorld& World)
+{
+	FHostShadow Out;
+	Out.CascadeCount = Shadow.CascadeCount;
+	Out.Held = ToMask(Shadow.Held);
+	Out.ShaderData = Shadow.ShaderData;
+	for (uint32_t I = 0; I < Shadow.CascadeCount; ++I)
+	{
+		const FRTModuleShadowCascade& From = Shadow.Cascades[I];
+		FHostShadowCascade& Cascade = Out.Cascades[I];
+		const ERTAccess After = From.Access == ERTAccess::External ? ERTAccess::External : ERTAccess::ShaderRead;
+		Cascade.Map = Graph.ImportTexture(From.Texture, From.Access, After, "EngineShadowMap");
+		Cascade.OffsetX = From.OffsetX;
+		Cascade.OffsetY = From.OffsetY;
+		Cascade.Width = From.Width;
+		Cascade.Height = From.Height;
+		for (int Row = 0; Row < 3; ++Row)
+		{
+			const glm::dvec3 Axis = World.ToDirection(From.WorldToMap + 4 * Row) / World.GetMetersPerUnit();
+			for (int Column = 0; Column < 3; ++Column) { Cascade.WorldToMap[4 * Row + Column] = Axis[Column]; }
+			Cascade.WorldToMap[4 * Row + 3] = From.WorldToMap[4 * Row + 3];
+		}
+		Cascade.TexelSize = static_cast<float>(World.ToMeters(From.TexelSize));
+		Cascade.DepthBias = static_cast<float>(World.ToMeters(From.DepthBias));
+	}
+	return Out;
 }
 
 } // namespace

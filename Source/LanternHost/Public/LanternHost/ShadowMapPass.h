@@ -16,11 +16,14 @@ public:
 	explicit FShadowMapPass(FRenderer& InRenderer) : Renderer(InRenderer) {}
 	/// Whether frames hand a map over.
 	static bool IsOn();
+	/// Compiles what frames will draw the scene with, and waits for it. For load time, between frames.
+	FRTStatus Precache(FHostScene& Scene);
 	/// Adds the raster passes of the map, and returns it for FFrameContext::HostShadow. Without a sun, or while a pipeline is being compiled,
 	/// it is not given. Context and Scene must live until the frame's EndFrame. One call a frame.
 	FHostShadow Add(FFrameContext& Context, FHostScene& Scene);
 
 private:
+	using FPipelineKey = std::pair<uint32_t, bool>; // program and alpha test
 	struct FCascade
 	{
 		glm::dmat3 Axes; ///< columns: right, down and forward of the map
@@ -28,13 +31,14 @@ private:
 		double Radius = 0.0, Near = 0.0, Far = 0.0; ///< metres; near and far along the light from the world's origin
 	};
 	IRTPipeline* Ask(const FFrameContext& Context, uint32_t Program, bool bMasked);
+	static std::set<FPipelineKey> ListKeys(const FHostScene& Scene, bool bAlphaTest);
 	bool FindPipelines(const FFrameContext& Context, const FHostScene& Scene);
 	FCascade PlaceCascade(const FFrameContext& Context, const FHostScene& Scene, double Begin, double End, uint32_t Resolution) const;
 	void AddCascade(FFrameContext& Context, FHostScene& Scene, const FCascade& Cascade, FDrawList& Draws, FGraphTexture Map);
 
 	FRenderer& Renderer;
-	std::map<std::pair<uint32_t, bool>, IRTPipeline*> Pipelines; // of the frame that is being made, by program and alpha test
-	std::vector<uint8_t> Masks;                                  // by index of the object
+	std::map<FPipelineKey, IRTPipeline*> Pipelines; // of the frame that is being made
+	std::vector<uint8_t> Masks;                     // by index of the object
 	std::array<FDrawList, HOST_SHADOW_CASCADES> Lists;
 };
 

@@ -1,9 +1,11 @@
-// The engine's shadow map of a frame.
-#include "HostShadowFrame.h"
+// Checks of the engine's shadow map.
+#include "HostShadowChecks.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+
+#include <glm/glm.hpp>
 
 namespace Lantern
 {
@@ -58,15 +60,6 @@ FRTStatus CheckCascade(uint32_t Index, const FRTModuleShadowCascade& Cascade, co
 	return FRTStatus::Success();
 }
 
-uint32_t ToMask(ERTModuleCasters Held)
-{
-	uint32_t Mask = 0;
-	if (HasAny(Held, ERTModuleCasters::Still)) { Mask |= MASK_SUN; }
-	if (HasAny(Held, ERTModuleCasters::Moving)) { Mask |= MASK_SUN_MOVING; }
-	if (HasAny(Held, ERTModuleCasters::Characters)) { Mask |= MASK_CHARACTER; }
-	if (HasAny(Held, ERTModuleCasters::Others)) { Mask |= HOST_SHADOW_OTHERS; }
-	return Mask;
-}
 } // namespace
 
 FRTStatus CheckHostShadow(const FRTModuleFrame& Frame, const IRTDevice& Device, bool bOwnShader)
@@ -92,34 +85,6 @@ FRTStatus CheckHostShadow(const FRTModuleFrame& Frame, const IRTDevice& Device, 
 		if (const FRTStatus Status = CheckCascade(I, Shadow.Cascades[I], Device); !Status) { return Status; }
 	}
 	return FRTStatus::Success();
-}
-
-FHostShadow ImportHostShadow(FFrameGraph& Graph, const FRTModuleHostShadow& Shadow, const FModuleWorld& World)
-{
-	FHostShadow Out;
-	Out.CascadeCount = Shadow.CascadeCount;
-	Out.Held = ToMask(Shadow.Held);
-	Out.ShaderData = Shadow.ShaderData;
-	for (uint32_t I = 0; I < Shadow.CascadeCount; ++I)
-	{
-		const FRTModuleShadowCascade& From = Shadow.Cascades[I];
-		FHostShadowCascade& Cascade = Out.Cascades[I];
-		const ERTAccess After = From.Access == ERTAccess::External ? ERTAccess::External : ERTAccess::ShaderRead;
-		Cascade.Map = Graph.ImportTexture(From.Texture, From.Access, After, "EngineShadowMap");
-		Cascade.OffsetX = From.OffsetX;
-		Cascade.OffsetY = From.OffsetY;
-		Cascade.Width = From.Width;
-		Cascade.Height = From.Height;
-		for (int Row = 0; Row < 3; ++Row)
-		{
-			const glm::dvec3 Axis = World.ToDirection(From.WorldToMap + 4 * Row) / World.GetMetersPerUnit();
-			for (int Column = 0; Column < 3; ++Column) { Cascade.WorldToMap[4 * Row + Column] = Axis[Column]; }
-			Cascade.WorldToMap[4 * Row + 3] = From.WorldToMap[4 * Row + 3];
-		}
-		Cascade.TexelSize = static_cast<float>(World.ToMeters(From.TexelSize));
-		Cascade.DepthBias = static_cast<float>(World.ToMeters(From.DepthBias));
-	}
-	return Out;
 }
 
 } // namespace Lantern
