@@ -3,6 +3,7 @@
 //   float TraceShadowRay(vec3 Origin, vec3 Direction, float Length, uint Flags, uint Mask)
 //     distance to a blocker; negative: the ray is unblocked
 //
+// SUN_RAYS, LOCAL_RAYS, MANY_LIGHTS: defined if somebody asks for rays to the sun, to local lights, to lights chosen of many.
 // WITH_PENUMBRA: also writes the width of the sun's penumbra, for the filter.
 // ONE_SAMPLE: see SamplesPerPixel.glsl.
 #ifndef LANTERN_SHADOW_QUEUE_GLSL
@@ -20,7 +21,7 @@ float TraceShadowRay(vec3 Origin, vec3 Direction, float Length, uint Flags, uint
 
 #include "SamplesPerPixel.glsl"
 
-// RAY_KIND_SUN.
+#ifdef SUN_RAYS
 void TraceSun(uint Index, uint Mask)
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
@@ -47,16 +48,29 @@ void TraceSun(uint Index, uint Mask)
 	FWidthRef(Push.SunWidths).Data[Index] = Blocked > 0u ? Diameter * BlockerDistanceSum / float(Blocked) : -1.0;
 #endif
 }
+#endif
+
+#ifdef LOCAL_RAYS
+#include "../LocalLights/LocalRays.glsl"
+#endif
 
 void TraceRequest(uint Number)
 {
 	FRayQueueCounters Counters = FRayQueueCountersRef(Push.Counters).Data;
 	// Launches are rounded up, or made for a full queue.
-	if (Number >= (Counters.Wanted <= Push.Capacity ? Counters.Wanted : Counters.Kept)) { return; }
+	if (Number >= SegmentEnd(Counters, RAY_SEGMENTS - 1u, Push.Capacity)) { return; }
 	FRayRequest Request = FRayRequestRef(Push.Requests).Data[Number];
 	switch (RayKind(Request))
 	{
+#ifdef SUN_RAYS
 	case RAY_KIND_SUN: TraceSun(RayIndex(Request), RaySlot(Request) == RAY_SLOT_SUN_LIT ? Push.LitMask : Push.InstanceMask); break;
+#endif
+#ifdef LOCAL_RAYS
+	case RAY_KIND_LOCAL: TraceLocal(RayIndex(Request), RaySlot(Request)); break;
+#endif
+#ifdef MANY_LIGHTS
+	case RAY_KIND_CHOSEN: TraceChosen(RayIndex(Request)); break;
+#endif
 	}
 }
 

@@ -11,7 +11,9 @@ LANTERN_SHARED_BEGIN
 #define RAY_QUEUE_ROW_GROUPS 64 // work groups in x; y grows, since a device need not dispatch more than 65,535 in one direction
 
 // Kinds of rays. An index names what a ray belongs to; a slot tells several rays of one index apart.
-#define RAY_KIND_SUN 0u // index: pixel, row by row; a request is for all samples of the pixel
+#define RAY_KIND_SUN 0u // index: pixel, row by row; a request is for all samples of the pixel; slot: 0, or RAY_SLOT_SUN_LIT
+#define RAY_KIND_LOCAL 1u // index: pixel; slot: place of the light in the list of the pixel's tile
+#define RAY_KIND_CHOSEN 2u // index: pixel; slot 0: the light that the pixel chose
 #define RAY_SLOT_SUN_LIT 1u // the pixel is lit by the host's shadow map: rays look for other casters
 
 #define RAY_INDEX_BITS 26u
@@ -23,17 +25,31 @@ struct FRayRequest
 };
 LANTERN_ASSERT_SIZE(FRayRequest, 4);
 
+// The queue is filled in segments, one pass after the other. Each lies behind those before it.
+#define RAY_SEGMENT_SUN 0u
+#define RAY_SEGMENT_LOCAL 1u
+#define RAY_SEGMENTS 2u
+
+struct FRaySegment
+{
+	uint Wanted; // requests that were made, those without room included
+	uint Kept;   // requests that are there after they were shared out; read if Wanted exceeds the room behind earlier segments
+};
+
 // Zeroed in each frame before requests are written. The first two are arguments of indirect commands.
 struct FRayQueueCounters
 {
 	uint Groups[3]; // of the ray-query path
 	uint Launch[3]; // width, height and depth of the ray-tracing pipeline's launch
-	uint Wanted;    // requests that were made, those without room included
-	uint Kept;      // requests in the queue after ShareQueue.comp; read if Wanted exceeds the capacity
+	FRaySegment Segments[RAY_SEGMENTS];
 };
-LANTERN_ASSERT_SIZE(FRayQueueCounters, 32);
+LANTERN_ASSERT_SIZE(FRayQueueCounters, 40);
 
 // A pixel's answers. Each kind has bits of its own, which start as 0 and are combined by or: the order of rays never shows.
+#define ANSWER_LOCAL_SEEN 0u // lowest of 8 bits, one for each slot: its light is seen
+#define ANSWER_LOCAL_TRACED 8u // lowest of 8 bits: its ray was traced
+#define ANSWER_CHOSEN_SEEN 16u // bit: the chosen light is seen
+#define ANSWER_CHOSEN_TRACED 17u
 #define ANSWER_SUN_SEEN 18u   // lowest of 7 bits: samples that see the sun
 #define ANSWER_SUN_UNSEEN 25u // lowest of 7 bits: samples that do not; without an answer, either number is 0
 #define ANSWER_SUN_MASK 0x7fu
@@ -47,6 +63,8 @@ struct FShadowQueueConstants
 	// float[pixels]: width of the penumbra across the sun's direction, by the mean distance of what blocks the pixel's rays, metres.
 	// < 0: no ray met anything. Written for pixels that ask for rays, with WITH_PENUMBRA.
 	FAddress SunWidths;
+	FAddress TileLights; // FTileLights[]; 0: no rays to local lights
+	FAddress Choices;    // FLightChoice[pixels]; 0: no pixel chooses
 	uint Capacity;
 	uint Depth;           // sampled index
 	uint Normals;         // sampled index: shading and geometric normal, both octahedral
@@ -58,7 +76,7 @@ struct FShadowQueueConstants
 	uint bSoft;           // 0: hard shadows, from the centre of the sun's disk
 	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FShadowQueueConstants, 88);
+LANTERN_ASSERT_SIZE(FShadowQueueConstants, 104);
 
 LANTERN_SHARED_END
 

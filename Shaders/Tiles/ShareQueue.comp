@@ -11,7 +11,7 @@ layout(push_constant, scalar) uniform FPush { FTilesConstants Push; };
 void main()
 {
 	FRayQueueCountersRef Counters = FRayQueueCountersRef(Push.Counters);
-	uint Wanted = Counters.Data.Wanted;
+	uint Wanted = Counters.Data.Segments[RAY_SEGMENT_SUN].Wanted;
 	if (Wanted <= Push.Capacity) { return; }
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	uint Columns = TileIndex(View, uvec2(0u, 1u)), Rows = (View.Height + TILE_SIZE - 1u) / TILE_SIZE;
@@ -22,7 +22,7 @@ void main()
 	// Rounded down, and a little more: all shares together fit.
 	uint Kept = uint(float(Count) * (float(Push.Capacity) / float(Wanted)) * (1.0 - 1.0e-6));
 	if (Kept == 0u) { return; }
-	uint Number = atomicAdd(Counters.Data.Kept, Kept);
+	uint Number = atomicAdd(Counters.Data.Segments[RAY_SEGMENT_SUN].Kept, Kept);
 	uint Turn = View.FrameIndex * Kept; // other pixels in each frame
 	[[dont_unroll]] for (uint Place = 0u; Place < TILE_PIXELS; ++Place)
 	{

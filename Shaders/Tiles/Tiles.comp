@@ -58,18 +58,10 @@ void StartAnswer(uint Index, uint Class)
 // Reserves room for all rays of the tile at once.
 void Reserve(uint Count)
 {
+	if (Count == 0u) { return; }
 	FRayQueueCountersRef Counters = FRayQueueCountersRef(Push.Counters);
-	if (Count > 0u)
-	{
-		FirstRequest = atomicAdd(Counters.Data.Wanted, Count);
-		uint End = min(FirstRequest + Count, Push.Capacity);
-		const uint RowRays = RAY_QUEUE_GROUP_SIZE * RAY_QUEUE_ROW_GROUPS;
-		atomicMax(Counters.Data.Groups[1], (End + RowRays - 1u) / RowRays);
-		atomicMax(Counters.Data.Launch[0], End);
-	}
-	if (gl_WorkGroupID.xy != uvec2(0u)) { return; }
-	Counters.Data.Groups[0] = RAY_QUEUE_ROW_GROUPS;
-	Counters.Data.Groups[2] = Counters.Data.Launch[1] = Counters.Data.Launch[2] = 1u;
+	FirstRequest = atomicAdd(Counters.Data.Segments[RAY_SEGMENT_SUN].Wanted, Count);
+	GrowLaunch(Push.Counters, min(FirstRequest + Count, Push.Capacity));
 }
 
 void main()

@@ -143,8 +143,8 @@ FRTStatus FRayBench::RunPlugin(FPluginMs& Out, double* OutSurfaceMs)
 	Out = {};
 	for (const FPassTiming& Timing : Renderer.GetGraphResources().GetTimings())
 	{
-		if (Timing.Name.starts_with("SunShadow")) { Out.All += Timing.GpuMs; }
-		if (Timing.Name == "SunShadowRays") { Out.Rays = Timing.GpuMs; }
+		if (Timing.Name.starts_with("SunShadow") || Timing.Name.starts_with("Shadow")) { Out.All += Timing.GpuMs; }
+		if (Timing.Name == "ShadowRays") { Out.Rays = Timing.GpuMs; }
 		if (OutSurfaceMs != nullptr && Timing.Name == "HostSurface") { *OutSurfaceMs = Timing.GpuMs; }
 	}
 	if (Status && Out.Rays <= 0.0)

@@ -47,7 +47,8 @@ double SumPasses(const std::vector<FPassTiming>& Passes, T&& IsWanted)
 
 bool IsOfSignal(std::string_view Pass, ESignal Signal)
 {
-	return Pass.starts_with(GetSignalInfo(Signal).Pass); // "": all passes are the frame's
+	const FSignalInfo& Info = GetSignalInfo(Signal);
+	return Pass.starts_with(Info.Pass) || (*Info.SharedPass && Pass.starts_with(Info.SharedPass)); // "": all passes are the frame's
 }
 
 FRTStatus StartAnew(FSampleEngine& Engine)

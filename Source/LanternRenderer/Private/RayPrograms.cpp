@@ -1,6 +1,8 @@
 // Collects from the registry of signals what a frame traces with.
 #include "RayPrograms.h"
 
+#include <algorithm>
+
 #include "Feedback/AnyHitCounter.h"
 #include "LanternRenderer/HostSurface.h"
 #include "LanternScene/ShaderTable/SectionTable.h"
@@ -56,7 +58,8 @@ struct FCollector
 	{
 		FShaderSource RayGen = Shader(RayGenPath.c_str());
 		RayGen.Defines = std::move(Rays.Defines);
-		Programs.Desc.RayGens.push_back(RayGen);
+		std::vector<FShaderSource>& All = Programs.Desc.RayGens;
+		if (std::find(All.begin(), All.end(), RayGen) == All.end()) { All.push_back(RayGen); } // signals may share one
 		Programs.RayGens[ToIndex(Signal)] = std::move(RayGen);
 		bShadesHits |= Rays.bShadesHits;
 		bBlockers |= Rays.bBlockers;
@@ -75,6 +78,7 @@ void CollectSignals(FCollector& Collector, const FRTCapabilities& Capabilities, 
 		    bMayBeReplaced && GetSignalPass(Pass.ReplacedBy).ChooseRays({Capabilities, Facts, Requests}).Path != ERayPath::None;
 		if (IsMade(Pass.Signal, Requests)) { Chosen[ToIndex(Pass.Signal)] = Pass.ChooseRays({Capabilities, Facts, Requests, bReplaced}); }
 	});
+	ShareQueueShader(Chosen);
 	ForEachSignalPass([&](const FSignalPass& Pass) {
 		FPassRays& Rays = Chosen[ToIndex(Pass.Signal)];
 		if (Rays.Path == ERayPath::None) { return; }

@@ -266,8 +266,8 @@ TEST_F(FRendererToggleTest, ReorderingIsForMaterialShadersOfDevicesThatCan)
 		std::vector<std::pair<std::string, std::string>> Defines = {{"HAS_SUN", "1"}, {"HAS_SKY", "1"}};
 		if (bCan) { Defines.emplace_back("REORDER", "1"); }
 		EXPECT_NE(GetRTPSO()->FindRayGen({"DiffuseGI/DiffuseGI.rgen", ERTShaderStage::RayGen, Defines, {}}), NoRayGen) << bCan;
-		EXPECT_NE(
-		    GetRTPSO()->FindRayGen({"Rays/ShadowQueue.rgen", ERTShaderStage::RayGen, {{"ONE_SAMPLE", "1"}, {"WITH_PENUMBRA", "1"}}, {}}),
+		EXPECT_NE(GetRTPSO()->FindRayGen({"Rays/ShadowQueue.rgen", ERTShaderStage::RayGen,
+		              {{"SUN_RAYS", "1"}, {"ONE_SAMPLE", "1"}, {"WITH_PENUMBRA", "1"}}, {}}),
 		    NoRayGen)
 		    << "shadow rays run no material shader";
 		EXPECT_EQ(Log.Count(ERTLogLevel::Warning), bCan ? 0u : 1u) << "once";

@@ -19,14 +19,21 @@ TRTConsoleVariable<float> CVarQueuePerPixel("r.RT.Rays.QueuePerPixel", 2.0f,
     "their pixels keep the shadow of the frame before, and later queues are larger.",
     {0.0001, 64});
 
-FShadowQueueConstants MakeConstants(FPassContext& Pass, const FFrameContext& Frame, const FRayQueue& Queue, const FSunRays& Sun)
+TRTConsoleVariable<int32_t> CVarPath(
+    "r.RT.Shadow.Path", 0, "How shadow rays are traced. 0: as the device does best. 1: ray-tracing pipeline. 2: ray query.", {0, 2});
+
+FShadowQueueConstants MakeConstants(FPassContext& Pass, const FFrameContext& Frame, const FRayQueue& Queue, const FQueuedRays& Rays)
 {
+	const FSunRays& Sun = Rays.Sun;
+	const auto AddressOf = [&](FGraphBuffer Buffer) { return Buffer.IsValid() ? Pass.GetBuffer(Buffer)->GetDeviceAddress() : 0; };
 	FShadowQueueConstants C{};
 	C.Pass = Frame.Pass;
-	C.Requests = Pass.GetBuffer(Queue.Requests)->GetDeviceAddress();
-	C.Counters = Pass.GetBuffer(Queue.Counters)->GetDeviceAddress();
-	C.Answers = Pass.GetBuffer(Queue.Answers)->GetDeviceAddress();
-	C.SunWidths = Queue.SunWidths.IsValid() ? Pass.GetBuffer(Queue.SunWidths)->GetDeviceAddress() : 0;
+	C.Requests = AddressOf(Queue.Requests);
+	C.Counters = AddressOf(Queue.Counters);
+	C.Answers = AddressOf(Queue.Answers);
+	C.SunWidths = AddressOf(Queue.SunWidths);
+	C.TileLights = AddressOf(Rays.TileLights);
+	C.Choices = AddressOf(Rays.Choices);
 	C.Capacity = Queue.Capacity;
 	C.SamplesPerPixel = Sun.SamplesPerPixel;
 	C.MaxDistance = Sun.MaxDistance;
@@ -36,6 +43,9 @@ FShadowQueueConstants MakeConstants(FPassContext& Pass, const FFrameContext& Fra
 	C.bSoft = Sun.bSoft ? 1u : 0u;
 	return C;
 }
+
+/// Launches of a pipeline are this wide at most on every device, and the positions of segments add up without a carry.
+constexpr uint32_t MaxCapacity = 1u << 28;
 
 void TraceQueue(FPassContext& Pass, const FFrameContext& Frame, const FRayDispatch& Dispatch, const FRayQueue& Queue,
     const FShadowQueueConstants& Constants, bool bIndirect)
@@ -57,24 +67,45 @@ bool CanQueueRays(uint32_t Width, uint32_t Height)
 	return false;
 }
 
-bool MayQueuesOverflow() { return CVarQueuePerPixel.GetOnRenderThread() < 1.0f; }
+bool MayQueuesOverflow(uint32_t MostPerPixel) { return CVarQueuePerPixel.GetOnRenderThread() < float(MostPerPixel); }
 
-FRayQueue CreateRayQueue(FFrameContext& Context, ESignal Signal)
+ERayPath ChooseQueuePath(const FPassQuery& Query, const char* What) { return ChooseRayPath(Query, CVarPath, What); }
+
+FRayQueue CreateRayQueue(FFrameContext& Context, uint32_t MostPerPixel)
 {
 	const uint64_t Pixels = uint64_t(Context.Width) * Context.Height;
 	const double Room = std::ceil(Context.QueueDemand->GetRoom(CVarQueuePerPixel.GetOnRenderThread()) * double(Pixels));
 	FRayQueue Queue;
-	Queue.Name = GetSignalInfo(Signal).Pass;
-	Queue.Capacity = static_cast<uint32_t>(std::min(Room, double(Pixels)));
-	Queue.bMayOverflow = Queue.Capacity < Pixels;
+	Queue.MostWanted = Pixels * MostPerPixel;
+	Queue.Capacity = static_cast<uint32_t>(std::min({Room, double(Queue.MostWanted), double(MaxCapacity)}));
+	Queue.bMayOverflow = Queue.Capacity < Queue.MostWanted;
 	Queue.Requests = Context.Graph.CreateBuffer({Queue.Capacity * sizeof(FRayRequest)}, "RayRequests");
 	Queue.Counters = Context.Graph.CreateBuffer({sizeof(FRayQueueCounters), ERTBufferUsage::CopyDest}, "RayQueueCounters");
 	Queue.Answers = Context.Graph.CreateBuffer({Pixels * sizeof(uint32_t)}, "RayAnswers");
 	return Queue;
 }
 
+void StartQueue(FPassContext& Pass, const FRayQueue& Queue)
+{
+	IRTBuffer* const Counters = Pass.GetBuffer(Queue.Counters);
+	IRTCommandList& Commands = Pass.Commands();
+	// Others reach the counters as the pass has declared it, behind this.
+	constexpr ERTAccess Declared = ERTAccess::StorageWrite;
+	const FRTBarrier Before{Counters, nullptr, Declared, ERTAccess::CopyWrite}, After{Counters, nullptr, ERTAccess::CopyWrite, Declared};
+	Commands.Barriers(&Before, 1);
+	const auto Fill = [&](uint64_t Offset, uint64_t Size, uint32_t Value) { Commands.FillBuffer(Counters, Offset, Size, Value); };
+	constexpr uint64_t Word = sizeof(uint32_t), Groups = offsetof(FRayQueueCounters, Groups), Launch = offsetof(FRayQueueCounters, Launch);
+	Fill(Groups, Word, RAY_QUEUE_ROW_GROUPS);
+	Fill(Groups + Word, Word, 0);
+	Fill(Groups + 2 * Word, Word, 1);
+	Fill(Launch, Word, 0);
+	Fill(Launch + Word, 2 * Word, 1);
+	Fill(offsetof(FRayQueueCounters, Segments), sizeof(FRayQueueCounters::Segments), 0);
+	Commands.Barriers(&After, 1);
+}
+
 void AddShadowRaysPass(
-    FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue, const FSunRays& Sun)
+    FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue, const FQueuedRays& Rays)
 {
 	// Without indirect launches, all of the queue's room is launched, and most threads end at once. A count read back would be of
 	// another frame, and a frame that asks for more rays would lose some.
@@ -95,13 +126,19 @@ void AddShadowRaysPass(
 		Builder.Read(Queue.Answers, ERTAccess::StorageRead);
 		Builder.Write(Queue.Answers, ERTAccess::StorageWrite);
 		if (Queue.SunWidths.IsValid()) { Builder.Write(Queue.SunWidths, ERTAccess::StorageWrite); }
+		for (const FGraphBuffer Buffer : {Rays.TileLights, Rays.Choices})
+		{
+			if (Buffer.IsValid()) { Builder.Read(Buffer, ERTAccess::ShaderRead); }
+		}
 		if (Demand.IsValid()) { Builder.Keep(Demand); }
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
-			FShadowQueueConstants Constants = MakeConstants(Pass, *Frame, Queue, Sun);
+			FShadowQueueConstants Constants = MakeConstants(Pass, *Frame, Queue, Rays);
 			Constants.Depth = GetSampledIndex(Pass, GBuffer.Depth);
 			Constants.Normals = GetSampledIndex(Pass, GBuffer.Normals);
-			Pass.CountRays(uint64_t(Queue.Capacity) * Sun.SamplesPerPixel); // at most: the device alone knows how many
+			// At most: the device alone knows how many.
+			const uint64_t Pixels = uint64_t(Frame->Width) * Frame->Height;
+			Pass.CountRays(std::min<uint64_t>(Pixels, Queue.Capacity) * Rays.Sun.SamplesPerPixel + Pixels * Rays.LocalPerPixel);
 			TraceQueue(Pass, *Frame, Dispatch, Queue, Constants, bIndirect);
 		};
 	});

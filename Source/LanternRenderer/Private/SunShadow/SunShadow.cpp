@@ -15,8 +15,6 @@ namespace
 TRTConsoleVariable<bool> CVarShadow("r.RT.Shadow", true, "Traces sun shadows. If off, the sun is unshadowed unless the host shadows it.");
 TRTConsoleVariable<int32_t> CVarSamples(
     "r.RT.Shadow.Samples", 1, "Number of sun shadow rays per pixel. Hard shadows need only one.", {1, 64});
-TRTConsoleVariable<int32_t> CVarPath(
-    "r.RT.Shadow.Path", 0, "How sun shadows are traced. 0: as the device does best. 1: ray-tracing pipeline. 2: ray query.", {0, 2});
 TRTConsoleVariable<float> CVarMaxDistance("r.RT.Shadow.MaxDistance", 100000.0f, "Length of sun shadow rays, in metres.", {0.01, 1e9});
 TRTConsoleVariable<bool> CVarSoft(
     "r.RT.Shadow.Soft", true, "Traces penumbrae of the sun's disk. If off, shadows are hard, from the disk's centre.");
@@ -43,6 +41,7 @@ FSunRays MakeSunRays(const FRTScene& Scene, const FRayDispatch& Dispatch)
 {
 	FSunRays Rays;
 	Rays.bSoft = IsSoft(Scene);
+	Rays.SamplesPerPixel = 1;
 	// Of the shader that runs, which may be the one before the setting changed.
 	if (Rays.bSoft && !Dispatch.Has("ONE_SAMPLE")) { Rays.SamplesPerPixel = static_cast<uint32_t>(CVarSamples.GetOnRenderThread()); }
 	Rays.MaxDistance = CVarMaxDistance.GetOnRenderThread();
@@ -104,6 +103,12 @@ FGraphTexture AddResolvePass(FFrameContext& Context, IRTPipeline* Pipeline, cons
 	return Visibility;
 }
 
+/// Sun rays come first in the queue.
+bool MayLackSunRays(const FFrameContext& Context, const FRayQueue& Queue)
+{
+	return Queue.bMayOverflow && Queue.Capacity < uint64_t(Context.Width) * Context.Height;
+}
+
 /// Finds the visibility of the frame before for a queue that may overflow. False: an error, which the context has.
 bool FindKept(FFrameContext& Context, FHistoryTexture& Out)
 {
@@ -119,29 +124,21 @@ bool FindKept(FFrameContext& Context, FHistoryTexture& Out)
 	return true;
 }
 
-/// Traces the rays through the queue. Invalid: there are none, or shaders are being compiled.
+/// Invalid: there are no rays, or shaders are being compiled.
 FGraphTexture AddVisibility(FFrameContext& Context, const FGBuffer& GBuffer, FGraphTexture& OutPenumbra)
 {
-	const FPassRays Chosen = ChooseSignalRays(Context, ESignal::SunShadow);
-	if (Chosen.Path == ERayPath::None || !CanQueueRays(Context.Width, Context.Height)) { return {}; }
+	const FShadowRays* const Rays = RequireShadowRays(Context, GBuffer);
+	if (!Rays || Rays->Sun.SamplesPerPixel == 0) { return {}; }
 	IRTPipeline* const Resolve = RequireCompute(Context, MakeResolveSource(Context.Facts));
-	const std::optional<FRayDispatch> Dispatch = RequireRayDispatch(Context, ESignal::SunShadow, Chosen);
-	if (!Resolve || !Dispatch) { return {}; }
-	FResolveInputs Inputs{GBuffer, CreateRayQueue(Context, ESignal::SunShadow)};
-	if (Inputs.Queue.bMayOverflow && !FindKept(Context, Inputs.Kept)) { return {}; }
-	if (MeasuresPenumbra() && Dispatch->Has("WITH_PENUMBRA")) // a variant without it may still serve, and writes none
+	if (!Resolve) { return {}; }
+	FResolveInputs Inputs{GBuffer, Rays->Queue, Rays->Tiles, Rays->Sun.SamplesPerPixel};
+	Inputs.Map = Rays->Map;
+	if (MayLackSunRays(Context, Inputs.Queue) && !FindKept(Context, Inputs.Kept)) { return {}; }
+	if (Inputs.Queue.SunWidths.IsValid())
 	{
-		const uint64_t Pixels = uint64_t(Context.Width) * Context.Height;
-		Inputs.Queue.SunWidths = Context.Graph.CreateBuffer({Pixels * sizeof(float)}, "SunWidths");
-		Inputs.Penumbra = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::R16_FLOAT}, "SunShadowPenumbra");
+		OutPenumbra = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::R16_FLOAT}, "SunShadowPenumbra");
+		Inputs.Penumbra = OutPenumbra;
 	}
-	FSunRays Rays = MakeSunRays(Context.Scene, *Dispatch);
-	Inputs.Map = AddHostShadowPass(Context, Rays);
-	Inputs.SamplesPerPixel = Rays.SamplesPerPixel;
-	Inputs.Tiles = AddTilesPass(Context, GBuffer, Inputs.Queue, Rays, Inputs.Map);
-	if (!Inputs.Tiles.IsValid()) { return {}; }
-	AddShadowRaysPass(Context, GBuffer, *Dispatch, Inputs.Queue, Rays);
-	OutPenumbra = Inputs.Penumbra;
 	return AddResolvePass(Context, Resolve, Inputs);
 }
 } // namespace
@@ -150,7 +147,8 @@ FPassRays ChooseSunShadowRays(const FPassQuery& Query)
 {
 	FPassRays Rays;
 	if (!Query.Facts.bSun || !IsRayTracingEnabled() || !CVarShadow.GetOnRenderThread()) { return Rays; }
-	Rays.Path = ChooseRayPath(Query, CVarPath, "sun shadows are");
+	Rays.Path = ChooseQueuePath(Query, "sun shadows are");
+	Rays.Defines.emplace_back("SUN_RAYS", "1");
 	// Without a loop nothing but the pixel lives across the trace.
 	if (CVarSamples.GetOnRenderThread() == 1 || !CVarSoft.GetOnRenderThread()) { Rays.Defines.emplace_back("ONE_SAMPLE", "1"); }
 	if (MeasuresPenumbra()) { Rays.Defines.emplace_back("WITH_PENUMBRA", "1"); }
@@ -158,8 +156,16 @@ FPassRays ChooseSunShadowRays(const FPassQuery& Query)
 	Rays.Shaders = ShadowQueueShaders;
 	Rays.Compute = {MakeTilesSource(Query.Facts), MakeResolveSource(Query.Facts)};
 	if (Query.Facts.bHostShadow) { Rays.Compute.push_back(MakePyramidSource()); }
-	if (MayQueuesOverflow()) { Rays.Compute.push_back(MakeShareSource()); }
+	if (MayQueuesOverflow(1)) { Rays.Compute.push_back(MakeShareSource()); }
 	return Rays;
+}
+
+bool AskSunShadowRays(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowRayWishes& InOut)
+{
+	if (!Dispatch.Has("SUN_RAYS") || !RequireCompute(Context, MakeResolveSource())) { return false; }
+	InOut.Sun = MakeSunRays(Context.Scene, Dispatch);
+	InOut.bSunWidths = MeasuresPenumbra() && Dispatch.Has("WITH_PENUMBRA"); // a variant without it may still serve, and writes none
+	return true;
 }
 
 bool IsSunShadowFiltered(const FRTScene& Scene) { return Denoise.IsEnabled() && IsSoft(Scene); }
@@ -171,6 +177,7 @@ void ListSunShadowFilters(const FRTScene& Scene, std::vector<FShaderSource>& Out
 
 FGraphTexture AddSunShadowPass(FFrameContext& Context, const FGBuffer& GBuffer)
 {
+	if (ChooseSignalRays(Context, ESignal::SunShadow).Path == ERayPath::None) { return {}; }
 	FGraphTexture Penumbra;
 	const FGraphTexture Visibility = AddVisibility(Context, GBuffer, Penumbra);
 	if (!Visibility.IsValid()) { return {}; }

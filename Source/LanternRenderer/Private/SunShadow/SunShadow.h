@@ -1,12 +1,13 @@
 // ESignal::SunShadow: the sun's disk, seen or not, by shadow rays.
 #pragma once
 
-#include "RayPath.h"
+#include "Rays/ShadowRays.h"
 
 namespace Lantern
 {
 
 FPassRays ChooseSunShadowRays(const FPassQuery& Query);
+bool AskSunShadowRays(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowRayWishes& InOut);
 /// Reads Depth, Normals and, if there is any, Motion of the G-buffer.
 FGraphTexture AddSunShadowPass(FFrameContext& Context, const FGBuffer& GBuffer);
 /// Returns whether the scene's sun shadows, if there are any, are filtered over frames.

@@ -8,16 +8,6 @@ namespace Lantern
 
 namespace
 {
-/// Others reach the counters as their pass has declared it, behind this.
-void ClearCounters(FPassContext& Pass, IRTBuffer* Counters)
-{
-	constexpr ERTAccess Declared = ERTAccess::StorageWrite;
-	const FRTBarrier Before{Counters, nullptr, Declared, ERTAccess::CopyWrite}, After{Counters, nullptr, ERTAccess::CopyWrite, Declared};
-	Pass.Commands().Barriers(&Before, 1);
-	Pass.Commands().FillBuffer(Counters, 0, sizeof(FRayQueueCounters), 0);
-	Pass.Commands().Barriers(&After, 1);
-}
-
 struct FTilesPass
 {
 	FGBuffer GBuffer;
@@ -56,7 +46,7 @@ void AddSortPass(FFrameContext& Context, IRTPipeline* Pipeline, const FTilesPass
 		if (bWidths) { Builder.Write(Queue.SunWidths, ERTAccess::StorageWrite); }
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
-			ClearCounters(Pass, Pass.GetBuffer(Inputs.Queue.Counters));
+			StartQueue(Pass, Inputs.Queue);
 			FTilesConstants C = MakeConstants(Pass, *Frame, Inputs);
 			C.Answers = Pass.GetBuffer(Inputs.Queue.Answers)->GetDeviceAddress();
 			C.Depth = GetSampledIndex(Pass, Inputs.GBuffer.Depth);
@@ -98,8 +88,10 @@ FShaderSource MakeShareSource() { return MakeComputeSource("Tiles/ShareQueue.com
 FGraphBuffer AddTilesPass(FFrameContext& Context, const FGBuffer& GBuffer, const FRayQueue& Queue, const FSunRays& Sun, const FHostShadowMap& Map)
 {
 	IRTPipeline* const Sort = RequireCompute(Context, MakeTilesSource(Context.Facts));
-	IRTPipeline* const Share = Queue.bMayOverflow ? RequireCompute(Context, MakeShareSource()) : nullptr;
-	if (!Sort || (Queue.bMayOverflow && !Share)) { return {}; }
+	// Sun rays come first in the queue: they find room unless it is smaller than the picture.
+	const bool bShare = Queue.bMayOverflow && Sun.SamplesPerPixel > 0 && Queue.Capacity < uint64_t(Context.Width) * Context.Height;
+	IRTPipeline* const Share = bShare ? RequireCompute(Context, MakeShareSource()) : nullptr;
+	if (!Sort || (bShare && !Share)) { return {}; }
 	FTilesPass Inputs{GBuffer, Queue, {}, Sun, Map};
 	Inputs.TileCount = uint64_t(DivideUp(Context.Width, TILE_SIZE)) * DivideUp(Context.Height, TILE_SIZE);
 	Inputs.Tiles = Context.Graph.CreateBuffer({Inputs.TileCount * sizeof(FTile)}, "Tiles");

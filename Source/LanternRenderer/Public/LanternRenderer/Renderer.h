@@ -133,6 +133,13 @@ struct FSceneTokens
 	}
 };
 
+struct FShadowRays; // Private/Rays/ShadowRays.h
+/// Light of local lights by lobe, not filtered.
+struct FLocalLobes
+{
+	FGraphTexture Diffuse, Specular; ///< RGBA16_FLOAT
+};
+
 /// The frame as passes see it.
 struct FFrameContext
 {
@@ -164,6 +171,9 @@ struct FFrameContext
 	FHostShadow HostShadow;
 	FRayQueueDemand* QueueDemand = nullptr; ///< what earlier frames asked of the queue of shadow rays
 	FSurfaceTextures Surface;
+	std::shared_ptr<const FShadowRays> ShadowRays; ///< null: none, or nobody has asked so far
+	bool bShadowRaysAsked = false;
+	std::shared_ptr<const FLocalLobes> LocalLobes; ///< null: not shaded so far
 	FSceneTokens Tokens;
 	FSignalRequests Signals;
 	/// First error that a pass met; the frame is then not submitted. Not while passes are recorded.
