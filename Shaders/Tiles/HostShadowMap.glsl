@@ -31,18 +31,23 @@ vec2 LoadCell(FAddress Cascade, uint Level, uvec2 Cell)
 	return FCellRef(FCascadeRef(Cascade).Data.Pyramid).Data[FCascadeRef(Cascade).Data.Levels[Level] + Cell.y * LevelSize(Cascade, Level).x + Cell.x];
 }
 
-// Nearest and farthest of all texels in a square around Texel, and of some beside it. OutReach: how far those lie from Texel at most,
-// texels.
+// Nearest and farthest of all texels in a square around Texel, and of some beside it: of up to 3 × 3 cells. OutReach: how far those lie
+// from Texel at most, texels.
 vec2 LoadSquare(FAddress Cascade, vec2 Texel, float HalfWidth, out float OutReach)
 {
-	uint Level = clamp(uint(ceil(log2(max(2.0 * HalfWidth, 1.0)))), uint(HOST_SHADOW_FIRST_LEVEL), FCascadeRef(Cascade).Data.TopLevel);
+	uint Level = clamp(uint(ceil(log2(max(HalfWidth, 1.0)))), uint(HOST_SHADOW_FIRST_LEVEL), FCascadeRef(Cascade).Data.TopLevel);
 	float Edge = float(1u << Level);
 	vec2 Last = vec2(LevelSize(Cascade, Level) - 1u);
 	uvec2 From = uvec2(clamp((Texel - HalfWidth) / Edge, vec2(0.0), Last)), To = uvec2(clamp((Texel + HalfWidth) / Edge, vec2(0.0), Last));
 	OutReach = HalfWidth + Edge;
-	vec2 A = LoadCell(Cascade, Level, From), B = LoadCell(Cascade, Level, To);
-	vec2 C = LoadCell(Cascade, Level, uvec2(From.x, To.y)), D = LoadCell(Cascade, Level, uvec2(To.x, From.y));
-	return vec2(min(min(A.x, B.x), min(C.x, D.x)), max(max(A.y, B.y), max(C.y, D.y)));
+	uint Across = To.x - From.x + 1u, Count = Across * (To.y - From.y + 1u);
+	vec2 Joined = vec2(1.0e30, -1.0e30);
+	[[dont_unroll]] for (uint I = 0u; I < Count; ++I)
+	{
+		vec2 Cell = LoadCell(Cascade, Level, From + uvec2(I % Across, I / Across));
+		Joined = vec2(min(Joined.x, Cell.x), max(Joined.y, Cell.y));
+	}
+	return Joined;
 }
 
 #endif

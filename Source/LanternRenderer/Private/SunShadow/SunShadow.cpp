@@ -162,7 +162,7 @@ FPassRays ChooseSunShadowRays(const FPassQuery& Query)
 
 bool AskSunShadowRays(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowRayWishes& InOut)
 {
-	if (!Dispatch.Has("SUN_RAYS") || !RequireCompute(Context, MakeResolveSource())) { return false; }
+	if (!Dispatch.Has("SUN_RAYS") || !RequireCompute(Context, MakeResolveSource(Context.Facts))) { return false; }
 	InOut.Sun = MakeSunRays(Context.Scene, Dispatch);
 	InOut.bSunWidths = MeasuresPenumbra() && Dispatch.Has("WITH_PENUMBRA"); // a variant without it may still serve, and writes none
 	return true;
