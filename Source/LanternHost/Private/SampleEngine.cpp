@@ -47,7 +47,9 @@ FImage DecodeReadback(const void* Data, uint32_t Width, uint32_t Height, ERTForm
 } // namespace
 
 FSampleEngine::FSampleEngine(IRTDevice& Device, FRendererDesc Desc)
-    : Renderer(Device, std::move(Desc)), GBufferPass(Renderer), ShadowMapPass(Renderer)
+    : Renderer(Device, std::move(Desc)),
+      GBufferPass(Renderer),
+      ShadowMapPass(Renderer)
 {}
 
 FRTStatus FSampleEngine::Load(FSceneDescription Description, const std::function<void(float)>& Progress)

@@ -40,10 +40,7 @@ FRTStatus CheckMap(uint32_t Index, const FRTModuleShadowCascade& Cascade, const 
 FRTStatus CheckMatrix(uint32_t Index, const FRTModuleShadowCascade& Cascade)
 {
 	const double* const M = Cascade.WorldToMap;
-	if (!std::all_of(M, M + 12, [](double Value) { return std::isfinite(Value); }))
-	{
-		return Refuse(Index, "WorldToMap", "is not finite");
-	}
+	if (!std::all_of(M, M + 12, [](double Value) { return std::isfinite(Value); })) { return Refuse(Index, "WorldToMap", "is not finite"); }
 	const glm::dvec3 X(M[0], M[1], M[2]), Y(M[4], M[5], M[6]), Z(M[8], M[9], M[10]);
 	// The volume of rows of any length, against that of rows at right angles.
 	const double Volume = glm::dot(glm::cross(X, Y), Z), Most = glm::length(X) * glm::length(Y) * glm::length(Z);
@@ -64,9 +61,7 @@ FRTStatus CheckCascade(uint32_t Index, const FRTModuleShadowCascade& Cascade, co
 
 FRTStatus CheckHostShadow(const FRTModuleFrame& Frame, const IRTDevice& Device, bool bOwnShader)
 {
-	const auto Fail = [](const char* Reason) {
-		return FRTStatus::Error(ERTResult::InvalidArgument, "FRTModuleHostShadow::%s", Reason);
-	};
+	const auto Fail = [](const char* Reason) { return FRTStatus::Error(ERTResult::InvalidArgument, "FRTModuleHostShadow::%s", Reason); };
 	if (Frame.HostShadow == nullptr) { return FRTStatus::Success(); }
 	const FRTModuleHostShadow& Shadow = *Frame.HostShadow;
 	if (static_cast<uint32_t>(Shadow.Held) > 15u) { return Fail("Held has bits that are none of ERTModuleCasters"); }

@@ -140,8 +140,8 @@ FRTStatus FModule::CreateRenderer(IRTDevice* Device, const FRTModuleRendererDesc
 	{
 		if (!std::filesystem::path(Desc.HostShadowShader).is_absolute() || !std::filesystem::is_regular_file(Desc.HostShadowShader))
 		{
-			return FRTStatus::Error(ERTResult::InvalidArgument, "FRTModuleRendererDesc::HostShadowShader is no absolute path of a file: \"%s\"",
-			    FRTShown(Desc.HostShadowShader).Text);
+			return FRTStatus::Error(ERTResult::InvalidArgument,
+			    "FRTModuleRendererDesc::HostShadowShader is no absolute path of a file: \"%s\"", FRTShown(Desc.HostShadowShader).Text);
 		}
 		Renderer.ShaderHeaders.push_back(MakeHostShadowHeader(Desc.HostShadowShader));
 	}

@@ -72,7 +72,8 @@ TEST_F(FHostShadowTest, RaysLeaveCastersToTheMap)
 {
 	Set("r.RT.HostShadow.Resolution", "64");
 	const std::pair<const char*, std::pair<uint32_t, uint32_t>> Cases[] = {{"1", {MASK_SUN_CASTERS, MASK_SUN_CASTERS}},
-	    {"2", {MASK_SUN_CASTERS, MASK_SUN_MOVING | MASK_CHARACTER}}, {"3", {MASK_SUN_CASTERS, 0}}, {"4", {MASK_SUN_CASTERS, MASK_SUN_CASTERS}}};
+	    {"2", {MASK_SUN_CASTERS, MASK_SUN_MOVING | MASK_CHARACTER}}, {"3", {MASK_SUN_CASTERS, 0}},
+	    {"4", {MASK_SUN_CASTERS, MASK_SUN_CASTERS}}};
 	for (const auto& [Casters, Masks] : Cases)
 	{
 		Set("r.RT.HostShadow", Casters);

@@ -164,7 +164,8 @@ struct FIncludeResolver::FWalk
 
 FIncludeResolver::FIncludeResolver(
     const std::vector<std::string>& InSearchFolders, std::vector<FShaderHeader> InHeaders, FShaderFileCache& InFiles)
-    : Headers(std::move(InHeaders)), Files(InFiles)
+    : Headers(std::move(InHeaders)),
+      Files(InFiles)
 {
 	for (const std::string& Folder : InSearchFolders)
 	{

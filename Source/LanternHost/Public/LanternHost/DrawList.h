@@ -23,8 +23,8 @@ public:
 
 	/// Lists what View sees, solid batches before masked ones, and near ones before far ones. Objects smaller than MinPixels across on
 	/// the screen are left out, and those for whose index Keep returns false. Keep may be empty. The list is good for this frame.
-	FRTStatus Make(FHostScene& Scene, FFrameUploads& Uploads, const FView& View, float MinPixels,
-	    const std::function<bool(uint32_t)>& Keep = {});
+	FRTStatus Make(
+	    FHostScene& Scene, FFrameUploads& Uploads, const FView& View, float MinPixels, const std::function<bool(uint32_t)>& Keep = {});
 	const std::vector<FRun>& GetRuns() const { return Runs; }
 
 private:

@@ -32,7 +32,7 @@ struct FSunRays
 	uint32_t RayFlags = 0;        ///< gl_RayFlags…
 	uint32_t InstanceMask = 0;
 	uint32_t LitMask = 0; ///< of rays with RAY_SLOT_SUN_LIT; 0: these are not traced
-	bool bSoft = false; ///< towards all of the disk; if false, to its centre
+	bool bSoft = false;   ///< towards all of the disk; if false, to its centre
 };
 
 /// Returns whether the pixels of a picture have an index in requests. Logs once if they have not.

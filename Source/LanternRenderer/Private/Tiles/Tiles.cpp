@@ -85,7 +85,8 @@ FShaderSource MakeTilesSource(const FSceneFacts& Facts) { return MakeComputeSour
 
 FShaderSource MakeShareSource() { return MakeComputeSource("Tiles/ShareQueue.comp"); }
 
-FGraphBuffer AddTilesPass(FFrameContext& Context, const FGBuffer& GBuffer, const FRayQueue& Queue, const FSunRays& Sun, const FHostShadowMap& Map)
+FGraphBuffer AddTilesPass(
+    FFrameContext& Context, const FGBuffer& GBuffer, const FRayQueue& Queue, const FSunRays& Sun, const FHostShadowMap& Map)
 {
 	IRTPipeline* const Sort = RequireCompute(Context, MakeTilesSource(Context.Facts));
 	// Sun rays come first in the queue: they find room unless it is smaller than the picture.

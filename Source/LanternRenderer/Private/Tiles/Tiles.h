@@ -16,6 +16,7 @@ FShaderSource MakeShareSource();
 /// rays of the rest. If the queue may
 /// overflow, a second pass sees to it that the same rays have room in each run. Reads Depth and Normals
 /// of the G-buffer. Returns FTile[] (TileTypes.h), row by row. Invalid: shaders are being compiled.
-FGraphBuffer AddTilesPass(FFrameContext& Context, const FGBuffer& GBuffer, const FRayQueue& Queue, const FSunRays& Sun, const FHostShadowMap& Map);
+FGraphBuffer AddTilesPass(
+    FFrameContext& Context, const FGBuffer& GBuffer, const FRayQueue& Queue, const FSunRays& Sun, const FHostShadowMap& Map);
 
 } // namespace Lantern
