@@ -15,7 +15,7 @@ bool SeesLight(uint Index, uint Light)
 	FLightSample Sample = SampleLocalLight(Scene, View, Point, Pixel, Light);
 	if (!ReachesLight(View, Point, Sample)) { return false; }
 	float Length = LightRayLength(Sample, Point.P, Scene.ObjectReach);
-	return TraceShadowRay(Point.P, Sample.Direction, Length, Push.RayFlags, LocalCasters(false)) < 0.0;
+	return TraceShadowRay(Point.P, Sample.Direction, Length, Push.RayFlags, LocalCasters(ShowsCharacter(Scene, Pixel))) < 0.0;
 }
 
 void TraceLocal(uint Index, uint Slot)

@@ -10,6 +10,7 @@
 #define LANTERN_SHADOW_QUEUE_GLSL
 
 #include "../Shared/RayQueueTypes.h"
+#include "../Library/Casters.glsl"
 #include "../Library/GBuffer.glsl"
 #include "../Library/Random.glsl"
 #include "../Library/Sun.glsl"
@@ -21,13 +22,24 @@ float TraceShadowRay(vec3 Origin, vec3 Direction, float Length, uint Flags, uint
 
 #include "SamplesPerPixel.glsl"
 
+// Characters cast on everything but characters.
+bool ShowsCharacter(FSceneConstants Scene, uvec2 Pixel)
+{
+#ifdef HAS_CHARACTERS
+	return IsCharacterPixel(Scene, Push.Classes, Push.ClassesOffset, Push.Motion, ivec2(Pixel));
+#else
+	return false;
+#endif
+}
+
 #ifdef SUN_RAYS
-void TraceSun(uint Index, uint Mask)
+void TraceSun(uint Index, uint Casters)
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	uvec2 Pixel = uvec2(Index % View.Width, Index / View.Width);
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), LoadDepth(Push.Depth, ivec2(Pixel)));
+	uint Mask = ShowsCharacter(Scene, Pixel) ? Casters & ~MASK_CHARACTER : Casters;
 	float BlockerDistanceSum = 0.0;
 	uint Seen = 0u, Blocked = 0u;
 	FTileSequence Sequence = MakeTileSequence(Pixel, View.FrameIndex, HashPcg(View.Seed));

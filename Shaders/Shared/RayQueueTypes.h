@@ -74,9 +74,11 @@ struct FShadowQueueConstants
 	uint InstanceMask;    // of sun rays
 	uint LitMask;         // of sun rays with RAY_SLOT_SUN_LIT
 	uint bSoft;           // 0: hard shadows, from the centre of the sun's disk
-	uint Pad;
+	uint Motion;          // sampled index, or NO_TEXTURE: FGBuffer::Motion, for HAS_CHARACTERS
+	uint Classes;         // sampled index, or NO_TEXTURE: FGBuffer::Classes, for HAS_CHARACTERS
+	uint ClassesOffset;   // of the view in Classes, pixels: x | y << 16
 };
-LANTERN_ASSERT_SIZE(FShadowQueueConstants, 104);
+LANTERN_ASSERT_SIZE(FShadowQueueConstants, 112);
 
 LANTERN_SHARED_END
 

@@ -269,6 +269,9 @@ struct FPassConstants
 };
 LANTERN_ASSERT_SIZE(FPassConstants, 16);
 
+// Bits of FGBuffer::Classes: what a pixel shows.
+#define CLASS_CHARACTER 1u
+
 LANTERN_SHARED_END
 
 #endif

@@ -127,7 +127,7 @@ enum class ERTModuleCasters : uint32_t
 	None = 0,
 	Still = 1,      ///< objects with ERTModuleMobility::Static or Stationary
 	Moving = 2,     ///< objects with ERTModuleMobility::Movable
-	Characters = 4, ///< objects with FRTModuleObject::bCharacter
+	Characters = 4, ///< objects with FRTModuleObject::bCharacter. Such a map shadows characters, too; rays do not
 	/// What rays cannot meet: billboards, translucent things, anything that the renderer was not given.
 	Others = 8,
 };

@@ -103,6 +103,7 @@ FPassRays ChooseLocalLightRays(const FPassQuery& Query)
 	Rays.Path = ChooseQueuePath(Query, "shadows of local lights are");
 	Rays.Defines = MakeLocalDefines(Query.Facts, GetExact());
 	Rays.Defines.emplace_back("LOCAL_RAYS", "1");
+	AddReceiverDefines(Query.Facts, Rays.Defines);
 	Rays.Shaders = ShadowQueueShaders;
 	Rays.Compute = {MakeTilesSource(), MakeShadeSource(Query.Facts, GetExact())};
 	ListLocalRequestShaders(Query.Facts, GetExact(), Rays.Compute);

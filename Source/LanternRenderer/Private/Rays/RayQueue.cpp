@@ -19,6 +19,8 @@ TRTConsoleVariable<float> CVarQueuePerPixel("r.RT.Rays.QueuePerPixel", 2.0f,
     "their pixels keep the shadow of the frame before, and later queues are larger.",
     {0.0001, 64});
 
+TRTConsoleVariable<bool> CVarReceivers(
+    "r.RT.Debug.Shadow.Receivers", true, "Planted fault. If off, shadow rays from characters meet what those from other surfaces do.");
 TRTConsoleVariable<int32_t> CVarPath(
     "r.RT.Shadow.Path", 0, "How shadow rays are traced. 0: as the device does best. 1: ray-tracing pipeline. 2: ray query.", {0, 2});
 
@@ -59,6 +61,13 @@ void TraceQueue(FPassContext& Pass, const FFrameContext& Frame, const FRayDispat
 	Commands.TraceRaysIndirect(Frame.RayTable->GetTable(), Dispatch.RayGen, Arguments, offsetof(FRayQueueCounters, Launch));
 }
 } // namespace
+
+void AddReceiverDefines(const FSceneFacts& Facts, FShaderDefines& Defines)
+{
+	if (!Facts.bCharacters) { return; }
+	Defines.emplace_back("HAS_CHARACTERS", "1");
+	if (!CVarReceivers.GetOnRenderThread()) { Defines.emplace_back("ONE_RECEIVER", "1"); }
+}
 
 bool CanQueueRays(uint32_t Width, uint32_t Height)
 {
@@ -111,6 +120,10 @@ void AddShadowRaysPass(
 	// another frame, and a frame that asks for more rays would lose some.
 	const bool bIndirect = Dispatch.Compute || Context.Device.GetCapabilities().bIndirectTrace;
 	const FFrameContext* const Frame = &Context;
+	// Nobody but characters asks what a pixel shows.
+	const bool bClasses = Dispatch.Has("HAS_CHARACTERS");
+	const FGraphTexture Classes = bClasses ? GBuffer.Classes : FGraphTexture();
+	const FGraphTexture Motion = bClasses && !Classes.IsValid() ? GBuffer.Motion : FGraphTexture();
 	FGraphBuffer Demand;
 	if (Queue.bMayOverflow)
 	{
@@ -120,6 +133,10 @@ void AddShadowRaysPass(
 	Context.Graph.AddPass((Queue.Name + "Rays").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Read(GBuffer.Depth, ERTAccess::ShaderRead);
 		Builder.Read(GBuffer.Normals, ERTAccess::ShaderRead);
+		for (const FGraphTexture Texture : {Classes, Motion})
+		{
+			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+		}
 		Builder.Read(Queue.Requests, ERTAccess::ShaderRead);
 		Builder.Read(Queue.Counters, ERTAccess::ShaderRead);
 		if (bIndirect) { Builder.Read(Queue.Counters, ERTAccess::IndirectRead); }
@@ -136,6 +153,9 @@ void AddShadowRaysPass(
 			FShadowQueueConstants Constants = MakeConstants(Pass, *Frame, Queue, Rays);
 			Constants.Depth = GetSampledIndex(Pass, GBuffer.Depth);
 			Constants.Normals = GetSampledIndex(Pass, GBuffer.Normals);
+			Constants.Motion = GetSampledIndex(Pass, Motion);
+			Constants.Classes = GetSampledIndex(Pass, Classes);
+			Constants.ClassesOffset = GBuffer.ClassesOffset.x | (GBuffer.ClassesOffset.y << 16);
 			// At most: the device alone knows how many.
 			const uint64_t Pixels = uint64_t(Frame->Width) * Frame->Height;
 			Pass.CountRays(std::min<uint64_t>(Pixels, Queue.Capacity) * Rays.Sun.SamplesPerPixel + Pixels * Rays.LocalPerPixel);

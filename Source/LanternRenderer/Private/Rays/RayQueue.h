@@ -35,6 +35,9 @@ struct FSunRays
 	bool bSoft = false;   ///< towards all of the disk; if false, to its centre
 };
 
+/// Adds what the queue's shaders need to know who casts on what a pixel shows.
+void AddReceiverDefines(const FSceneFacts& Facts, FShaderDefines& Defines);
+
 /// Returns whether the pixels of a picture have an index in requests. Logs once if they have not.
 bool CanQueueRays(uint32_t Width, uint32_t Height);
 
