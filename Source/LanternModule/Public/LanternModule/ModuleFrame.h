@@ -141,13 +141,13 @@ struct FRTModuleShadowCascade
 	ERTAccess Access = ERTAccess::ShaderRead; ///< how the engine used it last, not None; of cascades with one texture that of the first
 	/// The cascade's part of the texture, texels. Width and Height 0: to the texture's end.
 	uint32_t OffsetX = 0, OffsetY = 0, Width = 0, Height = 0;
-	/// Three rows of four: x and y from 0 to 1 over that part, y downwards, and depth as texels have it, from positions in the engine's
-	/// world. Depth may be reversed. Casters beyond the near plane are clamped to it.
+	/// Three rows of four, which take a position in the engine's world. The first two give x and y from 0 to 1 over that part, y
+	/// downwards. The third gives depth as texels have it, reversed or not. Casters beyond the near plane are clamped to it.
 	double WorldToMap[12] = {};
 	/// Edge of a texel in the engine's unit, finite, > 0. Rays are traced where it is larger than a pixel.
 	float TexelSize = 0.0f;
-	/// By which a texel may be nearer to the sun than the surface that it shows, beyond the surface's own slope: the engine's unit, finite,
-	/// ≥ 0.
+	/// Distance by which a texel may be nearer to the sun than the surface that it shows: the engine's unit, finite, ≥ 0. The surface's
+	/// slope is no part of it.
 	float DepthBias = 0.0f;
 };
 
@@ -158,7 +158,7 @@ inline constexpr uint32_t MaxShadowCascades = 4;
 /// because rays cannot meet all that it holds. Nothing Held: all is traced.
 struct FRTModuleHostShadow
 {
-	/// From the finest to the coarsest. All hold the same casters, each in its own part of the world.
+	/// Ordered from the finest to the coarsest. All hold the same casters, each in its own part of the world.
 	FRTModuleShadowCascade Cascades[MaxShadowCascades];
 	uint32_t CascadeCount = 0; ///< 1 to 4; with ShaderData, 0 is fine
 	ERTModuleCasters Held = ERTModuleCasters::None;

@@ -16,11 +16,11 @@ struct FHostShadowCascade
 	FGraphTexture Map; ///< a depth format or R32_FLOAT; reversed or not, as WorldToMap says
 	/// The cascade's part of the texture, texels. Width and Height 0: to the texture's end.
 	uint32_t OffsetX = 0, OffsetY = 0, Width = 0, Height = 0;
-	/// Rows: x and y from 0 to 1 over that part, y downwards, and depth as texels have it, from positions in the world in metres.
-	/// Casters beyond the near plane are clamped to it.
+	/// Three rows of four, which take a position in the world in metres. The first two give x and y from 0 to 1 over that part, y
+	/// downwards. The third gives depth as texels have it. Casters beyond the near plane are clamped to it.
 	double WorldToMap[12] = {};
 	float TexelSize = 0.0f; ///< of the world on the map, metres, > 0
-	/// By which a texel may be nearer to the sun than the surface that it shows, beyond the surface's own slope, metres, ≥ 0.
+	/// Distance by which a texel may be nearer to the sun than the surface that it shows, metres, ≥ 0. The surface's slope is no part of it.
 	float DepthBias = 0.0f;
 };
 
@@ -28,12 +28,12 @@ struct FHostShadowCascade
 /// rays trace these casters as well. Maps of HOST_SHADOW_OTHERS count everywhere instead, since rays cannot meet all that they hold.
 struct FHostShadow
 {
-	/// From the finest to the coarsest. All hold the same casters, each in its own part of the world.
+	/// Ordered from the finest to the coarsest. All hold the same casters, each in its own part of the world.
 	std::array<FHostShadowCascade, HOST_SHADOW_CASCADES> Cascades;
 	uint32_t CascadeCount = 0;
 	/// Casters on the map: bits of instance masks (MASK_SUN, MASK_SUN_MOVING, MASK_CHARACTER), and HOST_SHADOW_OTHERS.
 	uint32_t Held = 0;
-	/// For a host's own Tiles/HostShadow.glsl, which then needs no cascades: any data on the device.
+	/// Address of any data, read by a host's own Tiles/HostShadow.glsl, which needs no cascades.
 	FAddress ShaderData = 0;
 	bool IsGiven() const { return CascadeCount > 0 || ShaderData != 0; }
 };
