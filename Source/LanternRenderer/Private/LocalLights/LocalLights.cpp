@@ -105,7 +105,7 @@ FPassRays ChooseLocalLightRays(const FPassQuery& Query)
 	Rays.Defines.emplace_back("LOCAL_RAYS", "1");
 	AddReceiverDefines(Query.Facts, Rays.Defines);
 	Rays.Shaders = ShadowQueueShaders;
-	Rays.Compute = {MakeTilesSource(), MakeShadeSource(Query.Facts, GetExact())};
+	Rays.Compute = {MakeTilesSource(Query.Facts), MakeShadeSource(Query.Facts, GetExact())};
 	ListLocalRequestShaders(Query.Facts, GetExact(), Rays.Compute);
 	return Rays;
 }
