@@ -33,14 +33,14 @@ bool ShowsCharacter(FSceneConstants Scene, uvec2 Pixel)
 }
 
 #ifdef SUN_RAYS
-void TraceSun(uint Index)
+void TraceSun(uint Index, uint Casters)
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	Scene.SunOneMinusCos = Push.SunOneMinusCos;
 	uvec2 Pixel = uvec2(Index % View.Width, Index / View.Width);
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), LoadDepth(Push.Depth, ivec2(Pixel)));
-	uint Mask = ShowsCharacter(Scene, Pixel) ? Push.InstanceMask & ~MASK_CHARACTER : Push.InstanceMask;
+	uint Mask = ShowsCharacter(Scene, Pixel) ? Casters & ~MASK_CHARACTER : Casters;
 	float BlockerDistanceSum = 0.0;
 	uint Seen = 0u, Blocked = 0u;
 	FTileSequence Sequence = MakeTileSequence(Pixel, View.FrameIndex, HashPcg(View.Seed));
@@ -76,7 +76,7 @@ void TraceRequest(uint Number)
 	switch (RayKind(Request))
 	{
 #ifdef SUN_RAYS
-	case RAY_KIND_SUN: TraceSun(RayIndex(Request)); break;
+	case RAY_KIND_SUN: TraceSun(RayIndex(Request), RaySlot(Request) == RAY_SLOT_SUN_LIT ? Push.LitMask : Push.InstanceMask); break;
 #endif
 #ifdef LOCAL_RAYS
 	case RAY_KIND_LOCAL: TraceLocal(RayIndex(Request), RaySlot(Request)); break;

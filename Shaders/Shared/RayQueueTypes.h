@@ -11,9 +11,10 @@ LANTERN_SHARED_BEGIN
 #define RAY_QUEUE_ROW_GROUPS 64 // work groups in x; y grows, since a device need not dispatch more than 65,535 in one direction
 
 // Kinds of rays. An index names what a ray belongs to; a slot tells several rays of one index apart.
-#define RAY_KIND_SUN 0u // index: pixel, row by row; slot 0: all samples of the pixel
+#define RAY_KIND_SUN 0u // index: pixel, row by row; a request is for all samples of the pixel; slot: 0, or RAY_SLOT_SUN_LIT
 #define RAY_KIND_LOCAL 1u // index: pixel; slot: place of the light in the list of the pixel's tile
 #define RAY_KIND_CHOSEN 2u // index: pixel; slot 0: the light that the pixel chose
+#define RAY_SLOT_SUN_LIT 1u // the pixel is lit by the host's shadow map: rays look for other casters
 
 #define RAY_INDEX_BITS 26u
 #define RAY_SLOT_BITS 3u
@@ -71,11 +72,11 @@ struct FShadowQueueConstants
 	float MaxDistance;    // of sun rays, metres
 	uint RayFlags;        // of all rays: gl_RayFlags… to add to those that the pass needs
 	uint InstanceMask;    // of sun rays
+	uint LitMask;         // of sun rays with RAY_SLOT_SUN_LIT
 	float SunOneMinusCos; // of the disk that sun rays go to, see FSceneConstants; 0: hard shadows, from its centre
 	uint Motion;          // sampled index, or NO_TEXTURE: FGBuffer::Motion, for HAS_CHARACTERS
 	uint Classes;         // sampled index, or NO_TEXTURE: FGBuffer::Classes, for HAS_CHARACTERS
 	uint ClassesOffset;   // of the view in Classes, pixels: x | y << 16
-	uint Pad;
 };
 LANTERN_ASSERT_SIZE(FShadowQueueConstants, 112);
 

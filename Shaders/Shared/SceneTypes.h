@@ -140,7 +140,7 @@ struct FObjectData
 {
 	vec4 ObjectToWorld[3]; // rows; relative to the centre of its cell
 	uint FirstSection;     // into FSectionData[]
-	uint Flags;            // OBJECT_…, and the rounding error of the translation: see UnpackTranslationRemainder in GBuffer.vert
+	uint Flags;            // OBJECT_…, and the rounding error of the translation: see UnpackTranslationRemainder in ObjectPosition.glsl
 	ivec3 Cell;            // cell of the world; see CellOffset in Bindings.glsl
 	uint Motion;           // into FObjectMotion[], or NO_MOTION
 	float CasterRadius;    // of its bounding sphere, metres; larger than any if unknown, or if it casts no shadows

@@ -24,8 +24,9 @@ struct FSunShadowConstants
 	FContactConstants Contact; // CONTACT only
 	float SunOneMinusCos; // of the disk that rays go to, see FTilesConstants
 	uint Pad;
+	FAddress HostShadow; // as in FTilesConstants
 };
-LANTERN_ASSERT_SIZE(FSunShadowConstants, 96);
+LANTERN_ASSERT_SIZE(FSunShadowConstants, 104);
 
 LANTERN_SHARED_END
 

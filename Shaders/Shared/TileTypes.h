@@ -13,10 +13,11 @@ LANTERN_SHARED_BEGIN
 #define TILE_SKY 1u
 #define TILE_SUN_BEHIND 2u // its surface has its back to the sun, and is dark without a ray
 #define TILE_SUN_TRACED 4u // asks for a sun ray
-// Known without a ray, see Tiles/Settled.glsl.
-#define TILE_SUN_LIT 8u        // has long seen the sun, as have its neighbours
-#define TILE_SUN_DARK 16u      // has not, nor have they
-#define TILE_SUN_DISAGREES 32u // a ray of this frame says otherwise: all pixels of the tile are traced
+// Known without a ray: by the host's shadow map, or see Tiles/Settled.glsl. A pixel that the map lights may ask for rays that look for
+// other casters.
+#define TILE_SUN_LIT 8u
+#define TILE_SUN_DARK 16u
+#define TILE_SUN_DISAGREES 32u // a ray of this frame says otherwise than what has settled: all pixels of the tile are traced
 
 struct FTile
 {
@@ -39,9 +40,13 @@ struct FTilesConstants
 	uint SunSamples; // for each pixel, 1 to 64
 	float SunOneMinusCos; // of the disk that sun rays go to; 0: they go to its centre
 	uint bSunRest;   // ShareQueue.comp: 1: the queue holds the rays of FTile::SunRest
+	uint SunMask;    // casters that rays look for: in general
+	uint LitMask;    // and where the host's shadow map says that a pixel is lit
 	FAddress Settled; // ADAPTIVE only: FSettledConstants
+	FAddress HostShadow; // FHostShadowData, or what the host's shader reads; 0: no map in this frame
+	FAddress SunWidths;  // as in FShadowQueueConstants; 0: nobody asks
 };
-LANTERN_ASSERT_SIZE(FTilesConstants, 80);
+LANTERN_ASSERT_SIZE(FTilesConstants, 104);
 
 LANTERN_SHARED_END
 

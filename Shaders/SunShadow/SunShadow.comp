@@ -11,6 +11,9 @@
 #ifdef CONTACT
 #include "../Tiles/Contact.glsl"
 #endif
+#ifdef HAS_HOST_SHADOW
+#include "../Tiles/HostShadow.glsl"
+#endif
 
 layout(local_size_x = TILE_PIXELS) in;
 layout(push_constant, scalar) uniform FPush { FSunShadowConstants Push; };
@@ -59,6 +62,16 @@ float FillLeftOut(FViewConstants View, uint Place, uvec2 Pixel, bool bFill, bool
 }
 #endif
 
+#ifdef HAS_HOST_SHADOW
+// Returns what the host's map leaves of the sun, where rays do not take its place.
+float LoadHostVisibility(FViewConstants View, uvec2 Pixel)
+{
+	float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
+	if (Push.HostShadow == 0ul || Depth <= 0.0 || !IsHostShadowKept(Push.HostShadow)) { return 1.0; }
+	return FilterHostShadow(Push.HostShadow, View, LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), Depth));
+}
+#endif
+
 void main()
 {
 	uint Place = gl_LocalInvocationIndex;
@@ -87,12 +100,18 @@ void main()
 	if (bFacing && Visibility > 0.0) { Contact = FindContact(View, Pixel); }
 	if (Contact >= 0.0) { Visibility = 0.0; }
 #endif
+#ifdef HAS_HOST_SHADOW
+	Visibility *= LoadHostVisibility(View, Pixel);
+#endif
 	imageStore(Images[Push.Output], ivec2(Pixel), vec4(Visibility));
 	if (Push.OutKept != NO_TEXTURE) { imageStore(Images[Push.OutKept], ivec2(Pixel), vec4(Visibility)); }
 	if (Push.OutPenumbra == NO_TEXTURE) { return; }
 	// The width is 0 without a blocker, and where a pixel without rays of its own knows of none. It is set to 1e-3 if a surface turns away
 	// from the sun, or if its rays had no room: these give no blocker distance. A pixel that was filled has -1.
 	float Penumbra = Visibility < 1.0 && !bLeftOut ? -1.0 : 0.0;
+#ifdef HAS_HOST_SHADOW
+	bTraced = bTraced || (bAnswered && Push.HostShadow != 0ul); // all pixels have a width
+#endif
 	if (bTraced && Penumbra < 0.0) { Penumbra = MeasurePenumbra(View, Pixel, FWidthRef(Push.Widths).Data[Index]); }
 	if (Contact >= 0.0) { Penumbra = MeasurePenumbra(View, Pixel, 2.0 * sqrt(2.0 * Push.SunOneMinusCos) * Contact); }
 	Penumbra = min(Penumbra < 0.0 ? 1.0e-3 : Penumbra, 65504.0);

@@ -4,6 +4,9 @@
 #include "../Library/GBuffer.glsl"
 #include "../Rays/RayQueue.glsl"
 #include "Tile.glsl"
+#ifdef HAS_HOST_SHADOW
+#include "HostShadow.glsl"
+#endif
 
 layout(local_size_x = TILE_PIXELS) in;
 layout(push_constant, scalar) uniform FPush { FTilesConstants Push; };
@@ -14,6 +17,23 @@ layout(push_constant, scalar) uniform FPush { FTilesConstants Push; };
 
 shared uint Classes, SunRays[2], SunRest[2], FirstRequest;
 
+#ifdef HAS_HOST_SHADOW
+// Class: without the map.
+uint ClassifyByHost(FViewConstants View, uvec2 Pixel, FGBufferPoint Point, uint Class)
+{
+	if (Push.HostShadow == 0ul) { return Class; }
+	FHostShadowAnswer Answer = FHostShadowAnswer(HOST_SHADOW_UNSURE, 0.0);
+	if (Class == TILE_SUN_TRACED) { Answer = ClassifyHostShadow(Push.HostShadow, View, Point); }
+	// Without a ray nothing else knows how wide the penumbra is.
+	float Width = Answer.Class == HOST_SHADOW_DARK ? 2.0 * sqrt(2.0 * Push.SunOneMinusCos) * Answer.BlockerDistance : -1.0;
+	if (Push.SunWidths != 0ul) { FWidthRef(Push.SunWidths).Data[Pixel.y * View.Width + Pixel.x] = Width; }
+	if (Class != TILE_SUN_TRACED) { return Class; }
+	if (Answer.Class == HOST_SHADOW_DARK) { return TILE_SUN_DARK; }
+	if (Answer.Class == HOST_SHADOW_LIT) { return Push.LitMask != 0u ? TILE_SUN_LIT | TILE_SUN_TRACED : TILE_SUN_LIT; }
+	return Push.SunMask != 0u ? TILE_SUN_TRACED : TILE_SUN_LIT;
+}
+#endif
+
 // Returns the class of a pixel by the sun.
 uint ClassifySun(FViewConstants View, uvec2 Pixel)
 {
@@ -23,15 +43,19 @@ uint ClassifySun(FViewConstants View, uvec2 Pixel)
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), Depth);
 	// No direction to the disk is farther from that to its centre than this chord, and rounding.
 	float Spread = Push.SunOneMinusCos > 0.0 ? sqrt(2.0 * Push.SunOneMinusCos) + 1.0e-6 : 0.0;
-	return LeavesSurface(View, Point, -Scene.SunDirection, Spread) ? TILE_SUN_TRACED : TILE_SUN_BEHIND;
+	uint Class = LeavesSurface(View, Point, -Scene.SunDirection, Spread) ? TILE_SUN_TRACED : TILE_SUN_BEHIND;
+#ifdef HAS_HOST_SHADOW
+	Class = ClassifyByHost(View, Pixel, Point, Class);
+#endif
+	return Class;
 }
 
 // An answer is whole without a ray, or starts as none.
 void StartAnswer(uint Index, uint Class)
 {
 	uint Answer = 0u;
-	if (Class == TILE_SKY) { Answer = PackSunAnswer(Push.SunSamples, 0u); }
-	if (Class == TILE_SUN_BEHIND) { Answer = PackSunAnswer(0u, Push.SunSamples); }
+	if (Class == TILE_SKY || Class == TILE_SUN_LIT) { Answer = PackSunAnswer(Push.SunSamples, 0u); }
+	if (Class == TILE_SUN_BEHIND || Class == TILE_SUN_DARK) { Answer = PackSunAnswer(0u, Push.SunSamples); }
 	FAnswerRef(Push.Answers).Data[Index] = Answer;
 }
 
@@ -44,10 +68,12 @@ void main()
 	if (Place == 0u) { Classes = SunRays[0] = SunRays[1] = SunRest[0] = SunRest[1] = 0u; }
 	barrier();
 	bool bTraced = false;
+	uint Slot = 0u;
 	if (!IsOutsideView(View, Pixel))
 	{
 		uint Class = ClassifySun(View, Pixel);
-		bTraced = Class == TILE_SUN_TRACED;
+		bTraced = (Class & TILE_SUN_TRACED) != 0u;
+		Slot = (Class & TILE_SUN_LIT) != 0u ? RAY_SLOT_SUN_LIT : 0u;
 		StartAnswer(Index, Class);
 		atomicOr(Classes, Class);
 	}
@@ -78,5 +104,5 @@ void main()
 	if (!bTraced) { return; }
 	uint Before = bitCount(SunRays[Word] & (Bit - 1u)) + (Word > 0u ? bitCount(SunRays[0]) : 0u);
 	uint Number = FirstRequest + Before;
-	if (Number < Push.Capacity) { FRayRequestRef(Push.Requests).Data[Number] = MakeRayRequest(RAY_KIND_SUN, 0u, Index); }
+	if (Number < Push.Capacity) { FRayRequestRef(Push.Requests).Data[Number] = MakeRayRequest(RAY_KIND_SUN, Slot, Index); }
 }

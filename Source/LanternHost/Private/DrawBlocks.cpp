@@ -129,6 +129,16 @@ void FDrawBlocks::Refresh(uint32_t Index)
 	Bounds[Index].bStale = false;
 }
 
+void FDrawBlocks::AddExtent(const glm::dvec3& Axis, double& Min, double& Max) const
+{
+	for (const FBounds& Of : Bounds)
+	{
+		if (!std::isfinite(Of.Radius)) { continue; }
+		Min = std::min(Min, glm::dot(Of.Center, Axis) - double(Of.Radius));
+		Max = std::max(Max, glm::dot(Of.Center, Axis) + double(Of.Radius));
+	}
+}
+
 bool FDrawBlocks::MaySeeBlock(const FFrustum& F, const FBounds& Block)
 {
 	const glm::vec3 D(Block.Center - F.Eye);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <utility>
 
 #include <fmt/format.h>
@@ -175,63 +174,22 @@ bool FGBufferPass::ChooseMotion(const FFrameContext& Context, const FHostScene& 
 	return bWanted;
 }
 
-/// Lists the objects of each batch in its places, near before far, and orders the batches by their nearest objects.
-void FGBufferPass::ListObjects(FHostScene& Scene, uint32_t* Objects)
-{
-	const uint32_t* const Indices = Scene.GetBatchIndices().data();
-	const FHostScene::FDrawBatch* const Batches = Scene.GetBatches().data();
-	Uses.assign(Scene.GetBatches().size(), {});
-	Order.clear();
-	for (const FDrawBlocks::FSeen& InBlock : Seen)
-	{
-		const FDrawBlocks::FBlock& Block = Scene.GetDrawBlocks().GetBlock(InBlock.Block);
-		for (uint64_t Left = InBlock.Items; Left != 0; Left &= Left - 1)
-		{
-			const int Index = std::countr_zero(Left);
-			const FDrawBlocks::FItem& Item = Block.Items[Index];
-			const bool bMirrored = ((Block.Mirrored >> Index) & 1u) != 0;
-			for (uint32_t I = 0; I < Item.BatchCount; ++I)
-			{
-				const uint32_t Batch = Indices[Item.FirstBatch + I];
-				FBatchUse& Use = Uses[Batch];
-				if (Use.Plain + Use.Mirrored == 0) { Order.push_back(Batch); }
-				const uint32_t Place = bMirrored ? Batches[Batch].Places - ++Use.Mirrored : Use.Plain++;
-				Objects[Batches[Batch].FirstPlace + Place] = Item.Object;
-			}
-		}
-	}
-	std::stable_partition(Order.begin(), Order.end(), [&](uint32_t Batch) { return !Batches[Batch].bMasked; });
-}
-
 void FGBufferPass::RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHostScene& Scene, bool bWithMotion)
 {
-	Scene.GetDrawBlocks().Collect(Frame.View, MinPixels, Seen);
-	if (Seen.empty()) { return; }
-	FUploadSlice Objects;
-	if (FRTStatus S = Renderer.GetUploads().Allocate(uint64_t(Scene.GetPlaceCount()) * sizeof(uint32_t), Objects); !S)
-	{
-		return Frame.Fail(S);
-	}
-	ListObjects(Scene, static_cast<uint32_t*>(Objects.Data));
+	if (FRTStatus S = Draws.Make(Scene, Renderer.GetUploads(), Frame.View, MinPixels); !S) { return Frame.Fail(S); }
 	IRTPipeline* Bound = nullptr;
 	IRTBuffer* BoundIndices = nullptr;
-	for (const uint32_t Index : Order)
+	for (const FDrawList::FRun& Run : Draws.GetRuns())
 	{
-		const FHostScene::FDrawBatch& Batch = Scene.GetBatches()[Index];
-		for (const bool bMirrored : {false, true})
-		{
-			const uint32_t Count = bMirrored ? Uses[Index].Mirrored : Uses[Index].Plain;
-			if (Count == 0) { continue; }
-			const ERTCull Cull = Batch.bDoubleSided ? ERTCull::None : bMirrored ? ERTCull::Front : ERTCull::Back;
-			IRTPipeline* const Pipeline = Pipelines.at({Batch.Program, Batch.bMasked && Frame.Facts.bMasked, Cull, bWithMotion});
-			if (!Pipeline) { continue; }
-			if (Pipeline != Bound) { List.SetPipeline(Bound = Pipeline); }
-			if (Batch.Indices != BoundIndices) { List.SetIndexBuffer(BoundIndices = Batch.Indices, 0, ERTIndexType::UInt32); }
-			const uint32_t First = Batch.FirstPlace + (bMirrored ? Batch.Places - Count : 0);
-			const FGBufferConstants Constants{Frame.Pass, Objects.Address + uint64_t(First) * sizeof(uint32_t), Batch.Section};
-			List.PushConstants(&Constants, sizeof(Constants));
-			List.DrawIndexed(Batch.IndexCount, Count, Batch.FirstIndex, 0);
-		}
+		const FHostScene::FDrawBatch& Batch = Scene.GetBatches()[Run.Batch];
+		const ERTCull Cull = Batch.bDoubleSided ? ERTCull::None : Run.bMirrored ? ERTCull::Front : ERTCull::Back;
+		IRTPipeline* const Pipeline = Pipelines.at({Batch.Program, Batch.bMasked && Frame.Facts.bMasked, Cull, bWithMotion});
+		if (!Pipeline) { continue; }
+		if (Pipeline != Bound) { List.SetPipeline(Bound = Pipeline); }
+		if (Batch.Indices != BoundIndices) { List.SetIndexBuffer(BoundIndices = Batch.Indices, 0, ERTIndexType::UInt32); }
+		const FGBufferConstants Constants{Frame.Pass, Run.Objects, Batch.Section, 0};
+		List.PushConstants(&Constants, sizeof(Constants));
+		List.DrawIndexed(Batch.IndexCount, Run.Count, Batch.FirstIndex, 0);
 	}
 }
 

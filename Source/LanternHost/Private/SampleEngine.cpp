@@ -46,7 +46,11 @@ FImage DecodeReadback(const void* Data, uint32_t Width, uint32_t Height, ERTForm
 
 } // namespace
 
-FSampleEngine::FSampleEngine(IRTDevice& Device, FRendererDesc Desc) : Renderer(Device, std::move(Desc)), GBufferPass(Renderer) {}
+FSampleEngine::FSampleEngine(IRTDevice& Device, FRendererDesc Desc)
+    : Renderer(Device, std::move(Desc)),
+      GBufferPass(Renderer),
+      ShadowMapPass(Renderer)
+{}
 
 FRTStatus FSampleEngine::Load(FSceneDescription Description, const std::function<void(float)>& Progress)
 {
@@ -63,6 +67,7 @@ FFrameFeatures FSampleEngine::MakeFeatures(const FFrameCapture& Capture) const
 	Features.bWaitForPipelines = Features.bBuildAll = !bRealTime;
 	Features.Signals = Signals;
 	Features.Signals.Wanted |= Capture.Signals;
+	Features.bHostShadow = FShadowMapPass::IsOn();
 	return Features;
 }
 
@@ -77,6 +82,7 @@ FRTStatus FSampleEngine::Precache(const FFrameCapture& Capture, const std::funct
 	Features.Skinning = Scene->SetTime(LastTime.value_or(0.0));
 	GBufferPass.Want(*Scene, Features); // beside the others
 	if (FRTStatus S = Renderer.Precache(Scene->GetScene(), Features, Report(0.0f, 1.0f - RasterShare)); !S) { return S; }
+	if (FRTStatus S = ShadowMapPass.Precache(*Scene); !S) { return S; }
 	return GBufferPass.Precache(*Scene, Features, Report(1.0f - RasterShare, RasterShare));
 }
 
@@ -171,6 +177,7 @@ FRTStatus FSampleEngine::RenderFrame(const FView& InView, double Time, const FFr
 	if (FRTStatus S = Renderer.BeginFrame(Scene->GetScene(), View, Features); !S) { return S; }
 	FFrameContext& Context = Renderer.GetContext();
 	const FGBuffer GBuffer = GBufferPass.Add(Context, *Scene);
+	Context.HostShadow = ShadowMapPass.Add(Context, *Scene);
 	const FFrameOutputs Frame = AddFramePasses(Context, GBuffer);
 	if (ExtraPasses) { ExtraPasses(Context, GBuffer, Frame); }
 	KeepSignals(Frame);

@@ -135,7 +135,17 @@ FRTStatus FModule::CreateRenderer(IRTDevice* Device, const FRTModuleRendererDesc
 	if (const FRTStatus Status = CheckDevice("CreateRenderer", Device); !Status) { return Status; }
 	if (const FRTStatus Status = CheckWorld(Desc); !Status) { return Status; }
 	if (!ConfigFolder.empty()) { LoadDeviceProfile({ConfigFolder}, Device->GetCapabilities().DeviceName); }
-	*Out = new FModuleRenderer(*this, *Device, FModuleWorld(Desc), {{ShaderFolder}, CacheFolder});
+	FRendererDesc Renderer{{ShaderFolder}, CacheFolder};
+	if (Desc.HostShadowShader != nullptr)
+	{
+		if (!std::filesystem::path(Desc.HostShadowShader).is_absolute() || !std::filesystem::is_regular_file(Desc.HostShadowShader))
+		{
+			return FRTStatus::Error(ERTResult::InvalidArgument,
+			    "FRTModuleRendererDesc::HostShadowShader is no absolute path of a file: \"%s\"", FRTShown(Desc.HostShadowShader).Text);
+		}
+		Renderer.ShaderHeaders.push_back(MakeHostShadowHeader(Desc.HostShadowShader));
+	}
+	*Out = new FModuleRenderer(*this, *Device, FModuleWorld(Desc), std::move(Renderer));
 	return FRTStatus::Success();
 }
 

@@ -4,6 +4,7 @@
 
 #include "ArgumentChecks.h"
 #include "FrameChecks.h"
+#include "HostShadowChecks.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/Tasks/TaskTrace.h"
 #include "ModuleRenderer.h"
@@ -114,6 +115,44 @@ void ImportTextures(FFrameGraph& Graph, const FRTModuleFrame& Frame, FHostSurfac
 	Out.Material = Import(Frame.Material, Frame.MaterialAccess, "EngineMaterial");
 }
 
+uint32_t ToMask(ERTModuleCasters Held)
+{
+	uint32_t Mask = 0;
+	if (HasAny(Held, ERTModuleCasters::Still)) { Mask |= MASK_SUN; }
+	if (HasAny(Held, ERTModuleCasters::Moving)) { Mask |= MASK_SUN_MOVING; }
+	if (HasAny(Held, ERTModuleCasters::Characters)) { Mask |= MASK_CHARACTER; }
+	if (HasAny(Held, ERTModuleCasters::Others)) { Mask |= HOST_SHADOW_OTHERS; }
+	return Mask;
+}
+/// Imports the textures of the map, and places it in Lantern's world.
+FHostShadow ImportHostShadow(FFrameGraph& Graph, const FRTModuleHostShadow& Shadow, const FModuleWorld& World)
+{
+	FHostShadow Out;
+	Out.CascadeCount = Shadow.CascadeCount;
+	Out.Held = ToMask(Shadow.Held);
+	Out.ShaderData = Shadow.ShaderData;
+	for (uint32_t I = 0; I < Shadow.CascadeCount; ++I)
+	{
+		const FRTModuleShadowCascade& From = Shadow.Cascades[I];
+		FHostShadowCascade& Cascade = Out.Cascades[I];
+		const ERTAccess After = From.Access == ERTAccess::External ? ERTAccess::External : ERTAccess::ShaderRead;
+		Cascade.Map = Graph.ImportTexture(From.Texture, From.Access, After, "EngineShadowMap");
+		Cascade.OffsetX = From.OffsetX;
+		Cascade.OffsetY = From.OffsetY;
+		Cascade.Width = From.Width;
+		Cascade.Height = From.Height;
+		for (int Row = 0; Row < 3; ++Row)
+		{
+			const glm::dvec3 Axis = World.ToDirection(From.WorldToMap + 4 * Row) / World.GetMetersPerUnit();
+			for (int Column = 0; Column < 3; ++Column) { Cascade.WorldToMap[4 * Row + Column] = Axis[Column]; }
+			Cascade.WorldToMap[4 * Row + 3] = From.WorldToMap[4 * Row + 3];
+		}
+		Cascade.TexelSize = static_cast<float>(World.ToMeters(From.TexelSize));
+		Cascade.DepthBias = static_cast<float>(World.ToMeters(From.DepthBias));
+	}
+	return Out;
+}
+
 } // namespace
 
 /// Begins the frame and adds its passes.
@@ -127,6 +166,7 @@ FRTStatus FModuleRenderer::AddPasses(const FRTModuleFrame& Frame, const FFrameVi
 	FHostSurface Surface = Views.Surface;
 	ImportTextures(Context.Graph, Frame, Surface);
 	const FGBuffer GBuffer = AddHostSurfacePass(Context, Surface);
+	if (Frame.HostShadow != nullptr) { Context.HostShadow = ImportHostShadow(Context.Graph, *Frame.HostShadow, World); }
 	if (!GBuffer.Depth.IsValid()) { return FRTStatus::Success(); } // shaders are missing: there is nothing to trace from
 	FFrameOutputs Made;
 	for (const FSignalInfo& Info : SignalInfos)
@@ -191,6 +231,7 @@ FFrameFeatures FModuleRenderer::MakeFeatures(const FRTModuleFrame& Frame, bool b
 	}
 	Features.bHostSurface = bHostSurface;
 	Features.bCameraMotion = Frame.Motion == nullptr;
+	Features.bHostShadow = Frame.HostShadow != nullptr;
 	return Features;
 }
 
@@ -200,6 +241,7 @@ FRTStatus FModuleRenderer::Precache(const FRTModuleFrame& Frame, FRTModuleProgre
 	if (const FRTStatus Status = Enter("Precache", Lock); !Status) { return Status; }
 	if (Recorded) { return FRTStatus::Error(ERTResult::InvalidArgument, "Precache: EndFrame was not called after RenderFrame"); }
 	if (const FRTStatus Status = CheckPrecache(Frame); !Status) { return Status; }
+	if (const FRTStatus Status = CheckHostShadow(Frame, *On->Device, !Desc.ShaderHeaders.empty()); !Status) { return Status; }
 	if (Frame.Depth != nullptr && Frame.Normals != nullptr)
 	{
 		FFrameViews Views;
@@ -273,6 +315,7 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 	if (const FRTStatus Status = Enter("RenderFrame", Lock); !Status) { return Status; }
 	if (Recorded) { return FRTStatus::Error(ERTResult::InvalidArgument, "RenderFrame: EndFrame was not called after the last one"); }
 	if (const FRTStatus Status = CheckFrame(Frame, *On->Device); !Status) { return Status; }
+	if (const FRTStatus Status = CheckHostShadow(Frame, *On->Device, !Desc.ShaderHeaders.empty()); !Status) { return Status; }
 	FFrameViews Views;
 	if (const FRTStatus Status = ReadViews(Frame, Views); !Status) { return Status; }
 	if (bLost)

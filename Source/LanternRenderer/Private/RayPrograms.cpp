@@ -68,10 +68,9 @@ struct FCollector
 };
 
 /// Also on devices without pipelines: passes that need them say so.
-void CollectSignals(
-    FCollector& Collector, const FRTCapabilities& Capabilities, FRTScene& Scene, const FSignalRequests& Requests, FSignalSet Ready)
+void CollectSignals(FCollector& Collector, const FRTCapabilities& Capabilities, FRTScene& Scene, const FSceneFacts& Facts,
+    const FSignalRequests& Requests, FSignalSet Ready)
 {
-	const FSceneFacts& Facts = Scene.GetFacts();
 	std::array<FPassRays, SignalCount> Chosen;
 	ForEachSignalPass([&](const FSignalPass& Pass) {
 		const bool bMayBeReplaced = Pass.ReplacedBy != ESignal::Count && Ready.Has(Pass.ReplacedBy);
@@ -122,7 +121,9 @@ FRayPrograms ChooseRayPrograms(
 	else
 	{
 		Programs.bMotion = Requests.bMotion;
-		CollectSignals(Collector, Capabilities, Scene, Requests, Ready);
+		FSceneFacts Facts = Scene.GetFacts();
+		Facts.bHostShadow = Features.bHostShadow;
+		CollectSignals(Collector, Capabilities, Scene, Facts, Requests, Ready);
 		Programs.bMotion &= Features.bMotion;
 	}
 	if (Features.bHostSurface) { Programs.Compute.push_back(MakeHostSurfaceSource()); }

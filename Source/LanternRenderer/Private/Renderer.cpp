@@ -44,7 +44,7 @@ constexpr uint64_t WaitNs = 1'200'000'000'000ull;
 
 FRenderer::FRenderer(IRTDevice& InDevice, FRendererDesc Desc)
     : Device(InDevice),
-      Compiler(FShaderCompilerDesc{std::move(Desc.ShaderFolders), Desc.CacheFolder}),
+      Compiler(FShaderCompilerDesc{std::move(Desc.ShaderFolders), Desc.CacheFolder, std::move(Desc.ShaderHeaders)}),
       Pipelines(InDevice, Compiler),
       Uploads(InDevice),
       GraphResources(InDevice),
@@ -168,6 +168,7 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	FrameStatus = FRTStatus::Success();
 	Graph = std::make_unique<FFrameGraph>(GraphResources);
 	Context.reset(new FFrameContext{Device, *Graph, Scene, Pipelines, Scene.RefreshFacts()});
+	Context->Facts.bHostShadow = Features.bHostShadow;
 	Context->View = View;
 	Context->Width = View.Width;
 	Context->Height = View.Height;

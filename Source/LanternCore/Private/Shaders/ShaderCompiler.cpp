@@ -69,7 +69,7 @@ struct FShaderCompiler::FImpl
 {
 	explicit FImpl(FShaderCompilerDesc InDesc)
 	    : Desc(std::move(InDesc)),
-	      Resolver(Desc.SearchFolders, Files),
+	      Resolver(Desc.SearchFolders, Desc.Headers, Files),
 	      Disk(Desc.CacheFolder),
 	      Version(GetGlslangVersion())
 	{}

@@ -146,21 +146,26 @@ struct FIncludeResolver::FWalk
 {
 	FIncludeTree& Tree;
 	const FShaderSource& Source;
+	const std::vector<FShaderHeader>& Common;
 	std::unordered_map<std::string, int> ByLocation;
 	std::vector<int> Stack;
 
 	const FShaderHeader* FindHeader(const fs::path& Include) const
 	{
 		const std::string Name = Include.lexically_normal().generic_string();
-		for (const FShaderHeader& Header : Source.Headers)
+		for (const std::vector<FShaderHeader>* const Headers : {&Source.Headers, &Common})
 		{
-			if (Header.Include == Name) { return &Header; }
+			const auto Is = [&](const FShaderHeader& Header) { return Header.Include == Name; };
+			if (const auto Found = std::find_if(Headers->begin(), Headers->end(), Is); Found != Headers->end()) { return &*Found; }
 		}
 		return nullptr;
 	}
 };
 
-FIncludeResolver::FIncludeResolver(const std::vector<std::string>& InSearchFolders, FShaderFileCache& InFiles) : Files(InFiles)
+FIncludeResolver::FIncludeResolver(
+    const std::vector<std::string>& InSearchFolders, std::vector<FShaderHeader> InHeaders, FShaderFileCache& InFiles)
+    : Headers(std::move(InHeaders)),
+      Files(InFiles)
 {
 	for (const std::string& Folder : InSearchFolders)
 	{
@@ -272,7 +277,7 @@ FIncludeTree FIncludeResolver::Resolve(const FShaderSource& Source)
 {
 	const std::string& Path = Source.Path;
 	FIncludeTree Tree;
-	FWalk Walk{Tree, Source, {}, {}};
+	FWalk Walk{Tree, Source, Headers, {}, {}};
 	if (!Source.Text.empty()) { Tree.Nodes.push_back({Path, {}, MakeShaderFile(Source.Text), {}}); }
 	else
 	{

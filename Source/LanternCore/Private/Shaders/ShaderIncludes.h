@@ -83,7 +83,8 @@ struct FIncludeTree
 class FIncludeResolver
 {
 public:
-	FIncludeResolver(const std::vector<std::string>& InSearchFolders, FShaderFileCache& InFiles);
+	/// Headers serve all shaders, behind those of each source.
+	FIncludeResolver(const std::vector<std::string>& InSearchFolders, std::vector<FShaderHeader> InHeaders, FShaderFileCache& InFiles);
 	FIncludeTree Resolve(const FShaderSource& Source);
 	const std::string& GetFoldersText() const { return FoldersText; }
 
@@ -103,6 +104,7 @@ private:
 
 	std::vector<std::filesystem::path> Folders;
 	std::string FoldersText;
+	std::vector<FShaderHeader> Headers;
 	FShaderFileCache& Files;
 };
 

@@ -53,6 +53,8 @@ public:
 	/// Collects blocks with something in view, near before far. Objects smaller than MinPixels across on the screen are culled.
 	/// Takes some hundredths of a millisecond for each 100,000 objects and core.
 	void Collect(const FView& View, float MinPixels, std::vector<FSeen>& Out);
+	/// Widens the range Min to Max until it holds all spheres along Axis, which has unit length. Those that are infinite do not count.
+	void AddExtent(const glm::dvec3& Axis, double& Min, double& Max) const;
 	const FBlock& GetBlock(uint32_t Index) const { return Blocks[Index]; }
 	/// Returns whether some draw is mirrored, or was since Build.
 	bool HasMirrored() const { return bMirrored; }

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "LanternHost/HostScene.h"
+#include "LanternHost/DrawList.h"
 
 namespace Lantern
 {
@@ -33,11 +33,6 @@ public:
 	void SetMotion(bool bEnabled) { bMotion = bEnabled; }
 
 private:
-	struct FBatchUse
-	{
-		uint32_t Plain = 0;    ///< objects at the front of the batch's places
-		uint32_t Mirrored = 0; ///< and at their back
-	};
 	struct FPipelineKey
 	{
 		uint32_t Program = StandardProgram;
@@ -55,7 +50,6 @@ private:
 	IRTPipeline* Ask(const FFrameContext& Context, const FPipelineKey& Key);
 	bool FindPipelines(const FFrameContext& Context, const FHostScene& Scene, bool bWithMotion);
 	bool ChooseMotion(const FFrameContext& Context, const FHostScene& Scene);
-	void ListObjects(FHostScene& Scene, uint32_t* Objects);
 	void RecordDraws(FFrameContext& Frame, IRTCommandList& List, FHostScene& Scene, bool bWithMotion);
 
 	FRenderer& Renderer;
@@ -64,10 +58,7 @@ private:
 	std::optional<bool> CompleteMotion;             // with motion or without: what last had all pipelines
 	float MinPixels = 0.0f;
 	bool bMotion = true;
-	// Kept for their memory.
-	std::vector<FDrawBlocks::FSeen> Seen;
-	std::vector<FBatchUse> Uses;
-	std::vector<uint32_t> Order; // batches in use
+	FDrawList Draws;
 };
 
 } // namespace Lantern

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "LanternHost/GBufferPass.h"
+#include "LanternHost/ShadowMapPass.h"
 #include "LanternImage/Image.h"
 #include "LanternSignals/Signals.h"
 
@@ -89,6 +90,7 @@ private:
 
 	FRenderer Renderer;
 	FGBufferPass GBufferPass;
+	FShadowMapPass ShadowMapPass;
 	std::unique_ptr<FHostScene> Scene;
 	std::optional<double> LastTime;
 	std::vector<FSkinningInputs> Skinning; // that no frame has done yet

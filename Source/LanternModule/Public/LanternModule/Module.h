@@ -203,10 +203,13 @@ struct FRTModuleRendererDesc
 	/// Unit length, perpendicular to each other. A left-handed engine's are mirrored, which is fine.
 	float AxisX[3] = {1, 0, 0}, AxisY[3] = {0, 1, 0}, AxisZ[3] = {0, 0, 1};
 	float MetersPerUnit = 1.0f; ///< 0.01 for centimetres; > 0. It holds for the world; radiometric units are as above
+	/// Shader of an engine whose shadow map is none of cascades, as a virtual one. An absolute path of a GLSL file that defines what
+	/// Tiles/HostShadow.glsl of the shader folder does, and takes its place. Read during CreateRenderer. Null: cascades.
+	const char* HostShadowShader = nullptr;
 };
 
 /// Returns the world of Unreal Engine: centimetres, left-handed, x forward, y right, z up.
-inline FRTModuleRendererDesc MakeUnrealWorld() { return {{0, 0, -1}, {1, 0, 0}, {0, 1, 0}, 0.01f}; }
+inline FRTModuleRendererDesc MakeUnrealWorld() { return {{0, 0, -1}, {1, 0, 0}, {0, 1, 0}, 0.01f, nullptr}; }
 
 /// Gives meshes again to IRTModuleRenderer::Recreate. Get returns whether the engine still has the mesh. Out must be what AddMesh
 /// had: as many sections, each with its bMayBeMasked, and bDeformable; vertices may be newer. Its arrays are read before the next

@@ -121,6 +121,51 @@ inline FRTModuleGBufferLayout MakeUnrealGBuffer()
 	return Layout;
 }
 
+/// Casters on an engine's shadow map (flags).
+enum class ERTModuleCasters : uint32_t
+{
+	None = 0,
+	Still = 1,      ///< objects with ERTModuleMobility::Static or Stationary
+	Moving = 2,     ///< objects with ERTModuleMobility::Movable
+	Characters = 4, ///< objects with FRTModuleObject::bCharacter. Such a map shadows characters, too; rays do not
+	/// What rays cannot meet: billboards, translucent things, anything that the renderer was not given.
+	Others = 8,
+};
+LANTERN_RT_FLAGS(ERTModuleCasters)
+
+/// What the sun sees of a part of the world, by an orthographic projection.
+struct FRTModuleShadowCascade
+{
+	/// D32_FLOAT, D32_FLOAT_S8_UINT, D24_UNORM_S8_UINT, D16_UNORM or R32_FLOAT, with Sampled usage. Cascades may share a texture.
+	IRTTexture* Texture = nullptr;
+	ERTAccess Access = ERTAccess::ShaderRead; ///< how the engine used it last, not None; of cascades with one texture that of the first
+	/// The cascade's part of the texture, texels. Width and Height 0: to the texture's end.
+	uint32_t OffsetX = 0, OffsetY = 0, Width = 0, Height = 0;
+	/// Three rows of four, which take a position in the engine's world. The first two give x and y from 0 to 1 over that part, y
+	/// downwards. The third gives depth as texels have it, reversed or not. Casters beyond the near plane are clamped to it.
+	double WorldToMap[12] = {};
+	/// Edge of a texel in the engine's unit, finite, > 0. Rays are traced where it is larger than a pixel.
+	float TexelSize = 0.0f;
+	/// Distance by which a texel may be nearer to the sun than the surface that it shows: the engine's unit, finite, ≥ 0. The surface's
+	/// slope is no part of it.
+	float DepthBias = 0.0f;
+};
+
+inline constexpr uint32_t MaxShadowCascades = 4;
+
+/// The engine's shadow map of the sun. Rays trace the casters that are not Held. Held ones come from the map where it is surely lit
+/// or surely dark. Rays trace them, too, where it is neither. A map with ERTModuleCasters::Others multiplies the shadows of rays instead,
+/// because rays cannot meet all that it holds. Nothing Held: all is traced.
+struct FRTModuleHostShadow
+{
+	/// Ordered from the finest to the coarsest. All hold the same casters, each in its own part of the world.
+	FRTModuleShadowCascade Cascades[MaxShadowCascades];
+	uint32_t CascadeCount = 0; ///< 1 to 4; with ShaderData, 0 is fine
+	ERTModuleCasters Held = ERTModuleCasters::None;
+	/// Address of a buffer for FRTModuleRendererDesc::HostShadowShader, and 0 without that. Its owner orders writes before the frame.
+	uint64_t ShaderData = 0;
+};
+
 /// A frame with the engine's G-buffer. All textures have one size and Sampled usage, and are imported with
 /// IRTDevice::ImportTexture. The access of each is how the engine used it last, not None. All are left in ShaderRead, except those
 /// whose access is External: they are left as IRTTexture::SetExternalState says.
@@ -157,6 +202,9 @@ struct FRTModuleFrame
 	IRTTexture* GeometricNormals = nullptr;
 	ERTAccess GeometricNormalsAccess = ERTAccess::ShaderRead;
 	FRTModuleGBufferLayout Layout;
+	/// The engine's shadow map of the sun, which saves rays. May be null. Whether there is one decides about shaders: a first frame with it
+	/// traces none of the sun's shadows until these are compiled (IRTModuleRenderer::Precache).
+	const FRTModuleHostShadow* HostShadow = nullptr;
 	/// The view's part of all textures, pixels: dynamic resolution, split screen. Width and Height 0: to the textures' end.
 	/// Outputs have the size of this part, and start at 0.
 	uint32_t OffsetX = 0, OffsetY = 0, Width = 0, Height = 0;

@@ -48,6 +48,7 @@ FShadowQueueConstants MakeConstants(FPassContext& Pass, const FFrameContext& Fra
 	C.MaxDistance = Sun.MaxDistance;
 	C.RayFlags = GetCasterRayFlags();
 	C.InstanceMask = Sun.InstanceMask;
+	C.LitMask = Sun.LitMask;
 	C.SunOneMinusCos = GetSunOneMinusCos(Sun);
 	return C;
 }

@@ -31,6 +31,7 @@ struct FSunRays
 	uint32_t SamplesPerPixel = 0; ///< 1 to 64; 0: nobody asks
 	float MaxDistance = 0.0f;     ///< metres
 	uint32_t InstanceMask = 0;
+	uint32_t LitMask = 0;  ///< of rays with RAY_SLOT_SUN_LIT; 0: these are not traced
 	uint32_t RayFlags = 0; ///< GetCasterRayFlags
 	float Diameter = 0.0f; ///< of the disk that they go to, radians; 0: they go to its centre
 	friend bool operator==(const FSunRays&, const FSunRays&) = default;

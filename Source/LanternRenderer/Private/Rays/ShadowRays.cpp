@@ -42,6 +42,7 @@ std::shared_ptr<const FShadowRays> AddShadowRays(FFrameContext& Context, const F
 	if (!Asked) { return nullptr; }
 	FShadowRays Rays;
 	Rays.Sun = Asked->Wishes.Sun;
+	if (Rays.Sun.SamplesPerPixel > 0) { Rays.Map = AddHostShadowPass(Context, Rays.Sun); }
 	Rays.Traced.Sun = Rays.Sun;
 	Rays.Queue = CreateRayQueue(Context, GetMostPerPixel(Asked->Wishes));
 	if (Asked->Wishes.bSunWidths)
@@ -52,7 +53,7 @@ std::shared_ptr<const FShadowRays> AddShadowRays(FFrameContext& Context, const F
 	if (Rays.Sun.SamplesPerPixel > 0)
 	{
 		Rays.Settled = FindSettledTiles(Context, GBuffer, Rays.Sun, Asked->Wishes.SunRates, Asked->Wishes.bSunFiltered);
-		Rays.Tiles = AddTilesPass(Context, GBuffer, Rays.Queue, Rays.Sun, Rays.Settled);
+		Rays.Tiles = AddTilesPass(Context, GBuffer, Rays.Queue, Rays.Sun, Rays.Settled, Rays.Map);
 		if (!Rays.Tiles.IsValid()) { return nullptr; }
 	}
 	if (Asked->Wishes.Local) { AddLocalRequests(Context, GBuffer, Rays, *Asked->Wishes.Local); }

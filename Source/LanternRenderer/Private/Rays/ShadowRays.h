@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "Tiles/HostShadow.h"
 #include "Tiles/SettledTiles.h"
 
 namespace Lantern
@@ -33,6 +34,7 @@ struct FShadowRays
 	FGraphBuffer Tiles; ///< FTile[]; invalid: nobody asks for the sun
 	FSunRays Sun;
 	FSettledTiles Settled;
+	FHostShadowMap Map; ///< what it holds is left to it
 	FQueuedRays Traced;
 };
 

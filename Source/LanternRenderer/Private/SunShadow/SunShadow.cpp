@@ -41,9 +41,10 @@ FShaderDefines JoinDefines(FShaderDefines Defines, const FShaderDefines& Others)
 	return Defines;
 }
 
-FShaderSource MakeResolveSource(const FSunRates& Rates)
+FShaderSource MakeResolveSource(const FSceneFacts& Facts, const FSunRates& Rates)
 {
-	return MakeComputeSource(MakeShaderPath(ESignal::SunShadow, ".comp"), JoinDefines(MakeSettledDefines(Rates), MakeContactDefines()));
+	const FShaderDefines Rest = JoinDefines(MakeContactDefines(), MakeHostShadowDefines(Facts));
+	return MakeComputeSource(MakeShaderPath(ESignal::SunShadow, ".comp"), JoinDefines(MakeSettledDefines(Rates), Rest));
 }
 
 FSunRays MakeSunRays(const FRTScene& Scene, const FRayDispatch& Dispatch)
@@ -70,6 +71,7 @@ struct FResolveInputs
 	FSunRays Rays;
 	FSettledTiles Settled;
 	FGraphTexture Penumbra; ///< the penumbra's width in pixels is written here as well; may be invalid
+	FHostShadowMap Map;     ///< it shadows where rays do not take its place
 	FHistoryTexture Kept;   ///< visibility, for pixels whose rays have no room; Current is invalid if all have
 };
 
@@ -85,6 +87,7 @@ FGraphTexture AddResolvePass(FFrameContext& Context, IRTPipeline* Pipeline, cons
 		Builder.Read(Inputs.GBuffer.Normals, ERTAccess::ShaderRead);
 		for (const FGraphBuffer Buffer : {Inputs.Tiles, Queue.Answers}) { Builder.Read(Buffer, ERTAccess::ShaderRead); }
 		if (Queue.SunWidths.IsValid()) { Builder.Read(Queue.SunWidths, ERTAccess::ShaderRead); }
+		Inputs.Map.Read(Builder);
 		Builder.Write(Visibility, ERTAccess::StorageWrite);
 		if (Inputs.Kept.Previous.IsValid()) { Builder.Read(Inputs.Kept.Previous, ERTAccess::ShaderRead); }
 		if (Inputs.Kept.Current.IsValid())
@@ -116,6 +119,7 @@ FGraphTexture AddResolvePass(FFrameContext& Context, IRTPipeline* Pipeline, cons
 			C.Settled = GetStorageIndex(Pass, Inputs.Settled.Known.Current);
 			C.Contact = MakeContactConstants(Pass, *Frame, Inputs.GBuffer);
 			C.SunOneMinusCos = GetSunOneMinusCos(Inputs.Rays);
+			C.HostShadow = Inputs.Map.Push(Pass, *Frame);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
@@ -142,9 +146,10 @@ FGraphTexture AddVisibility(FFrameContext& Context, const FGBuffer& GBuffer, FGr
 {
 	const FShadowRays* const Rays = RequireShadowRays(Context, GBuffer);
 	if (!Rays || Rays->Sun.SamplesPerPixel == 0) { return {}; }
-	IRTPipeline* const Resolve = RequireCompute(Context, MakeResolveSource(Rays->Settled.Rates));
+	IRTPipeline* const Resolve = RequireCompute(Context, MakeResolveSource(Context.Facts, Rays->Settled.Rates));
 	if (!Resolve) { return {}; }
 	FResolveInputs Inputs{GBuffer, Rays->Queue, Rays->Tiles, Rays->Sun, Rays->Settled};
+	Inputs.Map = Rays->Map;
 	if (MayLackSunRays(Context, Inputs.Queue) && !FindKept(Context, Inputs.Kept)) { return {}; }
 	if (Inputs.Queue.SunWidths.IsValid())
 	{
@@ -168,18 +173,19 @@ FPassRays ChooseSunShadowRays(const FPassQuery& Query)
 	if (MeasuresPenumbra()) { Rays.Defines.emplace_back("WITH_PENUMBRA", "1"); }
 	Rays.bBlockers = MeasuresPenumbra();
 	Rays.Shaders = ShadowQueueShaders;
-	const FSunRates Rates = GetSunRates(MeasuresPenumbra());
-	Rays.Compute = {MakeTilesSource(Rates), MakeResolveSource(Rates)};
+	const FSunRates Rates = GetSunRates(Query.Facts, MeasuresPenumbra());
+	Rays.Compute = {MakeTilesSource(Query.Facts, Rates), MakeResolveSource(Query.Facts, Rates)};
 	if (Rates.bAdaptive) { ListSettledShaders(Rays.Compute); }
 	ListTileViewShaders(Rays.Compute);
+	if (Query.Facts.bHostShadow) { Rays.Compute.push_back(MakePyramidSource()); }
 	if (MayQueuesOverflow(1)) { Rays.Compute.push_back(MakeShareSource()); }
 	return Rays;
 }
 
 bool AskSunShadowRays(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowRayWishes& InOut)
 {
-	const FSunRates Rates = GetSunRates(MeasuresPenumbra());
-	if (!Dispatch.Has("SUN_RAYS") || !RequireCompute(Context, MakeResolveSource(Rates))) { return false; }
+	const FSunRates Rates = GetSunRates(Context.Facts, MeasuresPenumbra());
+	if (!Dispatch.Has("SUN_RAYS") || !RequireCompute(Context, MakeResolveSource(Context.Facts, Rates))) { return false; }
 	InOut.Sun = MakeSunRays(Context.Scene, Dispatch);
 	InOut.SunRates = Rates;
 	InOut.bSunFiltered = IsSunShadowFiltered(Context.Scene);

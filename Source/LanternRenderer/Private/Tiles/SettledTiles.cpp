@@ -83,7 +83,12 @@ void AddCheckPass(FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue
 }
 } // namespace
 
-FSunRates GetSunRates(bool bMayFilter) { return {bMayFilter && CVarAdaptive.GetOnRenderThread(), CVarRateDistance.GetOnRenderThread()}; }
+FSunRates GetSunRates(const FSceneFacts& Facts, bool bMayFilter)
+{
+	// A host's map answers most pixels, and rays take its place where it cannot.
+	if (Facts.bHostShadow) { return {}; }
+	return {bMayFilter && CVarAdaptive.GetOnRenderThread(), CVarRateDistance.GetOnRenderThread()};
+}
 
 FShaderDefines MakeSettledDefines(const FSunRates& Rates) { return Rates.IsAny() ? FShaderDefines{{"ADAPTIVE", "1"}} : FShaderDefines{}; }
 

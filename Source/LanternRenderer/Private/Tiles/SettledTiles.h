@@ -29,7 +29,7 @@ struct FSettledTiles
 };
 
 /// bMayFilter: the signal is accumulated over frames, if the sun is no point.
-FSunRates GetSunRates(bool bMayFilter);
+FSunRates GetSunRates(const FSceneFacts& Facts, bool bMayFilter);
 /// The defines of shaders that take part, of which a frame may make no use all the same.
 FShaderDefines MakeSettledDefines(const FSunRates& Rates);
 void ListSettledShaders(std::vector<FShaderSource>& Out);

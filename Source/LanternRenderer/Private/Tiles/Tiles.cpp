@@ -15,6 +15,7 @@ struct FTilesPass
 	FGraphBuffer Tiles;
 	FSunRays Sun;
 	FSettledTiles Settled;
+	FHostShadowMap Map;
 };
 
 FTilesConstants MakeConstants(FPassContext& Pass, const FFrameContext& Frame, const FTilesPass& Inputs)
@@ -41,6 +42,9 @@ void AddSortPass(FFrameContext& Context, IRTPipeline* Pipeline, const FTilesPass
 			Builder.Write(Buffer, ERTAccess::StorageWrite);
 		}
 		DeclareSettled(Builder, *Frame, Inputs.Settled);
+		Inputs.Map.Read(Builder);
+		const bool bWidths = Inputs.Map.IsValid() && Queue.SunWidths.IsValid();
+		if (bWidths) { Builder.Write(Queue.SunWidths, ERTAccess::StorageWrite); }
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
 			StartQueue(Pass, Inputs.Queue);
@@ -51,6 +55,10 @@ void AddSortPass(FFrameContext& Context, IRTPipeline* Pipeline, const FTilesPass
 			C.SunSamples = Inputs.Sun.SamplesPerPixel;
 			C.SunOneMinusCos = GetSunOneMinusCos(Inputs.Sun);
 			C.Settled = WriteSettled(Pass, *Frame, Inputs.Settled);
+			C.SunMask = Inputs.Sun.InstanceMask;
+			C.LitMask = Inputs.Sun.LitMask;
+			C.HostShadow = Inputs.Map.Push(Pass, *Frame);
+			C.SunWidths = bWidths ? Pass.GetBuffer(Inputs.Queue.SunWidths)->GetDeviceAddress() : 0;
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
@@ -64,7 +72,12 @@ bool MayLackSunRays(const FFrameContext& Context, const FRayQueue& Queue)
 	return Queue.bMayOverflow && Queue.Capacity < uint64_t(Context.Width) * Context.Height;
 }
 
-FShaderSource MakeTilesSource(const FSunRates& Rates) { return MakeComputeSource("Tiles/Tiles.comp", MakeSettledDefines(Rates)); }
+FShaderSource MakeTilesSource(const FSceneFacts& Facts, const FSunRates& Rates)
+{
+	FShaderDefines Defines = MakeSettledDefines(Rates);
+	for (auto& Define : MakeHostShadowDefines(Facts)) { Defines.push_back(std::move(Define)); }
+	return MakeComputeSource("Tiles/Tiles.comp", std::move(Defines));
+}
 
 FShaderSource MakeShareSource() { return MakeComputeSource("Tiles/ShareQueue.comp"); }
 
@@ -90,14 +103,14 @@ void AddShareQueuePass(FFrameContext& Context, const FRayQueue& Queue, FGraphBuf
 	});
 }
 
-FGraphBuffer AddTilesPass(
-    FFrameContext& Context, const FGBuffer& GBuffer, const FRayQueue& Queue, const FSunRays& Sun, const FSettledTiles& Settled)
+FGraphBuffer AddTilesPass(FFrameContext& Context, const FGBuffer& GBuffer, const FRayQueue& Queue, const FSunRays& Sun,
+    const FSettledTiles& Settled, const FHostShadowMap& Map)
 {
-	IRTPipeline* const Sort = RequireCompute(Context, MakeTilesSource(Settled.Rates));
+	IRTPipeline* const Sort = RequireCompute(Context, MakeTilesSource(Context.Facts, Settled.Rates));
 	// Sun rays come first in the queue: they find room unless it is smaller than the picture.
 	const bool bShare = MayLackSunRays(Context, Queue) && Sun.SamplesPerPixel > 0;
 	if (!Sort || (bShare && !RequireCompute(Context, MakeShareSource()))) { return {}; }
-	FTilesPass Inputs{GBuffer, Queue, {}, Sun, Settled};
+	FTilesPass Inputs{GBuffer, Queue, {}, Sun, Settled, Map};
 	Inputs.Tiles = Context.Graph.CreateBuffer({uint64_t(CountTiles(Context)) * sizeof(FTile)}, "Tiles");
 	AddSortPass(Context, Sort, Inputs);
 	if (bShare) { AddShareQueuePass(Context, Queue, Inputs.Tiles, false); }

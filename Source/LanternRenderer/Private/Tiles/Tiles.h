@@ -1,21 +1,23 @@
 // Tiles of 8 × 8 pixels: what is in them, and which rays they ask for.
 #pragma once
 
+#include "Tiles/HostShadow.h"
 #include "Tiles/SettledTiles.h"
 
 namespace Lantern
 {
 
-FShaderSource MakeTilesSource(const FSunRates& Rates);
+FShaderSource MakeTilesSource(const FSceneFacts& Facts, const FSunRates& Rates);
 
 /// Of the pass that shares out a queue which may overflow.
 FShaderSource MakeShareSource();
 
-/// Adds the pass that sorts the screen into tiles. It answers what needs no ray, and queues the rays of the rest. If the queue may
+/// Adds the pass that sorts the screen into tiles. It answers what needs no ray, by the host's shadow map if there is one, and queues the
+/// rays of the rest. If the queue may
 /// overflow, a second pass sees to it that the same rays have room in each run. Reads Depth and Normals
 /// of the G-buffer. Returns FTile[] (TileTypes.h), row by row. Invalid: shaders are being compiled.
-FGraphBuffer AddTilesPass(
-    FFrameContext& Context, const FGBuffer& GBuffer, const FRayQueue& Queue, const FSunRays& Sun, const FSettledTiles& Settled);
+FGraphBuffer AddTilesPass(FFrameContext& Context, const FGBuffer& GBuffer, const FRayQueue& Queue, const FSunRays& Sun,
+    const FSettledTiles& Settled, const FHostShadowMap& Map);
 /// Returns whether the queue, in which sun rays come first, may lack room for them.
 bool MayLackSunRays(const FFrameContext& Context, const FRayQueue& Queue);
 

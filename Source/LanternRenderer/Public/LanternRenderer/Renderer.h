@@ -14,6 +14,7 @@
 
 #include "LanternCore/FrameGraph/FrameGraph.h"
 #include "LanternCore/Tasks/Tasks.h"
+#include "LanternRenderer/HostShadow.h"
 #include "LanternRenderer/View.h"
 #include "LanternScene/Pipelines/PlainPipelines.h"
 #include "LanternScene/Pipelines/RTPSOCompiler.h"
@@ -28,6 +29,8 @@ struct FRendererDesc
 {
 	std::vector<std::string> ShaderFolders; ///< searched in order; the plugin's Shaders first
 	std::string CacheFolder;                ///< keeps compiled shaders between runs; empty: they are not kept
+	/// Replace files of the plugin that are made to be replaced, as Tiles/HostShadow.glsl.
+	std::vector<FShaderHeader> ShaderHeaders = {};
 };
 
 /// One geometry to be deformed by linear blend skinning, from source vertices into the geometry's own buffers.
@@ -61,6 +64,8 @@ struct FFrameFeatures
 	/// The host traces rays in passes of its own. Acceleration structures are then kept even if no pass of the plugin needs
 	/// them. They are recorded at the start of the frame.
 	bool bRays = false;
+	/// The host has a shadow map of the sun (FFrameContext::HostShadow).
+	bool bHostShadow = false;
 	/// Records acceleration structures where the host calls FFrameContext::RequireRays instead.
 	bool bLateRays = false;
 	/// The frame waits until all of its shaders are compiled, so that each picture is complete. If false, it uses what is
@@ -177,6 +182,8 @@ struct FFrameContext
 	FHistoryResources* History = nullptr;
 	FMovedCasters* MovedCasters = nullptr; ///< what may have changed the sun's shadows since the view's last frame
 	FRayQueueCounter* RayCounter = nullptr;
+	/// What the host hands over beside its G-buffer, before it adds passes. Frames without FFrameFeatures::bHostShadow do not read it.
+	FHostShadow HostShadow;
 	FRayQueueDemand* QueueDemand = nullptr; ///< what earlier frames asked of the queue of shadow rays
 	FSurfaceTextures Surface;
 	/// What r.RT.Debug.View shows instead of a signal, RGBA8_UNORM; invalid: nothing drew it.

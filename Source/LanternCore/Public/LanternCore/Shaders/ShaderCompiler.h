@@ -46,8 +46,9 @@ struct FShaderBinary
 
 struct FShaderCompilerDesc
 {
-	std::vector<std::string> SearchFolders; ///< "Shaders" of the plugin first, then the engine's
-	std::string CacheFolder;                ///< empty: no disk cache
+	std::vector<std::string> SearchFolders;  ///< "Shaders" of the plugin first, then the engine's
+	std::string CacheFolder;                 ///< empty: no disk cache
+	std::vector<FShaderHeader> Headers = {}; ///< for all shaders, behind those of FShaderSource
 	bool bDebugInfo = false;
 	bool bOptimize = true;
 };

@@ -49,6 +49,7 @@ struct FSceneFacts
 	bool bSky = false;
 	bool bSkyMap = false;     ///< it is a texture
 	bool bCharacters = false; ///< some objects are not shadowed by characters: FRTObjectTraits
+	bool bHostShadow = false; ///< the frame's host has a shadow map of the sun; set by the renderer
 	friend bool operator==(const FSceneFacts&, const FSceneFacts&) = default;
 };
 
