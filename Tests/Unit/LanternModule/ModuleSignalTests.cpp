@@ -77,6 +77,9 @@ TEST_F(FModuleSignalTest, EverySignalOfTheRegistryIsAnOutput)
 {
 	const float Sky[3] = {1, 1, 1};
 	ASSERT_OK(Renderer->SetSky(Sky));
+	FRTModuleLight Lamp;
+	ERTLightHandle LampHandle = ERTLightHandle::None;
+	ASSERT_OK(Renderer->AddLight(Lamp, &LampHandle));
 	SetVariable("r.RT.GI", "1");
 	SetVariable("r.RT.Reflections", "1");
 	for (const FSignalInfo& Info : SignalInfos)

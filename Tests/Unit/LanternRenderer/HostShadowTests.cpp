@@ -77,14 +77,15 @@ TEST_F(FHostShadowTest, RaysLeaveCastersToTheMap)
 	for (const auto& [Casters, Masks] : Cases)
 	{
 		Set("r.RT.HostShadow", Casters);
+		Mock().ClearCalls();
 		LoadAndRender({});
+		if (*Casters == '1') { EXPECT_THAT(Mock().GetCreatedPipelines(), Contains(HasSubstr("HAS_HOST_SHADOW"))); }
 		EXPECT_TRUE(HasPass("HostShadowPyramid")) << Casters;
 		const FTilesConstants Constants = GetTilesConstants();
 		EXPECT_NE(Constants.HostShadow, 0u) << Casters;
 		EXPECT_EQ(Constants.SunMask, Masks.first) << Casters;
 		EXPECT_EQ(Constants.LitMask, Masks.second) << Casters;
 	}
-	EXPECT_THAT(Mock().GetCreatedPipelines(), Contains(HasSubstr("HAS_HOST_SHADOW")));
 }
 
 // 64 texels: cells of 4, 8, 16, 32 and 64 texels, in each of four cascades.
@@ -109,6 +110,7 @@ TEST_F(FHostShadowTest, PrecacheKnowsIt)
 {
 	Set("r.RT.HostShadow", "3");
 	ASSERT_TRUE(Load({}));
+	FConsoleVariables::Get().BeginFrame(); // as the engine does before it asks
 	FFrameCapture Capture;
 	Capture.Signals.Add(ESignal::SunShadow);
 	ASSERT_TRUE(Engine->Precache(Capture, {}));
