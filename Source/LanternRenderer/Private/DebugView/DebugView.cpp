@@ -4,6 +4,7 @@
 #include "DebugViewTypes.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
+#include "Lights/LightCellsView.h"
 
 namespace Lantern
 {
@@ -11,19 +12,28 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<std::string> CVarView("r.RT.Debug.View", "frame",
-    "Shows one signal instead of the picture, by its name as lantern reference --help lists it. frame: the picture.");
+    "Shows one signal instead of the picture, by its name as lantern reference --help lists it. frame: the picture. "
+    "light_cells: how many lights the light cell of a pixel lists.");
+constexpr const char* LightCellsView = "light_cells";
 } // namespace
+
+bool IsLightCellsView() { return CVarView.GetOnRenderThread() == LightCellsView; }
 
 ESignal GetDebugView()
 {
+	if (IsLightCellsView()) { return ESignal::Frame; }
 	const std::string& Name = CVarView.GetOnRenderThread();
 	const std::optional<ESignal> Signal = FindSignal(Name);
-	if (!Signal) { LogOnce(ERTLogLevel::Warning, "r.RT.Debug.View: " + Quote(Name) + " is none of " + ListSignalNames()); }
+	if (!Signal)
+	{
+		LogOnce(ERTLogLevel::Warning, "r.RT.Debug.View: " + Quote(Name) + " is none of " + ListSignalNames() + ", " + LightCellsView);
+	}
 	return Signal.value_or(ESignal::Frame);
 }
 
-FGraphTexture AddDebugView(FFrameContext& Context, const FFrameOutputs& Outputs)
+FGraphTexture AddDebugView(FFrameContext& Context, const FGBuffer& GBuffer, const FFrameOutputs& Outputs)
 {
+	if (IsLightCellsView()) { return AddLightCellsView(Context, GBuffer, Outputs.Display); }
 	const ESignal Signal = GetDebugView();
 	const FGraphTexture Input = Outputs.Get(Signal);
 	if (Signal == ESignal::Frame) { return Outputs.Display; }

@@ -3,6 +3,7 @@
 
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LightingTypes.h"
+#include "Lights/LightCells.h"
 #include "PassTools.h"
 #include "Sky/SkyLight.h"
 
@@ -38,6 +39,7 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 	if (!Pipeline) { return {}; }
 	const FGraphTexture SkyLight = HasSkyAmbient(Context.Facts) ? AddSkyLightPass(Context) : FGraphTexture();
 	const FGraphTexture Output = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA32_FLOAT}, "Lighting");
+	if (CVarLocalLights.GetOnRenderThread()) { RequireLightCells(Context, Inputs.GBuffer); }
 	const FPassConstants PassConstants = Context.Pass;
 	const float Surroundings = CVarSurroundings.GetOnRenderThread();
 	const uint32_t Width = Context.Width, Height = Context.Height;
@@ -52,6 +54,7 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
+		if (CVarLocalLights.GetOnRenderThread()) { ReadLightCells(Builder, Context.LightCells, false); }
 		Builder.Write(Output, ERTAccess::StorageWrite);
 		return [=](FPassContext& Pass) {
 			const auto Sampled = [&](FGraphTexture Texture) { return GetSampledIndex(Pass, Texture); };

@@ -98,6 +98,7 @@ struct FAnyHitCounts
 
 class FAnyHitCounter;
 class FHistoryResources;
+class FLightCells;
 class FRayQueueDemand;
 class FRefitQuality;
 class FRenderer;
@@ -111,6 +112,16 @@ struct FSurfaceTextures
 	FGraphTexture Current;  ///< RG32_FLOAT, see Shaders/Library/History.glsl
 	FGraphTexture Previous; ///< Current of the frame before; invalid: there is none
 	FGraphTexture Motion;   ///< as in FGBuffer; invalid where Previous is
+};
+
+/// Lights by place in the world, for passes that walk them (Lights/LightCells.h). The first pass that asks makes them.
+struct FLightCellsOfFrame
+{
+	FLightCells* OfView = nullptr; ///< what the view keeps
+	bool bAsked = false;
+	FGraphBuffer Buffer;  ///< invalid: there are none
+	FGraphBuffer Counts;  ///< see FPassBuilder::Keep
+	FAddress Address = 0; ///< FSceneConstants::LightCells, once they are recorded
 };
 
 /// The scene's data, which passes reach without the graph. Passes count as readers of all; those that are not say so
@@ -157,6 +168,7 @@ struct FFrameContext
 	FHistoryResources* History = nullptr;
 	FRayQueueDemand* QueueDemand = nullptr; ///< what earlier frames asked of the queue of shadow rays
 	FSurfaceTextures Surface;
+	FLightCellsOfFrame LightCells;
 	FSceneTokens Tokens;
 	FSignalRequests Signals;
 	/// First error that a pass met; the frame is then not submitted. Not while passes are recorded.
@@ -225,6 +237,7 @@ public:
 	FRefitQuality& GetRefitQuality() { return *RefitQuality; }
 	FFrameUploads& GetUploads() { return Uploads; }
 	FHistoryResources& GetHistory(uint32_t ViewIndex = 0) { return *GetView(ViewIndex).History; }
+	FLightCells& GetLightCells(uint32_t ViewIndex = 0) { return *GetView(ViewIndex).LightCells; }
 	FFrameGraphResources& GetGraphResources() { return GraphResources; }
 	/// Returns the RTPSO of the last frame; null if it had none.
 	const FRTPSO* GetRayPipeline() const { return RayPipeline.get(); }
@@ -308,6 +321,7 @@ private:
 	struct FViewState
 	{
 		std::unique_ptr<FHistoryResources> History;
+		std::unique_ptr<FLightCells> LightCells;
 		FView LastView;          // of the newest frame that reached the GPU
 		uint64_t LastScene = 0;  // identity of its scene's sections, which outlives an address; 0: none
 		uint64_t Viewer = 0;     // who it is to scenes
