@@ -1,52 +1,57 @@
-// Tells cells and blocks that a light which reaches them has changed, or did reach them. A group for each block.
+// Tells cells and blocks that a light which reaches them has changed, or did reach them. A thread for each block.
 #version 460
 #include "LightReach.glsl"
 
 layout(local_size_x = LIGHT_CELL_GROUP_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FLightCellConstants Push; };
 
-shared uint Touching[LIGHT_CELL_GROUP_SIZE], TouchingCount;
-
-// Cells that left the grid may come back, and nobody follows what changes around them meanwhile.
 void Forget(FLightGrid Grid, uint Index) { FLightCellRef(Grid.Cells).Data[Index].State &= ~LIGHT_CELL_FILLED; }
+
+// Returns the lowest corner of cell Place, 0 to 63, of a block.
+ivec3 CellCorner(ivec3 BlockCorner, uint CellShift, uint Place)
+{
+	return BlockCorner + (ivec3(uvec3(Place, Place >> 2u, Place >> 4u) & 3u) << CellShift);
+}
 
 void main()
 {
+	if (gl_GlobalInvocationID.x >= LIGHT_BLOCKS) { return; }
 	FLightGrid Grid = FLightGridRef(Push.Grid).Data;
 	FLightReachRef Changes = FLightReachRef(Push.Changes);
-	uint Lane = gl_LocalInvocationIndex, Block = LIGHT_CELLS + gl_WorkGroupID.x;
-	uint Level, BlockShift;
-	ivec3 BlockCorner = FindLightCorner(Grid, Block, Level, BlockShift);
-	FLightBox BlockBox = MakeLightBox(Grid, BlockCorner, BlockShift);
-	uint CellShift = BlockShift - LIGHT_BLOCK_BITS;
-	ivec3 Corner = BlockCorner + (ivec3(uvec3(Lane, Lane >> 2u, Lane >> 4u) & 3u) << CellShift);
-	FLightBox Box = MakeLightBox(Grid, Corner, CellShift);
-	FLightCellPlace Place = PlaceLightCell(Grid, Level, Corner);
-	bool bBlockTouched = false, bTouched = false, bEverywhere = false;
-	for (uint First = 0u; First < Push.ChangeCount; First += LIGHT_CELL_GROUP_SIZE)
+	uint Block = LIGHT_CELLS + gl_GlobalInvocationID.x, Level, BlockShift;
+	ivec3 Corner = FindLightCorner(Grid, Block, Level, BlockShift);
+	FLightBox BlockBox = MakeLightBox(Grid, Corner, BlockShift);
+	uint CellShift = BlockShift - LIGHT_BLOCK_BITS, Touched[2] = uint[2](0u, 0u); // a bit for each cell
+	bool bBlockTouched = false, bEverywhere = false;
+	[[dont_unroll]] for (uint First = 0u; First < Push.ChangeCount; First += 32u)
 	{
-		if (Lane == 0u) { TouchingCount = 0u; }
-		barrier();
-		if (First + Lane < Push.ChangeCount)
+		uint Touching = 0u;
+		[[dont_unroll]] for (uint I = First; I < min(First + 32u, Push.ChangeCount); ++I)
 		{
-			FLightReach Change = Changes.Data[First + Lane];
+			FLightReach Change = Changes.Data[I];
 			bEverywhere = bEverywhere || Change.Radius <= 0.0;
-			if (Change.Radius > 0.0 && TouchesBox(BlockBox, FromBox(BlockBox, Change.Position), Change.Radius))
+			bool bTouches = Change.Radius > 0.0 && TouchesBox(BlockBox, FromBox(BlockBox, Change.Position), Change.Radius);
+			Touching |= bTouches ? 1u << (I - First) : 0u;
+		}
+		bBlockTouched = bBlockTouched || Touching != 0u;
+		[[dont_unroll]] for (; Touching != 0u; Touching &= Touching - 1u)
+		{
+			FLightReach Change = Changes.Data[First + uint(findLSB(Touching))];
+			[[dont_unroll]] for (uint Place = 0u; Place < 64u; ++Place)
 			{
-				Touching[atomicAdd(TouchingCount, 1u)] = First + Lane;
+				FLightBox Box = MakeLightBox(Grid, CellCorner(Corner, CellShift, Place), CellShift);
+				if (TouchesBox(Box, FromBox(Box, Change.Position), Change.Radius)) { Touched[Place >> 5u] |= 1u << (Place & 31u); }
 			}
 		}
-		barrier();
-		bBlockTouched = bBlockTouched || TouchingCount > 0u;
-		for (uint I = 0u; I < TouchingCount && !bTouched; ++I)
-		{
-			FLightReach Change = Changes.Data[Touching[I]];
-			bTouched = TouchesBox(Box, FromBox(Box, Change.Position), Change.Radius);
-		}
-		barrier();
 	}
+	// Cells that left the grid may come back, and nobody follows what changes around them meanwhile.
 	FLightCellRef Cells = FLightCellRef(Grid.Cells);
-	if (bTouched || Cells.Data[Place.Cell].Key != Place.Key) { Forget(Grid, Place.Cell); }
-	if (Lane == 0u && (bBlockTouched || Cells.Data[Block].Key != Place.Key)) { Forget(Grid, Block); }
+	[[dont_unroll]] for (uint Place = 0u; Place < 64u; ++Place)
+	{
+		FLightCellPlace Cell = PlaceLightCell(Grid, Level, CellCorner(Corner, CellShift, Place));
+		bool bTouched = (Touched[Place >> 5u] & (1u << (Place & 31u))) != 0u;
+		if (bTouched || Cells.Data[Cell.Cell].Key != Cell.Key) { Forget(Grid, Cell.Cell); }
+	}
+	if (bBlockTouched || Cells.Data[Block].Key != PlaceLightCell(Grid, Level, Corner).Key) { Forget(Grid, Block); }
 	if (Block == LIGHT_CELLS && bEverywhere) { Forget(Grid, LIGHT_CELL_EVERYWHERE); }
 }

@@ -33,7 +33,7 @@ uint Reserve(FLightGrid Grid, FLightCell Old, uint Count)
 {
 	bool bOld = Old.Revision == Grid.Revision;
 	uint Room = bOld ? (Old.State >> LIGHT_CELL_ROOM_SHIFT) & LIGHT_CELL_ROOM_MASK : LIGHT_CELL_NO_ROOM;
-	FirstEntry = Old.First;
+	FirstEntry = bOld ? Old.First : 0u;
 	if (Count > 0u && (Room == LIGHT_CELL_NO_ROOM || (1u << Room) < Count))
 	{
 		uint Wanted = max(uint(findMSB(Count - 1u) + 1), 2u); // log2, at least 4 entries
@@ -70,8 +70,8 @@ void Fill(FLightGrid Grid, FSceneConstants Scene, FSource Source, uint Index, ui
 	if (Lane == 0u)
 	{
 		FLightCell Old = Cells.Data[Index];
-		uint State = Reserve(Grid, Old, min(Total, Most));
-		if (Total > Most) { State = (State & ~LIGHT_CELL_COUNT_MASK) | LIGHT_CELL_OVERFLOW | Total; }
+		uint State = Reserve(Grid, Old, Total > Most ? 0u : Total);
+		if (Total > Most) { State |= LIGHT_CELL_OVERFLOW | Total; }
 		Cells.Data[Index] = FLightCell(FirstEntry, State, Key, Grid.Revision);
 		Counts[0] = State;
 	}

@@ -11,7 +11,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FLi
 
 struct FLightBox
 {
-	ivec3 Center; // steps
+	ivec3 Center; // steps, as FLightGrid::Origin
 	float Half;   // edge, metres
 	float Margin; // metres, by which rounding in shaders may be off
 };
@@ -45,8 +45,8 @@ ivec3 FindLightCorner(FLightGrid Grid, uint Index, out uint Level, out uint Edge
 	return ivec3((First + ((Place - First) & ((uvec3(1u) << Bits) - 1u))) << EdgeShift);
 }
 
-// Returns the vector from the box's centre to a position, metres. The difference of integers is exact.
-vec3 FromBox(FLightBox Box, ivec3 Position) { return vec3(Position - Box.Center) / LIGHT_POSITION_STEPS; }
+// Returns the vector from the box's centre to a light's position, metres. The difference of integers is exact.
+vec3 FromBox(FLightBox Box, ivec3 Position) { return vec3(Position + LIGHT_CELL_OFFSET - Box.Center) / LIGHT_POSITION_STEPS; }
 
 // Whether a sphere of Radius around FromCenter touches the box.
 bool TouchesBox(FLightBox Box, vec3 FromCenter, float Radius)

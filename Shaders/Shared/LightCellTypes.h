@@ -20,6 +20,9 @@ LANTERN_SHARED_BEGIN
 // FLightCell[]: cells, blocks, and one that holds the lights that reach everywhere.
 #define LIGHT_CELL_EVERYWHERE (LIGHT_CELLS + LIGHT_BLOCKS)
 #define LIGHT_CELL_HEADERS (LIGHT_CELL_EVERYWHERE + 1)
+// Steps by which the grid lies off the world's origin. Floors and walls often lie at whole metres: on a border, rounding would scatter
+// their pixels over the cells of both sides.
+#define LIGHT_CELL_OFFSET 2743
 #define LIGHT_CELL_MOST 64 // lights in the list of a cell; lists of blocks have no limit but their memory
 
 #define LIGHT_CELL_GROUP_SIZE 64
@@ -86,8 +89,9 @@ struct FLightGrid
 	uint Revision; // no earlier grid has had it
 	uint Turn;     // of requests that this frame fulfils; later ones of this frame are of the next turn
 	uint Shift;    // log2 of the steps of a finest cell (LIGHT_POSITION_STEPS)
-	ivec3 Origin;  // of the scene, steps
-	ivec3 First[LIGHT_CELL_LEVELS]; // lowest corner of each level, steps; levels begin with a block
+	// In steps from the grid's own origin, which positions of lights lie LIGHT_CELL_OFFSET from.
+	ivec3 Origin; // of the scene
+	ivec3 First[LIGHT_CELL_LEVELS]; // lowest corner of each level; levels begin with a block
 };
 LANTERN_ASSERT_SIZE(FLightGrid, 144);
 

@@ -3,8 +3,11 @@
 #include <cmath>
 #include <cstring>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternRenderer/Renderer.h"
+#include "LightCellOracle.h"
 #include "Lights/LightCells.h"
 #include "Support/CoreTestTools.h"
 #include "Support/RenderFixture.h"
@@ -15,117 +18,6 @@ namespace Lantern
 
 namespace
 {
-/// Numbers that are the same in each run.
-class FNumbers
-{
-public:
-	explicit FNumbers(uint32_t Seed) : State(Seed) {}
-	double Between(double A, double B)
-	{
-		State = State * 6364136223846793005ull + 1442695040888963407ull;
-		return A + (B - A) * double(State >> 40) * 0x1p-24;
-	}
-	uint32_t Below(uint32_t Count) { return std::min(static_cast<uint32_t>(Between(0, Count)), Count - 1); }
-	glm::dvec3 Point(double Half) { return {Between(-Half, Half), Between(-Half, Half), Between(-Half, Half)}; }
-
-private:
-	uint64_t State;
-};
-
-FSceneLight MakeRandomLight(FNumbers& Numbers, const glm::dvec3& Around)
-{
-	constexpr uint32_t Types[] = {
-	    LIGHT_POINT, LIGHT_POINT, LIGHT_POINT, LIGHT_RECTANGLE, LIGHT_DISK, LIGHT_SPHERE, LIGHT_TUBE, LIGHT_DIRECTIONAL};
-	FSceneLight Light;
-	Light.Type = Types[Numbers.Below(8)];
-	Light.Position = Around + Numbers.Point(12.0) * glm::dvec3(1, 0.3, 1);
-	do {
-		Light.Direction = glm::vec3(Numbers.Point(1.0));
-		Light.Tangent = glm::vec3(Numbers.Point(1.0));
-	}
-	while (glm::length(glm::cross(Light.Direction, Light.Tangent)) < 0.01f);
-	Light.Color = glm::vec3(0.05 + glm::abs(Numbers.Point(0.5)));
-	Light.Range = Numbers.Below(8) == 0 ? 0.0f : static_cast<float>(std::exp2(Numbers.Between(-2.0, 3.0)));
-	if (Numbers.Below(3) == 0)
-	{
-		Light.OuterCone = static_cast<float>(Numbers.Between(0.01, 3.1));
-		Light.InnerCone = Light.OuterCone * static_cast<float>(Numbers.Between(0.0, 0.99));
-	}
-	Light.Size = glm::vec2(Numbers.Between(0.01, 0.5), Numbers.Between(0.01, 0.5));
-	Light.bTwoSided = Numbers.Below(2) == 0;
-	return Light;
-}
-
-/// What a frame left in its grid.
-struct FGridData
-{
-	FLightGrid Grid;
-	std::vector<FLightCell> Cells;
-	std::vector<uint32_t> Pool;
-
-	std::vector<uint32_t> GetList(const FLightCell& Cell) const
-	{
-		const uint32_t Count = Cell.State & LIGHT_CELL_COUNT_MASK;
-		if (Cell.First + Count > Pool.size())
-		{
-			ADD_FAILURE() << "a list lies outside of the pool";
-			return {};
-		}
-		return {Pool.begin() + Cell.First, Pool.begin() + Cell.First + Count};
-	}
-};
-
-/// A cell or block as the CPU finds it in the world.
-struct FWorldBox
-{
-	glm::dvec3 Min{0};
-	double Edge = 0.0; // metres
-	uint32_t Key = 0;
-};
-
-FWorldBox FindBox(const FLightGrid& Grid, uint32_t Index)
-{
-	const bool bBlock = Index >= LIGHT_CELLS;
-	const uint32_t Local = bBlock ? Index - LIGHT_CELLS : Index, PerLevel = bBlock ? LIGHT_BLOCKS_PER_LEVEL : LIGHT_CELLS_PER_LEVEL;
-	const uint32_t Level = Local / PerLevel, Group = bBlock ? 4 : 1;
-	const int64_t Counts[] = {32 / Group, 16 / Group, 32 / Group};
-	const int64_t Places[] = {
-	    Local % PerLevel % Counts[0], Local % PerLevel / Counts[0] % Counts[1], Local % PerLevel / (Counts[0] * Counts[1])};
-	const double Steps = std::exp2(double(Grid.Shift + Level)) * Group;
-	FWorldBox Box;
-	Box.Edge = Steps / double(LIGHT_POSITION_STEPS);
-	const uint32_t KeyBits[] = {11, 10, 11}, KeyShifts[] = {0, 11, 21};
-	for (int Axis = 0; Axis < 3; ++Axis)
-	{
-		// The one cell of the window that falls on this place.
-		int64_t Cell = std::llround(double(Grid.First[Level][Axis]) / Steps);
-		while ((Cell % Counts[Axis] + Counts[Axis]) % Counts[Axis] != Places[Axis]) { ++Cell; }
-		Box.Min[Axis] = double(Cell) * Box.Edge;
-		const int64_t Around = (Cell - Places[Axis]) / Counts[Axis];
-		const int64_t Bits = int64_t(32) - Grid.Shift - Level - (Axis == 1 ? 4 : 5); // of a coordinate that wraps around
-		Box.Key |= static_cast<uint32_t>(Around & ((int64_t(1) << std::min<int64_t>(Bits, KeyBits[Axis])) - 1)) << KeyShifts[Axis];
-	}
-	return Box;
-}
-
-/// Whether the light brings anything to P, by a little more than rounding.
-bool Shines(const FSceneLight& Light, const glm::dvec3& P)
-{
-	const glm::dvec3 From = P - Light.Position;
-	const double Distance = glm::length(From);
-	if (Distance > 0.9999 * double(Light.Range) || Distance < 1e-3) { return false; }
-	const glm::dvec3 Direction = glm::normalize(glm::dvec3(Light.Direction));
-	const double Cosine = glm::dot(Direction, From) / Distance;
-	const bool bFlat = (Light.Type == LIGHT_RECTANGLE || Light.Type == LIGHT_DISK) && !Light.bTwoSided;
-	if (bFlat && Cosine < 1e-3) { return false; }
-	return Light.OuterCone <= 0.0f || Cosine > std::cos(0.999 * double(Light.OuterCone)) + 1e-6;
-}
-
-double GetDistance(const FWorldBox& Box, const glm::dvec3& P)
-{
-	return glm::length(glm::max(glm::max(Box.Min - P, P - Box.Min - Box.Edge), glm::dvec3(0)));
-}
-
 class FLightCellsTest : public FRenderTest
 {
 protected:
@@ -143,9 +35,9 @@ protected:
 	{
 		FTestScene Steps("steps");
 		const int32_t Grey = Steps.AddLambert(glm::vec3(0.5f));
-		Steps.AddNode(Steps.AddMesh(
-		    {FTestScene::MakeFloor(Grey, 60.0f), FTestScene::MakeFloor(Grey, 4.0f, 1.1f), FTestScene::MakeFloor(Grey, 2.0f, 2.3f)}));
-		Steps.Scene.Nodes[0].Translation = At;
+		Steps.AddNode(Steps.AddMesh({FTestScene::MakeFloor(Grey, 60.0f), FTestScene::MakeFloor(Grey, 4.0f, 1.1f),
+		                  FTestScene::MakeFloor(Grey, 2.0f, 2.3f)}),
+		    glm::translate(glm::dmat4(1), At));
 		ASSERT_TRUE(Load(std::move(Steps.Scene)));
 		SetSun(0.0, 0.0f);
 		SetSky({});
@@ -433,6 +325,7 @@ TEST_F(FLightCellsTest, PoolsGrow)
 		Light.Range = 40.0f;
 		(void)GetWorld().AddLight(Light);
 	}
+	SetVariable("r.RT.Lights.CellMetres", "0.125");
 	const FView View = LookFrom({12, 9, 12}, 192, 128);
 	EXPECT_EQ(CountDifferences(View), 0u);
 	for (int Frame = 0; Frame < 8; ++Frame) { Render(View); }

@@ -42,7 +42,7 @@ struct FEntry
 constexpr FEntry Entries[] = {
     {{"courtyard", "", "an arcaded courtyard at evening: fountain, trees, ivy, lanterns, a turning weather vane"}, {},
         [](const FValues&) { return BuildCourtyard(); }},
-    {{"lamps", "COUNT=640", "a building of 100 rooms with the COUNT lamps nearest to the one in the picture"},
+    {{"lamps", "COUNT=640", "a building of 225 rooms with the COUNT lamps nearest to the one in the picture"},
         {{"COUNT", 640.0f, 0.0f, 10000.0f}}, [](const FValues& P) { return BuildLamps(uint32_t(P[0])); }},
     {{"furnace", "ALBEDO=0.5", "closed room that emits 0.5; every pixel is 0.5/(1-albedo)"}, {{"ALBEDO", 0.5f, 0.0f, 0.99f}},
         [](const FValues& P) { return BuildFurnace(P[0]); }},

@@ -1,7 +1,8 @@
-// A building of 10 × 10 rooms with columns and crates, and up to 10,000 coloured lamps of finite range.
+// A building of 15 × 15 rooms with columns and crates, and up to 10,000 coloured lamps of finite range.
 #include "Builtin/Lamps.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -15,13 +16,13 @@ namespace Lantern::Builtin
 
 namespace
 {
-constexpr int Rooms = 10;         // along each side
+constexpr int Rooms = 15;         // along each side
 constexpr float RoomSize = 16.0f; // metres
 constexpr float Height = 5.0f;    // metres
 constexpr float HalfDoor = 2.5f;  // metres
 constexpr float HalfSide = 0.5f * RoomSize * float(Rooms);
 constexpr int LampsPerSide = 100;
-constexpr glm::vec3 Focus(5.0f, 1.5f, 5.0f); // in the room that the camera stands in
+constexpr float HalfRoom = 0.5f * RoomSize; // the room in the picture reaches so far to each side
 
 /// Walls between rooms, each with a door in its middle.
 void AddWalls(FSceneBuilder& Builder, int32_t Material)
@@ -82,9 +83,9 @@ void AddCrates(FSceneBuilder& Builder, int32_t Material)
 void AddLamp(FSceneBuilder& Builder, uint32_t Index, const glm::vec3& At, FRandomStream& Random)
 {
 	const glm::vec3 Color(Random.Between(0.15f, 1.0f), Random.Between(0.15f, 1.0f), Random.Between(0.15f, 1.0f));
-	const float Range = Random.Between(3.0f, 5.0f), Turn = Random.Between(0.0f, 2.0f * glm::pi<float>()),
+	const float Range = Random.Between(3.5f, 5.5f), Turn = Random.Between(0.0f, 2.0f * glm::pi<float>()),
 	            Tilt = Random.Between(-0.5f, 0.5f);
-	const int32_t Node = Builder.AddPointLight("lamp", At, 1.5f * Color, Range);
+	const int32_t Node = Builder.AddPointLight("lamp", At, 3.0f * Color, Range);
 	FHostLight& Light = Builder.Scene.Lights.back();
 	const glm::quat Down = glm::angleAxis(-glm::half_pi<float>() + Tilt, glm::vec3(1, 0, 0));
 	Builder.Scene.Nodes[size_t(Node)].Rotation = glm::angleAxis(Turn, glm::vec3(0, 1, 0)) * Down;
@@ -117,8 +118,12 @@ void AddLamps(FSceneBuilder& Builder, uint32_t Count)
 		Places.push_back(
 		    glm::vec3(Step * (float(I % LampsPerSide) + 0.5f) - HalfSide, 0, Step * (float(I / LampsPerSide) + 0.5f) - HalfSide) + Jitter);
 	}
-	std::stable_sort(Places.begin(), Places.end(),
-	    [](const glm::vec3& A, const glm::vec3& B) { return glm::dot(A - Focus, A - Focus) < glm::dot(B - Focus, B - Focus); });
+	const auto GetDistance = [](const glm::vec3& Place) {
+		const float X = std::max(std::abs(Place.x) - HalfRoom, 0.0f), Z = std::max(std::abs(Place.z) - HalfRoom, 0.0f);
+		return X * X + Z * Z;
+	};
+	const auto IsNearer = [&](const glm::vec3& A, const glm::vec3& B) { return GetDistance(A) < GetDistance(B); };
+	std::stable_sort(Places.begin(), Places.end(), IsNearer);
 	for (uint32_t Index = 0; Index < std::min<size_t>(Count, Places.size()); ++Index) { AddLamp(Builder, Index, Places[Index], Random); }
 }
 } // namespace
@@ -131,7 +136,7 @@ FSceneDescription BuildLamps(uint32_t Count)
 	AddColumns(Builder, AddPaint(Builder, "column", glm::vec3(0.55f), 0.3f));
 	AddCrates(Builder, AddPaint(Builder, "crate", glm::vec3(0.45f, 0.33f, 0.2f), 0.6f));
 	AddLamps(Builder, Count);
-	Builder.AddCamera({15.0, 2.3, 9.4}, {3.0, 1.2, 5.6}, 70);
+	Builder.AddCamera({7.2, 2.2, 1.4}, {-6.0, 1.0, -2.4}, 70);
 	SetDarkness(Builder, 0.0f);
 	return std::move(Builder.Scene);
 }

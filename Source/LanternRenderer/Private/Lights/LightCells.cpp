@@ -63,7 +63,11 @@ uint32_t GetShift()
 	return static_cast<uint32_t>(std::lround(std::log2(Steps)));
 }
 
-glm::i64vec3 ToSteps(const glm::dvec3& World) { return glm::i64vec3(glm::floor(World * double(LIGHT_POSITION_STEPS))); }
+/// From the grid's own origin.
+glm::i64vec3 ToSteps(const glm::dvec3& World)
+{
+	return glm::i64vec3(glm::floor(World * double(LIGHT_POSITION_STEPS))) + int64_t(LIGHT_CELL_OFFSET);
+}
 
 /// Modulo 2³², as positions of lights.
 glm::ivec3 Wrap(const glm::i64vec3& Steps)
@@ -161,7 +165,7 @@ void AddChangePass(const TFrame& Frame, IRTPipeline* Pipeline)
 		Frame->Declare(Builder);
 		return [=](FPassContext& Pass) {
 			Run(Pass, Pipeline, Frame->MakeConstants());
-			Pass.Commands().Dispatch(LIGHT_BLOCKS, 1, 1);
+			Pass.Commands().Dispatch(DivideUp(LIGHT_BLOCKS, LIGHT_CELL_GROUP_SIZE), 1, 1);
 		};
 	});
 }
@@ -278,7 +282,8 @@ FGraphBuffer FLightCells::AddPasses(FFrameContext& Context, const FGBuffer& GBuf
 	const uint64_t Bytes = FLightCellBuffer::Pool + Frame->Grid.PoolEntries * sizeof(uint32_t);
 	if (FRTStatus S = Context.History->GetBuffer("LightCells", {Bytes, ERTBufferUsage::CopySource}, History); !S)
 	{
-		Context.Fail(S);
+		if (S.Code == ERTResult::DeviceLost) { Context.Fail(S); }
+		else { LogOnce(ERTLogLevel::Warning, std::string("light cells are off, and all lights are visited: ") + S.Message); }
 		return {};
 	}
 	Frame->Cells = History.Buffer;
