@@ -20,11 +20,8 @@ LANTERN_SHARED_BEGIN
 // FLightCell[]: cells, blocks, and one that holds the lights that reach everywhere.
 #define LIGHT_CELL_EVERYWHERE (LIGHT_CELLS + LIGHT_BLOCKS)
 #define LIGHT_CELL_HEADERS (LIGHT_CELL_EVERYWHERE + 1)
-// Steps by which the grid lies off the world's origin. Floors and walls often lie at whole metres: on a border, rounding would scatter
-// their pixels over the cells of both sides.
-#define LIGHT_CELL_OFFSET 2743
 #define LIGHT_CELL_MOST 64 // lights in the list of a cell; lists of blocks have no limit but their memory
-
+#define LIGHT_CELL_OFFSET 2743 // steps to the grid's own origin: floors at whole metres would lie on borders, and rounding scatter them
 #define LIGHT_CELL_GROUP_SIZE 64
 #define LIGHT_CELL_ROW_GROUPS 1024 // of a dispatch: devices may have no more than 65,535 in x
 #define LIGHT_CELL_MARK_SIZE 8     // threads in x and y
@@ -89,9 +86,8 @@ struct FLightGrid
 	uint Revision; // no earlier grid has had it
 	uint Turn;     // of requests that this frame fulfils; later ones of this frame are of the next turn
 	uint Shift;    // log2 of the steps of a finest cell (LIGHT_POSITION_STEPS)
-	// In steps from the grid's own origin, which positions of lights lie LIGHT_CELL_OFFSET from.
-	ivec3 Origin; // of the scene
-	ivec3 First[LIGHT_CELL_LEVELS]; // lowest corner of each level; levels begin with a block
+	ivec3 Origin;  // of the scene, steps from the grid's own origin; so is First
+	ivec3 First[LIGHT_CELL_LEVELS]; // lowest corner of each level, steps; levels begin with a block
 };
 LANTERN_ASSERT_SIZE(FLightGrid, 144);
 

@@ -385,6 +385,23 @@ TEST_F(FLightCellsTest, HallOfLampsAndFewLights)
 	}
 }
 
+// A town of a million lamps, of which a picture sees a few.
+TEST_F(FLightCellsTest, AMillionLights)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadSteps());
+	FSceneLight Lamp;
+	Lamp.Color = glm::vec3(5);
+	Lamp.Range = 4.0f;
+	for (int I = 0; I < 1'000'000; ++I)
+	{
+		Lamp.Position = {3.0 * (I % 1000 - 500), 2.0, 3.0 * (I / 1000 - 500)};
+		(void)GetWorld().AddLight(Lamp);
+	}
+	const FView View = LookFrom({6, 3, 8}, 16, 9);
+	EXPECT_EQ(CountDifferences(View), 0u);
+	EXPECT_EQ(CountDifferences(View), 0u);
+}
+
 // The grid is overwritten with what is no number, after a cut, and after frames that nobody submitted.
 TEST_F(FLightCellsTest, GridsThatAreLostComeBack)
 {

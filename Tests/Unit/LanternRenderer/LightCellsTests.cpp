@@ -144,6 +144,19 @@ TEST_F(FLightCellsTest, FramesThatAreNotReadMakeNone)
 	EXPECT_TRUE(HasPass("LightCellsClear"));
 }
 
+TEST_F(FLightCellsTest, DebugViewShowsThem)
+{
+	Set("r.RT.Debug.View", "light_cells");
+	Set("r.RT.Lights.Cells.Least", "1");
+	LoadAndRender({});
+	EXPECT_FALSE(HasPass("DebugView")) << "there are none, and the picture is shown";
+	AddLamp(3.0f);
+	Set("r.RT.LocalLights", "0");
+	Render();
+	EXPECT_TRUE(HasPass("DebugView")) << "it asks for them itself";
+	EXPECT_THAT(Mock().GetCreatedPipelines(), Contains(HasSubstr("Lights/LightCellsView.comp")));
+}
+
 TEST_F(FLightCellsTest, MemoryIsWhatTheGridTakes)
 {
 	Set("r.RT.Lights.Cells.Least", "1");
