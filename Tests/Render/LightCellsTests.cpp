@@ -326,9 +326,13 @@ TEST_F(FLightCellsTest, PoolsGrow)
 		(void)GetWorld().AddLight(Light);
 	}
 	SetVariable("r.RT.Lights.CellMetres", "0.125");
-	const FView View = LookFrom({12, 9, 12}, 192, 128);
-	EXPECT_EQ(CountDifferences(View), 0u);
-	for (int Frame = 0; Frame < 8; ++Frame) { Render(View); }
+	FView View;
+	for (int Frame = 0; Frame < 16; ++Frame)
+	{
+		const double Turn = std::min(Frame, 8) * 0.8;
+		View = LookFrom({1.5 * std::cos(Turn), 1.5, 1.5 * std::sin(Turn)}, 192, 128);
+		Render(View);
+	}
 	EXPECT_GT(GetStats().PoolEntries, 1u << 16);
 	EXPECT_EQ(GetStats().Missing, 0u);
 	EXPECT_EQ(CountDifferences(View), 0u);
