@@ -12,8 +12,8 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<std::string> CVarView("r.RT.Debug.View", "frame",
-    "Shows one signal instead of the picture, by its name as lantern reference --help lists it. frame: the picture. "
-    "light_cells: how many lights the light cell of a pixel lists.");
+    "Shows something else than the picture (frame): a signal, as lantern reference --help names it, or light_cells, the lights of each "
+    "light cell.");
 constexpr const char* LightCellsView = "light_cells";
 } // namespace
 
