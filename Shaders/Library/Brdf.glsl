@@ -73,20 +73,25 @@ float SmithVisibility(float NdotL, float NdotV, float Alpha)
 	return 0.5 / max(L + V, 1.0e-20);
 }
 
-// Returns the BRDF times n·l. The result omits the specular lobe of a mirror, which is a delta.
-vec3 EvaluateBrdfCos(FBrdf Brdf, vec3 V, vec3 L)
+// Returns the diffuse and the specular part of the BRDF. The result omits the specular lobe of a mirror, which is a delta.
+void EvaluateLobes(FBrdf Brdf, vec3 V, vec3 L, out vec3 Diffuse, out vec3 Specular)
 {
-	if (L.z <= 0.0 || V.z <= 0.0) { return vec3(0.0); }
+	Diffuse = Specular = vec3(0.0);
+	if (L.z <= 0.0 || V.z <= 0.0) { return; }
 	vec3 H = V + L;
 	float LengthSquared = dot(H, H);
 	H = LengthSquared > 1.0e-16 ? H * inversesqrt(LengthSquared) : vec3(0.0, 0.0, 1.0);
 	float VdotH = clamp(dot(V, H), 0.0, 1.0);
-	vec3 Diffuse = DiffuseAlbedo(Brdf) * ((1.0 - DielectricFresnel(Brdf, VdotH)) / Pi);
-	vec3 Specular = vec3(0.0);
-	if (!IsMirror(Brdf))
-	{
-		Specular = SpecularFresnel(Brdf, VdotH) * (GgxDistribution(H.z, Brdf.Alpha) * SmithVisibility(L.z, V.z, Brdf.Alpha));
-	}
+	Diffuse = DiffuseAlbedo(Brdf) * ((1.0 - DielectricFresnel(Brdf, VdotH)) / Pi);
+	if (IsMirror(Brdf)) { return; }
+	Specular = SpecularFresnel(Brdf, VdotH) * (GgxDistribution(H.z, Brdf.Alpha) * SmithVisibility(L.z, V.z, Brdf.Alpha));
+}
+
+// Returns the BRDF times n·l, without the specular lobe of a mirror.
+vec3 EvaluateBrdfCos(FBrdf Brdf, vec3 V, vec3 L)
+{
+	vec3 Diffuse, Specular;
+	EvaluateLobes(Brdf, V, L, Diffuse, Specular);
 	return (Diffuse + Specular) * L.z;
 }
 

@@ -3,9 +3,28 @@
 #define LANTERN_CASTERS_GLSL
 
 #include "../Shared/SceneTypes.h"
+#include "Bindings.glsl"
 
 // bCharacter: the surface is a character's. Raster shadow maps hold characters apart for this: faces have no self-shadow.
 uint SunCasters(bool bCharacter) { return bCharacter ? MASK_SUN_CASTERS & ~MASK_CHARACTER : MASK_SUN_CASTERS; }
 uint LocalCasters(bool bCharacter) { return bCharacter ? MASK_LOCAL_CASTERS & ~MASK_CHARACTER : MASK_LOCAL_CASTERS; }
+
+#ifdef HAS_CHARACTERS
+// Whether a pixel shows a character: by FGBuffer::Classes, or by the object that FGBuffer::Motion names.
+bool IsCharacterPixel(FSceneConstants Scene, uint Classes, uint ClassesOffset, uint Motion, ivec2 Pixel)
+{
+#ifdef ONE_RECEIVER // r.RT.Debug.Shadow.Receivers
+	return false;
+#endif
+	if (Classes != NO_TEXTURE)
+	{
+		ivec2 Texel = Pixel + ivec2(ClassesOffset & 0xffffu, ClassesOffset >> 16u);
+		return (uint(round(texelFetch(Textures[Classes], Texel, 0).x * 255.0)) & CLASS_CHARACTER) != 0u;
+	}
+	if (Motion == NO_TEXTURE) { return false; }
+	float Object = texelFetch(Textures[Motion], Pixel, 0).w;
+	return Object >= 1.0 && (FObjectRef(Scene.Objects).Data[uint(Object) - 1u].Flags & OBJECT_CHARACTER) != 0u;
+}
+#endif
 
 #endif

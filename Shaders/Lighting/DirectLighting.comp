@@ -34,6 +34,7 @@ vec3 ShadeDirect(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, FGBuff
 	}
 #endif
 #ifdef HAS_LIGHTS
+	if (Push.LightsDiffuse != NO_TEXTURE) { return Radiance; }
 	vec3 P = View.CameraPosition + Point.Relative;
 	FRandom Random = MakeRandom(uvec2(Pixel), View.FrameIndex, View.Seed);
 	FLightRef Lights = FLightRef(Scene.Lights);
@@ -51,6 +52,19 @@ vec3 ShadeDirect(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, FGBuff
 			Radiance += EvaluateBrdfCos(Brdf, LocalV, Sample.Direction * Basis) * Sample.Irradiance;
 		}
 	}
+#endif
+	return Radiance;
+}
+
+// Returns the light of local lights where it is known with its shadows.
+vec3 ShadeLocal(ivec2 Pixel, FBrdf Brdf, float NdotV, float Roughness)
+{
+	vec3 Radiance = vec3(0.0);
+#ifdef HAS_LIGHTS
+	if (Push.LightsDiffuse == NO_TEXTURE) { return Radiance; }
+	Brdf.Alpha = max(Brdf.Alpha, 2.0 * MinAlpha);
+	Radiance += DiffuseReflectance(Brdf, NdotV) * texelFetch(Textures[Push.LightsDiffuse], Pixel, 0).rgb;
+	Radiance += SpecularReflectance(Brdf, NdotV, Roughness) * texelFetch(Textures[Push.LightsSpecular], Pixel, 0).rgb;
 #endif
 	return Radiance;
 }
@@ -105,7 +119,7 @@ vec3 ShadeSurface(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, float
 	mat3 Basis = MakeBasis(Point.BentN);
 	vec3 LocalV = Point.V * Basis;
 	return texelFetch(Textures[Push.Emissive], Pixel, 0).rgb + ShadeDirect(Scene, View, Pixel, Point, Brdf, Basis, LocalV) +
-	       ShadeIndirect(Scene, Pixel, Brdf, Point, LocalV.z, Material);
+	       ShadeLocal(Pixel, Brdf, LocalV.z, Material.x) + ShadeIndirect(Scene, Pixel, Brdf, Point, LocalV.z, Material);
 }
 
 void main()

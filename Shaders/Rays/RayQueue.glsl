@@ -15,7 +15,37 @@ FRayRequest MakeRayRequest(uint Kind, uint Slot, uint Index)
 	return FRayRequest(Index | (Slot << RAY_INDEX_BITS) | (Kind << (RAY_INDEX_BITS + RAY_SLOT_BITS)));
 }
 uint RayKind(FRayRequest Request) { return Request.Packed >> (RAY_INDEX_BITS + RAY_SLOT_BITS); }
+uint RaySlot(FRayRequest Request) { return (Request.Packed >> RAY_INDEX_BITS) & ((1u << RAY_SLOT_BITS) - 1u); }
 uint RayIndex(FRayRequest Request) { return Request.Packed & ((1u << RAY_INDEX_BITS) - 1u); }
+
+// Returns where the requests of a segment end. Those of the next one begin there.
+uint SegmentEnd(FRayQueueCounters Counters, uint Segment, uint Capacity)
+{
+	uint End = 0u;
+	for (uint I = 0u; I <= Segment; ++I)
+	{
+		FRaySegment Filled = Counters.Segments[I];
+		End += Filled.Wanted <= Capacity - End ? Filled.Wanted : Filled.Kept;
+	}
+	return End;
+}
+
+// Makes launches reach to End.
+void GrowLaunch(FAddress Address, uint End)
+{
+	FRayQueueCountersRef Counters = FRayQueueCountersRef(Address);
+	const uint RowRays = RAY_QUEUE_GROUP_SIZE * RAY_QUEUE_ROW_GROUPS;
+	atomicMax(Counters.Data.Groups[1], (End + RowRays - 1u) / RowRays);
+	atomicMax(Counters.Data.Launch[0], End);
+}
+
+// Reserves room for Count requests of the first segment and returns the first one's place. What lies beyond Capacity has no room.
+uint ReserveSunRequests(FAddress Address, uint Capacity, uint Count)
+{
+	uint First = atomicAdd(FRayQueueCountersRef(Address).Data.Segments[RAY_SEGMENT_SUN].Wanted, Count);
+	GrowLaunch(Address, min(First + Count, Capacity));
+	return First;
+}
 
 uint PackSunAnswer(uint Seen, uint Unseen) { return (Seen << ANSWER_SUN_SEEN) | (Unseen << ANSWER_SUN_UNSEEN); }
 uint SunSeen(uint Answer) { return (Answer >> ANSWER_SUN_SEEN) & ANSWER_SUN_MASK; }

@@ -3,12 +3,14 @@
 //   float TraceShadowRay(vec3 Origin, vec3 Direction, float Length, uint Flags, uint Mask)
 //     distance to a blocker; negative: the ray is unblocked
 //
+// SUN_RAYS, LOCAL_RAYS, MANY_LIGHTS: defined if somebody asks for rays to the sun, to local lights, to lights chosen of many.
 // WITH_PENUMBRA: also writes the width of the sun's penumbra, for the filter.
 // ONE_SAMPLE: see SamplesPerPixel.glsl.
 #ifndef LANTERN_SHADOW_QUEUE_GLSL
 #define LANTERN_SHADOW_QUEUE_GLSL
 
 #include "../Shared/RayQueueTypes.h"
+#include "../Library/Casters.glsl"
 #include "../Library/GBuffer.glsl"
 #include "../Library/Random.glsl"
 #include "../Library/Sun.glsl"
@@ -20,23 +22,35 @@ float TraceShadowRay(vec3 Origin, vec3 Direction, float Length, uint Flags, uint
 
 #include "SamplesPerPixel.glsl"
 
-// RAY_KIND_SUN.
+// Characters cast on everything but characters.
+bool ShowsCharacter(FSceneConstants Scene, uvec2 Pixel)
+{
+#ifdef HAS_CHARACTERS
+	return IsCharacterPixel(Scene, Push.Classes, Push.ClassesOffset, Push.Motion, ivec2(Pixel));
+#else
+	return false;
+#endif
+}
+
+#ifdef SUN_RAYS
 void TraceSun(uint Index)
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
+	Scene.SunOneMinusCos = Push.SunOneMinusCos;
 	uvec2 Pixel = uvec2(Index % View.Width, Index / View.Width);
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), LoadDepth(Push.Depth, ivec2(Pixel)));
+	uint Mask = ShowsCharacter(Scene, Pixel) ? Push.InstanceMask & ~MASK_CHARACTER : Push.InstanceMask;
 	float BlockerDistanceSum = 0.0;
 	uint Seen = 0u, Blocked = 0u;
 	FTileSequence Sequence = MakeTileSequence(Pixel, View.FrameIndex, HashPcg(View.Seed));
 	for (uint Sample = 0; Sample < SamplesPerPixel; ++Sample)
 	{
 		vec3 Direction = -Scene.SunDirection;
-		if (Push.bSoft != 0u) { Direction = SampleSunDirection(Scene, SobolOwen2(Sequence.Index * SamplesPerPixel + Sample, Sequence.Seed)); }
+		if (Push.SunOneMinusCos > 0.0) { Direction = SampleSunDirection(Scene, SobolOwen2(Sequence.Index * SamplesPerPixel + Sample, Sequence.Seed)); }
 		if (!LeavesSurface(View, Point, Direction)) { continue; }
 		float BlockerDistance =
-			TraceShadowRay(RasterRayOrigin(Scene, View, Point), Direction, Push.MaxDistance, Push.RayFlags, Push.InstanceMask);
+			TraceShadowRay(RasterRayOrigin(Scene, View, Point), Direction, Push.MaxDistance, Push.RayFlags, Mask);
 		Seen += BlockerDistance < 0.0 ? 1u : 0u;
 		Blocked += BlockerDistance < 0.0 ? 0u : 1u;
 		BlockerDistanceSum += max(BlockerDistance, 0.0);
@@ -47,16 +61,29 @@ void TraceSun(uint Index)
 	FWidthRef(Push.SunWidths).Data[Index] = Blocked > 0u ? Diameter * BlockerDistanceSum / float(Blocked) : -1.0;
 #endif
 }
+#endif
+
+#ifdef LOCAL_RAYS
+#include "../LocalLights/LocalRays.glsl"
+#endif
 
 void TraceRequest(uint Number)
 {
 	FRayQueueCounters Counters = FRayQueueCountersRef(Push.Counters).Data;
 	// Launches are rounded up, or made for a full queue.
-	if (Number >= (Counters.Wanted <= Push.Capacity ? Counters.Wanted : Counters.Kept)) { return; }
+	if (Number >= SegmentEnd(Counters, RAY_SEGMENTS - 1u, Push.Capacity)) { return; }
 	FRayRequest Request = FRayRequestRef(Push.Requests).Data[Number];
 	switch (RayKind(Request))
 	{
+#ifdef SUN_RAYS
 	case RAY_KIND_SUN: TraceSun(RayIndex(Request)); break;
+#endif
+#ifdef LOCAL_RAYS
+	case RAY_KIND_LOCAL: TraceLocal(RayIndex(Request), RaySlot(Request)); break;
+#endif
+#ifdef MANY_LIGHTS
+	case RAY_KIND_CHOSEN: TraceChosen(RayIndex(Request)); break;
+#endif
 	}
 }
 

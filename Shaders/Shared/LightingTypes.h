@@ -18,8 +18,9 @@ struct FLightingConstants
 	uint Output;                                        // storage index
 	float Surroundings; // share of light that they reflect, where they stand in for indirect light
 	uint SkyLight;      // sampled index, see SkyAmbient in SkyLight.glsl
+	uint LightsDiffuse, LightsSpecular; // sampled indices, or NO_TEXTURE: local lights are unshadowed
 };
-LANTERN_ASSERT_SIZE(FLightingConstants, 64);
+LANTERN_ASSERT_SIZE(FLightingConstants, 72);
 
 LANTERN_SHARED_END
 

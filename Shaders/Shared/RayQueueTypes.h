@@ -12,6 +12,8 @@ LANTERN_SHARED_BEGIN
 
 // Kinds of rays. An index names what a ray belongs to; a slot tells several rays of one index apart.
 #define RAY_KIND_SUN 0u // index: pixel, row by row; slot 0: all samples of the pixel
+#define RAY_KIND_LOCAL 1u // index: pixel; slot: place of the light in the list of the pixel's tile
+#define RAY_KIND_CHOSEN 2u // index: pixel; slot 0: the light that the pixel chose
 
 #define RAY_INDEX_BITS 26u
 #define RAY_SLOT_BITS 3u
@@ -22,17 +24,31 @@ struct FRayRequest
 };
 LANTERN_ASSERT_SIZE(FRayRequest, 4);
 
+// The queue is filled in segments, one pass after the other. Each lies behind those before it.
+#define RAY_SEGMENT_SUN 0u
+#define RAY_SEGMENT_LOCAL 1u
+#define RAY_SEGMENTS 2u
+
+struct FRaySegment
+{
+	uint Wanted; // requests that were made, those without room included
+	uint Kept;   // requests that are there after they were shared out; read if Wanted exceeds the room behind earlier segments
+};
+
 // Zeroed in each frame before requests are written. The first two are arguments of indirect commands.
 struct FRayQueueCounters
 {
 	uint Groups[3]; // of the ray-query path
 	uint Launch[3]; // width, height and depth of the ray-tracing pipeline's launch
-	uint Wanted;    // requests that were made, those without room included
-	uint Kept;      // requests in the queue after ShareQueue.comp; read if Wanted exceeds the capacity
+	FRaySegment Segments[RAY_SEGMENTS];
 };
-LANTERN_ASSERT_SIZE(FRayQueueCounters, 32);
+LANTERN_ASSERT_SIZE(FRayQueueCounters, 40);
 
 // A pixel's answers. Each kind has bits of its own, which start as 0 and are combined by or: the order of rays never shows.
+#define ANSWER_LOCAL_SEEN 0u // lowest of 8 bits, one for each slot: its light is seen
+#define ANSWER_LOCAL_TRACED 8u // lowest of 8 bits: its ray was traced
+#define ANSWER_CHOSEN_SEEN 16u // bit: the chosen light is seen
+#define ANSWER_CHOSEN_TRACED 17u
 #define ANSWER_SUN_SEEN 18u   // lowest of 7 bits: samples that see the sun
 #define ANSWER_SUN_UNSEEN 25u // lowest of 7 bits: samples that do not; without an answer, either number is 0
 #define ANSWER_SUN_MASK 0x7fu
@@ -46,16 +62,22 @@ struct FShadowQueueConstants
 	// float[pixels]: width of the penumbra across the sun's direction, by the mean distance of what blocks the pixel's rays, metres.
 	// < 0: no ray met anything. Written for pixels that ask for rays, with WITH_PENUMBRA.
 	FAddress SunWidths;
+	FAddress TileLights; // FTileLights[]; 0: no rays to local lights
+	FAddress Choices;    // FLightChoice[pixels]; 0: no pixel chooses
 	uint Capacity;
 	uint Depth;           // sampled index
 	uint Normals;         // sampled index: shading and geometric normal, both octahedral
 	uint SamplesPerPixel; // of the sun, 1 to 64
 	float MaxDistance;    // of sun rays, metres
-	uint RayFlags;        // of sun rays: gl_RayFlags… to add to those that the pass needs
+	uint RayFlags;        // of all rays: gl_RayFlags… to add to those that the pass needs
 	uint InstanceMask;    // of sun rays
-	uint bSoft;           // 0: hard shadows, from the centre of the sun's disk
+	float SunOneMinusCos; // of the disk that sun rays go to, see FSceneConstants; 0: hard shadows, from its centre
+	uint Motion;          // sampled index, or NO_TEXTURE: FGBuffer::Motion, for HAS_CHARACTERS
+	uint Classes;         // sampled index, or NO_TEXTURE: FGBuffer::Classes, for HAS_CHARACTERS
+	uint ClassesOffset;   // of the view in Classes, pixels: x | y << 16
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FShadowQueueConstants, 80);
+LANTERN_ASSERT_SIZE(FShadowQueueConstants, 112);
 
 LANTERN_SHARED_END
 

@@ -143,8 +143,9 @@ struct FObjectData
 	uint Flags;            // OBJECT_…, and the rounding error of the translation: see UnpackTranslationRemainder in GBuffer.vert
 	ivec3 Cell;            // cell of the world; see CellOffset in Bindings.glsl
 	uint Motion;           // into FObjectMotion[], or NO_MOTION
+	float CasterRadius;    // of its bounding sphere, metres; larger than any if unknown, or if it casts no shadows
 };
-LANTERN_ASSERT_SIZE(FObjectData, 72);
+LANTERN_ASSERT_SIZE(FObjectData, 76);
 
 #define NO_MOTION 0xffffffffu // the object has neither moved nor deformed since the previous frame
 
@@ -269,6 +270,9 @@ struct FPassConstants
 	FAddress View;  // FViewConstants
 };
 LANTERN_ASSERT_SIZE(FPassConstants, 16);
+
+// Bits of FGBuffer::Classes: what a pixel shows.
+#define CLASS_CHARACTER 1u
 
 LANTERN_SHARED_END
 

@@ -4,15 +4,21 @@
 #include "../Library/GBuffer.glsl"
 #include "../Rays/RayQueue.glsl"
 #include "../Tiles/Tile.glsl"
+#ifdef ADAPTIVE
+#include "../Tiles/Fill.glsl"
+#include "../Tiles/Settle.glsl"
+#endif
+#ifdef CONTACT
+#include "../Tiles/Contact.glsl"
+#endif
 
 layout(local_size_x = TILE_PIXELS) in;
 layout(push_constant, scalar) uniform FPush { FSunShadowConstants Push; };
 
-// Returns the width of the penumbra in pixels: the diameter of the sun's disk, projected past the mean blocker onto the surface.
-// Negative: no ray met anything.
-float MeasurePenumbra(FViewConstants View, uvec2 Pixel, uint Index)
+// Returns a penumbra's width in pixels: the diameter of the sun's disk, projected past the mean blocker onto the surface. Width: across the
+// sun's direction, metres; negative: no ray met anything.
+float MeasurePenumbra(FViewConstants View, uvec2 Pixel, float Width)
 {
-	float Width = FWidthRef(Push.Widths).Data[Index];
 	if (Width < 0.0) { return Width; }
 	float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), Depth);
@@ -27,22 +33,68 @@ float KeepVisibility(uvec2 Pixel)
 	return Kept >= 0.0 && Kept <= 1.0 ? Kept : 1.0; // not a number is neither
 }
 
+#ifdef CONTACT
+float FindContact(FViewConstants View, uvec2 Pixel)
+{
+	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), LoadDepth(Push.Depth, ivec2(Pixel)));
+	return FindContact(Push.Contact, FSceneRef(Push.Pass.Scene).Data, View, Push.Depth, Pixel, Point);
+}
+#endif
+
+#ifdef ADAPTIVE
+// Fills a pixel whose tile left it out because it is far away: from the traced ones of its plane, else from what is known of it, else from
+// the tile's other planes. Called by all threads. Returns Visibility if there is nothing to fill.
+float FillLeftOut(FViewConstants View, uint Place, uvec2 Pixel, bool bFill, bool bTraced, float Visibility)
+{
+	float Depth = IsOutsideView(View, Pixel) ? 0.0 : LoadDepth(Push.Depth, ivec2(Pixel));
+	vec3 Position = Depth > 0.0 ? RelativePositionFromDepth(View, Pixel, Depth) : vec3(0.0);
+	OfferValue(Place, bTraced ? Visibility : -1.0, Position);
+	barrier();
+	if (!bFill) { return Visibility; }
+	vec3 Normal = LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), Depth).Ng;
+	float Value = FillFromTile(Place, Position, Normal, PixelHeight(View, DistanceFromDepth(View, Depth)));
+	uint Known = Push.Settled != NO_TEXTURE ? LoadKnown(Push.Settled, ivec2(Pixel)) : 0u;
+	if (Value < 0.0 && Known != 0u) { Value = (Known & SETTLED_LIT) != 0u ? 1.0 : 0.0; }
+	return Value < 0.0 ? FillFromTile(Place, Position, vec3(0.0), 1.0) : Value;
+}
+#endif
+
 void main()
 {
 	uint Place = gl_LocalInvocationIndex;
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	uvec2 Pixel = TilePixel(gl_WorkGroupID.xy, Place);
-	if (IsOutsideView(View, Pixel)) { return; }
-	uint Index = Pixel.y * View.Width + Pixel.x, Answer = FAnswerRef(Push.Answers).Data[Index];
+	bool bInside = !IsOutsideView(View, Pixel);
+	uint Index = Pixel.y * View.Width + Pixel.x, Answer = bInside ? FAnswerRef(Push.Answers).Data[Index] : 0u;
+	FTile Tile = FTileRef(Push.Tiles).Data[TileIndex(View, gl_WorkGroupID.xy)];
 	bool bAnswered = SunSeen(Answer) + SunUnseen(Answer) > 0u;
-	float Visibility = bAnswered ? float(SunSeen(Answer)) / float(Push.SamplesPerPixel) : KeepVisibility(Pixel);
+	bool bAsked = IsMarked(Tile.SunRays, Place), bTraced = bAsked && bAnswered;
+	float Visibility = bAnswered ? float(SunSeen(Answer)) / float(Push.SamplesPerPixel) : -1.0;
+#ifdef ADAPTIVE
+	bool bFill = bInside && !bAnswered && !bAsked;
+	Visibility = FillLeftOut(View, Place, Pixel, bFill, bTraced, Visibility);
+	if (bInside && Push.Settled != NO_TEXTURE && !bFill && (bAsked || !IsMarked(Tile.SunRest, Place)))
+	{
+		Settle(Push.Settled, ivec2(Pixel), bAsked ? Answer : 0u);
+	}
+#endif
+	if (!bInside) { return; }
+	if (Visibility < 0.0) { Visibility = KeepVisibility(Pixel); }
+	bool bFilled = !bAsked && !bAnswered, bLeftOut = bFilled || (!bAsked && IsMarked(Tile.SunRest, Place));
+	float Contact = -1.0; // distance of what is in the way, metres
+#ifdef CONTACT
+	bool bFacing = bAsked || bLeftOut;
+	if (bFacing && Visibility > 0.0) { Contact = FindContact(View, Pixel); }
+	if (Contact >= 0.0) { Visibility = 0.0; }
+#endif
 	imageStore(Images[Push.Output], ivec2(Pixel), vec4(Visibility));
 	if (Push.OutKept != NO_TEXTURE) { imageStore(Images[Push.OutKept], ivec2(Pixel), vec4(Visibility)); }
 	if (Push.OutPenumbra == NO_TEXTURE) { return; }
-	// Without a blocker, the width is 0. A surface that turns away from the sun gives no blocker distance; its width is set to 1e-3.
-	float Penumbra = Visibility < 1.0 ? -1.0 : 0.0;
-	FTile Tile = FTileRef(Push.Tiles).Data[TileIndex(View, gl_WorkGroupID.xy)];
-	bool bTraced = (Tile.SunRays[Place >> 5u] & (1u << (Place & 31u))) != 0u;
-	if (bTraced && bAnswered && Penumbra < 0.0) { Penumbra = MeasurePenumbra(View, Pixel, Index); }
-	imageStore(Images[Push.OutPenumbra], ivec2(Pixel), vec4(min(Penumbra < 0.0 ? 1.0e-3 : Penumbra, 65504.0)));
+	// The width is 0 without a blocker, and where a pixel without rays of its own knows of none. It is set to 1e-3 if a surface turns away
+	// from the sun, or if its rays had no room: these give no blocker distance. A pixel that was filled has -1.
+	float Penumbra = Visibility < 1.0 && !bLeftOut ? -1.0 : 0.0;
+	if (bTraced && Penumbra < 0.0) { Penumbra = MeasurePenumbra(View, Pixel, FWidthRef(Push.Widths).Data[Index]); }
+	if (Contact >= 0.0) { Penumbra = MeasurePenumbra(View, Pixel, 2.0 * sqrt(2.0 * Push.SunOneMinusCos) * Contact); }
+	Penumbra = min(Penumbra < 0.0 ? 1.0e-3 : Penumbra, 65504.0);
+	imageStore(Images[Push.OutPenumbra], ivec2(Pixel), vec4(bFilled ? -1.0 : Penumbra));
 }

@@ -11,22 +11,28 @@ layout(push_constant, scalar) uniform FPush { FTilesConstants Push; };
 void main()
 {
 	FRayQueueCountersRef Counters = FRayQueueCountersRef(Push.Counters);
-	uint Wanted = Counters.Data.Wanted;
+	uint Wanted = Counters.Data.Segments[RAY_SEGMENT_SUN].Wanted;
 	if (Wanted <= Push.Capacity) { return; }
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	uint Columns = TileIndex(View, uvec2(0u, 1u)), Rows = (View.Height + TILE_SIZE - 1u) / TILE_SIZE;
 	uint Index = gl_WorkGroupID.x * TILE_PIXELS + gl_LocalInvocationIndex;
 	if (Index >= Columns * Rows) { return; }
 	FTile Tile = FTileRef(Push.Tiles).Data[Index];
-	uint Count = bitCount(Tile.SunRays[0]) + bitCount(Tile.SunRays[1]);
+	uint Rays[2] = Tile.SunRays;
+	if (Push.bSunRest != 0u)
+	{
+		if ((Tile.Classes & TILE_SUN_DISAGREES) == 0u) { return; }
+		Rays = Tile.SunRest;
+	}
+	uint Count = bitCount(Rays[0]) + bitCount(Rays[1]);
 	// Rounded down, and a little more: all shares together fit.
 	uint Kept = uint(float(Count) * (float(Push.Capacity) / float(Wanted)) * (1.0 - 1.0e-6));
 	if (Kept == 0u) { return; }
-	uint Number = atomicAdd(Counters.Data.Kept, Kept);
+	uint Number = atomicAdd(Counters.Data.Segments[RAY_SEGMENT_SUN].Kept, Kept);
 	uint Turn = View.FrameIndex * Kept; // other pixels in each frame
 	[[dont_unroll]] for (uint Place = 0u; Place < TILE_PIXELS; ++Place)
 	{
-		if ((Tile.SunRays[Place >> 5u] & (1u << (Place & 31u))) == 0u) { continue; }
+		if ((Rays[Place >> 5u] & (1u << (Place & 31u))) == 0u) { continue; }
 		if (Turn++ % Count >= Kept) { continue; }
 		uvec2 Pixel = TilePixel(uvec2(Index % Columns, Index / Columns), Place);
 		FRayRequestRef(Push.Requests).Data[Number++] = MakeRayRequest(RAY_KIND_SUN, 0u, Pixel.y * View.Width + Pixel.x);

@@ -9,6 +9,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FTileRef { F
 
 uint TileIndex(FViewConstants View, uvec2 Tile) { return Tile.y * ((View.Width + TILE_SIZE - 1u) / TILE_SIZE) + Tile.x; }
 
+// Whether a tile's mask has the bit of the pixel at Place.
+bool IsMarked(uint Mask[2], uint Place) { return (Mask[Place >> 5u] & (1u << (Place & 31u))) != 0u; }
+
 // Returns the pixel at Place, 0 to 63, of a tile. Places are in Z order: rays that are traced together then start close to each other.
 uvec2 TilePixel(uvec2 Tile, uint Place)
 {

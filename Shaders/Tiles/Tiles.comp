@@ -8,7 +8,11 @@
 layout(local_size_x = TILE_PIXELS) in;
 layout(push_constant, scalar) uniform FPush { FTilesConstants Push; };
 
-shared uint Classes, SunRays[2], FirstRequest;
+#ifdef ADAPTIVE
+#include "Settled.glsl"
+#endif
+
+shared uint Classes, SunRays[2], SunRest[2], FirstRequest;
 
 // Returns the class of a pixel by the sun.
 uint ClassifySun(FViewConstants View, uvec2 Pixel)
@@ -18,7 +22,7 @@ uint ClassifySun(FViewConstants View, uvec2 Pixel)
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), Depth);
 	// No direction to the disk is farther from that to its centre than this chord, and rounding.
-	float Spread = Push.bSoftSun != 0u ? sqrt(2.0 * Scene.SunOneMinusCos) + 1.0e-6 : 0.0;
+	float Spread = Push.SunOneMinusCos > 0.0 ? sqrt(2.0 * Push.SunOneMinusCos) + 1.0e-6 : 0.0;
 	return LeavesSurface(View, Point, -Scene.SunDirection, Spread) ? TILE_SUN_TRACED : TILE_SUN_BEHIND;
 }
 
@@ -31,30 +35,13 @@ void StartAnswer(uint Index, uint Class)
 	FAnswerRef(Push.Answers).Data[Index] = Answer;
 }
 
-// Reserves room for all rays of the tile at once.
-void Reserve(uint Count)
-{
-	FRayQueueCountersRef Counters = FRayQueueCountersRef(Push.Counters);
-	if (Count > 0u)
-	{
-		FirstRequest = atomicAdd(Counters.Data.Wanted, Count);
-		uint End = min(FirstRequest + Count, Push.Capacity);
-		const uint RowRays = RAY_QUEUE_GROUP_SIZE * RAY_QUEUE_ROW_GROUPS;
-		atomicMax(Counters.Data.Groups[1], (End + RowRays - 1u) / RowRays);
-		atomicMax(Counters.Data.Launch[0], End);
-	}
-	if (gl_WorkGroupID.xy != uvec2(0u)) { return; }
-	Counters.Data.Groups[0] = RAY_QUEUE_ROW_GROUPS;
-	Counters.Data.Groups[2] = Counters.Data.Launch[1] = Counters.Data.Launch[2] = 1u;
-}
-
 void main()
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	uint Place = gl_LocalInvocationIndex, Word = Place >> 5u, Bit = 1u << (Place & 31u);
 	uvec2 Pixel = TilePixel(gl_WorkGroupID.xy, Place);
 	uint Index = Pixel.y * View.Width + Pixel.x;
-	if (Place == 0u) { Classes = SunRays[0] = SunRays[1] = 0u; }
+	if (Place == 0u) { Classes = SunRays[0] = SunRays[1] = SunRest[0] = SunRest[1] = 0u; }
 	barrier();
 	bool bTraced = false;
 	if (!IsOutsideView(View, Pixel))
@@ -63,13 +50,29 @@ void main()
 		bTraced = Class == TILE_SUN_TRACED;
 		StartAnswer(Index, Class);
 		atomicOr(Classes, Class);
-		if (bTraced) { atomicOr(SunRays[Word], Bit); }
 	}
+#ifdef ADAPTIVE
+	uint Known = Push.Settled != 0ul ? FindSettled(View, Place, Pixel, bTraced) : 0u;
+	if (bTraced && Known != 0u)
+	{
+		atomicOr(Classes, Known);
+		bTraced = HasTurn(Place, FSettledRef(Push.Settled).Data.Turn, 0.25);
+		if (!bTraced)
+		{
+			StartAnswer(Index, Known == TILE_SUN_LIT ? TILE_SKY : TILE_SUN_BEHIND);
+			atomicOr(SunRest[Word], Bit);
+		}
+	}
+	else if (bTraced && Push.Settled != 0ul) { bTraced = IsTracedFarAway(View, Place, Pixel); }
+#endif
+	if (bTraced) { atomicOr(SunRays[Word], Bit); }
 	barrier();
 	if (Place == 0u)
 	{
-		Reserve(bitCount(SunRays[0]) + bitCount(SunRays[1]));
-		FTileRef(Push.Tiles).Data[TileIndex(View, gl_WorkGroupID.xy)] = FTile(Classes, uint[2](SunRays[0], SunRays[1]));
+		uint Count = bitCount(SunRays[0]) + bitCount(SunRays[1]);
+		FirstRequest = Count > 0u ? ReserveSunRequests(Push.Counters, Push.Capacity, Count) : 0u;
+		FTile Tile = FTile(Classes, uint[2](SunRays[0], SunRays[1]), uint[2](SunRest[0], SunRest[1]));
+		FTileRef(Push.Tiles).Data[TileIndex(View, gl_WorkGroupID.xy)] = Tile;
 	}
 	barrier();
 	if (!bTraced) { return; }

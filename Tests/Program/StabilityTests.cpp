@@ -28,7 +28,7 @@ protected:
 	/// The planes cast no shadow where they face the sun: the case does not hold.
 	std::vector<std::string> MakeBroken() const
 	{
-		return {"--case", "25", "--method", "SunShadowQuery", "--set", "r.RT.Shadow.CullFrontFaces=1"};
+		return {"--case", "25", "--method", "SunShadowQuery", "--set", "r.RT.Shadow.CasterFaces=2"};
 	}
 
 	FTemporaryFolder Folder;

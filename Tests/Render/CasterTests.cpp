@@ -27,6 +27,7 @@ protected:
 		Out.Scene.Nodes[static_cast<size_t>(Doll)].Traits = Plates;
 		if (bRoof) { Out.AddNode(Out.AddMesh({FTestScene::MakeFloor(Grey, 1.0f, 3.0f, {1, 0})})); }
 		ASSERT_TRUE(Load(std::move(Out.Scene)));
+		Lamp = {}; // it went with the scene before
 		SetSky({});
 	}
 	/// Radiance of the upper side of what is at this height, at z = 0, by one light of its own.
@@ -79,7 +80,6 @@ TEST_F(FCasterTest, CharactersShadowAllButCharacters)
 	EXPECT_EQ(Trace(-0.5, 0.0), 0.0);
 	// Without a shadow, it still has none of its own kind.
 	LoadPlates({.bCastsShadow = false, .bCharacter = true});
-	Lamp = {};
 	UseSun();
 	EXPECT_NEAR(Trace(-0.5, 0.0), LitBySun(), 1e-3);
 }
@@ -96,6 +96,45 @@ TEST_F(FCasterTest, CharactersSeeTheWholeSky)
 	SetSun(0.0, 0.0f);
 	SetSky(glm::vec3(1));
 	EXPECT_LT(EstimateMean(LookAt({-0.5, 1.3, 3.0}, {-0.5, 1, 0}, 0.0005f, 32, 32), 16, 1).Mean, 0.6 * double(Albedo));
+}
+
+// Signals know characters by the object that motion vectors name, filtered or not.
+TEST_F(FCasterTest, SignalsLeaveCharactersWithoutSelfShadow)
+{
+	const auto Measure = [&](ESignal Signal, double X, double Height) {
+		const FView View = LookAt({X, Height + 0.3, 3.0}, {X, Height, 0}, 0.0005f, 8, 8);
+		const FImage Picture = RenderSignal(Signal, View);
+		for (size_t I = 0; I < Picture.Pixels.size(); I += Picture.Channels)
+		{
+			EXPECT_EQ(Picture.Pixels[I] > 0.0f, Picture.Pixels[0] > 0.0f);
+		}
+		return MeanGreen(Picture) > 0.0;
+	};
+	for (const bool bCharacter : {true, false})
+	{
+		LoadPlates({.bCharacter = bCharacter});
+		for (const char* const Path : {"1", "2"})
+		{
+			for (const char* const Filter : {"0", "1"})
+			{
+				SetVariable("r.RT.Shadow.Path", Path);
+				SetVariable("r.RT.Shadow.Denoise", Filter);
+				SetVariable("r.RT.Lights.Denoise", Filter);
+				UseSun();
+				EXPECT_TRUE(Measure(ESignal::SunShadow, -0.5, 2.0));
+				EXPECT_EQ(Measure(ESignal::SunShadow, -0.5, 1.0), bCharacter) << "self-shadow";
+				EXPECT_FALSE(Measure(ESignal::SunShadow, -0.5, 0.0)) << "casts on the floor";
+				EXPECT_FALSE(Measure(ESignal::SunShadow, 0.5, 1.0)) << "receives from the roof";
+				UseLamp(-0.5);
+				EXPECT_EQ(Measure(ESignal::LocalDiffuse, -0.5, 1.0), bCharacter);
+				EXPECT_FALSE(Measure(ESignal::LocalDiffuse, -0.5, 0.0));
+			}
+		}
+	}
+	LoadPlates({.bCharacter = true});
+	UseSun();
+	SetVariable("r.RT.Debug.Shadow.Receivers", "0");
+	EXPECT_FALSE(Measure(ESignal::SunShadow, -0.5, 1.0)) << "the planted fault goes unnoticed";
 }
 
 TEST_F(FCasterTest, TreesMayShadowFromTheSunAlone)

@@ -25,6 +25,11 @@ protected:
 
 	static FRTScene& GetWorld() { return GetScene().GetScene(); }
 	static const FLightCellStats& GetStats() { return GetEngine().GetRenderer().GetLightCells().GetStats(); }
+	void SetUp() override
+	{
+		FRenderTest::SetUp();
+		SetVariable("r.RT.Lights", "0"); // direct lighting then visits lights itself
+	}
 	void TearDown() override
 	{
 		GetEngine().ExtraPasses = {};
@@ -312,12 +317,12 @@ TEST_F(FLightCellsTest, PoolsWithoutRoomLoseNoLight)
 	EXPECT_GE(Log.Count(ERTLogLevel::Warning), 1u) << "somebody must hear of it";
 }
 
-// Many large lights: the first pool is too small, and a later frame has a larger one.
+// Many large lights: the first pool has no room for the blocks, and a later frame has a larger one.
 TEST_F(FLightCellsTest, PoolsGrow)
 {
 	ASSERT_NO_FATAL_FAILURE(LoadSteps());
 	FNumbers Numbers(13);
-	for (int I = 0; I < 60; ++I)
+	for (int I = 0; I < 1'100; ++I) // more than 1,024: room is a power of two, and 32 lists of them fill the pool
 	{
 		FSceneLight Light = MakeRandomLight(Numbers, Middle);
 		Light.Type = LIGHT_POINT;
@@ -330,7 +335,7 @@ TEST_F(FLightCellsTest, PoolsGrow)
 	for (int Frame = 0; Frame < 16; ++Frame)
 	{
 		const double Turn = std::min(Frame, 8) * 0.8;
-		View = LookFrom({1.5 * std::cos(Turn), 1.5, 1.5 * std::sin(Turn)}, 192, 128);
+		View = LookFrom({3.0 * std::cos(Turn), 4.0, 3.0 * std::sin(Turn)});
 		Render(View);
 	}
 	EXPECT_GT(GetStats().PoolEntries, 1u << 16);
@@ -352,6 +357,37 @@ TEST_F(FLightCellsTest, OddSizesAndCells)
 		SetVariable("r.RT.Lights.CellMetres", Metres);
 		EXPECT_EQ(CountDifferences(LookFrom({5, 3, 4})), 0u) << Metres;
 		(void)ExpectLists(ReadGrid(LookFrom({5, 3, 4})), Numbers);
+	}
+}
+
+// A pixel in a tile of many lights chooses one that reaches its cell, with the numbers that a choice of all takes.
+TEST_F(FLightCellsTest, ChoicesOfShadowedLights)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadSteps());
+	SetVariable("r.RT.Lights", "1");
+	SetVariable("r.RT.Lights.Denoise", "0");      // pictures of two frames are compared
+	SetVariable("r.RT.Rays.QueuePerPixel", "16"); // all rays have room: without, it depends on the frames before
+	FNumbers Numbers(29);
+	std::vector<FLightId> Ids = AddLights(Numbers, 160);
+	for (const char* const Exact : {"1", "4"})
+	{
+		SetVariable("r.RT.Lights.Exact", Exact);
+		for (int Frame = 0; Frame < 4; ++Frame)
+		{
+			const FView View = LookFrom({6 - 2 * Frame, 3, 8});
+			EXPECT_EQ(CountDifferences(View, ESignal::LocalDiffuse), 0u) << Exact << ", frame " << Frame;
+			EXPECT_EQ(CountDifferences(View, ESignal::LocalSpecular), 0u) << Exact << ", frame " << Frame;
+			for (int I = 0; I < 10; ++I) { GetWorld().SetLight(Ids[size_t(Frame * 10 + I)], MakeRandomLight(Numbers, Middle)); }
+		}
+		const FView View = LookFrom({6, 3, 8});
+		EXPECT_GT(ExpectLists(ReadGrid(View), Numbers), 50u);
+		EXPECT_GE(GetWorld().GetFacts().FiniteLights, 64u);
+		// The comparison has teeth: cells that hear of no change lack lights.
+		SetVariable("r.RT.Debug.Lights.Changes", "0");
+		for (const FLightId Id : Ids) { GetWorld().SetLight(Id, MakeRandomLight(Numbers, Middle)); }
+		EXPECT_GT(CountDifferences(View, ESignal::LocalDiffuse), 100u) << Exact;
+		SetVariable("r.RT.Debug.Lights.Changes", "1");
+		SetVariable("r.RT.Lights.CellMetres", "2"); // begins anew, without what they did not hear of
 	}
 }
 

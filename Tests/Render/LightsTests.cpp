@@ -52,6 +52,7 @@ protected:
 	void SetUp() override
 	{
 		FRenderTest::SetUp();
+		SetVariable("r.RT.Lights.Denoise", "0"); // the filter weighs outliers less, and figures are of one frame
 		FTestScene Floor("floor");
 		Floor.AddNode(Floor.AddMesh({FTestScene::MakeFloor(Floor.AddLambert(glm::vec3(Albedo)), 20.0f)}));
 		ASSERT_TRUE(Load(std::move(Floor.Scene)));

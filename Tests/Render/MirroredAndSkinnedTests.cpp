@@ -47,10 +47,10 @@ TEST_F(FMirroredTest, RasterAndShadowsEqualMirroredVertices)
 	{
 		ASSERT_TRUE(LoadCorner(bByTransform));
 		SetSun(0.0, 4.0f, SunDirection);
-		SetVariable("r.RT.Shadow.CullFrontFaces", "0");
+		SetVariable("r.RT.Shadow.CasterFaces", "0");
 		Lighting[bByTransform] = RenderLighting(MakeCornerView());
 		Shadow[bByTransform] = RenderSunShadow(MakeCornerView());
-		SetVariable("r.RT.Shadow.CullFrontFaces", "1");
+		SetVariable("r.RT.Shadow.CasterFaces", "2");
 		Culled[bByTransform] = RenderSunShadow(MakeCornerView());
 	}
 	const double Mean = ComputeMeans(Shadow[0]).Channel[0];

@@ -237,7 +237,7 @@ std::vector<double> MeasurePlanes(FRenderTest&, const FImage& Shadow)
 }
 
 // Stability case 25: planes that face the sun, face away, and have two sides. Without culling all cast, as a shadow map
-// of both sides has it; with front-face culling those that face the sun do not, except two-sided ones.
+// of both sides has it; of those that face the sun or away from it, only one kind casts if the other kind of face is culled; two-sided ones always do.
 TEST_F(FSunShadowTest, SingleSidedPlanesCastAsShadowMapsDo)
 {
 	ASSERT_TRUE(Load("planes"));
@@ -246,10 +246,12 @@ TEST_F(FSunShadowTest, SingleSidedPlanesCastAsShadowMapsDo)
 	for (const char* Path : {"1", "2"})
 	{
 		SetVariable("r.RT.Shadow.Path", Path);
-		SetVariable("r.RT.Shadow.CullFrontFaces", "0");
+		SetVariable("r.RT.Shadow.CasterFaces", "0");
 		EXPECT_EQ(MeasurePlanes(*this, RenderSunShadow(View)), (std::vector<double>{0, 0, 0})) << "path " << Path;
-		SetVariable("r.RT.Shadow.CullFrontFaces", "1");
+		SetVariable("r.RT.Shadow.CasterFaces", "2");
 		EXPECT_EQ(MeasurePlanes(*this, RenderSunShadow(View)), (std::vector<double>{1, 0, 0})) << "path " << Path;
+		SetVariable("r.RT.Shadow.CasterFaces", "1");
+		EXPECT_EQ(MeasurePlanes(*this, RenderSunShadow(View)), (std::vector<double>{0, 1, 0})) << "path " << Path;
 	}
 }
 

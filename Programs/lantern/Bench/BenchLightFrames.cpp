@@ -44,6 +44,7 @@ public:
 		Picture.Scene = fmt::format("lamps:{}", Case.Lamps);
 		if (Session.LoadScene(Picture) != ExitDone) { return FRTStatus::Error(ERTResult::InvalidArgument, "%s", Picture.Scene.c_str()); }
 		View = Session.MakeView(Picture);
+		Set("r.RT.Lights", "0"); // direct lighting then visits lights itself
 		Set("r.RT.Lights.Cells", "0");
 		FRTStatus Status = Render(nullptr); // what the driver compiles at first use is not measured
 		if (Status)

@@ -143,8 +143,8 @@ FRTStatus FRayBench::RunPlugin(FPluginMs& Out, double* OutSurfaceMs)
 	Out = {};
 	for (const FPassTiming& Timing : Renderer.GetGraphResources().GetTimings())
 	{
-		if (Timing.Name.starts_with("SunShadow")) { Out.All += Timing.GpuMs; }
-		if (Timing.Name == "SunShadowRays") { Out.Rays = Timing.GpuMs; }
+		if (Timing.Name.starts_with("SunShadow") || Timing.Name.starts_with("Shadow")) { Out.All += Timing.GpuMs; }
+		if (Timing.Name == "ShadowRays") { Out.Rays = Timing.GpuMs; }
 		if (OutSurfaceMs != nullptr && Timing.Name == "HostSurface") { *OutSurfaceMs = Timing.GpuMs; }
 	}
 	if (Status && Out.Rays <= 0.0)
@@ -207,7 +207,7 @@ FRTStatus FRayBench::Measure(bool bPipeline, FRayCase& Out)
 {
 	// What the raw dispatch is written for, whatever the settings say.
 	for (const char* Name : {"r.RT.Enable", "r.RT.Shadow", "r.RT.Shadow.Soft", "r.RT.Shadow.Samples"}) { Set(Name, "1"); }
-	Set("r.RT.Shadow.CullFrontFaces", "0");
+	Set("r.RT.Shadow.CasterFaces", "0");
 	Set("r.RT.Shadow.Denoise", "0");
 	Set("r.RT.Shadow.Path", bPipeline ? "1" : "2");
 	FPluginMs Ms;

@@ -18,6 +18,7 @@ const int WindowRadius = DENOISE_WINDOW_RADIUS;
 const int InnerSize = GroupSize + 2 * WindowRadius;
 const int TileSize = InnerSize + 2;
 
+// With WITH_EXTENT, a pixel without a value of its own (a negative extent) has -1 minus what it was filled with.
 shared FSignal TileSignal[TileSize * TileSize];
 shared float TileInverseDepth[TileSize * TileSize]; // 1 / distance, linear in screen space over a plane; 0: no value
 #ifdef WITH_EXTENT
@@ -47,10 +48,21 @@ void LoadTile(ivec2 Size)
 		TileInverseDepth[I] = bValid ? 1.0 / Distance : 0.0;
 #ifdef WITH_EXTENT
 		float Extent = bValid ? texelFetch(Textures[Push.Extent], P, 0).x : 0.0;
-		TileExtent[I] = IsFinite(Extent) ? Extent : 0.0;
-#endif
+		TileExtent[I] = IsFinite(Extent) ? max(Extent, 0.0) : 0.0;
+		TileSignal[I] = Extent < 0.0 ? -1.0 - SanitizeSignal(Value, bValid) : SanitizeSignal(Value, bValid);
+#else
 		TileSignal[I] = SanitizeSignal(Value, bValid);
+#endif
 	}
+}
+
+// Whether a pixel of the tile has a value of its own.
+bool HasValue(int I)
+{
+#ifdef WITH_EXTENT
+	if (TileSignal[I] < 0.0) { return false; }
+#endif
+	return TileInverseDepth[I] > 0.0;
 }
 
 // Whether a pixel of the tile is more than a tenth nearer or farther than the invocation's own, hence of another surface.

@@ -23,7 +23,7 @@ struct FNeighborhood
 bool IsPlanar(int I, int Step)
 {
 	float Sum = TileInverseDepth[I - Step] + TileInverseDepth[I + Step];
-	return TileInverseDepth[I - Step] > 0.0 && TileInverseDepth[I + Step] > 0.0 &&
+	return HasValue(I - Step) && HasValue(I + Step) &&
 	       abs(Sum - 2.0 * TileInverseDepth[I]) < 0.02 * TileInverseDepth[I];
 }
 
@@ -31,7 +31,7 @@ bool IsPlanar(int I, int Step)
 // are on its surface, from these two. For random zeros and ones its mean is the variance within a quarter. Negative: unknown.
 float MeasureOutlier(int I)
 {
-	if (TileInverseDepth[I] <= 0.0) { return -1.0; }
+	if (!HasValue(I)) { return -1.0; }
 	bool bX = IsPlanar(I, 1), bY = IsPlanar(I, TileSize);
 	if (!bX && !bY) { return -1.0; }
 	vec2 X = vec2(GetBrightness(TileSignal[I - 1]), GetBrightness(TileSignal[I + 1]));
@@ -56,13 +56,18 @@ FNeighborhood MeasureNeighborhood()
 {
 	float InverseDepth = TileInverseDepth[GetTileIndex(ivec2(0))];
 	ivec2 Inner = ivec2(gl_LocalInvocationID.xy) + WindowRadius;
-	float Sum = 0.0, Count = 0.0, OutlierSum = 0.0, OutlierCount = 0.0;
+	float Sum = 0.0, Count = 0.0, OutlierSum = 0.0, OutlierCount = 0.0, Missing = 0.0;
 	[[dont_unroll]] for (int Y = -NeighborhoodRadius; Y <= NeighborhoodRadius; ++Y)
 	{
 		[[dont_unroll]] for (int X = -NeighborhoodRadius; X <= NeighborhoodRadius; ++X)
 		{
 			int I = GetTileIndex(ivec2(X, Y));
 			if (IsAtOtherDepth(I, InverseDepth)) { continue; }
+			if (!HasValue(I))
+			{
+				Missing += 1.0;
+				continue;
+			}
 			Sum += GetBrightness(TileSignal[I]);
 			Count += 1.0;
 			float Outlier = OutlierVariance[(Inner.y + Y) * InnerSize + Inner.x + X];
@@ -70,6 +75,15 @@ FNeighborhood MeasureNeighborhood()
 			OutlierSum += Outlier;
 			OutlierCount += 1.0;
 		}
+	}
+#ifdef WITH_EXTENT
+	if (Count == 0.0) { Sum = max(-1.0 - TileSignal[GetTileIndex(ivec2(0))], 0.0); } // what it was filled with
+#endif
+	if (Missing > 0.0 && OutlierCount == 0.0) // whose neighbours are missing cannot be told from an outlier: each ray sees by chance
+	{
+		float Mean = clamp(Sum / max(Count, 1.0), 0.0, 1.0);
+		OutlierSum = Mean * (1.0 - Mean) / Push.RaysPerPixel;
+		OutlierCount = 1.0;
 	}
 	return FNeighborhood(Sum / max(Count, 1.0), OutlierCount > 0.0 ? OutlierSum / OutlierCount : -1.0, max(Count, 1.0));
 }

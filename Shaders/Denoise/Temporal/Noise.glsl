@@ -64,7 +64,7 @@ FFrameEstimate EstimateFrame()
 	FNeighborhood Neighborhood = MeasureNeighborhood();
 #if CHANNELS == 1
 	float Noise = GetVisibilityVariance(Neighborhood.Mean);
-	return FFrameEstimate(TileSignal[Own], TileInverseDepth[Own] > 0.0, Neighborhood, Noise, MeasureExtent());
+	return FFrameEstimate(TileSignal[Own], HasValue(Own), Neighborhood, Noise, MeasureExtent());
 #else
 	FWindow Window = MeasureWindow();
 	float Noise = Neighborhood.OutlierVariance >= 0.0 ? Neighborhood.OutlierVariance : Window.Variance;

@@ -47,7 +47,8 @@ double SumPasses(const std::vector<FPassTiming>& Passes, T&& IsWanted)
 
 bool IsOfSignal(std::string_view Pass, ESignal Signal)
 {
-	return Pass.starts_with(GetSignalInfo(Signal).Pass); // "": all passes are the frame's
+	const FSignalInfo& Info = GetSignalInfo(Signal);
+	return Pass.starts_with(Info.Pass) || (*Info.SharedPass && Pass.starts_with(Info.SharedPass)); // "": all passes are the frame's
 }
 
 FRTStatus StartAnew(FSampleEngine& Engine)
@@ -71,6 +72,10 @@ FRTStatus PlayFrame(FSampleEngine& Engine, const FScriptFrame& Frame, const FFra
 	if (FRTStatus S = Renderer.WaitForAll(); !S) { return S; }
 	Out.Passes = Renderer.GetGraphResources().GetTimings();
 	std::erase_if(Out.Passes, [](const FPassTiming& Pass) { return Pass.Name == "Readback"; });
+	for (const auto& [Name, Rays] : Renderer.GetRayCounts().Passes) // with r.RT.Rays.Count
+	{
+		for (FPassTiming& Pass : Out.Passes) { Pass.Rays = Pass.Name == Name ? Rays : Pass.Rays; }
+	}
 	Out.LiveBytes = Renderer.GetDevice().GetMemoryStats().Total;
 	Out.Seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - Start).count();
 	return FRTStatus::Success();

@@ -5,6 +5,7 @@
 #include "DebugView/DebugView.h"
 #include "DiffuseGI/DiffuseGI.h"
 #include "Lighting/DirectLighting.h"
+#include "LocalLights/LocalLights.h"
 #include "Reflections/Reflections.h"
 #include "SunShadow/SunShadow.h"
 
@@ -15,11 +16,14 @@ FFrameOutputs AddFramePasses(FFrameContext& Context, const FGBuffer& GBuffer)
 {
 	FFrameOutputs Out;
 	Out.Get(ESignal::SunShadow) = AddSunShadowPass(Context, GBuffer);
+	Out.Get(ESignal::LocalDiffuse) = AddLocalDiffusePass(Context, GBuffer);
+	Out.Get(ESignal::LocalSpecular) = AddLocalSpecularPass(Context, GBuffer);
 	Out.Get(ESignal::AmbientOcclusion) = AddAmbientOcclusionPass(Context, GBuffer);
 	Out.Get(ESignal::Reflections) = AddReflectionsPass(Context, GBuffer);
 	Out.Get(ESignal::DiffuseGI) = AddDiffuseGIPass(Context, GBuffer);
-	Out.Lighting = AddDirectLightingPass(Context, {GBuffer, Out.Get(ESignal::SunShadow), Out.Get(ESignal::AmbientOcclusion),
-	                                                  Out.Get(ESignal::DiffuseGI), Out.Get(ESignal::Reflections)});
+	Out.Lighting = AddDirectLightingPass(
+	    Context, {GBuffer, Out.Get(ESignal::SunShadow), Out.Get(ESignal::AmbientOcclusion), Out.Get(ESignal::DiffuseGI),
+	                 Out.Get(ESignal::Reflections), Out.Get(ESignal::LocalDiffuse), Out.Get(ESignal::LocalSpecular)});
 	Out.Display = AddToneMapPass(Context, Out.Lighting);
 	Out.Display = AddDebugView(Context, GBuffer, Out);
 	return Out;

@@ -1,6 +1,8 @@
 // Collects from the registry of signals what a frame traces with.
 #include "RayPrograms.h"
 
+#include <algorithm>
+
 #include "Feedback/AnyHitCounter.h"
 #include "LanternRenderer/HostSurface.h"
 #include "LanternScene/ShaderTable/SectionTable.h"
@@ -56,7 +58,8 @@ struct FCollector
 	{
 		FShaderSource RayGen = Shader(RayGenPath.c_str());
 		RayGen.Defines = std::move(Rays.Defines);
-		Programs.Desc.RayGens.push_back(RayGen);
+		std::vector<FShaderSource>& All = Programs.Desc.RayGens;
+		if (std::find(All.begin(), All.end(), RayGen) == All.end()) { All.push_back(RayGen); } // signals may share one
 		Programs.RayGens[ToIndex(Signal)] = std::move(RayGen);
 		bShadesHits |= Rays.bShadesHits;
 		bBlockers |= Rays.bBlockers;
@@ -76,10 +79,12 @@ void CollectSignals(
 		    bMayBeReplaced && GetSignalPass(Pass.ReplacedBy).ChooseRays({Capabilities, Facts, Requests}).Path != ERayPath::None;
 		if (IsMade(Pass.Signal, Requests)) { Chosen[ToIndex(Pass.Signal)] = Pass.ChooseRays({Capabilities, Facts, Requests, bReplaced}); }
 	});
+	ShareQueueShader(Chosen);
 	ForEachSignalPass([&](const FSignalPass& Pass) {
 		FPassRays& Rays = Chosen[ToIndex(Pass.Signal)];
 		if (Rays.Path == ERayPath::None) { return; }
 		Collector.Programs.bMotion |= Pass.WantsMotion && Pass.WantsMotion(Scene);
+		Collector.Programs.bMotion |= Pass.AskShadowRays && Facts.bCharacters; // it names the pixels' objects
 		std::vector<FShaderSource>& Compute = Collector.Programs.Compute;
 		if (Rays.Path == ERayPath::Query)
 		{

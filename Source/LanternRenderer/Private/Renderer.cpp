@@ -18,9 +18,11 @@
 #include "LanternRenderer/Frame.h"
 #include "Lights/LightCells.h"
 #include "RayPrograms.h"
+#include "Rays/RayQueueCounter.h"
 #include "Rays/RayQueueDemand.h"
 #include "SignalPasses.h"
 #include "Skinning/RefitQuality.h"
+#include "Tiles/MovedCasters.h"
 
 namespace Lantern
 {
@@ -52,7 +54,8 @@ FRenderer::FRenderer(IRTDevice& InDevice, FRendererDesc Desc)
       AnyHits(std::make_unique<FAnyHitCounter>(InDevice)),
       RayCompiler(InDevice, Compiler, Programs),
       StandIns(std::make_unique<FStandInFeedback>(InDevice)),
-      QueueDemand(std::make_unique<FRayQueueDemand>(InDevice))
+      QueueDemand(std::make_unique<FRayQueueDemand>(InDevice)),
+      RayCounter(std::make_unique<FRayQueueCounter>(InDevice))
 {
 	StartWorkers(); // not in the first frame
 	if (!FTaskTrace::HasFolder()) { FTaskTrace::SetFolder(Desc.CacheFolder); }
@@ -74,10 +77,12 @@ FRTStatus FRenderer::WaitForAll()
 		if (FRTStatus S = Device.WaitFor(Fence, WaitNs); !S) { return S; }
 	}
 	AnyHits->TakeAll();
+	RayCounter->TakeAll();
 	return FRTStatus::Success();
 }
 
 const FAnyHitCounts& FRenderer::GetAnyHits() const { return AnyHits->Get(); }
+const FRayCounts& FRenderer::GetRayCounts() const { return RayCounter->Get(); }
 
 FRTStatus FRenderer::WaitForFlight()
 {
@@ -170,6 +175,7 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	Context->Status = &FrameStatus;
 	Context->Owner = this;
 	Context->QueueDemand = QueueDemand.get();
+	Context->RayCounter = RayCounter.get();
 	Context->Tokens = {
 	    Graph->CreateToken("Tables"), Graph->CreateToken("Vertices"), Graph->CreateToken("Structures"), Graph->CreateToken("Records")};
 	Context->bWaitForPipelines = WaitsForPipelines(Features);
@@ -275,6 +281,7 @@ void FRenderer::WriteConstants()
 void FRenderer::KeepHistory(bool bSubmitted)
 {
 	State->History->EndFrame(bSubmitted);
+	State->Casters->EndFrame(bSubmitted);
 	State->LastScene = bSubmitted ? Context->Scene.GetSections().GetIdentity() : 0;
 	State->LastView = Context->View;
 	if (bSubmitted) { State->Published = FConsoleVariables::Get().GetPublishCount(); }
@@ -291,6 +298,7 @@ FRenderer::FViewState& FRenderer::GetView(uint32_t Index)
 		static std::atomic<uint64_t> LastViewer = 0; // 0 is nobody's
 		View.History = std::make_unique<FHistoryResources>(Device);
 		View.LightCells = std::make_unique<FLightCells>(Device);
+		View.Casters = std::make_unique<FMovedCasters>();
 		View.Viewer = ++LastViewer;
 	}
 	return View;
@@ -313,6 +321,7 @@ void FRenderer::FindPreviousView(FRTScene& Scene, const FFrameFeatures& Features
 	Context->PreviousView = bUsable ? &PreviousView : nullptr;
 	Context->History = State->History.get();
 	Context->LightCells.OfView = State->LightCells.get();
+	Context->MovedCasters = State->Casters.get();
 }
 
 /// Before anything of the frame can fail: what the GPU has left is taken, and the next frame finds its place.
@@ -322,6 +331,7 @@ void FRenderer::BeginFeedback()
 	StandIns->BeginFrame(FlightIndex, Context->Scene);
 	QueueDemand->BeginFrame(FlightIndex);
 	State->LightCells->BeginFrame(FlightIndex);
+	RayCounter->BeginFrame(FlightIndex);
 	RefitQuality->BeginFrame(FlightIndex, Context->Scene.GetGeometries());
 }
 
@@ -341,6 +351,7 @@ void FRenderer::EndFeedback(bool bSubmitted)
 	StandIns->GetCounters().EndFrame(bSubmitted);
 	QueueDemand->EndFrame(bSubmitted);
 	State->LightCells->EndFrame(bSubmitted);
+	RayCounter->EndFrame(bSubmitted);
 	RefitQuality->EndFrame(Context->Scene.GetGeometries(), bSubmitted);
 }
 

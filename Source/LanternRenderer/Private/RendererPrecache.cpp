@@ -24,7 +24,7 @@ void ListCompositeShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& 
 	Out.push_back(MakeToneMapSource());
 	if (Facts.bSkyMap && HasSkyAmbient(Facts)) { Out.push_back(MakeSkyLightSource()); }
 	if (GetDebugView() != ESignal::Frame) { Out.push_back(MakeDebugViewSource()); }
-	if (IsLightCellsView()) { Out.push_back(MakeLightCellsViewSource()); }
+	if (IsDebugPicture(LightCellsPicture)) { Out.push_back(MakeLightCellsViewSource()); }
 }
 } // namespace
 

@@ -1,12 +1,15 @@
 // One row for each signal. Beside Frame.cpp, this is the one place that names passes.
 #include "SignalPasses.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "AmbientOcclusion/AmbientOcclusion.h"
 #include "DiffuseGI/DiffuseGI.h"
+#include "LocalLights/LocalLights.h"
 #include "Reflections/Reflections.h"
 #include "SunShadow/SunShadow.h"
+#include "Tiles/TileView.h"
 
 namespace Lantern
 {
@@ -14,11 +17,34 @@ namespace Lantern
 namespace
 {
 constexpr FSignalPass Passes[] = {
-    {ESignal::SunShadow, ChooseSunShadowRays, AddSunShadowPass, IsSunShadowFiltered, ListSunShadowFilters},
-    {ESignal::AmbientOcclusion, ChooseAmbientOcclusionRays, AddAmbientOcclusionPass, IsAmbientOcclusionFiltered,
-        ListAmbientOcclusionFilters, ESignal::DiffuseGI, SetAmbientOcclusionReference},
+    {.Signal = ESignal::SunShadow,
+        .ChooseRays = ChooseSunShadowRays,
+        .Add = AddSunShadowPass,
+        .WantsMotion = FollowsSunShadowMotion,
+        .ListFilters = ListSunShadowFilters,
+        .AskShadowRays = AskSunShadowRays,
+        .Pictures = TilePictures},
+    {.Signal = ESignal::AmbientOcclusion,
+        .ChooseRays = ChooseAmbientOcclusionRays,
+        .Add = AddAmbientOcclusionPass,
+        .WantsMotion = IsAmbientOcclusionFiltered,
+        .ListFilters = ListAmbientOcclusionFilters,
+        .ReplacedBy = ESignal::DiffuseGI,
+        .SetReferenceConstants = SetAmbientOcclusionReference},
     {ESignal::DiffuseGI, ChooseDiffuseGIRays, AddDiffuseGIPass},
     {ESignal::Reflections, ChooseReflectionsRays, AddReflectionsPass},
+    {.Signal = ESignal::LocalDiffuse,
+        .ChooseRays = ChooseLocalLightRays,
+        .Add = AddLocalDiffusePass,
+        .WantsMotion = AreLocalLightsFiltered,
+        .ListFilters = ListLocalLightFilters,
+        .AskShadowRays = AskLocalRays},
+    {.Signal = ESignal::LocalSpecular,
+        .ChooseRays = ChooseLocalLightRays,
+        .Add = AddLocalSpecularPass,
+        .WantsMotion = AreLocalLightsFiltered,
+        .ListFilters = ListLocalLightFilters,
+        .AskShadowRays = AskLocalRays},
 };
 static_assert(std::size(Passes) == SignalCount - 1, "each signal but Frame needs a row, in the order of ESignal");
 } // namespace
@@ -33,10 +59,34 @@ const FSignalPass& GetSignalPass(ESignal Signal)
 
 FPassRays ChooseSignalRays(const FFrameContext& Context, ESignal Signal)
 {
-	if (!IsMade(Signal, Context.Signals)) { return {}; }
-	const FSignalPass& Pass = GetSignalPass(Signal);
-	const bool bReplaced = Pass.ReplacedBy != ESignal::Count && Context.GetRayGen(Pass.ReplacedBy) != NoRayGen;
-	return Pass.ChooseRays({Context.Device.GetCapabilities(), Context.Facts, Context.Signals, bReplaced});
+	const auto Choose = [&](const FSignalPass& Pass) {
+		if (!IsMade(Pass.Signal, Context.Signals)) { return FPassRays(); }
+		const bool bReplaced = Pass.ReplacedBy != ESignal::Count && Context.GetRayGen(Pass.ReplacedBy) != NoRayGen;
+		return Pass.ChooseRays({Context.Device.GetCapabilities(), Context.Facts, Context.Signals, bReplaced});
+	};
+	if (!GetSignalPass(Signal).AskShadowRays) { return Choose(GetSignalPass(Signal)); }
+	std::array<FPassRays, SignalCount> Rays;
+	ForEachSignalPass([&](const FSignalPass& Pass) {
+		if (Pass.AskShadowRays) { Rays[ToIndex(Pass.Signal)] = Choose(Pass); }
+	});
+	ShareQueueShader(Rays);
+	return Rays[ToIndex(Signal)];
+}
+
+void ShareQueueShader(std::array<FPassRays, SignalCount>& Rays)
+{
+	const auto Asks = [&](const FSignalPass& Pass) { return Pass.AskShadowRays && Rays[ToIndex(Pass.Signal)].Path != ERayPath::None; };
+	FShaderDefines All;
+	ForEachSignalPass([&](const FSignalPass& Pass) {
+		if (!Asks(Pass)) { return; }
+		for (const auto& Define : Rays[ToIndex(Pass.Signal)].Defines)
+		{
+			if (std::find(All.begin(), All.end(), Define) == All.end()) { All.push_back(Define); }
+		}
+	});
+	ForEachSignalPass([&](const FSignalPass& Pass) {
+		if (Asks(Pass)) { Rays[ToIndex(Pass.Signal)].Defines = All; }
+	});
 }
 
 FGraphTexture AddSignalPass(FFrameContext& Context, ESignal Signal, const FGBuffer& GBuffer)

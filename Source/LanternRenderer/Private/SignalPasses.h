@@ -1,7 +1,7 @@
 // The private half of the registry of signals (LanternSignals/Signals.h): how each one is made.
 #pragma once
 
-#include "RayPath.h"
+#include "Rays/ShadowRays.h"
 #include "ReferenceTypes.h"
 
 namespace Lantern
@@ -20,8 +20,13 @@ struct FSignalPass
 	void (*ListFilters)(const FRTScene& Scene, std::vector<FShaderSource>& Out) = nullptr;
 	/// A signal that serves in its place once its rays are ready. Count: there is none.
 	ESignal ReplacedBy = ESignal::Count;
+	/// Adds what the signal asks of the frame's shadow rays (RequireShadowRays). Called if ChooseRays chose the queue's shaders, and they
+	/// are ready: Dispatch has them. False: it asks for nothing, because its other shaders are not. Null: it never asks.
+	bool (*AskShadowRays)(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowRayWishes& InOut) = nullptr;
 	/// Fills what the signal's reference reads of the constants beside the rest. Null: nothing.
 	void (*SetReferenceConstants)(FReferenceConstants& Constants) = nullptr;
+	/// Names of pictures that the pass draws of how it works, for r.RT.Debug.View, with a null behind the last one. Null: none.
+	const char* const* Pictures = nullptr;
 };
 
 /// Returns how Signal is made. Signal: neither Frame nor Count.
@@ -32,6 +37,9 @@ inline bool IsMade(ESignal Signal, const FSignalRequests& Requests) { return !Re
 
 /// Returns what Signal traces in this frame. Path None: nothing.
 FPassRays ChooseSignalRays(const FFrameContext& Context, ESignal Signal);
+
+/// Gives the signals that ask for shadow rays one shader, which has what any of them needs. Rays: of all signals.
+void ShareQueueShader(std::array<FPassRays, SignalCount>& Rays);
 
 /// Calls Visit(const FSignalPass&) for all signals but Frame.
 template <class TVisit>

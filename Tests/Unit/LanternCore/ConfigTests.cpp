@@ -199,10 +199,14 @@ TEST_F(Config, ALongChainOfProfilesEnds)
 TEST_F(Config, AliasMistakesAreNamed)
 {
 	Files.Write("ConsoleVariableAliases.ini",
-	    "[ConsoleVariableAliases]\nx.Config.Empty=\nx.Config.Self=x.Config.Self\nx.Config.Good=t.Config.A\n[X]\n");
-	EXPECT_THAT(Checked(LoadAliases(Folder)),
-	    ElementsAre(HasSubstr(":2: 'x.Config.Empty' names no other variable"), HasSubstr(":3: "), HasSubstr(":5: unknown section [X]")));
+	    "[ConsoleVariableAliases]\nx.Config.Empty=\nx.Config.Self=x.Config.Self\nx.Config.Good=t.Config.A\n"
+	    "x.Config.Odd=t.Config.A * x\nx.Config.None=t.Config.A * 0\nx.Config.Half=t.Config.A * 0.5\n[X]\n");
+	EXPECT_THAT(Checked(LoadAliases(Folder)), ElementsAre(HasSubstr(":2: 'x.Config.Empty' names no other variable"), HasSubstr(":3: "),
+	                                              HasSubstr(":5: 't.Config.A * x': the factor behind * is not a number, or 0"),
+	                                              HasSubstr(":6: "), HasSubstr(":8: unknown section [X]")));
 	EXPECT_EQ(FConsoleVariables::Get().Find("x.config.good"), &CVarA);
+	EXPECT_EQ(FConsoleVariables::Get().Find("x.config.odd"), nullptr);
+	EXPECT_EQ(FConsoleVariables::Get().Find("x.config.half"), &CVarA);
 }
 
 TEST_F(Config, AllNamesOfAFolderAreListed)

@@ -275,6 +275,21 @@ TEST_F(ConsoleVariables, AliasesLeadToTheirVariableAlsoInSteps)
 	EXPECT_THAT(Registry.GetAliases(), testing::Contains(testing::Pair("x.Old.Samples", "t.Core.Shadow.Samples")));
 }
 
+TEST_F(ConsoleVariables, AliasesMayCountInOtherUnits)
+{
+	Registry.AddAlias("x.Centi.Samples", "t.Core.Shadow.Samples", 0.01);
+	Registry.AddAlias("x.Milli.Samples", "x.Centi.Samples", 0.1);
+	EXPECT_FALSE(Set("x.Centi.Samples", "1200"));
+	EXPECT_EQ(CVarSamples.Get(), 12);
+	EXPECT_FALSE(Set("x.Milli.Samples", "3400"));
+	EXPECT_EQ(CVarSamples.Get(), 3) << "rounded";
+	EXPECT_FALSE(Set("x.Centi.Samples", "1e9"));
+	EXPECT_EQ(CVarSamples.Get(), 64) << "the range is the variable's";
+	EXPECT_TRUE(Set("x.Centi.Samples", "many"));
+	EXPECT_FALSE(Set("t.Core.Shadow.Samples", "5"));
+	EXPECT_EQ(CVarSamples.Get(), 5);
+}
+
 TEST_F(ConsoleVariables, AliasesInACircleOrToNothingAreUnknownNames)
 {
 	Registry.AddAlias("x.Circle.A", "x.Circle.B");

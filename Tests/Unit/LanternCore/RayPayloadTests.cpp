@@ -70,7 +70,8 @@ FShaderSource MakeSource(const std::string& Path)
 	FShaderSource Source{Path, GetRayStages().at(fs::path(Path).extension().string()), {}, {}};
 	for (const char* Index : {"SHADOW_RAY", "SHADOW_MISS"}) { Source.Defines.emplace_back(Index, "0"); }
 	for (const char* Index : {"MATERIAL_RAY", "MATERIAL_MISS"}) { Source.Defines.emplace_back(Index, "1"); }
-	for (const char* Fact : {"HAS_SUN", "HAS_SKY", "HAS_LIGHTS", "HAS_AREA_LIGHTS", "HAS_EMISSIVE", "HAS_MASKED"})
+	for (const char* Fact :
+	    {"HAS_SUN", "HAS_SKY", "HAS_LIGHTS", "HAS_AREA_LIGHTS", "HAS_EMISSIVE", "HAS_MASKED", "SUN_RAYS", "LOCAL_RAYS", "MANY_LIGHTS"})
 	{
 		Source.Defines.emplace_back(Fact, "1");
 	}

@@ -144,6 +144,7 @@ TEST_F(FFrameTaskTest, StructuresAreRecordedBehindTheHostsPasses)
 TEST_F(FFrameTaskTest, HostThatTracesMayAskForStructuresEarlyOrLate)
 {
 	Set("r.RT.Shadow", "0");
+	Set("r.RT.Lights", "0");
 	ASSERT_TRUE(Load(Everything));
 	for (const bool bLate : {false, true})
 	{

@@ -22,6 +22,7 @@ protected:
 		FRendererTest::SetUp();
 		Set("r.RT.Shadow", "0");
 		Set("r.RT.AO", "0");
+		Set("r.RT.Lights", "0"); // direct lighting then visits lights itself
 	}
 	FRTScene& GetWorld() { return Engine->GetScene().GetScene(); }
 	FLightId AddLamp(float Range, double X = 0.0)
@@ -46,7 +47,7 @@ protected:
 		{
 			EXPECT_EQ(Call.Name.find("LightCell"), std::string::npos);
 		}
-		EXPECT_THAT(Mock().GetCreatedPipelines(), Not(Contains(HasSubstr("Lights/"))));
+		EXPECT_THAT(Mock().GetCreatedPipelines(), Not(Contains(HasSubstr("Lights/LightCells"))));
 	}
 };
 
@@ -142,6 +143,26 @@ TEST_F(FLightCellsTest, FramesThatAreNotReadMakeNone)
 	EXPECT_THAT(GetCellPasses(), ElementsAre());
 	Render();
 	EXPECT_TRUE(HasPass("LightCellsClear"));
+}
+
+// Where each pixel chooses one light of many, it visits those of its cell. Direct lighting then visits none.
+TEST_F(FLightCellsTest, ShadowedLightsHaveThemWherePixelsChoose)
+{
+	Set("r.RT.Lights", "1");
+	Set("r.RT.Lights.Exact", "4");
+	Set("r.RT.Lights.Cells.Least", "1");
+	ASSERT_TRUE(Load({}));
+	for (int I = 0; I < 4; ++I) { AddLamp(3.0f); }
+	Render();
+	EXPECT_TRUE(HasPass("ShadowLightsShade"));
+	ExpectNothing(); // each pixel has a ray to each light
+	AddLamp(3.0f);
+	Mock().ClearCalls();
+	ASSERT_TRUE(Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, {}, nullptr));
+	EXPECT_THAT(GetCellPasses(), ElementsAre()) << "nobody reads the frame";
+	Render();
+	EXPECT_THAT(GetCellPasses(),
+	    ElementsAre("LightCellsClear", "LightCellsMark", "LightCellsPrepare", "LightCellsBlocks", "LightCells", "LightCellsCount"));
 }
 
 TEST_F(FLightCellsTest, DebugViewShowsThem)

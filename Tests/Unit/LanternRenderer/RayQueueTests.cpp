@@ -60,7 +60,7 @@ TEST_F(FRayQueueTest, RoomForAllCostsNothingMore)
 	Set("r.RT.Shadow.Denoise", "0");
 	LoadAndRender({});
 	EXPECT_THAT(GetPasses(),
-	    ElementsAre("SceneUpdate", "GBuffer", "Structures", "SunShadowTiles", "SunShadowRays", "SunShadow", "DirectLighting", "ToneMap"));
+	    ElementsAre("SceneUpdate", "GBuffer", "Structures", "ShadowTiles", "ShadowRays", "SunShadow", "DirectLighting", "ToneMap"));
 	EXPECT_EQ(GetBytes("RayRequests"), Pixels * sizeof(FRayRequest)) << "the sun asks for one ray per pixel at most";
 	EXPECT_EQ(GetBytes("RayQueueCounters"), sizeof(FRayQueueCounters));
 	EXPECT_EQ(GetBytes("RayAnswers"), Pixels * 4u);
@@ -82,7 +82,7 @@ TEST_F(FRayQueueTest, QueueThatMayLackRoom)
 		Set("r.RT.Shadow.Path", Path);
 		LoadAndRender({});
 		const std::vector<std::string> Passes = GetPasses();
-		for (const char* const Name : {"SunShadowTiles", "SunShadowShare", "SunShadowDemand", "SunShadowRays", "SunShadow"})
+		for (const char* const Name : {"ShadowTiles", "ShadowShare", "ShadowDemand", "ShadowRays", "SunShadow"})
 		{
 			EXPECT_THAT(Passes, Contains(Name)) << Path;
 		}
@@ -97,7 +97,7 @@ TEST_F(FRayQueueTest, QueueThatMayLackRoom)
 	}
 	Set("r.RT.Shadow", "0");
 	Render();
-	EXPECT_FALSE(HasPass("SunShadowDemand")) << "nothing asks for rays";
+	EXPECT_FALSE(HasPass("ShadowDemand")) << "nothing asks for rays";
 }
 
 TEST_F(FRayQueueTest, WhereNobodyLooksNothingIsCounted)
@@ -106,8 +106,8 @@ TEST_F(FRayQueueTest, WhereNobodyLooksNothingIsCounted)
 	LoadAndRender({});
 	Mock().ClearCalls();
 	ASSERT_TRUE(Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, {}, nullptr));
-	EXPECT_FALSE(HasPass("SunShadowTiles"));
-	EXPECT_FALSE(HasPass("SunShadowDemand"));
+	EXPECT_FALSE(HasPass("ShadowTiles"));
+	EXPECT_FALSE(HasPass("ShadowDemand"));
 }
 
 /// A launch of the last known count would lose rays of a frame that asks for more.
@@ -155,7 +155,12 @@ protected:
 		Graph.AddPass("Tiles", [&](FPassBuilder& Builder) -> FPassExecute {
 			Builder.Write(Counters, ERTAccess::CopyWrite);
 			return [=](FPassContext& Pass) {
-				Pass.Commands().FillBuffer(Pass.GetBuffer(Counters), offsetof(FRayQueueCounters, Wanted), 4, Wanted);
+				// Segments share the room.
+				IRTBuffer* const Buffer = Pass.GetBuffer(Counters);
+				constexpr uint32_t Segments = offsetof(FRayQueueCounters, Segments);
+				Pass.Commands().FillBuffer(Buffer, Segments, sizeof(FRayQueueCounters::Segments), 0);
+				Pass.Commands().FillBuffer(Buffer, Segments, 4, Wanted / 2);
+				Pass.Commands().FillBuffer(Buffer, Segments + sizeof(FRaySegment), 4, Wanted - Wanted / 2);
 			};
 		});
 		const FGraphBuffer Read = Demand->AddRead(Graph, "Demand", {Counters, Capacity, Of});

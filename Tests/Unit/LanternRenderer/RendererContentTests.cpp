@@ -46,17 +46,20 @@ protected:
 TEST_F(FRendererContentTest, EverythingAtOnce)
 {
 	LoadAndRender({.bMasked = true, .bSkinned = true, .bLights = true, .bTexture = true, .bEmissive = true, .bSky = true});
-	EXPECT_THAT(
-	    GetPasses(), ElementsAre("Skinning", "SceneUpdate", "GBuffer", "Structures", "SunShadowTiles", "SunShadowRays", "SunShadow",
-	                     "Surface", "SunShadowTemporal", "SunShadowFilter0", "SunShadowFilter1", "SunShadowFilter2", "SunShadowFilter3",
-	                     "AmbientOcclusion", "AmbientOcclusionTemporal", "AmbientOcclusionFilter0", "AmbientOcclusionFilter1",
-	                     "AmbientOcclusionFilter2", "AmbientOcclusionFilter3", "DirectLighting", "ToneMap"));
+	EXPECT_THAT(GetPasses(),
+	    ElementsAre("Skinning", "SceneUpdate", "GBuffer", "Structures", "ShadowTiles", "ShadowLights", "ShadowRays", "SunShadow", "Surface",
+	        "SunShadowTemporal", "SunShadowFilter0", "SunShadowFilter1", "SunShadowFilter2", "SunShadowFilter3", "ShadowLightsShade",
+	        "LocalDiffuseTemporal", "LocalDiffuseFilter0", "LocalDiffuseFilter1", "LocalDiffuseFilter2", "LocalDiffuseFilter3",
+	        "LocalSpecularTemporal", "LocalSpecularFilter0", "LocalSpecularFilter1", "LocalSpecularFilter2", "LocalSpecularFilter3",
+	        "AmbientOcclusion", "AmbientOcclusionTemporal", "AmbientOcclusionFilter0", "AmbientOcclusionFilter1", "AmbientOcclusionFilter2",
+	        "AmbientOcclusionFilter3", "DirectLighting", "ToneMap"));
 	std::vector<std::string> Dispatched = GetDispatched();
 	std::erase_if(Dispatched, [](const std::string& Name) { return Name.rfind("Denoise/", 0) == 0; });
-	EXPECT_THAT(Dispatched, ElementsAre("Skinning/Skin.comp", "Skinning/RefitQuality.comp", "Tiles/Tiles.comp",
-	                            AllOf(StartsWith("Rays/ShadowQueue.comp"), HasSubstr("HAS_MASKED")), "SunShadow/SunShadow.comp",
-	                            AllOf(StartsWith("AmbientOcclusion/AmbientOcclusion.comp"), HasSubstr("HAS_MASKED")),
-	                            "Lighting/DirectLighting.comp HAS_SUN HAS_SKY HAS_LIGHTS", "ToneMap/ToneMap.comp"));
+	EXPECT_THAT(Dispatched,
+	    ElementsAre("Skinning/Skin.comp", "Skinning/RefitQuality.comp", "Tiles/Tiles.comp", "LocalLights/Requests.comp HAS_LIGHTS",
+	        AllOf(StartsWith("Rays/ShadowQueue.comp"), HasSubstr("HAS_MASKED")), "SunShadow/SunShadow.comp",
+	        "LocalLights/Shade.comp HAS_LIGHTS", AllOf(StartsWith("AmbientOcclusion/AmbientOcclusion.comp"), HasSubstr("HAS_MASKED")),
+	        "Lighting/DirectLighting.comp HAS_SUN HAS_SKY HAS_LIGHTS", "ToneMap/ToneMap.comp"));
 	EXPECT_EQ(Count(ERTMockCall::DrawIndexed), 4u);
 	EXPECT_EQ(Count(ERTMockCall::BuildGeometry), 4u);
 	EXPECT_THAT(Mock().GetCreatedBuffers(), Contains("Lights"));
@@ -66,8 +69,8 @@ TEST_F(FRendererContentTest, SecondFrameOfAStaticSceneCopiesAndBuildsNothing)
 {
 	LoadAndRender({.bMasked = true, .bSkinned = true, .bLights = true, .bSky = true});
 	for (int Frame = 0; Frame < 8; ++Frame) { Render(); } // what was built is compacted
-	EXPECT_THAT(GetPassesWithoutFilters(),
-	    ElementsAre("GBuffer", "SunShadowTiles", "SunShadowRays", "SunShadow", "AmbientOcclusion", "DirectLighting", "ToneMap"));
+	EXPECT_THAT(GetPassesWithoutFilters(), ElementsAre("GBuffer", "ShadowTiles", "ShadowLights", "ShadowRays", "SunShadow",
+	                                           "ShadowLightsShade", "AmbientOcclusion", "DirectLighting", "ToneMap"));
 	for (const ERTMockCall Kind : {ERTMockCall::CopyBuffer, ERTMockCall::BuildGeometry, ERTMockCall::BuildScene, ERTMockCall::CreateTexture,
 	         ERTMockCall::CreateComputePipeline})
 	{
@@ -164,7 +167,7 @@ TEST_F(FRendererContentTest, WithoutASunNoRayIsTraced)
 	ApplySky({.bSun = true, .bSky = true});
 	Render();
 	EXPECT_THAT(GetPassesWithoutFilters(),
-	    ElementsAre("GBuffer", "Structures", "ShaderTable", "SunShadowTiles", "SunShadowRays", "SunShadow", "DirectLighting", "ToneMap"));
+	    ElementsAre("GBuffer", "Structures", "ShaderTable", "ShadowTiles", "ShadowRays", "SunShadow", "DirectLighting", "ToneMap"));
 	EXPECT_EQ(Count(ERTMockCall::BuildGeometry), 2u);
 	EXPECT_EQ(Count(ERTMockCall::TraceRaysIndirect), 1u);
 }
@@ -214,7 +217,7 @@ TEST_F(FRendererContentTest, PassesThatNobodyReadsAreCulled)
 	Capture.Signals.Add(ESignal::SunShadow);
 	Mock().ClearCalls();
 	ASSERT_TRUE(Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, Capture, &Captured));
-	EXPECT_THAT(GetPasses(), ElementsAre("GBuffer", "SunShadowTiles", "SunShadowRays", "SunShadow", "Surface", "SunShadowTemporal",
+	EXPECT_THAT(GetPasses(), ElementsAre("GBuffer", "ShadowTiles", "ShadowRays", "SunShadow", "Surface", "SunShadowTemporal",
 	                             "SunShadowFilter0", "SunShadowFilter1", "SunShadowFilter2", "SunShadowFilter3"))
 	    << "a host that lights by itself";
 }

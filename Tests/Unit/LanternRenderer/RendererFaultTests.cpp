@@ -270,6 +270,7 @@ TEST_F(FRendererFaultTest, FeatureWhosePipelineFailsCanBeSwitchedOff)
 {
 	Mock().FailCompile("RTPSO");
 	Mock().FailCompile("Rays/ShadowQueue.comp");
+	Set("r.RT.Lights", "0"); // their rays have this pipeline, too
 	ASSERT_TRUE(Load(Everything));
 	for (const char* Path : {"1", "2"})
 	{

@@ -127,7 +127,28 @@ TEST_F(FRendererLackTest, NoLocalLights)
 {
 	FStage Stage;
 	Stage.Content.bLights = false;
-	ExpectAbsent("no local lights", Stage, {"buffer Lights", "HAS_LIGHTS"});
+	ExpectAbsent("no local lights", Stage,
+	    {"buffer Lights", "HAS_LIGHTS", "pass ShadowLights", "LocalLights/", "TileLights", "LocalDiffuse", "LocalSpecular"});
+	EXPECT_TRUE(HasPart(Make({}, {{"r.RT.Shadow.Path", "2"}}), "LOCAL_RAYS"));
+	EXPECT_FALSE(HasPart(Make(Stage, {{"r.RT.Shadow.Path", "2"}}), "LOCAL_RAYS"));
+}
+
+TEST_F(FRendererLackTest, LocalLightsWithoutShadowsOrOff)
+{
+	for (const char* const Variable : {"r.RT.Lights", "r.RT.LocalLights"})
+	{
+		FStage Stage;
+		Stage.Settings = {{Variable, "0"}};
+		ExpectAbsent(Variable, Stage, {"pass ShadowLights", "LocalLights/", "TileLights", "LocalDiffuse", "LocalSpecular"});
+	}
+}
+
+TEST_F(FRendererLackTest, NoLightThatAsksForShadowRays)
+{
+	FStage Stage;
+	Stage.Content.bSun = Stage.Content.bLights = false;
+	ExpectAbsent("neither sun nor local lights", Stage,
+	    {"indirect ", "ShadowQueue", "buffer RayRequests", "buffer RayQueueCounters", "buffer RayAnswers", "buffer SunWidths"});
 }
 
 TEST_F(FRendererLackTest, NoSun)
@@ -136,8 +157,9 @@ TEST_F(FRendererLackTest, NoSun)
 	Stage.Content.bSun = false;
 	ExpectAbsent("no sun", Stage,
 	    {"pass SunShadow", "texture SunShadow", "SunShadowTemporal", "SunShadowFilter", "SunShadowHistory", "SunShadow/SunShadow",
-	        "HAS_SUN", "indirect ", "dispatch Tiles/", "pipeline Tiles/", "buffer Tiles", "buffer RayRequests", "buffer RayQueueCounters",
-	        "buffer RayAnswers", "buffer SunWidths"});
+	        "HAS_SUN", "pass ShadowTiles", "Tiles/Tiles.comp", "buffer Tiles", "buffer SunWidths"});
+	EXPECT_TRUE(HasPart(Make({}, {{"r.RT.Shadow.Path", "2"}}), "SUN_RAYS"));
+	EXPECT_FALSE(HasPart(Make(Stage, {{"r.RT.Shadow.Path", "2"}}), "SUN_RAYS"));
 }
 
 TEST_F(FRendererLackTest, NoSky)
@@ -219,7 +241,7 @@ TEST_F(FRendererLackTest, NoReflectionsNoMaterialRays)
 TEST_F(FRendererLackTest, NoFilterNoHistoryAndNoMotion)
 {
 	FStage Stage;
-	Stage.Settings = {{"r.RT.Shadow.Denoise", "0"}, {"r.RT.AO.Denoise", "0"}};
+	Stage.Settings = {{"r.RT.Shadow.Denoise", "0"}, {"r.RT.AO.Denoise", "0"}, {"r.RT.Lights.Denoise", "0"}};
 	ExpectAbsent("no filter", Stage,
 	    {"Denoise", "Temporal", "Filter", "Surface", "History", "GBufferMotion", "ObjectMotions", "SunShadowPenumbra", "SunWidths"});
 	const std::vector<std::pair<const char*, const char*>> Pipeline = {{"r.RT.Shadow.Path", "1"}};
@@ -273,6 +295,7 @@ TEST_F(FRendererLackTest, HistoriesOfASignalThatEndedAreFreed)
 	for (uint32_t Index = 0; Index < FHistoryResources::KeepFrames + 1; ++Index) { Render(0.3); }
 	EXPECT_LT(History.GetBytes(), Both);
 	Set("r.RT.Shadow", "0");
+	Set("r.RT.Lights", "0");
 	for (uint32_t Index = 0; Index < FHistoryResources::KeepFrames + 1; ++Index) { Render(0.3); }
 	EXPECT_EQ(History.GetBytes(), 0u);
 }

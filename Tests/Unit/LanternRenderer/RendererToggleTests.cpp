@@ -149,7 +149,7 @@ TEST_F(FRendererToggleTest, ShadowSettingsReachTheShader)
 	EXPECT_EQ(GetShadowConstants().SamplesPerPixel, 1u);
 	Set("r.RT.Shadow.Samples", "16");
 	Set("r.RT.Shadow.MaxDistance", "50");
-	Set("r.RT.Shadow.CullFrontFaces", "1");
+	Set("r.RT.Shadow.CasterFaces", "2");
 	Set("r.RT.Shadow.InstanceMask", "4");
 	for (const char* Path : {"1", "2"})
 	{
@@ -159,12 +159,12 @@ TEST_F(FRendererToggleTest, ShadowSettingsReachTheShader)
 		EXPECT_EQ(GetShadowConstants().MaxDistance, 50.0f);
 		EXPECT_EQ(GetShadowConstants().RayFlags, 0x10u);
 		EXPECT_EQ(GetShadowConstants().InstanceMask, 4u);
-		EXPECT_EQ(GetShadowConstants().bSoft, 1u);
+		EXPECT_GT(GetShadowConstants().SunOneMinusCos, 0.0f);
 	}
 	Set("r.RT.Shadow.Soft", "0");
 	Render();
 	EXPECT_EQ(GetShadowConstants().SamplesPerPixel, 1u) << "hard shadows need one ray";
-	EXPECT_EQ(GetShadowConstants().bSoft, 0u);
+	EXPECT_EQ(GetShadowConstants().SunOneMinusCos, 0.0f);
 }
 
 TEST_F(FRendererToggleTest, ValueSetInTheMiddleOfAFrameWaitsForTheNext)
@@ -266,8 +266,8 @@ TEST_F(FRendererToggleTest, ReorderingIsForMaterialShadersOfDevicesThatCan)
 		std::vector<std::pair<std::string, std::string>> Defines = {{"HAS_SUN", "1"}, {"HAS_SKY", "1"}};
 		if (bCan) { Defines.emplace_back("REORDER", "1"); }
 		EXPECT_NE(GetRTPSO()->FindRayGen({"DiffuseGI/DiffuseGI.rgen", ERTShaderStage::RayGen, Defines, {}}), NoRayGen) << bCan;
-		EXPECT_NE(
-		    GetRTPSO()->FindRayGen({"Rays/ShadowQueue.rgen", ERTShaderStage::RayGen, {{"ONE_SAMPLE", "1"}, {"WITH_PENUMBRA", "1"}}, {}}),
+		EXPECT_NE(GetRTPSO()->FindRayGen({"Rays/ShadowQueue.rgen", ERTShaderStage::RayGen,
+		              {{"SUN_RAYS", "1"}, {"ONE_SAMPLE", "1"}, {"WITH_PENUMBRA", "1"}}, {}}),
 		    NoRayGen)
 		    << "shadow rays run no material shader";
 		EXPECT_EQ(Log.Count(ERTLogLevel::Warning), bCan ? 0u : 1u) << "once";

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "Config/ConfigFiles.h"
+#include "Config/ConsoleVariableValues.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
 #include "Text/TextTools.h"
@@ -141,6 +142,25 @@ std::optional<ERTQuality> ParseQuality(std::string_view Text)
 	return std::nullopt;
 }
 
+namespace
+{
+struct FAliasTarget
+{
+	std::string_view Name;
+	std::optional<double> Factor; ///< nullopt: what stands behind the * is none
+};
+
+/// "Name" or "Name * Factor".
+FAliasTarget SplitAliasTarget(std::string_view Text)
+{
+	const size_t Star = Text.find('*');
+	if (Star == std::string_view::npos) { return {Trim(Text), 1.0}; }
+	std::optional<double> Factor = ParseNumber(Trim(Text.substr(Star + 1)));
+	if (Factor == 0.0) { Factor.reset(); }
+	return {Trim(Text.substr(0, Star)), Factor};
+}
+} // namespace
+
 FConfigProblems LoadAliases(const FConfigFolder& Folder)
 {
 	FConfigProblems Problems;
@@ -154,9 +174,12 @@ FConfigProblems LoadAliases(const FConfigFolder& Folder)
 		}
 		for (const FIniValue& Value : ResolveSection(File, Section))
 		{
-			if (Value.Value.empty() || EqualsIgnoringCase(Value.Key, Value.Value))
+			const FAliasTarget Target = SplitAliasTarget(Value.Value);
+			if (Target.Name.empty() || EqualsIgnoringCase(Value.Key, Target.Name))
 				Report(Problems, fmt::format("{}: {} names no other variable", Value.Where, Quote(Value.Key)));
-			else FConsoleVariables::Get().AddAlias(Value.Key, Value.Value);
+			else if (!Target.Factor)
+				Report(Problems, fmt::format("{}: {}: the factor behind * is not a number, or 0", Value.Where, Quote(Value.Value)));
+			else FConsoleVariables::Get().AddAlias(Value.Key, Target.Name, *Target.Factor);
 		}
 	}
 	return Problems;
@@ -220,7 +243,7 @@ std::vector<FConfigReference> ListConsoleVariables(const FConfigFolder& Folder)
 	const FIniFile Aliases = FIniFile::Load(Folder.GetAliases());
 	for (const FIniSection& Section : Aliases.GetSections())
 		for (const FIniEntry& Entry : Section.Entries)
-			if (!Entry.Value.empty()) Result.push_back({Entry.Value, Aliases.GetWhere(Entry.Line)});
+			if (!Entry.Value.empty()) Result.push_back({std::string(SplitAliasTarget(Entry.Value).Name), Aliases.GetWhere(Entry.Line)});
 	return Result;
 }
 

@@ -36,6 +36,7 @@ struct FConsoleVariables::FImpl
 	struct FAlias
 	{
 		std::string Alias, Name;
+		double Factor = 1.0; ///< of numbers that are set by it
 	};
 	std::map<std::string, FAlias> Aliases;
 	/// Variables that were set since the last BeginFrame.
@@ -52,8 +53,13 @@ struct FConsoleVariables::FImpl
 	};
 	FOutcome Set(std::string_view Name, std::string_view Value, ERTSetBy By);
 
+	struct FFound
+	{
+		FRTConsoleVariable* Variable = nullptr;
+		double Factor = 1.0; ///< from the alias to the variable
+	};
 	// The caller holds Mutex.
-	FRTConsoleVariable* Find(std::string_view NameOrAlias) const;
+	FFound Find(std::string_view NameOrAlias) const;
 	std::string DescribeUnknown(std::string_view Name) const;
 	void MarkDirty(FRTConsoleVariable& Variable);
 };

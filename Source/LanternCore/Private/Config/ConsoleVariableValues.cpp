@@ -12,6 +12,15 @@
 
 namespace Lantern
 {
+std::optional<double> ParseNumber(std::string_view Text)
+{
+	if (Text.size() > 1 && Text[0] == '+' && Text[1] != '-') Text.remove_prefix(1);
+	double Number = 0.0;
+	const auto [End, Error] = std::from_chars(Text.data(), Text.data() + Text.size(), Number);
+	if (Error != std::errc() || End != Text.data() + Text.size() || !std::isfinite(Number)) return std::nullopt;
+	return Number;
+}
+
 namespace
 {
 
@@ -23,16 +32,6 @@ std::optional<bool> ParseBoolWord(std::string_view Text)
 	for (const char* Word : {"false", "no", "off"})
 		if (EqualsIgnoringCase(Text, Word)) return false;
 	return std::nullopt;
-}
-
-/// Parses a finite decimal number that is the whole text. Fails if it is too large for a double.
-std::optional<double> ParseNumber(std::string_view Text)
-{
-	if (Text.size() > 1 && Text[0] == '+' && Text[1] != '-') Text.remove_prefix(1);
-	double Number = 0.0;
-	const auto [End, Error] = std::from_chars(Text.data(), Text.data() + Text.size(), Number);
-	if (Error != std::errc() || End != Text.data() + Text.size() || !std::isfinite(Number)) return std::nullopt;
-	return Number;
 }
 
 double Clamp(double Number, double Min, double Max, int& OutClampedTo)
@@ -57,26 +56,27 @@ FParsedCVar ParseBool(std::string_view Text)
 	return {.Error = "is not a bool (0, 1, false or true)"};
 }
 
-FParsedCVar ParseInt(FRTCVarRange Range, std::string_view Text)
+FParsedCVar ParseInt(FRTCVarRange Range, std::string_view Text, double Factor)
 {
-	if (const std::optional<bool> Word = ParseBoolWord(Text)) return ParseInt(Range, *Word ? "1" : "0");
+	if (const std::optional<bool> Word = ParseBoolWord(Text)) return ParseInt(Range, *Word ? "1" : "0", Factor);
 	const std::optional<double> Number = ParseNumber(Text);
-	if (!Number || *Number != std::trunc(*Number)) return {.Error = "is not a whole number"};
+	// What another unit makes of a number need not be whole.
+	if (!Number || (Factor == 1.0 && *Number != std::trunc(*Number))) return {.Error = "is not a whole number"};
 	using FLimits = std::numeric_limits<int32_t>;
 	FParsedCVar Result;
-	const double Clamped = Clamp(*Number, std::max<double>(std::ceil(Range.Min), FLimits::min()),
+	const double Clamped = Clamp(std::round(*Number * Factor), std::max<double>(std::ceil(Range.Min), FLimits::min()),
 	    std::min<double>(std::floor(Range.Max), FLimits::max()), Result.ClampedTo);
 	Result.Value = static_cast<int32_t>(Clamped);
 	return Result;
 }
 
-FParsedCVar ParseFloat(FRTCVarRange Range, std::string_view Text)
+FParsedCVar ParseFloat(FRTCVarRange Range, std::string_view Text, double Factor)
 {
 	const std::optional<double> Number = ParseNumber(Text);
 	if (!Number) return {.Error = "is not a number"};
 	constexpr double Largest = std::numeric_limits<float>::max();
 	FParsedCVar Result;
-	const double Clamped = Clamp(*Number, std::max(Range.Min, -Largest), std::min(Range.Max, Largest), Result.ClampedTo);
+	const double Clamped = Clamp(*Number * Factor, std::max(Range.Min, -Largest), std::min(Range.Max, Largest), Result.ClampedTo);
 	Result.Value = static_cast<float>(Clamped);
 	return Result;
 }
@@ -93,12 +93,12 @@ constexpr double NoBound = 1e30;
 
 } // namespace
 
-FParsedCVar ParseCVar(const FRTCVarValue& Like, FRTCVarRange Range, std::string_view Text)
+FParsedCVar ParseCVar(const FRTCVarValue& Like, FRTCVarRange Range, std::string_view Text, double Factor)
 {
 	if (std::holds_alternative<std::string>(Like)) return {.Value = std::string(Text)};
 	Text = Trim(Text);
 	if (std::holds_alternative<bool>(Like)) return ParseBool(Text);
-	return std::holds_alternative<int32_t>(Like) ? ParseInt(Range, Text) : ParseFloat(Range, Text);
+	return std::holds_alternative<int32_t>(Like) ? ParseInt(Range, Text, Factor) : ParseFloat(Range, Text, Factor);
 }
 
 const char* GetTypeName(const FRTCVarValue& Value)

@@ -17,8 +17,11 @@ struct FParsedCVar
 	int ClampedTo = 0; ///< -1: raised to the minimum, +1: lowered to the maximum
 };
 
-/// Parses Text as the type that Like holds, clamped to Range.
-FParsedCVar ParseCVar(const FRTCVarValue& Like, FRTCVarRange Range, std::string_view Text);
+/// Parses Text as the type that Like holds, times Factor if that is a number, clamped to Range.
+FParsedCVar ParseCVar(const FRTCVarValue& Like, FRTCVarRange Range, std::string_view Text, double Factor = 1.0);
+
+/// Parses a finite decimal number that is the whole text. Fails if it is too large for a double.
+std::optional<double> ParseNumber(std::string_view Text);
 
 const char* GetTypeName(const FRTCVarValue& Value);
 bool IsNumber(const FRTCVarValue& Value);

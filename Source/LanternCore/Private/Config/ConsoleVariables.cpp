@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <mutex>
 
 #include <fmt/format.h>
@@ -95,18 +96,20 @@ void FConsoleVariables::FImpl::Unregister(FRTConsoleVariable& Variable)
 	std::erase(Dirty, &Variable);
 }
 
-FRTConsoleVariable* FConsoleVariables::FImpl::Find(std::string_view NameOrAlias) const
+FConsoleVariables::FImpl::FFound FConsoleVariables::FImpl::Find(std::string_view NameOrAlias) const
 {
 	std::string Name = FoldCase(NameOrAlias);
+	double Factor = 1.0;
 	// An alias may lead to an alias. Limiting the steps to the number of aliases ends any cycle.
 	for (size_t Step = 0; Step <= Aliases.size(); ++Step)
 	{
-		if (const auto Variable = Variables.find(Name); Variable != Variables.end()) return Variable->second;
+		if (const auto Variable = Variables.find(Name); Variable != Variables.end()) return {Variable->second, Factor};
 		const auto Alias = Aliases.find(Name);
-		if (Alias == Aliases.end()) return nullptr;
+		if (Alias == Aliases.end()) return {};
 		Name = FoldCase(Alias->second.Name);
+		Factor *= Alias->second.Factor;
 	}
-	return nullptr;
+	return {};
 }
 
 std::string FConsoleVariables::FImpl::DescribeUnknown(std::string_view Name) const
@@ -142,11 +145,11 @@ FConsoleVariables& FConsoleVariables::Get()
 FConsoleVariables::FImpl::FOutcome FConsoleVariables::FImpl::Set(std::string_view Name, std::string_view Value, ERTSetBy By)
 {
 	std::unique_lock Lock(Mutex);
-	FRTConsoleVariable* Variable = Find(Name);
+	const auto [Variable, Factor] = Find(Name);
 	if (!Variable) return {.bRefused = true, .Warning = DescribeUnknown(Name)};
 
 	FRTConsoleVariable::FState& State = *Variable->State;
-	FParsedCVar Parsed = ParseCVar(State.Default, State.Range, Value);
+	FParsedCVar Parsed = ParseCVar(State.Default, State.Range, Value, Factor);
 	std::string Range = DescribeRange(State.Default, State.Range);
 	if (!Parsed.Value)
 		return {.bRefused = true,
@@ -177,7 +180,7 @@ std::optional<std::string> FConsoleVariables::Set(std::string_view Name, std::st
 const FRTConsoleVariable* FConsoleVariables::Find(std::string_view NameOrAlias) const
 {
 	std::shared_lock Lock(Impl->Mutex);
-	return Impl->Find(NameOrAlias);
+	return Impl->Find(NameOrAlias).Variable;
 }
 
 std::vector<const FRTConsoleVariable*> FConsoleVariables::GetAll() const
@@ -188,10 +191,11 @@ std::vector<const FRTConsoleVariable*> FConsoleVariables::GetAll() const
 	return Result;
 }
 
-void FConsoleVariables::AddAlias(std::string_view Alias, std::string_view Name)
+void FConsoleVariables::AddAlias(std::string_view Alias, std::string_view Name, double Factor)
 {
+	assert(std::isfinite(Factor) && Factor != 0.0);
 	std::unique_lock Lock(Impl->Mutex);
-	Impl->Aliases.insert_or_assign(FoldCase(Alias), FImpl::FAlias{std::string(Alias), std::string(Name)});
+	Impl->Aliases.insert_or_assign(FoldCase(Alias), FImpl::FAlias{std::string(Alias), std::string(Name), Factor});
 }
 
 std::vector<std::pair<std::string, std::string>> FConsoleVariables::GetAliases() const
@@ -239,7 +243,7 @@ bool FConsoleVariables::HasUnpublished() const
 void FConsoleVariables::Restore(const FRTConsoleVariable& Variable, FRTCVarValue Value, ERTSetBy By)
 {
 	std::unique_lock Lock(Impl->Mutex);
-	FRTConsoleVariable* const Mine = Impl->Find(Variable.GetName());
+	FRTConsoleVariable* const Mine = Impl->Find(Variable.GetName()).Variable;
 	assert(Mine == &Variable && Value.index() == Mine->State->Default.index());
 	Mine->State->Latest = std::move(Value);
 	Mine->State->SetBy = By;

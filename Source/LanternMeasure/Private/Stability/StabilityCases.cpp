@@ -1,6 +1,8 @@
 // The cases of `lantern stability`, in order, with what is planted in each.
 #include "LanternMeasure/Stability/StabilityCase.h"
 
+#include <algorithm>
+
 #include "LanternCore/Config/ConsoleVariables.h"
 
 namespace Lantern
@@ -19,15 +21,18 @@ std::vector<FMethodSetting> KnownSettings(std::initializer_list<std::pair<const 
 namespace
 {
 constexpr ESignal Sun = ESignal::SunShadow, Occlusion = ESignal::AmbientOcclusion, Diffuse = ESignal::DiffuseGI,
-                  Reflected = ESignal::Reflections, Whole = ESignal::Frame;
+                  Reflected = ESignal::Reflections, LampDiffuse = ESignal::LocalDiffuse, LampSpecular = ESignal::LocalSpecular,
+                  Whole = ESignal::Frame;
 
-/// All signals of the registry: a new one is measured in these cases as soon as it has a method.
+/// All signals of the registry: a new one is measured in these cases as soon as it has a method. Those of lamps have scenes of their
+/// own, since these have none.
 std::vector<ESignal> EverySignal(bool bWhole)
 {
 	std::vector<ESignal> Signals;
 	for (const FSignalInfo& Info : SignalInfos)
 	{
-		if (Info.Signal != Whole) { Signals.push_back(Info.Signal); }
+		const bool bLamps = Info.Signal == LampDiffuse || Info.Signal == LampSpecular;
+		if (Info.Signal != Whole && !bLamps) { Signals.push_back(Info.Signal); }
 	}
 	if (bWhole) { Signals.push_back(Whole); }
 	return Signals;
@@ -56,6 +61,15 @@ FStabilityFault MakeUncoveringFault(const FMethod&)
 	    "");
 }
 
+FStabilityFault MakeStaleLampsFault(const FMethod& Method)
+{
+	// Of a method that keeps nothing, the case itself hides the switch.
+	const bool bFiltered = std::any_of(Method.Settings.begin(), Method.Settings.end(),
+	    [](const FMethodSetting& Setting) { return Setting.Name == "r.RT.Lights.Denoise" && Setting.Value == "1"; });
+	const auto Stale = KnownSettings({{"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Lights.HistorySeconds", "60"}});
+	return MakeFault(bFiltered ? Stale : std::vector<FMethodSetting>(), "the lamp is switched ten frames late");
+}
+
 /// History that is kept for a minute and never compared with what is there now.
 FStabilityFault MakeStaleFault(const FMethod&)
 {
@@ -81,7 +95,7 @@ FStabilityFault MakeUnguardedFault(const FMethod& Method)
 	return MakeFault(bFiltered ? Unguarded : std::vector<FMethodSetting>(), "one pixel is overwritten");
 }
 
-FStabilityFault MakePlanesFault(const FMethod&) { return MakeFault(KnownSettings({{"r.RT.Shadow.CullFrontFaces", "1"}}), ""); }
+FStabilityFault MakePlanesFault(const FMethod&) { return MakeFault(KnownSettings({{"r.RT.Shadow.CasterFaces", "2"}}), ""); }
 } // namespace
 
 std::span<const FStabilityCase> GetStabilityCases()
@@ -90,7 +104,7 @@ std::span<const FStabilityCase> GetStabilityCases()
 	    {1, "thin wall", {Sun, Diffuse, Reflected}, MeasureThinWall, MakeThinWallFault},
 	    {2, "edge and level of detail", {}},
 	    {3, "nested votes", {}},
-	    {4, "light switch", {}},
+	    {4, "light switch", {LampDiffuse, LampSpecular}, MeasureLightSwitch, MakeStaleLampsFault},
 	    {5, "time of day", {Sun, Diffuse, Reflected}, MeasureTimeOfDay, nullptr, "the plugin is not told that the sun moves"},
 	    {6, "flicker", {}},
 	    {7, "tiny emitters", {Diffuse}, MeasureTinyEmitters, nullptr, "a fifth of the candles is out"},

@@ -1,6 +1,7 @@
-// Cases about how much light there is: 1 thin wall, 5 time of day, 7 tiny emitters, 19 furnace.
+// Cases about how much light there is: 1 thin wall, 4 light switch, 5 time of day, 7 tiny emitters, 19 furnace.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -48,6 +49,52 @@ FRTStatus MeasureThinWall(FStabilityStage& Stage, std::vector<FStabilityFigure>&
 		Stage.AddToStrip(Inside, {});
 		Out.push_back({fmt::format("{} cm", Centimetres), MeanOver(Inside) / Outside, Centimetres > 0 ? 1e-4 : 1e-3});
 	}
+	return FRTStatus::Success();
+}
+
+namespace
+{
+/// First frame from First on whose mean reaches Share of Whole, or falls to it; 1: the frame First itself.
+double FramesTo(const std::vector<double>& Means, size_t First, double Level, bool bRise)
+{
+	for (size_t I = First; I < Means.size(); ++I)
+	{
+		if (bRise ? Means[I] >= Level : Means[I] <= Level) { return double(I - First + 1); }
+	}
+	return std::numeric_limits<double>::quiet_NaN();
+}
+} // namespace
+
+/// A lamp is dark for 30 frames, shines for 64, and is dark again. The means of the picture say how soon. The fault: histories of a
+/// minute, or a switch ten frames late.
+FRTStatus MeasureLightSwitch(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out)
+{
+	if (FRTStatus S = Stage.Load("stability-switch:4"); !S) { return S; }
+	constexpr int Dark = 30, Lit = 64;
+	constexpr double OnSeconds = 1.0, OffSeconds = 3.0; // times of the scene at which it does not change
+	std::vector<FStabilityShot> Shots(Dark + 2 * Lit);
+	const int Late = Stage.IsFaulty() ? 10 : 0;
+	for (int I = 0; I < int(Shots.size()); ++I)
+	{
+		Shots[I].View = Stage.MakeView();
+		Shots[I].Time = I >= Dark + Late && I < Dark + Lit + Late ? OnSeconds : OffSeconds;
+		Shots[I].bKeep = true;
+	}
+	std::vector<FImage> Frames;
+	if (FRTStatus S = Stage.Play(Shots, Frames); !S) { return S; }
+	FSignalReference Reference;
+	if (FRTStatus S = Stage.GetReference(Shots[0].View, OnSeconds, Reference); !S) { return S; }
+	const double Whole = MeanOver(Reference.Mean);
+	std::vector<double> Means;
+	for (const FImage& Frame : Frames) { Means.push_back(MeanOver(Frame)); }
+	for (const int At : {Dark, Dark + 2, Dark + 16, Dark + Lit, Dark + Lit + 2}) { Stage.AddToStrip(Frames[size_t(At)], Reference.Mean); }
+	Out.push_back({"frames to 90 % of the light", FramesTo(Means, Dark, 0.9 * Whole, true), 6.0});
+	Out.push_back({"frames to 10 % of the light", FramesTo(Means, Dark + Lit, 0.1 * Whole, false), 6.0});
+	const double Least = *std::min_element(Means.begin() + Dark + 16, Means.begin() + Dark + Lit);
+	// A method that keeps nothing cannot fail these.
+	const auto Limit = [&](double Value) { return Stage.KeepsHistory() ? std::optional<double>(Value) : std::nullopt; };
+	Out.push_back({"undershoot", std::max(1.0 - Least / Whole, 0.0), Limit(0.05)});
+	Out.push_back({"60 frames after it is out", Means[size_t(Dark + Lit + 59)] / Whole, Limit(0.01)});
 	return FRTStatus::Success();
 }
 

@@ -5,6 +5,7 @@
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
 #include "Lights/LightCellsView.h"
+#include "SignalPasses.h"
 
 namespace Lantern
 {
@@ -12,34 +13,46 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<std::string> CVarView("r.RT.Debug.View", "frame",
-    "Shows something else than the picture (frame): a signal, as lantern reference --help names it, or light_cells, the lights of each "
-    "light cell.");
-constexpr const char* LightCellsView = "light_cells";
+    "Shows one signal instead of the picture, by its name as lantern reference --help lists it. The value frame shows the picture. The "
+    "value sun_tiles shows what is known of each tile of the sun's shadows, and sun_rays the pixels that traced sun rays. "
+    "The value light_cells shows how many lights each light cell lists.");
+
+/// Calls Visit(signal, name of a picture) for all pictures.
+template <class TVisit>
+void ForEachPicture(TVisit&& Visit)
+{
+	ForEachSignalPass([&](const FSignalPass& Pass) {
+		for (const char* const* Name = Pass.Pictures; Name && *Name; ++Name) { Visit(Pass.Signal, *Name); }
+	});
+}
 } // namespace
 
-bool IsLightCellsView() { return CVarView.GetOnRenderThread() == LightCellsView; }
+bool IsDebugPicture(const char* Name) { return CVarView.GetOnRenderThread() == Name; }
 
 ESignal GetDebugView()
 {
-	if (IsLightCellsView()) { return ESignal::Frame; }
+	if (IsDebugPicture(LightCellsPicture)) { return ESignal::Frame; }
 	const std::string& Name = CVarView.GetOnRenderThread();
-	const std::optional<ESignal> Signal = FindSignal(Name);
-	if (!Signal)
-	{
-		LogOnce(ERTLogLevel::Warning, "r.RT.Debug.View: " + Quote(Name) + " is none of " + ListSignalNames() + ", " + LightCellsView);
-	}
+	std::optional<ESignal> Signal = FindSignal(Name);
+	std::string Pictures = std::string(", ") + LightCellsPicture;
+	ForEachPicture([&](ESignal Of, const char* Picture) {
+		if (Name == Picture) { Signal = Of; }
+		Pictures += std::string(", ") + Picture;
+	});
+	if (!Signal) { LogOnce(ERTLogLevel::Warning, "r.RT.Debug.View: " + Quote(Name) + " is none of " + ListSignalNames() + Pictures); }
 	return Signal.value_or(ESignal::Frame);
 }
 
 FGraphTexture AddDebugView(FFrameContext& Context, const FGBuffer& GBuffer, const FFrameOutputs& Outputs)
 {
-	if (IsLightCellsView()) { return AddLightCellsView(Context, GBuffer, Outputs.Display); }
+	if (IsDebugPicture(LightCellsPicture)) { return AddLightCellsView(Context, GBuffer, Outputs.Display); }
 	const ESignal Signal = GetDebugView();
 	const FGraphTexture Input = Outputs.Get(Signal);
 	if (Signal == ESignal::Frame) { return Outputs.Display; }
-	if (!Input.IsValid())
+	if (Context.DebugPicture.IsValid()) { return Context.DebugPicture; }
+	if (!Input.IsValid() || !FindSignal(CVarView.GetOnRenderThread()))
 	{
-		LogOnce(ERTLogLevel::Info, std::string("r.RT.Debug.View shows the picture: there is no ") + GetSignalInfo(Signal).Name +
+		LogOnce(ERTLogLevel::Info, "r.RT.Debug.View shows the picture: there is no " + CVarView.GetOnRenderThread() +
 		                               ". It is off, the scene has nothing for it, or its shaders are being compiled");
 		return Outputs.Display;
 	}

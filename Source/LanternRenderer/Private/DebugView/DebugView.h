@@ -6,15 +6,18 @@
 namespace Lantern
 {
 
-/// Returns the signal that is shown; Frame: the picture. Render thread. Logs once if the variable names no signal.
+/// Returns the signal that is shown, or the one whose pass draws what is shown; Frame: the picture. Render thread. Logs once if the
+/// variable names nothing.
 ESignal GetDebugView();
 
-/// Returns whether the lights of light cells are shown instead.
-bool IsLightCellsView();
+/// Returns whether the variable names this picture: one of FSignalPass::Pictures, whose pass then draws FFrameContext::DebugPicture, or
+/// LightCellsPicture.
+bool IsDebugPicture(const char* Name);
 
 inline FShaderSource MakeDebugViewSource() { return MakeComputeSource("DebugView/DebugView.comp"); }
 
-/// Returns what to show: Outputs.Display, the signal of GetDebugView, or light cells. A visibility is grey, a radiance tone-mapped.
+/// Returns what to show: Outputs.Display, FFrameContext::DebugPicture, the signal of GetDebugView, or light cells. A visibility is grey,
+/// a radiance tone-mapped.
 FGraphTexture AddDebugView(FFrameContext& Context, const FGBuffer& GBuffer, const FFrameOutputs& Outputs);
 
 } // namespace Lantern

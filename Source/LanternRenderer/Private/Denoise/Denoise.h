@@ -24,7 +24,8 @@ struct FDenoiseInputs
 	FGraphTexture Signal;
 	uint32_t RaysPerPixel = 1; ///< for visibility
 	/// For visibility, R16_FLOAT: width in pixels of the transition between seen and unseen that the pixel lies in. 0: the
-	/// pixel knows of none. Invalid: as wide as can be.
+	/// pixel knows of none. Negative: the pixel has no value of its own, and Signal holds what stands in for it; the filter then takes
+	/// the history, or the mean of what is around it. Invalid: as wide as can be.
 	FGraphTexture Extent;
 };
 

@@ -13,13 +13,15 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<bool> CVarLocalLights(
-    "r.RT.LocalLights", true, "Direct light of the scene's lights other than the sun, without shadows.");
+    "r.RT.LocalLights", true, "Direct light of the scene's lights other than the sun; r.RT.Lights shadows it.");
 TRTConsoleVariable<bool> CVarSkyAmbient("r.RT.SkyAmbient", true, "Ambient light of the sky, where indirect light is not traced.");
 TRTConsoleVariable<float> CVarSurroundings("r.RT.SkyAmbient.Surroundings", 0.15f,
     "Share of light that surroundings reflect, where they stand in for global illumination and reflections that are not traced. What hides "
     "the sky from a surface is taken to be as open to sky and sun as the surface is. 0: it is black.",
     {0, 1});
 } // namespace
+
+bool HasLocalLight() { return CVarLocalLights.GetOnRenderThread(); }
 
 bool HasSkyAmbient(const FSceneFacts& Facts) { return Facts.bSky && CVarSkyAmbient.GetOnRenderThread(); }
 
@@ -39,7 +41,12 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 	if (!Pipeline) { return {}; }
 	const FGraphTexture SkyLight = HasSkyAmbient(Context.Facts) ? AddSkyLightPass(Context) : FGraphTexture();
 	const FGraphTexture Output = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA32_FLOAT}, "Lighting");
-	if (CVarLocalLights.GetOnRenderThread()) { RequireLightCells(Context, Inputs.GBuffer); }
+	// Either lobe without the other would be half of the light.
+	const bool bShadowed = HasLocalLight() && Inputs.LightsDiffuse.IsValid() && Inputs.LightsSpecular.IsValid();
+	const FGraphTexture LightsDiffuse = bShadowed ? Inputs.LightsDiffuse : FGraphTexture();
+	const FGraphTexture LightsSpecular = bShadowed ? Inputs.LightsSpecular : FGraphTexture();
+	const bool bVisitsLights = HasLocalLight() && !bShadowed;
+	if (bVisitsLights) { RequireLightCells(Context, Inputs.GBuffer); }
 	const FPassConstants PassConstants = Context.Pass;
 	const float Surroundings = CVarSurroundings.GetOnRenderThread();
 	const uint32_t Width = Context.Width, Height = Context.Height;
@@ -49,12 +56,12 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 		{
 			Builder.Read(Texture, ERTAccess::ShaderRead);
 		}
-		for (const FGraphTexture Texture :
-		    {Inputs.SunVisibility, Inputs.SkyVisibility, Inputs.IndirectDiffuse, Inputs.IndirectSpecular, SkyLight})
+		for (const FGraphTexture Texture : {Inputs.SunVisibility, Inputs.SkyVisibility, Inputs.IndirectDiffuse, Inputs.IndirectSpecular,
+		         SkyLight, LightsDiffuse, LightsSpecular})
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
-		if (CVarLocalLights.GetOnRenderThread()) { ReadLightCells(Builder, Context.LightCells, false); }
+		if (bVisitsLights) { ReadLightCells(Builder, Context.LightCells, false); }
 		Builder.Write(Output, ERTAccess::StorageWrite);
 		return [=](FPassContext& Pass) {
 			const auto Sampled = [&](FGraphTexture Texture) { return GetSampledIndex(Pass, Texture); };
@@ -70,6 +77,8 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 			C.IndirectDiffuse = Sampled(Inputs.IndirectDiffuse);
 			C.IndirectSpecular = Sampled(Inputs.IndirectSpecular);
 			C.SkyLight = Sampled(SkyLight);
+			C.LightsDiffuse = Sampled(LightsDiffuse);
+			C.LightsSpecular = Sampled(LightsSpecular);
 			C.Surroundings = Surroundings;
 			C.Output = Pass.GetTexture(Output)->GetStorageIndex();
 			Dispatch2D(Pass, Pipeline, C, Width, Height, LIGHTING_GROUP_SIZE);

@@ -6,6 +6,9 @@
 namespace Lantern
 {
 
+/// Returns whether the composite has light of lights other than the sun (r.RT.LocalLights).
+bool HasLocalLight();
+
 /// Returns whether the composite has ambient light of the sky (r.RT.SkyAmbient), which ambient occlusion darkens.
 bool HasSkyAmbient(const FSceneFacts& Facts);
 
@@ -20,6 +23,8 @@ struct FDirectLightingInputs
 	FGraphTexture SkyVisibility;    ///< invalid: the sky is unoccluded
 	FGraphTexture IndirectDiffuse;  ///< invalid: the sky's ambient light stands in
 	FGraphTexture IndirectSpecular; ///< invalid: the sky's ambient light stands in
+	/// Shadowed light of local lights over the albedo of each lobe. Invalid: they are unshadowed.
+	FGraphTexture LightsDiffuse, LightsSpecular;
 };
 /// Adds direct light, emission and indirect light. Returns linear radiance, RGBA32_FLOAT. Invalid: its shader is
 /// being compiled, or an error, which the context then has.

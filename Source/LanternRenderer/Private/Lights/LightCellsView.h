@@ -6,6 +6,8 @@
 namespace Lantern
 {
 
+inline constexpr const char* LightCellsPicture = "light_cells"; ///< see IsDebugPicture
+
 inline FShaderSource MakeLightCellsViewSource() { return MakeComputeSource("Lights/LightCellsView.comp"); }
 
 /// Returns a picture of them, or Otherwise, and logs once, if the frame has no light cells. Black: no light; blue, green, yellow, red:

@@ -7,6 +7,7 @@
 
 #include "LanternCore/Text/Log.h"
 #include "RayQueueTypes.h"
+#include "Rays/RayQueueCounter.h"
 #include "Rays/RayQueueDemand.h"
 
 namespace Lantern
@@ -19,22 +20,40 @@ TRTConsoleVariable<float> CVarQueuePerPixel("r.RT.Rays.QueuePerPixel", 2.0f,
     "their pixels keep the shadow of the frame before, and later queues are larger.",
     {0.0001, 64});
 
-FShadowQueueConstants MakeConstants(FPassContext& Pass, const FFrameContext& Frame, const FRayQueue& Queue, const FSunRays& Sun)
+TRTConsoleVariable<bool> CVarReceivers(
+    "r.RT.Debug.Shadow.Receivers", true, "Planted fault. If off, shadow rays from characters meet what those from other surfaces do.");
+TRTConsoleVariable<int32_t> CVarPath(
+    "r.RT.Shadow.Path", 0, "How shadow rays are traced. 0: as the device does best. 1: ray-tracing pipeline. 2: ray query.", {0, 2});
+
+TRTConsoleVariable<int32_t> CVarCasterFaces("r.RT.Shadow.CasterFaces", 0,
+    "Which faces cast shadows of single-sided planes. 0: either. 1: those turned to the light, as in shadow maps that cull back faces. "
+    "2: those turned away from it, as in shadow maps that cull front faces. An object casts all the same if all of its materials are "
+    "double-sided.",
+    {0, 2});
+
+FShadowQueueConstants MakeConstants(FPassContext& Pass, const FFrameContext& Frame, const FRayQueue& Queue, const FQueuedRays& Rays)
 {
+	const FSunRays& Sun = Rays.Sun;
+	const auto AddressOf = [&](FGraphBuffer Buffer) { return Buffer.IsValid() ? Pass.GetBuffer(Buffer)->GetDeviceAddress() : 0; };
 	FShadowQueueConstants C{};
 	C.Pass = Frame.Pass;
-	C.Requests = Pass.GetBuffer(Queue.Requests)->GetDeviceAddress();
-	C.Counters = Pass.GetBuffer(Queue.Counters)->GetDeviceAddress();
-	C.Answers = Pass.GetBuffer(Queue.Answers)->GetDeviceAddress();
-	C.SunWidths = Queue.SunWidths.IsValid() ? Pass.GetBuffer(Queue.SunWidths)->GetDeviceAddress() : 0;
+	C.Requests = AddressOf(Queue.Requests);
+	C.Counters = AddressOf(Queue.Counters);
+	C.Answers = AddressOf(Queue.Answers);
+	C.SunWidths = AddressOf(Queue.SunWidths);
+	C.TileLights = AddressOf(Rays.TileLights);
+	C.Choices = AddressOf(Rays.Choices);
 	C.Capacity = Queue.Capacity;
 	C.SamplesPerPixel = Sun.SamplesPerPixel;
 	C.MaxDistance = Sun.MaxDistance;
-	C.RayFlags = Sun.RayFlags;
+	C.RayFlags = GetCasterRayFlags();
 	C.InstanceMask = Sun.InstanceMask;
-	C.bSoft = Sun.bSoft ? 1u : 0u;
+	C.SunOneMinusCos = GetSunOneMinusCos(Sun);
 	return C;
 }
+
+/// Launches of a pipeline are this wide at most on every device, and the positions of segments add up without a carry.
+constexpr uint32_t MaxCapacity = 1u << 28;
 
 void TraceQueue(FPassContext& Pass, const FFrameContext& Frame, const FRayDispatch& Dispatch, const FRayQueue& Queue,
     const FShadowQueueConstants& Constants, bool bIndirect)
@@ -49,6 +68,27 @@ void TraceQueue(FPassContext& Pass, const FFrameContext& Frame, const FRayDispat
 }
 } // namespace
 
+/// A ray towards a light sees the backs of faces that are turned to it.
+uint32_t GetCasterRayFlags()
+{
+	constexpr uint32_t CullBackFacing = 0x10, CullFrontFacing = 0x20; // gl_RayFlagsCullBackFacingTrianglesEXT, …Front…
+	const int32_t Faces = CVarCasterFaces.GetOnRenderThread();
+	return Faces == 1 ? CullFrontFacing : Faces == 2 ? CullBackFacing : 0u;
+}
+
+void AddReceiverDefines(const FSceneFacts& Facts, FShaderDefines& Defines)
+{
+	if (!Facts.bCharacters) { return; }
+	Defines.emplace_back("HAS_CHARACTERS", "1");
+	if (!CVarReceivers.GetOnRenderThread()) { Defines.emplace_back("ONE_RECEIVER", "1"); }
+}
+
+float GetSunOneMinusCos(const FSunRays& Rays)
+{
+	const double HalfSin = std::sin(0.25 * double(Rays.Diameter));
+	return static_cast<float>(2.0 * HalfSin * HalfSin);
+}
+
 bool CanQueueRays(uint32_t Width, uint32_t Height)
 {
 	if (uint64_t(Width) * Height <= 1ull << RAY_INDEX_BITS) { return true; }
@@ -56,51 +96,98 @@ bool CanQueueRays(uint32_t Width, uint32_t Height)
 	return false;
 }
 
-bool MayQueuesOverflow() { return CVarQueuePerPixel.GetOnRenderThread() < 1.0f; }
+bool MayQueuesOverflow(uint32_t MostPerPixel) { return CVarQueuePerPixel.GetOnRenderThread() < float(MostPerPixel); }
 
-FRayQueue CreateRayQueue(FFrameContext& Context, ESignal Signal)
+ERayPath ChooseQueuePath(const FPassQuery& Query, const char* What) { return ChooseRayPath(Query, CVarPath, What); }
+
+FRayQueue CreateRayQueue(FFrameContext& Context, uint32_t MostPerPixel)
 {
 	const uint64_t Pixels = uint64_t(Context.Width) * Context.Height;
 	const double Room = std::ceil(Context.QueueDemand->GetRoom(CVarQueuePerPixel.GetOnRenderThread()) * double(Pixels));
 	FRayQueue Queue;
-	Queue.Name = GetSignalInfo(Signal).Pass;
-	Queue.Capacity = static_cast<uint32_t>(std::min(Room, double(Pixels)));
-	Queue.bMayOverflow = Queue.Capacity < Pixels;
+	Queue.MostWanted = Pixels * MostPerPixel;
+	Queue.Capacity = static_cast<uint32_t>(std::min({Room, double(Queue.MostWanted), double(MaxCapacity)}));
+	Queue.bMayOverflow = Queue.Capacity < Queue.MostWanted;
 	Queue.Requests = Context.Graph.CreateBuffer({Queue.Capacity * sizeof(FRayRequest)}, "RayRequests");
 	Queue.Counters = Context.Graph.CreateBuffer({sizeof(FRayQueueCounters), ERTBufferUsage::CopyDest}, "RayQueueCounters");
 	Queue.Answers = Context.Graph.CreateBuffer({Pixels * sizeof(uint32_t)}, "RayAnswers");
 	return Queue;
 }
 
+void StartQueue(FPassContext& Pass, const FRayQueue& Queue)
+{
+	IRTBuffer* const Counters = Pass.GetBuffer(Queue.Counters);
+	IRTCommandList& Commands = Pass.Commands();
+	// Others reach the counters as the pass has declared it, behind this.
+	constexpr ERTAccess Declared = ERTAccess::StorageWrite;
+	const FRTBarrier Before{Counters, nullptr, Declared, ERTAccess::CopyWrite}, After{Counters, nullptr, ERTAccess::CopyWrite, Declared};
+	Commands.Barriers(&Before, 1);
+	const auto Fill = [&](uint64_t Offset, uint64_t Size, uint32_t Value) { Commands.FillBuffer(Counters, Offset, Size, Value); };
+	constexpr uint64_t Word = sizeof(uint32_t), Groups = offsetof(FRayQueueCounters, Groups), Launch = offsetof(FRayQueueCounters, Launch);
+	Fill(Groups, Word, RAY_QUEUE_ROW_GROUPS);
+	Fill(Groups + Word, Word, 0);
+	Fill(Groups + 2 * Word, Word, 1);
+	Fill(Launch, Word, 0);
+	Fill(Launch + Word, 2 * Word, 1);
+	Fill(offsetof(FRayQueueCounters, Segments), sizeof(FRayQueueCounters::Segments), 0);
+	Commands.Barriers(&After, 1);
+}
+
 void AddShadowRaysPass(
-    FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue, const FSunRays& Sun)
+    FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue, const FQueuedRays& Rays)
 {
 	// Without indirect launches, all of the queue's room is launched, and most threads end at once. A count read back would be of
 	// another frame, and a frame that asks for more rays would lose some.
 	const bool bIndirect = Dispatch.Compute || Context.Device.GetCapabilities().bIndirectTrace;
 	const FFrameContext* const Frame = &Context;
-	FGraphBuffer Demand;
+	// Nobody but characters asks what a pixel shows.
+	const bool bClasses = Dispatch.Has("HAS_CHARACTERS");
+	const FGraphTexture Classes = bClasses ? GBuffer.Classes : FGraphTexture();
+	const FGraphTexture Motion = bClasses && !Classes.IsValid() ? GBuffer.Motion : FGraphTexture();
+	FGraphBuffer Demand, Count;
 	if (Queue.bMayOverflow)
 	{
 		const FRayQueueDemand::FQueue Asked{Queue.Counters, Queue.Capacity, uint64_t(Context.Width) * Context.Height};
 		Demand = Context.QueueDemand->AddRead(Context.Graph, (Queue.Name + "Demand").c_str(), Asked);
 	}
+	if (FRayQueueCounter::IsWanted())
+	{
+		const FRayQueueCounter::FQueue Asked{Queue.Name + "Rays", Queue.Counters, Queue.Capacity, Rays.Sun.SamplesPerPixel};
+		Count = Context.RayCounter->AddRead(Context.Graph, (Queue.Name + "Count").c_str(), Asked);
+	}
 	Context.Graph.AddPass((Queue.Name + "Rays").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Read(GBuffer.Depth, ERTAccess::ShaderRead);
 		Builder.Read(GBuffer.Normals, ERTAccess::ShaderRead);
+		for (const FGraphTexture Texture : {Classes, Motion})
+		{
+			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+		}
 		Builder.Read(Queue.Requests, ERTAccess::ShaderRead);
 		Builder.Read(Queue.Counters, ERTAccess::ShaderRead);
 		if (bIndirect) { Builder.Read(Queue.Counters, ERTAccess::IndirectRead); }
 		Builder.Read(Queue.Answers, ERTAccess::StorageRead);
 		Builder.Write(Queue.Answers, ERTAccess::StorageWrite);
 		if (Queue.SunWidths.IsValid()) { Builder.Write(Queue.SunWidths, ERTAccess::StorageWrite); }
-		if (Demand.IsValid()) { Builder.Keep(Demand); }
+		for (const FGraphBuffer Buffer : {Rays.TileLights, Rays.Choices})
+		{
+			if (Buffer.IsValid()) { Builder.Read(Buffer, ERTAccess::ShaderRead); }
+		}
+		for (const FGraphBuffer Read : {Demand, Count})
+		{
+			if (Read.IsValid()) { Builder.Keep(Read); }
+		}
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
-			FShadowQueueConstants Constants = MakeConstants(Pass, *Frame, Queue, Sun);
+			FShadowQueueConstants Constants = MakeConstants(Pass, *Frame, Queue, Rays);
 			Constants.Depth = GetSampledIndex(Pass, GBuffer.Depth);
 			Constants.Normals = GetSampledIndex(Pass, GBuffer.Normals);
-			Pass.CountRays(uint64_t(Queue.Capacity) * Sun.SamplesPerPixel); // at most: the device alone knows how many
+			Constants.Motion = GetSampledIndex(Pass, Motion);
+			Constants.Classes = GetSampledIndex(Pass, Classes);
+			Constants.ClassesOffset = GBuffer.ClassesOffset.x | (GBuffer.ClassesOffset.y << 16);
+			// At most: the device alone knows how many. Those of the rest are among the first queue's.
+			const uint64_t Pixels = uint64_t(Frame->Width) * Frame->Height;
+			const uint64_t Most = std::min<uint64_t>(Pixels, Queue.Capacity) * Rays.Sun.SamplesPerPixel + Pixels * Rays.LocalPerPixel;
+			Pass.CountRays(Queue.bRest ? 0 : Most);
 			TraceQueue(Pass, *Frame, Dispatch, Queue, Constants, bIndirect);
 		};
 	});

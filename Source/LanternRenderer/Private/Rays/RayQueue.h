@@ -12,40 +12,65 @@ namespace Lantern
 /// Buffers of one frame.
 struct FRayQueue
 {
-	std::string Name;      ///< passes begin with it: FSignalInfo::Pass
-	FGraphBuffer Requests; ///< FRayRequest[Capacity]
-	FGraphBuffer Counters; ///< FRayQueueCounters
-	FGraphBuffer Answers;  ///< uint32_t[Width · Height]
+	std::string Name = "Shadow"; ///< passes begin with it: FSignalInfo::SharedPass
+	FGraphBuffer Requests;       ///< FRayRequest[Capacity]
+	FGraphBuffer Counters;       ///< FRayQueueCounters
+	FGraphBuffer Answers;        ///< uint32_t[Width · Height]
 	/// float[Width · Height], see FShadowQueueConstants. Invalid: nobody asks.
 	FGraphBuffer SunWidths;
-	uint32_t Capacity = 0; ///< requests
+	uint32_t Capacity = 0;   ///< requests
+	uint64_t MostWanted = 0; ///< requests that a frame can make
 	/// More rays can be asked for than have room. Those left out have no answer, and a later queue is larger.
 	bool bMayOverflow = false;
+	bool bRest = false; ///< holds rays that another queue of this frame has left out
 };
 
 /// Rays towards the sun.
 struct FSunRays
 {
-	uint32_t SamplesPerPixel = 1; ///< 1 to 64
+	uint32_t SamplesPerPixel = 0; ///< 1 to 64; 0: nobody asks
 	float MaxDistance = 0.0f;     ///< metres
-	uint32_t RayFlags = 0;        ///< gl_RayFlags…
 	uint32_t InstanceMask = 0;
-	bool bSoft = false; ///< towards all of the disk; if false, to its centre
+	uint32_t RayFlags = 0; ///< GetCasterRayFlags
+	float Diameter = 0.0f; ///< of the disk that they go to, radians; 0: they go to its centre
+	friend bool operator==(const FSunRays&, const FSunRays&) = default;
 };
+
+/// Adds what the queue's shaders need to know who casts on what a pixel shows.
+void AddReceiverDefines(const FSceneFacts& Facts, FShaderDefines& Defines);
+/// Returns gl_RayFlags… of all shadow rays, by r.RT.Shadow.CasterFaces.
+uint32_t GetCasterRayFlags();
+
+/// Returns 1 − cosine of the disk's angular radius.
+float GetSunOneMinusCos(const FSunRays& Rays);
 
 /// Returns whether the pixels of a picture have an index in requests. Logs once if they have not.
 bool CanQueueRays(uint32_t Width, uint32_t Height);
 
-/// Returns whether queues of this frame's settings may lack room, so that shaders for it are needed.
-bool MayQueuesOverflow();
+/// Returns whether queues of this frame's settings may lack room for so many requests of each pixel, so that shaders for it are needed.
+bool MayQueuesOverflow(uint32_t MostPerPixel);
 
-/// Signal: whose passes trace it. The queue has room for what r.RT.Rays.QueuePerPixel says, or for what earlier frames asked for. It has
-/// room for one request of each pixel at most, since no more can be asked for.
-FRayQueue CreateRayQueue(FFrameContext& Context, ESignal Signal);
+/// Chooses how the queue is traced: r.RT.Shadow.Path. What: as in ChooseRayPath.
+ERayPath ChooseQueuePath(const FPassQuery& Query, const char* What);
 
+/// MostPerPixel: requests that a pixel can make, which the queue never exceeds. It has room for what
+/// r.RT.Rays.QueuePerPixel says, or for what earlier frames asked for.
+FRayQueue CreateRayQueue(FFrameContext& Context, uint32_t MostPerPixel);
+
+/// Empties the queue's counters. For the first pass that writes requests, while it is recorded; it has declared StorageWrite.
+void StartQueue(FPassContext& Pass, const FRayQueue& Queue);
+
+/// What the rays are traced for beside what the queue holds.
+struct FQueuedRays
+{
+	FSunRays Sun;
+	FGraphBuffer TileLights; ///< FTileLights[], for rays to local lights; invalid: there are none
+	FGraphBuffer Choices;    ///< FLightChoice[Width · Height]; invalid: no pixel chooses a light
+	uint32_t LocalPerPixel = 0;
+};
 /// Adds the pass that traces what is in the queue. Dispatch: of Shaders/Rays/ShadowQueue.
 void AddShadowRaysPass(
-    FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue, const FSunRays& Sun);
+    FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue, const FQueuedRays& Rays);
 
 /// Path of the shaders that trace the queue, without suffix.
 inline constexpr const char* ShadowQueueShaders = "Rays/ShadowQueue";

@@ -14,13 +14,16 @@ namespace
 {
 /// A view that turns asks for a little more in each frame.
 constexpr double Headroom = 1.25;
+constexpr size_t SegmentBytes = sizeof(FRayQueueCounters::Segments);
 } // namespace
 
 void FRayQueueDemand::BeginFrame(uint32_t FlightIndex)
 {
 	bWritten = false;
 	Ring.BeginFrame(FlightIndex, [this](const TReadbackRing<FNotes>::FEntry& Entry) {
-		const uint32_t Wanted = *static_cast<const uint32_t*>(Entry.Buffer->GetMapped());
+		const auto* const Segments = static_cast<const FRaySegment*>(Entry.Buffer->GetMapped());
+		uint64_t Wanted = 0;
+		for (uint32_t I = 0; I < RAY_SEGMENTS; ++I) { Wanted += Segments[I].Wanted; }
 		if (Wanted <= Entry.Notes.Capacity) { return; }
 		Room = std::max(Room, Headroom * double(Wanted) / double(Entry.Notes.Pixels));
 		LogOnce(ERTLogLevel::Warning,
@@ -39,7 +42,7 @@ double FRayQueueDemand::GetRoom(double PerPixel)
 FGraphBuffer FRayQueueDemand::AddRead(FFrameGraph& Graph, const char* PassName, const FQueue& Queue)
 {
 	FRTStatus Status;
-	auto* const Entry = Ring.Write(sizeof(uint32_t), Status);
+	auto* const Entry = Ring.Write(SegmentBytes, Status);
 	if (!Entry)
 	{
 		LogOnce(ERTLogLevel::Warning, std::string("shadow rays are not counted: ") + Status.Message);
@@ -54,7 +57,7 @@ FGraphBuffer FRayQueueDemand::AddRead(FFrameGraph& Graph, const char* PassName, 
 		Builder.AllowAsync();
 		return [=, Counters = Queue.Counters](FPassContext& Pass) {
 			Pass.Commands().CopyBuffer(
-			    Pass.GetBuffer(Out), 0, Pass.GetBuffer(Counters), offsetof(FRayQueueCounters, Wanted), sizeof(uint32_t));
+			    Pass.GetBuffer(Out), 0, Pass.GetBuffer(Counters), offsetof(FRayQueueCounters, Segments), SegmentBytes);
 		};
 	});
 	return Out;

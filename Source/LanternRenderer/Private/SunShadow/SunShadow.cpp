@@ -5,6 +5,8 @@
 #include "LanternCore/FrameGraph/History.h"
 #include "SignalPasses.h"
 #include "SunShadowTypes.h"
+#include "Tiles/Contact.h"
+#include "Tiles/TileView.h"
 #include "Tiles/Tiles.h"
 
 namespace Lantern
@@ -15,36 +17,48 @@ namespace
 TRTConsoleVariable<bool> CVarShadow("r.RT.Shadow", true, "Traces sun shadows. If off, the sun is unshadowed unless the host shadows it.");
 TRTConsoleVariable<int32_t> CVarSamples(
     "r.RT.Shadow.Samples", 1, "Number of sun shadow rays per pixel. Hard shadows need only one.", {1, 64});
-TRTConsoleVariable<int32_t> CVarPath(
-    "r.RT.Shadow.Path", 0, "How sun shadows are traced. 0: as the device does best. 1: ray-tracing pipeline. 2: ray query.", {0, 2});
 TRTConsoleVariable<float> CVarMaxDistance("r.RT.Shadow.MaxDistance", 100000.0f, "Length of sun shadow rays, in metres.", {0.01, 1e9});
 TRTConsoleVariable<bool> CVarSoft(
     "r.RT.Shadow.Soft", true, "Traces penumbrae of the sun's disk. If off, shadows are hard, from the disk's centre.");
-TRTConsoleVariable<bool> CVarCullFront("r.RT.Shadow.CullFrontFaces", false,
-    "Sun shadow rays ignore faces turned towards the sun, as shadow maps drawn with front-face culling do. An object casts all the "
-    "same if all of its materials are double-sided.");
+TRTConsoleVariable<float> CVarSourceScale("r.RT.Shadow.SourceScale", 1.0f,
+    "Scales the diameter of the sun's disk for shadows. Narrower penumbrae need fewer rays to look smooth. 0: shadows are hard.", {0, 16});
 TRTConsoleVariable<int32_t> CVarMask(
     "r.RT.Shadow.InstanceMask", MaskSunCasters, "Only objects that share a bit with this mask cast sun shadows.", {0, 255});
 const FDenoiseVariables Denoise("r.RT.Shadow", FDenoiseDefaults{.SigmaValue = 2.0f, .bExtent = true});
 
-// A ray towards the sun sees the backs of faces that are turned towards it. gl_RayFlagsCullBackFacingTrianglesEXT
-constexpr uint32_t RayFlagCullTowardsSun = 0x10;
-
-bool IsSoft(const FRTScene& Scene) { return CVarSoft.GetOnRenderThread() && Scene.GetSun().AngularDiameter > 0.0f; }
+/// Radians; 0: hard shadows.
+float GetDiameter(const FRTScene& Scene)
+{
+	return CVarSoft.GetOnRenderThread() ? Scene.GetSun().AngularDiameter * CVarSourceScale.GetOnRenderThread() : 0.0f;
+}
+bool IsSoft(const FRTScene& Scene) { return GetDiameter(Scene) > 0.0f; }
 // Whatever the sun's size: the shaders stay as they are while it changes.
 bool MeasuresPenumbra() { return CVarSoft.GetOnRenderThread() && Denoise.IsEnabled(); }
 
-FShaderSource MakeResolveSource() { return MakeComputeSource(MakeShaderPath(ESignal::SunShadow, ".comp")); }
+FShaderDefines JoinDefines(FShaderDefines Defines, const FShaderDefines& Others)
+{
+	Defines.insert(Defines.end(), Others.begin(), Others.end());
+	return Defines;
+}
+
+FShaderSource MakeResolveSource(const FSunRates& Rates)
+{
+	return MakeComputeSource(MakeShaderPath(ESignal::SunShadow, ".comp"), JoinDefines(MakeSettledDefines(Rates), MakeContactDefines()));
+}
 
 FSunRays MakeSunRays(const FRTScene& Scene, const FRayDispatch& Dispatch)
 {
 	FSunRays Rays;
-	Rays.bSoft = IsSoft(Scene);
+	Rays.Diameter = GetDiameter(Scene);
+	Rays.SamplesPerPixel = 1;
 	// Of the shader that runs, which may be the one before the setting changed.
-	if (Rays.bSoft && !Dispatch.Has("ONE_SAMPLE")) { Rays.SamplesPerPixel = static_cast<uint32_t>(CVarSamples.GetOnRenderThread()); }
+	if (Rays.Diameter > 0.0f && !Dispatch.Has("ONE_SAMPLE"))
+	{
+		Rays.SamplesPerPixel = static_cast<uint32_t>(CVarSamples.GetOnRenderThread());
+	}
 	Rays.MaxDistance = CVarMaxDistance.GetOnRenderThread();
-	Rays.RayFlags = CVarCullFront.GetOnRenderThread() ? RayFlagCullTowardsSun : 0u;
 	Rays.InstanceMask = static_cast<uint32_t>(CVarMask.GetOnRenderThread());
+	Rays.RayFlags = GetCasterRayFlags();
 	return Rays;
 }
 
@@ -53,7 +67,8 @@ struct FResolveInputs
 	FGBuffer GBuffer;
 	FRayQueue Queue;
 	FGraphBuffer Tiles;
-	uint32_t SamplesPerPixel = 1;
+	FSunRays Rays;
+	FSettledTiles Settled;
 	FGraphTexture Penumbra; ///< the penumbra's width in pixels is written here as well; may be invalid
 	FHistoryTexture Kept;   ///< visibility, for pixels whose rays have no room; Current is invalid if all have
 };
@@ -77,6 +92,12 @@ FGraphTexture AddResolvePass(FFrameContext& Context, IRTPipeline* Pipeline, cons
 			Builder.Write(Inputs.Kept.Current, ERTAccess::StorageWrite);
 			Builder.Keep(Inputs.Kept.Current);
 		}
+		DeclareContact(Builder, Inputs.GBuffer);
+		if (Inputs.Settled.Known.Current.IsValid())
+		{
+			Builder.Read(Inputs.Settled.Known.Current, ERTAccess::StorageRead);
+			Builder.Write(Inputs.Settled.Known.Current, ERTAccess::StorageWrite);
+		}
 		if (Inputs.Penumbra.IsValid()) { Builder.WriteIfRead(Inputs.Penumbra, ERTAccess::StorageWrite); }
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
@@ -88,10 +109,13 @@ FGraphTexture AddResolvePass(FFrameContext& Context, IRTPipeline* Pipeline, cons
 			C.Depth = GetSampledIndex(Pass, Inputs.GBuffer.Depth);
 			C.Normals = GetSampledIndex(Pass, Inputs.GBuffer.Normals);
 			C.Output = GetStorageIndex(Pass, Visibility);
-			C.SamplesPerPixel = Inputs.SamplesPerPixel;
+			C.SamplesPerPixel = Inputs.Rays.SamplesPerPixel;
 			C.OutPenumbra = GetStorageIndex(Pass, Inputs.Penumbra);
 			C.Kept = GetSampledIndex(Pass, Inputs.Kept.Previous);
 			C.OutKept = GetStorageIndex(Pass, Inputs.Kept.Current);
+			C.Settled = GetStorageIndex(Pass, Inputs.Settled.Known.Current);
+			C.Contact = MakeContactConstants(Pass, *Frame, Inputs.GBuffer);
+			C.SunOneMinusCos = GetSunOneMinusCos(Inputs.Rays);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
@@ -113,28 +137,21 @@ bool FindKept(FFrameContext& Context, FHistoryTexture& Out)
 	return true;
 }
 
-/// Traces the rays through the queue. Invalid: there are none, or shaders are being compiled.
+/// Invalid: there are no rays, or shaders are being compiled.
 FGraphTexture AddVisibility(FFrameContext& Context, const FGBuffer& GBuffer, FGraphTexture& OutPenumbra)
 {
-	const FPassRays Chosen = ChooseSignalRays(Context, ESignal::SunShadow);
-	if (Chosen.Path == ERayPath::None || !CanQueueRays(Context.Width, Context.Height)) { return {}; }
-	IRTPipeline* const Resolve = RequireCompute(Context, MakeResolveSource());
-	const std::optional<FRayDispatch> Dispatch = RequireRayDispatch(Context, ESignal::SunShadow, Chosen);
-	if (!Resolve || !Dispatch) { return {}; }
-	FResolveInputs Inputs{GBuffer, CreateRayQueue(Context, ESignal::SunShadow)};
-	if (Inputs.Queue.bMayOverflow && !FindKept(Context, Inputs.Kept)) { return {}; }
-	if (MeasuresPenumbra() && Dispatch->Has("WITH_PENUMBRA")) // a variant without it may still serve, and writes none
+	const FShadowRays* const Rays = RequireShadowRays(Context, GBuffer);
+	if (!Rays || Rays->Sun.SamplesPerPixel == 0) { return {}; }
+	IRTPipeline* const Resolve = RequireCompute(Context, MakeResolveSource(Rays->Settled.Rates));
+	if (!Resolve) { return {}; }
+	FResolveInputs Inputs{GBuffer, Rays->Queue, Rays->Tiles, Rays->Sun, Rays->Settled};
+	if (MayLackSunRays(Context, Inputs.Queue) && !FindKept(Context, Inputs.Kept)) { return {}; }
+	if (Inputs.Queue.SunWidths.IsValid())
 	{
-		const uint64_t Pixels = uint64_t(Context.Width) * Context.Height;
-		Inputs.Queue.SunWidths = Context.Graph.CreateBuffer({Pixels * sizeof(float)}, "SunWidths");
-		Inputs.Penumbra = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::R16_FLOAT}, "SunShadowPenumbra");
+		OutPenumbra = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::R16_FLOAT}, "SunShadowPenumbra");
+		Inputs.Penumbra = OutPenumbra;
 	}
-	const FSunRays Rays = MakeSunRays(Context.Scene, *Dispatch);
-	Inputs.SamplesPerPixel = Rays.SamplesPerPixel;
-	Inputs.Tiles = AddTilesPass(Context, GBuffer, Inputs.Queue, Rays);
-	if (!Inputs.Tiles.IsValid()) { return {}; }
-	AddShadowRaysPass(Context, GBuffer, *Dispatch, Inputs.Queue, Rays);
-	OutPenumbra = Inputs.Penumbra;
+	AddTileView(Context, Inputs.Tiles);
 	return AddResolvePass(Context, Resolve, Inputs);
 }
 } // namespace
@@ -143,16 +160,34 @@ FPassRays ChooseSunShadowRays(const FPassQuery& Query)
 {
 	FPassRays Rays;
 	if (!Query.Facts.bSun || !IsRayTracingEnabled() || !CVarShadow.GetOnRenderThread()) { return Rays; }
-	Rays.Path = ChooseRayPath(Query, CVarPath, "sun shadows are");
+	Rays.Path = ChooseQueuePath(Query, "sun shadows are");
+	Rays.Defines.emplace_back("SUN_RAYS", "1");
+	AddReceiverDefines(Query.Facts, Rays.Defines);
 	// Without a loop nothing but the pixel lives across the trace.
 	if (CVarSamples.GetOnRenderThread() == 1 || !CVarSoft.GetOnRenderThread()) { Rays.Defines.emplace_back("ONE_SAMPLE", "1"); }
 	if (MeasuresPenumbra()) { Rays.Defines.emplace_back("WITH_PENUMBRA", "1"); }
 	Rays.bBlockers = MeasuresPenumbra();
 	Rays.Shaders = ShadowQueueShaders;
-	Rays.Compute = {MakeTilesSource(), MakeResolveSource()};
-	if (MayQueuesOverflow()) { Rays.Compute.push_back(MakeShareSource()); }
+	const FSunRates Rates = GetSunRates(MeasuresPenumbra());
+	Rays.Compute = {MakeTilesSource(Rates), MakeResolveSource(Rates)};
+	if (Rates.bAdaptive) { ListSettledShaders(Rays.Compute); }
+	ListTileViewShaders(Rays.Compute);
+	if (MayQueuesOverflow(1)) { Rays.Compute.push_back(MakeShareSource()); }
 	return Rays;
 }
+
+bool AskSunShadowRays(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowRayWishes& InOut)
+{
+	const FSunRates Rates = GetSunRates(MeasuresPenumbra());
+	if (!Dispatch.Has("SUN_RAYS") || !RequireCompute(Context, MakeResolveSource(Rates))) { return false; }
+	InOut.Sun = MakeSunRays(Context.Scene, Dispatch);
+	InOut.SunRates = Rates;
+	InOut.bSunFiltered = IsSunShadowFiltered(Context.Scene);
+	InOut.bSunWidths = MeasuresPenumbra() && Dispatch.Has("WITH_PENUMBRA"); // a variant without it may still serve, and writes none
+	return true;
+}
+
+bool FollowsSunShadowMotion(const FRTScene& Scene) { return IsSunShadowFiltered(Scene) || !MakeContactDefines().empty(); }
 
 bool IsSunShadowFiltered(const FRTScene& Scene) { return Denoise.IsEnabled() && IsSoft(Scene); }
 
@@ -163,6 +198,7 @@ void ListSunShadowFilters(const FRTScene& Scene, std::vector<FShaderSource>& Out
 
 FGraphTexture AddSunShadowPass(FFrameContext& Context, const FGBuffer& GBuffer)
 {
+	if (ChooseSignalRays(Context, ESignal::SunShadow).Path == ERayPath::None) { return {}; }
 	FGraphTexture Penumbra;
 	const FGraphTexture Visibility = AddVisibility(Context, GBuffer, Penumbra);
 	if (!Visibility.IsValid()) { return {}; }

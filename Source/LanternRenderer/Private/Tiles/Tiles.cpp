@@ -8,23 +8,13 @@ namespace Lantern
 
 namespace
 {
-/// Others reach the counters as their pass has declared it, behind this.
-void ClearCounters(FPassContext& Pass, IRTBuffer* Counters)
-{
-	constexpr ERTAccess Declared = ERTAccess::StorageWrite;
-	const FRTBarrier Before{Counters, nullptr, Declared, ERTAccess::CopyWrite}, After{Counters, nullptr, ERTAccess::CopyWrite, Declared};
-	Pass.Commands().Barriers(&Before, 1);
-	Pass.Commands().FillBuffer(Counters, 0, sizeof(FRayQueueCounters), 0);
-	Pass.Commands().Barriers(&After, 1);
-}
-
 struct FTilesPass
 {
 	FGBuffer GBuffer;
 	FRayQueue Queue;
 	FGraphBuffer Tiles;
 	FSunRays Sun;
-	uint64_t TileCount = 0;
+	FSettledTiles Settled;
 };
 
 FTilesConstants MakeConstants(FPassContext& Pass, const FFrameContext& Frame, const FTilesPass& Inputs)
@@ -50,53 +40,67 @@ void AddSortPass(FFrameContext& Context, IRTPipeline* Pipeline, const FTilesPass
 		{
 			Builder.Write(Buffer, ERTAccess::StorageWrite);
 		}
+		DeclareSettled(Builder, *Frame, Inputs.Settled);
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
-			ClearCounters(Pass, Pass.GetBuffer(Inputs.Queue.Counters));
+			StartQueue(Pass, Inputs.Queue);
 			FTilesConstants C = MakeConstants(Pass, *Frame, Inputs);
 			C.Answers = Pass.GetBuffer(Inputs.Queue.Answers)->GetDeviceAddress();
 			C.Depth = GetSampledIndex(Pass, Inputs.GBuffer.Depth);
 			C.Normals = GetSampledIndex(Pass, Inputs.GBuffer.Normals);
 			C.SunSamples = Inputs.Sun.SamplesPerPixel;
-			C.bSoftSun = Inputs.Sun.bSoft ? 1u : 0u;
+			C.SunOneMinusCos = GetSunOneMinusCos(Inputs.Sun);
+			C.Settled = WriteSettled(Pass, *Frame, Inputs.Settled);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
 }
 
-void AddSharePass(FFrameContext& Context, IRTPipeline* Pipeline, const FTilesPass& Inputs)
+uint32_t CountTiles(const FFrameContext& Context) { return DivideUp(Context.Width, TILE_SIZE) * DivideUp(Context.Height, TILE_SIZE); }
+} // namespace
+
+bool MayLackSunRays(const FFrameContext& Context, const FRayQueue& Queue)
 {
+	return Queue.bMayOverflow && Queue.Capacity < uint64_t(Context.Width) * Context.Height;
+}
+
+FShaderSource MakeTilesSource(const FSunRates& Rates) { return MakeComputeSource("Tiles/Tiles.comp", MakeSettledDefines(Rates)); }
+
+FShaderSource MakeShareSource() { return MakeComputeSource("Tiles/ShareQueue.comp"); }
+
+void AddShareQueuePass(FFrameContext& Context, const FRayQueue& Queue, FGraphBuffer Tiles, bool bRest)
+{
+	IRTPipeline* const Pipeline = RequireCompute(Context, MakeShareSource());
+	if (!Pipeline) { return; } // AddTilesPass had it
 	const FFrameContext* const Frame = &Context;
-	Context.Graph.AddPass((Inputs.Queue.Name + "Share").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
-		Builder.Read(Inputs.Tiles, ERTAccess::ShaderRead);
-		for (const FGraphBuffer Buffer : {Inputs.Queue.Requests, Inputs.Queue.Counters})
+	const FTilesPass Inputs{{}, Queue, Tiles, {}, {}};
+	Context.Graph.AddPass((Queue.Name + "Share").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
+		Builder.Read(Tiles, ERTAccess::ShaderRead);
+		for (const FGraphBuffer Buffer : {Queue.Requests, Queue.Counters})
 		{
 			Builder.Read(Buffer, ERTAccess::StorageRead);
 			Builder.Write(Buffer, ERTAccess::StorageWrite);
 		}
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
-			const auto Tiles = static_cast<uint32_t>(Inputs.TileCount);
-			Dispatch2D(Pass, Pipeline, MakeConstants(Pass, *Frame, Inputs), Tiles, 1, TILE_PIXELS);
+			FTilesConstants C = MakeConstants(Pass, *Frame, Inputs);
+			C.bSunRest = bRest ? 1u : 0u;
+			Dispatch2D(Pass, Pipeline, C, CountTiles(*Frame), 1, TILE_PIXELS);
 		};
 	});
 }
-} // namespace
 
-FShaderSource MakeTilesSource() { return MakeComputeSource("Tiles/Tiles.comp"); }
-
-FShaderSource MakeShareSource() { return MakeComputeSource("Tiles/ShareQueue.comp"); }
-
-FGraphBuffer AddTilesPass(FFrameContext& Context, const FGBuffer& GBuffer, const FRayQueue& Queue, const FSunRays& Sun)
+FGraphBuffer AddTilesPass(
+    FFrameContext& Context, const FGBuffer& GBuffer, const FRayQueue& Queue, const FSunRays& Sun, const FSettledTiles& Settled)
 {
-	IRTPipeline* const Sort = RequireCompute(Context, MakeTilesSource());
-	IRTPipeline* const Share = Queue.bMayOverflow ? RequireCompute(Context, MakeShareSource()) : nullptr;
-	if (!Sort || (Queue.bMayOverflow && !Share)) { return {}; }
-	FTilesPass Inputs{GBuffer, Queue, {}, Sun};
-	Inputs.TileCount = uint64_t(DivideUp(Context.Width, TILE_SIZE)) * DivideUp(Context.Height, TILE_SIZE);
-	Inputs.Tiles = Context.Graph.CreateBuffer({Inputs.TileCount * sizeof(FTile)}, "Tiles");
+	IRTPipeline* const Sort = RequireCompute(Context, MakeTilesSource(Settled.Rates));
+	// Sun rays come first in the queue: they find room unless it is smaller than the picture.
+	const bool bShare = MayLackSunRays(Context, Queue) && Sun.SamplesPerPixel > 0;
+	if (!Sort || (bShare && !RequireCompute(Context, MakeShareSource()))) { return {}; }
+	FTilesPass Inputs{GBuffer, Queue, {}, Sun, Settled};
+	Inputs.Tiles = Context.Graph.CreateBuffer({uint64_t(CountTiles(Context)) * sizeof(FTile)}, "Tiles");
 	AddSortPass(Context, Sort, Inputs);
-	if (Share) { AddSharePass(Context, Share, Inputs); }
+	if (bShare) { AddShareQueuePass(Context, Queue, Inputs.Tiles, false); }
 	return Inputs.Tiles;
 }
 

@@ -22,6 +22,10 @@ struct FGBuffer
 	/// A surface that was behind the camera points off the
 	/// screen, with z = 0. Pixels with depth 0 are not read. Invalid: the host has none, and moving objects count as still.
 	FGraphTexture Motion;
+	/// R8_UNORM: what the pixel shows, CLASS_… (SceneTypes.h) over 255. Invalid: a pixel whose Motion names its object has the
+	/// object's class, and another one has none.
+	FGraphTexture Classes;
+	glm::uvec2 ClassesOffset{0}; ///< of the view in Classes, pixels, below 65,536
 };
 
 /// What a frame made. A texture is invalid if the scene has no use for it, if it is off, or if its shaders are being compiled.

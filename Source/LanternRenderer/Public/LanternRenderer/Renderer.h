@@ -9,6 +9,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "LanternCore/FrameGraph/FrameGraph.h"
@@ -96,9 +97,21 @@ struct FAnyHitCounts
 	uint32_t Frames = 0;    ///< number of frames that have arrived
 };
 
+/// Counts of the shadow rays that queues really traced, with r.RT.Rays.Count. A frame's count arrives two frames later, or with
+/// WaitForAll.
+struct FRayCounts
+{
+	uint64_t LastFrame = 0;                               ///< count of the newest frame that has arrived
+	std::vector<std::pair<std::string, uint64_t>> Passes; ///< its parts, by the names of the passes that traced
+	uint64_t Total = 0;                                   ///< sum over all frames that have arrived
+	uint32_t Frames = 0;                                  ///< number of frames that have arrived
+};
+
 class FAnyHitCounter;
 class FHistoryResources;
 class FLightCells;
+class FMovedCasters;
+class FRayQueueCounter;
 class FRayQueueDemand;
 class FRefitQuality;
 class FRenderer;
@@ -139,6 +152,13 @@ struct FSceneTokens
 	}
 };
 
+struct FShadowRays; // Private/Rays/ShadowRays.h
+/// Light of local lights by lobe, not filtered.
+struct FLocalLobes
+{
+	FGraphTexture Diffuse, Specular; ///< RGBA16_FLOAT
+};
+
 /// The frame as passes see it.
 struct FFrameContext
 {
@@ -166,9 +186,16 @@ struct FFrameContext
 	const FView* PreviousView = nullptr;
 	/// Textures that passes keep from frame to frame.
 	FHistoryResources* History = nullptr;
+	FMovedCasters* MovedCasters = nullptr; ///< what may have changed the sun's shadows since the view's last frame
+	FRayQueueCounter* RayCounter = nullptr;
 	FRayQueueDemand* QueueDemand = nullptr; ///< what earlier frames asked of the queue of shadow rays
 	FSurfaceTextures Surface;
 	FLightCellsOfFrame LightCells;
+	/// What r.RT.Debug.View shows instead of a signal, RGBA8_UNORM; invalid: nothing drew it.
+	FGraphTexture DebugPicture;
+	std::shared_ptr<const FShadowRays> ShadowRays; ///< null: none, or nobody has asked so far
+	bool bShadowRaysAsked = false;
+	std::shared_ptr<const FLocalLobes> LocalLobes; ///< null: not shaded so far
 	FSceneTokens Tokens;
 	FSignalRequests Signals;
 	/// First error that a pass met; the frame is then not submitted. Not while passes are recorded.
@@ -250,6 +277,7 @@ public:
 	const std::vector<FProgramPriority>& GetProgramPriorities() const;
 	const FShaderTable& GetShaderTable() const { return ShaderTable; }
 	const FAnyHitCounts& GetAnyHits() const;
+	const FRayCounts& GetRayCounts() const;
 	/// Makes executed frames leave a text for DumpGraph. Off by default, because it takes longer than the graph itself.
 	void SetGraphDump(bool bEnabled) { bDumpGraph = bEnabled; }
 	const std::string& DumpGraph() const { return LastDump; } ///< the last executed frame, as text
@@ -294,6 +322,7 @@ private:
 	FRTPSOCompiler RayCompiler;
 	std::unique_ptr<FStandInFeedback> StandIns;
 	std::unique_ptr<FRayQueueDemand> QueueDemand;
+	std::unique_ptr<FRayQueueCounter> RayCounter;
 	bool bStandIns = false; // some hit program of the frame is not ready
 	bool bRaysReady = true;
 	bool bSkinningLeftOut = false;
@@ -322,6 +351,7 @@ private:
 	{
 		std::unique_ptr<FHistoryResources> History;
 		std::unique_ptr<FLightCells> LightCells;
+		std::unique_ptr<FMovedCasters> Casters;
 		FView LastView;          // of the newest frame that reached the GPU
 		uint64_t LastScene = 0;  // identity of its scene's sections, which outlives an address; 0: none
 		uint64_t Viewer = 0;     // who it is to scenes

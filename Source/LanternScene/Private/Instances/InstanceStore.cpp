@@ -178,7 +178,7 @@ void FInstanceStore::SetRange(uint32_t Object, uint32_t Range)
 	Buckets[Record.Bucket]->Range[Record.Lane] = Range;
 }
 
-void FInstanceStore::SetBinding(uint32_t Range, const FInstanceBinding& Binding)
+bool FInstanceStore::SetBinding(uint32_t Range, const FInstanceBinding& Binding)
 {
 	if (Range >= Bindings.size())
 	{
@@ -186,7 +186,8 @@ void FInstanceStore::SetBinding(uint32_t Range, const FInstanceBinding& Binding)
 		RangeUsers.resize(Range + 1, 0);
 	}
 	FInstanceBinding& Old = Bindings[Range];
-	if (Old == Binding) { return; }
+	if (Old == Binding) { return false; }
+	const bool bSeen = RangeUsers[Range] > 0 && (Old.GeometryAddress == 0) != (Binding.GeometryAddress == 0);
 	++Revision;
 	if (RangeUsers[Range] > 0)
 	{
@@ -194,6 +195,7 @@ void FInstanceStore::SetBinding(uint32_t Range, const FInstanceBinding& Binding)
 		MissingBindings += Binding.GeometryAddress == 0 ? 1 : 0;
 	}
 	Old = Binding;
+	return bSeen;
 }
 
 void FInstanceStore::WriteLane(FInstanceBucket& Bucket, uint32_t Lane, uint32_t Object, const float* Rows, const glm::vec3& Place)

@@ -41,16 +41,20 @@ FInstanceBinding FRangeBindings::Make(const FSectionTable& Sections, const FSect
 	return Binding;
 }
 
-void FRangeBindings::Update(FSectionTable& Sections, const FGeometryStore& Geometries, FInstanceStore& Instances)
+bool FRangeBindings::Update(FSectionTable& Sections, const FGeometryStore& Geometries, FInstanceStore& Instances)
 {
-	const auto Bind = [&](FSectionRangeId Id) { Instances.SetBinding(Id, Make(Sections, Sections.GetRange(Id), Geometries)); };
+	bool bOthersSeen = false;
+	const auto Bind = [&](FSectionRangeId Id) {
+		bOthersSeen |= Instances.SetBinding(Id, Make(Sections, Sections.GetRange(Id), Geometries));
+	};
 	const std::vector<FSectionRangeId> Changed = Sections.TakeChangedRanges();
 	if (std::exchange(bBindAll, false))
 	{
 		for (FSectionRangeId Id = 0; Id < Sections.GetRangeCapacity(); ++Id) { Bind(Id); }
-		return;
+		return bOthersSeen;
 	}
 	for (const FSectionRangeId Id : Changed) { Bind(Id); }
+	return bOthersSeen;
 }
 
 FRTStatus FRangeBindings::CheckLimits(const FSectionTable& Sections) const

@@ -22,8 +22,8 @@ public:
 	/// Tells whether Update would do anything.
 	bool NeedsUpdate(const FSectionTable& Sections) const { return bBindAll || Sections.HasChangedRanges(); }
 	/// Takes the changed ranges of Sections and writes their bindings to Instances. O(changed ranges), or O(all ranges) after
-	/// one of the setters above changed something.
-	void Update(FSectionTable& Sections, const FGeometryStore& Geometries, FInstanceStore& Instances);
+	/// one of the setters above changed something. Returns whether rays see objects that they did not see before, or the reverse.
+	bool Update(FSectionTable& Sections, const FGeometryStore& Geometries, FInstanceStore& Instances);
 	/// Unsupported: an instance cannot name the first hit record of every section with its 24 bits.
 	FRTStatus CheckLimits(const FSectionTable& Sections) const;
 

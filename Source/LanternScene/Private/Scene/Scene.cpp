@@ -35,7 +35,31 @@ void FRTScene::MarkFilled(const FRTGeometryRef& Geometry)
 void FRTScene::MarkDeformed(const FRTGeometryRef& Geometry)
 {
 	Geometries.MarkDeformed(Geometry);
-	Objects.GetMotions().MarkDeformed(Geometry);
+	Objects.MarkDeformed(Geometry);
+}
+
+void FRTScene::SetMaterial(uint32_t Index, const FMaterialData& Material)
+{
+	if (FSectionTable::AffectsShape(Materials.GetTable()[Index], Material)) { Objects.GetCasterChanges().AddAnywhere(); }
+	Materials.Set(Index, Material);
+}
+
+void FRTScene::SetMaterialProgram(uint32_t Index, uint32_t Program)
+{
+	if (Materials.GetProgram(Index) != Program) { Objects.GetCasterChanges().AddAnywhere(); }
+	Materials.SetProgram(Index, Program);
+}
+
+void FRTScene::SetMaterialOverride(uint32_t Override)
+{
+	if (Materials.GetContext().Override != Override) { Objects.GetCasterChanges().AddAnywhere(); }
+	Materials.SetOverride(Override);
+}
+
+void FRTScene::SetAlphaTest(bool bEnabled)
+{
+	if (Materials.GetContext().bAlphaTest != bEnabled) { Objects.GetCasterChanges().AddAnywhere(); }
+	Materials.SetAlphaTest(bEnabled);
 }
 
 FLightId FRTScene::AddLight(const FSceneLight& Light)

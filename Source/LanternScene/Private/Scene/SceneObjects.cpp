@@ -68,6 +68,7 @@ FRTObjectId FSceneObjects::Add(FRTObjectInfo Info)
 	Motions.Add(Slot, *Object.Info.Geometry);
 	JoinGeometry(Slot);
 	Write(Slot);
+	NoteCaster(Slot);
 	MarkEmissive(Object.Range);
 	return {Slot, Objects.GetGeneration(Slot)};
 }
@@ -77,6 +78,7 @@ void FSceneObjects::Remove(FRTObjectId Id)
 	FObject& Object = Resolve(Id);
 	MarkEmissive(Object.Range);
 	Characters -= Object.Info.bCharacter ? 1 : 0;
+	NoteCaster(Id.Index);
 	Instances.Remove(Id.Index);
 	Motions.Remove(Id.Index);
 	Pivots.Remove(Id.Index);
@@ -92,8 +94,10 @@ void FSceneObjects::SetTransform(FRTObjectId Id, const glm::dmat4& Transform)
 {
 	FObject& Object = Resolve(Id);
 	Motions.BeforeMove(Id.Index);
-	Object.Info.Transform = Transform;
+	const FInstanceRecord Before = Instances.GetRecord(Id.Index);
+	const bool bMoved = std::exchange(Object.Info.Transform, Transform) != Transform; // engines may set all transforms in each frame
 	Write(Id.Index);
+	if (bMoved) { NoteCaster(Before, Instances.GetRecord(Id.Index)); }
 	if (Sections.GetRange(Object.Range).bEmissive) { Emissive.MarkMoved(Id.Index); }
 }
 
@@ -106,12 +110,14 @@ void FSceneObjects::SetMaterials(FRTObjectId Id, std::vector<uint32_t> SectionMa
 	Sections.Release(std::exchange(Object.Range, Range));
 	Object.Info.Materials = std::move(SectionMaterials);
 	Write(Id.Index);
+	NoteCaster(Id.Index);
 }
 
 void FSceneObjects::SetGeometry(FRTObjectId Id, FRTGeometryRef Geometry, std::vector<uint32_t> SectionMaterials)
 {
 	assert(Geometry && SectionMaterials.size() == Geometry->GetSectionCount());
 	FObject& Object = Resolve(Id);
+	const FInstanceRecord Before = Instances.GetRecord(Id.Index);
 	const FSectionRangeId Range = Sections.Acquire(*Geometry, SectionMaterials);
 	MarkEmissive(Object.Range);
 	MarkEmissive(Range);
@@ -122,12 +128,16 @@ void FSceneObjects::SetGeometry(FRTObjectId Id, FRTGeometryRef Geometry, std::ve
 	Motions.SetGeometry(Id.Index, *Object.Info.Geometry);
 	JoinGeometry(Id.Index);
 	Write(Id.Index);
+	NoteCaster(Before, Instances.GetRecord(Id.Index));
 }
 
 void FSceneObjects::SetMask(FRTObjectId Id, uint8_t Mask)
 {
-	Resolve(Id).Info.Mask = Mask;
+	if (std::exchange(Resolve(Id).Info.Mask, Mask) == Mask) { return; }
+	const FInstanceRecord Before = Instances.GetRecord(Id.Index);
 	Place(Id.Index);
+	WriteCasterRadius(Id.Index);
+	NoteCaster(Before, Instances.GetRecord(Id.Index));
 }
 
 void FSceneObjects::SetBounds(const FRTGeometryRef& Geometry, const FBoundingSphere& Bounds)
@@ -137,8 +147,32 @@ void FSceneObjects::SetBounds(const FRTGeometryRef& Geometry, const FBoundingSph
 	Geometry->Info.BoundsRadius = Bounds.Radius;
 	const auto Found = DynamicUsers.find(Geometry.get());
 	if (Found == DynamicUsers.end()) { return; }
-	for (const uint32_t Slot : Found->second) { Place(Slot); }
+	for (const uint32_t Slot : Found->second)
+	{
+		const FInstanceRecord Before = Instances.GetRecord(Slot);
+		Place(Slot);
+		WriteCasterRadius(Slot);
+		NoteCaster(Before, Instances.GetRecord(Slot));
+	}
 }
+
+void FSceneObjects::MarkDeformed(const FRTGeometryRef& Geometry)
+{
+	Motions.MarkDeformed(Geometry);
+	const auto Found = DynamicUsers.find(Geometry.get());
+	if (Found == DynamicUsers.end()) { return; }
+	for (const uint32_t Slot : Found->second) { NoteCaster(Slot); }
+}
+
+void FSceneObjects::NoteCaster(const FInstanceRecord& Before, const FInstanceRecord& After)
+{
+	if (((Before.Mask | After.Mask) & MASK_CASTERS) == 0) { return; }
+	const double Radius = std::max(Before.Radius, After.Radius);
+	if (Radius >= UnboundedRadius) { return CasterChanges.AddAnywhere(); }
+	CasterChanges.Add({Before.Center, After.Center, Radius});
+}
+
+void FSceneObjects::NoteCaster(uint32_t Slot) { NoteCaster(Instances.GetRecord(Slot), Instances.GetRecord(Slot)); }
 
 void FSceneObjects::JoinGeometry(uint32_t Slot)
 {
@@ -186,6 +220,20 @@ void FSceneObjects::Place(uint32_t Slot)
 	Instances.Set(Slot, Placement);
 }
 
+float FSceneObjects::GetCasterRadius(uint32_t Slot) const
+{
+	const FInstanceRecord& Record = Instances.GetRecord(Slot);
+	return static_cast<float>((Record.Mask & MASK_SUN_CASTERS) != 0 ? Record.Radius : UnboundedRadius);
+}
+
+/// After a change of mask or bounds alone.
+void FSceneObjects::WriteCasterRadius(uint32_t Slot)
+{
+	FObjectData Data = Table[Slot];
+	const float Radius = GetCasterRadius(Slot);
+	if (std::exchange(Data.CasterRadius, Radius) != Radius) { Table.Set(Slot, Data); }
+}
+
 void FSceneObjects::Write(uint32_t Slot)
 {
 	Place(Slot);
@@ -198,6 +246,7 @@ void FSceneObjects::Write(uint32_t Slot)
 	Data.Flags = (glm::determinant(glm::dmat3(Transform)) < 0.0 ? OBJECT_MIRRORED : 0u) | (Object.Info.bCharacter ? OBJECT_CHARACTER : 0u) |
 	             PackTranslationRest(Transform, Data);
 	Data.Motion = Motions.GetEntry(Slot);
+	Data.CasterRadius = GetCasterRadius(Slot);
 	Table.Set(Slot, Data);
 }
 

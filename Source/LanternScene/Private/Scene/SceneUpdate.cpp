@@ -100,7 +100,9 @@ void FSceneUpdate::TakeGeometryChanges()
 		const FRTGeometry* const Geometry = Parts.Geometries.Get(Slot);
 		if (!Geometry) { continue; }
 		Parts.Materials.GetSections().GeometryChanged(*Geometry);
-		if (Geometry->IsCoarse()) { Parts.Emissive.MarkTriangles(); } // they are no longer those that light sampling lists
+		if (!Geometry->IsCoarse()) { continue; }
+		Parts.Emissive.MarkTriangles(); // they are no longer those that light sampling lists
+		Parts.Objects.GetCasterChanges().AddAnywhere();
 	}
 }
 
@@ -130,7 +132,7 @@ FRTStatus FSceneUpdate::Begin(const FGatherView& View, const FSceneUse& InUse)
 	TakeGeometryChanges();
 	FSectionTable& Sections = Parts.Materials.GetSections();
 	FInstanceStore& Instances = Parts.Objects.GetInstances();
-	Bindings.Update(Sections, Parts.Geometries, Instances);
+	if (Bindings.Update(Sections, Parts.Geometries, Instances)) { Parts.Objects.GetCasterChanges().AddAnywhere(); }
 	Instances.Refresh();
 	Parts.Objects.GetMotions().Update(Use.bMotion);
 	if (Use.bLightSampling && Parts.Emissive.NeedsUpdate()) { Parts.Emissive.Update(Parts.Objects, Parts.Materials); }

@@ -180,6 +180,12 @@ bool FSectionTable::AffectsSections(const FMaterialData& Old, const FMaterialDat
 	       Old.UVOffset[TEXTURE_BASE_COLOR] != New.UVOffset[TEXTURE_BASE_COLOR] || MakeOpacityKey(Old) != MakeOpacityKey(New);
 }
 
+bool FSectionTable::AffectsShape(const FMaterialData& Old, const FMaterialData& New)
+{
+	const bool bMasked = ((Old.Flags | New.Flags) & MATERIAL_MASKED) != 0;
+	return Old.Flags != New.Flags || (bMasked && MakeOpacityKey(Old) != MakeOpacityKey(New));
+}
+
 void FSectionTable::MaterialChanged(uint32_t Material)
 {
 	if (Material >= UsesOfMaterial.size()) { return; }

@@ -35,6 +35,12 @@ enum class ESignal : uint8_t
 	/// has. A mirror (roughness² < 0.001) is a delta. Alpha is 1, or 0 where the surface is rougher than
 	/// r.RT.Reflections.MaxRoughness. There rgb is the reflection of an unoccluded sky. Sky pixels: 0.
 	Reflections,
+	/// Shadowed light of local lights, which are all but the sun, the sky and emissive surfaces. It is what the diffuse lobe reflects
+	/// towards the camera, over the lobe's directional albedo: irradiance / π. Sky pixels: 0.
+	LocalDiffuse,
+	/// What the specular lobe reflects of these lights, over its directional albedo. A mirror is as rough as a lobe can be seen. Sky
+	/// pixels: 0.
+	LocalSpecular,
 	Count,
 };
 
@@ -77,6 +83,8 @@ struct FSignalInfo
 	/// Folder, shader and passes begin with it: Shaders/<Pass>/<Pass>.rgen, frame-graph passes "<Pass>…". Those passes are the
 	/// signal's cost. "" stands for all passes of the frame.
 	const char* Pass;
+	/// Begins the names of passes that make it and other signals at once. They are a cost of the signal as well. "": there are none.
+	const char* SharedPass;
 	ERTFormat Format;   ///< of the output
 	uint32_t Channels;  ///< 1 or 3
 	bool bRadiance;     ///< unbounded and ≥ 0; if false, 0 to 1
@@ -89,12 +97,16 @@ struct FSignalInfo
 };
 
 inline constexpr FSignalInfo SignalInfos[] = {
-    {ESignal::Frame, "frame", "Whole frame", "", ERTFormat::RGBA32_FLOAT, 3, true, false, true, true, false, ""},
-    {ESignal::SunShadow, "sun_shadow", "Sun shadow", "SunShadow", ERTFormat::R16_FLOAT, 1, false, true, true, false, false, ""},
-    {ESignal::AmbientOcclusion, "ambient_occlusion", "Ambient occlusion", "AmbientOcclusion", ERTFormat::R16_FLOAT, 1, false, false, false,
-        false, false, "r.RT.AO.Radius r.RT.AO.InstanceMask"},
-    {ESignal::DiffuseGI, "diffuse_gi", "Diffuse GI", "DiffuseGI", ERTFormat::RGBA16_FLOAT, 3, true, false, true, false, false, ""},
-    {ESignal::Reflections, "reflections", "Reflections", "Reflections", ERTFormat::RGBA16_FLOAT, 3, true, false, true, true, true, ""},
+    {ESignal::Frame, "frame", "Whole frame", "", "", ERTFormat::RGBA32_FLOAT, 3, true, false, true, true, false, ""},
+    {ESignal::SunShadow, "sun_shadow", "Sun shadow", "SunShadow", "Shadow", ERTFormat::R16_FLOAT, 1, false, true, true, false, false, ""},
+    {ESignal::AmbientOcclusion, "ambient_occlusion", "Ambient occlusion", "AmbientOcclusion", "", ERTFormat::R16_FLOAT, 1, false, false,
+        false, false, false, "r.RT.AO.Radius r.RT.AO.InstanceMask"},
+    {ESignal::DiffuseGI, "diffuse_gi", "Diffuse GI", "DiffuseGI", "", ERTFormat::RGBA16_FLOAT, 3, true, false, true, false, false, ""},
+    {ESignal::Reflections, "reflections", "Reflections", "Reflections", "", ERTFormat::RGBA16_FLOAT, 3, true, false, true, true, true, ""},
+    {ESignal::LocalDiffuse, "local_diffuse", "Local lights, diffuse", "LocalDiffuse", "Shadow", ERTFormat::RGBA16_FLOAT, 3, true, false,
+        true, true, false, ""},
+    {ESignal::LocalSpecular, "local_specular", "Local lights, specular", "LocalSpecular", "Shadow", ERTFormat::RGBA16_FLOAT, 3, true, false,
+        true, true, true, ""},
 };
 static_assert(sizeof(SignalInfos) / sizeof(SignalInfos[0]) == SignalCount, "each signal needs a row");
 static_assert(

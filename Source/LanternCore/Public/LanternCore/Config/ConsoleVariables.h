@@ -89,8 +89,9 @@ public:
 	std::optional<std::string> Set(std::string_view Name, std::string_view Value, ERTSetBy By, std::string_view Where);
 	const FRTConsoleVariable* Find(std::string_view NameOrAlias) const;
 	std::vector<const FRTConsoleVariable*> GetAll() const; ///< sorted by name
-	/// Makes Alias, an old or an engine's name, stand for Name. ConsoleVariableAliases.ini has one line for each.
-	void AddAlias(std::string_view Alias, std::string_view Name);
+	/// Makes Alias, an old or an engine's name, stand for Name. ConsoleVariableAliases.ini has one line for each. Factor: numbers that
+	/// are set by the alias are multiplied by it, since an engine may count in other units. Finite and not 0.
+	void AddAlias(std::string_view Alias, std::string_view Name, double Factor = 1.0);
 	std::vector<std::pair<std::string, std::string>> GetAliases() const;
 
 	/// Publishes values to the render thread and runs the callbacks of those that changed.

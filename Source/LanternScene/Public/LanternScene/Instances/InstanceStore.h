@@ -121,7 +121,8 @@ public:
 	void Set(uint32_t Object, const FInstancePlacement& Placement);
 	void Remove(uint32_t Object);
 	void SetRange(uint32_t Object, uint32_t Range);
-	void SetBinding(uint32_t Range, const FInstanceBinding& Binding);
+	/// Returns whether objects of the range come to be there or cease to be, because their geometry does.
+	bool SetBinding(uint32_t Range, const FInstanceBinding& Binding);
 
 	const FInstanceRecord& GetRecord(uint32_t Object) const { return Records[Object]; }
 	const TPagedArray<FInstanceRecord>& GetRecords() const { return Records; }

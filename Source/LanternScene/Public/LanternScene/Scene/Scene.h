@@ -99,8 +99,8 @@ public:
 
 	/// Returns the material's index. Program is an index of FMaterialPrograms.
 	uint32_t AddMaterial(const FMaterialData& Material, uint32_t Program = StandardProgram) { return Materials.Add(Material, Program); }
-	void SetMaterial(uint32_t Index, const FMaterialData& Material) { Materials.Set(Index, Material); }
-	void SetMaterialProgram(uint32_t Index, uint32_t Program) { Materials.SetProgram(Index, Program); }
+	void SetMaterial(uint32_t Index, const FMaterialData& Material);
+	void SetMaterialProgram(uint32_t Index, uint32_t Program);
 	uint32_t GetMaterialProgram(uint32_t Index) const { return Materials.GetProgram(Index); }
 	/// Frees the index for a material that comes later. No object may use the material.
 	void RemoveMaterial(uint32_t Index) { Materials.Remove(Index); }
@@ -139,8 +139,8 @@ public:
 	/// Makes a texture the sky in place of SetSky's radiance, or not any more. Whoever gives it keeps it while frames may read it.
 	void SetSkyMap(const FSkyMap& Map);
 	/// 0: the scene's materials; 1: each a Lambert of its base colour; 2: each a Lambert of 0.5, alpha tests off.
-	void SetMaterialOverride(uint32_t Override) { Materials.SetOverride(Override); }
-	void SetAlphaTest(bool bEnabled) { Materials.SetAlphaTest(bEnabled); }
+	void SetMaterialOverride(uint32_t Override);
+	void SetAlphaTest(bool bEnabled);
 	/// Hides objects with a section of one of these programs from rays: the program's shaders are missing, and no stand-in is
 	/// wanted. Replaces the set before, and costs something only if the sets differ.
 	void SetMissingPrograms(std::vector<FHitProgram> Programs);
@@ -181,6 +181,8 @@ public:
 	/// Returns the acceleration structure over the instances (TLAS); null before the first frame with rays.
 	IRTScene* GetStructure() const;
 	const FObjectMotions& GetMotions() const { return Objects.GetMotions(); }
+	/// Returns where shadows may have changed, as of the last BeginUpdate and MarkDeformed.
+	const FCasterChanges& GetCasterChanges() const { return Objects.GetCasterChanges(); }
 	FSectionTable& GetSections() { return Materials.GetSections(); }
 	const FInstanceStore& GetInstances() const { return Objects.GetInstances(); }
 	/// Returns the number of instances in the acceleration structure as it is.

@@ -11,6 +11,7 @@
 #include "LanternScene/Instances/InstanceStore.h"
 #include "LanternScene/Memory/GpuTable.h"
 #include "LanternScene/Memory/Slots.h"
+#include "LanternScene/Scene/CasterChanges.h"
 #include "LanternScene/Scene/Object.h"
 #include "LanternScene/Scene/ObjectMotion.h"
 #include "LanternScene/Scene/ObjectPivots.h"
@@ -43,6 +44,8 @@ public:
 	void SetGeometry(FRTObjectId Id, FRTGeometryRef Geometry, std::vector<uint32_t> SectionMaterials);
 	/// Changes nothing but who sees the object: its motion stays.
 	void SetMask(FRTObjectId Id, uint8_t Mask);
+	/// Notes that the shape of all objects with this geometry is another one in this frame.
+	void MarkDeformed(const FRTGeometryRef& Geometry);
 	/// See FRTScene::SetBounds.
 	void SetBounds(const FRTGeometryRef& Geometry, const FBoundingSphere& Bounds);
 	const FRTObjectInfo& Get(FRTObjectId Id) const { return Resolve(Id).Info; }
@@ -68,6 +71,9 @@ public:
 	const FInstanceStore& GetInstances() const { return Instances; }
 	FObjectMotions& GetMotions() { return Motions; }
 	const FObjectMotions& GetMotions() const { return Motions; }
+	/// Where shadows may have changed.
+	FCasterChanges& GetCasterChanges() { return CasterChanges; }
+	const FCasterChanges& GetCasterChanges() const { return CasterChanges; }
 	FObjectPivots& GetPivots() { return Pivots; }
 	const FObjectPivots& GetPivots() const { return Pivots; }
 
@@ -82,9 +88,13 @@ private:
 	const FObject& Resolve(FRTObjectId Id) const { return const_cast<FSceneObjects*>(this)->Resolve(Id); }
 	void Place(uint32_t Slot);
 	void Write(uint32_t Slot);
+	void WriteCasterRadius(uint32_t Slot);
+	float GetCasterRadius(uint32_t Slot) const;
 	void JoinGeometry(uint32_t Slot);
 	void LeaveGeometry(uint32_t Slot);
 	void MarkEmissive(FSectionRangeId Range);
+	void NoteCaster(const FInstanceRecord& Before, const FInstanceRecord& After);
+	void NoteCaster(uint32_t Slot);
 
 	FSectionTable& Sections;
 	FEmissiveTriangles& Emissive;
@@ -94,6 +104,7 @@ private:
 	std::unordered_map<const FRTGeometry*, std::vector<uint32_t>> DynamicUsers; // objects of dynamic geometries
 	TGpuTable<FObjectData> Table{"Objects"};
 	FObjectMotions Motions{Table};
+	FCasterChanges CasterChanges;
 	FObjectPivots Pivots;
 	FInstanceStore Instances;
 };

@@ -68,6 +68,8 @@ public:
 
 	/// Tells whether MaterialChanged would do anything. False for an animated colour, for example.
 	static bool AffectsSections(const FMaterialData& Old, const FMaterialData& New);
+	/// Tells whether rays may meet other surfaces: an alpha test or a facing changed. False for a lamp that flickers.
+	static bool AffectsShape(const FMaterialData& Old, const FMaterialData& New);
 	/// Rewrites the sections of a material that changed or has another program. O(sections that use it).
 	void MaterialChanged(uint32_t Material);
 	bool IsMaterialUsed(uint32_t Material) const { return Material < UsesOfMaterial.size() && !UsesOfMaterial[Material].empty(); }

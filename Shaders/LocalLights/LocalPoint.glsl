@@ -1,0 +1,51 @@
+// The point of a light that a pixel asks about: the requests, the rays and the shading of a frame must agree on it.
+#ifndef LANTERN_LOCAL_POINT_GLSL
+#define LANTERN_LOCAL_POINT_GLSL
+
+#include "../Shared/LocalLightTypes.h"
+#include "../Library/GBuffer.glsl"
+#include "../Library/Lights.glsl"
+#include "../Library/Random.glsl"
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FTileLightsRef { FTileLights Data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FLightChoiceRef { FLightChoice Data[]; };
+
+// A surface that local lights reach.
+struct FLocalPoint
+{
+	FGBufferPoint Surface;
+	vec3 P;       // where its rays start, relative to the scene's origin
+	vec3 Horizon; // normal of the plane below which lights do not count
+};
+
+FLocalPoint LoadLocalPoint(FSceneConstants Scene, FViewConstants View, uint Normals, uvec2 Pixel, float Depth)
+{
+	FLocalPoint Point;
+	Point.Surface = LoadGBufferPoint(View, Normals, ivec2(Pixel), Depth);
+	Point.P = RasterRayOrigin(Scene, View, Point.Surface);
+	Point.Horizon = Point.Surface.bSure ? Point.Surface.Ng : Point.Surface.BentN;
+	return Point;
+}
+
+// Two numbers in [0, 1) that stratify over the pixels of a tile and over frames. Purpose: each has numbers of its own.
+vec2 LocalNumbers(FViewConstants View, uvec2 Pixel, uint Purpose)
+{
+	FTileSequence Sequence = MakeTileSequence(Pixel, View.FrameIndex, HashPcg(View.Seed + 0x85ebca6bu * (Purpose + 1u)));
+	return SobolOwen2(Sequence.Index, Sequence.Seed);
+}
+
+FLightSample SampleLocalLight(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, uvec2 Pixel, uint Light)
+{
+	vec2 U = vec2(0.0);
+#ifdef HAS_AREA_LIGHTS
+	U = LocalNumbers(View, Pixel, Light);
+#endif
+	return SampleLight(Scene, FLightRef(Scene.Lights).Data[Light], Point.P, U);
+}
+
+bool ReachesLight(FViewConstants View, FLocalPoint Point, FLightSample Sample)
+{
+	return MaxComponent(Sample.Irradiance) > 0.0 && LeavesSurface(View, Point.Surface, Sample.Direction);
+}
+
+#endif

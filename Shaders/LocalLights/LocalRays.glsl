@@ -1,0 +1,39 @@
+// Traces rays to local lights, for ShadowQueue.glsl, which declares what this needs.
+#ifndef LANTERN_LOCAL_RAYS_GLSL
+#define LANTERN_LOCAL_RAYS_GLSL
+
+#include "../Library/Casters.glsl"
+#include "../Tiles/Tile.glsl"
+#include "LocalPoint.glsl"
+
+bool SeesLight(uint Index, uint Light)
+{
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
+	uvec2 Pixel = uvec2(Index % View.Width, Index / View.Width);
+	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, LoadDepth(Push.Depth, ivec2(Pixel)));
+	FLightSample Sample = SampleLocalLight(Scene, View, Point, Pixel, Light);
+	if (!ReachesLight(View, Point, Sample)) { return false; }
+	float Length = LightRayLength(Sample, Point.P, Scene.ObjectReach);
+	return TraceShadowRay(Point.P, Sample.Direction, Length, Push.RayFlags, LocalCasters(ShowsCharacter(Scene, Pixel))) < 0.0;
+}
+
+void TraceLocal(uint Index, uint Slot)
+{
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	uvec2 Tile = uvec2(Index % View.Width, Index / View.Width) / TILE_SIZE;
+	uint Light = FTileLightsRef(Push.TileLights).Data[TileIndex(View, Tile)].Lights[Slot];
+	uint Answer = (1u << (ANSWER_LOCAL_TRACED + Slot)) | (SeesLight(Index, Light) ? 1u << (ANSWER_LOCAL_SEEN + Slot) : 0u);
+	atomicOr(FAnswerRef(Push.Answers).Data[Index], Answer);
+}
+
+#ifdef MANY_LIGHTS
+void TraceChosen(uint Index)
+{
+	uint Light = FLightChoiceRef(Push.Choices).Data[Index].Light;
+	uint Answer = (1u << ANSWER_CHOSEN_TRACED) | (SeesLight(Index, Light) ? 1u << ANSWER_CHOSEN_SEEN : 0u);
+	atomicOr(FAnswerRef(Push.Answers).Data[Index], Answer);
+}
+#endif
+
+#endif

@@ -1,0 +1,142 @@
+// Shadowed light of local lights, in its two lobes.
+#include "LocalLights/LocalLights.h"
+
+#include "Denoise/Denoise.h"
+#include "Lighting/DirectLighting.h"
+#include "LocalLightTypes.h"
+#include "LocalLights/LocalRequests.h"
+#include "SignalPasses.h"
+#include "Tiles/Tiles.h"
+
+namespace Lantern
+{
+
+namespace
+{
+TRTConsoleVariable<bool> CVarLights(
+    "r.RT.Lights", true, "Traces shadows of lights other than the sun. If off, these lights shine through everything (r.RT.LocalLights).");
+TRTConsoleVariable<int32_t> CVarExact("r.RT.Lights.Exact", 4,
+    "Most lights of a tile of 8 x 8 pixels that all get a ray from each pixel. Each pixel of a tile with more chooses one light.",
+    {1, TILE_LIGHTS});
+const FDenoiseVariables Denoise("r.RT.Lights", FDenoiseDefaults{.bColor = true});
+
+uint32_t GetExact() { return static_cast<uint32_t>(CVarExact.GetOnRenderThread()); }
+
+FShaderSource MakeShadeSource(const FSceneFacts& Facts, uint32_t Exact)
+{
+	return MakeComputeSource("LocalLights/Shade.comp", MakeLocalDefines(Facts, Exact));
+}
+
+/// Adds the pass that shades, once a frame for either lobe.
+FLocalLobes AddShadePass(FFrameContext& Context, const FGBuffer& GBuffer, const FShadowRays& Rays, IRTPipeline* Pipeline)
+{
+	const auto Create = [&](const char* Name) {
+		return Context.Graph.CreateTexture(
+		    {Context.Width, Context.Height, ERTFormat::RGBA16_FLOAT, ERTTextureUsage::CopySource}, Name); // engines copy it
+	};
+	const FLocalLobes Lobes{Create("LocalDiffuse"), Create("LocalSpecular")};
+	const FFrameContext* const Frame = &Context;
+	const FShadowRays Inputs = Rays;
+	Context.Graph.AddPass("ShadowLightsShade", [&](FPassBuilder& Builder) -> FPassExecute {
+		for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals, GBuffer.BaseColor, GBuffer.Material})
+		{
+			Builder.Read(Texture, ERTAccess::ShaderRead);
+		}
+		for (const FGraphBuffer Buffer : {Inputs.Queue.Answers, Inputs.Traced.TileLights, Inputs.Traced.Choices})
+		{
+			if (Buffer.IsValid()) { Builder.Read(Buffer, ERTAccess::ShaderRead); }
+		}
+		for (const FGraphTexture Texture : {Lobes.Diffuse, Lobes.Specular}) { Builder.WriteIfRead(Texture, ERTAccess::StorageWrite); }
+		Builder.AllowAsync();
+		return [=](FPassContext& Pass) {
+			const auto AddressOf = [&](FGraphBuffer Buffer) { return Buffer.IsValid() ? Pass.GetBuffer(Buffer)->GetDeviceAddress() : 0; };
+			FLocalShadeConstants C{};
+			C.Pass = Frame->Pass;
+			C.TileLights = AddressOf(Inputs.Traced.TileLights);
+			C.Choices = AddressOf(Inputs.Traced.Choices);
+			C.Answers = AddressOf(Inputs.Queue.Answers);
+			C.Depth = GetSampledIndex(Pass, GBuffer.Depth);
+			C.Normals = GetSampledIndex(Pass, GBuffer.Normals);
+			C.BaseColor = GetSampledIndex(Pass, GBuffer.BaseColor);
+			C.Material = GetSampledIndex(Pass, GBuffer.Material);
+			C.OutDiffuse = GetStorageIndex(Pass, Lobes.Diffuse);
+			C.OutSpecular = GetStorageIndex(Pass, Lobes.Specular);
+			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
+		};
+	});
+	return Lobes;
+}
+
+/// Null: there are no rays, or shaders are being compiled.
+const FLocalLobes* RequireLobes(FFrameContext& Context, const FGBuffer& GBuffer)
+{
+	const FShadowRays* const Rays = RequireShadowRays(Context, GBuffer);
+	if (!Rays || !Rays->Traced.TileLights.IsValid()) { return nullptr; }
+	if (!Context.LocalLobes)
+	{
+		IRTPipeline* const Pipeline = RequireCompute(Context, MakeShadeSource(Context.Facts, GetExact()));
+		if (!Pipeline) { return nullptr; }
+		Context.LocalLobes = std::make_shared<const FLocalLobes>(AddShadePass(Context, GBuffer, *Rays, Pipeline));
+	}
+	return Context.LocalLobes.get();
+}
+
+FGraphTexture AddLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESignal Signal)
+{
+	if (ChooseSignalRays(Context, Signal).Path == ERayPath::None) { return {}; }
+	const FLocalLobes* const Lobes = RequireLobes(Context, GBuffer);
+	if (!Lobes) { return {}; }
+	const FGraphTexture Lobe = Signal == ESignal::LocalDiffuse ? Lobes->Diffuse : Lobes->Specular;
+	if (!Denoise.IsEnabled()) { return Lobe; }
+	FDenoiseInputs Inputs;
+	Inputs.Name = GetSignalInfo(Signal).Pass;
+	Inputs.Signal = Lobe;
+	return AddDenoise(Context, GBuffer, Inputs, Denoise);
+}
+} // namespace
+
+FPassRays ChooseLocalLightRays(const FPassQuery& Query)
+{
+	FPassRays Rays;
+	if (Query.Facts.Lights == 0 || !IsRayTracingEnabled() || !CVarLights.GetOnRenderThread()) { return Rays; }
+	if (!Query.Requests.bNothingElse && !HasLocalLight()) { return Rays; } // the composite shows none
+	Rays.Path = ChooseQueuePath(Query, "shadows of local lights are");
+	Rays.Defines = MakeLocalDefines(Query.Facts, GetExact());
+	Rays.Defines.emplace_back("LOCAL_RAYS", "1");
+	AddReceiverDefines(Query.Facts, Rays.Defines);
+	Rays.Shaders = ShadowQueueShaders;
+	Rays.Compute = {MakeShadeSource(Query.Facts, GetExact())};
+	ListLocalRequestShaders(Query.Facts, GetExact(), Rays.Compute);
+	return Rays;
+}
+
+bool AskLocalRays(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowRayWishes& InOut)
+{
+	const uint32_t Exact = GetExact();
+	const bool bMany = MayChooseLights(Context.Facts, Exact);
+	// A variant from before a change may lack what the lights of now need.
+	if (!Dispatch.Has("LOCAL_RAYS") || (bMany && !Dispatch.Has("MANY_LIGHTS"))) { return false; }
+	if (Context.Facts.bAreaLights && !Dispatch.Has("HAS_AREA_LIGHTS")) { return false; }
+	if (!AreLocalRequestsReady(Context, Exact) || !RequireCompute(Context, MakeShadeSource(Context.Facts, Exact))) { return false; }
+	InOut.Local = FLocalRays{Exact, GetLocalRaysPerPixel(Context.Facts, Exact), bMany};
+	return true;
+}
+
+bool AreLocalLightsFiltered(const FRTScene&) { return Denoise.IsEnabled(); }
+
+void ListLocalLightFilters(const FRTScene&, std::vector<FShaderSource>& Out)
+{
+	if (Denoise.IsEnabled()) { ListDenoiseShaders(true, false, Denoise.Get(), Out); }
+}
+
+FGraphTexture AddLocalDiffusePass(FFrameContext& Context, const FGBuffer& GBuffer)
+{
+	return AddLobe(Context, GBuffer, ESignal::LocalDiffuse);
+}
+
+FGraphTexture AddLocalSpecularPass(FFrameContext& Context, const FGBuffer& GBuffer)
+{
+	return AddLobe(Context, GBuffer, ESignal::LocalSpecular);
+}
+
+} // namespace Lantern

@@ -1,0 +1,18 @@
+// ESignal::LocalDiffuse and ESignal::LocalSpecular: shadowed light of lights other than the sun. One pass shades for either.
+#pragma once
+
+#include "Rays/ShadowRays.h"
+
+namespace Lantern
+{
+
+FPassRays ChooseLocalLightRays(const FPassQuery& Query);
+bool AskLocalRays(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowRayWishes& InOut);
+/// Read Depth, Normals, BaseColor, Material and, if there is any, Motion of the G-buffer.
+FGraphTexture AddLocalDiffusePass(FFrameContext& Context, const FGBuffer& GBuffer);
+FGraphTexture AddLocalSpecularPass(FFrameContext& Context, const FGBuffer& GBuffer);
+/// Returns whether the light of local lights, if there is any, is filtered over frames.
+bool AreLocalLightsFiltered(const FRTScene& Scene);
+void ListLocalLightFilters(const FRTScene& Scene, std::vector<FShaderSource>& Out);
+
+} // namespace Lantern

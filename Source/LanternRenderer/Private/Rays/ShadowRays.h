@@ -1,0 +1,43 @@
+// The shadow rays of a frame. All signals that want some share one queue and one trace, whichever of them is added first.
+#pragma once
+
+#include <optional>
+
+#include "Tiles/SettledTiles.h"
+
+namespace Lantern
+{
+
+/// Rays towards lights other than the sun.
+struct FLocalRays
+{
+	uint32_t Exact = 0;    ///< most lights of a tile that all get rays, 1 to 8
+	uint32_t PerPixel = 0; ///< most rays of a pixel
+	bool bMany = false;    ///< tiles may have more; each of their pixels chooses one
+};
+
+/// What signals ask for in one frame.
+struct FShadowRayWishes
+{
+	FSunRays Sun;
+	bool bSunWidths = false; ///< FRayQueue::SunWidths
+	FSunRates SunRates;
+	bool bSunFiltered = false; ///< what becomes of the sun's rays is accumulated over frames
+	std::optional<FLocalRays> Local;
+};
+
+/// Buffers of one frame, after the rays.
+struct FShadowRays
+{
+	FRayQueue Queue;
+	FGraphBuffer Tiles; ///< FTile[]; invalid: nobody asks for the sun
+	FSunRays Sun;
+	FSettledTiles Settled;
+	FQueuedRays Traced;
+};
+
+/// Adds the passes of the frame's shadow rays with the first call, and returns what they fill. Each signal whose row has
+/// FSignalPass::AskShadowRays is asked. Null: nobody wants any, or shaders are being compiled, or an error, which the context then has.
+const FShadowRays* RequireShadowRays(FFrameContext& Context, const FGBuffer& GBuffer);
+
+} // namespace Lantern

@@ -1,0 +1,41 @@
+// FCasterChanges tells where shadows may have changed: which casters moved, came, went, changed their shape or were deformed, with
+// their bounds before and after. Whoever keeps shadows from frame to frame asks for what changed since a frame of its own.
+//
+// A note costs O(1) and no memory but that of the last MostKept notes, which is allocated with the first one. Threads: one at a time.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace Lantern
+{
+
+struct FCasterChange
+{
+	glm::dvec3 From{0}, To{0}; ///< centres of the bounding sphere before and after, in the world
+	double Radius = 0.0;       ///< of the larger sphere, metres
+};
+
+class FCasterChanges
+{
+public:
+	static constexpr uint32_t MostKept = 256;
+
+	/// A sphere that is not finite may be anywhere.
+	void Add(const FCasterChange& Change);
+	/// Notes a change that may have moved any shadow.
+	void AddAnywhere();
+	/// Returns how many changes were noted so far.
+	uint64_t GetCount() const { return Count; }
+	/// Sets Out to the changes after the first Since. False: they are too many, or some may be anywhere. Since ≤ GetCount().
+	bool Find(uint64_t Since, std::vector<FCasterChange>& Out) const;
+
+private:
+	std::vector<FCasterChange> Last; // ring of the last MostKept; entry I holds change I modulo MostKept
+	uint64_t Count = 0;
+	uint64_t Anywhere = 0; // value of Count behind the last AddAnywhere
+};
+
+} // namespace Lantern

@@ -1,0 +1,256 @@
+// Shadowed local lights against the reference, in tiles of few and of many lights; queues without room; numbers that break others.
+#include <cmath>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "LanternImage/ImageStatistics.h"
+#include "SignalFixture.h"
+
+namespace Lantern
+{
+
+namespace
+{
+constexpr ESignal Lobes[] = {ESignal::LocalDiffuse, ESignal::LocalSpecular};
+
+class FLocalLightsTest : public FSignalTest
+{
+protected:
+	void SetUp() override
+	{
+		FSignalTest::SetUp();
+		SetVariable("r.RT.Lights.Denoise", "0"); // the filter weighs outliers less
+	}
+	/// A floor of which half is glossy, four posts on it, and no light.
+	void LoadPosts()
+	{
+		FTestScene Scene("posts");
+		FHostMaterial Glossy;
+		Glossy.BaseColor = glm::vec4(0.6f, 0.4f, 0.3f, 1.0f);
+		Glossy.Metallic = 0.0f;
+		Glossy.Roughness = 0.4f;
+		const int32_t Floor = Scene.AddLambert(glm::vec3(0.5f)), Shiny = Scene.AddMaterial(Glossy);
+		Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Floor, 4.0f, 0.0f, {-4, 0}), FTestScene::MakeFloor(Shiny, 4.0f, 0.0f, {4, 0})}));
+		const int32_t Post = Scene.AddMesh(
+		    {{Scene.AddLambert(glm::vec3(0.5f), glm::vec3(0), true), {{-0.3f, 0, 0}, {0.3f, 0, 0}, {0.3f, 1.2f, 0}, {-0.3f, 1.2f, 0}}}});
+		for (const glm::dvec3 At : {glm::dvec3(-1.5, 0, 0.3), {-0.4, 0, -0.6}, {0.6, 0, 0.5}, {1.6, 0, -0.4}})
+		{
+			Scene.AddNode(Post, glm::translate(glm::dmat4(1), At));
+		}
+		ASSERT_TRUE(Load(std::move(Scene.Scene)));
+		SetSun(0.0, 0.0f);
+		SetSky(glm::vec3(0));
+	}
+	static FRTScene& GetWorld() { return GetScene().GetScene(); }
+	/// Point lights over the floor, every fourth one a sphere, every fifth a spot.
+	static std::vector<FLightId> AddLamps(uint32_t Count)
+	{
+		std::vector<FLightId> Ids;
+		for (uint32_t I = 0; I < Count; ++I)
+		{
+			const double Angle = 2.4 * I, Far = 2.6 * std::sqrt((I + 0.5) / Count);
+			FSceneLight Light;
+			Light.Position = {Far * std::cos(Angle), 0.5 + 0.13 * (I % 9), Far * std::sin(Angle)};
+			Light.Color = glm::vec3(1.0f + float(I % 3), 1.5f, 0.7f + 0.4f * float(I % 5)) * (4.0f / float(Count));
+			Light.Range = I % 2 == 0 ? 0.0f : 3.0f;
+			if (I % 4 == 3)
+			{
+				Light.Type = LIGHT_SPHERE;
+				Light.Size = {0.1, 0};
+				Light.Color *= 30.0f;
+			}
+			if (I % 5 == 4)
+			{
+				Light.InnerCone = 0.4f;
+				Light.OuterCone = 0.9f;
+			}
+			Ids.push_back(GetWorld().AddLight(Light));
+		}
+		return Ids;
+	}
+	static FView LookAtPosts(uint32_t Width, uint32_t Height) { return LookAt({0, 3.0, 4.5}, {0, 0.2, 0}, 0.9f, Width, Height); }
+};
+
+TEST_F(FLocalLightsTest, FewAndManyAsTheReference)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadPosts());
+	const FView View = LookAtPosts(64, 36);
+	for (const uint32_t Count : {1u, 4u, 8u, 64u})
+	{
+		const std::vector<FLightId> Ids = AddLamps(Count);
+		for (const ESignal Lobe : Lobes)
+		{
+			const std::string Name = fmt::format("{} lights, {}", Count, GetSignalInfo(Lobe).Name);
+			ExpectUnbiased(Name.c_str(), Lobe, View, Count > 4 ? 96 : 32, Count > 4 ? 384 : 128, 1, 0.005);
+		}
+		for (const FLightId Id : Ids) { GetWorld().RemoveLight(Id); }
+	}
+}
+
+TEST_F(FLocalLightsTest, PathsAgree)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadPosts());
+	AddLamps(6);
+	for (const char* const Exact : {"8", "1"})
+	{
+		SetVariable("r.RT.Lights.Exact", Exact);
+		for (const ESignal Lobe : Lobes)
+		{
+			SetVariable("r.RT.Shadow.Path", "1");
+			const FImage Pipeline = RenderSignal(Lobe, LookAtPosts(64, 36), 1, 3);
+			SetVariable("r.RT.Shadow.Path", "2");
+			const FImage Query = RenderSignal(Lobe, LookAtPosts(64, 36), 1, 3);
+			EXPECT_GT(MeanGreen(Query), 0.0);
+			EXPECT_EQ(Pipeline.Pixels, Query.Pixels) << GetSignalInfo(Lobe).Name << ", exact " << Exact;
+		}
+	}
+}
+
+// The composite holds either lobe once, and nothing of the light without shadows.
+TEST_F(FLocalLightsTest, CompositeAsTheWholeFrame)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadPosts());
+	AddLamps(4);
+	const FView View = LookAtPosts(64, 36);
+	std::vector<double> Ours, Theirs;
+	for (uint32_t Batch = 0; Batch < 6; ++Batch)
+	{
+		FView Seeded = View;
+		Seeded.Seed = 1 + Batch;
+		Ours.push_back(ComputeMeans(RenderLighting(Seeded)).Luminance);
+		FReferenceSettings Settings;
+		Settings.View = Seeded;
+		Settings.Samples = 96;
+		Settings.Bounces = 1;
+		Settings.bPixelCenters = true;
+		Theirs.push_back(ComputeMeans(TraceReference(Settings)).Luminance);
+	}
+	ExpectClosedForm("composite of local lights over the reference", MakeEstimate(Ours), MakeEstimate(Theirs).Mean, 0.005);
+	SetVariable("r.RT.Lights", "0");
+	EXPECT_GT(ComputeMeans(RenderLighting(View)).Luminance, 1.05 * MakeEstimate(Theirs).Mean) << "there is a shadow to lose";
+}
+
+TEST_F(FLocalLightsTest, PlantedFaultIsSeen)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadPosts());
+	AddLamps(16);
+	const FView View = LookAtPosts(48, 27);
+	const double Right = EstimateFrames(ESignal::LocalDiffuse, View, 8).Mean;
+	SetVariable("r.RT.Debug.Lights.Weight", "0");
+	EXPECT_LT(EstimateFrames(ESignal::LocalDiffuse, View, 8).Mean, 0.9 * Right);
+}
+
+TEST_F(FLocalLightsTest, LightsWithoutShadowsShineThroughPosts)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadPosts());
+	const std::vector<FLightId> Ids = AddLamps(3);
+	const FView View = LookAtPosts(64, 36);
+	const double Shadowed = MeanGreen(RenderSignal(ESignal::LocalDiffuse, View));
+	for (const FLightId Id : Ids)
+	{
+		FSceneLight Light = GetWorld().GetLights().Get(Id);
+		Light.bCastsShadow = false;
+		GetWorld().SetLight(Id, Light);
+	}
+	for (const char* const Exact : {"8", "1"})
+	{
+		SetVariable("r.RT.Lights.Exact", Exact);
+		const FImage Composite = RenderLighting(View);
+		SetVariable("r.RT.Lights", "0");
+		const FImage Unshadowed = RenderLighting(View);
+		SetVariable("r.RT.Lights", "1");
+		// One light chosen of three is noise, whose mean over the picture is known to a few percent.
+		const double Tolerance = *Exact == '8' ? 0.002 : 0.05;
+		EXPECT_NEAR(MeanGreen(Composite) / MeanGreen(Unshadowed), 1.0, Tolerance) << Exact;
+	}
+	SetVariable("r.RT.Lights.Exact", "8");
+	EXPECT_GT(MeanGreen(RenderSignal(ESignal::LocalDiffuse, View)), 1.02 * Shadowed);
+}
+
+// Rays without room take the mean of their tile's others. Which rays have room does not depend on the order of tiles.
+TEST_F(FLocalLightsTest, QueueWithoutRoom)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadPosts());
+	AddLamps(4);
+	const FView View = LookAtPosts(131, 73);
+	const auto Play = [&](const char* PerPixel) {
+		SetVariable("r.RT.Rays.QueuePerPixel", PerPixel == std::string("4") ? "5" : "4"); // another value: demand is forgotten
+		GetEngine().SetFrameIndex(0);
+		EXPECT_OK(GetEngine().RenderFrame(MakeView(8, 8), 0.0, {}, nullptr));
+		SetVariable("r.RT.Rays.QueuePerPixel", PerPixel);
+		std::vector<FImage> Pictures;
+		for (uint32_t Frame = 0; Frame < 4; ++Frame) { Pictures.push_back(RenderSignal(ESignal::LocalDiffuse, View, 1, Frame)); }
+		return Pictures;
+	};
+	for (const char* const Exact : {"4", "1"})
+	{
+		SetVariable("r.RT.Lights.Exact", Exact);
+		const std::vector<FImage> Right = Play("8"), Small = Play("0.5"), Again = Play("0.5");
+		for (size_t Frame = 0; Frame < Small.size(); ++Frame) { EXPECT_EQ(Small[Frame].Pixels, Again[Frame].Pixels) << Frame; }
+		EXPECT_NE(Small[0].Pixels, Right[0].Pixels) << "all had room";
+		EXPECT_NEAR(MeanGreen(Small[0]) / MeanGreen(Right[0]), 1.0, 0.05) << Exact;
+		EXPECT_EQ(Small[3].Pixels, Right[3].Pixels) << "the queue has grown";
+		for (const FImage& Picture : Play("0.01")) { EXPECT_EQ(CountNonFinitePixels(Picture), 0u); }
+	}
+}
+
+TEST_F(FLocalLightsTest, OddSizes)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadPosts());
+	FSceneLight Light;
+	Light.Type = LIGHT_DIRECTIONAL;
+	Light.Color = glm::vec3(2);
+	for (const uint32_t Count : {3u, 7u})
+	{
+		std::vector<FLightId> Ids;
+		for (uint32_t I = 0; I < Count; ++I) { Ids.push_back(GetWorld().AddLight(Light)); }
+		for (const auto& [X, Y] : {std::pair{1u, 1u}, {7u, 3u}, {9u, 1u}, {1u, 17u}, {131u, 73u}})
+		{
+			// A bare part of the floor: each pixel has all of the light.
+			const FImage Picture = RenderSignal(ESignal::LocalDiffuse, LookAt({-6, 2, 0}, {-6, 0, 0.01}, 0.2f, X, Y));
+			for (size_t Pixel = 0; Pixel < size_t(X) * Y; ++Pixel)
+			{
+				ASSERT_NEAR(Picture.Pixels[Pixel * Picture.Channels], 2.0 * Count / 3.14159265, 0.01 * Count) << X << " x " << Y;
+			}
+		}
+		for (const FLightId Id : Ids) { GetWorld().RemoveLight(Id); }
+	}
+}
+
+// Values that overflow or divide by zero elsewhere: none comes out, and other lights stay as they are.
+TEST_F(FLocalLightsTest, ExtremeLights)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadPosts());
+	AddLamps(2);
+	const FView View = LookAtPosts(48, 27);
+	const FImage Before = RenderSignal(ESignal::LocalDiffuse, View);
+	std::vector<FSceneLight> Extreme(6);
+	Extreme[0].Color = glm::vec3(1e9f);
+	Extreme[1].Position = {0.6, 0.6, 0.5}; // within a post
+	Extreme[1].Color = glm::vec3(1e9f);
+	Extreme[2].Range = 1e-6f;
+	Extreme[3].Type = LIGHT_SPHERE;
+	Extreme[3].Size = {1e-6f, 0};
+	Extreme[3].Color = glm::vec3(1e9f);
+	Extreme[4].OuterCone = 1e-4f;
+	Extreme[4].Position = {0, 3, 0};
+	Extreme[4].Color = glm::vec3(100);
+	Extreme[5].OuterCone = 3.14159f;
+	Extreme[5].InnerCone = 3.1f;
+	Extreme[5].Color = glm::vec3(1);
+	for (const FSceneLight& Light : Extreme)
+	{
+		const FLightId Id = GetWorld().AddLight(Light);
+		for (const char* const Exact : {"8", "1"})
+		{
+			SetVariable("r.RT.Lights.Exact", Exact);
+			for (const ESignal Lobe : Lobes) { EXPECT_EQ(CountNonFinitePixels(RenderSignal(Lobe, View)), 0u); }
+		}
+		GetWorld().RemoveLight(Id);
+	}
+	SetVariable("r.RT.Lights.Exact", "4");
+	EXPECT_EQ(RenderSignal(ESignal::LocalDiffuse, View).Pixels, Before.Pixels);
+}
+
+} // namespace
+} // namespace Lantern
