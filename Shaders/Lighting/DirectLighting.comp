@@ -4,6 +4,7 @@
 #version 460
 #include "../Shared/LightingTypes.h"
 #include "../Library/GBuffer.glsl"
+#include "../Library/LightCells.glsl"
 #include "../Library/Lights.glsl"
 #include "../Library/Random.glsl"
 #include "../Library/SkyLight.glsl"
@@ -37,7 +38,8 @@ vec3 ShadeDirect(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, FGBuff
 	vec3 P = View.CameraPosition + Point.Relative;
 	FRandom Random = MakeRandom(uvec2(Pixel), View.FrameIndex, View.Seed);
 	FLightRef Lights = FLightRef(Scene.Lights);
-	for (uint I = 0; I < Scene.LightCount; ++I)
+	FLightWalk Walk = WalkLights(Scene, P, false);
+	for (uint I = NextLight(Walk); I < Scene.LightCount; I = NextLight(Walk))
 	{
 #ifdef HAS_AREA_LIGHTS
 		if (EstimateLight(Scene, Lights.Data[I], P, Point.Ng) <= 0.0) { continue; }

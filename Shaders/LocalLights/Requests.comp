@@ -4,6 +4,9 @@
 #include "../Rays/RayQueue.glsl"
 #include "../Tiles/Tile.glsl"
 #include "LocalPoint.glsl"
+#ifdef MANY_LIGHTS
+#include "../Library/LightCells.glsl"
+#endif
 
 layout(local_size_x = TILE_PIXELS) in;
 layout(push_constant, scalar) uniform FPush { FLocalRequestsConstants Push; };
@@ -98,14 +101,15 @@ void ListLights(FSceneConstants Scene)
 }
 
 #ifdef MANY_LIGHTS
-// Chooses a light with a probability proportional to EstimateLight, by weighted reservoir sampling over all of them. Returns whether
-// it asks for a ray.
+// Chooses a light with a probability proportional to EstimateLight, by weighted reservoir sampling over all that reach
+// the pixel. Returns whether it asks for a ray.
 bool ChooseLight(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, uvec2 Pixel, out FLightChoice Choice)
 {
 	FLightRef Lights = FLightRef(Scene.Lights);
 	float U = LocalNumbers(View, Pixel, 0xffffffffu).x, Total = 0.0, Chosen = 0.0;
 	Choice = FLightChoice(0u, 0.0);
-	for (uint I = 0u; I < Scene.LightCount; ++I)
+	FLightWalk Walk = WalkLights(Scene, Point.P, true); // rays start a little beside the surface, where no other pass asks
+	for (uint I = NextLight(Walk); I < Scene.LightCount; I = NextLight(Walk))
 	{
 		float Weight = EstimateLight(Scene, Lights.Data[I], Point.P, Point.Horizon);
 		if (Weight <= 0.0) { continue; }

@@ -8,6 +8,9 @@
 #define LANTERN_PATH_LIGHTS_GLSL
 
 #include "../Library/Casters.glsl"
+#if defined(HAS_LIGHTS) && defined(LIGHT_CELLS_OF_VIEW)
+#include "../Library/LightCells.glsl"
+#endif
 
 bool IsVisible(FSceneConstants Scene, uint Casters, vec3 Origin, vec3 Direction, float Distance)
 {
@@ -50,14 +53,20 @@ vec3 SampleSky(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, ve
 #endif
 
 #ifdef HAS_LIGHTS
-// Samples one light with a probability proportional to EstimateLight, by weighted reservoir sampling over all.
+// Samples one light with a probability proportional to EstimateLight, by weighted reservoir sampling over all that may matter.
 // U: chooses the light; PointU: the point on one with an extent.
+// LIGHT_CELLS_OF_VIEW: looks them up in light cells. Not defined, as in the reference: visits all lights.
 vec3 SampleLocalLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, float U, vec2 PointU)
 {
 	FLightRef Lights = FLightRef(Scene.Lights);
 	float TotalWeight = 0.0, ChosenWeight = 0.0;
 	uint Chosen = 0u;
+#ifdef LIGHT_CELLS_OF_VIEW
+	FLightWalk Walk = WalkLights(Scene, P, true);
+	for (uint I = NextLight(Walk); I < Scene.LightCount; I = NextLight(Walk))
+#else
 	for (uint I = 0; I < Scene.LightCount; ++I)
+#endif
 	{
 		float Weight = EstimateLight(Scene, Lights.Data[I], P, Ng);
 		if (Weight <= 0.0) { continue; }

@@ -220,8 +220,9 @@ struct FSceneConstants
 	FAddress AnyHitCounter; // uint: counts alpha tests of rays, if r.RT.Opacity.Count is on
 	FAddress StandInHits;   // uint[], by material: rays that hit a stand-in of its shader; 0: not counted
 	FAddress ObjectMotions; // FObjectMotion[]; 0: nothing moved
+	FAddress LightCells;    // FLightGrid of the view; 0: look-ups find all lights
 };
-LANTERN_ASSERT_SIZE(FSceneConstants, 200);
+LANTERN_ASSERT_SIZE(FSceneConstants, 208);
 
 // A camera, as passes see it whatever the host's conventions are: FView has them, HostProjection.h makes it of a matrix.
 // Positions are relative to the scene's origin.

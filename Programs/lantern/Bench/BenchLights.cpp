@@ -141,12 +141,19 @@ void FBenchLightsOptions::AddTo(CLI::App& App)
 	App.add_option("--lights", Sizes, "Lights in the scene; may be given several times")->check(CLI::Range(1, 16'000'000));
 	App.add_option("--changed", Moved, "Lights that change in a frame")->check(CLI::Range(1, 1'000'000));
 	App.add_option("--frames", Frames, "Frames of each measurement")->check(CLI::Range(8, 1'000'000));
+	App.add_flag("--pictures", bPictures, "Measures frames of the built-in scene lamps on the device instead, with few and many lamps");
+	App.add_option("--lamps", Pictures.Lamps, "Lamps of --pictures; may be given several times")->check(CLI::Range(1, 10'000));
+	App.add_option("--rounds", Pictures.Rounds, "Rounds of --pictures")->check(CLI::Range(1, 1000));
+	Pictures.Device.AddTo(App);
+	AddBenchSize(App, Pictures.Size, "--pictures: 1280x720; on a CPU device 640x360");
 	AddBenchJson(App, Json);
 }
 
 int RunBenchLights(const FBenchLightsOptions& Options)
 {
-	return RunBench(Options.Json, [&](nlohmann::json& Figures) { return MeasureSizes(Options, Figures); });
+	return RunBench(Options.Json, [&](nlohmann::json& Figures) {
+		return Options.bPictures ? RunBenchLightFrames(Options.Pictures, Figures) : MeasureSizes(Options, Figures);
+	});
 }
 
 } // namespace Lantern

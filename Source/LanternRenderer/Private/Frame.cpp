@@ -25,7 +25,7 @@ FFrameOutputs AddFramePasses(FFrameContext& Context, const FGBuffer& GBuffer)
 	    Context, {GBuffer, Out.Get(ESignal::SunShadow), Out.Get(ESignal::AmbientOcclusion), Out.Get(ESignal::DiffuseGI),
 	                 Out.Get(ESignal::Reflections), Out.Get(ESignal::LocalDiffuse), Out.Get(ESignal::LocalSpecular)});
 	Out.Display = AddToneMapPass(Context, Out.Lighting);
-	Out.Display = AddDebugView(Context, Out);
+	Out.Display = AddDebugView(Context, GBuffer, Out);
 	return Out;
 }
 

@@ -16,6 +16,7 @@
 #include "LanternCore/Tasks/WaitAwake.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternRenderer/Frame.h"
+#include "Lights/LightCells.h"
 #include "RayPrograms.h"
 #include "Rays/RayQueueCounter.h"
 #include "Rays/RayQueueDemand.h"
@@ -271,6 +272,7 @@ void FRenderer::WriteConstants()
 {
 	FSceneConstants OfScene = Context->Scene.GetConstants();
 	OfScene.AnyHitCounter = AnyHits->GetCounters().GetAddress();
+	OfScene.LightCells = Context->LightCells.Address;
 	OfScene.StandInHits = StandIns->GetCounters().GetAddress();
 	const FViewConstants OfView = MakeViewConstants(Context->View, Context->Scene.GetOrigin(), Context->PreviousView);
 	std::memcpy(SceneConstants.Data, &OfScene, sizeof(OfScene));
@@ -296,6 +298,7 @@ FRenderer::FViewState& FRenderer::GetView(uint32_t Index)
 	{
 		static std::atomic<uint64_t> LastViewer = 0; // 0 is nobody's
 		View.History = std::make_unique<FHistoryResources>(Device);
+		View.LightCells = std::make_unique<FLightCells>(Device);
 		View.Casters = std::make_unique<FMovedCasters>();
 		View.Viewer = ++LastViewer;
 	}
@@ -318,6 +321,7 @@ void FRenderer::FindPreviousView(FRTScene& Scene, const FFrameFeatures& Features
 	const bool bUsable = bSameScene && State->LastView.Width > 0 && !Context->View.bCut && !Features.bReference;
 	Context->PreviousView = bUsable ? &PreviousView : nullptr;
 	Context->History = State->History.get();
+	Context->LightCells.OfView = State->LightCells.get();
 	Context->MovedCasters = State->Casters.get();
 }
 
@@ -327,6 +331,7 @@ void FRenderer::BeginFeedback()
 	AnyHits->BeginFrame(FlightIndex);
 	StandIns->BeginFrame(FlightIndex, Context->Scene);
 	QueueDemand->BeginFrame(FlightIndex);
+	State->LightCells->BeginFrame(FlightIndex);
 	RayCounter->BeginFrame(FlightIndex);
 	RefitQuality->BeginFrame(FlightIndex, Context->Scene.GetGeometries());
 }
@@ -346,6 +351,7 @@ void FRenderer::EndFeedback(bool bSubmitted)
 	AnyHits->GetCounters().EndFrame(bSubmitted);
 	StandIns->GetCounters().EndFrame(bSubmitted);
 	QueueDemand->EndFrame(bSubmitted);
+	State->LightCells->EndFrame(bSubmitted);
 	RayCounter->EndFrame(bSubmitted);
 	RefitQuality->EndFrame(Context->Scene.GetGeometries(), bSubmitted);
 }

@@ -5,6 +5,8 @@
 #include "FrameChoices.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "Lighting/DirectLighting.h"
+#include "Lights/LightCells.h"
+#include "Lights/LightCellsView.h"
 #include "RayPrograms.h"
 #include "Sky/SkyLight.h"
 #include "ToneMap/ToneMap.h"
@@ -18,9 +20,11 @@ namespace
 void ListCompositeShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& Out)
 {
 	Out.push_back(MakeLightingSource(Facts));
+	ListLightCellShaders(Facts, Out);
 	Out.push_back(MakeToneMapSource());
 	if (Facts.bSkyMap && HasSkyAmbient(Facts)) { Out.push_back(MakeSkyLightSource()); }
 	if (GetDebugView() != ESignal::Frame) { Out.push_back(MakeDebugViewSource()); }
+	if (IsDebugPicture(LightCellsPicture)) { Out.push_back(MakeLightCellsViewSource()); }
 }
 } // namespace
 

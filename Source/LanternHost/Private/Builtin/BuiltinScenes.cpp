@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "Builtin/Courtyard/Courtyard.h"
+#include "Builtin/Lamps.h"
 #include "Builtin/Stability/StabilityScenes.h"
 #include "Builtin/Tests/TestScenes.h"
 #include "LanternCore/Text/Quote.h"
@@ -41,6 +42,8 @@ struct FEntry
 constexpr FEntry Entries[] = {
     {{"courtyard", "", "an arcaded courtyard at evening: fountain, trees, ivy, lanterns, a turning weather vane"}, {},
         [](const FValues&) { return BuildCourtyard(); }},
+    {{"lamps", "COUNT=640", "a building of 225 rooms with the COUNT lamps nearest to the one in the picture"},
+        {{"COUNT", 640.0f, 0.0f, 10000.0f}}, [](const FValues& P) { return BuildLamps(uint32_t(P[0])); }},
     {{"furnace", "ALBEDO=0.5", "closed room that emits 0.5; every pixel is 0.5/(1-albedo)"}, {{"ALBEDO", 0.5f, 0.0f, 0.99f}},
         [](const FValues& P) { return BuildFurnace(P[0]); }},
     {{"sphere", "ALBEDO=0.5", "inside of a diffuse sphere of 96 m^2 around 10,000 lm; irradiance 104.17/(1-albedo)"},

@@ -2,6 +2,7 @@
 #include "BruteForce/BruteForce.h"
 
 #include "BruteForceTypes.h"
+#include "Lights/LightCells.h"
 #include "SignalPasses.h"
 
 namespace Lantern
@@ -14,6 +15,8 @@ FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery
 	if (Query.Facts.Objects == 0 || !HasAnyLight(Query.Facts)) { return Rays; }
 	Rays.Path = ChooseShadingRayPath(Query, Settings.Enable);
 	Rays.Defines = MakePathDefines(Query.Facts);
+	if (Query.Facts.Lights > 0) { Rays.Defines.emplace_back("LIGHT_CELLS_OF_VIEW", "1"); }
+	ListLightCellShaders(Query.Facts, Rays.Compute);
 	AddReorderDefine(Query.Capabilities, Rays.Defines);
 	Rays.bShadesHits = true;
 	return Rays;
@@ -26,6 +29,7 @@ FGraphTexture AddBruteForcePass(const FBruteForcePass& Settings, FFrameContext& 
 	if (!Dispatch) { return {}; }
 	const FGraphTexture Output =
 	    Context.Graph.CreateTexture({Context.Width, Context.Height, Info.Format, ERTTextureUsage::CopySource}, Info.Pass);
+	const FLightCellsOfFrame& LightCells = RequireLightCells(Context, GBuffer);
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass(Info.Pass, [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Read(GBuffer.Depth, ERTAccess::ShaderRead);
@@ -37,6 +41,7 @@ FGraphTexture AddBruteForcePass(const FBruteForcePass& Settings, FFrameContext& 
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
 		Builder.Write(Output, ERTAccess::StorageWrite);
+		ReadLightCells(Builder, LightCells, true);
 		Builder.AllowAsync();
 		return [=, &Settings](FPassContext& Pass) {
 			const uint32_t Bounces = static_cast<uint32_t>(Settings.Bounces.GetOnRenderThread());

@@ -4,6 +4,7 @@
 #include "DebugViewTypes.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
+#include "Lights/LightCellsView.h"
 #include "SignalPasses.h"
 
 namespace Lantern
@@ -13,7 +14,8 @@ namespace
 {
 TRTConsoleVariable<std::string> CVarView("r.RT.Debug.View", "frame",
     "Shows one signal instead of the picture, by its name as lantern reference --help lists it. The value frame shows the picture. The "
-    "value sun_tiles shows what is known of each tile of the sun's shadows, and sun_rays the pixels that traced sun rays.");
+    "value sun_tiles shows what is known of each tile of the sun's shadows, and sun_rays the pixels that traced sun rays. "
+    "The value light_cells shows how many lights each light cell lists.");
 
 /// Calls Visit(signal, name of a picture) for all pictures.
 template <class TVisit>
@@ -29,9 +31,10 @@ bool IsDebugPicture(const char* Name) { return CVarView.GetOnRenderThread() == N
 
 ESignal GetDebugView()
 {
+	if (IsDebugPicture(LightCellsPicture)) { return ESignal::Frame; }
 	const std::string& Name = CVarView.GetOnRenderThread();
 	std::optional<ESignal> Signal = FindSignal(Name);
-	std::string Pictures;
+	std::string Pictures = std::string(", ") + LightCellsPicture;
 	ForEachPicture([&](ESignal Of, const char* Picture) {
 		if (Name == Picture) { Signal = Of; }
 		Pictures += std::string(", ") + Picture;
@@ -40,8 +43,9 @@ ESignal GetDebugView()
 	return Signal.value_or(ESignal::Frame);
 }
 
-FGraphTexture AddDebugView(FFrameContext& Context, const FFrameOutputs& Outputs)
+FGraphTexture AddDebugView(FFrameContext& Context, const FGBuffer& GBuffer, const FFrameOutputs& Outputs)
 {
+	if (IsDebugPicture(LightCellsPicture)) { return AddLightCellsView(Context, GBuffer, Outputs.Display); }
 	const ESignal Signal = GetDebugView();
 	const FGraphTexture Input = Outputs.Get(Signal);
 	if (Signal == ESignal::Frame) { return Outputs.Display; }

@@ -10,12 +10,14 @@ namespace Lantern
 /// variable names nothing.
 ESignal GetDebugView();
 
-/// Returns whether the variable names this picture (FSignalPass::Pictures). Its pass then draws FFrameContext::DebugPicture.
+/// Returns whether the variable names this picture: one of FSignalPass::Pictures, whose pass then draws FFrameContext::DebugPicture, or
+/// LightCellsPicture.
 bool IsDebugPicture(const char* Name);
 
 inline FShaderSource MakeDebugViewSource() { return MakeComputeSource("DebugView/DebugView.comp"); }
 
-/// Returns what to show: Outputs.Display, FFrameContext::DebugPicture, or the signal of GetDebugView. A visibility is grey, a radiance tone-mapped.
-FGraphTexture AddDebugView(FFrameContext& Context, const FFrameOutputs& Outputs);
+/// Returns what to show: Outputs.Display, FFrameContext::DebugPicture, the signal of GetDebugView, or light cells. A visibility is grey,
+/// a radiance tone-mapped.
+FGraphTexture AddDebugView(FFrameContext& Context, const FGBuffer& GBuffer, const FFrameOutputs& Outputs);
 
 } // namespace Lantern

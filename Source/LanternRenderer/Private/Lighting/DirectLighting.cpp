@@ -3,6 +3,7 @@
 
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LightingTypes.h"
+#include "Lights/LightCells.h"
 #include "PassTools.h"
 #include "Sky/SkyLight.h"
 
@@ -44,6 +45,8 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 	const bool bShadowed = HasLocalLight() && Inputs.LightsDiffuse.IsValid() && Inputs.LightsSpecular.IsValid();
 	const FGraphTexture LightsDiffuse = bShadowed ? Inputs.LightsDiffuse : FGraphTexture();
 	const FGraphTexture LightsSpecular = bShadowed ? Inputs.LightsSpecular : FGraphTexture();
+	const bool bVisitsLights = HasLocalLight() && !bShadowed;
+	if (bVisitsLights) { RequireLightCells(Context, Inputs.GBuffer); }
 	const FPassConstants PassConstants = Context.Pass;
 	const float Surroundings = CVarSurroundings.GetOnRenderThread();
 	const uint32_t Width = Context.Width, Height = Context.Height;
@@ -58,6 +61,7 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
+		if (bVisitsLights) { ReadLightCells(Builder, Context.LightCells, false); }
 		Builder.Write(Output, ERTAccess::StorageWrite);
 		return [=](FPassContext& Pass) {
 			const auto Sampled = [&](FGraphTexture Texture) { return GetSampledIndex(Pass, Texture); };

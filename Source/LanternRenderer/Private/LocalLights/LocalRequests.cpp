@@ -1,6 +1,7 @@
 // Lights of tiles and requests for rays to them.
 #include "LocalLights/LocalRequests.h"
 
+#include "Lights/LightCells.h"
 #include "LocalLightTypes.h"
 
 namespace Lantern
@@ -62,6 +63,7 @@ void AddRequestsPass(FFrameContext& Context, IRTPipeline* Pipeline, const FReque
 		Builder.Write(Inputs.TileLights, ERTAccess::StorageWrite);
 		if (Inputs.Choices.IsValid()) { Builder.Write(Inputs.Choices, ERTAccess::StorageWrite); }
 		if (Inputs.bFirst) { Builder.Write(Inputs.Queue.Answers, ERTAccess::StorageWrite); }
+		if (Inputs.Rays.bMany) { ReadLightCells(Builder, Frame->LightCells, true); }
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
 			if (Inputs.bFirst) { StartQueue(Pass, Inputs.Queue); }
@@ -99,6 +101,7 @@ FShaderDefines MakeLocalDefines(FSceneFacts Facts, uint32_t Exact)
 void ListLocalRequestShaders(const FSceneFacts& Facts, uint32_t Exact, std::vector<FShaderSource>& Out)
 {
 	Out.push_back(MakeRequestsSource(Facts, Exact));
+	if (MayChooseLights(Facts, Exact)) { ListLightCellShaders(Facts, Out); }
 	if (MayQueuesOverflow(1 + GetLocalRaysPerPixel(Facts, Exact))) { Out.push_back(MakeShareSource()); }
 }
 
@@ -117,6 +120,7 @@ void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRa
 	{
 		const uint64_t Pixels = uint64_t(Context.Width) * Context.Height;
 		Inputs.Choices = Context.Graph.CreateBuffer({Pixels * sizeof(FLightChoice)}, "LightChoices");
+		RequireLightCells(Context, GBuffer); // pixels that choose visit the lights of their cell
 	}
 	AddRequestsPass(Context, RequireCompute(Context, MakeRequestsSource(Context.Facts, Rays.Exact)), Inputs);
 	if (InOut.Queue.bMayOverflow) { AddSharePass(Context, RequireCompute(Context, MakeShareSource()), Inputs); }

@@ -114,6 +114,7 @@ struct FRayCounts
 
 class FAnyHitCounter;
 class FHistoryResources;
+class FLightCells;
 class FMovedCasters;
 class FRayQueueCounter;
 class FRayQueueDemand;
@@ -129,6 +130,16 @@ struct FSurfaceTextures
 	FGraphTexture Current;  ///< RG32_FLOAT, see Shaders/Library/History.glsl
 	FGraphTexture Previous; ///< Current of the frame before; invalid: there is none
 	FGraphTexture Motion;   ///< as in FGBuffer; invalid where Previous is
+};
+
+/// Lights by place in the world, for passes that walk them (Lights/LightCells.h). The first pass that asks makes them.
+struct FLightCellsOfFrame
+{
+	FLightCells* OfView = nullptr; ///< what the view keeps
+	bool bAsked = false;
+	FGraphBuffer Buffer;  ///< invalid: there are none
+	FGraphBuffer Counts;  ///< see FPassBuilder::Keep
+	FAddress Address = 0; ///< FSceneConstants::LightCells, once they are recorded
 };
 
 /// The scene's data, which passes reach without the graph. Passes count as readers of all; those that are not say so
@@ -186,6 +197,7 @@ struct FFrameContext
 	FHostShadow HostShadow;
 	FRayQueueDemand* QueueDemand = nullptr; ///< what earlier frames asked of the queue of shadow rays
 	FSurfaceTextures Surface;
+	FLightCellsOfFrame LightCells;
 	/// What r.RT.Debug.View shows instead of a signal, RGBA8_UNORM; invalid: nothing drew it.
 	FGraphTexture DebugPicture;
 	std::shared_ptr<const FShadowRays> ShadowRays; ///< null: none, or nobody has asked so far
@@ -259,6 +271,7 @@ public:
 	FRefitQuality& GetRefitQuality() { return *RefitQuality; }
 	FFrameUploads& GetUploads() { return Uploads; }
 	FHistoryResources& GetHistory(uint32_t ViewIndex = 0) { return *GetView(ViewIndex).History; }
+	FLightCells& GetLightCells(uint32_t ViewIndex = 0) { return *GetView(ViewIndex).LightCells; }
 	FFrameGraphResources& GetGraphResources() { return GraphResources; }
 	/// Returns the RTPSO of the last frame; null if it had none.
 	const FRTPSO* GetRayPipeline() const { return RayPipeline.get(); }
@@ -344,6 +357,7 @@ private:
 	struct FViewState
 	{
 		std::unique_ptr<FHistoryResources> History;
+		std::unique_ptr<FLightCells> LightCells;
 		std::unique_ptr<FMovedCasters> Casters;
 		FView LastView;          // of the newest frame that reached the GPU
 		uint64_t LastScene = 0;  // identity of its scene's sections, which outlives an address; 0: none

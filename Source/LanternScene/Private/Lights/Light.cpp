@@ -58,6 +58,24 @@ glm::dvec3 MakeTangent(const FSceneLight& Light)
 
 bool HasExtent(const FSceneLight& Light) { return Light.Type != LIGHT_POINT && (Light.Type != LIGHT_DIRECTIONAL || Light.Size.x > 0.0f); }
 
+bool ReachesEverywhere(const FSceneLight& Light) { return Light.Type == LIGHT_DIRECTIONAL || Light.Range <= 0.0f; }
+
+FLightReach GetReach(const FSceneLight& Light)
+{
+	FLightReach Out{glm::ivec3(0), 0.0f};
+	if (ReachesEverywhere(Light)) { return Out; }
+	for (int Axis = 0; Axis < 3; ++Axis) { Out.Position[Axis] = PackCoordinate(Light.Position[Axis]); }
+	Out.Radius = Light.Range;
+	return Out;
+}
+
+bool ReachAlike(const FSceneLight& A, const FSceneLight& B)
+{
+	if (ReachesEverywhere(A) || ReachesEverywhere(B)) { return ReachesEverywhere(A) && ReachesEverywhere(B); }
+	return A.Type == B.Type && A.Position == B.Position && A.Range == B.Range && A.Direction == B.Direction && A.InnerCone == B.InnerCone &&
+	       A.OuterCone == B.OuterCone && A.bTwoSided == B.bTwoSided;
+}
+
 FLightData PackLight(const FSceneLight& Light)
 {
 	assert(Light.Type != LIGHT_NONE && Light.Type <= LIGHT_TUBE);

@@ -8,6 +8,13 @@
 namespace Lantern
 {
 
+/// Times: 1, or −1 modulo 2³².
+void FLightStore::Count(const FSceneLight& Light, uint32_t Times)
+{
+	Extended += HasExtent(Light) ? Times : 0;
+	Finite += ReachesEverywhere(Light) ? 0 : Times;
+}
+
 FLightId FLightStore::Add(const FSceneLight& Light)
 {
 	const uint32_t Slot = Slots.Take(MaxLights);
@@ -17,7 +24,8 @@ FLightId FLightStore::Add(const FSceneLight& Light)
 		return {};
 	}
 	Slots[Slot] = Light;
-	Extended += HasExtent(Light) ? 1 : 0;
+	Count(Light, 1);
+	Journal.Add(GetReach(Light));
 	Table.Set(Slot, PackLight(Light));
 	return {Slot, Slots.GetGeneration(Slot)};
 }
@@ -25,16 +33,23 @@ FLightId FLightStore::Add(const FSceneLight& Light)
 void FLightStore::Set(FLightId Id, const FSceneLight& Light)
 {
 	assert(Slots.IsCurrent(Id.Index, Id.Generation));
-	Extended -= HasExtent(Slots[Id.Index]) ? 1 : 0;
-	Extended += HasExtent(Light) ? 1 : 0;
-	Slots[Id.Index] = Light;
+	FSceneLight& Old = Slots[Id.Index];
+	if (!ReachAlike(Old, Light))
+	{
+		Journal.Add(GetReach(Old));
+		Journal.Add(GetReach(Light));
+	}
+	Count(Old, ~0u);
+	Count(Light, 1);
+	Old = Light;
 	Table.Set(Id.Index, PackLight(Light));
 }
 
 void FLightStore::Remove(FLightId Id)
 {
 	assert(Slots.IsCurrent(Id.Index, Id.Generation));
-	Extended -= HasExtent(Slots[Id.Index]) ? 1 : 0;
+	Count(Slots[Id.Index], ~0u);
+	Journal.Add(GetReach(Slots[Id.Index]));
 	Slots.Free(Id.Index);
 	if (Id.Index < Slots.Num()) { Table.Set(Id.Index, FLightData{}); }
 	Table.Truncate(Slots.Num());

@@ -5,7 +5,7 @@
 
 #include <glm/glm.hpp>
 
-#include "LightTypes.h"
+#include "LightCellTypes.h"
 
 namespace Lantern
 {
@@ -42,6 +42,15 @@ struct FSceneLight
 
 /// Tells whether shaders sample points of the light: it has an extent.
 bool HasExtent(const FSceneLight& Light);
+
+/// Tells whether no distance dims the light to nothing.
+bool ReachesEverywhere(const FSceneLight& Light);
+
+/// Returns where the light may bring anything, whichever way it shines.
+FLightReach GetReach(const FSceneLight& Light);
+
+/// Tells whether two lights bring something to the same points, though not the same light.
+bool ReachAlike(const FSceneLight& A, const FSceneLight& B);
 
 /// Returns the light as shaders see it.
 FLightData PackLight(const FSceneLight& Light);

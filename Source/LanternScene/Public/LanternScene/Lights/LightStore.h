@@ -2,6 +2,7 @@
 #pragma once
 
 #include "LanternScene/Lights/Light.h"
+#include "LanternScene/Lights/LightJournal.h"
 #include "LanternScene/Memory/GpuTable.h"
 #include "LanternScene/Memory/Slots.h"
 
@@ -26,12 +27,18 @@ public:
 	uint32_t GetCount() const { return Slots.GetAliveCount(); }
 	/// Lights with an extent: see HasExtent.
 	uint32_t GetExtendedCount() const { return Extended; }
+	/// Lights of finite range: see ReachesEverywhere.
+	uint32_t GetFiniteCount() const { return Finite; }
+	/// What lights reached before and reach after each change of it.
+	const FLightJournal& GetJournal() const { return Journal; }
 	TGpuTable<FLightData>& GetTable() { return Table; }
 	const TGpuTable<FLightData>& GetTable() const { return Table; }
 
 private:
 	TSlots<FSceneLight> Slots;
-	uint32_t Extended = 0;
+	void Count(const FSceneLight& Light, uint32_t Times);
+	uint32_t Extended = 0, Finite = 0;
+	FLightJournal Journal;
 	TGpuTable<FLightData> Table{"Lights"};
 };
 

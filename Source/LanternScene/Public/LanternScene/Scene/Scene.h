@@ -38,8 +38,9 @@ struct FSceneFacts
 {
 	uint32_t Objects = 0;
 	uint32_t DynamicGeometries = 0;
-	uint32_t Lights = 0;      ///< without sun and emissive triangles
-	bool bAreaLights = false; ///< some of them have an extent: see HasExtent
+	uint32_t Lights = 0;       ///< without sun and emissive triangles
+	uint32_t FiniteLights = 0; ///< of them, those with a range: see ReachesEverywhere
+	bool bAreaLights = false;  ///< some of them have an extent: see HasExtent
 	uint32_t EmissiveTriangles = 0;
 	bool bMasked = false; ///< some object has an alpha-tested material (and r.RT.AlphaTest is on)
 	/// Only its material program knows the shape of some surface: it is a box, or its alpha test is not the standard one.

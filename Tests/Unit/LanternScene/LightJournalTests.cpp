@@ -1,0 +1,92 @@
+// FLightJournal, and what a store of lights writes into it.
+#include <gtest/gtest.h>
+
+#include "LanternScene/Lights/LightStore.h"
+
+namespace Lantern
+{
+namespace
+{
+
+FSceneLight MakeLight(double X, float Range)
+{
+	FSceneLight Light;
+	Light.Position = {X, 0, 0};
+	Light.Range = Range;
+	return Light;
+}
+
+std::vector<FLightReach> GetSince(const FLightJournal& Journal, uint64_t First)
+{
+	std::vector<FLightReach> Out;
+	EXPECT_TRUE(Journal.GetSince(First, Out));
+	return Out;
+}
+
+TEST(FLightJournalTest, ConsumersReadFromTheirOwnPlaces)
+{
+	FLightJournal Journal;
+	for (int I = 0; I < 3; ++I) { Journal.Add({{I, 0, 0}, 1.0f}); }
+	EXPECT_EQ(Journal.GetCount(), 3u);
+	EXPECT_EQ(GetSince(Journal, 0).size(), 3u);
+	ASSERT_EQ(GetSince(Journal, 2).size(), 1u);
+	EXPECT_EQ(GetSince(Journal, 2)[0].Position.x, 2);
+	EXPECT_TRUE(GetSince(Journal, 3).empty());
+}
+
+TEST(FLightJournalTest, OldChangesAreForgottenAndItSaysSo)
+{
+	FLightJournal Journal;
+	for (uint32_t I = 0; I < FLightJournal::MostChanges + 10; ++I) { Journal.Add({{int(I), 0, 0}, 1.0f}); }
+	std::vector<FLightReach> Out = {{}};
+	EXPECT_FALSE(Journal.GetSince(9, Out));
+	EXPECT_EQ(Out.size(), 1u) << "as it was";
+	ASSERT_TRUE(Journal.GetSince(10, Out));
+	ASSERT_EQ(Out.size(), FLightJournal::MostChanges + 1u);
+	EXPECT_EQ(Out[1].Position.x, 10);
+	EXPECT_EQ(Out.back().Position.x, int(FLightJournal::MostChanges + 9));
+}
+
+TEST(FLightJournalTest, StoresWriteWhereLightsWereAndAre)
+{
+	FLightStore Store;
+	const FLightJournal& Journal = Store.GetJournal();
+	const FLightId Id = Store.Add(MakeLight(1, 5)), Far = Store.Add(MakeLight(0, 0));
+	EXPECT_EQ(Store.GetFiniteCount(), 1u);
+	EXPECT_EQ(Journal.GetCount(), 2u);
+	EXPECT_EQ(GetSince(Journal, 1)[0].Radius, 0.0f) << "everywhere";
+	Store.Set(Id, MakeLight(2, 6));
+	std::vector<FLightReach> Moved = GetSince(Journal, 2);
+	ASSERT_EQ(Moved.size(), 2u);
+	EXPECT_EQ(Moved[0].Position.x, 1 * int(LIGHT_POSITION_STEPS));
+	EXPECT_EQ(Moved[0].Radius, 5.0f);
+	EXPECT_EQ(Moved[1].Position.x, 2 * int(LIGHT_POSITION_STEPS));
+	EXPECT_EQ(Moved[1].Radius, 6.0f);
+	FSceneLight Red = MakeLight(2, 6);
+	Red.Color = {1, 0, 0};
+	Red.bCastsShadow = false;
+	Store.Set(Id, Red);
+	EXPECT_EQ(Journal.GetCount(), 4u) << "it reaches what it did";
+	Red.OuterCone = 1.0f;
+	Store.Set(Id, Red);
+	EXPECT_EQ(Journal.GetCount(), 6u);
+	Store.Set(Far, MakeLight(9, 1));
+	EXPECT_EQ(Journal.GetCount(), 8u);
+	EXPECT_EQ(Store.GetFiniteCount(), 2u);
+	Store.Remove(Id);
+	EXPECT_EQ(GetSince(Journal, 8)[0].Radius, 6.0f);
+	EXPECT_EQ(Store.GetFiniteCount(), 1u);
+}
+
+// Positions wrap around as those of FLightData do.
+TEST(FLightJournalTest, ReachesAreThoseOfLightsOnTheGpu)
+{
+	for (const double X : {0.0, -3.25, 250'000.0, 300'000.0, -1e9})
+	{
+		FSceneLight Light = MakeLight(X, 2);
+		EXPECT_EQ(GetReach(Light).Position, PackLight(Light).Position) << X;
+	}
+}
+
+} // namespace
+} // namespace Lantern
