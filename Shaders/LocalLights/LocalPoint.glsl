@@ -14,7 +14,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FLightChoice
 struct FLocalPoint
 {
 	FGBufferPoint Surface;
-	vec3 P;       // where its rays start, relative to the scene's origin
+	vec3 P;       // relative to the scene's origin
 	vec3 Horizon; // normal of the plane below which lights do not count
 };
 
@@ -22,7 +22,7 @@ FLocalPoint LoadLocalPoint(FSceneConstants Scene, FViewConstants View, uint Norm
 {
 	FLocalPoint Point;
 	Point.Surface = LoadGBufferPoint(View, Normals, ivec2(Pixel), Depth);
-	Point.P = RasterRayOrigin(Scene, View, Point.Surface);
+	Point.P = View.CameraPosition + Point.Surface.Relative;
 	Point.Horizon = Point.Surface.bSure ? Point.Surface.Ng : Point.Surface.BentN;
 	return Point;
 }

@@ -14,8 +14,17 @@ bool SeesLight(uint Index, uint Light)
 	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, LoadDepth(Push.Depth, ivec2(Pixel)));
 	FLightSample Sample = SampleLocalLight(Scene, View, Point, Pixel, Light);
 	if (!ReachesLight(View, Point, Sample)) { return false; }
+	vec3 Origin = RasterRayOrigin(Scene, View, Point.Surface), Direction = Sample.Direction;
 	float Length = LightRayLength(Sample, Point.P, Scene.ObjectReach);
-	return TraceShadowRay(Point.P, Sample.Direction, Length, Push.RayFlags, LocalCasters(ShowsCharacter(Scene, Pixel))) < 0.0;
+	if (Sample.Distance < LightInfinity)
+	{
+		// From where rays start, the point lies a little elsewhere.
+		vec3 To = Point.P + Direction * Sample.Distance - Origin;
+		float Distance = max(length(To), 1.0e-6);
+		Direction = To / Distance;
+		Length = max(Length + Distance - Sample.Distance, 0.0);
+	}
+	return TraceShadowRay(Origin, Direction, Length, Push.RayFlags, LocalCasters(ShowsCharacter(Scene, Pixel))) < 0.0;
 }
 
 void TraceLocal(uint Index, uint Slot)

@@ -128,6 +128,7 @@ TEST_F(FGBufferTest, PunctualLights)
 // The two could be wrong together: light of each kind against its formula, at points of the floor seen from above.
 TEST_F(FGBufferTest, LightsByFormula)
 {
+	SetVariable("r.RT.Lights.Denoise", "0"); // it smooths a spot's gradient
 	FTestScene Lights("lights");
 	const double Albedo = MakeSrgb(190);
 	Lights.AddNode(Lights.AddMesh({FTestScene::MakeFloor(Lights.AddLambert(glm::vec3(MakeSrgb(190))), 8.0f)}));

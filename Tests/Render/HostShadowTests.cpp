@@ -5,8 +5,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "LanternRenderer/HostShadow.h"
-#include "Support/CoreTestTools.h"
 #include "Support/RenderFixture.h"
+#include "Support/SharedFiles.h"
 #include "Support/TestScene.h"
 
 namespace Lantern
@@ -189,7 +189,7 @@ TEST_F(FHostShadowTest, RaysAreSaved)
 TEST_F(FHostShadowTest, HostsBringTheirOwnShader)
 {
 	const FTemporaryFolder Folder;
-	const std::string File = Folder.GetPath() + "/VirtualShadowMap.glsl";
+	const std::string File = Folder / "VirtualShadowMap.glsl";
 	std::ofstream(File) << R"(
 #include "Library/GBuffer.glsl"
 #include "Tiles/HostShadowAnswer.glsl"

@@ -39,7 +39,11 @@ protected:
 	void LoadSteps(const glm::dvec3& At = glm::dvec3(0))
 	{
 		FTestScene Steps("steps");
-		const int32_t Grey = Steps.AddLambert(glm::vec3(0.5f));
+		FHostMaterial Glossy; // either lobe has something to compare
+		Glossy.BaseColor = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f);
+		Glossy.Metallic = 0.0f;
+		Glossy.Roughness = 0.5f;
+		const int32_t Grey = Steps.AddMaterial(Glossy);
 		Steps.AddNode(Steps.AddMesh({FTestScene::MakeFloor(Grey, 60.0f), FTestScene::MakeFloor(Grey, 4.0f, 1.1f),
 		                  FTestScene::MakeFloor(Grey, 2.0f, 2.3f)}),
 		    glm::translate(glm::dmat4(1), At));

@@ -209,7 +209,8 @@ TEST_F(FSceneChangeTest, ShadowsAndPluginOff)
 	for (const char* Name : {"r.RT.Shadow", "r.RT.Enable"})
 	{
 		SetVariable(Name, "0");
-		SetVariable("r.RT.AO", Name == std::string("r.RT.Enable") ? "1" : "0"); // has rays of its own
+		SetVariable("r.RT.Lights", Name == std::string("r.RT.Enable") ? "1" : "0"); // lamps have rays of their own
+		SetVariable("r.RT.AO", Name == std::string("r.RT.Enable") ? "1" : "0");     // has rays of its own
 		EXPECT_GT(MeanGreen(RenderLighting(View)), 1.1 * Shadowed) << Name;
 		for (const FPassTiming& Pass : GetEngine().GetRenderer().GetGraphResources().GetTimings())
 		{
@@ -218,6 +219,7 @@ TEST_F(FSceneChangeTest, ShadowsAndPluginOff)
 		}
 		SetVariable(Name, "1");
 	}
+	SetVariable("r.RT.Lights", "1");
 	SetVariable("r.RT.Shadow.Soft", "0");
 	SetVariable("r.RT.Material.Override", "1");
 	EXPECT_GT(MeanGreen(RenderLighting(View)), 0.0);

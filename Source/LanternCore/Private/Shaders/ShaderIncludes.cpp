@@ -153,10 +153,10 @@ struct FIncludeResolver::FWalk
 	const FShaderHeader* FindHeader(const fs::path& Include) const
 	{
 		const std::string Name = Include.lexically_normal().generic_string();
-		for (const std::vector<FShaderHeader>* const Headers : {&Source.Headers, &Common})
+		for (const std::vector<FShaderHeader>* const List : {&Source.Headers, &Common})
 		{
 			const auto Is = [&](const FShaderHeader& Header) { return Header.Include == Name; };
-			if (const auto Found = std::find_if(Headers->begin(), Headers->end(), Is); Found != Headers->end()) { return &*Found; }
+			if (const auto Found = std::find_if(List->begin(), List->end(), Is); Found != List->end()) { return &*Found; }
 		}
 		return nullptr;
 	}
