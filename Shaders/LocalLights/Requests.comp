@@ -108,7 +108,7 @@ bool ChooseLight(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, 
 	FLightRef Lights = FLightRef(Scene.Lights);
 	float U = LocalNumbers(View, Pixel, 0xffffffffu).x, Total = 0.0, Chosen = 0.0;
 	Choice = FLightChoice(0u, 0.0);
-	FLightWalk Walk = WalkLights(Scene, Point.P, true); // rays start a little beside the surface, where no other pass asks
+	FLightWalk Walk = WalkLights(Scene, Point.P, false); // the cells of all pixels are asked for
 	for (uint I = NextLight(Walk); I < Scene.LightCount; I = NextLight(Walk))
 	{
 		float Weight = EstimateLight(Scene, Lights.Data[I], Point.P, Point.Horizon);

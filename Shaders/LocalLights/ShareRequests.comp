@@ -28,7 +28,7 @@ void main()
 	bool bMany = Tile.Count == TILE_LIGHTS_MANY;
 	uint Slots = bMany ? 1u : Tile.Count, Count = 0u;
 	for (uint I = 0u; I < 2u * Slots; ++I) { Count += bitCount(AskingPixels(Tile, I >> 1u, I & 1u)); }
-	uint Kept = uint(float(Count) * (float(Room) / float(Wanted)) * (1.0 - 1.0e-6));
+	uint Kept = ShareRoom(Count, Room, Wanted);
 	if (Kept == 0u) { return; }
 	uint Number = Base + atomicAdd(Counters.Data.Segments[RAY_SEGMENT_LOCAL].Kept, Kept);
 	uint Turn = View.FrameIndex * Kept; // other rays in each frame

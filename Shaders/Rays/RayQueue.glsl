@@ -30,6 +30,9 @@ uint SegmentEnd(FRayQueueCounters Counters, uint Segment, uint Capacity)
 	return End;
 }
 
+// Returns how many of Count requests have room, if Wanted share Room equally. Rounded down, and a little more: all shares together fit.
+uint ShareRoom(uint Count, uint Room, uint Wanted) { return uint(float(Count) * (float(Room) / float(Wanted)) * (1.0 - 1.0e-6)); }
+
 // Makes launches reach to End.
 void GrowLaunch(FAddress Address, uint End)
 {

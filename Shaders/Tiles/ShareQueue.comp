@@ -25,8 +25,7 @@ void main()
 		Rays = Tile.SunRest;
 	}
 	uint Count = bitCount(Rays[0]) + bitCount(Rays[1]);
-	// Rounded down, and a little more: all shares together fit.
-	uint Kept = uint(float(Count) * (float(Push.Capacity) / float(Wanted)) * (1.0 - 1.0e-6));
+	uint Kept = ShareRoom(Count, Push.Capacity, Wanted);
 	if (Kept == 0u) { return; }
 	uint Number = atomicAdd(Counters.Data.Segments[RAY_SEGMENT_SUN].Kept, Kept);
 	uint Turn = View.FrameIndex * Kept; // other pixels in each frame

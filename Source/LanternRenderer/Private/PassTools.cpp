@@ -57,6 +57,8 @@ uint32_t GetStorageIndex(FPassContext& Pass, FGraphTexture Texture)
 	return Found ? Found->GetStorageIndex() : NO_TEXTURE;
 }
 
+FAddress GetAddress(FPassContext& Pass, FGraphBuffer Buffer) { return Buffer.IsValid() ? Pass.GetBuffer(Buffer)->GetDeviceAddress() : 0; }
+
 FShaderDefines MakeFactDefines(const FSceneFacts& Facts)
 {
 	FShaderDefines Defines;

@@ -40,6 +40,9 @@ uint32_t GetSampledIndex(FPassContext& Pass, FGraphTexture Texture);
 /// Returns the index by which shaders write a texture, or NO_TEXTURE if it is invalid or culled.
 uint32_t GetStorageIndex(FPassContext& Pass, FGraphTexture Texture);
 
+/// Returns a buffer's address for shaders, or 0 if it is invalid.
+FAddress GetAddress(FPassContext& Pass, FGraphBuffer Buffer);
+
 /// r.RT.Enable.
 bool IsRayTracingEnabled();
 

@@ -49,12 +49,11 @@ FLocalLobes AddShadePass(FFrameContext& Context, const FGBuffer& GBuffer, const 
 		for (const FGraphTexture Texture : {Lobes.Diffuse, Lobes.Specular}) { Builder.WriteIfRead(Texture, ERTAccess::StorageWrite); }
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
-			const auto AddressOf = [&](FGraphBuffer Buffer) { return Buffer.IsValid() ? Pass.GetBuffer(Buffer)->GetDeviceAddress() : 0; };
 			FLocalShadeConstants C{};
 			C.Pass = Frame->Pass;
-			C.TileLights = AddressOf(Inputs.Traced.TileLights);
-			C.Choices = AddressOf(Inputs.Traced.Choices);
-			C.Answers = AddressOf(Inputs.Queue.Answers);
+			C.TileLights = GetAddress(Pass, Inputs.Traced.TileLights);
+			C.Choices = GetAddress(Pass, Inputs.Traced.Choices);
+			C.Answers = GetAddress(Pass, Inputs.Queue.Answers);
 			C.Depth = GetSampledIndex(Pass, GBuffer.Depth);
 			C.Normals = GetSampledIndex(Pass, GBuffer.Normals);
 			C.BaseColor = GetSampledIndex(Pass, GBuffer.BaseColor);

@@ -33,12 +33,11 @@ struct FRequestsPass
 
 FLocalRequestsConstants MakeConstants(FPassContext& Pass, const FFrameContext& Frame, const FRequestsPass& Inputs)
 {
-	const auto AddressOf = [&](FGraphBuffer Buffer) { return Pass.GetBuffer(Buffer)->GetDeviceAddress(); };
 	FLocalRequestsConstants C{};
 	C.Pass = Frame.Pass;
-	C.TileLights = AddressOf(Inputs.TileLights);
-	C.Requests = AddressOf(Inputs.Queue.Requests);
-	C.Counters = AddressOf(Inputs.Queue.Counters);
+	C.TileLights = GetAddress(Pass, Inputs.TileLights);
+	C.Requests = GetAddress(Pass, Inputs.Queue.Requests);
+	C.Counters = GetAddress(Pass, Inputs.Queue.Counters);
 	C.Capacity = Inputs.Queue.Capacity;
 	C.Exact = Inputs.Rays.Exact;
 	return C;
@@ -63,13 +62,13 @@ void AddRequestsPass(FFrameContext& Context, IRTPipeline* Pipeline, const FReque
 		Builder.Write(Inputs.TileLights, ERTAccess::StorageWrite);
 		if (Inputs.Choices.IsValid()) { Builder.Write(Inputs.Choices, ERTAccess::StorageWrite); }
 		if (Inputs.bFirst) { Builder.Write(Inputs.Queue.Answers, ERTAccess::StorageWrite); }
-		if (Inputs.Rays.bMany) { ReadLightCells(Builder, Frame->LightCells, true); }
+		if (Inputs.Rays.bMany) { ReadLightCells(Builder, Frame->LightCells, false); }
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
 			if (Inputs.bFirst) { StartQueue(Pass, Inputs.Queue); }
 			FLocalRequestsConstants C = MakeConstants(Pass, *Frame, Inputs);
-			C.Answers = Inputs.bFirst ? Pass.GetBuffer(Inputs.Queue.Answers)->GetDeviceAddress() : 0;
-			C.Choices = Inputs.Choices.IsValid() ? Pass.GetBuffer(Inputs.Choices)->GetDeviceAddress() : 0;
+			C.Answers = Inputs.bFirst ? GetAddress(Pass, Inputs.Queue.Answers) : 0;
+			C.Choices = GetAddress(Pass, Inputs.Choices);
 			C.Depth = GetSampledIndex(Pass, Inputs.GBuffer.Depth);
 			C.Normals = GetSampledIndex(Pass, Inputs.GBuffer.Normals);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);

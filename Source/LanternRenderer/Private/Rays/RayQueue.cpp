@@ -34,15 +34,14 @@ TRTConsoleVariable<int32_t> CVarCasterFaces("r.RT.Shadow.CasterFaces", 0,
 FShadowQueueConstants MakeConstants(FPassContext& Pass, const FFrameContext& Frame, const FRayQueue& Queue, const FQueuedRays& Rays)
 {
 	const FSunRays& Sun = Rays.Sun;
-	const auto AddressOf = [&](FGraphBuffer Buffer) { return Buffer.IsValid() ? Pass.GetBuffer(Buffer)->GetDeviceAddress() : 0; };
 	FShadowQueueConstants C{};
 	C.Pass = Frame.Pass;
-	C.Requests = AddressOf(Queue.Requests);
-	C.Counters = AddressOf(Queue.Counters);
-	C.Answers = AddressOf(Queue.Answers);
-	C.SunWidths = AddressOf(Queue.SunWidths);
-	C.TileLights = AddressOf(Rays.TileLights);
-	C.Choices = AddressOf(Rays.Choices);
+	C.Requests = GetAddress(Pass, Queue.Requests);
+	C.Counters = GetAddress(Pass, Queue.Counters);
+	C.Answers = GetAddress(Pass, Queue.Answers);
+	C.SunWidths = GetAddress(Pass, Queue.SunWidths);
+	C.TileLights = GetAddress(Pass, Rays.TileLights);
+	C.Choices = GetAddress(Pass, Rays.Choices);
 	C.Capacity = Queue.Capacity;
 	C.SamplesPerPixel = Sun.SamplesPerPixel;
 	C.MaxDistance = Sun.MaxDistance;

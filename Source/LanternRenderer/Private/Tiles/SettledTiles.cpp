@@ -67,14 +67,13 @@ void AddCheckPass(FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue
 		for (const FGraphBuffer Buffer : {Second.Requests, Second.Counters}) { Builder.Write(Buffer, ERTAccess::StorageWrite); }
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
-			const auto AddressOf = [&](FGraphBuffer Buffer) { return Pass.GetBuffer(Buffer)->GetDeviceAddress(); };
 			StartQueue(Pass, Second);
 			FCheckSettledConstants C{};
 			C.Pass = Frame->Pass;
-			C.Tiles = AddressOf(Tiles);
-			C.Requests = AddressOf(Second.Requests);
-			C.Counters = AddressOf(Second.Counters);
-			C.Answers = AddressOf(Second.Answers);
+			C.Tiles = GetAddress(Pass, Tiles);
+			C.Requests = GetAddress(Pass, Second.Requests);
+			C.Counters = GetAddress(Pass, Second.Counters);
+			C.Answers = GetAddress(Pass, Second.Answers);
 			C.Capacity = Second.Capacity;
 			C.Settled = GetStorageIndex(Pass, Known);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);

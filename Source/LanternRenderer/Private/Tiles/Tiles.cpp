@@ -20,12 +20,11 @@ struct FTilesPass
 
 FTilesConstants MakeConstants(FPassContext& Pass, const FFrameContext& Frame, const FTilesPass& Inputs)
 {
-	const auto AddressOf = [&](FGraphBuffer Buffer) { return Pass.GetBuffer(Buffer)->GetDeviceAddress(); };
 	FTilesConstants C{};
 	C.Pass = Frame.Pass;
-	C.Tiles = AddressOf(Inputs.Tiles);
-	C.Requests = AddressOf(Inputs.Queue.Requests);
-	C.Counters = AddressOf(Inputs.Queue.Counters);
+	C.Tiles = GetAddress(Pass, Inputs.Tiles);
+	C.Requests = GetAddress(Pass, Inputs.Queue.Requests);
+	C.Counters = GetAddress(Pass, Inputs.Queue.Counters);
 	C.Capacity = Inputs.Queue.Capacity;
 	return C;
 }
