@@ -1,7 +1,7 @@
 #ifndef LANTERN_DENOISE_TYPES_H
 #define LANTERN_DENOISE_TYPES_H
 
-#include "SceneTypes.h"
+#include "SettledTypes.h"
 
 LANTERN_SHARED_BEGIN
 
@@ -37,8 +37,13 @@ struct FTemporalConstants
 	float NoiseAlpha;                      // three channels only: weight of a new frame in the estimate of the noise, 0 to 1
 	float Resampling;                      // share of the history's second differences that counts as error of resampling
 	float RaysPerPixel;                    // one channel only: number of rays of which a frame's value is the mean
+	FAddress Casters; // FMovedCaster[CasterCount]: those that moved in the last frames
+	uint CasterCount;
+	uint bChangesKnown; // 1: the signal changes only where these shadows fall, or on surfaces that move. 0: it may anywhere
+	float CasterSpread; // of a half shadow's border, metres per metre
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FTemporalConstants, 80);
+LANTERN_ASSERT_SIZE(FTemporalConstants, 104);
 
 // Constants of Denoise/Filter.comp.
 struct FFilterConstants
