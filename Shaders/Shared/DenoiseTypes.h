@@ -28,7 +28,8 @@ struct FTemporalConstants
 	uint Surface;
 	uint Motion, PreviousSurface, History; // NO_TEXTURE, all three: nothing to reproject
 	uint Moments;                          // three channels only
-	uint Extent;                           // WITH_EXTENT only: width of the transition (penumbra), pixels; 0: unknown
+	// WITH_EXTENT only. x: width of the transition (penumbra), pixels; 0: unknown. y: rays of the pixel; 0 or absent: RaysPerPixel.
+	uint Extent;
 	uint OutHistory, OutMoments;           // written for the next frame; OutMoments: three channels only
 	uint Output;                           // mean, and its variance
 	float MinAlpha;                        // least weight of a new frame, 0 to 1

@@ -32,9 +32,9 @@ float GetAlpha(FFrameEstimate Frame, FHistory History, float Noise)
 	return max(1.0 / (Frames + 1.0), Push.MinAlpha);
 #else
 	float PastVariance = Noise / Frames + History.ResamplingVariance;
-	if (Noise > 1.0e-6 * (1.0 + PastVariance)) { return max(PastVariance / (PastVariance + Noise), Push.MinAlpha); }
+	if (Noise > 1.0e-6 * (1.0 + PastVariance)) { return max(PastVariance / (PastVariance + Noise / Frame.Rays), Push.MinAlpha); }
 	bool bAgrees = abs(GetBrightness(Frame.Value) - GetBrightness(History.Past.Mean)) < AgreedDifference;
-	return bAgrees ? max(1.0 / (Frames + 1.0), Push.MinAlpha) : 1.0;
+	return bAgrees ? max(Frame.Rays / (Frames + Frame.Rays), Push.MinAlpha) : 1.0;
 #endif
 }
 
@@ -43,7 +43,7 @@ FAccumulated Blend(FFrameEstimate Frame, FHistory History, float Noise)
 	float Alpha = GetAlpha(Frame, History, Noise);
 	FAccumulated Past = History.Past;
 	float NeighborhoodMean = mix(Past.NeighborhoodMean, Frame.Neighborhood.Mean, Alpha);
-	return FAccumulated(mix(Past.Mean, Frame.Value, Alpha), sqrt(Noise), 1.0 / Alpha, NeighborhoodMean);
+	return FAccumulated(mix(Past.Mean, Frame.Value, Alpha), sqrt(Noise), Frame.Rays / Alpha, NeighborhoodMean);
 }
 
 // For a pixel without a value: the history if there is one, else the mean of what is around it.

@@ -8,6 +8,7 @@
 #include "SignalPasses.h"
 #include "SunShadowTypes.h"
 #include "Tiles/Contact.h"
+#include "Tiles/MoreRays.h"
 #include "Tiles/MovedCasters.h"
 #include "Tiles/TileView.h"
 #include "Tiles/Tiles.h"
@@ -173,7 +174,7 @@ FGraphTexture AddVisibility(FFrameContext& Context, const FGBuffer& GBuffer, FGr
 	if (MayLackSunRays(Context, Inputs.Queue) && !FindKept(Context, Inputs.Kept)) { return {}; }
 	if (Inputs.Queue.SunWidths.IsValid())
 	{
-		OutPenumbra = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::R16_FLOAT}, "SunShadowPenumbra");
+		OutPenumbra = Context.Graph.CreateTexture({Context.Width, Context.Height, GetMoreRays() > 0 ? ERTFormat::RG16_FLOAT : ERTFormat::R16_FLOAT}, "SunShadowPenumbra");
 		Inputs.Penumbra = OutPenumbra;
 	}
 	AddTileView(Context, Inputs.Tiles);
@@ -196,6 +197,7 @@ FPassRays ChooseSunShadowRays(const FPassQuery& Query)
 	const FSunRates Rates = GetSunRates(Query.Facts, MeasuresPenumbra());
 	Rays.Compute = {MakeTilesSource(Query.Facts, Rates), MakeResolveSource(Query.Facts, Rates)};
 	if (Rates.bAdaptive) { ListSettledShaders(Rays.Compute); }
+	if (MeasuresPenumbra() && GetMoreRays() > 0) { ListMoreRaysShaders(Rays.Compute); }
 	ListTileViewShaders(Rays.Compute);
 	if (Query.Facts.bHostShadow) { Rays.Compute.push_back(MakePyramidSource()); }
 	if (MayQueuesOverflow(1)) { Rays.Compute.push_back(MakeShareSource()); }
@@ -209,6 +211,8 @@ bool AskSunShadowRays(FFrameContext& Context, const FRayDispatch& Dispatch, FSha
 	InOut.Sun = MakeSunRays(Context.Scene, Dispatch);
 	InOut.SunRates = Rates;
 	InOut.bSunFiltered = IsSunShadowFiltered(Context.Scene);
+	InOut.MoreSunRays = InOut.bSunFiltered ? GetMoreRays() : 0;
+	InOut.bSunMoved = InOut.MoreSunRays > 0 && Context.MovedCasters->HasMoved(Context.Scene, InOut.Sun);
 	InOut.bSunWidths = MeasuresPenumbra() && Dispatch.Has("WITH_PENUMBRA"); // a variant without it may still serve, and writes none
 	return true;
 }

@@ -56,6 +56,12 @@ FMovedCasters::FRecent FMovedCasters::FindRecent(const FRTScene& Scene, const FS
 	return Found;
 }
 
+bool FMovedCasters::HasMoved(const FRTScene& Scene, const FSunRays& Rays)
+{
+	const FRecent Found = FindRecent(Scene, Rays);
+	return Found.bAnywhere || !Found.Casters.empty();
+}
+
 void FMovedCasters::Note(const FRTScene& Scene, const FSunRays& Rays)
 {
 	Next = {MakeSunState(Scene, Rays), Scene.GetCasterChanges().GetCount(), true};

@@ -36,6 +36,8 @@ public:
 	};
 	/// Finds what may have changed in the last RecentFrames frames and in this one. As Find.
 	FRecent FindRecent(const FRTScene& Scene, const FSunRays& Rays);
+	/// Returns whether FindRecent would find anything.
+	bool HasMoved(const FRTScene& Scene, const FSunRays& Rays);
 	/// bSubmitted: false if the frame never runs; the next frame then finds its changes again.
 	void EndFrame(bool bSubmitted);
 
