@@ -50,4 +50,22 @@ vec4 BoundTile(FViewConstants View, uvec2 FirstPixel, uint TileSize, float Neare
 	return vec4(Center, Radius);
 }
 
+struct FCasterList
+{
+	FAddress Casters; // FMovedCaster[Count]
+	uint Count;
+	float Spread; // GetShadowSpread
+};
+
+// Whether one of the casters that fall to this thread of a work group of 64 may shadow a sphere of BoundTile.
+bool MayAnyShadow(FSceneConstants Scene, FViewConstants View, FCasterList List, vec4 Bound)
+{
+	for (uint I = gl_LocalInvocationIndex; I < List.Count; I += 64u)
+	{
+		FMovedCaster Caster = FMovedCasterRef(List.Casters).Data[I];
+		if (MayShadow(Caster, View.CameraPosition + Bound.xyz, Bound.w, Scene.SunDirection, List.Spread)) { return true; }
+	}
+	return false;
+}
+
 #endif

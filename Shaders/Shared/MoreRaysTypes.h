@@ -2,7 +2,7 @@
 #ifndef LANTERN_MORE_RAYS_TYPES_H
 #define LANTERN_MORE_RAYS_TYPES_H
 
-#include "TileTypes.h"
+#include "SettledTypes.h"
 
 LANTERN_SHARED_BEGIN
 
@@ -17,9 +17,12 @@ struct FMoreRaysConstants
 	uint Capacity;
 	uint Samples; // of each request
 	uint Surface, PreviousSurface, Motion; // sampled indices; NO_TEXTURE, the last two: no pixel has a history
-	uint Pad;
+	uint bAnywhere;     // 1: any shadow may have moved
+	FAddress Casters;   // FMovedCaster[CasterCount]: those that moved in the last frames
+	uint CasterCount;
+	float CasterSpread; // as in FTemporalConstants
 };
-LANTERN_ASSERT_SIZE(FMoreRaysConstants, 80);
+LANTERN_ASSERT_SIZE(FMoreRaysConstants, 96);
 
 LANTERN_SHARED_END
 

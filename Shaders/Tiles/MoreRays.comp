@@ -1,9 +1,10 @@
 // Asks for more sun rays where one cannot tell and no history helps: at borders of shadows that have just come into view, or that are
-// narrower than the filter can carry from frame to frame while the picture moves.
+// narrower than the filter can carry from frame to frame
+// while the picture moves, and of those that move.
 #version 460
 #include "../Shared/MoreRaysTypes.h"
 #include "../Library/GBuffer.glsl"
-#include "../Library/History.glsl"
+#include "../Library/MovedCasters.glsl"
 #include "../Rays/RayQueue.glsl"
 #include "Tile.glsl"
 
@@ -15,7 +16,7 @@ const uint SeesSun = 1u, SeesNone = 2u;   // answers of a pixel; 0: it had none 
 const float WideEnough = 2.0;             // pixels: a penumbra that histories can be resampled in
 const float LeastCoverage = 0.5;          // of a history
 
-shared uint States[RingSize * RingSize], Wanted[2], FirstRequest;
+shared uint States[RingSize * RingSize], Wanted[2], FirstRequest, bTouched, NearestBits, FarthestBits;
 
 // The answers of a pixel that faces the sun.
 uint LoadState(FViewConstants View, ivec2 Pixel)
@@ -64,14 +65,34 @@ float MeasureWidth(FViewConstants View, ivec2 Pixel, FSurface Surface)
 
 bool NeedsMore(FViewConstants View, ivec2 Pixel)
 {
-	if (Push.PreviousSurface == NO_TEXTURE) { return true; }
+	if (Push.PreviousSurface == NO_TEXTURE || bTouched != 0u) { return true; }
 	FSurface Surface = LoadSurface(Push.Surface, Pixel);
 	vec4 Motion = texelFetch(Textures[Push.Motion], Pixel, 0);
 	FReprojection R = Reproject(View, Push.PreviousSurface, uvec2(Pixel), Surface, Motion, -CameraRay(View, vec2(Pixel) + 0.5));
-	if (R.Coverage < LeastCoverage) { return true; }
+	if (R.Coverage < LeastCoverage || MovedItself(View, Surface.Distance, uvec2(Pixel), Motion)) { return true; }
 	// A history of the very same point needs no interpolation.
 	if (!any(greaterThan(R.Fraction * (1.0 - R.Fraction), vec2(1.0e-4)))) { return false; }
 	return MeasureWidth(View, Pixel, Surface) < WideEnough;
+}
+
+// Called by all threads.
+void FindTouched(FViewConstants View, bool bAsked, ivec2 Pixel)
+{
+	if (Push.CasterCount == 0u) { return; }
+	if (bAsked)
+	{
+		uint Bits = floatBitsToUint(LoadSurface(Push.Surface, Pixel).Distance);
+		atomicMin(NearestBits, Bits);
+		atomicMax(FarthestBits, Bits);
+	}
+	barrier();
+	if (NearestBits <= FarthestBits)
+	{
+		vec4 Bound = BoundTile(View, gl_WorkGroupID.xy * TILE_SIZE, TILE_SIZE, uintBitsToFloat(NearestBits), uintBitsToFloat(FarthestBits));
+		FCasterList List = FCasterList(Push.Casters, Push.CasterCount, Push.CasterSpread);
+		if (MayAnyShadow(FSceneRef(Push.Pass.Scene).Data, View, List, Bound)) { bTouched = 1u; }
+	}
+	barrier();
 }
 
 void main()
@@ -81,10 +102,17 @@ void main()
 	uvec2 Pixel = TilePixel(gl_WorkGroupID.xy, Place), At = TilePixel(uvec2(0u), Place);
 	FTile Tile = FTileRef(Push.Tiles).Data[TileIndex(View, gl_WorkGroupID.xy)];
 	if ((Tile.SunRays[0] | Tile.SunRays[1]) == 0u) { return; }
-	if (Place == 0u) { Wanted[0] = Wanted[1] = 0u; }
+	if (Place == 0u)
+	{
+		Wanted[0] = Wanted[1] = 0u;
+		bTouched = Push.bAnywhere;
+		NearestBits = 0x7f7fffffu;
+		FarthestBits = 0u;
+	}
 	LoadStates(View, Place);
 	barrier();
 	bool bAsked = IsMarked(Tile.SunRays, Place) && States[(At.y + 1u) * RingSize + At.x + 1u] != 0u;
+	FindTouched(View, bAsked, ivec2(Pixel));
 	bool bWanted = bAsked && JoinStates(At) == (SeesSun | SeesNone) && NeedsMore(View, ivec2(Pixel));
 	if (bWanted) { atomicOr(Wanted[Word], Bit); }
 	barrier();

@@ -61,12 +61,8 @@ void FindMovedCasters(FViewConstants View, FSettledConstants Settled, uvec2 Tile
 	if (Settled.CasterCount == 0u || NearestBits > FarthestBits) { return; }
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	vec4 Bound = BoundTile(View, Tile * TILE_SIZE, TILE_SIZE, uintBitsToFloat(NearestBits), uintBitsToFloat(FarthestBits));
-	float Spread = GetShadowSpread(Push.SunOneMinusCos);
-	for (uint I = gl_LocalInvocationIndex; I < Settled.CasterCount; I += TILE_PIXELS)
-	{
-		FMovedCaster Caster = FMovedCasterRef(Settled.Casters).Data[I];
-		if (MayShadow(Caster, View.CameraPosition + Bound.xyz, Bound.w, Scene.SunDirection, Spread)) { bTouched = 1u; }
-	}
+	FCasterList List = FCasterList(Settled.Casters, Settled.CasterCount, GetShadowSpread(Push.SunOneMinusCos));
+	if (MayAnyShadow(Scene, View, List, Bound)) { bTouched = 1u; }
 }
 
 // Whether a pixel is among the Share of a tile's pixels that are traced, in turn; Share: 1/4 or more. A quarter is one of each 2 × 2, and all

@@ -34,14 +34,9 @@ void FindTouched(FViewConstants View)
 	if (Push.CasterCount == 0u) { return; }
 	if (NearestBits <= FarthestBits)
 	{
-		uvec2 First = gl_WorkGroupID.xy * GroupSize;
-		vec4 Bound = BoundTile(View, First, GroupSize, uintBitsToFloat(NearestBits), uintBitsToFloat(FarthestBits));
-		vec3 Sun = FSceneRef(Push.Pass.Scene).Data.SunDirection;
-		for (uint I = gl_LocalInvocationIndex; I < Push.CasterCount; I += GroupSize * GroupSize)
-		{
-			FMovedCaster Caster = FMovedCasterRef(Push.Casters).Data[I];
-			if (MayShadow(Caster, View.CameraPosition + Bound.xyz, Bound.w, Sun, Push.CasterSpread)) { bTouched = 1u; }
-		}
+		vec4 Bound = BoundTile(View, gl_WorkGroupID.xy * GroupSize, GroupSize, uintBitsToFloat(NearestBits), uintBitsToFloat(FarthestBits));
+		FCasterList List = FCasterList(Push.Casters, Push.CasterCount, Push.CasterSpread);
+		if (MayAnyShadow(FSceneRef(Push.Pass.Scene).Data, View, List, Bound)) { bTouched = 1u; }
 	}
 	barrier();
 }

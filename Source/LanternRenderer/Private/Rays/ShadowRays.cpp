@@ -43,6 +43,7 @@ std::shared_ptr<const FShadowRays> AddShadowRays(FFrameContext& Context, const F
 	if (!Asked) { return nullptr; }
 	FShadowRays Rays;
 	Rays.Sun = Asked->Wishes.Sun;
+	Rays.Changes = Asked->Wishes.SunChanges;
 	if (Rays.Sun.SamplesPerPixel > 0) { Rays.Map = AddHostShadowPass(Context, Rays.Sun); }
 	Rays.Traced.Sun = Rays.Sun;
 	Rays.Queue = CreateRayQueue(Context, GetMostPerPixel(Asked->Wishes));
@@ -66,7 +67,7 @@ std::shared_ptr<const FShadowRays> AddShadowRays(FFrameContext& Context, const F
 	const FShadowRayWishes& Wishes = Asked->Wishes;
 	if (Wishes.MoreSunRays > 0 && Rays.Queue.SunWidths.IsValid())
 	{
-		AddMoreRays(Context, GBuffer, Asked->Dispatch, Rays.Queue, Rays.Traced, Rays.Tiles, Wishes.bSunMoved);
+		AddMoreRays(Context, GBuffer, Asked->Dispatch, Rays.Queue, Rays.Traced, Rays.Tiles, Rays.Changes);
 	}
 	return std::make_shared<const FShadowRays>(std::move(Rays));
 }

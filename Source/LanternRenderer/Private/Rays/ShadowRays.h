@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "Tiles/HostShadow.h"
+#include "Tiles/MovedCasters.h"
 #include "Tiles/SettledTiles.h"
 
 namespace Lantern
@@ -24,7 +25,7 @@ struct FShadowRayWishes
 	bool bSunWidths = false; ///< FRayQueue::SunWidths
 	FSunRates SunRates;
 	uint32_t MoreSunRays = 0; ///< of a pixel, where its first one cannot tell
-	bool bSunMoved = false;   ///< something has moved that casts or shows the sun's shadows
+	FShadowChanges SunChanges;
 	bool bSunFiltered = false; ///< what becomes of the sun's rays is accumulated over frames
 	std::optional<FLocalRays> Local;
 };
@@ -35,6 +36,7 @@ struct FShadowRays
 	FRayQueue Queue;
 	FGraphBuffer Tiles; ///< FTile[]; invalid: nobody asks for the sun
 	FSunRays Sun;
+	FShadowChanges Changes; ///< of the sun's shadows, if they are filtered
 	FSettledTiles Settled;
 	FHostShadowMap Map; ///< what it holds is left to it
 	FQueuedRays Traced;

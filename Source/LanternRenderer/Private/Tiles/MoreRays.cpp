@@ -24,8 +24,8 @@ bool IsSameView(const FView& A, const FView& B)
 	       A.Height == B.Height && A.Near == B.Near && WindowA == WindowB;
 }
 
-void AddAskPass(
-    FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue& More, FGraphBuffer Tiles, uint32_t Samples)
+void AddAskPass(FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue& More, FGraphBuffer Tiles, const FShadowChanges& Changes,
+    uint32_t Samples)
 {
 	const FFrameContext* const Frame = &Context;
 	const FSurfaceTextures Surface = Context.Surface;
@@ -50,6 +50,10 @@ void AddAskPass(
 			C.Widths = GetAddress(Pass, More.SunWidths);
 			C.Capacity = More.Capacity;
 			C.Samples = Samples;
+			C.bAnywhere = Changes.bAnywhere ? 1u : 0u;
+			C.Casters = Changes.Casters;
+			C.CasterCount = Changes.CasterCount;
+			C.CasterSpread = Changes.Spread;
 			C.Surface = GetSampledIndex(Pass, Surface.Current);
 			C.PreviousSurface = GetSampledIndex(Pass, bPrevious ? Surface.Previous : FGraphTexture{});
 			C.Motion = GetSampledIndex(Pass, bPrevious ? Surface.Motion : FGraphTexture{});
@@ -68,9 +72,9 @@ void ListMoreRaysShaders(std::vector<FShaderSource>& Out)
 }
 
 void AddMoreRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue,
-    const FQueuedRays& Rays, FGraphBuffer Tiles, bool bMoved)
+    const FQueuedRays& Rays, FGraphBuffer Tiles, const FShadowChanges& Changes)
 {
-	if (!bMoved && Context.PreviousView && IsSameView(Context.View, *Context.PreviousView)) { return; }
+	if (!Changes.HasAny() && Context.PreviousView && IsSameView(Context.View, *Context.PreviousView)) { return; }
 	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSource());
 	if (!Pipeline || !RequireSurface(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion})) { return; }
 	FRayQueue More = Queue;
@@ -80,7 +84,7 @@ void AddMoreRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDisp
 	More.Counters = Context.Graph.CreateBuffer({sizeof(FRayQueueCounters), ERTBufferUsage::CopyDest}, "MoreRayCounters");
 	FQueuedRays Traced = Rays;
 	Traced.MoreSamples = GetMoreRays();
-	AddAskPass(Context, Pipeline, More, Tiles, Traced.MoreSamples);
+	AddAskPass(Context, Pipeline, More, Tiles, Changes, Traced.MoreSamples);
 	AddShadowRaysPass(Context, GBuffer, Dispatch, More, Traced);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Rays/RayQueue.h"
+#include "Tiles/MovedCasters.h"
 
 namespace Lantern
 {
@@ -11,8 +12,8 @@ uint32_t GetMoreRays();
 void ListMoreRaysShaders(std::vector<FShaderSource>& Out);
 
 /// Adds the passes that ask for further rays and trace them, behind those that trace Queue and what its tiles have left out. Does
-/// nothing in a frame that shows the last one's view of a scene in which nothing moved. bMoved: something did.
+/// nothing in a frame that shows the last one's view of a scene in which nothing moved. Changes: of the sun's shadows.
 void AddMoreRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue,
-    const FQueuedRays& Rays, FGraphBuffer Tiles, bool bMoved);
+    const FQueuedRays& Rays, FGraphBuffer Tiles, const FShadowChanges& Changes);
 
 } // namespace Lantern

@@ -13,6 +13,9 @@ namespace
 {
 TRTConsoleVariable<bool> CVarCapsules(
     "r.RT.Debug.Shadow.Capsules", true, "Planted fault. Off: r.RT.Shadow.Adaptive and the filter are not told which casters moved.");
+TRTConsoleVariable<bool> CVarKnownChanges("r.RT.Shadow.KnownChanges", true,
+    "The filter looks for changes of the sun's shadows only where casters or surfaces moved, as the scene knows. If off, it looks for them "
+    "in the picture everywhere, and takes some noise for change.");
 static_assert(SETTLED_MOST_CASTERS >= FCasterChanges::MostKept);
 
 /// Share of the sun's diameter by which it may move in a frame without a new start. The disk's visible share changes by at most
@@ -56,12 +59,6 @@ FMovedCasters::FRecent FMovedCasters::FindRecent(const FRTScene& Scene, const FS
 	return Found;
 }
 
-bool FMovedCasters::HasMoved(const FRTScene& Scene, const FSunRays& Rays)
-{
-	const FRecent Found = FindRecent(Scene, Rays);
-	return Found.bAnywhere || !Found.Casters.empty();
-}
-
 void FMovedCasters::Note(const FRTScene& Scene, const FSunRays& Rays)
 {
 	Next = {MakeSunState(Scene, Rays), Scene.GetCasterChanges().GetCount(), true};
@@ -75,6 +72,18 @@ std::vector<FMovedCaster> FMovedCasters::Convert(const FRTScene& Scene, const st
 		Out.push_back({Scene.ToRelative(Change.From), static_cast<float>(Change.Radius), Scene.ToRelative(Change.To), 0});
 	}
 	return Out;
+}
+
+bool FindShadowChanges(FFrameContext& Context, const FSunRays& Rays, FShadowChanges& Out)
+{
+	// What is in a host's own map, nobody tells.
+	if (!CVarKnownChanges.GetOnRenderThread() || Context.Facts.bHostShadow) { return true; }
+	const FMovedCasters::FRecent Found = Context.MovedCasters->FindRecent(Context.Scene, Rays);
+	Out.bKnown = !Found.bAnywhere;
+	Out.bAnywhere = Found.bAnywhere;
+	Out.CasterCount = static_cast<uint32_t>(Found.Casters.size());
+	Out.Spread = std::sqrt(2.0f * GetSunOneMinusCos(Rays)) + 1.0e-3f;
+	return WriteCasters(Context, Found.Casters, Out.Casters);
 }
 
 bool WriteCasters(FFrameContext& Context, const std::vector<FMovedCaster>& Casters, uint64_t& OutAddress)

@@ -36,8 +36,6 @@ public:
 	};
 	/// Finds what may have changed in the last RecentFrames frames and in this one. As Find.
 	FRecent FindRecent(const FRTScene& Scene, const FSunRays& Rays);
-	/// Returns whether FindRecent would find anything.
-	bool HasMoved(const FRTScene& Scene, const FSunRays& Rays);
 	/// bSubmitted: false if the frame never runs; the next frame then finds its changes again.
 	void EndFrame(bool bSubmitted);
 
@@ -64,6 +62,18 @@ private:
 	uint32_t Turn = 0;
 };
 
+/// Where the sun's shadows may have changed in the last frames.
+struct FShadowChanges
+{
+	bool bKnown = false;    ///< false: nobody says where, and what needs to know looks at the picture
+	bool bAnywhere = false; ///< all of them, since the sun has moved, or too much else
+	uint64_t Casters = 0;   ///< FMovedCaster[CasterCount], of this frame; with bKnown
+	uint32_t CasterCount = 0;
+	float Spread = 0.0f; ///< of a half shadow's border, metres per metre
+	bool HasAny() const { return bAnywhere || CasterCount > 0; }
+};
+/// r.RT.Shadow.KnownChanges. False: an error, which the context has.
+bool FindShadowChanges(FFrameContext& Context, const FSunRays& Rays, FShadowChanges& Out);
 /// Writes casters where this frame's shaders read them. OutAddress: 0 if there are none. False: an error, which the context has.
 bool WriteCasters(FFrameContext& Context, const std::vector<FMovedCaster>& Casters, uint64_t& OutAddress);
 
