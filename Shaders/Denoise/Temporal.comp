@@ -25,8 +25,10 @@ const float EnoughRays = 4.0; // that stand without a history
 FAccumulated Accumulate(FFrameEstimate Frame, FHistory History, ivec2 PreviousSize, bool bMayHaveChanged)
 {
 	float Unchanged = bMayHaveChanged ? GetUnchangedShare(Frame, History, PreviousSize) : 1.0;
+#ifndef NO_ADAPTION // r.RT.Debug.Denoise.Adapt
 	// Further rays at a border that may have moved are worth more than what was there before.
 	if (bMayHaveChanged && Push.bChangesKnown != 0u && Frame.Rays >= EnoughRays) { Unchanged = 0.0; }
+#endif
 	// Between texels a history holds no edge: what is narrower than a pixel is this frame's alone.
 	if (History.bResampled) { Unchanged *= GetSoftness(Frame.Extent); }
 	float Noise = EstimateNoise(Frame, History.Past, Unchanged);

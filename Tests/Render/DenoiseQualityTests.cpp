@@ -107,6 +107,7 @@ protected:
 			}
 			Keep(Name + "_truth.png", Truths.back());
 			UseFilter();
+			SetVariable("r.RT.Shadow.MoreRays", "0");
 			const FFigures Filtered = MeasureSequence(Name, "filtered", Sequence, Looked, Truths, true);
 			SetVariable("r.RT.Shadow.MoreRays", "15");
 			const FFigures More = MeasureSequence(Name, "more", Sequence, Looked, Truths, true);

@@ -19,7 +19,8 @@ protected:
 		FDenoiseTest::SetUp();
 		UseFilter();
 		SetVariable("r.RT.Rays.Count", "1");
-		SetVariable("r.RT.Lights", "0"); // the sun's rays alone count
+		SetVariable("r.RT.Lights", "0");          // the sun's rays alone count
+		SetVariable("r.RT.Shadow.MoreRays", "0"); // and of these, the first of each pixel
 	}
 	struct FPlayed
 	{
@@ -128,6 +129,32 @@ TEST_F(FSettledTilesTest, MovingCameraTracesMore)
 	    "courtyard, moving: {:.3f} rays per pixel of {:.3f}; mean {:.5f} of {:.5f}", Few.RaysPerPixel, All.RaysPerPixel, Mean, Right));
 	EXPECT_LE(Few.RaysPerPixel, 0.6);
 	EXPECT_NEAR(Mean, Right, 1e-3);
+}
+
+// Further rays go where histories fail: into a picture that moves, not into one that stands still.
+TEST_F(FSettledTilesTest, MoreRaysWhereHistoriesFail)
+{
+	ASSERT_TRUE(Load("courtyard"));
+	const FView Start = MakeView(240, 135);
+	FSequence Sequence;
+	Sequence.Camera = Still(Start);
+	Sequence.Frames = Settling + 8;
+	const double Few = Play(true, Sequence, Settling).RaysPerPixel;
+	FSequence Moving = Sequence;
+	Moving.Camera = [&](uint32_t Frame) {
+		FView View = Move(Start, 0.0, 0.0, 0.1 * Frame);
+		View.DeltaSeconds = 1.0f / 60.0f;
+		return View;
+	};
+	const double FewMoving = Play(true, Moving, Settling).RaysPerPixel;
+	SetVariable("r.RT.Shadow.MoreRays", "8");
+	EXPECT_EQ(Play(true, Sequence, Settling).RaysPerPixel, Few);
+	const double More = Play(true, Moving, Settling).RaysPerPixel;
+	PrintFigure(fmt::format("courtyard, turning by 6 degrees a second: {:.3f} rays per pixel instead of {:.3f}", More, FewMoving));
+	EXPECT_GT(More, FewMoving + 0.1);
+	EXPECT_LT(More, FewMoving + 3.0);
+	const FImage First = RenderSequence(Moving).back(), Again = RenderSequence(Moving).back();
+	EXPECT_EQ(First.Pixels, Again.Pixels);
 }
 
 // Whatever changes shadows shows in its own frame, and bit for bit as if all rays were traced: the floor is lit all over before.

@@ -54,7 +54,7 @@ std::vector<std::pair<std::string, std::string>> MakeDefines(bool bColor, bool b
 {
 	std::vector<std::pair<std::string, std::string>> Defines = {{"CHANNELS", bColor ? "3" : "1"}};
 	if (bExtent) { Defines.emplace_back("WITH_EXTENT", "1"); }
-	if (!CVarValidate.GetOnRenderThread()) { Defines.emplace_back("NO_VALIDATION", "1"); }
+	for (const auto& Define : MakeValidationDefines()) { Defines.push_back(Define); }
 	if (!CVarAdapt.GetOnRenderThread()) { Defines.emplace_back("NO_ADAPTION", "1"); }
 	if (!CVarGuard.GetOnRenderThread()) { Defines.emplace_back("NO_GUARD", "1"); }
 	return Defines;
@@ -147,6 +147,11 @@ FGraphTexture FDenoiser::AddFilterPass(FGraphTexture Input, FGraphTexture Output
 	return Output;
 }
 } // namespace
+
+FShaderDefines MakeValidationDefines()
+{
+	return CVarValidate.GetOnRenderThread() ? FShaderDefines{} : FShaderDefines{{"NO_VALIDATION", "1"}};
+}
 
 void ListDenoiseShaders(bool bColor, bool bExtent, const FDenoiseSettings& Settings, std::vector<FShaderSource>& Out)
 {

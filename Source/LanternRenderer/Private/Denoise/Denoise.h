@@ -31,6 +31,8 @@ struct FDenoiseInputs
 	FShadowChanges Changes; ///< of sun shadows; others look for changes in the signal itself
 };
 
+/// The defines of shaders that ask Library/History.glsl for a surface's history, by planted faults.
+FShaderDefines MakeValidationDefines();
 /// Lists the compute shaders of the filter. bColor: three channels. bExtent: FDenoiseInputs::Extent is valid.
 void ListDenoiseShaders(bool bColor, bool bExtent, const FDenoiseSettings& Settings, std::vector<FShaderSource>& Out);
 

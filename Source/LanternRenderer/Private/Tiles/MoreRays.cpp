@@ -1,6 +1,7 @@
 // Passes that ask for more sun rays and trace them.
 #include "Tiles/MoreRays.h"
 
+#include "Denoise/Denoise.h"
 #include "Denoise/SurfaceHistory.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "MoreRaysTypes.h"
@@ -10,12 +11,12 @@ namespace Lantern
 
 namespace
 {
-TRTConsoleVariable<int32_t> CVarMoreRays("r.RT.Shadow.MoreRays", 0,
+TRTConsoleVariable<int32_t> CVarMoreRays("r.RT.Shadow.MoreRays", 8,
     "Further sun rays of a pixel at the border of a shadow, where the filter has no history to rely on: what has just come into view, "
     "and narrow penumbrae while the picture moves. Needs r.RT.Shadow.Denoise and soft shadows. 0: none.",
     {0, 32});
 
-FShaderSource MakeSource() { return MakeComputeSource("Tiles/MoreRays.comp"); }
+FShaderSource MakeSource() { return MakeComputeSource("Tiles/MoreRays.comp", MakeValidationDefines()); }
 
 bool IsSameView(const FView& A, const FView& B)
 {

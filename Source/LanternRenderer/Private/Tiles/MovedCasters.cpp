@@ -33,9 +33,9 @@ bool FMovedCasters::HoldsFor(const FSunState& Before, const FSunState& Now)
 	return glm::length(Now.Direction - Before.Direction) <= LittleMove * double(Now.Rays.Diameter) && Before.Rays == Now.Rays;
 }
 
-FMovedCasters::FFound FMovedCasters::Find(const FRTScene& Scene, const FSunRays& Rays)
+FMovedCasters::FFound FMovedCasters::Find(const FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds)
 {
-	Note(Scene, Rays);
+	Note(Scene, Rays, DeltaSeconds);
 	FFound Found;
 	Found.Turn = Turn;
 	Found.bOtherSun = !Last.bValid || !HoldsFor(Last.Sun, Next.Sun);
@@ -46,9 +46,9 @@ FMovedCasters::FFound FMovedCasters::Find(const FRTScene& Scene, const FSunRays&
 	return Found;
 }
 
-FMovedCasters::FRecent FMovedCasters::FindRecent(const FRTScene& Scene, const FSunRays& Rays)
+FMovedCasters::FRecent FMovedCasters::FindRecent(const FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds)
 {
-	Note(Scene, Rays);
+	Note(Scene, Rays, DeltaSeconds);
 	FRecent Found;
 	if (Recent.empty()) { return Found; } // nothing was kept before
 	for (const FState& State : Recent) { Found.bAnywhere |= !HoldsFor(State.Sun, Next.Sun); }
@@ -59,9 +59,9 @@ FMovedCasters::FRecent FMovedCasters::FindRecent(const FRTScene& Scene, const FS
 	return Found;
 }
 
-void FMovedCasters::Note(const FRTScene& Scene, const FSunRays& Rays)
+void FMovedCasters::Note(const FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds)
 {
-	Next = {MakeSunState(Scene, Rays), Scene.GetCasterChanges().GetCount(), true};
+	Next = {MakeSunState(Scene, Rays), Scene.GetCasterChanges().GetCount(), true, DeltaSeconds, 0.0};
 }
 
 std::vector<FMovedCaster> FMovedCasters::Convert(const FRTScene& Scene, const std::vector<FCasterChange>& Changes)
@@ -78,7 +78,7 @@ bool FindShadowChanges(FFrameContext& Context, const FSunRays& Rays, FShadowChan
 {
 	// What is in a host's own map, nobody tells.
 	if (!CVarKnownChanges.GetOnRenderThread() || Context.Facts.bHostShadow) { return true; }
-	const FMovedCasters::FRecent Found = Context.MovedCasters->FindRecent(Context.Scene, Rays);
+	const FMovedCasters::FRecent Found = Context.MovedCasters->FindRecent(Context.Scene, Rays, Context.View.DeltaSeconds);
 	Out.bKnown = !Found.bAnywhere;
 	Out.bAnywhere = Found.bAnywhere;
 	Out.CasterCount = static_cast<uint32_t>(Found.Casters.size());
@@ -106,7 +106,9 @@ void FMovedCasters::EndFrame(bool bSubmitted)
 	Last = std::exchange(Next, {});
 	++Turn;
 	if (!Last.bValid) { return Recent.clear(); }
-	if (Recent.size() > RecentFrames) { Recent.pop_front(); }
+	Time += double(Last.DeltaSeconds);
+	Last.Time = Time;
+	while (!Recent.empty() && Time - Recent.front().Time > RecentSeconds) { Recent.pop_front(); }
 	Recent.push_back(Last);
 }
 

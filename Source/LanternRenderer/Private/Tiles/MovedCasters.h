@@ -24,18 +24,18 @@ public:
 		/// Casters that moved, came, went or were deformed, at most SETTLED_MOST_CASTERS. Empty with bAnywhere.
 		std::vector<FMovedCaster> Casters;
 	};
-	/// Rays: how the sun's rays are traced in this frame. After the scene's BeginUpdate.
-	FFound Find(const FRTScene& Scene, const FSunRays& Rays);
+	/// Rays: how the sun's rays are traced in this frame. DeltaSeconds: since the frame before. After the scene's BeginUpdate.
+	FFound Find(const FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds);
 
-	/// Frames before this one whose changes FindRecent reports. A filter needs some frames to see that its history is wrong.
-	static constexpr uint32_t RecentFrames = 8;
+	/// How long FindRecent reports a change, seconds. A filter needs some frames to see that its history is wrong.
+	static constexpr double RecentSeconds = 0.13;
 	struct FRecent
 	{
 		bool bAnywhere = false;            ///< any shadow may have moved
 		std::vector<FMovedCaster> Casters; ///< empty with bAnywhere
 	};
-	/// Finds what may have changed in the last RecentFrames frames and in this one. As Find.
-	FRecent FindRecent(const FRTScene& Scene, const FSunRays& Rays);
+	/// Finds what may have changed in the last RecentSeconds. As Find.
+	FRecent FindRecent(const FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds);
 	/// bSubmitted: false if the frame never runs; the next frame then finds its changes again.
 	void EndFrame(bool bSubmitted);
 
@@ -51,15 +51,18 @@ private:
 		FSunState Sun;
 		uint64_t Changes = 0; ///< FCasterChanges::GetCount
 		bool bValid = false;
+		float DeltaSeconds = 0.0f;
+		double Time = 0.0; ///< of the view's submitted frames, seconds
 	};
 	static FSunState MakeSunState(const FRTScene& Scene, const FSunRays& Rays);
 	static bool HoldsFor(const FSunState& Before, const FSunState& Now);
 	static std::vector<FMovedCaster> Convert(const FRTScene& Scene, const std::vector<FCasterChange>& Changes);
-	void Note(const FRTScene& Scene, const FSunRays& Rays);
+	void Note(const FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds);
 
 	FState Last, Next;
 	std::deque<FState> Recent; ///< of the last frames, the oldest first; the last one is Last
 	uint32_t Turn = 0;
+	double Time = 0.0;
 };
 
 /// Where the sun's shadows may have changed in the last frames.

@@ -8,6 +8,19 @@
 namespace Lantern
 {
 
+namespace
+{
+/// Moves are what lights do most. Before: of the same light in another place. Packed: Light before.
+FLightData PackMoved(const FSceneLight& Before, const FSceneLight& Light, FLightData Packed, const FLightReach& Reach)
+{
+	FSceneLight Moved = Before;
+	Moved.Position = Light.Position;
+	if (ReachesEverywhere(Light) || !(Moved == Light)) { return PackLight(Light); }
+	for (int Axis = 0; Axis < 3; ++Axis) { Packed.Position[Axis] = Reach.Position[Axis]; }
+	return Packed;
+}
+} // namespace
+
 /// Times: 1, or −1 modulo 2³².
 void FLightStore::Count(const FSceneLight& Light, uint32_t Times)
 {
@@ -34,15 +47,17 @@ void FLightStore::Set(FLightId Id, const FSceneLight& Light)
 {
 	assert(Slots.IsCurrent(Id.Index, Id.Generation));
 	FSceneLight& Old = Slots[Id.Index];
+	const FLightReach Reach = GetReach(Light);
 	if (!ReachAlike(Old, Light))
 	{
 		Journal.Add(GetReach(Old));
-		Journal.Add(GetReach(Light));
+		Journal.Add(Reach);
 	}
 	Count(Old, ~0u);
 	Count(Light, 1);
+	const FLightData Packed = PackMoved(Old, Light, Table[Id.Index], Reach);
 	Old = Light;
-	Table.Set(Id.Index, PackLight(Light));
+	Table.Set(Id.Index, Packed);
 }
 
 void FLightStore::Remove(FLightId Id)
