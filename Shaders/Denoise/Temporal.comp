@@ -19,11 +19,14 @@ layout(push_constant, scalar) uniform FPush { FTemporalConstants Push; };
 #include "Temporal/Blend.glsl"
 #include "Temporal/Store.glsl"
 
-const float EnoughRays = 4.0; // that stand without a history
+const float EnoughRays = 4.0;      // that stand without a history
+const float CertainSigma = 1.0e-3; // standard deviation of a history without noise
 
 // PreviousSize: of the history, pixels.
 FAccumulated Accumulate(FFrameEstimate Frame, FHistory History, ivec2 PreviousSize, bool bMayHaveChanged)
 {
+	// Where light may change, certainty of long standing would hide the first rays that say otherwise.
+	if (bMayHaveChanged && History.Past.NoiseSigma < CertainSigma) { History.Past.Frames = min(History.Past.Frames, 1.0); }
 	float Unchanged = bMayHaveChanged ? GetUnchangedShare(Frame, History, PreviousSize) : 1.0;
 #ifndef NO_ADAPTION // r.RT.Debug.Denoise.Adapt
 	// Further rays at a border that may have moved are worth more than what was there before.

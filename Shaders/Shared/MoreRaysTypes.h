@@ -17,7 +17,7 @@ struct FMoreRaysConstants
 	uint Capacity;
 	uint Samples; // of each request
 	uint Surface, PreviousSurface, Motion; // sampled indices; NO_TEXTURE, the last two: no pixel has a history
-	uint bAnywhere;     // 1: any shadow may have moved
+	uint Pad;
 	FAddress Casters;   // FMovedCaster[CasterCount]: those that moved in the last frames
 	uint CasterCount;
 	float CasterSpread; // as in FTemporalConstants

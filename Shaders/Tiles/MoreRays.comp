@@ -105,7 +105,7 @@ void main()
 	if (Place == 0u)
 	{
 		Wanted[0] = Wanted[1] = 0u;
-		bTouched = Push.bAnywhere;
+		bTouched = 0u;
 		NearestBits = 0x7f7fffffu;
 		FarthestBits = 0u;
 	}

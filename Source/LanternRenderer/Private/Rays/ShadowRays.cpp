@@ -43,8 +43,9 @@ std::shared_ptr<const FShadowRays> AddShadowRays(FFrameContext& Context, const F
 	if (!Asked) { return nullptr; }
 	FShadowRays Rays;
 	Rays.Sun = Asked->Wishes.Sun;
-	Rays.Changes = Asked->Wishes.SunChanges;
 	if (Rays.Sun.SamplesPerPixel > 0) { Rays.Map = AddHostShadowPass(Context, Rays.Sun); }
+	const bool bFiltered = Asked->Wishes.bSunFiltered && Rays.Sun.SamplesPerPixel > 0;
+	if (bFiltered && !FindShadowChanges(Context, Rays.Sun, Rays.Changes)) { return nullptr; }
 	Rays.Traced.Sun = Rays.Sun;
 	Rays.Queue = CreateRayQueue(Context, GetMostPerPixel(Asked->Wishes));
 	if (Asked->Wishes.bSunWidths)

@@ -25,7 +25,6 @@ struct FShadowRayWishes
 	bool bSunWidths = false; ///< FRayQueue::SunWidths
 	FSunRates SunRates;
 	uint32_t MoreSunRays = 0; ///< of a pixel, where its first one cannot tell
-	FShadowChanges SunChanges;
 	bool bSunFiltered = false; ///< what becomes of the sun's rays is accumulated over frames
 	std::optional<FLocalRays> Local;
 };

@@ -194,7 +194,6 @@ bool AskSunShadowRays(FFrameContext& Context, const FRayDispatch& Dispatch, FSha
 	InOut.SunRates = Rates;
 	InOut.bSunFiltered = IsSunShadowFiltered(Context.Scene);
 	InOut.MoreSunRays = InOut.bSunFiltered ? GetMoreRays() : 0;
-	if (InOut.bSunFiltered && !FindShadowChanges(Context, InOut.Sun, InOut.SunChanges)) { return false; }
 	InOut.bSunWidths = MeasuresPenumbra() && Dispatch.Has("WITH_PENUMBRA"); // a variant without it may still serve, and writes none
 	return true;
 }

@@ -51,7 +51,6 @@ void AddAskPass(FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue& 
 			C.Widths = GetAddress(Pass, More.SunWidths);
 			C.Capacity = More.Capacity;
 			C.Samples = Samples;
-			C.bAnywhere = Changes.bAnywhere ? 1u : 0u;
 			C.Casters = Changes.Casters;
 			C.CasterCount = Changes.CasterCount;
 			C.CasterSpread = Changes.Spread;
@@ -75,7 +74,7 @@ void ListMoreRaysShaders(std::vector<FShaderSource>& Out)
 void AddMoreRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue,
     const FQueuedRays& Rays, FGraphBuffer Tiles, const FShadowChanges& Changes)
 {
-	if (!Changes.HasAny() && Context.PreviousView && IsSameView(Context.View, *Context.PreviousView)) { return; }
+	if (Changes.CasterCount == 0 && Context.PreviousView && IsSameView(Context.View, *Context.PreviousView)) { return; }
 	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSource());
 	if (!Pipeline || !RequireSurface(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion})) { return; }
 	FRayQueue More = Queue;

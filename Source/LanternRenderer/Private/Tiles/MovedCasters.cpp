@@ -80,7 +80,6 @@ bool FindShadowChanges(FFrameContext& Context, const FSunRays& Rays, FShadowChan
 	if (!CVarKnownChanges.GetOnRenderThread() || Context.Facts.bHostShadow) { return true; }
 	const FMovedCasters::FRecent Found = Context.MovedCasters->FindRecent(Context.Scene, Rays, Context.View.DeltaSeconds);
 	Out.bKnown = !Found.bAnywhere;
-	Out.bAnywhere = Found.bAnywhere;
 	Out.CasterCount = static_cast<uint32_t>(Found.Casters.size());
 	Out.Spread = std::sqrt(2.0f * GetSunOneMinusCos(Rays)) + 1.0e-3f;
 	return WriteCasters(Context, Found.Casters, Out.Casters);

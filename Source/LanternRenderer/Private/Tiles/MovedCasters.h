@@ -68,12 +68,10 @@ private:
 /// Where the sun's shadows may have changed in the last frames.
 struct FShadowChanges
 {
-	bool bKnown = false;    ///< false: nobody says where, and what needs to know looks at the picture
-	bool bAnywhere = false; ///< all of them, since the sun has moved, or too much else
-	uint64_t Casters = 0;   ///< FMovedCaster[CasterCount], of this frame; with bKnown
+	bool bKnown = false;  ///< false: anywhere, and what needs to know looks at the picture
+	uint64_t Casters = 0; ///< FMovedCaster[CasterCount], of this frame; with bKnown
 	uint32_t CasterCount = 0;
 	float Spread = 0.0f; ///< of a half shadow's border, metres per metre
-	bool HasAny() const { return bAnywhere || CasterCount > 0; }
 };
 /// r.RT.Shadow.KnownChanges. False: an error, which the context has.
 bool FindShadowChanges(FFrameContext& Context, const FSunRays& Rays, FShadowChanges& Out);
