@@ -1,21 +1,20 @@
-// Counts the slices of each column that the view may see into, by what the frame before saw.
+// Finds how far the view sees into each column, by what the frame before saw.
 #version 460
 #include "Froxels.glsl"
 
 layout(local_size_x = FOG_GROUP_SIZE, local_size_y = FOG_GROUP_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FFogColumnsConstants Push; };
 
-// Returns the farthest distance around a pixel of the frame before: neighbours are in it, since things move. 0: unlimited.
-float FarthestAround(vec2 Pixel)
+// Returns the farthest distance that columns of the frame before showed. 0: unlimited. Low, High: of these columns.
+float FarthestOf(ivec2 Low, ivec2 High)
 {
-	ivec2 Size = ivec2(Push.PreviousColumns, Push.PreviousRows);
-	ivec2 Column = clamp(ivec2(Pixel / float(Push.Grid.PixelSize)), ivec2(0), Size - 1);
+	ivec2 Last = ivec2(Push.PreviousColumns, Push.PreviousRows) - 1;
 	float Farthest = 0.0;
-	for (int Y = -1; Y <= 1; ++Y)
+	for (int Y = Low.y; Y <= High.y; ++Y)
 	{
-		for (int X = -1; X <= 1; ++X)
+		for (int X = Low.x; X <= High.x; ++X)
 		{
-			float Distance = texelFetch(Textures[Push.Depth], clamp(Column + ivec2(X, Y), ivec2(0), Size - 1), 0).x;
+			float Distance = texelFetch(Textures[Push.Depth], clamp(ivec2(X, Y), ivec2(0), Last), 0).x;
 			if (!(Distance > 0.0)) { return 0.0; } // the sky, or no number
 			Farthest = max(Farthest, Distance);
 		}
@@ -23,20 +22,37 @@ float FarthestAround(vec2 Pixel)
 	return Farthest;
 }
 
-uint CountSlices(FViewConstants View, uvec2 Column)
+bool IsWithin(float Distance, float Farthest) { return Farthest <= 0.0 || Distance <= Farthest; }
+
+// Returns how many slices are lit (x), and where what the column shows ends (y), in slices.
+vec2 FindEnd(FViewConstants View, uvec2 Column)
 {
-	if (Push.Depth == NO_TEXTURE || View.bHistory == 0u) { return Push.Grid.Slices; }
-	[[dont_unroll]] for (uint Slice = Push.Grid.Slices; Slice > 0u; --Slice)
+	vec2 Everything = vec2(Push.Grid.Slices), End = vec2(-1.0);
+	if (Push.Depth == NO_TEXTURE || View.bHistory == 0u) { return Everything; }
+	float Behind = 0.0; // distance at which the slice ends
+	[[dont_unroll]] for (uint Slice = Push.Grid.Slices + 1u; Slice > 0u; --Slice)
 	{
 		vec2 Pixel;
-		float Distance;
-		vec3 Near = FroxelPosition(Push.Grid, View, vec3(vec2(Column) + 0.5, float(Slice - 1u)));
-		if (!FindPreviousPlace(View, Near, Pixel, Distance)) { return Push.Grid.Slices; }
-		float Farthest = FarthestAround(Pixel);
-		// One slice more: readers interpolate.
-		if (Farthest <= 0.0 || Distance <= Farthest) { return min(Slice + 1u, Push.Grid.Slices); }
+		float Distance, Begin = float(Slice - 1u);
+		if (!FindPreviousPlace(View, FroxelPosition(Push.Grid, View, vec3(vec2(Column) + 0.5, Begin)), Pixel, Distance)) { return Everything; }
+		if (Slice > Push.Grid.Slices)
+		{
+			Behind = Distance;
+			continue;
+		}
+		vec2 Place = Pixel / float(Push.Grid.PixelSize);
+		ivec2 Middle = ivec2(Place);
+		// Things move, so neighbours count. One slice more: readers interpolate.
+		if (End.x < 0.0 && IsWithin(Distance, FarthestOf(Middle - 1, Middle + 1))) { End.x = min(Begin + 2.0, Everything.x); }
+		float Farthest = FarthestOf(ivec2(floor(Place - 0.499)), ivec2(floor(Place - 0.501)) + 1);
+		if (End.x >= 0.0 && IsWithin(Distance, Farthest))
+		{
+			End.y = Farthest <= 0.0 ? Begin + 1.0 : Begin + clamp((Farthest - Distance) / max(Behind - Distance, 1.0e-6), 0.0, 1.0);
+			return End;
+		}
+		Behind = Distance;
 	}
-	return 1u;
+	return vec2(max(End.x, 1.0), 0.0);
 }
 
 void main()
@@ -47,5 +63,6 @@ void main()
 	// The turn is the view's own: numbers of frames are shared by several views.
 	uint Turn = 0u;
 	if (Push.PreviousCounts != NO_TEXTURE) { Turn = 1u - (uint(max(texelFetch(Textures[Push.PreviousCounts], ivec2(0), 0).x, 0.0)) & 1u); }
-	imageStore(Images[Push.OutCounts], ivec2(Column), vec4(float(2u * CountSlices(View, Column) + Turn)));
+	vec2 End = FindEnd(View, Column);
+	imageStore(Images[Push.OutCounts], ivec2(Column), vec4(2.0 * End.x + float(Turn), End.y, 0.0, 0.0));
 }

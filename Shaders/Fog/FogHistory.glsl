@@ -11,12 +11,12 @@ struct FFogValue
 	vec3 Light;
 };
 
-// Reads one froxel of the frame before. Returns its weight: 0 if it was not lit.
+// Reads one froxel of the frame before. Returns its weight: 0 if it was out of view.
 float LoadPreviousFroxel(FFogGrid Grid, ivec3 Froxel, float Weight, inout FFogValue Sum)
 {
 	ivec3 Inside = clamp(Froxel, ivec3(0), ivec3(Grid.Columns, Grid.Rows, Grid.Slices) - 1);
-	float Counts = texelFetch(Textures[Push.PreviousCounts], Inside.xy, 0).x;
-	if (!(Counts >= 2.0 * float(Inside.z + 1))) { return 0.0; } // nor is what is no number
+	float End = texelFetch(Textures[Push.PreviousCounts], Inside.xy, 0).y;
+	if (!(End > float(Inside.z))) { return 0.0; } // nor is what is no number
 	ivec2 Texel = FroxelTexel(Grid, Inside);
 	float Visibility = Push.PreviousVisibility != NO_TEXTURE ? texelFetch(Textures[Push.PreviousVisibility], Texel, 0).x : 0.0;
 	vec3 Light = Push.PreviousLight != NO_TEXTURE ? texelFetch(Textures[Push.PreviousLight], Texel, 0).xyz : vec3(0.0);

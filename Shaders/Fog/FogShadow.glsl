@@ -33,15 +33,18 @@ vec3 FroxelJitter(uint FrameIndex, uint Seed)
 	return vec3((Offset + FrameIndex * uvec3(3518319155u, 2882110345u, 2360945575u)) >> 8u) * (1.0 / 16777216.0);
 }
 
-FFogValue TraceFroxel(FSceneConstants Scene, FViewConstants View, ivec3 Froxel)
+// End: of what the column shows, in slices. Light behind that would leak through walls.
+FFogValue TraceFroxel(FSceneConstants Scene, FViewConstants View, ivec3 Froxel, float End)
 {
 	uint Seed = HashPcg(uint(Froxel.x) + HashPcg(uint(Froxel.y) + HashPcg(uint(Froxel.z) + HashPcg(View.Seed))));
 	FRandom Random = MakeRandom(uvec2(Froxel.xy), View.FrameIndex, Seed);
 	vec3 Jitter = FroxelJitter(View.FrameIndex, Seed);
+	vec3 At = vec3(Froxel) + Jitter;
+	if (End < float(Froxel.z + 1)) { At.z = End > float(Froxel.z) ? mix(float(Froxel.z), End, Jitter.z) : max(End - 0.05, 0.01); }
 #ifdef FOG_NEXT_SLICE
-	Jitter.z = 1.5;
+	At.z = float(Froxel.z) + 1.5;
 #endif
-	vec3 Relative = FroxelPosition(Push.Grid, View, vec3(Froxel) + Jitter);
+	vec3 Relative = FroxelPosition(Push.Grid, View, At);
 	vec3 P = View.CameraPosition + Relative;
 	FFogValue Value = FFogValue(0.0, vec3(0.0));
 #ifdef FOG_SUN
@@ -55,6 +58,7 @@ FFogValue TraceFroxel(FSceneConstants Scene, FViewConstants View, ivec3 Froxel)
 	float Width = PixelHeight(View, FroxelDistance(Push.Grid, Place.z)) * float(Push.Grid.PixelSize);
 	float Radius = pow(Width * Width * Thickness * (3.0 / (4.0 * Pi)), 1.0 / 3.0);
 	Value.Light = TraceFogLight(Scene, P, ViewDirection(View, Relative), Radius, Push.Phase, Random);
+	if (any(isnan(Value.Light)) || any(isinf(Value.Light))) { Value.Light = vec3(0.0); }
 #endif
 	return Value;
 }
@@ -66,13 +70,14 @@ float DitherVisibility(float Visibility, ivec3 Froxel, uint FrameIndex)
 	return floor(Visibility * 255.0 + Threshold) / 255.0;
 }
 
-void LightFroxel(FSceneConstants Scene, FViewConstants View, ivec3 Froxel, uint Count, bool bTurn)
+// Count: of slices that are lit. End: see TraceFroxel.
+void LightFroxel(FSceneConstants Scene, FViewConstants View, ivec3 Froxel, uint Count, float End, bool bTurn)
 {
 	FFogValue Value = FFogValue(0.0, vec3(0.0)), Traced;
 	bool bKnown = LoadFogHistory(View, FroxelPosition(Push.Grid, View, vec3(Froxel) + 0.5), Value);
 	if (uint(Froxel.z) < Count && (bTurn || !bKnown))
 	{
-		Traced = TraceFroxel(Scene, View, Froxel);
+		Traced = TraceFroxel(Scene, View, Froxel, End);
 		float Share = bKnown ? Push.Share : 1.0;
 		Value = FFogValue(mix(Value.Visibility, Traced.Visibility, Share), mix(Value.Light, Traced.Light, Share));
 	}
@@ -93,11 +98,12 @@ void LightPair(uvec2 Place)
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	ivec2 Column = ivec2(Place % Size);
-	uint Counts = uint(texelFetch(Textures[Push.Counts], Column, 0).x);
+	vec2 Counts = texelFetch(Textures[Push.Counts], Column, 0).xy;
+	uint Turn = uint(Counts.x) & 1u, Count = uint(Counts.x) >> 1u;
 	[[dont_unroll]] for (uint I = 0u; I < 2u; ++I)
 	{
 		ivec3 Froxel = ivec3(Column, 2u * Pair + I);
-		if (uint(Froxel.z) < Push.Grid.Slices) { LightFroxel(Scene, View, Froxel, Counts >> 1u, I == (Counts & 1u)); }
+		if (uint(Froxel.z) < Push.Grid.Slices) { LightFroxel(Scene, View, Froxel, Count, Counts.y, I == Turn); }
 	}
 }
 

@@ -23,8 +23,8 @@ struct FFogGrid
 };
 LANTERN_ASSERT_SIZE(FFogGrid, 24);
 
-// Of the pass that finds how many slices of each column count. Counts are twice the number of slices, plus the turn of the frame, in
-// which even or odd slices are traced.
+// Of the pass that finds how far each column is seen. x of Counts is twice the number of slices that are lit, plus the turn of the frame,
+// in which even or odd slices are traced. y is where what the column shows ends, in slices.
 struct FFogColumnsConstants
 {
 	FPassConstants Pass;

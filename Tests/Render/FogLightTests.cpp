@@ -22,8 +22,8 @@ protected:
 	void SetUp() override
 	{
 		FFogTest::SetUp();
-		SetVariable("r.RT.Fog.PixelSize", "8");
-		SetVariable("r.RT.Fog.Slices", "32");
+		SetVariable("r.RT.Fog.PixelSize", "4");
+		SetVariable("r.RT.Fog.Slices", "64");
 		SetVariable("r.RT.Fog.Distance", "30");
 		SetVariable("r.RT.Fog.HistorySeconds", "0");
 	}
@@ -72,7 +72,7 @@ protected:
 			const glm::dvec3 P = FroxelToWorld(View, Fog.Grid, glm::dvec3(Froxel) + 0.5);
 			for (const FSceneLight& Light : Lights)
 			{
-				if (glm::distance(P, Light.Position) < 2.0) { return; }
+				if (glm::distance(P, Light.Position) < 2.5) { return; } // more than a froxel's radius
 			}
 			const double Expected = ComputeLight(View, Fog.Grid, Froxel, Lights, G).y, Got = double(Fog.GetLight(Froxel).y);
 			Ours += Got;
@@ -281,7 +281,7 @@ TEST_F(FHeightFogTest, ABoxCastsItsShadowIntoTheFog)
 				Worst = std::max(Worst, std::abs(Got - Expected) / Lit);
 			}
 		}
-		EXPECT_GT(Shaded, 100u) << "there is no shadow";
+		EXPECT_GT(Shaded, 60u) << "there is no shadow";
 		PrintFigure(fmt::format("fog under a box: {:.4f} of the integral, off by {:.4f} of the lit fog at most", Sum / Truth, Worst));
 		return std::pair(Sum / Truth, Worst);
 	};
