@@ -5,21 +5,24 @@
 layout(local_size_x = FOG_GROUP_SIZE, local_size_y = FOG_GROUP_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FFogColumnsConstants Push; };
 
-// Returns the farthest distance that columns of the frame before showed. 0: unlimited. Low, High: of these columns.
-float FarthestOf(ivec2 Low, ivec2 High)
+// Returns how far columns of the frame before showed anything (x), and up to where they showed air alone (y), unless they show an edge of
+// something: behind that there is air again. 0: unlimited. Low, High: of these columns.
+vec2 FarthestOf(ivec2 Low, ivec2 High)
 {
 	ivec2 Last = ivec2(Push.PreviousColumns, Push.PreviousRows) - 1;
-	float Farthest = 0.0;
+	float Farthest = 0.0, Nearest = 1.0e30, Air = 0.0;
 	for (int Y = Low.y; Y <= High.y; ++Y)
 	{
 		for (int X = Low.x; X <= High.x; ++X)
 		{
-			float Distance = texelFetch(Textures[Push.Depth], clamp(ivec2(X, Y), ivec2(0), Last), 0).x;
-			if (!(Distance > 0.0)) { return 0.0; } // the sky, or no number
-			Farthest = max(Farthest, Distance);
+			vec2 Distances = texelFetch(Textures[Push.Depth], clamp(ivec2(X, Y), ivec2(0), Last), 0).xy;
+			if (!(Distances.x > 0.0)) { return vec2(0.0); } // the sky, or no number
+			Farthest = max(Farthest, Distances.x);
+			Air = max(Air, Distances.y);
+			Nearest = min(Nearest, Distances.y);
 		}
 	}
-	return Farthest;
+	return vec2(Farthest, Air <= FOG_EDGE * Nearest ? Nearest : Air);
 }
 
 bool IsWithin(float Distance, float Farthest) { return Farthest <= 0.0 || Distance <= Farthest; }
@@ -43,8 +46,8 @@ vec2 FindEnd(FViewConstants View, uvec2 Column)
 		vec2 Place = Pixel / float(Push.Grid.PixelSize);
 		ivec2 Middle = ivec2(Place);
 		// Things move, so neighbours count. One slice more: readers interpolate.
-		if (End.x < 0.0 && IsWithin(Distance, FarthestOf(Middle - 1, Middle + 1))) { End.x = min(Begin + 2.0, Everything.x); }
-		float Farthest = FarthestOf(ivec2(floor(Place - 0.499)), ivec2(floor(Place - 0.501)) + 1);
+		if (End.x < 0.0 && IsWithin(Distance, FarthestOf(Middle - 1, Middle + 1).x)) { End.x = min(Begin + 2.0, Everything.x); }
+		float Farthest = FarthestOf(ivec2(floor(Place - 0.499)), ivec2(floor(Place - 0.501)) + 1).y;
 		if (End.x >= 0.0 && IsWithin(Distance, Farthest))
 		{
 			End.y = Farthest <= 0.0 ? Begin + 1.0 : Begin + clamp((Farthest - Distance) / max(Behind - Distance, 1.0e-6), 0.0, 1.0);

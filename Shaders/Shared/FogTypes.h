@@ -12,6 +12,7 @@ LANTERN_SHARED_BEGIN
 #define FOG_LOG2_STEEPNESS 6.022367813f // log2(1 + FOG_STEEPNESS)
 #define FOG_GROUP_SIZE 8                // threads in x and y
 #define FOG_MOST_SLICES 256
+#define FOG_EDGE 1.5f // distances of neighbours that differ by more than this factor show an edge of something
 
 // Froxels of a view: columns of PixelSize² pixels, cut by slices. Their atlas has PerRow slices side by side, Columns × Rows texels each.
 struct FFogGrid

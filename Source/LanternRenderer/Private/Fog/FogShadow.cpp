@@ -89,7 +89,7 @@ bool FindTextures(FFrameContext& Context, FFogPass& Out)
 	};
 	const uint32_t Width = Grid.Columns * Grid.PerRow, Height = CountRows(Grid, Grid.Slices);
 	Find("Counts", Grid.Columns, Grid.Rows, ERTFormat::RG32_FLOAT, Out.Counts);
-	Find("Depth", Grid.Columns, Grid.Rows, ERTFormat::R32_FLOAT, Out.Depth);
+	Find("Depth", Grid.Columns, Grid.Rows, ERTFormat::RG32_FLOAT, Out.Depth);
 	if (Out.bSun) { Find("Visibility", Width, Height, ERTFormat::R8_UNORM, Out.Visibility); }
 	if (Out.bLights) { Find("Light", Width, Height, ERTFormat::RGBA16_FLOAT, Out.Light); }
 	if (!Status) { Context.Fail(Status); }
