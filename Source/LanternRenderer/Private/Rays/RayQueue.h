@@ -68,6 +68,7 @@ struct FQueuedRays
 	FGraphBuffer TileLights; ///< FTileLights[], for rays to local lights; invalid: there are none
 	FGraphBuffer Choices;    ///< FLightChoice[Width · Height]; invalid: no pixel chooses a light
 	uint32_t LocalPerPixel = 0;
+	uint32_t MoreSamples = 0; ///< see FShadowQueueConstants
 };
 /// Adds the pass that traces what is in the queue. Dispatch: of Shaders/Rays/ShadowQueue.
 void AddShadowRaysPass(
