@@ -80,7 +80,8 @@ protected:
 			Squares += (Got - Expected) * (Got - Expected) / (Expected * Expected + 1e-12);
 			++Count;
 		});
-		PrintFigure(fmt::format("{}: {:.5f} of the sum over {} froxels, RMS {:.4f}", What, Ours / Theirs, Count, std::sqrt(Squares / Count)));
+		PrintFigure(
+		    fmt::format("{}: {:.5f} of the sum over {} froxels, RMS {:.4f}", What, Ours / Theirs, Count, std::sqrt(Squares / Count)));
 		EXPECT_NEAR(Ours / Theirs, 1.0, Tolerance);
 	}
 };
@@ -130,9 +131,12 @@ TEST_F(FFogLightTest, ALampWithinAFroxelKeepsItsEnergy)
 		const glm::dvec3 At(Froxel);
 		const glm::dvec3 P = FroxelToWorld(View, Fog.Grid, At + 0.5);
 		if (glm::distance(P, Lamp.Position) > Radius) { return; }
-		const glm::dvec3 X = FroxelToWorld(View, Fog.Grid, At + glm::dvec3(1, 0.5, 0.5)) - FroxelToWorld(View, Fog.Grid, At + glm::dvec3(0, 0.5, 0.5));
-		const glm::dvec3 Y = FroxelToWorld(View, Fog.Grid, At + glm::dvec3(0.5, 1, 0.5)) - FroxelToWorld(View, Fog.Grid, At + glm::dvec3(0.5, 0, 0.5));
-		const glm::dvec3 Z = FroxelToWorld(View, Fog.Grid, At + glm::dvec3(0.5, 0.5, 1)) - FroxelToWorld(View, Fog.Grid, At + glm::dvec3(0.5, 0.5, 0));
+		const glm::dvec3 X =
+		    FroxelToWorld(View, Fog.Grid, At + glm::dvec3(1, 0.5, 0.5)) - FroxelToWorld(View, Fog.Grid, At + glm::dvec3(0, 0.5, 0.5));
+		const glm::dvec3 Y =
+		    FroxelToWorld(View, Fog.Grid, At + glm::dvec3(0.5, 1, 0.5)) - FroxelToWorld(View, Fog.Grid, At + glm::dvec3(0.5, 0, 0.5));
+		const glm::dvec3 Z =
+		    FroxelToWorld(View, Fog.Grid, At + glm::dvec3(0.5, 0.5, 1)) - FroxelToWorld(View, Fog.Grid, At + glm::dvec3(0.5, 0.5, 0));
 		const double Light = double(Fog.GetLight(Froxel).y);
 		EXPECT_TRUE(std::isfinite(Light));
 		Brightest = std::max(Brightest, Light);

@@ -41,7 +41,10 @@ protected:
 		Plate = To;
 		GetScene().SetTransform(1, glm::translate(glm::dmat4(1), To));
 	}
-	static FView LookAtPlate(uint32_t Width = 192, uint32_t InHeight = 112) { return LookAt({3, 2.3, 13.5}, {0, 2.0, 0}, 0.8f, Width, InHeight); }
+	static FView LookAtPlate(uint32_t Width = 192, uint32_t InHeight = 112)
+	{
+		return LookAt({3, 2.3, 13.5}, {0, 2.0, 0}, 0.8f, Width, InHeight);
+	}
 	bool IsLit(const glm::dvec3& P) const
 	{
 		const glm::dvec3 D = P - Plate;

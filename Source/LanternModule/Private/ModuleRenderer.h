@@ -140,8 +140,8 @@ private:
 	{
 		TRTRef<IRTTexture> Visibility, Light;
 		FFogGrid Grid{};
-	} Fog;                                               ///< of the last frame
-	FRTFence Ahead = 0;                                  ///< what the recorded frame's submission waits for
+	} Fog;              ///< of the last frame
+	FRTFence Ahead = 0; ///< what the recorded frame's submission waits for
 	uint32_t FrameIndex = 0;
 };
 

@@ -120,7 +120,10 @@ void CollectFog(FCollector& Collector, FPassRays Rays, const FSceneFacts& Facts)
 		Compute.push_back(MakeQuerySource(Facts, FogShaders, Rays));
 	}
 	Compute.insert(Compute.end(), Rays.Compute.begin(), Rays.Compute.end());
-	if (Rays.Path == ERayPath::Pipeline) { Collector.Programs.FogRayGen = Collector.Add(std::move(Rays), std::string(FogShaders) + ".rgen"); }
+	if (Rays.Path == ERayPath::Pipeline)
+	{
+		Collector.Programs.FogRayGen = Collector.Add(std::move(Rays), std::string(FogShaders) + ".rgen");
+	}
 }
 } // namespace
 

@@ -17,17 +17,17 @@ namespace
 {
 TRTConsoleVariable<bool> CVarFog("r.RT.Fog", true,
     "Traces shadows in fog, if somebody reads them: a host's fog, or that of r.Fog.Density. If off, its light is not shadowed.");
-TRTConsoleVariable<int32_t> CVarPixelSize("r.RT.Fog.PixelSize", 16,
-    "Width and height of froxels, in pixels. The rays grow with the inverse of its square.", {1, 256});
-TRTConsoleVariable<int32_t> CVarSlices("r.RT.Fog.Slices", 64,
-    "Number of slices of froxels along the view. Half of them get rays in each frame.", {2, FOG_MOST_SLICES});
+TRTConsoleVariable<int32_t> CVarPixelSize(
+    "r.RT.Fog.PixelSize", 16, "Width and height of froxels, in pixels. The rays grow with the inverse of its square.", {1, 256});
+TRTConsoleVariable<int32_t> CVarSlices(
+    "r.RT.Fog.Slices", 64, "Number of slices of froxels along the view. Half of them get rays in each frame.", {2, FOG_MOST_SLICES});
 TRTConsoleVariable<float> CVarDistance(
     "r.RT.Fog.Distance", 250.0f, "Distance at which froxels end, in metres. Slices are thinner near the camera.", {1, 1e6});
 TRTConsoleVariable<float> CVarHistorySeconds("r.RT.Fog.HistorySeconds", 0.12f,
     "Time, in seconds, after which 90 % of a change of light shows in fog. Longer times have less noise. 0: each frame stands alone.",
     {0, 10});
-TRTConsoleVariable<bool> CVarDebugSlice("r.RT.Debug.Fog.Slice", true,
-    "Planted fault. Off: rays of fog start at the centre of the next slice, and light leaks through walls.");
+TRTConsoleVariable<bool> CVarDebugSlice(
+    "r.RT.Debug.Fog.Slice", true, "Planted fault. Off: rays of fog start at the centre of the next slice, and light leaks through walls.");
 TRTConsoleVariable<bool> CVarDebugHistory(
     "r.RT.Debug.Fog.History", true, "Planted fault. Off: the light in fog changes only within a minute.");
 
@@ -85,7 +85,8 @@ bool FindTextures(FFrameContext& Context, FFogPass& Out)
 		if (!Status) { return; }
 		const std::string Name = std::string("Fog") + What + " " + std::to_string(Grid.PixelSize) + " " + std::to_string(Grid.Slices) +
 		                         " " + std::to_string(Grid.Distance);
-		Status = Context.History->GetTexture(Name.c_str(), {Width, Height, Format, ERTTextureUsage::CopySource}, Texture); // engines copy it
+		Status =
+		    Context.History->GetTexture(Name.c_str(), {Width, Height, Format, ERTTextureUsage::CopySource}, Texture); // engines copy it
 	};
 	const uint32_t Width = Grid.Columns * Grid.PerRow, Height = CountRows(Grid, Grid.Slices);
 	Find("Counts", Grid.Columns, Grid.Rows, ERTFormat::RG32_FLOAT, Out.Counts);

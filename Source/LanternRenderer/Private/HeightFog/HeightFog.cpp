@@ -11,14 +11,14 @@ namespace Lantern
 
 namespace
 {
-TRTConsoleVariable<float> CVarDensity("r.Fog.Density", 0.0f,
-    "Fog of the sample engine: extinction at the height r.Fog.Height, per metre. 0: there is no fog.", {0, 100});
+TRTConsoleVariable<float> CVarDensity(
+    "r.Fog.Density", 0.0f, "Fog of the sample engine: extinction at the height r.Fog.Height, per metre. 0: there is no fog.", {0, 100});
 TRTConsoleVariable<float> CVarFalloff("r.Fog.HeightFalloff", 0.1f,
     "Rate, per metre, at which the fog thins out upwards: exp(-rate * height). 0: it is as dense everywhere.", {0, 10});
 TRTConsoleVariable<float> CVarHeight("r.Fog.Height", 0.0f, "Height in the world at which the fog has its density, in metres.", {-1e5, 1e5});
 TRTConsoleVariable<float> CVarAlbedo("r.Fog.Albedo", 0.9f, "Share of the light that fog scatters rather than absorbs.", {0, 1});
-TRTConsoleVariable<float> CVarPhase("r.Fog.Phase", 0.5f,
-    "How forward the fog scatters: g of Henyey and Greenstein (1941). 0: alike in all directions.", {-0.99, 0.99});
+TRTConsoleVariable<float> CVarPhase(
+    "r.Fog.Phase", 0.5f, "How forward the fog scatters: g of Henyey and Greenstein (1941). 0: alike in all directions.", {-0.99, 0.99});
 TRTConsoleVariable<float> CVarSky("r.Fog.Sky", 1.0f, "Share of the sky's light that reaches the fog, which nothing shadows.", {0, 1});
 
 FHeightFogConstants MakeConstants(const FFrameContext& Context)
