@@ -24,7 +24,8 @@ bool IsSameView(const FView& A, const FView& B)
 	       A.Height == B.Height && A.Near == B.Near && WindowA == WindowB;
 }
 
-void AddAskPass(FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue& More, FGraphBuffer Tiles, uint32_t Samples)
+void AddAskPass(
+    FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue& More, FGraphBuffer Tiles, uint32_t Samples)
 {
 	const FFrameContext* const Frame = &Context;
 	const FSurfaceTextures Surface = Context.Surface;

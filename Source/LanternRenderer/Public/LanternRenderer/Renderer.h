@@ -167,7 +167,7 @@ struct FSceneTokens
 struct FFogAtlas
 {
 	FGraphTexture Visibility; ///< R8_UNORM: fraction of the sun's disk that is seen
-	FGraphTexture Light; ///< RGBA16_FLOAT: radiance that fog scatters towards the camera of local lights, over its scattering coefficient
+	FGraphTexture Light;      ///< RGBA16_FLOAT: radiance that fog scatters of local lights, over its scattering coefficient
 	FFogGrid Grid{};
 	bool IsValid() const { return Visibility.IsValid() || Light.IsValid(); }
 };
