@@ -253,10 +253,10 @@ struct FRTModuleWait
 ///   Column = P / PixelSize
 ///   Texel  = Column + vec2(ColumnCount, RowCount) * vec2(floor(Slice) mod SlicesPerRow, floor(Slice) / SlicesPerRow)
 ///
-/// P counts from the view's corner, less FRTModuleView::Jitter; a first pixel's centre is at 0.5. Centres of froxels are at n + 0.5 in Slice and Column. To
-/// interpolate, fetch the four texels around Column, and those of the slices around Slice - 0.5, kept inside of the slice: 0 to
-/// ColumnCount - 1, 0 to RowCount - 1 and 0 to SliceCount - 1. Beyond Distance, nothing is known. Froxels behind what the last frame
-/// has shown there are not lit, but for one more slice.
+/// P counts from the view's corner, less FRTModuleView::Jitter; a first pixel's centre is at 0.5. Froxels have their centres at n + 0.5 in
+/// Slice and Column. To interpolate, fetch the four texels around Column in the two slices around Slice - 0.5. Keep indices within
+/// ColumnCount, RowCount and SliceCount, and slices in front of what the pixel shows. Nothing is known beyond Distance. Froxels are not lit
+/// behind what the last frame has shown there, but for one more slice.
 struct FRTModuleFog
 {
 	/// R8_UNORM: fraction of the sun's disk that is seen. Null: no sun, or as in FRTModuleOutputs.
