@@ -99,9 +99,9 @@ FLightWalk WalkAllLights(FSceneConstants Scene) { return FLightWalk(FAddress(0),
 
 uint LoadListedLight(FAddress Pool, uint Entry, uint End) { return Entry < End ? FLightCellWordRef(Pool).Data[Entry] : NoLight; }
 
-// bRequest: asks for the cell if it is not filled, so that the next frame has it.
 // Where a cell's list has no room or is not filled, its block's serves. Where that has none either, all lights are visited.
-FLightWalk WalkLights(FSceneConstants Scene, vec3 P, bool bRequest)
+// bRequest: asks for the cell if it is not filled. Later: 0 before the frame makes its lists, so that this frame has it; 1 behind.
+FLightWalk WalkLightsOfTurn(FSceneConstants Scene, vec3 P, bool bRequest, uint Later)
 {
 	if (Scene.LightCells == FAddress(0)) { return WalkAllLights(Scene); }
 	FLightGrid Grid = FLightGridRef(Scene.LightCells).Data;
@@ -109,7 +109,7 @@ FLightWalk WalkLights(FSceneConstants Scene, vec3 P, bool bRequest)
 	if (Place.Cell == NoLight) { return WalkAllLights(Scene); }
 	FLightCellRef Cells = FLightCellRef(Grid.Cells);
 	FLightCell Everywhere = Cells.Data[LIGHT_CELL_EVERYWHERE], Cell = Cells.Data[Place.Cell];
-	if (bRequest) { RequestLightCell(Grid, Place, Cell, Grid.Turn + 1u); }
+	if (bRequest) { RequestLightCell(Grid, Place, Cell, Grid.Turn + Later); }
 	if (!HasLightCellList(Grid, Everywhere, 0u)) { return WalkAllLights(Scene); }
 	if (!HasLightCellList(Grid, Cell, Place.Key))
 	{
@@ -126,6 +126,9 @@ FLightWalk WalkLights(FSceneConstants Scene, vec3 P, bool bRequest)
 	Walk.Everywhere = LoadListedLight(Walk.Pool, Walk.EverywhereNext, Walk.EverywhereEnd);
 	return Walk;
 }
+
+// bRequest: asks for the cell if it is not filled, so that the next frame has it.
+FLightWalk WalkLights(FSceneConstants Scene, vec3 P, bool bRequest) { return WalkLightsOfTurn(Scene, P, bRequest, 1u); }
 
 // Returns the next light's slot; NoLight: there is none.
 uint NextLight(inout FLightWalk Walk)

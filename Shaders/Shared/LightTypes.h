@@ -18,6 +18,7 @@ LANTERN_SHARED_BEGIN
 #define LIGHT_CASTS_SHADOW 16u
 #define LIGHT_TWO_SIDED 32u // rectangle, disk: it shines to its back as well
 #define LIGHT_HAS_CONE 64u
+#define LIGHT_IN_FOG 128u // fog scatters it
 
 // Lights have positions in the whole world, in steps of 1/LIGHT_POSITION_STEPS m modulo 2^32. The difference from the scene's
 // origin is exact up to 262 km, and nothing is rewritten if the origin moves.

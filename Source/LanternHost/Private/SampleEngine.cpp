@@ -176,6 +176,7 @@ FRTStatus FSampleEngine::RenderFrame(const FView& InView, double Time, const FFr
 	View.FrameIndex = FrameIndex++;
 	if (FRTStatus S = Renderer.BeginFrame(Scene->GetScene(), View, Features); !S) { return S; }
 	FFrameContext& Context = Renderer.GetContext();
+	AddFogShadowPass(Context); // needs no G-buffer, and may run beside it
 	const FGBuffer GBuffer = GBufferPass.Add(Context, *Scene);
 	Context.HostShadow = ShadowMapPass.Add(Context, *Scene);
 	const FFrameOutputs Frame = AddFramePasses(Context, GBuffer);

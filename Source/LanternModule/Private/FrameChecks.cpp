@@ -252,6 +252,11 @@ FRTStatus CheckFrame(const FRTModuleFrame& Frame, const IRTDevice& Device)
 		return FRTStatus::Error(
 		    ERTResult::InvalidArgument, "FRTModuleFrame::DeltaSeconds must be positive, is %g", double(Frame.DeltaSeconds));
 	}
+	if (!(std::abs(Frame.FogPhase) < 1.0f))
+	{
+		return FRTStatus::Error(
+		    ERTResult::InvalidArgument, "FRTModuleFrame::FogPhase must lie between -1 and 1, is %g", double(Frame.FogPhase));
+	}
 	FRTStatus Status = CheckOwners(Frame, Device);
 	if (Status) { Status = CheckGBuffer(Frame); }
 	if (Status) { Status = CheckView(Frame.View); }

@@ -169,6 +169,8 @@ FRTStatus FModuleRenderer::AddPasses(const FRTModuleFrame& Frame, const FFrameVi
 	if (Frame.HostShadow != nullptr) { Context.HostShadow = ImportHostShadow(Context.Graph, *Frame.HostShadow, World); }
 	if (!GBuffer.Depth.IsValid()) { return FRTStatus::Success(); } // shaders are missing: there is nothing to trace from
 	FFrameOutputs Made;
+	Made.Fog = AddFogShadowPass(Context);
+	AddFogDepthPass(Context, GBuffer);
 	for (const FSignalInfo& Info : SignalInfos)
 	{
 		if (Context.Signals.Wanted.Has(Info.Signal)) { Made.Get(Info.Signal) = AddSignalPass(Context, Info.Signal, GBuffer); }
@@ -190,9 +192,13 @@ void FModuleRenderer::HandToEngine(const FFrameOutputs& Made)
 	{
 		if (Made.Signals[I].IsValid()) { Handed.push_back({Made.Signals[I], &Outputs[I]}); }
 	}
-	if (Handed.empty()) { return; }
 	FFrameGraph& Graph = On->Renderer.GetContext().Graph;
 	for (const auto& [Texture, Held] : Handed) { Graph.AddUsage(Texture, ERTTextureUsage::CopySource); }
+	// Histories have that usage.
+	if (Made.Fog.Visibility.IsValid()) { Handed.push_back({Made.Fog.Visibility, &Fog.Visibility}); }
+	if (Made.Fog.Light.IsValid()) { Handed.push_back({Made.Fog.Light, &Fog.Light}); }
+	Fog.Grid = Made.Fog.Grid;
+	if (Handed.empty()) { return; }
 	Graph.AddPass("HandToEngine", [&](FPassBuilder& Builder) -> FPassExecute {
 		for (const auto& [Texture, Held] : Handed) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		Builder.NeverCull();
@@ -202,7 +208,11 @@ void FModuleRenderer::HandToEngine(const FFrameOutputs& Made)
 	});
 }
 
-void FModuleRenderer::ReleaseOutputs() { Outputs.fill(nullptr); }
+void FModuleRenderer::ReleaseOutputs()
+{
+	Outputs.fill(nullptr);
+	Fog = {};
+}
 
 FRTStatus FModuleRenderer::ReadViews(const FRTModuleFrame& Frame, FFrameViews& Out) const
 {
@@ -229,6 +239,8 @@ FFrameFeatures FModuleRenderer::MakeFeatures(const FRTModuleFrame& Frame, bool b
 		const bool bMakes = Info.Signal != ESignal::Frame && (bSurface || !Info.bNeedsSurface);
 		if (bMakes && Frame.Wanted.Has(Info.Signal)) { Features.Signals.Wanted.Add(Info.Signal); }
 	}
+	Features.Signals.bFog = Frame.bFog;
+	Features.Signals.FogPhase = Frame.FogPhase;
 	Features.bHostSurface = bHostSurface;
 	Features.bCameraMotion = Frame.Motion == nullptr;
 	Features.bHostShadow = Frame.HostShadow != nullptr;
@@ -301,6 +313,13 @@ FRTStatus FModuleRenderer::RecordAhead(const FRTModuleFrame& Frame, const FFrame
 	return Status;
 }
 
+FRTModuleFog FModuleRenderer::MakeFog() const
+{
+	if (!Fog.Visibility && !Fog.Light) { return {}; }
+	const FFogGrid& Grid = Fog.Grid;
+	return {Fog.Visibility.Get(), Fog.Light.Get(), Grid.PixelSize, Grid.Columns, Grid.Rows, Grid.Slices, Grid.PerRow, Grid.Distance};
+}
+
 FRTModuleWait FModuleRenderer::MakeWait() const
 {
 	if (Ahead == 0) { return {}; }
@@ -335,6 +354,7 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 	}
 	Recorded = TRTRef<IRTCommandList>(Frame.Commands);
 	for (size_t I = 0; I < SignalCount; ++I) { Out->Signals[I] = Outputs[I].Get(); }
+	Out->Fog = MakeFog();
 	if (GetFenceQueue(Ahead) == ERTQueue::Graphics) { Ahead = 0; } // one queue runs in order
 	Out->Wait = MakeWait();
 	Out->bShadersReady = On->Renderer.AreShadersReady();

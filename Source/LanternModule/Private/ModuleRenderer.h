@@ -101,6 +101,7 @@ private:
 	FRTStatus RecordFrame(const FRTModuleFrame& Frame, const FFrameViews& Views, FRTFence& OutAhead);
 	FRTStatus RecordAhead(const FRTModuleFrame& Frame, const FFrameViews& Views, FRTFence& OutAhead);
 	FRTStatus AddPasses(const FRTModuleFrame& Frame, const FFrameViews& Views);
+	FRTModuleFog MakeFog() const;
 	FRTModuleWait MakeWait() const;
 	void TakeOver();
 	void HandToEngine(const FFrameOutputs& Made);
@@ -135,7 +136,12 @@ private:
 	bool bArrivalsLeft = false;                          ///< for later frames
 	TRTRef<IRTCommandList> Recorded;                     ///< between RenderFrame and EndFrame
 	std::array<TRTRef<IRTTexture>, SignalCount> Outputs; ///< of the last frame
-	FRTFence Ahead = 0;                                  ///< what the recorded frame's submission waits for
+	struct
+	{
+		TRTRef<IRTTexture> Visibility, Light;
+		FFogGrid Grid{};
+	} Fog;              ///< of the last frame
+	FRTFence Ahead = 0; ///< what the recorded frame's submission waits for
 	uint32_t FrameIndex = 0;
 };
 

@@ -63,6 +63,7 @@ FSceneLight ToSceneLight(const FModuleWorld& World, const FRTModuleLight& From)
 	Light.Size = ToLightSize(World, From);
 	Light.bCastsShadow = From.bCastsShadow;
 	Light.bTwoSided = From.bTwoSided;
+	Light.bLightsFog = From.bLightsFog;
 	return Light;
 }
 

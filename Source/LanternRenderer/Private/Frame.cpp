@@ -4,6 +4,7 @@
 #include "AmbientOcclusion/AmbientOcclusion.h"
 #include "DebugView/DebugView.h"
 #include "DiffuseGI/DiffuseGI.h"
+#include "HeightFog/HeightFog.h"
 #include "Lighting/DirectLighting.h"
 #include "LocalLights/LocalLights.h"
 #include "Reflections/Reflections.h"
@@ -15,6 +16,8 @@ namespace Lantern
 FFrameOutputs AddFramePasses(FFrameContext& Context, const FGBuffer& GBuffer)
 {
 	FFrameOutputs Out;
+	Out.Fog = AddFogShadowPass(Context);
+	AddFogDepthPass(Context, GBuffer);
 	Out.Get(ESignal::SunShadow) = AddSunShadowPass(Context, GBuffer);
 	Out.Get(ESignal::LocalDiffuse) = AddLocalDiffusePass(Context, GBuffer);
 	Out.Get(ESignal::LocalSpecular) = AddLocalSpecularPass(Context, GBuffer);
@@ -24,6 +27,7 @@ FFrameOutputs AddFramePasses(FFrameContext& Context, const FGBuffer& GBuffer)
 	Out.Lighting = AddDirectLightingPass(
 	    Context, {GBuffer, Out.Get(ESignal::SunShadow), Out.Get(ESignal::AmbientOcclusion), Out.Get(ESignal::DiffuseGI),
 	                 Out.Get(ESignal::Reflections), Out.Get(ESignal::LocalDiffuse), Out.Get(ESignal::LocalSpecular)});
+	Out.Lighting = AddHeightFogPass(Context, GBuffer, Out.Lighting, Out.Fog);
 	Out.Display = AddToneMapPass(Context, Out.Lighting);
 	Out.Display = AddDebugView(Context, GBuffer, Out);
 	return Out;

@@ -2,6 +2,7 @@
 #include "FrameChoices.h"
 
 #include "DebugView/DebugView.h"
+#include "HeightFog/HeightFog.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 
 namespace Lantern
@@ -32,7 +33,13 @@ FSignalSet AllSignals()
 
 FSignalRequests CompleteRequests(FSignalRequests Requests)
 {
-	if (!Requests.bNothingElse) { Requests.Wanted.Add(GetDebugView()); }
+	if (Requests.bNothingElse) { return Requests; }
+	Requests.Wanted.Add(GetDebugView());
+	if (HasHeightFog())
+	{
+		Requests.bFog = true;
+		Requests.FogPhase = GetHeightFogPhase();
+	}
 	return Requests;
 }
 

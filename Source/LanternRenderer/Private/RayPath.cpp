@@ -68,13 +68,18 @@ std::string GetRayShaderPath(ESignal Signal, const FPassRays& Rays, const char* 
 
 FShaderSource MakeQuerySource(const FSceneFacts& Facts, ESignal Signal, const FPassRays& Rays)
 {
+	return MakeQuerySource(Facts, GetRayShaderPath(Signal, Rays, ""), Rays);
+}
+
+FShaderSource MakeQuerySource(const FSceneFacts& Facts, const std::string& Path, const FPassRays& Rays)
+{
 	FShaderDefines Defines = Rays.Defines;
 	if (Facts.bMasked)
 	{
 		Defines.emplace_back("HAS_MASKED", "1");
 		for (auto& Define : FAnyHitCounter::GetDefines()) { Defines.push_back(std::move(Define)); }
 	}
-	return MakeComputeSource(GetRayShaderPath(Signal, Rays, ".comp"), std::move(Defines));
+	return MakeComputeSource(Path + ".comp", std::move(Defines));
 }
 
 bool FRayDispatch::Has(const char* Define) const
@@ -84,19 +89,24 @@ bool FRayDispatch::Has(const char* Define) const
 
 std::optional<FRayDispatch> RequireRayDispatch(const FFrameContext& Context, ESignal Signal, const FPassRays& Rays)
 {
+	return RequireRayDispatch(Context, Rays, Context.GetRayGen(Signal), MakeQuerySource(Context.Facts, Signal, Rays));
+}
+
+std::optional<FRayDispatch> RequireRayDispatch(
+    const FFrameContext& Context, const FPassRays& Rays, uint32_t RayGen, const FShaderSource& Query)
+{
 	FRayDispatch Dispatch;
 	if (Rays.Path == ERayPath::None) { return std::nullopt; }
 	if (Rays.Path == ERayPath::Pipeline)
 	{
-		Dispatch.RayGen = Context.GetRayGen(Signal);
+		Dispatch.RayGen = RayGen;
 		if (Dispatch.RayGen == NoRayGen) { return std::nullopt; } // still being compiled
 		Dispatch.Defines = Context.RayPipeline->GetRayGen(Dispatch.RayGen).Defines;
 	}
 	else
 	{
-		FShaderSource Source = MakeQuerySource(Context.Facts, Signal, Rays);
-		Dispatch.Defines = Source.Defines;
-		Dispatch.Compute = RequireCompute(Context, std::move(Source));
+		Dispatch.Defines = Query.Defines;
+		Dispatch.Compute = RequireCompute(Context, Query);
 		if (!Dispatch.Compute) { return std::nullopt; }
 	}
 	Context.RequireRays();

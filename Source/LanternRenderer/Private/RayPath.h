@@ -64,12 +64,16 @@ struct FRayDispatch
 	bool Has(const char* Define) const;
 };
 
-/// Makes the source of the compute shader that traces Signal by ray queries.
+/// Makes the source of the compute shader that traces by ray queries. Path: without suffix.
+FShaderSource MakeQuerySource(const FSceneFacts& Facts, const std::string& Path, const FPassRays& Rays);
 FShaderSource MakeQuerySource(const FSceneFacts& Facts, ESignal Signal, const FPassRays& Rays);
 
 /// Finds the pipeline by which Signal is traced in this frame, and requires the frame's acceleration structures. nullopt: Rays.Path
 /// is None, or shaders are still being compiled, or an error, which the context then has.
 std::optional<FRayDispatch> RequireRayDispatch(const FFrameContext& Context, ESignal Signal, const FPassRays& Rays);
+/// Does so for a pass that makes no signal. RayGen: its ray generation shader. Query: from MakeQuerySource.
+std::optional<FRayDispatch> RequireRayDispatch(
+    const FFrameContext& Context, const FPassRays& Rays, uint32_t RayGen, const FShaderSource& Query);
 
 /// Traces Width × Height rays through the ray-generation shader RayGen of the frame's RTPSO.
 template <class T>

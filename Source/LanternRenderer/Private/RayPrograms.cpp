@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "Feedback/AnyHitCounter.h"
+#include "Fog/FogShadow.h"
 #include "LanternRenderer/HostSurface.h"
 #include "LanternScene/ShaderTable/SectionTable.h"
 #include "Motion/CameraMotion.h"
@@ -56,14 +57,18 @@ struct FCollector
 
 	void Add(ESignal Signal, FPassRays Rays, const std::string& RayGenPath)
 	{
+		Programs.RayGens[ToIndex(Signal)] = Add(std::move(Rays), RayGenPath);
+	}
+	FShaderSource Add(FPassRays Rays, const std::string& RayGenPath)
+	{
 		FShaderSource RayGen = Shader(RayGenPath.c_str());
 		RayGen.Defines = std::move(Rays.Defines);
 		std::vector<FShaderSource>& All = Programs.Desc.RayGens;
 		if (std::find(All.begin(), All.end(), RayGen) == All.end()) { All.push_back(RayGen); } // signals may share one
-		Programs.RayGens[ToIndex(Signal)] = std::move(RayGen);
 		bShadesHits |= Rays.bShadesHits;
 		bBlockers |= Rays.bBlockers;
 		Programs.bLightSampling |= Rays.bShadesHits;
+		return RayGen;
 	}
 };
 
@@ -104,6 +109,22 @@ void CollectSignals(FCollector& Collector, const FRTCapabilities& Capabilities, 
 		}
 	});
 }
+
+void CollectFog(FCollector& Collector, FPassRays Rays, const FSceneFacts& Facts)
+{
+	if (Rays.Path == ERayPath::None) { return; }
+	std::vector<FShaderSource>& Compute = Collector.Programs.Compute;
+	if (Rays.Path == ERayPath::Query)
+	{
+		Collector.Programs.bQueries = true;
+		Compute.push_back(MakeQuerySource(Facts, FogShaders, Rays));
+	}
+	Compute.insert(Compute.end(), Rays.Compute.begin(), Rays.Compute.end());
+	if (Rays.Path == ERayPath::Pipeline)
+	{
+		Collector.Programs.FogRayGen = Collector.Add(std::move(Rays), std::string(FogShaders) + ".rgen");
+	}
+}
 } // namespace
 
 FRayPrograms ChooseRayPrograms(
@@ -124,6 +145,7 @@ FRayPrograms ChooseRayPrograms(
 		FSceneFacts Facts = Scene.GetFacts();
 		Facts.bHostShadow = Features.bHostShadow;
 		CollectSignals(Collector, Capabilities, Scene, Facts, Requests, Ready);
+		CollectFog(Collector, ChooseFogRays({Capabilities, Facts, Requests}), Facts);
 		Programs.bMotion &= Features.bMotion;
 	}
 	if (Features.bHostSurface) { Programs.Compute.push_back(MakeHostSurfaceSource()); }
@@ -134,6 +156,7 @@ FRayPrograms ChooseRayPrograms(
 	{
 		Desc.RayGens.clear();
 		Programs.RayGens.fill(std::nullopt);
+		Programs.FogRayGen.reset();
 		return Programs;
 	}
 	Desc.RayTypes = {MakeShadowRay(Collector.bBlockers)};

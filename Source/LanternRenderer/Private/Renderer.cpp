@@ -149,6 +149,7 @@ FRTStatus FRenderer::PrepareRayPipeline(const FRayPrograms& Wanted)
 		const bool bExact = I == ToIndex(ESignal::Frame); // the reference
 		Context->RayGens[I] = bExact ? RayPipeline->FindRayGen(*Wanted.RayGens[I]) : RayPipeline->FindRayGenVariant(*Wanted.RayGens[I]);
 	}
+	if (Wanted.FogRayGen) { Context->FogRayGen = RayPipeline->FindRayGenVariant(*Wanted.FogRayGen); }
 	const auto HasRayGen = [&](const FShaderSource& RayGen) { return RayPipeline->FindRayGen(RayGen) != NoRayGen; };
 	bRaysReady = !bStandIns && std::all_of(Wanted.Desc.RayGens.begin(), Wanted.Desc.RayGens.end(), HasRayGen);
 	Context->Scene.SetRayTypes(RayPipeline->GetRayTypeCount());

@@ -3,6 +3,7 @@
 
 #include "DebugView/DebugView.h"
 #include "FrameChoices.h"
+#include "HeightFog/HeightFog.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "Lighting/DirectLighting.h"
 #include "Lights/LightCells.h"
@@ -21,6 +22,7 @@ void ListCompositeShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& 
 {
 	Out.push_back(MakeLightingSource(Facts));
 	ListLightCellShaders(Facts, Out);
+	if (HasHeightFog()) { Out.push_back(MakeHeightFogSource(Facts)); }
 	Out.push_back(MakeToneMapSource());
 	if (Facts.bSkyMap && HasSkyAmbient(Facts)) { Out.push_back(MakeSkyLightSource()); }
 	if (GetDebugView() != ESignal::Frame) { Out.push_back(MakeDebugViewSource()); }

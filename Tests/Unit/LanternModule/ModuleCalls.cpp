@@ -335,6 +335,7 @@ FRTModuleFrame MakeFrame(FModulePlay& Play, bool bMayLack)
 	if (bMayLack && (Frame.Depth == nullptr || Frame.Normals == nullptr)) { Play.ExpectNothing(); }
 	MakeLayout(Play, Frame.Layout);
 	if (Play.Bool(true)) { Frame.Wanted.Add(ESignal::AmbientOcclusion); }
+	Frame.bFog = Play.Bool(false);
 	return Frame;
 }
 

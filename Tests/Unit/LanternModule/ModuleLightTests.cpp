@@ -53,11 +53,11 @@ TEST_F(FModuleLightTest, LightsComeChangeAndGo)
 	FSceneConstants Constants = ReadConstants(DescribeFrame());
 	ASSERT_EQ(Constants.LightCount, 2u);
 	auto Light = ReadEntry<FLightData>(Constants.Lights, 0);
-	EXPECT_EQ(Light.Flags, LIGHT_POINT | LIGHT_CASTS_SHADOW);
+	EXPECT_EQ(Light.Flags, LIGHT_POINT | LIGHT_CASTS_SHADOW | LIGHT_IN_FOG);
 	EXPECT_EQ(Light.Position, glm::ivec3(3 * LIGHT_POSITION_STEPS, 0, 0));
 	EXPECT_EQ(Light.Color, glm::vec3(0, 40, 0));
 	Light = ReadEntry<FLightData>(Constants.Lights, 1);
-	EXPECT_EQ(Light.Flags, LIGHT_POINT | LIGHT_HAS_CONE | LIGHT_CASTS_SHADOW);
+	EXPECT_EQ(Light.Flags, LIGHT_POINT | LIGHT_HAS_CONE | LIGHT_CASTS_SHADOW | LIGHT_IN_FOG);
 	EXPECT_EQ(Light.Direction, 0x8001'0000u) << "octahedral: 0, -1";
 	EXPECT_NEAR(Light.SpotScale * std::cos(0.7853982f) + Light.SpotOffset, 0.0f, 1e-5f) << "dark at the outer cone";
 	EXPECT_NEAR(Light.SpotScale + Light.SpotOffset, 1.0f, 1e-5f) << "bright on the axis";
@@ -99,7 +99,7 @@ TEST_F(FModuleLightTest, ShapesAreInTheEnginesWorld)
 	ERTLightHandle Handle = ERTLightHandle::None;
 	ASSERT_OK(Renderer->AddLight(Panel, &Handle));
 	FLightData Light = Read(0);
-	EXPECT_EQ(Light.Flags, LIGHT_RECTANGLE | LIGHT_TWO_SIDED);
+	EXPECT_EQ(Light.Flags, LIGHT_RECTANGLE | LIGHT_TWO_SIDED | LIGHT_IN_FOG);
 	EXPECT_EQ(Light.Position, glm::ivec3(0, 2.5 * LIGHT_POSITION_STEPS, 0));
 	EXPECT_EQ(Light.Size, glm::vec2(1.0f, 0.5f));
 	EXPECT_EQ(glm::unpackSnorm2x16(Light.Direction), glm::vec2(0, -1));
@@ -108,8 +108,10 @@ TEST_F(FModuleLightTest, ShapesAreInTheEnginesWorld)
 	Panel.Radius = 5.0f;
 	Panel.Length = 120.0f;
 	Panel.bCone = true;
+	Panel.bLightsFog = false;
 	ASSERT_OK(Renderer->SetLight(Handle, Panel));
 	Light = Read(0);
+	EXPECT_EQ(Light.Flags & LIGHT_IN_FOG, 0u);
 	EXPECT_EQ(Light.Flags & LIGHT_TYPE_MASK, LIGHT_TUBE);
 	EXPECT_NE(Light.Flags & LIGHT_HAS_CONE, 0u);
 	EXPECT_FLOAT_EQ(Light.Size.x, 0.05f);

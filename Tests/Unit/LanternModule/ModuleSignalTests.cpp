@@ -73,6 +73,41 @@ protected:
 	TRTRef<IRTTexture> Motion, BaseColor, Material;
 };
 
+TEST_F(FModuleSignalTest, FogIsAnOutputOfItsOwn)
+{
+	FRTModuleFrame Frame = DescribeFrame();
+	Frame.Wanted = {};
+	RenderUntilComplete(Frame);
+	EXPECT_EQ(Outputs.Fog.Visibility, nullptr) << "nobody asks";
+	EXPECT_EQ(Outputs.Fog.ColumnCount, 0u);
+	EXPECT_THAT(GetPasses(), Not(Contains(StartsWith("Fog"))));
+	Frame.bFog = true;
+	Frame.FogPhase = 0.5f;
+	RenderUntilComplete(Frame);
+	ASSERT_NE(Outputs.Fog.Visibility, nullptr);
+	EXPECT_EQ(Outputs.Fog.Light, nullptr) << "there are no lamps";
+	EXPECT_EQ(Outputs.Fog.Visibility->GetDesc().Format, ERTFormat::R8_UNORM);
+	EXPECT_EQ(Outputs.Fog.Visibility->GetDesc().Width, Outputs.Fog.ColumnCount * Outputs.Fog.SlicesPerRow);
+	EXPECT_EQ(Outputs.Fog.Visibility->GetDesc().Height, Outputs.Fog.RowCount * (Outputs.Fog.SliceCount / Outputs.Fog.SlicesPerRow));
+	EXPECT_EQ(Outputs.Fog.ColumnCount, (64 + Outputs.Fog.PixelSize - 1) / Outputs.Fog.PixelSize);
+	EXPECT_GT(Outputs.Fog.Distance, 0.0f);
+	FRTModuleLight Lamp;
+	Lamp.Color[0] = 1.0f;
+	ERTLightHandle Handle{};
+	ASSERT_OK(Renderer->AddLight(Lamp, &Handle));
+	ASSERT_TRUE(WaitUntil(
+	    "light in fog", [&] { return Outputs.Fog.Light != nullptr; }, [&] { RenderUntilComplete(Frame); }));
+	EXPECT_EQ(Outputs.Fog.Light->GetDesc().Format, ERTFormat::RGBA16_FLOAT);
+	Frame = DescribeFrame();
+	for (const float Bad : {1.0f, -1.0f, std::numeric_limits<float>::quiet_NaN()})
+	{
+		Frame.FogPhase = Bad;
+		const FRTStatus Status = Renderer->RenderFrame(Frame, &Outputs);
+		EXPECT_EQ(Status.Code, ERTResult::InvalidArgument);
+		EXPECT_THAT(Status.Message, HasSubstr("FRTModuleFrame::FogPhase"));
+	}
+}
+
 TEST_F(FModuleSignalTest, EverySignalOfTheRegistryIsAnOutput)
 {
 	const float Sky[3] = {1, 1, 1};

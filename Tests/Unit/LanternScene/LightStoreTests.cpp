@@ -119,7 +119,8 @@ TEST(FLightStoreTest, ShapesAreAsShadersReadThem)
 	Light.bTwoSided = true;
 	Light.bCastsShadow = false;
 	FLightData Data = PackLight(Light);
-	EXPECT_EQ(Data.Flags, LIGHT_RECTANGLE | LIGHT_TWO_SIDED);
+	EXPECT_EQ(Data.Flags, LIGHT_RECTANGLE | LIGHT_TWO_SIDED | LIGHT_IN_FOG);
+	Light.bLightsFog = false;
 	EXPECT_EQ(Data.Size, glm::vec2(1, 1.5f)) << "half of each";
 	EXPECT_EQ(glm::unpackSnorm2x16(Data.Tangent), glm::vec2(1, 0)) << "at a right angle to the direction";
 	Light.Type = LIGHT_TUBE;

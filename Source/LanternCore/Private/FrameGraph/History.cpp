@@ -163,7 +163,7 @@ FRTStatus FHistoryResources::GetTexture(const char* Name, const FGraphTextureDes
 	assert(Impl->Graph && "between BeginFrame and EndFrame");
 	Out = {};
 	const auto Old = Impl->Textures.find(Name);
-	if (Old != Impl->Textures.end() && Old->second.bValid && IsSameKind(Old->second.Desc, Desc))
+	if (Old != Impl->Textures.end() && IsSameKind(Old->second.Desc, Desc))
 	{
 		FTexturePair& Kept = Old->second;
 		Kept.Desc = Desc;

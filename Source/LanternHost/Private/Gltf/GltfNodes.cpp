@@ -150,6 +150,7 @@ void ReadLightShape(const FJson& Json, FHostLight& Light)
 	if (!Shape.Exists()) { return; }
 	Light.bCastsShadow = Shape.GetBool("castsShadow", true);
 	Light.bTwoSided = Shape.GetBool("twoSided", false);
+	Light.bLightsFog = Shape.GetBool("lightsFog", true);
 	if (Light.Type == LIGHT_DIRECTIONAL)
 	{
 		Light.Size.x = glm::clamp(Shape.GetFloat("angularDiameter", 0.0f), 0.0f, Pi);

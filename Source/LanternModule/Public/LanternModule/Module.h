@@ -166,6 +166,7 @@ struct FRTModuleLight
 	bool bCone = false;           ///< a rectangle, disk, sphere or tube has the cones of a spot as well
 	bool bTwoSided = false;       ///< a rectangle or disk shines to its back, too
 	bool bCastsShadow = true;     ///< false: it shines through everything (fill light)
+	bool bLightsFog = true;       ///< fog scatters it (FRTModuleFog::Light)
 };
 
 struct FRTModuleSun

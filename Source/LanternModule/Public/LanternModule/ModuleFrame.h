@@ -216,6 +216,10 @@ struct FRTModuleFrame
 	/// signal also needs its console variable to be on (r.RT.Shadow, r.RT.AO, …). If FSignalInfo::bNeedsSurface says so, it
 	/// needs BaseColor and Material.
 	FSignalSet Wanted = {ESignal::SunShadow};
+	/// The engine reads FRTModuleOutputs::Fog. It needs no input but the view. A first frame with it has none until shaders are compiled.
+	bool bFog = false;
+	/// How forward the engine's fog scatters: g of Henyey and Greenstein (1941), -1 < g < 1. 0: alike in all directions.
+	float FogPhase = 0.0f;
 	/// RenderFrame submits the scene's own work (copies, skinning, acceleration structures, records) by itself before it returns.
 	/// Tasks record it. Commands gets the passes over pixels alone, and is submitted later than that. The work runs on the device's
 	/// compute queue, beside the engine's G-buffer, if there is one and r.RT.Async names passes of it. The engine's submission then
@@ -241,6 +245,29 @@ struct FRTModuleWait
 	uint64_t Value = 0;     ///< of that semaphore
 };
 
+/// Light in fog, by froxels: parts of the view that are PixelSize pixels wide and high, and lie in one slice of distances. All slices of
+/// the view lie side by side in one texture, SlicesPerRow in each row. Take the pixel P of the view, and the distance Z along the
+/// view's forward axis, in metres:
+///
+///   Slice  = SliceCount * log2(1 + 64 * Z / Distance) / log2(65)
+///   Column = P / PixelSize
+///   Texel  = Column + vec2(ColumnCount, RowCount) * vec2(floor(Slice) mod SlicesPerRow, floor(Slice) / SlicesPerRow)
+///
+/// P counts from the view's corner, less FRTModuleView::Jitter; a first pixel's centre is at 0.5. Froxels have their centres at n + 0.5 in
+/// Slice and Column. To interpolate, fetch the four texels around Column in the two slices around Slice - 0.5. Keep indices within
+/// ColumnCount, RowCount and SliceCount, and slices in front of what the pixel shows. Nothing is known beyond Distance. Froxels are not lit
+/// behind what the last frame has shown there, but for one more slice.
+struct FRTModuleFog
+{
+	/// R8_UNORM: fraction of the sun's disk that is seen. Null: no sun, or as in FRTModuleOutputs.
+	IRTTexture* Visibility = nullptr;
+	/// RGBA16_FLOAT: radiance that fog scatters towards the camera of local lights, shadows included, over its scattering coefficient.
+	/// Times that coefficient (1 / m) and a length in metres it is in nits. Null: no light has FRTModuleLight::bLightsFog.
+	IRTTexture* Light = nullptr;
+	uint32_t PixelSize = 0, ColumnCount = 0, RowCount = 0, SliceCount = 0, SlicesPerRow = 0;
+	float Distance = 0.0f; ///< metres
+};
+
 /// Outputs of a frame. The renderer owns the textures; they are valid until its next RenderFrame. They are in ShaderRead. The
 /// engine may copy from them if it puts them back in ShaderRead.
 /// To read them, fetch the texel of the view's own pixel: the engine's pixel minus FRTModuleFrame::OffsetX and OffsetY. Or sample
@@ -253,6 +280,7 @@ struct FRTModuleOutputs
 	/// Textures by ESignal, which says what each holds. SignalInfos has their formats.
 	IRTTexture* Signals[MaxSignals] = {};
 	IRTTexture* Get(ESignal Signal) const { return Signals[ToIndex(Signal)]; }
+	FRTModuleFog Fog;   ///< with FRTModuleFrame::bFog
 	FRTModuleWait Wait; ///< see FRTModuleFrame::bSubmitAhead
 	/// Whether all shaders of the frame are compiled. They compile in the background; RenderFrame never waits for them
 	/// (IRTModuleRenderer::Precache does, at load). An output is null until its first shaders are ready, and is not filtered

@@ -52,6 +52,13 @@ struct FPipelines
 	bool AreReady() const { return Change && Mark && Prepare && Blocks && Cells; }
 };
 
+FPipelines FindPipelines(const FFrameContext& Context)
+{
+	const FSources Sources;
+	return {RequireCompute(Context, Sources.Change), RequireCompute(Context, Sources.Mark), RequireCompute(Context, Sources.Prepare),
+	    RequireCompute(Context, Sources.Blocks), RequireCompute(Context, Sources.Cells)};
+}
+
 bool HasLightCells(const FSceneFacts& Facts)
 {
 	return CVarCells.GetOnRenderThread() && Facts.FiniteLights >= static_cast<uint32_t>(CVarLeast.GetOnRenderThread());
@@ -96,7 +103,6 @@ glm::ivec3 PlaceLevel(const glm::i64vec3& Camera, uint32_t Shift)
 struct FLightCells::FFrame
 {
 	FFrameContext* Context = nullptr;
-	FGBuffer GBuffer;
 	FGraphBuffer Cells, Arguments;
 	FLightGrid Grid{};
 	FUploadSlice GridData;
@@ -201,6 +207,7 @@ void AddFillPass(const TFrame& Frame, const char* Name, IRTPipeline* Pipeline, u
 void FLightCells::BeginFrame(uint32_t FlightIndex)
 {
 	bCounted = false;
+	Frame.reset();
 	Ring.BeginFrame(FlightIndex, [this](const TReadbackRing<uint32_t>::FEntry& Entry) {
 		FLightCellCounters Counters;
 		std::memcpy(&Counters, Entry.Buffer->GetMapped(), sizeof(Counters));
@@ -226,30 +233,30 @@ uint32_t FLightCells::GetPoolEntries()
 }
 
 /// Begins a new revision of the grid where lists cannot be kept. Returns whether the frame must hear of changes.
-bool FLightCells::FindChanges(const FFrameContext& Context, bool bFresh, FFrame& Frame)
+bool FLightCells::FindChanges(const FFrameContext& Context, bool bFresh, FFrame& Of)
 {
 	static std::atomic<uint32_t> LastRevision = 0;
 	const FLightJournal& Journal = Context.Scene.GetLights().GetJournal();
 	const glm::i64vec3 Camera = ToSteps(MakeGatherView(Context.View).Position) >> glm::i64vec3(GetShift());
 	Lowest = glm::min(Lowest, Camera);
 	Highest = glm::max(Highest, Camera);
-	Frame.JournalEnd = Journal.GetCount();
+	Of.JournalEnd = Journal.GetCount();
 	const glm::i64vec3 Travel = Highest - Lowest;
 	const bool bFar = std::max({Travel.x, Travel.y, Travel.z}) > MostCellsOfTravel;
-	if (bFresh || bFar || Shift != GetShift() || !Journal.GetSince(Seen, Frame.Changes))
+	if (bFresh || bFar || Shift != GetShift() || !Journal.GetSince(Seen, Of.Changes))
 	{
 		Lowest = Highest = Camera;
 		Shift = GetShift();
 		Revision = ++LastRevision;
 		return false;
 	}
-	return !Frame.Changes.empty() && CVarChanges.GetOnRenderThread();
+	return !Of.Changes.empty() && CVarChanges.GetOnRenderThread();
 }
 
 /// Returns false after an error, which the context then has.
-bool FLightCells::PlaceGrid(FFrameContext& Context, FFrame& Frame)
+bool FLightCells::PlaceGrid(FFrameContext& Context, FFrame& Of)
 {
-	FLightGrid& Grid = Frame.Grid;
+	FLightGrid& Grid = Of.Grid;
 	Grid.Revision = Revision;
 	Grid.Turn = Newest.Turn + 1;
 	Grid.Shift = Shift;
@@ -257,52 +264,61 @@ bool FLightCells::PlaceGrid(FFrameContext& Context, FFrame& Frame)
 	const glm::i64vec3 Camera = ToSteps(MakeGatherView(Context.View).Position);
 	for (uint32_t Level = 0; Level < LIGHT_CELL_LEVELS; ++Level) { Grid.First[Level] = PlaceLevel(Camera, Shift + Level); }
 	FFrameUploads& Uploads = Context.Owner->GetUploads();
-	FRTStatus Status = Uploads.Allocate(sizeof(FLightGrid), Frame.GridData);
-	if (Status && !Frame.Changes.empty())
+	FRTStatus Status = Uploads.Allocate(sizeof(FLightGrid), Of.GridData);
+	if (Status && !Of.Changes.empty())
 	{
 		FUploadSlice Slice;
-		Status = Uploads.Push(Frame.Changes.data(), Frame.Changes.size() * sizeof(FLightReach), Slice);
-		Frame.ChangesAddress = Slice.Address;
+		Status = Uploads.Push(Of.Changes.data(), Of.Changes.size() * sizeof(FLightReach), Slice);
+		Of.ChangesAddress = Slice.Address;
 	}
 	if (!Status) { Context.Fail(Status); }
 	return static_cast<bool>(Status);
 }
 
-FGraphBuffer FLightCells::AddPasses(FFrameContext& Context, const FGBuffer& GBuffer)
+FGraphBuffer FLightCells::AddGrid(FFrameContext& Context)
 {
-	const FSources Sources;
-	const FPipelines Pipelines{RequireCompute(Context, Sources.Change), RequireCompute(Context, Sources.Mark),
-	    RequireCompute(Context, Sources.Prepare), RequireCompute(Context, Sources.Blocks), RequireCompute(Context, Sources.Cells)};
+	const FPipelines Pipelines = FindPipelines(Context);
 	if (!Pipelines.AreReady()) { return {}; }
-	const auto Frame = std::make_shared<FFrame>();
-	Frame->Context = &Context;
-	Frame->GBuffer = GBuffer;
-	Frame->Grid.PoolEntries = GetPoolEntries();
+	const auto Made = std::make_shared<FFrame>();
+	Made->Context = &Context;
+	Made->Grid.PoolEntries = GetPoolEntries();
 	FHistoryBuffer History;
-	const uint64_t Bytes = FLightCellBuffer::Pool + Frame->Grid.PoolEntries * sizeof(uint32_t);
+	const uint64_t Bytes = FLightCellBuffer::Pool + Made->Grid.PoolEntries * sizeof(uint32_t);
 	if (FRTStatus S = Context.History->GetBuffer("LightCells", {Bytes, ERTBufferUsage::CopySource}, History); !S)
 	{
 		if (S.Code == ERTResult::DeviceLost) { Context.Fail(S); }
 		else { LogOnce(ERTLogLevel::Warning, std::string("light cells are off, and all lights are visited: ") + S.Message); }
 		return {};
 	}
-	Frame->Cells = History.Buffer;
-	const bool bChanges = FindChanges(Context, History.bFresh, *Frame);
-	if (!PlaceGrid(Context, *Frame)) { return {}; }
+	Made->Cells = History.Buffer;
+	const bool bChanges = FindChanges(Context, History.bFresh, *Made);
+	if (!PlaceGrid(Context, *Made)) { return {}; }
+	if (History.bFresh) { AddClearPass(Made); }
+	if (bChanges) { AddChangePass(Made, Pipelines.Change); }
+	Frame = Made;
+	return Frame->Cells;
+}
+
+void FLightCells::WriteGrid(FPassContext& Pass)
+{
+	Frame->WriteGrid(Pass);
+	// The frame is recorded, so its lists will be as the journal says.
+	Seen = Frame->JournalEnd;
+	Newest = Frame->Grid;
+	Frame->Context->LightCells.Address = Frame->GridData.Address;
+}
+
+void FLightCells::AddLists(FFrameContext& Context, const FGBuffer& GBuffer)
+{
+	const FPipelines Pipelines = FindPipelines(Context);
 	Frame->Arguments = Context.Graph.CreateBuffer({sizeof(FLightCellArguments), ERTBufferUsage::Indirect}, "LightCellArguments");
-	if (History.bFresh) { AddClearPass(Frame); }
-	if (bChanges) { AddChangePass(Frame, Pipelines.Change); }
 	Context.Graph.AddPass("LightCellsMark", [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Read(GBuffer.Depth, ERTAccess::ShaderRead);
 		Frame->Declare(Builder);
-		return [=, this, Mark = Pipelines.Mark](FPassContext& Pass) {
-			Frame->WriteGrid(Pass);
-			// The frame is recorded, so its lists will be as the journal says.
-			Seen = Frame->JournalEnd;
-			Newest = Frame->Grid;
-			Frame->Context->LightCells.Address = Frame->GridData.Address;
+		return [this, Mark = Pipelines.Mark, Depth = GBuffer.Depth](FPassContext& Pass) {
+			WriteGrid(Pass);
 			FLightCellConstants C = Frame->MakeConstants();
-			C.Depth = GetSampledIndex(Pass, Frame->GBuffer.Depth);
+			C.Depth = GetSampledIndex(Pass, Depth);
 			Dispatch2D(Pass, Mark, C, Frame->Context->Width, Frame->Context->Height, LIGHT_CELL_MARK_SIZE);
 		};
 	});
@@ -310,24 +326,23 @@ FGraphBuffer FLightCells::AddPasses(FFrameContext& Context, const FGBuffer& GBuf
 	AddFillPass(Frame, "LightCellsBlocks", Pipelines.Blocks, offsetof(FLightCellArguments, Blocks));
 	AddFillPass(Frame, "LightCells", Pipelines.Cells, offsetof(FLightCellArguments, Cells));
 	AddCountPass(Context, *Frame);
-	return Frame->Cells;
 }
 
 /// Copies the counters to the CPU. Nobody waits for them, so the pass runs if what it counts was counted.
-void FLightCells::AddCountPass(FFrameContext& Context, FFrame& Frame)
+void FLightCells::AddCountPass(FFrameContext& Context, FFrame& Of)
 {
 	FRTStatus Status;
 	auto* const Entry = Ring.Write(sizeof(FLightCellCounters), Status);
 	if (!Entry) { return LogOnce(ERTLogLevel::Warning, std::string("light cells are not counted: ") + Status.Message); }
-	Entry->Notes = Frame.Grid.PoolEntries;
+	Entry->Notes = Of.Grid.PoolEntries;
 	const FGraphBuffer Out = Context.Graph.ImportBuffer(Entry->Buffer.Get(), ERTAccess::HostRead, ERTAccess::HostRead, "LightCellCounters");
 	Context.Graph.MarkForLater(Out, &bCounted);
 	Context.LightCells.Counts = Out;
 	Context.Graph.AddPass("LightCellsCount", [&](FPassBuilder& Builder) -> FPassExecute {
-		Builder.Read(Frame.Cells, ERTAccess::CopyRead);
+		Builder.Read(Of.Cells, ERTAccess::CopyRead);
 		Builder.Write(Out, ERTAccess::CopyWrite);
 		Context.Tokens.LeaveAlone(Builder);
-		return [=, Cells = Frame.Cells](FPassContext& Pass) {
+		return [=, Cells = Of.Cells](FPassContext& Pass) {
 			Pass.Commands().CopyBuffer(
 			    Pass.GetBuffer(Out), 0, Pass.GetBuffer(Cells), FLightCellBuffer::Counters, sizeof(FLightCellCounters));
 		};
@@ -347,8 +362,16 @@ void ListLightCellShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& 
 const FLightCellsOfFrame& RequireLightCells(FFrameContext& Context, const FGBuffer& GBuffer)
 {
 	FLightCellsOfFrame& Cells = Context.LightCells;
-	if (!Cells.bAsked && Cells.OfView && HasLightCells(Context.Facts)) { Cells.Buffer = Cells.OfView->AddPasses(Context, GBuffer); }
+	if (!Cells.bAsked && RequireLightGrid(Context).Buffer.IsValid()) { Cells.OfView->AddLists(Context, GBuffer); }
 	Cells.bAsked = true;
+	return Cells;
+}
+
+const FLightCellsOfFrame& RequireLightGrid(FFrameContext& Context)
+{
+	FLightCellsOfFrame& Cells = Context.LightCells;
+	if (!Cells.bGridAsked && Cells.OfView && HasLightCells(Context.Facts)) { Cells.Buffer = Cells.OfView->AddGrid(Context); }
+	Cells.bGridAsked = true;
 	return Cells;
 }
 

@@ -44,14 +44,20 @@ public:
 	/// Returns the grid of the newest frame that was recorded with one.
 	const FLightGrid& GetGrid() const { return Newest; }
 
-	/// Adds the passes of a frame, and returns their buffer. Invalid: shaders are being compiled, or an error, which the context has.
-	FGraphBuffer AddPasses(FFrameContext& Context, const FGBuffer& GBuffer);
+	/// Adds what a frame does before it looks for pixels, and returns the buffer. Invalid: shaders are being compiled, or an error, which
+	/// the context has. A pass that looks up cells before AddLists finds those of earlier frames, without what has changed.
+	FGraphBuffer AddGrid(FFrameContext& Context);
+	/// Adds the passes that make lists, after AddGrid gave a buffer.
+	void AddLists(FFrameContext& Context, const FGBuffer& GBuffer);
+	/// For the first pass that looks up cells, while it is recorded.
+	void WriteGrid(FPassContext& Pass);
 
 private:
 	struct FFrame;
-	bool PlaceGrid(FFrameContext& Context, FFrame& Frame);
-	bool FindChanges(const FFrameContext& Context, bool bFresh, FFrame& Frame);
-	void AddCountPass(FFrameContext& Context, FFrame& Frame);
+	std::shared_ptr<FFrame> Frame; // between BeginFrame and the next one
+	bool PlaceGrid(FFrameContext& Context, FFrame& Of);
+	bool FindChanges(const FFrameContext& Context, bool bFresh, FFrame& Of);
+	void AddCountPass(FFrameContext& Context, FFrame& Of);
 	uint32_t GetPoolEntries();
 
 	TReadbackRing<uint32_t> Ring; // notes: entries of the pool
@@ -70,6 +76,10 @@ void ListLightCellShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& 
 /// Returns the light cells of the frame's view, for a pass that walks lights; the first call adds their passes. Without a buffer,
 /// shaders visit all lights. A pass that walks lights calls ReadLightCells.
 const FLightCellsOfFrame& RequireLightCells(FFrameContext& Context, const FGBuffer& GBuffer);
+
+/// Returns the light cells for a pass ahead of the G-buffer, which WriteGrid must know of. They have what earlier frames asked for.
+/// RequireLightCells must follow in the frame.
+const FLightCellsOfFrame& RequireLightGrid(FFrameContext& Context);
 
 /// Declares that a pass looks up light cells. bRequests: it asks for those that it misses. Does nothing if there are none.
 void ReadLightCells(FPassBuilder& Builder, const FLightCellsOfFrame& Cells, bool bRequests);

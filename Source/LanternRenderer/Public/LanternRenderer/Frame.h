@@ -34,6 +34,7 @@ struct FFrameOutputs
 	std::array<FGraphTexture, SignalCount> Signals; ///< as FSignalInfo says; that of ESignal::Frame is Lighting
 	FGraphTexture Lighting;                         ///< RGBA32_FLOAT, linear radiance
 	FGraphTexture Display;                          ///< RGBA8_UNORM, tone-mapped, sRGB-encoded
+	FFogAtlas Fog;                                  ///< with FSignalRequests::bFog
 	FGraphTexture& Get(ESignal Signal) { return Signal == ESignal::Frame ? Lighting : Signals[ToIndex(Signal)]; }
 	const FGraphTexture& Get(ESignal Signal) const { return Signal == ESignal::Frame ? Lighting : Signals[ToIndex(Signal)]; }
 };
@@ -42,6 +43,13 @@ struct FFrameOutputs
 FGraphTexture AddSignalPass(FFrameContext& Context, ESignal Signal, const FGBuffer& GBuffer);
 
 FGraphTexture AddToneMapPass(FFrameContext& Context, FGraphTexture Radiance);
+
+/// Adds the light in fog, and returns it; later calls of a frame return what the first one did. It reads nothing of the G-buffer, so a
+/// host may add it before its own passes. Invalid: nobody asks, or see FFrameOutputs.
+FFogAtlas AddFogShadowPass(FFrameContext& Context);
+/// Notes how far the next frame's fog can be seen; after AddFogShadowPass. Does nothing without fog. A frame whose predecessor lacks it
+/// lights all froxels, whatever hides them.
+void AddFogDepthPass(FFrameContext& Context, const FGBuffer& GBuffer);
 
 /// Makes FGBuffer::Motion of a world that stands still, from depth alone, with w = 0.
 FGraphTexture AddCameraMotionPass(FFrameContext& Context, FGraphTexture Depth);

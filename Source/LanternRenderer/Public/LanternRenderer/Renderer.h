@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "FogTypes.h"
 #include "LanternCore/FrameGraph/FrameGraph.h"
 #include "LanternCore/Tasks/Tasks.h"
 #include "LanternRenderer/HostShadow.h"
@@ -52,6 +53,10 @@ struct FSignalRequests
 	bool bNothingElse = false;
 	/// Records how objects moved (FSceneConstants::ObjectMotions), even if no filter follows it.
 	bool bMotion = false;
+	/// Somebody reads the light in fog (FFogAtlas).
+	bool bFog = false;
+	/// How forward fog scatters: g of Henyey and Greenstein (1941), −1 < g < 1. 0: alike in all directions.
+	float FogPhase = 0.0f;
 };
 
 /// What a frame is to do beside its cameras and console variables.
@@ -136,7 +141,7 @@ struct FSurfaceTextures
 struct FLightCellsOfFrame
 {
 	FLightCells* OfView = nullptr; ///< what the view keeps
-	bool bAsked = false;
+	bool bGridAsked = false, bAsked = false;
 	FGraphBuffer Buffer;  ///< invalid: there are none
 	FGraphBuffer Counts;  ///< see FPassBuilder::Keep
 	FAddress Address = 0; ///< FSceneConstants::LightCells, once they are recorded
@@ -155,6 +160,24 @@ struct FSceneTokens
 	{
 		for (const FGraphToken Token : {Tables, Vertices, Structures, Records}) { Builder.Without(Token); }
 	}
+};
+
+/// Light in fog by froxels, in atlases of slices: FogTypes.h says where a froxel lies. A texture is invalid if the scene has nothing
+/// for it.
+struct FFogAtlas
+{
+	FGraphTexture Visibility; ///< R8_UNORM: fraction of the sun's disk that is seen
+	FGraphTexture Light;      ///< RGBA16_FLOAT: radiance that fog scatters of local lights, over its scattering coefficient
+	FFogGrid Grid{};
+	bool IsValid() const { return Visibility.IsValid() || Light.IsValid(); }
+};
+
+/// The fog of a frame (Fog/FogShadow.h).
+struct FFogOfFrame
+{
+	FFogAtlas Atlas;
+	FGraphTexture Depth; ///< how far its next frame may be seen; invalid: there is none
+	bool bAsked = false, bDepthAsked = false;
 };
 
 struct FShadowRays; // Private/Rays/ShadowRays.h
@@ -186,6 +209,7 @@ struct FFrameContext
 		return None;
 	}();
 	uint32_t GetRayGen(ESignal Signal) const { return RayGens[ToIndex(Signal)]; }
+	uint32_t FogRayGen = NoRayGen; ///< as RayGens, of fog shadows
 	/// The view of the frame before. Null if nothing may be carried over from it: there was none, a cut, another size, or a lost
 	/// frame. Null as well if a geometry was deformed in another renderer's or view's frame of the scene since.
 	const FView* PreviousView = nullptr;
@@ -198,6 +222,7 @@ struct FFrameContext
 	FRayQueueDemand* QueueDemand = nullptr; ///< what earlier frames asked of the queue of shadow rays
 	FSurfaceTextures Surface;
 	FLightCellsOfFrame LightCells;
+	FFogOfFrame Fog;
 	/// What r.RT.Debug.View shows instead of a signal, RGBA8_UNORM; invalid: nothing drew it.
 	FGraphTexture DebugPicture;
 	std::shared_ptr<const FShadowRays> ShadowRays; ///< null: none, or nobody has asked so far

@@ -85,6 +85,7 @@ FLightData PackLight(const FSceneLight& Light)
 	Out.Flags = Light.Type;
 	Out.Flags |= Light.bCastsShadow ? LIGHT_CASTS_SHADOW : 0u;
 	Out.Flags |= Light.bTwoSided ? LIGHT_TWO_SIDED : 0u;
+	Out.Flags |= Light.bLightsFog ? LIGHT_IN_FOG : 0u;
 	for (int Axis = 0; Axis < 3; ++Axis) { Out.Position[Axis] = PackCoordinate(Light.Position[Axis]); }
 	Out.Color = Light.Color;
 	Out.Range = Light.Range;

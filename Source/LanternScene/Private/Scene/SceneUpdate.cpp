@@ -63,6 +63,7 @@ void FSceneUpdate::RefreshLightFacts()
 	const FLightStore& Lights = Parts.Lights.GetStore();
 	Facts.Lights = Lights.GetCount();
 	Facts.FiniteLights = Lights.GetFiniteCount();
+	Facts.FogLights = Lights.GetFogCount();
 	Facts.bAreaLights = Lights.GetExtendedCount() > 0;
 	Facts.bSun = Parts.Lights.HasSun();
 	Facts.bSky = Parts.Lights.HasSky();

@@ -37,6 +37,7 @@ struct FSceneLight
 	glm::vec2 Size{0};
 	bool bCastsShadow = true;
 	bool bTwoSided = false; ///< rectangle, disk: it shines to its back as well
+	bool bLightsFog = true; ///< fog scatters it
 	friend bool operator==(const FSceneLight&, const FSceneLight&) = default;
 };
 

@@ -29,6 +29,8 @@ public:
 	uint32_t GetExtendedCount() const { return Extended; }
 	/// Lights of finite range: see ReachesEverywhere.
 	uint32_t GetFiniteCount() const { return Finite; }
+	/// Lights that fog scatters.
+	uint32_t GetFogCount() const { return InFog; }
 	/// What lights reached before and reach after each change of it.
 	const FLightJournal& GetJournal() const { return Journal; }
 	TGpuTable<FLightData>& GetTable() { return Table; }
@@ -37,7 +39,7 @@ public:
 private:
 	TSlots<FSceneLight> Slots;
 	void Count(const FSceneLight& Light, uint32_t Times);
-	uint32_t Extended = 0, Finite = 0;
+	uint32_t Extended = 0, Finite = 0, InFog = 0;
 	FLightJournal Journal;
 	TGpuTable<FLightData> Table{"Lights"};
 };

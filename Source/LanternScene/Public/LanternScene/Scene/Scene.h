@@ -40,6 +40,7 @@ struct FSceneFacts
 	uint32_t DynamicGeometries = 0;
 	uint32_t Lights = 0;       ///< without sun and emissive triangles
 	uint32_t FiniteLights = 0; ///< of them, those with a range: see ReachesEverywhere
+	uint32_t FogLights = 0;    ///< of them, those that fog scatters
 	bool bAreaLights = false;  ///< some of them have an extent: see HasExtent
 	uint32_t EmissiveTriangles = 0;
 	bool bMasked = false; ///< some object has an alpha-tested material (and r.RT.AlphaTest is on)

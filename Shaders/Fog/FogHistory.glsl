@@ -1,0 +1,58 @@
+// What the frame before knew of a froxel. The includer has FFogShadowConstants Push.
+#ifndef LANTERN_FOG_HISTORY_GLSL
+#define LANTERN_FOG_HISTORY_GLSL
+
+#include "Froxels.glsl"
+#include "../Library/Math.glsl"
+
+struct FFogValue
+{
+	float Visibility;
+	vec3 Light;
+};
+
+// Reads one froxel of the frame before. Returns its weight: 0 if it was out of view.
+float LoadPreviousFroxel(FFogGrid Grid, ivec3 Froxel, float Weight, inout FFogValue Sum)
+{
+	ivec3 Inside = clamp(Froxel, ivec3(0), ivec3(Grid.Columns, Grid.Rows, Grid.Slices) - 1);
+	float End = texelFetch(Textures[Push.PreviousCounts], Inside.xy, 0).y;
+	if (!(End > float(Inside.z))) { return 0.0; } // nor is what is no number
+	ivec2 Texel = FroxelTexel(Grid, Inside);
+	float Visibility = Push.PreviousVisibility != NO_TEXTURE ? texelFetch(Textures[Push.PreviousVisibility], Texel, 0).x : 0.0;
+	vec3 Light = Push.PreviousLight != NO_TEXTURE ? texelFetch(Textures[Push.PreviousLight], Texel, 0).xyz : vec3(0.0);
+	if (any(isnan(Light)) || any(isinf(Light))) { return 0.0; }
+	Sum.Visibility += Weight * Visibility;
+	Sum.Light += Weight * Light;
+	return Weight;
+}
+
+// Interpolates what the frame before knew at Relative, a position relative to the camera. Returns false if that was nothing.
+bool LoadFogHistory(FViewConstants View, vec3 Relative, out FFogValue Value)
+{
+	Value = FFogValue(0.0, vec3(0.0));
+	vec2 Pixel;
+	float Distance;
+	if (Push.PreviousCounts == NO_TEXTURE || View.bHistory == 0u || !FindPreviousPlace(View, Relative, Pixel, Distance)) { return false; }
+	FFogGrid Grid = Push.Grid;
+	Grid.Columns = Push.PreviousColumns;
+	Grid.Rows = Push.PreviousRows;
+	if (Distance > Grid.Distance) { return false; }
+	vec3 Place = vec3(Pixel / float(Grid.PixelSize), FroxelSlice(Grid, Distance)) - 0.5;
+	vec3 Fraction = fract(Place);
+	// A froxel that stands still reads itself alone, whatever rounding says.
+	Fraction = mix(mix(Fraction, vec3(0.0), lessThan(Fraction, vec3(1.0e-3))), vec3(1.0), greaterThan(Fraction, vec3(0.999)));
+	float Weights = 0.0;
+	[[dont_unroll]] for (int Tap = 0; Tap < 8; ++Tap)
+	{
+		ivec3 Corner = ivec3(Tap & 1, (Tap >> 1) & 1, Tap >> 2);
+		vec3 W = mix(1.0 - Fraction, Fraction, bvec3(Corner));
+		float Weight = W.x * W.y * W.z;
+		if (Weight > 0.0) { Weights += LoadPreviousFroxel(Grid, ivec3(floor(Place)) + Corner, Weight, Value); }
+	}
+	if (Weights < 0.01) { return false; }
+	Value.Visibility /= Weights;
+	Value.Light /= Weights;
+	return true;
+}
+
+#endif

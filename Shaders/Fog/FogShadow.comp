@@ -1,0 +1,14 @@
+// Light in fog by inline ray query.
+#version 460
+#extension GL_EXT_ray_query : require
+#include "FogShadow.glsl"
+#include "../Rays/QueryShadow.glsl"
+
+layout(local_size_x = RAY_QUERY_GROUP_SIZE, local_size_y = RAY_QUERY_GROUP_SIZE) in;
+
+bool IsUnblocked(vec3 Origin, vec3 Direction, float Length, uint Mask)
+{
+	return QueryBlockerDistance(FSceneRef(Push.Pass.Scene).Data, Push.RayFlags, Mask, Origin, Direction, Length) < 0.0;
+}
+
+void main() { LightPair(gl_GlobalInvocationID.xy); }

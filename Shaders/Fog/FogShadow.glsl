@@ -1,0 +1,110 @@
+// Lights froxels; the ray-tracing pipeline and the ray-query path share it. Each thread has two slices of a column, and traces one of them
+// in turn. The includer defines
+//   bool IsUnblocked(vec3 Origin, vec3 Direction, float Length, uint Mask)   true: the ray hits nothing
+//
+// FOG_SUN, FOG_LIGHTS: defined if the scene has such light. FOG_NEXT_SLICE: planted fault, see r.RT.Debug.Fog.Slice.
+#ifndef LANTERN_FOG_SHADOW_GLSL
+#define LANTERN_FOG_SHADOW_GLSL
+
+#include "../Shared/FogTypes.h"
+#include "../Library/Bindings.glsl"
+
+layout(push_constant, scalar) uniform FPush { FFogShadowConstants Push; };
+
+#include "../Library/Casters.glsl"
+#include "../Library/Random.glsl"
+#include "../Library/Sun.glsl"
+#include "FogHistory.glsl"
+
+const float FogRayLength = 1.0e5; // metres, to the sun
+const float MostFogLight = 65504.0; // of a half float
+
+bool IsUnblocked(vec3 Origin, vec3 Direction, float Length, uint Mask);
+
+#ifdef FOG_LIGHTS
+#include "FogLights.glsl"
+#endif
+
+// Points that fill a froxel evenly over frames, whichever share of all frames the froxel is traced in (Roberts 2018, "The Unreasonable
+// Effectiveness of Quasirandom Sequences").
+vec3 FroxelJitter(uint FrameIndex, uint Seed)
+{
+	uvec3 Offset = HashPcg4(uvec4(Seed, 1u, 2u, 3u)).xyz;
+	return vec3((Offset + FrameIndex * uvec3(3518319155u, 2882110345u, 2360945575u)) >> 8u) * (1.0 / 16777216.0);
+}
+
+// End: of what the column shows, in slices. Light behind that would leak through walls.
+FFogValue TraceFroxel(FSceneConstants Scene, FViewConstants View, ivec3 Froxel, float End)
+{
+	uint Seed = HashPcg(uint(Froxel.x) + HashPcg(uint(Froxel.y) + HashPcg(uint(Froxel.z) + HashPcg(View.Seed))));
+	FRandom Random = MakeRandom(uvec2(Froxel.xy), View.FrameIndex, Seed);
+	vec3 Jitter = FroxelJitter(View.FrameIndex, Seed);
+	vec3 At = vec3(Froxel) + Jitter;
+	if (End < float(Froxel.z + 1)) { At.z = End > float(Froxel.z) ? mix(float(Froxel.z), End, Jitter.z) : max(End - 0.05, 0.01); }
+#ifdef FOG_NEXT_SLICE
+	At.z = float(Froxel.z) + 1.5;
+#endif
+	vec3 Relative = FroxelPosition(Push.Grid, View, At);
+	vec3 P = View.CameraPosition + Relative;
+	FFogValue Value = FFogValue(0.0, vec3(0.0));
+#ifdef FOG_SUN
+	Scene.SunOneMinusCos = Push.SunOneMinusCos;
+	vec3 ToSun = Push.SunOneMinusCos > 0.0 ? SampleSunDirection(Scene, NextRandom4(Random).xy) : -Scene.SunDirection;
+	Value.Visibility = IsUnblocked(P, ToSun, FogRayLength, SunCasters(false)) ? 1.0 : 0.0;
+#endif
+#ifdef FOG_LIGHTS
+	vec3 Place = vec3(Froxel) + 0.5;
+	float Thickness = FroxelDistance(Push.Grid, Place.z + 0.5) - FroxelDistance(Push.Grid, Place.z - 0.5);
+	float Width = PixelHeight(View, FroxelDistance(Push.Grid, Place.z)) * float(Push.Grid.PixelSize);
+	float Radius = pow(Width * Width * Thickness * (3.0 / (4.0 * Pi)), 1.0 / 3.0);
+	Value.Light = TraceFogLight(Scene, P, ViewDirection(View, Relative), Radius, Push.Phase, Random);
+	if (any(isnan(Value.Light)) || any(isinf(Value.Light))) { Value.Light = vec3(0.0); }
+#endif
+	return Value;
+}
+
+// Rounded to what the texture holds, up or down by chance: a mean of frames would else stop at a distance from its limit.
+float DitherVisibility(float Visibility, ivec3 Froxel, uint FrameIndex)
+{
+	float Threshold = float(HashPcg4(uvec4(Froxel, FrameIndex)).x >> 8u) * (1.0 / 16777216.0);
+	return floor(Visibility * 255.0 + Threshold) / 255.0;
+}
+
+// Count: of slices that are lit. End: see TraceFroxel.
+void LightFroxel(FSceneConstants Scene, FViewConstants View, ivec3 Froxel, uint Count, float End, bool bTurn)
+{
+	FFogValue Value = FFogValue(0.0, vec3(0.0)), Traced;
+	bool bKnown = LoadFogHistory(View, FroxelPosition(Push.Grid, View, vec3(Froxel) + 0.5), Value);
+	if (uint(Froxel.z) < Count && (bTurn || !bKnown))
+	{
+		Traced = TraceFroxel(Scene, View, Froxel, End);
+		float Share = bKnown ? Push.Share : 1.0;
+		Value = FFogValue(mix(Value.Visibility, Traced.Visibility, Share), mix(Value.Light, Traced.Light, Share));
+	}
+	ivec2 Texel = FroxelTexel(Push.Grid, Froxel);
+	if (Push.OutVisibility != NO_TEXTURE)
+	{
+		imageStore(Images[Push.OutVisibility], Texel, vec4(DitherVisibility(Value.Visibility, Froxel, View.FrameIndex)));
+	}
+	if (Push.OutLight != NO_TEXTURE) { imageStore(Images[Push.OutLight], Texel, vec4(min(Value.Light, vec3(MostFogLight)), 1.0)); }
+}
+
+// Place: as the texels of an atlas of pairs of slices.
+void LightPair(uvec2 Place)
+{
+	uvec2 Size = uvec2(Push.Grid.Columns, Push.Grid.Rows), Tile = Place / Size;
+	uint Pair = Tile.y * Push.Grid.PerRow + Tile.x;
+	if (Tile.x >= Push.Grid.PerRow || 2u * Pair >= Push.Grid.Slices) { return; }
+	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	ivec2 Column = ivec2(Place % Size);
+	vec2 Counts = texelFetch(Textures[Push.Counts], Column, 0).xy;
+	uint Turn = uint(Counts.x) & 1u, Count = uint(Counts.x) >> 1u;
+	[[dont_unroll]] for (uint I = 0u; I < 2u; ++I)
+	{
+		ivec3 Froxel = ivec3(Column, 2u * Pair + I);
+		if (uint(Froxel.z) < Push.Grid.Slices) { LightFroxel(Scene, View, Froxel, Count, Counts.y, I == Turn); }
+	}
+}
+
+#endif
