@@ -25,8 +25,10 @@ const float CertainSigma = 1.0e-3; // standard deviation of a history without no
 // PreviousSize: of the history, pixels.
 FAccumulated Accumulate(FFrameEstimate Frame, FHistory History, ivec2 PreviousSize, bool bMayHaveChanged)
 {
+#ifndef NO_ADAPTION // r.RT.Debug.Denoise.Adapt
 	// Where light may change, certainty of long standing would hide the first rays that say otherwise.
 	if (bMayHaveChanged && History.Past.NoiseSigma < CertainSigma) { History.Past.Frames = min(History.Past.Frames, 1.0); }
+#endif
 	float Unchanged = bMayHaveChanged ? GetUnchangedShare(Frame, History, PreviousSize) : 1.0;
 #ifndef NO_ADAPTION // r.RT.Debug.Denoise.Adapt
 	// Further rays at a border that may have moved are worth more than what was there before.
