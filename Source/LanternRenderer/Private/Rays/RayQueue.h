@@ -65,8 +65,11 @@ void StartQueue(FPassContext& Pass, const FRayQueue& Queue);
 struct FQueuedRays
 {
 	FSunRays Sun;
-	FGraphBuffer TileLights; ///< FTileLights[], for rays to local lights; invalid: there are none
-	FGraphBuffer Choices;    ///< FLightChoice[Width · Height]; invalid: no pixel chooses a light
+	FGraphBuffer TileLights;  ///< FTileLights[], for rays to local lights; invalid: there are none
+	FGraphBuffer Choices;     ///< FLightChoice[Width · Height]; invalid: no pixel chooses a light
+	FGraphBuffer Expected;    ///< FExpectedLight[Width · Height], for the shading; invalid: as Choices, or there is no guide
+	FGraphBuffer Guide;       ///< two times FTileGuide[], this frame's at GuideOffset
+	uint64_t GuideOffset = 0; ///< bytes
 	uint32_t LocalPerPixel = 0;
 };
 /// Adds the pass that traces what is in the queue. Dispatch: of Shaders/Rays/ShadowQueue.

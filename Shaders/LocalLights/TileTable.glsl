@@ -1,0 +1,297 @@
+// The lights that may reach a tile of many, with the weight that each has for the tile's pixels. A work group makes it.
+// The weight is positive for every light that brings anything to a pixel of the tile, so that what pixels choose from it has no bias.
+#ifndef LANTERN_TILE_TABLE_GLSL
+#define LANTERN_TILE_TABLE_GLSL
+
+#include "../Library/Lights.glsl"
+#include "../Library/Motion.glsl"
+#include "Guide.glsl"
+
+const uint TileSamplers = 4u; // pixels that weights are made for, one of each quarter of the tile
+const float LeastDoubt = 0.15; // a light that has always or never been seen may have changed
+
+shared float Cumulative[TILE_TABLE_MOST]; // sum of the weights up to and with a light's
+shared uint TableEntries[TILE_TABLE_MOST]; // light, and its expected visibility in the highest 8 bits
+shared float RunSums[TILE_PIXELS];
+shared uint RunCounts[TILE_PIXELS];
+shared uint TableCount;
+shared uint SamplerPlaces[TileSamplers];
+shared vec3 SamplerP[TileSamplers], SamplerN[TileSamplers];
+shared uvec2 PreviousTile; // x = NoTile: none
+shared FGuideLight Remembered[TILE_GUIDE_LIGHTS]; // of PreviousTile
+shared uint RememberedTraced, RememberedSeen;
+shared uint GuideKeys[TILE_GUIDE_LIGHTS];
+
+const uint NoTile = 0xffffffffu, NoGuideLight = 0xffffffffu;
+
+uint EntryLight(uint Entry) { return Entry & ((1u << LIGHT_INDEX_BITS) - 1u); }
+float EntryVisibility(uint Entry) { return float(Entry >> LIGHT_INDEX_BITS) / 255.0; }
+
+// Returns how little a ray's answer is known before it is traced, 0 to 0.5: its standard deviation.
+float Doubt(float Visibility) { return Visibility >= 1.0 ? 0.0 : max(sqrt(Visibility * (1.0 - Visibility)), LeastDoubt); }
+
+// Chooses a pixel of each quarter, another one in each frame.
+void ChooseSamplers(FViewConstants View, FLocalPoint Point, bool bSurface, uint Place)
+{
+	if (Place < TileSamplers) { SamplerPlaces[Place] = TILE_PIXELS; }
+	barrier();
+	uint Quarter = Place >> 4u, Turn = (Place ^ (View.FrameIndex * 5u)) & 15u;
+	if (bSurface) { atomicMin(SamplerPlaces[Quarter], Turn); }
+	barrier();
+	if (bSurface && SamplerPlaces[Quarter] == Turn)
+	{
+		SamplerP[Quarter] = Point.P;
+		SamplerN[Quarter] = Point.Surface.BentN;
+	}
+	barrier();
+}
+
+// Finds the tile of the previous frame that showed this one's surface, as if nothing but the camera had moved. One thread.
+void FindPreviousTile(FViewConstants View, uvec2 Tile)
+{
+	PreviousTile = uvec2(NoTile);
+	uint Quarter = 0u;
+	while (Quarter < TileSamplers && SamplerPlaces[Quarter] >= TILE_PIXELS) { ++Quarter; }
+	if (Push.PreviousGuide == FAddress(0) || Quarter == TileSamplers) { return; }
+	vec3 Relative = SamplerP[Quarter] - View.CameraPosition;
+	vec3 Motion = ComputeMotion(View, Relative, Relative + View.CameraMotion);
+	uvec2 Pixel = TilePixel(Tile, Quarter * 16u + (SamplerPlaces[Quarter] ^ ((View.FrameIndex * 5u) & 15u)));
+	vec2 Previous = vec2(Pixel) + 0.5 + Motion.xy;
+	if (Motion.z > 0.0 && all(greaterThanEqual(Previous, vec2(0.0))) && all(lessThan(Previous, vec2(View.Width, View.Height))))
+	{
+		PreviousTile = uvec2(Previous) / TILE_SIZE;
+	}
+}
+
+void LoadRemembered(FViewConstants View, uint Place)
+{
+	if (Place == 0u) { RememberedTraced = RememberedSeen = 0u; }
+	barrier();
+	if (Place < TILE_GUIDE_LIGHTS)
+	{
+		Remembered[Place] = FGuideLight(NoGuideLight, 0u);
+		GuideKeys[Place] = 0u;
+		if (PreviousTile.x != NoTile)
+		{
+			FGuideLight Light = FTileGuideRef(Push.PreviousGuide).Data[TileIndex(View, PreviousTile)].Lights[Place];
+			Remembered[Place] = Light;
+			atomicAdd(RememberedTraced, GuideTraced(Light.Counts));
+			atomicAdd(RememberedSeen, GuideSeen(Light.Counts));
+		}
+	}
+	barrier();
+}
+
+// Returns what the guides of the tile and of those around it know: rays traced, and rays that got through.
+vec2 RecallRays(FViewConstants View, uint Light)
+{
+	vec2 Rays = vec2(0.0);
+	if (PreviousTile.x == NoTile) { return Rays; }
+	ivec2 Last = ivec2((uvec2(View.Width, View.Height) - 1u) / TILE_SIZE);
+	[[dont_unroll]] for (int I = 0; I < 9; ++I)
+	{
+		ivec2 Tile = ivec2(PreviousTile) + ivec2(I % 3, I / 3) - 1;
+		if (any(lessThan(Tile, ivec2(0))) || any(greaterThan(Tile, Last))) { continue; }
+		uint Index = TileIndex(View, uvec2(Tile));
+		FGuideLight Found = FTileGuideRef(Push.PreviousGuide).Data[Index].Lights[GuidePlace(Light, GuideTileHash(Index))];
+		if (Found.Light == Light) { Rays += vec2(GuideTraced(Found.Counts), GuideSeen(Found.Counts)) * (I == 4 ? 1.0 : 0.25); }
+	}
+	return Rays / float(TILE_GUIDE_RAY);
+}
+
+float ExpectVisibility(FViewConstants View, uint Light)
+{
+	const float Doubts = 2.0; // rays that what is unknown counts as
+	vec2 All = (vec2(RememberedTraced, RememberedSeen) / float(TILE_GUIDE_RAY)) + vec2(8.0, 4.0);
+	vec2 Rays = RecallRays(View, Light) + Doubts * vec2(1.0, All.y / All.x);
+	return Rays.y / Rays.x;
+}
+
+// Returns an upper bound, but for a light within the box, of what the light brings to a plane anywhere in it.
+float BoundLight(FSceneConstants Scene, FLightData Light, vec3 Low, vec3 High)
+{
+	uint Type = LightType(Light);
+	if (Type == LIGHT_DIRECTIONAL) { return Luminance(Light.Color); }
+	vec3 Center = LightPosition(Scene, Light), Outside = max(max(Low - Center, Center - High), vec3(0.0)), Edges = High - Low;
+	float DistanceSquared = max(max(dot(Outside, Outside), 0.06 * dot(Edges, Edges)), 1.0e-8), Form = 1.0 / DistanceSquared;
+#ifdef HAS_AREA_LIGHTS
+	if (Type >= LIGHT_RECTANGLE)
+	{
+		float Reach = LightReach(Type, Light.Size);
+		Form = min(Pi * Reach * Reach * Form, Pi);
+	}
+#endif
+	return Luminance(Light.Color) * Form;
+}
+
+float WeighLight(FSceneConstants Scene, FLightData Light, vec3 Low, vec3 High)
+{
+	if (!MayReach(Scene, Light, Low, High)) { return 0.0; }
+	float Sum = 0.1 * BoundLight(Scene, Light, Low, High);
+	[[dont_unroll]] for (uint I = 0u; I < TileSamplers; ++I)
+	{
+		if (SamplerPlaces[I] >= TILE_PIXELS) { continue; }
+		float Estimate = EstimateLight(Scene, Light, SamplerP[I], SamplerN[I]);
+		if (Estimate <= 0.0) { continue; }
+		vec3 To = LightType(Light) == LIGHT_DIRECTIONAL ? -UnpackOct(Light.Direction) : NormalizeOr(LightPosition(Scene, Light) - SamplerP[I], SamplerN[I]);
+		Sum += Estimate * max(dot(To, SamplerN[I]), 0.1);
+	}
+	return Sum;
+}
+
+// Whether the table has the light for certain, however many there are.
+bool IsRemembered(FViewConstants View, uint Light)
+{
+	return PreviousTile.x != NoTile && Remembered[GuidePlace(Light, GuideTileHash(TileIndex(View, PreviousTile)))].Light == Light;
+}
+
+// Returns the share of lights that the table holds, of those that nobody remembers.
+float TableShare() { return CandidateCount <= TILE_TABLE_MOST ? 1.0 : 0.84 * float(TILE_TABLE_MOST) / float(CandidateCount); }
+
+bool IsListed(FSceneConstants Scene, FViewConstants View, uint Light, uint Seed, vec3 Low, vec3 High)
+{
+	float Share = TableShare();
+	if (Share < 1.0 && float(HashPcg(Light ^ Seed) >> 8u) * (1.0 / 16777216.0) >= Share && !IsRemembered(View, Light)) { return false; }
+	return MayReach(Scene, FLightRef(Scene.Lights).Data[Light], Low, High);
+}
+
+// Lists the table's lights where the scene has more than it can hold. Their order does not depend on that of threads.
+void ListTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low, vec3 High)
+{
+	uint Seed = HashPcg(View.FrameIndex + HashPcg(TileIndex(View, gl_WorkGroupID.xy) + HashPcg(View.Seed)));
+	uint Mine = 0u, Before = 0u, Total = 0u;
+	for (uint I = Place; I < Scene.LightCount; I += TILE_PIXELS) { Mine += IsListed(Scene, View, I, Seed, Low, High) ? 1u : 0u; }
+	RunCounts[Place] = Mine;
+	barrier();
+	for (uint I = 0u; I < TILE_PIXELS; ++I)
+	{
+		Before += I < Place ? RunCounts[I] : 0u;
+		Total += RunCounts[I];
+	}
+	for (uint I = Place; I < Scene.LightCount && Before < TILE_TABLE_MOST; I += TILE_PIXELS)
+	{
+		if (IsListed(Scene, View, I, Seed, Low, High)) { TableEntries[Before++] = I; }
+	}
+	if (Place == 0u) { TableCount = min(Total, TILE_TABLE_MOST); }
+	barrier();
+}
+
+// Fills the table, and proposes lights for the tile's guide.
+void MakeTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low, vec3 High)
+{
+	bool bAll = Scene.LightCount <= TILE_TABLE_MOST;
+	if (!bAll) { ListTable(Scene, View, Place, Low, High); }
+	else if (Place == 0u) { TableCount = Scene.LightCount; }
+	barrier();
+	uint Run = (TableCount + TILE_PIXELS - 1u) / TILE_PIXELS, Begin = min(Place * Run, TableCount), End = min(Begin + Run, TableCount);
+	uint TileHash = GuideTileHash(TileIndex(View, gl_WorkGroupID.xy));
+	float Sum = 0.0;
+	for (uint I = Begin; I < End; ++I)
+	{
+		uint Light = bAll ? I : TableEntries[I];
+		FLightData Data = FLightRef(Scene.Lights).Data[Light];
+		float Weight = WeighLight(Scene, Data, Low, High), Visibility = 1.0;
+		if (Weight > 0.0 && (Data.Flags & LIGHT_CASTS_SHADOW) != 0u)
+		{
+			Visibility = clamp(ExpectVisibility(View, Light), 1.0 / 255.0, 254.0 / 255.0);
+			atomicMax(GuideKeys[GuidePlace(Light, TileHash)], (floatBitsToUint(Weight * max(Visibility, 0.25)) & ~(TILE_TABLE_MOST - 1u)) | I);
+		}
+		uint Bits = uint(Visibility * 255.0 + 0.5);
+		TableEntries[I] = Light | (Bits << LIGHT_INDEX_BITS);
+		Visibility = float(Bits) / 255.0;
+		Sum += Weight * (Visibility + Doubt(Visibility));
+		Cumulative[I] = Sum;
+	}
+	RunSums[Place] = Sum;
+	barrier();
+	float Before = 0.0;
+	for (uint I = 0u; I < Place; ++I) { Before += RunSums[I]; }
+	for (uint I = Begin; I < End; ++I) { Cumulative[I] += Before; }
+	barrier();
+}
+
+// Writes the tile's guide without this frame's rays, which the shading adds. bMade: there is a table.
+void WriteGuide(FViewConstants View, uint Place, bool bMade)
+{
+	if (Place >= TILE_GUIDE_LIGHTS) { return; }
+	FGuideLight Out = FGuideLight(NoGuideLight, 0u);
+	if (bMade && GuideKeys[Place] != 0u)
+	{
+		Out.Light = EntryLight(TableEntries[GuideKeys[Place] & (TILE_TABLE_MOST - 1u)]);
+		vec2 Rays = vec2(0.0);
+		if (IsRemembered(View, Out.Light))
+		{
+			uint Counts = Remembered[GuidePlace(Out.Light, GuideTileHash(TileIndex(View, PreviousTile)))].Counts;
+			Rays = vec2(GuideTraced(Counts), GuideSeen(Counts)) * Push.GuideKept;
+		}
+		else
+		{
+			Rays = RecallRays(View, Out.Light); // of others: less certain
+			Rays *= float(TILE_GUIDE_RAY) * min(1.0, 4.0 / max(Rays.x, 1.0e-3));
+		}
+		Out.Counts = PackGuideCounts(Rays.x, Rays.y);
+	}
+	FTileGuideRef(Push.Guide).Data[TileIndex(View, gl_WorkGroupID.xy)].Lights[Place] = Out;
+}
+
+// Returns the first entry whose cumulative weight exceeds X.
+uint FindEntry(float X)
+{
+	uint First = 0u, Last = TableCount - 1u;
+	while (First < Last)
+	{
+		uint Middle = (First + Last) >> 1u;
+		if (Cumulative[Middle] > X) { Last = Middle; }
+		else { First = Middle + 1u; }
+	}
+	return First;
+}
+
+// Chooses a light of the table, and sums what all are expected to bring. Returns whether it asks for a ray.
+bool ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLocalBrdf Local, uvec2 Pixel, out FLightChoice Choice,
+                   out FExpectedLight Expected)
+{
+	float All = Cumulative[TableCount - 1u], Chosen = 0.0, Total = 0.0, Share = TableShare();
+	vec2 U = LocalNumbers(View, Pixel, 0xffffffffu);
+	FLobes Sum = FLobes(vec3(0.0), vec3(0.0));
+	Choice = FLightChoice(0u, 0.0);
+	Expected.Visibility = 0.0;
+	for (uint I = 0u; I < Push.Candidates && All > 0.0; ++I)
+	{
+		uint Number = FindEntry((float(I) + U.x) / float(Push.Candidates) * All), Entry = TableEntries[Number], Light = EntryLight(Entry);
+		float Weight = Cumulative[Number] - (Number > 0u ? Cumulative[Number - 1u] : 0.0);
+		if (Weight <= 0.0) { continue; }
+		FLightSample Sample = SampleLocalLight(Scene, View, Point, Pixel, Light);
+		if (!ReachesLight(View, Point, Sample)) { continue; }
+		// The inverse of the density with which the light came here, over all candidates.
+		float Stands = All / (Weight * float(Push.Candidates));
+		if (Share < 1.0 && !IsRemembered(View, Light)) { Stands /= Share; }
+		FLobes Lobes = ReflectLight(Point, Local, Sample);
+		float Visibility = EntryVisibility(Entry);
+		Sum.Diffuse += Lobes.Diffuse * (Stands * Visibility);
+		Sum.Specular += Lobes.Specular * (Stands * Visibility);
+		float Target = Luminance(Lobes.Diffuse + Lobes.Specular) * Doubt(Visibility), Mine = Target * Stands;
+		if (Mine <= 0.0) { continue; }
+		Total += Mine;
+		float Probability = Mine / Total;
+		bool bTake = U.y < Probability;
+		U.y = min(bTake ? U.y / Probability : (U.y - Probability) / (1.0 - Probability), 0.99999994);
+		if (!bTake) { continue; }
+		Choice.Light = Light;
+		Chosen = Target;
+		Expected.Visibility = Visibility;
+	}
+	Sum.Diffuse = min(Sum.Diffuse, 65504.0);
+	Sum.Specular = min(Sum.Specular, 65504.0);
+	Expected.Lobes[0] = packHalf2x16(Sum.Diffuse.xy);
+	Expected.Lobes[1] = packHalf2x16(vec2(Sum.Diffuse.z, Sum.Specular.x));
+	Expected.Lobes[2] = packHalf2x16(Sum.Specular.yz);
+	if (Chosen <= 0.0) { return false; }
+	Choice.Weight = Total / Chosen;
+#ifdef NO_CHOICE_WEIGHT // r.RT.Debug.Lights.Weight
+	Choice.Weight = 1.0;
+#endif
+	return true;
+}
+
+#endif
