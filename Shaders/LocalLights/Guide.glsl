@@ -7,7 +7,7 @@
 #include "../Library/Random.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FTileGuideRef { FTileGuide Data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FExpectedLightRef { FExpectedLight Data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FLitPixelRef { FLitPixel Data[]; };
 
 // Returns a light's place in the guide of a tile. Lights that share one differ from tile to tile.
 uint GuidePlace(uint Light, uint TileHash) { return HashPcg(Light ^ TileHash) % TILE_GUIDE_LIGHTS; }

@@ -32,6 +32,19 @@ struct FLobes
 	vec3 Diffuse, Specular;
 };
 
+// 6 × fp16.
+uint[3] PackLobes(FLobes Lobes)
+{
+	const float MaxHalf = 65504.0;
+	vec3 D = min(Lobes.Diffuse, MaxHalf), S = min(Lobes.Specular, MaxHalf);
+	return uint[3](packHalf2x16(D.xy), packHalf2x16(vec2(D.z, S.x)), packHalf2x16(S.yz));
+}
+FLobes UnpackLobes(uint Packed[3])
+{
+	vec2 Middle = unpackHalf2x16(Packed[1]);
+	return FLobes(vec3(unpackHalf2x16(Packed[0]), Middle.x), vec3(Middle.y, unpackHalf2x16(Packed[2])));
+}
+
 // How a surface reflects.
 struct FLocalBrdf
 {

@@ -145,7 +145,7 @@ void ChooseOfMany(FSceneConstants Scene, FViewConstants View, FLocalPoint Point,
 	bool bMany = Tile.Count == TILE_LIGHTS_MANY, bAsks = false;
 	FLightChoice Choice = FLightChoice(0u, 0.0);
 #ifdef GUIDED
-	FExpectedLight Expected = FExpectedLight(uint[3](0u, 0u, 0u), 0.0);
+	FLobes Lit = FLobes(vec3(0.0), vec3(0.0));
 	if (bMany)
 	{
 		ChooseSamplers(View, Point, bSurface, Place);
@@ -158,7 +158,7 @@ void ChooseOfMany(FSceneConstants Scene, FViewConstants View, FLocalPoint Point,
 	if (bMany && bSurface)
 	{
 		FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel);
-		bAsks = ChooseOfTable(Scene, View, Point, Local, Pixel, Choice, Expected);
+		bAsks = ChooseOfTable(Scene, View, Point, Local, Pixel, Choice, Lit);
 	}
 #else
 	if (bMany && bSurface) { bAsks = ChooseLight(Scene, View, Point, Pixel, Choice); }
@@ -168,7 +168,7 @@ void ChooseOfMany(FSceneConstants Scene, FViewConstants View, FLocalPoint Point,
 	uint Index = Pixel.y * View.Width + Pixel.x;
 	FLightChoiceRef(Push.Choices).Data[Index] = Choice;
 #ifdef GUIDED
-	FExpectedLightRef(Push.Expected).Data[Index] = Expected;
+	if (Push.Lit != FAddress(0)) { FLitPixelRef(Push.Lit).Data[Index].Lobes = PackLobes(Lit); }
 #endif
 }
 #endif

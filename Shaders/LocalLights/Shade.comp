@@ -27,15 +27,12 @@ void CountAnswer(uint Answer, uint Slot, uint SeenBit, uint TracedBit)
 }
 
 #ifdef GUIDED
-const float DeviationSteps = 4096.0;
-shared int Deviation; // sum over the tile's rays: what they saw, less what was expected
 shared uint GuideTracedNow[TILE_GUIDE_LIGHTS], GuideSeenNow[TILE_GUIDE_LIGHTS];
 
 // Adds what the tile's rays saw to its guide. All threads.
 void Remember(FViewConstants View, uint PixelIndex, uint Answer, uint Place)
 {
 	if (Place < TILE_GUIDE_LIGHTS) { GuideTracedNow[Place] = GuideSeenNow[Place] = 0u; }
-	if (Place == 0u) { Deviation = 0; }
 	barrier();
 	uint Index = TileIndex(View, gl_WorkGroupID.xy);
 	FTileGuideRef Guides = FTileGuideRef(Push.Guide);
@@ -43,8 +40,6 @@ void Remember(FViewConstants View, uint PixelIndex, uint Answer, uint Place)
 	{
 		uint Light = FLightChoiceRef(Push.Choices).Data[PixelIndex].Light, Slot = GuidePlace(Light, GuideTileHash(Index));
 		bool bSeen = (Answer & (1u << ANSWER_CHOSEN_SEEN)) != 0u;
-		float Expected = FExpectedLightRef(Push.Expected).Data[PixelIndex].Visibility;
-		atomicAdd(Deviation, int(round(((bSeen ? 1.0 : 0.0) - Expected) * DeviationSteps)));
 		if (Guides.Data[Index].Lights[Slot].Light == Light)
 		{
 			atomicAdd(GuideTracedNow[Slot], 1u);
@@ -69,28 +64,24 @@ void AddLight(inout FLobes Sum, FSceneConstants Scene, FViewConstants View, FLoc
 	Sum.Specular += Lobes.Specular * Weight;
 }
 
-// Lights a pixel by the light that it chose.
 #ifdef MANY_LIGHTS
 FLobes ShadeChosen(FSceneConstants Scene, FViewConstants View, uvec2 Pixel, bool bAsked, uint Answer, FLocalPoint Point, FLocalBrdf Local)
 {
 	FLobes Sum = FLobes(vec3(0.0), vec3(0.0));
-	FLightChoice Choice = FLightChoiceRef(Push.Choices).Data[Pixel.y * View.Width + Pixel.x];
-#ifdef GUIDED
-	FExpectedLight Expected = FExpectedLightRef(Push.Expected).Data[Pixel.y * View.Width + Pixel.x];
-	vec2 Middle = unpackHalf2x16(Expected.Lobes[1]);
-	Sum.Diffuse = vec3(unpackHalf2x16(Expected.Lobes[0]), Middle.x);
-	Sum.Specular = vec3(Middle.y, unpackHalf2x16(Expected.Lobes[2]));
-	float Visibility = 0.0;
-	if (bAsked)
-	{
-		bool bTraced = (Answer & (1u << ANSWER_CHOSEN_TRACED)) != 0u;
-		Visibility = bTraced ? ((Answer & (1u << ANSWER_CHOSEN_SEEN)) != 0u ? 1.0 : 0.0) - Expected.Visibility
-		                     : float(Deviation) / (DeviationSteps * float(max(Traced[0], 1u)));
-	}
-#else
+	uint Index = Pixel.y * View.Width + Pixel.x;
+	FLightChoice Choice = FLightChoiceRef(Push.Choices).Data[Index];
 	float Visibility = bAsked ? SlotVisibility(Answer, 0u, ANSWER_CHOSEN_SEEN, ANSWER_CHOSEN_TRACED) : 1.0;
+	if (Choice.Weight <= 0.0 || Visibility <= 0.0) { return Sum; }
+#ifdef GUIDED
+	if (Push.Lit != FAddress(0))
+	{
+		Sum = UnpackLobes(FLitPixelRef(Push.Lit).Data[Index].Lobes);
+		Sum.Diffuse *= Visibility;
+		Sum.Specular *= Visibility;
+		return Sum;
+	}
 #endif
-	if (Choice.Weight > 0.0 && Visibility != 0.0) { AddLight(Sum, Scene, View, Point, Local, Pixel, Choice.Light, Choice.Weight * Visibility); }
+	AddLight(Sum, Scene, View, Point, Local, Pixel, Choice.Light, Choice.Weight * Visibility);
 	return Sum;
 }
 #endif

@@ -7,16 +7,17 @@
 #include "../Library/Motion.glsl"
 #include "Guide.glsl"
 
-const uint TileSamplers = 4u; // pixels that weights are made for, one of each quarter of the tile
-const float LeastDoubt = 0.15; // a light that has always or never been seen may have changed
+const uint TileSamplers = 8u; // pixels that weights are made for
+const float LeastVisibility = 0.1; // that is expected: a hidden light is asked less often, but never never
 
 shared float Cumulative[TILE_TABLE_MOST]; // sum of the weights up to and with a light's
 shared uint TableEntries[TILE_TABLE_MOST]; // light, and its expected visibility in the highest 8 bits
 shared float RunSums[TILE_PIXELS];
 shared uint RunCounts[TILE_PIXELS];
 shared uint TableCount;
-shared uint SamplerPlaces[TileSamplers];
+shared uint SamplerKeys[TileSamplers]; // 0: there is no surface; else the lowest byte is the place
 shared vec3 SamplerP[TileSamplers], SamplerN[TileSamplers];
+shared float SamplerReach[TileSamplers]; // metres: how far the pixels may lie from it that it stands for
 shared uvec2 PreviousTile; // x = NoTile: none
 shared FGuideLight Remembered[TILE_GUIDE_LIGHTS]; // of PreviousTile
 shared uint RememberedTraced, RememberedSeen;
@@ -27,21 +28,21 @@ const uint NoTile = 0xffffffffu, NoGuideLight = 0xffffffffu;
 uint EntryLight(uint Entry) { return Entry & ((1u << LIGHT_INDEX_BITS) - 1u); }
 float EntryVisibility(uint Entry) { return float(Entry >> LIGHT_INDEX_BITS) / 255.0; }
 
-// Returns how little a ray's answer is known before it is traced, 0 to 0.5: its standard deviation.
-float Doubt(float Visibility) { return Visibility >= 1.0 ? 0.0 : max(sqrt(Visibility * (1.0 - Visibility)), LeastDoubt); }
-
-// Chooses a pixel of each quarter, another one in each frame.
+// Chooses a pixel of each eighth of the tile, another one in each frame.
 void ChooseSamplers(FViewConstants View, FLocalPoint Point, bool bSurface, uint Place)
 {
-	if (Place < TileSamplers) { SamplerPlaces[Place] = TILE_PIXELS; }
+	if (Place < TileSamplers) { SamplerKeys[Place] = 0u; }
 	barrier();
-	uint Quarter = Place >> 4u, Turn = (Place ^ (View.FrameIndex * 5u)) & 15u;
-	if (bSurface) { atomicMin(SamplerPlaces[Quarter], Turn); }
+	const uint Pixels = TILE_PIXELS / TileSamplers;
+	uint Mine = Place / Pixels, Turn = Pixels | ((Place ^ (View.FrameIndex * 3u)) % Pixels);
+	if (bSurface) { atomicMax(SamplerKeys[Mine], (Turn << 8u) | Place); }
 	barrier();
-	if (bSurface && SamplerPlaces[Quarter] == Turn)
+	if (bSurface && (SamplerKeys[Mine] & 255u) == Place)
 	{
-		SamplerP[Quarter] = Point.P;
-		SamplerN[Quarter] = Point.Surface.BentN;
+		SamplerP[Mine] = Point.P;
+		SamplerN[Mine] = Point.Surface.BentN;
+		float Distance = length(Point.Surface.Relative), Cosine = max(abs(dot(Point.Surface.Ng, Point.Surface.V)), 0.1);
+		SamplerReach[Mine] = 2.5 * PixelHeight(View, Distance) / Cosine;
 	}
 	barrier();
 }
@@ -50,13 +51,12 @@ void ChooseSamplers(FViewConstants View, FLocalPoint Point, bool bSurface, uint 
 void FindPreviousTile(FViewConstants View, uvec2 Tile)
 {
 	PreviousTile = uvec2(NoTile);
-	uint Quarter = 0u;
-	while (Quarter < TileSamplers && SamplerPlaces[Quarter] >= TILE_PIXELS) { ++Quarter; }
-	if (Push.PreviousGuide == FAddress(0) || Quarter == TileSamplers) { return; }
-	vec3 Relative = SamplerP[Quarter] - View.CameraPosition;
+	uint First = 0u;
+	while (First < TileSamplers && SamplerKeys[First] == 0u) { ++First; }
+	if (Push.PreviousGuide == FAddress(0) || First == TileSamplers) { return; }
+	vec3 Relative = SamplerP[First] - View.CameraPosition;
 	vec3 Motion = ComputeMotion(View, Relative, Relative + View.CameraMotion);
-	uvec2 Pixel = TilePixel(Tile, Quarter * 16u + (SamplerPlaces[Quarter] ^ ((View.FrameIndex * 5u) & 15u)));
-	vec2 Previous = vec2(Pixel) + 0.5 + Motion.xy;
+	vec2 Previous = vec2(TilePixel(Tile, SamplerKeys[First] & 255u)) + 0.5 + Motion.xy;
 	if (Motion.z > 0.0 && all(greaterThanEqual(Previous, vec2(0.0))) && all(lessThan(Previous, vec2(View.Width, View.Height))))
 	{
 		PreviousTile = uvec2(Previous) / TILE_SIZE;
@@ -127,14 +127,27 @@ float BoundLight(FSceneConstants Scene, FLightData Light, vec3 Low, vec3 High)
 float WeighLight(FSceneConstants Scene, FLightData Light, vec3 Low, vec3 High)
 {
 	if (!MayReach(Scene, Light, Low, High)) { return 0.0; }
+#ifdef ONE_SAMPLER // r.RT.Debug.Lights.CellTarget
+	float Sum = 0.0;
+	const uint Count = 1u;
+#else
 	float Sum = 0.1 * BoundLight(Scene, Light, Low, High);
-	[[dont_unroll]] for (uint I = 0u; I < TileSamplers; ++I)
+	const uint Count = TileSamplers;
+#endif
+	[[dont_unroll]] for (uint I = 0u; I < Count; ++I)
 	{
-		if (SamplerPlaces[I] >= TILE_PIXELS) { continue; }
+		if (SamplerKeys[I] == 0u) { continue; }
 		float Estimate = EstimateLight(Scene, Light, SamplerP[I], SamplerN[I]);
 		if (Estimate <= 0.0) { continue; }
-		vec3 To = LightType(Light) == LIGHT_DIRECTIONAL ? -UnpackOct(Light.Direction) : NormalizeOr(LightPosition(Scene, Light) - SamplerP[I], SamplerN[I]);
-		Sum += Estimate * max(dot(To, SamplerN[I]), 0.1);
+		float Cosine = 1.0, Nearer = 1.0;
+		if (LightType(Light) != LIGHT_DIRECTIONAL)
+		{
+			vec3 To = LightPosition(Scene, Light) - SamplerP[I];
+			float Distance = max(length(To), 1.0e-4), Closest = max(Distance - SamplerReach[I], 0.3 * SamplerReach[I]);
+			Cosine = clamp((dot(To, SamplerN[I]) + SamplerReach[I]) / Distance, 0.1, 1.0);
+			Nearer = max(Distance / Closest, 1.0);
+		}
+		Sum += Estimate * (Cosine * Nearer * Nearer);
 	}
 	return Sum;
 }
@@ -193,13 +206,13 @@ void MakeTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low,
 		float Weight = WeighLight(Scene, Data, Low, High), Visibility = 1.0;
 		if (Weight > 0.0 && (Data.Flags & LIGHT_CASTS_SHADOW) != 0u)
 		{
-			Visibility = clamp(ExpectVisibility(View, Light), 1.0 / 255.0, 254.0 / 255.0);
+			Visibility = max(ExpectVisibility(View, Light), LeastVisibility);
 			atomicMax(GuideKeys[GuidePlace(Light, TileHash)], (floatBitsToUint(Weight * max(Visibility, 0.25)) & ~(TILE_TABLE_MOST - 1u)) | I);
 		}
 		uint Bits = uint(Visibility * 255.0 + 0.5);
 		TableEntries[I] = Light | (Bits << LIGHT_INDEX_BITS);
 		Visibility = float(Bits) / 255.0;
-		Sum += Weight * (Visibility + Doubt(Visibility));
+		Sum += Weight * Visibility;
 		Cumulative[I] = Sum;
 	}
 	RunSums[Place] = Sum;
@@ -247,15 +260,25 @@ uint FindEntry(float X)
 	return First;
 }
 
-// Chooses a light of the table, and sums what all are expected to bring. Returns whether it asks for a ray.
-bool ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLocalBrdf Local, uvec2 Pixel, out FLightChoice Choice,
-                   out FExpectedLight Expected)
+// Returns the lobes with the luminance of Chosen · Weight in each, and with the colour of Mean.
+FLobes WeighLobes(FLobes Mean, FLobes Chosen, float Weight)
 {
-	float All = Cumulative[TableCount - 1u], Chosen = 0.0, Total = 0.0, Share = TableShare();
+	Mean.Diffuse *= Weight * Luminance(Chosen.Diffuse) / max(Luminance(Mean.Diffuse), 1.0e-30);
+	Mean.Specular *= Weight * Luminance(Chosen.Specular) / max(Luminance(Mean.Specular), 1.0e-30);
+	return Mean;
+}
+
+// Chooses a light of the table by what it is expected to bring. Returns whether it asks for a ray.
+// Lit: what the pixel reflects if the light is visible. It has the luminance of the chosen light, without bias, and the mean colour of
+// all candidates, which are many and have less noise.
+// Resampled importance sampling (Talbot et al. 2005) of stratified candidates.
+bool ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLocalBrdf Local, uvec2 Pixel, out FLightChoice Choice,
+                   out FLobes Lit)
+{
+	float All = Cumulative[TableCount - 1u], Target = 0.0, Total = 0.0, Share = TableShare();
 	vec2 U = LocalNumbers(View, Pixel, 0xffffffffu);
-	FLobes Sum = FLobes(vec3(0.0), vec3(0.0));
+	FLobes Mean = FLobes(vec3(0.0), vec3(0.0)), Chosen = Mean;
 	Choice = FLightChoice(0u, 0.0);
-	Expected.Visibility = 0.0;
 	for (uint I = 0u; I < Push.Candidates && All > 0.0; ++I)
 	{
 		uint Number = FindEntry((float(I) + U.x) / float(Push.Candidates) * All), Entry = TableEntries[Number], Light = EntryLight(Entry);
@@ -263,14 +286,13 @@ bool ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point
 		if (Weight <= 0.0) { continue; }
 		FLightSample Sample = SampleLocalLight(Scene, View, Point, Pixel, Light);
 		if (!ReachesLight(View, Point, Sample)) { continue; }
-		// The inverse of the density with which the light came here, over all candidates.
-		float Stands = All / (Weight * float(Push.Candidates));
-		if (Share < 1.0 && !IsRemembered(View, Light)) { Stands /= Share; }
 		FLobes Lobes = ReflectLight(Point, Local, Sample);
-		float Visibility = EntryVisibility(Entry);
-		Sum.Diffuse += Lobes.Diffuse * (Stands * Visibility);
-		Sum.Specular += Lobes.Specular * (Stands * Visibility);
-		float Target = Luminance(Lobes.Diffuse + Lobes.Specular) * Doubt(Visibility), Mine = Target * Stands;
+		// Times the inverse of the density with which the light came here, over all candidates.
+		float Visibility = EntryVisibility(Entry), Stands = Visibility * All / (Weight * float(Push.Candidates));
+		if (Share < 1.0 && !IsRemembered(View, Light)) { Stands /= Share; }
+		Mean.Diffuse += Lobes.Diffuse * Stands;
+		Mean.Specular += Lobes.Specular * Stands;
+		float Brightness = Luminance(Lobes.Diffuse + Lobes.Specular), Mine = Brightness * Stands;
 		if (Mine <= 0.0) { continue; }
 		Total += Mine;
 		float Probability = Mine / Total;
@@ -278,20 +300,17 @@ bool ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point
 		U.y = min(bTake ? U.y / Probability : (U.y - Probability) / (1.0 - Probability), 0.99999994);
 		if (!bTake) { continue; }
 		Choice.Light = Light;
-		Chosen = Target;
-		Expected.Visibility = Visibility;
+		Chosen = Lobes;
+		Target = Brightness * Visibility;
 	}
-	Sum.Diffuse = min(Sum.Diffuse, 65504.0);
-	Sum.Specular = min(Sum.Specular, 65504.0);
-	Expected.Lobes[0] = packHalf2x16(Sum.Diffuse.xy);
-	Expected.Lobes[1] = packHalf2x16(vec2(Sum.Diffuse.z, Sum.Specular.x));
-	Expected.Lobes[2] = packHalf2x16(Sum.Specular.yz);
-	if (Chosen <= 0.0) { return false; }
-	Choice.Weight = Total / Chosen;
+	Lit = Mean;
+	if (Target <= 0.0) { return false; }
+	Choice.Weight = Total / Target;
 #ifdef NO_CHOICE_WEIGHT // r.RT.Debug.Lights.Weight
 	Choice.Weight = 1.0;
 #endif
-	return true;
+	Lit = WeighLobes(Mean, Chosen, Choice.Weight);
+	return (FLightRef(Scene.Lights).Data[Choice.Light].Flags & LIGHT_CASTS_SHADOW) != 0u;
 }
 
 #endif

@@ -49,13 +49,12 @@ struct FTileGuide
 };
 LANTERN_ASSERT_SIZE(FTileGuide, 256);
 
-// What a pixel receives of all lights if each is as visible as the tile's guide says. The chosen light's ray says how far off that is.
-struct FExpectedLight
+// What a pixel reflects if the light that it chose is visible.
+struct FLitPixel
 {
-	uint Lobes[3];    // 6 × fp16: diffuse and specular lobe
-	float Visibility; // that is expected of the chosen light
+	uint Lobes[3]; // 6 × fp16: diffuse and specular lobe
 };
-LANTERN_ASSERT_SIZE(FExpectedLight, 16);
+LANTERN_ASSERT_SIZE(FLitPixel, 12);
 
 struct FLocalRequestsConstants
 {
@@ -71,7 +70,7 @@ struct FLocalRequestsConstants
 	uint Exact;   // most lights of a tile that all get rays, 1 to TILE_LIGHTS
 	// GUIDED only:
 	uint BaseColor, Material; // sampled indices
-	FAddress Expected;        // FExpectedLight[pixels]
+	FAddress Lit;             // FLitPixel[pixels]; 0 with UNBIASED
 	FAddress Guide;           // FTileGuide[], row by row; this frame's
 	FAddress PreviousGuide;   // FTileGuide[]; 0: there is none
 	uint Candidates;          // of each pixel, 1 to 64
@@ -87,7 +86,7 @@ struct FLocalShadeConstants
 	FAddress Answers;    // uint[pixels]
 	uint Depth, Normals, BaseColor, Material; // sampled indices
 	uint OutDiffuse, OutSpecular;             // storage indices, or NO_TEXTURE
-	FAddress Expected; // FExpectedLight[pixels]; GUIDED only
+	FAddress Lit;      // FLitPixel[pixels]; GUIDED without UNBIASED only
 	FAddress Guide;    // FTileGuide[]; GUIDED only
 };
 LANTERN_ASSERT_SIZE(FLocalShadeConstants, 80);

@@ -42,7 +42,7 @@ FLocalLobes AddShadePass(FFrameContext& Context, const FGBuffer& GBuffer, const 
 		{
 			Builder.Read(Texture, ERTAccess::ShaderRead);
 		}
-		for (const FGraphBuffer Buffer : {Inputs.Queue.Answers, Inputs.Traced.TileLights, Inputs.Traced.Choices, Inputs.Traced.Expected})
+		for (const FGraphBuffer Buffer : {Inputs.Queue.Answers, Inputs.Traced.TileLights, Inputs.Traced.Choices, Inputs.Traced.Lit})
 		{
 			if (Buffer.IsValid()) { Builder.Read(Buffer, ERTAccess::ShaderRead); }
 		}
@@ -63,7 +63,7 @@ FLocalLobes AddShadePass(FFrameContext& Context, const FGBuffer& GBuffer, const 
 			C.Normals = GetSampledIndex(Pass, GBuffer.Normals);
 			C.BaseColor = GetSampledIndex(Pass, GBuffer.BaseColor);
 			C.Material = GetSampledIndex(Pass, GBuffer.Material);
-			C.Expected = GetAddress(Pass, Inputs.Traced.Expected);
+			C.Lit = GetAddress(Pass, Inputs.Traced.Lit);
 			C.Guide = GetAddress(Pass, Inputs.Traced.Guide) + Inputs.Traced.GuideOffset;
 			C.OutDiffuse = GetStorageIndex(Pass, Lobes.Diffuse);
 			C.OutSpecular = GetStorageIndex(Pass, Lobes.Specular);

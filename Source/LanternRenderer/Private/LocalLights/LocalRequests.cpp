@@ -1,10 +1,10 @@
 // Lights of tiles and requests for rays to them.
 #include "LocalLights/LocalRequests.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "LanternCore/FrameGraph/History.h"
-#include "LanternCore/Text/Log.h"
 #include "Lights/LightCells.h"
 #include "LocalLightTypes.h"
 
@@ -18,7 +18,13 @@ TRTConsoleVariable<int32_t> CVarCandidates("r.RT.Lights.Candidates", 8,
     "what these bring and by how visible they were. 0: all lights, which takes long.",
     {0, 64});
 TRTConsoleVariable<float> CVarGuideSeconds("r.RT.Lights.GuideSeconds", 0.5f,
-    "Time in seconds for which a tile of many lights remembers which of them were visible.", {0.0, 60.0});
+    "Time in seconds for which a tile of many lights remembers which of them were visible. 0: it forgets all.", {0.0, 60.0});
+TRTConsoleVariable<bool> CVarUnbiased("r.RT.Lights.Unbiased", false,
+    "A pixel of many lights takes the colour of the one that it chose. Off: it takes the mean colour of its candidates, which has less "
+    "noise "
+    "but does not know which of them are hidden. Its luminance has no bias either way.");
+TRTConsoleVariable<bool> CVarCellTarget("r.RT.Debug.Lights.CellTarget", true,
+    "Planted fault. If off, a tile weighs its lights at one of its pixels alone, so that some that reach others are never chosen.");
 TRTConsoleVariable<bool> CVarWeight("r.RT.Debug.Lights.Weight", true,
     "Planted fault. If off, a light that a pixel chose of many counts once, and not for all that it was chosen from.");
 
@@ -27,6 +33,7 @@ bool IsGuided(const FSceneFacts& Facts, uint32_t Exact) { return MayChooseLights
 FShaderSource MakeRequestsSource(const FSceneFacts& Facts, uint32_t Exact)
 {
 	FShaderDefines Defines = MakeChoiceDefines(Facts, Exact);
+	if (!CVarCellTarget.GetOnRenderThread()) { Defines.emplace_back("ONE_SAMPLER", "1"); }
 	if (!CVarWeight.GetOnRenderThread()) { Defines.emplace_back("NO_CHOICE_WEIGHT", "1"); }
 	return MakeComputeSource("LocalLights/Requests.comp", std::move(Defines));
 }
@@ -39,7 +46,7 @@ struct FRequestsPass
 	FRayQueue Queue;
 	FLocalRays Rays;
 	bool bFirst = false; ///< no pass before it writes requests and answers
-	FGraphBuffer TileLights, Choices, Expected;
+	FGraphBuffer TileLights, Choices, Lit;
 	FGraphBuffer Guide;       ///< two times FTileGuide[Tiles], of this frame and of the one before
 	uint64_t GuideOffset = 0; ///< of this frame's, bytes
 	bool bPreviousGuide = false;
@@ -59,9 +66,9 @@ bool AddGuide(FFrameContext& Context, FRequestsPass& InOut)
 	}
 	InOut.Guide = History.Buffer;
 	InOut.GuideOffset = Context.View.FrameIndex % 2 * Bytes;
-	InOut.bPreviousGuide = !History.bFresh;
+	InOut.bPreviousGuide = !History.bFresh && CVarGuideSeconds.GetOnRenderThread() > 0.0f;
 	const uint64_t Pixels = uint64_t(Context.Width) * Context.Height;
-	InOut.Expected = Context.Graph.CreateBuffer({Pixels * sizeof(FExpectedLight)}, "ExpectedLights");
+	if (!CVarUnbiased.GetOnRenderThread()) { InOut.Lit = Context.Graph.CreateBuffer({Pixels * sizeof(FLitPixel)}, "LitPixels"); }
 	return true;
 }
 
@@ -72,12 +79,11 @@ void SetGuide(FPassContext& Pass, const FFrameContext& Frame, const FRequestsPas
 	const uint64_t Bytes = uint64_t(Inputs.Tiles) * sizeof(FTileGuide);
 	C.BaseColor = GetSampledIndex(Pass, Inputs.GBuffer.BaseColor);
 	C.Material = GetSampledIndex(Pass, Inputs.GBuffer.Material);
-	C.Expected = GetAddress(Pass, Inputs.Expected);
+	C.Lit = GetAddress(Pass, Inputs.Lit);
 	C.Guide = Guides + Inputs.GuideOffset;
 	C.PreviousGuide = Inputs.bPreviousGuide ? Guides + (Bytes - Inputs.GuideOffset) : 0;
 	C.Candidates = static_cast<uint32_t>(CVarCandidates.GetOnRenderThread());
-	const float Seconds = CVarGuideSeconds.GetOnRenderThread();
-	C.GuideKept = Seconds > 0.0f ? std::exp(-Frame.View.DeltaSeconds / Seconds) : 0.0f;
+	C.GuideKept = std::exp(-Frame.View.DeltaSeconds / std::max(CVarGuideSeconds.GetOnRenderThread(), 1e-6f));
 }
 
 void DeclareGuide(FPassBuilder& Builder, const FRequestsPass& Inputs)
@@ -86,7 +92,7 @@ void DeclareGuide(FPassBuilder& Builder, const FRequestsPass& Inputs)
 	Builder.Read(Inputs.GBuffer.Material, ERTAccess::ShaderRead);
 	if (Inputs.bPreviousGuide) { Builder.Read(Inputs.Guide, ERTAccess::StorageRead); }
 	Builder.Write(Inputs.Guide, ERTAccess::StorageWrite);
-	Builder.Write(Inputs.Expected, ERTAccess::StorageWrite);
+	if (Inputs.Lit.IsValid()) { Builder.Write(Inputs.Lit, ERTAccess::StorageWrite); }
 }
 
 FLocalRequestsConstants MakeConstants(FPassContext& Pass, const FFrameContext& Frame, const FRequestsPass& Inputs)
@@ -193,7 +199,7 @@ void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRa
 	if (InOut.Queue.bMayOverflow) { AddSharePass(Context, RequireCompute(Context, MakeShareSource()), Inputs); }
 	InOut.Traced.TileLights = Inputs.TileLights;
 	InOut.Traced.Choices = Inputs.Choices;
-	InOut.Traced.Expected = Inputs.Expected;
+	InOut.Traced.Lit = Inputs.Lit;
 	InOut.Traced.Guide = Inputs.Guide;
 	InOut.Traced.GuideOffset = Inputs.GuideOffset;
 	InOut.Traced.LocalPerPixel = Rays.PerPixel;
