@@ -8,14 +8,18 @@
 #include "Guide.glsl"
 
 const uint TileSamplers = 8u; // pixels that weights are made for
-const float LeastVisibility = 0.1; // that is expected: a hidden light is asked less often, but never never
+const float BoundShare = 0.5; // of the weight of a sampler: what bounds weigh
+const float LeastVisibility = 0.05; // that is expected: a hidden light is asked less often, but never never
 
 shared float Cumulative[TILE_TABLE_MOST]; // sum of the weights up to and with a light's
 shared uint TableEntries[TILE_TABLE_MOST]; // light, and its expected visibility in the highest 8 bits
+shared uvec2 Estimates[TILE_TABLE_MOST]; // of what each sampler receives, a byte each
+shared float Totals[TileSamplers + 1u][TILE_PIXELS]; // over the run of each thread: of samplers, and of bounds
 shared float RunSums[TILE_PIXELS];
 shared uint RunCounts[TILE_PIXELS];
 shared uint TableCount;
 shared uint SamplerKeys[TileSamplers]; // 0: there is no surface; else the lowest byte is the place
+shared vec4 TilePoints[TILE_PIXELS / 2u]; // a pixel of each two: position, and size in metres, 0 without a surface
 shared vec3 SamplerP[TileSamplers], SamplerN[TileSamplers];
 shared float SamplerReach[TileSamplers]; // metres: how far the pixels may lie from it that it stands for
 shared uvec2 PreviousTile; // x = NoTile: none
@@ -36,6 +40,11 @@ void ChooseSamplers(FViewConstants View, FLocalPoint Point, bool bSurface, uint 
 	const uint Pixels = TILE_PIXELS / TileSamplers;
 	uint Mine = Place / Pixels, Turn = Pixels | ((Place ^ (View.FrameIndex * 3u)) % Pixels);
 	if (bSurface) { atomicMax(SamplerKeys[Mine], (Turn << 8u) | Place); }
+	if ((Place & 1u) == (View.FrameIndex & 1u))
+	{
+		float Size = bSurface ? PixelHeight(View, length(Point.Surface.Relative)) : 0.0;
+		TilePoints[Place >> 1u] = bSurface ? vec4(Point.P, Size) : vec4(0.0);
+	}
 	barrier();
 	if (bSurface && (SamplerKeys[Mine] & 255u) == Place)
 	{
@@ -107,13 +116,25 @@ float ExpectVisibility(FViewConstants View, uint Light)
 	return Rays.y / Rays.x;
 }
 
-// Returns an upper bound, but for a light within the box, of what the light brings to a plane anywhere in it.
+// Returns about the most that the light brings to a plane at any pixel, and never 0 if it reaches one.
 float BoundLight(FSceneConstants Scene, FLightData Light, vec3 Low, vec3 High)
 {
 	uint Type = LightType(Light);
 	if (Type == LIGHT_DIRECTIONAL) { return Luminance(Light.Color); }
 	vec3 Center = LightPosition(Scene, Light), Outside = max(max(Low - Center, Center - High), vec3(0.0)), Edges = High - Low;
-	float DistanceSquared = max(max(dot(Outside, Outside), 0.06 * dot(Edges, Edges)), 1.0e-8), Form = 1.0 / DistanceSquared;
+	float DistanceSquared = dot(Outside, Outside), Diagonal = dot(Edges, Edges);
+	if (DistanceSquared < 0.25 * Diagonal) // the box may be deep, with a light before what lies behind
+	{
+		float Nearest = Diagonal + DistanceSquared;
+		[[dont_unroll]] for (uint I = 0u; I < TILE_PIXELS / 2u; ++I)
+		{
+			vec3 To = Center - TilePoints[I].xyz;
+			float Size = TilePoints[I].w, Distance = dot(To, To);
+			Nearest = Size > 0.0 ? min(Nearest, max(Distance, Size * Size)) : Nearest;
+		}
+		DistanceSquared = max(DistanceSquared, Nearest);
+	}
+	float Form = 1.0 / max(DistanceSquared, 1.0e-8);
 #ifdef HAS_AREA_LIGHTS
 	if (Type >= LIGHT_RECTANGLE)
 	{
@@ -124,32 +145,21 @@ float BoundLight(FSceneConstants Scene, FLightData Light, vec3 Low, vec3 High)
 	return Luminance(Light.Color) * Form;
 }
 
-float WeighLight(FSceneConstants Scene, FLightData Light, vec3 Low, vec3 High)
+// A byte for a positive number of any size: its logarithm, in steps of a quarter octave. 0 stays 0.
+uint PackEstimate(float Estimate) { return Estimate > 0.0 ? uint(clamp(log2(Estimate) * 4.0 + 128.0, 1.0, 255.0)) : 0u; }
+float UnpackEstimate(uint Packed) { return Packed > 0u ? exp2((float(Packed) - 128.0) * 0.25) : 0.0; }
+float UnpackEstimate(uvec2 Packed, uint I) { return UnpackEstimate((Packed[I >> 2u] >> (8u * (I & 3u))) & 255u); }
+
+// Returns about what the pixels that a sampler stands for receive of a light.
+float EstimateAround(FSceneConstants Scene, FLightData Light, uint I)
 {
-	if (!MayReach(Scene, Light, Low, High)) { return 0.0; }
-#ifdef ONE_SAMPLER // r.RT.Debug.Lights.CellTarget
-	float Sum = 0.0;
-	const uint Count = 1u;
-#else
-	float Sum = 0.1 * BoundLight(Scene, Light, Low, High);
-	const uint Count = TileSamplers;
-#endif
-	[[dont_unroll]] for (uint I = 0u; I < Count; ++I)
-	{
-		if (SamplerKeys[I] == 0u) { continue; }
-		float Estimate = EstimateLight(Scene, Light, SamplerP[I], SamplerN[I]);
-		if (Estimate <= 0.0) { continue; }
-		float Cosine = 1.0, Nearer = 1.0;
-		if (LightType(Light) != LIGHT_DIRECTIONAL)
-		{
-			vec3 To = LightPosition(Scene, Light) - SamplerP[I];
-			float Distance = max(length(To), 1.0e-4), Closest = max(Distance - SamplerReach[I], 0.3 * SamplerReach[I]);
-			Cosine = clamp((dot(To, SamplerN[I]) + SamplerReach[I]) / Distance, 0.1, 1.0);
-			Nearer = max(Distance / Closest, 1.0);
-		}
-		Sum += Estimate * (Cosine * Nearer * Nearer);
-	}
-	return Sum;
+	if (SamplerKeys[I] == 0u) { return 0.0; }
+	float Estimate = EstimateLight(Scene, Light, SamplerP[I], SamplerN[I]);
+	if (Estimate <= 0.0 || LightType(Light) == LIGHT_DIRECTIONAL) { return Estimate; }
+	vec3 To = LightPosition(Scene, Light) - SamplerP[I];
+	float Distance = max(length(To), 1.0e-4), Closest = max(Distance - SamplerReach[I], 0.3 * SamplerReach[I]);
+	float Cosine = clamp((dot(To, SamplerN[I]) + SamplerReach[I]) / Distance, 0.1, 1.0), Nearer = max(Distance / Closest, 1.0);
+	return Estimate * (Cosine * Nearer * Nearer);
 }
 
 // Whether the table has the light for certain, however many there are.
@@ -189,6 +199,74 @@ void ListTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low,
 	barrier();
 }
 
+// The entries of the table that a thread works on.
+struct FRun
+{
+	uint Begin, End;
+};
+
+// Estimates what lights bring, and adds it up. Cumulative[] gets their bounds.
+void EstimateLights(FSceneConstants Scene, FViewConstants View, FRun Run, bool bAll, uint Place, vec3 Low, vec3 High)
+{
+	[[dont_unroll]] for (uint S = 0u; S <= TileSamplers; ++S) { Totals[S][Place] = 0.0; }
+	for (uint I = Run.Begin; I < Run.End; ++I)
+	{
+		uint Light = bAll ? I : TableEntries[I];
+		FLightData Data = FLightRef(Scene.Lights).Data[Light];
+		bool bReaches = MayReach(Scene, Data, Low, High);
+		float Visibility = 1.0, Bound = bReaches ? min(BoundLight(Scene, Data, Low, High), 1.0e30) : 0.0;
+		if (bReaches && (Data.Flags & LIGHT_CASTS_SHADOW) != 0u) { Visibility = max(ExpectVisibility(View, Light), LeastVisibility); }
+		uvec2 Packed = uvec2(0u);
+		[[dont_unroll]] for (uint S = 0u; S < TileSamplers && bReaches; ++S)
+		{
+			uint Byte = PackEstimate(EstimateAround(Scene, Data, S));
+			Packed[S >> 2u] |= Byte << (8u * (S & 3u));
+			Totals[S][Place] += UnpackEstimate(Byte) * Visibility;
+		}
+		Totals[TileSamplers][Place] += Bound * Visibility;
+		Estimates[I] = Packed;
+		Cumulative[I] = Bound;
+		TableEntries[I] = Light | (uint(Visibility * 255.0 + 0.5) << LIGHT_INDEX_BITS);
+	}
+	barrier();
+	if (Place <= TileSamplers)
+	{
+		float Sum = 0.0;
+		for (uint I = 0u; I < TILE_PIXELS; ++I) { Sum += Totals[Place][I]; }
+		Totals[Place][0] = Sum;
+	}
+	barrier();
+}
+
+// Weighs lights: each sampler has the same say, however dark it is there, and so have bounds a part of it. Proposes lights for the
+// tile's guide.
+float WeighLights(FSceneConstants Scene, FRun Run, uint TileHash)
+{
+	float Sum = 0.0, BoundScale = BoundShare / max(Totals[TileSamplers][0], 1.0e-30);
+	for (uint I = Run.Begin; I < Run.End; ++I)
+	{
+		float Bound = Cumulative[I] * BoundScale, Weight = Bound;
+		uvec2 Packed = Estimates[I];
+#ifdef ONE_SAMPLER // r.RT.Debug.Lights.CellTarget
+		Weight = UnpackEstimate(Packed, 0u);
+#else
+		[[dont_unroll]] for (uint S = 0u; S < TileSamplers; ++S)
+		{
+			Weight += Totals[S][0] > 0.0 ? UnpackEstimate(Packed, S) / Totals[S][0] : 0.0;
+		}
+#endif
+		uint Entry = TableEntries[I], Light = EntryLight(Entry);
+		float Visibility = EntryVisibility(Entry);
+		if (Weight > 0.0 && (FLightRef(Scene.Lights).Data[Light].Flags & LIGHT_CASTS_SHADOW) != 0u)
+		{
+			atomicMax(GuideKeys[GuidePlace(Light, TileHash)], (floatBitsToUint(Weight * max(Visibility, 0.25)) & ~(TILE_TABLE_MOST - 1u)) | I);
+		}
+		Sum += Weight * Visibility;
+		Cumulative[I] = Sum;
+	}
+	return Sum;
+}
+
 // Fills the table, and proposes lights for the tile's guide.
 void MakeTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low, vec3 High)
 {
@@ -196,30 +274,14 @@ void MakeTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low,
 	if (!bAll) { ListTable(Scene, View, Place, Low, High); }
 	else if (Place == 0u) { TableCount = Scene.LightCount; }
 	barrier();
-	uint Run = (TableCount + TILE_PIXELS - 1u) / TILE_PIXELS, Begin = min(Place * Run, TableCount), End = min(Begin + Run, TableCount);
-	uint TileHash = GuideTileHash(TileIndex(View, gl_WorkGroupID.xy));
-	float Sum = 0.0;
-	for (uint I = Begin; I < End; ++I)
-	{
-		uint Light = bAll ? I : TableEntries[I];
-		FLightData Data = FLightRef(Scene.Lights).Data[Light];
-		float Weight = WeighLight(Scene, Data, Low, High), Visibility = 1.0;
-		if (Weight > 0.0 && (Data.Flags & LIGHT_CASTS_SHADOW) != 0u)
-		{
-			Visibility = max(ExpectVisibility(View, Light), LeastVisibility);
-			atomicMax(GuideKeys[GuidePlace(Light, TileHash)], (floatBitsToUint(Weight * max(Visibility, 0.25)) & ~(TILE_TABLE_MOST - 1u)) | I);
-		}
-		uint Bits = uint(Visibility * 255.0 + 0.5);
-		TableEntries[I] = Light | (Bits << LIGHT_INDEX_BITS);
-		Visibility = float(Bits) / 255.0;
-		Sum += Weight * Visibility;
-		Cumulative[I] = Sum;
-	}
-	RunSums[Place] = Sum;
+	uint Length = (TableCount + TILE_PIXELS - 1u) / TILE_PIXELS, Begin = min(Place * Length, TableCount);
+	FRun Run = FRun(Begin, min(Begin + Length, TableCount));
+	EstimateLights(Scene, View, Run, bAll, Place, Low, High);
+	RunSums[Place] = WeighLights(Scene, Run, GuideTileHash(TileIndex(View, gl_WorkGroupID.xy)));
 	barrier();
 	float Before = 0.0;
 	for (uint I = 0u; I < Place; ++I) { Before += RunSums[I]; }
-	for (uint I = Begin; I < End; ++I) { Cumulative[I] += Before; }
+	for (uint I = Run.Begin; I < Run.End; ++I) { Cumulative[I] += Before; }
 	barrier();
 }
 
