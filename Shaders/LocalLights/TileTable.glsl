@@ -145,9 +145,13 @@ float BoundLight(FSceneConstants Scene, FLightData Light, vec3 Low, vec3 High)
 	return Luminance(Light.Color) * Form;
 }
 
-// A byte for a positive number of any size: its logarithm, in steps of a quarter octave. 0 stays 0.
-uint PackEstimate(float Estimate) { return Estimate > 0.0 ? uint(clamp(log2(Estimate) * 4.0 + 128.0, 1.0, 255.0)) : 0u; }
-float UnpackEstimate(uint Packed) { return Packed > 0u ? exp2((float(Packed) - 128.0) * 0.25) : 0.0; }
+// A byte for a positive number of any size: some bits of its exponent, and two of what follows. 0 stays 0.
+const uint EstimateShift = 21u, LeastEstimate = (127u - 40u) << 2u;
+uint PackEstimate(float Estimate)
+{
+	return Estimate > 0.0 ? uint(clamp(int(floatBitsToUint(Estimate) >> EstimateShift) - int(LeastEstimate), 1, 255)) : 0u;
+}
+float UnpackEstimate(uint Packed) { return Packed > 0u ? uintBitsToFloat((Packed + LeastEstimate) << EstimateShift) : 0.0; }
 float UnpackEstimate(uvec2 Packed, uint I) { return UnpackEstimate((Packed[I >> 2u] >> (8u * (I & 3u))) & 255u); }
 
 // Returns about what the pixels that a sampler stands for receive of a light.

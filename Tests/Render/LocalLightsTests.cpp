@@ -117,9 +117,9 @@ TEST_F(FLocalLightsTest, TilesWeighForAllTheirPixels)
 	ASSERT_NO_FATAL_FAILURE(LoadPosts());
 	AddLamps(16);
 	const FView View = LookAtPosts(48, 27);
-	const double Right = EstimateFrames(ESignal::LocalDiffuse, View, 16).Mean;
+	const double Right = EstimateFrames(ESignal::LocalDiffuse, View, 8).Mean;
 	SetVariable("r.RT.Debug.Lights.CellTarget", "0");
-	EXPECT_LT(EstimateFrames(ESignal::LocalDiffuse, View, 16).Mean, 0.98 * Right);
+	EXPECT_LT(EstimateFrames(ESignal::LocalDiffuse, View, 8).Mean, 0.98 * Right);
 }
 
 // Pixels whose ray was blocked are black. Tiles that remember which lights are hidden waste fewer rays on them.
