@@ -11,6 +11,7 @@ layout(push_constant, scalar) uniform FPush { FTemporalConstants Push; };
 #include "Temporal/Window.glsl"
 #include "Temporal/Neighborhood.glsl"
 #include "Temporal/Noise.glsl"
+#include "Temporal/Known.glsl"
 #include "Temporal/Reproject.glsl"
 #include "Temporal/Resample.glsl"
 #include "Temporal/Change.glsl"
@@ -19,9 +20,9 @@ layout(push_constant, scalar) uniform FPush { FTemporalConstants Push; };
 #include "Temporal/Store.glsl"
 
 // PreviousSize: of the history, pixels.
-FAccumulated Accumulate(FFrameEstimate Frame, FHistory History, ivec2 PreviousSize)
+FAccumulated Accumulate(FFrameEstimate Frame, FHistory History, ivec2 PreviousSize, bool bMayHaveChanged)
 {
-	float Unchanged = GetUnchangedShare(Frame, History, PreviousSize);
+	float Unchanged = bMayHaveChanged ? GetUnchangedShare(Frame, History, PreviousSize) : 1.0;
 	float Noise = EstimateNoise(Frame, History.Past, Unchanged);
 	History.Past.Frames *= Unchanged;
 #if CHANNELS == 1
@@ -36,13 +37,16 @@ void main()
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	ivec2 Size = ivec2(View.Width, View.Height), Pixel = ivec2(gl_GlobalInvocationID.xy);
+	StartTouched();
 	LoadTile(Size);
 	barrier();
+	NoteDistances();
 	MeasureOutliers();
 #if CHANNELS != 1
 	SumWindowRows();
 #endif
 	barrier();
+	FindTouched(View);
 	if (any(greaterThanEqual(Pixel, Size))) { return; }
 	FSurface Surface = LoadSurface(Push.Surface, Pixel);
 	if (Surface.Distance <= 0.0) // the sky: the signal as it is
@@ -53,5 +57,6 @@ void main()
 	}
 	FFrameEstimate Frame = EstimateFrame();
 	FHistory History = ReprojectHistory(View, uvec2(Pixel), Surface);
-	Store(Pixel, Accumulate(Frame, History, ivec2(View.PreviousWidth, View.PreviousHeight)), Frame.Extent);
+	bool bMayHaveChanged = MayHaveChanged(View, uvec2(Pixel), Surface.Distance);
+	Store(Pixel, Accumulate(Frame, History, ivec2(View.PreviousWidth, View.PreviousHeight), bMayHaveChanged), Frame.Extent);
 }

@@ -33,7 +33,7 @@ uint SegmentEnd(FRayQueueCounters Counters, uint Segment, uint Capacity)
 // Returns how many of Count requests have room, if Wanted share Room equally. Rounded down, and a little more: all shares together fit.
 uint ShareRoom(uint Count, uint Room, uint Wanted) { return uint(float(Count) * (float(Room) / float(Wanted)) * (1.0 - 1.0e-6)); }
 
-// Makes launches reach to End.
+// Makes launches reach to End, in threads.
 void GrowLaunch(FAddress Address, uint End)
 {
 	FRayQueueCountersRef Counters = FRayQueueCountersRef(Address);
@@ -47,6 +47,14 @@ uint ReserveSunRequests(FAddress Address, uint Capacity, uint Count)
 {
 	uint First = atomicAdd(FRayQueueCountersRef(Address).Data.Segments[RAY_SEGMENT_SUN].Wanted, Count);
 	GrowLaunch(Address, min(First + Count, Capacity));
+	return First;
+}
+
+// As ReserveSunRequests, for requests of Samples threads each.
+uint ReserveMoreRequests(FAddress Address, uint Capacity, uint Count, uint Samples)
+{
+	uint First = atomicAdd(FRayQueueCountersRef(Address).Data.Segments[RAY_SEGMENT_SUN].Wanted, Count);
+	GrowLaunch(Address, min(First + Count, Capacity) * Samples);
 	return First;
 }
 

@@ -33,7 +33,8 @@ bool ShowsCharacter(FSceneConstants Scene, uvec2 Pixel)
 }
 
 #ifdef SUN_RAYS
-void TraceSun(uint Index, uint Casters)
+// MoreSample: of Push.MoreSamples.
+void TraceSun(uint Index, uint Casters, uint MoreSample)
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
@@ -44,10 +45,17 @@ void TraceSun(uint Index, uint Casters)
 	float BlockerDistanceSum = 0.0;
 	uint Seen = 0u, Blocked = 0u;
 	FTileSequence Sequence = MakeTileSequence(Pixel, View.FrameIndex, HashPcg(View.Seed));
-	for (uint Sample = 0; Sample < SamplesPerPixel; ++Sample)
+	bool bMore = Push.MoreSamples > 0u;
+	uint Samples = bMore ? 1u : SamplesPerPixel, FirstSample = Sequence.Index * SamplesPerPixel;
+	if (bMore)
+	{
+		FirstSample = Sequence.Index * Push.MoreSamples + MoreSample;
+		Sequence.Seed = HashPcg(Sequence.Seed); // the pixel's first rays have points of their own
+	}
+	for (uint Sample = 0; Sample < Samples; ++Sample)
 	{
 		vec3 Direction = -Scene.SunDirection;
-		if (Push.SunOneMinusCos > 0.0) { Direction = SampleSunDirection(Scene, SobolOwen2(Sequence.Index * SamplesPerPixel + Sample, Sequence.Seed)); }
+		if (Push.SunOneMinusCos > 0.0) { Direction = SampleSunDirection(Scene, SobolOwen2(FirstSample + Sample, Sequence.Seed)); }
 		if (!LeavesSurface(View, Point, Direction)) { continue; }
 		float BlockerDistance =
 			TraceShadowRay(RasterRayOrigin(Scene, View, Point), Direction, Push.MaxDistance, Push.RayFlags, Mask);
@@ -55,8 +63,9 @@ void TraceSun(uint Index, uint Casters)
 		Blocked += BlockerDistance < 0.0 ? 0u : 1u;
 		BlockerDistanceSum += max(BlockerDistance, 0.0);
 	}
-	atomicOr(FAnswerRef(Push.Answers).Data[Index], PackSunAnswer(Seen, SamplesPerPixel - Seen));
+	atomicAdd(FAnswerRef(Push.Answers).Data[Index], PackSunAnswer(Seen, Samples - Seen));
 #ifdef WITH_PENUMBRA
+	if (bMore) { return; } // the last of several threads would win
 	float Diameter = 2.0 * sqrt(2.0 * Scene.SunOneMinusCos);
 	FWidthRef(Push.SunWidths).Data[Index] = Blocked > 0u ? Diameter * BlockerDistanceSum / float(Blocked) : -1.0;
 #endif
@@ -69,6 +78,12 @@ void TraceSun(uint Index, uint Casters)
 
 void TraceRequest(uint Number)
 {
+	uint MoreSample = 0u;
+	if (Push.MoreSamples > 0u)
+	{
+		MoreSample = Number % Push.MoreSamples;
+		Number /= Push.MoreSamples;
+	}
 	FRayQueueCounters Counters = FRayQueueCountersRef(Push.Counters).Data;
 	// Launches are rounded up, or made for a full queue.
 	if (Number >= SegmentEnd(Counters, RAY_SEGMENTS - 1u, Push.Capacity)) { return; }
@@ -76,7 +91,7 @@ void TraceRequest(uint Number)
 	switch (RayKind(Request))
 	{
 #ifdef SUN_RAYS
-	case RAY_KIND_SUN: TraceSun(RayIndex(Request), RaySlot(Request) == RAY_SLOT_SUN_LIT ? Push.LitMask : Push.InstanceMask); break;
+	case RAY_KIND_SUN: TraceSun(RayIndex(Request), RaySlot(Request) == RAY_SLOT_SUN_LIT ? Push.LitMask : Push.InstanceMask, MoreSample); break;
 #endif
 #ifdef LOCAL_RAYS
 	case RAY_KIND_LOCAL: TraceLocal(RayIndex(Request), RaySlot(Request)); break;

@@ -1,7 +1,7 @@
 #ifndef LANTERN_DENOISE_TYPES_H
 #define LANTERN_DENOISE_TYPES_H
 
-#include "SceneTypes.h"
+#include "SettledTypes.h"
 
 LANTERN_SHARED_BEGIN
 
@@ -28,7 +28,8 @@ struct FTemporalConstants
 	uint Surface;
 	uint Motion, PreviousSurface, History; // NO_TEXTURE, all three: nothing to reproject
 	uint Moments;                          // three channels only
-	uint Extent;                           // WITH_EXTENT only: width of the transition (penumbra), pixels; 0: unknown
+	// WITH_EXTENT only. x: width of the transition (penumbra), pixels; 0: unknown. y: rays of the pixel; 0 or absent: RaysPerPixel.
+	uint Extent;
 	uint OutHistory, OutMoments;           // written for the next frame; OutMoments: three channels only
 	uint Output;                           // mean, and its variance
 	float MinAlpha;                        // least weight of a new frame, 0 to 1
@@ -37,8 +38,13 @@ struct FTemporalConstants
 	float NoiseAlpha;                      // three channels only: weight of a new frame in the estimate of the noise, 0 to 1
 	float Resampling;                      // share of the history's second differences that counts as error of resampling
 	float RaysPerPixel;                    // one channel only: number of rays of which a frame's value is the mean
+	FAddress Casters; // FMovedCaster[CasterCount]: those that moved in the last frames
+	uint CasterCount;
+	uint bChangesKnown; // 1: the signal changes only where these shadows fall, or on surfaces that move. 0: it may anywhere
+	float CasterSpread; // of a half shadow's border, metres per metre
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FTemporalConstants, 80);
+LANTERN_ASSERT_SIZE(FTemporalConstants, 104);
 
 // Constants of Denoise/Filter.comp.
 struct FFilterConstants

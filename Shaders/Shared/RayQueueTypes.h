@@ -45,7 +45,8 @@ struct FRayQueueCounters
 };
 LANTERN_ASSERT_SIZE(FRayQueueCounters, 40);
 
-// A pixel's answers. Each kind has bits of its own, which start as 0 and are combined by or: the order of rays never shows.
+// A pixel's answers. Each kind has bits of its own, which start as 0. Those of the sun are counts and add up; others are combined by or.
+// The order of rays never shows.
 #define ANSWER_LOCAL_SEEN 0u // lowest of 8 bits, one for each slot: its light is seen
 #define ANSWER_LOCAL_TRACED 8u // lowest of 8 bits: its ray was traced
 #define ANSWER_CHOSEN_SEEN 16u // bit: the chosen light is seen
@@ -77,8 +78,11 @@ struct FShadowQueueConstants
 	uint Motion;          // sampled index, or NO_TEXTURE: FGBuffer::Motion, for HAS_CHARACTERS
 	uint Classes;         // sampled index, or NO_TEXTURE: FGBuffer::Classes, for HAS_CHARACTERS
 	uint ClassesOffset;   // of the view in Classes, pixels: x | y << 16
+	// Sun samples of each request, each in a thread of its own, which come on top of earlier answers. 0: a thread traces SamplesPerPixel.
+	uint MoreSamples;
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FShadowQueueConstants, 112);
+LANTERN_ASSERT_SIZE(FShadowQueueConstants, 120);
 
 LANTERN_SHARED_END
 

@@ -82,7 +82,7 @@ void main()
 	FTile Tile = FTileRef(Push.Tiles).Data[TileIndex(View, gl_WorkGroupID.xy)];
 	bool bAnswered = SunSeen(Answer) + SunUnseen(Answer) > 0u;
 	bool bAsked = IsMarked(Tile.SunRays, Place), bTraced = bAsked && bAnswered;
-	float Visibility = bAnswered ? float(SunSeen(Answer)) / float(Push.SamplesPerPixel) : -1.0;
+	float Visibility = bAnswered ? float(SunSeen(Answer)) / float(SunSeen(Answer) + SunUnseen(Answer)) : -1.0;
 #ifdef ADAPTIVE
 	bool bFill = bInside && !bAnswered && !bAsked;
 	Visibility = FillLeftOut(View, Place, Pixel, bFill, bTraced, Visibility);
@@ -114,6 +114,9 @@ void main()
 #endif
 	if (bTraced && Penumbra < 0.0) { Penumbra = MeasurePenumbra(View, Pixel, FWidthRef(Push.Widths).Data[Index]); }
 	if (Contact >= 0.0) { Penumbra = MeasurePenumbra(View, Pixel, 2.0 * sqrt(2.0 * Push.SunOneMinusCos) * Contact); }
+	uint Rays = SunSeen(Answer) + SunUnseen(Answer);
+	// Those that were traced later measure none.
+	if (bTraced && Penumbra < 0.0 && Rays > Push.SamplesPerPixel) { Penumbra = 0.0; }
 	Penumbra = min(Penumbra < 0.0 ? 1.0e-3 : Penumbra, 65504.0);
-	imageStore(Images[Push.OutPenumbra], ivec2(Pixel), vec4(bFilled ? -1.0 : Penumbra));
+	imageStore(Images[Push.OutPenumbra], ivec2(Pixel), vec4(bFilled ? -1.0 : Penumbra, bTraced ? float(Rays) : 0.0, 0.0, 0.0));
 }

@@ -5,12 +5,10 @@
 #define LANTERN_SETTLED_GLSL
 
 #include "../Shared/SettledTypes.h"
-#include "../Library/History.glsl"
-#include "../Library/Motion.glsl"
+#include "../Library/MovedCasters.glsl"
 #include "Tile.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FSettledRef { FSettledConstants Data; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FMovedCasterRef { FMovedCaster Data[]; };
 
 // What a pixel that asks for rays has known before; 0: it asks for none.
 const uint KnownLit = 1u, KnownDark = 2u, NotSettled = 4u;
@@ -26,14 +24,6 @@ uint Classify(uint Settled)
 {
 	if (SettledFrames(Settled) < SETTLED_FRAMES) { return NotSettled; }
 	return (Settled & SETTLED_LIT) != 0u ? KnownLit : KnownDark;
-}
-
-// Whether the surface moved by itself, into other light perhaps. Motion of the camera alone differs from that of the surface by rounding.
-bool MovedItself(FViewConstants View, FSurface Surface, uvec2 Pixel, vec4 Motion)
-{
-	vec3 Relative = RelativePosition(View, vec2(Pixel) + 0.5, Surface.Distance);
-	vec3 Still = ComputeMotion(View, Relative, Relative + View.CameraMotion);
-	return any(greaterThan(abs(Motion.xy - Still.xy), vec2(0.25))) || abs(Motion.z - Still.z) > 0.01 * Still.z;
 }
 
 // What is known of a pixel: the texel that carries on the history of its surface. OutClass: KnownLit, KnownDark or anything else. Also notes
@@ -60,25 +50,9 @@ uint Recall(FViewConstants View, FSettledConstants Settled, uvec2 Pixel, out uin
 			Best = R.Weights[Tap];
 			Carried = Texel;
 		}
-		if (Classes != 0u && !MovedItself(View, Surface, Pixel, Motion)) { OutClass = Classes; }
+		if (Classes != 0u && !MovedItself(View, Surface.Distance, Pixel, Motion)) { OutClass = Classes; }
 	}
 	return Carried;
-}
-
-// Whether the shadow of a swept sphere may touch another sphere. Sun: in which its light travels. Spread: of the half shadow's border,
-// metres per metre.
-bool MayShadow(FMovedCaster Caster, vec3 Center, float Radius, vec3 Sun, float Spread)
-{
-	vec3 Sweep = Caster.To - Caster.From, Away = Center - Caster.From;
-	float SweepAlong = dot(Sweep, Sun), Along = dot(Away, Sun);
-	float Behind = Along - min(SweepAlong, 0.0) + Radius; // the caster's place that is nearest to the sun
-	if (Behind < -Caster.Radius) { return false; }
-	// Seen from the sun.
-	Sweep -= Sun * SweepAlong;
-	Away -= Sun * Along;
-	vec3 Off = Away - Sweep * clamp(dot(Away, Sweep) / max(dot(Sweep, Sweep), 1.0e-12), 0.0, 1.0);
-	float Reach = Caster.Radius + Radius + Spread * max(Behind, 0.0);
-	return dot(Off, Off) <= Reach * Reach;
 }
 
 // Finds whether a moved caster's shadow may touch the tile; the work group shares the casters.
@@ -86,20 +60,12 @@ void FindMovedCasters(FViewConstants View, FSettledConstants Settled, uvec2 Tile
 {
 	if (Settled.CasterCount == 0u || NearestBits > FarthestBits) { return; }
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
-	vec3 Corners[8], Center = vec3(0.0);
-	for (uint I = 0u; I < 8u; ++I)
-	{
-		vec2 Corner = vec2((Tile + uvec2(I & 1u, (I >> 1u) & 1u)) * TILE_SIZE);
-		Corners[I] = RelativePosition(View, Corner, uintBitsToFloat(I < 4u ? NearestBits : FarthestBits));
-		Center += Corners[I] / 8.0;
-	}
-	float Radius = 0.0;
-	for (uint I = 0u; I < 8u; ++I) { Radius = max(Radius, distance(Corners[I], Center)); }
-	float Spread = sqrt(2.0 * Push.SunOneMinusCos) + 1.0e-3;
+	vec4 Bound = BoundTile(View, Tile * TILE_SIZE, TILE_SIZE, uintBitsToFloat(NearestBits), uintBitsToFloat(FarthestBits));
+	float Spread = GetShadowSpread(Push.SunOneMinusCos);
 	for (uint I = gl_LocalInvocationIndex; I < Settled.CasterCount; I += TILE_PIXELS)
 	{
 		FMovedCaster Caster = FMovedCasterRef(Settled.Casters).Data[I];
-		if (MayShadow(Caster, View.CameraPosition + Center, Radius, Scene.SunDirection, Spread)) { bTouched = 1u; }
+		if (MayShadow(Caster, View.CameraPosition + Bound.xyz, Bound.w, Scene.SunDirection, Spread)) { bTouched = 1u; }
 	}
 }
 

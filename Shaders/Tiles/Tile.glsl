@@ -20,4 +20,13 @@ uvec2 TilePixel(uvec2 Tile, uint Place)
 	return Tile * TILE_SIZE + ((P | (P >> 2u)) & 7u);
 }
 
+// Returns the Place of a pixel in its tile.
+uint TilePlace(uvec2 Pixel)
+{
+	uvec2 P = Pixel & (TILE_SIZE - 1u);
+	P = (P | (P << 2u)) & 0x33u;
+	P = (P | (P << 1u)) & 0x55u;
+	return P.x | (P.y << 1u);
+}
+
 #endif

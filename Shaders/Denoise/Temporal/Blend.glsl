@@ -19,8 +19,12 @@ float GetEdgeVariance(FFrameEstimate Frame, FHistory History)
 }
 #endif
 
+// What agrees with the history without any noise, at the edge of certainty, still adds to what is known: only then does a single ray that
+// sees through the leaves count as one of many.
+const float AgreedDifference = 2.0e-3;
+
 // Weight of the frame's value.
-float GetAlpha(FHistory History, float Noise)
+float GetAlpha(FFrameEstimate Frame, FHistory History, float Noise)
 {
 	float Frames = History.Past.Frames;
 	if (Frames <= 0.0) { return 1.0; }
@@ -28,16 +32,18 @@ float GetAlpha(FHistory History, float Noise)
 	return max(1.0 / (Frames + 1.0), Push.MinAlpha);
 #else
 	float PastVariance = Noise / Frames + History.ResamplingVariance;
-	return Noise > 1.0e-6 * (1.0 + PastVariance) ? max(PastVariance / (PastVariance + Noise), Push.MinAlpha) : 1.0;
+	if (Noise > 1.0e-6 * (1.0 + PastVariance)) { return max(PastVariance / (PastVariance + Noise / Frame.Rays), Push.MinAlpha); }
+	bool bAgrees = abs(GetBrightness(Frame.Value) - GetBrightness(History.Past.Mean)) < AgreedDifference;
+	return bAgrees ? max(Frame.Rays / (Frames + Frame.Rays), Push.MinAlpha) : 1.0;
 #endif
 }
 
 FAccumulated Blend(FFrameEstimate Frame, FHistory History, float Noise)
 {
-	float Alpha = GetAlpha(History, Noise);
+	float Alpha = GetAlpha(Frame, History, Noise);
 	FAccumulated Past = History.Past;
 	float NeighborhoodMean = mix(Past.NeighborhoodMean, Frame.Neighborhood.Mean, Alpha);
-	return FAccumulated(mix(Past.Mean, Frame.Value, Alpha), sqrt(Noise), 1.0 / Alpha, NeighborhoodMean);
+	return FAccumulated(mix(Past.Mean, Frame.Value, Alpha), sqrt(Noise), Frame.Rays / Alpha, NeighborhoodMean);
 }
 
 // For a pixel without a value: the history if there is one, else the mean of what is around it.

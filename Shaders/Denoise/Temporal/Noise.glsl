@@ -58,17 +58,30 @@ float GetProbability(FNeighborhood Neighborhood, float Doubt)
 #endif
 }
 
+#if CHANNELS == 1
+// Some pixels trace more rays than others (Tiles/MoreRays.comp).
+float LoadRays()
+{
+#ifdef WITH_EXTENT
+	float Rays = texelFetch(Textures[Push.Extent], ivec2(gl_GlobalInvocationID.xy), 0).y;
+	return Rays >= 1.0 && IsFinite(Rays) ? Rays / Push.RaysPerPixel : 1.0;
+#else
+	return 1.0;
+#endif
+}
+#endif
+
 FFrameEstimate EstimateFrame()
 {
 	int Own = GetTileIndex(ivec2(0));
 	FNeighborhood Neighborhood = MeasureNeighborhood();
 #if CHANNELS == 1
 	float Noise = GetVisibilityVariance(Neighborhood.Mean);
-	return FFrameEstimate(TileSignal[Own], HasValue(Own), Neighborhood, Noise, MeasureExtent());
+	return FFrameEstimate(TileSignal[Own], HasValue(Own), Neighborhood, Noise, LoadRays(), MeasureExtent());
 #else
 	FWindow Window = MeasureWindow();
 	float Noise = Neighborhood.OutlierVariance >= 0.0 ? Neighborhood.OutlierVariance : Window.Variance;
-	return FFrameEstimate(TileSignal[Own], TileInverseDepth[Own] > 0.0, Window, Neighborhood, Noise, MeasureExtent());
+	return FFrameEstimate(TileSignal[Own], TileInverseDepth[Own] > 0.0, Window, Neighborhood, Noise, 1.0, MeasureExtent());
 #endif
 }
 

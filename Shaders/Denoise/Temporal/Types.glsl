@@ -15,6 +15,7 @@ struct FFrameEstimate
 #endif
 	FNeighborhood Neighborhood;
 	float NoiseVariance; // variance of one frame's value; for visibility as if every transition were soft
+	float Rays;          // of which the value is the mean, in units of Push.RaysPerPixel
 	float Extent;        // width of the transition (penumbra), pixels; MaxHalf: as wide as can be
 };
 

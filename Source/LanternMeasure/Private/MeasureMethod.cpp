@@ -15,8 +15,6 @@ namespace
 {
 bool IsIn(const std::vector<uint32_t>& Sorted, uint32_t Index) { return std::binary_search(Sorted.begin(), Sorted.end(), Index); }
 
-/// Ambient occlusion knows no light.
-
 /// Takes figures from frames as they come.
 class FMeter
 {
@@ -43,6 +41,12 @@ public:
 		TakeErrors(Frame, F);
 		const bool bSwitched = Path.FirstSwitched && Frame.Index >= *Path.FirstSwitched;
 		return bSwitched ? TakeSwitched(F) : true;
+	}
+	/// A frame that followed the one before without a pause. Between frames that are read back a GPU lowers its clock.
+	bool TakeBusy(const FPlayedFrame& Frame)
+	{
+		if (Frame.Index == 0) { GpuMs.clear(), FrameGpuMs.clear(); }
+		return Frame.Index < Path.FirstTimed || TakeTimes(Frame);
 	}
 	void Finish()
 	{
@@ -82,10 +86,15 @@ private:
 			Figures.MemoryBytes = Frame.LiveBytes - std::min(Frame.LiveBytes, Settings.BaselineBytes);
 		}
 		if (Frame.Index < Path.FirstTimed || Frame.Index >= Path.FirstTimed + Path.TimedCount) { return; }
-		if (const double Ms = Frame.GetGpuMs(Signal); Ms >= 0.0) { GpuMs.push_back(Ms); }
-		if (const double Ms = Frame.GetGpuMs(); Ms >= 0.0) { FrameGpuMs.push_back(Ms); }
+		TakeTimes(Frame);
 		const FView& View = Path.Script[Frame.Index].View;
 		Figures.RaysPerPixel = std::max(Figures.RaysPerPixel, double(Frame.GetRays(Signal)) / (double(View.Width) * View.Height));
+	}
+	bool TakeTimes(const FPlayedFrame& Frame)
+	{
+		if (const double Ms = Frame.GetGpuMs(Signal); Ms >= 0.0) { GpuMs.push_back(Ms); }
+		if (const double Ms = Frame.GetGpuMs(); Ms >= 0.0) { FrameGpuMs.push_back(Ms); }
+		return true;
 	}
 	void TakeErrors(FPlayedFrame& Frame, const FImage& F)
 	{
@@ -192,7 +201,14 @@ FRTStatus MeasureMethod(FSampleEngine& Engine, const FMethods& Methods, const FM
 	FMeter Meter(Method, Path, References, Settings, Out);
 	FPlaySettings Play;
 	Play.Signals = {Method.Signal};
-	const FRTStatus S = PlayScript(Engine, CutScript(Path, References), Play, [&](FPlayedFrame& Frame) { return Meter.Take(Frame); });
+	FRTStatus S = PlayScript(Engine, CutScript(Path, References), Play, [&](FPlayedFrame& Frame) { return Meter.Take(Frame); });
+	if (S && Out.End == EMeasureEnd::Done && !Engine.GetRenderer().GetDevice().GetCapabilities().bIsCpu)
+	{
+		Switch.Set(Engine.GetScene(), false);
+		Play.bWait = false;
+		const FScript Busy(Path.Script.begin(), Path.Script.begin() + Path.FirstTimed + Path.TimedCount);
+		S = PlayScript(Engine, Busy, Play, [&](FPlayedFrame& Frame) { return Meter.TakeBusy(Frame); });
+	}
 	Switch.Set(Engine.GetScene(), false);
 	Meter.Finish();
 	return S;

@@ -61,15 +61,19 @@ FRTStatus StartAnew(FSampleEngine& Engine)
 	return FRTStatus::Success();
 }
 
-FRTStatus PlayFrame(FSampleEngine& Engine, const FScriptFrame& Frame, const FFrameCapture& Capture, FPlayedFrame& Out)
+FRTStatus PlayFrame(
+    FSampleEngine& Engine, const FScriptFrame& Frame, const FFrameCapture& Capture, const FPlaySettings& Settings, FPlayedFrame& Out)
 {
 	const auto Start = std::chrono::steady_clock::now();
 	if (Frame.Change) { Frame.Change(Engine); }
 	FRenderer& Renderer = Engine.GetRenderer();
 	// Asked for in every frame, if only looked at in some: what nobody reads is culled.
-	if (FRTStatus S = Engine.RenderFrame(Frame.View, Frame.Time, Capture, Frame.bCapture ? &Out.Images : nullptr); !S) { return S; }
+	if (FRTStatus S = Engine.RenderFrame(Frame.View, Frame.Time, Capture, Frame.bCapture && Settings.bWait ? &Out.Images : nullptr); !S)
+	{
+		return S;
+	}
 	// So that the newest finished frame is this one.
-	if (FRTStatus S = Renderer.WaitForAll(); !S) { return S; }
+	if (FRTStatus S = Settings.bWait ? Renderer.WaitForAll() : FRTStatus::Success(); !S) { return S; }
 	Out.Passes = Renderer.GetGraphResources().GetTimings();
 	std::erase_if(Out.Passes, [](const FPassTiming& Pass) { return Pass.Name == "Readback"; });
 	for (const auto& [Name, Rays] : Renderer.GetRayCounts().Passes) // with r.RT.Rays.Count
@@ -119,7 +123,7 @@ FRTStatus PlayScript(
 	{
 		FPlayedFrame Frame;
 		Frame.Index = static_cast<uint32_t>(I);
-		if (FRTStatus S = PlayFrame(Engine, Script[I], Capture, Frame); !S) { return S; }
+		if (FRTStatus S = PlayFrame(Engine, Script[I], Capture, Settings, Frame); !S) { return S; }
 		if (OnFrame && !OnFrame(Frame)) { break; }
 	}
 	return FRTStatus::Success();

@@ -43,10 +43,13 @@ struct FPlaySettings
 	std::vector<ESignal> Signals; ///< made in every frame, captured if the script says so; the lit frame is always made
 	bool bKeepHistory = false;    ///< continues the histories; else they begin empty, and frame indices at 0
 	bool bRealTime = false;       ///< as FSampleEngine::bRealTime
+	/// If off, frames follow each other without a pause, and nothing is captured. Passes are then those of an earlier frame, or none.
+	bool bWait = true;
 };
 
 /// Plays a script. Calls OnFrame after each frame; false ends the script. Unless bKeepHistory, first empties the histories and
-/// frees the frame graph's idle memory. Restores the engine's settings. Waits for each frame, so that timings belong to it.
+/// frees the frame graph's idle memory. Restores the engine's settings. With bWait, waits for each frame, so that
+/// timings belong to it.
 FRTStatus PlayScript(
     FSampleEngine& Engine, const FScript& Script, const FPlaySettings& Settings, const std::function<bool(FPlayedFrame&)>& OnFrame);
 

@@ -100,6 +100,10 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 		C.NoiseAlpha = GetMinAlpha(NoiseSeconds, Context.View.DeltaSeconds);
 		C.Resampling = Settings.Resampling;
 		C.RaysPerPixel = static_cast<float>(std::max(Inputs.RaysPerPixel, 1u));
+		C.bChangesKnown = Inputs.Changes.bKnown ? 1u : 0u;
+		C.Casters = Inputs.Changes.Casters;
+		C.CasterCount = Inputs.Changes.CasterCount;
+		C.CasterSpread = Inputs.Changes.Spread;
 		return [=, Signal = Inputs.Signal, Extent = Inputs.Extent, Pipeline = Temporal, Kept = History, KeptMoments = Moments,
 		           Width = Context.Width, Height = Context.Height](FPassContext& Pass) mutable {
 			C.Signal = GetSampledIndex(Pass, Signal);

@@ -16,6 +16,15 @@
 namespace Lantern
 {
 
+/// Where a shadow may have changed in the last frames, as the scene tells it (FMovedCasters).
+struct FDenoiseChanges
+{
+	bool bKnown = false;  ///< false: anywhere, and the filter looks for changes in the signal itself
+	FAddress Casters = 0; ///< FMovedCaster[CasterCount], of this frame
+	uint32_t CasterCount = 0;
+	float Spread = 0.0f; ///< of a half shadow's border, metres per metre
+};
+
 struct FDenoiseInputs
 {
 	const char* Name = ""; ///< names passes and histories; the same in all frames
@@ -27,6 +36,7 @@ struct FDenoiseInputs
 	/// pixel knows of none. Negative: the pixel has no value of its own, and Signal holds what stands in for it; the filter then takes
 	/// the history, or the mean of what is around it. Invalid: as wide as can be.
 	FGraphTexture Extent;
+	FDenoiseChanges Changes;
 };
 
 /// Lists the compute shaders of the filter. bColor: three channels. bExtent: FDenoiseInputs::Extent is valid.

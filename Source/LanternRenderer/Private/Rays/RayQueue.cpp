@@ -49,6 +49,7 @@ FShadowQueueConstants MakeConstants(FPassContext& Pass, const FFrameContext& Fra
 	C.InstanceMask = Sun.InstanceMask;
 	C.LitMask = Sun.LitMask;
 	C.SunOneMinusCos = GetSunOneMinusCos(Sun);
+	C.MoreSamples = Rays.MoreSamples;
 	return C;
 }
 
@@ -58,7 +59,10 @@ constexpr uint32_t MaxCapacity = 1u << 28;
 void TraceQueue(FPassContext& Pass, const FFrameContext& Frame, const FRayDispatch& Dispatch, const FRayQueue& Queue,
     const FShadowQueueConstants& Constants, bool bIndirect)
 {
-	if (!bIndirect) { return TraceFrameRays(Pass, Frame, Dispatch.RayGen, Constants, Queue.Capacity, 1); }
+	if (!bIndirect)
+	{
+		return TraceFrameRays(Pass, Frame, Dispatch.RayGen, Constants, Queue.Capacity, std::max(Constants.MoreSamples, 1u));
+	}
 	IRTCommandList& Commands = Pass.Commands();
 	IRTBuffer* const Arguments = Pass.GetBuffer(Queue.Counters);
 	Commands.SetPipeline(Dispatch.Compute ? Dispatch.Compute : Frame.RayPipeline->GetPipeline());
@@ -152,7 +156,7 @@ void AddShadowRaysPass(
 	}
 	if (FRayQueueCounter::IsWanted())
 	{
-		const FRayQueueCounter::FQueue Asked{Queue.Name + "Rays", Queue.Counters, Queue.Capacity, Rays.Sun.SamplesPerPixel};
+		const FRayQueueCounter::FQueue Asked{Queue.Name + "Rays", Queue.Counters, Queue.Capacity, Rays.MoreSamples > 0 ? Rays.MoreSamples : Rays.Sun.SamplesPerPixel};
 		Count = Context.RayCounter->AddRead(Context.Graph, (Queue.Name + "Count").c_str(), Asked);
 	}
 	Context.Graph.AddPass((Queue.Name + "Rays").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {

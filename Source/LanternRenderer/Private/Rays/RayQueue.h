@@ -71,6 +71,7 @@ struct FQueuedRays
 	FGraphBuffer Guide;       ///< two times FTileGuide[], this frame's at GuideOffset
 	uint64_t GuideOffset = 0; ///< bytes
 	uint32_t LocalPerPixel = 0;
+	uint32_t MoreSamples = 0; ///< see FShadowQueueConstants
 };
 /// Adds the pass that traces what is in the queue. Dispatch: of Shaders/Rays/ShadowQueue.
 void AddShadowRaysPass(

@@ -3,6 +3,7 @@
 
 #include "LocalLights/LocalRequests.h"
 #include "SignalPasses.h"
+#include "Tiles/MoreRays.h"
 #include "Tiles/Tiles.h"
 
 namespace Lantern
@@ -61,6 +62,11 @@ std::shared_ptr<const FShadowRays> AddShadowRays(FFrameContext& Context, const F
 	if (Rays.Settled.Known.Current.IsValid())
 	{
 		AddSettledRays(Context, GBuffer, Asked->Dispatch, Rays.Queue, Rays.Traced, Rays.Tiles, Rays.Settled);
+	}
+	const FShadowRayWishes& Wishes = Asked->Wishes;
+	if (Wishes.MoreSunRays > 0 && Rays.Queue.SunWidths.IsValid())
+	{
+		AddMoreRays(Context, GBuffer, Asked->Dispatch, Rays.Queue, Rays.Traced, Rays.Tiles, Wishes.bSunMoved);
 	}
 	return std::make_shared<const FShadowRays>(std::move(Rays));
 }

@@ -1,11 +1,15 @@
 // Ray-traced sun shadows: for every pixel, the fraction of the sun's disk that it sees.
 #include "SunShadow/SunShadow.h"
 
+#include <cmath>
+
 #include "Denoise/Denoise.h"
 #include "LanternCore/FrameGraph/History.h"
 #include "SignalPasses.h"
 #include "SunShadowTypes.h"
 #include "Tiles/Contact.h"
+#include "Tiles/MoreRays.h"
+#include "Tiles/MovedCasters.h"
 #include "Tiles/TileView.h"
 #include "Tiles/Tiles.h"
 
@@ -24,6 +28,9 @@ TRTConsoleVariable<float> CVarSourceScale("r.RT.Shadow.SourceScale", 1.0f,
     "Scales the diameter of the sun's disk for shadows. Narrower penumbrae need fewer rays to look smooth. 0: shadows are hard.", {0, 16});
 TRTConsoleVariable<int32_t> CVarMask(
     "r.RT.Shadow.InstanceMask", MaskSunCasters, "Only objects that share a bit with this mask cast sun shadows.", {0, 255});
+TRTConsoleVariable<bool> CVarKnownChanges("r.RT.Shadow.KnownChanges", true,
+    "The filter looks for changes of the sun's shadows only where casters or surfaces moved, as the scene knows. If off, it looks for them "
+    "in the picture everywhere, and takes some noise for change.");
 const FDenoiseVariables Denoise("r.RT.Shadow", FDenoiseDefaults{.SigmaValue = 2.0f, .bExtent = true});
 
 /// Radians; 0: hard shadows.
@@ -141,19 +148,33 @@ bool FindKept(FFrameContext& Context, FHistoryTexture& Out)
 	return true;
 }
 
+/// False: an error, which the context has.
+bool FindChanges(FFrameContext& Context, const FSunRays& Rays, FDenoiseChanges& Out)
+{
+	// What is behind a host's own map, nobody tells.
+	if (!CVarKnownChanges.GetOnRenderThread() || Context.Facts.bHostShadow) { return true; }
+	const FMovedCasters::FRecent Found = Context.MovedCasters->FindRecent(Context.Scene, Rays);
+	Out.bKnown = !Found.bAnywhere;
+	Out.CasterCount = static_cast<uint32_t>(Found.Casters.size());
+	const float OneMinusCos = GetSunOneMinusCos(Rays);
+	Out.Spread = std::sqrt(2.0f * OneMinusCos) + 1.0e-3f;
+	return WriteCasters(Context, Found.Casters, Out.Casters);
+}
+
 /// Invalid: there are no rays, or shaders are being compiled.
-FGraphTexture AddVisibility(FFrameContext& Context, const FGBuffer& GBuffer, FGraphTexture& OutPenumbra)
+FGraphTexture AddVisibility(FFrameContext& Context, const FGBuffer& GBuffer, FGraphTexture& OutPenumbra, FSunRays& OutRays)
 {
 	const FShadowRays* const Rays = RequireShadowRays(Context, GBuffer);
 	if (!Rays || Rays->Sun.SamplesPerPixel == 0) { return {}; }
 	IRTPipeline* const Resolve = RequireCompute(Context, MakeResolveSource(Context.Facts, Rays->Settled.Rates));
 	if (!Resolve) { return {}; }
+	OutRays = Rays->Sun;
 	FResolveInputs Inputs{GBuffer, Rays->Queue, Rays->Tiles, Rays->Sun, Rays->Settled};
 	Inputs.Map = Rays->Map;
 	if (MayLackSunRays(Context, Inputs.Queue) && !FindKept(Context, Inputs.Kept)) { return {}; }
 	if (Inputs.Queue.SunWidths.IsValid())
 	{
-		OutPenumbra = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::R16_FLOAT}, "SunShadowPenumbra");
+		OutPenumbra = Context.Graph.CreateTexture({Context.Width, Context.Height, GetMoreRays() > 0 ? ERTFormat::RG16_FLOAT : ERTFormat::R16_FLOAT}, "SunShadowPenumbra");
 		Inputs.Penumbra = OutPenumbra;
 	}
 	AddTileView(Context, Inputs.Tiles);
@@ -176,6 +197,7 @@ FPassRays ChooseSunShadowRays(const FPassQuery& Query)
 	const FSunRates Rates = GetSunRates(Query.Facts, MeasuresPenumbra());
 	Rays.Compute = {MakeTilesSource(Query.Facts, Rates), MakeResolveSource(Query.Facts, Rates)};
 	if (Rates.bAdaptive) { ListSettledShaders(Rays.Compute); }
+	if (MeasuresPenumbra() && GetMoreRays() > 0) { ListMoreRaysShaders(Rays.Compute); }
 	ListTileViewShaders(Rays.Compute);
 	if (Query.Facts.bHostShadow) { Rays.Compute.push_back(MakePyramidSource()); }
 	if (MayQueuesOverflow(1)) { Rays.Compute.push_back(MakeShareSource()); }
@@ -189,6 +211,8 @@ bool AskSunShadowRays(FFrameContext& Context, const FRayDispatch& Dispatch, FSha
 	InOut.Sun = MakeSunRays(Context.Scene, Dispatch);
 	InOut.SunRates = Rates;
 	InOut.bSunFiltered = IsSunShadowFiltered(Context.Scene);
+	InOut.MoreSunRays = InOut.bSunFiltered ? GetMoreRays() : 0;
+	InOut.bSunMoved = InOut.MoreSunRays > 0 && Context.MovedCasters->HasMoved(Context.Scene, InOut.Sun);
 	InOut.bSunWidths = MeasuresPenumbra() && Dispatch.Has("WITH_PENUMBRA"); // a variant without it may still serve, and writes none
 	return true;
 }
@@ -206,7 +230,8 @@ FGraphTexture AddSunShadowPass(FFrameContext& Context, const FGBuffer& GBuffer)
 {
 	if (ChooseSignalRays(Context, ESignal::SunShadow).Path == ERayPath::None) { return {}; }
 	FGraphTexture Penumbra;
-	const FGraphTexture Visibility = AddVisibility(Context, GBuffer, Penumbra);
+	FSunRays Rays;
+	const FGraphTexture Visibility = AddVisibility(Context, GBuffer, Penumbra, Rays);
 	if (!Visibility.IsValid()) { return {}; }
 	if (!IsSunShadowFiltered(Context.Scene)) { return Visibility; }
 	FDenoiseInputs Inputs;
@@ -214,6 +239,7 @@ FGraphTexture AddSunShadowPass(FFrameContext& Context, const FGBuffer& GBuffer)
 	Inputs.Signal = Visibility;
 	Inputs.RaysPerPixel = static_cast<uint32_t>(CVarSamples.GetOnRenderThread());
 	Inputs.Extent = Penumbra;
+	if (!FindChanges(Context, Rays, Inputs.Changes)) { return Visibility; }
 	return AddDenoise(Context, GBuffer, Inputs, Denoise);
 }
 

@@ -12,7 +12,7 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<bool> CVarCapsules(
-    "r.RT.Debug.Shadow.Capsules", true, "Planted fault. Off: r.RT.Shadow.Adaptive is not told which casters moved.");
+    "r.RT.Debug.Shadow.Capsules", true, "Planted fault. Off: r.RT.Shadow.Adaptive and the filter are not told which casters moved.");
 static_assert(SETTLED_MOST_CASTERS >= FCasterChanges::MostKept);
 
 /// Share of the sun's diameter by which it may move in a frame without a new start. The disk's visible share changes by at most
@@ -32,19 +32,63 @@ bool FMovedCasters::HoldsFor(const FSunState& Before, const FSunState& Now)
 
 FMovedCasters::FFound FMovedCasters::Find(const FRTScene& Scene, const FSunRays& Rays)
 {
-	const FCasterChanges& Changes = Scene.GetCasterChanges();
-	Next = {MakeSunState(Scene, Rays), Changes.GetCount(), true};
+	Note(Scene, Rays);
 	FFound Found;
 	Found.Turn = Turn;
 	Found.bOtherSun = !Last.bValid || !HoldsFor(Last.Sun, Next.Sun);
 	if (Found.bOtherSun || !CVarCapsules.GetOnRenderThread()) { return Found; }
 	std::vector<FCasterChange> Moved;
-	Found.bAnywhere = !Changes.Find(Last.Changes, Moved);
-	for (const FCasterChange& Change : Moved)
-	{
-		Found.Casters.push_back({Scene.ToRelative(Change.From), static_cast<float>(Change.Radius), Scene.ToRelative(Change.To), 0});
-	}
+	Found.bAnywhere = !Scene.GetCasterChanges().Find(Last.Changes, Moved);
+	Found.Casters = Convert(Scene, Moved);
 	return Found;
+}
+
+FMovedCasters::FRecent FMovedCasters::FindRecent(const FRTScene& Scene, const FSunRays& Rays)
+{
+	Note(Scene, Rays);
+	FRecent Found;
+	if (Recent.empty()) { return Found; } // nothing was kept before
+	for (const FState& State : Recent) { Found.bAnywhere |= !HoldsFor(State.Sun, Next.Sun); }
+	if (Found.bAnywhere || !CVarCapsules.GetOnRenderThread()) { return Found; }
+	std::vector<FCasterChange> Moved;
+	Found.bAnywhere = !Scene.GetCasterChanges().Find(Recent.front().Changes, Moved);
+	Found.Casters = Convert(Scene, Moved);
+	return Found;
+}
+
+bool FMovedCasters::HasMoved(const FRTScene& Scene, const FSunRays& Rays)
+{
+	const FRecent Found = FindRecent(Scene, Rays);
+	return Found.bAnywhere || !Found.Casters.empty();
+}
+
+void FMovedCasters::Note(const FRTScene& Scene, const FSunRays& Rays)
+{
+	Next = {MakeSunState(Scene, Rays), Scene.GetCasterChanges().GetCount(), true};
+}
+
+std::vector<FMovedCaster> FMovedCasters::Convert(const FRTScene& Scene, const std::vector<FCasterChange>& Changes)
+{
+	std::vector<FMovedCaster> Out;
+	for (const FCasterChange& Change : Changes)
+	{
+		Out.push_back({Scene.ToRelative(Change.From), static_cast<float>(Change.Radius), Scene.ToRelative(Change.To), 0});
+	}
+	return Out;
+}
+
+bool WriteCasters(FFrameContext& Context, const std::vector<FMovedCaster>& Casters, uint64_t& OutAddress)
+{
+	OutAddress = 0;
+	if (Casters.empty()) { return true; }
+	FUploadSlice Slice;
+	if (FRTStatus S = Context.Owner->GetUploads().Push(Casters.data(), Casters.size() * sizeof(Casters[0]), Slice); !S)
+	{
+		Context.Fail(S);
+		return false;
+	}
+	OutAddress = Slice.Address;
+	return true;
 }
 
 void FMovedCasters::EndFrame(bool bSubmitted)
@@ -52,6 +96,9 @@ void FMovedCasters::EndFrame(bool bSubmitted)
 	if (!bSubmitted) { return; }
 	Last = std::exchange(Next, {});
 	++Turn;
+	if (!Last.bValid) { return Recent.clear(); }
+	if (Recent.size() > RecentFrames) { Recent.pop_front(); }
+	Recent.push_back(Last);
 }
 
 } // namespace Lantern

@@ -25,26 +25,12 @@ TRTConsoleVariable<float> CVarRateDistance("r.RT.Shadow.RateDistance", 0.0f,
 
 FShaderSource MakeCheckSource() { return MakeComputeSource("Tiles/CheckSettled.comp"); }
 
-/// Writes the moved casters where shaders read them. False: an error, which the context has.
-bool WriteCasters(FFrameContext& Context, const std::vector<FMovedCaster>& Casters, FSettledConstants& Out)
-{
-	Out.CasterCount = static_cast<uint32_t>(Casters.size());
-	if (Casters.empty()) { return true; }
-	FUploadSlice Slice;
-	if (FRTStatus S = Context.Owner->GetUploads().Push(Casters.data(), Casters.size() * sizeof(Casters[0]), Slice); !S)
-	{
-		Context.Fail(S);
-		return false;
-	}
-	Out.Casters = Slice.Address;
-	return true;
-}
-
 /// False: shaders are being compiled, or an error, which the context has.
 bool RequireKnown(FFrameContext& Context, const FGBuffer& GBuffer, const FMovedCasters::FFound& Found, FSettledTiles& Out)
 {
 	if (!RequireSurface(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion})) { return false; }
-	if (!WriteCasters(Context, Found.Casters, Out.Values)) { return false; }
+	if (!WriteCasters(Context, Found.Casters, Out.Values.Casters)) { return false; }
+	Out.Values.CasterCount = static_cast<uint32_t>(Found.Casters.size());
 	if (FRTStatus S = Context.History->GetTexture("SunSettled", {Context.Width, Context.Height, ERTFormat::R8_UNORM}, Out.Known); !S)
 	{
 		Context.Fail(S);

@@ -1,0 +1,55 @@
+// Step "known" of the temporal filter, for shadows: where the light may have changed, as the scene tells it.
+//   Takes: casters that moved in the last frames (Push.Casters), the distances of Load.glsl, and the surface's own motion.
+//   Gives: MayHaveChanged. NoteDistances needs the tile complete; FindTouched needs the distances of the whole group.
+//   Why: chance looks like change. In dappled shade the test of Change.glsl dropped every tenth history of a scene that stood still.
+//   Where nothing has moved, there is nothing to look for. A work group is a tile of the screen, and shares the casters.
+#ifndef LANTERN_TEMPORAL_KNOWN_GLSL
+#define LANTERN_TEMPORAL_KNOWN_GLSL
+
+#include "../../Library/MovedCasters.glsl"
+#include "Load.glsl"
+
+shared uint bTouched, NearestBits, FarthestBits; // distances as bits: of positive floats they have the order
+
+// Before a barrier.
+void StartTouched()
+{
+	if (gl_LocalInvocationIndex != 0u) { return; }
+	bTouched = 0u;
+	NearestBits = 0x7f7fffffu;
+	FarthestBits = 0u;
+}
+
+void NoteDistances()
+{
+	float Inverse = TileInverseDepth[GetTileIndex(ivec2(0))];
+	if (Push.CasterCount == 0u || !(Inverse > 0.0)) { return; }
+	atomicMin(NearestBits, floatBitsToUint(1.0 / Inverse));
+	atomicMax(FarthestBits, floatBitsToUint(1.0 / Inverse));
+}
+
+// Called by all threads.
+void FindTouched(FViewConstants View)
+{
+	if (Push.CasterCount == 0u) { return; }
+	if (NearestBits <= FarthestBits)
+	{
+		uvec2 First = gl_WorkGroupID.xy * GroupSize;
+		vec4 Bound = BoundTile(View, First, GroupSize, uintBitsToFloat(NearestBits), uintBitsToFloat(FarthestBits));
+		vec3 Sun = FSceneRef(Push.Pass.Scene).Data.SunDirection;
+		for (uint I = gl_LocalInvocationIndex; I < Push.CasterCount; I += GroupSize * GroupSize)
+		{
+			FMovedCaster Caster = FMovedCasterRef(Push.Casters).Data[I];
+			if (MayShadow(Caster, View.CameraPosition + Bound.xyz, Bound.w, Sun, Push.CasterSpread)) { bTouched = 1u; }
+		}
+	}
+	barrier();
+}
+
+bool MayHaveChanged(FViewConstants View, uvec2 Pixel, float Distance)
+{
+	if (Push.bChangesKnown == 0u || bTouched != 0u) { return true; }
+	return Push.Motion != NO_TEXTURE && MovedItself(View, Distance, Pixel, texelFetch(Textures[Push.Motion], ivec2(Pixel), 0));
+}
+
+#endif

@@ -1,0 +1,101 @@
+// Asks for more sun rays where one cannot tell and no history helps: at borders of shadows that have just come into view, or that are
+// narrower than the filter can carry from frame to frame while the picture moves.
+#version 460
+#include "../Shared/MoreRaysTypes.h"
+#include "../Library/GBuffer.glsl"
+#include "../Library/History.glsl"
+#include "../Rays/RayQueue.glsl"
+#include "Tile.glsl"
+
+layout(local_size_x = TILE_PIXELS) in;
+layout(push_constant, scalar) uniform FPush { FMoreRaysConstants Push; };
+
+const int RingSize = TILE_SIZE + 2;       // the tile with a ring of neighbours
+const uint SeesSun = 1u, SeesNone = 2u;   // answers of a pixel; 0: it had none to give
+const float WideEnough = 2.0;             // pixels: a penumbra that histories can be resampled in
+const float LeastCoverage = 0.5;          // of a history
+
+shared uint States[RingSize * RingSize], Wanted[2], FirstRequest;
+
+// The answers of a pixel that faces the sun.
+uint LoadState(FViewConstants View, ivec2 Pixel)
+{
+	if (any(lessThan(Pixel, ivec2(0))) || IsOutsideView(View, uvec2(Pixel))) { return 0u; }
+	FTile Tile = FTileRef(Push.Tiles).Data[TileIndex(View, uvec2(Pixel) / TILE_SIZE)];
+	uint Place = TilePlace(uvec2(Pixel));
+	if (!IsMarked(Tile.SunRays, Place) && !IsMarked(Tile.SunRest, Place)) { return 0u; }
+	uint Answer = FAnswerRef(Push.Answers).Data[uint(Pixel.y) * View.Width + uint(Pixel.x)];
+	return (SunSeen(Answer) > 0u ? SeesSun : 0u) | (SunUnseen(Answer) > 0u ? SeesNone : 0u);
+}
+
+void LoadStates(FViewConstants View, uint Place)
+{
+	ivec2 First = ivec2(gl_WorkGroupID.xy) * TILE_SIZE - 1;
+	for (uint I = Place; I < uint(RingSize * RingSize); I += TILE_PIXELS)
+	{
+		States[I] = LoadState(View, First + ivec2(I % RingSize, I / RingSize));
+	}
+}
+
+// Joins the answers of the 3 × 3 pixels around one.
+uint JoinStates(uvec2 At)
+{
+	uint Joined = 0u;
+	for (uint I = 0u; I < 9u; ++I) { Joined |= States[(At.y + I / 3u) * RingSize + At.x + I % 3u]; }
+	return Joined;
+}
+
+// Returns the penumbra's mean width around a pixel, in pixels; 0: no ray knows.
+float MeasureWidth(FViewConstants View, ivec2 Pixel, FSurface Surface)
+{
+	float Sum = 0.0, Count = 0.0;
+	for (int I = 0; I < 9; ++I)
+	{
+		ivec2 P = Pixel + ivec2(I % 3, I / 3) - 1;
+		if ((LoadState(View, P) & SeesNone) == 0u) { continue; }
+		float Width = FWidthRef(Push.Widths).Data[uint(P.y) * View.Width + uint(P.x)];
+		if (!(Width >= 0.0)) { continue; }
+		Sum += Width;
+		Count += 1.0;
+	}
+	float Facing = abs(dot(Surface.Normal, CameraRay(View, vec2(Pixel) + 0.5)));
+	return Count > 0.0 ? Sum / Count * Facing / PixelHeight(View, Surface.Distance) : 0.0;
+}
+
+bool NeedsMore(FViewConstants View, ivec2 Pixel)
+{
+	if (Push.PreviousSurface == NO_TEXTURE) { return true; }
+	FSurface Surface = LoadSurface(Push.Surface, Pixel);
+	vec4 Motion = texelFetch(Textures[Push.Motion], Pixel, 0);
+	FReprojection R = Reproject(View, Push.PreviousSurface, uvec2(Pixel), Surface, Motion, -CameraRay(View, vec2(Pixel) + 0.5));
+	if (R.Coverage < LeastCoverage) { return true; }
+	// A history of the very same point needs no interpolation.
+	if (!any(greaterThan(R.Fraction * (1.0 - R.Fraction), vec2(1.0e-4)))) { return false; }
+	return MeasureWidth(View, Pixel, Surface) < WideEnough;
+}
+
+void main()
+{
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	uint Place = gl_LocalInvocationIndex, Word = Place >> 5u, Bit = 1u << (Place & 31u);
+	uvec2 Pixel = TilePixel(gl_WorkGroupID.xy, Place), At = TilePixel(uvec2(0u), Place);
+	FTile Tile = FTileRef(Push.Tiles).Data[TileIndex(View, gl_WorkGroupID.xy)];
+	if ((Tile.SunRays[0] | Tile.SunRays[1]) == 0u) { return; }
+	if (Place == 0u) { Wanted[0] = Wanted[1] = 0u; }
+	LoadStates(View, Place);
+	barrier();
+	bool bAsked = IsMarked(Tile.SunRays, Place) && States[(At.y + 1u) * RingSize + At.x + 1u] != 0u;
+	bool bWanted = bAsked && JoinStates(At) == (SeesSun | SeesNone) && NeedsMore(View, ivec2(Pixel));
+	if (bWanted) { atomicOr(Wanted[Word], Bit); }
+	barrier();
+	uint Count = bitCount(Wanted[0]) + bitCount(Wanted[1]);
+	if (Count == 0u) { return; }
+	if (Place == 0u) { FirstRequest = ReserveMoreRequests(Push.Counters, Push.Capacity, Count, Push.Samples); }
+	barrier();
+	if (!bWanted) { return; }
+	uint Number = FirstRequest + bitCount(Wanted[Word] & (Bit - 1u)) + (Word > 0u ? bitCount(Wanted[0]) : 0u);
+	if (Number < Push.Capacity)
+	{
+		FRayRequestRef(Push.Requests).Data[Number] = MakeRayRequest(RAY_KIND_SUN, 0u, Pixel.y * View.Width + Pixel.x);
+	}
+}

@@ -1,0 +1,87 @@
+// Passes that ask for more sun rays and trace them.
+#include "Tiles/MoreRays.h"
+
+#include "Denoise/SurfaceHistory.h"
+#include "LanternCore/Config/ConsoleVariables.h"
+#include "MoreRaysTypes.h"
+
+namespace Lantern
+{
+
+namespace
+{
+TRTConsoleVariable<int32_t> CVarMoreRays("r.RT.Shadow.MoreRays", 0,
+    "Further sun rays of a pixel at the border of a shadow, where the filter has no history to rely on: what has just come into view, "
+    "and narrow penumbrae while the picture moves. Needs r.RT.Shadow.Denoise and soft shadows. 0: none.",
+    {0, 32});
+
+FShaderSource MakeSource() { return MakeComputeSource("Tiles/MoreRays.comp"); }
+
+bool IsSameView(const FView& A, const FView& B)
+{
+	const FViewWindow WindowA = A.GetWindow(), WindowB = B.GetWindow();
+	return A.Position == B.Position && A.Forward == B.Forward && A.Up == B.Up && A.Jitter == B.Jitter && A.Width == B.Width &&
+	       A.Height == B.Height && A.Near == B.Near && WindowA == WindowB;
+}
+
+void AddAskPass(
+    FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue& More, FGraphBuffer Tiles, uint32_t Samples)
+{
+	const FFrameContext* const Frame = &Context;
+	const FSurfaceTextures Surface = Context.Surface;
+	const bool bPrevious = Surface.Previous.IsValid();
+	Context.Graph.AddPass((More.Name + "Ask").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
+		for (const FGraphBuffer Buffer : {Tiles, More.Answers, More.SunWidths}) { Builder.Read(Buffer, ERTAccess::ShaderRead); }
+		Builder.Read(Surface.Current, ERTAccess::ShaderRead);
+		for (const FGraphTexture Texture : {Surface.Previous, Surface.Motion})
+		{
+			if (bPrevious) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+		}
+		for (const FGraphBuffer Buffer : {More.Requests, More.Counters}) { Builder.Write(Buffer, ERTAccess::StorageWrite); }
+		Builder.AllowAsync();
+		return [=](FPassContext& Pass) {
+			StartQueue(Pass, More);
+			FMoreRaysConstants C{};
+			C.Pass = Frame->Pass;
+			C.Tiles = GetAddress(Pass, Tiles);
+			C.Requests = GetAddress(Pass, More.Requests);
+			C.Counters = GetAddress(Pass, More.Counters);
+			C.Answers = GetAddress(Pass, More.Answers);
+			C.Widths = GetAddress(Pass, More.SunWidths);
+			C.Capacity = More.Capacity;
+			C.Samples = Samples;
+			C.Surface = GetSampledIndex(Pass, Surface.Current);
+			C.PreviousSurface = GetSampledIndex(Pass, bPrevious ? Surface.Previous : FGraphTexture{});
+			C.Motion = GetSampledIndex(Pass, bPrevious ? Surface.Motion : FGraphTexture{});
+			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
+		};
+	});
+}
+} // namespace
+
+uint32_t GetMoreRays() { return static_cast<uint32_t>(CVarMoreRays.GetOnRenderThread()); }
+
+void ListMoreRaysShaders(std::vector<FShaderSource>& Out)
+{
+	Out.push_back(MakeSource());
+	ListSurfaceShaders(Out);
+}
+
+void AddMoreRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue,
+    const FQueuedRays& Rays, FGraphBuffer Tiles, bool bMoved)
+{
+	if (!bMoved && Context.PreviousView && IsSameView(Context.View, *Context.PreviousView)) { return; }
+	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSource());
+	if (!Pipeline || !RequireSurface(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion})) { return; }
+	FRayQueue More = Queue;
+	More.Name += "More";
+	More.bRest = false;
+	More.bMayOverflow = false; // what has no room stays with the rays that it has
+	More.Counters = Context.Graph.CreateBuffer({sizeof(FRayQueueCounters), ERTBufferUsage::CopyDest}, "MoreRayCounters");
+	FQueuedRays Traced = Rays;
+	Traced.MoreSamples = GetMoreRays();
+	AddAskPass(Context, Pipeline, More, Tiles, Traced.MoreSamples);
+	AddShadowRaysPass(Context, GBuffer, Dispatch, More, Traced);
+}
+
+} // namespace Lantern

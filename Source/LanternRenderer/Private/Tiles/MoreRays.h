@@ -1,0 +1,18 @@
+// More sun rays where one cannot tell and no history helps (Tiles/MoreRays.comp).
+#pragma once
+
+#include "Rays/RayQueue.h"
+
+namespace Lantern
+{
+
+/// Returns r.RT.Shadow.MoreRays: further samples of a pixel that needs them; 0: none has any.
+uint32_t GetMoreRays();
+void ListMoreRaysShaders(std::vector<FShaderSource>& Out);
+
+/// Adds the passes that ask for further rays and trace them, behind those that trace Queue and what its tiles have left out. Does
+/// nothing in a frame that shows the last one's view of a scene in which nothing moved. bMoved: something did.
+void AddMoreRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue,
+    const FQueuedRays& Rays, FGraphBuffer Tiles, bool bMoved);
+
+} // namespace Lantern
