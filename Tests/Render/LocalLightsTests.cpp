@@ -87,7 +87,7 @@ TEST_F(FLocalLightsTest, FewAndManyAsTheReference)
 	}
 }
 
-// Of more lights than a tile's table holds, it weighs a random part.
+// A tile weighs a random part of its lights if they are more than its table holds.
 TEST_F(FLocalLightsTest, MoreThanATableHoldsAsTheReference)
 {
 	ASSERT_NO_FATAL_FAILURE(LoadPosts());
