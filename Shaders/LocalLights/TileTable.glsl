@@ -191,7 +191,7 @@ void ListTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low,
 	for (uint I = Place; I < Scene.LightCount; I += TILE_PIXELS) { Mine += IsListed(Scene, View, I, Seed, Low, High) ? 1u : 0u; }
 	RunCounts[Place] = Mine;
 	barrier();
-	for (uint I = 0u; I < TILE_PIXELS; ++I)
+	[[dont_unroll]] for (uint I = 0u; I < TILE_PIXELS; ++I)
 	{
 		Before += I < Place ? RunCounts[I] : 0u;
 		Total += RunCounts[I];
@@ -214,7 +214,7 @@ struct FRun
 void EstimateLights(FSceneConstants Scene, FViewConstants View, FRun Run, bool bAll, uint Place, vec3 Low, vec3 High)
 {
 	[[dont_unroll]] for (uint S = 0u; S <= TileSamplers; ++S) { Totals[S][Place] = 0.0; }
-	for (uint I = Run.Begin; I < Run.End; ++I)
+	[[dont_unroll]] for (uint I = Run.Begin; I < Run.End; ++I)
 	{
 		uint Light = bAll ? I : TableEntries[I];
 		FLightData Data = FLightRef(Scene.Lights).Data[Light];
@@ -237,7 +237,7 @@ void EstimateLights(FSceneConstants Scene, FViewConstants View, FRun Run, bool b
 	if (Place <= TileSamplers)
 	{
 		float Sum = 0.0;
-		for (uint I = 0u; I < TILE_PIXELS; ++I) { Sum += Totals[Place][I]; }
+		[[dont_unroll]] for (uint I = 0u; I < TILE_PIXELS; ++I) { Sum += Totals[Place][I]; }
 		Totals[Place][0] = Sum;
 	}
 	barrier();
@@ -248,7 +248,7 @@ void EstimateLights(FSceneConstants Scene, FViewConstants View, FRun Run, bool b
 float WeighLights(FSceneConstants Scene, FRun Run, uint TileHash)
 {
 	float Sum = 0.0, BoundScale = BoundShare / max(Totals[TileSamplers][0], 1.0e-30);
-	for (uint I = Run.Begin; I < Run.End; ++I)
+	[[dont_unroll]] for (uint I = Run.Begin; I < Run.End; ++I)
 	{
 		float Bound = Cumulative[I] * BoundScale, Weight = Bound;
 		uvec2 Packed = Estimates[I];
@@ -286,7 +286,7 @@ void MakeTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low,
 	barrier();
 	float Before = 0.0;
 	for (uint I = 0u; I < Place; ++I) { Before += RunSums[I]; }
-	for (uint I = Run.Begin; I < Run.End; ++I) { Cumulative[I] += Before; }
+	[[dont_unroll]] for (uint I = Run.Begin; I < Run.End; ++I) { Cumulative[I] += Before; }
 	barrier();
 }
 
@@ -346,7 +346,7 @@ bool ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point
 	vec2 U = LocalNumbers(View, Pixel, 0xffffffffu);
 	FLobes Mean = FLobes(vec3(0.0), vec3(0.0)), Chosen = Mean;
 	Choice = FLightChoice(0u, 0.0);
-	for (uint I = 0u; I < Push.Candidates && All > 0.0; ++I)
+	[[dont_unroll]] for (uint I = 0u; I < Push.Candidates && All > 0.0; ++I)
 	{
 		uint Number = FindEntry((float(I) + U.x) / float(Push.Candidates) * All), Entry = TableEntries[Number], Light = EntryLight(Entry);
 		float Weight = Cumulative[Number] - (Number > 0u ? Cumulative[Number - 1u] : 0.0);
