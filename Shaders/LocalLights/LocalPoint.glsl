@@ -27,6 +27,40 @@ FLocalPoint LoadLocalPoint(FSceneConstants Scene, FViewConstants View, uint Norm
 	return Point;
 }
 
+struct FLobes
+{
+	vec3 Diffuse, Specular;
+};
+
+// 6 × fp16.
+uint[3] PackLobes(FLobes Lobes)
+{
+	const float MaxHalf = 65504.0;
+	vec3 D = min(Lobes.Diffuse, MaxHalf), S = min(Lobes.Specular, MaxHalf);
+	return uint[3](packHalf2x16(D.xy), packHalf2x16(vec2(D.z, S.x)), packHalf2x16(S.yz));
+}
+FLobes UnpackLobes(uint Packed[3])
+{
+	vec2 Middle = unpackHalf2x16(Packed[1]);
+	return FLobes(vec3(unpackHalf2x16(Packed[0]), Middle.x), vec3(Middle.y, unpackHalf2x16(Packed[2])));
+}
+
+// How a surface reflects.
+struct FLocalBrdf
+{
+	FBrdf Brdf;
+	mat3 Basis; // see FBrdf
+};
+
+FLocalBrdf LoadLocalBrdf(FLocalPoint Point, uint BaseColor, uint Material, uvec2 Pixel)
+{
+	FLocalBrdf Out;
+	Out.Brdf = MakeGBufferBrdf(texelFetch(Textures[BaseColor], ivec2(Pixel), 0), texelFetch(Textures[Material], ivec2(Pixel), 0));
+	Out.Brdf.Alpha = max(Out.Brdf.Alpha, 2.0 * MinAlpha); // a perfect mirror would show no point light
+	Out.Basis = MakeBasis(Point.Surface.BentN);
+	return Out;
+}
+
 // Two numbers in [0, 1) that stratify over the pixels of a tile and over frames. Purpose: each has numbers of its own.
 vec2 LocalNumbers(FViewConstants View, uvec2 Pixel, uint Purpose)
 {
@@ -41,6 +75,18 @@ FLightSample SampleLocalLight(FSceneConstants Scene, FViewConstants View, FLocal
 	U = LocalNumbers(View, Pixel, Light);
 #endif
 	return SampleLight(Scene, FLightRef(Scene.Lights).Data[Light], Point.P, U);
+}
+
+// What the surface reflects of a light's point, if nothing is in between.
+FLobes ReflectLight(FLocalPoint Point, FLocalBrdf Local, FLightSample Sample)
+{
+	FLobes Lobes;
+	vec3 L = Sample.Direction * Local.Basis;
+	EvaluateLobes(Local.Brdf, Point.Surface.V * Local.Basis, L, Lobes.Diffuse, Lobes.Specular);
+	vec3 Incident = Sample.Irradiance * L.z; // no lobe reflects what comes from below
+	Lobes.Diffuse *= Incident;
+	Lobes.Specular *= Incident;
+	return Lobes;
 }
 
 bool ReachesLight(FViewConstants View, FLocalPoint Point, FLightSample Sample)

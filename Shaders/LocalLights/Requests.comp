@@ -1,10 +1,11 @@
 // Finds the lights of a tile, and queues their rays: for all of its lights if they are few, else for one that each pixel chooses.
 // MANY_LIGHTS: defined if the scene has more lights than FLocalRequestsConstants::Exact.
+// GUIDED: pixels choose from a table of their tile's lights (TileTable.glsl). Not defined: from all, which takes long.
 #version 460
 #include "../Rays/RayQueue.glsl"
 #include "../Tiles/Tile.glsl"
 #include "LocalPoint.glsl"
-#ifdef MANY_LIGHTS
+#if defined(MANY_LIGHTS) && !defined(GUIDED)
 #include "../Library/LightCells.glsl"
 #endif
 
@@ -43,6 +44,10 @@ bool MayReach(FSceneConstants Scene, FLightData Light, vec3 Low, vec3 High)
 	float Radius = 0.5 * length(High - Low) * 1.001 + 1.0e-3;
 	return Cosine * Across - sqrt(max(1.0 - Cosine * Cosine, 0.0)) * Along < Radius && Along > -Radius;
 }
+
+#ifdef GUIDED
+#include "TileTable.glsl"
+#endif
 
 // Finds lights whose ranges meet the tile. Their order does not depend on that of threads.
 void FindCandidates(FSceneConstants Scene, uint Place)
@@ -100,7 +105,7 @@ void ListLights(FSceneConstants Scene)
 	for (uint I = 0u; I < 2u * TILE_LIGHTS; ++I) { Tile.Reached[I] = 0u; }
 }
 
-#ifdef MANY_LIGHTS
+#if defined(MANY_LIGHTS) && !defined(GUIDED)
 // Chooses a light with a probability proportional to EstimateLight, by weighted reservoir sampling over all that reach
 // the pixel. Returns whether it asks for a ray.
 bool ChooseLight(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, uvec2 Pixel, out FLightChoice Choice)
@@ -130,6 +135,41 @@ bool ChooseLight(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, 
 	Choice.Weight = 1.0;
 #endif
 	return (Lights.Data[Choice.Light].Flags & LIGHT_CASTS_SHADOW) != 0u;
+}
+#endif
+
+#ifdef MANY_LIGHTS
+// If the tile has many lights, each pixel chooses one. All threads.
+void ChooseOfMany(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, bool bSurface, uvec2 Pixel, uint Place)
+{
+	bool bMany = Tile.Count == TILE_LIGHTS_MANY, bAsks = false;
+	FLightChoice Choice = FLightChoice(0u, 0.0);
+#ifdef GUIDED
+	FLobes Lit = FLobes(vec3(0.0), vec3(0.0));
+	if (bMany)
+	{
+		ChooseSamplers(View, Point, bSurface, Place);
+		if (Place == 0u) { FindPreviousTile(View, gl_WorkGroupID.xy); }
+		barrier();
+		LoadRemembered(View, Place);
+		MakeTable(Scene, View, Place, BoxCorner(LowBits), BoxCorner(HighBits));
+	}
+	WriteGuide(View, Place, bMany);
+	if (bMany && bSurface)
+	{
+		FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel);
+		bAsks = ChooseOfTable(Scene, View, Point, Local, Pixel, Choice, Lit);
+	}
+#else
+	if (bMany && bSurface) { bAsks = ChooseLight(Scene, View, Point, Pixel, Choice); }
+#endif
+	if (!bMany || IsOutsideView(View, Pixel)) { return; }
+	if (bAsks) { atomicOr(Tile.Reached[Place >> 5u], 1u << (Place & 31u)); }
+	uint Index = Pixel.y * View.Width + Pixel.x;
+	FLightChoiceRef(Push.Choices).Data[Index] = Choice;
+#ifdef GUIDED
+	if (Push.Lit != FAddress(0)) { FLitPixelRef(Push.Lit).Data[Index].Lobes = PackLobes(Lit); }
+#endif
 }
 #endif
 
@@ -214,12 +254,7 @@ void main()
 	if (Place == 0u) { ListLights(Scene); }
 	barrier();
 #ifdef MANY_LIGHTS
-	if (Tile.Count == TILE_LIGHTS_MANY && !IsOutsideView(View, Pixel))
-	{
-		FLightChoice Choice = FLightChoice(0u, 0.0);
-		if (bSurface && ChooseLight(Scene, View, Point, Pixel, Choice)) { atomicOr(Tile.Reached[Place >> 5u], 1u << (Place & 31u)); }
-		FLightChoiceRef(Push.Choices).Data[PixelIndex] = Choice;
-	}
+	ChooseOfMany(Scene, View, Point, bSurface, Pixel, Place);
 	barrier();
 #endif
 	if (Place == 0u)

@@ -3,17 +3,15 @@
 #include "../Rays/RayQueue.glsl"
 #include "../Tiles/Tile.glsl"
 #include "LocalPoint.glsl"
+#ifdef GUIDED
+#include "Guide.glsl"
+#endif
 
 layout(local_size_x = TILE_PIXELS) in;
 layout(push_constant, scalar) uniform FPush { FLocalShadeConstants Push; };
 
 // Rays of the tile by slot: where some had no room in the queue, their pixels take the mean of the others.
 shared uint Seen[TILE_LIGHTS], Traced[TILE_LIGHTS];
-
-struct FLobes
-{
-	vec3 Diffuse, Specular;
-};
 
 // Returns the visibility of a slot's light.
 float SlotVisibility(uint Answer, uint Slot, uint SeenBit, uint TracedBit)
@@ -28,31 +26,75 @@ void CountAnswer(uint Answer, uint Slot, uint SeenBit, uint TracedBit)
 	atomicAdd(Seen[Slot], (Answer >> SeenBit) & 1u);
 }
 
-void AddLight(inout FLobes Sum, FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FBrdf Brdf, mat3 Basis, uvec2 Pixel,
-              uint Light, float Weight)
+#ifdef GUIDED
+shared uint GuideTracedNow[TILE_GUIDE_LIGHTS], GuideSeenNow[TILE_GUIDE_LIGHTS];
+
+// Adds what the tile's rays saw to its guide. All threads.
+void Remember(FViewConstants View, uint PixelIndex, uint Answer, uint Place)
+{
+	if (Place < TILE_GUIDE_LIGHTS) { GuideTracedNow[Place] = GuideSeenNow[Place] = 0u; }
+	barrier();
+	uint Index = TileIndex(View, gl_WorkGroupID.xy);
+	FTileGuideRef Guides = FTileGuideRef(Push.Guide);
+	if ((Answer & (1u << ANSWER_CHOSEN_TRACED)) != 0u)
+	{
+		uint Light = FLightChoiceRef(Push.Choices).Data[PixelIndex].Light, Slot = GuidePlace(Light, GuideTileHash(Index));
+		bool bSeen = (Answer & (1u << ANSWER_CHOSEN_SEEN)) != 0u;
+		if (Guides.Data[Index].Lights[Slot].Light == Light)
+		{
+			atomicAdd(GuideTracedNow[Slot], 1u);
+			atomicAdd(GuideSeenNow[Slot], bSeen ? 1u : 0u);
+		}
+	}
+	barrier();
+	if (Place >= TILE_GUIDE_LIGHTS || GuideTracedNow[Place] == 0u) { return; }
+	uint Old = Guides.Data[Index].Lights[Place].Counts;
+	vec2 Rays = vec2(GuideTraced(Old), GuideSeen(Old)) + vec2(GuideTracedNow[Place], GuideSeenNow[Place]) * float(TILE_GUIDE_RAY);
+	Guides.Data[Index].Lights[Place].Counts = PackGuideCounts(Rays.x, Rays.y);
+}
+#endif
+
+void AddLight(inout FLobes Sum, FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLocalBrdf Local, uvec2 Pixel, uint Light,
+              float Weight)
 {
 	FLightSample Sample = SampleLocalLight(Scene, View, Point, Pixel, Light);
 	if (!ReachesLight(View, Point, Sample)) { return; }
-	vec3 Diffuse, Specular;
-	vec3 L = Sample.Direction * Basis;
-	EvaluateLobes(Brdf, Point.Surface.V * Basis, L, Diffuse, Specular);
-	vec3 Incident = Sample.Irradiance * (L.z * Weight); // no lobe reflects what comes from below
-	Sum.Diffuse += Diffuse * Incident;
-	Sum.Specular += Specular * Incident;
+	FLobes Lobes = ReflectLight(Point, Local, Sample);
+	Sum.Diffuse += Lobes.Diffuse * Weight;
+	Sum.Specular += Lobes.Specular * Weight;
 }
 
+#ifdef MANY_LIGHTS
+FLobes ShadeChosen(FSceneConstants Scene, FViewConstants View, uvec2 Pixel, bool bAsked, uint Answer, FLocalPoint Point, FLocalBrdf Local)
+{
+	FLobes Sum = FLobes(vec3(0.0), vec3(0.0));
+	uint Index = Pixel.y * View.Width + Pixel.x;
+	FLightChoice Choice = FLightChoiceRef(Push.Choices).Data[Index];
+	float Visibility = bAsked ? SlotVisibility(Answer, 0u, ANSWER_CHOSEN_SEEN, ANSWER_CHOSEN_TRACED) : 1.0;
+	if (Choice.Weight <= 0.0 || Visibility <= 0.0) { return Sum; }
+#ifdef GUIDED
+	if (Push.Lit != FAddress(0))
+	{
+		Sum = UnpackLobes(FLitPixelRef(Push.Lit).Data[Index].Lobes);
+		Sum.Diffuse *= Visibility;
+		Sum.Specular *= Visibility;
+		return Sum;
+	}
+#endif
+	AddLight(Sum, Scene, View, Point, Local, Pixel, Choice.Light, Choice.Weight * Visibility);
+	return Sum;
+}
+#endif
+
 FLobes ShadePixel(FTileLights Tile, FSceneConstants Scene, FViewConstants View, uvec2 Pixel, uint Place, uint Answer, FLocalPoint Point,
-                  FBrdf Brdf, mat3 Basis)
+                  FLocalBrdf Local)
 {
 	FLobes Sum = FLobes(vec3(0.0), vec3(0.0));
 	if (Tile.Count == TILE_LIGHTS_MANY)
 	{
 #ifdef MANY_LIGHTS
-		FLightChoice Choice = FLightChoiceRef(Push.Choices).Data[Pixel.y * View.Width + Pixel.x];
-		if (Choice.Weight <= 0.0) { return Sum; }
 		bool bAsked = (Tile.Reached[Place >> 5u] & (1u << (Place & 31u))) != 0u;
-		float Visibility = bAsked ? SlotVisibility(Answer, 0u, ANSWER_CHOSEN_SEEN, ANSWER_CHOSEN_TRACED) : 1.0;
-		if (Visibility > 0.0) { AddLight(Sum, Scene, View, Point, Brdf, Basis, Pixel, Choice.Light, Choice.Weight * Visibility); }
+		Sum = ShadeChosen(Scene, View, Pixel, bAsked, Answer, Point, Local);
 #endif
 		return Sum;
 	}
@@ -62,7 +104,7 @@ FLobes ShadePixel(FTileLights Tile, FSceneConstants Scene, FViewConstants View, 
 		bool bUnshadowed = (Tile.Lights[I] & TILE_LIGHT_UNSHADOWED) != 0u;
 		float Visibility = bUnshadowed ? 1.0 : SlotVisibility(Answer, I, ANSWER_LOCAL_SEEN + I, ANSWER_LOCAL_TRACED + I);
 		if (Visibility <= 0.0) { continue; }
-		AddLight(Sum, Scene, View, Point, Brdf, Basis, Pixel, Tile.Lights[I] & ~TILE_LIGHT_UNSHADOWED, Visibility);
+		AddLight(Sum, Scene, View, Point, Local, Pixel, Tile.Lights[I] & ~TILE_LIGHT_UNSHADOWED, Visibility);
 	}
 	return Sum;
 }
@@ -93,6 +135,9 @@ void main()
 	{
 		for (uint I = 0u; I < Tile.Count; ++I) { CountAnswer(Answer, I, ANSWER_LOCAL_SEEN + I, ANSWER_LOCAL_TRACED + I); }
 	}
+#ifdef GUIDED
+	Remember(View, Pixel.y * View.Width + Pixel.x, Tile.Count == TILE_LIGHTS_MANY ? Answer : 0u, Place);
+#endif
 	barrier();
 	if (!bInside) { return; }
 	float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
@@ -102,10 +147,8 @@ void main()
 		return;
 	}
 	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, Depth);
-	vec4 Material = texelFetch(Textures[Push.Material], ivec2(Pixel), 0);
-	FBrdf Brdf = MakeGBufferBrdf(texelFetch(Textures[Push.BaseColor], ivec2(Pixel), 0), Material);
-	Brdf.Alpha = max(Brdf.Alpha, 2.0 * MinAlpha); // a perfect mirror would show no point light
-	mat3 Basis = MakeBasis(Point.Surface.BentN);
-	FLobes Sum = ShadePixel(Tile, Scene, View, Pixel, Place, Answer, Point, Brdf, Basis);
-	WriteLobes(Pixel, Sum, Brdf, dot(Point.Surface.BentN, Point.Surface.V), Material.x);
+	FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel);
+	FLobes Sum = ShadePixel(Tile, Scene, View, Pixel, Place, Answer, Point, Local);
+	float Roughness = texelFetch(Textures[Push.Material], ivec2(Pixel), 0).x;
+	WriteLobes(Pixel, Sum, Local.Brdf, dot(Point.Surface.BentN, Point.Surface.V), Roughness);
 }

@@ -28,6 +28,34 @@ struct FLightChoice
 };
 LANTERN_ASSERT_SIZE(FLightChoice, 8);
 
+// Tiles of many lights, with r.RT.Lights.Candidates.
+#define TILE_TABLE_MOST 1024 // lights that a tile weighs for its pixels; of more it weighs a random part
+#define TILE_GUIDE_LIGHTS 32
+#define TILE_GUIDE_RAY 32u   // what a ray counts in FGuideLight::Counts
+#define TILE_GUIDE_RAYS 1024 // most rays of a light that are remembered
+
+// How many of the last frames' rays from a tile to a light got through.
+struct FGuideLight
+{
+	uint Light;  // index in the table of lights
+	uint Counts; // rays traced, 16 bits, and rays that got through; older ones count less
+};
+LANTERN_ASSERT_SIZE(FGuideLight, 8);
+
+// The brightest lights of a tile, each at the place that its number and the tile's give.
+struct FTileGuide
+{
+	FGuideLight Lights[TILE_GUIDE_LIGHTS];
+};
+LANTERN_ASSERT_SIZE(FTileGuide, 256);
+
+// What a pixel reflects if the light that it chose is visible.
+struct FLitPixel
+{
+	uint Lobes[3]; // 6 × fp16: diffuse and specular lobe
+};
+LANTERN_ASSERT_SIZE(FLitPixel, 12);
+
 struct FLocalRequestsConstants
 {
 	FPassConstants Pass;
@@ -40,8 +68,15 @@ struct FLocalRequestsConstants
 	uint Depth;   // sampled index
 	uint Normals; // sampled index: shading and geometric normal, both octahedral
 	uint Exact;   // most lights of a tile that all get rays, 1 to TILE_LIGHTS
+	// GUIDED only:
+	uint BaseColor, Material; // sampled indices
+	FAddress Lit;             // FLitPixel[pixels]; 0 with UNBIASED
+	FAddress Guide;           // FTileGuide[], row by row; this frame's
+	FAddress PreviousGuide;   // FTileGuide[]; 0: there is none
+	uint Candidates;          // of each pixel, 1 to 64
+	float GuideKept;          // share of what the guide knows that it keeps in this frame
 };
-LANTERN_ASSERT_SIZE(FLocalRequestsConstants, 72);
+LANTERN_ASSERT_SIZE(FLocalRequestsConstants, 112);
 
 struct FLocalShadeConstants
 {
@@ -51,8 +86,10 @@ struct FLocalShadeConstants
 	FAddress Answers;    // uint[pixels]
 	uint Depth, Normals, BaseColor, Material; // sampled indices
 	uint OutDiffuse, OutSpecular;             // storage indices, or NO_TEXTURE
+	FAddress Lit;      // FLitPixel[pixels]; GUIDED without UNBIASED only
+	FAddress Guide;    // FTileGuide[]; GUIDED only
 };
-LANTERN_ASSERT_SIZE(FLocalShadeConstants, 64);
+LANTERN_ASSERT_SIZE(FLocalShadeConstants, 80);
 
 LANTERN_SHARED_END
 

@@ -364,11 +364,12 @@ TEST_F(FLightCellsTest, OddSizesAndCells)
 	}
 }
 
-// A pixel in a tile of many lights chooses one that reaches its cell, with the numbers that a choice of all takes.
+// A pixel in a tile of many lights that chooses without candidates takes one that reaches its cell, with the numbers that a choice of all takes.
 TEST_F(FLightCellsTest, ChoicesOfShadowedLights)
 {
 	ASSERT_NO_FATAL_FAILURE(LoadSteps());
 	SetVariable("r.RT.Lights", "1");
+	SetVariable("r.RT.Lights.Candidates", "0");
 	SetVariable("r.RT.Lights.Denoise", "0");      // pictures of two frames are compared
 	SetVariable("r.RT.Rays.QueuePerPixel", "16"); // all rays have room: without, it depends on the frames before
 	FNumbers Numbers(29);

@@ -87,9 +87,77 @@ TEST_F(FLocalLightsTest, FewAndManyAsTheReference)
 	}
 }
 
+// A tile weighs a random part of its lights if they are more than its table holds.
+TEST_F(FLocalLightsTest, MoreThanATableHoldsAsTheReference)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadPosts());
+	const FView View = LookAtPosts(48, 27);
+	AddLamps(1500);
+	ExpectUnbiased("1,500 lights", ESignal::LocalDiffuse, View, 128, 384, 1, 0.005);
+}
+
+// Either way to choose a light: from all of them, and from the tile's with the light's own colour.
+TEST_F(FLocalLightsTest, WalkAndUnbiasedAsTheReference)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadPosts());
+	AddLamps(64);
+	const FView View = LookAtPosts(64, 36);
+	SetVariable("r.RT.Lights.Unbiased", "1");
+	for (const char* const Candidates : {"0", "1", "8"})
+	{
+		SetVariable("r.RT.Lights.Candidates", Candidates);
+		const std::string Name = fmt::format("{} candidates", Candidates);
+		ExpectUnbiased(Name.c_str(), ESignal::LocalDiffuse, View, 256, 768, 1, 0.005);
+	}
+}
+
+// A tile that weighs its lights at one place never chooses some of those that reach others.
+TEST_F(FLocalLightsTest, TilesWeighForAllTheirPixels)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadPosts());
+	AddLamps(16);
+	const FView View = LookAtPosts(48, 27);
+	const double Right = EstimateFrames(ESignal::LocalDiffuse, View, 8).Mean;
+	SetVariable("r.RT.Debug.Lights.CellTarget", "0");
+	EXPECT_LT(EstimateFrames(ESignal::LocalDiffuse, View, 8).Mean, 0.98 * Right);
+}
+
+// Pixels whose ray was blocked are black. Tiles that remember which lights are hidden waste fewer rays on them.
+TEST_F(FLocalLightsTest, TilesRememberHiddenLights)
+{
+	FTestScene Scene("hidden");
+	const int32_t Grey = Scene.AddLambert(glm::vec3(0.5f), glm::vec3(0), true);
+	Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Grey, 8.0f, 0.0f)}));
+	Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Grey, 8.0f, 2.0f)})); // a ceiling
+	ASSERT_TRUE(Load(std::move(Scene.Scene)));
+	SetSun(0.0, 0.0f);
+	SetSky(glm::vec3(0));
+	for (int I = 0; I < 16; ++I)
+	{
+		FSceneLight Light;
+		Light.Position = {-1.5 + (I % 4), I < 12 ? 2.5 : 1.5, -0.5 * (I / 4)}; // twelve of them above the ceiling
+		Light.Color = glm::vec3(1);
+		GetWorld().AddLight(Light);
+	}
+	const FView View = LookAt({0, 1.8, 0.5}, {0, 0, -0.7}, 0.9f, 64, 36); // nothing but floor
+	const auto CountBlocked = [&](const char* Seconds) {
+		SetVariable("r.RT.Lights.GuideSeconds", Seconds);
+		FImage Picture;
+		for (uint32_t Frame = 0; Frame < 16; ++Frame) { Picture = RenderSignal(ESignal::LocalDiffuse, View, 1, Frame); }
+		size_t Blocked = 0;
+		for (size_t Pixel = 0; Pixel < 64u * 36u; ++Pixel) { Blocked += Picture.Pixels[Pixel * Picture.Channels + 1] <= 0.0f ? 1 : 0; }
+		return Blocked;
+	};
+	const size_t Forgetful = CountBlocked("0"), Knowing = CountBlocked("0.5");
+	PrintFigure(fmt::format("blocked rays: {} without memory, {} with it", Forgetful, Knowing));
+	EXPECT_GT(Forgetful, 64u * 36u / 4);
+	EXPECT_LT(2 * Knowing, Forgetful);
+}
+
 TEST_F(FLocalLightsTest, PathsAgree)
 {
 	ASSERT_NO_FATAL_FAILURE(LoadPosts());
+	SetVariable("r.RT.Lights.GuideSeconds", "0"); // frames depend on no others
 	AddLamps(6);
 	for (const char* const Exact : {"8", "1"})
 	{
@@ -171,6 +239,7 @@ TEST_F(FLocalLightsTest, LightsWithoutShadowsShineThroughPosts)
 TEST_F(FLocalLightsTest, QueueWithoutRoom)
 {
 	ASSERT_NO_FATAL_FAILURE(LoadPosts());
+	SetVariable("r.RT.Lights.GuideSeconds", "0"); // what rays had no room for would be remembered
 	AddLamps(4);
 	const FView View = LookAtPosts(131, 73);
 	const auto Play = [&](const char* PerPixel) {

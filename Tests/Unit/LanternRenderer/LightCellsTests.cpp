@@ -1,4 +1,5 @@
 // Light cells on the mock: what a frame makes for them, and that it makes nothing where nothing has a use for them.
+#include <algorithm>
 #include <cmath>
 
 #include "Lights/LightCells.h"
@@ -38,6 +39,12 @@ protected:
 		std::vector<std::string> Names = GetPasses();
 		std::erase_if(Names, [](const std::string& Name) { return Name.rfind("LightCells", 0) != 0; });
 		return Names;
+	}
+	/// Memories of tiles that were created.
+	size_t CountGuides()
+	{
+		const auto Calls = Mock().FindCalls(ERTMockCall::CreateBuffer);
+		return size_t(std::count_if(Calls.begin(), Calls.end(), [](const FRTMockCall& Call) { return Call.Name == "LightGuide"; }));
 	}
 	/// Whether something of light cells was created since the device was opened.
 	void ExpectNothing()
@@ -145,11 +152,13 @@ TEST_F(FLightCellsTest, FramesThatAreNotReadMakeNone)
 	EXPECT_TRUE(HasPass("LightCellsClear"));
 }
 
-// Where each pixel chooses one light of many, it visits those of its cell. Direct lighting then visits none.
+// Where each pixel chooses one light of all, it visits those of its cell. Direct lighting then visits none. Candidates of the pixel's tile
+// need no cells.
 TEST_F(FLightCellsTest, ShadowedLightsHaveThemWherePixelsChoose)
 {
 	Set("r.RT.Lights", "1");
 	Set("r.RT.Lights.Exact", "4");
+	Set("r.RT.Lights.Candidates", "0");
 	Set("r.RT.Lights.Cells.Least", "1");
 	ASSERT_TRUE(Load({}));
 	for (int I = 0; I < 4; ++I) { AddLamp(3.0f); }
@@ -163,6 +172,27 @@ TEST_F(FLightCellsTest, ShadowedLightsHaveThemWherePixelsChoose)
 	Render();
 	EXPECT_THAT(GetCellPasses(),
 	    ElementsAre("LightCellsClear", "LightCellsMark", "LightCellsPrepare", "LightCellsBlocks", "LightCells", "LightCellsCount"));
+	EXPECT_EQ(CountGuides(), 0u);
+	Set("r.RT.Lights.Candidates", "4");
+	Mock().ClearCalls();
+	Render();
+	EXPECT_THAT(GetCellPasses(), ElementsAre());
+	EXPECT_EQ(CountGuides(), 1u) << "tiles remember";
+}
+
+// Tiles of few lights remember nothing.
+TEST_F(FLightCellsTest, GuidesAreWherePixelsChoose)
+{
+	Set("r.RT.Lights", "1");
+	Set("r.RT.Lights.Exact", "4");
+	ASSERT_TRUE(Load({}));
+	for (int I = 0; I < 4; ++I) { AddLamp(0.0f); }
+	Render();
+	EXPECT_EQ(CountGuides(), 0u);
+	EXPECT_THAT(Mock().GetCreatedPipelines(), Not(Contains(HasSubstr("GUIDED"))));
+	AddLamp(0.0f);
+	Render();
+	EXPECT_EQ(CountGuides(), 1u);
 }
 
 TEST_F(FLightCellsTest, DebugViewShowsThem)

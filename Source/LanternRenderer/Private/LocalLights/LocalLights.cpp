@@ -24,7 +24,7 @@ uint32_t GetExact() { return static_cast<uint32_t>(CVarExact.GetOnRenderThread()
 
 FShaderSource MakeShadeSource(const FSceneFacts& Facts, uint32_t Exact)
 {
-	return MakeComputeSource("LocalLights/Shade.comp", MakeLocalDefines(Facts, Exact));
+	return MakeComputeSource("LocalLights/Shade.comp", MakeChoiceDefines(Facts, Exact));
 }
 
 /// Adds the pass that shades, once a frame for either lobe.
@@ -42,9 +42,14 @@ FLocalLobes AddShadePass(FFrameContext& Context, const FGBuffer& GBuffer, const 
 		{
 			Builder.Read(Texture, ERTAccess::ShaderRead);
 		}
-		for (const FGraphBuffer Buffer : {Inputs.Queue.Answers, Inputs.Traced.TileLights, Inputs.Traced.Choices})
+		for (const FGraphBuffer Buffer : {Inputs.Queue.Answers, Inputs.Traced.TileLights, Inputs.Traced.Choices, Inputs.Traced.Lit})
 		{
 			if (Buffer.IsValid()) { Builder.Read(Buffer, ERTAccess::ShaderRead); }
+		}
+		if (Inputs.Traced.Guide.IsValid())
+		{
+			Builder.Read(Inputs.Traced.Guide, ERTAccess::StorageRead);
+			Builder.Write(Inputs.Traced.Guide, ERTAccess::StorageWrite);
 		}
 		for (const FGraphTexture Texture : {Lobes.Diffuse, Lobes.Specular}) { Builder.WriteIfRead(Texture, ERTAccess::StorageWrite); }
 		Builder.AllowAsync();
@@ -58,6 +63,8 @@ FLocalLobes AddShadePass(FFrameContext& Context, const FGBuffer& GBuffer, const 
 			C.Normals = GetSampledIndex(Pass, GBuffer.Normals);
 			C.BaseColor = GetSampledIndex(Pass, GBuffer.BaseColor);
 			C.Material = GetSampledIndex(Pass, GBuffer.Material);
+			C.Lit = GetAddress(Pass, Inputs.Traced.Lit);
+			C.Guide = GetAddress(Pass, Inputs.Traced.Guide) + Inputs.Traced.GuideOffset;
 			C.OutDiffuse = GetStorageIndex(Pass, Lobes.Diffuse);
 			C.OutSpecular = GetStorageIndex(Pass, Lobes.Specular);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);

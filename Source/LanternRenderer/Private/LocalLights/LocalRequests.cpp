@@ -1,6 +1,10 @@
 // Lights of tiles and requests for rays to them.
 #include "LocalLights/LocalRequests.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "LanternCore/FrameGraph/History.h"
 #include "Lights/LightCells.h"
 #include "LocalLightTypes.h"
 
@@ -9,12 +13,27 @@ namespace Lantern
 
 namespace
 {
+TRTConsoleVariable<int32_t> CVarCandidates("r.RT.Lights.Candidates", 8,
+    "Lights that a pixel looks at where a tile has many, before one of them gets its ray. They are drawn from the lights of its tile, by "
+    "what these bring and by how visible they were. 0: all lights, which takes long.",
+    {0, 64});
+TRTConsoleVariable<float> CVarGuideSeconds("r.RT.Lights.GuideSeconds", 0.5f,
+    "Time in seconds for which a tile of many lights remembers which of them were visible. 0: it forgets all.", {0.0, 60.0});
+TRTConsoleVariable<bool> CVarUnbiased("r.RT.Lights.Unbiased", false,
+    "A pixel of many lights takes the colour of the one that it chose. Off: it takes the mean colour of its candidates, which has less "
+    "noise "
+    "but does not know which of them are hidden. Its luminance has no bias either way.");
+TRTConsoleVariable<bool> CVarCellTarget("r.RT.Debug.Lights.CellTarget", true,
+    "Planted fault. If off, a tile weighs its lights at one of its pixels alone, so that some that reach others are never chosen.");
 TRTConsoleVariable<bool> CVarWeight("r.RT.Debug.Lights.Weight", true,
     "Planted fault. If off, a light that a pixel chose of many counts once, and not for all that it was chosen from.");
 
+bool IsGuided(const FSceneFacts& Facts, uint32_t Exact) { return MayChooseLights(Facts, Exact) && CVarCandidates.GetOnRenderThread() > 0; }
+
 FShaderSource MakeRequestsSource(const FSceneFacts& Facts, uint32_t Exact)
 {
-	FShaderDefines Defines = MakeLocalDefines(Facts, Exact);
+	FShaderDefines Defines = MakeChoiceDefines(Facts, Exact);
+	if (!CVarCellTarget.GetOnRenderThread()) { Defines.emplace_back("ONE_SAMPLER", "1"); }
 	if (!CVarWeight.GetOnRenderThread()) { Defines.emplace_back("NO_CHOICE_WEIGHT", "1"); }
 	return MakeComputeSource("LocalLights/Requests.comp", std::move(Defines));
 }
@@ -27,9 +46,54 @@ struct FRequestsPass
 	FRayQueue Queue;
 	FLocalRays Rays;
 	bool bFirst = false; ///< no pass before it writes requests and answers
-	FGraphBuffer TileLights, Choices;
+	FGraphBuffer TileLights, Choices, Lit;
+	FGraphBuffer Guide;       ///< two times FTileGuide[Tiles], of this frame and of the one before
+	uint64_t GuideOffset = 0; ///< of this frame's, bytes
+	bool bPreviousGuide = false;
 	uint32_t Tiles = 0;
+	bool IsGuided() const { return Guide.IsValid(); }
 };
+
+/// Adds the buffers by which pixels choose of a table. False: there is no memory, which the context has.
+bool AddGuide(FFrameContext& Context, FRequestsPass& InOut)
+{
+	const uint64_t Bytes = uint64_t(InOut.Tiles) * sizeof(FTileGuide);
+	FHistoryBuffer History;
+	if (FRTStatus S = Context.History->GetBuffer("LightGuide", {2 * Bytes}, History); !S)
+	{
+		Context.Fail(S);
+		return false;
+	}
+	InOut.Guide = History.Buffer;
+	InOut.GuideOffset = Context.View.FrameIndex % 2 * Bytes;
+	InOut.bPreviousGuide = !History.bFresh && CVarGuideSeconds.GetOnRenderThread() > 0.0f;
+	const uint64_t Pixels = uint64_t(Context.Width) * Context.Height;
+	if (!CVarUnbiased.GetOnRenderThread()) { InOut.Lit = Context.Graph.CreateBuffer({Pixels * sizeof(FLitPixel)}, "LitPixels"); }
+	return true;
+}
+
+/// Fills what GUIDED shaders read beside the rest.
+void SetGuide(FPassContext& Pass, const FFrameContext& Frame, const FRequestsPass& Inputs, FLocalRequestsConstants& C)
+{
+	const FAddress Guides = GetAddress(Pass, Inputs.Guide);
+	const uint64_t Bytes = uint64_t(Inputs.Tiles) * sizeof(FTileGuide);
+	C.BaseColor = GetSampledIndex(Pass, Inputs.GBuffer.BaseColor);
+	C.Material = GetSampledIndex(Pass, Inputs.GBuffer.Material);
+	C.Lit = GetAddress(Pass, Inputs.Lit);
+	C.Guide = Guides + Inputs.GuideOffset;
+	C.PreviousGuide = Inputs.bPreviousGuide ? Guides + (Bytes - Inputs.GuideOffset) : 0;
+	C.Candidates = static_cast<uint32_t>(CVarCandidates.GetOnRenderThread());
+	C.GuideKept = std::exp(-Frame.View.DeltaSeconds / std::max(CVarGuideSeconds.GetOnRenderThread(), 1e-6f));
+}
+
+void DeclareGuide(FPassBuilder& Builder, const FRequestsPass& Inputs)
+{
+	Builder.Read(Inputs.GBuffer.BaseColor, ERTAccess::ShaderRead);
+	Builder.Read(Inputs.GBuffer.Material, ERTAccess::ShaderRead);
+	if (Inputs.bPreviousGuide) { Builder.Read(Inputs.Guide, ERTAccess::StorageRead); }
+	Builder.Write(Inputs.Guide, ERTAccess::StorageWrite);
+	if (Inputs.Lit.IsValid()) { Builder.Write(Inputs.Lit, ERTAccess::StorageWrite); }
+}
 
 FLocalRequestsConstants MakeConstants(FPassContext& Pass, const FFrameContext& Frame, const FRequestsPass& Inputs)
 {
@@ -62,7 +126,8 @@ void AddRequestsPass(FFrameContext& Context, IRTPipeline* Pipeline, const FReque
 		Builder.Write(Inputs.TileLights, ERTAccess::StorageWrite);
 		if (Inputs.Choices.IsValid()) { Builder.Write(Inputs.Choices, ERTAccess::StorageWrite); }
 		if (Inputs.bFirst) { Builder.Write(Inputs.Queue.Answers, ERTAccess::StorageWrite); }
-		if (Inputs.Rays.bMany) { ReadLightCells(Builder, Frame->LightCells, false); }
+		if (Inputs.IsGuided()) { DeclareGuide(Builder, Inputs); }
+		else if (Inputs.Rays.bMany) { ReadLightCells(Builder, Frame->LightCells, false); }
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
 			if (Inputs.bFirst) { StartQueue(Pass, Inputs.Queue); }
@@ -71,6 +136,7 @@ void AddRequestsPass(FFrameContext& Context, IRTPipeline* Pipeline, const FReque
 			C.Choices = GetAddress(Pass, Inputs.Choices);
 			C.Depth = GetSampledIndex(Pass, Inputs.GBuffer.Depth);
 			C.Normals = GetSampledIndex(Pass, Inputs.GBuffer.Normals);
+			if (Inputs.IsGuided()) { SetGuide(Pass, *Frame, Inputs, C); }
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
@@ -97,10 +163,17 @@ FShaderDefines MakeLocalDefines(FSceneFacts Facts, uint32_t Exact)
 	return Defines;
 }
 
+FShaderDefines MakeChoiceDefines(const FSceneFacts& Facts, uint32_t Exact)
+{
+	FShaderDefines Defines = MakeLocalDefines(Facts, Exact);
+	if (IsGuided(Facts, Exact)) { Defines.emplace_back("GUIDED", "1"); }
+	return Defines;
+}
+
 void ListLocalRequestShaders(const FSceneFacts& Facts, uint32_t Exact, std::vector<FShaderSource>& Out)
 {
 	Out.push_back(MakeRequestsSource(Facts, Exact));
-	if (MayChooseLights(Facts, Exact)) { ListLightCellShaders(Facts, Out); }
+	if (MayChooseLights(Facts, Exact) && !IsGuided(Facts, Exact)) { ListLightCellShaders(Facts, Out); }
 	if (MayQueuesOverflow(1 + GetLocalRaysPerPixel(Facts, Exact))) { Out.push_back(MakeShareSource()); }
 }
 
@@ -119,12 +192,16 @@ void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRa
 	{
 		const uint64_t Pixels = uint64_t(Context.Width) * Context.Height;
 		Inputs.Choices = Context.Graph.CreateBuffer({Pixels * sizeof(FLightChoice)}, "LightChoices");
-		RequireLightCells(Context, GBuffer); // pixels that choose visit the lights of their cell
+		if (!IsGuided(Context.Facts, Rays.Exact)) { RequireLightCells(Context, GBuffer); } // pixels visit the lights of their cell
+		else if (!AddGuide(Context, Inputs)) { return; }
 	}
 	AddRequestsPass(Context, RequireCompute(Context, MakeRequestsSource(Context.Facts, Rays.Exact)), Inputs);
 	if (InOut.Queue.bMayOverflow) { AddSharePass(Context, RequireCompute(Context, MakeShareSource()), Inputs); }
 	InOut.Traced.TileLights = Inputs.TileLights;
 	InOut.Traced.Choices = Inputs.Choices;
+	InOut.Traced.Lit = Inputs.Lit;
+	InOut.Traced.Guide = Inputs.Guide;
+	InOut.Traced.GuideOffset = Inputs.GuideOffset;
 	InOut.Traced.LocalPerPixel = Rays.PerPixel;
 }
 

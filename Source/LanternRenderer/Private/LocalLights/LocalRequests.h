@@ -11,6 +11,8 @@ void ListLocalRequestShaders(const FSceneFacts& Facts, uint32_t Exact, std::vect
 
 /// Defines of all shaders that sample local lights. Exact: as in FLocalRays.
 FShaderDefines MakeLocalDefines(FSceneFacts Facts, uint32_t Exact);
+/// And of those that read what pixels chose.
+FShaderDefines MakeChoiceDefines(const FSceneFacts& Facts, uint32_t Exact);
 
 /// Returns the most rays of a pixel.
 inline uint32_t GetLocalRaysPerPixel(const FSceneFacts& Facts, uint32_t Exact) { return Facts.Lights < Exact ? Facts.Lights : Exact; }
@@ -21,8 +23,8 @@ inline bool MayChooseLights(const FSceneFacts& Facts, uint32_t Exact) { return F
 /// Whether AddLocalRequests can add its passes. False: shaders are being compiled, or an error, which the context then has.
 bool AreLocalRequestsReady(FFrameContext& Context, uint32_t Exact);
 
-/// Adds the passes that list the lights of tiles and ask for rays. Reads Depth and Normals of the G-buffer. After
-/// AreLocalRequestsReady. InOut: gets the buffers that the rays and the shading read. Without tiles of the sun, the queue starts here.
+/// Adds the passes that list the lights of tiles and ask for rays. Reads Depth, Normals and, if pixels
+/// choose, BaseColor and Material of the G-buffer. After AreLocalRequestsReady. InOut: gets the buffers that the rays and the shading read. Without tiles of the sun, the queue starts here.
 void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRays& InOut, const FLocalRays& Rays);
 
 } // namespace Lantern

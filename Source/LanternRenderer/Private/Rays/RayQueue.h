@@ -65,8 +65,11 @@ void StartQueue(FPassContext& Pass, const FRayQueue& Queue);
 struct FQueuedRays
 {
 	FSunRays Sun;
-	FGraphBuffer TileLights; ///< FTileLights[], for rays to local lights; invalid: there are none
-	FGraphBuffer Choices;    ///< FLightChoice[Width · Height]; invalid: no pixel chooses a light
+	FGraphBuffer TileLights;  ///< FTileLights[], for rays to local lights; invalid: there are none
+	FGraphBuffer Choices;     ///< FLightChoice[Width · Height]; invalid: no pixel chooses a light
+	FGraphBuffer Lit;         ///< FLitPixel[Width · Height], for the shading; invalid: it goes by Choices alone
+	FGraphBuffer Guide;       ///< two times FTileGuide[], this frame's at GuideOffset
+	uint64_t GuideOffset = 0; ///< bytes
 	uint32_t LocalPerPixel = 0;
 	uint32_t MoreSamples = 0; ///< see FShadowQueueConstants
 };

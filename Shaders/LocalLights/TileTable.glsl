@@ -1,0 +1,383 @@
+// The lights that may reach a tile of many, with the weight that each has for the tile's pixels. A work group makes it.
+// It takes 21 KiB of shared memory, of which devices with ray tracing have 32 at least.
+// The weight is positive for every light that brings anything to a pixel of the tile, so that what pixels choose from it has no bias.
+#ifndef LANTERN_TILE_TABLE_GLSL
+#define LANTERN_TILE_TABLE_GLSL
+
+#include "../Library/Lights.glsl"
+#include "../Library/Motion.glsl"
+#include "Guide.glsl"
+
+const uint TileSamplers = 8u; // pixels that weights are made for
+const float BoundShare = 0.5; // of the weight of a sampler: what bounds weigh
+const float LeastVisibility = 0.05; // that is expected: a hidden light is asked less often, but never never
+
+shared float Cumulative[TILE_TABLE_MOST]; // sum of the weights up to and with a light's
+shared uint TableEntries[TILE_TABLE_MOST]; // light, and its expected visibility in the highest 8 bits
+shared uvec2 Estimates[TILE_TABLE_MOST]; // of what each sampler receives, a byte each
+shared float Totals[TileSamplers + 1u][TILE_PIXELS]; // over the run of each thread: of samplers, and of bounds
+shared float RunSums[TILE_PIXELS];
+shared uint RunCounts[TILE_PIXELS];
+shared uint TableCount;
+shared uint SamplerKeys[TileSamplers]; // 0: there is no surface; else the lowest byte is the place
+shared vec4 TilePoints[TILE_PIXELS / 2u]; // a pixel of each two: position, and size in metres, 0 without a surface
+shared vec3 SamplerP[TileSamplers], SamplerN[TileSamplers];
+shared float SamplerReach[TileSamplers]; // metres: how far the pixels may lie from it that it stands for
+shared uvec2 PreviousTile; // x = NoTile: none
+shared FGuideLight Remembered[TILE_GUIDE_LIGHTS]; // of PreviousTile
+shared uint RememberedTraced, RememberedSeen;
+shared uint GuideKeys[TILE_GUIDE_LIGHTS];
+
+const uint NoTile = 0xffffffffu, NoGuideLight = 0xffffffffu;
+
+uint EntryLight(uint Entry) { return Entry & ((1u << LIGHT_INDEX_BITS) - 1u); }
+float EntryVisibility(uint Entry) { return float(Entry >> LIGHT_INDEX_BITS) / 255.0; }
+
+// Chooses a pixel of each eighth of the tile, another one in each frame.
+void ChooseSamplers(FViewConstants View, FLocalPoint Point, bool bSurface, uint Place)
+{
+	if (Place < TileSamplers) { SamplerKeys[Place] = 0u; }
+	barrier();
+	const uint Pixels = TILE_PIXELS / TileSamplers;
+	uint Mine = Place / Pixels, Turn = Pixels | ((Place ^ (View.FrameIndex * 3u)) % Pixels);
+	if (bSurface) { atomicMax(SamplerKeys[Mine], (Turn << 8u) | Place); }
+	if ((Place & 1u) == (View.FrameIndex & 1u))
+	{
+		float Size = bSurface ? PixelHeight(View, length(Point.Surface.Relative)) : 0.0;
+		TilePoints[Place >> 1u] = bSurface ? vec4(Point.P, Size) : vec4(0.0);
+	}
+	barrier();
+	if (bSurface && (SamplerKeys[Mine] & 255u) == Place)
+	{
+		SamplerP[Mine] = Point.P;
+		SamplerN[Mine] = Point.Surface.BentN;
+		float Distance = length(Point.Surface.Relative), Cosine = max(abs(dot(Point.Surface.Ng, Point.Surface.V)), 0.1);
+		SamplerReach[Mine] = 2.5 * PixelHeight(View, Distance) / Cosine;
+	}
+	barrier();
+}
+
+// Finds the tile of the previous frame that showed this one's surface, as if nothing but the camera had moved. One thread.
+void FindPreviousTile(FViewConstants View, uvec2 Tile)
+{
+	PreviousTile = uvec2(NoTile);
+	uint First = 0u;
+	while (First < TileSamplers && SamplerKeys[First] == 0u) { ++First; }
+	if (Push.PreviousGuide == FAddress(0) || First == TileSamplers) { return; }
+	vec3 Relative = SamplerP[First] - View.CameraPosition;
+	vec3 Motion = ComputeMotion(View, Relative, Relative + View.CameraMotion);
+	vec2 Previous = vec2(TilePixel(Tile, SamplerKeys[First] & 255u)) + 0.5 + Motion.xy;
+	if (Motion.z > 0.0 && all(greaterThanEqual(Previous, vec2(0.0))) && all(lessThan(Previous, vec2(View.Width, View.Height))))
+	{
+		PreviousTile = uvec2(Previous) / TILE_SIZE;
+	}
+}
+
+void LoadRemembered(FViewConstants View, uint Place)
+{
+	if (Place == 0u) { RememberedTraced = RememberedSeen = 0u; }
+	barrier();
+	if (Place < TILE_GUIDE_LIGHTS)
+	{
+		Remembered[Place] = FGuideLight(NoGuideLight, 0u);
+		GuideKeys[Place] = 0u;
+		if (PreviousTile.x != NoTile)
+		{
+			FGuideLight Light = FTileGuideRef(Push.PreviousGuide).Data[TileIndex(View, PreviousTile)].Lights[Place];
+			Remembered[Place] = Light;
+			atomicAdd(RememberedTraced, GuideTraced(Light.Counts));
+			atomicAdd(RememberedSeen, GuideSeen(Light.Counts));
+		}
+	}
+	barrier();
+}
+
+// Returns what the guides of the tile and of those around it know: rays traced, and rays that got through.
+vec2 RecallRays(FViewConstants View, uint Light)
+{
+	vec2 Rays = vec2(0.0);
+	if (PreviousTile.x == NoTile) { return Rays; }
+	ivec2 Last = ivec2((uvec2(View.Width, View.Height) - 1u) / TILE_SIZE);
+	[[dont_unroll]] for (int I = 0; I < 9; ++I)
+	{
+		ivec2 Tile = ivec2(PreviousTile) + ivec2(I % 3, I / 3) - 1;
+		if (any(lessThan(Tile, ivec2(0))) || any(greaterThan(Tile, Last))) { continue; }
+		uint Index = TileIndex(View, uvec2(Tile));
+		FGuideLight Found = FTileGuideRef(Push.PreviousGuide).Data[Index].Lights[GuidePlace(Light, GuideTileHash(Index))];
+		if (Found.Light == Light) { Rays += vec2(GuideTraced(Found.Counts), GuideSeen(Found.Counts)) * (I == 4 ? 1.0 : 0.25); }
+	}
+	return Rays / float(TILE_GUIDE_RAY);
+}
+
+float ExpectVisibility(FViewConstants View, uint Light)
+{
+	const float Doubts = 2.0; // rays that what is unknown counts as
+	vec2 All = (vec2(RememberedTraced, RememberedSeen) / float(TILE_GUIDE_RAY)) + vec2(8.0, 4.0);
+	vec2 Rays = RecallRays(View, Light) + Doubts * vec2(1.0, All.y / All.x);
+	return Rays.y / Rays.x;
+}
+
+// Returns about the most that the light brings to a plane at any pixel, and never 0 if it reaches one.
+float BoundLight(FSceneConstants Scene, FLightData Light, vec3 Low, vec3 High)
+{
+	uint Type = LightType(Light);
+	if (Type == LIGHT_DIRECTIONAL) { return Luminance(Light.Color); }
+	vec3 Center = LightPosition(Scene, Light), Outside = max(max(Low - Center, Center - High), vec3(0.0)), Edges = High - Low;
+	float DistanceSquared = dot(Outside, Outside), Diagonal = dot(Edges, Edges);
+	if (DistanceSquared < 0.25 * Diagonal) // the box may be deep, with a light before what lies behind
+	{
+		float Nearest = Diagonal + DistanceSquared;
+		[[dont_unroll]] for (uint I = 0u; I < TILE_PIXELS / 2u; ++I)
+		{
+			vec3 To = Center - TilePoints[I].xyz;
+			float Size = TilePoints[I].w, Distance = dot(To, To);
+			Nearest = Size > 0.0 ? min(Nearest, max(Distance, Size * Size)) : Nearest;
+		}
+		DistanceSquared = max(DistanceSquared, Nearest);
+	}
+	float Form = 1.0 / max(DistanceSquared, 1.0e-8);
+#ifdef HAS_AREA_LIGHTS
+	if (Type >= LIGHT_RECTANGLE)
+	{
+		float Reach = LightReach(Type, Light.Size);
+		Form = min(Pi * Reach * Reach * Form, Pi);
+	}
+#endif
+	return Luminance(Light.Color) * Form;
+}
+
+// A byte for a positive number of any size: some bits of its exponent, and two of what follows. 0 stays 0.
+const uint EstimateShift = 21u, LeastEstimate = (127u - 40u) << 2u;
+uint PackEstimate(float Estimate)
+{
+	return Estimate > 0.0 ? uint(clamp(int(floatBitsToUint(Estimate) >> EstimateShift) - int(LeastEstimate), 1, 255)) : 0u;
+}
+float UnpackEstimate(uint Packed) { return Packed > 0u ? uintBitsToFloat((Packed + LeastEstimate) << EstimateShift) : 0.0; }
+float UnpackEstimate(uvec2 Packed, uint I) { return UnpackEstimate((Packed[I >> 2u] >> (8u * (I & 3u))) & 255u); }
+
+// Returns about what the pixels that a sampler stands for receive of a light.
+float EstimateAround(FSceneConstants Scene, FLightData Light, uint I)
+{
+	if (SamplerKeys[I] == 0u) { return 0.0; }
+	float Estimate = EstimateLight(Scene, Light, SamplerP[I], SamplerN[I]);
+	if (Estimate <= 0.0 || LightType(Light) == LIGHT_DIRECTIONAL) { return Estimate; }
+	vec3 To = LightPosition(Scene, Light) - SamplerP[I];
+	float Distance = max(length(To), 1.0e-4), Closest = max(Distance - SamplerReach[I], 0.3 * SamplerReach[I]);
+	float Cosine = clamp((dot(To, SamplerN[I]) + SamplerReach[I]) / Distance, 0.1, 1.0), Nearer = max(Distance / Closest, 1.0);
+	return Estimate * (Cosine * Nearer * Nearer);
+}
+
+// Whether the table has the light for certain, however many there are.
+bool IsRemembered(FViewConstants View, uint Light)
+{
+	return PreviousTile.x != NoTile && Remembered[GuidePlace(Light, GuideTileHash(TileIndex(View, PreviousTile)))].Light == Light;
+}
+
+// Returns the share of lights that the table holds, of those that nobody remembers.
+float TableShare() { return CandidateCount <= TILE_TABLE_MOST ? 1.0 : 0.84 * float(TILE_TABLE_MOST) / float(CandidateCount); }
+
+bool IsListed(FSceneConstants Scene, FViewConstants View, uint Light, uint Seed, vec3 Low, vec3 High)
+{
+	float Share = TableShare();
+	if (Share < 1.0 && float(HashPcg(Light ^ Seed) >> 8u) * (1.0 / 16777216.0) >= Share && !IsRemembered(View, Light)) { return false; }
+	return MayReach(Scene, FLightRef(Scene.Lights).Data[Light], Low, High);
+}
+
+// Lists the table's lights where the scene has more than it can hold. Their order does not depend on that of threads.
+void ListTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low, vec3 High)
+{
+	uint Seed = HashPcg(View.FrameIndex + HashPcg(TileIndex(View, gl_WorkGroupID.xy) + HashPcg(View.Seed)));
+	uint Mine = 0u, Before = 0u, Total = 0u;
+	for (uint I = Place; I < Scene.LightCount; I += TILE_PIXELS) { Mine += IsListed(Scene, View, I, Seed, Low, High) ? 1u : 0u; }
+	RunCounts[Place] = Mine;
+	barrier();
+	[[dont_unroll]] for (uint I = 0u; I < TILE_PIXELS; ++I)
+	{
+		Before += I < Place ? RunCounts[I] : 0u;
+		Total += RunCounts[I];
+	}
+	for (uint I = Place; I < Scene.LightCount && Before < TILE_TABLE_MOST; I += TILE_PIXELS)
+	{
+		if (IsListed(Scene, View, I, Seed, Low, High)) { TableEntries[Before++] = I; }
+	}
+	if (Place == 0u) { TableCount = min(Total, TILE_TABLE_MOST); }
+	barrier();
+}
+
+// The entries of the table that a thread works on.
+struct FRun
+{
+	uint Begin, End;
+};
+
+// Estimates what lights bring, and adds it up. Cumulative[] gets their bounds.
+void EstimateLights(FSceneConstants Scene, FViewConstants View, FRun Run, bool bAll, uint Place, vec3 Low, vec3 High)
+{
+	[[dont_unroll]] for (uint S = 0u; S <= TileSamplers; ++S) { Totals[S][Place] = 0.0; }
+	[[dont_unroll]] for (uint I = Run.Begin; I < Run.End; ++I)
+	{
+		uint Light = bAll ? I : TableEntries[I];
+		FLightData Data = FLightRef(Scene.Lights).Data[Light];
+		bool bReaches = MayReach(Scene, Data, Low, High);
+		float Visibility = 1.0, Bound = bReaches ? min(BoundLight(Scene, Data, Low, High), 1.0e30) : 0.0;
+		if (bReaches && (Data.Flags & LIGHT_CASTS_SHADOW) != 0u) { Visibility = max(ExpectVisibility(View, Light), LeastVisibility); }
+		uvec2 Packed = uvec2(0u);
+		[[dont_unroll]] for (uint S = 0u; S < TileSamplers && bReaches; ++S)
+		{
+			uint Byte = PackEstimate(EstimateAround(Scene, Data, S));
+			Packed[S >> 2u] |= Byte << (8u * (S & 3u));
+			Totals[S][Place] += UnpackEstimate(Byte) * Visibility;
+		}
+		Totals[TileSamplers][Place] += Bound * Visibility;
+		Estimates[I] = Packed;
+		Cumulative[I] = Bound;
+		TableEntries[I] = Light | (uint(Visibility * 255.0 + 0.5) << LIGHT_INDEX_BITS);
+	}
+	barrier();
+	if (Place <= TileSamplers)
+	{
+		float Sum = 0.0;
+		[[dont_unroll]] for (uint I = 0u; I < TILE_PIXELS; ++I) { Sum += Totals[Place][I]; }
+		Totals[Place][0] = Sum;
+	}
+	barrier();
+}
+
+// Weighs lights: each sampler has the same say, however dark it is there, and so have bounds a part of it. Proposes lights for the
+// tile's guide.
+float WeighLights(FSceneConstants Scene, FRun Run, uint TileHash)
+{
+	float Sum = 0.0, BoundScale = BoundShare / max(Totals[TileSamplers][0], 1.0e-30);
+	[[dont_unroll]] for (uint I = Run.Begin; I < Run.End; ++I)
+	{
+		float Bound = Cumulative[I] * BoundScale, Weight = Bound;
+		uvec2 Packed = Estimates[I];
+#ifdef ONE_SAMPLER // r.RT.Debug.Lights.CellTarget
+		Weight = UnpackEstimate(Packed, 0u);
+#else
+		[[dont_unroll]] for (uint S = 0u; S < TileSamplers; ++S)
+		{
+			Weight += Totals[S][0] > 0.0 ? UnpackEstimate(Packed, S) / Totals[S][0] : 0.0;
+		}
+#endif
+		uint Entry = TableEntries[I], Light = EntryLight(Entry);
+		float Visibility = EntryVisibility(Entry);
+		if (Weight > 0.0 && (FLightRef(Scene.Lights).Data[Light].Flags & LIGHT_CASTS_SHADOW) != 0u)
+		{
+			atomicMax(GuideKeys[GuidePlace(Light, TileHash)], (floatBitsToUint(Weight * max(Visibility, 0.25)) & ~(TILE_TABLE_MOST - 1u)) | I);
+		}
+		Sum += Weight * Visibility;
+		Cumulative[I] = Sum;
+	}
+	return Sum;
+}
+
+// Fills the table, and proposes lights for the tile's guide.
+void MakeTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low, vec3 High)
+{
+	bool bAll = Scene.LightCount <= TILE_TABLE_MOST;
+	if (!bAll) { ListTable(Scene, View, Place, Low, High); }
+	else if (Place == 0u) { TableCount = Scene.LightCount; }
+	barrier();
+	uint Length = (TableCount + TILE_PIXELS - 1u) / TILE_PIXELS, Begin = min(Place * Length, TableCount);
+	FRun Run = FRun(Begin, min(Begin + Length, TableCount));
+	EstimateLights(Scene, View, Run, bAll, Place, Low, High);
+	RunSums[Place] = WeighLights(Scene, Run, GuideTileHash(TileIndex(View, gl_WorkGroupID.xy)));
+	barrier();
+	float Before = 0.0;
+	for (uint I = 0u; I < Place; ++I) { Before += RunSums[I]; }
+	[[dont_unroll]] for (uint I = Run.Begin; I < Run.End; ++I) { Cumulative[I] += Before; }
+	barrier();
+}
+
+// Writes the tile's guide without this frame's rays, which the shading adds. bMade: there is a table.
+void WriteGuide(FViewConstants View, uint Place, bool bMade)
+{
+	if (Place >= TILE_GUIDE_LIGHTS) { return; }
+	FGuideLight Out = FGuideLight(NoGuideLight, 0u);
+	if (bMade && GuideKeys[Place] != 0u)
+	{
+		Out.Light = EntryLight(TableEntries[GuideKeys[Place] & (TILE_TABLE_MOST - 1u)]);
+		vec2 Rays = vec2(0.0);
+		if (IsRemembered(View, Out.Light))
+		{
+			uint Counts = Remembered[GuidePlace(Out.Light, GuideTileHash(TileIndex(View, PreviousTile)))].Counts;
+			Rays = vec2(GuideTraced(Counts), GuideSeen(Counts)) * Push.GuideKept;
+		}
+		else
+		{
+			Rays = RecallRays(View, Out.Light); // of others: less certain
+			Rays *= float(TILE_GUIDE_RAY) * min(1.0, 4.0 / max(Rays.x, 1.0e-3));
+		}
+		Out.Counts = PackGuideCounts(Rays.x, Rays.y);
+	}
+	FTileGuideRef(Push.Guide).Data[TileIndex(View, gl_WorkGroupID.xy)].Lights[Place] = Out;
+}
+
+// Returns the first entry whose cumulative weight exceeds X.
+uint FindEntry(float X)
+{
+	uint First = 0u, Last = TableCount - 1u;
+	while (First < Last)
+	{
+		uint Middle = (First + Last) >> 1u;
+		if (Cumulative[Middle] > X) { Last = Middle; }
+		else { First = Middle + 1u; }
+	}
+	return First;
+}
+
+// Returns the lobes with the luminance of Chosen · Weight in each, and with the colour of Mean.
+FLobes WeighLobes(FLobes Mean, FLobes Chosen, float Weight)
+{
+	Mean.Diffuse *= Weight * Luminance(Chosen.Diffuse) / max(Luminance(Mean.Diffuse), 1.0e-30);
+	Mean.Specular *= Weight * Luminance(Chosen.Specular) / max(Luminance(Mean.Specular), 1.0e-30);
+	return Mean;
+}
+
+// Chooses a light of the table by what it is expected to bring. Returns whether it asks for a ray.
+// Lit: what the pixel reflects if the light is visible. It has the luminance of the chosen light, without bias, and the mean colour of
+// all candidates, which are many and have less noise.
+// Resampled importance sampling (Talbot et al. 2005) of stratified candidates.
+bool ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLocalBrdf Local, uvec2 Pixel, out FLightChoice Choice,
+                   out FLobes Lit)
+{
+	float All = Cumulative[TableCount - 1u], Target = 0.0, Total = 0.0, Share = TableShare();
+	vec2 U = LocalNumbers(View, Pixel, 0xffffffffu);
+	FLobes Mean = FLobes(vec3(0.0), vec3(0.0)), Chosen = Mean;
+	Choice = FLightChoice(0u, 0.0);
+	[[dont_unroll]] for (uint I = 0u; I < Push.Candidates && All > 0.0; ++I)
+	{
+		uint Number = FindEntry((float(I) + U.x) / float(Push.Candidates) * All), Entry = TableEntries[Number], Light = EntryLight(Entry);
+		float Weight = Cumulative[Number] - (Number > 0u ? Cumulative[Number - 1u] : 0.0);
+		if (Weight <= 0.0) { continue; }
+		FLightSample Sample = SampleLocalLight(Scene, View, Point, Pixel, Light);
+		if (!ReachesLight(View, Point, Sample)) { continue; }
+		FLobes Lobes = ReflectLight(Point, Local, Sample);
+		// Times the inverse of the density with which the light came here, over all candidates.
+		float Visibility = EntryVisibility(Entry), Stands = Visibility * All / (Weight * float(Push.Candidates));
+		if (Share < 1.0 && !IsRemembered(View, Light)) { Stands /= Share; }
+		Mean.Diffuse += Lobes.Diffuse * Stands;
+		Mean.Specular += Lobes.Specular * Stands;
+		float Brightness = Luminance(Lobes.Diffuse + Lobes.Specular), Mine = Brightness * Stands;
+		if (Mine <= 0.0) { continue; }
+		Total += Mine;
+		float Probability = Mine / Total;
+		bool bTake = U.y < Probability;
+		U.y = min(bTake ? U.y / Probability : (U.y - Probability) / (1.0 - Probability), 0.99999994);
+		if (!bTake) { continue; }
+		Choice.Light = Light;
+		Chosen = Lobes;
+		Target = Brightness * Visibility;
+	}
+	Lit = Mean;
+	if (Target <= 0.0) { return false; }
+	Choice.Weight = Total / Target;
+#ifdef NO_CHOICE_WEIGHT // r.RT.Debug.Lights.Weight
+	Choice.Weight = 1.0;
+#endif
+	Lit = WeighLobes(Mean, Chosen, Choice.Weight);
+	return (FLightRef(Scene.Lights).Data[Choice.Light].Flags & LIGHT_CASTS_SHADOW) != 0u;
+}
+
+#endif
