@@ -41,7 +41,7 @@ FAccumulated Accumulate(FFrameEstimate Frame, FHistory History, ivec2 PreviousSi
 #if CHANNELS == 1
 	if (History.bResampled && Frame.bHasValue) { History.ResamplingVariance += GetEdgeVariance(Frame, History); }
 #else
-	ClampHistory(Frame.Window, History.Past);
+	if (bMayHaveChanged) { ClampHistory(Frame.Window, History.Past); }
 #endif
 	return Frame.bHasValue ? Blend(Frame, History, Noise) : FillIn(Frame, History.Past, Noise);
 }

@@ -140,20 +140,20 @@ private:
 
 void Print(const std::vector<FLampCase>& Cases, nlohmann::json& Json)
 {
-	fmt::print("{:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>12} {:>12} {:>12} {:>12}\n", "lamps", "frame", "ratio", "shadowed", "ratio", "lighting", "visiting all", "cells",
-	    "100 moved", "first");
+	fmt::print("{:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>12} {:>12} {:>12} {:>12}\n", "lamps", "frame", "ratio", "shadowed", "ratio",
+	    "lighting", "visiting all", "cells", "100 moved", "first");
 	Json["lamps"] = nlohmann::json::array();
 	for (const FLampCase& Case : Cases)
 	{
 		const double Ratio = Case.Frame.GetMedian() / std::max(Cases.front().Frame.GetMedian(), 1e-9);
 		const double ShadowedRatio = Case.Shadowed.GetMedian() / std::max(Cases.front().Shadowed.GetMedian(), 1e-9);
 		fmt::print("{:>7} {:>9.2f} {:>8.2f}x {:>9.2f} {:>8.2f}x {:>9.2f} {:>12.2f} {:>12.3f} {:>12.3f} {:>12.2f}\n", Case.Lamps,
-		    Case.Frame.GetMedian(), Ratio, Case.Shadowed.GetMedian(), ShadowedRatio, Case.Lighting.GetMedian(), Case.WalkLighting.GetMedian(), Case.Cells.GetMedian(), Case.Moved.GetMedian(),
-		    Case.First.GetMedian());
+		    Case.Frame.GetMedian(), Ratio, Case.Shadowed.GetMedian(), ShadowedRatio, Case.Lighting.GetMedian(),
+		    Case.WalkLighting.GetMedian(), Case.Cells.GetMedian(), Case.Moved.GetMedian(), Case.First.GetMedian());
 		Json["lamps"].push_back({{"lamps", Case.Lamps}, {"frame_ms", Case.Frame.ToJson()}, {"ratio", Ratio},
-		    {"shadowed_ms", Case.Shadowed.ToJson()}, {"shadowed_ratio", ShadowedRatio},
-		    {"lighting_ms", Case.Lighting.ToJson()}, {"lighting_visiting_all_ms", Case.WalkLighting.ToJson()},
-		    {"cells_ms", Case.Cells.ToJson()}, {"cells_100_moved_ms", Case.Moved.ToJson()}, {"cells_first_ms", Case.First.ToJson()}});
+		    {"shadowed_ms", Case.Shadowed.ToJson()}, {"shadowed_ratio", ShadowedRatio}, {"lighting_ms", Case.Lighting.ToJson()},
+		    {"lighting_visiting_all_ms", Case.WalkLighting.ToJson()}, {"cells_ms", Case.Cells.ToJson()},
+		    {"cells_100_moved_ms", Case.Moved.ToJson()}, {"cells_first_ms", Case.First.ToJson()}});
 	}
 }
 } // namespace

@@ -208,7 +208,11 @@ FRTStatus FRayBench::Measure(bool bPipeline, FRayCase& Out)
 	// What the raw dispatch is written for, whatever the settings say.
 	for (const char* Name : {"r.RT.Enable", "r.RT.Shadow", "r.RT.Shadow.Soft", "r.RT.Shadow.Samples"}) { Set(Name, "1"); }
 	// Rays to lamps would share the queue, and its time.
-	for (const char* Name : {"r.RT.Lights", "r.RT.Shadow.Adaptive", "r.RT.Shadow.RateDistance", "r.RT.Shadow.CasterFaces", "r.RT.Shadow.Denoise"}) { Set(Name, "0"); }
+	for (const char* Name :
+	    {"r.RT.Lights", "r.RT.Shadow.Adaptive", "r.RT.Shadow.RateDistance", "r.RT.Shadow.CasterFaces", "r.RT.Shadow.Denoise"})
+	{
+		Set(Name, "0");
+	}
 	Set("r.RT.Shadow.Path", bPipeline ? "1" : "2");
 	FPluginMs Ms;
 	// The scene's hit records are those of this path only once a frame has taken it.

@@ -18,6 +18,9 @@ TRTConsoleVariable<bool> CVarLights(
 TRTConsoleVariable<int32_t> CVarExact("r.RT.Lights.Exact", 4,
     "Most lights of a tile of 8 x 8 pixels that all get a ray from each pixel. Each pixel of a tile with more chooses one light.",
     {1, TILE_LIGHTS});
+TRTConsoleVariable<bool> CVarKnownChanges("r.RT.Lights.KnownChanges", true,
+    "The filter of diffuse light looks for changes for 0.13 s after a lamp has changed or a caster has moved, and on surfaces that move. "
+    "If off, it always looks for them in the picture, and takes some noise for change.");
 const FDenoiseVariables Denoise("r.RT.Lights", FDenoiseDefaults{.bColor = true});
 
 uint32_t GetExact() { return static_cast<uint32_t>(CVarExact.GetOnRenderThread()); }
@@ -97,6 +100,9 @@ FGraphTexture AddLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESignal S
 	FDenoiseInputs Inputs;
 	Inputs.Name = GetSignalInfo(Signal).Pass;
 	Inputs.Signal = Lobe;
+	// A highlight moves with the camera, and diffuse light does not.
+	const bool bStays = Signal == ESignal::LocalDiffuse && CVarKnownChanges.GetOnRenderThread();
+	Inputs.Changes.bKnown = bStays && !Context.MovedCasters->HasLampLightChanged(Context.Scene, Context.View.DeltaSeconds);
 	return AddDenoise(Context, GBuffer, Inputs, Denoise);
 }
 } // namespace

@@ -59,10 +59,7 @@ constexpr uint32_t MaxCapacity = 1u << 28;
 void TraceQueue(FPassContext& Pass, const FFrameContext& Frame, const FRayDispatch& Dispatch, const FRayQueue& Queue,
     const FShadowQueueConstants& Constants, bool bIndirect)
 {
-	if (!bIndirect)
-	{
-		return TraceFrameRays(Pass, Frame, Dispatch.RayGen, Constants, Queue.Capacity, std::max(Constants.MoreSamples, 1u));
-	}
+	if (!bIndirect) { return TraceFrameRays(Pass, Frame, Dispatch.RayGen, Constants, Queue.Capacity, std::max(Constants.MoreSamples, 1u)); }
 	IRTCommandList& Commands = Pass.Commands();
 	IRTBuffer* const Arguments = Pass.GetBuffer(Queue.Counters);
 	Commands.SetPipeline(Dispatch.Compute ? Dispatch.Compute : Frame.RayPipeline->GetPipeline());
@@ -156,7 +153,8 @@ void AddShadowRaysPass(
 	}
 	if (FRayQueueCounter::IsWanted())
 	{
-		const FRayQueueCounter::FQueue Asked{Queue.Name + "Rays", Queue.Counters, Queue.Capacity, Rays.MoreSamples > 0 ? Rays.MoreSamples : Rays.Sun.SamplesPerPixel};
+		const FRayQueueCounter::FQueue Asked{
+		    Queue.Name + "Rays", Queue.Counters, Queue.Capacity, Rays.MoreSamples > 0 ? Rays.MoreSamples : Rays.Sun.SamplesPerPixel};
 		Count = Context.RayCounter->AddRead(Context.Graph, (Queue.Name + "Count").c_str(), Asked);
 	}
 	Context.Graph.AddPass((Queue.Name + "Rays").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {

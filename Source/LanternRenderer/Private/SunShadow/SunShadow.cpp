@@ -156,7 +156,8 @@ FGraphTexture AddVisibility(FFrameContext& Context, const FGBuffer& GBuffer, FGr
 	if (MayLackSunRays(Context, Inputs.Queue) && !FindKept(Context, Inputs.Kept)) { return {}; }
 	if (Inputs.Queue.SunWidths.IsValid())
 	{
-		OutPenumbra = Context.Graph.CreateTexture({Context.Width, Context.Height, GetMoreRays() > 0 ? ERTFormat::RG16_FLOAT : ERTFormat::R16_FLOAT}, "SunShadowPenumbra");
+		OutPenumbra = Context.Graph.CreateTexture(
+		    {Context.Width, Context.Height, GetMoreRays() > 0 ? ERTFormat::RG16_FLOAT : ERTFormat::R16_FLOAT}, "SunShadowPenumbra");
 		Inputs.Penumbra = OutPenumbra;
 	}
 	AddTileView(Context, Inputs.Tiles);

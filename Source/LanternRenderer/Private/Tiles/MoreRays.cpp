@@ -12,8 +12,8 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<int32_t> CVarMoreRays("r.RT.Shadow.MoreRays", 8,
-    "Further sun rays of a pixel at the border of a shadow, where the filter has no history to rely on: what has just come into view, "
-    "and narrow penumbrae while the picture moves. Needs r.RT.Shadow.Denoise and soft shadows. 0: none.",
+    "Further sun rays of a pixel at the border of a shadow, where the filter has no history to rely on. This is what has just come into "
+    "view, narrow penumbrae while the picture moves, and shadows of what moves. Needs r.RT.Shadow.Denoise and soft shadows. 0: none.",
     {0, 32});
 
 FShaderSource MakeSource() { return MakeComputeSource("Tiles/MoreRays.comp", MakeValidationDefines()); }

@@ -14,8 +14,8 @@ namespace
 TRTConsoleVariable<bool> CVarCapsules(
     "r.RT.Debug.Shadow.Capsules", true, "Planted fault. Off: r.RT.Shadow.Adaptive and the filter are not told which casters moved.");
 TRTConsoleVariable<bool> CVarKnownChanges("r.RT.Shadow.KnownChanges", true,
-    "The filter looks for changes of the sun's shadows only where casters or surfaces moved, as the scene knows. If off, it looks for them "
-    "in the picture everywhere, and takes some noise for change.");
+    "The filter looks for changes of the sun's shadows only where casters or surfaces moved, as the scene knows. If off, it looks for "
+    "them everywhere in the picture, and takes some noise for change.");
 static_assert(SETTLED_MOST_CASTERS >= FCasterChanges::MostKept);
 
 /// Share of the sun's diameter by which it may move in a frame without a new start. The disk's visible share changes by at most
@@ -59,9 +59,19 @@ FMovedCasters::FRecent FMovedCasters::FindRecent(const FRTScene& Scene, const FS
 	return Found;
 }
 
+bool FMovedCasters::HasLampLightChanged(const FRTScene& Scene, float DeltaSeconds)
+{
+	if (!Next.bValid) { Note(Scene, {}, DeltaSeconds); } // nobody asks for the sun
+	if (Recent.empty()) { return false; }
+	bool bChanged = Next.bLights || Next.Changes != Recent.front().Changes;
+	for (const FState& State : Recent) { bChanged |= State.bLights; }
+	return bChanged;
+}
+
 void FMovedCasters::Note(const FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds)
 {
-	Next = {MakeSunState(Scene, Rays), Scene.GetCasterChanges().GetCount(), true, DeltaSeconds, 0.0};
+	const bool bLights = Scene.GetLights().GetTable().GetCopiedBytes() > 0;
+	Next = {MakeSunState(Scene, Rays), Scene.GetCasterChanges().GetCount(), true, DeltaSeconds, bLights, 0.0};
 }
 
 std::vector<FMovedCaster> FMovedCasters::Convert(const FRTScene& Scene, const std::vector<FCasterChange>& Changes)

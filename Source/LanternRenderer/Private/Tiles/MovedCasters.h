@@ -36,6 +36,8 @@ public:
 	};
 	/// Finds what may have changed in the last RecentSeconds. As Find.
 	FRecent FindRecent(const FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds);
+	/// Returns whether the light of lamps may have changed anywhere in the last RecentSeconds: a lamp has, or a caster moved. As Find.
+	bool HasLampLightChanged(const FRTScene& Scene, float DeltaSeconds);
 	/// bSubmitted: false if the frame never runs; the next frame then finds its changes again.
 	void EndFrame(bool bSubmitted);
 
@@ -52,7 +54,8 @@ private:
 		uint64_t Changes = 0; ///< FCasterChanges::GetCount
 		bool bValid = false;
 		float DeltaSeconds = 0.0f;
-		double Time = 0.0; ///< of the view's submitted frames, seconds
+		bool bLights = false; ///< some changed before this frame
+		double Time = 0.0;    ///< of the view's submitted frames, seconds
 	};
 	static FSunState MakeSunState(const FRTScene& Scene, const FSunRays& Rays);
 	static bool HoldsFor(const FSunState& Before, const FSunState& Now);
