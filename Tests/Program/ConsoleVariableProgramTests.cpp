@@ -132,7 +132,7 @@ TEST(ConsoleVariableProgramTest, CommandLineOutranksQualityAndFiles)
 	};
 	EXPECT_EQ(CountRays({}), 1u);
 	EXPECT_EQ(CountRays({"--config", Ini}), 8u);
-	EXPECT_EQ(CountRays({"--config", Ini, "--quality", "epic"}), 4u);
+	EXPECT_EQ(CountRays({"--config", Ini, "--quality", "epic"}), 2u);
 	EXPECT_EQ(CountRays({"--config", Ini, "--quality", "cinematic", "--set", "r.RayTracing.Shadows.SamplesPerPixel=3"}), 3u)
 	    << "by its name in UE";
 }

@@ -117,6 +117,7 @@ TEST_F(FRayQueueTest, WithoutIndirectTracesTheWholeRoomIsLaunched)
 	Desc.bIndirectTrace = false;
 	Open(Desc);
 	Set("r.RT.Shadow.Path", "1");
+	Set("r.RT.Shadow.MoreRays", "0");
 	LoadAndRender({});
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::TraceRaysIndirect), 0u);
 	const std::vector<FRTMockCall> Traces = Mock().FindCalls(ERTMockCall::TraceRays);
@@ -126,6 +127,21 @@ TEST_F(FRayQueueTest, WithoutIndirectTracesTheWholeRoomIsLaunched)
 	Set("r.RT.Shadow.Path", "2");
 	Render();
 	EXPECT_EQ(Mock().CountCalls(ERTMockCall::DispatchIndirect), 1u) << "every device has this";
+}
+
+/// A first frame has no history, a second one of the same view needs no further rays.
+TEST_F(FRayQueueTest, FurtherRaysAreAskedForWherePicturesMove)
+{
+	Set("r.RT.Shadow.MoreRays", "8");
+	LoadAndRender({});
+	EXPECT_TRUE(HasPass("ShadowMoreRays"));
+	Render();
+	EXPECT_FALSE(HasPass("ShadowMoreRays"));
+	ASSERT_TRUE(Engine->RenderFrame(LookAt({0.1, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, {}, nullptr));
+	EXPECT_TRUE(HasPass("ShadowMoreAsk"));
+	Set("r.RT.Shadow.MoreRays", "0");
+	ASSERT_TRUE(Engine->RenderFrame(LookAt({0.2, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, {}, nullptr));
+	EXPECT_FALSE(HasPass("ShadowMoreAsk"));
 }
 
 TEST_F(FRayQueueTest, PicturesOfMorePixelsThanRequestsCanNameGoWithout)

@@ -47,16 +47,17 @@ TEST_F(FRendererContentTest, EverythingAtOnce)
 {
 	LoadAndRender({.bMasked = true, .bSkinned = true, .bLights = true, .bTexture = true, .bEmissive = true, .bSky = true});
 	EXPECT_THAT(GetPasses(),
-	    ElementsAre("Skinning", "SceneUpdate", "GBuffer", "Structures", "ShadowTiles", "ShadowLights", "ShadowRays", "SunShadow", "Surface",
-	        "SunShadowTemporal", "SunShadowFilter0", "SunShadowFilter1", "SunShadowFilter2", "SunShadowFilter3", "ShadowLightsShade",
-	        "LocalDiffuseTemporal", "LocalDiffuseFilter0", "LocalDiffuseFilter1", "LocalDiffuseFilter2", "LocalDiffuseFilter3",
-	        "LocalSpecularTemporal", "LocalSpecularFilter0", "LocalSpecularFilter1", "LocalSpecularFilter2", "LocalSpecularFilter3",
-	        "AmbientOcclusion", "AmbientOcclusionTemporal", "AmbientOcclusionFilter0", "AmbientOcclusionFilter1", "AmbientOcclusionFilter2",
-	        "AmbientOcclusionFilter3", "DirectLighting", "ToneMap"));
+	    ElementsAre("Skinning", "SceneUpdate", "GBuffer", "Structures", "ShadowTiles", "ShadowLights", "ShadowRays", "Surface",
+	        "ShadowMoreAsk", "ShadowMoreRays", "SunShadow", "SunShadowTemporal", "SunShadowFilter0", "SunShadowFilter1",
+	        "ShadowLightsShade", "LocalDiffuseTemporal", "LocalDiffuseFilter0", "LocalDiffuseFilter1", "LocalDiffuseFilter2",
+	        "LocalDiffuseFilter3", "LocalSpecularTemporal", "LocalSpecularFilter0", "LocalSpecularFilter1", "LocalSpecularFilter2",
+	        "LocalSpecularFilter3", "AmbientOcclusion", "AmbientOcclusionTemporal", "AmbientOcclusionFilter0", "AmbientOcclusionFilter1",
+	        "AmbientOcclusionFilter2", "AmbientOcclusionFilter3", "DirectLighting", "ToneMap"));
 	std::vector<std::string> Dispatched = GetDispatched();
 	std::erase_if(Dispatched, [](const std::string& Name) { return Name.rfind("Denoise/", 0) == 0; });
 	EXPECT_THAT(Dispatched,
 	    ElementsAre("Skinning/Skin.comp", "Skinning/RefitQuality.comp", "Tiles/Tiles.comp", "LocalLights/Requests.comp HAS_LIGHTS",
+	        AllOf(StartsWith("Rays/ShadowQueue.comp"), HasSubstr("HAS_MASKED")), "Tiles/MoreRays.comp",
 	        AllOf(StartsWith("Rays/ShadowQueue.comp"), HasSubstr("HAS_MASKED")), "SunShadow/SunShadow.comp",
 	        "LocalLights/Shade.comp HAS_LIGHTS", AllOf(StartsWith("AmbientOcclusion/AmbientOcclusion.comp"), HasSubstr("HAS_MASKED")),
 	        "Lighting/DirectLighting.comp HAS_SUN HAS_SKY HAS_LIGHTS", "ToneMap/ToneMap.comp"));
@@ -338,6 +339,7 @@ TEST_F(FRendererContentTest, LadderChoosesThePathAndTheLastRungGoesWithout)
 		for (const char* Path : {"0", "1", "2"})
 		{
 			Set("r.RT.Shadow.Path", Path);
+			Set("r.RT.Shadow.MoreRays", "0");
 			LoadAndRender({.bMasked = true});
 			EXPECT_EQ(HasPass("SunShadow"), Case.Passes > 0);
 			const bool bWanted = Path[0] == '1' && Case.Rung >= ERTRung::Pipeline;

@@ -77,6 +77,7 @@ TEST_F(FSettledTilesTest, NothingIsMadeForItUnlessWanted)
 TEST_F(FSettledTilesTest, TilesAskTwice)
 {
 	Set("r.RT.Shadow.Adaptive", "1");
+	Set("r.RT.Shadow.MoreRays", "0");
 	for (const char* const Path : {"1", "2"})
 	{
 		Set("r.RT.Shadow.Path", Path);

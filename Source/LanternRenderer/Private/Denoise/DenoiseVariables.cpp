@@ -34,7 +34,7 @@ struct FDenoiseVariables::FVariables
 	      Resampling(Prefix + ".Resampling", Common.Resampling,
 	          "Share of the difference between neighbours that counts as error where accumulated values are resampled between them.",
 	          {0.0, 100.0}),
-	      FilterPasses(Prefix + ".FilterPasses", static_cast<int32_t>(Common.Passes),
+	      FilterPasses(Prefix + ".FilterPasses", static_cast<int32_t>(Defaults.Passes),
 	          "Number of passes of the spatial filter; n of them reach 2^n - 1 pixels.", {0, 5}),
 	      FilterSigma(Prefix + ".FilterSigma", Defaults.SigmaValue,
 	          "Differences below this many standard deviations are noise to the spatial filter.", {0.0, 100.0})

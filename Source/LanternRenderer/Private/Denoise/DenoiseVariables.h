@@ -28,6 +28,7 @@ struct FDenoiseSettings
 struct FDenoiseDefaults
 {
 	float SigmaValue = 4.0f;
+	uint32_t Passes = 4;
 	bool bExtent = false; ///< the signal comes with extents: <Prefix>.FilterReach exists
 	bool bColor = false;  ///< the signal is a colour: <Prefix>.ClampSigma exists
 };

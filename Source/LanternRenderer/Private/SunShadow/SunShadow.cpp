@@ -26,7 +26,7 @@ TRTConsoleVariable<float> CVarSourceScale("r.RT.Shadow.SourceScale", 1.0f,
     "Scales the diameter of the sun's disk for shadows. Narrower penumbrae need fewer rays to look smooth. 0: shadows are hard.", {0, 16});
 TRTConsoleVariable<int32_t> CVarMask(
     "r.RT.Shadow.InstanceMask", MaskSunCasters, "Only objects that share a bit with this mask cast sun shadows.", {0, 255});
-const FDenoiseVariables Denoise("r.RT.Shadow", FDenoiseDefaults{.SigmaValue = 2.0f, .bExtent = true});
+const FDenoiseVariables Denoise("r.RT.Shadow", FDenoiseDefaults{.SigmaValue = 2.0f, .Passes = 2, .bExtent = true});
 
 /// Radians; 0: hard shadows.
 float GetDiameter(const FRTScene& Scene)

@@ -23,17 +23,18 @@ static_assert(SETTLED_MOST_CASTERS >= FCasterChanges::MostKept);
 constexpr double LittleMove = 1.0 / 64.0;
 } // namespace
 
-FMovedCasters::FSunState FMovedCasters::MakeSunState(const FRTScene& Scene, const FSunRays& Rays)
+FMovedCasters::FSunState FMovedCasters::MakeSunState(FRTScene& Scene, const FSunRays& Rays)
 {
-	return {glm::normalize(Scene.GetSun().Direction), Rays};
+	return {Scene.GetSections().GetIdentity(), glm::normalize(Scene.GetSun().Direction), Rays};
 }
 
 bool FMovedCasters::HoldsFor(const FSunState& Before, const FSunState& Now)
 {
-	return glm::length(Now.Direction - Before.Direction) <= LittleMove * double(Now.Rays.Diameter) && Before.Rays == Now.Rays;
+	return Before.Scene == Now.Scene && glm::length(Now.Direction - Before.Direction) <= LittleMove * double(Now.Rays.Diameter) &&
+	       Before.Rays == Now.Rays;
 }
 
-FMovedCasters::FFound FMovedCasters::Find(const FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds)
+FMovedCasters::FFound FMovedCasters::Find(FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds)
 {
 	Note(Scene, Rays, DeltaSeconds);
 	FFound Found;
@@ -46,7 +47,7 @@ FMovedCasters::FFound FMovedCasters::Find(const FRTScene& Scene, const FSunRays&
 	return Found;
 }
 
-FMovedCasters::FRecent FMovedCasters::FindRecent(const FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds)
+FMovedCasters::FRecent FMovedCasters::FindRecent(FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds)
 {
 	Note(Scene, Rays, DeltaSeconds);
 	FRecent Found;
@@ -59,22 +60,20 @@ FMovedCasters::FRecent FMovedCasters::FindRecent(const FRTScene& Scene, const FS
 	return Found;
 }
 
-bool FMovedCasters::HasLampLightChanged(const FRTScene& Scene, float DeltaSeconds)
+bool FMovedCasters::HasLampLightChanged(FRTScene& Scene, float DeltaSeconds)
 {
 	if (!Next.bValid) { Note(Scene, {}, DeltaSeconds); } // nobody asks for the sun
 	if (Recent.empty()) { return false; }
-	bool bChanged = Next.bLights || Next.Changes != Recent.front().Changes;
-	for (const FState& State : Recent) { bChanged |= State.bLights; }
-	return bChanged;
+	const FState& Before = Recent.front();
+	return Before.Sun.Scene != Next.Sun.Scene || Before.Lights != Next.Lights || Before.Changes != Next.Changes;
 }
 
-void FMovedCasters::Note(const FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds)
+void FMovedCasters::Note(FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds)
 {
-	const bool bLights = Scene.GetLights().GetTable().GetCopiedBytes() > 0;
-	Next = {MakeSunState(Scene, Rays), Scene.GetCasterChanges().GetCount(), true, DeltaSeconds, bLights, 0.0};
+	Next = {MakeSunState(Scene, Rays), Scene.GetCasterChanges().GetCount(), true, DeltaSeconds, Scene.GetLights().GetChangeCount(), 0.0};
 }
 
-std::vector<FMovedCaster> FMovedCasters::Convert(const FRTScene& Scene, const std::vector<FCasterChange>& Changes)
+std::vector<FMovedCaster> FMovedCasters::Convert(FRTScene& Scene, const std::vector<FCasterChange>& Changes)
 {
 	std::vector<FMovedCaster> Out;
 	for (const FCasterChange& Change : Changes)

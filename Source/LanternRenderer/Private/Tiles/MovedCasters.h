@@ -25,7 +25,7 @@ public:
 		std::vector<FMovedCaster> Casters;
 	};
 	/// Rays: how the sun's rays are traced in this frame. DeltaSeconds: since the frame before. After the scene's BeginUpdate.
-	FFound Find(const FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds);
+	FFound Find(FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds);
 
 	/// How long FindRecent reports a change, seconds. A filter needs some frames to see that its history is wrong.
 	static constexpr double RecentSeconds = 0.13;
@@ -35,9 +35,9 @@ public:
 		std::vector<FMovedCaster> Casters; ///< empty with bAnywhere
 	};
 	/// Finds what may have changed in the last RecentSeconds. As Find.
-	FRecent FindRecent(const FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds);
+	FRecent FindRecent(FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds);
 	/// Returns whether the light of lamps may have changed anywhere in the last RecentSeconds: a lamp has, or a caster moved. As Find.
-	bool HasLampLightChanged(const FRTScene& Scene, float DeltaSeconds);
+	bool HasLampLightChanged(FRTScene& Scene, float DeltaSeconds);
 	/// bSubmitted: false if the frame never runs; the next frame then finds its changes again.
 	void EndFrame(bool bSubmitted);
 
@@ -45,6 +45,7 @@ private:
 	/// What the shadows of a frame depend on beside the casters.
 	struct FSunState
 	{
+		uint64_t Scene = 0;      ///< its identity
 		glm::dvec3 Direction{0}; ///< unit length
 		FSunRays Rays;
 	};
@@ -54,13 +55,13 @@ private:
 		uint64_t Changes = 0; ///< FCasterChanges::GetCount
 		bool bValid = false;
 		float DeltaSeconds = 0.0f;
-		bool bLights = false; ///< some changed before this frame
-		double Time = 0.0;    ///< of the view's submitted frames, seconds
+		uint64_t Lights = 0; ///< FLightStore::GetChangeCount
+		double Time = 0.0;   ///< of the view's submitted frames, seconds
 	};
-	static FSunState MakeSunState(const FRTScene& Scene, const FSunRays& Rays);
+	static FSunState MakeSunState(FRTScene& Scene, const FSunRays& Rays);
 	static bool HoldsFor(const FSunState& Before, const FSunState& Now);
-	static std::vector<FMovedCaster> Convert(const FRTScene& Scene, const std::vector<FCasterChange>& Changes);
-	void Note(const FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds);
+	static std::vector<FMovedCaster> Convert(FRTScene& Scene, const std::vector<FCasterChange>& Changes);
+	void Note(FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds);
 
 	FState Last, Next;
 	std::deque<FState> Recent; ///< of the last frames, the oldest first; the last one is Last

@@ -38,6 +38,7 @@ FLightId FLightStore::Add(const FSceneLight& Light)
 		return {};
 	}
 	Slots[Slot] = Light;
+	++Changes;
 	Count(Light, 1);
 	Journal.Add(GetReach(Light));
 	Table.Set(Slot, PackLight(Light));
@@ -47,6 +48,7 @@ FLightId FLightStore::Add(const FSceneLight& Light)
 void FLightStore::Set(FLightId Id, const FSceneLight& Light)
 {
 	assert(Slots.IsCurrent(Id.Index, Id.Generation));
+	++Changes;
 	FSceneLight& Old = Slots[Id.Index];
 	const FLightReach Reach = GetReach(Light);
 	if (!ReachAlike(Old, Light))
@@ -64,6 +66,7 @@ void FLightStore::Set(FLightId Id, const FSceneLight& Light)
 void FLightStore::Remove(FLightId Id)
 {
 	assert(Slots.IsCurrent(Id.Index, Id.Generation));
+	++Changes;
 	Count(Slots[Id.Index], ~0u);
 	Journal.Add(GetReach(Slots[Id.Index]));
 	Slots.Free(Id.Index);

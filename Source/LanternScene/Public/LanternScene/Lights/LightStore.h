@@ -31,6 +31,8 @@ public:
 	uint32_t GetFiniteCount() const { return Finite; }
 	/// Lights that fog scatters.
 	uint32_t GetFogCount() const { return InFog; }
+	/// Counts all changes of lights, of whatever kind.
+	uint64_t GetChangeCount() const { return Changes; }
 	/// What lights reached before and reach after each change of it.
 	const FLightJournal& GetJournal() const { return Journal; }
 	TGpuTable<FLightData>& GetTable() { return Table; }
@@ -40,6 +42,7 @@ private:
 	TSlots<FSceneLight> Slots;
 	void Count(const FSceneLight& Light, uint32_t Times);
 	uint32_t Extended = 0, Finite = 0, InFog = 0;
+	uint64_t Changes = 0;
 	FLightJournal Journal;
 	TGpuTable<FLightData> Table{"Lights"};
 };
