@@ -137,10 +137,17 @@ TEST_F(FRayQueueTest, FurtherRaysAreAskedForWherePicturesMove)
 	EXPECT_TRUE(HasPass("ShadowMoreRays"));
 	Render();
 	EXPECT_FALSE(HasPass("ShadowMoreRays"));
-	ASSERT_TRUE(Engine->RenderFrame(LookAt({0.1, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, {}, nullptr));
+	const auto RenderFrom = [&](double X) {
+		FFrameCapture Capture;
+		Capture.Signals.Add(ESignal::SunShadow);
+		FCapturedFrame Frame;
+		Mock().ClearCalls();
+		EXPECT_TRUE(Engine->RenderFrame(LookAt({X, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, Capture, &Frame));
+	};
+	RenderFrom(0.1);
 	EXPECT_TRUE(HasPass("ShadowMoreAsk"));
 	Set("r.RT.Shadow.MoreRays", "0");
-	ASSERT_TRUE(Engine->RenderFrame(LookAt({0.2, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, {}, nullptr));
+	RenderFrom(0.2);
 	EXPECT_FALSE(HasPass("ShadowMoreAsk"));
 }
 

@@ -219,7 +219,7 @@ TEST_F(FRendererContentTest, PassesThatNobodyReadsAreCulled)
 	Mock().ClearCalls();
 	ASSERT_TRUE(Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, Capture, &Captured));
 	EXPECT_THAT(GetPasses(), ElementsAre("GBuffer", "ShadowTiles", "ShadowRays", "SunShadow", "Surface", "SunShadowTemporal",
-	                             "SunShadowFilter0", "SunShadowFilter1", "SunShadowFilter2", "SunShadowFilter3"))
+	                             "SunShadowFilter0", "SunShadowFilter1"))
 	    << "a host that lights by itself";
 }
 
