@@ -26,6 +26,8 @@ protected:
 		Sun.Irradiance = 1.0f;
 		Sun.AngularDiameter = 0.12f;
 		ASSERT_OK(Module->SetConsoleVariable("r.RT.Shadow.Soft", "1"));
+		// Pictures that hardly need motion would hide what is wrong with it.
+		ASSERT_OK(Module->SetConsoleVariable("r.RT.Shadow.MoreRays", "0"));
 		ASSERT_OK(Renderer->SetSun(Sun));
 	}
 	/// One picture after warming up. The scene, or the camera, moves by Step each frame.

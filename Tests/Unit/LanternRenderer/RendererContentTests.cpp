@@ -218,7 +218,7 @@ TEST_F(FRendererContentTest, PassesThatNobodyReadsAreCulled)
 	Capture.Signals.Add(ESignal::SunShadow);
 	Mock().ClearCalls();
 	ASSERT_TRUE(Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, Capture, &Captured));
-	EXPECT_THAT(GetPasses(), ElementsAre("GBuffer", "ShadowTiles", "ShadowRays", "SunShadow", "Surface", "SunShadowTemporal",
+	EXPECT_THAT(GetPasses(), ElementsAre("GBuffer", "ShadowTiles", "ShadowRays", "Surface", "SunShadow", "SunShadowTemporal",
 	                             "SunShadowFilter0", "SunShadowFilter1"))
 	    << "a host that lights by itself";
 }

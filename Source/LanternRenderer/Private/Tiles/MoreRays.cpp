@@ -21,8 +21,8 @@ FShaderSource MakeSource() { return MakeComputeSource("Tiles/MoreRays.comp", Mak
 bool IsSameView(const FView& A, const FView& B)
 {
 	const FViewWindow WindowA = A.GetWindow(), WindowB = B.GetWindow();
-	return A.Position == B.Position && A.Forward == B.Forward && A.Up == B.Up && A.Jitter == B.Jitter && A.Width == B.Width &&
-	       A.Height == B.Height && A.Near == B.Near && WindowA == WindowB;
+	return A.Position == B.Position && A.Forward == B.Forward && A.Up == B.Up && A.Width == B.Width && A.Height == B.Height &&
+	       A.Near == B.Near && WindowA == WindowB;
 }
 
 void AddAskPass(FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue& More, FGraphBuffer Tiles, const FShadowChanges& Changes,
@@ -74,9 +74,10 @@ void ListMoreRaysShaders(std::vector<FShaderSource>& Out)
 void AddMoreRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue,
     const FQueuedRays& Rays, FGraphBuffer Tiles, const FShadowChanges& Changes)
 {
-	if (Changes.CasterCount == 0 && Context.PreviousView && IsSameView(Context.View, *Context.PreviousView)) { return; }
 	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSource());
 	if (!Pipeline || !RequireSurface(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion})) { return; }
+	const bool bHistory = Context.PreviousView && Context.Surface.Previous.IsValid();
+	if (bHistory && Changes.CasterCount == 0 && IsSameView(Context.View, *Context.PreviousView)) { return; }
 	FRayQueue More = Queue;
 	More.Name += "More";
 	More.bRest = false;
