@@ -153,6 +153,7 @@ TEST_F(FRendererContentTest, WithoutASunNoRayIsTraced)
 {
 	Set("r.RT.Shadow.Path", "1");
 	Set("r.RT.AO", "0"); // has rays of its own where there is a sky
+	Set("r.RT.Shadow.MoreRays", "0");
 	LoadAndRender({.bMasked = true, .bSun = false, .bSky = true});
 	EXPECT_THAT(GetPasses(), ElementsAre("SceneUpdate", "GBuffer", "DirectLighting", "ToneMap"));
 	EXPECT_THAT(GetDispatched(), Contains("Lighting/DirectLighting.comp HAS_SKY"));
@@ -218,8 +219,8 @@ TEST_F(FRendererContentTest, PassesThatNobodyReadsAreCulled)
 	Capture.Signals.Add(ESignal::SunShadow);
 	Mock().ClearCalls();
 	ASSERT_TRUE(Engine->RenderFrame(LookAt({0, 0, 5}, {0, 0, 0}, 1.0f, 40, 24), 0.0, Capture, &Captured));
-	EXPECT_THAT(GetPasses(), ElementsAre("GBuffer", "ShadowTiles", "ShadowRays", "Surface", "SunShadow", "SunShadowTemporal",
-	                             "SunShadowFilter0", "SunShadowFilter1"))
+	EXPECT_THAT(GetPasses(), ElementsAre("GBuffer", "ShadowTiles", "ShadowRays", "Surface", "ShadowMoreAsk", "ShadowMoreRays", "SunShadow",
+	                             "SunShadowTemporal", "SunShadowFilter0", "SunShadowFilter1"))
 	    << "a host that lights by itself";
 }
 
