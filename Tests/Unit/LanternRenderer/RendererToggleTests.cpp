@@ -108,6 +108,7 @@ TEST_F(FRendererToggleTest, EveryFeatureCanBeSwitchedOffAndOn)
 TEST_F(FRendererToggleTest, ShadowOffTracesNothingAndKeepsNoPipeline)
 {
 	Set("r.RT.Shadow.Path", "1");
+	Set("r.RT.Shadow.MoreRays", "0");
 	LoadAndRender({});
 	EXPECT_TRUE(GetRTPSO());
 	Set("r.RT.Shadow", "0");
