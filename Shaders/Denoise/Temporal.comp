@@ -4,7 +4,12 @@
 #include "../Shared/DenoiseTypes.h"
 #include "../Library/View.glsl"
 
-layout(local_size_x = DENOISE_GROUP_SIZE, local_size_y = DENOISE_GROUP_SIZE) in;
+#if CHANNELS == 1
+#define GROUP_SIZE DENOISE_VISIBILITY_GROUP_SIZE
+#else
+#define GROUP_SIZE DENOISE_GROUP_SIZE
+#endif
+layout(local_size_x = GROUP_SIZE, local_size_y = GROUP_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FTemporalConstants Push; };
 
 #include "Temporal/Load.glsl"

@@ -5,7 +5,8 @@
 
 LANTERN_SHARED_BEGIN
 
-#define DENOISE_GROUP_SIZE 8
+#define DENOISE_GROUP_SIZE 8 // threads in x and y
+#define DENOISE_VISIBILITY_GROUP_SIZE 16 // of accumulation: pixels around a group are loaded again; colours would take too much memory
 #define DENOISE_WINDOW_RADIUS 3 // pixels; the signal's range in this frame comes from a window of 7×7
 
 // Constants of Denoise/Surface.comp, which packs the surface that each pixel shows (Library/History.glsl).

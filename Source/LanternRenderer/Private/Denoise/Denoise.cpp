@@ -104,6 +104,7 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 		C.Casters = Inputs.Changes.Casters;
 		C.CasterCount = Inputs.Changes.CasterCount;
 		C.CasterSpread = Inputs.Changes.Spread;
+		const uint32_t GroupSize = bColor ? DENOISE_GROUP_SIZE : DENOISE_VISIBILITY_GROUP_SIZE;
 		return [=, Signal = Inputs.Signal, Extent = Inputs.Extent, Pipeline = Temporal, Kept = History, KeptMoments = Moments,
 		           Width = Context.Width, Height = Context.Height](FPassContext& Pass) mutable {
 			C.Signal = GetSampledIndex(Pass, Signal);
@@ -116,7 +117,7 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 			C.OutHistory = GetStorageIndex(Pass, Kept.Current);
 			C.OutMoments = GetStorageIndex(Pass, KeptMoments.Current);
 			C.Output = GetStorageIndex(Pass, Output);
-			Dispatch2D(Pass, Pipeline, C, Width, Height, DENOISE_GROUP_SIZE);
+			Dispatch2D(Pass, Pipeline, C, Width, Height, GroupSize);
 		};
 	});
 	return Output;
