@@ -109,8 +109,8 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 		C.CasterSpread = Inputs.Changes.Spread;
 		C.bViewChange = IsDebugPicture(Name + ChangePicture) ? 1u : 0u;
 		const uint32_t GroupSize = bColor ? DENOISE_GROUP_SIZE : DENOISE_VISIBILITY_GROUP_SIZE;
-		return [=, Signal = Inputs.Signal, Extent = Inputs.Extent, Pipeline = Temporal, Kept = History, KeptMoments = Moments, Picture = Picture,
-		           Width = Context.Width, Height = Context.Height](FPassContext& Pass) mutable {
+		return [=, Signal = Inputs.Signal, Extent = Inputs.Extent, Pipeline = Temporal, Kept = History, KeptMoments = Moments,
+		           Picture = Picture, Width = Context.Width, Height = Context.Height](FPassContext& Pass) mutable {
 			C.Signal = GetSampledIndex(Pass, Signal);
 			C.Extent = GetSampledIndex(Pass, Extent);
 			C.Surface = GetSampledIndex(Pass, Surface.Current);
