@@ -6,6 +6,7 @@
 #include "../Library/GBuffer.glsl"
 #include "../Library/Lights.glsl"
 #include "../Library/Random.glsl"
+#include "Rate.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FTileLightsRef { FTileLights Data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FLightChoiceRef { FLightChoice Data[]; };
@@ -64,7 +65,13 @@ FLocalBrdf LoadLocalBrdf(FLocalPoint Point, uint BaseColor, uint Material, uvec2
 // Two numbers in [0, 1) that stratify over the pixels of a tile and over frames. Purpose: each has numbers of its own.
 vec2 LocalNumbers(FViewConstants View, uvec2 Pixel, uint Purpose)
 {
-	FTileSequence Sequence = MakeTileSequence(Pixel, View.FrameIndex, HashPcg(View.Seed + 0x85ebca6bu * (Purpose + 1u)));
+	uint Seed = HashPcg(View.Seed + 0x85ebca6bu * (Purpose + 1u));
+	// A pixel that asks in one frame of several needs the numbers of all frames.
+	FTileSequence Sequence = MakeTileSequence(Pixel, View.FrameIndex / TurnFrames, Seed);
+#ifdef QUARTER // of each 2×2 one pixel asks, so these count and not the pixels
+	uint Turn = View.FrameIndex / TurnFrames, Place = Sequence.Index ^ Turn;
+	Sequence = FTileSequence(Turn ^ (Place >> 2u), HashPcg(Sequence.Seed + (Place & 3u)));
+#endif
 	return SobolOwen2(Sequence.Index, Sequence.Seed);
 }
 

@@ -10,13 +10,21 @@
 layout(local_size_x = TILE_PIXELS) in;
 layout(push_constant, scalar) uniform FPush { FLocalShadeConstants Push; };
 
+#ifdef SPARSE
+#include "Neighbors.glsl"
+#ifdef MANY_LIGHTS
+#include "FillFromTile.glsl"
+#endif
+#endif
+
 // Rays of the tile by slot: where some had no room in the queue, their pixels take the mean of the others.
 shared uint Seen[TILE_LIGHTS], Traced[TILE_LIGHTS];
 
-// Returns the visibility of a slot's light.
-float SlotVisibility(uint Answer, uint Slot, uint SeenBit, uint TracedBit)
+// Returns the visibility of a slot's light. Neighbors: their rays to it, and those that got through.
+float SlotVisibility(uint Answer, uint Slot, uint SeenBit, uint TracedBit, uvec2 Neighbors)
 {
 	if ((Answer & (1u << TracedBit)) != 0u) { return (Answer & (1u << SeenBit)) != 0u ? 1.0 : 0.0; }
+	if (Neighbors.x > 0u) { return float(Neighbors.y) / float(Neighbors.x); }
 	return Traced[Slot] > 0u ? float(Seen[Slot]) / float(Traced[Slot]) : 1.0;
 }
 
@@ -70,7 +78,7 @@ FLobes ShadeChosen(FSceneConstants Scene, FViewConstants View, uvec2 Pixel, bool
 	FLobes Sum = FLobes(vec3(0.0), vec3(0.0));
 	uint Index = Pixel.y * View.Width + Pixel.x;
 	FLightChoice Choice = FLightChoiceRef(Push.Choices).Data[Index];
-	float Visibility = bAsked ? SlotVisibility(Answer, 0u, ANSWER_CHOSEN_SEEN, ANSWER_CHOSEN_TRACED) : 1.0;
+	float Visibility = bAsked ? SlotVisibility(Answer, 0u, ANSWER_CHOSEN_SEEN, ANSWER_CHOSEN_TRACED, uvec2(0u)) : 1.0;
 	if (Choice.Weight <= 0.0 || Visibility <= 0.0) { return Sum; }
 #ifdef GUIDED
 	if (Push.Lit != FAddress(0))
@@ -98,25 +106,62 @@ FLobes ShadePixel(FTileLights Tile, FSceneConstants Scene, FViewConstants View, 
 #endif
 		return Sum;
 	}
+	uint Neighbors = 0u;
+#ifdef SPARSE
+	if (!HasTurn(View.FrameIndex, Place)) { Neighbors = FindNeighbors(View, ivec2(TilePixel(uvec2(0u), Place)), false); }
+#endif
 	for (uint I = 0u; I < Tile.Count; ++I)
 	{
 		if ((Tile.Reached[2u * I + (Place >> 5u)] & (1u << (Place & 31u))) == 0u) { continue; }
 		bool bUnshadowed = (Tile.Lights[I] & TILE_LIGHT_UNSHADOWED) != 0u;
-		float Visibility = bUnshadowed ? 1.0 : SlotVisibility(Answer, I, ANSWER_LOCAL_SEEN + I, ANSWER_LOCAL_TRACED + I);
+		uvec2 Rays = uvec2(0u);
+#ifdef SPARSE
+		Rays = CountNeighborRays(ivec2(TilePixel(uvec2(0u), Place)), Neighbors, I);
+#endif
+		float Visibility = bUnshadowed ? 1.0 : SlotVisibility(Answer, I, ANSWER_LOCAL_SEEN + I, ANSWER_LOCAL_TRACED + I, Rays);
 		if (Visibility <= 0.0) { continue; }
 		AddLight(Sum, Scene, View, Point, Local, Pixel, Tile.Lights[I] & ~TILE_LIGHT_UNSHADOWED, Visibility);
 	}
 	return Sum;
 }
 
-// Over the lobes' albedos, so that filters see light and not textures.
-void WriteLobes(uvec2 Pixel, FLobes Sum, FBrdf Brdf, float NdotV, float Roughness)
+// Divides by the lobes' albedos, so that filters see light and not textures.
+FLobes Demodulate(FLobes Sum, FBrdf Brdf, float NdotV, float Roughness)
 {
 	const float MaxHalf = 65504.0;
-	vec3 Diffuse = Sum.Diffuse / max(DiffuseReflectance(Brdf, NdotV), vec3(1.0e-4));
-	vec3 Specular = Sum.Specular / max(SpecularReflectance(Brdf, NdotV, Roughness), vec3(1.0e-4));
-	if (Push.OutDiffuse != NO_TEXTURE) { imageStore(Images[Push.OutDiffuse], ivec2(Pixel), vec4(min(Diffuse, MaxHalf), 1.0)); }
-	if (Push.OutSpecular != NO_TEXTURE) { imageStore(Images[Push.OutSpecular], ivec2(Pixel), vec4(min(Specular, MaxHalf), 1.0)); }
+	Sum.Diffuse = min(Sum.Diffuse / max(DiffuseReflectance(Brdf, NdotV), vec3(1.0e-4)), MaxHalf);
+	Sum.Specular = min(Sum.Specular / max(SpecularReflectance(Brdf, NdotV, Roughness), vec3(1.0e-4)), MaxHalf);
+	return Sum;
+}
+
+void WriteLobes(uvec2 Pixel, FLobes Lobes)
+{
+	if (Push.OutDiffuse != NO_TEXTURE) { imageStore(Images[Push.OutDiffuse], ivec2(Pixel), vec4(Lobes.Diffuse, 1.0)); }
+	if (Push.OutSpecular != NO_TEXTURE) { imageStore(Images[Push.OutSpecular], ivec2(Pixel), vec4(Lobes.Specular, 1.0)); }
+}
+
+FLobes ShadeSurface(FTileLights Tile, FSceneConstants Scene, FViewConstants View, uvec2 Pixel, uint Place, uint Answer, float Depth)
+{
+	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, Depth);
+	FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel);
+	FLobes Sum = ShadePixel(Tile, Scene, View, Pixel, Place, Answer, Point, Local);
+	float Roughness = texelFetch(Textures[Push.Material], ivec2(Pixel), 0).x;
+	return Demodulate(Sum, Local.Brdf, dot(Point.Surface.BentN, Point.Surface.V), Roughness);
+}
+
+// Counts the tile's answers. All threads, with a barrier behind it.
+void CountAnswers(FTileLights Tile, FViewConstants View, uint Answer, uint Place)
+{
+	if (Place < TILE_LIGHTS) { Seen[Place] = Traced[Place] = 0u; }
+	barrier();
+	if (Tile.Count == TILE_LIGHTS_MANY) { CountAnswer(Answer, 0u, ANSWER_CHOSEN_SEEN, ANSWER_CHOSEN_TRACED); }
+	else
+	{
+		for (uint I = 0u; I < Tile.Count; ++I) { CountAnswer(Answer, I, ANSWER_LOCAL_SEEN + I, ANSWER_LOCAL_TRACED + I); }
+	}
+#ifdef SPARSE
+	if (Tile.Count != 0u) { LoadNeighbors(View, Tile, Place); }
+#endif
 }
 
 void main()
@@ -128,27 +173,16 @@ void main()
 	bool bInside = !IsOutsideView(View, Pixel);
 	uint Answer = bInside ? FAnswerRef(Push.Answers).Data[Pixel.y * View.Width + Pixel.x] : 0u;
 	FTileLights Tile = FTileLightsRef(Push.TileLights).Data[TileIndex(View, gl_WorkGroupID.xy)];
-	if (Place < TILE_LIGHTS) { Seen[Place] = Traced[Place] = 0u; }
-	barrier();
-	if (Tile.Count == TILE_LIGHTS_MANY) { CountAnswer(Answer, 0u, ANSWER_CHOSEN_SEEN, ANSWER_CHOSEN_TRACED); }
-	else
-	{
-		for (uint I = 0u; I < Tile.Count; ++I) { CountAnswer(Answer, I, ANSWER_LOCAL_SEEN + I, ANSWER_LOCAL_TRACED + I); }
-	}
+	CountAnswers(Tile, View, Answer, Place);
 #ifdef GUIDED
 	Remember(View, Pixel.y * View.Width + Pixel.x, Tile.Count == TILE_LIGHTS_MANY ? Answer : 0u, Place);
 #endif
 	barrier();
-	if (!bInside) { return; }
-	float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
-	if (Depth <= 0.0 || Tile.Count == 0u)
-	{
-		WriteLobes(Pixel, FLobes(vec3(0.0), vec3(0.0)), MakeWhiteLambert(), 1.0, 1.0);
-		return;
-	}
-	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, Depth);
-	FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel);
-	FLobes Sum = ShadePixel(Tile, Scene, View, Pixel, Place, Answer, Point, Local);
-	float Roughness = texelFetch(Textures[Push.Material], ivec2(Pixel), 0).x;
-	WriteLobes(Pixel, Sum, Local.Brdf, dot(Point.Surface.BentN, Point.Surface.V), Roughness);
+	float Depth = bInside ? LoadDepth(Push.Depth, ivec2(Pixel)) : 0.0;
+	FLobes Lobes = FLobes(vec3(0.0), vec3(0.0));
+	if (Depth > 0.0 && Tile.Count != 0u) { Lobes = ShadeSurface(Tile, Scene, View, Pixel, Place, Answer, Depth); }
+#if defined(SPARSE) && defined(MANY_LIGHTS)
+	if (Tile.Count == TILE_LIGHTS_MANY) { Lobes = FillFromTile(View, Tile, Place, Lobes); }
+#endif
+	if (bInside) { WriteLobes(Pixel, Lobes); }
 }

@@ -95,6 +95,14 @@ FStabilityFault MakeUnguardedFault(const FMethod& Method)
 	return MakeFault(bFiltered ? Unguarded : std::vector<FMethodSetting>(), "one pixel is overwritten");
 }
 
+FStabilityFault MakeSeamsFault(const FMethod& Method)
+{
+	const bool bFew = std::any_of(Method.GetTypical().Settings.begin(), Method.GetTypical().Settings.end(),
+	    [](const FMethodSetting& Setting) { return Setting.Name == "r.RT.Lights.Rate" && Setting.Value != "0"; });
+	const auto NoSecondRay = KnownSettings({{"r.RT.Debug.Lights.SecondRay", "0"}});
+	return MakeFault(bFew ? NoSecondRay : std::vector<FMethodSetting>(), "every other tile is brighter, by 10 and 30 % in turn");
+}
+
 FStabilityFault MakePlanesFault(const FMethod&) { return MakeFault(KnownSettings({{"r.RT.Shadow.CasterFaces", "2"}}), ""); }
 } // namespace
 
@@ -106,7 +114,7 @@ std::span<const FStabilityCase> GetStabilityCases()
 	    {3, "nested votes", {}},
 	    {4, "light switch", {LampDiffuse, LampSpecular}, MeasureLightSwitch, MakeStaleLampsFault},
 	    {5, "time of day", {Sun, Diffuse, Reflected}, MeasureTimeOfDay, nullptr, "the plugin is not told that the sun moves"},
-	    {6, "flicker", {}},
+	    {6, "flicker", {LampDiffuse, LampSpecular}, MeasureFlicker, MakeStaleLampsFault},
 	    {7, "tiny emitters", {Diffuse}, MeasureTinyEmitters, nullptr, "a fifth of the candles is out"},
 	    {8, "boiling", {}},
 	    {9, "disocclusion", EverySignal(false), MeasureDisocclusion, MakeUncoveringFault},
@@ -121,7 +129,7 @@ std::span<const FStabilityCase> GetStabilityCases()
 	    {18, "frame rate", EverySignal(false), MeasureFrameRate, nullptr,
 	        "every frame is said to last 1/60 s, and changes are not looked for"},
 	    {19, "furnace", {Diffuse, Reflected}, MeasureFurnace, nullptr, "the sky is 5 % brighter"},
-	    {20, "hybrid seams", {Sun, Occlusion, Diffuse}, MeasureSeams, nullptr, "every other tile is brighter, by 10 and 30 % in turn"},
+	    {20, "hybrid seams", {Sun, Occlusion, Diffuse, LampDiffuse}, MeasureSeams, MakeSeamsFault},
 	    {21, "caustics", {}},
 	    {22, "toon edge", {}},
 	    {23, "fog volume", {}},

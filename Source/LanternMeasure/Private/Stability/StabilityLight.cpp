@@ -1,7 +1,9 @@
-// Cases about how much light there is: 1 thin wall, 4 light switch, 5 time of day, 7 tiny emitters, 19 furnace.
+// Cases about how much light there is: 1 thin wall, 4 light switch, 5 time of day, 6 flicker, 7 tiny emitters, 19 furnace.
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -95,6 +97,68 @@ FRTStatus MeasureLightSwitch(FStabilityStage& Stage, std::vector<FStabilityFigur
 	const auto Limit = [&](double Value) { return Stage.KeepsHistory() ? std::optional<double>(Value) : std::nullopt; };
 	Out.push_back({"undershoot", std::max(1.0 - Least / Whole, 0.0), Limit(0.05)});
 	Out.push_back({"60 frames after it is out", Means[size_t(Dark + Lit + 59)] / Whole, Limit(0.01)});
+	return FRTStatus::Success();
+}
+
+namespace
+{
+constexpr int FlickerPeriod = 12; ///< frames at 60 Hz: one of 5 Hz, three of 15 Hz
+
+/// The share of each pixel that goes through Waves periods in FlickerPeriod frames. Frames: some whole FlickerPeriods.
+std::vector<std::complex<double>> FindWave(const std::vector<FImage>& Frames, int Waves)
+{
+	std::vector<std::complex<double>> Wave(Frames[0].Pixels.size());
+	for (size_t Frame = 0; Frame < Frames.size(); ++Frame)
+	{
+		const double Angle = -2.0 * std::numbers::pi * Waves * double(Frame) / FlickerPeriod;
+		const std::complex<double> Turn = std::polar(1.0 / double(Frames.size()), Angle);
+		for (size_t I = 0; I < Wave.size(); ++I) { Wave[I] += Turn * double(Frames[Frame].Pixels[I]); }
+	}
+	return Wave;
+}
+
+/// Absolute value: amplitude over that of R. Argument: by which F is ahead.
+std::complex<double> CompareWaves(const std::vector<std::complex<double>>& F, const std::vector<std::complex<double>>& R)
+{
+	std::complex<double> Sum = 0.0;
+	double Whole = 0.0;
+	for (size_t I = 0; I < F.size(); ++I)
+	{
+		Sum += F[I] * std::conj(R[I]);
+		Whole += std::norm(R[I]);
+	}
+	return Sum / Whole;
+}
+} // namespace
+
+/// 32 lamps are switched on and off 5 and 15 times a second, in eight phases. The picture's waves against those of references. The
+/// fault: histories of a minute, or lamps that are five frames late.
+FRTStatus MeasureFlicker(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out)
+{
+	if (FRTStatus S = Stage.Load("stability-flicker"); !S) { return S; }
+	constexpr int Warm = 2 * FlickerPeriod, Count = 4 * FlickerPeriod;
+	const int Late = Stage.IsFaulty() ? 5 : 0;
+	const FView View = Stage.MakeView();
+	std::vector<FStabilityShot> Shots = Repeat(View, Warm + Count, Warm);
+	for (int I = 0; I < Warm + Count; ++I) { Shots[size_t(I)].Time = double(I - Late) / 60.0; }
+	std::vector<FImage> Frames, References;
+	if (FRTStatus S = Stage.Play(Shots, Frames); !S) { return S; }
+	Frames = Kept(std::move(Frames));
+	for (int I = 0; I < FlickerPeriod; ++I)
+	{
+		FSignalReference Reference;
+		if (FRTStatus S = Stage.GetReference(View, double(I) / 60.0, Reference); !S) { return S; }
+		References.push_back(std::move(Reference.Mean));
+	}
+	for (const size_t At : {0, 3, 6, 9}) { Stage.AddToStrip(Frames[size_t(Count) - FlickerPeriod + At], References[At]); }
+	const std::complex<double> Slow = CompareWaves(FindWave(Frames, 1), FindWave(References, 1)),
+	                           Fast = CompareWaves(FindWave(Frames, 3), FindWave(References, 3));
+	// A method that keeps nothing has no less amplitude. One that keeps all of it lags by three frames at most.
+	Out.push_back({"amplitude at 5 Hz", std::abs(Slow), Stage.KeepsHistory() ? std::optional<double>(0.8) : std::nullopt, true});
+	const bool bStale = Stage.IsBroken() && !Stage.IsFaulty();
+	const double Lag = -std::arg(Slow) / (2.0 * std::numbers::pi) * FlickerPeriod;
+	Out.push_back({"lag at 5 Hz, frames", Lag, bStale ? std::nullopt : std::optional<double>(3.0)});
+	Out.push_back({"amplitude at 15 Hz", std::abs(Fast), std::nullopt, true});
 	return FRTStatus::Success();
 }
 

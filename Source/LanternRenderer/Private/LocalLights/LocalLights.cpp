@@ -4,6 +4,7 @@
 #include "Denoise/Denoise.h"
 #include "Lighting/DirectLighting.h"
 #include "LocalLightTypes.h"
+#include "LocalLights/SecondRays.h"
 #include "LocalLights/LocalRequests.h"
 #include "SignalPasses.h"
 #include "Tiles/Tiles.h"
@@ -128,6 +129,7 @@ bool AskLocalRays(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowR
 	const bool bMany = MayChooseLights(Context.Facts, Exact);
 	// A variant from before a change may lack what the lights of now need.
 	if (!Dispatch.Has("LOCAL_RAYS") || (bMany && !Dispatch.Has("MANY_LIGHTS"))) { return false; }
+	if (!HasLightRate(Dispatch)) { return false; }
 	if (Context.Facts.bAreaLights && !Dispatch.Has("HAS_AREA_LIGHTS")) { return false; }
 	if (!AreLocalRequestsReady(Context, Exact) || !RequireCompute(Context, MakeShadeSource(Context.Facts, Exact))) { return false; }
 	InOut.Local = FLocalRays{Exact, GetLocalRaysPerPixel(Context.Facts, Exact), bMany};

@@ -7,6 +7,7 @@
 #include "LanternCore/FrameGraph/History.h"
 #include "Lights/LightCells.h"
 #include "LocalLightTypes.h"
+#include "LocalLights/SecondRays.h"
 
 namespace Lantern
 {
@@ -38,7 +39,12 @@ FShaderSource MakeRequestsSource(const FSceneFacts& Facts, uint32_t Exact)
 	return MakeComputeSource("LocalLights/Requests.comp", std::move(Defines));
 }
 
-FShaderSource MakeShareSource() { return MakeComputeSource("LocalLights/ShareRequests.comp"); }
+FShaderSource MakeShareSource()
+{
+	FShaderDefines Defines;
+	AddLightRateDefines(Defines);
+	return MakeComputeSource("LocalLights/ShareRequests.comp", std::move(Defines));
+}
 
 struct FRequestsPass
 {
@@ -160,6 +166,7 @@ FShaderDefines MakeLocalDefines(FSceneFacts Facts, uint32_t Exact)
 	Facts.bSun = Facts.bSky = Facts.bMasked = false; // nothing of it reaches these shaders
 	FShaderDefines Defines = MakeFactDefines(Facts);
 	if (bMany) { Defines.emplace_back("MANY_LIGHTS", "1"); }
+	AddLightRateDefines(Defines);
 	return Defines;
 }
 
@@ -175,12 +182,14 @@ void ListLocalRequestShaders(const FSceneFacts& Facts, uint32_t Exact, std::vect
 	Out.push_back(MakeRequestsSource(Facts, Exact));
 	if (MayChooseLights(Facts, Exact) && !IsGuided(Facts, Exact)) { ListLightCellShaders(Facts, Out); }
 	if (MayQueuesOverflow(1 + GetLocalRaysPerPixel(Facts, Exact))) { Out.push_back(MakeShareSource()); }
+	if (WantsSecondRays()) { Out.push_back(MakeSecondRaysSource(MakeLocalDefines(Facts, Exact))); }
 }
 
 bool AreLocalRequestsReady(FFrameContext& Context, uint32_t Exact)
 {
 	const bool bShared = !MayQueuesOverflow(1 + GetLocalRaysPerPixel(Context.Facts, Exact)) || RequireCompute(Context, MakeShareSource());
-	return RequireCompute(Context, MakeRequestsSource(Context.Facts, Exact)) && bShared;
+	const bool bSecond = !WantsSecondRays() || RequireCompute(Context, MakeSecondRaysSource(MakeLocalDefines(Context.Facts, Exact)));
+	return RequireCompute(Context, MakeRequestsSource(Context.Facts, Exact)) && bShared && bSecond;
 }
 
 void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRays& InOut, const FLocalRays& Rays)
@@ -203,6 +212,13 @@ void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRa
 	InOut.Traced.Guide = Inputs.Guide;
 	InOut.Traced.GuideOffset = Inputs.GuideOffset;
 	InOut.Traced.LocalPerPixel = Rays.PerPixel;
+}
+
+void AddSecondLocalRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FShadowRays& Traced, const FLocalRays& Rays)
+{
+	if (!WantsSecondRays()) { return; }
+	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSecondRaysSource(MakeLocalDefines(Context.Facts, Rays.Exact)));
+	if (Pipeline) { AddSecondRays(Context, GBuffer, Dispatch, Traced.Queue, Traced.Traced, Pipeline); }
 }
 
 } // namespace Lantern
