@@ -75,6 +75,12 @@ vec2 LocalNumbers(FViewConstants View, uvec2 Pixel, uint Purpose)
 	return SobolOwen2(Sequence.Index, Sequence.Seed);
 }
 
+// Whether each ray goes to a point of its own.
+bool HasExtent(FLightData Light)
+{
+	return LightType(Light) >= LIGHT_RECTANGLE || (LightType(Light) == LIGHT_DIRECTIONAL && Light.Size.x > 0.0);
+}
+
 FLightSample SampleLocalLight(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, uvec2 Pixel, uint Light)
 {
 	vec2 U = vec2(0.0);

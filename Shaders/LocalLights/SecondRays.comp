@@ -10,14 +10,8 @@ layout(push_constant, scalar) uniform FPush { FSecondRaysConstants Push; };
 
 const uint LeastRays = 2u; // of neighbours that are believed
 
-// Whether a point of its own is chosen for each ray. Neighbours then differ by chance, and their mean has no bias; to ask wherever they
-// differ, and to believe them where they do not, would have one.
-bool HasExtent(FLightData Light)
-{
-	return LightType(Light) >= LIGHT_RECTANGLE || (LightType(Light) == LIGHT_DIRECTIONAL && Light.Size.x > 0.0);
-}
-
-// Whether neighbours leave a doubt about a light. Rays: of theirs, and those that got through.
+// Whether neighbours leave a doubt about a light. Rays: of theirs, and those that got through. Rays to a light with an extent differ by
+// chance. Their mean has no bias then; to ask wherever they differ, and to believe them where they do not, would have one.
 bool Doubts(FSceneConstants Scene, uint Light, uvec2 Rays)
 {
 	if (Rays.x < LeastRays) { return true; }

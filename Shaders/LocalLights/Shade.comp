@@ -62,6 +62,15 @@ void Remember(FViewConstants View, uint PixelIndex, uint Answer, uint Place)
 }
 #endif
 
+// Whether no chance is in what a light brings: it shines from one point, and Answer has the pixel's own ray to it, or neighbours agree.
+// Neighbors: their rays to it, and those that got through.
+bool IsCertain(FSceneConstants Scene, uint Light, uint Answer, uint Slot, uvec2 Neighbors)
+{
+	if (HasExtent(FLightRef(Scene.Lights).Data[Light & ~TILE_LIGHT_UNSHADOWED])) { return false; }
+	bool bOwnRay = (Answer & (1u << (ANSWER_LOCAL_TRACED + Slot))) != 0u, bAgree = Neighbors.y == 0u || Neighbors.y == Neighbors.x;
+	return (Light & TILE_LIGHT_UNSHADOWED) != 0u || bOwnRay || (Neighbors.x > 0u && bAgree);
+}
+
 void AddLight(inout FLobes Sum, FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLocalBrdf Local, uvec2 Pixel, uint Light,
               float Weight)
 {
@@ -94,10 +103,12 @@ FLobes ShadeChosen(FSceneConstants Scene, FViewConstants View, uvec2 Pixel, bool
 }
 #endif
 
+// bCertain: gets whether another frame's rays would bring the same.
 FLobes ShadePixel(FTileLights Tile, FSceneConstants Scene, FViewConstants View, uvec2 Pixel, uint Place, uint Answer, FLocalPoint Point,
-                  FLocalBrdf Local)
+                  FLocalBrdf Local, out bool bCertain)
 {
 	FLobes Sum = FLobes(vec3(0.0), vec3(0.0));
+	bCertain = Tile.Count != TILE_LIGHTS_MANY;
 	if (Tile.Count == TILE_LIGHTS_MANY)
 	{
 #ifdef MANY_LIGHTS
@@ -118,6 +129,7 @@ FLobes ShadePixel(FTileLights Tile, FSceneConstants Scene, FViewConstants View, 
 #ifdef SPARSE
 		Rays = CountNeighborRays(ivec2(TilePixel(uvec2(0u), Place)), Neighbors, I);
 #endif
+		bCertain = bCertain && IsCertain(Scene, Tile.Lights[I], Answer, I, Rays);
 		float Visibility = bUnshadowed ? 1.0 : SlotVisibility(Answer, I, ANSWER_LOCAL_SEEN + I, ANSWER_LOCAL_TRACED + I, Rays);
 		if (Visibility <= 0.0) { continue; }
 		AddLight(Sum, Scene, View, Point, Local, Pixel, Tile.Lights[I] & ~TILE_LIGHT_UNSHADOWED, Visibility);
@@ -134,17 +146,20 @@ FLobes Demodulate(FLobes Sum, FBrdf Brdf, float NdotV, float Roughness)
 	return Sum;
 }
 
-void WriteLobes(uvec2 Pixel, FLobes Lobes)
+// The fourth channel tells filters where there is no noise.
+void WriteLobes(uvec2 Pixel, FLobes Lobes, bool bCertain)
 {
-	if (Push.OutDiffuse != NO_TEXTURE) { imageStore(Images[Push.OutDiffuse], ivec2(Pixel), vec4(Lobes.Diffuse, 1.0)); }
-	if (Push.OutSpecular != NO_TEXTURE) { imageStore(Images[Push.OutSpecular], ivec2(Pixel), vec4(Lobes.Specular, 1.0)); }
+	float Chance = bCertain ? 0.0 : 1.0;
+	if (Push.OutDiffuse != NO_TEXTURE) { imageStore(Images[Push.OutDiffuse], ivec2(Pixel), vec4(Lobes.Diffuse, Chance)); }
+	if (Push.OutSpecular != NO_TEXTURE) { imageStore(Images[Push.OutSpecular], ivec2(Pixel), vec4(Lobes.Specular, Chance)); }
 }
 
-FLobes ShadeSurface(FTileLights Tile, FSceneConstants Scene, FViewConstants View, uvec2 Pixel, uint Place, uint Answer, float Depth)
+FLobes ShadeSurface(FTileLights Tile, FSceneConstants Scene, FViewConstants View, uvec2 Pixel, uint Place, uint Answer, float Depth,
+                    out bool bCertain)
 {
 	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, Depth);
 	FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel);
-	FLobes Sum = ShadePixel(Tile, Scene, View, Pixel, Place, Answer, Point, Local);
+	FLobes Sum = ShadePixel(Tile, Scene, View, Pixel, Place, Answer, Point, Local, bCertain);
 	float Roughness = texelFetch(Textures[Push.Material], ivec2(Pixel), 0).x;
 	return Demodulate(Sum, Local.Brdf, dot(Point.Surface.BentN, Point.Surface.V), Roughness);
 }
@@ -180,9 +195,10 @@ void main()
 	barrier();
 	float Depth = bInside ? LoadDepth(Push.Depth, ivec2(Pixel)) : 0.0;
 	FLobes Lobes = FLobes(vec3(0.0), vec3(0.0));
-	if (Depth > 0.0 && Tile.Count != 0u) { Lobes = ShadeSurface(Tile, Scene, View, Pixel, Place, Answer, Depth); }
+	bool bCertain = true;
+	if (Depth > 0.0 && Tile.Count != 0u) { Lobes = ShadeSurface(Tile, Scene, View, Pixel, Place, Answer, Depth, bCertain); }
 #if defined(SPARSE) && defined(MANY_LIGHTS)
 	if (Tile.Count == TILE_LIGHTS_MANY) { Lobes = FillFromTile(View, Tile, Place, Lobes); }
 #endif
-	if (bInside) { WriteLobes(Pixel, Lobes); }
+	if (bInside) { WriteLobes(Pixel, Lobes, bCertain); }
 }

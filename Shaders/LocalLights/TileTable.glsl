@@ -1,12 +1,12 @@
 // The lights that may reach a tile of many, with the weight that each has for the tile's pixels. A work group makes it.
-// It takes 21 KiB of shared memory, of which devices with ray tracing have 32 at least.
 // The weight is positive for every light that brings anything to a pixel of the tile, so that what pixels choose from it has no bias.
 #ifndef LANTERN_TILE_TABLE_GLSL
 #define LANTERN_TILE_TABLE_GLSL
 
-#include "../Library/Lights.glsl"
 #include "../Library/Motion.glsl"
 #include "Guide.glsl"
+#include "LightBox.glsl"
+#include "Regions.glsl"
 
 const uint TileSamplers = 8u; // pixels that weights are made for
 const float BoundShare = 0.5; // of the weight of a sampler: what bounds weigh
@@ -14,13 +14,13 @@ const float LeastVisibility = 0.05; // that is expected: a hidden light is asked
 
 shared float Cumulative[TILE_TABLE_MOST]; // sum of the weights up to and with a light's
 shared uint TableEntries[TILE_TABLE_MOST]; // light, and its expected visibility in the highest 8 bits
+shared float TableStands[TILE_TABLE_MOST]; // see FLightRegion::Stands
 shared uvec2 Estimates[TILE_TABLE_MOST]; // of what each sampler receives, a byte each
 shared float Totals[TileSamplers + 1u][TILE_PIXELS]; // over the run of each thread: of samplers, and of bounds
 shared float RunSums[TILE_PIXELS];
 shared uint RunCounts[TILE_PIXELS];
 shared uint TableCount;
 shared uint SamplerKeys[TileSamplers]; // 0: there is no surface; else the lowest byte is the place
-shared vec4 TilePoints[TILE_PIXELS / 2u]; // a pixel of each two: position, and size in metres, 0 without a surface
 shared vec3 SamplerP[TileSamplers], SamplerN[TileSamplers];
 shared float SamplerReach[TileSamplers]; // metres: how far the pixels may lie from it that it stands for
 shared uvec2 PreviousTile; // x = NoTile: none
@@ -44,7 +44,7 @@ void ChooseSamplers(FViewConstants View, FLocalPoint Point, bool bSurface, uint 
 	if ((Place & 1u) == (View.FrameIndex & 1u))
 	{
 		float Size = bSurface ? PixelHeight(View, length(Point.Surface.Relative)) : 0.0;
-		TilePoints[Place >> 1u] = bSurface ? vec4(Point.P, Size) : vec4(0.0);
+		BoxSamples[Place >> 1u] = bSurface ? vec4(Point.P, Size) : vec4(0.0);
 	}
 	barrier();
 	if (bSurface && (SamplerKeys[Mine] & 255u) == Place)
@@ -117,35 +117,6 @@ float ExpectVisibility(FViewConstants View, uint Light)
 	return Rays.y / Rays.x;
 }
 
-// Returns about the most that the light brings to a plane at any pixel, and never 0 if it reaches one.
-float BoundLight(FSceneConstants Scene, FLightData Light, vec3 Low, vec3 High)
-{
-	uint Type = LightType(Light);
-	if (Type == LIGHT_DIRECTIONAL) { return Luminance(Light.Color); }
-	vec3 Center = LightPosition(Scene, Light), Outside = max(max(Low - Center, Center - High), vec3(0.0)), Edges = High - Low;
-	float DistanceSquared = dot(Outside, Outside), Diagonal = dot(Edges, Edges);
-	if (DistanceSquared < 0.25 * Diagonal) // the box may be deep, with a light before what lies behind
-	{
-		float Nearest = Diagonal + DistanceSquared;
-		[[dont_unroll]] for (uint I = 0u; I < TILE_PIXELS / 2u; ++I)
-		{
-			vec3 To = Center - TilePoints[I].xyz;
-			float Size = TilePoints[I].w, Distance = dot(To, To);
-			Nearest = Size > 0.0 ? min(Nearest, max(Distance, Size * Size)) : Nearest;
-		}
-		DistanceSquared = max(DistanceSquared, Nearest);
-	}
-	float Form = 1.0 / max(DistanceSquared, 1.0e-8);
-#ifdef HAS_AREA_LIGHTS
-	if (Type >= LIGHT_RECTANGLE)
-	{
-		float Reach = LightReach(Type, Light.Size);
-		Form = min(Pi * Reach * Reach * Form, Pi);
-	}
-#endif
-	return Luminance(Light.Color) * Form;
-}
-
 // A byte for a positive number of any size: some bits of its exponent, and two of what follows. 0 stays 0.
 const uint EstimateShift = 21u, LeastEstimate = (127u - 40u) << 2u;
 uint PackEstimate(float Estimate)
@@ -167,28 +138,53 @@ float EstimateAround(FSceneConstants Scene, FLightData Light, uint I)
 	return Estimate * (Cosine * Nearer * Nearer);
 }
 
-// Whether the table has the light for certain, however many there are.
+// Whether the tile's guide had the light in the previous frame.
 bool IsRemembered(FViewConstants View, uint Light)
 {
 	return PreviousTile.x != NoTile && Remembered[GuidePlace(Light, GuideTileHash(TileIndex(View, PreviousTile)))].Light == Light;
 }
 
-// Returns the share of lights that the table holds, of those that nobody remembers.
-float TableShare() { return CandidateCount <= TILE_TABLE_MOST ? 1.0 : 0.84 * float(TILE_TABLE_MOST) / float(CandidateCount); }
-
-bool IsListed(FSceneConstants Scene, FViewConstants View, uint Light, uint Seed, vec3 Low, vec3 High)
+// Where a tile finds its lights.
+struct FTileSource
 {
-	float Share = TableShare();
-	if (Share < 1.0 && float(HashPcg(Light ^ Seed) >> 8u) * (1.0 / 16777216.0) >= Share && !IsRemembered(View, Light)) { return false; }
-	return MayReach(Scene, FLightRef(Scene.Lights).Data[Light], Low, High);
+	uint Count;
+	bool bDrawn; // the list is of a region, and was drawn
+	FAddress Region; // FLightRegion; 0: all lights of the scene
+};
+
+FTileSource FindSource(FSceneConstants Scene, FViewConstants View)
+{
+	if (Push.Regions == FAddress(0)) { return FTileSource(Scene.LightCount, false, FAddress(0)); }
+	FAddress Region = Push.Regions + RegionIndex(View, gl_WorkGroupID.xy) * SizeOfRegion;
+	uint Count = FLightRegionRef(Region).Data.Count;
+	return FTileSource(min(Count, REGION_LIGHTS), Count > REGION_LIGHTS, Region);
 }
 
-// Lists the table's lights where the scene has more than it can hold. Their order does not depend on that of threads.
+uint SourceLight(FTileSource Source, uint I) { return Source.Region != FAddress(0) ? FLightRegionRef(Source.Region).Data.Lights[I] : I; }
+float SourceStands(FTileSource Source, uint I) { return Source.bDrawn ? FLightRegionRef(Source.Region).Data.Stands[I] : 1.0; }
+
+// Returns the Number-th light that the table may hold, and NoGuideLight for none. What the tile remembers is there for certain, however
+// many lights there are: its entries come first, and of what was drawn it is left out.
+uint ProposeLight(FSceneConstants Scene, FViewConstants View, FTileSource Source, uint Number, vec3 Low, vec3 High, out float Stands)
+{
+	bool bRemembered = Source.bDrawn && Number < TILE_GUIDE_LIGHTS;
+	uint I = Source.bDrawn && !bRemembered ? Number - TILE_GUIDE_LIGHTS : Number;
+	uint Light = bRemembered ? Remembered[I].Light : SourceLight(Source, I);
+	Stands = bRemembered ? 1.0 : SourceStands(Source, I);
+	if (Light >= Scene.LightCount || (Source.bDrawn && !bRemembered && IsRemembered(View, Light))) { return NoGuideLight; }
+	return MayReach(Scene, FLightRef(Scene.Lights).Data[Light], Low, High) ? Light : NoGuideLight;
+}
+
+// Lists the table's lights. Their order does not depend on that of threads.
 void ListTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low, vec3 High)
 {
-	uint Seed = HashPcg(View.FrameIndex + HashPcg(TileIndex(View, gl_WorkGroupID.xy) + HashPcg(View.Seed)));
-	uint Mine = 0u, Before = 0u, Total = 0u;
-	for (uint I = Place; I < Scene.LightCount; I += TILE_PIXELS) { Mine += IsListed(Scene, View, I, Seed, Low, High) ? 1u : 0u; }
+	FTileSource Source = FindSource(Scene, View);
+	uint Most = Source.Count + (Source.bDrawn ? TILE_GUIDE_LIGHTS : 0u), Mine = 0u, Before = 0u, Total = 0u;
+	float Stands;
+	[[dont_unroll]] for (uint I = Place; I < Most; I += TILE_PIXELS)
+	{
+		Mine += ProposeLight(Scene, View, Source, I, Low, High, Stands) != NoGuideLight ? 1u : 0u;
+	}
 	RunCounts[Place] = Mine;
 	barrier();
 	[[dont_unroll]] for (uint I = 0u; I < TILE_PIXELS; ++I)
@@ -196,9 +192,12 @@ void ListTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low,
 		Before += I < Place ? RunCounts[I] : 0u;
 		Total += RunCounts[I];
 	}
-	for (uint I = Place; I < Scene.LightCount && Before < TILE_TABLE_MOST; I += TILE_PIXELS)
+	[[dont_unroll]] for (uint I = Place; I < Most && Before < TILE_TABLE_MOST; I += TILE_PIXELS)
 	{
-		if (IsListed(Scene, View, I, Seed, Low, High)) { TableEntries[Before++] = I; }
+		uint Light = ProposeLight(Scene, View, Source, I, Low, High, Stands);
+		if (Light == NoGuideLight) { continue; }
+		TableEntries[Before] = Light;
+		TableStands[Before++] = Stands;
 	}
 	if (Place == 0u) { TableCount = min(Total, TILE_TABLE_MOST); }
 	barrier();
@@ -211,24 +210,23 @@ struct FRun
 };
 
 // Estimates what lights bring, and adds it up. Cumulative[] gets their bounds.
-void EstimateLights(FSceneConstants Scene, FViewConstants View, FRun Run, bool bAll, uint Place, vec3 Low, vec3 High)
+void EstimateLights(FSceneConstants Scene, FViewConstants View, FRun Run, uint Place, vec3 Low, vec3 High)
 {
 	[[dont_unroll]] for (uint S = 0u; S <= TileSamplers; ++S) { Totals[S][Place] = 0.0; }
 	[[dont_unroll]] for (uint I = Run.Begin; I < Run.End; ++I)
 	{
-		uint Light = bAll ? I : TableEntries[I];
+		uint Light = TableEntries[I];
 		FLightData Data = FLightRef(Scene.Lights).Data[Light];
-		bool bReaches = MayReach(Scene, Data, Low, High);
-		float Visibility = 1.0, Bound = bReaches ? min(BoundLight(Scene, Data, Low, High), 1.0e30) : 0.0;
-		if (bReaches && (Data.Flags & LIGHT_CASTS_SHADOW) != 0u) { Visibility = max(ExpectVisibility(View, Light), LeastVisibility); }
+		float Visibility = 1.0, Bound = min(BoundLight(Scene, Data, Low, High), 1.0e30);
+		if ((Data.Flags & LIGHT_CASTS_SHADOW) != 0u) { Visibility = max(ExpectVisibility(View, Light), LeastVisibility); }
 		uvec2 Packed = uvec2(0u);
-		[[dont_unroll]] for (uint S = 0u; S < TileSamplers && bReaches; ++S)
+		[[dont_unroll]] for (uint S = 0u; S < TileSamplers; ++S)
 		{
 			uint Byte = PackEstimate(EstimateAround(Scene, Data, S));
 			Packed[S >> 2u] |= Byte << (8u * (S & 3u));
-			Totals[S][Place] += UnpackEstimate(Byte) * Visibility;
+			Totals[S][Place] += UnpackEstimate(Byte) * (Visibility * TableStands[I]);
 		}
-		Totals[TileSamplers][Place] += Bound * Visibility;
+		Totals[TileSamplers][Place] += Bound * (Visibility * TableStands[I]);
 		Estimates[I] = Packed;
 		Cumulative[I] = Bound;
 		TableEntries[I] = Light | (uint(Visibility * 255.0 + 0.5) << LIGHT_INDEX_BITS);
@@ -266,7 +264,7 @@ float WeighLights(FSceneConstants Scene, FRun Run, uint TileHash)
 		{
 			atomicMax(GuideKeys[GuidePlace(Light, TileHash)], (floatBitsToUint(Weight * max(Visibility, 0.25)) & ~(TILE_TABLE_MOST - 1u)) | I);
 		}
-		Sum += Weight * Visibility;
+		Sum += Weight * Visibility * TableStands[I];
 		Cumulative[I] = Sum;
 	}
 	return Sum;
@@ -275,13 +273,10 @@ float WeighLights(FSceneConstants Scene, FRun Run, uint TileHash)
 // Fills the table, and proposes lights for the tile's guide.
 void MakeTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low, vec3 High)
 {
-	bool bAll = Scene.LightCount <= TILE_TABLE_MOST;
-	if (!bAll) { ListTable(Scene, View, Place, Low, High); }
-	else if (Place == 0u) { TableCount = Scene.LightCount; }
-	barrier();
+	ListTable(Scene, View, Place, Low, High);
 	uint Length = (TableCount + TILE_PIXELS - 1u) / TILE_PIXELS, Begin = min(Place * Length, TableCount);
 	FRun Run = FRun(Begin, min(Begin + Length, TableCount));
-	EstimateLights(Scene, View, Run, bAll, Place, Low, High);
+	EstimateLights(Scene, View, Run, Place, Low, High);
 	RunSums[Place] = WeighLights(Scene, Run, GuideTileHash(TileIndex(View, gl_WorkGroupID.xy)));
 	barrier();
 	float Before = 0.0;
@@ -342,7 +337,7 @@ FLobes WeighLobes(FLobes Mean, FLobes Chosen, float Weight)
 bool ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLocalBrdf Local, uvec2 Pixel, out FLightChoice Choice,
                    out FLobes Lit)
 {
-	float All = Cumulative[TableCount - 1u], Target = 0.0, Total = 0.0, Share = TableShare();
+	float All = TableCount > 0u ? Cumulative[TableCount - 1u] : 0.0, Target = 0.0, Total = 0.0;
 	vec2 U = LocalNumbers(View, Pixel, 0xffffffffu);
 	FLobes Mean = FLobes(vec3(0.0), vec3(0.0)), Chosen = Mean;
 	Choice = FLightChoice(0u, 0.0);
@@ -355,8 +350,7 @@ bool ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point
 		if (!ReachesLight(View, Point, Sample)) { continue; }
 		FLobes Lobes = ReflectLight(Point, Local, Sample);
 		// Times the inverse of the density with which the light came here, over all candidates.
-		float Visibility = EntryVisibility(Entry), Stands = Visibility * All / (Weight * float(Push.Candidates));
-		if (Share < 1.0 && !IsRemembered(View, Light)) { Stands /= Share; }
+		float Visibility = EntryVisibility(Entry), Stands = Visibility * TableStands[Number] * All / (Weight * float(Push.Candidates));
 		Mean.Diffuse += Lobes.Diffuse * Stands;
 		Mean.Specular += Lobes.Specular * Stands;
 		float Brightness = Luminance(Lobes.Diffuse + Lobes.Specular), Mine = Brightness * Stands;

@@ -31,7 +31,10 @@ struct FLightChoice
 LANTERN_ASSERT_SIZE(FLightChoice, 8);
 
 // Tiles of many lights, with r.RT.Lights.Candidates.
-#define TILE_TABLE_MOST 1024 // lights that a tile weighs for its pixels; of more it weighs a random part
+#define REGION_TILES 4u     // tiles along an edge of a region
+#define REGION_LIGHTS 128u  // lights that a region lists for its tiles
+#define REGION_THREADS 128u
+#define TILE_TABLE_MOST 256 // lights that a tile weighs for its pixels: its region's, and those that it remembers
 #define TILE_GUIDE_LIGHTS 32
 #define TILE_GUIDE_RAY 32u   // what a ray counts in FGuideLight::Counts
 #define TILE_GUIDE_RAYS 1024 // most rays of a light that are remembered
@@ -50,6 +53,24 @@ struct FTileGuide
 	FGuideLight Lights[TILE_GUIDE_LIGHTS];
 };
 LANTERN_ASSERT_SIZE(FTileGuide, 256);
+
+// The lights that may reach a region, a square of tiles. If they are more than the list holds, it has REGION_LIGHTS that were drawn of
+// them, the brightest possibly several times.
+struct FLightRegion
+{
+	uint Count;                   // of lights that may reach it; more than REGION_LIGHTS: the list was drawn
+	uint Lights[REGION_LIGHTS];   // index in the table of lights, in rising order
+	float Stands[REGION_LIGHTS];  // how many lights like it an entry stands for
+};
+LANTERN_ASSERT_SIZE(FLightRegion, 1028);
+
+struct FLightRegionsConstants
+{
+	FPassConstants Pass;
+	FAddress Regions; // FLightRegion[], row by row
+	uint Depth, Normals; // sampled indices
+};
+LANTERN_ASSERT_SIZE(FLightRegionsConstants, 32);
 
 // What a pixel reflects if the light that it chose is visible.
 struct FLitPixel
@@ -77,8 +98,9 @@ struct FLocalRequestsConstants
 	FAddress PreviousGuide;   // FTileGuide[]; 0: there is none
 	uint Candidates;          // of each pixel, 1 to 64
 	float GuideKept;          // share of what the guide knows that it keeps in this frame
+	FAddress Regions;         // FLightRegion[], row by row; 0: tiles look at all lights of the scene
 };
-LANTERN_ASSERT_SIZE(FLocalRequestsConstants, 112);
+LANTERN_ASSERT_SIZE(FLocalRequestsConstants, 120);
 
 struct FLocalShadeConstants
 {

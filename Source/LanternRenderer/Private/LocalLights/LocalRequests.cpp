@@ -7,6 +7,7 @@
 #include "LanternCore/FrameGraph/History.h"
 #include "Lights/LightCells.h"
 #include "LocalLightTypes.h"
+#include "LocalLights/LightRegions.h"
 #include "LocalLights/SecondRays.h"
 
 namespace Lantern
@@ -31,6 +32,8 @@ TRTConsoleVariable<bool> CVarWeight("r.RT.Debug.Lights.Weight", true,
 
 bool IsGuided(const FSceneFacts& Facts, uint32_t Exact) { return MayChooseLights(Facts, Exact) && CVarCandidates.GetOnRenderThread() > 0; }
 
+bool HasRegions(const FSceneFacts& Facts, uint32_t Exact) { return IsGuided(Facts, Exact) && NeedsLightRegions(Facts); }
+
 FShaderSource MakeRequestsSource(const FSceneFacts& Facts, uint32_t Exact)
 {
 	FShaderDefines Defines = MakeChoiceDefines(Facts, Exact);
@@ -52,7 +55,7 @@ struct FRequestsPass
 	FRayQueue Queue;
 	FLocalRays Rays;
 	bool bFirst = false; ///< no pass before it writes requests and answers
-	FGraphBuffer TileLights, Choices, Lit;
+	FGraphBuffer TileLights, Choices, Lit, Regions;
 	FGraphBuffer Guide;       ///< two times FTileGuide[Tiles], of this frame and of the one before
 	uint64_t GuideOffset = 0; ///< of this frame's, bytes
 	bool bPreviousGuide = false;
@@ -89,6 +92,7 @@ void SetGuide(FPassContext& Pass, const FFrameContext& Frame, const FRequestsPas
 	C.Guide = Guides + Inputs.GuideOffset;
 	C.PreviousGuide = Inputs.bPreviousGuide ? Guides + (Bytes - Inputs.GuideOffset) : 0;
 	C.Candidates = static_cast<uint32_t>(CVarCandidates.GetOnRenderThread());
+	C.Regions = GetAddress(Pass, Inputs.Regions);
 	C.GuideKept = std::exp(-Frame.View.DeltaSeconds / std::max(CVarGuideSeconds.GetOnRenderThread(), 1e-6f));
 }
 
@@ -97,6 +101,7 @@ void DeclareGuide(FPassBuilder& Builder, const FRequestsPass& Inputs)
 	Builder.Read(Inputs.GBuffer.BaseColor, ERTAccess::ShaderRead);
 	Builder.Read(Inputs.GBuffer.Material, ERTAccess::ShaderRead);
 	if (Inputs.bPreviousGuide) { Builder.Read(Inputs.Guide, ERTAccess::StorageRead); }
+	if (Inputs.Regions.IsValid()) { Builder.Read(Inputs.Regions, ERTAccess::ShaderRead); }
 	Builder.Write(Inputs.Guide, ERTAccess::StorageWrite);
 	if (Inputs.Lit.IsValid()) { Builder.Write(Inputs.Lit, ERTAccess::StorageWrite); }
 }
@@ -181,6 +186,7 @@ void ListLocalRequestShaders(const FSceneFacts& Facts, uint32_t Exact, std::vect
 {
 	Out.push_back(MakeRequestsSource(Facts, Exact));
 	if (MayChooseLights(Facts, Exact) && !IsGuided(Facts, Exact)) { ListLightCellShaders(Facts, Out); }
+	if (HasRegions(Facts, Exact)) { Out.push_back(MakeLightRegionsSource(Facts)); }
 	if (MayQueuesOverflow(1 + GetLocalRaysPerPixel(Facts, Exact))) { Out.push_back(MakeShareSource()); }
 	if (WantsSecondRays()) { Out.push_back(MakeSecondRaysSource(MakeLocalDefines(Facts, Exact))); }
 }
@@ -189,7 +195,8 @@ bool AreLocalRequestsReady(FFrameContext& Context, uint32_t Exact)
 {
 	const bool bShared = !MayQueuesOverflow(1 + GetLocalRaysPerPixel(Context.Facts, Exact)) || RequireCompute(Context, MakeShareSource());
 	const bool bSecond = !WantsSecondRays() || RequireCompute(Context, MakeSecondRaysSource(MakeLocalDefines(Context.Facts, Exact)));
-	return RequireCompute(Context, MakeRequestsSource(Context.Facts, Exact)) && bShared && bSecond;
+	const bool bListed = !HasRegions(Context.Facts, Exact) || RequireCompute(Context, MakeLightRegionsSource(Context.Facts));
+	return RequireCompute(Context, MakeRequestsSource(Context.Facts, Exact)) && bShared && bListed && bSecond;
 }
 
 void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRays& InOut, const FLocalRays& Rays)
@@ -203,6 +210,10 @@ void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRa
 		Inputs.Choices = Context.Graph.CreateBuffer({Pixels * sizeof(FLightChoice)}, "LightChoices");
 		if (!IsGuided(Context.Facts, Rays.Exact)) { RequireLightCells(Context, GBuffer); } // pixels visit the lights of their cell
 		else if (!AddGuide(Context, Inputs)) { return; }
+		if (HasRegions(Context.Facts, Rays.Exact))
+		{
+			Inputs.Regions = AddLightRegions(Context, GBuffer, RequireCompute(Context, MakeLightRegionsSource(Context.Facts)));
+		}
 	}
 	AddRequestsPass(Context, RequireCompute(Context, MakeRequestsSource(Context.Facts, Rays.Exact)), Inputs);
 	if (InOut.Queue.bMayOverflow) { AddSharePass(Context, RequireCompute(Context, MakeShareSource()), Inputs); }
