@@ -14,6 +14,7 @@ layout(push_constant, scalar) uniform FPush { FTemporalConstants Push; };
 #include "Temporal/Known.glsl"
 #include "Temporal/Reproject.glsl"
 #include "Temporal/Resample.glsl"
+#include "Temporal/Follow.glsl"
 #include "Temporal/Change.glsl"
 #include "Temporal/Clamp.glsl"
 #include "Temporal/Blend.glsl"
@@ -77,6 +78,9 @@ void main()
 	}
 #endif
 	FHistory History = ReprojectHistory(View, uvec2(Pixel), Surface);
+#if CHANNELS != 1
+	FollowChange(Pixel, History);
+#endif
 	bool bMayHaveChanged = MayHaveChanged(View, uvec2(Pixel), Surface.Distance);
 	Store(Pixel, Accumulate(Frame, History, ivec2(View.PreviousWidth, View.PreviousHeight), bMayHaveChanged), Frame.Extent);
 }

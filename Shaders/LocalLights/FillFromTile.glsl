@@ -8,12 +8,14 @@
 shared uint OfferedLobes[TILE_PIXELS][3];
 
 // All threads. Lobes: of the pixel, over their albedos.
-FLobes FillFromTile(FViewConstants View, FTileLights Tile, uint Place, FLobes Lobes)
+// bFilled: gets whether they are of others.
+FLobes FillFromTile(FViewConstants View, FTileLights Tile, uint Place, FLobes Lobes, out bool bFilled)
 {
 	OfferedLobes[Place] = PackLobes(Lobes);
 	barrier();
 	uint Chose = Tile.Reached[TILE_LIGHTS_CHOSE + (Place >> 5u)];
-	if ((Chose & (1u << (Place & 31u))) != 0u) { return Lobes; }
+	bFilled = (Chose & (1u << (Place & 31u))) == 0u;
+	if (!bFilled) { return Lobes; }
 	ivec2 InTile = ivec2(TilePixel(uvec2(0u), Place));
 	uint Neighbors = FindNeighbors(View, InTile, true);
 	FLobes Sum = FLobes(vec3(0.0), vec3(0.0));

@@ -66,11 +66,11 @@ FLocalBrdf LoadLocalBrdf(FLocalPoint Point, uint BaseColor, uint Material, uvec2
 vec2 LocalNumbers(FViewConstants View, uvec2 Pixel, uint Purpose)
 {
 	uint Seed = HashPcg(View.Seed + 0x85ebca6bu * (Purpose + 1u));
-	// A pixel that asks in one frame of several needs the numbers of all frames.
-	FTileSequence Sequence = MakeTileSequence(Pixel, View.FrameIndex / TurnFrames, Seed);
-#ifdef QUARTER // of each 2×2 one pixel asks, so these count and not the pixels
-	uint Turn = View.FrameIndex / TurnFrames, Place = Sequence.Index ^ Turn;
-	Sequence = FTileSequence(Turn ^ (Place >> 2u), HashPcg(Sequence.Seed + (Place & 3u)));
+	FTileSequence Sequence = MakeTileSequence(Pixel, View.FrameIndex, Seed);
+#ifdef SPARSE
+	// Those that ask in a frame share the sequence out among them, and so do the frames in which a pixel asks.
+	uint Place = Sequence.Index ^ View.FrameIndex;
+	Sequence = FTileSequence(View.FrameIndex / TurnFrames ^ Place / TurnFrames, HashPcg(Sequence.Seed + TurnOf(Place)));
 #endif
 	return SobolOwen2(Sequence.Index, Sequence.Seed);
 }

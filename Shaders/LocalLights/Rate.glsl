@@ -26,6 +26,15 @@ uint TurnMask(uint FrameIndex)
 	return 0xffffffffu;
 #endif
 }
+// Returns a number that pixels have in common if their turns come in the same frames.
+uint TurnOf(uint Place)
+{
+#if defined(CHECKERBOARD)
+	return (Place ^ (Place >> 1u)) & 1u;
+#else
+	return Place % TurnFrames;
+#endif
+}
 bool HasTurn(uint FrameIndex, uint Place) { return (TurnMask(FrameIndex) & (1u << (Place & 31u))) != 0u; }
 
 #endif

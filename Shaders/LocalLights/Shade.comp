@@ -2,6 +2,7 @@
 #version 460
 #include "../Rays/RayQueue.glsl"
 #include "../Tiles/Tile.glsl"
+#include "Demodulate.glsl"
 #include "LocalPoint.glsl"
 #ifdef GUIDED
 #include "Guide.glsl"
@@ -137,21 +138,14 @@ FLobes ShadePixel(FTileLights Tile, FSceneConstants Scene, FViewConstants View, 
 	return Sum;
 }
 
-// Divides by the lobes' albedos, so that filters see light and not textures.
-FLobes Demodulate(FLobes Sum, FBrdf Brdf, float NdotV, float Roughness)
+// How much chance is in a pixel's light, for filters (FDenoiseInputs::Signal).
+const float NoChance = 0.0, SomeChance = 1.0, OfOthers = 2.0;
+
+void WriteLobes(uvec2 Pixel, FLobes Lobes, float Chance)
 {
 	const float MaxHalf = 65504.0;
-	Sum.Diffuse = min(Sum.Diffuse / max(DiffuseReflectance(Brdf, NdotV), vec3(1.0e-4)), MaxHalf);
-	Sum.Specular = min(Sum.Specular / max(SpecularReflectance(Brdf, NdotV, Roughness), vec3(1.0e-4)), MaxHalf);
-	return Sum;
-}
-
-// The fourth channel tells filters where there is no noise.
-void WriteLobes(uvec2 Pixel, FLobes Lobes, bool bCertain)
-{
-	float Chance = bCertain ? 0.0 : 1.0;
-	if (Push.OutDiffuse != NO_TEXTURE) { imageStore(Images[Push.OutDiffuse], ivec2(Pixel), vec4(Lobes.Diffuse, Chance)); }
-	if (Push.OutSpecular != NO_TEXTURE) { imageStore(Images[Push.OutSpecular], ivec2(Pixel), vec4(Lobes.Specular, Chance)); }
+	if (Push.OutDiffuse != NO_TEXTURE) { imageStore(Images[Push.OutDiffuse], ivec2(Pixel), vec4(min(Lobes.Diffuse, MaxHalf), Chance)); }
+	if (Push.OutSpecular != NO_TEXTURE) { imageStore(Images[Push.OutSpecular], ivec2(Pixel), vec4(min(Lobes.Specular, MaxHalf), Chance)); }
 }
 
 FLobes ShadeSurface(FTileLights Tile, FSceneConstants Scene, FViewConstants View, uvec2 Pixel, uint Place, uint Answer, float Depth,
@@ -195,10 +189,13 @@ void main()
 	barrier();
 	float Depth = bInside ? LoadDepth(Push.Depth, ivec2(Pixel)) : 0.0;
 	FLobes Lobes = FLobes(vec3(0.0), vec3(0.0));
-	bool bCertain = true;
+	bool bCertain = true, bOfOthers = false;
 	if (Depth > 0.0 && Tile.Count != 0u) { Lobes = ShadeSurface(Tile, Scene, View, Pixel, Place, Answer, Depth, bCertain); }
-#if defined(SPARSE) && defined(MANY_LIGHTS)
-	if (Tile.Count == TILE_LIGHTS_MANY) { Lobes = FillFromTile(View, Tile, Place, Lobes); }
+#ifdef SPARSE
+	bOfOthers = !bCertain && !HasTurn(View.FrameIndex, Place);
+#ifdef MANY_LIGHTS
+	if (Tile.Count == TILE_LIGHTS_MANY) { Lobes = FillFromTile(View, Tile, Place, Lobes, bOfOthers); }
 #endif
-	if (bInside) { WriteLobes(Pixel, Lobes, bCertain); }
+#endif
+	if (bInside) { WriteLobes(Pixel, Lobes, bCertain ? NoChance : bOfOthers ? OfOthers : SomeChance); }
 }

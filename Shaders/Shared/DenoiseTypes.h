@@ -42,7 +42,7 @@ struct FTemporalConstants
 	uint CasterCount;
 	uint bChangesKnown; // 1: the signal changes only where these shadows fall, or on surfaces that move. 0: it may anywhere
 	float CasterSpread; // of a half shadow's border, metres per metre
-	uint Pad;
+	uint Change;        // three channels only: FDenoiseInputs::Change; NO_TEXTURE: nothing is known to have changed
 };
 LANTERN_ASSERT_SIZE(FTemporalConstants, 104);
 

@@ -53,7 +53,8 @@ FAccumulated FillIn(FFrameEstimate Frame, FAccumulated Past, float Noise)
 #if CHANNELS == 1
 	FSignal Around = Frame.Neighborhood.Mean;
 #else
-	FSignal Around = Frame.Window.Mean;
+	bool bFilled = bTileFilled[GetTileIndex(ivec2(0))];
+	FSignal Around = bFilled ? Frame.Value : Frame.Window.Mean;
 #endif
 	return FAccumulated(Around, sqrt(Noise), 0.0, Frame.Neighborhood.Mean);
 }

@@ -117,15 +117,18 @@ std::vector<std::complex<double>> FindWave(const std::vector<FImage>& Frames, in
 	return Wave;
 }
 
-/// Absolute value: amplitude over that of R. Argument: by which F is ahead.
-std::complex<double> CompareWaves(const std::vector<std::complex<double>>& F, const std::vector<std::complex<double>>& R)
+/// Absolute value: amplitude over that of R. Argument: by which F is ahead. All pixels count alike, however bright they are in Mean.
+std::complex<double> CompareWaves(
+    const std::vector<std::complex<double>>& F, const std::vector<std::complex<double>>& R, const FImage& Mean)
 {
 	std::complex<double> Sum = 0.0;
 	double Whole = 0.0;
+	const double Least = 0.1 * MeanOver(Mean);
 	for (size_t I = 0; I < F.size(); ++I)
 	{
-		Sum += F[I] * std::conj(R[I]);
-		Whole += std::norm(R[I]);
+		const double Weight = 1.0 / std::pow(std::max(double(Mean.Pixels[I]), Least), 2.0);
+		Sum += Weight * F[I] * std::conj(R[I]);
+		Whole += Weight * std::norm(R[I]);
 	}
 	return Sum / Whole;
 }
@@ -151,10 +154,11 @@ FRTStatus MeasureFlicker(FStabilityStage& Stage, std::vector<FStabilityFigure>& 
 		References.push_back(std::move(Reference.Mean));
 	}
 	for (const size_t At : {0, 3, 6, 9}) { Stage.AddToStrip(Frames[size_t(Count) - FlickerPeriod + At], References[At]); }
-	const std::complex<double> Slow = CompareWaves(FindWave(Frames, 1), FindWave(References, 1)),
-	                           Fast = CompareWaves(FindWave(Frames, 3), FindWave(References, 3));
-	// A method that keeps nothing has no less amplitude. One that keeps all of it lags by three frames at most.
-	Out.push_back({"amplitude at 5 Hz", std::abs(Slow), Stage.KeepsHistory() ? std::optional<double>(0.8) : std::nullopt, true});
+	const FImage Mean = MeanImage(References);
+	const std::complex<double> Slow = CompareWaves(FindWave(Frames, 1), FindWave(References, 1), Mean),
+	                           Fast = CompareWaves(FindWave(Frames, 3), FindWave(References, 3), Mean);
+	// What is late has its amplitude all the same. What keeps all of its history lags by three frames at most.
+	Out.push_back({"amplitude at 5 Hz", std::abs(Slow), Stage.IsFaulty() ? std::nullopt : std::optional<double>(0.8), true});
 	const bool bStale = Stage.IsBroken() && !Stage.IsFaulty();
 	const double Lag = -std::arg(Slow) / (2.0 * std::numbers::pi) * FlickerPeriod;
 	Out.push_back({"lag at 5 Hz, frames", Lag, bStale ? std::nullopt : std::optional<double>(3.0)});

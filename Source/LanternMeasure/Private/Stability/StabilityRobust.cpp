@@ -101,7 +101,7 @@ FImage GetDeviation(const std::vector<FImage>& Frames, const FImage& Mean)
 namespace
 {
 /// By how much pixels of one colour of a checkerboard, which changes with each frame, stand out from those around them more than pixels
-/// of the other do, over the mean.
+/// of the other do, over the mean: at borders of shadows, where there is something to stand out from.
 double CompareCheckers(const std::vector<FImage>& Frames)
 {
 	double Steps[2] = {}, Sum = 0.0;
@@ -109,12 +109,20 @@ double CompareCheckers(const std::vector<FImage>& Frames)
 	for (size_t F = 0; F < Frames.size(); ++F)
 	{
 		const FImage& Frame = Frames[F];
+		const double Mean = MeanOver(Frame);
 		const auto At = [&](uint32_t X, uint32_t Y) { return double(GetLuminance(Frame, X, Y)); };
 		for (uint32_t Y = 1; Y + 1 < Frame.Height; ++Y)
 		{
 			for (uint32_t X = 1; X + 1 < Frame.Width; ++X)
 			{
 				const double Around = 0.25 * (At(X - 1, Y) + At(X + 1, Y) + At(X, Y - 1) + At(X, Y + 1));
+				double Low = At(X, Y), High = Low;
+				for (uint32_t I = 0; I < 9; ++I)
+				{
+					Low = std::min(Low, At(X + I % 3 - 1, Y + I / 3 - 1));
+					High = std::max(High, At(X + I % 3 - 1, Y + I / 3 - 1));
+				}
+				if (High - Low < 0.2 * Mean) { continue; }
 				Steps[(X + Y + F) % 2] += std::abs(At(X, Y) - Around);
 				Sum += Around;
 				++Count;

@@ -4,6 +4,7 @@
 #include "Denoise/Denoise.h"
 #include "Lighting/DirectLighting.h"
 #include "LocalLightTypes.h"
+#include "LocalLights/LampChange.h"
 #include "LocalLights/SecondRays.h"
 #include "LocalLights/LocalRequests.h"
 #include "SignalPasses.h"
@@ -104,6 +105,7 @@ FGraphTexture AddLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESignal S
 	// A highlight moves with the camera, and diffuse light does not.
 	const bool bStays = Signal == ESignal::LocalDiffuse && CVarKnownChanges.GetOnRenderThread();
 	Inputs.Changes.bKnown = bStays && !Context.MovedCasters->HasLampLightChanged(Context.Scene, Context.View.DeltaSeconds);
+	Inputs.Change = AddLampChange(Context, GBuffer, Context.ShadowRays->Traced, MakeLocalDefines(Context.Facts, GetExact()), Signal);
 	return AddDenoise(Context, GBuffer, Inputs, Denoise);
 }
 } // namespace
@@ -120,6 +122,10 @@ FPassRays ChooseLocalLightRays(const FPassQuery& Query)
 	Rays.Shaders = ShadowQueueShaders;
 	Rays.Compute = {MakeShadeSource(Query.Facts, GetExact())};
 	ListLocalRequestShaders(Query.Facts, GetExact(), Rays.Compute);
+	if (Denoise.IsEnabled() && IsGuided(Query.Facts, GetExact()))
+	{
+		ListLampChangeShaders(MakeLocalDefines(Query.Facts, GetExact()), Rays.Compute);
+	}
 	return Rays;
 }
 

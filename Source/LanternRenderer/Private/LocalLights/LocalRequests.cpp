@@ -30,8 +30,6 @@ TRTConsoleVariable<bool> CVarCellTarget("r.RT.Debug.Lights.CellTarget", true,
 TRTConsoleVariable<bool> CVarWeight("r.RT.Debug.Lights.Weight", true,
     "Planted fault. If off, a light that a pixel chose of many counts once, and not for all that it was chosen from.");
 
-bool IsGuided(const FSceneFacts& Facts, uint32_t Exact) { return MayChooseLights(Facts, Exact) && CVarCandidates.GetOnRenderThread() > 0; }
-
 bool HasRegions(const FSceneFacts& Facts, uint32_t Exact) { return IsGuided(Facts, Exact) && NeedsLightRegions(Facts); }
 
 FShaderSource MakeRequestsSource(const FSceneFacts& Facts, uint32_t Exact)
@@ -164,6 +162,8 @@ void AddSharePass(FFrameContext& Context, IRTPipeline* Pipeline, const FRequests
 	});
 }
 } // namespace
+
+bool IsGuided(const FSceneFacts& Facts, uint32_t Exact) { return MayChooseLights(Facts, Exact) && CVarCandidates.GetOnRenderThread() > 0; }
 
 FShaderDefines MakeLocalDefines(FSceneFacts Facts, uint32_t Exact)
 {

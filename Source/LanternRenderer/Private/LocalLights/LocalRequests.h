@@ -20,6 +20,9 @@ inline uint32_t GetLocalRaysPerPixel(const FSceneFacts& Facts, uint32_t Exact) {
 /// Returns whether tiles can have more lights than get rays each.
 inline bool MayChooseLights(const FSceneFacts& Facts, uint32_t Exact) { return Facts.Lights > Exact; }
 
+/// Returns whether pixels of tiles with many lights choose from tables, and tiles remember what was seen (FQueuedRays::Guide).
+bool IsGuided(const FSceneFacts& Facts, uint32_t Exact);
+
 /// Whether AddLocalRequests can add its passes. False: shaders are being compiled, or an error, which the context then has.
 bool AreLocalRequestsReady(FFrameContext& Context, uint32_t Exact);
 
