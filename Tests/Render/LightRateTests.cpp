@@ -182,10 +182,12 @@ TEST_F(FLightRateTest, FewerRays)
 	ASSERT_NO_FATAL_FAILURE(LoadPosts(4, 0));
 	for (const double Step : {0.0, 0.01})
 	{
-		const double All = Play("0", LookAtPosts(160, 90), Step, 8).RaysPerPixel, Half = Play("1", LookAtPosts(160, 90), Step, 8).RaysPerPixel,
+		const double All = Play("0", LookAtPosts(160, 90), Step, 8).RaysPerPixel,
+		             Half = Play("1", LookAtPosts(160, 90), Step, 8).RaysPerPixel,
 		             Quarter = Play("2", LookAtPosts(160, 90), Step, 8).RaysPerPixel;
-		PrintFigure(fmt::format("4 lamps, {} m a frame: {:.3f} rays per pixel; every other one {:.3f} ({:.3f}), one of four {:.3f} ({:.3f})",
-		    Step, All, Half, Half / All, Quarter, Quarter / All));
+		PrintFigure(
+		    fmt::format("4 lamps, {} m a frame: {:.3f} rays per pixel; every other one {:.3f} ({:.3f}), one of four {:.3f} ({:.3f})", Step,
+		        All, Half, Half / All, Quarter, Quarter / All));
 		EXPECT_LE(Half, 0.65 * All);
 		EXPECT_LE(Quarter, 0.45 * All);
 		EXPECT_GT(Quarter, 0.25 * All);
@@ -206,9 +208,10 @@ TEST_F(FLightRateTest, EdgesAsOfAllRays)
 		SetVariable("r.RT.Debug.Lights.SecondRay", "1");
 		const double Error = CompareFrames(Few.Frames, All.Frames), BrokenError = CompareFrames(Broken.Frames, All.Frames);
 		const double Step = MeasureCheckers(Few.Frames), BrokenStep = MeasureCheckers(Broken.Frames), AllStep = MeasureCheckers(All.Frames);
-		PrintFigure(fmt::format("rate {}: mean square off {:.2e}, without second rays {:.2e}; steps at checkers {:.4f}, without {:.4f}, of all "
-		                        "rays {:.4f}",
-		    Rate, Error, BrokenError, Step, BrokenStep, AllStep));
+		PrintFigure(
+		    fmt::format("rate {}: mean square off {:.2e}, without second rays {:.2e}; steps at checkers {:.4f}, without {:.4f}, of all "
+		                "rays {:.4f}",
+		        Rate, Error, BrokenError, Step, BrokenStep, AllStep));
 		EXPECT_LT(3.0 * Error, BrokenError);
 		EXPECT_LE(Step, 0.02);
 		if (Rate[0] == '1') { EXPECT_GT(BrokenStep, 10.0 * std::max(Step, AllStep)); }

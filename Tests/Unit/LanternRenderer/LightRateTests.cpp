@@ -33,7 +33,10 @@ protected:
 	/// Whether anything of lamps that change was made since the device was opened.
 	void ExpectNothingFollowed()
 	{
-		for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::CreateBuffer)) { EXPECT_EQ(Call.Name.find("Lamp"), std::string::npos); }
+		for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::CreateBuffer))
+		{
+			EXPECT_EQ(Call.Name.find("Lamp"), std::string::npos);
+		}
 		EXPECT_THAT(Mock().GetCreatedPipelines(), Not(Contains(HasSubstr("Lamps.comp"))));
 	}
 };

@@ -66,7 +66,8 @@ FStabilityFault MakeStaleLampsFault(const FMethod& Method)
 	// Of a method that keeps nothing, the case itself hides the switch.
 	const bool bFiltered = std::any_of(Method.Settings.begin(), Method.Settings.end(),
 	    [](const FMethodSetting& Setting) { return Setting.Name == "r.RT.Lights.Denoise" && Setting.Value == "1"; });
-	const auto Stale = KnownSettings({{"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Lights.HistorySeconds", "60"}, {"r.RT.Debug.Lights.Rescale", "0"}});
+	const auto Stale =
+	    KnownSettings({{"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Lights.HistorySeconds", "60"}, {"r.RT.Debug.Lights.Rescale", "0"}});
 	return MakeFault(bFiltered ? Stale : std::vector<FMethodSetting>(), "the lamp is switched ten frames late");
 }
 
@@ -103,7 +104,8 @@ FStabilityFault MakeSeamsFault(const FMethod& Method)
 	const bool bFiltered = std::any_of(Method.Settings.begin(), Method.Settings.end(),
 	    [](const FMethodSetting& Setting) { return Setting.Name == "r.RT.Lights.Denoise" && Setting.Value == "1"; });
 	const auto NoSecondRay = KnownSettings({{"r.RT.Debug.Lights.SecondRay", "0"}});
-	return MakeFault(bFew && !bFiltered ? NoSecondRay : std::vector<FMethodSetting>(), "every other tile is brighter, by 10 and 30 % in turn");
+	return MakeFault(
+	    bFew && !bFiltered ? NoSecondRay : std::vector<FMethodSetting>(), "every other tile is brighter, by 10 and 30 % in turn");
 }
 
 FStabilityFault MakePlanesFault(const FMethod&) { return MakeFault(KnownSettings({{"r.RT.Shadow.CasterFaces", "2"}}), ""); }

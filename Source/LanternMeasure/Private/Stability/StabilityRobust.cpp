@@ -183,7 +183,10 @@ FRTStatus MeasureSeams(FStabilityStage& Stage, std::vector<FStabilityFigure>& Ou
 	Out.push_back({"step at tile borders", WorstStep, bNoSecondRays ? std::nullopt : std::optional<double>(0.02)});
 	// Fault: a brighter tile flickers as a whole, its border no more than the rest.
 	Out.push_back({"sigma at tile borders", WorstSigma, Stage.IsBroken() ? std::nullopt : std::optional<double>(1.5)});
-	if (bLamps) { Out.push_back({"step at checkers", CompareCheckers(Frames), Stage.IsFaulty() ? std::nullopt : std::optional<double>(0.02)}); }
+	if (bLamps)
+	{
+		Out.push_back({"step at checkers", CompareCheckers(Frames), Stage.IsFaulty() ? std::nullopt : std::optional<double>(0.02)});
+	}
 	return FRTStatus::Success();
 }
 

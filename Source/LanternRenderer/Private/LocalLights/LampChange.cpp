@@ -58,8 +58,8 @@ void AddListPass(FFrameContext& Context, const std::string& Name, const FHistory
 	});
 }
 
-FGraphTexture AddFollowPass(FFrameContext& Context, const FGBuffer& GBuffer, const FQueuedRays& Rays, FGraphBuffer List, ESignal Lobe,
-    IRTPipeline* Pipeline)
+FGraphTexture AddFollowPass(
+    FFrameContext& Context, const FGBuffer& GBuffer, const FQueuedRays& Rays, FGraphBuffer List, ESignal Lobe, IRTPipeline* Pipeline)
 {
 	const FFrameContext* const Frame = &Context;
 	const std::string Name = std::string(GetSignalInfo(Lobe).Pass) + "Change";

@@ -225,7 +225,8 @@ void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRa
 	InOut.Traced.LocalPerPixel = Rays.PerPixel;
 }
 
-void AddSecondLocalRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FShadowRays& Traced, const FLocalRays& Rays)
+void AddSecondLocalRays(
+    FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FShadowRays& Traced, const FLocalRays& Rays)
 {
 	if (!WantsSecondRays()) { return; }
 	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSecondRaysSource(MakeLocalDefines(Context.Facts, Rays.Exact)));

@@ -32,6 +32,7 @@ void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRa
 
 /// Adds the passes of rays that are asked for where those of AddLocalRequests, which have been traced by then, leave a doubt. They have
 /// none at full rate. Dispatch: of the queue's shader.
-void AddSecondLocalRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FShadowRays& Traced, const FLocalRays& Rays);
+void AddSecondLocalRays(
+    FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FShadowRays& Traced, const FLocalRays& Rays);
 
 } // namespace Lantern

@@ -66,10 +66,7 @@ bool HasLightRate(const FRayDispatch& Dispatch)
 
 bool WantsSecondRays() { return GetLightRate() != ELightRate::Full && CVarSecondRay.GetOnRenderThread(); }
 
-FShaderSource MakeSecondRaysSource(FShaderDefines Defines)
-{
-	return MakeComputeSource("LocalLights/SecondRays.comp", std::move(Defines));
-}
+FShaderSource MakeSecondRaysSource(FShaderDefines Defines) { return MakeComputeSource("LocalLights/SecondRays.comp", std::move(Defines)); }
 
 void AddSecondRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue,
     const FQueuedRays& Rays, IRTPipeline* Pipeline)

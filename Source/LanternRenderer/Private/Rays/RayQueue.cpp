@@ -121,7 +121,8 @@ FRayQueue CreateFurtherQueue(FFrameContext& Context, const FRayQueue& Traced, co
 	Further.Name += Suffix;
 	Further.bRest = false;
 	Further.bMayOverflow = false;
-	Further.Counters = Context.Graph.CreateBuffer({sizeof(FRayQueueCounters), ERTBufferUsage::CopyDest}, (Further.Name + "Counters").c_str());
+	Further.Counters =
+	    Context.Graph.CreateBuffer({sizeof(FRayQueueCounters), ERTBufferUsage::CopyDest}, (Further.Name + "Counters").c_str());
 	return Further;
 }
 

@@ -28,7 +28,9 @@ FSceneDescription BuildStabilitySeams(float Lamps)
 	}
 	for (int I = 0; I < int(Lamps); ++I)
 	{
-		Builder.AddPointLight("lamp", {-1.8f + 3.6f * (float(I) + 0.5f) / std::floor(Lamps), 1.6f + 0.2f * float(I % 3), I % 2 ? 0.9f : -1.5f}, glm::vec3(2.0f, 1.8f, 1.5f));
+		Builder.AddPointLight("lamp",
+		    {-1.8f + 3.6f * (float(I) + 0.5f) / std::floor(Lamps), 1.6f + 0.2f * float(I % 3), I % 2 ? 0.9f : -1.5f},
+		    glm::vec3(2.0f, 1.8f, 1.5f));
 	}
 	SetDarkness(Builder, -1.0f);
 	return std::move(Builder.Scene);
