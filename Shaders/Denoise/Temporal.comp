@@ -50,7 +50,7 @@ FAccumulated Accumulate(FFrameEstimate Frame, FHistory History, ivec2 PreviousSi
 #else
 	if (bMayHaveChanged) { ClampHistory(Frame.Window, History.Past); }
 #endif
-	return Frame.bHasValue ? Blend(Frame, History, Noise) : FillIn(Frame, History, Noise);
+	return Frame.bHasValue ? Blend(Frame, History, Noise) : FillIn(Frame, History, Noise, Unchanged);
 }
 
 void main()

@@ -48,7 +48,8 @@ FAccumulated Blend(FFrameEstimate Frame, FHistory History, float Noise)
 
 // For a pixel without a value: the history if there is one, else the mean of what is around it. What stands for the value counts the
 // more, the less is known of how the history has changed.
-FAccumulated FillIn(FFrameEstimate Frame, FHistory History, float Noise)
+// Unchanged: share of the history that still holds.
+FAccumulated FillIn(FFrameEstimate Frame, FHistory History, float Noise, float Unchanged)
 {
 	FAccumulated Past = History.Past;
 #if CHANNELS != 1
@@ -56,6 +57,7 @@ FAccumulated FillIn(FFrameEstimate Frame, FHistory History, float Noise)
 	{
 		const float Others = 2.0; // of which it is the mean, at least
 		float Share = History.ResamplingVariance / (History.ResamplingVariance + Noise * (1.0 / Past.Frames + 1.0 / Others) + 1.0e-12);
+		Share = max(Share, 1.0 - Unchanged);
 		Past.Mean = mix(Past.Mean, Frame.Value, Share);
 		Past.NeighborhoodMean = mix(Past.NeighborhoodMean, Frame.Neighborhood.Mean, Share);
 		Past.Frames = mix(Past.Frames, 1.0, Share);

@@ -49,7 +49,7 @@ float GetExpectedVariance(FFrameEstimate Frame, FHistory History, ivec2 Size)
 float GetUnchangedShare(FFrameEstimate Frame, FHistory History, ivec2 Size)
 {
 	if (Push.ChangeSigma <= 0.0 || History.Past.Frames <= 0.0) { return 1.0; }
-#if defined(WITH_EXTENT) || CHANNELS != 1
+#ifdef WITH_EXTENT
 	if (!Frame.bHasValue) { return 1.0; } // else chance would drop the histories of pixels with few values more often than those of others
 #endif
 	float Past = History.Past.NeighborhoodMean;
