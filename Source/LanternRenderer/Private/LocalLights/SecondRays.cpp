@@ -71,7 +71,8 @@ FShaderSource MakeSecondRaysSource(FShaderDefines Defines) { return MakeComputeS
 void AddSecondRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue,
     const FQueuedRays& Rays, IRTPipeline* Pipeline)
 {
-	const FRayQueue Second = CreateFurtherQueue(Context, Queue, "Second");
+	FRayQueue Second = CreateFurtherQueue(Context, Queue, "Second");
+	Second.bRest = true; // a pixel asks here or there
 	AddAskPass(Context, GBuffer, Second, Rays.TileLights, Pipeline);
 	AddShadowRaysPass(Context, GBuffer, Dispatch, Second, Rays);
 }
