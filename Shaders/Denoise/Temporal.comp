@@ -19,6 +19,7 @@ layout(push_constant, scalar) uniform FPush { FTemporalConstants Push; };
 #include "Temporal/Known.glsl"
 #include "Temporal/Reproject.glsl"
 #include "Temporal/Resample.glsl"
+#include "Temporal/Follow.glsl"
 #include "Temporal/Change.glsl"
 #include "Temporal/Clamp.glsl"
 #include "Temporal/Blend.glsl"
@@ -49,7 +50,7 @@ FAccumulated Accumulate(FFrameEstimate Frame, FHistory History, ivec2 PreviousSi
 #else
 	if (bMayHaveChanged) { ClampHistory(Frame.Window, History.Past); }
 #endif
-	return Frame.bHasValue ? Blend(Frame, History, Noise) : FillIn(Frame, History.Past, Noise);
+	return Frame.bHasValue ? Blend(Frame, History, Noise) : FillIn(Frame, History, Noise, Unchanged);
 }
 
 void main()
@@ -85,6 +86,9 @@ void main()
 	}
 #endif
 	FHistory History = ReprojectHistory(View, uvec2(Pixel), Surface);
+#if CHANNELS != 1
+	FollowChange(Pixel, History);
+#endif
 	bool bMayHaveChanged = MayHaveChanged(View, uvec2(Pixel), Surface.Distance);
 	bool bKnown = History.Past.Frames > 0.0;
 	float Unchanged;

@@ -6,6 +6,7 @@
 #include "../Library/GBuffer.glsl"
 #include "../Library/Lights.glsl"
 #include "../Library/Random.glsl"
+#include "Rate.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FTileLightsRef { FTileLights Data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FLightChoiceRef { FLightChoice Data[]; };
@@ -64,8 +65,20 @@ FLocalBrdf LoadLocalBrdf(FLocalPoint Point, uint BaseColor, uint Material, uvec2
 // Two numbers in [0, 1) that stratify over the pixels of a tile and over frames. Purpose: each has numbers of its own.
 vec2 LocalNumbers(FViewConstants View, uvec2 Pixel, uint Purpose)
 {
-	FTileSequence Sequence = MakeTileSequence(Pixel, View.FrameIndex, HashPcg(View.Seed + 0x85ebca6bu * (Purpose + 1u)));
+	uint Seed = HashPcg(View.Seed + 0x85ebca6bu * (Purpose + 1u));
+	FTileSequence Sequence = MakeTileSequence(Pixel, View.FrameIndex, Seed);
+#ifdef SPARSE
+	// Those that ask in a frame share the sequence out among them, and so do the frames in which a pixel asks.
+	uint Place = Sequence.Index ^ View.FrameIndex;
+	Sequence = FTileSequence(View.FrameIndex / TurnFrames ^ Place / TurnFrames, HashPcg(Sequence.Seed + TurnOf(Place)));
+#endif
 	return SobolOwen2(Sequence.Index, Sequence.Seed);
+}
+
+// Whether each ray goes to a point of its own.
+bool HasExtent(FLightData Light)
+{
+	return LightType(Light) >= LIGHT_RECTANGLE || (LightType(Light) == LIGHT_DIRECTIONAL && Light.Size.x > 0.0);
 }
 
 FLightSample SampleLocalLight(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, uvec2 Pixel, uint Light)

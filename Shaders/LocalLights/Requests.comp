@@ -2,9 +2,8 @@
 // MANY_LIGHTS: defined if the scene has more lights than FLocalRequestsConstants::Exact.
 // GUIDED: pixels choose from a table of their tile's lights (TileTable.glsl). Not defined: from all, which takes long.
 #version 460
-#include "../Rays/RayQueue.glsl"
 #include "../Tiles/Tile.glsl"
-#include "LocalPoint.glsl"
+#include "TileRequests.glsl"
 #include "LightBox.glsl"
 #if defined(MANY_LIGHTS) && !defined(GUIDED)
 #include "../Library/LightCells.glsl"
@@ -19,7 +18,6 @@ shared uint LowBits[3], HighBits[3]; // corners of the box of all surfaces in th
 shared uint CandidateCount, Found[MaxCandidates], Candidates[MaxCandidates];
 shared uint Reached[2u * MaxCandidates];
 shared FTileLights Tile;
-shared uint FirstRequest;
 
 #ifdef GUIDED
 #include "TileTable.glsl"
@@ -126,11 +124,31 @@ bool ChooseLight(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, 
 #endif
 
 #ifdef MANY_LIGHTS
+#ifdef SPARSE
+#include "Planes.glsl"
+
+// Returns whether the pixel chooses a light in this frame: it has its turn, or no neighbour of its tile can stand for it. All threads.
+bool Chooses(FViewConstants View, FLocalPoint Point, bool bSurface, uint Place)
+{
+	ivec2 InTile = ivec2(TilePixel(uvec2(0u), Place));
+	SetPlane(RingPlace(InTile), false, vec3(0.0), vec3(0.0));
+	if (bSurface) { SetPlane(RingPlace(InTile), true, Point.Surface.Relative, Point.Surface.Ng); }
+	barrier();
+	bool bChooses = bSurface && (HasTurn(View.FrameIndex, Place) || FindNeighbors(View, InTile, true) == 0u);
+	if (bChooses) { atomicOr(Tile.Reached[TILE_LIGHTS_CHOSE + (Place >> 5u)], 1u << (Place & 31u)); }
+	return bChooses;
+}
+#endif
+
 // If the tile has many lights, each pixel chooses one. All threads.
 void ChooseOfMany(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, bool bSurface, uvec2 Pixel, uint Place)
 {
 	bool bMany = Tile.Count == TILE_LIGHTS_MANY, bAsks = false;
 	FLightChoice Choice = FLightChoice(0u, 0.0);
+	bool bChooses = bMany && bSurface;
+#ifdef SPARSE
+	if (bMany) { bChooses = Chooses(View, Point, bSurface, Place); }
+#endif
 #ifdef GUIDED
 	FLobes Lit = FLobes(vec3(0.0), vec3(0.0));
 	if (bMany)
@@ -142,13 +160,13 @@ void ChooseOfMany(FSceneConstants Scene, FViewConstants View, FLocalPoint Point,
 		MakeTable(Scene, View, Place, BoxCorner(LowBits), BoxCorner(HighBits));
 	}
 	WriteGuide(View, Place, bMany);
-	if (bMany && bSurface)
+	if (bChooses)
 	{
 		FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel);
 		bAsks = ChooseOfTable(Scene, View, Point, Local, Pixel, Choice, Lit);
 	}
 #else
-	if (bMany && bSurface) { bAsks = ChooseLight(Scene, View, Point, Pixel, Choice); }
+	if (bChooses) { bAsks = ChooseLight(Scene, View, Point, Pixel, Choice); }
 #endif
 	if (!bMany || IsOutsideView(View, Pixel)) { return; }
 	if (bAsks) { atomicOr(Tile.Reached[Place >> 5u], 1u << (Place & 31u)); }
@@ -159,41 +177,6 @@ void ChooseOfMany(FSceneConstants Scene, FViewConstants View, FLocalPoint Point,
 #endif
 }
 #endif
-
-// Reserves room for all rays of the tile at once. One thread.
-void Reserve()
-{
-	uint Count = 0u, Slots = Tile.Count == TILE_LIGHTS_MANY ? 1u : Tile.Count;
-	for (uint I = 0u; I < Slots; ++I)
-	{
-		bool bUnshadowed = Tile.Count != TILE_LIGHTS_MANY && (Tile.Lights[I] & TILE_LIGHT_UNSHADOWED) != 0u;
-		Count += bUnshadowed ? 0u : bitCount(Tile.Reached[2u * I]) + bitCount(Tile.Reached[2u * I + 1u]);
-	}
-	if (Count == 0u) { return; }
-	FRayQueueCountersRef Counters = FRayQueueCountersRef(Push.Counters);
-	FirstRequest = SegmentEnd(Counters.Data, RAY_SEGMENT_LOCAL - 1u, Push.Capacity);
-	FirstRequest += atomicAdd(Counters.Data.Segments[RAY_SEGMENT_LOCAL].Wanted, Count);
-	GrowLaunch(Push.Counters, min(FirstRequest + Count, Push.Capacity));
-}
-
-// Writes the pixel's requests, light by light: rays to one light then start close to each other.
-void WriteRequests(uint Place, uint PixelIndex)
-{
-	bool bMany = Tile.Count == TILE_LIGHTS_MANY;
-	uint First = FirstRequest, Slots = bMany ? 1u : Tile.Count;
-	for (uint I = 0u; I < Slots; ++I)
-	{
-		if (!bMany && (Tile.Lights[I] & TILE_LIGHT_UNSHADOWED) != 0u) { continue; }
-		uint Low = Tile.Reached[2u * I], High = Tile.Reached[2u * I + 1u];
-		uint Mine = Place < 32u ? Low : High, Bit = 1u << (Place & 31u);
-		uint Number = First + bitCount(Mine & (Bit - 1u)) + (Place < 32u ? 0u : bitCount(Low));
-		if ((Mine & Bit) != 0u && Number < Push.Capacity)
-		{
-			FRayRequestRef(Push.Requests).Data[Number] = MakeRayRequest(bMany ? RAY_KIND_CHOSEN : RAY_KIND_LOCAL, I, PixelIndex);
-		}
-		First += bitCount(Low) + bitCount(High);
-	}
-}
 
 void Start(uint Place)
 {
@@ -244,11 +227,15 @@ void main()
 	ChooseOfMany(Scene, View, Point, bSurface, Pixel, Place);
 	barrier();
 #endif
+	bool bMany = Tile.Count == TILE_LIGHTS_MANY;
+	uint Slots = bMany ? 1u : Tile.Count;
+	if (Place < 2u * Slots) { Asking[Place] = AskingPixels(Tile, Place >> 1u, Place & 1u, View.FrameIndex); }
+	barrier();
 	if (Place == 0u)
 	{
-		Reserve();
+		Reserve(Slots, Push.Counters, Push.Capacity);
 		FTileLightsRef(Push.TileLights).Data[TileIndex(View, gl_WorkGroupID.xy)] = Tile;
 	}
 	barrier();
-	WriteRequests(Place, PixelIndex);
+	WriteRequests(Slots, bMany ? RAY_KIND_CHOSEN : RAY_KIND_LOCAL, Push.Requests, Push.Capacity, Place, PixelIndex);
 }

@@ -2,6 +2,7 @@
 #version 460
 #include "../Rays/RayQueue.glsl"
 #include "../Tiles/Tile.glsl"
+#include "Demodulate.glsl"
 #include "LocalPoint.glsl"
 #ifdef GUIDED
 #include "Guide.glsl"
@@ -10,13 +11,21 @@
 layout(local_size_x = TILE_PIXELS) in;
 layout(push_constant, scalar) uniform FPush { FLocalShadeConstants Push; };
 
+#ifdef SPARSE
+#include "Neighbors.glsl"
+#ifdef MANY_LIGHTS
+#include "FillFromTile.glsl"
+#endif
+#endif
+
 // Rays of the tile by slot: where some had no room in the queue, their pixels take the mean of the others.
 shared uint Seen[TILE_LIGHTS], Traced[TILE_LIGHTS];
 
-// Returns the visibility of a slot's light.
-float SlotVisibility(uint Answer, uint Slot, uint SeenBit, uint TracedBit)
+// Returns the visibility of a slot's light. Neighbors: their rays to it, and those that got through.
+float SlotVisibility(uint Answer, uint Slot, uint SeenBit, uint TracedBit, uvec2 Neighbors)
 {
 	if ((Answer & (1u << TracedBit)) != 0u) { return (Answer & (1u << SeenBit)) != 0u ? 1.0 : 0.0; }
+	if (Neighbors.x > 0u) { return float(Neighbors.y) / float(Neighbors.x); }
 	return Traced[Slot] > 0u ? float(Seen[Slot]) / float(Traced[Slot]) : 1.0;
 }
 
@@ -54,12 +63,13 @@ void Remember(FViewConstants View, uint PixelIndex, uint Answer, uint Place)
 }
 #endif
 
-// Whether no chance is in what a light brings: it shines from one point, and Answer has the pixel's own ray to it.
-bool IsCertain(FSceneConstants Scene, uint Light, uint Answer, uint Slot)
+// Whether no chance is in what a light brings: it shines from one point, and Answer has the pixel's own ray to it, or neighbours agree.
+// Neighbors: their rays to it, and those that got through.
+bool IsCertain(FSceneConstants Scene, uint Light, uint Answer, uint Slot, uvec2 Neighbors)
 {
-	FLightData Data = FLightRef(Scene.Lights).Data[Light & ~TILE_LIGHT_UNSHADOWED];
-	bool bPoint = LightType(Data) < LIGHT_RECTANGLE && !(LightType(Data) == LIGHT_DIRECTIONAL && Data.Size.x > 0.0);
-	return bPoint && ((Light & TILE_LIGHT_UNSHADOWED) != 0u || (Answer & (1u << (ANSWER_LOCAL_TRACED + Slot))) != 0u);
+	if (HasExtent(FLightRef(Scene.Lights).Data[Light & ~TILE_LIGHT_UNSHADOWED])) { return false; }
+	bool bOwnRay = (Answer & (1u << (ANSWER_LOCAL_TRACED + Slot))) != 0u, bAgree = Neighbors.y == 0u || Neighbors.y == Neighbors.x;
+	return (Light & TILE_LIGHT_UNSHADOWED) != 0u || bOwnRay || (Neighbors.x > 0u && bAgree);
 }
 
 void AddLight(inout FLobes Sum, FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLocalBrdf Local, uvec2 Pixel, uint Light,
@@ -78,7 +88,7 @@ FLobes ShadeChosen(FSceneConstants Scene, FViewConstants View, uvec2 Pixel, bool
 	FLobes Sum = FLobes(vec3(0.0), vec3(0.0));
 	uint Index = Pixel.y * View.Width + Pixel.x;
 	FLightChoice Choice = FLightChoiceRef(Push.Choices).Data[Index];
-	float Visibility = bAsked ? SlotVisibility(Answer, 0u, ANSWER_CHOSEN_SEEN, ANSWER_CHOSEN_TRACED) : 1.0;
+	float Visibility = bAsked ? SlotVisibility(Answer, 0u, ANSWER_CHOSEN_SEEN, ANSWER_CHOSEN_TRACED, uvec2(0u)) : 1.0;
 	if (Choice.Weight <= 0.0 || Visibility <= 0.0) { return Sum; }
 #ifdef GUIDED
 	if (Push.Lit != FAddress(0))
@@ -108,27 +118,59 @@ FLobes ShadePixel(FTileLights Tile, FSceneConstants Scene, FViewConstants View, 
 #endif
 		return Sum;
 	}
+	uint Neighbors = 0u;
+#ifdef SPARSE
+	if (!HasTurn(View.FrameIndex, Place)) { Neighbors = FindNeighbors(View, ivec2(TilePixel(uvec2(0u), Place)), false); }
+#endif
 	for (uint I = 0u; I < Tile.Count; ++I)
 	{
 		if ((Tile.Reached[2u * I + (Place >> 5u)] & (1u << (Place & 31u))) == 0u) { continue; }
 		bool bUnshadowed = (Tile.Lights[I] & TILE_LIGHT_UNSHADOWED) != 0u;
-		bCertain = bCertain && IsCertain(Scene, Tile.Lights[I], Answer, I);
-		float Visibility = bUnshadowed ? 1.0 : SlotVisibility(Answer, I, ANSWER_LOCAL_SEEN + I, ANSWER_LOCAL_TRACED + I);
+		uvec2 Rays = uvec2(0u);
+#ifdef SPARSE
+		Rays = CountNeighborRays(ivec2(TilePixel(uvec2(0u), Place)), Neighbors, I);
+#endif
+		bCertain = bCertain && IsCertain(Scene, Tile.Lights[I], Answer, I, Rays);
+		float Visibility = bUnshadowed ? 1.0 : SlotVisibility(Answer, I, ANSWER_LOCAL_SEEN + I, ANSWER_LOCAL_TRACED + I, Rays);
 		if (Visibility <= 0.0) { continue; }
 		AddLight(Sum, Scene, View, Point, Local, Pixel, Tile.Lights[I] & ~TILE_LIGHT_UNSHADOWED, Visibility);
 	}
 	return Sum;
 }
 
-// Over the lobes' albedos, so that filters see light and not textures. The fourth channel tells them where there is no noise.
-void WriteLobes(uvec2 Pixel, FLobes Sum, FBrdf Brdf, float NdotV, float Roughness, bool bCertain)
+// How much chance is in a pixel's light, for filters (FDenoiseInputs::Signal).
+const float NoChance = 0.0, SomeChance = 1.0, OfOthers = 2.0;
+
+void WriteLobes(uvec2 Pixel, FLobes Lobes, float Chance)
 {
 	const float MaxHalf = 65504.0;
-	float Chance = bCertain ? 0.0 : 1.0;
-	vec3 Diffuse = Sum.Diffuse / max(DiffuseReflectance(Brdf, NdotV), vec3(1.0e-4));
-	vec3 Specular = Sum.Specular / max(SpecularReflectance(Brdf, NdotV, Roughness), vec3(1.0e-4));
-	if (Push.OutDiffuse != NO_TEXTURE) { imageStore(Images[Push.OutDiffuse], ivec2(Pixel), vec4(min(Diffuse, MaxHalf), Chance)); }
-	if (Push.OutSpecular != NO_TEXTURE) { imageStore(Images[Push.OutSpecular], ivec2(Pixel), vec4(min(Specular, MaxHalf), Chance)); }
+	if (Push.OutDiffuse != NO_TEXTURE) { imageStore(Images[Push.OutDiffuse], ivec2(Pixel), vec4(min(Lobes.Diffuse, MaxHalf), Chance)); }
+	if (Push.OutSpecular != NO_TEXTURE) { imageStore(Images[Push.OutSpecular], ivec2(Pixel), vec4(min(Lobes.Specular, MaxHalf), Chance)); }
+}
+
+FLobes ShadeSurface(FTileLights Tile, FSceneConstants Scene, FViewConstants View, uvec2 Pixel, uint Place, uint Answer, float Depth,
+                    out bool bCertain)
+{
+	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, Depth);
+	FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel);
+	FLobes Sum = ShadePixel(Tile, Scene, View, Pixel, Place, Answer, Point, Local, bCertain);
+	float Roughness = texelFetch(Textures[Push.Material], ivec2(Pixel), 0).x;
+	return Demodulate(Sum, Local.Brdf, dot(Point.Surface.BentN, Point.Surface.V), Roughness);
+}
+
+// Counts the tile's answers. All threads, with a barrier behind it.
+void CountAnswers(FTileLights Tile, FViewConstants View, uint Answer, uint Place)
+{
+	if (Place < TILE_LIGHTS) { Seen[Place] = Traced[Place] = 0u; }
+	barrier();
+	if (Tile.Count == TILE_LIGHTS_MANY) { CountAnswer(Answer, 0u, ANSWER_CHOSEN_SEEN, ANSWER_CHOSEN_TRACED); }
+	else
+	{
+		for (uint I = 0u; I < Tile.Count; ++I) { CountAnswer(Answer, I, ANSWER_LOCAL_SEEN + I, ANSWER_LOCAL_TRACED + I); }
+	}
+#ifdef SPARSE
+	if (Tile.Count != 0u) { LoadNeighbors(View, Tile, Place); }
+#endif
 }
 
 void main()
@@ -140,28 +182,20 @@ void main()
 	bool bInside = !IsOutsideView(View, Pixel);
 	uint Answer = bInside ? FAnswerRef(Push.Answers).Data[Pixel.y * View.Width + Pixel.x] : 0u;
 	FTileLights Tile = FTileLightsRef(Push.TileLights).Data[TileIndex(View, gl_WorkGroupID.xy)];
-	if (Place < TILE_LIGHTS) { Seen[Place] = Traced[Place] = 0u; }
-	barrier();
-	if (Tile.Count == TILE_LIGHTS_MANY) { CountAnswer(Answer, 0u, ANSWER_CHOSEN_SEEN, ANSWER_CHOSEN_TRACED); }
-	else
-	{
-		for (uint I = 0u; I < Tile.Count; ++I) { CountAnswer(Answer, I, ANSWER_LOCAL_SEEN + I, ANSWER_LOCAL_TRACED + I); }
-	}
+	CountAnswers(Tile, View, Answer, Place);
 #ifdef GUIDED
 	Remember(View, Pixel.y * View.Width + Pixel.x, Tile.Count == TILE_LIGHTS_MANY ? Answer : 0u, Place);
 #endif
 	barrier();
-	if (!bInside) { return; }
-	float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
-	if (Depth <= 0.0 || Tile.Count == 0u)
-	{
-		WriteLobes(Pixel, FLobes(vec3(0.0), vec3(0.0)), MakeWhiteLambert(), 1.0, 1.0, true);
-		return;
-	}
-	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, Depth);
-	FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel);
-	bool bCertain;
-	FLobes Sum = ShadePixel(Tile, Scene, View, Pixel, Place, Answer, Point, Local, bCertain);
-	float Roughness = texelFetch(Textures[Push.Material], ivec2(Pixel), 0).x;
-	WriteLobes(Pixel, Sum, Local.Brdf, dot(Point.Surface.BentN, Point.Surface.V), Roughness, bCertain);
+	float Depth = bInside ? LoadDepth(Push.Depth, ivec2(Pixel)) : 0.0;
+	FLobes Lobes = FLobes(vec3(0.0), vec3(0.0));
+	bool bCertain = true, bOfOthers = false;
+	if (Depth > 0.0 && Tile.Count != 0u) { Lobes = ShadeSurface(Tile, Scene, View, Pixel, Place, Answer, Depth, bCertain); }
+#ifdef SPARSE
+	bOfOthers = !bCertain && !HasTurn(View.FrameIndex, Place);
+#ifdef MANY_LIGHTS
+	if (Tile.Count == TILE_LIGHTS_MANY) { Lobes = FillFromTile(View, Tile, Place, Lobes, bOfOthers); }
+#endif
+#endif
+	if (bInside) { WriteLobes(Pixel, Lobes, bCertain ? NoChance : bOfOthers ? OfOthers : SomeChance); }
 }

@@ -1,18 +1,10 @@
 // Writes the requests of local lights anew if not all had room: each tile then keeps an equal share, as in ShareQueue.comp.
 #version 460
-#include "../Rays/RayQueue.glsl"
 #include "../Tiles/Tile.glsl"
-#include "LocalPoint.glsl"
+#include "TileRequests.glsl"
 
 layout(local_size_x = TILE_PIXELS) in;
 layout(push_constant, scalar) uniform FPush { FLocalRequestsConstants Push; };
-
-// Returns the pixels that ask for a ray in a slot, 32 of them.
-uint AskingPixels(FTileLights Tile, uint Slot, uint Word)
-{
-	bool bUnshadowed = Tile.Count != TILE_LIGHTS_MANY && (Tile.Lights[Slot] & TILE_LIGHT_UNSHADOWED) != 0u;
-	return bUnshadowed ? 0u : Tile.Reached[2u * Slot + Word];
-}
 
 void main()
 {
@@ -27,18 +19,18 @@ void main()
 	FTileLights Tile = FTileLightsRef(Push.TileLights).Data[Index];
 	bool bMany = Tile.Count == TILE_LIGHTS_MANY;
 	uint Slots = bMany ? 1u : Tile.Count, Count = 0u;
-	for (uint I = 0u; I < 2u * Slots; ++I) { Count += bitCount(AskingPixels(Tile, I >> 1u, I & 1u)); }
+	for (uint I = 0u; I < 2u * Slots; ++I) { Count += bitCount(AskingPixels(Tile, I >> 1u, I & 1u, View.FrameIndex)); }
 	uint Kept = ShareRoom(Count, Room, Wanted);
 	if (Kept == 0u) { return; }
 	uint Number = Base + atomicAdd(Counters.Data.Segments[RAY_SEGMENT_LOCAL].Kept, Kept);
 	uint Turn = View.FrameIndex * Kept; // other rays in each frame
 	[[dont_unroll]] for (uint I = 0u; I < 2u * Slots; ++I)
 	{
-		uint Asking = AskingPixels(Tile, I >> 1u, I & 1u);
-		[[dont_unroll]] while (Asking != 0u)
+		uint Pixels = AskingPixels(Tile, I >> 1u, I & 1u, View.FrameIndex);
+		[[dont_unroll]] while (Pixels != 0u)
 		{
-			uint Bit = uint(findLSB(Asking));
-			Asking &= Asking - 1u;
+			uint Bit = uint(findLSB(Pixels));
+			Pixels &= Pixels - 1u;
 			if (Turn++ % Count >= Kept) { continue; }
 			uvec2 Pixel = TilePixel(uvec2(Index % Columns, Index / Columns), 32u * (I & 1u) + Bit);
 			uint PixelIndex = Pixel.y * View.Width + Pixel.x;

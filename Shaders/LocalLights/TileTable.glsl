@@ -290,6 +290,11 @@ void WriteGuide(FViewConstants View, uint Place, bool bMade)
 {
 	if (Place >= TILE_GUIDE_LIGHTS) { return; }
 	FGuideLight Out = FGuideLight(NoGuideLight, 0u);
+	if (bMade && all(equal(PreviousTile, gl_WorkGroupID.xy))) // a lamp that is dark now may shine again
+	{
+		uint Counts = Remembered[Place].Counts;
+		Out = FGuideLight(Remembered[Place].Light, PackGuideCounts(float(GuideTraced(Counts)) * Push.GuideKept, float(GuideSeen(Counts)) * Push.GuideKept));
+	}
 	if (bMade && GuideKeys[Place] != 0u)
 	{
 		Out.Light = EntryLight(TableEntries[GuideKeys[Place] & (TILE_TABLE_MOST - 1u)]);

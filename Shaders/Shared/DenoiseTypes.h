@@ -45,7 +45,7 @@ struct FTemporalConstants
 	float CasterSpread; // of a half shadow's border, metres per metre
 	uint OutView;       // storage index of a picture of the history (r.RT.Debug.View), or NO_TEXTURE
 	uint bViewChange;   // 1: it shows what was dropped of the history; 0: how much the history is worth
-	uint Pad;
+	uint Change;        // three channels only: FDenoiseInputs::Change; NO_TEXTURE: nothing is known to have changed
 };
 LANTERN_ASSERT_SIZE(FTemporalConstants, 112);
 

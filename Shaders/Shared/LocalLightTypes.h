@@ -9,6 +9,7 @@ LANTERN_SHARED_BEGIN
 #define TILE_LIGHTS 8u // most lights of a tile that all get rays
 
 #define TILE_LIGHTS_MANY 0xffffffffu     // FTileLights::Count: each pixel chooses one light
+#define TILE_LIGHTS_CHOSE 2u             // in FTileLights::Reached
 #define TILE_LIGHT_UNSHADOWED 0x80000000u // in FTileLights::Lights: it casts no shadow and gets no ray
 
 // What a tile's pixels are lit by.
@@ -17,6 +18,7 @@ struct FTileLights
 	uint Count;                 // 0 to TILE_LIGHTS, or TILE_LIGHTS_MANY
 	uint Lights[TILE_LIGHTS];   // index in the table of lights, in rising order, and TILE_LIGHT_UNSHADOWED
 	uint Reached[2 * TILE_LIGHTS]; // two words for each light: pixels that it may light, in Z order. MANY: pixels that ask for a ray, first
+	                               // and, with r.RT.Lights.Rate, those that chose, from TILE_LIGHTS_CHOSE on
 };
 LANTERN_ASSERT_SIZE(FTileLights, 100);
 

@@ -46,14 +46,29 @@ FAccumulated Blend(FFrameEstimate Frame, FHistory History, float Noise)
 	return FAccumulated(mix(Past.Mean, Frame.Value, Alpha), sqrt(Noise), Frame.Rays / Alpha, NeighborhoodMean);
 }
 
-// For a pixel without a value: the history if there is one, else the mean of what is around it.
-FAccumulated FillIn(FFrameEstimate Frame, FAccumulated Past, float Noise)
+// For a pixel without a value: the history if there is one, else the mean of what is around it. What stands for the value counts the
+// more, the less is known of how the history has changed.
+// Unchanged: share of the history that still holds.
+FAccumulated FillIn(FFrameEstimate Frame, FHistory History, float Noise, float Unchanged)
 {
+	FAccumulated Past = History.Past;
+#if CHANNELS != 1
+	if (Past.Frames > 0.0 && bTileFilled[GetTileIndex(ivec2(0))])
+	{
+		const float Others = 2.0; // of which it is the mean, at least
+		float Share = History.ResamplingVariance / (History.ResamplingVariance + Noise * (1.0 / Past.Frames + 1.0 / Others) + 1.0e-12);
+		Share = max(Share, 1.0 - Unchanged);
+		Past.Mean = mix(Past.Mean, Frame.Value, Share);
+		Past.NeighborhoodMean = mix(Past.NeighborhoodMean, Frame.Neighborhood.Mean, Share);
+		Past.Frames = mix(Past.Frames, 1.0, Share);
+	}
+#endif
 	if (Past.Frames > 0.0) { return Past; }
 #if CHANNELS == 1
 	FSignal Around = Frame.Neighborhood.Mean;
 #else
-	FSignal Around = Frame.Window.Mean;
+	bool bFilled = bTileFilled[GetTileIndex(ivec2(0))];
+	FSignal Around = bFilled ? Frame.Value : Frame.Window.Mean;
 #endif
 	return FAccumulated(Around, sqrt(Noise), 0.0, Frame.Neighborhood.Mean);
 }

@@ -21,6 +21,9 @@ const int TileSize = InnerSize + 2;
 // With WITH_EXTENT, a pixel without a value of its own (a negative extent) has -1 minus what it was filled with.
 shared FSignal TileSignal[TileSize * TileSize];
 shared float TileInverseDepth[TileSize * TileSize]; // 1 / distance, linear in screen space over a plane; 0: no value
+#if CHANNELS != 1
+shared bool bTileFilled[TileSize * TileSize]; // the mean of other pixels stands for the pixel's own value
+#endif
 #ifdef WITH_EXTENT
 shared float TileExtent[TileSize * TileSize]; // pixels; 0: unknown
 #endif
@@ -42,7 +45,8 @@ void LoadTile(ivec2 Size)
 		ivec2 P = First + ivec2(I % TileSize, I / TileSize);
 		bool bInside = all(greaterThanEqual(P, ivec2(0))) && all(lessThan(P, Size));
 		P = clamp(P, ivec2(0), Size - 1);
-		FSignal Value = GetSignal(texelFetch(Textures[Push.Signal], P, 0));
+		vec4 Texel = texelFetch(Textures[Push.Signal], P, 0);
+		FSignal Value = GetSignal(Texel);
 		float Distance = texelFetch(Textures[Push.Surface], P, 0).x;
 		bool bValid = bInside && Distance > 0.0 && IsFinite(Distance) && IsSignalFinite(Value);
 		TileInverseDepth[I] = bValid ? 1.0 / Distance : 0.0;
@@ -52,6 +56,9 @@ void LoadTile(ivec2 Size)
 		TileSignal[I] = Extent < 0.0 ? -1.0 - SanitizeSignal(Value, bValid) : SanitizeSignal(Value, bValid);
 #else
 		TileSignal[I] = SanitizeSignal(Value, bValid);
+#endif
+#if CHANNELS != 1
+		bTileFilled[I] = Texel.w == 2.0;
 #endif
 	}
 }
@@ -66,6 +73,9 @@ bool HasValue(int I)
 {
 #ifdef WITH_EXTENT
 	if (TileSignal[I] < 0.0) { return false; }
+#endif
+#if CHANNELS != 1
+	if (bTileFilled[I]) { return false; }
 #endif
 	return TileInverseDepth[I] > 0.0;
 }

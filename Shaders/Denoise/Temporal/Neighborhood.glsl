@@ -32,10 +32,18 @@ bool IsPlanar(int I, int Step)
 float MeasureOutlier(int I)
 {
 	if (!HasValue(I)) { return -1.0; }
-	bool bX = IsPlanar(I, 1), bY = IsPlanar(I, TileSize);
+	int StepX = 1, StepY = TileSize;
+#if CHANNELS != 1
+	if (bTileFilled[I - 1] || bTileFilled[I + 1]) // every other pixel has a value: the next ones lie across corners
+	{
+		StepX = TileSize + 1;
+		StepY = TileSize - 1;
+	}
+#endif
+	bool bX = IsPlanar(I, StepX), bY = IsPlanar(I, StepY);
 	if (!bX && !bY) { return -1.0; }
-	vec2 X = vec2(GetBrightness(TileSignal[I - 1]), GetBrightness(TileSignal[I + 1]));
-	vec2 Y = vec2(GetBrightness(TileSignal[I - TileSize]), GetBrightness(TileSignal[I + TileSize]));
+	vec2 X = vec2(GetBrightness(TileSignal[I - StepX]), GetBrightness(TileSignal[I + StepX]));
+	vec2 Y = vec2(GetBrightness(TileSignal[I - StepY]), GetBrightness(TileSignal[I + StepY]));
 	vec2 Range = bX ? X : Y;
 	// The second and the third of the four in order.
 	if (bX && bY) { Range = vec2(max(min(X.x, X.y), min(Y.x, Y.y)), min(max(X.x, X.y), max(Y.x, Y.y))); }
@@ -79,12 +87,22 @@ FNeighborhood MeasureNeighborhood()
 #ifdef WITH_EXTENT
 	if (Count == 0.0) { Sum = max(-1.0 - TileSignal[GetTileIndex(ivec2(0))], 0.0); } // what it was filled with
 #endif
+#if CHANNELS != 1
+	if (Count == 0.0) { Sum = GetBrightness(TileSignal[GetTileIndex(ivec2(0))]); } // what it was filled with
+	float Mean = Sum / max(Count, 1.0);
+	if (Missing > 0.0) // rays of some pixels are spread less evenly than those of all
+	{
+		Count *= Count / (Count + Missing);
+		Sum = Mean * max(Count, 1.0);
+	}
+#else
 	if (Missing > 0.0 && OutlierCount == 0.0) // whose neighbours are missing cannot be told from an outlier: each ray sees by chance
 	{
 		float Mean = clamp(Sum / max(Count, 1.0), 0.0, 1.0);
 		OutlierSum = Mean * (1.0 - Mean) / Push.RaysPerPixel;
 		OutlierCount = 1.0;
 	}
+#endif
 	return FNeighborhood(Sum / max(Count, 1.0), OutlierCount > 0.0 ? OutlierSum / OutlierCount : -1.0, max(Count, 1.0));
 }
 

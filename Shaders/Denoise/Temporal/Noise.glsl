@@ -81,7 +81,7 @@ FFrameEstimate EstimateFrame()
 #else
 	FWindow Window = MeasureWindow();
 	float Noise = Neighborhood.OutlierVariance >= 0.0 ? Neighborhood.OutlierVariance : Window.Variance;
-	return FFrameEstimate(TileSignal[Own], TileInverseDepth[Own] > 0.0, Window, Neighborhood, Noise, 1.0, MeasureExtent());
+	return FFrameEstimate(TileSignal[Own], HasValue(Own), Window, Neighborhood, Noise, 1.0, MeasureExtent());
 #endif
 }
 

@@ -9,7 +9,7 @@
 struct FFrameEstimate
 {
 	FSignal Value;
-	bool bHasValue; // false: the signal is not finite
+	bool bHasValue; // false: the signal is not finite, or Value stands for it
 #if CHANNELS != 1
 	FWindow Window;
 #endif

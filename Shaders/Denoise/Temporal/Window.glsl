@@ -29,6 +29,7 @@ void SumWindowRows()
 		float Count = 0.0;
 		[[dont_unroll]] for (int X = 0; X < WindowWidth; ++X)
 		{
+			if (bTileFilled[Start + X]) { continue; } // means of others have less spread
 			FSignal Value = TileSignal[Start + X];
 			Sum += Value;
 			Squares += Value * Value;

@@ -66,7 +66,8 @@ FStabilityFault MakeStaleLampsFault(const FMethod& Method)
 	// Of a method that keeps nothing, the case itself hides the switch.
 	const bool bFiltered = std::any_of(Method.Settings.begin(), Method.Settings.end(),
 	    [](const FMethodSetting& Setting) { return Setting.Name == "r.RT.Lights.Denoise" && Setting.Value == "1"; });
-	const auto Stale = KnownSettings({{"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Lights.HistorySeconds", "60"}});
+	const auto Stale =
+	    KnownSettings({{"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Lights.HistorySeconds", "60"}, {"r.RT.Debug.Lights.Rescale", "0"}});
 	return MakeFault(bFiltered ? Stale : std::vector<FMethodSetting>(), "the lamp is switched ten frames late");
 }
 
@@ -95,6 +96,18 @@ FStabilityFault MakeUnguardedFault(const FMethod& Method)
 	return MakeFault(bFiltered ? Unguarded : std::vector<FMethodSetting>(), "one pixel is overwritten");
 }
 
+FStabilityFault MakeSeamsFault(const FMethod& Method)
+{
+	const bool bFew = std::any_of(Method.GetTypical().Settings.begin(), Method.GetTypical().Settings.end(),
+	    [](const FMethodSetting& Setting) { return Setting.Name == "r.RT.Lights.Rate" && Setting.Value != "0"; });
+	// A filter smooths what second rays would have made right.
+	const bool bFiltered = std::any_of(Method.Settings.begin(), Method.Settings.end(),
+	    [](const FMethodSetting& Setting) { return Setting.Name == "r.RT.Lights.Denoise" && Setting.Value == "1"; });
+	const auto NoSecondRay = KnownSettings({{"r.RT.Debug.Lights.SecondRay", "0"}});
+	return MakeFault(
+	    bFew && !bFiltered ? NoSecondRay : std::vector<FMethodSetting>(), "every other tile is brighter, by 10 and 30 % in turn");
+}
+
 FStabilityFault MakePlanesFault(const FMethod&) { return MakeFault(KnownSettings({{"r.RT.Shadow.CasterFaces", "2"}}), ""); }
 } // namespace
 
@@ -106,7 +119,7 @@ std::span<const FStabilityCase> GetStabilityCases()
 	    {3, "nested votes", {}},
 	    {4, "light switch", {LampDiffuse, LampSpecular}, MeasureLightSwitch, MakeStaleLampsFault},
 	    {5, "time of day", {Sun, Diffuse, Reflected}, MeasureTimeOfDay, nullptr, "the plugin is not told that the sun moves"},
-	    {6, "flicker", {}},
+	    {6, "flicker", {LampDiffuse, LampSpecular}, MeasureFlicker, MakeStaleLampsFault},
 	    {7, "tiny emitters", {Diffuse}, MeasureTinyEmitters, nullptr, "a fifth of the candles is out"},
 	    {8, "boiling", {}},
 	    {9, "disocclusion", EverySignal(false), MeasureDisocclusion, MakeUncoveringFault},
@@ -121,7 +134,7 @@ std::span<const FStabilityCase> GetStabilityCases()
 	    {18, "frame rate", EverySignal(false), MeasureFrameRate, nullptr,
 	        "every frame is said to last 1/60 s, and changes are not looked for"},
 	    {19, "furnace", {Diffuse, Reflected}, MeasureFurnace, nullptr, "the sky is 5 % brighter"},
-	    {20, "hybrid seams", {Sun, Occlusion, Diffuse}, MeasureSeams, nullptr, "every other tile is brighter, by 10 and 30 % in turn"},
+	    {20, "hybrid seams", {Sun, Occlusion, Diffuse, LampDiffuse}, MeasureSeams, MakeSeamsFault},
 	    {21, "caustics", {}},
 	    {22, "toon edge", {}},
 	    {23, "fog volume", {}},

@@ -98,12 +98,48 @@ FImage GetDeviation(const std::vector<FImage>& Frames, const FImage& Mean)
 }
 } // namespace
 
-/// Nothing is hybrid yet, but there are tiles: steps of the mean picture, and temporal σ, at the borders of tiles of 8 and
-/// 16 pixels against all other columns, while the camera turns over a smooth scene. The fault: every other tile is 5 %
-/// brighter.
+namespace
+{
+/// By how much pixels of one colour of a checkerboard, which changes with each frame, stand out from those around them more than pixels
+/// of the other do, over the mean: at borders of shadows, where there is something to stand out from.
+double CompareCheckers(const std::vector<FImage>& Frames)
+{
+	double Steps[2] = {}, Sum = 0.0;
+	uint64_t Count = 0;
+	for (size_t F = 0; F < Frames.size(); ++F)
+	{
+		const FImage& Frame = Frames[F];
+		const double Mean = MeanOver(Frame);
+		const auto At = [&](uint32_t X, uint32_t Y) { return double(GetLuminance(Frame, X, Y)); };
+		for (uint32_t Y = 1; Y + 1 < Frame.Height; ++Y)
+		{
+			for (uint32_t X = 1; X + 1 < Frame.Width; ++X)
+			{
+				const double Around = 0.25 * (At(X - 1, Y) + At(X + 1, Y) + At(X, Y - 1) + At(X, Y + 1));
+				double Low = At(X, Y), High = Low;
+				for (uint32_t I = 0; I < 9; ++I)
+				{
+					Low = std::min(Low, At(X + I % 3 - 1, Y + I / 3 - 1));
+					High = std::max(High, At(X + I % 3 - 1, Y + I / 3 - 1));
+				}
+				if (High - Low < 0.2 * Mean) { continue; }
+				Steps[(X + Y + F) % 2] += std::abs(At(X, Y) - Around);
+				Sum += Around;
+				++Count;
+			}
+		}
+	}
+	return 2.0 * std::abs(Steps[0] - Steps[1]) / Sum * (Count > 0 ? 1.0 : 0.0);
+}
+} // namespace
+
+/// Steps of the mean picture, and temporal σ, at the borders of tiles of 8 and 16 pixels against all other columns, while the camera
+/// moves over a smooth scene. Of lamps: and what stands out in every other pixel, in turn. The fault: every other tile is
+/// brighter; where every other pixel asks for rays, none asks for second ones.
 FRTStatus MeasureSeams(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out)
 {
-	if (FRTStatus S = Stage.Load("stability-seams"); !S) { return S; }
+	const bool bLamps = Stage.GetSignal() == ESignal::LocalDiffuse;
+	if (FRTStatus S = Stage.Load(bLamps ? "stability-seams:4" : "stability-seams"); !S) { return S; }
 	constexpr size_t Count = 48, Warm = 16;
 	std::vector<FStabilityShot> Shots(Count);
 	for (size_t I = 0; I < Count; ++I)
@@ -142,9 +178,15 @@ FRTStatus MeasureSeams(FStabilityStage& Stage, std::vector<FStabilityFigure>& Ou
 		WorstStep = std::max(WorstStep, CompareColumns(Steps, Tile, false));
 		WorstSigma = std::max(WorstSigma, CompareColumns(Sigmas, Tile, true));
 	}
-	Out.push_back({"step at tile borders", WorstStep, 0.02});
+	// Without second rays, tiles are as good as they were.
+	const bool bNoSecondRays = Stage.IsBroken() && !Stage.IsFaulty();
+	Out.push_back({"step at tile borders", WorstStep, bNoSecondRays ? std::nullopt : std::optional<double>(0.02)});
 	// Fault: a brighter tile flickers as a whole, its border no more than the rest.
-	Out.push_back({"sigma at tile borders", WorstSigma, Stage.IsFaulty() ? std::nullopt : std::optional<double>(1.5)});
+	Out.push_back({"sigma at tile borders", WorstSigma, Stage.IsBroken() ? std::nullopt : std::optional<double>(1.5)});
+	if (bLamps)
+	{
+		Out.push_back({"step at checkers", CompareCheckers(Frames), Stage.IsFaulty() ? std::nullopt : std::optional<double>(0.02)});
+	}
 	return FRTStatus::Success();
 }
 

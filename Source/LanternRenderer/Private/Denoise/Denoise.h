@@ -21,13 +21,17 @@ struct FDenoiseInputs
 {
 	const char* Name = ""; ///< names passes and histories; the same in all frames
 	/// A pixel's mean over the frame's rays, with at least ShaderRead. R16_FLOAT: visibility, each ray's is 0 or 1.
-	/// RGBA16_FLOAT: a colour, ≥ 0. Its fourth channel is 0 where the colour has no noise, and else 1.
+	/// RGBA16_FLOAT: a colour, ≥ 0. Its fourth channel is 0 where the colour has no noise. It is 2 where the
+	/// mean of other pixels stands for the pixel's own, which the filter takes only without a history. It is 1 elsewhere.
 	FGraphTexture Signal;
 	uint32_t RaysPerPixel = 1; ///< for visibility
 	/// For visibility, R16_FLOAT: width in pixels of the transition between seen and unseen that the pixel lies in. 0: the
 	/// pixel knows of none. Negative: the pixel has no value of its own, and Signal holds what stands in for it; the filter then takes
 	/// the history, or the mean of what is around it. Invalid: as wide as can be.
 	FGraphTexture Extent;
+	/// For colours, RGBA16_FLOAT: by how much they are known to have changed since the last frame, and the variance of the error in it.
+	/// Invalid: nothing is known of a change.
+	FGraphTexture Change;
 	FShadowChanges Changes; ///< of sun shadows; others look for changes in the signal itself
 };
 

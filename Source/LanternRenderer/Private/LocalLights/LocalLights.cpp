@@ -4,7 +4,9 @@
 #include "Denoise/Denoise.h"
 #include "Lighting/DirectLighting.h"
 #include "LocalLightTypes.h"
+#include "LocalLights/LampChange.h"
 #include "LocalLights/LocalRequests.h"
+#include "LocalLights/SecondRays.h"
 #include "SignalPasses.h"
 #include "Tiles/Tiles.h"
 
@@ -103,6 +105,7 @@ FGraphTexture AddLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESignal S
 	// A highlight moves with the camera, and diffuse light does not.
 	const bool bStays = Signal == ESignal::LocalDiffuse && CVarKnownChanges.GetOnRenderThread();
 	Inputs.Changes.bKnown = bStays && !Context.MovedCasters->HasLampLightChanged(Context.Scene, Context.View.DeltaSeconds);
+	Inputs.Change = AddLampChange(Context, GBuffer, Context.ShadowRays->Traced, MakeLocalDefines(Context.Facts, GetExact()), Signal);
 	return AddDenoise(Context, GBuffer, Inputs, Denoise);
 }
 } // namespace
@@ -119,6 +122,10 @@ FPassRays ChooseLocalLightRays(const FPassQuery& Query)
 	Rays.Shaders = ShadowQueueShaders;
 	Rays.Compute = {MakeShadeSource(Query.Facts, GetExact())};
 	ListLocalRequestShaders(Query.Facts, GetExact(), Rays.Compute);
+	if (Denoise.IsEnabled() && IsGuided(Query.Facts, GetExact()))
+	{
+		ListLampChangeShaders(MakeLocalDefines(Query.Facts, GetExact()), Rays.Compute);
+	}
 	return Rays;
 }
 
@@ -128,6 +135,7 @@ bool AskLocalRays(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowR
 	const bool bMany = MayChooseLights(Context.Facts, Exact);
 	// A variant from before a change may lack what the lights of now need.
 	if (!Dispatch.Has("LOCAL_RAYS") || (bMany && !Dispatch.Has("MANY_LIGHTS"))) { return false; }
+	if (!HasLightRate(Dispatch)) { return false; }
 	if (Context.Facts.bAreaLights && !Dispatch.Has("HAS_AREA_LIGHTS")) { return false; }
 	if (!AreLocalRequestsReady(Context, Exact) || !RequireCompute(Context, MakeShadeSource(Context.Facts, Exact))) { return false; }
 	InOut.Local = FLocalRays{Exact, GetLocalRaysPerPixel(Context.Facts, Exact), bMany};

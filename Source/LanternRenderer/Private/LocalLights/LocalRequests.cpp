@@ -8,6 +8,7 @@
 #include "Lights/LightCells.h"
 #include "LocalLightTypes.h"
 #include "LocalLights/LightRegions.h"
+#include "LocalLights/SecondRays.h"
 
 namespace Lantern
 {
@@ -29,8 +30,6 @@ TRTConsoleVariable<bool> CVarCellTarget("r.RT.Debug.Lights.CellTarget", true,
 TRTConsoleVariable<bool> CVarWeight("r.RT.Debug.Lights.Weight", true,
     "Planted fault. If off, a light that a pixel chose of many counts once, and not for all that it was chosen from.");
 
-bool IsGuided(const FSceneFacts& Facts, uint32_t Exact) { return MayChooseLights(Facts, Exact) && CVarCandidates.GetOnRenderThread() > 0; }
-
 bool HasRegions(const FSceneFacts& Facts, uint32_t Exact) { return IsGuided(Facts, Exact) && NeedsLightRegions(Facts); }
 
 FShaderSource MakeRequestsSource(const FSceneFacts& Facts, uint32_t Exact)
@@ -41,7 +40,12 @@ FShaderSource MakeRequestsSource(const FSceneFacts& Facts, uint32_t Exact)
 	return MakeComputeSource("LocalLights/Requests.comp", std::move(Defines));
 }
 
-FShaderSource MakeShareSource() { return MakeComputeSource("LocalLights/ShareRequests.comp"); }
+FShaderSource MakeShareSource()
+{
+	FShaderDefines Defines;
+	AddLightRateDefines(Defines);
+	return MakeComputeSource("LocalLights/ShareRequests.comp", std::move(Defines));
+}
 
 struct FRequestsPass
 {
@@ -159,12 +163,15 @@ void AddSharePass(FFrameContext& Context, IRTPipeline* Pipeline, const FRequests
 }
 } // namespace
 
+bool IsGuided(const FSceneFacts& Facts, uint32_t Exact) { return MayChooseLights(Facts, Exact) && CVarCandidates.GetOnRenderThread() > 0; }
+
 FShaderDefines MakeLocalDefines(FSceneFacts Facts, uint32_t Exact)
 {
 	const bool bMany = MayChooseLights(Facts, Exact);
 	Facts.bSun = Facts.bSky = Facts.bMasked = false; // nothing of it reaches these shaders
 	FShaderDefines Defines = MakeFactDefines(Facts);
 	if (bMany) { Defines.emplace_back("MANY_LIGHTS", "1"); }
+	AddLightRateDefines(Defines);
 	return Defines;
 }
 
@@ -181,13 +188,15 @@ void ListLocalRequestShaders(const FSceneFacts& Facts, uint32_t Exact, std::vect
 	if (MayChooseLights(Facts, Exact) && !IsGuided(Facts, Exact)) { ListLightCellShaders(Facts, Out); }
 	if (HasRegions(Facts, Exact)) { Out.push_back(MakeLightRegionsSource(Facts)); }
 	if (MayQueuesOverflow(1 + GetLocalRaysPerPixel(Facts, Exact))) { Out.push_back(MakeShareSource()); }
+	if (WantsSecondRays()) { Out.push_back(MakeSecondRaysSource(MakeLocalDefines(Facts, Exact))); }
 }
 
 bool AreLocalRequestsReady(FFrameContext& Context, uint32_t Exact)
 {
 	const bool bShared = !MayQueuesOverflow(1 + GetLocalRaysPerPixel(Context.Facts, Exact)) || RequireCompute(Context, MakeShareSource());
+	const bool bSecond = !WantsSecondRays() || RequireCompute(Context, MakeSecondRaysSource(MakeLocalDefines(Context.Facts, Exact)));
 	const bool bListed = !HasRegions(Context.Facts, Exact) || RequireCompute(Context, MakeLightRegionsSource(Context.Facts));
-	return RequireCompute(Context, MakeRequestsSource(Context.Facts, Exact)) && bShared && bListed;
+	return RequireCompute(Context, MakeRequestsSource(Context.Facts, Exact)) && bShared && bListed && bSecond;
 }
 
 void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRays& InOut, const FLocalRays& Rays)
@@ -214,6 +223,14 @@ void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRa
 	InOut.Traced.Guide = Inputs.Guide;
 	InOut.Traced.GuideOffset = Inputs.GuideOffset;
 	InOut.Traced.LocalPerPixel = Rays.PerPixel;
+}
+
+void AddSecondLocalRays(
+    FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FShadowRays& Traced, const FLocalRays& Rays)
+{
+	if (!WantsSecondRays()) { return; }
+	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSecondRaysSource(MakeLocalDefines(Context.Facts, Rays.Exact)));
+	if (Pipeline) { AddSecondRays(Context, GBuffer, Dispatch, Traced.Queue, Traced.Traced, Pipeline); }
 }
 
 } // namespace Lantern

@@ -20,11 +20,19 @@ inline uint32_t GetLocalRaysPerPixel(const FSceneFacts& Facts, uint32_t Exact) {
 /// Returns whether tiles can have more lights than get rays each.
 inline bool MayChooseLights(const FSceneFacts& Facts, uint32_t Exact) { return Facts.Lights > Exact; }
 
+/// Returns whether pixels of tiles with many lights choose from tables, and tiles remember what was seen (FQueuedRays::Guide).
+bool IsGuided(const FSceneFacts& Facts, uint32_t Exact);
+
 /// Whether AddLocalRequests can add its passes. False: shaders are being compiled, or an error, which the context then has.
 bool AreLocalRequestsReady(FFrameContext& Context, uint32_t Exact);
 
 /// Adds the passes that list the lights of tiles and ask for rays. Reads Depth, Normals and, if pixels
 /// choose, BaseColor and Material of the G-buffer. After AreLocalRequestsReady. InOut: gets the buffers that the rays and the shading read. Without tiles of the sun, the queue starts here.
 void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRays& InOut, const FLocalRays& Rays);
+
+/// Adds the passes of rays that are asked for where those of AddLocalRequests, which have been traced by then, leave a doubt. They have
+/// none at full rate. Dispatch: of the queue's shader.
+void AddSecondLocalRays(
+    FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FShadowRays& Traced, const FLocalRays& Rays);
 
 } // namespace Lantern

@@ -115,6 +115,17 @@ FRayQueue CreateRayQueue(FFrameContext& Context, uint32_t MostPerPixel)
 	return Queue;
 }
 
+FRayQueue CreateFurtherQueue(FFrameContext& Context, const FRayQueue& Traced, const char* Suffix)
+{
+	FRayQueue Further = Traced;
+	Further.Name += Suffix;
+	Further.bRest = false;
+	Further.bMayOverflow = false;
+	Further.Counters =
+	    Context.Graph.CreateBuffer({sizeof(FRayQueueCounters), ERTBufferUsage::CopyDest}, (Further.Name + "Counters").c_str());
+	return Further;
+}
+
 void StartQueue(FPassContext& Pass, const FRayQueue& Queue)
 {
 	IRTBuffer* const Counters = Pass.GetBuffer(Queue.Counters);

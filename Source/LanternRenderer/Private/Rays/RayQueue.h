@@ -57,6 +57,9 @@ ERayPath ChooseQueuePath(const FPassQuery& Query, const char* What);
 /// MostPerPixel: requests that a pixel can make, which the queue never exceeds. It has room for what
 /// r.RT.Rays.QueuePerPixel says, or for what earlier frames asked for.
 FRayQueue CreateRayQueue(FFrameContext& Context, uint32_t MostPerPixel);
+/// Creates a further queue of the frame in the place of one that has been traced by then; answers lie where its do. What has no room
+/// in it is left out. Suffix: of the names of its passes.
+FRayQueue CreateFurtherQueue(FFrameContext& Context, const FRayQueue& Traced, const char* Suffix);
 
 /// Empties the queue's counters. For the first pass that writes requests, while it is recorded; it has declared StorageWrite.
 void StartQueue(FPassContext& Pass, const FRayQueue& Queue);

@@ -78,11 +78,7 @@ void AddMoreRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDisp
 	if (!Pipeline || !RequireSurface(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion})) { return; }
 	const bool bHistory = Context.PreviousView && Context.Surface.Previous.IsValid();
 	if (bHistory && Changes.CasterCount == 0 && IsSameView(Context.View, *Context.PreviousView)) { return; }
-	FRayQueue More = Queue;
-	More.Name += "More";
-	More.bRest = false;
-	More.bMayOverflow = false; // what has no room stays with the rays that it has
-	More.Counters = Context.Graph.CreateBuffer({sizeof(FRayQueueCounters), ERTBufferUsage::CopyDest}, "MoreRayCounters");
+	const FRayQueue More = CreateFurtherQueue(Context, Queue, "More");
 	FQueuedRays Traced = Rays;
 	Traced.MoreSamples = GetMoreRays();
 	AddAskPass(Context, Pipeline, More, Tiles, Changes, Traced.MoreSamples);

@@ -68,6 +68,12 @@ bool FMovedCasters::HasLampLightChanged(FRTScene& Scene, float DeltaSeconds)
 	return Before.Sun.Scene != Next.Sun.Scene || Before.Lights != Next.Lights || Before.Changes != Next.Changes;
 }
 
+bool FMovedCasters::HaveLampsChanged(FRTScene& Scene, float DeltaSeconds)
+{
+	if (!Next.bValid) { Note(Scene, {}, DeltaSeconds); }
+	return Recent.empty() || Recent.back().Sun.Scene != Next.Sun.Scene || Recent.back().Lights != Next.Lights;
+}
+
 void FMovedCasters::Note(FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds)
 {
 	Next = {MakeSunState(Scene, Rays), Scene.GetCasterChanges().GetCount(), true, DeltaSeconds, Scene.GetLights().GetChangeCount(), 0.0};

@@ -38,6 +38,8 @@ public:
 	FRecent FindRecent(FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds);
 	/// Returns whether the light of lamps may have changed anywhere in the last RecentSeconds: a lamp has, or a caster moved. As Find.
 	bool HasLampLightChanged(FRTScene& Scene, float DeltaSeconds);
+	/// Returns whether a lamp has changed since the view's last frame, or there is none. As Find.
+	bool HaveLampsChanged(FRTScene& Scene, float DeltaSeconds);
 	/// bSubmitted: false if the frame never runs; the next frame then finds its changes again.
 	void EndFrame(bool bSubmitted);
 

@@ -132,15 +132,11 @@ void AddSettledRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayD
 {
 	IRTPipeline* const Check = RequireCompute(Context, MakeCheckSource());
 	if (!Check) { return; } // FindSettledTiles had it
-	FRayQueue Second = Queue;
-	Second.Name += "Rest";
+	FRayQueue Second = CreateFurtherQueue(Context, Queue, "Rest");
 	Second.bRest = true;
-	// The first queue's rays are traced by then: the second takes their place.
-	Second.Counters = Context.Graph.CreateBuffer({sizeof(FRayQueueCounters), ERTBufferUsage::CopyDest}, "RayRestCounters");
 	AddCheckPass(Context, Check, Second, Tiles, Settled.Known.Current);
 	// What has no room makes its tile unsettled: the next frame asks the first queue, which then grows.
-	if (MayLackSunRays(Context, Second)) { AddShareQueuePass(Context, Second, Tiles, true); }
-	Second.bMayOverflow = false;
+	if (MayLackSunRays(Context, Queue)) { AddShareQueuePass(Context, Second, Tiles, true); }
 	AddShadowRaysPass(Context, GBuffer, Dispatch, Second, Rays);
 }
 

@@ -27,7 +27,7 @@ FSceneDescription BuildStabilityNan();
 FSceneDescription BuildStabilityFurnace();
 
 /// A wide penumbra over a floor, and a corner full of ambient occlusion. The light is smooth all over, so that a seam shows.
-FSceneDescription BuildStabilitySeams();
+FSceneDescription BuildStabilitySeams(float Lamps);
 
 /// An open room at Far · (16 km, 0.5 km, 16 km).
 FSceneDescription BuildStabilityFar(float Far);

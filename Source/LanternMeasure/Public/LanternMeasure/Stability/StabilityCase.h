@@ -54,6 +54,7 @@ std::vector<FMethodSetting> KnownSettings(std::initializer_list<std::pair<const 
 FRTStatus MeasureThinWall(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureLightSwitch(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureTimeOfDay(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
+FRTStatus MeasureFlicker(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureTinyEmitters(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureDisocclusion(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureGhost(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);

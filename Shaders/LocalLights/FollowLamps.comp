@@ -1,0 +1,89 @@
+// By how much a lobe of each pixel has changed since the last frame, because lights have: what the filter adds to its history.
+// What lights bring is known. Whether they are seen is what the rays of the tile and of those around it said in the last frames.
+#version 460
+#include "../Shared/LampChangeTypes.h"
+#include "../Tiles/Tile.glsl"
+#include "Demodulate.glsl"
+#include "Guide.glsl"
+
+layout(local_size_x = TILE_PIXELS) in;
+layout(push_constant, scalar) uniform FPush { FFollowLampsConstants Push; };
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FLampChangesRef { FLampChanges Data; };
+
+const float MaxHalf = 65504.0;
+
+shared uint Order[LAMP_CHANGES]; // places of the list, by the lights' numbers: sums do not depend on the order of threads
+shared vec2 Seen[LAMP_CHANGES];  // expected visibility, and its variance from pixel to pixel
+
+void SortList(FLampChangesRef List, uint Count, uint Place)
+{
+	if (Place >= Count) { return; }
+	uint Light = List.Data.Changes[Place].Light, Rank = 0u;
+	for (uint I = 0u; I < Count; ++I) { Rank += List.Data.Changes[I].Light < Light ? 1u : 0u; }
+	Order[Rank] = Place;
+}
+
+// Returns the expected visibility of a light from the tile, and its variance.
+vec2 ExpectSeen(FViewConstants View, uint Light)
+{
+	ivec2 Last = ivec2((uvec2(View.Width, View.Height) - 1u) / TILE_SIZE);
+	vec2 Rays = vec2(1.0, 0.5); // what is unknown
+	for (int I = 0; I < 9; ++I)
+	{
+		ivec2 Tile = clamp(ivec2(gl_WorkGroupID.xy) + ivec2(I % 3, I / 3) - 1, ivec2(0), Last);
+		uint Index = TileIndex(View, uvec2(Tile));
+		FGuideLight Found = FTileGuideRef(Push.Guide).Data[Index].Lights[GuidePlace(Light, GuideTileHash(Index))];
+		float Weight = (I == 4 ? 1.0 : 0.125) / float(TILE_GUIDE_RAY);
+		if (Found.Light == Light) { Rays += Weight * vec2(GuideTraced(Found.Counts), GuideSeen(Found.Counts)); }
+	}
+	float Visibility = Rays.y / Rays.x;
+	return vec2(Visibility, Visibility * (1.0 - Visibility) + 0.25 / Rays.x);
+}
+
+vec3 BringsTo(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLocalBrdf Local, float Roughness, FLightData Light, vec2 U)
+{
+	if (LightType(Light) == LIGHT_NONE) { return vec3(0.0); }
+	FLightSample Sample = SampleLight(Scene, Light, Point.P, U);
+	if (!ReachesLight(View, Point, Sample)) { return vec3(0.0); }
+	FLobes Lobes = Demodulate(ReflectLight(Point, Local, Sample), Local.Brdf, dot(Point.Surface.BentN, Point.Surface.V), Roughness);
+	return Push.bSpecular != 0u ? Lobes.Specular : Lobes.Diffuse;
+}
+
+vec4 FollowPixel(FSceneConstants Scene, FViewConstants View, FLampChangesRef List, uint Count, uvec2 Pixel, float Depth)
+{
+	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, Depth);
+	FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel);
+	float Roughness = texelFetch(Textures[Push.Material], ivec2(Pixel), 0).x;
+	vec4 Sum = vec4(0.0);
+	for (uint I = 0u; I < Count; ++I)
+	{
+		FLampChange Change = List.Data.Changes[Order[I]];
+		vec2 U = LocalNumbers(View, Pixel, Change.Light), Known = Seen[I];
+		FLightData Now = FLightRef(Scene.Lights).Data[min(Change.Light, Scene.LightCount - 1u)];
+		vec3 More = BringsTo(Scene, View, Point, Local, Roughness, Now, U) - BringsTo(Scene, View, Point, Local, Roughness, Change.Before, U);
+		if (((Now.Flags | Change.Before.Flags) & LIGHT_CASTS_SHADOW) == 0u) { Known = vec2(1.0, 0.0); }
+		float Brightness = Luminance(More);
+		Sum += vec4(More * Known.x, Brightness * Brightness * Known.y);
+	}
+	return Sum;
+}
+
+void main()
+{
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
+	FLampChangesRef List = FLampChangesRef(Push.List);
+	uint Place = gl_LocalInvocationIndex, Count = min(List.Data.Count, LAMP_CHANGES);
+	bool bTooMany = List.Data.Count > LAMP_CHANGES;
+	uvec2 Pixel = TilePixel(gl_WorkGroupID.xy, Place);
+	SortList(List, Count, Place);
+	barrier();
+	if (Place < Count) { Seen[Place] = ExpectSeen(View, List.Data.Changes[Order[Place]].Light); }
+	barrier();
+	if (IsOutsideView(View, Pixel)) { return; }
+	float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
+	vec4 Change = vec4(0.0, 0.0, 0.0, bTooMany ? MaxHalf : 0.0);
+	if (Depth > 0.0 && !bTooMany) { Change = FollowPixel(Scene, View, List, Count, Pixel, Depth); }
+	imageStore(Images[Push.Output], ivec2(Pixel), clamp(Change, -MaxHalf, MaxHalf));
+}

@@ -1,0 +1,40 @@
+// Which pixels ask for rays in a frame (r.RT.Lights.Rate). The others take what neighbours on their plane saw.
+// CHECKERBOARD: every other pixel, in turn. QUARTER: one of each 2×2, in turn. Neither: all.
+#ifndef LANTERN_LOCAL_RATE_GLSL
+#define LANTERN_LOCAL_RATE_GLSL
+
+#if defined(CHECKERBOARD) || defined(QUARTER)
+#define SPARSE
+#endif
+
+#if defined(CHECKERBOARD)
+const uint TurnFrames = 2u; // in which each pixel asks once
+#elif defined(QUARTER)
+const uint TurnFrames = 4u;
+#else
+const uint TurnFrames = 1u;
+#endif
+
+// Returns the pixels of a tile that ask, in Z order. Either word of 32 is the same.
+uint TurnMask(uint FrameIndex)
+{
+#if defined(CHECKERBOARD)
+	return (FrameIndex & 1u) == 0u ? 0x99999999u : 0x66666666u;
+#elif defined(QUARTER)
+	return 0x11111111u << ((0x9cu >> (2u * (FrameIndex & 3u))) & 3u); // opposite corners of the 2×2 follow each other
+#else
+	return 0xffffffffu;
+#endif
+}
+// Returns a number that pixels have in common if their turns come in the same frames.
+uint TurnOf(uint Place)
+{
+#if defined(CHECKERBOARD)
+	return (Place ^ (Place >> 1u)) & 1u;
+#else
+	return Place % TurnFrames;
+#endif
+}
+bool HasTurn(uint FrameIndex, uint Place) { return (TurnMask(FrameIndex) & (1u << (Place & 31u))) != 0u; }
+
+#endif

@@ -1,0 +1,129 @@
+// On the mock: what fewer rays to lamps and lamps that change add to a frame, and that they add nothing where nothing has a use for them.
+#include "Support/RendererTestTools.h"
+
+namespace Lantern
+{
+namespace
+{
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+class FLightRateTest : public FRendererTest
+{
+protected:
+	void SetUp() override
+	{
+		FRendererTest::SetUp();
+		Set("r.RT.Shadow", "0");
+		Set("r.RT.AO", "0");
+	}
+	FRTScene& GetWorld() { return Engine->GetScene().GetScene(); }
+	FLightId AddLamp(double X, float Brightness)
+	{
+		FSceneLight Light;
+		Light.Position = {X, 0, 1};
+		Light.Color = glm::vec3(Brightness);
+		return GetWorld().AddLight(Light);
+	}
+	bool HasSecondRays() { return HasPass("ShadowSecondAsk") && HasPass("ShadowSecondRays"); }
+	bool FollowsLamps() { return HasPass("LocalDiffuseChange") && HasPass("LocalSpecularChange"); }
+	/// Whether anything of lamps that change was made since the device was opened.
+	void ExpectNothingFollowed()
+	{
+		for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::CreateBuffer))
+		{
+			EXPECT_EQ(Call.Name.find("Lamp"), std::string::npos);
+		}
+		EXPECT_THAT(Mock().GetCreatedPipelines(), Not(Contains(HasSubstr("Lamps.comp"))));
+	}
+};
+
+TEST_F(FLightRateTest, SecondRaysAreForFewerFirstOnes)
+{
+	LoadAndRender({.bLights = true});
+	EXPECT_FALSE(HasPass("ShadowSecondAsk"));
+	EXPECT_THAT(Mock().GetCreatedPipelines(), Not(Contains(StartsWith("LocalLights/SecondRays.comp"))));
+	for (const char* const Rate : {"1", "2"})
+	{
+		Set("r.RT.Lights.Rate", Rate);
+		Render();
+		EXPECT_TRUE(HasSecondRays()) << Rate;
+	}
+	Set("r.RT.Debug.Lights.SecondRay", "0");
+	Render();
+	EXPECT_FALSE(HasPass("ShadowSecondAsk"));
+	Set("r.RT.Debug.Lights.SecondRay", "1");
+	Set("r.RT.Lights.Rate", "0");
+	Render();
+	EXPECT_FALSE(HasPass("ShadowSecondAsk"));
+}
+
+TEST_F(FLightRateTest, WithoutLampsThereAreNoSecondRays)
+{
+	Set("r.RT.Shadow", "1");
+	Set("r.RT.Lights.Rate", "1");
+	LoadAndRender({});
+	EXPECT_TRUE(HasPass("ShadowRays"));
+	EXPECT_FALSE(HasPass("ShadowSecondAsk"));
+	EXPECT_THAT(Mock().GetCreatedPipelines(), Not(Contains(StartsWith("LocalLights/SecondRays.comp"))));
+}
+
+// Only the first frame, which notes what all are, and frames in which one has changed.
+TEST_F(FLightRateTest, LampsThatChangeAreFollowed)
+{
+	ASSERT_TRUE(Load({}));
+	FLightId First;
+	for (int I = 0; I < 6; ++I) { First = AddLamp(I, 1.0f); }
+	Render();
+	EXPECT_TRUE(HasPass("LocalDiffuseLamps"));
+	EXPECT_FALSE(FollowsLamps()) << "there is no frame before";
+	Render();
+	EXPECT_FALSE(HasPass("LocalDiffuseLamps"));
+	for (int Frame = 0; Frame < 10; ++Frame) { Render(); }
+	FSceneLight Dark = GetWorld().GetLights().Get(First);
+	Dark.Color = glm::vec3(0.1f);
+	GetWorld().SetLight(First, Dark);
+	Render();
+	EXPECT_TRUE(HasPass("LocalDiffuseLamps"));
+	EXPECT_TRUE(FollowsLamps()) << "what was noted is kept";
+	Render();
+	EXPECT_FALSE(HasPass("LocalDiffuseLamps"));
+}
+
+TEST_F(FLightRateTest, WhatIsNotAccumulatedNeedsNotFollow)
+{
+	Set("r.RT.Lights.Denoise", "0");
+	ASSERT_TRUE(Load({}));
+	for (int I = 0; I < 6; ++I) { AddLamp(I, 1.0f); }
+	Render();
+	AddLamp(7, 1.0f);
+	Render();
+	ExpectNothingFollowed();
+}
+
+TEST_F(FLightRateTest, TilesOfFewLampsFindChangesThemselves)
+{
+	ASSERT_TRUE(Load({}));
+	for (int I = 0; I < 3; ++I) { AddLamp(I, 1.0f); }
+	Render();
+	AddLamp(7, 1.0f);
+	Render();
+	ExpectNothingFollowed();
+}
+
+TEST_F(FLightRateTest, PlantedFaultFollowsNothing)
+{
+	Set("r.RT.Debug.Lights.Rescale", "0");
+	ASSERT_TRUE(Load({}));
+	for (int I = 0; I < 6; ++I) { AddLamp(I, 1.0f); }
+	Render();
+	AddLamp(7, 1.0f);
+	Render();
+	ExpectNothingFollowed();
+}
+
+} // namespace
+} // namespace Lantern
