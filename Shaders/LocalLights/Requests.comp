@@ -1,5 +1,6 @@
 // Finds the lights of a tile, and queues their rays: for all of its lights if they are few, else for one that each pixel chooses.
 // MANY_LIGHTS: defined if the scene has more lights than FLocalRequestsConstants::Exact.
+// LOCAL_EMISSIVE: emissive triangles shine as lights do. Pixels choose one of them, or of them and all lights where these are many.
 // GUIDED: pixels choose from a table of their tile's lights (TileTable.glsl). Not defined: from all, which takes long.
 #version 460
 #include "../Rays/RayQueue.glsl"
@@ -15,6 +16,7 @@ layout(push_constant, scalar) uniform FPush { FLocalRequestsConstants Push; };
 const uint MaxCandidates = 32u; // lights whose ranges meet the tile; a tile of more has many
 
 shared uint LowBits[3], HighBits[3]; // corners of the box of all surfaces in the tile, in an order that integers keep
+shared uint EmitterCount; // clusters of emissive triangles that may light the tile
 shared uint CandidateCount, Found[MaxCandidates], Candidates[MaxCandidates];
 shared uint Reached[2u * MaxCandidates];
 shared FTileLights Tile;
@@ -70,6 +72,18 @@ void FindCandidates(FSceneConstants Scene, uint Place)
 	barrier();
 }
 
+#ifdef LOCAL_EMISSIVE
+void CountEmitters(FSceneConstants Scene, uint Place)
+{
+	vec3 Low = BoxCorner(LowBits), High = BoxCorner(HighBits);
+	for (uint I = Place; I < Scene.EmissiveClusterCount; I += TILE_PIXELS)
+	{
+		if (MayReachFromCluster(LoadCluster(I), Low, High)) { atomicAdd(EmitterCount, 1u); }
+	}
+	barrier();
+}
+#endif
+
 // Marks the candidates that the pixel may be lit by.
 void MarkReached(FSceneConstants Scene, FLocalPoint Point, uint Place)
 {
@@ -85,6 +99,8 @@ void MarkReached(FSceneConstants Scene, FLocalPoint Point, uint Place)
 void ListLights(FSceneConstants Scene)
 {
 	Tile.Count = CandidateCount > MaxCandidates ? TILE_LIGHTS_MANY : 0u;
+	Tile.bChooses = EmitterCount > 0u || Tile.Count != 0u ? 1u : 0u;
+	Tile.Asking[0] = Tile.Asking[1] = 0u;
 	for (uint I = 0u; I < 2u * TILE_LIGHTS; ++I) { Tile.Reached[I] = 0u; }
 	if (Tile.Count != 0u) { return; }
 	for (uint I = 0u; I < CandidateCount; ++I)
@@ -93,6 +109,7 @@ void ListLights(FSceneConstants Scene)
 		if (Tile.Count == Push.Exact)
 		{
 			Tile.Count = TILE_LIGHTS_MANY;
+			Tile.bChooses = 1u;
 			break;
 		}
 		bool bCasts = (FLightRef(Scene.Lights).Data[Candidates[I]].Flags & LIGHT_CASTS_SHADOW) != 0u;
@@ -139,10 +156,10 @@ bool ChooseLight(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, 
 #endif
 
 #ifdef MANY_LIGHTS
-// If the tile has many lights, each pixel chooses one. All threads.
+// If the tile has many lights, or emissive triangles, each pixel chooses one. All threads.
 void ChooseOfMany(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, bool bSurface, uvec2 Pixel, uint Place)
 {
-	bool bMany = Tile.Count == TILE_LIGHTS_MANY, bAsks = false;
+	bool bMany = Tile.bChooses != 0u, bAsks = false;
 	FLightChoice Choice = FLightChoice(0u, 0.0);
 #ifdef GUIDED
 	FLobes Lit = FLobes(vec3(0.0), vec3(0.0));
@@ -157,14 +174,14 @@ void ChooseOfMany(FSceneConstants Scene, FViewConstants View, FLocalPoint Point,
 	WriteGuide(View, Place, bMany);
 	if (bMany && bSurface)
 	{
-		FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel);
+		FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel, Push.ReflectedRoughness);
 		bAsks = ChooseOfTable(Scene, View, Point, Local, Pixel, Choice, Lit);
 	}
 #else
 	if (bMany && bSurface) { bAsks = ChooseLight(Scene, View, Point, Pixel, Choice); }
 #endif
 	if (!bMany || IsOutsideView(View, Pixel)) { return; }
-	if (bAsks) { atomicOr(Tile.Reached[Place >> 5u], 1u << (Place & 31u)); }
+	if (bAsks) { atomicOr(Tile.Asking[Place >> 5u], 1u << (Place & 31u)); }
 	uint Index = Pixel.y * View.Width + Pixel.x;
 	FLightChoiceRef(Push.Choices).Data[Index] = Choice;
 #ifdef GUIDED
@@ -176,10 +193,10 @@ void ChooseOfMany(FSceneConstants Scene, FViewConstants View, FLocalPoint Point,
 // Reserves room for all rays of the tile at once. One thread.
 void Reserve()
 {
-	uint Count = 0u, Slots = Tile.Count == TILE_LIGHTS_MANY ? 1u : Tile.Count;
+	uint Count = bitCount(Tile.Asking[0]) + bitCount(Tile.Asking[1]), Slots = Tile.Count == TILE_LIGHTS_MANY ? 0u : Tile.Count;
 	for (uint I = 0u; I < Slots; ++I)
 	{
-		bool bUnshadowed = Tile.Count != TILE_LIGHTS_MANY && (Tile.Lights[I] & TILE_LIGHT_UNSHADOWED) != 0u;
+		bool bUnshadowed = (Tile.Lights[I] & TILE_LIGHT_UNSHADOWED) != 0u;
 		Count += bUnshadowed ? 0u : bitCount(Tile.Reached[2u * I]) + bitCount(Tile.Reached[2u * I + 1u]);
 	}
 	if (Count == 0u) { return; }
@@ -189,23 +206,28 @@ void Reserve()
 	GrowLaunch(Push.Counters, min(FirstRequest + Count, Push.Capacity));
 }
 
+// Writes the pixel's request if it is among those of 64 bits. First: number of their first one, and of the first behind them.
+void WriteRequest(uint Low, uint High, uint Kind, uint Slot, uint Place, uint PixelIndex, inout uint First)
+{
+	uint Mine = Place < 32u ? Low : High, Bit = 1u << (Place & 31u);
+	uint Number = First + bitCount(Mine & (Bit - 1u)) + (Place < 32u ? 0u : bitCount(Low));
+	if ((Mine & Bit) != 0u && Number < Push.Capacity)
+	{
+		FRayRequestRef(Push.Requests).Data[Number] = MakeRayRequest(Kind, Slot, PixelIndex);
+	}
+	First += bitCount(Low) + bitCount(High);
+}
+
 // Writes the pixel's requests, light by light: rays to one light then start close to each other.
 void WriteRequests(uint Place, uint PixelIndex)
 {
-	bool bMany = Tile.Count == TILE_LIGHTS_MANY;
-	uint First = FirstRequest, Slots = bMany ? 1u : Tile.Count;
+	uint First = FirstRequest, Slots = Tile.Count == TILE_LIGHTS_MANY ? 0u : Tile.Count;
 	for (uint I = 0u; I < Slots; ++I)
 	{
-		if (!bMany && (Tile.Lights[I] & TILE_LIGHT_UNSHADOWED) != 0u) { continue; }
-		uint Low = Tile.Reached[2u * I], High = Tile.Reached[2u * I + 1u];
-		uint Mine = Place < 32u ? Low : High, Bit = 1u << (Place & 31u);
-		uint Number = First + bitCount(Mine & (Bit - 1u)) + (Place < 32u ? 0u : bitCount(Low));
-		if ((Mine & Bit) != 0u && Number < Push.Capacity)
-		{
-			FRayRequestRef(Push.Requests).Data[Number] = MakeRayRequest(bMany ? RAY_KIND_CHOSEN : RAY_KIND_LOCAL, I, PixelIndex);
-		}
-		First += bitCount(Low) + bitCount(High);
+		if ((Tile.Lights[I] & TILE_LIGHT_UNSHADOWED) != 0u) { continue; }
+		WriteRequest(Tile.Reached[2u * I], Tile.Reached[2u * I + 1u], RAY_KIND_LOCAL, I, Place, PixelIndex, First);
 	}
+	WriteRequest(Tile.Asking[0], Tile.Asking[1], RAY_KIND_CHOSEN, 0u, Place, PixelIndex, First);
 }
 
 void Start(uint Place)
@@ -218,7 +240,7 @@ void Start(uint Place)
 	Reached[Place] = 0u; // as many words as threads
 	if (Place == 0u)
 	{
-		CandidateCount = 0u;
+		CandidateCount = EmitterCount = 0u;
 		Tile.Count = 0u;
 	}
 	barrier();
@@ -248,6 +270,9 @@ void main()
 	barrier();
 	bool bEmpty = HighBits[0] < LowBits[0]; // nothing but sky
 	if (!bEmpty) { FindCandidates(Scene, Place); }
+#ifdef LOCAL_EMISSIVE
+	if (!bEmpty) { CountEmitters(Scene, Place); }
+#endif
 	barrier();
 	if (bSurface && CandidateCount <= MaxCandidates) { MarkReached(Scene, Point, Place); }
 	barrier();

@@ -11,7 +11,8 @@ layout(local_size_x = TILE_PIXELS) in;
 layout(push_constant, scalar) uniform FPush { FLocalShadeConstants Push; };
 
 // Rays of the tile by slot: where some had no room in the queue, their pixels take the mean of the others.
-shared uint Seen[TILE_LIGHTS], Traced[TILE_LIGHTS];
+const uint ChosenSlot = TILE_LIGHTS;
+shared uint Seen[TILE_LIGHTS + 1u], Traced[TILE_LIGHTS + 1u];
 
 // Returns the visibility of a slot's light.
 float SlotVisibility(uint Answer, uint Slot, uint SeenBit, uint TracedBit)
@@ -30,7 +31,7 @@ void CountAnswer(uint Answer, uint Slot, uint SeenBit, uint TracedBit)
 shared uint GuideTracedNow[TILE_GUIDE_LIGHTS], GuideSeenNow[TILE_GUIDE_LIGHTS];
 
 // Adds what the tile's rays saw to its guide. All threads.
-void Remember(FViewConstants View, uint PixelIndex, uint Answer, uint Place)
+void Remember(FSceneConstants Scene, FViewConstants View, uint PixelIndex, uint Answer, uint Place)
 {
 	if (Place < TILE_GUIDE_LIGHTS) { GuideTracedNow[Place] = GuideSeenNow[Place] = 0u; }
 	barrier();
@@ -38,7 +39,7 @@ void Remember(FViewConstants View, uint PixelIndex, uint Answer, uint Place)
 	FTileGuideRef Guides = FTileGuideRef(Push.Guide);
 	if ((Answer & (1u << ANSWER_CHOSEN_TRACED)) != 0u)
 	{
-		uint Light = FLightChoiceRef(Push.Choices).Data[PixelIndex].Light, Slot = GuidePlace(Light, GuideTileHash(Index));
+		uint Light = GuideNumber(Scene, FLightChoiceRef(Push.Choices).Data[PixelIndex].Light), Slot = GuidePlace(Light, GuideTileHash(Index));
 		bool bSeen = (Answer & (1u << ANSWER_CHOSEN_SEEN)) != 0u;
 		if (Guides.Data[Index].Lights[Slot].Light == Light)
 		{
@@ -59,46 +60,48 @@ void AddLight(inout FLobes Sum, FSceneConstants Scene, FViewConstants View, FLoc
 {
 	FLightSample Sample = SampleLocalLight(Scene, View, Point, Pixel, Light);
 	if (!ReachesLight(View, Point, Sample)) { return; }
-	FLobes Lobes = ReflectLight(Point, Local, Sample);
+	FLobes Lobes = ReflectLight(Point, Local, Sample, Light);
 	Sum.Diffuse += Lobes.Diffuse * Weight;
 	Sum.Specular += Lobes.Specular * Weight;
 }
 
 #ifdef MANY_LIGHTS
-FLobes ShadeChosen(FSceneConstants Scene, FViewConstants View, uvec2 Pixel, bool bAsked, uint Answer, FLocalPoint Point, FLocalBrdf Local)
+void AddChosen(inout FLobes Sum, FSceneConstants Scene, FViewConstants View, uvec2 Pixel, bool bAsked, uint Answer, FLocalPoint Point,
+               FLocalBrdf Local)
 {
-	FLobes Sum = FLobes(vec3(0.0), vec3(0.0));
 	uint Index = Pixel.y * View.Width + Pixel.x;
 	FLightChoice Choice = FLightChoiceRef(Push.Choices).Data[Index];
-	float Visibility = bAsked ? SlotVisibility(Answer, 0u, ANSWER_CHOSEN_SEEN, ANSWER_CHOSEN_TRACED) : 1.0;
-	if (Choice.Weight <= 0.0 || Visibility <= 0.0) { return Sum; }
+	float Visibility = bAsked ? SlotVisibility(Answer, ChosenSlot, ANSWER_CHOSEN_SEEN, ANSWER_CHOSEN_TRACED) : 1.0;
+	if (Choice.Weight <= 0.0 || Visibility <= 0.0) { return; }
 #ifdef GUIDED
 	if (Push.Lit != FAddress(0))
 	{
-		Sum = UnpackLobes(FLitPixelRef(Push.Lit).Data[Index].Lobes);
-		Sum.Diffuse *= Visibility;
-		Sum.Specular *= Visibility;
-		return Sum;
+		FLobes Lit = UnpackLobes(FLitPixelRef(Push.Lit).Data[Index].Lobes);
+		Sum.Diffuse += Lit.Diffuse * Visibility;
+		Sum.Specular += Lit.Specular * Visibility;
+		return;
 	}
 #endif
 	AddLight(Sum, Scene, View, Point, Local, Pixel, Choice.Light, Choice.Weight * Visibility);
-	return Sum;
 }
 #endif
+
+// Lights that each pixel has a ray to.
+uint CountSlots(FTileLights Tile) { return Tile.Count == TILE_LIGHTS_MANY ? 0u : Tile.Count; }
 
 FLobes ShadePixel(FTileLights Tile, FSceneConstants Scene, FViewConstants View, uvec2 Pixel, uint Place, uint Answer, FLocalPoint Point,
                   FLocalBrdf Local)
 {
 	FLobes Sum = FLobes(vec3(0.0), vec3(0.0));
-	if (Tile.Count == TILE_LIGHTS_MANY)
-	{
 #ifdef MANY_LIGHTS
-		bool bAsked = (Tile.Reached[Place >> 5u] & (1u << (Place & 31u))) != 0u;
-		Sum = ShadeChosen(Scene, View, Pixel, bAsked, Answer, Point, Local);
-#endif
-		return Sum;
+	if (Tile.bChooses != 0u)
+	{
+		bool bAsked = (Tile.Asking[Place >> 5u] & (1u << (Place & 31u))) != 0u;
+		AddChosen(Sum, Scene, View, Pixel, bAsked, Answer, Point, Local);
 	}
-	for (uint I = 0u; I < Tile.Count; ++I)
+#endif
+	uint Slots = CountSlots(Tile);
+	for (uint I = 0u; I < Slots; ++I)
 	{
 		if ((Tile.Reached[2u * I + (Place >> 5u)] & (1u << (Place & 31u))) == 0u) { continue; }
 		bool bUnshadowed = (Tile.Lights[I] & TILE_LIGHT_UNSHADOWED) != 0u;
@@ -128,26 +131,24 @@ void main()
 	bool bInside = !IsOutsideView(View, Pixel);
 	uint Answer = bInside ? FAnswerRef(Push.Answers).Data[Pixel.y * View.Width + Pixel.x] : 0u;
 	FTileLights Tile = FTileLightsRef(Push.TileLights).Data[TileIndex(View, gl_WorkGroupID.xy)];
-	if (Place < TILE_LIGHTS) { Seen[Place] = Traced[Place] = 0u; }
+	if (Place <= TILE_LIGHTS) { Seen[Place] = Traced[Place] = 0u; }
 	barrier();
-	if (Tile.Count == TILE_LIGHTS_MANY) { CountAnswer(Answer, 0u, ANSWER_CHOSEN_SEEN, ANSWER_CHOSEN_TRACED); }
-	else
-	{
-		for (uint I = 0u; I < Tile.Count; ++I) { CountAnswer(Answer, I, ANSWER_LOCAL_SEEN + I, ANSWER_LOCAL_TRACED + I); }
-	}
+	if (Tile.bChooses != 0u) { CountAnswer(Answer, ChosenSlot, ANSWER_CHOSEN_SEEN, ANSWER_CHOSEN_TRACED); }
+	uint Slots = CountSlots(Tile);
+	for (uint I = 0u; I < Slots; ++I) { CountAnswer(Answer, I, ANSWER_LOCAL_SEEN + I, ANSWER_LOCAL_TRACED + I); }
 #ifdef GUIDED
-	Remember(View, Pixel.y * View.Width + Pixel.x, Tile.Count == TILE_LIGHTS_MANY ? Answer : 0u, Place);
+	Remember(Scene, View, Pixel.y * View.Width + Pixel.x, Tile.bChooses != 0u ? Answer : 0u, Place);
 #endif
 	barrier();
 	if (!bInside) { return; }
 	float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
-	if (Depth <= 0.0 || Tile.Count == 0u)
+	if (Depth <= 0.0 || (Tile.Count == 0u && Tile.bChooses == 0u))
 	{
 		WriteLobes(Pixel, FLobes(vec3(0.0), vec3(0.0)), MakeWhiteLambert(), 1.0, 1.0);
 		return;
 	}
 	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, Depth);
-	FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel);
+	FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel, Push.ReflectedRoughness);
 	FLobes Sum = ShadePixel(Tile, Scene, View, Pixel, Place, Answer, Point, Local);
 	float Roughness = texelFetch(Textures[Push.Material], ivec2(Pixel), 0).x;
 	WriteLobes(Pixel, Sum, Local.Brdf, dot(Point.Surface.BentN, Point.Surface.V), Roughness);

@@ -28,6 +28,10 @@ shared FGuideLight Remembered[TILE_GUIDE_LIGHTS]; // of PreviousTile
 shared uint RememberedTraced, RememberedSeen;
 shared uint GuideKeys[TILE_GUIDE_LIGHTS];
 
+#ifdef LOCAL_EMISSIVE
+#include "EmitterTable.glsl"
+#endif
+
 const uint NoTile = 0xffffffffu, NoGuideLight = 0xffffffffu;
 
 uint EntryLight(uint Entry) { return Entry & ((1u << LIGHT_INDEX_BITS) - 1u); }
@@ -167,6 +171,64 @@ float EstimateAround(FSceneConstants Scene, FLightData Light, uint I)
 	return Estimate * (Cosine * Nearer * Nearer);
 }
 
+// What follows is for a light of the table, or for a cluster of emissive triangles.
+
+bool MayReachEntry(FSceneConstants Scene, uint Entry, vec3 Low, vec3 High)
+{
+#ifdef LOCAL_EMISSIVE
+	if (IsTriangle(Entry)) { return MayReachFromCluster(LoadCluster(Entry), Low, High); }
+#endif
+	return MayReach(Scene, FLightRef(Scene.Lights).Data[Entry], Low, High);
+}
+
+bool CastsShadow(FSceneConstants Scene, uint Entry)
+{
+#ifdef LOCAL_EMISSIVE
+	if (IsTriangle(Entry)) { return true; }
+#endif
+	return (FLightRef(Scene.Lights).Data[Entry].Flags & LIGHT_CASTS_SHADOW) != 0u;
+}
+
+float BoundEntry(FSceneConstants Scene, uint Entry, vec3 Low, vec3 High)
+{
+#ifdef LOCAL_EMISSIVE
+	if (IsTriangle(Entry)) { return BoundCluster(LoadCluster(Entry), Low, High); }
+#endif
+	return BoundLight(Scene, FLightRef(Scene.Lights).Data[Entry], Low, High);
+}
+
+float EstimateEntry(FSceneConstants Scene, uint Entry, uint Sampler)
+{
+#ifdef LOCAL_EMISSIVE
+	if (IsTriangle(Entry))
+	{
+		if (SamplerKeys[Sampler] == 0u) { return 0.0; }
+		return EstimateCluster(LoadCluster(Entry), SamplerP[Sampler], SamplerN[Sampler], SamplerReach[Sampler]);
+	}
+#endif
+	return EstimateAround(Scene, FLightRef(Scene.Lights).Data[Entry], Sampler);
+}
+
+// The table is of all lights if the tile has many, and of all clusters. Returns how many there are.
+uint CountItems(FSceneConstants Scene)
+{
+#ifdef LOCAL_EMISSIVE
+	return (Tile.Count == TILE_LIGHTS_MANY ? Scene.LightCount : 0u) + Scene.EmissiveClusterCount;
+#else
+	return Scene.LightCount;
+#endif
+}
+
+// Returns the number of an item.
+uint ItemNumber(FSceneConstants Scene, uint Item)
+{
+#ifdef LOCAL_EMISSIVE
+	uint Lights = Tile.Count == TILE_LIGHTS_MANY ? Scene.LightCount : 0u;
+	if (Item >= Lights) { return (Item - Lights) | LIGHT_TRIANGLE; }
+#endif
+	return Item;
+}
+
 // Whether the table has the light for certain, however many there are.
 bool IsRemembered(FViewConstants View, uint Light)
 {
@@ -174,13 +236,17 @@ bool IsRemembered(FViewConstants View, uint Light)
 }
 
 // Returns the share of lights that the table holds, of those that nobody remembers.
-float TableShare() { return CandidateCount <= TILE_TABLE_MOST ? 1.0 : 0.84 * float(TILE_TABLE_MOST) / float(CandidateCount); }
+float TableShare()
+{
+	uint Most = EmitterCount + (Tile.Count == TILE_LIGHTS_MANY ? CandidateCount : 0u);
+	return Most <= TILE_TABLE_MOST ? 1.0 : 0.84 * float(TILE_TABLE_MOST) / float(Most);
+}
 
 bool IsListed(FSceneConstants Scene, FViewConstants View, uint Light, uint Seed, vec3 Low, vec3 High)
 {
 	float Share = TableShare();
 	if (Share < 1.0 && float(HashPcg(Light ^ Seed) >> 8u) * (1.0 / 16777216.0) >= Share && !IsRemembered(View, Light)) { return false; }
-	return MayReach(Scene, FLightRef(Scene.Lights).Data[Light], Low, High);
+	return MayReachEntry(Scene, Light, Low, High);
 }
 
 // Lists the table's lights where the scene has more than it can hold. Their order does not depend on that of threads.
@@ -188,7 +254,8 @@ void ListTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low,
 {
 	uint Seed = HashPcg(View.FrameIndex + HashPcg(TileIndex(View, gl_WorkGroupID.xy) + HashPcg(View.Seed)));
 	uint Mine = 0u, Before = 0u, Total = 0u;
-	for (uint I = Place; I < Scene.LightCount; I += TILE_PIXELS) { Mine += IsListed(Scene, View, I, Seed, Low, High) ? 1u : 0u; }
+	uint Items = CountItems(Scene);
+	for (uint I = Place; I < Items; I += TILE_PIXELS) { Mine += IsListed(Scene, View, ItemNumber(Scene, I), Seed, Low, High) ? 1u : 0u; }
 	RunCounts[Place] = Mine;
 	barrier();
 	[[dont_unroll]] for (uint I = 0u; I < TILE_PIXELS; ++I)
@@ -196,9 +263,10 @@ void ListTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low,
 		Before += I < Place ? RunCounts[I] : 0u;
 		Total += RunCounts[I];
 	}
-	for (uint I = Place; I < Scene.LightCount && Before < TILE_TABLE_MOST; I += TILE_PIXELS)
+	for (uint I = Place; I < Items && Before < TILE_TABLE_MOST; I += TILE_PIXELS)
 	{
-		if (IsListed(Scene, View, I, Seed, Low, High)) { TableEntries[Before++] = I; }
+		uint Number = ItemNumber(Scene, I);
+		if (IsListed(Scene, View, Number, Seed, Low, High)) { TableEntries[Before++] = Number; }
 	}
 	if (Place == 0u) { TableCount = min(Total, TILE_TABLE_MOST); }
 	barrier();
@@ -216,15 +284,14 @@ void EstimateLights(FSceneConstants Scene, FViewConstants View, FRun Run, bool b
 	[[dont_unroll]] for (uint S = 0u; S <= TileSamplers; ++S) { Totals[S][Place] = 0.0; }
 	[[dont_unroll]] for (uint I = Run.Begin; I < Run.End; ++I)
 	{
-		uint Light = bAll ? I : TableEntries[I];
-		FLightData Data = FLightRef(Scene.Lights).Data[Light];
-		bool bReaches = MayReach(Scene, Data, Low, High);
-		float Visibility = 1.0, Bound = bReaches ? min(BoundLight(Scene, Data, Low, High), 1.0e30) : 0.0;
-		if (bReaches && (Data.Flags & LIGHT_CASTS_SHADOW) != 0u) { Visibility = max(ExpectVisibility(View, Light), LeastVisibility); }
+		uint Light = bAll ? ItemNumber(Scene, I) : TableEntries[I];
+		bool bReaches = MayReachEntry(Scene, Light, Low, High);
+		float Visibility = 1.0, Bound = bReaches ? min(BoundEntry(Scene, Light, Low, High), 1.0e30) : 0.0;
+		if (bReaches && CastsShadow(Scene, Light)) { Visibility = max(ExpectVisibility(View, Light), LeastVisibility); }
 		uvec2 Packed = uvec2(0u);
 		[[dont_unroll]] for (uint S = 0u; S < TileSamplers && bReaches; ++S)
 		{
-			uint Byte = PackEstimate(EstimateAround(Scene, Data, S));
+			uint Byte = PackEstimate(EstimateEntry(Scene, Light, S));
 			Packed[S >> 2u] |= Byte << (8u * (S & 3u));
 			Totals[S][Place] += UnpackEstimate(Byte) * Visibility;
 		}
@@ -262,7 +329,7 @@ float WeighLights(FSceneConstants Scene, FRun Run, uint TileHash)
 #endif
 		uint Entry = TableEntries[I], Light = EntryLight(Entry);
 		float Visibility = EntryVisibility(Entry);
-		if (Weight > 0.0 && (FLightRef(Scene.Lights).Data[Light].Flags & LIGHT_CASTS_SHADOW) != 0u)
+		if (Weight > 0.0 && CastsShadow(Scene, Light))
 		{
 			atomicMax(GuideKeys[GuidePlace(Light, TileHash)], (floatBitsToUint(Weight * max(Visibility, 0.25)) & ~(TILE_TABLE_MOST - 1u)) | I);
 		}
@@ -275,9 +342,9 @@ float WeighLights(FSceneConstants Scene, FRun Run, uint TileHash)
 // Fills the table, and proposes lights for the tile's guide.
 void MakeTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low, vec3 High)
 {
-	bool bAll = Scene.LightCount <= TILE_TABLE_MOST;
+	bool bAll = CountItems(Scene) <= TILE_TABLE_MOST;
 	if (!bAll) { ListTable(Scene, View, Place, Low, High); }
-	else if (Place == 0u) { TableCount = Scene.LightCount; }
+	else if (Place == 0u) { TableCount = CountItems(Scene); }
 	barrier();
 	uint Length = (TableCount + TILE_PIXELS - 1u) / TILE_PIXELS, Begin = min(Place * Length, TableCount);
 	FRun Run = FRun(Begin, min(Begin + Length, TableCount));
@@ -348,15 +415,25 @@ bool ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point
 	Choice = FLightChoice(0u, 0.0);
 	[[dont_unroll]] for (uint I = 0u; I < Push.Candidates && All > 0.0; ++I)
 	{
-		uint Number = FindEntry((float(I) + U.x) / float(Push.Candidates) * All), Entry = TableEntries[Number], Light = EntryLight(Entry);
-		float Weight = Cumulative[Number] - (Number > 0u ? Cumulative[Number - 1u] : 0.0);
+		float At = (float(I) + U.x) / float(Push.Candidates) * All, Chance = 1.0;
+		uint Number = FindEntry(At), Entry = TableEntries[Number], Light = EntryLight(Entry);
+		float Below = Number > 0u ? Cumulative[Number - 1u] : 0.0, Weight = Cumulative[Number] - Below;
 		if (Weight <= 0.0) { continue; }
+		bool bCertain = Share >= 1.0 || IsRemembered(View, Light);
+#ifdef LOCAL_EMISSIVE
+		if (IsTriangle(Light))
+		{
+			float In = clamp((At - Below) / Weight, 0.0, 0.99999994);
+			Light = ChooseTriangle(Scene, LoadCluster(Light), In, Chance) | LIGHT_TRIANGLE;
+		}
+		if (Chance <= 0.0) { continue; }
+#endif
 		FLightSample Sample = SampleLocalLight(Scene, View, Point, Pixel, Light);
 		if (!ReachesLight(View, Point, Sample)) { continue; }
-		FLobes Lobes = ReflectLight(Point, Local, Sample);
+		FLobes Lobes = ReflectLight(Point, Local, Sample, Light);
 		// Times the inverse of the density with which the light came here, over all candidates.
-		float Visibility = EntryVisibility(Entry), Stands = Visibility * All / (Weight * float(Push.Candidates));
-		if (Share < 1.0 && !IsRemembered(View, Light)) { Stands /= Share; }
+		float Visibility = EntryVisibility(Entry), Stands = Visibility * All / (Weight * Chance * float(Push.Candidates));
+		if (!bCertain) { Stands /= Share; }
 		Mean.Diffuse += Lobes.Diffuse * Stands;
 		Mean.Specular += Lobes.Specular * Stands;
 		float Brightness = Luminance(Lobes.Diffuse + Lobes.Specular), Mine = Brightness * Stands;
@@ -377,7 +454,7 @@ bool ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point
 	Choice.Weight = 1.0;
 #endif
 	Lit = WeighLobes(Mean, Chosen, Choice.Weight);
-	return (FLightRef(Scene.Lights).Data[Choice.Light].Flags & LIGHT_CASTS_SHADOW) != 0u;
+	return CastsShadow(Scene, Choice.Light);
 }
 
 #endif

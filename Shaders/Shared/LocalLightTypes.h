@@ -11,19 +11,25 @@ LANTERN_SHARED_BEGIN
 #define TILE_LIGHTS_MANY 0xffffffffu     // FTileLights::Count: each pixel chooses one light
 #define TILE_LIGHT_UNSHADOWED 0x80000000u // in FTileLights::Lights: it casts no shadow and gets no ray
 
+// A light's number is its index in the table of lights, or this bit and the index of an emissive triangle. Where triangles are weighed
+// by cluster, in tables and guides of tiles, it is this bit and the index of a cluster.
+#define LIGHT_TRIANGLE (1u << (LIGHT_INDEX_BITS - 1))
+
 // What a tile's pixels are lit by.
 struct FTileLights
 {
 	uint Count;                 // 0 to TILE_LIGHTS, or TILE_LIGHTS_MANY
 	uint Lights[TILE_LIGHTS];   // index in the table of lights, in rising order, and TILE_LIGHT_UNSHADOWED
-	uint Reached[2 * TILE_LIGHTS]; // two words for each light: pixels that it may light, in Z order. MANY: pixels that ask for a ray, first
+	uint Reached[2 * TILE_LIGHTS]; // two words for each light: pixels that it may light, in Z order
+	uint bChooses; // each pixel has an FLightChoice: of all lights with MANY, else of emissive triangles alone
+	uint Asking[2]; // pixels that ask for a ray to what they chose, in Z order
 };
-LANTERN_ASSERT_SIZE(FTileLights, 100);
+LANTERN_ASSERT_SIZE(FTileLights, 112);
 
 // The light that a pixel chose of many.
 struct FLightChoice
 {
-	uint Light;   // index in the table of lights
+	uint Light;   // number of a light
 	float Weight; // what its light is multiplied by, the inverse of the probability; 0: no light reaches the pixel
 };
 LANTERN_ASSERT_SIZE(FLightChoice, 8);
@@ -37,7 +43,7 @@ LANTERN_ASSERT_SIZE(FLightChoice, 8);
 // How many of the last frames' rays from a tile to a light got through.
 struct FGuideLight
 {
-	uint Light;  // index in the table of lights
+	uint Light;  // number of a light or cluster
 	uint Counts; // rays traced, 16 bits, and rays that got through; older ones count less
 };
 LANTERN_ASSERT_SIZE(FGuideLight, 8);
@@ -55,6 +61,29 @@ struct FLitPixel
 	uint Lobes[3]; // 6 × fp16: diffuse and specular lobe
 };
 LANTERN_ASSERT_SIZE(FLitPixel, 12);
+
+// A cluster of emissive triangles as it lies in a frame. Positions are relative to the scene's origin.
+struct FEmitterCluster
+{
+	vec3 Center; // of its box
+	float Power; // FEmissiveCluster::Power: luminance · area
+	vec3 Half;   // of the box's edges
+	float Area;  // of its triangles, m²
+	vec3 Normal; // mean of their normals by power; 1 long: the cluster is flat and shines to this side alone
+	float Plane; // of a flat one: the least Normal · position of a corner
+	uint First, Count; // FEmissiveTriangle[]
+	uint Pad0, Pad1;
+};
+LANTERN_ASSERT_SIZE(FEmitterCluster, 64);
+
+struct FEmitterClustersConstants
+{
+	FPassConstants Pass;
+	FAddress Clusters; // FEmitterCluster[FSceneConstants::EmissiveClusterCount]
+};
+LANTERN_ASSERT_SIZE(FEmitterClustersConstants, 24);
+
+#define EMITTER_GROUP_SIZE 32 // threads that a cluster has
 
 struct FLocalRequestsConstants
 {
@@ -75,8 +104,11 @@ struct FLocalRequestsConstants
 	FAddress PreviousGuide;   // FTileGuide[]; 0: there is none
 	uint Candidates;          // of each pixel, 1 to 64
 	float GuideKept;          // share of what the guide knows that it keeps in this frame
+	FAddress Emitters;        // FEmitterCluster[]; LOCAL_EMISSIVE only
+	float ReflectedRoughness; // as in FLocalShadeConstants
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FLocalRequestsConstants, 112);
+LANTERN_ASSERT_SIZE(FLocalRequestsConstants, 128);
 
 struct FLocalShadeConstants
 {
@@ -88,8 +120,10 @@ struct FLocalShadeConstants
 	uint OutDiffuse, OutSpecular;             // storage indices, or NO_TEXTURE
 	FAddress Lit;      // FLitPixel[pixels]; GUIDED without UNBIASED only
 	FAddress Guide;    // FTileGuide[]; GUIDED only
+	float ReflectedRoughness; // LOCAL_EMISSIVE: rougher surfaces have no reflections traced; negative: none have
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FLocalShadeConstants, 80);
+LANTERN_ASSERT_SIZE(FLocalShadeConstants, 88);
 
 LANTERN_SHARED_END
 

@@ -44,7 +44,8 @@ constexpr FSignalPass Passes[] = {
         .Add = AddLocalSpecularPass,
         .WantsMotion = AreLocalLightsFiltered,
         .ListFilters = ListLocalLightFilters,
-        .AskShadowRays = AskLocalRays},
+        .AskShadowRays = AskLocalRays,
+        .SetReferenceConstants = SetLocalSpecularReference},
 };
 static_assert(std::size(Passes) == SignalCount - 1, "each signal but Frame needs a row, in the order of ESignal");
 } // namespace

@@ -11,6 +11,7 @@ namespace Lantern
 struct FBruteForcePass
 {
 	ESignal Signal;
+	ESignal Direct; ///< holds what local lights bring to the same lobe, emissive triangles perhaps included
 	const TRTConsoleVariable<bool>& Enable;
 	const TRTConsoleVariable<int32_t>& Samples; ///< paths per pixel
 	/// Surfaces that may reflect light before it reaches the one that is lit.
@@ -19,6 +20,7 @@ struct FBruteForcePass
 	const TRTConsoleVariable<float>* MaxRoughness = nullptr;
 };
 
+ERayPath ChooseBruteForcePath(const FBruteForcePass& Settings, const FPassQuery& Query);
 FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery& Query);
 /// Reads Depth and Normals of the G-buffer, and BaseColor and Material if FSignalInfo::bNeedsSurface says so.
 FGraphTexture AddBruteForcePass(const FBruteForcePass& Settings, FFrameContext& Context, const FGBuffer& GBuffer);

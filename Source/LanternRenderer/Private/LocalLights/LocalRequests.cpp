@@ -7,6 +7,8 @@
 #include "LanternCore/FrameGraph/History.h"
 #include "Lights/LightCells.h"
 #include "LocalLightTypes.h"
+#include "LocalLights/Emitters.h"
+#include "Reflections/Reflections.h"
 
 namespace Lantern
 {
@@ -15,7 +17,7 @@ namespace
 {
 TRTConsoleVariable<int32_t> CVarCandidates("r.RT.Lights.Candidates", 8,
     "Lights that a pixel looks at where a tile has many, before one of them gets its ray. They are drawn from the lights of its tile, by "
-    "what these bring and by how visible they were. 0: all lights, which takes long.",
+    "what these bring and by how visible they were. 0: all lights, which takes long. It is 64 where surfaces emit.",
     {0, 64});
 TRTConsoleVariable<float> CVarGuideSeconds("r.RT.Lights.GuideSeconds", 0.5f,
     "Time in seconds for which a tile of many lights remembers which of them were visible. 0: it forgets all.", {0.0, 60.0});
@@ -28,7 +30,18 @@ TRTConsoleVariable<bool> CVarCellTarget("r.RT.Debug.Lights.CellTarget", true,
 TRTConsoleVariable<bool> CVarWeight("r.RT.Debug.Lights.Weight", true,
     "Planted fault. If off, a light that a pixel chose of many counts once, and not for all that it was chosen from.");
 
-bool IsGuided(const FSceneFacts& Facts, uint32_t Exact) { return MayChooseLights(Facts, Exact) && CVarCandidates.GetOnRenderThread() > 0; }
+/// Where surfaces emit, pixels always choose of a table.
+bool IsGuided(const FSceneFacts& Facts, uint32_t Exact)
+{
+	return HasEmitters(Facts) || (MayChooseLights(Facts, Exact) && CVarCandidates.GetOnRenderThread() > 0);
+}
+
+uint32_t GetCandidates()
+{
+	constexpr uint32_t Most = 64;
+	const auto Candidates = static_cast<uint32_t>(CVarCandidates.GetOnRenderThread());
+	return Candidates > 0 ? Candidates : Most;
+}
 
 FShaderSource MakeRequestsSource(const FSceneFacts& Facts, uint32_t Exact)
 {
@@ -47,6 +60,7 @@ struct FRequestsPass
 	FLocalRays Rays;
 	bool bFirst = false; ///< no pass before it writes requests and answers
 	FGraphBuffer TileLights, Choices, Lit;
+	FGraphBuffer Emitters;    ///< FEmitterCluster[]; invalid: nothing emits
 	FGraphBuffer Guide;       ///< two times FTileGuide[Tiles], of this frame and of the one before
 	uint64_t GuideOffset = 0; ///< of this frame's, bytes
 	bool bPreviousGuide = false;
@@ -82,7 +96,9 @@ void SetGuide(FPassContext& Pass, const FFrameContext& Frame, const FRequestsPas
 	C.Lit = GetAddress(Pass, Inputs.Lit);
 	C.Guide = Guides + Inputs.GuideOffset;
 	C.PreviousGuide = Inputs.bPreviousGuide ? Guides + (Bytes - Inputs.GuideOffset) : 0;
-	C.Candidates = static_cast<uint32_t>(CVarCandidates.GetOnRenderThread());
+	C.Candidates = GetCandidates();
+	C.Emitters = GetAddress(Pass, Inputs.Emitters);
+	C.ReflectedRoughness = GetReflectedRoughness({Frame.Device.GetCapabilities(), Frame.Facts, Frame.Signals});
 	C.GuideKept = std::exp(-Frame.View.DeltaSeconds / std::max(CVarGuideSeconds.GetOnRenderThread(), 1e-6f));
 }
 
@@ -93,6 +109,7 @@ void DeclareGuide(FPassBuilder& Builder, const FRequestsPass& Inputs)
 	if (Inputs.bPreviousGuide) { Builder.Read(Inputs.Guide, ERTAccess::StorageRead); }
 	Builder.Write(Inputs.Guide, ERTAccess::StorageWrite);
 	if (Inputs.Lit.IsValid()) { Builder.Write(Inputs.Lit, ERTAccess::StorageWrite); }
+	if (Inputs.Emitters.IsValid()) { Builder.Read(Inputs.Emitters, ERTAccess::ShaderRead); }
 }
 
 FLocalRequestsConstants MakeConstants(FPassContext& Pass, const FFrameContext& Frame, const FRequestsPass& Inputs)
@@ -160,6 +177,7 @@ FShaderDefines MakeLocalDefines(FSceneFacts Facts, uint32_t Exact)
 	Facts.bSun = Facts.bSky = Facts.bMasked = false; // nothing of it reaches these shaders
 	FShaderDefines Defines = MakeFactDefines(Facts);
 	if (bMany) { Defines.emplace_back("MANY_LIGHTS", "1"); }
+	AddEmitterDefines(Facts, Defines);
 	return Defines;
 }
 
@@ -167,20 +185,29 @@ FShaderDefines MakeChoiceDefines(const FSceneFacts& Facts, uint32_t Exact)
 {
 	FShaderDefines Defines = MakeLocalDefines(Facts, Exact);
 	if (IsGuided(Facts, Exact)) { Defines.emplace_back("GUIDED", "1"); }
+	if (HasEmitters(Facts) && Facts.bMasked) { Defines.emplace_back("HAS_MASKED", "1"); } // what is cut away does not shine
 	return Defines;
 }
+
+uint32_t GetLocalRaysPerPixel(const FSceneFacts& Facts, uint32_t Exact)
+{
+	return std::min(Facts.Lights, Exact) + (HasEmitters(Facts) ? 1 : 0);
+}
+
+bool MayChooseLights(const FSceneFacts& Facts, uint32_t Exact) { return Facts.Lights > Exact || HasEmitters(Facts); }
 
 void ListLocalRequestShaders(const FSceneFacts& Facts, uint32_t Exact, std::vector<FShaderSource>& Out)
 {
 	Out.push_back(MakeRequestsSource(Facts, Exact));
 	if (MayChooseLights(Facts, Exact) && !IsGuided(Facts, Exact)) { ListLightCellShaders(Facts, Out); }
+	ListEmitterShaders(Facts, Out);
 	if (MayQueuesOverflow(1 + GetLocalRaysPerPixel(Facts, Exact))) { Out.push_back(MakeShareSource()); }
 }
 
 bool AreLocalRequestsReady(FFrameContext& Context, uint32_t Exact)
 {
 	const bool bShared = !MayQueuesOverflow(1 + GetLocalRaysPerPixel(Context.Facts, Exact)) || RequireCompute(Context, MakeShareSource());
-	return RequireCompute(Context, MakeRequestsSource(Context.Facts, Exact)) && bShared;
+	return RequireCompute(Context, MakeRequestsSource(Context.Facts, Exact)) && bShared && AreEmittersReady(Context);
 }
 
 void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRays& InOut, const FLocalRays& Rays)
@@ -195,6 +222,7 @@ void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRa
 		if (!IsGuided(Context.Facts, Rays.Exact)) { RequireLightCells(Context, GBuffer); } // pixels visit the lights of their cell
 		else if (!AddGuide(Context, Inputs)) { return; }
 	}
+	Inputs.Emitters = AddEmitterClusters(Context);
 	AddRequestsPass(Context, RequireCompute(Context, MakeRequestsSource(Context.Facts, Rays.Exact)), Inputs);
 	if (InOut.Queue.bMayOverflow) { AddSharePass(Context, RequireCompute(Context, MakeShareSource()), Inputs); }
 	InOut.Traced.TileLights = Inputs.TileLights;

@@ -85,11 +85,38 @@ bool FEmissiveTriangles::UpdateMoved(const FSceneObjects& Objects, const FSceneM
 		if (List.Triangles.size() != Found->Count || !bSamePower) { return false; }
 		for (uint32_t I = 0; I < Found->Count; ++I)
 		{
-			List.Triangles[I].CumulativePower = Table[Found->First + I].CumulativePower;
+			const FEmissiveTriangle& Old = Table[Found->First + I];
+			List.Triangles[I].CumulativePower = Old.CumulativePower;
+			List.Triangles[I].Cluster = Old.Cluster;
+			List.Triangles[I].ClusterShare = Old.ClusterShare;
 			Table.Set(Found->First + I, List.Triangles[I]);
 		}
 	}
 	return true;
+}
+
+void FEmissiveTriangles::MakeClusters(FList& InOut)
+{
+	std::vector<FEmissiveCluster> All;
+	const auto Total = static_cast<uint32_t>(InOut.Triangles.size());
+	const uint32_t Size = std::max((Total + EMISSIVE_CLUSTERS - 1) / EMISSIVE_CLUSTERS, 1u);
+	for (const FSource& Source : Sources)
+	{
+		const uint32_t Pieces = (Source.Count + Size - 1) / Size;
+		for (uint32_t Piece = 0; Piece < Pieces; ++Piece)
+		{
+			const uint32_t First = Source.First + static_cast<uint32_t>(uint64_t(Source.Count) * Piece / Pieces);
+			const uint32_t End = Source.First + static_cast<uint32_t>(uint64_t(Source.Count) * (Piece + 1) / Pieces);
+			const double Before = First > 0 ? InOut.Cumulative[First - 1] : 0.0, Power = InOut.Cumulative[End - 1] - Before;
+			for (uint32_t I = First; I < End; ++I)
+			{
+				InOut.Triangles[I].Cluster = static_cast<uint32_t>(All.size());
+				InOut.Triangles[I].ClusterShare = I + 1 < End ? static_cast<float>((InOut.Cumulative[I] - Before) / Power) : 1.0f;
+			}
+			All.push_back({First, End - First, static_cast<float>(Power), 0});
+		}
+	}
+	Clusters.Assign(All);
 }
 
 void FEmissiveTriangles::Update(const FSceneObjects& Objects, const FSceneMaterials& Materials)
@@ -115,6 +142,7 @@ void FEmissiveTriangles::Update(const FSceneObjects& Objects, const FSceneMateri
 		List.Triangles[I].CumulativePower = static_cast<float>(List.Cumulative[I] / List.Power);
 	}
 	if (!List.Triangles.empty()) { List.Triangles.back().CumulativePower = 1.0f; } // rounding must leave no gap above it
+	MakeClusters(List);
 	Table.Assign(std::move(List.Triangles));
 	bStale = false;
 }

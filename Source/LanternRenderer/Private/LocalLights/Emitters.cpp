@@ -1,0 +1,71 @@
+// Emissive triangles as local lights.
+#include "LocalLights/Emitters.h"
+
+#include "Lighting/DirectLighting.h"
+#include "LocalLightTypes.h"
+#include "LocalLights/LocalLights.h"
+#include "SignalPasses.h"
+
+namespace Lantern
+{
+
+namespace
+{
+TRTConsoleVariable<bool> CVarEmissive("r.RT.Lights.Emissive", true,
+    "Emissive triangles shine as local lights do, with shadow rays of their own. If off, only global illumination and reflections find "
+    "them.");
+TRTConsoleVariable<bool> CVarTwice("r.RT.Debug.Lights.EmissiveTwice", false,
+    "Planted fault. Global illumination and reflections count emissive triangles in full, as if local lights had none.");
+
+bool IsDirect(const FSceneFacts& Facts) { return HasEmitters(Facts) && !CVarTwice.GetOnRenderThread(); }
+
+FShaderSource MakeClustersSource() { return MakeComputeSource("LocalLights/EmitterClusters.comp"); }
+} // namespace
+
+bool HasEmitters(const FSceneFacts& Facts) { return Facts.bEmissive && CVarEmissive.GetOnRenderThread(); }
+
+bool IsEmissionDirect(const FPassQuery& Query, ESignal Lobe)
+{
+	return IsDirect(Query.Facts) && IsMade(Lobe, Query.Requests) && ChooseLocalLightPath(Query) != ERayPath::None;
+}
+
+bool IsEmissionDirectInReference(const FSceneFacts& Facts)
+{
+	return IsRayTracingEnabled() && HasEmitters(Facts) && HasLocalLight() && AreLocalLightsShadowed();
+}
+
+void AddEmitterDefines(const FSceneFacts& Facts, FShaderDefines& InOut)
+{
+	if (HasEmitters(Facts)) { InOut.emplace_back("LOCAL_EMISSIVE", "1"); }
+}
+
+void ListEmitterShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& Out)
+{
+	if (HasEmitters(Facts)) { Out.push_back(MakeClustersSource()); }
+}
+
+bool AreEmittersReady(FFrameContext& Context) { return !HasEmitters(Context.Facts) || RequireCompute(Context, MakeClustersSource()); }
+
+FGraphBuffer AddEmitterClusters(FFrameContext& Context)
+{
+	const uint32_t Count = Context.Scene.GetFacts().EmissiveClusters; // the frame's own, since the list was brought up to date
+	if (!HasEmitters(Context.Facts) || Count == 0) { return {}; }
+	const FGraphBuffer Clusters = Context.Graph.CreateBuffer({uint64_t(Count) * sizeof(FEmitterCluster)}, "EmitterClusters");
+	IRTPipeline* const Pipeline = RequireCompute(Context, MakeClustersSource());
+	const FFrameContext* const Frame = &Context;
+	Context.Graph.AddPass("ShadowLightsEmitters", [&](FPassBuilder& Builder) -> FPassExecute {
+		Builder.Write(Clusters, ERTAccess::StorageWrite);
+		Builder.AllowAsync();
+		return [=](FPassContext& Pass) {
+			FEmitterClustersConstants C{};
+			C.Pass = Frame->Pass;
+			C.Clusters = GetAddress(Pass, Clusters);
+			Pass.Commands().SetPipeline(Pipeline);
+			Pass.Commands().PushConstants(&C, sizeof(C));
+			Pass.Commands().Dispatch(Count, 1, 1);
+		};
+	});
+	return Clusters;
+}
+
+} // namespace Lantern
