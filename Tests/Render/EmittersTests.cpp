@@ -29,12 +29,13 @@ protected:
 		Material.Roughness = Roughness;
 		return Scene.AddMaterial(Material);
 	}
-	/// A floor in stripes of roughness 0.15, 0.25, 0.4 and 1, and posts on it.
+	/// A floor in stripes of four roughnesses, and posts on it. G-buffers hold these exactly: at 0.25 the share of reflections follows the
+	/// roughness fifteen times as fast.
 	static FTestScene MakeStage()
 	{
 		FTestScene Scene("stage");
 		std::vector<FTestScene::FQuad> Floor;
-		for (const float Roughness : {0.15f, 0.25f, 0.4f, 1.0f})
+		for (const float Roughness : {38.0f / 255.0f, 64.0f / 255.0f, 102.0f / 255.0f, 1.0f})
 		{
 			const float X = -3.0f + 2.0f * float(Floor.size());
 			Floor.push_back(FTestScene::MakeFloor(AddShiny(Scene, Roughness), 1.0f, 0.0f, {X, 0}));
@@ -69,7 +70,7 @@ protected:
 		}
 		for (int I = 0; I < Rows * Rows; ++I)
 		{
-			const glm::dvec3 At(-3.0 + 6.0 * (I % Rows) / Rows, 0.15 + 0.1 * (I % 5), -1.0 + 2.0 * (I / Rows) / double(Rows));
+			const glm::dvec3 At(-3.0 + 6.0 * (I % Rows) / Rows, 0.5 + 0.1 * (I % 5), -1.0 + 2.0 * (I / Rows) / double(Rows));
 			Scene.AddNode(Candles[I % 3 == 0 ? 0 : 1], glm::translate(glm::dmat4(1), At));
 		}
 	}
@@ -101,6 +102,8 @@ protected:
 	static FView LookAtStage(uint32_t Width, uint32_t Height) { return LookAt({0, 2.2, 3.4}, {0, 0.1, 0}, 0.9f, Width, Height); }
 };
 
+using FEmittersSlowTest = FEmittersTest;
+
 TEST_F(FEmittersTest, PanelsAsTheReference)
 {
 	ASSERT_TRUE(LoadPanels());
@@ -111,13 +114,13 @@ TEST_F(FEmittersTest, PanelsAsTheReference)
 		for (const ESignal Lobe : Lobes)
 		{
 			const std::string Name = fmt::format("panels, reflections {}, {}", Reflections, GetSignalInfo(Lobe).Name);
-			ExpectUnbiased(Name.c_str(), Lobe, View, 128, 512, 1, 0.005);
+			ExpectUnbiased(Name.c_str(), Lobe, View, 128, 768, 1, Lobe == ESignal::LocalDiffuse ? 0.005 : 0.01);
 		}
 	}
-	ExpectUnbiased("panels, reflections", ESignal::Reflections, View, 128, 512, 1, 0.005);
+	ExpectUnbiased("panels, reflections", ESignal::Reflections, View, 128, 1024, 1, 0.01);
 	// Narrow lobes alone are left to reflections that stop at this roughness.
 	SetVariable("r.RT.Reflections.MaxRoughness", "0.2");
-	ExpectUnbiased("panels, reflections up to 0.2", ESignal::LocalSpecular, View, 128, 512, 1, 0.005);
+	ExpectUnbiased("panels, reflections up to 0.2", ESignal::LocalSpecular, View, 128, 1024, 1, 0.01);
 }
 
 // Few lamps have rays of their own beside that of the triangle; many are chosen from together with triangles.
@@ -178,14 +181,15 @@ TEST_F(FEmittersTest, SumOfSignalsAsTheWholeFrame)
 	ExpectUnbiased("panels, all signals, no light sampling", ESignal::Frame, View, 32, 256, 2, 0.005);
 }
 
-TEST_F(FEmittersTest, CourtyardAtNight)
+// Lanterns whose lamps shine on what is next to them: much noise.
+TEST_F(FEmittersSlowTest, CourtyardAtNight)
 {
 	ASSERT_TRUE(Load("courtyard"));
 	SetSun(0.0, 0.0f);
 	SetSky(glm::vec3(0));
 	SetVariable("r.RT.AlphaTest", "0"); // raster asks coarser levels of textures than rays do
 	SetIndirect(4, 1);
-	ExpectUnbiased("courtyard at night, all signals", ESignal::Frame, MakeView(64, 36), 8, 64, 2, 0.005);
+	ExpectUnbiased("courtyard at night, all signals", ESignal::Frame, MakeView(64, 36), 96, 768, 2, 0.005);
 }
 
 TEST_F(FEmittersTest, SignalsAreThereOnlyIfSomethingShines)
@@ -204,13 +208,19 @@ TEST_F(FEmittersTest, SignalsAreThereOnlyIfSomethingShines)
 // A panel that is moved lights its new place in the same frame.
 TEST_F(FEmittersTest, LightFollowsItsObject)
 {
-	FTestScene Scene = MakeStage();
-	const int32_t Bright = Scene.AddLambert(glm::vec3(0), glm::vec3(9));
-	Scene.AddNode(Scene.AddMesh({MakePanel(Bright, 0.2f, 0.7f, {0, 0})}), glm::translate(glm::dmat4(1), glm::dvec3(-2, 0, 0)));
-	ASSERT_TRUE(LoadDark(Scene));
+	const auto Place = [](double X) { return glm::translate(glm::dmat4(1), glm::dvec3(X, 0, 0)); };
+	const auto LoadAt = [&](double X) {
+		FTestScene Scene = MakeStage();
+		const int32_t Bright = Scene.AddLambert(glm::vec3(0), glm::vec3(9));
+		Scene.AddNode(Scene.AddMesh({MakePanel(Bright, 0.2f, 0.7f, {0, 0})}), Place(X));
+		return LoadDark(Scene);
+	};
 	const FView View = LookAtStage(64, 36);
+	ASSERT_TRUE(LoadAt(2.0));
+	const FImage Right = RenderSignal(ESignal::LocalDiffuse, View, 1, 1);
+	ASSERT_TRUE(LoadAt(-2.0));
 	const FImage Before = RenderSignal(ESignal::LocalDiffuse, View, 1, 0);
-	GetScene().SetTransform(4, glm::translate(glm::dmat4(1), glm::dvec3(2, 0, 0))); // behind floor and posts
+	GetScene().SetTransform(4, Place(2.0)); // behind floor and posts
 	const FImage After = RenderSignal(ESignal::LocalDiffuse, View, 1, 1);
 	const auto SumHalf = [](const FImage& Image, uint32_t First) {
 		double Sum = 0.0;
@@ -222,7 +232,7 @@ TEST_F(FEmittersTest, LightFollowsItsObject)
 	};
 	EXPECT_GT(SumHalf(Before, 0), 5.0 * SumHalf(Before, 32));
 	EXPECT_GT(SumHalf(After, 32), 5.0 * SumHalf(After, 0));
-	EXPECT_NEAR(SumHalf(After, 32) / SumHalf(Before, 0), 1.0, 0.05);
+	EXPECT_NEAR(SumHalf(After, 32) / SumHalf(Right, 32), 1.0, 0.02);
 }
 
 // A surface that a bright triangle touches: close points of light are as bright as the light, and no more.
@@ -236,7 +246,7 @@ TEST_F(FEmittersTest, TouchingTrianglesAreFinite)
 	SetVariable("r.RT.Lights.Unbiased", "1");
 	const FImage Picture = RenderSignal(ESignal::LocalDiffuse, View);
 	EXPECT_EQ(CountNonFinitePixels(Picture), 0u);
-	EXPECT_LT(ComputeMeans(Picture).MaxLuminance, 4.0 * 5.0) << "of two triangles one is chosen: twice what both bring, which is 5 at most";
+	EXPECT_LT(ComputeMeans(Picture).MaxLuminance, 50.0) << "all brings 5 at most; points by area would bring thousands";
 	ExpectUnbiased("a wall that shines", ESignal::LocalDiffuse, View, 128, 768, 1, 0.005);
 }
 
