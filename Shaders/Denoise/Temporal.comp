@@ -69,6 +69,13 @@ void main()
 		return;
 	}
 	FFrameEstimate Frame = EstimateFrame();
+#if CHANNELS != 1
+	if (IsCertain(Pixel))
+	{
+		Store(Pixel, FAccumulated(Frame.Value, 0.0, 1.0, Frame.Neighborhood.Mean), Frame.Extent);
+		return;
+	}
+#endif
 	FHistory History = ReprojectHistory(View, uvec2(Pixel), Surface);
 	bool bMayHaveChanged = MayHaveChanged(View, uvec2(Pixel), Surface.Distance);
 	Store(Pixel, Accumulate(Frame, History, ivec2(View.PreviousWidth, View.PreviousHeight), bMayHaveChanged), Frame.Extent);

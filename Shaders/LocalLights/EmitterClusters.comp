@@ -7,7 +7,11 @@
 layout(local_size_x = EMITTER_GROUP_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FEmitterClustersConstants Push; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FClusterRef { FEmissiveCluster Data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer FOutRef { FEmitterCluster Data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer FOutRef
+{
+	FEmitterHeader Header;
+	FEmitterCluster Data[];
+};
 
 const float FlatCosine = 1.0 - 1.0e-6; // of the angle between normals that count as one
 
@@ -88,4 +92,5 @@ void main()
 	Out.Count = Cluster.Count;
 	Out.Pad0 = Out.Pad1 = 0u;
 	FOutRef(Push.Clusters).Data[gl_WorkGroupID.x] = Out;
+	if (gl_WorkGroupID.x == 0u) { FOutRef(Push.Clusters).Header = FEmitterHeader(Push.ReflectedRoughness, uint[3](0u, 0u, 0u)); }
 }

@@ -1,10 +1,26 @@
-// What clusters of emissive triangles may bring to a tile, for TileTable.glsl, which declares what this needs.
+// What clusters of emissive triangles may bring to a box of surfaces, and which triangle of one a pixel takes.
 #ifndef LANTERN_EMITTER_TABLE_GLSL
 #define LANTERN_EMITTER_TABLE_GLSL
 
+#include "../Shared/LocalLightTypes.h"
+#include "../Library/Bindings.glsl"
+#include "LightBox.glsl"
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FEmitterHeaderRef { FEmitterHeader Data; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FEmitterRef { FEmitterCluster Data[]; };
 
-FEmitterCluster LoadCluster(uint Entry) { return FEmitterRef(Push.Emitters).Data[Entry & ~LIGHT_TRIANGLE]; }
+const uint SizeOfEmitterHeader = 16u, SizeOfCluster = 64u; // bytes
+
+FEmitterCluster LoadCluster(FAddress Emitters, uint Entry) { return FEmitterRef(Emitters + SizeOfEmitterHeader).Data[Entry & ~LIGHT_TRIANGLE]; }
+
+// Returns FLightRegion[] of clusters, row by row, behind the clusters. 0: they are so few that tiles look at all.
+FAddress EmitterRegions(FSceneConstants Scene, FAddress Emitters)
+{
+	return Scene.EmissiveClusterCount > REGION_EMITTERS ? Emitters + SizeOfEmitterHeader + Scene.EmissiveClusterCount * SizeOfCluster : FAddress(0);
+}
+
+// See EmissionOfReflections.
+float ReflectedRoughness(FAddress Emitters) { return Emitters != FAddress(0) ? FEmitterHeaderRef(Emitters).Data.ReflectedRoughness : 0.0; }
 
 bool IsFlat(FEmitterCluster Cluster) { return dot(Cluster.Normal, Cluster.Normal) > 0.999; }
 
@@ -41,10 +57,10 @@ float BoundCluster(FEmitterCluster Cluster, vec3 Low, vec3 High)
 	if (DistanceSquared < 0.25 * Diagonal) // the box may be deep, with the cluster before what lies behind
 	{
 		float Nearest = Diagonal + DistanceSquared;
-		[[dont_unroll]] for (uint I = 0u; I < TILE_PIXELS / 2u; ++I)
+		[[dont_unroll]] for (uint I = 0u; I < BoxPoints; ++I)
 		{
-			vec3 P = TilePoints[I].xyz;
-			float Size = TilePoints[I].w;
+			vec3 P = BoxSamples[I].xyz;
+			float Size = BoxSamples[I].w;
 			Nearest = Size > 0.0 ? min(Nearest, max(BoxDistance(Cluster, P, P), Size * Size)) : Nearest;
 		}
 		DistanceSquared = max(DistanceSquared, Nearest);

@@ -6,6 +6,7 @@
 #include "../Rays/RayQueue.glsl"
 #include "../Tiles/Tile.glsl"
 #include "LocalPoint.glsl"
+#include "LightBox.glsl"
 #if defined(MANY_LIGHTS) && !defined(GUIDED)
 #include "../Library/LightCells.glsl"
 #endif
@@ -22,45 +23,31 @@ shared uint Reached[2u * MaxCandidates];
 shared FTileLights Tile;
 shared uint FirstRequest;
 
-uint ToOrdered(float F)
-{
-	uint Bits = floatBitsToUint(F);
-	return (Bits & 0x80000000u) != 0u ? ~Bits : Bits | 0x80000000u;
-}
-float FromOrdered(uint Bits) { return uintBitsToFloat((Bits & 0x80000000u) != 0u ? Bits & 0x7fffffffu : ~Bits); }
-vec3 BoxCorner(uint Bits[3]) { return vec3(FromOrdered(Bits[0]), FromOrdered(Bits[1]), FromOrdered(Bits[2])); }
-
-// Whether the light may reach a box: its range does, and its cone a sphere around the box.
-bool MayReach(FSceneConstants Scene, FLightData Light, vec3 Low, vec3 High)
-{
-	if (LightType(Light) == LIGHT_NONE) { return false; }
-	if (LightType(Light) == LIGHT_DIRECTIONAL) { return true; }
-	vec3 Center = LightPosition(Scene, Light);
-	vec3 Outside = max(max(Low - Center, Center - High), vec3(0.0));
-	if (Light.Range > 0.0 && dot(Outside, Outside) >= Light.Range * Light.Range) { return false; }
-	if ((Light.Flags & LIGHT_HAS_CONE) == 0u) { return true; }
-	float Cosine = -Light.SpotOffset / Light.SpotScale; // of the angle at which it is dark
-	if (Cosine <= 0.0) { return true; }
-	vec3 To = 0.5 * (Low + High) - Center;
-	float Along = dot(To, UnpackOct(Light.Direction)), Across = sqrt(max(dot(To, To) - Along * Along, 0.0));
-	float Radius = 0.5 * length(High - Low) * 1.001 + 1.0e-3;
-	return Cosine * Across - sqrt(max(1.0 - Cosine * Cosine, 0.0)) * Along < Radius && Along > -Radius;
-}
-
 #ifdef GUIDED
 #include "TileTable.glsl"
+#else
+struct FTileSource
+{
+	uint Count;
+	bool bDrawn;
+};
+FTileSource FindSource(FSceneConstants Scene, FViewConstants View) { return FTileSource(Scene.LightCount, false); }
+uint SourceLight(FTileSource Source, uint I) { return I; }
 #endif
 
 // Finds lights whose ranges meet the tile. Their order does not depend on that of threads.
-void FindCandidates(FSceneConstants Scene, uint Place)
+void FindCandidates(FSceneConstants Scene, FViewConstants View, uint Place)
 {
 	vec3 Low = BoxCorner(LowBits), High = BoxCorner(HighBits);
 	FLightRef Lights = FLightRef(Scene.Lights);
-	for (uint I = Place; I < Scene.LightCount; I += TILE_PIXELS)
+	FTileSource Source = FindSource(Scene, View);
+	if (Source.bDrawn && Place == 0u) { CandidateCount = MaxCandidates + 1u; }
+	for (uint I = Place; I < Source.Count && !Source.bDrawn; I += TILE_PIXELS)
 	{
-		if (!MayReach(Scene, Lights.Data[I], Low, High)) { continue; }
+		uint Light = SourceLight(Source, I);
+		if (!MayReach(Scene, Lights.Data[Light], Low, High)) { continue; }
 		uint Number = atomicAdd(CandidateCount, 1u);
-		if (Number < MaxCandidates) { Found[Number] = I; }
+		if (Number < MaxCandidates) { Found[Number] = Light; }
 	}
 	barrier();
 	if (Place < CandidateCount && CandidateCount <= MaxCandidates)
@@ -73,12 +60,14 @@ void FindCandidates(FSceneConstants Scene, uint Place)
 }
 
 #ifdef LOCAL_EMISSIVE
-void CountEmitters(FSceneConstants Scene, uint Place)
+// Counts clusters of emissive triangles that may light the tile.
+void CountEmitters(FSceneConstants Scene, FViewConstants View, uint Place)
 {
 	vec3 Low = BoxCorner(LowBits), High = BoxCorner(HighBits);
-	for (uint I = Place; I < Scene.EmissiveClusterCount; I += TILE_PIXELS)
+	FTileSource Source = FindEmitterSource(Scene, View);
+	[[dont_unroll]] for (uint I = Place; I < Source.Count; I += TILE_PIXELS)
 	{
-		if (MayReachFromCluster(LoadCluster(I), Low, High)) { atomicAdd(EmitterCount, 1u); }
+		if (Source.bDrawn || MayReachFromCluster(LoadCluster(Push.Emitters, SourceCluster(Source, I)), Low, High)) { atomicAdd(EmitterCount, 1u); }
 	}
 	barrier();
 }
@@ -174,7 +163,11 @@ void ChooseOfMany(FSceneConstants Scene, FViewConstants View, FLocalPoint Point,
 	WriteGuide(View, Place, bMany);
 	if (bMany && bSurface)
 	{
-		FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel, Push.ReflectedRoughness);
+		float Reflected = 0.0;
+#ifdef LOCAL_EMISSIVE
+		Reflected = ReflectedRoughness(Push.Emitters);
+#endif
+		FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel, Reflected);
 		bAsks = ChooseOfTable(Scene, View, Point, Local, Pixel, Choice, Lit);
 	}
 #else
@@ -269,9 +262,9 @@ void main()
 	}
 	barrier();
 	bool bEmpty = HighBits[0] < LowBits[0]; // nothing but sky
-	if (!bEmpty) { FindCandidates(Scene, Place); }
+	if (!bEmpty) { FindCandidates(Scene, View, Place); }
 #ifdef LOCAL_EMISSIVE
-	if (!bEmpty) { CountEmitters(Scene, Place); }
+	if (!bEmpty) { CountEmitters(Scene, View, Place); }
 #endif
 	barrier();
 	if (bSurface && CandidateCount <= MaxCandidates) { MarkReached(Scene, Point, Place); }

@@ -55,6 +55,14 @@ void Remember(FSceneConstants Scene, FViewConstants View, uint PixelIndex, uint 
 }
 #endif
 
+// Whether no chance is in what a light brings: it shines from one point, and Answer has the pixel's own ray to it.
+bool IsCertain(FSceneConstants Scene, uint Light, uint Answer, uint Slot)
+{
+	FLightData Data = FLightRef(Scene.Lights).Data[Light & ~TILE_LIGHT_UNSHADOWED];
+	bool bPoint = LightType(Data) < LIGHT_RECTANGLE && !(LightType(Data) == LIGHT_DIRECTIONAL && Data.Size.x > 0.0);
+	return bPoint && ((Light & TILE_LIGHT_UNSHADOWED) != 0u || (Answer & (1u << (ANSWER_LOCAL_TRACED + Slot))) != 0u);
+}
+
 void AddLight(inout FLobes Sum, FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLocalBrdf Local, uvec2 Pixel, uint Light,
               float Weight)
 {
@@ -89,10 +97,12 @@ void AddChosen(inout FLobes Sum, FSceneConstants Scene, FViewConstants View, uve
 // Lights that each pixel has a ray to.
 uint CountSlots(FTileLights Tile) { return Tile.Count == TILE_LIGHTS_MANY ? 0u : Tile.Count; }
 
+// bCertain: gets whether another frame's rays would bring the same.
 FLobes ShadePixel(FTileLights Tile, FSceneConstants Scene, FViewConstants View, uvec2 Pixel, uint Place, uint Answer, FLocalPoint Point,
-                  FLocalBrdf Local)
+                  FLocalBrdf Local, out bool bCertain)
 {
 	FLobes Sum = FLobes(vec3(0.0), vec3(0.0));
+	bCertain = Tile.bChooses == 0u;
 #ifdef MANY_LIGHTS
 	if (Tile.bChooses != 0u)
 	{
@@ -105,6 +115,7 @@ FLobes ShadePixel(FTileLights Tile, FSceneConstants Scene, FViewConstants View, 
 	{
 		if ((Tile.Reached[2u * I + (Place >> 5u)] & (1u << (Place & 31u))) == 0u) { continue; }
 		bool bUnshadowed = (Tile.Lights[I] & TILE_LIGHT_UNSHADOWED) != 0u;
+		bCertain = bCertain && IsCertain(Scene, Tile.Lights[I], Answer, I);
 		float Visibility = bUnshadowed ? 1.0 : SlotVisibility(Answer, I, ANSWER_LOCAL_SEEN + I, ANSWER_LOCAL_TRACED + I);
 		if (Visibility <= 0.0) { continue; }
 		AddLight(Sum, Scene, View, Point, Local, Pixel, Tile.Lights[I] & ~TILE_LIGHT_UNSHADOWED, Visibility);
@@ -112,14 +123,15 @@ FLobes ShadePixel(FTileLights Tile, FSceneConstants Scene, FViewConstants View, 
 	return Sum;
 }
 
-// Over the lobes' albedos, so that filters see light and not textures.
-void WriteLobes(uvec2 Pixel, FLobes Sum, FBrdf Brdf, float NdotV, float Roughness)
+// Over the lobes' albedos, so that filters see light and not textures. The fourth channel tells them where there is no noise.
+void WriteLobes(uvec2 Pixel, FLobes Sum, FBrdf Brdf, float NdotV, float Roughness, bool bCertain)
 {
 	const float MaxHalf = 65504.0;
+	float Chance = bCertain ? 0.0 : 1.0;
 	vec3 Diffuse = Sum.Diffuse / max(DiffuseReflectance(Brdf, NdotV), vec3(1.0e-4));
 	vec3 Specular = Sum.Specular / max(SpecularReflectance(Brdf, NdotV, Roughness), vec3(1.0e-4));
-	if (Push.OutDiffuse != NO_TEXTURE) { imageStore(Images[Push.OutDiffuse], ivec2(Pixel), vec4(min(Diffuse, MaxHalf), 1.0)); }
-	if (Push.OutSpecular != NO_TEXTURE) { imageStore(Images[Push.OutSpecular], ivec2(Pixel), vec4(min(Specular, MaxHalf), 1.0)); }
+	if (Push.OutDiffuse != NO_TEXTURE) { imageStore(Images[Push.OutDiffuse], ivec2(Pixel), vec4(min(Diffuse, MaxHalf), Chance)); }
+	if (Push.OutSpecular != NO_TEXTURE) { imageStore(Images[Push.OutSpecular], ivec2(Pixel), vec4(min(Specular, MaxHalf), Chance)); }
 }
 
 void main()
@@ -144,12 +156,13 @@ void main()
 	float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
 	if (Depth <= 0.0 || (Tile.Count == 0u && Tile.bChooses == 0u))
 	{
-		WriteLobes(Pixel, FLobes(vec3(0.0), vec3(0.0)), MakeWhiteLambert(), 1.0, 1.0);
+		WriteLobes(Pixel, FLobes(vec3(0.0), vec3(0.0)), MakeWhiteLambert(), 1.0, 1.0, true);
 		return;
 	}
 	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, Depth);
 	FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel, Push.ReflectedRoughness);
-	FLobes Sum = ShadePixel(Tile, Scene, View, Pixel, Place, Answer, Point, Local);
+	bool bCertain;
+	FLobes Sum = ShadePixel(Tile, Scene, View, Pixel, Place, Answer, Point, Local, bCertain);
 	float Roughness = texelFetch(Textures[Push.Material], ivec2(Pixel), 0).x;
-	WriteLobes(Pixel, Sum, Local.Brdf, dot(Point.Surface.BentN, Point.Surface.V), Roughness);
+	WriteLobes(Pixel, Sum, Local.Brdf, dot(Point.Surface.BentN, Point.Surface.V), Roughness, bCertain);
 }

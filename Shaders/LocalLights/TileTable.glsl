@@ -1,12 +1,12 @@
 // The lights that may reach a tile of many, with the weight that each has for the tile's pixels. A work group makes it.
-// It takes 21 KiB of shared memory, of which devices with ray tracing have 32 at least.
 // The weight is positive for every light that brings anything to a pixel of the tile, so that what pixels choose from it has no bias.
 #ifndef LANTERN_TILE_TABLE_GLSL
 #define LANTERN_TILE_TABLE_GLSL
 
-#include "../Library/Lights.glsl"
 #include "../Library/Motion.glsl"
 #include "Guide.glsl"
+#include "LightBox.glsl"
+#include "Regions.glsl"
 
 const uint TileSamplers = 8u; // pixels that weights are made for
 const float BoundShare = 0.5; // of the weight of a sampler: what bounds weigh
@@ -14,13 +14,13 @@ const float LeastVisibility = 0.05; // that is expected: a hidden light is asked
 
 shared float Cumulative[TILE_TABLE_MOST]; // sum of the weights up to and with a light's
 shared uint TableEntries[TILE_TABLE_MOST]; // light, and its expected visibility in the highest 8 bits
+shared float TableStands[TILE_TABLE_MOST]; // see FLightRegion::Stands
 shared uvec2 Estimates[TILE_TABLE_MOST]; // of what each sampler receives, a byte each
 shared float Totals[TileSamplers + 1u][TILE_PIXELS]; // over the run of each thread: of samplers, and of bounds
 shared float RunSums[TILE_PIXELS];
 shared uint RunCounts[TILE_PIXELS];
 shared uint TableCount;
 shared uint SamplerKeys[TileSamplers]; // 0: there is no surface; else the lowest byte is the place
-shared vec4 TilePoints[TILE_PIXELS / 2u]; // a pixel of each two: position, and size in metres, 0 without a surface
 shared vec3 SamplerP[TileSamplers], SamplerN[TileSamplers];
 shared float SamplerReach[TileSamplers]; // metres: how far the pixels may lie from it that it stands for
 shared uvec2 PreviousTile; // x = NoTile: none
@@ -28,11 +28,11 @@ shared FGuideLight Remembered[TILE_GUIDE_LIGHTS]; // of PreviousTile
 shared uint RememberedTraced, RememberedSeen;
 shared uint GuideKeys[TILE_GUIDE_LIGHTS];
 
+const uint NoTile = 0xffffffffu, NoGuideLight = 0xffffffffu;
+
 #ifdef LOCAL_EMISSIVE
 #include "EmitterTable.glsl"
 #endif
-
-const uint NoTile = 0xffffffffu, NoGuideLight = 0xffffffffu;
 
 uint EntryLight(uint Entry) { return Entry & ((1u << LIGHT_INDEX_BITS) - 1u); }
 float EntryVisibility(uint Entry) { return float(Entry >> LIGHT_INDEX_BITS) / 255.0; }
@@ -48,7 +48,7 @@ void ChooseSamplers(FViewConstants View, FLocalPoint Point, bool bSurface, uint 
 	if ((Place & 1u) == (View.FrameIndex & 1u))
 	{
 		float Size = bSurface ? PixelHeight(View, length(Point.Surface.Relative)) : 0.0;
-		TilePoints[Place >> 1u] = bSurface ? vec4(Point.P, Size) : vec4(0.0);
+		BoxSamples[Place >> 1u] = bSurface ? vec4(Point.P, Size) : vec4(0.0);
 	}
 	barrier();
 	if (bSurface && (SamplerKeys[Mine] & 255u) == Place)
@@ -121,35 +121,6 @@ float ExpectVisibility(FViewConstants View, uint Light)
 	return Rays.y / Rays.x;
 }
 
-// Returns about the most that the light brings to a plane at any pixel, and never 0 if it reaches one.
-float BoundLight(FSceneConstants Scene, FLightData Light, vec3 Low, vec3 High)
-{
-	uint Type = LightType(Light);
-	if (Type == LIGHT_DIRECTIONAL) { return Luminance(Light.Color); }
-	vec3 Center = LightPosition(Scene, Light), Outside = max(max(Low - Center, Center - High), vec3(0.0)), Edges = High - Low;
-	float DistanceSquared = dot(Outside, Outside), Diagonal = dot(Edges, Edges);
-	if (DistanceSquared < 0.25 * Diagonal) // the box may be deep, with a light before what lies behind
-	{
-		float Nearest = Diagonal + DistanceSquared;
-		[[dont_unroll]] for (uint I = 0u; I < TILE_PIXELS / 2u; ++I)
-		{
-			vec3 To = Center - TilePoints[I].xyz;
-			float Size = TilePoints[I].w, Distance = dot(To, To);
-			Nearest = Size > 0.0 ? min(Nearest, max(Distance, Size * Size)) : Nearest;
-		}
-		DistanceSquared = max(DistanceSquared, Nearest);
-	}
-	float Form = 1.0 / max(DistanceSquared, 1.0e-8);
-#ifdef HAS_AREA_LIGHTS
-	if (Type >= LIGHT_RECTANGLE)
-	{
-		float Reach = LightReach(Type, Light.Size);
-		Form = min(Pi * Reach * Reach * Form, Pi);
-	}
-#endif
-	return Luminance(Light.Color) * Form;
-}
-
 // A byte for a positive number of any size: some bits of its exponent, and two of what follows. 0 stays 0.
 const uint EstimateShift = 21u, LeastEstimate = (127u - 40u) << 2u;
 uint PackEstimate(float Estimate)
@@ -176,7 +147,7 @@ float EstimateAround(FSceneConstants Scene, FLightData Light, uint I)
 bool MayReachEntry(FSceneConstants Scene, uint Entry, vec3 Low, vec3 High)
 {
 #ifdef LOCAL_EMISSIVE
-	if (IsTriangle(Entry)) { return MayReachFromCluster(LoadCluster(Entry), Low, High); }
+	if (IsTriangle(Entry)) { return MayReachFromCluster(LoadCluster(Push.Emitters, Entry), Low, High); }
 #endif
 	return MayReach(Scene, FLightRef(Scene.Lights).Data[Entry], Low, High);
 }
@@ -192,7 +163,7 @@ bool CastsShadow(FSceneConstants Scene, uint Entry)
 float BoundEntry(FSceneConstants Scene, uint Entry, vec3 Low, vec3 High)
 {
 #ifdef LOCAL_EMISSIVE
-	if (IsTriangle(Entry)) { return BoundCluster(LoadCluster(Entry), Low, High); }
+	if (IsTriangle(Entry)) { return BoundCluster(LoadCluster(Push.Emitters, Entry), Low, High); }
 #endif
 	return BoundLight(Scene, FLightRef(Scene.Lights).Data[Entry], Low, High);
 }
@@ -203,59 +174,133 @@ float EstimateEntry(FSceneConstants Scene, uint Entry, uint Sampler)
 	if (IsTriangle(Entry))
 	{
 		if (SamplerKeys[Sampler] == 0u) { return 0.0; }
-		return EstimateCluster(LoadCluster(Entry), SamplerP[Sampler], SamplerN[Sampler], SamplerReach[Sampler]);
+		return EstimateCluster(LoadCluster(Push.Emitters, Entry), SamplerP[Sampler], SamplerN[Sampler], SamplerReach[Sampler]);
 	}
 #endif
 	return EstimateAround(Scene, FLightRef(Scene.Lights).Data[Entry], Sampler);
 }
 
-// The table is of all lights if the tile has many, and of all clusters. Returns how many there are.
-uint CountItems(FSceneConstants Scene)
-{
-#ifdef LOCAL_EMISSIVE
-	return (Tile.Count == TILE_LIGHTS_MANY ? Scene.LightCount : 0u) + Scene.EmissiveClusterCount;
-#else
-	return Scene.LightCount;
-#endif
-}
-
-// Returns the number of an item.
-uint ItemNumber(FSceneConstants Scene, uint Item)
-{
-#ifdef LOCAL_EMISSIVE
-	uint Lights = Tile.Count == TILE_LIGHTS_MANY ? Scene.LightCount : 0u;
-	if (Item >= Lights) { return (Item - Lights) | LIGHT_TRIANGLE; }
-#endif
-	return Item;
-}
-
-// Whether the table has the light for certain, however many there are.
+// Whether the tile's guide had the light in the previous frame.
 bool IsRemembered(FViewConstants View, uint Light)
 {
 	return PreviousTile.x != NoTile && Remembered[GuidePlace(Light, GuideTileHash(TileIndex(View, PreviousTile)))].Light == Light;
 }
 
-// Returns the share of lights that the table holds, of those that nobody remembers.
-float TableShare()
+// Where a tile finds its lights.
+struct FTileSource
 {
-	uint Most = EmitterCount + (Tile.Count == TILE_LIGHTS_MANY ? CandidateCount : 0u);
-	return Most <= TILE_TABLE_MOST ? 1.0 : 0.84 * float(TILE_TABLE_MOST) / float(Most);
+	uint Count;
+	bool bDrawn; // the list is of a region, and was drawn
+	FAddress Region; // FLightRegion; 0: all lights of the scene
+};
+
+FTileSource FindSource(FSceneConstants Scene, FViewConstants View)
+{
+	if (Push.Regions == FAddress(0)) { return FTileSource(Scene.LightCount, false, FAddress(0)); }
+	FAddress Region = Push.Regions + RegionIndex(View, gl_WorkGroupID.xy) * SizeOfRegion;
+	uint Count = FLightRegionRef(Region).Data.Count;
+	return FTileSource(min(Count, REGION_LIGHTS), Count > REGION_LIGHTS, Region);
 }
 
-bool IsListed(FSceneConstants Scene, FViewConstants View, uint Light, uint Seed, vec3 Low, vec3 High)
+uint SourceLight(FTileSource Source, uint I) { return Source.Region != FAddress(0) ? FLightRegionRef(Source.Region).Data.Lights[I] : I; }
+float SourceStands(FTileSource Source, uint I) { return Source.bDrawn ? FLightRegionRef(Source.Region).Data.Stands[I] : 1.0; }
+
+#ifdef LOCAL_EMISSIVE
+FTileSource FindEmitterSource(FSceneConstants Scene, FViewConstants View)
 {
-	float Share = TableShare();
-	if (Share < 1.0 && float(HashPcg(Light ^ Seed) >> 8u) * (1.0 / 16777216.0) >= Share && !IsRemembered(View, Light)) { return false; }
-	return MayReachEntry(Scene, Light, Low, High);
+	FAddress Regions = EmitterRegions(Scene, Push.Emitters);
+	if (Regions == FAddress(0)) { return FTileSource(Scene.EmissiveClusterCount, false, FAddress(0)); }
+	FAddress Region = Regions + RegionIndex(View, gl_WorkGroupID.xy) * SizeOfRegion;
+	uint Count = FLightRegionRef(Region).Data.Count;
+	return FTileSource(min(Count, REGION_EMITTERS), Count > REGION_EMITTERS, Region);
 }
 
-// Lists the table's lights where the scene has more than it can hold. Their order does not depend on that of threads.
+uint SourceCluster(FTileSource Source, uint I) { return Source.Region != FAddress(0) ? SourceLight(Source, I) : I | LIGHT_TRIANGLE; }
+#endif
+
+// What the table is made of: the lights of a tile of many, and emissive triangles.
+struct FTableSources
+{
+	FTileSource Lights;
+#ifdef LOCAL_EMISSIVE
+	FTileSource Emitters;
+#endif
+};
+
+FTableSources FindSources(FSceneConstants Scene, FViewConstants View)
+{
+	FTableSources Sources;
+	Sources.Lights = FindSource(Scene, View);
+#ifdef LOCAL_EMISSIVE
+	if (Tile.Count != TILE_LIGHTS_MANY) { Sources.Lights = FTileSource(0u, false, FAddress(0)); }
+	Sources.Emitters = FindEmitterSource(Scene, View);
+#endif
+	return Sources;
+}
+
+// How many proposals begin with what the tile remembers. Where a list was drawn, that is there for certain, however many lights there
+// are: its entries come first, and of what was drawn they are left out.
+uint CountRemembered(FTableSources Sources)
+{
+	bool bDrawn = Sources.Lights.bDrawn;
+#ifdef LOCAL_EMISSIVE
+	bDrawn = bDrawn || Sources.Emitters.bDrawn;
+#endif
+	return bDrawn ? TILE_GUIDE_LIGHTS : 0u;
+}
+
+uint CountProposals(FTableSources Sources)
+{
+	uint Count = CountRemembered(Sources) + Sources.Lights.Count;
+#ifdef LOCAL_EMISSIVE
+	Count += Sources.Emitters.Count;
+#endif
+	return Count;
+}
+
+// Whether a light is of a list that was drawn.
+bool IsOfDrawn(FSceneConstants Scene, FTableSources Sources, uint Light)
+{
+#ifdef LOCAL_EMISSIVE
+	if (IsTriangle(Light)) { return Sources.Emitters.bDrawn && (Light & ~LIGHT_TRIANGLE) < Scene.EmissiveClusterCount; }
+#endif
+	return Sources.Lights.bDrawn && Light < Scene.LightCount;
+}
+
+// Returns the Number-th light that the table may hold, and NoGuideLight for none.
+uint ProposeLight(FSceneConstants Scene, FViewConstants View, FTableSources Sources, uint Number, vec3 Low, vec3 High, out float Stands)
+{
+	uint I = Number - CountRemembered(Sources), Light;
+	bool bRemembered = Number < CountRemembered(Sources);
+	Stands = 1.0;
+	if (bRemembered) { Light = Remembered[Number].Light; }
+#ifdef LOCAL_EMISSIVE
+	else if (I >= Sources.Lights.Count)
+	{
+		Light = SourceCluster(Sources.Emitters, I - Sources.Lights.Count);
+		Stands = SourceStands(Sources.Emitters, I - Sources.Lights.Count);
+	}
+#endif
+	else
+	{
+		Light = SourceLight(Sources.Lights, I);
+		Stands = SourceStands(Sources.Lights, I);
+	}
+	bool bDrawn = IsOfDrawn(Scene, Sources, Light);
+	if (bRemembered ? !bDrawn : (bDrawn && IsRemembered(View, Light))) { return NoGuideLight; }
+	return MayReachEntry(Scene, Light, Low, High) ? Light : NoGuideLight;
+}
+
+// Lists the table's lights. Their order does not depend on that of threads.
 void ListTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low, vec3 High)
 {
-	uint Seed = HashPcg(View.FrameIndex + HashPcg(TileIndex(View, gl_WorkGroupID.xy) + HashPcg(View.Seed)));
-	uint Mine = 0u, Before = 0u, Total = 0u;
-	uint Items = CountItems(Scene);
-	for (uint I = Place; I < Items; I += TILE_PIXELS) { Mine += IsListed(Scene, View, ItemNumber(Scene, I), Seed, Low, High) ? 1u : 0u; }
+	FTableSources Sources = FindSources(Scene, View);
+	uint Most = CountProposals(Sources), Mine = 0u, Before = 0u, Total = 0u;
+	float Stands;
+	[[dont_unroll]] for (uint I = Place; I < Most; I += TILE_PIXELS)
+	{
+		Mine += ProposeLight(Scene, View, Sources, I, Low, High, Stands) != NoGuideLight ? 1u : 0u;
+	}
 	RunCounts[Place] = Mine;
 	barrier();
 	[[dont_unroll]] for (uint I = 0u; I < TILE_PIXELS; ++I)
@@ -263,10 +308,12 @@ void ListTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low,
 		Before += I < Place ? RunCounts[I] : 0u;
 		Total += RunCounts[I];
 	}
-	for (uint I = Place; I < Items && Before < TILE_TABLE_MOST; I += TILE_PIXELS)
+	[[dont_unroll]] for (uint I = Place; I < Most && Before < TILE_TABLE_MOST; I += TILE_PIXELS)
 	{
-		uint Number = ItemNumber(Scene, I);
-		if (IsListed(Scene, View, Number, Seed, Low, High)) { TableEntries[Before++] = Number; }
+		uint Light = ProposeLight(Scene, View, Sources, I, Low, High, Stands);
+		if (Light == NoGuideLight) { continue; }
+		TableEntries[Before] = Light;
+		TableStands[Before++] = Stands;
 	}
 	if (Place == 0u) { TableCount = min(Total, TILE_TABLE_MOST); }
 	barrier();
@@ -279,23 +326,22 @@ struct FRun
 };
 
 // Estimates what lights bring, and adds it up. Cumulative[] gets their bounds.
-void EstimateLights(FSceneConstants Scene, FViewConstants View, FRun Run, bool bAll, uint Place, vec3 Low, vec3 High)
+void EstimateLights(FSceneConstants Scene, FViewConstants View, FRun Run, uint Place, vec3 Low, vec3 High)
 {
 	[[dont_unroll]] for (uint S = 0u; S <= TileSamplers; ++S) { Totals[S][Place] = 0.0; }
 	[[dont_unroll]] for (uint I = Run.Begin; I < Run.End; ++I)
 	{
-		uint Light = bAll ? ItemNumber(Scene, I) : TableEntries[I];
-		bool bReaches = MayReachEntry(Scene, Light, Low, High);
-		float Visibility = 1.0, Bound = bReaches ? min(BoundEntry(Scene, Light, Low, High), 1.0e30) : 0.0;
-		if (bReaches && CastsShadow(Scene, Light)) { Visibility = max(ExpectVisibility(View, Light), LeastVisibility); }
+		uint Light = TableEntries[I];
+		float Visibility = 1.0, Bound = min(BoundEntry(Scene, Light, Low, High), 1.0e30);
+		if (CastsShadow(Scene, Light)) { Visibility = max(ExpectVisibility(View, Light), LeastVisibility); }
 		uvec2 Packed = uvec2(0u);
-		[[dont_unroll]] for (uint S = 0u; S < TileSamplers && bReaches; ++S)
+		[[dont_unroll]] for (uint S = 0u; S < TileSamplers; ++S)
 		{
 			uint Byte = PackEstimate(EstimateEntry(Scene, Light, S));
 			Packed[S >> 2u] |= Byte << (8u * (S & 3u));
-			Totals[S][Place] += UnpackEstimate(Byte) * Visibility;
+			Totals[S][Place] += UnpackEstimate(Byte) * (Visibility * TableStands[I]);
 		}
-		Totals[TileSamplers][Place] += Bound * Visibility;
+		Totals[TileSamplers][Place] += Bound * (Visibility * TableStands[I]);
 		Estimates[I] = Packed;
 		Cumulative[I] = Bound;
 		TableEntries[I] = Light | (uint(Visibility * 255.0 + 0.5) << LIGHT_INDEX_BITS);
@@ -333,7 +379,7 @@ float WeighLights(FSceneConstants Scene, FRun Run, uint TileHash)
 		{
 			atomicMax(GuideKeys[GuidePlace(Light, TileHash)], (floatBitsToUint(Weight * max(Visibility, 0.25)) & ~(TILE_TABLE_MOST - 1u)) | I);
 		}
-		Sum += Weight * Visibility;
+		Sum += Weight * Visibility * TableStands[I];
 		Cumulative[I] = Sum;
 	}
 	return Sum;
@@ -342,13 +388,10 @@ float WeighLights(FSceneConstants Scene, FRun Run, uint TileHash)
 // Fills the table, and proposes lights for the tile's guide.
 void MakeTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low, vec3 High)
 {
-	bool bAll = CountItems(Scene) <= TILE_TABLE_MOST;
-	if (!bAll) { ListTable(Scene, View, Place, Low, High); }
-	else if (Place == 0u) { TableCount = CountItems(Scene); }
-	barrier();
+	ListTable(Scene, View, Place, Low, High);
 	uint Length = (TableCount + TILE_PIXELS - 1u) / TILE_PIXELS, Begin = min(Place * Length, TableCount);
 	FRun Run = FRun(Begin, min(Begin + Length, TableCount));
-	EstimateLights(Scene, View, Run, bAll, Place, Low, High);
+	EstimateLights(Scene, View, Run, Place, Low, High);
 	RunSums[Place] = WeighLights(Scene, Run, GuideTileHash(TileIndex(View, gl_WorkGroupID.xy)));
 	barrier();
 	float Before = 0.0;
@@ -409,7 +452,7 @@ FLobes WeighLobes(FLobes Mean, FLobes Chosen, float Weight)
 bool ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLocalBrdf Local, uvec2 Pixel, out FLightChoice Choice,
                    out FLobes Lit)
 {
-	float All = Cumulative[TableCount - 1u], Target = 0.0, Total = 0.0, Share = TableShare();
+	float All = TableCount > 0u ? Cumulative[TableCount - 1u] : 0.0, Target = 0.0, Total = 0.0;
 	vec2 U = LocalNumbers(View, Pixel, 0xffffffffu);
 	FLobes Mean = FLobes(vec3(0.0), vec3(0.0)), Chosen = Mean;
 	Choice = FLightChoice(0u, 0.0);
@@ -419,12 +462,11 @@ bool ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point
 		uint Number = FindEntry(At), Entry = TableEntries[Number], Light = EntryLight(Entry);
 		float Below = Number > 0u ? Cumulative[Number - 1u] : 0.0, Weight = Cumulative[Number] - Below;
 		if (Weight <= 0.0) { continue; }
-		bool bCertain = Share >= 1.0 || IsRemembered(View, Light);
 #ifdef LOCAL_EMISSIVE
 		if (IsTriangle(Light))
 		{
 			float In = clamp((At - Below) / Weight, 0.0, 0.99999994);
-			Light = ChooseTriangle(Scene, LoadCluster(Light), In, Chance) | LIGHT_TRIANGLE;
+			Light = ChooseTriangle(Scene, LoadCluster(Push.Emitters, Light), In, Chance) | LIGHT_TRIANGLE;
 		}
 		if (Chance <= 0.0) { continue; }
 #endif
@@ -432,8 +474,7 @@ bool ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point
 		if (!ReachesLight(View, Point, Sample)) { continue; }
 		FLobes Lobes = ReflectLight(Point, Local, Sample, Light);
 		// Times the inverse of the density with which the light came here, over all candidates.
-		float Visibility = EntryVisibility(Entry), Stands = Visibility * All / (Weight * Chance * float(Push.Candidates));
-		if (!bCertain) { Stands /= Share; }
+		float Visibility = EntryVisibility(Entry), Stands = Visibility * TableStands[Number] * All / (Weight * Chance * float(Push.Candidates));
 		Mean.Diffuse += Lobes.Diffuse * Stands;
 		Mean.Specular += Lobes.Specular * Stands;
 		float Brightness = Luminance(Lobes.Diffuse + Lobes.Specular), Mine = Brightness * Stands;

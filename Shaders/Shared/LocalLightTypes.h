@@ -35,7 +35,11 @@ struct FLightChoice
 LANTERN_ASSERT_SIZE(FLightChoice, 8);
 
 // Tiles of many lights, with r.RT.Lights.Candidates.
-#define TILE_TABLE_MOST 1024 // lights that a tile weighs for its pixels; of more it weighs a random part
+#define REGION_TILES 4u     // tiles along an edge of a region
+#define REGION_LIGHTS 128u  // lights that a region lists for its tiles
+#define REGION_EMITTERS 96u // clusters of emissive triangles that a region lists; with lights and the guide they fill a tile's table
+#define REGION_THREADS 128u
+#define TILE_TABLE_MOST 256 // lights that a tile weighs for its pixels: its region's, and those that it remembers
 #define TILE_GUIDE_LIGHTS 32
 #define TILE_GUIDE_RAY 32u   // what a ray counts in FGuideLight::Counts
 #define TILE_GUIDE_RAYS 1024 // most rays of a light that are remembered
@@ -54,6 +58,24 @@ struct FTileGuide
 	FGuideLight Lights[TILE_GUIDE_LIGHTS];
 };
 LANTERN_ASSERT_SIZE(FTileGuide, 256);
+
+// The lights that may reach a region, a square of tiles. If they are more than the list holds, it has REGION_LIGHTS that were drawn of
+// them, the brightest possibly several times.
+struct FLightRegion
+{
+	uint Count;                   // of lights that may reach it; more than REGION_LIGHTS: the list was drawn
+	uint Lights[REGION_LIGHTS];   // index in the table of lights, in rising order
+	float Stands[REGION_LIGHTS];  // how many lights like it an entry stands for
+};
+LANTERN_ASSERT_SIZE(FLightRegion, 1028);
+
+struct FLightRegionsConstants
+{
+	FPassConstants Pass;
+	FAddress Regions; // FLightRegion[], row by row; with EMITTERS behind FEmitterCluster[], see FEmitterHeader
+	uint Depth, Normals; // sampled indices
+};
+LANTERN_ASSERT_SIZE(FLightRegionsConstants, 32);
 
 // What a pixel reflects if the light that it chose is visible.
 struct FLitPixel
@@ -76,12 +98,23 @@ struct FEmitterCluster
 };
 LANTERN_ASSERT_SIZE(FEmitterCluster, 64);
 
+// Begins the buffer of clusters. FEmitterCluster[] follows, and behind it the FLightRegion[] of clusters if these are more than
+// REGION_EMITTERS.
+struct FEmitterHeader
+{
+	float ReflectedRoughness; // rougher surfaces have no reflections traced; negative: none have
+	uint Pad[3];
+};
+LANTERN_ASSERT_SIZE(FEmitterHeader, 16);
+
 struct FEmitterClustersConstants
 {
 	FPassConstants Pass;
-	FAddress Clusters; // FEmitterCluster[FSceneConstants::EmissiveClusterCount]
+	FAddress Clusters; // FEmitterHeader, and what follows
+	float ReflectedRoughness;
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FEmitterClustersConstants, 24);
+LANTERN_ASSERT_SIZE(FEmitterClustersConstants, 32);
 
 #define EMITTER_GROUP_SIZE 32 // threads that a cluster has
 
@@ -104,9 +137,8 @@ struct FLocalRequestsConstants
 	FAddress PreviousGuide;   // FTileGuide[]; 0: there is none
 	uint Candidates;          // of each pixel, 1 to 64
 	float GuideKept;          // share of what the guide knows that it keeps in this frame
-	FAddress Emitters;        // FEmitterCluster[]; LOCAL_EMISSIVE only
-	float ReflectedRoughness; // as in FLocalShadeConstants
-	uint Pad;
+	FAddress Regions;         // FLightRegion[], row by row; 0: tiles look at all lights of the scene
+	FAddress Emitters;        // FEmitterHeader, and what follows it; 0: nothing emits
 };
 LANTERN_ASSERT_SIZE(FLocalRequestsConstants, 128);
 

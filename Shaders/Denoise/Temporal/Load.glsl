@@ -56,6 +56,11 @@ void LoadTile(ivec2 Size)
 	}
 }
 
+#if CHANNELS != 1
+// Whether the pixel has a value without noise, which other frames could only blur.
+bool IsCertain(ivec2 Pixel) { return texelFetch(Textures[Push.Signal], Pixel, 0).w == 0.0 && TileInverseDepth[GetTileIndex(ivec2(0))] > 0.0; }
+#endif
+
 // Whether a pixel of the tile has a value of its own.
 bool HasValue(int I)
 {

@@ -195,6 +195,23 @@ TEST_F(FLightCellsTest, GuidesAreWherePixelsChoose)
 	EXPECT_EQ(CountGuides(), 1u);
 }
 
+// A tile looks at all lights of the scene while they are few enough for it. Where all are visited, regions list none.
+TEST_F(FLightCellsTest, RegionsAreWhereTilesCannotLookAtAll)
+{
+	Set("r.RT.Lights", "1");
+	ASSERT_TRUE(Load({}));
+	for (uint32_t I = 0; I < 128; ++I) { AddLamp(0.0f); }
+	Render();
+	EXPECT_FALSE(HasPass("ShadowLightRegions"));
+	EXPECT_THAT(Mock().GetCreatedPipelines(), Not(Contains(HasSubstr("LocalLights/Regions"))));
+	AddLamp(0.0f);
+	Render();
+	EXPECT_TRUE(HasPass("ShadowLightRegions"));
+	Set("r.RT.Lights.Candidates", "0");
+	Render();
+	EXPECT_FALSE(HasPass("ShadowLightRegions"));
+}
+
 TEST_F(FLightCellsTest, DebugViewShowsThem)
 {
 	Set("r.RT.Debug.View", "light_cells");

@@ -47,7 +47,7 @@ TEST_F(FRendererContentTest, EverythingAtOnce)
 {
 	LoadAndRender({.bMasked = true, .bSkinned = true, .bLights = true, .bTexture = true, .bEmissive = true, .bSky = true});
 	EXPECT_THAT(GetPasses(),
-	    ElementsAre("Skinning", "SceneUpdate", "GBuffer", "Structures", "ShadowTiles", "ShadowLightsEmitters", "ShadowLights", "ShadowRays", "Surface",
+	    ElementsAre("Skinning", "SceneUpdate", "GBuffer", "Structures", "ShadowTiles", "ShadowEmitters", "ShadowLights", "ShadowRays", "Surface",
 	        "ShadowMoreAsk", "ShadowMoreRays", "SunShadow", "SunShadowTemporal", "SunShadowFilter0", "SunShadowFilter1",
 	        "ShadowLightsShade", "LocalDiffuseTemporal", "LocalDiffuseFilter0", "LocalDiffuseFilter1", "LocalDiffuseFilter2",
 	        "LocalDiffuseFilter3", "LocalSpecularTemporal", "LocalSpecularFilter0", "LocalSpecularFilter1", "LocalSpecularFilter2",

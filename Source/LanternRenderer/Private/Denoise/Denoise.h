@@ -21,7 +21,7 @@ struct FDenoiseInputs
 {
 	const char* Name = ""; ///< names passes and histories; the same in all frames
 	/// A pixel's mean over the frame's rays, with at least ShaderRead. R16_FLOAT: visibility, each ray's is 0 or 1.
-	/// RGBA16_FLOAT: a colour, ≥ 0.
+	/// RGBA16_FLOAT: a colour, ≥ 0. Its fourth channel is 0 where the colour has no noise, and else 1.
 	FGraphTexture Signal;
 	uint32_t RaysPerPixel = 1; ///< for visibility
 	/// For visibility, R16_FLOAT: width in pixels of the transition between seen and unseen that the pixel lies in. 0: the

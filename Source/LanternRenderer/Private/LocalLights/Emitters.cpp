@@ -3,7 +3,9 @@
 
 #include "Lighting/DirectLighting.h"
 #include "LocalLightTypes.h"
+#include "LocalLights/LightRegions.h"
 #include "LocalLights/LocalLights.h"
+#include "Reflections/Reflections.h"
 #include "SignalPasses.h"
 
 namespace Lantern
@@ -18,6 +20,8 @@ TRTConsoleVariable<bool> CVarTwice("r.RT.Debug.Lights.EmissiveTwice", false,
     "Planted fault. Global illumination and reflections count emissive triangles in full, as if local lights had none.");
 
 bool IsDirect(const FSceneFacts& Facts) { return HasEmitters(Facts) && !CVarTwice.GetOnRenderThread(); }
+
+bool HasManyClusters(const FSceneFacts& Facts) { return Facts.EmissiveClusters > REGION_EMITTERS; }
 
 FShaderSource MakeClustersSource() { return MakeComputeSource("LocalLights/EmitterClusters.comp"); }
 } // namespace
@@ -41,30 +45,42 @@ void AddEmitterDefines(const FSceneFacts& Facts, FShaderDefines& InOut)
 
 void ListEmitterShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& Out)
 {
-	if (HasEmitters(Facts)) { Out.push_back(MakeClustersSource()); }
+	if (!HasEmitters(Facts)) { return; }
+	Out.push_back(MakeClustersSource());
+	if (HasManyClusters(Facts)) { Out.push_back(MakeEmitterRegionsSource()); }
 }
 
-bool AreEmittersReady(FFrameContext& Context) { return !HasEmitters(Context.Facts) || RequireCompute(Context, MakeClustersSource()); }
-
-FGraphBuffer AddEmitterClusters(FFrameContext& Context)
+bool AreEmittersReady(FFrameContext& Context)
 {
-	const uint32_t Count = Context.Scene.GetFacts().EmissiveClusters; // the frame's own, since the list was brought up to date
+	if (!HasEmitters(Context.Facts)) { return true; }
+	if (!RequireCompute(Context, MakeClustersSource())) { return false; }
+	return !HasManyClusters(Context.Scene.GetFacts()) || RequireCompute(Context, MakeEmitterRegionsSource());
+}
+
+FGraphBuffer AddEmitterClusters(FFrameContext& Context, const FGBuffer& GBuffer)
+{
+	const FSceneFacts& Facts = Context.Scene.GetFacts(); // the frame's own, since the list was brought up to date
+	const uint32_t Count = Facts.EmissiveClusters;
 	if (!HasEmitters(Context.Facts) || Count == 0) { return {}; }
-	const FGraphBuffer Clusters = Context.Graph.CreateBuffer({uint64_t(Count) * sizeof(FEmitterCluster)}, "EmitterClusters");
+	const uint64_t Regions = HasManyClusters(Facts) ? GetLightRegionBytes(Context) : 0;
+	const FGraphBuffer Clusters =
+	    Context.Graph.CreateBuffer({sizeof(FEmitterHeader) + Count * sizeof(FEmitterCluster) + Regions}, "EmitterClusters");
 	IRTPipeline* const Pipeline = RequireCompute(Context, MakeClustersSource());
 	const FFrameContext* const Frame = &Context;
-	Context.Graph.AddPass("ShadowLightsEmitters", [&](FPassBuilder& Builder) -> FPassExecute {
+	Context.Graph.AddPass("ShadowEmitters", [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Write(Clusters, ERTAccess::StorageWrite);
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
 			FEmitterClustersConstants C{};
 			C.Pass = Frame->Pass;
 			C.Clusters = GetAddress(Pass, Clusters);
+			C.ReflectedRoughness = GetReflectedRoughness({Frame->Device.GetCapabilities(), Frame->Facts, Frame->Signals});
 			Pass.Commands().SetPipeline(Pipeline);
 			Pass.Commands().PushConstants(&C, sizeof(C));
 			Pass.Commands().Dispatch(Count, 1, 1);
 		};
 	});
+	if (Regions > 0) { AddEmitterRegions(Context, GBuffer, RequireCompute(Context, MakeEmitterRegionsSource()), Clusters); }
 	return Clusters;
 }
 

@@ -23,8 +23,8 @@ void AddEmitterDefines(const FSceneFacts& Facts, FShaderDefines& InOut);
 void ListEmitterShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& Out);
 /// Whether it is ready. False: it is being compiled, or an error, which the context then has.
 bool AreEmittersReady(FFrameContext& Context);
-/// Adds the pass that finds where clusters of emissive triangles lie in this frame, and returns FEmitterCluster[]. Invalid: nothing
-/// emits. After AreEmittersReady.
-FGraphBuffer AddEmitterClusters(FFrameContext& Context);
+/// Adds the passes that find where clusters of emissive triangles lie in this frame, and which of them regions of the screen look at.
+/// Returns FEmitterHeader and what follows it. Invalid: nothing emits. After AreEmittersReady.
+FGraphBuffer AddEmitterClusters(FFrameContext& Context, const FGBuffer& GBuffer);
 
 } // namespace Lantern

@@ -8,7 +8,7 @@
 #include "Lights/LightCells.h"
 #include "LocalLightTypes.h"
 #include "LocalLights/Emitters.h"
-#include "Reflections/Reflections.h"
+#include "LocalLights/LightRegions.h"
 
 namespace Lantern
 {
@@ -43,6 +43,8 @@ uint32_t GetCandidates()
 	return Candidates > 0 ? Candidates : Most;
 }
 
+bool HasRegions(const FSceneFacts& Facts, uint32_t Exact) { return IsGuided(Facts, Exact) && NeedsLightRegions(Facts); }
+
 FShaderSource MakeRequestsSource(const FSceneFacts& Facts, uint32_t Exact)
 {
 	FShaderDefines Defines = MakeChoiceDefines(Facts, Exact);
@@ -59,8 +61,8 @@ struct FRequestsPass
 	FRayQueue Queue;
 	FLocalRays Rays;
 	bool bFirst = false; ///< no pass before it writes requests and answers
-	FGraphBuffer TileLights, Choices, Lit;
-	FGraphBuffer Emitters;    ///< FEmitterCluster[]; invalid: nothing emits
+	FGraphBuffer TileLights, Choices, Lit, Regions;
+	FGraphBuffer Emitters;    ///< of AddEmitterClusters
 	FGraphBuffer Guide;       ///< two times FTileGuide[Tiles], of this frame and of the one before
 	uint64_t GuideOffset = 0; ///< of this frame's, bytes
 	bool bPreviousGuide = false;
@@ -97,8 +99,8 @@ void SetGuide(FPassContext& Pass, const FFrameContext& Frame, const FRequestsPas
 	C.Guide = Guides + Inputs.GuideOffset;
 	C.PreviousGuide = Inputs.bPreviousGuide ? Guides + (Bytes - Inputs.GuideOffset) : 0;
 	C.Candidates = GetCandidates();
+	C.Regions = GetAddress(Pass, Inputs.Regions);
 	C.Emitters = GetAddress(Pass, Inputs.Emitters);
-	C.ReflectedRoughness = GetReflectedRoughness({Frame.Device.GetCapabilities(), Frame.Facts, Frame.Signals});
 	C.GuideKept = std::exp(-Frame.View.DeltaSeconds / std::max(CVarGuideSeconds.GetOnRenderThread(), 1e-6f));
 }
 
@@ -107,6 +109,7 @@ void DeclareGuide(FPassBuilder& Builder, const FRequestsPass& Inputs)
 	Builder.Read(Inputs.GBuffer.BaseColor, ERTAccess::ShaderRead);
 	Builder.Read(Inputs.GBuffer.Material, ERTAccess::ShaderRead);
 	if (Inputs.bPreviousGuide) { Builder.Read(Inputs.Guide, ERTAccess::StorageRead); }
+	if (Inputs.Regions.IsValid()) { Builder.Read(Inputs.Regions, ERTAccess::ShaderRead); }
 	Builder.Write(Inputs.Guide, ERTAccess::StorageWrite);
 	if (Inputs.Lit.IsValid()) { Builder.Write(Inputs.Lit, ERTAccess::StorageWrite); }
 	if (Inputs.Emitters.IsValid()) { Builder.Read(Inputs.Emitters, ERTAccess::ShaderRead); }
@@ -201,13 +204,15 @@ void ListLocalRequestShaders(const FSceneFacts& Facts, uint32_t Exact, std::vect
 	Out.push_back(MakeRequestsSource(Facts, Exact));
 	if (MayChooseLights(Facts, Exact) && !IsGuided(Facts, Exact)) { ListLightCellShaders(Facts, Out); }
 	ListEmitterShaders(Facts, Out);
+	if (HasRegions(Facts, Exact)) { Out.push_back(MakeLightRegionsSource(Facts)); }
 	if (MayQueuesOverflow(1 + GetLocalRaysPerPixel(Facts, Exact))) { Out.push_back(MakeShareSource()); }
 }
 
 bool AreLocalRequestsReady(FFrameContext& Context, uint32_t Exact)
 {
 	const bool bShared = !MayQueuesOverflow(1 + GetLocalRaysPerPixel(Context.Facts, Exact)) || RequireCompute(Context, MakeShareSource());
-	return RequireCompute(Context, MakeRequestsSource(Context.Facts, Exact)) && bShared && AreEmittersReady(Context);
+	const bool bListed = !HasRegions(Context.Facts, Exact) || RequireCompute(Context, MakeLightRegionsSource(Context.Facts));
+	return RequireCompute(Context, MakeRequestsSource(Context.Facts, Exact)) && bShared && bListed && AreEmittersReady(Context);
 }
 
 void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRays& InOut, const FLocalRays& Rays)
@@ -221,8 +226,12 @@ void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRa
 		Inputs.Choices = Context.Graph.CreateBuffer({Pixels * sizeof(FLightChoice)}, "LightChoices");
 		if (!IsGuided(Context.Facts, Rays.Exact)) { RequireLightCells(Context, GBuffer); } // pixels visit the lights of their cell
 		else if (!AddGuide(Context, Inputs)) { return; }
+		if (HasRegions(Context.Facts, Rays.Exact))
+		{
+			Inputs.Regions = AddLightRegions(Context, GBuffer, RequireCompute(Context, MakeLightRegionsSource(Context.Facts)));
+		}
 	}
-	Inputs.Emitters = AddEmitterClusters(Context);
+	Inputs.Emitters = AddEmitterClusters(Context, GBuffer);
 	AddRequestsPass(Context, RequireCompute(Context, MakeRequestsSource(Context.Facts, Rays.Exact)), Inputs);
 	if (InOut.Queue.bMayOverflow) { AddSharePass(Context, RequireCompute(Context, MakeShareSource()), Inputs); }
 	InOut.Traced.TileLights = Inputs.TileLights;
