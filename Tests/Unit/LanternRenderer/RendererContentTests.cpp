@@ -47,7 +47,7 @@ TEST_F(FRendererContentTest, EverythingAtOnce)
 {
 	LoadAndRender({.bMasked = true, .bSkinned = true, .bLights = true, .bTexture = true, .bEmissive = true, .bSky = true});
 	EXPECT_THAT(GetPasses(),
-	    ElementsAre("Skinning", "SceneUpdate", "GBuffer", "Structures", "ShadowTiles", "ShadowEmitters", "ShadowLights", "ShadowRays", "Surface",
+	    ElementsAre("Skinning", "SceneUpdate", "GBuffer", "Structures", "ShadowTiles", "ShadowEmitters", "ShadowLights", "ShadowLightsShare", "ShadowDemand", "ShadowRays", "Surface",
 	        "ShadowMoreAsk", "ShadowMoreRays", "SunShadow", "SunShadowTemporal", "SunShadowFilter0", "SunShadowFilter1",
 	        "ShadowLightsShade", "LocalDiffuseTemporal", "LocalDiffuseFilter0", "LocalDiffuseFilter1", "LocalDiffuseFilter2",
 	        "LocalDiffuseFilter3", "LocalSpecularTemporal", "LocalSpecularFilter0", "LocalSpecularFilter1", "LocalSpecularFilter2",
@@ -57,7 +57,7 @@ TEST_F(FRendererContentTest, EverythingAtOnce)
 	std::erase_if(Dispatched, [](const std::string& Name) { return Name.rfind("Denoise/", 0) == 0; });
 	EXPECT_THAT(Dispatched,
 	    ElementsAre("Skinning/Skin.comp", "Skinning/RefitQuality.comp", "Tiles/Tiles.comp", "LocalLights/EmitterClusters.comp",
-	        "LocalLights/Requests.comp HAS_LIGHTS MANY_LIGHTS LOCAL_EMISSIVE GUIDED HAS_MASKED",
+	        "LocalLights/Requests.comp HAS_LIGHTS MANY_LIGHTS LOCAL_EMISSIVE GUIDED HAS_MASKED", "LocalLights/ShareRequests.comp",
 	        AllOf(StartsWith("Rays/ShadowQueue.comp"), HasSubstr("HAS_MASKED")), "Tiles/MoreRays.comp",
 	        AllOf(StartsWith("Rays/ShadowQueue.comp"), HasSubstr("HAS_MASKED")), "SunShadow/SunShadow.comp",
 	        "LocalLights/Shade.comp HAS_LIGHTS MANY_LIGHTS LOCAL_EMISSIVE GUIDED HAS_MASKED", AllOf(StartsWith("AmbientOcclusion/AmbientOcclusion.comp"), HasSubstr("HAS_MASKED")),
@@ -299,6 +299,7 @@ TEST_F(FRendererContentTest, ViewsTakeTurnsAndKeepWhatIsTheirs)
 
 TEST_F(FRendererContentTest, ReferenceKeepsEmittersAndFactsOfItsScene)
 {
+	Set("r.RT.Lights.Emissive", "0"); // frames would list them as well
 	LoadAndRender({.bEmissive = true});
 	EXPECT_EQ(Engine->GetScene().GetScene().GetConstants().EmissiveTriangleCount, 0u);
 	ASSERT_TRUE(RenderReferenceOnce(2));

@@ -139,7 +139,7 @@ TEST_F(FRendererLackTest, NoLocalLights)
 TEST_F(FRendererLackTest, NoEmissiveTriangles)
 {
 	const std::vector<const char*> Parts = {
-	    "EmitterClusters", "LOCAL_EMISSIVE", "EMISSIVE_IS_DIRECT", "LightGuide", "LightChoices", "LitPixels", "MANY_LIGHTS"};
+	    "EmitterClusters", "LOCAL_EMISSIVE", "pass ShadowEmitters", "LightGuide", "LightChoices", "LitPixels", "MANY_LIGHTS"};
 	FStage Stage;
 	Stage.Settings = {{"r.RT.Lights.Emissive", "0"}};
 	ExpectAbsent("emissive triangles are no local lights", Stage, Parts);
@@ -261,6 +261,7 @@ TEST_F(FRendererLackTest, NoFilterNoHistoryAndNoMotion)
 {
 	FStage Stage;
 	Stage.Settings = {{"r.RT.Shadow.Denoise", "0"}, {"r.RT.AO.Denoise", "0"}, {"r.RT.Lights.Denoise", "0"}};
+	Stage.Content.bEmissive = false; // tiles remember which of many lights are hidden
 	ExpectAbsent("no filter", Stage,
 	    {"Denoise", "Temporal", "Filter", "Surface", "History", "GBufferMotion", "ObjectMotions", "SunShadowPenumbra", "SunWidths"});
 	const std::vector<std::pair<const char*, const char*>> Pipeline = {{"r.RT.Shadow.Path", "1"}};
