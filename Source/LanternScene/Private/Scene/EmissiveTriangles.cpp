@@ -95,6 +95,35 @@ bool FEmissiveTriangles::UpdateMoved(const FSceneObjects& Objects, const FSceneM
 	return true;
 }
 
+namespace
+{
+/// Whether two triangles lie in one plane and face the same way, as those of a rectangle do.
+bool AreCoplanar(const FEmissiveTriangle& A, const FEmissiveTriangle& B)
+{
+	const glm::dvec3 Across = glm::cross(glm::dvec3(A.P1 - A.P0), glm::dvec3(A.P2 - A.P0));
+	const glm::dvec3 Other = glm::cross(glm::dvec3(B.P1 - B.P0), glm::dvec3(B.P2 - B.P0));
+	const double Length = glm::length(Across), Size = std::sqrt(Length);
+	const double Away = std::abs(glm::dot(Across, glm::dvec3(B.P0 - A.P0))) / Length;
+	return glm::dot(Across, Other) >= (1.0 - 1e-7) * Length * glm::length(Other) && Away <= 1e-4 * Size;
+}
+} // namespace
+
+/// Few triangles have clusters of their own, or one for a flat part, which then has a side that it shines to. Many are cut in pieces.
+uint32_t FEmissiveTriangles::FindClusterEnd(const FList& List, uint32_t First, const FSource& Source, uint32_t Size)
+{
+	constexpr uint32_t MostFlat = 8;
+	const uint32_t End = Source.First + Source.Count;
+	if (Size > 1)
+	{
+		const uint32_t Pieces = (Source.Count + Size - 1) / Size;
+		const uint32_t Even = (Source.Count + Pieces - 1) / Pieces; // the last one may be smaller
+		return std::min(First + Even, End);
+	}
+	uint32_t Next = First + 1;
+	while (Next < End && Next < First + MostFlat && AreCoplanar(List.Triangles[First], List.Triangles[Next])) { ++Next; }
+	return Next;
+}
+
 void FEmissiveTriangles::MakeClusters(FList& InOut)
 {
 	std::vector<FEmissiveCluster> All;
@@ -102,11 +131,9 @@ void FEmissiveTriangles::MakeClusters(FList& InOut)
 	const uint32_t Size = std::max((Total + EMISSIVE_CLUSTERS - 1) / EMISSIVE_CLUSTERS, 1u);
 	for (const FSource& Source : Sources)
 	{
-		const uint32_t Pieces = (Source.Count + Size - 1) / Size;
-		for (uint32_t Piece = 0; Piece < Pieces; ++Piece)
+		for (uint32_t First = Source.First, End; First < Source.First + Source.Count; First = End)
 		{
-			const uint32_t First = Source.First + static_cast<uint32_t>(uint64_t(Source.Count) * Piece / Pieces);
-			const uint32_t End = Source.First + static_cast<uint32_t>(uint64_t(Source.Count) * (Piece + 1) / Pieces);
+			End = FindClusterEnd(InOut, First, Source, Size);
 			const double Before = First > 0 ? InOut.Cumulative[First - 1] : 0.0, Power = InOut.Cumulative[End - 1] - Before;
 			for (uint32_t I = First; I < End; ++I)
 			{

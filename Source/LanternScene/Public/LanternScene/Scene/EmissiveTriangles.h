@@ -56,6 +56,7 @@ private:
 	bool UpdateMoved(const FSceneObjects& Objects, const FSceneMaterials& Materials);
 	void ListObjects(const FSceneObjects& Objects, const FSceneMaterials& Materials);
 	void MakeClusters(FList& InOut);
+	static uint32_t FindClusterEnd(const FList& List, uint32_t First, const FSource& Source, uint32_t Size);
 	static void AddTriangles(uint32_t Object, const FSceneObjects& Objects, const FSceneMaterials& Materials, FList& Out);
 
 	TGpuTable<FEmissiveTriangle> Table{"EmissiveTriangles"};
