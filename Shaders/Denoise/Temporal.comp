@@ -4,7 +4,12 @@
 #include "../Shared/DenoiseTypes.h"
 #include "../Library/View.glsl"
 
-layout(local_size_x = DENOISE_GROUP_SIZE, local_size_y = DENOISE_GROUP_SIZE) in;
+#if CHANNELS == 1
+#define GROUP_SIZE DENOISE_VISIBILITY_GROUP_SIZE
+#else
+#define GROUP_SIZE DENOISE_GROUP_SIZE
+#endif
+layout(local_size_x = GROUP_SIZE, local_size_y = GROUP_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FTemporalConstants Push; };
 
 #include "Temporal/Load.glsl"
@@ -18,18 +23,19 @@ layout(push_constant, scalar) uniform FPush { FTemporalConstants Push; };
 #include "Temporal/Clamp.glsl"
 #include "Temporal/Blend.glsl"
 #include "Temporal/Store.glsl"
+#include "Temporal/View.glsl"
 
 const float EnoughRays = 4.0;      // that stand without a history
 const float CertainSigma = 1.0e-3; // standard deviation of a history without noise
 
-// PreviousSize: of the history, pixels.
-FAccumulated Accumulate(FFrameEstimate Frame, FHistory History, ivec2 PreviousSize, bool bMayHaveChanged)
+// PreviousSize: of the history, pixels. Unchanged: gets the share of the history that is kept.
+FAccumulated Accumulate(FFrameEstimate Frame, FHistory History, ivec2 PreviousSize, bool bMayHaveChanged, out float Unchanged)
 {
 #ifndef NO_ADAPTION // r.RT.Debug.Denoise.Adapt
 	// Where light may change, certainty of long standing would hide the first rays that say otherwise.
 	if (bMayHaveChanged && History.Past.NoiseSigma < CertainSigma) { History.Past.Frames = min(History.Past.Frames, 1.0); }
 #endif
-	float Unchanged = bMayHaveChanged ? GetUnchangedShare(Frame, History, PreviousSize) : 1.0;
+	Unchanged = bMayHaveChanged ? GetUnchangedShare(Frame, History, PreviousSize) : 1.0;
 #ifndef NO_ADAPTION // r.RT.Debug.Denoise.Adapt
 	// Further rays at a border that may have moved are worth more than what was there before.
 	if (bMayHaveChanged && Push.bChangesKnown != 0u && Frame.Rays >= EnoughRays) { Unchanged = 0.0; }
@@ -66,6 +72,7 @@ void main()
 	{
 		FSignal Value = GetSignal(texelFetch(Textures[Push.Signal], Pixel, 0));
 		Store(Pixel, FAccumulated(SanitizeSignal(Value, IsSignalFinite(Value)), 0.0, 0.0, 0.0), 0.0);
+		DrawCertain(Pixel, true);
 		return;
 	}
 	FFrameEstimate Frame = EstimateFrame();
@@ -73,10 +80,15 @@ void main()
 	if (IsCertain(Pixel))
 	{
 		Store(Pixel, FAccumulated(Frame.Value, 0.0, 1.0, Frame.Neighborhood.Mean), Frame.Extent);
+		DrawCertain(Pixel, false);
 		return;
 	}
 #endif
 	FHistory History = ReprojectHistory(View, uvec2(Pixel), Surface);
 	bool bMayHaveChanged = MayHaveChanged(View, uvec2(Pixel), Surface.Distance);
-	Store(Pixel, Accumulate(Frame, History, ivec2(View.PreviousWidth, View.PreviousHeight), bMayHaveChanged), Frame.Extent);
+	bool bKnown = History.Past.Frames > 0.0;
+	float Unchanged;
+	FAccumulated Now = Accumulate(Frame, History, ivec2(View.PreviousWidth, View.PreviousHeight), bMayHaveChanged, Unchanged);
+	Store(Pixel, Now, Frame.Extent);
+	DrawHistory(Pixel, Now.Frames, bKnown ? Unchanged : NothingKept);
 }

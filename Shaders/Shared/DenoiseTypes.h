@@ -5,7 +5,8 @@
 
 LANTERN_SHARED_BEGIN
 
-#define DENOISE_GROUP_SIZE 8
+#define DENOISE_GROUP_SIZE 8 // threads in x and y
+#define DENOISE_VISIBILITY_GROUP_SIZE 16 // of accumulation: pixels around a group are loaded again; colours would take too much memory
 #define DENOISE_WINDOW_RADIUS 3 // pixels; the signal's range in this frame comes from a window of 7×7
 
 // Constants of Denoise/Surface.comp, which packs the surface that each pixel shows (Library/History.glsl).
@@ -42,9 +43,11 @@ struct FTemporalConstants
 	uint CasterCount;
 	uint bChangesKnown; // 1: the signal changes only where these shadows fall, or on surfaces that move. 0: it may anywhere
 	float CasterSpread; // of a half shadow's border, metres per metre
+	uint OutView;       // storage index of a picture of the history (r.RT.Debug.View), or NO_TEXTURE
+	uint bViewChange;   // 1: it shows what was dropped of the history; 0: how much the history is worth
 	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FTemporalConstants, 104);
+LANTERN_ASSERT_SIZE(FTemporalConstants, 112);
 
 // Constants of Denoise/Filter.comp.
 struct FFilterConstants

@@ -8,7 +8,7 @@
 
 #include "../Signal.glsl"
 
-const int GroupSize = DENOISE_GROUP_SIZE;
+const int GroupSize = GROUP_SIZE;
 #if CHANNELS == 1 && !defined(WITH_EXTENT)
 const int WindowRadius = 2; // the neighbourhood's
 #else

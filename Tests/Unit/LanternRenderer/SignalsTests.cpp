@@ -77,6 +77,24 @@ TEST_F(FDebugViewTest, ShowsASignalInsteadOfThePicture)
 	EXPECT_FALSE(HasPass("DebugView")) << "an unknown name shows the picture";
 }
 
+// The filter draws them itself, and nothing without them.
+TEST_F(FDebugViewTest, ShowsTheHistoryOfAFilter)
+{
+	LoadAndRender({.bSky = true});
+	for (const char* const Name : {"SunShadow.confidence", "SunShadow.change", "AmbientOcclusion.confidence"})
+	{
+		Set("r.RT.Debug.View", Name);
+		Render();
+		EXPECT_FALSE(HasPass("DebugView")) << Name;
+		EXPECT_FALSE(HasPass("ToneMap")) << Name << ": the picture is shown";
+	}
+	Set("r.RT.Shadow.Denoise", "0");
+	Set("r.RT.Debug.View", "SunShadow.confidence");
+	Render();
+	EXPECT_FALSE(HasPass("SunShadowTemporal"));
+	EXPECT_TRUE(HasPass("ToneMap")) << "there is no history";
+}
+
 TEST_F(FDebugViewTest, MakesWhatTheCompositeHasNoUseFor)
 {
 	LoadAndRender(FContent{});

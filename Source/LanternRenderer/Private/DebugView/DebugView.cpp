@@ -2,6 +2,7 @@
 #include "DebugView/DebugView.h"
 
 #include "DebugViewTypes.h"
+#include "Denoise/Denoise.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternCore/Text/Quote.h"
 #include "Lights/LightCellsView.h"
@@ -15,7 +16,8 @@ namespace
 TRTConsoleVariable<std::string> CVarView("r.RT.Debug.View", "frame",
     "Shows one signal instead of the picture, by its name as lantern reference --help lists it. The value frame shows the picture. The "
     "value sun_tiles shows what is known of each tile of the sun's shadows, and sun_rays the pixels that traced sun rays. "
-    "The value light_cells shows how many lights each light cell lists.");
+    "The value light_cells shows how many lights each light cell lists. The values PASS.confidence and PASS.change show the "
+    "history of a filtered signal's pass: what it is worth, and what was dropped of it.");
 
 /// Calls Visit(signal, name of a picture) for all pictures.
 template <class TVisit>
@@ -27,7 +29,7 @@ void ForEachPicture(TVisit&& Visit)
 }
 } // namespace
 
-bool IsDebugPicture(const char* Name) { return CVarView.GetOnRenderThread() == Name; }
+bool IsDebugPicture(std::string_view Name) { return CVarView.GetOnRenderThread() == Name; }
 
 ESignal GetDebugView()
 {
@@ -35,6 +37,15 @@ ESignal GetDebugView()
 	const std::string& Name = CVarView.GetOnRenderThread();
 	std::optional<ESignal> Signal = FindSignal(Name);
 	std::string Pictures = std::string(", ") + LightCellsPicture;
+	ForEachSignalPass([&](const FSignalPass& Pass) {
+		if (!Pass.ListFilters) { return; }
+		const std::string Filter = GetSignalInfo(Pass.Signal).Pass;
+		for (const char* const Picture : {ConfidencePicture, ChangePicture})
+		{
+			if (Name == Filter + Picture) { Signal = Pass.Signal; }
+			Pictures += ", " + Filter + Picture;
+		}
+	});
 	ForEachPicture([&](ESignal Of, const char* Picture) {
 		if (Name == Picture) { Signal = Of; }
 		Pictures += std::string(", ") + Picture;

@@ -1,6 +1,8 @@
 // r.RT.Debug.View: one signal instead of the picture.
 #pragma once
 
+#include <string_view>
+
 #include "PassTools.h"
 
 namespace Lantern
@@ -10,9 +12,9 @@ namespace Lantern
 /// variable names nothing.
 ESignal GetDebugView();
 
-/// Returns whether the variable names this picture: one of FSignalPass::Pictures, whose pass then draws FFrameContext::DebugPicture, or
-/// LightCellsPicture.
-bool IsDebugPicture(const char* Name);
+/// Returns whether the variable names this picture: one of FSignalPass::Pictures or of a filter, whose pass then draws
+/// FFrameContext::DebugPicture, or LightCellsPicture.
+bool IsDebugPicture(std::string_view Name);
 
 inline FShaderSource MakeDebugViewSource() { return MakeComputeSource("DebugView/DebugView.comp"); }
 

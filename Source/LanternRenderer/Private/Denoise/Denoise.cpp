@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "DebugView/DebugView.h"
 #include "Denoise/SurfaceHistory.h"
 #include "DenoiseTypes.h"
 #include "LanternCore/Config/ConsoleVariables.h"
@@ -38,6 +39,7 @@ struct FDenoiser
 	IRTPipeline* Temporal = nullptr;
 	IRTPipeline* Filter = nullptr;
 	FHistoryTexture History, Moments; ///< Moments: of colours only
+	FGraphTexture Picture;            ///< of the history, for r.RT.Debug.View; else invalid
 
 	FGraphTexture CreateImage(bool bLast, uint32_t Index) const;
 	FGraphTexture AddTemporalPass(FGraphTexture Output);
@@ -91,6 +93,7 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 		Builder.Write(History.Current, ERTAccess::StorageWrite);
 		if (bColor) { Builder.Write(Moments.Current, ERTAccess::StorageWrite); }
 		Builder.Write(Output, ERTAccess::StorageWrite);
+		if (Picture.IsValid()) { Builder.Write(Picture, ERTAccess::StorageWrite); }
 		Builder.AllowAsync();
 		FTemporalConstants C{};
 		C.Pass = Context.Pass;
@@ -104,8 +107,10 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 		C.Casters = Inputs.Changes.Casters;
 		C.CasterCount = Inputs.Changes.CasterCount;
 		C.CasterSpread = Inputs.Changes.Spread;
+		C.bViewChange = IsDebugPicture(Name + ChangePicture) ? 1u : 0u;
+		const uint32_t GroupSize = bColor ? DENOISE_GROUP_SIZE : DENOISE_VISIBILITY_GROUP_SIZE;
 		return [=, Signal = Inputs.Signal, Extent = Inputs.Extent, Pipeline = Temporal, Kept = History, KeptMoments = Moments,
-		           Width = Context.Width, Height = Context.Height](FPassContext& Pass) mutable {
+		           Picture = Picture, Width = Context.Width, Height = Context.Height](FPassContext& Pass) mutable {
 			C.Signal = GetSampledIndex(Pass, Signal);
 			C.Extent = GetSampledIndex(Pass, Extent);
 			C.Surface = GetSampledIndex(Pass, Surface.Current);
@@ -116,7 +121,8 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 			C.OutHistory = GetStorageIndex(Pass, Kept.Current);
 			C.OutMoments = GetStorageIndex(Pass, KeptMoments.Current);
 			C.Output = GetStorageIndex(Pass, Output);
-			Dispatch2D(Pass, Pipeline, C, Width, Height, DENOISE_GROUP_SIZE);
+			C.OutView = GetStorageIndex(Pass, Picture);
+			Dispatch2D(Pass, Pipeline, C, Width, Height, GroupSize);
 		};
 	});
 	return Output;
@@ -182,6 +188,11 @@ FGraphTexture AddDenoise(FFrameContext& Context, const FGBuffer& GBuffer, const 
 	{
 		Context.Fail(Status);
 		return Inputs.Signal;
+	}
+	if (IsDebugPicture(Denoiser.Name + ConfidencePicture) || IsDebugPicture(Denoiser.Name + ChangePicture))
+	{
+		Denoiser.Picture = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA8_UNORM}, "HistoryView");
+		Context.DebugPicture = Denoiser.Picture;
 	}
 	FGraphTexture Result = Denoiser.AddTemporalPass(Denoiser.CreateImage(Passes == 0, 0));
 	for (uint32_t I = 0; I < Passes; ++I) { Result = Denoiser.AddFilterPass(Result, Denoiser.CreateImage(I + 1 == Passes, I + 1), I); }

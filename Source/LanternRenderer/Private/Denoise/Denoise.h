@@ -31,6 +31,9 @@ struct FDenoiseInputs
 	FShadowChanges Changes; ///< of sun shadows; others look for changes in the signal itself
 };
 
+/// Pictures of the filter's history for r.RT.Debug.View: FDenoiseInputs::Name, and one of these.
+inline constexpr const char *ConfidencePicture = ".confidence", *ChangePicture = ".change";
+
 /// The defines of shaders that ask Library/History.glsl for a surface's history, by planted faults.
 FShaderDefines MakeValidationDefines();
 /// Lists the compute shaders of the filter. bColor: three channels. bExtent: FDenoiseInputs::Extent is valid.
