@@ -5,7 +5,7 @@
 
 // Returns the share of reflections; the rest is that of light sampling. ReflectedRoughness: rougher surfaces have none traced.
 // Narrow lobes find emitters by their own ray, wide ones by light sampling.
-float EmissionOfReflections(float Roughness, float ReflectedRoughness)
+float EmissionOfRays(float Roughness, float ReflectedRoughness)
 {
 	return Roughness <= ReflectedRoughness ? 1.0 - smoothstep(0.2, 0.3, Roughness) : 0.0;
 }

@@ -19,7 +19,7 @@ FAddress EmitterRegions(FSceneConstants Scene, FAddress Emitters)
 	return Scene.EmissiveClusterCount > REGION_EMITTERS ? Emitters + SizeOfEmitterHeader + Scene.EmissiveClusterCount * SizeOfCluster : FAddress(0);
 }
 
-// See EmissionOfReflections.
+// See EmissionOfRays.
 float ReflectedRoughness(FAddress Emitters) { return Emitters != FAddress(0) ? FEmitterHeaderRef(Emitters).Data.ReflectedRoughness : 0.0; }
 
 bool IsFlat(FEmitterCluster Cluster) { return dot(Cluster.Normal, Cluster.Normal) > 0.999; }

@@ -57,7 +57,7 @@ struct FLocalBrdf
 	float EmitterSpecular; // share of what its specular lobe reflects of emissive triangles that counts here
 };
 
-// ReflectedRoughness: see EmissionOfReflections.
+// ReflectedRoughness: see EmissionOfRays.
 FLocalBrdf LoadLocalBrdf(FLocalPoint Point, uint BaseColor, uint Material, uvec2 Pixel, float ReflectedRoughness)
 {
 	FLocalBrdf Out;
@@ -67,7 +67,7 @@ FLocalBrdf LoadLocalBrdf(FLocalPoint Point, uint BaseColor, uint Material, uvec2
 	Out.Basis = MakeBasis(Point.Surface.BentN);
 	Out.EmitterSpecular = 1.0;
 #ifdef LOCAL_EMISSIVE
-	Out.EmitterSpecular -= EmissionOfReflections(Texel.x, ReflectedRoughness);
+	Out.EmitterSpecular -= EmissionOfRays(Texel.x, ReflectedRoughness);
 #endif
 	return Out;
 }

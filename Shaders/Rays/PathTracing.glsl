@@ -147,7 +147,7 @@ vec3 GatherIndirect(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 
 	if (Specular <= 0.0 && Lobe.Diffuse <= 0.0) { return Radiance; }
 	float EmissionShare = 1.0;
 #ifdef EMISSIVE_IS_DIRECT
-	EmissionShare = Specular <= 0.0 ? 0.0 : EmissionOfReflections(sqrt(Lobe.Alpha), 1.0);
+	EmissionShare = Specular <= 0.0 ? 0.0 : EmissionOfRays(sqrt(Lobe.Alpha), 1.0);
 #endif
 #ifdef HAS_EMISSIVE
 	vec3 LightSample = NextRandom4(Random).xyz;

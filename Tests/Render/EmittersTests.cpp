@@ -59,14 +59,16 @@ protected:
 	/// Boxes of five bright sides, in a grid.
 	static void AddCandles(FTestScene& Scene, int Rows)
 	{
-		const int32_t Bright = Scene.AddLambert(glm::vec3(0), glm::vec3(60, 40, 20)), Dim = Scene.AddLambert(glm::vec3(0), glm::vec3(4, 6, 8));
+		const int32_t Bright = Scene.AddLambert(glm::vec3(0), glm::vec3(60, 40, 20)),
+		              Dim = Scene.AddLambert(glm::vec3(0), glm::vec3(4, 6, 8));
 		int32_t Candles[2];
 		for (const int32_t Material : {Bright, Dim})
 		{
 			constexpr float R = 0.01f, H = 0.1f;
 			Candles[Material == Dim] = Scene.AddMesh({FTestScene::MakeFloor(Material, R, H),
 			    {Material, {{-R, 0, R}, {R, 0, R}, {R, H, R}, {-R, H, R}}}, {Material, {{R, 0, -R}, {-R, 0, -R}, {-R, H, -R}, {R, H, -R}}},
-			    {Material, {{R, 0, R}, {R, 0, -R}, {R, H, -R}, {R, H, R}}}, {Material, {{-R, 0, -R}, {-R, 0, R}, {-R, H, R}, {-R, H, -R}}}});
+			    {Material, {{R, 0, R}, {R, 0, -R}, {R, H, -R}, {R, H, R}}},
+			    {Material, {{-R, 0, -R}, {-R, 0, R}, {-R, H, R}, {-R, H, -R}}}});
 		}
 		for (int I = 0; I < Rows * Rows; ++I)
 		{
@@ -142,8 +144,8 @@ TEST_F(FEmittersTest, ThousandsAsTheReference)
 	for (const char* const Unbiased : {"0", "1"})
 	{
 		SetVariable("r.RT.Lights.Unbiased", Unbiased);
-		ExpectUnbiased(fmt::format("16,000 triangles, unbiased {}", Unbiased).c_str(), ESignal::LocalDiffuse, LookAtStage(48, 27), 96, 768,
-		    1, 0.005);
+		ExpectUnbiased(
+		    fmt::format("16,000 triangles, unbiased {}", Unbiased).c_str(), ESignal::LocalDiffuse, LookAtStage(48, 27), 96, 768, 1, 0.005);
 	}
 	EXPECT_EQ(GetWorld().GetFacts().EmissiveTriangles, 16000u);
 }
@@ -159,8 +161,7 @@ TEST_F(FEmittersTest, HalfCutPanelAsTheReference)
 	for (const char* const Path : {"1", "2"})
 	{
 		SetVariable("r.RT.Shadow.Path", Path);
-		ExpectUnbiased(
-		    fmt::format("half a panel, path {}", Path).c_str(), ESignal::LocalDiffuse, LookAtStage(48, 27), 128, 512, 1, 0.005);
+		ExpectUnbiased(fmt::format("half a panel, path {}", Path).c_str(), ESignal::LocalDiffuse, LookAtStage(48, 27), 128, 512, 1, 0.005);
 	}
 }
 

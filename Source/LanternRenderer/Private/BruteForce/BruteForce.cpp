@@ -22,7 +22,7 @@ FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery
 	Rays.Path = ChooseBruteForcePath(Settings, Query);
 	if (Rays.Path == ERayPath::None) { return Rays; }
 	Rays.Defines = MakePathDefines(Query.Facts);
-	if (IsEmissionDirect(Query, Settings.Direct)) { Rays.Defines.emplace_back(EmissiveDirectDefine, "1"); }
+	if (IsEmissionDirect(Query, GetSignalPass(Settings.Signal).EmissionIn)) { Rays.Defines.emplace_back(EmissiveDirectDefine, "1"); }
 	if (Query.Facts.Lights > 0) { Rays.Defines.emplace_back("LIGHT_CELLS_OF_VIEW", "1"); }
 	ListLightCellShaders(Query.Facts, Rays.Compute);
 	AddReorderDefine(Query.Capabilities, Rays.Defines);

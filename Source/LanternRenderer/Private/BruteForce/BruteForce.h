@@ -11,7 +11,6 @@ namespace Lantern
 struct FBruteForcePass
 {
 	ESignal Signal;
-	ESignal Direct; ///< holds what local lights bring to the same lobe, emissive triangles perhaps included
 	const TRTConsoleVariable<bool>& Enable;
 	const TRTConsoleVariable<int32_t>& Samples; ///< paths per pixel
 	/// Surfaces that may reflect light before it reaches the one that is lit.

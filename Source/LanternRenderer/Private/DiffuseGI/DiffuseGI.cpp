@@ -15,7 +15,7 @@ TRTConsoleVariable<int32_t> CVarBounces("r.RT.GI.Bounces", 1,
     "Number of surfaces that may reflect light before it reaches the one that is lit. The reference of as many bounces has one "
     "scattering event more, the last.",
     {1, 4});
-constexpr FBruteForcePass BruteForce{ESignal::DiffuseGI, ESignal::LocalDiffuse, CVarEnable, CVarSamples, CVarBounces};
+constexpr FBruteForcePass BruteForce{ESignal::DiffuseGI, CVarEnable, CVarSamples, CVarBounces};
 } // namespace
 
 FPassRays ChooseDiffuseGIRays(const FPassQuery& Query) { return ChooseBruteForceRays(BruteForce, Query); }

@@ -30,6 +30,7 @@ bool HasEmitters(const FSceneFacts& Facts) { return Facts.bEmissive && CVarEmiss
 
 bool IsEmissionDirect(const FPassQuery& Query, ESignal Lobe)
 {
+	if (Lobe == ESignal::Count) { return false; }
 	return IsDirect(Query.Facts) && IsMade(Lobe, Query.Requests) && ChooseLocalLightPath(Query) != ERayPath::None;
 }
 

@@ -9,7 +9,7 @@ namespace Lantern
 /// Returns whether the signals of local lights hold emissive triangles (r.RT.Lights.Emissive).
 bool HasEmitters(const FSceneFacts& Facts);
 
-/// Returns whether Lobe, ESignal::LocalDiffuse or LocalSpecular, takes directly seen emission over from the signal of indirect light that
+/// Returns whether Lobe, a signal of local lights or Count, takes directly seen emission over from the signal of indirect light that
 /// traces this lobe. That signal's shaders then have EmissiveDirectDefine.
 bool IsEmissionDirect(const FPassQuery& Query, ESignal Lobe);
 /// The same rule for references, which know no requests: as in frames of the same console variables that make all signals.

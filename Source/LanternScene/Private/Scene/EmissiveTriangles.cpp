@@ -134,13 +134,13 @@ void FEmissiveTriangles::MakeClusters(FList& InOut)
 		for (uint32_t First = Source.First, End; First < Source.First + Source.Count; First = End)
 		{
 			End = FindClusterEnd(InOut, First, Source, Size);
-			const double Before = First > 0 ? InOut.Cumulative[First - 1] : 0.0, Power = InOut.Cumulative[End - 1] - Before;
+			const double Before = First > 0 ? InOut.Cumulative[First - 1] : 0.0, Whole = InOut.Cumulative[End - 1] - Before;
 			for (uint32_t I = First; I < End; ++I)
 			{
 				InOut.Triangles[I].Cluster = static_cast<uint32_t>(All.size());
-				InOut.Triangles[I].ClusterShare = I + 1 < End ? static_cast<float>((InOut.Cumulative[I] - Before) / Power) : 1.0f;
+				InOut.Triangles[I].ClusterShare = I + 1 < End ? static_cast<float>((InOut.Cumulative[I] - Before) / Whole) : 1.0f;
 			}
-			All.push_back({First, End - First, static_cast<float>(Power), 0});
+			All.push_back({First, End - First, static_cast<float>(Whole), 0});
 		}
 	}
 	Clusters.Assign(All);
