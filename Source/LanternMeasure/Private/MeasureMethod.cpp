@@ -35,11 +35,12 @@ public:
 		++Figures.Frames;
 		Figures.PeakBytes = std::max(Figures.PeakBytes, Frame.LiveBytes);
 		const FImage& F = Frame.Images.Get(Signal);
+		const bool bSwitched = Path.FirstSwitched && Frame.Index >= *Path.FirstSwitched;
+		if (bSwitched && F.IsEmpty()) { return TakeSwitched(MakeBlack()); } // the light was all that the signal had
 		if (Path.Script[Frame.Index].bCapture && F.IsEmpty()) { return Stop(EMeasureEnd::NoSignal); }
 		if (IsTooLong(Frame)) { return Stop(EMeasureEnd::TooLong); }
 		TakeCost(Frame);
 		TakeErrors(Frame, F);
-		const bool bSwitched = Path.FirstSwitched && Frame.Index >= *Path.FirstSwitched;
 		return bSwitched ? TakeSwitched(F) : true;
 	}
 	/// A frame that followed the one before without a pause. Between frames that are read back a GPU lowers its clock.
@@ -116,6 +117,12 @@ private:
 		Figures.Flip = ComputeSignalFlip(Signal, F, References.Home.Mean, &Figures.FlipMap);
 		Figures.Leak = ComputeLeak(F, References.Home.Mean);
 		Figures.Picture = F;
+	}
+	FImage MakeBlack() const
+	{
+		FImage Black = References.Home.Mean;
+		std::fill(Black.Pixels.begin(), Black.Pixels.end(), 0.0f);
+		return Black;
 	}
 	bool TakeSwitched(const FImage& F)
 	{

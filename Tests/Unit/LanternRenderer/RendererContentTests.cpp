@@ -46,14 +46,13 @@ protected:
 TEST_F(FRendererContentTest, EverythingAtOnce)
 {
 	LoadAndRender({.bMasked = true, .bSkinned = true, .bLights = true, .bTexture = true, .bEmissive = true, .bSky = true});
-	EXPECT_THAT(
-	    GetPasses(), ElementsAre("Skinning", "SceneUpdate", "GBuffer", "Structures", "ShadowTiles", "ShadowEmitters", "ShadowLights",
-	                     "ShadowLightsShare", "ShadowDemand", "ShadowRays", "Surface", "ShadowMoreAsk", "ShadowMoreRays", "SunShadow",
-	                     "SunShadowTemporal", "SunShadowFilter0", "SunShadowFilter1", "ShadowLightsShade", "LocalDiffuseTemporal",
-	                     "LocalDiffuseFilter0", "LocalDiffuseFilter1", "LocalDiffuseFilter2", "LocalDiffuseFilter3",
-	                     "LocalSpecularTemporal", "LocalSpecularFilter0", "LocalSpecularFilter1", "LocalSpecularFilter2",
-	                     "LocalSpecularFilter3", "AmbientOcclusion", "AmbientOcclusionTemporal", "AmbientOcclusionFilter0",
-	                     "AmbientOcclusionFilter1", "AmbientOcclusionFilter2", "AmbientOcclusionFilter3", "DirectLighting", "ToneMap"));
+	EXPECT_THAT(GetPasses(),
+	    ElementsAre("Skinning", "SceneUpdate", "GBuffer", "Structures", "ShadowTiles", "ShadowEmitters", "ShadowLights",
+	        "ShadowLightsShare", "ShadowDemand", "ShadowRays", "Surface", "ShadowMoreAsk", "ShadowMoreRays", "SunShadow",
+	        "SunShadowTemporal", "SunShadowFilter0", "SunShadowFilter1", "ShadowLightsShade", "LocalDiffuseTemporal", "LocalDiffuseFilter0",
+	        "LocalDiffuseFilter1", "LocalDiffuseFilter2", "LocalSpecularTemporal", "LocalSpecularFilter0", "LocalSpecularFilter1",
+	        "LocalSpecularFilter2", "AmbientOcclusion", "AmbientOcclusionTemporal", "AmbientOcclusionFilter0", "AmbientOcclusionFilter1",
+	        "AmbientOcclusionFilter2", "AmbientOcclusionFilter3", "DirectLighting", "ToneMap"));
 	std::vector<std::string> Dispatched = GetDispatched();
 	std::erase_if(Dispatched, [](const std::string& Name) { return Name.rfind("Denoise/", 0) == 0; });
 	EXPECT_THAT(

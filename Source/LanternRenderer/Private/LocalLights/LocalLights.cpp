@@ -20,10 +20,10 @@ TRTConsoleVariable<bool> CVarLights(
 TRTConsoleVariable<int32_t> CVarExact("r.RT.Lights.Exact", 4,
     "Most lights of a tile of 8 x 8 pixels that all get a ray from each pixel. Each pixel of a tile with more chooses one light.",
     {1, TILE_LIGHTS});
-TRTConsoleVariable<bool> CVarKnownChanges("r.RT.Lights.KnownChanges", false,
+TRTConsoleVariable<bool> CVarKnownChanges("r.RT.Lights.KnownChanges", true,
     "The filter of diffuse light looks for changes on surfaces that move. It does so everywhere for 0.13 s after a lamp has changed or a "
     "caster has moved. If off, it always looks for them in the picture, and takes some noise for change.");
-const FDenoiseVariables Denoise("r.RT.Lights", FDenoiseDefaults{.bColor = true});
+const FDenoiseVariables Denoise("r.RT.Lights", FDenoiseDefaults{.SigmaValue = 2.0f, .Passes = 3, .bColor = true});
 
 uint32_t GetExact() { return static_cast<uint32_t>(CVarExact.GetOnRenderThread()); }
 
