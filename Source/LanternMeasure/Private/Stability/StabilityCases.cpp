@@ -70,10 +70,12 @@ FStabilityFault MakeStaleLampsFault(const FMethod& Method)
 	return MakeFault(bFiltered ? Stale : std::vector<FMethodSetting>(), "the lamp is switched ten frames late");
 }
 
-/// Each pixel of many lights takes one at random, hidden or not.
+/// Each pixel of many lights takes one at random, hidden or not, and forgets it after a frame.
 FStabilityFault MakeBlindLampsFault(const FMethod&)
 {
-	return MakeFault(KnownSettings({{"r.RT.Lights.Exact", "1"}, {"r.RT.Lights.Candidates", "1"}, {"r.RT.Lights.GuideSeconds", "0"}}), "");
+	return MakeFault(KnownSettings({{"r.RT.Lights.Exact", "1"}, {"r.RT.Lights.Candidates", "1"}, {"r.RT.Lights.GuideSeconds", "0"},
+	                     {"r.RT.Lights.HistorySeconds", "0.02"}}),
+	    "");
 }
 
 /// History that is kept for a minute and never compared with what is there now.

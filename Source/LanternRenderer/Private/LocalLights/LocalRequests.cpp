@@ -74,15 +74,19 @@ struct FRequestsPass
 bool AddGuide(FFrameContext& Context, FRequestsPass& InOut)
 {
 	const uint64_t Bytes = uint64_t(InOut.Tiles) * sizeof(FTileGuide);
-	FHistoryBuffer History;
-	if (FRTStatus S = Context.History->GetBuffer("LightGuide", {2 * Bytes}, History); !S)
-	{
-		Context.Fail(S);
-		return false;
-	}
-	InOut.Guide = History.Buffer;
 	InOut.GuideOffset = Context.View.FrameIndex % 2 * Bytes;
-	InOut.bPreviousGuide = !History.bFresh && CVarGuideSeconds.GetOnRenderThread() > 0.0f;
+	if (CVarGuideSeconds.GetOnRenderThread() > 0.0f)
+	{
+		FHistoryBuffer History;
+		if (FRTStatus S = Context.History->GetBuffer("LightGuide", {2 * Bytes}, History); !S)
+		{
+			Context.Fail(S);
+			return false;
+		}
+		InOut.Guide = History.Buffer;
+		InOut.bPreviousGuide = !History.bFresh;
+	}
+	else { InOut.Guide = Context.Graph.CreateBuffer({2 * Bytes}, "LightGuide"); } // nobody reads it in the next frame
 	const uint64_t Pixels = uint64_t(Context.Width) * Context.Height;
 	if (!CVarUnbiased.GetOnRenderThread()) { InOut.Lit = Context.Graph.CreateBuffer({Pixels * sizeof(FLitPixel)}, "LitPixels"); }
 	return true;
