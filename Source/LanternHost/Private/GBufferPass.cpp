@@ -210,6 +210,7 @@ FGBuffer FGBufferPass::Add(FFrameContext& Context, FHostScene& Scene)
 	Out.Material = Targets[2];
 	Out.Emissive = Targets[3];
 	Out.Motion = Targets[4];
+	Out.bNamesObjects = true;
 	FFrameContext* const Frame = &Context;
 	Graph.AddPass("GBuffer", [&](FPassBuilder& Builder) -> FPassExecute {
 		for (uint32_t I = 0; I < ColorCount; ++I) { Builder.Write(Targets[I], ERTAccess::RenderTarget); }

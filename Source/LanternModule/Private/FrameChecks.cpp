@@ -212,7 +212,10 @@ FRTStatus CheckGBuffer(const FRTModuleFrame& Frame)
 		Status = CheckNormals(Frame, Frame.GeometricNormals, Frame.GeometricNormalsAccess, "geometric normals", "GeometricNormalsAccess");
 	}
 	if (Status) { Status = CheckMotion(Frame); }
-	return Status ? CheckMaterialTextures(Frame) : Status;
+	if (Status) { Status = CheckMaterialTextures(Frame); }
+	if (!Status) { return Status; }
+	return CheckTexture(
+	    {Frame.Classes, Frame.ClassesAccess, {ERTFormat::R8_UNORM}, "classes", "R8_UNORM", "ClassesAccess"}, Frame.Depth->GetDesc());
 }
 
 /// What does not say whose it is passes.
@@ -228,7 +231,7 @@ FRTStatus CheckOwners(const FRTModuleFrame& Frame, const IRTDevice& Device)
 	FRTStatus Status = Check(Frame.Commands, "Commands");
 	const std::pair<const IRTTexture*, const char*> Textures[] = {{Frame.Depth, "Depth"}, {Frame.Normals, "Normals"},
 	    {Frame.GeometricNormals, "GeometricNormals"}, {Frame.Motion, "Motion"}, {Frame.BaseColor, "BaseColor"},
-	    {Frame.Material, "Material"}};
+	    {Frame.Material, "Material"}, {Frame.Classes, "Classes"}};
 	for (const auto& [Texture, Name] : Textures) { Status = Status ? Check(Texture, Name) : Status; }
 	return Status;
 }

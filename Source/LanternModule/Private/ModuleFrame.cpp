@@ -98,11 +98,17 @@ FHostSurface DescribeSurface(const FRTModuleFrame& Frame, const FModuleWorld& Wo
 	return Out;
 }
 
+/// Invalid for null.
+FGraphTexture ImportTexture(FFrameGraph& Graph, IRTTexture* Texture, ERTAccess Access, const char* Name)
+{
+	const ERTAccess After = Access == ERTAccess::External ? ERTAccess::External : ERTAccess::ShaderRead;
+	return Texture != nullptr ? Graph.ImportTexture(Texture, Access, After, Name) : FGraphTexture();
+}
+
 void ImportTextures(FFrameGraph& Graph, const FRTModuleFrame& Frame, FHostSurface& Out)
 {
 	const auto Import = [&](IRTTexture* Texture, ERTAccess Access, const char* Name) {
-		const ERTAccess After = Access == ERTAccess::External ? ERTAccess::External : ERTAccess::ShaderRead;
-		return Texture != nullptr ? Graph.ImportTexture(Texture, Access, After, Name) : FGraphTexture();
+		return ImportTexture(Graph, Texture, Access, Name);
 	};
 	Out.Depth = Import(Frame.Depth, Frame.DepthAccess, "EngineDepth");
 	Out.Normals = Import(Frame.Normals, Frame.NormalsAccess, "EngineNormals");
@@ -165,7 +171,9 @@ FRTStatus FModuleRenderer::AddPasses(const FRTModuleFrame& Frame, const FFrameVi
 	FFrameContext& Context = On->Renderer.GetContext();
 	FHostSurface Surface = Views.Surface;
 	ImportTextures(Context.Graph, Frame, Surface);
-	const FGBuffer GBuffer = AddHostSurfacePass(Context, Surface);
+	FGBuffer GBuffer = AddHostSurfacePass(Context, Surface);
+	GBuffer.Classes = ImportTexture(Context.Graph, Frame.Classes, Frame.ClassesAccess, "EngineClasses");
+	GBuffer.ClassesOffset = {Frame.OffsetX, Frame.OffsetY};
 	if (Frame.HostShadow != nullptr) { Context.HostShadow = ImportHostShadow(Context.Graph, *Frame.HostShadow, World); }
 	if (!GBuffer.Depth.IsValid()) { return FRTStatus::Success(); } // shaders are missing: there is nothing to trace from
 	FFrameOutputs Made;

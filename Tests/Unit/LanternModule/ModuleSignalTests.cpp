@@ -251,6 +251,9 @@ TEST_F(FModuleSignalTest, WrongInputsAreNamed)
 	Frame.MotionAccess = ERTAccess::None;
 	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "MotionAccess");
 	Frame = DescribeAll();
+	Frame.Classes = Normals.Get();
+	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "the classes texture must be R8_UNORM");
+	Frame = DescribeAll();
 	Frame.BaseColor = Material.Get();
 	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "the base colour texture must be RGBA8_SRGB");
 	Frame = DescribeAll();

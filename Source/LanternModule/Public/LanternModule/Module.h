@@ -123,8 +123,8 @@ struct FRTModuleObject
 	bool bCastsShadow = true;
 	/// False: only from the sun and the sky, as of trees that lamps should shine through. A character casts from all lights.
 	bool bCastsLocalShadow = true;
-	/// A character casts no shadow on characters or on itself, so that faces have no self-shadow. Signals do not know yet which pixels
-	/// show a character, and shadow them as anything else. Surfaces that their paths meet behind these are right.
+	/// A character casts no shadow on characters or on itself, so that faces have no self-shadow. FRTModuleFrame::Classes says which
+	/// pixels show one.
 	bool bCharacter = false;
 	bool bVisible = true; ///< seen by all rays but those of shadows: reflections and diffuse light
 	ERTModuleMobility Mobility = ERTModuleMobility::Movable;

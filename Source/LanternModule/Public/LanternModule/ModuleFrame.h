@@ -193,11 +193,15 @@ struct FRTModuleFrame
 	IRTTexture* BaseColor = nullptr; ///< RGBA8_SRGB: rgb base colour, a metalness; or as Layout.Material says. May be null
 	/// RGBA8_UNORM: roughness, occlusion, sqrt(F0) of the dielectric, specular weight; or as Layout.Material says. May be null
 	IRTTexture* Material = nullptr;
+	/// R8_UNORM: what each pixel shows, as bits over 255. Bit 0: a character (FRTModuleObject::bCharacter), on which characters cast no
+	/// shadow. Other bits must be 0. May be null: characters then cast on all that the picture shows.
+	IRTTexture* Classes = nullptr;
 	ERTAccess DepthAccess = ERTAccess::ShaderRead;
 	ERTAccess NormalsAccess = ERTAccess::ShaderRead;
 	ERTAccess MotionAccess = ERTAccess::ShaderRead;
 	ERTAccess BaseColorAccess = ERTAccess::ShaderRead;
 	ERTAccess MaterialAccess = ERTAccess::ShaderRead;
+	ERTAccess ClassesAccess = ERTAccess::ShaderRead;
 	/// Geometric normals, coded as Normals are. May be null, see Layout.bGeometricInZw.
 	IRTTexture* GeometricNormals = nullptr;
 	ERTAccess GeometricNormalsAccess = ERTAccess::ShaderRead;

@@ -144,7 +144,7 @@ void AddShadowRaysPass(
 	// Nobody but characters asks what a pixel shows.
 	const bool bClasses = Dispatch.Has("HAS_CHARACTERS");
 	const FGraphTexture Classes = bClasses ? GBuffer.Classes : FGraphTexture();
-	const FGraphTexture Motion = bClasses && !Classes.IsValid() ? GBuffer.Motion : FGraphTexture();
+	const FGraphTexture Motion = bClasses && !Classes.IsValid() && GBuffer.bNamesObjects ? GBuffer.Motion : FGraphTexture();
 	FGraphBuffer Demand, Count;
 	if (Queue.bMayOverflow)
 	{

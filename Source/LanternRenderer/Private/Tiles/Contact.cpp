@@ -10,6 +10,12 @@ TRTConsoleVariable<int32_t> CVarContact("r.RT.Shadow.Contact", 1,
     "Sun shadows of 0.3 m by depth, of what casts no rays. 0: off. 1: of objects that r.RT.Culling.Shadow.MinPixels leaves out. 2: of "
     "pixels whose motion vectors name no object, too, for foliage that the scene does not have.",
     {0, 2});
+
+/// Motion vectors that name objects; invalid: none do.
+FGraphTexture FindNames(const FGBuffer& GBuffer)
+{
+	return GBuffer.bNamesObjects && !MakeContactDefines().empty() ? GBuffer.Motion : FGraphTexture();
+}
 } // namespace
 
 FShaderDefines MakeContactDefines()
@@ -22,7 +28,7 @@ FShaderDefines MakeContactDefines()
 
 void DeclareContact(FPassBuilder& Builder, const FGBuffer& GBuffer)
 {
-	if (!MakeContactDefines().empty() && GBuffer.Motion.IsValid()) { Builder.Read(GBuffer.Motion, ERTAccess::ShaderRead); }
+	if (const FGraphTexture Names = FindNames(GBuffer); Names.IsValid()) { Builder.Read(Names, ERTAccess::ShaderRead); }
 }
 
 FContactConstants MakeContactConstants(FPassContext& Pass, const FFrameContext& Context, const FGBuffer& GBuffer)
@@ -30,7 +36,7 @@ FContactConstants MakeContactConstants(FPassContext& Pass, const FFrameContext& 
 	constexpr float Everywhere = 1e30f;
 	const FCullingRule Rule(MakeGatherView(Context.View), FCullingSettings::FromConsole());
 	FContactConstants C{};
-	C.Motion = MakeContactDefines().empty() ? NO_TEXTURE : GetSampledIndex(Pass, GBuffer.Motion);
+	C.Motion = GetSampledIndex(Pass, FindNames(GBuffer));
 	C.bUnnumbered = CVarContact.GetOnRenderThread() == 2 ? 1u : 0u;
 	C.ObjectCount = Context.Scene.GetObjectSlotCount();
 	C.DistanceOfRadius = Rule.bCull && Rule.bShadowLimit ? static_cast<float>(Rule.ShadowScale) : Everywhere;

@@ -17,13 +17,14 @@ struct FGBuffer
 	/// RGBA32_FLOAT motion vectors.
 	/// - xy: offset from the pixel's centre to where its surface was in the frame before, in pixels.
 	/// - z: distance along the view then, in metres.
-	/// - w: index of the object + 1; 0: unknown.
+	/// - w: with bNamesObjects, index of the object + 1; else a number of the host's. 0: unknown.
 	///
 	/// A surface that was behind the camera points off the
 	/// screen, with z = 0. Pixels with depth 0 are not read. Invalid: the host has none, and moving objects count as still.
 	FGraphTexture Motion;
-	/// R8_UNORM: what the pixel shows, CLASS_… (SceneTypes.h) over 255. Invalid: a pixel whose Motion names its object has the
-	/// object's class, and another one has none.
+	bool bNamesObjects = false; ///< see Motion
+	/// R8_UNORM: what the pixel shows, CLASS_… (SceneTypes.h) over 255. Invalid: with bNamesObjects, a pixel has the class of the
+	/// object that Motion names, and without it none.
 	FGraphTexture Classes;
 	glm::uvec2 ClassesOffset{0}; ///< of the view in Classes, pixels, below 65,536
 };
