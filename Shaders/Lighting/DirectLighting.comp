@@ -1,6 +1,6 @@
 // Composites the frame: direct light of the sun and of local lights, indirect light, emission, and the sky itself.
 // HAS_SUN, HAS_LIGHTS, HAS_AREA_LIGHTS, HAS_SKY: defined if the scene has such; other code is not compiled. HAS_SKY is for the ambient light of
-// the sky, which replaces indirect light that was not traced.
+// the sky, which replaces indirect light that was not traced. LOCAL_EMISSIVE: emissive triangles are among local lights.
 #version 460
 #include "../Shared/LightingTypes.h"
 #include "../Library/GBuffer.glsl"
@@ -60,7 +60,7 @@ vec3 ShadeDirect(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, FGBuff
 vec3 ShadeLocal(ivec2 Pixel, FBrdf Brdf, float NdotV, float Roughness)
 {
 	vec3 Radiance = vec3(0.0);
-#ifdef HAS_LIGHTS
+#if defined(HAS_LIGHTS) || defined(LOCAL_EMISSIVE)
 	if (Push.LightsDiffuse == NO_TEXTURE) { return Radiance; }
 	Brdf.Alpha = max(Brdf.Alpha, 2.0 * MinAlpha);
 	Radiance += DiffuseReflectance(Brdf, NdotV) * texelFetch(Textures[Push.LightsDiffuse], Pixel, 0).rgb;

@@ -13,7 +13,7 @@ FLobes FillFromTile(FViewConstants View, FTileLights Tile, uint Place, FLobes Lo
 {
 	OfferedLobes[Place] = PackLobes(Lobes);
 	barrier();
-	uint Chose = Tile.Reached[TILE_LIGHTS_CHOSE + (Place >> 5u)];
+	uint Chose = Tile.Chose[Place >> 5u];
 	bFilled = (Chose & (1u << (Place & 31u))) == 0u;
 	if (!bFilled) { return Lobes; }
 	ivec2 InTile = ivec2(TilePixel(uvec2(0u), Place));

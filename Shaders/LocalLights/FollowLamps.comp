@@ -41,19 +41,19 @@ vec2 ExpectSeen(FViewConstants View, uint Light)
 	return vec2(Visibility, Visibility * (1.0 - Visibility) + 0.25 / Rays.x);
 }
 
-vec3 BringsTo(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLocalBrdf Local, float Roughness, FLightData Light, vec2 U)
+vec3 BringsTo(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLocalBrdf Local, float Roughness, uint Number, FLightData Light, vec2 U)
 {
 	if (LightType(Light) == LIGHT_NONE) { return vec3(0.0); }
 	FLightSample Sample = SampleLight(Scene, Light, Point.P, U);
 	if (!ReachesLight(View, Point, Sample)) { return vec3(0.0); }
-	FLobes Lobes = Demodulate(ReflectLight(Point, Local, Sample), Local.Brdf, dot(Point.Surface.BentN, Point.Surface.V), Roughness);
+	FLobes Lobes = Demodulate(ReflectLight(Point, Local, Sample, Number), Local.Brdf, dot(Point.Surface.BentN, Point.Surface.V), Roughness);
 	return Push.bSpecular != 0u ? Lobes.Specular : Lobes.Diffuse;
 }
 
 vec4 FollowPixel(FSceneConstants Scene, FViewConstants View, FLampChangesRef List, uint Count, uvec2 Pixel, float Depth)
 {
 	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, Depth);
-	FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel);
+	FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel, 0.0); // what rays show is of emitters alone
 	float Roughness = texelFetch(Textures[Push.Material], ivec2(Pixel), 0).x;
 	vec4 Sum = vec4(0.0);
 	for (uint I = 0u; I < Count; ++I)
@@ -61,7 +61,7 @@ vec4 FollowPixel(FSceneConstants Scene, FViewConstants View, FLampChangesRef Lis
 		FLampChange Change = List.Data.Changes[Order[I]];
 		vec2 U = LocalNumbers(View, Pixel, Change.Light), Known = Seen[I];
 		FLightData Now = FLightRef(Scene.Lights).Data[min(Change.Light, Scene.LightCount - 1u)];
-		vec3 More = BringsTo(Scene, View, Point, Local, Roughness, Now, U) - BringsTo(Scene, View, Point, Local, Roughness, Change.Before, U);
+		vec3 More = BringsTo(Scene, View, Point, Local, Roughness, Change.Light, Now, U) - BringsTo(Scene, View, Point, Local, Roughness, Change.Light, Change.Before, U);
 		if (((Now.Flags | Change.Before.Flags) & LIGHT_CASTS_SHADOW) == 0u) { Known = vec2(1.0, 0.0); }
 		float Brightness = Luminance(More);
 		Sum += vec4(More * Known.x, Brightness * Brightness * Known.y);

@@ -13,6 +13,15 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FLitPixelRef
 uint GuidePlace(uint Light, uint TileHash) { return HashPcg(Light ^ TileHash) % TILE_GUIDE_LIGHTS; }
 uint GuideTileHash(uint TileIndex) { return HashPcg(TileIndex + 0x68bc21ebu); }
 
+// Returns what a tile remembers a light by: for a triangle, its cluster.
+uint GuideNumber(FSceneConstants Scene, uint Light)
+{
+#ifdef LOCAL_EMISSIVE
+	if ((Light & LIGHT_TRIANGLE) != 0u) { return FEmissiveRef(Scene.EmissiveTriangles).Data[Light & ~LIGHT_TRIANGLE].Cluster | LIGHT_TRIANGLE; }
+#endif
+	return Light;
+}
+
 uint GuideTraced(uint Counts) { return Counts & 0xffffu; }
 uint GuideSeen(uint Counts) { return min(Counts >> 16u, GuideTraced(Counts)); } // memory may hold anything
 

@@ -7,9 +7,16 @@
 #include "../Library/Lights.glsl"
 #include "../Library/Random.glsl"
 #include "Rate.glsl"
+#ifdef LOCAL_EMISSIVE
+#include "../Library/EmissionShare.glsl"
+#include "Emitters.glsl"
+#endif
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FTileLightsRef { FTileLights Data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FLightChoiceRef { FLightChoice Data[]; };
+
+// Lights that each pixel has a ray to.
+uint CountSlots(FTileLights Tile) { return Tile.Count == TILE_LIGHTS_MANY ? 0u : Tile.Count; }
 
 // A surface that local lights reach.
 struct FLocalPoint
@@ -51,14 +58,21 @@ struct FLocalBrdf
 {
 	FBrdf Brdf;
 	mat3 Basis; // see FBrdf
+	float EmitterSpecular; // share of what its specular lobe reflects of emissive triangles that counts here
 };
 
-FLocalBrdf LoadLocalBrdf(FLocalPoint Point, uint BaseColor, uint Material, uvec2 Pixel)
+// ReflectedRoughness: see EmissionOfRays.
+FLocalBrdf LoadLocalBrdf(FLocalPoint Point, uint BaseColor, uint Material, uvec2 Pixel, float ReflectedRoughness)
 {
 	FLocalBrdf Out;
-	Out.Brdf = MakeGBufferBrdf(texelFetch(Textures[BaseColor], ivec2(Pixel), 0), texelFetch(Textures[Material], ivec2(Pixel), 0));
+	vec4 Texel = texelFetch(Textures[Material], ivec2(Pixel), 0);
+	Out.Brdf = MakeGBufferBrdf(texelFetch(Textures[BaseColor], ivec2(Pixel), 0), Texel);
 	Out.Brdf.Alpha = max(Out.Brdf.Alpha, 2.0 * MinAlpha); // a perfect mirror would show no point light
 	Out.Basis = MakeBasis(Point.Surface.BentN);
+	Out.EmitterSpecular = 1.0;
+#ifdef LOCAL_EMISSIVE
+	Out.EmitterSpecular -= EmissionOfRays(Texel.x, ReflectedRoughness);
+#endif
 	return Out;
 }
 
@@ -84,14 +98,17 @@ bool HasExtent(FLightData Light)
 FLightSample SampleLocalLight(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, uvec2 Pixel, uint Light)
 {
 	vec2 U = vec2(0.0);
+#ifdef LOCAL_EMISSIVE
+	if (IsTriangle(Light)) { return SampleEmitter(Scene, Light & ~LIGHT_TRIANGLE, Point.P, LocalNumbers(View, Pixel, Light)); }
+#endif
 #ifdef HAS_AREA_LIGHTS
 	U = LocalNumbers(View, Pixel, Light);
 #endif
 	return SampleLight(Scene, FLightRef(Scene.Lights).Data[Light], Point.P, U);
 }
 
-// What the surface reflects of a light's point, if nothing is in between.
-FLobes ReflectLight(FLocalPoint Point, FLocalBrdf Local, FLightSample Sample)
+// What the surface reflects of a light's point, if nothing is in between. Light: its number.
+FLobes ReflectLight(FLocalPoint Point, FLocalBrdf Local, FLightSample Sample, uint Light)
 {
 	FLobes Lobes;
 	vec3 L = Sample.Direction * Local.Basis;
@@ -99,6 +116,9 @@ FLobes ReflectLight(FLocalPoint Point, FLocalBrdf Local, FLightSample Sample)
 	vec3 Incident = Sample.Irradiance * L.z; // no lobe reflects what comes from below
 	Lobes.Diffuse *= Incident;
 	Lobes.Specular *= Incident;
+#ifdef LOCAL_EMISSIVE
+	if (IsTriangle(Light)) { Lobes.Specular *= Local.EmitterSpecular; }
+#endif
 	return Lobes;
 }
 

@@ -4,6 +4,7 @@
 
 #include "../Library/Casters.glsl"
 #include "../Tiles/Tile.glsl"
+#define EMITTER_SHAPES
 #include "LocalPoint.glsl"
 
 bool SeesLight(uint Index, uint Light)

@@ -1,11 +1,15 @@
 // Lists the lights that may reach a region of the screen, for its tiles. If they are too many, it draws some of them with probabilities
 // by what they may bring, as "Rendering Many Lights with Grid-Based Reservoirs" (Boksansky et al. 2021) does for cells of the world.
 // A work group makes a region's list. Its order does not depend on that of threads.
+// EMITTERS: the same of clusters of emissive triangles.
 #version 460
 #include "../Tiles/Tile.glsl"
 #include "LightBox.glsl"
 #include "LocalPoint.glsl"
 #include "Regions.glsl"
+#ifdef EMITTERS
+#include "EmitterTable.glsl"
+#endif
 
 layout(local_size_x = REGION_THREADS) in;
 layout(push_constant, scalar) uniform FPush { FLightRegionsConstants Push; };
@@ -22,6 +26,12 @@ shared bool bSampler[RegionSamplers];
 shared float Totals[RegionSamplers + 1u][REGION_THREADS]; // over the run of each thread: of samplers, and of bounds
 shared float RunSums[REGION_THREADS];
 shared uint RunCounts[REGION_THREADS];
+
+#ifdef EMITTERS
+const uint MostListed = REGION_EMITTERS, ListedBit = LIGHT_TRIANGLE;
+#else
+const uint MostListed = REGION_LIGHTS, ListedBit = 0u;
+#endif
 
 ivec2 RegionPixel(FViewConstants View, uint Number)
 {
@@ -80,6 +90,17 @@ void LoadPoint(FSceneConstants Scene, FViewConstants View, uint Point)
 float[RegionSamplers + 1u] MeasureLight(FSceneConstants Scene, uint Light, vec3 Low, vec3 High)
 {
 	float Brings[RegionSamplers + 1u];
+#ifdef EMITTERS
+	FEmitterCluster Cluster = LoadCluster(Push.Regions, Light);
+	bool bReaches = MayReachFromCluster(Cluster, Low, High);
+	for (uint S = 0u; S < RegionSamplers; ++S)
+	{
+		float Estimate = bReaches && bSampler[S] ? EstimateCluster(Cluster, SamplerP[S], SamplerN[S], 0.0) : 0.0;
+		Brings[S] = min(Estimate, 1.0e30);
+	}
+	Brings[RegionSamplers] = bReaches ? clamp(BoundCluster(Cluster, Low, High), 1.0e-30, 1.0e30) : 0.0;
+	return Brings;
+#else
 	FLightData Data = FLightRef(Scene.Lights).Data[Light];
 	bool bReaches = MayReach(Scene, Data, Low, High);
 	for (uint S = 0u; S < RegionSamplers; ++S)
@@ -89,6 +110,7 @@ float[RegionSamplers + 1u] MeasureLight(FSceneConstants Scene, uint Light, vec3 
 	}
 	Brings[RegionSamplers] = bReaches ? clamp(BoundLight(Scene, Data, Low, High), 1.0e-30, 1.0e30) : 0.0;
 	return Brings;
+#endif
 }
 
 // Each sampler has the same say, however dark it is there.
@@ -133,7 +155,7 @@ uint CountLights(FSceneConstants Scene, uint Begin, uint End, uint Thread, vec3 
 }
 
 // Returns how many draws lie below a sum of weights. They are stratified, and Offset of the first is the same for all.
-uint DrawsBelow(float Sum, float All, float Offset) { return uint(clamp(ceil(Sum / All * float(REGION_LIGHTS) - Offset), 0.0, float(REGION_LIGHTS))); }
+uint DrawsBelow(float Sum, float All, float Offset) { return uint(clamp(ceil(Sum / All * float(MostListed) - Offset), 0.0, float(MostListed))); }
 
 void DrawLights(FSceneConstants Scene, FLightRegionRef Out, float Offset, uint Begin, uint End, uint Thread, vec3 Low, vec3 High)
 {
@@ -147,7 +169,7 @@ void DrawLights(FSceneConstants Scene, FLightRegionRef Out, float Offset, uint B
 		All += RunSums[I];
 	}
 	// The next thread's first draw is where this one's end, however sums are rounded.
-	uint Draw = DrawsBelow(Before, All, Offset), LastDraw = Thread + 1u < REGION_THREADS ? DrawsBelow(Before + Mine, All, Offset) : REGION_LIGHTS;
+	uint Draw = DrawsBelow(Before, All, Offset), LastDraw = Thread + 1u < REGION_THREADS ? DrawsBelow(Before + Mine, All, Offset) : MostListed;
 	uint Last = Begin;
 	float LastWeight = 0.0;
 	[[dont_unroll]] for (uint I = Begin; I <= End && Draw < LastDraw; ++I)
@@ -160,8 +182,8 @@ void DrawLights(FSceneConstants Scene, FLightRegionRef Out, float Offset, uint B
 		uint Until = I < End ? min(DrawsBelow(Before, All, Offset), LastDraw) : LastDraw;
 		[[dont_unroll]] for (; Draw < Until; ++Draw)
 		{
-			Out.Data.Lights[Draw] = Last;
-			Out.Data.Stands[Draw] = All / (Weight * float(REGION_LIGHTS));
+			Out.Data.Lights[Draw] = Last | ListedBit;
+			Out.Data.Stands[Draw] = All / (Weight * float(MostListed));
 		}
 	}
 }
@@ -183,7 +205,14 @@ void main()
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	uint Thread = gl_LocalInvocationIndex, Region = gl_WorkGroupID.y * RegionColumns(View) + gl_WorkGroupID.x;
-	FLightRegionRef Out = FLightRegionRef(Push.Regions + Region * SizeOfRegion);
+#ifdef EMITTERS
+	uint Items = Scene.EmissiveClusterCount;
+	FAddress Regions = EmitterRegions(Scene, Push.Regions);
+#else
+	uint Items = Scene.LightCount;
+	FAddress Regions = Push.Regions;
+#endif
+	FLightRegionRef Out = FLightRegionRef(Regions + Region * SizeOfRegion);
 	Start(Thread);
 	MeasureRegion(View, Thread);
 	barrier();
@@ -195,11 +224,11 @@ void main()
 		return;
 	}
 	vec3 Low = BoxCorner(LowBits), High = BoxCorner(HighBits);
-	uint Length = (Scene.LightCount + REGION_THREADS - 1u) / REGION_THREADS, Total;
-	uint Begin = min(Thread * Length, Scene.LightCount), End = min(Begin + Length, Scene.LightCount);
+	uint Length = (Items + REGION_THREADS - 1u) / REGION_THREADS, Total;
+	uint Begin = min(Thread * Length, Items), End = min(Begin + Length, Items);
 	uint Before = CountLights(Scene, Begin, End, Thread, Low, High, Total);
 	if (Thread == 0u) { Out.Data.Count = Total; }
-	if (Total > REGION_LIGHTS)
+	if (Total > MostListed)
 	{
 		float Offset = float(HashPcg(Region ^ HashPcg(View.FrameIndex ^ HashPcg(View.Seed))) >> 8u) * (1.0 / 16777216.0);
 		DrawLights(Scene, Out, Offset, Begin, End, Thread, Low, High);
@@ -207,8 +236,8 @@ void main()
 	}
 	[[dont_unroll]] for (uint I = Begin; I < End; ++I)
 	{
-		if (!MayReach(Scene, FLightRef(Scene.Lights).Data[I], Low, High)) { continue; }
-		Out.Data.Lights[Before] = I;
+		if (MeasureLight(Scene, I, Low, High)[RegionSamplers] <= 0.0) { continue; }
+		Out.Data.Lights[Before] = I | ListedBit;
 		Out.Data.Stands[Before++] = 1.0;
 	}
 }

@@ -1,5 +1,6 @@
 // Finds the lights of a tile, and queues their rays: for all of its lights if they are few, else for one that each pixel chooses.
 // MANY_LIGHTS: defined if the scene has more lights than FLocalRequestsConstants::Exact.
+// LOCAL_EMISSIVE: emissive triangles shine as lights do. Pixels choose one of them, or of them and all lights where these are many.
 // GUIDED: pixels choose from a table of their tile's lights (TileTable.glsl). Not defined: from all, which takes long.
 #version 460
 #include "../Tiles/Tile.glsl"
@@ -15,6 +16,7 @@ layout(push_constant, scalar) uniform FPush { FLocalRequestsConstants Push; };
 const uint MaxCandidates = 32u; // lights whose ranges meet the tile; a tile of more has many
 
 shared uint LowBits[3], HighBits[3]; // corners of the box of all surfaces in the tile, in an order that integers keep
+shared uint EmitterCount; // clusters of emissive triangles that may light the tile
 shared uint CandidateCount, Found[MaxCandidates], Candidates[MaxCandidates];
 shared uint Reached[2u * MaxCandidates];
 shared FTileLights Tile;
@@ -55,6 +57,20 @@ void FindCandidates(FSceneConstants Scene, FViewConstants View, uint Place)
 	barrier();
 }
 
+#ifdef LOCAL_EMISSIVE
+// Counts clusters of emissive triangles that may light the tile.
+void CountEmitters(FSceneConstants Scene, FViewConstants View, uint Place)
+{
+	vec3 Low = BoxCorner(LowBits), High = BoxCorner(HighBits);
+	FTileSource Source = FindEmitterSource(Scene, View);
+	[[dont_unroll]] for (uint I = Place; I < Source.Count; I += TILE_PIXELS)
+	{
+		if (Source.bDrawn || MayReachFromCluster(LoadCluster(Push.Emitters, SourceCluster(Source, I)), Low, High)) { atomicAdd(EmitterCount, 1u); }
+	}
+	barrier();
+}
+#endif
+
 // Marks the candidates that the pixel may be lit by.
 void MarkReached(FSceneConstants Scene, FLocalPoint Point, uint Place)
 {
@@ -70,6 +86,8 @@ void MarkReached(FSceneConstants Scene, FLocalPoint Point, uint Place)
 void ListLights(FSceneConstants Scene)
 {
 	Tile.Count = CandidateCount > MaxCandidates ? TILE_LIGHTS_MANY : 0u;
+	Tile.bChooses = EmitterCount > 0u || Tile.Count != 0u ? 1u : 0u;
+	Tile.Asking[0] = Tile.Asking[1] = Tile.Chose[0] = Tile.Chose[1] = 0u;
 	for (uint I = 0u; I < 2u * TILE_LIGHTS; ++I) { Tile.Reached[I] = 0u; }
 	if (Tile.Count != 0u) { return; }
 	for (uint I = 0u; I < CandidateCount; ++I)
@@ -78,6 +96,7 @@ void ListLights(FSceneConstants Scene)
 		if (Tile.Count == Push.Exact)
 		{
 			Tile.Count = TILE_LIGHTS_MANY;
+			Tile.bChooses = 1u;
 			break;
 		}
 		bool bCasts = (FLightRef(Scene.Lights).Data[Candidates[I]].Flags & LIGHT_CASTS_SHADOW) != 0u;
@@ -135,19 +154,19 @@ bool Chooses(FViewConstants View, FLocalPoint Point, bool bSurface, uint Place)
 	if (bSurface) { SetPlane(RingPlace(InTile), true, Point.Surface.Relative, Point.Surface.Ng); }
 	barrier();
 	bool bChooses = bSurface && (HasTurn(View.FrameIndex, Place) || FindNeighbors(View, InTile, true) == 0u);
-	if (bChooses) { atomicOr(Tile.Reached[TILE_LIGHTS_CHOSE + (Place >> 5u)], 1u << (Place & 31u)); }
+	if (bChooses) { atomicOr(Tile.Chose[Place >> 5u], 1u << (Place & 31u)); }
 	return bChooses;
 }
 #endif
 
-// If the tile has many lights, each pixel chooses one. All threads.
+// If the tile has many lights, or emissive triangles, each pixel chooses one. All threads.
 void ChooseOfMany(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, bool bSurface, uvec2 Pixel, uint Place)
 {
-	bool bMany = Tile.Count == TILE_LIGHTS_MANY, bAsks = false;
+	bool bMany = Tile.bChooses != 0u, bAsks = false;
 	FLightChoice Choice = FLightChoice(0u, 0.0);
 	bool bChooses = bMany && bSurface;
 #ifdef SPARSE
-	if (bMany) { bChooses = Chooses(View, Point, bSurface, Place); }
+	if (Tile.Count == TILE_LIGHTS_MANY) { bChooses = Chooses(View, Point, bSurface, Place); } // emitters alone: each pixel
 #endif
 #ifdef GUIDED
 	FLobes Lit = FLobes(vec3(0.0), vec3(0.0));
@@ -162,14 +181,18 @@ void ChooseOfMany(FSceneConstants Scene, FViewConstants View, FLocalPoint Point,
 	WriteGuide(View, Place, bMany);
 	if (bChooses)
 	{
-		FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel);
+		float Reflected = 0.0;
+#ifdef LOCAL_EMISSIVE
+		Reflected = ReflectedRoughness(Push.Emitters);
+#endif
+		FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel, Reflected);
 		bAsks = ChooseOfTable(Scene, View, Point, Local, Pixel, Choice, Lit);
 	}
 #else
 	if (bChooses) { bAsks = ChooseLight(Scene, View, Point, Pixel, Choice); }
 #endif
 	if (!bMany || IsOutsideView(View, Pixel)) { return; }
-	if (bAsks) { atomicOr(Tile.Reached[Place >> 5u], 1u << (Place & 31u)); }
+	if (bAsks) { atomicOr(Tile.Asking[Place >> 5u], 1u << (Place & 31u)); }
 	uint Index = Pixel.y * View.Width + Pixel.x;
 	FLightChoiceRef(Push.Choices).Data[Index] = Choice;
 #ifdef GUIDED
@@ -188,7 +211,7 @@ void Start(uint Place)
 	Reached[Place] = 0u; // as many words as threads
 	if (Place == 0u)
 	{
-		CandidateCount = 0u;
+		CandidateCount = EmitterCount = 0u;
 		Tile.Count = 0u;
 	}
 	barrier();
@@ -218,6 +241,9 @@ void main()
 	barrier();
 	bool bEmpty = HighBits[0] < LowBits[0]; // nothing but sky
 	if (!bEmpty) { FindCandidates(Scene, View, Place); }
+#ifdef LOCAL_EMISSIVE
+	if (!bEmpty) { CountEmitters(Scene, View, Place); }
+#endif
 	barrier();
 	if (bSurface && CandidateCount <= MaxCandidates) { MarkReached(Scene, Point, Place); }
 	barrier();
@@ -227,15 +253,14 @@ void main()
 	ChooseOfMany(Scene, View, Point, bSurface, Pixel, Place);
 	barrier();
 #endif
-	bool bMany = Tile.Count == TILE_LIGHTS_MANY;
-	uint Slots = bMany ? 1u : Tile.Count;
-	if (Place < 2u * Slots) { Asking[Place] = AskingPixels(Tile, Place >> 1u, Place & 1u, View.FrameIndex); }
+	uint Slots = CountSlots(Tile), All = Slots + 1u; // what pixels chose is the last
+	if (Place < 2u * All) { Asking[Place] = AskingPixels(Tile, Place >> 1u, Place & 1u, View.FrameIndex); }
 	barrier();
 	if (Place == 0u)
 	{
-		Reserve(Slots, Push.Counters, Push.Capacity);
+		Reserve(All, Push.Counters, Push.Capacity);
 		FTileLightsRef(Push.TileLights).Data[TileIndex(View, gl_WorkGroupID.xy)] = Tile;
 	}
 	barrier();
-	WriteRequests(Slots, bMany ? RAY_KIND_CHOSEN : RAY_KIND_LOCAL, Push.Requests, Push.Capacity, Place, PixelIndex);
+	WriteRequests(All, Slots, Push.Requests, Push.Capacity, Place, PixelIndex);
 }

@@ -45,5 +45,5 @@ void main()
 	if (Place == 0u) { Reserve(Tile.Count, Push.Counters, Push.Capacity); }
 	barrier();
 	uvec2 Pixel = TilePixel(gl_WorkGroupID.xy, Place);
-	WriteRequests(Tile.Count, RAY_KIND_LOCAL, Push.Requests, Push.Capacity, Place, Pixel.y * View.Width + Pixel.x);
+	WriteRequests(Tile.Count, Tile.Count, Push.Requests, Push.Capacity, Place, Pixel.y * View.Width + Pixel.x);
 }

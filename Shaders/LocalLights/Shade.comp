@@ -19,7 +19,8 @@ layout(push_constant, scalar) uniform FPush { FLocalShadeConstants Push; };
 #endif
 
 // Rays of the tile by slot: where some had no room in the queue, their pixels take the mean of the others.
-shared uint Seen[TILE_LIGHTS], Traced[TILE_LIGHTS];
+const uint ChosenSlot = TILE_LIGHTS;
+shared uint Seen[TILE_LIGHTS + 1u], Traced[TILE_LIGHTS + 1u];
 
 // Returns the visibility of a slot's light. Neighbors: their rays to it, and those that got through.
 float SlotVisibility(uint Answer, uint Slot, uint SeenBit, uint TracedBit, uvec2 Neighbors)
@@ -39,7 +40,7 @@ void CountAnswer(uint Answer, uint Slot, uint SeenBit, uint TracedBit)
 shared uint GuideTracedNow[TILE_GUIDE_LIGHTS], GuideSeenNow[TILE_GUIDE_LIGHTS];
 
 // Adds what the tile's rays saw to its guide. All threads.
-void Remember(FViewConstants View, uint PixelIndex, uint Answer, uint Place)
+void Remember(FSceneConstants Scene, FViewConstants View, uint PixelIndex, uint Answer, uint Place)
 {
 	if (Place < TILE_GUIDE_LIGHTS) { GuideTracedNow[Place] = GuideSeenNow[Place] = 0u; }
 	barrier();
@@ -47,7 +48,7 @@ void Remember(FViewConstants View, uint PixelIndex, uint Answer, uint Place)
 	FTileGuideRef Guides = FTileGuideRef(Push.Guide);
 	if ((Answer & (1u << ANSWER_CHOSEN_TRACED)) != 0u)
 	{
-		uint Light = FLightChoiceRef(Push.Choices).Data[PixelIndex].Light, Slot = GuidePlace(Light, GuideTileHash(Index));
+		uint Light = GuideNumber(Scene, FLightChoiceRef(Push.Choices).Data[PixelIndex].Light), Slot = GuidePlace(Light, GuideTileHash(Index));
 		bool bSeen = (Answer & (1u << ANSWER_CHOSEN_SEEN)) != 0u;
 		if (Guides.Data[Index].Lights[Slot].Light == Light)
 		{
@@ -77,30 +78,29 @@ void AddLight(inout FLobes Sum, FSceneConstants Scene, FViewConstants View, FLoc
 {
 	FLightSample Sample = SampleLocalLight(Scene, View, Point, Pixel, Light);
 	if (!ReachesLight(View, Point, Sample)) { return; }
-	FLobes Lobes = ReflectLight(Point, Local, Sample);
+	FLobes Lobes = ReflectLight(Point, Local, Sample, Light);
 	Sum.Diffuse += Lobes.Diffuse * Weight;
 	Sum.Specular += Lobes.Specular * Weight;
 }
 
 #ifdef MANY_LIGHTS
-FLobes ShadeChosen(FSceneConstants Scene, FViewConstants View, uvec2 Pixel, bool bAsked, uint Answer, FLocalPoint Point, FLocalBrdf Local)
+void AddChosen(inout FLobes Sum, FSceneConstants Scene, FViewConstants View, uvec2 Pixel, bool bAsked, uint Answer, FLocalPoint Point,
+               FLocalBrdf Local)
 {
-	FLobes Sum = FLobes(vec3(0.0), vec3(0.0));
 	uint Index = Pixel.y * View.Width + Pixel.x;
 	FLightChoice Choice = FLightChoiceRef(Push.Choices).Data[Index];
-	float Visibility = bAsked ? SlotVisibility(Answer, 0u, ANSWER_CHOSEN_SEEN, ANSWER_CHOSEN_TRACED, uvec2(0u)) : 1.0;
-	if (Choice.Weight <= 0.0 || Visibility <= 0.0) { return Sum; }
+	float Visibility = bAsked ? SlotVisibility(Answer, ChosenSlot, ANSWER_CHOSEN_SEEN, ANSWER_CHOSEN_TRACED, uvec2(0u)) : 1.0;
+	if (Choice.Weight <= 0.0 || Visibility <= 0.0) { return; }
 #ifdef GUIDED
 	if (Push.Lit != FAddress(0))
 	{
-		Sum = UnpackLobes(FLitPixelRef(Push.Lit).Data[Index].Lobes);
-		Sum.Diffuse *= Visibility;
-		Sum.Specular *= Visibility;
-		return Sum;
+		FLobes Lit = UnpackLobes(FLitPixelRef(Push.Lit).Data[Index].Lobes);
+		Sum.Diffuse += Lit.Diffuse * Visibility;
+		Sum.Specular += Lit.Specular * Visibility;
+		return;
 	}
 #endif
 	AddLight(Sum, Scene, View, Point, Local, Pixel, Choice.Light, Choice.Weight * Visibility);
-	return Sum;
 }
 #endif
 
@@ -109,20 +109,20 @@ FLobes ShadePixel(FTileLights Tile, FSceneConstants Scene, FViewConstants View, 
                   FLocalBrdf Local, out bool bCertain)
 {
 	FLobes Sum = FLobes(vec3(0.0), vec3(0.0));
-	bCertain = Tile.Count != TILE_LIGHTS_MANY;
-	if (Tile.Count == TILE_LIGHTS_MANY)
-	{
+	bCertain = Tile.bChooses == 0u;
 #ifdef MANY_LIGHTS
-		bool bAsked = (Tile.Reached[Place >> 5u] & (1u << (Place & 31u))) != 0u;
-		Sum = ShadeChosen(Scene, View, Pixel, bAsked, Answer, Point, Local);
-#endif
-		return Sum;
+	if (Tile.bChooses != 0u)
+	{
+		bool bAsked = (Tile.Asking[Place >> 5u] & (1u << (Place & 31u))) != 0u;
+		AddChosen(Sum, Scene, View, Pixel, bAsked, Answer, Point, Local);
 	}
+#endif
 	uint Neighbors = 0u;
 #ifdef SPARSE
 	if (!HasTurn(View.FrameIndex, Place)) { Neighbors = FindNeighbors(View, ivec2(TilePixel(uvec2(0u), Place)), false); }
 #endif
-	for (uint I = 0u; I < Tile.Count; ++I)
+	uint Slots = CountSlots(Tile);
+	for (uint I = 0u; I < Slots; ++I)
 	{
 		if ((Tile.Reached[2u * I + (Place >> 5u)] & (1u << (Place & 31u))) == 0u) { continue; }
 		bool bUnshadowed = (Tile.Lights[I] & TILE_LIGHT_UNSHADOWED) != 0u;
@@ -152,7 +152,7 @@ FLobes ShadeSurface(FTileLights Tile, FSceneConstants Scene, FViewConstants View
                     out bool bCertain)
 {
 	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, Depth);
-	FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel);
+	FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel, Push.ReflectedRoughness);
 	FLobes Sum = ShadePixel(Tile, Scene, View, Pixel, Place, Answer, Point, Local, bCertain);
 	float Roughness = texelFetch(Textures[Push.Material], ivec2(Pixel), 0).x;
 	return Demodulate(Sum, Local.Brdf, dot(Point.Surface.BentN, Point.Surface.V), Roughness);
@@ -161,13 +161,11 @@ FLobes ShadeSurface(FTileLights Tile, FSceneConstants Scene, FViewConstants View
 // Counts the tile's answers. All threads, with a barrier behind it.
 void CountAnswers(FTileLights Tile, FViewConstants View, uint Answer, uint Place)
 {
-	if (Place < TILE_LIGHTS) { Seen[Place] = Traced[Place] = 0u; }
+	if (Place <= TILE_LIGHTS) { Seen[Place] = Traced[Place] = 0u; }
 	barrier();
-	if (Tile.Count == TILE_LIGHTS_MANY) { CountAnswer(Answer, 0u, ANSWER_CHOSEN_SEEN, ANSWER_CHOSEN_TRACED); }
-	else
-	{
-		for (uint I = 0u; I < Tile.Count; ++I) { CountAnswer(Answer, I, ANSWER_LOCAL_SEEN + I, ANSWER_LOCAL_TRACED + I); }
-	}
+	if (Tile.bChooses != 0u) { CountAnswer(Answer, ChosenSlot, ANSWER_CHOSEN_SEEN, ANSWER_CHOSEN_TRACED); }
+	uint Slots = CountSlots(Tile);
+	for (uint I = 0u; I < Slots; ++I) { CountAnswer(Answer, I, ANSWER_LOCAL_SEEN + I, ANSWER_LOCAL_TRACED + I); }
 #ifdef SPARSE
 	if (Tile.Count != 0u) { LoadNeighbors(View, Tile, Place); }
 #endif
@@ -184,13 +182,13 @@ void main()
 	FTileLights Tile = FTileLightsRef(Push.TileLights).Data[TileIndex(View, gl_WorkGroupID.xy)];
 	CountAnswers(Tile, View, Answer, Place);
 #ifdef GUIDED
-	Remember(View, Pixel.y * View.Width + Pixel.x, Tile.Count == TILE_LIGHTS_MANY ? Answer : 0u, Place);
+	Remember(Scene, View, Pixel.y * View.Width + Pixel.x, Tile.bChooses != 0u ? Answer : 0u, Place);
 #endif
 	barrier();
 	float Depth = bInside ? LoadDepth(Push.Depth, ivec2(Pixel)) : 0.0;
 	FLobes Lobes = FLobes(vec3(0.0), vec3(0.0));
 	bool bCertain = true, bOfOthers = false;
-	if (Depth > 0.0 && Tile.Count != 0u) { Lobes = ShadeSurface(Tile, Scene, View, Pixel, Place, Answer, Depth, bCertain); }
+	if (Depth > 0.0 && (Tile.Count != 0u || Tile.bChooses != 0u)) { Lobes = ShadeSurface(Tile, Scene, View, Pixel, Place, Answer, Depth, bCertain); }
 #ifdef SPARSE
 	bOfOthers = !bCertain && !HasTurn(View.FrameIndex, Place);
 #ifdef MANY_LIGHTS

@@ -17,14 +17,13 @@ void main()
 	uint Index = gl_WorkGroupID.x * TILE_PIXELS + gl_LocalInvocationIndex;
 	if (Index >= Columns * Rows) { return; }
 	FTileLights Tile = FTileLightsRef(Push.TileLights).Data[Index];
-	bool bMany = Tile.Count == TILE_LIGHTS_MANY;
-	uint Slots = bMany ? 1u : Tile.Count, Count = 0u;
-	for (uint I = 0u; I < 2u * Slots; ++I) { Count += bitCount(AskingPixels(Tile, I >> 1u, I & 1u, View.FrameIndex)); }
+	uint Slots = CountSlots(Tile), Count = 0u;
+	for (uint I = 0u; I < 2u * Slots + 2u; ++I) { Count += bitCount(AskingPixels(Tile, I >> 1u, I & 1u, View.FrameIndex)); }
 	uint Kept = ShareRoom(Count, Room, Wanted);
 	if (Kept == 0u) { return; }
 	uint Number = Base + atomicAdd(Counters.Data.Segments[RAY_SEGMENT_LOCAL].Kept, Kept);
 	uint Turn = View.FrameIndex * Kept; // other rays in each frame
-	[[dont_unroll]] for (uint I = 0u; I < 2u * Slots; ++I)
+	[[dont_unroll]] for (uint I = 0u; I < 2u * Slots + 2u; ++I)
 	{
 		uint Pixels = AskingPixels(Tile, I >> 1u, I & 1u, View.FrameIndex);
 		[[dont_unroll]] while (Pixels != 0u)
@@ -34,7 +33,7 @@ void main()
 			if (Turn++ % Count >= Kept) { continue; }
 			uvec2 Pixel = TilePixel(uvec2(Index % Columns, Index / Columns), 32u * (I & 1u) + Bit);
 			uint PixelIndex = Pixel.y * View.Width + Pixel.x;
-			FRayRequestRef(Push.Requests).Data[Number++] = MakeRayRequest(bMany ? RAY_KIND_CHOSEN : RAY_KIND_LOCAL, I >> 1u, PixelIndex);
+			FRayRequestRef(Push.Requests).Data[Number++] = MakeSlotRequest(I >> 1u, Slots, PixelIndex);
 		}
 	}
 }

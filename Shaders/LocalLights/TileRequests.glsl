@@ -5,15 +5,20 @@
 #include "../Rays/RayQueue.glsl"
 #include "LocalPoint.glsl"
 
-// Returns the pixels that ask for a ray in a slot, 32 of them.
+// Returns the pixels that ask for a ray in a slot, 32 of them. The slot behind the others is for what pixels chose.
 uint AskingPixels(FTileLights Tile, uint Slot, uint Word, uint FrameIndex)
 {
-	if (Tile.Count == TILE_LIGHTS_MANY) { return Tile.Reached[Word]; }
+	if (Slot == CountSlots(Tile)) { return Tile.Asking[Word]; }
 	bool bUnshadowed = (Tile.Lights[Slot] & TILE_LIGHT_UNSHADOWED) != 0u;
 	return bUnshadowed ? 0u : Tile.Reached[2u * Slot + Word] & TurnMask(FrameIndex);
 }
 
-shared uint Asking[2u * TILE_LIGHTS]; // two words for each slot: pixels that ask, in Z order
+FRayRequest MakeSlotRequest(uint Slot, uint ChosenSlot, uint PixelIndex)
+{
+	return Slot == ChosenSlot ? MakeRayRequest(RAY_KIND_CHOSEN, 0u, PixelIndex) : MakeRayRequest(RAY_KIND_LOCAL, Slot, PixelIndex);
+}
+
+shared uint Asking[2u * (TILE_LIGHTS + 1u)]; // two words for each slot: pixels that ask, in Z order
 shared uint FirstRequest;
 
 // Reserves room for all rays of Asking[]. One thread.
@@ -28,8 +33,9 @@ void Reserve(uint Slots, FAddress CountersAddress, uint Capacity)
 	GrowLaunch(CountersAddress, min(FirstRequest + Count, Capacity));
 }
 
-// Writes the pixel's requests, light by light: rays to one light then start close to each other.
-void WriteRequests(uint Slots, uint Kind, FAddress Requests, uint Capacity, uint Place, uint PixelIndex)
+// Writes the pixel's requests, light by light: rays to one light then start close to each other. ChosenSlot: see AskingPixels; one that
+// is no slot if pixels chose nothing.
+void WriteRequests(uint Slots, uint ChosenSlot, FAddress Requests, uint Capacity, uint Place, uint PixelIndex)
 {
 	uint First = FirstRequest;
 	for (uint I = 0u; I < Slots; ++I)
@@ -37,7 +43,7 @@ void WriteRequests(uint Slots, uint Kind, FAddress Requests, uint Capacity, uint
 		uint Low = Asking[2u * I], High = Asking[2u * I + 1u];
 		uint Mine = Place < 32u ? Low : High, Bit = 1u << (Place & 31u);
 		uint Number = First + bitCount(Mine & (Bit - 1u)) + (Place < 32u ? 0u : bitCount(Low));
-		if ((Mine & Bit) != 0u && Number < Capacity) { FRayRequestRef(Requests).Data[Number] = MakeRayRequest(Kind, I, PixelIndex); }
+		if ((Mine & Bit) != 0u && Number < Capacity) { FRayRequestRef(Requests).Data[Number] = MakeSlotRequest(I, ChosenSlot, PixelIndex); }
 		First += bitCount(Low) + bitCount(High);
 	}
 }

@@ -30,6 +30,10 @@ shared uint GuideKeys[TILE_GUIDE_LIGHTS];
 
 const uint NoTile = 0xffffffffu, NoGuideLight = 0xffffffffu;
 
+#ifdef LOCAL_EMISSIVE
+#include "EmitterTable.glsl"
+#endif
+
 uint EntryLight(uint Entry) { return Entry & ((1u << LIGHT_INDEX_BITS) - 1u); }
 float EntryVisibility(uint Entry) { return float(Entry >> LIGHT_INDEX_BITS) / 255.0; }
 
@@ -138,52 +142,17 @@ float EstimateAround(FSceneConstants Scene, FLightData Light, uint I)
 	return Estimate * (Cosine * Nearer * Nearer);
 }
 
-// Whether the tile's guide had the light in the previous frame.
-bool IsRemembered(FViewConstants View, uint Light)
-{
-	return PreviousTile.x != NoTile && Remembered[GuidePlace(Light, GuideTileHash(TileIndex(View, PreviousTile)))].Light == Light;
-}
-
-// Where a tile finds its lights.
-struct FTileSource
-{
-	uint Count;
-	bool bDrawn; // the list is of a region, and was drawn
-	FAddress Region; // FLightRegion; 0: all lights of the scene
-};
-
-FTileSource FindSource(FSceneConstants Scene, FViewConstants View)
-{
-	if (Push.Regions == FAddress(0)) { return FTileSource(Scene.LightCount, false, FAddress(0)); }
-	FAddress Region = Push.Regions + RegionIndex(View, gl_WorkGroupID.xy) * SizeOfRegion;
-	uint Count = FLightRegionRef(Region).Data.Count;
-	return FTileSource(min(Count, REGION_LIGHTS), Count > REGION_LIGHTS, Region);
-}
-
-uint SourceLight(FTileSource Source, uint I) { return Source.Region != FAddress(0) ? FLightRegionRef(Source.Region).Data.Lights[I] : I; }
-float SourceStands(FTileSource Source, uint I) { return Source.bDrawn ? FLightRegionRef(Source.Region).Data.Stands[I] : 1.0; }
-
-// Returns the Number-th light that the table may hold, and NoGuideLight for none. What the tile remembers is there for certain, however
-// many lights there are: its entries come first, and of what was drawn it is left out.
-uint ProposeLight(FSceneConstants Scene, FViewConstants View, FTileSource Source, uint Number, vec3 Low, vec3 High, out float Stands)
-{
-	bool bRemembered = Source.bDrawn && Number < TILE_GUIDE_LIGHTS;
-	uint I = Source.bDrawn && !bRemembered ? Number - TILE_GUIDE_LIGHTS : Number;
-	uint Light = bRemembered ? Remembered[I].Light : SourceLight(Source, I);
-	Stands = bRemembered ? 1.0 : SourceStands(Source, I);
-	if (Light >= Scene.LightCount || (Source.bDrawn && !bRemembered && IsRemembered(View, Light))) { return NoGuideLight; }
-	return MayReach(Scene, FLightRef(Scene.Lights).Data[Light], Low, High) ? Light : NoGuideLight;
-}
+#include "TileSources.glsl"
 
 // Lists the table's lights. Their order does not depend on that of threads.
 void ListTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low, vec3 High)
 {
-	FTileSource Source = FindSource(Scene, View);
-	uint Most = Source.Count + (Source.bDrawn ? TILE_GUIDE_LIGHTS : 0u), Mine = 0u, Before = 0u, Total = 0u;
+	FTableSources Sources = FindSources(Scene, View);
+	uint Most = CountProposals(Sources), Mine = 0u, Before = 0u, Total = 0u;
 	float Stands;
 	[[dont_unroll]] for (uint I = Place; I < Most; I += TILE_PIXELS)
 	{
-		Mine += ProposeLight(Scene, View, Source, I, Low, High, Stands) != NoGuideLight ? 1u : 0u;
+		Mine += ProposeLight(Scene, View, Sources, I, Low, High, Stands) != NoGuideLight ? 1u : 0u;
 	}
 	RunCounts[Place] = Mine;
 	barrier();
@@ -194,7 +163,7 @@ void ListTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low,
 	}
 	[[dont_unroll]] for (uint I = Place; I < Most && Before < TILE_TABLE_MOST; I += TILE_PIXELS)
 	{
-		uint Light = ProposeLight(Scene, View, Source, I, Low, High, Stands);
+		uint Light = ProposeLight(Scene, View, Sources, I, Low, High, Stands);
 		if (Light == NoGuideLight) { continue; }
 		TableEntries[Before] = Light;
 		TableStands[Before++] = Stands;
@@ -216,13 +185,12 @@ void EstimateLights(FSceneConstants Scene, FViewConstants View, FRun Run, uint P
 	[[dont_unroll]] for (uint I = Run.Begin; I < Run.End; ++I)
 	{
 		uint Light = TableEntries[I];
-		FLightData Data = FLightRef(Scene.Lights).Data[Light];
-		float Visibility = 1.0, Bound = min(BoundLight(Scene, Data, Low, High), 1.0e30);
-		if ((Data.Flags & LIGHT_CASTS_SHADOW) != 0u) { Visibility = max(ExpectVisibility(View, Light), LeastVisibility); }
+		float Visibility = 1.0, Bound = min(BoundEntry(Scene, Light, Low, High), 1.0e30);
+		if (CastsShadow(Scene, Light)) { Visibility = max(ExpectVisibility(View, Light), LeastVisibility); }
 		uvec2 Packed = uvec2(0u);
 		[[dont_unroll]] for (uint S = 0u; S < TileSamplers; ++S)
 		{
-			uint Byte = PackEstimate(EstimateAround(Scene, Data, S));
+			uint Byte = PackEstimate(EstimateEntry(Scene, Light, S));
 			Packed[S >> 2u] |= Byte << (8u * (S & 3u));
 			Totals[S][Place] += UnpackEstimate(Byte) * (Visibility * TableStands[I]);
 		}
@@ -260,7 +228,7 @@ float WeighLights(FSceneConstants Scene, FRun Run, uint TileHash)
 #endif
 		uint Entry = TableEntries[I], Light = EntryLight(Entry);
 		float Visibility = EntryVisibility(Entry);
-		if (Weight > 0.0 && (FLightRef(Scene.Lights).Data[Light].Flags & LIGHT_CASTS_SHADOW) != 0u)
+		if (Weight > 0.0 && CastsShadow(Scene, Light))
 		{
 			atomicMax(GuideKeys[GuidePlace(Light, TileHash)], (floatBitsToUint(Weight * max(Visibility, 0.25)) & ~(TILE_TABLE_MOST - 1u)) | I);
 		}
@@ -348,14 +316,23 @@ bool ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point
 	Choice = FLightChoice(0u, 0.0);
 	[[dont_unroll]] for (uint I = 0u; I < Push.Candidates && All > 0.0; ++I)
 	{
-		uint Number = FindEntry((float(I) + U.x) / float(Push.Candidates) * All), Entry = TableEntries[Number], Light = EntryLight(Entry);
-		float Weight = Cumulative[Number] - (Number > 0u ? Cumulative[Number - 1u] : 0.0);
+		float At = (float(I) + U.x) / float(Push.Candidates) * All, Chance = 1.0;
+		uint Number = FindEntry(At), Entry = TableEntries[Number], Light = EntryLight(Entry);
+		float Below = Number > 0u ? Cumulative[Number - 1u] : 0.0, Weight = Cumulative[Number] - Below;
 		if (Weight <= 0.0) { continue; }
+#ifdef LOCAL_EMISSIVE
+		if (IsTriangle(Light))
+		{
+			float In = clamp((At - Below) / Weight, 0.0, 0.99999994);
+			Light = ChooseTriangle(Scene, LoadCluster(Push.Emitters, Light), In, Chance) | LIGHT_TRIANGLE;
+		}
+		if (Chance <= 0.0) { continue; }
+#endif
 		FLightSample Sample = SampleLocalLight(Scene, View, Point, Pixel, Light);
 		if (!ReachesLight(View, Point, Sample)) { continue; }
-		FLobes Lobes = ReflectLight(Point, Local, Sample);
+		FLobes Lobes = ReflectLight(Point, Local, Sample, Light);
 		// Times the inverse of the density with which the light came here, over all candidates.
-		float Visibility = EntryVisibility(Entry), Stands = Visibility * TableStands[Number] * All / (Weight * float(Push.Candidates));
+		float Visibility = EntryVisibility(Entry), Stands = Visibility * TableStands[Number] * All / (Weight * Chance * float(Push.Candidates));
 		Mean.Diffuse += Lobes.Diffuse * Stands;
 		Mean.Specular += Lobes.Specular * Stands;
 		float Brightness = Luminance(Lobes.Diffuse + Lobes.Specular), Mine = Brightness * Stands;
@@ -376,7 +353,7 @@ bool ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point
 	Choice.Weight = 1.0;
 #endif
 	Lit = WeighLobes(Mean, Chosen, Choice.Weight);
-	return (FLightRef(Scene.Lights).Data[Choice.Light].Flags & LIGHT_CASTS_SHADOW) != 0u;
+	return CastsShadow(Scene, Choice.Light);
 }
 
 #endif

@@ -108,7 +108,8 @@ uint FindEmissiveTriangle(FSceneConstants Scene, float U)
 	return First;
 }
 
-vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, vec3 U)
+// bWithOther: BRDF sampling finds emitters as well.
+vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, vec3 U, bool bWithOther)
 {
 	if (Scene.EmissiveTriangleCount == 0u) { return vec3(0.0); } // emitters exist, but deformed ones are not in the list
 	FEmissiveTriangle Triangle = FEmissiveRef(Scene.EmissiveTriangles).Data[FindEmissiveTriangle(Scene, U.z)];
@@ -138,7 +139,18 @@ vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 
 	float Margin = PositionError(Point, Scene.ObjectReach, Distance) / max(CosAtLight, 0.1);
 	if (MaxComponent(Emission) <= 0.0 || !IsVisible(Scene, LocalCasters(bCharacter), P, ToLight, max(Distance - Margin, 0.0))) { return vec3(0.0); }
 	float Pdf = Material.EmissiveWeight / Scene.EmissivePower * DistanceSquared / CosAtLight;
-	return BrdfCos * Emission * (PowerHeuristic(Pdf, OtherPdf(Brdf, V, ToLight * Basis, bCharacter)) / Pdf);
+	return BrdfCos * Emission * (bWithOther ? PowerHeuristic(Pdf, OtherPdf(Brdf, V, ToLight * Basis, bCharacter)) / Pdf : 1.0 / Pdf);
+}
+
+vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, vec3 U)
+{
+	return SampleEmissive(Scene, Brdf, Basis, V, P, Ng, bCharacter, U, true);
+}
+
+// Without a BRDF sample that shares its work.
+vec3 SampleEmissiveAlone(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, vec3 U)
+{
+	return SampleEmissive(Scene, Brdf, Basis, V, P, Ng, bCharacter, U, false);
 }
 #endif
 

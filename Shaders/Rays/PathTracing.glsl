@@ -7,6 +7,7 @@
 
 #include "../Library/Bindings.glsl"
 #include "../Library/BrdfSample.glsl"
+#include "../Library/EmissionShare.glsl"
 #include "../Library/Lights.glsl"
 #include "../Library/Random.glsl"
 #include "../Library/SkyMap.glsl"
@@ -134,6 +135,7 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 
 // Returns the indirect light that one lobe reflects at the first vertex of a path. It excludes the sun's disk and local
 // lights that shine there directly; the lighting pass adds those. It includes the sky and emissive triangles.
+// EMISSIVE_IS_DIRECT: local lights include emissive triangles that light sampling lists, which then count here as EmissionShare.glsl says.
 // Lobe: MakeWhiteLambert or MakeSpecularLobe. U: chooses the direction. Other parameters: see PathLights.glsl.
 // G-buffers do not say which pixels show a character, so the first vertex counts as none.
 // Only the lobe samples the sky. Light sampling would reduce no noise of a uniform sky, and it knows no bright spots of a map.
@@ -143,9 +145,16 @@ vec3 GatherIndirect(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 
 	if (MaxBounces == 0u) { return Radiance; }
 	float Specular = SpecularProbability(Lobe, V); // 0 or 1
 	if (Specular <= 0.0 && Lobe.Diffuse <= 0.0) { return Radiance; }
+	float EmissionShare = 1.0;
+#ifdef EMISSIVE_IS_DIRECT
+	EmissionShare = Specular <= 0.0 ? 0.0 : EmissionOfRays(sqrt(Lobe.Alpha), 1.0);
+#endif
 #ifdef HAS_EMISSIVE
 	vec3 LightSample = NextRandom4(Random).xyz;
-	if (Specular <= 0.0 || !IsMirror(Lobe)) { Radiance += SampleEmissive(Scene, Lobe, Basis, V, P, Ng, false, LightSample); }
+	if (EmissionShare > 0.0 && (Specular <= 0.0 || !IsMirror(Lobe)))
+	{
+		Radiance += EmissionShare * SampleEmissive(Scene, Lobe, Basis, V, P, Ng, false, LightSample);
+	}
 #endif
 	FBrdfSample Sample = SampleBrdf(Lobe, V, vec3(U, 0.5));
 	vec3 Direction = Basis * Sample.Direction;
@@ -158,6 +167,7 @@ vec3 GatherIndirect(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 
 #endif
 		return Radiance;
 	}
+	if (Hit.EmissiveWeight > 0.0) { Hit.Emissive *= EmissionShare; }
 	return Radiance + Sample.Weight * FollowPath(Scene, Hit, P, Direction, Sample.Pdf, Sample.Direction.z, 1u, MaxBounces, Random);
 }
 

@@ -24,7 +24,7 @@ LANTERN_SHARED_BEGIN
 // origin is exact up to 262 km, and nothing is rewritten if the origin moves.
 #define LIGHT_POSITION_STEPS 8192.0f
 
-#define LIGHT_INDEX_BITS 24
+#define LIGHT_INDEX_BITS 24 // of a light's number; the highest tells emissive triangles from lights (LocalLightTypes.h)
 
 // A light. Those without extent are of KHR_lights_punctual.
 struct FLightData

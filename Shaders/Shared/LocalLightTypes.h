@@ -9,23 +9,28 @@ LANTERN_SHARED_BEGIN
 #define TILE_LIGHTS 8u // most lights of a tile that all get rays
 
 #define TILE_LIGHTS_MANY 0xffffffffu     // FTileLights::Count: each pixel chooses one light
-#define TILE_LIGHTS_CHOSE 2u             // in FTileLights::Reached
 #define TILE_LIGHT_UNSHADOWED 0x80000000u // in FTileLights::Lights: it casts no shadow and gets no ray
+
+// A light's number is its index in the table of lights, or this bit and the index of an emissive triangle. Where triangles are weighed
+// by cluster, in tables and guides of tiles, it is this bit and the index of a cluster.
+#define LIGHT_TRIANGLE (1u << (LIGHT_INDEX_BITS - 1))
 
 // What a tile's pixels are lit by.
 struct FTileLights
 {
 	uint Count;                 // 0 to TILE_LIGHTS, or TILE_LIGHTS_MANY
 	uint Lights[TILE_LIGHTS];   // index in the table of lights, in rising order, and TILE_LIGHT_UNSHADOWED
-	uint Reached[2 * TILE_LIGHTS]; // two words for each light: pixels that it may light, in Z order. MANY: pixels that ask for a ray, first
-	                               // and, with r.RT.Lights.Rate, those that chose, from TILE_LIGHTS_CHOSE on
+	uint Reached[2 * TILE_LIGHTS]; // two words for each light: pixels that it may light, in Z order
+	uint bChooses; // each pixel has an FLightChoice: of all lights with MANY, else of emissive triangles alone
+	uint Asking[2]; // pixels that ask for a ray to what they chose, in Z order
+	uint Chose[2];  // with r.RT.Lights.Rate, of tiles of many lights: pixels that chose one in this frame
 };
-LANTERN_ASSERT_SIZE(FTileLights, 100);
+LANTERN_ASSERT_SIZE(FTileLights, 120);
 
 // The light that a pixel chose of many.
 struct FLightChoice
 {
-	uint Light;   // index in the table of lights
+	uint Light;   // number of a light
 	float Weight; // what its light is multiplied by, the inverse of the probability; 0: no light reaches the pixel
 };
 LANTERN_ASSERT_SIZE(FLightChoice, 8);
@@ -33,6 +38,7 @@ LANTERN_ASSERT_SIZE(FLightChoice, 8);
 // Tiles of many lights, with r.RT.Lights.Candidates.
 #define REGION_TILES 4u     // tiles along an edge of a region
 #define REGION_LIGHTS 128u  // lights that a region lists for its tiles
+#define REGION_EMITTERS 96u // clusters of emissive triangles that a region lists; with lights and the guide they fill a tile's table
 #define REGION_THREADS 128u
 #define TILE_TABLE_MOST 256 // lights that a tile weighs for its pixels: its region's, and those that it remembers
 #define TILE_GUIDE_LIGHTS 32
@@ -42,7 +48,7 @@ LANTERN_ASSERT_SIZE(FLightChoice, 8);
 // How many of the last frames' rays from a tile to a light got through.
 struct FGuideLight
 {
-	uint Light;  // index in the table of lights
+	uint Light;  // number of a light or cluster
 	uint Counts; // rays traced, 16 bits, and rays that got through; older ones count less
 };
 LANTERN_ASSERT_SIZE(FGuideLight, 8);
@@ -67,7 +73,7 @@ LANTERN_ASSERT_SIZE(FLightRegion, 1028);
 struct FLightRegionsConstants
 {
 	FPassConstants Pass;
-	FAddress Regions; // FLightRegion[], row by row
+	FAddress Regions; // FLightRegion[], row by row; with EMITTERS behind FEmitterCluster[], see FEmitterHeader
 	uint Depth, Normals; // sampled indices
 };
 LANTERN_ASSERT_SIZE(FLightRegionsConstants, 32);
@@ -78,6 +84,40 @@ struct FLitPixel
 	uint Lobes[3]; // 6 × fp16: diffuse and specular lobe
 };
 LANTERN_ASSERT_SIZE(FLitPixel, 12);
+
+// A cluster of emissive triangles as it lies in a frame. Positions are relative to the scene's origin.
+struct FEmitterCluster
+{
+	vec3 Center; // of its box
+	float Power; // FEmissiveCluster::Power: luminance · area
+	vec3 Half;   // of the box's edges
+	float Area;  // of its triangles, m²
+	vec3 Normal; // mean of their normals by power; 1 long: the cluster is flat and shines to this side alone
+	float Plane; // of a flat one: the least Normal · position of a corner
+	uint First, Count; // FEmissiveTriangle[]
+	uint Pad0, Pad1;
+};
+LANTERN_ASSERT_SIZE(FEmitterCluster, 64);
+
+// Begins the buffer of clusters. FEmitterCluster[] follows, and behind it the FLightRegion[] of clusters if these are more than
+// REGION_EMITTERS.
+struct FEmitterHeader
+{
+	float ReflectedRoughness; // rougher surfaces have no reflections traced; negative: none have
+	uint Pad[3];
+};
+LANTERN_ASSERT_SIZE(FEmitterHeader, 16);
+
+struct FEmitterClustersConstants
+{
+	FPassConstants Pass;
+	FAddress Clusters; // FEmitterHeader, and what follows
+	float ReflectedRoughness;
+	uint Pad;
+};
+LANTERN_ASSERT_SIZE(FEmitterClustersConstants, 32);
+
+#define EMITTER_GROUP_SIZE 32 // threads that a cluster has
 
 struct FLocalRequestsConstants
 {
@@ -99,8 +139,9 @@ struct FLocalRequestsConstants
 	uint Candidates;          // of each pixel, 1 to 64
 	float GuideKept;          // share of what the guide knows that it keeps in this frame
 	FAddress Regions;         // FLightRegion[], row by row; 0: tiles look at all lights of the scene
+	FAddress Emitters;        // FEmitterHeader, and what follows it; 0: nothing emits
 };
-LANTERN_ASSERT_SIZE(FLocalRequestsConstants, 120);
+LANTERN_ASSERT_SIZE(FLocalRequestsConstants, 128);
 
 struct FLocalShadeConstants
 {
@@ -112,8 +153,10 @@ struct FLocalShadeConstants
 	uint OutDiffuse, OutSpecular;             // storage indices, or NO_TEXTURE
 	FAddress Lit;      // FLitPixel[pixels]; GUIDED without UNBIASED only
 	FAddress Guide;    // FTileGuide[]; GUIDED only
+	float ReflectedRoughness; // LOCAL_EMISSIVE: rougher surfaces have no reflections traced; negative: none have
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FLocalShadeConstants, 80);
+LANTERN_ASSERT_SIZE(FLocalShadeConstants, 88);
 
 LANTERN_SHARED_END
 

@@ -18,7 +18,7 @@ struct FReferenceConstants
 	float OcclusionRadius; // metres
 	uint OcclusionMask;    // instance mask of ambient occlusion rays
 	uint Depth, Normals, BaseColor, Material; // sampled indices, FROM_GBUFFER only
-	uint Pad;
+	float ReflectedRoughness; // rougher surfaces trace no reflections; negative: none do
 };
 LANTERN_ASSERT_SIZE(FReferenceConstants, 72);
 

@@ -186,9 +186,21 @@ struct FEmissiveTriangle
 	uint Section; // into FSectionData[]
 	uint Primitive;
 	uint Flags; // OBJECT_MIRRORED: the winding is reversed
-	uint Pad0, Pad1;
+	uint Cluster;       // into FEmissiveCluster[]
+	float ClusterShare; // as CumulativePower, of the triangles of its cluster
 };
 LANTERN_ASSERT_SIZE(FEmissiveTriangle, 64);
+
+#define EMISSIVE_CLUSTERS 512u // that triangles are divided into; each object that emits has one more at most
+
+// Consecutive emissive triangles of one object, which light sampling weighs as one.
+struct FEmissiveCluster
+{
+	uint First, Count; // FEmissiveTriangle[]
+	float Power;       // sum of EmissiveWeight · area
+	uint Pad;
+};
+LANTERN_ASSERT_SIZE(FEmissiveCluster, 16);
 
 #define SKY_MAP_CUBE 0u
 #define SKY_MAP_OCTAHEDRAL 1u
@@ -221,8 +233,11 @@ struct FSceneConstants
 	FAddress StandInHits;   // uint[], by material: rays that hit a stand-in of its shader; 0: not counted
 	FAddress ObjectMotions; // FObjectMotion[]; 0: nothing moved
 	FAddress LightCells;    // FLightGrid of the view; 0: look-ups find all lights
+	FAddress EmissiveClusters; // FEmissiveCluster[]
+	uint EmissiveClusterCount;
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FSceneConstants, 208);
+LANTERN_ASSERT_SIZE(FSceneConstants, 224);
 
 // A camera, as passes see it whatever the host's conventions are: FView has them, HostProjection.h makes it of a matrix.
 // Positions are relative to the scene's origin.

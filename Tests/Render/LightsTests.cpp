@@ -296,6 +296,27 @@ TEST_F(FLightsTest, ExtremeLightsAreFinite)
 	ExpectClosedForm("inside a sphere", EstimateReference(0.0, 192), Pi, Tolerance);
 }
 
+// The unit square again, as two triangles that emit.
+TEST_F(FLightsTest, SquareOfEmissiveTriangles)
+{
+	FTestScene Scene("square");
+	Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Scene.AddLambert(glm::vec3(Albedo)), 20.0f)}));
+	FTestScene::FQuad Square = FTestScene::MakeFloor(Scene.AddLambert(glm::vec3(0), glm::vec3(1)), 0.5f, 1.0f);
+	std::reverse(std::begin(Square.P), std::end(Square.P));
+	Scene.AddNode(Scene.AddMesh({Square}));
+	ASSERT_TRUE(Load(std::move(Scene.Scene)));
+	SetSun(0.0, 0.0f);
+	SetSky(glm::vec3(0));
+	const std::pair<double, double> Cases[] = {
+	    {0, 0.752275}, {0.5, 0.566645}, {1, 0.265005}, {1.5, 0.104637}, {2, 0.043743}, {3, 0.010575}};
+	for (const auto& [X, Expected] : Cases)
+	{
+		ExpectClosedForm(fmt::format("two triangles, x = {}", X).c_str(), EstimateLighting(X, 256), Expected, Tolerance);
+	}
+	SetVariable("r.RT.Debug.Lights.Area", "0");
+	EXPECT_GT(std::abs(EstimateLighting(0.0, 64).Mean / 0.752275 - 1.0), Tolerance);
+}
+
 TEST_F(FLightsTest, HalfTheAreaIsSeen)
 {
 	(void)Add(MakeSquare(1.0));

@@ -72,6 +72,7 @@ TEST_F(FSignalReferenceTest, SunShadowOfAHalfPlane)
 // In a closed furnace the same comes from everywhere: L = Le / (1 − ρ).
 TEST_F(FSignalReferenceTest, FurnaceGI)
 {
+	SetVariable("r.RT.Lights.Emissive", "0"); // local lights would have the walls' own light
 	for (const double Albedo : {0.5, 0.9})
 	{
 		ASSERT_TRUE(Load(fmt::format("furnace:{}", Albedo)));
@@ -108,7 +109,8 @@ TEST_F(FSignalReferenceTest, SunIsNotIndirectSkyIs)
 	    2.0 * (1.0 - Mu * std::log(1.0 + 1.0 / Mu)), 0.005);
 }
 
-// Where all is a Lambert of 0.5 and neither sun nor punctual lights shine: frame = emission + GI / 2, and no reflections.
+// Where all is a Lambert of 0.5 and neither sun nor punctual lights shine: frame = emission + (GI + direct light of emitters) / 2, and no
+// reflections. Without light sampling of emitters, GI has all.
 TEST_F(FSignalReferenceTest, SignalsAddUp)
 {
 	REQUIRE_SCENE(Scene, "cornell/cornell.gltf");
@@ -116,12 +118,21 @@ TEST_F(FSignalReferenceTest, SignalsAddUp)
 	SetVariable("r.RT.Material.Override", "2");
 	const FView View = MakeView(24, 24);
 	const double Emission = MeanGreen(TraceSignal(ESignal::Frame, View, 1, 0));
-	const FEstimate Frame = EstimateSignal(ESignal::Frame, View, 64), GI = EstimateSignal(ESignal::DiffuseGI, View, 64);
-	const double Sum = Emission + 0.5 * GI.Mean, Sigma = std::hypot(Frame.StandardError, 0.5 * GI.StandardError);
-	PrintFigure(fmt::format("cornell of 0.5: frame {:.5f}, emission + GI / 2 {:.5f} (statistical error {:.5f})", Frame.Mean, Sum, Sigma));
-	EXPECT_NEAR(Frame.Mean, Sum, 3.5 * Sigma);
-	EXPECT_LT(Sigma, 0.01 * Frame.Mean);
-	EXPECT_GT(0.5 * GI.Mean, 0.2 * Frame.Mean);
+	const FEstimate Frame = EstimateSignal(ESignal::Frame, View, 64);
+	for (const bool bDirect : {false, true})
+	{
+		SetVariable("r.RT.Lights.Emissive", bDirect ? "1" : "0");
+		const FEstimate GI = EstimateSignal(ESignal::DiffuseGI, View, 64), Local = EstimateSignal(ESignal::LocalDiffuse, View, 64);
+		const double Sum = Emission + 0.5 * (GI.Mean + Local.Mean);
+		const double Sigma = std::hypot(Frame.StandardError, 0.5 * GI.StandardError, 0.5 * Local.StandardError);
+		PrintFigure(
+		    fmt::format("cornell of 0.5: frame {:.5f}, emission + (GI {:.5f} + direct {:.5f}) / 2 {:.5f} (statistical error {:.5f})",
+		        Frame.Mean, GI.Mean, Local.Mean, Sum, Sigma));
+		EXPECT_NEAR(Frame.Mean, Sum, 3.5 * Sigma);
+		EXPECT_LT(Sigma, 0.01 * Frame.Mean);
+		EXPECT_GT(0.5 * (GI.Mean + Local.Mean), 0.2 * Frame.Mean);
+		EXPECT_EQ(Local.Mean > 0.0, bDirect);
+	}
 	EXPECT_EQ(MeanGreen(TraceSignal(ESignal::Reflections, View, 16)), 0.0);
 }
 

@@ -69,7 +69,7 @@ FShaderDefines MakeFactDefines(const FSceneFacts& Facts)
 	Add(Facts.bSky, "HAS_SKY");
 	Add(Facts.Lights > 0, "HAS_LIGHTS");
 	Add(Facts.bAreaLights, "HAS_AREA_LIGHTS");
-	Add(Facts.bAreaLights && !CVarLightArea.GetOnRenderThread(), "HALF_LIGHT_AREA");
+	Add((Facts.bAreaLights || Facts.bEmissive) && !CVarLightArea.GetOnRenderThread(), "HALF_LIGHT_AREA");
 	Add(Facts.bMasked, "HAS_MASKED");
 	return Defines;
 }

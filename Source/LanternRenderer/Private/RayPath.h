@@ -34,7 +34,8 @@ struct FPassRays
 	/// Its rays shade what they hit and may sample the scene's emissive triangles (Shaders/Rays/PathTracing.glsl). If
 	/// false, it casts shadow rays only, and the RTPSO needs no closest-hit shader for it.
 	bool bShadesHits = false;
-	bool bBlockers = false; ///< its shadow rays report the distance of the blocker
+	bool bLightSampling = false; ///< its other shaders sample emissive triangles
+	bool bBlockers = false;      ///< its shadow rays report the distance of the blocker
 	/// Path of the shaders that trace, without suffix. Empty: the signal's own.
 	std::string Shaders;
 	/// Compute shaders of the passes before and behind the rays. Filters have a list of their own (FSignalPass::ListFilters).

@@ -87,6 +87,7 @@ void CollectSignals(FCollector& Collector, const FRTCapabilities& Capabilities, 
 	ForEachSignalPass([&](const FSignalPass& Pass) {
 		FPassRays& Rays = Chosen[ToIndex(Pass.Signal)];
 		if (Rays.Path == ERayPath::None) { return; }
+		Collector.Programs.bLightSampling |= Rays.bLightSampling;
 		Collector.Programs.bMotion |= Pass.WantsMotion && Pass.WantsMotion(Scene);
 		Collector.Programs.bMotion |= Pass.AskShadowRays && Facts.bCharacters; // it names the pixels' objects
 		std::vector<FShaderSource>& Compute = Collector.Programs.Compute;

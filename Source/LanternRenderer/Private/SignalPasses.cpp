@@ -31,8 +31,8 @@ constexpr FSignalPass Passes[] = {
         .ListFilters = ListAmbientOcclusionFilters,
         .ReplacedBy = ESignal::DiffuseGI,
         .SetReferenceConstants = SetAmbientOcclusionReference},
-    {ESignal::DiffuseGI, ChooseDiffuseGIRays, AddDiffuseGIPass},
-    {ESignal::Reflections, ChooseReflectionsRays, AddReflectionsPass},
+    {.Signal = ESignal::DiffuseGI, .ChooseRays = ChooseDiffuseGIRays, .Add = AddDiffuseGIPass, .EmissionIn = ESignal::LocalDiffuse},
+    {.Signal = ESignal::Reflections, .ChooseRays = ChooseReflectionsRays, .Add = AddReflectionsPass, .EmissionIn = ESignal::LocalSpecular},
     {.Signal = ESignal::LocalDiffuse,
         .ChooseRays = ChooseLocalLightRays,
         .Add = AddLocalDiffusePass,
@@ -44,7 +44,8 @@ constexpr FSignalPass Passes[] = {
         .Add = AddLocalSpecularPass,
         .WantsMotion = AreLocalLightsFiltered,
         .ListFilters = ListLocalLightFilters,
-        .AskShadowRays = AskLocalRays},
+        .AskShadowRays = AskLocalRays,
+        .SetReferenceConstants = SetLocalSpecularReference},
 };
 static_assert(std::size(Passes) == SignalCount - 1, "each signal but Frame needs a row, in the order of ESignal");
 } // namespace

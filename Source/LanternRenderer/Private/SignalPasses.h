@@ -20,6 +20,8 @@ struct FSignalPass
 	void (*ListFilters)(const FRTScene& Scene, std::vector<FShaderSource>& Out) = nullptr;
 	/// A signal that serves in its place once its rays are ready. Count: there is none.
 	ESignal ReplacedBy = ESignal::Count;
+	/// The signal of local lights that holds directly seen emission of the same lobe (LocalLights/Emitters.h). Count: there is none.
+	ESignal EmissionIn = ESignal::Count;
 	/// Adds what the signal asks of the frame's shadow rays (RequireShadowRays). Called if ChooseRays chose the queue's shaders, and they
 	/// are ready: Dispatch has them. False: it asks for nothing, because its other shaders are not. Null: it never asks.
 	bool (*AskShadowRays)(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowRayWishes& InOut) = nullptr;

@@ -127,10 +127,29 @@ TEST_F(FRendererLackTest, NoLocalLights)
 {
 	FStage Stage;
 	Stage.Content.bLights = false;
+	ExpectAbsent("no lamps", Stage, {"buffer Lights", "HAS_LIGHTS"});
+	Stage.Content.bEmissive = false;
 	ExpectAbsent("no local lights", Stage,
 	    {"buffer Lights", "HAS_LIGHTS", "pass ShadowLights", "LocalLights/", "TileLights", "LocalDiffuse", "LocalSpecular"});
 	EXPECT_TRUE(HasPart(Make({}, {{"r.RT.Shadow.Path", "2"}}), "LOCAL_RAYS"));
 	EXPECT_FALSE(HasPart(Make(Stage, {{"r.RT.Shadow.Path", "2"}}), "LOCAL_RAYS"));
+}
+
+// Emissive triangles are listed for reflections as well.
+TEST_F(FRendererLackTest, NoEmissiveTriangles)
+{
+	const std::vector<const char*> Parts = {
+	    "EmitterClusters", "LOCAL_EMISSIVE", "pass ShadowEmitters", "LightGuide", "LightChoices", "LitPixels", "MANY_LIGHTS"};
+	FStage Stage;
+	Stage.Settings = {{"r.RT.Lights.Emissive", "0"}};
+	ExpectAbsent("emissive triangles are no local lights", Stage, Parts);
+	Stage.Settings.emplace_back("r.RT.Reflections", "0");
+	std::vector<const char*> Lists = Parts;
+	Lists.insert(Lists.end(), {"EmissiveTriangles", "EmissiveClusters"});
+	ExpectAbsent("nobody samples emissive triangles", Stage, Lists);
+	FStage Dark;
+	Dark.Content.bEmissive = false;
+	ExpectAbsent("nothing emits", Dark, Lists);
 }
 
 TEST_F(FRendererLackTest, LocalLightsWithoutShadowsOrOff)
@@ -146,7 +165,7 @@ TEST_F(FRendererLackTest, LocalLightsWithoutShadowsOrOff)
 TEST_F(FRendererLackTest, NoLightThatAsksForShadowRays)
 {
 	FStage Stage;
-	Stage.Content.bSun = Stage.Content.bLights = false;
+	Stage.Content.bSun = Stage.Content.bLights = Stage.Content.bEmissive = false;
 	ExpectAbsent("neither sun nor local lights", Stage,
 	    {"indirect ", "ShadowQueue", "buffer RayRequests", "buffer RayQueueCounters", "buffer RayAnswers", "buffer SunWidths"});
 }
@@ -235,13 +254,14 @@ TEST_F(FRendererLackTest, NoReflectionsNoMaterialRays)
 {
 	FStage Stage;
 	Stage.Settings = {{"r.RT.Reflections", "0"}};
-	ExpectAbsent("no reflections", Stage, {"Reflections", "MATERIAL", "Material.rmiss", "EmissiveTriangles"});
+	ExpectAbsent("no reflections", Stage, {"Reflections", "MATERIAL", "Material.rmiss"});
 }
 
 TEST_F(FRendererLackTest, NoFilterNoHistoryAndNoMotion)
 {
 	FStage Stage;
 	Stage.Settings = {{"r.RT.Shadow.Denoise", "0"}, {"r.RT.AO.Denoise", "0"}, {"r.RT.Lights.Denoise", "0"}};
+	Stage.Content.bEmissive = false; // tiles remember which of many lights are hidden
 	ExpectAbsent("no filter", Stage,
 	    {"Denoise", "Temporal", "Filter", "Surface", "History", "GBufferMotion", "ObjectMotions", "SunShadowPenumbra", "SunWidths"});
 	const std::vector<std::pair<const char*, const char*>> Pipeline = {{"r.RT.Shadow.Path", "1"}};

@@ -79,6 +79,55 @@ TEST_F(FEmissiveTrianglesTest, AMovedObjectCostsItsOwnTriangles)
 	EXPECT_FLOAT_EQ(Emissive.GetPower(), 102.0f);
 }
 
+// Small objects have a cluster each, large ones several of one size; none has triangles of two objects.
+TEST_F(FEmissiveTrianglesTest, ClustersAreOfOneObject)
+{
+	const uint32_t Bright = Materials.Add(MakeMaterial(0, 2.0f));
+	const FRTGeometryRef Panel = CreatePanel(), Large = Create(1, {.bCpuData = true, .TrianglesPerSection = 3000});
+	for (int I = 0; I < 3; ++I) { Place(Panel, {Bright}, {I, 0, 0}); }
+	Place(Large, {Bright}, {0, 9, 0});
+	Place(Panel, {Bright}, {0, 0, 9});
+	UpdateEmissive();
+	const auto& Triangles = Emissive.GetTable();
+	const auto& Clusters = Emissive.GetClusters();
+	ASSERT_EQ(Triangles.Num(), 3008u);
+	EXPECT_LE(Clusters.Num(), EMISSIVE_CLUSTERS + 5);
+	uint32_t Next = 0;
+	double Power = 0.0;
+	for (uint32_t Cluster = 0; Cluster < Clusters.Num(); ++Cluster)
+	{
+		const FEmissiveCluster& Of = Clusters[Cluster];
+		ASSERT_EQ(Of.First, Next);
+		ASSERT_GT(Of.Count, 0u);
+		EXPECT_LE(Of.Count, 6u);
+		float Share = 0.0f;
+		for (; Next < Of.First + Of.Count; ++Next)
+		{
+			EXPECT_EQ(Triangles[Next].Cluster, Cluster);
+			EXPECT_EQ(Triangles[Next].Object, Triangles[Of.First].Object);
+			EXPECT_NEAR(Triangles[Next].ClusterShare - Share, 1.0f / float(Of.Count), 1e-5f);
+			Share = Triangles[Next].ClusterShare;
+		}
+		EXPECT_EQ(Share, 1.0f);
+		Power += double(Of.Power);
+	}
+	EXPECT_EQ(Next, Triangles.Num());
+	EXPECT_NEAR(Power / double(Emissive.GetPower()), 1.0, 1e-5);
+}
+
+// Beside a floodlight, fp32 shares of the whole power would lose a candle.
+TEST_F(FEmissiveTrianglesTest, DimTrianglesKeepTheirShareOfTheirCluster)
+{
+	Place(CreatePanel(), {Materials.Add(MakeMaterial(0, 1e9f))});
+	Place(CreatePanel(), {Materials.Add(MakeMaterial(0, 1e-3f))}, {5, 0, 0});
+	UpdateEmissive();
+	ASSERT_EQ(Emissive.GetTable().Num(), 4u);
+	const FEmissiveCluster Dim = Emissive.GetClusters()[Emissive.GetTable()[2].Cluster];
+	EXPECT_GT(Dim.Power, 0.0f);
+	EXPECT_GT(Emissive.GetTable()[2].ClusterShare, 0.0f);
+	EXPECT_EQ(Emissive.GetTable()[3].ClusterShare, 1.0f);
+}
+
 TEST_F(FEmissiveTrianglesTest, WhatDoesNotEmitMarksNothing)
 {
 	const FRTObjectId Id = Place(CreatePanel(), {Materials.Add(MakeMaterial())});

@@ -71,6 +71,14 @@ FStabilityFault MakeStaleLampsFault(const FMethod& Method)
 	return MakeFault(bFiltered ? Stale : std::vector<FMethodSetting>(), "the lamp is switched ten frames late");
 }
 
+/// Each pixel of many lights takes one at random, hidden or not, and forgets it after a frame.
+FStabilityFault MakeBlindLampsFault(const FMethod&)
+{
+	return MakeFault(KnownSettings({{"r.RT.Lights.Exact", "1"}, {"r.RT.Lights.Candidates", "1"}, {"r.RT.Lights.GuideSeconds", "0"},
+	                     {"r.RT.Lights.HistorySeconds", "0.02"}}),
+	    "");
+}
+
 /// History that is kept for a minute and never compared with what is there now.
 FStabilityFault MakeStaleFault(const FMethod&)
 {
@@ -120,17 +128,17 @@ std::span<const FStabilityCase> GetStabilityCases()
 	    {4, "light switch", {LampDiffuse, LampSpecular}, MeasureLightSwitch, MakeStaleLampsFault},
 	    {5, "time of day", {Sun, Diffuse, Reflected}, MeasureTimeOfDay, nullptr, "the plugin is not told that the sun moves"},
 	    {6, "flicker", {LampDiffuse, LampSpecular}, MeasureFlicker, MakeStaleLampsFault},
-	    {7, "tiny emitters", {Diffuse}, MeasureTinyEmitters, nullptr, "a fifth of the candles is out"},
-	    {8, "boiling", {}},
+	    {7, "tiny emitters", {Diffuse, LampDiffuse}, MeasureTinyEmitters, nullptr, "a fifth of the candles is out"},
+	    {8, "boiling", {LampDiffuse, LampSpecular}, MeasureBoiling, MakeBlindLampsFault},
 	    {9, "disocclusion", EverySignal(false), MeasureDisocclusion, MakeUncoveringFault},
 	    {10, "ghost", EverySignal(false), MeasureGhost, MakeStaleFault},
 	    {11, "shadow lag", {Sun}, MeasureShadowLag, nullptr, "the fan is where it was three frames ago"},
 	    {12, "mover in a mirror", {}},
-	    {13, "thin specular", {}},
+	    {13, "thin specular", {LampSpecular}, MeasureThinSpecular, MakeBlindLampsFault},
 	    {14, "not a number", EverySignal(true), MeasureNotANumber, MakeUnguardedFault},
 	    {15, "huge mesh", {}},
 	    {16, "hash overflow", {}},
-	    {17, "light grid", {}},
+	    {17, "light grid", {LampDiffuse}, MeasureLightGrid, nullptr, "every other metre is 5 % brighter"},
 	    {18, "frame rate", EverySignal(false), MeasureFrameRate, nullptr,
 	        "every frame is said to last 1/60 s, and changes are not looked for"},
 	    {19, "furnace", {Diffuse, Reflected}, MeasureFurnace, nullptr, "the sky is 5 % brighter"},

@@ -218,8 +218,9 @@ FRTStatus MeasureTimeOfDay(FStabilityStage& Stage, std::vector<FStabilityFigure>
 
 namespace
 {
-/// Per million pixels: those above ten times the median of the 5 × 5 around them (and of a tenth of the mean at least).
-double CountFireflies(const FImage& Image)
+/// Per million pixels: those above ten times the median of the 5 × 5 around them (and of a tenth of the mean at least), unless the
+/// reference is as bright there: a candle is brighter than what is behind it.
+double CountFireflies(const FImage& Image, const FImage& Reference)
 {
 	const double Floor = 0.1 * MeanOver(Image);
 	uint64_t Count = 0;
@@ -238,7 +239,8 @@ double CountFireflies(const FImage& Image)
 				}
 			}
 			std::nth_element(Around.begin(), Around.begin() + 12, Around.end());
-			Count += double(GetLuminance(Image, X, Y)) > 10.0 * std::max(double(Around[12]), Floor) ? 1 : 0;
+			const double Value = GetLuminance(Image, X, Y), Right = GetLuminance(Reference, X, Y);
+			Count += Value > 10.0 * std::max(double(Around[12]), Floor) && Value > 2.0 * Right ? 1 : 0;
 		}
 	}
 	return 1e6 * double(Count) / double(Image.GetPixelCount());
@@ -272,7 +274,7 @@ FRTStatus MeasureTinyEmitters(FStabilityStage& Stage, std::vector<FStabilityFigu
 	const bool bKeeps = Stage.KeepsHistory();
 	const auto Limit = [&](double Value) { return bKeeps ? std::optional<double>(Value) : std::nullopt; };
 	Out.push_back({"sigma", TemporalSigma(Frames), Limit(0.03)});
-	Out.push_back({"fireflies per Mpx", CountFireflies(Frames.back()), Limit(5.0)});
+	Out.push_back({"fireflies per Mpx", CountFireflies(Frames.back(), Reference.Mean), Limit(5.0)});
 	Out.push_back({"energy", std::abs(MeanOver(Mean) / MeanOver(Reference.Mean) - 1.0), 0.03});
 	return FRTStatus::Success();
 }

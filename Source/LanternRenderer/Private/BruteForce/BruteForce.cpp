@@ -3,18 +3,26 @@
 
 #include "BruteForceTypes.h"
 #include "Lights/LightCells.h"
+#include "LocalLights/Emitters.h"
 #include "SignalPasses.h"
 
 namespace Lantern
 {
 
+ERayPath ChooseBruteForcePath(const FBruteForcePass& Settings, const FPassQuery& Query)
+{
+	if (!IsRayTracingEnabled() || !Settings.Enable.GetOnRenderThread()) { return ERayPath::None; }
+	if (Query.Facts.Objects == 0 || !HasAnyLight(Query.Facts)) { return ERayPath::None; }
+	return ChooseShadingRayPath(Query, Settings.Enable);
+}
+
 FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery& Query)
 {
 	FPassRays Rays;
-	if (!IsRayTracingEnabled() || !Settings.Enable.GetOnRenderThread()) { return Rays; }
-	if (Query.Facts.Objects == 0 || !HasAnyLight(Query.Facts)) { return Rays; }
-	Rays.Path = ChooseShadingRayPath(Query, Settings.Enable);
+	Rays.Path = ChooseBruteForcePath(Settings, Query);
+	if (Rays.Path == ERayPath::None) { return Rays; }
 	Rays.Defines = MakePathDefines(Query.Facts);
+	if (IsEmissionDirect(Query, GetSignalPass(Settings.Signal).EmissionIn)) { Rays.Defines.emplace_back(EmissiveDirectDefine, "1"); }
 	if (Query.Facts.Lights > 0) { Rays.Defines.emplace_back("LIGHT_CELLS_OF_VIEW", "1"); }
 	ListLightCellShaders(Query.Facts, Rays.Compute);
 	AddReorderDefine(Query.Capabilities, Rays.Defines);

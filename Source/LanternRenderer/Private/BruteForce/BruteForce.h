@@ -19,6 +19,7 @@ struct FBruteForcePass
 	const TRTConsoleVariable<float>* MaxRoughness = nullptr;
 };
 
+ERayPath ChooseBruteForcePath(const FBruteForcePass& Settings, const FPassQuery& Query);
 FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery& Query);
 /// Reads Depth and Normals of the G-buffer, and BaseColor and Material if FSignalInfo::bNeedsSurface says so.
 FGraphTexture AddBruteForcePass(const FBruteForcePass& Settings, FFrameContext& Context, const FGBuffer& GBuffer);

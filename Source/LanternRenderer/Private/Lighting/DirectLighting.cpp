@@ -4,6 +4,7 @@
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LightingTypes.h"
 #include "Lights/LightCells.h"
+#include "LocalLights/Emitters.h"
 #include "PassTools.h"
 #include "Sky/SkyLight.h"
 
@@ -32,7 +33,9 @@ FShaderSource MakeLightingSource(FSceneFacts Facts)
 	Facts.bAreaLights &= bLights;
 	Facts.bSky &= CVarSkyAmbient.GetOnRenderThread();
 	Facts.bMasked = false; // nothing of it reaches lighting
-	return MakeComputeSource("Lighting/DirectLighting.comp", MakeFactDefines(Facts));
+	FShaderDefines Defines = MakeFactDefines(Facts);
+	if (bLights) { AddEmitterDefines(Facts, Defines); }
+	return MakeComputeSource("Lighting/DirectLighting.comp", std::move(Defines));
 }
 
 FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightingInputs& Inputs)

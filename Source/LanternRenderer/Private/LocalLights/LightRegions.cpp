@@ -17,16 +17,20 @@ FShaderSource MakeLightRegionsSource(const FSceneFacts& Facts)
 	return MakeComputeSource("LocalLights/Regions.comp", MakeFactDefines(Used));
 }
 
-FGraphBuffer AddLightRegions(FFrameContext& Context, const FGBuffer& GBuffer, IRTPipeline* Pipeline)
+namespace
 {
-	// As RegionColumns of Regions.glsl: regions may begin outside of the picture.
-	const auto Count = [](uint32_t Pixels) { return (DivideUp(Pixels, TILE_SIZE) + 2 * (REGION_TILES - 1)) / REGION_TILES; };
-	const uint32_t Columns = Count(Context.Width), Rows = Count(Context.Height);
-	const FGraphBuffer Regions = Context.Graph.CreateBuffer({uint64_t(Columns) * Rows * sizeof(FLightRegion)}, "LightRegions");
+// As RegionColumns of Regions.glsl: regions may begin outside of the picture.
+uint32_t CountRegions(uint32_t Pixels) { return (DivideUp(Pixels, TILE_SIZE) + 2 * (REGION_TILES - 1)) / REGION_TILES; }
+
+/// bClusters: Regions holds what the pass reads as well.
+void AddRegionsPass(
+    FFrameContext& Context, const FGBuffer& GBuffer, IRTPipeline* Pipeline, const char* Name, FGraphBuffer Regions, bool bClusters)
+{
 	const FFrameContext* const Frame = &Context;
-	Context.Graph.AddPass("ShadowLightRegions", [&](FPassBuilder& Builder) -> FPassExecute {
+	Context.Graph.AddPass(Name, [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Read(GBuffer.Depth, ERTAccess::ShaderRead);
 		Builder.Read(GBuffer.Normals, ERTAccess::ShaderRead);
+		if (bClusters) { Builder.Read(Regions, ERTAccess::StorageRead); }
 		Builder.Write(Regions, ERTAccess::StorageWrite);
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
@@ -35,10 +39,29 @@ FGraphBuffer AddLightRegions(FFrameContext& Context, const FGBuffer& GBuffer, IR
 			C.Regions = GetAddress(Pass, Regions);
 			C.Depth = GetSampledIndex(Pass, GBuffer.Depth);
 			C.Normals = GetSampledIndex(Pass, GBuffer.Normals);
-			Dispatch2D(Pass, Pipeline, C, Columns, Rows, 1);
+			Dispatch2D(Pass, Pipeline, C, CountRegions(Frame->Width), CountRegions(Frame->Height), 1);
 		};
 	});
+}
+} // namespace
+
+uint64_t GetLightRegionBytes(const FFrameContext& Context)
+{
+	return uint64_t(CountRegions(Context.Width)) * CountRegions(Context.Height) * sizeof(FLightRegion);
+}
+
+FGraphBuffer AddLightRegions(FFrameContext& Context, const FGBuffer& GBuffer, IRTPipeline* Pipeline)
+{
+	const FGraphBuffer Regions = Context.Graph.CreateBuffer({GetLightRegionBytes(Context)}, "LightRegions");
+	AddRegionsPass(Context, GBuffer, Pipeline, "ShadowLightRegions", Regions, false);
 	return Regions;
+}
+
+FShaderSource MakeEmitterRegionsSource() { return MakeComputeSource("LocalLights/Regions.comp", {{"EMITTERS", "1"}}); }
+
+void AddEmitterRegions(FFrameContext& Context, const FGBuffer& GBuffer, IRTPipeline* Pipeline, FGraphBuffer Clusters)
+{
+	AddRegionsPass(Context, GBuffer, Pipeline, "ShadowEmitterRegions", Clusters, true);
 }
 
 } // namespace Lantern

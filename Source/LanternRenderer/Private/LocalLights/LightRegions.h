@@ -15,4 +15,11 @@ FShaderSource MakeLightRegionsSource(const FSceneFacts& Facts);
 /// Adds the pass, and returns FLightRegion[], row by row. After RequireCompute has given its pipeline.
 FGraphBuffer AddLightRegions(FFrameContext& Context, const FGBuffer& GBuffer, IRTPipeline* Pipeline);
 
+/// Returns the shader of the same for clusters of emissive triangles.
+FShaderSource MakeEmitterRegionsSource();
+/// Returns the size of FLightRegion[], bytes.
+uint64_t GetLightRegionBytes(const FFrameContext& Context);
+/// Adds the pass that lists clusters. Clusters: the buffer of AddEmitterClusters, which has room for the lists.
+void AddEmitterRegions(FFrameContext& Context, const FGBuffer& GBuffer, IRTPipeline* Pipeline, FGraphBuffer Clusters);
+
 } // namespace Lantern

@@ -4,9 +4,11 @@
 #include "Denoise/Denoise.h"
 #include "Lighting/DirectLighting.h"
 #include "LocalLightTypes.h"
+#include "LocalLights/Emitters.h"
 #include "LocalLights/LampChange.h"
 #include "LocalLights/LocalRequests.h"
 #include "LocalLights/SecondRays.h"
+#include "Reflections/Reflections.h"
 #include "SignalPasses.h"
 #include "Tiles/Tiles.h"
 
@@ -42,6 +44,7 @@ FLocalLobes AddShadePass(FFrameContext& Context, const FGBuffer& GBuffer, const 
 	const FLocalLobes Lobes{Create("LocalDiffuse"), Create("LocalSpecular")};
 	const FFrameContext* const Frame = &Context;
 	const FShadowRays Inputs = Rays;
+	const float Reflected = GetReflectedRoughness({Context.Device.GetCapabilities(), Context.Facts, Context.Signals});
 	Context.Graph.AddPass("ShadowLightsShade", [&](FPassBuilder& Builder) -> FPassExecute {
 		for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals, GBuffer.BaseColor, GBuffer.Material})
 		{
@@ -72,6 +75,7 @@ FLocalLobes AddShadePass(FFrameContext& Context, const FGBuffer& GBuffer, const 
 			C.Guide = GetAddress(Pass, Inputs.Traced.Guide) + Inputs.Traced.GuideOffset;
 			C.OutDiffuse = GetStorageIndex(Pass, Lobes.Diffuse);
 			C.OutSpecular = GetStorageIndex(Pass, Lobes.Specular);
+			C.ReflectedRoughness = Reflected;
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
@@ -103,19 +107,30 @@ FGraphTexture AddLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESignal S
 	Inputs.Name = GetSignalInfo(Signal).Pass;
 	Inputs.Signal = Lobe;
 	// A highlight moves with the camera, and diffuse light does not.
-	const bool bStays = Signal == ESignal::LocalDiffuse && CVarKnownChanges.GetOnRenderThread();
+	const bool bLampsAlone = !HasEmitters(Context.Facts); // nobody counts what becomes of surfaces
+	const bool bStays = Signal == ESignal::LocalDiffuse && bLampsAlone && CVarKnownChanges.GetOnRenderThread();
 	Inputs.Changes.bKnown = bStays && !Context.MovedCasters->HasLampLightChanged(Context.Scene, Context.View.DeltaSeconds);
 	Inputs.Change = AddLampChange(Context, GBuffer, Context.ShadowRays->Traced, MakeLocalDefines(Context.Facts, GetExact()), Signal);
 	return AddDenoise(Context, GBuffer, Inputs, Denoise);
 }
 } // namespace
 
+bool AreLocalLightsShadowed() { return CVarLights.GetOnRenderThread(); }
+
+ERayPath ChooseLocalLightPath(const FPassQuery& Query)
+{
+	const bool bAny = Query.Facts.Lights > 0 || HasEmitters(Query.Facts);
+	if (!bAny || !IsRayTracingEnabled() || !AreLocalLightsShadowed()) { return ERayPath::None; }
+	if (!Query.Requests.bNothingElse && !HasLocalLight()) { return ERayPath::None; } // the composite shows none
+	return ChooseQueuePath(Query, "shadows of local lights are");
+}
+
 FPassRays ChooseLocalLightRays(const FPassQuery& Query)
 {
 	FPassRays Rays;
-	if (Query.Facts.Lights == 0 || !IsRayTracingEnabled() || !CVarLights.GetOnRenderThread()) { return Rays; }
-	if (!Query.Requests.bNothingElse && !HasLocalLight()) { return Rays; } // the composite shows none
-	Rays.Path = ChooseQueuePath(Query, "shadows of local lights are");
+	Rays.Path = ChooseLocalLightPath(Query);
+	if (Rays.Path == ERayPath::None) { return Rays; }
+	Rays.bLightSampling = HasEmitters(Query.Facts);
 	Rays.Defines = MakeLocalDefines(Query.Facts, GetExact());
 	Rays.Defines.emplace_back("LOCAL_RAYS", "1");
 	AddReceiverDefines(Query.Facts, Rays.Defines);
@@ -137,12 +152,15 @@ bool AskLocalRays(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowR
 	if (!Dispatch.Has("LOCAL_RAYS") || (bMany && !Dispatch.Has("MANY_LIGHTS"))) { return false; }
 	if (!HasLightRate(Dispatch)) { return false; }
 	if (Context.Facts.bAreaLights && !Dispatch.Has("HAS_AREA_LIGHTS")) { return false; }
+	if (HasEmitters(Context.Facts) && !Dispatch.Has("LOCAL_EMISSIVE")) { return false; }
 	if (!AreLocalRequestsReady(Context, Exact) || !RequireCompute(Context, MakeShadeSource(Context.Facts, Exact))) { return false; }
 	InOut.Local = FLocalRays{Exact, GetLocalRaysPerPixel(Context.Facts, Exact), bMany};
 	return true;
 }
 
 bool AreLocalLightsFiltered(const FRTScene&) { return Denoise.IsEnabled(); }
+
+void SetLocalSpecularReference(FReferenceConstants& Constants) { Constants.ReflectedRoughness = GetReflectedRoughnessInReference(); }
 
 void ListLocalLightFilters(const FRTScene&, std::vector<FShaderSource>& Out)
 {

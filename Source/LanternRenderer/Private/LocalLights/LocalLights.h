@@ -2,10 +2,15 @@
 #pragma once
 
 #include "Rays/ShadowRays.h"
+#include "ReferenceTypes.h"
 
 namespace Lantern
 {
 
+/// Returns how shadow rays to local lights are traced. None: none are.
+ERayPath ChooseLocalLightPath(const FPassQuery& Query);
+/// r.RT.Lights.
+bool AreLocalLightsShadowed();
 FPassRays ChooseLocalLightRays(const FPassQuery& Query);
 bool AskLocalRays(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowRayWishes& InOut);
 /// Read Depth, Normals, BaseColor, Material and, if there is any, Motion of the G-buffer.
@@ -13,6 +18,8 @@ FGraphTexture AddLocalDiffusePass(FFrameContext& Context, const FGBuffer& GBuffe
 FGraphTexture AddLocalSpecularPass(FFrameContext& Context, const FGBuffer& GBuffer);
 /// Returns whether the light of local lights, if there is any, is filtered over frames.
 bool AreLocalLightsFiltered(const FRTScene& Scene);
+/// Tells references which pixels trace reflections, where the two signals share emission.
+void SetLocalSpecularReference(FReferenceConstants& Constants);
 void ListLocalLightFilters(const FRTScene& Scene, std::vector<FShaderSource>& Out);
 
 } // namespace Lantern

@@ -7,6 +7,7 @@
 #include "LanternCore/FrameGraph/History.h"
 #include "Lights/LightCells.h"
 #include "LocalLightTypes.h"
+#include "LocalLights/Emitters.h"
 #include "LocalLights/LightRegions.h"
 #include "LocalLights/SecondRays.h"
 
@@ -17,7 +18,7 @@ namespace
 {
 TRTConsoleVariable<int32_t> CVarCandidates("r.RT.Lights.Candidates", 8,
     "Lights that a pixel looks at where a tile has many, before one of them gets its ray. They are drawn from the lights of its tile, by "
-    "what these bring and by how visible they were. 0: all lights, which takes long.",
+    "what these bring and by how visible they were. 0: all lights, which takes long. It is 64 where surfaces emit.",
     {0, 64});
 TRTConsoleVariable<float> CVarGuideSeconds("r.RT.Lights.GuideSeconds", 0.5f,
     "Time in seconds for which a tile of many lights remembers which of them were visible. 0: it forgets all.", {0.0, 60.0});
@@ -29,6 +30,13 @@ TRTConsoleVariable<bool> CVarCellTarget("r.RT.Debug.Lights.CellTarget", true,
     "Planted fault. If off, a tile weighs its lights at one of its pixels alone, so that some that reach others are never chosen.");
 TRTConsoleVariable<bool> CVarWeight("r.RT.Debug.Lights.Weight", true,
     "Planted fault. If off, a light that a pixel chose of many counts once, and not for all that it was chosen from.");
+
+uint32_t GetCandidates()
+{
+	constexpr uint32_t Most = 64;
+	const auto Candidates = static_cast<uint32_t>(CVarCandidates.GetOnRenderThread());
+	return Candidates > 0 ? Candidates : Most;
+}
 
 bool HasRegions(const FSceneFacts& Facts, uint32_t Exact) { return IsGuided(Facts, Exact) && NeedsLightRegions(Facts); }
 
@@ -54,6 +62,7 @@ struct FRequestsPass
 	FLocalRays Rays;
 	bool bFirst = false; ///< no pass before it writes requests and answers
 	FGraphBuffer TileLights, Choices, Lit, Regions;
+	FGraphBuffer Emitters;    ///< of AddEmitterClusters
 	FGraphBuffer Guide;       ///< two times FTileGuide[Tiles], of this frame and of the one before
 	uint64_t GuideOffset = 0; ///< of this frame's, bytes
 	bool bPreviousGuide = false;
@@ -65,15 +74,19 @@ struct FRequestsPass
 bool AddGuide(FFrameContext& Context, FRequestsPass& InOut)
 {
 	const uint64_t Bytes = uint64_t(InOut.Tiles) * sizeof(FTileGuide);
-	FHistoryBuffer History;
-	if (FRTStatus S = Context.History->GetBuffer("LightGuide", {2 * Bytes}, History); !S)
-	{
-		Context.Fail(S);
-		return false;
-	}
-	InOut.Guide = History.Buffer;
 	InOut.GuideOffset = Context.View.FrameIndex % 2 * Bytes;
-	InOut.bPreviousGuide = !History.bFresh && CVarGuideSeconds.GetOnRenderThread() > 0.0f;
+	if (CVarGuideSeconds.GetOnRenderThread() > 0.0f)
+	{
+		FHistoryBuffer History;
+		if (FRTStatus S = Context.History->GetBuffer("LightGuide", {2 * Bytes}, History); !S)
+		{
+			Context.Fail(S);
+			return false;
+		}
+		InOut.Guide = History.Buffer;
+		InOut.bPreviousGuide = !History.bFresh;
+	}
+	else { InOut.Guide = Context.Graph.CreateBuffer({2 * Bytes}, "LightGuide"); } // nobody reads it in the next frame
 	const uint64_t Pixels = uint64_t(Context.Width) * Context.Height;
 	if (!CVarUnbiased.GetOnRenderThread()) { InOut.Lit = Context.Graph.CreateBuffer({Pixels * sizeof(FLitPixel)}, "LitPixels"); }
 	return true;
@@ -89,8 +102,9 @@ void SetGuide(FPassContext& Pass, const FFrameContext& Frame, const FRequestsPas
 	C.Lit = GetAddress(Pass, Inputs.Lit);
 	C.Guide = Guides + Inputs.GuideOffset;
 	C.PreviousGuide = Inputs.bPreviousGuide ? Guides + (Bytes - Inputs.GuideOffset) : 0;
-	C.Candidates = static_cast<uint32_t>(CVarCandidates.GetOnRenderThread());
+	C.Candidates = GetCandidates();
 	C.Regions = GetAddress(Pass, Inputs.Regions);
+	C.Emitters = GetAddress(Pass, Inputs.Emitters);
 	C.GuideKept = std::exp(-Frame.View.DeltaSeconds / std::max(CVarGuideSeconds.GetOnRenderThread(), 1e-6f));
 }
 
@@ -102,6 +116,7 @@ void DeclareGuide(FPassBuilder& Builder, const FRequestsPass& Inputs)
 	if (Inputs.Regions.IsValid()) { Builder.Read(Inputs.Regions, ERTAccess::ShaderRead); }
 	Builder.Write(Inputs.Guide, ERTAccess::StorageWrite);
 	if (Inputs.Lit.IsValid()) { Builder.Write(Inputs.Lit, ERTAccess::StorageWrite); }
+	if (Inputs.Emitters.IsValid()) { Builder.Read(Inputs.Emitters, ERTAccess::ShaderRead); }
 }
 
 FLocalRequestsConstants MakeConstants(FPassContext& Pass, const FFrameContext& Frame, const FRequestsPass& Inputs)
@@ -163,7 +178,11 @@ void AddSharePass(FFrameContext& Context, IRTPipeline* Pipeline, const FRequests
 }
 } // namespace
 
-bool IsGuided(const FSceneFacts& Facts, uint32_t Exact) { return MayChooseLights(Facts, Exact) && CVarCandidates.GetOnRenderThread() > 0; }
+// Where surfaces emit, pixels always choose of a table.
+bool IsGuided(const FSceneFacts& Facts, uint32_t Exact)
+{
+	return HasEmitters(Facts) || (MayChooseLights(Facts, Exact) && CVarCandidates.GetOnRenderThread() > 0);
+}
 
 FShaderDefines MakeLocalDefines(FSceneFacts Facts, uint32_t Exact)
 {
@@ -172,6 +191,7 @@ FShaderDefines MakeLocalDefines(FSceneFacts Facts, uint32_t Exact)
 	FShaderDefines Defines = MakeFactDefines(Facts);
 	if (bMany) { Defines.emplace_back("MANY_LIGHTS", "1"); }
 	AddLightRateDefines(Defines);
+	AddEmitterDefines(Facts, Defines);
 	return Defines;
 }
 
@@ -179,13 +199,22 @@ FShaderDefines MakeChoiceDefines(const FSceneFacts& Facts, uint32_t Exact)
 {
 	FShaderDefines Defines = MakeLocalDefines(Facts, Exact);
 	if (IsGuided(Facts, Exact)) { Defines.emplace_back("GUIDED", "1"); }
+	if (HasEmitters(Facts) && Facts.bMasked) { Defines.emplace_back("HAS_MASKED", "1"); } // what is cut away does not shine
 	return Defines;
 }
+
+uint32_t GetLocalRaysPerPixel(const FSceneFacts& Facts, uint32_t Exact)
+{
+	return std::min(Facts.Lights, Exact) + (HasEmitters(Facts) ? 1 : 0);
+}
+
+bool MayChooseLights(const FSceneFacts& Facts, uint32_t Exact) { return Facts.Lights > Exact || HasEmitters(Facts); }
 
 void ListLocalRequestShaders(const FSceneFacts& Facts, uint32_t Exact, std::vector<FShaderSource>& Out)
 {
 	Out.push_back(MakeRequestsSource(Facts, Exact));
 	if (MayChooseLights(Facts, Exact) && !IsGuided(Facts, Exact)) { ListLightCellShaders(Facts, Out); }
+	ListEmitterShaders(Facts, Out);
 	if (HasRegions(Facts, Exact)) { Out.push_back(MakeLightRegionsSource(Facts)); }
 	if (MayQueuesOverflow(1 + GetLocalRaysPerPixel(Facts, Exact))) { Out.push_back(MakeShareSource()); }
 	if (WantsSecondRays()) { Out.push_back(MakeSecondRaysSource(MakeLocalDefines(Facts, Exact))); }
@@ -196,7 +225,7 @@ bool AreLocalRequestsReady(FFrameContext& Context, uint32_t Exact)
 	const bool bShared = !MayQueuesOverflow(1 + GetLocalRaysPerPixel(Context.Facts, Exact)) || RequireCompute(Context, MakeShareSource());
 	const bool bSecond = !WantsSecondRays() || RequireCompute(Context, MakeSecondRaysSource(MakeLocalDefines(Context.Facts, Exact)));
 	const bool bListed = !HasRegions(Context.Facts, Exact) || RequireCompute(Context, MakeLightRegionsSource(Context.Facts));
-	return RequireCompute(Context, MakeRequestsSource(Context.Facts, Exact)) && bShared && bListed && bSecond;
+	return RequireCompute(Context, MakeRequestsSource(Context.Facts, Exact)) && bShared && bListed && bSecond && AreEmittersReady(Context);
 }
 
 void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRays& InOut, const FLocalRays& Rays)
@@ -215,6 +244,7 @@ void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRa
 			Inputs.Regions = AddLightRegions(Context, GBuffer, RequireCompute(Context, MakeLightRegionsSource(Context.Facts)));
 		}
 	}
+	Inputs.Emitters = AddEmitterClusters(Context, GBuffer);
 	AddRequestsPass(Context, RequireCompute(Context, MakeRequestsSource(Context.Facts, Rays.Exact)), Inputs);
 	if (InOut.Queue.bMayOverflow) { AddSharePass(Context, RequireCompute(Context, MakeShareSource()), Inputs); }
 	InOut.Traced.TileLights = Inputs.TileLights;

@@ -15,10 +15,10 @@ FShaderDefines MakeLocalDefines(FSceneFacts Facts, uint32_t Exact);
 FShaderDefines MakeChoiceDefines(const FSceneFacts& Facts, uint32_t Exact);
 
 /// Returns the most rays of a pixel.
-inline uint32_t GetLocalRaysPerPixel(const FSceneFacts& Facts, uint32_t Exact) { return Facts.Lights < Exact ? Facts.Lights : Exact; }
+uint32_t GetLocalRaysPerPixel(const FSceneFacts& Facts, uint32_t Exact);
 
-/// Returns whether tiles can have more lights than get rays each.
-inline bool MayChooseLights(const FSceneFacts& Facts, uint32_t Exact) { return Facts.Lights > Exact; }
+/// Returns whether tiles can have more lights than get rays each, or surfaces that emit, of which each pixel chooses.
+bool MayChooseLights(const FSceneFacts& Facts, uint32_t Exact);
 
 /// Returns whether pixels of tiles with many lights choose from tables, and tiles remember what was seen (FQueuedRays::Guide).
 bool IsGuided(const FSceneFacts& Facts, uint32_t Exact);

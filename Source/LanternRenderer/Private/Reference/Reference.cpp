@@ -3,6 +3,7 @@
 
 #include <cassert>
 
+#include "LocalLights/Emitters.h"
 #include "ReferenceTypes.h"
 #include "SignalPasses.h"
 
@@ -16,6 +17,7 @@ FPassRays ChooseReferenceRays(const FRTCapabilities& Capabilities, const FSceneF
 	Rays.Path = ERayPath::Pipeline;
 	Rays.Defines = MakePathDefines(Facts);
 	if (Signal != ESignal::Frame) { Rays.Defines.emplace_back("SIGNAL", "1"); }
+	if (Signal != ESignal::Frame && IsEmissionDirectInReference(Facts)) { Rays.Defines.emplace_back(EmissiveDirectDefine, "1"); }
 	if (bFromGBuffer) { Rays.Defines.emplace_back("FROM_GBUFFER", "1"); }
 	AddReorderDefine(Capabilities, Rays.Defines);
 	Rays.bShadesHits = true;

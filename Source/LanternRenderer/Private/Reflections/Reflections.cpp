@@ -2,6 +2,7 @@
 #include "Reflections/Reflections.h"
 
 #include "BruteForce/BruteForce.h"
+#include "SignalPasses.h"
 
 namespace Lantern
 {
@@ -19,6 +20,17 @@ TRTConsoleVariable<float> CVarMaxRoughness("r.RT.Reflections.MaxRoughness", 1.0f
     "Surfaces that are rougher have no reflections traced; the sky's ambient light stands in. 1: all are traced.", {0.0, 1.0});
 constexpr FBruteForcePass BruteForce{ESignal::Reflections, CVarEnable, CVarSamples, CVarBounces, &CVarMaxRoughness};
 } // namespace
+
+float GetReflectedRoughness(const FPassQuery& Query)
+{
+	const bool bTraced = IsMade(ESignal::Reflections, Query.Requests) && ChooseBruteForcePath(BruteForce, Query) != ERayPath::None;
+	return bTraced ? CVarMaxRoughness.GetOnRenderThread() : -1.0f;
+}
+
+float GetReflectedRoughnessInReference()
+{
+	return IsRayTracingEnabled() && CVarEnable.GetOnRenderThread() ? CVarMaxRoughness.GetOnRenderThread() : -1.0f;
+}
 
 FPassRays ChooseReflectionsRays(const FPassQuery& Query) { return ChooseBruteForceRays(BruteForce, Query); }
 

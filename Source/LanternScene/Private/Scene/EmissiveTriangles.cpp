@@ -85,11 +85,65 @@ bool FEmissiveTriangles::UpdateMoved(const FSceneObjects& Objects, const FSceneM
 		if (List.Triangles.size() != Found->Count || !bSamePower) { return false; }
 		for (uint32_t I = 0; I < Found->Count; ++I)
 		{
-			List.Triangles[I].CumulativePower = Table[Found->First + I].CumulativePower;
+			const FEmissiveTriangle& Old = Table[Found->First + I];
+			List.Triangles[I].CumulativePower = Old.CumulativePower;
+			List.Triangles[I].Cluster = Old.Cluster;
+			List.Triangles[I].ClusterShare = Old.ClusterShare;
 			Table.Set(Found->First + I, List.Triangles[I]);
 		}
 	}
 	return true;
+}
+
+namespace
+{
+/// Whether two triangles lie in one plane and face the same way, as those of a rectangle do.
+bool AreCoplanar(const FEmissiveTriangle& A, const FEmissiveTriangle& B)
+{
+	const glm::dvec3 Across = glm::cross(glm::dvec3(A.P1 - A.P0), glm::dvec3(A.P2 - A.P0));
+	const glm::dvec3 Other = glm::cross(glm::dvec3(B.P1 - B.P0), glm::dvec3(B.P2 - B.P0));
+	const double Length = glm::length(Across), Size = std::sqrt(Length);
+	const double Away = std::abs(glm::dot(Across, glm::dvec3(B.P0 - A.P0))) / Length;
+	return glm::dot(Across, Other) >= (1.0 - 1e-7) * Length * glm::length(Other) && Away <= 1e-4 * Size;
+}
+} // namespace
+
+/// Few triangles have clusters of their own, or one for a flat part, which then has a side that it shines to. Many are cut in pieces.
+uint32_t FEmissiveTriangles::FindClusterEnd(const FList& List, uint32_t First, const FSource& Source, uint32_t Size)
+{
+	constexpr uint32_t MostFlat = 8;
+	const uint32_t End = Source.First + Source.Count;
+	if (Size > 1)
+	{
+		const uint32_t Pieces = (Source.Count + Size - 1) / Size;
+		const uint32_t Even = (Source.Count + Pieces - 1) / Pieces; // the last one may be smaller
+		return std::min(First + Even, End);
+	}
+	uint32_t Next = First + 1;
+	while (Next < End && Next < First + MostFlat && AreCoplanar(List.Triangles[First], List.Triangles[Next])) { ++Next; }
+	return Next;
+}
+
+void FEmissiveTriangles::MakeClusters(FList& InOut)
+{
+	std::vector<FEmissiveCluster> All;
+	const auto Total = static_cast<uint32_t>(InOut.Triangles.size());
+	const uint32_t Size = std::max((Total + EMISSIVE_CLUSTERS - 1) / EMISSIVE_CLUSTERS, 1u);
+	for (const FSource& Source : Sources)
+	{
+		for (uint32_t First = Source.First, End; First < Source.First + Source.Count; First = End)
+		{
+			End = FindClusterEnd(InOut, First, Source, Size);
+			const double Before = First > 0 ? InOut.Cumulative[First - 1] : 0.0, Whole = InOut.Cumulative[End - 1] - Before;
+			for (uint32_t I = First; I < End; ++I)
+			{
+				InOut.Triangles[I].Cluster = static_cast<uint32_t>(All.size());
+				InOut.Triangles[I].ClusterShare = I + 1 < End ? static_cast<float>((InOut.Cumulative[I] - Before) / Whole) : 1.0f;
+			}
+			All.push_back({First, End - First, static_cast<float>(Whole), 0});
+		}
+	}
+	Clusters.Assign(All);
 }
 
 void FEmissiveTriangles::Update(const FSceneObjects& Objects, const FSceneMaterials& Materials)
@@ -115,6 +169,7 @@ void FEmissiveTriangles::Update(const FSceneObjects& Objects, const FSceneMateri
 		List.Triangles[I].CumulativePower = static_cast<float>(List.Cumulative[I] / List.Power);
 	}
 	if (!List.Triangles.empty()) { List.Triangles.back().CumulativePower = 1.0f; } // rounding must leave no gap above it
+	MakeClusters(List);
 	Table.Assign(std::move(List.Triangles));
 	bStale = false;
 }

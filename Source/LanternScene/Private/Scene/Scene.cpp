@@ -142,6 +142,8 @@ FSceneConstants FRTScene::GetConstants() const
 	C.EmissiveTriangles = Emissive.GetTable().GetAddress();
 	C.EmissiveTriangleCount = Emissive.GetTable().Num();
 	C.EmissivePower = Emissive.GetPower();
+	C.EmissiveClusters = Emissive.GetClusters().GetAddress();
+	C.EmissiveClusterCount = Emissive.GetClusters().Num();
 	C.Tlas = GetStructure() ? GetStructure()->GetIndex() : ~0u;
 	C.MaterialOverride = Materials.GetContext().Override;
 	C.OriginCell = FindCell(GetOrigin());

@@ -51,6 +51,7 @@ const FSceneFacts& FSceneUpdate::RefreshFacts()
 	Facts.DynamicGeometries = Parts.Geometries.GetDynamicCount();
 	Facts.bCharacters = Parts.Objects.GetCharacterCount() > 0;
 	Facts.EmissiveTriangles = Parts.Emissive.GetTable().Num();
+	Facts.EmissiveClusters = Parts.Emissive.GetClusters().Num();
 	Facts.bMasked = Sections.GetMaskedRangeCount() > 0;
 	Facts.bOwnShapes = std::any_of(Sections.GetHitPrograms().begin(), Sections.GetHitPrograms().end(), HasOwnShape);
 	Facts.bEmissive = Sections.GetEmissiveRangeCount() > 0;
@@ -158,6 +159,7 @@ void FSceneUpdate::VisitTables(FVisit Visit) const
 	Visit(Parts.Objects.GetTable());
 	Visit(Parts.Lights.GetStore().GetTable());
 	Visit(Parts.Emissive.GetTable());
+	Visit(Parts.Emissive.GetClusters());
 	Visit(Parts.Materials.GetSections().GetTable());
 	Visit(Parts.Objects.GetMotions().GetTable());
 }

@@ -30,16 +30,24 @@ enum class ESignal : uint8_t
 	/// Indirect irradiance / π about the shading normal. It holds all light but that of the sun's disk and of punctual lights,
 	/// which direct lighting adds. The sky and emissive surfaces are in it. Times diffuse albedo it is radiance. A direction
 	/// below the geometric surface brings nothing. Sky pixels: 0.
+	///
+	/// LocalDiffuse takes over what emissive triangles bring to the surface directly, if it is made and r.RT.Lights.Emissive is on.
+	/// A path's first ray then sees no emission of triangles that light sampling lists. Triangles of deformed meshes are not listed.
 	DiffuseGI,
 	/// Radiance that the surface's specular lobe reflects towards the camera, Fresnel included, of the light that DiffuseGI
 	/// has. A mirror (roughness² < 0.001) is a delta. Alpha is 1, or 0 where the surface is rougher than
 	/// r.RT.Reflections.MaxRoughness. There rgb is the reflection of an unoccluded sky. Sky pixels: 0.
+	///
+	/// LocalSpecular shares directly reflected emissive triangles with it, as LocalDiffuse does with DiffuseGI. Here they count
+	/// w = 1 - smoothstep(0.2, 0.3, roughness), there 1 - w, so that narrow lobes find them by their own ray. Where no reflection is
+	/// traced, w is 0.
 	Reflections,
-	/// Shadowed light of local lights, which are all but the sun, the sky and emissive surfaces. It is what the diffuse lobe reflects
-	/// towards the camera, over the lobe's directional albedo: irradiance / π. Sky pixels: 0.
+	/// Shadowed light of local lights, which are all but the sun and the sky. Emissive triangles are among them if r.RT.Lights.Emissive is
+	/// on: see DiffuseGI. It is what the diffuse lobe reflects towards the camera, over the lobe's directional albedo: irradiance / π.
+	/// Sky pixels: 0.
 	LocalDiffuse,
-	/// What the specular lobe reflects of these lights, over its directional albedo. A mirror is as rough as a lobe can be seen. Sky
-	/// pixels: 0.
+	/// What the specular lobe reflects of these lights, over its directional albedo. A mirror is as rough as a lobe can be seen. Emissive
+	/// triangles count as Reflections says. Sky pixels: 0.
 	LocalSpecular,
 	Count,
 };
@@ -106,7 +114,7 @@ inline constexpr FSignalInfo SignalInfos[] = {
     {ESignal::LocalDiffuse, "local_diffuse", "Local lights, diffuse", "LocalDiffuse", "Shadow", ERTFormat::RGBA16_FLOAT, 3, true, false,
         true, true, false, ""},
     {ESignal::LocalSpecular, "local_specular", "Local lights, specular", "LocalSpecular", "Shadow", ERTFormat::RGBA16_FLOAT, 3, true, false,
-        true, true, true, ""},
+        true, true, true, "r.RT.Reflections r.RT.Reflections.MaxRoughness"},
 };
 static_assert(sizeof(SignalInfos) / sizeof(SignalInfos[0]) == SignalCount, "each signal needs a row");
 static_assert(

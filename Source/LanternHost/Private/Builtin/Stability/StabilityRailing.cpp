@@ -7,7 +7,7 @@
 namespace Lantern::Builtin
 {
 
-FSceneDescription BuildStabilityRailing(float Rows)
+FSceneDescription BuildStabilityRailing(float Rows, int Lamps)
 {
 	constexpr float Distance = 6.0f, FovY = 40.0f;
 	// The width of a pixel at the railing's distance.
@@ -31,6 +31,16 @@ FSceneDescription BuildStabilityRailing(float Rows)
 	for (const float Y : {0.2f, 1.1f, 1.9f}) { AddBar({-3.8f, Y, 0}, {3.8f, Y, 0}); }
 	Builder.AddNode("railing", Builder.AddMesh(Railing));
 	Builder.AddCamera({0, 1.4, double(Distance)}, {0, 1.15, 0}, FovY);
+	for (int I = 0; I < Lamps; ++I)
+	{
+		const float Across = (float(I) + 0.5f) / float(Lamps) - 0.5f;
+		Builder.AddPointLight("lamp", {9.0f * Across, 1.6f + 0.4f * float(I % 4), I % 2 ? 2.5f : -1.5f}, glm::vec3(3.0f));
+	}
+	if (Lamps > 0)
+	{
+		SetDarkness(Builder, -1.0f);
+		return std::move(Builder.Scene);
+	}
 	Builder.SetLight({-0.3f, -0.8f, -0.6f}, 4.0f, {0.25f, 0.35f, 0.5f});
 	return std::move(Builder.Scene);
 }

@@ -85,7 +85,7 @@ FSceneDescription BuildStabilityFlicker();
 FSceneDescription BuildStabilityBoiling();
 
 /// 640 equal lamps in a regular grid over a flat floor. Their light is smooth, so that steps show.
-FSceneDescription BuildStabilityLightGrid();
+FSceneDescription BuildStabilityLightGrid(float Range);
 
 // ---------------------------------------------------------------------------------------------------- mirrors and glints
 
@@ -93,7 +93,7 @@ FSceneDescription BuildStabilityLightGrid();
 FSceneDescription BuildStabilityMirror();
 
 /// A railing of metal, roughness 0.15, whose bars are one pixel wide in a picture with this number of rows.
-FSceneDescription BuildStabilityRailing(float Rows);
+FSceneDescription BuildStabilityRailing(float Rows, int Lamps);
 
 /// A pool of liquid metal whose surface is a travelling wave, y = a(sin kx + sin kz). The sun that it reflects draws moving caustics on
 /// a wall that the sun itself does not reach. Nothing transmits light, because the reference refracts no path.

@@ -56,10 +56,13 @@ FRTStatus MeasureLightSwitch(FStabilityStage& Stage, std::vector<FStabilityFigur
 FRTStatus MeasureTimeOfDay(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureFlicker(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureTinyEmitters(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
+FRTStatus MeasureBoiling(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureDisocclusion(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureGhost(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureShadowLag(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureNotANumber(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
+FRTStatus MeasureThinSpecular(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
+FRTStatus MeasureLightGrid(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureFrameRate(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureFurnace(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);
 FRTStatus MeasureSeams(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out);

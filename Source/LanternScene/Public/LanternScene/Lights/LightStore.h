@@ -14,7 +14,7 @@ namespace Lantern
 class FLightStore
 {
 public:
-	static constexpr uint32_t MaxLights = 1u << LIGHT_INDEX_BITS;
+	static constexpr uint32_t MaxLights = 1u << (LIGHT_INDEX_BITS - 1); ///< the bit above says triangle
 
 	/// Returns an invalid id, and logs that once, if there are MaxLights.
 	FLightId Add(const FSceneLight& Light);

@@ -35,6 +35,9 @@ public:
 	uint32_t GetVisited() const { return Visited; }
 	TGpuTable<FEmissiveTriangle>& GetTable() { return Table; }
 	const TGpuTable<FEmissiveTriangle>& GetTable() const { return Table; }
+	/// Groups of consecutive triangles, in their order. Each is of one object.
+	TGpuTable<FEmissiveCluster>& GetClusters() { return Clusters; }
+	const TGpuTable<FEmissiveCluster>& GetClusters() const { return Clusters; }
 
 private:
 	struct FList
@@ -52,9 +55,12 @@ private:
 	/// False: the list must be made anew.
 	bool UpdateMoved(const FSceneObjects& Objects, const FSceneMaterials& Materials);
 	void ListObjects(const FSceneObjects& Objects, const FSceneMaterials& Materials);
+	void MakeClusters(FList& InOut);
+	static uint32_t FindClusterEnd(const FList& List, uint32_t First, const FSource& Source, uint32_t Size);
 	static void AddTriangles(uint32_t Object, const FSceneObjects& Objects, const FSceneMaterials& Materials, FList& Out);
 
 	TGpuTable<FEmissiveTriangle> Table{"EmissiveTriangles"};
+	TGpuTable<FEmissiveCluster> Clusters{"EmissiveClusters"};
 	std::vector<uint32_t> EmissiveObjects; // ascending
 	std::vector<FSource> Sources;          // as listed, ascending
 	std::vector<uint32_t> Moved;

@@ -43,7 +43,8 @@ struct FSceneFacts
 	uint32_t FogLights = 0;    ///< of them, those that fog scatters
 	bool bAreaLights = false;  ///< some of them have an extent: see HasExtent
 	uint32_t EmissiveTriangles = 0;
-	bool bMasked = false; ///< some object has an alpha-tested material (and r.RT.AlphaTest is on)
+	uint32_t EmissiveClusters = 0; ///< that they are divided into: FEmissiveCluster
+	bool bMasked = false;          ///< some object has an alpha-tested material (and r.RT.AlphaTest is on)
 	/// Only its material program knows the shape of some surface: it is a box, or its alpha test is not the standard one.
 	bool bOwnShapes = false;
 	bool bEmissive = false;
