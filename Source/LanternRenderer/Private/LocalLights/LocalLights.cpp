@@ -29,6 +29,9 @@ const FDenoiseVariables Denoise("r.RT.Lights", FDenoiseDefaults{.SigmaValue = 2.
 
 uint32_t GetExact() { return static_cast<uint32_t>(CVarExact.GetOnRenderThread()); }
 
+/// Whether pixels choose of lamps: where each has its ray, the filter need not be told of changes.
+bool AreLampsChosen(const FSceneFacts& Facts) { return Facts.Lights > GetExact() && IsGuided(Facts, GetExact()); }
+
 FShaderSource MakeShadeSource(const FSceneFacts& Facts, uint32_t Exact)
 {
 	return MakeComputeSource("LocalLights/Shade.comp", MakeChoiceDefines(Facts, Exact));
@@ -110,7 +113,10 @@ FGraphTexture AddLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESignal S
 	const bool bLampsAlone = !HasEmitters(Context.Facts); // nobody counts what becomes of surfaces
 	const bool bStays = Signal == ESignal::LocalDiffuse && bLampsAlone && CVarKnownChanges.GetOnRenderThread();
 	Inputs.Changes.bKnown = bStays && !Context.MovedCasters->HasLampLightChanged(Context.Scene, Context.View.DeltaSeconds);
-	Inputs.Change = AddLampChange(Context, GBuffer, Context.ShadowRays->Traced, MakeLocalDefines(Context.Facts, GetExact()), Signal);
+	if (AreLampsChosen(Context.Facts))
+	{
+		Inputs.Change = AddLampChange(Context, GBuffer, Context.ShadowRays->Traced, MakeLocalDefines(Context.Facts, GetExact()), Signal);
+	}
 	return AddDenoise(Context, GBuffer, Inputs, Denoise);
 }
 } // namespace
@@ -137,7 +143,7 @@ FPassRays ChooseLocalLightRays(const FPassQuery& Query)
 	Rays.Shaders = ShadowQueueShaders;
 	Rays.Compute = {MakeShadeSource(Query.Facts, GetExact())};
 	ListLocalRequestShaders(Query.Facts, GetExact(), Rays.Compute);
-	if (Denoise.IsEnabled() && IsGuided(Query.Facts, GetExact()))
+	if (Denoise.IsEnabled() && AreLampsChosen(Query.Facts))
 	{
 		ListLampChangeShaders(MakeLocalDefines(Query.Facts, GetExact()), Rays.Compute);
 	}
