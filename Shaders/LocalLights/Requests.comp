@@ -142,6 +142,24 @@ bool ChooseLight(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, 
 }
 #endif
 
+#ifdef LOCAL_EMISSIVE
+const float DimEmitter = 1.0 / 256.0; // of white, as the picture is exposed
+
+// Drops most choices of emitters that would hardly be seen, and lets the others stand for them: a dim flame far away shines on every
+// pixel of the picture. The mean stays (Russian roulette, Arvo and Kirk 1990).
+void DropDim(FViewConstants View, uvec2 Pixel, inout FLightChoice Choice, inout FLobes Lit, inout bool bAsks)
+{
+	if (!bAsks || (Choice.Light & LIGHT_TRIANGLE) == 0u) { return; }
+	float Kept = Luminance(Lit.Diffuse + Lit.Specular) * View.Exposure / DimEmitter;
+	if (!(Kept < 1.0)) { return; }
+	bAsks = LocalNumbers(View, Pixel, 0x7fffffffu).x < Kept;
+	float Scale = bAsks ? 1.0 / Kept : 0.0;
+	Choice.Weight *= Scale;
+	Lit.Diffuse *= Scale;
+	Lit.Specular *= Scale;
+}
+#endif
+
 #ifdef MANY_LIGHTS
 #ifdef SPARSE
 #include "Planes.glsl"
@@ -187,6 +205,9 @@ void ChooseOfMany(FSceneConstants Scene, FViewConstants View, FLocalPoint Point,
 #endif
 		FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel, Reflected);
 		bAsks = ChooseOfTable(Scene, View, Point, Local, Pixel, Choice, Lit);
+#ifdef LOCAL_EMISSIVE
+		DropDim(View, Pixel, Choice, Lit, bAsks);
+#endif
 	}
 #else
 	if (bChooses) { bAsks = ChooseLight(Scene, View, Point, Pixel, Choice); }

@@ -74,7 +74,7 @@ struct FRequestsPass
 bool AddGuide(FFrameContext& Context, FRequestsPass& InOut)
 {
 	const uint64_t Bytes = uint64_t(InOut.Tiles) * sizeof(FTileGuide);
-	InOut.GuideOffset = Context.View.FrameIndex % 2 * Bytes;
+	InOut.GuideOffset = Context.MovedCasters->GetTurn() % 2 * Bytes; // frame numbers count those of other views, too
 	if (CVarGuideSeconds.GetOnRenderThread() > 0.0f)
 	{
 		FHistoryBuffer History;
@@ -84,7 +84,7 @@ bool AddGuide(FFrameContext& Context, FRequestsPass& InOut)
 			return false;
 		}
 		InOut.Guide = History.Buffer;
-		InOut.bPreviousGuide = !History.bFresh;
+		InOut.bPreviousGuide = !History.bFresh && !Context.View.bCut; // another place
 	}
 	else { InOut.Guide = Context.Graph.CreateBuffer({2 * Bytes}, "LightGuide"); } // nobody reads it in the next frame
 	const uint64_t Pixels = uint64_t(Context.Width) * Context.Height;

@@ -40,6 +40,8 @@ public:
 	bool HasLampLightChanged(FRTScene& Scene, float DeltaSeconds);
 	/// Returns whether a lamp has changed since the view's last frame, or there is none. As Find.
 	bool HaveLampsChanged(FRTScene& Scene, float DeltaSeconds);
+	/// Counts the view's submitted frames.
+	uint32_t GetTurn() const { return Turn; }
 	/// bSubmitted: false if the frame never runs; the next frame then finds its changes again.
 	void EndFrame(bool bSubmitted);
 
