@@ -10,7 +10,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FLightRegion
 
 const uint SizeOfRegion = 4u * (1u + 2u * REGION_LIGHTS); // bytes
 
-// Returns the place of the first region's middle tiles: tile T lies in region (T + shift) / REGION_TILES.
+// Returns by how many tiles the first region begins outside of the picture.
 uvec2 RegionShift(FViewConstants View)
 {
 	uint Number = HashPcg(View.FrameIndex ^ 0x3c6ef372u);
