@@ -140,10 +140,10 @@ TEST_F(FOutputTest, PassesThatTheSceneDoesNotNeedAreAbsent)
 {
 	EXPECT_THAT(RenderPasses({"planes"}), Contains("SunShadow"));
 	EXPECT_THAT(Json["rtpso"]["hit_groups"], 0) << "ray queries need no pipeline";
-	EXPECT_THAT(RenderPasses({"furnace"}), Contains("LocalLights")) << "its walls emit";
+	EXPECT_THAT(RenderPasses({"furnace"}), Contains("ShadowLights")) << "its walls emit";
 	EXPECT_GT(Json["rays"].get<uint64_t>(), 0u);
 	const std::vector<std::string> Sunless = RenderPasses({"furnace", "--set", "r.RT.Lights.Emissive=0"});
-	EXPECT_THAT(Sunless, Not(Contains("LocalLights")));
+	EXPECT_THAT(Sunless, Not(Contains("ShadowLights")));
 	EXPECT_THAT(Sunless, Not(Contains("SunShadow")));
 	EXPECT_THAT(Sunless, Not(Contains("Skinning")));
 	EXPECT_THAT(Sunless, Not(Contains("ShaderTable")));

@@ -64,6 +64,23 @@ TEST_F(FMirroredTest, RasterAndShadowsEqualMirroredVertices)
 	EXPECT_LE(FractionDiffering(Culled[0], Culled[1], 0.0), 0.002);
 }
 
+// The triangle's points and its front follow the mirror.
+TEST_F(FMirroredTest, EmitterLightsAsMirroredVertices)
+{
+	double Mean[2];
+	for (const bool bByTransform : {false, true})
+	{
+		ASSERT_TRUE(LoadCorner(bByTransform));
+		SetSun(0.0, 0.0f);
+		SetSky(glm::vec3(0));
+		SetVariable("r.RT.Lights.Denoise", "0");
+		Mean[bByTransform] = MeanGreen(RenderSignal(ESignal::LocalDiffuse, MakeCornerView(), 32));
+	}
+	EXPECT_GT(Mean[0], 0.001) << "the emitter must light something";
+	// Rays of 32 frames at 10,240 pixels: their error is far below that.
+	EXPECT_NEAR(Mean[0], Mean[1], 0.01 * Mean[0]);
+}
+
 TEST_F(FMirroredTest, ReferenceEqualsMirroredVertices)
 {
 	FImage Sun[2], Seen[2];
