@@ -79,7 +79,7 @@ void FFlatEngineTest::TearDown()
 	}
 	Readbacks.clear();
 	Owned.clear();
-	for (TRTRef<IRTTexture>* const Texture : {&Depth, &Normals, &BaseColor, &Material}) { Texture->Reset(); }
+	for (TRTRef<IRTTexture>* const Texture : {&Depth, &Normals, &BaseColor, &Material, &Classes}) { Texture->Reset(); }
 	Device.Reset();
 	Module.Reset();
 }
@@ -165,6 +165,7 @@ FRTModuleFrame FFlatEngineTest::DescribeFrame() const
 	Frame.Normals = Normals.Get();
 	Frame.BaseColor = BaseColor.Get();
 	Frame.Material = Material.Get();
+	Frame.Classes = Classes.Get();
 	return Frame;
 }
 
