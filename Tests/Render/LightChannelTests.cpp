@@ -120,6 +120,7 @@ TEST_F(FLightChannelTest, TheSunHasChannels)
 TEST_F(FLightChannelTest, HitsKnowTheirObject)
 {
 	ASSERT_NO_FATAL_FAILURE(LoadPlates(Second, First));
+	SetIndirect(4, 1);
 	AddLamps(1, First);
 	const FRTObjectId Right = GetScene().GetDraws()[1].Object;
 	const auto Measure = [&] {

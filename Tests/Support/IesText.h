@@ -14,8 +14,8 @@ namespace Lantern
 template <class TIntensity>
 std::string MakeIesText(const std::vector<double>& Vertical, const std::vector<double>& Horizontal, TIntensity&& Intensity)
 {
-	std::string Text = fmt::format("IESNA:LM-63-2002\n[TEST] none\nTILT=NONE\n1 1000 1 {} {} 1 2 0.1 0.1 0\n1 1 10\n{}\n{}\n", Vertical.size(),
-	    Horizontal.size(), fmt::join(Vertical, " "), fmt::join(Horizontal, " "));
+	std::string Text = fmt::format("IESNA:LM-63-2002\n[TEST] none\nTILT=NONE\n1 1000 1 {} {} 1 2 0.1 0.1 0\n1 1 10\n{}\n{}\n",
+	    Vertical.size(), Horizontal.size(), fmt::join(Vertical, " "), fmt::join(Horizontal, " "));
 	for (const double H : Horizontal)
 	{
 		for (const double V : Vertical) { Text += fmt::format("{:.9g} ", Intensity(H, V)); }

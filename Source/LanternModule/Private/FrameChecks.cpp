@@ -233,8 +233,7 @@ FRTStatus CheckOwners(const FRTModuleFrame& Frame, const IRTDevice& Device)
 	FRTStatus Status = Check(Frame.Commands, "Commands");
 	const std::pair<const IRTTexture*, const char*> Textures[] = {{Frame.Depth, "Depth"}, {Frame.Normals, "Normals"},
 	    {Frame.GeometricNormals, "GeometricNormals"}, {Frame.Motion, "Motion"}, {Frame.BaseColor, "BaseColor"},
-	    {Frame.Material, "Material"}, {Frame.Classes, "Classes"},
-	    {Frame.Channels, "Channels"}};
+	    {Frame.Material, "Material"}, {Frame.Classes, "Classes"}, {Frame.Channels, "Channels"}};
 	for (const auto& [Texture, Name] : Textures) { Status = Status ? Check(Texture, Name) : Status; }
 	return Status;
 }

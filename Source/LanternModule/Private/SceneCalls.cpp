@@ -160,9 +160,8 @@ ERTObjectHandle FSceneCalls::AddOne(const FRTModuleObject& Object)
 	FObject Added;
 	Added.Mesh = Object.Mesh;
 	Added.Materials.assign(Object.Materials, Object.Materials + Object.MaterialCount);
-	Added.Traits = {
-	    Object.bVisible, Object.bCastsShadow, Object.bCastsLocalShadow, Object.Mobility == ERTModuleMobility::Movable, Object.bCharacter,
-	    Object.Channels};
+	Added.Traits = {Object.bVisible, Object.bCastsShadow, Object.bCastsLocalShadow, Object.Mobility == ERTModuleMobility::Movable,
+	    Object.bCharacter, Object.Channels};
 	Added.Mobility = Object.Mobility;
 	AddUsers(Added);
 	++Meshes.Find(Object.Mesh)->Users;

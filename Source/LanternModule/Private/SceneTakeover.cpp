@@ -33,8 +33,8 @@ std::optional<T> FindSlot(const std::vector<std::optional<T>>& Values, uint32_t 
 template <class T>
 constexpr bool HasNoValue =
     std::is_same_v<T, FAddMeshCommand> || std::is_same_v<T, FRemoveMeshCommand> || std::is_same_v<T, FRemoveObjectCommand> ||
-    std::is_same_v<T, FMaskCommand> || std::is_same_v<T, FChannelsCommand> || std::is_same_v<T, FProfileCommand> || std::is_same_v<T, FObjectMaterialsCommand> || std::is_same_v<T, FVerticesCommand> ||
-    std::is_same_v<T, FDeformedCommand>;
+    std::is_same_v<T, FMaskCommand> || std::is_same_v<T, FChannelsCommand> || std::is_same_v<T, FProfileCommand> ||
+    std::is_same_v<T, FObjectMaterialsCommand> || std::is_same_v<T, FVerticesCommand> || std::is_same_v<T, FDeformedCommand>;
 
 struct FFollower
 {

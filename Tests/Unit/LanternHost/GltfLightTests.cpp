@@ -56,8 +56,8 @@ TEST(GltfLights, ExtrasGiveLightsAProfileAndChannels)
 		}
 		return LoadScene(Folder.Write("scene.gltf", Maker.GetText()));
 	};
-	const FLoadResult Result = LoadLights({{"spot", {{"ies", "lamp.ies"}, {"channels", 6}}}, {"point", {{"ies", "lamp.ies"}, {"iesIntensity", true}}},
-	    {"point", {{"channels", 0}}}});
+	const FLoadResult Result = LoadLights({{"spot", {{"ies", "lamp.ies"}, {"channels", 6}}},
+	    {"point", {{"ies", "lamp.ies"}, {"iesIntensity", true}}}, {"point", {{"channels", 0}}}});
 	ASSERT_TRUE(Result.Scene) << Result.Error;
 	const std::vector<FHostLight>& Lights = Result.Scene->Lights;
 	ASSERT_EQ(Result.Scene->Profiles.size(), 1u) << "one file, one profile";

@@ -87,8 +87,7 @@ TEST(Photometry, BadFilesAreRefusedWithTheirPlace)
 	    {Replace(Small, "100 50 0", "100 nan 0"), "lamp.ies:6: an intensity is no number: 'nan'"},
 	    {Replace(Small, "100 50 0", "100 inf 0"), "lamp.ies:6: an intensity is no number"},
 	    {Replace(Small, "100 50 0", "100 1e39 0"), "beyond what a float holds"},
-	    {Replace(Small, "100 50 0", "100 1e999 0"), "is no number"},
-	    {Replace(Small, "100 50 0", "100 -5 0"), "intensity 2 is negative"},
+	    {Replace(Small, "100 50 0", "100 1e999 0"), "is no number"}, {Replace(Small, "100 50 0", "100 -5 0"), "intensity 2 is negative"},
 	    {Replace(Small, "100 50 0", "0 0 0"), "all intensities are 0"},
 	    {Replace(Small, "100 50 0", "100 50"), "lamp.ies:7: the file ends before an intensity"},
 	    {Replace(Small, " 3 1 1", " 1000000000 1 1"), "lamp.ies:2: the number of vertical angles"},
@@ -99,8 +98,8 @@ TEST(Photometry, BadFilesAreRefusedWithTheirPlace)
 	    {Replace(Small, "0 45 90", "0 0 90"), "vertical angle 2 is not above the one before"},
 	    {Replace(Small, "0 45 90", "0 45 89"), "do not run from 0 or 90"}, {Replace(Small, "0 45 90", "5 45 90"), "do not run"},
 	    {Replace(Small, "0 45 90\n0\n", "0 45 90\n7\n"), "horizontal angles run neither"},
-	    {std::string("TILT=INCLUDE\n1 1000000000 0 1\n") + Small, "the number of tilt angles"},
-	    {std::string(1000, '\0'), "TILT="}, {Replace(Small, "1 1 10", "1 1"), "ends before"}};
+	    {std::string("TILT=INCLUDE\n1 1000000000 0 1\n") + Small, "the number of tilt angles"}, {std::string(1000, '\0'), "TILT="},
+	    {Replace(Small, "1 1 10", "1 1"), "ends before"}};
 	for (const FBad& Each : Bad)
 	{
 		const FRTStatus Status = TryParse(Each.Text);
@@ -129,7 +128,8 @@ TEST(Photometry, GridsAreTheTableBetweenItsAngles)
 	{
 		for (uint32_t Row = 0; Row < Grid.Rows; ++Row)
 		{
-			ASSERT_NEAR(ReadTexel(Grid, Column, Row) * double(Grid.Peak), Interpolate(Table, Column * 22.5, Row * 2.5), 0.51 / 65535.0 * double(Grid.Peak));
+			ASSERT_NEAR(ReadTexel(Grid, Column, Row) * double(Grid.Peak), Interpolate(Table, Column * 22.5, Row * 2.5),
+			    0.51 / 65535.0 * double(Grid.Peak));
 		}
 	}
 }

@@ -186,9 +186,9 @@ struct FRTModuleLight
 /// call.
 struct FRTModuleIesProfile
 {
-	const char* Name = nullptr;  ///< of the file, for messages; may be null
-	const char* Text = nullptr;  ///< the file; null: the table below
-	uint64_t TextBytes = 0;      ///< without a zero byte
+	const char* Name = nullptr; ///< of the file, for messages; may be null
+	const char* Text = nullptr; ///< the file; null: the table below
+	uint64_t TextBytes = 0;     ///< without a zero byte
 	/// Degrees from FRTModuleLight::Direction, rising from 0 or 90 to 90 or 180. It is dark outside of them.
 	const float* VerticalAngles = nullptr;
 	uint32_t VerticalCount = 0; ///< ≥ 2

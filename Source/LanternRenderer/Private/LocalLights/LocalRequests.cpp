@@ -63,7 +63,7 @@ struct FRequestsPass
 	FLocalRays Rays;
 	bool bFirst = false; ///< no pass before it writes requests and answers
 	FGraphBuffer TileLights, Choices, Lit, Regions;
-	FGraphTexture Channels; ///< of RequirePixelChannels
+	FGraphTexture Channels;   ///< of RequirePixelChannels
 	FGraphBuffer Emitters;    ///< of AddEmitterClusters
 	FGraphBuffer Guide;       ///< two times FTileGuide[Tiles], of this frame and of the one before
 	uint64_t GuideOffset = 0; ///< of this frame's, bytes

@@ -87,7 +87,10 @@ public:
 		for (uint64_t I = 0; I < Count && Status; ++I)
 		{
 			const double Value = ReadNumber(What) * Scale;
-			if (!(std::abs(Value) <= double(std::numeric_limits<float>::max()))) { Fail(std::string(What) + " is beyond what a float holds"); }
+			if (!(std::abs(Value) <= double(std::numeric_limits<float>::max())))
+			{
+				Fail(std::string(What) + " is beyond what a float holds");
+			}
 			Out.push_back(Status ? static_cast<float>(Value) : 0.0f);
 		}
 		return Out;

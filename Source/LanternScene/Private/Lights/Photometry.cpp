@@ -87,7 +87,10 @@ FRTStatus CheckPhotometry(const FPhotometry& Table, std::string_view Name)
 {
 	const auto& [Vertical, Horizontal, Candela] = Table;
 	if (Vertical.size() < 2 || Horizontal.empty()) { return Refuse(Name, "a profile has 2 vertical angles and 1 horizontal one at least"); }
-	if (Candela.size() != Vertical.size() * Horizontal.size()) { return Refuse(Name, "a profile has not one intensity for each pair of angles"); }
+	if (Candela.size() != Vertical.size() * Horizontal.size())
+	{
+		return Refuse(Name, "a profile has not one intensity for each pair of angles");
+	}
 	if (!AreFinite(Vertical) || !AreFinite(Horizontal)) { return Refuse(Name, "an angle is not finite"); }
 	if (const size_t I = FindUnsorted(Vertical); I < Vertical.size())
 	{
@@ -122,7 +125,8 @@ FProfileGrid MakeProfileGrid(const FPhotometry& Table)
 	FProfileGrid Out;
 	const bool bAlike = Table.Horizontal.size() == 1;
 	const float Step = FindStep(Table.Vertical, {10.0f, 5.0f, 2.5f, 2.0f, 1.0f, 0.5f, 0.25f});
-	const float Turn = bAlike ? 360.0f : FindStep(Table.Horizontal, {90.0f, 45.0f, 30.0f, 22.5f, 15.0f, 10.0f, 7.5f, 5.0f, 2.5f, 2.0f, 1.0f});
+	const float Turn =
+	    bAlike ? 360.0f : FindStep(Table.Horizontal, {90.0f, 45.0f, 30.0f, 22.5f, 15.0f, 10.0f, 7.5f, 5.0f, 2.5f, 2.0f, 1.0f});
 	Out.FirstAngle = Table.Vertical.front();
 	Out.RowsPerDegree = 1.0f / Step;
 	Out.ColumnsPerDegree = 1.0f / Turn;

@@ -22,9 +22,9 @@ struct FPhotometry
 /// The same on a regular grid, over its peak. It is exact if all angles are multiples of 0.25° and 1°. Between angles it is linear.
 struct FProfileGrid
 {
-	std::vector<uint16_t> Texels;  ///< column after column; 65,535 is the peak
+	std::vector<uint16_t> Texels;   ///< column after column; 65,535 is the peak
 	uint32_t Rows = 0, Columns = 0; ///< vertical and horizontal angles
-	float FirstAngle = 0.0f;       ///< vertical, degrees
+	float FirstAngle = 0.0f;        ///< vertical, degrees
 	float RowsPerDegree = 1.0f, ColumnsPerDegree = 1.0f;
 	float Peak = 0.0f; ///< candela
 	friend bool operator==(const FProfileGrid&, const FProfileGrid&) = default;

@@ -38,10 +38,10 @@ struct FSceneFacts
 {
 	uint32_t Objects = 0;
 	uint32_t DynamicGeometries = 0;
-	uint32_t Lights = 0;       ///< without sun and emissive triangles
-	uint32_t FiniteLights = 0; ///< of them, those with a range: see ReachesEverywhere
-	uint32_t FogLights = 0;    ///< of them, those that fog scatters
-	bool bAreaLights = false;  ///< some of them have an extent: see HasExtent
+	uint32_t Lights = 0;         ///< without sun and emissive triangles
+	uint32_t FiniteLights = 0;   ///< of them, those with a range: see ReachesEverywhere
+	uint32_t FogLights = 0;      ///< of them, those that fog scatters
+	bool bAreaLights = false;    ///< some of them have an extent: see HasExtent
 	bool bLightProfiles = false; ///< some of them have a profile
 	bool bLightChannels = false; ///< some light, the sun or some object is not of channel 0, by which each would light all
 	uint32_t EmissiveTriangles = 0;

@@ -15,8 +15,8 @@ struct FSunLight
 {
 	glm::dvec3 Direction{0, -1, 0}; ///< in which the light travels; need not be of unit length
 	glm::vec3 Color{1};
-	float Irradiance = 0.0f;      ///< on a plane that faces the sun, lux; 0: no sun
-	float AngularDiameter = 0.0f; ///< radians; 0: hard shadows
+	float Irradiance = 0.0f;             ///< on a plane that faces the sun, lux; 0: no sun
+	float AngularDiameter = 0.0f;        ///< radians; 0: hard shadows
 	uint8_t Channels = CHANNELS_DEFAULT; ///< as FSceneLight::Channels
 };
 
