@@ -19,7 +19,7 @@ struct FPhotometry
 	std::vector<float> Candela; ///< ≥ 0, by horizontal, then by vertical angle; not all 0
 };
 
-/// The same on a regular grid, over its peak. It is exact if all angles are multiples of 0.25° and 1°. Between angles it is linear.
+/// A table on a regular grid, over its peak. It is exact if all angles are multiples of 0.25° and 1°. Between angles it is linear.
 struct FProfileGrid
 {
 	std::vector<uint16_t> Texels;   ///< column after column; 65,535 is the peak
