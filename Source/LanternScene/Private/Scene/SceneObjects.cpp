@@ -152,6 +152,7 @@ void FSceneObjects::SetChannels(FRTObjectId Id, uint8_t Channels)
 	if (Before == Channels) { return; }
 	OffChannel += IsOffChannel(Channels) - IsOffChannel(Before);
 	WriteChannels(Id.Index);
+	CasterChanges.AddAnywhere(); // filters look whether their light is still right
 }
 
 /// The table begins with the first object that needs it. It has all objects then: shaders look up any.
