@@ -26,7 +26,7 @@ TRTConsoleVariable<int32_t> CVarExact("r.RT.Lights.Exact", 4,
 TRTConsoleVariable<bool> CVarKnownChanges("r.RT.Lights.KnownChanges", true,
     "The filter of diffuse light looks for changes on surfaces that move. It does so everywhere for 0.13 s after a lamp has changed or a "
     "caster has moved. If off, it always looks for them in the picture, and takes some noise for change.");
-const FDenoiseVariables Denoise("r.RT.Lights", FDenoiseDefaults{.SigmaValue = 2.0f, .Passes = 3, .bColor = true});
+const FDenoiseVariables Denoise("r.RT.Lights", FDenoiseDefaults{.SigmaValue = 2.0f, .Passes = 2, .bColor = true});
 
 uint32_t GetExact() { return static_cast<uint32_t>(CVarExact.GetOnRenderThread()); }
 
