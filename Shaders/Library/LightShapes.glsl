@@ -10,23 +10,6 @@
 // Solid angles below this are sampled by area: the difference of four angles, which spherical sampling takes, has lost its digits.
 const float LeastSphericalRectangle = 0.01; // sr
 
-// Returns the arc cosine with an error of 1e-7. Vulkan allows the built-in one 4,096 units in the last place, and lavapipe's is off by
-// 1e-4, which is 0.4 % of a small solid angle. Abramowitz and Stegun 1964, 4.4.46.
-float AccurateAcos(float X)
-{
-	float A = abs(X);
-	float P = -0.0012624911;
-	P = P * A + 0.0066700901;
-	P = P * A - 0.0170881256;
-	P = P * A + 0.0308918810;
-	P = P * A - 0.0501743046;
-	P = P * A + 0.0889789874;
-	P = P * A - 0.2145988016;
-	P = P * A + 1.5707963050;
-	P *= sqrt(max(1.0 - A, 0.0));
-	return X < 0.0 ? Pi - P : P;
-}
-
 // Uniform in the sphere of directions.
 vec3 SampleUniformSphere(vec2 U)
 {

@@ -1,9 +1,10 @@
 // Lights other than sun and sky: what a surface receives of each. Point, spot and directional lights are those of
-// KHR_lights_punctual. HAS_AREA_LIGHTS: defined if some light has an extent; each is then sampled at one point.
+// KHR_lights_punctual, and may have a profile. HAS_AREA_LIGHTS: defined if some light has an extent; each is then sampled at one point.
 #ifndef LANTERN_LIGHTS_GLSL
 #define LANTERN_LIGHTS_GLSL
 
 #include "Bindings.glsl"
+#include "LightProfile.glsl"
 #include "Math.glsl"
 #ifdef HAS_AREA_LIGHTS
 #include "LightShapes.glsl"
@@ -51,12 +52,14 @@ struct FLightSample
 const float LightInfinity = 1.0e30;
 
 // Returns the point of a light without extent.
-FLightSample SamplePointLight(FLightData Light, vec3 ToCenter)
+FLightSample SamplePointLight(FSceneConstants Scene, FLightData Light, vec3 ToCenter)
 {
 	if (LightType(Light) == LIGHT_DIRECTIONAL) { return FLightSample(-UnpackOct(Light.Direction), LightInfinity, Light.Color, 1.0); }
 	float DistanceSquared = max(dot(ToCenter, ToCenter), 1.0e-12);
-	float Distance = sqrt(DistanceSquared);
-	return FLightSample(ToCenter / Distance, Distance, Light.Color * (LightAttenuation(Light, ToCenter) / DistanceSquared), 1.0);
+	float Distance = sqrt(DistanceSquared), Attenuation = LightAttenuation(Light, ToCenter);
+	vec3 Direction = ToCenter / Distance;
+	if (Attenuation > 0.0) { Attenuation *= LightProfile(Scene, Light, -Direction); }
+	return FLightSample(Direction, Distance, Light.Color * (Attenuation / DistanceSquared), 1.0);
 }
 
 // Samples a point of a light as seen from P, in coordinates relative to the scene's origin. U in [0, 1).
@@ -95,7 +98,7 @@ FLightSample SampleLight(FSceneConstants Scene, FLightData Light, vec3 P, vec2 U
 #else
 	if (LightType(Light) >= LIGHT_RECTANGLE) { return FLightSample(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 1.0); } // until its shader is there
 #endif
-	return SamplePointLight(Light, ToCenter);
+	return SamplePointLight(Scene, Light, ToCenter);
 }
 
 // Returns the length of a shadow ray to the point. It stops short of a surface that stands for the light, the more so the more grazing
@@ -128,7 +131,7 @@ float EstimateLight(FSceneConstants Scene, FLightData Light, vec3 P, vec3 Ng)
 	if (Type >= LIGHT_RECTANGLE) { return 0.0; } // dark until its shader is there
 #endif
 	if (Type == LIGHT_NONE) { return 0.0; }
-	FLightSample Sample = SamplePointLight(Light, ToCenter);
+	FLightSample Sample = SamplePointLight(Scene, Light, ToCenter);
 	float Below = 0.0; // sine of the angle by which a light may stand below the horizon
 #ifdef HAS_AREA_LIGHTS
 	if (Type == LIGHT_DIRECTIONAL) { Below = sqrt(max(Light.Size.x * (2.0 - Light.Size.x), 0.0)); }

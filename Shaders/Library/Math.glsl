@@ -29,6 +29,23 @@ vec3 UnpackOct(uint P) { return OctDecode(unpackSnorm2x16(P)); }
 float Luminance(vec3 C) { return dot(C, vec3(0.2126, 0.7152, 0.0722)); }
 float MaxComponent(vec3 C) { return max(C.x, max(C.y, C.z)); }
 
+// Returns the arc cosine with an error of 1e-7. Vulkan allows the built-in one 4,096 units in the last place, and lavapipe's is off by
+// 1e-4, which is 0.4 % of a small solid angle. Abramowitz and Stegun 1964, 4.4.46.
+float AccurateAcos(float X)
+{
+	float A = abs(X);
+	float P = -0.0012624911;
+	P = P * A + 0.0066700901;
+	P = P * A - 0.0170881256;
+	P = P * A + 0.0308918810;
+	P = P * A - 0.0501743046;
+	P = P * A + 0.0889789874;
+	P = P * A - 0.2145988016;
+	P = P * A + 1.5707963050;
+	P *= sqrt(max(1.0 - A, 0.0));
+	return X < 0.0 ? Pi - P : P;
+}
+
 // Normalizes V; returns Fallback, never a NaN, if V is nearly zero (interpolated normals may cancel out).
 vec3 NormalizeOr(vec3 V, vec3 Fallback)
 {

@@ -1,6 +1,7 @@
 // Composites the frame: direct light of the sun and of local lights, indirect light, emission, and the sky itself.
 // HAS_SUN, HAS_LIGHTS, HAS_AREA_LIGHTS, HAS_SKY: defined if the scene has such; other code is not compiled. HAS_SKY is for the ambient light of
 // the sky, which replaces indirect light that was not traced. LOCAL_EMISSIVE: emissive triangles are among local lights.
+// HAS_LIGHT_PROFILES, HAS_LIGHT_CHANNELS: see LightProfile.glsl.
 #version 460
 #include "../Shared/LightingTypes.h"
 #include "../Library/GBuffer.glsl"
@@ -26,9 +27,13 @@ vec3 ShadeDirect(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, FGBuff
 {
 	vec3 Radiance = vec3(0.0);
 	Brdf.Alpha = max(Brdf.Alpha, 2.0 * MinAlpha); // a perfect mirror would show no point light
+	uint Channels = AllChannels;
+#ifdef HAS_LIGHT_CHANNELS
+	Channels = LoadPixelChannels(Push.Channels, uvec2(Pixel));
+#endif
 #ifdef HAS_SUN
 	float SunVisibility = Push.SunVisibility != NO_TEXTURE ? texelFetch(Textures[Push.SunVisibility], Pixel, 0).x : 1.0;
-	if (SunVisibility > 0.0)
+	if (SunVisibility > 0.0 && SunSharesChannel(Scene, Channels))
 	{
 		Radiance += EvaluateBrdfCos(Brdf, LocalV, -Scene.SunDirection * Basis) * Scene.SunColor * (Scene.SunIrradiance * SunVisibility);
 	}
@@ -41,6 +46,7 @@ vec3 ShadeDirect(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, FGBuff
 	FLightWalk Walk = WalkLights(Scene, P, false);
 	for (uint I = NextLight(Walk); I < Scene.LightCount; I = NextLight(Walk))
 	{
+		if (!SharesChannel(Lights.Data[I], Channels)) { continue; }
 #ifdef HAS_AREA_LIGHTS
 		if (EstimateLight(Scene, Lights.Data[I], P, Point.Ng) <= 0.0) { continue; }
 		FLightSample Sample = SampleLight(Scene, Lights.Data[I], P, NextRandom4(Random).xy);

@@ -43,7 +43,7 @@ vec2 ExpectSeen(FViewConstants View, uint Light)
 
 vec3 BringsTo(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLocalBrdf Local, float Roughness, uint Number, FLightData Light, vec2 U)
 {
-	if (LightType(Light) == LIGHT_NONE) { return vec3(0.0); }
+	if (LightType(Light) == LIGHT_NONE || !SharesChannel(Light, Point.Channels)) { return vec3(0.0); }
 	FLightSample Sample = SampleLight(Scene, Light, Point.P, U);
 	if (!ReachesLight(View, Point, Sample)) { return vec3(0.0); }
 	FLobes Lobes = Demodulate(ReflectLight(Point, Local, Sample, Number), Local.Brdf, dot(Point.Surface.BentN, Point.Surface.V), Roughness);
@@ -53,6 +53,9 @@ vec3 BringsTo(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLo
 vec4 FollowPixel(FSceneConstants Scene, FViewConstants View, FLampChangesRef List, uint Count, uvec2 Pixel, float Depth)
 {
 	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, Depth);
+#ifdef HAS_LIGHT_CHANNELS
+	Point.Channels = LoadPixelChannels(Push.Channels, Pixel);
+#endif
 	FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel, 0.0); // what rays show is of emitters alone
 	float Roughness = texelFetch(Textures[Push.Material], ivec2(Pixel), 0).x;
 	vec4 Sum = vec4(0.0);

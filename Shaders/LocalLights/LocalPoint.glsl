@@ -36,6 +36,7 @@ struct FLocalPoint
 	FGBufferPoint Surface;
 	vec3 P;       // relative to the scene's origin
 	vec3 Horizon; // normal of the plane below which lights do not count
+	uint Channels; // of its object
 };
 
 FLocalPoint LoadLocalPoint(FSceneConstants Scene, FViewConstants View, uint Normals, uvec2 Pixel, float Depth)
@@ -44,6 +45,7 @@ FLocalPoint LoadLocalPoint(FSceneConstants Scene, FViewConstants View, uint Norm
 	Point.Surface = LoadGBufferPoint(View, Normals, ivec2(Pixel), Depth);
 	Point.P = View.CameraPosition + Point.Surface.Relative;
 	Point.Horizon = Point.Surface.bSure ? Point.Surface.Ng : Point.Surface.BentN;
+	Point.Channels = AllChannels; // until somebody loads them
 	return Point;
 }
 
@@ -116,7 +118,9 @@ FLightSample SampleLocalLight(FSceneConstants Scene, FViewConstants View, FLocal
 #ifdef HAS_AREA_LIGHTS
 	U = LocalNumbers(View, Pixel, Light);
 #endif
-	return SampleLight(Scene, FLightRef(Scene.Lights).Data[Light], Point.P, U);
+	FLightData Data = FLightRef(Scene.Lights).Data[Light];
+	if (!SharesChannel(Data, Point.Channels)) { return FLightSample(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 1.0); }
+	return SampleLight(Scene, Data, Point.P, U);
 }
 
 // What the surface reflects of a light's point, if nothing is in between. Light: its number.

@@ -13,7 +13,7 @@ vec3 TraceLocalLight(FSceneConstants Scene, FBrdf Lobe, FMaterialHit Hit, vec3 P
 	vec3 Sum = vec3(0.0);
 #ifdef HAS_LIGHTS
 	vec4 U = NextRandom4(Random);
-	Sum += SampleLocalLights(Scene, Lobe, Basis, V * Basis, P, Hit.GeometricNormal, bCharacter, U.x, U.yz);
+	Sum += SampleLocalLights(Scene, Lobe, Basis, V * Basis, P, Hit.GeometricNormal, bCharacter, Hit.Channels, U.x, U.yz);
 #endif
 #if defined(HAS_EMISSIVE) && defined(EMISSIVE_IS_DIRECT)
 	Sum += EmissionShare * SampleEmissiveAlone(Scene, Lobe, Basis, V * Basis, P, Hit.GeometricNormal, bCharacter, NextRandom4(Random).xyz);

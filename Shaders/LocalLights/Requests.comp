@@ -78,7 +78,8 @@ void MarkReached(FSceneConstants Scene, FLocalPoint Point, uint Place)
 	FLightRef Lights = FLightRef(Scene.Lights);
 	for (uint I = 0u; I < CandidateCount; ++I)
 	{
-		if (EstimateLight(Scene, Lights.Data[Candidates[I]], Point.P, Point.Horizon) <= 0.0) { continue; }
+		FLightData Light = Lights.Data[Candidates[I]];
+		if (!SharesChannel(Light, Point.Channels) || EstimateLight(Scene, Light, Point.P, Point.Horizon) <= 0.0) { continue; }
 		atomicOr(Reached[2u * I + (Place >> 5u)], 1u << (Place & 31u));
 	}
 }
@@ -95,7 +96,7 @@ void ListLights(FSceneConstants Scene)
 	for (uint I = 0u; I < CandidateCount; ++I)
 	{
 		if ((Reached[2u * I] | Reached[2u * I + 1u]) == 0u) { continue; }
-		if (Tile.Count == Push.Exact)
+		if (Tile.Count == (Push.Limits & 0xffffu))
 		{
 			Tile.Count = TILE_LIGHTS_MANY;
 			Tile.bChooses = 1u;
@@ -123,7 +124,7 @@ bool ChooseLight(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, 
 	for (uint I = NextLight(Walk); I < Scene.LightCount; I = NextLight(Walk))
 	{
 		float Weight = EstimateLight(Scene, Lights.Data[I], Point.P, Point.Horizon);
-		if (Weight <= 0.0) { continue; }
+		if (Weight <= 0.0 || !SharesChannel(Lights.Data[I], Point.Channels)) { continue; }
 		Total += Weight;
 		float Probability = Weight / Total;
 		bool bTake = U < Probability;
@@ -268,6 +269,9 @@ void main()
 	if (bSurface)
 	{
 		Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, Depth);
+#ifdef HAS_LIGHT_CHANNELS
+		Point.Channels = LoadPixelChannels(Push.Channels, Pixel);
+#endif
 		for (uint Axis = 0u; Axis < 3u; ++Axis)
 		{
 			atomicMin(LowBits[Axis], ToOrdered(Point.P[Axis]));

@@ -159,6 +159,9 @@ FLobes ShadeSurface(FTileLights Tile, FSceneConstants Scene, FViewConstants View
                     out bool bCertain)
 {
 	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, Depth);
+#ifdef HAS_LIGHT_CHANNELS
+	Point.Channels = LoadPixelChannels(Push.Channels, Pixel);
+#endif
 	FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel, Push.ReflectedRoughness);
 	FLobes Sum = ShadePixel(Tile, Scene, View, Pixel, Place, Answer, Point, Local, bCertain);
 	float Roughness = texelFetch(Textures[Push.Material], ivec2(Pixel), 0).x;

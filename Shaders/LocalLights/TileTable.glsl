@@ -22,6 +22,9 @@ shared uint RunCounts[TILE_PIXELS];
 shared uint TableCount;
 shared uint SamplerKeys[TileSamplers]; // 0: there is no surface; else the lowest byte is the place
 shared vec3 SamplerP[TileSamplers], SamplerN[TileSamplers];
+#ifdef HAS_LIGHT_CHANNELS
+shared uint SamplerChannels[TileSamplers];
+#endif
 shared float SamplerReach[TileSamplers]; // metres: how far the pixels may lie from it that it stands for
 shared uvec2 PreviousTile; // x = NoTile: none
 shared FGuideLight Remembered[TILE_GUIDE_LIGHTS]; // of PreviousTile
@@ -55,6 +58,9 @@ void ChooseSamplers(FViewConstants View, FLocalPoint Point, bool bSurface, uint 
 	{
 		SamplerP[Mine] = Point.P;
 		SamplerN[Mine] = Point.Surface.BentN;
+#ifdef HAS_LIGHT_CHANNELS
+		SamplerChannels[Mine] = Point.Channels;
+#endif
 		float Distance = length(Point.Surface.Relative), Cosine = max(abs(dot(Point.Surface.Ng, Point.Surface.V)), 0.1);
 		SamplerReach[Mine] = 2.5 * PixelHeight(View, Distance) / Cosine;
 	}
@@ -134,6 +140,9 @@ float UnpackEstimate(uvec2 Packed, uint I) { return UnpackEstimate((Packed[I >> 
 float EstimateAround(FSceneConstants Scene, FLightData Light, uint I)
 {
 	if (SamplerKeys[I] == 0u) { return 0.0; }
+#ifdef HAS_LIGHT_CHANNELS
+	if (!SharesChannel(Light, SamplerChannels[I])) { return 0.0; }
+#endif
 	float Estimate = EstimateLight(Scene, Light, SamplerP[I], SamplerN[I]);
 	if (Estimate <= 0.0 || LightType(Light) == LIGHT_DIRECTIONAL) { return Estimate; }
 	vec3 To = LightPosition(Scene, Light) - SamplerP[I];
@@ -322,9 +331,10 @@ void ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point
 		Which[C] = (float(C) + U.y) / float(Count);
 		Lit[C] = Chosen[C] = Mean;
 	}
-	[[dont_unroll]] for (uint I = 0u; I < Push.Candidates && All > 0.0; ++I)
+	uint Candidates = Push.Limits >> 16u;
+	[[dont_unroll]] for (uint I = 0u; I < Candidates && All > 0.0; ++I)
 	{
-		float At = (float(I) + U.x) / float(Push.Candidates) * All, Chance = 1.0;
+		float At = (float(I) + U.x) / float(Candidates) * All, Chance = 1.0;
 		uint Number = FindEntry(At), Entry = TableEntries[Number], Light = EntryLight(Entry);
 		float Below = Number > 0u ? Cumulative[Number - 1u] : 0.0, Weight = Cumulative[Number] - Below;
 		if (Weight <= 0.0) { continue; }
@@ -340,7 +350,7 @@ void ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point
 		if (!ReachesLight(View, Point, Sample)) { continue; }
 		FLobes Lobes = ReflectLight(Point, Local, Sample, Light);
 		// Times the inverse of the density with which the light came here, over all candidates.
-		float Visibility = EntryVisibility(Entry), Stands = Visibility * TableStands[Number] * All / (Weight * Chance * float(Push.Candidates));
+		float Visibility = EntryVisibility(Entry), Stands = Visibility * TableStands[Number] * All / (Weight * Chance * float(Candidates));
 		Mean.Diffuse += Lobes.Diffuse * Stands;
 		Mean.Specular += Lobes.Specular * Stands;
 		float Brightness = Luminance(Lobes.Diffuse + Lobes.Specular), Mine = Brightness * Stands;

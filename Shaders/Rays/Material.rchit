@@ -3,6 +3,7 @@
 #version 460
 #extension GL_EXT_ray_tracing : require
 #include "../Library/Bindings.glsl"
+#include "../Library/ObjectChannels.glsl"
 #include "../Materials/Material.glsl"
 #include "MaterialPayload.glsl"
 #include "StandIn.glsl"
@@ -64,5 +65,6 @@ void main()
 	Hit.EmissiveWeight = (Section.Flags & SECTION_LIGHT) != 0u ? Material.EmissiveWeight : 0.0;
 	uint ObjectFlags = FObjectRef(Scene.Objects).Data[gl_InstanceCustomIndexEXT].Flags;
 	Hit.Flags = (bCulledSide ? HIT_CULLED_SIDE : 0u) | ((ObjectFlags & OBJECT_CHARACTER) != 0u ? HIT_CHARACTER : 0u);
+	Hit.Channels = LoadObjectChannels(Scene, gl_InstanceCustomIndexEXT);
 	Payload = PackHit(Hit);
 }

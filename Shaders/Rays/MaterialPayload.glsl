@@ -1,10 +1,11 @@
 // The payload of material rays: 32 bytes hold all that shading needs. The quantisation is finer than the accuracy that the
 // reference must reach. Base colours are unorm16, since a closed room of albedo 0.9 multiplies their error by ten. Emission
 // is fp16 (relative error ≤ 0.05 %), directions are octahedral.
-//   W0 distance                      W4 base colour b unorm16 | roughness unorm16
+//   W0 distance                      W4 base colour b 15 | roughness 13 | channels 4, the lower ones
 //   W1 shading normal, octahedral    W5 flags 2 | sqrt(F0) 12 | specular 8 | metallic 10
 //   W2 geometric normal, octahedral  W6 emission rg fp16
 //   W3 base colour rg unorm16        W7 emission b fp16 | light-sampling weight fp16
+// The four fp16 are never negative: their signs are the upper channels.
 #ifndef LANTERN_MATERIAL_PAYLOAD_GLSL
 #define LANTERN_MATERIAL_PAYLOAD_GLSL
 
@@ -34,7 +35,12 @@ struct FMaterialHit
 	vec3 Emissive;
 	float EmissiveWeight; // FMaterialData::EmissiveWeight; 0: light sampling does not sample this surface
 	uint Flags;           // HIT_…
+	uint Channels;        // 8 bits, of the object: see LightProfile.glsl
 };
+
+// Two bits where two fp16 have their signs.
+uint SignsOf(uint Bits) { return ((Bits & 1u) << 15) | ((Bits & 2u) << 30); }
+uint BitsOf(uint Signs) { return ((Signs >> 15) & 1u) | ((Signs >> 30) & 2u); }
 
 FMaterialPayload PackHit(FMaterialHit Hit)
 {
@@ -43,12 +49,13 @@ FMaterialPayload PackHit(FMaterialHit Hit)
 	Payload.W1 = PackOct(Hit.Normal);
 	Payload.W2 = PackOct(Hit.GeometricNormal);
 	Payload.W3 = packUnorm2x16(Hit.BaseColor.rg);
-	Payload.W4 = packUnorm2x16(vec2(Hit.BaseColor.b, Hit.Roughness));
+	Payload.W4 = uint(clamp(Hit.BaseColor.b, 0.0, 1.0) * 32767.0 + 0.5) | (uint(clamp(Hit.Roughness, 0.0, 1.0) * 8191.0 + 0.5) << 15) |
+	       (Hit.Channels << 28);
 	Payload.W5 = (Hit.Flags & 3u) | (uint(sqrt(clamp(Hit.F0, 0.0, 1.0)) * 4095.0 + 0.5) << 2) |
 	       (uint(clamp(Hit.Specular, 0.0, 1.0) * 255.0 + 0.5) << 14) | (uint(clamp(Hit.Metallic, 0.0, 1.0) * 1023.0 + 0.5) << 22);
-	vec3 Emission = min(Hit.Emissive, vec3(MaxEmission)) * EmissionScale;
-	Payload.W6 = packHalf2x16(Emission.rg);
-	Payload.W7 = packHalf2x16(vec2(Emission.b, Hit.EmissiveWeight));
+	vec3 Emission = clamp(Hit.Emissive, vec3(0.0), vec3(MaxEmission)) * EmissionScale;
+	Payload.W6 = (packHalf2x16(Emission.rg) & ~SignsOf(3u)) | SignsOf(Hit.Channels >> 4);
+	Payload.W7 = (packHalf2x16(vec2(Emission.b, Hit.EmissiveWeight)) & ~SignsOf(3u)) | SignsOf(Hit.Channels >> 6);
 	return Payload;
 }
 
@@ -58,16 +65,16 @@ FMaterialHit UnpackHit(FMaterialPayload Payload)
 	Hit.Distance = Payload.Distance;
 	Hit.Normal = UnpackOct(Payload.W1);
 	Hit.GeometricNormal = UnpackOct(Payload.W2);
-	vec2 BlueAndRoughness = unpackUnorm2x16(Payload.W4);
-	Hit.BaseColor = vec3(unpackUnorm2x16(Payload.W3), BlueAndRoughness.x);
-	Hit.Roughness = BlueAndRoughness.y;
+	Hit.BaseColor = vec3(unpackUnorm2x16(Payload.W3), float(Payload.W4 & 0x7fffu) / 32767.0);
+	Hit.Roughness = float((Payload.W4 >> 15) & 0x1fffu) / 8191.0;
+	Hit.Channels = (Payload.W4 >> 28) | (BitsOf(Payload.W6) << 4) | (BitsOf(Payload.W7) << 6);
 	Hit.Flags = Payload.W5 & 3u;
 	float RootF0 = float((Payload.W5 >> 2) & 0xfffu) / 4095.0;
 	Hit.F0 = RootF0 * RootF0;
 	Hit.Specular = float((Payload.W5 >> 14) & 0xffu) / 255.0;
 	Hit.Metallic = float(Payload.W5 >> 22) / 1023.0;
-	vec2 BlueAndWeight = unpackHalf2x16(Payload.W7);
-	Hit.Emissive = vec3(unpackHalf2x16(Payload.W6), BlueAndWeight.x) / EmissionScale;
+	vec2 BlueAndWeight = unpackHalf2x16(Payload.W7 & ~SignsOf(3u));
+	Hit.Emissive = vec3(unpackHalf2x16(Payload.W6 & ~SignsOf(3u)), BlueAndWeight.x) / EmissionScale;
 	Hit.EmissiveWeight = BlueAndWeight.y;
 	return Hit;
 }

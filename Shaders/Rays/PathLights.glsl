@@ -3,7 +3,7 @@
 //   Basis  local frame whose z is the shading normal; Direction * Basis is local, Basis * Direction is world
 //   V      towards the viewer, local;  P  ray origin, already offset from the surface
 //   Ng     geometric normal, towards the viewer;  U  random numbers in [0, 1)
-//   bCharacter  see Casters.glsl
+//   bCharacter  see Casters.glsl;  Channels  of the surface's object, see LightProfile.glsl
 #ifndef LANTERN_PATH_LIGHTS_GLSL
 #define LANTERN_PATH_LIGHTS_GLSL
 
@@ -56,7 +56,8 @@ vec3 SampleSky(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, ve
 // Samples one light with a probability proportional to EstimateLight, by weighted reservoir sampling over all that may matter.
 // U: chooses the light; PointU: the point on one with an extent.
 // LIGHT_CELLS_OF_VIEW: looks them up in light cells. Not defined, as in the reference: visits all lights.
-vec3 SampleLocalLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, float U, vec2 PointU)
+vec3 SampleLocalLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, uint Channels, float U,
+                       vec2 PointU)
 {
 	FLightRef Lights = FLightRef(Scene.Lights);
 	float TotalWeight = 0.0, ChosenWeight = 0.0;
@@ -69,7 +70,7 @@ vec3 SampleLocalLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, ve
 #endif
 	{
 		float Weight = EstimateLight(Scene, Lights.Data[I], P, Ng);
-		if (Weight <= 0.0) { continue; }
+		if (Weight <= 0.0 || !SharesChannel(Lights.Data[I], Channels)) { continue; }
 		TotalWeight += Weight;
 		float Probability = Weight / TotalWeight;
 		if (U < Probability)
@@ -155,14 +156,14 @@ vec3 SampleEmissiveAlone(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, 
 #endif
 
 // Sums one sample of each kind of light. Takes eight random numbers, and four more where lights have an extent.
-vec3 SampleLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, inout FRandom Random)
+vec3 SampleLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, uint Channels, inout FRandom Random)
 {
 	vec3 L = vec3(0.0);
 	if (IsMirror(Brdf) && SpecularProbability(Brdf, V) >= 1.0) { return L; }
 	vec4 U0 = NextRandom4(Random);
 	vec4 U1 = NextRandom4(Random);
 #ifdef HAS_SUN
-	L += SampleSun(Scene, Brdf, Basis, V, P, Ng, bCharacter, U0.xy);
+	if (SunSharesChannel(Scene, Channels)) { L += SampleSun(Scene, Brdf, Basis, V, P, Ng, bCharacter, U0.xy); }
 #endif
 #ifdef HAS_SKY
 	L += SampleSky(Scene, Brdf, Basis, V, P, Ng, bCharacter, U0.zw);
@@ -172,7 +173,7 @@ vec3 SampleLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P,
 #ifdef HAS_AREA_LIGHTS
 	PointU = NextRandom4(Random).xy;
 #endif
-	L += SampleLocalLights(Scene, Brdf, Basis, V, P, Ng, bCharacter, U1.w, PointU);
+	L += SampleLocalLights(Scene, Brdf, Basis, V, P, Ng, bCharacter, Channels, U1.w, PointU);
 #endif
 #ifdef HAS_EMISSIVE
 	L += SampleEmissive(Scene, Brdf, Basis, V, P, Ng, bCharacter, U1.xyz);

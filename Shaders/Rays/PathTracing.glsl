@@ -1,7 +1,7 @@
 // Path tracing for ray generation shaders: the reference and the brute-force passes. Combines next-event estimation for each
 // kind of light with BRDF sampling by multiple importance sampling (Veach 1997), and ends paths by Russian roulette.
-// HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_AREA_LIGHTS, HAS_EMISSIVE, HAS_MASKED, HAS_CHARACTERS: defined
-// if the scene has such.
+// HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_AREA_LIGHTS, HAS_LIGHT_PROFILES, HAS_LIGHT_CHANNELS, HAS_EMISSIVE, HAS_MASKED, HAS_CHARACTERS:
+// defined if the scene has such.
 #ifndef LANTERN_PATH_TRACING_GLSL
 #define LANTERN_PATH_TRACING_GLSL
 
@@ -45,15 +45,15 @@ FMaterialHit TraceMaterial(FSceneConstants Scene, vec3 Origin, vec3 Direction)
 }
 
 // Returns the radiance of the sky and the sun's disk along a ray that hits nothing, weighted against next-event estimation.
-// Pdf: with which Direction was sampled; NdotL: its cosine at the vertex that it left.
-vec3 ShadeMiss(FSceneConstants Scene, vec3 Direction, float Pdf, float NdotL)
+// Pdf: with which Direction was sampled; NdotL: its cosine at the vertex that it left; Channels: of the object there.
+vec3 ShadeMiss(FSceneConstants Scene, vec3 Direction, float Pdf, float NdotL, uint Channels)
 {
 	vec3 L = vec3(0.0);
 #ifdef HAS_SKY
 	L += SampleSkyRadiance(Scene, Direction) * PowerHeuristic(Pdf, NdotL / Pi);
 #endif
 #ifdef HAS_SUN
-	if (Scene.SunOneMinusCos > 0.0 && IsInSunDisk(Scene, Direction))
+	if (Scene.SunOneMinusCos > 0.0 && SunSharesChannel(Scene, Channels) && IsInSunDisk(Scene, Direction))
 	{
 		L += SunRadiance(Scene) * PowerHeuristic(Pdf, SunPdf(Scene));
 	}
@@ -94,9 +94,10 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
                 inout FRandom Random)
 {
 	vec3 Radiance = vec3(0.0), Throughput = vec3(1.0);
+	uint Channels = AllChannels; // of the vertex before
 	for (;; ++Bounce)
 	{
-		if (Hit.Distance < 0.0) { return Radiance + Throughput * ShadeMiss(Scene, Direction, Pdf, NdotL); }
+		if (Hit.Distance < 0.0) { return Radiance + Throughput * ShadeMiss(Scene, Direction, Pdf, NdotL, Channels); }
 		Radiance += Throughput * ShadeEmission(Scene, Hit, Direction, Pdf);
 		if (Bounce >= MaxBounces) { return Radiance; }
 
@@ -110,7 +111,7 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 #else
 		const bool bCharacter = false;
 #endif
-		Radiance += Throughput * SampleLights(Scene, Brdf, Basis, LocalV, P, Hit.GeometricNormal, bCharacter, Random);
+		Radiance += Throughput * SampleLights(Scene, Brdf, Basis, LocalV, P, Hit.GeometricNormal, bCharacter, Hit.Channels, Random);
 
 		FBrdfSample Sample = SampleBrdf(Brdf, LocalV, NextRandom4(Random).xyz);
 		if (Sample.Direction.z <= 0.0) { return Radiance; }
@@ -128,6 +129,7 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 			if (NextRandom4(Random).x >= SurvivalProbability) { return Radiance; }
 			Throughput /= SurvivalProbability;
 		}
+		Channels = Hit.Channels;
 		Origin = P;
 		Hit = TraceMaterial(Scene, Origin, Direction);
 	}

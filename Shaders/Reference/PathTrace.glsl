@@ -53,6 +53,10 @@ vec3 TraceRasterSurface(FSceneConstants Scene, FViewConstants View, ivec2 Pixel,
 	Hit.Emissive = vec3(0.0);
 	Hit.EmissiveWeight = 0.0;
 	Hit.Flags = 0u;
+	Hit.Channels = AllChannels;
+#ifdef HAS_LIGHT_CHANNELS
+	Hit.Channels = LoadPixelChannels(Push.Channels, uvec2(Pixel));
+#endif
 	return TraceSignal(Scene, Hit, RasterRayOrigin(Scene, View, Point), Point.V, Random);
 }
 #endif

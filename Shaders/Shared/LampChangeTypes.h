@@ -42,8 +42,10 @@ struct FFollowLampsConstants
 	uint Depth, Normals, BaseColor, Material; // sampled indices
 	uint Output;    // storage index: by how much the lobe has changed, over its albedo; and the variance of that
 	uint bSpecular; // 1: of the specular lobe
+	uint Channels;  // HAS_LIGHT_CHANNELS only: see LoadPixelChannels
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FFollowLampsConstants, 56);
+LANTERN_ASSERT_SIZE(FFollowLampsConstants, 64);
 
 LANTERN_SHARED_END
 

@@ -19,8 +19,10 @@ struct FLightingConstants
 	float Surroundings; // share of light that they reflect, where they stand in for indirect light
 	uint SkyLight;      // sampled index, see SkyAmbient in SkyLight.glsl
 	uint LightsDiffuse, LightsSpecular; // sampled indices, or NO_TEXTURE: local lights are unshadowed
+	uint Channels;      // HAS_LIGHT_CHANNELS only: see LoadPixelChannels
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FLightingConstants, 72);
+LANTERN_ASSERT_SIZE(FLightingConstants, 80);
 
 LANTERN_SHARED_END
 

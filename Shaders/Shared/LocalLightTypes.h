@@ -132,13 +132,13 @@ struct FLocalRequestsConstants
 	uint Capacity;
 	uint Depth;   // sampled index
 	uint Normals; // sampled index: shading and geometric normal, both octahedral
-	uint Exact;   // most lights of a tile that all get rays, 1 to TILE_LIGHTS
+	uint Limits;  // low 16 bits: most lights of a tile that all get rays, 1 to TILE_LIGHTS; high: GUIDED, candidates of each pixel, 1 to 64
 	// GUIDED only:
 	uint BaseColor, Material; // sampled indices
 	FAddress Lit;             // FLitPixel[choices][pixels]; 0 with UNBIASED
 	FAddress Guide;           // FTileGuide[], row by row; this frame's
 	FAddress PreviousGuide;   // FTileGuide[]; 0: there is none
-	uint Candidates;          // of each pixel, 1 to 64
+	uint Channels;            // also not GUIDED, HAS_LIGHT_CHANNELS only: see LoadPixelChannels
 	float GuideKept;          // share of what the guide knows that it keeps in this frame
 	FAddress Regions;         // FLightRegion[], row by row; 0: tiles look at all lights of the scene
 	FAddress Emitters;        // FEmitterHeader, and what follows it; 0: nothing emits
@@ -156,7 +156,7 @@ struct FLocalShadeConstants
 	FAddress Lit;      // FLitPixel[choices][pixels]; GUIDED without UNBIASED only
 	FAddress Guide;    // FTileGuide[]; GUIDED only
 	float ReflectedRoughness; // LOCAL_EMISSIVE: rougher surfaces have no reflections traced; negative: none have
-	uint Pad;
+	uint Channels; // HAS_LIGHT_CHANNELS only: see LoadPixelChannels
 };
 LANTERN_ASSERT_SIZE(FLocalShadeConstants, 88);
 

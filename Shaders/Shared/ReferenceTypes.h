@@ -19,8 +19,10 @@ struct FReferenceConstants
 	uint OcclusionMask;    // instance mask of ambient occlusion rays
 	uint Depth, Normals, BaseColor, Material; // sampled indices, FROM_GBUFFER only
 	float ReflectedRoughness; // rougher surfaces trace no reflections; negative: none do
+	uint Channels; // FROM_GBUFFER with HAS_LIGHT_CHANNELS only: see LoadPixelChannels
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FReferenceConstants, 72);
+LANTERN_ASSERT_SIZE(FReferenceConstants, 80);
 
 LANTERN_SHARED_END
 

@@ -235,9 +235,12 @@ struct FSceneConstants
 	FAddress LightCells;    // FLightGrid of the view; 0: look-ups find all lights
 	FAddress EmissiveClusters; // FEmissiveCluster[]
 	uint EmissiveClusterCount;
-	uint Pad;
+	uint SunChannels;         // 8 bits, as those of FLightData
+	FAddress ObjectChannels;  // uint[]: channels of each object, exclusive-or CHANNELS_DEFAULT; 0: all have these
+	FAddress LightProfiles;   // FLightProfile[], by number - 1
+	FAddress ProfileTexels;   // uint[]
 };
-LANTERN_ASSERT_SIZE(FSceneConstants, 224);
+LANTERN_ASSERT_SIZE(FSceneConstants, 248);
 
 // A camera, as passes see it whatever the host's conventions are: FView has them, HostProjection.h makes it of a matrix.
 // Positions are relative to the scene's origin.

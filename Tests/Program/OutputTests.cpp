@@ -174,7 +174,7 @@ TEST_F(FOutputTest, EverySceneNameOfTheListRenders)
 TEST_F(FOutputTest, PictureIsTheSameWhateverItsFileAndLastFrameCounts)
 {
 	if (!CheckImageOutput(At("a.exr"))) { GTEST_SKIP() << "a build without OpenImageIO"; }
-	for (const char* Name : {"a.pfm", "a.exr"}) 
+	for (const char* Name : {"a.pfm", "a.exr"})
 	{
 		RunCleanly({"render", "furnace:0.5", "--set", "r.RT.Lights.Emissive=0", "--size", "16x12", "--validate", "-o", At(Name)});
 	}

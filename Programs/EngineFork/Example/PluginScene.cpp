@@ -21,6 +21,7 @@ FError FPluginScene::Create(IRTModule& Module, const FPluginDevice& InOn, const 
 	if (Error.empty()) { Error = AddMaterials(); }
 	for (size_t Index = 0; Error.empty() && Index < Scene.Boxes.size(); ++Index) { Error = AddBox(Scene.Boxes[Index]); }
 	if (Error.empty()) { Error = AddReed(Scene.Reed); }
+	if (Error.empty()) { Error = AddProfile(); }
 	FRTModuleSun Sun;
 	Sun.Irradiance = 1.0f;
 	for (int Axis = 0; Axis < 3; ++Axis) { Sun.Direction[Axis] = Scene.SunDirection[Axis]; }
@@ -157,6 +158,17 @@ FError FPluginScene::SetBox(size_t Box, const FBox& To)
 	return Error.empty() ? ToError(Renderer->SetObjectCastsShadow(Boxes[Box].Object, To.bCastsShadow), "SetObjectCastsShadow") : Error;
 }
 
+/// A file of IES LM-63, as an engine would have it from a maker of lamps.
+FError FPluginScene::AddProfile()
+{
+	static constexpr char File[] = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 4 1 1 2 0 0 0\n1 1 10\n0 150 170 180\n0\n100 100 200 200\n";
+	FRTModuleIesProfile Given;
+	Given.Name = "lamp.ies";
+	Given.Text = File;
+	Given.TextBytes = sizeof(File) - 1;
+	return ToError(Renderer->AddIesProfile(Given, &Profile, nullptr), "AddIesProfile");
+}
+
 FError FPluginScene::SetLamp(const FForkScene& Scene)
 {
 	if (Scene.LampIntensity <= 0.0) { return ToError(Renderer->RemoveLight(std::exchange(Lamp, ERTLightHandle::None)), "RemoveLight"); }
@@ -165,7 +177,10 @@ FError FPluginScene::SetLamp(const FForkScene& Scene)
 	{
 		Light.Position[Axis] = Scene.Lamp[Axis];
 		Light.Color[Axis] = static_cast<float>(Scene.LampIntensity);
+		Light.Direction[Axis] = Axis == 2 ? -1.0f : 0.0f;
 	}
+	Light.Channels = Scene.LampChannels;
+	if (Scene.bLampProfile) { Light.Ies = Profile; }
 	return ToError(Lamp == ERTLightHandle::None ? Renderer->AddLight(Light, &Lamp) : Renderer->SetLight(Lamp, Light), "AddLight");
 }
 

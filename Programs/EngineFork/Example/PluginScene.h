@@ -27,7 +27,7 @@ public:
 	FError ScaleVertices(float Scale);
 	/// Takes bCastsShadow and bCutOut over from To.
 	FError SetBox(size_t Box, const FBox& To);
-	/// Takes Lamp and LampIntensity over.
+	/// Takes Lamp, LampIntensity, LampChannels and bLampProfile over.
 	FError SetLamp(const FForkScene& Scene);
 	/// Where the engine's GPU writes the reed's positions for the plugin; 0 while the reed is on its way there.
 	FError FindReedPositions(VkDeviceAddress& Out);
@@ -54,6 +54,7 @@ private:
 	Lantern::FRTModuleMaterial MakeCutOut() const;
 	FError AddBox(const FBox& Box, Lantern::ERTMeshHandle OwnMesh = Lantern::ERTMeshHandle::None);
 	FError AddReed(const FReed& Reed);
+	FError AddProfile();
 	bool GiveMesh(Lantern::ERTMeshHandle Mesh, Lantern::FRTModuleMesh* Out);
 
 	const FPluginDevice* On = nullptr;
@@ -62,6 +63,7 @@ private:
 	Lantern::ERTObjectHandle Reed{};
 	Lantern::ERTMaterialHandle Solid{}, CutOut{};
 	Lantern::ERTLightHandle Lamp{};
+	Lantern::ERTIesHandle Profile{};
 	std::vector<FPlacedBox> Boxes;
 	Lantern::TRTRef<Lantern::IRTCommandList> List;
 	float VertexScale = 1.0f;              ///< of the deformable boxes

@@ -135,7 +135,7 @@ FError MeasureLamp(FJudge& Judge, double Intensity, double& Out)
 	return Error;
 }
 
-/// Diffuse light: what surfaces reflect of the lamp is proportional to its intensity, and ends with it.
+/// Diffuse light: what surfaces reflect of the lamp is proportional to its intensity and its profile, and ends with it and its channel.
 FError CheckLamp(FJudge& Judge)
 {
 	FSignalSet& Wanted = Judge.Engine.GetPlugin().Wanted;
@@ -144,10 +144,22 @@ FError CheckLamp(FJudge& Judge)
 	double Light[3] = {};
 	FError Error;
 	for (int Index = 0; Error.empty() && Index < 3; ++Index) { Error = MeasureLamp(Judge, Intensities[Index], Light[Index]); }
+	double Halved = 0.0, OffChannel = 0.0;
+	Judge.Scene.bLampProfile = true;
+	if (Error.empty()) { Error = MeasureLamp(Judge, 2.0 * Intensities[0], Halved); }
+	Judge.Scene.bLampProfile = false;
+	Judge.Scene.LampChannels = 2;
+	if (Error.empty()) { Error = MeasureLamp(Judge, Intensities[0], OffChannel); }
+	Judge.Scene.LampChannels = 1;
+	Judge.Scene.LampIntensity = 0.0;
+	if (Error.empty()) { Error = Judge.Engine.GetPlugin().SetLamp(Judge.Scene); }
 	Wanted.Remove(ESignal::DiffuseGI);
 	if (!Error.empty()) { return Error; }
 	const double Once = Light[0] - Light[2], Twice = Light[1] - Light[2];
 	std::printf("lamp: mean light %.4f without, %.4f and %.4f with it\n", Light[2], Light[0], Light[1]);
+	std::printf("lamp: mean light %.4f with a profile, %.4f of another channel\n", Halved, OffChannel);
+	if (std::abs((Halved - Light[2]) / Once - 1.0) > 0.1) { return "diffuse light does not follow the lamp's profile"; }
+	if (std::abs(OffChannel - Light[2]) > 0.1 * Once) { return "a lamp of another channel lights the boxes"; }
 	const bool bProportional = Once > 0.05 * Light[2] && std::abs(Twice / Once - 2.0) < 0.1;
 	return bProportional ? FError() : "diffuse light does not follow the lamp";
 }

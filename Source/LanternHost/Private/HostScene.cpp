@@ -25,6 +25,7 @@ FRTStatus FHostScene::Create(
 	if (FRTStatus S = Host->UploadMeshes(Uploader); !S) { return S; }
 	if (FRTStatus S = Host->CreateObjects(Uploader); !S) { return S; }
 	if (FRTStatus S = Uploader.Flush(); !S) { return S; }
+	for (const FProfileGrid& Grid : Host->Description.Profiles) { Host->Profiles.push_back(Host->Scene.AddLightProfile(Grid)); }
 	Host->UpdateLights();
 	if (Progress) { Progress(1.0f); }
 	Out = std::move(Host);
@@ -161,6 +162,7 @@ FRTStatus FHostScene::CreateObjects(FUploader& Uploader)
 		Traits.bMoves = Instance.Skinned || IsNodeAnimated[Node];
 		Info.Mask = MakeObjectMask(Traits);
 		Info.bCharacter = Traits.bCharacter;
+		Info.Channels = Traits.Channels;
 		Instance.Object = Scene.AddObject(Info);
 		AddDraw(Instance, Info);
 		Instances.push_back(std::move(Instance));
@@ -313,6 +315,7 @@ std::optional<FSunLight> FHostScene::GetOwnSun() const
 	Sun.Direction = glm::normalize(Axis);
 	Sun.Irradiance = std::max({Light.Color.x, Light.Color.y, Light.Color.z});
 	Sun.Color = Sun.Irradiance > 0.0f ? Light.Color / Sun.Irradiance : glm::vec3(1);
+	Sun.Channels = Light.Channels;
 	Sun.AngularDiameter = Light.Size.x > 0.0f ? Light.Size.x : glm::radians(Description.DefaultSunDiameter);
 	return Sun;
 }
@@ -355,6 +358,7 @@ FSceneLight FHostScene::MakeLight(uint32_t Node) const
 	const FHostLight& Source = Description.Lights[Description.Nodes[Node].Light];
 	const glm::dmat4& World = Pose.World[Node];
 	FSceneLight Light = Source;
+	if (Light.Profile != 0) { Light.Profile = Profiles[Light.Profile - 1]; }
 	Light.Position = glm::dvec3(World[3]);
 	const glm::dvec3 Axis = -glm::dvec3(World[2]), Side(World[0]);
 	// A node may be scaled to nothing along some of its axes.

@@ -134,7 +134,10 @@ public:
 		AddFloats(V.Scale);
 		AddOptional(V.Matrix);
 		AddAll(V.Mesh, V.Skin, V.Light, V.Camera);
-		if (V.Traits != FRTObjectTraits()) { Hash.Add(MakeObjectMask(V.Traits) | (V.Traits.bCharacter ? 256u : 0u)); }
+		if (V.Traits != FRTObjectTraits())
+		{
+			Hash.Add(MakeObjectMask(V.Traits) | (V.Traits.bCharacter ? 256u : 0u) | (uint32_t(V.Traits.Channels ^ CHANNELS_DEFAULT) << 9));
+		}
 		AddPlain(V.Materials);
 	}
 	void Add(const FHostSkin& V)
@@ -159,7 +162,13 @@ public:
 		AddFloats(V.Color);
 		AddAll(V.Range, V.InnerCone, V.OuterCone, V.bCastsShadow, V.bTwoSided);
 		AddFloats(V.Size);
+		if (V.Profile != 0 || V.Channels != CHANNELS_DEFAULT) { AddAll(V.Profile, V.Channels); }
 		if (V.FlickerHz > 0.0f) { AddAll(V.FlickerHz, V.FlickerDuty, V.FlickerPhase); }
+	}
+	void Add(const FProfileGrid& V)
+	{
+		AddPlain(V.Texels);
+		AddAll(V.Rows, V.Columns, V.FirstAngle, V.RowsPerDegree, V.ColumnsPerDegree);
 	}
 
 	FContentHasher Hash;
@@ -178,6 +187,7 @@ FContentHash HashScene(const FSceneDescription& Scene)
 	Hasher.AddList(Scene.Skins);
 	Hasher.AddList(Scene.Animations);
 	Hasher.AddList(Scene.Lights);
+	if (!Scene.Profiles.empty()) { Hasher.AddList(Scene.Profiles); }
 	return Hasher.Hash.Finish();
 }
 

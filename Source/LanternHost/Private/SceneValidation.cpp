@@ -149,6 +149,10 @@ std::string ValidateLights(const FSceneDescription& Scene)
 		{
 			return fmt::format("light {} {}: flickers as no light can", I, Quote(Light.Name));
 		}
+		if (Light.Profile > Scene.Profiles.size() || (Light.Profile != 0 && Light.Type != LIGHT_POINT))
+		{
+			return fmt::format("light {} {}: its profile is out of range, or it is no point light", I, Quote(Light.Name));
+		}
 	}
 	return {};
 }

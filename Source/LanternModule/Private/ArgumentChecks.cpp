@@ -112,10 +112,13 @@ bool HasCone(const FRTModuleLight& Light)
 bool NeedsDirection(const FRTModuleLight& Light)
 {
 	return Light.Type == ERTModuleLight::Directional || Light.Type == ERTModuleLight::Rectangle || Light.Type == ERTModuleLight::Disk ||
-	       HasCone(Light);
+	       HasCone(Light) || Light.Ies != ERTIesHandle::None;
 }
 
-bool NeedsTangent(const FRTModuleLight& Light) { return Light.Type == ERTModuleLight::Rectangle || Light.Type == ERTModuleLight::Tube; }
+bool NeedsTangent(const FRTModuleLight& Light)
+{
+	return Light.Type == ERTModuleLight::Rectangle || Light.Type == ERTModuleLight::Tube || Light.Ies != ERTIesHandle::None;
+}
 
 namespace
 {
@@ -166,6 +169,10 @@ FRTStatus CheckLight(const FRTModuleLight& Light)
 {
 	constexpr float MostColor = 1e20f; // divided by the square of the least distance, and reflected: still a number
 	if (Light.Type > ERTModuleLight::Tube) { return Refuse("FRTModuleLight::Type is none"); }
+	if (Light.Ies != ERTIesHandle::None && Light.Type > ERTModuleLight::Spot)
+	{
+		return Refuse("FRTModuleLight::Ies is for points and spots");
+	}
 	const bool bPlace = std::all_of(Light.Position, Light.Position + 3, [](double P) { return std::abs(P) <= 1e12; });
 	if (Light.Type != ERTModuleLight::Directional && !bPlace) { return Refuse("FRTModuleLight::Position must lie within 1e12"); }
 	if (!std::all_of(Light.Color, Light.Color + 3, [](float C) { return C >= 0.0f && C <= MostColor; }))

@@ -214,8 +214,10 @@ FRTStatus CheckGBuffer(const FRTModuleFrame& Frame)
 	if (Status) { Status = CheckMotion(Frame); }
 	if (Status) { Status = CheckMaterialTextures(Frame); }
 	if (!Status) { return Status; }
-	return CheckTexture(
-	    {Frame.Classes, Frame.ClassesAccess, {ERTFormat::R8_UNORM}, "classes", "R8_UNORM", "ClassesAccess"}, Frame.Depth->GetDesc());
+	const FRTTextureDesc& Depth = Frame.Depth->GetDesc();
+	Status = CheckTexture({Frame.Classes, Frame.ClassesAccess, {ERTFormat::R8_UNORM}, "classes", "R8_UNORM", "ClassesAccess"}, Depth);
+	if (!Status) { return Status; }
+	return CheckTexture({Frame.Channels, Frame.ChannelsAccess, {ERTFormat::R8_UNORM}, "channels", "R8_UNORM", "ChannelsAccess"}, Depth);
 }
 
 /// What does not say whose it is passes.
@@ -231,7 +233,7 @@ FRTStatus CheckOwners(const FRTModuleFrame& Frame, const IRTDevice& Device)
 	FRTStatus Status = Check(Frame.Commands, "Commands");
 	const std::pair<const IRTTexture*, const char*> Textures[] = {{Frame.Depth, "Depth"}, {Frame.Normals, "Normals"},
 	    {Frame.GeometricNormals, "GeometricNormals"}, {Frame.Motion, "Motion"}, {Frame.BaseColor, "BaseColor"},
-	    {Frame.Material, "Material"}, {Frame.Classes, "Classes"}};
+	    {Frame.Material, "Material"}, {Frame.Classes, "Classes"}, {Frame.Channels, "Channels"}};
 	for (const auto& [Texture, Name] : Textures) { Status = Status ? Check(Texture, Name) : Status; }
 	return Status;
 }

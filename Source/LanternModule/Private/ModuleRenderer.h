@@ -74,9 +74,15 @@ public:
 		return Calls.SetObjectCastsShadow(Handle, bCastsShadow);
 	}
 	FRTStatus SetObjectVisible(ERTObjectHandle Handle, bool bVisible) override { return Calls.SetObjectVisible(Handle, bVisible); }
+	FRTStatus SetObjectChannels(ERTObjectHandle Handle, uint8_t Channels) override { return Calls.SetObjectChannels(Handle, Channels); }
 	FRTStatus AddLight(const FRTModuleLight& Light, ERTLightHandle* Out) override { return Calls.AddLight(Light, Out); }
 	FRTStatus SetLight(ERTLightHandle Handle, const FRTModuleLight& Light) override { return Calls.SetLight(Handle, Light); }
 	FRTStatus RemoveLight(ERTLightHandle Handle) override { return Calls.RemoveLight(Handle); }
+	FRTStatus AddIesProfile(const FRTModuleIesProfile& Profile, ERTIesHandle* Out, FRTModuleIesInfo* Info) override
+	{
+		return Calls.AddIesProfile(Profile, Out, Info);
+	}
+	FRTStatus RemoveIesProfile(ERTIesHandle Handle) override { return Calls.RemoveIesProfile(Handle); }
 	FRTStatus RemoveObject(ERTObjectHandle Handle) override { return Calls.RemoveObject(Handle); }
 	FRTStatus SetSun(const FRTModuleSun& Sun) override { return Calls.SetSun(Sun); }
 	FRTStatus SetSky(const float Radiance[3]) override { return Calls.SetSky(Radiance); }

@@ -64,7 +64,25 @@ FSceneLight ToSceneLight(const FModuleWorld& World, const FRTModuleLight& From)
 	Light.bCastsShadow = From.bCastsShadow;
 	Light.bTwoSided = From.bTwoSided;
 	Light.bLightsFog = From.bLightsFog;
+	Light.Channels = From.Channels;
+	if (From.Ies != ERTIesHandle::None) { Light.Profile = TSlotTable<int, ERTIesHandle>::GetSlot(From.Ies) + 1; }
 	return Light;
+}
+
+/// Reads the file, or checks the table.
+FRTStatus ReadProfile(const FRTModuleIesProfile& Profile, FPhotometry& Out)
+{
+	const char* const Name = Profile.Name != nullptr ? Profile.Name : "IES profile";
+	if (Profile.Text != nullptr) { return ParseIes({Profile.Text, static_cast<size_t>(Profile.TextBytes)}, Name, Out); }
+	if (Profile.VerticalAngles == nullptr || Profile.HorizontalAngles == nullptr || Profile.Candela == nullptr)
+	{
+		return RefuseNull("AddIesProfile", "Text, and a part of the table");
+	}
+	const uint64_t Count = uint64_t(Profile.VerticalCount) * Profile.HorizontalCount;
+	Out.Vertical.assign(Profile.VerticalAngles, Profile.VerticalAngles + Profile.VerticalCount);
+	Out.Horizontal.assign(Profile.HorizontalAngles, Profile.HorizontalAngles + Profile.HorizontalCount);
+	Out.Candela.assign(Profile.Candela, Profile.Candela + Count);
+	return CheckPhotometry(Out, Name);
 }
 
 uint32_t MakeTag()
@@ -142,8 +160,8 @@ ERTObjectHandle FSceneCalls::AddOne(const FRTModuleObject& Object)
 	FObject Added;
 	Added.Mesh = Object.Mesh;
 	Added.Materials.assign(Object.Materials, Object.Materials + Object.MaterialCount);
-	Added.Traits = {
-	    Object.bVisible, Object.bCastsShadow, Object.bCastsLocalShadow, Object.Mobility == ERTModuleMobility::Movable, Object.bCharacter};
+	Added.Traits = {Object.bVisible, Object.bCastsShadow, Object.bCastsLocalShadow, Object.Mobility == ERTModuleMobility::Movable,
+	    Object.bCharacter, Object.Channels};
 	Added.Mobility = Object.Mobility;
 	AddUsers(Added);
 	++Meshes.Find(Object.Mesh)->Users;
@@ -153,6 +171,7 @@ ERTObjectHandle FSceneCalls::AddOne(const FRTModuleObject& Object)
 	Command.Materials = GetSlots(Added.Materials);
 	Command.Mask = MakeObjectMask(Added.Traits);
 	Command.bCharacter = Added.Traits.bCharacter;
+	Command.Channels = Added.Traits.Channels;
 	Command.Transform = World.ToTransform(Object.Transform);
 	const ERTObjectHandle Handle = Objects.Add(std::move(Added));
 	Command.Slot = Objects.GetSlot(Handle);
@@ -235,6 +254,16 @@ FRTStatus FSceneCalls::SetObjectVisible(ERTObjectHandle Handle, bool bVisible)
 	return SetMask("SetObjectVisible", Handle, &FRTObjectTraits::bVisible, bVisible);
 }
 
+FRTStatus FSceneCalls::SetObjectChannels(ERTObjectHandle Handle, uint8_t Channels)
+{
+	std::lock_guard Lock(Mutex);
+	FObject* const Object = Objects.Find(Handle);
+	if (Object == nullptr) { return RefuseHandle("SetObjectChannels", "object"); }
+	Object->Traits.Channels = Channels;
+	AddUpdate(FChannelsCommand{Objects.GetSlot(Handle), Channels}, 0, Object->Ticket);
+	return FRTStatus::Success();
+}
+
 FRTStatus FSceneCalls::RemoveObject(ERTObjectHandle Handle)
 {
 	std::lock_guard Lock(Mutex);
@@ -256,14 +285,16 @@ FRTStatus FSceneCalls::AddLight(const FRTModuleLight& Light, ERTLightHandle* Out
 	*Out = ERTLightHandle::None;
 	if (const FRTStatus Status = CheckLight(Light); !Status) { return Status; }
 	std::lock_guard Lock(Mutex);
+	if (Light.Ies != ERTIesHandle::None && Profiles.Find(Light.Ies) == nullptr) { return RefuseHandle("AddLight", "profile"); }
 	if (LightCount == FLightStore::MaxLights)
 	{
 		return FRTStatus::Error(ERTResult::Unsupported, "AddLight: there are 2^24 lights, and no more have an index");
 	}
 	++LightCount;
 	*Out = Lights.Add({});
-	const FTicket Ticket = AddArrival(FLightCommand{Lights.GetSlot(*Out), ToSceneLight(World, Light)});
-	Lights.Find(*Out)->Ticket = Ticket;
+	FLight& Mine = *Lights.Find(*Out);
+	(void)SetProfile(Mine, Light.Ies);
+	Mine.Ticket = AddArrival(FLightCommand{Lights.GetSlot(*Out), ToSceneLight(World, Light)});
 	return FRTStatus::Success();
 }
 
@@ -273,17 +304,66 @@ FRTStatus FSceneCalls::SetLight(ERTLightHandle Handle, const FRTModuleLight& Lig
 	std::lock_guard Lock(Mutex);
 	FLight* const Mine = Lights.Find(Handle);
 	if (Mine == nullptr) { return RefuseHandle("SetLight", "light"); }
-	if (Status) { AddUpdate(FLightCommand{Lights.GetSlot(Handle), ToSceneLight(World, Light)}, 0, Mine->Ticket); }
+	if (!Status) { return Status; }
+	if (Light.Ies != ERTIesHandle::None && Profiles.Find(Light.Ies) == nullptr) { return RefuseHandle("SetLight", "profile"); }
+	const FTicket Needs = SetProfile(*Mine, Light.Ies);
+	AddUpdate(FLightCommand{Lights.GetSlot(Handle), ToSceneLight(World, Light)}, Needs, Mine->Ticket);
 	return Status;
 }
 
 FRTStatus FSceneCalls::RemoveLight(ERTLightHandle Handle)
 {
 	std::lock_guard Lock(Mutex);
-	if (Lights.Find(Handle) == nullptr) { return RefuseHandle("RemoveLight", "light"); }
+	FLight* const Mine = Lights.Find(Handle);
+	if (Mine == nullptr) { return RefuseHandle("RemoveLight", "light"); }
+	(void)SetProfile(*Mine, ERTIesHandle::None);
 	Lights.Remove(Handle);
 	--LightCount;
 	AddArrival(FLightCommand{Lights.GetSlot(Handle), std::nullopt});
+	return FRTStatus::Success();
+}
+
+FSceneCalls::FTicket FSceneCalls::SetProfile(FLight& Light, ERTIesHandle Profile)
+{
+	if (FProfile* const Before = Profiles.Find(Light.Profile)) { --Before->Users; }
+	Light.Profile = Profile;
+	FProfile* const Now = Profiles.Find(Profile);
+	if (Now == nullptr) { return 0; }
+	++Now->Users;
+	return Now->Ticket;
+}
+
+FRTStatus FSceneCalls::AddIesProfile(const FRTModuleIesProfile& Profile, ERTIesHandle* Out, FRTModuleIesInfo* Info)
+{
+	if (Out == nullptr) { return RefuseNull("AddIesProfile", "Out"); }
+	*Out = ERTIesHandle::None;
+	FPhotometry Table;
+	if (const FRTStatus Status = ReadProfile(Profile, Table); !Status) { return Status; }
+	auto Grid = std::make_shared<const FProfileGrid>(MakeProfileGrid(Table));
+	if (Info != nullptr) { Info->Peak = Grid->Peak; }
+	std::lock_guard Lock(Mutex);
+	if (ProfileCount == LIGHT_PROFILES_MOST)
+	{
+		return FRTStatus::Error(ERTResult::Unsupported, "AddIesProfile: there are 65,535 profiles, and no more have a number");
+	}
+	++ProfileCount;
+	*Out = Profiles.Add({Grid, 0, 0});
+	Profiles.Find(*Out)->Ticket = AddArrival(FProfileCommand{Profiles.GetSlot(*Out), std::move(Grid)});
+	return FRTStatus::Success();
+}
+
+FRTStatus FSceneCalls::RemoveIesProfile(ERTIesHandle Handle)
+{
+	std::lock_guard Lock(Mutex);
+	const FProfile* const Profile = Profiles.Find(Handle);
+	if (Profile == nullptr) { return RefuseHandle("RemoveIesProfile", "profile"); }
+	if (Profile->Users > 0)
+	{
+		return FRTStatus::Error(ERTResult::InvalidArgument, "RemoveIesProfile: %u lights have the profile", Profile->Users);
+	}
+	Profiles.Remove(Handle);
+	--ProfileCount;
+	AddArrival(FProfileCommand{Profiles.GetSlot(Handle), nullptr});
 	return FRTStatus::Success();
 }
 
@@ -295,6 +375,7 @@ FRTStatus FSceneCalls::SetSun(const FRTModuleSun& Sun)
 	Light.Color = {Sun.Color[0], Sun.Color[1], Sun.Color[2]};
 	Light.Irradiance = Sun.Irradiance;
 	Light.AngularDiameter = Sun.AngularDiameter;
+	Light.Channels = Sun.Channels;
 	std::lock_guard Lock(Mutex);
 	Updates.emplace_back(Light);
 	return FRTStatus::Success();

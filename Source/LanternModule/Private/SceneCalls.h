@@ -48,10 +48,13 @@ public:
 	FRTStatus SetObjectMesh(ERTObjectHandle Handle, ERTMeshHandle Mesh, const ERTMaterialHandle* Handles, uint32_t Count);
 	FRTStatus SetObjectCastsShadow(ERTObjectHandle Handle, bool bCastsShadow);
 	FRTStatus SetObjectVisible(ERTObjectHandle Handle, bool bVisible);
+	FRTStatus SetObjectChannels(ERTObjectHandle Handle, uint8_t Channels);
 	FRTStatus RemoveObject(ERTObjectHandle Handle);
 	FRTStatus AddLight(const FRTModuleLight& Light, ERTLightHandle* Out);
 	FRTStatus SetLight(ERTLightHandle Handle, const FRTModuleLight& Light);
 	FRTStatus RemoveLight(ERTLightHandle Handle);
+	FRTStatus AddIesProfile(const FRTModuleIesProfile& Profile, ERTIesHandle* Out, FRTModuleIesInfo* Info);
+	FRTStatus RemoveIesProfile(ERTIesHandle Handle);
 	FRTStatus SetSun(const FRTModuleSun& Sun);
 	FRTStatus SetSky(const float Radiance[3]);
 	FRTStatus SetSkyMap(const FRTModuleSkyMap* Map);
@@ -98,6 +101,13 @@ private:
 	};
 	struct FLight
 	{
+		ERTIesHandle Profile = ERTIesHandle::None;
+		FTicket Ticket = 0;
+	};
+	struct FProfile
+	{
+		std::shared_ptr<const FProfileGrid> Grid;
+		uint32_t Users = 0; ///< lights
 		FTicket Ticket = 0;
 	};
 	/// The last mesh that was removed from a slot: who still has its handle is told the name.
@@ -114,6 +124,8 @@ private:
 	FRTStatus CheckDeformable(const char* Function, ERTMeshHandle Handle);
 	FRTStatus CheckOwnVertices(const char* Function, ERTMeshHandle Handle);
 	FRTStatus CheckMaterials(const FMesh& Mesh, const ERTMaterialHandle* Handles, uint32_t Count);
+	/// Lets the light have the profile, which is None or known, in place of what it has. Returns the profile's ticket.
+	FTicket SetProfile(FLight& Light, ERTIesHandle Profile);
 	void AddUsers(const FObject& Object);
 	void RemoveUsers(const FObject& Object);
 	FRTStatus CheckUsers(const FMaterial& Material);
@@ -146,8 +158,9 @@ private:
 	std::vector<FRemovedMesh> RemovedMeshes; ///< by slot
 	TSlotTable<FObject, ERTObjectHandle> Objects{Tag};
 	TSlotTable<FLight, ERTLightHandle> Lights{Tag};
+	TSlotTable<FProfile, ERTIesHandle> Profiles{Tag};
 	FMaterialTextures SkyTextures; ///< of the map that was set last
-	uint32_t ObjectCount = 0, LightCount = 0;
+	uint32_t ObjectCount = 0, LightCount = 0, ProfileCount = 0;
 	std::deque<FSceneCommand> Arrivals; ///< and departures, and updates that wait for them
 	std::vector<FSceneCommand> Updates;
 	FTicket LastArrival = 0, LastTaken = 0; ///< counts Arrivals: added and taken so far

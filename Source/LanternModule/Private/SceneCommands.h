@@ -48,6 +48,7 @@ struct FAddObjectCommand
 	uint32_t Slot = 0, Mesh = 0;
 	uint8_t Mask = MaskDefault;
 	bool bCharacter = false;
+	uint8_t Channels = CHANNELS_DEFAULT;
 	std::vector<uint32_t> Materials;
 	glm::dmat4 Transform{1.0};
 };
@@ -64,6 +65,11 @@ struct FMaskCommand
 {
 	uint32_t Slot = 0;
 	uint8_t Mask = MaskDefault;
+};
+struct FChannelsCommand
+{
+	uint32_t Slot = 0;
+	uint8_t Channels = CHANNELS_DEFAULT;
 };
 struct FObjectMaterialsCommand
 {
@@ -97,7 +103,13 @@ struct FDeformedCommand
 {
 	uint32_t Slot = 0;
 };
-/// Adds the light, or changes it.
+/// Adds a profile of lights.
+struct FProfileCommand
+{
+	uint32_t Slot = 0;
+	std::shared_ptr<const FProfileGrid> Grid; ///< null: removes the profile
+};
+/// Adds the light, or changes it. FSceneLight::Profile is the slot of its profile, from 1.
 struct FLightCommand
 {
 	uint32_t Slot = 0;
@@ -105,7 +117,7 @@ struct FLightCommand
 };
 
 using FSceneCommand = std::variant<FMaterialCommand, FAddMeshCommand, FRemoveMeshCommand, FAddObjectCommand, FRemoveObjectCommand,
-    FTransformCommand, FMaskCommand, FObjectMaterialsCommand, FObjectMeshCommand, FVerticesCommand, FDeformedCommand, FLightCommand,
-    FSunLight, FSkyCommand, FSkyMapCommand>;
+    FTransformCommand, FMaskCommand, FChannelsCommand, FObjectMaterialsCommand, FObjectMeshCommand, FVerticesCommand, FDeformedCommand,
+    FProfileCommand, FLightCommand, FSunLight, FSkyCommand, FSkyMapCommand>;
 
 } // namespace Lantern

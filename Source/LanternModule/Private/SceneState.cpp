@@ -112,6 +112,7 @@ void FSceneState::Do(FAddObjectCommand& Command)
 	Info.Transform = Command.Transform;
 	Info.Mask = Command.Mask;
 	Info.bCharacter = Command.bCharacter;
+	Info.Channels = Command.Channels;
 	Id = Scene.AddObject(std::move(Info));
 }
 
@@ -132,6 +133,12 @@ void FSceneState::Do(FMaskCommand& Command)
 {
 	const FRTObjectId Id = Objects[Command.Slot];
 	if (Id.IsValid()) { Scene.SetMask(Id, Command.Mask); }
+}
+
+void FSceneState::Do(FChannelsCommand& Command)
+{
+	const FRTObjectId Id = Objects[Command.Slot];
+	if (Id.IsValid()) { Scene.SetChannels(Id, Command.Channels); }
 }
 
 void FSceneState::Do(FObjectMaterialsCommand& Command)
@@ -179,9 +186,17 @@ void FSceneState::Do(FDeformedCommand& Command)
 	bEngineVertices = true;
 }
 
+void FSceneState::Do(FProfileCommand& Command)
+{
+	uint32_t& Number = GetSlot(Profiles, Command.Slot);
+	if (Command.Grid) { Number = Scene.AddLightProfile(*Command.Grid); }
+	else if (Number != 0) { Scene.RemoveLightProfile(std::exchange(Number, 0)); }
+}
+
 void FSceneState::Do(FLightCommand& Command)
 {
 	FLightId& Id = GetSlot(Lights, Command.Slot);
+	if (Command.Light && Command.Light->Profile != 0) { Command.Light->Profile = Profiles[Command.Light->Profile - 1]; }
 	if (!Command.Light) { Scene.RemoveLight(std::exchange(Id, {})); }
 	else if (Id.IsValid()) { Scene.SetLight(Id, *Command.Light); }
 	else { Id = Scene.AddLight(*Command.Light); }

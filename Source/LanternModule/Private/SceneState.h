@@ -54,10 +54,12 @@ private:
 	void Do(FRemoveObjectCommand& Command);
 	void Do(FTransformCommand& Command);
 	void Do(FMaskCommand& Command);
+	void Do(FChannelsCommand& Command);
 	void Do(FObjectMaterialsCommand& Command);
 	void Do(FObjectMeshCommand& Command);
 	void Do(FVerticesCommand& Command);
 	void Do(FDeformedCommand& Command);
+	void Do(FProfileCommand& Command);
 	void Do(FLightCommand& Command);
 	void Do(FSunLight& Command) { Scene.SetSun(Command); }
 	void Do(FSkyCommand& Command) { Scene.SetSky(Command.Radiance); }
@@ -83,6 +85,7 @@ private:
 	std::vector<FRTObjectId> Objects;            ///< invalid: its mesh has no geometry
 	std::map<uint32_t, FMeshChange> MeshChanges; ///< by slot of the object
 	std::vector<FLightId> Lights;
+	std::vector<uint32_t> Profiles; ///< number in the scene; 0: the scene has no room for it
 	bool bEngineVertices = false;
 	std::vector<uint32_t> Deformed, RecordedVertices; ///< slots of meshes with new vertices; of those in this frame
 	std::vector<FBufferUploadRef> Filled;

@@ -33,8 +33,8 @@ std::optional<T> FindSlot(const std::vector<std::optional<T>>& Values, uint32_t 
 template <class T>
 constexpr bool HasNoValue =
     std::is_same_v<T, FAddMeshCommand> || std::is_same_v<T, FRemoveMeshCommand> || std::is_same_v<T, FRemoveObjectCommand> ||
-    std::is_same_v<T, FMaskCommand> || std::is_same_v<T, FObjectMaterialsCommand> || std::is_same_v<T, FVerticesCommand> ||
-    std::is_same_v<T, FDeformedCommand>;
+    std::is_same_v<T, FMaskCommand> || std::is_same_v<T, FChannelsCommand> || std::is_same_v<T, FProfileCommand> ||
+    std::is_same_v<T, FObjectMaterialsCommand> || std::is_same_v<T, FVerticesCommand> || std::is_same_v<T, FDeformedCommand>;
 
 struct FFollower
 {
@@ -125,7 +125,7 @@ FRTStatus FSceneCalls::TakeOver(IRTDevice& NewDevice, FBufferUploads& NewUploads
 	return Status;
 }
 
-/// Materials, objects and lights, after the meshes.
+/// Materials, objects, profiles and lights, after the meshes.
 void FSceneCalls::AddAll(const FSceneValues& Values)
 {
 	Materials.ForEach([&](ERTMaterialHandle Handle, FMaterial& Material) {
@@ -141,14 +141,21 @@ void FSceneCalls::AddAll(const FSceneValues& Values)
 		Command.Materials = GetSlots(Object.Materials);
 		Command.Mask = MakeObjectMask(Object.Traits);
 		Command.bCharacter = Object.Traits.bCharacter;
+		Command.Channels = Object.Traits.Channels;
 		// An object whose mesh could not be made was never placed, and stays unseen.
 		const std::optional<glm::dmat4> Transform = FindSlot(Values.Transforms, Command.Slot);
 		Command.Mesh = Transform ? Meshes.GetSlot(Object.Mesh) : ~0u;
 		Command.Transform = Transform.value_or(glm::dmat4(1.0));
 		Object.Ticket = AddArrival(std::move(Command));
 	});
+	Profiles.ForEach([&](ERTIesHandle Handle, FProfile& Profile) {
+		Profile.Ticket = AddArrival(FProfileCommand{Profiles.GetSlot(Handle), Profile.Grid});
+	});
 	Lights.ForEach([&](ERTLightHandle Handle, FLight& Light) {
-		Light.Ticket = AddArrival(FLightCommand{Lights.GetSlot(Handle), FindSlot(Values.Lights, Lights.GetSlot(Handle))});
+		std::optional<FSceneLight> Value = FindSlot(Values.Lights, Lights.GetSlot(Handle));
+		const bool bProfile = Value && Light.Profile != ERTIesHandle::None;
+		if (Value) { Value->Profile = bProfile ? Profiles.GetSlot(Light.Profile) + 1 : 0; } // it was a number of the old scene
+		Light.Ticket = AddArrival(FLightCommand{Lights.GetSlot(Handle), std::move(Value)});
 	});
 	Updates.emplace_back(Values.Sun);
 	Updates.emplace_back(FSkyCommand{Values.Sky});

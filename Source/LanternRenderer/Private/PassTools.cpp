@@ -11,6 +11,9 @@ namespace
 TRTConsoleVariable<bool> CVarEnable("r.RT.Enable", true, "All of the plugin's ray-traced features.");
 TRTConsoleVariable<bool> CVarLightArea(
     "r.RT.Debug.Lights.Area", true, "Planted fault. Off: lights with an extent have half of it in their density.");
+TRTConsoleVariable<bool> CVarLightProfile(
+    "r.RT.Debug.Lights.Profile", true, "Planted fault. Off: lights with a profile shine alike in all directions.");
+TRTConsoleVariable<bool> CVarLightChannels("r.RT.Debug.Lights.Channels", true, "Planted fault. Off: lights light objects of all channels.");
 } // namespace
 
 bool IsRayTracingEnabled() { return CVarEnable.GetOnRenderThread(); }
@@ -70,6 +73,8 @@ FShaderDefines MakeFactDefines(const FSceneFacts& Facts)
 	Add(Facts.Lights > 0, "HAS_LIGHTS");
 	Add(Facts.bAreaLights, "HAS_AREA_LIGHTS");
 	Add((Facts.bAreaLights || Facts.bEmissive) && !CVarLightArea.GetOnRenderThread(), "HALF_LIGHT_AREA");
+	Add(Facts.bLightProfiles && CVarLightProfile.GetOnRenderThread(), "HAS_LIGHT_PROFILES");
+	Add(Facts.bLightChannels && CVarLightChannels.GetOnRenderThread(), "HAS_LIGHT_CHANNELS");
 	Add(Facts.bMasked, "HAS_MASKED");
 	return Defines;
 }

@@ -7,6 +7,7 @@
 #include "Fog/FogShadow.h"
 #include "LanternRenderer/HostSurface.h"
 #include "LanternScene/ShaderTable/SectionTable.h"
+#include "Lights/PixelChannels.h"
 #include "Motion/CameraMotion.h"
 #include "Reference/Reference.h"
 #include "SignalPasses.h"
@@ -142,7 +143,8 @@ FRayPrograms ChooseRayPrograms(
 	}
 	else
 	{
-		Programs.bMotion = Requests.bMotion;
+		Programs.bMotion = Requests.bMotion || Scene.GetFacts().bLightChannels; // it names the pixels' objects
+		if (Scene.GetFacts().bLightChannels) { Programs.Compute.push_back(MakePixelChannelsSource()); }
 		FSceneFacts Facts = Scene.GetFacts();
 		Facts.bHostShadow = Features.bHostShadow;
 		CollectSignals(Collector, Capabilities, Scene, Facts, Requests, Ready);

@@ -40,15 +40,55 @@ TEST(GltfLights, ExtrasGiveLightsAShape)
 	EXPECT_NE(LoadLight("point", {{"shape", "disk"}, {"radius", -1}}).Error.find("radius"), std::string::npos);
 }
 
+TEST(GltfLights, ExtrasGiveLightsAProfileAndChannels)
+{
+	const FTemporaryFolder Folder;
+	Folder.Write("lamp.ies", "TILT=NONE\n1 1000 1 3 1 1 2 0 0 0\n1 1 10\n0 45 90\n0\n100 50 0\n");
+	Folder.Write("bad.ies", "TILT=NONE\n1 1000 1 3 1 2 2 0 0 0\n1 1 10\n0 45 90\n0\n100 50 0\n");
+	const auto LoadLights = [&](const std::vector<std::pair<std::string, nlohmann::json>>& Lights) {
+		FGltfMaker Maker;
+		Maker.AddTriangle();
+		for (const auto& [Type, Given] : Lights)
+		{
+			nlohmann::json Light = {{"type", Type}, {"intensity", 2}};
+			Light["extras"]["lantern"] = Given;
+			Maker.Json["extensions"]["KHR_lights_punctual"]["lights"].push_back(Light);
+		}
+		return LoadScene(Folder.Write("scene.gltf", Maker.GetText()));
+	};
+	const FLoadResult Result = LoadLights({{"spot", {{"ies", "lamp.ies"}, {"channels", 6}}},
+	    {"point", {{"ies", "lamp.ies"}, {"iesIntensity", true}}}, {"point", {{"channels", 0}}}});
+	ASSERT_TRUE(Result.Scene) << Result.Error;
+	const std::vector<FHostLight>& Lights = Result.Scene->Lights;
+	ASSERT_EQ(Result.Scene->Profiles.size(), 1u) << "one file, one profile";
+	EXPECT_EQ(Result.Scene->Profiles[0].Peak, 100.0f);
+	EXPECT_EQ(Lights[0].Profile, 1u);
+	EXPECT_EQ(Lights[0].Color, glm::vec3(2)) << "candela at the peak";
+	EXPECT_EQ(Lights[0].Channels, 6);
+	EXPECT_EQ(Lights[1].Profile, 1u);
+	EXPECT_EQ(Lights[1].Color, glm::vec3(200)) << "times those of the file";
+	EXPECT_EQ(Lights[1].Channels, CHANNELS_DEFAULT);
+	EXPECT_EQ(Lights[2].Profile, 0u);
+	EXPECT_EQ(Lights[2].Channels, 0);
+	const std::pair<nlohmann::json, const char*> Bad[] = {{{{"ies", "bad.ies"}}, "bad.ies:2: photometry of type B"},
+	    {{{"ies", "none.ies"}}, "none.ies"}, {{{"ies", "../lamp.ies"}}, "lights[0]"}, {{{"ies", 3}}, "expected a string"},
+	    {{{"ies", "lamp.ies"}, {"shape", "disk"}, {"radius", 1}}, "only point lights and spots"}, {{{"channels", 256}}, "channels"}};
+	for (const auto& [Given, Says] : Bad)
+	{
+		const std::string Error = LoadLights({{"point", Given}}).Error;
+		EXPECT_NE(Error.find(Says), std::string::npos) << Error;
+	}
+}
+
 TEST(GltfNodes, ExtrasSayWhatANodeShadows)
 {
 	FGltfMaker Maker;
 	Maker.AddTriangle();
-	Maker.Json["nodes"][0]["extras"]["lantern"] = {{"character", true}, {"castsLocalShadow", false}};
+	Maker.Json["nodes"][0]["extras"]["lantern"] = {{"character", true}, {"castsLocalShadow", false}, {"channels", 5}};
 	Maker.Json["nodes"].push_back({{"name", "plain"}});
 	const FLoadResult Result = Maker.Load();
 	ASSERT_TRUE(Result.Scene) << Result.Error;
-	EXPECT_EQ(Result.Scene->Nodes[0].Traits, (FRTObjectTraits{.bCastsLocalShadow = false, .bCharacter = true}));
+	EXPECT_EQ(Result.Scene->Nodes[0].Traits, (FRTObjectTraits{.bCastsLocalShadow = false, .bCharacter = true, .Channels = 5}));
 	EXPECT_EQ(Result.Scene->Nodes[1].Traits, FRTObjectTraits());
 }
 

@@ -77,6 +77,81 @@ TEST_F(FModuleLightTest, LightsComeChangeAndGo)
 	EXPECT_REFUSED(Renderer->SetLight(Second, Lamp), "Color");
 }
 
+// Profiles: files and tables, their peaks, their numbers in lights, and that a profile in use stays.
+TEST_F(FModuleLightTest, ProfilesComeAndGo)
+{
+	constexpr char File[] = "TILT=NONE\n1 1000 2 3 1 1 2 0 0 0\n1 1 10\n0 45 90\n0\n100 50 0\n";
+	ASSERT_OK(AddObject(AddOpaqueMesh(), Solid));
+	FRTModuleIesProfile Given;
+	Given.Name = "lamp.ies";
+	Given.Text = File;
+	Given.TextBytes = sizeof(File) - 1;
+	ERTIesHandle Profile = ERTIesHandle::None, Table = ERTIesHandle::None;
+	FRTModuleIesInfo Info;
+	ASSERT_OK(Renderer->AddIesProfile(Given, &Profile, &Info));
+	EXPECT_EQ(Info.Peak, 200.0f);
+	Given.TextBytes -= 6;
+	EXPECT_REFUSED(Renderer->AddIesProfile(Given, &Table, nullptr), "lamp.ies:7: the file ends before an intensity");
+	EXPECT_EQ(Table, ERTIesHandle::None);
+	Given.Text = nullptr;
+	EXPECT_REFUSED(Renderer->AddIesProfile(Given, &Table, nullptr), "is null");
+	const float Vertical[] = {0, 180}, Horizontal[] = {0}, Candela[] = {3, 6};
+	Given.VerticalAngles = Vertical;
+	Given.VerticalCount = 2;
+	Given.HorizontalAngles = Horizontal;
+	Given.HorizontalCount = 1;
+	Given.Candela = Candela;
+	ASSERT_OK(Renderer->AddIesProfile(Given, &Table, nullptr));
+
+	FRTModuleLight Lamp;
+	Lamp.Color[1] = 40.0f;
+	Lamp.Ies = Table;
+	ERTLightHandle Handle = ERTLightHandle::None;
+	ASSERT_OK(Renderer->AddLight(Lamp, &Handle));
+	EXPECT_EQ(Read(0).Flags >> LIGHT_PROFILE_SHIFT, 2u);
+	const FSceneConstants Constants = ReadConstants(DescribeFrame());
+	EXPECT_EQ(ReadEntry<FLightProfile>(Constants.LightProfiles, 1).Rows, 19u) << "by 10°";
+	EXPECT_REFUSED(Renderer->RemoveIesProfile(Table), "1 lights have the profile");
+	Lamp.Ies = Profile;
+	ASSERT_OK(Renderer->SetLight(Handle, Lamp));
+	ASSERT_OK(Renderer->RemoveIesProfile(Table));
+	EXPECT_REFUSED(Renderer->RemoveIesProfile(Table), "no such profile");
+	EXPECT_EQ(Read(0).Flags >> LIGHT_PROFILE_SHIFT, 1u);
+	Lamp.Ies = Table;
+	EXPECT_REFUSED(Renderer->SetLight(Handle, Lamp), "no such profile");
+	Lamp.Ies = Profile;
+	Lamp.Type = ERTModuleLight::Sphere;
+	Lamp.Radius = 1.0f;
+	EXPECT_REFUSED(Renderer->SetLight(Handle, Lamp), "FRTModuleLight::Ies");
+	ASSERT_OK(Renderer->RemoveLight(Handle));
+	EXPECT_OK(Renderer->RemoveIesProfile(Profile));
+}
+
+// Channels of lights and objects, as shaders see them. The default costs no table.
+TEST_F(FModuleLightTest, ChannelsReachTheScene)
+{
+	ERTObjectHandle Thing = ERTObjectHandle::None;
+	FRTModuleObject Placed;
+	Placed.Mesh = AddOpaqueMesh();
+	Placed.Materials = &Solid;
+	Placed.MaterialCount = 1;
+	ASSERT_OK(Renderer->AddObject(Placed, &Thing));
+	FRTModuleLight Lamp;
+	ERTLightHandle Handle = ERTLightHandle::None;
+	ASSERT_OK(Renderer->AddLight(Lamp, &Handle));
+	EXPECT_EQ(Read(0).Flags >> LIGHT_CHANNELS_SHIFT, 0u) << "coded as what differs from channel 0";
+	EXPECT_EQ(ReadConstants(DescribeFrame()).ObjectChannels, 0u);
+	Lamp.Channels = 4;
+	ASSERT_OK(Renderer->SetLight(Handle, Lamp));
+	ASSERT_OK(Renderer->SetObjectChannels(Thing, 6));
+	EXPECT_EQ(Read(0).Flags >> LIGHT_CHANNELS_SHIFT, 4u ^ CHANNELS_DEFAULT);
+	const FSceneConstants Constants = ReadConstants(DescribeFrame());
+	ASSERT_NE(Constants.ObjectChannels, 0u);
+	EXPECT_EQ(ReadEntry<uint32_t>(Constants.ObjectChannels, 0), 6u ^ CHANNELS_DEFAULT);
+	ASSERT_OK(Renderer->RemoveObject(Thing));
+	EXPECT_REFUSED(Renderer->SetObjectChannels(Thing, 1), "no such object");
+}
+
 // An engine's world: centimetres, left-handed, z up.
 TEST_F(FModuleLightTest, ShapesAreInTheEnginesWorld)
 {

@@ -236,6 +236,29 @@ TEST_F(FModuleSignalTest, MotionOfObjectsIsLeftToTheEngine)
 	EXPECT_THAT(Mock().GetCreatedBuffers(), Not(Contains(HasSubstr("Motion"))));
 }
 
+// Channels of pixels are the engine's: they are read where a lamp is not of channel 0, and nowhere else.
+TEST_F(FModuleSignalTest, ChannelsOfPixelsAreReadWhereLampsHaveSome)
+{
+	TRTRef<IRTTexture> Channels = MakeTexture(ERTFormat::R8_UNORM, 64);
+	FRTModuleFrame Frame = DescribeAll();
+	Frame.Wanted = {ESignal::LocalDiffuse};
+	Frame.Channels = Channels.Get();
+	FRTModuleLight Lamp;
+	Lamp.Color[0] = 1.0f;
+	ERTLightHandle Handle{};
+	ASSERT_OK(Renderer->AddLight(Lamp, &Handle));
+	RenderUntilComplete(Frame);
+	EXPECT_THAT(GetPasses(), Not(Contains("PixelChannels")));
+	Lamp.Channels = 2;
+	ASSERT_OK(Renderer->SetLight(Handle, Lamp));
+	ASSERT_TRUE(WaitUntil(
+	    "channels", [&] { return ::testing::Value(GetPasses(), Contains("PixelChannels")); }, [&] { RenderUntilComplete(Frame); }));
+	Frame.Channels = nullptr;
+	RenderUntilComplete(Frame);
+	EXPECT_THAT(GetPasses(), Not(Contains("PixelChannels"))) << "all pixels are of channel 0";
+	Channels.Reset();
+}
+
 TEST_F(FModuleSignalTest, WrongInputsAreNamed)
 {
 	FRTModuleFrame Frame = DescribeAll();
@@ -253,6 +276,9 @@ TEST_F(FModuleSignalTest, WrongInputsAreNamed)
 	Frame = DescribeAll();
 	Frame.Classes = Normals.Get();
 	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "the classes texture must be R8_UNORM");
+	Frame = DescribeAll();
+	Frame.Channels = Normals.Get();
+	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "the channels texture must be R8_UNORM");
 	Frame = DescribeAll();
 	Frame.BaseColor = Material.Get();
 	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "the base colour texture must be RGBA8_SRGB");

@@ -74,6 +74,26 @@ protected:
 	std::vector<FCasterChange> Found;
 };
 
+TEST_F(FCasterChangesSceneTest, ChannelsChangeLightAnywhere)
+{
+	Scene->SetChannels(Object, CHANNELS_DEFAULT);
+	EXPECT_EQ(Count(), 0) << "as they were";
+	EXPECT_EQ(Scene->GetConstants().ObjectChannels, 0u) << "nothing needs the table";
+	Scene->SetChannels(Object, 6);
+	EXPECT_EQ(Count(), Anywhere);
+	EXPECT_EQ(Read<uint32_t>(Scene->GetConstants().ObjectChannels, Object.Index), 6u ^ CHANNELS_DEFAULT);
+	// Objects that come later are in the table as well, and one whose slot is used again has its own.
+	const FRTObjectId Later = Add(Rock, {Material});
+	Frame();
+	EXPECT_EQ(Read<uint32_t>(Scene->GetConstants().ObjectChannels, Later.Index), 0u);
+	Scene->RemoveObject(Object);
+	const FRTObjectId Again = Add(Rock, {Material});
+	Frame();
+	EXPECT_EQ(Again.Index, Object.Index);
+	EXPECT_EQ(Read<uint32_t>(Scene->GetConstants().ObjectChannels, Again.Index), 0u);
+	EXPECT_FALSE(Scene->GetFacts().bLightChannels) << "there is no light";
+}
+
 TEST_F(FCasterChangesSceneTest, TellsWhereAnObjectWasAndIs)
 {
 	EXPECT_EQ(Count(), 0) << "nothing moved";

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -69,6 +70,8 @@ struct FDocument
 		std::string UsedBy; ///< "materials[3].normalTexture"
 	};
 	std::vector<FImageSource> ImageSources;
+	/// Profiles of lights that were read, by path or data: index in Scene.Profiles.
+	std::map<std::string, size_t> ProfileIndices;
 	/// New index by index in the file; −1 for a mesh of which nothing is left.
 	std::vector<int32_t> MeshRemap, NodeRemap;
 

@@ -141,6 +141,46 @@ float ReadLength(const FJson& Json, const char* Name)
 	return Length;
 }
 
+FPhotometry ReadPhotometry(const FDocument& Document, const FJson& Uri)
+{
+	constexpr uint64_t MostBytes = 16u << 20;
+	const std::string& Text = Uri.ToString();
+	std::vector<uint8_t> Bytes;
+	std::string Name = "data";
+	if (IsDataUri(Text)) { Bytes = DecodeDataUri(Uri, Text); }
+	else
+	{
+		const std::filesystem::path Path = ResolveUri(Uri, Text, Document.Folder);
+		Name = Path.filename().string();
+		try
+		{
+			Bytes = ReadFile(Path, MostBytes);
+		}
+		catch (const FError& Error)
+		{
+			Uri.Fail(fmt::format("'{}' {}", EscapePath(Path.string()), Error.what()));
+		}
+	}
+	FPhotometry Table;
+	const FRTStatus Status = ParseIes({reinterpret_cast<const char*>(Bytes.data()), Bytes.size()}, Name, Table);
+	if (!Status) { Uri.Fail(Status.Message); }
+	return Table;
+}
+
+/// Reads the profile of a point light or spot. Lights share those of one file.
+void ReadProfile(FDocument& Document, const FJson& Given, FHostLight& Light)
+{
+	const FJson Uri = Given.Member("ies");
+	if (!Uri.Exists()) { return; }
+	if (Light.Type != LIGHT_POINT) { Uri.Fail("only point lights and spots without a shape have a profile"); }
+	const auto [Found, bNew] = Document.ProfileIndices.try_emplace(Uri.ToString(), Document.Scene.Profiles.size());
+	if (bNew) { Document.Scene.Profiles.push_back(MakeProfileGrid(ReadPhotometry(Document, Uri))); }
+	Light.Profile = static_cast<uint32_t>(Found->second) + 1;
+	if (!Given.GetBool("iesIntensity", false)) { return; }
+	Light.Color *= Document.Scene.Profiles[Found->second].Peak;
+	if (!glm::all(glm::lessThan(Light.Color, glm::vec3(1e30f)))) { Given.Fail("the light is brighter than a float holds"); }
+}
+
 /// Reads the shape of a light: extras.lantern of a light of KHR_lights_punctual. Loaders that do not know it see the light without
 /// extent. Candela are those along the axis, or across a tube.
 void ReadLightShape(const FJson& Json, FHostLight& Light)
@@ -151,6 +191,7 @@ void ReadLightShape(const FJson& Json, FHostLight& Light)
 	Light.bCastsShadow = Shape.GetBool("castsShadow", true);
 	Light.bTwoSided = Shape.GetBool("twoSided", false);
 	Light.bLightsFog = Shape.GetBool("lightsFog", true);
+	Light.Channels = static_cast<uint8_t>(Shape.GetUInt("channels", CHANNELS_DEFAULT, 255));
 	if (Light.Type == LIGHT_DIRECTIONAL)
 	{
 		Light.Size.x = glm::clamp(Shape.GetFloat("angularDiameter", 0.0f), 0.0f, Pi);
@@ -181,7 +222,7 @@ void ReadLightShape(const FJson& Json, FHostLight& Light)
 	if (!glm::all(glm::lessThan(Light.Color, glm::vec3(1e30f)))) { Shape.Fail("the light is brighter than a float holds"); }
 }
 
-FHostLight ReadLight(const FJson& Json)
+FHostLight ReadLight(FDocument& Document, const FJson& Json)
 {
 	FHostLight Light;
 	Light.Name = Json.GetString("name", "");
@@ -199,6 +240,8 @@ FHostLight ReadLight(const FJson& Json)
 		Light.InnerCone = glm::clamp(Spot.GetFloat("innerConeAngle", 0.0f), 0.0f, Light.OuterCone);
 	}
 	ReadLightShape(Json, Light);
+	const FJson Given = Json.Extra("lantern");
+	if (Given.Exists()) { ReadProfile(Document, Given, Light); }
 	return Light;
 }
 
@@ -209,7 +252,7 @@ void ReadLights(FDocument& Document)
 	for (size_t I = 0; I < Lights.Count(); ++I)
 	{
 		const FJson Json = Lights.Element(I);
-		Document.Scene.Lights.push_back(ReadLight(Json));
+		Document.Scene.Lights.push_back(ReadLight(Document, Json));
 	}
 }
 
@@ -222,6 +265,7 @@ void ReadTraits(const FJson& Json, FRTObjectTraits& Traits)
 	Traits.bCastsShadow = Given.GetBool("castsShadow", true);
 	Traits.bCastsLocalShadow = Given.GetBool("castsLocalShadow", true);
 	Traits.bCharacter = Given.GetBool("character", false);
+	Traits.Channels = static_cast<uint8_t>(Given.GetUInt("channels", CHANNELS_DEFAULT, 255));
 }
 
 FHostNode ReadNode(FDocument& Document, const FJson& Json, bool bShown, const std::vector<int32_t>& CameraRemap)

@@ -142,6 +142,7 @@ private:
 	std::map<std::vector<uint32_t>, uint32_t> BatchLists; // to first index
 	bool bSceneLights = true;
 	std::vector<FLightId> LightIds; // by node; none while they are off
+	std::vector<uint32_t> Profiles; // numbers in the scene, by index in the description
 };
 
 } // namespace Lantern

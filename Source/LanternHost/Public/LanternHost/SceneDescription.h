@@ -12,6 +12,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "LanternScene/Lights/Light.h"
+#include "LanternScene/Lights/Photometry.h"
 #include "LanternScene/Scene/Object.h"
 #include "SceneTypes.h"
 
@@ -139,7 +140,7 @@ struct FHostAnimation
 	float Duration = 0.0f;
 };
 
-/// A light whose position, direction (−z) and tangent (x) are those of its node.
+/// A light whose position, direction (−z) and tangent (x) are those of its node. Its Profile is an index of Profiles, plus 1; 0: none.
 struct FHostLight : FSceneLight
 {
 	FHostLight() { Color = glm::vec3(1); }
@@ -167,6 +168,7 @@ struct FSceneDescription
 	std::vector<FHostSkin> Skins;
 	std::vector<FHostAnimation> Animations;
 	std::vector<FHostLight> Lights;
+	std::vector<FProfileGrid> Profiles; ///< of lights
 	std::vector<FHostCamera> Cameras;
 	std::vector<std::string> Warnings; ///< one line each, with their place; the caller of the loader logs them
 	/// Defaults that a built-in scene suggests; the command line overrides them.

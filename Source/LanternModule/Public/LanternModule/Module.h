@@ -63,6 +63,10 @@ enum class ERTLightHandle : uint64_t
 {
 	None = 0
 };
+enum class ERTIesHandle : uint64_t
+{
+	None = 0
+};
 
 /// A map of a material: a texture, how it is sampled, and where its texels lie on the surface.
 struct FRTModuleMap
@@ -126,6 +130,8 @@ struct FRTModuleObject
 	/// A character casts no shadow on characters or on itself, so that faces have no self-shadow. FRTModuleFrame::Classes says which
 	/// pixels show one.
 	bool bCharacter = false;
+	/// Lights light it that share a bit with it (FRTModuleLight::Channels). Bit 0 is channel 0. Channels do not change who casts.
+	uint8_t Channels = 1;
 	bool bVisible = true; ///< seen by all rays but those of shadows: reflections and diffuse light
 	ERTModuleMobility Mobility = ERTModuleMobility::Movable;
 };
@@ -151,9 +157,13 @@ struct FRTModuleLight
 	ERTModuleLight Type = ERTModuleLight::Point;
 	/// The centre; not of a directional light. Up to 1e12. A light farther than 262 km from the camera may shine from elsewhere.
 	double Position[3] = {0, 0, 0};
-	float Direction[3] = {0, -1, 0}; ///< in which the light travels, any length > 0: of spots, directional, rectangles, disks and cones
-	float Tangent[3] = {1, 0, 0};    ///< direction of a rectangle's width, or of a tube's axis; any length > 0, not along Direction
-	/// With intensity: candela of points and spots, lux of directional lights, nits of the others. 0 to 1e20.
+	/// In which the light travels, any length > 0: of spots, directional, rectangles, disks, cones and profiles.
+	float Direction[3] = {0, -1, 0};
+	/// Direction of a rectangle's width, of a tube's axis, or of a profile's horizontal angle 0. Any length > 0. Not along Direction;
+	/// a profile begins anywhere then.
+	float Tangent[3] = {1, 0, 0};
+	/// With intensity: candela of points and spots, lux of directional lights, nits of the others. 0 to 1e20. With a profile it is that
+	/// of the profile's brightest direction: Color times FRTModuleIesInfo::Peak has the intensities of the file.
 	float Color[3] = {0, 0, 0};
 	float Range = 0.0f;           ///< at which it has faded out, in the unit of the engine's world; 0: unlimited
 	float InnerCone = 0.0f;       ///< of a spot: angle from its axis at which it begins to fade, radians
@@ -167,6 +177,31 @@ struct FRTModuleLight
 	bool bTwoSided = false;       ///< a rectangle or disk shines to its back, too
 	bool bCastsShadow = true;     ///< false: it shines through everything (fill light)
 	bool bLightsFog = true;       ///< fog scatters it (FRTModuleFog::Light)
+	/// Objects that share a bit with it are lit by it (FRTModuleObject::Channels). Bit 0 is channel 0. Fog has no channels.
+	uint8_t Channels = 1;
+	ERTIesHandle Ies = ERTIesHandle::None; ///< of points and spots: intensity by direction. A spot has its cones as well
+};
+
+/// Luminous intensity of a luminaire by direction, photometry of type C: a file of IES LM-63, or a table. Arrays are read during the
+/// call.
+struct FRTModuleIesProfile
+{
+	const char* Name = nullptr; ///< of the file, for messages; may be null
+	const char* Text = nullptr; ///< the file; null: the table below
+	uint64_t TextBytes = 0;     ///< without a zero byte
+	/// Degrees from FRTModuleLight::Direction, rising from 0 or 90 to 90 or 180. It is dark outside of them.
+	const float* VerticalAngles = nullptr;
+	uint32_t VerticalCount = 0; ///< ≥ 2
+	/// Degrees from FRTModuleLight::Tangent, counterclockwise as seen against Direction, rising: from 0 to 0, 90, 180 or 360, or from 90
+	/// to 270. The rest mirrors them.
+	const float* HorizontalAngles = nullptr;
+	uint32_t HorizontalCount = 0;   ///< ≥ 1
+	const float* Candela = nullptr; ///< [HorizontalCount][VerticalCount], ≥ 0, not all 0
+};
+
+struct FRTModuleIesInfo
+{
+	float Peak = 0.0f; ///< candela of the brightest direction
 };
 
 struct FRTModuleSun
@@ -175,6 +210,7 @@ struct FRTModuleSun
 	float Color[3] = {1, 1, 1};
 	float Irradiance = 0.0f;      ///< of a plane that faces the sun, lux; 0: no sun and no shadow pass
 	float AngularDiameter = 0.0f; ///< radians, 0 to π; 0: hard shadows
+	uint8_t Channels = 1;         ///< as FRTModuleLight::Channels. The sun's shadow is of all pixels, whatever their objects' channels are
 };
 
 enum class ERTModuleSkyMap : uint8_t
@@ -275,6 +311,8 @@ public:
 	virtual FRTStatus SetObjectMesh(ERTObjectHandle Handle, ERTMeshHandle Mesh, const ERTMaterialHandle* Materials, uint32_t Count) = 0;
 	virtual FRTStatus SetObjectCastsShadow(ERTObjectHandle Handle, bool bCastsShadow) = 0;
 	virtual FRTStatus SetObjectVisible(ERTObjectHandle Handle, bool bVisible) = 0;
+	/// Sets FRTModuleObject::Channels. The first object or light without channel 0 needs other shaders, which compile beside the frames.
+	virtual FRTStatus SetObjectChannels(ERTObjectHandle Handle, uint8_t Channels) = 0;
 	/// Removes an object. May be called while frames that show it are in flight.
 	virtual FRTStatus RemoveObject(ERTObjectHandle Handle) = 0;
 	/// Adds a light. Costs what changed, whatever the number of lights; so do SetLight and RemoveLight. InvalidArgument names the
@@ -282,6 +320,11 @@ public:
 	virtual FRTStatus AddLight(const FRTModuleLight& Light, ERTLightHandle* Out) = 0;
 	virtual FRTStatus SetLight(ERTLightHandle Handle, const FRTModuleLight& Light) = 0;
 	virtual FRTStatus RemoveLight(ERTLightHandle Handle) = 0;
+	/// Adds a profile for lights. Info may be null. InvalidArgument names file, line and what is wrong there. Unsupported: photometry of
+	/// types A and B, a tilt in another file, or more than 65,535 profiles. The first light with one needs other shaders.
+	virtual FRTStatus AddIesProfile(const FRTModuleIesProfile& Profile, ERTIesHandle* Out, FRTModuleIesInfo* Info) = 0;
+	/// Removes a profile; InvalidArgument while lights have it.
+	virtual FRTStatus RemoveIesProfile(ERTIesHandle Handle) = 0;
 	virtual FRTStatus SetSun(const FRTModuleSun& Sun) = 0;
 	/// Sets the radiance of a uniform sky: nits, linear Rec.709, finite, ≥ 0. 0 (default): no sky.
 	virtual FRTStatus SetSky(const float Radiance[3]) = 0;

@@ -196,12 +196,16 @@ struct FRTModuleFrame
 	/// R8_UNORM: what each pixel shows, as bits over 255. Bit 0: a character (FRTModuleObject::bCharacter), on which characters cast no
 	/// shadow. Other bits must be 0. May be null: characters then cast on all that the picture shows.
 	IRTTexture* Classes = nullptr;
+	/// R8_UNORM: channels of each pixel's object (FRTModuleObject::Channels) over 255. May be null: local lights then light what the
+	/// picture shows as if all of it were of channel 0.
+	IRTTexture* Channels = nullptr;
 	ERTAccess DepthAccess = ERTAccess::ShaderRead;
 	ERTAccess NormalsAccess = ERTAccess::ShaderRead;
 	ERTAccess MotionAccess = ERTAccess::ShaderRead;
 	ERTAccess BaseColorAccess = ERTAccess::ShaderRead;
 	ERTAccess MaterialAccess = ERTAccess::ShaderRead;
 	ERTAccess ClassesAccess = ERTAccess::ShaderRead;
+	ERTAccess ChannelsAccess = ERTAccess::ShaderRead;
 	/// Geometric normals, coded as Normals are. May be null, see Layout.bGeometricInZw.
 	IRTTexture* GeometricNormals = nullptr;
 	ERTAccess GeometricNormalsAccess = ERTAccess::ShaderRead;

@@ -229,6 +229,7 @@ FPassRays ChooseFogRays(const FPassQuery& Query)
 	if (Facts.bSun) { Rays.Defines.emplace_back("FOG_SUN", "1"); }
 	if (Facts.FogLights > 0) { Rays.Defines.emplace_back("FOG_LIGHTS", "1"); }
 	if (Facts.FogLights > 0 && Facts.bAreaLights) { Rays.Defines.emplace_back("HAS_AREA_LIGHTS", "1"); }
+	if (Facts.FogLights > 0 && Facts.bLightProfiles) { Rays.Defines.emplace_back("HAS_LIGHT_PROFILES", "1"); }
 	if (!CVarDebugSlice.GetOnRenderThread()) { Rays.Defines.emplace_back("FOG_NEXT_SLICE", "1"); }
 	Rays.Shaders = FogShaders;
 	Rays.Compute = {MakeSource("Columns"), MakeSource("Depth")};

@@ -4,6 +4,7 @@
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LightingTypes.h"
 #include "Lights/LightCells.h"
+#include "Lights/PixelChannels.h"
 #include "LocalLights/Emitters.h"
 #include "PassTools.h"
 #include "Sky/SkyLight.h"
@@ -31,6 +32,7 @@ FShaderSource MakeLightingSource(FSceneFacts Facts)
 	const bool bLights = CVarLocalLights.GetOnRenderThread();
 	Facts.Lights = bLights ? Facts.Lights : 0;
 	Facts.bAreaLights &= bLights;
+	Facts.bLightProfiles &= bLights;
 	Facts.bSky &= CVarSkyAmbient.GetOnRenderThread();
 	Facts.bMasked = false; // nothing of it reaches lighting
 	FShaderDefines Defines = MakeFactDefines(Facts);
@@ -50,6 +52,7 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 	const FGraphTexture LightsSpecular = bShadowed ? Inputs.LightsSpecular : FGraphTexture();
 	const bool bVisitsLights = HasLocalLight() && !bShadowed;
 	if (bVisitsLights) { RequireLightCells(Context, Inputs.GBuffer); }
+	const FGraphTexture Channels = RequirePixelChannels(Context, Inputs.GBuffer);
 	const FPassConstants PassConstants = Context.Pass;
 	const float Surroundings = CVarSurroundings.GetOnRenderThread();
 	const uint32_t Width = Context.Width, Height = Context.Height;
@@ -60,7 +63,7 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 			Builder.Read(Texture, ERTAccess::ShaderRead);
 		}
 		for (const FGraphTexture Texture : {Inputs.SunVisibility, Inputs.SkyVisibility, Inputs.IndirectDiffuse, Inputs.IndirectSpecular,
-		         SkyLight, LightsDiffuse, LightsSpecular})
+		         SkyLight, LightsDiffuse, LightsSpecular, Channels})
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
@@ -82,6 +85,7 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 			C.SkyLight = Sampled(SkyLight);
 			C.LightsDiffuse = Sampled(LightsDiffuse);
 			C.LightsSpecular = Sampled(LightsSpecular);
+			C.Channels = Sampled(Channels);
 			C.Surroundings = Surroundings;
 			C.Output = Pass.GetTexture(Output)->GetStorageIndex();
 			Dispatch2D(Pass, Pipeline, C, Width, Height, LIGHTING_GROUP_SIZE);

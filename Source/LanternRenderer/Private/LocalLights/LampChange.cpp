@@ -7,6 +7,7 @@
 #include "LampChangeTypes.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/FrameGraph/History.h"
+#include "Lights/PixelChannels.h"
 #include "PassTools.h"
 #include "Tiles/MovedCasters.h"
 
@@ -63,12 +64,14 @@ FGraphTexture AddFollowPass(
 {
 	const FFrameContext* const Frame = &Context;
 	const std::string Name = std::string(GetSignalInfo(Lobe).Pass) + "Change";
+	const FGraphTexture Channels = RequirePixelChannels(Context, GBuffer);
 	const FGraphTexture Change = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA16_FLOAT}, Name.c_str());
 	Context.Graph.AddPass(Name.c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals, GBuffer.BaseColor, GBuffer.Material})
 		{
 			Builder.Read(Texture, ERTAccess::ShaderRead);
 		}
+		if (Channels.IsValid()) { Builder.Read(Channels, ERTAccess::ShaderRead); }
 		for (const FGraphBuffer Buffer : {List, Rays.Guide}) { Builder.Read(Buffer, ERTAccess::ShaderRead); }
 		Builder.Write(Change, ERTAccess::StorageWrite);
 		Builder.AllowAsync();
@@ -81,6 +84,7 @@ FGraphTexture AddFollowPass(
 			C.Normals = GetSampledIndex(Pass, GBuffer.Normals);
 			C.BaseColor = GetSampledIndex(Pass, GBuffer.BaseColor);
 			C.Material = GetSampledIndex(Pass, GBuffer.Material);
+			C.Channels = GetSampledIndex(Pass, Channels);
 			C.Output = GetStorageIndex(Pass, Change);
 			C.bSpecular = Lobe == ESignal::LocalSpecular ? 1u : 0u;
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);

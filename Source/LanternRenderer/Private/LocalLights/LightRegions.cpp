@@ -14,6 +14,7 @@ FShaderSource MakeLightRegionsSource(const FSceneFacts& Facts)
 	FSceneFacts Used;
 	Used.Lights = Facts.Lights;
 	Used.bAreaLights = Facts.bAreaLights;
+	Used.bLightProfiles = Facts.bLightProfiles;
 	return MakeComputeSource("LocalLights/Regions.comp", MakeFactDefines(Used));
 }
 

@@ -3,6 +3,7 @@
 
 #include "Denoise/Denoise.h"
 #include "Lighting/DirectLighting.h"
+#include "Lights/PixelChannels.h"
 #include "LocalLightTypes.h"
 #include "LocalLights/Emitters.h"
 #include "LocalLights/LampChange.h"
@@ -47,12 +48,14 @@ FLocalLobes AddShadePass(FFrameContext& Context, const FGBuffer& GBuffer, const 
 	const FLocalLobes Lobes{Create("LocalDiffuse"), Create("LocalSpecular")};
 	const FFrameContext* const Frame = &Context;
 	const FShadowRays Inputs = Rays;
+	const FGraphTexture Channels = RequirePixelChannels(Context, GBuffer);
 	const float Reflected = GetReflectedRoughness({Context.Device.GetCapabilities(), Context.Facts, Context.Signals});
 	Context.Graph.AddPass("ShadowLightsShade", [&](FPassBuilder& Builder) -> FPassExecute {
 		for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals, GBuffer.BaseColor, GBuffer.Material})
 		{
 			Builder.Read(Texture, ERTAccess::ShaderRead);
 		}
+		if (Channels.IsValid()) { Builder.Read(Channels, ERTAccess::ShaderRead); }
 		for (const FGraphBuffer Buffer : {Inputs.Queue.Answers, Inputs.Traced.TileLights, Inputs.Traced.Choices, Inputs.Traced.Lit})
 		{
 			if (Buffer.IsValid()) { Builder.Read(Buffer, ERTAccess::ShaderRead); }
@@ -74,6 +77,7 @@ FLocalLobes AddShadePass(FFrameContext& Context, const FGBuffer& GBuffer, const 
 			C.Normals = GetSampledIndex(Pass, GBuffer.Normals);
 			C.BaseColor = GetSampledIndex(Pass, GBuffer.BaseColor);
 			C.Material = GetSampledIndex(Pass, GBuffer.Material);
+			C.Channels = GetSampledIndex(Pass, Channels);
 			C.Lit = GetAddress(Pass, Inputs.Traced.Lit);
 			C.Guide = GetAddress(Pass, Inputs.Traced.Guide) + Inputs.Traced.GuideOffset;
 			C.OutDiffuse = GetStorageIndex(Pass, Lobes.Diffuse);
@@ -137,7 +141,10 @@ FPassRays ChooseLocalLightRays(const FPassQuery& Query)
 	Rays.Path = ChooseLocalLightPath(Query);
 	if (Rays.Path == ERayPath::None) { return Rays; }
 	Rays.bLightSampling = HasEmitters(Query.Facts);
-	Rays.Defines = MakeLocalDefines(Query.Facts, GetExact());
+	// Rays go where pixels have asked for them. What lights bring there was asked before.
+	FSceneFacts Traced = Query.Facts;
+	Traced.bLightProfiles = Traced.bLightChannels = false;
+	Rays.Defines = MakeLocalDefines(Traced, GetExact());
 	Rays.Defines.emplace_back("LOCAL_RAYS", "1");
 	AddReceiverDefines(Query.Facts, Rays.Defines);
 	Rays.Shaders = ShadowQueueShaders;

@@ -6,6 +6,7 @@
 
 #include "LanternCore/FrameGraph/History.h"
 #include "Lights/LightCells.h"
+#include "Lights/PixelChannels.h"
 #include "LocalLightTypes.h"
 #include "LocalLights/Emitters.h"
 #include "LocalLights/LightRegions.h"
@@ -72,6 +73,7 @@ struct FRequestsPass
 	FLocalRays Rays;
 	bool bFirst = false; ///< no pass before it writes requests and answers
 	FGraphBuffer TileLights, Choices, Lit, Regions;
+	FGraphTexture Channels;   ///< of RequirePixelChannels
 	FGraphBuffer Emitters;    ///< of AddEmitterClusters
 	FGraphBuffer Guide;       ///< two times FTileGuide[Tiles], of this frame and of the one before
 	uint64_t GuideOffset = 0; ///< of this frame's, bytes
@@ -111,7 +113,7 @@ void SetGuide(FPassContext& Pass, const FFrameContext& Frame, const FRequestsPas
 	C.Lit = GetAddress(Pass, Inputs.Lit);
 	C.Guide = Guides + Inputs.GuideOffset;
 	C.PreviousGuide = Inputs.bPreviousGuide ? Guides + (Bytes - Inputs.GuideOffset) : 0;
-	C.Candidates = GetCandidates();
+	C.Limits |= GetCandidates() << 16;
 	C.Regions = GetAddress(Pass, Inputs.Regions);
 	C.Emitters = GetAddress(Pass, Inputs.Emitters);
 	C.GuideKept = std::exp(-Frame.View.DeltaSeconds / std::max(CVarGuideSeconds.GetOnRenderThread(), 1e-6f));
@@ -136,7 +138,7 @@ FLocalRequestsConstants MakeConstants(FPassContext& Pass, const FFrameContext& F
 	C.Requests = GetAddress(Pass, Inputs.Queue.Requests);
 	C.Counters = GetAddress(Pass, Inputs.Queue.Counters);
 	C.Capacity = Inputs.Queue.Capacity;
-	C.Exact = Inputs.Rays.Exact;
+	C.Limits = Inputs.Rays.Exact;
 	return C;
 }
 
@@ -155,6 +157,7 @@ void AddRequestsPass(FFrameContext& Context, IRTPipeline* Pipeline, const FReque
 	Context.Graph.AddPass((Inputs.Queue.Name + "Lights").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Read(Inputs.GBuffer.Depth, ERTAccess::ShaderRead);
 		Builder.Read(Inputs.GBuffer.Normals, ERTAccess::ShaderRead);
+		if (Inputs.Channels.IsValid()) { Builder.Read(Inputs.Channels, ERTAccess::ShaderRead); }
 		DeclareQueue(Builder, Inputs.Queue, Inputs.bFirst);
 		Builder.Write(Inputs.TileLights, ERTAccess::StorageWrite);
 		if (Inputs.Choices.IsValid()) { Builder.Write(Inputs.Choices, ERTAccess::StorageWrite); }
@@ -169,6 +172,7 @@ void AddRequestsPass(FFrameContext& Context, IRTPipeline* Pipeline, const FReque
 			C.Choices = GetAddress(Pass, Inputs.Choices);
 			C.Depth = GetSampledIndex(Pass, Inputs.GBuffer.Depth);
 			C.Normals = GetSampledIndex(Pass, Inputs.GBuffer.Normals);
+			C.Channels = GetSampledIndex(Pass, Inputs.Channels);
 			if (Inputs.IsGuided()) { SetGuide(Pass, *Frame, Inputs, C); }
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
@@ -255,6 +259,7 @@ void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRa
 		}
 	}
 	Inputs.Emitters = AddEmitterClusters(Context, GBuffer);
+	Inputs.Channels = RequirePixelChannels(Context, GBuffer);
 	AddRequestsPass(Context, RequireCompute(Context, MakeRequestsSource(Context.Facts, Rays.Exact)), Inputs);
 	if (InOut.Queue.bMayOverflow) { AddSharePass(Context, RequireCompute(Context, MakeShareSource()), Inputs); }
 	InOut.Traced.TileLights = Inputs.TileLights;

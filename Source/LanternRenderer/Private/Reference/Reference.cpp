@@ -3,6 +3,7 @@
 
 #include <cassert>
 
+#include "Lights/PixelChannels.h"
 #include "LocalLights/Emitters.h"
 #include "ReferenceTypes.h"
 #include "SignalPasses.h"
@@ -38,11 +39,12 @@ void AddReferencePass(FFrameContext& Context, const FReferencePassInputs& Inputs
 		return;
 	}
 	Context.RequireRays();
+	const FGraphTexture Channels = RequirePixelChannels(Context, Inputs.GBuffer);
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass("PathTrace", [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Write(Inputs.Sum, ERTAccess::StorageWrite | ERTAccess::ShaderRead);
 		const FGBuffer& G = Inputs.GBuffer;
-		for (const FGraphTexture Texture : {G.Depth, G.Normals, G.BaseColor, G.Material})
+		for (const FGraphTexture Texture : {G.Depth, G.Normals, G.BaseColor, G.Material, Channels})
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
@@ -62,6 +64,7 @@ void AddReferencePass(FFrameContext& Context, const FReferencePassInputs& Inputs
 			C.Normals = GetSampledIndex(Pass, Inputs.GBuffer.Normals);
 			C.BaseColor = GetSampledIndex(Pass, Inputs.GBuffer.BaseColor);
 			C.Material = GetSampledIndex(Pass, Inputs.GBuffer.Material);
+			C.Channels = GetSampledIndex(Pass, Channels);
 			Pass.CountRays(uint64_t(Frame->Width) * Inputs.RowCount * Inputs.SampleCount);
 			TraceFrameRays(Pass, *Frame, Frame->GetRayGen(ESignal::Frame), C, Frame->Width, Inputs.RowCount);
 		};

@@ -26,7 +26,9 @@ struct FGBuffer
 	/// R8_UNORM: what the pixel shows, CLASS_… (SceneTypes.h) over 255. Invalid: with bNamesObjects, a pixel has the class of the
 	/// object that Motion names, and without it none.
 	FGraphTexture Classes;
-	glm::uvec2 ClassesOffset{0}; ///< of the view in Classes, pixels, below 65,536
+	/// R8_UNORM: channels of the pixel's object (FRTObjectTraits) over 255. Invalid: as without Classes, and CHANNELS_DEFAULT for none.
+	FGraphTexture Channels;
+	glm::uvec2 ClassesOffset{0}; ///< of the view in Classes and Channels, pixels, below 65,536
 };
 
 /// What a frame made. A texture is invalid if the scene has no use for it, if it is off, or if its shaders are being compiled.

@@ -222,6 +222,7 @@ struct FFrameContext
 	FRayQueueDemand* QueueDemand = nullptr; ///< what earlier frames asked of the queue of shadow rays
 	FSurfaceTextures Surface;
 	FLightCellsOfFrame LightCells;
+	FGraphTexture PixelChannels; ///< invalid: nobody has asked so far, or there is none
 	FFogOfFrame Fog;
 	/// What r.RT.Debug.View shows instead of a signal, RGBA8_UNORM; invalid: nothing drew it.
 	FGraphTexture DebugPicture;

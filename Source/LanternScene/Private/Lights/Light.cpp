@@ -48,13 +48,15 @@ glm::vec2 PackSize(const FSceneLight& Light)
 	}
 }
 
-/// The tangent at a right angle to the direction. Tubes have none that counts.
+/// The tangent at a right angle to the direction, where that counts.
 glm::dvec3 MakeTangent(const FSceneLight& Light)
 {
 	const glm::dvec3 Tangent(Light.Tangent);
-	if (Light.Type != LIGHT_RECTANGLE) { return Tangent; }
+	if (Light.Type != LIGHT_RECTANGLE && Light.Profile == 0) { return Tangent; }
 	const glm::dvec3 Normal = glm::normalize(glm::dvec3(Light.Direction));
-	return Tangent - glm::dot(Tangent, Normal) * Normal;
+	const glm::dvec3 Across = glm::normalize(Tangent) - glm::dot(glm::normalize(Tangent), Normal) * Normal;
+	if (Light.Profile == 0 || glm::length(Across) > 1e-3) { return Across; }
+	return glm::cross(Normal, std::abs(Normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0));
 }
 } // namespace
 
@@ -86,6 +88,8 @@ FLightData PackLight(const FSceneLight& Light)
 	Out.Flags |= Light.bCastsShadow ? LIGHT_CASTS_SHADOW : 0u;
 	Out.Flags |= Light.bTwoSided ? LIGHT_TWO_SIDED : 0u;
 	Out.Flags |= Light.bLightsFog ? LIGHT_IN_FOG : 0u;
+	assert(Light.Profile <= LIGHT_PROFILES_MOST && (Light.Profile == 0 || Light.Type == LIGHT_POINT));
+	Out.Flags |= ((Light.Channels ^ CHANNELS_DEFAULT) << LIGHT_CHANNELS_SHIFT) | (Light.Profile << LIGHT_PROFILE_SHIFT);
 	for (int Axis = 0; Axis < 3; ++Axis) { Out.Position[Axis] = PackCoordinate(Light.Position[Axis]); }
 	Out.Color = Light.Color;
 	Out.Range = Light.Range;

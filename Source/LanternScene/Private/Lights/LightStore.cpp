@@ -27,6 +27,8 @@ void FLightStore::Count(const FSceneLight& Light, uint32_t Times)
 	Extended += HasExtent(Light) ? Times : 0;
 	Finite += ReachesEverywhere(Light) ? 0 : Times;
 	InFog += Light.bLightsFog ? Times : 0;
+	Profiled += Light.Profile != 0 ? Times : 0;
+	OffChannel += (Light.Channels & CHANNELS_DEFAULT) == 0 ? Times : 0;
 }
 
 FLightId FLightStore::Add(const FSceneLight& Light)

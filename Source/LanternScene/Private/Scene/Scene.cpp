@@ -136,6 +136,7 @@ FSceneConstants FRTScene::GetConstants() const
 {
 	FSceneConstants C{};
 	C.Objects = Objects.GetTable().GetAddress();
+	C.ObjectChannels = Objects.GetChannels().Num() > 0 ? Objects.GetChannels().GetAddress() : 0;
 	C.Sections = Materials.GetSections().GetTable().GetAddress();
 	C.Materials = Materials.GetTable().GetAddress();
 	Lights.FillConstants(C);

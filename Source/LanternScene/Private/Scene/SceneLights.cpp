@@ -17,6 +17,9 @@ void FSceneLights::FillConstants(FSceneConstants& Out) const
 {
 	Out.Lights = Store.GetTable().GetAddress();
 	Out.LightCount = Store.GetSlotCount();
+	Out.LightProfiles = Profiles.GetHeaders().GetAddress();
+	Out.ProfileTexels = Profiles.GetTexels().GetAddress();
+	Out.SunChannels = Sun.Channels;
 	Out.SunDirection = glm::vec3(glm::normalize(Sun.Direction));
 	Out.SunIrradiance = Sun.Irradiance;
 	Out.SunColor = Sun.Color;

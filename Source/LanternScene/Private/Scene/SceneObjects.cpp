@@ -42,6 +42,8 @@ double GetStretch(const glm::dmat4& Transform)
 	}
 	return std::sqrt(Largest);
 }
+
+uint32_t IsOffChannel(uint8_t Channels) { return (Channels & CHANNELS_DEFAULT) == 0 ? 1 : 0; }
 } // namespace
 
 FSceneObjects::FObject& FSceneObjects::Resolve(FRTObjectId Id)
@@ -64,6 +66,8 @@ FRTObjectId FSceneObjects::Add(FRTObjectInfo Info)
 	FObject& Object = Objects[Slot];
 	Object.Info = std::move(Info);
 	Characters += Object.Info.bCharacter ? 1 : 0;
+	OffChannel += IsOffChannel(Object.Info.Channels);
+	WriteChannels(Slot);
 	Object.Range = Sections.Acquire(*Object.Info.Geometry, Object.Info.Materials);
 	Motions.Add(Slot, *Object.Info.Geometry);
 	JoinGeometry(Slot);
@@ -78,6 +82,7 @@ void FSceneObjects::Remove(FRTObjectId Id)
 	FObject& Object = Resolve(Id);
 	MarkEmissive(Object.Range);
 	Characters -= Object.Info.bCharacter ? 1 : 0;
+	OffChannel -= IsOffChannel(Object.Info.Channels);
 	NoteCaster(Id.Index);
 	Instances.Remove(Id.Index);
 	Motions.Remove(Id.Index);
@@ -87,6 +92,7 @@ void FSceneObjects::Remove(FRTObjectId Id)
 	Retired.push_back(std::move(Object.Info.Geometry));
 	Objects.Free(Id.Index);
 	Table.Truncate(GetSlotCount());
+	ChannelTable.Truncate(GetSlotCount());
 	Motions.Truncate(GetSlotCount());
 }
 
@@ -138,6 +144,24 @@ void FSceneObjects::SetMask(FRTObjectId Id, uint8_t Mask)
 	Place(Id.Index);
 	WriteCasterRadius(Id.Index);
 	NoteCaster(Before, Instances.GetRecord(Id.Index));
+}
+
+void FSceneObjects::SetChannels(FRTObjectId Id, uint8_t Channels)
+{
+	const uint8_t Before = std::exchange(Resolve(Id).Info.Channels, Channels);
+	if (Before == Channels) { return; }
+	OffChannel += IsOffChannel(Channels) - IsOffChannel(Before);
+	WriteChannels(Id.Index);
+	CasterChanges.AddAnywhere(); // filters look whether their light is still right
+}
+
+/// The table begins with the first object that needs it. It has all objects then: shaders look up any.
+void FSceneObjects::WriteChannels(uint32_t Slot)
+{
+	const uint32_t Value = Objects[Slot].Info.Channels ^ CHANNELS_DEFAULT;
+	if (ChannelTable.Num() == 0 && Value == 0) { return; }
+	if (ChannelTable.Num() < GetSlotCount()) { ChannelTable.Set(GetSlotCount() - 1, 0); }
+	ChannelTable.Set(Slot, Value);
 }
 
 void FSceneObjects::SetBounds(const FRTGeometryRef& Geometry, const FBoundingSphere& Bounds)

@@ -66,7 +66,11 @@ void FSceneUpdate::RefreshLightFacts()
 	Facts.FiniteLights = Lights.GetFiniteCount();
 	Facts.FogLights = Lights.GetFogCount();
 	Facts.bAreaLights = Lights.GetExtendedCount() > 0;
+	Facts.bLightProfiles = Lights.GetProfiledCount() > 0;
 	Facts.bSun = Parts.Lights.HasSun();
+	const bool bSunOff = Facts.bSun && (Parts.Lights.GetSun().Channels & CHANNELS_DEFAULT) == 0;
+	const bool bOff = bSunOff || Lights.GetOffChannelCount() > 0 || Parts.Objects.GetOffChannelCount() > 0;
+	Facts.bLightChannels = bOff && (Facts.bSun || Facts.Lights > 0);
 	Facts.bSky = Parts.Lights.HasSky();
 	Facts.bSkyMap = Facts.bSky && Parts.Lights.HasSkyMap();
 }
@@ -158,6 +162,9 @@ void FSceneUpdate::VisitTables(FVisit Visit) const
 	Visit(Parts.Materials.GetTable());
 	Visit(Parts.Objects.GetTable());
 	Visit(Parts.Lights.GetStore().GetTable());
+	Visit(Parts.Lights.GetProfiles().GetHeaders());
+	Visit(Parts.Lights.GetProfiles().GetTexels());
+	Visit(Parts.Objects.GetChannels());
 	Visit(Parts.Emissive.GetTable());
 	Visit(Parts.Emissive.GetClusters());
 	Visit(Parts.Materials.GetSections().GetTable());

@@ -24,10 +24,11 @@ struct FSceneLight
 {
 	uint32_t Type = LIGHT_POINT;   ///< LIGHT_…, not LIGHT_NONE
 	glm::dvec3 Position{0};        ///< of its centre, metres; not of a directional light
-	glm::vec3 Direction{0, -1, 0}; ///< in which it shines, length > 0: of directional lights, rectangles, disks and cones
-	/// Rectangle: direction of its width; tube: its axis. Length > 0 and not along Direction where that counts.
+	glm::vec3 Direction{0, -1, 0}; ///< in which it shines, length > 0: of directional lights, rectangles, disks, cones and profiles
+	/// Rectangle: direction of its width; tube: its axis; profile: horizontal angle 0. Length > 0, and not along Direction for a
+	/// rectangle. A profile whose Tangent is along Direction begins anywhere.
 	glm::vec3 Tangent{1, 0, 0};
-	/// Point: candela. Directional: lux of a plane that faces it. Others: nits. Not negative.
+	/// Point: candela; with a profile, those where that has its peak. Directional: lux of a plane that faces it. Others: nits. Not negative.
 	glm::vec3 Color{0};
 	float Range = 0.0f; ///< metres, at which it fades out (KHR_lights_punctual); 0: unlimited
 	/// Angles from Direction at which the light begins to fade, and is dark. 0 ≤ InnerCone < OuterCone ≤ π; OuterCone 0: no cone.
@@ -38,6 +39,9 @@ struct FSceneLight
 	bool bCastsShadow = true;
 	bool bTwoSided = false; ///< rectangle, disk: it shines to its back as well
 	bool bLightsFog = true; ///< fog scatters it
+	/// Point: intensity by direction, a number of FRTScene::AddLightProfile; 0: the same in all. It multiplies the cone.
+	uint32_t Profile = 0;
+	uint8_t Channels = CHANNELS_DEFAULT; ///< it lights objects that share a bit with it (FRTObjectTraits); fog has none
 	friend bool operator==(const FSceneLight&, const FSceneLight&) = default;
 };
 

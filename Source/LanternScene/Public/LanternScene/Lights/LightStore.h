@@ -29,6 +29,10 @@ public:
 	uint32_t GetExtendedCount() const { return Extended; }
 	/// Lights of finite range: see ReachesEverywhere.
 	uint32_t GetFiniteCount() const { return Finite; }
+	/// Lights with a profile.
+	uint32_t GetProfiledCount() const { return Profiled; }
+	/// Lights that are not of channel 0.
+	uint32_t GetOffChannelCount() const { return OffChannel; }
 	/// Lights that fog scatters.
 	uint32_t GetFogCount() const { return InFog; }
 	/// Counts all changes of lights, of whatever kind.
@@ -41,7 +45,7 @@ public:
 private:
 	TSlots<FSceneLight> Slots;
 	void Count(const FSceneLight& Light, uint32_t Times);
-	uint32_t Extended = 0, Finite = 0, InFog = 0;
+	uint32_t Extended = 0, Finite = 0, InFog = 0, Profiled = 0, OffChannel = 0;
 	uint64_t Changes = 0;
 	FLightJournal Journal;
 	TGpuTable<FLightData> Table{"Lights"};

@@ -30,6 +30,8 @@ struct FRTObjectTraits
 	bool bMoves = false;           ///< moves or deforms
 	/// A character shadows everything but characters, itself included: seen from the sun or a lamp, faces have no self-shadow.
 	bool bCharacter = false;
+	/// Lights light it that share a bit with it. They do not change who casts.
+	uint8_t Channels = CHANNELS_DEFAULT;
 	friend bool operator==(const FRTObjectTraits&, const FRTObjectTraits&) = default;
 };
 
@@ -53,7 +55,8 @@ struct FRTObjectInfo
 	std::vector<uint32_t> Materials; ///< per section, indices of the scene's materials
 	glm::dmat4 Transform{1.0};       ///< object to world, affine, metres
 	uint8_t Mask = MaskDefault;
-	bool bCharacter = false; ///< characters do not shadow it: FRTObjectTraits
+	bool bCharacter = false;             ///< characters do not shadow it: FRTObjectTraits
+	uint8_t Channels = CHANNELS_DEFAULT; ///< FRTObjectTraits
 	/// > 0: the object is culled together with all objects of this group, by the bounds of the whole group.
 	uint32_t Group = 0;
 };

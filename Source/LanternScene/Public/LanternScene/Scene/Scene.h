@@ -38,10 +38,12 @@ struct FSceneFacts
 {
 	uint32_t Objects = 0;
 	uint32_t DynamicGeometries = 0;
-	uint32_t Lights = 0;       ///< without sun and emissive triangles
-	uint32_t FiniteLights = 0; ///< of them, those with a range: see ReachesEverywhere
-	uint32_t FogLights = 0;    ///< of them, those that fog scatters
-	bool bAreaLights = false;  ///< some of them have an extent: see HasExtent
+	uint32_t Lights = 0;         ///< without sun and emissive triangles
+	uint32_t FiniteLights = 0;   ///< of them, those with a range: see ReachesEverywhere
+	uint32_t FogLights = 0;      ///< of them, those that fog scatters
+	bool bAreaLights = false;    ///< some of them have an extent: see HasExtent
+	bool bLightProfiles = false; ///< some of them have a profile
+	bool bLightChannels = false; ///< some light, the sun or some object is not of channel 0, by which each would light all
 	uint32_t EmissiveTriangles = 0;
 	uint32_t EmissiveClusters = 0; ///< that they are divided into: FEmissiveCluster
 	bool bMasked = false;          ///< some object has an alpha-tested material (and r.RT.AlphaTest is on)
@@ -123,6 +125,7 @@ public:
 	}
 	/// Replaces FRTObjectInfo::Mask. The object's motion stays.
 	void SetMask(FRTObjectId Id, uint8_t Mask) { Objects.SetMask(Id, Mask); }
+	void SetChannels(FRTObjectId Id, uint8_t Channels) { Objects.SetChannels(Id, Channels); }
 	const FRTObjectInfo& GetObject(FRTObjectId Id) const { return Objects.Get(Id); }
 	/// Returns the number of slots to visit in a walk over all objects. FindObject returns null for the free ones.
 	uint32_t GetObjectSlotCount() const { return Objects.GetSlotCount(); }
@@ -135,6 +138,10 @@ public:
 	void SetLight(FLightId Id, const FSceneLight& Light);
 	void RemoveLight(FLightId Id);
 	const FLightStore& GetLights() const { return Lights.GetStore(); }
+	/// Adds what FSceneLight::Profile names. Returns 0, and logs that once, if there is no room for more.
+	uint32_t AddLightProfile(const FProfileGrid& Grid) { return Lights.GetProfiles().Add(Grid); }
+	/// No light may have it.
+	void RemoveLightProfile(uint32_t Profile) { Lights.GetProfiles().Remove(Profile); }
 	void SetSun(const FSunLight& Sun);
 	const FSunLight& GetSun() const { return Lights.GetSun(); }
 	void SetSky(glm::vec3 Radiance);

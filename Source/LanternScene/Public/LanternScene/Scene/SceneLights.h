@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 
+#include "LanternScene/Lights/LightProfiles.h"
 #include "LanternScene/Lights/LightStore.h"
 #include "SceneTypes.h"
 
@@ -14,8 +15,9 @@ struct FSunLight
 {
 	glm::dvec3 Direction{0, -1, 0}; ///< in which the light travels; need not be of unit length
 	glm::vec3 Color{1};
-	float Irradiance = 0.0f;      ///< on a plane that faces the sun, lux; 0: no sun
-	float AngularDiameter = 0.0f; ///< radians; 0: hard shadows
+	float Irradiance = 0.0f;             ///< on a plane that faces the sun, lux; 0: no sun
+	float AngularDiameter = 0.0f;        ///< radians; 0: hard shadows
+	uint8_t Channels = CHANNELS_DEFAULT; ///< as FSceneLight::Channels
 };
 
 /// Radiance of the sky by direction, as a texture.
@@ -33,6 +35,8 @@ class FSceneLights
 public:
 	FLightStore& GetStore() { return Store; }
 	const FLightStore& GetStore() const { return Store; }
+	FLightProfiles& GetProfiles() { return Profiles; }
+	const FLightProfiles& GetProfiles() const { return Profiles; }
 	void SetSun(const FSunLight& InSun);
 	const FSunLight& GetSun() const { return Sun; }
 	bool HasSun() const { return Sun.Irradiance > 0.0f; }
@@ -49,6 +53,7 @@ public:
 
 private:
 	FLightStore Store;
+	FLightProfiles Profiles;
 	FSunLight Sun;
 	glm::vec3 Sky{0};
 	FSkyMap SkyMap;

@@ -44,6 +44,7 @@ public:
 	void SetGeometry(FRTObjectId Id, FRTGeometryRef Geometry, std::vector<uint32_t> SectionMaterials);
 	/// Changes nothing but who sees the object: its motion stays.
 	void SetMask(FRTObjectId Id, uint8_t Mask);
+	void SetChannels(FRTObjectId Id, uint8_t Channels);
 	/// Notes that the shape of all objects with this geometry is another one in this frame.
 	void MarkDeformed(const FRTGeometryRef& Geometry);
 	/// See FRTScene::SetBounds.
@@ -54,6 +55,8 @@ public:
 
 	/// Objects with FRTObjectInfo::bCharacter.
 	uint32_t GetCharacterCount() const { return Characters; }
+	/// Objects that are not of channel 0.
+	uint32_t GetOffChannelCount() const { return OffChannel; }
 	/// Slots of the handle table. FRTObjectId::Index is one of them.
 	uint32_t GetSlotCount() const { return Objects.Num(); }
 	/// Returns null if the slot is free. Slot < GetSlotCount().
@@ -67,6 +70,9 @@ public:
 	/// FObjectData[], by slot.
 	TGpuTable<FObjectData>& GetTable() { return Table; }
 	const TGpuTable<FObjectData>& GetTable() const { return Table; }
+	/// FSceneConstants::ObjectChannels; empty until some object has other channels than the default.
+	TGpuTable<uint32_t>& GetChannels() { return ChannelTable; }
+	const TGpuTable<uint32_t>& GetChannels() const { return ChannelTable; }
 	FInstanceStore& GetInstances() { return Instances; }
 	const FInstanceStore& GetInstances() const { return Instances; }
 	FObjectMotions& GetMotions() { return Motions; }
@@ -93,16 +99,18 @@ private:
 	void JoinGeometry(uint32_t Slot);
 	void LeaveGeometry(uint32_t Slot);
 	void MarkEmissive(FSectionRangeId Range);
+	void WriteChannels(uint32_t Slot);
 	void NoteCaster(const FInstanceRecord& Before, const FInstanceRecord& After);
 	void NoteCaster(uint32_t Slot);
 
 	FSectionTable& Sections;
 	FEmissiveTriangles& Emissive;
 	TSlots<FObject> Objects;
-	uint32_t Characters = 0;
+	uint32_t Characters = 0, OffChannel = 0;
 	std::vector<FRTGeometryRef> Retired, RetiredBefore; // of objects removed since the last submitted frame, and before it
 	std::unordered_map<const FRTGeometry*, std::vector<uint32_t>> DynamicUsers; // objects of dynamic geometries
 	TGpuTable<FObjectData> Table{"Objects"};
+	TGpuTable<uint32_t> ChannelTable{"ObjectChannels"};
 	FObjectMotions Motions{Table};
 	FCasterChanges CasterChanges;
 	FObjectPivots Pivots;
