@@ -11,6 +11,8 @@ namespace
 TRTConsoleVariable<bool> CVarEnable("r.RT.Enable", true, "All of the plugin's ray-traced features.");
 TRTConsoleVariable<bool> CVarLightArea(
     "r.RT.Debug.Lights.Area", true, "Planted fault. Off: lights with an extent have half of it in their density.");
+TRTConsoleVariable<bool> CVarLightEmission("r.RT.Debug.Lights.LightEmission", true,
+    "Planted fault. Off: materials light with what cameras see of them, whatever their second emission is.");
 } // namespace
 
 bool IsRayTracingEnabled() { return CVarEnable.GetOnRenderThread(); }
@@ -59,6 +61,11 @@ uint32_t GetStorageIndex(FPassContext& Pass, FGraphTexture Texture)
 
 FAddress GetAddress(FPassContext& Pass, FGraphBuffer Buffer) { return Buffer.IsValid() ? Pass.GetBuffer(Buffer)->GetDeviceAddress() : 0; }
 
+void AddLightEmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut)
+{
+	if (Facts.bLightEmission && CVarLightEmission.GetOnRenderThread()) { InOut.emplace_back("HAS_LIGHT_EMISSION", "1"); }
+}
+
 FShaderDefines MakeFactDefines(const FSceneFacts& Facts)
 {
 	FShaderDefines Defines;
@@ -71,6 +78,7 @@ FShaderDefines MakeFactDefines(const FSceneFacts& Facts)
 	Add(Facts.bAreaLights, "HAS_AREA_LIGHTS");
 	Add((Facts.bAreaLights || Facts.bEmissive) && !CVarLightArea.GetOnRenderThread(), "HALF_LIGHT_AREA");
 	Add(Facts.bMasked, "HAS_MASKED");
+	AddLightEmissionDefine(Facts, Defines);
 	return Defines;
 }
 
