@@ -177,7 +177,7 @@ protected:
 	TRTRef<IRTDevice> Device;
 	std::unique_ptr<FFrameUploads> Uploads;
 	std::unique_ptr<FRTScene> Scene;
-	bool bUpdated = false; ///< by the last Frame
+	bool bUpdated = false;     ///< by the last Frame
 	uint32_t EmissiveWork = 0; ///< clusters of emissive triangles that the last Frame had to find
 	std::deque<std::vector<glm::vec3>> CpuPositions;
 	std::deque<std::vector<uint32_t>> CpuIndices;

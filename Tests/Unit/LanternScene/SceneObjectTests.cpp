@@ -387,7 +387,7 @@ TEST_F(FSceneObjectTest, SecondEmissionIsAFact)
 	FMaterialData Lamp = MakeMaterial(0, 1.0f);
 	Lamp.Emissive = Lamp.LightEmissive = glm::vec3(1);
 	const uint32_t Material = Scene->AddMaterial(Lamp);
-	const FRTObjectId Id = Add(MakeGeometry("Lamp"), {Material});
+	const FRTObjectId Id = Add(MakeGeometry("Lamp", 1), {Material});
 	Frame();
 	EXPECT_FALSE(Scene->GetFacts().bLightEmission);
 	Lamp.LightEmissive = glm::vec3(510);

@@ -145,7 +145,8 @@ void ReadLightEmission(const FJson& Json, FHostMaterial& Material)
 {
 	const FJson Own = Json.Extra("lantern");
 	if (!Own.Member("lightEmissiveFactor").Exists() && !Own.Member("lightEmissiveStrength").Exists()) { return; }
-	const glm::vec3 Factor = glm::max(Own.GetVec3("lightEmissiveFactor", glm::max(Json.GetVec3("emissiveFactor", glm::vec3(0)), glm::vec3(0))), glm::vec3(0));
+	const glm::vec3 Factor =
+	    glm::max(Own.GetVec3("lightEmissiveFactor", glm::max(Json.GetVec3("emissiveFactor", glm::vec3(0)), glm::vec3(0))), glm::vec3(0));
 	Material.LightEmissive = Factor * std::max(Own.GetFloat("lightEmissiveStrength", 1.0f), 0.0f);
 	if (!glm::all(glm::lessThan(*Material.LightEmissive, glm::vec3(1e30f)))) { Own.Fail("emission is beyond what a float holds"); }
 }

@@ -68,11 +68,11 @@ FRTStatus AddEmissivePass(FFrameContext& Context, FFrameUploads& Uploads)
 		for (const FGraphToken Unused : {Context.Tokens.Structures, Context.Tokens.Records}) { Builder.Without(Unused); }
 		return [=, Triangles = Work.Triangles, Powers = Work.Powers](FPassContext& Pass) {
 			IRTCommandList& List = Pass.Commands();
-			const FRTBarrier Before[] = {{Triangles, nullptr, ERTAccess::ShaderRead, Written},
-			    {Powers, nullptr, ERTAccess::ShaderRead, Written}};
+			const FRTBarrier Before[] = {
+			    {Triangles, nullptr, ERTAccess::ShaderRead, Written}, {Powers, nullptr, ERTAccess::ShaderRead, Written}};
 			const FRTBarrier Between{Powers, nullptr, Written, Written};
-			const FRTBarrier After[] = {{Triangles, nullptr, Written, ERTAccess::ShaderRead},
-			    {Powers, nullptr, Written, ERTAccess::ShaderRead}};
+			const FRTBarrier After[] = {
+			    {Triangles, nullptr, Written, ERTAccess::ShaderRead}, {Powers, nullptr, Written, ERTAccess::ShaderRead}};
 			List.Barriers(Before, 2);
 			List.SetPipeline(Find);
 			List.PushConstants(&C, sizeof(C));

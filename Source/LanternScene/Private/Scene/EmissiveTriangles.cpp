@@ -41,7 +41,10 @@ void FEmissiveTriangles::ListObjects(const FSceneObjects& InObjects, const FScen
 	EmissiveObjects.clear();
 	for (uint32_t Slot = 0; Slot < InObjects.GetSlotCount(); ++Slot)
 	{
-		if (InObjects.Find(Slot) && InMaterials.GetSections().GetRange(InObjects.GetRange(Slot)).bEmissive) { EmissiveObjects.push_back(Slot); }
+		if (InObjects.Find(Slot) && InMaterials.GetSections().GetRange(InObjects.GetRange(Slot)).bEmissive)
+		{
+			EmissiveObjects.push_back(Slot);
+		}
 	}
 	bObjectsStale = false;
 }

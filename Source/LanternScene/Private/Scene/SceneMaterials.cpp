@@ -15,7 +15,7 @@ namespace
 bool EmitsOtherwise(const FMaterialData& Old, const FMaterialData& New)
 {
 	bool bOther = Old.EmissiveWeight != New.EmissiveWeight || Old.LightEmissive != New.LightEmissive || Old.UVSets != New.UVSets ||
-	              Old.Flags != New.Flags || Old.AlphaCutoff != New.AlphaCutoff;
+	              ((Old.Flags ^ New.Flags) & MATERIAL_MASKED) != 0 || Old.AlphaCutoff != New.AlphaCutoff;
 	for (const uint32_t Slot : {TEXTURE_EMISSIVE, TEXTURE_BASE_COLOR})
 	{
 		bOther |= Old.Textures[Slot] != New.Textures[Slot] || Old.UVTransform[Slot] != New.UVTransform[Slot] ||

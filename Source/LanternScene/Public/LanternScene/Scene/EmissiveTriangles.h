@@ -76,8 +76,8 @@ private:
 	TGpuTable<FEmissiveCluster> Clusters{"EmissiveClusters"};
 	TGpuTable<FEmissiveRange> Ranges{"EmissiveRanges"};
 	TRTRef<IRTBuffer> Triangles, Powers;
-	std::vector<uint32_t> EmissiveObjects; // ascending
-	std::vector<FSource> Sources;          // as listed, ascending
+	std::vector<uint32_t> EmissiveObjects;    // ascending
+	std::vector<FSource> Sources;             // as listed, ascending
 	std::vector<uint32_t> Objects, Materials; // marked
 	std::vector<uint32_t> Wanted;             // clusters that the GPU has to do
 	uint32_t TriangleCount = 0;
