@@ -86,7 +86,7 @@ void LightFroxel(FSceneConstants Scene, FViewConstants View, ivec3 Froxel, uint 
 	{
 		imageStore(Images[Push.OutVisibility], Texel, vec4(DitherVisibility(Value.Visibility, Froxel, View.FrameIndex)));
 	}
-	if (Push.OutLight != NO_TEXTURE) { imageStore(Images[Push.OutLight], Texel, vec4(min(Value.Light, vec3(MostFogLight)), 1.0)); }
+	if (Push.OutLight != NO_TEXTURE) { imageStore(Images[Push.OutLight], Texel, RoundToHalf(vec4(min(Value.Light, vec3(MostFogLight)), 1.0))); }
 }
 
 // Place: as the texels of an atlas of pairs of slices.

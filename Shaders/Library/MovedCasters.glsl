@@ -4,6 +4,7 @@
 
 #include "../Shared/SettledTypes.h"
 #include "History.glsl"
+#include "Lights.glsl"
 #include "Motion.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FMovedCasterRef { FMovedCaster Data[]; };
@@ -64,6 +65,44 @@ bool MayAnyShadow(FSceneConstants Scene, FViewConstants View, FCasterList List, 
 	{
 		FMovedCaster Caster = FMovedCasterRef(List.Casters).Data[I];
 		if (MayShadow(Caster, View.CameraPosition + Bound.xyz, Bound.w, Scene.SunDirection, List.Spread)) { return true; }
+	}
+	return false;
+}
+
+// Returns the square of the distance between two segments, each given by its start and by what leads to its end (Ericson 2005, "Real-Time
+// Collision Detection", 5.1.9).
+float SegmentDistanceSquared(vec3 A, vec3 ToA, vec3 B, vec3 ToB)
+{
+	vec3 Off = A - B;
+	float LengthA = max(dot(ToA, ToA), 1.0e-12), LengthB = max(dot(ToB, ToB), 1.0e-12);
+	float Both = dot(ToA, ToB), OffA = dot(ToA, Off), OffB = dot(ToB, Off), Denominator = LengthA * LengthB - Both * Both;
+	float S = Denominator > 1.0e-6 * LengthA * LengthB ? clamp((Both * OffB - OffA * LengthB) / Denominator, 0.0, 1.0) : 0.0;
+	float T = clamp((Both * S + OffB) / LengthB, 0.0, 1.0);
+	S = clamp((Both * T - OffA) / LengthA, 0.0, 1.0);
+	vec3 Between = Off + ToA * S - ToB * T;
+	return dot(Between, Between);
+}
+
+// Whether a swept sphere may lie between another sphere and a light.
+bool MayShadowLamp(FSceneConstants Scene, FMovedCaster Caster, FLightData Light, vec3 Center, float Radius)
+{
+	uint Type = LightType(Light);
+	if (Type == LIGHT_NONE) { return false; }
+	if (Type == LIGHT_DIRECTIONAL) { return MayShadow(Caster, Center, Radius, UnpackOct(Light.Direction), GetShadowSpread(Light.Size.x)); }
+	vec3 ToLight = LightPosition(Scene, Light) - Center;
+	float Reach = Light.Range + Radius, Wide = max(Radius, Type >= LIGHT_RECTANGLE ? Light.Size.x + Light.Size.y : 0.0) + Caster.Radius;
+	if (Light.Range > 0.0 && dot(ToLight, ToLight) > Reach * Reach) { return false; }
+	return SegmentDistanceSquared(Center, ToLight, Caster.From, Caster.To - Caster.From) <= Wide * Wide;
+}
+
+// As MayAnyShadow, of pairs of a caster and a light.
+bool MayAnyShadowLamp(FSceneConstants Scene, FViewConstants View, FCasterList List, vec4 Bound)
+{
+	for (uint I = gl_LocalInvocationIndex; I < List.Count * Scene.LightCount; I += 64u)
+	{
+		FMovedCaster Caster = FMovedCasterRef(List.Casters).Data[I % List.Count];
+		FLightData Light = FLightRef(Scene.Lights).Data[I / List.Count];
+		if (MayShadowLamp(Scene, Caster, Light, View.CameraPosition + Bound.xyz, Bound.w)) { return true; }
 	}
 	return false;
 }

@@ -131,5 +131,5 @@ void main()
 	float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
 	vec3 Radiance = Depth > 0.0 ? ShadeSurface(Scene, View, ivec2(Pixel), Depth)
 	                            : ShadeSky(Scene, CameraRay(View, vec2(Pixel) + 0.5));
-	imageStore(Images[Push.Output], ivec2(Pixel), vec4(Radiance, 1.0));
+	imageStore(Images[Push.Output], ivec2(Pixel), RoundToHalf(vec4(Radiance, 1.0)));
 }

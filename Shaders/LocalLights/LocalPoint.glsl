@@ -3,6 +3,7 @@
 #define LANTERN_LOCAL_POINT_GLSL
 
 #include "../Shared/LocalLightTypes.h"
+#include "../Shared/RayQueueTypes.h"
 #include "../Library/GBuffer.glsl"
 #include "../Library/Lights.glsl"
 #include "../Library/Random.glsl"
@@ -17,6 +18,17 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FLightChoice
 
 // Lights that each pixel has a ray to.
 uint CountSlots(FTileLights Tile) { return Tile.Count == TILE_LIGHTS_MANY ? 0u : Tile.Count; }
+
+#ifndef CHOSEN_RAYS
+#define CHOSEN_RAYS 1u
+#endif
+
+// Lights that a pixel chooses, if its tile does.
+uint CountChosen(FTileLights Tile) { return Tile.Count == TILE_LIGHTS_MANY ? CHOSEN_RAYS : 1u; }
+uint ChoiceIndex(FViewConstants View, uint PixelIndex, uint Which) { return Which * View.Width * View.Height + PixelIndex; }
+// Tiles with more than one choice have no slots, whose bits are free.
+uint ChosenSeenBit(uint Which) { return Which == 0u ? ANSWER_CHOSEN_SEEN : ANSWER_LOCAL_SEEN + Which - 1u; }
+uint ChosenTracedBit(uint Which) { return Which == 0u ? ANSWER_CHOSEN_TRACED : ANSWER_LOCAL_TRACED + Which - 1u; }
 
 // A surface that local lights reach.
 struct FLocalPoint

@@ -38,10 +38,11 @@ void TraceLocal(uint Index, uint Slot)
 }
 
 #ifdef MANY_LIGHTS
-void TraceChosen(uint Index)
+void TraceChosen(uint Index, uint Which)
 {
-	uint Light = FLightChoiceRef(Push.Choices).Data[Index].Light;
-	uint Answer = (1u << ANSWER_CHOSEN_TRACED) | (SeesLight(Index, Light) ? 1u << ANSWER_CHOSEN_SEEN : 0u);
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	uint Light = FLightChoiceRef(Push.Choices).Data[ChoiceIndex(View, Index, Which)].Light;
+	uint Answer = (1u << ChosenTracedBit(Which)) | (SeesLight(Index, Light) ? 1u << ChosenSeenBit(Which) : 0u);
 	atomicOr(FAnswerRef(Push.Answers).Data[Index], Answer);
 }
 #endif

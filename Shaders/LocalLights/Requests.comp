@@ -1,4 +1,5 @@
 // Finds the lights of a tile, and queues their rays: for all of its lights if they are few, else for one that each pixel chooses.
+// CHOSEN_RAYS: lights that each pixel of a tile of many chooses.
 // MANY_LIGHTS: defined if the scene has more lights than FLocalRequestsConstants::Exact.
 // LOCAL_EMISSIVE: emissive triangles shine as lights do. Pixels choose one of them, or of them and all lights where these are many.
 // GUIDED: pixels choose from a table of their tile's lights (TileTable.glsl). Not defined: from all, which takes long.
@@ -87,7 +88,8 @@ void ListLights(FSceneConstants Scene)
 {
 	Tile.Count = CandidateCount > MaxCandidates ? TILE_LIGHTS_MANY : 0u;
 	Tile.bChooses = EmitterCount > 0u || Tile.Count != 0u ? 1u : 0u;
-	Tile.Asking[0] = Tile.Asking[1] = Tile.Chose[0] = Tile.Chose[1] = 0u;
+	for (uint I = 0u; I < 2u * TILE_CHOSEN_MOST; ++I) { Tile.Asking[I] = 0u; }
+	Tile.Chose[0] = Tile.Chose[1] = 0u;
 	for (uint I = 0u; I < 2u * TILE_LIGHTS; ++I) { Tile.Reached[I] = 0u; }
 	if (Tile.Count != 0u) { return; }
 	for (uint I = 0u; I < CandidateCount; ++I)
@@ -147,12 +149,12 @@ const float DimEmitter = 1.0 / 256.0; // of white, as the picture is exposed
 
 // Drops most choices of emitters that would hardly be seen, and lets the others stand for them: a dim flame far away shines on every
 // pixel of the picture. The mean stays (Russian roulette, Arvo and Kirk 1990).
-void DropDim(FViewConstants View, uvec2 Pixel, inout FLightChoice Choice, inout FLobes Lit, inout bool bAsks)
+void DropDim(FViewConstants View, uvec2 Pixel, uint Which, inout FLightChoice Choice, inout FLobes Lit, inout bool bAsks)
 {
 	if (!bAsks || (Choice.Light & LIGHT_TRIANGLE) == 0u) { return; }
 	float Kept = Luminance(Lit.Diffuse + Lit.Specular) * View.Exposure / DimEmitter;
 	if (!(Kept < 1.0)) { return; }
-	bAsks = LocalNumbers(View, Pixel, 0x7fffffffu).x < Kept;
+	bAsks = LocalNumbers(View, Pixel, 0x7fffffffu - Which).x < Kept;
 	float Scale = bAsks ? 1.0 / Kept : 0.0;
 	Choice.Weight *= Scale;
 	Lit.Diffuse *= Scale;
@@ -177,17 +179,24 @@ bool Chooses(FViewConstants View, FLocalPoint Point, bool bSurface, uint Place)
 }
 #endif
 
-// If the tile has many lights, or emissive triangles, each pixel chooses one. All threads.
+// If the tile has many lights, or emissive triangles, each pixel chooses of them. All threads.
 void ChooseOfMany(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, bool bSurface, uvec2 Pixel, uint Place)
 {
-	bool bMany = Tile.bChooses != 0u, bAsks = false;
-	FLightChoice Choice = FLightChoice(0u, 0.0);
+	bool bMany = Tile.bChooses != 0u, bAsks[CHOSEN_RAYS];
+	FLightChoice Choices[CHOSEN_RAYS];
+	for (uint I = 0u; I < CHOSEN_RAYS; ++I)
+	{
+		bAsks[I] = false;
+		Choices[I] = FLightChoice(0u, 0.0);
+	}
+	uint Count = CountChosen(Tile);
 	bool bChooses = bMany && bSurface;
 #ifdef SPARSE
 	if (Tile.Count == TILE_LIGHTS_MANY) { bChooses = Chooses(View, Point, bSurface, Place); } // emitters alone: each pixel
 #endif
 #ifdef GUIDED
-	FLobes Lit = FLobes(vec3(0.0), vec3(0.0));
+	FLobes Lit[CHOSEN_RAYS];
+	for (uint I = 0u; I < CHOSEN_RAYS; ++I) { Lit[I] = FLobes(vec3(0.0), vec3(0.0)); }
 	if (bMany)
 	{
 		ChooseSamplers(View, Point, bSurface, Place);
@@ -204,21 +213,27 @@ void ChooseOfMany(FSceneConstants Scene, FViewConstants View, FLocalPoint Point,
 		Reflected = ReflectedRoughness(Push.Emitters);
 #endif
 		FLocalBrdf Local = LoadLocalBrdf(Point, Push.BaseColor, Push.Material, Pixel, Reflected);
-		bAsks = ChooseOfTable(Scene, View, Point, Local, Pixel, Choice, Lit);
+		ChooseOfTable(Scene, View, Point, Local, Pixel, Count, Choices, Lit, bAsks);
 #ifdef LOCAL_EMISSIVE
-		DropDim(View, Pixel, Choice, Lit, bAsks);
+		for (uint I = 0u; I < CHOSEN_RAYS; ++I) { DropDim(View, Pixel, I, Choices[I], Lit[I], bAsks[I]); }
 #endif
 	}
 #else
-	if (bChooses) { bAsks = ChooseLight(Scene, View, Point, Pixel, Choice); }
+	if (bChooses) { bAsks[0] = ChooseLight(Scene, View, Point, Pixel, Choices[0]); }
 #endif
 	if (!bMany || IsOutsideView(View, Pixel)) { return; }
-	if (bAsks) { atomicOr(Tile.Asking[Place >> 5u], 1u << (Place & 31u)); }
-	uint Index = Pixel.y * View.Width + Pixel.x;
-	FLightChoiceRef(Push.Choices).Data[Index] = Choice;
+	for (uint I = 0u; I < CHOSEN_RAYS; ++I)
+	{
+		if (I >= Count) { break; }
+		uint Index = ChoiceIndex(View, Pixel.y * View.Width + Pixel.x, I);
+		FLightChoiceRef(Push.Choices).Data[Index] = Choices[I];
 #ifdef GUIDED
-	if (Push.Lit != FAddress(0)) { FLitPixelRef(Push.Lit).Data[Index].Lobes = PackLobes(Lit); }
+		if (Push.Lit != FAddress(0)) { FLitPixelRef(Push.Lit).Data[Index].Lobes = PackLobes(Lit[I]); }
 #endif
+		// One ray answers for neighbouring choices of one light.
+		bool bAnswered = I > 0u && bAsks[max(I, 1u) - 1u] && Choices[max(I, 1u) - 1u].Light == Choices[I].Light;
+		if (bAsks[I] && !bAnswered) { atomicOr(Tile.Asking[2u * I + (Place >> 5u)], 1u << (Place & 31u)); }
+	}
 }
 #endif
 
@@ -274,7 +289,7 @@ void main()
 	ChooseOfMany(Scene, View, Point, bSurface, Pixel, Place);
 	barrier();
 #endif
-	uint Slots = CountSlots(Tile), All = Slots + 1u; // what pixels chose is the last
+	uint Slots = CountSlots(Tile), All = Slots + CountChosen(Tile); // what pixels chose comes last
 	if (Place < 2u * All) { Asking[Place] = AskingPixels(Tile, Place >> 1u, Place & 1u, View.FrameIndex); }
 	barrier();
 	if (Place == 0u)

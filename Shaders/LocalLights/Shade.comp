@@ -39,17 +39,19 @@ void CountAnswer(uint Answer, uint Slot, uint SeenBit, uint TracedBit)
 #ifdef GUIDED
 shared uint GuideTracedNow[TILE_GUIDE_LIGHTS], GuideSeenNow[TILE_GUIDE_LIGHTS];
 
-// Adds what the tile's rays saw to its guide. All threads.
-void Remember(FSceneConstants Scene, FViewConstants View, uint PixelIndex, uint Answer, uint Place)
+// Adds what the tile's rays saw to its guide. All threads. Count: of what pixels chose.
+void Remember(FSceneConstants Scene, FViewConstants View, uint PixelIndex, uint Count, uint Answer, uint Place)
 {
 	if (Place < TILE_GUIDE_LIGHTS) { GuideTracedNow[Place] = GuideSeenNow[Place] = 0u; }
 	barrier();
 	uint Index = TileIndex(View, gl_WorkGroupID.xy);
 	FTileGuideRef Guides = FTileGuideRef(Push.Guide);
-	if ((Answer & (1u << ANSWER_CHOSEN_TRACED)) != 0u)
+	for (uint I = 0u; I < Count; ++I)
 	{
-		uint Light = GuideNumber(Scene, FLightChoiceRef(Push.Choices).Data[PixelIndex].Light), Slot = GuidePlace(Light, GuideTileHash(Index));
-		bool bSeen = (Answer & (1u << ANSWER_CHOSEN_SEEN)) != 0u;
+		if ((Answer & (1u << ChosenTracedBit(I))) == 0u) { continue; }
+		uint Choice = FLightChoiceRef(Push.Choices).Data[ChoiceIndex(View, PixelIndex, I)].Light;
+		uint Light = GuideNumber(Scene, Choice), Slot = GuidePlace(Light, GuideTileHash(Index));
+		bool bSeen = (Answer & (1u << ChosenSeenBit(I))) != 0u;
 		if (Guides.Data[Index].Lights[Slot].Light == Light)
 		{
 			atomicAdd(GuideTracedNow[Slot], 1u);
@@ -84,23 +86,32 @@ void AddLight(inout FLobes Sum, FSceneConstants Scene, FViewConstants View, FLoc
 }
 
 #ifdef MANY_LIGHTS
-void AddChosen(inout FLobes Sum, FSceneConstants Scene, FViewConstants View, uvec2 Pixel, bool bAsked, uint Answer, FLocalPoint Point,
-               FLocalBrdf Local)
+void AddChosen(inout FLobes Sum, FTileLights Tile, FSceneConstants Scene, FViewConstants View, uvec2 Pixel, uint Place, uint Answer,
+               FLocalPoint Point, FLocalBrdf Local)
 {
-	uint Index = Pixel.y * View.Width + Pixel.x;
-	FLightChoice Choice = FLightChoiceRef(Push.Choices).Data[Index];
-	float Visibility = bAsked ? SlotVisibility(Answer, ChosenSlot, ANSWER_CHOSEN_SEEN, ANSWER_CHOSEN_TRACED, uvec2(0u)) : 1.0;
-	if (Choice.Weight <= 0.0 || Visibility <= 0.0) { return; }
-#ifdef GUIDED
-	if (Push.Lit != FAddress(0))
+	uint Count = CountChosen(Tile), Before = 0xffffffffu;
+	float Share = 1.0 / float(Count), Visibility = 1.0;
+	for (uint I = 0u; I < Count; ++I)
 	{
-		FLobes Lit = UnpackLobes(FLitPixelRef(Push.Lit).Data[Index].Lobes);
-		Sum.Diffuse += Lit.Diffuse * Visibility;
-		Sum.Specular += Lit.Specular * Visibility;
-		return;
-	}
+		uint Index = ChoiceIndex(View, Pixel.y * View.Width + Pixel.x, I);
+		FLightChoice Choice = FLightChoiceRef(Push.Choices).Data[Index];
+		if (Choice.Weight <= 0.0) { continue; }
+		bool bAsked = (Tile.Asking[2u * I + (Place >> 5u)] & (1u << (Place & 31u))) != 0u;
+		if (bAsked) { Visibility = SlotVisibility(Answer, ChosenSlot, ChosenSeenBit(I), ChosenTracedBit(I), uvec2(0u)); }
+		else if (Choice.Light != Before) { Visibility = 1.0; }
+		Before = Choice.Light;
+		if (Visibility <= 0.0) { continue; }
+#ifdef GUIDED
+		if (Push.Lit != FAddress(0))
+		{
+			FLobes Lit = UnpackLobes(FLitPixelRef(Push.Lit).Data[Index].Lobes);
+			Sum.Diffuse += Lit.Diffuse * (Visibility * Share);
+			Sum.Specular += Lit.Specular * (Visibility * Share);
+			continue;
+		}
 #endif
-	AddLight(Sum, Scene, View, Point, Local, Pixel, Choice.Light, Choice.Weight * Visibility);
+		AddLight(Sum, Scene, View, Point, Local, Pixel, Choice.Light, Choice.Weight * Visibility * Share);
+	}
 }
 #endif
 
@@ -111,11 +122,7 @@ FLobes ShadePixel(FTileLights Tile, FSceneConstants Scene, FViewConstants View, 
 	FLobes Sum = FLobes(vec3(0.0), vec3(0.0));
 	bCertain = Tile.bChooses == 0u;
 #ifdef MANY_LIGHTS
-	if (Tile.bChooses != 0u)
-	{
-		bool bAsked = (Tile.Asking[Place >> 5u] & (1u << (Place & 31u))) != 0u;
-		AddChosen(Sum, Scene, View, Pixel, bAsked, Answer, Point, Local);
-	}
+	if (Tile.bChooses != 0u) { AddChosen(Sum, Tile, Scene, View, Pixel, Place, Answer, Point, Local); }
 #endif
 	uint Neighbors = 0u;
 #ifdef SPARSE
@@ -139,13 +146,13 @@ FLobes ShadePixel(FTileLights Tile, FSceneConstants Scene, FViewConstants View, 
 }
 
 // How much chance is in a pixel's light, for filters (FDenoiseInputs::Signal).
-const float NoChance = 0.0, SomeChance = 1.0, OfOthers = 2.0;
+const float NoChance = 0.0, SomeChance = 1.0, OfOthers = 2.0, OfMany = 3.0;
 
 void WriteLobes(uvec2 Pixel, FLobes Lobes, float Chance)
 {
 	const float MaxHalf = 65504.0;
-	if (Push.OutDiffuse != NO_TEXTURE) { imageStore(Images[Push.OutDiffuse], ivec2(Pixel), vec4(min(Lobes.Diffuse, MaxHalf), Chance)); }
-	if (Push.OutSpecular != NO_TEXTURE) { imageStore(Images[Push.OutSpecular], ivec2(Pixel), vec4(min(Lobes.Specular, MaxHalf), Chance)); }
+	if (Push.OutDiffuse != NO_TEXTURE) { imageStore(Images[Push.OutDiffuse], ivec2(Pixel), RoundToHalf(vec4(min(Lobes.Diffuse, MaxHalf), Chance))); }
+	if (Push.OutSpecular != NO_TEXTURE) { imageStore(Images[Push.OutSpecular], ivec2(Pixel), RoundToHalf(vec4(min(Lobes.Specular, MaxHalf), Chance))); }
 }
 
 FLobes ShadeSurface(FTileLights Tile, FSceneConstants Scene, FViewConstants View, uvec2 Pixel, uint Place, uint Answer, float Depth,
@@ -163,7 +170,8 @@ void CountAnswers(FTileLights Tile, FViewConstants View, uint Answer, uint Place
 {
 	if (Place <= TILE_LIGHTS) { Seen[Place] = Traced[Place] = 0u; }
 	barrier();
-	if (Tile.bChooses != 0u) { CountAnswer(Answer, ChosenSlot, ANSWER_CHOSEN_SEEN, ANSWER_CHOSEN_TRACED); }
+	uint Chosen = Tile.bChooses != 0u ? CountChosen(Tile) : 0u;
+	for (uint I = 0u; I < Chosen; ++I) { CountAnswer(Answer, ChosenSlot, ChosenSeenBit(I), ChosenTracedBit(I)); }
 	uint Slots = CountSlots(Tile);
 	for (uint I = 0u; I < Slots; ++I) { CountAnswer(Answer, I, ANSWER_LOCAL_SEEN + I, ANSWER_LOCAL_TRACED + I); }
 #ifdef SPARSE
@@ -182,7 +190,7 @@ void main()
 	FTileLights Tile = FTileLightsRef(Push.TileLights).Data[TileIndex(View, gl_WorkGroupID.xy)];
 	CountAnswers(Tile, View, Answer, Place);
 #ifdef GUIDED
-	Remember(Scene, View, Pixel.y * View.Width + Pixel.x, Tile.bChooses != 0u ? Answer : 0u, Place);
+	Remember(Scene, View, Pixel.y * View.Width + Pixel.x, CountChosen(Tile), Tile.bChooses != 0u ? Answer : 0u, Place);
 #endif
 	barrier();
 	float Depth = bInside ? LoadDepth(Push.Depth, ivec2(Pixel)) : 0.0;
@@ -195,5 +203,5 @@ void main()
 	if (Tile.Count == TILE_LIGHTS_MANY) { Lobes = FillFromTile(View, Tile, Place, Lobes, bOfOthers); }
 #endif
 #endif
-	if (bInside) { WriteLobes(Pixel, Lobes, bCertain ? NoChance : bOfOthers ? OfOthers : SomeChance); }
+	if (bInside) { WriteLobes(Pixel, Lobes, bCertain ? NoChance : bOfOthers ? OfOthers : Tile.bChooses != 0u ? OfMany : SomeChance); }
 }

@@ -17,13 +17,13 @@ void main()
 	uint Index = gl_WorkGroupID.x * TILE_PIXELS + gl_LocalInvocationIndex;
 	if (Index >= Columns * Rows) { return; }
 	FTileLights Tile = FTileLightsRef(Push.TileLights).Data[Index];
-	uint Slots = CountSlots(Tile), Count = 0u;
-	for (uint I = 0u; I < 2u * Slots + 2u; ++I) { Count += bitCount(AskingPixels(Tile, I >> 1u, I & 1u, View.FrameIndex)); }
+	uint Slots = CountSlots(Tile), All = Slots + TILE_CHOSEN_MOST, Count = 0u;
+	for (uint I = 0u; I < 2u * All; ++I) { Count += bitCount(AskingPixels(Tile, I >> 1u, I & 1u, View.FrameIndex)); }
 	uint Kept = ShareRoom(Count, Room, Wanted);
 	if (Kept == 0u) { return; }
 	uint Number = Base + atomicAdd(Counters.Data.Segments[RAY_SEGMENT_LOCAL].Kept, Kept);
 	uint Turn = View.FrameIndex * Kept; // other rays in each frame
-	[[dont_unroll]] for (uint I = 0u; I < 2u * Slots + 2u; ++I)
+	[[dont_unroll]] for (uint I = 0u; I < 2u * All; ++I)
 	{
 		uint Pixels = AskingPixels(Tile, I >> 1u, I & 1u, View.FrameIndex);
 		[[dont_unroll]] while (Pixels != 0u)

@@ -5,20 +5,23 @@
 #include "../Rays/RayQueue.glsl"
 #include "LocalPoint.glsl"
 
-// Returns the pixels that ask for a ray in a slot, 32 of them. The slot behind the others is for what pixels chose.
+// Returns the pixels that ask for a ray in a slot, 32 of them. The slots behind the others are for what pixels chose.
 uint AskingPixels(FTileLights Tile, uint Slot, uint Word, uint FrameIndex)
 {
-	if (Slot == CountSlots(Tile)) { return Tile.Asking[Word]; }
+	uint Slots = CountSlots(Tile);
+	if (Slot >= Slots) { return Tile.Asking[2u * (Slot - Slots) + Word]; }
 	bool bUnshadowed = (Tile.Lights[Slot] & TILE_LIGHT_UNSHADOWED) != 0u;
 	return bUnshadowed ? 0u : Tile.Reached[2u * Slot + Word] & TurnMask(FrameIndex);
 }
 
+// ChosenSlot: the first of what pixels chose.
 FRayRequest MakeSlotRequest(uint Slot, uint ChosenSlot, uint PixelIndex)
 {
-	return Slot == ChosenSlot ? MakeRayRequest(RAY_KIND_CHOSEN, 0u, PixelIndex) : MakeRayRequest(RAY_KIND_LOCAL, Slot, PixelIndex);
+	if (Slot >= ChosenSlot) { return MakeRayRequest(RAY_KIND_CHOSEN, Slot - ChosenSlot, PixelIndex); }
+	return MakeRayRequest(RAY_KIND_LOCAL, Slot, PixelIndex);
 }
 
-shared uint Asking[2u * (TILE_LIGHTS + 1u)]; // two words for each slot: pixels that ask, in Z order
+shared uint Asking[2u * (TILE_LIGHTS + TILE_CHOSEN_MOST)]; // two words for each slot: pixels that ask, in Z order
 shared uint FirstRequest;
 
 // Reserves room for all rays of Asking[]. One thread.

@@ -303,17 +303,25 @@ FLobes WeighLobes(FLobes Mean, FLobes Chosen, float Weight)
 	return Mean;
 }
 
-// Chooses a light of the table by what it is expected to bring. Returns whether it asks for a ray.
+// Chooses lights of the table by what they are expected to bring.
+// Count: how many, at most CHOSEN_RAYS.
+// Choices: each alone stands for all of the light.
 // Lit: what the pixel reflects if the light is visible. It has the luminance of the chosen light, without bias, and the mean colour of
 // all candidates, which are many and have less noise.
-// Resampled importance sampling (Talbot et al. 2005) of stratified candidates.
-bool ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLocalBrdf Local, uvec2 Pixel, out FLightChoice Choice,
-                   out FLobes Lit)
+// bAsks: whether it asks for a ray.
+// Resampled importance sampling (Talbot et al. 2005) of stratified candidates. Choices are stratified, too.
+void ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLocalBrdf Local, uvec2 Pixel, uint Count,
+                   inout FLightChoice Choices[CHOSEN_RAYS], out FLobes Lit[CHOSEN_RAYS], inout bool bAsks[CHOSEN_RAYS])
 {
-	float All = TableCount > 0u ? Cumulative[TableCount - 1u] : 0.0, Target = 0.0, Total = 0.0;
+	float All = TableCount > 0u ? Cumulative[TableCount - 1u] : 0.0, Target[CHOSEN_RAYS], Which[CHOSEN_RAYS], Total = 0.0;
 	vec2 U = LocalNumbers(View, Pixel, 0xffffffffu);
-	FLobes Mean = FLobes(vec3(0.0), vec3(0.0)), Chosen = Mean;
-	Choice = FLightChoice(0u, 0.0);
+	FLobes Mean = FLobes(vec3(0.0), vec3(0.0)), Chosen[CHOSEN_RAYS];
+	for (uint C = 0u; C < CHOSEN_RAYS; ++C)
+	{
+		Target[C] = 0.0;
+		Which[C] = (float(C) + U.y) / float(Count);
+		Lit[C] = Chosen[C] = Mean;
+	}
 	[[dont_unroll]] for (uint I = 0u; I < Push.Candidates && All > 0.0; ++I)
 	{
 		float At = (float(I) + U.x) / float(Push.Candidates) * All, Chance = 1.0;
@@ -339,21 +347,26 @@ bool ChooseOfTable(FSceneConstants Scene, FViewConstants View, FLocalPoint Point
 		if (Mine <= 0.0) { continue; }
 		Total += Mine;
 		float Probability = Mine / Total;
-		bool bTake = U.y < Probability;
-		U.y = min(bTake ? U.y / Probability : (U.y - Probability) / (1.0 - Probability), 0.99999994);
-		if (!bTake) { continue; }
-		Choice.Light = Light;
-		Chosen = Lobes;
-		Target = Brightness * Visibility;
+		for (uint C = 0u; C < CHOSEN_RAYS; ++C)
+		{
+			bool bTake = Which[C] < Probability;
+			Which[C] = min(bTake ? Which[C] / Probability : (Which[C] - Probability) / (1.0 - Probability), 0.99999994);
+			if (!bTake) { continue; }
+			Choices[C].Light = Light;
+			Chosen[C] = Lobes;
+			Target[C] = Brightness * Visibility;
+		}
 	}
-	Lit = Mean;
-	if (Target <= 0.0) { return false; }
-	Choice.Weight = Total / Target;
+	for (uint C = 0u; C < CHOSEN_RAYS; ++C)
+	{
+		if (C >= Count || Target[C] <= 0.0) { continue; }
+		Choices[C].Weight = Total / Target[C];
 #ifdef NO_CHOICE_WEIGHT // r.RT.Debug.Lights.Weight
-	Choice.Weight = 1.0;
+		Choices[C].Weight = 1.0;
 #endif
-	Lit = WeighLobes(Mean, Chosen, Choice.Weight);
-	return CastsShadow(Scene, Choice.Light);
+		Lit[C] = WeighLobes(Mean, Chosen[C], Choices[C].Weight);
+		bAsks[C] = CastsShadow(Scene, Choices[C].Light);
+	}
 }
 
 #endif

@@ -97,7 +97,7 @@ void TraceRequest(uint Number)
 	case RAY_KIND_LOCAL: TraceLocal(RayIndex(Request), RaySlot(Request)); break;
 #endif
 #ifdef MANY_LIGHTS
-	case RAY_KIND_CHOSEN: TraceChosen(RayIndex(Request)); break;
+	case RAY_KIND_CHOSEN: TraceChosen(RayIndex(Request), RaySlot(Request)); break;
 #endif
 	}
 }

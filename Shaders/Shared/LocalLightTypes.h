@@ -8,6 +8,8 @@ LANTERN_SHARED_BEGIN
 
 #define TILE_LIGHTS 8u // most lights of a tile that all get rays
 
+#define TILE_CHOSEN_MOST 4u // most lights that a pixel chooses where its tile has many
+
 #define TILE_LIGHTS_MANY 0xffffffffu     // FTileLights::Count: each pixel chooses one light
 #define TILE_LIGHT_UNSHADOWED 0x80000000u // in FTileLights::Lights: it casts no shadow and gets no ray
 
@@ -21,11 +23,11 @@ struct FTileLights
 	uint Count;                 // 0 to TILE_LIGHTS, or TILE_LIGHTS_MANY
 	uint Lights[TILE_LIGHTS];   // index in the table of lights, in rising order, and TILE_LIGHT_UNSHADOWED
 	uint Reached[2 * TILE_LIGHTS]; // two words for each light: pixels that it may light, in Z order
-	uint bChooses; // each pixel has an FLightChoice: of all lights with MANY, else of emissive triangles alone
-	uint Asking[2]; // pixels that ask for a ray to what they chose, in Z order
+	uint bChooses; // each pixel has an FLightChoice: with MANY of all lights, and CHOSEN_RAYS of them; else one of emissive triangles alone
+	uint Asking[2 * TILE_CHOSEN_MOST]; // two words for each choice: pixels that ask for a ray to it, in Z order
 	uint Chose[2];  // with r.RT.Lights.Rate, of tiles of many lights: pixels that chose one in this frame
 };
-LANTERN_ASSERT_SIZE(FTileLights, 120);
+LANTERN_ASSERT_SIZE(FTileLights, 144);
 
 // The light that a pixel chose of many.
 struct FLightChoice
@@ -123,7 +125,7 @@ struct FLocalRequestsConstants
 {
 	FPassConstants Pass;
 	FAddress TileLights; // FTileLights[], row by row
-	FAddress Choices;    // FLightChoice[pixels]; 0 without MANY_LIGHTS
+	FAddress Choices;    // FLightChoice[choices][pixels]; 0 without MANY_LIGHTS
 	FAddress Requests;   // FRayRequest[Capacity]
 	FAddress Counters;   // FRayQueueCounters
 	FAddress Answers;    // uint[pixels], to start with none; 0: they have started
@@ -133,7 +135,7 @@ struct FLocalRequestsConstants
 	uint Exact;   // most lights of a tile that all get rays, 1 to TILE_LIGHTS
 	// GUIDED only:
 	uint BaseColor, Material; // sampled indices
-	FAddress Lit;             // FLitPixel[pixels]; 0 with UNBIASED
+	FAddress Lit;             // FLitPixel[choices][pixels]; 0 with UNBIASED
 	FAddress Guide;           // FTileGuide[], row by row; this frame's
 	FAddress PreviousGuide;   // FTileGuide[]; 0: there is none
 	uint Candidates;          // of each pixel, 1 to 64
@@ -147,11 +149,11 @@ struct FLocalShadeConstants
 {
 	FPassConstants Pass;
 	FAddress TileLights; // FTileLights[]
-	FAddress Choices;    // FLightChoice[pixels]
+	FAddress Choices;    // FLightChoice[choices][pixels]
 	FAddress Answers;    // uint[pixels]
 	uint Depth, Normals, BaseColor, Material; // sampled indices
 	uint OutDiffuse, OutSpecular;             // storage indices, or NO_TEXTURE
-	FAddress Lit;      // FLitPixel[pixels]; GUIDED without UNBIASED only
+	FAddress Lit;      // FLitPixel[choices][pixels]; GUIDED without UNBIASED only
 	FAddress Guide;    // FTileGuide[]; GUIDED only
 	float ReflectedRoughness; // LOCAL_EMISSIVE: rougher surfaces have no reflections traced; negative: none have
 	uint Pad;

@@ -13,7 +13,7 @@ LANTERN_SHARED_BEGIN
 // Kinds of rays. An index names what a ray belongs to; a slot tells several rays of one index apart.
 #define RAY_KIND_SUN 0u // index: pixel, row by row; a request is for all samples of the pixel; slot: 0, or RAY_SLOT_SUN_LIT
 #define RAY_KIND_LOCAL 1u // index: pixel; slot: place of the light in the list of the pixel's tile
-#define RAY_KIND_CHOSEN 2u // index: pixel; slot 0: the light that the pixel chose
+#define RAY_KIND_CHOSEN 2u // index: pixel; slot: which of the lights that the pixel chose
 #define RAY_SLOT_SUN_LIT 1u // the pixel is lit by the host's shadow map: rays look for other casters
 
 #define RAY_INDEX_BITS 26u
@@ -49,7 +49,7 @@ LANTERN_ASSERT_SIZE(FRayQueueCounters, 40);
 // The order of rays never shows.
 #define ANSWER_LOCAL_SEEN 0u // lowest of 8 bits, one for each slot: its light is seen
 #define ANSWER_LOCAL_TRACED 8u // lowest of 8 bits: its ray was traced
-#define ANSWER_CHOSEN_SEEN 16u // bit: the chosen light is seen
+#define ANSWER_CHOSEN_SEEN 16u // bit: the chosen light is seen; of further choices, ANSWER_LOCAL_SEEN and so on
 #define ANSWER_CHOSEN_TRACED 17u
 #define ANSWER_SUN_SEEN 18u   // lowest of 7 bits: samples that see the sun
 #define ANSWER_SUN_UNSEEN 25u // lowest of 7 bits: samples that do not; without an answer, either number is 0
@@ -65,7 +65,7 @@ struct FShadowQueueConstants
 	// < 0: no ray met anything. Written for pixels that ask for rays, with WITH_PENUMBRA.
 	FAddress SunWidths;
 	FAddress TileLights; // FTileLights[]; 0: no rays to local lights
-	FAddress Choices;    // FLightChoice[pixels]; 0: no pixel chooses
+	FAddress Choices;    // FLightChoice[choices][pixels]; 0: no pixel chooses
 	uint Capacity;
 	uint Depth;           // sampled index
 	uint Normals;         // sampled index: shading and geometric normal, both octahedral

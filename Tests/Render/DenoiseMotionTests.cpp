@@ -190,6 +190,31 @@ TEST_F(FDenoiseMotionTest, TurningFan)
 	EXPECT_TRUE(Faulty < 0.9 || Lag > 1);
 }
 
+// The filter of lamps looks for changes where a moved caster may lie between a lamp and the surface.
+TEST_F(FDenoiseMotionTest, TurningFanUnderALamp)
+{
+	ASSERT_TRUE(Load("stability-fan:1"));
+	constexpr uint32_t Frames = 24;
+	FView View = MakeView(96, 54);
+	const auto GetTime = [](uint32_t Frame) { return double(Frame) / 60.0; };
+	SetVariable("r.RT.Lights.Denoise", "0");
+	const FImage Truth = RenderSignal(ESignal::LocalDiffuse, View, 64, 0, GetTime(Frames - 1));
+	SetVariable("r.RT.Lights.Denoise", "1");
+	const auto Measure = [&](const char* Told) {
+		SetVariable("r.RT.Debug.Shadow.Capsules", Told);
+		FImage Image;
+		for (uint32_t Frame = 0; Frame < Frames; ++Frame)
+		{
+			View.bCut = Frame == 0;
+			Image = RenderSignal(ESignal::LocalDiffuse, View, 1, Frame, GetTime(Frame));
+		}
+		return ComputeRelMse(Image, Truth, {});
+	};
+	const double Told = Measure("1"), Untold = Measure("0");
+	PrintFigure(fmt::format("fan under a lamp: relMSE {:.4f}, {:.4f} if nobody tells what moved", Told, Untold));
+	EXPECT_LT(Told, 0.1 * Untold);
+}
+
 // The same change at 30, 60 and 144 frames a second takes the same time, not the same number of frames.
 TEST_F(FDenoiseMotionTest, FrameRate)
 {

@@ -81,7 +81,7 @@ TEST_F(FLocalLightsTest, FewAndManyAsTheReference)
 		for (const ESignal Lobe : Lobes)
 		{
 			const std::string Name = fmt::format("{} lights, {}", Count, GetSignalInfo(Lobe).Name);
-			ExpectUnbiased(Name.c_str(), Lobe, View, Count > 4 ? 256 : 32, Count > 4 ? 768 : 128, 1, 0.005);
+			ExpectUnbiased(Name.c_str(), Lobe, View, Count > 4 ? 512 : 32, Count > 4 ? 768 : 128, 1, 0.005);
 		}
 		for (const FLightId Id : Ids) { GetWorld().RemoveLight(Id); }
 	}

@@ -23,18 +23,30 @@ float GetEdgeVariance(FFrameEstimate Frame, FHistory History)
 // sees through the leaves count as one of many.
 const float AgreedDifference = 2.0e-3;
 
+// Least weight of a frame's value, whatever is known: it says how long the history lasts.
+float GetMinAlpha()
+{
+#if CHANNELS == 1
+	return Push.MinAlpha;
+#else
+	// What was chosen of many has more noise than half a second averages.
+	bool bOfMany = texelFetch(Textures[Push.Signal], ivec2(gl_GlobalInvocationID.xy), 0).w == 3.0;
+	return bOfMany ? 0.5 * Push.MinAlpha : Push.MinAlpha;
+#endif
+}
+
 // Weight of the frame's value.
 float GetAlpha(FFrameEstimate Frame, FHistory History, float Noise)
 {
 	float Frames = History.Past.Frames;
 	if (Frames <= 0.0) { return 1.0; }
 #ifdef NO_ADAPTION // r.RT.Debug.Denoise.Adapt
-	return max(1.0 / (Frames + 1.0), Push.MinAlpha);
+	return max(1.0 / (Frames + 1.0), GetMinAlpha());
 #else
 	float PastVariance = Noise / Frames + History.ResamplingVariance;
-	if (Noise > 1.0e-6 * (1.0 + PastVariance)) { return max(PastVariance / (PastVariance + Noise / Frame.Rays), Push.MinAlpha); }
+	if (Noise > 1.0e-6 * (1.0 + PastVariance)) { return max(PastVariance / (PastVariance + Noise / Frame.Rays), GetMinAlpha()); }
 	bool bAgrees = abs(GetBrightness(Frame.Value) - GetBrightness(History.Past.Mean)) < AgreedDifference;
-	return bAgrees ? max(Frame.Rays / (Frames + Frame.Rays), Push.MinAlpha) : 1.0;
+	return bAgrees ? max(Frame.Rays / (Frames + Frame.Rays), GetMinAlpha()) : 1.0;
 #endif
 }
 

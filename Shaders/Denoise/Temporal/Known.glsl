@@ -1,4 +1,4 @@
-// Step "known" of the temporal filter, for shadows: where the light may have changed, as the scene tells it.
+// Step "known" of the temporal filter, for shadows of the sun and of lamps: where the light may have changed, as the scene tells it.
 //   Takes: casters that moved in the last frames (Push.Casters), the distances of Load.glsl, and the surface's own motion.
 //   Gives: MayHaveChanged. NoteDistances needs the tile complete; FindTouched needs the distances of the whole group.
 //   Why: chance looks like change. In dappled shade the test of Change.glsl dropped every tenth history of a scene that stood still.
@@ -36,7 +36,12 @@ void FindTouched(FViewConstants View)
 	{
 		vec4 Bound = BoundTile(View, gl_WorkGroupID.xy * GroupSize, GroupSize, uintBitsToFloat(NearestBits), uintBitsToFloat(FarthestBits));
 		FCasterList List = FCasterList(Push.Casters, Push.CasterCount, Push.CasterSpread);
-		if (MayAnyShadow(FSceneRef(Push.Pass.Scene).Data, View, List, Bound)) { bTouched = 1u; }
+		FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
+#if CHANNELS == 1
+		if (MayAnyShadow(Scene, View, List, Bound)) { bTouched = 1u; }
+#else
+		if (MayAnyShadowLamp(Scene, View, List, Bound)) { bTouched = 1u; }
+#endif
 	}
 	barrier();
 }

@@ -16,13 +16,13 @@ float GetOutputVariance(FAccumulated A)
 void Store(ivec2 Pixel, FAccumulated A, float Extent)
 {
 	vec4 Output = WithVariance(A.Mean, GetOutputVariance(A));
-	imageStore(Images[Push.Output], Pixel, Output + vec4(0.0, 0.0, CHANNELS == 1 ? Extent : 0.0, 0.0));
+	imageStore(Images[Push.Output], Pixel, RoundToHalf(Output + vec4(0.0, 0.0, CHANNELS == 1 ? Extent : 0.0, 0.0)));
 	float NoiseSigma = min(A.NoiseSigma, MaxHalf), NeighborhoodMean = min(A.NeighborhoodMean, MaxHalf);
 #if CHANNELS == 1
-	imageStore(Images[Push.OutHistory], Pixel, vec4(A.Mean, NoiseSigma, A.Frames, NeighborhoodMean));
+	imageStore(Images[Push.OutHistory], Pixel, RoundToHalf(vec4(A.Mean, NoiseSigma, A.Frames, NeighborhoodMean)));
 #else
-	imageStore(Images[Push.OutHistory], Pixel, vec4(A.Mean, A.Frames));
-	imageStore(Images[Push.OutMoments], Pixel, vec4(NoiseSigma, NeighborhoodMean, 0.0, 0.0));
+	imageStore(Images[Push.OutHistory], Pixel, RoundToHalf(vec4(A.Mean, A.Frames)));
+	imageStore(Images[Push.OutMoments], Pixel, RoundToHalf(vec4(NoiseSigma, NeighborhoodMean, 0.0, 0.0)));
 #endif
 }
 

@@ -24,15 +24,21 @@ constexpr ESignal Sun = ESignal::SunShadow, Occlusion = ESignal::AmbientOcclusio
                   Reflected = ESignal::Reflections, LampDiffuse = ESignal::LocalDiffuse, LampSpecular = ESignal::LocalSpecular,
                   Whole = ESignal::Frame;
 
-/// All signals of the registry: a new one is measured in these cases as soon as it has a method. Those of lamps have scenes of their
-/// own, since these have none.
-std::vector<ESignal> EverySignal(bool bWhole)
+enum class ELamps : uint8_t
+{
+	No,
+	Yes
+};
+
+/// All signals of the registry: a new one is measured in these cases as soon as it has a method. Lamps: whether the case has a scene
+/// with lamps.
+std::vector<ESignal> EverySignal(bool bWhole, ELamps Lamps = ELamps::No)
 {
 	std::vector<ESignal> Signals;
 	for (const FSignalInfo& Info : SignalInfos)
 	{
 		const bool bLamps = Info.Signal == LampDiffuse || Info.Signal == LampSpecular;
-		if (Info.Signal != Whole && !bLamps) { Signals.push_back(Info.Signal); }
+		if (Info.Signal != Whole && (!bLamps || Lamps == ELamps::Yes)) { Signals.push_back(Info.Signal); }
 	}
 	if (bWhole) { Signals.push_back(Whole); }
 	return Signals;
@@ -57,7 +63,7 @@ FStabilityFault MakeThinWallFault(const FMethod& Method)
 FStabilityFault MakeUncoveringFault(const FMethod&)
 {
 	return MakeFault(KnownSettings({{"r.RT.Debug.Denoise.Validate", "0"}, {"r.RT.Debug.Denoise.Adapt", "0"},
-	                     {"r.RT.Shadow.HistorySeconds", "60"}, {"r.RT.AO.HistorySeconds", "60"}}),
+	                     {"r.RT.Shadow.HistorySeconds", "60"}, {"r.RT.AO.HistorySeconds", "60"}, {"r.RT.Lights.HistorySeconds", "60"}}),
 	    "");
 }
 
@@ -82,8 +88,9 @@ FStabilityFault MakeBlindLampsFault(const FMethod&)
 /// History that is kept for a minute and never compared with what is there now.
 FStabilityFault MakeStaleFault(const FMethod&)
 {
-	return MakeFault(
-	    KnownSettings({{"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Shadow.HistorySeconds", "60"}, {"r.RT.AO.HistorySeconds", "60"}}), "");
+	return MakeFault(KnownSettings({{"r.RT.Debug.Denoise.Adapt", "0"}, {"r.RT.Shadow.HistorySeconds", "60"},
+	                     {"r.RT.AO.HistorySeconds", "60"}, {"r.RT.Lights.HistorySeconds", "60"}}),
+	    "");
 }
 
 FStabilityFault MakeUnguardedFault(const FMethod& Method)
@@ -130,16 +137,16 @@ std::span<const FStabilityCase> GetStabilityCases()
 	    {6, "flicker", {LampDiffuse, LampSpecular}, MeasureFlicker, MakeStaleLampsFault},
 	    {7, "tiny emitters", {Diffuse, LampDiffuse}, MeasureTinyEmitters, nullptr, "a fifth of the candles is out"},
 	    {8, "boiling", {LampDiffuse, LampSpecular}, MeasureBoiling, MakeBlindLampsFault},
-	    {9, "disocclusion", EverySignal(false), MeasureDisocclusion, MakeUncoveringFault},
-	    {10, "ghost", EverySignal(false), MeasureGhost, MakeStaleFault},
-	    {11, "shadow lag", {Sun}, MeasureShadowLag, nullptr, "the fan is where it was three frames ago"},
+	    {9, "disocclusion", EverySignal(false, ELamps::Yes), MeasureDisocclusion, MakeUncoveringFault},
+	    {10, "ghost", EverySignal(false, ELamps::Yes), MeasureGhost, MakeStaleFault},
+	    {11, "shadow lag", {Sun, LampDiffuse}, MeasureShadowLag, nullptr, "the fan is where it was three frames ago"},
 	    {12, "mover in a mirror", {}},
 	    {13, "thin specular", {LampSpecular}, MeasureThinSpecular, MakeBlindLampsFault},
 	    {14, "not a number", EverySignal(true), MeasureNotANumber, MakeUnguardedFault},
 	    {15, "huge mesh", {}},
 	    {16, "hash overflow", {}},
 	    {17, "light grid", {LampDiffuse}, MeasureLightGrid, nullptr, "every other metre is 5 % brighter"},
-	    {18, "frame rate", EverySignal(false), MeasureFrameRate, nullptr,
+	    {18, "frame rate", EverySignal(false, ELamps::Yes), MeasureFrameRate, nullptr,
 	        "every frame is said to last 1/60 s, and changes are not looked for"},
 	    {19, "furnace", {Diffuse, Reflected}, MeasureFurnace, nullptr, "the sky is 5 % brighter"},
 	    {20, "hybrid seams", {Sun, Occlusion, Diffuse, LampDiffuse}, MeasureSeams, MakeSeamsFault},

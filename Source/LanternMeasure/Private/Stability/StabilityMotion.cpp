@@ -61,7 +61,7 @@ FRTStatus MeasureUncovering(
 /// Strafing past poles at 6 m/s, and a turn of 180° in 24 frames. Of methods that keep nothing: recorded without a limit.
 FRTStatus MeasureDisocclusion(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out)
 {
-	if (FRTStatus S = Stage.Load("stability-poles"); !S) { return S; }
+	if (FRTStatus S = Stage.LoadLit("stability-poles"); !S) { return S; }
 	const auto Strafe = [&](double Part) {
 		const glm::dvec3 At(-1.2 + 2.3 * Part, 1.5, 0);
 		return Stage.MakeView(At, At + glm::dvec3(0, -0.2, -6), 50);
@@ -139,7 +139,7 @@ FRTStatus PlayStill(FStabilityStage& Stage, const FView& View, double Time, FIma
 /// the mean of eight runs.
 FRTStatus MeasureGhost(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out)
 {
-	if (FRTStatus S = Stage.Load("stability-ghost"); !S) { return S; }
+	if (FRTStatus S = Stage.LoadLit("stability-ghost"); !S) { return S; }
 	constexpr int First = 28, Count = 61, Steps = 9, Step = 4; // references at frames First, First + 4, …
 	const auto TimeOf = [](int Frame) { return 0.2 + Frame * FrameSeconds; };
 	const FView View = Stage.MakeView();
@@ -181,11 +181,27 @@ FRTStatus MeasureGhost(FStabilityStage& Stage, std::vector<FStabilityFigure>& Ou
 	return FRTStatus::Success();
 }
 
+namespace
+{
+/// What is lit all over: noise and highlights are above it in a tenth of the picture at most.
+float FindLitLuminance(const FImage& Image)
+{
+	std::vector<float> Values(Image.GetPixelCount());
+	for (uint32_t Y = 0; Y < Image.Height; ++Y)
+	{
+		for (uint32_t X = 0; X < Image.Width; ++X) { Values[static_cast<size_t>(Y) * Image.Width + X] = GetLuminance(Image, X, Y); }
+	}
+	const auto Tenth = Values.begin() + static_cast<ptrdiff_t>(Values.size() * 9 / 10);
+	std::nth_element(Values.begin(), Tenth, Values.end());
+	return *Tenth;
+}
+} // namespace
+
 /// The fan's shadow, more than half dark: overlap with the reference's, and how many frames ago the reference fits best. The
-/// fault: the fan is rendered where it was three frames ago.
+/// fault: the fan is rendered where it was three frames ago. A lamp lights the floor all alike, since it is far.
 FRTStatus MeasureShadowLag(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out)
 {
-	if (FRTStatus S = Stage.Load("stability-fan"); !S) { return S; }
+	if (FRTStatus S = Stage.LoadLit("stability-fan"); !S) { return S; }
 	constexpr int Count = 32, Lags = 5;
 	const FView View = Stage.MakeView();
 	const auto TimeOf = [](int Frame) { return 0.1 + Frame * FrameSeconds; };
@@ -198,14 +214,20 @@ FRTStatus MeasureShadowLag(FStabilityStage& Stage, std::vector<FStabilityFigure>
 	}
 	std::vector<FImage> Frames;
 	if (FRTStatus S = Stage.Play(Shots, Frames); !S) { return S; }
-	const std::vector<uint8_t> Mask = MakeLuminanceMask(Frames.back(), 0.5f, true);
+	std::vector<uint8_t> Mask;
+	float Half = 0.0f; // of what is lit
 	double Best = -1.0, First = 0.0;
 	int Lag = 0;
 	for (int I = 0; I < Lags; ++I)
 	{
 		FSignalReference Reference;
 		if (FRTStatus S = Stage.GetReference(View, TimeOf(Count - 1 - I), Reference); !S) { return S; }
-		const double Overlap = ComputeMaskOverlap(Mask, MakeLuminanceMask(Reference.Mean, 0.5f, true));
+		if (I == 0)
+		{
+			Half = 0.5f * FindLitLuminance(Reference.Mean);
+			Mask = MakeLuminanceMask(Frames.back(), Half, true);
+		}
+		const double Overlap = ComputeMaskOverlap(Mask, MakeLuminanceMask(Reference.Mean, Half, true));
 		if (I == 0)
 		{
 			First = Overlap;
@@ -310,7 +332,7 @@ FPixelMask FindFloorUnderLid(const FSceneDescription& Scene, const FView& View)
 /// a limit.
 FRTStatus MeasureFrameRate(FStabilityStage& Stage, std::vector<FStabilityFigure>& Out)
 {
-	if (FRTStatus S = Stage.Load("stability-lid"); !S) { return S; }
+	if (FRTStatus S = Stage.LoadLit("stability-lid"); !S) { return S; }
 	const FView View = Stage.MakeView();
 	const FPixelMask Mask = FindFloorUnderLid(Stage.GetScene().GetDescription(), View);
 	double Means[2] = {};

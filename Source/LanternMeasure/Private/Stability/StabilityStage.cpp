@@ -33,6 +33,12 @@ FRTStatus FStabilityStage::Load(const std::string& Name)
 	return FRTStatus::Success();
 }
 
+FRTStatus FStabilityStage::LoadLit(const std::string& Scene)
+{
+	const bool bLamps = Signal == ESignal::LocalDiffuse || Signal == ESignal::LocalSpecular;
+	return Load(Scene + (bLamps ? ":1" : ":0"));
+}
+
 void FStabilityStage::ResetState()
 {
 	FHostScene& Scene = Engine.GetScene();

@@ -22,7 +22,8 @@ struct FDenoiseInputs
 	const char* Name = ""; ///< names passes and histories; the same in all frames
 	/// A pixel's mean over the frame's rays, with at least ShaderRead. R16_FLOAT: visibility, each ray's is 0 or 1.
 	/// RGBA16_FLOAT: a colour, ≥ 0. Its fourth channel is 0 where the colour has no noise. It is 2 where the
-	/// mean of other pixels stands for the pixel's own, which the filter takes only without a history. It is 1 elsewhere.
+	/// mean of other pixels stands for the pixel's own, which the filter takes only without a history. It is 3 where
+	/// the value was chosen of many, which is noisy: its history lasts twice as long. It is 1 elsewhere.
 	FGraphTexture Signal;
 	uint32_t RaysPerPixel = 1; ///< for visibility
 	/// For visibility, R16_FLOAT: width in pixels of the transition between seen and unseen that the pixel lies in. 0: the

@@ -23,9 +23,9 @@ TRTConsoleVariable<int32_t> CVarExact("r.RT.Lights.Exact", 4,
     "Most lights of a tile of 8 x 8 pixels that all get a ray from each pixel. Each pixel of a tile with more chooses one light.",
     {1, TILE_LIGHTS});
 TRTConsoleVariable<bool> CVarKnownChanges("r.RT.Lights.KnownChanges", true,
-    "The filter of diffuse light looks for changes on surfaces that move. It does so everywhere for 0.13 s after a lamp has changed or a "
-    "caster has moved. If off, it always looks for them in the picture, and takes some noise for change.");
-const FDenoiseVariables Denoise("r.RT.Lights", FDenoiseDefaults{.SigmaValue = 2.0f, .Passes = 3, .bColor = true});
+    "The filter of diffuse light looks for changes on surfaces that move, where a moved caster may shadow a lamp, and for 0.13 s after a "
+    "lamp has changed everywhere. If off, it always looks for them in the picture, and takes some noise for change.");
+const FDenoiseVariables Denoise("r.RT.Lights", FDenoiseDefaults{.SigmaValue = 2.0f, .Passes = 2, .bColor = true});
 
 uint32_t GetExact() { return static_cast<uint32_t>(CVarExact.GetOnRenderThread()); }
 
@@ -112,7 +112,7 @@ FGraphTexture AddLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESignal S
 	// A highlight moves with the camera, and diffuse light does not.
 	const bool bLampsAlone = !HasEmitters(Context.Facts); // nobody counts what becomes of surfaces
 	const bool bStays = Signal == ESignal::LocalDiffuse && bLampsAlone && CVarKnownChanges.GetOnRenderThread();
-	Inputs.Changes.bKnown = bStays && !Context.MovedCasters->HasLampLightChanged(Context.Scene, Context.View.DeltaSeconds);
+	if (bStays && !FindLampShadowChanges(Context, Inputs.Changes)) { return {}; }
 	if (AreLampsChosen(Context.Facts))
 	{
 		Inputs.Change = AddLampChange(Context, GBuffer, Context.ShadowRays->Traced, MakeLocalDefines(Context.Facts, GetExact()), Signal);

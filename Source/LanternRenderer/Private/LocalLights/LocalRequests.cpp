@@ -20,6 +20,10 @@ TRTConsoleVariable<int32_t> CVarCandidates("r.RT.Lights.Candidates", 8,
     "Lights that a pixel looks at where a tile has many, before one of them gets its ray. They are drawn from the lights of its tile, by "
     "what these bring and by how visible they were. 0: all lights, which takes long. It is 64 where surfaces emit.",
     {0, 64});
+TRTConsoleVariable<int32_t> CVarRays("r.RT.Lights.Rays", 2,
+    "Rays of a pixel whose tile has many lights, each to a light that it chooses of its candidates. Twice as many have half the noise, as "
+    "far as hidden lights are its cause. Without candidates, and for emissive triangles beside few lights, it is 1.",
+    {1, TILE_CHOSEN_MOST});
 TRTConsoleVariable<float> CVarGuideSeconds("r.RT.Lights.GuideSeconds", 0.5f,
     "Time in seconds for which a tile of many lights remembers which of them were visible. 0: it forgets all.", {0.0, 60.0});
 TRTConsoleVariable<bool> CVarUnbiased("r.RT.Lights.Unbiased", false,
@@ -36,6 +40,12 @@ uint32_t GetCandidates()
 	constexpr uint32_t Most = 64;
 	const auto Candidates = static_cast<uint32_t>(CVarCandidates.GetOnRenderThread());
 	return Candidates > 0 ? Candidates : Most;
+}
+
+/// Lights that a pixel of a tile of many chooses.
+uint32_t GetChosen(const FSceneFacts& Facts, uint32_t Exact)
+{
+	return Facts.Lights > Exact && IsGuided(Facts, Exact) ? static_cast<uint32_t>(CVarRays.GetOnRenderThread()) : 1;
 }
 
 bool HasRegions(const FSceneFacts& Facts, uint32_t Exact) { return IsGuided(Facts, Exact) && NeedsLightRegions(Facts); }
@@ -71,7 +81,7 @@ struct FRequestsPass
 };
 
 /// Adds the buffers by which pixels choose of a table. False: there is no memory, which the context has.
-bool AddGuide(FFrameContext& Context, FRequestsPass& InOut)
+bool AddGuide(FFrameContext& Context, uint64_t Choices, FRequestsPass& InOut)
 {
 	const uint64_t Bytes = uint64_t(InOut.Tiles) * sizeof(FTileGuide);
 	InOut.GuideOffset = Context.MovedCasters->GetTurn() % 2 * Bytes; // frame numbers count those of other views, too
@@ -87,8 +97,7 @@ bool AddGuide(FFrameContext& Context, FRequestsPass& InOut)
 		InOut.bPreviousGuide = !History.bFresh && !Context.View.bCut; // another place
 	}
 	else { InOut.Guide = Context.Graph.CreateBuffer({2 * Bytes}, "LightGuide"); } // nobody reads it in the next frame
-	const uint64_t Pixels = uint64_t(Context.Width) * Context.Height;
-	if (!CVarUnbiased.GetOnRenderThread()) { InOut.Lit = Context.Graph.CreateBuffer({Pixels * sizeof(FLitPixel)}, "LitPixels"); }
+	if (!CVarUnbiased.GetOnRenderThread()) { InOut.Lit = Context.Graph.CreateBuffer({Choices * sizeof(FLitPixel)}, "LitPixels"); }
 	return true;
 }
 
@@ -199,13 +208,14 @@ FShaderDefines MakeChoiceDefines(const FSceneFacts& Facts, uint32_t Exact)
 {
 	FShaderDefines Defines = MakeLocalDefines(Facts, Exact);
 	if (IsGuided(Facts, Exact)) { Defines.emplace_back("GUIDED", "1"); }
+	if (const uint32_t Chosen = GetChosen(Facts, Exact); Chosen > 1) { Defines.emplace_back("CHOSEN_RAYS", std::to_string(Chosen) + "u"); }
 	if (HasEmitters(Facts) && Facts.bMasked) { Defines.emplace_back("HAS_MASKED", "1"); } // what is cut away does not shine
 	return Defines;
 }
 
 uint32_t GetLocalRaysPerPixel(const FSceneFacts& Facts, uint32_t Exact)
 {
-	return std::min(Facts.Lights, Exact) + (HasEmitters(Facts) ? 1 : 0);
+	return std::max(std::min(Facts.Lights, Exact) + (HasEmitters(Facts) ? 1 : 0), GetChosen(Facts, Exact));
 }
 
 bool MayChooseLights(const FSceneFacts& Facts, uint32_t Exact) { return Facts.Lights > Exact || HasEmitters(Facts); }
@@ -235,10 +245,10 @@ void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRa
 	Inputs.TileLights = Context.Graph.CreateBuffer({Inputs.Tiles * sizeof(FTileLights)}, "TileLights");
 	if (Rays.bMany)
 	{
-		const uint64_t Pixels = uint64_t(Context.Width) * Context.Height;
-		Inputs.Choices = Context.Graph.CreateBuffer({Pixels * sizeof(FLightChoice)}, "LightChoices");
+		const uint64_t Choices = uint64_t(Context.Width) * Context.Height * GetChosen(Context.Facts, Rays.Exact);
+		Inputs.Choices = Context.Graph.CreateBuffer({Choices * sizeof(FLightChoice)}, "LightChoices");
 		if (!IsGuided(Context.Facts, Rays.Exact)) { RequireLightCells(Context, GBuffer); } // pixels visit the lights of their cell
-		else if (!AddGuide(Context, Inputs)) { return; }
+		else if (!AddGuide(Context, Choices, Inputs)) { return; }
 		if (HasRegions(Context.Facts, Rays.Exact))
 		{
 			Inputs.Regions = AddLightRegions(Context, GBuffer, RequireCompute(Context, MakeLightRegionsSource(Context.Facts)));

@@ -69,8 +69,8 @@ struct FQueuedRays
 {
 	FSunRays Sun;
 	FGraphBuffer TileLights;  ///< FTileLights[], for rays to local lights; invalid: there are none
-	FGraphBuffer Choices;     ///< FLightChoice[Width · Height]; invalid: no pixel chooses a light
-	FGraphBuffer Lit;         ///< FLitPixel[Width · Height], for the shading; invalid: it goes by Choices alone
+	FGraphBuffer Choices;     ///< FLightChoice[choices · Width · Height]; invalid: no pixel chooses a light
+	FGraphBuffer Lit;         ///< FLitPixel[choices · Width · Height], for the shading; invalid: it goes by Choices alone
 	FGraphBuffer Guide;       ///< two times FTileGuide[], this frame's at GuideOffset
 	uint64_t GuideOffset = 0; ///< bytes
 	uint32_t LocalPerPixel = 0;

@@ -60,12 +60,18 @@ FMovedCasters::FRecent FMovedCasters::FindRecent(FRTScene& Scene, const FSunRays
 	return Found;
 }
 
-bool FMovedCasters::HasLampLightChanged(FRTScene& Scene, float DeltaSeconds)
+FMovedCasters::FRecent FMovedCasters::FindRecentOfLamps(FRTScene& Scene, float DeltaSeconds)
 {
 	if (!Next.bValid) { Note(Scene, {}, DeltaSeconds); } // nobody asks for the sun
-	if (Recent.empty()) { return false; }
+	FRecent Found;
+	if (Recent.empty()) { return Found; }
 	const FState& Before = Recent.front();
-	return Before.Sun.Scene != Next.Sun.Scene || Before.Lights != Next.Lights || Before.Changes != Next.Changes;
+	Found.bAnywhere = Before.Sun.Scene != Next.Sun.Scene || Before.Lights != Next.Lights;
+	if (Found.bAnywhere || !CVarCapsules.GetOnRenderThread()) { return Found; }
+	std::vector<FCasterChange> Moved;
+	Found.bAnywhere = !Scene.GetCasterChanges().Find(Before.Changes, Moved);
+	Found.Casters = Convert(Scene, Moved);
+	return Found;
 }
 
 bool FMovedCasters::HaveLampsChanged(FRTScene& Scene, float DeltaSeconds)
@@ -97,6 +103,17 @@ bool FindShadowChanges(FFrameContext& Context, const FSunRays& Rays, FShadowChan
 	Out.bKnown = !Found.bAnywhere;
 	Out.CasterCount = static_cast<uint32_t>(Found.Casters.size());
 	Out.Spread = std::sqrt(2.0f * GetSunOneMinusCos(Rays)) + 1.0e-3f;
+	return WriteCasters(Context, Found.Casters, Out.Casters);
+}
+
+bool FindLampShadowChanges(FFrameContext& Context, FShadowChanges& Out)
+{
+	constexpr uint64_t MostPairs = 4096; // 64 for each thread of a tile
+	const FMovedCasters::FRecent Found = Context.MovedCasters->FindRecentOfLamps(Context.Scene, Context.View.DeltaSeconds);
+	const uint64_t Pairs = uint64_t(Found.Casters.size()) * Context.Scene.GetLights().GetSlotCount();
+	Out.bKnown = !Found.bAnywhere && Pairs <= MostPairs;
+	if (!Out.bKnown) { return true; }
+	Out.CasterCount = static_cast<uint32_t>(Found.Casters.size());
 	return WriteCasters(Context, Found.Casters, Out.Casters);
 }
 

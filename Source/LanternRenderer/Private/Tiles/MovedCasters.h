@@ -36,8 +36,8 @@ public:
 	};
 	/// Finds what may have changed in the last RecentSeconds. As Find.
 	FRecent FindRecent(FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds);
-	/// Returns whether the light of lamps may have changed anywhere in the last RecentSeconds: a lamp has, or a caster moved. As Find.
-	bool HasLampLightChanged(FRTScene& Scene, float DeltaSeconds);
+	/// As FindRecent, for the shadows of lamps. A lamp that has changed may have changed all.
+	FRecent FindRecentOfLamps(FRTScene& Scene, float DeltaSeconds);
 	/// Returns whether a lamp has changed since the view's last frame, or there is none. As Find.
 	bool HaveLampsChanged(FRTScene& Scene, float DeltaSeconds);
 	/// Counts the view's submitted frames.
@@ -73,16 +73,18 @@ private:
 	double Time = 0.0;
 };
 
-/// Where the sun's shadows may have changed in the last frames.
+/// Where shadows of the sun, or of lamps, may have changed in the last frames.
 struct FShadowChanges
 {
 	bool bKnown = false;  ///< false: anywhere, and what needs to know looks at the picture
 	uint64_t Casters = 0; ///< FMovedCaster[CasterCount], of this frame; with bKnown
 	uint32_t CasterCount = 0;
-	float Spread = 0.0f; ///< of a half shadow's border, metres per metre
+	float Spread = 0.0f; ///< of a half shadow's border, metres per metre; not of lamps
 };
 /// r.RT.Shadow.KnownChanges. False: an error, which the context has.
 bool FindShadowChanges(FFrameContext& Context, const FSunRays& Rays, FShadowChanges& Out);
+/// As FindShadowChanges, for lamps. Many casters of many lamps count as anywhere, since each tile looks at all of either.
+bool FindLampShadowChanges(FFrameContext& Context, FShadowChanges& Out);
 /// Writes casters where this frame's shaders read them. OutAddress: 0 if there are none. False: an error, which the context has.
 bool WriteCasters(FFrameContext& Context, const std::vector<FMovedCaster>& Casters, uint64_t& OutAddress);
 

@@ -10,7 +10,7 @@
 namespace Lantern::Builtin
 {
 
-FSceneDescription BuildStabilityFan()
+FSceneDescription BuildStabilityFan(bool bLamp)
 {
 	FSceneBuilder Builder("stability-fan");
 	AddGround(Builder, AddPaint(Builder, "floor", glm::vec3(0.6f), 0.3f), 12.0f);
@@ -31,6 +31,7 @@ FSceneDescription BuildStabilityFan()
 	Builder.AddCamera({0, 1.3, 2.4}, {0, 0, 0.1}, 60);
 	Builder.SetLight({0.05f, -1, 0.1f}, 4.0f, {0.3f, 0.4f, 0.6f});
 	Builder.Scene.DefaultSunDiameter = 2.0f;
+	if (bLamp) { LightByLamp(Builder, {0, 0, 0}, 10.0f); }
 	return std::move(Builder.Scene);
 }
 

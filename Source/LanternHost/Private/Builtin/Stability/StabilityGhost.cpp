@@ -5,7 +5,7 @@
 namespace Lantern::Builtin
 {
 
-FSceneDescription BuildStabilityGhost()
+FSceneDescription BuildStabilityGhost(bool bLamp)
 {
 	FSceneBuilder Builder("stability-ghost");
 	AddGround(Builder, AddPaint(Builder, "floor", glm::vec3(0.5f), 0.3f), 12.0f);
@@ -20,6 +20,7 @@ FSceneDescription BuildStabilityGhost()
 	Builder.AddCamera({0, 1.9, 2.6}, {0, 0.6, -1.6}, 50);
 	Builder.SetLight({-0.9f, -0.7f, -0.8f}, 4.0f, {0.5f, 0.7f, 1.0f}); // the shadow trails
 	Builder.Scene.DefaultSunDiameter = 2.0f;
+	if (bLamp) { LightByLamp(Builder, {0, 0.5f, -1.6f}, 14.0f); }
 	return std::move(Builder.Scene);
 }
 

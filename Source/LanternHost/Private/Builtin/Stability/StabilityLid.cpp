@@ -5,7 +5,7 @@
 namespace Lantern::Builtin
 {
 
-FSceneDescription BuildStabilityLid()
+FSceneDescription BuildStabilityLid(bool bLamp)
 {
 	FSceneBuilder Builder("stability-lid");
 	AddGround(Builder, AddPaint(Builder, "floor", glm::vec3(0.6f), 0.3f), 10.0f);
@@ -14,6 +14,7 @@ FSceneDescription BuildStabilityLid()
 	Builder.AddCamera({0, 0.9, 3.2}, {0, 0.05, 0}, 45);
 	Builder.SetLight({0.1f, -1, -0.1f}, 4.0f, {0.6f, 0.8f, 1.0f});
 	Builder.Scene.DefaultSunDiameter = 2.0f;
+	if (bLamp) { LightByLamp(Builder, {0, 0, 0}, 10.0f); }
 	return std::move(Builder.Scene);
 }
 

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include <glm/gtc/constants.hpp>
+
 namespace Lantern::Builtin
 {
 
@@ -78,6 +80,18 @@ void SetDarkness(FSceneBuilder& Builder, float Exposure)
 {
 	Builder.Scene.DefaultExposure = Exposure;
 	Builder.SetLight({0, -1, 0}, 0.0f, glm::vec3(0));
+}
+
+void LightByLamp(FSceneBuilder& Builder, const glm::vec3& Center, float Distance)
+{
+	const glm::vec4 Sun = Builder.Scene.DefaultSun.value();
+	const float Radius = Distance * std::sin(0.5f * glm::radians(Builder.Scene.DefaultSunDiameter));
+	const float Radiance = Sun.w * Distance * Distance / (glm::pi<float>() * Radius * Radius);
+	Builder.AddPointLight("lamp", Center - Distance * glm::vec3(Sun), glm::vec3(Radiance));
+	FHostLight& Lamp = Builder.Scene.Lights.back();
+	Lamp.Type = LIGHT_SPHERE;
+	Lamp.Size.x = Radius;
+	Builder.SetLight(glm::vec3(Sun), 0.0f, glm::vec3(0));
 }
 
 void AddFlicker(FSceneBuilder& Builder, float Hz, float Phase)

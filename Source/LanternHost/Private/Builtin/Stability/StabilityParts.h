@@ -19,6 +19,9 @@ void AddStripes(FSceneBuilder& Builder, const char* Name, int32_t A, int32_t B, 
 void AddKeys(FSceneBuilder& Builder, int32_t Node, EAnimationPath Path, float Seconds, std::vector<glm::vec4> Values);
 /// Removes sun and sky, and sets the exposure, in stops.
 void SetDarkness(FSceneBuilder& Builder, float Exposure);
+/// Puts a sphere lamp in the place of the sun and the sky. It is Distance metres from Center, where it is as bright and as wide as the
+/// sun was.
+void LightByLamp(FSceneBuilder& Builder, const glm::vec3& Center, float Distance);
 /// Makes the light that was added last a square wave. Phase is in periods.
 void AddFlicker(FSceneBuilder& Builder, float Hz, float Phase);
 

@@ -9,7 +9,7 @@
 namespace Lantern::Builtin
 {
 
-FSceneDescription BuildStabilityPoles()
+FSceneDescription BuildStabilityPoles(bool bLamp)
 {
 	FSceneBuilder Builder("stability-poles");
 	AddGround(Builder, AddPaint(Builder, "floor", glm::vec3(0.5f), 0.4f), 12.0f);
@@ -35,6 +35,7 @@ FSceneDescription BuildStabilityPoles()
 	Builder.AddCamera({0, 1.5, 0}, {0, 1.3, -6}, 50);
 	Builder.SetLight({0.35f, -1, -0.6f}, 4.0f, {0.5f, 0.7f, 1.0f});
 	Builder.Scene.DefaultSunDiameter = 2.0f;
+	if (bLamp) { LightByLamp(Builder, {0, 1.5f, 0}, 14.0f); }
 	return std::move(Builder.Scene);
 }
 

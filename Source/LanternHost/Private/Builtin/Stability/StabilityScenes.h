@@ -40,19 +40,20 @@ FSceneDescription BuildStabilityMaterials();
 FSceneDescription BuildStabilityFlat(bool bMetal);
 
 // ---------------------------------------------------------------------------------------------------- something moves
+// bLamp: a sphere lamp shines instead of sun and sky.
 
 /// A ring of poles around the camera, before striped walls. A camera that strafes uncovers wall; one that turns sees it anew.
-FSceneDescription BuildStabilityPoles();
+FSceneDescription BuildStabilityPoles(bool bLamp);
 
 /// A glowing cube crosses a striped wall at 5 m/s, close before it, and its shadow goes with it. Node "cube" moves from −5 m to
 /// 5 m in 2 s.
-FSceneDescription BuildStabilityGhost();
+FSceneDescription BuildStabilityGhost(bool bLamp);
 
 /// Four blades turn over a floor once a second, under a sun of 2°.
-FSceneDescription BuildStabilityFan();
+FSceneDescription BuildStabilityFan(bool bLamp);
 
 /// A slab (node "lid") hovers over a floor and shadows it from sun, sky and walls.
-FSceneDescription BuildStabilityLid();
+FSceneDescription BuildStabilityLid(bool bLamp);
 
 // ---------------------------------------------------------------------------------------------------- indirect light
 

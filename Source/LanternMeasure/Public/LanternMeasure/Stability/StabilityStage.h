@@ -44,6 +44,8 @@ public:
 
 	/// Loads a built-in scene, or resets it: objects, sun and sky return to their initial state.
 	FRTStatus Load(const std::string& Scene);
+	/// Loads a scene that has a parameter LAMP: with a lamp if the signal is of lamps, else with the sun.
+	FRTStatus LoadLit(const std::string& Scene);
 	FSampleEngine& GetEngine() { return Engine; }
 	FHostScene& GetScene() { return Engine.GetScene(); }
 	const FStabilitySettings& GetSettings() const { return Settings; }
