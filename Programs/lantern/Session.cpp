@@ -213,7 +213,7 @@ void FSession::ApplyLight(const FPictureOptions& Options, const FSceneDescriptio
 	bool bEmissive = false;
 	for (const FHostMaterial& Material : Description.Materials)
 	{
-		bEmissive |= glm::any(glm::greaterThan(Material.Emissive, glm::vec3(0)));
+		bEmissive |= glm::any(glm::greaterThan(Material.LightEmissive.value_or(Material.Emissive), glm::vec3(0)));
 	}
 	const std::optional<FSunLight> OwnSun = Scene.GetOwnSun();
 	// Whoever names some of the light means that and no more.

@@ -25,6 +25,13 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FSe
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FMaterialRef { FMaterialData Data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FLightRef { FLightData Data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FEmissiveRef { FEmissiveTriangle Data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FEmissiveClusterRef { FEmissiveCluster Data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FEmissiveRangeRef { FEmissiveRange Data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FEmissivePowerRef
+{
+	FEmissivePowerHeader Header;
+	FEmissivePower Data[];
+};
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FPositionRef { vec3 Data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FAttributeRef { FVertexAttributes Data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FIndexRef { uint Data[]; };

@@ -6,7 +6,6 @@
 
 layout(local_size_x = EMITTER_GROUP_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FEmitterClustersConstants Push; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FClusterRef { FEmissiveCluster Data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer FOutRef
 {
 	FEmitterHeader Header;
@@ -40,7 +39,7 @@ void main()
 {
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	FEmissiveRef Triangles = FEmissiveRef(Scene.EmissiveTriangles);
-	FEmissiveCluster Cluster = FClusterRef(Scene.EmissiveClusters).Data[gl_WorkGroupID.x];
+	FEmissiveCluster Cluster = FEmissiveClusterRef(Scene.EmissiveClusters).Data[gl_WorkGroupID.x];
 	uint Place = gl_LocalInvocationIndex;
 	vec3 Low = vec3(1.0e30), High = vec3(-1.0e30), Normal = vec3(0.0);
 	float Area = 0.0;
@@ -83,7 +82,7 @@ void main()
 	bool bFlat = Flat.x >= FlatCosine;
 	FEmitterCluster Out;
 	Out.Center = 0.5 * (Low + High);
-	Out.Power = Cluster.Power;
+	Out.Power = FEmissivePowerRef(Scene.EmissivePowers).Data[gl_WorkGroupID.x].Power;
 	Out.Half = 0.5 * (High - Low);
 	Out.Area = Area;
 	Out.Normal = bFlat ? Axis : Normal * min(1.0, 0.99 / max(length(Normal), 1.0e-6)); // only flat ones have length 1

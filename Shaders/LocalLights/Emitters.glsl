@@ -109,7 +109,7 @@ FLightSample SampleEmitter(FSceneConstants Scene, uint Index, vec3 P, vec2 U)
 #ifdef HAS_MASKED
 	if (IsCutAway(Material, Inputs)) { return Sample; }
 #endif
-	Sample.Irradiance = min(EvaluateEmission(Material, Inputs), vec3(MaxEmission)) * SolidAngle; // the limit that paths have
+	Sample.Irradiance = min(EvaluateLightEmission(Material, Inputs), vec3(MaxEmission)) * SolidAngle; // the limit that paths have
 #ifdef HALF_LIGHT_AREA // r.RT.Debug.Lights.Area
 	Sample.Irradiance *= 0.5;
 #endif

@@ -16,7 +16,7 @@ vec3 TraceLocalLight(FSceneConstants Scene, FBrdf Lobe, FMaterialHit Hit, vec3 P
 	Sum += SampleLocalLights(Scene, Lobe, Basis, V * Basis, P, Hit.GeometricNormal, bCharacter, Hit.Channels, U.x, U.yz);
 #endif
 #if defined(HAS_EMISSIVE) && defined(EMISSIVE_IS_DIRECT)
-	Sum += EmissionShare * SampleEmissiveAlone(Scene, Lobe, Basis, V * Basis, P, Hit.GeometricNormal, bCharacter, NextRandom4(Random).xyz);
+	Sum += EmissionShare * SampleEmissiveAlone(Scene, Lobe, Basis, V * Basis, P, Hit.GeometricNormal, bCharacter, NextRandom4(Random));
 #endif
 	return Sum;
 }

@@ -91,6 +91,15 @@ vec3 EvaluateEmission(FMaterialData Material, FMaterialInputs Inputs)
 	return Emission;
 }
 
+// HAS_LIGHT_EMISSION: some material of the scene lights otherwise than it looks.
+vec3 EvaluateLightEmission(FMaterialData Material, FMaterialInputs Inputs)
+{
+#ifdef HAS_LIGHT_EMISSION
+	Material.Emissive = Material.LightEmissive;
+#endif
+	return EvaluateEmission(Material, Inputs);
+}
+
 vec3 EvaluateNormal(FMaterialData Material, FMaterialInputs Inputs)
 {
 	vec3 N = NormalizeOr(Inputs.Normal, vec3(0.0, 0.0, 1.0));

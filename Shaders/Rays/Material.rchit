@@ -22,6 +22,9 @@ void main()
 	FSceneConstants Scene = FSceneRef(Pass.Scene).Data;
 	CountStandIn(Scene.StandInHits, Section.Material);
 	FMaterialData Material = FMaterialRef(Scene.Materials).Data[Section.Material];
+#ifdef HAS_LIGHT_EMISSION
+	if (Payload.W1 == ASKS_FOR_LIGHT) { Material.Emissive = Material.LightEmissive; }
+#endif
 #ifdef PROCEDURAL
 	vec3 TriangleHit = vec3(gl_HitTEXT, 0.0, 0.0);
 	vec3 ObjectNormal = OctDecode(NormalAttribute);

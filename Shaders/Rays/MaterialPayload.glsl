@@ -22,6 +22,9 @@ struct FMaterialPayload
 const float EmissionScale = 1.0 / 64.0;
 const float MaxEmission = 65504.0 / EmissionScale; // nits
 
+// What a ray sets W1 to before it is traced, if it looks for light: FMaterialData::LightEmissive. HAS_LIGHT_EMISSION only.
+#define ASKS_FOR_LIGHT 0x4c494748u
+
 #define HIT_CULLED_SIDE 1u // the back of a single-sided surface: camera rays do not see it
 #define HIT_CHARACTER 2u   // characters do not shadow the surface
 

@@ -94,26 +94,58 @@ vec3 SampleLocalLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, ve
 }
 #endif
 
-#ifdef HAS_EMISSIVE
-// Returns the first triangle whose cumulative power exceeds U, by binary search.
-uint FindEmissiveTriangle(FSceneConstants Scene, float U)
+// Returns the share of a reflection that shows what materials look like.
+vec3 ShownShare(FBrdf Brdf, vec3 V, vec3 L, uint Shows)
 {
-	FEmissiveRef Triangles = FEmissiveRef(Scene.EmissiveTriangles);
-	uint First = 0u, Last = Scene.EmissiveTriangleCount - 1u;
+	if (Shows != SHOWS_MIRRORED) { return vec3(Shows == SHOWS_ALL ? 1.0 : 0.0); }
+	float OfRays = EmissionOfRays(sqrt(Brdf.Alpha), 1.0);
+	if (OfRays <= 0.0 || Brdf.Diffuse <= 0.0) { return vec3(OfRays); }
+	vec3 Whole = EvaluateBrdfCos(Brdf, V, L);
+	Brdf.Diffuse = 0.0;
+	return OfRays * clamp(EvaluateBrdfCos(Brdf, V, L) / max(Whole, vec3(1.0e-30)), vec3(0.0), vec3(1.0));
+}
+
+#ifdef HAS_EMISSIVE
+// Chooses an emissive triangle: a cluster, then a triangle of it. OutChance: with which it is chosen.
+FEmissiveTriangle ChooseEmissive(FSceneConstants Scene, vec2 U, out float OutChance)
+{
+	FEmissivePowerRef Powers = FEmissivePowerRef(Scene.EmissivePowers);
+	uint First = 0u, Last = Scene.EmissiveClusterCount - 1u;
 	while (First < Last)
 	{
 		uint Middle = (First + Last) >> 1;
-		if (Triangles.Data[Middle].CumulativePower > U) { Last = Middle; }
+		if (Powers.Data[Middle].Share > U.x) { Last = Middle; }
 		else { First = Middle + 1u; }
 	}
-	return First;
+	OutChance = Powers.Data[First].Share - (First > 0u ? Powers.Data[First - 1u].Share : 0.0);
+	FEmissiveCluster Cluster = FEmissiveClusterRef(Scene.EmissiveClusters).Data[First];
+	FEmissiveRef Triangles = FEmissiveRef(Scene.EmissiveTriangles);
+	First = Cluster.First;
+	Last = Cluster.First + Cluster.Count - 1u;
+	while (First < Last)
+	{
+		uint Middle = (First + Last) >> 1;
+		if (Triangles.Data[Middle].ClusterShare > U.y) { Last = Middle; }
+		else { First = Middle + 1u; }
+	}
+	FEmissiveTriangle Triangle = Triangles.Data[First];
+	OutChance *= Triangle.ClusterShare - (First > Cluster.First ? Triangles.Data[First - 1u].ClusterShare : 0.0);
+	return Triangle;
 }
 
-// bWithOther: BRDF sampling finds emitters as well.
-vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, vec3 U, bool bWithOther)
+// Returns a density of light sampling, by area, for weights against the BRDF's: that of chances by power alone.
+float EmissiveAreaPdf(FSceneConstants Scene, float EmissiveWeight)
 {
-	if (Scene.EmissiveTriangleCount == 0u) { return vec3(0.0); } // emitters exist, but deformed ones are not in the list
-	FEmissiveTriangle Triangle = FEmissiveRef(Scene.EmissiveTriangles).Data[FindEmissiveTriangle(Scene, U.z)];
+	return Scene.EmissiveClusterCount > 0u ? EmissiveWeight / max(FEmissivePowerRef(Scene.EmissivePowers).Header.Power, 1.0e-30) : 0.0;
+}
+
+// bWithOther: BRDF sampling finds emitters as well. U: a point of the triangle, a cluster and a triangle of it. Shows: SHOWS_….
+vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, vec4 U, bool bWithOther,
+                    uint Shows)
+{
+	if (Scene.EmissiveClusterCount == 0u) { return vec3(0.0); } // emitters exist, but are not listed
+	float Chance;
+	FEmissiveTriangle Triangle = ChooseEmissive(Scene, U.zw, Chance);
 	vec2 Barycentrics = SampleTriangle(U.xy);
 	vec3 Point = Triangle.P0 + (Triangle.P1 - Triangle.P0) * Barycentrics.x + (Triangle.P2 - Triangle.P0) * Barycentrics.y;
 	Point += CellOffset(Scene, FObjectRef(Scene.Objects).Data[Triangle.Object].Cell);
@@ -126,37 +158,47 @@ vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 
 
 	FSectionData Section = FSectionRef(Scene.Sections).Data[Triangle.Section];
 	FMaterialData Material = FMaterialRef(Scene.Materials).Data[Section.Material];
-	float CosAtLight = -dot(normalize(cross(Triangle.P1 - Triangle.P0, Triangle.P2 - Triangle.P0)), ToLight);
+	vec3 Cross = cross(Triangle.P1 - Triangle.P0, Triangle.P2 - Triangle.P0);
+	float Doubled = length(Cross); // area
+	if (Chance <= 0.0 || Doubled <= 0.0) { return vec3(0.0); }
+	float CosAtLight = -dot(Cross, ToLight) / Doubled;
 	if ((Triangle.Flags & OBJECT_MIRRORED) != 0u) { CosAtLight = -CosAtLight; }
 	if ((Section.Flags & SECTION_DOUBLE_SIDED) != 0u) { CosAtLight = abs(CosAtLight); }
 	vec3 BrdfCos = EvaluateBrdfCos(Brdf, V, ToLight * Basis);
 	if (CosAtLight <= 1.0e-6 || MaxComponent(BrdfCos) <= 0.0) { return vec3(0.0); }
 	FMaterialInputs Inputs = FetchTextureInputs(Section, Triangle.Primitive, Barycentrics);
-	vec3 Emission = min(EvaluateEmission(Material, Inputs), vec3(MaxEmission)); // the limit that the payload has
+	vec3 Emission = min(EvaluateLightEmission(Material, Inputs), vec3(MaxEmission)); // the limit that the payload has
+#ifdef HAS_LIGHT_EMISSION
+	Emission = mix(Emission, min(EvaluateEmission(Material, Inputs), vec3(MaxEmission)), ShownShare(Brdf, V, ToLight * Basis, Shows));
+#endif
 #ifdef HAS_MASKED
 	if (IsCutAway(Material, Inputs)) { return vec3(0.0); }
 #endif
 	// The shadow ray stops short of the emitter, the more so the more grazing it arrives.
 	float Margin = PositionError(Point, Scene.ObjectReach, Distance) / max(CosAtLight, 0.1);
 	if (MaxComponent(Emission) <= 0.0 || !IsVisible(Scene, LocalCasters(bCharacter), P, ToLight, max(Distance - Margin, 0.0))) { return vec3(0.0); }
-	float Pdf = Material.EmissiveWeight / Scene.EmissivePower * DistanceSquared / CosAtLight;
-	return BrdfCos * Emission * (bWithOther ? PowerHeuristic(Pdf, OtherPdf(Brdf, V, ToLight * Basis, bCharacter)) / Pdf : 1.0 / Pdf);
+	float ToSolidAngle = DistanceSquared / CosAtLight;
+	float Pdf = Chance * 2.0 / Doubled * ToSolidAngle;
+	if (!bWithOther) { return BrdfCos * Emission / Pdf; }
+	float ForWeight = EmissiveAreaPdf(Scene, Material.EmissiveWeight) * ToSolidAngle; // as ShadeEmission has it
+	return BrdfCos * Emission * (PowerHeuristic(ForWeight, OtherPdf(Brdf, V, ToLight * Basis, bCharacter)) / Pdf);
 }
 
-vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, vec3 U)
+vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, vec4 U, uint Shows)
 {
-	return SampleEmissive(Scene, Brdf, Basis, V, P, Ng, bCharacter, U, true);
+	return SampleEmissive(Scene, Brdf, Basis, V, P, Ng, bCharacter, U, true, Shows);
 }
 
 // Without a BRDF sample that shares its work.
-vec3 SampleEmissiveAlone(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, vec3 U)
+vec3 SampleEmissiveAlone(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, vec4 U)
 {
-	return SampleEmissive(Scene, Brdf, Basis, V, P, Ng, bCharacter, U, false);
+	return SampleEmissive(Scene, Brdf, Basis, V, P, Ng, bCharacter, U, false, SHOWS_NOTHING);
 }
 #endif
 
 // Sums one sample of each kind of light. Takes eight random numbers, and four more where lights have an extent.
-vec3 SampleLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, uint Channels, inout FRandom Random)
+vec3 SampleLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, uint Channels, uint Shows,
+                  inout FRandom Random)
 {
 	vec3 L = vec3(0.0);
 	if (IsMirror(Brdf) && SpecularProbability(Brdf, V) >= 1.0) { return L; }
@@ -176,7 +218,7 @@ vec3 SampleLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P,
 	L += SampleLocalLights(Scene, Brdf, Basis, V, P, Ng, bCharacter, Channels, U1.w, PointU);
 #endif
 #ifdef HAS_EMISSIVE
-	L += SampleEmissive(Scene, Brdf, Basis, V, P, Ng, bCharacter, U1.xyz);
+	L += SampleEmissive(Scene, Brdf, Basis, V, P, Ng, bCharacter, U1, Shows); // w chooses a lamp as well: of sums, each part may
 #endif
 	return L;
 }

@@ -25,8 +25,12 @@ layout(location = 1) rayPayloadEXT FShadowPayload ShadowPayload;
 const float Infinity = 1.0e30;
 const float RouletteThreshold = 0.25; // throughput below which Russian roulette may end a path
 
-FMaterialHit TraceMaterial(FSceneConstants Scene, uint Mask, vec3 Origin, vec3 Direction, float MaxDistance)
+// Shows: what of emission is asked for; SHOWS_NOTHING: what lights.
+FMaterialHit TraceMaterial(FSceneConstants Scene, uint Mask, vec3 Origin, vec3 Direction, float MaxDistance, uint Shows)
 {
+#ifdef HAS_LIGHT_EMISSION
+	MaterialPayload.W1 = Shows == SHOWS_NOTHING ? ASKS_FOR_LIGHT : 0u;
+#endif
 #ifdef REORDER
 	// Threads that hit alike run the hit's shader together.
 	hitObjectNV Hit;
@@ -41,7 +45,7 @@ FMaterialHit TraceMaterial(FSceneConstants Scene, uint Mask, vec3 Origin, vec3 D
 
 FMaterialHit TraceMaterial(FSceneConstants Scene, vec3 Origin, vec3 Direction)
 {
-	return TraceMaterial(Scene, MASK_VISIBLE, Origin, Direction, Infinity);
+	return TraceMaterial(Scene, MASK_VISIBLE, Origin, Direction, Infinity, SHOWS_ALL);
 }
 
 // Returns the radiance of the sky and the sun's disk along a ray that hits nothing, weighted against next-event estimation.
@@ -70,7 +74,7 @@ vec3 ShadeEmission(FSceneConstants Scene, FMaterialHit Hit, vec3 Direction, floa
 #ifdef HAS_EMISSIVE
 	if (Hit.EmissiveWeight > 0.0)
 	{
-		LightPdf = Hit.EmissiveWeight / Scene.EmissivePower * Hit.Distance * Hit.Distance / max(CosAtLight, 1.0e-8);
+		LightPdf = EmissiveAreaPdf(Scene, Hit.EmissiveWeight) * Hit.Distance * Hit.Distance / max(CosAtLight, 1.0e-8);
 	}
 #endif
 	return LightPdf > 0.0 ? Hit.Emissive * PowerHeuristic(Pdf, LightPdf) : Hit.Emissive;
@@ -88,10 +92,19 @@ FBrdf MakeBrdf(FMaterialHit Hit)
 	return Brdf;
 }
 
+// Chooses whether a path goes on to what materials look like, by its share of what is reflected. Returns the factor of what it finds.
+vec3 ChooseShown(vec3 Share, float U, out bool bShown)
+{
+	float Chance = Luminance(Share);
+	bShown = U < Chance;
+	return bShown ? Share / Chance : (vec3(1.0) - Share) / max(1.0 - Chance, 1.0e-6);
+}
+
 // Returns the radiance that arrives along a ray traced from Origin to Hit. Pdf and NdotL belong to its direction at the vertex
-// that it left; they weigh it against the next-event estimation there. Bounce: how often the path was scattered before.
+// that it left; they weigh it against the next-event estimation there. Bounce: how often the path was scattered before. bShown: whether
+// only mirrors have scattered it.
 vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direction, float Pdf, float NdotL, uint Bounce, uint MaxBounces,
-                inout FRandom Random)
+                bool bShown, inout FRandom Random)
 {
 	vec3 Radiance = vec3(0.0), Throughput = vec3(1.0);
 	uint Channels = AllChannels; // of the vertex before
@@ -111,11 +124,16 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 #else
 		const bool bCharacter = false;
 #endif
-		Radiance += Throughput * SampleLights(Scene, Brdf, Basis, LocalV, P, Hit.GeometricNormal, bCharacter, Hit.Channels, Random);
+		uint Shows = bShown ? SHOWS_MIRRORED : SHOWS_NOTHING;
+		Radiance += Throughput * SampleLights(Scene, Brdf, Basis, LocalV, P, Hit.GeometricNormal, bCharacter, Hit.Channels, Shows, Random);
 
-		FBrdfSample Sample = SampleBrdf(Brdf, LocalV, NextRandom4(Random).xyz);
+		vec4 U = NextRandom4(Random);
+		FBrdfSample Sample = SampleBrdf(Brdf, LocalV, U.xyz);
 		if (Sample.Direction.z <= 0.0) { return Radiance; }
 		Throughput *= Sample.Weight;
+#ifdef HAS_LIGHT_EMISSION
+		Throughput *= ChooseShown(isinf(Sample.Pdf) ? vec3(Shows == SHOWS_MIRRORED) : ShownShare(Brdf, LocalV, Sample.Direction, Shows), U.w, bShown);
+#endif
 		Direction = Basis * Sample.Direction;
 		if (dot(Direction, Hit.GeometricNormal) <= 0.0) { return Radiance; }
 		Pdf = bCharacter && !isinf(Sample.Pdf) ? 0.0 : Sample.Pdf; // see OtherPdf
@@ -131,7 +149,7 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 		}
 		Channels = Hit.Channels;
 		Origin = P;
-		Hit = TraceMaterial(Scene, Origin, Direction);
+		Hit = TraceMaterial(Scene, MASK_VISIBLE, Origin, Direction, Infinity, bShown ? SHOWS_ALL : SHOWS_NOTHING);
 	}
 }
 
@@ -150,18 +168,25 @@ vec3 GatherIndirect(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 
 	float EmissionShare = 1.0;
 #ifdef EMISSIVE_IS_DIRECT
 	EmissionShare = Specular <= 0.0 ? 0.0 : EmissionOfRays(sqrt(Lobe.Alpha), 1.0);
+	uint Shows = SHOWS_ALL; // the rest is light sampling's
+#else
+	uint Shows = Specular <= 0.0 ? SHOWS_NOTHING : SHOWS_MIRRORED;
+#endif
+	bool bShown = false;
+#ifdef HAS_LIGHT_EMISSION
+	if (Specular > 0.0) { bShown = NextRandom4(Random).x < EmissionOfRays(sqrt(Lobe.Alpha), 1.0); }
 #endif
 #ifdef HAS_EMISSIVE
-	vec3 LightSample = NextRandom4(Random).xyz;
+	vec4 LightSample = NextRandom4(Random);
 	if (EmissionShare > 0.0 && (Specular <= 0.0 || !IsMirror(Lobe)))
 	{
-		Radiance += EmissionShare * SampleEmissive(Scene, Lobe, Basis, V, P, Ng, false, LightSample);
+		Radiance += EmissionShare * SampleEmissive(Scene, Lobe, Basis, V, P, Ng, false, LightSample, Shows);
 	}
 #endif
 	FBrdfSample Sample = SampleBrdf(Lobe, V, vec3(U, 0.5));
 	vec3 Direction = Basis * Sample.Direction;
 	if (Sample.Direction.z <= 0.0 || dot(Direction, Ng) <= 0.0) { return Radiance; }
-	FMaterialHit Hit = TraceMaterial(Scene, P, Direction);
+	FMaterialHit Hit = TraceMaterial(Scene, MASK_VISIBLE, P, Direction, Infinity, bShown ? SHOWS_ALL : SHOWS_NOTHING);
 	if (Hit.Distance < 0.0)
 	{
 #ifdef HAS_SKY
@@ -169,8 +194,11 @@ vec3 GatherIndirect(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 
 #endif
 		return Radiance;
 	}
+#if defined(HAS_LIGHT_EMISSION) && defined(EMISSIVE_IS_DIRECT)
+	EmissionShare = bShown ? 1.0 : 0.0; // their mean is the share
+#endif
 	if (Hit.EmissiveWeight > 0.0) { Hit.Emissive *= EmissionShare; }
-	return Radiance + Sample.Weight * FollowPath(Scene, Hit, P, Direction, Sample.Pdf, Sample.Direction.z, 1u, MaxBounces, Random);
+	return Radiance + Sample.Weight * FollowPath(Scene, Hit, P, Direction, Sample.Pdf, Sample.Direction.z, 1u, MaxBounces, bShown, Random);
 }
 
 #endif

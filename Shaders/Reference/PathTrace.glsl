@@ -70,7 +70,7 @@ vec3 TraceSample(FSceneConstants Scene, vec3 Origin, vec3 Direction, inout FRand
 	return TraceSignal(Scene, Hit, P, -Direction, Random);
 #else
 	float Pdf = uintBitsToFloat(0x7f800000u); // infinite: light sampling cannot produce a camera ray
-	return FollowPath(Scene, Hit, Origin, Direction, Pdf, 1.0, 0u, Push.MaxBounces, Random);
+	return FollowPath(Scene, Hit, Origin, Direction, Pdf, 1.0, 0u, Push.MaxBounces, true, Random);
 #endif
 }
 

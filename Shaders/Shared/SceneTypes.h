@@ -66,7 +66,7 @@ LANTERN_ASSERT_SIZE(FVertexStreams, 104);
 #define SECTION_DOUBLE_SIDED 4u
 #define SECTION_TANGENTS 8u      // the vertices carry tangents
 #define SECTION_INDEX_ODD 32u    // 16-bit indices that start in the upper half of the word at Indices
-#define SECTION_LIGHT 16u        // its triangles are in the list of emissive triangles
+#define SECTION_LIGHT 16u        // its triangles are emissive triangles, of which light sampling knows
 #define SECTION_OPACITY_UV1 64u  // the base colour uses the second set of texture coordinates
 // The base colour's texture coordinates are not transformed, and every vertex has alpha 1: the alpha test reads neither.
 #define SECTION_PLAIN_OPACITY 128u
@@ -127,9 +127,10 @@ struct FMaterialData
 	uint Textures[TEXTURE_SLOTS];
 	vec4 UVTransform[TEXTURE_SLOTS]; // 2×2 matrix, rows xy and zw
 	vec2 UVOffset[TEXTURE_SLOTS];    // added after UVTransform
-	float EmissiveWeight; // luminance of the mean emission, rounded to fp16; the pdf of light sampling is proportional to it
+	vec3 LightEmissive;   // as Emissive, where it lights something: cameras and mirrors do not see it
+	float EmissiveWeight; // luminance of the mean of LightEmissive, rounded to fp16
 };
-LANTERN_ASSERT_SIZE(FMaterialData, 212);
+LANTERN_ASSERT_SIZE(FMaterialData, 224);
 
 // The world is divided into cells. Positions are fp32, relative to the centre of a cell, and offsets between cells are exact in
 // fp32. Precision thus does not degrade far away from the world's origin.
@@ -174,33 +175,59 @@ LANTERN_ASSERT_SIZE(FObjectMotion, 72);
 #define OBJECT_MIRRORED 1u  // negative determinant: front faces appear clockwise
 #define OBJECT_CHARACTER 2u // characters do not shadow it
 
-// An emissive triangle, for next-event estimation. Its corners are relative to the centre of the object's cell, so that they
-// stay valid when the scene's origin moves.
+// An emissive triangle, for next-event estimation. EmissiveTriangles.comp writes it. Its corners are relative to the centre of the
+// object's cell, so that they stay valid when the scene's origin moves.
 struct FEmissiveTriangle
 {
 	vec3 P0;
-	float CumulativePower; // of all triangles up to this one; normalised, so that the last value is 1
+	float Power; // area · EmissiveWeight, the latter by points of the emissive texture if there is one
 	vec3 P1;
 	uint Object;
 	vec3 P2;
 	uint Section; // into FSectionData[]
 	uint Primitive;
-	uint Flags; // OBJECT_MIRRORED: the winding is reversed
+	uint Flags;         // OBJECT_MIRRORED: the winding is reversed
 	uint Cluster;       // into FEmissiveCluster[]
-	float ClusterShare; // as CumulativePower, of the triangles of its cluster
+	float ClusterShare; // chance of this one and those before it, if one of its cluster is chosen; the last value is 1
 };
 LANTERN_ASSERT_SIZE(FEmissiveTriangle, 64);
 
 #define EMISSIVE_CLUSTERS 512u // that triangles are divided into; each object that emits has one more at most
+// Chances are by power up to this part, which is by number: what is dim beside a floodlight still has a chance that fp32 sums keep.
+#define EMISSIVE_FLOOR 0.0625f
 
 // Consecutive emissive triangles of one object, which light sampling weighs as one.
 struct FEmissiveCluster
 {
 	uint First, Count; // FEmissiveTriangle[]
-	float Power;       // sum of EmissiveWeight · area
-	uint Pad;
+	uint Object;
+	uint Range; // into FEmissiveRange[]: that of the first triangle
 };
 LANTERN_ASSERT_SIZE(FEmissiveCluster, 16);
+
+// The emissive triangles of a section, which are consecutive. It ends where the next range begins; the last one is empty.
+struct FEmissiveRange
+{
+	uint First;   // FEmissiveTriangle[]
+	uint Section; // into FSectionData[]
+};
+LANTERN_ASSERT_SIZE(FEmissiveRange, 8);
+
+// What EmissiveTriangles.comp finds of a cluster.
+struct FEmissivePower
+{
+	float Power; // sum of FEmissiveTriangle::Power
+	float Share; // chance of this cluster and those before it; the last value is 1
+};
+LANTERN_ASSERT_SIZE(FEmissivePower, 8);
+
+// What precedes FEmissivePower[].
+struct FEmissivePowerHeader
+{
+	float Power; // of all clusters
+	uint Pad;
+};
+LANTERN_ASSERT_SIZE(FEmissivePowerHeader, 8);
 
 #define SKY_MAP_CUBE 0u
 #define SKY_MAP_OCTAHEDRAL 1u
@@ -215,7 +242,7 @@ struct FSceneConstants
 	FAddress EmissiveTriangles; // FEmissiveTriangle[]
 	uint LightCount;    // slots, free ones included; 0: no light
 	uint EmissiveTriangleCount;
-	float EmissivePower; // sum of EmissiveWeight · area over all emissive triangles
+	uint EmissiveClusterCount;
 	uint Tlas;           // index in the bindless heap
 	vec3 SunDirection;   // in which its light travels
 	float SunIrradiance; // on a plane that faces it, lux
@@ -234,13 +261,15 @@ struct FSceneConstants
 	FAddress ObjectMotions; // FObjectMotion[]; 0: nothing moved
 	FAddress LightCells;    // FLightGrid of the view; 0: look-ups find all lights
 	FAddress EmissiveClusters; // FEmissiveCluster[]
-	uint EmissiveClusterCount;
-	uint SunChannels;         // 8 bits, as those of FLightData
+	FAddress EmissiveRanges;   // FEmissiveRange[]
+	FAddress EmissivePowers;   // FEmissivePowerHeader, FEmissivePower[] by cluster
 	FAddress ObjectChannels;  // uint[]: channels of each object, exclusive-or CHANNELS_DEFAULT; 0: all have these
 	FAddress LightProfiles;   // FLightProfile[], by number - 1
 	FAddress ProfileTexels;   // uint[]
+	uint SunChannels;         // 8 bits, as those of FLightData
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FSceneConstants, 248);
+LANTERN_ASSERT_SIZE(FSceneConstants, 264);
 
 // A camera, as passes see it whatever the host's conventions are: FView has them, HostProjection.h makes it of a matrix.
 // Positions are relative to the scene's origin.

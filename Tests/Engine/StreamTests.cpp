@@ -170,7 +170,7 @@ protected:
 			Mesh.VertexCount = static_cast<uint32_t>(Box.Positions.size());
 			Mesh.Indices = Box.Indices.data();
 			Mesh.IndexCount = static_cast<uint32_t>(Box.Indices.size());
-			// As a mesh on the GPU alone has it: its emission is found by chance.
+			// As a mesh on the GPU alone has it.
 			Mesh.bKeepOnCpu = false;
 			return Add(Renderer, Mesh);
 		});

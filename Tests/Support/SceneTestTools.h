@@ -38,7 +38,7 @@ struct FGeometryOptions
 	bool bDynamic = false;
 	bool bOpaque = true;
 	bool bTangents = false;
-	bool bCpuData = false; ///< emissive triangles need it
+	bool bCpuData = false; ///< coarser levels and clusters of flat emissive parts need it
 	bool bOpaqueVertices = false;
 	bool bStreams = false; ///< of a host's own vertices
 	ERTIndexType IndexType = ERTIndexType::UInt32;
@@ -143,6 +143,7 @@ protected:
 		if (bUpdated) { EXPECT_TRUE(Scene->Update(*List, *Uploads, Camera, Use)); }
 		if (Tracing.Bindings) { EXPECT_TRUE(Tracing.Bindings->Sync(*List, *Tracing.Pipeline, Scene->GetSections())); }
 		EXPECT_TRUE(List->End());
+		EmissiveWork = Scene->GetEmissiveWork().Count;
 		FRTFence Fence = 0;
 		IRTCommandList* const Lists[] = {List.Get()};
 		EXPECT_TRUE(Device->Submit(Lists, 1, &Fence));
@@ -176,7 +177,8 @@ protected:
 	TRTRef<IRTDevice> Device;
 	std::unique_ptr<FFrameUploads> Uploads;
 	std::unique_ptr<FRTScene> Scene;
-	bool bUpdated = false; ///< by the last Frame
+	bool bUpdated = false;     ///< by the last Frame
+	uint32_t EmissiveWork = 0; ///< clusters of emissive triangles that the last Frame had to find
 	std::deque<std::vector<glm::vec3>> CpuPositions;
 	std::deque<std::vector<uint32_t>> CpuIndices;
 };

@@ -100,6 +100,7 @@ FRTStatus FHostScene::AddMaterials(FMaterialPrograms& Programs)
 		FMaterialData Data{};
 		Data.BaseColor = Source.BaseColor;
 		Data.Emissive = Source.Emissive;
+		Data.LightEmissive = Source.LightEmissive.value_or(Source.Emissive);
 		Data.Metallic = Source.Metallic;
 		Data.Roughness = Source.Roughness;
 		Data.NormalScale = Source.NormalScale;
@@ -109,7 +110,7 @@ FRTStatus FHostScene::AddMaterials(FMaterialPrograms& Programs)
 		Data.Specular = Source.Specular;
 		Data.Transmission = Source.Transmission;
 		Data.Flags = (Source.AlphaMode != EAlphaMode::Opaque ? MATERIAL_MASKED : 0u) | (Source.bDoubleSided ? MATERIAL_DOUBLE_SIDED : 0u);
-		glm::vec3 MeanEmission = Source.Emissive;
+		glm::vec3 MeanEmission = Data.LightEmissive;
 		for (uint32_t Slot = 0; Slot < TEXTURE_SLOTS; ++Slot)
 		{
 			const FHostTextureSlot& Texture = Source.Slots[Slot];

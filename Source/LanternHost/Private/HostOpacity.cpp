@@ -97,7 +97,8 @@ bool CanBeCut(const FSceneDescription& Description, const FMaskedSection& Masked
 {
 	const FHostMesh& Mesh = Description.Meshes[Masked.Mesh];
 	const FHostMaterial& Material = Description.Materials[Mesh.Sections[Masked.Section].Material];
-	const bool bEmits = glm::any(glm::greaterThan(Material.Emissive, glm::vec3(0)));
+	const bool bEmits =
+	    glm::any(glm::greaterThan(glm::max(Material.Emissive, Material.LightEmissive.value_or(glm::vec3(0))), glm::vec3(0)));
 	return Mesh.Skin.empty() && !bEmits && Masked.Test.Texture;
 }
 

@@ -106,6 +106,7 @@ public:
 	{
 		AddFloats(V.BaseColor);
 		AddFloats(V.Emissive);
+		if (V.LightEmissive) { AddFloats(*V.LightEmissive); }
 		AddAll(V.Metallic, V.Roughness, V.NormalScale, V.OcclusionStrength, V.AlphaCutoff, V.Ior, V.Specular, V.Transmission, V.AlphaMode,
 		    V.bDoubleSided);
 		for (const FHostTextureSlot& Slot : V.Slots) { Add(Slot); }

@@ -200,9 +200,10 @@ FRTStatus CheckMaterial(const FRTModuleMaterial& Material)
 {
 	const auto IsLight = [](float Value) { return std::isfinite(Value) && Value >= 0.0f; };
 	if (!std::all_of(Material.BaseColor, Material.BaseColor + 4, IsLight) ||
-	    !std::all_of(Material.Emissive, Material.Emissive + 3, IsLight))
+	    !std::all_of(Material.Emissive, Material.Emissive + 3, IsLight) ||
+	    !std::all_of(Material.LightEmissive, Material.LightEmissive + 3, IsLight))
 	{
-		return Refuse("FRTModuleMaterial::BaseColor and Emissive must be finite and not negative");
+		return Refuse("FRTModuleMaterial::BaseColor, Emissive and LightEmissive must be finite and not negative");
 	}
 	const std::pair<float, const char*> Shares[] = {{Material.Metallic, "Metallic"}, {Material.Roughness, "Roughness"},
 	    {Material.OcclusionStrength, "OcclusionStrength"}, {Material.Specular, "Specular"}, {Material.Transmission, "Transmission"}};

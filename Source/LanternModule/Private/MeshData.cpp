@@ -297,6 +297,7 @@ FMaterialData PackMaterial(const FRTModuleMaterial& Material)
 	FMaterialData Data = {};
 	Data.BaseColor = {Material.BaseColor[0], Material.BaseColor[1], Material.BaseColor[2], Material.BaseColor[3]};
 	Data.Emissive = ReadVector(Material.Emissive, 0);
+	Data.LightEmissive = Material.bLightEmissive ? ReadVector(Material.LightEmissive, 0) : Data.Emissive;
 	Data.Metallic = Material.Metallic;
 	Data.Roughness = Material.Roughness;
 	Data.NormalScale = Material.NormalScale;
@@ -320,7 +321,7 @@ FMaterialData PackMaterial(const FRTModuleMaterial& Material)
 		assert(bFits && "CheckMaterial has seen to it");
 	}
 	const glm::vec3 Mean = Material.EmissiveMap.Texture != nullptr ? ReadVector(Material.EmissiveMapMean, 0) : glm::vec3(1);
-	Data.EmissiveWeight = MakeEmissiveWeight(Data.Emissive * Mean);
+	Data.EmissiveWeight = MakeEmissiveWeight(Data.LightEmissive * Mean);
 	return Data;
 }
 

@@ -14,6 +14,8 @@ TRTConsoleVariable<bool> CVarLightArea(
 TRTConsoleVariable<bool> CVarLightProfile(
     "r.RT.Debug.Lights.Profile", true, "Planted fault. Off: lights with a profile shine alike in all directions.");
 TRTConsoleVariable<bool> CVarLightChannels("r.RT.Debug.Lights.Channels", true, "Planted fault. Off: lights light objects of all channels.");
+TRTConsoleVariable<bool> CVarLightEmission("r.RT.Debug.Lights.LightEmission", true,
+    "Planted fault. Off: materials light with what cameras see of them, whatever their second emission is.");
 } // namespace
 
 bool IsRayTracingEnabled() { return CVarEnable.GetOnRenderThread(); }
@@ -62,6 +64,11 @@ uint32_t GetStorageIndex(FPassContext& Pass, FGraphTexture Texture)
 
 FAddress GetAddress(FPassContext& Pass, FGraphBuffer Buffer) { return Buffer.IsValid() ? Pass.GetBuffer(Buffer)->GetDeviceAddress() : 0; }
 
+void AddLightEmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut)
+{
+	if (Facts.bLightEmission && CVarLightEmission.GetOnRenderThread()) { InOut.emplace_back("HAS_LIGHT_EMISSION", "1"); }
+}
+
 FShaderDefines MakeFactDefines(const FSceneFacts& Facts)
 {
 	FShaderDefines Defines;
@@ -76,6 +83,7 @@ FShaderDefines MakeFactDefines(const FSceneFacts& Facts)
 	Add(Facts.bLightProfiles && CVarLightProfile.GetOnRenderThread(), "HAS_LIGHT_PROFILES");
 	Add(Facts.bLightChannels && CVarLightChannels.GetOnRenderThread(), "HAS_LIGHT_CHANNELS");
 	Add(Facts.bMasked, "HAS_MASKED");
+	AddLightEmissionDefine(Facts, Defines);
 	return Defines;
 }
 

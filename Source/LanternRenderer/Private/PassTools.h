@@ -46,6 +46,9 @@ FAddress GetAddress(FPassContext& Pass, FGraphBuffer Buffer);
 /// r.RT.Enable.
 bool IsRayTracingEnabled();
 
+/// Adds HAS_LIGHT_EMISSION if some material lights otherwise than it looks. Shaders that read emission of hits need it.
+void AddLightEmissionDefine(const FSceneFacts& Facts, FShaderDefines& InOut);
+
 /// Returns HAS_… for what the scene has, so that shaders are compiled without the rest.
 FShaderDefines MakeFactDefines(const FSceneFacts& Facts);
 

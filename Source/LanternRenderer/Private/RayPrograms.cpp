@@ -7,6 +7,7 @@
 #include "Fog/FogShadow.h"
 #include "LanternRenderer/HostSurface.h"
 #include "LanternScene/ShaderTable/SectionTable.h"
+#include "Lights/EmissiveTriangles.h"
 #include "Lights/PixelChannels.h"
 #include "Motion/CameraMotion.h"
 #include "Reference/Reference.h"
@@ -38,12 +39,13 @@ FRayType MakeShadowRay(bool bBlockers)
 	return Type;
 }
 
-FRayType MakeMaterialRay()
+FRayType MakeMaterialRay(const FSceneFacts& Facts)
 {
 	FRayType Type;
 	Type.Name = "MATERIAL";
 	Type.Miss = Shader("Rays/Material.rmiss");
 	Type.ClosestHit = Shader("Rays/Material.rchit");
+	AddLightEmissionDefine(Facts, Type.ClosestHit->Defines);
 	Type.MaskedAnyHit = Shader("Rays/AlphaTest.rahit");
 	Type.MaskedAnyHit.Defines = FAnyHitCounter::GetDefines();
 	Type.PayloadBytes = MaterialPayloadBytes;
@@ -154,6 +156,7 @@ FRayPrograms ChooseRayPrograms(
 	if (Features.bHostSurface) { Programs.Compute.push_back(MakeHostSurfaceSource()); }
 	if (Features.bCameraMotion && Collector.bFilters) { Programs.Compute.push_back(MakeCameraMotionSource()); }
 	if (!Features.Skinning.empty()) { ListSkinningShaders(Scene, Programs.Compute); }
+	if (Programs.bLightSampling) { ListEmissiveShaders(Scene.GetFacts(), Programs.Compute); }
 	Desc.RayGens.insert(Desc.RayGens.end(), Features.RayGens.begin(), Features.RayGens.end());
 	if (Desc.RayGens.empty() || !Capabilities.bRayTracingPipeline)
 	{
@@ -163,7 +166,7 @@ FRayPrograms ChooseRayPrograms(
 		return Programs;
 	}
 	Desc.RayTypes = {MakeShadowRay(Collector.bBlockers)};
-	if (Collector.bShadesHits) { Desc.RayTypes.push_back(MakeMaterialRay()); }
+	if (Collector.bShadesHits) { Desc.RayTypes.push_back(MakeMaterialRay(Scene.GetFacts())); }
 	Desc.Callables = Features.Callables;
 	Desc.HitPrograms = Scene.GetSections().GetHitPrograms();
 	return Programs;

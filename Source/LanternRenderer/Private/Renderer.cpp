@@ -16,6 +16,7 @@
 #include "LanternCore/Tasks/WaitAwake.h"
 #include "LanternCore/Text/Log.h"
 #include "LanternRenderer/Frame.h"
+#include "Lights/EmissiveTriangles.h"
 #include "Lights/LightCells.h"
 #include "RayPrograms.h"
 #include "Rays/RayQueueCounter.h"
@@ -206,6 +207,7 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	}
 	StartCounting();
 	AddTables();
+	if (FRTStatus S = AddEmissivePass(*Context, Uploads); !S) { Context->Fail(S); }
 	if (Features.bRays && !Features.bLateRays) { AddRayPasses(); }
 	return FRTStatus::Success();
 }
@@ -221,7 +223,7 @@ FRTStatus FRenderer::StartUpdate(const FView& View, const FRayPrograms& Wanted, 
 	FrameUse = {};
 	// Structures are built while the shaders that trace them are compiled.
 	FrameUse.bRays = Features.bRays || Wanted.bQueries || !Wanted.Desc.RayGens.empty();
-	FrameUse.bLightSampling = Wanted.bLightSampling;
+	FrameUse.bLightSampling = Wanted.bLightSampling && AreEmissiveShadersReady(*Context);
 	FrameUse.bCull = !Features.bReference;
 	FrameUse.bMotion = Context->bMotion = Wanted.bMotion;
 	FrameUse.bBuildAll = Features.bBuildAll || Features.bReference;

@@ -78,6 +78,7 @@ TEST(FSceneHashTest, EveryChangeShows)
 	              [](auto& S) { S.Materials[1].Slots[TEXTURE_NORMAL].Texture = 1; },
 	              [](auto& S) { S.Materials[1].Slots[TEXTURE_NORMAL].Offset.y = 1.0f; },
 	              [](auto& S) { S.Materials[1].Program = "Own.glsl"; }, [](auto& S) { S.Meshes[0].Positions[2].y = 2.0f; },
+	              [](auto& S) { S.Materials[1].LightEmissive = glm::vec3(1); }, [](auto& S) { S.Meshes[0].Positions[2].x = 2.0f; },
 	              [](auto& S) { S.Meshes[0].Attributes[2].Normal = 5; }, [](auto& S) { S.Meshes[0].Skin[0].Weights[3] = 1.0f; },
 	              [](auto& S) {
 		S.Meshes[0].Indices = {0, 2, 1};

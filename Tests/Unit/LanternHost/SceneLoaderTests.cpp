@@ -229,6 +229,26 @@ TEST(SceneLoader, TangentsAreGeneratedWhereANormalMapNeedsThem)
 	EXPECT_FALSE(Maker.Load().Scene->Meshes[0].bHasTangents);
 }
 
+TEST(SceneLoader, LightEmissionOfAMaterialIsRead)
+{
+	FGltfMaker Maker = MakeTextured();
+	auto& Material = Maker.Json["materials"][0];
+	Material["emissiveFactor"] = {1, 0.5, 0};
+	const auto Load = [&] {
+		const FLoadResult Result = Maker.Load();
+		EXPECT_TRUE(Result.Scene) << Result.Error;
+		return Result.Scene ? Result.Scene->Materials[0].LightEmissive : std::nullopt;
+	};
+	EXPECT_FALSE(Load());
+	Material["extras"]["lantern"] = {{"lightEmissiveStrength", 510}};
+	EXPECT_EQ(Load(), glm::vec3(510, 255, 0)) << "of the factor that cameras see";
+	Material["extras"]["lantern"]["lightEmissiveFactor"] = {0, -1, 0.5};
+	EXPECT_EQ(Load(), glm::vec3(0, 0, 255));
+	Material["extras"]["lantern"]["lightEmissiveStrength"] = 1e38;
+	Material["extras"]["lantern"]["lightEmissiveFactor"] = {1e5, 0, 0};
+	EXPECT_FALSE(Maker.Load().Scene) << "no float holds it";
+}
+
 TEST(SceneLoader, MaterialExtensionsAreRead)
 {
 	FGltfMaker Maker = MakeTextured();
@@ -260,6 +280,7 @@ TEST(SceneLoader, MaterialExtensionsAreRead)
 	EXPECT_TRUE(HasWarning(*Result.Scene, "KHR_materials_transmission"));
 	EXPECT_TRUE(HasWarning(*Result.Scene, "EXT_nonsense"));
 	EXPECT_EQ(Result.Scene->Warnings.size(), 2u);
+	EXPECT_FALSE(M.LightEmissive);
 }
 
 TEST(SceneLoader, LightsAndCamerasAreRead)

@@ -51,6 +51,8 @@ FRTModuleMaterial MakeMaterial(FModulePlay& Play)
 	Material.NormalMap = MakeMap(Play, "NormalMap");
 	Material.OcclusionMap = MakeMap(Play, "OcclusionMap");
 	Material.EmissiveMap = MakeMap(Play, "EmissiveMap");
+	for (float& Channel : Material.LightEmissive) { Channel = Play.Float("LightEmissive", 0.0f); }
+	Material.bLightEmissive = Play.Bool(false);
 	return Material;
 }
 

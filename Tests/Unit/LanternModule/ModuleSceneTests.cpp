@@ -89,6 +89,22 @@ TEST_F(FModuleSceneTest, EveryMapOfAMaterialReachesTheShaders)
 	EXPECT_EQ(Data.Specular, 0.5f);
 	EXPECT_EQ(Data.Transmission, 0.125f);
 	EXPECT_NEAR(Data.EmissiveWeight, 100.0f * 0.5f * 0.2126f / 64.0f, 1e-3f) << "the mean of the map counts";
+	EXPECT_EQ(Data.LightEmissive, Data.Emissive) << "unless the material says otherwise";
+}
+
+TEST_F(FModuleSceneTest, MaterialsMayLightOtherwiseThanTheyLook)
+{
+	FRTModuleMaterial Material;
+	Material.Emissive[0] = 1.0f;
+	Material.LightEmissive[1] = 510.0f;
+	Material.bLightEmissive = true;
+	ERTMaterialHandle Handle = ERTMaterialHandle::None;
+	ASSERT_OK(Renderer->AddMaterial(Material, &Handle));
+	ASSERT_OK(AddObject(AddOpaqueMesh(), Handle));
+	const auto Data = ReadEntry<FMaterialData>(ReadConstants(DescribeFrame()).Materials, 2);
+	EXPECT_EQ(Data.Emissive, glm::vec3(1, 0, 0));
+	EXPECT_EQ(Data.LightEmissive, glm::vec3(0, 510, 0));
+	EXPECT_NEAR(Data.EmissiveWeight, 510.0f * 0.7152f / 64.0f, 5e-3f);
 }
 
 TEST_F(FModuleSceneTest, MapsOfAReplacedMaterialAreLetGo)

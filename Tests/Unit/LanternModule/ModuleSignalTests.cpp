@@ -312,6 +312,9 @@ TEST_F(FModuleSignalTest, ImpossibleMaterialsAreNamed)
 		Bad.Emissive[2] = Value;
 		Refuse(Bad, "Emissive");
 		Bad = {};
+		Bad.LightEmissive[0] = Value;
+		Refuse(Bad, "LightEmissive");
+		Bad = {};
 		Bad.Metallic = Value;
 		Refuse(Bad, "Metallic");
 		Bad = {};

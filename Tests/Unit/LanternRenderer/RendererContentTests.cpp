@@ -47,8 +47,8 @@ TEST_F(FRendererContentTest, EverythingAtOnce)
 {
 	LoadAndRender({.bMasked = true, .bSkinned = true, .bLights = true, .bTexture = true, .bEmissive = true, .bSky = true});
 	EXPECT_THAT(GetPasses(),
-	    ElementsAre("Skinning", "SceneUpdate", "GBuffer", "Structures", "ShadowTiles", "ShadowEmitters", "ShadowLights",
-	        "ShadowLightsShare", "ShadowDemand", "ShadowRays", "Surface", "ShadowMoreAsk", "ShadowMoreRays", "SunShadow",
+	    ElementsAre("Skinning", "SceneUpdate", "EmissiveTriangles", "GBuffer", "Structures", "ShadowTiles", "ShadowEmitters",
+	        "ShadowLights", "ShadowLightsShare", "ShadowDemand", "ShadowRays", "Surface", "ShadowMoreAsk", "ShadowMoreRays", "SunShadow",
 	        "SunShadowTemporal", "SunShadowFilter0", "SunShadowFilter1", "ShadowLightsShade", "LocalDiffuseTemporal", "LocalDiffuseFilter0",
 	        "LocalDiffuseFilter1", "LocalDiffuseFilter2", "LocalSpecularTemporal", "LocalSpecularFilter0", "LocalSpecularFilter1",
 	        "LocalSpecularFilter2", "AmbientOcclusion", "AmbientOcclusionTemporal", "AmbientOcclusionFilter0", "AmbientOcclusionFilter1",
@@ -56,7 +56,8 @@ TEST_F(FRendererContentTest, EverythingAtOnce)
 	std::vector<std::string> Dispatched = GetDispatched();
 	std::erase_if(Dispatched, [](const std::string& Name) { return Name.rfind("Denoise/", 0) == 0; });
 	EXPECT_THAT(
-	    Dispatched, ElementsAre("Skinning/Skin.comp", "Skinning/RefitQuality.comp", "Tiles/Tiles.comp", "LocalLights/EmitterClusters.comp",
+	    Dispatched, ElementsAre("Skinning/Skin.comp", "Skinning/RefitQuality.comp", "Lights/EmissiveTriangles.comp",
+	                    "Lights/EmissivePowers.comp", "Tiles/Tiles.comp", "LocalLights/EmitterClusters.comp",
 	                    "LocalLights/Requests.comp HAS_LIGHTS MANY_LIGHTS LOCAL_EMISSIVE GUIDED HAS_MASKED",
 	                    "LocalLights/ShareRequests.comp", AllOf(StartsWith("Rays/ShadowQueue.comp"), HasSubstr("HAS_MASKED")),
 	                    "Tiles/MoreRays.comp", AllOf(StartsWith("Rays/ShadowQueue.comp"), HasSubstr("HAS_MASKED")),
@@ -298,6 +299,28 @@ TEST_F(FRendererContentTest, ViewsTakeTurnsAndKeepWhatIsTheirs)
 	EXPECT_TRUE(Host.WaitForAll());
 }
 
+// What one emitter of many costs that moves: a work group for its cluster, and the sum over all.
+TEST_F(FRendererContentTest, MovedEmittersAreFoundAnewAlone)
+{
+	constexpr uint32_t Panels = 40;
+	FSceneDescription Scene = MakeDescription({.bEmissive = true});
+	for (uint32_t I = 1; I < Panels; ++I) { Scene.Nodes.push_back(Scene.Nodes.back()); }
+	ASSERT_TRUE(Engine->Load(std::move(Scene)));
+	const auto CountGroups = [&] {
+		Mock().ClearCalls();
+		Render();
+		uint64_t Groups = 0;
+		for (const FRTMockCall& Call : Mock().FindDispatches("Lights/EmissiveTriangles.comp")) { Groups += Call.Numbers[0]; }
+		return Groups;
+	};
+	EXPECT_EQ(CountGroups(), Panels);
+	EXPECT_EQ(CountGroups(), 0u);
+	Engine->GetScene().SetTransform(7, glm::dmat4(2.0));
+	EXPECT_EQ(CountGroups(), 1u);
+	EXPECT_LE(Engine->GetScene().GetScene().GetStats().BytesCopied, FGpuTableBase::ChunkEntries * sizeof(FObjectData));
+	EXPECT_EQ(CountGroups(), 0u);
+}
+
 TEST_F(FRendererContentTest, ReferenceKeepsEmittersAndFactsOfItsScene)
 {
 	Set("r.RT.Lights.Emissive", "0"); // frames would list them as well
@@ -306,7 +329,8 @@ TEST_F(FRendererContentTest, ReferenceKeepsEmittersAndFactsOfItsScene)
 	ASSERT_TRUE(RenderReferenceOnce(2));
 	EXPECT_EQ(Engine->GetScene().GetScene().GetConstants().EmissiveTriangleCount, 2u);
 	EXPECT_THAT(Mock().GetCreatedBuffers(), Contains("EmissiveTriangles"));
-	EXPECT_THAT(GetDispatched(), ElementsAre()) << "no real-time pass runs";
+	EXPECT_THAT(GetDispatched(), ElementsAre("Lights/EmissiveTriangles.comp", "Lights/EmissivePowers.comp"))
+	    << "once, and no real-time pass runs";
 	ASSERT_TRUE(Load({}));
 	ASSERT_TRUE(RenderReferenceOnce());
 	EXPECT_THAT(Mock().GetCreatedBuffers(), Not(Contains("EmissiveTriangles")));

@@ -145,7 +145,7 @@ TEST_F(FRendererLackTest, NoEmissiveTriangles)
 	ExpectAbsent("emissive triangles are no local lights", Stage, Parts);
 	Stage.Settings.emplace_back("r.RT.Reflections", "0");
 	std::vector<const char*> Lists = Parts;
-	Lists.insert(Lists.end(), {"EmissiveTriangles", "EmissiveClusters"});
+	Lists.insert(Lists.end(), {"EmissiveTriangles", "EmissiveClusters", "EmissivePowers", "EmissiveRanges"});
 	ExpectAbsent("nobody samples emissive triangles", Stage, Lists);
 	FStage Dark;
 	Dark.Content.bEmissive = false;
@@ -231,7 +231,10 @@ TEST_F(FRendererLackTest, NothingMoves)
 	Render(5.0);
 	Render(6.0);
 	const FNames Again = CollectNames();
-	for (const char* const Part : {"pass SceneUpdate", "pass Structures", "pass Skinning"}) { EXPECT_FALSE(HasPart(Again, Part)) << Part; }
+	for (const char* const Part : {"pass SceneUpdate", "pass Structures", "pass Skinning", "pass EmissiveTriangles"})
+	{
+		EXPECT_FALSE(HasPart(Again, Part)) << Part;
+	}
 }
 
 /// What an engine's G-buffer shows need not be in the scene that rays see: passes over the screen cannot be left out because

@@ -1,4 +1,4 @@
-// FEmissiveTriangles: which triangles are listed, where they lie and how much of the power each has.
+// FEmissiveTriangles: which triangles are listed, in what clusters, and which of them the GPU has to find anew.
 #include "ScenePartsTestTools.h"
 
 namespace Lantern
@@ -22,130 +22,159 @@ TEST_F(FEmissiveTrianglesTest, SectionsThatEmitAreListed)
 {
 	const uint32_t Dark = Materials.Add(MakeMaterial()), Bright = Materials.Add(MakeMaterial(0, 3.0f));
 	Place(CreatePanel(), {Dark});
-	const FRTObjectId Id = Place(CreatePanel(2), {Dark, Bright}, {5, 0, 0});
+	const FRTObjectId Id = Place(CreatePanel(3), {Bright, Dark, Bright}, {5, 0, 0});
 	UpdateEmissive();
-	ASSERT_EQ(Emissive.GetTable().Num(), 2u);
-	EXPECT_FLOAT_EQ(Emissive.GetPower(), 3.0f) << "two triangles of half a square metre";
+	EXPECT_EQ(Emissive.GetTriangleCount(), 4u);
+	ASSERT_EQ(Emissive.GetRanges().Num(), 3u);
 	for (uint32_t I = 0; I < 2; ++I)
 	{
-		const FEmissiveTriangle& Triangle = Emissive.GetTable()[I];
-		EXPECT_EQ(Triangle.Object, Id.Index);
-		EXPECT_EQ(Triangle.Section, Objects.GetFirstSection(Id) + 1);
-		EXPECT_EQ(Triangle.Primitive, I);
-		EXPECT_EQ(Triangle.P0, glm::vec3(5 + 2 + I, 0, 0)) << "section 1 begins with the third triangle";
-		EXPECT_EQ(Triangle.P1, glm::vec3(5 + 3 + I, 0, 0));
-		EXPECT_EQ(Triangle.CumulativePower, I == 0 ? 0.5f : 1.0f);
+		EXPECT_EQ(Emissive.GetRanges()[I].First, 2 * I);
+		EXPECT_EQ(Emissive.GetRanges()[I].Section, Objects.GetFirstSection(Id) + 2 * I);
+	}
+	EXPECT_EQ(Emissive.GetRanges()[2].First, 4u) << "the end of the list";
+	EXPECT_EQ(DoneCount, Emissive.GetClusters().Num());
+	EXPECT_TRUE(Done.empty()) << "all";
+}
+
+// A panel's two triangles lie in one plane; the next one is parallel. No vertex of a deforming mesh is known.
+TEST_F(FEmissiveTrianglesTest, FlatPartsAreOneCluster)
+{
+	const uint32_t Bright = Materials.Add(MakeMaterial(0, 1.0f));
+	const FRTObjectId Rigid = Place(CreatePanel(), {Bright});
+	const FRTObjectId Bent = Place(Create(1, {.bDynamic = true, .TrianglesPerSection = 2}), {Bright});
+	UpdateEmissive();
+	ASSERT_EQ(Emissive.GetClusters().Num(), 3u);
+	const uint32_t Counts[] = {2, 1, 1}, Ranges[] = {0, 1, 1};
+	for (uint32_t I = 0; I < 3; ++I)
+	{
+		EXPECT_EQ(Emissive.GetClusters()[I].Count, Counts[I]);
+		EXPECT_EQ(Emissive.GetClusters()[I].Range, Ranges[I]);
+		EXPECT_EQ(Emissive.GetClusters()[I].Object, I == 0 ? Rigid.Index : Bent.Index);
 	}
 }
 
-TEST_F(FEmissiveTrianglesTest, TrianglesFollowTheirObject)
-{
-	const FRTObjectId Id = Place(CreatePanel(), {Materials.Add(MakeMaterial(0, 1.0f))});
-	UpdateEmissive();
-	Objects.SetTransform(Id, MoveTo({CellSize + 7.0, 0, 0}));
-	EXPECT_TRUE(Emissive.NeedsUpdate());
-	UpdateEmissive();
-	ASSERT_EQ(Emissive.GetTable().Num(), 2u);
-	EXPECT_EQ(Emissive.GetTable()[0].P0, glm::vec3(7, 0, 0)) << "relative to the centre of the object's cell";
-}
-
-TEST_F(FEmissiveTrianglesTest, AMovedObjectCostsItsOwnTriangles)
+TEST_F(FEmissiveTrianglesTest, AMovedObjectCostsItsOwnClusters)
 {
 	const uint32_t Bright = Materials.Add(MakeMaterial(0, 1.0f));
 	const FRTGeometryRef Panel = CreatePanel();
 	std::vector<FRTObjectId> Ids;
 	for (int I = 0; I < 100; ++I) { Ids.push_back(Place(Panel, {Bright}, {I, 0, 0})); }
 	UpdateEmissive();
-	EXPECT_EQ(Emissive.GetVisited(), 200u);
-	const float Share = Emissive.GetTable()[61].CumulativePower;
-	glm::dmat4 Turned = MoveTo({0, 50, 0});
-	Turned[0] = glm::dvec4(0.6, 0.8, 0, 0);
-	Turned[1] = glm::dvec4(-0.8, 0.6, 0, 0);
-	Objects.SetTransform(Ids[30], Turned);
+	EXPECT_EQ(DoneCount, 100u);
+	Objects.SetTransform(Ids[30], MoveTo({0, 50, 0}));
 	Objects.SetTransform(Ids[30], MoveTo({0, 60, 0}));
-	Objects.SetTransform(Ids[7], Turned);
+	Objects.SetTransform(Ids[7], MoveTo({0, 50, 0}));
+	EXPECT_TRUE(Emissive.NeedsUpdate());
 	UpdateEmissive();
-	EXPECT_EQ(Emissive.GetVisited(), 4u);
-	EXPECT_EQ(Emissive.GetTable()[60].P0, glm::vec3(0, 60, 0));
-	EXPECT_EQ(Emissive.GetTable()[14].P0, glm::vec3(0, 50, 0));
-	EXPECT_EQ(Emissive.GetTable()[61].CumulativePower, Share);
-	EXPECT_FALSE(Emissive.NeedsUpdate());
-
-	glm::dmat4 Larger = MoveTo({0, 0, 0});
+	EXPECT_EQ(Done, (std::vector<uint32_t>{7, 30}));
+	glm::dmat4 Larger(1.0);
 	Larger[0][0] = 3.0;
 	Objects.SetTransform(Ids[30], Larger);
 	UpdateEmissive();
-	EXPECT_GT(Emissive.GetVisited(), 199u) << "shares of the power change";
-	EXPECT_FLOAT_EQ(Emissive.GetPower(), 102.0f);
+	EXPECT_EQ(Done, (std::vector<uint32_t>{30})) << "shares of the power are the GPU's";
+}
+
+// A host may move everything for an hour while nobody samples lights.
+TEST_F(FEmissiveTrianglesTest, MarksThatNobodyTakesAreBounded)
+{
+	const FRTObjectId Id = Place(CreatePanel(), {Materials.Add(MakeMaterial(0, 1.0f))});
+	UpdateEmissive();
+	for (int I = 0; I < 10'000; ++I) { Objects.SetTransform(Id, MoveTo({I, 0, 0})); }
+	UpdateEmissive();
+	EXPECT_EQ(DoneCount, 1u);
+}
+
+TEST_F(FEmissiveTrianglesTest, DeformedMeshesAreDoneAgain)
+{
+	const uint32_t Bright = Materials.Add(MakeMaterial(0, 1.0f)), Dark = Materials.Add(MakeMaterial());
+	const FRTGeometryRef Bent = Create(1, {.bDynamic = true, .TrianglesPerSection = 4});
+	Place(CreatePanel(), {Bright});
+	Place(Bent, {Dark});
+	Place(Bent, {Bright});
+	Place(Bent, {Bright});
+	UpdateEmissive();
+	EXPECT_EQ(Emissive.GetTriangleCount(), 10u);
+	Objects.MarkDeformed(Bent);
+	UpdateEmissive();
+	EXPECT_EQ(Done, (std::vector<uint32_t>{1, 2, 3, 4, 5, 6, 7, 8}));
+}
+
+TEST_F(FEmissiveTrianglesTest, AMaterialThatFlickersListsNothingAnew)
+{
+	const uint32_t Steady = Materials.Add(MakeMaterial(0, 1.0f)), Flame = Materials.Add(MakeMaterial(0, 1.0f));
+	for (int I = 0; I < 9; ++I) { Place(CreatePanel(), {I % 3 == 0 ? Flame : Steady}, {I, 0, 0}); }
+	UpdateEmissive();
+	Materials.Set(Flame, MakeMaterial(0, 2.0f));
+	UpdateEmissive();
+	EXPECT_EQ(Done, (std::vector<uint32_t>{0, 3, 6}));
+	FMaterialData Green = MakeMaterial(0, 2.0f);
+	Green.BaseColor = glm::vec4(0, 1, 0, 1);
+	Materials.Set(Flame, Green);
+	EXPECT_FALSE(Emissive.NeedsUpdate()) << "that is no emission";
+	Materials.Set(Flame, MakeMaterial());
+	UpdateEmissive();
+	EXPECT_EQ(Emissive.GetTriangleCount(), 12u);
+	EXPECT_TRUE(Done.empty());
+}
+
+// What the GPU did not get to do is wanted again.
+TEST_F(FEmissiveTrianglesTest, LostFramesAreDoneAgain)
+{
+	const FRTObjectId Id = Place(CreatePanel(), {Materials.Add(MakeMaterial(0, 1.0f))});
+	Place(CreatePanel(), {Materials.Add(MakeMaterial(0, 1.0f))});
+	const auto Lose = [&] {
+		ASSERT_TRUE(Emissive.Update(*Device, Objects, Materials));
+		Emissive.EndFrame(false);
+		EXPECT_TRUE(Emissive.NeedsUpdate());
+		EXPECT_EQ(Emissive.GetWork().Count, 0u) << "no frame";
+	};
+	Lose();
+	UpdateEmissive();
+	EXPECT_EQ(DoneCount, 2u);
+	Objects.SetTransform(Id, MoveTo({1, 0, 0}));
+	Lose();
+	UpdateEmissive();
+	EXPECT_EQ(Done, (std::vector<uint32_t>{0}));
 }
 
 // Small objects have a cluster each, large ones several of one size; none has triangles of two objects.
 TEST_F(FEmissiveTrianglesTest, ClustersAreOfOneObject)
 {
 	const uint32_t Bright = Materials.Add(MakeMaterial(0, 2.0f));
-	const FRTGeometryRef Panel = CreatePanel(), Large = Create(1, {.bCpuData = true, .TrianglesPerSection = 3000});
+	const FRTGeometryRef Panel = CreatePanel(), Large = Create(2, {.bCpuData = true, .TrianglesPerSection = 1500});
 	for (int I = 0; I < 3; ++I) { Place(Panel, {Bright}, {I, 0, 0}); }
-	Place(Large, {Bright}, {0, 9, 0});
+	Place(Large, {Bright, Bright}, {0, 9, 0});
 	Place(Panel, {Bright}, {0, 0, 9});
 	UpdateEmissive();
-	const auto& Triangles = Emissive.GetTable();
 	const auto& Clusters = Emissive.GetClusters();
-	ASSERT_EQ(Triangles.Num(), 3008u);
+	const auto& Ranges = Emissive.GetRanges();
+	ASSERT_EQ(Emissive.GetTriangleCount(), 3008u);
 	EXPECT_LE(Clusters.Num(), EMISSIVE_CLUSTERS + 5);
 	uint32_t Next = 0;
-	double Power = 0.0;
 	for (uint32_t Cluster = 0; Cluster < Clusters.Num(); ++Cluster)
 	{
 		const FEmissiveCluster& Of = Clusters[Cluster];
 		ASSERT_EQ(Of.First, Next);
 		ASSERT_GT(Of.Count, 0u);
 		EXPECT_LE(Of.Count, 6u);
-		float Share = 0.0f;
-		for (; Next < Of.First + Of.Count; ++Next)
-		{
-			EXPECT_EQ(Triangles[Next].Cluster, Cluster);
-			EXPECT_EQ(Triangles[Next].Object, Triangles[Of.First].Object);
-			EXPECT_NEAR(Triangles[Next].ClusterShare - Share, 1.0f / float(Of.Count), 1e-5f);
-			Share = Triangles[Next].ClusterShare;
-		}
-		EXPECT_EQ(Share, 1.0f);
-		Power += double(Of.Power);
+		EXPECT_LE(Ranges[Of.Range].First, Of.First);
+		EXPECT_GT(Ranges[Of.Range + 1].First, Of.First);
+		Next += Of.Count;
 	}
-	EXPECT_EQ(Next, Triangles.Num());
-	EXPECT_NEAR(Power / double(Emissive.GetPower()), 1.0, 1e-5);
-}
-
-// Beside a floodlight, fp32 shares of the whole power would lose a candle.
-TEST_F(FEmissiveTrianglesTest, DimTrianglesKeepTheirShareOfTheirCluster)
-{
-	Place(CreatePanel(), {Materials.Add(MakeMaterial(0, 1e9f))});
-	Place(CreatePanel(), {Materials.Add(MakeMaterial(0, 1e-3f))}, {5, 0, 0});
-	UpdateEmissive();
-	ASSERT_EQ(Emissive.GetTable().Num(), 4u);
-	const FEmissiveCluster Dim = Emissive.GetClusters()[Emissive.GetTable()[2].Cluster];
-	EXPECT_GT(Dim.Power, 0.0f);
-	EXPECT_GT(Emissive.GetTable()[2].ClusterShare, 0.0f);
-	EXPECT_EQ(Emissive.GetTable()[3].ClusterShare, 1.0f);
+	EXPECT_EQ(Next, 3008u);
 }
 
 TEST_F(FEmissiveTrianglesTest, WhatDoesNotEmitMarksNothing)
 {
 	const FRTObjectId Id = Place(CreatePanel(), {Materials.Add(MakeMaterial())});
+	const FRTGeometryRef Bent = Create(1, {.bDynamic = true});
+	Place(Bent, {Materials.Add(MakeMaterial())});
 	UpdateEmissive();
 	Objects.SetTransform(Id, MoveTo({1, 2, 3}));
+	Objects.MarkDeformed(Bent);
 	Objects.Remove(Id);
 	EXPECT_FALSE(Emissive.NeedsUpdate());
-}
-
-TEST_F(FEmissiveTrianglesTest, TrianglesWithoutAreaAreLeftOut)
-{
-	const FRTObjectId Flat = Place(CreatePanel(), {Materials.Add(MakeMaterial(0, 1.0f))});
-	glm::dmat4 Squeeze(1.0);
-	Squeeze[1] = glm::dvec4(0.0);
-	Objects.SetTransform(Flat, Squeeze);
-	UpdateEmissive();
-	EXPECT_EQ(Emissive.GetTable().Num(), 0u);
-	EXPECT_EQ(Emissive.GetPower(), 0.0f);
+	EXPECT_EQ(Emissive.GetWork().Count, 0u);
 }
 
 TEST_F(FEmissiveTrianglesTest, ObjectsThatCeaseToEmitLeaveTheList)
@@ -154,16 +183,17 @@ TEST_F(FEmissiveTrianglesTest, ObjectsThatCeaseToEmitLeaveTheList)
 	const FRTObjectId Changed = Place(CreatePanel(), {Bright});
 	const FRTObjectId Removed = Place(CreatePanel(), {Bright});
 	UpdateEmissive();
-	ASSERT_EQ(Emissive.GetTable().Num(), 4u);
+	ASSERT_EQ(Emissive.GetTriangleCount(), 4u);
 	Objects.SetMaterials(Changed, {Dark});
 	EXPECT_TRUE(Emissive.NeedsUpdate());
 	UpdateEmissive();
-	ASSERT_EQ(Emissive.GetTable().Num(), 2u);
-	EXPECT_EQ(Emissive.GetTable()[0].Object, Removed.Index);
+	ASSERT_EQ(Emissive.GetTriangleCount(), 2u);
+	EXPECT_EQ(Emissive.GetClusters()[0].Object, Removed.Index);
 	Objects.Remove(Removed);
 	EXPECT_TRUE(Emissive.NeedsUpdate());
 	UpdateEmissive();
-	EXPECT_EQ(Emissive.GetTable().Num(), 0u);
+	EXPECT_EQ(Emissive.GetTriangleCount(), 0u);
+	EXPECT_EQ(Emissive.GetClusters().Num(), 0u);
 }
 
 } // namespace

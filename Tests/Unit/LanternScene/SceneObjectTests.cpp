@@ -341,45 +341,38 @@ TEST_F(FSceneObjectTest, LightsStayWhenTheOriginMoves)
 	EXPECT_EQ(Scene->GetFacts().Lights, 0u);
 }
 
-TEST_F(FSceneObjectTest, EmissiveTrianglesAreListedByPower)
+TEST_F(FSceneObjectTest, EmissiveTrianglesAreListed)
 {
 	const uint32_t Dark = Scene->AddMaterial(MakeMaterial());
 	const uint32_t Dim = Scene->AddMaterial(MakeMaterial(0, 1.0f));
 	const uint32_t Bright = Scene->AddMaterial(MakeMaterial(0, 3.0f));
 	const FRTGeometryRef Panel = MakeGeometry("Panel", 2, {.bCpuData = true, .TrianglesPerSection = 2});
-	const FRTObjectId First = Add(Panel, {Dark, Dim});
-	FRTObjectInfo Info;
-	Info.Geometry = Panel;
-	Info.Materials = {Bright, Dark};
-	Info.Transform = glm::dmat4(2.0); // four times the area
-	Info.Transform[3] = {10, 0, 0, 1};
-	Info.Transform[2][2] = -2.0;
-	const FRTObjectId Second = Scene->AddObject(Info);
+	const FRTObjectId First = Add(Panel, {Dark, Dim}), Second = Add(Panel, {Bright, Dark}, {10, 0, 0});
 	FSceneUse Use;
 	Frame({}, Use);
 	EXPECT_EQ(Scene->GetConstants().EmissiveTriangleCount, 0u) << "nobody samples lights";
+	EXPECT_EQ(Scene->GetConstants().EmissiveTriangles, 0u);
 	Use.bLightSampling = true;
 	Frame({}, Use);
-	const FSceneConstants Constants = Scene->GetConstants();
-	ASSERT_EQ(Constants.EmissiveTriangleCount, 4u);
+	const FSceneConstants C = Scene->GetConstants();
+	ASSERT_EQ(C.EmissiveTriangleCount, 4u);
 	EXPECT_EQ(Scene->GetFacts().EmissiveTriangles, 4u);
-	const float Power = 2 * 0.5f * 1.0f + 2 * 0.5f * 4.0f * 3.0f;
-	EXPECT_FLOAT_EQ(Constants.EmissivePower, Power);
-	const float Sums[] = {0.5f, 1.0f, 7.0f, 13.0f};
-	for (uint32_t I = 0; I < 4; ++I)
+	EXPECT_NE(C.EmissiveTriangles, 0u);
+	EXPECT_NE(C.EmissivePowers, 0u);
+	ASSERT_EQ(C.EmissiveClusterCount, 2u);
+	for (uint32_t I = 0; I < 2; ++I)
 	{
-		const FEmissiveTriangle T = Read<FEmissiveTriangle>(Constants.EmissiveTriangles, I);
-		const FRTObjectId Id = I < 2 ? First : Second;
-		const uint32_t Section = I < 2 ? 1 : 0;
-		EXPECT_FLOAT_EQ(T.CumulativePower, Sums[I] / Power);
-		EXPECT_EQ(T.Object, Id.Index);
-		EXPECT_EQ(T.Section, Scene->GetFirstSection(Id) + Section);
-		EXPECT_EQ(T.Primitive, I % 2);
-		EXPECT_EQ(T.Flags, I < 2 ? 0u : OBJECT_MIRRORED);
-		const glm::vec3 Corner(I < 2 ? 2 + I % 2 : 10 + 2 * (I % 2), 0, 0);
-		EXPECT_EQ(T.P0, Corner);
-		EXPECT_EQ(Read<FSectionData>(Constants.Sections, T.Section).Flags & SECTION_LIGHT, SECTION_LIGHT);
+		const FEmissiveCluster Cluster = Read<FEmissiveCluster>(C.EmissiveClusters, I);
+		EXPECT_EQ(Cluster.First, 2 * I);
+		EXPECT_EQ(Cluster.Count, 2u);
+		EXPECT_EQ(Cluster.Object, (I == 0 ? First : Second).Index);
+		EXPECT_EQ(Cluster.Range, I);
+		const FEmissiveRange Range = Read<FEmissiveRange>(C.EmissiveRanges, I);
+		EXPECT_EQ(Range.First, 2 * I);
+		EXPECT_EQ(Range.Section, I == 0 ? Scene->GetFirstSection(First) + 1 : Scene->GetFirstSection(Second));
+		EXPECT_EQ(Read<FSectionData>(C.Sections, Range.Section).Flags & SECTION_LIGHT, SECTION_LIGHT);
 	}
+	EXPECT_EQ(Read<FEmissiveRange>(C.EmissiveRanges, 2).First, 4u);
 	Scene->SetMaterial(Bright, MakeMaterial());
 	Frame({}, Use);
 	EXPECT_EQ(Scene->GetConstants().EmissiveTriangleCount, 2u);
@@ -389,32 +382,26 @@ TEST_F(FSceneObjectTest, EmissiveTrianglesAreListedByPower)
 	EXPECT_FALSE(Scene->GetFacts().bEmissive);
 }
 
-TEST_F(FSceneObjectTest, CumulativePowerEndsAtExactlyOne)
+TEST_F(FSceneObjectTest, SecondEmissionIsAFact)
 {
-	// Otherwise a random number near 1 finds no triangle.
-	std::mt19937 Random(5);
-	for (uint32_t Try = 0; Try < 50; ++Try)
-	{
-		Open({});
-		const FRTGeometryRef Panel = MakeGeometry("Panel", 1, {.bCpuData = true, .TrianglesPerSection = 1 + Try % 7 * 5});
-		for (uint32_t I = 0; I < 1 + Random() % 5; ++I)
-		{
-			const float Weight = 0.001f * static_cast<float>(1 + Random() % 100000);
-			Add(Panel, {Scene->AddMaterial(MakeMaterial(0, Weight))});
-		}
-		FSceneUse Use;
-		Use.bLightSampling = true;
-		Frame({}, Use);
-		const FSceneConstants C = Scene->GetConstants();
-		float Last = 0.0f;
-		for (uint32_t I = 0; I < C.EmissiveTriangleCount; ++I)
-		{
-			const float Sum = Read<FEmissiveTriangle>(C.EmissiveTriangles, I).CumulativePower;
-			EXPECT_GE(Sum, Last);
-			Last = Sum;
-		}
-		EXPECT_EQ(Last, 1.0f);
-	}
+	FMaterialData Lamp = MakeMaterial(0, 1.0f);
+	Lamp.Emissive = Lamp.LightEmissive = glm::vec3(1);
+	const uint32_t Material = Scene->AddMaterial(Lamp);
+	const FRTObjectId Id = Add(MakeGeometry("Lamp", 1), {Material});
+	Frame();
+	EXPECT_FALSE(Scene->GetFacts().bLightEmission);
+	Lamp.LightEmissive = glm::vec3(510);
+	Scene->SetMaterial(Material, Lamp);
+	Frame();
+	EXPECT_TRUE(Scene->GetFacts().bLightEmission);
+	Lamp.EmissiveWeight = 0.0f;
+	Lamp.LightEmissive = glm::vec3(0);
+	Scene->SetMaterial(Material, Lamp);
+	Frame();
+	EXPECT_TRUE(Scene->GetFacts().bEmissive) << "rays see it, although it lights nothing";
+	Scene->RemoveObject(Id);
+	Frame();
+	EXPECT_FALSE(Scene->GetFacts().bLightEmission);
 }
 
 TEST_F(FSceneObjectTest, LostFrameIsRecordedAgain)

@@ -40,12 +40,19 @@ protected:
 	}
 	void UpdateEmissive()
 	{
-		Emissive.Update(Objects, Materials);
+		const FRTStatus Status = Emissive.Update(*Device, Objects, Materials);
+		EXPECT_TRUE(Status) << Status.Message;
+		const FEmissiveWork Work = Emissive.GetWork();
+		Done = Work.Clusters ? *Work.Clusters : std::vector<uint32_t>();
+		DoneCount = Work.Count;
+		Emissive.EndFrame(true);
 		EXPECT_FALSE(Emissive.NeedsUpdate());
 	}
 
 	std::unique_ptr<FGeometryStore> Geometries;
 	FEmissiveTriangles Emissive;
+	std::vector<uint32_t> Done; // clusters that the GPU had to do after the last UpdateEmissive; none: all
+	uint32_t DoneCount = 0;
 	FSceneMaterials Materials{Emissive};
 	FSceneObjects Objects{Materials.GetSections(), Emissive};
 	FSceneLights Lights;

@@ -140,6 +140,17 @@ void ReadExtensions(FDocument& Document, const FJson& Json, FHostMaterial& Mater
 	if (Material.Transmission > 0) { Document.Warn("KHR_materials_transmission: transmissive materials are rendered as opaque"); }
 }
 
+/// Reads extras.lantern of a material: what it lights with, if that is not what it looks like.
+void ReadLightEmission(const FJson& Json, FHostMaterial& Material)
+{
+	const FJson Own = Json.Extra("lantern");
+	if (!Own.Member("lightEmissiveFactor").Exists() && !Own.Member("lightEmissiveStrength").Exists()) { return; }
+	const glm::vec3 Factor =
+	    glm::max(Own.GetVec3("lightEmissiveFactor", glm::max(Json.GetVec3("emissiveFactor", glm::vec3(0)), glm::vec3(0))), glm::vec3(0));
+	Material.LightEmissive = Factor * std::max(Own.GetFloat("lightEmissiveStrength", 1.0f), 0.0f);
+	if (!glm::all(glm::lessThan(*Material.LightEmissive, glm::vec3(1e30f)))) { Own.Fail("emission is beyond what a float holds"); }
+}
+
 /// Unlit materials become emitters of their base colour: what they look like, although they then also light others.
 void ReadUnlit(FDocument& Document, const FJson& Json, FHostMaterial& Material)
 {
@@ -192,6 +203,7 @@ FHostMaterial ReadMaterial(FDocument& Document, FTextureTable& Table, const FJso
 	ReadAlpha(Document, Json, Material);
 	ReadExtensions(Document, Json, Material);
 	ReadUnlit(Document, Json, Material);
+	ReadLightEmission(Json, Material);
 	return Material;
 }
 

@@ -107,6 +107,10 @@ struct FRTModuleMaterial
 	bool bMasked = false; ///< alpha-tested: texels below AlphaCutoff let rays pass
 	float AlphaCutoff = 0.5f;
 	bool bDoubleSided = false;
+	/// Emission where the surface lights something, nits, in place of Emissive: lamps that look dim may shine. Cameras and mirrors see
+	/// Emissive. EmissiveMap multiplies both. Only with bLightEmissive.
+	float LightEmissive[3] = {0, 0, 0};
+	bool bLightEmissive = false;
 };
 
 /// What an engine knows of an object's future.

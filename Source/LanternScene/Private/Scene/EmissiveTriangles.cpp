@@ -1,177 +1,236 @@
-// FEmissiveTriangles: the list is made on the CPU, from the positions that geometry keeps there.
+// FEmissiveTriangles: lists of objects, sections and clusters. No vertex is read, but those of the few triangles of small scenes.
 #include "LanternScene/Scene/EmissiveTriangles.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 
+#include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternScene/Scene/SceneMaterials.h"
 #include "LanternScene/Scene/SceneObjects.h"
 
 namespace Lantern
 {
 
-void FEmissiveTriangles::ListObjects(const FSceneObjects& Objects, const FSceneMaterials& Materials)
+namespace
+{
+TRTConsoleVariable<bool> CVarFollow("r.RT.Debug.Lights.EmissiveFollow", true,
+    "Planted fault. Off: emissive triangles stay where the first frame found them when a mesh deforms.");
+
+// Where no light is sampled, nobody takes what is marked.
+constexpr size_t MostMarked = 4096;
+
+} // namespace
+
+void FEmissiveTriangles::Mark(std::vector<uint32_t>& List, uint32_t Index)
+{
+	if (bStale || (bAllWanted && !bGiven)) { return; }
+	if (List.size() >= MostMarked) { return MarkLists(); }
+	List.push_back(Index);
+}
+
+void FEmissiveTriangles::MarkDeformed(uint32_t Object)
+{
+	if (CVarFollow.GetOnRenderThread()) { MarkMoved(Object); }
+}
+
+// ---------------------------------------------------------------------------------------------------- lists
+
+void FEmissiveTriangles::ListObjects(const FSceneObjects& InObjects, const FSceneMaterials& InMaterials)
 {
 	EmissiveObjects.clear();
-	for (uint32_t Slot = 0; Slot < Objects.GetSlotCount(); ++Slot)
+	for (uint32_t Slot = 0; Slot < InObjects.GetSlotCount(); ++Slot)
 	{
-		if (Objects.Find(Slot) && Materials.GetSections().GetRange(Objects.GetRange(Slot)).bEmissive) { EmissiveObjects.push_back(Slot); }
+		if (InObjects.Find(Slot) && InMaterials.GetSections().GetRange(InObjects.GetRange(Slot)).bEmissive)
+		{
+			EmissiveObjects.push_back(Slot);
+		}
 	}
 	bObjectsStale = false;
 }
 
-void FEmissiveTriangles::AddTriangles(uint32_t Index, const FSceneObjects& Objects, const FSceneMaterials& Materials, FList& Out)
+void FEmissiveTriangles::ListRanges(const FSceneObjects& InObjects, const FSceneMaterials& InMaterials)
 {
-	const FRTObjectInfo& Object = *Objects.Find(Index);
-	const FRTGeometryInfo& Info = Object.Geometry->GetInfo();
-	const FObjectData& Data = Objects.GetTable()[Index];
-	const uint32_t FirstSection = Materials.GetSections().GetRange(Objects.GetRange(Index)).First;
-	const glm::dvec3 Cell = CellCenter(Data.Cell);
-	for (uint32_t Section = 0; Section < Info.Sections.size(); ++Section)
+	std::vector<FEmissiveRange> All;
+	Sources.clear();
+	TriangleCount = 0;
+	for (const uint32_t Object : EmissiveObjects)
 	{
-		const FMaterialData& Material = Materials.GetTable()[Object.Materials[Section]];
-		if ((Materials.GetSections().Get(FirstSection + Section).Flags & SECTION_LIGHT) == 0) { continue; }
-		for (uint32_t Primitive = 0; Primitive < Info.Sections[Section].IndexCount / 3; ++Primitive)
+		FSource Source{Object, static_cast<uint32_t>(All.size()), 0, TriangleCount, 0, 0, 0};
+		const std::vector<FRTSectionInfo>& Sections = InObjects.Find(Object)->Geometry->GetInfo().Sections;
+		const uint32_t FirstSection = InMaterials.GetSections().GetRange(InObjects.GetRange(Object)).First;
+		for (uint32_t Section = 0; Section < Sections.size(); ++Section)
 		{
-			glm::vec3 P[3];
-			for (int Corner = 0; Corner < 3; ++Corner)
-			{
-				const uint32_t Vertex = Info.CpuIndices[Info.Sections[Section].FirstIndex + 3 * Primitive + Corner];
-				P[Corner] = glm::vec3(glm::dvec3(Object.Transform * glm::dvec4(Info.CpuPositions[Vertex], 1.0)) - Cell);
-			}
-			const double Area = 0.5 * glm::length(glm::cross(glm::dvec3(P[1] - P[0]), glm::dvec3(P[2] - P[0])));
-			if (!(Area > 0.0)) { continue; }
-			Out.Power += Area * Material.EmissiveWeight;
-			FEmissiveTriangle Triangle{};
-			Triangle.P0 = P[0];
-			Triangle.P1 = P[1];
-			Triangle.P2 = P[2];
-			Triangle.Object = Index;
-			Triangle.Section = FirstSection + Section;
-			Triangle.Primitive = Primitive;
-			Triangle.Flags = Data.Flags & OBJECT_MIRRORED;
-			Out.Triangles.push_back(Triangle);
-			Out.Cumulative.push_back(Out.Power);
+			if ((InMaterials.GetSections().Get(FirstSection + Section).Flags & SECTION_LIGHT) == 0) { continue; }
+			All.push_back({TriangleCount, FirstSection + Section});
+			TriangleCount += Sections[Section].IndexCount / 3;
 		}
+		Source.RangeCount = static_cast<uint32_t>(All.size()) - Source.FirstRange;
+		Source.Count = TriangleCount - Source.First;
+		if (Source.Count > 0) { Sources.push_back(Source); }
 	}
-}
-
-void FEmissiveTriangles::MarkMoved(uint32_t Object)
-{
-	// Where no light is sampled, nobody takes them.
-	constexpr size_t Most = 4096;
-	if (bStale) { return; }
-	if (Moved.size() < Most) { return Moved.push_back(Object); }
-	Moved.clear();
-	bStale = true;
-}
-
-bool FEmissiveTriangles::UpdateMoved(const FSceneObjects& Objects, const FSceneMaterials& Materials)
-{
-	constexpr double LeastChange = 1e-5; // of the power: a rotation rounds areas
-	std::sort(Moved.begin(), Moved.end());
-	Moved.erase(std::unique(Moved.begin(), Moved.end()), Moved.end());
-	for (const uint32_t Object : Moved)
-	{
-		const auto Found = std::lower_bound(
-		    Sources.begin(), Sources.end(), Object, [](const FSource& Source, uint32_t Key) { return Source.Object < Key; });
-		if (Found == Sources.end() || Found->Object != Object) { continue; }
-		FList List;
-		AddTriangles(Object, Objects, Materials, List);
-		Visited += static_cast<uint32_t>(List.Triangles.size());
-		const bool bSamePower = std::abs(List.Power - Found->Power) <= LeastChange * Found->Power;
-		if (List.Triangles.size() != Found->Count || !bSamePower) { return false; }
-		for (uint32_t I = 0; I < Found->Count; ++I)
-		{
-			const FEmissiveTriangle& Old = Table[Found->First + I];
-			List.Triangles[I].CumulativePower = Old.CumulativePower;
-			List.Triangles[I].Cluster = Old.Cluster;
-			List.Triangles[I].ClusterShare = Old.ClusterShare;
-			Table.Set(Found->First + I, List.Triangles[I]);
-		}
-	}
-	return true;
+	if (!All.empty()) { All.push_back({TriangleCount, 0}); }
+	Ranges.Assign(All);
 }
 
 namespace
 {
-/// Whether two triangles lie in one plane and face the same way, as those of a rectangle do.
-bool AreCoplanar(const FEmissiveTriangle& A, const FEmissiveTriangle& B)
+/// The triangles of an object that the CPU knows, in its own space.
+struct FShape
 {
-	const glm::dvec3 Across = glm::cross(glm::dvec3(A.P1 - A.P0), glm::dvec3(A.P2 - A.P0));
-	const glm::dvec3 Other = glm::cross(glm::dvec3(B.P1 - B.P0), glm::dvec3(B.P2 - B.P0));
-	const double Length = glm::length(Across), Size = std::sqrt(Length);
-	const double Away = std::abs(glm::dot(Across, glm::dvec3(B.P0 - A.P0))) / Length;
-	return glm::dot(Across, Other) >= (1.0 - 1e-7) * Length * glm::length(Other) && Away <= 1e-4 * Size;
-}
+	const FRTGeometryInfo& Info;
+	uint32_t FirstSection = 0; // of the object
+
+	/// Whether two triangles lie in one plane and face the same way, as those of a rectangle do.
+	bool AreCoplanar(const FEmissiveRange& RangeA, uint32_t A, const FEmissiveRange& RangeB, uint32_t B) const
+	{
+		if (Info.bDynamic || !Info.CpuPositions) { return false; }
+		const glm::dvec3 Origin = GetCorner(RangeA, A, 0);
+		const glm::dvec3 Across = glm::cross(GetCorner(RangeA, A, 1) - Origin, GetCorner(RangeA, A, 2) - Origin);
+		const glm::dvec3 OtherOrigin = GetCorner(RangeB, B, 0);
+		const glm::dvec3 Other = glm::cross(GetCorner(RangeB, B, 1) - OtherOrigin, GetCorner(RangeB, B, 2) - OtherOrigin);
+		const double Length = glm::length(Across);
+		if (!(Length > 0.0)) { return false; }
+		const double Away = std::abs(glm::dot(Across, OtherOrigin - Origin)) / Length;
+		return glm::dot(Across, Other) >= (1.0 - 1e-7) * Length * glm::length(Other) && Away <= 1e-4 * std::sqrt(Length);
+	}
+
+private:
+	glm::dvec3 GetCorner(const FEmissiveRange& Range, uint32_t Triangle, uint32_t Corner) const
+	{
+		const uint32_t First = Info.Sections[Range.Section - FirstSection].FirstIndex;
+		return glm::dvec3(Info.CpuPositions[Info.CpuIndices[First + 3 * (Triangle - Range.First) + Corner]]);
+	}
+};
 } // namespace
 
 /// Few triangles have clusters of their own, or one for a flat part, which then has a side that it shines to. Many are cut in pieces.
-uint32_t FEmissiveTriangles::FindClusterEnd(const FList& List, uint32_t First, const FSource& Source, uint32_t Size)
+void FEmissiveTriangles::ListClusters(const FSceneObjects& InObjects)
 {
 	constexpr uint32_t MostFlat = 8;
-	const uint32_t End = Source.First + Source.Count;
-	if (Size > 1)
-	{
-		const uint32_t Pieces = (Source.Count + Size - 1) / Size;
-		const uint32_t Even = (Source.Count + Pieces - 1) / Pieces; // the last one may be smaller
-		return std::min(First + Even, End);
-	}
-	uint32_t Next = First + 1;
-	while (Next < End && Next < First + MostFlat && AreCoplanar(List.Triangles[First], List.Triangles[Next])) { ++Next; }
-	return Next;
-}
-
-void FEmissiveTriangles::MakeClusters(FList& InOut)
-{
 	std::vector<FEmissiveCluster> All;
-	const auto Total = static_cast<uint32_t>(InOut.Triangles.size());
-	const uint32_t Size = std::max((Total + EMISSIVE_CLUSTERS - 1) / EMISSIVE_CLUSTERS, 1u);
-	for (const FSource& Source : Sources)
+	const uint32_t Size = std::max((TriangleCount + EMISSIVE_CLUSTERS - 1) / EMISSIVE_CLUSTERS, 1u);
+	for (FSource& Source : Sources)
 	{
-		for (uint32_t First = Source.First, End; First < Source.First + Source.Count; First = End)
+		const FShape Shape{InObjects.Find(Source.Object)->Geometry->GetInfo(), InObjects.GetTable()[Source.Object].FirstSection};
+		const uint32_t End = Source.First + Source.Count, Pieces = (Source.Count + Size - 1) / Size;
+		const uint32_t Even = (Source.Count + Pieces - 1) / Pieces; // the last one may be smaller
+		uint32_t Range = Source.FirstRange;
+		const auto FindRange = [&](uint32_t From, uint32_t Triangle) {
+			while (Ranges[From + 1].First <= Triangle) { ++From; }
+			return From;
+		};
+		Source.FirstCluster = static_cast<uint32_t>(All.size());
+		for (uint32_t First = Source.First, Next; First < End; First = Next)
 		{
-			End = FindClusterEnd(InOut, First, Source, Size);
-			const double Before = First > 0 ? InOut.Cumulative[First - 1] : 0.0, Whole = InOut.Cumulative[End - 1] - Before;
-			for (uint32_t I = First; I < End; ++I)
+			Range = FindRange(Range, First);
+			Next = std::min(First + Even, End);
+			if (Size == 1)
 			{
-				InOut.Triangles[I].Cluster = static_cast<uint32_t>(All.size());
-				InOut.Triangles[I].ClusterShare = I + 1 < End ? static_cast<float>((InOut.Cumulative[I] - Before) / Whole) : 1.0f;
+				const auto IsBeside = [&](uint32_t Other) {
+					return Shape.AreCoplanar(Ranges[Range], First, Ranges[FindRange(Range, Other)], Other);
+				};
+				while (Next < End && Next < First + MostFlat && IsBeside(Next)) { ++Next; }
 			}
-			All.push_back({First, End - First, static_cast<float>(Whole), 0});
+			All.push_back({First, Next - First, Source.Object, Range});
 		}
+		Source.ClusterCount = static_cast<uint32_t>(All.size()) - Source.FirstCluster;
 	}
 	Clusters.Assign(All);
 }
 
-void FEmissiveTriangles::Update(const FSceneObjects& Objects, const FSceneMaterials& Materials)
+// ---------------------------------------------------------------------------------------------------- a frame
+
+void FEmissiveTriangles::WantClusters(const FSource& Source)
 {
-	Visited = 0;
-	const bool bDone = !bStale && UpdateMoved(Objects, Materials);
-	Moved.clear();
-	if (bDone) { return; }
-	if (bObjectsStale) { ListObjects(Objects, Materials); }
-	FList List;
-	Sources.clear();
-	for (const uint32_t Object : EmissiveObjects)
+	for (uint32_t I = 0; I < Source.ClusterCount; ++I) { Wanted.push_back(Source.FirstCluster + I); }
+}
+
+void FEmissiveTriangles::WantMarked(const FSceneObjects& InObjects)
+{
+	if (!Materials.empty())
 	{
-		const auto First = static_cast<uint32_t>(List.Triangles.size());
-		const double Before = List.Power;
-		AddTriangles(Object, Objects, Materials, List);
-		Sources.push_back({Object, First, static_cast<uint32_t>(List.Triangles.size()) - First, List.Power - Before});
+		std::sort(Materials.begin(), Materials.end());
+		const auto IsMarked = [&](uint32_t Material) { return std::binary_search(Materials.begin(), Materials.end(), Material); };
+		for (const FSource& Source : Sources)
+		{
+			const std::vector<uint32_t>& Used = InObjects.Find(Source.Object)->Materials;
+			if (std::any_of(Used.begin(), Used.end(), IsMarked)) { WantClusters(Source); }
+		}
 	}
-	Visited += static_cast<uint32_t>(List.Triangles.size());
-	Power = static_cast<float>(List.Power);
-	for (size_t I = 0; I < List.Triangles.size(); ++I)
+	for (const uint32_t Object : Objects)
 	{
-		List.Triangles[I].CumulativePower = static_cast<float>(List.Cumulative[I] / List.Power);
+		const auto Found = std::lower_bound(
+		    Sources.begin(), Sources.end(), Object, [](const FSource& Source, uint32_t Key) { return Source.Object < Key; });
+		if (Found != Sources.end() && Found->Object == Object) { WantClusters(*Found); }
 	}
-	if (!List.Triangles.empty()) { List.Triangles.back().CumulativePower = 1.0f; } // rounding must leave no gap above it
-	MakeClusters(List);
-	Table.Assign(std::move(List.Triangles));
-	bStale = false;
+	std::sort(Wanted.begin(), Wanted.end());
+	Wanted.erase(std::unique(Wanted.begin(), Wanted.end()), Wanted.end());
+}
+
+FRTStatus FEmissiveTriangles::Reserve(IRTDevice& Device)
+{
+	const auto Grow = [&](TRTRef<IRTBuffer>& Buffer, uint64_t Needed, const char* Name) {
+		const uint64_t Size = Buffer ? Buffer->GetDesc().Size : 0;
+		if (Size >= Needed && Size / 4 <= std::max<uint64_t>(Needed, 4096)) { return FRTStatus::Success(); }
+		Buffer = {};
+		if (Needed == 0) { return FRTStatus::Success(); }
+		const uint64_t NewSize = Needed + Needed / 2;
+		return Device.CreateBuffer({NewSize, ERTBufferUsage::Storage, ERTMemory::Device, Name}, Buffer.ReleaseAndGetAddress());
+	};
+	if (FRTStatus S = Grow(Triangles, uint64_t(TriangleCount) * sizeof(FEmissiveTriangle), "EmissiveTriangles"); !S) { return S; }
+	const uint64_t PowerBytes = Clusters.Num() > 0 ? sizeof(FEmissivePowerHeader) + Clusters.Num() * sizeof(FEmissivePower) : 0;
+	return Grow(Powers, PowerBytes, "EmissivePowers");
+}
+
+FRTStatus FEmissiveTriangles::Update(IRTDevice& Device, const FSceneObjects& InObjects, const FSceneMaterials& InMaterials)
+{
+	bGiven = true;
+	if (bStale)
+	{
+		if (bObjectsStale) { ListObjects(InObjects, InMaterials); }
+		ListRanges(InObjects, InMaterials);
+		ListClusters(InObjects);
+		bAllWanted = true;
+		if (FRTStatus S = Reserve(Device); !S)
+		{
+			TriangleCount = 0;
+			return S;
+		}
+		bStale = false;
+	}
+	else if (!bAllWanted) { WantMarked(InObjects); }
+	Objects.clear();
+	Materials.clear();
+	if (bAllWanted) { Wanted.clear(); }
+	bAllWanted &= Clusters.Num() > 0;
+	return FRTStatus::Success();
+}
+
+FEmissiveWork FEmissiveTriangles::GetWork() const
+{
+	const uint32_t Count = bAllWanted ? Clusters.Num() : static_cast<uint32_t>(Wanted.size());
+	return bGiven && Count > 0 ? FEmissiveWork{Triangles.Get(), Powers.Get(), &Wanted, Count} : FEmissiveWork{};
+}
+
+void FEmissiveTriangles::EndFrame(bool bSubmitted)
+{
+	if (bGiven && bSubmitted)
+	{
+		bAllWanted = false;
+		Wanted.clear();
+	}
+	bGiven = false;
+}
+
+void FEmissiveTriangles::FillConstants(FSceneConstants& Out) const
+{
+	Out.EmissiveTriangles = Triangles ? Triangles->GetDeviceAddress() : 0;
+	Out.EmissiveTriangleCount = TriangleCount;
+	Out.EmissiveClusters = Clusters.GetAddress();
+	Out.EmissiveClusterCount = Clusters.Num();
+	Out.EmissiveRanges = Ranges.GetAddress();
+	Out.EmissivePowers = Powers ? Powers->GetDeviceAddress() : 0;
 }
 
 } // namespace Lantern

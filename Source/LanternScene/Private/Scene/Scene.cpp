@@ -29,7 +29,7 @@ void FRTScene::MarkFilled(const FRTGeometryRef& Geometry)
 {
 	Geometries.MarkFilled(Geometry);
 	// Light sampling lists no triangle whose vertices are missing.
-	if (Materials.GetSections().GetEmissiveRangeCount() > 0) { Emissive.MarkTriangles(); }
+	if (Materials.GetSections().GetEmissiveRangeCount() > 0) { Emissive.MarkLists(); }
 }
 
 void FRTScene::MarkDeformed(const FRTGeometryRef& Geometry)
@@ -140,11 +140,7 @@ FSceneConstants FRTScene::GetConstants() const
 	C.Sections = Materials.GetSections().GetTable().GetAddress();
 	C.Materials = Materials.GetTable().GetAddress();
 	Lights.FillConstants(C);
-	C.EmissiveTriangles = Emissive.GetTable().GetAddress();
-	C.EmissiveTriangleCount = Emissive.GetTable().Num();
-	C.EmissivePower = Emissive.GetPower();
-	C.EmissiveClusters = Emissive.GetClusters().GetAddress();
-	C.EmissiveClusterCount = Emissive.GetClusters().Num();
+	Emissive.FillConstants(C);
 	C.Tlas = GetStructure() ? GetStructure()->GetIndex() : ~0u;
 	C.MaterialOverride = Materials.GetContext().Override;
 	C.OriginCell = FindCell(GetOrigin());

@@ -9,6 +9,22 @@
 namespace Lantern
 {
 
+namespace
+{
+/// Tells whether chances of light sampling differ: they follow the emissive texture and what is cut away of it.
+bool EmitsOtherwise(const FMaterialData& Old, const FMaterialData& New)
+{
+	bool bOther = Old.EmissiveWeight != New.EmissiveWeight || Old.LightEmissive != New.LightEmissive || Old.UVSets != New.UVSets ||
+	              ((Old.Flags ^ New.Flags) & MATERIAL_MASKED) != 0 || Old.AlphaCutoff != New.AlphaCutoff;
+	for (const uint32_t Slot : {TEXTURE_EMISSIVE, TEXTURE_BASE_COLOR})
+	{
+		bOther |= Old.Textures[Slot] != New.Textures[Slot] || Old.UVTransform[Slot] != New.UVTransform[Slot] ||
+		          Old.UVOffset[Slot] != New.UVOffset[Slot];
+	}
+	return bOther;
+}
+} // namespace
+
 uint32_t FSceneMaterials::Add(const FMaterialData& Material, uint32_t Program)
 {
 	if (!Free.empty())
@@ -33,7 +49,8 @@ void FSceneMaterials::Set(uint32_t Index, const FMaterialData& Material)
 {
 	assert(Index < Table.Num());
 	const FMaterialData Old = Table[Index];
-	if (Old.EmissiveWeight != Material.EmissiveWeight) { Emissive.MarkObjects(); }
+	if ((Old.EmissiveWeight > 0.0f) != (Material.EmissiveWeight > 0.0f)) { Emissive.MarkObjects(); }
+	else if (Material.EmissiveWeight > 0.0f && EmitsOtherwise(Old, Material)) { Emissive.MarkMaterial(Index); }
 	Table.Set(Index, Material);
 	// An animated colour or roughness goes no further.
 	if (FSectionTable::AffectsSections(Old, Material)) { Sections.MaterialChanged(Index); }

@@ -185,7 +185,11 @@ void FSceneObjects::MarkDeformed(const FRTGeometryRef& Geometry)
 	Motions.MarkDeformed(Geometry);
 	const auto Found = DynamicUsers.find(Geometry.get());
 	if (Found == DynamicUsers.end()) { return; }
-	for (const uint32_t Slot : Found->second) { NoteCaster(Slot); }
+	for (const uint32_t Slot : Found->second)
+	{
+		NoteCaster(Slot);
+		if (Sections.GetRange(Objects[Slot].Range).bEmissive) { Emissive.MarkDeformed(Slot); }
+	}
 }
 
 void FSceneObjects::NoteCaster(const FInstanceRecord& Before, const FInstanceRecord& After)

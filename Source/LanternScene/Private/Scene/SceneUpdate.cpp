@@ -50,11 +50,12 @@ const FSceneFacts& FSceneUpdate::RefreshFacts()
 	Facts.Objects = Parts.Objects.GetInstances().GetCount();
 	Facts.DynamicGeometries = Parts.Geometries.GetDynamicCount();
 	Facts.bCharacters = Parts.Objects.GetCharacterCount() > 0;
-	Facts.EmissiveTriangles = Parts.Emissive.GetTable().Num();
+	Facts.EmissiveTriangles = Parts.Emissive.GetTriangleCount();
 	Facts.EmissiveClusters = Parts.Emissive.GetClusters().Num();
 	Facts.bMasked = Sections.GetMaskedRangeCount() > 0;
 	Facts.bOwnShapes = std::any_of(Sections.GetHitPrograms().begin(), Sections.GetHitPrograms().end(), HasOwnShape);
 	Facts.bEmissive = Sections.GetEmissiveRangeCount() > 0;
+	Facts.bLightEmission = Sections.GetLightEmissionRangeCount() > 0;
 	RefreshLightFacts();
 	return Facts;
 }
@@ -107,7 +108,7 @@ void FSceneUpdate::TakeGeometryChanges()
 		if (!Geometry) { continue; }
 		Parts.Materials.GetSections().GeometryChanged(*Geometry);
 		if (!Geometry->IsCoarse()) { continue; }
-		Parts.Emissive.MarkTriangles(); // they are no longer those that light sampling lists
+		Parts.Emissive.MarkLists(); // they are no longer those that light sampling lists
 		Parts.Objects.GetCasterChanges().AddAnywhere();
 	}
 }
@@ -141,7 +142,10 @@ FRTStatus FSceneUpdate::Begin(const FGatherView& View, const FSceneUse& InUse)
 	if (Bindings.Update(Sections, Parts.Geometries, Instances)) { Parts.Objects.GetCasterChanges().AddAnywhere(); }
 	Instances.Refresh();
 	Parts.Objects.GetMotions().Update(Use.bMotion);
-	if (Use.bLightSampling && Parts.Emissive.NeedsUpdate()) { Parts.Emissive.Update(Parts.Objects, Parts.Materials); }
+	if (Use.bLightSampling && Parts.Emissive.NeedsUpdate())
+	{
+		if (FRTStatus S = Parts.Emissive.Update(Parts.Device, Parts.Objects, Parts.Materials); !S) { return S; }
+	}
 	RefreshFacts();
 	if (!Use.bRays) { return FRTStatus::Success(); }
 	if (FRTStatus S = Bindings.CheckLimits(Sections); !S) { return S; }
@@ -165,8 +169,8 @@ void FSceneUpdate::VisitTables(FVisit Visit) const
 	Visit(Parts.Lights.GetProfiles().GetHeaders());
 	Visit(Parts.Lights.GetProfiles().GetTexels());
 	Visit(Parts.Objects.GetChannels());
-	Visit(Parts.Emissive.GetTable());
 	Visit(Parts.Emissive.GetClusters());
+	Visit(Parts.Emissive.GetRanges());
 	Visit(Parts.Materials.GetSections().GetTable());
 	Visit(Parts.Objects.GetMotions().GetTable());
 }
@@ -223,6 +227,7 @@ void FSceneUpdate::EndFrame(bool bSubmitted, FRTFence Fence)
 		VisitTables([](auto& Table) { Table.Invalidate(); });
 	}
 	Parts.Objects.EndFrame(bSubmitted);
+	Parts.Emissive.EndFrame(bSubmitted);
 }
 
 } // namespace Lantern

@@ -39,6 +39,13 @@ bool HasPlainOpacity(const FRTGeometryInfo& Info, const FMaterialData& Material)
 	return Info.bOpaqueVertices && Material.UVTransform[TEXTURE_BASE_COLOR] == glm::vec4(1, 0, 0, 1) &&
 	       Material.UVOffset[TEXTURE_BASE_COLOR] == glm::vec2(0);
 }
+
+/// Of the finest level of detail only: coarser ones count other triangles.
+bool MayListEmissive(const FRTGeometry& Geometry, uint32_t Section)
+{
+	const FRTGeometryInfo& Info = Geometry.GetInfo();
+	return !Info.Sections[Section].bProcedural && !Geometry.IsCoarse() && !Info.bWaitsForData;
+}
 } // namespace
 
 FHitProgram ChooseHitProgram(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part, uint32_t Material)
@@ -72,9 +79,7 @@ FSectionData MakeSection(const FSectionContext& Context, const FRTGeometry& Geom
 	Data.Flags |= HasPlainOpacity(Info, Material) ? SECTION_PLAIN_OPACITY : 0u;
 	Data.Flags |= Material.Flags & MATERIAL_DOUBLE_SIDED ? SECTION_DOUBLE_SIDED : 0u;
 	Data.Flags |= Info.bHasTangents ? SECTION_TANGENTS : 0u;
-	// Emissive triangles are listed on the CPU, and of the finest level of detail only.
-	const bool bListed = !Info.bDynamic && Info.CpuPositions && !Geometry.IsCoarse() && !Info.bWaitsForData;
-	Data.Flags |= Material.EmissiveWeight > 0.0f && bListed ? SECTION_LIGHT : 0u;
+	Data.Flags |= Material.EmissiveWeight > 0.0f && MayListEmissive(Geometry, Part.Section) ? SECTION_LIGHT : 0u;
 	return Data;
 }
 

@@ -73,7 +73,7 @@ void FSectionTable::Release(FSectionRangeId Id)
 	if (--Range.References > 0) { return; }
 	UnlinkUses(Id);
 	UnlinkHash(Id);
-	SetFlags(Id, false, false, false);
+	SetFlags(Id, {});
 	for (uint32_t Part = 0; Part < Range.Count; ++Part) { HitPrograms.Clear(Range.First + Part); }
 	Allocator.Free(Range.First, Range.Count);
 	Range.Geometry = nullptr;
@@ -175,7 +175,10 @@ void FSectionTable::UnlinkUses(FSectionRangeId Id)
 
 bool FSectionTable::AffectsSections(const FMaterialData& Old, const FMaterialData& New)
 {
-	return Old.Flags != New.Flags || Old.EmissiveWeight != New.EmissiveWeight || Old.UVSets != New.UVSets ||
+	const auto Emits = [](const FMaterialData& Data) { return Data.EmissiveWeight > 0.0f || Data.Emissive != glm::vec3(0); };
+	const auto HasOwnLight = [](const FMaterialData& Data) { return Data.LightEmissive != Data.Emissive; };
+	return Old.Flags != New.Flags || Old.EmissiveWeight != New.EmissiveWeight || Emits(Old) != Emits(New) ||
+	       HasOwnLight(Old) != HasOwnLight(New) || Old.UVSets != New.UVSets ||
 	       Old.UVTransform[TEXTURE_BASE_COLOR] != New.UVTransform[TEXTURE_BASE_COLOR] ||
 	       Old.UVOffset[TEXTURE_BASE_COLOR] != New.UVOffset[TEXTURE_BASE_COLOR] || MakeOpacityKey(Old) != MakeOpacityKey(New);
 }
@@ -244,30 +247,31 @@ void FSectionTable::FillPart(FSectionRangeId Id, uint32_t Part)
 void FSectionTable::UpdateFlags(FSectionRangeId Id)
 {
 	const FSectionRange& Range = Ranges[Id];
-	bool bMasked = false, bDoubleSided = true, bEmissive = false;
+	bool bMasked = false, bDoubleSided = true, bEmissive = false, bLightEmission = false;
 	for (const uint32_t Material : Range.Materials)
 	{
 		bDoubleSided &= (Context.Materials[Material].Flags & MATERIAL_DOUBLE_SIDED) != 0;
-		bEmissive |= Context.Materials[Material].EmissiveWeight > 0.0f;
+		const FMaterialData& Data = Context.Materials[Material];
+		bEmissive |= Data.EmissiveWeight > 0.0f || Data.Emissive != glm::vec3(0);
+		bLightEmission |= Data.LightEmissive != Data.Emissive;
 	}
 	const uint32_t Parts = static_cast<uint32_t>(Range.Geometry->GetParts().size());
 	for (uint32_t Part = 0; Part < Parts; ++Part) { bMasked |= (Table[Range.First + Part].Flags & SECTION_MASKED) != 0; }
-	SetFlags(Id, bMasked, bDoubleSided, bEmissive);
+	SetFlags(Id, {bMasked, bDoubleSided, bEmissive, bLightEmission});
 	if (!HasClassifiedMaterials(Context, *Range.Geometry, Range.Materials))
 	{
 		RefutedGeometries.push_back(Range.Geometry->weak_from_this());
 	}
 }
 
-void FSectionTable::SetFlags(FSectionRangeId Id, bool bMasked, bool bDoubleSided, bool bEmissive)
+void FSectionTable::SetFlags(FSectionRangeId Id, const FRangeFlags& New)
 {
-	FSectionRange& Range = Ranges[Id];
-	if (Range.bMasked == bMasked && Range.bDoubleSided == bDoubleSided && Range.bEmissive == bEmissive) { return; }
-	MaskedRangeCount += uint32_t(bMasked) - uint32_t(Range.bMasked);
-	EmissiveRangeCount += uint32_t(bEmissive) - uint32_t(Range.bEmissive);
-	Range.bMasked = bMasked;
-	Range.bDoubleSided = bDoubleSided;
-	Range.bEmissive = bEmissive;
+	FRangeFlags& Flags = Ranges[Id];
+	if (Flags == New) { return; }
+	MaskedRangeCount += uint32_t(New.bMasked) - uint32_t(Flags.bMasked);
+	EmissiveRangeCount += uint32_t(New.bEmissive) - uint32_t(Flags.bEmissive);
+	LightEmissionRangeCount += uint32_t(New.bLightEmission) - uint32_t(Flags.bLightEmission);
+	Flags = New;
 	MarkRange(Id);
 }
 

@@ -67,8 +67,7 @@ struct FRTGeometryInfo
 	bool bDynamic = false;
 	/// A copy of the positions and indices on the CPU. Without CpuOwner it must live until the store has begun a frame after the
 	/// geometry's last owner let go, or is gone. Ignored for dynamic geometry.
-	/// Null: light sampling does not know its emissive triangles, which are then found by chance alone. The geometry has
-	/// no coarser levels of detail.
+	/// Null: the geometry has no coarser levels of detail.
 	const glm::vec3* CpuPositions = nullptr;
 	const uint32_t* CpuIndices = nullptr;
 	std::shared_ptr<const void> CpuOwner; ///< held as long as the geometry lives; null: CpuPositions and CpuIndices live by other means

@@ -1,5 +1,5 @@
-// FEmissiveTriangles lists the triangles of a scene that emit, for light sampling. Each has the share of the scene's
-// power up to and including it, so that a binary search picks triangles in proportion to their power.
+// FEmissiveTriangles knows which triangles of a scene emit, for light sampling. Where they lie and how much each shines is found on the
+// GPU (EmissiveTriangles.comp), from the vertices that rays meet. The CPU keeps what follows from objects and sections alone.
 #pragma once
 
 #include <cstdint>
@@ -14,59 +14,76 @@ namespace Lantern
 class FSceneMaterials;
 class FSceneObjects;
 
+/// What EmissiveTriangles.comp has to do in a frame. Buffers are null where there is nothing.
+struct FEmissiveWork
+{
+	IRTBuffer* Triangles = nullptr;
+	IRTBuffer* Powers = nullptr;
+	const std::vector<uint32_t>* Clusters = nullptr; ///< those to do, ascending; empty: all
+	uint32_t Count = 0;                              ///< number of clusters to do
+};
+
 /// Threads: one at a time.
 class FEmissiveTriangles
 {
 public:
-	/// Marks the list as out of date: triangles of emissive objects changed.
-	void MarkTriangles() { bStale = true; }
-	/// Marks the triangles of an emissive object as out of date: it moved. The cost follows the object if its areas stay.
-	void MarkMoved(uint32_t Object);
-	/// Marks the list as out of date: an object or a material began, ceased or changed to emit.
+	/// Marks the lists as out of date: geometry of emissive objects changed.
+	void MarkLists() { bStale = true; }
+	/// Marks the triangles of an emissive object: it moved. Costs follow its clusters.
+	void MarkMoved(uint32_t Object) { Mark(Objects, Object); }
+	/// Marks the triangles of an emissive object: its vertices are others.
+	void MarkDeformed(uint32_t Object);
+	/// Marks the triangles of an emissive material: it shines otherwise than before.
+	void MarkMaterial(uint32_t Material) { Mark(Materials, Material); }
+	/// Marks the lists as out of date: an object or a material began or ceased to emit.
 	void MarkObjects() { bStale = bObjectsStale = true; }
-	/// Tells whether something was marked since the last Update.
-	bool NeedsUpdate() const { return bStale || !Moved.empty(); }
-	/// Brings the list up to date. It has the triangles of sections with SECTION_LIGHT whose area is not zero, in the order of objects.
-	void Update(const FSceneObjects& Objects, const FSceneMaterials& Materials);
+	/// Tells whether something was marked since the last Update, or the GPU has not done what it found.
+	bool NeedsUpdate() const { return bStale || !Objects.empty() || !Materials.empty() || bAllWanted || !Wanted.empty(); }
+	/// Brings the lists up to date. They have the triangles of sections with SECTION_LIGHT, in the order of objects.
+	FRTStatus Update(IRTDevice& Device, const FSceneObjects& InObjects, const FSceneMaterials& InMaterials);
 
-	/// Sum of area (m²) × FMaterialData::EmissiveWeight over the list.
-	float GetPower() const { return Power; }
-	/// Triangles that the last Update computed.
-	uint32_t GetVisited() const { return Visited; }
-	TGpuTable<FEmissiveTriangle>& GetTable() { return Table; }
-	const TGpuTable<FEmissiveTriangle>& GetTable() const { return Table; }
+	FEmissiveWork GetWork() const;
+	/// bSubmitted: the GPU does what GetWork returned.
+	void EndFrame(bool bSubmitted);
+
+	/// Triangles on the lists. Slots of FEmissiveTriangle[] stay whose they are until lists are made anew.
+	uint32_t GetTriangleCount() const { return TriangleCount; }
+	void FillConstants(FSceneConstants& Out) const;
 	/// Groups of consecutive triangles, in their order. Each is of one object.
 	TGpuTable<FEmissiveCluster>& GetClusters() { return Clusters; }
 	const TGpuTable<FEmissiveCluster>& GetClusters() const { return Clusters; }
+	/// One for each section that emits, and an empty one behind them.
+	TGpuTable<FEmissiveRange>& GetRanges() { return Ranges; }
+	const TGpuTable<FEmissiveRange>& GetRanges() const { return Ranges; }
 
 private:
-	struct FList
-	{
-		std::vector<FEmissiveTriangle> Triangles;
-		std::vector<double> Cumulative; // power up to and including each triangle
-		double Power = 0.0;
-	};
-	/// An object's triangles in the list.
+	/// An object's place in the lists.
 	struct FSource
 	{
-		uint32_t Object = 0, First = 0, Count = 0;
-		double Power = 0.0;
+		uint32_t Object = 0;
+		uint32_t FirstRange = 0, RangeCount = 0;
+		uint32_t First = 0, Count = 0; // triangles
+		uint32_t FirstCluster = 0, ClusterCount = 0;
 	};
-	/// False: the list must be made anew.
-	bool UpdateMoved(const FSceneObjects& Objects, const FSceneMaterials& Materials);
-	void ListObjects(const FSceneObjects& Objects, const FSceneMaterials& Materials);
-	void MakeClusters(FList& InOut);
-	static uint32_t FindClusterEnd(const FList& List, uint32_t First, const FSource& Source, uint32_t Size);
-	static void AddTriangles(uint32_t Object, const FSceneObjects& Objects, const FSceneMaterials& Materials, FList& Out);
+	void Mark(std::vector<uint32_t>& List, uint32_t Index);
+	void ListObjects(const FSceneObjects& InObjects, const FSceneMaterials& InMaterials);
+	void ListRanges(const FSceneObjects& InObjects, const FSceneMaterials& InMaterials);
+	void ListClusters(const FSceneObjects& InObjects);
+	void WantMarked(const FSceneObjects& InObjects);
+	void WantClusters(const FSource& Source);
+	FRTStatus Reserve(IRTDevice& Device);
 
-	TGpuTable<FEmissiveTriangle> Table{"EmissiveTriangles"};
 	TGpuTable<FEmissiveCluster> Clusters{"EmissiveClusters"};
-	std::vector<uint32_t> EmissiveObjects; // ascending
-	std::vector<FSource> Sources;          // as listed, ascending
-	std::vector<uint32_t> Moved;
-	uint32_t Visited = 0;
-	float Power = 0.0f;
+	TGpuTable<FEmissiveRange> Ranges{"EmissiveRanges"};
+	TRTRef<IRTBuffer> Triangles, Powers;
+	std::vector<uint32_t> EmissiveObjects;    // ascending
+	std::vector<FSource> Sources;             // as listed, ascending
+	std::vector<uint32_t> Objects, Materials; // marked
+	std::vector<uint32_t> Wanted;             // clusters that the GPU has to do
+	uint32_t TriangleCount = 0;
+	bool bAllWanted = false;
 	bool bStale = true, bObjectsStale = true;
+	bool bGiven = false; // GetWork is about this frame
 };
 
 } // namespace Lantern

@@ -50,6 +50,7 @@ struct FSceneFacts
 	/// Only its material program knows the shape of some surface: it is a box, or its alpha test is not the standard one.
 	bool bOwnShapes = false;
 	bool bEmissive = false;
+	bool bLightEmission = false; ///< some of it lights otherwise than it looks: FMaterialData::LightEmissive
 	bool bSun = false;
 	bool bSky = false;
 	bool bSkyMap = false;     ///< it is a texture
@@ -62,7 +63,7 @@ struct FSceneFacts
 struct FSceneUse
 {
 	bool bRays = true;           ///< acceleration structures: without rays none is made, built or refitted
-	bool bLightSampling = false; ///< the list of emissive triangles
+	bool bLightSampling = false; ///< emissive triangles: GetEmissiveWork says what to record for them
 	bool bCull = true;           ///< false: rays see every object (the reference)
 	bool bBuildAll = true;       ///< builds all pending geometry now, without a budget (offline pictures)
 	bool bMotion = false;        ///< where objects were in the frame before (FSceneConstants::ObjectMotions)
@@ -186,6 +187,9 @@ public:
 	bool NeedsStructures() const;
 	/// Calls BeginUpdate, then RecordUpdate.
 	FRTStatus Update(IRTCommandList& List, FFrameUploads& Uploads, const FGatherView& View, const FSceneUse& Use);
+	/// Returns what the GPU has to find out of emissive triangles in this frame, after RecordTables. After BeginUpdate; the list of
+	/// EndFrame says whether it was done.
+	FEmissiveWork GetEmissiveWork() const { return Emissive.GetWork(); }
 	/// Returns, after RecordUpdate, the block of constants that passes read.
 	FSceneConstants GetConstants() const;
 	/// Returns the acceleration structure over the instances (TLAS); null before the first frame with rays.

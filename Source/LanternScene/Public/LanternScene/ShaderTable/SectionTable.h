@@ -24,16 +24,23 @@ namespace Lantern
 /// Names a range; less than FSectionTable::GetRangeCapacity(). Constant over the range's life, then used again.
 using FSectionRangeId = uint32_t;
 
-struct FSectionRange
+/// What of a range's sections counts for the whole.
+struct FRangeFlags
+{
+	bool bMasked = false;        ///< alpha tests run on some part
+	bool bDoubleSided = false;   ///< all materials are double-sided
+	bool bEmissive = false;      ///< some material emits
+	bool bLightEmission = false; ///< some material lights otherwise than it looks: FMaterialData::LightEmissive
+	friend bool operator==(const FRangeFlags&, const FRangeFlags&) = default;
+};
+
+struct FSectionRange : FRangeFlags
 {
 	const FRTGeometry* Geometry = nullptr; ///< null if no range has this id
 	std::vector<uint32_t> Materials;       ///< per section
 	uint32_t First = 0;                    ///< section number of its first entry
 	uint32_t Count = 0;                    ///< number of entries: the geometry's part capacity
 	uint32_t References = 0;
-	bool bMasked = false;      ///< alpha tests run on some part
-	bool bDoubleSided = false; ///< all materials are double-sided
-	bool bEmissive = false;    ///< some material emits
 };
 
 /// What sections are made from beside geometry; owned by FSceneMaterials, which tells the table of changes.
@@ -64,6 +71,7 @@ public:
 	uint32_t GetRangeCapacity() const { return static_cast<uint32_t>(Ranges.size()); }
 	uint32_t GetRangeCount() const { return RangeCount; } ///< in use
 	uint32_t GetMaskedRangeCount() const { return MaskedRangeCount; }
+	uint32_t GetLightEmissionRangeCount() const { return LightEmissionRangeCount; }
 	uint32_t GetEmissiveRangeCount() const { return EmissiveRangeCount; }
 
 	/// Tells whether MaterialChanged would do anything. False for an animated colour, for example.
@@ -130,7 +138,7 @@ private:
 	void FillPart(FSectionRangeId Id, uint32_t Part);
 	void FillRange(FSectionRangeId Id);
 	void UpdateFlags(FSectionRangeId Id);
-	void SetFlags(FSectionRangeId Id, bool bMasked, bool bDoubleSided, bool bEmissive);
+	void SetFlags(FSectionRangeId Id, const FRangeFlags& New);
 	void MarkRange(FSectionRangeId Id);
 	/// Returns whether the hit program was another.
 	bool Write(uint32_t Section, const FSectionData& Data, FHitProgram Program);
@@ -143,7 +151,7 @@ private:
 	std::deque<FRangeLinks> Links;
 	std::vector<FSectionRangeId> FreeIds;
 	std::vector<FSectionRangeId> Buckets; // a power of two
-	uint32_t RangeCount = 0, MaskedRangeCount = 0, EmissiveRangeCount = 0;
+	uint32_t RangeCount = 0, MaskedRangeCount = 0, EmissiveRangeCount = 0, LightEmissionRangeCount = 0;
 	std::deque<std::vector<FSectionRangeId>> RangesOfGeometry; // by its slot
 	std::vector<std::vector<FMaterialUse>> UsesOfMaterial;
 
