@@ -72,8 +72,8 @@ protected:
 		SetVariable("r.RT.Lights.Denoise", "0");
 		return Render(
 		    [&](IRTModuleRenderer& Renderer) {
-			    AddPlate(Renderer, bCharacter);
-			    AddLights(Renderer);
+			AddPlate(Renderer, bCharacter);
+			AddLights(Renderer);
 		    },
 		    FSignalSet{ESignal::SunShadow, ESignal::LocalDiffuse});
 	}

@@ -49,7 +49,7 @@ protected:
 	TRTRef<IRTModule> Module;
 	TRTRef<IRTDevice> Device;
 	TRTRef<IRTTexture> Depth, Normals, BaseColor, Material;
-	TRTRef<IRTTexture> Classes;               ///< null: the engine has none
+	TRTRef<IRTTexture> Classes;           ///< null: the engine has none
 	std::vector<TRTRef<IRTBuffer>> Owned; ///< the engine's memory behind imported buffers
 
 private:
