@@ -8,14 +8,14 @@
 #include "LightBox.glsl"
 #include "Regions.glsl"
 
-const uint TileSamplers = 8u; // pixels that weights are made for
+const uint TileSamplers = 4u; // pixels that weights are made for
 const float BoundShare = 0.5; // of the weight of a sampler: what bounds weigh
 const float LeastVisibility = 0.05; // that is expected: a hidden light is asked less often, but never never
 
 shared float Cumulative[TILE_TABLE_MOST]; // sum of the weights up to and with a light's
 shared uint TableEntries[TILE_TABLE_MOST]; // light, and its expected visibility in the highest 8 bits
 shared float TableStands[TILE_TABLE_MOST]; // see FLightRegion::Stands
-shared uvec2 Estimates[TILE_TABLE_MOST]; // of what each sampler receives, a byte each
+shared uint Estimates[TILE_TABLE_MOST]; // of what each sampler receives, a byte each
 shared float Totals[TileSamplers + 1u][TILE_PIXELS]; // over the run of each thread: of samplers, and of bounds
 shared float RunSums[TILE_PIXELS];
 shared uint RunCounts[TILE_PIXELS];
@@ -40,7 +40,7 @@ const uint NoTile = 0xffffffffu, NoGuideLight = 0xffffffffu;
 uint EntryLight(uint Entry) { return Entry & ((1u << LIGHT_INDEX_BITS) - 1u); }
 float EntryVisibility(uint Entry) { return float(Entry >> LIGHT_INDEX_BITS) / 255.0; }
 
-// Chooses a pixel of each eighth of the tile, another one in each frame.
+// Chooses a pixel of each quarter of the tile, another one in each frame.
 void ChooseSamplers(FViewConstants View, FLocalPoint Point, bool bSurface, uint Place)
 {
 	if (Place < TileSamplers) { SamplerKeys[Place] = 0u; }
@@ -134,7 +134,7 @@ uint PackEstimate(float Estimate)
 	return Estimate > 0.0 ? uint(clamp(int(floatBitsToUint(Estimate) >> EstimateShift) - int(LeastEstimate), 1, 255)) : 0u;
 }
 float UnpackEstimate(uint Packed) { return Packed > 0u ? uintBitsToFloat((Packed + LeastEstimate) << EstimateShift) : 0.0; }
-float UnpackEstimate(uvec2 Packed, uint I) { return UnpackEstimate((Packed[I >> 2u] >> (8u * (I & 3u))) & 255u); }
+float UnpackEstimate(uint Packed, uint I) { return UnpackEstimate((Packed >> (8u * I)) & 255u); }
 
 // Returns about what the pixels that a sampler stands for receive of a light.
 float EstimateAround(FSceneConstants Scene, FLightData Light, uint I)
@@ -196,11 +196,11 @@ void EstimateLights(FSceneConstants Scene, FViewConstants View, FRun Run, uint P
 		uint Light = TableEntries[I];
 		float Visibility = 1.0, Bound = min(BoundEntry(Scene, Light, Low, High), 1.0e30);
 		if (CastsShadow(Scene, Light)) { Visibility = max(ExpectVisibility(View, Light), LeastVisibility); }
-		uvec2 Packed = uvec2(0u);
+		uint Packed = 0u;
 		[[dont_unroll]] for (uint S = 0u; S < TileSamplers; ++S)
 		{
 			uint Byte = PackEstimate(EstimateEntry(Scene, Light, S));
-			Packed[S >> 2u] |= Byte << (8u * (S & 3u));
+			Packed |= Byte << (8u * S);
 			Totals[S][Place] += UnpackEstimate(Byte) * (Visibility * TableStands[I]);
 		}
 		Totals[TileSamplers][Place] += Bound * (Visibility * TableStands[I]);
@@ -226,7 +226,7 @@ float WeighLights(FSceneConstants Scene, FRun Run, uint TileHash)
 	[[dont_unroll]] for (uint I = Run.Begin; I < Run.End; ++I)
 	{
 		float Bound = Cumulative[I] * BoundScale, Weight = Bound;
-		uvec2 Packed = Estimates[I];
+		uint Packed = Estimates[I];
 #ifdef ONE_SAMPLER // r.RT.Debug.Lights.CellTarget
 		Weight = UnpackEstimate(Packed, 0u);
 #else

@@ -1,6 +1,5 @@
-// Asks for more sun rays where one cannot tell and no history helps: at borders of shadows that have just come into view, or that are
-// narrower than the filter can carry from frame to frame
-// while the picture moves, and of those that move.
+// Asks for more sun rays where one cannot tell and no history helps: in penumbrae that have just come into view, in all but wide ones
+// while the picture moves, and in those that move. A penumbra shows by rays of the neighbourhood that differ, or by what the history has seen.
 #version 460
 #include "../Shared/MoreRaysTypes.h"
 #include "../Library/GBuffer.glsl"
@@ -13,8 +12,9 @@ layout(push_constant, scalar) uniform FPush { FMoreRaysConstants Push; };
 
 const int RingSize = TILE_SIZE + 2;       // the tile with a ring of neighbours
 const uint SeesSun = 1u, SeesNone = 2u;   // answers of a pixel; 0: it had none to give
-const float WideEnough = 2.0;             // pixels: a penumbra that histories can be resampled in
+const float WideEnough = 12.0;             // pixels: a penumbra that histories can be resampled in
 const float LeastCoverage = 0.5;          // of a history
+const float LeastShare = 0.03;            // of the sun, that a history has seen, or not seen, in a penumbra
 
 shared uint States[RingSize * RingSize], Wanted[2], FirstRequest, bTouched, NearestBits, FarthestBits;
 
@@ -63,15 +63,32 @@ float MeasureWidth(FViewConstants View, ivec2 Pixel, FSurface Surface)
 	return Count > 0.0 ? Sum / Count * Facing / PixelHeight(View, Surface.Distance) : 0.0;
 }
 
-bool NeedsMore(FViewConstants View, ivec2 Pixel)
+// Whether a penumbra was at the pixel's place. Where all rays of the neighbourhood agree by chance, nothing else tells.
+bool WasPenumbra(FReprojection R)
 {
-	if (Push.PreviousSurface == NO_TEXTURE || bTouched != 0u) { return true; }
+	if (Push.History == NO_TEXTURE) { return false; }
+	float Low = 1.0, High = 0.0;
+	for (int Tap = 0; Tap < 4; ++Tap)
+	{
+		if (R.Weights[Tap] < 0.01) { continue; }
+		float Seen = texelFetch(Textures[Push.History], GetTap(R, Tap), 0).x;
+		Low = min(Low, Seen);
+		High = max(High, Seen);
+	}
+	return High > LeastShare && Low < 1.0 - LeastShare;
+}
+
+// bBorder: rays of the neighbourhood differ.
+bool NeedsMore(FViewConstants View, ivec2 Pixel, bool bBorder)
+{
+	if (Push.PreviousSurface == NO_TEXTURE || bTouched != 0u) { return bBorder; }
 	FSurface Surface = LoadSurface(Push.Surface, Pixel);
 	vec4 Motion = texelFetch(Textures[Push.Motion], Pixel, 0);
 	FReprojection R = Reproject(View, Push.PreviousSurface, uvec2(Pixel), Surface, Motion, -CameraRay(View, vec2(Pixel) + 0.5));
-	if (R.Coverage < LeastCoverage || MovedItself(View, Surface.Distance, uvec2(Pixel), Motion)) { return true; }
+	if (R.Coverage < LeastCoverage || MovedItself(View, Surface.Distance, uvec2(Pixel), Motion)) { return bBorder; }
 	// A history of the very same point needs no interpolation.
 	if (!any(greaterThan(R.Fraction * (1.0 - R.Fraction), vec2(1.0e-4)))) { return false; }
+	if (!bBorder && !WasPenumbra(R)) { return false; }
 	return MeasureWidth(View, Pixel, Surface) < WideEnough;
 }
 
@@ -113,7 +130,7 @@ void main()
 	barrier();
 	bool bAsked = IsMarked(Tile.SunRays, Place) && States[(At.y + 1u) * RingSize + At.x + 1u] != 0u;
 	FindTouched(View, bAsked, ivec2(Pixel));
-	bool bWanted = bAsked && JoinStates(At) == (SeesSun | SeesNone) && NeedsMore(View, ivec2(Pixel));
+	bool bWanted = bAsked && NeedsMore(View, ivec2(Pixel), JoinStates(At) == (SeesSun | SeesNone));
 	if (bWanted) { atomicOr(Wanted[Word], Bit); }
 	barrier();
 	uint Count = bitCount(Wanted[0]) + bitCount(Wanted[1]);

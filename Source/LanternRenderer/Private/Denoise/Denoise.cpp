@@ -10,7 +10,6 @@
 #include "Denoise/SurfaceHistory.h"
 #include "DenoiseTypes.h"
 #include "LanternCore/Config/ConsoleVariables.h"
-#include "LanternCore/FrameGraph/History.h"
 #include "PassTools.h"
 
 namespace Lantern
@@ -68,6 +67,13 @@ FShaderSource MakeTemporalSource(bool bColor, bool bExtent)
 }
 
 FShaderSource MakeFilterSource(bool bColor, bool bExtent) { return MakeComputeSource("Denoise/Filter.comp", MakeDefines(bColor, bExtent)); }
+
+bool Require(FFrameContext& Context, const std::string& Name, ERTFormat Format, FHistoryTexture& Out)
+{
+	const FRTStatus Status = Context.History->GetTexture(Name.c_str(), {Context.Width, Context.Height, Format}, Out);
+	if (!Status) { Context.Fail(Status); }
+	return bool(Status);
+}
 
 FGraphTexture FDenoiser::CreateImage(bool bLast, uint32_t Index) const
 {
@@ -163,6 +169,11 @@ FShaderDefines MakeValidationDefines()
 	return CVarValidate.GetOnRenderThread() ? FShaderDefines{} : FShaderDefines{{"NO_VALIDATION", "1"}};
 }
 
+bool RequireDenoiseHistory(FFrameContext& Context, const char* Name, FHistoryTexture& Out)
+{
+	return Require(Context, std::string(Name) + "History", ERTFormat::RGBA16_FLOAT, Out);
+}
+
 void ListDenoiseShaders(bool bColor, bool bExtent, const FDenoiseSettings& Settings, std::vector<FShaderSource>& Out)
 {
 	Out.push_back(MakeTemporalSource(bColor, bExtent));
@@ -183,16 +194,9 @@ FGraphTexture AddDenoise(FFrameContext& Context, const FGBuffer& GBuffer, const 
 	Denoiser.Filter = Passes > 0 ? RequireCompute(Context, MakeFilterSource(bColor, Inputs.Extent.IsValid())) : nullptr;
 	if (!Denoiser.Temporal || (Passes > 0 && !Denoiser.Filter)) { return Inputs.Signal; }
 	if (!RequireSurface(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion})) { return Inputs.Signal; }
-	const auto Require = [&](const char* Suffix, ERTFormat Kept, FHistoryTexture& Out) {
-		return Context.History->GetTexture((Denoiser.Name + Suffix).c_str(), {Context.Width, Context.Height, Kept}, Out);
-	};
-	FRTStatus Status = Require("History", ERTFormat::RGBA16_FLOAT, Denoiser.History);
-	if (Status && bColor) { Status = Require("Moments", ERTFormat::RG16_FLOAT, Denoiser.Moments); }
-	if (!Status)
-	{
-		Context.Fail(Status);
-		return Inputs.Signal;
-	}
+	Denoiser.History = Inputs.History;
+	if (!Denoiser.History.Current.IsValid() && !RequireDenoiseHistory(Context, Inputs.Name, Denoiser.History)) { return Inputs.Signal; }
+	if (bColor && !Require(Context, Denoiser.Name + "Moments", ERTFormat::RG16_FLOAT, Denoiser.Moments)) { return Inputs.Signal; }
 	if (IsDebugPicture(Denoiser.Name + ConfidencePicture) || IsDebugPicture(Denoiser.Name + ChangePicture))
 	{
 		Denoiser.Picture = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA8_UNORM}, "HistoryView");

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "Denoise/DenoiseVariables.h"
+#include "LanternCore/FrameGraph/History.h"
 #include "LanternRenderer/Frame.h"
 #include "Tiles/MovedCasters.h"
 
@@ -34,6 +35,7 @@ struct FDenoiseInputs
 	/// Invalid: nothing is known of a change.
 	FGraphTexture Change;
 	FShadowChanges Changes; ///< of sun shadows; others look for changes in the signal itself
+	FHistoryTexture History; ///< what RequireDenoiseHistory gave in this frame; Current is invalid: nobody called it
 };
 
 /// Pictures of the filter's history for r.RT.Debug.View: FDenoiseInputs::Name, and one of these.
@@ -41,6 +43,9 @@ inline constexpr const char *ConfidencePicture = ".confidence", *ChangePicture =
 
 /// The defines of shaders that ask Library/History.glsl for a surface's history, by planted faults.
 FShaderDefines MakeValidationDefines();
+/// Finds the history of a signal before it is filtered, for passes that read what was there before. Once a frame: FDenoiseInputs::History
+/// hands it on. Its channels are those of FTemporalConstants. False: an error, which the context has.
+bool RequireDenoiseHistory(FFrameContext& Context, const char* Name, FHistoryTexture& Out);
 /// Lists the compute shaders of the filter. bColor: three channels. bExtent: FDenoiseInputs::Extent is valid.
 void ListDenoiseShaders(bool bColor, bool bExtent, const FDenoiseSettings& Settings, std::vector<FShaderSource>& Out);
 

@@ -69,7 +69,7 @@ std::shared_ptr<const FShadowRays> AddShadowRays(FFrameContext& Context, const F
 	const FShadowRayWishes& Wishes = Asked->Wishes;
 	if (Wishes.MoreSunRays > 0 && Rays.Queue.SunWidths.IsValid())
 	{
-		AddMoreRays(Context, GBuffer, Asked->Dispatch, Rays.Queue, Rays.Traced, Rays.Tiles, Rays.Changes);
+		AddMoreRays(Context, GBuffer, Asked->Dispatch, Rays.Queue, Rays.Traced, Rays.Tiles, Rays.Changes, Rays.SunHistory);
 	}
 	return std::make_shared<const FShadowRays>(std::move(Rays));
 }

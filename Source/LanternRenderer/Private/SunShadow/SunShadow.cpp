@@ -220,6 +220,7 @@ FGraphTexture AddSunShadowPass(FFrameContext& Context, const FGBuffer& GBuffer)
 	Inputs.Signal = Visibility;
 	Inputs.RaysPerPixel = static_cast<uint32_t>(CVarSamples.GetOnRenderThread());
 	Inputs.Extent = Penumbra;
+	Inputs.History = RequireShadowRays(Context, GBuffer)->SunHistory;
 	return AddDenoise(Context, GBuffer, Inputs, Denoise);
 }
 

@@ -12,8 +12,9 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<int32_t> CVarMoreRays("r.RT.Shadow.MoreRays", 8,
-    "Further sun rays of a pixel at the border of a shadow, where the filter has no history to rely on. This is what has just come into "
-    "view, narrow penumbrae while the picture moves, and shadows of what moves. Needs r.RT.Shadow.Denoise and soft shadows. 0: none.",
+    "Further sun rays of a pixel in a penumbra, where the filter has no history to rely on. This is what has just come into view, all but "
+    "wide penumbrae while the picture moves, and shadows of what moves. Powers of two spread best. Needs r.RT.Shadow.Denoise and soft "
+    "shadows. 0: none.",
     {0, 32});
 
 FShaderSource MakeSource() { return MakeComputeSource("Tiles/MoreRays.comp", MakeValidationDefines()); }
@@ -26,7 +27,7 @@ bool IsSameView(const FView& A, const FView& B)
 }
 
 void AddAskPass(FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue& More, FGraphBuffer Tiles, const FShadowChanges& Changes,
-    uint32_t Samples)
+    FGraphTexture History, uint32_t Samples)
 {
 	const FFrameContext* const Frame = &Context;
 	const FSurfaceTextures Surface = Context.Surface;
@@ -38,6 +39,7 @@ void AddAskPass(FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue& 
 		{
 			if (bPrevious) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
+		if (History.IsValid()) { Builder.Read(History, ERTAccess::ShaderRead); }
 		for (const FGraphBuffer Buffer : {More.Requests, More.Counters}) { Builder.Write(Buffer, ERTAccess::StorageWrite); }
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
@@ -57,6 +59,7 @@ void AddAskPass(FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue& 
 			C.Surface = GetSampledIndex(Pass, Surface.Current);
 			C.PreviousSurface = GetSampledIndex(Pass, bPrevious ? Surface.Previous : FGraphTexture{});
 			C.Motion = GetSampledIndex(Pass, bPrevious ? Surface.Motion : FGraphTexture{});
+			C.History = GetSampledIndex(Pass, History);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
@@ -72,16 +75,17 @@ void ListMoreRaysShaders(std::vector<FShaderSource>& Out)
 }
 
 void AddMoreRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue,
-    const FQueuedRays& Rays, FGraphBuffer Tiles, const FShadowChanges& Changes)
+    const FQueuedRays& Rays, FGraphBuffer Tiles, const FShadowChanges& Changes, FHistoryTexture& OutHistory)
 {
 	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSource());
 	if (!Pipeline || !RequireSurface(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion})) { return; }
 	const bool bHistory = Context.PreviousView && Context.Surface.Previous.IsValid();
 	if (bHistory && Changes.CasterCount == 0 && IsSameView(Context.View, *Context.PreviousView)) { return; }
+	if (!RequireDenoiseHistory(Context, "SunShadow", OutHistory)) { return; }
 	const FRayQueue More = CreateFurtherQueue(Context, Queue, "More");
 	FQueuedRays Traced = Rays;
 	Traced.MoreSamples = GetMoreRays();
-	AddAskPass(Context, Pipeline, More, Tiles, Changes, Traced.MoreSamples);
+	AddAskPass(Context, Pipeline, More, Tiles, Changes, OutHistory.Previous, Traced.MoreSamples);
 	AddShadowRaysPass(Context, GBuffer, Dispatch, More, Traced);
 }
 
