@@ -261,22 +261,22 @@ TEST(ShippedConfig, EveryGroupSetsTheSameVariablesAtEveryLevel)
 TEST(ShippedConfig, ProfilesLeaveQualityAlone)
 {
 	std::set<std::string> OfQuality;
-	const FIniFile Levels = FIniFile::Load(Shipped.GetScalability()), Profiles = FIniFile::Load(Shipped.GetDeviceProfiles());
+	const FIniFile Levels = FIniFile::Load(Shipped.GetScalability()), Devices = FIniFile::Load(Shipped.GetDeviceProfiles());
 	for (const FIniSection& Section : Levels.GetSections())
 	{
 		for (const FIniEntry& Entry : Section.Entries) { OfQuality.insert(Entry.Key); }
 	}
-	size_t Settings = 0;
-	for (const FIniSection& Section : Profiles.GetSections())
+	size_t Count = 0;
+	for (const FIniSection& Section : Devices.GetSections())
 	{
 		for (const FIniEntry& Entry : Section.Entries)
 		{
 			if (Entry.Key != "CVars") { continue; }
-			++Settings;
+			++Count;
 			EXPECT_EQ(OfQuality.count(Entry.Value.substr(0, Entry.Value.find('='))), 0u) << Section.Name << ": " << Entry.Value;
 		}
 	}
-	EXPECT_GT(Settings, 0u);
+	EXPECT_GT(Count, 0u);
 }
 
 /// The levels that the design of lights asks for. Worse levels leave out more, and have less memory.
