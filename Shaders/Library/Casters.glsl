@@ -7,7 +7,11 @@
 
 // bCharacter: the surface is a character's. Raster shadow maps hold characters apart for this: faces have no self-shadow.
 uint SunCasters(bool bCharacter) { return bCharacter ? MASK_SUN_CASTERS & ~MASK_CHARACTER : MASK_SUN_CASTERS; }
+#ifdef ONE_CASTER // r.RT.Debug.Lights.Casters
+uint LocalCasters(bool bCharacter) { return SunCasters(bCharacter); }
+#else
 uint LocalCasters(bool bCharacter) { return bCharacter ? MASK_LOCAL_CASTERS & ~MASK_CHARACTER : MASK_LOCAL_CASTERS; }
+#endif
 
 #ifdef HAS_CHARACTERS
 // Whether a pixel shows a character: by FGBuffer::Classes, or by the object that FGBuffer::Motion names.

@@ -1,4 +1,5 @@
 // Who casts shadows on whom: characters, and objects that shadow from the sun alone. By the reference, against light by formula.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -146,6 +147,61 @@ TEST_F(FCasterTest, TreesMayShadowFromTheSunAlone)
 	EXPECT_NEAR(Trace(-0.5, 0.0), LitByLamp(0.0), 2e-3 * LitByLamp(0.0));
 	UseLamp(0.5);
 	EXPECT_NEAR(Trace(0.5, 1.0), LitByLamp(1.0), 2e-3 * LitByLamp(1.0)) << "below the roof";
+}
+
+// The same in the signals: the sun's shadow is that of any other thing, and a lamp sees the floor.
+TEST_F(FCasterTest, SignalsOfTreesThatShadowFromTheSunAlone)
+{
+	const auto Measure = [&](ESignal Signal) {
+		return MeanGreen(RenderSignal(Signal, LookAt({-0.5, 0.3, 3.0}, {-0.5, 0, 0}, 0.0005f, 8, 8)));
+	};
+	SetVariable("r.RT.Lights.Denoise", "0");
+	SetVariable("r.RT.Shadow.Denoise", "0");
+	for (const char* const Path : {"1", "2"})
+	{
+		SetVariable("r.RT.Shadow.Path", Path);
+		for (const bool bLocal : {true, false})
+		{
+			LoadPlates({.bCastsLocalShadow = bLocal});
+			UseSun();
+			EXPECT_EQ(Measure(ESignal::SunShadow), 0.0) << bLocal;
+			UseLamp(-0.5);
+			const double Lit = LitByLamp(0.0) / double(Albedo); // over the albedo
+			EXPECT_NEAR(Measure(ESignal::LocalDiffuse), bLocal ? 0.0 : Lit, 0.005 * Lit) << bLocal;
+		}
+		SetVariable("r.RT.Debug.Lights.Casters", "0");
+		EXPECT_EQ(Measure(ESignal::LocalDiffuse), 0.0) << "the planted fault goes unnoticed";
+		SetVariable("r.RT.Debug.Lights.Casters", "1");
+	}
+}
+
+// A plane of one side casts from a lamp as a shadow map with or without culling has it.
+TEST_F(FCasterTest, FacesOfSingleSidedPlanesCastFromLamps)
+{
+	SetVariable("r.RT.Lights.Denoise", "0");
+	for (const bool bTowards : {true, false})
+	{
+		FTestScene Out("faces");
+		FTestScene::FQuad Plate = FTestScene::MakeFloor(Out.AddLambert(glm::vec3(Albedo)), 1.0f, 1.0f);
+		if (!bTowards) { std::reverse(std::begin(Plate.P), std::end(Plate.P)); }
+		Out.AddNode(Out.AddMesh({FTestScene::MakeFloor(Out.AddLambert(glm::vec3(Albedo), glm::vec3(0), true), 8.0f)}));
+		Out.AddNode(Out.AddMesh({Plate}));
+		ASSERT_TRUE(Load(std::move(Out.Scene)));
+		Lamp = {};
+		SetSky({});
+		UseLamp(0.0);
+		for (const char* const Path : {"1", "2"})
+		{
+			SetVariable("r.RT.Shadow.Path", Path);
+			for (const int Faces : {0, 1, 2})
+			{
+				SetVariable("r.RT.Shadow.CasterFaces", std::to_string(Faces));
+				const FImage Floor = RenderSignal(ESignal::LocalDiffuse, LookAt({0, 0.3, 3.0}, {0, 0, 0}, 0.0005f, 8, 8));
+				const bool bCasts = Faces == 0 || (Faces == 1) == bTowards;
+				EXPECT_EQ(MeanGreen(Floor) > 0.0, !bCasts) << "towards the lamp " << bTowards << ", faces " << Faces << ", path " << Path;
+			}
+		}
+	}
 }
 
 TEST_F(FCasterTest, HiddenThingsCastShadows)

@@ -1,10 +1,8 @@
 // Shadowed local lights against the reference, in tiles of few and of many lights; queues without room; numbers that break others.
 #include <cmath>
 
-#include <glm/gtc/matrix_transform.hpp>
-
 #include "LanternImage/ImageStatistics.h"
-#include "SignalFixture.h"
+#include "LocalLightsFixture.h"
 
 namespace Lantern
 {
@@ -13,62 +11,14 @@ namespace
 {
 constexpr ESignal Lobes[] = {ESignal::LocalDiffuse, ESignal::LocalSpecular};
 
-class FLocalLightsTest : public FSignalTest
+class FLocalLightsTest : public FLocalLightsFixture
 {
 protected:
 	void SetUp() override
 	{
-		FSignalTest::SetUp();
+		FLocalLightsFixture::SetUp();
 		SetVariable("r.RT.Lights.Denoise", "0"); // the filter weighs outliers less
 	}
-	/// A floor of which half is glossy, four posts on it, and no light.
-	void LoadPosts()
-	{
-		FTestScene Scene("posts");
-		FHostMaterial Glossy;
-		Glossy.BaseColor = glm::vec4(0.6f, 0.4f, 0.3f, 1.0f);
-		Glossy.Metallic = 0.0f;
-		Glossy.Roughness = 0.4f;
-		const int32_t Floor = Scene.AddLambert(glm::vec3(0.5f)), Shiny = Scene.AddMaterial(Glossy);
-		Scene.AddNode(Scene.AddMesh({FTestScene::MakeFloor(Floor, 4.0f, 0.0f, {-4, 0}), FTestScene::MakeFloor(Shiny, 4.0f, 0.0f, {4, 0})}));
-		const int32_t Post = Scene.AddMesh(
-		    {{Scene.AddLambert(glm::vec3(0.5f), glm::vec3(0), true), {{-0.3f, 0, 0}, {0.3f, 0, 0}, {0.3f, 1.2f, 0}, {-0.3f, 1.2f, 0}}}});
-		for (const glm::dvec3 At : {glm::dvec3(-1.5, 0, 0.3), {-0.4, 0, -0.6}, {0.6, 0, 0.5}, {1.6, 0, -0.4}})
-		{
-			Scene.AddNode(Post, glm::translate(glm::dmat4(1), At));
-		}
-		ASSERT_TRUE(Load(std::move(Scene.Scene)));
-		SetSun(0.0, 0.0f);
-		SetSky(glm::vec3(0));
-	}
-	static FRTScene& GetWorld() { return GetScene().GetScene(); }
-	/// Point lights over the floor, every fourth one a sphere, every fifth a spot.
-	static std::vector<FLightId> AddLamps(uint32_t Count)
-	{
-		std::vector<FLightId> Ids;
-		for (uint32_t I = 0; I < Count; ++I)
-		{
-			const double Angle = 2.4 * I, Far = 2.6 * std::sqrt((I + 0.5) / Count);
-			FSceneLight Light;
-			Light.Position = {Far * std::cos(Angle), 0.5 + 0.13 * (I % 9), Far * std::sin(Angle)};
-			Light.Color = glm::vec3(1.0f + float(I % 3), 1.5f, 0.7f + 0.4f * float(I % 5)) * (4.0f / float(Count));
-			Light.Range = I % 2 == 0 ? 0.0f : 3.0f;
-			if (I % 4 == 3)
-			{
-				Light.Type = LIGHT_SPHERE;
-				Light.Size = {0.1, 0};
-				Light.Color *= 30.0f;
-			}
-			if (I % 5 == 4)
-			{
-				Light.InnerCone = 0.4f;
-				Light.OuterCone = 0.9f;
-			}
-			Ids.push_back(GetWorld().AddLight(Light));
-		}
-		return Ids;
-	}
-	static FView LookAtPosts(uint32_t Width, uint32_t Height) { return LookAt({0, 3.0, 4.5}, {0, 0.2, 0}, 0.9f, Width, Height); }
 };
 
 TEST_F(FLocalLightsTest, FewAndManyAsTheReference)
@@ -237,6 +187,44 @@ TEST_F(FLocalLightsTest, LightsWithoutShadowsShineThroughPosts)
 	EXPECT_GT(MeanGreen(RenderSignal(ESignal::LocalDiffuse, View)), 1.02 * Shadowed);
 }
 
+// Either way to take shadows away makes one picture, and so does either renderer.
+TEST_F(FLocalLightsTest, KindsOfLightsLoseTheirShadows)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadPosts());
+	SetVariable("r.RT.Lights.Exact", "8"); // no guide: frames depend on no others
+	const std::vector<FLightId> Ids = AddLamps(5);
+	FSceneLight Panel = GetWorld().GetLights().Get(Ids[0]);
+	Panel.Type = LIGHT_DISK;
+	Panel.Size = {0.2, 0};
+	Panel.Color *= 10.0f;
+	GetWorld().SetLight(Ids[0], Panel);
+	const FView View = LookAtPosts(64, 36);
+	const auto Render = [&] { return RenderSignal(ESignal::LocalDiffuse, View, 1, 3).Pixels; };
+	const auto Trace = [&] { return TraceSignal(ESignal::LocalDiffuse, View, 4, 1).Pixels; };
+	const std::vector<float> Shadowed = Render();
+	const std::pair<const char*, ELightKind> Kinds[] = {{"r.RT.Lights.Shadows.Point", ELightKind::Point},
+	    {"r.RT.Lights.Shadows.Spot", ELightKind::Spot}, {"r.RT.Lights.Shadows.Rect", ELightKind::Rect}};
+	for (const auto& [Variable, Kind] : Kinds)
+	{
+		SetVariable(Variable, "0");
+		const std::vector<float> ByKind = Render(), ReferenceByKind = Trace();
+		SetVariable(Variable, "1");
+		std::vector<FSceneLight> Before;
+		for (const FLightId Id : Ids)
+		{
+			FSceneLight Light = GetWorld().GetLights().Get(Id);
+			Before.push_back(Light);
+			Light.bCastsShadow = GetLightKind(Light) != Kind;
+			GetWorld().SetLight(Id, Light);
+		}
+		EXPECT_EQ(ByKind, Render()) << Variable;
+		EXPECT_EQ(ReferenceByKind, Trace()) << Variable;
+		EXPECT_NE(ByKind, Shadowed) << Variable;
+		for (size_t I = 0; I < Ids.size(); ++I) { GetWorld().SetLight(Ids[I], Before[I]); }
+	}
+	EXPECT_EQ(Render(), Shadowed);
+}
+
 // Rays without room take the mean of their tile's others. Which rays have room does not depend on the order of tiles.
 TEST_F(FLocalLightsTest, QueueWithoutRoom)
 {
@@ -263,6 +251,33 @@ TEST_F(FLocalLightsTest, QueueWithoutRoom)
 		EXPECT_EQ(Small[3].Pixels, Right[3].Pixels) << "the queue has grown";
 		for (const FImage& Picture : Play("0.01")) { EXPECT_EQ(CountNonFinitePixels(Picture), 0u); }
 	}
+}
+
+// Room for 1 % of the rays: after a second, nothing of it is left in what the filter has accumulated.
+TEST_F(FLocalLightsTest, FilteredPictureAfterAQueueWithoutRoom)
+{
+	ASSERT_NO_FATAL_FAILURE(LoadPosts());
+	SetVariable("r.RT.Lights.Denoise", "1");
+	AddLamps(12);
+	const FView View = LookAtPosts(64, 36);
+	const FImage Truth = TraceSignal(ESignal::LocalDiffuse, View, 256, 1);
+	const auto Play = [&](const char* PerPixel, uint32_t Frames) {
+		SetVariable("r.RT.Rays.QueuePerPixel", PerPixel);
+		GetEngine().SetFrameIndex(0);
+		EXPECT_OK(GetEngine().RenderFrame(MakeView(8, 8), 0.0, {}, nullptr)); // another size: nothing to keep
+		FImage Picture;
+		for (uint32_t Frame = 0; Frame < Frames; ++Frame) { Picture = RenderSignal(ESignal::LocalDiffuse, View, 1, Frame); }
+		return Picture;
+	};
+	const auto GetError = [&](const FImage& Picture) {
+		double Sum = 0.0;
+		for (size_t I = 1; I < Truth.Pixels.size(); I += Truth.Channels) { Sum += std::pow(Picture.Pixels[I] - Truth.Pixels[I], 2); }
+		return std::sqrt(Sum);
+	};
+	const double Ratio = GetError(Play("0.01", 60)) / GetError(Play("8", 60));
+	PrintFigure(fmt::format("error after a queue without room over that of one with room: {:.3f}", Ratio));
+	EXPECT_LE(Ratio, 1.5);
+	EXPECT_NE(Play("0.011", 1).Pixels, Play("8.5", 1).Pixels) << "there was room for all";
 }
 
 TEST_F(FLocalLightsTest, OddSizes)

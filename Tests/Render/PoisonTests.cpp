@@ -116,5 +116,64 @@ TEST_F(FPoisonTest, NoPictureHasANumberThatIsNone)
 	}
 }
 
+/// Memory of many lamps: the guide of tiles, and the histories of either lobe. What was poisoned has gone a frame later.
+TEST_F(FPoisonTest, LampsForgetWhatIsNoNumber)
+{
+	ASSERT_TRUE(Load("courtyard"));
+	SetSun(0.0, 0.0f);
+	SetSky({});
+	for (int I = 0; I < 12; ++I)
+	{
+		FSceneLight Light;
+		Light.Position = {-3.0 + I % 4 * 2.0, 1.0 + 0.2 * I, -2.0 + I / 4 * 2.0};
+		Light.Color = glm::vec3(3);
+		GetScene().GetScene().AddLight(Light);
+	}
+	FFrameCapture Capture;
+	Capture.Signals = {ESignal::LocalDiffuse, ESignal::LocalSpecular};
+	const FView View = MakeView(48, 32);
+	const auto IsNone = [](float Value) { return !std::isfinite(Value); };
+	constexpr uint32_t Frames = 5;
+	/// Of each frame: means of the lobes, and how many values are no numbers.
+	struct FPlayed
+	{
+		double Diffuse[Frames] = {}, Specular[Frames] = {};
+		ptrdiff_t None = 0;
+	};
+	const auto Play = [&](const char* PoisonedIn) {
+		FPlayed Played;
+		SetVariable("r.RT.Debug.PoisonHistory", "0");
+		GetEngine().SetFrameIndex(0);
+		EXPECT_OK(GetEngine().RenderFrame(MakeView(8, 8), 0.0, {}, nullptr)); // another size: nothing to keep
+		for (uint32_t Index = 0; Index < Frames; ++Index)
+		{
+			SetVariable("r.RT.Debug.PoisonHistory", Index == 2 ? PoisonedIn : "0");
+			FCapturedFrame Captured;
+			EXPECT_OK(GetEngine().RenderFrame(View, 0.0, Capture, &Captured));
+			const FImage &Diffuse = Captured.Get(ESignal::LocalDiffuse), &Specular = Captured.Get(ESignal::LocalSpecular);
+			Played.Diffuse[Index] = MeanGreen(Diffuse);
+			Played.Specular[Index] = MeanGreen(Specular);
+			for (const FImage* Image : {&Diffuse, &Specular})
+			{
+				Played.None += std::count_if(Image->Pixels.begin(), Image->Pixels.end(), IsNone);
+			}
+		}
+		return Played;
+	};
+	const FPlayed Right = Play("0"), Poisoned = Play("1");
+	EXPECT_EQ(Right.None + Poisoned.None, 0);
+	EXPECT_NE(Poisoned.Diffuse[2], Right.Diffuse[2]) << "nothing was poisoned";
+	for (uint32_t Index = 0; Index < Frames; ++Index)
+	{
+		EXPECT_GT(Right.Diffuse[Index], 0.0);
+		// A frame without memory is another sample of the same light: 1,536 pixels of one ray scatter by 2 %, highlights by 10 %.
+		EXPECT_NEAR(Poisoned.Diffuse[Index] / Right.Diffuse[Index], 1.0, 0.1) << Index;
+		EXPECT_NEAR(Poisoned.Specular[Index] / Right.Specular[Index], 1.0, 0.5) << Index;
+	}
+	SetVariable("r.RT.Debug.Denoise.Guard", "0");
+	SetVariable("r.RT.Debug.Denoise.Adapt", "0");
+	EXPECT_GT(Play("1").None, 0) << "the planted fault goes unnoticed";
+}
+
 } // namespace
 } // namespace Lantern

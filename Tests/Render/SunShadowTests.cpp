@@ -99,15 +99,19 @@ TEST_F(FSunShadowTest, PenumbraWidthInMillimetres)
 {
 	SetVariable("r.RT.Shadow.Samples", "64");
 	ASSERT_TRUE(Load("penumbra:1"));
-	const FImage Shadow = RenderSunShadow(MakeView(64, 64), 4);
-	const std::vector<double> Curve = MakeColumnMeans(Shadow);
 	// Between the columns where a tenth and nine tenths of the disk are seen lies a known part of the width.
 	double T = 0.0;
 	for (double Step = 0.5; Step > 1e-9; Step /= 2) { T += DiskFraction(T + Step) <= 0.9 ? Step : 0.0; }
-	const double PixelMillimetres = 4.0 * 9.3026 / 64.0;
-	const double Width = (FindCrossing(Curve, 0.9) - FindCrossing(Curve, 0.1)) * PixelMillimetres / T;
+	const auto Measure = [&] {
+		const std::vector<double> Curve = MakeColumnMeans(RenderSunShadow(MakeView(64, 64), 4));
+		const double PixelMillimetres = 4.0 * 9.3026 / 64.0;
+		return (FindCrossing(Curve, 0.9) - FindCrossing(Curve, 0.1)) * PixelMillimetres / T;
+	};
+	const double Width = Measure();
 	PrintFigure(fmt::format("penumbra width per metre: {:.3f} mm (9.30 expected)", Width));
 	EXPECT_NEAR(Width, 9.30, 0.1);
+	SetVariable("r.RT.Shadow.SourceScale", "2");
+	EXPECT_GT(Measure(), 1.9 * 9.30) << "a sun of twice the diameter goes unnoticed";
 }
 
 // Any number of rays gives the same mean; more rays, less scatter.

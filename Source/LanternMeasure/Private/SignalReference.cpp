@@ -80,7 +80,8 @@ void AddObjects(FContentHasher& Hash, const FRTScene& Scene)
 /// Console variables that reach the path tracer beside what its shaders' defines say.
 void AddVariables(FContentHasher& Hash, ESignal Signal)
 {
-	std::vector<std::string> Names = {"r.RT.AlphaTest", "r.RT.Material.Override", "r.RT.Build.MemoryMB", "r.RT.Build.CoarserLevels"};
+	std::vector<std::string> Names = {"r.RT.AlphaTest", "r.RT.Material.Override", "r.RT.Build.MemoryMB", "r.RT.Build.CoarserLevels",
+	    "r.RT.Lights.Shadows.Point", "r.RT.Lights.Shadows.Spot", "r.RT.Lights.Shadows.Rect"};
 	std::istringstream OfSignal(GetSignalInfo(Signal).ReferenceVariables);
 	for (std::string Name; OfSignal >> Name;) { Names.push_back(Name); }
 	for (const std::string& Name : Names)

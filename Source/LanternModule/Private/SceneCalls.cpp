@@ -288,7 +288,7 @@ FRTStatus FSceneCalls::AddLight(const FRTModuleLight& Light, ERTLightHandle* Out
 	if (Light.Ies != ERTIesHandle::None && Profiles.Find(Light.Ies) == nullptr) { return RefuseHandle("AddLight", "profile"); }
 	if (LightCount == FLightStore::MaxLights)
 	{
-		return FRTStatus::Error(ERTResult::Unsupported, "AddLight: there are 2^24 lights, and no more have an index");
+		return FRTStatus::Error(ERTResult::Unsupported, "AddLight: there are 2^23 lights, and no more have an index");
 	}
 	++LightCount;
 	*Out = Lights.Add({});

@@ -16,12 +16,33 @@ TRTConsoleVariable<int32_t> CVarMaterialOverride("r.RT.Material.Override", 0,
     "0: the scene's materials. 1: each a Lambert of its base colour, alpha test kept. 2: each a "
     "Lambert of 0.5.",
     {0, 2});
+TRTConsoleVariable<bool> CVarPointShadows(
+    "r.RT.Lights.Shadows.Point", true, "Point lights, spheres and tubes cast shadows. If off, they shine through everything.");
+TRTConsoleVariable<bool> CVarSpotShadows("r.RT.Lights.Shadows.Spot", true,
+    "Spot lights cast shadows: point lights, spheres and tubes with a cone. If off, they shine through everything.");
+TRTConsoleVariable<bool> CVarRectShadows(
+    "r.RT.Lights.Shadows.Rect", true, "Rectangles and disks cast shadows, with a cone or without. If off, they shine through everything.");
+
+/// Bits of the kinds of lights that cast shadows. They tell the scene, and not the rays alone: the reference, fog and global illumination
+/// have to agree with the shadows of local lights.
+uint32_t GetCastingKinds()
+{
+	uint32_t Kinds = ~0u;
+	const auto Drop = [&](const TRTConsoleVariable<bool>& Variable, ELightKind Kind) {
+		if (!Variable.GetOnRenderThread()) { Kinds &= ~(1u << uint32_t(Kind)); }
+	};
+	Drop(CVarPointShadows, ELightKind::Point);
+	Drop(CVarSpotShadows, ELightKind::Spot);
+	Drop(CVarRectShadows, ELightKind::Rect);
+	return Kinds;
+}
 } // namespace
 
 void ApplySceneVariables(FRTScene& Scene)
 {
 	Scene.SetAlphaTest(CVarAlphaTest.GetOnRenderThread());
 	Scene.SetMaterialOverride(static_cast<uint32_t>(CVarMaterialOverride.GetOnRenderThread()));
+	Scene.SetCastingLights(GetCastingKinds());
 }
 
 FSignalSet AllSignals()

@@ -97,6 +97,11 @@ std::optional<FRayDispatch> RequireRayDispatch(
 {
 	FRayDispatch Dispatch;
 	if (Rays.Path == ERayPath::None) { return std::nullopt; }
+	if (!Rays.bTraces)
+	{
+		Dispatch.Defines = Rays.Defines;
+		return Dispatch;
+	}
 	if (Rays.Path == ERayPath::Pipeline)
 	{
 		Dispatch.RayGen = RayGen;

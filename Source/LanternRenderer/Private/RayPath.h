@@ -35,6 +35,7 @@ struct FPassRays
 	/// false, it casts shadow rays only, and the RTPSO needs no closest-hit shader for it.
 	bool bShadesHits = false;
 	bool bLightSampling = false; ///< its other shaders sample emissive triangles
+	bool bTraces = true;         ///< false: the scene leaves nothing to trace, and only passes around the rays are made
 	bool bBlockers = false;      ///< its shadow rays report the distance of the blocker
 	/// Path of the shaders that trace, without suffix. Empty: the signal's own.
 	std::string Shaders;

@@ -94,7 +94,7 @@ void CollectSignals(FCollector& Collector, const FRTCapabilities& Capabilities, 
 		Collector.Programs.bMotion |= Pass.WantsMotion && Pass.WantsMotion(Scene);
 		Collector.Programs.bMotion |= Pass.AskShadowRays && Facts.bCharacters; // it names the pixels' objects
 		std::vector<FShaderSource>& Compute = Collector.Programs.Compute;
-		if (Rays.Path == ERayPath::Query)
+		if (Rays.Path == ERayPath::Query && Rays.bTraces)
 		{
 			Collector.Programs.bQueries = true;
 			Compute.push_back(MakeQuerySource(Facts, Pass.Signal, Rays));
@@ -106,7 +106,7 @@ void CollectSignals(FCollector& Collector, const FRTCapabilities& Capabilities, 
 			Pass.ListFilters(Scene, Compute);
 			Collector.bFilters |= Compute.size() > Before;
 		}
-		if (Rays.Path == ERayPath::Pipeline)
+		if (Rays.Path == ERayPath::Pipeline && Rays.bTraces)
 		{
 			const std::string RayGen = GetRayShaderPath(Pass.Signal, Rays, ".rgen");
 			Collector.Add(Pass.Signal, std::move(Rays), RayGen);

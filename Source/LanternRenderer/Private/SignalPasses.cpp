@@ -76,7 +76,10 @@ FPassRays ChooseSignalRays(const FFrameContext& Context, ESignal Signal)
 
 void ShareQueueShader(std::array<FPassRays, SignalCount>& Rays)
 {
-	const auto Asks = [&](const FSignalPass& Pass) { return Pass.AskShadowRays && Rays[ToIndex(Pass.Signal)].Path != ERayPath::None; };
+	const auto Asks = [&](const FSignalPass& Pass) {
+		const FPassRays& Its = Rays[ToIndex(Pass.Signal)];
+		return Pass.AskShadowRays && Its.Path != ERayPath::None && Its.bTraces;
+	};
 	FShaderDefines All;
 	ForEachSignalPass([&](const FSignalPass& Pass) {
 		if (!Asks(Pass)) { return; }

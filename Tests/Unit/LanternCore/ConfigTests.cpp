@@ -257,6 +257,50 @@ TEST(ShippedConfig, EveryGroupSetsTheSameVariablesAtEveryLevel)
 	}
 }
 
+/// A profile outranks the quality: what one of them set, no level could change.
+TEST(ShippedConfig, ProfilesLeaveQualityAlone)
+{
+	std::set<std::string> OfQuality;
+	const FIniFile Levels = FIniFile::Load(Shipped.GetScalability()), Devices = FIniFile::Load(Shipped.GetDeviceProfiles());
+	for (const FIniSection& Section : Levels.GetSections())
+	{
+		for (const FIniEntry& Entry : Section.Entries) { OfQuality.insert(Entry.Key); }
+	}
+	size_t Count = 0;
+	for (const FIniSection& Section : Devices.GetSections())
+	{
+		for (const FIniEntry& Entry : Section.Entries)
+		{
+			if (Entry.Key != "CVars") { continue; }
+			++Count;
+			EXPECT_EQ(OfQuality.count(Entry.Value.substr(0, Entry.Value.find('='))), 0u) << Section.Name << ": " << Entry.Value;
+		}
+	}
+	EXPECT_GT(Count, 0u);
+}
+
+/// The levels that the design of lights asks for. Worse levels leave out more, and have less memory.
+TEST(ShippedConfig, LevelsRiseWithQuality)
+{
+	std::map<std::string, std::map<int, double>> Values;
+	const FIniFile File = FIniFile::Load(Shipped.GetScalability());
+	for (const FIniSection& Section : File.GetSections())
+	{
+		for (const FIniEntry& Entry : Section.Entries) { Values[Entry.Key][Section.Name.back() - '0'] = std::stod(Entry.Value); }
+	}
+	for (const char* const Name : {"r.RT.Shadow.Samples", "r.RT.Shadow.MoreRays", "r.RT.Rays.QueuePerPixel", "r.RT.Lights.Exact",
+	         "r.RT.Lights.Rays", "r.RT.Lights.Candidates", "r.RT.Lights.Emissive"})
+	{
+		for (int Level = 1; Level < 5; ++Level) { EXPECT_GE(Values[Name][Level], Values[Name][Level - 1]) << Name << Level; }
+	}
+	for (const char* const Name : {"r.RT.Culling.Shadow.MinPixels", "r.RT.Lights.Rate", "r.RT.Fog.PixelSize"})
+	{
+		for (int Level = 1; Level < 5; ++Level) { EXPECT_LE(Values[Name][Level], Values[Name][Level - 1]) << Name << Level; }
+		EXPECT_GT(Values[Name][0], Values[Name][4]) << Name;
+	}
+	EXPECT_EQ(Values["r.RT.Culling.Shadow.MinPixels"][4], 0.0) << "everything casts at the best level";
+}
+
 TEST(ShippedConfig, KnownDevicesFindTheirProfile)
 {
 	FLogCapture Log; // the variables are the plugin's and not known in this program
@@ -264,6 +308,11 @@ TEST(ShippedConfig, KnownDevicesFindTheirProfile)
 	EXPECT_EQ(LoadDeviceProfile(Shipped, "NVIDIA H200").Profile, "NVIDIA");
 	EXPECT_EQ(LoadDeviceProfile(Shipped, "AMD Radeon RX 6800 XT (RADV NAVI21)").Profile, "AMD");
 	EXPECT_EQ(LoadDeviceProfile(Shipped, "Intel(R) Arc(tm) A770").Profile, "Intel");
+	for (const char* const Phone :
+	    {"Adreno (TM) 750", "Turnip Adreno (TM) 740", "Mali-G715-Immortalis MC11", "PowerVR DXT-48-1536 MC1", "Samsung Xclipse 940"})
+	{
+		EXPECT_EQ(LoadDeviceProfile(Shipped, Phone).Profile, "Mobile") << Phone;
+	}
 	EXPECT_EQ(LoadDeviceProfile(Shipped, "Some new device").Profile, "Default");
 	for (const std::string& Text : Log.GetTexts()) EXPECT_THAT(Text, HasSubstr("unknown console variable 'r.RT."));
 }

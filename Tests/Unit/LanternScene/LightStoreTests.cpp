@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <glm/gtc/packing.hpp>
 #include <gtest/gtest.h>
@@ -88,6 +89,62 @@ TEST(FLightStoreTest, LightsWithAnExtentAreCounted)
 	Store.Remove(Tube);
 	Store.Remove(Id);
 	EXPECT_EQ(Store.GetExtendedCount(), 0u);
+}
+
+TEST(FLightStoreTest, KindsOfLightsLoseTheirShadows)
+{
+	FSceneLight Spot = MakeLight({});
+	Spot.OuterCone = 1.0f;
+	FSceneLight Fill = MakeLight({});
+	Fill.bCastsShadow = false;
+	FSceneLight Beam = MakeLight({}, LIGHT_TUBE);
+	Beam.OuterCone = 1.0f;
+	FSceneLight Lens = MakeLight({}, LIGHT_DISK);
+	Lens.OuterCone = 1.0f;
+	const std::pair<FSceneLight, ELightKind> Lights[] = {{MakeLight({}), ELightKind::Point}, {Fill, ELightKind::Point},
+	    {MakeLight({}, LIGHT_SPHERE), ELightKind::Point}, {MakeLight({}, LIGHT_TUBE), ELightKind::Point}, {Spot, ELightKind::Spot},
+	    {Beam, ELightKind::Spot}, {MakeLight({}, LIGHT_RECTANGLE), ELightKind::Rect}, {Lens, ELightKind::Rect},
+	    {MakeLight({}, LIGHT_DIRECTIONAL), ELightKind::Directional}};
+	FLightStore Store;
+	std::vector<FLightId> Ids;
+	for (const auto& [Light, Kind] : Lights)
+	{
+		EXPECT_EQ(GetLightKind(Light), Kind);
+		Ids.push_back(Store.Add(Light));
+	}
+	EXPECT_EQ(Store.GetShadowedCount(), 8u);
+	const auto Casts = [&](size_t I) { return (Store.GetTable()[Ids[I].Index].Flags & LIGHT_CASTS_SHADOW) != 0; };
+	for (const ELightKind Off : {ELightKind::Point, ELightKind::Spot, ELightKind::Rect, ELightKind::Directional})
+	{
+		const uint64_t Before = Store.GetChangeCount();
+		Store.SetCastingKinds(~(1u << uint32_t(Off)));
+		EXPECT_GT(Store.GetChangeCount(), Before) << "histories must hear of it";
+		uint32_t Shadowed = 0;
+		for (size_t I = 0; I < Ids.size(); ++I)
+		{
+			EXPECT_EQ(Casts(I), Lights[I].first.bCastsShadow && Lights[I].second != Off) << I;
+			Shadowed += Casts(I) ? 1 : 0;
+		}
+		EXPECT_EQ(Store.GetShadowedCount(), Shadowed);
+	}
+	// What comes, moves or changes meanwhile, too.
+	Store.SetCastingKinds(~(1u << uint32_t(ELightKind::Spot)));
+	Spot.Position = {1, 2, 3};
+	Store.Set(Ids[4], Spot);
+	EXPECT_FALSE(Casts(4));
+	FSceneLight Narrow = Spot;
+	Narrow.OuterCone = 0.5f;
+	Store.Set(Ids[4], Narrow);
+	EXPECT_FALSE(Casts(4));
+	Store.Remove(Ids[0]);
+	Ids[0] = Store.Add(Spot);
+	EXPECT_FALSE(Casts(0));
+	EXPECT_EQ(Store.GetShadowedCount(), 5u);
+	Store.SetCastingKinds(~0u);
+	EXPECT_TRUE(Casts(0) && Casts(4) && !Casts(1));
+	const uint64_t Before = Store.GetChangeCount();
+	Store.SetCastingKinds(~0u);
+	EXPECT_EQ(Store.GetChangeCount(), Before) << "nothing changed";
 }
 
 /// As shaders compute it: differences wrap around.

@@ -320,7 +320,7 @@ public:
 	/// Removes an object. May be called while frames that show it are in flight.
 	virtual FRTStatus RemoveObject(ERTObjectHandle Handle) = 0;
 	/// Adds a light. Costs what changed, whatever the number of lights; so do SetLight and RemoveLight. InvalidArgument names the
-	/// member that is wrong. Unsupported if there are 2^24 lights.
+	/// member that is wrong. Unsupported if there are 2^23 lights.
 	virtual FRTStatus AddLight(const FRTModuleLight& Light, ERTLightHandle* Out) = 0;
 	virtual FRTStatus SetLight(ERTLightHandle Handle, const FRTModuleLight& Light) = 0;
 	virtual FRTStatus RemoveLight(ERTLightHandle Handle) = 0;

@@ -21,11 +21,14 @@ namespace
 TRTConsoleVariable<bool> CVarLights(
     "r.RT.Lights", true, "Traces shadows of lights other than the sun. If off, these lights shine through everything (r.RT.LocalLights).");
 TRTConsoleVariable<int32_t> CVarExact("r.RT.Lights.Exact", 4,
-    "Most lights of a tile of 8 x 8 pixels that all get a ray from each pixel. Each pixel of a tile with more chooses one light.",
+    "Most lights of a tile of 8 x 8 pixels that all get a ray from each pixel. Each pixel of a tile with more chooses some, as many as "
+    "r.RT.Lights.Rays says.",
     {1, TILE_LIGHTS});
 TRTConsoleVariable<bool> CVarKnownChanges("r.RT.Lights.KnownChanges", true,
     "The filter of diffuse light looks for changes on surfaces that move, where a moved caster may shadow a lamp, and for 0.13 s after a "
     "lamp has changed everywhere. If off, it always looks for them in the picture, and takes some noise for change.");
+TRTConsoleVariable<bool> CVarCasters(
+    "r.RT.Debug.Lights.Casters", true, "Planted fault. If off, rays to local lights meet what casts from the sun.");
 const FDenoiseVariables Denoise("r.RT.Lights", FDenoiseDefaults{.SigmaValue = 2.0f, .Passes = 2, .bColor = true});
 
 uint32_t GetExact() { return static_cast<uint32_t>(CVarExact.GetOnRenderThread()); }
@@ -140,12 +143,14 @@ FPassRays ChooseLocalLightRays(const FPassQuery& Query)
 	FPassRays Rays;
 	Rays.Path = ChooseLocalLightPath(Query);
 	if (Rays.Path == ERayPath::None) { return Rays; }
+	Rays.bTraces = HasLocalRays(Query.Facts);
 	Rays.bLightSampling = HasEmitters(Query.Facts);
 	// Rays go where pixels have asked for them. What lights bring there was asked before.
 	FSceneFacts Traced = Query.Facts;
 	Traced.bLightProfiles = Traced.bLightChannels = false;
 	Rays.Defines = MakeLocalDefines(Traced, GetExact());
 	Rays.Defines.emplace_back("LOCAL_RAYS", "1");
+	if (!CVarCasters.GetOnRenderThread()) { Rays.Defines.emplace_back("ONE_CASTER", "1"); }
 	AddReceiverDefines(Query.Facts, Rays.Defines);
 	Rays.Shaders = ShadowQueueShaders;
 	Rays.Compute = {MakeShadeSource(Query.Facts, GetExact())};

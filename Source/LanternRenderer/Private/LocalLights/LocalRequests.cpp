@@ -217,9 +217,12 @@ FShaderDefines MakeChoiceDefines(const FSceneFacts& Facts, uint32_t Exact)
 	return Defines;
 }
 
+bool HasLocalRays(const FSceneFacts& Facts) { return Facts.ShadowedLights > 0 || HasEmitters(Facts); }
+
 uint32_t GetLocalRaysPerPixel(const FSceneFacts& Facts, uint32_t Exact)
 {
-	return std::max(std::min(Facts.Lights, Exact) + (HasEmitters(Facts) ? 1 : 0), GetChosen(Facts, Exact));
+	if (!HasLocalRays(Facts)) { return 0; }
+	return std::max(std::min(Facts.ShadowedLights, Exact) + (HasEmitters(Facts) ? 1 : 0), GetChosen(Facts, Exact));
 }
 
 bool MayChooseLights(const FSceneFacts& Facts, uint32_t Exact) { return Facts.Lights > Exact || HasEmitters(Facts); }
@@ -231,13 +234,14 @@ void ListLocalRequestShaders(const FSceneFacts& Facts, uint32_t Exact, std::vect
 	ListEmitterShaders(Facts, Out);
 	if (HasRegions(Facts, Exact)) { Out.push_back(MakeLightRegionsSource(Facts)); }
 	if (MayQueuesOverflow(1 + GetLocalRaysPerPixel(Facts, Exact))) { Out.push_back(MakeShareSource()); }
-	if (WantsSecondRays()) { Out.push_back(MakeSecondRaysSource(MakeLocalDefines(Facts, Exact))); }
+	if (HasLocalRays(Facts) && WantsSecondRays()) { Out.push_back(MakeSecondRaysSource(MakeLocalDefines(Facts, Exact))); }
 }
 
 bool AreLocalRequestsReady(FFrameContext& Context, uint32_t Exact)
 {
 	const bool bShared = !MayQueuesOverflow(1 + GetLocalRaysPerPixel(Context.Facts, Exact)) || RequireCompute(Context, MakeShareSource());
-	const bool bSecond = !WantsSecondRays() || RequireCompute(Context, MakeSecondRaysSource(MakeLocalDefines(Context.Facts, Exact)));
+	const bool bSecond = !HasLocalRays(Context.Facts) || !WantsSecondRays() ||
+	                     RequireCompute(Context, MakeSecondRaysSource(MakeLocalDefines(Context.Facts, Exact)));
 	const bool bListed = !HasRegions(Context.Facts, Exact) || RequireCompute(Context, MakeLightRegionsSource(Context.Facts));
 	return RequireCompute(Context, MakeRequestsSource(Context.Facts, Exact)) && bShared && bListed && bSecond && AreEmittersReady(Context);
 }
@@ -273,7 +277,7 @@ void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRa
 void AddSecondLocalRays(
     FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FShadowRays& Traced, const FLocalRays& Rays)
 {
-	if (!WantsSecondRays()) { return; }
+	if (Rays.PerPixel == 0 || !WantsSecondRays()) { return; }
 	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSecondRaysSource(MakeLocalDefines(Context.Facts, Rays.Exact)));
 	if (Pipeline) { AddSecondRays(Context, GBuffer, Dispatch, Traced.Queue, Traced.Traced, Pipeline); }
 }

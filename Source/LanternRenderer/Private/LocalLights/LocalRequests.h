@@ -14,6 +14,8 @@ FShaderDefines MakeLocalDefines(FSceneFacts Facts, uint32_t Exact);
 /// And of those that read what pixels chose.
 FShaderDefines MakeChoiceDefines(const FSceneFacts& Facts, uint32_t Exact);
 
+/// Returns whether any light casts a shadow, or surfaces emit. Lights without shadow are shaded all the same.
+bool HasLocalRays(const FSceneFacts& Facts);
 /// Returns the most rays of a pixel.
 uint32_t GetLocalRaysPerPixel(const FSceneFacts& Facts, uint32_t Exact);
 

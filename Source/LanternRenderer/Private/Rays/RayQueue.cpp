@@ -107,7 +107,8 @@ FRayQueue CreateRayQueue(FFrameContext& Context, uint32_t MostPerPixel)
 	const double Room = std::ceil(Context.QueueDemand->GetRoom(CVarQueuePerPixel.GetOnRenderThread()) * double(Pixels));
 	FRayQueue Queue;
 	Queue.MostWanted = Pixels * MostPerPixel;
-	Queue.Capacity = static_cast<uint32_t>(std::min({Room, double(Queue.MostWanted), double(MaxCapacity)}));
+	Queue.Capacity =
+	    static_cast<uint32_t>(std::max(std::min({Room, double(Queue.MostWanted), double(MaxCapacity)}), 1.0)); // buffers have a size
 	Queue.bMayOverflow = Queue.Capacity < Queue.MostWanted;
 	Queue.Requests = Context.Graph.CreateBuffer({Queue.Capacity * sizeof(FRayRequest)}, "RayRequests");
 	Queue.Counters = Context.Graph.CreateBuffer({sizeof(FRayQueueCounters), ERTBufferUsage::CopyDest}, "RayQueueCounters");

@@ -60,7 +60,7 @@ std::shared_ptr<const FShadowRays> AddShadowRays(FFrameContext& Context, const F
 		if (!Rays.Tiles.IsValid()) { return nullptr; }
 	}
 	if (Asked->Wishes.Local) { AddLocalRequests(Context, GBuffer, Rays, *Asked->Wishes.Local); }
-	AddShadowRaysPass(Context, GBuffer, Asked->Dispatch, Rays.Queue, Rays.Traced);
+	if (GetMostPerPixel(Asked->Wishes) > 0) { AddShadowRaysPass(Context, GBuffer, Asked->Dispatch, Rays.Queue, Rays.Traced); }
 	if (Rays.Settled.Known.Current.IsValid())
 	{
 		AddSettledRays(Context, GBuffer, Asked->Dispatch, Rays.Queue, Rays.Traced, Rays.Tiles, Rays.Settled);

@@ -60,6 +60,17 @@ glm::dvec3 MakeTangent(const FSceneLight& Light)
 }
 } // namespace
 
+ELightKind GetLightKind(const FSceneLight& Light)
+{
+	switch (Light.Type)
+	{
+	case LIGHT_DIRECTIONAL: return ELightKind::Directional;
+	case LIGHT_RECTANGLE:
+	case LIGHT_DISK: return ELightKind::Rect;
+	default: return Light.OuterCone > 0.0f ? ELightKind::Spot : ELightKind::Point;
+	}
+}
+
 bool HasExtent(const FSceneLight& Light) { return Light.Type != LIGHT_POINT && (Light.Type != LIGHT_DIRECTIONAL || Light.Size.x > 0.0f); }
 
 bool ReachesEverywhere(const FSceneLight& Light) { return Light.Type == LIGHT_DIRECTIONAL || Light.Range <= 0.0f; }

@@ -2,24 +2,29 @@
 #include "LanternScene/Lights/LightStore.h"
 
 #include <cassert>
+#include <utility>
 
 #include "LanternCore/Text/Log.h"
 
 namespace Lantern
 {
 
-namespace
+FLightData FLightStore::Pack(const FSceneLight& Light) const
 {
+	FLightData Packed = PackLight(Light);
+	if ((CastingKinds & (1u << uint32_t(GetLightKind(Light)))) == 0) { Packed.Flags &= ~LIGHT_CASTS_SHADOW; }
+	return Packed;
+}
+
 /// Moves are what lights do most. Before: of the same light in another place. Packed: Light before.
-FLightData PackMoved(const FSceneLight& Before, const FSceneLight& Light, FLightData Packed, const FLightReach& Reach)
+FLightData FLightStore::PackMoved(const FSceneLight& Before, const FSceneLight& Light, FLightData Packed, const FLightReach& Reach) const
 {
 	FSceneLight Moved = Before;
 	Moved.Position = Light.Position;
-	if (ReachesEverywhere(Light) || !(Moved == Light)) { return PackLight(Light); }
+	if (ReachesEverywhere(Light) || !(Moved == Light)) { return Pack(Light); }
 	for (int Axis = 0; Axis < 3; ++Axis) { Packed.Position[Axis] = Reach.Position[Axis]; }
 	return Packed;
 }
-} // namespace
 
 /// Times: 1, or −1 modulo 2³².
 void FLightStore::Count(const FSceneLight& Light, uint32_t Times)
@@ -29,6 +34,24 @@ void FLightStore::Count(const FSceneLight& Light, uint32_t Times)
 	InFog += Light.bLightsFog ? Times : 0;
 	Profiled += Light.Profile != 0 ? Times : 0;
 	OffChannel += (Light.Channels & CHANNELS_DEFAULT) == 0 ? Times : 0;
+	Casters[size_t(GetLightKind(Light))] += Light.bCastsShadow ? Times : 0;
+}
+
+uint32_t FLightStore::GetShadowedCount() const
+{
+	uint32_t Shadowed = 0;
+	for (uint32_t Kind = 0; Kind < Casters.size(); ++Kind) { Shadowed += (CastingKinds & (1u << Kind)) != 0 ? Casters[Kind] : 0; }
+	return Shadowed;
+}
+
+void FLightStore::SetCastingKinds(uint32_t Kinds)
+{
+	if (std::exchange(CastingKinds, Kinds) == Kinds) { return; }
+	++Changes;
+	for (uint32_t Slot = 0; Slot < Slots.Num(); ++Slot)
+	{
+		if (Slots.IsAlive(Slot)) { Table.Set(Slot, Pack(Slots[Slot])); }
+	}
 }
 
 FLightId FLightStore::Add(const FSceneLight& Light)
@@ -36,14 +59,14 @@ FLightId FLightStore::Add(const FSceneLight& Light)
 	const uint32_t Slot = Slots.Take(MaxLights);
 	if (Slot == TSlots<FSceneLight>::None)
 	{
-		LogOnce(ERTLogLevel::Error, "the scene has 2^24 lights; reservoirs cannot name more, and further ones are left out");
+		LogOnce(ERTLogLevel::Error, "the scene has 2^23 lights; shaders cannot name more, and further ones are left out");
 		return {};
 	}
 	Slots[Slot] = Light;
 	++Changes;
 	Count(Light, 1);
 	Journal.Add(GetReach(Light));
-	Table.Set(Slot, PackLight(Light));
+	Table.Set(Slot, Pack(Light));
 	return {Slot, Slots.GetGeneration(Slot)};
 }
 

@@ -81,6 +81,12 @@ void FRTScene::RemoveLight(FLightId Id)
 	Frame->RefreshLightFacts();
 }
 
+void FRTScene::SetCastingLights(uint32_t Kinds)
+{
+	Lights.GetStore().SetCastingKinds(Kinds);
+	Frame->RefreshLightFacts();
+}
+
 void FRTScene::SetSun(const FSunLight& Sun)
 {
 	Lights.SetSun(Sun);

@@ -64,6 +64,7 @@ void FSceneUpdate::RefreshLightFacts()
 {
 	const FLightStore& Lights = Parts.Lights.GetStore();
 	Facts.Lights = Lights.GetCount();
+	Facts.ShadowedLights = Lights.GetShadowedCount();
 	Facts.FiniteLights = Lights.GetFiniteCount();
 	Facts.FogLights = Lights.GetFogCount();
 	Facts.bAreaLights = Lights.GetExtendedCount() > 0;

@@ -32,7 +32,7 @@ enum class ESignal : uint8_t
 	/// below the geometric surface brings nothing. Sky pixels: 0.
 	///
 	/// LocalDiffuse takes over what emissive triangles bring to the surface directly, if it is made and r.RT.Lights.Emissive is on.
-	/// A path's first ray then sees no emission of triangles that light sampling lists. Triangles of deformed meshes are not listed.
+	/// A path's first ray then sees no emission of triangles that light sampling lists. Deforming meshes are listed, too.
 	DiffuseGI,
 	/// Radiance that the surface's specular lobe reflects towards the camera, Fresnel included, of the light that DiffuseGI
 	/// has. A mirror (roughness² < 0.001) is a delta. Alpha is 1, or 0 where the surface is rougher than

@@ -45,6 +45,17 @@ struct FSceneLight
 	friend bool operator==(const FSceneLight&, const FSceneLight&) = default;
 };
 
+/// Kinds of lights that have a switch for their shadows. A kind follows from what engines call the light, and not from its extent.
+enum class ELightKind : uint8_t
+{
+	Point,       ///< also spheres and tubes, which engines make of point lights
+	Spot,        ///< the same with a cone
+	Rect,        ///< rectangles and disks, with a cone or without
+	Directional, ///< without a switch
+	Count,
+};
+ELightKind GetLightKind(const FSceneLight& Light);
+
 /// Tells whether shaders sample points of the light: it has an extent.
 bool HasExtent(const FSceneLight& Light);
 

@@ -1,6 +1,8 @@
 // FLightStore keeps the lights of a scene in slots. A light keeps its slot while it lives, so that histories may name it.
 #pragma once
 
+#include <array>
+
 #include "LanternScene/Lights/Light.h"
 #include "LanternScene/Lights/LightJournal.h"
 #include "LanternScene/Memory/GpuTable.h"
@@ -35,6 +37,11 @@ public:
 	uint32_t GetOffChannelCount() const { return OffChannel; }
 	/// Lights that fog scatters.
 	uint32_t GetFogCount() const { return InFog; }
+	/// Lights that cast shadows, and whose kind does: see SetCastingKinds.
+	uint32_t GetShadowedCount() const;
+	/// Says which kinds of lights cast shadows, as bits 1 << ELightKind; others shine through everything. A change of it costs all
+	/// lights, and counts as one of theirs.
+	void SetCastingKinds(uint32_t Kinds);
 	/// Counts all changes of lights, of whatever kind.
 	uint64_t GetChangeCount() const { return Changes; }
 	/// What lights reached before and reach after each change of it.
@@ -45,7 +52,11 @@ public:
 private:
 	TSlots<FSceneLight> Slots;
 	void Count(const FSceneLight& Light, uint32_t Times);
+	FLightData Pack(const FSceneLight& Light) const;
+	FLightData PackMoved(const FSceneLight& Before, const FSceneLight& Light, FLightData Packed, const FLightReach& Reach) const;
 	uint32_t Extended = 0, Finite = 0, InFog = 0, Profiled = 0, OffChannel = 0;
+	std::array<uint32_t, size_t(ELightKind::Count)> Casters{};
+	uint32_t CastingKinds = ~0u;
 	uint64_t Changes = 0;
 	FLightJournal Journal;
 	TGpuTable<FLightData> Table{"Lights"};

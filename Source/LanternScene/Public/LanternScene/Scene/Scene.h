@@ -39,6 +39,7 @@ struct FSceneFacts
 	uint32_t Objects = 0;
 	uint32_t DynamicGeometries = 0;
 	uint32_t Lights = 0;         ///< without sun and emissive triangles
+	uint32_t ShadowedLights = 0; ///< of them, those that cast shadows: see FLightStore::SetCastingKinds
 	uint32_t FiniteLights = 0;   ///< of them, those with a range: see ReachesEverywhere
 	uint32_t FogLights = 0;      ///< of them, those that fog scatters
 	bool bAreaLights = false;    ///< some of them have an extent: see HasExtent
@@ -152,6 +153,8 @@ public:
 	/// 0: the scene's materials; 1: each a Lambert of its base colour; 2: each a Lambert of 0.5, alpha tests off.
 	void SetMaterialOverride(uint32_t Override);
 	void SetAlphaTest(bool bEnabled);
+	/// See FLightStore::SetCastingKinds.
+	void SetCastingLights(uint32_t Kinds);
 	/// Hides objects with a section of one of these programs from rays: the program's shaders are missing, and no stand-in is
 	/// wanted. Replaces the set before, and costs something only if the sets differ.
 	void SetMissingPrograms(std::vector<FHitProgram> Programs);
