@@ -4,6 +4,7 @@
 #include "DebugView/DebugView.h"
 #include "HeightFog/HeightFog.h"
 #include "LanternCore/Config/ConsoleVariables.h"
+#include "SignalPasses.h"
 
 namespace Lantern
 {
@@ -41,6 +42,15 @@ FSignalRequests CompleteRequests(FSignalRequests Requests)
 		Requests.FogPhase = GetHeightFogPhase();
 	}
 	return Requests;
+}
+
+FSceneFacts AddFrameFacts(FSceneFacts Facts, const FFrameFeatures& Features, const FSignalRequests& Requests)
+{
+	Facts.bHostShadow = Features.bHostShadow;
+	Facts.bLightMask = Requests.bLightMask && Facts.Lights > 0;
+	const bool bLobes = IsMade(ESignal::LocalDiffuse, Requests) || IsMade(ESignal::LocalSpecular, Requests);
+	Facts.bMaskAlone = Facts.bLightMask && !bLobes;
+	return Facts;
 }
 
 bool WaitsForPipelines(const FFrameFeatures& Features)

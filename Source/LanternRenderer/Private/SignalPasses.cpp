@@ -61,7 +61,7 @@ const FSignalPass& GetSignalPass(ESignal Signal)
 FPassRays ChooseSignalRays(const FFrameContext& Context, ESignal Signal)
 {
 	const auto Choose = [&](const FSignalPass& Pass) {
-		if (!IsMade(Pass.Signal, Context.Signals)) { return FPassRays(); }
+		if (!AsksForRays(Pass.Signal, Context.Signals)) { return FPassRays(); }
 		const bool bReplaced = Pass.ReplacedBy != ESignal::Count && Context.GetRayGen(Pass.ReplacedBy) != NoRayGen;
 		return Pass.ChooseRays({Context.Device.GetCapabilities(), Context.Facts, Context.Signals, bReplaced});
 	};

@@ -37,6 +37,14 @@ const FSignalPass& GetSignalPass(ESignal Signal);
 /// Returns whether a frame makes Signal at all: see FSignalRequests::bNothingElse.
 inline bool IsMade(ESignal Signal, const FSignalRequests& Requests) { return !Requests.bNothingElse || Requests.Wanted.Has(Signal); }
 
+/// The signal whose row asks for the rays of the light mask, and lists its shaders, whether the signal itself is made or not.
+inline constexpr ESignal LightMaskRow = ESignal::LocalDiffuse;
+/// Returns whether a frame asks for the rays of Signal's row.
+inline bool AsksForRays(ESignal Signal, const FSignalRequests& Requests)
+{
+	return IsMade(Signal, Requests) || (Signal == LightMaskRow && Requests.bLightMask);
+}
+
 /// Returns what Signal traces in this frame. Path None: nothing.
 FPassRays ChooseSignalRays(const FFrameContext& Context, ESignal Signal);
 

@@ -39,6 +39,8 @@ struct FDenoiseInputs
 /// Pictures of the filter's history for r.RT.Debug.View: FDenoiseInputs::Name, and one of these.
 inline constexpr const char *ConfidencePicture = ".confidence", *ChangePicture = ".change";
 
+/// Returns the least weight of a new frame in a mean over time, 0 to 1. Seconds.
+float GetMinAlpha(float HistorySeconds, float DeltaSeconds);
 /// The defines of shaders that ask Library/History.glsl for a surface's history, by planted faults.
 FShaderDefines MakeValidationDefines();
 /// Lists the compute shaders of the filter. bColor: three channels. bExtent: FDenoiseInputs::Extent is valid.

@@ -19,6 +19,12 @@ FLightData PackMoved(const FSceneLight& Before, const FSceneLight& Light, FLight
 	for (int Axis = 0; Axis < 3; ++Axis) { Packed.Position[Axis] = Reach.Position[Axis]; }
 	return Packed;
 }
+
+FLightData NumberLight(FLightData Packed, FLightId Id)
+{
+	if (Packed.Number == 0) { Packed.Number = MakeLightNumber(Id); }
+	return Packed;
+}
 } // namespace
 
 /// Times: 1, or −1 modulo 2³².
@@ -43,8 +49,9 @@ FLightId FLightStore::Add(const FSceneLight& Light)
 	++Changes;
 	Count(Light, 1);
 	Journal.Add(GetReach(Light));
-	Table.Set(Slot, PackLight(Light));
-	return {Slot, Slots.GetGeneration(Slot)};
+	const FLightId Id{Slot, Slots.GetGeneration(Slot)};
+	Table.Set(Slot, NumberLight(PackLight(Light), Id));
+	return Id;
 }
 
 void FLightStore::Set(FLightId Id, const FSceneLight& Light)
@@ -60,7 +67,7 @@ void FLightStore::Set(FLightId Id, const FSceneLight& Light)
 	}
 	Count(Old, ~0u);
 	Count(Light, 1);
-	const FLightData Packed = PackMoved(Old, Light, Table[Id.Index], Reach);
+	const FLightData Packed = NumberLight(PackMoved(Old, Light, Table[Id.Index], Reach), Id);
 	Old = Light;
 	Table.Set(Id.Index, Packed);
 }
