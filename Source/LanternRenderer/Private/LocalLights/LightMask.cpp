@@ -1,9 +1,6 @@
 // The pass that packs the light mask, and what it keeps from frame to frame.
 #include "LocalLights/LightMask.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "Denoise/Denoise.h"
 #include "Denoise/SurfaceHistory.h"
 #include "LightMaskTypes.h"
