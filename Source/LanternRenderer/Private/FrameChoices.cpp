@@ -48,8 +48,7 @@ FSceneFacts AddFrameFacts(FSceneFacts Facts, const FFrameFeatures& Features, con
 {
 	Facts.bHostShadow = Features.bHostShadow;
 	Facts.bLightMask = Requests.bLightMask && Facts.Lights > 0;
-	const bool bLobes = IsMade(ESignal::LocalDiffuse, Requests) || IsMade(ESignal::LocalSpecular, Requests);
-	Facts.bMaskAlone = Facts.bLightMask && !bLobes;
+	Facts.bMaskAlone = Facts.bLightMask && !IsAnyMadeBesideLightMask(Requests);
 	return Facts;
 }
 

@@ -97,7 +97,7 @@ void CollectSignals(FCollector& Collector, const FRTCapabilities& Capabilities, 
 		if (Rays.Path == ERayPath::None) { return; }
 		Collector.Programs.bLightSampling |= Rays.bLightSampling;
 		const bool bMade = IsMade(Pass.Signal, Requests);
-		const bool bMask = Pass.Signal == LightMaskRow && IsLightMaskAccumulated(Facts);
+		const bool bMask = Pass.Signal == GetLightMaskRow() && IsLightMaskAccumulated(Facts);
 		Collector.Programs.bMotion |= bMask || (bMade && Pass.WantsMotion && Pass.WantsMotion(Scene));
 		Collector.bFilters |= bMask;
 		Collector.Programs.bMotion |= Pass.AskShadowRays && Facts.bCharacters; // it names the pixels' objects

@@ -99,7 +99,7 @@ void SetHistory(FPassContext& Pass, const FFrameContext& Frame, const FMaskPass&
 
 FLightMask AddMask(FFrameContext& Context, const FGBuffer& GBuffer)
 {
-	if (!Context.Facts.bLightMask || ChooseSignalRays(Context, LightMaskRow).Path == ERayPath::None) { return {}; }
+	if (!Context.Facts.bLightMask || ChooseSignalRays(Context, GetLightMaskRow()).Path == ERayPath::None) { return {}; }
 	const FShadowRays* const Rays = RequireShadowRays(Context, GBuffer);
 	if (!Rays || !Rays->Traced.TileLights.IsValid()) { return {}; }
 	IRTPipeline* const Pipeline = RequireCompute(Context, MakeMaskSource(Context.Facts));
