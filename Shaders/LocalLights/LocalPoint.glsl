@@ -19,6 +19,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FLightChoice
 // Lights that each pixel has a ray to.
 uint CountSlots(FTileLights Tile) { return Tile.Count == TILE_LIGHTS_MANY ? 0u : Tile.Count; }
 
+// Whether pixels choose of lights, and not of emissive triangles alone.
+bool ChoosesOfLights(FTileLights Tile) { return Tile.Count == TILE_LIGHTS_MANY || Tile.bChooses == TILE_CHOOSES_REST; }
+
 #ifndef CHOSEN_RAYS
 #define CHOSEN_RAYS 1u
 #endif

@@ -2,6 +2,8 @@
 // CHOSEN_RAYS: lights that each pixel of a tile of many chooses.
 // MANY_LIGHTS: defined if the scene has more lights than FLocalRequestsConstants::Exact.
 // LOCAL_EMISSIVE: emissive triangles shine as lights do. Pixels choose one of them, or of them and all lights where these are many.
+// LIGHT_MASK: a tile of many lights has rays to TILE_LIGHTS of them all the same, and pixels choose of the rest (MaskSlots.glsl).
+// MASK_ALONE: nobody reads what pixels would choose.
 // GUIDED: pixels choose from a table of their tile's lights (TileTable.glsl). Not defined: from all, which takes long.
 #version 460
 #include "../Tiles/Tile.glsl"
@@ -32,6 +34,16 @@ struct FTileSource
 };
 FTileSource FindSource(FSceneConstants Scene, FViewConstants View) { return FTileSource(Scene.LightCount, false); }
 uint SourceLight(FTileSource Source, uint I) { return I; }
+#endif
+
+// Whether a light may bring something to the pixel.
+bool MayLight(FSceneConstants Scene, FLightData Light, FLocalPoint Point)
+{
+	return SharesChannel(Light, Point.Channels) && EstimateLight(Scene, Light, Point.P, Point.Horizon) > 0.0;
+}
+
+#ifdef LIGHT_MASK
+#include "MaskSlots.glsl"
 #endif
 
 // Finds lights whose ranges meet the tile. Their order does not depend on that of threads.
@@ -78,8 +90,7 @@ void MarkReached(FSceneConstants Scene, FLocalPoint Point, uint Place)
 	FLightRef Lights = FLightRef(Scene.Lights);
 	for (uint I = 0u; I < CandidateCount; ++I)
 	{
-		FLightData Light = Lights.Data[Candidates[I]];
-		if (!SharesChannel(Light, Point.Channels) || EstimateLight(Scene, Light, Point.P, Point.Horizon) <= 0.0) { continue; }
+		if (!MayLight(Scene, Lights.Data[Candidates[I]], Point)) { continue; }
 		atomicOr(Reached[2u * I + (Place >> 5u)], 1u << (Place & 31u));
 	}
 }
@@ -180,6 +191,17 @@ bool Chooses(FViewConstants View, FLocalPoint Point, bool bSurface, uint Place)
 }
 #endif
 
+#ifdef MASK_ALONE
+// What is drawn makes a table, so that the tile remembers lights for its mask. All threads.
+void RememberForMask(FSceneConstants Scene, FViewConstants View, uint Place)
+{
+	bool bMade = bDrawnMask != 0u;
+	if (bMade) { MakeTable(Scene, View, Place, BoxCorner(LowBits), BoxCorner(HighBits)); }
+	WriteGuide(View, Place, bMade);
+	barrier();
+	if (Place == 0u) { Tile.bChooses = 0u; }
+}
+#else
 // If the tile has many lights, or emissive triangles, each pixel chooses of them. All threads.
 void ChooseOfMany(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, bool bSurface, uvec2 Pixel, uint Place)
 {
@@ -193,17 +215,16 @@ void ChooseOfMany(FSceneConstants Scene, FViewConstants View, FLocalPoint Point,
 	uint Count = CountChosen(Tile);
 	bool bChooses = bMany && bSurface;
 #ifdef SPARSE
-	if (Tile.Count == TILE_LIGHTS_MANY) { bChooses = Chooses(View, Point, bSurface, Place); } // emitters alone: each pixel
+	if (ChoosesOfLights(Tile)) { bChooses = Chooses(View, Point, bSurface, Place); } // emitters alone: each pixel
 #endif
 #ifdef GUIDED
 	FLobes Lit[CHOSEN_RAYS];
 	for (uint I = 0u; I < CHOSEN_RAYS; ++I) { Lit[I] = FLobes(vec3(0.0), vec3(0.0)); }
 	if (bMany)
 	{
-		ChooseSamplers(View, Point, bSurface, Place);
-		if (Place == 0u) { FindPreviousTile(View, gl_WorkGroupID.xy); }
-		barrier();
-		LoadRemembered(View, Place);
+#ifndef LIGHT_MASK // which has done so
+		PrepareTable(View, Point, bSurface, Place);
+#endif
 		MakeTable(Scene, View, Place, BoxCorner(LowBits), BoxCorner(HighBits));
 	}
 	WriteGuide(View, Place, bMany);
@@ -236,6 +257,7 @@ void ChooseOfMany(FSceneConstants Scene, FViewConstants View, FLocalPoint Point,
 		if (bAsks[I] && !bAnswered) { atomicOr(Tile.Asking[2u * I + (Place >> 5u)], 1u << (Place & 31u)); }
 	}
 }
+#endif
 #endif
 
 void Start(uint Place)
@@ -289,7 +311,15 @@ void main()
 	barrier();
 	if (Place == 0u) { ListLights(Scene); }
 	barrier();
+#ifdef LIGHT_MASK
+	ListMask(Scene, View, Point, bSurface, Pixel, Place);
+#endif
+#ifdef MASK_ALONE
 #ifdef MANY_LIGHTS
+	RememberForMask(Scene, View, Place);
+	barrier();
+#endif
+#elif defined(MANY_LIGHTS)
 	ChooseOfMany(Scene, View, Point, bSurface, Pixel, Place);
 	barrier();
 #endif

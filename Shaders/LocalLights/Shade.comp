@@ -1,6 +1,6 @@
 // Lights pixels by local lights, from the answers of their rays.
+// LIGHT_MASK: lights in slots are in the light mask (Mask.comp), and the rest counts here.
 #version 460
-#include "../Rays/RayQueue.glsl"
 #include "../Tiles/Tile.glsl"
 #include "Demodulate.glsl"
 #include "LocalPoint.glsl"
@@ -11,30 +11,10 @@
 layout(local_size_x = TILE_PIXELS) in;
 layout(push_constant, scalar) uniform FPush { FLocalShadeConstants Push; };
 
-#ifdef SPARSE
-#include "Neighbors.glsl"
-#ifdef MANY_LIGHTS
+#include "SlotAnswers.glsl"
+#if defined(SPARSE) && defined(MANY_LIGHTS)
 #include "FillFromTile.glsl"
 #endif
-#endif
-
-// Rays of the tile by slot: where some had no room in the queue, their pixels take the mean of the others.
-const uint ChosenSlot = TILE_LIGHTS;
-shared uint Seen[TILE_LIGHTS + 1u], Traced[TILE_LIGHTS + 1u];
-
-// Returns the visibility of a slot's light. Neighbors: their rays to it, and those that got through.
-float SlotVisibility(uint Answer, uint Slot, uint SeenBit, uint TracedBit, uvec2 Neighbors)
-{
-	if ((Answer & (1u << TracedBit)) != 0u) { return (Answer & (1u << SeenBit)) != 0u ? 1.0 : 0.0; }
-	if (Neighbors.x > 0u) { return float(Neighbors.y) / float(Neighbors.x); }
-	return Traced[Slot] > 0u ? float(Seen[Slot]) / float(Traced[Slot]) : 1.0;
-}
-
-void CountAnswer(uint Answer, uint Slot, uint SeenBit, uint TracedBit)
-{
-	atomicAdd(Traced[Slot], (Answer >> TracedBit) & 1u);
-	atomicAdd(Seen[Slot], (Answer >> SeenBit) & 1u);
-}
 
 #ifdef GUIDED
 shared uint GuideTracedNow[TILE_GUIDE_LIGHTS], GuideSeenNow[TILE_GUIDE_LIGHTS];
@@ -124,6 +104,7 @@ FLobes ShadePixel(FTileLights Tile, FSceneConstants Scene, FViewConstants View, 
 #ifdef MANY_LIGHTS
 	if (Tile.bChooses != 0u) { AddChosen(Sum, Tile, Scene, View, Pixel, Place, Answer, Point, Local); }
 #endif
+#ifndef LIGHT_MASK
 	uint Neighbors = 0u;
 #ifdef SPARSE
 	if (!HasTurn(View.FrameIndex, Place)) { Neighbors = FindNeighbors(View, ivec2(TilePixel(uvec2(0u), Place)), false); }
@@ -142,6 +123,7 @@ FLobes ShadePixel(FTileLights Tile, FSceneConstants Scene, FViewConstants View, 
 		if (Visibility <= 0.0) { continue; }
 		AddLight(Sum, Scene, View, Point, Local, Pixel, Tile.Lights[I] & ~TILE_LIGHT_UNSHADOWED, Visibility);
 	}
+#endif
 	return Sum;
 }
 
@@ -168,20 +150,6 @@ FLobes ShadeSurface(FTileLights Tile, FSceneConstants Scene, FViewConstants View
 	return Demodulate(Sum, Local.Brdf, dot(Point.Surface.BentN, Point.Surface.V), Roughness);
 }
 
-// Counts the tile's answers. All threads, with a barrier behind it.
-void CountAnswers(FTileLights Tile, FViewConstants View, uint Answer, uint Place)
-{
-	if (Place <= TILE_LIGHTS) { Seen[Place] = Traced[Place] = 0u; }
-	barrier();
-	uint Chosen = Tile.bChooses != 0u ? CountChosen(Tile) : 0u;
-	for (uint I = 0u; I < Chosen; ++I) { CountAnswer(Answer, ChosenSlot, ChosenSeenBit(I), ChosenTracedBit(I)); }
-	uint Slots = CountSlots(Tile);
-	for (uint I = 0u; I < Slots; ++I) { CountAnswer(Answer, I, ANSWER_LOCAL_SEEN + I, ANSWER_LOCAL_TRACED + I); }
-#ifdef SPARSE
-	if (Tile.Count != 0u) { LoadNeighbors(View, Tile, Place); }
-#endif
-}
-
 void main()
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
@@ -203,7 +171,7 @@ void main()
 #ifdef SPARSE
 	bOfOthers = !bCertain && !HasTurn(View.FrameIndex, Place);
 #ifdef MANY_LIGHTS
-	if (Tile.Count == TILE_LIGHTS_MANY) { Lobes = FillFromTile(View, Tile, Place, Lobes, bOfOthers); }
+	if (ChoosesOfLights(Tile)) { Lobes = FillFromTile(View, Tile, Place, Lobes, bOfOthers); }
 #endif
 #endif
 	if (bInside) { WriteLobes(Pixel, Lobes, bCertain ? NoChance : bOfOthers ? OfOthers : Tile.bChooses != 0u ? OfMany : SomeChance); }

@@ -93,7 +93,7 @@ FTableSources FindSources(FSceneConstants Scene, FViewConstants View)
 	FTableSources Sources;
 	Sources.Lights = FindSource(Scene, View);
 #ifdef LOCAL_EMISSIVE
-	if (Tile.Count != TILE_LIGHTS_MANY) { Sources.Lights = FTileSource(0u, false, FAddress(0)); }
+	if (!ChoosesOfLights(Tile)) { Sources.Lights = FTileSource(0u, false, FAddress(0)); }
 	Sources.Emitters = FindEmitterSource(Scene, View);
 #endif
 	return Sources;

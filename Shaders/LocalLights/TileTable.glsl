@@ -31,6 +31,17 @@ shared FGuideLight Remembered[TILE_GUIDE_LIGHTS]; // of PreviousTile
 shared uint RememberedTraced, RememberedSeen;
 shared uint GuideKeys[TILE_GUIDE_LIGHTS];
 
+#ifdef LIGHT_MASK
+shared uint bDrawnMask; // the lights of the tile's mask are of those that it remembers
+
+bool IsInMask(uint Light)
+{
+	bool bFound = false;
+	for (uint I = 0u; I < TILE_LIGHTS; ++I) { bFound = bFound || (Tile.Lights[I] & ~TILE_LIGHT_UNSHADOWED) == Light; }
+	return bFound && ChoosesOfLights(Tile);
+}
+#endif
+
 const uint NoTile = 0xffffffffu, NoGuideLight = 0xffffffffu;
 
 #ifdef LOCAL_EMISSIVE
@@ -40,13 +51,23 @@ const uint NoTile = 0xffffffffu, NoGuideLight = 0xffffffffu;
 uint EntryLight(uint Entry) { return Entry & ((1u << LIGHT_INDEX_BITS) - 1u); }
 float EntryVisibility(uint Entry) { return float(Entry >> LIGHT_INDEX_BITS) / 255.0; }
 
+// Returns a number by which samplers change from frame to frame. Those that rank the lights of a mask do not, so that these stay.
+uint SamplerTurn(FViewConstants View)
+{
+#ifdef LIGHT_MASK
+	return 0u;
+#else
+	return View.FrameIndex;
+#endif
+}
+
 // Chooses a pixel of each quarter of the tile, another one in each frame.
 void ChooseSamplers(FViewConstants View, FLocalPoint Point, bool bSurface, uint Place)
 {
 	if (Place < TileSamplers) { SamplerKeys[Place] = 0u; }
 	barrier();
 	const uint Pixels = TILE_PIXELS / TileSamplers;
-	uint Mine = Place / Pixels, Turn = Pixels | ((Place ^ (View.FrameIndex * 3u)) % Pixels);
+	uint Mine = Place / Pixels, Turn = Pixels | ((Place ^ (SamplerTurn(View) * 3u)) % Pixels);
 	if (bSurface) { atomicMax(SamplerKeys[Mine], (Turn << 8u) | Place); }
 	if ((Place & 1u) == (View.FrameIndex & 1u))
 	{
@@ -73,7 +94,7 @@ void FindPreviousTile(FViewConstants View, uvec2 Tile)
 	PreviousTile = uvec2(NoTile);
 	uint First = 0u;
 	while (First < TileSamplers && SamplerKeys[First] == 0u) { ++First; }
-	if (Push.PreviousGuide == FAddress(0) || First == TileSamplers) { return; }
+	if (Push.PreviousGuide == PREVIOUS_GUIDE_NONE || First == TileSamplers) { return; }
 	vec3 Relative = SamplerP[First] - View.CameraPosition;
 	vec3 Motion = ComputeMotion(View, Relative, Relative + View.CameraMotion);
 	vec2 Previous = vec2(TilePixel(Tile, SamplerKeys[First] & 255u)) + 0.5 + Motion.xy;
@@ -81,6 +102,14 @@ void FindPreviousTile(FViewConstants View, uvec2 Tile)
 	{
 		PreviousTile = uvec2(Previous) / TILE_SIZE;
 	}
+}
+
+// Returns the address of FTileGuide[] of the previous frame, if there is one.
+FAddress PreviousGuide(FViewConstants View)
+{
+	const uint SizeOfGuide = 8u * TILE_GUIDE_LIGHTS;
+	FAddress Bytes = FAddress(TileIndex(View, uvec2(0u, (View.Height + TILE_SIZE - 1u) / TILE_SIZE))) * SizeOfGuide;
+	return Push.PreviousGuide == PREVIOUS_GUIDE_BEFORE ? Push.Guide - Bytes : Push.Guide + Bytes;
 }
 
 void LoadRemembered(FViewConstants View, uint Place)
@@ -93,13 +122,22 @@ void LoadRemembered(FViewConstants View, uint Place)
 		GuideKeys[Place] = 0u;
 		if (PreviousTile.x != NoTile)
 		{
-			FGuideLight Light = FTileGuideRef(Push.PreviousGuide).Data[TileIndex(View, PreviousTile)].Lights[Place];
+			FGuideLight Light = FTileGuideRef(PreviousGuide(View)).Data[TileIndex(View, PreviousTile)].Lights[Place];
 			Remembered[Place] = Light;
 			atomicAdd(RememberedTraced, GuideTraced(Light.Counts));
 			atomicAdd(RememberedSeen, GuideSeen(Light.Counts));
 		}
 	}
 	barrier();
+}
+
+// What the table needs before it is made. All threads.
+void PrepareTable(FViewConstants View, FLocalPoint Point, bool bSurface, uint Place)
+{
+	ChooseSamplers(View, Point, bSurface, Place);
+	if (Place == 0u) { FindPreviousTile(View, gl_WorkGroupID.xy); }
+	barrier();
+	LoadRemembered(View, Place);
 }
 
 // Returns what the guides of the tile and of those around it know: rays traced, and rays that got through.
@@ -113,7 +151,7 @@ vec2 RecallRays(FViewConstants View, uint Light)
 		ivec2 Tile = ivec2(PreviousTile) + ivec2(I % 3, I / 3) - 1;
 		if (any(lessThan(Tile, ivec2(0))) || any(greaterThan(Tile, Last))) { continue; }
 		uint Index = TileIndex(View, uvec2(Tile));
-		FGuideLight Found = FTileGuideRef(Push.PreviousGuide).Data[Index].Lights[GuidePlace(Light, GuideTileHash(Index))];
+		FGuideLight Found = FTileGuideRef(PreviousGuide(View)).Data[Index].Lights[GuidePlace(Light, GuideTileHash(Index))];
 		if (Found.Light == Light) { Rays += vec2(GuideTraced(Found.Counts), GuideSeen(Found.Counts)) * (I == 4 ? 1.0 : 0.25); }
 	}
 	return Rays / float(TILE_GUIDE_RAY);
@@ -174,6 +212,9 @@ void ListTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low,
 	{
 		uint Light = ProposeLight(Scene, View, Sources, I, Low, High, Stands);
 		if (Light == NoGuideLight) { continue; }
+#ifdef LIGHT_MASK
+		if (IsInMask(Light)) { Stands = 0.0; } // never chosen
+#endif
 		TableEntries[Before] = Light;
 		TableStands[Before++] = Stands;
 	}
@@ -237,7 +278,11 @@ float WeighLights(FSceneConstants Scene, FRun Run, uint TileHash)
 #endif
 		uint Entry = TableEntries[I], Light = EntryLight(Entry);
 		float Visibility = EntryVisibility(Entry);
-		if (Weight > 0.0 && CastsShadow(Scene, Light))
+		bool bProposed = Weight > 0.0 && CastsShadow(Scene, Light);
+#ifdef LIGHT_MASK
+		bProposed = bProposed && (TableStands[I] > 0.0 || bDrawnMask != 0u); // where lists are drawn, what the mask holds is found by memory
+#endif
+		if (bProposed)
 		{
 			atomicMax(GuideKeys[GuidePlace(Light, TileHash)], (floatBitsToUint(Weight * max(Visibility, 0.25)) & ~(TILE_TABLE_MOST - 1u)) | I);
 		}

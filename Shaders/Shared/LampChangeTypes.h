@@ -8,21 +8,21 @@
 LANTERN_SHARED_BEGIN
 
 #define LAMP_CHANGES 64u // most lights that are followed; of more, what was accumulated is given up
-#define LAMP_WORDS 14u   // of FLightData
+#define LAMP_WORDS 15u   // of FLightData
 
 struct FLampChange
 {
 	uint Light;        // index in the table of lights
 	FLightData Before; // in the last frame
 };
-LANTERN_ASSERT_SIZE(FLampChange, 60);
+LANTERN_ASSERT_SIZE(FLampChange, 64);
 
 struct FLampChanges
 {
 	uint Count; // may exceed LAMP_CHANGES
 	FLampChange Changes[LAMP_CHANGES];
 };
-LANTERN_ASSERT_SIZE(FLampChanges, 3844);
+LANTERN_ASSERT_SIZE(FLampChanges, 4100);
 
 struct FListLampsConstants
 {

@@ -44,8 +44,9 @@ struct FLightData
 	                // of its angular radius
 	float SpotScale; // angular attenuation: saturate(cos · scale + offset)²
 	float SpotOffset;
+	uint Number; // names it to readers of the light mask; not 0, and another one for a later light of its slot
 };
-LANTERN_ASSERT_SIZE(FLightData, 56);
+LANTERN_ASSERT_SIZE(FLightData, 60);
 
 // Intensity of a luminaire by direction, over its peak: photometry of type C (IES LM-63-2002) on a regular grid. Vertical angles are
 // from the light's direction. Horizontal ones turn from its tangent counterclockwise as seen against the direction.

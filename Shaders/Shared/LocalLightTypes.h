@@ -12,6 +12,8 @@ LANTERN_SHARED_BEGIN
 
 #define TILE_LIGHTS_MANY 0xffffffffu     // FTileLights::Count: each pixel chooses one light
 #define TILE_LIGHT_UNSHADOWED 0x80000000u // in FTileLights::Lights: it casts no shadow and gets no ray
+#define TILE_LIGHT_NONE 0xffffffffu // in FTileLights::Lights: with LIGHT_MASK, a free slot
+#define TILE_CHOOSES_REST 2u // FTileLights::bChooses: with LIGHT_MASK, there are more lights than slots; each pixel chooses one of the rest
 
 // A light's number is its index in the table of lights, or this bit and the index of an emissive triangle. Where triangles are weighed
 // by cluster, in tables and guides of tiles, it is this bit and the index of a cluster.
@@ -21,7 +23,7 @@ LANTERN_SHARED_BEGIN
 struct FTileLights
 {
 	uint Count;                 // 0 to TILE_LIGHTS, or TILE_LIGHTS_MANY
-	uint Lights[TILE_LIGHTS];   // index in the table of lights, in rising order, and TILE_LIGHT_UNSHADOWED
+	uint Lights[TILE_LIGHTS];   // index in the table of lights, and TILE_LIGHT_UNSHADOWED. Rising; with LIGHT_MASK, a light keeps its slot
 	uint Reached[2 * TILE_LIGHTS]; // two words for each light: pixels that it may light, in Z order
 	uint bChooses; // each pixel has an FLightChoice: with MANY of all lights, and CHOSEN_RAYS of them; else one of emissive triangles alone
 	uint Asking[2 * TILE_CHOSEN_MOST]; // two words for each choice: pixels that ask for a ray to it, in Z order
@@ -121,6 +123,11 @@ LANTERN_ASSERT_SIZE(FEmitterClustersConstants, 32);
 
 #define EMITTER_GROUP_SIZE 32 // threads that a cluster has
 
+// FLocalRequestsConstants::PreviousGuide
+#define PREVIOUS_GUIDE_NONE 0u
+#define PREVIOUS_GUIDE_BEFORE 1u // it ends where this frame's begins
+#define PREVIOUS_GUIDE_BEHIND 2u
+
 struct FLocalRequestsConstants
 {
 	FPassConstants Pass;
@@ -137,7 +144,8 @@ struct FLocalRequestsConstants
 	uint BaseColor, Material; // sampled indices
 	FAddress Lit;             // FLitPixel[choices][pixels]; 0 with UNBIASED
 	FAddress Guide;           // FTileGuide[], row by row; this frame's
-	FAddress PreviousGuide;   // FTileGuide[]; 0: there is none
+	uint PreviousGuide;       // where FTileGuide[] of the previous frame lies: PREVIOUS_GUIDE_…
+	uint PreviousLights;      // also not GUIDED, LIGHT_MASK only: sampled index of FLightMaskConstants::OutLights; NO_TEXTURE: there is none
 	uint Channels;            // also not GUIDED, HAS_LIGHT_CHANNELS only: see LoadPixelChannels
 	float GuideKept;          // share of what the guide knows that it keeps in this frame
 	FAddress Regions;         // FLightRegion[], row by row; 0: tiles look at all lights of the scene

@@ -42,8 +42,9 @@ void AddLights(FContentHasher& Hash, const FRTScene& Scene)
 	AddVector(Hash, Scene.GetSky());
 	for (uint32_t Slot = 0; Slot < Scene.GetLights().GetSlotCount(); ++Slot)
 	{
-		const FLightData& Data = Scene.GetLights().GetTable()[Slot]; // which does not depend on the scene's origin
-		static_assert(sizeof(FLightData) == 56, "hashed as bytes: no padding");
+		FLightData Data = Scene.GetLights().GetTable()[Slot]; // which does not depend on the scene's origin
+		Data.Number = 0;                                      // no picture shows it
+		static_assert(sizeof(FLightData) == 60, "hashed as bytes: no padding");
 		Hash.AddBytes(&Data, sizeof(Data));
 	}
 }

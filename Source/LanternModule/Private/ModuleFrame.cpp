@@ -184,6 +184,7 @@ FRTStatus FModuleRenderer::AddPasses(const FRTModuleFrame& Frame, const FFrameVi
 	{
 		if (Context.Signals.Wanted.Has(Info.Signal)) { Made.Get(Info.Signal) = AddSignalPass(Context, Info.Signal, GBuffer); }
 	}
+	Made.LightMask = AddLightMaskPass(Context, GBuffer);
 	HandToEngine(Made);
 	return FRTStatus::Success();
 }
@@ -201,10 +202,12 @@ void FModuleRenderer::HandToEngine(const FFrameOutputs& Made)
 	{
 		if (Made.Signals[I].IsValid()) { Handed.push_back({Made.Signals[I], &Outputs[I]}); }
 	}
+	if (Made.LightMask.IsValid()) { Handed.push_back({Made.LightMask.Visibility, &LightMask.Visibility}); }
 	FFrameGraph& Graph = On->Renderer.GetContext().Graph;
 	for (const auto& [Texture, Held] : Handed) { Graph.AddUsage(Texture, ERTTextureUsage::CopySource); }
 	// Histories have that usage.
 	if (Made.Fog.Visibility.IsValid()) { Handed.push_back({Made.Fog.Visibility, &Fog.Visibility}); }
+	if (Made.LightMask.IsValid()) { Handed.push_back({Made.LightMask.Lights, &LightMask.Lights}); }
 	if (Made.Fog.Light.IsValid()) { Handed.push_back({Made.Fog.Light, &Fog.Light}); }
 	Fog.Grid = Made.Fog.Grid;
 	if (Handed.empty()) { return; }
@@ -221,6 +224,7 @@ void FModuleRenderer::ReleaseOutputs()
 {
 	Outputs.fill(nullptr);
 	Fog = {};
+	LightMask = {};
 }
 
 FRTStatus FModuleRenderer::ReadViews(const FRTModuleFrame& Frame, FFrameViews& Out) const
@@ -250,6 +254,7 @@ FFrameFeatures FModuleRenderer::MakeFeatures(const FRTModuleFrame& Frame, bool b
 	}
 	Features.Signals.bFog = Frame.bFog;
 	Features.Signals.FogPhase = Frame.FogPhase;
+	Features.Signals.bLightMask = Frame.bLightMask;
 	Features.bHostSurface = bHostSurface;
 	Features.bCameraMotion = Frame.Motion == nullptr;
 	Features.bHostShadow = Frame.HostShadow != nullptr;
@@ -364,6 +369,7 @@ FRTStatus FModuleRenderer::RenderFrame(const FRTModuleFrame& Frame, FRTModuleOut
 	Recorded = TRTRef<IRTCommandList>(Frame.Commands);
 	for (size_t I = 0; I < SignalCount; ++I) { Out->Signals[I] = Outputs[I].Get(); }
 	Out->Fog = MakeFog();
+	Out->LightMask = {LightMask.Visibility.Get(), LightMask.Lights.Get()};
 	if (GetFenceQueue(Ahead) == ERTQueue::Graphics) { Ahead = 0; } // one queue runs in order
 	Out->Wait = MakeWait();
 	Out->bShadersReady = On->Renderer.AreShadersReady();

@@ -146,7 +146,11 @@ private:
 	{
 		TRTRef<IRTTexture> Visibility, Light;
 		FFogGrid Grid{};
-	} Fog;              ///< of the last frame
+	} Fog; ///< of the last frame
+	struct
+	{
+		TRTRef<IRTTexture> Visibility, Lights;
+	} LightMask;        ///< of the last frame
 	FRTFence Ahead = 0; ///< what the recorded frame's submission waits for
 	uint32_t FrameIndex = 0;
 };

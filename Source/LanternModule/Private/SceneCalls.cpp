@@ -46,7 +46,7 @@ glm::vec2 ToLightSize(const FModuleWorld& World, const FRTModuleLight& From)
 }
 
 /// From: checked.
-FSceneLight ToSceneLight(const FModuleWorld& World, const FRTModuleLight& From)
+FSceneLight ToSceneLight(const FModuleWorld& World, const FRTModuleLight& From, ERTLightHandle Handle)
 {
 	FSceneLight Light;
 	Light.Type = ToLightType(From.Type);
@@ -66,6 +66,7 @@ FSceneLight ToSceneLight(const FModuleWorld& World, const FRTModuleLight& From)
 	Light.bLightsFog = From.bLightsFog;
 	Light.Channels = From.Channels;
 	if (From.Ies != ERTIesHandle::None) { Light.Profile = TSlotTable<int, ERTIesHandle>::GetSlot(From.Ies) + 1; }
+	Light.Number = GetLightNumber(Handle);
 	return Light;
 }
 
@@ -294,7 +295,7 @@ FRTStatus FSceneCalls::AddLight(const FRTModuleLight& Light, ERTLightHandle* Out
 	*Out = Lights.Add({});
 	FLight& Mine = *Lights.Find(*Out);
 	(void)SetProfile(Mine, Light.Ies);
-	Mine.Ticket = AddArrival(FLightCommand{Lights.GetSlot(*Out), ToSceneLight(World, Light)});
+	Mine.Ticket = AddArrival(FLightCommand{Lights.GetSlot(*Out), ToSceneLight(World, Light, *Out)});
 	return FRTStatus::Success();
 }
 
@@ -307,7 +308,7 @@ FRTStatus FSceneCalls::SetLight(ERTLightHandle Handle, const FRTModuleLight& Lig
 	if (!Status) { return Status; }
 	if (Light.Ies != ERTIesHandle::None && Profiles.Find(Light.Ies) == nullptr) { return RefuseHandle("SetLight", "profile"); }
 	const FTicket Needs = SetProfile(*Mine, Light.Ies);
-	AddUpdate(FLightCommand{Lights.GetSlot(Handle), ToSceneLight(World, Light)}, Needs, Mine->Ticket);
+	AddUpdate(FLightCommand{Lights.GetSlot(Handle), ToSceneLight(World, Light, Handle)}, Needs, Mine->Ticket);
 	return Status;
 }
 

@@ -21,6 +21,7 @@ FFrameOutputs AddFramePasses(FFrameContext& Context, const FGBuffer& GBuffer)
 	Out.Get(ESignal::SunShadow) = AddSunShadowPass(Context, GBuffer);
 	Out.Get(ESignal::LocalDiffuse) = AddLocalDiffusePass(Context, GBuffer);
 	Out.Get(ESignal::LocalSpecular) = AddLocalSpecularPass(Context, GBuffer);
+	Out.LightMask = AddLightMaskPass(Context, GBuffer);
 	Out.Get(ESignal::AmbientOcclusion) = AddAmbientOcclusionPass(Context, GBuffer);
 	Out.Get(ESignal::Reflections) = AddReflectionsPass(Context, GBuffer);
 	Out.Get(ESignal::DiffuseGI) = AddDiffuseGIPass(Context, GBuffer);

@@ -4,6 +4,7 @@
 #include "DebugView/DebugView.h"
 #include "HeightFog/HeightFog.h"
 #include "LanternCore/Config/ConsoleVariables.h"
+#include "SignalPasses.h"
 
 namespace Lantern
 {
@@ -62,6 +63,14 @@ FSignalRequests CompleteRequests(FSignalRequests Requests)
 		Requests.FogPhase = GetHeightFogPhase();
 	}
 	return Requests;
+}
+
+FSceneFacts AddFrameFacts(FSceneFacts Facts, const FFrameFeatures& Features, const FSignalRequests& Requests)
+{
+	Facts.bHostShadow = Features.bHostShadow;
+	Facts.bLightMask = Requests.bLightMask && Facts.Lights > 0;
+	Facts.bMaskAlone = Facts.bLightMask && !IsAnyMadeBesideLightMask(Requests);
+	return Facts;
 }
 
 bool WaitsForPipelines(const FFrameFeatures& Features)

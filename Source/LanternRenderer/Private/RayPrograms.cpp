@@ -5,10 +5,12 @@
 
 #include "Feedback/AnyHitCounter.h"
 #include "Fog/FogShadow.h"
+#include "FrameChoices.h"
 #include "LanternRenderer/HostSurface.h"
 #include "LanternScene/ShaderTable/SectionTable.h"
 #include "Lights/EmissiveTriangles.h"
 #include "Lights/PixelChannels.h"
+#include "LocalLights/LightMask.h"
 #include "Motion/CameraMotion.h"
 #include "Reference/Reference.h"
 #include "SignalPasses.h"
@@ -84,14 +86,20 @@ void CollectSignals(FCollector& Collector, const FRTCapabilities& Capabilities, 
 		const bool bMayBeReplaced = Pass.ReplacedBy != ESignal::Count && Ready.Has(Pass.ReplacedBy);
 		const bool bReplaced =
 		    bMayBeReplaced && GetSignalPass(Pass.ReplacedBy).ChooseRays({Capabilities, Facts, Requests}).Path != ERayPath::None;
-		if (IsMade(Pass.Signal, Requests)) { Chosen[ToIndex(Pass.Signal)] = Pass.ChooseRays({Capabilities, Facts, Requests, bReplaced}); }
+		if (AsksForRays(Pass.Signal, Requests))
+		{
+			Chosen[ToIndex(Pass.Signal)] = Pass.ChooseRays({Capabilities, Facts, Requests, bReplaced});
+		}
 	});
 	ShareQueueShader(Chosen);
 	ForEachSignalPass([&](const FSignalPass& Pass) {
 		FPassRays& Rays = Chosen[ToIndex(Pass.Signal)];
 		if (Rays.Path == ERayPath::None) { return; }
 		Collector.Programs.bLightSampling |= Rays.bLightSampling;
-		Collector.Programs.bMotion |= Pass.WantsMotion && Pass.WantsMotion(Scene);
+		const bool bMade = IsMade(Pass.Signal, Requests);
+		const bool bMask = Pass.Signal == GetLightMaskRow() && IsLightMaskAccumulated(Facts);
+		Collector.Programs.bMotion |= bMask || (bMade && Pass.WantsMotion && Pass.WantsMotion(Scene));
+		Collector.bFilters |= bMask;
 		Collector.Programs.bMotion |= Pass.AskShadowRays && Facts.bCharacters; // it names the pixels' objects
 		std::vector<FShaderSource>& Compute = Collector.Programs.Compute;
 		if (Rays.Path == ERayPath::Query && Rays.bTraces)
@@ -100,7 +108,7 @@ void CollectSignals(FCollector& Collector, const FRTCapabilities& Capabilities, 
 			Compute.push_back(MakeQuerySource(Facts, Pass.Signal, Rays));
 		}
 		Compute.insert(Compute.end(), Rays.Compute.begin(), Rays.Compute.end());
-		if (Pass.ListFilters)
+		if (bMade && Pass.ListFilters)
 		{
 			const size_t Before = Compute.size();
 			Pass.ListFilters(Scene, Compute);
@@ -147,8 +155,7 @@ FRayPrograms ChooseRayPrograms(
 	{
 		Programs.bMotion = Requests.bMotion || Scene.GetFacts().bLightChannels; // it names the pixels' objects
 		if (Scene.GetFacts().bLightChannels) { Programs.Compute.push_back(MakePixelChannelsSource()); }
-		FSceneFacts Facts = Scene.GetFacts();
-		Facts.bHostShadow = Features.bHostShadow;
+		const FSceneFacts Facts = AddFrameFacts(Scene.GetFacts(), Features, Requests);
 		CollectSignals(Collector, Capabilities, Scene, Facts, Requests, Ready);
 		CollectFog(Collector, ChooseFogRays({Capabilities, Facts, Requests}), Facts);
 		Programs.bMotion &= Features.bMotion;

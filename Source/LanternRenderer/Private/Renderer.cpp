@@ -171,7 +171,8 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	FrameStatus = FRTStatus::Success();
 	Graph = std::make_unique<FFrameGraph>(GraphResources);
 	Context.reset(new FFrameContext{Device, *Graph, Scene, Pipelines, Scene.RefreshFacts()});
-	Context->Facts.bHostShadow = Features.bHostShadow;
+	Context->Signals = CompleteRequests(Features.Signals);
+	Context->Facts = AddFrameFacts(Context->Facts, Features, Context->Signals);
 	Context->View = View;
 	Context->Width = View.Width;
 	Context->Height = View.Height;
@@ -184,7 +185,6 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	Context->bWaitForPipelines = WaitsForPipelines(Features);
 	Pipelines.BeginFrame();
 	FindPreviousView(Scene, Features);
-	Context->Signals = CompleteRequests(Features.Signals);
 	State->History->BeginFrame(*Graph, Context->PreviousView != nullptr);
 	const int32_t PoisonEvery = CVarPoisonHistory.GetOnRenderThread();
 	if (PoisonEvery > 0 && View.FrameIndex % static_cast<uint32_t>(PoisonEvery) == 0) { GraphResources.PoisonHistory(""); }

@@ -38,13 +38,15 @@ constexpr FSignalPass Passes[] = {
         .Add = AddLocalDiffusePass,
         .WantsMotion = AreLocalLightsFiltered,
         .ListFilters = ListLocalLightFilters,
-        .AskShadowRays = AskLocalRays},
+        .AskShadowRays = AskLocalRays,
+        .bBesideLightMask = true},
     {.Signal = ESignal::LocalSpecular,
         .ChooseRays = ChooseLocalLightRays,
         .Add = AddLocalSpecularPass,
         .WantsMotion = AreLocalLightsFiltered,
         .ListFilters = ListLocalLightFilters,
         .AskShadowRays = AskLocalRays,
+        .bBesideLightMask = true,
         .SetReferenceConstants = SetLocalSpecularReference},
 };
 static_assert(std::size(Passes) == SignalCount - 1, "each signal but Frame needs a row, in the order of ESignal");
@@ -58,10 +60,29 @@ const FSignalPass& GetSignalPass(ESignal Signal)
 	return Pass;
 }
 
+ESignal GetLightMaskRow()
+{
+	const auto* const Found =
+	    std::find_if(std::begin(Passes), std::end(Passes), [](const FSignalPass& Pass) { return Pass.bBesideLightMask; });
+	assert(Found != std::end(Passes));
+	return Found->Signal;
+}
+
+bool AsksForRays(ESignal Signal, const FSignalRequests& Requests)
+{
+	return IsMade(Signal, Requests) || (Requests.bLightMask && Signal == GetLightMaskRow());
+}
+
+bool IsAnyMadeBesideLightMask(const FSignalRequests& Requests)
+{
+	return std::any_of(std::begin(Passes), std::end(Passes),
+	    [&](const FSignalPass& Pass) { return Pass.bBesideLightMask && IsMade(Pass.Signal, Requests); });
+}
+
 FPassRays ChooseSignalRays(const FFrameContext& Context, ESignal Signal)
 {
 	const auto Choose = [&](const FSignalPass& Pass) {
-		if (!IsMade(Pass.Signal, Context.Signals)) { return FPassRays(); }
+		if (!AsksForRays(Pass.Signal, Context.Signals)) { return FPassRays(); }
 		const bool bReplaced = Pass.ReplacedBy != ESignal::Count && Context.GetRayGen(Pass.ReplacedBy) != NoRayGen;
 		return Pass.ChooseRays({Context.Device.GetCapabilities(), Context.Facts, Context.Signals, bReplaced});
 	};

@@ -25,6 +25,8 @@ struct FSignalPass
 	/// Adds what the signal asks of the frame's shadow rays (RequireShadowRays). Called if ChooseRays chose the queue's shaders, and they
 	/// are ready: Dispatch has them. False: it asks for nothing, because its other shaders are not. Null: it never asks.
 	bool (*AskShadowRays)(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowRayWishes& InOut) = nullptr;
+	/// The signal holds what is not in the light mask, if a frame has one. The first such row asks for the rays of the mask.
+	bool bBesideLightMask = false;
 	/// Fills what the signal's reference reads of the constants beside the rest. Null: nothing.
 	void (*SetReferenceConstants)(FReferenceConstants& Constants) = nullptr;
 	/// Names of pictures that the pass draws of how it works, for r.RT.Debug.View, with a null behind the last one. Null: none.
@@ -36,6 +38,13 @@ const FSignalPass& GetSignalPass(ESignal Signal);
 
 /// Returns whether a frame makes Signal at all: see FSignalRequests::bNothingElse.
 inline bool IsMade(ESignal Signal, const FSignalRequests& Requests) { return !Requests.bNothingElse || Requests.Wanted.Has(Signal); }
+
+/// Returns the signal whose row asks for the rays of the light mask, and lists its shaders, whether the signal itself is made or not.
+ESignal GetLightMaskRow();
+/// Returns whether a frame asks for the rays of Signal's row.
+bool AsksForRays(ESignal Signal, const FSignalRequests& Requests);
+/// Returns whether a frame makes some signal of what is not in the light mask.
+bool IsAnyMadeBesideLightMask(const FSignalRequests& Requests);
 
 /// Returns what Signal traces in this frame. Path None: nothing.
 FPassRays ChooseSignalRays(const FFrameContext& Context, ESignal Signal);

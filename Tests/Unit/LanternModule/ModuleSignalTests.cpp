@@ -108,6 +108,73 @@ TEST_F(FModuleSignalTest, FogIsAnOutputOfItsOwn)
 	}
 }
 
+TEST_F(FModuleSignalTest, TheLightMaskIsAnOutputOfItsOwn)
+{
+	FRTModuleLight Lamp;
+	Lamp.Color[0] = 1.0f;
+	ERTLightHandle Handle{};
+	ASSERT_OK(Renderer->AddLight(Lamp, &Handle));
+	FRTModuleFrame Frame = DescribeFrame(); // without base colours
+	Frame.Wanted = {};
+	RenderUntilComplete(Frame);
+	EXPECT_EQ(Outputs.LightMask.Visibility, nullptr) << "nobody asks";
+	EXPECT_EQ(Outputs.LightMask.Lights, nullptr);
+	EXPECT_THAT(GetPasses(), Not(Contains(HasSubstr("Mask"))));
+	Frame.bLightMask = true;
+	RenderUntilComplete(Frame);
+	ASSERT_NE(Outputs.LightMask.Visibility, nullptr);
+	ASSERT_NE(Outputs.LightMask.Lights, nullptr);
+	EXPECT_EQ(Outputs.LightMask.Visibility->GetDesc().Format, ERTFormat::R32_UINT);
+	EXPECT_EQ(Outputs.LightMask.Visibility->GetDesc().Width, 64u);
+	EXPECT_EQ(Outputs.LightMask.Lights->GetDesc().Format, ERTFormat::R32_UINT);
+	EXPECT_EQ(Outputs.LightMask.Lights->GetDesc().Width, 64u);
+	EXPECT_EQ(Outputs.LightMask.Lights->GetDesc().Height, (Outputs.LightMask.Visibility->GetDesc().Height + 7) / 8);
+	EXPECT_EQ(Outputs.Get(ESignal::LocalDiffuse), nullptr) << "nobody asks for it";
+	EXPECT_THAT(GetPasses(), Contains("ShadowLightsMask"));
+	ASSERT_OK(Renderer->RemoveLight(Handle));
+	RenderUntilComplete(Frame);
+	EXPECT_EQ(Outputs.LightMask.Visibility, nullptr) << "there are no lamps";
+}
+
+TEST_F(FModuleSignalTest, TheLightMaskAndTheRestComeTogether)
+{
+	FRTModuleLight Lamp;
+	std::vector<ERTLightHandle> Handles(12);
+	for (ERTLightHandle& Handle : Handles) { ASSERT_OK(Renderer->AddLight(Lamp, &Handle)); }
+	FRTModuleFrame Frame = DescribeAll();
+	Frame.Wanted = {ESignal::LocalDiffuse, ESignal::LocalSpecular};
+	Frame.bLightMask = true;
+	const auto Step = [&] {
+		Frame.Commands = DescribeFrame().Commands;
+		ASSERT_OK(Renderer->RenderFrame(Frame, &Outputs));
+		ASSERT_OK(Renderer->EndFrame(nullptr));
+		const bool bMask = Outputs.LightMask.Visibility != nullptr;
+		EXPECT_EQ(Outputs.Get(ESignal::LocalDiffuse) != nullptr, bMask) << "else light is missing, or counted twice";
+		EXPECT_EQ(Outputs.Get(ESignal::LocalSpecular) != nullptr, bMask);
+	};
+	ASSERT_TRUE(WaitUntil(
+	    "a complete frame", [&] { return Outputs.bComplete; }, Step));
+	EXPECT_NE(Outputs.LightMask.Visibility, nullptr);
+}
+
+// Lower bits serve as an index, and upper ones tell a light from one before it.
+TEST_F(FModuleSignalTest, LightNumbersAreSmallAndNotUsedTwice)
+{
+	FRTModuleLight Lamp;
+	std::vector<uint32_t> Numbers;
+	ERTLightHandle Handle{};
+	for (int I = 0; I < 3; ++I)
+	{
+		ASSERT_OK(Renderer->AddLight(Lamp, &Handle));
+		Numbers.push_back(GetLightNumber(Handle));
+	}
+	EXPECT_EQ(GetLightNumber(ERTLightHandle::None), 0u);
+	EXPECT_EQ(Numbers, (std::vector<uint32_t>{1, 2, 3}));
+	ASSERT_OK(Renderer->RemoveLight(Handle));
+	ASSERT_OK(Renderer->AddLight(Lamp, &Handle));
+	EXPECT_EQ(GetLightNumber(Handle), 3u | 1u << 24);
+}
+
 TEST_F(FModuleSignalTest, EverySignalOfTheRegistryIsAnOutput)
 {
 	const float Sky[3] = {1, 1, 1};

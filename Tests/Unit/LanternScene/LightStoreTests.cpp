@@ -168,6 +168,26 @@ TEST(FLightStoreTest, PositionsAreRightAnywhereInTheWorld)
 	(void)GetDistanceOnGpu(1e300, 0.0); // where it is does not matter, but that nothing overflows (sanitizers)
 }
 
+TEST(FLightStoreTest, NumbersTellLightsOfOneSlotApart)
+{
+	FLightStore Store;
+	FSceneLight Light = MakeLight({});
+	const FLightId First = Store.Add(Light);
+	(void)Store.Add(Light);
+	EXPECT_EQ(Store.GetTable()[First.Index].Number, MakeLightNumber(First));
+	Light.Position.x += 1.0;
+	Store.Set(First, Light); // moves alone take another way
+	EXPECT_EQ(Store.GetTable()[First.Index].Number, MakeLightNumber(First));
+	Store.Remove(First);
+	EXPECT_EQ(Store.GetTable()[First.Index].Number, 0u);
+	const FLightId Second = Store.Add(Light);
+	ASSERT_EQ(Second.Index, First.Index);
+	EXPECT_NE(Store.GetTable()[Second.Index].Number, MakeLightNumber(First));
+	Light.Number = 77;
+	Store.Set(Second, Light);
+	EXPECT_EQ(Store.GetTable()[Second.Index].Number, 77u) << "the host's own";
+}
+
 TEST(FLightStoreTest, ShapesAreAsShadersReadThem)
 {
 	FSceneLight Light = MakeLight({}, LIGHT_RECTANGLE);

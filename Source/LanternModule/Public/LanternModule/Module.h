@@ -63,6 +63,13 @@ enum class ERTLightHandle : uint64_t
 {
 	None = 0
 };
+/// Returns the number of a light in FRTModuleLightMask::Lights. Its lower 24 bits are small and no two living lights share them, so that
+/// they serve as an index; 0 is none. The upper 8 tell a light from those that had the index before.
+inline constexpr uint32_t GetLightNumber(ERTLightHandle Handle)
+{
+	const uint64_t Bits = static_cast<uint64_t>(Handle);
+	return static_cast<uint32_t>((Bits & 0xffffff) | ((Bits >> 32 & 0xff) << 24));
+}
 enum class ERTIesHandle : uint64_t
 {
 	None = 0

@@ -228,6 +228,9 @@ struct FRTModuleFrame
 	bool bFog = false;
 	/// How forward the engine's fog scatters: g of Henyey and Greenstein (1941), -1 < g < 1. 0: alike in all directions.
 	float FogPhase = 0.0f;
+	/// The engine lights by itself and reads FRTModuleOutputs::LightMask. ESignal::LocalDiffuse and LocalSpecular then hold only what is not
+	/// in the mask. It needs no input but Depth and Normals. A first frame with it has none of the three until shaders are compiled.
+	bool bLightMask = false;
 	/// RenderFrame submits the scene's own work (copies, skinning, acceleration structures, records) by itself before it returns.
 	/// Tasks record it. Commands gets the passes over pixels alone, and is submitted later than that. The work runs on the device's
 	/// compute queue, beside the engine's G-buffer, if there is one and r.RT.Async names passes of it. The engine's submission then
@@ -276,6 +279,22 @@ struct FRTModuleFog
 	float Distance = 0.0f; ///< metres
 };
 
+/// How much each pixel sees of the lights around it, for an engine's own lighting. The picture is divided into tiles of 8 x 8 pixels, from
+/// the view's corner on. A tile has 8 slots. All lights that reach it are in slots if they are no more. Else those are that bring most to
+/// 8 of its pixels, shadows aside. The engine multiplies its own light of a lamp by what the lamp's slot says, and by 0 where the
+/// lamp has none. With LocalDiffuse and LocalSpecular, which hold the other lamps and emissive triangles, the sum is all light of lamps.
+/// A lamp keeps its slot in a tile while it is listed there, also as the camera moves. Shaders/LocalLights/LightMask.glsl reads all this.
+struct FRTModuleLightMask
+{
+	/// R32_UINT, as large as the view: slot I has the bits 4 I to 4 I + 3. 0: its light is hidden, or no light is there; 15: it is seen.
+	/// Lights with an extent have values between, which r.RT.Lights.HistorySeconds smooths, rounded up or down by chance. Lights without
+	/// shadow are seen. The sky has 0. Null: as in FRTModuleOutputs, and LocalDiffuse and LocalSpecular then hold no light of lamps.
+	IRTTexture* Visibility = nullptr;
+	/// R32_UINT, 8 texels wide and one high for each tile. The light in slot I at pixel P is that of texel (P.x / 8 * 8 + I, P.y / 8), as
+	/// GetLightNumber of its handle. 0: the slot is free. Lights are named so from the frame on that has taken over AddLight.
+	IRTTexture* Lights = nullptr;
+};
+
 /// Outputs of a frame. The renderer owns the textures; they are valid until its next RenderFrame. They are in ShaderRead. The
 /// engine may copy from them if it puts them back in ShaderRead.
 /// To read them, fetch the texel of the view's own pixel: the engine's pixel minus FRTModuleFrame::OffsetX and OffsetY. Or sample
@@ -288,8 +307,9 @@ struct FRTModuleOutputs
 	/// Textures by ESignal, which says what each holds. SignalInfos has their formats.
 	IRTTexture* Signals[MaxSignals] = {};
 	IRTTexture* Get(ESignal Signal) const { return Signals[ToIndex(Signal)]; }
-	FRTModuleFog Fog;   ///< with FRTModuleFrame::bFog
-	FRTModuleWait Wait; ///< see FRTModuleFrame::bSubmitAhead
+	FRTModuleFog Fog;             ///< with FRTModuleFrame::bFog
+	FRTModuleLightMask LightMask; ///< with FRTModuleFrame::bLightMask
+	FRTModuleWait Wait;           ///< see FRTModuleFrame::bSubmitAhead
 	/// Whether all shaders of the frame are compiled. They compile in the background; RenderFrame never waits for them
 	/// (IRTModuleRenderer::Precache does, at load). An output is null until its first shaders are ready, and is not filtered
 	/// until those of its filter are. Objects whose own shaders are missing then have the shadow of a stand-in, or none

@@ -45,12 +45,6 @@ struct FDenoiser
 	FGraphTexture AddFilterPass(FGraphTexture Input, FGraphTexture Output, uint32_t Index);
 };
 
-float GetMinAlpha(float HistorySeconds, float DeltaSeconds)
-{
-	// 1 − e^−x of frames so short that their share would be lost in half precision.
-	return HistorySeconds > 0.0f ? std::max(-std::expm1(-DeltaSeconds / HistorySeconds), 1.0f / 1024.0f) : 1.0f;
-}
-
 std::vector<std::pair<std::string, std::string>> MakeDefines(bool bColor, bool bExtent)
 {
 	std::vector<std::pair<std::string, std::string>> Defines = {{"CHANNELS", bColor ? "3" : "1"}};
@@ -163,6 +157,12 @@ FGraphTexture FDenoiser::AddFilterPass(FGraphTexture Input, FGraphTexture Output
 	return Output;
 }
 } // namespace
+
+float GetMinAlpha(float HistorySeconds, float DeltaSeconds)
+{
+	// 1 − e^−x of frames so short that their share would be lost in half precision.
+	return HistorySeconds > 0.0f ? std::max(-std::expm1(-DeltaSeconds / HistorySeconds), 1.0f / 1024.0f) : 1.0f;
+}
 
 FShaderDefines MakeValidationDefines()
 {

@@ -41,6 +41,8 @@ struct FDenoiseInputs
 /// Pictures of the filter's history for r.RT.Debug.View: FDenoiseInputs::Name, and one of these.
 inline constexpr const char *ConfidencePicture = ".confidence", *ChangePicture = ".change";
 
+/// Returns the least weight of a new frame in a mean over time, 0 to 1. Seconds.
+float GetMinAlpha(float HistorySeconds, float DeltaSeconds);
 /// The defines of shaders that ask Library/History.glsl for a surface's history, by planted faults.
 FShaderDefines MakeValidationDefines();
 /// Finds the history of a signal before it is filtered, for passes that read what was there before. Once a frame: FDenoiseInputs::History

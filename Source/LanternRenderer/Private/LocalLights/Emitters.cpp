@@ -26,7 +26,7 @@ bool HasManyClusters(const FSceneFacts& Facts) { return Facts.EmissiveClusters >
 FShaderSource MakeClustersSource() { return MakeComputeSource("LocalLights/EmitterClusters.comp"); }
 } // namespace
 
-bool HasEmitters(const FSceneFacts& Facts) { return Facts.bEmissive && CVarEmissive.GetOnRenderThread(); }
+bool HasEmitters(const FSceneFacts& Facts) { return Facts.bEmissive && !Facts.bMaskAlone && CVarEmissive.GetOnRenderThread(); }
 
 bool IsEmissionDirect(const FPassQuery& Query, ESignal Lobe)
 {

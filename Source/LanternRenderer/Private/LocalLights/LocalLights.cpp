@@ -7,6 +7,7 @@
 #include "LocalLightTypes.h"
 #include "LocalLights/Emitters.h"
 #include "LocalLights/LampChange.h"
+#include "LocalLights/LightMask.h"
 #include "LocalLights/LocalRequests.h"
 #include "LocalLights/SecondRays.h"
 #include "Reflections/Reflections.h"
@@ -31,10 +32,17 @@ TRTConsoleVariable<bool> CVarCasters(
     "r.RT.Debug.Lights.Casters", true, "Planted fault. If off, rays to local lights meet what casts from the sun.");
 const FDenoiseVariables Denoise("r.RT.Lights", FDenoiseDefaults{.SigmaValue = 2.0f, .Passes = 2, .bColor = true});
 
-uint32_t GetExact() { return static_cast<uint32_t>(CVarExact.GetOnRenderThread()); }
+/// The light mask has room for the most lights that can have rays each.
+uint32_t GetExact(const FSceneFacts& Facts)
+{
+	return Facts.bLightMask ? TILE_LIGHTS : static_cast<uint32_t>(CVarExact.GetOnRenderThread());
+}
 
 /// Whether pixels choose of lamps: where each has its ray, the filter need not be told of changes.
-bool AreLampsChosen(const FSceneFacts& Facts) { return Facts.Lights > GetExact() && IsGuided(Facts, GetExact()); }
+bool AreLampsChosen(const FSceneFacts& Facts) { return Facts.Lights > GetExact(Facts) && IsGuided(Facts, GetExact(Facts)); }
+
+/// Beside a light mask nobody knows which lights a pixel chose of before.
+bool AreLampsFollowed(const FSceneFacts& Facts) { return AreLampsChosen(Facts) && !Facts.bLightMask; }
 
 FShaderSource MakeShadeSource(const FSceneFacts& Facts, uint32_t Exact)
 {
@@ -99,7 +107,7 @@ const FLocalLobes* RequireLobes(FFrameContext& Context, const FGBuffer& GBuffer)
 	if (!Rays || !Rays->Traced.TileLights.IsValid()) { return nullptr; }
 	if (!Context.LocalLobes)
 	{
-		IRTPipeline* const Pipeline = RequireCompute(Context, MakeShadeSource(Context.Facts, GetExact()));
+		IRTPipeline* const Pipeline = RequireCompute(Context, MakeShadeSource(Context.Facts, GetExact(Context.Facts)));
 		if (!Pipeline) { return nullptr; }
 		Context.LocalLobes = std::make_shared<const FLocalLobes>(AddShadePass(Context, GBuffer, *Rays, Pipeline));
 	}
@@ -108,7 +116,7 @@ const FLocalLobes* RequireLobes(FFrameContext& Context, const FGBuffer& GBuffer)
 
 FGraphTexture AddLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESignal Signal)
 {
-	if (ChooseSignalRays(Context, Signal).Path == ERayPath::None) { return {}; }
+	if (!IsMade(Signal, Context.Signals) || ChooseSignalRays(Context, Signal).Path == ERayPath::None) { return {}; }
 	const FLocalLobes* const Lobes = RequireLobes(Context, GBuffer);
 	if (!Lobes) { return {}; }
 	const FGraphTexture Lobe = Signal == ESignal::LocalDiffuse ? Lobes->Diffuse : Lobes->Specular;
@@ -118,11 +126,12 @@ FGraphTexture AddLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESignal S
 	Inputs.Signal = Lobe;
 	// A highlight moves with the camera, and diffuse light does not.
 	const bool bLampsAlone = !HasEmitters(Context.Facts); // nobody counts what becomes of surfaces
-	const bool bStays = Signal == ESignal::LocalDiffuse && bLampsAlone && CVarKnownChanges.GetOnRenderThread();
+	const bool bStays = Signal == ESignal::LocalDiffuse && bLampsAlone && CVarKnownChanges.GetOnRenderThread() && !Context.Facts.bLightMask;
 	if (bStays && !FindLampShadowChanges(Context, Inputs.Changes)) { return {}; }
-	if (AreLampsChosen(Context.Facts))
+	if (AreLampsFollowed(Context.Facts))
 	{
-		Inputs.Change = AddLampChange(Context, GBuffer, Context.ShadowRays->Traced, MakeLocalDefines(Context.Facts, GetExact()), Signal);
+		const FShaderDefines Defines = MakeLocalDefines(Context.Facts, GetExact(Context.Facts));
+		Inputs.Change = AddLampChange(Context, GBuffer, Context.ShadowRays->Traced, Defines, Signal);
 	}
 	return AddDenoise(Context, GBuffer, Inputs, Denoise);
 }
@@ -148,33 +157,35 @@ FPassRays ChooseLocalLightRays(const FPassQuery& Query)
 	// Rays go where pixels have asked for them. What lights bring there was asked before.
 	FSceneFacts Traced = Query.Facts;
 	Traced.bLightProfiles = Traced.bLightChannels = false;
-	Rays.Defines = MakeLocalDefines(Traced, GetExact());
+	const uint32_t Exact = GetExact(Query.Facts);
+	Rays.Defines = MakeLocalDefines(Traced, Exact);
 	Rays.Defines.emplace_back("LOCAL_RAYS", "1");
 	if (!CVarCasters.GetOnRenderThread()) { Rays.Defines.emplace_back("ONE_CASTER", "1"); }
 	AddReceiverDefines(Query.Facts, Rays.Defines);
 	Rays.Shaders = ShadowQueueShaders;
-	Rays.Compute = {MakeShadeSource(Query.Facts, GetExact())};
-	ListLocalRequestShaders(Query.Facts, GetExact(), Rays.Compute);
-	if (Denoise.IsEnabled() && AreLampsChosen(Query.Facts))
-	{
-		ListLampChangeShaders(MakeLocalDefines(Query.Facts, GetExact()), Rays.Compute);
-	}
+	if (!Query.Facts.bMaskAlone) { Rays.Compute = {MakeShadeSource(Query.Facts, Exact)}; }
+	ListLocalRequestShaders(Query.Facts, Exact, Rays.Compute);
+	ListLightMaskShaders(Query.Facts, Rays.Compute);
+	if (Denoise.IsEnabled() && AreLampsFollowed(Query.Facts)) { ListLampChangeShaders(MakeLocalDefines(Query.Facts, Exact), Rays.Compute); }
 	return Rays;
 }
 
 bool AskLocalRays(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowRayWishes& InOut)
 {
-	const uint32_t Exact = GetExact();
+	const uint32_t Exact = GetExact(Context.Facts);
 	const bool bMany = MayChooseLights(Context.Facts, Exact);
 	// A variant from before a change may lack what the lights of now need.
 	if (!Dispatch.Has("LOCAL_RAYS") || (bMany && !Dispatch.Has("MANY_LIGHTS"))) { return false; }
 	if (!HasLightRate(Dispatch)) { return false; }
 	if (Context.Facts.bAreaLights && !Dispatch.Has("HAS_AREA_LIGHTS")) { return false; }
 	if (HasEmitters(Context.Facts) && !Dispatch.Has("LOCAL_EMISSIVE")) { return false; }
-	if (!AreLocalRequestsReady(Context, Exact) || !RequireCompute(Context, MakeShadeSource(Context.Facts, Exact))) { return false; }
+	if (!AreLocalRequestsReady(Context, Exact) || !IsLightMaskReady(Context)) { return false; }
+	if (!Context.Facts.bMaskAlone && !RequireCompute(Context, MakeShadeSource(Context.Facts, Exact))) { return false; }
 	InOut.Local = FLocalRays{Exact, GetLocalRaysPerPixel(Context.Facts, Exact), bMany};
 	return true;
 }
+
+float GetLocalHistorySeconds() { return Denoise.IsEnabled() ? Denoise.Get().HistorySeconds : 0.0f; }
 
 bool AreLocalLightsFiltered(const FRTScene&) { return Denoise.IsEnabled(); }
 

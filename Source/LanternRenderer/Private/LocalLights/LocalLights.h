@@ -16,6 +16,8 @@ bool AskLocalRays(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowR
 /// Read Depth, Normals, BaseColor, Material and, if there is any, Motion of the G-buffer.
 FGraphTexture AddLocalDiffusePass(FFrameContext& Context, const FGBuffer& GBuffer);
 FGraphTexture AddLocalSpecularPass(FFrameContext& Context, const FGBuffer& GBuffer);
+/// Returns the time constant of what is accumulated of local lights, seconds; 0: nothing is (r.RT.Lights.Denoise, .HistorySeconds).
+float GetLocalHistorySeconds();
 /// Returns whether the light of local lights, if there is any, is filtered over frames.
 bool AreLocalLightsFiltered(const FRTScene& Scene);
 /// Tells references which pixels trace reflections, where the two signals share emission.

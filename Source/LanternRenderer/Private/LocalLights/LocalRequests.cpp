@@ -9,6 +9,7 @@
 #include "Lights/PixelChannels.h"
 #include "LocalLightTypes.h"
 #include "LocalLights/Emitters.h"
+#include "LocalLights/LightMask.h"
 #include "LocalLights/LightRegions.h"
 #include "LocalLights/SecondRays.h"
 
@@ -46,6 +47,7 @@ uint32_t GetCandidates()
 /// Lights that a pixel of a tile of many chooses.
 uint32_t GetChosen(const FSceneFacts& Facts, uint32_t Exact)
 {
+	if (Facts.bLightMask) { return 1; } // slots have the bits of further answers
 	return Facts.Lights > Exact && IsGuided(Facts, Exact) ? static_cast<uint32_t>(CVarRays.GetOnRenderThread()) : 1;
 }
 
@@ -54,6 +56,8 @@ bool HasRegions(const FSceneFacts& Facts, uint32_t Exact) { return IsGuided(Fact
 FShaderSource MakeRequestsSource(const FSceneFacts& Facts, uint32_t Exact)
 {
 	FShaderDefines Defines = MakeChoiceDefines(Facts, Exact);
+	if (Facts.bMaskAlone) { Defines.emplace_back("MASK_ALONE", "1"); }
+	if (Facts.bLightMask) { AddMaskOrderDefine(Defines); }
 	if (!CVarCellTarget.GetOnRenderThread()) { Defines.emplace_back("ONE_SAMPLER", "1"); }
 	if (!CVarWeight.GetOnRenderThread()) { Defines.emplace_back("NO_CHOICE_WEIGHT", "1"); }
 	return MakeComputeSource("LocalLights/Requests.comp", std::move(Defines));
@@ -78,6 +82,7 @@ struct FRequestsPass
 	FGraphBuffer Guide;       ///< two times FTileGuide[Tiles], of this frame and of the one before
 	uint64_t GuideOffset = 0; ///< of this frame's, bytes
 	bool bPreviousGuide = false;
+	FGraphTexture PreviousLights; ///< FQueuedRays::MaskLights, of the previous frame
 	uint32_t Tiles = 0;
 	bool IsGuided() const { return Guide.IsValid(); }
 };
@@ -99,20 +104,22 @@ bool AddGuide(FFrameContext& Context, uint64_t Choices, FRequestsPass& InOut)
 		InOut.bPreviousGuide = !History.bFresh && !Context.View.bCut; // another place
 	}
 	else { InOut.Guide = Context.Graph.CreateBuffer({2 * Bytes}, "LightGuide"); } // nobody reads it in the next frame
-	if (!CVarUnbiased.GetOnRenderThread()) { InOut.Lit = Context.Graph.CreateBuffer({Choices * sizeof(FLitPixel)}, "LitPixels"); }
+	if (Choices > 0 && !CVarUnbiased.GetOnRenderThread())
+	{
+		InOut.Lit = Context.Graph.CreateBuffer({Choices * sizeof(FLitPixel)}, "LitPixels");
+	}
 	return true;
 }
 
 /// Fills what GUIDED shaders read beside the rest.
 void SetGuide(FPassContext& Pass, const FFrameContext& Frame, const FRequestsPass& Inputs, FLocalRequestsConstants& C)
 {
-	const FAddress Guides = GetAddress(Pass, Inputs.Guide);
-	const uint64_t Bytes = uint64_t(Inputs.Tiles) * sizeof(FTileGuide);
 	C.BaseColor = GetSampledIndex(Pass, Inputs.GBuffer.BaseColor);
 	C.Material = GetSampledIndex(Pass, Inputs.GBuffer.Material);
 	C.Lit = GetAddress(Pass, Inputs.Lit);
-	C.Guide = Guides + Inputs.GuideOffset;
-	C.PreviousGuide = Inputs.bPreviousGuide ? Guides + (Bytes - Inputs.GuideOffset) : 0;
+	C.Guide = GetAddress(Pass, Inputs.Guide) + Inputs.GuideOffset;
+	const uint32_t Previous = Inputs.GuideOffset > 0 ? PREVIOUS_GUIDE_BEFORE : PREVIOUS_GUIDE_BEHIND;
+	C.PreviousGuide = Inputs.bPreviousGuide ? Previous : PREVIOUS_GUIDE_NONE;
 	C.Limits |= GetCandidates() << 16;
 	C.Regions = GetAddress(Pass, Inputs.Regions);
 	C.Emitters = GetAddress(Pass, Inputs.Emitters);
@@ -121,8 +128,10 @@ void SetGuide(FPassContext& Pass, const FFrameContext& Frame, const FRequestsPas
 
 void DeclareGuide(FPassBuilder& Builder, const FRequestsPass& Inputs)
 {
-	Builder.Read(Inputs.GBuffer.BaseColor, ERTAccess::ShaderRead);
-	Builder.Read(Inputs.GBuffer.Material, ERTAccess::ShaderRead);
+	for (const FGraphTexture Texture : {Inputs.GBuffer.BaseColor, Inputs.GBuffer.Material}) // a light mask alone needs none
+	{
+		if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+	}
 	if (Inputs.bPreviousGuide) { Builder.Read(Inputs.Guide, ERTAccess::StorageRead); }
 	if (Inputs.Regions.IsValid()) { Builder.Read(Inputs.Regions, ERTAccess::ShaderRead); }
 	Builder.Write(Inputs.Guide, ERTAccess::StorageWrite);
@@ -157,7 +166,10 @@ void AddRequestsPass(FFrameContext& Context, IRTPipeline* Pipeline, const FReque
 	Context.Graph.AddPass((Inputs.Queue.Name + "Lights").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Read(Inputs.GBuffer.Depth, ERTAccess::ShaderRead);
 		Builder.Read(Inputs.GBuffer.Normals, ERTAccess::ShaderRead);
-		if (Inputs.Channels.IsValid()) { Builder.Read(Inputs.Channels, ERTAccess::ShaderRead); }
+		for (const FGraphTexture Texture : {Inputs.Channels, Inputs.PreviousLights})
+		{
+			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+		}
 		DeclareQueue(Builder, Inputs.Queue, Inputs.bFirst);
 		Builder.Write(Inputs.TileLights, ERTAccess::StorageWrite);
 		if (Inputs.Choices.IsValid()) { Builder.Write(Inputs.Choices, ERTAccess::StorageWrite); }
@@ -173,6 +185,7 @@ void AddRequestsPass(FFrameContext& Context, IRTPipeline* Pipeline, const FReque
 			C.Depth = GetSampledIndex(Pass, Inputs.GBuffer.Depth);
 			C.Normals = GetSampledIndex(Pass, Inputs.GBuffer.Normals);
 			C.Channels = GetSampledIndex(Pass, Inputs.Channels);
+			C.PreviousLights = GetSampledIndex(Pass, Inputs.PreviousLights);
 			if (Inputs.IsGuided()) { SetGuide(Pass, *Frame, Inputs, C); }
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
@@ -191,10 +204,10 @@ void AddSharePass(FFrameContext& Context, IRTPipeline* Pipeline, const FRequests
 }
 } // namespace
 
-// Where surfaces emit, pixels always choose of a table.
+// Where surfaces emit, pixels always choose of a table. A light mask ranks lights as tables do.
 bool IsGuided(const FSceneFacts& Facts, uint32_t Exact)
 {
-	return HasEmitters(Facts) || (MayChooseLights(Facts, Exact) && CVarCandidates.GetOnRenderThread() > 0);
+	return HasEmitters(Facts) || (MayChooseLights(Facts, Exact) && (CVarCandidates.GetOnRenderThread() > 0 || Facts.bLightMask));
 }
 
 FShaderDefines MakeLocalDefines(FSceneFacts Facts, uint32_t Exact)
@@ -212,6 +225,7 @@ FShaderDefines MakeChoiceDefines(const FSceneFacts& Facts, uint32_t Exact)
 {
 	FShaderDefines Defines = MakeLocalDefines(Facts, Exact);
 	if (IsGuided(Facts, Exact)) { Defines.emplace_back("GUIDED", "1"); }
+	if (Facts.bLightMask) { Defines.emplace_back("LIGHT_MASK", "1"); }
 	if (const uint32_t Chosen = GetChosen(Facts, Exact); Chosen > 1) { Defines.emplace_back("CHOSEN_RAYS", std::to_string(Chosen) + "u"); }
 	if (HasEmitters(Facts) && Facts.bMasked) { Defines.emplace_back("HAS_MASKED", "1"); } // what is cut away does not shine
 	return Defines;
@@ -222,7 +236,8 @@ bool HasLocalRays(const FSceneFacts& Facts) { return Facts.ShadowedLights > 0 ||
 uint32_t GetLocalRaysPerPixel(const FSceneFacts& Facts, uint32_t Exact)
 {
 	if (!HasLocalRays(Facts)) { return 0; }
-	return std::max(std::min(Facts.ShadowedLights, Exact) + (HasEmitters(Facts) ? 1 : 0), GetChosen(Facts, Exact));
+	const bool bRest = Facts.bLightMask && !Facts.bMaskAlone && MayChooseLights(Facts, Exact); // beside the lights of the mask
+	return std::max(std::min(Facts.ShadowedLights, Exact) + (HasEmitters(Facts) || bRest ? 1 : 0), GetChosen(Facts, Exact));
 }
 
 bool MayChooseLights(const FSceneFacts& Facts, uint32_t Exact) { return Facts.Lights > Exact || HasEmitters(Facts); }
@@ -251,10 +266,13 @@ void AddLocalRequests(FFrameContext& Context, const FGBuffer& GBuffer, FShadowRa
 	FRequestsPass Inputs{GBuffer, InOut.Queue, Rays, !InOut.Tiles.IsValid()};
 	Inputs.Tiles = DivideUp(Context.Width, TILE_SIZE) * DivideUp(Context.Height, TILE_SIZE);
 	Inputs.TileLights = Context.Graph.CreateBuffer({Inputs.Tiles * sizeof(FTileLights)}, "TileLights");
+	if (Context.Facts.bLightMask && !FindMaskLights(Context, InOut.Traced.MaskLights)) { return; }
+	Inputs.PreviousLights = InOut.Traced.MaskLights.Previous;
 	if (Rays.bMany)
 	{
-		const uint64_t Choices = uint64_t(Context.Width) * Context.Height * GetChosen(Context.Facts, Rays.Exact);
-		Inputs.Choices = Context.Graph.CreateBuffer({Choices * sizeof(FLightChoice)}, "LightChoices");
+		const uint64_t Pixels = uint64_t(Context.Width) * Context.Height;
+		const uint64_t Choices = Context.Facts.bMaskAlone ? 0 : Pixels * GetChosen(Context.Facts, Rays.Exact);
+		if (Choices > 0) { Inputs.Choices = Context.Graph.CreateBuffer({Choices * sizeof(FLightChoice)}, "LightChoices"); }
 		if (!IsGuided(Context.Facts, Rays.Exact)) { RequireLightCells(Context, GBuffer); } // pixels visit the lights of their cell
 		else if (!AddGuide(Context, Choices, Inputs)) { return; }
 		if (HasRegions(Context.Facts, Rays.Exact))

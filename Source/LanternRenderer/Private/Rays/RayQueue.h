@@ -4,6 +4,7 @@
 // needs to know in FShadowQueueConstants.
 #pragma once
 
+#include "LanternCore/FrameGraph/History.h"
 #include "RayPath.h"
 
 namespace Lantern
@@ -68,11 +69,12 @@ void StartQueue(FPassContext& Pass, const FRayQueue& Queue);
 struct FQueuedRays
 {
 	FSunRays Sun;
-	FGraphBuffer TileLights;  ///< FTileLights[], for rays to local lights; invalid: there are none
-	FGraphBuffer Choices;     ///< FLightChoice[choices · Width · Height]; invalid: no pixel chooses a light
-	FGraphBuffer Lit;         ///< FLitPixel[choices · Width · Height], for the shading; invalid: it goes by Choices alone
-	FGraphBuffer Guide;       ///< two times FTileGuide[], this frame's at GuideOffset
-	uint64_t GuideOffset = 0; ///< bytes
+	FGraphBuffer TileLights;    ///< FTileLights[], for rays to local lights; invalid: there are none
+	FGraphBuffer Choices;       ///< FLightChoice[choices · Width · Height]; invalid: no pixel chooses a light
+	FGraphBuffer Lit;           ///< FLitPixel[choices · Width · Height], for the shading; invalid: it goes by Choices alone
+	FGraphBuffer Guide;         ///< two times FTileGuide[], this frame's at GuideOffset
+	uint64_t GuideOffset = 0;   ///< bytes
+	FHistoryTexture MaskLights; ///< which lights the slots of tiles have (FindMaskLights); Current invalid: nobody reads the light mask
 	uint32_t LocalPerPixel = 0;
 	uint32_t MoreSamples = 0; ///< see FShadowQueueConstants
 };

@@ -38,6 +38,7 @@ struct FFrameOutputs
 	FGraphTexture Lighting;                         ///< RGBA32_FLOAT, linear radiance
 	FGraphTexture Display;                          ///< RGBA8_UNORM, tone-mapped, sRGB-encoded
 	FFogAtlas Fog;                                  ///< with FSignalRequests::bFog
+	FLightMask LightMask;                           ///< with FSignalRequests::bLightMask
 	FGraphTexture& Get(ESignal Signal) { return Signal == ESignal::Frame ? Lighting : Signals[ToIndex(Signal)]; }
 	const FGraphTexture& Get(ESignal Signal) const { return Signal == ESignal::Frame ? Lighting : Signals[ToIndex(Signal)]; }
 };
@@ -53,6 +54,10 @@ FFogAtlas AddFogShadowPass(FFrameContext& Context);
 /// Notes how far the next frame's fog can be seen; after AddFogShadowPass. Does nothing without fog. A frame whose predecessor lacks it
 /// lights all froxels, whatever hides them.
 void AddFogDepthPass(FFrameContext& Context, const FGBuffer& GBuffer);
+
+/// Adds the light mask, and returns it; later calls of a frame return what the first one did. Reads Depth, Normals and, if there is any,
+/// Motion of the G-buffer.
+FLightMask AddLightMaskPass(FFrameContext& Context, const FGBuffer& GBuffer);
 
 /// Makes FGBuffer::Motion of a world that stands still, from depth alone, with w = 0.
 FGraphTexture AddCameraMotionPass(FFrameContext& Context, FGraphTexture Depth);

@@ -57,6 +57,9 @@ struct FSignalRequests
 	bool bFog = false;
 	/// How forward fog scatters: g of Henyey and Greenstein (1941), −1 < g < 1. 0: alike in all directions.
 	float FogPhase = 0.0f;
+	/// Somebody reads the light mask (FLightMask), and lights by itself with it. The signals of local lights, and with them the composite,
+	/// then lack the lights of the mask.
+	bool bLightMask = false;
 };
 
 /// What a frame is to do beside its cameras and console variables.
@@ -180,6 +183,14 @@ struct FFogOfFrame
 	bool bAsked = false, bDepthAsked = false;
 };
 
+/// What pixels see of lights, for a host that lights by itself: FRTModuleLightMask says how it is read.
+struct FLightMask
+{
+	FGraphTexture Visibility; ///< R32_UINT; invalid: nobody asks, or as in FFrameOutputs
+	FGraphTexture Lights;     ///< R32_UINT: which light a slot is, by MakeLightNumber or FSceneLight::Number; 0: none
+	bool IsValid() const { return Visibility.IsValid(); }
+};
+
 struct FShadowRays; // Private/Rays/ShadowRays.h
 /// Light of local lights by lobe, not filtered.
 struct FLocalLobes
@@ -229,6 +240,7 @@ struct FFrameContext
 	std::shared_ptr<const FShadowRays> ShadowRays; ///< null: none, or nobody has asked so far
 	bool bShadowRaysAsked = false;
 	std::shared_ptr<const FLocalLobes> LocalLobes; ///< null: not shaded so far
+	std::optional<FLightMask> LightMask;           ///< nullopt: nobody has asked so far
 	FSceneTokens Tokens;
 	FSignalRequests Signals;
 	/// First error that a pass met; the frame is then not submitted. Not while passes are recorded.

@@ -108,6 +108,7 @@ FLightData PackLight(const FSceneLight& Light)
 	Out.Direction = PackDirection(glm::dvec3(Light.Direction));
 	Out.Tangent = PackDirection(MakeTangent(Light));
 	Out.Size = PackSize(Light);
+	Out.Number = Light.Number;
 	if (Light.OuterCone > 0.0f && Light.Type != LIGHT_DIRECTIONAL) { PackCone(Light, Out); }
 	return Out;
 }

@@ -26,6 +26,15 @@ FLightData FLightStore::PackMoved(const FSceneLight& Before, const FSceneLight& 
 	return Packed;
 }
 
+namespace
+{
+FLightData NumberLight(FLightData Packed, FLightId Id)
+{
+	if (Packed.Number == 0) { Packed.Number = MakeLightNumber(Id); }
+	return Packed;
+}
+} // namespace
+
 /// Times: 1, or −1 modulo 2³².
 void FLightStore::Count(const FSceneLight& Light, uint32_t Times)
 {
@@ -50,7 +59,7 @@ void FLightStore::SetCastingKinds(uint32_t Kinds)
 	++Changes;
 	for (uint32_t Slot = 0; Slot < Slots.Num(); ++Slot)
 	{
-		if (Slots.IsAlive(Slot)) { Table.Set(Slot, Pack(Slots[Slot])); }
+		if (Slots.IsAlive(Slot)) { Table.Set(Slot, NumberLight(Pack(Slots[Slot]), {Slot, Slots.GetGeneration(Slot)})); }
 	}
 }
 
@@ -66,8 +75,9 @@ FLightId FLightStore::Add(const FSceneLight& Light)
 	++Changes;
 	Count(Light, 1);
 	Journal.Add(GetReach(Light));
-	Table.Set(Slot, Pack(Light));
-	return {Slot, Slots.GetGeneration(Slot)};
+	const FLightId Id{Slot, Slots.GetGeneration(Slot)};
+	Table.Set(Slot, NumberLight(Pack(Light), Id));
+	return Id;
 }
 
 void FLightStore::Set(FLightId Id, const FSceneLight& Light)
@@ -83,7 +93,7 @@ void FLightStore::Set(FLightId Id, const FSceneLight& Light)
 	}
 	Count(Old, ~0u);
 	Count(Light, 1);
-	const FLightData Packed = PackMoved(Old, Light, Table[Id.Index], Reach);
+	const FLightData Packed = NumberLight(PackMoved(Old, Light, Table[Id.Index], Reach), Id);
 	Old = Light;
 	Table.Set(Id.Index, Packed);
 }

@@ -44,7 +44,7 @@ enum class ESignal : uint8_t
 	Reflections,
 	/// Shadowed light of local lights, which are all but the sun and the sky. Emissive triangles are among them if r.RT.Lights.Emissive is
 	/// on: see DiffuseGI. It is what the diffuse lobe reflects towards the camera, over the lobe's directional albedo: irradiance / π.
-	/// Sky pixels: 0.
+	/// Sky pixels: 0. A host that reads the light mask gets what is not in the mask (FRTModuleFrame::bLightMask).
 	LocalDiffuse,
 	/// What the specular lobe reflects of these lights, over its directional albedo. A mirror is as rough as a lobe can be seen. Emissive
 	/// triangles count as Reflections says. Sky pixels: 0.

@@ -19,6 +19,9 @@ struct FLightId
 	friend bool operator==(FLightId, FLightId) = default;
 };
 
+/// Returns what readers of the light mask know a light by: 24 bits of its slot, from 1 on, and 8 of how often the slot was used.
+inline uint32_t MakeLightNumber(FLightId Id) { return (Id.Index + 1) | Id.Generation << LIGHT_INDEX_BITS; }
+
 /// A light of the scene. All numbers are finite. Area lights are seen by what they light, and not by rays that meet them.
 struct FSceneLight
 {
@@ -41,6 +44,7 @@ struct FSceneLight
 	bool bLightsFog = true; ///< fog scatters it
 	/// Point: intensity by direction, a number of FRTScene::AddLightProfile; 0: the same in all. It multiplies the cone.
 	uint32_t Profile = 0;
+	uint32_t Number = 0;                 ///< names it to readers of the light mask; 0: MakeLightNumber of its id
 	uint8_t Channels = CHANNELS_DEFAULT; ///< it lights objects that share a bit with it (FRTObjectTraits); fog has none
 	friend bool operator==(const FSceneLight&, const FSceneLight&) = default;
 };

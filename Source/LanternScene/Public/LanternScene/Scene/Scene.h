@@ -57,6 +57,9 @@ struct FSceneFacts
 	bool bSkyMap = false;     ///< it is a texture
 	bool bCharacters = false; ///< some objects are not shadowed by characters: FRTObjectTraits
 	bool bHostShadow = false; ///< the frame's host has a shadow map of the sun; set by the renderer
+	/// The frame's host reads the light mask, and there is a light for it. Set by the renderer.
+	bool bLightMask = false;
+	bool bMaskAlone = false; ///< and nobody reads the signals of local lights
 	friend bool operator==(const FSceneFacts&, const FSceneFacts&) = default;
 };
 
