@@ -180,6 +180,14 @@ struct FFogOfFrame
 	bool bAsked = false, bDepthAsked = false;
 };
 
+/// Lights that have changed since the view's last frame, for what follows them (LocalLights/LampChange.h). The first pass that asks
+/// lists them.
+struct FLampChangesOfFrame
+{
+	FGraphBuffer List; ///< invalid: none has, or there is no last frame
+	bool bAsked = false;
+};
+
 struct FShadowRays; // Private/Rays/ShadowRays.h
 /// Light of local lights by lobe, not filtered.
 struct FLocalLobes
@@ -229,6 +237,7 @@ struct FFrameContext
 	std::shared_ptr<const FShadowRays> ShadowRays; ///< null: none, or nobody has asked so far
 	bool bShadowRaysAsked = false;
 	std::shared_ptr<const FLocalLobes> LocalLobes; ///< null: not shaded so far
+	FLampChangesOfFrame LampChanges;
 	FSceneTokens Tokens;
 	FSignalRequests Signals;
 	/// First error that a pass met; the frame is then not submitted. Not while passes are recorded.
@@ -390,6 +399,7 @@ private:
 		uint64_t Viewer = 0;     // who it is to scenes
 		uint64_t Published = 0;  // FConsoleVariables::GetPublishCount of the newest frame that reached the GPU
 		uint32_t IdleFrames = 0; // of other views since its own last one
+		uint32_t Turn = 0;       // FViewConstants::FrameIndex of its newest frame
 	};
 	FViewState& GetView(uint32_t Index);
 	std::map<uint32_t, FViewState> Views;
