@@ -1,5 +1,5 @@
-// Finds where the emissive triangles of a cluster lie and how much each shines, from the vertices that rays meet in this frame. A work
-// group does one cluster, whose sums have the same order in each frame.
+// Finds where the emissive triangles of a cluster lie and how much each shines, from the vertices that rays meet in this frame, and the
+// bounds of the cluster. A work group does one cluster, whose sums have the same order in each frame.
 // NO_FLOOR (r.RT.Debug.Lights.EmissiveFloor): chances go by power alone.
 #version 460
 #include "../Shared/EmissiveTypes.h"
@@ -19,6 +19,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer FP
 	FEmissivePowerHeader Header;
 	FEmissivePower Data[];
 };
+layout(buffer_reference, scalar, buffer_reference_align = 8) writeonly buffer FBoundsRef { FEmitterCluster Data[]; };
+
+#include "EmissiveBounds.glsl"
 
 shared float Powers[EMISSIVE_GROUP_SIZE];
 shared uint Counts[EMISSIVE_GROUP_SIZE];
@@ -93,11 +96,13 @@ void main()
 		Count += Counts[I];
 	}
 	float Before = 0.0;
+	FSides Sides = FSides(vec3(1.0e30), vec3(-1.0e30), vec3(0.0), 0.0);
 	for (uint First = 0u; First < Cluster.Count; First += EMISSIVE_GROUP_SIZE)
 	{
 		barrier();
 		uint I = First + Place;
 		Powers[Place] = I < Cluster.Count ? ShareOf(Triangles.Data[Cluster.First + I].Power, Power, Count) : 0.0;
+		if (I < Cluster.Count) { AddSide(Scene, Triangles.Data[Cluster.First + I], Powers[Place], Sides); }
 		barrier();
 		float Share = Before;
 		for (uint J = 0u; J < EMISSIVE_GROUP_SIZE; ++J)
@@ -107,5 +112,8 @@ void main()
 		}
 		if (I < Cluster.Count) { Triangles.Data[Cluster.First + I].ClusterShare = I + 1u < Cluster.Count ? min(Share, 1.0) : 1.0; }
 	}
-	if (Place == 0u) { FPowersRef(Scene.EmissivePowers).Data[Index].Power = Power; }
+	FEmitterCluster Bounds = MeasureCluster(Scene, Cluster, Sides, Power, Place);
+	if (Place != 0u) { return; }
+	FPowersRef(Scene.EmissivePowers).Data[Index].Power = Power;
+	FBoundsRef(Scene.EmissiveBounds).Data[Index] = Bounds;
 }

@@ -34,6 +34,7 @@ float BoxDistance(FEmitterCluster Cluster, vec3 Low, vec3 High)
 // Whether the cluster may light a box: some of the box is before it. The slack is for what rounding tilts a plane by.
 bool MayReachFromCluster(FEmitterCluster Cluster, vec3 Low, vec3 High)
 {
+	if (Cluster.Power <= 0.0) { return false; } // its material is dark for now
 	if (!IsFlat(Cluster)) { return true; }
 	vec3 Middle = 0.5 * (Low + High);
 	float Highest = dot(Cluster.Normal, Middle) + dot(abs(Cluster.Normal), 0.5 * (High - Low));

@@ -50,6 +50,14 @@ vec3 BringsTo(FSceneConstants Scene, FViewConstants View, FLocalPoint Point, FLo
 	return Push.bSpecular != 0u ? Lobes.Specular : Lobes.Diffuse;
 }
 
+// Returns a light of the table as it is now. Slots at its end go when they fall free.
+FLightData LoadLamp(FSceneConstants Scene, uint Number)
+{
+	FLightData Light = FLightRef(Scene.Lights).Data[min(Number, Scene.LightCount - 1u)];
+	if (Number >= Scene.LightCount) { Light.Flags = LIGHT_NONE; }
+	return Light;
+}
+
 vec4 FollowPixel(FSceneConstants Scene, FViewConstants View, FLampChangesRef List, uint Count, uvec2 Pixel, float Depth)
 {
 	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, Depth);
@@ -63,12 +71,13 @@ vec4 FollowPixel(FSceneConstants Scene, FViewConstants View, FLampChangesRef Lis
 	{
 		FLampChange Change = List.Data.Changes[Order[I]];
 		vec2 U = LocalNumbers(View, Pixel, Change.Light), Known = Seen[I];
-		FLightData Now = FLightRef(Scene.Lights).Data[min(Change.Light, Scene.LightCount - 1u)];
+		FLightData Now = LoadLamp(Scene, Change.Light);
 		vec3 More = BringsTo(Scene, View, Point, Local, Roughness, Change.Light, Now, U) - BringsTo(Scene, View, Point, Local, Roughness, Change.Light, Change.Before, U);
 		if (((Now.Flags | Change.Before.Flags) & LIGHT_CASTS_SHADOW) == 0u) { Known = vec2(1.0, 0.0); }
 		float Brightness = Luminance(More);
 		Sum += vec4(More * Known.x, Brightness * Brightness * Known.y);
 	}
+	Sum.w = sqrt(Sum.w); // a variance leaves the range of fp16 early
 	return Sum;
 }
 
@@ -86,7 +95,7 @@ void main()
 	barrier();
 	if (IsOutsideView(View, Pixel)) { return; }
 	float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
-	vec4 Change = vec4(0.0, 0.0, 0.0, bTooMany ? MaxHalf : 0.0);
+	vec4 Change = vec4(0.0, 0.0, 0.0, bTooMany ? LAMP_CHANGE_UNKNOWN : 0.0);
 	if (Depth > 0.0 && !bTooMany) { Change = FollowPixel(Scene, View, List, Count, Pixel, Depth); }
 	imageStore(Images[Push.Output], ivec2(Pixel), clamp(Change, -MaxHalf, MaxHalf));
 }

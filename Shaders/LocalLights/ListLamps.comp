@@ -10,7 +10,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FWordRef { u
 
 void main()
 {
-	uint Light = gl_GlobalInvocationID.x;
+	uint Light = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * TILE_PIXELS + gl_LocalInvocationIndex;
 	if (Light >= Push.Slots) { return; }
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	FWordRef Kept = FWordRef(Push.Kept + Light * LAMP_WORDS * 4u), List = FWordRef(Push.List), Table = FWordRef(Scene.Lights);

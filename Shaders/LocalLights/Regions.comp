@@ -154,9 +154,6 @@ uint CountLights(FSceneConstants Scene, uint Begin, uint End, uint Thread, vec3 
 	return Before;
 }
 
-// Returns how many draws lie below a sum of weights. They are stratified, and Offset of the first is the same for all.
-uint DrawsBelow(float Sum, float All, float Offset) { return uint(clamp(ceil(Sum / All * float(MostListed) - Offset), 0.0, float(MostListed))); }
-
 void DrawLights(FSceneConstants Scene, FLightRegionRef Out, float Offset, uint Begin, uint End, uint Thread, vec3 Low, vec3 High)
 {
 	float Mine = 0.0, Before = 0.0, All = 0.0;
@@ -169,7 +166,7 @@ void DrawLights(FSceneConstants Scene, FLightRegionRef Out, float Offset, uint B
 		All += RunSums[I];
 	}
 	// The next thread's first draw is where this one's end, however sums are rounded.
-	uint Draw = DrawsBelow(Before, All, Offset), LastDraw = Thread + 1u < REGION_THREADS ? DrawsBelow(Before + Mine, All, Offset) : MostListed;
+	uint Draw = DrawsBelow(Before, All, Offset, MostListed), LastDraw = DrawsBelow(Before + Mine, All, Offset, MostListed);
 	uint Last = Begin;
 	float LastWeight = 0.0;
 	[[dont_unroll]] for (uint I = Begin; I <= End && Draw < LastDraw; ++I)
@@ -179,7 +176,7 @@ void DrawLights(FSceneConstants Scene, FLightRegionRef Out, float Offset, uint B
 		Before += I < End ? Weight : 0.0;
 		Last = I < End ? I : Last;
 		LastWeight = Weight;
-		uint Until = I < End ? min(DrawsBelow(Before, All, Offset), LastDraw) : LastDraw;
+		uint Until = I < End ? min(DrawsBelow(Before, All, Offset, MostListed), LastDraw) : LastDraw;
 		[[dont_unroll]] for (; Draw < Until; ++Draw)
 		{
 			Out.Data.Lights[Draw] = Last | ListedBit;

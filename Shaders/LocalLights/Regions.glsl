@@ -25,4 +25,11 @@ uint RegionIndex(FViewConstants View, uvec2 Tile)
 	return Region.y * RegionColumns(View) + Region.x;
 }
 
+// Returns how many of Most draws lie below a sum of weights, all of them below the whole. They are stratified, and Offset of the first is
+// the same for all. Rounding leaves no draw over, whoever has the last weight.
+uint DrawsBelow(float Sum, float All, float Offset, uint Most)
+{
+	return Sum >= All ? Most : uint(clamp(ceil(Sum / All * float(Most) - Offset), 0.0, float(Most)));
+}
+
 #endif

@@ -163,7 +163,7 @@ const float DimEmitter = 1.0 / 256.0; // of white, as the picture is exposed
 // pixel of the picture. The mean stays (Russian roulette, Arvo and Kirk 1990).
 void DropDim(FViewConstants View, uvec2 Pixel, uint Which, inout FLightChoice Choice, inout FLobes Lit, inout bool bAsks)
 {
-	if (!bAsks || (Choice.Light & LIGHT_TRIANGLE) == 0u) { return; }
+	if (!bAsks || View.Exposure <= 0.0 || (Choice.Light & LIGHT_TRIANGLE) == 0u) { return; }
 	float Kept = Luminance(Lit.Diffuse + Lit.Specular) * View.Exposure / DimEmitter;
 	if (!(Kept < 1.0)) { return; }
 	bAsks = LocalNumbers(View, Pixel, 0x7fffffffu - Which).x < Kept;

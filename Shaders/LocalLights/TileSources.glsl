@@ -120,12 +120,21 @@ uint CountProposals(FTableSources Sources)
 }
 
 // Whether a light is of a list that was drawn.
-bool IsOfDrawn(FSceneConstants Scene, FTableSources Sources, uint Light)
+bool IsOfDrawn(FTableSources Sources, uint Light)
 {
 #ifdef LOCAL_EMISSIVE
-	if (IsTriangle(Light)) { return Sources.Emitters.bDrawn && (Light & ~LIGHT_TRIANGLE) < Scene.EmissiveClusterCount; }
+	if (IsTriangle(Light)) { return Sources.Emitters.bDrawn; }
 #endif
-	return Sources.Lights.bDrawn && Light < Scene.LightCount;
+	return Sources.Lights.bDrawn;
+}
+
+// Whether there is such a light or cluster.
+bool IsListed(FSceneConstants Scene, uint Light)
+{
+#ifdef LOCAL_EMISSIVE
+	if (IsTriangle(Light)) { return (Light & ~LIGHT_TRIANGLE) < Scene.EmissiveClusterCount; }
+#endif
+	return Light < Scene.LightCount;
 }
 
 // Returns the Number-th light that the table may hold, and NoGuideLight for none.
@@ -147,7 +156,8 @@ uint ProposeLight(FSceneConstants Scene, FViewConstants View, FTableSources Sour
 		Light = SourceLight(Sources.Lights, I);
 		Stands = SourceStands(Sources.Lights, I);
 	}
-	bool bDrawn = IsOfDrawn(Scene, Sources, Light);
+	if (!IsListed(Scene, Light)) { return NoGuideLight; }
+	bool bDrawn = IsOfDrawn(Sources, Light);
 	if (bRemembered ? !bDrawn : (bDrawn && IsRemembered(View, Light))) { return NoGuideLight; }
 	return MayReachEntry(Scene, Light, Low, High) ? Light : NoGuideLight;
 }

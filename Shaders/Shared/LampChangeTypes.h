@@ -9,6 +9,7 @@ LANTERN_SHARED_BEGIN
 
 #define LAMP_CHANGES 64u // most lights that are followed; of more, what was accumulated is given up
 #define LAMP_WORDS 15u   // of FLightData
+#define LAMP_CHANGE_UNKNOWN -1.0f // in place of a standard deviation: what was accumulated is given up
 
 struct FLampChange
 {
@@ -19,7 +20,7 @@ LANTERN_ASSERT_SIZE(FLampChange, 64);
 
 struct FLampChanges
 {
-	uint Count; // may exceed LAMP_CHANGES
+	uint Count; // may exceed LAMP_CHANGES; it does where nobody has noted what lights were
 	FLampChange Changes[LAMP_CHANGES];
 };
 LANTERN_ASSERT_SIZE(FLampChanges, 4100);
@@ -40,7 +41,7 @@ struct FFollowLampsConstants
 	FAddress List;  // FLampChanges
 	FAddress Guide; // FTileGuide[], this frame's
 	uint Depth, Normals, BaseColor, Material; // sampled indices
-	uint Output;    // storage index: by how much the lobe has changed, over its albedo; and the variance of that
+	uint Output;    // storage index: by how much the lobe has changed, over its albedo; and the standard deviation of that
 	uint bSpecular; // 1: of the specular lobe
 	uint Channels;  // HAS_LIGHT_CHANNELS only: see LoadPixelChannels
 	uint Pad;

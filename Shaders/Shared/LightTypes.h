@@ -49,7 +49,8 @@ struct FLightData
 LANTERN_ASSERT_SIZE(FLightData, 60);
 
 // Intensity of a luminaire by direction, over its peak: photometry of type C (IES LM-63-2002) on a regular grid. Vertical angles are
-// from the light's direction. Horizontal ones turn from its tangent counterclockwise as seen against the direction.
+// from the light's direction. Horizontal ones turn from its tangent counterclockwise as seen along the direction, which is from above
+// a lamp that shines down.
 struct FLightProfile
 {
 	uint First;      // into the table of texels; there are two in a word, 65,535 being the peak, and those of a column follow each other

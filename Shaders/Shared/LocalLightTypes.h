@@ -89,20 +89,6 @@ struct FLitPixel
 };
 LANTERN_ASSERT_SIZE(FLitPixel, 12);
 
-// A cluster of emissive triangles as it lies in a frame. Positions are relative to the scene's origin.
-struct FEmitterCluster
-{
-	vec3 Center; // of its box
-	float Power; // FEmissivePower::Power: luminance · area
-	vec3 Half;   // of the box's edges
-	float Area;  // of its triangles, m²
-	vec3 Normal; // mean of their normals by power; 1 long: the cluster is flat and shines to this side alone
-	float Plane; // of a flat one: the least Normal · position of a corner
-	uint First, Count; // FEmissiveTriangle[]
-	uint Pad0, Pad1;
-};
-LANTERN_ASSERT_SIZE(FEmitterCluster, 64);
-
 // Begins the buffer of clusters. FEmitterCluster[] follows, and behind it the FLightRegion[] of clusters if these are more than
 // REGION_EMITTERS.
 struct FEmitterHeader
@@ -117,11 +103,11 @@ struct FEmitterClustersConstants
 	FPassConstants Pass;
 	FAddress Clusters; // FEmitterHeader, and what follows
 	float ReflectedRoughness;
-	uint Pad;
+	uint Count; // of clusters
 };
 LANTERN_ASSERT_SIZE(FEmitterClustersConstants, 32);
 
-#define EMITTER_GROUP_SIZE 32 // threads that a cluster has
+#define EMITTER_GROUP_SIZE 64u // clusters that a work group does
 
 // FLocalRequestsConstants::PreviousGuide
 #define PREVIOUS_GUIDE_NONE 0u

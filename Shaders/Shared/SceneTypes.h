@@ -229,6 +229,21 @@ struct FEmissivePowerHeader
 };
 LANTERN_ASSERT_SIZE(FEmissivePowerHeader, 8);
 
+// Where a cluster of emissive triangles lies, and to which side it shines. EmissiveTriangles.comp finds it relative to the centre of its
+// object's cell, and EmitterClusters.comp relative to the scene's origin.
+struct FEmitterCluster
+{
+	vec3 Center; // of its box
+	float Power; // FEmissivePower::Power: luminance · area
+	vec3 Half;   // of the box's edges
+	float Area;  // of its triangles, m²
+	vec3 Normal; // mean of their normals by power; 1 long: the cluster is flat and shines to this side alone
+	float Plane; // of a flat one: the least Normal · position of a corner
+	uint First, Count; // FEmissiveTriangle[]
+	uint Pad0, Pad1;
+};
+LANTERN_ASSERT_SIZE(FEmitterCluster, 64);
+
 #define SKY_MAP_CUBE 0u
 #define SKY_MAP_OCTAHEDRAL 1u
 
@@ -263,13 +278,14 @@ struct FSceneConstants
 	FAddress EmissiveClusters; // FEmissiveCluster[]
 	FAddress EmissiveRanges;   // FEmissiveRange[]
 	FAddress EmissivePowers;   // FEmissivePowerHeader, FEmissivePower[] by cluster
+	FAddress EmissiveBounds;   // FEmitterCluster[], relative to the cells of objects
 	FAddress ObjectChannels;  // uint[]: channels of each object, exclusive-or CHANNELS_DEFAULT; 0: all have these
 	FAddress LightProfiles;   // FLightProfile[], by number - 1
 	FAddress ProfileTexels;   // uint[]
 	uint SunChannels;         // 8 bits, as those of FLightData
 	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FSceneConstants, 264);
+LANTERN_ASSERT_SIZE(FSceneConstants, 272);
 
 // A camera, as passes see it whatever the host's conventions are: FView has them, HostProjection.h makes it of a matrix.
 // Positions are relative to the scene's origin.
@@ -283,7 +299,7 @@ struct FViewConstants
 	vec3 CameraUp;
 	uint bOrthographic;
 	vec3 CameraForward;
-	uint FrameIndex;
+	uint FrameIndex; // counts this view's frames, one by one
 	// Coordinates along CameraRight and CameraUp at distance 1 (orthographic: metres) of a point of the picture, jitter included:
 	// point · scale + offset, the point in pixels.
 	vec2 RayScale;
@@ -292,7 +308,7 @@ struct FViewConstants
 	uint Width;
 	uint Height;
 	uint Seed;
-	float Exposure; // factor, not stops
+	float Exposure; // factor, not stops; 0: unknown
 	// Error of a distance along the view that its depth texel has: x + y · distance + z · distance², metres.
 	vec3 DepthError;
 	float NormalError; // sine of the angle by which the host's normals may be off; 0: they are exact

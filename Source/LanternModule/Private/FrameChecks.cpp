@@ -257,6 +257,11 @@ FRTStatus CheckFrame(const FRTModuleFrame& Frame, const IRTDevice& Device)
 		return FRTStatus::Error(
 		    ERTResult::InvalidArgument, "FRTModuleFrame::DeltaSeconds must be positive, is %g", double(Frame.DeltaSeconds));
 	}
+	if (!(Frame.Exposure >= 0.0f) || !std::isfinite(Frame.Exposure))
+	{
+		return FRTStatus::Error(
+		    ERTResult::InvalidArgument, "FRTModuleFrame::Exposure must be finite and not negative, is %g", double(Frame.Exposure));
+	}
 	if (!(std::abs(Frame.FogPhase) < 1.0f))
 	{
 		return FRTStatus::Error(

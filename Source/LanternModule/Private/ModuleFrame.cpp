@@ -1,5 +1,6 @@
 // The module's frame, on top of FRenderer: from the engine's textures and view to the signals that it wants.
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "ArgumentChecks.h"
@@ -42,6 +43,8 @@ FView MakeFrameView(const FRTModuleFrame& Frame, uint32_t FrameIndex)
 	View.Seed = Frame.Seed;
 	View.DeltaSeconds = Frame.DeltaSeconds;
 	View.bCut = Frame.bCut;
+	View.bExposureKnown = Frame.Exposure > 0.0f;
+	if (View.bExposureKnown) { View.Exposure = std::log2(Frame.Exposure); }
 	return View;
 }
 

@@ -79,6 +79,12 @@ FRTStatus ReadProfile(const FRTModuleIesProfile& Profile, FPhotometry& Out)
 	{
 		return RefuseNull("AddIesProfile", "Text, and a part of the table");
 	}
+	constexpr uint32_t MostAngles = 4096; // a tenth of a degree needs 3,601
+	for (const auto& [Given, Member] : {std::pair(Profile.VerticalCount, "VerticalCount"), {Profile.HorizontalCount, "HorizontalCount"}})
+	{
+		if (Given <= MostAngles) { continue; }
+		return FRTStatus::Error(ERTResult::InvalidArgument, "FRTModuleIesProfile::%s must be %u at most, is %u", Member, MostAngles, Given);
+	}
 	const uint64_t Count = uint64_t(Profile.VerticalCount) * Profile.HorizontalCount;
 	Out.Vertical.assign(Profile.VerticalAngles, Profile.VerticalAngles + Profile.VerticalCount);
 	Out.Horizontal.assign(Profile.HorizontalAngles, Profile.HorizontalAngles + Profile.HorizontalCount);

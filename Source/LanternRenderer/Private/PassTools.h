@@ -1,6 +1,7 @@
 // What passes share: compute pipelines by shader, defines by what the scene has, names of shaders.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -33,6 +34,16 @@ void Dispatch2D(FPassContext& Pass, IRTPipeline* Pipeline, const T& Constants, u
 	Pass.Commands().SetPipeline(Pipeline);
 	Pass.Commands().PushConstants(&Constants, sizeof(Constants));
 	Pass.Commands().Dispatch(DivideUp(Width, GroupSize), DivideUp(Height, GroupSize), 1);
+}
+
+/// Dispatches groups that a shader numbers by gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x. There may be more of them than Count.
+template <class T>
+void DispatchMany(FPassContext& Pass, IRTPipeline* Pipeline, const T& Constants, uint32_t Count)
+{
+	constexpr uint32_t MaxGroups = 65535; // in one dimension, on any device
+	Pass.Commands().SetPipeline(Pipeline);
+	Pass.Commands().PushConstants(&Constants, sizeof(Constants));
+	Pass.Commands().Dispatch(std::min(Count, MaxGroups), DivideUp(Count, MaxGroups), 1);
 }
 
 /// Returns the index by which shaders sample a texture, or NO_TEXTURE if it is invalid.

@@ -277,7 +277,8 @@ void FRenderer::WriteConstants()
 	OfScene.AnyHitCounter = AnyHits->GetCounters().GetAddress();
 	OfScene.LightCells = Context->LightCells.Address;
 	OfScene.StandInHits = StandIns->GetCounters().GetAddress();
-	const FViewConstants OfView = MakeViewConstants(Context->View, Context->Scene.GetOrigin(), Context->PreviousView);
+	FViewConstants OfView = MakeViewConstants(Context->View, Context->Scene.GetOrigin(), Context->PreviousView);
+	OfView.FrameIndex = State->Turn;
 	std::memcpy(SceneConstants.Data, &OfScene, sizeof(OfScene));
 	std::memcpy(ViewConstants.Data, &OfView, sizeof(OfView));
 }
@@ -313,6 +314,9 @@ FRenderer::FViewState& FRenderer::GetView(uint32_t Index)
 void FRenderer::FindPreviousView(FRTScene& Scene, const FFrameFeatures& Features)
 {
 	State = &GetView(Features.ViewIndex);
+	// Of two views in turn each has every other number, and samplers and turns of pixels would know but half of theirs.
+	const bool bNext = State->LastView.Width > 0 && Context->View.FrameIndex - State->LastView.FrameIndex == State->IdleFrames + 1;
+	State->Turn = bNext ? State->Turn + 1 : Context->View.FrameIndex;
 	[[maybe_unused]] const FConsoleVariables& Variables = FConsoleVariables::Get();
 	assert((Variables.GetPublishCount() != State->Published || !Variables.HasUnpublished()) &&
 	       "FConsoleVariables::BeginFrame was not called since the view's last frame");

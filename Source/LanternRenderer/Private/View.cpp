@@ -77,7 +77,7 @@ FViewConstants MakeViewConstants(const FView& View, glm::dvec3 Origin, const FVi
 	C.Width = View.Width;
 	C.Height = View.Height;
 	C.Seed = View.Seed;
-	C.Exposure = std::exp2(View.Exposure);
+	C.Exposure = View.bExposureKnown ? std::exp2(View.Exposure) : 0.0f;
 	C.DepthError = View.DepthError;
 	C.NormalError = View.NormalError;
 	C.bDerivedNormals = View.bDerivedNormals ? 1u : 0u;

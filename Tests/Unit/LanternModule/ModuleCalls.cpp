@@ -348,6 +348,7 @@ FRTStatus RenderFrame(FModulePlay& Play)
 	Frame.Commands = Play.Pointer("Commands", Play.MakeList());
 	Frame.ViewIndex = Play.Choose() % 3;
 	Frame.DeltaSeconds = Play.Float("DeltaSeconds", 0.016f);
+	Frame.Exposure = Play.Float("Exposure", 0.25f);
 	Frame.bCut = Play.Bool(false);
 	Frame.bSubmitAhead = Play.Bool(false);
 	Frame.DepthAccess = Play.Number("DepthAccess", 1, 0) == 0 ? ERTAccess::None : ERTAccess::ShaderRead;

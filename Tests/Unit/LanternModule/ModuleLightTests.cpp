@@ -101,6 +101,14 @@ TEST_F(FModuleLightTest, ProfilesComeAndGo)
 	Given.HorizontalAngles = Horizontal;
 	Given.HorizontalCount = 1;
 	Given.Candela = Candela;
+	Given.VerticalCount = ~0u;
+	EXPECT_REFUSED(Renderer->AddIesProfile(Given, &Table, nullptr), "FRTModuleIesProfile::VerticalCount must be 4096 at most");
+	Given.VerticalCount = 2;
+	Given.HorizontalCount = ~0u;
+	EXPECT_REFUSED(Renderer->AddIesProfile(Given, &Table, nullptr), "FRTModuleIesProfile::HorizontalCount");
+	Given.HorizontalCount = 0;
+	EXPECT_REFUSED(Renderer->AddIesProfile(Given, &Table, nullptr), "1 horizontal one at least");
+	Given.HorizontalCount = 1;
 	ASSERT_OK(Renderer->AddIesProfile(Given, &Table, nullptr));
 
 	FRTModuleLight Lamp;

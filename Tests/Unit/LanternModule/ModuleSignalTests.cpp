@@ -335,6 +335,12 @@ TEST_F(FModuleSignalTest, WrongInputsAreNamed)
 		EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "DeltaSeconds");
 	}
 	Frame = DescribeAll();
+	for (const float Factor : {-1.0f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()})
+	{
+		Frame.Exposure = Factor;
+		EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "Exposure");
+	}
+	Frame = DescribeAll();
 	Frame.Motion = Normals.Get();
 	EXPECT_REFUSED(Renderer->RenderFrame(Frame, &Outputs), "the motion texture must be RGBA32_FLOAT");
 	Frame = DescribeAll();

@@ -1,5 +1,6 @@
 // The module's views and worlds on a mock device: what is refused, by which name.
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "ModuleTestTools.h"
@@ -43,6 +44,30 @@ TEST_F(FModuleViewTest, ImpossibleViewIsRefusedByName)
 	    },
 	    "parallel");
 	ExpectRefused([](auto& V) { V.Position[0] = std::numeric_limits<double>::infinity(); }, "Position");
+}
+
+// What is dim gets few rays, and nobody knows what is dim without an exposure.
+TEST_F(FModuleViewTest, ExposureReachesShaders)
+{
+	ASSERT_OK(Module->SetConsoleVariable("r.RT.Shadow.Path", "2"));
+	ASSERT_OK(AddObject(AddMesh(DescribeTriangle()), Solid));
+	ASSERT_OK(SetSun(-1.0));
+	const auto Show = [&](float Exposure) {
+		FRTModuleFrame Frame = DescribeFrame();
+		Frame.Exposure = Exposure;
+		(void)ReadConstants(Frame);
+		for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::Dispatch))
+		{
+			FPassConstants Pushed{};
+			if (Call.Bytes.size() < sizeof(Pushed)) { continue; }
+			std::memcpy(&Pushed, Call.Bytes.data(), sizeof(Pushed));
+			if (Mock().FindBuffer(Pushed.View, nullptr) != nullptr) { return ReadEntry<FViewConstants>(Pushed.View, 0).Exposure; }
+		}
+		return -1.0f;
+	};
+	EXPECT_EQ(Show(0.0f), 0.0f);
+	EXPECT_EQ(Show(0.25f), 0.25f);
+	EXPECT_FLOAT_EQ(Show(3e-5f), 3e-5f);
 }
 
 /// A frame in a layout that Change describes. A texture is made for each format.

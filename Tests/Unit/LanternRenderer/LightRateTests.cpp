@@ -78,19 +78,39 @@ TEST_F(FLightRateTest, LampsThatChangeAreFollowed)
 	FLightId First;
 	for (int I = 0; I < 6; ++I) { First = AddLamp(I, 1.0f); }
 	Render();
-	EXPECT_TRUE(HasPass("LocalDiffuseLamps"));
+	EXPECT_TRUE(HasPass("ChangedLamps"));
 	EXPECT_FALSE(FollowsLamps()) << "there is no frame before";
 	Render();
-	EXPECT_FALSE(HasPass("LocalDiffuseLamps"));
+	EXPECT_FALSE(HasPass("ChangedLamps"));
 	for (int Frame = 0; Frame < 10; ++Frame) { Render(); }
 	FSceneLight Dark = GetWorld().GetLights().Get(First);
 	Dark.Color = glm::vec3(0.1f);
 	GetWorld().SetLight(First, Dark);
 	Render();
-	EXPECT_TRUE(HasPass("LocalDiffuseLamps"));
+	EXPECT_TRUE(HasPass("ChangedLamps"));
 	EXPECT_TRUE(FollowsLamps()) << "what was noted is kept";
 	Render();
-	EXPECT_FALSE(HasPass("LocalDiffuseLamps"));
+	EXPECT_FALSE(HasPass("ChangedLamps"));
+}
+
+// What lamps were is noted with room for some more, or else a lamp that comes and goes at a limit would be followed never.
+TEST_F(FLightRateTest, LampsBeyondEveryPowerOfTwoAreFollowed)
+{
+	ASSERT_TRUE(Load({}));
+	FLightId Last;
+	for (int I = 0; I < 64; ++I) { Last = AddLamp(I, 1.0f); }
+	Render();
+	Last = AddLamp(64, 1.0f);
+	Render();
+	EXPECT_TRUE(FollowsLamps());
+	const std::vector<std::string> Passes = GetPasses();
+	EXPECT_EQ(std::count(Passes.begin(), Passes.end(), "ChangedLamps"), 1) << "one list for both lobes";
+	GetWorld().RemoveLight(Last);
+	Render();
+	EXPECT_TRUE(FollowsLamps());
+	for (int I = 0; I < 300; ++I) { AddLamp(I, 1.0f); }
+	Render();
+	EXPECT_TRUE(FollowsLamps()) << "without notes, histories are given up";
 }
 
 TEST_F(FLightRateTest, WhatIsNotAccumulatedNeedsNotFollow)

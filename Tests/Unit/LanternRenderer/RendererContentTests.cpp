@@ -2,6 +2,7 @@
 // dispatch for it.
 #include "LanternHost/ReferenceRenderer.h"
 #include "LanternRenderer/Frame.h"
+#include "Support/MockReads.h"
 #include "Support/RendererTestTools.h"
 
 namespace Lantern
@@ -296,6 +297,40 @@ TEST_F(FRendererContentTest, ViewsTakeTurnsAndKeepWhatIsTheirs)
 	EXPECT_EQ(Show(7, 5.0, LookAt({40, 0, 9}, {40, 0, 0}, 1.0f, 40, 24)), 40.0) << "the host's own word";
 	for (int Frame = 0; Frame < 70; ++Frame) { (void)Show(7, 6.0); }
 	EXPECT_EQ(Show(0, 8.0), -1.0) << "too long ago";
+	EXPECT_TRUE(Host.WaitForAll());
+}
+
+// Frame numbers count those of all views. Samplers of two views in turn would know half of their numbers, and pixels no turn.
+TEST_F(FRendererContentTest, ShadersCountTheFramesOfTheirView)
+{
+	LoadAndRender({});
+	FRendererDesc Desc;
+	Desc.ShaderFolders = {GetShaderFolder()};
+	Desc.CacheFolder = LANTERN_TEST_CACHE;
+	FRenderer Host(*Device, Desc);
+	const auto Show = [&](uint32_t ViewIndex, uint32_t FrameIndex) {
+		FFrameFeatures Features;
+		Features.bMotion = false;
+		Features.ViewIndex = ViewIndex;
+		FView View = LookAt({0, 0, 9}, {0, 0, 0}, 1.0f, 40, 24);
+		View.FrameIndex = FrameIndex;
+		FConsoleVariables::Get().BeginFrame();
+		EXPECT_TRUE(Host.BeginFrame(Engine->GetScene().GetScene(), View, Features));
+		const FAddress Constants = Host.GetContext().Pass.View;
+		EXPECT_TRUE(Host.EndFrame(nullptr));
+		return ReadMockEntry<FViewConstants>(Mock(), Constants, 0).FrameIndex;
+	};
+	std::vector<uint32_t> Left, Right;
+	for (uint32_t Frame = 10; Frame < 18; Frame += 2)
+	{
+		Left.push_back(Show(0, Frame));
+		Right.push_back(Show(3, Frame + 1));
+	}
+	EXPECT_EQ(Left, (std::vector<uint32_t>{10, 11, 12, 13}));
+	EXPECT_EQ(Right, (std::vector<uint32_t>{11, 12, 13, 14}));
+	EXPECT_EQ(Show(0, 18), 14u);
+	EXPECT_EQ(Show(0, 19), 15u);
+	EXPECT_EQ(Show(0, 5), 5u) << "a caller that starts again gets the same numbers again";
 	EXPECT_TRUE(Host.WaitForAll());
 }
 

@@ -1,5 +1,9 @@
 // FEmissiveTriangles: which triangles are listed, in what clusters, and which of them the GPU has to find anew.
+#include <gmock/gmock.h>
+
+#include "LanternCore/Config/ConsoleVariables.h"
 #include "ScenePartsTestTools.h"
+#include "Support/CoreTestTools.h"
 
 namespace Lantern
 {
@@ -111,10 +115,102 @@ TEST_F(FEmissiveTrianglesTest, AMaterialThatFlickersListsNothingAnew)
 	Green.BaseColor = glm::vec4(0, 1, 0, 1);
 	Materials.Set(Flame, Green);
 	EXPECT_FALSE(Emissive.NeedsUpdate()) << "that is no emission";
-	Materials.Set(Flame, MakeMaterial());
+	for (const float Blink : {0.0f, 3.0f})
+	{
+		Materials.Set(Flame, MakeMaterial(0, Blink));
+		UpdateEmissive();
+		EXPECT_EQ(Emissive.GetTriangleCount(), 18u) << "what is dark for now stays listed";
+		EXPECT_EQ(Done, (std::vector<uint32_t>{0, 3, 6}));
+	}
+}
+
+// A material may begin to shine while objects have it, and they may get it while it is dark.
+TEST_F(FEmissiveTrianglesTest, MaterialsMayBeginToShineAtAnyTime)
+{
+	const uint32_t Sign = Materials.Add(MakeMaterial());
+	Place(CreatePanel(), {Sign});
+	Materials.Set(Sign, MakeMaterial(0, 1.0f));
 	UpdateEmissive();
-	EXPECT_EQ(Emissive.GetTriangleCount(), 12u);
-	EXPECT_TRUE(Done.empty());
+	EXPECT_EQ(Emissive.GetTriangleCount(), 2u);
+	Materials.Set(Sign, MakeMaterial());
+	const FRTObjectId Late = Place(CreatePanel(), {Sign});
+	Materials.Set(Sign, MakeMaterial(0, 1.0f));
+	UpdateEmissive();
+	EXPECT_EQ(Emissive.GetTriangleCount(), 4u);
+	const uint32_t Dark = Materials.Add(MakeMaterial());
+	Objects.SetMaterials(Late, {Dark});
+	UpdateEmissive();
+	EXPECT_EQ(Emissive.GetTriangleCount(), 2u);
+	Materials.Set(Dark, MakeMaterial(0, 1.0f));
+	UpdateEmissive();
+	EXPECT_EQ(Emissive.GetTriangleCount(), 4u);
+}
+
+// An index is used again by another material, which never shone.
+TEST_F(FEmissiveTrianglesTest, WhatHasTheIndexOfAnEmitterIsNone)
+{
+	const uint32_t Gone = Materials.Add(MakeMaterial(0, 1.0f));
+	Materials.Remove(Gone);
+	const uint32_t Dark = Materials.Add(MakeMaterial());
+	ASSERT_EQ(Dark, Gone);
+	Place(CreatePanel(), {Dark});
+	UpdateEmissive();
+	EXPECT_EQ(Emissive.GetTriangleCount(), 0u);
+}
+
+// Engines set all transforms in each frame.
+TEST_F(FEmissiveTrianglesTest, WhatIsSetToItsPlaceHasNotMoved)
+{
+	const FRTObjectId Id = Place(CreatePanel(), {Materials.Add(MakeMaterial(0, 1.0f))}, {1, 2, 3});
+	UpdateEmissive();
+	Objects.SetTransform(Id, MoveTo({1, 2, 3}));
+	EXPECT_FALSE(Emissive.NeedsUpdate());
+}
+
+// Lists that are not up to date may name sections and vertices that are gone: shaders see none.
+TEST_F(FEmissiveTrianglesTest, ListsThatAreStaleAreNotPublished)
+{
+	const uint32_t Bright = Materials.Add(MakeMaterial(0, 1.0f));
+	const FRTObjectId Id = Place(CreatePanel(), {Bright});
+	Place(CreatePanel(), {Bright});
+	const auto CountPublished = [&] {
+		FSceneConstants Constants{};
+		Emissive.FillConstants(Constants);
+		EXPECT_EQ(Constants.EmissiveTriangleCount > 0, Constants.EmissiveTriangles != 0);
+		EXPECT_EQ(Constants.EmissiveClusterCount > 0, Constants.EmissiveTriangleCount > 0);
+		return Constants.EmissiveTriangleCount;
+	};
+	UpdateEmissive();
+	EXPECT_EQ(CountPublished(), 4u);
+	Objects.SetTransform(Id, MoveTo({1, 0, 0}));
+	EXPECT_EQ(CountPublished(), 4u) << "where they were is no harm";
+	Objects.Remove(Id);
+	EXPECT_EQ(CountPublished(), 0u);
+	Emissive.EndFrame(true); // of a frame whose shaders are not ready
+	EXPECT_EQ(CountPublished(), 0u);
+	ASSERT_TRUE(Emissive.Update(*Device, Objects, Materials));
+	EXPECT_EQ(CountPublished(), 2u) << "this frame's GPU does them";
+	Emissive.EndFrame(false);
+	EXPECT_EQ(CountPublished(), 0u) << "it never did";
+}
+
+// A light's number has no room for more. What is listed does not depend on the order in which objects came.
+TEST_F(FEmissiveTrianglesTest, WhatHasNoRoomIsLeftOutAndNamed)
+{
+	FLogCapture Log;
+	ASSERT_FALSE(FConsoleVariables::Get().Set("r.RT.Lights.EmissiveTriangles", "7", ERTSetBy::Console, "test"));
+	FConsoleVariables::Get().BeginFrame();
+	const uint32_t Bright = Materials.Add(MakeMaterial(0, 1.0f)), Other = Materials.Add(MakeMaterial(0, 1.0f));
+	for (const uint32_t Sections : {2u, 3u, 1u}) { Place(CreatePanel(Sections), std::vector(Sections, Sections == 3 ? Other : Bright)); }
+	UpdateEmissive();
+	EXPECT_EQ(Emissive.GetTriangleCount(), 6u);
+	EXPECT_EQ(Emissive.GetRanges().Num(), 4u);
+	EXPECT_THAT(Log.GetTexts(), ::testing::Contains(::testing::HasSubstr("more than 7 emissive triangles")));
+	Materials.Set(Other, MakeMaterial(0, 2.0f));
+	UpdateEmissive();
+	EXPECT_EQ(DoneCount, 0u);
+	FConsoleVariables::Get().ResetAll();
+	FConsoleVariables::Get().BeginFrame();
 }
 
 // What the GPU did not get to do is wanted again.

@@ -193,14 +193,35 @@ TEST(LightProfiles, NumbersAndTexelsAreUsedAgain)
 		ASSERT_EQ((Word >> (16 * (Texel % 2))) & 0xffffu, Large.Texels[Row]);
 	}
 	const uint32_t Words = Profiles.GetTexels().Num();
-	for (int I = 0; I < 100; ++I)
+	for (int I = 0; I < 10; ++I)
 	{
 		Profiles.Remove(2);
+		for (uint32_t Frame = 0; Frame < FLightProfiles::KeptFrames; ++Frame) { Profiles.EndFrame(true); }
 		EXPECT_EQ(Profiles.GetHeaders()[1].Rows, 0u) << "what is gone is dark";
 		EXPECT_EQ(Profiles.Add(Large), 2u);
 	}
 	EXPECT_EQ(Profiles.GetTexels().Num(), Words);
-	EXPECT_EQ(Profiles.GetCount(), 2u);
+}
+
+// Views compare lamps with what they were in the view's last frame, which may be some frames ago.
+TEST(LightProfiles, RemovedOnesShineForTheFramesThatLookBack)
+{
+	FProfileGrid Grid;
+	Grid.Rows = Grid.Columns = 1;
+	Grid.Texels = {65535};
+	FLightProfiles Profiles;
+	const uint32_t Number = Profiles.Add(Grid);
+	Profiles.Remove(Number);
+	EXPECT_TRUE(Profiles.HasRetired());
+	EXPECT_EQ(Profiles.GetHeaders()[Number - 1].Rows, 1u);
+	EXPECT_NE(Profiles.Add(Grid), Number) << "another one's light would be taken for it";
+	for (uint32_t Frame = 0; Frame + 1 < FLightProfiles::KeptFrames; ++Frame) { Profiles.EndFrame(true); }
+	Profiles.EndFrame(false);
+	EXPECT_EQ(Profiles.GetHeaders()[Number - 1].Rows, 1u);
+	Profiles.EndFrame(true);
+	EXPECT_EQ(Profiles.GetHeaders()[Number - 1].Rows, 0u);
+	EXPECT_FALSE(Profiles.HasRetired());
+	EXPECT_EQ(Profiles.Add(Grid), Number);
 }
 
 } // namespace

@@ -80,10 +80,15 @@ TEST_F(FSceneMaterialsTest, EmissionThatChangesMarksTheEmissiveTriangles)
 {
 	const uint32_t Material = Materials.Add(MakeMaterial(0, 1.0f));
 	UpdateEmissive();
-	Materials.Set(Material, MakeMaterial(MATERIAL_DOUBLE_SIDED, 1.0f));
+	FMaterialData Green = MakeMaterial(0, 1.0f);
+	Green.BaseColor = glm::vec4(0, 1, 0, 1);
+	Materials.Set(Material, Green);
 	EXPECT_FALSE(Emissive.NeedsUpdate());
 	Materials.Set(Material, MakeMaterial(0, 2.0f));
 	EXPECT_TRUE(Emissive.NeedsUpdate());
+	UpdateEmissive();
+	Materials.Set(Material, MakeMaterial(MATERIAL_DOUBLE_SIDED, 2.0f));
+	EXPECT_TRUE(Emissive.NeedsUpdate()) << "clusters know to which side they shine";
 }
 
 } // namespace

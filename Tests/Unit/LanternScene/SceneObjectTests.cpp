@@ -375,10 +375,15 @@ TEST_F(FSceneObjectTest, EmissiveTrianglesAreListed)
 	EXPECT_EQ(Read<FEmissiveRange>(C.EmissiveRanges, 2).First, 4u);
 	Scene->SetMaterial(Bright, MakeMaterial());
 	Frame({}, Use);
-	EXPECT_EQ(Scene->GetConstants().EmissiveTriangleCount, 2u);
+	EXPECT_EQ(Scene->GetConstants().EmissiveTriangleCount, 4u) << "it may shine again";
 	Scene->RemoveObject(First);
+	Frame(); // its shaders are being compiled, say
+	EXPECT_EQ(Scene->GetConstants().EmissiveTriangleCount, 0u) << "sections and vertices are gone";
+	EXPECT_EQ(Scene->GetFacts().EmissiveTriangles, 0u);
+	EXPECT_EQ(Scene->GetFacts().EmissiveClusters, 0u);
 	Frame({}, Use);
-	EXPECT_EQ(Scene->GetConstants().EmissiveTriangleCount, 0u);
+	EXPECT_EQ(Scene->GetConstants().EmissiveTriangleCount, 2u);
+	EXPECT_EQ(Scene->GetFacts().EmissiveClusters, 1u);
 	EXPECT_FALSE(Scene->GetFacts().bEmissive);
 }
 

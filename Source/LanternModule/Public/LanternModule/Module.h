@@ -202,11 +202,11 @@ struct FRTModuleIesProfile
 	uint64_t TextBytes = 0;     ///< without a zero byte
 	/// Degrees from FRTModuleLight::Direction, rising from 0 or 90 to 90 or 180. It is dark outside of them.
 	const float* VerticalAngles = nullptr;
-	uint32_t VerticalCount = 0; ///< ≥ 2
-	/// Degrees from FRTModuleLight::Tangent, counterclockwise as seen against Direction, rising: from 0 to 0, 90, 180 or 360, or from 90
-	/// to 270. The rest mirrors them.
+	uint32_t VerticalCount = 0; ///< 2 to 4096
+	/// Degrees from FRTModuleLight::Tangent, counterclockwise as seen along Direction: from above a lamp that shines down. They rise from
+	/// 0 to 0, 90, 180 or 360, or from 90 to 270. The rest mirrors them.
 	const float* HorizontalAngles = nullptr;
-	uint32_t HorizontalCount = 0;   ///< ≥ 1
+	uint32_t HorizontalCount = 0;   ///< 1 to 4096
 	const float* Candela = nullptr; ///< [HorizontalCount][VerticalCount], ≥ 0, not all 0
 };
 

@@ -241,6 +241,9 @@ struct FRTModuleFrame
 	bool bSubmitAhead = false;
 	/// Time since the previous frame, seconds, finite, > 0. Accumulation lasts for a time in seconds, at any frame rate.
 	float DeltaSeconds = 1.0f / 60.0f;
+	/// Factor from radiance in nits to the picture, in which 1 is white before tone mapping; finite, ≥ 0. Emissive surfaces then get few
+	/// rays where they bring less than 1/256. 0: unknown, and all get theirs.
+	float Exposure = 0.0f;
 	/// The previous frame's view as this frame's world has it, for an engine whose world got another origin. Null: as RenderFrame was
 	/// given it then.
 	const FRTModuleView* PreviousView = nullptr;

@@ -31,10 +31,10 @@ struct FDenoiseInputs
 	/// pixel knows of none. Negative: the pixel has no value of its own, and Signal holds what stands in for it; the filter then takes
 	/// the history, or the mean of what is around it. Invalid: as wide as can be.
 	FGraphTexture Extent;
-	/// For colours, RGBA16_FLOAT: by how much they are known to have changed since the last frame, and the variance of the error in it.
-	/// Invalid: nothing is known of a change.
+	/// For colours, RGBA16_FLOAT: by how much they are known to have changed since the last frame, and the standard deviation of the error
+	/// in it. Negative: the history is to be given up. Invalid: nothing is known of a change.
 	FGraphTexture Change;
-	FShadowChanges Changes; ///< of sun shadows; others look for changes in the signal itself
+	FShadowChanges Changes; ///< of the shadows of the sun or of lamps; what is not known is looked for in the signal
 	FHistoryTexture History; ///< what RequireDenoiseHistory gave in this frame; Current is invalid: nobody called it
 };
 

@@ -1,8 +1,6 @@
 // The passes behind FEmissiveTriangles: clusters that changed, then the sums over all of them.
 #include "Lights/EmissiveTriangles.h"
 
-#include <algorithm>
-
 #include "EmissiveTypes.h"
 
 namespace Lantern
@@ -13,7 +11,6 @@ namespace
 TRTConsoleVariable<bool> CVarFloor("r.RT.Debug.Lights.EmissiveFloor", true,
     "Planted fault. Off: chances of emissive triangles go by their power alone, so that what is dim beside a floodlight has none.");
 
-constexpr uint32_t MaxGroups = 65535; // in one dimension, on any device
 constexpr ERTAccess Written = ERTAccess::StorageWrite | ERTAccess::ShaderRead;
 
 FShaderDefines MakeDefines(const FSceneFacts& Facts)
@@ -66,22 +63,20 @@ FRTStatus AddEmissivePass(FFrameContext& Context, FFrameUploads& Uploads)
 		Builder.AllowAsync();
 		Builder.Write(Context.Tokens.Tables); // as part of which passes read them
 		for (const FGraphToken Unused : {Context.Tokens.Structures, Context.Tokens.Records}) { Builder.Without(Unused); }
-		return [=, Triangles = Work.Triangles, Powers = Work.Powers](FPassContext& Pass) {
+		return [=, Triangles = Work.Triangles, Powers = Work.Powers, Bounds = Work.Bounds](FPassContext& Pass) {
 			IRTCommandList& List = Pass.Commands();
-			const FRTBarrier Before[] = {
-			    {Triangles, nullptr, ERTAccess::ShaderRead, Written}, {Powers, nullptr, ERTAccess::ShaderRead, Written}};
+			const FRTBarrier Before[] = {{Triangles, nullptr, ERTAccess::ShaderRead, Written},
+			    {Powers, nullptr, ERTAccess::ShaderRead, Written}, {Bounds, nullptr, ERTAccess::ShaderRead, Written}};
+			const FRTBarrier After[] = {{Triangles, nullptr, Written, ERTAccess::ShaderRead},
+			    {Powers, nullptr, Written, ERTAccess::ShaderRead}, {Bounds, nullptr, Written, ERTAccess::ShaderRead}};
 			const FRTBarrier Between{Powers, nullptr, Written, Written};
-			const FRTBarrier After[] = {
-			    {Triangles, nullptr, Written, ERTAccess::ShaderRead}, {Powers, nullptr, Written, ERTAccess::ShaderRead}};
-			List.Barriers(Before, 2);
-			List.SetPipeline(Find);
-			List.PushConstants(&C, sizeof(C));
-			List.Dispatch(std::min(C.Count, MaxGroups), DivideUp(C.Count, MaxGroups), 1);
+			List.Barriers(Before, 3);
+			DispatchMany(Pass, Find, C, C.Count);
 			List.Barriers(&Between, 1);
 			List.SetPipeline(Sum);
 			List.PushConstants(&C, sizeof(C));
 			List.Dispatch(1, 1, 1);
-			List.Barriers(After, 2);
+			List.Barriers(After, 3);
 		};
 	});
 	return FRTStatus::Success();

@@ -76,9 +76,8 @@ FGraphBuffer AddEmitterClusters(FFrameContext& Context, const FGBuffer& GBuffer)
 			C.Pass = Frame->Pass;
 			C.Clusters = GetAddress(Pass, Clusters);
 			C.ReflectedRoughness = GetReflectedRoughness({Frame->Device.GetCapabilities(), Frame->Facts, Frame->Signals});
-			Pass.Commands().SetPipeline(Pipeline);
-			Pass.Commands().PushConstants(&C, sizeof(C));
-			Pass.Commands().Dispatch(Count, 1, 1);
+			C.Count = Count;
+			DispatchMany(Pass, Pipeline, C, DivideUp(Count, EMITTER_GROUP_SIZE));
 		};
 	});
 	if (Regions > 0) { AddEmitterRegions(Context, GBuffer, RequireCompute(Context, MakeEmitterRegionsSource()), Clusters); }

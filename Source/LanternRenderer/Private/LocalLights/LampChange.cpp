@@ -1,8 +1,7 @@
 // Passes that compare the lights of two frames, and follow those that have changed.
 #include "LocalLights/LampChange.h"
 
-#include <algorithm>
-#include <bit>
+#include <utility>
 
 #include "LampChangeTypes.h"
 #include "LanternCore/Config/ConsoleVariables.h"
@@ -24,17 +23,10 @@ TRTConsoleVariable<bool> CVarRescale("r.RT.Debug.Lights.Rescale", true,
 FShaderSource MakeListSource() { return MakeComputeSource("LocalLights/ListLamps.comp"); }
 FShaderSource MakeFollowSource(const FShaderDefines& Defines) { return MakeComputeSource("LocalLights/FollowLamps.comp", Defines); }
 
-/// Slots of the table of lights, with room for some more.
-uint32_t CountSlots(const FFrameContext& Context)
-{
-	return std::bit_ceil(std::max<uint32_t>(Context.Scene.GetLights().GetSlotCount(), TILE_PIXELS));
-}
-
-void AddListPass(FFrameContext& Context, const std::string& Name, const FHistoryBuffer& Kept, FGraphBuffer List, IRTPipeline* Pipeline)
+void AddListPass(FFrameContext& Context, const FHistoryBuffer& Kept, uint32_t Slots, FGraphBuffer List, IRTPipeline* Pipeline)
 {
 	const FFrameContext* const Frame = &Context;
-	const uint32_t Slots = CountSlots(Context);
-	Context.Graph.AddPass((Name + "Lamps").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
+	Context.Graph.AddPass("ChangedLamps", [&](FPassBuilder& Builder) -> FPassExecute {
 		if (!Kept.bFresh) { Builder.Read(Kept.Buffer, ERTAccess::StorageRead); }
 		Builder.Write(Kept.Buffer, ERTAccess::StorageWrite);
 		Builder.Write(List, ERTAccess::StorageWrite);
@@ -46,7 +38,7 @@ void AddListPass(FFrameContext& Context, const std::string& Name, const FHistory
 			const FRTBarrier Before{Counter, nullptr, ERTAccess::StorageWrite, ERTAccess::CopyWrite},
 			    After{Counter, nullptr, ERTAccess::CopyWrite, ERTAccess::StorageWrite};
 			Pass.Commands().Barriers(&Before, 1);
-			Pass.Commands().FillBuffer(Counter, 0, sizeof(uint32_t), 0);
+			Pass.Commands().FillBuffer(Counter, 0, sizeof(uint32_t), Kept.bFresh ? LAMP_CHANGES + 1 : 0);
 			Pass.Commands().Barriers(&After, 1);
 			FListLampsConstants C{};
 			C.Pass = Frame->Pass;
@@ -54,9 +46,31 @@ void AddListPass(FFrameContext& Context, const std::string& Name, const FHistory
 			C.List = GetAddress(Pass, List);
 			C.Slots = Slots;
 			C.bFresh = Kept.bFresh ? 1u : 0u;
-			Dispatch2D(Pass, Pipeline, C, Slots, 1, TILE_PIXELS);
+			DispatchMany(Pass, Pipeline, C, DivideUp(Slots, TILE_PIXELS));
 		};
 	});
+}
+
+/// Lists the lights that have changed, once for either lobe.
+FGraphBuffer RequireList(FFrameContext& Context, IRTPipeline* Pipeline)
+{
+	FLampChangesOfFrame& Changes = Context.LampChanges;
+	if (std::exchange(Changes.bAsked, true)) { return Changes.List; }
+	const uint32_t Slots = Context.MovedCasters->GetLampRoom(Context.Scene.GetLights().GetSlotCount());
+	// Asked for in each frame, or else it would be freed.
+	FHistoryBuffer Kept;
+	if (FRTStatus S = Context.History->GetBuffer("Lamps", {uint64_t(Slots) * sizeof(FLightData)}, Kept); !S)
+	{
+		Context.Fail(S);
+		return {};
+	}
+	const bool bChanged = Context.MovedCasters->HaveLampsChanged(Context.Scene, Context.View.DeltaSeconds);
+	if (!bChanged && !Kept.bFresh) { return {}; }
+	const FGraphBuffer List = Context.Graph.CreateBuffer({sizeof(FLampChanges), ERTBufferUsage::CopyDest}, "LampChanges");
+	AddListPass(Context, Kept, Slots, List, Pipeline);
+	// A fresh list says that too many have changed: nobody knows what they were.
+	if (bChanged && Context.PreviousView) { Changes.List = List; }
+	return Changes.List;
 }
 
 FGraphTexture AddFollowPass(
@@ -108,19 +122,8 @@ FGraphTexture AddLampChange(
 	IRTPipeline* const List = RequireCompute(Context, MakeListSource());
 	IRTPipeline* const Follow = RequireCompute(Context, MakeFollowSource(Defines));
 	if (!List || !Follow) { return {}; }
-	// Asked for in each frame, or else it would be freed.
-	const std::string Name = GetSignalInfo(Lobe).Pass;
-	FHistoryBuffer Kept;
-	if (FRTStatus S = Context.History->GetBuffer((Name + "Lamps").c_str(), {uint64_t(CountSlots(Context)) * sizeof(FLightData)}, Kept); !S)
-	{
-		Context.Fail(S);
-		return {};
-	}
-	if (!Kept.bFresh && !Context.MovedCasters->HaveLampsChanged(Context.Scene, Context.View.DeltaSeconds)) { return {}; }
-	const FGraphBuffer Changes =
-	    Context.Graph.CreateBuffer({sizeof(FLampChanges), ERTBufferUsage::CopyDest}, (Name + "LampChanges").c_str());
-	AddListPass(Context, Name, Kept, Changes, List);
-	return Kept.bFresh ? FGraphTexture{} : AddFollowPass(Context, GBuffer, Rays, Changes, Lobe, Follow);
+	const FGraphBuffer Changes = RequireList(Context, List);
+	return Changes.IsValid() ? AddFollowPass(Context, GBuffer, Rays, Changes, Lobe, Follow) : FGraphTexture{};
 }
 
 } // namespace Lantern

@@ -2,6 +2,7 @@
 #include "Tiles/MovedCasters.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "LanternCore/Config/ConsoleVariables.h"
@@ -78,6 +79,14 @@ bool FMovedCasters::HaveLampsChanged(FRTScene& Scene, float DeltaSeconds)
 {
 	if (!Next.bValid) { Note(Scene, {}, DeltaSeconds); }
 	return Recent.empty() || Recent.back().Sun.Scene != Next.Sun.Scene || Recent.back().Lights != Next.Lights;
+}
+
+/// A lamp that comes and goes at a limit must not void what was noted each time.
+uint32_t FMovedCasters::GetLampRoom(uint32_t Slots)
+{
+	constexpr uint32_t Least = 128;
+	if (Slots > LampRoom || std::max(Slots, Least) < LampRoom / 8) { LampRoom = std::bit_ceil(std::max(2 * Slots, Least)); }
+	return LampRoom;
 }
 
 void FMovedCasters::Note(FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds)

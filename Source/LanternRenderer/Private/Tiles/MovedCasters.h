@@ -40,6 +40,8 @@ public:
 	FRecent FindRecentOfLamps(FRTScene& Scene, float DeltaSeconds);
 	/// Returns whether a lamp has changed since the view's last frame, or there is none. As Find.
 	bool HaveLampsChanged(FRTScene& Scene, float DeltaSeconds);
+	/// Returns how many slots of lights a view notes: Slots at least, and seldom another number than in the frame before.
+	uint32_t GetLampRoom(uint32_t Slots);
 	/// Counts the view's submitted frames.
 	uint32_t GetTurn() const { return Turn; }
 	/// bSubmitted: false if the frame never runs; the next frame then finds its changes again.
@@ -70,6 +72,7 @@ private:
 	FState Last, Next;
 	std::deque<FState> Recent; ///< of the last frames, the oldest first; the last one is Last
 	uint32_t Turn = 0;
+	uint32_t LampRoom = 0;
 	double Time = 0.0;
 };
 

@@ -191,6 +191,14 @@ struct FLightMask
 	bool IsValid() const { return Visibility.IsValid(); }
 };
 
+/// Lights that have changed since the view's last frame, for what follows them (LocalLights/LampChange.h). The first pass that asks
+/// lists them.
+struct FLampChangesOfFrame
+{
+	FGraphBuffer List; ///< invalid: none has, or there is no last frame
+	bool bAsked = false;
+};
+
 struct FShadowRays; // Private/Rays/ShadowRays.h
 /// Light of local lights by lobe, not filtered.
 struct FLocalLobes
@@ -241,6 +249,7 @@ struct FFrameContext
 	bool bShadowRaysAsked = false;
 	std::shared_ptr<const FLocalLobes> LocalLobes; ///< null: not shaded so far
 	std::optional<FLightMask> LightMask;           ///< nullopt: nobody has asked so far
+	FLampChangesOfFrame LampChanges;
 	FSceneTokens Tokens;
 	FSignalRequests Signals;
 	/// First error that a pass met; the frame is then not submitted. Not while passes are recorded.
@@ -402,6 +411,7 @@ private:
 		uint64_t Viewer = 0;     // who it is to scenes
 		uint64_t Published = 0;  // FConsoleVariables::GetPublishCount of the newest frame that reached the GPU
 		uint32_t IdleFrames = 0; // of other views since its own last one
+		uint32_t Turn = 0;       // FViewConstants::FrameIndex of its newest frame
 	};
 	FViewState& GetView(uint32_t Index);
 	std::map<uint32_t, FViewState> Views;

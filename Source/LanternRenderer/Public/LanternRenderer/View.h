@@ -38,9 +38,12 @@ struct FView
 	/// Orthographic: how far the view sees, metres; culling keeps what is within.
 	double Far = 0.0;
 	uint32_t Width = 0, Height = 0;
+	/// Number of the frame among those of all views. Shaders count the frames of a view by themselves, from the first one's number on.
 	uint32_t FrameIndex = 0;
 	uint32_t Seed = 0;
 	float Exposure = 0.0f; ///< stops
+	/// Exposure is that of the picture. If not, nothing is left out for being dim.
+	bool bExposureKnown = true;
 	/// Time since the frame before, in seconds, > 0. Histories are kept in seconds, so that 30 and 144 frames a second behave alike.
 	float DeltaSeconds = 1.0f / 60.0f;
 	/// Carries nothing over from the frame before: another place, another world.

@@ -11,7 +11,12 @@ namespace Lantern
 uint32_t FLightProfiles::Add(const FProfileGrid& Grid)
 {
 	assert(Grid.Rows > 0 && Grid.Texels.size() == size_t(Grid.Rows) * Grid.Columns);
-	const uint32_t Slot = Slots.Take(LIGHT_PROFILES_MOST);
+	uint32_t Slot = Slots.Take(LIGHT_PROFILES_MOST);
+	if (Slot == TSlots<FRange>::None)
+	{
+		FreeBefore(~0ull);
+		Slot = Slots.Take(LIGHT_PROFILES_MOST);
+	}
 	if (Slot == TSlots<FRange>::None)
 	{
 		LogOnce(ERTLogLevel::Error, "the scene has 65,535 profiles of lights; further lights shine without theirs");
@@ -32,12 +37,26 @@ uint32_t FLightProfiles::Add(const FProfileGrid& Grid)
 
 void FLightProfiles::Remove(uint32_t Number)
 {
-	const uint32_t Slot = Number - 1;
-	assert(Slots.IsAlive(Slot));
-	Words.Free(Slots[Slot].First, Slots[Slot].Count);
-	Slots.Free(Slot);
-	// What a filter remembers of lights may name it for a frame.
-	Headers.Set(Slot, FLightProfile{});
+	assert(Slots.IsAlive(Number - 1));
+	Retired.push_back({Number - 1, Frames});
+}
+
+void FLightProfiles::FreeBefore(uint64_t Frame)
+{
+	for (; !Retired.empty() && Retired.front().Frame < Frame; Retired.pop_front())
+	{
+		const uint32_t Slot = Retired.front().Slot;
+		Words.Free(Slots[Slot].First, Slots[Slot].Count);
+		Slots.Free(Slot);
+		Headers.Set(Slot, FLightProfile{}); // it shines nowhere
+	}
+}
+
+void FLightProfiles::EndFrame(bool bSubmitted)
+{
+	if (!bSubmitted) { return; }
+	++Frames;
+	if (Frames >= KeptFrames) { FreeBefore(Frames - KeptFrames + 1); }
 }
 
 } // namespace Lantern

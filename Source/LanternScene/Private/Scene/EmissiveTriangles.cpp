@@ -6,8 +6,11 @@
 #include <cstddef>
 
 #include "LanternCore/Config/ConsoleVariables.h"
+#include "LanternCore/Text/Log.h"
+#include "LanternCore/Text/Quote.h"
 #include "LanternScene/Scene/SceneMaterials.h"
 #include "LanternScene/Scene/SceneObjects.h"
+#include "ShaderTable/SectionData.h"
 
 namespace Lantern
 {
@@ -17,8 +20,29 @@ namespace
 TRTConsoleVariable<bool> CVarFollow("r.RT.Debug.Lights.EmissiveFollow", true,
     "Planted fault. Off: emissive triangles stay where the first frame found them when a mesh deforms.");
 
+TRTConsoleVariable<int32_t> CVarTriangles("r.RT.Lights.EmissiveTriangles", FEmissiveTriangles::MostTriangles,
+    "Most emissive triangles that shine as local lights, which take 64 bytes each. Objects that have no room beside those before them, in "
+    "the order in which the scene keeps them, bring no light. A warning names the first of them.",
+    {1, FEmissiveTriangles::MostTriangles});
+
 // Where no light is sampled, nobody takes what is marked.
 constexpr size_t MostMarked = 4096;
+
+/// What lists have no room for.
+struct FLeftOut
+{
+	const FRTGeometryInfo* First = nullptr; ///< of the first object
+
+	void Add(const FRTGeometryInfo& Geometry) { First = First ? First : &Geometry; }
+	void Report(uint32_t Most) const
+	{
+		if (!First) { return; }
+		LogOnce(ERTLogLevel::Warning,
+		    fmt::format("the scene has more than {} emissive triangles (r.RT.Lights.EmissiveTriangles); the object with geometry {}, and "
+		                "those behind it that have no room, bring no light",
+		        Most, Quote(First->Name)));
+	}
+};
 
 } // namespace
 
@@ -34,41 +58,86 @@ void FEmissiveTriangles::MarkDeformed(uint32_t Object)
 	if (CVarFollow.GetOnRenderThread()) { MarkMoved(Object); }
 }
 
-// ---------------------------------------------------------------------------------------------------- lists
+// ---------------------------------------------------------------------------------------------------- objects
 
-void FEmissiveTriangles::ListObjects(const FSceneObjects& InObjects, const FSceneMaterials& InMaterials)
+bool FEmissiveTriangles::HasEmitter(const std::vector<uint32_t>& OfSections) const
+{
+	return std::any_of(OfSections.begin(), OfSections.end(), [this](uint32_t Material) { return HasEmitted(Material); });
+}
+
+void FEmissiveTriangles::SetObject(uint32_t Object, const std::vector<uint32_t>& OfSections)
+{
+	RemoveObject(Object);
+	if (!HasEmitter(OfSections)) { return; }
+	EmissiveObjects.insert(EmissiveObjects.end(), Object);
+	bStale = true;
+}
+
+void FEmissiveTriangles::RemoveObject(uint32_t Object)
+{
+	if (EmissiveObjects.erase(Object) > 0) { bStale = true; }
+}
+
+void FEmissiveTriangles::AddMaterial(uint32_t Material, bool bEmits)
+{
+	if (Material >= Emitted.size()) { Emitted.resize(Material + 1); }
+	Emitted[Material] = bEmits;
+}
+
+void FEmissiveTriangles::ChangeMaterial(uint32_t Material, bool bEmits, bool bUsed)
+{
+	if (HasEmitted(Material)) { return Mark(Materials, Material); }
+	if (!bEmits) { return; }
+	AddMaterial(Material, true);
+	if (bUsed) { bStale = bObjectsStale = true; } // once in its life
+}
+
+void FEmissiveTriangles::ListObjects(const FSceneObjects& InObjects)
 {
 	EmissiveObjects.clear();
 	for (uint32_t Slot = 0; Slot < InObjects.GetSlotCount(); ++Slot)
 	{
-		if (InObjects.Find(Slot) && InMaterials.GetSections().GetRange(InObjects.GetRange(Slot)).bEmissive)
-		{
-			EmissiveObjects.push_back(Slot);
-		}
+		const FRTObjectInfo* const Object = InObjects.Find(Slot);
+		if (Object && HasEmitter(Object->Materials)) { EmissiveObjects.insert(EmissiveObjects.end(), Slot); }
 	}
 	bObjectsStale = false;
 }
 
+// ---------------------------------------------------------------------------------------------------- lists
+
 void FEmissiveTriangles::ListRanges(const FSceneObjects& InObjects, const FSceneMaterials& InMaterials)
 {
+	const auto Most = static_cast<uint32_t>(CVarTriangles.GetOnRenderThread());
 	std::vector<FEmissiveRange> All;
+	FLeftOut LeftOut;
 	Sources.clear();
+	Users.clear();
 	TriangleCount = 0;
 	for (const uint32_t Object : EmissiveObjects)
 	{
-		FSource Source{Object, static_cast<uint32_t>(All.size()), 0, TriangleCount, 0, 0, 0};
-		const std::vector<FRTSectionInfo>& Sections = InObjects.Find(Object)->Geometry->GetInfo().Sections;
+		const FRTObjectInfo& Info = *InObjects.Find(Object);
+		const std::vector<FRTSectionInfo>& Sections = Info.Geometry->GetInfo().Sections;
 		const uint32_t FirstSection = InMaterials.GetSections().GetRange(InObjects.GetRange(Object)).First;
+		FSource Source{Object, static_cast<uint32_t>(All.size()), TriangleCount, 0, 0, 0};
 		for (uint32_t Section = 0; Section < Sections.size(); ++Section)
 		{
-			if ((InMaterials.GetSections().Get(FirstSection + Section).Flags & SECTION_LIGHT) == 0) { continue; }
-			All.push_back({TriangleCount, FirstSection + Section});
-			TriangleCount += Sections[Section].IndexCount / 3;
+			if (!HasEmitted(Info.Materials[Section]) || !MayListEmissive(*Info.Geometry, Section)) { continue; }
+			All.push_back({TriangleCount + Source.Count, FirstSection + Section});
+			Users.emplace_back(Info.Materials[Section], static_cast<uint32_t>(Sources.size()));
+			Source.Count += Sections[Section].IndexCount / 3;
 		}
-		Source.RangeCount = static_cast<uint32_t>(All.size()) - Source.FirstRange;
-		Source.Count = TriangleCount - Source.First;
+		if (Source.Count > Most - TriangleCount)
+		{
+			LeftOut.Add(Info.Geometry->GetInfo());
+			Users.resize(Users.size() - (All.size() - Source.FirstRange));
+			All.resize(Source.FirstRange);
+			continue;
+		}
+		TriangleCount += Source.Count;
 		if (Source.Count > 0) { Sources.push_back(Source); }
 	}
+	LeftOut.Report(Most);
+	std::sort(Users.begin(), Users.end());
 	if (!All.empty()) { All.push_back({TriangleCount, 0}); }
 	Ranges.Assign(All);
 }
@@ -146,17 +215,12 @@ void FEmissiveTriangles::WantClusters(const FSource& Source)
 	for (uint32_t I = 0; I < Source.ClusterCount; ++I) { Wanted.push_back(Source.FirstCluster + I); }
 }
 
-void FEmissiveTriangles::WantMarked(const FSceneObjects& InObjects)
+void FEmissiveTriangles::WantMarked()
 {
-	if (!Materials.empty())
+	for (const uint32_t Material : Materials)
 	{
-		std::sort(Materials.begin(), Materials.end());
-		const auto IsMarked = [&](uint32_t Material) { return std::binary_search(Materials.begin(), Materials.end(), Material); };
-		for (const FSource& Source : Sources)
-		{
-			const std::vector<uint32_t>& Used = InObjects.Find(Source.Object)->Materials;
-			if (std::any_of(Used.begin(), Used.end(), IsMarked)) { WantClusters(Source); }
-		}
+		auto User = std::lower_bound(Users.begin(), Users.end(), std::pair(Material, 0u));
+		for (; User != Users.end() && User->first == Material; ++User) { WantClusters(Sources[User->second]); }
 	}
 	for (const uint32_t Object : Objects)
 	{
@@ -180,7 +244,8 @@ FRTStatus FEmissiveTriangles::Reserve(IRTDevice& Device)
 	};
 	if (FRTStatus S = Grow(Triangles, uint64_t(TriangleCount) * sizeof(FEmissiveTriangle), "EmissiveTriangles"); !S) { return S; }
 	const uint64_t PowerBytes = Clusters.Num() > 0 ? sizeof(FEmissivePowerHeader) + Clusters.Num() * sizeof(FEmissivePower) : 0;
-	return Grow(Powers, PowerBytes, "EmissivePowers");
+	if (FRTStatus S = Grow(Powers, PowerBytes, "EmissivePowers"); !S) { return S; }
+	return Grow(Bounds, Clusters.Num() * sizeof(FEmitterCluster), "EmissiveBounds");
 }
 
 FRTStatus FEmissiveTriangles::Update(IRTDevice& Device, const FSceneObjects& InObjects, const FSceneMaterials& InMaterials)
@@ -188,7 +253,7 @@ FRTStatus FEmissiveTriangles::Update(IRTDevice& Device, const FSceneObjects& InO
 	bGiven = true;
 	if (bStale)
 	{
-		if (bObjectsStale) { ListObjects(InObjects, InMaterials); }
+		if (bObjectsStale) { ListObjects(InObjects); }
 		ListRanges(InObjects, InMaterials);
 		ListClusters(InObjects);
 		bAllWanted = true;
@@ -199,7 +264,7 @@ FRTStatus FEmissiveTriangles::Update(IRTDevice& Device, const FSceneObjects& InO
 		}
 		bStale = false;
 	}
-	else if (!bAllWanted) { WantMarked(InObjects); }
+	else if (!bAllWanted) { WantMarked(); }
 	Objects.clear();
 	Materials.clear();
 	if (bAllWanted) { Wanted.clear(); }
@@ -210,7 +275,7 @@ FRTStatus FEmissiveTriangles::Update(IRTDevice& Device, const FSceneObjects& InO
 FEmissiveWork FEmissiveTriangles::GetWork() const
 {
 	const uint32_t Count = bAllWanted ? Clusters.Num() : static_cast<uint32_t>(Wanted.size());
-	return bGiven && Count > 0 ? FEmissiveWork{Triangles.Get(), Powers.Get(), &Wanted, Count} : FEmissiveWork{};
+	return bGiven && Count > 0 ? FEmissiveWork{Triangles.Get(), Powers.Get(), Bounds.Get(), &Wanted, Count} : FEmissiveWork{};
 }
 
 void FEmissiveTriangles::EndFrame(bool bSubmitted)
@@ -225,11 +290,13 @@ void FEmissiveTriangles::EndFrame(bool bSubmitted)
 
 void FEmissiveTriangles::FillConstants(FSceneConstants& Out) const
 {
+	if (!IsUsable()) { return; }
 	Out.EmissiveTriangles = Triangles ? Triangles->GetDeviceAddress() : 0;
 	Out.EmissiveTriangleCount = TriangleCount;
 	Out.EmissiveClusters = Clusters.GetAddress();
 	Out.EmissiveClusterCount = Clusters.Num();
 	Out.EmissiveRanges = Ranges.GetAddress();
+	Out.EmissiveBounds = Bounds ? Bounds->GetDeviceAddress() : 0;
 	Out.EmissivePowers = Powers ? Powers->GetDeviceAddress() : 0;
 }
 

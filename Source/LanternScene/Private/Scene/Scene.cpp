@@ -29,7 +29,7 @@ void FRTScene::MarkFilled(const FRTGeometryRef& Geometry)
 {
 	Geometries.MarkFilled(Geometry);
 	// Light sampling lists no triangle whose vertices are missing.
-	if (Materials.GetSections().GetEmissiveRangeCount() > 0) { Emissive.MarkLists(); }
+	if (Emissive.HasObjects()) { Emissive.MarkLists(); }
 }
 
 void FRTScene::MarkDeformed(const FRTGeometryRef& Geometry)

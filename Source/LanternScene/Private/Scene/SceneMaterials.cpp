@@ -11,11 +11,11 @@ namespace Lantern
 
 namespace
 {
-/// Tells whether chances of light sampling differ: they follow the emissive texture and what is cut away of it.
+/// Tells whether chances of light sampling differ: they follow the emissive texture, what is cut away of it, and which sides shine.
 bool EmitsOtherwise(const FMaterialData& Old, const FMaterialData& New)
 {
 	bool bOther = Old.EmissiveWeight != New.EmissiveWeight || Old.LightEmissive != New.LightEmissive || Old.UVSets != New.UVSets ||
-	              ((Old.Flags ^ New.Flags) & MATERIAL_MASKED) != 0 || Old.AlphaCutoff != New.AlphaCutoff;
+	              ((Old.Flags ^ New.Flags) & (MATERIAL_MASKED | MATERIAL_DOUBLE_SIDED)) != 0 || Old.AlphaCutoff != New.AlphaCutoff;
 	for (const uint32_t Slot : {TEXTURE_EMISSIVE, TEXTURE_BASE_COLOR})
 	{
 		bOther |= Old.Textures[Slot] != New.Textures[Slot] || Old.UVTransform[Slot] != New.UVTransform[Slot] ||
@@ -33,10 +33,13 @@ uint32_t FSceneMaterials::Add(const FMaterialData& Material, uint32_t Program)
 		Free.pop_back();
 		Table.Set(Index, Material);
 		Programs[Index] = Program;
+		Emissive.AddMaterial(Index, Material.EmissiveWeight > 0.0f);
 		return Index;
 	}
 	Programs.push_back(Program);
-	return Table.Add(Material);
+	const uint32_t Index = Table.Add(Material);
+	Emissive.AddMaterial(Index, Material.EmissiveWeight > 0.0f);
+	return Index;
 }
 
 void FSceneMaterials::Remove(uint32_t Index)
@@ -49,8 +52,11 @@ void FSceneMaterials::Set(uint32_t Index, const FMaterialData& Material)
 {
 	assert(Index < Table.Num());
 	const FMaterialData Old = Table[Index];
-	if ((Old.EmissiveWeight > 0.0f) != (Material.EmissiveWeight > 0.0f)) { Emissive.MarkObjects(); }
-	else if (Material.EmissiveWeight > 0.0f && EmitsOtherwise(Old, Material)) { Emissive.MarkMaterial(Index); }
+	const bool bEmits = Material.EmissiveWeight > 0.0f;
+	if ((bEmits || Old.EmissiveWeight > 0.0f) && EmitsOtherwise(Old, Material))
+	{
+		Emissive.ChangeMaterial(Index, bEmits, Sections.IsMaterialUsed(Index));
+	}
 	Table.Set(Index, Material);
 	// An animated colour or roughness goes no further.
 	if (FSectionTable::AffectsSections(Old, Material)) { Sections.MaterialChanged(Index); }

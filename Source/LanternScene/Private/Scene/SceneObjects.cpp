@@ -73,14 +73,14 @@ FRTObjectId FSceneObjects::Add(FRTObjectInfo Info)
 	JoinGeometry(Slot);
 	Write(Slot);
 	NoteCaster(Slot);
-	MarkEmissive(Object.Range);
+	Emissive.SetObject(Slot, Object.Info.Materials);
 	return {Slot, Objects.GetGeneration(Slot)};
 }
 
 void FSceneObjects::Remove(FRTObjectId Id)
 {
 	FObject& Object = Resolve(Id);
-	MarkEmissive(Object.Range);
+	Emissive.RemoveObject(Id.Index);
 	Characters -= Object.Info.bCharacter ? 1 : 0;
 	OffChannel -= IsOffChannel(Object.Info.Channels);
 	NoteCaster(Id.Index);
@@ -103,7 +103,8 @@ void FSceneObjects::SetTransform(FRTObjectId Id, const glm::dmat4& Transform)
 	const FInstanceRecord Before = Instances.GetRecord(Id.Index);
 	const bool bMoved = std::exchange(Object.Info.Transform, Transform) != Transform; // engines may set all transforms in each frame
 	Write(Id.Index);
-	if (bMoved) { NoteCaster(Before, Instances.GetRecord(Id.Index)); }
+	if (!bMoved) { return; }
+	NoteCaster(Before, Instances.GetRecord(Id.Index));
 	if (Sections.GetRange(Object.Range).bEmissive) { Emissive.MarkMoved(Id.Index); }
 }
 
@@ -111,8 +112,7 @@ void FSceneObjects::SetMaterials(FRTObjectId Id, std::vector<uint32_t> SectionMa
 {
 	FObject& Object = Resolve(Id);
 	const FSectionRangeId Range = Sections.Acquire(*Object.Info.Geometry, SectionMaterials);
-	MarkEmissive(Object.Range);
-	MarkEmissive(Range);
+	Emissive.SetObject(Id.Index, SectionMaterials);
 	Sections.Release(std::exchange(Object.Range, Range));
 	Object.Info.Materials = std::move(SectionMaterials);
 	Write(Id.Index);
@@ -125,8 +125,7 @@ void FSceneObjects::SetGeometry(FRTObjectId Id, FRTGeometryRef Geometry, std::ve
 	FObject& Object = Resolve(Id);
 	const FInstanceRecord Before = Instances.GetRecord(Id.Index);
 	const FSectionRangeId Range = Sections.Acquire(*Geometry, SectionMaterials);
-	MarkEmissive(Object.Range);
-	MarkEmissive(Range);
+	Emissive.SetObject(Id.Index, SectionMaterials);
 	LeaveGeometry(Id.Index);
 	Sections.Release(std::exchange(Object.Range, Range));
 	Retired.push_back(std::exchange(Object.Info.Geometry, std::move(Geometry)));
@@ -221,11 +220,6 @@ void FSceneObjects::LeaveGeometry(uint32_t Slot)
 	Users[Object.Member] = Users.back();
 	Users.pop_back();
 	if (Users.empty()) { DynamicUsers.erase(Found); }
-}
-
-void FSceneObjects::MarkEmissive(FSectionRangeId Range)
-{
-	if (Sections.GetRange(Range).bEmissive) { Emissive.MarkObjects(); }
 }
 
 /// Writes what gathering and the reach of rays know of the object.

@@ -50,8 +50,9 @@ const FSceneFacts& FSceneUpdate::RefreshFacts()
 	Facts.Objects = Parts.Objects.GetInstances().GetCount();
 	Facts.DynamicGeometries = Parts.Geometries.GetDynamicCount();
 	Facts.bCharacters = Parts.Objects.GetCharacterCount() > 0;
-	Facts.EmissiveTriangles = Parts.Emissive.GetTriangleCount();
-	Facts.EmissiveClusters = Parts.Emissive.GetClusters().Num();
+	const bool bListed = Parts.Emissive.IsUsable();
+	Facts.EmissiveTriangles = bListed ? Parts.Emissive.GetTriangleCount() : 0;
+	Facts.EmissiveClusters = bListed ? Parts.Emissive.GetClusters().Num() : 0;
 	Facts.bMasked = Sections.GetMaskedRangeCount() > 0;
 	Facts.bOwnShapes = std::any_of(Sections.GetHitPrograms().begin(), Sections.GetHitPrograms().end(), HasOwnShape);
 	Facts.bEmissive = Sections.GetEmissiveRangeCount() > 0;
@@ -68,7 +69,7 @@ void FSceneUpdate::RefreshLightFacts()
 	Facts.FiniteLights = Lights.GetFiniteCount();
 	Facts.FogLights = Lights.GetFogCount();
 	Facts.bAreaLights = Lights.GetExtendedCount() > 0;
-	Facts.bLightProfiles = Lights.GetProfiledCount() > 0;
+	Facts.bLightProfiles = Lights.GetProfiledCount() > 0 || Parts.Lights.GetProfiles().HasRetired(); // of a lamp that has just gone
 	Facts.bSun = Parts.Lights.HasSun();
 	const bool bSunOff = Facts.bSun && (Parts.Lights.GetSun().Channels & CHANNELS_DEFAULT) == 0;
 	const bool bOff = bSunOff || Lights.GetOffChannelCount() > 0 || Parts.Objects.GetOffChannelCount() > 0;
@@ -229,6 +230,7 @@ void FSceneUpdate::EndFrame(bool bSubmitted, FRTFence Fence)
 	}
 	Parts.Objects.EndFrame(bSubmitted);
 	Parts.Emissive.EndFrame(bSubmitted);
+	Parts.Lights.GetProfiles().EndFrame(bSubmitted);
 }
 
 } // namespace Lantern

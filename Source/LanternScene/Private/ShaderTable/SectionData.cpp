@@ -39,14 +39,13 @@ bool HasPlainOpacity(const FRTGeometryInfo& Info, const FMaterialData& Material)
 	return Info.bOpaqueVertices && Material.UVTransform[TEXTURE_BASE_COLOR] == glm::vec4(1, 0, 0, 1) &&
 	       Material.UVOffset[TEXTURE_BASE_COLOR] == glm::vec2(0);
 }
+} // namespace
 
-/// Of the finest level of detail only: coarser ones count other triangles.
 bool MayListEmissive(const FRTGeometry& Geometry, uint32_t Section)
 {
 	const FRTGeometryInfo& Info = Geometry.GetInfo();
 	return !Info.Sections[Section].bProcedural && !Geometry.IsCoarse() && !Info.bWaitsForData;
 }
-} // namespace
 
 FHitProgram ChooseHitProgram(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part, uint32_t Material)
 {

@@ -12,4 +12,8 @@ FHitProgram ChooseHitProgram(const FSectionContext& Context, const FRTGeometry& 
 /// Material is that of the part's section.
 FSectionData MakeSection(const FSectionContext& Context, const FRTGeometry& Geometry, const FRTGeometryPart& Part, uint32_t Material);
 
+/// Returns whether light sampling may list triangles of a section: those of the finest level of detail, once they are there. Coarser
+/// levels count other triangles.
+bool MayListEmissive(const FRTGeometry& Geometry, uint32_t Section);
+
 } // namespace Lantern

@@ -1,6 +1,8 @@
 // FLightProfiles keeps what lights of a scene shine by direction, for shaders.
 #pragma once
 
+#include <deque>
+
 #include "LanternScene/Lights/Photometry.h"
 #include "LanternScene/Memory/GpuTable.h"
 #include "LanternScene/Memory/Slots.h"
@@ -16,9 +18,13 @@ class FLightProfiles
 public:
 	/// Returns the profile's number, from 1. Returns 0, and logs that once, if there are LIGHT_PROFILES_MOST.
 	uint32_t Add(const FProfileGrid& Grid);
-	/// Frees the number and its texels.
+	/// Frees the number and its texels, once KeptFrames frames were submitted: views compare lights with those of their last frame, and
+	/// have to know what these shone.
 	void Remove(uint32_t Number);
-	uint32_t GetCount() const { return Slots.GetAliveCount(); }
+	static constexpr uint32_t KeptFrames = 64;
+	void EndFrame(bool bSubmitted);
+	/// Returns whether a removed one is still there.
+	bool HasRetired() const { return !Retired.empty(); }
 	TGpuTable<FLightProfile>& GetHeaders() { return Headers; }
 	const TGpuTable<FLightProfile>& GetHeaders() const { return Headers; }
 	/// Two texels in a word.
@@ -31,7 +37,15 @@ private:
 	{
 		uint32_t First = 0, Count = 0;
 	};
+	struct FRetired
+	{
+		uint32_t Slot = 0;
+		uint64_t Frame = 0; ///< in which it was removed
+	};
+	void FreeBefore(uint64_t Frame);
 	TSlots<FRange> Slots;
+	std::deque<FRetired> Retired; // the oldest first
+	uint64_t Frames = 0;          // submitted ones
 	FSectionAllocator Words;
 	TGpuTable<FLightProfile> Headers{"LightProfiles"};
 	TGpuTable<uint32_t> Texels{"LightProfileTexels"};

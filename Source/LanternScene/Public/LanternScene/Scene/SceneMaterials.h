@@ -18,7 +18,7 @@ class FEmissiveTriangles;
 class FSceneMaterials
 {
 public:
-	/// Emissive is marked when a material begins, ceases or changes to emit. It outlives this.
+	/// Emissive is told when a material begins, ceases or changes to emit. It outlives this.
 	explicit FSceneMaterials(FEmissiveTriangles& InEmissive) : Emissive(InEmissive) {}
 	FSceneMaterials(const FSceneMaterials&) = delete;
 	FSceneMaterials& operator=(const FSceneMaterials&) = delete;

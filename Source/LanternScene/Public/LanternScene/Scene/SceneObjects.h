@@ -27,7 +27,7 @@ class FEmissiveTriangles;
 class FSceneObjects
 {
 public:
-	/// Takes section ranges from InSections. Marks InEmissive when an emissive object comes, goes or moves. The arguments
+	/// Takes section ranges from InSections. Tells InEmissive which objects come, go, move and have other materials. The arguments
 	/// outlive this.
 	FSceneObjects(FSectionTable& InSections, FEmissiveTriangles& InEmissive) : Sections(InSections), Emissive(InEmissive) {}
 	FSceneObjects(const FSceneObjects&) = delete;
@@ -98,7 +98,6 @@ private:
 	float GetCasterRadius(uint32_t Slot) const;
 	void JoinGeometry(uint32_t Slot);
 	void LeaveGeometry(uint32_t Slot);
-	void MarkEmissive(FSectionRangeId Range);
 	void WriteChannels(uint32_t Slot);
 	void NoteCaster(const FInstanceRecord& Before, const FInstanceRecord& After);
 	void NoteCaster(uint32_t Slot);
