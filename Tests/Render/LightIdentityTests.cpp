@@ -65,9 +65,17 @@ protected:
 			Swapped += Lamp.Id.Index != std::exchange(Lamp.Slot, Lamp.Id.Index) ? 1 : 0;
 		}
 	}
+	/// The first frame starts anew; each later one has the histories of the one before.
 	FMeans Render(uint32_t Frame)
 	{
-		const FImageMeans Means = ComputeMeans(RenderSignal(ESignal::LocalDiffuse, GetView(), 1, Frame));
+		FView View = GetView();
+		View.FrameIndex = Frame;
+		View.bCut = Frame == 0;
+		FFrameCapture Capture;
+		Capture.Signals.Add(ESignal::LocalDiffuse);
+		FCapturedFrame Captured;
+		EXPECT_OK(GetEngine().RenderFrame(View, 0.0, Capture, &Captured));
+		const FImageMeans Means = ComputeMeans(Captured.Get(ESignal::LocalDiffuse));
 		return {Means.Luminance, Means.Channel[2]};
 	}
 	/// What all lamps bring, or all but the blue ones, by the reference.
