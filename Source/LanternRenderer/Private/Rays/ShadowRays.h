@@ -35,7 +35,7 @@ struct FShadowRays
 	FRayQueue Queue;
 	FGraphBuffer Tiles; ///< FTile[]; invalid: nobody asks for the sun
 	FSunRays Sun;
-	FShadowChanges Changes; ///< of the sun's shadows, if they are filtered
+	FShadowChanges Changes;     ///< of the sun's shadows, if they are filtered
 	FHistoryTexture SunHistory; ///< FDenoiseInputs::History of sun shadows, if passes before the filter read it
 	FSettledTiles Settled;
 	FHostShadowMap Map; ///< what it holds is left to it

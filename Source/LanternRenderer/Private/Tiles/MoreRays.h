@@ -1,8 +1,8 @@
 // More sun rays where one cannot tell and no history helps (Tiles/MoreRays.comp).
 #pragma once
 
-#include "Rays/RayQueue.h"
 #include "LanternCore/FrameGraph/History.h"
+#include "Rays/RayQueue.h"
 #include "Tiles/MovedCasters.h"
 
 namespace Lantern
