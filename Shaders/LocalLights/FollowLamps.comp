@@ -86,8 +86,8 @@ void main()
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	FLampChangesRef List = FLampChangesRef(Push.List);
-	uint Place = gl_LocalInvocationIndex, Count = min(List.Data.Count, LAMP_CHANGES);
-	bool bTooMany = List.Data.Count > LAMP_CHANGES;
+	bool bTooMany = List.Data.Count > LAMP_CHANGES; // a fresh list says so without any entry
+	uint Place = gl_LocalInvocationIndex, Count = bTooMany ? 0u : List.Data.Count;
 	uvec2 Pixel = TilePixel(gl_WorkGroupID.xy, Place);
 	SortList(List, Count, Place);
 	barrier();
