@@ -1,5 +1,5 @@
 // Which lights of a tile are in the light mask, and in which slots. For Requests.comp, which declares what this needs.
-// Few lights are all in it. Of many, those are that bring most to eight pixels of the tile. A light keeps its slot while it is listed.
+// Few lights are all in it. Of many, those are that bring most to some of its pixels. A light keeps its slot while it is listed.
 // MASK_ORDER: planted fault, r.RT.Debug.Lights.MaskOrder.
 #ifndef LANTERN_MASK_SLOTS_GLSL
 #define LANTERN_MASK_SLOTS_GLSL

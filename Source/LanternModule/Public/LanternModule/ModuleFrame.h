@@ -284,7 +284,7 @@ struct FRTModuleFog
 
 /// How much each pixel sees of the lights around it, for an engine's own lighting. The picture is divided into tiles of 8 x 8 pixels, from
 /// the view's corner on. A tile has 8 slots. All lights that reach it are in slots if they are no more. Else those are that bring most to
-/// 8 of its pixels, shadows aside. The engine multiplies its own light of a lamp by what the lamp's slot says, and by 0 where the
+/// some of its pixels, shadows aside. The engine multiplies its own light of a lamp by what the lamp's slot says, and by 0 where the
 /// lamp has none. With LocalDiffuse and LocalSpecular, which hold the other lamps and emissive triangles, the sum is all light of lamps.
 /// A lamp keeps its slot in a tile while it is listed there, also as the camera moves. Shaders/LocalLights/LightMask.glsl reads all this.
 struct FRTModuleLightMask
