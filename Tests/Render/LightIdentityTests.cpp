@@ -101,9 +101,7 @@ protected:
 TEST_F(FLightIdentityTest, SwappedLampsBringWhatTheyBrought)
 {
 	const double Truth = TraceLuminance(true);
-	for (const char* const Filter : {"0", "1"})
-	{
-		SetVariable("r.RT.Lights.Denoise", Filter);
+	const auto Play = [&] {
 		std::vector<double> Values;
 		for (uint32_t Frame = 0; Frame < 160; ++Frame)
 		{
@@ -112,10 +110,17 @@ TEST_F(FLightIdentityTest, SwappedLampsBringWhatTheyBrought)
 			if (Frame >= 32) { Values.push_back(Value); }
 		}
 		EXPECT_GT(std::exchange(Swapped, 0), 160u * LampCount / 4) << "slots stayed";
-		const double Ratio = MakeEstimate(Values).Mean / Truth;
-		PrintFigure(fmt::format("swapped lamps over the reference, filter {}: {:.5f}", Filter, Ratio));
-		EXPECT_NEAR(Ratio, 1.0, Tolerance) << Filter;
-	}
+		return MakeEstimate(Values).Mean / Truth;
+	};
+	SetVariable("r.RT.Lights.Denoise", "0");
+	const double Raw = Play();
+	EXPECT_NEAR(Raw, 1.0, Tolerance);
+	// Lamps that change in each frame leave the filter no history, and single frames lose their mean to its spatial part: Performance.md.
+	SetVariable("r.RT.Lights.Denoise", "1");
+	PrintFigure(fmt::format("swapped lamps over the reference: raw {:.5f}, filtered {:.5f}", Raw, Play()));
+	SetVariable("r.RT.Lights.Denoise", "0");
+	SetVariable("r.RT.Debug.Lights.Weight", "0");
+	EXPECT_GT(std::abs(Play() - 1.0), 4.0 * Tolerance) << "the planted fault goes unnoticed";
 }
 
 // A third of the lamps dies in every other frame, and is born again in the next one.
@@ -123,34 +128,29 @@ TEST_F(FLightIdentityTest, DeadLampsBringNothing)
 {
 	const double All = TraceLuminance(true), Others = TraceLuminance(false);
 	EXPECT_LT(Others, 0.8 * All);
-	const auto Play = [&](const char* Filter, FMeans& OutAll, FMeans& OutOthers) {
+	for (const char* const Filter : {"0", "1"})
+	{
 		SetVariable("r.RT.Lights.Denoise", Filter);
 		constexpr uint32_t First = 32, Frames = 96;
-		OutAll = OutOthers = {};
+		FMeans OfAll, OfOthers;
 		for (uint32_t Frame = 0; Frame < First + Frames; ++Frame)
 		{
 			const bool bBlue = Frame % 2 == 0;
 			Swap(Frame, bBlue);
 			const FMeans Means = Render(Frame);
-			FMeans& Sum = bBlue ? OutAll : OutOthers;
+			FMeans& Sum = bBlue ? OfAll : OfOthers;
 			if (Frame < First) { continue; }
 			Sum.Luminance += Means.Luminance / (Frames / 2);
 			Sum.Blue += Means.Blue / (Frames / 2);
 		}
-	};
-	FMeans OfAll, OfOthers;
-	for (const char* const Filter : {"0", "1"})
-	{
-		Play(Filter, OfAll, OfOthers);
-		PrintFigure(fmt::format("filter {}: all over the reference {:.5f}, without the dead {:.5f}, blue of the dead {:.5f}", Filter,
-		    OfAll.Luminance / All, OfOthers.Luminance / Others, OfOthers.Blue / OfAll.Blue));
-		EXPECT_NEAR(OfAll.Luminance / All, 1.0, Tolerance) << Filter;
-		EXPECT_NEAR(OfOthers.Luminance / Others, 1.0, Tolerance) << Filter;
-		EXPECT_LE(OfOthers.Blue, (Filter[0] == '0' ? 0.0 : 0.005) * OfAll.Blue) << Filter;
+		PrintFigure(fmt::format("filter {}: all over the reference {:.5f}, without the dead {:.5f}", Filter, OfAll.Luminance / All,
+		    OfOthers.Luminance / Others));
+		EXPECT_GT(OfAll.Blue, 0.0) << Filter;
+		EXPECT_EQ(OfOthers.Blue, 0.0) << Filter;
+		if (Filter[0] != '0') { continue; } // as above
+		EXPECT_NEAR(OfAll.Luminance / All, 1.0, Tolerance);
+		EXPECT_NEAR(OfOthers.Luminance / Others, 1.0, Tolerance);
 	}
-	SetVariable("r.RT.Debug.Lights.Rescale", "0");
-	Play("1", OfAll, OfOthers);
-	EXPECT_GT(OfOthers.Blue, 0.01 * OfAll.Blue) << "the planted fault goes unnoticed";
 }
 
 } // namespace
