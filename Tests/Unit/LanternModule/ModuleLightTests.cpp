@@ -91,7 +91,7 @@ TEST_F(FModuleLightTest, ProfilesComeAndGo)
 	ASSERT_OK(Renderer->AddIesProfile(Given, &Profile, &Info));
 	EXPECT_EQ(Info.Peak, 200.0f);
 	Given.TextBytes -= 6;
-	EXPECT_REFUSED(Renderer->AddIesProfile(Given, &Table, nullptr), "lamp.ies:7: the file ends before an intensity");
+	EXPECT_REFUSED(Renderer->AddIesProfile(Given, &Table, nullptr), "lamp.ies:5: the file ends before 3 numbers: an intensity");
 	EXPECT_EQ(Table, ERTIesHandle::None);
 	Given.Text = nullptr;
 	EXPECT_REFUSED(Renderer->AddIesProfile(Given, &Table, nullptr), "is null");
