@@ -56,8 +56,8 @@ struct FHostMaterial
 	std::string Name;
 	glm::vec4 BaseColor{1};
 	glm::vec3 Emissive{0}; ///< nits, strength included
-	/// Nits, ≥ 0: takes the place of Emissive where the surface lights something. Cameras and mirrors do not see it. Both have the
-	/// emissive texture.
+	/// Nits, ≥ 0: takes the place of Emissive where the surface lights something. Cameras and mirrors do not see it. The emissive
+	/// texture multiplies it as well.
 	std::optional<glm::vec3> LightEmissive;
 	float Metallic = 1.0f, Roughness = 1.0f;
 	float NormalScale = 1.0f, OcclusionStrength = 1.0f;

@@ -26,8 +26,8 @@ TRTConsoleVariable<int32_t> CVarExact("r.RT.Lights.Exact", 4,
     "r.RT.Lights.Rays says.",
     {1, TILE_LIGHTS});
 TRTConsoleVariable<bool> CVarKnownChanges("r.RT.Lights.KnownChanges", true,
-    "The filter of diffuse light looks for changes on surfaces that move, where a moved caster may shadow a lamp, and for 0.13 s after a "
-    "lamp has changed everywhere. If off, it always looks for them in the picture, and takes some noise for change.");
+    "The filter of diffuse light looks for changes on surfaces that move, and where a moved caster may shadow a lamp. For 0.13 s "
+    "after a lamp has changed, it looks everywhere. If off, it always looks for them in the picture, and takes some noise for change.");
 TRTConsoleVariable<bool> CVarCasters(
     "r.RT.Debug.Lights.Casters", true, "Planted fault. If off, rays to local lights meet what casts from the sun.");
 const FDenoiseVariables Denoise("r.RT.Lights", FDenoiseDefaults{.SigmaValue = 2.0f, .Passes = 2, .bColor = true});

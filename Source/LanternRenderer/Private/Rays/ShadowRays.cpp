@@ -69,7 +69,8 @@ std::shared_ptr<const FShadowRays> AddShadowRays(FFrameContext& Context, const F
 	const FShadowRayWishes& Wishes = Asked->Wishes;
 	if (Wishes.MoreSunRays > 0 && Rays.Queue.SunWidths.IsValid())
 	{
-		AddMoreRays(Context, GBuffer, Asked->Dispatch, Rays.Queue, Rays.Traced, Rays.Tiles, Rays.Changes, Rays.SunHistory);
+		AddMoreRays(
+		    Context, GBuffer, Asked->Dispatch, Rays.Queue, Rays.Traced, Rays.Tiles, Rays.Changes, Wishes.SunFilterName, Rays.SunHistory);
 	}
 	return std::make_shared<const FShadowRays>(std::move(Rays));
 }

@@ -24,8 +24,9 @@ struct FShadowRayWishes
 	FSunRays Sun;
 	bool bSunWidths = false; ///< FRayQueue::SunWidths
 	FSunRates SunRates;
-	uint32_t MoreSunRays = 0;  ///< of a pixel, where its first one cannot tell
-	bool bSunFiltered = false; ///< what becomes of the sun's rays is accumulated over frames
+	uint32_t MoreSunRays = 0;       ///< of a pixel, where its first one cannot tell
+	bool bSunFiltered = false;      ///< what becomes of the sun's rays is accumulated over frames
+	const char* SunFilterName = ""; ///< its FDenoiseInputs::Name
 	std::optional<FLocalRays> Local;
 };
 

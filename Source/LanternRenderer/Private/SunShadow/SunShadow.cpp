@@ -28,6 +28,8 @@ TRTConsoleVariable<int32_t> CVarMask(
     "r.RT.Shadow.InstanceMask", MaskSunCasters, "Only objects that share a bit with this mask cast sun shadows.", {0, 255});
 const FDenoiseVariables Denoise("r.RT.Shadow", FDenoiseDefaults{.SigmaValue = 2.0f, .Passes = 2, .bExtent = true});
 
+constexpr const char* FilterName = "SunShadow";
+
 /// Radians; 0: hard shadows.
 float GetDiameter(const FRTScene& Scene)
 {
@@ -194,6 +196,7 @@ bool AskSunShadowRays(FFrameContext& Context, const FRayDispatch& Dispatch, FSha
 	InOut.Sun = MakeSunRays(Context.Scene, Dispatch);
 	InOut.SunRates = Rates;
 	InOut.bSunFiltered = IsSunShadowFiltered(Context.Scene);
+	InOut.SunFilterName = FilterName;
 	InOut.MoreSunRays = InOut.bSunFiltered ? GetMoreRays() : 0;
 	InOut.bSunWidths = MeasuresPenumbra() && Dispatch.Has("WITH_PENUMBRA"); // a variant without it may still serve, and writes none
 	return true;
@@ -216,7 +219,7 @@ FGraphTexture AddSunShadowPass(FFrameContext& Context, const FGBuffer& GBuffer)
 	const FGraphTexture Visibility = AddVisibility(Context, GBuffer, Penumbra, Inputs.Changes);
 	if (!Visibility.IsValid()) { return {}; }
 	if (!IsSunShadowFiltered(Context.Scene)) { return Visibility; }
-	Inputs.Name = "SunShadow";
+	Inputs.Name = FilterName;
 	Inputs.Signal = Visibility;
 	Inputs.RaysPerPixel = static_cast<uint32_t>(CVarSamples.GetOnRenderThread());
 	Inputs.Extent = Penumbra;

@@ -75,13 +75,13 @@ void ListMoreRaysShaders(std::vector<FShaderSource>& Out)
 }
 
 void AddMoreRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue,
-    const FQueuedRays& Rays, FGraphBuffer Tiles, const FShadowChanges& Changes, FHistoryTexture& OutHistory)
+    const FQueuedRays& Rays, FGraphBuffer Tiles, const FShadowChanges& Changes, const char* FilterName, FHistoryTexture& OutHistory)
 {
 	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSource());
 	if (!Pipeline || !RequireSurface(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion})) { return; }
 	const bool bHistory = Context.PreviousView && Context.Surface.Previous.IsValid();
 	if (bHistory && Changes.CasterCount == 0 && IsSameView(Context.View, *Context.PreviousView)) { return; }
-	if (!RequireDenoiseHistory(Context, "SunShadow", OutHistory)) { return; }
+	if (!RequireDenoiseHistory(Context, FilterName, OutHistory)) { return; }
 	const FRayQueue More = CreateFurtherQueue(Context, Queue, "More");
 	FQueuedRays Traced = Rays;
 	Traced.MoreSamples = GetMoreRays();

@@ -13,9 +13,9 @@ uint32_t GetMoreRays();
 void ListMoreRaysShaders(std::vector<FShaderSource>& Out);
 
 /// Adds the passes that ask for further rays and trace them, behind those that trace Queue and what its tiles have left out. Does
-/// nothing in a frame that shows the last one's view of a scene in which nothing moved. Changes: of the sun's shadows. OutHistory: theirs, if
+/// nothing in a frame that shows the last one's view of a scene in which nothing moved. Changes: of the sun's shadows. FilterName: their FDenoiseInputs::Name. OutHistory: theirs, if
 /// it was asked for.
 void AddMoreRays(FFrameContext& Context, const FGBuffer& GBuffer, const FRayDispatch& Dispatch, const FRayQueue& Queue,
-    const FQueuedRays& Rays, FGraphBuffer Tiles, const FShadowChanges& Changes, FHistoryTexture& OutHistory);
+    const FQueuedRays& Rays, FGraphBuffer Tiles, const FShadowChanges& Changes, const char* FilterName, FHistoryTexture& OutHistory);
 
 } // namespace Lantern

@@ -19,7 +19,7 @@ struct FLightId
 	friend bool operator==(FLightId, FLightId) = default;
 };
 
-/// Returns what readers of the light mask know a light by: 24 bits of its slot, from 1 on, and 8 of how often the slot was used.
+/// Returns what readers of the light mask know a light by. 24 bits are its slot, from 1 on, and 8 how often the slot was used.
 inline uint32_t MakeLightNumber(FLightId Id) { return (Id.Index + 1) | Id.Generation << LIGHT_INDEX_BITS; }
 
 /// A light of the scene. All numbers are finite. Area lights are seen by what they light, and not by rays that meet them.

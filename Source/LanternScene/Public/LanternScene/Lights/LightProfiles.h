@@ -18,7 +18,7 @@ class FLightProfiles
 public:
 	/// Returns the profile's number, from 1. Returns 0, and logs that once, if there are LIGHT_PROFILES_MOST.
 	uint32_t Add(const FProfileGrid& Grid);
-	/// Frees the number and its texels, once KeptFrames frames were submitted: views compare lights with those of their last frame, and
+	/// Frees the number and its texels, once KeptFrames frames were submitted. Views compare lights with those of their last frame, and
 	/// have to know what these shone.
 	void Remove(uint32_t Number);
 	static constexpr uint32_t KeptFrames = 64;
