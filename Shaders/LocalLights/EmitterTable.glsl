@@ -4,6 +4,7 @@
 
 #include "../Shared/LocalLightTypes.h"
 #include "../Library/Bindings.glsl"
+#include "ClusterLight.glsl"
 #include "LightBox.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FEmitterHeaderRef { FEmitterHeader Data; };
@@ -22,15 +23,6 @@ FAddress EmitterRegions(FSceneConstants Scene, FAddress Emitters)
 // See EmissionOfRays.
 float ReflectedRoughness(FAddress Emitters) { return Emitters != FAddress(0) ? FEmitterHeaderRef(Emitters).Data.ReflectedRoughness : 0.0; }
 
-bool IsFlat(FEmitterCluster Cluster) { return dot(Cluster.Normal, Cluster.Normal) > 0.999; }
-
-// Returns the distance from a box to the cluster's, squared.
-float BoxDistance(FEmitterCluster Cluster, vec3 Low, vec3 High)
-{
-	vec3 Outside = max(max(Low - (Cluster.Center + Cluster.Half), (Cluster.Center - Cluster.Half) - High), vec3(0.0));
-	return dot(Outside, Outside);
-}
-
 // Whether the cluster may light a box: some of the box is before it. The slack is for what rounding tilts a plane by.
 bool MayReachFromCluster(FEmitterCluster Cluster, vec3 Low, vec3 High)
 {
@@ -40,13 +32,6 @@ bool MayReachFromCluster(FEmitterCluster Cluster, vec3 Low, vec3 High)
 	float Highest = dot(Cluster.Normal, Middle) + dot(abs(Cluster.Normal), 0.5 * (High - Low));
 	float Slack = 0.002 * (length(Middle - Cluster.Center) + length(High - Low) + length(Cluster.Half)) + 1.0e-4;
 	return Highest + Slack > Cluster.Plane;
-}
-
-// Returns what the cluster brings to a plane that faces it, about, at a distance from its box, at its best angle. No light covers more
-// than a hemisphere, which brings π times the radiance.
-float ClusterIrradiance(FEmitterCluster Cluster, float DistanceSquared)
-{
-	return Cluster.Power * min(1.0 / max(DistanceSquared, 1.0e-12), Pi / max(Cluster.Area, 1.0e-12));
 }
 
 // Returns about the most that the cluster brings to a plane at any pixel, and never 0.
@@ -75,13 +60,7 @@ float EstimateCluster(FEmitterCluster Cluster, vec3 P, vec3 N, float Reach)
 	vec3 To = Cluster.Center - P;
 	float Radius = length(Cluster.Half), Height = dot(To, N) + Radius + Reach;
 	if (Height <= 0.0) { return 0.0; }
-	float Distance = max(length(To), 1.0e-4), Coherent = length(Cluster.Normal);
-	float Before = IsFlat(Cluster) ? dot(Cluster.Normal, P) - Cluster.Plane : -dot(Cluster.Normal, To);
-	if (IsFlat(Cluster) && Before + Reach <= 0.0) { return 0.0; }
-	// A closed surface shows a quarter of its area, a flat one what its angle leaves.
-	float Facing = max(clamp((Before + Coherent * Reach) / Distance, 0.0, Coherent) + 0.25 * (1.0 - Coherent), 0.05);
-	float Near = max(sqrt(BoxDistance(Cluster, P, P)) - Reach, 0.3 * Reach), DistanceSquared = Near * Near + 0.25 * Radius * Radius;
-	return ClusterIrradiance(Cluster, DistanceSquared / Facing) * clamp(Height / Distance, 0.1, 1.0);
+	return ClusterToward(Cluster, P, Reach) * clamp(Height / max(length(To), 1.0e-4), 0.1, 1.0);
 }
 
 // Chooses a triangle of a cluster by power. X: uniform, in [0, 1). OutChance: with which it is chosen.

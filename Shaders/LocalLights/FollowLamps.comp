@@ -5,6 +5,9 @@
 #include "../Tiles/Tile.glsl"
 #include "Demodulate.glsl"
 #include "Guide.glsl"
+#ifdef LOCAL_EMISSIVE
+#include "ClusterLight.glsl"
+#endif
 
 layout(local_size_x = TILE_PIXELS) in;
 layout(push_constant, scalar) uniform FPush { FFollowLampsConstants Push; };
@@ -15,6 +18,13 @@ const float MaxHalf = 65504.0;
 
 shared uint Order[LAMP_CHANGES]; // places of the list, by the lights' numbers: sums do not depend on the order of threads
 shared vec2 Seen[LAMP_CHANGES];  // expected visibility, and its variance from pixel to pixel
+
+#ifdef LOCAL_EMISSIVE
+shared uint EmitterOrder[EMITTER_CHANGES];
+shared vec2 EmitterSeen[EMITTER_CHANGES];
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FBoundsRef { FEmitterCluster Data[]; };
+#endif
 
 void SortList(FLampChangesRef List, uint Count, uint Place)
 {
@@ -58,7 +68,72 @@ FLightData LoadLamp(FSceneConstants Scene, uint Number)
 	return Light;
 }
 
-vec4 FollowPixel(FSceneConstants Scene, FViewConstants View, FLampChangesRef List, uint Count, uvec2 Pixel, float Depth)
+#ifdef LOCAL_EMISSIVE
+void SortEmitters(FLampChangesRef List, uint Count, uint Place)
+{
+	if (Place >= Count) { return; }
+	uint Cluster = List.Data.Emitters[Place].Cluster, Rank = 0u;
+	for (uint I = 0u; I < Count; ++I) { Rank += List.Data.Emitters[I].Cluster < Cluster ? 1u : 0u; }
+	EmitterOrder[Rank] = Place;
+}
+
+const float ClusterError = 1.0; // of a difference, about
+
+// Returns the colour of a cluster's light, of luminance 1: that of the middle of its first triangle.
+vec3 ClusterColor(FSceneConstants Scene, FEmitterCluster Cluster)
+{
+	FEmissiveTriangle Triangle = FEmissiveRef(Scene.EmissiveTriangles).Data[min(Cluster.First, Scene.EmissiveTriangleCount - 1u)];
+	FSectionData Section = FSectionRef(Scene.Sections).Data[Triangle.Section];
+	vec3 Emission = EvaluateLightEmission(FMaterialRef(Scene.Materials).Data[Section.Material], FetchTextureInputs(Section, Triangle.Primitive, vec2(1.0 / 3.0)));
+	float Brightness = Luminance(Emission);
+	return Brightness > 0.0 ? Emission / Brightness : vec3(1.0);
+}
+
+// Returns about what a lobe reflects of a cluster, from four points of it. Near light comes from all over it.
+float ClusterBringsTo(FViewConstants View, FLocalPoint Point, FLocalBrdf Local, float Roughness, FEmitterCluster Cluster)
+{
+	mat3 Basis = MakeBasis(IsFlat(Cluster) ? Cluster.Normal : NormalizeOr(Cluster.Center - Point.P, vec3(0.0, 0.0, 1.0)));
+	vec2 Half = vec2(dot(abs(Basis[0]), Cluster.Half), dot(abs(Basis[1]), Cluster.Half)) * 0.577; // points of Gauss
+	FLobes Sum = FLobes(vec3(0.0), vec3(0.0));
+	[[dont_unroll]] for (uint I = 0u; I < 4u; ++I)
+	{
+		vec3 To = Cluster.Center + Basis[0] * ((I & 1u) != 0u ? Half.x : -Half.x) + Basis[1] * ((I & 2u) != 0u ? Half.y : -Half.y) - Point.P;
+		float DistanceSquared = max(dot(To, To), 1.0e-8);
+		vec3 Direction = To * inversesqrt(DistanceSquared);
+		float Facing = max(-dot(Cluster.Normal, Direction), 0.0) + 0.25 * (1.0 - length(Cluster.Normal));
+		FLightSample Sample = FLightSample(Direction, sqrt(DistanceSquared), vec3(0.25 / EmissionScale * ClusterIrradiance(Cluster, DistanceSquared / max(Facing, 1.0e-4))), 1.0);
+		if (!ReachesLight(View, Point, Sample)) { continue; }
+		FLobes Lobes = ReflectLight(Point, Local, Sample, LIGHT_TRIANGLE);
+		Sum.Diffuse += Lobes.Diffuse;
+		Sum.Specular += Lobes.Specular;
+	}
+	Sum = Demodulate(Sum, Local.Brdf, dot(Point.Surface.BentN, Point.Surface.V), Roughness);
+	return Luminance(Push.bSpecular != 0u ? Sum.Specular : Sum.Diffuse);
+}
+
+// Returns what emissive triangles have changed, and its variance.
+vec4 FollowEmitters(FSceneConstants Scene, FViewConstants View, FLampChangesRef List, uint Count, FLocalPoint Point, FLocalBrdf Local, float Roughness)
+{
+	vec4 Sum = vec4(0.0);
+	for (uint I = 0u; I < Count; ++I)
+	{
+		FEmitterChange Change = List.Data.Emitters[EmitterOrder[I]];
+		if (Change.Cluster >= Scene.EmissiveClusterCount) { continue; } // memory of an earlier frame
+		uint Object = FEmissiveClusterRef(Scene.EmissiveClusters).Data[Change.Cluster].Object;
+		vec3 Offset = CellOffset(Scene, FObjectRef(Scene.Objects).Data[Object].Cell);
+		FEmitterCluster Now = FBoundsRef(Scene.EmissiveBounds).Data[Change.Cluster];
+		Now.Center += Offset;
+		Now.Plane += dot(Now.Normal, Offset);
+		float More = ClusterBringsTo(View, Point, Local, Roughness, Now) - ClusterBringsTo(View, Point, Local, Roughness, Change.Before);
+		if (More == 0.0) { continue; }
+		vec2 Known = EmitterSeen[I];
+		Sum += vec4(More * Known.x * ClusterColor(Scene, Now), More * More * (Known.y + ClusterError * ClusterError * Known.x * Known.x));
+	}
+	return Sum;
+}
+#endif
+
+vec4 FollowPixel(FSceneConstants Scene, FViewConstants View, FLampChangesRef List, uint Count, uint Emitters, uvec2 Pixel, float Depth)
 {
 	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, Depth);
 #ifdef HAS_LIGHT_CHANNELS
@@ -77,6 +152,9 @@ vec4 FollowPixel(FSceneConstants Scene, FViewConstants View, FLampChangesRef Lis
 		float Brightness = Luminance(More);
 		Sum += vec4(More * Known.x, Brightness * Brightness * Known.y);
 	}
+#ifdef LOCAL_EMISSIVE
+	Sum += FollowEmitters(Scene, View, List, Emitters, Point, Local, Roughness);
+#endif
 	Sum.w = sqrt(Sum.w); // a variance leaves the range of fp16 early
 	return Sum;
 }
@@ -88,14 +166,24 @@ void main()
 	FLampChangesRef List = FLampChangesRef(Push.List);
 	bool bTooMany = List.Data.Count > LAMP_CHANGES; // a fresh list says so without any entry
 	uint Place = gl_LocalInvocationIndex, Count = bTooMany ? 0u : List.Data.Count;
+	uint Emitters = List.Data.EmitterCount > EMITTER_CHANGES ? 0u : List.Data.EmitterCount;
 	uvec2 Pixel = TilePixel(gl_WorkGroupID.xy, Place);
+#ifdef LOCAL_EMISSIVE
+	SortEmitters(List, Emitters, Place);
+#endif
 	SortList(List, Count, Place);
 	barrier();
 	if (Place < Count) { Seen[Place] = ExpectSeen(View, List.Data.Changes[Order[Place]].Light); }
+#ifdef LOCAL_EMISSIVE
+	if (Place < Emitters)
+	{
+		EmitterSeen[Place] = ExpectSeen(View, List.Data.Emitters[EmitterOrder[Place]].Cluster | LIGHT_TRIANGLE);
+	}
+#endif
 	barrier();
 	if (IsOutsideView(View, Pixel)) { return; }
 	float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
 	vec4 Change = vec4(0.0, 0.0, 0.0, bTooMany ? LAMP_CHANGE_UNKNOWN : 0.0);
-	if (Depth > 0.0 && !bTooMany) { Change = FollowPixel(Scene, View, List, Count, Pixel, Depth); }
+	if (Depth > 0.0 && !bTooMany) { Change = FollowPixel(Scene, View, List, Count, Emitters, Pixel, Depth); }
 	imageStore(Images[Push.Output], ivec2(Pixel), clamp(Change, -MaxHalf, MaxHalf));
 }

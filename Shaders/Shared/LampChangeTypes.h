@@ -18,22 +18,34 @@ struct FLampChange
 };
 LANTERN_ASSERT_SIZE(FLampChange, 64);
 
+#define EMITTER_CHANGES 64u // most clusters that are followed; of more, none is
+
+struct FEmitterChange
+{
+	uint Cluster;           // FEmissiveCluster[]
+	FEmitterCluster Before; // in the last frame, relative to this frame's origin of the scene
+};
+LANTERN_ASSERT_SIZE(FEmitterChange, 68);
+
 struct FLampChanges
 {
-	uint Count; // may exceed LAMP_CHANGES; it does where nobody has noted what lights were
+	uint Count;         // may exceed LAMP_CHANGES; it does where nobody has noted what lights were
+	uint EmitterCount;  // may exceed EMITTER_CHANGES
 	FLampChange Changes[LAMP_CHANGES];
+	FEmitterChange Emitters[EMITTER_CHANGES];
 };
-LANTERN_ASSERT_SIZE(FLampChanges, 4100);
+LANTERN_ASSERT_SIZE(FLampChanges, 8456);
 
-struct FListLampsConstants
+// Of ListLamps.comp and ListEmitters.comp.
+struct FListChangesConstants
 {
 	FPassConstants Pass;
-	FAddress Kept;  // FLightData[Slots]: as of the last frame, and then of this one
-	FAddress List;  // FLampChanges
-	uint Slots;
-	uint bFresh;    // 1: there is no last frame
+	FAddress Kept; // FLightData[] or FEmitterCluster[], Count of them: as of the last frame, and then of this one
+	FAddress List; // FLampChanges
+	uint Count;
+	uint bFresh;   // 1: there is no last frame
 };
-LANTERN_ASSERT_SIZE(FListLampsConstants, 40);
+LANTERN_ASSERT_SIZE(FListChangesConstants, 40);
 
 struct FFollowLampsConstants
 {

@@ -234,7 +234,7 @@ LANTERN_ASSERT_SIZE(FEmissivePowerHeader, 8);
 struct FEmitterCluster
 {
 	vec3 Center; // of its box
-	float Power; // FEmissivePower::Power: luminance · area
+	float Power; // FEmissivePower::Power: luminance · area · EmissionScale
 	vec3 Half;   // of the box's edges
 	float Area;  // of its triangles, m²
 	vec3 Normal; // mean of their normals by power; 1 long: the cluster is flat and shines to this side alone

@@ -93,6 +93,35 @@ TEST_F(FLightRateTest, LampsThatChangeAreFollowed)
 	EXPECT_FALSE(HasPass("ChangedLamps"));
 }
 
+// As lamps: the first frame, and frames in which one has moved.
+TEST_F(FLightRateTest, EmittersThatMoveAreFollowed)
+{
+	FSceneDescription Description = MakeDescription({.bEmissive = true});
+	const size_t Panel = Description.Nodes.size() - 1;
+	ASSERT_TRUE(Engine->Load(std::move(Description)));
+	Render();
+	EXPECT_TRUE(HasPass("ChangedEmitters"));
+	EXPECT_FALSE(FollowsLamps()) << "there is no frame before";
+	for (int Frame = 0; Frame < 10; ++Frame)
+	{
+		Render();
+		EXPECT_FALSE(HasPass("ChangedEmitters"));
+	}
+	Engine->GetScene().SetTransform(Panel, glm::dmat4(2.0));
+	Render();
+	EXPECT_TRUE(HasPass("ChangedEmitters"));
+	EXPECT_TRUE(FollowsLamps()) << "what was noted is kept";
+	EXPECT_THAT(Mock().GetCreatedPipelines(), Contains(StartsWith("LocalLights/ListEmitters.comp")));
+	EXPECT_THAT(Mock().GetCreatedPipelines(), Not(Contains(StartsWith("LocalLights/ListLamps.comp")))) << "there are none";
+	Render();
+	EXPECT_FALSE(HasPass("ChangedEmitters"));
+	EXPECT_FALSE(FollowsLamps());
+	Set("r.RT.Debug.Lights.Rescale", "0");
+	Engine->GetScene().SetTransform(Panel, glm::dmat4(3.0));
+	Render();
+	EXPECT_FALSE(FollowsLamps());
+}
+
 // What lamps were is noted with room for some more, or else a lamp that comes and goes at a limit would be followed never.
 TEST_F(FLightRateTest, LampsBeyondEveryPowerOfTwoAreFollowed)
 {

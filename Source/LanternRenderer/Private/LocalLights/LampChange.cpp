@@ -1,12 +1,14 @@
-// Passes that compare the lights of two frames, and follow those that have changed.
+// Passes that compare the lights and emissive triangles of two frames, and follow those that have changed.
 #include "LocalLights/LampChange.h"
 
+#include <cstddef>
 #include <utility>
 
 #include "LampChangeTypes.h"
 #include "LanternCore/Config/ConsoleVariables.h"
 #include "LanternCore/FrameGraph/History.h"
 #include "Lights/PixelChannels.h"
+#include "LocalLights/Emitters.h"
 #include "PassTools.h"
 #include "Tiles/MovedCasters.h"
 
@@ -20,56 +22,86 @@ static_assert(sizeof(FLightData) == LAMP_WORDS * sizeof(uint32_t));
 TRTConsoleVariable<bool> CVarRescale("r.RT.Debug.Lights.Rescale", true,
     "Planted fault. If off, the filter is not told by how much lamps have changed, and finds it in the picture or not at all.");
 
-FShaderSource MakeListSource() { return MakeComputeSource("LocalLights/ListLamps.comp"); }
+FShaderSource MakeLampListSource() { return MakeComputeSource("LocalLights/ListLamps.comp"); }
+FShaderSource MakeEmitterListSource() { return MakeComputeSource("LocalLights/ListEmitters.comp"); }
 FShaderSource MakeFollowSource(const FShaderDefines& Defines) { return MakeComputeSource("LocalLights/FollowLamps.comp", Defines); }
 
-void AddListPass(FFrameContext& Context, const FHistoryBuffer& Kept, uint32_t Slots, FGraphBuffer List, IRTPipeline* Pipeline)
+/// A table that is compared with that of the last frame.
+struct FComparedTable
+{
+	const char* Pass = nullptr;
+	IRTPipeline* Pipeline = nullptr;
+	uint64_t Counter = 0;   ///< offset in FLampChanges
+	uint32_t WhenFresh = 0; ///< what the counter says where nobody has noted the last frame
+	uint32_t Count = 0;     ///< of the table; 0: nothing is compared
+	FHistoryBuffer Kept;
+};
+
+void AddListPass(FFrameContext& Context, const FComparedTable& Table, FGraphBuffer List)
 {
 	const FFrameContext* const Frame = &Context;
-	Context.Graph.AddPass("ChangedLamps", [&](FPassBuilder& Builder) -> FPassExecute {
-		if (!Kept.bFresh) { Builder.Read(Kept.Buffer, ERTAccess::StorageRead); }
-		Builder.Write(Kept.Buffer, ERTAccess::StorageWrite);
+	Context.Graph.AddPass(Table.Pass, [&](FPassBuilder& Builder) -> FPassExecute {
+		if (Table.Count > 0)
+		{
+			if (!Table.Kept.bFresh) { Builder.Read(Table.Kept.Buffer, ERTAccess::StorageRead); }
+			Builder.Write(Table.Kept.Buffer, ERTAccess::StorageWrite);
+			Builder.NeverCull(); // the next frame compares
+		}
 		Builder.Write(List, ERTAccess::StorageWrite);
-		Builder.NeverCull(); // the next frame compares
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
-			IRTBuffer* const Counter = Pass.GetBuffer(List);
+			IRTBuffer* const Counters = Pass.GetBuffer(List);
 			// Others reach the list as the pass has declared it, behind this.
-			const FRTBarrier Before{Counter, nullptr, ERTAccess::StorageWrite, ERTAccess::CopyWrite},
-			    After{Counter, nullptr, ERTAccess::CopyWrite, ERTAccess::StorageWrite};
+			const FRTBarrier Before{Counters, nullptr, ERTAccess::StorageWrite, ERTAccess::CopyWrite},
+			    After{Counters, nullptr, ERTAccess::CopyWrite, ERTAccess::StorageWrite};
 			Pass.Commands().Barriers(&Before, 1);
-			Pass.Commands().FillBuffer(Counter, 0, sizeof(uint32_t), Kept.bFresh ? LAMP_CHANGES + 1 : 0);
+			const bool bFresh = Table.Count > 0 && Table.Kept.bFresh;
+			Pass.Commands().FillBuffer(Counters, Table.Counter, sizeof(uint32_t), bFresh ? Table.WhenFresh : 0);
 			Pass.Commands().Barriers(&After, 1);
-			FListLampsConstants C{};
+			if (Table.Count == 0) { return; }
+			FListChangesConstants C{};
 			C.Pass = Frame->Pass;
-			C.Kept = GetAddress(Pass, Kept.Buffer);
+			C.Kept = GetAddress(Pass, Table.Kept.Buffer);
 			C.List = GetAddress(Pass, List);
-			C.Slots = Slots;
-			C.bFresh = Kept.bFresh ? 1u : 0u;
-			DispatchMany(Pass, Pipeline, C, DivideUp(Slots, TILE_PIXELS));
+			C.Count = Table.Count;
+			C.bFresh = bFresh ? 1u : 0u;
+			DispatchMany(Pass, Table.Pipeline, C, DivideUp(Table.Count, TILE_PIXELS));
 		};
 	});
 }
 
-/// Lists the lights that have changed, once for either lobe.
-FGraphBuffer RequireList(FFrameContext& Context, IRTPipeline* Pipeline)
+/// Asks for what the table was in the last frame. It must be asked for in each frame, or else it would be freed. Returns whether the
+/// table has to be compared. False as well: an error, which the context has.
+bool FindKept(FFrameContext& Context, const char* Name, uint64_t Bytes, bool bChanged, FComparedTable& InOut)
+{
+	if (Bytes == 0) { return false; }
+	if (FRTStatus S = Context.History->GetBuffer(Name, {Bytes}, InOut.Kept); !S)
+	{
+		Context.Fail(S);
+		return false;
+	}
+	return bChanged || InOut.Kept.bFresh;
+}
+
+/// Lists what has changed, once for either lobe. Null pipelines: nobody follows those.
+FGraphBuffer RequireList(FFrameContext& Context, IRTPipeline* LampList, IRTPipeline* EmitterList)
 {
 	FLampChangesOfFrame& Changes = Context.LampChanges;
 	if (std::exchange(Changes.bAsked, true)) { return Changes.List; }
-	const uint32_t Slots = Context.MovedCasters->GetLampRoom(Context.Scene.GetLights().GetSlotCount());
-	// Asked for in each frame, or else it would be freed.
-	FHistoryBuffer Kept;
-	if (FRTStatus S = Context.History->GetBuffer("Lamps", {uint64_t(Slots) * sizeof(FLightData)}, Kept); !S)
-	{
-		Context.Fail(S);
-		return {};
-	}
-	const bool bChanged = Context.MovedCasters->HaveLampsChanged(Context.Scene, Context.View.DeltaSeconds);
-	if (!bChanged && !Kept.bFresh) { return {}; }
+	FMovedCasters& Noted = *Context.MovedCasters;
+	const uint32_t Slots = LampList ? Noted.GetLampRoom(Context.Scene.GetLights().GetSlotCount()) : 0;
+	const uint32_t Clusters = EmitterList ? Context.Scene.GetFacts().EmissiveClusters : 0;
+	const bool bLamps = Slots > 0 && Noted.HaveLampsChanged(Context.Scene, Context.View.DeltaSeconds);
+	const bool bEmitters = Clusters > 0 && Noted.HaveEmittersChanged(Context.Scene, Context.View.DeltaSeconds);
+	FComparedTable Lamps{"ChangedLamps", LampList, offsetof(FLampChanges, Count), LAMP_CHANGES + 1, 0, {}};
+	FComparedTable Emitters{"ChangedEmitters", EmitterList, offsetof(FLampChanges, EmitterCount), 0, 0, {}};
+	if (FindKept(Context, "Lamps", Slots * sizeof(FLightData), bLamps, Lamps)) { Lamps.Count = Slots; }
+	if (FindKept(Context, "Emitters", Clusters * sizeof(FEmitterCluster), bEmitters, Emitters)) { Emitters.Count = Clusters; }
+	if (Lamps.Count == 0 && Emitters.Count == 0) { return {}; }
 	const FGraphBuffer List = Context.Graph.CreateBuffer({sizeof(FLampChanges), ERTBufferUsage::CopyDest}, "LampChanges");
-	AddListPass(Context, Kept, Slots, List, Pipeline);
-	// A fresh list says that too many have changed: nobody knows what they were.
-	if (bChanged && Context.PreviousView) { Changes.List = List; }
+	for (const FComparedTable& Table : {Lamps, Emitters}) { AddListPass(Context, Table, List); }
+	// A fresh list says that too many lamps have changed: nobody knows what they were.
+	if ((bLamps || bEmitters) && Context.PreviousView) { Changes.List = List; }
 	return Changes.List;
 }
 
@@ -108,21 +140,24 @@ FGraphTexture AddFollowPass(
 }
 } // namespace
 
-void ListLampChangeShaders(const FShaderDefines& Defines, std::vector<FShaderSource>& Out)
+void ListLampChangeShaders(bool bLamps, const FSceneFacts& Facts, const FShaderDefines& Defines, std::vector<FShaderSource>& Out)
 {
 	if (!CVarRescale.GetOnRenderThread()) { return; }
-	Out.push_back(MakeListSource());
+	if (bLamps) { Out.push_back(MakeLampListSource()); }
+	if (HasEmitters(Facts)) { Out.push_back(MakeEmitterListSource()); }
 	Out.push_back(MakeFollowSource(Defines));
 }
 
 FGraphTexture AddLampChange(
-    FFrameContext& Context, const FGBuffer& GBuffer, const FQueuedRays& Rays, const FShaderDefines& Defines, ESignal Lobe)
+    FFrameContext& Context, const FGBuffer& GBuffer, bool bLamps, const FQueuedRays& Rays, const FShaderDefines& Defines, ESignal Lobe)
 {
 	if (!Rays.Guide.IsValid() || !CVarRescale.GetOnRenderThread()) { return {}; }
-	IRTPipeline* const List = RequireCompute(Context, MakeListSource());
+	const bool bEmitters = HasEmitters(Context.Facts);
+	IRTPipeline* const Lamps = bLamps ? RequireCompute(Context, MakeLampListSource()) : nullptr;
+	IRTPipeline* const Emitters = bEmitters ? RequireCompute(Context, MakeEmitterListSource()) : nullptr;
 	IRTPipeline* const Follow = RequireCompute(Context, MakeFollowSource(Defines));
-	if (!List || !Follow) { return {}; }
-	const FGraphBuffer Changes = RequireList(Context, List);
+	if (!Follow || (bLamps && !Lamps) || (bEmitters && !Emitters)) { return {}; }
+	const FGraphBuffer Changes = RequireList(Context, Lamps, Emitters);
 	return Changes.IsValid() ? AddFollowPass(Context, GBuffer, Rays, Changes, Lobe, Follow) : FGraphTexture{};
 }
 

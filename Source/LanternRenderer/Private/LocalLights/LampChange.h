@@ -6,13 +6,15 @@
 namespace Lantern
 {
 
-/// Lists the compute shaders of AddLampChange. Defines: of all shaders that sample local lights.
-void ListLampChangeShaders(const FShaderDefines& Defines, std::vector<FShaderSource>& Out);
+/// Lists the compute shaders of AddLampChange. bLamps: lamps are followed, and not emissive triangles alone. Defines: of all shaders that
+/// sample local lights.
+void ListLampChangeShaders(bool bLamps, const FSceneFacts& Facts, const FShaderDefines& Defines, std::vector<FShaderSource>& Out);
 
-/// Adds the passes, and returns FDenoiseInputs::Change of a lobe. Lamps are compared once for either lobe. Invalid: no lamp has changed,
-/// there is no last frame, or shaders are being compiled, or an error, which the context then has. Rays: with Guide; in tiles without one nothing is known. Reads Depth,
+/// Adds the passes, and returns FDenoiseInputs::Change of a lobe. Lights are compared once for either lobe. Up to LAMP_CHANGES lamps and
+/// EMITTER_CHANGES clusters of emissive triangles are followed. Invalid: nothing has changed, there is no last frame, or shaders are
+/// being compiled, or an error, which the context then has. Rays: with Guide; in tiles without one nothing is known. Reads Depth,
 /// Normals, BaseColor and Material of the G-buffer.
 FGraphTexture AddLampChange(
-    FFrameContext& Context, const FGBuffer& GBuffer, const FQueuedRays& Rays, const FShaderDefines& Defines, ESignal Lobe);
+    FFrameContext& Context, const FGBuffer& GBuffer, bool bLamps, const FQueuedRays& Rays, const FShaderDefines& Defines, ESignal Lobe);
 
 } // namespace Lantern

@@ -42,7 +42,7 @@ uint32_t GetExact(const FSceneFacts& Facts)
 bool AreLampsChosen(const FSceneFacts& Facts) { return Facts.Lights > GetExact(Facts) && IsGuided(Facts, GetExact(Facts)); }
 
 /// Beside a light mask nobody knows which lights a pixel chose of before.
-bool AreLampsFollowed(const FSceneFacts& Facts) { return AreLampsChosen(Facts) && !Facts.bLightMask; }
+bool AreChangesFollowed(const FSceneFacts& Facts) { return (AreLampsChosen(Facts) || HasEmitters(Facts)) && !Facts.bLightMask; }
 
 FShaderSource MakeShadeSource(const FSceneFacts& Facts, uint32_t Exact)
 {
@@ -128,10 +128,10 @@ FGraphTexture AddLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESignal S
 	const bool bLampsAlone = !HasEmitters(Context.Facts); // nobody counts what becomes of surfaces
 	const bool bStays = Signal == ESignal::LocalDiffuse && bLampsAlone && CVarKnownChanges.GetOnRenderThread() && !Context.Facts.bLightMask;
 	if (bStays && !FindLampShadowChanges(Context, Inputs.Changes)) { return {}; }
-	if (AreLampsFollowed(Context.Facts))
+	if (AreChangesFollowed(Context.Facts))
 	{
 		const FShaderDefines Defines = MakeLocalDefines(Context.Facts, GetExact(Context.Facts));
-		Inputs.Change = AddLampChange(Context, GBuffer, Context.ShadowRays->Traced, Defines, Signal);
+		Inputs.Change = AddLampChange(Context, GBuffer, AreLampsChosen(Context.Facts), Context.ShadowRays->Traced, Defines, Signal);
 	}
 	return AddDenoise(Context, GBuffer, Inputs, Denoise);
 }
@@ -166,7 +166,10 @@ FPassRays ChooseLocalLightRays(const FPassQuery& Query)
 	if (!Query.Facts.bMaskAlone) { Rays.Compute = {MakeShadeSource(Query.Facts, Exact)}; }
 	ListLocalRequestShaders(Query.Facts, Exact, Rays.Compute);
 	ListLightMaskShaders(Query.Facts, Rays.Compute);
-	if (Denoise.IsEnabled() && AreLampsFollowed(Query.Facts)) { ListLampChangeShaders(MakeLocalDefines(Query.Facts, Exact), Rays.Compute); }
+	if (Denoise.IsEnabled() && AreChangesFollowed(Query.Facts))
+	{
+		ListLampChangeShaders(AreLampsChosen(Query.Facts), Query.Facts, MakeLocalDefines(Query.Facts, Exact), Rays.Compute);
+	}
 	return Rays;
 }
 

@@ -81,6 +81,12 @@ bool FMovedCasters::HaveLampsChanged(FRTScene& Scene, float DeltaSeconds)
 	return Recent.empty() || Recent.back().Sun.Scene != Next.Sun.Scene || Recent.back().Lights != Next.Lights;
 }
 
+bool FMovedCasters::HaveEmittersChanged(FRTScene& Scene, float DeltaSeconds)
+{
+	if (!Next.bValid) { Note(Scene, {}, DeltaSeconds); }
+	return Recent.empty() || Recent.back().Sun.Scene != Next.Sun.Scene || Recent.back().Emitters != Next.Emitters;
+}
+
 /// A lamp that comes and goes at a limit must not void what was noted each time.
 uint32_t FMovedCasters::GetLampRoom(uint32_t Slots)
 {
@@ -91,7 +97,8 @@ uint32_t FMovedCasters::GetLampRoom(uint32_t Slots)
 
 void FMovedCasters::Note(FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds)
 {
-	Next = {MakeSunState(Scene, Rays), Scene.GetCasterChanges().GetCount(), true, DeltaSeconds, Scene.GetLights().GetChangeCount(), 0.0};
+	Next = {MakeSunState(Scene, Rays), Scene.GetCasterChanges().GetCount(), true, DeltaSeconds, Scene.GetLights().GetChangeCount(),
+	    Scene.GetEmissiveChangeCount(), 0.0};
 }
 
 std::vector<FMovedCaster> FMovedCasters::Convert(FRTScene& Scene, const std::vector<FCasterChange>& Changes)

@@ -40,6 +40,8 @@ public:
 	FRecent FindRecentOfLamps(FRTScene& Scene, float DeltaSeconds);
 	/// Returns whether a lamp has changed since the view's last frame, or there is none. As Find.
 	bool HaveLampsChanged(FRTScene& Scene, float DeltaSeconds);
+	/// As HaveLampsChanged, for emissive triangles.
+	bool HaveEmittersChanged(FRTScene& Scene, float DeltaSeconds);
 	/// Returns how many slots of lights a view notes: Slots at least, and seldom another number than in the frame before.
 	uint32_t GetLampRoom(uint32_t Slots);
 	/// Counts the view's submitted frames.
@@ -61,8 +63,9 @@ private:
 		uint64_t Changes = 0; ///< FCasterChanges::GetCount
 		bool bValid = false;
 		float DeltaSeconds = 0.0f;
-		uint64_t Lights = 0; ///< FLightStore::GetChangeCount
-		double Time = 0.0;   ///< of the view's submitted frames, seconds
+		uint64_t Lights = 0;   ///< FLightStore::GetChangeCount
+		uint64_t Emitters = 0; ///< FRTScene::GetEmissiveChangeCount
+		double Time = 0.0;     ///< of the view's submitted frames, seconds
 	};
 	static FSunState MakeSunState(FRTScene& Scene, const FSunRays& Rays);
 	static bool HoldsFor(const FSunState& Before, const FSunState& Now);

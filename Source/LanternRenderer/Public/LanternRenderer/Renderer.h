@@ -191,7 +191,7 @@ struct FLightMask
 	bool IsValid() const { return Visibility.IsValid(); }
 };
 
-/// Lights that have changed since the view's last frame, for what follows them (LocalLights/LampChange.h). The first pass that asks
+/// Lamps and emissive triangles that have changed since the view's last frame, for what follows them (LocalLights/LampChange.h). The first pass that asks
 /// lists them.
 struct FLampChangesOfFrame
 {

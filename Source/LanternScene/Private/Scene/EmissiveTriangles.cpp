@@ -269,6 +269,7 @@ FRTStatus FEmissiveTriangles::Update(IRTDevice& Device, const FSceneObjects& InO
 	Materials.clear();
 	if (bAllWanted) { Wanted.clear(); }
 	bAllWanted &= Clusters.Num() > 0;
+	if (bAllWanted || !Wanted.empty()) { ++ChangeCount; }
 	return FRTStatus::Success();
 }
 

@@ -55,6 +55,8 @@ public:
 	static constexpr uint32_t MostTriangles = 1u << (LIGHT_INDEX_BITS - 1);
 
 	FEmissiveWork GetWork() const;
+	/// Counts the updates that found something to do: whoever has seen the count knows of the rest.
+	uint64_t GetChangeCount() const { return ChangeCount; }
 	/// bSubmitted: the GPU does what GetWork returned.
 	void EndFrame(bool bSubmitted);
 
@@ -101,6 +103,7 @@ private:
 	std::vector<uint32_t> Objects, Materials;         // marked
 	std::vector<uint32_t> Wanted;                     // clusters that the GPU has to do
 	uint32_t TriangleCount = 0;
+	uint64_t ChangeCount = 0;
 	bool bAllWanted = false;
 	bool bStale = true, bObjectsStale = true;
 	bool bGiven = false; // GetWork is about this frame

@@ -196,6 +196,8 @@ public:
 	/// Returns what the GPU has to find out of emissive triangles in this frame, after RecordTables. After BeginUpdate; the list of
 	/// EndFrame says whether it was done.
 	FEmissiveWork GetEmissiveWork() const { return Emissive.GetWork(); }
+	/// FEmissiveTriangles::GetChangeCount.
+	uint64_t GetEmissiveChangeCount() const { return Emissive.GetChangeCount(); }
 	/// Returns, after RecordUpdate, the block of constants that passes read.
 	FSceneConstants GetConstants() const;
 	/// Returns the acceleration structure over the instances (TLAS); null before the first frame with rays.
