@@ -37,7 +37,8 @@ struct FComparedTable
 	FHistoryBuffer Kept;
 };
 
-void AddListPass(FFrameContext& Context, const FComparedTable& Table, FGraphBuffer List)
+/// bFirst: nothing was written to the list before.
+void AddListPass(FFrameContext& Context, const FComparedTable& Table, FGraphBuffer List, bool bFirst)
 {
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass(Table.Pass, [&](FPassBuilder& Builder) -> FPassExecute {
@@ -47,13 +48,15 @@ void AddListPass(FFrameContext& Context, const FComparedTable& Table, FGraphBuff
 			Builder.Write(Table.Kept.Buffer, ERTAccess::StorageWrite);
 			Builder.NeverCull(); // the next frame compares
 		}
+		if (!bFirst) { Builder.Read(List, ERTAccess::StorageRead); } // the other table keeps its part
 		Builder.Write(List, ERTAccess::StorageWrite);
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
 			IRTBuffer* const Counters = Pass.GetBuffer(List);
 			// Others reach the list as the pass has declared it, behind this.
-			const FRTBarrier Before{Counters, nullptr, ERTAccess::StorageWrite, ERTAccess::CopyWrite},
-			    After{Counters, nullptr, ERTAccess::CopyWrite, ERTAccess::StorageWrite};
+			const ERTAccess Declared = bFirst ? ERTAccess::StorageWrite : ERTAccess::StorageRead | ERTAccess::StorageWrite;
+			const FRTBarrier Before{Counters, nullptr, Declared, ERTAccess::CopyWrite},
+			    After{Counters, nullptr, ERTAccess::CopyWrite, Declared};
 			Pass.Commands().Barriers(&Before, 1);
 			const bool bFresh = Table.Count > 0 && Table.Kept.bFresh;
 			Pass.Commands().FillBuffer(Counters, Table.Counter, sizeof(uint32_t), bFresh ? Table.WhenFresh : 0);
@@ -99,7 +102,8 @@ FGraphBuffer RequireList(FFrameContext& Context, IRTPipeline* LampList, IRTPipel
 	if (FindKept(Context, "Emitters", Clusters * sizeof(FEmitterCluster), bEmitters, Emitters)) { Emitters.Count = Clusters; }
 	if (Lamps.Count == 0 && Emitters.Count == 0) { return {}; }
 	const FGraphBuffer List = Context.Graph.CreateBuffer({sizeof(FLampChanges), ERTBufferUsage::CopyDest}, "LampChanges");
-	for (const FComparedTable& Table : {Lamps, Emitters}) { AddListPass(Context, Table, List); }
+	AddListPass(Context, Lamps, List, true);
+	AddListPass(Context, Emitters, List, false);
 	// A fresh list says that too many lamps have changed: nobody knows what they were.
 	if ((bLamps || bEmitters) && Context.PreviousView) { Changes.List = List; }
 	return Changes.List;
