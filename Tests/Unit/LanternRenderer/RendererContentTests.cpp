@@ -50,10 +50,10 @@ TEST_F(FRendererContentTest, EverythingAtOnce)
 	EXPECT_THAT(GetPasses(),
 	    ElementsAre("Skinning", "SceneUpdate", "EmissiveTriangles", "GBuffer", "Structures", "ShadowTiles", "ShadowEmitters",
 	        "ShadowLights", "ShadowLightsShare", "ShadowDemand", "ShadowRays", "Surface", "ShadowMoreAsk", "ShadowMoreRays", "SunShadow",
-	        "SunShadowTemporal", "SunShadowFilter0", "SunShadowFilter1", "ShadowLightsShade", "ChangedEmitters", "LocalDiffuseTemporal",
-	        "LocalDiffuseFilter0", "LocalDiffuseFilter1", "LocalSpecularTemporal", "LocalSpecularFilter0", "LocalSpecularFilter1",
-	        "AmbientOcclusion", "AmbientOcclusionTemporal", "AmbientOcclusionFilter0", "AmbientOcclusionFilter1", "AmbientOcclusionFilter2",
-	        "AmbientOcclusionFilter3", "DirectLighting", "ToneMap"));
+	        "SunShadowTemporal", "SunShadowFilter0", "SunShadowFilter1", "ShadowLightsShade", "ChangedLamps", "ChangedEmitters",
+	        "LocalDiffuseTemporal", "LocalDiffuseFilter0", "LocalDiffuseFilter1", "LocalSpecularTemporal", "LocalSpecularFilter0",
+	        "LocalSpecularFilter1", "AmbientOcclusion", "AmbientOcclusionTemporal", "AmbientOcclusionFilter0", "AmbientOcclusionFilter1",
+	        "AmbientOcclusionFilter2", "AmbientOcclusionFilter3", "DirectLighting", "ToneMap"));
 	std::vector<std::string> Dispatched = GetDispatched();
 	std::erase_if(Dispatched, [](const std::string& Name) { return Name.rfind("Denoise/", 0) == 0; });
 	EXPECT_THAT(Dispatched,
