@@ -2,6 +2,7 @@
 #version 460
 #include "../Shared/LocalLightTypes.h"
 #include "../Library/Bindings.glsl"
+#include "ClusterLight.glsl"
 
 layout(local_size_x = EMITTER_GROUP_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FEmitterClustersConstants Push; };
@@ -19,9 +20,6 @@ void main()
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 	uint Object = FEmissiveClusterRef(Scene.EmissiveClusters).Data[Number].Object;
 	vec3 Offset = CellOffset(Scene, FObjectRef(Scene.Objects).Data[Object].Cell);
-	FEmitterCluster Cluster = FBoundsRef(Scene.EmissiveBounds).Data[Number];
-	Cluster.Center += Offset;
-	Cluster.Plane += dot(Cluster.Normal, Offset);
-	FOutRef(Push.Clusters).Data[Number] = Cluster;
+	FOutRef(Push.Clusters).Data[Number] = MoveCluster(FBoundsRef(Scene.EmissiveBounds).Data[Number], Offset);
 	if (Number == 0u) { FOutRef(Push.Clusters).Header = FEmitterHeader(Push.ReflectedRoughness, uint[3](0u, 0u, 0u)); }
 }

@@ -23,6 +23,13 @@ FAddress EmitterRegions(FSceneConstants Scene, FAddress Emitters)
 // See EmissionOfRays.
 float ReflectedRoughness(FAddress Emitters) { return Emitters != FAddress(0) ? FEmitterHeaderRef(Emitters).Data.ReflectedRoughness : 0.0; }
 
+// Returns the distance from a box to the cluster's, squared.
+float BoxDistance(FEmitterCluster Cluster, vec3 Low, vec3 High)
+{
+	vec3 Outside = max(max(Low - (Cluster.Center + Cluster.Half), (Cluster.Center - Cluster.Half) - High), vec3(0.0));
+	return dot(Outside, Outside);
+}
+
 // Whether the cluster may light a box: some of the box is before it. The slack is for what rounding tilts a plane by.
 bool MayReachFromCluster(FEmitterCluster Cluster, vec3 Low, vec3 High)
 {
@@ -60,7 +67,13 @@ float EstimateCluster(FEmitterCluster Cluster, vec3 P, vec3 N, float Reach)
 	vec3 To = Cluster.Center - P;
 	float Radius = length(Cluster.Half), Height = dot(To, N) + Radius + Reach;
 	if (Height <= 0.0) { return 0.0; }
-	return ClusterToward(Cluster, P, Reach) * clamp(Height / max(length(To), 1.0e-4), 0.1, 1.0);
+	float Distance = max(length(To), 1.0e-4), Coherent = length(Cluster.Normal);
+	float Before = IsFlat(Cluster) ? dot(Cluster.Normal, P) - Cluster.Plane : -dot(Cluster.Normal, To);
+	if (IsFlat(Cluster) && Before + Reach <= 0.0) { return 0.0; }
+	// A closed surface shows a quarter of its area, a flat one what its angle leaves.
+	float Facing = max(clamp((Before + Coherent * Reach) / Distance, 0.0, Coherent) + 0.25 * (1.0 - Coherent), 0.05);
+	float Near = max(sqrt(BoxDistance(Cluster, P, P)) - Reach, 0.3 * Reach), DistanceSquared = Near * Near + 0.25 * Radius * Radius;
+	return ClusterIrradiance(Cluster, DistanceSquared / Facing) * clamp(Height / Distance, 0.1, 1.0);
 }
 
 // Chooses a triangle of a cluster by power. X: uniform, in [0, 1). OutChance: with which it is chosen.

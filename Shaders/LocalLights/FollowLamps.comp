@@ -121,9 +121,7 @@ vec4 FollowEmitters(FSceneConstants Scene, FViewConstants View, FLampChangesRef 
 		if (Change.Cluster >= Scene.EmissiveClusterCount) { continue; } // memory of an earlier frame
 		uint Object = FEmissiveClusterRef(Scene.EmissiveClusters).Data[Change.Cluster].Object;
 		vec3 Offset = CellOffset(Scene, FObjectRef(Scene.Objects).Data[Object].Cell);
-		FEmitterCluster Now = FBoundsRef(Scene.EmissiveBounds).Data[Change.Cluster];
-		Now.Center += Offset;
-		Now.Plane += dot(Now.Normal, Offset);
+		FEmitterCluster Now = MoveCluster(FBoundsRef(Scene.EmissiveBounds).Data[Change.Cluster], Offset);
 		float More = ClusterBringsTo(View, Point, Local, Roughness, Now) - ClusterBringsTo(View, Point, Local, Roughness, Change.Before);
 		if (More == 0.0) { continue; }
 		vec2 Known = EmitterSeen[I];

@@ -3,6 +3,7 @@
 #include "../Shared/LampChangeTypes.h"
 #include "../Library/Bindings.glsl"
 #include "../Library/Random.glsl"
+#include "ClusterLight.glsl"
 
 layout(local_size_x = TILE_PIXELS) in;
 layout(push_constant, scalar) uniform FPush { FListChangesConstants Push; };
@@ -35,8 +36,5 @@ void main()
 	FLampChangesRef List = FLampChangesRef(Push.List);
 	uint Place = atomicAdd(List.Data.EmitterCount, 1u);
 	if (Place >= EMITTER_CHANGES) { return; }
-	vec3 Offset = CellOffset(Scene, Cell);
-	Before.Center += Offset;
-	Before.Plane += dot(Before.Normal, Offset);
-	List.Data.Emitters[Place] = FEmitterChange(Number, Before);
+	List.Data.Emitters[Place] = FEmitterChange(Number, MoveCluster(Before, CellOffset(Scene, Cell)));
 }

@@ -191,8 +191,8 @@ struct FLightMask
 	bool IsValid() const { return Visibility.IsValid(); }
 };
 
-/// Lamps and emissive triangles that have changed since the view's last frame, for what follows them (LocalLights/LampChange.h). The first pass that asks
-/// lists them.
+/// Lamps and emissive triangles that have changed since the view's last frame, for what follows them (LocalLights/LampChange.h). The
+/// first pass that asks lists them.
 struct FLampChangesOfFrame
 {
 	FGraphBuffer List; ///< invalid: none has, or there is no last frame
