@@ -137,7 +137,7 @@ FError FForkEngine::RunView(const FForkFrame& Frame, bool bCut, FFrameMasks& Out
 	FRTModuleOutputs Outputs;
 	Error = Plugin.Render(On->Device.Commands, Frame, bCut, Outputs);
 	if (!Error.empty()) { return Error; }
-	On->Light.Run(On->Device.Commands, Frame, On->Raster, Outputs);
+	On->Light.Run(On->Device.Commands, Frame, On->Raster, Outputs, Plugin.GetLampNumber());
 	Error = CopyOutputs(Outputs, Frame.View, Out);
 	if (!Error.empty()) { return Error; }
 	const auto SubmitAndEnd = [this] {

@@ -2,6 +2,8 @@
 #include "Example/ForkLight.h"
 
 #include <array>
+#include <cmath>
+#include <iterator>
 
 #include "ForkLightShader.h"
 
@@ -14,8 +16,10 @@ namespace
 {
 
 constexpr uint32_t GroupSize = 8; // ForkLight.comp
-constexpr uint32_t ReadCount = 5, BindingCount = ReadCount + 1;
-constexpr ESignal Signals[] = {ESignal::SunShadow, ESignal::AmbientOcclusion, ESignal::DiffuseGI};
+constexpr uint32_t ReadCount = 9, BindingCount = ReadCount + 1;
+constexpr ESignal Signals[] = {ESignal::SunShadow, ESignal::AmbientOcclusion, ESignal::DiffuseGI, ESignal::LocalDiffuse};
+constexpr uint32_t FirstSignal = 3, FirstMask = FirstSignal + static_cast<uint32_t>(std::size(Signals)); // bindings
+constexpr uint32_t GivenMask = 1u << std::size(Signals);
 
 struct FPush
 {
@@ -24,7 +28,29 @@ struct FPush
 	glm::vec3 ToSun{0};
 	float Sun = 0.0f, Ambient = 0.0f;
 	uint32_t Given = 0;
+	glm::vec3 Lamp{0}; // view space
+	float LampIntensity = 0.0f;
+	uint32_t LampNumber = 0;
+	float Near = 0.0f, Far = 0.0f;
+	glm::vec2 Tangents{0}, Jitter{0};
 };
+
+FPush MakePush(const FForkFrame& Frame, uint32_t LampNumber)
+{
+	const FForkScene& Scene = Frame.Scene;
+	const FCamera& Camera = Scene.Cameras[Frame.View];
+	FPush Push{GetViewOffset(Frame.View), ViewSize, glm::vec3(GetWorldToView(Camera) * -Scene.SunDirection), float(FForkLight::Sun),
+	    float(FForkLight::Ambient)};
+	Push.Lamp = glm::vec3(GetWorldToView(Camera) * (Scene.Lamp - Camera.Position));
+	Push.LampIntensity = float(Scene.LampIntensity);
+	Push.LampNumber = LampNumber;
+	Push.Near = float(Camera.Near);
+	Push.Far = float(Camera.Far);
+	const double Tangent = std::tan(Camera.FovY * 0.5);
+	Push.Tangents = glm::vec2(Tangent * ViewSize.width / ViewSize.height, Tangent);
+	Push.Jitter = glm::vec2(Camera.Jitter);
+	return Push;
+}
 
 } // namespace
 
@@ -33,6 +59,7 @@ FError FForkLight::Create(const FForkDevice& Owner)
 	Device = Owner.Device;
 	constexpr VkImageUsageFlags Usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
 	FError Error = Lit.Create(Owner, TextureSize, Format, Usage, VK_IMAGE_ASPECT_COLOR_BIT);
+	if (Error.empty()) { Error = NoMask.Create(Owner, {1, 1}, VK_FORMAT_R32_UINT, VK_IMAGE_USAGE_SAMPLED_BIT, VK_IMAGE_ASPECT_COLOR_BIT); }
 	if (Error.empty()) { Error = CreateSets(); }
 	return Error.empty() ? CreatePipeline() : Error;
 }
@@ -78,30 +105,40 @@ FError FForkLight::CreatePipeline()
 	return CreateComputePipeline(Device, {ForkLightShader, sizeof(ForkLightShader)}, Layout, Pipeline);
 }
 
-void FForkLight::Run(VkCommandBuffer Commands, const FForkFrame& Frame, const FForkRaster& Raster, const FRTModuleOutputs& Outputs)
+void FForkLight::WriteSet(VkDescriptorSet Set, const FReadImage* Images)
 {
-	FPush Push{GetViewOffset(Frame.View), ViewSize, glm::vec3(GetWorldToView(Frame.Scene.Cameras[Frame.View]) * -Frame.Scene.SunDirection),
-	    float(Sun), float(Ambient)};
-	// The shader does not read a null output. Any other image stands in for it.
-	VkImageView Views[BindingCount] = {
-	    Raster.Normals.View, Raster.BaseColor.View, Raster.Normals.View, Raster.Normals.View, Raster.Normals.View, Lit.View};
-	for (uint32_t Index = 0; Index < std::size(Signals); ++Index)
-	{
-		IRTTexture* const Output = Outputs.Get(Signals[Index]);
-		if (Output == nullptr) { continue; }
-		Views[2 + Index] = reinterpret_cast<VkImageView>(Output->GetNative(ERTNative::ImageView));
-		Push.Given |= 1u << Index;
-	}
-	std::array<VkDescriptorImageInfo, BindingCount> Images{};
+	std::array<VkDescriptorImageInfo, BindingCount> Infos{};
 	std::array<VkWriteDescriptorSet, BindingCount> Writes{};
 	for (uint32_t Index = 0; Index < BindingCount; ++Index)
 	{
 		const bool bRead = Index < ReadCount;
-		Images[Index] = {VK_NULL_HANDLE, Views[Index], bRead ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL : VK_IMAGE_LAYOUT_GENERAL};
-		Writes[Index] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, nullptr, Sets[Frame.View], Index, 0, 1,
-		    bRead ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, &Images[Index], nullptr, nullptr};
+		Infos[Index] = bRead ? VkDescriptorImageInfo{VK_NULL_HANDLE, Images[Index].View, Images[Index].Layout}
+		                     : VkDescriptorImageInfo{VK_NULL_HANDLE, Lit.View, VK_IMAGE_LAYOUT_GENERAL};
+		Writes[Index] = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, nullptr, Set, Index, 0, 1,
+		    bRead ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, &Infos[Index], nullptr, nullptr};
 	}
 	vkUpdateDescriptorSets(Device, BindingCount, Writes.data(), 0, nullptr);
+}
+
+void FForkLight::Run(
+    VkCommandBuffer Commands, const FForkFrame& Frame, const FForkRaster& Raster, const FRTModuleOutputs& Outputs, uint32_t LampNumber)
+{
+	FPush Push = MakePush(Frame, LampNumber);
+	const auto GetView = [](IRTTexture& Texture) { return reinterpret_cast<VkImageView>(Texture.GetNative(ERTNative::ImageView)); };
+	// The shader does not read a null output. Any other image of its kind stands in for it.
+	FReadImage Images[ReadCount] = {{Raster.Normals.View}, {Raster.BaseColor.View}, {Raster.Depth.ReadView, FForkRaster::DepthLayout}};
+	for (uint32_t Index = 0; Index < std::size(Signals); ++Index)
+	{
+		IRTTexture* const Output = Outputs.Get(Signals[Index]);
+		Images[FirstSignal + Index].View = Output != nullptr ? GetView(*Output) : Raster.Normals.View;
+		if (Output != nullptr) { Push.Given |= 1u << Index; }
+	}
+	const FRTModuleLightMask& Mask = Outputs.LightMask;
+	if (Mask.Visibility != nullptr) { Push.Given |= GivenMask; }
+	else { Transition(Commands, NoMask.Image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED, Images[FirstMask].Layout); }
+	Images[FirstMask].View = Mask.Visibility != nullptr ? GetView(*Mask.Visibility) : NoMask.View;
+	Images[FirstMask + 1].View = Mask.Visibility != nullptr ? GetView(*Mask.Lights) : NoMask.View;
+	WriteSet(Sets[Frame.View], Images);
 	Transition(Commands, Lit.Image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
 	// The plugin has bound pipelines, sets and push constants of its own: see IRTModuleRenderer::RenderFrame.
 	vkCmdBindPipeline(Commands, VK_PIPELINE_BIND_POINT_COMPUTE, Pipeline);

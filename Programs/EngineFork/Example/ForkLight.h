@@ -17,16 +17,25 @@ public:
 	FForkLight(const FForkLight&) = delete;
 	~FForkLight();
 	FError Create(const FForkDevice& Owner);
-	/// Lights a view. The GPU must have finished the view's frame before. Leaves Lit in VK_IMAGE_LAYOUT_GENERAL.
-	void Run(VkCommandBuffer Commands, const FForkFrame& Frame, const FForkRaster& Raster, const Lantern::FRTModuleOutputs& Outputs);
+	/// Lights a view. The GPU must have finished the view's frame before. Leaves Lit in VK_IMAGE_LAYOUT_GENERAL. LampNumber: by which the
+	/// light mask names the lamp.
+	void Run(VkCommandBuffer Commands, const FForkFrame& Frame, const FForkRaster& Raster, const Lantern::FRTModuleOutputs& Outputs,
+	    uint32_t LampNumber);
 
 	FForkImage Lit; ///< radiance, of all views side by side; a: 1 where there is a surface
 
 private:
+	struct FReadImage
+	{
+		VkImageView View = VK_NULL_HANDLE;
+		VkImageLayout Layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+	};
 	FError CreatePipeline();
 	FError CreateSets();
+	void WriteSet(VkDescriptorSet Set, const FReadImage* Images);
 
 	VkDevice Device = VK_NULL_HANDLE;
+	FForkImage NoMask; // stands in for null textures of integers
 	VkDescriptorSetLayout SetLayout = VK_NULL_HANDLE;
 	VkDescriptorPool Pool = VK_NULL_HANDLE;
 	VkDescriptorSet Sets[ViewCount] = {};

@@ -25,7 +25,7 @@ struct FViewData
 struct FPush
 {
 	VkDeviceAddress View = 0;
-	glm::vec3 Offset{0}, Scale{1}, PreviousOffset{0}, PreviousScale{1}, Color{0.5f};
+	glm::vec3 Offset{0}, Scale{1}, PreviousOffset{0}, PreviousScale{1}, Color{FForkRaster::Grey};
 	uint32_t bCutOut = 0;
 };
 static_assert(sizeof(FPush) == 72 && sizeof(FViewData) == 256, "ForkDraw.glsl");
@@ -77,7 +77,7 @@ FError FForkRaster::Create(const FForkDevice& InOwner)
 	constexpr VkImageUsageFlags Read = VK_IMAGE_USAGE_SAMPLED_BIT;
 	FError Error = Depth.Create(InOwner, TextureSize, DepthFormat, Read | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
 	    VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT);
-	FForkImage* const Colors[] = {&Normals, &Motion, &BaseColor};
+	FForkImage* const Colors[] = {&Normals, &Motion, &BaseColor, &Material};
 	for (size_t Index = 0; Error.empty() && Index < std::size(Colors); ++Index)
 	{
 		Error = Colors[Index]->Create(
@@ -157,7 +157,7 @@ FError FForkRaster::CreatePipeline()
 void FForkRaster::Begin(VkCommandBuffer Commands, const VkRect2D& Area) const
 {
 	VkRenderingAttachmentInfo Colors[std::size(ColorFormats)] = {};
-	const VkImageView ColorViews[] = {Normals.View, Motion.View, BaseColor.View};
+	const VkImageView ColorViews[] = {Normals.View, Motion.View, BaseColor.View, Material.View};
 	for (size_t Index = 0; Index < std::size(Colors); ++Index)
 	{
 		Colors[Index].sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
@@ -190,7 +190,7 @@ void FForkRaster::Draw(VkCommandBuffer Commands, const FForkFrame& Frame, const 
 	std::memcpy(Views[Frame.View].Mapped, &Data, sizeof(Data));
 	constexpr VkImageAspectFlags Both = VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
 	Transition(Commands, Depth.Image, Both, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
-	for (const FForkImage* Color : {&Normals, &Motion, &BaseColor})
+	for (const FForkImage* Color : {&Normals, &Motion, &BaseColor, &Material})
 	{
 		Transition(Commands, Color->Image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
 	}
@@ -200,7 +200,7 @@ void FForkRaster::Draw(VkCommandBuffer Commands, const FForkFrame& Frame, const 
 	vkCmdEndRendering(Commands);
 
 	Transition(Commands, Depth.Image, Both, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, DepthLayout);
-	for (const FForkImage* Color : {&Normals, &Motion, &BaseColor})
+	for (const FForkImage* Color : {&Normals, &Motion, &BaseColor, &Material})
 	{
 		Transition(Commands, Color->Image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
 		    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);

@@ -26,7 +26,9 @@ class FForkRaster
 {
 public:
 	static constexpr VkFormat DepthFormat = VK_FORMAT_D32_SFLOAT_S8_UINT;
-	static constexpr VkFormat ColorFormats[] = {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R16G16_SFLOAT, VK_FORMAT_R8G8B8A8_UNORM};
+	static constexpr VkFormat ColorFormats[] = {
+	    VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R16G16_SFLOAT, VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_R8G8B8A8_UNORM};
+	static constexpr float Grey = 0.50289f; ///< base colour of all surfaces: 188 of 255 steps of sRGB
 	/// The engine tests against its depth in later passes, and reads it in shaders.
 	static constexpr VkImageLayout DepthLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
 
@@ -38,7 +40,7 @@ public:
 	/// DepthLayout.
 	void Draw(VkCommandBuffer Commands, const FForkFrame& Frame, const FForkSkin& Skin) const;
 
-	FForkImage Depth, Normals, Motion, BaseColor;
+	FForkImage Depth, Normals, Motion, BaseColor, Material;
 
 private:
 	FError CreatePipeline();

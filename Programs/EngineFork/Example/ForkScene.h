@@ -50,6 +50,7 @@ struct FForkScene
 	glm::dvec3 SunDirection{0, 0, -1}; ///< direction in which the light travels, unit length
 	glm::dvec3 Lamp{0};
 	double LampIntensity = 0.0;     ///< candela; 0: there is none
+	double LampWidth = 0.0;         ///< of a square that shines down, LampIntensity straight below it; 0: the lamp is a point
 	uint8_t LampChannels = 1;       ///< bit 0: it lights all boxes
 	bool bLampProfile = false;      ///< it shines half as bright wherever it does not shine up
 	std::array<FCamera, 2> Cameras; ///< two views of one scene, as of two players

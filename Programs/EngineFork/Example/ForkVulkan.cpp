@@ -229,13 +229,18 @@ FError FForkImage::Create(const FForkDevice& Owner, VkExtent2D Size, VkFormat Fo
 	ViewInfo.viewType = VK_IMAGE_VIEW_TYPE_2D;
 	ViewInfo.format = Format;
 	ViewInfo.subresourceRange = {Aspect, 0, 1, 0, 1};
-	return Check(vkCreateImageView(Device, &ViewInfo, nullptr, &View), "vkCreateImageView");
+	if (FError Error = Check(vkCreateImageView(Device, &ViewInfo, nullptr, &View), "vkCreateImageView"); !Error.empty()) { return Error; }
+	ReadView = View;
+	if ((Aspect & VK_IMAGE_ASPECT_STENCIL_BIT) == 0) { return {}; }
+	ViewInfo.subresourceRange.aspectMask = VK_IMAGE_ASPECT_DEPTH_BIT;
+	return Check(vkCreateImageView(Device, &ViewInfo, nullptr, &ReadView), "vkCreateImageView");
 }
 
 FForkImage::~FForkImage()
 {
 	if (Device != VK_NULL_HANDLE)
 	{
+		if (ReadView != View) { vkDestroyImageView(Device, ReadView, nullptr); }
 		vkDestroyImageView(Device, View, nullptr);
 		vkDestroyImage(Device, Image, nullptr);
 		vkFreeMemory(Device, Memory, nullptr);

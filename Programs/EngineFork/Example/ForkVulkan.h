@@ -74,6 +74,7 @@ struct FForkImage
 	VkDevice Device = VK_NULL_HANDLE;
 	VkImage Image = VK_NULL_HANDLE;
 	VkImageView View = VK_NULL_HANDLE;
+	VkImageView ReadView = VK_NULL_HANDLE; ///< what shaders read: of depth and stencil the depth, else View
 	VkDeviceMemory Memory = VK_NULL_HANDLE;
 
 	FForkImage() = default;

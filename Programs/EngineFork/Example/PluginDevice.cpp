@@ -52,6 +52,8 @@ FError FPluginDevice::ImportGBuffer(const FForkRaster& Raster)
 	FError Error = Import(Raster.Depth.Image, ERTFormat::D32_FLOAT_S8_UINT, "ForkDepth", Depth);
 	if (Error.empty()) { Error = Import(Raster.Normals.Image, ERTFormat::RGBA8_UNORM, "ForkNormals", Normals); }
 	if (Error.empty()) { Error = Import(Raster.Motion.Image, ERTFormat::RG16_FLOAT, "ForkMotion", Motion); }
+	if (Error.empty()) { Error = Import(Raster.BaseColor.Image, ERTFormat::RGBA8_SRGB, "ForkBaseColor", BaseColor); }
+	if (Error.empty()) { Error = Import(Raster.Material.Image, ERTFormat::RGBA8_UNORM, "ForkMaterial", Material); }
 	if (!Error.empty()) { return Error; }
 	// The raster's barrier has already waited for the depth. The next frame's raster begins with a barrier of its own.
 	const FRTExternalState State{FForkRaster::DepthLayout, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT};
@@ -99,6 +101,8 @@ FPluginDevice::~FPluginDevice()
 	Depth.Reset();
 	Normals.Reset();
 	Motion.Reset();
+	BaseColor.Reset();
+	Material.Reset();
 	CutOutMap.Reset();
 	CutOutSampler.Reset();
 	if (Device) { Device->CollectGarbage(); } // destroys the plugin's views of the images now, not some time later

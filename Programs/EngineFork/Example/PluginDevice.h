@@ -20,7 +20,7 @@ public:
 	FError ImportGBuffer(const FForkRaster& Raster);
 
 	Lantern::TRTRef<Lantern::IRTDevice> Device; // declared first, so that it is released last
-	Lantern::TRTRef<Lantern::IRTTexture> Depth, Normals, Motion;
+	Lantern::TRTRef<Lantern::IRTTexture> Depth, Normals, Motion, BaseColor, Material;
 	Lantern::TRTRef<Lantern::IRTTexture> CutOutMap;
 	Lantern::TRTRef<Lantern::IRTSampler> CutOutSampler;
 

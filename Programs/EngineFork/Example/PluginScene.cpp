@@ -181,6 +181,13 @@ FError FPluginScene::SetLamp(const FForkScene& Scene)
 	}
 	Light.Channels = Scene.LampChannels;
 	if (Scene.bLampProfile) { Light.Ies = Profile; }
+	if (Scene.LampWidth > 0.0)
+	{
+		Light.Type = ERTModuleLight::Rectangle;
+		Light.Width = Light.Height = static_cast<float>(Scene.LampWidth);
+		const double Area = Scene.LampWidth * Scene.LampWidth / (Metre * Metre);
+		for (float& Color : Light.Color) { Color = static_cast<float>(Scene.LampIntensity / Area); } // nits
+	}
 	return ToError(Lamp == ERTLightHandle::None ? Renderer->AddLight(Light, &Lamp) : Renderer->SetLight(Lamp, Light), "AddLight");
 }
 
@@ -224,6 +231,8 @@ FError FPluginScene::Render(VkCommandBuffer Commands, const FForkFrame& From, bo
 	Frame.Layout.bViewSpaceNormals = true;
 	Frame.Layout.bGeometricInZw = false; // this engine has none: depth says where surfaces face
 	Frame.Motion = On->Motion.Get();
+	Frame.BaseColor = On->BaseColor.Get();
+	Frame.Material = On->Material.Get();
 	Frame.Layout.Motion = ERTModuleMotion::UV;
 	Frame.Layout.MotionScale[0] = Frame.Layout.MotionScale[1] = -1.0f; // this engine's leads to this frame, not to the one before
 	if (From.View == 0) { bComplete = true; }
@@ -232,6 +241,7 @@ FError FPluginScene::Render(VkCommandBuffer Commands, const FForkFrame& From, bo
 	// The first view's commands have the reed's skinning, and are not submitted yet.
 	Frame.bSubmitAhead = From.View != 0;
 	Frame.Wanted = Wanted;
+	Frame.bLightMask = bLightMask;
 	Error = ToError(Renderer->RenderFrame(Frame, &Out), "RenderFrame");
 	bComplete = bComplete && Out.bComplete;
 	return Error;

@@ -27,8 +27,10 @@ public:
 	FError ScaleVertices(float Scale);
 	/// Takes bCastsShadow and bCutOut over from To.
 	FError SetBox(size_t Box, const FBox& To);
-	/// Takes Lamp, LampIntensity, LampChannels and bLampProfile over.
+	/// Takes Lamp and all of FForkScene that begins with Lamp or bLamp over.
 	FError SetLamp(const FForkScene& Scene);
+	/// By which the light mask names the lamp.
+	uint32_t GetLampNumber() const { return Lantern::GetLightNumber(Lamp); }
 	/// Where the engine's GPU writes the reed's positions for the plugin; 0 while the reed is on its way there.
 	FError FindReedPositions(VkDeviceAddress& Out);
 	/// The frame's commands have written them.
@@ -42,6 +44,7 @@ public:
 	bool IsComplete() const { return bComplete; }
 
 	Lantern::FSignalSet Wanted{Lantern::ESignal::SunShadow, Lantern::ESignal::AmbientOcclusion}; ///< of the next frames
+	bool bLightMask = false; ///< of the next frames: the engine shades the lamp and asks the plugin what sees it
 
 private:
 	struct FPlacedBox

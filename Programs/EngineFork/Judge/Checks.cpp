@@ -1,7 +1,6 @@
 // The judge's script: frames of the scene in three states, each compared with the truth.
 #include "Judge/Checks.h"
 
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -9,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "Judge/Judge.h"
 #include "Judge/Verdict.h"
 
 namespace Fork
@@ -23,16 +23,6 @@ constexpr int FrameCount = 3;                    // frames in which everything i
 constexpr int MostFramesUntilComplete = 600'000; // each takes a millisecond at least: ends what would never end
 constexpr int FramesPerLine = 5'000;
 
-using FMasks = std::array<FFrameMasks, ViewCount>;
-
-struct FJudge
-{
-	FForkEngine& Engine;
-	FForkScene Scene;
-	std::string Pictures; ///< begin of their paths; empty: none
-	int Checks = 0;
-};
-
 /// Temporal antialiasing: each frame's picture is a fraction of a pixel elsewhere (Halton, 1960).
 void Jitter(FForkScene& Scene, int Frame)
 {
@@ -45,7 +35,8 @@ void Jitter(FForkScene& Scene, int Frame)
 	for (FCamera& Camera : Scene.Cameras) { Camera.Jitter = glm::dvec2(Halton(Index, 2), Halton(Index, 3)) - 0.5; }
 }
 
-/// Runs frames until the plugin has all that it needs, then a few more. The plugin never waits: its first frames may lack shadows.
+} // namespace
+
 FError RunUntilComplete(FJudge& Judge, FMasks& Out)
 {
 	FError Error;
@@ -74,6 +65,9 @@ FError RunUntilComplete(FJudge& Judge, FMasks& Out)
 	}
 	return Error;
 }
+
+namespace
+{
 
 /// Compares every pixel of a view's last mask with the truth.
 FError CheckView(const FJudge& Judge, uint32_t View, const char* What, const FFrameMasks& Masks)
@@ -115,53 +109,6 @@ FError CheckUnwanted(FJudge& Judge)
 	}
 	Judge.Engine.GetPlugin().Wanted = Wanted;
 	return Error.empty() ? Error : "without outputs: " + Error;
-}
-
-/// Mean light with the lamp at an intensity.
-FError MeasureLamp(FJudge& Judge, double Intensity, double& Out)
-{
-	Judge.Scene.LampIntensity = Intensity;
-	FMasks Masks;
-	FError Error = Judge.Engine.GetPlugin().SetLamp(Judge.Scene);
-	if (Error.empty()) { Error = RunUntilComplete(Judge, Masks); }
-	// With 8 frames the ratio of two lamps came out as 1.97 and 1.88 in two rounds: noise alone could fail it.
-	constexpr int Frames = 32;
-	Out = 0.0;
-	for (int Frame = 0; Error.empty() && Frame < Frames; ++Frame)
-	{
-		Error = Judge.Engine.RunFrame(Judge.Scene, false, Masks);
-		Out += GetMeanLight(Masks[0]) / Frames;
-	}
-	return Error;
-}
-
-/// Diffuse light: what surfaces reflect of the lamp is proportional to its intensity and its profile, and ends with it and its channel.
-FError CheckLamp(FJudge& Judge)
-{
-	FSignalSet& Wanted = Judge.Engine.GetPlugin().Wanted;
-	Wanted.Add(ESignal::DiffuseGI);
-	constexpr double Intensities[] = {200.0, 400.0, 0.0}; // candela
-	double Light[3] = {};
-	FError Error;
-	for (int Index = 0; Error.empty() && Index < 3; ++Index) { Error = MeasureLamp(Judge, Intensities[Index], Light[Index]); }
-	double Halved = 0.0, OffChannel = 0.0;
-	Judge.Scene.bLampProfile = true;
-	if (Error.empty()) { Error = MeasureLamp(Judge, 2.0 * Intensities[0], Halved); }
-	Judge.Scene.bLampProfile = false;
-	Judge.Scene.LampChannels = 2;
-	if (Error.empty()) { Error = MeasureLamp(Judge, Intensities[0], OffChannel); }
-	Judge.Scene.LampChannels = 1;
-	Judge.Scene.LampIntensity = 0.0;
-	if (Error.empty()) { Error = Judge.Engine.GetPlugin().SetLamp(Judge.Scene); }
-	Wanted.Remove(ESignal::DiffuseGI);
-	if (!Error.empty()) { return Error; }
-	const double Once = Light[0] - Light[2], Twice = Light[1] - Light[2];
-	std::printf("lamp: mean light %.4f without, %.4f and %.4f with it\n", Light[2], Light[0], Light[1]);
-	std::printf("lamp: mean light %.4f with a profile, %.4f of another channel\n", Halved, OffChannel);
-	if (std::abs((Halved - Light[2]) / Once - 1.0) > 0.1) { return "diffuse light does not follow the lamp's profile"; }
-	if (std::abs(OffChannel - Light[2]) > 0.1 * Once) { return "a lamp of another channel lights the boxes"; }
-	const bool bProportional = Once > 0.05 * Light[2] && std::abs(Twice / Once - 2.0) < 0.1;
-	return bProportional ? FError() : "diffuse light does not follow the lamp";
 }
 
 /// Frames after a cut, the first camera moving by Step before each. The last frame's jitter is the same for every Count. Out: ambient
@@ -277,8 +224,8 @@ FError CheckScenes(FForkEngine& Engine, FForkScene Scene, const std::string& Pic
 {
 	FJudge Judge{Engine, std::move(Scene), Pictures};
 	FError Error = CheckScene(Judge, "as made");
-	for (FError (*const Check)(FJudge&) :
-	    {CheckUnwanted, CheckMotion, CheckMoved, CheckOtherDevice, CheckLamp, CheckChanged, CheckStreamed, CheckOtherDevice})
+	for (FError (*const Check)(FJudge&) : {CheckUnwanted, CheckMotion, CheckMoved, CheckOtherDevice, CheckLamp, CheckSquareLamp,
+	         CheckLightMask, CheckChanged, CheckStreamed, CheckOtherDevice})
 	{
 		if (Error.empty()) { Error = Check(Judge); }
 	}

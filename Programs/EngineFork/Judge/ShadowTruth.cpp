@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include <glm/gtc/constants.hpp>
 
 namespace Fork
 {
@@ -53,7 +56,7 @@ std::optional<FShadowTruth::FHit> FShadowTruth::FindNearest(glm::dvec3 Origin, g
 	std::optional<FHit> Nearest;
 	for (const FTriangle& Triangle : Triangles)
 	{
-		if (SeenBy == ESeenBy::Sun ? !Triangle.bCastsShadow : dot(Triangle.Normal, Direction) >= 0.0) { continue; }
+		if (SeenBy == ESeenBy::Light ? !Triangle.bCastsShadow : dot(Triangle.Normal, Direction) >= 0.0) { continue; }
 		const glm::dvec3 P = cross(Direction, Triangle.Edge2);
 		const double Determinant = dot(Triangle.Edge1, P);
 		if (Determinant == 0.0) { continue; }
@@ -66,20 +69,30 @@ std::optional<FShadowTruth::FHit> FShadowTruth::FindNearest(glm::dvec3 Origin, g
 	return Nearest;
 }
 
-FShadowTruth::FSample FShadowTruth::Sample(glm::dvec3 CameraRay, glm::dvec3 Shift) const
+FShadowTruth::FToLight FShadowTruth::FindLight(glm::dvec3 From, ELightSource Source) const
+{
+	if (Source == ELightSource::Sun) { return {-Scene.SunDirection, std::numeric_limits<double>::infinity(), 1.0}; }
+	const glm::dvec3 To = Scene.Lamp - From;
+	const double Distance = length(To), Metres = Distance / Metre;
+	return {To / Distance, Distance, Scene.LampIntensity / (Metres * Metres * glm::pi<double>())};
+}
+
+/// From: on a surface of that normal. The ray starts away from it, so that it does not shadow itself.
+bool FShadowTruth::IsHidden(const FToLight& Light, glm::dvec3 From, glm::dvec3 Normal) const
+{
+	const std::optional<FHit> Hit = FindNearest(From + Normal * (1e-6 * Metre), Light.Direction, ESeenBy::Light);
+	return Hit && Hit->Distance < Light.Distance;
+}
+
+FShadowTruth::FSample FShadowTruth::Sample(glm::dvec3 CameraRay, glm::dvec3 Shift, ELightSource Source) const
 {
 	const std::optional<FHit> Hit = FindNearest(Camera.Position, CameraRay, ESeenBy::Camera);
 	if (!Hit) { return {}; }
 	const glm::dvec3 Normal = Hit->Triangle->Normal;
-	FSample Result{EExpectation::Shadowed, Hit->Triangle};
-	if (dot(Normal, -Scene.SunDirection) > 0.0)
-	{
-		// Away from the surface, so that it does not shadow itself; Shift stays within it.
-		const glm::dvec3 Sideways = Shift - Normal * dot(Normal, Shift);
-		const glm::dvec3 Origin = Camera.Position + CameraRay * Hit->Distance + Normal * (1e-6 * Metre) + Sideways;
-		const bool bHidden = FindNearest(Origin, -Scene.SunDirection, ESeenBy::Sun).has_value();
-		Result.Expectation = bHidden ? EExpectation::Shadowed : EExpectation::Lit;
-	}
+	FSample Result{EExpectation::Shadowed, Hit->Triangle, Camera.Position + CameraRay * Hit->Distance};
+	const glm::dvec3 Shifted = Result.Position + Shift - Normal * dot(Normal, Shift); // within the surface
+	const FToLight Light = FindLight(Shifted, Source);
+	if (dot(Normal, Light.Direction) > 0.0 && !IsHidden(Light, Shifted, Normal)) { Result.Expectation = EExpectation::Lit; }
 	return Result;
 }
 
@@ -91,24 +104,49 @@ bool FShadowTruth::AreAlike(const FSample& A, const FSample& B)
 	return A.Triangle->Thing == B.Triangle->Thing && dot(A.Triangle->Normal, B.Triangle->Normal) > Parallel;
 }
 
-FExpectedPixel FShadowTruth::ExpectPixel(uint32_t X, uint32_t Y, uint32_t Width, uint32_t Height) const
+/// Jitter has moved the picture, so a pixel shows what lies to its other side.
+glm::dvec3 FShadowTruth::GetRay(glm::dvec2 Pixel, uint32_t Width, uint32_t Height) const
+{
+	const double TanHalf = std::tan(Camera.FovY * 0.5), Aspect = double(Width) / Height;
+	const glm::dvec2 Ndc = (Pixel - Camera.Jitter) / glm::dvec2(Width, Height) * 2.0 - 1.0;
+	return normalize(Camera.Forward + Camera.Right * (Ndc.x * TanHalf * Aspect) - Camera.Up * (Ndc.y * TanHalf));
+}
+
+FExpectedPixel FShadowTruth::ExpectPixel(uint32_t X, uint32_t Y, uint32_t Width, uint32_t Height, ELightSource Source) const
 {
 	constexpr double Margin = 0.02 * Metre; // far more than fp32 depth loses here
-	const double TanHalf = std::tan(Camera.FovY * 0.5), Aspect = double(Width) / Height;
 	std::optional<FSample> First;
 	for (int Try = 0; Try < 5; ++Try)
 	{
 		const glm::dvec2 Shift = Try == 0 ? glm::dvec2(0) : glm::dvec2(Try % 2 ? 0.6 : -0.6, Try > 2 ? 0.6 : -0.6);
-		// Jitter has moved the picture, so a pixel shows what lies to its other side.
-		const glm::dvec2 At = glm::dvec2(X, Y) + 0.5 + Shift - Camera.Jitter;
-		const double NdcX = At.x / Width * 2.0 - 1.0, NdcY = At.y / Height * 2.0 - 1.0;
-		const glm::dvec3 Ray = normalize(Camera.Forward + Camera.Right * (NdcX * TanHalf * Aspect) - Camera.Up * (NdcY * TanHalf));
-		const FSample Found = Sample(Ray, glm::dvec3(Shift.x, Shift.x + Shift.y, Shift.y) * (Margin / 0.6));
+		const glm::dvec3 Ray = GetRay(glm::dvec2(X, Y) + 0.5 + Shift, Width, Height);
+		const FSample Found = Sample(Ray, glm::dvec3(Shift.x, Shift.x + Shift.y, Shift.y) * (Margin / 0.6), Source);
 		if (First && !AreAlike(*First, Found)) { return {EExpectation::Unsure}; }
-		First = Found;
+		First = First ? First : Found;
 	}
-	const double Facing = First->Triangle ? dot(First->Triangle->Normal, -Scene.SunDirection) : 0.0;
-	return {First->Expectation, std::max(Facing, 0.0)};
+	if (!First->Triangle) { return {First->Expectation}; }
+	const FToLight Light = FindLight(First->Position, Source);
+	return {First->Expectation, Light.Light * std::max(dot(First->Triangle->Normal, Light.Direction), 0.0)};
+}
+
+std::optional<double> FShadowTruth::ExpectSquareLamp(uint32_t X, uint32_t Y, uint32_t Width, uint32_t Height) const
+{
+	constexpr int Steps = 8; // of each side
+	const FExpectedPixel Pixel = ExpectPixel(X, Y, Width, Height, ELightSource::Sun);
+	if (Pixel.Shadow == EExpectation::Unsure || Pixel.Shadow == EExpectation::Sky) { return {}; }
+	const FSample Surface = Sample(GetRay(glm::dvec2(X, Y) + 0.5, Width, Height), glm::dvec3(0), ELightSource::Sun);
+	double Sum = 0.0;
+	for (int Point = 0; Point < Steps * Steps; ++Point)
+	{
+		const glm::dvec2 At = (glm::dvec2(Point % Steps, Point / Steps) + 0.5) / double(Steps) - 0.5;
+		const glm::dvec3 To = Scene.Lamp + glm::dvec3(At * Scene.LampWidth, 0.0) - Surface.Position;
+		const double Distance = length(To), Metres = Distance / Metre;
+		const FToLight Light{To / Distance, Distance * (1.0 - 1e-9), 1.0};
+		const double Cosine = dot(Surface.Triangle->Normal, Light.Direction), CosineAtLamp = Light.Direction.z;
+		if (Cosine <= 0.0 || CosineAtLamp <= 0.0 || IsHidden(Light, Surface.Position, Surface.Triangle->Normal)) { continue; }
+		Sum += Cosine * CosineAtLamp / (Metres * Metres);
+	}
+	return Sum / (Steps * Steps) * Scene.LampIntensity / glm::pi<double>();
 }
 
 } // namespace Fork

@@ -1,4 +1,4 @@
-// The right shadow of the example scene: rays against its triangles in double precision.
+// The right shadows of the example scene: rays against its triangles in double precision.
 #pragma once
 
 #include <array>
@@ -18,10 +18,18 @@ enum class EExpectation : uint8_t
 	Shadowed,
 };
 
+enum class ELightSource : uint8_t
+{
+	Sun,
+	Lamp, ///< as a point
+};
+
 struct FExpectedPixel
 {
 	EExpectation Shadow = EExpectation::Sky;
-	double Facing = 0.0; ///< cosine between the surface's normal and the way to the sun, at least 0; of sky 0
+	/// What a white surface reflects if nothing hides the light. Of the sun over its irradiance, which this engine takes without π; of
+	/// the lamp nits. Of sky 0.
+	double Light = 0.0;
 };
 
 /// Knows nothing of the plugin, of depth buffers or of acceleration structures.
@@ -30,7 +38,10 @@ class FShadowTruth
 public:
 	FShadowTruth(const FForkScene& InScene, const FCamera& InCamera);
 	/// What the pixel must show.
-	FExpectedPixel ExpectPixel(uint32_t X, uint32_t Y, uint32_t Width, uint32_t Height) const;
+	FExpectedPixel ExpectPixel(uint32_t X, uint32_t Y, uint32_t Width, uint32_t Height, ELightSource Source) const;
+	/// Returns what a white surface there reflects of the lamp as a square, shadows included: a sum over its points. Empty: sky, or an
+	/// edge of a surface is near. Nits.
+	std::optional<double> ExpectSquareLamp(uint32_t X, uint32_t Y, uint32_t Width, uint32_t Height) const;
 
 private:
 	struct FTriangle
@@ -49,17 +60,27 @@ private:
 	enum class ESeenBy
 	{
 		Camera, ///< front faces
-		Sun,    ///< all that cast shadows
+		Light,  ///< all that cast shadows
 	};
 	struct FSample
 	{
 		EExpectation Expectation = EExpectation::Sky;
 		const FTriangle* Triangle = nullptr;
+		glm::dvec3 Position{0};
+	};
+	struct FToLight
+	{
+		glm::dvec3 Direction{0}; ///< unit length
+		double Distance = 0.0;   ///< of the lamp
+		double Light = 0.0;      ///< see FExpectedPixel, for a surface that faces it
 	};
 
 	FTriangle& AddTriangle(const glm::dvec3 (&Corners)[3], size_t Thing);
 	std::optional<FHit> FindNearest(glm::dvec3 Origin, glm::dvec3 Direction, ESeenBy SeenBy) const;
-	FSample Sample(glm::dvec3 CameraRay, glm::dvec3 Shift) const;
+	glm::dvec3 GetRay(glm::dvec2 Pixel, uint32_t Width, uint32_t Height) const;
+	FToLight FindLight(glm::dvec3 From, ELightSource Source) const;
+	bool IsHidden(const FToLight& Light, glm::dvec3 From, glm::dvec3 Normal) const;
+	FSample Sample(glm::dvec3 CameraRay, glm::dvec3 Shift, ELightSource Source) const;
 	static bool AreAlike(const FSample& A, const FSample& B);
 
 	const FForkScene& Scene;

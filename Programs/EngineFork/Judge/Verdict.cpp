@@ -17,13 +17,16 @@ bool IsWrong(EExpectation Expected, float Found) { return Expected != EExpectati
 
 } // namespace
 
-FShadowPicture ExpectShadow(const FForkScene& Scene, const FCamera& Camera)
+FShadowPicture ExpectShadow(const FForkScene& Scene, const FCamera& Camera, ELightSource Source)
 {
 	FShadowPicture Picture;
 	const FShadowTruth Truth(Scene, Camera);
 	for (uint32_t Y = 0; Y < ViewSize.height; ++Y)
 	{
-		for (uint32_t X = 0; X < ViewSize.width; ++X) { Picture.push_back(Truth.ExpectPixel(X, Y, ViewSize.width, ViewSize.height)); }
+		for (uint32_t X = 0; X < ViewSize.width; ++X)
+		{
+			Picture.push_back(Truth.ExpectPixel(X, Y, ViewSize.width, ViewSize.height, Source));
+		}
 	}
 	return Picture;
 }
@@ -43,16 +46,18 @@ FVerdict JudgeShadow(const FShadowPicture& Expectations, const uint16_t* Mask)
 	return Verdict;
 }
 
-FError JudgeLight(const FShadowPicture& Expectations, const FFrameMasks& Masks)
+FError JudgeLight(const FShadowPicture& Expectations, const FFrameMasks& Masks, const FShadowPicture* Lamp)
 {
-	constexpr double Grey = 0.5, Step = 0.008; // of all surfaces; of the 8 bits of each of the normal's coordinates and of the colour
+	constexpr double Step = 0.008; // of the 8 bits of each of the normal's coordinates
 	for (uint32_t Pixel = 0; Pixel < PixelCount; ++Pixel)
 	{
 		const FExpectedPixel& Expected = Expectations[Pixel];
-		if (Expected.Shadow == EExpectation::Unsure) { continue; }
+		const FExpectedPixel OfLamp = Lamp != nullptr ? (*Lamp)[Pixel] : FExpectedPixel{};
+		if (Expected.Shadow == EExpectation::Unsure || OfLamp.Shadow == EExpectation::Unsure) { continue; }
 		const auto Read = [&](const uint16_t* Mask) { return Mask != nullptr ? double(glm::unpackHalf1x16(Mask[Pixel])) : 1.0; };
-		const double Light = FForkLight::Sun * Expected.Facing * Read(Masks.SunShadow) + FForkLight::Ambient * Read(Masks.AmbientOcclusion);
-		const double Right = Expected.Shadow == EExpectation::Sky ? 0.0 : Grey * Light;
+		const double Light = FForkLight::Sun * Expected.Light * Read(Masks.SunShadow) + FForkLight::Ambient * Read(Masks.AmbientOcclusion) +
+		                     (OfLamp.Shadow == EExpectation::Lit ? OfLamp.Light : 0.0);
+		const double Right = Expected.Shadow == EExpectation::Sky ? 0.0 : FForkRaster::Grey * Light;
 		const double Found = glm::unpackHalf1x16(Masks.Lit[Pixel * 4]);
 		if (!(std::abs(Found - Right) < Step))
 		{
@@ -112,11 +117,11 @@ FError WritePicture(const std::string& Path, const FShadowPicture& Expectations,
 	{
 		const float Found = glm::unpackHalf1x16(Mask[Pixel]);
 		const EExpectation Expected = Expectations[Pixel].Shadow;
-		const int Grey = static_cast<int>(Found * 160.0f + 0.5f);
+		const int Shade = static_cast<int>(Found * 160.0f + 0.5f);
 		const bool bWrong = IsWrong(Expected, Found);
-		std::fputc(bWrong && GetRight(Expected) > 0.5f ? 255 : Grey, File);
-		std::fputc(bWrong && GetRight(Expected) < 0.5f ? 255 : Grey, File);
-		std::fputc(Expected == EExpectation::Unsure ? Grey + 80 : Grey, File);
+		std::fputc(bWrong && GetRight(Expected) > 0.5f ? 255 : Shade, File);
+		std::fputc(bWrong && GetRight(Expected) < 0.5f ? 255 : Shade, File);
+		std::fputc(Expected == EExpectation::Unsure ? Shade + 80 : Shade, File);
 	}
 	return std::fclose(File) == 0 ? FError() : Path + " cannot be written";
 }

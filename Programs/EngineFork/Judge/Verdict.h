@@ -20,13 +20,13 @@ struct FVerdict
 using FShadowPicture = std::vector<FExpectedPixel>;
 
 /// The truth of a view.
-FShadowPicture ExpectShadow(const FForkScene& Scene, const FCamera& Camera);
+FShadowPicture ExpectShadow(const FForkScene& Scene, const FCamera& Camera, ELightSource Source = ELightSource::Sun);
 /// Compares every pixel of Mask with the truth.
 FVerdict JudgeShadow(const FShadowPicture& Expectations, const uint16_t* Mask);
 
 /// Fails unless the engine's light is what its G-buffer and the plugin's outputs make of it: without an output, as if there were no
-/// such pass.
-FError JudgeLight(const FShadowPicture& Expectations, const FFrameMasks& Masks);
+/// such pass. Lamp: what the lamp brings, if the engine lights by it.
+FError JudgeLight(const FShadowPicture& Expectations, const FFrameMasks& Masks, const FShadowPicture* Lamp = nullptr);
 
 /// Returns the values of a mask.
 std::vector<float> ReadMask(const uint16_t* Mask);

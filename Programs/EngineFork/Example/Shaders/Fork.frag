@@ -11,7 +11,8 @@ layout(location = 3) in vec4 InPreviousClip;
 layout(location = 4) in vec2 InUV;
 layout(location = 0) out vec4 OutNormal; // view space, from 0 to 1
 layout(location = 1) out vec2 OutMotion; // from where the surface was to where it is, in parts of the picture
-layout(location = 2) out vec4 OutColor;  // a: 1 where there is a surface
+layout(location = 2) out vec4 OutColor;  // a: metalness
+layout(location = 3) out vec4 OutMaterial; // roughness, occlusion, sqrt(F0), weight of the specular lobe
 
 void main()
 {
@@ -26,5 +27,6 @@ void main()
 	}
 	OutNormal = vec4(Normal * 0.5 + 0.5, 0.0);
 	OutMotion = (InClip.xy / InClip.w - InPreviousClip.xy / InPreviousClip.w) * 0.5;
-	OutColor = vec4(Push.Color, 1.0);
+	OutColor = vec4(Push.Color, 0.0);
+	OutMaterial = vec4(1.0, 1.0, 0.2, 1.0);
 }
