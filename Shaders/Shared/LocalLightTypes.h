@@ -154,6 +154,17 @@ struct FLocalShadeConstants
 };
 LANTERN_ASSERT_SIZE(FLocalShadeConstants, 88);
 
+// Constants of LocalLights/LampView.comp.
+struct FLampViewConstants
+{
+	FPassConstants Pass;
+	FAddress TileLights; // FTileLights[]
+	FAddress Answers;    // uint[pixels]; 0: there are no rays
+	uint Output;         // storage index
+	uint bRays;          // 1: rays of each pixel; 0: lights of tiles
+};
+LANTERN_ASSERT_SIZE(FLampViewConstants, 40);
+
 LANTERN_SHARED_END
 
 #endif

@@ -6,6 +6,7 @@
 
 #include "AmbientOcclusion/AmbientOcclusion.h"
 #include "DiffuseGI/DiffuseGI.h"
+#include "LocalLights/LampView.h"
 #include "LocalLights/LocalLights.h"
 #include "Reflections/Reflections.h"
 #include "SunShadow/SunShadow.h"
@@ -39,7 +40,8 @@ constexpr FSignalPass Passes[] = {
         .WantsMotion = AreLocalLightsFiltered,
         .ListFilters = ListLocalLightFilters,
         .AskShadowRays = AskLocalRays,
-        .bBesideLightMask = true},
+        .bBesideLightMask = true,
+        .Pictures = LampPictures},
     {.Signal = ESignal::LocalSpecular,
         .ChooseRays = ChooseLocalLightRays,
         .Add = AddLocalSpecularPass,

@@ -77,6 +77,26 @@ TEST_F(FLocalLightsMockTest, LampsWithoutShadowsTraceNothing)
 	}
 }
 
+TEST_F(FLocalLightsMockTest, DrawsItsPictures)
+{
+	ASSERT_TRUE(Load({.bSun = false}));
+	AddLamp({});
+	Render();
+	EXPECT_FALSE(HasPass("LampView"));
+	for (const char* const Name : {"lamp_tiles", "lamp_rays"})
+	{
+		Set("r.RT.Debug.View", Name);
+		Render();
+		EXPECT_TRUE(HasPass("LampView")) << Name;
+		EXPECT_FALSE(HasPass("DebugView")) << Name;
+		Set("r.RT.Lights", "0");
+		Render();
+		EXPECT_FALSE(HasPass("LampView"));
+		EXPECT_FALSE(HasPass("DebugView"));
+		Set("r.RT.Lights", "1");
+	}
+}
+
 TEST_F(FLocalLightsMockTest, SwitchesOfKindsLeaveNoRaysBehind)
 {
 	struct FKind

@@ -7,6 +7,7 @@
 #include "LocalLightTypes.h"
 #include "LocalLights/Emitters.h"
 #include "LocalLights/LampChange.h"
+#include "LocalLights/LampView.h"
 #include "LocalLights/LightMask.h"
 #include "LocalLights/LocalRequests.h"
 #include "LocalLights/SecondRays.h"
@@ -119,6 +120,7 @@ FGraphTexture AddLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESignal S
 	if (!IsMade(Signal, Context.Signals) || ChooseSignalRays(Context, Signal).Path == ERayPath::None) { return {}; }
 	const FLocalLobes* const Lobes = RequireLobes(Context, GBuffer);
 	if (!Lobes) { return {}; }
+	AddLampView(Context, *Context.ShadowRays);
 	const FGraphTexture Lobe = Signal == ESignal::LocalDiffuse ? Lobes->Diffuse : Lobes->Specular;
 	if (!Denoise.IsEnabled()) { return Lobe; }
 	FDenoiseInputs Inputs;
@@ -166,6 +168,7 @@ FPassRays ChooseLocalLightRays(const FPassQuery& Query)
 	if (!Query.Facts.bMaskAlone) { Rays.Compute = {MakeShadeSource(Query.Facts, Exact)}; }
 	ListLocalRequestShaders(Query.Facts, Exact, Rays.Compute);
 	ListLightMaskShaders(Query.Facts, Rays.Compute);
+	ListLampViewShaders(Rays.Compute);
 	if (Denoise.IsEnabled() && AreChangesFollowed(Query.Facts))
 	{
 		ListLampChangeShaders(AreLampsChosen(Query.Facts), Query.Facts, MakeLocalDefines(Query.Facts, Exact), Rays.Compute);
