@@ -5,6 +5,7 @@
 
 #include "Bindings.glsl"
 #include "Math.glsl"
+#include "UintTextures.glsl"
 #include "View.glsl"
 
 // Tests the bits, because compilers may optimise isnan and isinf away.
@@ -64,21 +65,61 @@ bool IsSameSurface(FSurface Now, FSurface Before, float ExpectedDistance, float 
 // Where a pixel's surface was in the previous frame, and which of the four texels around that position showed it.
 struct FReprojection
 {
-	ivec2 Base;             // first texel; the others are right of it, below it, and both
-	vec4 Weights;           // bilinear, over the texels that showed the surface; sum 1. All 0: the surface was not seen
-	float Coverage;         // sum of the weights before they were made to sum to 1; 1: all four texels showed the surface
-	vec2 Fraction;          // position between the texels, 0 to 1
-	float ExpectedDistance; // of the surface in the previous frame, along the view, metres
-	float DistanceSlope;    // its change from one pixel to the next, metres
+	ivec2 Base;     // first texel; the others are right of it, below it, and both
+	vec4 Weights;   // bilinear, over the texels that showed the surface; sum 1. All 0: the surface was not seen
+	float Coverage; // sum of the weights before they were made to sum to 1; 1: all four texels showed the surface
+	vec2 Fraction;  // position between the texels, 0 to 1
 };
 
 ivec2 GetTap(FReprojection R, int Tap) { return R.Base + ivec2(Tap & 1, Tap >> 1); }
 
-// Motion: a texel of FGBuffer::Motion. ToCamera: direction from the surface to the camera, unit length.
-FReprojection Reproject(FViewConstants View, uint PreviousSurface, uvec2 Pixel, FSurface Now, vec4 Motion, vec3 ToCamera)
+const FReprojection NotSeen = FReprojection(ivec2(0), vec4(0.0), 0.0, vec2(0.0));
+
+// Texel of an RG32_UINT image, which one pass makes for all that reproject (Denoise/Surface.comp): for each axis, 16 bits of the first texel
+// plus 1 and 12 of the fraction; in the lowest 4 bits of x, the texels that showed the surface. None: it was not seen.
+const float ReprojectionSteps = 4096.0;
+
+FReprojection UnpackReprojection(uvec2 Packed)
 {
-	FReprojection R = FReprojection(ivec2(0), vec4(0.0), 0.0, vec2(0.0), Motion.z, 0.0);
-	if (!AreFinite(Motion) || Motion.z <= 0.0 || Now.Distance <= 0.0) { return R; }
+	uint Taps = Packed.x & 15u;
+	if (Taps == 0u) { return NotSeen; }
+	FReprojection R;
+	R.Base = ivec2(Packed >> 16u) - 1;
+	R.Fraction = vec2((Packed >> 4u) & 4095u) / ReprojectionSteps;
+	vec2 F = R.Fraction;
+	R.Weights = vec4((1.0 - F.x) * (1.0 - F.y), F.x * (1.0 - F.y), (1.0 - F.x) * F.y, F.x * F.y);
+	for (int Tap = 0; Tap < 4; ++Tap) { R.Weights[Tap] = (Taps & (1u << Tap)) != 0u ? R.Weights[Tap] : 0.0; }
+	R.Coverage = dot(R.Weights, vec4(1.0));
+	R.Weights = R.Coverage > 0.01 ? R.Weights / R.Coverage : vec4(0.0);
+	return R;
+}
+
+FReprojection LoadReprojection(uint Texture, ivec2 Pixel) { return UnpackReprojection(texelFetch(UintTextures[Texture], Pixel, 0).xy); }
+
+// What a texel of the previous frame must show to be of the pixel's surface.
+struct FExpectedSurface
+{
+	FSurface Surface;
+	float Distance;      // in the previous frame, along the view, metres
+	float DistanceSlope; // its change from one pixel to the next, metres
+};
+
+// Motion: a texel of FGBuffer::Motion. ToCamera: direction from the surface to the camera, unit length.
+FExpectedSurface ExpectSurface(FViewConstants View, FSurface Now, vec4 Motion, vec3 ToCamera)
+{
+	float Cosine = max(abs(dot(Now.Normal, ToCamera)), 0.03);
+	return FExpectedSurface(Now, Motion.z, PixelHeight(View, Motion.z) * sqrt(1.0 - min(Cosine * Cosine, 1.0)) / Cosine);
+}
+
+bool ShowedSurface(FExpectedSurface Expected, uint PreviousSurface, ivec2 Texel)
+{
+	return IsSameSurface(Expected.Surface, LoadSurface(PreviousSurface, Texel), Expected.Distance, Expected.DistanceSlope);
+}
+
+// Returns a texel for UnpackReprojection. Motion: a texel of FGBuffer::Motion.
+uvec2 FindReprojection(FViewConstants View, uint PreviousSurface, uvec2 Pixel, FSurface Now, vec4 Motion)
+{
+	if (!AreFinite(Motion) || Motion.z <= 0.0 || Now.Distance <= 0.0) { return uvec2(0u); }
 	vec2 Position = vec2(Pixel) + Motion.xy, Size = vec2(View.PreviousWidth, View.PreviousHeight);
 	// The pixel's centre counts where the resolution has changed. The test keeps rounding away where it has not.
 	if (View.PreviousWidth != View.Width || View.PreviousHeight != View.Height)
@@ -88,22 +129,19 @@ FReprojection Reproject(FViewConstants View, uint PreviousSurface, uvec2 Pixel, 
 #ifdef NO_VALIDATION
 	Position = clamp(Position, vec2(0.0), Size - 1.0);
 #endif
-	if (any(lessThan(Position, vec2(-1.0))) || any(greaterThan(Position, Size))) { return R; }
-	vec2 Corner = floor(Position), F = Position - Corner;
-	R.Base = ivec2(Corner);
-	float Cosine = max(abs(dot(Now.Normal, ToCamera)), 0.03);
-	R.Fraction = F;
-	R.DistanceSlope = PixelHeight(View, Motion.z) * sqrt(1.0 - min(Cosine * Cosine, 1.0)) / Cosine;
-	vec4 Bilinear = vec4((1.0 - F.x) * (1.0 - F.y), F.x * (1.0 - F.y), (1.0 - F.x) * F.y, F.x * F.y);
+	if (any(lessThan(Position, vec2(-1.0))) || any(greaterThan(Position, Size))) { return uvec2(0u); }
+	Position = floor(Position * ReprojectionSteps + 0.5) / ReprojectionSteps;
+	ivec2 Base = ivec2(floor(Position));
+	FExpectedSurface Expected = ExpectSurface(View, Now, Motion, -CameraRay(View, vec2(Pixel) + 0.5));
+	uint Taps = 0u;
 	for (int Tap = 0; Tap < 4; ++Tap)
 	{
-		ivec2 P = GetTap(R, Tap);
+		ivec2 P = Base + ivec2(Tap & 1, Tap >> 1);
 		bool bInside = all(greaterThanEqual(P, ivec2(0))) && all(lessThan(P, ivec2(Size)));
-		if (bInside && IsSameSurface(Now, LoadSurface(PreviousSurface, P), Motion.z, R.DistanceSlope)) { R.Weights[Tap] = Bilinear[Tap]; }
+		if (bInside && ShowedSurface(Expected, PreviousSurface, P)) { Taps |= 1u << Tap; }
 	}
-	R.Coverage = dot(R.Weights, vec4(1.0));
-	R.Weights = R.Coverage > 0.01 ? R.Weights / R.Coverage : vec4(0.0);
-	return R;
+	uvec2 Fraction = uvec2((Position - vec2(Base)) * ReprojectionSteps + 0.5);
+	return Taps != 0u ? ((uvec2(Base + 1) << 16u) | (Fraction << 4u) | uvec2(Taps, 0u)) : uvec2(0u);
 }
 
 // Weights of four texels in a row for a position at F, 0 to 1, between the second and the third (Catmull & Rom 1974). Bilinear

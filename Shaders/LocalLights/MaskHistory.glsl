@@ -50,12 +50,6 @@ struct FSlotPast
 	float Mean, Frames; // Frames 0: nothing is known
 };
 
-FReprojection ReprojectPixel(FViewConstants View, uvec2 Pixel, FSurface Surface)
-{
-	vec4 Motion = texelFetch(Textures[Push.Motion], ivec2(Pixel), 0);
-	return Reproject(View, Push.PreviousSurface, Pixel, Surface, Motion, -CameraRay(View, vec2(Pixel) + 0.5));
-}
-
 // Matches the slots of the tiles where the surfaces of this one were. All threads. bKnown: R is of a surface that was seen.
 void MatchBlock(FViewConstants View, FReprojection R, bool bKnown, uint Place)
 {
@@ -157,14 +151,14 @@ void AccumulateSlots(FSceneConstants Scene, FViewConstants View, FTileLights Til
 	StartHistory(Place);
 	barrier();
 	FSlotPast Past[TILE_LIGHTS];
-	FReprojection R = FReprojection(ivec2(0), vec4(0.0), 0.0, vec2(0.0), 0.0, 0.0);
+	FReprojection R = NotSeen;
 	FSurface Surface = FSurface(0.0, vec3(0.0, 0.0, 1.0), 0.0);
 	if (bSurface && Push.Surface != NO_TEXTURE)
 	{
 		Surface = LoadSurface(Push.Surface, ivec2(Pixel));
 		atomicMin(NearestBits, floatBitsToUint(max(Surface.Distance, 0.0)));
 		atomicMax(FarthestBits, floatBitsToUint(max(Surface.Distance, 0.0)));
-		if (Push.PreviousMeans != NO_TEXTURE) { R = ReprojectPixel(View, Pixel, Surface); }
+		if (Push.PreviousMeans != NO_TEXTURE) { R = LoadReprojection(Push.Reprojection, ivec2(Pixel)); }
 	}
 	MatchBlock(View, R, R.Coverage > 0.0, Place);
 	RecallSlots(R, Past);

@@ -21,26 +21,6 @@ bool CastsShadow(FSceneConstants Scene, uint Entry)
 	return (FLightRef(Scene.Lights).Data[Entry].Flags & LIGHT_CASTS_SHADOW) != 0u;
 }
 
-float BoundEntry(FSceneConstants Scene, uint Entry, vec3 Low, vec3 High)
-{
-#ifdef LOCAL_EMISSIVE
-	if (IsTriangle(Entry)) { return BoundCluster(LoadCluster(Push.Emitters, Entry), Low, High); }
-#endif
-	return BoundLight(Scene, FLightRef(Scene.Lights).Data[Entry], Low, High);
-}
-
-float EstimateEntry(FSceneConstants Scene, uint Entry, uint Sampler)
-{
-#ifdef LOCAL_EMISSIVE
-	if (IsTriangle(Entry))
-	{
-		if (SamplerKeys[Sampler] == 0u) { return 0.0; }
-		return EstimateCluster(LoadCluster(Push.Emitters, Entry), SamplerP[Sampler], SamplerN[Sampler], SamplerReach[Sampler]);
-	}
-#endif
-	return EstimateAround(Scene, FLightRef(Scene.Lights).Data[Entry], Sampler);
-}
-
 // Whether the tile's guide had the light in the previous frame.
 bool IsRemembered(FViewConstants View, uint Light)
 {
@@ -137,8 +117,8 @@ bool IsListed(FSceneConstants Scene, uint Light)
 	return Light < Scene.LightCount;
 }
 
-// Returns the Number-th light that the table may hold, and NoGuideLight for none.
-uint ProposeLight(FSceneConstants Scene, FViewConstants View, FTableSources Sources, uint Number, vec3 Low, vec3 High, out float Stands)
+// Returns the Number-th light that the table may hold if it reaches the tile, and NoGuideLight for none.
+uint ProposeLight(FSceneConstants Scene, FViewConstants View, FTableSources Sources, uint Number, out float Stands)
 {
 	uint I = Number - CountRemembered(Sources), Light;
 	bool bRemembered = Number < CountRemembered(Sources);
@@ -158,8 +138,7 @@ uint ProposeLight(FSceneConstants Scene, FViewConstants View, FTableSources Sour
 	}
 	if (!IsListed(Scene, Light)) { return NoGuideLight; }
 	bool bDrawn = IsOfDrawn(Sources, Light);
-	if (bRemembered ? !bDrawn : (bDrawn && IsRemembered(View, Light))) { return NoGuideLight; }
-	return MayReachEntry(Scene, Light, Low, High) ? Light : NoGuideLight;
+	return (bRemembered ? !bDrawn : (bDrawn && IsRemembered(View, Light))) ? NoGuideLight : Light;
 }
 
 #endif

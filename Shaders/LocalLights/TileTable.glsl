@@ -18,7 +18,6 @@ shared float TableStands[TILE_TABLE_MOST]; // see FLightRegion::Stands
 shared uint Estimates[TILE_TABLE_MOST]; // of what each sampler receives, a byte each
 shared float Totals[TileSamplers + 1u][TILE_PIXELS]; // over the run of each thread: of samplers, and of bounds
 shared float RunSums[TILE_PIXELS];
-shared uint RunCounts[TILE_PIXELS];
 shared uint TableCount;
 shared uint SamplerKeys[TileSamplers]; // 0: there is no surface; else the lowest byte is the place
 shared vec3 SamplerP[TileSamplers], SamplerN[TileSamplers];
@@ -189,36 +188,69 @@ float EstimateAround(FSceneConstants Scene, FLightData Light, uint I)
 	return Estimate * (Cosine * Nearer * Nearer);
 }
 
+// Returns what each sampler receives, a byte each. OutBound: about the most that any pixel does.
+uint EstimateEntry(FSceneConstants Scene, uint Entry, vec3 Low, vec3 High, out float OutBound)
+{
+	uint Packed = 0u;
+#ifdef LOCAL_EMISSIVE
+	if (IsTriangle(Entry))
+	{
+		FEmitterCluster Cluster = LoadCluster(Push.Emitters, Entry);
+		OutBound = min(BoundCluster(Cluster, Low, High), 1.0e30);
+		[[dont_unroll]] for (uint S = 0u; S < TileSamplers; ++S)
+		{
+			float Estimate = SamplerKeys[S] != 0u ? EstimateCluster(Cluster, SamplerP[S], SamplerN[S], SamplerReach[S]) : 0.0;
+			Packed |= PackEstimate(Estimate) << (8u * S);
+		}
+		return Packed;
+	}
+#endif
+	FLightData Light = FLightRef(Scene.Lights).Data[Entry];
+	OutBound = min(BoundLight(Scene, Light, Low, High), 1.0e30);
+	[[dont_unroll]] for (uint S = 0u; S < TileSamplers; ++S) { Packed |= PackEstimate(EstimateAround(Scene, Light, S)) << (8u * S); }
+	return Packed;
+}
+
 #include "TileSources.glsl"
+
+// Fills RunSums with the sums over each thread and those before it, by doubling steps (Hillis and Steele 1986). All threads.
+void SumUpTo(uint Place, float Mine)
+{
+	RunSums[Place] = Mine;
+	barrier();
+	[[dont_unroll]] for (uint Step = 1u; Step < TILE_PIXELS; Step <<= 1u)
+	{
+		float Before = Place >= Step ? RunSums[Place - Step] : 0.0;
+		barrier();
+		RunSums[Place] += Before;
+		barrier();
+	}
+}
 
 // Lists the table's lights. Their order does not depend on that of threads.
 void ListTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low, vec3 High)
 {
 	FTableSources Sources = FindSources(Scene, View);
-	uint Most = CountProposals(Sources), Mine = 0u, Before = 0u, Total = 0u;
+	uint Most = CountProposals(Sources), Found = 0u; // Found: a bit for each of the thread's proposals
 	float Stands;
-	[[dont_unroll]] for (uint I = Place; I < Most; I += TILE_PIXELS)
+	[[dont_unroll]] for (uint I = Place, Bit = 1u; I < Most; I += TILE_PIXELS, Bit <<= 1u)
 	{
-		Mine += ProposeLight(Scene, View, Sources, I, Low, High, Stands) != NoGuideLight ? 1u : 0u;
+		uint Light = ProposeLight(Scene, View, Sources, I, Stands);
+		if (Light != NoGuideLight && MayReachEntry(Scene, Light, Low, High)) { Found |= Bit; }
 	}
-	RunCounts[Place] = Mine;
-	barrier();
-	[[dont_unroll]] for (uint I = 0u; I < TILE_PIXELS; ++I)
+	SumUpTo(Place, float(bitCount(Found)));
+	uint Before = Place > 0u ? uint(RunSums[Place - 1u]) : 0u;
+	[[dont_unroll]] for (uint I = Place, Bit = 1u; I < Most && Before < TILE_TABLE_MOST; I += TILE_PIXELS, Bit <<= 1u)
 	{
-		Before += I < Place ? RunCounts[I] : 0u;
-		Total += RunCounts[I];
-	}
-	[[dont_unroll]] for (uint I = Place; I < Most && Before < TILE_TABLE_MOST; I += TILE_PIXELS)
-	{
-		uint Light = ProposeLight(Scene, View, Sources, I, Low, High, Stands);
-		if (Light == NoGuideLight) { continue; }
+		if ((Found & Bit) == 0u) { continue; }
+		uint Light = ProposeLight(Scene, View, Sources, I, Stands);
 #ifdef LIGHT_MASK
 		if (IsInMask(Light)) { Stands = 0.0; } // never chosen
 #endif
 		TableEntries[Before] = Light;
 		TableStands[Before++] = Stands;
 	}
-	if (Place == 0u) { TableCount = min(Total, TILE_TABLE_MOST); }
+	if (Place == 0u) { TableCount = min(uint(RunSums[TILE_PIXELS - 1u]), TILE_TABLE_MOST); }
 	barrier();
 }
 
@@ -235,28 +267,22 @@ void EstimateLights(FSceneConstants Scene, FViewConstants View, FRun Run, uint P
 	[[dont_unroll]] for (uint I = Run.Begin; I < Run.End; ++I)
 	{
 		uint Light = TableEntries[I];
-		float Visibility = 1.0, Bound = min(BoundEntry(Scene, Light, Low, High), 1.0e30);
-		if (CastsShadow(Scene, Light)) { Visibility = max(ExpectVisibility(View, Light), LeastVisibility); }
-		uint Packed = 0u;
+		float Visibility = CastsShadow(Scene, Light) ? max(ExpectVisibility(View, Light), LeastVisibility) : 1.0;
+		uint Packed = EstimateEntry(Scene, Light, Low, High, Cumulative[I]);
 		[[dont_unroll]] for (uint S = 0u; S < TileSamplers; ++S)
 		{
-			uint Byte = PackEstimate(EstimateEntry(Scene, Light, S));
-			Packed |= Byte << (8u * S);
-			Totals[S][Place] += UnpackEstimate(Byte) * (Visibility * TableStands[I]);
+			Totals[S][Place] += UnpackEstimate(Packed, S) * (Visibility * TableStands[I]);
 		}
-		Totals[TileSamplers][Place] += Bound * (Visibility * TableStands[I]);
+		Totals[TileSamplers][Place] += Cumulative[I] * (Visibility * TableStands[I]);
 		Estimates[I] = Packed;
-		Cumulative[I] = Bound;
 		TableEntries[I] = Light | (uint(Visibility * 255.0 + 0.5) << LIGHT_INDEX_BITS);
 	}
 	barrier();
-	if (Place <= TileSamplers)
+	[[dont_unroll]] for (uint Half = TILE_PIXELS / 2u; Half > 0u; Half >>= 1u)
 	{
-		float Sum = 0.0;
-		[[dont_unroll]] for (uint I = 0u; I < TILE_PIXELS; ++I) { Sum += Totals[Place][I]; }
-		Totals[Place][0] = Sum;
+		[[dont_unroll]] for (uint S = 0u; S <= TileSamplers && Place < Half; ++S) { Totals[S][Place] += Totals[S][Place + Half]; }
+		barrier();
 	}
-	barrier();
 }
 
 // Weighs lights: each sampler has the same say, however dark it is there, and so have bounds a part of it. Proposes lights for the
@@ -299,10 +325,8 @@ void MakeTable(FSceneConstants Scene, FViewConstants View, uint Place, vec3 Low,
 	uint Length = (TableCount + TILE_PIXELS - 1u) / TILE_PIXELS, Begin = min(Place * Length, TableCount);
 	FRun Run = FRun(Begin, min(Begin + Length, TableCount));
 	EstimateLights(Scene, View, Run, Place, Low, High);
-	RunSums[Place] = WeighLights(Scene, Run, GuideTileHash(TileIndex(View, gl_WorkGroupID.xy)));
-	barrier();
-	float Before = 0.0;
-	for (uint I = 0u; I < Place; ++I) { Before += RunSums[I]; }
+	SumUpTo(Place, WeighLights(Scene, Run, GuideTileHash(TileIndex(View, gl_WorkGroupID.xy))));
+	float Before = Place > 0u ? RunSums[Place - 1u] : 0.0;
 	[[dont_unroll]] for (uint I = Run.Begin; I < Run.End; ++I) { Cumulative[I] += Before; }
 	barrier();
 }

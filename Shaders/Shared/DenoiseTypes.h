@@ -13,11 +13,12 @@ LANTERN_SHARED_BEGIN
 struct FSurfaceConstants
 {
 	FPassConstants Pass;
-	uint Depth, Normals; // sampled indices
-	uint Motion;         // sampled index; NO_TEXTURE: objects are unknown
-	uint Output;         // storage index
+	uint Depth, Normals;  // sampled indices
+	uint Motion;          // sampled index; NO_TEXTURE: objects are unknown, and PreviousSurface is NO_TEXTURE as well
+	uint PreviousSurface; // sampled index; NO_TEXTURE: there is nothing to reproject
+	uint Output, OutReprojection; // storage indices
 };
-LANTERN_ASSERT_SIZE(FSurfaceConstants, 32);
+LANTERN_ASSERT_SIZE(FSurfaceConstants, 40);
 
 // Constants of Denoise/Temporal.comp. Inputs are sampled indices, outputs are storage indices.
 // A history of one channel holds the mean, one frame's noise (standard deviation), the frames that the mean is worth, and the
@@ -27,7 +28,7 @@ struct FTemporalConstants
 	FPassConstants Pass;
 	uint Signal; // a mean over the frame's rays
 	uint Surface;
-	uint Motion, PreviousSurface, History; // NO_TEXTURE, all three: nothing to reproject
+	uint Motion, PreviousSurface, Reprojection, History; // NO_TEXTURE, all four: nothing to reproject
 	uint Moments;                          // three channels only
 	// WITH_EXTENT only. x: width of the transition (penumbra), pixels; 0: unknown. y: rays of the pixel; 0 or absent: RaysPerPixel.
 	uint Extent;
@@ -47,7 +48,7 @@ struct FTemporalConstants
 	uint bViewChange;   // 1: it shows what was dropped of the history; 0: how much the history is worth
 	uint Change;        // three channels only: FDenoiseInputs::Change; NO_TEXTURE: nothing is known to have changed
 };
-LANTERN_ASSERT_SIZE(FTemporalConstants, 112);
+LANTERN_ASSERT_SIZE(FTemporalConstants, 120);
 
 // Constants of Denoise/Filter.comp.
 struct FFilterConstants

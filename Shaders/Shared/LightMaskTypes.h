@@ -22,7 +22,7 @@ struct FLightMaskConstants
 	uint CasterCount;
 	uint bChangesKnown; // 1: shadows have changed only where theirs fall, and on surfaces that move. 0: they may have anywhere
 	uint Surface;       // NO_TEXTURE: the frame stands alone
-	uint Motion, PreviousSurface, PreviousLights, PreviousMeans, PreviousCounts; // NO_TEXTURE, all five: nothing to reproject
+	uint Motion, Reprojection, PreviousLights, PreviousMeans, PreviousCounts; // NO_TEXTURE, all five: nothing to reproject
 	uint OutMeans;  // RG32_UINT: 8 × 8 bits
 	uint OutCounts; // R32_UINT: frames that a mean is worth, 8 × 4 bits
 	float MinAlpha; // least weight of a new frame, 0 to 1

@@ -16,7 +16,7 @@ struct FMoreRaysConstants
 	FAddress Widths;   // FShadowQueueConstants::SunWidths
 	uint Capacity;
 	uint Samples; // of each request
-	uint Surface, PreviousSurface, Motion; // sampled indices; NO_TEXTURE, the last two: no pixel has a history
+	uint Surface, Reprojection, Motion; // sampled indices; NO_TEXTURE, the last two: no pixel has a history
 	uint History; // sampled index, of the shadows that were filtered before (FTemporalConstants); NO_TEXTURE: there is none
 	FAddress Casters;   // FMovedCaster[CasterCount]: those that moved in the last frames
 	uint CasterCount;

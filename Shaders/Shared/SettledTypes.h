@@ -32,8 +32,8 @@ struct FSettledConstants
 	uint bAnywhere;   // 1: any shadow may have moved, and all tiles are traced in full
 	uint Turn;        // counts the view's frames
 	float RateDistance; // from which on fewer pixels are traced, metres; 0: all are
-	uint Surface, PreviousSurface, Motion; // sampled indices, see FTemporalConstants
-	uint Previous;                         // sampled index: history of the frame before; NO_TEXTURE, with PreviousSurface and Motion: none
+	uint Surface, Reprojection, Motion;    // sampled indices, see FTemporalConstants
+	uint Previous;                         // sampled index: history of the frame before; NO_TEXTURE, with Reprojection and Motion: none
 	uint Current;                          // storage index: history for the next frame; NO_TEXTURE: none, and no Surface
 	uint Pad;
 };

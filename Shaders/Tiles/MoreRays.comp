@@ -81,10 +81,10 @@ bool WasPenumbra(FReprojection R)
 // bBorder: rays of the neighbourhood differ.
 bool NeedsMore(FViewConstants View, ivec2 Pixel, bool bBorder)
 {
-	if (Push.PreviousSurface == NO_TEXTURE || bTouched != 0u) { return bBorder; }
+	if (Push.Reprojection == NO_TEXTURE || bTouched != 0u) { return bBorder; }
 	FSurface Surface = LoadSurface(Push.Surface, Pixel);
 	vec4 Motion = texelFetch(Textures[Push.Motion], Pixel, 0);
-	FReprojection R = Reproject(View, Push.PreviousSurface, uvec2(Pixel), Surface, Motion, -CameraRay(View, vec2(Pixel) + 0.5));
+	FReprojection R = LoadReprojection(Push.Reprojection, Pixel);
 	if (R.Coverage < LeastCoverage || MovedItself(View, Surface.Distance, uvec2(Pixel), Motion)) { return bBorder; }
 	// A history of the very same point needs no interpolation.
 	if (!any(greaterThan(R.Fraction * (1.0 - R.Fraction), vec2(1.0e-4)))) { return false; }

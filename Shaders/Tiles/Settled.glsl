@@ -38,7 +38,7 @@ uint Recall(FViewConstants View, FSettledConstants Settled, uvec2 Pixel, out uin
 	if (Settled.Previous != NO_TEXTURE)
 	{
 		vec4 Motion = texelFetch(Textures[Settled.Motion], ivec2(Pixel), 0);
-		FReprojection R = Reproject(View, Settled.PreviousSurface, Pixel, Surface, Motion, -CameraRay(View, vec2(Pixel) + 0.5));
+		FReprojection R = LoadReprojection(Settled.Reprojection, ivec2(Pixel));
 		float Best = 0.01; // a texel of less weight is there by rounding
 		uint Classes = 0u;
 		for (int Tap = 0; Tap < 4; ++Tap)

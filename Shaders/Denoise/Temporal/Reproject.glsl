@@ -1,5 +1,5 @@
 // Step "reproject" of the temporal filter: reads the accumulated signal where the pixel's surface was in the previous frame.
-//   Takes: the previous frame's images (Push.History, Push.Moments, Push.PreviousSurface) and the motion vector.
+//   Takes: the previous frame's images (Push.History, Push.Moments) and where the surface was in it (Push.Reprojection).
 //   Gives: FHistory. Frames is 0 if the surface was not seen.
 //   Why: the four nearest texels count only if they showed the same surface (Library/History.glsl), so that nothing leaks
 //   from one object to another. Variances add up, and so the numbers of frames have a harmonic mean.
@@ -29,9 +29,7 @@ FAccumulated LoadAccumulated(ivec2 Texel)
 FHistory ReprojectHistory(FViewConstants View, uvec2 Pixel, FSurface Surface)
 {
 	if (Push.History == NO_TEXTURE) { return NoHistory; }
-	vec3 ToCamera = -CameraRay(View, vec2(Pixel) + 0.5);
-	vec4 Motion = texelFetch(Textures[Push.Motion], ivec2(Pixel), 0);
-	FReprojection R = Reproject(View, Push.PreviousSurface, Pixel, Surface, Motion, ToCamera);
+	FReprojection R = LoadReprojection(Push.Reprojection, ivec2(Pixel));
 	FAccumulated Sum = NothingAccumulated; // Frames: sum of their inverses
 	float Weights = 0.0;
 	FSignalRange Range = FSignalRange(FSignal(MaxHalf), FSignal(0.0));
@@ -56,7 +54,7 @@ FHistory ReprojectHistory(FViewConstants View, uvec2 Pixel, FSurface Surface)
 	bool bResampled = any(greaterThan(R.Fraction * (1.0 - R.Fraction), vec2(1.0e-4)));
 	FHistory History = FHistory(Past, 0.0, bResampled, R.Base + ivec2(R.Fraction + 0.5));
 	// If all texels are equal, or the position is a texel's, interpolation is exact already.
-	if (bResampled && Range.Low != Range.High) { ResampleCubic(View, R, Surface, Range, History); }
+	if (bResampled && Range.Low != Range.High) { ResampleCubic(View, R, Pixel, Surface, Range, History); }
 	return History;
 }
 

@@ -26,15 +26,18 @@ float GetResamplingVariance(FSignalRange Range, FAccumulated Past)
 }
 
 // A texel that shows another surface counts as the bilinear mean. The result stays within Range: cubic weights overshoot.
-void ResampleCubic(FViewConstants View, FReprojection R, FSurface Surface, FSignalRange Range, inout FHistory History)
+void ResampleCubic(FViewConstants View, FReprojection R, uvec2 Pixel, FSurface Surface, FSignalRange Range, inout FHistory History)
 {
+	vec4 Motion = texelFetch(Textures[Push.Motion], ivec2(Pixel), 0);
+	FExpectedSurface Expected = ExpectSurface(View, Surface, Motion, -CameraRay(View, vec2(Pixel) + 0.5));
+	Expected.DistanceSlope *= 2.0; // texels are up to two pixels away
 	vec4 X = CubicWeights(R.Fraction.x), Y = CubicWeights(R.Fraction.y);
 	FSignal Sum = FSignal(0.0);
 	[[dont_unroll]] for (int Tap = 0; Tap < 16; ++Tap)
 	{
 		ivec2 P = clamp(R.Base + ivec2(Tap & 3, Tap >> 2) - 1, ivec2(0), ivec2(View.PreviousWidth, View.PreviousHeight) - 1);
 		vec4 H = texelFetch(Textures[Push.History], P, 0);
-		bool bSame = AreFinite(H) && IsSameSurface(Surface, LoadSurface(Push.PreviousSurface, P), R.ExpectedDistance, 2.0 * R.DistanceSlope);
+		bool bSame = AreFinite(H) && ShowedSurface(Expected, Push.PreviousSurface, P);
 		Sum += (bSame ? GetSignal(H) : History.Past.Mean) * (X[Tap & 3] * Y[Tap >> 2]);
 	}
 	History.ResamplingVariance = GetResamplingVariance(Range, History.Past);

@@ -87,7 +87,7 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 		}
 		if (bReproject)
 		{
-			for (const FGraphTexture Texture : {Surface.Motion, Surface.Previous, History.Previous})
+			for (const FGraphTexture Texture : {Surface.Motion, Surface.Previous, Surface.Reprojection, History.Previous})
 			{
 				Builder.Read(Texture, ERTAccess::ShaderRead);
 			}
@@ -120,6 +120,7 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 			C.Surface = GetSampledIndex(Pass, Surface.Current);
 			C.Motion = GetSampledIndex(Pass, bReproject ? Surface.Motion : FGraphTexture{});
 			C.PreviousSurface = GetSampledIndex(Pass, bReproject ? Surface.Previous : FGraphTexture{});
+			C.Reprojection = GetSampledIndex(Pass, bReproject ? Surface.Reprojection : FGraphTexture{});
 			C.History = GetSampledIndex(Pass, bReproject ? Kept.Previous : FGraphTexture{});
 			C.Moments = GetSampledIndex(Pass, bReproject ? KeptMoments.Previous : FGraphTexture{});
 			C.OutHistory = GetStorageIndex(Pass, Kept.Current);

@@ -1,6 +1,7 @@
 // Packs what pixels show, and keeps it for the next frame.
 #include "Denoise/SurfaceHistory.h"
 
+#include "Denoise/Denoise.h"
 #include "DenoiseTypes.h"
 #include "LanternCore/FrameGraph/History.h"
 #include "Motion/CameraMotion.h"
@@ -11,24 +12,30 @@ namespace Lantern
 
 namespace
 {
-FShaderSource MakeSurfaceSource() { return MakeComputeSource("Denoise/Surface.comp"); }
+FShaderSource MakeSurfaceSource() { return MakeComputeSource("Denoise/Surface.comp", MakeValidationDefines()); }
 
-void AddSurfacePass(FFrameContext& Context, const FSurfaceInputs& Inputs, IRTPipeline* Pipeline, FGraphTexture Output)
+/// Surface: all that the pass reads and writes.
+void AddSurfacePass(FFrameContext& Context, const FSurfaceInputs& Inputs, IRTPipeline* Pipeline, const FSurfaceTextures& Surface)
 {
 	const FPassConstants PassConstants = Context.Pass;
 	const uint32_t Width = Context.Width, Height = Context.Height;
+	const FGraphTexture Motion = Surface.Motion.IsValid() ? Surface.Motion : Inputs.Motion;
 	Context.Graph.AddPass("Surface", [&](FPassBuilder& Builder) -> FPassExecute {
-		Builder.Read(Inputs.Depth, ERTAccess::ShaderRead);
-		Builder.Read(Inputs.Normals, ERTAccess::ShaderRead);
-		if (Inputs.Motion.IsValid()) { Builder.Read(Inputs.Motion, ERTAccess::ShaderRead); }
-		Builder.Write(Output, ERTAccess::StorageWrite);
+		for (const FGraphTexture Texture : {Inputs.Depth, Inputs.Normals, Motion, Surface.Previous})
+		{
+			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+		}
+		Builder.Write(Surface.Current, ERTAccess::StorageWrite);
+		if (Surface.Reprojection.IsValid()) { Builder.Write(Surface.Reprojection, ERTAccess::StorageWrite); }
 		return [=](FPassContext& Pass) {
 			FSurfaceConstants C{};
 			C.Pass = PassConstants;
-			C.Depth = Pass.GetTexture(Inputs.Depth)->GetSampledIndex();
-			C.Normals = Pass.GetTexture(Inputs.Normals)->GetSampledIndex();
-			C.Motion = Inputs.Motion.IsValid() ? Pass.GetTexture(Inputs.Motion)->GetSampledIndex() : NO_TEXTURE;
-			C.Output = Pass.GetTexture(Output)->GetStorageIndex();
+			C.Depth = GetSampledIndex(Pass, Inputs.Depth);
+			C.Normals = GetSampledIndex(Pass, Inputs.Normals);
+			C.Motion = GetSampledIndex(Pass, Motion);
+			C.PreviousSurface = GetSampledIndex(Pass, Surface.Previous);
+			C.Output = GetStorageIndex(Pass, Surface.Current);
+			C.OutReprojection = GetStorageIndex(Pass, Surface.Reprojection);
 			Dispatch2D(Pass, Pipeline, C, Width, Height, DENOISE_GROUP_SIZE);
 		};
 	});
@@ -50,12 +57,17 @@ bool RequireSurface(FFrameContext& Context, const FSurfaceInputs& Inputs)
 		Context.Fail(S);
 		return false;
 	}
-	AddSurfacePass(Context, Inputs, Pipeline, Surface.Current);
-	Context.Surface.Current = Surface.Current;
-	if (!Surface.Previous.IsValid()) { return true; }
-	Context.Surface.Motion = Inputs.Motion.IsValid() ? Inputs.Motion : AddCameraMotionPass(Context, Inputs.Depth);
-	if (!Context.Surface.Motion.IsValid()) { return false; }
-	Context.Surface.Previous = Surface.Previous;
+	FSurfaceTextures Made;
+	Made.Current = Surface.Current;
+	if (Surface.Previous.IsValid())
+	{
+		Made.Motion = Inputs.Motion.IsValid() ? Inputs.Motion : AddCameraMotionPass(Context, Inputs.Depth);
+		if (!Made.Motion.IsValid()) { return false; }
+		Made.Previous = Surface.Previous;
+		Made.Reprojection = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RG32_UINT}, "Reprojection");
+	}
+	AddSurfacePass(Context, Inputs, Pipeline, Made);
+	Context.Surface = Made;
 	return true;
 }
 

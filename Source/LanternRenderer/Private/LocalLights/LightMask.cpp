@@ -25,7 +25,6 @@ FShaderSource MakeMaskSource(const FSceneFacts& Facts)
 	{
 		Defines.emplace_back("MASK_HISTORY", "1");
 		AddMaskOrderDefine(Defines);
-		for (const auto& Define : MakeValidationDefines()) { Defines.push_back(Define); }
 	}
 	return MakeComputeSource("LocalLights/Mask.comp", std::move(Defines));
 }
@@ -74,7 +73,8 @@ void Declare(
 		Builder.Keep(Texture);
 	}
 	if (!Mask.bReproject) { return; }
-	for (const FGraphTexture Texture : {Surface.Previous, Surface.Motion, Mask.Lights.Previous, Mask.Means.Previous, Mask.Counts.Previous})
+	for (const FGraphTexture Texture :
+	    {Surface.Reprojection, Surface.Motion, Mask.Lights.Previous, Mask.Means.Previous, Mask.Counts.Previous})
 	{
 		Builder.Read(Texture, ERTAccess::ShaderRead);
 	}
@@ -88,7 +88,7 @@ void SetHistory(FPassContext& Pass, const FFrameContext& Frame, const FMaskPass&
 	C.bChangesKnown = Mask.Changes.bKnown ? 1u : 0u;
 	C.Surface = Mask.bSurface ? GetSampledIndex(Pass, Frame.Surface.Current) : NO_TEXTURE;
 	C.Motion = Previous(Frame.Surface.Motion);
-	C.PreviousSurface = Previous(Frame.Surface.Previous);
+	C.Reprojection = Previous(Frame.Surface.Reprojection);
 	C.PreviousLights = Previous(Mask.Lights.Previous);
 	C.PreviousMeans = Previous(Mask.Means.Previous);
 	C.PreviousCounts = Previous(Mask.Counts.Previous);

@@ -17,7 +17,7 @@ TRTConsoleVariable<int32_t> CVarMoreRays("r.RT.Shadow.MoreRays", 8,
     "shadows. 0: none.",
     {0, 32});
 
-FShaderSource MakeSource() { return MakeComputeSource("Tiles/MoreRays.comp", MakeValidationDefines()); }
+FShaderSource MakeSource() { return MakeComputeSource("Tiles/MoreRays.comp"); }
 
 bool IsSameView(const FView& A, const FView& B)
 {
@@ -35,7 +35,7 @@ void AddAskPass(FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue& 
 	Context.Graph.AddPass((More.Name + "Ask").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		for (const FGraphBuffer Buffer : {Tiles, More.Answers, More.SunWidths}) { Builder.Read(Buffer, ERTAccess::ShaderRead); }
 		Builder.Read(Surface.Current, ERTAccess::ShaderRead);
-		for (const FGraphTexture Texture : {Surface.Previous, Surface.Motion})
+		for (const FGraphTexture Texture : {Surface.Reprojection, Surface.Motion})
 		{
 			if (bPrevious) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
@@ -57,7 +57,7 @@ void AddAskPass(FFrameContext& Context, IRTPipeline* Pipeline, const FRayQueue& 
 			C.CasterCount = Changes.CasterCount;
 			C.CasterSpread = Changes.Spread;
 			C.Surface = GetSampledIndex(Pass, Surface.Current);
-			C.PreviousSurface = GetSampledIndex(Pass, bPrevious ? Surface.Previous : FGraphTexture{});
+			C.Reprojection = GetSampledIndex(Pass, bPrevious ? Surface.Reprojection : FGraphTexture{});
 			C.Motion = GetSampledIndex(Pass, bPrevious ? Surface.Motion : FGraphTexture{});
 			C.History = GetSampledIndex(Pass, History);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);

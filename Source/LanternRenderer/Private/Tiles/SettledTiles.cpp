@@ -107,7 +107,7 @@ void DeclareSettled(FPassBuilder& Builder, const FFrameContext& Context, const F
 	Builder.Write(Settled.Known.Current, ERTAccess::StorageWrite);
 	Builder.Keep(Settled.Known.Current);
 	if (!Settled.Known.Previous.IsValid()) { return; }
-	for (const FGraphTexture Texture : {Context.Surface.Previous, Context.Surface.Motion, Settled.Known.Previous})
+	for (const FGraphTexture Texture : {Context.Surface.Reprojection, Context.Surface.Motion, Settled.Known.Previous})
 	{
 		Builder.Read(Texture, ERTAccess::ShaderRead);
 	}
@@ -119,7 +119,7 @@ FAddress WriteSettled(FPassContext& Pass, const FFrameContext& Context, const FS
 	const bool bPrevious = Settled.Known.Previous.IsValid();
 	FSettledConstants C = Settled.Values;
 	C.Surface = GetSampledIndex(Pass, Settled.Known.Current.IsValid() ? Context.Surface.Current : FGraphTexture{});
-	C.PreviousSurface = GetSampledIndex(Pass, bPrevious ? Context.Surface.Previous : FGraphTexture{});
+	C.Reprojection = GetSampledIndex(Pass, bPrevious ? Context.Surface.Reprojection : FGraphTexture{});
 	C.Motion = GetSampledIndex(Pass, bPrevious ? Context.Surface.Motion : FGraphTexture{});
 	C.Previous = GetSampledIndex(Pass, Settled.Known.Previous);
 	C.Current = GetStorageIndex(Pass, Settled.Known.Current);

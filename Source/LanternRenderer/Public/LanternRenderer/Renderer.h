@@ -138,6 +138,8 @@ struct FSurfaceTextures
 	FGraphTexture Current;  ///< RG32_FLOAT, see Shaders/Library/History.glsl
 	FGraphTexture Previous; ///< Current of the frame before; invalid: there is none
 	FGraphTexture Motion;   ///< as in FGBuffer; invalid where Previous is
+	/// RG32_UINT: where each surface was in the frame before, see Shaders/Library/History.glsl. Invalid where Previous is.
+	FGraphTexture Reprojection;
 };
 
 /// Lights by place in the world, for passes that walk them (Lights/LightCells.h). The first pass that asks makes them.
