@@ -131,6 +131,8 @@ vec4 FollowEmitters(FSceneConstants Scene, FViewConstants View, FLampChangesRef 
 }
 #endif
 
+const float OtherLampError = 4.0; // variance of how visible a new lamp is, in squares of what is expected
+
 vec4 FollowPixel(FSceneConstants Scene, FViewConstants View, FLampChangesRef List, uint Count, uint Emitters, uvec2 Pixel, float Depth)
 {
 	FLocalPoint Point = LoadLocalPoint(Scene, View, Push.Normals, Pixel, Depth);
@@ -147,6 +149,7 @@ vec4 FollowPixel(FSceneConstants Scene, FViewConstants View, FLampChangesRef Lis
 		FLightData Now = LoadLamp(Scene, Change.Light);
 		vec3 More = BringsTo(Scene, View, Point, Local, Roughness, Change.Light, Now, U) - BringsTo(Scene, View, Point, Local, Roughness, Change.Light, Change.Before, U);
 		if (((Now.Flags | Change.Before.Flags) & LIGHT_CASTS_SHADOW) == 0u) { Known = vec2(1.0, 0.0); }
+		if (Now.Number != Change.Before.Number) { Known.y += OtherLampError * Known.x * Known.x; } // what was seen is of the former lamp
 		float Brightness = Luminance(More);
 		Sum += vec4(More * Known.x, Brightness * Brightness * Known.y);
 	}

@@ -115,7 +115,7 @@ TEST_F(FLightIdentityTest, SwappedLampsBringWhatTheyBrought)
 	SetVariable("r.RT.Lights.Denoise", "0");
 	const double Raw = Play();
 	EXPECT_NEAR(Raw, 1.0, Tolerance);
-	// Lamps that change in each frame leave the filter no history, and single frames lose their mean to its spatial part: Performance.md.
+	// Nobody knows how visible a lamp is that came into a slot, and histories keep some of what was guessed: Performance.md.
 	SetVariable("r.RT.Lights.Denoise", "1");
 	PrintFigure(fmt::format("swapped lamps over the reference: raw {:.5f}, filtered {:.5f}", Raw, Play()));
 	SetVariable("r.RT.Lights.Denoise", "0");
