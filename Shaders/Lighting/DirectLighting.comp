@@ -107,7 +107,13 @@ vec3 ShadeIndirect(FSceneConstants Scene, ivec2 Pixel, FBrdf Brdf, FGBufferPoint
 	Surroundings = GuessSurroundings(Scene, SkyAmbient(Scene, Push.SkyLight, Point.BentN), Visibility) * Material.y;
 #endif
 	vec3 Diffuse = mix(Surroundings, Ambient, Visibility);
-	if (Push.IndirectDiffuse != NO_TEXTURE) { Diffuse = texelFetch(Textures[Push.IndirectDiffuse], Pixel, 0).rgb; }
+	if (Push.IndirectDiffuse != NO_TEXTURE)
+	{
+		// Where no reflection is traced, the specular lobe sees the sky as far as indirect light says that it is open, and that light elsewhere.
+		Diffuse = Surroundings = texelFetch(Textures[Push.IndirectDiffuse], Pixel, 0).rgb;
+		Visibility = clamp(Luminance(Diffuse) / max(Luminance(Ambient), 1.0e-30), 0.0, 1.0);
+		Visibility = MaxComponent(Mirrored) > 0.0 ? Visibility : 0.0;
+	}
 	vec4 Specular = Push.IndirectSpecular != NO_TEXTURE ? texelFetch(Textures[Push.IndirectSpecular], Pixel, 0) : vec4(0.0);
 	if (Specular.a <= 0.0)
 	{
