@@ -96,6 +96,7 @@ void FSignalTest::ExpectUnbiased(
 
 void FSignalTest::SetIndirect(int32_t Samples, int32_t Bounces)
 {
+	SetVariable("r.RT.GI.Denoise", "0");
 	for (const char* Pass : {"r.RT.GI", "r.RT.Reflections"})
 	{
 		SetVariable(Pass, "1");
