@@ -195,11 +195,12 @@ protected:
 		const FRTStatus Status = Render();
 		return Status ? Renderer->EndFrame(nullptr) : Status;
 	}
-	/// Renders until some pass traces, and returns the scene as its shaders see it.
+	/// Renders until some pass traces and no shader is missing, and returns the scene as its shaders see it.
 	FSceneConstants ReadConstants(const FRTModuleFrame& From)
 	{
 		FSceneConstants Out{};
 		const auto Find = [&] {
+			if (!Outputs.bShadersReady) { return false; } // emissive triangles, for one, come with a shader of their own
 			for (const ERTMockCall Kind : {ERTMockCall::TraceRays, ERTMockCall::Dispatch})
 			{
 				for (const FRTMockCall& Call : Mock().FindCalls(Kind))
