@@ -26,7 +26,8 @@ enum EExit
 struct FOptions
 {
 	std::string Plugin = "Plugin.json", LibraryFolder = ".", Pictures;
-	FSettings Settings = {{"r.RT.GI", "1"}}; // for those frames that want it
+	// For those frames that want it. A history would bring some of the lamp that was before.
+	FSettings Settings = {{"r.RT.GI", "1"}, {"r.RT.GI.Denoise", "0"}};
 	glm::dvec3 Offset{0};
 	int Rounds = 1;
 };

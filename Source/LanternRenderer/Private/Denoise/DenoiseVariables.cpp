@@ -46,7 +46,7 @@ struct FDenoiseVariables::FVariables
 		}
 		if (Defaults.bColor)
 		{
-			ClampSigma.emplace(Prefix + ".ClampSigma", Common.ClampSigma,
+			ClampSigma.emplace(Prefix + ".ClampSigma", Defaults.ClampSigma,
 			    "Accumulated colours stay within the neighbourhood's mean, plus or minus this many standard deviations. 0: no limit.",
 			    FRTCVarRange{0.0, 100.0});
 		}

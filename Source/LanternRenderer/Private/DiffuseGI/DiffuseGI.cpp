@@ -16,7 +16,8 @@ TRTConsoleVariable<int32_t> CVarBounces("r.RT.GI.Bounces", 1,
     "Number of surfaces that may reflect light before it reaches the one that is lit. The reference of as many bounces has one "
     "scattering event more, the last.",
     {1, 4});
-const FDenoiseVariables Denoise("r.RT.GI", FDenoiseDefaults{.bColor = true});
+// Where one path in a hundred finds a lamp, most neighbourhoods are dark in a frame, and a clamp to them would lose its light.
+const FDenoiseVariables Denoise("r.RT.GI", FDenoiseDefaults{.bColor = true, .ClampSigma = 0.0f});
 constexpr FBruteForcePass BruteForce{ESignal::DiffuseGI, CVarEnable, CVarSamples, CVarBounces};
 } // namespace
 
