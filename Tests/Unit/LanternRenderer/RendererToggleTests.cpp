@@ -283,6 +283,7 @@ TEST_F(FRendererToggleTest, ReorderingIsForMaterialShadersOfDevicesThatCan)
 TEST_F(FRendererToggleTest, FilterReadsOnlyPenumbraeThatAreWritten)
 {
 	Set("r.RT.Shadow.Path", "1");
+	Set("r.RT.Shadow.MoreRays", "0"); // whose trace a frame may have as well, as soon as their shader is there
 	Set("r.RT.Shadow.Denoise", "0");
 	LoadAndRender({});
 	Engine->bRealTime = true;
