@@ -71,7 +71,8 @@ struct FReprojection
 	vec2 Fraction;  // position between the texels, 0 to 1
 };
 
-ivec2 GetTap(FReprojection R, int Tap) { return R.Base + ivec2(Tap & 1, Tap >> 1); }
+ivec2 GetTap(ivec2 Base, int Tap) { return Base + ivec2(Tap & 1, Tap >> 1); }
+ivec2 GetTap(FReprojection R, int Tap) { return GetTap(R.Base, Tap); }
 
 const FReprojection NotSeen = FReprojection(ivec2(0), vec4(0.0), 0.0, vec2(0.0));
 
@@ -104,10 +105,10 @@ struct FExpectedSurface
 	float DistanceSlope; // its change from one pixel to the next, metres
 };
 
-// Motion: a texel of FGBuffer::Motion. ToCamera: direction from the surface to the camera, unit length.
-FExpectedSurface ExpectSurface(FViewConstants View, FSurface Now, vec4 Motion, vec3 ToCamera)
+// Motion: a texel of FGBuffer::Motion.
+FExpectedSurface ExpectSurface(FViewConstants View, uvec2 Pixel, FSurface Now, vec4 Motion)
 {
-	float Cosine = max(abs(dot(Now.Normal, ToCamera)), 0.03);
+	float Cosine = max(abs(dot(Now.Normal, CameraRay(View, vec2(Pixel) + 0.5))), 0.03);
 	return FExpectedSurface(Now, Motion.z, PixelHeight(View, Motion.z) * sqrt(1.0 - min(Cosine * Cosine, 1.0)) / Cosine);
 }
 
@@ -132,11 +133,11 @@ uvec2 FindReprojection(FViewConstants View, uint PreviousSurface, uvec2 Pixel, F
 	if (any(lessThan(Position, vec2(-1.0))) || any(greaterThan(Position, Size))) { return uvec2(0u); }
 	Position = floor(Position * ReprojectionSteps + 0.5) / ReprojectionSteps;
 	ivec2 Base = ivec2(floor(Position));
-	FExpectedSurface Expected = ExpectSurface(View, Now, Motion, -CameraRay(View, vec2(Pixel) + 0.5));
+	FExpectedSurface Expected = ExpectSurface(View, Pixel, Now, Motion);
 	uint Taps = 0u;
 	for (int Tap = 0; Tap < 4; ++Tap)
 	{
-		ivec2 P = Base + ivec2(Tap & 1, Tap >> 1);
+		ivec2 P = GetTap(Base, Tap);
 		bool bInside = all(greaterThanEqual(P, ivec2(0))) && all(lessThan(P, ivec2(Size)));
 		if (bInside && ShowedSurface(Expected, PreviousSurface, P)) { Taps |= 1u << Tap; }
 	}

@@ -111,8 +111,7 @@ vec3 ShadeIndirect(FSceneConstants Scene, ivec2 Pixel, FBrdf Brdf, FGBufferPoint
 	{
 		// Where no reflection is traced, the specular lobe sees the sky as far as indirect light says that it is open, and that light elsewhere.
 		Diffuse = Surroundings = texelFetch(Textures[Push.IndirectDiffuse], Pixel, 0).rgb;
-		Visibility = clamp(Luminance(Diffuse) / max(Luminance(Ambient), 1.0e-30), 0.0, 1.0);
-		Visibility = MaxComponent(Mirrored) > 0.0 ? Visibility : 0.0;
+		Visibility = MaxComponent(Mirrored) > 0.0 ? clamp(Luminance(Diffuse) / max(Luminance(Ambient), 1.0e-30), 0.0, 1.0) : 0.0;
 	}
 	vec4 Specular = Push.IndirectSpecular != NO_TEXTURE ? texelFetch(Textures[Push.IndirectSpecular], Pixel, 0) : vec4(0.0);
 	if (Specular.a <= 0.0)

@@ -1,7 +1,8 @@
 // What the engine's lamp must bring: by indirect light, by the plugin's own direct light, and by the engine's with the light mask.
 #include <cmath>
 #include <cstdio>
-#include <utility>
+#include <optional>
+#include <vector>
 
 #include <glm/gtc/packing.hpp>
 
@@ -15,6 +16,14 @@ using namespace Lantern;
 
 namespace
 {
+
+/// Ends the lamp, whatever a check has found.
+FError RemoveLamp(FJudge& Judge, const FError& Found)
+{
+	Judge.Scene.LampIntensity = Judge.Scene.LampWidth = 0.0;
+	const FError Error = Judge.Engine.GetPlugin().SetLamp(Judge.Scene);
+	return Found.empty() ? Error : Found;
+}
 
 /// Mean light with the lamp at an intensity.
 FError MeasureLamp(FJudge& Judge, double Intensity, double& Out)
@@ -51,8 +60,7 @@ FError CheckLamp(FJudge& Judge)
 	Judge.Scene.LampChannels = 2;
 	if (Error.empty()) { Error = MeasureLamp(Judge, Intensities[0], OffChannel); }
 	Judge.Scene.LampChannels = 1;
-	Judge.Scene.LampIntensity = 0.0;
-	if (Error.empty()) { Error = Judge.Engine.GetPlugin().SetLamp(Judge.Scene); }
+	Error = RemoveLamp(Judge, Error);
 	Wanted.Remove(ESignal::DiffuseGI);
 	if (!Error.empty()) { return Error; }
 	const double Once = Light[0] - Light[2], Twice = Light[1] - Light[2];
@@ -66,14 +74,6 @@ FError CheckLamp(FJudge& Judge)
 
 namespace
 {
-
-/// Ends the lamp, whatever a check has found.
-FError RemoveLamp(FJudge& Judge, const FError& Found)
-{
-	Judge.Scene.LampIntensity = Judge.Scene.LampWidth = 0.0;
-	const FError Error = Judge.Engine.GetPlugin().SetLamp(Judge.Scene);
-	return Found.empty() ? Error : Found;
-}
 
 constexpr uint32_t Stride = 16; // pixels between those that CheckSquareLamp asks
 

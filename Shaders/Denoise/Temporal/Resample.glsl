@@ -28,8 +28,7 @@ float GetResamplingVariance(FSignalRange Range, FAccumulated Past)
 // A texel that shows another surface counts as the bilinear mean. The result stays within Range: cubic weights overshoot.
 void ResampleCubic(FViewConstants View, FReprojection R, uvec2 Pixel, FSurface Surface, FSignalRange Range, inout FHistory History)
 {
-	vec4 Motion = texelFetch(Textures[Push.Motion], ivec2(Pixel), 0);
-	FExpectedSurface Expected = ExpectSurface(View, Surface, Motion, -CameraRay(View, vec2(Pixel) + 0.5));
+	FExpectedSurface Expected = ExpectSurface(View, Pixel, Surface, texelFetch(Textures[Push.Motion], ivec2(Pixel), 0));
 	Expected.DistanceSlope *= 2.0; // texels are up to two pixels away
 	vec4 X = CubicWeights(R.Fraction.x), Y = CubicWeights(R.Fraction.y);
 	FSignal Sum = FSignal(0.0);

@@ -31,7 +31,7 @@ struct FDenoiseDefaults
 	uint32_t Passes = 4;
 	bool bExtent = false; ///< the signal comes with extents: <Prefix>.FilterReach exists
 	bool bColor = false;  ///< the signal is a colour: <Prefix>.ClampSigma exists
-	float ClampSigma = 7.0f;
+	float ClampSigma = FDenoiseSettings().ClampSigma;
 };
 
 /// Static storage; the variables register themselves. Reads are for the render thread.
