@@ -39,14 +39,15 @@ protected:
 
 	struct FFrameCase
 	{
-		bool bKeep = true;   ///< else a cut
+		bool bKeep = true; ///< else a cut
+		bool bKeepWorld = false;
 		bool bSubmit = true; ///< else the frame is lost
 	};
 	/// One frame, with the passes that AddPasses adds.
 	void Frame(const std::function<void(FFrameGraph&)>& AddPasses, FFrameCase Case)
 	{
 		FFrameGraph Graph(*Resources);
-		History->BeginFrame(Graph, Case.bKeep);
+		History->BeginFrame(Graph, Case.bKeep, Case.bKeepWorld);
 		AddPasses(Graph);
 		TRTRef<IRTCommandList>& List = Lists.emplace_back();
 		ASSERT_TRUE(Device->CreateCommandList("Frame", List.ReleaseAndGetAddress()));
@@ -71,10 +72,10 @@ protected:
 		EXPECT_TRUE(Status) << Status.Message;
 		return Out;
 	}
-	FHistoryBuffer GetBuffer(const char* Name = "Cache", uint64_t Size = 64)
+	FHistoryBuffer GetBuffer(const char* Name = "Cache", uint64_t Size = 64, EHistoryScope Scope = EHistoryScope::View)
 	{
 		FHistoryBuffer Out;
-		const FRTStatus Status = History->GetBuffer(Name, {Size, ERTBufferUsage::CopySource}, Out);
+		const FRTStatus Status = History->GetBuffer(Name, {Size, ERTBufferUsage::CopySource}, Out, Scope);
 		EXPECT_TRUE(Status) << Status.Message;
 		return Out;
 	}

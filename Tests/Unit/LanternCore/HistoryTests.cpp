@@ -318,6 +318,27 @@ TEST_F(FHistoryTest, ACacheIsFreshUntilItIsWrittenAndKeepsItsContent)
 	EXPECT_EQ(History->GetBytes(), 0u);
 }
 
+TEST_F(FHistoryTest, ACacheOfTheWorldOutlivesACutAndNotTheWorld)
+{
+	bool bFresh = false;
+	const auto Use = [&](FFrameCase Case, EHistoryScope Scope) {
+		Frame(
+		    [&](FFrameGraph& Graph) {
+			const FHistoryBuffer Cache = GetBuffer("Cache", 64, Scope);
+			bFresh = Cache.bFresh;
+			AddWriter(Graph, Cache.Buffer, 1);
+			AddReader(Graph, Cache.Buffer);
+		    },
+		    Case);
+		return bFresh;
+	};
+	Use({}, EHistoryScope::World);
+	EXPECT_FALSE(Use({.bKeep = false, .bKeepWorld = true}, EHistoryScope::World));
+	EXPECT_TRUE(Use({.bKeep = false}, EHistoryScope::World)) << "another world";
+	Use({}, EHistoryScope::View);
+	EXPECT_TRUE(Use({.bKeep = false, .bKeepWorld = true}, EHistoryScope::View)) << "the view's own";
+}
+
 TEST_F(FHistoryTest, ACacheOfAnotherSizeIsFresh)
 {
 	for (const uint64_t Size : {64u, 64u, 128u})

@@ -38,6 +38,7 @@ struct FKeptBuffer : FKept
 {
 	FGraphBufferDesc Desc;
 	TRTRef<IRTBuffer> Buffer;
+	EHistoryScope Scope = EHistoryScope::View;
 	bool bRests = false;
 };
 
@@ -150,12 +151,12 @@ FRTStatus Use(TMap& Items, const char* Name, const TDesc& Desc, const TCreate& C
 FHistoryResources::FHistoryResources(IRTDevice& Device) : Impl(std::make_unique<FImpl>(Device)) {}
 FHistoryResources::~FHistoryResources() = default;
 
-void FHistoryResources::BeginFrame(FFrameGraph& Graph, bool bKeep)
+void FHistoryResources::BeginFrame(FFrameGraph& Graph, bool bKeep, bool bKeepWorld)
 {
 	assert(!Impl->Graph && "EndFrame was not called");
 	Impl->Graph = &Graph;
 	for (auto& [Name, Pair] : Impl->Textures) { Pair.bValid &= bKeep; }
-	for (auto& [Name, Kept] : Impl->Buffers) { Kept.bValid &= bKeep; }
+	for (auto& [Name, Kept] : Impl->Buffers) { Kept.bValid &= bKeep || (bKeepWorld && Kept.Scope == EHistoryScope::World); }
 }
 
 FRTStatus FHistoryResources::GetTexture(const char* Name, const FGraphTextureDesc& Desc, FHistoryTexture& Out)
@@ -190,13 +191,14 @@ FRTStatus FHistoryResources::GetTexture(const char* Name, const FGraphTextureDes
 	return FRTStatus::Success();
 }
 
-FRTStatus FHistoryResources::GetBuffer(const char* Name, const FGraphBufferDesc& Desc, FHistoryBuffer& Out)
+FRTStatus FHistoryResources::GetBuffer(const char* Name, const FGraphBufferDesc& Desc, FHistoryBuffer& Out, EHistoryScope Scope)
 {
 	assert(Impl->Graph && "between BeginFrame and EndFrame");
 	Out = {};
 	FKeptBuffer* Kept = nullptr;
 	const auto Create = [&](FKeptBuffer& Made) { return Impl->Create(Name, Made); };
 	if (FRTStatus S = Use(Impl->Buffers, Name, Desc, Create, Kept); !S) { return S; }
+	Kept->Scope = Scope;
 	FFrameGraph& Graph = *Impl->Graph;
 	Out.bFresh = !Kept->bValid;
 	Out.Buffer = Graph.ImportBuffer(Kept->Buffer.Get(), Kept->bRests ? RestingAccess : ERTAccess::None, RestingAccess, Name);

@@ -34,8 +34,14 @@ struct FHistoryTexture
 struct FHistoryBuffer
 {
 	FGraphBuffer Buffer;
-	/// True if nothing was written since its creation or a cut: the content is undefined and must be written wholly.
+	/// True if nothing was written since its creation or, of a view's, a cut: the content is undefined and must be written wholly.
 	bool bFresh = false;
+};
+
+enum class EHistoryScope : uint8_t
+{
+	View,  ///< a cut ends it
+	World, ///< a cache of what the scene holds, wherever the camera is
 };
 
 class FHistoryResources
@@ -46,14 +52,14 @@ public:
 	FHistoryResources(const FHistoryResources&) = delete;
 	FHistoryResources& operator=(const FHistoryResources&) = delete;
 
-	/// bKeep: false invalidates the content of all histories but keeps their memory (a cut).
-	void BeginFrame(FFrameGraph& Graph, bool bKeep);
+	/// bKeep: false invalidates the content of all histories but keeps their memory (a cut). bKeepWorld: those of the world keep it.
+	void BeginFrame(FFrameGraph& Graph, bool bKeep, bool bKeepWorld = false);
 	/// Returns the history of this name, once a frame. Another format starts anew. Fails if there is no memory; the
 	/// pass must then be left out. The textures may be sampled, stored to and copied to; ExtraUsage adds to that. Takes the
 	/// memory of two textures.
 	FRTStatus GetTexture(const char* Name, const FGraphTextureDesc& Desc, FHistoryTexture& Out);
 	/// Returns the cache of this name. It keeps its content in frames that do not write it or do not ask for it.
-	FRTStatus GetBuffer(const char* Name, const FGraphBufferDesc& Desc, FHistoryBuffer& Out);
+	FRTStatus GetBuffer(const char* Name, const FGraphBufferDesc& Desc, FHistoryBuffer& Out, EHistoryScope Scope = EHistoryScope::View);
 	/// Call after the graph was executed. bSubmitted false: the frame never runs, so that its writes do not count. Frees what
 	/// no frame asked for in the last KeepFrames frames, once the GPU is done with it.
 	void EndFrame(bool bSubmitted);
