@@ -3,7 +3,7 @@
 #define LANTERN_FILL_FROM_TILE_GLSL
 
 #include "LocalPoint.glsl"
-#include "Planes.glsl"
+#include "../Library/Planes.glsl"
 
 shared uint OfferedLobes[TILE_PIXELS][3];
 

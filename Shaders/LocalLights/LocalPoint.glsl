@@ -7,7 +7,7 @@
 #include "../Library/GBuffer.glsl"
 #include "../Library/Lights.glsl"
 #include "../Library/Random.glsl"
-#include "Rate.glsl"
+#include "../Library/Rate.glsl"
 #ifdef LOCAL_EMISSIVE
 #include "../Library/EmissionShare.glsl"
 #include "Emitters.glsl"

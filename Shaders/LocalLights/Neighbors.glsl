@@ -5,7 +5,7 @@
 
 #include "../Rays/RayQueue.glsl"
 #include "LocalPoint.glsl"
-#include "Planes.glsl"
+#include "../Library/Planes.glsl"
 
 const uint SlotAnswer = (1u << ANSWER_LOCAL_SEEN) | (1u << ANSWER_LOCAL_TRACED); // of the first slot
 

@@ -176,7 +176,7 @@ void DropDim(FViewConstants View, uvec2 Pixel, uint Which, inout FLightChoice Ch
 
 #ifdef MANY_LIGHTS
 #ifdef SPARSE
-#include "Planes.glsl"
+#include "../Library/Planes.glsl"
 
 // Returns whether the pixel chooses a light in this frame: it has its turn, or no neighbour of its tile can stand for it. All threads.
 bool Chooses(FViewConstants View, FLocalPoint Point, bool bSurface, uint Place)

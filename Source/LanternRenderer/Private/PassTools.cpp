@@ -18,6 +18,28 @@ TRTConsoleVariable<bool> CVarLightEmission("r.RT.Debug.Lights.LightEmission", tr
     "Planted fault. Off: materials light with what cameras see of them, whatever their second emission is.");
 } // namespace
 
+namespace
+{
+constexpr std::pair<EPixelRate, const char*> RateDefines[] = {{EPixelRate::Checkerboard, "CHECKERBOARD"}, {EPixelRate::Quarter, "QUARTER"}};
+} // namespace
+
+void AddRateDefine(EPixelRate Rate, FShaderDefines& InOut)
+{
+	for (const auto& [Of, Name] : RateDefines)
+	{
+		if (Of == Rate) { InOut.emplace_back(Name, "1"); }
+	}
+}
+
+EPixelRate FindRate(const FShaderDefines& Defines)
+{
+	for (const auto& [Rate, Name] : RateDefines)
+	{
+		if (std::any_of(Defines.begin(), Defines.end(), [Of = Name](const auto& Define) { return Define.first == Of; })) { return Rate; }
+	}
+	return EPixelRate::Full;
+}
+
 bool IsRayTracingEnabled() { return CVarEnable.GetOnRenderThread(); }
 
 FShaderSource MakeComputeSource(std::string Path, FShaderDefines Defines)

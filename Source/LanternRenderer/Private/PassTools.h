@@ -54,6 +54,18 @@ uint32_t GetStorageIndex(FPassContext& Pass, FGraphTexture Texture);
 /// Returns a buffer's address for shaders, or 0 if it is invalid.
 FAddress GetAddress(FPassContext& Pass, FGraphBuffer Buffer);
 
+/// Which pixels trace in a frame: Shaders/Library/Rate.glsl.
+enum class EPixelRate : uint8_t
+{
+	Full,
+	Checkerboard, ///< every other pixel, in turn
+	Quarter,      ///< one of four, in turn
+};
+/// Adds the define of shaders that run at a rate.
+void AddRateDefine(EPixelRate Rate, FShaderDefines& InOut);
+/// Returns the rate of shaders with these defines.
+EPixelRate FindRate(const FShaderDefines& Defines);
+
 /// r.RT.Enable.
 bool IsRayTracingEnabled();
 

@@ -20,7 +20,7 @@ TRTConsoleVariable<bool> CVarMaskOrder("r.RT.Debug.Lights.MaskOrder", true,
 FShaderSource MakeMaskSource(const FSceneFacts& Facts)
 {
 	FShaderDefines Defines;
-	AddLightRateDefines(Defines);
+	AddRateDefine(GetLightRate(), Defines);
 	if (IsLightMaskAccumulated(Facts))
 	{
 		Defines.emplace_back("MASK_HISTORY", "1");

@@ -182,7 +182,7 @@ bool AskLocalRays(FFrameContext& Context, const FRayDispatch& Dispatch, FShadowR
 	const bool bMany = MayChooseLights(Context.Facts, Exact);
 	// A variant from before a change may lack what the lights of now need.
 	if (!Dispatch.Has("LOCAL_RAYS") || (bMany && !Dispatch.Has("MANY_LIGHTS"))) { return false; }
-	if (!HasLightRate(Dispatch)) { return false; }
+	if (FindRate(Dispatch.Defines) != GetLightRate()) { return false; }
 	if (Context.Facts.bAreaLights && !Dispatch.Has("HAS_AREA_LIGHTS")) { return false; }
 	if (HasEmitters(Context.Facts) && !Dispatch.Has("LOCAL_EMISSIVE")) { return false; }
 	if (!AreLocalRequestsReady(Context, Exact) || !IsLightMaskReady(Context)) { return false; }

@@ -66,7 +66,7 @@ FShaderSource MakeRequestsSource(const FSceneFacts& Facts, uint32_t Exact)
 FShaderSource MakeShareSource()
 {
 	FShaderDefines Defines;
-	AddLightRateDefines(Defines);
+	AddRateDefine(GetLightRate(), Defines);
 	return MakeComputeSource("LocalLights/ShareRequests.comp", std::move(Defines));
 }
 
@@ -216,7 +216,7 @@ FShaderDefines MakeLocalDefines(FSceneFacts Facts, uint32_t Exact)
 	Facts.bSun = Facts.bSky = Facts.bMasked = false; // nothing of it reaches these shaders
 	FShaderDefines Defines = MakeFactDefines(Facts);
 	if (bMany) { Defines.emplace_back("MANY_LIGHTS", "1"); }
-	AddLightRateDefines(Defines);
+	AddRateDefine(GetLightRate(), Defines);
 	AddEmitterDefines(Facts, Defines);
 	return Defines;
 }

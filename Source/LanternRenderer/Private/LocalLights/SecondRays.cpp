@@ -17,12 +17,6 @@ TRTConsoleVariable<int32_t> CVarRate("r.RT.Lights.Rate", 0,
 TRTConsoleVariable<bool> CVarSecondRay("r.RT.Debug.Lights.SecondRay", true,
     "Planted fault. If off, a pixel takes the mean of neighbours that disagree about a lamp, and asks for no second ray.");
 
-/// By the rate. Null: it has none.
-const char* GetDefine(ELightRate Rate)
-{
-	return Rate == ELightRate::Checkerboard ? "CHECKERBOARD" : Rate == ELightRate::Quarter ? "QUARTER" : nullptr;
-}
-
 void AddAskPass(FFrameContext& Context, const FGBuffer& GBuffer, const FRayQueue& Second, FGraphBuffer TileLights, IRTPipeline* Pipeline)
 {
 	const FFrameContext* const Frame = &Context;
@@ -48,23 +42,9 @@ void AddAskPass(FFrameContext& Context, const FGBuffer& GBuffer, const FRayQueue
 }
 } // namespace
 
-ELightRate GetLightRate() { return static_cast<ELightRate>(CVarRate.GetOnRenderThread()); }
+EPixelRate GetLightRate() { return static_cast<EPixelRate>(CVarRate.GetOnRenderThread()); }
 
-void AddLightRateDefines(FShaderDefines& Defines)
-{
-	if (const char* const Define = GetDefine(GetLightRate())) { Defines.emplace_back(Define, "1"); }
-}
-
-bool HasLightRate(const FRayDispatch& Dispatch)
-{
-	for (const ELightRate Rate : {ELightRate::Checkerboard, ELightRate::Quarter})
-	{
-		if (Dispatch.Has(GetDefine(Rate)) != (Rate == GetLightRate())) { return false; }
-	}
-	return true;
-}
-
-bool WantsSecondRays() { return GetLightRate() != ELightRate::Full && CVarSecondRay.GetOnRenderThread(); }
+bool WantsSecondRays() { return GetLightRate() != EPixelRate::Full && CVarSecondRay.GetOnRenderThread(); }
 
 FShaderSource MakeSecondRaysSource(FShaderDefines Defines) { return MakeComputeSource("LocalLights/SecondRays.comp", std::move(Defines)); }
 

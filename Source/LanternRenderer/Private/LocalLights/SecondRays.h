@@ -6,18 +6,7 @@
 namespace Lantern
 {
 
-/// r.RT.Lights.Rate.
-enum class ELightRate : uint8_t
-{
-	Full,
-	Checkerboard, ///< every other pixel, in turn
-	Quarter,      ///< one of four, in turn
-};
-ELightRate GetLightRate();
-/// Adds the define of shaders that ask for rays to local lights, trace them or read their answers.
-void AddLightRateDefines(FShaderDefines& Defines);
-/// Returns whether shaders with these rays are of the present rate.
-bool HasLightRate(const FRayDispatch& Dispatch);
+EPixelRate GetLightRate(); ///< r.RT.Lights.Rate
 
 /// Returns whether a frame asks for second rays.
 bool WantsSecondRays();

@@ -1,8 +1,8 @@
 // The planes that the pixels of a tile and of a ring around it show: whether what one pixel sees of a light may stand for another.
-#ifndef LANTERN_LOCAL_PLANES_GLSL
-#define LANTERN_LOCAL_PLANES_GLSL
+#ifndef LANTERN_PLANES_GLSL
+#define LANTERN_PLANES_GLSL
 
-#include "../Library/GBuffer.glsl"
+#include "GBuffer.glsl"
 #include "../Tiles/Tile.glsl"
 #include "Rate.glsl"
 

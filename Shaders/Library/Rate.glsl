@@ -1,7 +1,7 @@
-// Which pixels ask for rays in a frame (r.RT.Lights.Rate). The others take what neighbours on their plane saw.
+// Which pixels ask for rays in a frame (r.RT.Lights.Rate, r.RT.GI.Rate). The others take what neighbours on their plane saw.
 // CHECKERBOARD: every other pixel, in turn. QUARTER: one of each 2×2, in turn. Neither: all.
-#ifndef LANTERN_LOCAL_RATE_GLSL
-#define LANTERN_LOCAL_RATE_GLSL
+#ifndef LANTERN_RATE_GLSL
+#define LANTERN_RATE_GLSL
 
 #if defined(CHECKERBOARD) || defined(QUARTER)
 #define SPARSE
@@ -33,6 +33,18 @@ uint TurnOf(uint Place)
 	return (Place ^ (Place >> 1u)) & 1u;
 #else
 	return Place % TurnFrames;
+#endif
+}
+// Returns the pixel of this frame that a launch of fewer threads gives to one. It may lie one pixel beyond the picture.
+uvec2 TurnPixel(uvec2 Thread, uint FrameIndex)
+{
+#if defined(CHECKERBOARD)
+	return uvec2(Thread.x * 2u + ((Thread.y + FrameIndex) & 1u), Thread.y);
+#elif defined(QUARTER)
+	uint Place = findLSB(TurnMask(FrameIndex));
+	return Thread * 2u + uvec2(Place & 1u, Place >> 1u);
+#else
+	return Thread;
 #endif
 }
 bool HasTurn(uint FrameIndex, uint Place) { return (TurnMask(FrameIndex) & (1u << (Place & 31u))) != 0u; }
