@@ -1,5 +1,6 @@
 // Path tracing for ray generation shaders: the reference and the brute-force passes. Combines next-event estimation for each
 // kind of light with BRDF sampling by multiple importance sampling (Veach 1997), and ends paths by Russian roulette.
+// RADIANCE_CELLS: paths end where a radiance cell knows the light; the thread calls BeginRadianceLookUps first.
 // HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_AREA_LIGHTS, HAS_LIGHT_PROFILES, HAS_LIGHT_CHANNELS, HAS_EMISSIVE, HAS_MASKED, HAS_CHARACTERS:
 // defined if the scene has such.
 #ifndef LANTERN_PATH_TRACING_GLSL
@@ -21,6 +22,9 @@ layout(location = 0) rayPayloadEXT FMaterialPayload MaterialPayload;
 layout(location = 1) rayPayloadEXT FShadowPayload ShadowPayload;
 
 #include "PathLights.glsl"
+#ifdef RADIANCE_CELLS
+#include "RadianceLookUps.glsl"
+#endif
 
 const float Infinity = 1.0e30;
 const float RouletteThreshold = 0.25; // throughput below which Russian roulette may end a path
@@ -112,13 +116,21 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 	{
 		if (Hit.Distance < 0.0) { return Radiance + Throughput * ShadeMiss(Scene, Direction, Pdf, NdotL, Channels); }
 		Radiance += Throughput * ShadeEmission(Scene, Hit, Direction, Pdf);
+#ifndef RADIANCE_CELLS
 		if (Bounce >= MaxBounces) { return Radiance; }
+#endif
 
 		vec3 P = OffsetRayOrigin(Origin + Direction * Hit.Distance, Hit.GeometricNormal, Scene.ObjectReach, Hit.Distance);
 		vec3 V = -Direction;
 		mat3 Basis = MakeBasis(BendNormal(Hit.Normal, V));
 		FBrdf Brdf = MakeBrdf(Hit);
 		vec3 LocalV = V * Basis;
+#ifdef RADIANCE_CELLS
+		vec3 Known;
+		if (LookUpReflected(Hit, Brdf, P, LocalV, NextRandom4(Random).x, Known)) { return Radiance + Throughput * Known; }
+		Throughput *= TakeRadianceRest();
+		if (Bounce >= MaxBounces || Throughput == vec3(0.0)) { return Radiance; }
+#endif
 #ifdef HAS_CHARACTERS
 		bool bCharacter = (Hit.Flags & HIT_CHARACTER) != 0u;
 #else

@@ -14,8 +14,9 @@ struct FBruteForceConstants
 	uint SamplesPerPixel;
 	uint MaxBounces; // scattering events, that at the pixel included
 	float MaxRoughness; // rougher surfaces are not traced
+	FAddress RadianceCells; // FRadianceGrid, for shaders with RADIANCE_CELLS; 0: there are none
 };
-LANTERN_ASSERT_SIZE(FBruteForceConstants, 48);
+LANTERN_ASSERT_SIZE(FBruteForceConstants, 56);
 
 LANTERN_SHARED_END
 

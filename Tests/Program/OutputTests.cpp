@@ -53,8 +53,8 @@ TEST_F(FOutputTest, RenderWritesWhatTheContractNames)
 {
 	// A build without OpenImageIO writes PFM only.
 	const std::string Picture = CheckImageOutput(At("a.png")) ? "a.png" : "a.pfm";
-	const FProgramRun Run = RunCleanly({"render", "planes", "--size", "40x30", "--frames", "3", "--set", "r.RT.AO=0", "--set", "r.RT.Shadow.MoreRays=0", "--validate", "-o",
-	    At(Picture), "--json", At("a.json")});
+	const FProgramRun Run = RunCleanly({"render", "planes", "--size", "40x30", "--frames", "3", "--set", "r.RT.AO=0", "--set",
+	    "r.RT.Shadow.MoreRays=0", "--validate", "-o", At(Picture), "--json", At("a.json")});
 	EXPECT_THAT(Run.Out, HasSubstr("GPU ms"));
 	EXPECT_THAT(Run.Out, HasSubstr("SunShadow"));
 	EXPECT_THAT(Run.Err, HasSubstr("loaded in")) << "the log";

@@ -53,11 +53,11 @@ ERayPath ChooseRayPath(const FPassQuery& Query, const TRTConsoleVariable<int32_t
 	return bQuery ? ERayPath::Query : ERayPath::Pipeline;
 }
 
-ERayPath ChooseShadingRayPath(const FPassQuery& Query, const TRTConsoleVariable<bool>& Variable)
+ERayPath ChooseShadingRayPath(const FPassQuery& Query, const std::string& Variable)
 {
 	if (Query.Capabilities.bRayTracingPipeline) { return ERayPath::Pipeline; }
 	LogOnce(ERTLogLevel::Warning,
-	    Variable.GetName() + " is off: paths run material shaders where they hit, and this device has no ray-tracing pipelines");
+	    Variable + " is off: paths run material shaders where they hit, and this device has no ray-tracing pipelines");
 	return ERayPath::None;
 }
 

@@ -49,8 +49,8 @@ std::string GetRayShaderPath(ESignal Signal, const FPassRays& Rays, const char* 
 /// Chooses the path. Wanted is a console variable: 0 for the faster one, 1 for the pipeline, 2 for ray queries. Logs once if
 /// the device lacks what was asked for. What names the pass in messages: "sun shadows are".
 ERayPath ChooseRayPath(const FPassQuery& Query, const TRTConsoleVariable<int32_t>& Wanted, const char* What);
-/// Chooses for passes whose rays shade hits, which ray queries cannot. Variable switches the pass, and is named in the message.
-ERayPath ChooseShadingRayPath(const FPassQuery& Query, const TRTConsoleVariable<bool>& Variable);
+/// Chooses for passes whose rays shade hits, which ray queries cannot. Variable: name of what switches the pass, for the message.
+ERayPath ChooseShadingRayPath(const FPassQuery& Query, const std::string& Variable);
 
 /// Adds the define REORDER for ray generation shaders whose rays run material shaders, if r.RT.Reorder is on and the device can. Logs
 /// once if it cannot.

@@ -12,6 +12,7 @@
 #include "Lights/PixelChannels.h"
 #include "LocalLights/LightMask.h"
 #include "Motion/CameraMotion.h"
+#include "RadianceCells/RadianceCells.h"
 #include "Reference/Reference.h"
 #include "SignalPasses.h"
 
@@ -63,6 +64,10 @@ struct FCollector
 	void Add(ESignal Signal, FPassRays Rays, const std::string& RayGenPath)
 	{
 		Programs.RayGens[ToIndex(Signal)] = Add(std::move(Rays), RayGenPath);
+	}
+	void Add(EPassRayGen Pass, FPassRays Rays, const std::string& RayGenPath)
+	{
+		Programs.PassRayGens[static_cast<size_t>(Pass)] = Add(std::move(Rays), RayGenPath);
 	}
 	FShaderSource Add(FPassRays Rays, const std::string& RayGenPath)
 	{
@@ -122,20 +127,18 @@ void CollectSignals(FCollector& Collector, const FRTCapabilities& Capabilities, 
 	});
 }
 
-void CollectFog(FCollector& Collector, FPassRays Rays, const FSceneFacts& Facts)
+/// For a pass that makes no signal. Path: of its shader, without suffix.
+void CollectPass(FCollector& Collector, EPassRayGen Pass, const char* Path, FPassRays Rays, const FSceneFacts& Facts)
 {
 	if (Rays.Path == ERayPath::None) { return; }
 	std::vector<FShaderSource>& Compute = Collector.Programs.Compute;
 	if (Rays.Path == ERayPath::Query)
 	{
 		Collector.Programs.bQueries = true;
-		Compute.push_back(MakeQuerySource(Facts, FogShaders, Rays));
+		Compute.push_back(MakeQuerySource(Facts, Path, Rays));
 	}
 	Compute.insert(Compute.end(), Rays.Compute.begin(), Rays.Compute.end());
-	if (Rays.Path == ERayPath::Pipeline)
-	{
-		Collector.Programs.FogRayGen = Collector.Add(std::move(Rays), std::string(FogShaders) + ".rgen");
-	}
+	if (Rays.Path == ERayPath::Pipeline) { Collector.Add(Pass, std::move(Rays), std::string(Path) + ".rgen"); }
 }
 } // namespace
 
@@ -157,7 +160,9 @@ FRayPrograms ChooseRayPrograms(
 		if (Scene.GetFacts().bLightChannels) { Programs.Compute.push_back(MakePixelChannelsSource()); }
 		const FSceneFacts Facts = AddFrameFacts(Scene.GetFacts(), Features, Requests);
 		CollectSignals(Collector, Capabilities, Scene, Facts, Requests, Ready);
-		CollectFog(Collector, ChooseFogRays({Capabilities, Facts, Requests}), Facts);
+		const FPassQuery Query{Capabilities, Facts, Requests};
+		CollectPass(Collector, EPassRayGen::Fog, FogShaders, ChooseFogRays(Query), Facts);
+		CollectPass(Collector, EPassRayGen::RadianceCells, RadianceCellShaders, ChooseRadianceCellRays(Query), Facts);
 		Programs.bMotion &= Features.bMotion;
 	}
 	if (Features.bHostSurface) { Programs.Compute.push_back(MakeHostSurfaceSource()); }
@@ -169,7 +174,7 @@ FRayPrograms ChooseRayPrograms(
 	{
 		Desc.RayGens.clear();
 		Programs.RayGens.fill(std::nullopt);
-		Programs.FogRayGen.reset();
+		Programs.PassRayGens.fill(std::nullopt);
 		return Programs;
 	}
 	Desc.RayTypes = {MakeShadowRay(Collector.bBlockers)};

@@ -14,7 +14,7 @@ struct FRayPrograms
 	FRTPSODesc Desc; ///< without ray generation shaders: no pipeline is needed
 	/// Members of Desc.RayGens by signal. That of ESignal::Frame is the reference path tracer.
 	std::array<std::optional<FShaderSource>, SignalCount> RayGens;
-	std::optional<FShaderSource> FogRayGen; ///< as RayGens, of fog shadows
+	std::array<std::optional<FShaderSource>, PassRayGenCount> PassRayGens; ///< as RayGens
 	/// Compute shaders of the signals' passes, most important first.
 	std::vector<FShaderSource> Compute;
 	bool bQueries = false;       ///< some pass traces by ray queries

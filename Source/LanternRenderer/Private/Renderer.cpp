@@ -18,6 +18,7 @@
 #include "LanternRenderer/Frame.h"
 #include "Lights/EmissiveTriangles.h"
 #include "Lights/LightCells.h"
+#include "RadianceCells/RadianceEvents.h"
 #include "RayPrograms.h"
 #include "Rays/RayQueueCounter.h"
 #include "Rays/RayQueueDemand.h"
@@ -150,7 +151,10 @@ FRTStatus FRenderer::PrepareRayPipeline(const FRayPrograms& Wanted)
 		const bool bExact = I == ToIndex(ESignal::Frame); // the reference
 		Context->RayGens[I] = bExact ? RayPipeline->FindRayGen(*Wanted.RayGens[I]) : RayPipeline->FindRayGenVariant(*Wanted.RayGens[I]);
 	}
-	if (Wanted.FogRayGen) { Context->FogRayGen = RayPipeline->FindRayGenVariant(*Wanted.FogRayGen); }
+	for (size_t I = 0; I < PassRayGenCount; ++I)
+	{
+		if (Wanted.PassRayGens[I]) { Context->PassRayGens[I] = RayPipeline->FindRayGenVariant(*Wanted.PassRayGens[I]); }
+	}
 	const auto HasRayGen = [&](const FShaderSource& RayGen) { return RayPipeline->FindRayGen(RayGen) != NoRayGen; };
 	bRaysReady = !bStandIns && std::all_of(Wanted.Desc.RayGens.begin(), Wanted.Desc.RayGens.end(), HasRayGen);
 	Context->Scene.SetRayTypes(RayPipeline->GetRayTypeCount());
@@ -185,7 +189,8 @@ FRTStatus FRenderer::BeginFrame(FRTScene& Scene, const FView& View, const FFrame
 	Context->bWaitForPipelines = WaitsForPipelines(Features);
 	Pipelines.BeginFrame();
 	FindPreviousView(Scene, Features);
-	State->History->BeginFrame(*Graph, Context->PreviousView != nullptr);
+	const bool bSameWorld = State->LastScene == Scene.GetSections().GetIdentity();
+	State->History->BeginFrame(*Graph, Context->PreviousView != nullptr, bSameWorld);
 	const int32_t PoisonEvery = CVarPoisonHistory.GetOnRenderThread();
 	if (PoisonEvery > 0 && View.FrameIndex % static_cast<uint32_t>(PoisonEvery) == 0) { GraphResources.PoisonHistory(""); }
 	bUpdating = bRayPassesAdded = false;
@@ -287,6 +292,7 @@ void FRenderer::KeepHistory(bool bSubmitted)
 {
 	State->History->EndFrame(bSubmitted);
 	State->Casters->EndFrame(bSubmitted);
+	State->RadianceEvents->EndFrame(bSubmitted);
 	State->LastScene = bSubmitted ? Context->Scene.GetSections().GetIdentity() : 0;
 	State->LastView = Context->View;
 	if (bSubmitted) { State->Published = FConsoleVariables::Get().GetPublishCount(); }
@@ -304,6 +310,7 @@ FRenderer::FViewState& FRenderer::GetView(uint32_t Index)
 		View.History = std::make_unique<FHistoryResources>(Device);
 		View.LightCells = std::make_unique<FLightCells>(Device);
 		View.Casters = std::make_unique<FMovedCasters>();
+		View.RadianceEvents = std::make_unique<FRadianceEvents>();
 		View.Viewer = ++LastViewer;
 	}
 	return View;
@@ -330,6 +337,7 @@ void FRenderer::FindPreviousView(FRTScene& Scene, const FFrameFeatures& Features
 	Context->History = State->History.get();
 	Context->LightCells.OfView = State->LightCells.get();
 	Context->MovedCasters = State->Casters.get();
+	Context->RadianceEvents = State->RadianceEvents.get();
 }
 
 /// Before anything of the frame can fail: what the GPU has left is taken, and the next frame finds its place.

@@ -296,6 +296,26 @@ TEST_F(FRendererLackTest, DiffuseGITakesThePlaceOfAmbientOcclusion)
 	EXPECT_FALSE(HasPart(With, "AmbientOcclusion"));
 }
 
+TEST_F(FRendererLackTest, RadianceCellsAreThereForRoutesThatEndInThem)
+{
+	FStage BruteForce, Cells;
+	BruteForce.Settings = {{"r.RT.GI", "1"}};
+	Cells.Settings = {{"r.RT.GI", "3"}};
+	const FNames Without = Make(BruteForce), With = Make(Cells);
+	EXPECT_FALSE(HasPart(Without, "RadianceCell"));
+	for (const char* Part : {"Clear", "Votes", "Age", "Cut", "List", "Update", "Commit"})
+	{
+		EXPECT_TRUE(HasPart(With, std::string("pass RadianceCells") + Part)) << Part;
+	}
+	EXPECT_TRUE(HasPart(With, "buffer RadianceCells"));
+	FStage Dark = Cells;
+	Dark.Content.bSun = Dark.Content.bSky = Dark.Content.bLights = Dark.Content.bEmissive = false;
+	EXPECT_FALSE(HasPart(Make(Dark), "RadianceCell")) << "without light";
+	FStage Empty = Cells;
+	Empty.Content = {.bObjects = false, .bSky = true};
+	EXPECT_FALSE(HasPart(Make(Empty), "RadianceCell")) << "without surfaces";
+}
+
 TEST_F(FRendererLackTest, RayTracingOffLeavesTheRaster)
 {
 	FStage Stage;

@@ -11,12 +11,16 @@ namespace Lantern
 struct FBruteForcePass
 {
 	ESignal Signal;
-	const TRTConsoleVariable<bool>& Enable;
+	const char* Variable;                       ///< name of what switches the pass
+	bool (*IsOn)();                             ///< render thread
 	const TRTConsoleVariable<int32_t>& Samples; ///< paths per pixel
 	/// Surfaces that may reflect light before it reaches the one that is lit.
 	const TRTConsoleVariable<int32_t>& Bounces;
 	/// Rougher surfaces are not traced; null: all are.
 	const TRTConsoleVariable<float>* MaxRoughness = nullptr;
+	bool (*EndsInRadianceCells)() = [] { return false; }; ///< whether paths do; render thread
+	/// Pixels that trace in a frame, as EPixelRate. The others are filled as diffuse light may be. Null: all trace.
+	const TRTConsoleVariable<int32_t>* Rate = nullptr;
 };
 
 ERayPath ChooseBruteForcePath(const FBruteForcePass& Settings, const FPassQuery& Query);

@@ -1,25 +1,51 @@
 // Diffuse global illumination: paths through a white Lambert lobe about the shading normal.
 #include "DiffuseGI/DiffuseGI.h"
 
+#include <algorithm>
+
 #include "BruteForce/BruteForce.h"
 #include "Denoise/Denoise.h"
+#include "RadianceCells/RadianceCells.h"
 
 namespace Lantern
 {
 
 namespace
 {
-TRTConsoleVariable<bool> CVarEnable(
-    "r.RT.GI", false, "Traces diffuse global illumination by paths. If off, ambient light of the sky stands in.");
+TRTConsoleVariable<int32_t> CVarRoute("r.RT.GI", 0,
+    "Diffuse global illumination. 0: off, and ambient light of the sky stands in. 1: paths of r.RT.GI.Bounces, by brute force. 2: as 3. 3: "
+    "one "
+    "ray a sample, which ends in radiance cells that hold the light of all further bounces.",
+    {0, 3});
 TRTConsoleVariable<int32_t> CVarSamples("r.RT.GI.Samples", 1, "Number of diffuse global illumination paths per pixel.", {1, 64});
 TRTConsoleVariable<int32_t> CVarBounces("r.RT.GI.Bounces", 1,
     "Number of surfaces that may reflect light before it reaches the one that is lit. The reference of as many bounces has one "
     "scattering event more, the last.",
     {1, 4});
+TRTConsoleVariable<int32_t> CVarRate("r.RT.GI.Rate", 0,
+    "Pixels that trace diffuse global illumination in a frame. 0: all. 1: every other pixel, in turn. 2: one of four, in turn. The others "
+    "take what neighbours on their plane found.",
+    {0, 2});
 // Where one path in a hundred finds a lamp, most neighbourhoods are dark in a frame, and a clamp to them would lose its light.
 const FDenoiseVariables Denoise("r.RT.GI", FDenoiseDefaults{.bColor = true, .ClampSigma = 0.0f});
-constexpr FBruteForcePass BruteForce{ESignal::DiffuseGI, CVarEnable, CVarSamples, CVarBounces};
+constexpr int32_t FirstCachedRoute = 2;
+
+constexpr FBruteForcePass BruteForce{ESignal::DiffuseGI, "r.RT.GI", [] { return CVarRoute.GetOnRenderThread() != 0; }, CVarSamples,
+    CVarBounces, nullptr, HasRadianceCells, &CVarRate};
+
+/// A filter that remembers longer than the cells may would undo what they know of changes.
+FDenoiseSettings GetFilter(const FFrameContext& Context)
+{
+	FDenoiseSettings Settings = Denoise.Get();
+	if (const FRadianceCells* const Cells = Context.RadianceCells.get())
+	{
+		Settings.HistorySeconds = std::min(Settings.HistorySeconds, Cells->Grid.Window * Context.View.DeltaSeconds);
+	}
+	return Settings;
+}
 } // namespace
+
+bool HasRadianceCells() { return CVarRoute.GetOnRenderThread() >= FirstCachedRoute; }
 
 FPassRays ChooseDiffuseGIRays(const FPassQuery& Query) { return ChooseBruteForceRays(BruteForce, Query); }
 
@@ -37,7 +63,7 @@ FGraphTexture AddDiffuseGIPass(FFrameContext& Context, const FGBuffer& GBuffer)
 	FDenoiseInputs Inputs;
 	Inputs.Name = "DiffuseGI";
 	Inputs.Signal = Radiance;
-	return AddDenoise(Context, GBuffer, Inputs, Denoise);
+	return AddDenoise(Context, GBuffer, Inputs, GetFilter(Context));
 }
 
 } // namespace Lantern

@@ -195,7 +195,7 @@ FFogAtlas AddFog(FFrameContext& Context)
 {
 	const FPassRays Rays = ChooseFogRays({Context.Device.GetCapabilities(), Context.Facts, Context.Signals});
 	const std::optional<FRayDispatch> Dispatch =
-	    RequireRayDispatch(Context, Rays, Context.FogRayGen, MakeQuerySource(Context.Facts, FogShaders, Rays));
+	    RequireRayDispatch(Context, Rays, Context.GetRayGen(EPassRayGen::Fog), MakeQuerySource(Context.Facts, FogShaders, Rays));
 	if (!Dispatch) { return {}; }
 	FFogPass Fog;
 	Fog.Dispatch = *Dispatch;

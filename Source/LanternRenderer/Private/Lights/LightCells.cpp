@@ -84,6 +84,12 @@ glm::ivec3 Wrap(const glm::i64vec3& Steps)
 	return Out;
 }
 
+} // namespace
+
+glm::ivec3 ToGridSteps(const glm::dvec3& World) { return Wrap(ToSteps(World)); }
+
+namespace
+{
 /// Lowest corner of a level around the camera, in steps. Levels move by whole blocks.
 glm::ivec3 PlaceLevel(const glm::i64vec3& Camera, uint32_t Shift)
 {
@@ -260,7 +266,7 @@ bool FLightCells::PlaceGrid(FFrameContext& Context, FFrame& Of)
 	Grid.Revision = Revision;
 	Grid.Turn = Newest.Turn + 1;
 	Grid.Shift = Shift;
-	Grid.Origin = Wrap(ToSteps(Context.Scene.GetOrigin()));
+	Grid.Origin = ToGridSteps(Context.Scene.GetOrigin());
 	const glm::i64vec3 Camera = ToSteps(MakeGatherView(Context.View).Position);
 	for (uint32_t Level = 0; Level < LIGHT_CELL_LEVELS; ++Level) { Grid.First[Level] = PlaceLevel(Camera, Shift + Level); }
 	FFrameUploads& Uploads = Context.Owner->GetUploads();

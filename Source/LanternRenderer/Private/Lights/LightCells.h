@@ -70,6 +70,10 @@ private:
 	bool bCounted = false;
 };
 
+/// Returns where a point of the world lies in the grid of positions that keys of cells are made of, in steps (LIGHT_POSITION_STEPS)
+/// modulo 2³².
+glm::ivec3 ToGridSteps(const glm::dvec3& World);
+
 /// Lists the shaders of the passes, if a scene has a use for them.
 void ListLightCellShaders(const FSceneFacts& Facts, std::vector<FShaderSource>& Out);
 

@@ -18,7 +18,8 @@ TRTConsoleVariable<int32_t> CVarBounces("r.RT.Reflections.Bounces", 1,
     {1, 4});
 TRTConsoleVariable<float> CVarMaxRoughness("r.RT.Reflections.MaxRoughness", 1.0f,
     "Surfaces that are rougher have no reflections traced; the sky's ambient light stands in. 1: all are traced.", {0.0, 1.0});
-constexpr FBruteForcePass BruteForce{ESignal::Reflections, CVarEnable, CVarSamples, CVarBounces, &CVarMaxRoughness};
+constexpr FBruteForcePass BruteForce{
+    ESignal::Reflections, "r.RT.Reflections", [] { return CVarEnable.GetOnRenderThread(); }, CVarSamples, CVarBounces, &CVarMaxRoughness};
 } // namespace
 
 float GetReflectedRoughness(const FPassQuery& Query)

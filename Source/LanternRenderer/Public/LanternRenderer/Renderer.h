@@ -124,6 +124,7 @@ class FAnyHitCounter;
 class FHistoryResources;
 class FLightCells;
 class FMovedCasters;
+class FRadianceEvents;
 class FRayQueueCounter;
 class FRayQueueDemand;
 class FRefitQuality;
@@ -201,7 +202,16 @@ struct FLampChangesOfFrame
 	bool bAsked = false;
 };
 
-struct FShadowRays; // Private/Rays/ShadowRays.h
+struct FShadowRays;    // Private/Rays/ShadowRays.h
+struct FRadianceCells; // Private/RadianceCells/RadianceCells.h
+/// Ray generation shaders of passes that make no signal.
+enum class EPassRayGen : uint8_t
+{
+	Fog,
+	RadianceCells,
+	Count
+};
+constexpr size_t PassRayGenCount = static_cast<size_t>(EPassRayGen::Count);
 /// Light of local lights by lobe, not filtered.
 struct FLocalLobes
 {
@@ -230,13 +240,19 @@ struct FFrameContext
 		return None;
 	}();
 	uint32_t GetRayGen(ESignal Signal) const { return RayGens[ToIndex(Signal)]; }
-	uint32_t FogRayGen = NoRayGen; ///< as RayGens, of fog shadows
+	std::array<uint32_t, PassRayGenCount> PassRayGens = [] { ///< as RayGens
+		std::array<uint32_t, PassRayGenCount> None;
+		None.fill(NoRayGen);
+		return None;
+	}();
+	uint32_t GetRayGen(EPassRayGen Which) const { return PassRayGens[static_cast<size_t>(Which)]; }
 	/// The view of the frame before. Null if nothing may be carried over from it: there was none, a cut, another size, or a lost
 	/// frame. Null as well if a geometry was deformed in another renderer's or view's frame of the scene since.
 	const FView* PreviousView = nullptr;
 	/// Textures that passes keep from frame to frame.
 	FHistoryResources* History = nullptr;
-	FMovedCasters* MovedCasters = nullptr; ///< what may have changed the sun's shadows since the view's last frame
+	FMovedCasters* MovedCasters = nullptr;     ///< what may have changed the sun's shadows since the view's last frame
+	FRadianceEvents* RadianceEvents = nullptr; ///< what has changed indirect light
 	FRayQueueCounter* RayCounter = nullptr;
 	/// What the host hands over beside its G-buffer, before it adds passes. Frames without FFrameFeatures::bHostShadow do not read it.
 	FHostShadow HostShadow;
@@ -252,6 +268,8 @@ struct FFrameContext
 	std::shared_ptr<const FLocalLobes> LocalLobes; ///< null: not shaded so far
 	std::optional<FLightMask> LightMask;           ///< nullopt: nobody has asked so far
 	FLampChangesOfFrame LampChanges;
+	std::shared_ptr<const FRadianceCells> RadianceCells; ///< null: none, or nobody has asked so far
+	bool bRadianceCellsAsked = false;
 	FSceneTokens Tokens;
 	FSignalRequests Signals;
 	/// First error that a pass met; the frame is then not submitted. Not while passes are recorded.
@@ -408,6 +426,7 @@ private:
 		std::unique_ptr<FHistoryResources> History;
 		std::unique_ptr<FLightCells> LightCells;
 		std::unique_ptr<FMovedCasters> Casters;
+		std::unique_ptr<FRadianceEvents> RadianceEvents;
 		FView LastView;          // of the newest frame that reached the GPU
 		uint64_t LastScene = 0;  // identity of its scene's sections, which outlives an address; 0: none
 		uint64_t Viewer = 0;     // who it is to scenes

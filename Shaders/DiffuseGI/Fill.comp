@@ -1,0 +1,55 @@
+// Gives pixels that traced no path in this frame the mean of neighbours that did, on their plane where there are such.
+// CHECKERBOARD or QUARTER: see Rate.glsl.
+#version 460
+#include "../Library/Planes.glsl"
+#include "../Shared/DiffuseGITypes.h"
+
+layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
+layout(push_constant, scalar) uniform FPush { FDiffuseGIFillConstants Push; };
+
+void LoadPlanes(FViewConstants View)
+{
+	ivec2 First = ivec2(gl_WorkGroupID.xy) * TILE_SIZE - 1;
+	for (uint I = gl_LocalInvocationIndex; I < uint(RingSize * RingSize); I += TILE_PIXELS)
+	{
+		ivec2 Pixel = First + ivec2(I % RingSize, I / RingSize);
+		bool bInside = all(greaterThanEqual(Pixel, ivec2(0))) && !IsOutsideView(View, uvec2(Pixel));
+		float Depth = bInside ? LoadDepth(Push.Depth, Pixel) : 0.0;
+		SetPlane(I, false, vec3(0.0), vec3(0.0));
+		if (Depth <= 0.0) { continue; }
+		FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
+		SetPlane(I, true, Point.Relative, Point.Ng);
+	}
+}
+
+const float OfOthers = 2.0; // FDenoiseInputs::Signal
+
+// What lies alone on its plane takes what there is: leaves and wires have no others.
+uint FindOthers(uint FrameIndex, ivec2 InTile)
+{
+	uint Found = 0u;
+	for (uint I = 0u; I < 9u; ++I)
+	{
+		ivec2 At = InTile + ivec2(I % 3u, I / 3u) - 1;
+		bool bTurn = I != 4u && HasTurn(FrameIndex, TilePlace(uvec2(At & (TILE_SIZE - 1))));
+		if (bTurn && RingNormals[RingPlace(At)] != NoRingNormal) { Found |= 1u << I; }
+	}
+	return Found;
+}
+
+void main()
+{
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	LoadPlanes(View);
+	barrier();
+	ivec2 Pixel = ivec2(gl_GlobalInvocationID.xy), InTile = ivec2(gl_LocalInvocationID.xy);
+	if (IsOutsideView(View, uvec2(Pixel)) || HasTurn(View.FrameIndex, TilePlace(uvec2(Pixel)))) { return; }
+	uint Neighbors = RingNormals[RingPlace(InTile)] == NoRingNormal ? 0u : FindNeighbors(View, InTile, false);
+	if (Neighbors == 0u && RingNormals[RingPlace(InTile)] != NoRingNormal) { Neighbors = FindOthers(View.FrameIndex, InTile); }
+	vec3 Sum = vec3(0.0);
+	for (uint I = 0u; I < 9u; ++I)
+	{
+		if ((Neighbors & (1u << I)) != 0u) { Sum += imageLoad(Images[Push.Radiance], Pixel + ivec2(I % 3u, I / 3u) - 1).rgb; }
+	}
+	imageStore(Images[Push.Radiance], Pixel, RoundToHalf(vec4(Sum / float(max(bitCount(Neighbors), 1)), OfOthers)));
+}

@@ -1,0 +1,204 @@
+// The look-up of light in radiance cells: small cells of the world, by hash, each of which has the mean light that reaches the surfaces in
+// it. The idea is that of "Fast, Lightweight Caching for Path Tracing" (Binder et al. 2019) and of SHARC (NVIDIA 2023).
+//
+// - A cell is thin along the normal of its surface, and has the side that it faces in its key. Sheets that are closer than a cell, and the
+//   two sides of one, thus have different cells.
+// - A look-up takes a cell that has been updated, or a coarse one that stands in for it, or fails. The path that asked then finds light by
+//   itself.
+// - Some look-ups vote. They insert cells, and the place of one of them is where the cell's rays start from then on. A cell's light is
+//   thus the mean over the places that are asked for.
+// - Votes are a maximum of hashes, so that the result does not depend on the order of threads.
+#ifndef LANTERN_RADIANCE_CELLS_GLSL
+#define LANTERN_RADIANCE_CELLS_GLSL
+
+#include "../Shared/RadianceCellTypes.h"
+#include "Bindings.glsl"
+#include "Math.glsl"
+#include "Random.glsl"
+#include "Rgbe.glsl"
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FRadianceGridRef { FRadianceGrid Data; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FRadianceWordRef { uint Data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FRadianceCellRef { FRadianceCell Data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FRadianceVoteRef { FRadianceVote Data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FRadianceResultRef { vec3 Data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FRadianceCountersRef { FRadianceCellCounters Data; };
+
+// Position: relative to the scene's origin, metres, nearer than 260 km.
+ivec3 ToRadianceSteps(FRadianceGrid Grid, vec3 Position) { return Grid.Origin + ivec3(floor(Position * LIGHT_POSITION_STEPS)); }
+
+// Returns the centre of a step.
+vec3 FromRadianceSteps(FRadianceGrid Grid, ivec3 Steps) { return (vec3(Steps - Grid.Origin) + 0.5) / LIGHT_POSITION_STEPS; }
+
+struct FRadianceKey
+{
+	uint FirstSlot; // of its bucket
+	uint Check;     // never 0
+};
+
+// Normal: geometric, towards the side that the light comes from.
+FRadianceKey MakeRadianceKey(FRadianceGrid Grid, ivec3 Steps, uint Level, bool bCoarse, vec3 Normal)
+{
+	uint Shift = RADIANCE_CELL_FINEST_SHIFT + Level;
+	ivec3 Cell = Steps >> Shift;
+	vec3 Size = abs(Normal);
+	uint Axis = Size.x > Size.y ? (Size.x > Size.z ? 0u : 2u) : (Size.y > Size.z ? 1u : 2u);
+#ifndef NO_LAYERS // r.RT.Debug.GI.Layers
+	Cell[Axis] = Steps[Axis] >> (Shift - RADIANCE_CELL_THICKNESS);
+	uint Side = Axis * 2u + (Normal[Axis] < 0.0 ? 1u : 0u);
+#else
+	uint Side = 0u;
+#endif
+	uvec4 Hash = HashPcg4(uvec4(uvec3(Cell), Level | (Side << 8u) | (bCoarse ? 1u << 12u : 0u)));
+	return FRadianceKey((Hash.x & Grid.BucketMask) * RADIANCE_CELL_BUCKET, max(Hash.y, 1u));
+}
+
+// bFull: gets whether the bucket has no room.
+uint FindRadianceCell(FRadianceGrid Grid, FRadianceKey Key, out bool bFull)
+{
+	FRadianceWordRef Keys = FRadianceWordRef(Grid.Keys);
+	bFull = true;
+	for (uint I = 0u; I < RADIANCE_CELL_BUCKET; ++I)
+	{
+		uint Its = Keys.Data[Key.FirstSlot + I];
+		if (Its == Key.Check) { return Key.FirstSlot + I; }
+		bFull = bFull && Its != 0u;
+	}
+	return NO_RADIANCE_CELL;
+}
+
+// Slots are freed in another pass, so all threads that insert a key find the same first free slot.
+uint InsertRadianceCell(FRadianceGrid Grid, FRadianceKey Key)
+{
+	bool bFull;
+	uint Found = FindRadianceCell(Grid, Key, bFull);
+	if (Found != NO_RADIANCE_CELL) { return Found; }
+	FRadianceWordRef Keys = FRadianceWordRef(Grid.Keys);
+	for (uint I = 0u; I < RADIANCE_CELL_BUCKET; ++I)
+	{
+		uint Slot = Key.FirstSlot + I;
+		if (Keys.Data[Slot] != 0u && Keys.Data[Slot] != Key.Check) { continue; }
+		uint Before = atomicCompSwap(Keys.Data[Slot], 0u, Key.Check);
+		if (Before == 0u || Before == Key.Check) { return Slot; }
+	}
+	return NO_RADIANCE_CELL;
+}
+
+// Returns the level of cells at Distance from the camera, metres. The last quarter of a level's range belongs to the next one by chance U,
+// so that there is no seam.
+uint RadianceLevel(FRadianceGrid Grid, float Distance, float U)
+{
+	float Exact = log2(max(Distance * Grid.SizeAngle / RADIANCE_CELL_FINEST, 1.0));
+	float Level = ceil(Exact);
+	float InRange = 1.0 - (Level - Exact);
+	if (InRange * 4.0 - 3.0 > U) { Level += 1.0; }
+	return min(uint(Level), RADIANCE_CELL_LEVELS - 1u);
+}
+
+// Rank: surfaces between the camera and the look-up, 1 or more: near ones win. Hash: random.
+uint MakeRadianceVote(uint Rank, uint Hash) { return ((7u - min(Rank, 7u)) << 29u) | max(Hash >> 3u, 1u); }
+
+uint RadianceTurnsSince(FRadianceGrid Grid, uint Then) { return (Grid.Turn - Then) & RADIANCE_CELL_TURN_MASK; }
+uint RadianceCellCount(uint State) { return State & RADIANCE_CELL_COUNT_MASK; }
+uint RadianceCellUpdated(uint State) { return (State >> RADIANCE_CELL_UPDATED_SHIFT) & RADIANCE_CELL_TURN_MASK; }
+uint RadianceCellAsked(uint State) { return State >> RADIANCE_CELL_ASKED_SHIFT; }
+
+const uint VoteShift = 4u; // log2 of the steps that tell two votes apart: 2 mm
+
+// Depends on the place relative to the camera alone, so that a scene looks the same wherever it lies in the world. Shift: log2 of the steps
+// to which that place matters, RADIANCE_SEED_SHIFT at most.
+uint HashPlace(FRadianceGrid Grid, ivec3 Steps, uint Shift)
+{
+	return HashPcg4(uvec4(uvec3((Steps >> Shift) - (Grid.Camera << (RADIANCE_SEED_SHIFT - Shift))), 0u)).x;
+}
+
+// Returns what a cell's random numbers start from.
+uint RadianceSeed(FRadianceGrid Grid, FRadianceCell Cell)
+{
+	return HashPlace(Grid, Cell.Place, RADIANCE_SEED_SHIFT) ^ HashPcg((Cell.GeometricNormal & 0xc000c000u) | (Cell.State & RADIANCE_CELL_COARSE));
+}
+
+// Notes that a cell is in use. All threads of a pass write the same.
+void AskRadianceCell(FRadianceGrid Grid, uint Slot, bool bCoarse)
+{
+	FRadianceCellRef Cells = FRadianceCellRef(Grid.Cells);
+	uint State = Cells.Data[Slot].State;
+	const uint Rest = (1u << RADIANCE_CELL_ASKED_SHIFT) - 1u;
+	uint Asked = (State & Rest) | (Grid.Turn << RADIANCE_CELL_ASKED_SHIFT) | (bCoarse ? RADIANCE_CELL_COARSE : 0u);
+	if (State != Asked) { Cells.Data[Slot].State = Asked; }
+}
+
+// A place of which the light is asked.
+struct FRadianceQuery
+{
+	vec3 Position;  // that rays may start from, relative to the scene's origin, metres
+	vec3 GeometricNormal, Normal;
+	float FromCamera; // distance, metres
+	float RayLength;  // of the ray that asks, metres
+};
+
+// A look-up that may vote: where it notes what it asked for. 0: none.
+struct FRadianceVoter
+{
+	FAddress Note; // FRadianceVote
+	uint Rank;     // see MakeRadianceVote
+	uint Hash;
+};
+
+// Returns the slot of the query's cell, or NO_RADIANCE_CELL. A full bucket gives the cell to the next coarser level.
+uint AskRadianceCell(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Voter, uint Level, bool bCoarse)
+{
+	ivec3 Steps = ToRadianceSteps(Grid, Query.Position);
+	bool bVotes = Voter.Note != FAddress(0);
+	for (uint Coarser = 0u; Coarser < 4u; ++Coarser)
+	{
+		FRadianceKey Key = MakeRadianceKey(Grid, Steps, min(Level + Coarser, RADIANCE_CELL_LEVELS - 1u), bCoarse, Query.GeometricNormal);
+		bool bFull = true;
+		uint Slot = bVotes ? InsertRadianceCell(Grid, Key) : FindRadianceCell(Grid, Key, bFull);
+		// Without this, what is found would depend on whether a thread beside inserts the cell first.
+		if (Slot == NO_RADIANCE_CELL && !bFull) { return Slot; }
+		if (Slot == NO_RADIANCE_CELL) { continue; }
+		AskRadianceCell(Grid, Slot, bCoarse);
+		if (bVotes)
+		{
+			uint Vote = MakeRadianceVote(Voter.Rank, Voter.Hash ^ HashPlace(Grid, Steps, VoteShift));
+			atomicMax(FRadianceCellRef(Grid.Cells).Data[Slot].Vote, Vote);
+			FRadianceVoteRef(Voter.Note).Data[0] =
+			    FRadianceVote(Slot, Vote, Steps, PackOct(Query.GeometricNormal), PackOct(Query.Normal));
+		}
+		return Slot;
+	}
+	return NO_RADIANCE_CELL;
+}
+
+const uint LeastCoarseCount = 8u; // a coarse cell that knows little is seen as a blotch
+
+bool IsRadianceKnown(FRadianceGrid Grid, uint Slot, uint LeastCount, inout vec3 Light)
+{
+	if (Slot == NO_RADIANCE_CELL) { return false; }
+	FRadianceCell Cell = FRadianceCellRef(Grid.Cells).Data[Slot];
+	if (RadianceCellCount(Cell.State) < LeastCount) { return false; }
+	Light = UnpackRgbe(Cell.Light);
+	return true;
+}
+
+// Returns whether the light at a place is known; OutLight: irradiance / π there. U: a random number in [0, 1).
+bool LookUpRadiance(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Voter, float U, out vec3 OutLight)
+{
+	OutLight = vec3(0.0);
+	if (!all(lessThan(abs(Query.Position), vec3(2.0e5)))) { return false; } // also of what is no number
+	// A cell that is larger than the ray is long may lie on both sides of a corner. The finest must do for rays that leave from a corner.
+	if (Query.RayLength < 0.25 * RADIANCE_CELL_FINEST) { return false; }
+	float Fitting = max(log2(Query.RayLength / (1.7320508 * RADIANCE_CELL_FINEST)), 0.0);
+	uint Coarsest = min(uint(Fitting), RADIANCE_CELL_LEVELS - 1u), Level = min(RadianceLevel(Grid, Query.FromCamera, U), Coarsest);
+	uint CoarseLevel = min(Level + RADIANCE_CELL_COARSER, Coarsest);
+	FRadianceVoter Nobody = FRadianceVoter(FAddress(0), 0u, 0u);
+	bool bForCoarse = CoarseLevel > Level && (Voter.Hash & 3u) == 0u; // the hash's other bits are the vote
+	uint Slot = AskRadianceCell(Grid, Query, bForCoarse ? Nobody : Voter, Level, false);
+	if (IsRadianceKnown(Grid, Slot, 1u, OutLight)) { return true; }
+	if (CoarseLevel == Level) { return false; }
+	Slot = AskRadianceCell(Grid, Query, bForCoarse ? Voter : Nobody, CoarseLevel, true);
+	return IsRadianceKnown(Grid, Slot, LeastCoarseCount, OutLight);
+}
+
+#endif

@@ -1,0 +1,32 @@
+// Frees cells that nobody has asked for, and counts the others by urgency.
+#version 460
+#include "RadianceCellSlots.glsl"
+
+shared uint Bins[RADIANCE_CELL_BINS];
+
+void main()
+{
+	FRadianceGrid Grid = FRadianceGridRef(Push.Grid).Data;
+	uint Lane = gl_LocalInvocationIndex, Slot = GetThread();
+	if (Lane < RADIANCE_CELL_BINS) { Bins[Lane] = 0u; }
+	barrier();
+	FRadianceWordRef Keys = FRadianceWordRef(Grid.Keys);
+	if (Slot < GetSlotCount(Grid) && Keys.Data[Slot] != 0u)
+	{
+		FRadianceCellRef Cells = FRadianceCellRef(Grid.Cells);
+		uint State = Cells.Data[Slot].State;
+		Cells.Data[Slot].Vote = 0u;
+		if (RadianceTurnsSince(Grid, RadianceCellAsked(State)) > Grid.Life)
+		{
+			Keys.Data[Slot] = 0u;
+			Cells.Data[Slot].State = 0u;
+			Cells.Data[Slot].Light = 0u;
+		}
+		else { atomicAdd(Bins[GetBin(Grid, State)], 1u); }
+	}
+	barrier();
+	if (Lane < RADIANCE_CELL_BINS && Bins[Lane] > 0u)
+	{
+		atomicAdd(FRadianceCountersRef(Grid.Counters).Data.Bins[Lane], Bins[Lane]);
+	}
+}

@@ -1,0 +1,40 @@
+// Takes the samples of this frame's updates into the means of their cells.
+#version 460
+#include "RadianceCellSlots.glsl"
+
+const float LeastWindow = 4.0; // updates
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FRadianceEventRef { FRadianceEvent Data[]; };
+
+// Returns the frames that a cell may average over, by what has changed around it.
+float GetWindow(FRadianceGrid Grid, FRadianceCell Cell)
+{
+	float Window = Grid.Window;
+	vec3 P = FromRadianceSteps(Grid, Cell.Place);
+	for (uint I = 0u; I < Grid.EventCount; ++I)
+	{
+		FRadianceEvent Event = FRadianceEventRef(Grid.Events).Data[I];
+		if (distance(P, Event.Center) < Event.Radius) { Window = min(Window, Event.Window); }
+	}
+	return Window;
+}
+
+void main()
+{
+	FRadianceGrid Grid = FRadianceGridRef(Push.Grid).Data;
+	uint Number = GetThread();
+	if (Number >= min(FRadianceCountersRef(Grid.Counters).Data.Listed, Grid.Room)) { return; }
+	uint Slot = FRadianceWordRef(Grid.List).Data[Number];
+	FRadianceCellRef Cells = FRadianceCellRef(Grid.Cells);
+	FRadianceCell Cell = Cells.Data[Slot];
+	// The window is one of time: a cell that waits for its turn averages over fewer samples.
+	float Waited = float(max(RadianceTurnsSince(Grid, RadianceCellUpdated(Cell.State)), 1u));
+	uint Most = uint(clamp(GetWindow(Grid, Cell) / Waited, LeastWindow, float(RADIANCE_CELL_COUNT_MASK)));
+	uint Count = min(RadianceCellCount(Cell.State) + 1u, Most);
+	vec3 Mean = UnpackRgbe(Cell.Light);
+	Mean += (FRadianceResultRef(Grid.Results).Data[Number] - Mean) / float(Count);
+	vec3 U = vec3(HashPcg4(uvec4(RadianceSeed(Grid, Cell), Grid.Turn, Count, 0x51ed270bu)).xyz >> 8u) * (1.0 / 16777216.0);
+	Cells.Data[Slot].Light = PackRgbe(max(Mean, vec3(0.0)), U);
+	const uint Kept = ~((1u << RADIANCE_CELL_ASKED_SHIFT) - 1u) | RADIANCE_CELL_COARSE;
+	Cells.Data[Slot].State = Count | (Grid.Turn << RADIANCE_CELL_UPDATED_SHIFT) | (Cell.State & Kept);
+}

@@ -1,0 +1,23 @@
+// What the passes over the whole table share: which slot a thread has, and how urgent its cell is.
+#include "../Library/RadianceCells.glsl"
+
+layout(local_size_x = RADIANCE_CELL_GROUP_SIZE) in;
+layout(push_constant, scalar) uniform FPush { FRadianceCellConstants Push; };
+
+uint GetThread() { return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * RADIANCE_CELL_GROUP_SIZE + gl_LocalInvocationIndex; }
+
+uint GetSlotCount(FRadianceGrid Grid) { return (Grid.BucketMask + 1u) * RADIANCE_CELL_BUCKET; }
+
+const uint YoungBins = 9u;     // of coarse cells, and of fine ones with few updates
+const uint YoungCoarse = 32u; // updates up to which a coarse cell, which stands in for many, comes before all others
+
+// Bins in order of urgency: cells that know little, then those that have waited longest.
+uint GetBin(FRadianceGrid Grid, uint State)
+{
+	uint Count = RadianceCellCount(State);
+	bool bCoarse = (State & RADIANCE_CELL_COARSE) != 0u;
+	if (bCoarse && Count < YoungCoarse) { return 0u; }
+	if (Count + 1u < YoungBins) { return Count + 1u; }
+	const uint Oldest = RADIANCE_CELL_BINS - 1u - YoungBins;
+	return YoungBins + Oldest - min(RadianceTurnsSince(Grid, RadianceCellUpdated(State)), Oldest);
+}

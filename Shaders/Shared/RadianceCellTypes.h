@@ -1,0 +1,116 @@
+// Radiance cells: a hash table of small cells in the world that hold the light which reaches their surfaces. Structures that C++ and GLSL
+// share.
+#ifndef LANTERN_RADIANCE_CELL_TYPES_H
+#define LANTERN_RADIANCE_CELL_TYPES_H
+
+#include "SceneTypes.h"
+
+LANTERN_SHARED_BEGIN
+
+#define RADIANCE_CELL_BUCKET 16u      // slots that a key may lie in: their keys share a cache line
+#define RADIANCE_CELL_THICKNESS 2u    // log2 of how much thinner a cell is along the normal of its surface
+#define RADIANCE_CELL_LEVELS 16u      // of size, each twice the one before
+#define RADIANCE_CELL_FINEST 0.125f   // edge of the finest cells, metres
+#define RADIANCE_CELL_FINEST_SHIFT 10u // log2 of its LIGHT_POSITION_STEPS
+#define RADIANCE_CELL_BINS 64u        // of priority
+#define RADIANCE_CELL_MOST_UPDATES 65536u // in a frame
+#define RADIANCE_CELL_ROW 1024u       // updates in a row of their launch
+#define RADIANCE_CELL_GROUP_SIZE 256u
+#define RADIANCE_CELL_ROW_GROUPS 1024u // of a dispatch over the table: devices may have no more than 65,535 in x
+
+// A fine cell that knows too little is stood in for by a coarse one, which is larger by this much and fills sooner.
+#define RADIANCE_CELL_COARSER 3u // levels
+
+// FRadianceCell::State: updates | coarse | turn of the last update | turn of the last look-up. Turns are modulo 4,096.
+#define RADIANCE_CELL_COUNT_MASK 0x7fu
+#define RADIANCE_CELL_COARSE 0x80u
+#define RADIANCE_CELL_UPDATED_SHIFT 8u
+#define RADIANCE_CELL_ASKED_SHIFT 20u
+#define RADIANCE_CELL_TURN_MASK 0xfffu
+
+// What a slot of the table holds. Its key is in an array of its own.
+struct FRadianceCell
+{
+	uint State; // RADIANCE_CELL_…
+	uint Vote;  // the greatest of this frame's look-ups (MakeRadianceVote); 0: nobody voted
+	ivec3 Place; // where rays of updates start, in steps of the light grid (LIGHT_POSITION_STEPS), modulo 2^32
+	uint GeometricNormal, Normal; // there, octahedral
+	uint Light; // mean of irradiance / π, by PackRgbe
+};
+LANTERN_ASSERT_SIZE(FRadianceCell, 32);
+
+// A look-up that voted. The one whose vote wins gives the cell its place.
+struct FRadianceVote
+{
+	uint Slot; // NO_RADIANCE_CELL: there was no look-up
+	uint Vote;
+	ivec3 Place;
+	uint GeometricNormal, Normal;
+};
+LANTERN_ASSERT_SIZE(FRadianceVote, 28);
+
+#define RADIANCE_SEED_SHIFT 8u // log2 of the steps of what random numbers of a cell are made of
+
+#define NO_RADIANCE_CELL 0xffffffffu
+
+#define RADIANCE_CELL_MOST_EVENTS 64u
+
+// A sphere in which something has changed.
+struct FRadianceEvent
+{
+	vec3 Center;  // relative to the scene's origin, metres
+	float Radius; // metres
+	float Window; // most frames over which cells in it average
+	float Pad;
+};
+LANTERN_ASSERT_SIZE(FRadianceEvent, 24);
+
+struct FRadianceCellCounters
+{
+	uint Listed; // cells that this frame updates
+	uint Cutoff; // bin of priority of which only a share is listed; those before it are listed wholly
+	float Share;
+	uint Live; // cells in use
+	uint Bins[RADIANCE_CELL_BINS]; // cells by priority
+};
+LANTERN_ASSERT_SIZE(FRadianceCellCounters, 272);
+
+// The table as shaders see it, one block a frame.
+struct FRadianceGrid
+{
+	FAddress Keys;        // uint[]: hash of a cell's place; 0: the slot is free
+	FAddress Cells;       // FRadianceCell[]
+	FAddress Votes;       // FRadianceVote[]: one for each block of 2 × 2 pixels
+	FAddress UpdateVotes; // FRadianceVote[RADIANCE_CELL_MOST_UPDATES]: of updates, which count in the next frame
+	FAddress List;        // uint[RADIANCE_CELL_MOST_UPDATES]: slots to update
+	FAddress Results;     // vec3[RADIANCE_CELL_MOST_UPDATES]
+	FAddress Counters;    // FRadianceCellCounters
+	ivec3 Origin;         // of the scene, as FLightGrid::Origin
+	uint BucketMask;      // number of buckets - 1
+	uint Turn;            // counts frames of the table, modulo 4,096
+	uint Life;            // frames that a cell lives after its last look-up
+	uint Budget;          // updates of a frame
+	float RestChance;     // with which a group of pixels follows the paths that meet no cell
+	float Window;         // frames over which light is averaged
+	float SizeAngle;      // edge of a cell over its distance to the camera
+	uint VoteCount;       // of Votes
+	ivec3 Camera;         // in places of RADIANCE_SEED_SHIFT steps
+	FAddress Events;      // FRadianceEvent[EventCount]
+	uint EventCount;
+	uint Room;            // updates that are traced at most
+};
+LANTERN_ASSERT_SIZE(FRadianceGrid, 128);
+
+// Constants of the passes that keep the table.
+struct FRadianceCellConstants
+{
+	FPassConstants Pass;
+	FAddress Grid; // FRadianceGrid
+	uint MaxBounces; // of paths that meet no cell
+	uint Pad;
+};
+LANTERN_ASSERT_SIZE(FRadianceCellConstants, 32);
+
+LANTERN_SHARED_END
+
+#endif

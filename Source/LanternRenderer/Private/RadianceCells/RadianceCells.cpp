@@ -1,0 +1,269 @@
+// The passes that keep radiance cells: places by votes, age, the list of what is updated, the updates, and their means.
+#include "RadianceCells/RadianceCells.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "DiffuseGI/DiffuseGI.h"
+#include "LanternCore/FrameGraph/History.h"
+#include "LanternCore/Text/Log.h"
+#include "Lights/LightCells.h"
+#include "RadianceCells/RadianceEvents.h"
+#include "SignalPasses.h"
+
+namespace Lantern
+{
+
+namespace
+{
+TRTConsoleVariable<int32_t> CVarCapacity("r.RT.GI.Cells.Capacity", 1 << 20,
+    "Number of radiance cells that there is memory for, 36 bytes each, rounded to a power of two.", {1 << 8, 1 << 24});
+TRTConsoleVariable<float> CVarUpdates("r.RT.GI.Cells.UpdatesPerSecond", 2.5e6f,
+    "Updates of radiance cells in a second, each of one path. A frame has 61,440 at most.", {1000, 1e8f});
+TRTConsoleVariable<float> CVarSizeAngle("r.RT.GI.Cells.SizeAngle", 0.02f,
+    "Edge of a radiance cell over its distance to the camera. The finest are 0.125 m wide, and each level is twice the one before.",
+    {0.001f, 1});
+TRTConsoleVariable<float> CVarSeconds(
+    "r.RT.GI.Cells.Seconds", 1.0f, "Time over which a radiance cell averages its light, in seconds.", {0.05f, 60});
+TRTConsoleVariable<bool> CVarLayers("r.RT.Debug.GI.Layers", true,
+    "Planted fault. Off: radiance cells are as thick as wide and have no side, so that light leaks through walls.");
+
+constexpr float LifeSeconds = 2.0f;
+constexpr float RestChance = 0.25f;                                   // once cells are there
+constexpr float AgesInWindow = 6.0f;                                  // a new table averages over this part of its age
+constexpr uint32_t FramesWithoutCells = 4;                            // of a new table, whose pictures are made by whole paths
+constexpr uint32_t MaxBounces = 3;                                    // of updates that meet no cell
+constexpr double HurryFactor = 4.0;                                   // of the updates, where something has changed
+constexpr double MostBudget = RADIANCE_CELL_MOST_UPDATES * 15.0 / 16; // the last bin is cut by chance, which may give more than its share
+
+/// FRadianceTable and FRadianceWork: the parts of the two buffers, by offset in bytes.
+struct FRadianceTable
+{
+	static constexpr uint64_t Counters = 0;
+	static constexpr uint64_t UpdateVotes = 512;
+	static constexpr uint64_t Keys = UpdateVotes + uint64_t(RADIANCE_CELL_MOST_UPDATES) * sizeof(FRadianceVote);
+	static uint64_t GetCells(uint32_t Slots) { return Keys + uint64_t(Slots) * sizeof(uint32_t); }
+	static uint64_t GetSize(uint32_t Slots) { return GetCells(Slots) + uint64_t(Slots) * sizeof(FRadianceCell); }
+};
+
+struct FRadianceWork
+{
+	static constexpr uint64_t List = 0;
+	static constexpr uint64_t Results = List + uint64_t(RADIANCE_CELL_MOST_UPDATES) * sizeof(uint32_t);
+	static constexpr uint64_t Votes = Results + uint64_t(RADIANCE_CELL_MOST_UPDATES) * sizeof(glm::vec3);
+	static uint64_t GetSize(uint32_t VoteCount) { return Votes + uint64_t(VoteCount) * sizeof(FRadianceVote); }
+};
+
+FShaderSource MakeSource(const char* Name) { return MakeComputeSource(std::string("RadianceCells/") + Name + ".comp"); }
+
+constexpr const char* SourceNames[] = {"Votes", "Age", "Cut", "List", "Commit"};
+
+bool AreReady(const FFrameContext& Context)
+{
+	bool bReady = true; // all are asked for at once
+	for (const char* Name : SourceNames) { bReady &= RequireCompute(Context, MakeSource(Name)) != nullptr; }
+	return bReady;
+}
+
+uint32_t GetSlots()
+{
+	const auto Wanted = static_cast<uint32_t>(CVarCapacity.GetOnRenderThread());
+	const uint32_t Slots = std::bit_ceil(Wanted);
+	if (Slots != Wanted)
+	{
+		LogOnce(ERTLogLevel::Warning, CVarCapacity.GetName() + "=" + std::to_string(Wanted) + ": rounded to " + std::to_string(Slots));
+	}
+	return Slots;
+}
+
+FRadianceGrid MakeGrid(const FFrameContext& Context, uint32_t Slots, const FRadianceEvents::FFound& Events)
+{
+	const float Delta = std::max(Context.View.DeltaSeconds, 1.0e-3f);
+	FRadianceGrid Grid{};
+	Grid.Origin = ToGridSteps(Context.Scene.GetOrigin());
+	Grid.Camera = ToGridSteps(MakeGatherView(Context.View).Position) >> glm::ivec3(RADIANCE_SEED_SHIFT);
+	Grid.BucketMask = Slots / RADIANCE_CELL_BUCKET - 1;
+	Grid.Life = static_cast<uint32_t>(std::clamp(LifeSeconds / Delta, 8.0f, float(RADIANCE_CELL_TURN_MASK - 1)));
+	const double Updates = double(CVarUpdates.GetOnRenderThread()) * (Events.bHurry ? HurryFactor : 1.0);
+	Grid.Budget = static_cast<uint32_t>(std::min(Updates * Delta, MostBudget));
+	Grid.Room = DivideUp(std::min(Grid.Budget + Grid.Budget / 16 + 256, RADIANCE_CELL_MOST_UPDATES), RADIANCE_CELL_ROW) * RADIANCE_CELL_ROW;
+	Grid.Window = std::min(CVarSeconds.GetOnRenderThread() / Delta, Events.Window);
+	Grid.EventCount = static_cast<uint32_t>(Events.Spheres.size());
+	Grid.SizeAngle = CVarSizeAngle.GetOnRenderThread();
+	Grid.VoteCount = DivideUp(Context.Width, 2) * DivideUp(Context.Height, 2);
+	return Grid;
+}
+
+std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context)
+{
+	const auto Cells = std::make_shared<FRadianceCells>();
+	Cells->Slots = GetSlots();
+	const FRadianceEvents::FFound Events = Context.RadianceEvents->Find(Context.Scene, Context.View.DeltaSeconds);
+	Cells->Grid = MakeGrid(Context, Cells->Slots, Events);
+	FHistoryBuffer History;
+	FRTStatus Status = Context.History->GetBuffer("RadianceCells", {FRadianceTable::GetSize(Cells->Slots)}, History, EHistoryScope::World);
+	FFrameUploads& Uploads = Context.Owner->GetUploads();
+	if (Status) { Status = Uploads.Allocate(sizeof(FRadianceGrid), Cells->GridData); }
+	if (Status && !Events.Spheres.empty())
+	{
+		FUploadSlice Slice;
+		Status = Uploads.Push(Events.Spheres.data(), Events.Spheres.size() * sizeof(FRadianceEvent), Slice);
+		Cells->Grid.Events = Slice.Address;
+	}
+	if (!Status)
+	{
+		if (Status.Code == ERTResult::DeviceLost) { Context.Fail(Status); }
+		else { LogOnce(ERTLogLevel::Warning, std::string("radiance cells are off, and paths are followed: ") + Status.Message); }
+		return nullptr;
+	}
+	Cells->Table = History.Buffer;
+	Cells->bFresh = History.bFresh;
+	const uint32_t Age = Context.RadianceEvents->CountFrames(History.bFresh);
+	Cells->Grid.Turn = Age & RADIANCE_CELL_TURN_MASK;
+	Cells->Grid.RestChance = Age < FramesWithoutCells ? 1.0f : RestChance;
+	// What the first frames know lacks further bounces, and must not be averaged for long.
+	Cells->Grid.Window = std::min(Cells->Grid.Window, std::max(float(Age) / AgesInWindow, float(FRadianceEvents::LeastWindow)));
+	Cells->Work = Context.Graph.CreateBuffer({FRadianceWork::GetSize(Cells->Grid.VoteCount)}, "RadianceCellWork");
+	if (Cells->bFresh)
+	{
+		Context.Graph.AddPass("RadianceCellsClear", [&](FPassBuilder& Builder) -> FPassExecute {
+			Builder.Write(Cells->Table, ERTAccess::CopyWrite);
+			Context.Tokens.LeaveAlone(Builder);
+			return [Cells](FPassContext& Pass) {
+				Pass.Commands().FillBuffer(Pass.GetBuffer(Cells->Table), 0, FRadianceTable::GetSize(Cells->Slots), 0);
+			};
+		});
+	}
+	return Cells;
+}
+
+FRadianceCellConstants MakeConstants(const FFrameContext& Frame, const FRadianceCells& Cells)
+{
+	FRadianceCellConstants C{};
+	C.Pass = Frame.Pass;
+	C.Grid = Cells.GridData.Address;
+	C.MaxBounces = MaxBounces;
+	return C;
+}
+
+void Declare(FPassBuilder& Builder, const FRadianceCells& Cells)
+{
+	for (const FGraphBuffer Buffer : {Cells.Table, Cells.Work})
+	{
+		Builder.Read(Buffer, ERTAccess::StorageRead);
+		Builder.Write(Buffer, ERTAccess::StorageWrite);
+	}
+	Builder.AllowAsync();
+}
+
+void AddComputePass(FFrameContext& Context, const std::shared_ptr<const FRadianceCells>& Cells, const char* Name, uint32_t Threads)
+{
+	const FFrameContext* const Frame = &Context;
+	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSource(Name));
+	Context.Graph.AddPass(("RadianceCells" + std::string(Name)).c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
+		Declare(Builder, *Cells);
+		Context.Tokens.LeaveAlone(Builder);
+		return [=](FPassContext& Pass) {
+			const FRadianceCellConstants C = MakeConstants(*Frame, *Cells);
+			const uint32_t Groups = DivideUp(Threads, RADIANCE_CELL_GROUP_SIZE);
+			Pass.Commands().SetPipeline(Pipeline);
+			Pass.Commands().PushConstants(&C, sizeof(C));
+			Pass.Commands().Dispatch(std::min(Groups, RADIANCE_CELL_ROW_GROUPS), DivideUp(Groups, RADIANCE_CELL_ROW_GROUPS), 1);
+		};
+	});
+}
+
+void AddUpdatePass(
+    FFrameContext& Context, const FGBuffer& GBuffer, const std::shared_ptr<const FRadianceCells>& Cells, const FRayDispatch& Dispatch)
+{
+	const FFrameContext* const Frame = &Context;
+	const FLightCellsOfFrame& LightCells = RequireLightCells(Context, GBuffer);
+	Context.Graph.AddPass("RadianceCellsUpdate", [&](FPassBuilder& Builder) -> FPassExecute {
+		Declare(Builder, *Cells);
+		ReadLightCells(Builder, LightCells, true);
+		return [=](FPassContext& Pass) {
+			Pass.CountRays(uint64_t(Cells->Grid.Budget) * GetMaxPathRays(Frame->Facts, 1));
+			TraceFrameRays(
+			    Pass, *Frame, Dispatch.RayGen, MakeConstants(*Frame, *Cells), RADIANCE_CELL_ROW, Cells->Grid.Room / RADIANCE_CELL_ROW);
+		};
+	});
+}
+} // namespace
+
+FPassRays ChooseRadianceCellRays(const FPassQuery& Query)
+{
+	FPassRays Rays;
+	if (!HasRadianceCells() || !IsMade(ESignal::DiffuseGI, Query.Requests)) { return Rays; }
+	Rays.Path = ChooseDiffuseGIRays(Query).Path;
+	if (Rays.Path == ERayPath::None) { return Rays; }
+	Rays.Defines = MakePathDefines(Query.Facts);
+	AddRadianceCellDefines(Rays.Defines);
+	if (Query.Facts.Lights > 0) { Rays.Defines.emplace_back("LIGHT_CELLS_OF_VIEW", "1"); }
+	AddReorderDefine(Query.Capabilities, Rays.Defines);
+	Rays.bShadesHits = true;
+	Rays.Shaders = RadianceCellShaders;
+	for (const char* Name : SourceNames) { Rays.Compute.push_back(MakeSource(Name)); }
+	return Rays;
+}
+
+void AddRadianceCellDefines(FShaderDefines& InOut)
+{
+	InOut.emplace_back("RADIANCE_CELLS", "1");
+	if (!CVarLayers.GetOnRenderThread()) { InOut.emplace_back("NO_LAYERS", "1"); }
+}
+
+const FRadianceCells* RequireRadianceCells(FFrameContext& Context)
+{
+	if (!Context.bRadianceCellsAsked)
+	{
+		Context.bRadianceCellsAsked = true;
+		const bool bReady = HasRadianceCells() && AreReady(Context) && Context.GetRayGen(EPassRayGen::RadianceCells) != NoRayGen;
+		if (bReady) { Context.RadianceCells = MakeCells(Context); }
+	}
+	return Context.RadianceCells.get();
+}
+
+void ReadRadianceCells(FPassBuilder& Builder, const FRadianceCells* Cells)
+{
+	if (!Cells) { return; }
+	Builder.Read(Cells->Table, ERTAccess::StorageRead);
+	Builder.Write(Cells->Table, ERTAccess::StorageWrite);
+	Builder.Write(Cells->Work, ERTAccess::StorageWrite);
+	Builder.Keep(Cells->Table);
+}
+
+FAddress WriteRadianceGrid(FPassContext& Pass, const FRadianceCells* Cells)
+{
+	if (!Cells) { return 0; }
+	const FAddress Table = Pass.GetBuffer(Cells->Table)->GetDeviceAddress(), Work = Pass.GetBuffer(Cells->Work)->GetDeviceAddress();
+	FRadianceGrid Grid = Cells->Grid;
+	Grid.Counters = Table + FRadianceTable::Counters;
+	Grid.UpdateVotes = Table + FRadianceTable::UpdateVotes;
+	Grid.Keys = Table + FRadianceTable::Keys;
+	Grid.Cells = Table + FRadianceTable::GetCells(Cells->Slots);
+	Grid.List = Work + FRadianceWork::List;
+	Grid.Results = Work + FRadianceWork::Results;
+	Grid.Votes = Work + FRadianceWork::Votes;
+	std::memcpy(Cells->GridData.Data, &Grid, sizeof(Grid));
+	return Cells->GridData.Address;
+}
+
+void AddRadianceCellPasses(FFrameContext& Context, const FGBuffer& GBuffer)
+{
+	const std::shared_ptr<const FRadianceCells> Cells = Context.RadianceCells;
+	if (!Cells) { return; }
+	const FPassRays Rays = ChooseRadianceCellRays({Context.Device.GetCapabilities(), Context.Facts, Context.Signals});
+	const std::optional<FRayDispatch> Dispatch = RequireRayDispatch(
+	    Context, Rays, Context.GetRayGen(EPassRayGen::RadianceCells), MakeQuerySource(Context.Facts, RadianceCellShaders, Rays));
+	if (!Dispatch) { return; }
+	AddComputePass(Context, Cells, "Votes", Cells->Grid.VoteCount + RADIANCE_CELL_MOST_UPDATES);
+	AddComputePass(Context, Cells, "Age", Cells->Slots);
+	AddComputePass(Context, Cells, "Cut", 1);
+	AddComputePass(Context, Cells, "List", Cells->Slots);
+	AddUpdatePass(Context, GBuffer, Cells, *Dispatch);
+	AddComputePass(Context, Cells, "Commit", RADIANCE_CELL_MOST_UPDATES);
+}
+
+} // namespace Lantern

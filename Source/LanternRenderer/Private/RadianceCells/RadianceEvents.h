@@ -1,0 +1,63 @@
+// What makes the light of radiance cells old: the sun, the sky and lamps that change, and objects that move. The scene tells; nothing is
+// guessed from pictures.
+#pragma once
+
+#include <vector>
+
+#include "LanternScene/Scene/Scene.h"
+#include "RadianceCellTypes.h"
+
+namespace Lantern
+{
+
+/// Belongs to one view. Render thread. A frame: Find, if it keeps radiance cells → EndFrame.
+class FRadianceEvents
+{
+public:
+	struct FFound
+	{
+		/// Frames over which cells anywhere may average; large if nothing but time limits it.
+		float Window = 1.0e9f;
+		bool bHurry = false; ///< more updates than usual are worth their time
+		/// Where cells must forget sooner, relative to the scene's origin, at most RADIANCE_CELL_MOST_EVENTS. What has no room counts as
+		/// one sphere around all.
+		std::vector<FRadianceEvent> Spheres;
+	};
+	/// Finds what has changed since the view's last frame, and what did so less than HoldSeconds ago. DeltaSeconds: since that frame.
+	FFound Find(FRTScene& Scene, float DeltaSeconds);
+	/// Counts the frames of a table of cells. bFresh: it begins anew. Returns those before this one.
+	uint32_t CountFrames(bool bFresh) { return Frames = bFresh ? 0 : Frames + 1; }
+	/// bSubmitted: false if the frame never runs; the next one then finds its changes again.
+	void EndFrame(bool bSubmitted);
+
+	static constexpr double HoldSeconds = 0.25; ///< cells and filters take some frames to follow
+	static constexpr uint32_t LeastWindow = 4;  ///< frames
+
+private:
+	struct FLight
+	{
+		uint64_t Scene = 0; ///< identity
+		glm::dvec3 SunDirection{0, -1, 0};
+		glm::vec3 Sun{0}, Sky{0};
+		uint64_t Lamps = 0, Objects = 0; ///< places in the journals of lights and of casters
+		bool bValid = false;
+	};
+	/// A sphere of the world, or all of it, until a time.
+	struct FEvent
+	{
+		glm::dvec3 Center{0};
+		double Radius = -1.0; ///< negative: everywhere
+		float Window = LeastWindow;
+		double Until = 0.0;
+	};
+	void FindLampEvents(const FRTScene& Scene);
+	void FindObjectEvents(FRTScene& Scene);
+
+	FLight Last, Next;
+	std::vector<FEvent> Kept, Fresh; ///< of frames before, and of this one
+	double Time = 0.0;               ///< of the view's submitted frames, seconds
+	double Delta = 0.0;
+	uint32_t Frames = 0;
+};
+
+} // namespace Lantern

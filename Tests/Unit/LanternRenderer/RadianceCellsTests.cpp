@@ -1,0 +1,150 @@
+// Radiance cells on the mock: what their passes are told of changes of the scene, and of the table's size.
+#include <cmath>
+#include <cstring>
+
+#include "RadianceCellTypes.h"
+#include "Support/RendererTestTools.h"
+
+namespace Lantern
+{
+namespace
+{
+
+constexpr float QuietFrames = 6.0f; // r.RT.GI.Cells.Seconds in frames
+
+class FRadianceCellsMockTest : public FRendererTest
+{
+protected:
+	template <class T>
+	T Read(uint64_t Address)
+	{
+		T Value{};
+		uint64_t Offset = 0;
+		IRTBuffer* const Buffer = Mock().FindBuffer(Address, &Offset);
+		EXPECT_TRUE(Buffer);
+		if (Buffer) { std::memcpy(&Value, Mock().GetBytes(Buffer) + Offset, sizeof(T)); }
+		return Value;
+	}
+	/// What the passes of the last frame were told.
+	FRadianceGrid GetTold()
+	{
+		for (const FRTMockCall& Call : Mock().FindCalls(ERTMockCall::Dispatch))
+		{
+			if (Call.Name.rfind("RadianceCells/Commit.comp", 0) != 0) { continue; }
+			FRadianceCellConstants Push{};
+			std::memcpy(&Push, Call.Bytes.data(), std::min(sizeof(Push), Call.Bytes.size()));
+			return Read<FRadianceGrid>(Push.Grid);
+		}
+		ADD_FAILURE() << "no cells were updated";
+		return {};
+	}
+	FRadianceGrid RenderAndGetTold()
+	{
+		Render();
+		return GetTold();
+	}
+	/// Frames until what changed is no event any more.
+	void Wait()
+	{
+		for (int Frame = 0; Frame < 20; ++Frame) { Render(); }
+	}
+	FRTScene& GetScene() { return Engine->GetScene().GetScene(); }
+	void TurnSun(double Degrees)
+	{
+		FSunLight Sun = GetScene().GetSun();
+		Sun.Direction = {std::sin(glm::radians(Degrees)), -std::cos(glm::radians(Degrees)), 0.0};
+		GetScene().SetSun(Sun);
+	}
+	void Start(const FContent& Content)
+	{
+		Set("r.RT.GI", "3");
+		Set("r.RT.GI.Cells.Seconds", "0.1");
+		LoadAndRender(Content);
+		TurnSun(0.0);
+		Wait();
+		Wait(); // a new table averages over less
+	}
+};
+
+TEST_F(FRadianceCellsMockTest, ASunThatJumpsMakesThemForgetForAWhile)
+{
+	Start({.bSky = true});
+	const FRadianceGrid Quiet = RenderAndGetTold();
+	EXPECT_NEAR(Quiet.Window, QuietFrames, 0.1f);
+	EXPECT_EQ(Quiet.EventCount, 0u);
+	TurnSun(50.0);
+	const FRadianceGrid Jump = RenderAndGetTold();
+	EXPECT_EQ(Jump.Window, 4.0f);
+	EXPECT_GT(Jump.Budget, Quiet.Budget);
+	EXPECT_EQ(RenderAndGetTold().Window, 4.0f) << "a frame later";
+	Wait();
+	EXPECT_EQ(RenderAndGetTold().Window, Quiet.Window);
+	EXPECT_EQ(GetTold().Budget, Quiet.Budget);
+}
+
+TEST_F(FRadianceCellsMockTest, ASlowSunLimitsThemByItsSpeed)
+{
+	Start({});
+	double Degrees = 0.0;
+	const auto Sweep = [&](double Speed) {
+		Wait();
+		TurnSun(Degrees += Speed);
+		return RenderAndGetTold().Window;
+	};
+	EXPECT_NEAR(Sweep(0.001), QuietFrames, 0.1f);
+	EXPECT_NEAR(Sweep(0.2), 5.0f, 0.1f) << "a degree";
+	Set("r.RT.Debug.GI.Events", "0");
+	EXPECT_NEAR(Sweep(10.0), QuietFrames, 0.1f) << "the planted fault";
+}
+
+TEST_F(FRadianceCellsMockTest, StrengthsOfSunAndSkyCount)
+{
+	Start({.bSky = true});
+	GetScene().SetSky(glm::vec3(0.5f));
+	EXPECT_EQ(RenderAndGetTold().Window, 4.0f);
+	Wait();
+	FSunLight Sun = GetScene().GetSun();
+	Sun.Irradiance *= 0.98f;
+	GetScene().SetSun(Sun);
+	EXPECT_NEAR(RenderAndGetTold().Window, 5.0f, 0.1f) << "a tenth";
+}
+
+TEST_F(FRadianceCellsMockTest, MovedObjectsTellWhere)
+{
+	Start({});
+	glm::dmat4 Transform(1.0);
+	Transform[3].x = 2.0;
+	GetScene().SetTransform(Engine->GetScene().GetDraws()[0].Object, Transform);
+	const FRadianceGrid Told = RenderAndGetTold();
+	EXPECT_NEAR(Told.Window, QuietFrames, 0.1f) << "elsewhere nothing has changed";
+	ASSERT_EQ(Told.EventCount, 2u);
+	const auto Near = Read<FRadianceEvent>(Told.Events), Far = Read<FRadianceEvent>(Told.Events + sizeof(FRadianceEvent));
+	EXPECT_EQ(Near.Window, 4.0f);
+	EXPECT_EQ(Far.Window, 8.0f);
+	EXPECT_GT(Near.Radius, 2.0f) << "the way and a metre";
+	EXPECT_GT(Far.Radius, Near.Radius);
+	EXPECT_LT(glm::length(Near.Center - glm::vec3(1, 0, 0)), 1.0f);
+	Wait();
+	EXPECT_EQ(RenderAndGetTold().EventCount, 0u);
+}
+
+TEST_F(FRadianceCellsMockTest, LampsTellHowFarTheyReach)
+{
+	Start({.bLights = true});
+	Engine->GetScene().SetSceneLights(false);
+	EXPECT_EQ(RenderAndGetTold().Window, 4.0f) << "a lamp without a range reaches everything";
+	Wait();
+	EXPECT_NEAR(RenderAndGetTold().Window, QuietFrames, 0.1f);
+}
+
+TEST_F(FRadianceCellsMockTest, SizesAreRoundedWithOneMessage)
+{
+	Set("r.RT.GI.Cells.Capacity", "1000");
+	Start({});
+	EXPECT_EQ((GetTold().BucketMask + 1) * RADIANCE_CELL_BUCKET, 1024u);
+	Set("r.RT.GI.Cells.Capacity", "256");
+	EXPECT_EQ((RenderAndGetTold().BucketMask + 1) * RADIANCE_CELL_BUCKET, 256u);
+}
+
+} // namespace
+} // namespace Lantern
