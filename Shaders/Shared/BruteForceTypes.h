@@ -18,6 +18,16 @@ struct FBruteForceConstants
 };
 LANTERN_ASSERT_SIZE(FBruteForceConstants, 56);
 
+// Of the pass that fills pixels which traced nothing.
+struct FFillConstants
+{
+	FPassConstants Pass;
+	uint Depth, Normals; // sampled indices
+	uint Radiance;       // storage index
+	uint Pad;
+};
+LANTERN_ASSERT_SIZE(FFillConstants, 32);
+
 LANTERN_SHARED_END
 
 #endif

@@ -37,6 +37,7 @@ struct FPassRays
 	bool bLightSampling = false; ///< its other shaders sample emissive triangles
 	bool bTraces = true;         ///< false: the scene leaves nothing to trace, and only passes around the rays are made
 	bool bBlockers = false;      ///< its shadow rays report the distance of the blocker
+	bool bRadianceCells = false; ///< its paths end in radiance cells (RadianceCells/RadianceCells.h)
 	/// Path of the shaders that trace, without suffix. Empty: the signal's own.
 	std::string Shaders;
 	/// Compute shaders of the passes before and behind the rays. Filters have a list of their own (FSignalPass::ListFilters).

@@ -59,7 +59,7 @@ FRayType MakeMaterialRay(const FSceneFacts& Facts)
 struct FCollector
 {
 	FRayPrograms& Programs;
-	bool bShadesHits = false, bBlockers = false, bFilters = false;
+	bool bShadesHits = false, bBlockers = false, bFilters = false, bRadianceCells = false;
 
 	void Add(ESignal Signal, FPassRays Rays, const std::string& RayGenPath)
 	{
@@ -101,6 +101,7 @@ void CollectSignals(FCollector& Collector, const FRTCapabilities& Capabilities, 
 		FPassRays& Rays = Chosen[ToIndex(Pass.Signal)];
 		if (Rays.Path == ERayPath::None) { return; }
 		Collector.Programs.bLightSampling |= Rays.bLightSampling;
+		Collector.bRadianceCells |= Rays.bRadianceCells;
 		const bool bMade = IsMade(Pass.Signal, Requests);
 		const bool bMask = Pass.Signal == GetLightMaskRow() && IsLightMaskAccumulated(Facts);
 		Collector.Programs.bMotion |= bMask || (bMade && Pass.WantsMotion && Pass.WantsMotion(Scene));
@@ -162,7 +163,10 @@ FRayPrograms ChooseRayPrograms(
 		CollectSignals(Collector, Capabilities, Scene, Facts, Requests, Ready);
 		const FPassQuery Query{Capabilities, Facts, Requests};
 		CollectPass(Collector, EPassRayGen::Fog, FogShaders, ChooseFogRays(Query), Facts);
-		CollectPass(Collector, EPassRayGen::RadianceCells, RadianceCellShaders, ChooseRadianceCellRays(Query), Facts);
+		if (Collector.bRadianceCells)
+		{
+			CollectPass(Collector, EPassRayGen::RadianceCells, RadianceCellShaders, ChooseRadianceCellRays(Query), Facts);
+		}
 		Programs.bMotion &= Features.bMotion;
 	}
 	if (Features.bHostSurface) { Programs.Compute.push_back(MakeHostSurfaceSource()); }

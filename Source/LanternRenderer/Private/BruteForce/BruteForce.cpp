@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "BruteForceTypes.h"
-#include "DiffuseGITypes.h"
 #include "Lights/LightCells.h"
 #include "LocalLights/Emitters.h"
 #include "RadianceCells/RadianceCells.h"
@@ -22,20 +21,20 @@ FShaderSource MakeFillSource(EPixelRate Rate)
 {
 	FShaderDefines Defines;
 	AddRateDefine(Rate, Defines);
-	return MakeComputeSource("DiffuseGI/Fill.comp", std::move(Defines));
+	return MakeComputeSource("BruteForce/Fill.comp", std::move(Defines));
 }
 
-void AddFillPass(FFrameContext& Context, const FGBuffer& GBuffer, FGraphTexture Output, IRTPipeline* Pipeline)
+void AddFillPass(FFrameContext& Context, const FGBuffer& GBuffer, const std::string& Name, FGraphTexture Output, IRTPipeline* Pipeline)
 {
 	const FFrameContext* const Frame = &Context;
-	Context.Graph.AddPass("DiffuseGIFill", [&](FPassBuilder& Builder) -> FPassExecute {
+	Context.Graph.AddPass(Name.c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		Builder.Read(Output, ERTAccess::StorageRead);
 		Builder.Write(Output, ERTAccess::StorageWrite);
 		Context.Tokens.LeaveAlone(Builder);
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
-			FDiffuseGIFillConstants C{};
+			FFillConstants C{};
 			C.Pass = Frame->Pass;
 			C.Depth = GetSampledIndex(Pass, GBuffer.Depth);
 			C.Normals = GetSampledIndex(Pass, GBuffer.Normals);
@@ -67,7 +66,8 @@ FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery
 		AddRateDefine(Rate, Rays.Defines);
 		if (Rate != EPixelRate::Full) { Rays.Compute.push_back(MakeFillSource(Rate)); }
 	}
-	if (Settings.EndsInRadianceCells()) { AddRadianceCellDefines(Rays.Defines); }
+	Rays.bRadianceCells = Settings.EndsInRadianceCells();
+	if (Rays.bRadianceCells) { AddRadianceCellDefines(Rays.Defines); }
 	ListLightCellShaders(Query.Facts, Rays.Compute);
 	AddReorderDefine(Query.Capabilities, Rays.Defines);
 	Rays.bShadesHits = true;
@@ -119,7 +119,7 @@ FGraphTexture AddBruteForcePass(const FBruteForcePass& Settings, FFrameContext& 
 			TraceFrameRays(Pass, *Frame, Dispatch->RayGen, C, Width, Height);
 		};
 	});
-	if (Fill) { AddFillPass(Context, GBuffer, Output, Fill); }
+	if (Fill) { AddFillPass(Context, GBuffer, std::string(Info.Pass) + "Fill", Output, Fill); }
 	if (RadianceCells) { AddRadianceCellPasses(Context, GBuffer); }
 	return Output;
 }

@@ -31,7 +31,7 @@ const FDenoiseVariables Denoise("r.RT.GI", FDenoiseDefaults{.bColor = true, .Cla
 constexpr int32_t FirstCachedRoute = 2;
 
 constexpr FBruteForcePass BruteForce{ESignal::DiffuseGI, "r.RT.GI", [] { return CVarRoute.GetOnRenderThread() != 0; }, CVarSamples,
-    CVarBounces, nullptr, HasRadianceCells, &CVarRate};
+    CVarBounces, nullptr, [] { return CVarRoute.GetOnRenderThread() >= FirstCachedRoute; }, &CVarRate};
 
 /// A filter that remembers longer than the cells may would undo what they know of changes.
 FDenoiseSettings GetFilter(const FFrameContext& Context)
@@ -44,8 +44,6 @@ FDenoiseSettings GetFilter(const FFrameContext& Context)
 	return Settings;
 }
 } // namespace
-
-bool HasRadianceCells() { return CVarRoute.GetOnRenderThread() >= FirstCachedRoute; }
 
 FPassRays ChooseDiffuseGIRays(const FPassQuery& Query) { return ChooseBruteForceRays(BruteForce, Query); }
 

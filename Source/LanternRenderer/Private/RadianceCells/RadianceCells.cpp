@@ -6,12 +6,10 @@
 #include <cmath>
 #include <cstring>
 
-#include "DiffuseGI/DiffuseGI.h"
 #include "LanternCore/FrameGraph/History.h"
 #include "LanternCore/Text/Log.h"
 #include "Lights/LightCells.h"
 #include "RadianceCells/RadianceEvents.h"
-#include "SignalPasses.h"
 
 namespace Lantern
 {
@@ -195,9 +193,7 @@ void AddUpdatePass(
 FPassRays ChooseRadianceCellRays(const FPassQuery& Query)
 {
 	FPassRays Rays;
-	if (!HasRadianceCells() || !IsMade(ESignal::DiffuseGI, Query.Requests)) { return Rays; }
-	Rays.Path = ChooseDiffuseGIRays(Query).Path;
-	if (Rays.Path == ERayPath::None) { return Rays; }
+	Rays.Path = ERayPath::Pipeline; // as whoever looks them up
 	Rays.Defines = MakePathDefines(Query.Facts);
 	AddRadianceCellDefines(Rays.Defines);
 	if (Query.Facts.Lights > 0) { Rays.Defines.emplace_back("LIGHT_CELLS_OF_VIEW", "1"); }
@@ -219,7 +215,7 @@ const FRadianceCells* RequireRadianceCells(FFrameContext& Context)
 	if (!Context.bRadianceCellsAsked)
 	{
 		Context.bRadianceCellsAsked = true;
-		const bool bReady = HasRadianceCells() && AreReady(Context) && Context.GetRayGen(EPassRayGen::RadianceCells) != NoRayGen;
+		const bool bReady = AreReady(Context) && Context.GetRayGen(EPassRayGen::RadianceCells) != NoRayGen;
 		if (bReady) { Context.RadianceCells = MakeCells(Context); }
 	}
 	return Context.RadianceCells.get();

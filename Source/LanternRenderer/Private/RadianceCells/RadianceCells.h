@@ -1,5 +1,5 @@
-// Radiance cells: light that surfaces receive, kept in small cells of the world (Shaders/Library/RadianceCells.glsl). Paths of diffuse
-// global illumination end in them, so that a frame traces one ray where it would trace a path. Cells are the world's: a cut keeps them.
+// Radiance cells: light that surfaces receive, kept in small cells of the world (Shaders/Library/RadianceCells.glsl). Paths end in them, so
+// that a frame traces one ray where it would trace a path. Cells are the world's: a cut keeps them.
 //
 // A pass that looks cells up calls RequireRadianceCells, declares ReadRadianceCells, and hands WriteRadianceGrid's address to its shader.
 // AddRadianceCellPasses then brings the cells up to date for the next frame.
@@ -21,15 +21,13 @@ struct FRadianceCells
 	uint32_t Slots = 0;
 };
 
-/// Whether paths of diffuse GI end in radiance cells, if it runs (r.RT.GI). Render thread.
-bool HasRadianceCells();
-/// What the updates of cells trace, and their other shaders, for frames with diffuse GI.
+/// What the updates of cells trace, and their other shaders, for frames with a pass whose rays end in them (FPassRays::bRadianceCells).
 FPassRays ChooseRadianceCellRays(const FPassQuery& Query);
 /// Adds what shaders that look cells up are compiled with.
 void AddRadianceCellDefines(FShaderDefines& InOut);
 constexpr const char* RadianceCellShaders = "RadianceCells/Update";
 
-/// Returns the cells of the frame's view. Null: they are off, shaders are being compiled, or there is no memory, of which the log tells.
+/// Returns the cells of the frame's view. Null: shaders are being compiled, or there is no memory, of which the log tells.
 const FRadianceCells* RequireRadianceCells(FFrameContext& Context);
 /// Declares that a pass looks cells up and asks for those that it misses. Cells may be null.
 void ReadRadianceCells(FPassBuilder& Builder, const FRadianceCells* Cells);

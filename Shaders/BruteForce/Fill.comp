@@ -2,10 +2,10 @@
 // CHECKERBOARD or QUARTER: see Rate.glsl.
 #version 460
 #include "../Library/Planes.glsl"
-#include "../Shared/DiffuseGITypes.h"
+#include "../Shared/BruteForceTypes.h"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
-layout(push_constant, scalar) uniform FPush { FDiffuseGIFillConstants Push; };
+layout(push_constant, scalar) uniform FPush { FFillConstants Push; };
 
 void LoadPlanes(FViewConstants View)
 {
