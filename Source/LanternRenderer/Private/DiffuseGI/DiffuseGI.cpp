@@ -39,7 +39,7 @@ FDenoiseSettings GetFilter(const FFrameContext& Context)
 	FDenoiseSettings Settings = Denoise.Get();
 	if (const FRadianceCells* const Cells = Context.RadianceCells.get())
 	{
-		Settings.HistorySeconds = std::min(Settings.HistorySeconds, Cells->Grid.Window * Context.View.DeltaSeconds);
+		Settings.HistorySeconds = std::min(Settings.HistorySeconds, Cells->EventFrames * Context.View.DeltaSeconds);
 	}
 	return Settings;
 }

@@ -100,6 +100,7 @@ std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context)
 	Cells->Slots = GetSlots();
 	const FRadianceEvents::FFound Events = Context.RadianceEvents->Find(Context.Scene, Context.View.DeltaSeconds);
 	Cells->Grid = MakeGrid(Context, Cells->Slots, Events);
+	Cells->EventFrames = Events.Window;
 	FHistoryBuffer History;
 	FRTStatus Status = Context.History->GetBuffer("RadianceCells", {FRadianceTable::GetSize(Cells->Slots)}, History, EHistoryScope::World);
 	FFrameUploads& Uploads = Context.Owner->GetUploads();
