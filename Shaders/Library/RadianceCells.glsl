@@ -30,10 +30,12 @@ ivec3 ToRadianceSteps(FRadianceGrid Grid, vec3 Position) { return Grid.Origin + 
 // Returns the centre of a step.
 vec3 FromRadianceSteps(FRadianceGrid Grid, ivec3 Steps) { return (vec3(Steps - Grid.Origin) + 0.5) / LIGHT_POSITION_STEPS; }
 
+const uint LostKey = 0xffffffffu; // of no cell: something has overwritten the table
+
 struct FRadianceKey
 {
 	uint FirstSlot; // of its bucket
-	uint Check;     // never 0
+	uint Check;     // neither 0 nor LostKey
 };
 
 // Normal: geometric, towards the side that the light comes from.
@@ -50,7 +52,7 @@ FRadianceKey MakeRadianceKey(FRadianceGrid Grid, ivec3 Steps, uint Level, bool b
 	uint Side = 0u;
 #endif
 	uvec4 Hash = HashPcg4(uvec4(uvec3(Cell), Level | (Side << 8u) | (bCoarse ? 1u << 12u : 0u)));
-	return FRadianceKey((Hash.x & Grid.BucketMask) * RADIANCE_CELL_BUCKET, max(Hash.y, 1u));
+	return FRadianceKey((Hash.x & Grid.BucketMask) * RADIANCE_CELL_BUCKET, clamp(Hash.y, 1u, LostKey - 1u));
 }
 
 // bFull: gets whether the bucket has no room.

@@ -16,7 +16,7 @@ void main()
 		FRadianceCellRef Cells = FRadianceCellRef(Grid.Cells);
 		uint State = Cells.Data[Slot].State;
 		Cells.Data[Slot].Vote = 0u;
-		if (RadianceTurnsSince(Grid, RadianceCellAsked(State)) > Grid.Life)
+		if (Keys.Data[Slot] == LostKey || RadianceTurnsSince(Grid, RadianceCellAsked(State)) > Grid.Life)
 		{
 			Keys.Data[Slot] = 0u;
 			Cells.Data[Slot].State = 0u;

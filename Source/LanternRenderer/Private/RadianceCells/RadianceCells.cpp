@@ -29,7 +29,7 @@ TRTConsoleVariable<bool> CVarLayers("r.RT.Debug.GI.Layers", true,
     "Planted fault. Off: radiance cells are as thick as wide and have no side, so that light leaks through walls.");
 
 constexpr float LifeSeconds = 2.0f;
-constexpr float RestChance = 0.25f;                                   // once cells are there
+constexpr float RestChance = 0.5f;                                    // once cells are there
 constexpr float AgesInWindow = 6.0f;                                  // a new table averages over this part of its age
 constexpr uint32_t FramesWithoutCells = 4;                            // of a new table, whose pictures are made by whole paths
 constexpr uint32_t MaxBounces = 3;                                    // of updates that meet no cell
