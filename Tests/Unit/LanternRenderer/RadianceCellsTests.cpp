@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "RadianceCellTypes.h"
+#include "Support/MockReads.h"
 #include "Support/RendererTestTools.h"
 
 namespace Lantern
@@ -15,16 +16,6 @@ constexpr float QuietFrames = 6.0f; // r.RT.GI.Cells.Seconds in frames
 class FRadianceCellsMockTest : public FRendererTest
 {
 protected:
-	template <class T>
-	T Read(uint64_t Address)
-	{
-		T Value{};
-		uint64_t Offset = 0;
-		IRTBuffer* const Buffer = Mock().FindBuffer(Address, &Offset);
-		EXPECT_TRUE(Buffer);
-		if (Buffer) { std::memcpy(&Value, Mock().GetBytes(Buffer) + Offset, sizeof(T)); }
-		return Value;
-	}
 	/// What the passes of the last frame were told.
 	FRadianceGrid GetTold()
 	{
@@ -33,7 +24,7 @@ protected:
 			if (Call.Name.rfind("RadianceCells/Commit.comp", 0) != 0) { continue; }
 			FRadianceCellConstants Push{};
 			std::memcpy(&Push, Call.Bytes.data(), std::min(sizeof(Push), Call.Bytes.size()));
-			return Read<FRadianceGrid>(Push.Grid);
+			return ReadMockEntry<FRadianceGrid>(Mock(), Push.Grid, 0);
 		}
 		ADD_FAILURE() << "no cells were updated";
 		return {};
@@ -118,7 +109,7 @@ TEST_F(FRadianceCellsMockTest, MovedObjectsTellWhere)
 	const FRadianceGrid Told = RenderAndGetTold();
 	EXPECT_NEAR(Told.Window, QuietFrames, 0.1f) << "elsewhere nothing has changed";
 	ASSERT_EQ(Told.EventCount, 2u);
-	const auto Near = Read<FRadianceEvent>(Told.Events), Far = Read<FRadianceEvent>(Told.Events + sizeof(FRadianceEvent));
+	const auto Near = ReadMockEntry<FRadianceEvent>(Mock(), Told.Events, 0), Far = ReadMockEntry<FRadianceEvent>(Mock(), Told.Events, 1);
 	EXPECT_EQ(Near.Window, 4.0f);
 	EXPECT_EQ(Far.Window, 8.0f);
 	EXPECT_GT(Near.Radius, 2.0f) << "the way and a metre";

@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "SettledTypes.h"
+#include "Support/MockReads.h"
 #include "Support/RendererTestTools.h"
 
 namespace Lantern
@@ -32,19 +33,9 @@ protected:
 			if (Call.Name.rfind("Tiles/Tiles.comp", 0) != 0) { continue; }
 			FTilesConstants Push{};
 			std::memcpy(&Push, Call.Bytes.data(), std::min(sizeof(Push), Call.Bytes.size()));
-			if (Push.Settled != 0) { Told = Read<FSettledConstants>(Push.Settled); }
+			if (Push.Settled != 0) { Told = ReadMockEntry<FSettledConstants>(Mock(), Push.Settled, 0); }
 		}
 		return Told;
-	}
-	template <class T>
-	T Read(uint64_t Address)
-	{
-		T Value{};
-		uint64_t Offset = 0;
-		IRTBuffer* const Buffer = Mock().FindBuffer(Address, &Offset);
-		EXPECT_TRUE(Buffer);
-		if (Buffer) { std::memcpy(&Value, Mock().GetBytes(Buffer) + Offset, sizeof(T)); }
-		return Value;
 	}
 	FRTScene& GetScene() { return Engine->GetScene().GetScene(); }
 	FRTObjectId GetObject() { return Engine->GetScene().GetDraws()[0].Object; }
@@ -107,7 +98,7 @@ TEST_F(FSettledTilesTest, IsToldWhatMoved)
 	FSettledConstants Told = GetTold();
 	ASSERT_EQ(Told.CasterCount, 1u);
 	EXPECT_EQ(Told.bAnywhere, 0u);
-	const auto Caster = Read<FMovedCaster>(Told.Casters);
+	const auto Caster = ReadMockEntry<FMovedCaster>(Mock(), Told.Casters, 0);
 	EXPECT_NEAR(Caster.To.x - Caster.From.x, 3.0f, 1e-5f);
 	EXPECT_NEAR(Caster.Radius, std::sqrt(2.0f), 1e-3f);
 	Render();

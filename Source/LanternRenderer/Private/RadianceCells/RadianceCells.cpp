@@ -118,14 +118,13 @@ std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context)
 		return nullptr;
 	}
 	Cells->Table = History.Buffer;
-	Cells->bFresh = History.bFresh;
 	const uint32_t Age = Context.RadianceEvents->CountFrames(History.bFresh);
 	Cells->Grid.Turn = Age & RADIANCE_CELL_TURN_MASK;
 	Cells->Grid.RestChance = Age < FramesWithoutCells ? 1.0f : RestChance;
 	// What the first frames know lacks further bounces, and must not be averaged for long.
 	Cells->Grid.Window = std::min(Cells->Grid.Window, std::max(float(Age) / AgesInWindow, float(FRadianceEvents::LeastWindow)));
 	Cells->Work = Context.Graph.CreateBuffer({FRadianceWork::GetSize(Cells->Grid.VoteCount)}, "RadianceCellWork");
-	if (Cells->bFresh)
+	if (History.bFresh)
 	{
 		Context.Graph.AddPass("RadianceCellsClear", [&](FPassBuilder& Builder) -> FPassExecute {
 			Builder.Write(Cells->Table, ERTAccess::CopyWrite);

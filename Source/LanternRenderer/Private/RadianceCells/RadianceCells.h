@@ -17,7 +17,6 @@ struct FRadianceCells
 	FGraphBuffer Work;    ///< of this frame: FRadianceWork
 	FRadianceGrid Grid{}; ///< without addresses of buffers
 	FUploadSlice GridData;
-	bool bFresh = false;      ///< nothing is kept
 	float EventFrames = 0.0f; ///< for which what pixels saw may hold, by what has changed
 	uint32_t Slots = 0;
 };
