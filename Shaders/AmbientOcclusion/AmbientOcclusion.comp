@@ -2,7 +2,7 @@
 #version 460
 #extension GL_EXT_ray_query : require
 #include "AmbientOcclusion.glsl"
-#include "../Rays/QueryShadow.glsl"
+#include "../Rays/QueryRay.glsl"
 
 layout(local_size_x = RAY_QUERY_GROUP_SIZE, local_size_y = RAY_QUERY_GROUP_SIZE) in;
 

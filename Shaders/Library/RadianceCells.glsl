@@ -2,7 +2,7 @@
 // it. The idea is that of "Fast, Lightweight Caching for Path Tracing" (Binder et al. 2019) and of SHARC (NVIDIA 2023).
 //
 // - A cell is thin along the normal of its surface, and has the side that it faces in its key. Sheets that are closer than a cell, and the
-//   two sides of one, thus have different cells.
+//   two sides of one, thus have different cells. Leaves have cubes without a side: a bush would have a cell for each of its leaves.
 // - A look-up takes a cell that has been updated, or a coarse one that stands in for it, or fails. The path that asked then finds light by
 //   itself.
 // - Some look-ups vote. They insert cells, and the place of one of them is where the cell's rays start from then on. A cell's light is
@@ -38,8 +38,11 @@ struct FRadianceKey
 	uint Check;     // neither 0 nor LostKey
 };
 
-// Normal: geometric, towards the side that the light comes from.
-FRadianceKey MakeRadianceKey(FRadianceGrid Grid, ivec3 Steps, uint Level, bool bCoarse, vec3 Normal)
+const uint NoSide = 6u;
+
+// Normal: geometric, towards the side that the light comes from. Without it, bThick: cells are cubes, twice as wide, in which all surfaces
+// share the light.
+FRadianceKey MakeRadianceKey(FRadianceGrid Grid, ivec3 Steps, uint Level, bool bCoarse, vec3 Normal, bool bThick)
 {
 	uint Shift = RADIANCE_CELL_FINEST_SHIFT + Level;
 	ivec3 Cell = Steps >> Shift;
@@ -48,6 +51,11 @@ FRadianceKey MakeRadianceKey(FRadianceGrid Grid, ivec3 Steps, uint Level, bool b
 #ifndef NO_LAYERS // r.RT.Debug.GI.Layers
 	Cell[Axis] = Steps[Axis] >> (Shift - RADIANCE_CELL_THICKNESS);
 	uint Side = Axis * 2u + (Normal[Axis] < 0.0 ? 1u : 0u);
+	if (bThick)
+	{
+		Cell = Steps >> (Shift + 1u);
+		Side = NoSide;
+	}
 #else
 	uint Side = 0u;
 #endif
@@ -137,6 +145,7 @@ struct FRadianceQuery
 	vec3 GeometricNormal, Normal;
 	float FromCamera; // distance, metres
 	float RayLength;  // of the ray that asks, metres
+	bool bFoliage;    // leaves have all directions, and their light is averaged
 };
 
 // A look-up that may vote: where it notes what it asked for. 0: none.
@@ -154,7 +163,8 @@ uint AskRadianceCell(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Vo
 	bool bVotes = Voter.Note != FAddress(0);
 	for (uint Coarser = 0u; Coarser < 4u; ++Coarser)
 	{
-		FRadianceKey Key = MakeRadianceKey(Grid, Steps, min(Level + Coarser, RADIANCE_CELL_LEVELS - 1u), bCoarse, Query.GeometricNormal);
+		FRadianceKey Key = MakeRadianceKey(Grid, Steps, min(Level + Coarser, RADIANCE_CELL_LEVELS - 1u), bCoarse, Query.GeometricNormal,
+		                                   Query.bFoliage);
 		bool bFull = true;
 		uint Slot = bVotes ? InsertRadianceCell(Grid, Key) : FindRadianceCell(Grid, Key, bFull);
 		// Without this, what is found would depend on whether a thread beside inserts the cell first.

@@ -47,6 +47,17 @@ uvec2 TurnPixel(uvec2 Thread, uint FrameIndex)
 	return Thread;
 #endif
 }
+// Returns how many threads a launch over all pixels of a frame's turn has.
+uvec2 TurnThreads(uvec2 Size)
+{
+#if defined(CHECKERBOARD)
+	return uvec2((Size.x + 1u) >> 1u, Size.y);
+#elif defined(QUARTER)
+	return (Size + 1u) >> 1u;
+#else
+	return Size;
+#endif
+}
 bool HasTurn(uint FrameIndex, uint Place) { return (TurnMask(FrameIndex) & (1u << (Place & 31u))) != 0u; }
 
 #endif

@@ -3,9 +3,8 @@
 #version 460
 #extension GL_EXT_ray_tracing : require
 #include "../Library/Bindings.glsl"
-#include "../Library/ObjectChannels.glsl"
 #include "../Materials/Material.glsl"
-#include "MaterialPayload.glsl"
+#include "HitSurface.glsl"
 #include "StandIn.glsl"
 
 layout(shaderRecordEXT, scalar) readonly buffer FRecord { FSectionData Section; };
@@ -39,35 +38,6 @@ void main()
 	}
 	FMaterialInputs Inputs = FetchMaterialInputs(Section, gl_PrimitiveID, TriangleHit.yz, ObjectNormal);
 #endif
-	Inputs.Normal = (Inputs.Normal * gl_WorldToObjectEXT).xyz;
-	mat3 ObjectToWorld = mat3(gl_ObjectToWorldEXT);
-	Inputs.Tangent.xyz = ObjectToWorld * Inputs.Tangent.xyz;
-	if (determinant(ObjectToWorld) < 0.0) { Inputs.Tangent.w = -Inputs.Tangent.w; } // the normal keeps the object's outside
-	FMaterialSurface Surface = EvaluateMaterial(Material, Inputs, Scene.MaterialOverride);
-
-	// The inverse transpose keeps the object's own outside, also where the transform mirrors.
-	vec3 Ng = normalize((ObjectNormal * gl_WorldToObjectEXT).xyz);
-	bool bFront = dot(Ng, gl_WorldRayDirectionEXT) < 0.0;
-	bool bCulledSide = !bFront && (Section.Flags & SECTION_DOUBLE_SIDED) == 0u;
-	if (!bFront)
-	{
-		Ng = -Ng;
-		Surface.Normal = -Surface.Normal;
-	}
-
-	FMaterialHit Hit;
-	Hit.Distance = TriangleHit.x;
-	Hit.Normal = Surface.Normal;
-	Hit.GeometricNormal = Ng;
-	Hit.BaseColor = Surface.BaseColor;
-	Hit.Roughness = Surface.Roughness;
-	Hit.Metallic = Surface.Metallic;
-	Hit.F0 = Surface.F0;
-	Hit.Specular = Surface.Specular;
-	Hit.Emissive = bCulledSide ? vec3(0.0) : Surface.Emissive;
-	Hit.EmissiveWeight = (Section.Flags & SECTION_LIGHT) != 0u ? Material.EmissiveWeight : 0.0;
-	uint ObjectFlags = FObjectRef(Scene.Objects).Data[gl_InstanceCustomIndexEXT].Flags;
-	Hit.Flags = (bCulledSide ? HIT_CULLED_SIDE : 0u) | ((ObjectFlags & OBJECT_CHARACTER) != 0u ? HIT_CHARACTER : 0u);
-	Hit.Channels = LoadObjectChannels(Scene, gl_InstanceCustomIndexEXT);
-	Payload = PackHit(Hit);
+	FHitPlace Place = FHitPlace(gl_InstanceCustomIndexEXT, TriangleHit.x, ObjectNormal, gl_WorldRayDirectionEXT, gl_ObjectToWorldEXT, gl_WorldToObjectEXT);
+	Payload = PackHit(MakeHitSurface(Scene, Section, Material, Inputs, Place));
 }

@@ -1,7 +1,7 @@
 // The payload of material rays: 32 bytes hold all that shading needs. The quantisation is finer than the accuracy that the
 // reference must reach. Base colours are unorm16, since a closed room of albedo 0.9 multiplies their error by ten. Emission
 // is fp16 (relative error ≤ 0.05 %), directions are octahedral.
-//   W0 distance                      W4 base colour b 15 | roughness 13 | channels 4, the lower ones
+//   W0 distance                      W4 base colour b 15 | foliage 1 | roughness 12 | channels 4, the lower ones
 //   W1 shading normal, octahedral    W5 flags 2 | sqrt(F0) 12 | specular 8 | metallic 10
 //   W2 geometric normal, octahedral  W6 emission rg fp16
 //   W3 base colour rg unorm16        W7 emission b fp16 | light-sampling weight fp16
@@ -27,6 +27,7 @@ const float MaxEmission = 65504.0 / EmissionScale; // nits
 
 #define HIT_CULLED_SIDE 1u // the back of a single-sided surface: camera rays do not see it
 #define HIT_CHARACTER 2u   // characters do not shadow the surface
+#define HIT_FOLIAGE 4u     // alpha-tested and seen from both sides
 
 struct FMaterialHit
 {
@@ -52,7 +53,7 @@ FMaterialPayload PackHit(FMaterialHit Hit)
 	Payload.W1 = PackOct(Hit.Normal);
 	Payload.W2 = PackOct(Hit.GeometricNormal);
 	Payload.W3 = packUnorm2x16(Hit.BaseColor.rg);
-	Payload.W4 = uint(clamp(Hit.BaseColor.b, 0.0, 1.0) * 32767.0 + 0.5) | (uint(clamp(Hit.Roughness, 0.0, 1.0) * 8191.0 + 0.5) << 15) |
+	Payload.W4 = uint(clamp(Hit.BaseColor.b, 0.0, 1.0) * 32767.0 + 0.5) | ((Hit.Flags & HIT_FOLIAGE) << 13) | (uint(clamp(Hit.Roughness, 0.0, 1.0) * 4095.0 + 0.5) << 16) |
 	       (Hit.Channels << 28);
 	Payload.W5 = (Hit.Flags & 3u) | (uint(sqrt(clamp(Hit.F0, 0.0, 1.0)) * 4095.0 + 0.5) << 2) |
 	       (uint(clamp(Hit.Specular, 0.0, 1.0) * 255.0 + 0.5) << 14) | (uint(clamp(Hit.Metallic, 0.0, 1.0) * 1023.0 + 0.5) << 22);
@@ -69,9 +70,9 @@ FMaterialHit UnpackHit(FMaterialPayload Payload)
 	Hit.Normal = UnpackOct(Payload.W1);
 	Hit.GeometricNormal = UnpackOct(Payload.W2);
 	Hit.BaseColor = vec3(unpackUnorm2x16(Payload.W3), float(Payload.W4 & 0x7fffu) / 32767.0);
-	Hit.Roughness = float((Payload.W4 >> 15) & 0x1fffu) / 8191.0;
+	Hit.Roughness = float((Payload.W4 >> 16) & 0xfffu) / 4095.0;
 	Hit.Channels = (Payload.W4 >> 28) | (BitsOf(Payload.W6) << 4) | (BitsOf(Payload.W7) << 6);
-	Hit.Flags = Payload.W5 & 3u;
+	Hit.Flags = (Payload.W5 & 3u) | ((Payload.W4 >> 13) & HIT_FOLIAGE);
 	float RootF0 = float((Payload.W5 >> 2) & 0xfffu) / 4095.0;
 	Hit.F0 = RootF0 * RootF0;
 	Hit.Specular = float((Payload.W5 >> 14) & 0xffu) / 255.0;

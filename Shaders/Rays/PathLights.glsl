@@ -14,10 +14,14 @@
 
 bool IsVisible(FSceneConstants Scene, uint Casters, vec3 Origin, vec3 Direction, float Distance)
 {
+#ifdef RAY_QUERY
+	return QueryBlockerDistance(Scene, 0u, Casters, Origin, Direction, Distance) < 0.0;
+#else
 	ShadowPayload.BlockerDistance = BlockedAtUnknownDistance;
 	traceRayEXT(Scenes[Scene.Tlas], gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT, Casters, SHADOW_RAY,
 	            RAY_TYPES, SHADOW_MISS, Origin, 0.0, Direction, Distance, 1);
 	return IsVisible(ShadowPayload);
+#endif
 }
 
 // Returns the density with which the BRDF's sampling finds what light sampling has found. Its rays see characters, which cast nothing on

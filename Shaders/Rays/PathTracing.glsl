@@ -1,6 +1,8 @@
 // Path tracing for ray generation shaders: the reference and the brute-force passes. Combines next-event estimation for each
 // kind of light with BRDF sampling by multiple importance sampling (Veach 1997), and ends paths by Russian roulette.
+// RAY_QUERY: rays are traced inline, in compute shaders; otherwise through a ray-tracing pipeline.
 // RADIANCE_CELLS: paths end where a radiance cell knows the light; the thread calls BeginRadianceLookUps first.
+// DEFERS_PATHS: paths also end where none does; bRadianceDeferred then says that what they bring is void.
 // HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_AREA_LIGHTS, HAS_LIGHT_PROFILES, HAS_LIGHT_CHANNELS, HAS_EMISSIVE, HAS_MASKED, HAS_CHARACTERS:
 // defined if the scene has such.
 #ifndef LANTERN_PATH_TRACING_GLSL
@@ -14,12 +16,16 @@
 #include "../Library/SkyMap.glsl"
 #include "../Library/Sun.glsl"
 #include "../Materials/Standard.glsl"
+#ifdef RAY_QUERY
+#include "QueryHit.glsl"
+#else
 #include "MaterialPayload.glsl"
 #include "ShadowPayload.glsl"
 
 layout(set = 0, binding = 3) uniform accelerationStructureEXT Scenes[];
 layout(location = 0) rayPayloadEXT FMaterialPayload MaterialPayload;
 layout(location = 1) rayPayloadEXT FShadowPayload ShadowPayload;
+#endif
 
 #include "PathLights.glsl"
 #ifdef RADIANCE_CELLS
@@ -32,6 +38,9 @@ const float RouletteThreshold = 0.25; // throughput below which Russian roulette
 // Shows: what of emission is asked for; SHOWS_NOTHING: what lights.
 FMaterialHit TraceMaterial(FSceneConstants Scene, uint Mask, vec3 Origin, vec3 Direction, float MaxDistance, uint Shows)
 {
+#ifdef RAY_QUERY
+	return QueryMaterialHit(Scene, Mask, Origin, Direction, MaxDistance, Shows == SHOWS_NOTHING);
+#else
 #ifdef HAS_LIGHT_EMISSION
 	MaterialPayload.W1 = Shows == SHOWS_NOTHING ? ASKS_FOR_LIGHT : 0u;
 #endif
@@ -45,6 +54,7 @@ FMaterialHit TraceMaterial(FSceneConstants Scene, uint Mask, vec3 Origin, vec3 D
 	traceRayEXT(Scenes[Scene.Tlas], 0u, Mask, MATERIAL_RAY, RAY_TYPES, MATERIAL_MISS, Origin, 0.0, Direction, MaxDistance, 0);
 #endif
 	return UnpackHit(MaterialPayload);
+#endif
 }
 
 FMaterialHit TraceMaterial(FSceneConstants Scene, vec3 Origin, vec3 Direction)
@@ -130,6 +140,10 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 		if (LookUpReflected(Hit, Brdf, P, LocalV, NextRandom4(Random).x, Known)) { return Radiance + Throughput * Known; }
 		Throughput *= TakeRadianceRest();
 		if (Bounce >= MaxBounces || Throughput == vec3(0.0)) { return Radiance; }
+#ifdef DEFERS_PATHS
+		bRadianceDeferred = true;
+		return Radiance;
+#endif
 #endif
 #ifdef HAS_CHARACTERS
 		bool bCharacter = (Hit.Flags & HIT_CHARACTER) != 0u;

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_EXT_ray_query : require
 #include "ShadowQueue.glsl"
-#include "QueryShadow.glsl"
+#include "QueryRay.glsl"
 
 layout(local_size_x = RAY_QUEUE_GROUP_SIZE) in;
 

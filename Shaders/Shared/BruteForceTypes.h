@@ -15,8 +15,18 @@ struct FBruteForceConstants
 	uint MaxBounces; // scattering events, that at the pixel included
 	float MaxRoughness; // rougher surfaces are not traced
 	FAddress RadianceCells; // FRadianceGrid, for shaders with RADIANCE_CELLS; 0: there are none
+	FAddress Deferred;      // FDeferredPaths, for shaders with DEFERS_PATHS or DEFERRED_PATHS
 };
-LANTERN_ASSERT_SIZE(FBruteForceConstants, 56);
+LANTERN_ASSERT_SIZE(FBruteForceConstants, 64);
+
+// Threads of a launch whose paths have met no radiance cell. A second launch follows them, in which neighbours do the same. The numbers of
+// the threads lie behind: y << 16 | x.
+struct FDeferredPaths
+{
+	uint Groups[3]; // of the ray-query path, in rows as those of the ray queue
+	uint Launch[3]; // width, height and depth of the ray-tracing pipeline's launch: [0] threads
+};
+LANTERN_ASSERT_SIZE(FDeferredPaths, 24);
 
 // Of the pass that fills pixels which traced nothing.
 struct FFillConstants

@@ -16,6 +16,7 @@ LANTERN_SHARED_BEGIN
 #define RADIANCE_CELL_MOST_UPDATES 65536u // in a frame
 #define RADIANCE_CELL_ROW 1024u       // updates in a row of their launch
 #define RADIANCE_CELL_GROUP_SIZE 256u
+#define RADIANCE_CELL_UPDATE_GROUP 64u // updates of a work group of the ray-query path
 #define RADIANCE_CELL_ROW_GROUPS 1024u // of a dispatch over the table: devices may have no more than 65,535 in x
 
 // A fine cell that knows too little is stood in for by a coarse one, which is larger by this much and fills sooner.
@@ -90,7 +91,7 @@ struct FRadianceGrid
 	uint Turn;            // counts frames of the table, modulo 4,096
 	uint Life;            // frames that a cell lives after its last look-up
 	uint Budget;          // updates of a frame
-	float RestChance;     // with which a group of pixels follows the paths that meet no cell
+	float RestChance;     // with which a pixel follows its paths that meet no cell
 	float Window;         // frames over which light is averaged
 	float SizeAngle;      // edge of a cell over its distance to the camera
 	uint VoteCount;       // of Votes

@@ -53,7 +53,13 @@ ERayPath ChooseRayPath(const FPassQuery& Query, const TRTConsoleVariable<int32_t
 	return bQuery ? ERayPath::Query : ERayPath::Pipeline;
 }
 
-ERayPath ChooseShadingRayPath(const FPassQuery& Query, const std::string& Variable)
+ERayPath ChooseShadingRayPath(const FPassQuery& Query, const TRTConsoleVariable<int32_t>& Wanted, const char* What)
+{
+	const bool bAnyPipeline = Wanted.GetOnRenderThread() == 0 && Query.Capabilities.bRayTracingPipeline;
+	return bAnyPipeline ? ERayPath::Pipeline : ChooseRayPath(Query, Wanted, What);
+}
+
+ERayPath ChoosePipelinePath(const FPassQuery& Query, const std::string& Variable)
 {
 	if (Query.Capabilities.bRayTracingPipeline) { return ERayPath::Pipeline; }
 	LogOnce(ERTLogLevel::Warning,

@@ -37,7 +37,9 @@ struct FPassRays
 	bool bLightSampling = false; ///< its other shaders sample emissive triangles
 	bool bTraces = true;         ///< false: the scene leaves nothing to trace, and only passes around the rays are made
 	bool bBlockers = false;      ///< its shadow rays report the distance of the blocker
-	bool bRadianceCells = false; ///< its paths end in radiance cells (RadianceCells/RadianceCells.h)
+	/// Its paths end in radiance cells (RadianceCells/RadianceCells.h). Those that meet none go on in a second launch of its shader, with
+	/// MakeDeferredRays (BruteForce/BruteForce.h).
+	bool bRadianceCells = false;
 	/// Path of the shaders that trace, without suffix. Empty: the signal's own.
 	std::string Shaders;
 	/// Compute shaders of the passes before and behind the rays. Filters have a list of their own (FSignalPass::ListFilters).
@@ -50,8 +52,11 @@ std::string GetRayShaderPath(ESignal Signal, const FPassRays& Rays, const char* 
 /// Chooses the path. Wanted is a console variable: 0 for the faster one, 1 for the pipeline, 2 for ray queries. Logs once if
 /// the device lacks what was asked for. What names the pass in messages: "sun shadows are".
 ERayPath ChooseRayPath(const FPassQuery& Query, const TRTConsoleVariable<int32_t>& Wanted, const char* What);
-/// Chooses for passes whose rays shade hits, which ray queries cannot. Variable: name of what switches the pass, for the message.
-ERayPath ChooseShadingRayPath(const FPassQuery& Query, const std::string& Variable);
+/// Chooses for passes whose rays shade hits. 0 means the pipeline where there is one: by ray queries, all materials are seen as the
+/// standard program shows them. Wanted, What: as above.
+ERayPath ChooseShadingRayPath(const FPassQuery& Query, const TRTConsoleVariable<int32_t>& Wanted, const char* What);
+/// Chooses for those that have no shader for ray queries. Variable: name of what switches the pass, for the message.
+ERayPath ChoosePipelinePath(const FPassQuery& Query, const std::string& Variable);
 
 /// Adds the define REORDER for ray generation shaders whose rays run material shaders, if r.RT.Reorder is on and the device can. Logs
 /// once if it cannot.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "BruteForce/BruteForce.h"
 #include "Feedback/AnyHitCounter.h"
 #include "Fog/FogShadow.h"
 #include "FrameChoices.h"
@@ -59,7 +60,8 @@ FRayType MakeMaterialRay(const FSceneFacts& Facts)
 struct FCollector
 {
 	FRayPrograms& Programs;
-	bool bShadesHits = false, bBlockers = false, bFilters = false, bRadianceCells = false;
+	bool bShadesHits = false, bBlockers = false, bFilters = false;
+	ERayPath RadianceCells = ERayPath::None; ///< of the pass that ends in them
 
 	void Add(ESignal Signal, FPassRays Rays, const std::string& RayGenPath)
 	{
@@ -101,7 +103,7 @@ void CollectSignals(FCollector& Collector, const FRTCapabilities& Capabilities, 
 		FPassRays& Rays = Chosen[ToIndex(Pass.Signal)];
 		if (Rays.Path == ERayPath::None) { return; }
 		Collector.Programs.bLightSampling |= Rays.bLightSampling;
-		Collector.bRadianceCells |= Rays.bRadianceCells;
+		if (Rays.bRadianceCells) { Collector.RadianceCells = Rays.Path; }
 		const bool bMade = IsMade(Pass.Signal, Requests);
 		const bool bMask = Pass.Signal == GetLightMaskRow() && IsLightMaskAccumulated(Facts);
 		Collector.Programs.bMotion |= bMask || (bMade && Pass.WantsMotion && Pass.WantsMotion(Scene));
@@ -112,6 +114,7 @@ void CollectSignals(FCollector& Collector, const FRTCapabilities& Capabilities, 
 		{
 			Collector.Programs.bQueries = true;
 			Compute.push_back(MakeQuerySource(Facts, Pass.Signal, Rays));
+			if (Rays.bRadianceCells) { Compute.push_back(MakeQuerySource(Facts, Pass.Signal, MakeDeferredRays(Rays))); }
 		}
 		Compute.insert(Compute.end(), Rays.Compute.begin(), Rays.Compute.end());
 		if (bMade && Pass.ListFilters)
@@ -123,6 +126,7 @@ void CollectSignals(FCollector& Collector, const FRTCapabilities& Capabilities, 
 		if (Rays.Path == ERayPath::Pipeline && Rays.bTraces)
 		{
 			const std::string RayGen = GetRayShaderPath(Pass.Signal, Rays, ".rgen");
+			if (Rays.bRadianceCells) { Collector.Add(EPassRayGen::DeferredPaths, MakeDeferredRays(Rays), RayGen); }
 			Collector.Add(Pass.Signal, std::move(Rays), RayGen);
 		}
 	});
@@ -163,10 +167,8 @@ FRayPrograms ChooseRayPrograms(
 		CollectSignals(Collector, Capabilities, Scene, Facts, Requests, Ready);
 		const FPassQuery Query{Capabilities, Facts, Requests};
 		CollectPass(Collector, EPassRayGen::Fog, FogShaders, ChooseFogRays(Query), Facts);
-		if (Collector.bRadianceCells)
-		{
-			CollectPass(Collector, EPassRayGen::RadianceCells, RadianceCellShaders, ChooseRadianceCellRays(Query), Facts);
-		}
+		CollectPass(
+		    Collector, EPassRayGen::RadianceCells, RadianceCellShaders, ChooseRadianceCellRays(Query, Collector.RadianceCells), Facts);
 		Programs.bMotion &= Features.bMotion;
 	}
 	if (Features.bHostSurface) { Programs.Compute.push_back(MakeHostSurfaceSource()); }

@@ -25,6 +25,7 @@ struct FStage
 	bool bMoves = true; ///< an object travels; what is skinned moves in any case
 	bool bAway = false; ///< the camera looks where nothing is
 	std::vector<std::pair<const char*, const char*>> Settings;
+	FRTMockDesc Device;
 };
 
 bool HasPart(const FNames& Names, const std::string& Part)
@@ -41,7 +42,7 @@ protected:
 	FNames Make(const FStage& Stage, const std::vector<std::pair<const char*, const char*>>& Settings = {})
 	{
 		FConsoleVariables::Get().ResetAll();
-		Open();
+		Open(Stage.Device);
 		Set("r.RT.Reflections", "1");
 		for (const auto& [Name, Value] : Settings) { Set(Name, Value); }
 		for (const auto& [Name, Value] : Stage.Settings) { Set(Name, Value); }
@@ -303,7 +304,7 @@ TEST_F(FRendererLackTest, RadianceCellsAreThereForRoutesThatEndInThem)
 	Cells.Settings = {{"r.RT.GI", "3"}};
 	const FNames Without = Make(BruteForce), With = Make(Cells);
 	EXPECT_FALSE(HasPart(Without, "RadianceCell"));
-	for (const char* Part : {"Clear", "Votes", "Age", "Cut", "List", "Update", "Commit"})
+	for (const char* Part : {"Clear", "Votes", "Age", "Cut", "List", "UpdateAndDiffuseGIDeferred", "Commit"})
 	{
 		EXPECT_TRUE(HasPart(With, std::string("pass RadianceCells") + Part)) << Part;
 	}
@@ -314,6 +315,19 @@ TEST_F(FRendererLackTest, RadianceCellsAreThereForRoutesThatEndInThem)
 	FStage Empty = Cells;
 	Empty.Content = {.bObjects = false, .bSky = true};
 	EXPECT_FALSE(HasPart(Make(Empty), "RadianceCell")) << "without surfaces";
+}
+
+TEST_F(FRendererLackTest, DevicesWithoutPipelinesHaveDiffuseGIByQueries)
+{
+	FStage Stage;
+	Stage.Device.Rung = ERTRung::RayQuery;
+	Stage.Settings = {{"r.RT.GI", "3"}, {"r.RT.GI.Rate", "2"}};
+	const FNames Names = Make(Stage);
+	for (const char* Part : {"pass DiffuseGI", "DiffuseGI/DiffuseGI.comp", "RadianceCells/Update.comp", "pass DiffuseGIFill"})
+	{
+		EXPECT_TRUE(HasPart(Names, Part)) << Part;
+	}
+	EXPECT_FALSE(HasPart(Names, ".rgen"));
 }
 
 TEST_F(FRendererLackTest, RayTracingOffLeavesTheRaster)

@@ -2,11 +2,13 @@
 #include "BruteForce/BruteForce.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "BruteForceTypes.h"
 #include "Lights/LightCells.h"
 #include "LocalLights/Emitters.h"
 #include "RadianceCells/RadianceCells.h"
+#include "RayQueueTypes.h"
 #include "SignalPasses.h"
 #include "TileTypes.h"
 
@@ -16,6 +18,7 @@ namespace Lantern
 namespace
 {
 constexpr uint32_t BouncesWithoutCell = 3; // of a path that would end in a cell and meets none
+constexpr const char* DefersPaths = "DEFERS_PATHS";
 
 FShaderSource MakeFillSource(EPixelRate Rate)
 {
@@ -43,13 +46,150 @@ void AddFillPass(FFrameContext& Context, const FGBuffer& GBuffer, const std::str
 		};
 	});
 }
+
+/// What both launches of a pass share.
+struct FPaths
+{
+	FGraphTexture Output;
+	FGraphBuffer Deferred; ///< FDeferredPaths; invalid: there is no second launch
+	const FRadianceCells* RadianceCells = nullptr;
+	FRayDispatch First, Second;
+	uint32_t Width = 0, Height = 0; ///< of the first launch
+};
+
+FPaths MakePaths(const FBruteForcePass& Settings, FFrameContext& Context, const FRayDispatch& First, const FRayDispatch* Second)
+{
+	const FSignalInfo& Info = GetSignalInfo(Settings.Signal);
+	const EPixelRate Rate = FindRate(First.Defines);
+	FPaths Paths;
+	Paths.First = First;
+	Paths.Width = Rate != EPixelRate::Full ? DivideUp(Context.Width, 2) : Context.Width;
+	Paths.Height = Rate == EPixelRate::Quarter ? DivideUp(Context.Height, 2) : Context.Height;
+	Paths.Output = Context.Graph.CreateTexture({Context.Width, Context.Height, Info.Format, ERTTextureUsage::CopySource}, Info.Pass);
+	Paths.RadianceCells =
+	    Settings.EndsInRadianceCells() ? RequireRadianceCells(Context, First.Compute ? ERayPath::Query : ERayPath::Pipeline) : nullptr;
+	if (Second)
+	{
+		const uint64_t Bytes = sizeof(FDeferredPaths) + uint64_t(Paths.Width) * Paths.Height * sizeof(uint32_t);
+		Paths.Deferred = Context.Graph.CreateBuffer({Bytes, ERTBufferUsage::Indirect | ERTBufferUsage::CopyDest}, "DeferredPaths");
+		Paths.Second = *Second;
+	}
+	return Paths;
+}
+
+void AddDeferredStartPass(FFrameContext& Context, const FPaths& Paths)
+{
+	Context.Graph.AddPass("DeferredPathsStart", [&](FPassBuilder& Builder) -> FPassExecute {
+		Builder.Write(Paths.Deferred, ERTAccess::CopyWrite);
+		Context.Tokens.LeaveAlone(Builder);
+		return [Buffer = Paths.Deferred](FPassContext& Pass) {
+			constexpr uint64_t Word = sizeof(uint32_t), Groups = offsetof(FDeferredPaths, Groups),
+			                   Launch = offsetof(FDeferredPaths, Launch);
+			const auto Fill = [&](uint64_t Offset, uint64_t Size, uint32_t Value) {
+				Pass.Commands().FillBuffer(Pass.GetBuffer(Buffer), Offset, Size, Value);
+			};
+			Fill(Groups, Word, RAY_QUEUE_ROW_GROUPS);
+			Fill(Groups + Word, Word, 0);
+			Fill(Groups + 2 * Word, Word, 1);
+			Fill(Launch, Word, 0);
+			Fill(Launch + Word, 2 * Word, 1);
+		};
+	});
+}
+
+void TraceFirst(FPassContext& Pass, const FFrameContext& Frame, const FPaths& Paths, const FBruteForceConstants& Constants)
+{
+	if (Paths.First.Compute) { return Dispatch2D(Pass, Paths.First.Compute, Constants, Paths.Width, Paths.Height, RAY_QUERY_GROUP_SIZE); }
+	TraceFrameRays(Pass, Frame, Paths.First.RayGen, Constants, Paths.Width, Paths.Height);
+}
+
+void TraceDeferred(FPassContext& Pass, const FFrameContext& Frame, const FPaths& Paths, const FBruteForceConstants& Constants)
+{
+	const FRayDispatch& Second = Paths.Second;
+	if (!Second.Compute && !Frame.Device.GetCapabilities().bIndirectTrace)
+	{
+		return TraceFrameRays(Pass, Frame, Second.RayGen, Constants, Paths.Width, Paths.Height);
+	}
+	IRTCommandList& Commands = Pass.Commands();
+	IRTBuffer* const Arguments = Pass.GetBuffer(Paths.Deferred);
+	Commands.SetPipeline(Second.Compute ? Second.Compute : Frame.RayPipeline->GetPipeline());
+	Commands.PushConstants(&Constants, sizeof(Constants));
+	if (Second.Compute) { return Commands.DispatchIndirect(Arguments, offsetof(FDeferredPaths, Groups)); }
+	Commands.TraceRaysIndirect(Frame.RayTable->GetTable(), Second.RayGen, Arguments, offsetof(FDeferredPaths, Launch));
+}
+
+/// Declares what the launches of a pass use, other than cells. bDeferred: the second launch.
+void DeclarePaths(FPassBuilder& Builder, const FBruteForcePass& Settings, const FGBuffer& GBuffer, const FPaths& Paths, bool bDeferred)
+{
+	Builder.Read(GBuffer.Depth, ERTAccess::ShaderRead);
+	Builder.Read(GBuffer.Normals, ERTAccess::ShaderRead);
+	if (GetSignalInfo(Settings.Signal).bNeedsSurface)
+	{
+		for (const FGraphTexture Texture : {GBuffer.BaseColor, GBuffer.Material})
+		{
+			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+		}
+	}
+	Builder.Write(Paths.Output, ERTAccess::StorageWrite);
+	if (!Paths.Deferred.IsValid()) { return; }
+	Builder.Read(Paths.Deferred, bDeferred ? ERTAccess::ShaderRead : ERTAccess::StorageRead);
+	if (bDeferred) { Builder.Read(Paths.Deferred, ERTAccess::IndirectRead); }
+	else { Builder.Write(Paths.Deferred, ERTAccess::StorageWrite); }
+}
+
+void RecordPaths(FPassContext& Pass, const FFrameContext& Frame, const FBruteForcePass& Settings, const FGBuffer& GBuffer,
+    const FPaths& Paths, bool bDeferred)
+{
+	const bool bNeedsSurface = GetSignalInfo(Settings.Signal).bNeedsSurface;
+	const uint32_t Bounces = static_cast<uint32_t>(Settings.Bounces.GetOnRenderThread());
+	FBruteForceConstants C{};
+	C.Pass = Frame.Pass;
+	C.Depth = GetSampledIndex(Pass, GBuffer.Depth);
+	C.Normals = GetSampledIndex(Pass, GBuffer.Normals);
+	C.BaseColor = bNeedsSurface ? GetSampledIndex(Pass, GBuffer.BaseColor) : NO_TEXTURE;
+	C.Material = bNeedsSurface ? GetSampledIndex(Pass, GBuffer.Material) : NO_TEXTURE;
+	C.Output = GetStorageIndex(Pass, Paths.Output);
+	C.SamplesPerPixel = static_cast<uint32_t>(Settings.Samples.GetOnRenderThread());
+	C.MaxBounces = (Paths.RadianceCells ? std::max(Bounces, BouncesWithoutCell) : Bounces) + 1;
+	C.RadianceCells = WriteRadianceGrid(Pass, Paths.RadianceCells);
+	C.MaxRoughness = Settings.MaxRoughness ? Settings.MaxRoughness->GetOnRenderThread() : 1.0f;
+	C.Deferred = GetAddress(Pass, Paths.Deferred);
+	if (bDeferred) { return TraceDeferred(Pass, Frame, Paths, C); }
+	Pass.CountRays(uint64_t(Paths.Width) * Paths.Height * C.SamplesPerPixel * GetMaxPathRays(Frame.Facts, Bounces));
+	TraceFirst(Pass, Frame, Paths, C);
+}
+
+/// bDeferred: the second launch.
+void AddPathsPass(const FBruteForcePass& Settings, FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& Paths, bool bDeferred)
+{
+	const FLightCellsOfFrame& LightCells = RequireLightCells(Context, GBuffer);
+	const std::string Name = std::string(GetSignalInfo(Settings.Signal).Pass) + (bDeferred ? "Deferred" : "");
+	Context.Graph.AddPass(Name.c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
+		DeclarePaths(Builder, Settings, GBuffer, Paths, bDeferred);
+		ReadLightCells(Builder, LightCells, true);
+		ReadRadianceCells(Builder, Paths.RadianceCells);
+		Builder.AllowAsync();
+		return [=, Frame = &Context, &Settings](FPassContext& Pass) { RecordPaths(Pass, *Frame, Settings, GBuffer, Paths, bDeferred); };
+	});
+}
+
+/// Adds the second launch, and the passes that keep the cells which both look up.
+void AddDeferredPasses(const FBruteForcePass& Settings, FFrameContext& Context, const FGBuffer& GBuffer, const FPaths& Paths)
+{
+	FBesideUpdates Beside;
+	Beside.Pass = std::string(GetSignalInfo(Settings.Signal).Pass) + "Deferred";
+	Beside.Declare = [&](FPassBuilder& Builder) { DeclarePaths(Builder, Settings, GBuffer, Paths, true); };
+	Beside.Record = [=, Frame = &Context, &Settings](FPassContext& Pass) { RecordPaths(Pass, *Frame, Settings, GBuffer, Paths, true); };
+	const ERayPath Path = Paths.First.Compute ? ERayPath::Query : ERayPath::Pipeline;
+	if (!AddRadianceCellPasses(Context, GBuffer, Path, Beside)) { AddPathsPass(Settings, Context, GBuffer, Paths, true); }
+}
 } // namespace
 
 ERayPath ChooseBruteForcePath(const FBruteForcePass& Settings, const FPassQuery& Query)
 {
 	if (!IsRayTracingEnabled() || !Settings.IsOn()) { return ERayPath::None; }
 	if (Query.Facts.Objects == 0 || !HasAnyLight(Query.Facts)) { return ERayPath::None; }
-	return ChooseShadingRayPath(Query, Settings.Variable);
+	return Settings.Path ? ChooseShadingRayPath(Query, *Settings.Path, Settings.What) : ChoosePipelinePath(Query, Settings.Variable);
 }
 
 FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery& Query)
@@ -67,61 +207,49 @@ FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery
 		if (Rate != EPixelRate::Full) { Rays.Compute.push_back(MakeFillSource(Rate)); }
 	}
 	Rays.bRadianceCells = Settings.EndsInRadianceCells();
-	if (Rays.bRadianceCells) { AddRadianceCellDefines(Rays.Defines); }
+	if (Rays.bRadianceCells)
+	{
+		AddRadianceCellDefines(Rays.Defines);
+		Rays.Defines.emplace_back(DefersPaths, "1");
+	}
 	ListLightCellShaders(Query.Facts, Rays.Compute);
-	AddReorderDefine(Query.Capabilities, Rays.Defines);
+	if (Rays.Path == ERayPath::Pipeline) { AddReorderDefine(Query.Capabilities, Rays.Defines); }
 	Rays.bShadesHits = true;
 	return Rays;
 }
 
+FPassRays MakeDeferredRays(const FPassRays& Rays)
+{
+	FPassRays Deferred = Rays;
+	for (auto& Define : Deferred.Defines)
+	{
+		if (Define.first == DefersPaths) { Define.first = "DEFERRED_PATHS"; }
+	}
+	return Deferred;
+}
+
 FGraphTexture AddBruteForcePass(const FBruteForcePass& Settings, FFrameContext& Context, const FGBuffer& GBuffer)
 {
-	const FSignalInfo& Info = GetSignalInfo(Settings.Signal);
-	const std::optional<FRayDispatch> Dispatch = RequireRayDispatch(Context, Settings.Signal, ChooseSignalRays(Context, Settings.Signal));
-	if (!Dispatch) { return {}; }
-	const EPixelRate Rate = FindRate(Dispatch->Defines);
+	const FPassRays Rays = ChooseSignalRays(Context, Settings.Signal);
+	const std::optional<FRayDispatch> First = RequireRayDispatch(Context, Settings.Signal, Rays);
+	if (!First) { return {}; }
+	std::optional<FRayDispatch> Second;
+	if (First->Has(DefersPaths))
+	{
+		const FPassRays Deferred = MakeDeferredRays(Rays);
+		Second = RequireRayDispatch(
+		    Context, Deferred, Context.GetRayGen(EPassRayGen::DeferredPaths), MakeQuerySource(Context.Facts, Settings.Signal, Deferred));
+		if (!Second) { return {}; }
+	}
+	const EPixelRate Rate = FindRate(First->Defines);
 	IRTPipeline* const Fill = Rate != EPixelRate::Full ? RequireCompute(Context, MakeFillSource(Rate)) : nullptr;
 	if (Rate != EPixelRate::Full && !Fill) { return {}; }
-	const FGraphTexture Output =
-	    Context.Graph.CreateTexture({Context.Width, Context.Height, Info.Format, ERTTextureUsage::CopySource}, Info.Pass);
-	const FLightCellsOfFrame& LightCells = RequireLightCells(Context, GBuffer);
-	const FRadianceCells* const RadianceCells = Settings.EndsInRadianceCells() ? RequireRadianceCells(Context) : nullptr;
-	const FFrameContext* const Frame = &Context;
-	Context.Graph.AddPass(Info.Pass, [&](FPassBuilder& Builder) -> FPassExecute {
-		Builder.Read(GBuffer.Depth, ERTAccess::ShaderRead);
-		Builder.Read(GBuffer.Normals, ERTAccess::ShaderRead);
-		const FGraphTexture BaseColor = Info.bNeedsSurface ? GBuffer.BaseColor : FGraphTexture();
-		const FGraphTexture Material = Info.bNeedsSurface ? GBuffer.Material : FGraphTexture();
-		for (const FGraphTexture Texture : {BaseColor, Material})
-		{
-			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
-		}
-		Builder.Write(Output, ERTAccess::StorageWrite);
-		ReadLightCells(Builder, LightCells, true);
-		ReadRadianceCells(Builder, RadianceCells);
-		Builder.AllowAsync();
-		return [=, &Settings](FPassContext& Pass) {
-			const uint32_t Bounces = static_cast<uint32_t>(Settings.Bounces.GetOnRenderThread());
-			FBruteForceConstants C{};
-			C.Pass = Frame->Pass;
-			C.Depth = GetSampledIndex(Pass, GBuffer.Depth);
-			C.Normals = GetSampledIndex(Pass, GBuffer.Normals);
-			C.BaseColor = GetSampledIndex(Pass, BaseColor);
-			C.Material = GetSampledIndex(Pass, Material);
-			C.Output = GetStorageIndex(Pass, Output);
-			C.SamplesPerPixel = static_cast<uint32_t>(Settings.Samples.GetOnRenderThread());
-			C.MaxBounces = (RadianceCells ? std::max(Bounces, BouncesWithoutCell) : Bounces) + 1;
-			C.RadianceCells = WriteRadianceGrid(Pass, RadianceCells);
-			C.MaxRoughness = Settings.MaxRoughness ? Settings.MaxRoughness->GetOnRenderThread() : 1.0f;
-			const uint32_t Width = Rate != EPixelRate::Full ? DivideUp(Frame->Width, 2) : Frame->Width;
-			const uint32_t Height = Rate == EPixelRate::Quarter ? DivideUp(Frame->Height, 2) : Frame->Height;
-			Pass.CountRays(uint64_t(Width) * Height * C.SamplesPerPixel * GetMaxPathRays(Frame->Facts, Bounces));
-			TraceFrameRays(Pass, *Frame, Dispatch->RayGen, C, Width, Height);
-		};
-	});
-	if (Fill) { AddFillPass(Context, GBuffer, std::string(Info.Pass) + "Fill", Output, Fill); }
-	if (RadianceCells) { AddRadianceCellPasses(Context, GBuffer); }
-	return Output;
+	const FPaths Paths = MakePaths(Settings, Context, *First, Second ? &*Second : nullptr);
+	if (Second) { AddDeferredStartPass(Context, Paths); }
+	AddPathsPass(Settings, Context, GBuffer, Paths, false);
+	if (Second) { AddDeferredPasses(Settings, Context, GBuffer, Paths); }
+	if (Fill) { AddFillPass(Context, GBuffer, std::string(GetSignalInfo(Settings.Signal).Pass) + "Fill", Paths.Output, Fill); }
+	return Paths.Output;
 }
 
 } // namespace Lantern

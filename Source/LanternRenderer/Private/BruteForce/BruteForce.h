@@ -21,10 +21,15 @@ struct FBruteForcePass
 	bool (*EndsInRadianceCells)() = [] { return false; }; ///< whether paths do; render thread
 	/// Pixels that trace in a frame, as EPixelRate. The others are filled as diffuse light may be. Null: all trace.
 	const TRTConsoleVariable<int32_t>* Rate = nullptr;
+	/// As ChooseShadingRayPath has it. Null: the signal has no shader for ray queries.
+	const TRTConsoleVariable<int32_t>* Path = nullptr;
+	const char* What = ""; ///< names the pass in messages, with Path
 };
 
 ERayPath ChooseBruteForcePath(const FBruteForcePass& Settings, const FPassQuery& Query);
 FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery& Query);
+/// Returns the second launch of a pass with bRadianceCells, which follows the paths that the first has left.
+FPassRays MakeDeferredRays(const FPassRays& Rays);
 /// Reads Depth and Normals of the G-buffer, and BaseColor and Material if FSignalInfo::bNeedsSurface says so.
 FGraphTexture AddBruteForcePass(const FBruteForcePass& Settings, FFrameContext& Context, const FGBuffer& GBuffer);
 

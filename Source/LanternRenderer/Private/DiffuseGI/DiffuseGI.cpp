@@ -14,8 +14,7 @@ namespace
 {
 TRTConsoleVariable<int32_t> CVarRoute("r.RT.GI", 0,
     "Diffuse global illumination. 0: off, and ambient light of the sky stands in. 1: paths of r.RT.GI.Bounces, by brute force. 2: as 3. 3: "
-    "one "
-    "ray a sample, which ends in radiance cells that hold the light of all further bounces.",
+    "one ray a sample, which ends in radiance cells that hold the light of all further bounces.",
     {0, 3});
 TRTConsoleVariable<int32_t> CVarSamples("r.RT.GI.Samples", 1, "Number of diffuse global illumination paths per pixel.", {1, 64});
 TRTConsoleVariable<int32_t> CVarBounces("r.RT.GI.Bounces", 1,
@@ -26,12 +25,17 @@ TRTConsoleVariable<int32_t> CVarRate("r.RT.GI.Rate", 0,
     "Pixels that trace diffuse global illumination in a frame. 0: all. 1: every other pixel, in turn. 2: one of four, in turn. The others "
     "take what neighbours on their plane found.",
     {0, 2});
+TRTConsoleVariable<int32_t> CVarPath("r.RT.GI.Path", 0,
+    "How diffuse global illumination traces. 0: by the pipeline where there is one. 1: ray-tracing pipeline. 2: ray queries, which see all "
+    "materials as the standard program shows them, and no own shapes.",
+    {0, 2});
 // Where one path in a hundred finds a lamp, most neighbourhoods are dark in a frame, and a clamp to them would lose its light.
 const FDenoiseVariables Denoise("r.RT.GI", FDenoiseDefaults{.bColor = true, .ClampSigma = 0.0f});
 constexpr int32_t FirstCachedRoute = 2;
 
 constexpr FBruteForcePass BruteForce{ESignal::DiffuseGI, "r.RT.GI", [] { return CVarRoute.GetOnRenderThread() != 0; }, CVarSamples,
-    CVarBounces, nullptr, [] { return CVarRoute.GetOnRenderThread() >= FirstCachedRoute; }, &CVarRate};
+    CVarBounces, nullptr, [] { return CVarRoute.GetOnRenderThread() >= FirstCachedRoute; }, &CVarRate, &CVarPath,
+    "diffuse global illumination is"};
 
 /// A filter that remembers longer than the cells may would undo what they know of changes.
 FDenoiseSettings GetFilter(const FFrameContext& Context)

@@ -173,36 +173,53 @@ void AddComputePass(FFrameContext& Context, const std::shared_ptr<const FRadianc
 	});
 }
 
-void AddUpdatePass(
-    FFrameContext& Context, const FGBuffer& GBuffer, const std::shared_ptr<const FRadianceCells>& Cells, const FRayDispatch& Dispatch)
+void AddUpdatePass(FFrameContext& Context, const FGBuffer& GBuffer, const std::shared_ptr<const FRadianceCells>& Cells,
+    const FRayDispatch& Dispatch, const FBesideUpdates& Beside)
 {
 	const FFrameContext* const Frame = &Context;
 	const FLightCellsOfFrame& LightCells = RequireLightCells(Context, GBuffer);
-	Context.Graph.AddPass("RadianceCellsUpdate", [&](FPassBuilder& Builder) -> FPassExecute {
+	Context.Graph.AddPass(("RadianceCellsUpdateAnd" + Beside.Pass).c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		Declare(Builder, *Cells);
 		ReadLightCells(Builder, LightCells, true);
-		return [=](FPassContext& Pass) {
+		if (Beside.Declare) { Beside.Declare(Builder); }
+		return [=, Record = Beside.Record](FPassContext& Pass) {
+			if (Record) { Record(Pass); } // without a barrier between
 			Pass.CountRays(uint64_t(Cells->Grid.Budget) * GetMaxPathRays(Frame->Facts, 1));
-			TraceFrameRays(
-			    Pass, *Frame, Dispatch.RayGen, MakeConstants(*Frame, *Cells), RADIANCE_CELL_ROW, Cells->Grid.Room / RADIANCE_CELL_ROW);
+			const FRadianceCellConstants C = MakeConstants(*Frame, *Cells);
+			const uint32_t Rows = Cells->Grid.Room / RADIANCE_CELL_ROW;
+			if (!Dispatch.Compute) { return TraceFrameRays(Pass, *Frame, Dispatch.RayGen, C, RADIANCE_CELL_ROW, Rows); }
+			Pass.Commands().SetPipeline(Dispatch.Compute);
+			Pass.Commands().PushConstants(&C, sizeof(C));
+			Pass.Commands().Dispatch(RADIANCE_CELL_ROW / RADIANCE_CELL_UPDATE_GROUP, Rows, 1);
 		};
 	});
 }
 } // namespace
 
-FPassRays ChooseRadianceCellRays(const FPassQuery& Query)
+FPassRays ChooseRadianceCellRays(const FPassQuery& Query, ERayPath Path)
 {
 	FPassRays Rays;
-	Rays.Path = ERayPath::Pipeline; // as whoever looks them up
+	Rays.Path = Path;
+	if (Path == ERayPath::None) { return Rays; }
 	Rays.Defines = MakePathDefines(Query.Facts);
 	AddRadianceCellDefines(Rays.Defines);
 	if (Query.Facts.Lights > 0) { Rays.Defines.emplace_back("LIGHT_CELLS_OF_VIEW", "1"); }
-	AddReorderDefine(Query.Capabilities, Rays.Defines);
+	if (Path == ERayPath::Pipeline) { AddReorderDefine(Query.Capabilities, Rays.Defines); }
 	Rays.bShadesHits = true;
 	Rays.Shaders = RadianceCellShaders;
 	for (const char* Name : SourceNames) { Rays.Compute.push_back(MakeSource(Name)); }
 	return Rays;
 }
+
+namespace
+{
+std::optional<FRayDispatch> FindUpdateDispatch(const FFrameContext& Context, ERayPath Path)
+{
+	const FPassRays Rays = ChooseRadianceCellRays({Context.Device.GetCapabilities(), Context.Facts, Context.Signals}, Path);
+	return RequireRayDispatch(
+	    Context, Rays, Context.GetRayGen(EPassRayGen::RadianceCells), MakeQuerySource(Context.Facts, RadianceCellShaders, Rays));
+}
+} // namespace
 
 void AddRadianceCellDefines(FShaderDefines& InOut)
 {
@@ -210,12 +227,12 @@ void AddRadianceCellDefines(FShaderDefines& InOut)
 	if (!CVarLayers.GetOnRenderThread()) { InOut.emplace_back("NO_LAYERS", "1"); }
 }
 
-const FRadianceCells* RequireRadianceCells(FFrameContext& Context)
+const FRadianceCells* RequireRadianceCells(FFrameContext& Context, ERayPath Path)
 {
 	if (!Context.bRadianceCellsAsked)
 	{
 		Context.bRadianceCellsAsked = true;
-		const bool bReady = AreReady(Context) && Context.GetRayGen(EPassRayGen::RadianceCells) != NoRayGen;
+		const bool bReady = AreReady(Context) && FindUpdateDispatch(Context, Path);
 		if (bReady) { Context.RadianceCells = MakeCells(Context); }
 	}
 	return Context.RadianceCells.get();
@@ -246,20 +263,19 @@ FAddress WriteRadianceGrid(FPassContext& Pass, const FRadianceCells* Cells)
 	return Cells->GridData.Address;
 }
 
-void AddRadianceCellPasses(FFrameContext& Context, const FGBuffer& GBuffer)
+bool AddRadianceCellPasses(FFrameContext& Context, const FGBuffer& GBuffer, ERayPath Path, const FBesideUpdates& Beside)
 {
 	const std::shared_ptr<const FRadianceCells> Cells = Context.RadianceCells;
-	if (!Cells) { return; }
-	const FPassRays Rays = ChooseRadianceCellRays({Context.Device.GetCapabilities(), Context.Facts, Context.Signals});
-	const std::optional<FRayDispatch> Dispatch = RequireRayDispatch(
-	    Context, Rays, Context.GetRayGen(EPassRayGen::RadianceCells), MakeQuerySource(Context.Facts, RadianceCellShaders, Rays));
-	if (!Dispatch) { return; }
+	if (!Cells) { return false; }
+	const std::optional<FRayDispatch> Dispatch = FindUpdateDispatch(Context, Path);
+	if (!Dispatch) { return false; }
 	AddComputePass(Context, Cells, "Votes", Cells->Grid.VoteCount + RADIANCE_CELL_MOST_UPDATES);
 	AddComputePass(Context, Cells, "Age", Cells->Slots);
 	AddComputePass(Context, Cells, "Cut", 1);
 	AddComputePass(Context, Cells, "List", Cells->Slots);
-	AddUpdatePass(Context, GBuffer, Cells, *Dispatch);
+	AddUpdatePass(Context, GBuffer, Cells, *Dispatch, Beside);
 	AddComputePass(Context, Cells, "Commit", RADIANCE_CELL_MOST_UPDATES);
+	return true;
 }
 
 } // namespace Lantern

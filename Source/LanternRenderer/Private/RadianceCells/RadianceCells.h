@@ -5,6 +5,8 @@
 // AddRadianceCellPasses then brings the cells up to date for the next frame.
 #pragma once
 
+#include <functional>
+
 #include "RadianceCellTypes.h"
 #include "RayPath.h"
 
@@ -22,18 +24,29 @@ struct FRadianceCells
 };
 
 /// What the updates of cells trace, and their other shaders, for frames with a pass whose rays end in them (FPassRays::bRadianceCells).
-FPassRays ChooseRadianceCellRays(const FPassQuery& Query);
+/// Path: that pass's. None: there is none.
+FPassRays ChooseRadianceCellRays(const FPassQuery& Query, ERayPath Path);
 /// Adds what shaders that look cells up are compiled with.
 void AddRadianceCellDefines(FShaderDefines& InOut);
 constexpr const char* RadianceCellShaders = "RadianceCells/Update";
 
-/// Returns the cells of the frame's view. Null: shaders are being compiled, or there is no memory, of which the log tells.
-const FRadianceCells* RequireRadianceCells(FFrameContext& Context);
+/// Returns the cells of the frame's view. Null: shaders are being compiled, or there is no memory, of which the log tells. Path: as in
+/// ChooseRadianceCellRays.
+const FRadianceCells* RequireRadianceCells(FFrameContext& Context, ERayPath Path);
 /// Declares that a pass looks cells up and asks for those that it misses. Cells may be null.
 void ReadRadianceCells(FPassBuilder& Builder, const FRadianceCells* Cells);
 /// Returns FRadianceGrid's address, while a pass with ReadRadianceCells is recorded. 0: Cells is null.
 FAddress WriteRadianceGrid(FPassContext& Pass, const FRadianceCells* Cells);
-/// Adds the passes behind all that look cells up. Does nothing if there are none.
-void AddRadianceCellPasses(FFrameContext& Context, const FGBuffer& GBuffer);
+/// Rays that run beside the updates of cells: either waits for its longest path, and they wait together. They may look cells up, and do
+/// not vote.
+struct FBesideUpdates
+{
+	std::string Pass; ///< name
+	std::function<void(FPassBuilder&)> Declare;
+	std::function<void(FPassContext&)> Record;
+};
+/// Adds the passes behind all that look cells up and vote. Path: as in ChooseRadianceCellRays. False: there are no cells, or their updates
+/// cannot run in this frame. Nothing is added then.
+bool AddRadianceCellPasses(FFrameContext& Context, const FGBuffer& GBuffer, ERayPath Path, const FBesideUpdates& Beside);
 
 } // namespace Lantern

@@ -209,6 +209,7 @@ enum class EPassRayGen : uint8_t
 {
 	Fog,
 	RadianceCells,
+	DeferredPaths, ///< of a signal whose paths end in radiance cells: the second launch
 	Count
 };
 constexpr size_t PassRayGenCount = static_cast<size_t>(EPassRayGen::Count);

@@ -1,0 +1,25 @@
+// Diffuse global illumination by inline ray query.
+#version 460
+#extension GL_EXT_ray_query : require
+#define RAY_QUERY
+#include "DiffuseGI.glsl"
+
+#ifdef DEFERRED_PATHS
+layout(local_size_x = RAY_QUEUE_GROUP_SIZE) in;
+
+void main()
+{
+	uvec2 Thread;
+	uint Number = gl_GlobalInvocationID.y * (RAY_QUEUE_GROUP_SIZE * RAY_QUEUE_ROW_GROUPS) + gl_GlobalInvocationID.x;
+	if (FindDeferred(Number, Thread)) { GatherPixel(Thread); }
+}
+#else
+layout(local_size_x = RAY_QUERY_GROUP_SIZE, local_size_y = RAY_QUERY_GROUP_SIZE) in;
+
+void main()
+{
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	// Groups at the border reach beyond it.
+	if (all(lessThan(gl_GlobalInvocationID.xy, TurnThreads(uvec2(View.Width, View.Height))))) { GatherPixel(gl_GlobalInvocationID.xy); }
+}
+#endif

@@ -1,0 +1,100 @@
+// Diffuse global illumination by brute force: traces paths from every pixel, cosine-weighted about its shading normal. The ray-tracing
+// pipeline and the ray-query path share it.
+// RADIANCE_CELLS: paths end in radiance cells. One pixel of four votes for the places of cells, in turn.
+// DEFERS_PATHS: paths that meet no cell are left to a second launch, of DEFERRED_PATHS, which has a thread for each of their pixels.
+// CHECKERBOARD, QUARTER: see Rate.glsl. BruteForce/Fill.comp fills the other pixels.
+// HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_EMISSIVE, HAS_MASKED: defined if the scene has such.
+#ifndef LANTERN_DIFFUSE_GI_GLSL
+#define LANTERN_DIFFUSE_GI_GLSL
+
+#include "../Shared/BruteForceTypes.h"
+#include "../Shared/RayQueueTypes.h"
+#include "../Library/Rate.glsl"
+#include "../Rays/IndirectSampling.glsl"
+
+layout(push_constant, scalar) uniform FPush { FBruteForceConstants Push; };
+
+#ifdef RADIANCE_CELLS
+void BeginLookUps(FViewConstants View, uvec2 Pixel)
+{
+	if (Push.RadianceCells == FAddress(0)) { return; }
+	FAddress Votes = FRadianceGridRef(Push.RadianceCells).Data.Votes;
+	uint Number = (Pixel.y >> 1u) * ((View.Width + 1u) >> 1u) + (Pixel.x >> 1u);
+	uvec2 Block = min(uvec2(View.Width, View.Height) - (Pixel & ~1u), uvec2(2u)); // fewer at the border
+#if defined(QUARTER)
+	bool bVotes = true;
+#elif defined(CHECKERBOARD)
+	bool bVotes = (Pixel.y & 1u) == min((View.FrameIndex >> 1u) & 1u, Block.y - 1u);
+#else
+	uint Turn = View.FrameIndex % (Block.x * Block.y);
+	bool bVotes = (Pixel.y & 1u) * Block.x + (Pixel.x & 1u) == Turn;
+#endif
+#ifdef DEFERRED_PATHS
+	bVotes = false; // the first launch has
+#endif
+	if (bVotes) { FRadianceVoteRef(Votes).Data[Number].Slot = NO_RADIANCE_CELL; }
+	uint Hash = HashPcg(Pixel.x + HashPcg(Pixel.y + HashPcg(View.FrameIndex + View.Seed)));
+	BeginRadianceLookUps(Push.RadianceCells, View, bVotes ? Votes : FAddress(0), Number, 1u, Hash);
+}
+#endif
+
+#if defined(DEFERS_PATHS) || defined(DEFERRED_PATHS)
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FDeferredPathsRef
+{
+	FDeferredPaths Header;
+	uint Threads[];
+};
+#endif
+
+#ifdef DEFERRED_PATHS
+// Number: of this launch's thread. OutThread: the one of the first launch that it stands for. Launches may be larger than what was deferred.
+bool FindDeferred(uint Number, out uvec2 OutThread)
+{
+	FDeferredPathsRef Deferred = FDeferredPathsRef(Push.Deferred);
+	OutThread = uvec2(0u);
+	if (Number >= Deferred.Header.Launch[0]) { return false; }
+	uint Packed = Deferred.Threads[Number];
+	OutThread = uvec2(Packed & 0xffffu, Packed >> 16u);
+	return true;
+}
+#endif
+
+#ifdef DEFERS_PATHS
+void DeferThread(uvec2 Thread)
+{
+	FDeferredPathsRef Deferred = FDeferredPathsRef(Push.Deferred);
+	uint Place = atomicAdd(Deferred.Header.Launch[0], 1u);
+	Deferred.Threads[Place] = Thread.x | (Thread.y << 16u);
+	if (Place % (RAY_QUEUE_GROUP_SIZE * RAY_QUEUE_ROW_GROUPS) == 0u) { atomicAdd(Deferred.Header.Groups[1], 1u); }
+}
+#endif
+
+// Thread: of a launch of as many as trace in this frame.
+void GatherPixel(uvec2 Thread)
+{
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	ivec2 Pixel = ivec2(min(TurnPixel(Thread, View.FrameIndex), uvec2(View.Width, View.Height) - 1u));
+	float Depth = LoadDepth(Push.Depth, Pixel);
+	vec3 Radiance = vec3(0.0);
+#ifdef RADIANCE_CELLS
+	BeginLookUps(View, uvec2(Pixel));
+	ChooseRadianceRest(uvec2(Pixel), View);
+#endif
+	if (Depth > 0.0)
+	{
+		FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
+		FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
+		Radiance = AverageIndirectSamples(Scene, View, uvec2(Pixel), Point, MakeWhiteLambert(), Push.SamplesPerPixel, Push.MaxBounces,
+		                                  0x61c88647u);
+	}
+#ifdef DEFERS_PATHS
+	if (bRadianceDeferred)
+	{
+		DeferThread(Thread);
+		return;
+	}
+#endif
+	imageStore(Images[Push.Output], Pixel, RoundToHalf(vec4(Radiance, 1.0)));
+}
+
+#endif

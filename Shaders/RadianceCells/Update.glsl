@@ -1,0 +1,54 @@
+// Traces one path for each listed cell: what reaches a white surface at its place. Paths end in other cells as the last frame left them,
+// so the order of threads does not matter, and each update carries light one surface further. The ray-tracing pipeline and the ray-query
+// path share it.
+#ifndef LANTERN_RADIANCE_CELL_UPDATE_GLSL
+#define LANTERN_RADIANCE_CELL_UPDATE_GLSL
+
+#ifndef RADIANCE_CELLS
+#define RADIANCE_CELLS
+#endif
+#include "../Shared/RadianceCellTypes.h"
+#include "../Rays/IndirectSampling.glsl"
+
+layout(push_constant, scalar) uniform FPush { FRadianceCellConstants Push; };
+
+const float MostLight = 1.0e30;
+
+// Returns irradiance / π of all light: what GatherIndirect leaves to the lighting pass is added.
+vec3 SampleCell(FSceneConstants Scene, FRadianceGrid Grid, FRadianceCell Cell, inout FRandom Random)
+{
+	vec3 Ng = UnpackOct(Cell.GeometricNormal);
+	// Places are kept to half a step.
+	vec3 P = FromRadianceSteps(Grid, Cell.Place) + Ng * (1.0 / LIGHT_POSITION_STEPS);
+	P = OffsetRayOrigin(P, Ng, Scene.ObjectReach, 0.0);
+	FBrdf White = MakeWhiteLambert();
+	mat3 Basis = MakeBasis(BendNormal(UnpackOct(Cell.Normal), Ng));
+	vec3 V = Ng * Basis;
+	vec4 U0 = NextRandom4(Random), U1 = NextRandom4(Random);
+	vec3 L = GatherIndirect(Scene, White, Basis, V, P, Ng, U0.xy, Push.MaxBounces, Random);
+#ifdef HAS_SUN
+	L += SampleSun(Scene, White, Basis, V, P, Ng, false, U0.zw);
+#endif
+#ifdef HAS_LIGHTS
+	L += SampleLocalLights(Scene, White, Basis, V, P, Ng, false, AllChannels, U1.x, U1.yz);
+#endif
+	return mix(clamp(L, vec3(0.0), vec3(MostLight)), vec3(0.0), isnan(L));
+}
+
+// Number: of an update.
+void UpdateCell(uint Number)
+{
+	FRadianceGrid Grid = FRadianceGridRef(Push.Grid).Data;
+	if (Number >= RADIANCE_CELL_MOST_UPDATES) { return; }
+	FRadianceVoteRef(Grid.UpdateVotes).Data[Number].Slot = NO_RADIANCE_CELL;
+	if (Number >= min(FRadianceCountersRef(Grid.Counters).Data.Listed, Grid.Room)) { return; }
+	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	FRadianceCell Cell = FRadianceCellRef(Grid.Cells).Data[FRadianceWordRef(Grid.List).Data[Number]];
+	uint Seed = RadianceSeed(Grid, Cell);
+	FRandom Random = MakeRandom(uvec2(Seed & 0xffffu, Seed >> 16u), View.FrameIndex, HashPcg(View.Seed + 0x2545f491u));
+	BeginRadianceLookUps(Push.Grid, View, Grid.UpdateVotes, Number, 2u, HashPcg(Seed ^ HashPcg(View.FrameIndex)));
+	FRadianceResultRef(Grid.Results).Data[Number] = SampleCell(Scene, Grid, Cell, Random);
+}
+
+#endif

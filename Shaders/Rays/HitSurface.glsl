@@ -1,0 +1,56 @@
+// Makes the surface of a hit, for hit shaders and for ray queries. The includer includes a material program before.
+#ifndef LANTERN_HIT_SURFACE_GLSL
+#define LANTERN_HIT_SURFACE_GLSL
+
+#include "../Library/ObjectChannels.glsl"
+#include "MaterialPayload.glsl"
+
+// Where a ray has met the surface of an object.
+struct FHitPlace
+{
+	uint Object;
+	float Distance;    // metres
+	vec3 ObjectNormal; // geometric, object space, of any length
+	vec3 Direction;    // of the ray
+	mat4x3 ObjectToWorld, WorldToObject;
+};
+
+// Inputs: object space. Material: its Emissive is what is asked for.
+FMaterialHit MakeHitSurface(FSceneConstants Scene, FSectionData Section, FMaterialData Material, FMaterialInputs Inputs, FHitPlace Place)
+{
+	Inputs.Normal = (Inputs.Normal * Place.WorldToObject).xyz;
+	mat3 ObjectToWorld = mat3(Place.ObjectToWorld);
+	Inputs.Tangent.xyz = ObjectToWorld * Inputs.Tangent.xyz;
+	if (determinant(ObjectToWorld) < 0.0) { Inputs.Tangent.w = -Inputs.Tangent.w; } // the normal keeps the object's outside
+	FMaterialSurface Surface = EvaluateMaterial(Material, Inputs, Scene.MaterialOverride);
+
+	// The inverse transpose keeps the object's own outside, also where the transform mirrors.
+	vec3 Ng = normalize((Place.ObjectNormal * Place.WorldToObject).xyz);
+	bool bFront = dot(Ng, Place.Direction) < 0.0;
+	bool bCulledSide = !bFront && (Section.Flags & SECTION_DOUBLE_SIDED) == 0u;
+	if (!bFront)
+	{
+		Ng = -Ng;
+		Surface.Normal = -Surface.Normal;
+	}
+
+	FMaterialHit Hit;
+	Hit.Distance = Place.Distance;
+	Hit.Normal = Surface.Normal;
+	Hit.GeometricNormal = Ng;
+	Hit.BaseColor = Surface.BaseColor;
+	Hit.Roughness = Surface.Roughness;
+	Hit.Metallic = Surface.Metallic;
+	Hit.F0 = Surface.F0;
+	Hit.Specular = Surface.Specular;
+	Hit.Emissive = bCulledSide ? vec3(0.0) : Surface.Emissive;
+	Hit.EmissiveWeight = (Section.Flags & SECTION_LIGHT) != 0u ? Material.EmissiveWeight : 0.0;
+	uint ObjectFlags = FObjectRef(Scene.Objects).Data[Place.Object].Flags;
+	Hit.Flags = (bCulledSide ? HIT_CULLED_SIDE : 0u) | ((ObjectFlags & OBJECT_CHARACTER) != 0u ? HIT_CHARACTER : 0u);
+	Hit.Channels = LoadObjectChannels(Scene, Place.Object);
+	const uint Foliage = SECTION_MASKED | SECTION_DOUBLE_SIDED;
+	if ((Section.Flags & Foliage) == Foliage) { Hit.Flags |= HIT_FOLIAGE; }
+	return Hit;
+}
+
+#endif
