@@ -37,6 +37,16 @@ uint FindOthers(uint FrameIndex, ivec2 InTile)
 	return Found;
 }
 
+void FillPixel(uint Image, ivec2 Pixel, uint Neighbors)
+{
+	vec3 Sum = vec3(0.0);
+	for (uint I = 0u; I < 9u; ++I)
+	{
+		if ((Neighbors & (1u << I)) != 0u) { Sum += imageLoad(Images[Image], Pixel + ivec2(I % 3u, I / 3u) - 1).rgb; }
+	}
+	imageStore(Images[Image], Pixel, RoundToHalf(vec4(Sum / float(max(bitCount(Neighbors), 1)), OfOthers)));
+}
+
 void main()
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
@@ -46,10 +56,6 @@ void main()
 	if (IsOutsideView(View, uvec2(Pixel)) || HasTurn(View.FrameIndex, TilePlace(uvec2(Pixel)))) { return; }
 	uint Neighbors = RingNormals[RingPlace(InTile)] == NoRingNormal ? 0u : FindNeighbors(View, InTile, false);
 	if (Neighbors == 0u && RingNormals[RingPlace(InTile)] != NoRingNormal) { Neighbors = FindOthers(View.FrameIndex, InTile); }
-	vec3 Sum = vec3(0.0);
-	for (uint I = 0u; I < 9u; ++I)
-	{
-		if ((Neighbors & (1u << I)) != 0u) { Sum += imageLoad(Images[Push.Radiance], Pixel + ivec2(I % 3u, I / 3u) - 1).rgb; }
-	}
-	imageStore(Images[Push.Radiance], Pixel, RoundToHalf(vec4(Sum / float(max(bitCount(Neighbors), 1)), OfOthers)));
+	FillPixel(Push.Radiance, Pixel, Neighbors);
+	if (Push.Second != NO_TEXTURE) { FillPixel(Push.Second, Pixel, Neighbors); }
 }

@@ -2,6 +2,7 @@
 // pipeline and the ray-query path share it.
 // RADIANCE_CELLS: paths end in radiance cells. One pixel of four votes for the places of cells, in turn.
 // DEFERS_PATHS: paths that meet no cell are left to a second launch, of DEFERRED_PATHS, which has a thread for each of their pixels.
+// SECOND_LOBE: the paths light the specular lobe as well (ESignal::RoughSpecular).
 // CHECKERBOARD, QUARTER: see Rate.glsl. BruteForce/Fill.comp fills the other pixels.
 // HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_EMISSIVE, HAS_MASKED: defined if the scene has such.
 #ifndef LANTERN_DIFFUSE_GI_GLSL
@@ -69,13 +70,27 @@ void DeferThread(uvec2 Thread)
 }
 #endif
 
+#ifdef SECOND_LOBE
+// Narrower lobes are widened: a cosine-weighted path rarely falls into them, and would then count for very many.
+const float LeastRoughness = 0.5;
+
+// Returns the directional albedo of the specular lobe that the pixel's paths light.
+vec3 SetSecondLobe(ivec2 Pixel, FGBufferPoint Point)
+{
+	vec4 Material = texelFetch(Textures[Push.Material], Pixel, 0);
+	Material.x = max(Material.x, LeastRoughness);
+	SecondLobe = MakeSpecularLobe(MakeGBufferBrdf(texelFetch(Textures[Push.BaseColor], Pixel, 0), Material));
+	return SpecularReflectance(SecondLobe, dot(Point.BentN, Point.V), Material.x);
+}
+#endif
+
 // Thread: of a launch of as many as trace in this frame.
 void GatherPixel(uvec2 Thread)
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	ivec2 Pixel = ivec2(min(TurnPixel(Thread, View.FrameIndex), uvec2(View.Width, View.Height) - 1u));
 	float Depth = LoadDepth(Push.Depth, Pixel);
-	vec3 Radiance = vec3(0.0);
+	vec3 Radiance = vec3(0.0), Specular = vec3(0.0);
 #ifdef RADIANCE_CELLS
 	BeginLookUps(View, uvec2(Pixel));
 	ChooseRadianceRest(uvec2(Pixel), View);
@@ -84,8 +99,14 @@ void GatherPixel(uvec2 Thread)
 	{
 		FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 		FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
+#ifdef SECOND_LOBE
+		vec3 Albedo = SetSecondLobe(Pixel, Point);
+#endif
 		Radiance = AverageIndirectSamples(Scene, View, uvec2(Pixel), Point, MakeWhiteLambert(), Push.SamplesPerPixel, Push.MaxBounces,
 		                                  0x61c88647u);
+#ifdef SECOND_LOBE
+		Specular = SecondMean / max(Albedo, vec3(1.0e-4));
+#endif
 	}
 #ifdef DEFERS_PATHS
 	if (bRadianceDeferred)
@@ -95,6 +116,9 @@ void GatherPixel(uvec2 Thread)
 	}
 #endif
 	imageStore(Images[Push.Output], Pixel, RoundToHalf(vec4(Radiance, 1.0)));
+#ifdef SECOND_LOBE
+	imageStore(Images[Push.SecondOutput], Pixel, RoundToHalf(vec4(Specular, 1.0)));
+#endif
 }
 
 #endif

@@ -10,6 +10,19 @@ const float MaxHalf = 65504.0;
 // Removes NaNs, and clamps to what fp16 holds: a sun may be brighter, and would become infinite in the output.
 vec3 ClampToFinite(vec3 L) { return mix(clamp(L, vec3(0.0), vec3(MaxHalf)), vec3(0.0), isnan(L)); }
 
+#ifdef SECOND_LOBE
+// A lobe of the same surfaces that the paths of a white Lambert lobe light as well. The thread sets it before.
+FBrdf SecondLobe;
+vec3 SecondMean; // what it reflects
+
+// Returns by what light from a direction counts more for the second lobe than for the white one.
+vec3 WeighSecond(mat3 Basis, vec3 V, vec3 Direction)
+{
+	vec3 L = Direction * Basis;
+	return EvaluateBrdfCos(SecondLobe, V, L) * (Pi / max(L.z, 1.0e-4));
+}
+#endif
+
 // Returns the mean radiance of a pixel's paths through one lobe. The first direction of a path is an Owen-scrambled Sobol
 // point; the sequence continues from frame to frame. All other random numbers come from an independent stream for each
 // sample. Salt decorrelates passes.
@@ -22,13 +35,24 @@ vec3 AverageIndirectSamples(FSceneConstants Scene, FViewConstants View, uvec2 Pi
 	uint StreamSeed = HashPcg(View.Seed + Salt);
 	uint Seed = HashPcg(Pixel.x + HashPcg(Pixel.y + StreamSeed));
 	vec3 Sum = vec3(0.0);
+#ifdef SECOND_LOBE
+	vec3 SecondSum = vec3(0.0);
+#endif
 	for (uint Sample = 0; Sample < Samples; ++Sample)
 	{
 		uint Index = View.FrameIndex * Samples + Sample;
 		FRandom Random = MakeRandom(Pixel, Index, StreamSeed);
-		vec3 L = GatherIndirect(Scene, Lobe, Basis, V, P, Point.Ng, SobolOwen2(Index, Seed), MaxBounces, Random);
+		FGathered Gathered = Gather(Scene, Lobe, Basis, V, P, Point.Ng, SobolOwen2(Index, Seed), MaxBounces, Random);
+		vec3 L = Gathered.Light + Gathered.Emission;
 		Sum += mix(L, vec3(0.0), isnan(L));
+#ifdef SECOND_LOBE
+		L = Gathered.Light * WeighSecond(Basis, V, Gathered.Direction) + Gathered.Emission * WeighSecond(Basis, V, Gathered.EmissionDirection);
+		SecondSum += mix(L, vec3(0.0), isnan(L));
+#endif
 	}
+#ifdef SECOND_LOBE
+	SecondMean = ClampToFinite(SecondSum / float(Samples));
+#endif
 	return ClampToFinite(Sum / float(Samples));
 }
 

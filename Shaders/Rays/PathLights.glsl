@@ -144,16 +144,18 @@ float EmissiveAreaPdf(FSceneConstants Scene, float EmissiveWeight)
 }
 
 // bWithOther: BRDF sampling finds emitters as well. U: a point of the triangle, a cluster and a triangle of it. Shows: SHOWS_….
+// ToLight: gets the direction, which means nothing where the result is 0.
 vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, vec4 U, bool bWithOther,
-                    uint Shows)
+                    uint Shows, out vec3 ToLight)
 {
+	ToLight = Ng;
 	if (Scene.EmissiveClusterCount == 0u) { return vec3(0.0); } // emitters exist, but are not listed
 	float Chance;
 	FEmissiveTriangle Triangle = ChooseEmissive(Scene, U.zw, Chance);
 	vec2 Barycentrics = SampleTriangle(U.xy);
 	vec3 Point = Triangle.P0 + (Triangle.P1 - Triangle.P0) * Barycentrics.x + (Triangle.P2 - Triangle.P0) * Barycentrics.y;
 	Point += CellOffset(Scene, FObjectRef(Scene.Objects).Data[Triangle.Object].Cell);
-	vec3 ToLight = Point - P;
+	ToLight = Point - P;
 	float DistanceSquared = dot(ToLight, ToLight);
 	if (DistanceSquared < 1.0e-12) { return vec3(0.0); }
 	float Distance = sqrt(DistanceSquared);
@@ -190,13 +192,15 @@ vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 
 
 vec3 SampleEmissive(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, vec4 U, uint Shows)
 {
-	return SampleEmissive(Scene, Brdf, Basis, V, P, Ng, bCharacter, U, true, Shows);
+	vec3 ToLight;
+	return SampleEmissive(Scene, Brdf, Basis, V, P, Ng, bCharacter, U, true, Shows, ToLight);
 }
 
 // Without a BRDF sample that shares its work.
 vec3 SampleEmissiveAlone(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, vec4 U)
 {
-	return SampleEmissive(Scene, Brdf, Basis, V, P, Ng, bCharacter, U, false, SHOWS_NOTHING);
+	vec3 ToLight;
+	return SampleEmissive(Scene, Brdf, Basis, V, P, Ng, bCharacter, U, false, SHOWS_NOTHING, ToLight);
 }
 #endif
 

@@ -32,6 +32,10 @@ layout(location = 1) rayPayloadEXT FShadowPayload ShadowPayload;
 #include "RadianceLookUps.glsl"
 #endif
 
+#ifndef REFLECTED_ROUGHNESS
+#define REFLECTED_ROUGHNESS 1.0 // see EmissionOfRays, for the first lobe of a path
+#endif
+
 const float Infinity = 1.0e30;
 const float RouletteThreshold = 0.25; // throughput below which Russian roulette may end a path
 
@@ -179,52 +183,67 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 	}
 }
 
-// Returns the indirect light that one lobe reflects at the first vertex of a path. It excludes the sun's disk and local
+// What one lobe reflects at the first vertex of a path, and from where.
+struct FGathered
+{
+	vec3 Light, Direction;            // of the path
+	vec3 Emission, EmissionDirection; // of a triangle that light sampling has found; zero if there is none
+};
+
+// Gathers the indirect light that one lobe reflects at the first vertex of a path. It excludes the sun's disk and local
 // lights that shine there directly; the lighting pass adds those. It includes the sky and emissive triangles.
 // EMISSIVE_IS_DIRECT: local lights include emissive triangles that light sampling lists, which then count here as EmissionShare.glsl says.
 // Lobe: MakeWhiteLambert or MakeSpecularLobe. U: chooses the direction. Other parameters: see PathLights.glsl.
 // G-buffers do not say which pixels show a character, so the first vertex counts as none.
 // Only the lobe samples the sky. Light sampling would reduce no noise of a uniform sky, and it knows no bright spots of a map.
-vec3 GatherIndirect(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, vec3 Ng, vec2 U, uint MaxBounces, inout FRandom Random)
+FGathered Gather(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, vec3 Ng, vec2 U, uint MaxBounces, inout FRandom Random)
 {
-	vec3 Radiance = vec3(0.0);
-	if (MaxBounces == 0u) { return Radiance; }
+	FGathered Gathered = FGathered(vec3(0.0), Ng, vec3(0.0), Ng);
+	if (MaxBounces == 0u) { return Gathered; }
 	float Specular = SpecularProbability(Lobe, V); // 0 or 1
-	if (Specular <= 0.0 && Lobe.Diffuse <= 0.0) { return Radiance; }
+	if (Specular <= 0.0 && Lobe.Diffuse <= 0.0) { return Gathered; }
 	float EmissionShare = 1.0;
 #ifdef EMISSIVE_IS_DIRECT
-	EmissionShare = Specular <= 0.0 ? 0.0 : EmissionOfRays(sqrt(Lobe.Alpha), 1.0);
+	EmissionShare = Specular <= 0.0 ? 0.0 : EmissionOfRays(sqrt(Lobe.Alpha), REFLECTED_ROUGHNESS);
 	uint Shows = SHOWS_ALL; // the rest is light sampling's
 #else
 	uint Shows = Specular <= 0.0 ? SHOWS_NOTHING : SHOWS_MIRRORED;
 #endif
 	bool bShown = false;
 #ifdef HAS_LIGHT_EMISSION
-	if (Specular > 0.0) { bShown = NextRandom4(Random).x < EmissionOfRays(sqrt(Lobe.Alpha), 1.0); }
+	if (Specular > 0.0) { bShown = NextRandom4(Random).x < EmissionOfRays(sqrt(Lobe.Alpha), REFLECTED_ROUGHNESS); }
 #endif
 #ifdef HAS_EMISSIVE
 	vec4 LightSample = NextRandom4(Random);
 	if (EmissionShare > 0.0 && (Specular <= 0.0 || !IsMirror(Lobe)))
 	{
-		Radiance += EmissionShare * SampleEmissive(Scene, Lobe, Basis, V, P, Ng, false, LightSample, Shows);
+		Gathered.Emission =
+		    EmissionShare * SampleEmissive(Scene, Lobe, Basis, V, P, Ng, false, LightSample, true, Shows, Gathered.EmissionDirection);
 	}
 #endif
 	FBrdfSample Sample = SampleBrdf(Lobe, V, vec3(U, 0.5));
-	vec3 Direction = Basis * Sample.Direction;
-	if (Sample.Direction.z <= 0.0 || dot(Direction, Ng) <= 0.0) { return Radiance; }
+	vec3 Direction = Gathered.Direction = Basis * Sample.Direction;
+	if (Sample.Direction.z <= 0.0 || dot(Direction, Ng) <= 0.0) { return Gathered; }
 	FMaterialHit Hit = TraceMaterial(Scene, MASK_VISIBLE, P, Direction, Infinity, bShown ? SHOWS_ALL : SHOWS_NOTHING);
 	if (Hit.Distance < 0.0)
 	{
 #ifdef HAS_SKY
-		Radiance += Sample.Weight * SampleSkyRadiance(Scene, Direction);
+		Gathered.Light = Sample.Weight * SampleSkyRadiance(Scene, Direction);
 #endif
-		return Radiance;
+		return Gathered;
 	}
 #if defined(HAS_LIGHT_EMISSION) && defined(EMISSIVE_IS_DIRECT)
 	EmissionShare = bShown ? 1.0 : 0.0; // their mean is the share
 #endif
 	if (Hit.EmissiveWeight > 0.0) { Hit.Emissive *= EmissionShare; }
-	return Radiance + Sample.Weight * FollowPath(Scene, Hit, P, Direction, Sample.Pdf, Sample.Direction.z, 1u, MaxBounces, bShown, Random);
+	Gathered.Light = Sample.Weight * FollowPath(Scene, Hit, P, Direction, Sample.Pdf, Sample.Direction.z, 1u, MaxBounces, bShown, Random);
+	return Gathered;
+}
+
+vec3 GatherIndirect(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, vec3 Ng, vec2 U, uint MaxBounces, inout FRandom Random)
+{
+	FGathered Gathered = Gather(Scene, Lobe, Basis, V, P, Ng, U, MaxBounces, Random);
+	return Gathered.Light + Gathered.Emission;
 }
 
 #endif

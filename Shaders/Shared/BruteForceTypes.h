@@ -16,8 +16,10 @@ struct FBruteForceConstants
 	float MaxRoughness; // rougher surfaces are not traced
 	FAddress RadianceCells; // FRadianceGrid, for shaders with RADIANCE_CELLS; 0: there are none
 	FAddress Deferred;      // FDeferredPaths, for shaders with DEFERS_PATHS or DEFERRED_PATHS
+	uint SecondOutput;      // storage index, for shaders with SECOND_LOBE
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FBruteForceConstants, 64);
+LANTERN_ASSERT_SIZE(FBruteForceConstants, 72);
 
 // Threads of a launch whose paths have met no radiance cell. A second launch follows them, in which neighbours do the same. The numbers of
 // the threads lie behind: y << 16 | x.
@@ -34,7 +36,7 @@ struct FFillConstants
 	FPassConstants Pass;
 	uint Depth, Normals; // sampled indices
 	uint Radiance;       // storage index
-	uint Pad;
+	uint Second;         // of what a second lobe reflects; NO_TEXTURE: there is none
 };
 LANTERN_ASSERT_SIZE(FFillConstants, 32);
 

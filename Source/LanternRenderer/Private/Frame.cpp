@@ -25,9 +25,11 @@ FFrameOutputs AddFramePasses(FFrameContext& Context, const FGBuffer& GBuffer)
 	Out.Get(ESignal::AmbientOcclusion) = AddAmbientOcclusionPass(Context, GBuffer);
 	Out.Get(ESignal::Reflections) = AddReflectionsPass(Context, GBuffer);
 	Out.Get(ESignal::DiffuseGI) = AddDiffuseGIPass(Context, GBuffer);
-	Out.Lighting = AddDirectLightingPass(
-	    Context, {GBuffer, Out.Get(ESignal::SunShadow), Out.Get(ESignal::AmbientOcclusion), Out.Get(ESignal::DiffuseGI),
-	                 Out.Get(ESignal::Reflections), Out.Get(ESignal::LocalDiffuse), Out.Get(ESignal::LocalSpecular)});
+	Out.Get(ESignal::RoughSpecular) = AddRoughSpecularPass(Context, GBuffer);
+	Out.Lighting =
+	    AddDirectLightingPass(Context, {GBuffer, Out.Get(ESignal::SunShadow), Out.Get(ESignal::AmbientOcclusion),
+	                                       Out.Get(ESignal::DiffuseGI), Out.Get(ESignal::Reflections), Out.Get(ESignal::RoughSpecular),
+	                                       Out.Get(ESignal::LocalDiffuse), Out.Get(ESignal::LocalSpecular)});
 	Out.Lighting = AddHeightFogPass(Context, GBuffer, Out.Lighting, Out.Fog);
 	Out.Display = AddToneMapPass(Context, Out.Lighting);
 	Out.Display = AddDebugView(Context, GBuffer, Out);

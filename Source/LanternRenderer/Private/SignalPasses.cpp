@@ -55,6 +55,11 @@ constexpr FSignalPass Passes[] = {
         .AskShadowRays = AskLocalRays,
         .bBesideLightMask = true,
         .SetReferenceConstants = SetLocalSpecularReference},
+    {.Signal = ESignal::RoughSpecular,
+        .ChooseRays = ChooseRoughSpecularRays,
+        .Add = AddRoughSpecularPass,
+        .WantsMotion = IsDiffuseGIFiltered,
+        .EmissionIn = ESignal::LocalSpecular},
 };
 static_assert(std::size(Passes) == SignalCount - 1, "each signal but Frame needs a row, in the order of ESignal");
 } // namespace

@@ -19,6 +19,7 @@ namespace
 {
 constexpr uint32_t BouncesWithoutCell = 3; // of a path that would end in a cell and meets none
 constexpr const char* DefersPaths = "DEFERS_PATHS";
+constexpr const char* SecondLobe = "SECOND_LOBE";
 
 FShaderSource MakeFillSource(EPixelRate Rate)
 {
@@ -27,13 +28,19 @@ FShaderSource MakeFillSource(EPixelRate Rate)
 	return MakeComputeSource("BruteForce/Fill.comp", std::move(Defines));
 }
 
-void AddFillPass(FFrameContext& Context, const FGBuffer& GBuffer, const std::string& Name, FGraphTexture Output, IRTPipeline* Pipeline)
+/// Second: may be invalid.
+void AddFillPass(FFrameContext& Context, const FGBuffer& GBuffer, const std::string& Name, FGraphTexture Output, FGraphTexture Second,
+    IRTPipeline* Pipeline)
 {
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass(Name.c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
-		Builder.Read(Output, ERTAccess::StorageRead);
-		Builder.Write(Output, ERTAccess::StorageWrite);
+		for (const FGraphTexture Texture : {Output, Second})
+		{
+			if (!Texture.IsValid()) { continue; }
+			Builder.Read(Texture, ERTAccess::StorageRead);
+			Builder.Write(Texture, ERTAccess::StorageWrite);
+		}
 		Context.Tokens.LeaveAlone(Builder);
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
@@ -42,6 +49,7 @@ void AddFillPass(FFrameContext& Context, const FGBuffer& GBuffer, const std::str
 			C.Depth = GetSampledIndex(Pass, GBuffer.Depth);
 			C.Normals = GetSampledIndex(Pass, GBuffer.Normals);
 			C.Radiance = GetStorageIndex(Pass, Output);
+			C.Second = GetStorageIndex(Pass, Second);
 			Dispatch2D(Pass, Pipeline, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
@@ -51,7 +59,8 @@ void AddFillPass(FFrameContext& Context, const FGBuffer& GBuffer, const std::str
 struct FPaths
 {
 	FGraphTexture Output;
-	FGraphBuffer Deferred; ///< FDeferredPaths; invalid: there is no second launch
+	FGraphTexture SecondOutput; ///< of the second lobe; invalid: there is none
+	FGraphBuffer Deferred;      ///< FDeferredPaths; invalid: there is no second launch
 	const FRadianceCells* RadianceCells = nullptr;
 	FRayDispatch First, Second;
 	uint32_t Width = 0, Height = 0; ///< of the first launch
@@ -66,6 +75,12 @@ FPaths MakePaths(const FBruteForcePass& Settings, FFrameContext& Context, const 
 	Paths.Width = Rate != EPixelRate::Full ? DivideUp(Context.Width, 2) : Context.Width;
 	Paths.Height = Rate == EPixelRate::Quarter ? DivideUp(Context.Height, 2) : Context.Height;
 	Paths.Output = Context.Graph.CreateTexture({Context.Width, Context.Height, Info.Format, ERTTextureUsage::CopySource}, Info.Pass);
+	if (First.Has(SecondLobe))
+	{
+		const FSignalInfo& Specular = GetSignalInfo(ESignal::RoughSpecular);
+		Paths.SecondOutput =
+		    Context.Graph.CreateTexture({Context.Width, Context.Height, Specular.Format, ERTTextureUsage::CopySource}, Specular.Pass);
+	}
 	Paths.RadianceCells =
 	    Settings.EndsInRadianceCells() ? RequireRadianceCells(Context, First.Compute ? ERayPath::Query : ERayPath::Pipeline) : nullptr;
 	if (Second)
@@ -118,12 +133,17 @@ void TraceDeferred(FPassContext& Pass, const FFrameContext& Frame, const FPaths&
 	Commands.TraceRaysIndirect(Frame.RayTable->GetTable(), Second.RayGen, Arguments, offsetof(FDeferredPaths, Launch));
 }
 
+bool NeedsSurface(const FBruteForcePass& Settings, const FPaths& Paths)
+{
+	return GetSignalInfo(Settings.Signal).bNeedsSurface || Paths.SecondOutput.IsValid();
+}
+
 /// Declares what the launches of a pass use, other than cells. bDeferred: the second launch.
 void DeclarePaths(FPassBuilder& Builder, const FBruteForcePass& Settings, const FGBuffer& GBuffer, const FPaths& Paths, bool bDeferred)
 {
 	Builder.Read(GBuffer.Depth, ERTAccess::ShaderRead);
 	Builder.Read(GBuffer.Normals, ERTAccess::ShaderRead);
-	if (GetSignalInfo(Settings.Signal).bNeedsSurface)
+	if (NeedsSurface(Settings, Paths))
 	{
 		for (const FGraphTexture Texture : {GBuffer.BaseColor, GBuffer.Material})
 		{
@@ -131,6 +151,7 @@ void DeclarePaths(FPassBuilder& Builder, const FBruteForcePass& Settings, const 
 		}
 	}
 	Builder.Write(Paths.Output, ERTAccess::StorageWrite);
+	if (Paths.SecondOutput.IsValid()) { Builder.Write(Paths.SecondOutput, ERTAccess::StorageWrite); }
 	if (!Paths.Deferred.IsValid()) { return; }
 	Builder.Read(Paths.Deferred, bDeferred ? ERTAccess::ShaderRead : ERTAccess::StorageRead);
 	if (bDeferred) { Builder.Read(Paths.Deferred, ERTAccess::IndirectRead); }
@@ -140,7 +161,7 @@ void DeclarePaths(FPassBuilder& Builder, const FBruteForcePass& Settings, const 
 void RecordPaths(FPassContext& Pass, const FFrameContext& Frame, const FBruteForcePass& Settings, const FGBuffer& GBuffer,
     const FPaths& Paths, bool bDeferred)
 {
-	const bool bNeedsSurface = GetSignalInfo(Settings.Signal).bNeedsSurface;
+	const bool bNeedsSurface = NeedsSurface(Settings, Paths);
 	const uint32_t Bounces = static_cast<uint32_t>(Settings.Bounces.GetOnRenderThread());
 	FBruteForceConstants C{};
 	C.Pass = Frame.Pass;
@@ -149,6 +170,7 @@ void RecordPaths(FPassContext& Pass, const FFrameContext& Frame, const FBruteFor
 	C.BaseColor = bNeedsSurface ? GetSampledIndex(Pass, GBuffer.BaseColor) : NO_TEXTURE;
 	C.Material = bNeedsSurface ? GetSampledIndex(Pass, GBuffer.Material) : NO_TEXTURE;
 	C.Output = GetStorageIndex(Pass, Paths.Output);
+	C.SecondOutput = GetStorageIndex(Pass, Paths.SecondOutput);
 	C.SamplesPerPixel = static_cast<uint32_t>(Settings.Samples.GetOnRenderThread());
 	C.MaxBounces = (Paths.RadianceCells ? std::max(Bounces, BouncesWithoutCell) : Bounces) + 1;
 	C.RadianceCells = WriteRadianceGrid(Pass, Paths.RadianceCells);
@@ -199,6 +221,7 @@ FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery
 	if (Rays.Path == ERayPath::None) { return Rays; }
 	Rays.Defines = MakePathDefines(Query.Facts);
 	if (IsEmissionDirect(Query, GetSignalPass(Settings.Signal).EmissionIn)) { Rays.Defines.emplace_back(EmissiveDirectDefine, "1"); }
+	if (Settings.LightsSpecular && Settings.LightsSpecular(Query)) { Rays.Defines.emplace_back(SecondLobe, "1"); }
 	if (Query.Facts.Lights > 0) { Rays.Defines.emplace_back("LIGHT_CELLS_OF_VIEW", "1"); }
 	if (Settings.Rate)
 	{
@@ -228,7 +251,7 @@ FPassRays MakeDeferredRays(const FPassRays& Rays)
 	return Deferred;
 }
 
-FGraphTexture AddBruteForcePass(const FBruteForcePass& Settings, FFrameContext& Context, const FGBuffer& GBuffer)
+FLobes AddBruteForcePass(const FBruteForcePass& Settings, FFrameContext& Context, const FGBuffer& GBuffer)
 {
 	const FPassRays Rays = ChooseSignalRays(Context, Settings.Signal);
 	const std::optional<FRayDispatch> First = RequireRayDispatch(Context, Settings.Signal, Rays);
@@ -248,8 +271,12 @@ FGraphTexture AddBruteForcePass(const FBruteForcePass& Settings, FFrameContext& 
 	if (Second) { AddDeferredStartPass(Context, Paths); }
 	AddPathsPass(Settings, Context, GBuffer, Paths, false);
 	if (Second) { AddDeferredPasses(Settings, Context, GBuffer, Paths); }
-	if (Fill) { AddFillPass(Context, GBuffer, std::string(GetSignalInfo(Settings.Signal).Pass) + "Fill", Paths.Output, Fill); }
-	return Paths.Output;
+	if (Fill)
+	{
+		AddFillPass(Context, GBuffer, std::string(GetSignalInfo(Settings.Signal).Pass) + "Fill", Paths.Output, Paths.SecondOutput, Fill);
+	}
+	if (Settings.Signal == ESignal::Reflections) { return {{}, Paths.Output}; }
+	return {Paths.Output, Paths.SecondOutput};
 }
 
 } // namespace Lantern

@@ -1,4 +1,4 @@
-// Diffuse global illumination: paths through a white Lambert lobe about the shading normal.
+// Diffuse global illumination: paths through a white Lambert lobe about the shading normal. Rough specular lobes take the same paths.
 #include "DiffuseGI/DiffuseGI.h"
 
 #include <algorithm>
@@ -6,6 +6,8 @@
 #include "BruteForce/BruteForce.h"
 #include "Denoise/Denoise.h"
 #include "RadianceCells/RadianceCells.h"
+#include "Reflections/Reflections.h"
+#include "SignalPasses.h"
 
 namespace Lantern
 {
@@ -29,13 +31,16 @@ TRTConsoleVariable<int32_t> CVarPath("r.RT.GI.Path", 0,
     "How diffuse global illumination traces. 0: by the pipeline where there is one. 1: ray-tracing pipeline. 2: ray queries, which see all "
     "materials as the standard program shows them, and no own shapes.",
     {0, 2});
+TRTConsoleVariable<bool> CVarRoughSpecular("r.RT.GI.RoughSpecular", true,
+    "Paths of diffuse global illumination light the specular lobes of surfaces whose reflections are not traced. If off, diffuse light and "
+    "the sky stand in.");
 // Where one path in a hundred finds a lamp, most neighbourhoods are dark in a frame, and a clamp to them would lose its light.
 const FDenoiseVariables Denoise("r.RT.GI", FDenoiseDefaults{.bColor = true, .ClampSigma = 0.0f});
 constexpr int32_t FirstCachedRoute = 2;
 
 constexpr FBruteForcePass BruteForce{ESignal::DiffuseGI, "r.RT.GI", [] { return CVarRoute.GetOnRenderThread() != 0; }, CVarSamples,
     CVarBounces, nullptr, [] { return CVarRoute.GetOnRenderThread() >= FirstCachedRoute; }, &CVarRate, &CVarPath,
-    "diffuse global illumination is"};
+    "diffuse global illumination is", [](const FPassQuery& Query) { return ChooseRoughSpecularRays(Query).Path != ERayPath::None; }};
 
 /// A filter that remembers longer than the cells may would undo what they know of changes.
 FDenoiseSettings GetFilter(const FFrameContext& Context)
@@ -46,6 +51,22 @@ FDenoiseSettings GetFilter(const FFrameContext& Context)
 		Settings.HistorySeconds = std::min(Settings.HistorySeconds, Cells->EventFrames * Context.View.DeltaSeconds);
 	}
 	return Settings;
+}
+
+const FLobes& RequireLobes(FFrameContext& Context, const FGBuffer& GBuffer)
+{
+	if (!Context.IndirectLobes) { Context.IndirectLobes = AddBruteForcePass(BruteForce, Context, GBuffer); }
+	return *Context.IndirectLobes;
+}
+
+/// Signal: the lobe's.
+FGraphTexture AddFilter(FFrameContext& Context, const FGBuffer& GBuffer, ESignal Signal, FGraphTexture Lobe)
+{
+	if (!Lobe.IsValid() || !Denoise.IsEnabled()) { return Lobe; }
+	FDenoiseInputs Inputs;
+	Inputs.Name = GetSignalInfo(Signal).Pass;
+	Inputs.Signal = Lobe;
+	return AddDenoise(Context, GBuffer, Inputs, GetFilter(Context));
 }
 } // namespace
 
@@ -60,12 +81,23 @@ void ListDiffuseGIFilters(const FRTScene&, std::vector<FShaderSource>& Out)
 
 FGraphTexture AddDiffuseGIPass(FFrameContext& Context, const FGBuffer& GBuffer)
 {
-	const FGraphTexture Radiance = AddBruteForcePass(BruteForce, Context, GBuffer);
-	if (!Radiance.IsValid() || !Denoise.IsEnabled()) { return Radiance; }
-	FDenoiseInputs Inputs;
-	Inputs.Name = "DiffuseGI";
-	Inputs.Signal = Radiance;
-	return AddDenoise(Context, GBuffer, Inputs, GetFilter(Context));
+	return AddFilter(Context, GBuffer, ESignal::DiffuseGI, RequireLobes(Context, GBuffer).Diffuse);
+}
+
+FPassRays ChooseRoughSpecularRays(const FPassQuery& Query)
+{
+	FPassRays Rays;
+	Rays.bTraces = false;
+	if (!CVarRoughSpecular.GetOnRenderThread() || GetReflectedRoughness(Query) >= 1.0f) { return Rays; }
+	const bool bMade = IsMade(ESignal::DiffuseGI, Query.Requests) && IsMade(ESignal::RoughSpecular, Query.Requests);
+	if (bMade) { Rays.Path = ChooseBruteForcePath(BruteForce, Query); }
+	return Rays;
+}
+
+FGraphTexture AddRoughSpecularPass(FFrameContext& Context, const FGBuffer& GBuffer)
+{
+	if (ChooseSignalRays(Context, ESignal::RoughSpecular).Path == ERayPath::None) { return {}; }
+	return AddFilter(Context, GBuffer, ESignal::RoughSpecular, RequireLobes(Context, GBuffer).Specular);
 }
 
 } // namespace Lantern

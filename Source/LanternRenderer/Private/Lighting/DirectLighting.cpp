@@ -63,7 +63,7 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 			Builder.Read(Texture, ERTAccess::ShaderRead);
 		}
 		for (const FGraphTexture Texture : {Inputs.SunVisibility, Inputs.SkyVisibility, Inputs.IndirectDiffuse, Inputs.IndirectSpecular,
-		         SkyLight, LightsDiffuse, LightsSpecular, Channels})
+		         Inputs.RoughSpecular, SkyLight, LightsDiffuse, LightsSpecular, Channels})
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
@@ -82,6 +82,7 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 			C.SkyVisibility = Sampled(Inputs.SkyVisibility);
 			C.IndirectDiffuse = Sampled(Inputs.IndirectDiffuse);
 			C.IndirectSpecular = Sampled(Inputs.IndirectSpecular);
+			C.RoughSpecular = Sampled(Inputs.RoughSpecular);
 			C.SkyLight = Sampled(SkyLight);
 			C.LightsDiffuse = Sampled(LightsDiffuse);
 			C.LightsSpecular = Sampled(LightsSpecular);

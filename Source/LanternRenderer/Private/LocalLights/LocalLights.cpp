@@ -51,13 +51,13 @@ FShaderSource MakeShadeSource(const FSceneFacts& Facts, uint32_t Exact)
 }
 
 /// Adds the pass that shades, once a frame for either lobe.
-FLocalLobes AddShadePass(FFrameContext& Context, const FGBuffer& GBuffer, const FShadowRays& Rays, IRTPipeline* Pipeline)
+FLobes AddShadePass(FFrameContext& Context, const FGBuffer& GBuffer, const FShadowRays& Rays, IRTPipeline* Pipeline)
 {
 	const auto Create = [&](const char* Name) {
 		return Context.Graph.CreateTexture(
 		    {Context.Width, Context.Height, ERTFormat::RGBA16_FLOAT, ERTTextureUsage::CopySource}, Name); // engines copy it
 	};
-	const FLocalLobes Lobes{Create("LocalDiffuse"), Create("LocalSpecular")};
+	const FLobes Lobes{Create("LocalDiffuse"), Create("LocalSpecular")};
 	const FFrameContext* const Frame = &Context;
 	const FShadowRays Inputs = Rays;
 	const FGraphTexture Channels = RequirePixelChannels(Context, GBuffer);
@@ -102,7 +102,7 @@ FLocalLobes AddShadePass(FFrameContext& Context, const FGBuffer& GBuffer, const 
 }
 
 /// Null: there are no rays, or shaders are being compiled.
-const FLocalLobes* RequireLobes(FFrameContext& Context, const FGBuffer& GBuffer)
+const FLobes* RequireLobes(FFrameContext& Context, const FGBuffer& GBuffer)
 {
 	const FShadowRays* const Rays = RequireShadowRays(Context, GBuffer);
 	if (!Rays || !Rays->Traced.TileLights.IsValid()) { return nullptr; }
@@ -110,15 +110,15 @@ const FLocalLobes* RequireLobes(FFrameContext& Context, const FGBuffer& GBuffer)
 	{
 		IRTPipeline* const Pipeline = RequireCompute(Context, MakeShadeSource(Context.Facts, GetExact(Context.Facts)));
 		if (!Pipeline) { return nullptr; }
-		Context.LocalLobes = std::make_shared<const FLocalLobes>(AddShadePass(Context, GBuffer, *Rays, Pipeline));
+		Context.LocalLobes = AddShadePass(Context, GBuffer, *Rays, Pipeline);
 	}
-	return Context.LocalLobes.get();
+	return &*Context.LocalLobes;
 }
 
 FGraphTexture AddLobe(FFrameContext& Context, const FGBuffer& GBuffer, ESignal Signal)
 {
 	if (!IsMade(Signal, Context.Signals) || ChooseSignalRays(Context, Signal).Path == ERayPath::None) { return {}; }
-	const FLocalLobes* const Lobes = RequireLobes(Context, GBuffer);
+	const FLobes* const Lobes = RequireLobes(Context, GBuffer);
 	if (!Lobes) { return {}; }
 	AddLampView(Context, *Context.ShadowRays);
 	const FGraphTexture Lobe = Signal == ESignal::LocalDiffuse ? Lobes->Diffuse : Lobes->Specular;

@@ -37,7 +37,8 @@ FPassRays ChooseReflectionsRays(const FPassQuery& Query) { return ChooseBruteFor
 
 FGraphTexture AddReflectionsPass(FFrameContext& Context, const FGBuffer& GBuffer)
 {
-	return AddBruteForcePass(BruteForce, Context, GBuffer);
+	const FLobes Lobes = AddBruteForcePass(BruteForce, Context, GBuffer);
+	return Lobes.Specular;
 }
 
 } // namespace Lantern

@@ -213,8 +213,8 @@ enum class EPassRayGen : uint8_t
 	Count
 };
 constexpr size_t PassRayGenCount = static_cast<size_t>(EPassRayGen::Count);
-/// Light of local lights by lobe, not filtered.
-struct FLocalLobes
+/// Light by the lobe that reflects it, not filtered.
+struct FLobes
 {
 	FGraphTexture Diffuse, Specular; ///< RGBA16_FLOAT
 };
@@ -266,8 +266,9 @@ struct FFrameContext
 	FGraphTexture DebugPicture;
 	std::shared_ptr<const FShadowRays> ShadowRays; ///< null: none, or nobody has asked so far
 	bool bShadowRaysAsked = false;
-	std::shared_ptr<const FLocalLobes> LocalLobes; ///< null: not shaded so far
-	std::optional<FLightMask> LightMask;           ///< nullopt: nobody has asked so far
+	std::optional<FLobes> LocalLobes;    ///< of local lights; nullopt: not shaded so far
+	std::optional<FLobes> IndirectLobes; ///< of diffuse GI's paths; nullopt: nobody has asked so far
+	std::optional<FLightMask> LightMask; ///< nullopt: nobody has asked so far
 	FLampChangesOfFrame LampChanges;
 	std::shared_ptr<const FRadianceCells> RadianceCells; ///< null: none, or nobody has asked so far
 	bool bRadianceCellsAsked = false;

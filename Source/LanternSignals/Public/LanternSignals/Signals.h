@@ -49,6 +49,11 @@ enum class ESignal : uint8_t
 	/// What the specular lobe reflects of these lights, over its directional albedo. A mirror is as rough as a lobe can be seen. Emissive
 	/// triangles count as Reflections says. Sky pixels: 0.
 	LocalSpecular,
+	/// What the specular lobe reflects of the light that DiffuseGI has, over its directional albedo. Diffuse GI's paths find it, so it is
+	/// made beside that signal alone, and lobes narrower than that of roughness 0.5 are taken for as wide. It stands in where no
+	/// reflection is traced: it is not made if reflections of all surfaces are. LocalSpecular has all light of emissive triangles there.
+	/// Sky pixels: 0.
+	RoughSpecular,
 	Count,
 };
 
@@ -115,6 +120,8 @@ inline constexpr FSignalInfo SignalInfos[] = {
         true, true, false, ""},
     {ESignal::LocalSpecular, "local_specular", "Local lights, specular", "LocalSpecular", "Shadow", ERTFormat::RGBA16_FLOAT, 3, true, false,
         true, true, true, "r.RT.Reflections r.RT.Reflections.MaxRoughness"},
+    {ESignal::RoughSpecular, "rough_specular", "Rough specular", "RoughSpecular", "DiffuseGI", ERTFormat::RGBA16_FLOAT, 3, true, false,
+        true, true, true, ""},
 };
 static_assert(sizeof(SignalInfos) / sizeof(SignalInfos[0]) == SignalCount, "each signal needs a row");
 static_assert(
