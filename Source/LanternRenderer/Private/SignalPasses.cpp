@@ -59,6 +59,8 @@ constexpr FSignalPass Passes[] = {
         .ChooseRays = ChooseRoughSpecularRays,
         .Add = AddRoughSpecularPass,
         .WantsMotion = IsDiffuseGIFiltered,
+        .ListFilters = ListDiffuseGIFilters,
+        .RaysOf = ESignal::DiffuseGI,
         .EmissionIn = ESignal::LocalSpecular},
 };
 static_assert(std::size(Passes) == SignalCount - 1, "each signal but Frame needs a row, in the order of ESignal");
@@ -82,7 +84,9 @@ ESignal GetLightMaskRow()
 
 bool AsksForRays(ESignal Signal, const FSignalRequests& Requests)
 {
-	return IsMade(Signal, Requests) || (Requests.bLightMask && Signal == GetLightMaskRow());
+	if (IsMade(Signal, Requests) || (Requests.bLightMask && Signal == GetLightMaskRow())) { return true; }
+	return std::any_of(std::begin(Passes), std::end(Passes),
+	    [&](const FSignalPass& Pass) { return Pass.RaysOf == Signal && IsMade(Pass.Signal, Requests); });
 }
 
 bool IsAnyMadeBesideLightMask(const FSignalRequests& Requests)

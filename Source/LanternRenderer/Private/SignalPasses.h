@@ -20,6 +20,8 @@ struct FSignalPass
 	void (*ListFilters)(const FRTScene& Scene, std::vector<FShaderSource>& Out) = nullptr;
 	/// A signal that serves in its place once its rays are ready. Count: there is none.
 	ESignal ReplacedBy = ESignal::Count;
+	/// A signal of whose rays this one is made. Its row asks for them, whether that signal is made or not. Count: this row does.
+	ESignal RaysOf = ESignal::Count;
 	/// The signal of local lights that holds directly seen emission of the same lobe (LocalLights/Emitters.h). Count: there is none.
 	ESignal EmissionIn = ESignal::Count;
 	/// Adds what the signal asks of the frame's shadow rays (RequireShadowRays). Called if ChooseRays chose the queue's shaders, and they

@@ -89,8 +89,7 @@ FPassRays ChooseRoughSpecularRays(const FPassQuery& Query)
 	FPassRays Rays;
 	Rays.bTraces = false;
 	if (!CVarRoughSpecular.GetOnRenderThread() || GetReflectedRoughness(Query) >= 1.0f) { return Rays; }
-	const bool bMade = IsMade(ESignal::DiffuseGI, Query.Requests) && IsMade(ESignal::RoughSpecular, Query.Requests);
-	if (bMade) { Rays.Path = ChooseBruteForcePath(BruteForce, Query); }
+	if (IsMade(ESignal::RoughSpecular, Query.Requests)) { Rays.Path = ChooseBruteForcePath(BruteForce, Query); }
 	return Rays;
 }
 

@@ -49,10 +49,9 @@ enum class ESignal : uint8_t
 	/// What the specular lobe reflects of these lights, over its directional albedo. A mirror is as rough as a lobe can be seen. Emissive
 	/// triangles count as Reflections says. Sky pixels: 0.
 	LocalSpecular,
-	/// What the specular lobe reflects of the light that DiffuseGI has, over its directional albedo. Diffuse GI's paths find it, so it is
-	/// made beside that signal alone, and lobes narrower than that of roughness 0.5 are taken for as wide. It stands in where no
-	/// reflection is traced: it is not made if reflections of all surfaces are. LocalSpecular has all light of emissive triangles there.
-	/// Sky pixels: 0.
+	/// What the specular lobe reflects of the light that DiffuseGI has, over its directional albedo. Diffuse GI's paths find it. Lobes
+	/// narrower than that of roughness 0.5 are taken for as wide. It stands in where no reflection is traced, and is not made if reflections
+	/// of all surfaces are. LocalSpecular has all light of emissive triangles there. Sky pixels: 0.
 	RoughSpecular,
 	Count,
 };
