@@ -116,7 +116,7 @@ vec3 ShadeIndirect(FSceneConstants Scene, ivec2 Pixel, FBrdf Brdf, FGBufferPoint
 	vec4 Specular = Push.IndirectSpecular != NO_TEXTURE ? texelFetch(Textures[Push.IndirectSpecular], Pixel, 0) : vec4(0.0);
 	if (Specular.a <= 0.0)
 	{
-		vec3 Incident = Push.RoughSpecular != NO_TEXTURE ? texelFetch(Textures[Push.RoughSpecular], Pixel, 0).rgb
+		vec3 Incident = Push.IndirectRough != NO_TEXTURE ? texelFetch(Textures[Push.IndirectRough], Pixel, 0).rgb
 		                                                 : mix(Surroundings, Mirrored, SpecularOcclusion(NdotV, Visibility, Material.x));
 		Specular.rgb = Incident * SpecularReflectance(Brdf, NdotV, Material.x);
 	}

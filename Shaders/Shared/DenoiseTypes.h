@@ -37,7 +37,6 @@ struct FTemporalConstants
 	float MinAlpha;                        // least weight of a new frame, 0 to 1
 	float ClampSigma;                      // range of the clamp, in the window's standard deviations; 0: not clamped
 	float ChangeSigma;                     // change that shortens the history, in standard errors; 0: changes are not looked for
-	float NoiseAlpha;                      // three channels only: weight of a new frame in the estimate of the noise, 0 to 1
 	float Resampling;                      // share of the history's second differences that counts as error of resampling
 	float RaysPerPixel;                    // one channel only: number of rays of which a frame's value is the mean
 	FAddress Casters; // FMovedCaster[CasterCount]: those that moved in the last frames
@@ -48,7 +47,7 @@ struct FTemporalConstants
 	uint bViewChange;   // 1: it shows what was dropped of the history; 0: how much the history is worth
 	uint Change;        // three channels only: FDenoiseInputs::Change; NO_TEXTURE: nothing is known to have changed
 };
-LANTERN_ASSERT_SIZE(FTemporalConstants, 120);
+LANTERN_ASSERT_SIZE(FTemporalConstants, 112);
 
 // Constants of Denoise/Filter.comp.
 struct FFilterConstants

@@ -20,7 +20,7 @@ struct FLightingConstants
 	uint SkyLight;      // sampled index, see SkyAmbient in SkyLight.glsl
 	uint LightsDiffuse, LightsSpecular; // sampled indices, or NO_TEXTURE: local lights are unshadowed
 	uint Channels;      // HAS_LIGHT_CHANNELS only: see LoadPixelChannels
-	uint RoughSpecular; // sampled index, or NO_TEXTURE: where no reflection is traced, sky and diffuse light stand in
+	uint IndirectRough; // sampled index, or NO_TEXTURE: where no reflection is traced, sky and diffuse light stand in
 };
 LANTERN_ASSERT_SIZE(FLightingConstants, 80);
 

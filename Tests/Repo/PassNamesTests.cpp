@@ -19,6 +19,7 @@ constexpr const char* Exempt[] = {
     "Source/LanternRenderer/Private/SignalPasses.cpp",         // its private half
     "Source/LanternRenderer/Private/Frame.cpp",                // the frame
     "Source/LanternRenderer/Private/LocalLights/",             // one pass makes two signals
+    "Source/LanternRenderer/Private/DiffuseGI/",               // so do its paths, where other rays leave them room
     "Source/LanternMeasure/Private/Stability/",                // a case of `lantern stability` may be about one signal
     "Source/LanternModule/Public/LanternModule/ModuleFrame.h", // what an engine gets if it asks for nothing else
     "Programs/lantern/Bench/",                                 // a benchmark is about one pass

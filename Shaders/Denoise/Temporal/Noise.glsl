@@ -97,7 +97,9 @@ float EstimateNoise(FFrameEstimate Frame, FAccumulated Past, float Unchanged)
 	return GetVisibilityVariance(P) * max(GetSoftness(Frame.Extent), EdgeNoise);
 #else
 	if (Past.Frames <= 0.0) { return Frame.NoiseVariance; }
-	return mix(Frame.NoiseVariance, Past.NoiseSigma * Past.NoiseSigma, (1.0 - Push.NoiseAlpha) * Unchanged);
+	// The estimate remembers as long as the mean does. Else the wavelet would take for structure what a bright path has left in the mean.
+	float Alpha = Frame.bHasValue ? max(Push.MinAlpha, 1.0 / (Past.Frames + 1.0)) : 0.0;
+	return mix(Frame.NoiseVariance, Past.NoiseSigma * Past.NoiseSigma, (1.0 - Alpha) * Unchanged);
 #endif
 }
 

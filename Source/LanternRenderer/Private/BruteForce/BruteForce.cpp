@@ -77,7 +77,7 @@ FPaths MakePaths(const FBruteForcePass& Settings, FFrameContext& Context, const 
 	Paths.Output = Context.Graph.CreateTexture({Context.Width, Context.Height, Info.Format, ERTTextureUsage::CopySource}, Info.Pass);
 	if (First.Has(SecondLobe))
 	{
-		const FSignalInfo& Specular = GetSignalInfo(ESignal::RoughSpecular);
+		const FSignalInfo& Specular = GetSignalInfo(Settings.Second);
 		Paths.SecondOutput =
 		    Context.Graph.CreateTexture({Context.Width, Context.Height, Specular.Format, ERTTextureUsage::CopySource}, Specular.Pass);
 	}
@@ -221,7 +221,7 @@ FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery
 	if (Rays.Path == ERayPath::None) { return Rays; }
 	Rays.Defines = MakePathDefines(Query.Facts);
 	if (IsEmissionDirect(Query, GetSignalPass(Settings.Signal).EmissionIn)) { Rays.Defines.emplace_back(EmissiveDirectDefine, "1"); }
-	if (Settings.LightsSpecular && Settings.LightsSpecular(Query)) { Rays.Defines.emplace_back(SecondLobe, "1"); }
+	if (Settings.Second != ESignal::Count && Settings.LightsSecond(Query)) { Rays.Defines.emplace_back(SecondLobe, "1"); }
 	if (Query.Facts.Lights > 0) { Rays.Defines.emplace_back("LIGHT_CELLS_OF_VIEW", "1"); }
 	if (Settings.Rate)
 	{
@@ -251,7 +251,7 @@ FPassRays MakeDeferredRays(const FPassRays& Rays)
 	return Deferred;
 }
 
-FLobes AddBruteForcePass(const FBruteForcePass& Settings, FFrameContext& Context, const FGBuffer& GBuffer)
+FBruteForceOutputs AddBruteForcePass(const FBruteForcePass& Settings, FFrameContext& Context, const FGBuffer& GBuffer)
 {
 	const FPassRays Rays = ChooseSignalRays(Context, Settings.Signal);
 	const std::optional<FRayDispatch> First = RequireRayDispatch(Context, Settings.Signal, Rays);
@@ -275,7 +275,6 @@ FLobes AddBruteForcePass(const FBruteForcePass& Settings, FFrameContext& Context
 	{
 		AddFillPass(Context, GBuffer, std::string(GetSignalInfo(Settings.Signal).Pass) + "Fill", Paths.Output, Paths.SecondOutput, Fill);
 	}
-	if (Settings.Signal == ESignal::Reflections) { return {{}, Paths.Output}; }
 	return {Paths.Output, Paths.SecondOutput};
 }
 

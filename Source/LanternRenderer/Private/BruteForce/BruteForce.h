@@ -24,16 +24,23 @@ struct FBruteForcePass
 	/// As ChooseShadingRayPath has it. Null: the signal has no shader for ray queries.
 	const TRTConsoleVariable<int32_t>* Path = nullptr;
 	const char* What = ""; ///< names the pass in messages, with Path
-	/// For DiffuseGI: whether the specular lobes of surfaces are lit by the same paths; then base colour and material are read. Null: never.
-	bool (*LightsSpecular)(const FPassQuery& Query) = nullptr;
+	/// For paths through a white Lambert lobe: the signal of the specular lobes that the same paths light, if LightsSecond says so. Base
+	/// colour and material are then read. Count: there is none.
+	ESignal Second = ESignal::Count;
+	bool (*LightsSecond)(const FPassQuery& Query) = nullptr;
 };
 
 ERayPath ChooseBruteForcePath(const FBruteForcePass& Settings, const FPassQuery& Query);
 FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery& Query);
 /// Returns the second launch of a pass with bRadianceCells, which follows the paths that the first has left.
 FPassRays MakeDeferredRays(const FPassRays& Rays);
-/// Reads Depth and Normals of the G-buffer, and BaseColor and Material if FSignalInfo::bNeedsSurface says so, or LightsSpecular. Returns the
-/// lobe of the signal, and with LightsSpecular the other one, over its albedo. Invalid: nothing is traced, or shaders are being compiled.
-FLobes AddBruteForcePass(const FBruteForcePass& Settings, FFrameContext& Context, const FGBuffer& GBuffer);
+/// What AddBruteForcePass has made. Invalid: nothing is traced, or shaders are being compiled.
+struct FBruteForceOutputs
+{
+	FGraphTexture Lobe;   ///< of FBruteForcePass::Signal
+	FGraphTexture Second; ///< of FBruteForcePass::Second, over the albedo of that lobe
+};
+/// Reads Depth and Normals of the G-buffer, and BaseColor and Material if FSignalInfo::bNeedsSurface of either signal says so.
+FBruteForceOutputs AddBruteForcePass(const FBruteForcePass& Settings, FFrameContext& Context, const FGBuffer& GBuffer);
 
 } // namespace Lantern

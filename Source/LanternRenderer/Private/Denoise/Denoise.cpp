@@ -24,7 +24,6 @@ TRTConsoleVariable<bool> CVarAdapt("r.RT.Debug.Denoise.Adapt", true,
     "Planted fault. If off, the filter looks neither for changes nor for noise, and clamps nothing, whatever its client asks for.");
 TRTConsoleVariable<bool> CVarGuard("r.RT.Debug.Denoise.Guard", true, "Planted fault. Off: the filter takes what is not a number for one.");
 constexpr uint32_t MaxPasses = 5;
-constexpr float NoiseSeconds = 0.08f; // over which the estimate of the noise is accumulated
 
 /// One signal in one frame.
 struct FDenoiser
@@ -103,7 +102,6 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 		C.MinAlpha = GetMinAlpha(Settings.HistorySeconds, Context.View.DeltaSeconds);
 		C.ClampSigma = CVarAdapt.GetOnRenderThread() ? Settings.ClampSigma : 0.0f;
 		C.ChangeSigma = CVarAdapt.GetOnRenderThread() ? Settings.ChangeSigma : 0.0f;
-		C.NoiseAlpha = GetMinAlpha(NoiseSeconds, Context.View.DeltaSeconds);
 		C.Resampling = Settings.Resampling;
 		C.RaysPerPixel = static_cast<float>(std::max(Inputs.RaysPerPixel, 1u));
 		C.bChangesKnown = Inputs.Changes.bKnown ? 1u : 0u;

@@ -40,7 +40,8 @@ constexpr int32_t FirstCachedRoute = 2;
 
 constexpr FBruteForcePass BruteForce{ESignal::DiffuseGI, "r.RT.GI", [] { return CVarRoute.GetOnRenderThread() != 0; }, CVarSamples,
     CVarBounces, nullptr, [] { return CVarRoute.GetOnRenderThread() >= FirstCachedRoute; }, &CVarRate, &CVarPath,
-    "diffuse global illumination is", [](const FPassQuery& Query) { return ChooseRoughSpecularRays(Query).Path != ERayPath::None; }};
+    "diffuse global illumination is", ESignal::RoughSpecular,
+    [](const FPassQuery& Query) { return ChooseRoughSpecularRays(Query).Path != ERayPath::None; }};
 
 /// A filter that remembers longer than the cells may would undo what they know of changes.
 FDenoiseSettings GetFilter(const FFrameContext& Context)
@@ -55,7 +56,11 @@ FDenoiseSettings GetFilter(const FFrameContext& Context)
 
 const FLobes& RequireLobes(FFrameContext& Context, const FGBuffer& GBuffer)
 {
-	if (!Context.IndirectLobes) { Context.IndirectLobes = AddBruteForcePass(BruteForce, Context, GBuffer); }
+	if (!Context.IndirectLobes)
+	{
+		const FBruteForceOutputs Made = AddBruteForcePass(BruteForce, Context, GBuffer);
+		Context.IndirectLobes = FLobes{Made.Lobe, Made.Second};
+	}
 	return *Context.IndirectLobes;
 }
 

@@ -63,7 +63,7 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 			Builder.Read(Texture, ERTAccess::ShaderRead);
 		}
 		for (const FGraphTexture Texture : {Inputs.SunVisibility, Inputs.SkyVisibility, Inputs.IndirectDiffuse, Inputs.IndirectSpecular,
-		         Inputs.RoughSpecular, SkyLight, LightsDiffuse, LightsSpecular, Channels})
+		         Inputs.IndirectRough, SkyLight, LightsDiffuse, LightsSpecular, Channels})
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
@@ -82,7 +82,7 @@ FGraphTexture AddDirectLightingPass(FFrameContext& Context, const FDirectLightin
 			C.SkyVisibility = Sampled(Inputs.SkyVisibility);
 			C.IndirectDiffuse = Sampled(Inputs.IndirectDiffuse);
 			C.IndirectSpecular = Sampled(Inputs.IndirectSpecular);
-			C.RoughSpecular = Sampled(Inputs.RoughSpecular);
+			C.IndirectRough = Sampled(Inputs.IndirectRough);
 			C.SkyLight = Sampled(SkyLight);
 			C.LightsDiffuse = Sampled(LightsDiffuse);
 			C.LightsSpecular = Sampled(LightsSpecular);

@@ -23,7 +23,7 @@ struct FDirectLightingInputs
 	FGraphTexture SkyVisibility;    ///< invalid: the sky is unoccluded
 	FGraphTexture IndirectDiffuse;  ///< invalid: the sky's ambient light stands in
 	FGraphTexture IndirectSpecular; ///< invalid: nothing is traced, and what follows stands in
-	FGraphTexture RoughSpecular;    ///< over the lobe's albedo, where IndirectSpecular is not traced; invalid: the sky's light stands in
+	FGraphTexture IndirectRough;    ///< over the lobe's albedo, where IndirectSpecular is not traced; invalid: the sky's light stands in
 	/// Shadowed light of local lights over the albedo of each lobe. Invalid: they are unshadowed.
 	FGraphTexture LightsDiffuse, LightsSpecular;
 };

@@ -37,8 +37,7 @@ FPassRays ChooseReflectionsRays(const FPassQuery& Query) { return ChooseBruteFor
 
 FGraphTexture AddReflectionsPass(FFrameContext& Context, const FGBuffer& GBuffer)
 {
-	const FLobes Lobes = AddBruteForcePass(BruteForce, Context, GBuffer);
-	return Lobes.Specular;
+	return AddBruteForcePass(BruteForce, Context, GBuffer).Lobe;
 }
 
 } // namespace Lantern
