@@ -109,6 +109,9 @@ TEST_F(FReflectionsTest, RougherThanMaxRoughness)
 	const FImage Signal = RenderSignal(ESignal::Reflections, PlaneView);
 	EXPECT_EQ(FractionDiffering(Signal, RenderSignal(ESignal::Reflections, PlaneView, 1, 7), 0.0), 0.0) << "no noise: nothing was traced";
 	EXPECT_GT(MeanGreen(Signal), 0.5);
+	// Paths of diffuse GI see the same sky, as far as the fit of the albedo goes (SpecularAlbedo, 2.3 %).
+	EXPECT_NEAR(MeanGreen(RenderSignal(ESignal::Frame, PlaneView, 8)) / MeanGreen(Signal), 1.0, 0.025);
+	SetVariable("r.RT.GI.RoughSpecular", "0");
 	const double Composite = MeanGreen(RenderSignal(ESignal::Frame, PlaneView));
 	EXPECT_NEAR(Composite, MeanGreen(Signal), 0.002);
 	SetVariable("r.RT.SkyAmbient", "0");
