@@ -104,6 +104,8 @@ void FCommandLine::AddReference()
 	        [](const std::string& Text) { return FindSignal(Text) ? std::string() : Quote(Text) + " is none of " + ListSignalNames(); });
 	Command->add_flag(
 	    "--pixel-centers", Reference.bPixelCenters, "Camera rays through pixel centres, as real-time passes shade them; no antialiasing");
+	Command->add_flag("--raster-surfaces", Reference.bRasterSurfaces,
+	    "Starts at the surfaces of the raster, whose textures are filtered, as real-time passes do; no antialiasing");
 	Command->add_flag("--resume", Reference.bResume, "Keep the sums in OUT.state, and go on from there");
 	Command->add_option("--save-every", Reference.SaveSeconds, "With --resume: seconds after which the sums are kept")
 	    ->check(CLI::Range(0.0, 1e6));

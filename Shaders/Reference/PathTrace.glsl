@@ -1,6 +1,6 @@
 // The reference: an unbiased path tracer, for the whole frame or for one signal.
 // SIGNAL: one signal, which the includer defines. Not defined: the whole frame.
-// FROM_GBUFFER: takes the signal at the surfaces of the G-buffer instead of those that camera rays hit.
+// FROM_GBUFFER: starts at the surfaces of the G-buffer instead of those that camera rays hit. Their textures are filtered.
 #ifndef LANTERN_PATH_TRACE_GLSL
 #define LANTERN_PATH_TRACE_GLSL
 
@@ -11,6 +11,8 @@
 
 layout(push_constant, scalar) uniform FPush { FReferenceConstants Push; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer FSampleSumRef { vec4 Data[]; };
+
+#define CameraPdf uintBitsToFloat(0x7f800000u) // infinite: light sampling cannot produce a camera ray
 
 // Traces a camera ray. It passes through the backs of single-sided surfaces, since the raster culls them. Origin: advanced to
 // where the last segment starts.
@@ -34,11 +36,8 @@ vec3 TraceSignal(FSceneConstants Scene, FMaterialHit Hit, vec3 P, vec3 V, inout 
 #endif
 
 #ifdef FROM_GBUFFER
-vec3 TraceRasterSurface(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, inout FRandom Random)
+FMaterialHit LoadRasterHit(ivec2 Pixel, FGBufferPoint Point)
 {
-	float Depth = LoadDepth(Push.Depth, Pixel);
-	if (Depth <= 0.0) { return vec3(SkyValue()); }
-	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
 	vec4 BaseColor = texelFetch(Textures[Push.BaseColor], Pixel, 0);
 	vec4 Material = texelFetch(Textures[Push.Material], Pixel, 0);
 	FMaterialHit Hit;
@@ -50,14 +49,30 @@ vec3 TraceRasterSurface(FSceneConstants Scene, FViewConstants View, ivec2 Pixel,
 	Hit.Roughness = Material.x;
 	Hit.F0 = Material.z * Material.z;
 	Hit.Specular = Material.w;
-	Hit.Emissive = vec3(0.0);
-	Hit.EmissiveWeight = 0.0;
+	Hit.Emissive = Push.Emissive != NO_TEXTURE ? texelFetch(Textures[Push.Emissive], Pixel, 0).rgb : vec3(0.0);
+	Hit.EmissiveWeight = 0.0; // it counts whole, as nothing else samples it for the camera
 	Hit.Flags = 0u;
 	Hit.Channels = AllChannels;
 #ifdef HAS_LIGHT_CHANNELS
 	Hit.Channels = LoadPixelChannels(Push.Channels, uvec2(Pixel));
 #endif
-	return TraceSignal(Scene, Hit, RasterRayOrigin(Scene, View, Point), Point.V, Random);
+	return Hit;
+}
+
+vec3 TraceRasterSurface(FSceneConstants Scene, FViewConstants View, ivec2 Pixel, inout FRandom Random)
+{
+	float Depth = LoadDepth(Push.Depth, Pixel);
+#ifdef SIGNAL
+	if (Depth <= 0.0) { return vec3(SkyValue()); }
+	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
+	return TraceSignal(Scene, LoadRasterHit(Pixel, Point), RasterRayOrigin(Scene, View, Point), Point.V, Random);
+#else
+	if (Depth <= 0.0) { return ShadeMiss(Scene, CameraRay(View, vec2(Pixel) + 0.5), CameraPdf, 1.0, AllChannels); }
+	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
+	FMaterialHit Hit = LoadRasterHit(Pixel, Point);
+	vec3 Origin = RasterRayOrigin(Scene, View, Point) + Point.V * Hit.Distance;
+	return FollowPath(Scene, Hit, Origin, -Point.V, CameraPdf, 1.0, 0u, Push.MaxBounces, true, Random);
+#endif
 }
 #endif
 
@@ -69,8 +84,7 @@ vec3 TraceSample(FSceneConstants Scene, vec3 Origin, vec3 Direction, inout FRand
 	vec3 P = OffsetRayOrigin(Origin + Direction * Hit.Distance, Hit.GeometricNormal, Scene.ObjectReach, Hit.Distance);
 	return TraceSignal(Scene, Hit, P, -Direction, Random);
 #else
-	float Pdf = uintBitsToFloat(0x7f800000u); // infinite: light sampling cannot produce a camera ray
-	return FollowPath(Scene, Hit, Origin, Direction, Pdf, 1.0, 0u, Push.MaxBounces, true, Random);
+	return FollowPath(Scene, Hit, Origin, Direction, CameraPdf, 1.0, 0u, Push.MaxBounces, true, Random);
 #endif
 }
 

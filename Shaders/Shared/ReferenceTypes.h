@@ -20,7 +20,7 @@ struct FReferenceConstants
 	uint Depth, Normals, BaseColor, Material; // sampled indices, FROM_GBUFFER only
 	float ReflectedRoughness; // rougher surfaces trace no reflections; negative: none do
 	uint Channels; // FROM_GBUFFER with HAS_LIGHT_CHANNELS only: see LoadPixelChannels
-	uint Pad;
+	uint Emissive; // sampled index, FROM_GBUFFER of the whole frame only
 };
 LANTERN_ASSERT_SIZE(FReferenceConstants, 80);
 

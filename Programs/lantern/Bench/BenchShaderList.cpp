@@ -53,7 +53,7 @@ public:
 				FFrameFeatures Features;
 				Features.bReference = true;
 				Features.ReferenceSignal = Info.Signal;
-				Features.bReferenceFromGBuffer = bFromGBuffer && Info.Signal != ESignal::Frame;
+				Features.bReferenceFromGBuffer = bFromGBuffer;
 				AddRays(Features);
 			}
 		}

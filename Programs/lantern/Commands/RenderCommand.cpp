@@ -258,6 +258,7 @@ int RunReference(FReferenceOptions Options)
 	Settings.Bounces = Options.Bounces;
 	Settings.Signal = FindSignal(Options.Signal).value_or(ESignal::Frame);
 	Settings.bPixelCenters = Options.bPixelCenters;
+	Settings.bRasterSurfaces = Options.bRasterSurfaces;
 	Settings.StateFile = Options.bResume ? Options.Picture.Output + ".state" : "";
 	Settings.bResume = Options.bResume;
 	Settings.StateSeconds = Options.SaveSeconds;

@@ -24,6 +24,7 @@ struct FReferenceOptions
 	uint32_t Bounces = 64;
 	std::string Signal = "frame"; ///< a name that FindSignal knows
 	bool bPixelCenters = false;
+	bool bRasterSurfaces = false;
 	bool bResume = false;
 	double SaveSeconds = 20.0;
 };

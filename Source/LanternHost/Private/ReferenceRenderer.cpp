@@ -154,7 +154,7 @@ FRTStatus FReferenceJob::Trace(uint32_t FirstSample, uint32_t SampleCount, uint3
 	FFrameFeatures Features;
 	Features.bReference = true;
 	Features.ReferenceSignal = Settings.Signal;
-	Features.bReferenceFromGBuffer = Settings.bRasterSurfaces && Settings.Signal != ESignal::Frame;
+	Features.bReferenceFromGBuffer = Settings.bRasterSurfaces;
 	Features.Skinning = Engine.MoveTo(Settings.Time);
 	if (FRTStatus S = Renderer.BeginFrame(Engine.GetScene().GetScene(), Settings.View, Features); !S) { return S; }
 	FFrameContext& Context = Renderer.GetContext();

@@ -116,7 +116,7 @@ FContentHash MakeKey(FSampleEngine& Engine, const FSignalReferenceDesc& Desc)
 	FFrameFeatures Features;
 	Features.bReference = true;
 	Features.ReferenceSignal = Desc.Signal;
-	Features.bReferenceFromGBuffer = Desc.bRasterSurfaces && Desc.Signal != ESignal::Frame;
+	Features.bReferenceFromGBuffer = Desc.bRasterSurfaces;
 	FConsoleVariables::Get().BeginFrame();
 	FContentHasher Hash;
 	Hash.Add(Generation);

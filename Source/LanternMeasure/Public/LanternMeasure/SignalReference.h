@@ -20,7 +20,7 @@ struct FSignalReferenceDesc
 	uint32_t Bounces = 64;  ///< see FReferenceSettings
 	uint32_t Seed = 0;
 	bool bPixelCenters = true;   ///< see FReferenceSettings; real-time passes see only a pixel's centre
-	bool bRasterSurfaces = true; ///< see FReferenceSettings; ignored for ESignal::Frame
+	bool bRasterSurfaces = true; ///< see FReferenceSettings
 	/// Names changes to the scene that the cache key cannot see, such as edited buffers. The key sees objects, masks, materials,
 	/// lights, sun and sky in FRTScene, the scene's file, and console variables without it.
 	std::string StateKey;

@@ -1,8 +1,6 @@
 // One dispatch of the reference path tracer: adds samples to a band of rows.
 #include "Reference/Reference.h"
 
-#include <cassert>
-
 #include "Lights/PixelChannels.h"
 #include "LocalLights/Emitters.h"
 #include "ReferenceTypes.h"
@@ -13,7 +11,6 @@ namespace Lantern
 
 FPassRays ChooseReferenceRays(const FRTCapabilities& Capabilities, const FSceneFacts& Facts, ESignal Signal, bool bFromGBuffer)
 {
-	assert(!bFromGBuffer || Signal != ESignal::Frame);
 	FPassRays Rays;
 	Rays.Path = ERayPath::Pipeline;
 	Rays.Defines = MakePathDefines(Facts);
@@ -44,7 +41,7 @@ void AddReferencePass(FFrameContext& Context, const FReferencePassInputs& Inputs
 	Context.Graph.AddPass("PathTrace", [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Write(Inputs.Sum, ERTAccess::StorageWrite | ERTAccess::ShaderRead);
 		const FGBuffer& G = Inputs.GBuffer;
-		for (const FGraphTexture Texture : {G.Depth, G.Normals, G.BaseColor, G.Material, Channels})
+		for (const FGraphTexture Texture : {G.Depth, G.Normals, G.BaseColor, G.Material, G.Emissive, Channels})
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
@@ -64,6 +61,7 @@ void AddReferencePass(FFrameContext& Context, const FReferencePassInputs& Inputs
 			C.Normals = GetSampledIndex(Pass, Inputs.GBuffer.Normals);
 			C.BaseColor = GetSampledIndex(Pass, Inputs.GBuffer.BaseColor);
 			C.Material = GetSampledIndex(Pass, Inputs.GBuffer.Material);
+			C.Emissive = GetSampledIndex(Pass, Inputs.GBuffer.Emissive);
 			C.Channels = GetSampledIndex(Pass, Channels);
 			Pass.CountRays(uint64_t(Frame->Width) * Inputs.RowCount * Inputs.SampleCount);
 			TraceFrameRays(Pass, *Frame, Frame->GetRayGen(ESignal::Frame), C, Frame->Width, Inputs.RowCount);

@@ -67,7 +67,7 @@ struct FFrameFeatures
 {
 	bool bReference = false;                  ///< traces the reference instead of real-time passes
 	ESignal ReferenceSignal = ESignal::Frame; ///< the whole frame, or one signal as LanternSignals/Signals.h defines it
-	/// The reference starts at the surfaces of FReferencePassInputs::GBuffer. Not for ESignal::Frame.
+	/// The reference starts at the surfaces of FReferencePassInputs::GBuffer.
 	bool bReferenceFromGBuffer = false;
 	/// The host traces rays in passes of its own. Acceleration structures are then kept even if no pass of the plugin needs
 	/// them. They are recorded at the start of the frame.
