@@ -2,6 +2,7 @@
 // pipeline and the ray-query path share it.
 // RADIANCE_CELLS: paths end in radiance cells. One pixel of four votes for the places of cells, in turn.
 // DEFERS_PATHS: paths that meet no cell are left to a second launch, of DEFERRED_PATHS, which has a thread for each of their pixels.
+// GUIDED_PATHS: see PathGuide.glsl. Each thread leaves a record of its first path.
 // SECOND_LOBE: the paths light the specular lobe as well (ESignal::RoughSpecular).
 // CHECKERBOARD, QUARTER: see Rate.glsl. BruteForce/Fill.comp fills the other pixels.
 // HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_EMISSIVE, HAS_MASKED: defined if the scene has such.
@@ -71,16 +72,23 @@ void DeferThread(uvec2 Thread)
 #endif
 
 #ifdef SECOND_LOBE
-// Narrower lobes are widened: a cosine-weighted path rarely falls into them, and would then count for very many.
-const float LeastRoughness = 0.5;
+// Narrower lobes are widened: the filter follows surfaces and not what they mirror.
+const float LeastRoughness = 0.2;
 
-// Returns the directional albedo of the specular lobe that the pixel's paths light.
+// Returns the directional albedo of the specular lobe that the pixel's paths light. It draws the share of paths that it has of the
+// reflected light, so that none counts for more than all of the albedo.
 vec3 SetSecondLobe(ivec2 Pixel, FGBufferPoint Point)
 {
+	const float MostShare = 0.75;
 	vec4 Material = texelFetch(Textures[Push.Material], Pixel, 0);
 	Material.x = max(Material.x, LeastRoughness);
-	SecondLobe = MakeSpecularLobe(MakeGBufferBrdf(texelFetch(Textures[Push.BaseColor], Pixel, 0), Material));
-	return SpecularReflectance(SecondLobe, dot(Point.BentN, Point.V), Material.x);
+	FBrdf Brdf = MakeGBufferBrdf(texelFetch(Textures[Push.BaseColor], Pixel, 0), Material);
+	SecondLobe = MakeSpecularLobe(Brdf);
+	float NdotV = dot(Point.BentN, Point.V);
+	vec3 Albedo = SpecularReflectance(SecondLobe, NdotV, Material.x);
+	float Specular = Luminance(Albedo), Diffuse = Luminance(DiffuseReflectance(Brdf, NdotV));
+	SecondShare = MostShare * Specular / max(Specular + Diffuse, 1.0e-4);
+	return Albedo;
 }
 #endif
 
@@ -94,6 +102,10 @@ void GatherPixel(uvec2 Thread)
 #ifdef RADIANCE_CELLS
 	BeginLookUps(View, uvec2(Pixel));
 	ChooseRadianceRest(uvec2(Pixel), View);
+#endif
+#ifdef GUIDED_PATHS
+	GuideTiles = Push.GuideTiles;
+	PathRecord = PATH_GUIDE_NO_PATH;
 #endif
 	if (Depth > 0.0)
 	{
@@ -114,6 +126,9 @@ void GatherPixel(uvec2 Thread)
 		DeferThread(Thread);
 		return;
 	}
+#endif
+#ifdef GUIDED_PATHS
+	FPathRecordRef(Push.PathRecords).Data[Thread.y * TurnThreads(uvec2(View.Width, View.Height)).x + Thread.x] = PathRecord;
 #endif
 	imageStore(Images[Push.Output], Pixel, RoundToHalf(vec4(Radiance, 1.0)));
 #ifdef SECOND_LOBE

@@ -11,15 +11,33 @@ const float MaxHalf = 65504.0;
 vec3 ClampToFinite(vec3 L) { return mix(clamp(L, vec3(0.0), vec3(MaxHalf)), vec3(0.0), isnan(L)); }
 
 #ifdef SECOND_LOBE
-// A lobe of the same surfaces that the paths of a white Lambert lobe light as well. The thread sets it before.
-FBrdf SecondLobe;
-vec3 SecondMean; // what it reflects
+// What SecondLobe reflects, which the paths of a white Lambert lobe light as well.
+vec3 SecondMean;
 
 // Returns by what light from a direction counts more for the second lobe than for the white one.
 vec3 WeighSecond(mat3 Basis, vec3 V, vec3 Direction)
 {
 	vec3 L = Direction * Basis;
 	return EvaluateBrdfCos(SecondLobe, V, L) * (Pi / max(L.z, 1.0e-4));
+}
+#endif
+
+#ifdef GUIDED_PATHS
+FAddress GuideTiles; // of the previous frame, see FindGuideTile. The thread sets it before
+uint PathRecord;     // of the pixel's first path, see PackGuideRecord
+
+// Draws the tile of a path: pixels near a border between tiles ask either.
+void ChooseGuide(FViewConstants View, FGBufferPoint Point, uvec2 Pixel, vec2 U)
+{
+	vec2 Shift = (U - 0.5) * float(PATH_GUIDE_TILE);
+	PathGuide = MakePathGuide(FindGuideTile(View, GuideTiles, Point.Relative, vec2(Pixel) + 0.5, Shift), Point.BentN);
+}
+
+// Returns what the guide is told of a path: its radiance over the pdf of its direction.
+uint RecordPath(FGathered Gathered, vec3 N)
+{
+	const float LeastCosine = 0.1; // grazing paths are rare and would count for very many
+	return PackGuideRecord(Gathered.Direction, Luminance(Gathered.Light) * Pi / max(dot(Gathered.Direction, N), LeastCosine));
 }
 #endif
 
@@ -42,7 +60,13 @@ vec3 AverageIndirectSamples(FSceneConstants Scene, FViewConstants View, uvec2 Pi
 	{
 		uint Index = View.FrameIndex * Samples + Sample;
 		FRandom Random = MakeRandom(Pixel, Index, StreamSeed);
+#ifdef GUIDED_PATHS
+		ChooseGuide(View, Point, Pixel, NextRandom4(Random).xy);
+#endif
 		FGathered Gathered = Gather(Scene, Lobe, Basis, V, P, Point.Ng, SobolOwen2(Index, Seed), MaxBounces, Random);
+#ifdef GUIDED_PATHS
+		if (Sample == 0u) { PathRecord = RecordPath(Gathered, Point.BentN); }
+#endif
 		vec3 L = Gathered.Light + Gathered.Emission;
 		Sum += mix(L, vec3(0.0), isnan(L));
 #ifdef SECOND_LOBE

@@ -3,6 +3,7 @@
 // RAY_QUERY: rays are traced inline, in compute shaders; otherwise through a ray-tracing pipeline.
 // RADIANCE_CELLS: paths end where a radiance cell knows the light; the thread calls BeginRadianceLookUps first.
 // DEFERS_PATHS: paths also end where none does; bRadianceDeferred then says that what they bring is void.
+// GUIDED_PATHS, SECOND_LOBE: see PathDirections.glsl. Gather then takes a white Lambert lobe alone.
 // HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_AREA_LIGHTS, HAS_LIGHT_PROFILES, HAS_LIGHT_CHANNELS, HAS_EMISSIVE, HAS_MASKED, HAS_CHARACTERS:
 // defined if the scene has such.
 #ifndef LANTERN_PATH_TRACING_GLSL
@@ -30,6 +31,10 @@ layout(location = 1) rayPayloadEXT FShadowPayload ShadowPayload;
 #include "PathLights.glsl"
 #ifdef RADIANCE_CELLS
 #include "RadianceLookUps.glsl"
+#endif
+#if defined(GUIDED_PATHS) || defined(SECOND_LOBE)
+#define MIXED_DIRECTIONS
+#include "PathDirections.glsl"
 #endif
 
 #ifndef REFLECTED_ROUGHNESS
@@ -221,7 +226,11 @@ FGathered Gather(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, 
 		    EmissionShare * SampleEmissive(Scene, Lobe, Basis, V, P, Ng, false, LightSample, true, Shows, Gathered.EmissionDirection);
 	}
 #endif
+#ifdef MIXED_DIRECTIONS
+	FBrdfSample Sample = SampleDirection(Basis, V, U);
+#else
 	FBrdfSample Sample = SampleBrdf(Lobe, V, vec3(U, 0.5));
+#endif
 	vec3 Direction = Gathered.Direction = Basis * Sample.Direction;
 	if (Sample.Direction.z <= 0.0 || dot(Direction, Ng) <= 0.0) { return Gathered; }
 	FMaterialHit Hit = TraceMaterial(Scene, MASK_VISIBLE, P, Direction, Infinity, bShown ? SHOWS_ALL : SHOWS_NOTHING);

@@ -18,8 +18,10 @@ struct FBruteForceConstants
 	FAddress Deferred;      // FDeferredPaths, for shaders with DEFERS_PATHS or DEFERRED_PATHS
 	uint SecondOutput;      // storage index, for shaders with SECOND_LOBE
 	uint Pad;
+	FAddress GuideTiles;  // FPathGuideTile[] of the previous frame, for shaders with GUIDED_PATHS; 0: there are none
+	FAddress PathRecords; // see FPathGuideConstants::Records
 };
-LANTERN_ASSERT_SIZE(FBruteForceConstants, 72);
+LANTERN_ASSERT_SIZE(FBruteForceConstants, 88);
 
 // Threads of a launch whose paths have met no radiance cell. A second launch follows them, in which neighbours do the same. The numbers of
 // the threads lie behind: y << 16 | x.

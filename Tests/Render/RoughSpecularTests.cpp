@@ -35,7 +35,7 @@ protected:
 		SetVariable("r.RT.Reflections", "0");
 		return true;
 	}
-	static FView See() { return LookAt({-0.4, 0.7, 2.2}, {0, 0.3, -0.6}, 0.9f, 48, 27); }
+	static FView See(uint32_t Scale = 1) { return LookAt({-0.4, 0.7, 2.2}, {0, 0.3, -0.6}, 0.9f, 48 * Scale, 27 * Scale); }
 };
 
 // Case 19: over its albedo, every lobe shows a sky of 1 as 1, as far as the albedo's fit goes (SpecularAlbedo, 2.3 %).
@@ -78,10 +78,10 @@ TEST_F(FRoughSpecularTest, WholeFrameAsTheReference)
 	ExpectUnbiased("corner, whole frame", ESignal::Frame, See(), 32, 256, 3, 0.01);
 }
 
-// The mean of narrower lobes than paths can find is that of a wider one.
+// Lobes narrower than the filter can follow have the mean of a wider one.
 TEST_F(FRoughSpecularTest, NarrowLobesAreWidened)
 {
-	ASSERT_TRUE(LoadCorner(0.5f));
+	ASSERT_TRUE(LoadCorner(0.2f));
 	const double Wide = MeanGreen(RenderSignal(ESignal::RoughSpecular, See(), 16));
 	ASSERT_TRUE(LoadCorner(0.05f));
 	EXPECT_NEAR(MeanGreen(RenderSignal(ESignal::RoughSpecular, See(), 16)) / Wide, 1.0, 0.01);
@@ -107,14 +107,15 @@ TEST_F(FRoughSpecularTest, OnlyWhereReflectionsAreNotTraced)
 TEST_F(FRoughSpecularTest, SparseAndFiltered)
 {
 	ASSERT_TRUE(LoadCorner(0.6f));
-	const double Reference = MeanGreen(TraceSignal(ESignal::RoughSpecular, See(), 512));
+	const FView View = See(4); // edges, at which pixels have few neighbours, are a small part of it
+	const double Reference = MeanGreen(TraceSignal(ESignal::RoughSpecular, View, 64));
 	SetIndirect(1, 1);
 	SetVariable("r.RT.Reflections", "0");
 	SetVariable("r.RT.GI", "3");
 	SetVariable("r.RT.GI.Rate", "2");
 	SetVariable("r.RT.GI.Denoise", "1");
-	(void)RenderSignal(ESignal::RoughSpecular, See(), 60);
-	EXPECT_NEAR(MeanGreen(RenderSignal(ESignal::RoughSpecular, See(), 60, 60)) / Reference, 1.0, 0.03);
+	(void)RenderSignal(ESignal::RoughSpecular, View, 60);
+	EXPECT_NEAR(MeanGreen(RenderSignal(ESignal::RoughSpecular, View, 60, 60)) / Reference, 1.0, 0.02);
 }
 
 } // namespace

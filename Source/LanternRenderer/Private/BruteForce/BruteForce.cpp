@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "BruteForce/PathGuide.h"
 #include "BruteForceTypes.h"
 #include "Lights/LightCells.h"
 #include "LocalLights/Emitters.h"
@@ -20,6 +21,8 @@ namespace
 constexpr uint32_t BouncesWithoutCell = 3; // of a path that would end in a cell and meets none
 constexpr const char* DefersPaths = "DEFERS_PATHS";
 constexpr const char* SecondLobe = "SECOND_LOBE";
+TRTConsoleVariable<bool> CVarMixturePdf("r.RT.Debug.GI.MixturePdf", true,
+    "Planted fault. If off, paths that a guide or a second lobe draws count as if the cosine alone had drawn them.");
 
 FShaderSource MakeFillSource(EPixelRate Rate)
 {
@@ -62,6 +65,7 @@ struct FPaths
 	FGraphTexture SecondOutput; ///< of the second lobe; invalid: there is none
 	FGraphBuffer Deferred;      ///< FDeferredPaths; invalid: there is no second launch
 	const FRadianceCells* RadianceCells = nullptr;
+	FPathGuide Guide; ///< invalid: paths are not guided
 	FRayDispatch First, Second;
 	uint32_t Width = 0, Height = 0; ///< of the first launch
 };
@@ -83,6 +87,7 @@ FPaths MakePaths(const FBruteForcePass& Settings, FFrameContext& Context, const 
 	}
 	Paths.RadianceCells =
 	    Settings.EndsInRadianceCells() ? RequireRadianceCells(Context, First.Compute ? ERayPath::Query : ERayPath::Pipeline) : nullptr;
+	if (HasPathGuide(First.Defines)) { Paths.Guide = MakePathGuide(Context, Rate, uint64_t(Paths.Width) * Paths.Height); }
 	if (Second)
 	{
 		const uint64_t Bytes = sizeof(FDeferredPaths) + uint64_t(Paths.Width) * Paths.Height * sizeof(uint32_t);
@@ -152,6 +157,7 @@ void DeclarePaths(FPassBuilder& Builder, const FBruteForcePass& Settings, const 
 	}
 	Builder.Write(Paths.Output, ERTAccess::StorageWrite);
 	if (Paths.SecondOutput.IsValid()) { Builder.Write(Paths.SecondOutput, ERTAccess::StorageWrite); }
+	if (Paths.Guide.IsValid()) { DeclareGuidedPaths(Builder, Paths.Guide); }
 	if (!Paths.Deferred.IsValid()) { return; }
 	Builder.Read(Paths.Deferred, bDeferred ? ERTAccess::ShaderRead : ERTAccess::StorageRead);
 	if (bDeferred) { Builder.Read(Paths.Deferred, ERTAccess::IndirectRead); }
@@ -176,6 +182,8 @@ void RecordPaths(FPassContext& Pass, const FFrameContext& Frame, const FBruteFor
 	C.RadianceCells = WriteRadianceGrid(Pass, Paths.RadianceCells);
 	C.MaxRoughness = Settings.MaxRoughness ? Settings.MaxRoughness->GetOnRenderThread() : 1.0f;
 	C.Deferred = GetAddress(Pass, Paths.Deferred);
+	C.GuideTiles = GetGuideTiles(Pass, Paths.Guide);
+	C.PathRecords = GetAddress(Pass, Paths.Guide.Records);
 	if (bDeferred) { return TraceDeferred(Pass, Frame, Paths, C); }
 	Pass.CountRays(uint64_t(Paths.Width) * Paths.Height * C.SamplesPerPixel * GetMaxPathRays(Frame.Facts, Bounces));
 	TraceFirst(Pass, Frame, Paths, C);
@@ -229,6 +237,8 @@ FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery
 		AddRateDefine(Rate, Rays.Defines);
 		if (Rate != EPixelRate::Full) { Rays.Compute.push_back(MakeFillSource(Rate)); }
 	}
+	if (!CVarMixturePdf.GetOnRenderThread()) { Rays.Defines.emplace_back("NO_MIXTURE_PDF", "1"); }
+	if (Settings.IsGuided()) { AddPathGuideDefines(FindRate(Rays.Defines), Rays); }
 	Rays.bRadianceCells = Settings.EndsInRadianceCells();
 	if (Rays.bRadianceCells)
 	{
@@ -268,9 +278,11 @@ FBruteForceOutputs AddBruteForcePass(const FBruteForcePass& Settings, FFrameCont
 	IRTPipeline* const Fill = Rate != EPixelRate::Full ? RequireCompute(Context, MakeFillSource(Rate)) : nullptr;
 	if (Rate != EPixelRate::Full && !Fill) { return {}; }
 	const FPaths Paths = MakePaths(Settings, Context, *First, Second ? &*Second : nullptr);
+	if (HasPathGuide(First->Defines) && !Paths.Guide.IsValid()) { return {}; }
 	if (Second) { AddDeferredStartPass(Context, Paths); }
 	AddPathsPass(Settings, Context, GBuffer, Paths, false);
 	if (Second) { AddDeferredPasses(Settings, Context, GBuffer, Paths); }
+	if (Paths.Guide.IsValid()) { AddPathGuideUpdate(Context, GBuffer, Paths.Guide); }
 	if (Fill)
 	{
 		AddFillPass(Context, GBuffer, std::string(GetSignalInfo(Settings.Signal).Pass) + "Fill", Paths.Output, Paths.SecondOutput, Fill);

@@ -23,7 +23,8 @@ struct FBruteForcePass
 	const TRTConsoleVariable<int32_t>* Rate = nullptr;
 	/// As ChooseShadingRayPath has it. Null: the signal has no shader for ray queries.
 	const TRTConsoleVariable<int32_t>* Path = nullptr;
-	const char* What = ""; ///< names the pass in messages, with Path
+	bool (*IsGuided)() = [] { return false; }; ///< whether paths of a white Lambert lobe follow a guide; render thread
+	const char* What = "";                     ///< names the pass in messages, with Path
 	/// For paths through a white Lambert lobe: the signal of the specular lobes that the same paths light, if LightsSecond says so. Base
 	/// colour and material are then read. Count: there is none.
 	ESignal Second = ESignal::Count;
