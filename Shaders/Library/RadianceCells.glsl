@@ -21,7 +21,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FRa
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FRadianceWordRef { uint Data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FRadianceCellRef { FRadianceCell Data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FRadianceVoteRef { FRadianceVote Data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FRadianceResultRef { vec3 Data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FRadianceResultRef { FRadianceResult Data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FRadianceCountersRef { FRadianceCellCounters Data; };
 
 // Position: relative to the scene's origin, metres, nearer than 260 km.
@@ -138,6 +138,21 @@ void AskRadianceCell(FRadianceGrid Grid, uint Slot, bool bCoarse)
 	if (State != Asked) { Cells.Data[Slot].State = Asked; }
 }
 
+// Rounds at random, as PackRgbe. Mean: of unit vectors. U: three random numbers in [0, 1).
+uint PackMeanDirection(vec3 Mean, vec3 U)
+{
+	uvec3 Steps = uvec3(clamp((Mean * 0.5 + 0.5) * 1023.0 + U, vec3(0.0), vec3(1023.0)));
+	return Steps.x | (Steps.y << 10u) | (Steps.z << 20u);
+}
+vec3 UnpackMeanDirection(uint P) { return vec3(P & 1023u, (P >> 10u) & 1023u, (P >> 20u) & 1023u) * (2.0 / 1023.0) - 1.0; }
+
+// Light that reaches a cell.
+struct FCellLight
+{
+	vec3 Irradiance; // over π
+	vec3 From;       // see FRadianceCell
+};
+
 // A place of which the light is asked.
 struct FRadianceQuery
 {
@@ -185,19 +200,19 @@ uint AskRadianceCell(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Vo
 
 const uint LeastCoarseCount = 8u; // a coarse cell that knows little is seen as a blotch
 
-bool IsRadianceKnown(FRadianceGrid Grid, uint Slot, uint LeastCount, inout vec3 Light)
+bool IsRadianceKnown(FRadianceGrid Grid, uint Slot, uint LeastCount, inout FCellLight Light)
 {
 	if (Slot == NO_RADIANCE_CELL) { return false; }
 	FRadianceCell Cell = FRadianceCellRef(Grid.Cells).Data[Slot];
 	if (RadianceCellCount(Cell.State) < LeastCount) { return false; }
-	Light = UnpackRgbe(Cell.Light);
+	Light = FCellLight(UnpackRgbe(Cell.Light), UnpackMeanDirection(Cell.From));
 	return true;
 }
 
-// Returns whether the light at a place is known; OutLight: irradiance / π there. U: a random number in [0, 1).
-bool LookUpRadiance(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Voter, float U, out vec3 OutLight)
+// Returns whether the light at a place is known. U: a random number in [0, 1).
+bool LookUpRadiance(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Voter, float U, out FCellLight OutLight)
 {
-	OutLight = vec3(0.0);
+	OutLight = FCellLight(vec3(0.0), vec3(0.0));
 	if (!all(lessThan(abs(Query.Position), vec3(2.0e5)))) { return false; } // also of what is no number
 	// A cell that is larger than the ray is long may lie on both sides of a corner. The finest must do for rays that leave from a corner.
 	if (Query.RayLength < 0.25 * RADIANCE_CELL_FINEST) { return false; }

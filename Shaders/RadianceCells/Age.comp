@@ -21,6 +21,7 @@ void main()
 			Keys.Data[Slot] = 0u;
 			Cells.Data[Slot].State = 0u;
 			Cells.Data[Slot].Light = 0u;
+			Cells.Data[Slot].From = 0u;
 		}
 		else { atomicAdd(Bins[GetBin(Grid, State)], 1u); }
 	}

@@ -32,9 +32,14 @@ void main()
 	uint Most = uint(clamp(GetWindow(Grid, Cell) / Waited, LeastWindow, float(RADIANCE_CELL_COUNT_MASK)));
 	uint Count = min(RadianceCellCount(Cell.State) + 1u, Most);
 	vec3 Mean = UnpackRgbe(Cell.Light);
-	Mean += (FRadianceResultRef(Grid.Results).Data[Number] - Mean) / float(Count);
+	FRadianceResult Result = FRadianceResultRef(Grid.Results).Data[Number];
+	vec3 Moment = UnpackMeanDirection(Cell.From) * Luminance(Mean);
+	Mean += (Result.Light - Mean) / float(Count);
+	Moment += (Result.Moment - Moment) / float(Count);
 	vec3 U = vec3(HashPcg4(uvec4(RadianceSeed(Grid, Cell), Grid.Turn, Count, 0x51ed270bu)).xyz >> 8u) * (1.0 / 16777216.0);
 	Cells.Data[Slot].Light = PackRgbe(max(Mean, vec3(0.0)), U);
+	float Sum = Luminance(Mean);
+	Cells.Data[Slot].From = PackMeanDirection(Sum > 0.0 ? Moment / Sum : vec3(0.0), U.yzx);
 	const uint Kept = ~((1u << RADIANCE_CELL_ASKED_SHIFT) - 1u) | RADIANCE_CELL_COARSE;
 	Cells.Data[Slot].State = Count | (Grid.Turn << RADIANCE_CELL_UPDATED_SHIFT) | (Cell.State & Kept);
 }

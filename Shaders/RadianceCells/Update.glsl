@@ -14,8 +14,15 @@ layout(push_constant, scalar) uniform FPush { FRadianceCellConstants Push; };
 
 const float MostLight = 1.0e30;
 
-// Returns irradiance / π of all light: what GatherIndirect leaves to the lighting pass is added.
-vec3 SampleCell(FSceneConstants Scene, FRadianceGrid Grid, FRadianceCell Cell, inout FRandom Random)
+void AddLight(inout FRadianceResult Result, vec3 Light, vec3 Direction)
+{
+	Light = mix(clamp(Light, vec3(0.0), vec3(MostLight)), vec3(0.0), isnan(Light));
+	Result.Light += Light;
+	Result.Moment += Luminance(Light) * Direction;
+}
+
+// Samples all light: what Gather leaves to the lighting pass is added.
+FRadianceResult SampleCell(FSceneConstants Scene, FRadianceGrid Grid, FRadianceCell Cell, inout FRandom Random)
 {
 	vec3 Ng = UnpackOct(Cell.GeometricNormal);
 	// Places are kept to half a step.
@@ -25,14 +32,19 @@ vec3 SampleCell(FSceneConstants Scene, FRadianceGrid Grid, FRadianceCell Cell, i
 	mat3 Basis = MakeBasis(BendNormal(UnpackOct(Cell.Normal), Ng));
 	vec3 V = Ng * Basis;
 	vec4 U0 = NextRandom4(Random), U1 = NextRandom4(Random);
-	vec3 L = GatherIndirect(Scene, White, Basis, V, P, Ng, U0.xy, Push.MaxBounces, Random);
+	FRadianceResult Result = FRadianceResult(vec3(0.0), vec3(0.0));
+	FGathered Gathered = Gather(Scene, White, Basis, V, P, Ng, U0.xy, Push.MaxBounces, Random);
+	AddLight(Result, Gathered.Light, Gathered.Direction);
+	AddLight(Result, Gathered.Emission, Gathered.EmissionDirection);
 #ifdef HAS_SUN
-	L += SampleSun(Scene, White, Basis, V, P, Ng, false, U0.zw);
+	AddLight(Result, SampleSun(Scene, White, Basis, V, P, Ng, false, U0.zw), -Scene.SunDirection);
 #endif
 #ifdef HAS_LIGHTS
-	L += SampleLocalLights(Scene, White, Basis, V, P, Ng, false, AllChannels, U1.x, U1.yz);
+	vec3 ToLight;
+	vec3 L = SampleLocalLights(Scene, White, Basis, V, P, Ng, false, AllChannels, U1.x, U1.yz, ToLight);
+	AddLight(Result, L, ToLight);
 #endif
-	return mix(clamp(L, vec3(0.0), vec3(MostLight)), vec3(0.0), isnan(L));
+	return Result;
 }
 
 // Number: of an update.

@@ -58,11 +58,12 @@ vec3 SampleSky(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, ve
 
 #ifdef HAS_LIGHTS
 // Samples one light with a probability proportional to EstimateLight, by weighted reservoir sampling over all that may matter.
-// U: chooses the light; PointU: the point on one with an extent.
+// U: chooses the light; PointU: the point on one with an extent. ToLight: gets the direction, which means nothing where the result is 0.
 // LIGHT_CELLS_OF_VIEW: looks them up in light cells. Not defined, as in the reference: visits all lights.
 vec3 SampleLocalLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, uint Channels, float U,
-                       vec2 PointU)
+                       vec2 PointU, out vec3 ToLight)
 {
+	ToLight = Ng;
 	FLightRef Lights = FLightRef(Scene.Lights);
 	float TotalWeight = 0.0, ChosenWeight = 0.0;
 	uint Chosen = 0u;
@@ -89,12 +90,20 @@ vec3 SampleLocalLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, ve
 	if (ChosenWeight <= 0.0) { return vec3(0.0); }
 	FLightData Light = Lights.Data[Chosen];
 	FLightSample Sample = SampleLight(Scene, Light, P, PointU);
+	ToLight = Sample.Direction;
 	if (MaxComponent(Sample.Irradiance) <= 0.0 || dot(Sample.Direction, Ng) <= 0.0) { return vec3(0.0); }
 	vec3 BrdfCos = EvaluateBrdfCos(Brdf, V, Sample.Direction * Basis);
 	if (MaxComponent(BrdfCos) <= 0.0) { return vec3(0.0); }
 	bool bCastsShadow = (Light.Flags & LIGHT_CASTS_SHADOW) != 0u;
 	if (bCastsShadow && !IsVisible(Scene, LocalCasters(bCharacter), P, Sample.Direction, LightRayLength(Sample, P, Scene.ObjectReach))) { return vec3(0.0); }
 	return BrdfCos * Sample.Irradiance * (TotalWeight / ChosenWeight);
+}
+
+vec3 SampleLocalLights(FSceneConstants Scene, FBrdf Brdf, mat3 Basis, vec3 V, vec3 P, vec3 Ng, bool bCharacter, uint Channels, float U,
+                       vec2 PointU)
+{
+	vec3 ToLight;
+	return SampleLocalLights(Scene, Brdf, Basis, V, P, Ng, bCharacter, Channels, U, PointU, ToLight);
 }
 #endif
 

@@ -146,7 +146,7 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 		vec3 LocalV = V * Basis;
 #ifdef RADIANCE_CELLS
 		vec3 Known;
-		if (LookUpReflected(Hit, Brdf, P, LocalV, NextRandom4(Random).x, Known)) { return Radiance + Throughput * Known; }
+		if (LookUpReflected(Hit, Brdf, P, Basis, LocalV, NextRandom4(Random).x, Known)) { return Radiance + Throughput * Known; }
 		Throughput *= TakeRadianceRest();
 		if (Bounce >= MaxBounces || Throughput == vec3(0.0)) { return Radiance; }
 #ifdef DEFERS_PATHS

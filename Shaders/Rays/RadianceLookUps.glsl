@@ -38,9 +38,36 @@ float TakeRadianceRest()
 	return Rest;
 }
 
-// Returns whether the light that a hit reflects towards V is known: OutLight. P: where the next ray would start. LocalV: V in a frame about
-// the shading normal. Mirrors show what is there, and are followed.
-bool LookUpReflected(FMaterialHit Hit, FBrdf Brdf, vec3 P, vec3 LocalV, float U, out vec3 OutLight)
+// Returns what a surface reflects towards V of a cell's light. A part of that light counts as if it came from one direction, the rest as if
+// evenly from all: with n the normal, the mean of directions is then d D + (1 − d) 2/3 n, which has one solution for d and D.
+vec3 ReflectCellLight(FCellLight Light, FBrdf Brdf, float Roughness, vec3 LocalV, vec3 LocalFrom)
+{
+	const float EvenMean = 2.0 / 3.0;      // of cosine-weighted directions, along the normal
+	const float LeastRoughness = 0.4;      // light comes from around the mean direction
+	const float LeastCosine = 0.05;        // of a direction that light has come from
+	vec3 Rest = LocalFrom - vec3(0.0, 0.0, EvenMean);
+	float Along = EvenMean * Rest.z, Factor = 1.0 - EvenMean * EvenMean;
+#ifdef NO_CELL_DIRECTION // r.RT.Debug.GI.CellDirection
+	Rest = vec3(0.0);
+	Along = 0.0;
+#endif
+	float Share = clamp((Along + sqrt(Along * Along + Factor * dot(Rest, Rest))) / Factor, 0.0, 1.0);
+	vec3 From = Rest + vec3(0.0, 0.0, EvenMean * Share);
+	vec3 Reflected = DiffuseReflectance(Brdf, LocalV.z) + (1.0 - Share) * SpecularReflectance(Brdf, LocalV.z, Roughness);
+	if (dot(From, From) > 1.0e-6)
+	{
+		From.z = max(From.z, LeastCosine * length(From));
+		Brdf.Alpha = max(Brdf.Alpha, LeastRoughness * LeastRoughness);
+		vec3 Diffuse, Specular;
+		EvaluateLobes(Brdf, LocalV, normalize(From), Diffuse, Specular);
+		Reflected += Share * Pi * Specular;
+	}
+	return Light.Irradiance * Reflected;
+}
+
+// Returns whether the light that a hit reflects towards V is known: OutLight. P: where the next ray would start. Basis: about the shading
+// normal. LocalV: V in it. Mirrors show what is there, and are followed.
+bool LookUpReflected(FMaterialHit Hit, FBrdf Brdf, vec3 P, mat3 Basis, vec3 LocalV, float U, out vec3 OutLight)
 {
 	OutLight = vec3(0.0);
 	if (RadianceGrid == FAddress(0) || (IsMirror(Brdf) && SpecularProbability(Brdf, LocalV) > 0.0)) { return false; }
@@ -49,8 +76,9 @@ bool LookUpReflected(FMaterialHit Hit, FBrdf Brdf, vec3 P, vec3 LocalV, float U,
 	                                      (Hit.Flags & HIT_FOLIAGE) != 0u);
 	FRadianceVoter Voter = RadianceVoter;
 	RadianceVoter.Note = FAddress(0);
-	if (!LookUpRadiance(Grid, Query, Voter, U, OutLight)) { return false; }
-	OutLight *= DiffuseReflectance(Brdf, LocalV.z) + SpecularReflectance(Brdf, LocalV.z, Hit.Roughness);
+	FCellLight Light;
+	if (!LookUpRadiance(Grid, Query, Voter, U, Light)) { return false; }
+	OutLight = ReflectCellLight(Light, Brdf, Hit.Roughness, LocalV, Light.From * Basis);
 	return true;
 }
 

@@ -37,8 +37,17 @@ struct FRadianceCell
 	ivec3 Place; // where rays of updates start, in steps of the light grid (LIGHT_POSITION_STEPS), modulo 2^32
 	uint GeometricNormal, Normal; // there, octahedral
 	uint Light; // mean of irradiance / π, by PackRgbe
+	uint From;  // mean direction that it comes from, each weighted by its luminance, by PackMeanDirection; its length says how alike they are
 };
-LANTERN_ASSERT_SIZE(FRadianceCell, 32);
+LANTERN_ASSERT_SIZE(FRadianceCell, 36);
+
+// What an update has found.
+struct FRadianceResult
+{
+	vec3 Light;  // irradiance / π
+	vec3 Moment; // the sum of its parts' luminance times their direction
+};
+LANTERN_ASSERT_SIZE(FRadianceResult, 24);
 
 // A look-up that voted. The one whose vote wins gives the cell its place.
 struct FRadianceVote
@@ -84,7 +93,7 @@ struct FRadianceGrid
 	FAddress Votes;       // FRadianceVote[]: one for each block of 2 × 2 pixels
 	FAddress UpdateVotes; // FRadianceVote[RADIANCE_CELL_MOST_UPDATES]: of updates, which count in the next frame
 	FAddress List;        // uint[RADIANCE_CELL_MOST_UPDATES]: slots to update
-	FAddress Results;     // vec3[RADIANCE_CELL_MOST_UPDATES]
+	FAddress Results;     // FRadianceResult[RADIANCE_CELL_MOST_UPDATES]
 	FAddress Counters;    // FRadianceCellCounters
 	ivec3 Origin;         // of the scene, as FLightGrid::Origin
 	uint BucketMask;      // number of buckets - 1

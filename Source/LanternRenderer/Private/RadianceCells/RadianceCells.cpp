@@ -17,7 +17,7 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<int32_t> CVarCapacity("r.RT.GI.Cells.Capacity", 1 << 20,
-    "Number of radiance cells that there is memory for, 36 bytes each, rounded to a power of two.", {1 << 8, 1 << 24});
+    "Number of radiance cells that there is memory for, 40 bytes each, rounded to a power of two.", {1 << 8, 1 << 24});
 TRTConsoleVariable<float> CVarUpdates("r.RT.GI.Cells.UpdatesPerSecond", 2.5e6f,
     "Updates of radiance cells in a second, each of one path. A frame has 61,440 at most.", {1000, 1e8f});
 TRTConsoleVariable<float> CVarSizeAngle("r.RT.GI.Cells.SizeAngle", 0.02f,
@@ -25,6 +25,8 @@ TRTConsoleVariable<float> CVarSizeAngle("r.RT.GI.Cells.SizeAngle", 0.02f,
     {0.001f, 1});
 TRTConsoleVariable<float> CVarSeconds(
     "r.RT.GI.Cells.Seconds", 1.0f, "Time over which a radiance cell averages its light, in seconds.", {0.05f, 60});
+TRTConsoleVariable<bool> CVarDirection("r.RT.Debug.GI.CellDirection", true,
+    "Planted fault. If off, surfaces that paths hit reflect the light of radiance cells as if it came evenly from all directions.");
 TRTConsoleVariable<bool> CVarLayers("r.RT.Debug.GI.Layers", true,
     "Planted fault. Off: radiance cells are as thick as wide and have no side, so that light leaks through walls.");
 
@@ -50,7 +52,7 @@ struct FRadianceWork
 {
 	static constexpr uint64_t List = 0;
 	static constexpr uint64_t Results = List + uint64_t(RADIANCE_CELL_MOST_UPDATES) * sizeof(uint32_t);
-	static constexpr uint64_t Votes = Results + uint64_t(RADIANCE_CELL_MOST_UPDATES) * sizeof(glm::vec3);
+	static constexpr uint64_t Votes = Results + uint64_t(RADIANCE_CELL_MOST_UPDATES) * sizeof(FRadianceResult);
 	static uint64_t GetSize(uint32_t VoteCount) { return Votes + uint64_t(VoteCount) * sizeof(FRadianceVote); }
 };
 
@@ -225,6 +227,7 @@ void AddRadianceCellDefines(FShaderDefines& InOut)
 {
 	InOut.emplace_back("RADIANCE_CELLS", "1");
 	if (!CVarLayers.GetOnRenderThread()) { InOut.emplace_back("NO_LAYERS", "1"); }
+	if (!CVarDirection.GetOnRenderThread()) { InOut.emplace_back("NO_CELL_DIRECTION", "1"); }
 }
 
 const FRadianceCells* RequireRadianceCells(FFrameContext& Context, ERayPath Path)
