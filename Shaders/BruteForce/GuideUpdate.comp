@@ -100,6 +100,9 @@ void main()
 	}
 	if (Place == 0u)
 	{
+		float Known = Frames == 0u ? 0.0 : FPathGuideTileRef(Previous).Data.Paths;
+		float Kept = Frames + 1u < PATH_GUIDE_FRAMES || Paths == 0u ? 1.0 : 1.0 - 1.0 / float(PATH_GUIDE_FRAMES);
+		Out.Data.Paths = (Known > 0.0 && Known < 1.0e6 ? Known : 0.0) * Kept + float(Paths);
 		Out.Data.Scale = Scale;
 		Out.Data.Frames = Scale > 0.0 ? Frames + (Paths > 0u ? 1u : 0u) : 0u;
 	}

@@ -20,7 +20,7 @@ FBrdf SecondLobe;
 float SecondShare; // of paths that the second lobe draws, 0 to below 1
 #endif
 
-const float GuideShare = 0.5; // of paths that the second lobe does not draw
+const float GuideShare = 0.5; // of paths that the second lobe does not draw, at most
 
 // V: local frame, as what is returned. Pdf is that of the cosine: weights between this and light sampling need only to sum to one, and light
 // sampling knows that pdf alone.
@@ -31,7 +31,7 @@ FBrdfSample SampleDirection(mat3 Basis, vec3 V, vec2 U)
 	FromLobe = SecondShare;
 #endif
 #ifdef GUIDED_PATHS
-	FromGuide = PathGuide.Tile != FAddress(0) ? GuideShare * (1.0 - FromLobe) : 0.0;
+	FromGuide = GuideShare * PathGuide.Trust * (1.0 - FromLobe);
 #endif
 	float FromCosine = 1.0 - FromGuide - FromLobe;
 	FBrdfSample Sample;

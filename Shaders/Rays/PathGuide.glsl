@@ -44,58 +44,90 @@ uint PackGuideRecord(vec3 Direction, float Value)
 // A tile's map as a surface sees it.
 struct FPathGuide
 {
-	FAddress Tile; // 0: nothing is known, and the cosine alone counts
+	FAddress Tile;
 	vec3 N;
 	float Rows[PATH_GUIDE_SIDE];
 	float Total; // of Rows
+	float Trust; // 0: nothing is known that the cosine does not; to 1
 };
 
 uint LoadBins(FPathGuide Guide, uint Word) { return FPathGuideTileRef(Guide.Tile).Data.Bins[Word]; }
 
-// Pair: the word that holds the bin.
-float GuideWeight(FPathGuide Guide, uint Pair, uint Bin)
+float GuideLight(uint Pair, uint Bin) { return float((Bin & 1u) != 0u ? Pair >> 16u : Pair & 0xffffu); }
+
+// Returns the cosine by which a bin counts.
+float GuideCosine(FPathGuide Guide, vec3 Center)
 {
 	const float Reach = 0.2; // of a bin, as a cosine: parts of it may lie above a horizon that its centre is below
-	uint Light = (Bin & 1u) != 0u ? Pair >> 16u : Pair & 0xffffu;
-	if (Light == 0u) { return 0.0; }
-	vec2 Center = (vec2(Bin % PATH_GUIDE_SIDE, Bin / PATH_GUIDE_SIDE) + 0.5) * (2.0 / float(PATH_GUIDE_SIDE)) - 1.0;
-	return float(Light) * max(dot(Guide.N, OctDecode(Center)) + Reach, 0.0);
+	return max(dot(Guide.N, Center) + Reach, 0.0);
 }
-float GuideWeight(FPathGuide Guide, uint Bin) { return GuideWeight(Guide, LoadBins(Guide, Bin >> 1u), Bin); }
+
+vec3 GuideCenter(uint Bin)
+{
+	return OctDecode((vec2(Bin % PATH_GUIDE_SIDE, Bin / PATH_GUIDE_SIDE) + 0.5) * (2.0 / float(PATH_GUIDE_SIDE)) - 1.0);
+}
+
+float GuideWeight(FPathGuide Guide, uint Bin) { return GuideLight(LoadBins(Guide, Bin >> 1u), Bin) * GuideCosine(Guide, GuideCenter(Bin)); }
+
+// Returns bins for each unit of solid angle around a direction. An octahedral map has four units of area, and a direction d the density
+// |d|₁⁻³ (the octahedron's faces, seen from its centre).
+float GuideDensity(vec3 Direction)
+{
+	float Norm = abs(Direction.x) + abs(Direction.y) + abs(Direction.z);
+	return (float(PATH_GUIDE_BINS) / 4.0) / (Norm * Norm * Norm);
+}
+
+// What decides how far a guide is trusted: sums over bins of solid angle, light, and squared light, each times the cosine.
+struct FGuideSums
+{
+	float Angle, Light, Square;
+};
+
+// Returns the weight of a bin.
+float AddBin(FPathGuide Guide, uint Pair, uint Bin, inout FGuideSums Sums)
+{
+	vec3 Center = GuideCenter(Bin);
+	float Light = GuideLight(Pair, Bin), Cosine = GuideCosine(Guide, Center), Density = GuideDensity(Center);
+	Sums.Angle += Cosine / Density;
+	Sums.Light += Cosine * Light;
+	Sums.Square += Cosine * Light * Light * Density;
+	return Cosine * Light;
+}
+
+// The relative variance of what cosine-weighted paths bring, less what the map would have of noise alone. Even light needs no guide, and one
+// with steps would add noise.
+float TrustGuide(FGuideSums Sums, float Paths)
+{
+	const float Even = 0.25, Full = 1.0;
+	float Variance = Sums.Square * Sums.Angle / (Sums.Light * Sums.Light) - 1.0;
+	float Noise = 4.0 * float(PATH_GUIDE_BINS) / max(Paths, 1.0e-3); // some four times what it is in the mean
+	return clamp((Variance - Noise - Even) / (Full - Even), 0.0, 1.0);
+}
 
 FPathGuide MakePathGuide(FAddress Tile, vec3 N)
 {
 	FPathGuide Guide;
 	Guide.Tile = Tile;
 	Guide.N = N;
-	Guide.Total = 0.0;
-	if (Tile == FAddress(0) || FPathGuideTileRef(Tile).Data.Frames == 0u)
-	{
-		Guide.Tile = FAddress(0);
-		return Guide;
-	}
+	Guide.Total = Guide.Trust = 0.0;
+	if (Tile == FAddress(0) || FPathGuideTileRef(Tile).Data.Frames == 0u) { return Guide; }
+	FGuideSums Sums = FGuideSums(0.0, 0.0, 0.0);
 	for (uint Row = 0u; Row < PATH_GUIDE_SIDE; ++Row)
 	{
 		Guide.Rows[Row] = 0.0;
 		for (uint Bin = Row * PATH_GUIDE_SIDE; Bin < (Row + 1u) * PATH_GUIDE_SIDE; Bin += 2u)
 		{
 			uint Pair = LoadBins(Guide, Bin >> 1u);
-			Guide.Rows[Row] += GuideWeight(Guide, Pair, Bin) + GuideWeight(Guide, Pair, Bin + 1u);
+			Guide.Rows[Row] += AddBin(Guide, Pair, Bin, Sums) + AddBin(Guide, Pair, Bin + 1u, Sums);
 		}
 		Guide.Total += Guide.Rows[Row];
 	}
-	if (Guide.Total <= 0.0) { Guide.Tile = FAddress(0); }
+	if (Guide.Total > 0.0) { Guide.Trust = TrustGuide(Sums, FPathGuideTileRef(Tile).Data.Paths); }
 	return Guide;
 }
 
-// Returns the density over solid angle by which the map alone would draw a direction. An octahedral map has four units of area, and a
-// direction d its density |d|₁⁻³ (the octahedron's faces, seen from its centre).
-float GuidePdf(FPathGuide Guide, vec3 Direction)
-{
-	float Chance = GuideWeight(Guide, GuideBin(Direction)) / Guide.Total;
-	float Norm = abs(Direction.x) + abs(Direction.y) + abs(Direction.z);
-	return Chance * (float(PATH_GUIDE_BINS) / 4.0) / (Norm * Norm * Norm);
-}
+// Returns the density over solid angle by which the map alone would draw a direction.
+float GuidePdf(FPathGuide Guide, vec3 Direction) { return GuideWeight(Guide, GuideBin(Direction)) / Guide.Total * GuideDensity(Direction); }
 
 vec3 DrawGuided(FPathGuide Guide, vec2 U)
 {

@@ -17,7 +17,8 @@ struct FPathGuideTile
 {
 	float Scale; // what a bin's unit stands for: radiance · sr
 	uint Frames; // that the bins average; 0: nothing is known
-	uint Pad[2];
+	float Paths; // that the bins have learnt from
+	uint Pad;
 	uint Bins[PATH_GUIDE_BINS / 2];
 };
 LANTERN_ASSERT_SIZE(FPathGuideTile, 144);
