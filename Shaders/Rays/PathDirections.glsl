@@ -24,7 +24,8 @@ const float GuideShare = 0.5; // of paths that the second lobe does not draw, at
 
 // V: local frame, as what is returned. Pdf is that of the cosine: weights between this and light sampling need only to sum to one, and light
 // sampling knows that pdf alone.
-FBrdfSample SampleDirection(mat3 Basis, vec3 V, vec2 U)
+// CosineShare: gets the share of paths that the cosine draws; 1 / CosineShare is the greatest weight.
+FBrdfSample SampleDirection(mat3 Basis, vec3 V, vec2 U, out float CosineShare)
 {
 	float FromGuide = 0.0, FromLobe = 0.0;
 #ifdef SECOND_LOBE
@@ -33,7 +34,7 @@ FBrdfSample SampleDirection(mat3 Basis, vec3 V, vec2 U)
 #ifdef GUIDED_PATHS
 	FromGuide = GuideShare * PathGuide.Trust * (1.0 - FromLobe);
 #endif
-	float FromCosine = 1.0 - FromGuide - FromLobe;
+	float FromCosine = CosineShare = 1.0 - FromGuide - FromLobe;
 	FBrdfSample Sample;
 	if (U.x < FromCosine) { Sample.Direction = SampleCosineHemisphere(vec2(U.x / FromCosine, U.y)); }
 #ifdef GUIDED_PATHS

@@ -227,7 +227,12 @@ FGathered Gather(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, 
 	}
 #endif
 #ifdef MIXED_DIRECTIONS
-	FBrdfSample Sample = SampleDirection(Basis, V, U);
+	float CosineShare;
+	FBrdfSample Sample = SampleDirection(Basis, V, U, CosineShare);
+#ifdef RADIANCE_CELLS
+	// Cells average over the places that vote. These must be spread as the cosine spreads them.
+	if (NextRandom4(Random).x >= Sample.Weight.x * CosineShare) { RadianceVoter.Note = FAddress(0); }
+#endif
 #else
 	FBrdfSample Sample = SampleBrdf(Lobe, V, vec3(U, 0.5));
 #endif

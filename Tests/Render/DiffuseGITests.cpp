@@ -70,7 +70,6 @@ TEST_F(FDiffuseGITest, SamplesFollowFrameAndSeed)
 {
 	ASSERT_TRUE(Load("furnace:0.5"));
 	SetIndirect(1, 1);
-	SetVariable("r.RT.GI.Guide", "0"); // it depends on the frames before
 	FView View = MakeView(24, 24);
 	const FImage First = RenderSignal(ESignal::DiffuseGI, View, 1, 5);
 	EXPECT_EQ(First.Pixels, RenderSignal(ESignal::DiffuseGI, View, 1, 5).Pixels);

@@ -38,6 +38,7 @@ protected:
 		SetSun(0.0, 10.0f, {0.05, -1, 0.03});
 		SetIndirect(1, 1);
 		SetVariable("r.RT.Reflections", "0");
+		SetVariable("r.RT.GI.Guide", "1");
 		return true;
 	}
 	static FView See(uint32_t Width, uint32_t Height) { return LookAt({-3, 1.6, 3.5}, {0.5, 1.2, -5}, 1.0f, Width, Height); }

@@ -264,8 +264,7 @@ TEST_F(FRendererToggleTest, ReorderingIsForMaterialShadersOfDevicesThatCan)
 		Set("r.RT.Shadow.Path", "1");
 		Set("r.RT.Reorder", "1");
 		LoadAndRender({.bSky = true});
-		std::vector<std::pair<std::string, std::string>> Defines = {
-		    {"HAS_SUN", "1"}, {"HAS_SKY", "1"}, {"SECOND_LOBE", "1"}, {"GUIDED_PATHS", "1"}};
+		std::vector<std::pair<std::string, std::string>> Defines = {{"HAS_SUN", "1"}, {"HAS_SKY", "1"}, {"SECOND_LOBE", "1"}};
 		const std::vector<std::pair<std::string, std::string>> Unordered = Defines;
 		if (bCan) { Defines.emplace_back("REORDER", "1"); }
 		EXPECT_NE(GetRTPSO()->FindRayGen({"DiffuseGI/DiffuseGI.rgen", ERTShaderStage::RayGen, Defines, {}}), NoRayGen) << bCan;

@@ -31,8 +31,8 @@ TRTConsoleVariable<int32_t> CVarPath("r.RT.GI.Path", 0,
     "How diffuse global illumination traces. 0: by the pipeline where there is one. 1: ray-tracing pipeline. 2: ray queries, which see all "
     "materials as the standard program shows them, and no own shapes.",
     {0, 2});
-TRTConsoleVariable<bool> CVarGuide("r.RT.GI.Guide", true,
-    "Half of the paths go where earlier paths of the neighbourhood found light. Saves noise where light comes from few places.");
+TRTConsoleVariable<bool> CVarGuide("r.RT.GI.Guide", false,
+    "Up to half of the paths go where earlier paths of the neighbourhood found light. Saves noise where light comes from few places.");
 TRTConsoleVariable<bool> CVarRoughSpecular("r.RT.GI.RoughSpecular", true,
     "Paths of diffuse global illumination light the specular lobes of surfaces whose reflections are not traced. If off, diffuse light and "
     "the sky stand in.");
