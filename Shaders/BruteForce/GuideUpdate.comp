@@ -81,7 +81,7 @@ void main()
 		uint Packed = FPathGuideTileRef(Previous).Data.Bins[Place >> 1u];
 		PastScale = FPathGuideTileRef(Previous).Data.Scale;
 		Frames = min(FPathGuideTileRef(Previous).Data.Frames, PATH_GUIDE_FRAMES - 1u);
-		Past = float((Place & 1u) != 0u ? Packed >> 16u : Packed & 0xffffu);
+		Past = GuideLight(Packed, Place);
 	}
 	if (!(PastScale > 0.0 && PastScale < 1.0e30)) { Frames = 0u; } // memory may hold anything
 	float Now = float(Sums[Place]) * uintBitsToFloat(Brightest) / Steps / max(float(Paths), 1.0);
@@ -91,7 +91,7 @@ void main()
 	barrier();
 
 	float Scale = uintBitsToFloat(Highest) / Steps;
-	FPathGuideTileRef Out = FPathGuideTileRef(Push.Current + FAddress(Tile.y * CountGuideTiles(uvec2(View.Width, View.Height)).x + Tile.x) * PathGuideTileBytes);
+	FPathGuideTileRef Out = FPathGuideTileRef(GuideTileAddress(View, Push.Current, Tile));
 	if (Place < PATH_GUIDE_BINS / 2)
 	{
 		float Inverse = Scale > 0.0 ? 1.0 / Scale : 0.0;

@@ -75,8 +75,8 @@ void DeferThread(uvec2 Thread)
 // Narrower lobes are widened: the filter follows surfaces and not what they mirror.
 const float LeastRoughness = 0.2;
 
-// Returns the directional albedo of the specular lobe that the pixel's paths light. It draws the share of paths that it has of the
-// reflected light, so that none counts for more than all of the albedo.
+// Returns the directional albedo of the specular lobe that the pixel's paths light. It draws a share of paths like the one that it
+// has of the reflected light, so that none counts for more than 4/3 of the albedo.
 vec3 SetSecondLobe(ivec2 Pixel, FGBufferPoint Point)
 {
 	const float MostShare = 0.75;

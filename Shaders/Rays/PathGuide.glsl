@@ -12,7 +12,11 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FPathRecordR
 
 const uint PathGuideTileBytes = 144u;
 
-uvec2 CountGuideTiles(uvec2 Size) { return (Size + PATH_GUIDE_TILE - 1u) / PATH_GUIDE_TILE; }
+FAddress GuideTileAddress(FViewConstants View, FAddress Tiles, uvec2 Tile)
+{
+	uint Columns = (View.Width + PATH_GUIDE_TILE - 1u) / PATH_GUIDE_TILE;
+	return Tiles + FAddress(Tile.y * Columns + Tile.x) * PathGuideTileBytes;
+}
 
 // Returns the address of a tile of the previous frame that showed a place, as if nothing but the camera had moved. 0: none did.
 // Relative: to the camera. Shift: pixels.
@@ -22,9 +26,7 @@ FAddress FindGuideTile(FViewConstants View, FAddress Tiles, vec3 Relative, vec2 
 	vec3 Motion = ComputeMotion(View, Relative, Relative + View.CameraMotion);
 	vec2 Previous = Pixel + Motion.xy, Size = vec2(View.Width, View.Height);
 	if (Motion.z <= 0.0 || any(lessThan(Previous, vec2(0.0))) || any(greaterThanEqual(Previous, Size))) { return FAddress(0); }
-	uvec2 Tile = uvec2(clamp(Previous + Shift, vec2(0.0), Size - 1.0)) / PATH_GUIDE_TILE;
-	uint Number = Tile.y * CountGuideTiles(uvec2(View.Width, View.Height)).x + Tile.x;
-	return Tiles + FAddress(Number) * PathGuideTileBytes;
+	return GuideTileAddress(View, Tiles, uvec2(clamp(Previous + Shift, vec2(0.0), Size - 1.0)) / PATH_GUIDE_TILE);
 }
 
 uint GuideBin(vec3 Direction)

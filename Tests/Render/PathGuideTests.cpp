@@ -43,7 +43,7 @@ protected:
 	}
 	static FView See(uint32_t Width, uint32_t Height) { return LookAt({-3, 1.6, 3.5}, {0.5, 1.2, -5}, 1.0f, Width, Height); }
 
-	/// Relative variance of a pixel of the last of LearningFrames frames.
+	/// Relative variance of a pixel's mean over the four frames that follow LearningFrames.
 	double MeasureNoise(bool bGuided, FView View)
 	{
 		SetVariable("r.RT.GI.Guide", bGuided ? "1" : "0");

@@ -87,7 +87,7 @@ FPaths MakePaths(const FBruteForcePass& Settings, FFrameContext& Context, const 
 	}
 	Paths.RadianceCells =
 	    Settings.EndsInRadianceCells() ? RequireRadianceCells(Context, First.Compute ? ERayPath::Query : ERayPath::Pipeline) : nullptr;
-	if (HasPathGuide(First.Defines)) { Paths.Guide = MakePathGuide(Context, Rate, uint64_t(Paths.Width) * Paths.Height); }
+	if (First.Has(GuidedPathsDefine)) { Paths.Guide = MakePathGuide(Context, Rate, uint64_t(Paths.Width) * Paths.Height); }
 	if (Second)
 	{
 		const uint64_t Bytes = sizeof(FDeferredPaths) + uint64_t(Paths.Width) * Paths.Height * sizeof(uint32_t);
@@ -278,7 +278,7 @@ FBruteForceOutputs AddBruteForcePass(const FBruteForcePass& Settings, FFrameCont
 	IRTPipeline* const Fill = Rate != EPixelRate::Full ? RequireCompute(Context, MakeFillSource(Rate)) : nullptr;
 	if (Rate != EPixelRate::Full && !Fill) { return {}; }
 	const FPaths Paths = MakePaths(Settings, Context, *First, Second ? &*Second : nullptr);
-	if (HasPathGuide(First->Defines) && !Paths.Guide.IsValid()) { return {}; }
+	if (First->Has(GuidedPathsDefine) && !Paths.Guide.IsValid()) { return {}; }
 	if (Second) { AddDeferredStartPass(Context, Paths); }
 	AddPathsPass(Settings, Context, GBuffer, Paths, false);
 	if (Second) { AddDeferredPasses(Settings, Context, GBuffer, Paths); }

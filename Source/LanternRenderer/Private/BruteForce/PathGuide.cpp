@@ -1,8 +1,6 @@
 // The pass that keeps the guide of paths, and what launches need of it.
 #include "BruteForce/PathGuide.h"
 
-#include <algorithm>
-
 #include "LanternCore/FrameGraph/History.h"
 #include "PassTools.h"
 #include "PathGuideTypes.h"
@@ -13,8 +11,6 @@ namespace Lantern
 
 namespace
 {
-constexpr const char* GuidedPaths = "GUIDED_PATHS";
-
 FShaderSource MakeUpdateSource(EPixelRate Rate)
 {
 	FShaderDefines Defines;
@@ -27,13 +23,8 @@ uint32_t CountTiles(uint32_t Pixels) { return DivideUp(Pixels, PATH_GUIDE_TILE);
 
 void AddPathGuideDefines(EPixelRate Rate, FPassRays& InOut)
 {
-	InOut.Defines.emplace_back(GuidedPaths, "1");
+	InOut.Defines.emplace_back(GuidedPathsDefine, "1");
 	InOut.Compute.push_back(MakeUpdateSource(Rate));
-}
-
-bool HasPathGuide(const FShaderDefines& Defines)
-{
-	return std::any_of(Defines.begin(), Defines.end(), [](const auto& Define) { return Define.first == GuidedPaths; });
 }
 
 FPathGuide MakePathGuide(FFrameContext& Context, EPixelRate Rate, uint64_t Threads)

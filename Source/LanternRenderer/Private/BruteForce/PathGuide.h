@@ -18,9 +18,9 @@ struct FPathGuide
 	bool IsValid() const { return Tiles.IsValid(); }
 };
 
+constexpr const char* GuidedPathsDefine = "GUIDED_PATHS"; ///< of shaders whose paths are guided
 /// Adds the defines of shaders whose paths are guided, and lists the pass that keeps the guide.
 void AddPathGuideDefines(EPixelRate Rate, FPassRays& InOut);
-bool HasPathGuide(const FShaderDefines& Defines);
 
 /// Threads: of the launch, each of which writes a record. Invalid: shaders are being compiled, or an error, which the context has.
 FPathGuide MakePathGuide(FFrameContext& Context, EPixelRate Rate, uint64_t Threads);
