@@ -1,5 +1,6 @@
 // One pass of the edge-avoiding à-trous wavelet (Dammertz et al. 2010), steered by variance (Schied et al. 2017). The weight of a
 // tap is the likelihood that it shows the same surface and, within the noise that accumulation has left, the same value.
+// PAIR: two signals are filtered at once. They share what surfaces say, and nothing else.
 #version 460
 #include "../Shared/DenoiseTypes.h"
 #include "../Library/View.glsl"
@@ -19,56 +20,116 @@ vec3 GetPosition(FViewConstants View, ivec2 Pixel, float Distance) { return Rela
 // takes, and no light is lost. Visibility takes its own: its variance follows from its mean, and occlusion was 7 % worse otherwise.
 float GetNoise(float Own, float Others) { return CHANNELS == 1 ? 2.0 * Own : Own + Others; }
 
-vec4 Filter(FViewConstants View, ivec2 Pixel, FSurface Surface)
+#ifdef PAIR
+const int Signals = 2;
+#else
+const int Signals = 1;
+#endif
+
+uint GetInput(int Signal) { return Signal == 0 ? Push.Input : Push.SecondInput; }
+
+ivec2 GetPixel(ivec2 Pixel, int Tap) { return Pixel + ivec2(Tap % 3 - 1, Tap / 3 - 1) * int(Push.Step); }
+
+// Reads what is around a pixel. Returns whether any of it is noisy; else nothing more than the pixel is read.
+bool LoadTaps(ivec2 Pixel, ivec2 Size, out vec4 Values[Signals][Taps])
 {
-	ivec2 Size = ivec2(View.Width, View.Height);
-	vec4 Values[Taps];
-	Values[Center] = texelFetch(Textures[Push.Input], Pixel, 0);
-	float Variance = GetVariance(Values[Center]);
-	if (Variance <= 0.0) { return Values[Center]; } // a value without noise needs no filter; nothing more is read
+	bool bNoisy = false;
+	for (int S = 0; S < Signals; ++S)
+	{
+		Values[S][Center] = texelFetch(Textures[GetInput(S)], Pixel, 0);
+		bNoisy = bNoisy || GetVariance(Values[S][Center]) > 0.0;
+	}
+	if (!bNoisy) { return false; }
 	for (int Tap = 0; Tap < Taps; ++Tap)
 	{
-		ivec2 P = Pixel + ivec2(Tap % 3 - 1, Tap / 3 - 1) * int(Push.Step);
-		if (Tap != Center) { Values[Tap] = texelFetch(Textures[Push.Input], clamp(P, ivec2(0), Size - 1), 0); }
+		ivec2 P = clamp(GetPixel(Pixel, Tap), ivec2(0), Size - 1);
+		for (int S = 0; S < Signals; ++S)
+		{
+			if (Tap != Center) { Values[S][Tap] = texelFetch(Textures[GetInput(S)], P, 0); }
+		}
 	}
+	return true;
+}
+
+// How far taps may lie from the surface of the middle.
+struct FReach
+{
+	vec3 Position;
+	float Height; // metres
+	float Narrow; // of the exponent by distance on the screen
+};
+
+FReach MakeReach(FViewConstants View, ivec2 Pixel, FSurface Surface, vec4 Middle)
+{
 	vec3 Position = GetPosition(View, Pixel, Surface.Distance);
 	float Cosine = max(abs(dot(Surface.Normal, ViewDirection(View, Position))), 0.05);
-	float Reach = Push.SigmaDepth * PixelHeight(View, Surface.Distance) * float(Push.Step) / sqrt(Cosine);
-	float CenterValue = GetBrightness(GetSignal(Values[Center]));
+	float Height = Push.SigmaDepth * PixelHeight(View, Surface.Distance) * float(Push.Step) / sqrt(Cosine);
 	float Narrow = 0.0;
 #ifdef WITH_EXTENT
 	// The reach is a part of the transition's extent: a wider one would blur the transition itself.
-	float Width = max(Push.ReachExtent * Values[Center].z / float(Push.Step), 1.0e-3);
+	float Width = max(Push.ReachExtent * Middle.z / float(Push.Step), 1.0e-3);
 	Narrow = 0.5 / (Width * Width);
-	if (Narrow > 8.0) { return Values[Center]; } // every other tap's weight would vanish
 #endif
-	FSignal Sum = FSignal(0.0);
-	float SumVariance = 0.0, SumWeights = 0.0;
+	return FReach(Position, Height, Narrow);
+}
+
+// Returns the exponent that says how unlike the surface of a tap is, and OutCosine between the normals. False: it shows none.
+bool CompareSurface(FViewConstants View, ivec2 P, FSurface Surface, FReach Reach, out float OutHeight, out float OutCosine)
+{
+	FSurface Other = LoadSurface(Push.Surface, P);
+	OutHeight = abs(dot(Surface.Normal, GetPosition(View, P, Other.Distance) - Reach.Position)) / Reach.Height;
+	OutCosine = pow(max(dot(Surface.Normal, Other.Normal), 0.0), Push.SigmaNormal);
+	return Other.Distance > 0.0;
+}
+
+float GetDifference(vec4 Middle, vec4 Value)
+{
+	float Difference = GetBrightness(GetSignal(Value)) - GetBrightness(GetSignal(Middle));
+	float Noise = GetNoise(GetVariance(Middle), GetVariance(Value));
+	return Difference * Difference / (Push.SigmaValue * Push.SigmaValue * Noise + 1.0e-12);
+}
+
+struct FSum
+{
+	FSignal Signal;
+	float Variance, Weight;
+};
+
+void Filter(FViewConstants View, ivec2 Pixel, FSurface Surface, out vec4 Results[Signals])
+{
+	ivec2 Size = ivec2(View.Width, View.Height);
+	vec4 Values[Signals][Taps];
+	bool bNoisy = LoadTaps(Pixel, Size, Values);
+	for (int S = 0; S < Signals; ++S) { Results[S] = Values[S][Center]; }
+	if (!bNoisy) { return; }
+	FReach Reach = MakeReach(View, Pixel, Surface, Values[0][Center]);
+	if (Reach.Narrow > 8.0) { return; } // every other tap's weight would vanish
+	FSum Sums[Signals];
+	for (int S = 0; S < Signals; ++S) { Sums[S] = FSum(FSignal(0.0), 0.0, 0.0); }
 	for (int Tap = 0; Tap < Taps; ++Tap)
 	{
-		ivec2 P = Pixel + ivec2(Tap % 3 - 1, Tap / 3 - 1) * int(Push.Step);
+		ivec2 P = GetPixel(Pixel, Tap);
 		if (any(lessThan(P, ivec2(0))) || any(greaterThanEqual(P, Size))) { continue; }
-		FSignal Value = GetSignal(Values[Tap]);
 		vec2 Off = vec2(Tap % 3 - 1, Tap / 3 - 1);
-		float Weight = GetKernel(Tap) * exp(-Narrow * dot(Off, Off));
-		if (Tap != Center)
+		float Weight = GetKernel(Tap) * exp(-Reach.Narrow * dot(Off, Off)), Height = 0.0, Cosine = 1.0;
+		if (Tap != Center && !CompareSurface(View, P, Surface, Reach, Height, Cosine)) { continue; }
+		for (int S = 0; S < Signals; ++S)
 		{
-			FSurface Other = LoadSurface(Push.Surface, P);
-			if (Other.Distance <= 0.0) { continue; }
-			float Height = abs(dot(Surface.Normal, GetPosition(View, P, Other.Distance) - Position)) / Reach;
-			float Difference = GetBrightness(Value) - CenterValue;
-			Difference *= Difference / (Push.SigmaValue * Push.SigmaValue * GetNoise(Variance, GetVariance(Values[Tap])) + 1.0e-12);
-			Weight *= exp(-Height - Difference) * pow(max(dot(Surface.Normal, Other.Normal), 0.0), Push.SigmaNormal);
+			float Its = Weight;
+			if (Tap != Center) { Its *= exp(-Height - GetDifference(Values[S][Center], Values[S][Tap])) * Cosine; }
+			Sums[S].Signal += GetSignal(Values[S][Tap]) * Its;
+			Sums[S].Variance += Its * Its * GetVariance(Values[S][Tap]);
+			Sums[S].Weight += Its;
 		}
-		Sum += Value * Weight;
-		SumVariance += Weight * Weight * GetVariance(Values[Tap]);
-		SumWeights += Weight;
 	}
-	vec4 Result = WithVariance(Sum / SumWeights, SumVariance / (SumWeights * SumWeights));
+	for (int S = 0; S < Signals; ++S)
+	{
+		if (GetVariance(Results[S]) <= 0.0) { continue; } // a value without noise needs no filter
+		Results[S] = WithVariance(Sums[S].Signal / Sums[S].Weight, Sums[S].Variance / (Sums[S].Weight * Sums[S].Weight));
 #ifdef WITH_EXTENT
-	Result.z = Values[Center].z;
+		Results[S].z = Values[S][Center].z;
 #endif
-	return Result;
+	}
 }
 
 void main()
@@ -77,6 +138,14 @@ void main()
 	ivec2 Pixel = ivec2(gl_GlobalInvocationID.xy);
 	if (any(greaterThanEqual(Pixel, ivec2(View.Width, View.Height)))) { return; }
 	FSurface Surface = LoadSurface(Push.Surface, Pixel);
-	vec4 Result = Surface.Distance > 0.0 ? Filter(View, Pixel, Surface) : texelFetch(Textures[Push.Input], Pixel, 0);
-	imageStore(Images[Push.Output], Pixel, RoundToHalf(Result));
+	vec4 Results[Signals];
+	if (Surface.Distance > 0.0) { Filter(View, Pixel, Surface, Results); }
+	else
+	{
+		for (int S = 0; S < Signals; ++S) { Results[S] = texelFetch(Textures[GetInput(S)], Pixel, 0); }
+	}
+	imageStore(Images[Push.Output], Pixel, RoundToHalf(Results[0]));
+#ifdef PAIR
+	imageStore(Images[Push.SecondOutput], Pixel, RoundToHalf(Results[1]));
+#endif
 }

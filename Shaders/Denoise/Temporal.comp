@@ -1,4 +1,5 @@
 // Accumulation over time: where the pixel's surface was seen before, this frame's value joins the mean of those before it.
+// QUARTER: of colours of which one pixel of each 2×2 has a value of its own, in turn (Library/Rate.glsl).
 // main() lists the steps. Each is a file of the folder Temporal/ that says what it takes, what it gives, why, and its source.
 #version 460
 #include "../Shared/DenoiseTypes.h"
@@ -58,6 +59,7 @@ void main()
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	ivec2 Size = ivec2(View.Width, View.Height), Pixel = ivec2(gl_GlobalInvocationID.xy);
 	StartTouched();
+	FindTurn(View.FrameIndex);
 	LoadTile(Size);
 	barrier();
 	NoteDistances();

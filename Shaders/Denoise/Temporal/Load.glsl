@@ -6,6 +6,7 @@
 #ifndef LANTERN_TEMPORAL_LOAD_GLSL
 #define LANTERN_TEMPORAL_LOAD_GLSL
 
+#include "../../Library/Rate.glsl"
 #include "../Signal.glsl"
 
 const int GroupSize = GROUP_SIZE;
@@ -26,6 +27,22 @@ shared bool bTileFilled[TileSize * TileSize]; // the mean of other pixels stands
 #endif
 #ifdef WITH_EXTENT
 shared float TileExtent[TileSize * TileSize]; // pixels; 0: unknown
+#endif
+
+// Distance from one pixel with a value of its own to the next, and from a pixel of the group, or the tile, to the first of these.
+#ifdef QUARTER
+const int ValueStep = 2;
+ivec2 TurnInBlock; // of 2×2 pixels: the one that has a value. The group and the tile begin at even pixels
+ivec2 GetStepsToValue(ivec2 P) { return (TurnInBlock + P) & 1; }
+void FindTurn(uint FrameIndex)
+{
+	int Place = findLSB(TurnMask(FrameIndex));
+	TurnInBlock = ivec2(Place & 1, Place >> 1);
+}
+#else
+const int ValueStep = 1;
+ivec2 GetStepsToValue(ivec2 P) { return ivec2(0); }
+void FindTurn(uint FrameIndex) {}
 #endif
 
 // Index into the tile of the pixel at Offset from the invocation's own.

@@ -10,7 +10,9 @@
 
 const int NeighborhoodRadius = 2;
 
+#ifndef QUARTER
 shared float OutlierVariance[InnerSize * InnerSize]; // of each pixel; negative: unknown
+#endif
 
 struct FNeighborhood
 {
@@ -19,6 +21,9 @@ struct FNeighborhood
 	float Count;           // pixels at about the depth of the middle, at least 1
 };
 
+#ifdef QUARTER
+void MeasureOutliers() {} // no pixel has a neighbour with a value
+#else
 // Whether pixel I of the tile and those one Step before and behind it lie on one plane.
 bool IsPlanar(int I, int Step)
 {
@@ -59,15 +64,17 @@ void MeasureOutliers()
 		OutlierVariance[I] = MeasureOutlier((I / InnerSize + 1) * TileSize + I % InnerSize + 1);
 	}
 }
+#endif
 
 FNeighborhood MeasureNeighborhood()
 {
 	float InverseDepth = TileInverseDepth[GetTileIndex(ivec2(0))];
 	ivec2 Inner = ivec2(gl_LocalInvocationID.xy) + WindowRadius;
 	float Sum = 0.0, Count = 0.0, OutlierSum = 0.0, OutlierCount = 0.0, Missing = 0.0;
-	[[dont_unroll]] for (int Y = -NeighborhoodRadius; Y <= NeighborhoodRadius; ++Y)
+	ivec2 First = GetStepsToValue(ivec2(gl_LocalInvocationID.xy) - NeighborhoodRadius) - NeighborhoodRadius;
+	[[dont_unroll]] for (int Y = First.y; Y <= NeighborhoodRadius; Y += ValueStep)
 	{
-		[[dont_unroll]] for (int X = -NeighborhoodRadius; X <= NeighborhoodRadius; ++X)
+		[[dont_unroll]] for (int X = First.x; X <= NeighborhoodRadius; X += ValueStep)
 		{
 			int I = GetTileIndex(ivec2(X, Y));
 			if (IsAtOtherDepth(I, InverseDepth)) { continue; }
@@ -78,10 +85,14 @@ FNeighborhood MeasureNeighborhood()
 			}
 			Sum += GetBrightness(TileSignal[I]);
 			Count += 1.0;
+#ifdef QUARTER
+			Missing += 3.0;
+#else
 			float Outlier = OutlierVariance[(Inner.y + Y) * InnerSize + Inner.x + X];
 			if (Outlier < 0.0) { continue; }
 			OutlierSum += Outlier;
 			OutlierCount += 1.0;
+#endif
 		}
 	}
 #ifdef WITH_EXTENT

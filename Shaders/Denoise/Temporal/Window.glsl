@@ -22,12 +22,15 @@ struct FWindow
 
 void SumWindowRows()
 {
-	[[dont_unroll]] for (int I = int(gl_LocalInvocationIndex); I < InnerSize * GroupSize; I += GroupSize * GroupSize)
+	[[dont_unroll]] for (int Number = int(gl_LocalInvocationIndex); Number < InnerSize / ValueStep * GroupSize; Number += GroupSize * GroupSize)
 	{
-		int Start = (I / GroupSize + 1) * TileSize + I % GroupSize + 1;
+		ivec2 InTile = ivec2(Number % GroupSize + 1, Number / GroupSize * ValueStep + 1);
+		ivec2 ToValue = GetStepsToValue(InTile);
+		InTile.y += ToValue.y;
+		int I = (InTile.y - 1) * GroupSize + Number % GroupSize, Start = InTile.y * TileSize + InTile.x;
 		FSignal Sum = FSignal(0.0), Squares = FSignal(0.0);
 		float Count = 0.0;
-		[[dont_unroll]] for (int X = 0; X < WindowWidth; ++X)
+		[[dont_unroll]] for (int X = ToValue.x; X < WindowWidth; X += ValueStep)
 		{
 			if (bTileFilled[Start + X]) { continue; } // means of others have less spread
 			FSignal Value = TileSignal[Start + X];
@@ -45,7 +48,7 @@ FWindow MeasureWindow()
 {
 	FSignal Sum = FSignal(0.0), Squares = FSignal(0.0);
 	float Count = 0.0;
-	[[dont_unroll]] for (int Y = 0; Y < WindowWidth; ++Y)
+	[[dont_unroll]] for (int Y = GetStepsToValue(ivec2(0, gl_LocalInvocationID.y + 1u)).y; Y < WindowWidth; Y += ValueStep)
 	{
 		int I = (int(gl_LocalInvocationID.y) + Y) * GroupSize + int(gl_LocalInvocationID.x);
 		Sum += RowSums[I];

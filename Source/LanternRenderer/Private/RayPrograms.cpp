@@ -120,7 +120,7 @@ void CollectSignals(FCollector& Collector, const FRTCapabilities& Capabilities, 
 		if (bMade && Pass.ListFilters)
 		{
 			const size_t Before = Compute.size();
-			Pass.ListFilters(Scene, Compute);
+			Pass.ListFilters(Scene, {Capabilities, Facts, Requests}, Compute);
 			Collector.bFilters |= Compute.size() > Before;
 		}
 		if (Rays.Path == ERayPath::Pipeline && Rays.bTraces)

@@ -17,7 +17,7 @@ struct FSignalPass
 	/// Whether the pass, if it runs, follows how objects moved (FSceneConstants::ObjectMotions). Null: it does not.
 	bool (*WantsMotion)(const FRTScene& Scene) = nullptr;
 	/// Lists the compute shaders of the filter behind the pass, if it runs. Null: it has none.
-	void (*ListFilters)(const FRTScene& Scene, std::vector<FShaderSource>& Out) = nullptr;
+	void (*ListFilters)(const FRTScene& Scene, const FPassQuery& Query, std::vector<FShaderSource>& Out) = nullptr;
 	/// A signal that serves in its place once its rays are ready. Count: there is none.
 	ESignal ReplacedBy = ESignal::Count;
 	/// A signal of whose rays this one is made. Its row asks for them, whether that signal is made or not. Count: this row does.

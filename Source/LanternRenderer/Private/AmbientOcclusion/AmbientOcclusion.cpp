@@ -79,9 +79,9 @@ FPassRays ChooseAmbientOcclusionRays(const FPassQuery& Query)
 
 bool IsAmbientOcclusionFiltered(const FRTScene&) { return Denoise.IsEnabled(); }
 
-void ListAmbientOcclusionFilters(const FRTScene&, std::vector<FShaderSource>& Out)
+void ListAmbientOcclusionFilters(const FRTScene&, const FPassQuery&, std::vector<FShaderSource>& Out)
 {
-	if (Denoise.IsEnabled()) { ListDenoiseShaders(false, false, Denoise.Get(), Out); }
+	if (Denoise.IsEnabled()) { ListDenoiseShaders({}, Denoise.Get(), Out); }
 }
 
 FGraphTexture AddAmbientOcclusionPass(FFrameContext& Context, const FGBuffer& GBuffer)

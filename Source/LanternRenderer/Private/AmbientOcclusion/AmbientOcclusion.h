@@ -12,7 +12,7 @@ FPassRays ChooseAmbientOcclusionRays(const FPassQuery& Query);
 FGraphTexture AddAmbientOcclusionPass(FFrameContext& Context, const FGBuffer& GBuffer);
 /// Returns whether ambient occlusion, if there is any, is filtered over frames.
 bool IsAmbientOcclusionFiltered(const FRTScene& Scene);
-void ListAmbientOcclusionFilters(const FRTScene& Scene, std::vector<FShaderSource>& Out);
+void ListAmbientOcclusionFilters(const FRTScene& Scene, const FPassQuery& Query, std::vector<FShaderSource>& Out);
 /// Fills radius and mask.
 void SetAmbientOcclusionReference(FReferenceConstants& Constants);
 

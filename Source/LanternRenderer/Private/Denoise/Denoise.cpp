@@ -2,8 +2,10 @@
 #include "Denoise/Denoise.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <initializer_list>
 #include <string>
 
 #include "DebugView/DebugView.h"
@@ -25,6 +27,9 @@ TRTConsoleVariable<bool> CVarAdapt("r.RT.Debug.Denoise.Adapt", true,
 TRTConsoleVariable<bool> CVarGuard("r.RT.Debug.Denoise.Guard", true, "Planted fault. Off: the filter takes what is not a number for one.");
 constexpr uint32_t MaxPasses = 5;
 
+/// The signals that passes of the wavelet filter at once: one or two.
+using FSignals = std::array<FGraphTexture, 2>; // the second may be invalid
+
 /// One signal in one frame.
 struct FDenoiser
 {
@@ -35,31 +40,37 @@ struct FDenoiser
 	bool bColor;           ///< three channels
 	ERTFormat ImageFormat; ///< of a mean beside its variance
 	IRTPipeline* Temporal = nullptr;
-	IRTPipeline* Filter = nullptr;
 	FHistoryTexture History, Moments; ///< Moments: of colours only
 	FGraphTexture Picture;            ///< of the history, for r.RT.Debug.View; else invalid
 
+	bool Prepare(const FGBuffer& GBuffer);
 	FGraphTexture CreateImage(bool bLast, uint32_t Index) const;
 	FGraphTexture AddTemporalPass(FGraphTexture Output);
-	FGraphTexture AddFilterPass(FGraphTexture Input, FGraphTexture Output, uint32_t Index);
 };
 
-std::vector<std::pair<std::string, std::string>> MakeDefines(bool bColor, bool bExtent)
+FShaderDefines MakeDefines(const FDenoiseForm& Form)
 {
-	std::vector<std::pair<std::string, std::string>> Defines = {{"CHANNELS", bColor ? "3" : "1"}};
-	if (bExtent) { Defines.emplace_back("WITH_EXTENT", "1"); }
-	for (const auto& Define : MakeValidationDefines()) { Defines.push_back(Define); }
-	if (!CVarAdapt.GetOnRenderThread()) { Defines.emplace_back("NO_ADAPTION", "1"); }
-	if (!CVarGuard.GetOnRenderThread()) { Defines.emplace_back("NO_GUARD", "1"); }
+	FShaderDefines Defines = {{"CHANNELS", Form.bColor ? "3" : "1"}};
+	if (Form.bExtent) { Defines.emplace_back("WITH_EXTENT", "1"); }
 	return Defines;
 }
 
-FShaderSource MakeTemporalSource(bool bColor, bool bExtent)
+FShaderSource MakeTemporalSource(const FDenoiseForm& Form)
 {
-	return MakeComputeSource("Denoise/Temporal.comp", MakeDefines(bColor, bExtent));
+	FShaderDefines Defines = MakeDefines(Form);
+	if (Form.bColor && Form.Rate == EPixelRate::Quarter) { AddRateDefine(Form.Rate, Defines); }
+	for (const auto& Define : MakeValidationDefines()) { Defines.push_back(Define); }
+	if (!CVarAdapt.GetOnRenderThread()) { Defines.emplace_back("NO_ADAPTION", "1"); }
+	if (!CVarGuard.GetOnRenderThread()) { Defines.emplace_back("NO_GUARD", "1"); }
+	return MakeComputeSource("Denoise/Temporal.comp", std::move(Defines));
 }
 
-FShaderSource MakeFilterSource(bool bColor, bool bExtent) { return MakeComputeSource("Denoise/Filter.comp", MakeDefines(bColor, bExtent)); }
+FShaderSource MakeFilterSource(const FDenoiseForm& Form)
+{
+	FShaderDefines Defines = MakeDefines(Form);
+	if (Form.bPair) { Defines.emplace_back("PAIR", "1"); }
+	return MakeComputeSource("Denoise/Filter.comp", std::move(Defines));
+}
 
 bool Require(FFrameContext& Context, const std::string& Name, ERTFormat Format, FHistoryTexture& Out)
 {
@@ -131,13 +142,35 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 	return Output;
 }
 
-FGraphTexture FDenoiser::AddFilterPass(FGraphTexture Input, FGraphTexture Output, uint32_t Index)
+bool FDenoiser::Prepare(const FGBuffer& GBuffer)
+{
+	if (!RequireSurface(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion})) { return false; }
+	History = Inputs.History;
+	if (!History.Current.IsValid() && !RequireDenoiseHistory(Context, Inputs.Name, History)) { return false; }
+	if (bColor && !Require(Context, Name + "Moments", ERTFormat::RG16_FLOAT, Moments)) { return false; }
+	if (IsDebugPicture(Name + ConfidencePicture) || IsDebugPicture(Name + ChangePicture))
+	{
+		Picture = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA8_UNORM}, "HistoryView");
+		Context.DebugPicture = Picture;
+	}
+	return true;
+}
+
+/// Name: of the pass.
+void AddFilterPass(FFrameContext& Context, const std::string& Name, const FSignals& Inputs, const FSignals& Outputs,
+    const FDenoiseSettings& Settings, IRTPipeline* Pipeline, uint32_t Index)
 {
 	const FGraphTexture Surface = Context.Surface.Current;
-	Context.Graph.AddPass((Name + "Filter" + std::to_string(Index)).c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
-		Builder.Read(Input, ERTAccess::ShaderRead);
+	Context.Graph.AddPass(Name.c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		Builder.Read(Surface, ERTAccess::ShaderRead);
-		Builder.Write(Output, ERTAccess::StorageWrite);
+		for (const FGraphTexture Input : Inputs)
+		{
+			if (Input.IsValid()) { Builder.Read(Input, ERTAccess::ShaderRead); }
+		}
+		for (const FGraphTexture Output : Outputs)
+		{
+			if (Output.IsValid()) { Builder.Write(Output, ERTAccess::StorageWrite); }
+		}
 		Builder.AllowAsync();
 		FFilterConstants C{};
 		C.Pass = Context.Pass;
@@ -146,14 +179,53 @@ FGraphTexture FDenoiser::AddFilterPass(FGraphTexture Input, FGraphTexture Output
 		C.SigmaNormal = Settings.SigmaNormal;
 		C.SigmaDepth = Settings.SigmaDepth;
 		C.ReachExtent = Settings.ReachExtent;
-		return [=, Pipeline = Filter, Width = Context.Width, Height = Context.Height](FPassContext& Pass) mutable {
-			C.Input = GetSampledIndex(Pass, Input);
+		return [=, Width = Context.Width, Height = Context.Height](FPassContext& Pass) mutable {
+			C.Input = GetSampledIndex(Pass, Inputs[0]);
+			C.SecondInput = GetSampledIndex(Pass, Inputs[1]);
 			C.Surface = GetSampledIndex(Pass, Surface);
-			C.Output = GetStorageIndex(Pass, Output);
+			C.Output = GetStorageIndex(Pass, Outputs[0]);
+			C.SecondOutput = GetStorageIndex(Pass, Outputs[1]);
 			Dispatch2D(Pass, Pipeline, C, Width, Height, DENOISE_GROUP_SIZE);
 		};
 	});
-	return Output;
+}
+
+/// Filters one signal, or two colours.
+FSignals AddDenoise(
+    FFrameContext& Context, const FGBuffer& GBuffer, std::initializer_list<const FDenoiseInputs*> All, const FDenoiseSettings& Settings)
+{
+	FSignals Signals, Results;
+	std::vector<FDenoiser> Denoisers;
+	const uint32_t Passes = std::min(Settings.Passes, MaxPasses);
+	IRTPipeline* Filter = nullptr;
+	bool bReady = true; // all are asked for at once
+	for (const FDenoiseInputs* const Inputs : All)
+	{
+		const ERTFormat Format = Context.Graph.GetDesc(Inputs->Signal).Format;
+		assert(Format == ERTFormat::R16_FLOAT || Format == ERTFormat::RGBA16_FLOAT);
+		const FDenoiseForm Form{Format == ERTFormat::RGBA16_FLOAT, Inputs->Extent.IsValid(), All.size() > 1, Inputs->Rate};
+		assert(!Form.bExtent || !Form.bColor);
+		assert(!Form.bPair || Form.bColor);
+		Signals[Denoisers.size()] = Inputs->Signal;
+		FDenoiser& Denoiser = Denoisers.emplace_back(FDenoiser{Context, *Inputs, Settings, Inputs->Name, Form.bColor,
+		    Form.bColor || Form.bExtent ? ERTFormat::RGBA16_FLOAT : ERTFormat::RG16_FLOAT});
+		Denoiser.Temporal = RequireCompute(Context, MakeTemporalSource(Form));
+		bReady &= Denoiser.Temporal != nullptr;
+		if (Passes == 0) { continue; }
+		Filter = RequireCompute(Context, MakeFilterSource(Form));
+		bReady &= Filter != nullptr;
+	}
+	if (!bReady) { return Signals; }
+	for (FDenoiser& Denoiser : Denoisers) { bReady = bReady && Denoiser.Prepare(GBuffer); }
+	if (!bReady) { return Signals; }
+	for (size_t I = 0; I < Denoisers.size(); ++I) { Results[I] = Denoisers[I].AddTemporalPass(Denoisers[I].CreateImage(Passes == 0, 0)); }
+	for (uint32_t Pass = 0; Pass < Passes; ++Pass)
+	{
+		const FSignals Inputs = Results;
+		for (size_t I = 0; I < Denoisers.size(); ++I) { Results[I] = Denoisers[I].CreateImage(Pass + 1 == Passes, Pass + 1); }
+		AddFilterPass(Context, Denoisers[0].Name + "Filter" + std::to_string(Pass), Inputs, Results, Settings, Filter, Pass);
+	}
+	return Results;
 }
 } // namespace
 
@@ -173,37 +245,23 @@ bool RequireDenoiseHistory(FFrameContext& Context, const char* Name, FHistoryTex
 	return Require(Context, std::string(Name) + "History", ERTFormat::RGBA16_FLOAT, Out);
 }
 
-void ListDenoiseShaders(bool bColor, bool bExtent, const FDenoiseSettings& Settings, std::vector<FShaderSource>& Out)
+void ListDenoiseShaders(const FDenoiseForm& Form, const FDenoiseSettings& Settings, std::vector<FShaderSource>& Out)
 {
-	Out.push_back(MakeTemporalSource(bColor, bExtent));
-	if (Settings.Passes > 0) { Out.push_back(MakeFilterSource(bColor, bExtent)); }
+	Out.push_back(MakeTemporalSource(Form));
+	if (Settings.Passes > 0) { Out.push_back(MakeFilterSource(Form)); }
 	ListSurfaceShaders(Out);
 }
 
 FGraphTexture AddDenoise(FFrameContext& Context, const FGBuffer& GBuffer, const FDenoiseInputs& Inputs, const FDenoiseSettings& Settings)
 {
-	const ERTFormat Format = Context.Graph.GetDesc(Inputs.Signal).Format;
-	assert(Format == ERTFormat::R16_FLOAT || Format == ERTFormat::RGBA16_FLOAT);
-	assert(!Inputs.Extent.IsValid() || Format == ERTFormat::R16_FLOAT);
-	const bool bColor = Format == ERTFormat::RGBA16_FLOAT;
-	FDenoiser Denoiser{Context, Inputs, Settings, Inputs.Name, bColor,
-	    bColor || Inputs.Extent.IsValid() ? ERTFormat::RGBA16_FLOAT : ERTFormat::RG16_FLOAT};
-	const uint32_t Passes = std::min(Settings.Passes, MaxPasses);
-	Denoiser.Temporal = RequireCompute(Context, MakeTemporalSource(bColor, Inputs.Extent.IsValid()));
-	Denoiser.Filter = Passes > 0 ? RequireCompute(Context, MakeFilterSource(bColor, Inputs.Extent.IsValid())) : nullptr;
-	if (!Denoiser.Temporal || (Passes > 0 && !Denoiser.Filter)) { return Inputs.Signal; }
-	if (!RequireSurface(Context, {GBuffer.Depth, GBuffer.Normals, GBuffer.Motion})) { return Inputs.Signal; }
-	Denoiser.History = Inputs.History;
-	if (!Denoiser.History.Current.IsValid() && !RequireDenoiseHistory(Context, Inputs.Name, Denoiser.History)) { return Inputs.Signal; }
-	if (bColor && !Require(Context, Denoiser.Name + "Moments", ERTFormat::RG16_FLOAT, Denoiser.Moments)) { return Inputs.Signal; }
-	if (IsDebugPicture(Denoiser.Name + ConfidencePicture) || IsDebugPicture(Denoiser.Name + ChangePicture))
-	{
-		Denoiser.Picture = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RGBA8_UNORM}, "HistoryView");
-		Context.DebugPicture = Denoiser.Picture;
-	}
-	FGraphTexture Result = Denoiser.AddTemporalPass(Denoiser.CreateImage(Passes == 0, 0));
-	for (uint32_t I = 0; I < Passes; ++I) { Result = Denoiser.AddFilterPass(Result, Denoiser.CreateImage(I + 1 == Passes, I + 1), I); }
-	return Result;
+	return AddDenoise(Context, GBuffer, {&Inputs}, Settings)[0];
+}
+
+FLobes AddDenoisePair(FFrameContext& Context, const FGBuffer& GBuffer, const FDenoiseInputs& Diffuse, const FDenoiseInputs& Specular,
+    const FDenoiseSettings& Settings)
+{
+	const FSignals Results = AddDenoise(Context, GBuffer, {&Diffuse, &Specular}, Settings);
+	return {Results[0], Results[1]};
 }
 
 } // namespace Lantern

@@ -13,6 +13,7 @@
 #include "Denoise/DenoiseVariables.h"
 #include "LanternCore/FrameGraph/History.h"
 #include "LanternRenderer/Frame.h"
+#include "PassTools.h"
 #include "Tiles/MovedCasters.h"
 
 namespace Lantern
@@ -26,7 +27,8 @@ struct FDenoiseInputs
 	/// mean of other pixels stands for the pixel's own, which the filter takes only without a history. It is 3 where
 	/// the value was chosen of many, which is noisy: its history lasts twice as long. It is 1 elsewhere.
 	FGraphTexture Signal;
-	uint32_t RaysPerPixel = 1; ///< for visibility
+	uint32_t RaysPerPixel = 1;          ///< for visibility
+	EPixelRate Rate = EPixelRate::Full; ///< for colours: pixels that have a value of their own. Full may have such as well as others
 	/// For visibility, R16_FLOAT: width in pixels of the transition between seen and unseen that the pixel lies in. 0: the
 	/// pixel knows of none. Negative: the pixel has no value of its own, and Signal holds what stands in for it; the filter then takes
 	/// the history, or the mean of what is around it. Invalid: as wide as can be.
@@ -48,14 +50,25 @@ FShaderDefines MakeValidationDefines();
 /// Finds the history of a signal before it is filtered, for passes that read what was there before. Once a frame: FDenoiseInputs::History
 /// hands it on. Its channels are those of FTemporalConstants. False: an error, which the context has.
 bool RequireDenoiseHistory(FFrameContext& Context, const char* Name, FHistoryTexture& Out);
-/// Lists the compute shaders of the filter. bColor: three channels. bExtent: FDenoiseInputs::Extent is valid.
-void ListDenoiseShaders(bool bColor, bool bExtent, const FDenoiseSettings& Settings, std::vector<FShaderSource>& Out);
+/// What the filter's shaders are made for.
+struct FDenoiseForm
+{
+	bool bColor = false;                ///< three channels
+	bool bExtent = false;               ///< FDenoiseInputs::Extent is valid
+	bool bPair = false;                 ///< AddDenoisePair; colours only
+	EPixelRate Rate = EPixelRate::Full; ///< FDenoiseInputs::Rate
+};
+/// Lists the compute shaders of the filter.
+void ListDenoiseShaders(const FDenoiseForm& Form, const FDenoiseSettings& Settings, std::vector<FShaderSource>& Out);
 
 /// Returns the filtered signal, of Signal's description. Pixels without a surface keep their value. Passes are named
 /// "<Name>Temporal" and "<Name>Filter<I>". Signals share the passes "Surface" and, if the host gives no motion,
 /// "CameraMotion". Returns Signal while shaders are being compiled, and on an error, which the context then has. Histories then
 /// start anew.
 FGraphTexture AddDenoise(FFrameContext& Context, const FGBuffer& GBuffer, const FDenoiseInputs& Inputs, const FDenoiseSettings& Settings);
+/// Filters two colours of one surface in the passes of one, named by the first. Neither changes the other.
+FLobes AddDenoisePair(FFrameContext& Context, const FGBuffer& GBuffer, const FDenoiseInputs& Diffuse, const FDenoiseInputs& Specular,
+    const FDenoiseSettings& Settings);
 /// Filters by a signal's console variables.
 inline FGraphTexture AddDenoise(
     FFrameContext& Context, const FGBuffer& GBuffer, const FDenoiseInputs& Inputs, const FDenoiseVariables& Variables)

@@ -37,7 +37,7 @@ TRTConsoleVariable<bool> CVarRoughSpecular("r.RT.GI.RoughSpecular", true,
     "Paths of diffuse global illumination light the specular lobes of surfaces whose reflections are not traced. If off, diffuse light and "
     "the sky stand in.");
 // Where one path in a hundred finds a lamp, most neighbourhoods are dark in a frame, and a clamp to them would lose its light.
-const FDenoiseVariables Denoise("r.RT.GI", FDenoiseDefaults{.bColor = true, .ClampSigma = 0.0f});
+const FDenoiseVariables Denoise("r.RT.GI", FDenoiseDefaults{.SigmaValue = 3.0f, .bColor = true, .ClampSigma = 0.0f});
 constexpr int32_t FirstCachedRoute = 2;
 
 constexpr FBruteForcePass BruteForce{ESignal::DiffuseGI, "r.RT.GI", [] { return CVarRoute.GetOnRenderThread() != 0; }, CVarSamples,
@@ -56,24 +56,41 @@ FDenoiseSettings GetFilter(const FFrameContext& Context)
 	return Settings;
 }
 
-const FLobes& RequireLobes(FFrameContext& Context, const FGBuffer& GBuffer)
+EPixelRate GetRate() { return static_cast<EPixelRate>(CVarRate.GetOnRenderThread()); }
+
+/// Whether the lobes are filtered in the same passes.
+bool IsPair(const FPassQuery& Query)
 {
-	if (!Context.IndirectLobes)
-	{
-		const FBruteForceOutputs Made = AddBruteForcePass(BruteForce, Context, GBuffer);
-		Context.IndirectLobes = FLobes{Made.Lobe, Made.Second};
-	}
-	return *Context.IndirectLobes;
+	return IsMade(ESignal::DiffuseGI, Query.Requests) && ChooseRoughSpecularRays(Query).Path != ERayPath::None;
 }
 
-/// Signal: the lobe's.
-FGraphTexture AddFilter(FFrameContext& Context, const FGBuffer& GBuffer, ESignal Signal, FGraphTexture Lobe)
+FDenoiseInputs MakeInputs(ESignal Signal, FGraphTexture Lobe)
 {
-	if (!Lobe.IsValid() || !Denoise.IsEnabled()) { return Lobe; }
 	FDenoiseInputs Inputs;
 	Inputs.Name = GetSignalInfo(Signal).Pass;
 	Inputs.Signal = Lobe;
-	return AddDenoise(Context, GBuffer, Inputs, GetFilter(Context));
+	Inputs.Rate = GetRate();
+	return Inputs;
+}
+
+FLobes FilterLobes(FFrameContext& Context, const FGBuffer& GBuffer, const FBruteForceOutputs& Made)
+{
+	FLobes Lobes{Made.Lobe, Made.Second};
+	if (!Denoise.IsEnabled()) { return Lobes; }
+	const FDenoiseSettings Settings = GetFilter(Context);
+	const FDenoiseInputs Diffuse = MakeInputs(ESignal::DiffuseGI, Lobes.Diffuse);
+	const FDenoiseInputs Specular = MakeInputs(ESignal::RoughSpecular, Lobes.Specular);
+	const bool bDiffuse = Lobes.Diffuse.IsValid() && IsMade(ESignal::DiffuseGI, Context.Signals);
+	if (bDiffuse && Lobes.Specular.IsValid()) { return AddDenoisePair(Context, GBuffer, Diffuse, Specular, Settings); }
+	if (bDiffuse) { Lobes.Diffuse = AddDenoise(Context, GBuffer, Diffuse, Settings); }
+	if (Lobes.Specular.IsValid()) { Lobes.Specular = AddDenoise(Context, GBuffer, Specular, Settings); }
+	return Lobes;
+}
+
+const FLobes& RequireLobes(FFrameContext& Context, const FGBuffer& GBuffer)
+{
+	if (!Context.IndirectLobes) { Context.IndirectLobes = FilterLobes(Context, GBuffer, AddBruteForcePass(BruteForce, Context, GBuffer)); }
+	return *Context.IndirectLobes;
 }
 } // namespace
 
@@ -81,15 +98,12 @@ FPassRays ChooseDiffuseGIRays(const FPassQuery& Query) { return ChooseBruteForce
 
 bool IsDiffuseGIFiltered(const FRTScene&) { return Denoise.IsEnabled(); }
 
-void ListDiffuseGIFilters(const FRTScene&, std::vector<FShaderSource>& Out)
+void ListDiffuseGIFilters(const FRTScene&, const FPassQuery& Query, std::vector<FShaderSource>& Out)
 {
-	if (Denoise.IsEnabled()) { ListDenoiseShaders(true, false, Denoise.Get(), Out); }
+	if (Denoise.IsEnabled()) { ListDenoiseShaders({.bColor = true, .bPair = IsPair(Query), .Rate = GetRate()}, Denoise.Get(), Out); }
 }
 
-FGraphTexture AddDiffuseGIPass(FFrameContext& Context, const FGBuffer& GBuffer)
-{
-	return AddFilter(Context, GBuffer, ESignal::DiffuseGI, RequireLobes(Context, GBuffer).Diffuse);
-}
+FGraphTexture AddDiffuseGIPass(FFrameContext& Context, const FGBuffer& GBuffer) { return RequireLobes(Context, GBuffer).Diffuse; }
 
 FPassRays ChooseRoughSpecularRays(const FPassQuery& Query)
 {
@@ -103,7 +117,7 @@ FPassRays ChooseRoughSpecularRays(const FPassQuery& Query)
 FGraphTexture AddRoughSpecularPass(FFrameContext& Context, const FGBuffer& GBuffer)
 {
 	if (ChooseSignalRays(Context, ESignal::RoughSpecular).Path == ERayPath::None) { return {}; }
-	return AddFilter(Context, GBuffer, ESignal::RoughSpecular, RequireLobes(Context, GBuffer).Specular);
+	return RequireLobes(Context, GBuffer).Specular;
 }
 
 } // namespace Lantern

@@ -8,7 +8,7 @@ namespace Lantern
 
 FPassRays ChooseDiffuseGIRays(const FPassQuery& Query);
 bool IsDiffuseGIFiltered(const FRTScene&);
-void ListDiffuseGIFilters(const FRTScene&, std::vector<FShaderSource>& Out);
+void ListDiffuseGIFilters(const FRTScene&, const FPassQuery& Query, std::vector<FShaderSource>& Out);
 FGraphTexture AddDiffuseGIPass(FFrameContext& Context, const FGBuffer& GBuffer);
 /// Path None: diffuse GI traces nothing, or reflections of all surfaces are traced. Its rays are those of diffuse GI.
 FPassRays ChooseRoughSpecularRays(const FPassQuery& Query);

@@ -197,9 +197,9 @@ bool AreLocalLightsFiltered(const FRTScene&) { return Denoise.IsEnabled(); }
 
 void SetLocalSpecularReference(FReferenceConstants& Constants) { Constants.ReflectedRoughness = GetReflectedRoughnessInReference(); }
 
-void ListLocalLightFilters(const FRTScene&, std::vector<FShaderSource>& Out)
+void ListLocalLightFilters(const FRTScene&, const FPassQuery&, std::vector<FShaderSource>& Out)
 {
-	if (Denoise.IsEnabled()) { ListDenoiseShaders(true, false, Denoise.Get(), Out); }
+	if (Denoise.IsEnabled()) { ListDenoiseShaders({.bColor = true}, Denoise.Get(), Out); }
 }
 
 FGraphTexture AddLocalDiffusePass(FFrameContext& Context, const FGBuffer& GBuffer)

@@ -22,6 +22,6 @@ float GetLocalHistorySeconds();
 bool AreLocalLightsFiltered(const FRTScene& Scene);
 /// Tells references which pixels trace reflections, where the two signals share emission.
 void SetLocalSpecularReference(FReferenceConstants& Constants);
-void ListLocalLightFilters(const FRTScene& Scene, std::vector<FShaderSource>& Out);
+void ListLocalLightFilters(const FRTScene& Scene, const FPassQuery& Query, std::vector<FShaderSource>& Out);
 
 } // namespace Lantern

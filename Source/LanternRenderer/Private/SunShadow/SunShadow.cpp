@@ -206,9 +206,9 @@ bool FollowsSunShadowMotion(const FRTScene& Scene) { return IsSunShadowFiltered(
 
 bool IsSunShadowFiltered(const FRTScene& Scene) { return Denoise.IsEnabled() && IsSoft(Scene); }
 
-void ListSunShadowFilters(const FRTScene& Scene, std::vector<FShaderSource>& Out)
+void ListSunShadowFilters(const FRTScene& Scene, const FPassQuery&, std::vector<FShaderSource>& Out)
 {
-	if (IsSunShadowFiltered(Scene)) { ListDenoiseShaders(false, MeasuresPenumbra(), Denoise.Get(), Out); }
+	if (IsSunShadowFiltered(Scene)) { ListDenoiseShaders({.bExtent = MeasuresPenumbra()}, Denoise.Get(), Out); }
 }
 
 FGraphTexture AddSunShadowPass(FFrameContext& Context, const FGBuffer& GBuffer)

@@ -14,6 +14,6 @@ FGraphTexture AddSunShadowPass(FFrameContext& Context, const FGBuffer& GBuffer);
 bool FollowsSunShadowMotion(const FRTScene& Scene);
 /// Returns whether the scene's sun shadows, if there are any, are filtered over frames.
 bool IsSunShadowFiltered(const FRTScene& Scene);
-void ListSunShadowFilters(const FRTScene& Scene, std::vector<FShaderSource>& Out);
+void ListSunShadowFilters(const FRTScene& Scene, const FPassQuery& Query, std::vector<FShaderSource>& Out);
 
 } // namespace Lantern

@@ -213,7 +213,7 @@ enum class EPassRayGen : uint8_t
 	Count
 };
 constexpr size_t PassRayGenCount = static_cast<size_t>(EPassRayGen::Count);
-/// Light by the lobe that reflects it, not filtered.
+/// Light by the lobe that reflects it.
 struct FLobes
 {
 	FGraphTexture Diffuse, Specular; ///< RGBA16_FLOAT
@@ -266,8 +266,8 @@ struct FFrameContext
 	FGraphTexture DebugPicture;
 	std::shared_ptr<const FShadowRays> ShadowRays; ///< null: none, or nobody has asked so far
 	bool bShadowRaysAsked = false;
-	std::optional<FLobes> LocalLobes;    ///< of local lights; nullopt: not shaded so far
-	std::optional<FLobes> IndirectLobes; ///< of diffuse GI's paths; nullopt: nobody has asked so far
+	std::optional<FLobes> LocalLobes;    ///< of local lights, not filtered; nullopt: not shaded so far
+	std::optional<FLobes> IndirectLobes; ///< of diffuse GI's paths, filtered; nullopt: nobody has asked so far
 	std::optional<FLightMask> LightMask; ///< nullopt: nobody has asked so far
 	FLampChangesOfFrame LampChanges;
 	std::shared_ptr<const FRadianceCells> RadianceCells; ///< null: none, or nobody has asked so far
