@@ -23,6 +23,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FRadianceCel
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FRadianceVoteRef { FRadianceVote Data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FRadianceResultRef { FRadianceResult Data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FRadianceCountersRef { FRadianceCellCounters Data; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FRadianceStatisticsRef { FRadianceCellStatistics Data; };
 
 // Position: relative to the scene's origin, metres, nearer than 260 km.
 ivec3 ToRadianceSteps(FRadianceGrid Grid, vec3 Position) { return Grid.Origin + ivec3(floor(Position * LIGHT_POSITION_STEPS)); }
@@ -184,7 +185,11 @@ uint AskRadianceCell(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Vo
 		uint Slot = bVotes ? InsertRadianceCell(Grid, Key) : FindRadianceCell(Grid, Key, bFull);
 		// Without this, what is found would depend on whether a thread beside inserts the cell first.
 		if (Slot == NO_RADIANCE_CELL && !bFull) { return Slot; }
-		if (Slot == NO_RADIANCE_CELL) { continue; }
+		if (Slot == NO_RADIANCE_CELL)
+		{
+			if (Grid.Statistics != FAddress(0)) { atomicAdd(FRadianceStatisticsRef(Grid.Statistics).Data.Full, 1u); }
+			continue;
+		}
 		AskRadianceCell(Grid, Slot, bCoarse);
 		if (bVotes)
 		{
@@ -209,10 +214,13 @@ bool IsRadianceKnown(FRadianceGrid Grid, uint Slot, uint LeastCount, inout FCell
 	return true;
 }
 
-// Returns whether the light at a place is known. U: a random number in [0, 1).
-bool LookUpRadiance(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Voter, float U, out FCellLight OutLight)
+const uint FoundFine = 0u, FoundCoarse = 1u, FoundNone = 2u;
+
+// Returns whether the light at a place is known, and OutFound says by what. U: a random number in [0, 1).
+bool FindRadiance(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Voter, float U, out FCellLight OutLight, out uint OutFound)
 {
 	OutLight = FCellLight(vec3(0.0), vec3(0.0));
+	OutFound = FoundNone;
 	if (!all(lessThan(abs(Query.Position), vec3(2.0e5)))) { return false; } // also of what is no number
 	// A cell that is larger than the ray is long may lie on both sides of a corner. The finest must do for rays that leave from a corner.
 	if (Query.RayLength < 0.25 * RADIANCE_CELL_FINEST) { return false; }
@@ -222,10 +230,30 @@ bool LookUpRadiance(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Vot
 	FRadianceVoter Nobody = FRadianceVoter(FAddress(0), 0u, 0u);
 	bool bForCoarse = CoarseLevel > Level && (Voter.Hash & 3u) == 0u; // the hash's other bits are the vote
 	uint Slot = AskRadianceCell(Grid, Query, bForCoarse ? Nobody : Voter, Level, false);
-	if (IsRadianceKnown(Grid, Slot, 1u, OutLight)) { return true; }
+	if (IsRadianceKnown(Grid, Slot, 1u, OutLight))
+	{
+		OutFound = FoundFine;
+		return true;
+	}
 	if (CoarseLevel == Level) { return false; }
 	Slot = AskRadianceCell(Grid, Query, bForCoarse ? Voter : Nobody, CoarseLevel, true);
-	return IsRadianceKnown(Grid, Slot, LeastCoarseCount, OutLight);
+	bool bKnown = IsRadianceKnown(Grid, Slot, LeastCoarseCount, OutLight);
+	OutFound = bKnown ? FoundCoarse : FoundNone;
+	return bKnown;
+}
+
+bool LookUpRadiance(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Voter, float U, out FCellLight OutLight)
+{
+	uint Found;
+	bool bKnown = FindRadiance(Grid, Query, Voter, U, OutLight, Found);
+	if (Grid.Statistics != FAddress(0))
+	{
+		FRadianceStatisticsRef Statistics = FRadianceStatisticsRef(Grid.Statistics);
+		if (Found == FoundFine) { atomicAdd(Statistics.Data.Found, 1u); }
+		else if (Found == FoundCoarse) { atomicAdd(Statistics.Data.Coarse, 1u); }
+		else { atomicAdd(Statistics.Data.Missed, 1u); }
+	}
+	return bKnown;
 }
 
 #endif

@@ -23,7 +23,9 @@ void main()
 {
 	FRadianceGrid Grid = FRadianceGridRef(Push.Grid).Data;
 	uint Number = GetThread();
-	if (Number >= min(FRadianceCountersRef(Grid.Counters).Data.Listed, Grid.Room)) { return; }
+	uint Updated = min(FRadianceCountersRef(Grid.Counters).Data.Listed, Grid.Room);
+	if (Number == 0u && Grid.Statistics != FAddress(0)) { FRadianceStatisticsRef(Grid.Statistics).Data.Updated = Updated; }
+	if (Number >= Updated) { return; }
 	uint Slot = FRadianceWordRef(Grid.List).Data[Number];
 	FRadianceCellRef Cells = FRadianceCellRef(Grid.Cells);
 	FRadianceCell Cell = Cells.Data[Slot];

@@ -1,7 +1,10 @@
 // What the passes over the whole table share: which slot a thread has, and how urgent its cell is.
 #include "../Library/RadianceCells.glsl"
 
-layout(local_size_x = RADIANCE_CELL_GROUP_SIZE) in;
+#ifndef GROUP_SIZE
+#define GROUP_SIZE RADIANCE_CELL_GROUP_SIZE
+#endif
+layout(local_size_x = GROUP_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FRadianceCellConstants Push; };
 
 uint GetThread() { return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * RADIANCE_CELL_GROUP_SIZE + gl_LocalInvocationIndex; }
@@ -11,13 +14,20 @@ uint GetSlotCount(FRadianceGrid Grid) { return (Grid.BucketMask + 1u) * RADIANCE
 const uint YoungBins = 9u;     // of coarse cells, and of fine ones with few updates
 const uint YoungCoarse = 32u; // updates up to which a coarse cell, which stands in for many, comes before all others
 
-// Bins in order of urgency: cells that know little, then those that have waited longest.
+// Returns the bin of cells that have waited for so many frames.
+uint GetBinOfWait(uint Frames)
+{
+	const uint Longest = RADIANCE_CELL_BINS - 1u - YoungBins;
+	return YoungBins + Longest - min(Frames, Longest);
+}
+
+// Bins in order of urgency: cells that know little, then those that have waited longest. The last one is never updated.
 uint GetBin(FRadianceGrid Grid, uint State)
 {
 	uint Count = RadianceCellCount(State);
 	bool bCoarse = (State & RADIANCE_CELL_COARSE) != 0u;
+	if (Count > 0u && RadianceTurnsSince(Grid, RadianceCellAsked(State)) > Grid.AskedTurns) { return RADIANCE_CELL_BINS - 1u; }
 	if (bCoarse && Count < YoungCoarse) { return 0u; }
 	if (Count + 1u < YoungBins) { return Count + 1u; }
-	const uint Oldest = RADIANCE_CELL_BINS - 1u - YoungBins;
-	return YoungBins + Oldest - min(RadianceTurnsSince(Grid, RadianceCellUpdated(State)), Oldest);
+	return GetBinOfWait(RadianceTurnsSince(Grid, RadianceCellUpdated(State)));
 }

@@ -104,6 +104,11 @@ nlohmann::json MakeJson(FSession& Session, const FRenderOptions& Options, const 
 	const double LinkMs = Pipeline ? Renderer.GetRayCompiler().GetStats().LastLinkMs : 0.0;
 	Json["rtpso"] = {{"hit_groups", Groups}, {"compiled", Groups - Missing}, {"missing", Missing}, {"link_ms", LinkMs}};
 	if (const FAnyHitCounts& AnyHits = Renderer.GetAnyHits(); AnyHits.Frames > 0) { Json["any_hit"] = AnyHits.LastFrame; }
+	if (const FRadianceCellCounts& Cells = Renderer.GetRadianceCells(); Cells.Frames > 0)
+	{
+		Json["radiance_cells"] = {{"live", Cells.Live}, {"young", Cells.Young}, {"updated", Cells.Updated}, {"full", Cells.Full},
+		    {"found", Cells.Found}, {"coarse", Cells.Coarse}, {"missed", Cells.Missed}};
+	}
 	Json["load_seconds"] = Session.GetLoadSeconds();
 	return Json;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "Feedback/AnyHitCounter.h"
+#include "Feedback/RadianceCellCounter.h"
 #include "Feedback/StandInFeedback.h"
 #include "FrameChoices.h"
 #include "LanternCore/Config/ConsoleVariables.h"
@@ -54,6 +55,7 @@ FRenderer::FRenderer(IRTDevice& InDevice, FRendererDesc Desc)
       RefitQuality(std::make_unique<FRefitQuality>(InDevice)),
       ShaderTable(InDevice),
       AnyHits(std::make_unique<FAnyHitCounter>(InDevice)),
+      CellCounter(std::make_unique<FRadianceCellCounter>(InDevice)),
       RayCompiler(InDevice, Compiler, Programs),
       StandIns(std::make_unique<FStandInFeedback>(InDevice)),
       QueueDemand(std::make_unique<FRayQueueDemand>(InDevice)),
@@ -79,11 +81,13 @@ FRTStatus FRenderer::WaitForAll()
 		if (FRTStatus S = Device.WaitFor(Fence, WaitNs); !S) { return S; }
 	}
 	AnyHits->TakeAll();
+	CellCounter->TakeAll();
 	RayCounter->TakeAll();
 	return FRTStatus::Success();
 }
 
 const FAnyHitCounts& FRenderer::GetAnyHits() const { return AnyHits->Get(); }
+const FRadianceCellCounts& FRenderer::GetRadianceCells() const { return CellCounter->Get(); }
 const FRayCounts& FRenderer::GetRayCounts() const { return RayCounter->Get(); }
 
 FRTStatus FRenderer::WaitForFlight()
@@ -344,6 +348,7 @@ void FRenderer::FindPreviousView(FRTScene& Scene, const FFrameFeatures& Features
 void FRenderer::BeginFeedback()
 {
 	AnyHits->BeginFrame(FlightIndex);
+	CellCounter->BeginFrame(FlightIndex);
 	StandIns->BeginFrame(FlightIndex, Context->Scene);
 	QueueDemand->BeginFrame(FlightIndex);
 	State->LightCells->BeginFrame(FlightIndex);
@@ -355,15 +360,19 @@ void FRenderer::BeginFeedback()
 void FRenderer::StartCounting()
 {
 	FRTStatus Status = AnyHits->Start();
+	if (Status) { Status = CellCounter->Start(); }
 	if (Status && bStandIns) { Status = StandIns->Start(Context->Scene, Context->View.Position); }
 	if (!Status) { LogOnce(ERTLogLevel::Warning, std::string("rays are not counted: ") + Status.Message); }
 	AnyHits->GetCounters().AddClear(*Graph);
+	CellCounter->GetCounters().AddClear(*Graph);
+	Context->RadianceCellStatistics = CellCounter->GetCounters().GetAddress();
 	StandIns->GetCounters().AddClear(*Graph);
 }
 
 void FRenderer::EndFeedback(bool bSubmitted)
 {
 	AnyHits->GetCounters().EndFrame(bSubmitted);
+	CellCounter->GetCounters().EndFrame(bSubmitted);
 	StandIns->GetCounters().EndFrame(bSubmitted);
 	QueueDemand->EndFrame(bSubmitted);
 	State->LightCells->EndFrame(bSubmitted);

@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "Feedback/AnyHitCounter.h"
+#include "Feedback/RadianceCellCounter.h"
 #include "Feedback/StandInFeedback.h"
 #include "LanternCore/Tasks/TaskTrace.h"
 #include "LanternRenderer/Renderer.h"
@@ -49,6 +50,7 @@ FRTStatus FRenderer::Execute(const std::function<FRTStatus()>& Run)
 	assert(Graph);
 	AddRayPasses(); // also where nobody asked: what was begun is recorded, so that the next frame finds it done
 	AnyHits->GetCounters().AddRead(*Graph);
+	CellCounter->GetCounters().AddRead(*Graph);
 	StandIns->GetCounters().AddRead(*Graph);
 	FRTStatus Status = FrameStatus;
 	if (Status)

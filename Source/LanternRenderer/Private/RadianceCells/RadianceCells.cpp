@@ -27,12 +27,15 @@ TRTConsoleVariable<float> CVarSeconds(
     "r.RT.GI.Cells.Seconds", 1.0f, "Time over which a radiance cell averages its light, in seconds.", {0.05f, 60});
 TRTConsoleVariable<bool> CVarDirection("r.RT.Debug.GI.CellDirection", true,
     "Planted fault. If off, surfaces that paths hit reflect the light of radiance cells as if it came evenly from all directions.");
+TRTConsoleVariable<bool> CVarAskedFirst("r.RT.Debug.GI.AskedFirst", true,
+    "Planted fault. If off, radiance cells that no path asks for are updated as often as those that all paths ask for.");
 TRTConsoleVariable<bool> CVarLayers("r.RT.Debug.GI.Layers", true,
     "Planted fault. Off: radiance cells are as thick as wide and have no side, so that light leaks through walls.");
 
 constexpr float LifeSeconds = 2.0f;
 constexpr float RestChance = 0.5f;                                    // once cells are there
 constexpr float AgesInWindow = 6.0f;                                  // a new table averages over this part of its age
+constexpr float MostUpdatesInWindow = 16.0f;                          // of a cell, if nothing changes
 constexpr uint32_t FramesWithoutCells = 4;                            // of a new table, whose pictures are made by whole paths
 constexpr uint32_t MaxBounces = 3;                                    // of updates that meet no cell
 constexpr double HurryFactor = 4.0;                                   // of the updates, where something has changed
@@ -96,6 +99,17 @@ FRadianceGrid MakeGrid(const FFrameContext& Context, uint32_t Slots, const FRadi
 	return Grid;
 }
 
+/// Says which cells are updated, and how often. Most cells light one path in a second. Updates follow what is asked for: else the cells that
+/// all paths ask for would wait for the others.
+void SetPace(FRadianceGrid& Grid, bool bHurry, float DeltaSeconds)
+{
+	constexpr float AskedTurns = 2.0f;
+	const float Turns = std::max(bHurry ? static_cast<float>(FRadianceEvents::HoldSeconds) / DeltaSeconds : 0.0f, AskedTurns);
+	Grid.AskedTurns =
+	    CVarAskedFirst.GetOnRenderThread() ? static_cast<uint32_t>(std::min(Turns, static_cast<float>(Grid.Life))) : Grid.Life;
+	Grid.LeastWait = bHurry ? 1u : std::max(static_cast<uint32_t>(Grid.Window / MostUpdatesInWindow), 1u);
+}
+
 std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context)
 {
 	const auto Cells = std::make_shared<FRadianceCells>();
@@ -120,11 +134,13 @@ std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context)
 		return nullptr;
 	}
 	Cells->Table = History.Buffer;
+	Cells->Statistics = Context.RadianceCellStatistics;
 	const uint32_t Age = Context.RadianceEvents->CountFrames(History.bFresh);
 	Cells->Grid.Turn = Age & RADIANCE_CELL_TURN_MASK;
 	Cells->Grid.RestChance = Age < FramesWithoutCells ? 1.0f : RestChance;
 	// What the first frames know lacks further bounces, and must not be averaged for long.
 	Cells->Grid.Window = std::min(Cells->Grid.Window, std::max(float(Age) / AgesInWindow, float(FRadianceEvents::LeastWindow)));
+	SetPace(Cells->Grid, Events.bHurry, std::max(Context.View.DeltaSeconds, 1.0e-3f));
 	Cells->Work = Context.Graph.CreateBuffer({FRadianceWork::GetSize(Cells->Grid.VoteCount)}, "RadianceCellWork");
 	if (History.bFresh)
 	{
@@ -262,6 +278,7 @@ FAddress WriteRadianceGrid(FPassContext& Pass, const FRadianceCells* Cells)
 	Grid.List = Work + FRadianceWork::List;
 	Grid.Results = Work + FRadianceWork::Results;
 	Grid.Votes = Work + FRadianceWork::Votes;
+	Grid.Statistics = Cells->Statistics;
 	std::memcpy(Cells->GridData.Data, &Grid, sizeof(Grid));
 	return Cells->GridData.Address;
 }

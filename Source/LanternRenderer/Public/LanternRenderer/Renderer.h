@@ -120,10 +120,25 @@ struct FRayCounts
 	uint32_t Frames = 0;                                  ///< number of frames that have arrived
 };
 
+/// Counts of radiance cells in the newest frame that has arrived, with r.RT.GI.Cells.Count. A frame's counts arrive two frames later, or
+/// with WaitForAll.
+struct FRadianceCellCounts
+{
+	uint32_t Live = 0;    ///< cells in use
+	uint32_t Young = 0;   ///< of these, such as have had few updates and come before all others
+	uint32_t Updated = 0; ///< cells
+	uint32_t Full = 0;    ///< votes for a cell that found no room at its level
+	uint32_t Found = 0;   ///< look-ups that ended in the cell of their place
+	uint32_t Coarse = 0;  ///< that ended in a coarse one instead
+	uint32_t Missed = 0;  ///< that ended in none: the path went on
+	uint32_t Frames = 0;  ///< number of frames that have arrived
+};
+
 class FAnyHitCounter;
 class FHistoryResources;
 class FLightCells;
 class FMovedCasters;
+class FRadianceCellCounter;
 class FRadianceEvents;
 class FRayQueueCounter;
 class FRayQueueDemand;
@@ -254,6 +269,7 @@ struct FFrameContext
 	FHistoryResources* History = nullptr;
 	FMovedCasters* MovedCasters = nullptr;     ///< what may have changed the sun's shadows since the view's last frame
 	FRadianceEvents* RadianceEvents = nullptr; ///< what has changed indirect light
+	uint64_t RadianceCellStatistics = 0;       ///< address of FRadianceCellStatistics; 0: nothing is counted
 	FRayQueueCounter* RayCounter = nullptr;
 	/// What the host hands over beside its G-buffer, before it adds passes. Frames without FFrameFeatures::bHostShadow do not read it.
 	FHostShadow HostShadow;
@@ -354,6 +370,7 @@ public:
 	const FShaderTable& GetShaderTable() const { return ShaderTable; }
 	const FAnyHitCounts& GetAnyHits() const;
 	const FRayCounts& GetRayCounts() const;
+	const FRadianceCellCounts& GetRadianceCells() const;
 	/// Makes executed frames leave a text for DumpGraph. Off by default, because it takes longer than the graph itself.
 	void SetGraphDump(bool bEnabled) { bDumpGraph = bEnabled; }
 	const std::string& DumpGraph() const { return LastDump; } ///< the last executed frame, as text
@@ -394,6 +411,7 @@ private:
 	std::unique_ptr<FRefitQuality> RefitQuality;
 	FShaderTable ShaderTable;
 	std::unique_ptr<FAnyHitCounter> AnyHits;
+	std::unique_ptr<FRadianceCellCounter> CellCounter;
 	FMaterialPrograms Programs;
 	FRTPSOCompiler RayCompiler;
 	std::unique_ptr<FStandInFeedback> StandIns;
