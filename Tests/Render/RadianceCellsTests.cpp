@@ -159,6 +159,31 @@ TEST_F(FRadianceCellsTest, NoLightThroughWallsWithoutThickness)
 	}
 }
 
+// Behind a turn of the camera, the cells that it saw live on. Updates are for those that paths ask for.
+TEST_F(FRadianceCellsTest, WhatNobodyAsksForWaits)
+{
+	SetVariable("r.RT.GI.Cells.Count", "1");
+	SetVariable("r.RT.GI.Cells.UpdatesPerSecond", "10000000");
+	for (const bool bAskedFirst : {true, false})
+	{
+		SetVariable("r.RT.Debug.GI.AskedFirst", bAskedFirst ? "1" : "0");
+		ASSERT_TRUE(Load(MakeSealedRoom()));
+		SetSun(0.0, 10.0f);
+		SetSky(glm::vec3(1));
+		RenderSettled(LookAt({6, 3, 6}, {0, 1, 0}, 0.9f, 48, 48), 1);
+		const uint32_t Live = GetEngine().GetRenderer().GetRadianceCells().Live;
+		RenderSignal(ESignal::DiffuseGI, LookAt({6, 3, 6}, {6, 9, 6.1}, 0.9f, 48, 48), 16, WarmFrames + 1);
+		const FRadianceCellCounts Behind = GetEngine().GetRenderer().GetRadianceCells();
+		PrintFigure(fmt::format("cells that nobody asks for, asked first {}: {} live, then {}, and {} updated", bAskedFirst, Live,
+		    Behind.Live, Behind.Updated));
+		ASSERT_GT(Live, 100u);
+		EXPECT_GT(Behind.Live, Live * 9 / 10);
+		// The paths of updates ask for some.
+		if (bAskedFirst) { EXPECT_LT(Behind.Updated, Behind.Live / 3); }
+		else { EXPECT_GT(Behind.Updated, Behind.Live / 2); }
+	}
+}
+
 // More cells than there is room for: buckets overflow, and what finds no cell is lit by itself.
 TEST_F(FRadianceCellsTest, TablesThatAreTooSmall)
 {
