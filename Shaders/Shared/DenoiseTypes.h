@@ -5,17 +5,17 @@
 
 LANTERN_SHARED_BEGIN
 
-#define DENOISE_GROUP_SIZE 8             // threads in x and y
+#define DENOISE_GROUP_SIZE 8 // threads in x and y
 #define DENOISE_VISIBILITY_GROUP_SIZE 16 // of accumulation: pixels around a group are loaded again; colours would take too much memory
-#define DENOISE_WINDOW_RADIUS 3          // pixels; the signal's range in this frame comes from a window of 7×7
+#define DENOISE_WINDOW_RADIUS 3 // pixels; the signal's range in this frame comes from a window of 7×7
 
 // Constants of Denoise/Surface.comp, which packs the surface that each pixel shows (Library/History.glsl).
 struct FSurfaceConstants
 {
 	FPassConstants Pass;
-	uint Depth, Normals;          // sampled indices
-	uint Motion;                  // sampled index; NO_TEXTURE: objects are unknown, and PreviousSurface is NO_TEXTURE as well
-	uint PreviousSurface;         // sampled index; NO_TEXTURE: there is nothing to reproject
+	uint Depth, Normals;  // sampled indices
+	uint Motion;          // sampled index; NO_TEXTURE: objects are unknown, and PreviousSurface is NO_TEXTURE as well
+	uint PreviousSurface; // sampled index; NO_TEXTURE: there is nothing to reproject
 	uint Output, OutReprojection; // storage indices
 };
 LANTERN_ASSERT_SIZE(FSurfaceConstants, 40);
@@ -29,17 +29,17 @@ struct FTemporalConstants
 	uint Signal; // a mean over the frame's rays
 	uint Surface;
 	uint Motion, PreviousSurface, Reprojection, History; // NO_TEXTURE, all four: nothing to reproject
-	uint Moments;                                        // three channels only
+	uint Moments;                          // three channels only
 	// WITH_EXTENT only. x: width of the transition (penumbra), pixels; 0: unknown. y: rays of the pixel; 0 or absent: RaysPerPixel.
 	uint Extent;
-	uint OutHistory, OutMoments; // written for the next frame; OutMoments: three channels only
-	uint Output;                 // mean, and its variance
-	float MinAlpha;              // least weight of a new frame, 0 to 1
-	float ClampSigma;            // range of the clamp, in the window's standard deviations; 0: not clamped
-	float ChangeSigma;           // change that shortens the history, in standard errors; 0: changes are not looked for
-	float Resampling;            // share of the history's second differences that counts as error of resampling
-	float RaysPerPixel;          // one channel only: number of rays of which a frame's value is the mean
-	FAddress Casters;            // FMovedCaster[CasterCount]: those that moved in the last frames
+	uint OutHistory, OutMoments;           // written for the next frame; OutMoments: three channels only
+	uint Output;                           // mean, and its variance
+	float MinAlpha;                        // least weight of a new frame, 0 to 1
+	float ClampSigma;                      // range of the clamp, in the window's standard deviations; 0: not clamped
+	float ChangeSigma;                     // change that shortens the history, in standard errors; 0: changes are not looked for
+	float Resampling;                      // share of the history's second differences that counts as error of resampling
+	float RaysPerPixel;                    // one channel only: number of rays of which a frame's value is the mean
+	FAddress Casters; // FMovedCaster[CasterCount]: those that moved in the last frames
 	uint CasterCount;
 	uint bChangesKnown; // 1: the signal changes only where these shadows fall, or on surfaces that move. 0: it may anywhere
 	float CasterSpread; // of a half shadow's border, metres per metre
@@ -53,14 +53,14 @@ LANTERN_ASSERT_SIZE(FTemporalConstants, 112);
 struct FFilterConstants
 {
 	FPassConstants Pass;
-	uint Input;                     // sampled index: mean, and its variance
-	uint Surface;                   // sampled index
-	uint Output;                    // storage index
-	uint Step;                      // pixels between taps
-	float SigmaValue;               // edge stop on the signal, in standard deviations
-	float SigmaNormal;              // exponent of the cosine between normals
-	float SigmaDepth;               // edge stop on the distance to the neighbour's plane, in pixel footprints
-	float ReachExtent;              // WITH_EXTENT only: standard deviation of the reach, in extents
+	uint Input;        // sampled index: mean, and its variance
+	uint Surface;      // sampled index
+	uint Output;       // storage index
+	uint Step;         // pixels between taps
+	float SigmaValue;  // edge stop on the signal, in standard deviations
+	float SigmaNormal; // exponent of the cosine between normals
+	float SigmaDepth;  // edge stop on the distance to the neighbour's plane, in pixel footprints
+	float ReachExtent; // WITH_EXTENT only: standard deviation of the reach, in extents
 	uint SecondInput, SecondOutput; // PAIR only, as Input and Output
 };
 LANTERN_ASSERT_SIZE(FFilterConstants, 56);

@@ -7,14 +7,14 @@
 
 LANTERN_SHARED_BEGIN
 
-#define RADIANCE_CELL_BUCKET 16u          // slots that a key may lie in: their keys share a cache line
-#define RADIANCE_CELL_THICKNESS 2u        // log2 of how much thinner a cell is along the normal of its surface
-#define RADIANCE_CELL_LEVELS 16u          // of size, each twice the one before
-#define RADIANCE_CELL_FINEST 0.125f       // edge of the finest cells, metres
-#define RADIANCE_CELL_FINEST_SHIFT 10u    // log2 of its LIGHT_POSITION_STEPS
-#define RADIANCE_CELL_BINS 64u            // of priority
+#define RADIANCE_CELL_BUCKET 16u      // slots that a key may lie in: their keys share a cache line
+#define RADIANCE_CELL_THICKNESS 2u    // log2 of how much thinner a cell is along the normal of its surface
+#define RADIANCE_CELL_LEVELS 16u      // of size, each twice the one before
+#define RADIANCE_CELL_FINEST 0.125f   // edge of the finest cells, metres
+#define RADIANCE_CELL_FINEST_SHIFT 10u // log2 of its LIGHT_POSITION_STEPS
+#define RADIANCE_CELL_BINS 64u        // of priority
 #define RADIANCE_CELL_MOST_UPDATES 65536u // in a frame
-#define RADIANCE_CELL_ROW 1024u           // updates in a row of their launch
+#define RADIANCE_CELL_ROW 1024u       // updates in a row of their launch
 #define RADIANCE_CELL_GROUP_SIZE 256u
 #define RADIANCE_CELL_UPDATE_GROUP 64u // updates of a work group of the ray-query path
 #define RADIANCE_CELL_ROW_GROUPS 1024u // of a dispatch over the table: devices may have no more than 65,535 in x
@@ -32,13 +32,12 @@ LANTERN_SHARED_BEGIN
 // What a slot of the table holds. Its key is in an array of its own.
 struct FRadianceCell
 {
-	uint State;                   // RADIANCE_CELL_…
-	uint Vote;                    // the greatest of this frame's look-ups (MakeRadianceVote); 0: nobody voted
-	ivec3 Place;                  // where rays of updates start, in steps of the light grid (LIGHT_POSITION_STEPS), modulo 2^32
+	uint State; // RADIANCE_CELL_…
+	uint Vote;  // the greatest of this frame's look-ups (MakeRadianceVote); 0: nobody voted
+	ivec3 Place; // where rays of updates start, in steps of the light grid (LIGHT_POSITION_STEPS), modulo 2^32
 	uint GeometricNormal, Normal; // there, octahedral
-	uint Light;                   // mean of irradiance / π, by PackRgbe
-	uint
-	    From; // mean direction that it comes from, each weighted by its luminance, by PackMeanDirection; its length says how alike they are
+	uint Light; // mean of irradiance / π, by PackRgbe
+	uint From;  // mean direction that it comes from, each weighted by its luminance, by PackMeanDirection; its length says how alike they are
 };
 LANTERN_ASSERT_SIZE(FRadianceCell, 36);
 
@@ -121,10 +120,10 @@ struct FRadianceGrid
 	ivec3 Camera;         // in places of RADIANCE_SEED_SHIFT steps
 	FAddress Events;      // FRadianceEvent[EventCount]
 	uint EventCount;
-	uint Room;           // updates that are traced at most
-	FAddress Statistics; // FRadianceCellStatistics; 0: nothing is counted
-	uint LeastWait;      // frames from one update of a cell to the next, once it has had enough of them; 1 or more
-	uint AskedTurns; // cells that nobody has asked for in so many frames are not updated
+	uint Room;            // updates that are traced at most
+	FAddress Statistics;  // FRadianceCellStatistics; 0: nothing is counted
+	uint LeastWait;       // frames from one update of a cell to the next, once it has had enough of them; 1 or more
+	uint AskedTurns;      // cells that nobody has asked for in so many frames are not updated
 };
 LANTERN_ASSERT_SIZE(FRadianceGrid, 144);
 
@@ -132,7 +131,7 @@ LANTERN_ASSERT_SIZE(FRadianceGrid, 144);
 struct FRadianceCellConstants
 {
 	FPassConstants Pass;
-	FAddress Grid;   // FRadianceGrid
+	FAddress Grid; // FRadianceGrid
 	uint MaxBounces; // of paths that meet no cell
 	uint Pad;
 };
