@@ -216,36 +216,29 @@ bool IsRadianceKnown(FRadianceGrid Grid, uint Slot, uint LeastCount, inout FCell
 
 const uint FoundFine = 0u, FoundCoarse = 1u, FoundNone = 2u;
 
-// Returns whether the light at a place is known, and OutFound says by what. U: a random number in [0, 1).
-bool FindRadiance(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Voter, float U, out FCellLight OutLight, out uint OutFound)
+// Returns what the light at a place is known by. U: a random number in [0, 1).
+uint FindRadiance(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Voter, float U, out FCellLight OutLight)
 {
 	OutLight = FCellLight(vec3(0.0), vec3(0.0));
-	OutFound = FoundNone;
-	if (!all(lessThan(abs(Query.Position), vec3(2.0e5)))) { return false; } // also of what is no number
+	if (!all(lessThan(abs(Query.Position), vec3(2.0e5)))) { return FoundNone; } // also of what is no number
 	// A cell that is larger than the ray is long may lie on both sides of a corner. The finest must do for rays that leave from a corner.
-	if (Query.RayLength < 0.25 * RADIANCE_CELL_FINEST) { return false; }
+	if (Query.RayLength < 0.25 * RADIANCE_CELL_FINEST) { return FoundNone; }
 	float Fitting = max(log2(Query.RayLength / (1.7320508 * RADIANCE_CELL_FINEST)), 0.0);
 	uint Coarsest = min(uint(Fitting), RADIANCE_CELL_LEVELS - 1u), Level = min(RadianceLevel(Grid, Query.FromCamera, U), Coarsest);
 	uint CoarseLevel = min(Level + RADIANCE_CELL_COARSER, Coarsest);
 	FRadianceVoter Nobody = FRadianceVoter(FAddress(0), 0u, 0u);
 	bool bForCoarse = CoarseLevel > Level && (Voter.Hash & 3u) == 0u; // the hash's other bits are the vote
 	uint Slot = AskRadianceCell(Grid, Query, bForCoarse ? Nobody : Voter, Level, false);
-	if (IsRadianceKnown(Grid, Slot, 1u, OutLight))
-	{
-		OutFound = FoundFine;
-		return true;
-	}
-	if (CoarseLevel == Level) { return false; }
+	if (IsRadianceKnown(Grid, Slot, 1u, OutLight)) { return FoundFine; }
+	if (CoarseLevel == Level) { return FoundNone; }
 	Slot = AskRadianceCell(Grid, Query, bForCoarse ? Voter : Nobody, CoarseLevel, true);
-	bool bKnown = IsRadianceKnown(Grid, Slot, LeastCoarseCount, OutLight);
-	OutFound = bKnown ? FoundCoarse : FoundNone;
-	return bKnown;
+	return IsRadianceKnown(Grid, Slot, LeastCoarseCount, OutLight) ? FoundCoarse : FoundNone;
 }
 
+// Returns whether the light at a place is known, as FindRadiance.
 bool LookUpRadiance(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Voter, float U, out FCellLight OutLight)
 {
-	uint Found;
-	bool bKnown = FindRadiance(Grid, Query, Voter, U, OutLight, Found);
+	uint Found = FindRadiance(Grid, Query, Voter, U, OutLight);
 	if (Grid.Statistics != FAddress(0))
 	{
 		FRadianceStatisticsRef Statistics = FRadianceStatisticsRef(Grid.Statistics);
@@ -253,7 +246,7 @@ bool LookUpRadiance(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Vot
 		else if (Found == FoundCoarse) { atomicAdd(Statistics.Data.Coarse, 1u); }
 		else { atomicAdd(Statistics.Data.Missed, 1u); }
 	}
-	return bKnown;
+	return Found != FoundNone;
 }
 
 #endif

@@ -34,11 +34,7 @@ shared float TileExtent[TileSize * TileSize]; // pixels; 0: unknown
 const int ValueStep = 2;
 ivec2 TurnInBlock; // of 2×2 pixels: the one that has a value. The group and the tile begin at even pixels
 ivec2 GetStepsToValue(ivec2 P) { return (TurnInBlock + P) & 1; }
-void FindTurn(uint FrameIndex)
-{
-	int Place = findLSB(TurnMask(FrameIndex));
-	TurnInBlock = ivec2(Place & 1, Place >> 1);
-}
+void FindTurn(uint FrameIndex) { TurnInBlock = ivec2(TurnPixel(uvec2(0u), FrameIndex)); }
 #else
 const int ValueStep = 1;
 ivec2 GetStepsToValue(ivec2 P) { return ivec2(0); }

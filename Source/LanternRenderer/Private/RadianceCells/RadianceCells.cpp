@@ -134,7 +134,7 @@ std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context)
 		return nullptr;
 	}
 	Cells->Table = History.Buffer;
-	Cells->Statistics = Context.RadianceCellStatistics;
+	Cells->Grid.Statistics = Context.RadianceCellStatistics;
 	const uint32_t Age = Context.RadianceEvents->CountFrames(History.bFresh);
 	Cells->Grid.Turn = Age & RADIANCE_CELL_TURN_MASK;
 	Cells->Grid.RestChance = Age < FramesWithoutCells ? 1.0f : RestChance;
@@ -278,7 +278,6 @@ FAddress WriteRadianceGrid(FPassContext& Pass, const FRadianceCells* Cells)
 	Grid.List = Work + FRadianceWork::List;
 	Grid.Results = Work + FRadianceWork::Results;
 	Grid.Votes = Work + FRadianceWork::Votes;
-	Grid.Statistics = Cells->Statistics;
 	std::memcpy(Cells->GridData.Data, &Grid, sizeof(Grid));
 	return Cells->GridData.Address;
 }

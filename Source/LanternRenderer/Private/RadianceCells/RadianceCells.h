@@ -21,7 +21,6 @@ struct FRadianceCells
 	FUploadSlice GridData;
 	float EventFrames = 0.0f; ///< for which what pixels saw may hold, by what has changed
 	uint32_t Slots = 0;
-	FAddress Statistics = 0; ///< FRadianceGrid::Statistics
 };
 
 /// What the updates of cells trace, and their other shaders, for frames with a pass whose rays end in them (FPassRays::bRadianceCells).
