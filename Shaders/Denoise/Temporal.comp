@@ -90,6 +90,7 @@ void main()
 	FHistory History = ReprojectHistory(View, uvec2(Pixel), Surface);
 #if CHANNELS != 1
 	FollowChange(Pixel, History);
+	FollowShare(Pixel, Frame, History);
 #endif
 	bool bMayHaveChanged = MayHaveChanged(View, uvec2(Pixel), Surface.Distance);
 	bool bKnown = History.Past.Frames > 0.0;

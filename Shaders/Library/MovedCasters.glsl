@@ -6,8 +6,7 @@
 #include "History.glsl"
 #include "Lights.glsl"
 #include "Motion.glsl"
-
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FMovedCasterRef { FMovedCaster Data[]; };
+#include "MovedShare.glsl"
 
 // Whether the surface moved by itself, into other light perhaps. Motion of the camera alone differs from that of the surface by rounding.
 bool MovedItself(FViewConstants View, float Distance, uvec2 Pixel, vec4 Motion)

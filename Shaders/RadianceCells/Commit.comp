@@ -1,21 +1,32 @@
 // Takes the samples of this frame's updates into the means of their cells.
 #version 460
 #include "RadianceCellSlots.glsl"
+#include "../Library/MovedShare.glsl"
 
 const float LeastWindow = 4.0; // updates
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer FRadianceEventRef { FRadianceEvent Data[]; };
 
-// Returns the frames that a cell may average over, by what has changed around it.
-float GetWindow(FRadianceGrid Grid, FRadianceCell Cell)
+// What a cell may average over, by what has changed around it.
+struct FWindow
 {
-	float Window = Grid.Window;
-	vec3 P = FromRadianceSteps(Grid, Cell.Place);
+	float Frames;
+	float Least; // updates
+};
+
+FWindow GetWindow(FRadianceGrid Grid, FRadianceCell Cell)
+{
+	FWindow Window = FWindow(Grid.Window, LeastWindow);
+	vec3 P = FromRadianceSteps(Grid, Cell.Place), Normal = UnpackOct(Cell.Normal);
 	for (uint I = 0u; I < Grid.EventCount; ++I)
 	{
 		FRadianceEvent Event = FRadianceEventRef(Grid.Events).Data[I];
-		if (distance(P, Event.Center) < Event.Radius) { Window = min(Window, Event.Window); }
+		if (distance(P, Event.Center) < Event.Radius) { Window.Frames = min(Window.Frames, Event.Window); }
 	}
+	float Share = 0.0;
+	for (uint I = 0u; I < Grid.MoverCount; ++I) { Share += GetMovedShare(FMovedCasterRef(Grid.Movers).Data[I], P, Normal); }
+	// What changes by so much in a frame may be averaged over as many as make the whole, and be it one update.
+	if (Window.Frames * Share > 1.0) { Window = FWindow(1.0 / Share, 1.0); }
 	return Window;
 }
 
@@ -31,7 +42,8 @@ void main()
 	FRadianceCell Cell = Cells.Data[Slot];
 	// The window is one of time: a cell that waits for its turn averages over fewer samples.
 	float Waited = float(max(RadianceTurnsSince(Grid, RadianceCellUpdated(Cell.State)), 1u));
-	uint Most = uint(clamp(GetWindow(Grid, Cell) / Waited, LeastWindow, float(RADIANCE_CELL_COUNT_MASK)));
+	FWindow Window = GetWindow(Grid, Cell);
+	uint Most = uint(clamp(Window.Frames / Waited, Window.Least, float(RADIANCE_CELL_COUNT_MASK)));
 	uint Count = min(RadianceCellCount(Cell.State) + 1u, Most);
 	vec3 Mean = UnpackRgbe(Cell.Light);
 	FRadianceResult Result = FRadianceResultRef(Grid.Results).Data[Number];

@@ -46,8 +46,10 @@ struct FTemporalConstants
 	uint OutView;       // storage index of a picture of the history (r.RT.Debug.View), or NO_TEXTURE
 	uint bViewChange;   // 1: it shows what was dropped of the history; 0: how much the history is worth
 	uint Change;        // three channels only: FDenoiseInputs::Change; NO_TEXTURE: nothing is known to have changed
+	uint ChangedShare;  // three channels only: FDenoiseInputs::ChangedShare, or NO_TEXTURE
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FTemporalConstants, 112);
+LANTERN_ASSERT_SIZE(FTemporalConstants, 120);
 
 // Constants of Denoise/Filter.comp.
 struct FFilterConstants

@@ -124,8 +124,11 @@ struct FRadianceGrid
 	FAddress Statistics;  // FRadianceCellStatistics; 0: nothing is counted
 	uint LeastWait;       // frames from one update of a cell to the next, once it has had enough of them; 1 or more
 	uint AskedTurns;      // cells that nobody has asked for in so many frames are not updated
+	FAddress Movers;      // FMovedCaster[MoverCount]: what has moved lately
+	uint MoverCount;
+	uint Pad;
 };
-LANTERN_ASSERT_SIZE(FRadianceGrid, 144);
+LANTERN_ASSERT_SIZE(FRadianceGrid, 160);
 
 // Constants of the passes that keep the table.
 struct FRadianceCellConstants

@@ -21,7 +21,7 @@ struct FMovedCaster
 	vec3 From;
 	float Radius; // metres
 	vec3 To;
-	uint Pad;
+	float Changed; // about the part of what it hides, or of how it looks, that is new: 0 to 1; several times as much of what shines
 };
 LANTERN_ASSERT_SIZE(FMovedCaster, 32);
 

@@ -1,6 +1,6 @@
 // Step "follow" of the temporal filter, for colours: adds to the history what the scene knows to have changed since the last frame.
-//   Takes: the image Push.Change, a difference and the standard deviation of its error; the history. A negative deviation: the history
-//   is worth nothing.
+//   Takes: the image Push.Change, a difference and the standard deviation of its error; the image Push.ChangedShare; the estimate of this
+//   frame; the history. A negative deviation: the history is worth nothing.
 //   Gives: the history with its means moved. The error counts as that of resampling (Blend.glsl).
 //   Why: a lamp that is switched is known. To find it in noise takes frames, or drops what was right.
 #ifndef LANTERN_TEMPORAL_FOLLOW_GLSL
@@ -9,6 +9,15 @@
 #include "Types.glsl"
 
 #if CHANNELS != 1
+// Adds the error of a history of which a share has changed, nobody knows how. What has come may be brighter than all that was there.
+void FollowShare(ivec2 Pixel, FFrameEstimate Frame, inout FHistory History)
+{
+	if (Push.ChangedShare == NO_TEXTURE) { return; }
+	float Share = texelFetch(Textures[Push.ChangedShare], Pixel, 0).x;
+	float Error = Share * max(GetBrightness(History.Past.Mean), Frame.Neighborhood.Mean);
+	if (Error > 0.0) { History.ResamplingVariance += Error * Error; }
+}
+
 void FollowChange(ivec2 Pixel, inout FHistory History)
 {
 	if (Push.Change == NO_TEXTURE) { return; }

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "RadianceCellTypes.h"
+#include "SettledTypes.h"
 #include "Support/MockReads.h"
 #include "Support/RendererTestTools.h"
 
@@ -103,20 +104,52 @@ TEST_F(FRadianceCellsMockTest, StrengthsOfSunAndSkyCount)
 TEST_F(FRadianceCellsMockTest, MovedObjectsTellWhere)
 {
 	Start({});
-	glm::dmat4 Transform(1.0);
-	Transform[3].x = 2.0;
-	GetScene().SetTransform(Engine->GetScene().GetDraws()[0].Object, Transform);
+	EXPECT_EQ(GetTold().MoverCount, 0u);
+	EXPECT_FALSE(HasPass("MovedShare")) << "nothing moves";
+	const FRTObjectId Object = Engine->GetScene().GetDraws()[0].Object;
+	const auto MoveTo = [&](double X) {
+		glm::dmat4 Transform(1.0);
+		Transform[3].x = X;
+		GetScene().SetTransform(Object, Transform);
+	};
+	MoveTo(0.25);
+	Render();
+	MoveTo(0.5);
 	const FRadianceGrid Told = RenderAndGetTold();
 	EXPECT_NEAR(Told.Window, QuietFrames, 0.1f) << "elsewhere nothing has changed";
-	ASSERT_EQ(Told.EventCount, 2u);
-	const auto Near = ReadMockEntry<FRadianceEvent>(Mock(), Told.Events, 0), Far = ReadMockEntry<FRadianceEvent>(Mock(), Told.Events, 1);
-	EXPECT_EQ(Near.Window, 4.0f);
-	EXPECT_EQ(Far.Window, 8.0f);
-	EXPECT_GT(Near.Radius, 2.0f) << "the way and a metre";
-	EXPECT_GT(Far.Radius, Near.Radius);
-	EXPECT_LT(glm::length(Near.Center - glm::vec3(1, 0, 0)), 1.0f);
+	EXPECT_EQ(Told.EventCount, 0u);
+	ASSERT_EQ(Told.MoverCount, 1u) << "both moves are of one object";
+	const auto Mover = ReadMockEntry<FMovedCaster>(Mock(), Told.Movers, 0);
+	EXPECT_NEAR(Mover.To.x - Mover.From.x, 0.5f, 1e-5f);
+	EXPECT_NEAR(Mover.Changed, 0.5f / (2.0f * Mover.Radius), 1e-3f) << "its way over its width";
+	EXPECT_TRUE(HasPass("MovedShare")) << "the filter is told as well";
+	Set("r.RT.Debug.GI.Events", "0");
+	EXPECT_EQ(RenderAndGetTold().MoverCount, 0u) << "the planted fault";
+	EXPECT_FALSE(HasPass("MovedShare"));
+	Set("r.RT.Debug.GI.Events", "1");
 	Wait();
-	EXPECT_EQ(RenderAndGetTold().EventCount, 0u);
+	EXPECT_EQ(RenderAndGetTold().MoverCount, 0u);
+}
+
+TEST_F(FRadianceCellsMockTest, MoversThatHideMostCountFirst)
+{
+	Start({});
+	const FRTObjectId First = Engine->GetScene().GetDraws()[0].Object;
+	FRTObjectInfo Info = GetScene().GetObject(First);
+	for (int I = 0; I < int(SETTLED_MOST_CASTERS) + 40; ++I)
+	{
+		Info.Transform = glm::dmat4(1.0);
+		Info.Transform[3] = {I < 40 ? 1000.0 + I : 0.01 * I, 0, 0, 1};
+		GetScene().AddObject(Info);
+	}
+	const FRadianceGrid Told = RenderAndGetTold();
+	ASSERT_EQ(Told.MoverCount, uint32_t(SETTLED_MOST_CASTERS));
+	for (uint32_t I = 0; I < Told.MoverCount; ++I)
+	{
+		const auto Mover = ReadMockEntry<FMovedCaster>(Mock(), Told.Movers, I);
+		ASSERT_LT(Mover.To.x, 100.0f) << "what is far away had no room";
+		ASSERT_EQ(Mover.Changed, 1.0f) << "it came";
+	}
 }
 
 TEST_F(FRadianceCellsMockTest, LampsTellHowFarTheyReach)

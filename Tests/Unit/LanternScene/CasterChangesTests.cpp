@@ -105,11 +105,23 @@ TEST_F(FCasterChangesSceneTest, TellsWhereAnObjectWasAndIs)
 	ASSERT_EQ(Count(), 1);
 	EXPECT_NEAR(Found[0].To.x - Found[0].From.x, 10.0, 1e-9);
 	EXPECT_GE(Found[0].Radius, 0.7) << "the triangle's corners are 1.4 m apart";
+	EXPECT_EQ(Found[0].Object, Object.Index);
+	EXPECT_EQ(Found[0].Changed, 1.0) << "it lies where nothing of it was";
+	EXPECT_FALSE(Found[0].bShines);
+	Transform[3].x += Found[0].Radius;
+	Scene->SetTransform(Object, Transform);
+	ASSERT_EQ(Count(), 1);
+	EXPECT_NEAR(Found[0].Changed, 0.5, 1e-6) << "by half of its width";
 	Transform = glm::dmat4(2.0);
 	Transform[3] = {10, 0, 0, 1};
 	Scene->SetTransform(Object, Transform);
 	ASSERT_EQ(Count(), 1);
 	EXPECT_GE(Found[0].Radius, 1.4) << "it grew";
+	Transform = Transform * glm::dmat4(glm::dmat3(glm::dvec3(0, 1, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, 1)));
+	Scene->SetTransform(Object, Transform);
+	ASSERT_EQ(Count(), 1);
+	EXPECT_GT(Found[0].Changed, 0.0);
+	EXPECT_LT(Found[0].Changed, 1.0) << "it turned in its place";
 }
 
 TEST_F(FCasterChangesSceneTest, TellsWhatComesAndGoes)

@@ -91,7 +91,7 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 	const bool bReproject = History.Previous.IsValid() && Surface.Previous.IsValid() && (!bColor || Moments.Previous.IsValid());
 	Context.Graph.AddPass((Name + "Temporal").c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		for (const FGraphTexture Texture : {Inputs.Signal, Surface.Current}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
-		for (const FGraphTexture Texture : {Inputs.Extent, Inputs.Change})
+		for (const FGraphTexture Texture : {Inputs.Extent, Inputs.Change, Inputs.ChangedShare})
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
@@ -121,11 +121,13 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 		C.CasterSpread = Inputs.Changes.Spread;
 		C.bViewChange = IsDebugPicture(Name + ChangePicture) ? 1u : 0u;
 		const uint32_t GroupSize = bColor ? DENOISE_GROUP_SIZE : DENOISE_VISIBILITY_GROUP_SIZE;
-		return [=, Signal = Inputs.Signal, Extent = Inputs.Extent, Change = Inputs.Change, Pipeline = Temporal, Kept = History,
-		           KeptMoments = Moments, Picture = Picture, Width = Context.Width, Height = Context.Height](FPassContext& Pass) mutable {
+		return [=, Signal = Inputs.Signal, Extent = Inputs.Extent, Change = Inputs.Change, Share = Inputs.ChangedShare, Pipeline = Temporal,
+		           Kept = History, KeptMoments = Moments, Picture = Picture, Width = Context.Width,
+		           Height = Context.Height](FPassContext& Pass) mutable {
 			C.Signal = GetSampledIndex(Pass, Signal);
 			C.Extent = GetSampledIndex(Pass, Extent);
 			C.Change = GetSampledIndex(Pass, Change);
+			C.ChangedShare = GetSampledIndex(Pass, Share);
 			C.Surface = GetSampledIndex(Pass, Surface.Current);
 			C.Motion = GetSampledIndex(Pass, bReproject ? Surface.Motion : FGraphTexture{});
 			C.PreviousSurface = GetSampledIndex(Pass, bReproject ? Surface.Previous : FGraphTexture{});

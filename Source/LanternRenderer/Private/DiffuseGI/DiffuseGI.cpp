@@ -5,6 +5,7 @@
 
 #include "BruteForce/BruteForce.h"
 #include "Denoise/Denoise.h"
+#include "DiffuseGI/MovedShare.h"
 #include "RadianceCells/RadianceCells.h"
 #include "Reflections/Reflections.h"
 #include "SignalPasses.h"
@@ -64,22 +65,24 @@ bool IsPair(const FPassQuery& Query)
 	return IsMade(ESignal::DiffuseGI, Query.Requests) && ChooseRoughSpecularRays(Query).Path != ERayPath::None;
 }
 
-FDenoiseInputs MakeInputs(ESignal Signal, FGraphTexture Lobe)
+FDenoiseInputs MakeInputs(ESignal Signal, FGraphTexture Lobe, FGraphTexture MovedShare)
 {
 	FDenoiseInputs Inputs;
 	Inputs.Name = GetSignalInfo(Signal).Pass;
 	Inputs.Signal = Lobe;
 	Inputs.Rate = GetRate();
+	Inputs.ChangedShare = MovedShare;
 	return Inputs;
 }
 
 FLobes FilterLobes(FFrameContext& Context, const FGBuffer& GBuffer, const FBruteForceOutputs& Made)
 {
 	FLobes Lobes{Made.Lobe, Made.Second};
-	if (!Denoise.IsEnabled()) { return Lobes; }
+	if (!Denoise.IsEnabled() || (!Lobes.Diffuse.IsValid() && !Lobes.Specular.IsValid())) { return Lobes; }
 	const FDenoiseSettings Settings = GetFilter(Context);
-	const FDenoiseInputs Diffuse = MakeInputs(ESignal::DiffuseGI, Lobes.Diffuse);
-	const FDenoiseInputs Specular = MakeInputs(ESignal::RoughSpecular, Lobes.Specular);
+	const FGraphTexture Moved = AddMovedShare(Context, GBuffer);
+	const FDenoiseInputs Diffuse = MakeInputs(ESignal::DiffuseGI, Lobes.Diffuse, Moved);
+	const FDenoiseInputs Specular = MakeInputs(ESignal::RoughSpecular, Lobes.Specular, Moved);
 	const bool bDiffuse = Lobes.Diffuse.IsValid() && IsMade(ESignal::DiffuseGI, Context.Signals);
 	if (bDiffuse && Lobes.Specular.IsValid()) { return AddDenoisePair(Context, GBuffer, Diffuse, Specular, Settings); }
 	if (bDiffuse) { Lobes.Diffuse = AddDenoise(Context, GBuffer, Diffuse, Settings); }
@@ -100,7 +103,9 @@ bool IsDiffuseGIFiltered(const FRTScene&) { return Denoise.IsEnabled(); }
 
 void ListDiffuseGIFilters(const FRTScene&, const FPassQuery& Query, std::vector<FShaderSource>& Out)
 {
-	if (Denoise.IsEnabled()) { ListDenoiseShaders({.bColor = true, .bPair = IsPair(Query), .Rate = GetRate()}, Denoise.Get(), Out); }
+	if (!Denoise.IsEnabled()) { return; }
+	ListDenoiseShaders({.bColor = true, .bPair = IsPair(Query), .Rate = GetRate()}, Denoise.Get(), Out);
+	ListMovedShareShaders(Out);
 }
 
 FGraphTexture AddDiffuseGIPass(FFrameContext& Context, const FGBuffer& GBuffer) { return RequireLobes(Context, GBuffer).Diffuse; }

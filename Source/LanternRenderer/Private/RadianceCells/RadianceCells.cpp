@@ -10,6 +10,7 @@
 #include "LanternCore/Text/Log.h"
 #include "Lights/LightCells.h"
 #include "RadianceCells/RadianceEvents.h"
+#include "Tiles/MovedCasters.h"
 
 namespace Lantern
 {
@@ -132,6 +133,12 @@ std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context)
 		if (Status.Code == ERTResult::DeviceLost) { Context.Fail(Status); }
 		else { LogOnce(ERTLogLevel::Warning, std::string("radiance cells are off, and paths are followed: ") + Status.Message); }
 		return nullptr;
+	}
+	if (AreIndirectChangesTold())
+	{
+		const FMoversOfFrame& Movers = RequireMovers(Context);
+		Cells->Grid.Movers = Movers.Casters;
+		Cells->Grid.MoverCount = Movers.Count;
 	}
 	Cells->Table = History.Buffer;
 	Cells->Grid.Statistics = Context.RadianceCellStatistics;

@@ -13,8 +13,8 @@ namespace Lantern
 
 namespace
 {
-TRTConsoleVariable<bool> CVarEvents(
-    "r.RT.Debug.GI.Events", true, "Planted fault. Off: radiance cells are not told what has changed, and average over it.");
+TRTConsoleVariable<bool> CVarEvents("r.RT.Debug.GI.Events", true,
+    "Planted fault. Off: radiance cells and the filter of global illumination are not told what has changed, and average over it.");
 
 constexpr double DegreesInWindow = 1.0; // that the sun may move while a cell averages
 constexpr double ChangeInWindow = 0.1;  // by which a strength may change meanwhile, of the greater one
@@ -59,27 +59,13 @@ void FRadianceEvents::FindLampEvents(const FRTScene& Scene)
 	}
 }
 
-/// What bounces off an object, or is hidden by it, changes most beside it.
-void FRadianceEvents::FindObjectEvents(FRTScene& Scene)
-{
-	constexpr double NearMetres = 1.0, FarRadii = 8.0;
-	constexpr float FarWindow = 8.0f;
-	std::vector<FCasterChange> Changes;
-	if (!Scene.GetCasterChanges().Find(Last.Objects, Changes)) { return; } // so many that no place is more touched than others
-	for (const FCasterChange& Change : Changes)
-	{
-		const glm::dvec3 Center = 0.5 * (Change.From + Change.To);
-		const double Radius = Change.Radius + 0.5 * glm::length(Change.To - Change.From);
-		Fresh.push_back({Center, Radius + NearMetres});
-		Fresh.push_back({Center, Radius * FarRadii, FarWindow});
-	}
-}
+bool AreIndirectChangesTold() { return CVarEvents.GetOnRenderThread(); }
 
 FRadianceEvents::FFound FRadianceEvents::Find(FRTScene& Scene, float DeltaSeconds)
 {
 	const FSunLight& Sun = Scene.GetSun();
 	Next = {Scene.GetSections().GetIdentity(), glm::normalize(Sun.Direction), Sun.Color * Sun.Irradiance, Scene.GetSky(),
-	    Scene.GetLights().GetJournal().GetCount(), Scene.GetCasterChanges().GetCount(), true};
+	    Scene.GetLights().GetJournal().GetCount(), true};
 	Delta = double(DeltaSeconds);
 	Fresh.clear();
 	FFound Found;
@@ -89,7 +75,6 @@ FRadianceEvents::FFound FRadianceEvents::Find(FRTScene& Scene, float DeltaSecond
 	    std::max(GetChange(Last.Sun, Next.Sun), GetChange(Last.Sky, Next.Sky)));
 	if (Window < 1.0e9) { Fresh.push_back({.Window = static_cast<float>(std::max(Window, double(LeastWindow)))}); }
 	FindLampEvents(Scene);
-	FindObjectEvents(Scene);
 	for (const std::vector<FEvent>* Events : {&Fresh, &Kept})
 	{
 		for (const FEvent& Event : *Events)

@@ -1,5 +1,5 @@
-// What makes the light of radiance cells old: the sun, the sky and lamps that change, and objects that move. The scene tells; nothing is
-// guessed from pictures.
+// What makes the light of radiance cells old: the sun, the sky and lamps that change. The scene tells; nothing is guessed from pictures.
+// Objects that move are told apart (RequireMovers).
 #pragma once
 
 #include <vector>
@@ -9,6 +9,9 @@
 
 namespace Lantern
 {
+
+/// r.RT.Debug.GI.Events. Render thread.
+bool AreIndirectChangesTold();
 
 /// Belongs to one view. Render thread. A frame: Find, if it keeps radiance cells → EndFrame.
 class FRadianceEvents
@@ -39,7 +42,7 @@ private:
 		uint64_t Scene = 0; ///< identity
 		glm::dvec3 SunDirection{0, -1, 0};
 		glm::vec3 Sun{0}, Sky{0};
-		uint64_t Lamps = 0, Objects = 0; ///< places in the journals of lights and of casters
+		uint64_t Lamps = 0; ///< place in the journal of lights
 		bool bValid = false;
 	};
 	/// A sphere of the world, or all of it, until a time.
@@ -51,7 +54,6 @@ private:
 		double Until = 0.0;
 	};
 	void FindLampEvents(const FRTScene& Scene);
-	void FindObjectEvents(FRTScene& Scene);
 
 	FLight Last, Next;
 	std::vector<FEvent> Kept, Fresh; ///< of frames before, and of this one

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
+#include <unordered_map>
 
 #include "LanternCore/Config/ConsoleVariables.h"
 
@@ -17,11 +19,40 @@ TRTConsoleVariable<bool> CVarCapsules(
 TRTConsoleVariable<bool> CVarKnownChanges("r.RT.Shadow.KnownChanges", true,
     "The filter looks for changes of the sun's shadows only where casters or surfaces moved, as the scene knows. If off, it looks for "
     "them everywhere in the picture, and takes some noise for change.");
-static_assert(SETTLED_MOST_CASTERS >= FCasterChanges::MostKept);
 
 /// Share of the sun's diameter by which it may move in a frame without a new start. The disk's visible share changes by at most
 /// 4/π of it, here 2 % per frame, and every pixel is traced in one frame of four.
 constexpr double LittleMove = 1.0 / 64.0;
+
+/// What shines is about so much brighter than what it hides.
+constexpr double ShiningWeight = 8.0;
+
+/// False: the changes are more than tiles may look at, or may be anywhere.
+bool FindFew(FRTScene& Scene, uint64_t Since, std::vector<FCasterChange>& Out)
+{
+	return Scene.GetCasterChanges().Find(Since, Out) && Out.size() <= SETTLED_MOST_CASTERS;
+}
+
+/// Returns one change for each object, in the order in which they were changed first.
+std::vector<FCasterChange> JoinByObject(const std::vector<FCasterChange>& Changes)
+{
+	std::vector<FCasterChange> Joined;
+	std::unordered_map<uint32_t, size_t> Places;
+	for (const FCasterChange& Change : Changes)
+	{
+		const auto [Place, bNew] = Places.emplace(Change.Object, Joined.size());
+		if (bNew)
+		{
+			Joined.push_back(Change);
+			continue;
+		}
+		FCasterChange& All = Joined[Place->second];
+		All.To = Change.To;
+		All.Radius = std::max(All.Radius, Change.Radius);
+		All.Changed = std::min(All.Changed + Change.Changed, 1.0);
+	}
+	return Joined;
+}
 } // namespace
 
 FMovedCasters::FSunState FMovedCasters::MakeSunState(FRTScene& Scene, const FSunRays& Rays)
@@ -43,8 +74,8 @@ FMovedCasters::FFound FMovedCasters::Find(FRTScene& Scene, const FSunRays& Rays,
 	Found.bOtherSun = !Last.bValid || !HoldsFor(Last.Sun, Next.Sun);
 	if (Found.bOtherSun || !CVarCapsules.GetOnRenderThread()) { return Found; }
 	std::vector<FCasterChange> Moved;
-	Found.bAnywhere = !Scene.GetCasterChanges().Find(Last.Changes, Moved);
-	Found.Casters = Convert(Scene, Moved);
+	Found.bAnywhere = !FindFew(Scene, Last.Changes, Moved);
+	if (!Found.bAnywhere) { Found.Casters = Convert(Scene, Moved); }
 	return Found;
 }
 
@@ -54,10 +85,7 @@ FMovedCasters::FRecent FMovedCasters::FindRecent(FRTScene& Scene, const FSunRays
 	FRecent Found;
 	if (Recent.empty()) { return Found; } // nothing was kept before
 	for (const FState& State : Recent) { Found.bAnywhere |= !HoldsFor(State.Sun, Next.Sun); }
-	if (Found.bAnywhere || !CVarCapsules.GetOnRenderThread()) { return Found; }
-	std::vector<FCasterChange> Moved;
-	Found.bAnywhere = !Scene.GetCasterChanges().Find(Recent.front().Changes, Moved);
-	Found.Casters = Convert(Scene, Moved);
+	AddRecentMoves(Scene, Found);
 	return Found;
 }
 
@@ -68,11 +96,39 @@ FMovedCasters::FRecent FMovedCasters::FindRecentOfLamps(FRTScene& Scene, float D
 	if (Recent.empty()) { return Found; }
 	const FState& Before = Recent.front();
 	Found.bAnywhere = Before.Sun.Scene != Next.Sun.Scene || Before.Lights != Next.Lights;
-	if (Found.bAnywhere || !CVarCapsules.GetOnRenderThread()) { return Found; }
-	std::vector<FCasterChange> Moved;
-	Found.bAnywhere = !Scene.GetCasterChanges().Find(Before.Changes, Moved);
-	Found.Casters = Convert(Scene, Moved);
+	AddRecentMoves(Scene, Found);
 	return Found;
+}
+
+FMovedCasters::FRecent FMovedCasters::FindMovers(FRTScene& Scene, const glm::dvec3& Camera, float DeltaSeconds)
+{
+	if (!Next.bValid) { Note(Scene, {}, DeltaSeconds); }
+	FRecent Found;
+	if (Recent.empty()) { return Found; }
+	std::vector<FCasterChange> Moved;
+	Found.bAnywhere = Recent.front().Sun.Scene != Next.Sun.Scene || !Scene.GetCasterChanges().Find(Recent.front().Changes, Moved);
+	if (Found.bAnywhere) { return Found; }
+	std::vector<FCasterChange> Movers = JoinByObject(Moved);
+	if (Movers.size() > SETTLED_MOST_CASTERS)
+	{
+		const auto Hides = [&](const FCasterChange& Mover) {
+			const glm::dvec3 Away = Mover.To - Camera;
+			return Mover.Changed * Mover.Radius * Mover.Radius / std::max(glm::dot(Away, Away), Mover.Radius * Mover.Radius);
+		};
+		std::ranges::stable_sort(Movers, std::greater{}, Hides);
+		Movers.resize(SETTLED_MOST_CASTERS);
+	}
+	Found.Casters = Convert(Scene, Movers);
+	return Found;
+}
+
+/// Recent is not empty.
+void FMovedCasters::AddRecentMoves(FRTScene& Scene, FRecent& InOut) const
+{
+	if (InOut.bAnywhere || !CVarCapsules.GetOnRenderThread()) { return; }
+	std::vector<FCasterChange> Moved;
+	InOut.bAnywhere = !FindFew(Scene, Recent.front().Changes, Moved);
+	if (!InOut.bAnywhere) { InOut.Casters = Convert(Scene, Moved); }
 }
 
 bool FMovedCasters::HaveLampsChanged(FRTScene& Scene, float DeltaSeconds)
@@ -106,7 +162,8 @@ std::vector<FMovedCaster> FMovedCasters::Convert(FRTScene& Scene, const std::vec
 	std::vector<FMovedCaster> Out;
 	for (const FCasterChange& Change : Changes)
 	{
-		Out.push_back({Scene.ToRelative(Change.From), static_cast<float>(Change.Radius), Scene.ToRelative(Change.To), 0});
+		Out.push_back({Scene.ToRelative(Change.From), static_cast<float>(Change.Radius), Scene.ToRelative(Change.To),
+		    static_cast<float>(Change.bShines ? ShiningWeight * Change.Changed : Change.Changed)});
 	}
 	return Out;
 }
@@ -131,6 +188,16 @@ bool FindLampShadowChanges(FFrameContext& Context, FShadowChanges& Out)
 	if (!Out.bKnown) { return true; }
 	Out.CasterCount = static_cast<uint32_t>(Found.Casters.size());
 	return WriteCasters(Context, Found.Casters, Out.Casters);
+}
+
+const FMoversOfFrame& RequireMovers(FFrameContext& Context)
+{
+	FMoversOfFrame& Movers = Context.Movers;
+	if (std::exchange(Movers.bAsked, true)) { return Movers; }
+	const glm::dvec3 Camera = MakeGatherView(Context.View).Position;
+	const FMovedCasters::FRecent Found = Context.MovedCasters->FindMovers(Context.Scene, Camera, Context.View.DeltaSeconds);
+	if (WriteCasters(Context, Found.Casters, Movers.Casters)) { Movers.Count = static_cast<uint32_t>(Found.Casters.size()); }
+	return Movers;
 }
 
 bool WriteCasters(FFrameContext& Context, const std::vector<FMovedCaster>& Casters, uint64_t& OutAddress)

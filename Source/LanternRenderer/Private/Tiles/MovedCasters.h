@@ -38,6 +38,9 @@ public:
 	FRecent FindRecent(FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds);
 	/// As FindRecent, for the shadows of lamps. A lamp that has changed may have changed all.
 	FRecent FindRecentOfLamps(FRTScene& Scene, float DeltaSeconds);
+	/// Finds the objects that have moved, whatever has changed of lights: one caster for each, and those that hide most of what the camera
+	/// sees if they are more than SETTLED_MOST_CASTERS. Camera: in the world. As FindRecent.
+	FRecent FindMovers(FRTScene& Scene, const glm::dvec3& Camera, float DeltaSeconds);
 	/// Returns whether a lamp has changed since the view's last frame, or there is none. As Find.
 	bool HaveLampsChanged(FRTScene& Scene, float DeltaSeconds);
 	/// As HaveLampsChanged, for emissive triangles.
@@ -70,6 +73,7 @@ private:
 	static FSunState MakeSunState(FRTScene& Scene, const FSunRays& Rays);
 	static bool HoldsFor(const FSunState& Before, const FSunState& Now);
 	static std::vector<FMovedCaster> Convert(FRTScene& Scene, const std::vector<FCasterChange>& Changes);
+	void AddRecentMoves(FRTScene& Scene, FRecent& InOut) const;
 	void Note(FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds);
 
 	FState Last, Next;
@@ -91,6 +95,8 @@ struct FShadowChanges
 bool FindShadowChanges(FFrameContext& Context, const FSunRays& Rays, FShadowChanges& Out);
 /// As FindShadowChanges, for lamps. Many casters of many lamps count as anywhere, since each tile looks at all of either.
 bool FindLampShadowChanges(FFrameContext& Context, FShadowChanges& Out);
+/// Finds and writes the frame's movers. None: nothing has moved, nobody knows what has, or an error, which the context has.
+const FMoversOfFrame& RequireMovers(FFrameContext& Context);
 /// Writes casters where this frame's shaders read them. OutAddress: 0 if there are none. False: an error, which the context has.
 bool WriteCasters(FFrameContext& Context, const std::vector<FMovedCaster>& Casters, uint64_t& OutAddress);
 

@@ -217,6 +217,14 @@ struct FLampChangesOfFrame
 	bool bAsked = false;
 };
 
+/// Objects that moved, came, went or were deformed lately (Tiles/MovedCasters.h). The first pass that asks writes them.
+struct FMoversOfFrame
+{
+	uint64_t Casters = 0; ///< FMovedCaster[Count], one for each object; 0: none
+	uint32_t Count = 0;   ///< at most SETTLED_MOST_CASTERS
+	bool bAsked = false;
+};
+
 struct FShadowRays;    // Private/Rays/ShadowRays.h
 struct FRadianceCells; // Private/RadianceCells/RadianceCells.h
 /// Ray generation shaders of passes that make no signal.
@@ -286,6 +294,7 @@ struct FFrameContext
 	std::optional<FLobes> IndirectLobes; ///< of diffuse GI's paths, filtered; nullopt: nobody has asked so far
 	std::optional<FLightMask> LightMask; ///< nullopt: nobody has asked so far
 	FLampChangesOfFrame LampChanges;
+	FMoversOfFrame Movers;
 	std::shared_ptr<const FRadianceCells> RadianceCells; ///< null: none, or nobody has asked so far
 	bool bRadianceCellsAsked = false;
 	FSceneTokens Tokens;

@@ -72,7 +72,7 @@ FRTObjectId FSceneObjects::Add(FRTObjectInfo Info)
 	Motions.Add(Slot, *Object.Info.Geometry);
 	JoinGeometry(Slot);
 	Write(Slot);
-	NoteCaster(Slot);
+	NoteCaster(Slot, 1.0);
 	Emissive.SetObject(Slot, Object.Info.Materials);
 	return {Slot, Objects.GetGeneration(Slot)};
 }
@@ -83,7 +83,7 @@ void FSceneObjects::Remove(FRTObjectId Id)
 	Emissive.RemoveObject(Id.Index);
 	Characters -= Object.Info.bCharacter ? 1 : 0;
 	OffChannel -= IsOffChannel(Object.Info.Channels);
-	NoteCaster(Id.Index);
+	NoteCaster(Id.Index, 1.0);
 	Instances.Remove(Id.Index);
 	Motions.Remove(Id.Index);
 	Pivots.Remove(Id.Index);
@@ -104,7 +104,7 @@ void FSceneObjects::SetTransform(FRTObjectId Id, const glm::dmat4& Transform)
 	const bool bMoved = std::exchange(Object.Info.Transform, Transform) != Transform; // engines may set all transforms in each frame
 	Write(Id.Index);
 	if (!bMoved) { return; }
-	NoteCaster(Before, Instances.GetRecord(Id.Index));
+	NoteCaster(Id.Index, Before, Instances.GetRecord(Id.Index));
 	if (Sections.GetRange(Object.Range).bEmissive) { Emissive.MarkMoved(Id.Index); }
 }
 
@@ -116,7 +116,7 @@ void FSceneObjects::SetMaterials(FRTObjectId Id, std::vector<uint32_t> SectionMa
 	Sections.Release(std::exchange(Object.Range, Range));
 	Object.Info.Materials = std::move(SectionMaterials);
 	Write(Id.Index);
-	NoteCaster(Id.Index);
+	NoteCaster(Id.Index, 1.0);
 }
 
 void FSceneObjects::SetGeometry(FRTObjectId Id, FRTGeometryRef Geometry, std::vector<uint32_t> SectionMaterials)
@@ -133,7 +133,7 @@ void FSceneObjects::SetGeometry(FRTObjectId Id, FRTGeometryRef Geometry, std::ve
 	Motions.SetGeometry(Id.Index, *Object.Info.Geometry);
 	JoinGeometry(Id.Index);
 	Write(Id.Index);
-	NoteCaster(Before, Instances.GetRecord(Id.Index));
+	NoteCaster(Id.Index, Before, Instances.GetRecord(Id.Index), 1.0);
 }
 
 void FSceneObjects::SetMask(FRTObjectId Id, uint8_t Mask)
@@ -142,7 +142,7 @@ void FSceneObjects::SetMask(FRTObjectId Id, uint8_t Mask)
 	const FInstanceRecord Before = Instances.GetRecord(Id.Index);
 	Place(Id.Index);
 	WriteCasterRadius(Id.Index);
-	NoteCaster(Before, Instances.GetRecord(Id.Index));
+	NoteCaster(Id.Index, Before, Instances.GetRecord(Id.Index), 1.0);
 }
 
 void FSceneObjects::SetChannels(FRTObjectId Id, uint8_t Channels)
@@ -175,7 +175,7 @@ void FSceneObjects::SetBounds(const FRTGeometryRef& Geometry, const FBoundingSph
 		const FInstanceRecord Before = Instances.GetRecord(Slot);
 		Place(Slot);
 		WriteCasterRadius(Slot);
-		NoteCaster(Before, Instances.GetRecord(Slot));
+		NoteCaster(Slot, Before, Instances.GetRecord(Slot));
 	}
 }
 
@@ -191,15 +191,30 @@ void FSceneObjects::MarkDeformed(const FRTGeometryRef& Geometry)
 	}
 }
 
-void FSceneObjects::NoteCaster(const FInstanceRecord& Before, const FInstanceRecord& After)
+namespace
+{
+/// What turns in its place, or is deformed, mostly hides what it hid before.
+constexpr double LittleChanged = 1.0 / 64.0;
+
+double GetMovedPart(const FInstanceRecord& Before, const FInstanceRecord& After, double Radius)
+{
+	return std::clamp(glm::length(After.Center - Before.Center) / std::max(2.0 * Radius, 1.0e-6), LittleChanged, 1.0);
+}
+} // namespace
+
+void FSceneObjects::NoteCaster(uint32_t Slot, const FInstanceRecord& Before, const FInstanceRecord& After, std::optional<double> Changed)
 {
 	if (((Before.Mask | After.Mask) & MASK_CASTERS) == 0) { return; }
 	const double Radius = std::max(Before.Radius, After.Radius);
 	if (Radius >= UnboundedRadius) { return CasterChanges.AddAnywhere(); }
-	CasterChanges.Add({Before.Center, After.Center, Radius});
+	CasterChanges.Add({Before.Center, After.Center, Radius, Changed.value_or(GetMovedPart(Before, After, Radius)), Slot,
+	    Sections.GetRange(Objects[Slot].Range).bEmissive});
 }
 
-void FSceneObjects::NoteCaster(uint32_t Slot) { NoteCaster(Instances.GetRecord(Slot), Instances.GetRecord(Slot)); }
+void FSceneObjects::NoteCaster(uint32_t Slot, std::optional<double> Changed)
+{
+	NoteCaster(Slot, Instances.GetRecord(Slot), Instances.GetRecord(Slot), Changed);
+}
 
 void FSceneObjects::JoinGeometry(uint32_t Slot)
 {

@@ -16,12 +16,15 @@ struct FCasterChange
 {
 	glm::dvec3 From{0}, To{0}; ///< centres of the bounding sphere before and after, in the world
 	double Radius = 0.0;       ///< of the larger sphere, metres
+	double Changed = 1.0;      ///< about the part of what it hides, or of how it looks, that is new: 0 to 1
+	uint32_t Object = 0;       ///< its slot, FRTObjectId::Index
+	bool bShines = false;      ///< some of its materials emit light
 };
 
 class FCasterChanges
 {
 public:
-	static constexpr uint32_t MostKept = 256;
+	static constexpr uint32_t MostKept = 4096;
 
 	/// A sphere that is not finite may be anywhere.
 	void Add(const FCasterChange& Change);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -99,8 +100,9 @@ private:
 	void JoinGeometry(uint32_t Slot);
 	void LeaveGeometry(uint32_t Slot);
 	void WriteChannels(uint32_t Slot);
-	void NoteCaster(const FInstanceRecord& Before, const FInstanceRecord& After);
-	void NoteCaster(uint32_t Slot);
+	/// Changed: FCasterChange::Changed. Without it: by how far the object has moved.
+	void NoteCaster(uint32_t Slot, const FInstanceRecord& Before, const FInstanceRecord& After, std::optional<double> Changed = {});
+	void NoteCaster(uint32_t Slot, std::optional<double> Changed = {});
 
 	FSectionTable& Sections;
 	FEmissiveTriangles& Emissive;

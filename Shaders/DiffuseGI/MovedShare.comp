@@ -1,0 +1,67 @@
+// Which share of the light that reaches each pixel from all around may have changed, because objects moved: those that hid it, shone, or
+// reflected it. The filter forgets as much (FDenoiseInputs::ChangedShare).
+#version 460
+#include "../Shared/MovedShareTypes.h"
+#include "../Library/GBuffer.glsl"
+#include "../Library/MovedCasters.glsl"
+#include "../Tiles/Tile.glsl"
+
+layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
+layout(push_constant, scalar) uniform FPush { FMovedShareConstants Push; };
+
+const float LeastShare = 1.0e-3;
+
+shared uint Near[SETTLED_MOST_CASTERS / 32u]; // casters that matter to the tile
+shared uint NearestBits, FarthestBits; // distances as bits: of positive floats they have the order
+
+void FindNear(FViewConstants View, uint Place)
+{
+	if (NearestBits > FarthestBits) { return; } // no surface
+	vec4 Bound = BoundTile(View, gl_WorkGroupID.xy * TILE_SIZE, TILE_SIZE, uintBitsToFloat(NearestBits), uintBitsToFloat(FarthestBits));
+	Bound.xyz += View.CameraPosition;
+	for (uint I = Place; I < Push.CasterCount; I += TILE_PIXELS)
+	{
+		FMovedCaster Caster = FMovedCasterRef(Push.Casters).Data[I];
+		float Away = max(distance(Caster.To, Bound.xyz) - distance(Caster.From, Caster.To) - Bound.w, Caster.Radius);
+		if (2.0 * Caster.Changed * Caster.Radius * Caster.Radius > LeastShare * Away * Away) { atomicOr(Near[I >> 5u], 1u << (I & 31u)); }
+	}
+}
+
+void main()
+{
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	uint Place = gl_LocalInvocationIndex;
+	if (Place < SETTLED_MOST_CASTERS / 32u) { Near[Place] = 0u; }
+	if (Place == 0u)
+	{
+		NearestBits = 0x7f7fffffu;
+		FarthestBits = 0u;
+	}
+	barrier();
+	ivec2 Pixel = ivec2(gl_GlobalInvocationID.xy);
+	bool bInside = !IsOutsideView(View, uvec2(Pixel));
+	float Depth = bInside ? LoadDepth(Push.Depth, Pixel) : 0.0;
+	vec3 P = vec3(0.0), Normal = vec3(0.0);
+	if (Depth > 0.0)
+	{
+		FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
+		P = View.CameraPosition + Point.Relative;
+		Normal = Point.BentN;
+		float Along = dot(View.CameraForward, Point.Relative);
+		atomicMin(NearestBits, floatBitsToUint(Along));
+		atomicMax(FarthestBits, floatBitsToUint(Along));
+	}
+	barrier();
+	FindNear(View, Place);
+	barrier();
+	if (!bInside) { return; }
+	float Share = 0.0;
+	for (uint Word = 0u; Word < SETTLED_MOST_CASTERS / 32u && Depth > 0.0; ++Word)
+	{
+		for (uint Bits = Near[Word]; Bits != 0u; Bits &= Bits - 1u)
+		{
+			Share += GetMovedShare(FMovedCasterRef(Push.Casters).Data[Word * 32u + uint(findLSB(Bits))], P, Normal);
+		}
+	}
+	imageStore(Images[Push.Output], Pixel, vec4(min(Share, 1.0)));
+}

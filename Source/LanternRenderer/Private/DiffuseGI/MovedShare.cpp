@@ -1,0 +1,47 @@
+// The pass that finds where objects that move have changed the light.
+#include "DiffuseGI/MovedShare.h"
+
+#include "MovedShareTypes.h"
+#include "RadianceCells/RadianceEvents.h"
+#include "TileTypes.h"
+#include "Tiles/MovedCasters.h"
+
+namespace Lantern
+{
+
+namespace
+{
+FShaderSource MakeSource() { return MakeComputeSource("DiffuseGI/MovedShare.comp", {}); }
+} // namespace
+
+void ListMovedShareShaders(std::vector<FShaderSource>& Out)
+{
+	if (AreIndirectChangesTold()) { Out.push_back(MakeSource()); }
+}
+
+FGraphTexture AddMovedShare(FFrameContext& Context, const FGBuffer& GBuffer)
+{
+	if (!AreIndirectChangesTold()) { return {}; }
+	IRTPipeline* const Pipeline = RequireCompute(Context, MakeSource()); // before it is needed: then it would be too late
+	const FMoversOfFrame& Movers = RequireMovers(Context);
+	if (!Pipeline || Movers.Count == 0) { return {}; }
+	FMovedShareConstants C{};
+	C.Pass = Context.Pass;
+	C.Casters = Movers.Casters;
+	C.CasterCount = Movers.Count;
+	const FGraphTexture Share = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::R16_FLOAT}, "MovedShare");
+	Context.Graph.AddPass("MovedShare", [&](FPassBuilder& Builder) -> FPassExecute {
+		for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+		Builder.Write(Share, ERTAccess::StorageWrite);
+		Builder.AllowAsync();
+		return [=, Width = Context.Width, Height = Context.Height](FPassContext& Pass) mutable {
+			C.Depth = GetSampledIndex(Pass, GBuffer.Depth);
+			C.Normals = GetSampledIndex(Pass, GBuffer.Normals);
+			C.Output = GetStorageIndex(Pass, Share);
+			Dispatch2D(Pass, Pipeline, C, Width, Height, TILE_SIZE);
+		};
+	});
+	return Share;
+}
+
+} // namespace Lantern
