@@ -37,6 +37,7 @@ void BeginLookUps(FViewConstants View, uvec2 Pixel)
 	if (bVotes) { FRadianceVoteRef(Votes).Data[Number].Slot = NO_RADIANCE_CELL; }
 	uint Hash = HashPcg(Pixel.x + HashPcg(Pixel.y + HashPcg(View.FrameIndex + View.Seed)));
 	BeginRadianceLookUps(Push.RadianceCells, View, bVotes ? Votes : FAddress(0), Number, 1u, Hash);
+	RadianceNear = FRadianceGridRef(Push.RadianceCells).Data.NearCells;
 }
 #endif
 

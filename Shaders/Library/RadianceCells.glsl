@@ -162,6 +162,7 @@ struct FRadianceQuery
 	float FromCamera; // distance, metres
 	float RayLength;  // of the ray that asks, metres
 	bool bFoliage;    // leaves have all directions, and their light is averaged
+	float NearCells;  // length of rays, in cells of the place, up to which nothing is found
 };
 
 // A look-up that may vote: where it notes what it asked for. 0: none.
@@ -223,8 +224,10 @@ uint FindRadiance(FRadianceGrid Grid, FRadianceQuery Query, FRadianceVoter Voter
 	if (!all(lessThan(abs(Query.Position), vec3(2.0e5)))) { return FoundNone; } // also of what is no number
 	// A cell that is larger than the ray is long may lie on both sides of a corner. The finest must do for rays that leave from a corner.
 	if (Query.RayLength < 0.25 * RADIANCE_CELL_FINEST) { return FoundNone; }
+	uint Wanted = RadianceLevel(Grid, Query.FromCamera, U);
+	if (Query.RayLength < Query.NearCells * RADIANCE_CELL_FINEST * exp2(float(Wanted))) { return FoundNone; }
 	float Fitting = max(log2(Query.RayLength / (1.7320508 * RADIANCE_CELL_FINEST)), 0.0);
-	uint Coarsest = min(uint(Fitting), RADIANCE_CELL_LEVELS - 1u), Level = min(RadianceLevel(Grid, Query.FromCamera, U), Coarsest);
+	uint Coarsest = min(uint(Fitting), RADIANCE_CELL_LEVELS - 1u), Level = min(Wanted, Coarsest);
 	uint CoarseLevel = min(Level + RADIANCE_CELL_COARSER, Coarsest);
 	FRadianceVoter Nobody = FRadianceVoter(FAddress(0), 0u, 0u);
 	bool bForCoarse = CoarseLevel > Level && (Voter.Hash & 3u) == 0u; // the hash's other bits are the vote

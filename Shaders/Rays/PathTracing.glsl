@@ -146,7 +146,8 @@ vec3 FollowPath(FSceneConstants Scene, FMaterialHit Hit, vec3 Origin, vec3 Direc
 		vec3 LocalV = V * Basis;
 #ifdef RADIANCE_CELLS
 		vec3 Known;
-		if (LookUpReflected(Hit, Brdf, P, Basis, LocalV, NextRandom4(Random).x, Known)) { return Radiance + Throughput * Known; }
+		float NearCells = Bounce == 1u ? RadianceNear : 0.0;
+		if (LookUpReflected(Hit, Brdf, P, Basis, LocalV, NearCells, NextRandom4(Random).x, Known)) { return Radiance + Throughput * Known; }
 		Throughput *= TakeRadianceRest();
 		if (Bounce >= MaxBounces || Throughput == vec3(0.0)) { return Radiance; }
 #ifdef DEFERS_PATHS

@@ -7,6 +7,7 @@
 FAddress RadianceGrid = FAddress(0); // 0: no cells, and every look-up fails
 vec3 RadianceCamera;
 FRadianceVoter RadianceVoter; // of this thread's first look-up alone
+float RadianceNear = 0.0;     // FRadianceQuery::NearCells of first hits
 float RadianceRest = 1.0;     // weight of what a path finds that has met no cell; 0: it ends
 #ifdef DEFERS_PATHS
 bool bRadianceDeferred = false; // a path of this thread has met no cell
@@ -66,14 +67,14 @@ vec3 ReflectCellLight(FCellLight Light, FBrdf Brdf, float Roughness, vec3 LocalV
 }
 
 // Returns whether the light that a hit reflects towards V is known: OutLight. P: where the next ray would start. Basis: about the shading
-// normal. LocalV: V in it. Mirrors show what is there, and are followed.
-bool LookUpReflected(FMaterialHit Hit, FBrdf Brdf, vec3 P, mat3 Basis, vec3 LocalV, float U, out vec3 OutLight)
+// normal. LocalV: V in it. NearCells: see FRadianceQuery. Mirrors show what is there, and are followed.
+bool LookUpReflected(FMaterialHit Hit, FBrdf Brdf, vec3 P, mat3 Basis, vec3 LocalV, float NearCells, float U, out vec3 OutLight)
 {
 	OutLight = vec3(0.0);
 	if (RadianceGrid == FAddress(0) || (IsMirror(Brdf) && SpecularProbability(Brdf, LocalV) > 0.0)) { return false; }
 	FRadianceGrid Grid = FRadianceGridRef(RadianceGrid).Data;
 	FRadianceQuery Query = FRadianceQuery(P, Hit.GeometricNormal, Hit.Normal, distance(P, RadianceCamera), Hit.Distance,
-	                                      (Hit.Flags & HIT_FOLIAGE) != 0u);
+	                                      (Hit.Flags & HIT_FOLIAGE) != 0u, NearCells);
 	FRadianceVoter Voter = RadianceVoter;
 	RadianceVoter.Note = FAddress(0);
 	FCellLight Light;

@@ -126,7 +126,7 @@ struct FRadianceGrid
 	uint AskedTurns;      // cells that nobody has asked for in so many frames are not updated
 	FAddress Movers;      // FMovedCaster[MoverCount]: what has moved lately
 	uint MoverCount;
-	uint Pad;
+	float NearCells;      // rays of pixels that are shorter than so many cells of their place are followed, and end in none
 };
 LANTERN_ASSERT_SIZE(FRadianceGrid, 160);
 

@@ -131,6 +131,7 @@ TEST_F(FRadianceCellsTest, GlossyWallMirrorsTheSun)
 		ASSERT_TRUE(Load(FSceneDescription(Scene.Scene)));
 		SetSun(0.53, 10.0f, {0.1, -1, -0.4});
 		SetVariable("r.RT.GI.Samples", "16");
+		SetVariable("r.RT.GI.Cells.Near", "0"); // rays to the wall's foot end in cells, too
 		SetVariable("r.RT.Debug.GI.CellDirection", bDirection ? "1" : "0");
 		const FView View = LookAt({0, 1.5, 3}, {0, 0, -0.5}, 0.5f, 48, 27);
 		const double Reference = MeanGreen(TraceSignal(ESignal::DiffuseGI, View, 1024, 4));

@@ -24,6 +24,11 @@ TRTConsoleVariable<float> CVarUpdates("r.RT.GI.Cells.UpdatesPerSecond", 2.5e6f,
 TRTConsoleVariable<float> CVarSizeAngle("r.RT.GI.Cells.SizeAngle", 0.02f,
     "Edge of a radiance cell over its distance to the camera. The finest are 0.125 m wide, and each level is twice the one before.",
     {0.001f, 1});
+TRTConsoleVariable<float> CVarNear("r.RT.GI.Cells.Near", 2.0f,
+    "Rays of pixels that are shorter than so many cells of their place do not end there. They find the sun and lamps by themselves, and "
+    "end "
+    "one surface later. Keeps contact shadows and borders of light sharp.",
+    {0, 16});
 TRTConsoleVariable<float> CVarSeconds(
     "r.RT.GI.Cells.Seconds", 1.0f, "Time over which a radiance cell averages its light, in seconds.", {0.05f, 60});
 TRTConsoleVariable<bool> CVarDirection("r.RT.Debug.GI.CellDirection", true,
@@ -96,6 +101,7 @@ FRadianceGrid MakeGrid(const FFrameContext& Context, uint32_t Slots, const FRadi
 	Grid.Window = std::min(CVarSeconds.GetOnRenderThread() / Delta, Events.Window);
 	Grid.EventCount = static_cast<uint32_t>(Events.Spheres.size());
 	Grid.SizeAngle = CVarSizeAngle.GetOnRenderThread();
+	Grid.NearCells = CVarNear.GetOnRenderThread();
 	Grid.VoteCount = DivideUp(Context.Width, 2) * DivideUp(Context.Height, 2);
 	return Grid;
 }
