@@ -11,11 +11,13 @@ vec2 SampleDisk(vec2 U)
 	return R * vec2(cos(Phi), sin(Phi));
 }
 
-// Cosine-weighted around +z; pdf z / π.
+// Cosine-weighted around +z; pdf z / π. z is never 0: a compiler may work it out twice, by other roundings, and what a caller has tested
+// against 0 would be another z than the one that it divides by.
 vec3 SampleCosineHemisphere(vec2 U)
 {
+	const float LeastSquared = 1.0e-12;
 	vec2 Disk = SampleDisk(U);
-	return vec3(Disk, sqrt(max(0.0, 1.0 - dot(Disk, Disk))));
+	return vec3(Disk, sqrt(max(LeastSquared, 1.0 - dot(Disk, Disk))));
 }
 
 // Uniform in the cone around +z. OneMinusCos: 1 − cosine of the half angle, which cones as narrow as the sun's need to
