@@ -148,6 +148,26 @@ TEST_F(FCasterChangesSceneTest, TellsWhatComesAndGoes)
 	EXPECT_EQ(Count(), Anywhere);
 }
 
+TEST_F(FCasterChangesSceneTest, TellsWhatShinesAndWhatDidSo)
+{
+	FMaterialData Glow = MakeMaterial();
+	Glow.Emissive = glm::vec3(2.0f);
+	Glow.EmissiveWeight = 2.0f;
+	const uint32_t Glowing = Scene->AddMaterial(Glow);
+	const FRTObjectId Other = Add(Rock, {Glowing}); // both materials stay bound: else anything may have changed
+	Settle();
+	Count();
+	Scene->SetMaterials(Object, {Glowing});
+	ASSERT_EQ(Count(), 1);
+	EXPECT_TRUE(Found[0].bShines);
+	EXPECT_EQ(Found[0].Changed, 1.0);
+	Scene->SetMaterials(Other, {Material});
+	ASSERT_EQ(Count(), 2) << "as it was, and as it is";
+	EXPECT_TRUE(Found[0].bShines);
+	EXPECT_FALSE(Found[1].bShines);
+	EXPECT_EQ(Found[1].Object, Other.Index);
+}
+
 TEST_F(FCasterChangesSceneTest, TellsShapes)
 {
 	FMaterialData Other = MakeMaterial();

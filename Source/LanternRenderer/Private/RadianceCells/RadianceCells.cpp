@@ -26,8 +26,7 @@ TRTConsoleVariable<float> CVarSizeAngle("r.RT.GI.Cells.SizeAngle", 0.02f,
     {0.001f, 1});
 TRTConsoleVariable<float> CVarNear("r.RT.GI.Cells.Near", 2.0f,
     "Rays of pixels that are shorter than so many cells of their place do not end there. They find the sun and lamps by themselves, and "
-    "end "
-    "one surface later. Keeps contact shadows and borders of light sharp.",
+    "end one surface later. Keeps contact shadows and borders of light sharp.",
     {0, 16});
 TRTConsoleVariable<float> CVarSeconds(
     "r.RT.GI.Cells.Seconds", 1.0f, "Time over which a radiance cell averages its light, in seconds.", {0.05f, 60});

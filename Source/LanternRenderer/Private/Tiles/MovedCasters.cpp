@@ -49,6 +49,7 @@ std::vector<FCasterChange> JoinByObject(const std::vector<FCasterChange>& Change
 		FCasterChange& All = Joined[Place->second];
 		All.To = Change.To;
 		All.Radius = std::max(All.Radius, Change.Radius);
+		All.bShines |= Change.bShines;
 		All.Changed = std::min(All.Changed + Change.Changed, 1.0);
 	}
 	return Joined;

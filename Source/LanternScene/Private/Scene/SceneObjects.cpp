@@ -111,6 +111,7 @@ void FSceneObjects::SetTransform(FRTObjectId Id, const glm::dmat4& Transform)
 void FSceneObjects::SetMaterials(FRTObjectId Id, std::vector<uint32_t> SectionMaterials)
 {
 	FObject& Object = Resolve(Id);
+	if (Sections.GetRange(Object.Range).bEmissive) { NoteCaster(Id.Index, 1.0); } // while it shines
 	const FSectionRangeId Range = Sections.Acquire(*Object.Info.Geometry, SectionMaterials);
 	Emissive.SetObject(Id.Index, SectionMaterials);
 	Sections.Release(std::exchange(Object.Range, Range));
@@ -123,6 +124,7 @@ void FSceneObjects::SetGeometry(FRTObjectId Id, FRTGeometryRef Geometry, std::ve
 {
 	assert(Geometry && SectionMaterials.size() == Geometry->GetSectionCount());
 	FObject& Object = Resolve(Id);
+	if (Sections.GetRange(Object.Range).bEmissive) { NoteCaster(Id.Index, 1.0); } // while it shines
 	const FInstanceRecord Before = Instances.GetRecord(Id.Index);
 	const FSectionRangeId Range = Sections.Acquire(*Geometry, SectionMaterials);
 	Emissive.SetObject(Id.Index, SectionMaterials);
