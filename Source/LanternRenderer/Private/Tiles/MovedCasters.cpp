@@ -27,10 +27,11 @@ constexpr double LittleMove = 1.0 / 64.0;
 /// What shines is about so much brighter than what it hides.
 constexpr double ShiningWeight = 8.0;
 
-/// False: the changes are more than tiles may look at, or may be anywhere.
+/// False: the changes are more than tiles may look at, or may be anywhere. Out is empty then, as it must be before.
 bool FindFew(FRTScene& Scene, uint64_t Since, std::vector<FCasterChange>& Out)
 {
-	return Scene.GetCasterChanges().Find(Since, Out) && Out.size() <= SETTLED_MOST_CASTERS;
+	const FCasterChanges& Changes = Scene.GetCasterChanges();
+	return Changes.GetCount() - Since <= SETTLED_MOST_CASTERS && Changes.Find(Since, Out);
 }
 
 /// Returns one change for each object, in the order in which they were changed first.
@@ -76,7 +77,7 @@ FMovedCasters::FFound FMovedCasters::Find(FRTScene& Scene, const FSunRays& Rays,
 	if (Found.bOtherSun || !CVarCapsules.GetOnRenderThread()) { return Found; }
 	std::vector<FCasterChange> Moved;
 	Found.bAnywhere = !FindFew(Scene, Last.Changes, Moved);
-	if (!Found.bAnywhere) { Found.Casters = Convert(Scene, Moved); }
+	Found.Casters = Convert(Scene, Moved);
 	return Found;
 }
 
@@ -129,7 +130,7 @@ void FMovedCasters::AddRecentMoves(FRTScene& Scene, FRecent& InOut) const
 	if (InOut.bAnywhere || !CVarCapsules.GetOnRenderThread()) { return; }
 	std::vector<FCasterChange> Moved;
 	InOut.bAnywhere = !FindFew(Scene, Recent.front().Changes, Moved);
-	if (!InOut.bAnywhere) { InOut.Casters = Convert(Scene, Moved); }
+	InOut.Casters = Convert(Scene, Moved);
 }
 
 bool FMovedCasters::HaveLampsChanged(FRTScene& Scene, float DeltaSeconds)
