@@ -3,7 +3,7 @@
 #version 460
 #include "../Shared/MovedShareTypes.h"
 #include "../Library/GBuffer.glsl"
-#include "../Library/MovedCasters.glsl"
+#include "../Library/GroupBounds.glsl"
 #include "../Tiles/Tile.glsl"
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
@@ -12,12 +12,11 @@ layout(push_constant, scalar) uniform FPush { FMovedShareConstants Push; };
 const float LeastShare = 1.0e-3;
 
 shared uint Near[SETTLED_MOST_CASTERS / 32u]; // casters that matter to the tile
-shared uint NearestBits, FarthestBits; // distances as bits: of positive floats they have the order
 
 void FindNear(FViewConstants View, uint Place)
 {
-	if (NearestBits > FarthestBits) { return; } // no surface
-	vec4 Bound = BoundTile(View, gl_WorkGroupID.xy * TILE_SIZE, TILE_SIZE, uintBitsToFloat(NearestBits), uintBitsToFloat(FarthestBits));
+	if (!HasBounds()) { return; } // no surface
+	vec4 Bound = BoundGroup(View, gl_WorkGroupID.xy * TILE_SIZE, TILE_SIZE);
 	Bound.xyz += View.CameraPosition;
 	for (uint I = Place; I < Push.CasterCount; I += TILE_PIXELS)
 	{
@@ -32,11 +31,7 @@ void main()
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	uint Place = gl_LocalInvocationIndex;
 	if (Place < SETTLED_MOST_CASTERS / 32u) { Near[Place] = 0u; }
-	if (Place == 0u)
-	{
-		NearestBits = 0x7f7fffffu;
-		FarthestBits = 0u;
-	}
+	if (Place == 0u) { StartBounds(); }
 	barrier();
 	ivec2 Pixel = ivec2(gl_GlobalInvocationID.xy);
 	bool bInside = !IsOutsideView(View, uvec2(Pixel));
@@ -47,9 +42,7 @@ void main()
 		FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
 		P = View.CameraPosition + Point.Relative;
 		Normal = Point.BentN;
-		float Along = dot(View.CameraForward, Point.Relative);
-		atomicMin(NearestBits, floatBitsToUint(Along));
-		atomicMax(FarthestBits, floatBitsToUint(Along));
+		NoteDistance(dot(View.CameraForward, Point.Relative));
 	}
 	barrier();
 	FindNear(View, Place);

@@ -3,7 +3,7 @@
 #version 460
 #include "../Shared/MoreRaysTypes.h"
 #include "../Library/GBuffer.glsl"
-#include "../Library/MovedCasters.glsl"
+#include "../Library/GroupBounds.glsl"
 #include "../Rays/RayQueue.glsl"
 #include "Tile.glsl"
 
@@ -16,7 +16,7 @@ const float WideEnough = 12.0;             // pixels: a penumbra that histories 
 const float LeastCoverage = 0.5;          // of a history
 const float LeastShare = 0.03;            // of the sun, that a history has seen, or not seen, in a penumbra
 
-shared uint States[RingSize * RingSize], Wanted[2], FirstRequest, bTouched, NearestBits, FarthestBits;
+shared uint States[RingSize * RingSize], Wanted[2], FirstRequest, bTouched;
 
 // The answers of a pixel that faces the sun.
 uint LoadState(FViewConstants View, ivec2 Pixel)
@@ -96,16 +96,11 @@ bool NeedsMore(FViewConstants View, ivec2 Pixel, bool bBorder)
 void FindTouched(FViewConstants View, bool bAsked, ivec2 Pixel)
 {
 	if (Push.CasterCount == 0u) { return; }
-	if (bAsked)
-	{
-		uint Bits = floatBitsToUint(LoadSurface(Push.Surface, Pixel).Distance);
-		atomicMin(NearestBits, Bits);
-		atomicMax(FarthestBits, Bits);
-	}
+	if (bAsked) { NoteDistance(LoadSurface(Push.Surface, Pixel).Distance); }
 	barrier();
-	if (NearestBits <= FarthestBits)
+	if (HasBounds())
 	{
-		vec4 Bound = BoundTile(View, gl_WorkGroupID.xy * TILE_SIZE, TILE_SIZE, uintBitsToFloat(NearestBits), uintBitsToFloat(FarthestBits));
+		vec4 Bound = BoundGroup(View, gl_WorkGroupID.xy * TILE_SIZE, TILE_SIZE);
 		FCasterList List = FCasterList(Push.Casters, Push.CasterCount, Push.CasterSpread);
 		if (MayAnyShadow(FSceneRef(Push.Pass.Scene).Data, View, List, Bound)) { bTouched = 1u; }
 	}
@@ -123,8 +118,7 @@ void main()
 	{
 		Wanted[0] = Wanted[1] = 0u;
 		bTouched = 0u;
-		NearestBits = 0x7f7fffffu;
-		FarthestBits = 0u;
+		StartBounds();
 	}
 	LoadStates(View, Place);
 	barrier();

@@ -5,7 +5,7 @@
 #define LANTERN_SETTLED_GLSL
 
 #include "../Shared/SettledTypes.h"
-#include "../Library/MovedCasters.glsl"
+#include "../Library/GroupBounds.glsl"
 #include "Tile.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FSettledRef { FSettledConstants Data; };
@@ -15,7 +15,6 @@ const uint KnownLit = 1u, KnownDark = 2u, NotSettled = 4u;
 
 shared uint Knowledge[TILE_PIXELS]; // row by row
 shared uint bTouched;
-shared uint NearestBits, FarthestBits; // distances of the pixels that ask for rays, as bits: of positive floats they have the order
 
 uint LoadSettled(uint Texture, ivec2 Pixel) { return uint(texelFetch(Textures[Texture], Pixel, 0).x * 255.0 + 0.5); }
 uint SettledFrames(uint Settled) { return Settled & (SETTLED_LIT - 1u); }
@@ -31,8 +30,7 @@ uint Classify(uint Settled)
 uint Recall(FViewConstants View, FSettledConstants Settled, uvec2 Pixel, out uint OutClass)
 {
 	FSurface Surface = LoadSurface(Settled.Surface, ivec2(Pixel));
-	atomicMin(NearestBits, floatBitsToUint(Surface.Distance));
-	atomicMax(FarthestBits, floatBitsToUint(Surface.Distance));
+	NoteDistance(Surface.Distance);
 	OutClass = NotSettled;
 	uint Carried = 0u;
 	if (Settled.Previous != NO_TEXTURE)
@@ -58,9 +56,9 @@ uint Recall(FViewConstants View, FSettledConstants Settled, uvec2 Pixel, out uin
 // Finds whether a moved caster's shadow may touch the tile; the work group shares the casters.
 void FindMovedCasters(FViewConstants View, FSettledConstants Settled, uvec2 Tile)
 {
-	if (Settled.CasterCount == 0u || NearestBits > FarthestBits) { return; }
+	if (Settled.CasterCount == 0u || !HasBounds()) { return; }
 	FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
-	vec4 Bound = BoundTile(View, Tile * TILE_SIZE, TILE_SIZE, uintBitsToFloat(NearestBits), uintBitsToFloat(FarthestBits));
+	vec4 Bound = BoundGroup(View, Tile * TILE_SIZE, TILE_SIZE);
 	FCasterList List = FCasterList(Settled.Casters, Settled.CasterCount, GetShadowSpread(Push.SunOneMinusCos));
 	if (MayAnyShadow(Scene, View, List, Bound)) { bTouched = 1u; }
 }
@@ -108,8 +106,7 @@ uint FindSettled(FViewConstants View, uint Place, uvec2 Pixel, bool bTraced)
 	if (Place == 0u)
 	{
 		bTouched = Settled.bAnywhere;
-		NearestBits = 0x7f7fffffu;
-		FarthestBits = 0u;
+		StartBounds();
 	}
 	barrier();
 	uint Class = 0u, Known = bTraced ? Recall(View, Settled, Pixel, Class) : 0u;

@@ -6,35 +6,33 @@
 #ifndef LANTERN_TEMPORAL_KNOWN_GLSL
 #define LANTERN_TEMPORAL_KNOWN_GLSL
 
-#include "../../Library/MovedCasters.glsl"
+#include "../../Library/GroupBounds.glsl"
 #include "Load.glsl"
 
-shared uint bTouched, NearestBits, FarthestBits; // distances as bits: of positive floats they have the order
+shared uint bTouched;
 
 // Before a barrier.
 void StartTouched()
 {
 	if (gl_LocalInvocationIndex != 0u) { return; }
 	bTouched = 0u;
-	NearestBits = 0x7f7fffffu;
-	FarthestBits = 0u;
+	StartBounds();
 }
 
 void NoteDistances()
 {
 	float Inverse = TileInverseDepth[GetTileIndex(ivec2(0))];
 	if (Push.CasterCount == 0u || !(Inverse > 0.0)) { return; }
-	atomicMin(NearestBits, floatBitsToUint(1.0 / Inverse));
-	atomicMax(FarthestBits, floatBitsToUint(1.0 / Inverse));
+	NoteDistance(1.0 / Inverse);
 }
 
 // Called by all threads.
 void FindTouched(FViewConstants View)
 {
 	if (Push.CasterCount == 0u) { return; }
-	if (NearestBits <= FarthestBits)
+	if (HasBounds())
 	{
-		vec4 Bound = BoundTile(View, gl_WorkGroupID.xy * GroupSize, GroupSize, uintBitsToFloat(NearestBits), uintBitsToFloat(FarthestBits));
+		vec4 Bound = BoundGroup(View, gl_WorkGroupID.xy * GroupSize, GroupSize);
 		FCasterList List = FCasterList(Push.Casters, Push.CasterCount, Push.CasterSpread);
 		FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 #if CHANNELS == 1
