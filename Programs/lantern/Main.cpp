@@ -87,6 +87,10 @@ void FCommandLine::AddRender()
 	        "Frames to render; the picture is the last one's. "
 	        "Without it: until what accumulates over frames has settled, 64 at most")
 	    ->check(CLI::Range(1, 1'000'000));
+	Command
+	    ->add_option("--path", Render.Path,
+	        "slow or fast: the camera comes along this path of lantern chart, and the last frame is at the view. Needs --frames")
+	    ->check(CLI::IsMember({"slow", "fast"}));
 	Command->add_flag("--list", bList, "List the built-in scenes");
 	Command->add_flag("--dump-graph", Render.bDumpGraph, "Print the last frame's passes, resources and barriers");
 	Command->final_callback([this] { Status = bList ? RunListScenes() : RunRender(Render); });

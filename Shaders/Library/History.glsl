@@ -49,17 +49,34 @@ FSurface LoadSurface(uint Texture, ivec2 Pixel) { return UnpackSurface(texelFetc
 // Index: number of the object as motion vectors carry it; 0: unknown.
 float MakeIdentity(float Index) { return Index >= 1.0 && IsFinite(Index) ? mod(Index, 63.0) + 1.0 : 0.0; }
 
-// Whether a texel of the previous frame showed the pixel's surface. ExpectedDistance: distance of that surface in the previous
-// frame. DistanceSlope: change of the distance from one pixel to the next. Normals may have turned by some 45° with their object.
-bool IsSameSurface(FSurface Now, FSurface Before, float ExpectedDistance, float DistanceSlope)
+const float SameDistance = 0.005, SimilarDistance = 0.03; // over the distance
+
+// Whether a texel of the previous frame showed the pixel's object, at about its distance. ExpectedDistance: distance of the pixel's surface
+// in the previous frame. DistanceSlope: change of the distance from one pixel to the next. Tolerance: over the distance.
+bool IsSameObject(FSurface Now, FSurface Before, float ExpectedDistance, float DistanceSlope, float Tolerance)
 {
 #ifdef NO_VALIDATION // r.RT.Debug.Denoise.Validate
 	return Before.Distance > 0.0;
 #else
 	bool bSameObject = Now.Identity == Before.Identity || Now.Identity == 0.0 || Before.Identity == 0.0;
-	return Before.Distance > 0.0 && bSameObject &&
-	       abs(Before.Distance - ExpectedDistance) <= ExpectedDistance * 0.005 + 1.5 * DistanceSlope && dot(Now.Normal, Before.Normal) > 0.7;
+	return Before.Distance > 0.0 && bSameObject && abs(Before.Distance - ExpectedDistance) <= ExpectedDistance * Tolerance + 1.5 * DistanceSlope;
 #endif
+}
+
+// Normals may have turned by some 45° with their object.
+bool HasSameNormal(FSurface Now, FSurface Before)
+{
+#ifdef NO_VALIDATION
+	return true;
+#else
+	return dot(Now.Normal, Before.Normal) > 0.7;
+#endif
+}
+
+// Whether a texel of the previous frame showed the pixel's surface. Parameters: as IsSameObject.
+bool IsSameSurface(FSurface Now, FSurface Before, float ExpectedDistance, float DistanceSlope)
+{
+	return IsSameObject(Now, Before, ExpectedDistance, DistanceSlope, SameDistance) && HasSameNormal(Now, Before);
 }
 
 // Where a pixel's surface was in the previous frame, and which of the four texels around that position showed it.
@@ -77,12 +94,13 @@ ivec2 GetTap(FReprojection R, int Tap) { return GetTap(R.Base, Tap); }
 const FReprojection NotSeen = FReprojection(ivec2(0), vec4(0.0), 0.0, vec2(0.0));
 
 // Texel of an RG32_UINT image, which one pass makes for all that reproject (Denoise/Surface.comp): for each axis, 16 bits of the first texel
-// plus 1 and 12 of the fraction; in the lowest 4 bits of x, the texels that showed the surface. None: it was not seen.
+// plus 1 and 12 of the fraction; in the lowest 4 bits of x, the texels that showed the surface, and in those of y the ones that showed the
+// object at about its distance. None: it was not seen.
 const float ReprojectionSteps = 4096.0;
 
-FReprojection UnpackReprojection(uvec2 Packed)
+// Taps: the texels that count.
+FReprojection UnpackReprojection(uvec2 Packed, uint Taps)
 {
-	uint Taps = Packed.x & 15u;
 	if (Taps == 0u) { return NotSeen; }
 	FReprojection R;
 	R.Base = ivec2(Packed >> 16u) - 1;
@@ -95,7 +113,27 @@ FReprojection UnpackReprojection(uvec2 Packed)
 	return R;
 }
 
-FReprojection LoadReprojection(uint Texture, ivec2 Pixel) { return UnpackReprojection(texelFetch(UintTextures[Texture], Pixel, 0).xy); }
+FReprojection LoadReprojection(uint Texture, ivec2 Pixel)
+{
+	uvec2 Packed = texelFetch(UintTextures[Texture], Pixel, 0).xy;
+	return UnpackReprojection(Packed, Packed.x & 15u);
+}
+
+// As LoadReprojection, but where few of the four texels showed the surface, those that showed its object count as well. Leaves and reliefs
+// are seldom seen twice in one pixel while the picture moves. bOutOther: whether such texels count.
+FReprojection LoadSoftReprojection(uint Texture, ivec2 Pixel, out bool bOutOther)
+{
+	const float EnoughCoverage = 0.75, OtherWeight = 0.25;
+	uvec2 Packed = texelFetch(UintTextures[Texture], Pixel, 0).xy;
+	uint Same = Packed.x & 15u, Other = Packed.y & 15u & ~Same;
+	FReprojection R = UnpackReprojection(Packed, Same);
+	bOutOther = R.Coverage < EnoughCoverage && Other != 0u;
+	if (!bOutOther) { return R; }
+	R = UnpackReprojection(Packed, Same | Other);
+	for (int Tap = 0; Tap < 4; ++Tap) { R.Weights[Tap] *= (Other & (1u << Tap)) != 0u ? OtherWeight : 1.0; }
+	R.Weights /= max(dot(R.Weights, vec4(1.0)), 1.0e-6);
+	return R;
+}
 
 // What a texel of the previous frame must show to be of the pixel's surface.
 struct FExpectedSurface
@@ -134,15 +172,18 @@ uvec2 FindReprojection(FViewConstants View, uint PreviousSurface, uvec2 Pixel, F
 	Position = floor(Position * ReprojectionSteps + 0.5) / ReprojectionSteps;
 	ivec2 Base = ivec2(floor(Position));
 	FExpectedSurface Expected = ExpectSurface(View, Pixel, Now, Motion);
-	uint Taps = 0u;
+	uvec2 Taps = uvec2(0u); // of the surface, of its object
 	for (int Tap = 0; Tap < 4; ++Tap)
 	{
 		ivec2 P = GetTap(Base, Tap);
-		bool bInside = all(greaterThanEqual(P, ivec2(0))) && all(lessThan(P, ivec2(Size)));
-		if (bInside && ShowedSurface(Expected, PreviousSurface, P)) { Taps |= 1u << Tap; }
+		if (any(lessThan(P, ivec2(0))) || any(greaterThanEqual(P, ivec2(Size)))) { continue; }
+		FSurface Before = LoadSurface(PreviousSurface, P);
+		if (!IsSameObject(Now, Before, Expected.Distance, Expected.DistanceSlope, SimilarDistance)) { continue; }
+		Taps.y |= 1u << Tap;
+		if (IsSameSurface(Now, Before, Expected.Distance, Expected.DistanceSlope)) { Taps.x |= 1u << Tap; }
 	}
 	uvec2 Fraction = uvec2((Position - vec2(Base)) * ReprojectionSteps + 0.5);
-	return Taps != 0u ? ((uvec2(Base + 1) << 16u) | (Fraction << 4u) | uvec2(Taps, 0u)) : uvec2(0u);
+	return Taps.y != 0u ? ((uvec2(Base + 1) << 16u) | (Fraction << 4u) | Taps) : uvec2(0u);
 }
 
 // Weights of four texels in a row for a position at F, 0 to 1, between the second and the third (Catmull & Rom 1974). Bilinear

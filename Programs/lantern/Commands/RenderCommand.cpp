@@ -17,6 +17,7 @@
 #include "LanternHost/ReferenceRenderer.h"
 #include "LanternImage/ImageIO.h"
 #include "LanternImage/ToneMap.h"
+#include "LanternMeasure/MeasurePaths.h"
 #include "LanternMeasure/Settling.h"
 #include "Progress.h"
 #include "Session.h"
@@ -150,6 +151,23 @@ int WriteOutputs(const FPictureOptions& Picture, const FImage& Image, const nloh
 	return WriteJsonFile(Picture.Json, Json.dump(2) + "\n");
 }
 
+constexpr uint32_t FewestPathFrames = FPathScript::SettleFrames + 2; // a path's script ends with those that settle
+
+/// Returns the frames in which the camera comes to the view along a path of lantern chart.
+FScript MakeWay(FSession& Session, const FRenderOptions& Options)
+{
+	const FSceneDescription& Scene = Session.GetEngine().GetScene().GetDescription();
+	const FScenePose Pose = EvaluatePose(Scene, Options.Picture.Time);
+	FPathSettings Settings;
+	Settings.Frames = FPathScript::SettleFrames + 1;
+	Settings.WarmUp = Options.Frames - Settings.Frames;
+	Settings.Time = std::max(Options.Picture.Time, Options.Frames * double(Settings.DeltaSeconds));
+	const FMeasureViews Views = FindMeasureViews(Scene, Pose, Session.MakeView(Options.Picture));
+	FScript Way = MakePathScript(FindPath(Options.Path).value_or(EMeasurePath::Still), Views, Settings, nullptr).Script;
+	Way.resize(Options.Frames);
+	return Way;
+}
+
 /// Renders frames of one view, a given number of them or until they have settled.
 class FFrameLoop
 {
@@ -158,6 +176,7 @@ public:
 	    : Session(InSession),
 	      Options(InOptions),
 	      View(InSession.MakeView(InOptions.Picture)),
+	      Way(InOptions.Path.empty() ? FScript() : MakeWay(InSession, InOptions)),
 	      Most(InOptions.Frames > 0 ? InOptions.Frames : MostFramesToSettle)
 	{}
 
@@ -188,7 +207,9 @@ private:
 		Capture.bDisplay = bPicture && IsDisplayOutput(Options.Picture.Output);
 		Capture.bLighting = bSettle || (bPicture && !Capture.bDisplay);
 		FSampleEngine& Engine = Session.GetEngine();
-		if (FRTStatus S = Engine.RenderFrame(View, Options.Picture.Time, Capture, bPicture ? &Frame : nullptr); !S) { return S; }
+		const FView& At = Way.empty() ? View : Way[Done].View;
+		const double Time = Way.empty() ? Options.Picture.Time : Way[Done].Time;
+		if (FRTStatus S = Engine.RenderFrame(At, Time, Capture, bPicture ? &Frame : nullptr); !S) { return S; }
 		if (bSettle)
 		{
 			const bool bAccumulates = Engine.GetRenderer().GetHistory().GetBytes() > 0;
@@ -204,6 +225,7 @@ private:
 	FSession& Session;
 	const FRenderOptions& Options;
 	const FView View;
+	const FScript Way; // empty: all frames are at View
 	const uint32_t Most;
 	uint32_t Done = 0;
 	FCapturedFrame Frame; // the newest that is captured
@@ -216,6 +238,11 @@ private:
 int RunRender(FRenderOptions Options)
 {
 	const auto Start = std::chrono::steady_clock::now();
+	if (!Options.Path.empty() && Options.Frames < FewestPathFrames)
+	{
+		LogError("--path needs --frames of {} or more", FewestPathFrames);
+		return ExitUsage;
+	}
 	if (const int Status = PreparePicture(Options.Picture); Status != ExitDone) { return Status; }
 	FTaskTrace::SetFolder(std::filesystem::path(Options.Picture.Output).parent_path().string());
 	FSession Session;

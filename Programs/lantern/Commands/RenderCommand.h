@@ -12,6 +12,7 @@ struct FRenderOptions
 	FPictureOptions Picture;
 	/// 0: until what accumulates has settled. RunRender replaces it by the number of frames that it took.
 	uint32_t Frames = 0;
+	std::string Path; ///< a name that FindPath knows: the camera comes along it, and the last frame is at the view. Empty: it stands still
 	bool bDumpGraph = false;
 };
 int RunRender(FRenderOptions Options);

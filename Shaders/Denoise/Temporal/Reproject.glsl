@@ -26,10 +26,17 @@ FAccumulated LoadAccumulated(ivec2 Texel)
 	return FAccumulated(GetSignal(History), Moments.x, Frames, Moments.y);
 }
 
+const float MostFramesOfOthers = 16.0; // of a history that is partly another surface's
+
 FHistory ReprojectHistory(FViewConstants View, uvec2 Pixel, FSurface Surface)
 {
 	if (Push.History == NO_TEXTURE) { return NoHistory; }
+#if CHANNELS == 1
 	FReprojection R = LoadReprojection(Push.Reprojection, ivec2(Pixel));
+#else
+	bool bOther;
+	FReprojection R = LoadSoftReprojection(Push.Reprojection, ivec2(Pixel), bOther);
+#endif
 	FAccumulated Sum = NothingAccumulated; // Frames: sum of their inverses
 	float Weights = 0.0;
 	FSignalRange Range = FSignalRange(FSignal(MaxHalf), FSignal(0.0));
@@ -50,6 +57,9 @@ FHistory ReprojectHistory(FViewConstants View, uvec2 Pixel, FSurface Surface)
 	// A history of few texels is worth less: it is as noisy as these, and its noise is theirs.
 	float Known = R.Coverage * Weights;
 	float Frames = Weights / Sum.Frames * Known * Known;
+#if CHANNELS != 1
+	if (bOther) { Frames = min(Frames, MostFramesOfOthers); }
+#endif
 	FAccumulated Past = FAccumulated(Sum.Mean / Weights, Sum.NoiseSigma / Weights, Frames, Sum.NeighborhoodMean / Weights);
 	bool bResampled = any(greaterThan(R.Fraction * (1.0 - R.Fraction), vec2(1.0e-4)));
 	FHistory History = FHistory(Past, 0.0, bResampled, R.Base + ivec2(R.Fraction + 0.5));

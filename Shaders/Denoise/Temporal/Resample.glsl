@@ -1,7 +1,8 @@
 // Step "resample" of the temporal filter: reads the history between texels sharply, and estimates the error of doing so.
 //   Takes: a history that has been interpolated bilinearly, and the range of its four nearest texels.
 //   Gives: the history's mean by cubic weights, and ResamplingVariance.
-//   Why: bilinear weights blur what is resampled frame after frame; cubic ones (Catmull & Rom 1974) hardly do. What remains
+//   Why: bilinear weights blur what is resampled frame after frame; cubic ones (Catmull & Rom 1974) hardly do. They also sharpen the noise
+//   of colours, of which the brightest then stands out: texels that differ by noise alone are read by bilinear weights. What remains
 //   of the error grows with the range of the texels. It counts as variance of the history (Blend.glsl), so that a moving edge
 //   relies on new frames and a smooth region does not.
 #ifndef LANTERN_TEMPORAL_RESAMPLE_GLSL
@@ -17,17 +18,30 @@ struct FSignalRange
 	FSignal Low, High;
 };
 
-// Range that noise explains is no error of resampling.
-float GetResamplingVariance(FSignalRange Range, FAccumulated Past)
+// Squared range that noise does not explain.
+float GetStructure(FSignalRange Range, FAccumulated Past)
 {
 	float Spread = GetBrightness(Range.High - Range.Low);
-	float OfNoise = NoiseOfRange * Past.NoiseSigma * Past.NoiseSigma / Past.Frames;
-	return Push.Resampling * RangeError * max(Spread * Spread - OfNoise, 0.0);
+	return max(Spread * Spread - NoiseOfRange * Past.NoiseSigma * Past.NoiseSigma / Past.Frames, 0.0);
+}
+
+// Returns which part of the difference to bilinear weights counts.
+float GetCubicShare(FSignalRange Range, float Structure)
+{
+#if CHANNELS == 1
+	return 1.0;
+#else
+	float Spread = GetBrightness(Range.High - Range.Low);
+	return Structure / max(Spread * Spread, 1.0e-12);
+#endif
 }
 
 // A texel that shows another surface counts as the bilinear mean. The result stays within Range: cubic weights overshoot.
 void ResampleCubic(FViewConstants View, FReprojection R, uvec2 Pixel, FSurface Surface, FSignalRange Range, inout FHistory History)
 {
+	float Structure = GetStructure(Range, History.Past), Share = GetCubicShare(Range, Structure);
+	History.ResamplingVariance = Push.Resampling * RangeError * Structure;
+	if (Share <= 0.0) { return; }
 	FExpectedSurface Expected = ExpectSurface(View, Pixel, Surface, texelFetch(Textures[Push.Motion], ivec2(Pixel), 0));
 	Expected.DistanceSlope *= 2.0; // texels are up to two pixels away
 	vec4 X = CubicWeights(R.Fraction.x), Y = CubicWeights(R.Fraction.y);
@@ -39,8 +53,7 @@ void ResampleCubic(FViewConstants View, FReprojection R, uvec2 Pixel, FSurface S
 		bool bSame = AreFinite(H) && ShowedSurface(Expected, Push.PreviousSurface, P);
 		Sum += (bSame ? GetSignal(H) : History.Past.Mean) * (X[Tap & 3] * Y[Tap >> 2]);
 	}
-	History.ResamplingVariance = GetResamplingVariance(Range, History.Past);
-	History.Past.Mean = clamp(Sum, Range.Low, Range.High);
+	History.Past.Mean = mix(History.Past.Mean, clamp(Sum, Range.Low, Range.High), Share);
 }
 
 #endif
