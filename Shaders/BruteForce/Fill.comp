@@ -7,21 +7,6 @@
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
 layout(push_constant, scalar) uniform FPush { FFillConstants Push; };
 
-void LoadPlanes(FViewConstants View)
-{
-	ivec2 First = ivec2(gl_WorkGroupID.xy) * TILE_SIZE - 1;
-	for (uint I = gl_LocalInvocationIndex; I < uint(RingSize * RingSize); I += TILE_PIXELS)
-	{
-		ivec2 Pixel = First + ivec2(I % RingSize, I / RingSize);
-		bool bInside = all(greaterThanEqual(Pixel, ivec2(0))) && !IsOutsideView(View, uvec2(Pixel));
-		float Depth = bInside ? LoadDepth(Push.Depth, Pixel) : 0.0;
-		SetPlane(I, false, vec3(0.0), vec3(0.0));
-		if (Depth <= 0.0) { continue; }
-		FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
-		SetPlane(I, true, Point.Relative, Point.Ng);
-	}
-}
-
 const float OfOthers = 2.0; // FDenoiseInputs::Signal
 
 // What lies alone on its plane takes what there is: leaves and wires have no others.
@@ -50,7 +35,7 @@ void FillPixel(uint Image, ivec2 Pixel, uint Neighbors)
 void main()
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
-	LoadPlanes(View);
+	LoadPlanes(View, Push.Depth, Push.Normals);
 	barrier();
 	ivec2 Pixel = ivec2(gl_GlobalInvocationID.xy), InTile = ivec2(gl_LocalInvocationID.xy);
 	if (IsOutsideView(View, uvec2(Pixel)) || HasTurn(View.FrameIndex, TilePlace(uvec2(Pixel)))) { return; }

@@ -11,15 +11,19 @@ void main()
 {
 	uvec2 Thread;
 	uint Number = gl_GlobalInvocationID.y * (RAY_QUEUE_GROUP_SIZE * RAY_QUEUE_ROW_GROUPS) + gl_GlobalInvocationID.x;
-	if (FindDeferred(Number, Thread)) { GatherPixel(Thread); }
+	if (FindDeferred(Number, Thread)) { GatherPaths(Thread); }
 }
 #else
 layout(local_size_x = RAY_QUERY_GROUP_SIZE, local_size_y = RAY_QUERY_GROUP_SIZE) in;
 
 void main()
 {
-	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	// Groups at the border reach beyond it.
-	if (all(lessThan(gl_GlobalInvocationID.xy, TurnThreads(uvec2(View.Width, View.Height))))) { GatherPixel(gl_GlobalInvocationID.xy); }
+#ifdef SCREEN_PROBES
+	GatherPaths(gl_GlobalInvocationID.xy);
+#else
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	if (all(lessThan(gl_GlobalInvocationID.xy, TurnThreads(uvec2(View.Width, View.Height))))) { GatherPaths(gl_GlobalInvocationID.xy); }
+#endif
 }
 #endif

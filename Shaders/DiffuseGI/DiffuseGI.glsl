@@ -3,16 +3,26 @@
 // RADIANCE_CELLS: paths end in radiance cells. One pixel of four votes for the places of cells, in turn.
 // DEFERS_PATHS: paths that meet no cell are left to a second launch, of DEFERRED_PATHS, which has a thread for each of their pixels.
 // GUIDED_PATHS: see PathGuide.glsl. Each thread leaves a record of its first path.
+// SCREEN_PROBES: paths start at screen probes instead of pixels.
 // SECOND_LOBE: the paths light the specular lobe as well (ESignal::RoughSpecular).
 // CHECKERBOARD, QUARTER: see Rate.glsl. BruteForce/Fill.comp fills the other pixels.
 // HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_EMISSIVE, HAS_MASKED: defined if the scene has such.
 #ifndef LANTERN_DIFFUSE_GI_GLSL
 #define LANTERN_DIFFUSE_GI_GLSL
 
+#ifdef SCREEN_PROBES
+#define QUARTER // of the short rays of pixels
+#endif
 #include "../Shared/BruteForceTypes.h"
 #include "../Shared/RayQueueTypes.h"
 #include "../Library/Rate.glsl"
 #include "../Rays/IndirectSampling.glsl"
+#ifdef SECOND_LOBE
+#include "SecondLobe.glsl"
+#endif
+#ifdef SCREEN_PROBES
+#include "../ScreenProbes/Trace.glsl"
+#endif
 
 layout(push_constant, scalar) uniform FPush { FBruteForceConstants Push; };
 
@@ -72,29 +82,19 @@ void DeferThread(uvec2 Thread)
 }
 #endif
 
-#ifdef SECOND_LOBE
-// Narrower lobes are widened: the filter follows surfaces and not what they mirror.
-const float LeastRoughness = 0.2;
-
-// Returns the directional albedo of the specular lobe that the pixel's paths light. It draws a share of paths like the one that it
-// has of the reflected light, so that none counts for more than 4/3 of the albedo.
-vec3 SetSecondLobe(ivec2 Pixel, FGBufferPoint Point)
+#ifdef SCREEN_PROBES
+// Thread: see TraceProbes.
+void GatherPaths(uvec2 Thread)
 {
-	const float MostShare = 0.75;
-	vec4 Material = texelFetch(Textures[Push.Material], Pixel, 0);
-	Material.x = max(Material.x, LeastRoughness);
-	FBrdf Brdf = MakeGBufferBrdf(texelFetch(Textures[Push.BaseColor], Pixel, 0), Material);
-	SecondLobe = MakeSpecularLobe(Brdf);
-	float NdotV = dot(Point.BentN, Point.V);
-	vec3 Albedo = SpecularReflectance(SecondLobe, NdotV, Material.x);
-	float Specular = Luminance(Albedo), Diffuse = Luminance(DiffuseReflectance(Brdf, NdotV));
-	SecondShare = MostShare * Specular / max(Specular + Diffuse, 1.0e-4);
-	return Albedo;
-}
+	FScreenProbeGrid Grid = FScreenProbeGridRef(Push.ProbeGrid).Data;
+	bool bDone = TraceProbes(FProbeTrace(Push.Pass, Grid, Push.RadianceCells, Push.Depth, Push.Normals, Push.MaxBounces), Thread);
+#ifdef DEFERS_PATHS
+	if (!bDone) { DeferThread(Thread); }
 #endif
-
+}
+#else
 // Thread: of a launch of as many as trace in this frame.
-void GatherPixel(uvec2 Thread)
+void GatherPaths(uvec2 Thread)
 {
 	FViewConstants View = FViewRef(Push.Pass.View).Data;
 	ivec2 Pixel = ivec2(min(TurnPixel(Thread, View.FrameIndex), uvec2(View.Width, View.Height) - 1u));
@@ -113,7 +113,7 @@ void GatherPixel(uvec2 Thread)
 		FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 		FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
 #ifdef SECOND_LOBE
-		vec3 Albedo = SetSecondLobe(Pixel, Point);
+		vec3 Albedo = FindSecondLobe(Push.BaseColor, Push.Material, Pixel, Point, SecondLobe, SecondShare);
 #endif
 		Radiance = AverageIndirectSamples(Scene, View, uvec2(Pixel), Point, MakeWhiteLambert(), Push.SamplesPerPixel, Push.MaxBounces,
 		                                  0x61c88647u);
@@ -136,5 +136,7 @@ void GatherPixel(uvec2 Thread)
 	imageStore(Images[Push.SecondOutput], Pixel, RoundToHalf(vec4(Specular, 1.0)));
 #endif
 }
+
+#endif
 
 #endif

@@ -22,6 +22,22 @@ void SetPlane(uint RingPlace, bool bSurface, vec3 Relative, vec3 Normal)
 	RingNormals[RingPlace] = bSurface ? PackOct(Normal) : NoRingNormal;
 }
 
+// Sets the planes of all pixels of the ring. A barrier must follow. Depth, Normals: sampled indices.
+void LoadPlanes(FViewConstants View, uint Depths, uint Normals)
+{
+	ivec2 First = ivec2(gl_WorkGroupID.xy) * TILE_SIZE - 1;
+	for (uint I = gl_LocalInvocationIndex; I < uint(RingSize * RingSize); I += TILE_PIXELS)
+	{
+		ivec2 Pixel = First + ivec2(I % RingSize, I / RingSize);
+		bool bInside = all(greaterThanEqual(Pixel, ivec2(0))) && !IsOutsideView(View, uvec2(Pixel));
+		float Depth = bInside ? LoadDepth(Depths, Pixel) : 0.0;
+		SetPlane(I, false, vec3(0.0), vec3(0.0));
+		if (Depth <= 0.0) { continue; }
+		FGBufferPoint Point = LoadGBufferPoint(View, Normals, Pixel, Depth);
+		SetPlane(I, true, Point.Relative, Point.Ng);
+	}
+}
+
 // Whether two pixels next to each other show one plane, or a surface that is nearly one.
 bool SharePlane(FViewConstants View, uint A, uint B)
 {

@@ -20,8 +20,9 @@ struct FBruteForceConstants
 	uint Pad;
 	FAddress GuideTiles;  // FPathGuideTile[] of the previous frame, for shaders with GUIDED_PATHS; 0: there are none
 	FAddress PathRecords; // see FPathGuideConstants::Records
+	FAddress ProbeGrid;   // FScreenProbeGrid, for shaders with SCREEN_PROBES
 };
-LANTERN_ASSERT_SIZE(FBruteForceConstants, 88);
+LANTERN_ASSERT_SIZE(FBruteForceConstants, 96);
 
 // Threads of a launch whose paths have met no radiance cell. A second launch follows them, in which neighbours do the same. The numbers of
 // the threads lie behind: y << 16 | x.

@@ -103,7 +103,7 @@ struct FRadianceGrid
 {
 	FAddress Keys;        // uint[]: hash of a cell's place; 0: the slot is free
 	FAddress Cells;       // FRadianceCell[]
-	FAddress Votes;       // FRadianceVote[]: one for each block of 2 × 2 pixels
+	FAddress Votes;       // FRadianceVote[VoteCount]
 	FAddress UpdateVotes; // FRadianceVote[RADIANCE_CELL_MOST_UPDATES]: of updates, which count in the next frame
 	FAddress List;        // uint[RADIANCE_CELL_MOST_UPDATES]: slots to update
 	FAddress Results;     // FRadianceResult[RADIANCE_CELL_MOST_UPDATES]

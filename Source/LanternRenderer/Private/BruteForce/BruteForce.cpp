@@ -10,6 +10,7 @@
 #include "LocalLights/Emitters.h"
 #include "RadianceCells/RadianceCells.h"
 #include "RayQueueTypes.h"
+#include "ScreenProbes/ScreenProbes.h"
 #include "SignalPasses.h"
 #include "TileTypes.h"
 
@@ -65,7 +66,8 @@ struct FPaths
 	FGraphTexture SecondOutput; ///< of the second lobe; invalid: there is none
 	FGraphBuffer Deferred;      ///< FDeferredPaths; invalid: there is no second launch
 	const FRadianceCells* RadianceCells = nullptr;
-	FPathGuide Guide; ///< invalid: paths are not guided
+	FPathGuide Guide;     ///< invalid: paths are not guided
+	FScreenProbes Probes; ///< invalid: paths start at pixels
 	FRayDispatch First, Second;
 	uint32_t Width = 0, Height = 0; ///< of the first launch
 };
@@ -85,8 +87,17 @@ FPaths MakePaths(const FBruteForcePass& Settings, FFrameContext& Context, const 
 		Paths.SecondOutput =
 		    Context.Graph.CreateTexture({Context.Width, Context.Height, Specular.Format, ERTTextureUsage::CopySource}, Specular.Pass);
 	}
-	Paths.RadianceCells =
-	    Settings.EndsInRadianceCells() ? RequireRadianceCells(Context, First.Compute ? ERayPath::Query : ERayPath::Pipeline) : nullptr;
+	if (First.Has(ScreenProbesDefine))
+	{
+		Paths.Probes = MakeScreenProbes(Context, First.Has(SecondLobe));
+		if (!Paths.Probes.IsValid()) { return Paths; }
+		Paths.Width = Paths.Probes.GetLaunchWidth();
+		Paths.Height = Paths.Probes.GetLaunchHeight();
+	}
+	const uint32_t Voters = Paths.Probes.IsValid() ? DivideUp(Paths.Probes.GetRayCount(), Paths.Probes.Grid.RaysPerVote)
+	                                               : DivideUp(Context.Width, 2) * DivideUp(Context.Height, 2);
+	const ERayPath Path = First.Compute ? ERayPath::Query : ERayPath::Pipeline;
+	Paths.RadianceCells = Settings.EndsInRadianceCells() ? RequireRadianceCells(Context, Path, Voters) : nullptr;
 	if (First.Has(GuidedPathsDefine)) { Paths.Guide = MakePathGuide(Context, Rate, uint64_t(Paths.Width) * Paths.Height); }
 	if (Second)
 	{
@@ -140,6 +151,7 @@ void TraceDeferred(FPassContext& Pass, const FFrameContext& Frame, const FPaths&
 
 bool NeedsSurface(const FBruteForcePass& Settings, const FPaths& Paths)
 {
+	if (Paths.Probes.IsValid()) { return false; }
 	return GetSignalInfo(Settings.Signal).bNeedsSurface || Paths.SecondOutput.IsValid();
 }
 
@@ -155,9 +167,13 @@ void DeclarePaths(FPassBuilder& Builder, const FBruteForcePass& Settings, const 
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
 	}
-	Builder.Write(Paths.Output, ERTAccess::StorageWrite);
-	if (Paths.SecondOutput.IsValid()) { Builder.Write(Paths.SecondOutput, ERTAccess::StorageWrite); }
+	if (!Paths.Probes.IsValid()) // else a pass behind them does
+	{
+		Builder.Write(Paths.Output, ERTAccess::StorageWrite);
+		if (Paths.SecondOutput.IsValid()) { Builder.Write(Paths.SecondOutput, ERTAccess::StorageWrite); }
+	}
 	if (Paths.Guide.IsValid()) { DeclareGuidedPaths(Builder, Paths.Guide); }
+	if (Paths.Probes.IsValid()) { DeclareScreenProbeRays(Builder, Paths.Probes); }
 	if (!Paths.Deferred.IsValid()) { return; }
 	Builder.Read(Paths.Deferred, bDeferred ? ERTAccess::ShaderRead : ERTAccess::StorageRead);
 	if (bDeferred) { Builder.Read(Paths.Deferred, ERTAccess::IndirectRead); }
@@ -175,8 +191,12 @@ void RecordPaths(FPassContext& Pass, const FFrameContext& Frame, const FBruteFor
 	C.Normals = GetSampledIndex(Pass, GBuffer.Normals);
 	C.BaseColor = bNeedsSurface ? GetSampledIndex(Pass, GBuffer.BaseColor) : NO_TEXTURE;
 	C.Material = bNeedsSurface ? GetSampledIndex(Pass, GBuffer.Material) : NO_TEXTURE;
-	C.Output = GetStorageIndex(Pass, Paths.Output);
-	C.SecondOutput = GetStorageIndex(Pass, Paths.SecondOutput);
+	C.Output = C.SecondOutput = NO_TEXTURE;
+	if (!Paths.Probes.IsValid())
+	{
+		C.Output = GetStorageIndex(Pass, Paths.Output);
+		C.SecondOutput = GetStorageIndex(Pass, Paths.SecondOutput);
+	}
 	C.SamplesPerPixel = static_cast<uint32_t>(Settings.Samples.GetOnRenderThread());
 	C.MaxBounces = (Paths.RadianceCells ? std::max(Bounces, BouncesWithoutCell) : Bounces) + 1;
 	C.RadianceCells = WriteRadianceGrid(Pass, Paths.RadianceCells);
@@ -184,6 +204,7 @@ void RecordPaths(FPassContext& Pass, const FFrameContext& Frame, const FBruteFor
 	C.Deferred = GetAddress(Pass, Paths.Deferred);
 	C.GuideTiles = GetGuideTiles(Pass, Paths.Guide);
 	C.PathRecords = GetAddress(Pass, Paths.Guide.Records);
+	C.ProbeGrid = WriteScreenProbeGrid(Pass, Paths.Probes);
 	if (bDeferred) { return TraceDeferred(Pass, Frame, Paths, C); }
 	Pass.CountRays(uint64_t(Paths.Width) * Paths.Height * C.SamplesPerPixel * GetMaxPathRays(Frame.Facts, Bounces));
 	TraceFirst(Pass, Frame, Paths, C);
@@ -229,16 +250,19 @@ FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery
 	if (Rays.Path == ERayPath::None) { return Rays; }
 	Rays.Defines = MakePathDefines(Query.Facts);
 	if (IsEmissionDirect(Query, GetSignalPass(Settings.Signal).EmissionIn)) { Rays.Defines.emplace_back(EmissiveDirectDefine, "1"); }
-	if (Settings.Second != ESignal::Count && Settings.LightsSecond(Query)) { Rays.Defines.emplace_back(SecondLobe, "1"); }
+	const bool bSecondLobe = Settings.Second != ESignal::Count && Settings.LightsSecond(Query);
+	if (bSecondLobe) { Rays.Defines.emplace_back(SecondLobe, "1"); }
 	if (Query.Facts.Lights > 0) { Rays.Defines.emplace_back("LIGHT_CELLS_OF_VIEW", "1"); }
-	if (Settings.Rate)
+	const bool bProbes = Settings.FromProbes();
+	if (bProbes) { AddScreenProbeShaders(bSecondLobe, Rays.Defines, Rays.Compute); }
+	else if (Settings.Rate)
 	{
 		const auto Rate = static_cast<EPixelRate>(Settings.Rate->GetOnRenderThread());
 		AddRateDefine(Rate, Rays.Defines);
 		if (Rate != EPixelRate::Full) { Rays.Compute.push_back(MakeFillSource(Rate)); }
 	}
 	if (!CVarMixturePdf.GetOnRenderThread()) { Rays.Defines.emplace_back("NO_MIXTURE_PDF", "1"); }
-	if (Settings.IsGuided()) { AddPathGuideDefines(FindRate(Rays.Defines), Rays); }
+	if (!bProbes && Settings.IsGuided()) { AddPathGuideDefines(FindRate(Rays.Defines), Rays); }
 	Rays.bRadianceCells = Settings.EndsInRadianceCells();
 	if (Rays.bRadianceCells)
 	{
@@ -279,10 +303,16 @@ FBruteForceOutputs AddBruteForcePass(const FBruteForcePass& Settings, FFrameCont
 	if (Rate != EPixelRate::Full && !Fill) { return {}; }
 	const FPaths Paths = MakePaths(Settings, Context, *First, Second ? &*Second : nullptr);
 	if (First->Has(GuidedPathsDefine) && !Paths.Guide.IsValid()) { return {}; }
+	if (First->Has(ScreenProbesDefine))
+	{
+		if (!Paths.Probes.IsValid()) { return {}; }
+		AddScreenProbePlan(Context, GBuffer, Paths.Probes);
+	}
 	if (Second) { AddDeferredStartPass(Context, Paths); }
 	AddPathsPass(Settings, Context, GBuffer, Paths, false);
 	if (Second) { AddDeferredPasses(Settings, Context, GBuffer, Paths); }
 	if (Paths.Guide.IsValid()) { AddPathGuideUpdate(Context, GBuffer, Paths.Guide); }
+	if (Paths.Probes.IsValid()) { AddScreenProbeGather(Context, GBuffer, Paths.Probes, Paths.Output, Paths.SecondOutput); }
 	if (Fill)
 	{
 		AddFillPass(Context, GBuffer, std::string(GetSignalInfo(Settings.Signal).Pass) + "Fill", Paths.Output, Paths.SecondOutput, Fill);

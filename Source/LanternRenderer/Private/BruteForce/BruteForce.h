@@ -1,5 +1,5 @@
 // Indirect light by brute force: paths from every pixel through one lobe of its surface. It is the baseline that every later
-// method must beat.
+// method must beat. Paths of screen probes are launched in the same way.
 #pragma once
 
 #include "RayPath.h"
@@ -29,6 +29,8 @@ struct FBruteForcePass
 	/// colour and material are then read. Count: there is none.
 	ESignal Second = ESignal::Count;
 	bool (*LightsSecond)(const FPassQuery& Query) = nullptr;
+	/// Whether paths start at screen probes, which light the pixels around them. For white Lambert lobes; Rate and IsGuided do not count then.
+	bool (*FromProbes)() = [] { return false; };
 };
 
 ERayPath ChooseBruteForcePath(const FBruteForcePass& Settings, const FPassQuery& Query);

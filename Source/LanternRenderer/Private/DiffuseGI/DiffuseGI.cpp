@@ -16,8 +16,8 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<int32_t> CVarRoute("r.RT.GI", 0,
-    "Diffuse global illumination. 0: off, and ambient light of the sky stands in. 1: paths of r.RT.GI.Bounces, by brute force. 2: as 3. 3: "
-    "one ray a sample, which ends in radiance cells that hold the light of all further bounces.",
+    "Diffuse global illumination. 0: off, and ambient light of the sky stands in. 1: paths of r.RT.GI.Bounces, by brute force. 2: screen "
+    "probes, whose rays end in radiance cells that hold the light of all further bounces. 3: rays of pixels, which end there as well.",
     {0, 3});
 TRTConsoleVariable<int32_t> CVarSamples("r.RT.GI.Samples", 1, "Number of diffuse global illumination paths per pixel.", {1, 64});
 TRTConsoleVariable<int32_t> CVarBounces("r.RT.GI.Bounces", 1,
@@ -40,16 +40,25 @@ TRTConsoleVariable<bool> CVarRoughSpecular("r.RT.GI.RoughSpecular", true,
 // Where one path in a hundred finds a lamp, most neighbourhoods are dark in a frame, and a clamp to them would lose its light.
 const FDenoiseVariables Denoise("r.RT.GI", FDenoiseDefaults{.SigmaValue = 3.0f, .bColor = true, .ClampSigma = 0.0f});
 constexpr int32_t FirstCachedRoute = 2;
+constexpr uint32_t MostProbePasses = 2; // of the wavelet: probes have spread their light already
+
+bool IsProbeRoute() { return CVarRoute.GetOnRenderThread() == 2; }
 
 constexpr FBruteForcePass BruteForce{ESignal::DiffuseGI, "r.RT.GI", [] { return CVarRoute.GetOnRenderThread() != 0; }, CVarSamples,
     CVarBounces, nullptr, [] { return CVarRoute.GetOnRenderThread() >= FirstCachedRoute; }, &CVarRate, &CVarPath,
     [] { return CVarGuide.GetOnRenderThread(); }, "diffuse global illumination is", ESignal::RoughSpecular,
-    [](const FPassQuery& Query) { return ChooseRoughSpecularRays(Query).Path != ERayPath::None; }};
+    [](const FPassQuery& Query) { return ChooseRoughSpecularRays(Query).Path != ERayPath::None; }, IsProbeRoute};
 
 /// A filter that remembers longer than the cells may would undo what they know of changes.
 FDenoiseSettings GetFilter(const FFrameContext& Context)
 {
 	FDenoiseSettings Settings = Denoise.Get();
+	if (IsProbeRoute())
+	{
+		// Neighbours share their noise, which looks like change, and like a picture without noise.
+		Settings.ChangeSigma = 0.0f;
+		Settings.Passes = std::min(Settings.Passes, MostProbePasses);
+	}
 	if (const FRadianceCells* const Cells = Context.RadianceCells.get())
 	{
 		Settings.HistorySeconds = std::min(Settings.HistorySeconds, Cells->EventFrames * Context.View.DeltaSeconds);
@@ -57,7 +66,7 @@ FDenoiseSettings GetFilter(const FFrameContext& Context)
 	return Settings;
 }
 
-EPixelRate GetRate() { return static_cast<EPixelRate>(CVarRate.GetOnRenderThread()); }
+EPixelRate GetRate() { return IsProbeRoute() ? EPixelRate::Full : static_cast<EPixelRate>(CVarRate.GetOnRenderThread()); }
 
 /// Whether the lobes are filtered in the same passes.
 bool IsPair(const FPassQuery& Query)

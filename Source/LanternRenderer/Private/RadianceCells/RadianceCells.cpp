@@ -101,7 +101,6 @@ FRadianceGrid MakeGrid(const FFrameContext& Context, uint32_t Slots, const FRadi
 	Grid.EventCount = static_cast<uint32_t>(Events.Spheres.size());
 	Grid.SizeAngle = CVarSizeAngle.GetOnRenderThread();
 	Grid.NearCells = CVarNear.GetOnRenderThread();
-	Grid.VoteCount = DivideUp(Context.Width, 2) * DivideUp(Context.Height, 2);
 	return Grid;
 }
 
@@ -116,12 +115,13 @@ void SetPace(FRadianceGrid& Grid, bool bHurry, float DeltaSeconds)
 	Grid.LeastWait = bHurry ? 1u : std::max(static_cast<uint32_t>(Grid.Window / MostUpdatesInWindow), 1u);
 }
 
-std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context)
+std::shared_ptr<const FRadianceCells> MakeCells(FFrameContext& Context, uint32_t Voters)
 {
 	const auto Cells = std::make_shared<FRadianceCells>();
 	Cells->Slots = GetSlots();
 	const FRadianceEvents::FFound Events = Context.RadianceEvents->Find(Context.Scene, Context.View.DeltaSeconds);
 	Cells->Grid = MakeGrid(Context, Cells->Slots, Events);
+	Cells->Grid.VoteCount = Voters;
 	Cells->EventFrames = Events.Window;
 	FHistoryBuffer History;
 	FRTStatus Status = Context.History->GetBuffer("RadianceCells", {FRadianceTable::GetSize(Cells->Slots)}, History, EHistoryScope::World);
@@ -258,13 +258,13 @@ void AddRadianceCellDefines(FShaderDefines& InOut)
 	if (!CVarDirection.GetOnRenderThread()) { InOut.emplace_back("NO_CELL_DIRECTION", "1"); }
 }
 
-const FRadianceCells* RequireRadianceCells(FFrameContext& Context, ERayPath Path)
+const FRadianceCells* RequireRadianceCells(FFrameContext& Context, ERayPath Path, uint32_t Voters)
 {
 	if (!Context.bRadianceCellsAsked)
 	{
 		Context.bRadianceCellsAsked = true;
 		const bool bReady = AreReady(Context) && FindUpdateDispatch(Context, Path);
-		if (bReady) { Context.RadianceCells = MakeCells(Context); }
+		if (bReady) { Context.RadianceCells = MakeCells(Context, Voters); }
 	}
 	return Context.RadianceCells.get();
 }

@@ -31,8 +31,8 @@ void AddRadianceCellDefines(FShaderDefines& InOut);
 constexpr const char* RadianceCellShaders = "RadianceCells/Update";
 
 /// Returns the cells of the frame's view. Null: shaders are being compiled, or there is no memory, of which the log tells. Path: as in
-/// ChooseRadianceCellRays.
-const FRadianceCells* RequireRadianceCells(FFrameContext& Context, ERayPath Path);
+/// ChooseRadianceCellRays. Voters: look-ups that may vote, each with a place of its own in FRadianceGrid::Votes, which it writes in any case.
+const FRadianceCells* RequireRadianceCells(FFrameContext& Context, ERayPath Path, uint32_t Voters);
 /// Declares that a pass looks cells up and asks for those that it misses. Cells may be null.
 void ReadRadianceCells(FPassBuilder& Builder, const FRadianceCells* Cells);
 /// Returns FRadianceGrid's address, while a pass with ReadRadianceCells is recorded. 0: Cells is null.
