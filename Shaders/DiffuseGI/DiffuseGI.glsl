@@ -18,7 +18,7 @@
 #include "../Library/Rate.glsl"
 #include "../Rays/IndirectSampling.glsl"
 #ifdef SECOND_LOBE
-#include "SecondLobe.glsl"
+#include "../Rays/SecondLobe.glsl"
 #endif
 #ifdef SCREEN_PROBES
 #include "../ScreenProbes/Trace.glsl"

@@ -7,7 +7,7 @@
 #include "../Library/Planes.glsl"
 #include "../Library/Rgbe.glsl"
 #ifdef SECOND_LOBE
-#include "../DiffuseGI/SecondLobe.glsl"
+#include "../Rays/SecondLobe.glsl"
 #endif
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;

@@ -317,6 +317,27 @@ TEST_F(FRendererLackTest, RadianceCellsAreThereForRoutesThatEndInThem)
 	EXPECT_FALSE(HasPart(Make(Empty), "RadianceCell")) << "without surfaces";
 }
 
+TEST_F(FRendererLackTest, ScreenProbesAreThereForTheirRouteAlone)
+{
+	FStage Pixels, Probes;
+	Pixels.Settings = {{"r.RT.GI", "3"}, {"r.RT.GI.Rate", "2"}};
+	Probes.Settings = {{"r.RT.GI", "2"}, {"r.RT.GI.Rate", "2"}};
+	const FNames Without = Make(Pixels), With = Make(Probes);
+	EXPECT_FALSE(HasPart(Without, "ScreenProbe"));
+	for (const char* Part : {"Plan", "Resolve", "Project", "Gather"})
+	{
+		EXPECT_TRUE(HasPart(With, std::string("pass ScreenProbes") + Part)) << Part;
+	}
+	EXPECT_TRUE(HasPart(With, "buffer ScreenProbes"));
+	EXPECT_FALSE(HasPart(With, "pass DiffuseGIFill")) << "all pixels have a value";
+	FStage Dark = Probes;
+	Dark.Content.bSun = Dark.Content.bSky = Dark.Content.bLights = Dark.Content.bEmissive = false;
+	EXPECT_FALSE(HasPart(Make(Dark), "ScreenProbe")) << "without light";
+	FStage Empty = Probes;
+	Empty.Content = {.bObjects = false, .bSky = true};
+	EXPECT_FALSE(HasPart(Make(Empty), "ScreenProbe")) << "without surfaces";
+}
+
 TEST_F(FRendererLackTest, DevicesWithoutPipelinesHaveDiffuseGIByQueries)
 {
 	FStage Stage;
