@@ -38,6 +38,11 @@ TEST(SynchronizationTest, RenderWithPipelinesAndEverySignal)
 	    "validation: ");
 }
 
+TEST(SynchronizationTest, RenderWithScreenProbesAndRadianceCells)
+{
+	ExpectExplained("", {"render", "courtyard", "--size", "64x36", "--frames", "3", "--validate", "--set", "r.RT.GI=2"}, "validation: ");
+}
+
 TEST(SynchronizationTest, SmallestEngine)
 {
 	ExpectExplained(LANTERN_MINIMAL, {LANTERN_SOURCE_DIR "/Plugin.json", LANTERN_LIBRARY_FOLDER, "--validate"}, "validation layers");
