@@ -140,6 +140,19 @@ struct FRadianceCellConstants
 };
 LANTERN_ASSERT_SIZE(FRadianceCellConstants, 32);
 
+#define RADIANCE_CELL_VIEW_GROUP 8u
+
+// Constants of the pass that shows cells.
+struct FRadianceCellViewConstants
+{
+	FPassConstants Pass;
+	FAddress Grid;       // FRadianceGrid
+	uint Depth, Normals; // sampled indices
+	uint Output;         // storage index
+	uint bLight;         // 1: shows the light that cells know; 0: cells
+};
+LANTERN_ASSERT_SIZE(FRadianceCellViewConstants, 40);
+
 LANTERN_SHARED_END
 
 #endif

@@ -8,6 +8,7 @@
 #include "DiffuseGI/DiffuseGI.h"
 #include "LocalLights/LampView.h"
 #include "LocalLights/LocalLights.h"
+#include "RadianceCells/RadianceCellsView.h"
 #include "Reflections/Reflections.h"
 #include "SunShadow/SunShadow.h"
 #include "Tiles/TileView.h"
@@ -37,7 +38,8 @@ constexpr FSignalPass Passes[] = {
         .Add = AddDiffuseGIPass,
         .WantsMotion = IsDiffuseGIFiltered,
         .ListFilters = ListDiffuseGIFilters,
-        .EmissionIn = ESignal::LocalDiffuse},
+        .EmissionIn = ESignal::LocalDiffuse,
+        .Pictures = RadianceCellPictures},
     {.Signal = ESignal::Reflections, .ChooseRays = ChooseReflectionsRays, .Add = AddReflectionsPass, .EmissionIn = ESignal::LocalSpecular},
     {.Signal = ESignal::LocalDiffuse,
         .ChooseRays = ChooseLocalLightRays,

@@ -317,6 +317,20 @@ TEST_F(FRendererLackTest, RadianceCellsAreThereForRoutesThatEndInThem)
 	EXPECT_FALSE(HasPart(Make(Empty), "RadianceCell")) << "without surfaces";
 }
 
+TEST_F(FRendererLackTest, PicturesOfRadianceCellsAreThereWhereSomebodyLooks)
+{
+	FStage Stage;
+	Stage.Settings = {{"r.RT.GI", "3"}};
+	EXPECT_FALSE(HasPart(Make(Stage), "RadianceCellsView"));
+	for (const char* const Picture : {"radiance_cells", "radiance_light"})
+	{
+		Stage.Settings = {{"r.RT.GI", "3"}, {"r.RT.Debug.View", Picture}};
+		EXPECT_TRUE(HasPart(Make(Stage), "pass RadianceCellsView")) << Picture;
+	}
+	Stage.Settings = {{"r.RT.GI", "1"}, {"r.RT.Debug.View", "radiance_cells"}};
+	EXPECT_FALSE(HasPart(Make(Stage), "RadianceCellsView")) << "without cells";
+}
+
 TEST_F(FRendererLackTest, ScreenProbesAreThereForTheirRouteAlone)
 {
 	FStage Pixels, Probes;

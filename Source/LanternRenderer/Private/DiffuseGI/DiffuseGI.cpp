@@ -7,6 +7,7 @@
 #include "Denoise/Denoise.h"
 #include "DiffuseGI/MovedShare.h"
 #include "RadianceCells/RadianceCells.h"
+#include "RadianceCells/RadianceCellsView.h"
 #include "Reflections/Reflections.h"
 #include "SignalPasses.h"
 
@@ -101,12 +102,19 @@ FLobes FilterLobes(FFrameContext& Context, const FGBuffer& GBuffer, const FBrute
 
 const FLobes& RequireLobes(FFrameContext& Context, const FGBuffer& GBuffer)
 {
-	if (!Context.IndirectLobes) { Context.IndirectLobes = FilterLobes(Context, GBuffer, AddBruteForcePass(BruteForce, Context, GBuffer)); }
+	if (Context.IndirectLobes) { return *Context.IndirectLobes; }
+	Context.IndirectLobes = FilterLobes(Context, GBuffer, AddBruteForcePass(BruteForce, Context, GBuffer));
+	AddRadianceCellsView(Context, GBuffer);
 	return *Context.IndirectLobes;
 }
 } // namespace
 
-FPassRays ChooseDiffuseGIRays(const FPassQuery& Query) { return ChooseBruteForceRays(BruteForce, Query); }
+FPassRays ChooseDiffuseGIRays(const FPassQuery& Query)
+{
+	FPassRays Rays = ChooseBruteForceRays(BruteForce, Query);
+	if (Rays.bRadianceCells) { ListRadianceCellsViewShaders(Rays.Compute); }
+	return Rays;
+}
 
 bool IsDiffuseGIFiltered(const FRTScene&) { return Denoise.IsEnabled(); }
 
