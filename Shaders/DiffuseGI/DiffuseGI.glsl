@@ -57,6 +57,17 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FDeferredPat
 	FDeferredPaths Header;
 	uint Threads[];
 };
+
+// Returns the number of threads in a row of the first launch.
+uint LaunchWidth()
+{
+#ifdef SCREEN_PROBES
+	return FScreenProbeGridRef(Push.ProbeGrid).Data.Columns * ProbeTexels;
+#else
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	return TurnThreads(uvec2(View.Width, View.Height)).x;
+#endif
+}
 #endif
 
 #ifdef DEFERRED_PATHS
@@ -66,8 +77,8 @@ bool FindDeferred(uint Number, out uvec2 OutThread)
 	FDeferredPathsRef Deferred = FDeferredPathsRef(Push.Deferred);
 	OutThread = uvec2(0u);
 	if (Number >= Deferred.Header.Launch[0]) { return false; }
-	uint Packed = Deferred.Threads[Number];
-	OutThread = uvec2(Packed & 0xffffu, Packed >> 16u);
+	uint Thread = Deferred.Threads[Number], Width = LaunchWidth();
+	OutThread = uvec2(Thread % Width, Thread / Width);
 	return true;
 }
 #endif
@@ -77,7 +88,7 @@ void DeferThread(uvec2 Thread)
 {
 	FDeferredPathsRef Deferred = FDeferredPathsRef(Push.Deferred);
 	uint Place = atomicAdd(Deferred.Header.Launch[0], 1u);
-	Deferred.Threads[Place] = Thread.x | (Thread.y << 16u);
+	Deferred.Threads[Place] = Thread.y * LaunchWidth() + Thread.x;
 	if (Place % (RAY_QUEUE_GROUP_SIZE * RAY_QUEUE_ROW_GROUPS) == 0u) { atomicAdd(Deferred.Header.Groups[1], 1u); }
 }
 #endif

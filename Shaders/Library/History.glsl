@@ -94,8 +94,8 @@ ivec2 GetTap(FReprojection R, int Tap) { return GetTap(R.Base, Tap); }
 const FReprojection NotSeen = FReprojection(ivec2(0), vec4(0.0), 0.0, vec2(0.0));
 
 // Texel of an RG32_UINT image, which one pass makes for all that reproject (Denoise/Surface.comp): for each axis, 16 bits of the first texel
-// plus 1 and 12 of the fraction; in the lowest 4 bits of x, the texels that showed the surface, and in those of y the ones that showed the
-// object at about its distance. None: it was not seen.
+// plus 1 and 12 of the fraction; in the lowest 4 bits of x, the texels that showed the surface, and in those of y the ones that surely
+// showed the object at about its distance. None: it was not seen.
 const float ReprojectionSteps = 4096.0;
 
 // Taps: the texels that count.
@@ -179,11 +179,11 @@ uvec2 FindReprojection(FViewConstants View, uint PreviousSurface, uvec2 Pixel, F
 		if (any(lessThan(P, ivec2(0))) || any(greaterThanEqual(P, ivec2(Size)))) { continue; }
 		FSurface Before = LoadSurface(PreviousSurface, P);
 		if (!IsSameObject(Now, Before, Expected.Distance, Expected.DistanceSlope, SimilarDistance)) { continue; }
-		Taps.y |= 1u << Tap;
+		if (Now.Identity != 0.0 && Before.Identity != 0.0) { Taps.y |= 1u << Tap; }
 		if (IsSameSurface(Now, Before, Expected.Distance, Expected.DistanceSlope)) { Taps.x |= 1u << Tap; }
 	}
 	uvec2 Fraction = uvec2((Position - vec2(Base)) * ReprojectionSteps + 0.5);
-	return Taps.y != 0u ? ((uvec2(Base + 1) << 16u) | (Fraction << 4u) | Taps) : uvec2(0u);
+	return any(notEqual(Taps, uvec2(0u))) ? ((uvec2(Base + 1) << 16u) | (Fraction << 4u) | Taps) : uvec2(0u);
 }
 
 // Weights of four texels in a row for a position at F, 0 to 1, between the second and the third (Catmull & Rom 1974). Bilinear

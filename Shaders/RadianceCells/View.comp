@@ -1,4 +1,4 @@
-// Shows the radiance cell of each pixel's place, as a long ray that ends there would find it: each cell has a colour of its own, and is the
+// Shows the radiance cell of each pixel's place, about as a long ray that ends there would find it: each cell has a colour of its own, and is the
 // darker the fewer updates it has had. Coarse ones that stand in are grey, and what has none is black. bLight: their light instead.
 #version 460
 #include "../Library/GBuffer.glsl"
@@ -18,15 +18,19 @@ FSeenCell FindCell(FRadianceGrid Grid, vec3 Position, vec3 Normal, float FromCam
 {
 	ivec3 Steps = ToRadianceSteps(Grid, Position);
 	uint Level = RadianceLevel(Grid, FromCamera, 0.5);
+	FSeenCell Unknown = FSeenCell(NO_RADIANCE_CELL, 0u, false);
 	for (uint I = 0u; I < 4u; ++I) // thin and thick, then coarse
 	{
 		bool bThick = (I & 1u) != 0u, bCoarse = I >= 2u, bFull;
 		uint Its = min(bCoarse ? Level + RADIANCE_CELL_COARSER : Level, RADIANCE_CELL_LEVELS - 1u);
 		FRadianceKey Key = MakeRadianceKey(Grid, Steps, Its, bCoarse, Normal, bThick);
 		uint Slot = FindRadianceCell(Grid, Key, bFull);
-		if (Slot != NO_RADIANCE_CELL) { return FSeenCell(Slot, Key.Check, bCoarse); }
+		if (Slot == NO_RADIANCE_CELL) { continue; }
+		FSeenCell Seen = FSeenCell(Slot, Key.Check, bCoarse);
+		if (RadianceCellCount(FRadianceCellRef(Grid.Cells).Data[Slot].State) >= (bCoarse ? LeastCoarseCount : 1u)) { return Seen; }
+		if (Unknown.Slot == NO_RADIANCE_CELL) { Unknown = Seen; }
 	}
-	return FSeenCell(NO_RADIANCE_CELL, 0u, false);
+	return Unknown;
 }
 
 vec3 ShowCell(FRadianceGrid Grid, FSeenCell Seen)
@@ -55,7 +59,7 @@ void main()
 	{
 		FRadianceGrid Grid = FRadianceGridRef(Push.Grid).Data;
 		FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
-		Color = ShowCell(Grid, FindCell(Grid, View.CameraPosition + Point.Relative, Point.Ng, length(Point.Relative)));
+		Color = ShowCell(Grid, FindCell(Grid, RasterRayOrigin(FSceneRef(Push.Pass.Scene).Data, View, Point), Point.Ng, length(Point.Relative)));
 	}
 	imageStore(Images[Push.Output], Pixel, vec4(Color, 1.0));
 }

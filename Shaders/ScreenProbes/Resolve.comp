@@ -27,7 +27,6 @@ void main()
 	}
 	vec3 U = vec3(HashPcg4(uvec4(Number, Texel, View.FrameIndex, View.Seed)).xyz >> 8u) * (1.0 / 16777216.0);
 	float Rays = float(max(Traced, 1u));
-	barrier(); // all have read the plan
 	Plans.Data[Number].Texels[Texel] = PackRgbe(Sum / Rays, U);
 	Plans.Data[Number].Rays[Texel] = Traced | (packHalf2x16(vec2(min(Inverse / Rays, 1.0e4), 0.0)) << 16u);
 }

@@ -5,7 +5,8 @@
 #include "Near.glsl"
 #include "../Rays/IndirectSampling.glsl"
 
-const float MostProbeLight = 1.0e15; // sums of products with it are finite
+// Sums of products of what it returns are finite.
+vec3 ClampProbeLight(vec3 L) { return mix(clamp(L, vec3(0.0), vec3(1.0e15)), vec3(0.0), isnan(L)); }
 
 // Returns the radiance that arrives along a ray, as Gather has it for a white Lambert lobe.
 // MaxDistance: below Infinity, what is missed has no light.
@@ -16,7 +17,7 @@ FScreenProbeRay TraceProbeRay(FSceneConstants Scene, vec3 P, vec3 Direction, flo
 	if (Hit.Distance < 0.0)
 	{
 #ifdef HAS_SKY
-		return FScreenProbeRay(SampleSkyRadiance(Scene, Direction), Infinity);
+		return FScreenProbeRay(ClampProbeLight(SampleSkyRadiance(Scene, Direction)), Infinity);
 #else
 		return FScreenProbeRay(vec3(0.0), Infinity);
 #endif
@@ -26,7 +27,7 @@ FScreenProbeRay TraceProbeRay(FSceneConstants Scene, vec3 P, vec3 Direction, flo
 #endif
 	const float Alone = 1.0 / 0.0; // pdf: nothing else finds what this ray finds
 	vec3 L = FollowPath(Scene, Hit, P, Direction, Alone, 1.0, 1u, MaxBounces, false, Random);
-	return FScreenProbeRay(mix(clamp(L, vec3(0.0), vec3(MostProbeLight)), vec3(0.0), isnan(L)), Hit.Distance);
+	return FScreenProbeRay(ClampProbeLight(L), Hit.Distance);
 }
 
 // bMayVote: a ray of a probe.

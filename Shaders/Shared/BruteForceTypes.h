@@ -25,7 +25,7 @@ struct FBruteForceConstants
 LANTERN_ASSERT_SIZE(FBruteForceConstants, 96);
 
 // Threads of a launch whose paths have met no radiance cell. A second launch follows them, in which neighbours do the same. The numbers of
-// the threads lie behind: y << 16 | x.
+// the threads lie behind, row by row.
 struct FDeferredPaths
 {
 	uint Groups[3]; // of the ray-query path, in rows as those of the ray queue

@@ -161,7 +161,7 @@ FScript MakeWay(FSession& Session, const FRenderOptions& Options)
 	FPathSettings Settings;
 	Settings.Frames = FPathScript::SettleFrames + 1;
 	Settings.WarmUp = Options.Frames - Settings.Frames;
-	Settings.Time = std::max(Options.Picture.Time, Options.Frames * double(Settings.DeltaSeconds));
+	Settings.Time = Options.Picture.Time;
 	const FMeasureViews Views = FindMeasureViews(Scene, Pose, Session.MakeView(Options.Picture));
 	FScript Way = MakePathScript(FindPath(Options.Path).value_or(EMeasurePath::Still), Views, Settings, nullptr).Script;
 	Way.resize(Options.Frames);
@@ -242,6 +242,11 @@ int RunRender(FRenderOptions Options)
 	{
 		LogError("--path needs --frames of {} or more", FewestPathFrames);
 		return ExitUsage;
+	}
+	if (const double Least = Options.Frames * double(FPathSettings().DeltaSeconds); !Options.Path.empty() && Options.Picture.Time < Least)
+	{
+		LogInfo("--path: the last frame is at --time {:.2f}, so that the first is not before 0", Least);
+		Options.Picture.Time = Least;
 	}
 	if (const int Status = PreparePicture(Options.Picture); Status != ExitDone) { return Status; }
 	FTaskTrace::SetFolder(std::filesystem::path(Options.Picture.Output).parent_path().string());

@@ -280,12 +280,13 @@ TEST_F(FHistoryTest, KeepingWhatIsNotForLaterIsAnError)
 
 TEST_F(FHistoryTest, ACacheIsFreshUntilItIsWrittenAndKeepsItsContent)
 {
-	bool bFresh = false;
+	bool bFresh = false, bOfLastFrame = false;
 	const auto Use = [&](uint32_t Value, FFrameCase Case, bool bRead = true) {
 		Frame(
 		    [&](FFrameGraph& Graph) {
 			const FHistoryBuffer Cache = GetBuffer();
 			bFresh = Cache.bFresh;
+			bOfLastFrame = Cache.bOfLastFrame;
 			if (Value > 0) { AddWriter(Graph, Cache.Buffer, Value); }
 			if (bRead) { AddReader(Graph, Cache.Buffer); }
 		    },
@@ -297,14 +298,19 @@ TEST_F(FHistoryTest, ACacheIsFreshUntilItIsWrittenAndKeepsItsContent)
 	EXPECT_TRUE(bFresh) << "nobody read it, so it was not written";
 	Use(0, {});
 	EXPECT_FALSE(bFresh);
+	EXPECT_TRUE(bOfLastFrame);
 	EXPECT_EQ(ReadNewest<uint32_t>(), 1u);
 	Frame([](FFrameGraph&) {});
 	Use(0, {});
 	EXPECT_FALSE(bFresh) << "a frame that does not ask changes nothing";
+	EXPECT_FALSE(bOfLastFrame) << "but what it holds is older";
 	EXPECT_EQ(ReadNewest<uint32_t>(), 1u);
+	Use(4, {});
+	Use(1, {});
 	Use(2, {.bSubmit = false});
 	Use(0, {});
 	EXPECT_FALSE(bFresh);
+	EXPECT_TRUE(bOfLastFrame);
 	EXPECT_EQ(ReadNewest<uint32_t>(), 1u) << "what was lost never ran";
 	Use(3, {.bKeep = false});
 	EXPECT_TRUE(bFresh) << "a cut";
@@ -320,12 +326,13 @@ TEST_F(FHistoryTest, ACacheIsFreshUntilItIsWrittenAndKeepsItsContent)
 
 TEST_F(FHistoryTest, ACacheOfTheWorldOutlivesACutAndNotTheWorld)
 {
-	bool bFresh = false;
+	bool bFresh = false, bOfLastFrame = false;
 	const auto Use = [&](FFrameCase Case, EHistoryScope Scope) {
 		Frame(
 		    [&](FFrameGraph& Graph) {
 			const FHistoryBuffer Cache = GetBuffer("Cache", 64, Scope);
 			bFresh = Cache.bFresh;
+			bOfLastFrame = Cache.bOfLastFrame;
 			AddWriter(Graph, Cache.Buffer, 1);
 			AddReader(Graph, Cache.Buffer);
 		    },

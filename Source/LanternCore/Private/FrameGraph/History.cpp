@@ -40,6 +40,7 @@ struct FKeptBuffer : FKept
 	TRTRef<IRTBuffer> Buffer;
 	EHistoryScope Scope = EHistoryScope::View;
 	bool bRests = false;
+	bool bOfLastFrame = false; ///< the last submitted frame wrote it
 };
 
 /// Whether content of one texture can be that of the other, if at another resolution.
@@ -201,6 +202,7 @@ FRTStatus FHistoryResources::GetBuffer(const char* Name, const FGraphBufferDesc&
 	Kept->Scope = Scope;
 	FFrameGraph& Graph = *Impl->Graph;
 	Out.bFresh = !Kept->bValid;
+	Out.bOfLastFrame = Kept->bValid && Kept->bOfLastFrame;
 	Out.Buffer = Graph.ImportBuffer(Kept->Buffer.Get(), Kept->bRests ? RestingAccess : ERTAccess::None, RestingAccess, Name);
 	Graph.MarkForLater(Out.Buffer, &Kept->bWritten);
 	if (Kept->bValid) { Graph.MarkHistory(Out.Buffer); }
@@ -222,6 +224,7 @@ void FHistoryResources::EndFrame(bool bSubmitted)
 	{
 		Kept.bValid |= bSubmitted && Kept.bWritten; // a frame that never ran has changed nothing
 		Kept.bRests |= Kept.bUsed && bSubmitted;
+		if (bSubmitted) { Kept.bOfLastFrame = Kept.bWritten; }
 		Kept.CountFrame();
 	}
 	const auto IsUnused = [](const auto& Entry) { return Entry.second.UnusedFrames >= KeepFrames; };

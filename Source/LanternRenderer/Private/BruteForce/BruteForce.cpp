@@ -197,7 +197,7 @@ void RecordPaths(FPassContext& Pass, const FFrameContext& Frame, const FBruteFor
 		C.Output = GetStorageIndex(Pass, Paths.Output);
 		C.SecondOutput = GetStorageIndex(Pass, Paths.SecondOutput);
 	}
-	C.SamplesPerPixel = static_cast<uint32_t>(Settings.Samples.GetOnRenderThread());
+	C.SamplesPerPixel = Paths.Probes.IsValid() ? 1 : static_cast<uint32_t>(Settings.Samples.GetOnRenderThread());
 	C.MaxBounces = (Paths.RadianceCells ? std::max(Bounces, BouncesWithoutCell) : Bounces) + 1;
 	C.RadianceCells = WriteRadianceGrid(Pass, Paths.RadianceCells);
 	C.MaxRoughness = Settings.MaxRoughness ? Settings.MaxRoughness->GetOnRenderThread() : 1.0f;

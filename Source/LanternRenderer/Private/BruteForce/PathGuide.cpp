@@ -43,7 +43,7 @@ FPathGuide MakePathGuide(FFrameContext& Context, EPixelRate Rate, uint64_t Threa
 	Guide.Tiles = History.Buffer;
 	Guide.Offset = Half * Bytes;
 	Guide.PreviousOffset = (1 - Half) * Bytes;
-	Guide.bPrevious = !History.bFresh && !Context.View.bCut;
+	Guide.bPrevious = History.bOfLastFrame && !Context.View.bCut;
 	Guide.Records = Context.Graph.CreateBuffer({Threads * sizeof(uint32_t)}, "PathRecords");
 	return Guide;
 }

@@ -20,7 +20,8 @@ TRTConsoleVariable<int32_t> CVarRoute("r.RT.GI", 0,
     "Diffuse global illumination. 0: off, and ambient light of the sky stands in. 1: paths of r.RT.GI.Bounces, by brute force. 2: screen "
     "probes, whose rays end in radiance cells that hold the light of all further bounces. 3: rays of pixels, which end there as well.",
     {0, 3});
-TRTConsoleVariable<int32_t> CVarSamples("r.RT.GI.Samples", 1, "Number of diffuse global illumination paths per pixel.", {1, 64});
+TRTConsoleVariable<int32_t> CVarSamples(
+    "r.RT.GI.Samples", 1, "Number of diffuse global illumination paths per pixel. Screen probes (r.RT.GI 2) trace 64 each.", {1, 64});
 TRTConsoleVariable<int32_t> CVarBounces("r.RT.GI.Bounces", 1,
     "Number of surfaces that may reflect light before it reaches the one that is lit. The reference of as many bounces has one "
     "scattering event more, the last.",

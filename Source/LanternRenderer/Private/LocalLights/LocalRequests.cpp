@@ -101,7 +101,7 @@ bool AddGuide(FFrameContext& Context, uint64_t Choices, FRequestsPass& InOut)
 			return false;
 		}
 		InOut.Guide = History.Buffer;
-		InOut.bPreviousGuide = !History.bFresh && !Context.View.bCut; // another place
+		InOut.bPreviousGuide = History.bOfLastFrame && !Context.View.bCut; // another place
 	}
 	else { InOut.Guide = Context.Graph.CreateBuffer({2 * Bytes}, "LightGuide"); } // nobody reads it in the next frame
 	if (Choices > 0 && !CVarUnbiased.GetOnRenderThread())

@@ -117,7 +117,7 @@ FScreenProbes MakeScreenProbes(FFrameContext& Context, bool bSecondLobe)
 	Probes.Kept = History.Buffer;
 	Probes.Offset = Half * Bytes;
 	Probes.PreviousOffset = (1 - Half) * Bytes;
-	Probes.bPrevious = !History.bFresh && !Context.View.bCut;
+	Probes.bPrevious = History.bOfLastFrame && !Context.View.bCut;
 	Probes.NearRays = Probes.Grid.NearReach > 0.0f ? DivideUp(Context.Width, 2) * DivideUp(Context.Height, 2) : 0;
 	const uint64_t NearBytes = uint64_t(Probes.NearRays) * sizeof(FScreenProbeRay);
 	Probes.Work = Context.Graph.CreateBuffer({GetPlanBytes(Probes.Grid) + GetRayBytes(Probes.Grid) + NearBytes}, "ScreenProbeWork");

@@ -36,6 +36,8 @@ struct FHistoryBuffer
 	FGraphBuffer Buffer;
 	/// True if nothing was written since its creation or, of a view's, a cut: the content is undefined and must be written wholly.
 	bool bFresh = false;
+	/// Whether the last submitted frame wrote it. Else what it holds is older, or part of it was never written.
+	bool bOfLastFrame = false;
 };
 
 enum class EHistoryScope : uint8_t
