@@ -6,6 +6,7 @@
 #include "../Shared/PathGuideTypes.h"
 #include "../Library/GBuffer.glsl"
 #include "../Library/Motion.glsl"
+#include "../Library/OctahedralMap.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer FPathGuideTileRef { FPathGuideTile Data; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FPathRecordRef { uint Data[]; };
@@ -29,18 +30,12 @@ FAddress FindGuideTile(FViewConstants View, FAddress Tiles, vec3 Relative, vec2 
 	return GuideTileAddress(View, Tiles, uvec2(clamp(Previous + Shift, vec2(0.0), Size - 1.0)) / PATH_GUIDE_TILE);
 }
 
-uint GuideBin(vec3 Direction)
-{
-	uvec2 Place = uvec2(clamp((OctEncode(Direction) * 0.5 + 0.5) * float(PATH_GUIDE_SIDE), vec2(0.0), vec2(PATH_GUIDE_SIDE - 1u)));
-	return Place.y * PATH_GUIDE_SIDE + Place.x;
-}
-
 // Value: radiance / pdf.
 uint PackGuideRecord(vec3 Direction, float Value)
 {
 	const float Most = 1.0e30; // not infinite, and no NaN
 	uint Bits = floatBitsToUint(Value > 0.0 ? min(Value, Most) : 0.0);
-	return (Bits & ~uint(PATH_GUIDE_BINS - 1)) | GuideBin(Direction);
+	return (Bits & ~uint(PATH_GUIDE_BINS - 1)) | OctMapTexel(Direction);
 }
 
 // A tile's map as a surface sees it.
@@ -64,20 +59,12 @@ float GuideCosine(FPathGuide Guide, vec3 Center)
 	return max(dot(Guide.N, Center) + Reach, 0.0);
 }
 
-vec3 GuideCenter(uint Bin)
-{
-	return OctDecode((vec2(Bin % PATH_GUIDE_SIDE, Bin / PATH_GUIDE_SIDE) + 0.5) * (2.0 / float(PATH_GUIDE_SIDE)) - 1.0);
-}
+vec3 GuideCenter(uint Bin) { return OctMapDirection(Bin, vec2(0.5)); }
 
 float GuideWeight(FPathGuide Guide, uint Bin) { return GuideLight(LoadBins(Guide, Bin >> 1u), Bin) * GuideCosine(Guide, GuideCenter(Bin)); }
 
-// Returns bins for each unit of solid angle around a direction. An octahedral map has four units of area, and a direction d the density
-// |d|₁⁻³ (the octahedron's faces, seen from its centre).
-float GuideDensity(vec3 Direction)
-{
-	float Norm = abs(Direction.x) + abs(Direction.y) + abs(Direction.z);
-	return (float(PATH_GUIDE_BINS) / 4.0) / (Norm * Norm * Norm);
-}
+// Returns bins for each unit of solid angle around a direction.
+float GuideDensity(vec3 Direction) { return 1.0 / OctMapSolidAngle(Direction); }
 
 // What decides how far a guide is trusted: sums over bins of solid angle, light, and squared light, each times the cosine.
 struct FGuideSums
@@ -129,7 +116,7 @@ FPathGuide MakePathGuide(FAddress Tile, vec3 N)
 }
 
 // Returns the density over solid angle by which the map alone would draw a direction.
-float GuidePdf(FPathGuide Guide, vec3 Direction) { return GuideWeight(Guide, GuideBin(Direction)) / Guide.Total * GuideDensity(Direction); }
+float GuidePdf(FPathGuide Guide, vec3 Direction) { return GuideWeight(Guide, OctMapTexel(Direction)) / Guide.Total * GuideDensity(Direction); }
 
 vec3 DrawGuided(FPathGuide Guide, vec2 U)
 {
@@ -146,7 +133,7 @@ vec3 DrawGuided(FPathGuide Guide, vec2 U)
 		Left -= Weight;
 	}
 	float X = min(Left / max(Weight, 1.0e-30), 1.0);
-	return OctDecode((vec2(Column, Row) + vec2(X, Y)) * (2.0 / float(PATH_GUIDE_SIDE)) - 1.0);
+	return OctMapDirection(Row * PATH_GUIDE_SIDE + Column, vec2(X, Y));
 }
 
 #endif

@@ -112,7 +112,7 @@ vec3 ProbeRadiance(FScreenProbeGrid Grid, uint Number, vec3 Direction)
 	const uint Middle = SCREEN_PROBE_SIDE * (SCREEN_PROBE_SIDE + 1u) / 2u; // of the map of irradiance
 	FScreenProbeRef Probes = FScreenProbeRef(Grid.Probes);
 	bool bBelow = dot(Direction, UnpackOct(Probes.Data[Number].GeometricNormal)) <= 0.0;
-	return UnpackRgbe(bBelow ? Probes.Data[Number].Irradiance[Middle] : Probes.Data[Number].Light[ProbeTexel(Direction)]);
+	return UnpackRgbe(bBelow ? Probes.Data[Number].Irradiance[Middle] : Probes.Data[Number].Light[OctMapTexel(Direction)]);
 }
 
 vec3 GatherRadiance(FScreenProbeGrid Grid, FProbeChoice Choice, vec3 Direction)

@@ -77,7 +77,7 @@ float SumTexels(uint Thread, float Value)
 // Returns the probability with which a ray goes to the thread's texel. Sum over all: 1, or 0 if no texel can be seen.
 float FindDensity(FScreenProbeGrid Grid, uint Thread, vec3 GeometricNormal, uint Previous)
 {
-	vec3 Center = ProbeDirection(Thread, vec2(0.5));
+	vec3 Center = OctMapDirection(Thread, vec2(0.5));
 	float Cosine = 0.0;
 	for (uint I = 0u; I < ProbeTexels; ++I) { Cosine += Normals[I] != vec3(0.0) ? max(dot(Normals[I], Center) + TexelReach, 0.0) : 0.0; }
 	Cosine *= dot(GeometricNormal, Center) > -TexelReach ? ProbeSolidAngle(Center) : 0.0;

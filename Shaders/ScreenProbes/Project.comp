@@ -22,7 +22,7 @@ float CompareProbe(FScreenProbe Its, FScreenProbe Own, uint Texel, float TileWid
 	if (Its.Distance <= 0.0) { return 0.0; }
 	vec3 Normal = UnpackOct(Own.GeometricNormal), To = Its.Relative - Own.Relative;
 	vec3 ItsNormal = UnpackOct(Its.GeometricNormal);
-	if (dot(ItsNormal, ProbeDirection(Texel, vec2(0.5))) < TexelReach) { return 0.0; } // below its surface it sees nothing
+	if (dot(ItsNormal, OctMapDirection(Texel, vec2(0.5))) < TexelReach) { return 0.0; } // below its surface it sees nothing
 	float Away = dot(Normal, To) / (PlaneReach * TileWidth), Facing = max(dot(Normal, ItsNormal), 0.0);
 	return exp(-Away * Away) * Facing * Facing;
 }
@@ -31,7 +31,7 @@ float CompareProbe(FScreenProbe Its, FScreenProbe Own, uint Texel, float TileWid
 float CompareHit(FScreenProbe Its, FScreenProbe Own, uint Texel, float Inverse)
 {
 	const float LeastCosine = 0.94; // of half a texel
-	vec3 Direction = ProbeDirection(Texel, vec2(0.5)), From = Direction + (Its.Relative - Own.Relative) * Inverse;
+	vec3 Direction = OctMapDirection(Texel, vec2(0.5)), From = Direction + (Its.Relative - Own.Relative) * Inverse;
 	return clamp((dot(Direction, From) * inversesqrt(max(dot(From, From), 1.0e-12)) - LeastCosine) / (1.0 - LeastCosine), 0.0, 1.0);
 }
 
@@ -115,7 +115,7 @@ void main()
 	FScreenProbeRef(Grid.Probes).Data[Number].Light[Texel] = PackRgbe(Light[Texel], U);
 	for (uint I = 0u; I < 4u; ++I)
 	{
-		vec3 Direction = ProbeDirection(Texel, (vec2(I & 1u, I >> 1u) + 0.5) / 2.0);
+		vec3 Direction = OctMapDirection(Texel, (vec2(I & 1u, I >> 1u) + 0.5) / 2.0);
 		Parts[4u * Texel + I] = vec4(Direction, ProbeSolidAngle(Direction));
 	}
 	barrier();

@@ -5,7 +5,7 @@
 
 #include "../Shared/ScreenProbeTypes.h"
 #include "../Library/Bindings.glsl"
-#include "../Library/Math.glsl"
+#include "../Library/OctahedralMap.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer FScreenProbeGridRef { FScreenProbeGrid Data; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer FScreenProbeRef { FScreenProbe Data[]; };
@@ -17,25 +17,11 @@ const float TexelReach = 0.2; // of a texel, as a cosine: parts of it may lie ab
 
 uvec2 ProbePixel(uint Packed) { return uvec2(Packed & 0xffffu, Packed >> 16u); }
 
-// Returns a direction of a texel. Place: in the texel, [0, 1)².
-vec3 ProbeDirection(uint Texel, vec2 Place)
-{
-	return OctDecode((vec2(Texel % SCREEN_PROBE_SIDE, Texel / SCREEN_PROBE_SIDE) + Place) * (2.0 / float(SCREEN_PROBE_SIDE)) - 1.0);
-}
-
-uint ProbeTexel(vec3 Direction)
-{
-	uvec2 Place = uvec2(clamp((OctEncode(Direction) * 0.5 + 0.5) * float(SCREEN_PROBE_SIDE), vec2(0.0), vec2(SCREEN_PROBE_SIDE - 1u)));
-	return Place.y * SCREEN_PROBE_SIDE + Place.x;
-}
-
-// Returns the solid angle of a texel around a direction, if all of the texel were alike. A map has four units of area, and a direction d the
-// solid angle |d|₁³ for each of them.
+// Returns the solid angle of a texel around a direction.
 float ProbeSolidAngle(vec3 Direction)
 {
 #ifndef NO_SOLID_ANGLE // r.RT.Debug.GI.SolidAngle
-	float Norm = abs(Direction.x) + abs(Direction.y) + abs(Direction.z);
-	return Norm * Norm * Norm * (4.0 / float(SCREEN_PROBE_TEXELS));
+	return OctMapSolidAngle(Direction);
 #else
 	return 4.0 * Pi / float(SCREEN_PROBE_TEXELS);
 #endif

@@ -68,7 +68,7 @@ void TraceFromProbe(FProbeTrace Trace, FViewConstants View, uvec2 Thread, out ui
 	FSceneConstants Scene = FSceneRef(Trace.Pass.Scene).Data;
 	FRandom Random = MakeRandom(Thread, View.FrameIndex, HashPcg(View.Seed + 0x3c6ef372u));
 	uint Texel = FScreenProbePlanRef(Trace.Grid.Plans).Data[Probe].Rays[Ray];
-	vec3 Direction = ProbeDirection(Texel, NextRandom4(Random).xy);
+	vec3 Direction = OctMapDirection(Texel, NextRandom4(Random).xy);
 	ivec2 Pixel = ivec2(ProbePixel(Probes.Data[Probe].Pixel));
 	FGBufferPoint Point = LoadGBufferPoint(View, Trace.Normals, Pixel, LoadDepth(Trace.Depth, Pixel));
 	if (dot(Direction, Point.Ng) <= 0.0) { return; }

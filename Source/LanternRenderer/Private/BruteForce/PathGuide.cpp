@@ -1,10 +1,9 @@
 // The pass that keeps the guide of paths, and what launches need of it.
 #include "BruteForce/PathGuide.h"
 
-#include "LanternCore/FrameGraph/History.h"
 #include "PassTools.h"
 #include "PathGuideTypes.h"
-#include "Tiles/MovedCasters.h"
+#include "TwoFrames.h"
 
 namespace Lantern
 {
@@ -33,17 +32,12 @@ FPathGuide MakePathGuide(FFrameContext& Context, EPixelRate Rate, uint64_t Threa
 	Guide.Update = RequireCompute(Context, MakeUpdateSource(Rate));
 	if (!Guide.Update) { return {}; }
 	const uint64_t Bytes = uint64_t(CountTiles(Context.Width)) * CountTiles(Context.Height) * sizeof(FPathGuideTile);
-	FHistoryBuffer History;
-	if (FRTStatus Status = Context.History->GetBuffer("PathGuide", {2 * Bytes}, History); !Status)
-	{
-		Context.Fail(Status);
-		return {};
-	}
-	const uint32_t Half = Context.MovedCasters->GetTurn() % 2; // frame numbers count those of other views, too
-	Guide.Tiles = History.Buffer;
-	Guide.Offset = Half * Bytes;
-	Guide.PreviousOffset = (1 - Half) * Bytes;
-	Guide.bPrevious = History.bOfLastFrame && !Context.View.bCut;
+	FTwoFrames Tiles;
+	if (!RequireTwoFrames(Context, "PathGuide", Bytes, Tiles)) { return {}; }
+	Guide.Tiles = Tiles.Buffer;
+	Guide.Offset = Tiles.Offset;
+	Guide.PreviousOffset = Tiles.PreviousOffset;
+	Guide.bPrevious = Tiles.bPrevious;
 	Guide.Records = Context.Graph.CreateBuffer({Threads * sizeof(uint32_t)}, "PathRecords");
 	return Guide;
 }

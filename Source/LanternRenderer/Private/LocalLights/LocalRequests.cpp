@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "LanternCore/FrameGraph/History.h"
 #include "Lights/LightCells.h"
 #include "Lights/PixelChannels.h"
 #include "LocalLightTypes.h"
@@ -12,6 +11,7 @@
 #include "LocalLights/LightMask.h"
 #include "LocalLights/LightRegions.h"
 #include "LocalLights/SecondRays.h"
+#include "TwoFrames.h"
 
 namespace Lantern
 {
@@ -91,17 +91,13 @@ struct FRequestsPass
 bool AddGuide(FFrameContext& Context, uint64_t Choices, FRequestsPass& InOut)
 {
 	const uint64_t Bytes = uint64_t(InOut.Tiles) * sizeof(FTileGuide);
-	InOut.GuideOffset = Context.MovedCasters->GetTurn() % 2 * Bytes; // frame numbers count those of other views, too
 	if (CVarGuideSeconds.GetOnRenderThread() > 0.0f)
 	{
-		FHistoryBuffer History;
-		if (FRTStatus S = Context.History->GetBuffer("LightGuide", {2 * Bytes}, History); !S)
-		{
-			Context.Fail(S);
-			return false;
-		}
-		InOut.Guide = History.Buffer;
-		InOut.bPreviousGuide = History.bOfLastFrame && !Context.View.bCut; // another place
+		FTwoFrames Guide;
+		if (!RequireTwoFrames(Context, "LightGuide", Bytes, Guide)) { return false; }
+		InOut.Guide = Guide.Buffer;
+		InOut.GuideOffset = Guide.Offset;
+		InOut.bPreviousGuide = Guide.bPrevious;
 	}
 	else { InOut.Guide = Context.Graph.CreateBuffer({2 * Bytes}, "LightGuide"); } // nobody reads it in the next frame
 	if (Choices > 0 && !CVarUnbiased.GetOnRenderThread())

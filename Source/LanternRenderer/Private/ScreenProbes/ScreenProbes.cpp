@@ -4,9 +4,7 @@
 #include <cstring>
 #include <string>
 
-#include "LanternCore/FrameGraph/History.h"
 #include "TileTypes.h"
-#include "Tiles/MovedCasters.h"
 
 namespace Lantern
 {
@@ -73,11 +71,11 @@ void AddProbePass(
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass((std::string("ScreenProbes") + Name).c_str(), [&](FPassBuilder& Builder) -> FPassExecute {
 		for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
-		if (!bFirst || Probes.bPrevious) { Builder.Read(Probes.Kept, ERTAccess::StorageRead); }
+		if (!bFirst || Probes.Kept.bPrevious) { Builder.Read(Probes.Kept.Buffer, ERTAccess::StorageRead); }
 		if (!bFirst) { Builder.Read(Probes.Work, ERTAccess::StorageRead); }
 		Builder.Write(Probes.Work, ERTAccess::StorageWrite);
-		Builder.Write(Probes.Kept, ERTAccess::StorageWrite);
-		Builder.Keep(Probes.Kept);
+		Builder.Write(Probes.Kept.Buffer, ERTAccess::StorageWrite);
+		Builder.Keep(Probes.Kept.Buffer);
 		Context.Tokens.LeaveAlone(Builder);
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
@@ -105,19 +103,12 @@ FScreenProbes MakeScreenProbes(FFrameContext& Context, bool bSecondLobe)
 	if (!Probes.Plan || !Probes.Resolve || !Probes.Project || !Gather) { return {}; }
 	Probes.Grid = MakeGrid(Context);
 	const uint64_t Bytes = uint64_t(Probes.Grid.Columns) * Probes.Grid.Rows * sizeof(FScreenProbe);
-	FHistoryBuffer History;
-	FRTStatus Status = Context.History->GetBuffer("ScreenProbes", {2 * Bytes}, History);
-	if (Status) { Status = Context.Owner->GetUploads().Allocate(sizeof(FScreenProbeGrid), Probes.GridData); }
-	if (!Status)
+	if (!RequireTwoFrames(Context, "ScreenProbes", Bytes, Probes.Kept)) { return {}; }
+	if (FRTStatus S = Context.Owner->GetUploads().Allocate(sizeof(FScreenProbeGrid), Probes.GridData); !S)
 	{
-		Context.Fail(Status);
+		Context.Fail(S);
 		return {};
 	}
-	const uint32_t Half = Context.MovedCasters->GetTurn() % 2; // frame numbers count those of other views, too
-	Probes.Kept = History.Buffer;
-	Probes.Offset = Half * Bytes;
-	Probes.PreviousOffset = (1 - Half) * Bytes;
-	Probes.bPrevious = History.bOfLastFrame && !Context.View.bCut;
 	Probes.NearRays = Probes.Grid.NearReach > 0.0f ? DivideUp(Context.Width, 2) * DivideUp(Context.Height, 2) : 0;
 	const uint64_t NearBytes = uint64_t(Probes.NearRays) * sizeof(FScreenProbeRay);
 	Probes.Work = Context.Graph.CreateBuffer({GetPlanBytes(Probes.Grid) + GetRayBytes(Probes.Grid) + NearBytes}, "ScreenProbeWork");
@@ -132,7 +123,7 @@ void AddScreenProbePlan(FFrameContext& Context, const FGBuffer& GBuffer, const F
 
 void DeclareScreenProbeRays(FPassBuilder& Builder, const FScreenProbes& Probes)
 {
-	Builder.Read(Probes.Kept, ERTAccess::StorageRead);
+	Builder.Read(Probes.Kept.Buffer, ERTAccess::StorageRead);
 	Builder.Read(Probes.Work, ERTAccess::StorageRead);
 	Builder.Write(Probes.Work, ERTAccess::StorageWrite);
 }
@@ -140,10 +131,10 @@ void DeclareScreenProbeRays(FPassBuilder& Builder, const FScreenProbes& Probes)
 FAddress WriteScreenProbeGrid(FPassContext& Pass, const FScreenProbes& Probes)
 {
 	if (!Probes.IsValid()) { return 0; }
-	const FAddress Kept = GetAddress(Pass, Probes.Kept), Work = GetAddress(Pass, Probes.Work);
+	const FAddress Kept = GetAddress(Pass, Probes.Kept.Buffer), Work = GetAddress(Pass, Probes.Work);
 	FScreenProbeGrid Grid = Probes.Grid;
-	Grid.Probes = Kept + Probes.Offset;
-	Grid.Previous = Probes.bPrevious ? Kept + Probes.PreviousOffset : 0;
+	Grid.Probes = Kept + Probes.Kept.Offset;
+	Grid.Previous = Probes.Kept.bPrevious ? Kept + Probes.Kept.PreviousOffset : 0;
 	Grid.Plans = Work;
 	Grid.Rays = Work + GetPlanBytes(Grid);
 	Grid.NearRays = Grid.Rays + GetRayBytes(Grid);
@@ -164,7 +155,7 @@ void AddScreenProbeGather(
 			for (const FGraphTexture Texture : {GBuffer.BaseColor, GBuffer.Material}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 			Builder.Write(Second, ERTAccess::StorageWrite);
 		}
-		Builder.Read(Probes.Kept, ERTAccess::StorageRead);
+		Builder.Read(Probes.Kept.Buffer, ERTAccess::StorageRead);
 		Builder.Read(Probes.Work, ERTAccess::StorageRead);
 		Builder.Write(Output, ERTAccess::StorageWrite);
 		Context.Tokens.LeaveAlone(Builder);

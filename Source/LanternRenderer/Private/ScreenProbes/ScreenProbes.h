@@ -4,6 +4,7 @@
 
 #include "PassTools.h"
 #include "ScreenProbeTypes.h"
+#include "TwoFrames.h"
 
 namespace Lantern
 {
@@ -11,11 +12,8 @@ namespace Lantern
 /// The probes of one frame.
 struct FScreenProbes
 {
-	FGraphBuffer Kept;   ///< FScreenProbe of two frames
-	FGraphBuffer Work;   ///< FScreenProbePlan and FScreenProbeRay of this frame
-	uint64_t Offset = 0; ///< of this frame's part of Kept, bytes
-	uint64_t PreviousOffset = 0;
-	bool bPrevious = false;  ///< whether there are probes of the frame before
+	FTwoFrames Kept;         ///< FScreenProbe
+	FGraphBuffer Work;       ///< FScreenProbePlan and FScreenProbeRay of this frame
 	FScreenProbeGrid Grid{}; ///< without addresses
 	FUploadSlice GridData;
 	IRTPipeline *Plan = nullptr, *Resolve = nullptr, *Project = nullptr, *Gather = nullptr;
