@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "CachedGIFixture.h"
 #include "LanternCore/Config/ConsoleVariables.h"
-#include "SignalFixture.h"
 
 namespace Lantern
 {
@@ -13,29 +13,15 @@ namespace
 {
 constexpr double Pi = std::numbers::pi;
 
-class FRadianceCellsTest : public FSignalTest
+class FRadianceCellsTest : public FCachedGITest
 {
 protected:
-	static constexpr uint32_t WarmFrames = 48;
-
 	void SetUp() override
 	{
 		FSignalTest::SetUp();
-		SetVariable("r.RT.GI.Denoise", "0");
-		SetVariable("r.RT.Reflections", "0");
-		SetVariable("r.RT.GI", "3");
-		// Pictures here have few pixels, so they need few cells.
-		SetVariable("r.RT.GI.Cells.Capacity", "65536");
-		SetVariable("r.RT.GI.Cells.SizeAngle", "0.1");
-		SetVariable("r.RT.GI.Cells.UpdatesPerSecond", "120000");
+		SetRoute("3");
 	}
 
-	/// Mean of Count frames behind WarmFrames of a table that begins empty.
-	static FImage RenderSettled(const FView& View, uint32_t Count = 8, uint32_t Warm = WarmFrames)
-	{
-		RenderSignal(ESignal::DiffuseGI, View, Warm);
-		return RenderSignal(ESignal::DiffuseGI, View, Count, Warm);
-	}
 	/// Mean of the green channel of settled frames, from runs with seeds of their own.
 	FEstimate EstimateSettled(FView View, const std::string& Scene, uint32_t Warm = WarmFrames)
 	{
@@ -238,13 +224,7 @@ TEST_F(FRadianceCellsTest, TheSameBitsAgain)
 {
 	REQUIRE_SCENE(Scene, "cornell/cornell.gltf");
 	const FView View = LookAt({0, 1, 3.4}, {0, 1, 0}, 0.7f, 32, 32);
-	FImage Pictures[2];
-	for (FImage& Picture : Pictures)
-	{
-		ASSERT_TRUE(Load(Scene));
-		Picture = RenderSettled(View, 4);
-	}
-	EXPECT_EQ(FractionDiffering(Pictures[0], Pictures[1], 0.0), 0.0);
+	ExpectTheSameBitsAgain(Scene, View);
 }
 
 } // namespace

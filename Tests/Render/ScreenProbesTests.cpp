@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "CachedGIFixture.h"
 #include "LanternCore/Config/ConsoleVariables.h"
-#include "SignalFixture.h"
 
 namespace Lantern
 {
@@ -13,28 +13,14 @@ namespace
 {
 constexpr double Pi = std::numbers::pi;
 
-class FScreenProbesTest : public FSignalTest
+class FScreenProbesTest : public FCachedGITest
 {
 protected:
-	static constexpr uint32_t WarmFrames = 48;
-
 	void SetUp() override
 	{
 		FSignalTest::SetUp();
-		SetVariable("r.RT.GI.Denoise", "0");
-		SetVariable("r.RT.Reflections", "0");
-		SetVariable("r.RT.GI", "2");
+		SetRoute("2");
 		SetVariable("r.RT.GI.Probes.Spacing", "8"); // pictures here are small
-		SetVariable("r.RT.GI.Cells.Capacity", "65536");
-		SetVariable("r.RT.GI.Cells.SizeAngle", "0.1");
-		SetVariable("r.RT.GI.Cells.UpdatesPerSecond", "120000");
-	}
-
-	/// Mean of Count frames behind WarmFrames of a table that begins empty.
-	static FImage RenderSettled(const FView& View, uint32_t Count = 8, uint32_t Warm = WarmFrames)
-	{
-		RenderSignal(ESignal::DiffuseGI, View, Warm);
-		return RenderSignal(ESignal::DiffuseGI, View, Count, Warm);
 	}
 };
 
@@ -147,13 +133,7 @@ TEST_F(FScreenProbesTest, TheSameBitsAgain)
 {
 	REQUIRE_SCENE(Scene, "cornell/cornell.gltf");
 	const FView View = LookAt({0, 1, 3.4}, {0, 1, 0}, 0.7f, 64, 64);
-	FImage Pictures[2];
-	for (FImage& Picture : Pictures)
-	{
-		ASSERT_TRUE(Load(Scene));
-		Picture = RenderSettled(View, 4);
-	}
-	EXPECT_EQ(FractionDiffering(Pictures[0], Pictures[1], 0.0), 0.0);
+	ExpectTheSameBitsAgain(Scene, View);
 }
 
 } // namespace
