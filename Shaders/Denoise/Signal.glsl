@@ -22,5 +22,6 @@ vec4 WithVariance(FSignal S, float Variance) { return vec4(S, Variance); }
 float GetBrightness(FSignal S) { return Luminance(S); }
 bool IsSignalFinite(FSignal S) { return AreFinite(S); }
 #endif
+FSignal SanitizeSignal(FSignal Value, bool bValid) { return bValid ? clamp(Value, FSignal(0.0), FSignal(MaxHalf)) : FSignal(0.0); }
 
 #endif

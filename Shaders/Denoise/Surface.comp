@@ -24,8 +24,13 @@ void main()
 	}
 	vec2 Packed = Surface.Distance > 0.0 ? PackSurface(Surface) : vec2(0.0);
 	imageStore(Images[Push.Output], Pixel, vec4(Packed, 0.0, 0.0));
-	if (Push.PreviousSurface == NO_TEXTURE) { return; }
+	if (Push.PreviousSurface == NO_TEXTURE)
+	{
+		imageStore(UintImages[Push.OutAnchors], Pixel, uvec4(0u));
+		return;
+	}
 	// What is compared is what the texel before had, which has fewer bits.
 	uvec2 Reprojection = FindReprojection(View, Push.PreviousSurface, uvec2(Pixel), UnpackSurface(Packed), Motion);
 	imageStore(UintImages[Push.OutReprojection], Pixel, uvec4(Reprojection, 0u, 0u));
+	imageStore(UintImages[Push.OutAnchors], Pixel, uvec4(FindAnchor(Push.PreviousAnchors, Reprojection), 0u, 0u));
 }

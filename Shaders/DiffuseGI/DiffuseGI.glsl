@@ -4,6 +4,7 @@
 // DEFERS_PATHS: paths that meet no cell are left to a second launch, of DEFERRED_PATHS, which has a thread for each of their pixels.
 // GUIDED_PATHS: see PathGuide.glsl. Each thread leaves a record of its first path.
 // SCREEN_PROBES: paths start at screen probes instead of pixels.
+// PATH_RESERVOIRS: paths are left for all pixels around, which a pass behind them lights.
 // SECOND_LOBE: the paths light the specular lobe as well (ESignal::RoughSpecular).
 // CHECKERBOARD, QUARTER: see Rate.glsl. BruteForce/Fill.comp fills the other pixels.
 // HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_EMISSIVE, HAS_MASKED: defined if the scene has such.
@@ -115,6 +116,9 @@ void GatherPaths(uvec2 Thread)
 	BeginLookUps(View, uvec2(Pixel));
 	ChooseRadianceRest(uvec2(Pixel), View);
 #endif
+#ifdef PATH_RESERVOIRS
+	KeptPath = NoKeptPath;
+#endif
 #ifdef GUIDED_PATHS
 	GuideTiles = Push.GuideTiles;
 	PathRecord = PATH_GUIDE_NO_PATH;
@@ -123,6 +127,9 @@ void GatherPaths(uvec2 Thread)
 	{
 		FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 		FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
+#ifdef PATH_RESERVOIRS
+		PathNear = Push.NearPixels * PixelHeight(View, dot(View.CameraForward, Point.Relative));
+#endif
 #ifdef SECOND_LOBE
 		vec3 Albedo = FindSecondLobe(Push.BaseColor, Push.Material, Pixel, Point, SecondLobe, SecondShare);
 #endif
@@ -139,12 +146,18 @@ void GatherPaths(uvec2 Thread)
 		return;
 	}
 #endif
+	uint Number = Thread.y * TurnThreads(uvec2(View.Width, View.Height)).x + Thread.x;
 #ifdef GUIDED_PATHS
-	FPathRecordRef(Push.PathRecords).Data[Thread.y * TurnThreads(uvec2(View.Width, View.Height)).x + Thread.x] = PathRecord;
+	FPathRecordRef(Push.PathRecords).Data[Number] = PathRecord;
 #endif
+#ifdef PATH_RESERVOIRS
+	FRandom Random = MakeRandom(uvec2(Pixel), View.FrameIndex, HashPcg(View.Seed + 0x3c6ef372u));
+	FPathReservoirRef(Push.Reservoirs).Data[Number] = PackReservoir(Push.SamplesPerPixel, Radiance, Specular, Random);
+#else
 	imageStore(Images[Push.Output], Pixel, RoundToHalf(vec4(Radiance, 1.0)));
 #ifdef SECOND_LOBE
 	imageStore(Images[Push.SecondOutput], Pixel, RoundToHalf(vec4(Specular, 1.0)));
+#endif
 #endif
 }
 

@@ -98,9 +98,9 @@ const FReprojection NotSeen = FReprojection(ivec2(0), vec4(0.0), 0.0, vec2(0.0))
 // showed the object at about its distance. None: it was not seen.
 const float ReprojectionSteps = 4096.0;
 
-// Taps: the texels that count.
-FReprojection UnpackReprojection(uvec2 Packed, uint Taps)
+FReprojection UnpackReprojection(uvec2 Packed)
 {
+	uint Taps = Packed.x & 15u;
 	if (Taps == 0u) { return NotSeen; }
 	FReprojection R;
 	R.Base = ivec2(Packed >> 16u) - 1;
@@ -113,26 +113,53 @@ FReprojection UnpackReprojection(uvec2 Packed, uint Taps)
 	return R;
 }
 
-FReprojection LoadReprojection(uint Texture, ivec2 Pixel)
+FReprojection LoadReprojection(uint Texture, ivec2 Pixel) { return UnpackReprojection(texelFetch(UintTextures[Texture], Pixel, 0).xy); }
+
+// Where the history of a pixel lies. A history that is read between texels, frame after frame, is blurred. One that is moved from texel to
+// texel is not: each pixel takes the nearest one as it is, and remembers how far from its centre that one lies on the surface.
+// Texel of an RG32_UINT image (Denoise/Surface.comp). x: bits 0 to 14 and 15 to 29: texel of the previous frame; bit 30: it showed another
+// surface of the object; bit 31: there is one. y: two 16-bit snorm: the place from the pixel's centre, pixels.
+struct FAnchor
 {
-	uvec2 Packed = texelFetch(UintTextures[Texture], Pixel, 0).xy;
-	return UnpackReprojection(Packed, Packed.x & 15u);
+	ivec2 Texel;
+	bool bFound, bOther;
+	vec2 Offset;
+};
+
+const uint AnchorFound = 0x80000000u, AnchorOther = 0x40000000u;
+
+FAnchor UnpackAnchor(uvec2 Packed)
+{
+	return FAnchor(ivec2(Packed.x & 32767u, (Packed.x >> 15u) & 32767u), (Packed.x & AnchorFound) != 0u, (Packed.x & AnchorOther) != 0u,
+	               unpackSnorm2x16(Packed.y));
 }
 
-// As LoadReprojection, but where few of the four texels showed the surface, those that showed its object count as well. Leaves and reliefs
-// are seldom seen twice in one pixel while the picture moves. bOutOther: whether such texels count.
-FReprojection LoadSoftReprojection(uint Texture, ivec2 Pixel, out bool bOutOther)
+FAnchor LoadAnchor(uint Texture, ivec2 Pixel) { return UnpackAnchor(texelFetch(UintTextures[Texture], Pixel, 0).xy); }
+
+// Returns the texel of a pixel. Texels that showed its object and not its surface count where there is none that did: leaves and reliefs are
+// seldom seen twice. Previous: sampled index of the previous frame's anchors; NO_TEXTURE: all places were centres. Reprojection: see
+// FindReprojection.
+uvec2 FindAnchor(uint Previous, uvec2 Reprojection)
 {
-	const float EnoughCoverage = 0.75, OtherWeight = 0.25;
-	uvec2 Packed = texelFetch(UintTextures[Texture], Pixel, 0).xy;
-	uint Same = Packed.x & 15u, Other = Packed.y & 15u & ~Same;
-	FReprojection R = UnpackReprojection(Packed, Same);
-	bOutOther = R.Coverage < EnoughCoverage && Other != 0u;
-	if (!bOutOther) { return R; }
-	R = UnpackReprojection(Packed, Same | Other);
-	for (int Tap = 0; Tap < 4; ++Tap) { R.Weights[Tap] *= (Other & (1u << Tap)) != 0u ? OtherWeight : 1.0; }
-	R.Weights /= max(dot(R.Weights, vec4(1.0)), 1.0e-6);
-	return R;
+	const float TowardsCenter = 0.97; // new values are of centres
+	uint Same = Reprojection.x & 15u, Taps = Same != 0u ? Same : Reprojection.y & 15u;
+	if (Taps == 0u) { return uvec2(0u); }
+	ivec2 Base = ivec2(Reprojection >> 16u) - 1, Texel = Base;
+	vec2 Fraction = vec2((Reprojection >> 4u) & 4095u) / ReprojectionSteps, Offset = vec2(0.0);
+	float Least = 1.0e9;
+	for (int Tap = 0; Tap < 4; ++Tap)
+	{
+		if ((Taps & (1u << Tap)) == 0u) { continue; }
+		ivec2 P = GetTap(Base, Tap);
+		vec2 Its = vec2(GetTap(ivec2(0), Tap)) - Fraction;
+		if (Previous != NO_TEXTURE) { Its += unpackSnorm2x16(texelFetch(UintTextures[Previous], P, 0).y); }
+		if (dot(Its, Its) >= Least) { continue; }
+		Least = dot(Its, Its);
+		Offset = Its;
+		Texel = P;
+	}
+	return uvec2(uint(Texel.x) | (uint(Texel.y) << 15u) | AnchorFound | (Same != 0u ? 0u : AnchorOther),
+	             packSnorm2x16(clamp(Offset * TowardsCenter, vec2(-1.0), vec2(1.0))));
 }
 
 // What a texel of the previous frame must show to be of the pixel's surface.

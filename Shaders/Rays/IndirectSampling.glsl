@@ -4,6 +4,9 @@
 
 #include "../Library/GBuffer.glsl"
 #include "PathTracing.glsl"
+#ifdef PATH_RESERVOIRS
+#include "PathReservoirs.glsl"
+#endif
 
 const float MaxHalf = 65504.0;
 
@@ -66,6 +69,11 @@ vec3 AverageIndirectSamples(FSceneConstants Scene, FViewConstants View, uvec2 Pi
 		FGathered Gathered = Gather(Scene, Lobe, Basis, V, P, Point.Ng, SobolOwen2(Index, Seed), MaxBounces, Random);
 #ifdef GUIDED_PATHS
 		if (Sample == 0u) { PathRecord = RecordPath(Gathered, Point.BentN); }
+#endif
+#ifdef PATH_RESERVOIRS
+		// What others take over is theirs to light the pixel by.
+		if (OfferPath(P - View.CameraPosition, Gathered.Direction, Gathered.Distance, Gathered.Normal, Gathered.Radiance, Gathered.Share,
+		              NextRandom4(Random).x)) { Gathered.Light = vec3(0.0); }
 #endif
 		vec3 L = Gathered.Light + Gathered.Emission;
 		Sum += mix(L, vec3(0.0), isnan(L));

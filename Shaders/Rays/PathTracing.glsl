@@ -194,6 +194,10 @@ struct FGathered
 {
 	vec3 Light, Direction;            // of the path
 	vec3 Emission, EmissionDirection; // of a triangle that light sampling has found; zero if there is none
+#ifdef PATH_RESERVOIRS
+	vec3 Radiance, Normal; // along Direction, so that Light is Share times it; of what the path met
+	float Share, Distance; // Distance: to what the path met; below 0: the sky
+#endif
 };
 
 // Gathers the indirect light that one lobe reflects at the first vertex of a path. It excludes the sun's disk and local
@@ -204,7 +208,15 @@ struct FGathered
 // Only the lobe samples the sky. Light sampling would reduce no noise of a uniform sky, and it knows no bright spots of a map.
 FGathered Gather(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, vec3 Ng, vec2 U, uint MaxBounces, inout FRandom Random)
 {
-	FGathered Gathered = FGathered(vec3(0.0), Ng, vec3(0.0), Ng);
+	FGathered Gathered;
+	Gathered.Light = Gathered.Emission = vec3(0.0);
+	Gathered.Direction = Gathered.EmissionDirection = Ng;
+#ifdef PATH_RESERVOIRS
+	Gathered.Radiance = vec3(0.0);
+	Gathered.Normal = Ng;
+	Gathered.Share = 0.0;
+	Gathered.Distance = -1.0;
+#endif
 	if (MaxBounces == 0u) { return Gathered; }
 	float Specular = SpecularProbability(Lobe, V); // 0 or 1
 	if (Specular <= 0.0 && Lobe.Diffuse <= 0.0) { return Gathered; }
@@ -240,18 +252,30 @@ FGathered Gather(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, 
 	vec3 Direction = Gathered.Direction = Basis * Sample.Direction;
 	if (Sample.Direction.z <= 0.0 || dot(Direction, Ng) <= 0.0) { return Gathered; }
 	FMaterialHit Hit = TraceMaterial(Scene, MASK_VISIBLE, P, Direction, Infinity, bShown ? SHOWS_ALL : SHOWS_NOTHING);
+	vec3 Radiance = vec3(0.0);
+#ifdef PATH_RESERVOIRS
+	Gathered.Share = Sample.Weight.x;
+	Gathered.Distance = Hit.Distance;
+	Gathered.Normal = Hit.GeometricNormal;
+#endif
 	if (Hit.Distance < 0.0)
 	{
 #ifdef HAS_SKY
-		Gathered.Light = Sample.Weight * SampleSkyRadiance(Scene, Direction);
+		Radiance = SampleSkyRadiance(Scene, Direction);
 #endif
-		return Gathered;
 	}
+	else
+	{
 #if defined(HAS_LIGHT_EMISSION) && defined(EMISSIVE_IS_DIRECT)
-	EmissionShare = bShown ? 1.0 : 0.0; // their mean is the share
+		EmissionShare = bShown ? 1.0 : 0.0; // their mean is the share
 #endif
-	if (Hit.EmissiveWeight > 0.0) { Hit.Emissive *= EmissionShare; }
-	Gathered.Light = Sample.Weight * FollowPath(Scene, Hit, P, Direction, Sample.Pdf, Sample.Direction.z, 1u, MaxBounces, bShown, Random);
+		if (Hit.EmissiveWeight > 0.0) { Hit.Emissive *= EmissionShare; }
+		Radiance = FollowPath(Scene, Hit, P, Direction, Sample.Pdf, Sample.Direction.z, 1u, MaxBounces, bShown, Random);
+	}
+	Gathered.Light = Sample.Weight * Radiance;
+#ifdef PATH_RESERVOIRS
+	Gathered.Radiance = Radiance;
+#endif
 	return Gathered;
 }
 

@@ -17,12 +17,13 @@ struct FBruteForceConstants
 	FAddress RadianceCells; // FRadianceGrid, for shaders with RADIANCE_CELLS; 0: there are none
 	FAddress Deferred;      // FDeferredPaths, for shaders with DEFERS_PATHS or DEFERRED_PATHS
 	uint SecondOutput;      // storage index, for shaders with SECOND_LOBE
-	uint Pad;
+	float NearPixels;       // for shaders with PATH_RESERVOIRS: paths that meet something within as many pixels light their pixel alone
 	FAddress GuideTiles;  // FPathGuideTile[] of the previous frame, for shaders with GUIDED_PATHS; 0: there are none
 	FAddress PathRecords; // see FPathGuideConstants::Records
 	FAddress ProbeGrid;   // FScreenProbeGrid, for shaders with SCREEN_PROBES
+	FAddress Reservoirs;  // FPathReservoir[] of the first launch's threads, row by row, for shaders with PATH_RESERVOIRS
 };
-LANTERN_ASSERT_SIZE(FBruteForceConstants, 96);
+LANTERN_ASSERT_SIZE(FBruteForceConstants, 104);
 
 // Threads of a launch whose paths have met no radiance cell. A second launch follows them, in which neighbours do the same. The numbers of
 // the threads lie behind, row by row.

@@ -17,8 +17,10 @@ struct FSurfaceConstants
 	uint Motion;          // sampled index; NO_TEXTURE: objects are unknown, and PreviousSurface is NO_TEXTURE as well
 	uint PreviousSurface; // sampled index; NO_TEXTURE: there is nothing to reproject
 	uint Output, OutReprojection; // storage indices
+	uint PreviousAnchors; // sampled index; NO_TEXTURE: there are none
+	uint OutAnchors;      // storage index
 };
-LANTERN_ASSERT_SIZE(FSurfaceConstants, 40);
+LANTERN_ASSERT_SIZE(FSurfaceConstants, 48);
 
 // Constants of Denoise/Temporal.comp. Inputs are sampled indices, outputs are storage indices.
 // A history of one channel holds the mean, one frame's noise (standard deviation), the frames that the mean is worth, and the
@@ -47,7 +49,7 @@ struct FTemporalConstants
 	uint bViewChange;   // 1: it shows what was dropped of the history; 0: how much the history is worth
 	uint Change;        // three channels only: FDenoiseInputs::Change; NO_TEXTURE: nothing is known to have changed
 	uint ChangedShare;  // three channels only: FDenoiseInputs::ChangedShare, or NO_TEXTURE
-	uint Pad;
+	uint Anchors;       // three channels only: see Library/History.glsl
 };
 LANTERN_ASSERT_SIZE(FTemporalConstants, 120);
 

@@ -26,7 +26,7 @@ const float AgreedDifference = 2.0e-3;
 // Least weight of a frame's value, whatever is known: it says how long the history lasts.
 float GetMinAlpha()
 {
-#if CHANNELS == 1
+#if CHANNELS == 1 || defined(KNOWN_NOISE)
 	return Push.MinAlpha;
 #else
 	// What was chosen of many has more noise than half a second averages.
@@ -64,7 +64,7 @@ FAccumulated Blend(FFrameEstimate Frame, FHistory History, float Noise)
 FAccumulated FillIn(FFrameEstimate Frame, FHistory History, float Noise, float Unchanged)
 {
 	FAccumulated Past = History.Past;
-#if CHANNELS != 1
+#if CHANNELS != 1 && !defined(KNOWN_NOISE)
 	if (Past.Frames > 0.0 && bTileFilled[GetTileIndex(ivec2(0))])
 	{
 		const float Others = 2.0; // of which it is the mean, at least
@@ -78,6 +78,8 @@ FAccumulated FillIn(FFrameEstimate Frame, FHistory History, float Noise, float U
 	if (Past.Frames > 0.0) { return Past; }
 #if CHANNELS == 1
 	FSignal Around = Frame.Neighborhood.Mean;
+#elif defined(KNOWN_NOISE)
+	FSignal Around = Frame.Value;
 #else
 	bool bFilled = bTileFilled[GetTileIndex(ivec2(0))];
 	FSignal Around = bFilled ? Frame.Value : Frame.Window.Mean;

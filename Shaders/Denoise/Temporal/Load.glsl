@@ -48,8 +48,6 @@ int GetTileIndex(ivec2 Offset)
 	return P.y * TileSize + P.x;
 }
 
-FSignal SanitizeSignal(FSignal Value, bool bValid) { return bValid ? clamp(Value, FSignal(0.0), FSignal(MaxHalf)) : FSignal(0.0); }
-
 void LoadTile(ivec2 Size)
 {
 	ivec2 First = ivec2(gl_WorkGroupID.xy) * GroupSize - (WindowRadius + 1);

@@ -15,6 +15,16 @@ const float EdgeExtent = 0.2, SoftExtent = 1.0;
 const float EdgeNoise = 1.0e-3;          // share of the noise that an edge keeps
 const float TrustedHistoryFrames = 16.0; // with so many, the history says as much about p as the neighbourhood does
 
+#ifdef KNOWN_NOISE
+FFrameEstimate EstimateFrame()
+{
+	vec4 Texel = texelFetch(Textures[Push.Signal], ivec2(gl_GlobalInvocationID.xy), 0);
+	bool bValid = AreFinite(Texel) && Texel.w >= 0.0;
+	FSignal Value = SanitizeSignal(GetSignal(Texel), bValid);
+	float Brightness = GetBrightness(Value), Sigma = bValid ? Texel.w * Brightness : 0.0;
+	return FFrameEstimate(Value, bValid, FNeighborhood(Brightness), Sigma * Sigma, 1.0, MaxHalf);
+}
+#else
 // Variance of the mean of a frame's rays if each sees with probability P.
 float GetVisibilityVariance(float P)
 {
@@ -84,6 +94,8 @@ FFrameEstimate EstimateFrame()
 	return FFrameEstimate(TileSignal[Own], HasValue(Own), Window, Neighborhood, Noise, 1.0, MeasureExtent());
 #endif
 }
+
+#endif
 
 // 0: the transition is an edge; 1: it is a soft penumbra.
 float GetSoftness(float Extent) { return smoothstep(EdgeExtent, SoftExtent, Extent); }

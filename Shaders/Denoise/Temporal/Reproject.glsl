@@ -2,7 +2,8 @@
 //   Takes: the previous frame's images (Push.History, Push.Moments) and where the surface was in it (Push.Reprojection).
 //   Gives: FHistory. Frames is 0 if the surface was not seen.
 //   Why: the four nearest texels count only if they showed the same surface (Library/History.glsl), so that nothing leaks
-//   from one object to another. Variances add up, and so the numbers of frames have a harmonic mean.
+//   from one object to another. Visibility is read between them. Variances add up, and so the numbers of frames have a harmonic mean.
+//   Colours take one texel as it is: what lies between texels would blur them, frame after frame.
 #ifndef LANTERN_TEMPORAL_REPROJECT_GLSL
 #define LANTERN_TEMPORAL_REPROJECT_GLSL
 
@@ -26,17 +27,11 @@ FAccumulated LoadAccumulated(ivec2 Texel)
 	return FAccumulated(GetSignal(History), Moments.x, Frames, Moments.y);
 }
 
-const float MostFramesOfOthers = 16.0; // of a history that is partly another surface's
-
+#if CHANNELS == 1
 FHistory ReprojectHistory(FViewConstants View, uvec2 Pixel, FSurface Surface)
 {
 	if (Push.History == NO_TEXTURE) { return NoHistory; }
-#if CHANNELS == 1
 	FReprojection R = LoadReprojection(Push.Reprojection, ivec2(Pixel));
-#else
-	bool bOther;
-	FReprojection R = LoadSoftReprojection(Push.Reprojection, ivec2(Pixel), bOther);
-#endif
 	FAccumulated Sum = NothingAccumulated; // Frames: sum of their inverses
 	float Weights = 0.0;
 	FSignalRange Range = FSignalRange(FSignal(MaxHalf), FSignal(0.0));
@@ -57,9 +52,6 @@ FHistory ReprojectHistory(FViewConstants View, uvec2 Pixel, FSurface Surface)
 	// A history of few texels is worth less: it is as noisy as these, and its noise is theirs.
 	float Known = R.Coverage * Weights;
 	float Frames = Weights / Sum.Frames * Known * Known;
-#if CHANNELS != 1
-	if (bOther) { Frames = min(Frames, MostFramesOfOthers); }
-#endif
 	FAccumulated Past = FAccumulated(Sum.Mean / Weights, Sum.NoiseSigma / Weights, Frames, Sum.NeighborhoodMean / Weights);
 	bool bResampled = any(greaterThan(R.Fraction * (1.0 - R.Fraction), vec2(1.0e-4)));
 	FHistory History = FHistory(Past, 0.0, bResampled, R.Base + ivec2(R.Fraction + 0.5));
@@ -67,5 +59,17 @@ FHistory ReprojectHistory(FViewConstants View, uvec2 Pixel, FSurface Surface)
 	if (bResampled && Range.Low != Range.High) { ResampleCubic(View, R, Pixel, Surface, Range, History); }
 	return History;
 }
+#else
+FHistory ReprojectHistory(FViewConstants View, uvec2 Pixel, FSurface Surface)
+{
+	const float WorthOfOthers = 0.25, MostFramesOfOthers = 16.0; // of a history that is another surface's
+	if (Push.History == NO_TEXTURE) { return NoHistory; }
+	FAnchor Anchor = LoadAnchor(Push.Anchors, ivec2(Pixel));
+	if (!Anchor.bFound) { return NoHistory; }
+	FAccumulated Past = LoadAccumulated(Anchor.Texel);
+	if (Anchor.bOther) { Past.Frames = min(WorthOfOthers * Past.Frames, MostFramesOfOthers); }
+	return FHistory(Past, 0.0, false, Anchor.Texel);
+}
+#endif
 
 #endif

@@ -1,8 +1,7 @@
-// Step "resample" of the temporal filter: reads the history between texels sharply, and estimates the error of doing so.
+// Step "resample" of the temporal filter, for visibility: reads the history between texels sharply, and estimates the error of doing so.
 //   Takes: a history that has been interpolated bilinearly, and the range of its four nearest texels.
 //   Gives: the history's mean by cubic weights, and ResamplingVariance.
-//   Why: bilinear weights blur what is resampled frame after frame; cubic ones (Catmull & Rom 1974) hardly do. They also sharpen the noise
-//   of colours, of which the brightest then stands out: texels that differ by noise alone are read by bilinear weights. What remains
+//   Why: bilinear weights blur what is resampled frame after frame; cubic ones (Catmull & Rom 1974) hardly do. What remains
 //   of the error grows with the range of the texels. It counts as variance of the history (Blend.glsl), so that a moving edge
 //   relies on new frames and a smooth region does not.
 #ifndef LANTERN_TEMPORAL_RESAMPLE_GLSL
@@ -12,6 +11,8 @@
 
 const float RangeError = 0.05;    // share of the squared range that counts as error
 const float NoiseOfRange = 12.0; // squared range that noise alone makes, in variances of a texel
+
+#if CHANNELS == 1
 
 struct FSignalRange
 {
@@ -25,23 +26,10 @@ float GetStructure(FSignalRange Range, FAccumulated Past)
 	return max(Spread * Spread - NoiseOfRange * Past.NoiseSigma * Past.NoiseSigma / Past.Frames, 0.0);
 }
 
-// Returns which part of the difference to bilinear weights counts.
-float GetCubicShare(FSignalRange Range, float Structure)
-{
-#if CHANNELS == 1
-	return 1.0;
-#else
-	float Spread = GetBrightness(Range.High - Range.Low);
-	return Structure / max(Spread * Spread, 1.0e-12);
-#endif
-}
-
 // A texel that shows another surface counts as the bilinear mean. The result stays within Range: cubic weights overshoot.
 void ResampleCubic(FViewConstants View, FReprojection R, uvec2 Pixel, FSurface Surface, FSignalRange Range, inout FHistory History)
 {
-	float Structure = GetStructure(Range, History.Past), Share = GetCubicShare(Range, Structure);
-	History.ResamplingVariance = Push.Resampling * RangeError * Structure;
-	if (Share <= 0.0) { return; }
+	History.ResamplingVariance = Push.Resampling * RangeError * GetStructure(Range, History.Past);
 	FExpectedSurface Expected = ExpectSurface(View, Pixel, Surface, texelFetch(Textures[Push.Motion], ivec2(Pixel), 0));
 	Expected.DistanceSlope *= 2.0; // texels are up to two pixels away
 	vec4 X = CubicWeights(R.Fraction.x), Y = CubicWeights(R.Fraction.y);
@@ -53,7 +41,8 @@ void ResampleCubic(FViewConstants View, FReprojection R, uvec2 Pixel, FSurface S
 		bool bSame = AreFinite(H) && ShowedSurface(Expected, Push.PreviousSurface, P);
 		Sum += (bSame ? GetSignal(H) : History.Past.Mean) * (X[Tap & 3] * Y[Tap >> 2]);
 	}
-	History.Past.Mean = mix(History.Past.Mean, clamp(Sum, Range.Low, Range.High), Share);
+	History.Past.Mean = clamp(Sum, Range.Low, Range.High);
 }
+#endif
 
 #endif

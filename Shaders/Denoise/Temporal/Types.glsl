@@ -2,15 +2,23 @@
 #ifndef LANTERN_TEMPORAL_TYPES_GLSL
 #define LANTERN_TEMPORAL_TYPES_GLSL
 
+#ifdef KNOWN_NOISE // colours; see FDenoiseInputs::bKnownNoise
+#include "../Signal.glsl"
+struct FNeighborhood
+{
+	float Mean; // brightness of the pixel alone
+};
+#else
 #include "Neighborhood.glsl"
 #include "Window.glsl"
+#endif
 
 // What this frame alone says about a pixel.
 struct FFrameEstimate
 {
 	FSignal Value;
 	bool bHasValue; // false: the signal is not finite, or Value stands for it
-#if CHANNELS != 1
+#if CHANNELS != 1 && !defined(KNOWN_NOISE)
 	FWindow Window;
 #endif
 	FNeighborhood Neighborhood;

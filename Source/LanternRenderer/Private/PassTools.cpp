@@ -23,6 +23,8 @@ namespace
 constexpr std::pair<EPixelRate, const char*> RateDefines[] = {{EPixelRate::Checkerboard, "CHECKERBOARD"}, {EPixelRate::Quarter, "QUARTER"}};
 } // namespace
 
+uint32_t GetTurnFrames(EPixelRate Rate) { return Rate == EPixelRate::Full ? 1 : Rate == EPixelRate::Checkerboard ? 2 : 4; }
+
 void AddRateDefine(EPixelRate Rate, FShaderDefines& InOut)
 {
 	for (const auto& [Of, Name] : RateDefines)

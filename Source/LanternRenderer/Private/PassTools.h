@@ -61,6 +61,8 @@ enum class EPixelRate : uint8_t
 	Checkerboard, ///< every other pixel, in turn
 	Quarter,      ///< one of four, in turn
 };
+/// Returns the frames in which each pixel traces once.
+uint32_t GetTurnFrames(EPixelRate Rate);
 /// Adds the define of shaders that run at a rate.
 void AddRateDefine(EPixelRate Rate, FShaderDefines& InOut);
 /// Returns the rate of shaders with these defines.

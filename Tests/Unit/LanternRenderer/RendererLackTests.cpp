@@ -352,13 +352,33 @@ TEST_F(FRendererLackTest, ScreenProbesAreThereForTheirRouteAlone)
 	EXPECT_FALSE(HasPart(Make(Empty), "ScreenProbe")) << "without surfaces";
 }
 
+TEST_F(FRendererLackTest, OnlySharedPathsLeaveReservoirs)
+{
+	FStage Shared, Alone, Brute;
+	Shared.Settings = {{"r.RT.GI", "3"}, {"r.RT.GI.Rate", "2"}};
+	Alone.Settings = {{"r.RT.GI", "3"}, {"r.RT.GI.Rate", "2"}, {"r.RT.GI.Reuse", "0"}};
+	Brute.Settings = {{"r.RT.GI", "1"}, {"r.RT.GI.Rate", "2"}};
+	const FNames With = Make(Shared);
+	EXPECT_TRUE(HasPart(With, "pass PathResolve"));
+	EXPECT_FALSE(HasPart(With, "pass DiffuseGIFill")) << "all pixels have a value";
+	for (const FStage& Stage : {Alone, Brute})
+	{
+		const FNames Names = Make(Stage);
+		EXPECT_FALSE(HasPart(Names, "PathRes"));
+		EXPECT_TRUE(HasPart(Names, "pass DiffuseGIFill"));
+	}
+	FStage Dark = Shared;
+	Dark.Content.bSun = Dark.Content.bSky = Dark.Content.bLights = Dark.Content.bEmissive = false;
+	EXPECT_FALSE(HasPart(Make(Dark), "PathRes")) << "without light";
+}
+
 TEST_F(FRendererLackTest, DevicesWithoutPipelinesHaveDiffuseGIByQueries)
 {
 	FStage Stage;
 	Stage.Device.Rung = ERTRung::RayQuery;
 	Stage.Settings = {{"r.RT.GI", "3"}, {"r.RT.GI.Rate", "2"}};
 	const FNames Names = Make(Stage);
-	for (const char* Part : {"pass DiffuseGI", "DiffuseGI/DiffuseGI.comp", "RadianceCells/Update.comp", "pass DiffuseGIFill"})
+	for (const char* Part : {"pass DiffuseGI", "DiffuseGI/DiffuseGI.comp", "RadianceCells/Update.comp", "pass PathResolve"})
 	{
 		EXPECT_TRUE(HasPart(Names, Part)) << Part;
 	}

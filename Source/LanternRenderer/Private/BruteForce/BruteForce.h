@@ -31,6 +31,8 @@ struct FBruteForcePass
 	bool (*LightsSecond)(const FPassQuery& Query) = nullptr;
 	/// Whether paths start at screen probes, which light the pixels around them. For white Lambert lobes; Rate and IsGuided do not count then.
 	bool (*FromProbes)() = [] { return false; };
+	/// Whether paths of pixels light the pixels around as well. For white Lambert lobes; does not count with probes.
+	bool (*KeepsPaths)() = [] { return false; };
 };
 
 ERayPath ChooseBruteForcePath(const FBruteForcePass& Settings, const FPassQuery& Query);

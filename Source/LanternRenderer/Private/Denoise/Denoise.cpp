@@ -58,11 +58,11 @@ FShaderDefines MakeDefines(const FDenoiseForm& Form)
 FShaderSource MakeTemporalSource(const FDenoiseForm& Form)
 {
 	FShaderDefines Defines = MakeDefines(Form);
-	if (Form.bColor && Form.Rate == EPixelRate::Quarter) { AddRateDefine(Form.Rate, Defines); }
+	if (Form.bColor && !Form.bKnownNoise && Form.Rate == EPixelRate::Quarter) { AddRateDefine(Form.Rate, Defines); }
 	for (const auto& Define : MakeValidationDefines()) { Defines.push_back(Define); }
 	if (!CVarAdapt.GetOnRenderThread()) { Defines.emplace_back("NO_ADAPTION", "1"); }
 	if (!CVarGuard.GetOnRenderThread()) { Defines.emplace_back("NO_GUARD", "1"); }
-	return MakeComputeSource("Denoise/Temporal.comp", std::move(Defines));
+	return MakeComputeSource(Form.bKnownNoise ? "Denoise/TemporalKnown.comp" : "Denoise/Temporal.comp", std::move(Defines));
 }
 
 FShaderSource MakeFilterSource(const FDenoiseForm& Form)
@@ -101,7 +101,11 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 			{
 				Builder.Read(Texture, ERTAccess::ShaderRead);
 			}
-			if (bColor) { Builder.Read(Moments.Previous, ERTAccess::ShaderRead); }
+			if (bColor)
+			{
+				Builder.Read(Moments.Previous, ERTAccess::ShaderRead);
+				Builder.Read(Surface.Anchors, ERTAccess::ShaderRead);
+			}
 		}
 		Builder.Write(History.Current, ERTAccess::StorageWrite);
 		if (bColor) { Builder.Write(Moments.Current, ERTAccess::StorageWrite); }
@@ -122,7 +126,7 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 		C.bViewChange = IsDebugPicture(Name + ChangePicture) ? 1u : 0u;
 		const uint32_t GroupSize = bColor ? DENOISE_GROUP_SIZE : DENOISE_VISIBILITY_GROUP_SIZE;
 		return [=, Signal = Inputs.Signal, Extent = Inputs.Extent, Change = Inputs.Change, Share = Inputs.ChangedShare, Pipeline = Temporal,
-		           Kept = History, KeptMoments = Moments, Picture = Picture, Width = Context.Width,
+		           Kept = History, KeptMoments = Moments, bColor = bColor, Picture = Picture, Width = Context.Width,
 		           Height = Context.Height](FPassContext& Pass) mutable {
 			C.Signal = GetSampledIndex(Pass, Signal);
 			C.Extent = GetSampledIndex(Pass, Extent);
@@ -132,6 +136,7 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 			C.Motion = GetSampledIndex(Pass, bReproject ? Surface.Motion : FGraphTexture{});
 			C.PreviousSurface = GetSampledIndex(Pass, bReproject ? Surface.Previous : FGraphTexture{});
 			C.Reprojection = GetSampledIndex(Pass, bReproject ? Surface.Reprojection : FGraphTexture{});
+			C.Anchors = GetSampledIndex(Pass, bReproject && bColor ? Surface.Anchors : FGraphTexture{});
 			C.History = GetSampledIndex(Pass, bReproject ? Kept.Previous : FGraphTexture{});
 			C.Moments = GetSampledIndex(Pass, bReproject ? KeptMoments.Previous : FGraphTexture{});
 			C.OutHistory = GetStorageIndex(Pass, Kept.Current);
@@ -176,7 +181,7 @@ void AddFilterPass(FFrameContext& Context, const std::string& Name, const FSigna
 		Builder.AllowAsync();
 		FFilterConstants C{};
 		C.Pass = Context.Pass;
-		C.Step = 1u << Index;
+		C.Step = Settings.FirstStep << Index;
 		C.SigmaValue = Settings.SigmaValue;
 		C.SigmaNormal = Settings.SigmaNormal;
 		C.SigmaDepth = Settings.SigmaDepth;
@@ -205,8 +210,10 @@ FSignals AddDenoise(
 	{
 		const ERTFormat Format = Context.Graph.GetDesc(Inputs->Signal).Format;
 		assert(Format == ERTFormat::R16_FLOAT || Format == ERTFormat::RGBA16_FLOAT);
-		const FDenoiseForm Form{Format == ERTFormat::RGBA16_FLOAT, Inputs->Extent.IsValid(), All.size() > 1, Inputs->Rate};
+		const FDenoiseForm Form{
+		    Format == ERTFormat::RGBA16_FLOAT, Inputs->Extent.IsValid(), All.size() > 1, Inputs->Rate, Inputs->bKnownNoise};
 		assert(!Form.bExtent || !Form.bColor);
+		assert(!Form.bKnownNoise || Form.bColor);
 		assert(!Form.bPair || Form.bColor);
 		Signals[Denoisers.size()] = Inputs->Signal;
 		FDenoiser& Denoiser = Denoisers.emplace_back(FDenoiser{Context, *Inputs, Settings, Inputs->Name, Form.bColor,

@@ -27,6 +27,9 @@ struct FDenoiseInputs
 	/// mean of other pixels stands for the pixel's own, which the filter takes only without a history. It is 3 where
 	/// the value was chosen of many, which is noisy: its history lasts twice as long. It is 1 elsewhere.
 	FGraphTexture Signal;
+	/// For colours: the fourth channel is instead the standard deviation of the pixel's brightness, over that brightness. Negative: the
+	/// pixel has no value. Neither changes are looked for then, nor is a history clamped.
+	bool bKnownNoise = false;
 	uint32_t RaysPerPixel = 1;          ///< for visibility
 	EPixelRate Rate = EPixelRate::Full; ///< for colours: pixels that have a value of their own. Full may have such as well as others
 	/// For visibility, R16_FLOAT: width in pixels of the transition between seen and unseen that the pixel lies in. 0: the
@@ -59,6 +62,7 @@ struct FDenoiseForm
 	bool bExtent = false;               ///< FDenoiseInputs::Extent is valid
 	bool bPair = false;                 ///< AddDenoisePair; colours only
 	EPixelRate Rate = EPixelRate::Full; ///< FDenoiseInputs::Rate
+	bool bKnownNoise = false;           ///< FDenoiseInputs::bKnownNoise
 };
 /// Lists the compute shaders of the filter.
 void ListDenoiseShaders(const FDenoiseForm& Form, const FDenoiseSettings& Settings, std::vector<FShaderSource>& Out);

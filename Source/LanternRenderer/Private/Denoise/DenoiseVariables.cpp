@@ -31,9 +31,6 @@ struct FDenoiseVariables::FVariables
 	          "Time constant of what " + Prefix + ".Denoise accumulates, in seconds. 0: nothing is accumulated.", {0.0, 60.0}),
 	      ChangeSigma(Prefix + ".ChangeSigma", Common.ChangeSigma,
 	          "Accumulation starts anew where the signal has changed by more than this many standard errors. 0: never.", {0.0, 100.0}),
-	      Resampling(Prefix + ".Resampling", Common.Resampling,
-	          "Share of the difference between neighbours that counts as error where accumulated values are resampled between them.",
-	          {0.0, 100.0}),
 	      FilterPasses(Prefix + ".FilterPasses", static_cast<int32_t>(Defaults.Passes),
 	          "Number of passes of the spatial filter; n of them reach 2^n - 1 pixels.", {0, 5}),
 	      FilterSigma(Prefix + ".FilterSigma", Defaults.SigmaValue,
@@ -44,7 +41,13 @@ struct FDenoiseVariables::FVariables
 			FilterReach.emplace(Prefix + ".FilterReach", Common.ReachExtent, "Reach of the spatial filter, in widths of the penumbra.",
 			    FRTCVarRange{0.001, 100.0});
 		}
-		if (Defaults.bColor)
+		if (!Defaults.bColor)
+		{
+			Resampling.emplace(Prefix + ".Resampling", Common.Resampling,
+			    "Share of the difference between neighbours that counts as error where accumulated values are resampled between them.",
+			    FRTCVarRange{0.0, 100.0});
+		}
+		else
 		{
 			ClampSigma.emplace(Prefix + ".ClampSigma", Defaults.ClampSigma,
 			    "Accumulated colours stay within the neighbourhood's mean, plus or minus this many standard deviations. 0: no limit.",
@@ -53,10 +56,10 @@ struct FDenoiseVariables::FVariables
 	}
 
 	TNamedVariable<bool> Denoise;
-	TNamedVariable<float> HistorySeconds, ChangeSigma, Resampling;
+	TNamedVariable<float> HistorySeconds, ChangeSigma;
 	TNamedVariable<int32_t> FilterPasses;
 	TNamedVariable<float> FilterSigma;
-	std::optional<TNamedVariable<float>> FilterReach, ClampSigma;
+	std::optional<TNamedVariable<float>> FilterReach, ClampSigma, Resampling;
 };
 
 FDenoiseVariables::FDenoiseVariables(const char* Prefix, const FDenoiseDefaults& Defaults)
@@ -72,7 +75,7 @@ FDenoiseSettings FDenoiseVariables::Get() const
 	FDenoiseSettings Settings;
 	Settings.HistorySeconds = Variables->HistorySeconds.GetOnRenderThread();
 	Settings.ChangeSigma = Variables->ChangeSigma.GetOnRenderThread();
-	Settings.Resampling = Variables->Resampling.GetOnRenderThread();
+	if (Variables->Resampling) { Settings.Resampling = Variables->Resampling->GetOnRenderThread(); }
 	Settings.Passes = static_cast<uint32_t>(Variables->FilterPasses.GetOnRenderThread());
 	Settings.SigmaValue = Variables->FilterSigma.GetOnRenderThread();
 	if (Variables->ClampSigma) { Settings.ClampSigma = Variables->ClampSigma->GetOnRenderThread(); }

@@ -18,7 +18,8 @@ struct FDenoiseSettings
 	float ChangeSigma = 2.0f;
 	/// Share of the difference between a history's texels that counts as error where it is resampled between them.
 	float Resampling = 0.5f;
-	uint32_t Passes = 4;       ///< of the wavelet, 0 to 5; together they reach 2^Passes − 1 pixels
+	uint32_t Passes = 4;       ///< of the wavelet, 0 to 5; together they reach FirstStep * (2^Passes − 1) pixels
+	uint32_t FirstStep = 1;    ///< pixels between the taps of the first pass; more where neighbours share their noise
 	float SigmaValue = 4.0f;   ///< edge stop on the signal, in standard deviations
 	float ReachExtent = 0.25f; ///< standard deviation of the wavelet's reach where extents are known, in extents
 	float SigmaNormal = 64.0f; ///< exponent of the cosine between normals

@@ -15,17 +15,19 @@ namespace
 FShaderSource MakeSurfaceSource() { return MakeComputeSource("Denoise/Surface.comp", MakeValidationDefines()); }
 
 /// Surface: all that the pass reads and writes.
-void AddSurfacePass(FFrameContext& Context, const FSurfaceInputs& Inputs, IRTPipeline* Pipeline, const FSurfaceTextures& Surface)
+void AddSurfacePass(FFrameContext& Context, const FSurfaceInputs& Inputs, IRTPipeline* Pipeline, const FSurfaceTextures& Surface,
+    FGraphTexture PreviousAnchors)
 {
 	const FPassConstants PassConstants = Context.Pass;
 	const uint32_t Width = Context.Width, Height = Context.Height;
 	const FGraphTexture Motion = Surface.Motion.IsValid() ? Surface.Motion : Inputs.Motion;
 	Context.Graph.AddPass("Surface", [&](FPassBuilder& Builder) -> FPassExecute {
-		for (const FGraphTexture Texture : {Inputs.Depth, Inputs.Normals, Motion, Surface.Previous})
+		for (const FGraphTexture Texture : {Inputs.Depth, Inputs.Normals, Motion, Surface.Previous, PreviousAnchors})
 		{
 			if (Texture.IsValid()) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
 		Builder.Write(Surface.Current, ERTAccess::StorageWrite);
+		Builder.Write(Surface.Anchors, ERTAccess::StorageWrite);
 		if (Surface.Reprojection.IsValid()) { Builder.Write(Surface.Reprojection, ERTAccess::StorageWrite); }
 		return [=](FPassContext& Pass) {
 			FSurfaceConstants C{};
@@ -36,6 +38,8 @@ void AddSurfacePass(FFrameContext& Context, const FSurfaceInputs& Inputs, IRTPip
 			C.PreviousSurface = GetSampledIndex(Pass, Surface.Previous);
 			C.Output = GetStorageIndex(Pass, Surface.Current);
 			C.OutReprojection = GetStorageIndex(Pass, Surface.Reprojection);
+			C.PreviousAnchors = GetSampledIndex(Pass, PreviousAnchors);
+			C.OutAnchors = GetStorageIndex(Pass, Surface.Anchors);
 			Dispatch2D(Pass, Pipeline, C, Width, Height, DENOISE_GROUP_SIZE);
 		};
 	});
@@ -51,14 +55,17 @@ bool RequireSurface(FFrameContext& Context, const FSurfaceInputs& Inputs)
 	// Asked for in the first frame, which has nothing to reproject: the second one does.
 	const bool bMotion = Inputs.Motion.IsValid() || RequireCompute(Context, MakeCameraMotionSource());
 	if (!Pipeline || !bMotion) { return false; }
-	FHistoryTexture Surface;
-	if (FRTStatus S = Context.History->GetTexture("Surface", {Context.Width, Context.Height, ERTFormat::RG32_FLOAT}, Surface); !S)
+	FHistoryTexture Surface, Anchors;
+	FRTStatus Status = Context.History->GetTexture("Surface", {Context.Width, Context.Height, ERTFormat::RG32_FLOAT}, Surface);
+	if (Status) { Status = Context.History->GetTexture("Anchors", {Context.Width, Context.Height, ERTFormat::RG32_UINT}, Anchors); }
+	if (!Status)
 	{
-		Context.Fail(S);
+		Context.Fail(Status);
 		return false;
 	}
 	FSurfaceTextures Made;
 	Made.Current = Surface.Current;
+	Made.Anchors = Anchors.Current;
 	if (Surface.Previous.IsValid())
 	{
 		Made.Motion = Inputs.Motion.IsValid() ? Inputs.Motion : AddCameraMotionPass(Context, Inputs.Depth);
@@ -66,7 +73,7 @@ bool RequireSurface(FFrameContext& Context, const FSurfaceInputs& Inputs)
 		Made.Previous = Surface.Previous;
 		Made.Reprojection = Context.Graph.CreateTexture({Context.Width, Context.Height, ERTFormat::RG32_UINT}, "Reprojection");
 	}
-	AddSurfacePass(Context, Inputs, Pipeline, Made);
+	AddSurfacePass(Context, Inputs, Pipeline, Made, Anchors.Previous);
 	Context.Surface = Made;
 	return true;
 }

@@ -36,6 +36,9 @@ TRTConsoleVariable<int32_t> CVarPath("r.RT.GI.Path", 0,
     {0, 2});
 TRTConsoleVariable<bool> CVarGuide("r.RT.GI.Guide", false,
     "Up to half of the paths go where earlier paths of the neighbourhood found light. Saves noise where light comes from few places.");
+TRTConsoleVariable<bool> CVarReuse("r.RT.GI.Reuse", true,
+    "Paths of r.RT.GI 3 light the pixels around as well, each by its own normal. If off, pixels without a path take the mean of their "
+    "neighbours.");
 TRTConsoleVariable<bool> CVarRoughSpecular("r.RT.GI.RoughSpecular", true,
     "Paths of diffuse global illumination light the specular lobes of surfaces whose reflections are not traced. If off, diffuse light and "
     "the sky stand in.");
@@ -44,12 +47,20 @@ const FDenoiseVariables Denoise("r.RT.GI", FDenoiseDefaults{.SigmaValue = 3.0f, 
 constexpr int32_t FirstCachedRoute = 2;
 constexpr uint32_t MostProbePasses = 2; // of the wavelet: probes have spread their light already
 
+constexpr uint32_t MostReusePasses = 3; // paths have been shared already
+constexpr uint32_t ReuseStep = 2;       // pixels, from one path to the next where one pixel of four traces
+
 bool IsProbeRoute() { return CVarRoute.GetOnRenderThread() == 2; }
+bool IsReused() { return CVarRoute.GetOnRenderThread() == 3 && CVarReuse.GetOnRenderThread(); }
+
+EPixelRate GetTraceRate() { return static_cast<EPixelRate>(CVarRate.GetOnRenderThread()); }
+/// Rate of pixels that have a value of their own.
+EPixelRate GetValueRate() { return IsProbeRoute() || IsReused() ? EPixelRate::Full : GetTraceRate(); }
 
 constexpr FBruteForcePass BruteForce{ESignal::DiffuseGI, "r.RT.GI", [] { return CVarRoute.GetOnRenderThread() != 0; }, CVarSamples,
     CVarBounces, nullptr, [] { return CVarRoute.GetOnRenderThread() >= FirstCachedRoute; }, &CVarRate, &CVarPath,
     [] { return CVarGuide.GetOnRenderThread(); }, "diffuse global illumination is", ESignal::RoughSpecular,
-    [](const FPassQuery& Query) { return ChooseRoughSpecularRays(Query).Path != ERayPath::None; }, IsProbeRoute};
+    [](const FPassQuery& Query) { return ChooseRoughSpecularRays(Query).Path != ERayPath::None; }, IsProbeRoute, IsReused};
 
 /// A filter that remembers longer than the cells may would undo what they know of changes.
 FDenoiseSettings GetFilter(const FFrameContext& Context)
@@ -61,14 +72,19 @@ FDenoiseSettings GetFilter(const FFrameContext& Context)
 		Settings.ChangeSigma = 0.0f;
 		Settings.Passes = std::min(Settings.Passes, MostProbePasses);
 	}
+	if (IsReused())
+	{
+		// Each pixel has a value in each frame, and as few paths in a second as one that has a value in its turn.
+		Settings.HistorySeconds *= static_cast<float>(GetTurnFrames(GetTraceRate()));
+		Settings.Passes = std::min(Settings.Passes, MostReusePasses);
+		if (GetTraceRate() != EPixelRate::Full) { Settings.FirstStep = ReuseStep; }
+	}
 	if (const FRadianceCells* const Cells = Context.RadianceCells.get())
 	{
 		Settings.HistorySeconds = std::min(Settings.HistorySeconds, Cells->EventFrames * Context.View.DeltaSeconds);
 	}
 	return Settings;
 }
-
-EPixelRate GetRate() { return IsProbeRoute() ? EPixelRate::Full : static_cast<EPixelRate>(CVarRate.GetOnRenderThread()); }
 
 /// Whether the lobes are filtered in the same passes.
 bool IsPair(const FPassQuery& Query)
@@ -81,8 +97,9 @@ FDenoiseInputs MakeInputs(ESignal Signal, FGraphTexture Lobe, FGraphTexture Move
 	FDenoiseInputs Inputs;
 	Inputs.Name = GetSignalInfo(Signal).Pass;
 	Inputs.Signal = Lobe;
-	Inputs.Rate = GetRate();
+	Inputs.Rate = GetValueRate();
 	Inputs.ChangedShare = MovedShare;
+	Inputs.bKnownNoise = IsReused();
 	return Inputs;
 }
 
@@ -122,7 +139,7 @@ bool IsDiffuseGIFiltered(const FRTScene&) { return Denoise.IsEnabled(); }
 void ListDiffuseGIFilters(const FRTScene&, const FPassQuery& Query, std::vector<FShaderSource>& Out)
 {
 	if (!Denoise.IsEnabled()) { return; }
-	ListDenoiseShaders({.bColor = true, .bPair = IsPair(Query), .Rate = GetRate()}, Denoise.Get(), Out);
+	ListDenoiseShaders({.bColor = true, .bPair = IsPair(Query), .Rate = GetValueRate(), .bKnownNoise = IsReused()}, Denoise.Get(), Out);
 	ListMovedShareShaders(Out);
 }
 

@@ -156,6 +156,7 @@ struct FSurfaceTextures
 	FGraphTexture Motion;   ///< as in FGBuffer; invalid where Previous is
 	/// RG32_UINT: where each surface was in the frame before, see Shaders/Library/History.glsl. Invalid where Previous is.
 	FGraphTexture Reprojection;
+	FGraphTexture Anchors; ///< RG32_UINT: where the histories of pixels lie, see Shaders/Library/History.glsl
 };
 
 /// Lights by place in the world, for passes that walk them (Lights/LightCells.h). The first pass that asks makes them.

@@ -1,0 +1,215 @@
+// Lights each pixel by the paths of pixels around it, as if its own. Each path counts by the pixel's cosine, and by the density with which
+// all of these pixels together would have drawn it (Bekaert, Sbert & Halton 2002, "Accelerating Path Tracing by Re-Using Paths"). What paths
+// meet is taken to be seen by all of the pixels.
+// CHECKERBOARD, QUARTER: see Rate.glsl. SECOND_LOBE: specular lobes are lit as well.
+// NO_REUSE_COSINE: planted fault (r.RT.Debug.GI.ReuseCosine).
+#version 460
+#include "../Library/GBuffer.glsl"
+#include "../Library/Rate.glsl"
+#include "../Library/Rgbe.glsl"
+#include "../Shared/PathReservoirTypes.h"
+#include "../Tiles/Tile.glsl"
+#ifdef SECOND_LOBE
+#include "../Rays/SecondLobe.glsl"
+#endif
+
+layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
+layout(push_constant, scalar) uniform FPush { FPathReservoirConstants Push; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FPathReservoirRef { FPathReservoir Data[]; };
+
+#if defined(QUARTER)
+const ivec2 Pitch = ivec2(2, 2); // pixels from one site to the next
+#elif defined(CHECKERBOARD)
+const ivec2 Pitch = ivec2(2, 1);
+#else
+const ivec2 Pitch = ivec2(1, 1);
+#endif
+const int Width = 3, Around = Width * Width; // sites that a pixel looks at: its own and those next to it
+const ivec2 Side = ivec2(TILE_SIZE) / Pitch + 2;
+const int Sites = Side.x * Side.y;
+const float MaxHalf = 65504.0;
+const uint NoNormal = 0x80008000u; // which packing never gives
+const float NoValue = -1.0;        // FDenoiseInputs::bKnownNoise
+
+// Sites: pixels that have traced paths in this frame, those of the tile and of a ring around it.
+shared vec3 SitePlaces[Sites];  // relative to the camera
+shared uint SiteNormals[Sites]; // shading, octahedral
+shared uint SiteFaces[Sites];   // geometric, octahedral; NoNormal: the site shows no surface
+shared uint SitePixels[Sites];  // y << 16 | x
+shared FPathReservoir Reservoirs[Sites];
+
+void LoadSites(FViewConstants View)
+{
+	ivec2 Threads = ivec2(TurnThreads(uvec2(View.Width, View.Height))), First = ivec2(gl_WorkGroupID.xy) * (ivec2(TILE_SIZE) / Pitch) - 1;
+	for (int I = int(gl_LocalInvocationIndex); I < Sites; I += int(TILE_PIXELS))
+	{
+		ivec2 Thread = First + ivec2(I % Side.x, I / Side.x);
+		SiteFaces[I] = NoNormal;
+		if (any(lessThan(Thread, ivec2(0))) || any(greaterThanEqual(Thread, Threads))) { continue; }
+		uvec2 Pixel = min(TurnPixel(uvec2(Thread), View.FrameIndex), uvec2(View.Width, View.Height) - 1u);
+		float Depth = LoadDepth(Push.Depth, ivec2(Pixel));
+		if (Depth <= 0.0) { continue; }
+		FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, ivec2(Pixel), Depth);
+		SitePlaces[I] = Point.Relative;
+		SiteNormals[I] = PackOct(Point.BentN);
+		SiteFaces[I] = PackOct(Point.Ng);
+		SitePixels[I] = (Pixel.y << 16u) | Pixel.x;
+		Reservoirs[I] = FPathReservoirRef(Push.Reservoirs).Data[Thread.y * Threads.x + Thread.x];
+	}
+}
+
+int SiteAt(ivec2 InTile, int Neighbor)
+{
+	ivec2 Site = InTile / Pitch + ivec2(Neighbor % Width, Neighbor / Width);
+	return Site.y * Side.x + Site.x;
+}
+
+vec2 StepTo(int Site) { return vec2(SitePixels[Site] & 0xffffu, SitePixels[Site] >> 16u) - vec2(gl_GlobalInvocationID.xy); }
+
+// Weights of the sites whose paths may stand for a pixel: those on its plane. What lies alone on its plane takes what there is.
+struct FSites
+{
+	float Weights[Around]; // sum 1; all 0: there are none
+	vec3 Normals[Around];  // shading
+};
+
+FSites FindSites(FViewConstants View, ivec2 InTile, FGBufferPoint Point)
+{
+	const float Deviation = 0.75; // of a pixel's kernel, in pitches
+	float Slack = 0.25 * PixelHeight(View, dot(View.CameraForward, Point.Relative)), Sum = 0.0, SumOfOthers = 0.0;
+	FSites Found;
+	float Others[Around];
+	for (int I = 0; I < Around; ++I)
+	{
+		int Site = SiteAt(InTile, I);
+		Found.Weights[I] = Others[I] = 0.0;
+		if (SiteFaces[Site] == NoNormal) { continue; }
+		vec2 Step = StepTo(Site) / vec2(Pitch);
+		float Kernel = exp(-dot(Step, Step) / (2.0 * Deviation * Deviation));
+		vec3 To = SitePlaces[Site] - Point.Relative;
+		bool bPlane = dot(Point.Ng, UnpackOct(SiteFaces[Site])) >= 0.9 && abs(dot(Point.Ng, To)) <= 0.1 * length(To) + Slack;
+		Found.Weights[I] = bPlane ? Kernel : 0.0;
+		Others[I] = Kernel;
+		Sum += Found.Weights[I];
+		SumOfOthers += Kernel;
+	}
+	for (int I = 0; I < Around; ++I)
+	{
+		Found.Weights[I] = Sum > 0.0 ? Found.Weights[I] / Sum : Others[I] / max(SumOfOthers, 1.0e-30);
+		Found.Normals[I] = Found.Weights[I] > 0.0 ? UnpackOct(SiteNormals[SiteAt(InTile, I)]) : vec3(0.0);
+	}
+	return Found;
+}
+
+// What paths bring, and what says how much of it is chance.
+struct FSum
+{
+	vec3 Light, Near; // Near: of near paths, which are of sites next to the pixel alone
+	// Sums over sites: of squared brightness, of brightness times weight, of squared weights.
+	float Squares, Crossed, Weights;
+};
+
+void AddPath(vec3 Light, float Weight, inout FSum Sum)
+{
+	float Brightness = Luminance(Light);
+	Sum.Light += Light;
+	Sum.Squares += Brightness * Brightness;
+	Sum.Crossed += Brightness * Weight;
+	Sum.Weights += Weight * Weight;
+}
+
+// Returns a texel for FDenoiseInputs::bKnownNoise.
+vec4 PackSum(FSum Sum)
+{
+	const float MostDeviation = 100.0, Alone = 0.75; // Alone: sum of squared weights where one site counts for nearly all
+	float Mean = Luminance(Sum.Light), Variance = Sum.Squares;
+	if (Sum.Weights < Alone)
+	{
+		Variance = max(Sum.Squares - 2.0 * Mean * Sum.Crossed + Mean * Mean * Sum.Weights, 0.0) / (1.0 - Sum.Weights);
+	}
+	vec3 Light = clamp(Sum.Light + Sum.Near, vec3(0.0), vec3(MaxHalf));
+	return RoundToHalf(vec4(Light, min(sqrt(Variance) / max(Luminance(Light), 1.0e-6), MostDeviation)));
+}
+
+// Adds what near paths have brought: the pixel's own, or those of pixels next to it.
+void AddNear(ivec2 InTile, FSites Found, inout FSum Diffuse, inout FSum Specular)
+{
+	float Count = 0.0, Least = 1.0e9;
+	for (int I = 0; I < Around; ++I)
+	{
+		if (Found.Weights[I] <= 0.0) { continue; }
+		int Site = SiteAt(InTile, I);
+		vec2 Step = abs(StepTo(Site));
+		float Far = max(Step.x, Step.y);
+		if (Far > Least) { continue; }
+		if (Far < Least) { Diffuse.Near = Specular.Near = vec3(Count = 0.0); }
+		Least = Far;
+		Diffuse.Near += UnpackRgbe(Reservoirs[Site].Near);
+		Specular.Near += UnpackRgbe(Reservoirs[Site].NearSpecular);
+		Count += 1.0;
+	}
+	Diffuse.Near /= max(Count, 1.0);
+	Specular.Near /= max(Count, 1.0);
+}
+
+// Returns by how much more a path lights a pixel than the sites that could have drawn it.
+float GetGain(FSites Found, vec3 Normal, vec3 Direction)
+{
+#ifdef NO_REUSE_COSINE
+	return 1.0;
+#else
+	float Cosines = 0.0;
+	for (int I = 0; I < Around; ++I) { Cosines += Found.Weights[I] * max(dot(Found.Normals[I], Direction), 0.0); }
+	return max(dot(Normal, Direction), 0.0) / max(Cosines, 1.0e-4);
+#endif
+}
+
+void LightPixel(FViewConstants View, ivec2 Pixel, float Depth, inout FSum Diffuse, inout FSum Specular)
+{
+	// Of a lobe for which a path counts. The pixel's own reach 4. Where normals or lobes differ, a few would count for hundreds. Lower limits
+	// lose light: 4 for specular lobes took 0.7 % of the courtyard's.
+	const float MostShare = 8.0, MostSpecularShare = 16.0;
+	ivec2 InTile = ivec2(gl_LocalInvocationID.xy);
+	FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
+	FSites Found = FindSites(View, InTile, Point);
+#ifdef SECOND_LOBE
+	FBrdf Lobe;
+	float LobeShare;
+	vec3 Albedo = max(FindSecondLobe(Push.BaseColor, Push.Material, Pixel, Point, Lobe, LobeShare), vec3(1.0e-4));
+	mat3 Basis = MakeBasis(Point.BentN);
+	vec3 V = Point.V * Basis;
+#endif
+	for (int I = 0; I < Around; ++I)
+	{
+		float Weight = Found.Weights[I];
+		if (Weight <= 0.0) { continue; }
+		FPathReservoir Path = Reservoirs[SiteAt(InTile, I)];
+		vec3 Direction = Path.Normal == NO_RESERVOIR_HIT ? Path.Hit : normalize(Path.Hit - Point.Relative);
+		vec3 Light = UnpackRgbe(Path.Radiance) * Weight;
+		float Share = Path.Share * GetGain(Found, Point.BentN, Direction);
+		AddPath(Light * min(Share, MostShare), Weight, Diffuse);
+#ifdef SECOND_LOBE
+		vec3 L = Direction * Basis;
+		vec3 Reflected = L.z > 0.0 ? EvaluateBrdfCos(Lobe, V, L) * (Pi / max(L.z, 1.0e-4)) / Albedo : vec3(0.0);
+		AddPath(Light * min(Share * Reflected, vec3(MostSpecularShare)), Weight, Specular);
+#endif
+	}
+	AddNear(InTile, Found, Diffuse, Specular);
+}
+
+void main()
+{
+	FViewConstants View = FViewRef(Push.Pass.View).Data;
+	LoadSites(View);
+	barrier();
+	ivec2 Pixel = ivec2(gl_GlobalInvocationID.xy);
+	if (IsOutsideView(View, uvec2(Pixel))) { return; }
+	FSum Diffuse = FSum(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0), Specular = Diffuse;
+	float Depth = LoadDepth(Push.Depth, Pixel);
+	if (Depth > 0.0) { LightPixel(View, Pixel, Depth, Diffuse, Specular); }
+	bool bNone = Depth > 0.0 && Diffuse.Weights == 0.0;
+	imageStore(Images[Push.Output], Pixel, bNone ? vec4(vec3(0.0), NoValue) : PackSum(Diffuse));
+#ifdef SECOND_LOBE
+	imageStore(Images[Push.SecondOutput], Pixel, bNone ? vec4(vec3(0.0), NoValue) : PackSum(Specular));
+#endif
+}

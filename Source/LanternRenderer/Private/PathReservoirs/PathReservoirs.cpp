@@ -1,0 +1,81 @@
+// The passes of path reservoirs behind the paths.
+#include "PathReservoirs/PathReservoirs.h"
+
+#include "PathReservoirTypes.h"
+#include "TileTypes.h"
+
+namespace Lantern
+{
+
+namespace
+{
+TRTConsoleVariable<float> CVarNear("r.RT.GI.Reuse.Near", 16.0f,
+    "With r.RT.GI.Reuse, paths that meet something within so many pixels' widths light their own pixel alone, since pixels around may not "
+    "see "
+    "what they meet.",
+    {0, 1024});
+
+TRTConsoleVariable<bool> CVarReuseCosine("r.RT.Debug.GI.ReuseCosine", true,
+    "Planted fault. If off, paths light each pixel around as they light the one that has drawn them, whatever its normal.");
+
+FShaderSource MakeResolveSource(EPixelRate Rate, bool bSecondLobe)
+{
+	FShaderDefines Defines;
+	AddRateDefine(Rate, Defines);
+	if (bSecondLobe) { Defines.emplace_back("SECOND_LOBE", "1"); }
+	if (!CVarReuseCosine.GetOnRenderThread()) { Defines.emplace_back("NO_REUSE_COSINE", "1"); }
+	return MakeComputeSource("PathReservoirs/Resolve.comp", std::move(Defines));
+}
+} // namespace
+
+void AddPathReservoirShaders(EPixelRate Rate, bool bSecondLobe, FShaderDefines& InOutDefines, std::vector<FShaderSource>& OutCompute)
+{
+	InOutDefines.emplace_back(PathReservoirsDefine, "1");
+	OutCompute.push_back(MakeResolveSource(Rate, bSecondLobe));
+}
+
+FPathReservoirs MakePathReservoirs(FFrameContext& Context, EPixelRate Rate, bool bSecondLobe, uint64_t Threads)
+{
+	FPathReservoirs Reservoirs;
+	Reservoirs.Resolve = RequireCompute(Context, MakeResolveSource(Rate, bSecondLobe));
+	if (Reservoirs.Resolve) { Reservoirs.Fresh = Context.Graph.CreateBuffer({Threads * sizeof(FPathReservoir)}, "PathReservoirs"); }
+	return Reservoirs;
+}
+
+float GetNearPixels() { return CVarNear.GetOnRenderThread(); }
+
+void AddPathResolve(
+    FFrameContext& Context, const FGBuffer& GBuffer, const FPathReservoirs& Reservoirs, FGraphTexture Output, FGraphTexture Second)
+{
+	const FFrameContext* const Frame = &Context;
+	Context.Graph.AddPass("PathResolve", [&](FPassBuilder& Builder) -> FPassExecute {
+		for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+		if (Second.IsValid())
+		{
+			for (const FGraphTexture Texture : {GBuffer.BaseColor, GBuffer.Material}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+			Builder.Write(Second, ERTAccess::StorageWrite);
+		}
+		Builder.Read(Reservoirs.Fresh, ERTAccess::ShaderRead);
+		Builder.Write(Output, ERTAccess::StorageWrite);
+		Context.Tokens.LeaveAlone(Builder);
+		Builder.AllowAsync();
+		return [=](FPassContext& Pass) {
+			FPathReservoirConstants C{};
+			C.Pass = Frame->Pass;
+			C.Reservoirs = GetAddress(Pass, Reservoirs.Fresh);
+			C.Depth = GetSampledIndex(Pass, GBuffer.Depth);
+			C.Normals = GetSampledIndex(Pass, GBuffer.Normals);
+			C.BaseColor = C.Material = C.SecondOutput = NO_TEXTURE;
+			C.Output = GetStorageIndex(Pass, Output);
+			if (Second.IsValid())
+			{
+				C.BaseColor = GetSampledIndex(Pass, GBuffer.BaseColor);
+				C.Material = GetSampledIndex(Pass, GBuffer.Material);
+				C.SecondOutput = GetStorageIndex(Pass, Second);
+			}
+			Dispatch2D(Pass, Reservoirs.Resolve, C, Frame->Width, Frame->Height, TILE_SIZE);
+		};
+	});
+}
+
+} // namespace Lantern
