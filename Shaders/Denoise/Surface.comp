@@ -32,5 +32,5 @@ void main()
 	// What is compared is what the texel before had, which has fewer bits.
 	uvec2 Reprojection = FindReprojection(View, Push.PreviousSurface, uvec2(Pixel), UnpackSurface(Packed), Motion);
 	imageStore(UintImages[Push.OutReprojection], Pixel, uvec4(Reprojection, 0u, 0u));
-	imageStore(UintImages[Push.OutAnchors], Pixel, uvec4(FindAnchor(Push.PreviousAnchors, Reprojection), 0u, 0u));
+	imageStore(UintImages[Push.OutAnchors], Pixel, uvec4(FindAnchor(View, Push.PreviousAnchors, Reprojection), 0u, 0u));
 }

@@ -118,20 +118,18 @@ FReprojection LoadReprojection(uint Texture, ivec2 Pixel) { return UnpackReproje
 // Where the history of a pixel lies. A history that is read between texels, frame after frame, is blurred. One that is moved from texel to
 // texel is not: each pixel takes the nearest one as it is, and remembers how far from its centre that one lies on the surface.
 // Texel of an RG32_UINT image (Denoise/Surface.comp). x: bits 0 to 14 and 15 to 29: texel of the previous frame; bit 30: it showed another
-// surface of the object; bit 31: there is one. y: two 16-bit snorm: the place from the pixel's centre, pixels.
+// surface of the object, or a place that is a pixel away; bit 31: there is one. y: two 16-bit snorm: the place from the pixel's centre, pixels.
 struct FAnchor
 {
 	ivec2 Texel;
 	bool bFound, bOther;
-	vec2 Offset;
 };
 
 const uint AnchorFound = 0x80000000u, AnchorOther = 0x40000000u;
 
 FAnchor UnpackAnchor(uvec2 Packed)
 {
-	return FAnchor(ivec2(Packed.x & 32767u, (Packed.x >> 15u) & 32767u), (Packed.x & AnchorFound) != 0u, (Packed.x & AnchorOther) != 0u,
-	               unpackSnorm2x16(Packed.y));
+	return FAnchor(ivec2(Packed.x & 32767u, (Packed.x >> 15u) & 32767u), (Packed.x & AnchorFound) != 0u, (Packed.x & AnchorOther) != 0u);
 }
 
 FAnchor LoadAnchor(uint Texture, ivec2 Pixel) { return UnpackAnchor(texelFetch(UintTextures[Texture], Pixel, 0).xy); }
@@ -139,9 +137,10 @@ FAnchor LoadAnchor(uint Texture, ivec2 Pixel) { return UnpackAnchor(texelFetch(U
 // Returns the texel of a pixel. Texels that showed its object and not its surface count where there is none that did: leaves and reliefs are
 // seldom seen twice. Previous: sampled index of the previous frame's anchors; NO_TEXTURE: all places were centres. Reprojection: see
 // FindReprojection.
-uvec2 FindAnchor(uint Previous, uvec2 Reprojection)
+uvec2 FindAnchor(FViewConstants View, uint Previous, uvec2 Reprojection)
 {
 	const float TowardsCenter = 0.97; // new values are of centres
+	const float FarAway = 1.0;        // pixels
 	uint Same = Reprojection.x & 15u, Taps = Same != 0u ? Same : Reprojection.y & 15u;
 	if (Taps == 0u) { return uvec2(0u); }
 	ivec2 Base = ivec2(Reprojection >> 16u) - 1, Texel = Base;
@@ -158,8 +157,10 @@ uvec2 FindAnchor(uint Previous, uvec2 Reprojection)
 		Offset = Its;
 		Texel = P;
 	}
-	return uvec2(uint(Texel.x) | (uint(Texel.y) << 15u) | AnchorFound | (Same != 0u ? 0u : AnchorOther),
-	             packSnorm2x16(clamp(Offset * TowardsCenter, vec2(-1.0), vec2(1.0))));
+	bool bSurely = Same != 0u && Least < FarAway * FarAway;
+	Offset *= TowardsCenter * vec2(View.Width, View.Height) / vec2(View.PreviousWidth, View.PreviousHeight);
+	return uvec2(uint(Texel.x) | (uint(Texel.y) << 15u) | AnchorFound | (bSurely ? 0u : AnchorOther),
+	             packSnorm2x16(clamp(Offset, vec2(-1.0), vec2(1.0))));
 }
 
 // What a texel of the previous frame must show to be of the pixel's surface.

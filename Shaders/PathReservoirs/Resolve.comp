@@ -30,6 +30,7 @@ const int Sites = Side.x * Side.y;
 const float MaxHalf = 65504.0;
 const uint NoNormal = 0x80008000u; // which packing never gives
 const float NoValue = -1.0;        // FDenoiseInputs::bKnownNoise
+const float Alone = 0.75;          // sum of squared weights from which on one site counts for nearly all
 
 // Sites: pixels that have traced paths in this frame, those of the tile and of a ring around it.
 shared vec3 SitePlaces[Sites];  // relative to the camera
@@ -71,7 +72,24 @@ struct FSites
 {
 	float Weights[Around]; // sum 1; all 0: there are none
 	vec3 Normals[Around];  // shading
+	int Numbers[Around];
 };
+
+// Returns the site of the tile and its ring that is nearest to the pixel; -1: none shows a surface.
+int FindNearest()
+{
+	int Nearest = -1;
+	float Least = 1.0e9;
+	for (int Site = 0; Site < Sites; ++Site)
+	{
+		if (SiteFaces[Site] == NoNormal) { continue; }
+		vec2 Step = StepTo(Site);
+		if (dot(Step, Step) >= Least) { continue; }
+		Least = dot(Step, Step);
+		Nearest = Site;
+	}
+	return Nearest;
+}
 
 FSites FindSites(FViewConstants View, ivec2 InTile, FGBufferPoint Point)
 {
@@ -81,7 +99,7 @@ FSites FindSites(FViewConstants View, ivec2 InTile, FGBufferPoint Point)
 	float Others[Around];
 	for (int I = 0; I < Around; ++I)
 	{
-		int Site = SiteAt(InTile, I);
+		int Site = Found.Numbers[I] = SiteAt(InTile, I);
 		Found.Weights[I] = Others[I] = 0.0;
 		if (SiteFaces[Site] == NoNormal) { continue; }
 		vec2 Step = StepTo(Site) / vec2(Pitch);
@@ -93,10 +111,19 @@ FSites FindSites(FViewConstants View, ivec2 InTile, FGBufferPoint Point)
 		Sum += Found.Weights[I];
 		SumOfOthers += Kernel;
 	}
+	if (SumOfOthers == 0.0) // a wire before the sky
+	{
+		int Nearest = FindNearest();
+		if (Nearest >= 0)
+		{
+			Found.Numbers[0] = Nearest;
+			Others[0] = SumOfOthers = 1.0;
+		}
+	}
 	for (int I = 0; I < Around; ++I)
 	{
 		Found.Weights[I] = Sum > 0.0 ? Found.Weights[I] / Sum : Others[I] / max(SumOfOthers, 1.0e-30);
-		Found.Normals[I] = Found.Weights[I] > 0.0 ? UnpackOct(SiteNormals[SiteAt(InTile, I)]) : vec3(0.0);
+		Found.Normals[I] = Found.Weights[I] > 0.0 ? UnpackOct(SiteNormals[Found.Numbers[I]]) : vec3(0.0);
 	}
 	return Found;
 }
@@ -104,9 +131,10 @@ FSites FindSites(FViewConstants View, ivec2 InTile, FGBufferPoint Point)
 // What paths bring, and what says how much of it is chance.
 struct FSum
 {
-	vec3 Light, Near; // Near: of near paths, which are of sites next to the pixel alone
+	vec3 Light, Near; // Near: see FPathReservoir
 	// Sums over sites: of squared brightness, of brightness times weight, of squared weights.
 	float Squares, Crossed, Weights;
+	float NearVariance;
 };
 
 void AddPath(vec3 Light, float Weight, inout FSum Sum)
@@ -121,35 +149,62 @@ void AddPath(vec3 Light, float Weight, inout FSum Sum)
 // Returns a texel for FDenoiseInputs::bKnownNoise.
 vec4 PackSum(FSum Sum)
 {
-	const float MostDeviation = 100.0, Alone = 0.75; // Alone: sum of squared weights where one site counts for nearly all
+	const float MostDeviation = 100.0;
 	float Mean = Luminance(Sum.Light), Variance = Sum.Squares;
 	if (Sum.Weights < Alone)
 	{
 		Variance = max(Sum.Squares - 2.0 * Mean * Sum.Crossed + Mean * Mean * Sum.Weights, 0.0) / (1.0 - Sum.Weights);
 	}
+	Variance += Sum.NearVariance;
 	vec3 Light = clamp(Sum.Light + Sum.Near, vec3(0.0), vec3(MaxHalf));
 	return RoundToHalf(vec4(Light, min(sqrt(Variance) / max(Luminance(Light), 1.0e-6), MostDeviation)));
 }
 
-// Adds what near paths have brought: the pixel's own, or those of pixels next to it.
-void AddNear(ivec2 InTile, FSites Found, inout FSum Diffuse, inout FSum Specular)
+// What near paths of sites have brought to a lobe: how it differs from site to site.
+struct FNearSpread
+{
+	float Mean, Square; // of brightness
+};
+
+void AddSpread(vec3 Light, float Weight, inout FNearSpread Spread)
+{
+	float Brightness = Luminance(Light);
+	Spread.Mean += Weight * Brightness;
+	Spread.Square += Weight * Brightness * Brightness;
+}
+
+// Weights: sum of squared weights of the sites. Count: of sites that the pixel takes.
+float GetNearVariance(FNearSpread Spread, float Weights, float Count)
+{
+	float Variance = Weights < Alone ? max(Spread.Square - Spread.Mean * Spread.Mean, 0.0) / (1.0 - Weights) : Spread.Square;
+	return Variance / max(Count, 1.0);
+}
+
+// Adds what near paths and light sampling have brought: the pixel's own, or those of the nearest sites.
+void AddNear(FSites Found, inout FSum Diffuse, inout FSum Specular)
 {
 	float Count = 0.0, Least = 1.0e9;
+	FNearSpread DiffuseSpread = FNearSpread(0.0, 0.0), SpecularSpread = DiffuseSpread;
 	for (int I = 0; I < Around; ++I)
 	{
 		if (Found.Weights[I] <= 0.0) { continue; }
-		int Site = SiteAt(InTile, I);
+		int Site = Found.Numbers[I];
+		vec3 Its = UnpackRgbe(Reservoirs[Site].Near), ItsSpecular = UnpackRgbe(Reservoirs[Site].NearSpecular);
+		AddSpread(Its, Found.Weights[I], DiffuseSpread);
+		AddSpread(ItsSpecular, Found.Weights[I], SpecularSpread);
 		vec2 Step = abs(StepTo(Site));
 		float Far = max(Step.x, Step.y);
 		if (Far > Least) { continue; }
 		if (Far < Least) { Diffuse.Near = Specular.Near = vec3(Count = 0.0); }
 		Least = Far;
-		Diffuse.Near += UnpackRgbe(Reservoirs[Site].Near);
-		Specular.Near += UnpackRgbe(Reservoirs[Site].NearSpecular);
+		Diffuse.Near += Its;
+		Specular.Near += ItsSpecular;
 		Count += 1.0;
 	}
 	Diffuse.Near /= max(Count, 1.0);
 	Specular.Near /= max(Count, 1.0);
+	Diffuse.NearVariance = GetNearVariance(DiffuseSpread, Diffuse.Weights, Count);
+	Specular.NearVariance = GetNearVariance(SpecularSpread, Diffuse.Weights, Count);
 }
 
 // Returns by how much more a path lights a pixel than the sites that could have drawn it.
@@ -183,8 +238,8 @@ void LightPixel(FViewConstants View, ivec2 Pixel, float Depth, inout FSum Diffus
 	{
 		float Weight = Found.Weights[I];
 		if (Weight <= 0.0) { continue; }
-		FPathReservoir Path = Reservoirs[SiteAt(InTile, I)];
-		vec3 Direction = Path.Normal == NO_RESERVOIR_HIT ? Path.Hit : normalize(Path.Hit - Point.Relative);
+		FPathReservoir Path = Reservoirs[Found.Numbers[I]];
+		vec3 Direction = Path.bSky != 0u ? Path.Hit : normalize(Path.Hit - Point.Relative);
 		vec3 Light = UnpackRgbe(Path.Radiance) * Weight;
 		float Share = Path.Share * GetGain(Found, Point.BentN, Direction);
 		AddPath(Light * min(Share, MostShare), Weight, Diffuse);
@@ -194,7 +249,7 @@ void LightPixel(FViewConstants View, ivec2 Pixel, float Depth, inout FSum Diffus
 		AddPath(Light * min(Share * Reflected, vec3(MostSpecularShare)), Weight, Specular);
 #endif
 	}
-	AddNear(InTile, Found, Diffuse, Specular);
+	AddNear(Found, Diffuse, Specular);
 }
 
 void main()
@@ -204,7 +259,7 @@ void main()
 	barrier();
 	ivec2 Pixel = ivec2(gl_GlobalInvocationID.xy);
 	if (IsOutsideView(View, uvec2(Pixel))) { return; }
-	FSum Diffuse = FSum(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0), Specular = Diffuse;
+	FSum Diffuse = FSum(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0, 0.0), Specular = Diffuse;
 	float Depth = LoadDepth(Push.Depth, Pixel);
 	if (Depth > 0.0) { LightPixel(View, Pixel, Depth, Diffuse, Specular); }
 	bool bNone = Depth > 0.0 && Diffuse.Weights == 0.0;

@@ -72,7 +72,7 @@ vec3 AverageIndirectSamples(FSceneConstants Scene, FViewConstants View, uvec2 Pi
 #endif
 #ifdef PATH_RESERVOIRS
 		// What others take over is theirs to light the pixel by.
-		if (OfferPath(P - View.CameraPosition, Gathered.Direction, Gathered.Distance, Gathered.Normal, Gathered.Radiance, Gathered.Share,
+		if (OfferPath(P - View.CameraPosition, Gathered.Direction, Gathered.Distance, Gathered.Radiance, Gathered.Share,
 		              NextRandom4(Random).x)) { Gathered.Light = vec3(0.0); }
 #endif
 		vec3 L = Gathered.Light + Gathered.Emission;

@@ -13,27 +13,29 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FPathReservo
 struct FKeptPath
 {
 	vec3 Hit; // relative to the camera; of the sky: direction
-	uint Normal;
+	bool bSky;
 	vec3 Radiance;
 	float Share, Light; // see FPathReservoir; what it was chosen by
 	float Sum;          // of the light of all paths
 	uint Paths;
 };
-const FKeptPath NoKeptPath = FKeptPath(vec3(0.0, 0.0, 1.0), NO_RESERVOIR_HIT, vec3(0.0), 0.0, 0.0, 0.0, 0u);
+const FKeptPath NoKeptPath = FKeptPath(vec3(0.0, 0.0, 1.0), true, vec3(0.0), 0.0, 0.0, 0.0, 0u);
 
 FKeptPath KeptPath;
 float PathNear; // distance up to which paths meet something near, metres
 
 // Offers a path to the pixels around. Start: relative to the camera. Distance: below 0: to the sky. U: random. Returns whether it is for
 // them; else it is near.
-bool OfferPath(vec3 Start, vec3 Direction, float Distance, vec3 Normal, vec3 Radiance, float Share, float U)
+bool OfferPath(vec3 Start, vec3 Direction, float Distance, vec3 Radiance, float Share, float U)
 {
+	const float MostLight = 1.0e15;
 	if (Distance >= 0.0 && Distance < PathNear) { return false; }
+	Radiance = mix(clamp(Radiance, vec3(0.0), vec3(MostLight)), vec3(0.0), isnan(Radiance));
 	float Light = Luminance(Radiance) * Share;
 	KeptPath.Sum += Light;
 	if (KeptPath.Paths++ > 0u && U * KeptPath.Sum >= Light) { return true; }
 	KeptPath.Hit = Distance < 0.0 ? Direction : Start + Direction * Distance;
-	KeptPath.Normal = Distance < 0.0 ? NO_RESERVOIR_HIT : PackOct(Normal);
+	KeptPath.bSky = Distance < 0.0;
 	KeptPath.Radiance = Radiance;
 	KeptPath.Share = Share;
 	KeptPath.Light = Light;
@@ -43,12 +45,10 @@ bool OfferPath(vec3 Start, vec3 Direction, float Distance, vec3 Normal, vec3 Rad
 // Samples: of the pixel, near ones included. Near, NearSpecular: their means over all samples.
 FPathReservoir PackReservoir(uint Samples, vec3 Near, vec3 NearSpecular, inout FRandom Random)
 {
-	const float MostLight = 1.0e15;
 	// A path alone counts as it was drawn, dark or not. One that was chosen counts for the others as well.
 	float Factor = KeptPath.Paths <= 1u ? 1.0 : KeptPath.Light > 0.0 ? KeptPath.Sum / KeptPath.Light : 0.0;
 	vec3 Radiance = KeptPath.Radiance * (Factor / float(max(Samples, 1u)));
-	Radiance = mix(clamp(Radiance, vec3(0.0), vec3(MostLight)), vec3(0.0), isnan(Radiance));
-	return FPathReservoir(KeptPath.Hit, KeptPath.Normal, PackRgbe(Radiance, NextRandom4(Random).xyz), KeptPath.Share, PackRgbe(Near, NextRandom4(Random).xyz),
+	return FPathReservoir(KeptPath.Hit, KeptPath.bSky ? 1u : 0u, PackRgbe(Radiance, NextRandom4(Random).xyz), KeptPath.Share, PackRgbe(Near, NextRandom4(Random).xyz),
 	                      PackRgbe(NearSpecular, NextRandom4(Random).xyz));
 }
 

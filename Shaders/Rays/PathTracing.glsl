@@ -195,7 +195,7 @@ struct FGathered
 	vec3 Light, Direction;            // of the path
 	vec3 Emission, EmissionDirection; // of a triangle that light sampling has found; zero if there is none
 #ifdef PATH_RESERVOIRS
-	vec3 Radiance, Normal; // along Direction, so that Light is Share times it; of what the path met
+	vec3 Radiance;         // along Direction: Light is Share times it
 	float Share, Distance; // Distance: to what the path met; below 0: the sky
 #endif
 };
@@ -213,7 +213,6 @@ FGathered Gather(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, 
 	Gathered.Direction = Gathered.EmissionDirection = Ng;
 #ifdef PATH_RESERVOIRS
 	Gathered.Radiance = vec3(0.0);
-	Gathered.Normal = Ng;
 	Gathered.Share = 0.0;
 	Gathered.Distance = -1.0;
 #endif
@@ -256,7 +255,6 @@ FGathered Gather(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, 
 #ifdef PATH_RESERVOIRS
 	Gathered.Share = Sample.Weight.x;
 	Gathered.Distance = Hit.Distance;
-	Gathered.Normal = Hit.GeometricNormal;
 #endif
 	if (Hit.Distance < 0.0)
 	{

@@ -17,7 +17,7 @@ struct FBruteForceConstants
 	FAddress RadianceCells; // FRadianceGrid, for shaders with RADIANCE_CELLS; 0: there are none
 	FAddress Deferred;      // FDeferredPaths, for shaders with DEFERS_PATHS or DEFERRED_PATHS
 	uint SecondOutput;      // storage index, for shaders with SECOND_LOBE
-	float NearPixels;       // for shaders with PATH_RESERVOIRS: paths that meet something within as many pixels light their pixel alone
+	float NearPixels;       // for shaders with PATH_RESERVOIRS: paths that meet something within as many pixels light no pixels but the nearest
 	FAddress GuideTiles;  // FPathGuideTile[] of the previous frame, for shaders with GUIDED_PATHS; 0: there are none
 	FAddress PathRecords; // see FPathGuideConstants::Records
 	FAddress ProbeGrid;   // FScreenProbeGrid, for shaders with SCREEN_PROBES

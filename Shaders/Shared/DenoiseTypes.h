@@ -22,7 +22,7 @@ struct FSurfaceConstants
 };
 LANTERN_ASSERT_SIZE(FSurfaceConstants, 48);
 
-// Constants of Denoise/Temporal.comp. Inputs are sampled indices, outputs are storage indices.
+// Constants of Denoise/Temporal.comp and TemporalKnown.comp. Inputs are sampled indices, outputs are storage indices.
 // A history of one channel holds the mean, one frame's noise (standard deviation), the frames that the mean is worth, and the
 // neighbourhood's mean. With three channels it holds the mean and the frames; a second texture, Moments, holds the rest.
 struct FTemporalConstants
@@ -30,7 +30,8 @@ struct FTemporalConstants
 	FPassConstants Pass;
 	uint Signal; // a mean over the frame's rays
 	uint Surface;
-	uint Motion, PreviousSurface, Reprojection, History; // NO_TEXTURE, all four: nothing to reproject
+	uint Motion, History; // NO_TEXTURE, both: nothing to reproject
+	uint PreviousSurface, Reprojection; // one channel only
 	uint Moments;                          // three channels only
 	// WITH_EXTENT only. x: width of the transition (penumbra), pixels; 0: unknown. y: rays of the pixel; 0 or absent: RaysPerPixel.
 	uint Extent;
@@ -39,7 +40,7 @@ struct FTemporalConstants
 	float MinAlpha;                        // least weight of a new frame, 0 to 1
 	float ClampSigma;                      // range of the clamp, in the window's standard deviations; 0: not clamped
 	float ChangeSigma;                     // change that shortens the history, in standard errors; 0: changes are not looked for
-	float Resampling;                      // share of the history's second differences that counts as error of resampling
+	float Resampling;                      // one channel only: share of the history's second differences that counts as error of resampling
 	float RaysPerPixel;                    // one channel only: number of rays of which a frame's value is the mean
 	FAddress Casters; // FMovedCaster[CasterCount]: those that moved in the last frames
 	uint CasterCount;

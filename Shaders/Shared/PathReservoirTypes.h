@@ -6,16 +6,14 @@
 
 LANTERN_SHARED_BEGIN
 
-#define NO_RESERVOIR_HIT 0x80008000u // a normal that packing never gives: the path met the sky
-
 // A path that stands for all that were drawn for a pixel, and the light of those that met something near, which it does not stand for.
 struct FPathReservoir
 {
 	vec3 Hit;          // place that the path met first, relative to the camera, metres; of the sky: direction
-	uint Normal;       // there, octahedral; NO_RESERVOIR_HIT
+	uint bSky;
 	uint Radiance;     // from there to the pixel, times the number of paths that it stands for, over all of the pixel's, by PackRgbe
 	float Share;       // of a white Lambert lobe that it stands for: cosine / π over the density by which it was drawn; 0: there is no path
-	uint Near;         // mean light of near paths, by PackRgbe: irradiance / π
+	uint Near;         // mean light of near paths, and what light sampling has found, by PackRgbe: irradiance / π
 	uint NearSpecular; // what the specular lobe reflects of it, over its albedo, by PackRgbe
 };
 LANTERN_ASSERT_SIZE(FPathReservoir, 32);

@@ -1,5 +1,6 @@
 // Step "reproject" of the temporal filter: reads the accumulated signal where the pixel's surface was in the previous frame.
-//   Takes: the previous frame's images (Push.History, Push.Moments) and where the surface was in it (Push.Reprojection).
+//   Takes: the previous frame's images (Push.History, Push.Moments) and where the surface was in it (Push.Reprojection; of colours:
+//   Push.Anchors).
 //   Gives: FHistory. Frames is 0 if the surface was not seen.
 //   Why: the four nearest texels count only if they showed the same surface (Library/History.glsl), so that nothing leaks
 //   from one object to another. Visibility is read between them. Variances add up, and so the numbers of frames have a harmonic mean.

@@ -332,7 +332,7 @@ FBruteForceOutputs AddBruteForcePass(const FBruteForcePass& Settings, FFrameCont
 	{
 		AddFillPass(Context, GBuffer, std::string(GetSignalInfo(Settings.Signal).Pass) + "Fill", Paths.Output, Paths.SecondOutput, Fill);
 	}
-	return {Paths.Output, Paths.SecondOutput};
+	return {Paths.Output, Paths.SecondOutput, Paths.Reservoirs.IsValid()};
 }
 
 } // namespace Lantern

@@ -42,8 +42,9 @@ FPassRays MakeDeferredRays(const FPassRays& Rays);
 /// What AddBruteForcePass has made. Invalid: nothing is traced, or shaders are being compiled.
 struct FBruteForceOutputs
 {
-	FGraphTexture Lobe;   ///< of FBruteForcePass::Signal
-	FGraphTexture Second; ///< of FBruteForcePass::Second, over the albedo of that lobe
+	FGraphTexture Lobe;       ///< of FBruteForcePass::Signal
+	FGraphTexture Second;     ///< of FBruteForcePass::Second, over the albedo of that lobe
+	bool bKnownNoise = false; ///< of either, see FDenoiseInputs
 };
 /// Reads Depth and Normals of the G-buffer, and BaseColor and Material if FSignalInfo::bNeedsSurface of either signal says so.
 FBruteForceOutputs AddBruteForcePass(const FBruteForcePass& Settings, FFrameContext& Context, const FGBuffer& GBuffer);

@@ -97,15 +97,9 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 		}
 		if (bReproject)
 		{
-			for (const FGraphTexture Texture : {Surface.Motion, Surface.Previous, Surface.Reprojection, History.Previous})
-			{
-				Builder.Read(Texture, ERTAccess::ShaderRead);
-			}
-			if (bColor)
-			{
-				Builder.Read(Moments.Previous, ERTAccess::ShaderRead);
-				Builder.Read(Surface.Anchors, ERTAccess::ShaderRead);
-			}
+			for (const FGraphTexture Texture : {Surface.Motion, History.Previous}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
+			const FGraphTexture OfColor[] = {Moments.Previous, Surface.Anchors}, OfVisibility[] = {Surface.Previous, Surface.Reprojection};
+			for (const FGraphTexture Texture : bColor ? OfColor : OfVisibility) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 		}
 		Builder.Write(History.Current, ERTAccess::StorageWrite);
 		if (bColor) { Builder.Write(Moments.Current, ERTAccess::StorageWrite); }
@@ -134,8 +128,8 @@ FGraphTexture FDenoiser::AddTemporalPass(FGraphTexture Output)
 			C.ChangedShare = GetSampledIndex(Pass, Share);
 			C.Surface = GetSampledIndex(Pass, Surface.Current);
 			C.Motion = GetSampledIndex(Pass, bReproject ? Surface.Motion : FGraphTexture{});
-			C.PreviousSurface = GetSampledIndex(Pass, bReproject ? Surface.Previous : FGraphTexture{});
-			C.Reprojection = GetSampledIndex(Pass, bReproject ? Surface.Reprojection : FGraphTexture{});
+			C.PreviousSurface = GetSampledIndex(Pass, bReproject && !bColor ? Surface.Previous : FGraphTexture{});
+			C.Reprojection = GetSampledIndex(Pass, bReproject && !bColor ? Surface.Reprojection : FGraphTexture{});
 			C.Anchors = GetSampledIndex(Pass, bReproject && bColor ? Surface.Anchors : FGraphTexture{});
 			C.History = GetSampledIndex(Pass, bReproject ? Kept.Previous : FGraphTexture{});
 			C.Moments = GetSampledIndex(Pass, bReproject ? KeptMoments.Previous : FGraphTexture{});

@@ -38,7 +38,7 @@ TRTConsoleVariable<bool> CVarGuide("r.RT.GI.Guide", false,
     "Up to half of the paths go where earlier paths of the neighbourhood found light. Saves noise where light comes from few places.");
 TRTConsoleVariable<bool> CVarReuse("r.RT.GI.Reuse", true,
     "Paths of r.RT.GI 3 light the pixels around as well, each by its own normal. If off, pixels without a path take the mean of their "
-    "neighbours.");
+    "neighbours. Light then changes as the scene says alone: r.RT.GI.ChangeSigma and .ClampSigma do not count.");
 TRTConsoleVariable<bool> CVarRoughSpecular("r.RT.GI.RoughSpecular", true,
     "Paths of diffuse global illumination light the specular lobes of surfaces whose reflections are not traced. If off, diffuse light and "
     "the sky stand in.");
@@ -92,14 +92,14 @@ bool IsPair(const FPassQuery& Query)
 	return IsMade(ESignal::DiffuseGI, Query.Requests) && ChooseRoughSpecularRays(Query).Path != ERayPath::None;
 }
 
-FDenoiseInputs MakeInputs(ESignal Signal, FGraphTexture Lobe, FGraphTexture MovedShare)
+FDenoiseInputs MakeInputs(ESignal Signal, FGraphTexture Lobe, FGraphTexture MovedShare, bool bKnownNoise)
 {
 	FDenoiseInputs Inputs;
 	Inputs.Name = GetSignalInfo(Signal).Pass;
 	Inputs.Signal = Lobe;
 	Inputs.Rate = GetValueRate();
 	Inputs.ChangedShare = MovedShare;
-	Inputs.bKnownNoise = IsReused();
+	Inputs.bKnownNoise = bKnownNoise;
 	return Inputs;
 }
 
@@ -109,8 +109,8 @@ FLobes FilterLobes(FFrameContext& Context, const FGBuffer& GBuffer, const FBrute
 	if (!Denoise.IsEnabled() || (!Lobes.Diffuse.IsValid() && !Lobes.Specular.IsValid())) { return Lobes; }
 	const FDenoiseSettings Settings = GetFilter(Context);
 	const FGraphTexture Moved = AddMovedShare(Context, GBuffer);
-	const FDenoiseInputs Diffuse = MakeInputs(ESignal::DiffuseGI, Lobes.Diffuse, Moved);
-	const FDenoiseInputs Specular = MakeInputs(ESignal::RoughSpecular, Lobes.Specular, Moved);
+	const FDenoiseInputs Diffuse = MakeInputs(ESignal::DiffuseGI, Lobes.Diffuse, Moved, Made.bKnownNoise);
+	const FDenoiseInputs Specular = MakeInputs(ESignal::RoughSpecular, Lobes.Specular, Moved, Made.bKnownNoise);
 	const bool bDiffuse = Lobes.Diffuse.IsValid() && IsMade(ESignal::DiffuseGI, Context.Signals);
 	if (bDiffuse && Lobes.Specular.IsValid()) { return AddDenoisePair(Context, GBuffer, Diffuse, Specular, Settings); }
 	if (bDiffuse) { Lobes.Diffuse = AddDenoise(Context, GBuffer, Diffuse, Settings); }

@@ -10,9 +10,7 @@ namespace Lantern
 namespace
 {
 TRTConsoleVariable<float> CVarNear("r.RT.GI.Reuse.Near", 16.0f,
-    "With r.RT.GI.Reuse, paths that meet something within so many pixels' widths light their own pixel alone, since pixels around may not "
-    "see "
-    "what they meet.",
+    "With r.RT.GI.Reuse, paths that meet something within so many pixels' widths light no pixels but the nearest. Others may not see it.",
     {0, 1024});
 
 TRTConsoleVariable<bool> CVarReuseCosine("r.RT.Debug.GI.ReuseCosine", true,
