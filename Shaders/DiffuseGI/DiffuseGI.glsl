@@ -4,7 +4,7 @@
 // DEFERS_PATHS: paths that meet no cell are left to a second launch, of DEFERRED_PATHS, which has a thread for each of their pixels.
 // GUIDED_PATHS: see PathGuide.glsl. Each thread leaves a record of its first path.
 // SCREEN_PROBES: paths start at screen probes instead of pixels.
-// PATH_RESERVOIRS: paths are left for all pixels around, which a pass behind them lights.
+// SHARED_PATHS: paths are left for all pixels around, which a pass behind them lights.
 // SECOND_LOBE: the paths light the specular lobe as well (ESignal::RoughSpecular).
 // CHECKERBOARD, QUARTER: see Rate.glsl. BruteForce/Fill.comp fills the other pixels.
 // HAS_SUN, HAS_SKY, HAS_LIGHTS, HAS_EMISSIVE, HAS_MASKED: defined if the scene has such.
@@ -116,7 +116,7 @@ void GatherPaths(uvec2 Thread)
 	BeginLookUps(View, uvec2(Pixel));
 	ChooseRadianceRest(uvec2(Pixel), View);
 #endif
-#ifdef PATH_RESERVOIRS
+#ifdef SHARED_PATHS
 	KeptPath = NoKeptPath;
 #endif
 #ifdef GUIDED_PATHS
@@ -127,7 +127,7 @@ void GatherPaths(uvec2 Thread)
 	{
 		FSceneConstants Scene = FSceneRef(Push.Pass.Scene).Data;
 		FGBufferPoint Point = LoadGBufferPoint(View, Push.Normals, Pixel, Depth);
-#ifdef PATH_RESERVOIRS
+#ifdef SHARED_PATHS
 		PathNear = Push.NearPixels * PixelHeight(View, dot(View.CameraForward, Point.Relative));
 #endif
 #ifdef SECOND_LOBE
@@ -150,9 +150,9 @@ void GatherPaths(uvec2 Thread)
 #ifdef GUIDED_PATHS
 	FPathRecordRef(Push.PathRecords).Data[Number] = PathRecord;
 #endif
-#ifdef PATH_RESERVOIRS
+#ifdef SHARED_PATHS
 	FRandom Random = MakeRandom(uvec2(Pixel), View.FrameIndex, HashPcg(View.Seed + 0x3c6ef372u));
-	FPathReservoirRef(Push.Reservoirs).Data[Number] = PackReservoir(Push.SamplesPerPixel, Radiance, Specular, Random);
+	FSharedPathRef(Push.Shared).Data[Number] = PackSharedPath(Radiance, Specular, Random);
 #else
 	imageStore(Images[Push.Output], Pixel, RoundToHalf(vec4(Radiance, 1.0)));
 #ifdef SECOND_LOBE

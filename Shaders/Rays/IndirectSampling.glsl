@@ -4,8 +4,8 @@
 
 #include "../Library/GBuffer.glsl"
 #include "PathTracing.glsl"
-#ifdef PATH_RESERVOIRS
-#include "PathReservoirs.glsl"
+#ifdef SHARED_PATHS
+#include "SharedPaths.glsl"
 #endif
 
 const float MaxHalf = 65504.0;
@@ -70,10 +70,12 @@ vec3 AverageIndirectSamples(FSceneConstants Scene, FViewConstants View, uvec2 Pi
 #ifdef GUIDED_PATHS
 		if (Sample == 0u) { PathRecord = RecordPath(Gathered, Point.BentN); }
 #endif
-#ifdef PATH_RESERVOIRS
+#ifdef SHARED_PATHS
 		// What others take over is theirs to light the pixel by.
-		if (OfferPath(P - View.CameraPosition, Gathered.Direction, Gathered.Distance, Gathered.Radiance, Gathered.Share,
-		              NextRandom4(Random).x)) { Gathered.Light = vec3(0.0); }
+		if (OfferPath(P - View.CameraPosition, Gathered.Direction, Gathered.Distance, Gathered.Radiance, Gathered.Share))
+		{
+			Gathered.Light = vec3(0.0);
+		}
 #endif
 		vec3 L = Gathered.Light + Gathered.Emission;
 		Sum += mix(L, vec3(0.0), isnan(L));

@@ -194,7 +194,7 @@ struct FGathered
 {
 	vec3 Light, Direction;            // of the path
 	vec3 Emission, EmissionDirection; // of a triangle that light sampling has found; zero if there is none
-#ifdef PATH_RESERVOIRS
+#ifdef SHARED_PATHS
 	vec3 Radiance;         // along Direction: Light is Share times it
 	float Share, Distance; // Distance: to what the path met; below 0: the sky
 #endif
@@ -211,7 +211,7 @@ FGathered Gather(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, 
 	FGathered Gathered;
 	Gathered.Light = Gathered.Emission = vec3(0.0);
 	Gathered.Direction = Gathered.EmissionDirection = Ng;
-#ifdef PATH_RESERVOIRS
+#ifdef SHARED_PATHS
 	Gathered.Radiance = vec3(0.0);
 	Gathered.Share = 0.0;
 	Gathered.Distance = -1.0;
@@ -252,7 +252,7 @@ FGathered Gather(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, 
 	if (Sample.Direction.z <= 0.0 || dot(Direction, Ng) <= 0.0) { return Gathered; }
 	FMaterialHit Hit = TraceMaterial(Scene, MASK_VISIBLE, P, Direction, Infinity, bShown ? SHOWS_ALL : SHOWS_NOTHING);
 	vec3 Radiance = vec3(0.0);
-#ifdef PATH_RESERVOIRS
+#ifdef SHARED_PATHS
 	Gathered.Share = Sample.Weight.x;
 	Gathered.Distance = Hit.Distance;
 #endif
@@ -271,7 +271,7 @@ FGathered Gather(FSceneConstants Scene, FBrdf Lobe, mat3 Basis, vec3 V, vec3 P, 
 		Radiance = FollowPath(Scene, Hit, P, Direction, Sample.Pdf, Sample.Direction.z, 1u, MaxBounces, bShown, Random);
 	}
 	Gathered.Light = Sample.Weight * Radiance;
-#ifdef PATH_RESERVOIRS
+#ifdef SHARED_PATHS
 	Gathered.Radiance = Radiance;
 #endif
 	return Gathered;

@@ -17,11 +17,11 @@ struct FBruteForceConstants
 	FAddress RadianceCells; // FRadianceGrid, for shaders with RADIANCE_CELLS; 0: there are none
 	FAddress Deferred;      // FDeferredPaths, for shaders with DEFERS_PATHS or DEFERRED_PATHS
 	uint SecondOutput;      // storage index, for shaders with SECOND_LOBE
-	float NearPixels;       // for shaders with PATH_RESERVOIRS: paths that meet something within as many pixels light no pixels but the nearest
+	float NearPixels;       // for shaders with SHARED_PATHS: paths that meet something within as many pixels light no pixels but the nearest
 	FAddress GuideTiles;  // FPathGuideTile[] of the previous frame, for shaders with GUIDED_PATHS; 0: there are none
 	FAddress PathRecords; // see FPathGuideConstants::Records
 	FAddress ProbeGrid;   // FScreenProbeGrid, for shaders with SCREEN_PROBES
-	FAddress Reservoirs;  // FPathReservoir[] of the first launch's threads, row by row, for shaders with PATH_RESERVOIRS
+	FAddress Shared;  // FSharedPath[] of the first launch's threads, row by row, for shaders with SHARED_PATHS
 };
 LANTERN_ASSERT_SIZE(FBruteForceConstants, 104);
 

@@ -352,7 +352,7 @@ TEST_F(FRendererLackTest, ScreenProbesAreThereForTheirRouteAlone)
 	EXPECT_FALSE(HasPart(Make(Empty), "ScreenProbe")) << "without surfaces";
 }
 
-TEST_F(FRendererLackTest, OnlySharedPathsLeaveReservoirs)
+TEST_F(FRendererLackTest, OnlySharedPathsAreResolved)
 {
 	FStage Shared, Alone, Brute;
 	Shared.Settings = {{"r.RT.GI", "3"}, {"r.RT.GI.Rate", "2"}};
@@ -364,12 +364,12 @@ TEST_F(FRendererLackTest, OnlySharedPathsLeaveReservoirs)
 	for (const FStage& Stage : {Alone, Brute})
 	{
 		const FNames Names = Make(Stage);
-		EXPECT_FALSE(HasPart(Names, "PathRes"));
+		EXPECT_FALSE(HasPart(Names, "PathResolve"));
 		EXPECT_TRUE(HasPart(Names, "pass DiffuseGIFill"));
 	}
 	FStage Dark = Shared;
 	Dark.Content.bSun = Dark.Content.bSky = Dark.Content.bLights = Dark.Content.bEmissive = false;
-	EXPECT_FALSE(HasPart(Make(Dark), "PathRes")) << "without light";
+	EXPECT_FALSE(HasPart(Make(Dark), "PathResolve")) << "without light";
 }
 
 TEST_F(FRendererLackTest, DevicesWithoutPipelinesHaveDiffuseGIByQueries)

@@ -8,10 +8,10 @@
 #include "BruteForceTypes.h"
 #include "Lights/LightCells.h"
 #include "LocalLights/Emitters.h"
-#include "PathReservoirs/PathReservoirs.h"
 #include "RadianceCells/RadianceCells.h"
 #include "RayQueueTypes.h"
 #include "ScreenProbes/ScreenProbes.h"
+#include "SharedPaths/SharedPaths.h"
 #include "SignalPasses.h"
 #include "TileTypes.h"
 
@@ -67,13 +67,13 @@ struct FPaths
 	FGraphTexture SecondOutput; ///< of the second lobe; invalid: there is none
 	FGraphBuffer Deferred;      ///< FDeferredPaths; invalid: there is no second launch
 	const FRadianceCells* RadianceCells = nullptr;
-	FPathGuide Guide;           ///< invalid: paths are not guided
-	FScreenProbes Probes;       ///< invalid: paths start at pixels
-	FPathReservoirs Reservoirs; ///< invalid: paths light their own pixels alone
+	FPathGuide Guide;     ///< invalid: paths are not guided
+	FScreenProbes Probes; ///< invalid: paths start at pixels
+	FSharedPaths Shared;  ///< invalid: paths light their own pixels alone
 	FRayDispatch First, Second;
 	uint32_t Width = 0, Height = 0; ///< of the first launch
 	/// Whether launches write the outputs. Else a pass behind them does.
-	bool LightsPixels() const { return !Probes.IsValid() && !Reservoirs.IsValid(); }
+	bool LightsPixels() const { return !Probes.IsValid() && !Shared.IsValid(); }
 };
 
 FPaths MakePaths(const FBruteForcePass& Settings, FFrameContext& Context, const FRayDispatch& First, const FRayDispatch* Second)
@@ -102,9 +102,9 @@ FPaths MakePaths(const FBruteForcePass& Settings, FFrameContext& Context, const 
 	                                               : DivideUp(Context.Width, 2) * DivideUp(Context.Height, 2);
 	const ERayPath Path = First.Compute ? ERayPath::Query : ERayPath::Pipeline;
 	Paths.RadianceCells = Settings.EndsInRadianceCells() ? RequireRadianceCells(Context, Path, Voters) : nullptr;
-	if (First.Has(PathReservoirsDefine))
+	if (First.Has(SharedPathsDefine))
 	{
-		Paths.Reservoirs = MakePathReservoirs(Context, Rate, First.Has(SecondLobe), uint64_t(Paths.Width) * Paths.Height);
+		Paths.Shared = MakeSharedPaths(Context, Rate, First.Has(SecondLobe), uint64_t(Paths.Width) * Paths.Height);
 	}
 	if (First.Has(GuidedPathsDefine)) { Paths.Guide = MakePathGuide(Context, Rate, uint64_t(Paths.Width) * Paths.Height); }
 	if (Second)
@@ -182,7 +182,7 @@ void DeclarePaths(FPassBuilder& Builder, const FBruteForcePass& Settings, const 
 	}
 	if (Paths.Guide.IsValid()) { DeclareGuidedPaths(Builder, Paths.Guide); }
 	if (Paths.Probes.IsValid()) { DeclareScreenProbeRays(Builder, Paths.Probes); }
-	if (Paths.Reservoirs.IsValid()) { Builder.Write(Paths.Reservoirs.Fresh, ERTAccess::StorageWrite); }
+	if (Paths.Shared.IsValid()) { Builder.Write(Paths.Shared.Fresh, ERTAccess::StorageWrite); }
 	if (!Paths.Deferred.IsValid()) { return; }
 	Builder.Read(Paths.Deferred, bDeferred ? ERTAccess::ShaderRead : ERTAccess::StorageRead);
 	if (bDeferred) { Builder.Read(Paths.Deferred, ERTAccess::IndirectRead); }
@@ -214,7 +214,7 @@ void RecordPaths(FPassContext& Pass, const FFrameContext& Frame, const FBruteFor
 	C.GuideTiles = GetGuideTiles(Pass, Paths.Guide);
 	C.PathRecords = GetAddress(Pass, Paths.Guide.Records);
 	C.ProbeGrid = WriteScreenProbeGrid(Pass, Paths.Probes);
-	C.Reservoirs = GetAddress(Pass, Paths.Reservoirs.Fresh);
+	C.Shared = GetAddress(Pass, Paths.Shared.Fresh);
 	C.NearPixels = GetNearPixels();
 	if (bDeferred) { return TraceDeferred(Pass, Frame, Paths, C); }
 	Pass.CountRays(uint64_t(Paths.Width) * Paths.Height * C.SamplesPerPixel * GetMaxPathRays(Frame.Facts, Bounces));
@@ -270,7 +270,7 @@ FPassRays ChooseBruteForceRays(const FBruteForcePass& Settings, const FPassQuery
 	{
 		const auto Rate = static_cast<EPixelRate>(Settings.Rate->GetOnRenderThread());
 		AddRateDefine(Rate, Rays.Defines);
-		if (Settings.KeepsPaths()) { AddPathReservoirShaders(Rate, bSecondLobe, Rays.Defines, Rays.Compute); }
+		if (Settings.KeepsPaths()) { AddSharedPathShaders(Rate, bSecondLobe, Rays.Defines, Rays.Compute); }
 		else if (Rate != EPixelRate::Full) { Rays.Compute.push_back(MakeFillSource(Rate)); }
 	}
 	if (!CVarMixturePdf.GetOnRenderThread()) { Rays.Defines.emplace_back("NO_MIXTURE_PDF", "1"); }
@@ -311,12 +311,12 @@ FBruteForceOutputs AddBruteForcePass(const FBruteForcePass& Settings, FFrameCont
 		if (!Second) { return {}; }
 	}
 	const EPixelRate Rate = FindRate(First->Defines);
-	const bool bFills = Rate != EPixelRate::Full && !First->Has(PathReservoirsDefine);
+	const bool bFills = Rate != EPixelRate::Full && !First->Has(SharedPathsDefine);
 	IRTPipeline* const Fill = bFills ? RequireCompute(Context, MakeFillSource(Rate)) : nullptr;
 	if (bFills && !Fill) { return {}; }
 	const FPaths Paths = MakePaths(Settings, Context, *First, Second ? &*Second : nullptr);
 	if (First->Has(GuidedPathsDefine) && !Paths.Guide.IsValid()) { return {}; }
-	if (First->Has(PathReservoirsDefine) && !Paths.Reservoirs.IsValid()) { return {}; }
+	if (First->Has(SharedPathsDefine) && !Paths.Shared.IsValid()) { return {}; }
 	if (First->Has(ScreenProbesDefine))
 	{
 		if (!Paths.Probes.IsValid()) { return {}; }
@@ -326,13 +326,13 @@ FBruteForceOutputs AddBruteForcePass(const FBruteForcePass& Settings, FFrameCont
 	AddPathsPass(Settings, Context, GBuffer, Paths, false);
 	if (Second) { AddDeferredPasses(Settings, Context, GBuffer, Paths); }
 	if (Paths.Guide.IsValid()) { AddPathGuideUpdate(Context, GBuffer, Paths.Guide); }
-	if (Paths.Reservoirs.IsValid()) { AddPathResolve(Context, GBuffer, Paths.Reservoirs, Paths.Output, Paths.SecondOutput); }
+	if (Paths.Shared.IsValid()) { AddPathResolve(Context, GBuffer, Paths.Shared, Paths.Output, Paths.SecondOutput); }
 	if (Paths.Probes.IsValid()) { AddScreenProbeGather(Context, GBuffer, Paths.Probes, Paths.Output, Paths.SecondOutput); }
 	if (Fill)
 	{
 		AddFillPass(Context, GBuffer, std::string(GetSignalInfo(Settings.Signal).Pass) + "Fill", Paths.Output, Paths.SecondOutput, Fill);
 	}
-	return {Paths.Output, Paths.SecondOutput, Paths.Reservoirs.IsValid()};
+	return {Paths.Output, Paths.SecondOutput, Paths.Shared.IsValid()};
 }
 
 } // namespace Lantern

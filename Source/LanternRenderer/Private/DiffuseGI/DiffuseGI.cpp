@@ -37,7 +37,8 @@ TRTConsoleVariable<int32_t> CVarPath("r.RT.GI.Path", 0,
 TRTConsoleVariable<bool> CVarGuide("r.RT.GI.Guide", false,
     "Up to half of the paths go where earlier paths of the neighbourhood found light. Saves noise where light comes from few places.");
 TRTConsoleVariable<bool> CVarReuse("r.RT.GI.Reuse", true,
-    "Paths of r.RT.GI 3 light the pixels around as well, each by its own normal. If off, pixels without a path take the mean of their "
+    "Paths of r.RT.GI 3 light the pixels around as well, each by its own normal, if r.RT.GI.Samples is 1. If off, pixels without a path "
+    "take the mean of their "
     "neighbours. Light then changes as the scene says alone: r.RT.GI.ChangeSigma and .ClampSigma do not count.");
 TRTConsoleVariable<bool> CVarRoughSpecular("r.RT.GI.RoughSpecular", true,
     "Paths of diffuse global illumination light the specular lobes of surfaces whose reflections are not traced. If off, diffuse light and "
@@ -51,7 +52,8 @@ constexpr uint32_t MostReusePasses = 3; // paths have been shared already
 constexpr uint32_t ReuseStep = 2;       // pixels, from one path to the next where one pixel of four traces
 
 bool IsProbeRoute() { return CVarRoute.GetOnRenderThread() == 2; }
-bool IsReused() { return CVarRoute.GetOnRenderThread() == 3 && CVarReuse.GetOnRenderThread(); }
+/// Pixels with many paths of their own know enough.
+bool IsReused() { return CVarRoute.GetOnRenderThread() == 3 && CVarReuse.GetOnRenderThread() && CVarSamples.GetOnRenderThread() == 1; }
 
 EPixelRate GetTraceRate() { return static_cast<EPixelRate>(CVarRate.GetOnRenderThread()); }
 /// Rate of pixels that have a value of their own.

@@ -7,15 +7,15 @@
 #include "../Library/GBuffer.glsl"
 #include "../Library/Rate.glsl"
 #include "../Library/Rgbe.glsl"
-#include "../Shared/PathReservoirTypes.h"
+#include "../Shared/SharedPathTypes.h"
 #include "../Tiles/Tile.glsl"
 #ifdef SECOND_LOBE
 #include "../Rays/SecondLobe.glsl"
 #endif
 
 layout(local_size_x = TILE_SIZE, local_size_y = TILE_SIZE) in;
-layout(push_constant, scalar) uniform FPush { FPathReservoirConstants Push; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FPathReservoirRef { FPathReservoir Data[]; };
+layout(push_constant, scalar) uniform FPush { FSharedPathConstants Push; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FSharedPathRef { FSharedPath Data[]; };
 
 #if defined(QUARTER)
 const ivec2 Pitch = ivec2(2, 2); // pixels from one site to the next
@@ -37,7 +37,7 @@ shared vec3 SitePlaces[Sites];  // relative to the camera
 shared uint SiteNormals[Sites]; // shading, octahedral
 shared uint SiteFaces[Sites];   // geometric, octahedral; NoNormal: the site shows no surface
 shared uint SitePixels[Sites];  // y << 16 | x
-shared FPathReservoir Reservoirs[Sites];
+shared FSharedPath SitePaths[Sites];
 
 void LoadSites(FViewConstants View)
 {
@@ -55,7 +55,7 @@ void LoadSites(FViewConstants View)
 		SiteNormals[I] = PackOct(Point.BentN);
 		SiteFaces[I] = PackOct(Point.Ng);
 		SitePixels[I] = (Pixel.y << 16u) | Pixel.x;
-		Reservoirs[I] = FPathReservoirRef(Push.Reservoirs).Data[Thread.y * Threads.x + Thread.x];
+		SitePaths[I] = FSharedPathRef(Push.Shared).Data[Thread.y * Threads.x + Thread.x];
 	}
 }
 
@@ -131,7 +131,7 @@ FSites FindSites(FViewConstants View, ivec2 InTile, FGBufferPoint Point)
 // What paths bring, and what says how much of it is chance.
 struct FSum
 {
-	vec3 Light, Near; // Near: see FPathReservoir
+	vec3 Light, Near; // Near: see FSharedPath
 	// Sums over sites: of squared brightness, of brightness times weight, of squared weights.
 	float Squares, Crossed, Weights;
 	float NearVariance;
@@ -189,7 +189,7 @@ void AddNear(FSites Found, inout FSum Diffuse, inout FSum Specular)
 	{
 		if (Found.Weights[I] <= 0.0) { continue; }
 		int Site = Found.Numbers[I];
-		vec3 Its = UnpackRgbe(Reservoirs[Site].Near), ItsSpecular = UnpackRgbe(Reservoirs[Site].NearSpecular);
+		vec3 Its = UnpackRgbe(SitePaths[Site].Near), ItsSpecular = UnpackRgbe(SitePaths[Site].NearSpecular);
 		AddSpread(Its, Found.Weights[I], DiffuseSpread);
 		AddSpread(ItsSpecular, Found.Weights[I], SpecularSpread);
 		vec2 Step = abs(StepTo(Site));
@@ -238,7 +238,7 @@ void LightPixel(FViewConstants View, ivec2 Pixel, float Depth, inout FSum Diffus
 	{
 		float Weight = Found.Weights[I];
 		if (Weight <= 0.0) { continue; }
-		FPathReservoir Path = Reservoirs[Found.Numbers[I]];
+		FSharedPath Path = SitePaths[Found.Numbers[I]];
 		vec3 Direction = Path.bSky != 0u ? Path.Hit : normalize(Path.Hit - Point.Relative);
 		vec3 Light = UnpackRgbe(Path.Radiance) * Weight;
 		float Share = Path.Share * GetGain(Found, Point.BentN, Direction);

@@ -1,7 +1,7 @@
-// The passes of path reservoirs behind the paths.
-#include "PathReservoirs/PathReservoirs.h"
+// The pass of shared paths behind the rays.
+#include "SharedPaths/SharedPaths.h"
 
-#include "PathReservoirTypes.h"
+#include "SharedPathTypes.h"
 #include "TileTypes.h"
 
 namespace Lantern
@@ -22,28 +22,27 @@ FShaderSource MakeResolveSource(EPixelRate Rate, bool bSecondLobe)
 	AddRateDefine(Rate, Defines);
 	if (bSecondLobe) { Defines.emplace_back("SECOND_LOBE", "1"); }
 	if (!CVarReuseCosine.GetOnRenderThread()) { Defines.emplace_back("NO_REUSE_COSINE", "1"); }
-	return MakeComputeSource("PathReservoirs/Resolve.comp", std::move(Defines));
+	return MakeComputeSource("SharedPaths/Resolve.comp", std::move(Defines));
 }
 } // namespace
 
-void AddPathReservoirShaders(EPixelRate Rate, bool bSecondLobe, FShaderDefines& InOutDefines, std::vector<FShaderSource>& OutCompute)
+void AddSharedPathShaders(EPixelRate Rate, bool bSecondLobe, FShaderDefines& InOutDefines, std::vector<FShaderSource>& OutCompute)
 {
-	InOutDefines.emplace_back(PathReservoirsDefine, "1");
+	InOutDefines.emplace_back(SharedPathsDefine, "1");
 	OutCompute.push_back(MakeResolveSource(Rate, bSecondLobe));
 }
 
-FPathReservoirs MakePathReservoirs(FFrameContext& Context, EPixelRate Rate, bool bSecondLobe, uint64_t Threads)
+FSharedPaths MakeSharedPaths(FFrameContext& Context, EPixelRate Rate, bool bSecondLobe, uint64_t Threads)
 {
-	FPathReservoirs Reservoirs;
-	Reservoirs.Resolve = RequireCompute(Context, MakeResolveSource(Rate, bSecondLobe));
-	if (Reservoirs.Resolve) { Reservoirs.Fresh = Context.Graph.CreateBuffer({Threads * sizeof(FPathReservoir)}, "PathReservoirs"); }
-	return Reservoirs;
+	FSharedPaths Shared;
+	Shared.Resolve = RequireCompute(Context, MakeResolveSource(Rate, bSecondLobe));
+	if (Shared.Resolve) { Shared.Fresh = Context.Graph.CreateBuffer({Threads * sizeof(FSharedPath)}, "SharedPaths"); }
+	return Shared;
 }
 
 float GetNearPixels() { return CVarNear.GetOnRenderThread(); }
 
-void AddPathResolve(
-    FFrameContext& Context, const FGBuffer& GBuffer, const FPathReservoirs& Reservoirs, FGraphTexture Output, FGraphTexture Second)
+void AddPathResolve(FFrameContext& Context, const FGBuffer& GBuffer, const FSharedPaths& Shared, FGraphTexture Output, FGraphTexture Second)
 {
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass("PathResolve", [&](FPassBuilder& Builder) -> FPassExecute {
@@ -53,14 +52,14 @@ void AddPathResolve(
 			for (const FGraphTexture Texture : {GBuffer.BaseColor, GBuffer.Material}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
 			Builder.Write(Second, ERTAccess::StorageWrite);
 		}
-		Builder.Read(Reservoirs.Fresh, ERTAccess::ShaderRead);
+		Builder.Read(Shared.Fresh, ERTAccess::ShaderRead);
 		Builder.Write(Output, ERTAccess::StorageWrite);
 		Context.Tokens.LeaveAlone(Builder);
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
-			FPathReservoirConstants C{};
+			FSharedPathConstants C{};
 			C.Pass = Frame->Pass;
-			C.Reservoirs = GetAddress(Pass, Reservoirs.Fresh);
+			C.Shared = GetAddress(Pass, Shared.Fresh);
 			C.Depth = GetSampledIndex(Pass, GBuffer.Depth);
 			C.Normals = GetSampledIndex(Pass, GBuffer.Normals);
 			C.BaseColor = C.Material = C.SecondOutput = NO_TEXTURE;
@@ -71,7 +70,7 @@ void AddPathResolve(
 				C.Material = GetSampledIndex(Pass, GBuffer.Material);
 				C.SecondOutput = GetStorageIndex(Pass, Second);
 			}
-			Dispatch2D(Pass, Reservoirs.Resolve, C, Frame->Width, Frame->Height, TILE_SIZE);
+			Dispatch2D(Pass, Shared.Resolve, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
 }

@@ -1,0 +1,33 @@
+// Paths of pixels that the pixels around them use as well. Structures that C++ and GLSL share.
+#ifndef LANTERN_SHARED_PATH_TYPES_H
+#define LANTERN_SHARED_PATH_TYPES_H
+
+#include "SceneTypes.h"
+
+LANTERN_SHARED_BEGIN
+
+// The path of a pixel that pixels around use as well, or what it has brought if it met something near.
+struct FSharedPath
+{
+	vec3 Hit;          // place that the path met first, relative to the camera, metres; of the sky: direction
+	uint bSky;
+	uint Radiance;     // from there to the pixel, by PackRgbe
+	float Share;       // cosine / π over the density by which the path was drawn; 0: there is none for others
+	uint Near;         // light of a near path, and what light sampling has found, by PackRgbe: irradiance / π
+	uint NearSpecular; // what the specular lobe reflects of it, over its albedo, by PackRgbe
+};
+LANTERN_ASSERT_SIZE(FSharedPath, 32);
+
+struct FSharedPathConstants
+{
+	FPassConstants Pass;
+	FAddress Shared; // FSharedPath[] of the first launch's threads, row by row
+	uint Depth, Normals; // sampled indices
+	uint BaseColor, Material; // sampled indices, where there is a second lobe
+	uint Output, SecondOutput; // storage indices
+};
+LANTERN_ASSERT_SIZE(FSharedPathConstants, 48);
+
+LANTERN_SHARED_END
+
+#endif

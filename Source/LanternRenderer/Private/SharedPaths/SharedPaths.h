@@ -1,0 +1,30 @@
+// Shared paths: paths of pixels that light the pixels around them as well (Shaders/SharedPaths/). They are launched as those of a
+// brute-force pass (BruteForce/BruteForce.h).
+#pragma once
+
+#include "PassTools.h"
+
+namespace Lantern
+{
+
+/// Those of one frame.
+struct FSharedPaths
+{
+	FGraphBuffer Fresh; ///< FSharedPath of each thread of the first launch, row by row
+	IRTPipeline* Resolve = nullptr;
+	bool IsValid() const { return Resolve != nullptr; }
+};
+
+constexpr const char* SharedPathsDefine = "SHARED_PATHS";
+/// Adds what the shader of the paths is compiled with, and lists the shaders of the other passes. bSecondLobe: see FBruteForcePass::Second.
+void AddSharedPathShaders(EPixelRate Rate, bool bSecondLobe, FShaderDefines& InOutDefines, std::vector<FShaderSource>& OutCompute);
+
+/// Threads: of the first launch. Invalid: shaders are being compiled.
+FSharedPaths MakeSharedPaths(FFrameContext& Context, EPixelRate Rate, bool bSecondLobe, uint64_t Threads);
+/// Pixels up to which what a path meets is near, and lights the path's own pixel alone.
+float GetNearPixels();
+/// Adds the pass that lights pixels by what the paths have found. Second: of the second lobe; invalid: there is none.
+void AddPathResolve(
+    FFrameContext& Context, const FGBuffer& GBuffer, const FSharedPaths& Shared, FGraphTexture Output, FGraphTexture Second);
+
+} // namespace Lantern
