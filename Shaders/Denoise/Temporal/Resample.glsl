@@ -9,10 +9,9 @@
 
 #include "Types.glsl"
 
+#if CHANNELS == 1
 const float RangeError = 0.05;    // share of the squared range that counts as error
 const float NoiseOfRange = 12.0; // squared range that noise alone makes, in variances of a texel
-
-#if CHANNELS == 1
 
 struct FSignalRange
 {

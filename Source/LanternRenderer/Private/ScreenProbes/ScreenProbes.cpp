@@ -4,6 +4,7 @@
 #include <cstring>
 #include <string>
 
+#include "LobePixels.h"
 #include "TileTypes.h"
 
 namespace Lantern
@@ -149,26 +150,14 @@ void AddScreenProbeGather(
 	AddProbePass(Context, GBuffer, Probes, "Project", Probes.Project, false);
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass("ScreenProbesGather", [&](FPassBuilder& Builder) -> FPassExecute {
-		for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
-		if (Second.IsValid())
-		{
-			for (const FGraphTexture Texture : {GBuffer.BaseColor, GBuffer.Material}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
-			Builder.Write(Second, ERTAccess::StorageWrite);
-		}
+		DeclareLobePixels(Builder, GBuffer, {Output, Second});
 		Builder.Read(Probes.Kept.Buffer, ERTAccess::StorageRead);
 		Builder.Read(Probes.Work, ERTAccess::StorageRead);
-		Builder.Write(Output, ERTAccess::StorageWrite);
 		Context.Tokens.LeaveAlone(Builder);
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
 			FScreenProbeConstants C = MakeConstants(Pass, *Frame, GBuffer, Probes);
-			if (Second.IsValid())
-			{
-				C.BaseColor = GetSampledIndex(Pass, GBuffer.BaseColor);
-				C.Material = GetSampledIndex(Pass, GBuffer.Material);
-				C.SecondOutput = GetStorageIndex(Pass, Second);
-			}
-			C.Output = GetStorageIndex(Pass, Output);
+			SetLobePixels(Pass, GBuffer, {Output, Second}, C);
 			Dispatch2D(Pass, Probes.Gather, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});

@@ -1,6 +1,7 @@
 // The pass of shared paths behind the rays.
 #include "SharedPaths/SharedPaths.h"
 
+#include "LobePixels.h"
 #include "SharedPathTypes.h"
 #include "TileTypes.h"
 
@@ -46,30 +47,15 @@ void AddPathResolve(FFrameContext& Context, const FGBuffer& GBuffer, const FShar
 {
 	const FFrameContext* const Frame = &Context;
 	Context.Graph.AddPass("PathResolve", [&](FPassBuilder& Builder) -> FPassExecute {
-		for (const FGraphTexture Texture : {GBuffer.Depth, GBuffer.Normals}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
-		if (Second.IsValid())
-		{
-			for (const FGraphTexture Texture : {GBuffer.BaseColor, GBuffer.Material}) { Builder.Read(Texture, ERTAccess::ShaderRead); }
-			Builder.Write(Second, ERTAccess::StorageWrite);
-		}
+		DeclareLobePixels(Builder, GBuffer, {Output, Second});
 		Builder.Read(Shared.Fresh, ERTAccess::ShaderRead);
-		Builder.Write(Output, ERTAccess::StorageWrite);
 		Context.Tokens.LeaveAlone(Builder);
 		Builder.AllowAsync();
 		return [=](FPassContext& Pass) {
 			FSharedPathConstants C{};
 			C.Pass = Frame->Pass;
 			C.Shared = GetAddress(Pass, Shared.Fresh);
-			C.Depth = GetSampledIndex(Pass, GBuffer.Depth);
-			C.Normals = GetSampledIndex(Pass, GBuffer.Normals);
-			C.BaseColor = C.Material = C.SecondOutput = NO_TEXTURE;
-			C.Output = GetStorageIndex(Pass, Output);
-			if (Second.IsValid())
-			{
-				C.BaseColor = GetSampledIndex(Pass, GBuffer.BaseColor);
-				C.Material = GetSampledIndex(Pass, GBuffer.Material);
-				C.SecondOutput = GetStorageIndex(Pass, Second);
-			}
+			SetLobePixels(Pass, GBuffer, {Output, Second}, C);
 			Dispatch2D(Pass, Shared.Resolve, C, Frame->Width, Frame->Height, TILE_SIZE);
 		};
 	});
