@@ -65,14 +65,14 @@ FRadianceEvents::FFound FRadianceEvents::Find(FRTScene& Scene, float DeltaSecond
 {
 	const FSunLight& Sun = Scene.GetSun();
 	Next = {Scene.GetSections().GetIdentity(), glm::normalize(Sun.Direction), Sun.Color * Sun.Irradiance, Scene.GetSky(),
-	    Scene.GetLights().GetJournal().GetCount(), true};
+	    Scene.GetLights().GetJournal().GetCount(), Scene.GetAppearanceChanges().GetEverywhere(), true};
 	Delta = double(DeltaSeconds);
 	Fresh.clear();
 	FFound Found;
 	if (!Last.bValid || Last.Scene != Next.Scene || !CVarEvents.GetOnRenderThread()) { return Found; }
 	const bool bSun = glm::length(Next.Sun) > 0.0f || glm::length(Last.Sun) > 0.0f;
 	const double Window = GetWindow(bSun ? Last.SunDirection : Next.SunDirection, Next.SunDirection,
-	    std::max(GetChange(Last.Sun, Next.Sun), GetChange(Last.Sky, Next.Sky)));
+	    std::max({GetChange(Last.Sun, Next.Sun), GetChange(Last.Sky, Next.Sky), Next.Surfaces - Last.Surfaces}));
 	if (Window < 1.0e9) { Fresh.push_back({.Window = static_cast<float>(std::max(Window, double(LeastWindow)))}); }
 	FindLampEvents(Scene);
 	for (const std::vector<FEvent>* Events : {&Fresh, &Kept})

@@ -1,5 +1,5 @@
-// What makes the light of radiance cells old: the sun, the sky and lamps that change. The scene tells; nothing is guessed from pictures.
-// Objects that move are told apart (RequireMovers).
+// What makes the light of radiance cells old: the sun, the sky, lamps and materials of many objects that change. The scene tells; nothing is guessed from pictures.
+// Objects that move or look otherwise are told apart (RequireMovers).
 #pragma once
 
 #include <vector>
@@ -42,7 +42,8 @@ private:
 		uint64_t Scene = 0; ///< identity
 		glm::dvec3 SunDirection{0, -1, 0};
 		glm::vec3 Sun{0}, Sky{0};
-		uint64_t Lamps = 0; ///< place in the journal of lights
+		uint64_t Lamps = 0;    ///< place in the journal of lights
+		double Surfaces = 0.0; ///< FAppearanceChanges::GetEverywhere
 		bool bValid = false;
 	};
 	/// A sphere of the world, or all of it, until a time.

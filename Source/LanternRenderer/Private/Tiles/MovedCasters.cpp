@@ -26,6 +26,8 @@ constexpr double LittleMove = 1.0 / 64.0;
 
 /// What shines is about so much brighter than what it hides.
 constexpr double ShiningWeight = 8.0;
+/// What is switched on or off may be all the light of its surroundings. What only moves takes its light along.
+constexpr double SwitchedWeight = 8.0; // times ShiningWeight
 
 /// False: the changes are more than tiles may look at, or may be anywhere. Out is empty then, as it must be before.
 bool FindFew(FRTScene& Scene, uint64_t Since, std::vector<FCasterChange>& Out)
@@ -110,7 +112,14 @@ FMovedCasters::FRecent FMovedCasters::FindMovers(FRTScene& Scene, const glm::dve
 	std::vector<FCasterChange> Moved;
 	Found.bAnywhere = Recent.front().Sun.Scene != Next.Sun.Scene || !Scene.GetCasterChanges().Find(Recent.front().Changes, Moved);
 	if (Found.bAnywhere) { return Found; }
+	std::vector<FCasterChange> Others;
+	Scene.GetAppearanceChanges().GetObjects().Find(Recent.front().Appearance, Others); // none if they are too many
 	std::vector<FCasterChange> Movers = JoinByObject(Moved);
+	for (FCasterChange Other : JoinByObject(Others))
+	{
+		Other.Changed *= Other.bShines ? SwitchedWeight : 1.0;
+		Movers.push_back(Other);
+	}
 	if (Movers.size() > SETTLED_MOST_CASTERS)
 	{
 		const auto Hides = [&](const FCasterChange& Mover) {
@@ -156,7 +165,7 @@ uint32_t FMovedCasters::GetLampRoom(uint32_t Slots)
 void FMovedCasters::Note(FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds)
 {
 	Next = {MakeSunState(Scene, Rays), Scene.GetCasterChanges().GetCount(), true, DeltaSeconds, Scene.GetLights().GetChangeCount(),
-	    Scene.GetEmissiveChangeCount(), 0.0};
+	    Scene.GetEmissiveChangeCount(), Scene.GetAppearanceChanges().GetObjects().GetCount(), 0.0};
 }
 
 std::vector<FMovedCaster> FMovedCasters::Convert(FRTScene& Scene, const std::vector<FCasterChange>& Changes)

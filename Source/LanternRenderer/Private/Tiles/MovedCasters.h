@@ -38,7 +38,7 @@ public:
 	FRecent FindRecent(FRTScene& Scene, const FSunRays& Rays, float DeltaSeconds);
 	/// As FindRecent, for the shadows of lamps. A lamp that has changed may have changed all.
 	FRecent FindRecentOfLamps(FRTScene& Scene, float DeltaSeconds);
-	/// Finds the objects that have moved, whatever has changed of lights: one caster for each, and those that hide most of what the camera
+	/// Finds the objects that have moved or look otherwise, whatever has changed of lights: one caster for each, and those that hide most of what the camera
 	/// sees if they are more than SETTLED_MOST_CASTERS. Camera: in the world. As FindRecent.
 	FRecent FindMovers(FRTScene& Scene, const glm::dvec3& Camera, float DeltaSeconds);
 	/// Returns whether a lamp has changed since the view's last frame, or there is none. As Find.
@@ -66,9 +66,10 @@ private:
 		uint64_t Changes = 0; ///< FCasterChanges::GetCount
 		bool bValid = false;
 		float DeltaSeconds = 0.0f;
-		uint64_t Lights = 0;   ///< FLightStore::GetChangeCount
-		uint64_t Emitters = 0; ///< FRTScene::GetEmissiveChangeCount
-		double Time = 0.0;     ///< of the view's submitted frames, seconds
+		uint64_t Lights = 0;     ///< FLightStore::GetChangeCount
+		uint64_t Emitters = 0;   ///< FRTScene::GetEmissiveChangeCount
+		uint64_t Appearance = 0; ///< FAppearanceChanges::GetObjects
+		double Time = 0.0;       ///< of the view's submitted frames, seconds
 	};
 	static FSunState MakeSunState(FRTScene& Scene, const FSunRays& Rays);
 	static bool HoldsFor(const FSunState& Before, const FSunState& Now);

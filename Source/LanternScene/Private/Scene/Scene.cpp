@@ -40,7 +40,10 @@ void FRTScene::MarkDeformed(const FRTGeometryRef& Geometry)
 
 void FRTScene::SetMaterial(uint32_t Index, const FMaterialData& Material)
 {
-	if (FSectionTable::AffectsShape(Materials.GetTable()[Index], Material)) { Objects.GetCasterChanges().AddAnywhere(); }
+	const FMaterialData& Old = Materials.GetTable()[Index];
+	if (FSectionTable::AffectsShape(Old, Material)) { Objects.GetCasterChanges().AddAnywhere(); }
+	const FAppearanceChange Change = CompareAppearance(Old, Material);
+	if (Change.Part > 0.0) { Objects.NoteAppearance(Index, Change.Part, Change.bShines); }
 	Materials.Set(Index, Material);
 }
 

@@ -1,7 +1,9 @@
 // FSceneMaterials: a change of a material goes on to its sections only where they depend on it.
 #include "LanternScene/Scene/SceneMaterials.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "LanternScene/Scene/EmissiveTriangles.h"
@@ -23,7 +25,32 @@ bool EmitsOtherwise(const FMaterialData& Old, const FMaterialData& New)
 	}
 	return bOther;
 }
+
+double GetChange(const glm::vec3& Old, const glm::vec3& New)
+{
+	const double Greater = std::max(glm::length(Old), glm::length(New));
+	return Greater > 0.0 ? std::min(glm::length(New - Old) / Greater, 1.0) : 0.0;
+}
+
+/// A map that scrolls reflects about as much as before.
+double GetMapChange(const FMaterialData& Old, const FMaterialData& New, uint32_t Slot)
+{
+	constexpr double Scrolled = 1.0 / 64.0;
+	if (Old.Textures[Slot] != New.Textures[Slot]) { return 1.0; }
+	const bool bSame = Old.UVTransform[Slot] == New.UVTransform[Slot] && Old.UVOffset[Slot] == New.UVOffset[Slot] &&
+	                   ((Old.UVSets ^ New.UVSets) >> Slot & 1u) == 0;
+	return bSame ? 0.0 : Scrolled;
+}
 } // namespace
+
+FAppearanceChange CompareAppearance(const FMaterialData& Old, const FMaterialData& New)
+{
+	const bool bShines = Old.EmissiveWeight > 0.0f || New.EmissiveWeight > 0.0f;
+	const double Emitted = GetChange(Old.LightEmissive, New.LightEmissive) + (bShines ? GetMapChange(Old, New, TEXTURE_EMISSIVE) : 0.0);
+	if (Emitted > 0.0) { return {std::min(Emitted, 1.0), true}; }
+	const double Reflected = GetChange(glm::vec3(Old.BaseColor), glm::vec3(New.BaseColor)) + GetMapChange(Old, New, TEXTURE_BASE_COLOR);
+	return {std::min(Reflected + std::abs(double(New.Metallic) - double(Old.Metallic)), 1.0), false};
+}
 
 uint32_t FSceneMaterials::Add(const FMaterialData& Material, uint32_t Program)
 {

@@ -68,7 +68,7 @@ FRTObjectId FSceneObjects::Add(FRTObjectInfo Info)
 	Characters += Object.Info.bCharacter ? 1 : 0;
 	OffChannel += IsOffChannel(Object.Info.Channels);
 	WriteChannels(Slot);
-	Object.Range = Sections.Acquire(*Object.Info.Geometry, Object.Info.Materials);
+	JoinRange(Slot, Sections.Acquire(*Object.Info.Geometry, Object.Info.Materials));
 	Motions.Add(Slot, *Object.Info.Geometry);
 	JoinGeometry(Slot);
 	Write(Slot);
@@ -88,7 +88,7 @@ void FSceneObjects::Remove(FRTObjectId Id)
 	Motions.Remove(Id.Index);
 	Pivots.Remove(Id.Index);
 	LeaveGeometry(Id.Index);
-	Sections.Release(Object.Range);
+	LeaveRange(Id.Index);
 	Retired.push_back(std::move(Object.Info.Geometry));
 	Objects.Free(Id.Index);
 	Table.Truncate(GetSlotCount());
@@ -114,7 +114,8 @@ void FSceneObjects::SetMaterials(FRTObjectId Id, std::vector<uint32_t> SectionMa
 	if (Sections.GetRange(Object.Range).bEmissive) { NoteCaster(Id.Index, 1.0); } // while it shines
 	const FSectionRangeId Range = Sections.Acquire(*Object.Info.Geometry, SectionMaterials);
 	Emissive.SetObject(Id.Index, SectionMaterials);
-	Sections.Release(std::exchange(Object.Range, Range));
+	LeaveRange(Id.Index);
+	JoinRange(Id.Index, Range);
 	Object.Info.Materials = std::move(SectionMaterials);
 	Write(Id.Index);
 	NoteCaster(Id.Index, 1.0);
@@ -129,7 +130,8 @@ void FSceneObjects::SetGeometry(FRTObjectId Id, FRTGeometryRef Geometry, std::ve
 	const FSectionRangeId Range = Sections.Acquire(*Geometry, SectionMaterials);
 	Emissive.SetObject(Id.Index, SectionMaterials);
 	LeaveGeometry(Id.Index);
-	Sections.Release(std::exchange(Object.Range, Range));
+	LeaveRange(Id.Index);
+	JoinRange(Id.Index, Range);
 	Retired.push_back(std::exchange(Object.Info.Geometry, std::move(Geometry)));
 	Object.Info.Materials = std::move(SectionMaterials);
 	Motions.SetGeometry(Id.Index, *Object.Info.Geometry);
@@ -216,6 +218,47 @@ void FSceneObjects::NoteCaster(uint32_t Slot, const FInstanceRecord& Before, con
 void FSceneObjects::NoteCaster(uint32_t Slot, std::optional<double> Changed)
 {
 	NoteCaster(Slot, Instances.GetRecord(Slot), Instances.GetRecord(Slot), Changed);
+}
+
+void FSceneObjects::JoinRange(uint32_t Slot, FSectionRangeId Range)
+{
+	constexpr uint32_t None = TSlots<FObject>::None;
+	if (FirstOfRange.size() <= Range) { FirstOfRange.resize(size_t(Range) + 1, None); }
+	FObject& Object = Objects[Slot];
+	Object.Range = Range;
+	Object.PreviousOfRange = None;
+	Object.NextOfRange = std::exchange(FirstOfRange[Range], Slot);
+	if (Object.NextOfRange != None) { Objects[Object.NextOfRange].PreviousOfRange = Slot; }
+}
+
+/// Releases the range as well.
+void FSceneObjects::LeaveRange(uint32_t Slot)
+{
+	constexpr uint32_t None = TSlots<FObject>::None;
+	const FObject& Object = Objects[Slot];
+	if (Object.NextOfRange != None) { Objects[Object.NextOfRange].PreviousOfRange = Object.PreviousOfRange; }
+	if (Object.PreviousOfRange != None) { Objects[Object.PreviousOfRange].NextOfRange = Object.NextOfRange; }
+	else { FirstOfRange[Object.Range] = Object.NextOfRange; }
+	Sections.Release(Object.Range);
+}
+
+void FSceneObjects::NoteAppearance(uint32_t Material, double Change, bool bShines)
+{
+	std::vector<uint32_t> Slots;
+	for (const FMaterialUse& Use : Sections.GetUses(Material))
+	{
+		for (uint32_t Slot = FirstOfRange[Use.Range]; Slot != TSlots<FObject>::None; Slot = Objects[Slot].NextOfRange)
+		{
+			if (Slots.size() == FAppearanceChanges::MostObjects) { return AppearanceChanges.AddEverywhere(Change); }
+			Slots.push_back(Slot);
+		}
+	}
+	for (const uint32_t Slot : Slots)
+	{
+		const FInstanceRecord& Record = Instances.GetRecord(Slot);
+		if (Record.Radius >= UnboundedRadius) { AppearanceChanges.AddEverywhere(Change); }
+		else { AppearanceChanges.Add({Record.Center, Record.Center, Record.Radius, Change, Slot, bShines}); }
+	}
 }
 
 void FSceneObjects::JoinGeometry(uint32_t Slot)

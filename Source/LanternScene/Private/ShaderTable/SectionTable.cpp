@@ -191,8 +191,7 @@ bool FSectionTable::AffectsShape(const FMaterialData& Old, const FMaterialData& 
 
 void FSectionTable::MaterialChanged(uint32_t Material)
 {
-	if (Material >= UsesOfMaterial.size()) { return; }
-	for (const FMaterialUse& Use : UsesOfMaterial[Material])
+	for (const FMaterialUse& Use : GetUses(Material))
 	{
 		const FSectionRange& Range = Ranges[Use.Range];
 		const std::vector<FRTGeometryPart>& Parts = Range.Geometry->GetParts();

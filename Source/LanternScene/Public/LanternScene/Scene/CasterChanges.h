@@ -41,4 +41,23 @@ private:
 	uint64_t Anywhere = 0; // value of Count behind the last AddAnywhere
 };
 
+/// Tells which objects look otherwise than before and thus reflect or emit other light: a material's colour, maps or emission is
+/// another one. No shadow has changed by that.
+class FAppearanceChanges
+{
+public:
+	/// What more objects share has changed everywhere at once.
+	static constexpr uint32_t MostObjects = 256;
+
+	void Add(const FCasterChange& Change) { Objects.Add(Change); }
+	void AddEverywhere(double Change) { Everywhere += Change; }
+	const FCasterChanges& GetObjects() const { return Objects; }
+	/// Returns the sum of all changes without a place of their own so far.
+	double GetEverywhere() const { return Everywhere; }
+
+private:
+	FCasterChanges Objects;
+	double Everywhere = 0.0;
+};
+
 } // namespace Lantern

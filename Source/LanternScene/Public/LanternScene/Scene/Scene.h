@@ -205,6 +205,8 @@ public:
 	const FObjectMotions& GetMotions() const { return Objects.GetMotions(); }
 	/// Returns where shadows may have changed, as of the last BeginUpdate and MarkDeformed.
 	const FCasterChanges& GetCasterChanges() const { return Objects.GetCasterChanges(); }
+	/// Returns which objects look otherwise, as of the last change.
+	const FAppearanceChanges& GetAppearanceChanges() const { return Objects.GetAppearanceChanges(); }
 	FSectionTable& GetSections() { return Materials.GetSections(); }
 	const FInstanceStore& GetInstances() const { return Objects.GetInstances(); }
 	/// Returns the number of instances in the acceleration structure as it is.

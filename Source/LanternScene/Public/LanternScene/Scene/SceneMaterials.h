@@ -14,6 +14,14 @@ namespace Lantern
 
 class FEmissiveTriangles;
 
+struct FAppearanceChange
+{
+	double Part = 0.0;    ///< of the light that the surface reflects or emits, 0 to 1
+	bool bShines = false; ///< what it emits is what has changed
+};
+/// Tells by how much a surface that has another material lights its surroundings otherwise.
+FAppearanceChange CompareAppearance(const FMaterialData& Old, const FMaterialData& New);
+
 /// Threads: one at a time.
 class FSceneMaterials
 {

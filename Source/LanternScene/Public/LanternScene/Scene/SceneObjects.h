@@ -48,6 +48,9 @@ public:
 	void SetChannels(FRTObjectId Id, uint8_t Channels);
 	/// Notes that the shape of all objects with this geometry is another one in this frame.
 	void MarkDeformed(const FRTGeometryRef& Geometry);
+	/// Notes that a material looks otherwise. Change: by which part, 0 to 1. bShines: it emits light, or did, and that has changed.
+	/// O(objects that have it, up to FAppearanceChanges::MostObjects).
+	void NoteAppearance(uint32_t Material, double Change, bool bShines);
 	/// See FRTScene::SetBounds.
 	void SetBounds(const FRTGeometryRef& Geometry, const FBoundingSphere& Bounds);
 	const FRTObjectInfo& Get(FRTObjectId Id) const { return Resolve(Id).Info; }
@@ -81,6 +84,8 @@ public:
 	/// Where shadows may have changed.
 	FCasterChanges& GetCasterChanges() { return CasterChanges; }
 	const FCasterChanges& GetCasterChanges() const { return CasterChanges; }
+	/// How objects look otherwise than before, without any other shadow.
+	const FAppearanceChanges& GetAppearanceChanges() const { return AppearanceChanges; }
 	FObjectPivots& GetPivots() { return Pivots; }
 	const FObjectPivots& GetPivots() const { return Pivots; }
 
@@ -90,9 +95,12 @@ private:
 		FRTObjectInfo Info;
 		FSectionRangeId Range = 0;
 		uint32_t Member = 0; // place in DynamicUsers
+		uint32_t NextOfRange = TSlots<FObject>::None, PreviousOfRange = TSlots<FObject>::None;
 	};
 	FObject& Resolve(FRTObjectId Id);
 	const FObject& Resolve(FRTObjectId Id) const { return const_cast<FSceneObjects*>(this)->Resolve(Id); }
+	void JoinRange(uint32_t Slot, FSectionRangeId Range);
+	void LeaveRange(uint32_t Slot);
 	void Place(uint32_t Slot);
 	void Write(uint32_t Slot);
 	void WriteCasterRadius(uint32_t Slot);
@@ -110,10 +118,12 @@ private:
 	uint32_t Characters = 0, OffChannel = 0;
 	std::vector<FRTGeometryRef> Retired, RetiredBefore; // of objects removed since the last submitted frame, and before it
 	std::unordered_map<const FRTGeometry*, std::vector<uint32_t>> DynamicUsers; // objects of dynamic geometries
+	std::vector<uint32_t> FirstOfRange;                                         // by range: a list of objects through NextOfRange
 	TGpuTable<FObjectData> Table{"Objects"};
 	TGpuTable<uint32_t> ChannelTable{"ObjectChannels"};
 	FObjectMotions Motions{Table};
 	FCasterChanges CasterChanges;
+	FAppearanceChanges AppearanceChanges;
 	FObjectPivots Pivots;
 	FInstanceStore Instances;
 };

@@ -7,6 +7,7 @@
 
 #include <deque>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -52,6 +53,13 @@ struct FSectionContext
 	uint32_t Override = 0; ///< as FRTScene::SetMaterialOverride
 };
 
+/// A section that has a material.
+struct FMaterialUse
+{
+	FSectionRangeId Range;
+	uint32_t Section; ///< of the geometry
+};
+
 /// Threads: one at a time; functions that only read may run on several.
 class FSectionTable
 {
@@ -80,7 +88,12 @@ public:
 	static bool AffectsShape(const FMaterialData& Old, const FMaterialData& New);
 	/// Rewrites the sections of a material that changed or has another program. O(sections that use it).
 	void MaterialChanged(uint32_t Material);
-	bool IsMaterialUsed(uint32_t Material) const { return Material < UsesOfMaterial.size() && !UsesOfMaterial[Material].empty(); }
+	bool IsMaterialUsed(uint32_t Material) const { return !GetUses(Material).empty(); }
+	/// Returns the sections that have the material, in no order. Valid until ranges come or go.
+	std::span<const FMaterialUse> GetUses(uint32_t Material) const
+	{
+		return Material < UsesOfMaterial.size() ? std::span<const FMaterialUse>(UsesOfMaterial[Material]) : std::span<const FMaterialUse>();
+	}
 	/// Rewrites the ranges of a geometry whose address, parts or index buffer changed. O(ranges of it).
 	void GeometryChanged(const FRTGeometry& Geometry);
 	/// Rewrites all sections: bAlphaTest or Override of the context changed.
@@ -121,11 +134,6 @@ private:
 		uint32_t GeometryPlace = 0;           // in RangesOfGeometry
 		std::vector<uint32_t> MaterialPlaces; // of each section, in UsesOfMaterial
 		bool bChanged = false;
-	};
-	struct FMaterialUse
-	{
-		FSectionRangeId Range;
-		uint32_t Section; // of the geometry
 	};
 
 	FSectionRangeId Find(uint64_t Hash, const FRTGeometry& Geometry, const std::vector<uint32_t>& Materials) const;
